@@ -1,0 +1,190 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# What the modules' CMakeLists.txt call. Each function names a module first and takes lists of files, so that adding a
+# class or a test is adding a file name.
+
+# knotwork_add_kernel(MODULE SOURCES file... HEADERS file... [DEPENDS MODULE...] [LIBRARIES target...] [STRICT_FLOAT file...])
+#   Static library Knotwork::<MODULE>Kernel, without VTK. DEPENDS names modules whose kernels it uses; LIBRARIES are
+#   further link targets; sources under STRICT_FLOAT are compiled without contraction to fused multiply-add.
+function(knotwork_add_kernel module)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;HEADERS;DEPENDS;LIBRARIES;STRICT_FLOAT")
+  if(NOT arg_SOURCES)
+    return()
+  endif()
+  if(TARGET Knotwork::${module}Kernel) # imported from another build tree (KNOTWORK_KERNELS_FROM)
+    return()
+  endif()
+  set(target ${module}Kernel)
+  add_library(${target} STATIC ${arg_SOURCES} ${arg_HEADERS})
+  add_library(Knotwork::${target} ALIAS ${target})
+  target_compile_features(${target} PUBLIC cxx_std_17)
+  target_compile_options(${target} PRIVATE ${KNOTWORK_WARNINGS} -Wconversion -Wno-sign-conversion)
+  set_source_files_properties(${arg_STRICT_FLOAT} PROPERTIES COMPILE_OPTIONS -ffp-contract=off)
+  target_include_directories(${target} PUBLIC
+    "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}>" "$<INSTALL_INTERFACE:${KNOTWORK_INCLUDE_DIR}>")
+  target_link_libraries(${target} PUBLIC Eigen3::Eigen TBB::tbb ${arg_LIBRARIES})
+  foreach(dependency IN LISTS arg_DEPENDS)
+    target_link_libraries(${target} PUBLIC ${dependency}Kernel)
+  endforeach()
+  install(TARGETS ${target} EXPORT KnotworkKernels ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+  install(FILES ${arg_HEADERS} DESTINATION "${KNOTWORK_INCLUDE_DIR}")
+  set_property(GLOBAL APPEND PROPERTY KNOTWORK_KERNELS ${target})
+endfunction()
+
+# knotwork_add_filters(MODULE CLASSES class... [HEADERS file...] [SOURCES file...] [PRIVATE_CLASSES class...]
+#                      [KERNELS MODULE...])
+#   The VTK module Knotwork::<MODULE> that Modules/<MODULE>/vtk.module describes.
+function(knotwork_add_filters module)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "CLASSES;HEADERS;SOURCES;PRIVATE_CLASSES;KERNELS")
+  vtk_module_add_module(Knotwork::${module}
+    CLASSES ${arg_CLASSES} HEADERS ${arg_HEADERS} SOURCES ${arg_SOURCES} PRIVATE_CLASSES ${arg_PRIVATE_CLASSES})
+  vtk_module_compile_features(Knotwork::${module} PUBLIC cxx_std_17)
+  vtk_module_compile_options(Knotwork::${module} PRIVATE ${KNOTWORK_WARNINGS})
+  foreach(kernel IN LISTS arg_KERNELS)
+    vtk_module_link(Knotwork::${module} PUBLIC Knotwork::${kernel}Kernel)
+  endforeach()
+endfunction()
+
+# Where tests find and leave files; the same names are environment variables for scripts.
+set(KNOTWORK_TEST_DIRS
+  "KNOTWORK_DATA_DIR=${CMAKE_SOURCE_DIR}/Testing/Data"
+  "KNOTWORK_BASELINE_DIR=${CMAKE_SOURCE_DIR}/Testing/Baseline"
+  "KNOTWORK_OUTPUT_DIR=${CMAKE_BINARY_DIR}/Testing/Temporary")
+file(MAKE_DIRECTORY "${CMAKE_BINARY_DIR}/Testing/Temporary")
+set(KNOTWORK_WITH_DISPLAY "${CMAKE_SOURCE_DIR}/CMake/with-display.sh")
+
+# A list of labels as gtest_discover_tests wants it: the key repeated (of "a;b" it keeps only the first).
+function(knotwork_label_properties out)
+  set(properties "")
+  foreach(label IN LISTS ARGN)
+    list(APPEND properties LABELS ${label})
+  endforeach()
+  set(${out} "${properties}" PARENT_SCOPE)
+endfunction()
+
+# A GoogleTest program whose cases become the tests <MODULE>.<Suite>.<Name>.
+function(knotwork_add_gtest target module)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "DISPLAY" "TIMEOUT" "SOURCES;LIBRARIES;LABELS")
+  add_executable(${target} ${arg_SOURCES})
+  target_link_libraries(${target} PRIVATE ${arg_LIBRARIES} GTest::gtest_main)
+  target_compile_options(${target} PRIVATE ${KNOTWORK_WARNINGS})
+  foreach(dir IN LISTS KNOTWORK_TEST_DIRS)
+    string(REPLACE "=" ";" pair "${dir}")
+    list(GET pair 0 name)
+    list(GET pair 1 path)
+    target_compile_definitions(${target} PRIVATE "${name}=\"${path}\"")
+  endforeach()
+  if(arg_DISPLAY) # ctest starts the tests (not the discovery) through it
+    set_target_properties(${target} PROPERTIES CROSSCOMPILING_EMULATOR "${KNOTWORK_WITH_DISPLAY}")
+  endif()
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 300)
+  endif()
+  knotwork_label_properties(labels ${arg_LABELS} ${module})
+  gtest_discover_tests(${target} TEST_PREFIX "${module}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
+    PROPERTIES ${labels} TIMEOUT ${arg_TIMEOUT})
+endfunction()
+
+# knotwork_add_kernel_tests(MODULE [SLOW] SOURCES Kernel/Test*.cxx... [LIBRARIES target...])
+function(knotwork_add_kernel_tests module)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "SLOW" "" "SOURCES;LIBRARIES")
+  if(NOT arg_SOURCES)
+    return()
+  endif()
+  set(labels kernel)
+  set(target ${module}KernelTests)
+  if(arg_SLOW)
+    list(APPEND labels slow)
+    set(target ${module}KernelSlowTests)
+  endif()
+  knotwork_add_gtest(${target} ${module} SOURCES ${arg_SOURCES} LABELS ${labels}
+    LIBRARIES Knotwork::${module}Kernel ${arg_LIBRARIES})
+endfunction()
+
+# knotwork_add_filter_tests(MODULE [IMAGE] [SLOW] SOURCES Filter/Test*.cxx... [LIBRARIES target...])
+#   IMAGE tests may render: they link the harness and run on a display of their own.
+function(knotwork_add_filter_tests module)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "IMAGE;SLOW" "" "SOURCES;LIBRARIES")
+  if(NOT KNOTWORK_FILTERS OR NOT TARGET Knotwork::${module} OR NOT arg_SOURCES)
+    return()
+  endif()
+  set(kind "")
+  set(labels filter)
+  set(display "")
+  set(libraries Knotwork::${module} VTK::FiltersExtraction VTK::FiltersGeneral VTK::FiltersGeometry
+    VTK::FiltersSources VTK::IOXML VTK::IOLegacy ${arg_LIBRARIES})
+  if(arg_IMAGE)
+    string(APPEND kind Image)
+    list(APPEND labels image)
+    set(display DISPLAY)
+    list(APPEND libraries Knotwork::TestingHarness)
+  endif()
+  if(arg_SLOW)
+    string(APPEND kind Slow)
+    list(APPEND labels slow)
+  endif()
+  knotwork_add_gtest(${module}Filter${kind}Tests ${module} ${display} SOURCES ${arg_SOURCES}
+    LABELS ${labels} LIBRARIES ${libraries})
+endfunction()
+
+# A test that runs a command with the scripts' environment.
+# knotwork_add_command_test(NAME [DISPLAY] LABELS label... COMMAND command... [TIMEOUT s])
+function(knotwork_add_command_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "DISPLAY" "TIMEOUT" "LABELS;COMMAND;ENVIRONMENT")
+  if(arg_DISPLAY)
+    list(PREPEND arg_COMMAND "${KNOTWORK_WITH_DISPLAY}")
+  endif()
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 300)
+  endif()
+  add_test(NAME ${name} COMMAND ${arg_COMMAND})
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${arg_LABELS}"
+    ENVIRONMENT "${KNOTWORK_TEST_DIRS};KNOTWORK_BIN_DIR=${CMAKE_RUNTIME_OUTPUT_DIRECTORY};PYTHONDONTWRITEBYTECODE=1;${arg_ENVIRONMENT}")
+endfunction()
+
+# knotwork_add_python_test(MODULE script.py [IMAGE] [SLOW] [LABELS label...] [ARGUMENTS ...])
+#   Runs the script on the Python that has VTK with `import knotwork` and `import knotwork_testing` at hand; exit
+#   status 0 passes. The test is <MODULE>.Python.<script>.
+function(knotwork_add_python_test module script)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "IMAGE;SLOW" "NAME" "LABELS;ARGUMENTS")
+  if(NOT KNOTWORK_FILTERS OR NOT KNOTWORK_PYTHON)
+    return()
+  endif()
+  get_filename_component(path "${script}" ABSOLUTE)
+  get_filename_component(stem "${script}" NAME_WE)
+  if(arg_NAME)
+    set(stem "${arg_NAME}")
+  endif()
+  set(labels python ${module} ${arg_LABELS})
+  set(display "")
+  if(arg_IMAGE)
+    list(APPEND labels image)
+    set(display DISPLAY)
+  endif()
+  if(arg_SLOW)
+    list(APPEND labels slow)
+  endif()
+  knotwork_add_command_test(${module}.Python.${stem} ${display} LABELS ${labels}
+    COMMAND "${Python3_EXECUTABLE}" "${path}" ${arg_ARGUMENTS}
+    ENVIRONMENT "PYTHONPATH=${CMAKE_BINARY_DIR}/${KNOTWORK_PYTHON_DIR}:${CMAKE_SOURCE_DIR}/Testing/Harness")
+endfunction()
+
+# knotwork_add_paraview_test(MODULE script.py [SLOW] [ARGUMENTS ...])
+#   Runs the script in pvbatch with the plugin of the ParaView build tree loaded (KNOTWORK_PARAVIEW_TREE); the test is
+#   <MODULE>.ParaView.<script>. Without such a tree configured there are no ParaView tests.
+function(knotwork_add_paraview_test module script)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "SLOW" "" "LABELS;ARGUMENTS")
+  if(NOT KNOTWORK_PARAVIEW_TREE)
+    return()
+  endif()
+  get_filename_component(path "${script}" ABSOLUTE)
+  get_filename_component(stem "${script}" NAME_WE)
+  set(labels paraview ${module} ${arg_LABELS})
+  if(arg_SLOW)
+    list(APPEND labels slow)
+  endif()
+  knotwork_add_command_test(${module}.ParaView.${stem} DISPLAY LABELS ${labels}
+    COMMAND pvbatch "${path}" ${arg_ARGUMENTS}
+    ENVIRONMENT
+      "PYTHONPATH=${KNOTWORK_PARAVIEW_PREFIX}/usr/lib/python3/dist-packages:${CMAKE_SOURCE_DIR}/Testing/Harness"
+      "KNOTWORK_PLUGIN=${KNOTWORK_PARAVIEW_TREE}/lib/knotwork-paraview/Knotwork/Knotwork.so")
+endfunction()

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Languages, folders, warnings and the libraries that every module may use.
+include(GNUInstallDirs)
+
+set(CMAKE_CXX_STANDARD 17)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+# One folder per kind, laid out as an install tree, so that both trees are used alike.
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_BINDIR}")
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}")
+set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}")
+set(KNOTWORK_INCLUDE_DIR "${CMAKE_INSTALL_INCLUDEDIR}/knotwork")
+set(KNOTWORK_CMAKE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/Knotwork")
+
+# Programs and libraries in bin/ and lib/, Python modules three folders below lib/ (python3.x/site-packages/knotwork).
+set(CMAKE_INSTALL_RPATH
+  "$ORIGIN;$ORIGIN/../../..;$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+
+find_program(KNOTWORK_CCACHE ccache)
+mark_as_advanced(KNOTWORK_CCACHE)
+if(KNOTWORK_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_C_COMPILER_LAUNCHER "${KNOTWORK_CCACHE}")
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${KNOTWORK_CCACHE}")
+endif()
+
+if(KNOTWORK_NATIVE)
+  # For everything: code built for two instruction sets may not exchange Eigen objects.
+  add_compile_options(-march=native)
+endif()
+
+set(KNOTWORK_WARNINGS -Wall -Wextra -Wshadow)
+if(KNOTWORK_WERROR)
+  list(APPEND KNOTWORK_WARNINGS -Werror)
+endif()
+
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(TBB REQUIRED)
+if(BUILD_TESTING AND NOT KNOTWORK_PARAVIEW)
+  find_package(GTest REQUIRED)
+  include(GoogleTest)
+endif()
+
+# The Python that has VTK's modules is the system's; another one may come first on PATH.
+set(Python3_EXECUTABLE "/usr/bin/python3" CACHE FILEPATH "Python with VTK's modules")
+
+# The VTK components that our modules and tests use; KnotworkConfig.cmake asks for the first list.
+set(KNOTWORK_VTK_COMPONENTS CommonCore CommonDataModel CommonExecutionModel CommonMath CommonMisc
+  CommonTransforms FiltersCore FiltersGeneral FiltersExtraction FiltersGeometry FiltersSources IOXML
+  IOLegacy IOGeometry IOPLY)
+set(KNOTWORK_VTK_TEST_COMPONENTS IOImage ImagingCore InteractionStyle RenderingAnnotation
+  RenderingCore RenderingFreeType RenderingOpenGL2)
