@@ -44,12 +44,26 @@ function(knotwork_add_filters module)
   endforeach()
 endfunction()
 
+# The modules that have VTK classes: their names and their vtk.module files.
+function(knotwork_find_filter_modules names files)
+  set(found_names "")
+  set(found_files "")
+  foreach(module IN LISTS KNOTWORK_MODULES)
+    file(GLOB classes CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/Modules/${module}/vtk*.cxx")
+    if(classes)
+      list(APPEND found_names ${module})
+      list(APPEND found_files "${CMAKE_SOURCE_DIR}/Modules/${module}/vtk.module")
+    endif()
+  endforeach()
+  set(${names} "${found_names}" PARENT_SCOPE)
+  set(${files} "${found_files}" PARENT_SCOPE)
+endfunction()
+
 # Where tests find and leave files; the same names are environment variables for scripts.
-set(KNOTWORK_TEST_DIRS
-  "KNOTWORK_DATA_DIR=${CMAKE_SOURCE_DIR}/Testing/Data"
-  "KNOTWORK_BASELINE_DIR=${CMAKE_SOURCE_DIR}/Testing/Baseline"
-  "KNOTWORK_OUTPUT_DIR=${CMAKE_BINARY_DIR}/Testing/Temporary")
-file(MAKE_DIRECTORY "${CMAKE_BINARY_DIR}/Testing/Temporary")
+set(KNOTWORK_DATA_DIR "${CMAKE_SOURCE_DIR}/Testing/Data")
+set(KNOTWORK_BASELINE_DIR "${CMAKE_SOURCE_DIR}/Testing/Baseline")
+set(KNOTWORK_OUTPUT_DIR "${CMAKE_BINARY_DIR}/Testing/Temporary")
+file(MAKE_DIRECTORY "${KNOTWORK_OUTPUT_DIR}")
 set(KNOTWORK_WITH_DISPLAY "${CMAKE_SOURCE_DIR}/CMake/with-display.sh")
 
 # A list of labels as gtest_discover_tests wants it: the key repeated (of "a;b" it keeps only the first).
@@ -67,11 +81,8 @@ function(knotwork_add_gtest target module)
   add_executable(${target} ${arg_SOURCES})
   target_link_libraries(${target} PRIVATE ${arg_LIBRARIES} GTest::gtest_main)
   target_compile_options(${target} PRIVATE ${KNOTWORK_WARNINGS})
-  foreach(dir IN LISTS KNOTWORK_TEST_DIRS)
-    string(REPLACE "=" ";" pair "${dir}")
-    list(GET pair 0 name)
-    list(GET pair 1 path)
-    target_compile_definitions(${target} PRIVATE "${name}=\"${path}\"")
+  foreach(name IN ITEMS KNOTWORK_DATA_DIR KNOTWORK_BASELINE_DIR KNOTWORK_OUTPUT_DIR)
+    target_compile_definitions(${target} PRIVATE "${name}=\"${${name}}\"")
   endforeach()
   if(arg_DISPLAY) # ctest starts the tests (not the discovery) through it
     set_target_properties(${target} PROPERTIES CROSSCOMPILING_EMULATOR "${KNOTWORK_WITH_DISPLAY}")
@@ -137,8 +148,12 @@ function(knotwork_add_command_test name)
     set(arg_TIMEOUT 300)
   endif()
   add_test(NAME ${name} COMMAND ${arg_COMMAND})
+  list(APPEND arg_ENVIRONMENT "KNOTWORK_BIN_DIR=${CMAKE_RUNTIME_OUTPUT_DIRECTORY}" PYTHONDONTWRITEBYTECODE=1)
+  foreach(dir IN ITEMS KNOTWORK_DATA_DIR KNOTWORK_BASELINE_DIR KNOTWORK_OUTPUT_DIR)
+    list(APPEND arg_ENVIRONMENT "${dir}=${${dir}}")
+  endforeach()
   set_tests_properties(${name} PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${arg_LABELS}"
-    ENVIRONMENT "${KNOTWORK_TEST_DIRS};KNOTWORK_BIN_DIR=${CMAKE_RUNTIME_OUTPUT_DIRECTORY};PYTHONDONTWRITEBYTECODE=1;${arg_ENVIRONMENT}")
+    ENVIRONMENT "${arg_ENVIRONMENT}")
 endfunction()
 
 # knotwork_add_python_test(MODULE script.py [IMAGE] [SLOW] [LABELS label...] [ARGUMENTS ...])

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Languages, folders, warnings and the libraries that every module may use.
+set(CMAKE_INSTALL_LIBDIR lib CACHE PATH "Folder of libraries in the install tree") # the same for every prefix
 include(GNUInstallDirs)
 
 set(CMAKE_CXX_STANDARD 17)

@@ -1,0 +1,48 @@
+#!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
+# usage: install-dependencies.sh
+# Installs the Debian 12 packages that Knotwork needs and that are missing, as root or through sudo. With nothing missing
+# it neither asks for rights nor touches the network. KNOTWORK_NO_INSTALL=1 leaves the system alone.
+set -eu
+packages=(
+  # build
+  build-essential cmake ninja-build ccache git pkg-config
+  # kernels
+  libeigen3-dev libtbb-dev libnanoflann-dev
+  # filters, command line, Python
+  libvtk9-dev python3-vtk9 python3-dev libcli11-dev nlohmann-json3-dev
+  # ParaView plugin
+  paraview paraview-dev qtbase5-dev qttools5-dev libqt5svg5-dev python3-mpi4py
+  # tests, benchmarks, pictures
+  libgtest-dev libbenchmark-dev clang-format xvfb libgl1-mesa-dri python3-numpy
+  # real data for examples and tests
+  libcgal-demo
+)
+if [ "${KNOTWORK_NO_INSTALL:-0}" = 1 ]; then
+  exit 0
+fi
+if ! command -v dpkg-query > /dev/null; then
+  echo "install-dependencies.sh: this is not a Debian system; install by hand: ${packages[*]}" >&2
+  exit 1
+fi
+installed=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "${packages[@]}" 2> /dev/null | sed -n 's/^installed //p')
+missing=()
+for package in "${packages[@]}"; do
+  grep -qx -- "$package" <<< "$installed" || missing+=("$package")
+done
+if [ ${#missing[@]} -eq 0 ]; then
+  exit 0
+fi
+echo "Installing: ${missing[*]}"
+sudo=()
+if [ "$(id -u)" != 0 ]; then
+  if ! command -v sudo > /dev/null; then
+    echo "install-dependencies.sh: needs root or sudo to install: ${missing[*]}" >&2
+    exit 1
+  fi
+  sudo=(sudo)
+fi
+export DEBIAN_FRONTEND=noninteractive
+"${sudo[@]}" apt-get -q update
+"${sudo[@]}" env DEBIAN_FRONTEND=noninteractive \
+  apt-get -q -y -o Dpkg::Use-Pty=0 install --no-install-recommends "${missing[@]}"
