@@ -12,7 +12,7 @@ esac
 folder=$(mktemp -d) || exit 1
 mkfifo "$folder/number" || exit 1
 # -displayfd: the server picks a free number itself and reports it when it is ready
-Xvfb -displayfd 3 -screen 0 1280x1024x24 -nolisten tcp 3> "$folder/number" 2> "$folder/log" < /dev/null > /dev/null &
+Xvfb -displayfd 3 -screen 0 1280x1024x24 -nolisten tcp -noreset 3> "$folder/number" 2> "$folder/log" < /dev/null > /dev/null &
 server=$!
 trap 'kill $server 2> /dev/null; wait $server 2> /dev/null; rm -rf "$folder"' EXIT
 trap 'exit 130' INT

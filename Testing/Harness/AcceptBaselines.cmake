@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: cmake -DOUTPUT_DIR=<build>/Testing/Temporary [-DNAME=<picture>] -P AcceptBaselines.cmake
 # Copies each picture that its test rejected (X.rejected, which names the baseline) over that baseline.
+cmake_minimum_required(VERSION 3.22)
 if(NOT NAME)
   set(NAME "*")
 endif()

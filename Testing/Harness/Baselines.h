@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pictures of tests against the baselines in Testing/Baseline.
-#ifndef Baselines_h
-#define Baselines_h
+#pragma once
 
 #include "ImageDifference.h"
 
@@ -18,5 +17,3 @@ namespace knotwork
   const std::string& rendering, const std::string& baseline, const ImageLimits& limits = {});
 
 }
-
-#endif

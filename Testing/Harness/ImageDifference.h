@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Compares two pictures as an eye would that does not care about a pixel's width.
-#ifndef ImageDifference_h
-#define ImageDifference_h
+#pragma once
 
 #include <vector>
 
@@ -49,5 +48,3 @@ struct ImageDifference
   const Image& image, const Image& baseline, const ImageLimits& limits = {});
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What filter tests call to draw a picture and to compare it with its baseline.
-#ifndef Rendering_h
-#define Rendering_h
+#pragma once
 
 #include <gtest/gtest.h>
 
@@ -37,5 +36,3 @@ struct RenderOptions
   vtkPolyData* data, const std::string& name, const RenderOptions& options = {});
 
 }
-
-#endif

@@ -1,0 +1,32 @@
+#!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
+# usage: Examples/run.sh [-j JOBS]
+# Installs what is missing, builds, runs the examples on real data and says where their pictures are.
+set -eu
+source "$(dirname "$0")/../CMake/common.sh"
+jobs=$(default_jobs)
+while [ $# -gt 0 ]; do
+  case "$1" in
+    -j) jobs=$2; shift ;;
+    -j*) jobs=${1#-j} ;;
+    *) sed -n '3,4s/^# //p' "$0" >&2; exit 2 ;;
+  esac
+  shift
+done
+
+"$root/CMake/install-dependencies.sh"
+
+configure_release
+cmake --build "$release" -j "$jobs" --target products
+
+output="$root/build/examples"
+mkdir -p "$output"
+export PATH="$release/bin:$PATH"
+export PYTHONPATH="$(echo "$release"/lib/python3.*/site-packages)"
+export PYTHONDONTWRITEBYTECODE=1
+for example in "$root"/Examples/Gallery/*.py; do
+  echo "== $(basename "$example")"
+  "$root/CMake/with-display.sh" /usr/bin/python3 "$example" --output "$output"
+done
+echo "Pictures:"
+ls "$output"/*.png

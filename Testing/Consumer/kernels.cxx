@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The kernels alone, without VTK: cubic splines on eight elements have eleven functions.
+#include <KnotVector.h>
+
+int main()
+{
+  const auto knots = knotwork::KnotVector::Uniform(3, 8);
+  return knots.NumFunctions() == 11 ? 0 : 1;
+}

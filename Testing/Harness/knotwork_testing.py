@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What Python and pvbatch tests share: folders, pictures, a runner.
+
+A test script defines functions test_*() and ends in `knotwork_testing.main(globals())`.
+"""
+import os
+import subprocess
+import sys
+import traceback
+
+DATA_DIR = os.environ["KNOTWORK_DATA_DIR"]
+BASELINE_DIR = os.environ["KNOTWORK_BASELINE_DIR"]
+OUTPUT_DIR = os.environ["KNOTWORK_OUTPUT_DIR"]
+BIN_DIR = os.environ["KNOTWORK_BIN_DIR"]
+PROGRAM = os.path.join(BIN_DIR, "knotwork")
+
+
+def data(name):
+    """Path of a file below Testing/Data."""
+    return os.path.join(DATA_DIR, name)
+
+
+def output(name):
+    """Path of a file that the test may write; its folder exists."""
+    path = os.path.join(OUTPUT_DIR, name)
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    return path
+
+
+def compare_image(name):
+    """Compares output(name + '.png') with the baseline of that name; AssertionError says what differs."""
+    done = subprocess.run(
+        [os.path.join(BIN_DIR, "CompareImages"), output(name + ".png"), os.path.join(BASELINE_DIR, name + ".png")],
+        stderr=subprocess.PIPE, text=True)
+    assert done.returncode == 0, done.stderr.strip()
+
+
+def render_and_compare(renderer, name, size=300):
+    """Renders a vtkRenderer off screen on white, without multisampling, and compares the picture with its baseline."""
+    import vtkmodules.vtkRenderingFreeType  # noqa: F401
+    import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
+    from vtkmodules.vtkIOImage import vtkPNGWriter
+    from vtkmodules.vtkRenderingCore import vtkRenderWindow, vtkWindowToImageFilter
+
+    window = vtkRenderWindow()
+    window.SetOffScreenRendering(1)
+    window.SetMultiSamples(0)
+    window.SetSize(size, size)
+    renderer.SetBackground(1, 1, 1)
+    window.AddRenderer(renderer)
+    window.Render()
+    grab = vtkWindowToImageFilter()
+    grab.SetInput(window)
+    grab.ReadFrontBufferOff()
+    writer = vtkPNGWriter()
+    writer.SetInputConnection(grab.GetOutputPort())
+    writer.SetFileName(output(name + ".png"))
+    writer.Write()
+    compare_image(name)
+
+
+class Errors:
+    """Collects the error messages of an algorithm and of its executive: `with Errors(filter) as errors: ...`."""
+
+    def __init__(self, algorithm):
+        self.sources = [algorithm, algorithm.GetExecutive()]
+        self.messages = []
+
+    def __enter__(self):
+        def record(caller, event, text=""):
+            self.messages.append(text)
+
+        record.CallDataType = "string0"
+        self.tags = [(source, source.AddObserver("ErrorEvent", record)) for source in self.sources]
+        return self.messages
+
+    def __exit__(self, *ignored):
+        for source, tag in self.tags:
+            source.RemoveObserver(tag)
+
+
+def load_plugin():
+    """Loads the Knotwork plugin into pvbatch."""
+    from paraview.simple import LoadPlugin
+
+    LoadPlugin(os.environ["KNOTWORK_PLUGIN"], remote=False, ns=sys.modules["paraview.simple"].__dict__)
+
+
+def main(namespace):
+    """Runs every test_* function and leaves with status 1 when one fails or when there is none."""
+    tests = [(name, item) for name, item in namespace.items() if name.startswith("test_") and callable(item)]
+    failed = []
+    for name, test in tests:
+        try:
+            test()
+            print("passed", name)
+        except BaseException:  # a test that calls exit() has failed too
+            traceback.print_exc()
+            print("FAILED", name)
+            failed.append(name)
+        sys.stdout.flush()
+        sys.stderr.flush()
+    print(f"{len(tests) - len(failed)} of {len(tests)} passed")
+    sys.stdout.flush()
+    # At once: neither pvbatch nor the order in which Python drops pipelines may change the status.
+    os._exit(1 if failed or not tests else 0)

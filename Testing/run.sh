@@ -1,0 +1,30 @@
+#!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
+# usage: Testing/run.sh [--all] [-j JOBS]
+# Installs what is missing, builds everything, runs every test. --all adds the slow ones.
+set -eu
+source "$(dirname "$0")/../CMake/common.sh"
+jobs=$(default_jobs)
+select=(-LE '^slow$')
+while [ $# -gt 0 ]; do
+  case "$1" in
+    --all) select=() ;;
+    -j) jobs=$2; shift ;;
+    -j*) jobs=${1#-j} ;;
+    *) sed -n '3,4s/^# //p' "$0" >&2; exit 2 ;;
+  esac
+  shift
+done
+
+"$root/CMake/install-dependencies.sh"
+
+configure_release
+cmake --build "$release" -j "$jobs"
+
+"$root/CMake/make-paraview-prefix.sh" "$prefix"
+configure paraview "-DKNOTWORK_PARAVIEW_PREFIX=$prefix" "-DKNOTWORK_KERNELS_FROM=$release"
+cmake --build "$paraview" -j "$jobs"
+
+# One display for all tests that draw; they start their own where there is none.
+cd "$release"
+exec "$root/CMake/with-display.sh" ctest --no-tests=error --output-on-failure -j "$jobs" "${select[@]}"
