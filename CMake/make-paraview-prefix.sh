@@ -16,10 +16,11 @@ rm -rf "$dir"
 mkdir -p "$dir/download"
 cd "$dir"
 wanted="python3-paraview=$(dpkg-query -W -f '${Version}' paraview)"
-# As root apt drops to a user that may not write here; that is only a warning, so it is silenced.
-if ! (cd download && apt-get -q -o APT::Sandbox::User=root download "$wanted"); then
-  ${SUDO-} apt-get -q update
-  (cd download && apt-get -q -o APT::Sandbox::User=root download "$wanted")
+# Sandbox::User: apt's own user may not write into this folder.
+download=(apt-get -q -o APT::Sandbox::User=root download "$wanted")
+if ! (cd download && "${download[@]}"); then # package lists may be missing or old
+  if [ "$(id -u)" = 0 ]; then apt-get -q update; else sudo apt-get -q update; fi
+  (cd download && "${download[@]}")
 fi
 dpkg -x download/python3-paraview_*.deb .
 rm -rf download
