@@ -86,6 +86,27 @@ def load_plugin():
     LoadPlugin(os.environ["KNOTWORK_PLUGIN"], remote=False, ns=sys.modules["paraview.simple"].__dict__)
 
 
+def save_and_compare(view, name, size=300):
+    """Saves a ParaView render view on white, without axes, and compares the picture with its baseline."""
+    from paraview.simple import SaveScreenshot
+
+    view.OrientationAxesVisibility = 0
+    view.UseColorPaletteForBackground = 0
+    view.BackgroundColorMode = "Single Color"
+    view.Background = [1, 1, 1]
+    view.MultiSamples = 0
+    view.UseFXAA = 0
+    view.ViewSize = [size, size]
+    SaveScreenshot(output(name + ".png"), view, ImageResolution=[size, size], TransparentBackground=0)
+    compare_image(name)
+
+
+def run_program(*arguments, timeout=120):
+    """Runs the program `knotwork`; the result has returncode, stdout and stderr."""
+    return subprocess.run([PROGRAM, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                          timeout=timeout)
+
+
 def main(namespace):
     """Runs every test_* function and leaves with status 1 when one fails or when there is none."""
     tests = [(name, item) for name, item in namespace.items() if name.startswith("test_") and callable(item)]
