@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkSplineAlgorithm
+ * @brief   base of the filters that take spline grids
+ *
+ * Input 0 is a vtkUnstructuredGrid of Bezier cells (a spline grid or one of foreign origin) or a
+ * vtkPartitionedDataSetCollection of such grids; output 0 has the same type where the filter keeps
+ * spline grids. Derived classes implement Compute(); this class turns kernel statuses and
+ * exceptions of libraries into one VTK error, sets the error code (vtkErrorCode::UserError + code
+ * of the kernel), clears the outputs on failure, and connects progress and abort.
+ */
+#ifndef vtkSplineAlgorithm_h
+#define vtkSplineAlgorithm_h
+#include "Status.h" // for knotwork::Status
+#include "Types.h"  // for knotwork::ProgressCallback
+#include "vtkDataObjectAlgorithm.h"
+#include "vtkKnotworkSplineGridModule.h" // for export macro
+
+class VTKKNOTWORKSPLINEGRID_EXPORT vtkSplineAlgorithm : public vtkDataObjectAlgorithm
+{
+public:
+  vtkTypeMacro(vtkSplineAlgorithm, vtkDataObjectAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /** Threads of the kernels. Default 0 (all cores; one under MPI), valid range [0, 1024]. */
+  vtkSetClampMacro(Threads, int, 0, 1024);
+  vtkGetMacro(Threads, int);
+  ///@}
+
+protected:
+  vtkSplineAlgorithm();
+  ~vtkSplineAlgorithm() override = default;
+
+  /** The three acts of the filter. A Status other than Ok becomes the filter's error. */
+  virtual knotwork::Status Compute(
+    vtkInformationVector** inputs, vtkInformationVector* outputs) = 0;
+
+  /** Reports progress to the pipeline and stops the kernel when the filter is asked to abort. */
+  knotwork::ProgressCallback Progress();
+  /** Threads to hand to kernels: the property, or one under MPI when it is 0. */
+  int KernelThreads() const;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  /** Output 0 of the input's type; override for tables, polydata and further ports. */
+  int RequestDataObject(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+  int Threads = 0;
+
+private:
+  vtkSplineAlgorithm(const vtkSplineAlgorithm&) = delete;
+  void operator=(const vtkSplineAlgorithm&) = delete;
+};
+#endif
