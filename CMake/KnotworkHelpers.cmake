@@ -18,9 +18,8 @@ function(knotwork_add_kernel module)
   add_library(Knotwork::${target} ALIAS ${target})
   target_compile_features(${target} PUBLIC cxx_std_17)
   target_compile_options(${target} PRIVATE ${KNOTWORK_WARNINGS} -Wconversion -Wno-sign-conversion)
-  if(KNOTWORK_NATIVE) # callers must lay out Eigen objects alike
-    target_compile_options(${target} INTERFACE -march=native)
-  endif()
+  # Eigen's alignment is pinned, so that owning types may cross to callers built with other architecture flags
+  target_compile_definitions(${target} PUBLIC EIGEN_MAX_ALIGN_BYTES=16)
   set_source_files_properties(${arg_STRICT_FLOAT} PROPERTIES COMPILE_OPTIONS -ffp-contract=off)
   target_include_directories(${target} PUBLIC
     "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}>" "$<INSTALL_INTERFACE:${KNOTWORK_INCLUDE_DIR}>")

@@ -128,10 +128,6 @@ public:
   /// Extraction operator of an element: rows = AliveFunctions(e), columns = Bernstein polynomials,
   /// entry = Bernstein coefficient. Sum of a column is 1 (partition of unity).
   Eigen::MatrixXd ExtractionOperator(int e) const;
-
-  /// Offset of a factor in FactorData, appended unless the same operator (entries equal after
-  /// rounding to 1e-13) is there; identity matrices give -1. For builders.
-  class FactorPool;
 };
 
 template <int Dim>
