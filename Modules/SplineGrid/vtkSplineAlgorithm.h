@@ -16,6 +16,9 @@
 #include "vtkDataObjectAlgorithm.h"
 #include "vtkKnotworkSplineGridModule.h" // for export macro
 
+#include <string> // for warnings
+#include <vector> // for warnings
+
 class VTKKNOTWORKSPLINEGRID_EXPORT vtkSplineAlgorithm : public vtkDataObjectAlgorithm
 {
 public:
@@ -38,6 +41,8 @@ protected:
 
   /** Reports progress to the pipeline and stops the kernel when the filter is asked to abort. */
   knotwork::ProgressCallback Progress();
+  /** Shows what DecodeSplineModel found worth knowing, one VTK warning each. */
+  void ReportWarnings(const std::vector<std::string>& warnings);
   /** Threads to hand to kernels: the property, or one under MPI when it is 0. */
   int KernelThreads() const;
 

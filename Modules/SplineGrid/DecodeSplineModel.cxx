@@ -1,0 +1,1018 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BezierSpace.h"
+#include "Recovery.h"
+#include "SplineSchema.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCellType.h"
+#include "vtkCellTypes.h"
+#include "vtkDataArray.h"
+#include "vtkDataSet.h"
+#include "vtkFieldData.h"
+#include "vtkPartitionedDataSet.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <sstream>
+
+namespace knotwork
+{
+namespace
+{
+using AnySpace = std::variant<SplineSpacePtr<1>, SplineSpacePtr<2>, SplineSpacePtr<3>>;
+
+int DimensionOfCell(int type)
+{
+  switch (type)
+  {
+    case VTK_BEZIER_CURVE:
+      return 1;
+    case VTK_BEZIER_QUADRILATERAL:
+      return 2;
+    case VTK_BEZIER_HEXAHEDRON:
+      return 3;
+    default:
+      return 0;
+  }
+}
+
+std::string Cell(vtkIdType cell)
+{
+  return "cell " + std::to_string(cell);
+}
+
+std::string Patch(int id)
+{
+  return "patch " + std::to_string(id);
+}
+
+// "3, 4, 5 and 12 more"
+std::string List(const std::vector<int>& values)
+{
+  std::string text;
+  for (std::size_t i = 0; i < values.size() && i < 5; ++i)
+  {
+    text += (i > 0 ? ", " : "") + std::to_string(values[i]);
+  }
+  return values.size() > 5 ? text + " and " + std::to_string(values.size() - 5) + " more" : text;
+}
+
+// Whole numbers of a cell array, whatever type a filter gave them.
+Status ReadCellIntegers(vtkUnstructuredGrid* grid, const char* arrayName, std::vector<int>& values)
+{
+  vtkAbstractArray* any = grid->GetCellData()->GetAbstractArray(arrayName);
+  if (!any)
+  {
+    return {};
+  }
+  vtkDataArray* array = vtkDataArray::SafeDownCast(any);
+  const std::string what = std::string("cell array ") + arrayName;
+  if (!array || array->GetNumberOfComponents() != 1 ||
+    array->GetNumberOfTuples() != grid->GetNumberOfCells())
+  {
+    return { ErrorCode::InvalidTopology, what + " is not one number a cell" };
+  }
+  values.resize(static_cast<std::size_t>(array->GetNumberOfTuples()));
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    const double value = array->GetComponent(static_cast<vtkIdType>(i), 0);
+    if (!(std::abs(value) <= std::numeric_limits<int>::max()) || value != std::floor(value))
+    {
+      std::ostringstream text;
+      text << what << " is " << value << " at " << Cell(static_cast<vtkIdType>(i))
+           << ": not a whole number";
+      return { ErrorCode::InvalidTopology, text.str() };
+    }
+    values[i] = static_cast<int>(value);
+  }
+  return {};
+}
+
+// Cells that belong together, in the order of the grid.
+struct CellGroup
+{
+  int Id = 0;
+  int Basis = 0; // PatchBasis
+  std::vector<vtkIdType> Cells;
+};
+
+// The cells of one patch in element order with what they consist of.
+template <int Dim>
+struct PatchCells
+{
+  std::vector<vtkIdType> Cells;
+  std::vector<IntArray<Dim>> Degrees;
+  std::vector<vtkIdType> Points; // ids, first direction fastest within an element
+  PointMatrix Blocks;            // rows (x, y, z, w) of Points
+};
+
+class GridReader
+{
+public:
+  GridReader(vtkUnstructuredGrid* grid, int block, vtkIdType firstCell, std::set<int>& usedIds,
+    SplineModel& model)
+    : Grid(grid), Block(block), FirstCell(firstCell), UsedIds(usedIds), Model(model)
+  {
+  }
+  Status Read();
+
+private:
+  Status CheckCells();
+  Status FindArrays();
+  Status GroupCells(std::vector<CellGroup>& groups);
+  Status ReadGroup(const CellGroup& group);
+  Status SplitCopies(
+    const CellGroup& group, int numElements, std::vector<std::vector<vtkIdType>>& copies);
+  template <int Dim>
+  Status ReadStructured(const CellGroup& group, const PatchRecord& record);
+  template <int Dim>
+  Status ReadBezier(const CellGroup& group);
+  template <int Dim>
+  Status Gather(
+    const std::string& where, const IntArray<Dim>* expected, PatchCells<Dim>& cells) const;
+  template <int Dim>
+  Status ReadDegree(const std::string& where, vtkIdType cell, vtkIdType numPoints,
+    const IntArray<Dim>* expected, IntArray<Dim>& degree) const;
+  template <int Dim>
+  Status CheckBounds(const std::string& where, const SplineSpace<Dim>& space,
+    const std::vector<vtkIdType>& cells) const;
+  template <int Dim>
+  Status ReadFields(const std::string& where, const PatchRecord& record,
+    const PatchCells<Dim>& cells, const Spline<Dim>& spline, SplinePatch& patch);
+  template <int Dim>
+  Result<SplineSpacePtr<Dim>> Space(const PatchRecord& record);
+  Status GatherField(const std::string& where, vtkDataArray* array,
+    const std::vector<vtkIdType>& points, PointMatrix& values) const;
+  const PatchRecord* FindRecord(const CellGroup& group) const;
+  int TakeId(int wanted);
+  void Warn(const std::string& text)
+  {
+    const auto& all = this->Model.Warnings;
+    if (std::find(all.begin(), all.end(), text) == all.end())
+    {
+      this->Model.Warnings.push_back(text);
+    }
+  }
+  double Epsilon() const
+  {
+    return this->Grid->GetPoints()->GetDataType() == VTK_FLOAT
+      ? static_cast<double>(std::numeric_limits<float>::epsilon())
+      : std::numeric_limits<double>::epsilon();
+  }
+
+  vtkUnstructuredGrid* Grid;
+  int Block;
+  vtkIdType FirstCell;
+  std::set<int>& UsedIds;
+  SplineModel& Model;
+  SplineSchema Schema;
+  std::vector<int> PatchIds, ElementIds, Bases;
+  std::vector<vtkDataArray*> Degrees; // in the order of priority
+  vtkDataArray* Weights = nullptr;
+  std::vector<vtkDataArray*> Fields;
+  std::map<int, std::pair<BasisDefinition, AnySpace>> Spaces;
+};
+
+Status GridReader::CheckCells()
+{
+  const vtkIdType numPoints = this->Grid->GetNumberOfPoints();
+  std::vector<vtkIdType> lastCell(static_cast<std::size_t>(numPoints), -1);
+  for (vtkIdType cell = 0; cell < this->Grid->GetNumberOfCells(); ++cell)
+  {
+    const int type = this->Grid->GetCellType(cell);
+    if (DimensionOfCell(type) == 0)
+    {
+      const char* typeName = vtkCellTypes::GetClassNameFromTypeId(type);
+      return { ErrorCode::InvalidTopology,
+        Cell(cell) + " is a " + (typeName ? typeName : "cell") + " (type " + std::to_string(type) +
+          "): splines are Bezier curves, quadrilaterals and hexahedra" };
+    }
+    vtkIdType count = 0;
+    const vtkIdType* points = nullptr;
+    this->Grid->GetCellPoints(cell, count, points);
+    const auto where = [&]
+    {
+      return (this->PatchIds.empty()
+                 ? std::string()
+                 : Patch(this->PatchIds[static_cast<std::size_t>(cell)]) + ", ") +
+        Cell(cell);
+    };
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      if (points[i] < 0 || points[i] >= numPoints)
+      {
+        return { ErrorCode::InvalidTopology,
+          where() + " uses point " + std::to_string(points[i]) + " of " +
+            std::to_string(numPoints) };
+      }
+      if (lastCell[static_cast<std::size_t>(points[i])] == cell)
+      {
+        return { ErrorCode::InvalidTopology,
+          where() + " has point " + std::to_string(points[i]) +
+            " twice: points of a Bezier cell must not be merged" };
+      }
+      lastCell[static_cast<std::size_t>(points[i])] = cell;
+    }
+  }
+  return {};
+}
+
+Status GridReader::FindArrays()
+{
+  for (auto [arrayName, values] : { std::make_pair(name::PatchId, &this->PatchIds),
+         std::make_pair(name::ElementId, &this->ElementIds),
+         std::make_pair(name::Basis, &this->Bases) })
+  {
+    if (Status status = ReadCellIntegers(this->Grid, arrayName, *values); !status)
+    {
+      return status;
+    }
+  }
+  vtkCellData* cellData = this->Grid->GetCellData();
+  for (vtkDataArray* array : { cellData->GetHigherOrderDegrees(), cellData->GetArray(name::Degrees),
+         cellData->GetArray(name::DegreesCopy) })
+  {
+    if (array && array->GetNumberOfTuples() == this->Grid->GetNumberOfCells() &&
+      std::find(this->Degrees.begin(), this->Degrees.end(), array) == this->Degrees.end())
+    {
+      this->Degrees.push_back(array);
+    }
+  }
+  vtkPointData* pointData = this->Grid->GetPointData();
+  for (vtkDataArray* array : { pointData->GetRationalWeights(), pointData->GetArray(name::Weights),
+         pointData->GetArray(name::WeightsCopy) })
+  {
+    if (array && array->GetNumberOfComponents() == 1 &&
+      array->GetNumberOfTuples() == this->Grid->GetNumberOfPoints())
+    {
+      this->Weights = array;
+      break;
+    }
+  }
+  for (int a = 0; a < pointData->GetNumberOfArrays(); ++a)
+  {
+    vtkAbstractArray* any = pointData->GetAbstractArray(a);
+    const std::string arrayName = any && any->GetName() ? any->GetName() : "";
+    if (!any || arrayName == name::Weights || arrayName == name::WeightsCopy ||
+      any == pointData->GetRationalWeights() || arrayName.rfind("vtk", 0) == 0)
+    {
+      continue;
+    }
+    vtkDataArray* array = vtkDataArray::SafeDownCast(any);
+    const bool floating =
+      array && (array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE);
+    if (floating && !arrayName.empty() && array->GetNumberOfComponents() > 0 &&
+      array->GetNumberOfTuples() == this->Grid->GetNumberOfPoints())
+    {
+      this->Fields.push_back(array);
+    }
+    else
+    {
+      this->Warn("point array '" + arrayName +
+        "' is dropped: only floating-point arrays are coefficients of a spline");
+    }
+  }
+  return {};
+}
+
+Status GridReader::GroupCells(std::vector<CellGroup>& groups)
+{
+  std::map<std::array<int, 2>, std::size_t> known; // (PatchId or dimension, PatchBasis)
+  for (vtkIdType cell = 0; cell < this->Grid->GetNumberOfCells(); ++cell)
+  {
+    const auto i = static_cast<std::size_t>(cell);
+    const int dimension = DimensionOfCell(this->Grid->GetCellType(cell));
+    const int id = this->PatchIds.empty() ? dimension : this->PatchIds[i];
+    const int basis = this->Bases.empty() || this->PatchIds.empty() ? 0 : this->Bases[i];
+    const auto [entry, isNew] = known.emplace(std::array<int, 2>{ id, basis }, groups.size());
+    if (isNew)
+    {
+      groups.push_back({ id, basis, {} });
+    }
+    CellGroup& group = groups[entry->second];
+    if (!group.Cells.empty() &&
+      DimensionOfCell(this->Grid->GetCellType(group.Cells.front())) != dimension)
+    {
+      return { ErrorCode::InvalidTopology,
+        Patch(id) + " has cells of different dimensions: " + Cell(group.Cells.front()) + " and " +
+          Cell(cell) };
+    }
+    group.Cells.push_back(cell);
+  }
+  if (this->PatchIds.empty()) // one patch a dimension, numbered from 0
+  {
+    std::sort(groups.begin(), groups.end(),
+      [](const CellGroup& a, const CellGroup& b) { return a.Id < b.Id; });
+    int next = 0;
+    for (CellGroup& group : groups)
+    {
+      group.Id = next++;
+    }
+  }
+  return {};
+}
+
+// The record that defines a group's space: its own, or that of another patch with the same basis
+// (patches may be renumbered).
+const PatchRecord* GridReader::FindRecord(const CellGroup& group) const
+{
+  const PatchRecord* found = nullptr;
+  for (const PatchRecord& record : this->Schema.Patches)
+  {
+    const bool sameId = !this->PatchIds.empty() && record.Id == group.Id;
+    const bool sameBasis = this->Bases.empty() ? sameId : record.Basis.Hash() == group.Basis;
+    if (sameBasis && (sameId || !found))
+    {
+      found = &record;
+      if (sameId)
+      {
+        break;
+      }
+    }
+  }
+  return found;
+}
+
+int GridReader::TakeId(int wanted)
+{
+  if (this->UsedIds.insert(wanted).second)
+  {
+    return wanted;
+  }
+  int id = 0;
+  const auto isTaken = [&]
+  {
+    return this->UsedIds.count(id) > 0 ||
+      std::find(this->PatchIds.begin(), this->PatchIds.end(), id) != this->PatchIds.end();
+  };
+  while (isTaken())
+  {
+    ++id;
+  }
+  this->UsedIds.insert(id);
+  this->Warn(
+    Patch(wanted) + " occurs more than once; another one is now patch " + std::to_string(id));
+  return id;
+}
+
+Status GridReader::Read()
+{
+  if (this->Grid->GetNumberOfCells() == 0)
+  {
+    return {};
+  }
+  if (Status status = this->FindArrays(); !status)
+  {
+    return status;
+  }
+  if (Status status = this->CheckCells(); !status)
+  {
+    return status;
+  }
+  Result<SplineSchema> schema = ReadSchema(this->Grid->GetFieldData());
+  if (!schema)
+  {
+    return schema.Status;
+  }
+  this->Schema = std::move(schema.Value);
+  std::vector<CellGroup> groups;
+  if (Status status = this->GroupCells(groups); !status)
+  {
+    return status;
+  }
+  for (const CellGroup& group : groups)
+  {
+    if (Status status = this->ReadGroup(group); !status)
+    {
+      return status;
+    }
+  }
+  return {};
+}
+
+Status GridReader::ReadGroup(const CellGroup& group)
+{
+  const PatchRecord* record = this->FindRecord(group);
+  const int dimension = DimensionOfCell(this->Grid->GetCellType(group.Cells.front()));
+  if (!record)
+  {
+    const bool lost = this->Bases.empty() ? this->Schema.Present : group.Basis != 0;
+    if (lost)
+    {
+      this->Warn(Patch(group.Id) +
+        " lost the definition of its basis (appending grids keeps only the field data of the "
+        "first): it is read as a set of Bezier elements");
+    }
+    return dimension == 1 ? this->ReadBezier<1>(group)
+      : dimension == 2    ? this->ReadBezier<2>(group)
+                          : this->ReadBezier<3>(group);
+  }
+  if (record->Basis.Dimension != dimension)
+  {
+    return { ErrorCode::InvalidTopology,
+      Patch(group.Id) + ", " + Cell(group.Cells.front()) + ": the cell has dimension " +
+        std::to_string(dimension) + ", the patch " + std::to_string(record->Basis.Dimension) };
+  }
+  return dimension == 1 ? this->ReadStructured<1>(group, *record)
+    : dimension == 2    ? this->ReadStructured<2>(group, *record)
+                        : this->ReadStructured<3>(group, *record);
+}
+
+// Cells by element. An appended copy of a patch has the same numbers: the k-th cells of all
+// elements form copy k, which the points confirm.
+Status GridReader::SplitCopies(
+  const CellGroup& group, int numElements, std::vector<std::vector<vtkIdType>>& copies)
+{
+  const std::string where = Patch(group.Id);
+  const std::string elements = std::to_string(numElements) + " elements";
+  if (this->ElementIds.empty())
+  {
+    return { ErrorCode::InvalidTopology,
+      where + ": the cell array ElementId is missing, its " + elements + " have no order" };
+  }
+  std::vector<int> count(static_cast<std::size_t>(numElements), 0);
+  copies.clear();
+  for (vtkIdType cell : group.Cells)
+  {
+    const int element = this->ElementIds[static_cast<std::size_t>(cell)];
+    if (element < 0 || element >= numElements)
+    {
+      return { ErrorCode::InvalidTopology,
+        where + ", " + Cell(cell) + ": ElementId is " + std::to_string(element) +
+          ", the patch has " + elements };
+    }
+    const auto copy = static_cast<std::size_t>(count[static_cast<std::size_t>(element)]++);
+    if (copy == copies.size())
+    {
+      copies.emplace_back(static_cast<std::size_t>(numElements), -1);
+    }
+    copies[copy][static_cast<std::size_t>(element)] = cell;
+  }
+  std::vector<int> missing;
+  for (int e = 0; e < numElements; ++e)
+  {
+    if (count[static_cast<std::size_t>(e)] == 0)
+    {
+      missing.push_back(e);
+    }
+  }
+  if (!missing.empty())
+  {
+    return { ErrorCode::InvalidTopology,
+      where + ": " + std::to_string(missing.size()) + " of " + elements +
+        " missing: " + List(missing) + "; keep or remove whole patches" };
+  }
+  const int fewest = *std::min_element(count.begin(), count.end());
+  for (int e = 0; e < numElements; ++e)
+  {
+    if (count[static_cast<std::size_t>(e)] != fewest)
+    {
+      const auto i = static_cast<std::size_t>(e);
+      return { ErrorCode::InvalidTopology,
+        where + ": element " + std::to_string(e) + " occurs " + std::to_string(count[i]) +
+          " times (" + Cell(copies[0][i]) + ", " + Cell(copies[1][i]) + "), others " +
+          std::to_string(fewest) };
+    }
+  }
+  if (copies.size() > 1)
+  {
+    std::vector<int> owner(static_cast<std::size_t>(this->Grid->GetNumberOfPoints()), -1);
+    for (std::size_t k = 0; k < copies.size(); ++k)
+    {
+      for (vtkIdType cell : copies[k])
+      {
+        vtkIdType n = 0;
+        const vtkIdType* points = nullptr;
+        this->Grid->GetCellPoints(cell, n, points);
+        for (vtkIdType i = 0; i < n; ++i)
+        {
+          int& of = owner[static_cast<std::size_t>(points[i])];
+          if (of >= 0 && of != static_cast<int>(k))
+          {
+            return { ErrorCode::InvalidTopology,
+              where + ", " + Cell(cell) + ": the patch occurs " + std::to_string(copies.size()) +
+                " times and its copies cannot be told apart" };
+          }
+          of = static_cast<int>(k);
+        }
+      }
+    }
+  }
+  return {};
+}
+
+template <int Dim>
+Status GridReader::ReadDegree(const std::string& where, vtkIdType cell, vtkIdType numPoints,
+  const IntArray<Dim>* expected, IntArray<Dim>& degree) const
+{
+  for (vtkDataArray* array : this->Degrees)
+  {
+    if (array->GetNumberOfComponents() < Dim)
+    {
+      continue;
+    }
+    vtkIdType product = 1;
+    bool whole = true;
+    for (int d = 0; d < Dim && whole; ++d)
+    {
+      const double p = array->GetComponent(cell, d);
+      whole = p >= 1 && p <= MaxDegree && p == std::floor(p);
+      degree[static_cast<std::size_t>(d)] = whole ? static_cast<int>(p) : 0;
+      product *= whole ? static_cast<vtkIdType>(p) + 1 : 0;
+    }
+    if (whole && product == numPoints && (!expected || degree == *expected))
+    {
+      return {};
+    }
+  }
+  if (this->Degrees.empty()) // then VTK takes the same degree in all directions
+  {
+    const double root = std::round(std::pow(static_cast<double>(numPoints), 1.0 / Dim));
+    degree.fill(static_cast<int>(root) - 1);
+    if (degree[0] >= 1 && degree[0] <= MaxDegree && NumTensorFunctions<Dim>(degree) == numPoints &&
+      (!expected || degree == *expected))
+    {
+      return {};
+    }
+  }
+  std::ostringstream text;
+  text << where << ", " << Cell(cell) << ": ";
+  if (this->Degrees.empty())
+  {
+    text << "there is no array " << name::Degrees;
+  }
+  else
+  {
+    text << this->Degrees.front()->GetName() << " is (";
+    for (int d = 0; d < std::min(Dim, this->Degrees.front()->GetNumberOfComponents()); ++d)
+    {
+      text << (d > 0 ? ", " : "") << this->Degrees.front()->GetComponent(cell, d);
+    }
+    text << ")";
+  }
+  text << "; needed are whole numbers in [1, " << MaxDegree << "] for a cell of " << numPoints
+       << " points";
+  if (expected)
+  {
+    text << " of a patch of degree (";
+    for (int d = 0; d < Dim; ++d)
+    {
+      text << (d > 0 ? ", " : "") << (*expected)[static_cast<std::size_t>(d)];
+    }
+    text << ")";
+  }
+  return { ErrorCode::InvalidDegree, text.str() };
+}
+
+template <int Dim>
+Status GridReader::Gather(
+  const std::string& where, const IntArray<Dim>* expected, PatchCells<Dim>& cells) const
+{
+  std::map<IntArray<Dim>, std::vector<int>> orders;
+  for (vtkIdType cell : cells.Cells)
+  {
+    vtkIdType count = 0;
+    const vtkIdType* points = nullptr;
+    this->Grid->GetCellPoints(cell, count, points);
+    IntArray<Dim> degree{};
+    if (Status status = this->ReadDegree<Dim>(where, cell, count, expected, degree); !status)
+    {
+      return status;
+    }
+    std::vector<int>& order = orders[degree];
+    if (order.empty())
+    {
+      order = VtkPointOrder<Dim>(degree);
+    }
+    const std::size_t first = cells.Points.size();
+    cells.Points.resize(first + order.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+    {
+      cells.Points[first + static_cast<std::size_t>(order[i])] = points[i];
+    }
+    cells.Degrees.push_back(degree);
+  }
+  cells.Blocks.resize(static_cast<Eigen::Index>(cells.Points.size()), 4);
+  vtkPoints* points = this->Grid->GetPoints();
+  std::size_t i = 0;
+  for (std::size_t e = 0; e < cells.Cells.size(); ++e)
+  {
+    for (int k = 0; k < NumTensorFunctions<Dim>(cells.Degrees[e]); ++k, ++i)
+    {
+      const vtkIdType point = cells.Points[i];
+      double* row = cells.Blocks.row(static_cast<Eigen::Index>(i)).data();
+      points->GetPoint(point, row);
+      row[3] = this->Weights ? this->Weights->GetComponent(point, 0) : 1.0;
+      const auto place = [&]
+      { return where + ", " + Cell(cells.Cells[e]) + ", point " + std::to_string(point); };
+      if (!std::isfinite(row[0]) || !std::isfinite(row[1]) || !std::isfinite(row[2]))
+      {
+        return { ErrorCode::NonFiniteInput, place() + ": a coordinate is not a finite number" };
+      }
+      if (!std::isfinite(row[3]) || row[3] <= 0.0)
+      {
+        std::ostringstream text;
+        text << place() << ": the weight is " << row[3];
+        return { ErrorCode::InvalidWeight, text.str() };
+      }
+    }
+  }
+  return {};
+}
+
+Status GridReader::GatherField(const std::string& where, vtkDataArray* array,
+  const std::vector<vtkIdType>& points, PointMatrix& values) const
+{
+  values.resize(static_cast<Eigen::Index>(points.size()), array->GetNumberOfComponents());
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    array->GetTuple(points[i], values.row(static_cast<Eigen::Index>(i)).data());
+  }
+  if (!values.allFinite())
+  {
+    return { ErrorCode::NonFiniteInput,
+      where + ": the point array '" + array->GetName() + "' has a value that is not finite" };
+  }
+  return {};
+}
+
+template <int Dim>
+Status GridReader::CheckBounds(const std::string& where, const SplineSpace<Dim>& space,
+  const std::vector<vtkIdType>& cells) const
+{
+  vtkDataArray* bounds = this->Grid->GetCellData()->GetArray(name::Bounds);
+  if (!bounds || bounds->GetNumberOfComponents() != 6 ||
+    bounds->GetNumberOfTuples() != this->Grid->GetNumberOfCells())
+  {
+    return {};
+  }
+  const ParametricBox<Dim> domain = space.Domain();
+  for (std::size_t e = 0; e < cells.size(); ++e)
+  {
+    for (std::size_t d = 0; d < Dim; ++d)
+    {
+      const double slack = 1e-6 * (domain.Upper[d] - domain.Lower[d]); // the array may be float
+      const int c = 2 * static_cast<int>(d);
+      const ParametricBox<Dim>& box = space.Elements[e].Box;
+      if (!(std::abs(bounds->GetComponent(cells[e], c) - box.Lower[d]) <= slack) ||
+        !(std::abs(bounds->GetComponent(cells[e], c + 1) - box.Upper[d]) <= slack))
+      {
+        return { ErrorCode::InvalidTopology,
+          where + ", " + Cell(cells[e]) + ": " + name::Bounds + " and " + name::ElementId + " " +
+            std::to_string(e) + " do not fit together" };
+      }
+    }
+  }
+  return {};
+}
+
+template <int Dim>
+Result<SplineSpacePtr<Dim>> GridReader::Space(const PatchRecord& record)
+{
+  const int hash = record.Basis.Hash();
+  const auto known = this->Spaces.find(hash);
+  if (known != this->Spaces.end() && known->second.first == record.Basis)
+  {
+    return std::get<SplineSpacePtr<Dim>>(known->second.second);
+  }
+  Result<SplineSpacePtr<Dim>> made = BuildSpace<Dim>(record.Basis);
+  if (made &&
+    (made.Value->NumElements() != record.NumElements ||
+      made.Value->NumFunctions != record.NumFunctions))
+  {
+    made.Status = { ErrorCode::InvalidTopology,
+      "its basis has " + std::to_string(made.Value->NumElements()) + " elements and " +
+        std::to_string(made.Value->NumFunctions) + " functions, its record " +
+        std::to_string(record.NumElements) + " and " + std::to_string(record.NumFunctions) };
+  }
+  if (made)
+  {
+    this->Spaces[hash] = { record.Basis, made.Value };
+  }
+  return made;
+}
+
+// Bezier form from gathered rows (x, y, z, w), homogeneous when rational.
+template <int Dim>
+BezierForm<Dim> FormOf(const SplineSpacePtr<Dim>& space, const PointMatrix& rows, int components,
+  const Eigen::Index weightColumn)
+{
+  BezierForm<Dim> form;
+  form.Space = space;
+  form.NumComponents = components;
+  form.Rational = weightColumn >= 0;
+  form.Offsets.assign(1, 0);
+  form.Data.reserve(static_cast<std::size_t>(rows.rows()) * form.NumPlanes());
+  Eigen::Index first = 0;
+  for (const auto& element : space->Elements)
+  {
+    const int n = NumTensorFunctions<Dim>(element.Degree);
+    for (int c = 0; c < form.NumPlanes(); ++c)
+    {
+      for (Eigen::Index i = first; i < first + n; ++i)
+      {
+        const double w = form.Rational ? rows(i, weightColumn) : 1.0;
+        form.Data.push_back(c < components ? w * rows(i, c) : w);
+      }
+    }
+    first += n;
+    form.Offsets.push_back(form.Data.size());
+  }
+  return form;
+}
+
+template <int Dim>
+Status GridReader::ReadStructured(const CellGroup& group, const PatchRecord& record)
+{
+  std::vector<std::vector<vtkIdType>> copies;
+  if (Status status = this->SplitCopies(group, record.NumElements, copies); !status)
+  {
+    return status;
+  }
+  const std::string where = Patch(group.Id);
+  Result<SplineSpacePtr<Dim>> space = this->Space<Dim>(record);
+  if (!space)
+  {
+    return { space.Status.Code, where + ": " + space.Status.Detail };
+  }
+  if (record.Rational && !this->Weights)
+  {
+    return { ErrorCode::InvalidWeight,
+      where + " is rational, and its weights are missing (point array " + name::Weights + ")" };
+  }
+  IntArray<Dim> degree;
+  std::copy_n(record.Basis.Degree.begin(), Dim, degree.begin());
+  for (const std::vector<vtkIdType>& copy : copies)
+  {
+    PatchCells<Dim> cells;
+    cells.Cells = copy;
+    if (Status status = this->Gather<Dim>(where, &degree, cells); !status)
+    {
+      return status;
+    }
+    if (Status status = this->CheckBounds<Dim>(where, *space.Value, copy); !status)
+    {
+      return status;
+    }
+    const bool rational = record.Rational || (cells.Blocks.col(3).array() != 1.0).any();
+    SplinePatch patch;
+    Spline<Dim> spline;
+    spline.Space = space.Value;
+
+    // A record of the same basis whose checksum fits holds the control points.
+    const std::uint64_t checksum = GeometryChecksum<Dim>(cells.Degrees, cells.Blocks);
+    const PatchRecord* cached = nullptr;
+    for (const PatchRecord& other : this->Schema.Patches)
+    {
+      const PointMatrix& rows = other.ControlPoints.Rows;
+      if (other.ControlPoints.Checksum == checksum && other.Basis == record.Basis &&
+        rows.rows() == space.Value->NumFunctions && rows.allFinite() &&
+        (rows.col(3).array() > 0.0).all() && (!cached || other.Id == group.Id))
+      {
+        cached = &other;
+      }
+    }
+    if (cached)
+    {
+      spline.ControlPoints = cached->ControlPoints.Rows.leftCols(3);
+      if (cached->Rational)
+      {
+        spline.Weights = cached->ControlPoints.Rows.col(3);
+      }
+    }
+    else
+    {
+      RecoveryResult<Dim> recovered =
+        RecoverSpline(FormOf<Dim>(space.Value, cells.Blocks, 3, rational ? 3 : -1));
+      if (!recovered)
+      {
+        return { recovered.Status.Code, where + ": " + recovered.Status.Detail };
+      }
+      spline = std::move(recovered.Value);
+      spline.Space = space.Value;
+      patch.Recovered = true;
+      patch.Residual = recovered.Residual;
+      patch.Amplification = recovered.Amplification;
+      const double rounding = 64.0 * this->Epsilon() * recovered.Amplification;
+      if (recovered.Residual > rounding * recovered.Size || recovered.WeightResidual > rounding)
+      {
+        std::ostringstream text;
+        text << where << ": the points are not those of a spline of its space; they were "
+             << "projected, the largest distance is " << recovered.Residual;
+        this->Warn(text.str());
+      }
+    }
+    const Status status =
+      this->ReadFields<Dim>(where, cached ? *cached : record, cells, spline, patch);
+    if (!status)
+    {
+      return status;
+    }
+    patch.Id = this->TakeId(group.Id);
+    patch.Block = this->Block;
+    patch.Geometry = std::move(spline);
+    for (vtkIdType cell : copy)
+    {
+      patch.Cells.push_back(this->FirstCell + cell);
+    }
+    this->Model.Patches.push_back(std::move(patch));
+  }
+  return {};
+}
+
+template <int Dim>
+Status GridReader::ReadFields(const std::string& where, const PatchRecord& record,
+  const PatchCells<Dim>& cells, const Spline<Dim>& spline, SplinePatch& patch)
+{
+  for (vtkDataArray* array : this->Fields)
+  {
+    SplineField field;
+    field.Name = array->GetName();
+    PointMatrix values;
+    if (Status status = this->GatherField(where, array, cells.Points, values); !status)
+    {
+      return status;
+    }
+    const auto known = std::find_if(record.Fields.begin(), record.Fields.end(),
+      [&](const FieldRecord& candidate) { return candidate.Name == field.Name; });
+    Checksum sum;
+    sum.Add(values);
+    if (known == record.Fields.end() && values.isZero(0.0))
+    {
+      continue; // a field of other patches
+    }
+    // Coefficients of a rational field belong to its weights: recovered weights, recovered field.
+    if (known != record.Fields.end() && known->Cache.Checksum == sum.Value() &&
+      known->Cache.Rows.rows() == spline.Space->NumFunctions &&
+      known->Cache.Rows.cols() == values.cols() && known->Cache.Rows.allFinite() &&
+      !(patch.Recovered && spline.IsRational()))
+    {
+      field.Coefficients = known->Cache.Rows;
+    }
+    else
+    {
+      RecoveryResult<Dim> recovered = RecoverField(
+        FormOf<Dim>(spline.Space, values, static_cast<int>(values.cols()), -1), spline.Weights);
+      if (!recovered)
+      {
+        return { recovered.Status.Code,
+          where + ", field '" + field.Name + "': " + recovered.Status.Detail };
+      }
+      field.Coefficients = std::move(recovered.Value.ControlPoints);
+      const double epsilon = array->GetDataType() == VTK_FLOAT
+        ? static_cast<double>(std::numeric_limits<float>::epsilon())
+        : this->Epsilon();
+      if (recovered.Residual > 64.0 * epsilon * recovered.Amplification * recovered.Size)
+      {
+        std::ostringstream text;
+        text << where << ", field '" << field.Name << "': the values are not those of a spline of "
+             << "the patch's space; they were projected, the largest distance is "
+             << recovered.Residual;
+        this->Warn(text.str());
+      }
+    }
+    patch.Fields.push_back(std::move(field));
+  }
+  return {};
+}
+
+template <int Dim>
+Status GridReader::ReadBezier(const CellGroup& group)
+{
+  const std::string where = Patch(group.Id);
+  PatchCells<Dim> cells;
+  cells.Cells = group.Cells;
+  if (!this->ElementIds.empty()) // in element order, if there is one
+  {
+    const auto id = [&](vtkIdType cell)
+    { return this->ElementIds[static_cast<std::size_t>(cell)]; };
+    std::stable_sort(cells.Cells.begin(), cells.Cells.end(),
+      [&](vtkIdType a, vtkIdType b) { return id(a) < id(b); });
+    const auto same = std::adjacent_find(cells.Cells.begin(), cells.Cells.end(),
+      [&](vtkIdType a, vtkIdType b) { return id(a) == id(b); });
+    if (same != cells.Cells.end())
+    {
+      cells.Cells = group.Cells;
+    }
+  }
+  if (Status status = this->Gather<Dim>(where, nullptr, cells); !status)
+  {
+    return status;
+  }
+  // The points are the control points, numbered as in the grid.
+  std::vector<vtkIdType> used = cells.Points;
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  std::vector<int> functions;
+  functions.reserve(cells.Points.size());
+  PointMatrix rows(static_cast<Eigen::Index>(used.size()), 4);
+  for (std::size_t i = 0; i < cells.Points.size(); ++i)
+  {
+    const auto at = std::lower_bound(used.begin(), used.end(), cells.Points[i]) - used.begin();
+    functions.push_back(static_cast<int>(at));
+    rows.row(at) = cells.Blocks.row(static_cast<Eigen::Index>(i));
+  }
+  Result<SplineSpacePtr<Dim>> space =
+    MakeBezierSpace<Dim>(cells.Degrees, functions, static_cast<int>(used.size()));
+  if (!space)
+  {
+    return { space.Status.Code, where + ": " + space.Status.Detail };
+  }
+  SplinePatch patch;
+  Spline<Dim> spline;
+  spline.Space = space.Value;
+  spline.ControlPoints = rows.leftCols(3);
+  if ((rows.col(3).array() != 1.0).any())
+  {
+    spline.Weights = rows.col(3);
+  }
+  for (vtkDataArray* array : this->Fields)
+  {
+    SplineField field{ array->GetName(), {} };
+    if (Status status = this->GatherField(where, array, used, field.Coefficients); !status)
+    {
+      return status;
+    }
+    patch.Fields.push_back(std::move(field));
+  }
+  patch.Id = this->TakeId(group.Id);
+  patch.Block = this->Block;
+  patch.Geometry = std::move(spline);
+  for (vtkIdType cell : cells.Cells)
+  {
+    patch.Cells.push_back(this->FirstCell + cell);
+  }
+  this->Model.Patches.push_back(std::move(patch));
+  return {};
+}
+
+Status DecodeCollection(vtkPartitionedDataSetCollection* collection, SplineModel& model)
+{
+  for (unsigned int b = 0; b < collection->GetNumberOfPartitionedDataSets(); ++b)
+  {
+    vtkPartitionedDataSet* block = collection->GetPartitionedDataSet(b);
+    vtkIdType firstCell = 0;
+    std::set<int> usedIds;
+    for (unsigned int i = 0; block && i < block->GetNumberOfPartitions(); ++i)
+    {
+      vtkDataSet* piece = block->GetPartition(i);
+      auto* grid = vtkUnstructuredGrid::SafeDownCast(piece);
+      const std::string where = "block " + std::to_string(b);
+      if (!grid)
+      {
+        if (piece)
+        {
+          model.Warnings.push_back(
+            where + " has a " + piece->GetClassName() + ", which is no spline: it passes as it is");
+        }
+        continue;
+      }
+      const Status status = GridReader(grid, static_cast<int>(b), firstCell, usedIds, model).Read();
+      if (!status)
+      {
+        return { status.Code, where + ": " + status.Detail };
+      }
+      firstCell += grid->GetNumberOfCells();
+    }
+  }
+  return {};
+}
+}
+
+Result<SplineModel> DecodeSplineModel(vtkDataObject* data)
+{
+  SplineModel model;
+  Status status;
+  if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data))
+  {
+    std::set<int> usedIds;
+    status = GridReader(grid, 0, 0, usedIds, model).Read();
+  }
+  else if (auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(data))
+  {
+    status = DecodeCollection(collection, model);
+  }
+  else
+  {
+    status = { ErrorCode::InvalidTopology,
+      std::string(data ? data->GetClassName() : "nothing") +
+        " is no spline: needed is a vtkUnstructuredGrid of Bezier cells or a "
+        "vtkPartitionedDataSetCollection of such grids" };
+  }
+  if (!status)
+  {
+    return status;
+  }
+  return model;
+}
+}

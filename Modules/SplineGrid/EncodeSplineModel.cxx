@@ -1,0 +1,761 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BezierForm.h"
+#include "SplineSchema.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCellType.h"
+#include "vtkDataAssembly.h"
+#include "vtkDataSet.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdTypeArray.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkPartitionedDataSet.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <unordered_map>
+
+namespace knotwork
+{
+namespace
+{
+constexpr unsigned char cellTypes[4] = { 0, VTK_BEZIER_CURVE, VTK_BEZIER_QUADRILATERAL,
+  VTK_BEZIER_HEXAHEDRON };
+
+// Point numbers of all elements, first direction fastest within an element.
+struct Numbering
+{
+  std::vector<vtkIdType> Ids;
+  vtkIdType Count = 0;
+};
+
+// Integer position of an element in the grid of its level.
+template <int Dim>
+using CellIndex = std::array<std::int64_t, Dim>;
+
+// Elements of a space with a domain are the leaves of its refinement tree.
+template <int Dim>
+void IndexBelow(const SplineSpace<Dim>& space, int node, const CellIndex<Dim>& index,
+  std::vector<CellIndex<Dim>>& all)
+{
+  if (node >= 0)
+  {
+    all[static_cast<std::size_t>(node)] = index;
+    return;
+  }
+  const std::size_t block = static_cast<std::size_t>(-1 - node) << Dim;
+  for (std::size_t child = 0; child < (std::size_t{ 1 } << Dim); ++child)
+  {
+    CellIndex<Dim> below;
+    for (std::size_t d = 0; d < Dim; ++d)
+    {
+      below[d] = 2 * index[d] + static_cast<std::int64_t>((child >> d) & 1);
+    }
+    IndexBelow<Dim>(space, space.Tree[block + child], below, all);
+  }
+}
+
+template <int Dim>
+std::vector<CellIndex<Dim>> IndexElements(const SplineSpace<Dim>& space)
+{
+  std::vector<CellIndex<Dim>> all(space.Elements.size());
+  for (std::size_t root = 0; root < space.RootCells.size(); ++root)
+  {
+    CellIndex<Dim> index;
+    std::size_t rest = root;
+    for (std::size_t d = 0; d < Dim; ++d)
+    {
+      const auto n = static_cast<std::size_t>(space.Knots[d].NumElements());
+      index[d] = static_cast<std::int64_t>(rest % n);
+      rest /= n;
+    }
+    IndexBelow<Dim>(space, space.RootCells[root], index, all);
+  }
+  return all;
+}
+
+// One direction of the points of a level grid: neighbouring cells share the points of their
+// interface where the basis is continuous; a break of multiplicity p + 1 has two points.
+class PointLine
+{
+public:
+  explicit PointLine(const KnotVector& knots) : P(knots.Degree())
+  {
+    std::int64_t doubled = 0;
+    for (int b = 0; b < knots.NumElements(); ++b)
+    {
+      doubled += b > 0 && knots.Multiplicity(b) > this->P ? 1 : 0;
+      this->Doubled.push_back(doubled);
+    }
+  }
+  std::int64_t Position(int level, std::int64_t cell, int bernstein) const
+  {
+    return cell * this->P + bernstein + this->Doubled[static_cast<std::size_t>(cell >> level)];
+  }
+  std::int64_t Size() const
+  {
+    return static_cast<std::int64_t>(this->Doubled.size()) * this->P + 1 + this->Doubled.back();
+  }
+
+private:
+  int P;
+  std::vector<std::int64_t> Doubled; // breaks with two points up to each level-0 cell
+};
+
+template <int Dim>
+struct PointKey
+{
+  int Level;
+  CellIndex<Dim> Position;
+  bool operator==(const PointKey& other) const
+  {
+    return this->Level == other.Level && this->Position == other.Position;
+  }
+};
+
+template <int Dim>
+struct PointKeyHash
+{
+  std::size_t operator()(const PointKey<Dim>& key) const
+  {
+    std::uint64_t h = static_cast<std::uint64_t>(key.Level);
+    for (std::int64_t x : key.Position)
+    {
+      h = (h ^ static_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15ULL;
+      h ^= h >> 29;
+    }
+    return static_cast<std::size_t>(h);
+  }
+};
+
+// Calls body(i, lattice index) for the Bernstein points of a tensor-product element.
+template <int Dim, typename Body>
+void ForBernstein(const IntArray<Dim>& degree, const Body& body)
+{
+  IntArray<Dim> index{};
+  const int n = NumTensorFunctions<Dim>(degree);
+  for (int i = 0; i < n; ++i)
+  {
+    body(i, index);
+    for (std::size_t d = 0; d < Dim && ++index[d] > degree[d]; ++d)
+    {
+      index[d] = 0;
+    }
+  }
+}
+
+template <int Dim>
+Numbering NumberTensor(const SplineSpace<Dim>& space, const std::vector<CellIndex<Dim>>& cells)
+{
+  std::vector<PointLine> lines;
+  for (const KnotVector& knots : space.Knots)
+  {
+    lines.emplace_back(knots);
+  }
+  Numbering numbering;
+  numbering.Count = 1;
+  for (const PointLine& line : lines)
+  {
+    numbering.Count *= line.Size();
+  }
+  for (std::size_t e = 0; e < cells.size(); ++e)
+  {
+    ForBernstein<Dim>(space.Elements[e].Degree,
+      [&](int, const IntArray<Dim>& index)
+      {
+        std::int64_t id = 0;
+        for (std::size_t d = Dim; d-- > 0;)
+        {
+          id = id * lines[d].Size() + lines[d].Position(0, cells[e][d], index[d]);
+        }
+        numbering.Ids.push_back(static_cast<vtkIdType>(id));
+      });
+  }
+  return numbering;
+}
+
+template <int Dim>
+Numbering NumberHierarchical(
+  const SplineSpace<Dim>& space, const std::vector<CellIndex<Dim>>& cells)
+{
+  std::vector<PointLine> lines;
+  for (const KnotVector& knots : space.Knots)
+  {
+    lines.emplace_back(knots);
+  }
+  Numbering numbering;
+  std::unordered_map<PointKey<Dim>, vtkIdType, PointKeyHash<Dim>> shared;
+  for (std::size_t e = 0; e < cells.size(); ++e)
+  {
+    const auto& element = space.Elements[e];
+    ForBernstein<Dim>(element.Degree,
+      [&](int, const IntArray<Dim>& index)
+      {
+        bool boundary = false;
+        PointKey<Dim> key{ element.Level, {} };
+        for (std::size_t d = 0; d < Dim; ++d)
+        {
+          boundary = boundary || index[d] == 0 || index[d] == element.Degree[d];
+          key.Position[d] = lines[d].Position(element.Level, cells[e][d], index[d]);
+        }
+        vtkIdType id = numbering.Count;
+        if (boundary)
+        {
+          id = shared.emplace(key, id).first->second;
+        }
+        numbering.Count += id == numbering.Count ? 1 : 0;
+        numbering.Ids.push_back(id);
+      });
+  }
+  return numbering;
+}
+
+// Control points that no element uses get no point.
+template <int Dim>
+Numbering NumberBezier(const SplineSpace<Dim>& space)
+{
+  Numbering numbering;
+  std::vector<vtkIdType> point(static_cast<std::size_t>(space.NumFunctions), -1);
+  for (int function : space.LocalFunctionIds)
+  {
+    point[static_cast<std::size_t>(function)] = 0;
+  }
+  for (vtkIdType& id : point)
+  {
+    id = id < 0 ? -1 : numbering.Count++;
+  }
+  for (int function : space.LocalFunctionIds)
+  {
+    numbering.Ids.push_back(point[static_cast<std::size_t>(function)]);
+  }
+  return numbering;
+}
+
+template <int Dim>
+Numbering NumberPoints(const SplineSpace<Dim>& space)
+{
+  switch (space.Kind)
+  {
+    case SpaceKind::Tensor:
+      return NumberTensor<Dim>(space, IndexElements(space));
+    case SpaceKind::Hierarchical:
+      return NumberHierarchical<Dim>(space, IndexElements(space));
+    default:
+      return NumberBezier<Dim>(space);
+  }
+}
+
+// A field of the grid; patches without it have zeros.
+struct GridField
+{
+  std::string Name;
+  vtkSmartPointer<vtkDoubleArray> Values;
+};
+
+// Fills one grid patch after patch.
+class GridWriter
+{
+public:
+  Status Check(const SplinePatch& patch);
+  void Prepare(const std::vector<const SplinePatch*>& patches);
+  void Add(const SplinePatch& patch, int id);
+  void Finish(vtkUnstructuredGrid* grid);
+
+private:
+  template <int Dim>
+  void AddSpline(const SplinePatch& patch, const Spline<Dim>& spline, int id);
+
+  bool Rational = false;
+  bool Domain = false;
+  std::map<std::string, Eigen::Index> FieldComponents;
+  std::vector<Numbering> Numberings;
+  std::size_t NextPatch = 0;
+  vtkIdType FirstPoint = 0;
+  vtkNew<vtkPoints> Points;
+  vtkNew<vtkDoubleArray> Weights;
+  std::vector<GridField> Fields;
+  vtkNew<vtkIdTypeArray> Offsets;
+  vtkNew<vtkIdTypeArray> Connectivity;
+  vtkNew<vtkUnsignedCharArray> Types;
+  vtkNew<vtkIntArray> PatchIds;
+  vtkNew<vtkIntArray> ElementIds;
+  vtkNew<vtkIntArray> Levels;
+  vtkNew<vtkIntArray> Bases;
+  vtkNew<vtkDoubleArray> Degrees;
+  vtkNew<vtkDoubleArray> DegreesCopy;
+  vtkNew<vtkDoubleArray> Bounds;
+  SplineSchema Schema;
+};
+
+bool IsReserved(const std::string& fieldName)
+{
+  return fieldName.empty() || fieldName == name::Weights || fieldName == name::WeightsCopy;
+}
+
+Status GridWriter::Check(const SplinePatch& patch)
+{
+  const std::string where = "patch " + std::to_string(patch.Id);
+  const auto [status, numFunctions, components] = std::visit(
+    [](const auto& spline)
+    {
+      return std::make_tuple(
+        spline.Space ? spline.Check() : Status(ErrorCode::EmptyInput, "no spline space"),
+        spline.Space ? spline.Space->NumFunctions : 0, spline.NumComponents());
+    },
+    patch.Geometry);
+  if (!status)
+  {
+    return { status.Code, where + ": " + status.Detail };
+  }
+  if (components != 3)
+  {
+    return { ErrorCode::DimensionMismatch,
+      where + ": control points have " + std::to_string(components) + " components instead of 3" };
+  }
+  std::set<std::string> names;
+  for (const SplineField& field : patch.Fields)
+  {
+    const std::string what = where + ", field '" + field.Name + "': ";
+    if (IsReserved(field.Name) || !names.insert(field.Name).second)
+    {
+      return { ErrorCode::InvalidParameter, what + "the name is reserved, empty or used twice" };
+    }
+    if (field.Coefficients.rows() != numFunctions || field.Coefficients.cols() < 1)
+    {
+      return { ErrorCode::SizeMismatch,
+        what + std::to_string(field.Coefficients.rows()) + " coefficients for " +
+          std::to_string(numFunctions) + " functions" };
+    }
+    if (!field.Coefficients.allFinite())
+    {
+      return { ErrorCode::NonFiniteInput, what + "a coefficient is not a finite number" };
+    }
+    const auto known =
+      this->FieldComponents.emplace(field.Name, field.Coefficients.cols()).first->second;
+    if (known != field.Coefficients.cols())
+    {
+      return { ErrorCode::SizeMismatch,
+        what + std::to_string(field.Coefficients.cols()) + " components, in another patch " +
+          std::to_string(known) };
+    }
+  }
+  return {};
+}
+
+void GridWriter::Prepare(const std::vector<const SplinePatch*>& patches)
+{
+  vtkIdType numPoints = 0;
+  vtkIdType numCells = 0;
+  vtkIdType numIds = 0;
+  for (const SplinePatch* patch : patches)
+  {
+    std::visit(
+      [&](const auto& spline)
+      {
+        this->Numberings.push_back(NumberPoints(*spline.Space));
+        this->Rational = this->Rational || spline.IsRational();
+        this->Domain = this->Domain || spline.Space->HasDomain;
+        numCells += spline.Space->NumElements();
+      },
+      patch->Geometry);
+    numPoints += this->Numberings.back().Count;
+    numIds += static_cast<vtkIdType>(this->Numberings.back().Ids.size());
+  }
+  this->Points->SetDataTypeToDouble();
+  this->Points->SetNumberOfPoints(numPoints);
+  this->Weights->SetName(name::Weights);
+  this->Weights->SetNumberOfTuples(this->Rational ? numPoints : 0);
+  this->Weights->Fill(1.0);
+  for (const SplinePatch* patch : patches) // in the order of their first appearance
+  {
+    for (const SplineField& field : patch->Fields)
+    {
+      const auto same = [&](const GridField& other) { return other.Name == field.Name; };
+      if (std::none_of(this->Fields.begin(), this->Fields.end(), same))
+      {
+        GridField made{ field.Name, vtkSmartPointer<vtkDoubleArray>::New() };
+        made.Values->SetName(field.Name.c_str());
+        made.Values->SetNumberOfComponents(static_cast<int>(field.Coefficients.cols()));
+        made.Values->SetNumberOfTuples(numPoints);
+        made.Values->Fill(0.0);
+        this->Fields.push_back(made);
+      }
+    }
+  }
+  this->Offsets->Allocate(numCells + 1);
+  this->Offsets->InsertNextValue(0);
+  this->Connectivity->Allocate(numIds);
+  this->Types->Allocate(numCells);
+  this->PatchIds->SetName(name::PatchId);
+  this->PatchIds->Allocate(numCells);
+  this->ElementIds->SetName(name::ElementId);
+  this->ElementIds->Allocate(numCells);
+  this->Levels->SetName(name::Level);
+  this->Levels->Allocate(numCells);
+  this->Bases->SetName(name::Basis);
+  this->Bases->Allocate(numCells);
+  this->Degrees->SetName(name::Degrees);
+  this->Degrees->SetNumberOfComponents(3);
+  this->Degrees->Allocate(3 * numCells);
+  this->DegreesCopy->SetName(name::DegreesCopy);
+  this->DegreesCopy->SetNumberOfComponents(4);
+  this->DegreesCopy->Allocate(4 * numCells);
+  this->Bounds->SetName(name::Bounds);
+  this->Bounds->SetNumberOfComponents(6);
+  this->Bounds->Allocate(this->Domain ? 6 * numCells : 0);
+}
+
+void GridWriter::Add(const SplinePatch& patch, int id)
+{
+  std::visit([&](const auto& spline) { this->AddSpline(patch, spline, id); }, patch.Geometry);
+}
+
+template <int Dim>
+void GridWriter::AddSpline(const SplinePatch& patch, const Spline<Dim>& spline, int id)
+{
+  const SplineSpace<Dim>& space = *spline.Space;
+  const Numbering& numbering = this->Numberings[this->NextPatch++];
+
+  // Geometry and fields have the same space and weights: one pass makes all their Bezier points.
+  Eigen::Index columns = 3;
+  for (const SplineField& field : patch.Fields)
+  {
+    columns += field.Coefficients.cols();
+  }
+  Spline<Dim> all{ spline.Space, PointMatrix(space.NumFunctions, columns), spline.Weights };
+  all.ControlPoints.leftCols(3) = spline.ControlPoints;
+  columns = 3;
+  for (const SplineField& field : patch.Fields)
+  {
+    all.ControlPoints.middleCols(columns, field.Coefficients.cols()) = field.Coefficients;
+    columns += field.Coefficients.cols();
+  }
+  const BezierForm<Dim> form = MakeBezierForm(all);
+
+  PatchRecord record;
+  record.Id = id;
+  record.Basis = DescribeBasis(space);
+  record.Rational = spline.IsRational();
+  record.NumElements = space.NumElements();
+  record.NumFunctions = space.NumFunctions;
+  const int basisHash = record.Basis.Hash();
+
+  double* xyz = static_cast<double*>(this->Points->GetVoidPointer(0));
+  std::vector<double*> fieldValues;
+  std::vector<Eigen::Index> fieldColumns;
+  columns = 3;
+  for (const SplineField& field : patch.Fields)
+  {
+    const auto same = [&](const GridField& other) { return other.Name == field.Name; };
+    fieldValues.push_back(
+      std::find_if(this->Fields.begin(), this->Fields.end(), same)->Values->GetPointer(0));
+    fieldColumns.push_back(columns);
+    columns += field.Coefficients.cols();
+  }
+
+  std::map<IntArray<Dim>, std::vector<int>> orders;
+  std::vector<IntArray<Dim>> degrees;
+  std::size_t firstId = 0;
+  for (int e = 0; e < space.NumElements(); ++e)
+  {
+    const auto& element = space.Elements[static_cast<std::size_t>(e)];
+    const int n = NumTensorFunctions<Dim>(element.Degree);
+    const double* block = form.Block(e);
+    const double* w = form.Rational ? block + static_cast<std::size_t>(columns) * n : nullptr;
+    for (int i = 0; i < n; ++i)
+    {
+      const vtkIdType point = this->FirstPoint + numbering.Ids[firstId + i];
+      const auto value = [&](Eigen::Index plane)
+      { return block[plane * n + i] / (w ? w[i] : 1.0); };
+      for (int c = 0; c < 3; ++c)
+      {
+        xyz[3 * point + c] = value(c);
+      }
+      if (w)
+      {
+        this->Weights->SetValue(point, w[i]);
+      }
+      for (std::size_t f = 0; f < fieldValues.size(); ++f)
+      {
+        const Eigen::Index width = patch.Fields[f].Coefficients.cols();
+        for (Eigen::Index c = 0; c < width; ++c)
+        {
+          fieldValues[f][point * width + c] = value(fieldColumns[f] + c);
+        }
+      }
+    }
+    auto& order = orders[element.Degree];
+    if (order.empty())
+    {
+      order = VtkPointOrder<Dim>(element.Degree);
+    }
+    for (int lexicographic : order)
+    {
+      this->Connectivity->InsertNextValue(
+        this->FirstPoint + numbering.Ids[firstId + lexicographic]);
+    }
+    this->Offsets->InsertNextValue(this->Connectivity->GetNumberOfValues());
+    this->Types->InsertNextValue(cellTypes[Dim]);
+    this->PatchIds->InsertNextValue(id);
+    this->ElementIds->InsertNextValue(e);
+    this->Levels->InsertNextValue(element.Level);
+    this->Bases->InsertNextValue(basisHash);
+    std::array<double, 4> p{};
+    std::copy(element.Degree.begin(), element.Degree.end(), p.begin());
+    this->Degrees->InsertNextTuple(p.data());
+    this->DegreesCopy->InsertNextTuple(p.data());
+    if (this->Domain)
+    {
+      std::array<double, 6> bounds{};
+      for (std::size_t d = 0; d < Dim; ++d)
+      {
+        bounds[2 * d] = element.Box.Lower[d];
+        bounds[2 * d + 1] = element.Box.Upper[d];
+      }
+      this->Bounds->InsertNextTuple(bounds.data());
+    }
+    degrees.push_back(element.Degree);
+    firstId += static_cast<std::size_t>(n);
+  }
+
+  if (space.Kind != SpaceKind::Bezier) // there the points are the control points
+  {
+    // The checksum is that of the grid's values: a shared point has one owner.
+    PointMatrix blocks(static_cast<Eigen::Index>(numbering.Ids.size()), 4);
+    for (Eigen::Index i = 0; i < blocks.rows(); ++i)
+    {
+      const vtkIdType point = this->FirstPoint + numbering.Ids[static_cast<std::size_t>(i)];
+      blocks.row(i) << xyz[3 * point], xyz[3 * point + 1], xyz[3 * point + 2],
+        spline.IsRational() ? this->Weights->GetValue(point) : 1.0;
+    }
+    record.ControlPoints.Checksum = GeometryChecksum<Dim>(degrees, blocks);
+    record.ControlPoints.Rows.setOnes(space.NumFunctions, 4);
+    record.ControlPoints.Rows.leftCols(3) = spline.ControlPoints;
+    if (spline.IsRational())
+    {
+      record.ControlPoints.Rows.col(3) = spline.Weights;
+    }
+    for (std::size_t f = 0; f < fieldValues.size(); ++f)
+    {
+      const SplineField& field = patch.Fields[f];
+      blocks.resize(blocks.rows(), field.Coefficients.cols());
+      for (Eigen::Index i = 0; i < blocks.rows(); ++i)
+      {
+        const vtkIdType point = this->FirstPoint + numbering.Ids[static_cast<std::size_t>(i)];
+        blocks.row(i) = Eigen::Map<const Eigen::RowVectorXd>(
+          fieldValues[f] + point * blocks.cols(), blocks.cols());
+      }
+      Checksum sum;
+      sum.Add(blocks);
+      record.Fields.push_back({ field.Name, { sum.Value(), field.Coefficients } });
+    }
+    this->Schema.Patches.push_back(std::move(record));
+  }
+  this->FirstPoint += numbering.Count;
+}
+
+void GridWriter::Finish(vtkUnstructuredGrid* grid)
+{
+  vtkNew<vtkCellArray> cells;
+  cells->SetData(this->Offsets, this->Connectivity);
+  grid->SetPoints(this->Points);
+  grid->SetCells(this->Types, cells);
+  vtkPointData* pointData = grid->GetPointData();
+  if (this->Rational)
+  {
+    pointData->SetRationalWeights(this->Weights);
+    vtkNew<vtkDoubleArray> copy;
+    copy->DeepCopy(this->Weights);
+    copy->SetName(name::WeightsCopy);
+    pointData->AddArray(copy);
+  }
+  for (const GridField& field : this->Fields)
+  {
+    pointData->AddArray(field.Values);
+  }
+  vtkCellData* cellData = grid->GetCellData();
+  cellData->AddArray(this->PatchIds);
+  cellData->AddArray(this->ElementIds);
+  cellData->AddArray(this->Levels);
+  if (this->Domain)
+  {
+    cellData->AddArray(this->Bounds);
+  }
+  cellData->AddArray(this->Bases);
+  cellData->SetHigherOrderDegrees(this->Degrees);
+  cellData->AddArray(this->DegreesCopy);
+  WriteSchema(this->Schema, grid->GetFieldData());
+}
+
+Status EncodePatches(const std::vector<const SplinePatch*>& patches, vtkUnstructuredGrid* grid)
+{
+  grid->Initialize();
+  GridWriter writer;
+  std::set<int> used;
+  for (const SplinePatch* patch : patches)
+  {
+    if (Status status = writer.Check(*patch); !status)
+    {
+      return status;
+    }
+    used.insert(patch->Id);
+  }
+  writer.Prepare(patches);
+  std::set<int> taken;
+  int next = 0;
+  for (const SplinePatch* patch : patches)
+  {
+    int id = patch->Id;
+    if (!taken.insert(id).second) // patches of two blocks with the same number
+    {
+      while (used.count(next) > 0)
+      {
+        ++next;
+      }
+      id = next;
+      used.insert(id);
+      taken.insert(id);
+    }
+    writer.Add(*patch, id);
+  }
+  writer.Finish(grid);
+  return {};
+}
+}
+
+Status EncodeSplineGrid(const SplineModel& model, vtkUnstructuredGrid* grid)
+{
+  std::vector<const SplinePatch*> patches;
+  for (const SplinePatch& patch : model.Patches)
+  {
+    patches.push_back(&patch);
+  }
+  return EncodePatches(patches, grid);
+}
+
+Status EncodeSplineModel(const SplineModel& model, vtkDataObject* like, vtkDataObject* output)
+{
+  if (auto* grid = vtkUnstructuredGrid::SafeDownCast(output))
+  {
+    return EncodeSplineGrid(model, grid);
+  }
+  auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(output);
+  auto* input = vtkPartitionedDataSetCollection::SafeDownCast(like);
+  if (!collection)
+  {
+    return { ErrorCode::InvalidParameter,
+      "splines are written to unstructured grids and collections of partitioned datasets" };
+  }
+  std::map<int, std::vector<const SplinePatch*>> blocks;
+  for (const SplinePatch& patch : model.Patches)
+  {
+    if (patch.Block < 0)
+    {
+      return { ErrorCode::InvalidParameter,
+        "patch " + std::to_string(patch.Id) + " belongs to block " + std::to_string(patch.Block) };
+    }
+    blocks[patch.Block].push_back(&patch);
+  }
+  const unsigned int inputBlocks = input ? input->GetNumberOfPartitionedDataSets() : 0;
+  const unsigned int modelBlocks =
+    blocks.empty() ? 0 : static_cast<unsigned int>(blocks.rbegin()->first) + 1;
+  collection->Initialize();
+  if (input)
+  {
+    collection->CopyStructure(input);
+    collection->SetDataAssembly(nullptr);
+    if (vtkDataAssembly* assembly = input->GetDataAssembly())
+    {
+      vtkNew<vtkDataAssembly> copy;
+      copy->DeepCopy(assembly);
+      collection->SetDataAssembly(copy);
+    }
+    collection->GetFieldData()->PassData(input->GetFieldData());
+  }
+  collection->SetNumberOfPartitionedDataSets(std::max(inputBlocks, modelBlocks));
+  for (unsigned int b = 0; b < collection->GetNumberOfPartitionedDataSets(); ++b)
+  {
+    vtkNew<vtkPartitionedDataSet> block;
+    vtkPartitionedDataSet* from = b < inputBlocks ? input->GetPartitionedDataSet(b) : nullptr;
+    bool hadGrid = false;
+    for (unsigned int i = 0; from && i < from->GetNumberOfPartitions(); ++i)
+    {
+      vtkDataSet* piece = from->GetPartition(i);
+      hadGrid = hadGrid || vtkUnstructuredGrid::SafeDownCast(piece);
+      if (piece && !vtkUnstructuredGrid::SafeDownCast(piece)) // not ours: passes as it is
+      {
+        vtkSmartPointer<vtkDataSet> copy;
+        copy.TakeReference(piece->NewInstance());
+        copy->ShallowCopy(piece);
+        block->SetPartition(block->GetNumberOfPartitions(), copy);
+      }
+    }
+    const auto patches = blocks.find(static_cast<int>(b));
+    if (patches != blocks.end() || hadGrid)
+    {
+      vtkNew<vtkUnstructuredGrid> grid;
+      const Status status = EncodePatches(
+        patches != blocks.end() ? patches->second : std::vector<const SplinePatch*>(), grid);
+      if (!status)
+      {
+        return { status.Code, "block " + std::to_string(b) + ": " + status.Detail };
+      }
+      block->SetPartition(block->GetNumberOfPartitions(), grid);
+    }
+    collection->SetPartitionedDataSet(b, block);
+  }
+  return {};
+}
+
+void PassCellData(vtkUnstructuredGrid* input, const std::vector<vtkIdType>& sourceCells,
+  vtkUnstructuredGrid* output)
+{
+  static const std::set<std::string> ours{ name::PatchId, name::ElementId, name::Level,
+    name::Bounds, name::Basis, name::Degrees, name::DegreesCopy };
+  if (static_cast<vtkIdType>(sourceCells.size()) != output->GetNumberOfCells())
+  {
+    return;
+  }
+  vtkCellData* from = input->GetCellData();
+  const vtkIdType numSources = input->GetNumberOfCells();
+  for (int a = 0; a < from->GetNumberOfArrays(); ++a)
+  {
+    vtkAbstractArray* source = from->GetAbstractArray(a);
+    if (!source || !source->GetName() || ours.count(source->GetName()) > 0 ||
+      source == from->GetHigherOrderDegrees())
+    {
+      continue;
+    }
+    vtkSmartPointer<vtkAbstractArray> copy;
+    copy.TakeReference(source->NewInstance());
+    copy->SetName(source->GetName());
+    copy->SetNumberOfComponents(source->GetNumberOfComponents());
+    copy->CopyComponentNames(source);
+    copy->SetNumberOfTuples(output->GetNumberOfCells());
+    const std::vector<double> zeros(static_cast<std::size_t>(source->GetNumberOfComponents()), 0.0);
+    for (vtkIdType cell = 0; cell < output->GetNumberOfCells(); ++cell)
+    {
+      const vtkIdType id = sourceCells[static_cast<std::size_t>(cell)];
+      if (id >= 0 && id < numSources)
+      {
+        copy->SetTuple(cell, id, source);
+      }
+      else if (auto* numbers = vtkDataArray::SafeDownCast(copy))
+      {
+        numbers->SetTuple(cell, zeros.data());
+      }
+    }
+    output->GetCellData()->AddArray(copy);
+  }
+}
+}

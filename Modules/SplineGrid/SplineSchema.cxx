@@ -1,0 +1,543 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SplineSchema.h"
+
+#include "BezierSpace.h"
+#include "HierarchicalSpace.h"
+#include "TensorSpace.h"
+
+#include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkStringArray.h"
+#include "vtkTypeInt64Array.h"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace knotwork
+{
+namespace
+{
+constexpr const char* VersionArray = "KnotworkSchemaVersion";
+constexpr const char* PatchArray = "KnotworkPatches";
+constexpr const char* KnotArray = "KnotworkKnots";
+constexpr const char* BoxArray = "KnotworkBoxes";
+constexpr const char* PointArray = "KnotworkControlPoints";
+constexpr const char* FieldNameArray = "KnotworkFieldNames";
+constexpr const char* FieldRowArray = "KnotworkFieldRows";
+constexpr const char* FieldChecksumArray = "KnotworkFieldChecksums";
+constexpr const char* FieldPrefix = "KnotworkField.";
+
+// Columns of KnotworkPatches.
+enum Column
+{
+  Id,
+  Kind,
+  Dimension,
+  Rational,
+  Elements,
+  Functions,
+  Degree0,
+  Knots0 = Degree0 + 3,
+  Boxes = Knots0 + 3,
+  BasisHash,
+  GeometryCheck,
+  NumColumns
+};
+const char* const columnNames[NumColumns] = { "PatchId", "Kind", "Dimension", "Rational",
+  "Elements", "Functions", "Degree0", "Degree1", "Degree2", "Knots0", "Knots1", "Knots2", "Boxes",
+  "PatchBasis", "Checksum" };
+
+// An array of whole numbers of any integer type (readers choose their own), row by row.
+struct IntegerTable
+{
+  int Columns = 0;
+  std::vector<std::int64_t> Values;
+  std::size_t Rows() const
+  {
+    return this->Columns == 0 ? 0 : this->Values.size() / static_cast<std::size_t>(this->Columns);
+  }
+  std::int64_t At(std::size_t row, int column) const
+  {
+    return this
+      ->Values[row * static_cast<std::size_t>(this->Columns) + static_cast<std::size_t>(column)];
+  }
+};
+
+template <typename T>
+void CopyIntegers(const T* from, std::vector<std::int64_t>& to)
+{
+  for (std::int64_t& value : to)
+  {
+    value = static_cast<std::int64_t>(*from++);
+  }
+}
+
+bool ReadIntegers(vtkFieldData* fieldData, const char* arrayName, int columns, IntegerTable& table)
+{
+  vtkDataArray* array = fieldData->GetArray(arrayName);
+  if (!array || array->GetNumberOfComponents() != columns || array->GetDataType() == VTK_FLOAT ||
+    array->GetDataType() == VTK_DOUBLE)
+  {
+    return false;
+  }
+  table.Columns = columns;
+  table.Values.resize(static_cast<std::size_t>(array->GetNumberOfValues()));
+  switch (array->GetDataType())
+  {
+    vtkTemplateMacro(
+      CopyIntegers(static_cast<const VTK_TT*>(array->GetVoidPointer(0)), table.Values));
+    default:
+      return false;
+  }
+  return true;
+}
+
+bool ReadDoubles(vtkFieldData* fieldData, const char* arrayName, PointMatrix& rows)
+{
+  vtkDataArray* array = fieldData->GetArray(arrayName);
+  if (!array || array->GetDataType() != VTK_DOUBLE)
+  {
+    return false;
+  }
+  rows.resize(array->GetNumberOfTuples(), array->GetNumberOfComponents());
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+  {
+    array->GetTuple(i, rows.row(i).data());
+  }
+  return true;
+}
+
+void WriteIntegers(vtkFieldData* fieldData, const std::string& arrayName, int columns,
+  const std::vector<std::int64_t>& values, const char* const* names = nullptr)
+{
+  vtkNew<vtkTypeInt64Array> array;
+  array->SetName(arrayName.c_str());
+  array->SetNumberOfComponents(columns);
+  for (int c = 0; names && c < columns; ++c)
+  {
+    array->SetComponentName(c, names[c]);
+  }
+  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()) / columns);
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  fieldData->AddArray(array);
+}
+
+void WriteDoubles(vtkFieldData* fieldData, const std::string& arrayName, int columns,
+  const std::vector<double>& values)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(arrayName.c_str());
+  array->SetNumberOfComponents(columns);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()) / columns);
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  fieldData->AddArray(array);
+}
+
+void Append(std::vector<double>& values, const PointMatrix& rows)
+{
+  values.insert(values.end(), rows.data(), rows.data() + rows.size());
+}
+
+Status Damaged(const std::string& what)
+{
+  return { ErrorCode::InvalidTopology, "field data of the spline grid is damaged: " + what };
+}
+
+// Takes the next count rows of a table; false when there are not so many.
+bool TakeRows(const PointMatrix& table, Eigen::Index& next, Eigen::Index count, PointMatrix& rows)
+{
+  if (count > table.rows() - next)
+  {
+    return false;
+  }
+  rows = table.middleRows(next, count);
+  next += count;
+  return true;
+}
+
+// The definition part of a record. Counts are checked before anything is allocated.
+Status ReadRecord(const IntegerTable& patches, std::size_t row, PatchRecord& record)
+{
+  constexpr std::int64_t most = std::numeric_limits<int>::max();
+  const std::string patch = "patch " + std::to_string(patches.At(row, Id));
+  for (int c = 0; c < BasisHash; ++c)
+  {
+    if (patches.At(row, c) > most || (c != Id && patches.At(row, c) < 0) ||
+      patches.At(row, c) < -most)
+    {
+      return Damaged(patch + " has " + columnNames[c] + " " + std::to_string(patches.At(row, c)));
+    }
+  }
+  const auto at = [&](int c) { return static_cast<int>(patches.At(row, c)); };
+  record.Id = at(Id);
+  record.Rational = at(Rational) != 0;
+  record.NumElements = at(Elements);
+  record.NumFunctions = at(Functions);
+  record.Basis.Dimension = at(Dimension);
+  if (record.Basis.Dimension < 1 || record.Basis.Dimension > 3)
+  {
+    return Damaged(patch + " has dimension " + std::to_string(record.Basis.Dimension));
+  }
+  switch (at(Kind))
+  {
+    case 1:
+      record.Basis.Kind = SpaceKind::Tensor;
+      break;
+    case 2:
+      record.Basis.Kind = SpaceKind::Hierarchical;
+      break;
+    default:
+      return Damaged(patch + " is of the unknown kind " + std::to_string(at(Kind)));
+  }
+  for (int d = 0; d < 3; ++d)
+  {
+    record.Basis.Degree[static_cast<std::size_t>(d)] = at(Degree0 + d);
+  }
+  record.ControlPoints.Checksum = static_cast<std::uint64_t>(patches.At(row, GeometryCheck));
+  return {};
+}
+}
+
+int BasisDefinition::Hash() const
+{
+  if (this->Kind == SpaceKind::Bezier)
+  {
+    return 0;
+  }
+  Checksum sum;
+  sum.Add(static_cast<std::uint64_t>(this->Kind));
+  sum.Add(static_cast<std::uint64_t>(this->Dimension));
+  for (std::size_t d = 0; d < 3; ++d)
+  {
+    sum.Add(static_cast<std::uint64_t>(this->Degree[d]));
+    for (double knot : this->Knots[d])
+    {
+      sum.Add(knot + 0.0); // -0 and 0 are the same knot
+    }
+  }
+  for (const auto& box : this->Boxes)
+  {
+    for (std::int64_t value : box)
+    {
+      sum.Add(static_cast<std::uint64_t>(value));
+    }
+  }
+  return 1 + static_cast<int>(sum.Value() % 0x7ffffffeU);
+}
+
+template <int Dim>
+BasisDefinition DescribeBasis(const SplineSpace<Dim>& space)
+{
+  BasisDefinition basis;
+  basis.Kind = space.Kind;
+  basis.Dimension = Dim;
+  if (space.Kind == SpaceKind::Bezier)
+  {
+    return basis;
+  }
+  for (std::size_t d = 0; d < Dim; ++d)
+  {
+    basis.Degree[d] = space.Knots[d].Degree();
+    basis.Knots[d] = space.Knots[d].Knots();
+  }
+  if (space.Kind == SpaceKind::Hierarchical)
+  {
+    for (const HierarchyBox<Dim>& box : HierarchyBoxes(space))
+    {
+      std::array<std::int64_t, 7> row{ box.Level };
+      std::copy(box.Lower.begin(), box.Lower.end(), row.begin() + 1);
+      std::copy(box.Upper.begin(), box.Upper.end(), row.begin() + 4);
+      basis.Boxes.push_back(row);
+    }
+  }
+  return basis;
+}
+
+template <int Dim>
+Result<SplineSpacePtr<Dim>> BuildSpace(const BasisDefinition& basis)
+{
+  std::array<KnotVector, Dim> knots;
+  for (std::size_t d = 0; d < Dim; ++d)
+  {
+    Result<KnotVector> made = KnotVector::Create(basis.Degree[d], basis.Knots[d]);
+    if (!made)
+    {
+      return made.Status;
+    }
+    knots[d] = std::move(made.Value);
+  }
+  if (basis.Kind == SpaceKind::Tensor)
+  {
+    return MakeTensorSpace<Dim>(knots);
+  }
+  if (basis.Kind != SpaceKind::Hierarchical)
+  {
+    return { ErrorCode::InvalidTopology, "a Bezier space is made from its cells" };
+  }
+  std::vector<HierarchyBox<Dim>> boxes(basis.Boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+  {
+    const auto& row = basis.Boxes[i];
+    boxes[i].Level =
+      static_cast<int>(std::min<std::int64_t>(std::max<std::int64_t>(row[0], 0), 99));
+    std::copy_n(row.begin() + 1, Dim, boxes[i].Lower.begin());
+    std::copy_n(row.begin() + 4, Dim, boxes[i].Upper.begin());
+  }
+  return MakeHierarchicalSpace<Dim>(knots, boxes);
+}
+
+void WriteSchema(const SplineSchema& schema, vtkFieldData* fieldData)
+{
+  std::vector<std::int64_t> patches, boxes, fieldRows, fieldChecksums;
+  std::vector<double> knots, points;
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> fields;
+  std::vector<int> components;
+  for (const PatchRecord& record : schema.Patches)
+  {
+    for (const FieldRecord& field : record.Fields)
+    {
+      if (std::find(names.begin(), names.end(), field.Name) == names.end())
+      {
+        names.push_back(field.Name);
+        components.push_back(static_cast<int>(field.Cache.Rows.cols()));
+      }
+    }
+  }
+  fields.resize(names.size());
+  for (const PatchRecord& record : schema.Patches)
+  {
+    const BasisDefinition& basis = record.Basis;
+    std::array<std::int64_t, NumColumns> row{ record.Id,
+      basis.Kind == SpaceKind::Hierarchical ? 2 : 1, basis.Dimension, record.Rational,
+      record.NumElements, record.NumFunctions };
+    for (std::size_t d = 0; d < 3; ++d)
+    {
+      row[Degree0 + d] = basis.Degree[d];
+      row[Knots0 + d] = static_cast<std::int64_t>(basis.Knots[d].size());
+      knots.insert(knots.end(), basis.Knots[d].begin(), basis.Knots[d].end());
+    }
+    row[Boxes] = static_cast<std::int64_t>(basis.Boxes.size());
+    row[BasisHash] = basis.Hash();
+    row[GeometryCheck] = static_cast<std::int64_t>(record.ControlPoints.Checksum);
+    patches.insert(patches.end(), row.begin(), row.end());
+    for (const auto& box : basis.Boxes)
+    {
+      boxes.insert(boxes.end(), box.begin(), box.end());
+    }
+    Append(points, record.ControlPoints.Rows);
+    for (std::size_t f = 0; f < names.size(); ++f)
+    {
+      std::int64_t rows = 0;
+      std::int64_t checksum = 0;
+      for (const FieldRecord& field : record.Fields)
+      {
+        if (field.Name == names[f])
+        {
+          rows = field.Cache.Rows.rows();
+          checksum = static_cast<std::int64_t>(field.Cache.Checksum);
+          Append(fields[f], field.Cache.Rows);
+        }
+      }
+      fieldRows.push_back(rows);
+      fieldChecksums.push_back(checksum);
+    }
+  }
+
+  vtkNew<vtkIntArray> version;
+  version->SetName(VersionArray);
+  version->InsertNextValue(SchemaVersion);
+  fieldData->AddArray(version);
+  if (patches.empty())
+  {
+    return;
+  }
+  WriteIntegers(fieldData, PatchArray, NumColumns, patches, columnNames);
+  WriteDoubles(fieldData, KnotArray, 1, knots);
+  if (!boxes.empty())
+  {
+    const char* const boxNames[] = { "Level", "Lower0", "Lower1", "Lower2", "Upper0", "Upper1",
+      "Upper2" };
+    WriteIntegers(fieldData, BoxArray, 7, boxes, boxNames);
+  }
+  WriteDoubles(fieldData, PointArray, 4, points);
+  if (names.empty())
+  {
+    return;
+  }
+  vtkNew<vtkStringArray> fieldNames;
+  fieldNames->SetName(FieldNameArray);
+  for (const std::string& name : names)
+  {
+    fieldNames->InsertNextValue(name);
+  }
+  fieldData->AddArray(fieldNames);
+  WriteIntegers(fieldData, FieldRowArray, static_cast<int>(names.size()), fieldRows);
+  WriteIntegers(fieldData, FieldChecksumArray, static_cast<int>(names.size()), fieldChecksums);
+  for (std::size_t f = 0; f < names.size(); ++f)
+  {
+    WriteDoubles(fieldData, FieldPrefix + names[f], components[f], fields[f]);
+  }
+}
+
+Result<SplineSchema> ReadSchema(vtkFieldData* fieldData)
+{
+  SplineSchema schema;
+  if (!fieldData || !fieldData->GetAbstractArray(VersionArray))
+  {
+    return schema;
+  }
+  IntegerTable version;
+  if (!ReadIntegers(fieldData, VersionArray, 1, version) || version.Rows() != 1)
+  {
+    return Damaged(std::string(VersionArray) + " is not one whole number");
+  }
+  if (version.At(0, 0) != SchemaVersion)
+  {
+    return { ErrorCode::InvalidTopology,
+      "the spline grid has schema version " + std::to_string(version.At(0, 0)) +
+        "; this program reads version " + std::to_string(SchemaVersion) };
+  }
+  schema.Present = true;
+  if (!fieldData->GetAbstractArray(PatchArray))
+  {
+    return schema;
+  }
+  IntegerTable patches;
+  if (!ReadIntegers(fieldData, PatchArray, NumColumns, patches))
+  {
+    return Damaged(std::string(PatchArray) + " is not a table of " + std::to_string(NumColumns) +
+      " whole numbers a row");
+  }
+  PointMatrix knots, points;
+  IntegerTable boxes;
+  const bool haveKnots = ReadDoubles(fieldData, KnotArray, knots) && knots.cols() == 1;
+  ReadIntegers(fieldData, BoxArray, 7, boxes);
+  bool havePoints = ReadDoubles(fieldData, PointArray, points) && points.cols() == 4;
+  vtkStringArray* names = vtkStringArray::SafeDownCast(fieldData->GetAbstractArray(FieldNameArray));
+  const int numFields = names ? static_cast<int>(names->GetNumberOfValues()) : 0;
+  IntegerTable fieldRows, fieldChecksums;
+  const bool haveFields = numFields > 0 &&
+    ReadIntegers(fieldData, FieldRowArray, numFields, fieldRows) &&
+    ReadIntegers(fieldData, FieldChecksumArray, numFields, fieldChecksums) &&
+    fieldRows.Rows() == patches.Rows() && fieldChecksums.Rows() == patches.Rows();
+  std::vector<PointMatrix> fieldTables(static_cast<std::size_t>(haveFields ? numFields : 0));
+  std::vector<Eigen::Index> nextField(fieldTables.size(), 0);
+  for (std::size_t f = 0; f < fieldTables.size(); ++f)
+  {
+    const std::string fieldName = FieldPrefix + names->GetValue(static_cast<vtkIdType>(f));
+    ReadDoubles(fieldData, fieldName.c_str(), fieldTables[f]);
+  }
+
+  Eigen::Index nextKnot = 0;
+  Eigen::Index nextPoint = 0;
+  std::size_t nextBox = 0;
+  for (std::size_t row = 0; row < patches.Rows(); ++row)
+  {
+    PatchRecord record;
+    if (Status status = ReadRecord(patches, row, record); !status)
+    {
+      return status;
+    }
+    const std::string patch = " of patch " + std::to_string(record.Id);
+    for (std::size_t d = 0; d < 3; ++d)
+    {
+      const auto count = static_cast<Eigen::Index>(patches.At(row, Knots0 + static_cast<int>(d)));
+      PointMatrix taken;
+      if (!haveKnots || !TakeRows(knots, nextKnot, count, taken))
+      {
+        return Damaged(std::string(KnotArray) + " ends before the knots" + patch);
+      }
+      record.Basis.Knots[d].assign(taken.data(), taken.data() + taken.size());
+    }
+    for (std::int64_t b = 0; b < patches.At(row, Boxes); ++b, ++nextBox)
+    {
+      if (nextBox >= boxes.Rows())
+      {
+        return Damaged(std::string(BoxArray) + " ends before the boxes" + patch);
+      }
+      std::array<std::int64_t, 7> box;
+      for (int c = 0; c < 7; ++c)
+      {
+        box[static_cast<std::size_t>(c)] = boxes.At(nextBox, c);
+      }
+      record.Basis.Boxes.push_back(box);
+    }
+    if (record.Basis.Hash() != patches.At(row, BasisHash))
+    {
+      return Damaged("the basis" + patch + " does not match its PatchBasis");
+    }
+    havePoints =
+      havePoints && TakeRows(points, nextPoint, record.NumFunctions, record.ControlPoints.Rows);
+    for (std::size_t f = 0; f < fieldTables.size(); ++f)
+    {
+      const std::int64_t count = fieldRows.At(row, static_cast<int>(f));
+      if (count <= 0)
+      {
+        continue;
+      }
+      FieldRecord field;
+      field.Name = names->GetValue(static_cast<vtkIdType>(f));
+      field.Cache.Checksum =
+        static_cast<std::uint64_t>(fieldChecksums.At(row, static_cast<int>(f)));
+      TakeRows(fieldTables[f], nextField[f], static_cast<Eigen::Index>(count), field.Cache.Rows);
+      record.Fields.push_back(std::move(field));
+    }
+    schema.Patches.push_back(std::move(record));
+  }
+  return schema;
+}
+
+void Checksum::Add(std::uint64_t word)
+{
+  std::uint64_t h = this->H ^ (word * 0x9e3779b97f4a7c15ULL);
+  h = (h << 27) | (h >> 37);
+  this->H = h * 0xc2b2ae3d27d4eb4fULL + 0x165667b19e3779f9ULL;
+}
+
+void Checksum::Add(double value)
+{
+  std::uint64_t word;
+  std::memcpy(&word, &value, sizeof word);
+  this->Add(word);
+}
+
+void Checksum::Add(const PointMatrix& values)
+{
+  this->Add(static_cast<std::uint64_t>(values.cols()));
+  for (Eigen::Index i = 0; i < values.size(); ++i)
+  {
+    this->Add(values.data()[i]);
+  }
+}
+
+template <int Dim>
+std::uint64_t GeometryChecksum(const std::vector<IntArray<Dim>>& degrees, const PointMatrix& blocks)
+{
+  Checksum sum;
+  sum.Add(static_cast<std::uint64_t>(Dim)); // the cells' type
+  for (const IntArray<Dim>& degree : degrees)
+  {
+    for (int p : degree)
+    {
+      sum.Add(static_cast<std::uint64_t>(p));
+    }
+  }
+  sum.Add(blocks);
+  return sum.Value();
+}
+
+#define KNOTWORK_INSTANTIATE(Dim)                                                                  \
+  template BasisDefinition DescribeBasis<Dim>(const SplineSpace<Dim>&);                            \
+  template Result<SplineSpacePtr<Dim>> BuildSpace<Dim>(const BasisDefinition&);                    \
+  template std::uint64_t GeometryChecksum<Dim>(                                                    \
+    const std::vector<IntArray<Dim>>&, const PointMatrix&);
+KNOTWORK_INSTANTIATE(1)
+KNOTWORK_INSTANTIATE(2)
+KNOTWORK_INSTANTIATE(3)
+#undef KNOTWORK_INSTANTIATE
+}

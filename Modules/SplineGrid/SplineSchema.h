@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The field data of a spline grid: the definition of every patch's space and the caches of its
+// coefficients. The module's page describes the arrays.
+#pragma once
+#include "SplineModel.h"
+
+#include <array>
+#include <cstdint>
+
+class vtkFieldData;
+
+namespace knotwork
+{
+/// Names of the arrays of a spline grid.
+namespace name
+{
+constexpr const char* Weights = "RationalWeights";
+constexpr const char* WeightsCopy = "BezierWeights";
+constexpr const char* Degrees = "HigherOrderDegrees";
+constexpr const char* DegreesCopy = "BezierDegrees";
+constexpr const char* PatchId = "PatchId";
+constexpr const char* ElementId = "ElementId";
+constexpr const char* Level = "Level";
+constexpr const char* Bounds = "ParametricBounds";
+constexpr const char* Basis = "PatchBasis";
+}
+
+/// Definition of a space whose dimension is known at run time.
+struct BasisDefinition
+{
+  SpaceKind Kind = SpaceKind::Bezier; ///< a Bezier space is defined by its cells alone
+  int Dimension = 0;
+  std::array<int, 3> Degree{};
+  std::array<std::vector<double>, 3> Knots;
+  std::vector<std::array<std::int64_t, 7>> Boxes; ///< level, lower corner, upper corner
+
+  bool operator==(const BasisDefinition& other) const
+  {
+    return this->Kind == other.Kind && this->Dimension == other.Dimension &&
+      this->Degree == other.Degree && this->Knots == other.Knots && this->Boxes == other.Boxes;
+  }
+  /// Value of the cell array PatchBasis: 0 for kind Bezier, positive for all others. Equal
+  /// definitions have equal values.
+  int Hash() const;
+};
+
+template <int Dim>
+BasisDefinition DescribeBasis(const SplineSpace<Dim>& space);
+/// @return InvalidTopology for kind Bezier, the builder's errors.
+template <int Dim>
+Result<SplineSpacePtr<Dim>> BuildSpace(const BasisDefinition& basis);
+
+/// Coefficients as they were encoded, valid while the checksum of the grid's values matches.
+struct CoefficientCache
+{
+  std::uint64_t Checksum = 0;
+  PointMatrix Rows; ///< no rows when lost
+};
+
+struct FieldRecord
+{
+  std::string Name;
+  CoefficientCache Cache;
+};
+
+struct PatchRecord
+{
+  int Id = 0;
+  BasisDefinition Basis;
+  bool Rational = false;
+  int NumElements = 0;
+  int NumFunctions = 0;
+  CoefficientCache ControlPoints; ///< rows (x, y, z, w)
+  std::vector<FieldRecord> Fields;
+};
+
+struct SplineSchema
+{
+  bool Present = false;
+  std::vector<PatchRecord> Patches;
+};
+
+constexpr int SchemaVersion = 1;
+
+void WriteSchema(const SplineSchema& schema, vtkFieldData* fieldData);
+/// @return a schema that is not Present when there is none; InvalidTopology naming the array when
+/// it is damaged or of a newer version. Lost caches are not an error.
+Result<SplineSchema> ReadSchema(vtkFieldData* fieldData);
+
+/// Checksum over values and shapes; order matters.
+class Checksum
+{
+public:
+  void Add(std::uint64_t word);
+  void Add(double value);
+  void Add(const PointMatrix& values);
+  std::uint64_t Value() const { return this->H; }
+
+private:
+  std::uint64_t H = 0x6b6e6f74776f726bULL;
+};
+
+/// Checksum of a patch's cells in element order.
+/// @param blocks  rows (x, y, z, w) of the elements' Bezier points, first direction fastest.
+template <int Dim>
+std::uint64_t GeometryChecksum(
+  const std::vector<IntArray<Dim>>& degrees, const PointMatrix& blocks);
+}

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSplineAlgorithm.h"
+
+#include "vtkDataObject.h"
+#include "vtkErrorCode.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <exception>
+
+vtkSplineAlgorithm::vtkSplineAlgorithm() = default;
+
+void vtkSplineAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Threads: " << this->Threads << "\n";
+}
+
+int vtkSplineAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port != 0)
+  {
+    return this->Superclass::FillInputPortInformation(port, info);
+  }
+  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPartitionedDataSetCollection");
+  return 1;
+}
+
+int vtkSplineAlgorithm::RequestDataObject(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  const bool collection = this->GetNumberOfInputPorts() > 0 &&
+    vtkPartitionedDataSetCollection::GetData(inputs[0], 0) != nullptr;
+  vtkInformation* info = outputs->GetInformationObject(0);
+  if (!info)
+  {
+    return 1;
+  }
+  const char* type = collection ? "vtkPartitionedDataSetCollection" : "vtkUnstructuredGrid";
+  vtkDataObject* output = info->Get(vtkDataObject::DATA_OBJECT());
+  if (!output || !output->IsA(type))
+  {
+    vtkDataObject* made = collection
+      ? static_cast<vtkDataObject*>(vtkPartitionedDataSetCollection::New())
+      : static_cast<vtkDataObject*>(vtkUnstructuredGrid::New());
+    info->Set(vtkDataObject::DATA_OBJECT(), made);
+    made->Delete();
+  }
+  return 1;
+}
+
+int vtkSplineAlgorithm::RequestData(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  this->SetErrorCode(vtkErrorCode::NoError);
+  knotwork::Status status;
+  try
+  {
+    status = this->Compute(inputs, outputs);
+  }
+  catch (const std::exception& error) // of a library below the kernel, out of memory
+  {
+    status = { knotwork::ErrorCode::TooLarge, error.what() };
+  }
+  if (status)
+  {
+    return 1;
+  }
+  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    if (vtkDataObject* output = vtkDataObject::GetData(outputs, port))
+    {
+      output->Initialize();
+    }
+  }
+  this->SetErrorCode(vtkErrorCode::UserError + static_cast<unsigned long>(status.Code));
+  if (status.Code == knotwork::ErrorCode::Aborted) // as asked for: no error
+  {
+    return 1;
+  }
+  vtkErrorMacro("" << status.Message());
+  return 0;
+}
+
+void vtkSplineAlgorithm::ReportWarnings(const std::vector<std::string>& warnings)
+{
+  for (const std::string& warning : warnings)
+  {
+    vtkWarningMacro("" << warning);
+  }
+}
+
+knotwork::ProgressCallback vtkSplineAlgorithm::Progress()
+{
+  return [this](double share)
+  {
+    this->UpdateProgress(share);
+    return this->GetAbortExecute() == 0;
+  };
+}
+
+int vtkSplineAlgorithm::KernelThreads() const
+{
+  if (this->Threads > 0)
+  {
+    return this->Threads;
+  }
+  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
+  return controller && controller->GetNumberOfProcesses() > 1 ? 1 : 0;
+}
