@@ -145,22 +145,6 @@ std::array<int, 2> KnotVector::Support(int function) const
     static_cast<int>(std::min<std::ptrdiff_t>(last, this->NumElements() - 1)) };
 }
 
-int KnotVector::FindElement(double u) const
-{
-  const double position = (u - this->Begin()) * this->BucketScale;
-  const double last = static_cast<double>(this->Bucket.size() - 1);
-  // a NaN compares false and goes to the first element
-  const std::size_t bucket =
-    position > 0.0 ? static_cast<std::size_t>(std::min(position, last)) : std::size_t(0);
-  std::size_t e = static_cast<std::size_t>(this->Bucket[bucket]);
-  const std::size_t end = this->S.size() - 1;
-  while (e < end && u >= this->B[e + 1])
-  {
-    ++e;
-  }
-  return static_cast<int>(e);
-}
-
 double KnotVector::Greville(int function) const
 {
   double sum = 0.0;

@@ -3,6 +3,7 @@
 #include "Status.h"
 #include "Types.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace knotwork
@@ -46,7 +47,23 @@ public:
   std::array<int, 2> Support(int function) const;
   /// Element of a parameter; a break belongs to the element on its right, the domain's end to the
   /// last element; parameters outside go to the nearest element. O(1) expected (bucket table).
-  int FindElement(double u) const;
+  int FindElement(double u) const
+  {
+    const double position = (u - this->B.front()) * this->BucketScale;
+    const double last = static_cast<double>(this->Bucket.size() - 1);
+    // a NaN compares false and goes to the first element
+    const int bucket = position > 0.0 ? static_cast<int>(std::min(position, last)) : 0;
+    const int end = static_cast<int>(this->S.size()) - 1;
+    const double* upper = this->B.data() + 1;
+    int e = this->Bucket[static_cast<std::size_t>(bucket)];
+    // the usual one step is taken without a branch, which could not be predicted
+    e = std::min(e + static_cast<int>(u >= upper[e]), end);
+    while (e < end && u >= upper[e])
+    {
+      ++e;
+    }
+    return e;
+  }
   /// Mean of the p inner knots of a function.
   double Greville(int function) const;
 
