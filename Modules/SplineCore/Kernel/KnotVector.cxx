@@ -115,10 +115,8 @@ void KnotVector::Prepare()
   for (std::size_t b = 0; b < buckets; ++b)
   {
     // one bucket earlier than needed, so that rounding of (u - begin) * scale cannot overshoot
-    const double lower = this->Begin() +
-      (this->End() - this->Begin()) *
-        (static_cast<double>(b) - 1e-9 * static_cast<double>(buckets)) /
-        static_cast<double>(buckets);
+    const double share = static_cast<double>(b) / static_cast<double>(buckets) - 1e-9;
+    const double lower = this->Begin() + (this->End() - this->Begin()) * share;
     while (e + 1 < elements && this->B[e + 1] <= lower)
     {
       ++e;
