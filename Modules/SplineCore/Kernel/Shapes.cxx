@@ -529,6 +529,17 @@ Result<Spline<Dim>> Finish(Net<Dim> net, const std::array<int, 3>& roles, const 
   {
     net.Points.col(d) += params.Center[static_cast<std::size_t>(d)] * net.Points.col(3);
   }
+  double functions = 1.0;
+  for (std::size_t d = 0; d < Dim; ++d)
+  {
+    functions *=
+      1.0 * net.Knots[d].NumElements() * params.Elements[static_cast<std::size_t>(roles[d])] +
+      std::max(params.Degree, net.Knots[d].Degree());
+  }
+  if (functions > 1e8)
+  {
+    return { ErrorCode::TooLarge, "a patch of a shape has at most 1e8 control points" };
+  }
   auto space = MakeTensorSpace<Dim>(net.Knots);
   if (!space)
   {

@@ -68,7 +68,8 @@ struct ShapeParams
 /// Makes the patches of a shape: tensor-product spaces, three-component points, rational where the
 /// shape needs it. Patches that touch agree there point by point, in parameters, degrees, knots and
 /// weights.
-/// @return InvalidParameter naming the parameter; TooLarge.
+/// @return InvalidParameter naming the parameter; TooLarge for a patch of more than
+/// 1e8 control points.
 /// @source  The NURBS Book, chapters 7 and 8 (arcs, ruled surfaces, revolution); Cobb, Tiling the
 /// sphere with rational Bezier patches, University of Utah UUCS-88-009, 1988 (six patches).
 /// @complexity O(control points * degree).
