@@ -1,0 +1,419 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSplineRefine.h"
+
+#include "BezierForm.h"
+#include "Refinement.h"
+#include "SplineBlocks.h"
+#include "SplineModel.h"
+
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkExtractSelection.h"
+#include "vtkImplicitFunction.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkSelection.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <numeric>
+
+using knotwork::ErrorCode;
+using knotwork::Status;
+
+vtkStandardNewMacro(vtkSplineRefine);
+vtkCxxSetObjectMacro(vtkSplineRefine, ImplicitFunction, vtkImplicitFunction);
+
+/// Which elements are marked, by what the mode looks at.
+class vtkSplineRefine::Marker
+{
+public:
+  explicit Marker(vtkSplineRefine* filter) : Filter(filter) {}
+  Status Prepare(vtkDataObject* input, vtkSelection* selection);
+
+  /// Marks of a patch as it came in.
+  std::vector<char> MarkCells(const knotwork::SplinePatch& patch) const;
+  /// Marked elements of a spline whose first three components are positions.
+  template <int Dim>
+  Status MarkByFunction(const knotwork::Spline<Dim>& spline, std::vector<char>& marks) const;
+
+private:
+  Status PrepareArray(vtkDataObject* input);
+  Status PrepareSelection(vtkDataObject* input, vtkSelection* selection);
+
+  vtkSplineRefine* Filter;
+  std::map<int, std::vector<char>> Cells; ///< by block
+};
+
+Status vtkSplineRefine::Marker::Prepare(vtkDataObject* input, vtkSelection* selection)
+{
+  switch (this->Filter->Mode)
+  {
+    case CELL_ARRAY:
+      return this->PrepareArray(input);
+    case SELECTION:
+      return this->PrepareSelection(input, selection);
+    case IMPLICIT_FUNCTION:
+      if (!this->Filter->ImplicitFunction)
+      {
+        return { ErrorCode::InvalidParameter, "set the implicit function to refine by" };
+      }
+      break;
+    default:
+      break;
+  }
+  return {};
+}
+
+Status vtkSplineRefine::Marker::PrepareArray(vtkDataObject* input)
+{
+  bool found = false;
+  bool empty = true;
+  for (const auto& [block, grid] : knotwork::GridsByBlock(input))
+  {
+    empty = empty && grid->GetNumberOfCells() == 0;
+    int association = vtkDataObject::FIELD_ASSOCIATION_CELLS;
+    vtkDataArray* array = this->Filter->GetInputArrayToProcess(0, grid, association);
+    if (!array)
+    {
+      continue;
+    }
+    if (association != vtkDataObject::FIELD_ASSOCIATION_CELLS ||
+      array->GetNumberOfComponents() != 1 || array->GetNumberOfTuples() != grid->GetNumberOfCells())
+    {
+      return { ErrorCode::InvalidParameter,
+        std::string("the array to refine by must have one value a cell, '") +
+          (array->GetName() ? array->GetName() : "") + "' has not" };
+    }
+    found = true;
+    std::vector<char>& marks = this->Cells[block];
+    for (vtkIdType cell = 0; cell < array->GetNumberOfTuples(); ++cell)
+    {
+      const double value = array->GetTuple1(cell);
+      marks.push_back(
+        value >= this->Filter->LowerThreshold && value <= this->Filter->UpperThreshold ? 1 : 0);
+    }
+  }
+  if (!found && !empty)
+  {
+    return { ErrorCode::InvalidParameter, "there is no such cell array to refine by" };
+  }
+  return {};
+}
+
+Status vtkSplineRefine::Marker::PrepareSelection(vtkDataObject* input, vtkSelection* selection)
+{
+  if (!selection)
+  {
+    return { ErrorCode::InvalidParameter, "set the selection to refine by (input port 1)" };
+  }
+  vtkNew<vtkExtractSelection> extract;
+  extract->SetInputDataObject(0, input);
+  extract->SetInputDataObject(1, selection);
+  extract->PreserveTopologyOn();
+  extract->Update();
+  for (const auto& [block, grid] : knotwork::GridsByBlock(extract->GetOutputDataObject(0)))
+  {
+    vtkDataArray* inside = grid->GetCellData()->GetArray("vtkInsidedness");
+    if (!inside && selection->GetNumberOfNodes() > 0 && grid->GetNumberOfCells() > 0)
+    {
+      return { ErrorCode::InvalidParameter, "the selection to refine by must select cells" };
+    }
+    std::vector<char>& marks = this->Cells[block];
+    for (vtkIdType cell = 0; inside && cell < inside->GetNumberOfTuples(); ++cell)
+    {
+      marks.push_back(inside->GetTuple1(cell) > 0 ? 1 : 0);
+    }
+  }
+  return {};
+}
+
+std::vector<char> vtkSplineRefine::Marker::MarkCells(const knotwork::SplinePatch& patch) const
+{
+  std::vector<char> marks(patch.Cells.size(), 0);
+  const auto found = this->Cells.find(patch.Block);
+  for (std::size_t e = 0; found != this->Cells.end() && e < marks.size(); ++e)
+  {
+    const auto cell = static_cast<std::size_t>(patch.Cells[e]);
+    marks[e] = cell < found->second.size() ? found->second[cell] : char(0);
+  }
+  return marks;
+}
+
+template <int Dim>
+Status vtkSplineRefine::Marker::MarkByFunction(
+  const knotwork::Spline<Dim>& spline, std::vector<char>& marks) const
+{
+  constexpr int samples = Dim == 1 ? 3 : Dim == 2 ? 9 : 27;
+  const int numElements = spline.Space->NumElements();
+  std::vector<int> elements;
+  knotwork::PointMatrix local(static_cast<Eigen::Index>(numElements) * samples, Dim);
+  for (int e = 0; e < numElements; ++e)
+  {
+    elements.insert(elements.end(), samples, e);
+    for (int i = 0; i < samples; ++i)
+    {
+      int rest = i;
+      for (int d = 0; d < Dim; ++d, rest /= 3)
+      {
+        local(static_cast<Eigen::Index>(e) * samples + i, d) = 0.5 * (rest % 3);
+      }
+    }
+  }
+  knotwork::EvaluationParams params;
+  params.Threads = this->Filter->KernelThreads();
+  knotwork::EvaluationBatch batch;
+  const Status status =
+    EvaluateElements(MakeBezierForm(spline, params.Threads), elements, local, params, batch);
+  if (!status)
+  {
+    return status;
+  }
+  marks.assign(static_cast<std::size_t>(numElements), 0);
+  for (int e = 0; e < numElements; ++e)
+  {
+    bool inside = false;
+    bool outside = false;
+    for (int i = 0; i < samples; ++i)
+    {
+      double x[3];
+      Eigen::Map<Eigen::RowVector3d>(x, 3) =
+        batch.Values.row(static_cast<Eigen::Index>(e) * samples + i).template head<3>();
+      const double value = this->Filter->ImplicitFunction->FunctionValue(x);
+      inside = inside || value <= 0.0;
+      outside = outside || value >= 0.0;
+    }
+    marks[static_cast<std::size_t>(e)] =
+      inside && (outside || this->Filter->ImplicitRegion == CROSSED_OR_INSIDE) ? 1 : 0;
+  }
+  return {};
+}
+
+namespace
+{
+/// Geometry and fields as one spline, so that all of them are refined in one go.
+template <int Dim>
+knotwork::Spline<Dim> Join(
+  const knotwork::Spline<Dim>& geometry, const std::vector<knotwork::SplineField>& fields)
+{
+  Eigen::Index columns = 3;
+  for (const knotwork::SplineField& field : fields)
+  {
+    columns += field.Coefficients.cols();
+  }
+  knotwork::Spline<Dim> all = geometry;
+  all.ControlPoints.resize(geometry.ControlPoints.rows(), columns);
+  all.ControlPoints.leftCols(3) = geometry.ControlPoints;
+  columns = 3;
+  for (const knotwork::SplineField& field : fields)
+  {
+    all.ControlPoints.middleCols(columns, field.Coefficients.cols()) = field.Coefficients;
+    columns += field.Coefficients.cols();
+  }
+  return all;
+}
+
+template <int Dim>
+void Separate(const knotwork::Spline<Dim>& all, knotwork::SplinePatch& patch)
+{
+  Eigen::Index columns = 3;
+  for (knotwork::SplineField& field : patch.Fields)
+  {
+    field.Coefficients = all.ControlPoints.middleCols(columns, field.Coefficients.cols()).eval();
+    columns += field.Coefficients.cols();
+  }
+  knotwork::Spline<Dim> geometry = all;
+  geometry.ControlPoints = all.ControlPoints.leftCols(3).eval();
+  patch.Geometry = std::move(geometry);
+}
+
+/// Smallest extension for which a marked element brings new functions in every direction.
+template <int Dim>
+int AutomaticExtension(const knotwork::SplineSpace<Dim>& space)
+{
+  int extension = 0;
+  for (const knotwork::KnotVector& knots : space.Knots)
+  {
+    extension = std::max(extension, knots.Degree() / 2);
+  }
+  return extension;
+}
+}
+
+vtkSplineRefine::vtkSplineRefine()
+{
+  this->SetNumberOfInputPorts(2);
+}
+
+vtkSplineRefine::~vtkSplineRefine()
+{
+  this->SetImplicitFunction(nullptr);
+}
+
+void vtkSplineRefine::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Mode: " << this->Mode << "\n";
+  os << indent << "NumberOfRefinements: " << this->NumberOfRefinements << "\n";
+  os << indent << "GlobalRefinement: " << this->GlobalRefinement << "\n";
+  os << indent << "DegreeElevation: " << this->DegreeElevation << "\n";
+  os << indent << "LowerThreshold: " << this->LowerThreshold << "\n";
+  os << indent << "UpperThreshold: " << this->UpperThreshold << "\n";
+  os << indent << "ImplicitFunction: " << this->ImplicitFunction << "\n";
+  os << indent << "ImplicitRegion: " << this->ImplicitRegion << "\n";
+  os << indent << "Extension: " << this->Extension << "\n";
+  os << indent << "AdmissibleClass: " << this->AdmissibleClass << "\n";
+  os << indent << "MaxLevel: " << this->MaxLevel << "\n";
+}
+
+vtkMTimeType vtkSplineRefine::GetMTime()
+{
+  vtkMTimeType time = this->Superclass::GetMTime();
+  if (this->ImplicitFunction)
+  {
+    time = std::max(time, this->ImplicitFunction->GetMTime());
+  }
+  return time;
+}
+
+void vtkSplineRefine::SetSelectionConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(1, output);
+}
+
+void vtkSplineRefine::SetSelectionData(vtkDataObject* selection)
+{
+  this->SetInputDataObject(1, selection);
+}
+
+int vtkSplineRefine::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkSelection");
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+    return 1;
+  }
+  return this->Superclass::FillInputPortInformation(port, info);
+}
+
+Status vtkSplineRefine::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
+  vtkDataObject* output = vtkDataObject::GetData(outputs, 0);
+  auto decoded = knotwork::DecodeSplineModel(input);
+  if (!decoded)
+  {
+    return decoded.Status;
+  }
+  knotwork::SplineModel& model = decoded.Value;
+  this->ReportWarnings(model.Warnings);
+  if (this->AdmissibleClass == 1)
+  {
+    return { ErrorCode::InvalidParameter, "the admissible class is 0 (none) or at least 2" };
+  }
+  Marker marker(this);
+  if (const Status status = marker.Prepare(input, vtkSelection::GetData(inputs[1], 0)); !status)
+  {
+    return status;
+  }
+
+  const knotwork::ProgressCallback progress = this->Progress();
+  std::map<int, std::vector<vtkIdType>> sources; // cells by block
+  for (std::size_t p = 0; p < model.Patches.size(); ++p)
+  {
+    if (!progress(static_cast<double>(p) / static_cast<double>(model.Patches.size())))
+    {
+      return { ErrorCode::Aborted, "" };
+    }
+    knotwork::SplinePatch& patch = model.Patches[p];
+    std::vector<vtkIdType> cells = patch.Cells;
+    const auto refine = [&](const auto& geometry)
+    {
+      auto elevated = ElevateAllDegrees(Join(geometry, patch.Fields), this->DegreeElevation);
+      if (!elevated)
+      {
+        return elevated.Status;
+      }
+      auto spline = std::move(elevated.Value);
+      std::vector<char> marks = marker.MarkCells(patch);
+      for (int round = 0; round < this->NumberOfRefinements; ++round)
+      {
+        if (this->Mode == IMPLICIT_FUNCTION)
+        {
+          if (const Status status = marker.MarkByFunction(spline, marks); !status)
+          {
+            return status;
+          }
+        }
+        std::vector<int> marked;
+        for (std::size_t e = 0; e < marks.size(); ++e)
+        {
+          if (marks[e])
+          {
+            marked.push_back(static_cast<int>(e));
+          }
+        }
+        if (this->Mode != UNIFORM && marked.empty())
+        {
+          break;
+        }
+        knotwork::RefinementParams params;
+        params.Extension =
+          this->Extension < 0 ? AutomaticExtension(*spline.Space) : this->Extension;
+        params.AdmissibleClass = this->AdmissibleClass;
+        params.MaxLevel = this->MaxLevel;
+        auto refined = this->Mode == UNIFORM || this->GlobalRefinement
+          ? RefineAllElements(spline)
+          : RefineMarkedElements(spline, marked, params);
+        if (!refined)
+        {
+          return refined.Status;
+        }
+        spline = std::move(refined->Value);
+        std::vector<vtkIdType> newCells;
+        std::vector<char> newMarks;
+        for (const int parent : refined->Parents)
+        {
+          newCells.push_back(cells[static_cast<std::size_t>(parent)]);
+          newMarks.push_back(marks[static_cast<std::size_t>(parent)]);
+        }
+        cells = std::move(newCells);
+        marks = std::move(newMarks);
+        if (!progress((static_cast<double>(p) + (round + 1.0) / this->NumberOfRefinements) /
+              static_cast<double>(model.Patches.size())))
+        {
+          return Status(ErrorCode::Aborted, "");
+        }
+      }
+      Separate(spline, patch);
+      return Status();
+    };
+    const knotwork::AnySpline geometry = patch.Geometry;
+    const Status status = std::visit(refine, geometry);
+    if (!status)
+    {
+      return { status.Code, "patch " + std::to_string(patch.Id) + ": " + status.Detail };
+    }
+    patch.Cells = cells;
+    auto& blockCells = sources[patch.Block];
+    blockCells.insert(blockCells.end(), cells.begin(), cells.end());
+  }
+
+  if (const Status status = knotwork::EncodeSplineModel(model, input, output); !status)
+  {
+    return status;
+  }
+  const auto from = knotwork::GridsByBlock(input);
+  for (const auto& [block, grid] : knotwork::GridsByBlock(output))
+  {
+    const auto source = from.find(block);
+    if (source != from.end())
+    {
+      knotwork::PassCellData(source->second, sources[block], grid);
+    }
+  }
+  return {};
+}

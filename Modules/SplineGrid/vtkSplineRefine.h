@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkSplineRefine
+ * @brief   splits elements and raises degrees; the map stays what it is
+ *
+ * Elements are halved in every direction, either everywhere or where they are marked:
+ *
+ * - UNIFORM: all elements of all patches. Tensor-product patches stay tensor-product (knots at the
+ *   midpoints), hierarchical ones stay hierarchical, Bezier patches are subdivided.
+ * - CELL_ARRAY: elements whose value in a one-component cell array (SetInputArrayToProcess 0) lies
+ *   in [LowerThreshold, UpperThreshold].
+ * - IMPLICIT_FUNCTION: elements sampled at the 3^d points of local parameters 0, 1/2, 1 (corners,
+ *   middles of edges and faces, centre) of the spline map. CROSSED: the function has a value <= 0
+ *   and a value >= 0 there; CROSSED_OR_INSIDE: it has a value <= 0. What lies between the samples
+ * is not seen.
+ * - SELECTION: cells that a vtkSelection on port 1 selects.
+ *
+ * Marked elements are refined locally: the patch becomes a truncated hierarchical (THB) spline.
+ * With GlobalRefinement every patch that has a marked element is refined as by UNIFORM. In repeated
+ * refinements the children of marked elements are marked (CELL_ARRAY, SELECTION), or the new
+ * elements are sampled again (IMPLICIT_FUNCTION).
+ *
+ * The map, its weights and all fields do not change (up to rounding). Cell arrays other than those
+ * of the spline grid pass to the children.
+ *
+ * Errors: local refinement of Bezier patches and degree elevation of hierarchical patches
+ * (DimensionMismatch), degree above 9 (InvalidDegree), no such array, function or selection
+ * (InvalidParameter), and those of decoding.
+ */
+#ifndef vtkSplineRefine_h
+#define vtkSplineRefine_h
+#include "vtkKnotworkSplineGridModule.h" // for export macro
+#include "vtkSplineAlgorithm.h"
+
+class vtkImplicitFunction;
+
+class VTKKNOTWORKSPLINEGRID_EXPORT vtkSplineRefine : public vtkSplineAlgorithm
+{
+public:
+  static vtkSplineRefine* New();
+  vtkTypeMacro(vtkSplineRefine, vtkSplineAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum Modes
+  {
+    UNIFORM = 0,
+    CELL_ARRAY,
+    IMPLICIT_FUNCTION,
+    SELECTION
+  };
+  enum Regions
+  {
+    CROSSED = 0,
+    CROSSED_OR_INSIDE
+  };
+
+  ///@{
+  /** Which elements are refined, one of Modes. Default UNIFORM, valid range [UNIFORM, SELECTION].
+   */
+  vtkSetClampMacro(Mode, int, UNIFORM, SELECTION);
+  vtkGetMacro(Mode, int);
+  ///@}
+  ///@{
+  /** How often. Default 1, valid range [0, 10]. */
+  vtkSetClampMacro(NumberOfRefinements, int, 0, 10);
+  vtkGetMacro(NumberOfRefinements, int);
+  ///@}
+  ///@{
+  /** Whether a patch with marked elements is refined everywhere. Default off. */
+  vtkSetMacro(GlobalRefinement, bool);
+  vtkGetMacro(GlobalRefinement, bool);
+  vtkBooleanMacro(GlobalRefinement, bool);
+  ///@}
+  ///@{
+  /** Degrees added in every direction before elements are refined. Default 0, valid range [0, 8].
+   */
+  vtkSetClampMacro(DegreeElevation, int, 0, 8);
+  vtkGetMacro(DegreeElevation, int);
+  ///@}
+  ///@{
+  /** Lowest value of a marked element in mode CELL_ARRAY, inclusive. Default 0. */
+  vtkSetMacro(LowerThreshold, double);
+  vtkGetMacro(LowerThreshold, double);
+  ///@}
+  ///@{
+  /** Highest value of a marked element in mode CELL_ARRAY, inclusive. Default 1e299. */
+  vtkSetMacro(UpperThreshold, double);
+  vtkGetMacro(UpperThreshold, double);
+  ///@}
+  ///@{
+  /** The function of mode IMPLICIT_FUNCTION. Default none. */
+  virtual void SetImplicitFunction(vtkImplicitFunction* function);
+  vtkGetObjectMacro(ImplicitFunction, vtkImplicitFunction);
+  ///@}
+  ///@{
+  /** Which side of the function, one of Regions. Default CROSSED_OR_INSIDE. */
+  vtkSetClampMacro(ImplicitRegion, int, CROSSED, CROSSED_OR_INSIDE);
+  vtkGetMacro(ImplicitRegion, int);
+  ///@}
+  ///@{
+  /** Rings of new cells around marked elements that are split too (local refinement). -1 takes the
+   * smallest number that brings new functions, (degree - 1) / 2 rounded up. Default -1, valid range
+   * [-1, 16]. */
+  vtkSetClampMacro(Extension, int, -1, 16);
+  vtkGetMacro(Extension, int);
+  ///@}
+  ///@{
+  /** Functions alive on an element belong to at most so many successive levels; 0: no such limit, 1
+   * is not valid. Default 0, valid range [0, 24]. */
+  vtkSetClampMacro(AdmissibleClass, int, 0, 24);
+  vtkGetMacro(AdmissibleClass, int);
+  ///@}
+  ///@{
+  /** Elements of this level are not split (local refinement). Default 24, valid range [1, 24]. */
+  vtkSetClampMacro(MaxLevel, int, 1, 24);
+  vtkGetMacro(MaxLevel, int);
+  ///@}
+  ///@{
+  /** The selection of mode SELECTION (input port 1, optional). */
+  void SetSelectionConnection(vtkAlgorithmOutput* output);
+  void SetSelectionData(vtkDataObject* selection);
+  ///@}
+
+  vtkMTimeType GetMTime() override;
+
+protected:
+  vtkSplineRefine();
+  ~vtkSplineRefine() override;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkSplineRefine(const vtkSplineRefine&) = delete;
+  void operator=(const vtkSplineRefine&) = delete;
+  class Marker;
+
+  int Mode = UNIFORM;
+  int NumberOfRefinements = 1;
+  bool GlobalRefinement = false;
+  int DegreeElevation = 0;
+  double LowerThreshold = 0.0;
+  double UpperThreshold = 1e299;
+  vtkImplicitFunction* ImplicitFunction = nullptr;
+  int ImplicitRegion = CROSSED_OR_INSIDE;
+  int Extension = -1;
+  int AdmissibleClass = 0;
+  int MaxLevel = 24;
+};
+#endif
