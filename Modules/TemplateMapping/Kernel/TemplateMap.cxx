@@ -144,6 +144,7 @@ template <int Dim>
 struct Problem
 {
   const TemplateMapParams<Dim>& Params;
+  std::vector<int> Ids;                     // of the template
   std::vector<MappedPatch<Dim>> Patches;    // of the template
   std::vector<Constraint<Dim>> Constraints; // of the target
 
@@ -155,6 +156,7 @@ struct Problem
     {
       PatchCurve curve(patch.Points, ParametersOrUniform(patch, 0.0, 1.0).col(0));
       Eigen::VectorXd samples = curve.SampleParameters(params.TemplateSamples);
+      this->Ids.push_back(patch.Id);
       this->Patches.emplace_back(std::move(curve), std::move(samples), space);
     }
     for (const SkeletonPatch<Dim>& patch : target)
@@ -255,9 +257,11 @@ void Problem<Dim>::Finish(TemplateMapResult<Dim>& result) const
     double& largest = result.ElementErrors[static_cast<std::size_t>(element)];
     largest = std::max(largest, error);
   };
-  for (const MappedPatch<Dim>& patch : this->Patches)
+  for (std::size_t k = 0; k < this->Patches.size(); ++k)
   {
+    const MappedPatch<Dim>& patch = this->Patches[k];
     MappedSkeletonPatch mapped;
+    mapped.Id = this->Ids[k];
     mapped.Free = true;
     mapped.Parameters = patch.SampleParameters();
     mapped.Points = patch.MappedSamples();

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace knotwork::testing
+namespace knotwork::cases
 {
 inline constexpr double Pi = 3.14159265358979323846;
 

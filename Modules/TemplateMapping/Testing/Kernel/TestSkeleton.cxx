@@ -12,8 +12,8 @@ namespace
 {
 struct Cases
 {
-  Skeleton<2> Template = testing::CircleTemplate(101);
-  Skeleton<2> Target = testing::LobedTarget({}, 20);
+  Skeleton<2> Template = cases::CircleTemplate(101);
+  Skeleton<2> Target = cases::LobedTarget({}, 20);
 };
 
 Status StatusAfter(const std::function<void(Cases&)>& damage)
@@ -88,9 +88,9 @@ TEST(Skeleton, NormalsOfPolylines_ExactOracle)
 {
   // A regular polygon has normals through its centre at every vertex, at the seam too.
   SkeletonPatch<2> polygon;
-  polygon.Points = testing::Polyline(
-    13, [](double t) { return 2.0 + std::cos(2 * testing::Pi * t); },
-    [](double t) { return -1.0 + std::sin(2 * testing::Pi * t); });
+  polygon.Points = cases::Polyline(
+    13, [](double t) { return 2.0 + std::cos(2 * cases::Pi * t); },
+    [](double t) { return -1.0 + std::sin(2 * cases::Pi * t); });
   const PointMatrix normals = UnitNormals(polygon);
   const PointMatrix radial = polygon.Points.rowwise() - Eigen::RowVector2d(2.0, -1.0);
   EXPECT_LE((normals - radial).cwiseAbs().maxCoeff(), 1e-14); // rounding of unit vectors
