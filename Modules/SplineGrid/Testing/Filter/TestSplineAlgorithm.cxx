@@ -12,6 +12,7 @@
 #include "vtkPartitionedDataSet.h"
 #include "vtkPartitionedDataSetCollection.h"
 
+#include <cmath>
 #include <stdexcept>
 
 using namespace knotwork;

@@ -263,7 +263,7 @@ TEST_P(SplineModelDamage, IsNamed)
 }
 
 INSTANTIATE_TEST_SUITE_P(All, SplineModelDamage, ::testing::ValuesIn(AllDamages()),
-  [](const auto& info) { return info.param.Name; });
+  [](const auto& test) { return test.param.Name; });
 
 TEST(SplineModelDamageOfData, WrongDatasetsAreNamed)
 {
