@@ -35,14 +35,16 @@ SplineSpacePtr<Dim> RandomKnotSpace(int degree, int elements)
 void Surface(benchmark::State& state)
 {
   const auto form = MakeBezierForm(RandomSpline<2>(UniformSpace<2>(3, 64), 3));
-  RunEvaluation(state, form, static_cast<int>(state.range(0)), 1);
+  RunEvaluation(
+    state, form, RandomPoints(NumBenchmarkPoints, 2), static_cast<int>(state.range(0)), 1);
 }
 BENCHMARK(Surface)->Apply(Repeat)->ArgName("derivatives")->DenseRange(0, 2);
 
 void SurfaceAllThreads(benchmark::State& state)
 {
   const auto form = MakeBezierForm(RandomSpline<2>(UniformSpace<2>(3, 64), 3));
-  RunEvaluation(state, form, static_cast<int>(state.range(0)), 0);
+  RunEvaluation(
+    state, form, RandomPoints(NumBenchmarkPoints, 2), static_cast<int>(state.range(0)), 0);
 }
 BENCHMARK(SurfaceAllThreads)
   ->Apply(Repeat)
@@ -53,14 +55,16 @@ BENCHMARK(SurfaceAllThreads)
 void SurfaceRandomKnots(benchmark::State& state)
 {
   const auto form = MakeBezierForm(RandomSpline<2>(RandomKnotSpace<2>(3, 64), 3));
-  RunEvaluation(state, form, static_cast<int>(state.range(0)), 1);
+  RunEvaluation(
+    state, form, RandomPoints(NumBenchmarkPoints, 2), static_cast<int>(state.range(0)), 1);
 }
 BENCHMARK(SurfaceRandomKnots)->Apply(Repeat)->ArgName("derivatives")->DenseRange(0, 1);
 
 void SurfaceRational(benchmark::State& state)
 {
   const auto form = MakeBezierForm(RandomSpline<2>(UniformSpace<2>(3, 64), 3, true));
-  RunEvaluation(state, form, static_cast<int>(state.range(0)), 1);
+  RunEvaluation(
+    state, form, RandomPoints(NumBenchmarkPoints, 2), static_cast<int>(state.range(0)), 1);
 }
 BENCHMARK(SurfaceRational)->Apply(Repeat)->ArgName("derivatives")->DenseRange(0, 1);
 
@@ -68,28 +72,31 @@ void SurfaceOfDegree(benchmark::State& state)
 {
   const auto form =
     MakeBezierForm(RandomSpline<2>(UniformSpace<2>(static_cast<int>(state.range(0)), 64), 3));
-  RunEvaluation(state, form, 0, 1);
+  RunEvaluation(state, form, RandomPoints(NumBenchmarkPoints, 2), 0, 1);
 }
 BENCHMARK(SurfaceOfDegree)->Apply(Repeat)->ArgName("degree")->DenseRange(1, 9);
 
 void Volume(benchmark::State& state)
 {
   const auto form = MakeBezierForm(RandomSpline<3>(UniformSpace<3>(3, 16), 3));
-  RunEvaluation(state, form, static_cast<int>(state.range(0)), 1);
+  RunEvaluation(
+    state, form, RandomPoints(NumBenchmarkPoints, 3), static_cast<int>(state.range(0)), 1);
 }
 BENCHMARK(Volume)->Apply(Repeat)->ArgName("derivatives")->DenseRange(0, 2);
 
 void VolumeAllThreads(benchmark::State& state)
 {
   const auto form = MakeBezierForm(RandomSpline<3>(UniformSpace<3>(3, 16), 3));
-  RunEvaluation(state, form, static_cast<int>(state.range(0)), 0);
+  RunEvaluation(
+    state, form, RandomPoints(NumBenchmarkPoints, 3), static_cast<int>(state.range(0)), 0);
 }
 BENCHMARK(VolumeAllThreads)->Apply(Repeat)->UseRealTime()->ArgName("derivatives")->DenseRange(0, 1);
 
 void VolumeRandomKnots(benchmark::State& state)
 {
   const auto form = MakeBezierForm(RandomSpline<3>(RandomKnotSpace<3>(3, 16), 3));
-  RunEvaluation(state, form, static_cast<int>(state.range(0)), 1);
+  RunEvaluation(
+    state, form, RandomPoints(NumBenchmarkPoints, 3), static_cast<int>(state.range(0)), 1);
 }
 BENCHMARK(VolumeRandomKnots)->Apply(Repeat)->ArgName("derivatives")->DenseRange(0, 1);
 

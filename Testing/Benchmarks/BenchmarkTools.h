@@ -54,12 +54,11 @@ inline void CountPoints(benchmark::State& state, double pointsPerIteration)
     benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-/// Times EvaluateParameters on random points of the unit cube.
+/// Times EvaluateParameters.
 template <int Dim>
-void RunEvaluation(
-  benchmark::State& state, const BezierForm<Dim>& form, int derivatives, int threads)
+void RunEvaluation(benchmark::State& state, const BezierForm<Dim>& form, const PointMatrix& points,
+  int derivatives, int threads)
 {
-  const PointMatrix points = RandomPoints(NumBenchmarkPoints, Dim);
   EvaluationParams params;
   params.Derivatives = derivatives;
   params.Threads = threads;
@@ -73,6 +72,6 @@ void RunEvaluation(
     }
     benchmark::DoNotOptimize(batch.Values.data());
   }
-  CountPoints(state, NumBenchmarkPoints);
+  CountPoints(state, static_cast<double>(points.rows()));
 }
 }
