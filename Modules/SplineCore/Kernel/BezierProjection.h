@@ -25,6 +25,9 @@ struct ProjectionParams
 /// appears. Reproduces splines of the space, local, O(h^{p+1}), no global solve.
 /// @source  Thomas, Scott, Evans, Tew, Evans, CMAME 284 (2015) 55-105; for hierarchical spaces the
 /// averages run over the function's own level only (Speleers & Manni, Numer. Math. 132 (2016)).
+/// @return EmptyInput, InvalidParameter; OutsideDomain, NonFiniteInput or SizeMismatch with the
+/// first element on which the function failed; Aborted. The result is polynomial.
+/// @post  bit-identical for any number of threads.
 template <int Dim>
 Result<Spline<Dim>> ProjectOntoSpace(const SplineSpacePtr<Dim>& space, int numComponents,
   const ElementFunction& function, const ProjectionParams& params = {});

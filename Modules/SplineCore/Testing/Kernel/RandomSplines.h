@@ -54,9 +54,12 @@ SplineSpacePtr<Dim> RandomTensorSpace(Random& random, int maxDegree, int maxElem
   std::array<KnotVector, Dim> knots;
   for (KnotVector& k : knots)
   {
+    // one draw a statement: the order in which arguments are evaluated is not fixed
     const int degree = UniformInt(random, 1, maxDegree);
-    k = RandomKnots(random, degree, UniformInt(random, 1, maxElements),
-      UniformInt(random, 1, degree), UniformInt(random, 0, 2) > 0);
+    const int elements = UniformInt(random, 1, maxElements);
+    const int multiplicity = UniformInt(random, 1, degree);
+    const bool clamped = UniformInt(random, 0, 2) > 0;
+    k = RandomKnots(random, degree, elements, multiplicity, clamped);
   }
   return MakeTensorSpace<Dim>(knots).Value;
 }

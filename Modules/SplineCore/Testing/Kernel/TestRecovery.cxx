@@ -136,7 +136,8 @@ TYPED_TEST(RecoveryTest, TensorSplinesComeBack_PropertyOracle)
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     const auto space = RandomTensorSpace<Dim>(random, Dim == 3 ? 4 : 5, Dim == 3 ? 3 : 6);
-    const Spline<Dim> truth = RandomSpline<Dim>(random, space, UniformInt(random, 1, 4), seed % 2);
+    const int components = UniformInt(random, 1, 4);
+    const Spline<Dim> truth = RandomSpline<Dim>(random, space, components, seed % 2);
     const BezierForm<Dim> form = MakeBezierForm(truth);
     ExpectRecovered(RecoverSpline(form), truth);
   }
@@ -232,6 +233,7 @@ TYPED_TEST(RecoveryTest, SinglePrecisionPointsStayInTheirRounding_PropertyOracle
 {
   constexpr int Dim = TypeParam::value;
   constexpr double epsSingle = std::numeric_limits<float>::epsilon();
+  double largest = 0.0;
   for (unsigned seed = 1; seed <= 8; ++seed)
   {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -261,8 +263,9 @@ TYPED_TEST(RecoveryTest, SinglePrecisionPointsStayInTheirRounding_PropertyOracle
     const double tolerance = Tolerance(result, epsSingle);
     EXPECT_LE((result.Value.ControlPoints - truth.ControlPoints).cwiseAbs().maxCoeff(), tolerance);
     EXPECT_LE(result.Residual, tolerance);
-    EXPECT_GT(result.Residual, 0.0);
+    largest = std::max(largest, result.Residual);
   }
+  EXPECT_GT(largest, epsSingle); // the points were rounded
 }
 
 TEST(Recovery, LongRowOfCellFactorsIsUndone_PropertyOracle)
