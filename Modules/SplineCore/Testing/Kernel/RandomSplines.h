@@ -1,70 +1,58 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "HierarchicalSpace.h"
-#include "TensorSpace.h"
+#include "SplineOracle.h"
 
-#include <algorithm>
-#include <random>
-
-/// Seeded random spaces and splines for property tests.
+/// Random spaces and splines whose coefficients are well determined by their Bezier points, so that
+/// an error of a percent cannot hide in the tolerance of a bad condition.
 namespace knotwork::testing
 {
-using Random = std::mt19937;
+using oracle::Random;
 
-inline double Uniform(Random& random, double lower, double upper)
-{
-  return lower + (upper - lower) * std::uniform_real_distribution<double>()(random);
-}
-
-inline int UniformInt(Random& random, int lower, int upper)
-{
-  return std::uniform_int_distribution<int>(lower, upper)(random);
-}
-
-/// Clamped (or, with clamped = false, simple end knots), non-uniform: spans in [0.5, 2], interior
-/// multiplicities in [1, maxMultiplicity].
-inline KnotVector RandomKnots(
+/// Spans in [0.5, 2], interior multiplicities in [1, maxMultiplicity], ends clamped or simple.
+inline KnotVector MildKnots(
   Random& random, int degree, int elements, int maxMultiplicity, bool clamped = true)
 {
   std::vector<double> knots;
-  double t = Uniform(random, -3.0, 3.0);
-  for (int i = 0; i <= degree; ++i)
+  double t = random.In(-3.0, 3.0);
+  const auto outside = [&]
   {
-    knots.push_back(t);
-    t += clamped ? 0.0 : Uniform(random, 0.5, 2.0);
-  }
-  t = knots.back();
-  for (int e = 0; e < elements; ++e)
+    for (int i = 0; i < degree; ++i)
+    {
+      knots.push_back(t);
+      t += clamped ? 0.0 : random.In(0.5, 2.0);
+    }
+  };
+  outside();
+  knots.push_back(t);
+  for (int e = 1; e < elements; ++e)
   {
-    t += Uniform(random, 0.5, 2.0);
-    const int multiplicity = e + 1 < elements ? UniformInt(random, 1, maxMultiplicity) : 1;
-    knots.insert(knots.end(), static_cast<std::size_t>(multiplicity), t);
+    t += random.In(0.5, 2.0);
+    knots.insert(knots.end(), static_cast<std::size_t>(random.Int(1, maxMultiplicity)), t);
   }
-  for (int i = 0; i < degree; ++i)
-  {
-    t += clamped ? 0.0 : Uniform(random, 0.5, 2.0);
-    knots.push_back(t);
-  }
+  t += random.In(0.5, 2.0);
+  knots.push_back(t);
+  t += clamped ? 0.0 : random.In(0.5, 2.0);
+  outside();
   return KnotVector::Create(degree, knots).Value;
 }
 
+/// Degrees in [1, maxDegree], multiplicities up to the degree, 1..maxElements elements a direction.
 template <int Dim>
 SplineSpacePtr<Dim> RandomTensorSpace(Random& random, int maxDegree, int maxElements)
 {
   std::array<KnotVector, Dim> knots;
   for (KnotVector& k : knots)
   {
-    // one draw a statement: the order in which arguments are evaluated is not fixed
-    const int degree = UniformInt(random, 1, maxDegree);
-    const int elements = UniformInt(random, 1, maxElements);
-    const int multiplicity = UniformInt(random, 1, degree);
-    const bool clamped = UniformInt(random, 0, 2) > 0;
-    k = RandomKnots(random, degree, elements, multiplicity, clamped);
+    const int degree = random.Int(1, maxDegree);
+    const int elements = random.Int(1, maxElements);
+    const int multiplicity = random.Int(1, degree);
+    k = MildKnots(random, degree, elements, multiplicity, random.Int(0, 2) > 0);
   }
   return MakeTensorSpace<Dim>(knots).Value;
 }
 
-/// A few random elements refined `steps` times, starting from a random tensor-product space.
+/// Three random elements refined `steps` times, starting from a random tensor-product space.
 template <int Dim>
 SplineSpacePtr<Dim> RandomHierarchicalSpace(
   Random& random, int maxDegree, int maxElements, int steps)
@@ -75,10 +63,10 @@ SplineSpacePtr<Dim> RandomHierarchicalSpace(
     std::vector<int> marked;
     for (int k = 0; k < 3; ++k)
     {
-      marked.push_back(UniformInt(random, 0, space->NumElements() - 1));
+      marked.push_back(random.Int(0, space->NumElements() - 1));
     }
     RefinementParams params;
-    params.Extension = UniformInt(random, 0, 2);
+    params.Extension = random.Int(0, 2);
     space = RefineElements<Dim>(space, marked, params).Value;
   }
   return space;
@@ -91,18 +79,15 @@ Spline<Dim> RandomSpline(
 {
   Spline<Dim> spline;
   spline.Space = space;
-  spline.ControlPoints = PointMatrix(space->NumFunctions, components);
-  for (double& x : spline.ControlPoints.reshaped())
+  spline.ControlPoints.resize(space->NumFunctions, components);
+  for (Eigen::Index i = 0; i < spline.ControlPoints.size(); ++i)
   {
-    x = Uniform(random, -10.0, 10.0);
+    spline.ControlPoints.data()[i] = random.In(-10.0, 10.0);
   }
-  if (rational)
+  spline.Weights.resize(rational ? space->NumFunctions : 0);
+  for (double& w : spline.Weights)
   {
-    spline.Weights.resize(space->NumFunctions);
-    for (double& w : spline.Weights)
-    {
-      w = Uniform(random, 0.5, 2.0);
-    }
+    w = random.In(0.5, 2.0);
   }
   return spline;
 }
