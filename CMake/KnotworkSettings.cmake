@@ -50,6 +50,6 @@ set(Python3_EXECUTABLE "/usr/bin/python3" CACHE FILEPATH "Python with VTK's modu
 # The VTK components that our modules and tests use; KnotworkConfig.cmake asks for the first list.
 set(KNOTWORK_VTK_COMPONENTS CommonCore CommonDataModel CommonExecutionModel CommonMath CommonMisc
   CommonTransforms FiltersCore FiltersGeneral FiltersExtraction FiltersGeometry FiltersSources IOXML
-  IOLegacy IOGeometry IOPLY ParallelCore)
+  IOLegacy IOGeometry IOParallelXML IOPLY ParallelCore)
 set(KNOTWORK_VTK_TEST_COMPONENTS IOImage ImagingCore InteractionStyle RenderingAnnotation
   RenderingCore RenderingFreeType RenderingOpenGL2)

@@ -56,17 +56,6 @@ std::string Patch(int id)
   return "patch " + std::to_string(id);
 }
 
-// "3, 4, 5 and 12 more"
-std::string List(const std::vector<int>& values)
-{
-  std::string text;
-  for (std::size_t i = 0; i < values.size() && i < 5; ++i)
-  {
-    text += (i > 0 ? ", " : "") + std::to_string(values[i]);
-  }
-  return values.size() > 5 ? text + " and " + std::to_string(values.size() - 5) + " more" : text;
-}
-
 // Whole numbers of a cell array, whatever type a filter gave them.
 Status ReadCellIntegers(vtkUnstructuredGrid* grid, const char* arrayName, std::vector<int>& values)
 {
@@ -440,37 +429,45 @@ Status GridReader::SplitCopies(
     return { ErrorCode::InvalidTopology,
       where + ": the cell array ElementId is missing, its " + elements + " have no order" };
   }
+  std::vector<int> present;
+  for (vtkIdType cell : group.Cells)
+  {
+    present.push_back(this->ElementIds[static_cast<std::size_t>(cell)]);
+    if (present.back() < 0 || present.back() >= numElements)
+    {
+      return { ErrorCode::InvalidTopology,
+        where + ", " + Cell(cell) + ": ElementId is " + std::to_string(present.back()) +
+          ", the patch has " + elements };
+    }
+  }
+  std::sort(present.begin(), present.end());
+  present.erase(std::unique(present.begin(), present.end()), present.end());
+  if (const int missing = numElements - static_cast<int>(present.size()); missing > 0)
+  {
+    std::string list;
+    int listed = 0;
+    for (int e = 0; listed < missing && listed < 5; ++e)
+    {
+      if (!std::binary_search(present.begin(), present.end(), e))
+      {
+        list += (listed++ > 0 ? ", " : "") + std::to_string(e);
+      }
+    }
+    return { ErrorCode::InvalidTopology,
+      where + ": " + std::to_string(missing) + " of " + elements + " missing: " + list +
+        (listed < missing ? ", ..." : "") + "; keep or remove whole patches" };
+  }
   std::vector<int> count(static_cast<std::size_t>(numElements), 0);
   copies.clear();
   for (vtkIdType cell : group.Cells)
   {
-    const int element = this->ElementIds[static_cast<std::size_t>(cell)];
-    if (element < 0 || element >= numElements)
-    {
-      return { ErrorCode::InvalidTopology,
-        where + ", " + Cell(cell) + ": ElementId is " + std::to_string(element) +
-          ", the patch has " + elements };
-    }
-    const auto copy = static_cast<std::size_t>(count[static_cast<std::size_t>(element)]++);
+    const auto element = static_cast<std::size_t>(this->ElementIds[static_cast<std::size_t>(cell)]);
+    const auto copy = static_cast<std::size_t>(count[element]++);
     if (copy == copies.size())
     {
       copies.emplace_back(static_cast<std::size_t>(numElements), -1);
     }
-    copies[copy][static_cast<std::size_t>(element)] = cell;
-  }
-  std::vector<int> missing;
-  for (int e = 0; e < numElements; ++e)
-  {
-    if (count[static_cast<std::size_t>(e)] == 0)
-    {
-      missing.push_back(e);
-    }
-  }
-  if (!missing.empty())
-  {
-    return { ErrorCode::InvalidTopology,
-      where + ": " + std::to_string(missing.size()) + " of " + elements +
-        " missing: " + List(missing) + "; keep or remove whole patches" };
+    copies[copy][element] = cell;
   }
   const int fewest = *std::min_element(count.begin(), count.end());
   for (int e = 0; e < numElements; ++e)
@@ -770,12 +767,12 @@ Status GridReader::ReadStructured(const CellGroup& group, const PatchRecord& rec
     spline.Space = space.Value;
 
     // A record of the same basis whose checksum fits holds the control points.
-    const std::uint64_t checksum = GeometryChecksum<Dim>(cells.Degrees, cells.Blocks);
+    const Checksum checksum = GeometryChecksum<Dim>(cells.Degrees, cells.Blocks);
     const PatchRecord* cached = nullptr;
     for (const PatchRecord& other : this->Schema.Patches)
     {
       const PointMatrix& rows = other.ControlPoints.Rows;
-      if (other.ControlPoints.Checksum == checksum && other.Basis == record.Basis &&
+      if (other.ControlPoints.Matches(checksum) && other.Basis == record.Basis &&
         rows.rows() == space.Value->NumFunctions && rows.allFinite() &&
         (rows.col(3).array() > 0.0).all() && (!cached || other.Id == group.Id))
       {
@@ -852,7 +849,7 @@ Status GridReader::ReadFields(const std::string& where, const PatchRecord& recor
       continue; // a field of other patches
     }
     // Coefficients of a rational field belong to its weights: recovered weights, recovered field.
-    if (known != record.Fields.end() && known->Cache.Checksum == sum.Value() &&
+    if (known != record.Fields.end() && known->Cache.Matches(sum) &&
       known->Cache.Rows.rows() == spline.Space->NumFunctions &&
       known->Cache.Rows.cols() == values.cols() && known->Cache.Rows.allFinite() &&
       !(patch.Recovered && spline.IsRational()))

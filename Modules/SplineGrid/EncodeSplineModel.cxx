@@ -538,13 +538,13 @@ void GridWriter::AddSpline(const SplinePatch& patch, const Spline<Dim>& spline, 
       blocks.row(i) << xyz[3 * point], xyz[3 * point + 1], xyz[3 * point + 2],
         spline.IsRational() ? this->Weights->GetValue(point) : 1.0;
     }
-    record.ControlPoints.Checksum = GeometryChecksum<Dim>(degrees, blocks);
     record.ControlPoints.Rows.setOnes(space.NumFunctions, 4);
     record.ControlPoints.Rows.leftCols(3) = spline.ControlPoints;
     if (spline.IsRational())
     {
       record.ControlPoints.Rows.col(3) = spline.Weights;
     }
+    record.ControlPoints.Stored = record.ControlPoints.With(GeometryChecksum<Dim>(degrees, blocks));
     for (std::size_t f = 0; f < fieldValues.size(); ++f)
     {
       const SplineField& field = patch.Fields[f];
@@ -557,7 +557,9 @@ void GridWriter::AddSpline(const SplinePatch& patch, const Spline<Dim>& spline, 
       }
       Checksum sum;
       sum.Add(blocks);
-      record.Fields.push_back({ field.Name, { sum.Value(), field.Coefficients } });
+      CoefficientCache cache{ 0, field.Coefficients };
+      cache.Stored = cache.With(sum);
+      record.Fields.push_back({ field.Name, std::move(cache) });
     }
     this->Schema.Patches.push_back(std::move(record));
   }

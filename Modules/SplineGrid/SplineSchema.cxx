@@ -197,7 +197,7 @@ Status ReadRecord(const IntegerTable& patches, std::size_t row, PatchRecord& rec
   {
     record.Basis.Degree[static_cast<std::size_t>(d)] = at(Degree0 + d);
   }
-  record.ControlPoints.Checksum = static_cast<std::uint64_t>(patches.At(row, GeometryCheck));
+  record.ControlPoints.Stored = static_cast<std::uint64_t>(patches.At(row, GeometryCheck));
   return {};
 }
 }
@@ -323,7 +323,7 @@ void WriteSchema(const SplineSchema& schema, vtkFieldData* fieldData)
     }
     row[Boxes] = static_cast<std::int64_t>(basis.Boxes.size());
     row[BasisHash] = basis.Hash();
-    row[GeometryCheck] = static_cast<std::int64_t>(record.ControlPoints.Checksum);
+    row[GeometryCheck] = static_cast<std::int64_t>(record.ControlPoints.Stored);
     patches.insert(patches.end(), row.begin(), row.end());
     for (const auto& box : basis.Boxes)
     {
@@ -339,7 +339,7 @@ void WriteSchema(const SplineSchema& schema, vtkFieldData* fieldData)
         if (field.Name == names[f])
         {
           rows = field.Cache.Rows.rows();
-          checksum = static_cast<std::int64_t>(field.Cache.Checksum);
+          checksum = static_cast<std::int64_t>(field.Cache.Stored);
           Append(fields[f], field.Cache.Rows);
         }
       }
@@ -482,8 +482,7 @@ Result<SplineSchema> ReadSchema(vtkFieldData* fieldData)
       }
       FieldRecord field;
       field.Name = names->GetValue(static_cast<vtkIdType>(f));
-      field.Cache.Checksum =
-        static_cast<std::uint64_t>(fieldChecksums.At(row, static_cast<int>(f)));
+      field.Cache.Stored = static_cast<std::uint64_t>(fieldChecksums.At(row, static_cast<int>(f)));
       TakeRows(fieldTables[f], nextField[f], static_cast<Eigen::Index>(count), field.Cache.Rows);
       record.Fields.push_back(std::move(field));
     }
@@ -516,7 +515,7 @@ void Checksum::Add(const PointMatrix& values)
 }
 
 template <int Dim>
-std::uint64_t GeometryChecksum(const std::vector<IntArray<Dim>>& degrees, const PointMatrix& blocks)
+Checksum GeometryChecksum(const std::vector<IntArray<Dim>>& degrees, const PointMatrix& blocks)
 {
   Checksum sum;
   sum.Add(static_cast<std::uint64_t>(Dim)); // the cells' type
@@ -528,14 +527,13 @@ std::uint64_t GeometryChecksum(const std::vector<IntArray<Dim>>& degrees, const 
     }
   }
   sum.Add(blocks);
-  return sum.Value();
+  return sum;
 }
 
 #define KNOTWORK_INSTANTIATE(Dim)                                                                  \
   template BasisDefinition DescribeBasis<Dim>(const SplineSpace<Dim>&);                            \
   template Result<SplineSpacePtr<Dim>> BuildSpace<Dim>(const BasisDefinition&);                    \
-  template std::uint64_t GeometryChecksum<Dim>(                                                    \
-    const std::vector<IntArray<Dim>>&, const PointMatrix&);
+  template Checksum GeometryChecksum<Dim>(const std::vector<IntArray<Dim>>&, const PointMatrix&);
 KNOTWORK_INSTANTIATE(1)
 KNOTWORK_INSTANTIATE(2)
 KNOTWORK_INSTANTIATE(3)

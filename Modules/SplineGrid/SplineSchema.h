@@ -50,11 +50,32 @@ BasisDefinition DescribeBasis(const SplineSpace<Dim>& space);
 template <int Dim>
 Result<SplineSpacePtr<Dim>> BuildSpace(const BasisDefinition& basis);
 
-/// Coefficients as they were encoded, valid while the checksum of the grid's values matches.
+/// Checksum over values and shapes; order matters.
+class Checksum
+{
+public:
+  void Add(std::uint64_t word);
+  void Add(double value);
+  void Add(const PointMatrix& values);
+  std::uint64_t Value() const { return this->H; }
+
+private:
+  std::uint64_t H = 0x6b6e6f74776f726bULL;
+};
+
+/// Coefficients as they were encoded. They count while a checksum over what they encode in the grid
+/// and over themselves is the stored one.
 struct CoefficientCache
 {
-  std::uint64_t Checksum = 0;
+  std::uint64_t Stored = 0;
   PointMatrix Rows; ///< no rows when lost
+
+  std::uint64_t With(Checksum grid) const
+  {
+    grid.Add(this->Rows);
+    return grid.Value();
+  }
+  bool Matches(const Checksum& grid) const { return this->With(grid) == this->Stored; }
 };
 
 struct FieldRecord
@@ -87,22 +108,8 @@ void WriteSchema(const SplineSchema& schema, vtkFieldData* fieldData);
 /// it is damaged or of a newer version. Lost caches are not an error.
 Result<SplineSchema> ReadSchema(vtkFieldData* fieldData);
 
-/// Checksum over values and shapes; order matters.
-class Checksum
-{
-public:
-  void Add(std::uint64_t word);
-  void Add(double value);
-  void Add(const PointMatrix& values);
-  std::uint64_t Value() const { return this->H; }
-
-private:
-  std::uint64_t H = 0x6b6e6f74776f726bULL;
-};
-
-/// Checksum of a patch's cells in element order.
+/// Of a patch's cells in element order.
 /// @param blocks  rows (x, y, z, w) of the elements' Bezier points, first direction fastest.
 template <int Dim>
-std::uint64_t GeometryChecksum(
-  const std::vector<IntArray<Dim>>& degrees, const PointMatrix& blocks);
+Checksum GeometryChecksum(const std::vector<IntArray<Dim>>& degrees, const PointMatrix& blocks);
 }

@@ -328,8 +328,9 @@ TEST(SplineModelDamageOfData, ModelsThatCannotBeWrittenAreNamed)
     ErrorCode::NonFiniteInput);
   expect([&](SplinePatch& patch) { patch.Fields[0].Coefficients.resize(1, 1); },
     ErrorCode::SizeMismatch);
-  expect(
-    [&](SplinePatch& patch) { patch.Fields[0].Name = "Velocity"; }, ErrorCode::InvalidParameter);
+  expect([&](SplinePatch& patch) { patch.Fields[0].Name = "Velocity"; }, ErrorCode::SizeMismatch);
+  expect([&](SplinePatch& patch) { patch.Fields.push_back(patch.Fields[1]); },
+    ErrorCode::InvalidParameter);
   expect([&](SplinePatch& patch) { patch.Fields[0].Name = "RationalWeights"; },
     ErrorCode::InvalidParameter);
   expect([&](SplinePatch& patch) { patch.Fields[1].Name = "Stress"; }, ErrorCode::SizeMismatch);
@@ -414,7 +415,6 @@ TEST(SplineModelDamageOfData, RandomFieldDataIsNeverMisread_PropertyOracle)
           }
         }
       }
-      // A cached control point that was edited: the cache has no checksum of its own.
       const double tolerance = 64 * std::numeric_limits<double>::epsilon() * patch.Amplification *
         (SizeOf(ControlPoints(patch)) + 1.0);
       EXPECT_LE(worst, tolerance) << "patch " << patch.Id << " of "
