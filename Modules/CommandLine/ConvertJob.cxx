@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Jobs.h"
+#include "Session.h"
+#include "SplineModel.h"
+
+#include <CLI/CLI.hpp>
+#include <vtkNew.h>
+#include <vtkPartitionedDataSetCollection.h>
+#include <vtkPolyData.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <memory>
+
+namespace knotwork
+{
+namespace
+{
+struct ConvertJob
+{
+  std::string Input;
+  std::string Output;
+  std::string Encoding = "appended";
+
+  Status Run(Session& session)
+  {
+    auto input = session.Read(this->Input);
+    if (!input)
+    {
+      return input.Status;
+    }
+    session.Report["input"] = this->Input;
+    session.Report["output"] = this->Output;
+    session.Report["encoding"] = this->Encoding;
+    vtkSmartPointer<vtkDataObject> data = input.Value;
+    if (!vtkPolyData::SafeDownCast(data))
+    {
+      // a decoded model written again has its attributes tagged and its schema complete
+      Result<SplineModel> model = DecodeSplineModel(data);
+      if (!model)
+      {
+        return { model.Status.Code, "'" + this->Input + "': " + model.Status.Message() };
+      }
+      session.Report["patches"] = model->Patches.size();
+      const bool collection =
+        CLI::detail::to_lower(this->Output).find(".vtpc") != std::string::npos;
+      if (collection && !vtkPartitionedDataSetCollection::SafeDownCast(data))
+      {
+        vtkNew<vtkPartitionedDataSetCollection> like;
+        like->SetNumberOfPartitionedDataSets(1);
+        like->SetPartition(0, 0, data);
+        data = like;
+      }
+      const bool toGrid = !collection;
+      vtkSmartPointer<vtkDataObject> output = toGrid
+        ? vtkSmartPointer<vtkDataObject>(vtkSmartPointer<vtkUnstructuredGrid>::New())
+        : vtkSmartPointer<vtkDataObject>(vtkSmartPointer<vtkPartitionedDataSetCollection>::New());
+      const Status status = toGrid
+        ? EncodeSplineGrid(model.Value, vtkUnstructuredGrid::SafeDownCast(output))
+        : EncodeSplineModel(model.Value, data, output);
+      if (!status)
+      {
+        return { status.Code, "'" + this->Input + "': " + status.Message() };
+      }
+      data = output;
+    }
+    return session.Write(data, this->Output, this->Encoding);
+  }
+};
+}
+
+Job MakeConvertJob(CLI::App& app)
+{
+  auto job = std::make_shared<ConvertJob>();
+  app.add_option("input", job->Input, "spline grid or skeleton (.vtu .vtp .vtpc .vtk)")->required();
+  app.add_option("--output", job->Output, "the same data (.vtu .vtp .vtpc)")->required();
+  app.add_option("--encoding", job->Encoding, "how numbers are written")
+    ->check(CLI::IsMember({ "ascii", "binary", "appended" }))
+    ->capture_default_str();
+  return [job](Session& session) { return job->Run(session); };
+}
+}

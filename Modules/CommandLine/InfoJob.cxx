@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Jobs.h"
+#include "Session.h"
+#include "SplineModel.h"
+
+#include <CLI/CLI.hpp>
+#include <vtkDataObject.h>
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+namespace knotwork
+{
+namespace
+{
+const char* Name(SpaceKind kind)
+{
+  switch (kind)
+  {
+    case SpaceKind::Bezier:
+      return "Bezier";
+    case SpaceKind::Tensor:
+      return "tensor-product";
+    case SpaceKind::Hierarchical:
+      return "THB";
+  }
+  return "unknown";
+}
+
+/// "3 x 2"; "mixed" when elements differ.
+template <int Dim>
+std::string Degrees(const SplineSpace<Dim>& space)
+{
+  const IntArray<Dim>& first = space.Elements.front().Degree;
+  for (const auto& element : space.Elements)
+  {
+    if (element.Degree != first)
+    {
+      return "mixed";
+    }
+  }
+  std::string text;
+  for (int p : first)
+  {
+    text += (text.empty() ? "" : " x ") + std::to_string(p);
+  }
+  return text;
+}
+
+template <int Dim>
+int NumLevels(const SplineSpace<Dim>& space)
+{
+  int level = 0;
+  for (const auto& element : space.Elements)
+  {
+    level = std::max(level, element.Level);
+  }
+  return level + 1;
+}
+
+struct InfoJob
+{
+  std::string Input;
+
+  Status Run(Session& session)
+  {
+    auto input = session.Read(this->Input);
+    if (!input)
+    {
+      return input.Status;
+    }
+    Result<SplineModel> model = DecodeSplineModel(input.Value);
+    if (!model)
+    {
+      return { model.Status.Code, "'" + this->Input + "': " + model.Status.Message() };
+    }
+    long long functions = 0;
+    long long elements = 0;
+    std::vector<int> patchIds;
+    std::vector<std::string> kinds;
+    std::vector<std::string> degrees;
+    bool rational = false;
+    int dimension = 0;
+    int levels = 0;
+    double residual = 0.0;
+    for (const SplinePatch& patch : model->Patches)
+    {
+      std::visit(
+        [&](const auto& spline)
+        {
+          const auto& space = *spline.Space;
+          std::cout << "patch " << patch.Id << ": " << Name(space.Kind) << ", degree "
+                    << Degrees(space) << ", " << space.NumFunctions << " functions, "
+                    << space.NumElements() << " elements, " << NumLevels(space) << " level(s), "
+                    << (spline.IsRational() ? "rational" : "polynomial");
+          for (const SplineField& field : patch.Fields)
+          {
+            std::cout << ", field " << field.Name << " (" << field.Coefficients.cols() << ")";
+          }
+          if (patch.Recovered)
+          {
+            std::cout << ", control points recovered with residual " << patch.Residual;
+          }
+          std::cout << "\n";
+          functions += space.NumFunctions;
+          elements += space.NumElements();
+          levels = std::max(levels, NumLevels(space));
+          rational = rational || spline.IsRational();
+          kinds.emplace_back(Name(space.Kind));
+          degrees.push_back(Degrees(space));
+        },
+        patch.Geometry);
+      patchIds.push_back(patch.Id);
+      dimension = std::max(dimension, static_cast<int>(patch.Geometry.index()) + 1);
+      residual = std::max(residual, patch.Residual);
+    }
+    for (const std::string& warning : model->Warnings)
+    {
+      std::cerr << (session.Quiet ? "" : warning + "\n");
+    }
+    session.Report["input"] = this->Input;
+    session.Report["patches"] = model->Patches.size();
+    session.Report["patch_ids"] = patchIds;
+    session.Report["kinds"] = kinds;
+    session.Report["degrees"] = degrees;
+    session.Report["parametric_dimension"] = dimension;
+    session.Report["functions"] = functions;
+    session.Report["elements"] = elements;
+    session.Report["levels"] = levels;
+    session.Report["rational"] = rational;
+    session.Report["recovery_residual"] = residual;
+    return {};
+  }
+};
+}
+
+Job MakeInfoJob(CLI::App& app)
+{
+  auto job = std::make_shared<InfoJob>();
+  app.add_option("input", job->Input, "spline grid (.vtu .vtpc .vtk)")->required();
+  return [job](Session& session) { return job->Run(session); };
+}
+}

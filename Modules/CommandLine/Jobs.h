@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "Status.h"
+
+#include <functional>
+
+namespace CLI
+{
+class App;
+}
+
+namespace knotwork
+{
+class Session;
+
+/// What a job does once its options are parsed.
+using Job = std::function<Status(Session&)>;
+
+/// Each adds the options of one job to its subcommand and returns the job.
+Job MakeConvertJob(CLI::App& app);
+Job MakeEvaluateJob(CLI::App& app);
+Job MakeInfoJob(CLI::App& app);
+Job MakeMapJob(CLI::App& app);
+Job MakeRefineJob(CLI::App& app);
+Job MakeSourceJob(CLI::App& app);
+Job MakeTessellateJob(CLI::App& app);
+Job MakeWarpJob(CLI::App& app);
+}

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+
+namespace knotwork
+{
+/// While it lives, errors and warnings of VTK objects and of the libraries below them are kept here
+/// and not printed.
+class MessageCapture
+{
+public:
+  MessageCapture();
+  ~MessageCapture();
+  MessageCapture(const MessageCapture&) = delete;
+  MessageCapture& operator=(const MessageCapture&) = delete;
+
+  bool HasError() const;
+  /// First error, one line, without VTK's place in the source.
+  std::string FirstError() const;
+  /// Warnings, one line each.
+  std::string Warnings() const;
+};
+}

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Session.h"
+
+#include "Messages.h"
+
+#include <vtkAlgorithm.h>
+#include <vtkCallbackCommand.h>
+#include <vtkDataObject.h>
+#include <vtkDelimitedTextWriter.h>
+#include <vtkNew.h>
+#include <vtkOBJReader.h>
+#include <vtkPLYReader.h>
+#include <vtkPartitionedDataSetCollection.h>
+#include <vtkPolyData.h>
+#include <vtkSTLReader.h>
+#include <vtkTable.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkUnstructuredGridReader.h>
+#include <vtkXMLPartitionedDataSetCollectionReader.h>
+#include <vtkXMLPartitionedDataSetCollectionWriter.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLPolyDataWriter.h>
+#include <vtkXMLUnstructuredGridReader.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+#include <fstream>
+#include <iostream>
+
+#include <unistd.h>
+
+namespace fs = std::filesystem;
+
+namespace knotwork
+{
+namespace
+{
+double Now()
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double CpuNow()
+{
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+std::string Ending(const std::string& file)
+{
+  std::string ending = fs::path(file).extension().string();
+  for (char& c : ending)
+  {
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return ending;
+}
+
+template <typename Reader>
+vtkSmartPointer<vtkDataObject> ReadWith(const std::string& file)
+{
+  vtkNew<Reader> reader;
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  return reader->GetOutputDataObject(0);
+}
+
+vtkSmartPointer<vtkDataObject> ReadByEnding(const std::string& file, const std::string& ending)
+{
+  if (ending == ".vtu")
+  {
+    return ReadWith<vtkXMLUnstructuredGridReader>(file);
+  }
+  if (ending == ".vtp")
+  {
+    return ReadWith<vtkXMLPolyDataReader>(file);
+  }
+  if (ending == ".vtpc")
+  {
+    return ReadWith<vtkXMLPartitionedDataSetCollectionReader>(file);
+  }
+  if (ending == ".vtk")
+  {
+    return ReadWith<vtkUnstructuredGridReader>(file);
+  }
+  if (ending == ".obj")
+  {
+    return ReadWith<vtkOBJReader>(file);
+  }
+  if (ending == ".ply")
+  {
+    return ReadWith<vtkPLYReader>(file);
+  }
+  if (ending == ".stl")
+  {
+    return ReadWith<vtkSTLReader>(file);
+  }
+  return nullptr;
+}
+
+template <typename Writer>
+bool WriteWith(vtkDataObject* data, const fs::path& file, const std::string& encoding)
+{
+  vtkNew<Writer> writer;
+  writer->SetFileName(file.c_str());
+  writer->SetInputDataObject(data);
+  if (encoding == "ascii")
+  {
+    writer->SetDataModeToAscii();
+  }
+  else if (encoding == "binary")
+  {
+    writer->SetDataModeToBinary();
+  }
+  else
+  {
+    writer->SetDataModeToAppended();
+    writer->EncodeAppendedDataOff();
+  }
+  return writer->Write() == 1;
+}
+
+void PrintProgress(vtkObject* caller, unsigned long, void*, void*)
+{
+  const double share = static_cast<vtkAlgorithm*>(caller)->GetProgress();
+  std::fprintf(stderr, "\r%3d %%", static_cast<int>(100.0 * share));
+  std::fflush(stderr);
+}
+
+bool IsEmpty(vtkDataObject* data)
+{
+  return data->GetNumberOfElements(vtkDataObject::POINT) == 0;
+}
+}
+
+Session::~Session()
+{
+  for (const StagedFile& staged : this->Staged)
+  {
+    std::error_code ignored;
+    fs::remove_all(staged.Folder, ignored);
+  }
+}
+
+Result<vtkSmartPointer<vtkDataObject>> Session::Read(const std::string& file)
+{
+  const double begin = Now();
+  std::error_code error;
+  if (!fs::is_regular_file(file, error))
+  {
+    return { ErrorCode::EmptyInput, "'" + file + "' is not a file; check the name" };
+  }
+  if (!std::ifstream(file))
+  {
+    return { ErrorCode::EmptyInput, "'" + file + "' cannot be read; check its permissions" };
+  }
+  const std::string ending = Ending(file);
+  vtkSmartPointer<vtkDataObject> data;
+  MessageCapture messages;
+  data = ReadByEnding(file, ending);
+  if (!data)
+  {
+    return { ErrorCode::InvalidParameter,
+      "'" + file + "' has the ending '" + ending +
+        "'; formats that can be read: .vtu .vtp .vtpc .vtk .obj .ply .stl" };
+  }
+  if (messages.HasError())
+  {
+    return { ErrorCode::InvalidTopology,
+      "'" + file + "' is damaged or not what its ending says: " + messages.FirstError() };
+  }
+  if (IsEmpty(data))
+  {
+    return { ErrorCode::EmptyInput, "'" + file + "' holds no points" };
+  }
+  this->SecondsOfFiles += Now() - begin;
+  return data;
+}
+
+Status Session::Run(vtkAlgorithm* filter, const std::string& what)
+{
+  vtkNew<vtkCallbackCommand> progress;
+  progress->SetCallback(PrintProgress);
+  const bool show = !this->Quiet && isatty(STDERR_FILENO) == 1;
+  if (show)
+  {
+    filter->AddObserver(vtkCommand::ProgressEvent, progress);
+  }
+  const double begin = Now();
+  const double cpuBegin = CpuNow();
+  MessageCapture messages;
+  filter->Update();
+  this->Seconds += Now() - begin;
+  this->CpuSeconds += CpuNow() - cpuBegin;
+  if (show)
+  {
+    filter->RemoveObserver(progress);
+    std::fputs("\r     \r", stderr);
+  }
+  if (messages.HasError() || filter->GetErrorCode() != 0)
+  {
+    return { ErrorCode::InvalidTopology, what + ": " + messages.FirstError() };
+  }
+  if (!this->Quiet)
+  {
+    std::cerr << messages.Warnings();
+  }
+  return {};
+}
+
+Result<fs::path> Session::Stage(const std::string& file)
+{
+  const fs::path target = fs::absolute(file);
+  const fs::path folder = target.parent_path();
+  std::error_code error;
+  if (target.filename().empty() || !fs::is_directory(folder, error))
+  {
+    return { ErrorCode::InvalidParameter, "'" + file + "': there is no folder for it" };
+  }
+  std::string name = (folder / ".knotwork-XXXXXX").string();
+  if (!mkdtemp(name.data()))
+  {
+    return { ErrorCode::InvalidParameter, "'" + file + "': the folder cannot be written to" };
+  }
+  this->Staged.push_back({ name, folder });
+  return fs::path(name) / target.filename();
+}
+
+Status Session::Write(vtkDataObject* data, const std::string& file, const std::string& encoding)
+{
+  const double begin = Now();
+  const std::string ending = Ending(file);
+  const auto grid = vtkUnstructuredGrid::SafeDownCast(data);
+  const auto polydata = vtkPolyData::SafeDownCast(data);
+  const auto collection = vtkPartitionedDataSetCollection::SafeDownCast(data);
+  const auto table = vtkTable::SafeDownCast(data);
+  const char* expected = grid ? ".vtu" : polydata ? ".vtp" : collection ? ".vtpc" : ".csv";
+  if (ending != expected)
+  {
+    return { ErrorCode::InvalidParameter,
+      "'" + file + "': this output is written as " + expected + "; change the ending" };
+  }
+  Result<fs::path> staged = this->Stage(file);
+  if (!staged)
+  {
+    return staged.Status;
+  }
+  MessageCapture messages;
+  bool written = true;
+  if (grid)
+  {
+    written = WriteWith<vtkXMLUnstructuredGridWriter>(data, staged.Value, encoding);
+  }
+  else if (polydata)
+  {
+    written = WriteWith<vtkXMLPolyDataWriter>(data, staged.Value, encoding);
+  }
+  else if (collection)
+  {
+    written = WriteWith<vtkXMLPartitionedDataSetCollectionWriter>(data, staged.Value, encoding);
+  }
+  else
+  {
+    vtkNew<vtkDelimitedTextWriter> writer;
+    writer->SetFileName(staged.Value.c_str());
+    writer->SetInputDataObject(table);
+    written = writer->Write() == 1;
+  }
+  if (!written || messages.HasError())
+  {
+    return { ErrorCode::InvalidParameter,
+      "'" + file + "' cannot be written: " + messages.FirstError() };
+  }
+  this->SecondsOfFiles += Now() - begin;
+  return {};
+}
+
+Status Session::Commit()
+{
+  if (!this->ReportFile.empty())
+  {
+    this->Report["seconds"] = this->Seconds;
+    this->Report["cpu_seconds"] = this->CpuSeconds;
+    this->Report["seconds_io"] = this->SecondsOfFiles;
+    Result<fs::path> staged = this->Stage(this->ReportFile);
+    if (!staged)
+    {
+      return staged.Status;
+    }
+    std::ofstream stream(staged.Value);
+    stream << this->Report.dump(2) << "\n";
+    if (!stream.flush())
+    {
+      return { ErrorCode::InvalidParameter, "'" + this->ReportFile + "' cannot be written" };
+    }
+  }
+  for (const StagedFile& staged : this->Staged)
+  {
+    for (const fs::directory_entry& entry : fs::directory_iterator(staged.Folder))
+    {
+      const fs::path target = staged.Target / entry.path().filename();
+      std::error_code error;
+      if (entry.is_directory())
+      {
+        fs::remove_all(target, error); // the pieces of an older .vtpc
+      }
+      fs::rename(entry.path(), target, error);
+      if (error)
+      {
+        return { ErrorCode::InvalidParameter,
+          "'" + target.string() + "' cannot be written: " + error.message() };
+      }
+    }
+  }
+  return {};
+}
+}

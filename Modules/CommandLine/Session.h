@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "Status.h"
+
+#include <nlohmann/json.hpp>
+#include <vtkSmartPointer.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+class vtkAlgorithm;
+class vtkDataObject;
+
+namespace knotwork
+{
+/// One run of a job: reads inputs, runs filters, stages outputs, collects the report. Outputs
+/// appear under their names only when everything has succeeded, all of them or none.
+class Session
+{
+public:
+  Session() = default;
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  bool Quiet = false;
+  int Threads = 0;
+  std::string ReportFile;
+  /// Flat JSON object of the report; jobs add the numbers they are about.
+  nlohmann::ordered_json Report = nlohmann::ordered_json::object();
+
+  /// Reads a dataset by the ending of its name: .vtu .vtp .vtpc, and .vtk; meshes .off .obj .ply
+  /// .stl. An unreadable, truncated or empty file is an error that names the file.
+  Result<vtkSmartPointer<vtkDataObject>> Read(const std::string& file);
+
+  /// Updates a filter with progress on a terminal; messages of VTK become the status. `what` names
+  /// the inputs in the message.
+  Status Run(vtkAlgorithm* filter, const std::string& what);
+
+  /// Stages an output by the ending of its name: .vtu .vtp .vtpc for datasets, .csv for tables.
+  Status Write(
+    vtkDataObject* data, const std::string& file, const std::string& encoding = "appended");
+
+  /// Writes the report (if asked for) and moves all staged files to their places.
+  Status Commit();
+
+private:
+  Result<std::filesystem::path> Stage(const std::string& file);
+
+  struct StagedFile
+  {
+    std::filesystem::path Folder; ///< temporary folder beside the target; everything in it moves
+    std::filesystem::path Target; ///< folder of the target
+  };
+  std::vector<StagedFile> Staged;
+  double SecondsOfFiles = 0.0;
+  double Seconds = 0.0;
+  double CpuSeconds = 0.0;
+};
+}

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// knotwork <job> [input...] --output FILE [--report FILE.json] [options]
+/// Exit status: 0 done; 1 bad input or failure, one line on stderr; 2 wrong usage.
+#include "Jobs.h"
+#include "Session.h"
+
+#include <CLI/CLI.hpp>
+
+#include <exception>
+#include <iostream>
+#include <utility>
+#include <vector>
+
+namespace
+{
+constexpr int Failure = 1;
+constexpr int WrongUsage = 2;
+
+struct Entry
+{
+  const char* Name;
+  const char* Help;
+  knotwork::Job (*Make)(CLI::App&);
+};
+
+constexpr Entry Jobs[] = {
+  { "convert", "write a dataset in another format or encoding", knotwork::MakeConvertJob },
+  { "evaluate", "evaluate a spline at points, with derivatives", knotwork::MakeEvaluateJob },
+  { "info", "say what a spline file holds", knotwork::MakeInfoJob },
+  { "map", "carry a template skeleton onto target patches", knotwork::MakeMapJob },
+  { "refine", "refine a spline, uniformly or locally", knotwork::MakeRefineJob },
+  { "source", "make a spline of a standard shape", knotwork::MakeSourceJob },
+  { "tessellate", "turn a spline into polygons within a tolerance", knotwork::MakeTessellateJob },
+  { "warp", "send points or splines through a spline map", knotwork::MakeWarpJob },
+};
+
+/// One line, whatever the message holds.
+int Fail(const std::string& job, std::string message)
+{
+  for (char& c : message)
+  {
+    c = c == '\n' || c == '\r' ? ' ' : c;
+  }
+  std::cerr << "knotwork " << job << ": " << message << "\n";
+  return Failure;
+}
+}
+
+int main(int argc, char* argv[])
+{
+  CLI::App app("Spline geometry that is fitted, refined and proved valid.", "knotwork");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", KNOTWORK_VERSION);
+
+  knotwork::Session session;
+  std::vector<std::pair<CLI::App*, knotwork::Job>> jobs;
+  for (const Entry& entry : Jobs)
+  {
+    CLI::App* job = app.add_subcommand(entry.Name, entry.Help);
+    job->add_option("--report", session.ReportFile, "JSON file for the numbers of the job");
+    job->add_option("--threads", session.Threads, "threads, 0 = all cores")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+    job->add_flag("--quiet", session.Quiet, "no progress and no warnings");
+    jobs.emplace_back(job, entry.Make(*job));
+  }
+  try
+  {
+    app.parse(argc, argv);
+  }
+  catch (const CLI::ParseError& error)
+  {
+    return app.exit(error) == 0 ? 0 : WrongUsage;
+  }
+
+  for (const auto& [job, run] : jobs)
+  {
+    if (!job->parsed())
+    {
+      continue;
+    }
+    try
+    {
+      session.Report["job"] = job->get_name();
+      session.Report["threads"] = session.Threads;
+      knotwork::Status status = run(session);
+      if (status)
+      {
+        status = session.Commit();
+      }
+      return status ? 0 : Fail(job->get_name(), status.Detail);
+    }
+    catch (const std::exception& error) // of a library, e.g. out of memory
+    {
+      return Fail(job->get_name(), error.what());
+    }
+  }
+  return WrongUsage;
+}
