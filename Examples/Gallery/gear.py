@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The main job: a cross-section of a real gear becomes a multi-patch spline parameterization.
+
+1. cut `pinion.off` (from Debian's libcgal-demo) across its axis: a toothed outline around a bore;
+2. a template: the ring between two circles, segmented into ten patches, one for each tooth;
+3. vtkTemplateMapping carries the two circles onto the two outlines (tangent distance minimization);
+4. vtkSplineWarp sends the ten patches through that map: the parameterization of the gear, gear.vtu.
+
+usage: gear.py [--output DIR]
+"""
+import math
+import os
+import sys
+import tarfile
+
+import numpy as np
+import knotwork
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPlane, vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkCutter, vtkStripper
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter
+
+import _scene as scene
+
+ARCHIVE = "/usr/share/doc/libcgal-dev/data.tar.gz"
+TEETH = 10
+TEMPLATE_SAMPLES = 4001
+TARGET_SAMPLES = 4000
+
+
+def read_off(name):
+    """Vertices and triangles of an OFF mesh in CGAL's archive of data."""
+    with tarfile.open(ARCHIVE) as archive:
+        text = archive.extractfile("data/meshes/" + name).read().decode()
+    words = " ".join(line for line in text.splitlines() if not line.startswith("#")).split()
+    vertices, faces = int(words[1]), int(words[2])
+    numbers = words[4:]
+    points = np.array(numbers[:3 * vertices], float).reshape(-1, 3)
+    return points, np.array(numbers[3 * vertices:3 * vertices + 4 * faces], int).reshape(-1, 4)[:, 1:]
+
+
+def cross_section(points, triangles):
+    """Closed outlines of the section across the axis of a prismatic part, n x 2 each, longest first."""
+    corner = points[triangles]
+    normals = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    area = np.linalg.norm(normals, axis=1)
+    normals /= area[:, None]
+    # the side walls' normals are perpendicular to the axis
+    _, frame = np.linalg.eigh((area[:, None] * normals).T @ normals)
+    axis, first = frame[:, 0], frame[:, 1]
+    second = np.cross(axis, first)
+
+    mesh = vtkPolyData()
+    vertices = vtkPoints()
+    vertices.SetDataTypeToDouble()
+    vertices.SetData(numpy_to_vtk(points, deep=1))
+    cells = vtkCellArray()
+    for triangle in triangles:
+        cells.InsertNextCell(3, [int(i) for i in triangle])
+    mesh.SetPoints(vertices)
+    mesh.SetPolys(cells)
+    plane = vtkPlane()
+    plane.SetNormal(*axis)
+    plane.SetOrigin(*(0.1 * np.ptp(points @ axis) * axis))
+    cutter = vtkCutter()
+    cutter.SetCutFunction(plane)
+    cutter.SetInputData(mesh)
+    strips = vtkStripper()
+    strips.SetInputConnection(cutter.GetOutputPort())
+    strips.JoinContiguousSegmentsOn()
+    strips.SetMaximumLength(100000)
+    strips.Update()
+    section = strips.GetOutput()
+    coordinates = vtk_to_numpy(section.GetPoints().GetData())
+    loops = []
+    for i in range(section.GetNumberOfCells()):
+        ids = section.GetCell(i).GetPointIds()
+        loop = coordinates[[ids.GetId(k) for k in range(ids.GetNumberOfIds())]]
+        loops.append(np.c_[loop @ first, loop @ second])
+    return sorted(loops, key=len, reverse=True)
+
+
+def resample_by_angle(loop, count):
+    """Points of a star-shaped closed outline with their angle / 2 pi as parameter, from angle 0, seam twice."""
+    loop = loop[:-1]
+    if np.sum(np.cross(loop, np.roll(loop, -1, axis=0))) < 0:
+        loop = loop[::-1]
+    # equal steps of length, so that the steep flanks of the teeth get their share of the samples
+    corners = np.vstack([loop, loop[:1]])
+    length = np.r_[0, np.cumsum(np.linalg.norm(np.diff(corners, axis=0), axis=1))]
+    at = np.linspace(0, length[-1], count, endpoint=False)
+    samples = np.c_[np.interp(at, length, corners[:, 0]), np.interp(at, length, corners[:, 1])]
+    share = np.mod(np.arctan2(samples[:, 1], samples[:, 0]) / (2 * math.pi), 1)
+    order = np.argsort(share)
+    samples, share = samples[order], share[order]
+    # the point at angle 0, between the last sample and the first
+    weight = share[0] / (share[0] + 1 - share[-1])
+    seam = (1 - weight) * samples[0] + weight * samples[-1]
+    return np.vstack([seam, samples, seam]), np.r_[0, share, 1]
+
+
+def skeleton(curves):
+    """Polydata with a polyline a curve, PatchId and Parameter; curves are pairs of points and parameters."""
+    points = np.vstack([np.c_[curve, np.zeros(len(curve))] for curve, _ in curves])
+    polydata = vtkPolyData()
+    vertices = vtkPoints()
+    vertices.SetDataTypeToDouble()
+    vertices.SetData(numpy_to_vtk(points, deep=1))
+    polydata.SetPoints(vertices)
+    lines = vtkCellArray()
+    first = 0
+    for curve, _ in curves:
+        lines.InsertNextCell(len(curve), list(range(first, first + len(curve))))
+        first += len(curve)
+    polydata.SetLines(lines)
+    patch = numpy_to_vtk(np.arange(len(curves), dtype=np.int32), deep=1)
+    patch.SetName("PatchId")
+    polydata.GetCellData().AddArray(patch)
+    parameter = numpy_to_vtk(np.concatenate([parameters for _, parameters in curves]), deep=1)
+    parameter.SetName("Parameter")
+    polydata.GetPointData().AddArray(parameter)
+    return polydata
+
+
+def circle(radius):
+    share = np.linspace(0, 1, TEMPLATE_SAMPLES)
+    return radius * np.c_[np.cos(2 * math.pi * share), np.sin(2 * math.pi * share)], share
+
+
+def write(writer, data, file):
+    writer.SetInputData(data)
+    writer.SetFileName(file)
+    writer.Write()
+    print("file", file)
+
+
+def main():
+    folder = scene.output_folder()
+    if not os.path.exists(ARCHIVE):
+        sys.exit(f"{ARCHIVE} is missing; install the package libcgal-demo")
+    outer, bore = cross_section(*read_off("pinion.off"))
+    bore_radius = np.linalg.norm(bore, axis=1).mean()
+    # the circle that encloses the area of the toothed outline
+    area = 0.5 * abs(np.sum(np.cross(outer[:-1], outer[1:])))
+    outer_radius = math.sqrt(area / math.pi)
+
+    template = skeleton([circle(outer_radius), circle(bore_radius)])
+    target = skeleton([resample_by_angle(outer, TARGET_SAMPLES), resample_by_angle(bore, TARGET_SAMPLES // 4)])
+    write(vtkXMLPolyDataWriter(), template, os.path.join(folder, "gear_template.vtp"))
+    write(vtkXMLPolyDataWriter(), target, os.path.join(folder, "gear_target.vtp"))
+
+    mapping = knotwork.vtkTemplateMapping()
+    mapping.SetInputDataObject(0, template)
+    mapping.SetInputDataObject(1, target)
+    mapping.SetMethodToTDM()
+    mapping.SetDegree(3)
+    mapping.SetInnerKnots(INNER_KNOTS)
+    mapping.SetIterations(ITERATIONS)
+    mapping.SetTikhonovWeight(2e-2)
+    scene.updated(mapping)
+    table = mapping.GetOutputDataObject(2)
+    last = table.GetNumberOfRows() - 1
+    print(f"functions {table.GetValueByName(last, 'Functions').ToInt()}, "
+          f"largest distance {table.GetValueByName(last, 'MaxError').ToDouble():.2e} "
+          f"(outer radius {np.linalg.norm(outer, axis=1).max():.3f}), "
+          f"negative Jacobian {table.GetValueByName(last, 'NegativeJacobianPercent').ToDouble():.4f} %")
