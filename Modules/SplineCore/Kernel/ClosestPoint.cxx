@@ -1,0 +1,397 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ClosestPoint.h"
+
+#include "Parallel.h"
+
+#include <Eigen/Dense>
+
+#include <cmath>
+
+namespace knotwork
+{
+namespace
+{
+std::size_t At(std::int64_t i)
+{
+  return static_cast<std::size_t>(i);
+}
+
+/// Column of the mixed derivative (d, e) in EvaluationBatch::Second, d <= e.
+template <int Dim>
+int PairIndex(int d, int e)
+{
+  return d * Dim - d * (d - 1) / 2 + (e - d);
+}
+
+/// Regular grid on [0, 1]^Dim, first direction fastest.
+template <int Dim>
+RealArray<Dim> GridParameter(const std::array<int, Dim>& counts, std::int64_t index)
+{
+  RealArray<Dim> u;
+  for (std::size_t d = 0; d < Dim; ++d)
+  {
+    u[d] = static_cast<double>(index % counts[d]) / (counts[d] - 1);
+    index /= counts[d];
+  }
+  return u;
+}
+}
+
+template <int Dim>
+Result<ClosestPointSearch<Dim>> ClosestPointSearch<Dim>::Create(
+  std::vector<BezierForm<Dim>> patches, const ClosestPointParams& params)
+{
+  if ((params.Samples != 0 && (params.Samples < 2 || params.Samples > 64)) ||
+    params.MaxIterations < 0 || params.MaxIterations > 1000)
+  {
+    return { ErrorCode::InvalidParameter,
+      "samples must be 0 or in [2, 64] and iterations in [0, 1000]" };
+  }
+  ClosestPointSearch search;
+  search.Params = params;
+  std::vector<int> patchOf;
+  std::int64_t numSamples = 0;
+  for (std::size_t p = 0; p < patches.size(); ++p)
+  {
+    if (patches[p].NumComponents != patches[0].NumComponents || patches[p].NumComponents < 1 ||
+      patches[p].NumComponents > BoxTree::MaxDimension)
+    {
+      return { ErrorCode::SizeMismatch, "all patches need the same 1 to 4 components" };
+    }
+    for (int e = 0; e < patches[p].Space->NumElements(); ++e)
+    {
+      Start start;
+      start.Patch = static_cast<int>(p);
+      start.Element = e;
+      start.FirstSample = At(numSamples);
+      std::int64_t count = 1;
+      for (std::size_t d = 0; d < Dim; ++d)
+      {
+        start.Counts[d] =
+          params.Samples != 0 ? params.Samples : patches[p].Space->Elements[At(e)].Degree[d] + 1;
+        count *= start.Counts[d];
+      }
+      numSamples += count;
+      search.Starts.push_back(start);
+    }
+  }
+  if (search.Starts.empty())
+  {
+    return { ErrorCode::EmptyInput, "no element to search" };
+  }
+  if (numSamples > std::numeric_limits<int>::max())
+  {
+    return { ErrorCode::TooLarge, "more than 2^31 - 1 samples" };
+  }
+  const int c = patches[0].NumComponents;
+  PointMatrix samples(numSamples, c);
+  const auto numElements = static_cast<Eigen::Index>(search.Starts.size());
+  PointMatrix lower(numElements, c);
+  PointMatrix upper(numElements, c);
+  EvaluationParams evaluation;
+  evaluation.Threads = params.Threads;
+  std::size_t next = 0;
+  for (const BezierForm<Dim>& form : patches)
+  {
+    const std::size_t first = next;
+    std::vector<int> elements;
+    std::vector<double> parameters;
+    for (; next < first + form.Space->Elements.size(); ++next)
+    {
+      const Start& start = search.Starts[next];
+      std::int64_t count = 1;
+      for (const int k : start.Counts)
+      {
+        count *= k;
+      }
+      for (std::int64_t i = 0; i < count; ++i)
+      {
+        const RealArray<Dim> u = GridParameter<Dim>(start.Counts, i);
+        elements.push_back(start.Element);
+        parameters.insert(parameters.end(), u.begin(), u.end());
+      }
+      // Convex hull property: the box of the control points holds the element.
+      const int n = NumTensorFunctions<Dim>(form.Space->Elements[At(start.Element)].Degree);
+      const double* block = form.Block(start.Element);
+      const auto row = static_cast<Eigen::Index>(next);
+      for (int d = 0; d < c; ++d)
+      {
+        for (int i = 0; i < n; ++i)
+        {
+          const double x = block[d * n + i] / (form.Rational ? block[c * n + i] : 1.0);
+          lower(row, d) = i == 0 ? x : std::min(lower(row, d), x);
+          upper(row, d) = i == 0 ? x : std::max(upper(row, d), x);
+        }
+      }
+    }
+    if (elements.empty())
+    {
+      continue;
+    }
+    const Eigen::Map<const PointMatrix> local(
+      parameters.data(), static_cast<Eigen::Index>(elements.size()), Dim);
+    EvaluationBatch batch;
+    Status status = EvaluateElements<Dim>(form, elements, local, evaluation, batch);
+    if (!status)
+    {
+      return status;
+    }
+    samples.middleRows(static_cast<Eigen::Index>(search.Starts[first].FirstSample),
+      static_cast<Eigen::Index>(elements.size())) = batch.Values;
+  }
+  if (!samples.allFinite() || !lower.allFinite() || !upper.allFinite())
+  {
+    return { ErrorCode::NonFiniteInput, "control points or weights of the map" };
+  }
+  search.Samples = SampleIndex(std::move(samples));
+  search.Hulls = BoxTree(lower, upper);
+  search.Patches = std::move(patches);
+  return search;
+}
+
+template <int Dim>
+typename ClosestPointSearch<Dim>::Candidate ClosestPointSearch<Dim>::SearchElement(
+  const Start& start, const double* query, EvaluationBatch& batch) const
+{
+  const BezierForm<Dim>& form = this->Patches[At(start.Patch)];
+  const int c = form.NumComponents;
+  using Vector = Eigen::Matrix<double, Dim, 1>;
+  using Matrix = Eigen::Matrix<double, Dim, Dim>;
+
+  // The nearest sample of the element.
+  std::int64_t count = 1;
+  for (const int k : start.Counts)
+  {
+    count *= k;
+  }
+  Candidate best;
+  best.SquaredDistance = std::numeric_limits<double>::infinity();
+  std::int64_t nearest = 0;
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    const double* sample =
+      this->Samples.Samples().data() + (static_cast<std::int64_t>(start.FirstSample) + i) * c;
+    double sum = 0.0;
+    for (int k = 0; k < c; ++k)
+    {
+      sum += (sample[k] - query[k]) * (sample[k] - query[k]);
+    }
+    if (sum < best.SquaredDistance)
+    {
+      best.SquaredDistance = sum;
+      nearest = i;
+    }
+  }
+  best.Local = GridParameter<Dim>(start.Counts, nearest);
+  const double* sample =
+    this->Samples.Samples().data() + (static_cast<std::int64_t>(start.FirstSample) + nearest) * c;
+  std::copy(sample, sample + c, best.Point.begin());
+
+  // Derivatives come with respect to the domain: lengths of the element turn them local.
+  Vector length = Vector::Ones();
+  if (form.Space->HasDomain)
+  {
+    const auto& box = form.Space->Elements[At(start.Element)].Box;
+    for (int d = 0; d < Dim; ++d)
+    {
+      length[d] = box.Upper[At(d)] - box.Lower[At(d)];
+    }
+  }
+  const std::vector<int> element{ start.Element };
+  PointMatrix local(1, Dim);
+  EvaluationParams evaluation;
+  evaluation.Threads = 1;
+  for (int iteration = 0; iteration < this->Params.MaxIterations && best.SquaredDistance > 0.0;
+       ++iteration)
+  {
+    for (int d = 0; d < Dim; ++d)
+    {
+      local(0, d) = best.Local[At(d)];
+    }
+    evaluation.Derivatives = 2;
+    if (!EvaluateElements<Dim>(form, element, local, evaluation, batch))
+    {
+      break;
+    }
+    Vector gradient = Vector::Zero();
+    Matrix gauss = Matrix::Zero();
+    Matrix hessian = Matrix::Zero();
+    for (int d = 0; d < Dim; ++d)
+    {
+      for (int k = 0; k < c; ++k)
+      {
+        const double r = batch.Values(0, k) - query[k];
+        gradient[d] += r * batch.First(0, d * c + k) * length[d];
+      }
+      for (int e = d; e < Dim; ++e)
+      {
+        double tangents = 0.0;
+        double curvature = 0.0;
+        for (int k = 0; k < c; ++k)
+        {
+          const double r = batch.Values(0, k) - query[k];
+          tangents += batch.First(0, d * c + k) * batch.First(0, e * c + k);
+          curvature += r * batch.Second(0, PairIndex<Dim>(d, e) * c + k);
+        }
+        gauss(d, e) = gauss(e, d) = tangents * length[d] * length[e];
+        hessian(d, e) = hessian(e, d) = (tangents + curvature) * length[d] * length[e];
+      }
+    }
+    // Parameters at a bound that the descent direction would leave stay there.
+    std::array<bool, Dim> fixed;
+    for (int d = 0; d < Dim; ++d)
+    {
+      const double u = best.Local[At(d)];
+      fixed[At(d)] = (u <= 0.0 && gradient[d] >= 0.0) || (u >= 1.0 && gradient[d] <= 0.0);
+      if (fixed[At(d)])
+      {
+        gradient[d] = 0.0;
+        for (int e = 0; e < Dim; ++e)
+        {
+          gauss(d, e) = gauss(e, d) = hessian(d, e) = hessian(e, d) = e == d ? 1.0 : 0.0;
+        }
+      }
+    }
+    Vector step;
+    const Eigen::LLT<Matrix> newton(hessian);
+    if (newton.info() == Eigen::Success)
+    {
+      step = -newton.solve(gradient);
+    }
+    else
+    {
+      gauss.diagonal().array() += 1e-12 * gauss.trace();
+      step = -gauss.ldlt().solve(gradient);
+    }
+    if (!step.allFinite())
+    {
+      break;
+    }
+    bool improved = false;
+    double moved = 0.0;
+    evaluation.Derivatives = 0;
+    for (int halving = 0; halving < 30 && !improved; ++halving, step *= 0.5)
+    {
+      moved = 0.0;
+      for (int d = 0; d < Dim; ++d)
+      {
+        local(0, d) = std::clamp(best.Local[At(d)] + step[d], 0.0, 1.0);
+        moved = std::max(moved, std::abs(local(0, d) - best.Local[At(d)]));
+      }
+      if (moved == 0.0 || !EvaluateElements<Dim>(form, element, local, evaluation, batch))
+      {
+        break;
+      }
+      double sum = 0.0;
+      for (int k = 0; k < c; ++k)
+      {
+        sum += (batch.Values(0, k) - query[k]) * (batch.Values(0, k) - query[k]);
+      }
+      if (sum < best.SquaredDistance)
+      {
+        improved = true;
+        best.SquaredDistance = sum;
+        for (int d = 0; d < Dim; ++d)
+        {
+          best.Local[At(d)] = local(0, d);
+        }
+        for (int k = 0; k < c; ++k)
+        {
+          best.Point[At(k)] = batch.Values(0, k);
+        }
+      }
+    }
+    if (!improved || moved < 1e-15)
+    {
+      break;
+    }
+  }
+  return best;
+}
+
+template <int Dim>
+Status ClosestPointSearch<Dim>::Find(const PointMatrixView& queries, ClosestPoints& result) const
+{
+  const int c = this->Hulls.Dimension();
+  if (queries.cols() != c)
+  {
+    return { ErrorCode::SizeMismatch,
+      "queries have " + std::to_string(queries.cols()) + " coordinates, the map has " +
+        std::to_string(c) };
+  }
+  for (Eigen::Index i = 0; i < queries.rows(); ++i)
+  {
+    if (!queries.row(i).allFinite())
+    {
+      return { ErrorCode::NonFiniteInput, "query " + std::to_string(i) };
+    }
+  }
+  const PointMatrix points = queries; // rows contiguous
+  const auto n = static_cast<std::size_t>(points.rows());
+  result.Patches.assign(n, -1);
+  result.Elements.assign(n, -1);
+  result.Local.resize(points.rows(), Dim);
+  result.Points.resize(points.rows(), c);
+  result.Distances.resize(points.rows());
+
+  const std::size_t block = 4096; // between progress reports
+  for (std::size_t begin = 0; begin < n; begin += block)
+  {
+    const std::size_t size = std::min(block, n - begin);
+    ParallelFor(size, 32, this->Params.Threads,
+      [&](std::size_t from, std::size_t to)
+      {
+        EvaluationBatch batch;
+        for (std::size_t i = begin + from; i < begin + to; ++i)
+        {
+          const auto row = static_cast<Eigen::Index>(i);
+          const double* query = points.data() + row * c;
+          const double bound = this->Samples.Nearest(query).SquaredDistance;
+          Candidate best;
+          best.SquaredDistance = std::numeric_limits<double>::infinity();
+          int bestItem = -1;
+          // Rounding of box distances must not lose the element of the nearest sample.
+          this->Hulls.Nearest(
+            query,
+            [&](int item)
+            {
+              const Candidate candidate = this->SearchElement(this->Starts[At(item)], query, batch);
+              if (candidate.SquaredDistance < best.SquaredDistance ||
+                (candidate.SquaredDistance == best.SquaredDistance && item < bestItem))
+              {
+                best = candidate;
+                bestItem = item;
+              }
+              return candidate.SquaredDistance;
+            },
+            bound * (1.0 + 1e-9) + std::numeric_limits<double>::min());
+          if (bestItem < 0) // not reached with finite data
+          {
+            continue;
+          }
+          result.Patches[i] = this->Starts[At(bestItem)].Patch;
+          result.Elements[i] = this->Starts[At(bestItem)].Element;
+          for (int d = 0; d < Dim; ++d)
+          {
+            result.Local(row, d) = best.Local[At(d)];
+          }
+          for (int k = 0; k < c; ++k)
+          {
+            result.Points(row, k) = best.Point[At(k)];
+          }
+          result.Distances[row] = std::sqrt(best.SquaredDistance);
+        }
+      });
+    if (this->Params.Progress &&
+      !this->Params.Progress(static_cast<double>(begin + size) / static_cast<double>(n)))
+    {
+      return { ErrorCode::Aborted, "" };
+    }
+  }
+  return {};
+}
+
+template class ClosestPointSearch<1>;
+template class ClosestPointSearch<2>;
+template class ClosestPointSearch<3>;
+}

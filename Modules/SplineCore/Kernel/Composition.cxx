@@ -1,0 +1,911 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Composition.h"
+
+#include "BezierProjection.h"
+#include "HierarchicalSpace.h"
+#include "Parallel.h"
+#include "TensorSpace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <mutex>
+#include <string>
+
+namespace knotwork
+{
+namespace
+{
+std::size_t At(std::int64_t i)
+{
+  return static_cast<std::size_t>(i);
+}
+
+/// A side, edge or corner of a patch: per direction free (-1) or fixed at the lower (0) or upper
+/// (1) end of the domain.
+template <int Dim>
+using SideOf = std::array<int, Dim>;
+
+/// Level and index in the level's tensor-product basis; the last entries are 0 when not needed.
+using FunctionKey = std::array<std::int64_t, 3>;
+
+template <int Dim>
+std::vector<int> FreeDirections(const SideOf<Dim>& side)
+{
+  std::vector<int> free;
+  for (int d = 0; d < Dim; ++d)
+  {
+    if (side[At(d)] < 0)
+    {
+      free.push_back(d);
+    }
+  }
+  return free;
+}
+
+bool IsClamped(const KnotVector& knots)
+{
+  return knots.Multiplicity(0) == knots.Degree() + 1 &&
+    knots.Multiplicity(knots.NumElements()) == knots.Degree() + 1;
+}
+
+/// Functions of level `level` of dyadic refinement: every halved element adds one.
+std::int64_t NumLevelFunctions(const KnotVector& knots, int level)
+{
+  return knots.NumFunctions() +
+    std::int64_t{ knots.NumElements() } * ((std::int64_t{ 1 } << level) - 1);
+}
+
+/// Functions that do not vanish on a side, by level and index along the free directions. With
+/// clamped ends these are exactly the functions of the trace space, truncation included: children
+/// of a function with end index in a fixed direction have the end index or vanish on the side.
+template <int Dim>
+std::map<FunctionKey, int> TraceFunctions(const SplineSpace<Dim>& space, const SideOf<Dim>& side)
+{
+  std::map<FunctionKey, int> functions;
+  const std::vector<FunctionInfo<Dim>> all = DescribeFunctions<Dim>(space);
+  for (std::size_t f = 0; f < all.size(); ++f)
+  {
+    FunctionKey key{ all[f].Level, 0, 0 };
+    std::size_t next = 1;
+    bool onSide = true;
+    for (std::size_t d = 0; d < Dim; ++d)
+    {
+      if (side[d] < 0)
+      {
+        key[next++] = all[f].Index[d];
+      }
+      else
+      {
+        const std::int64_t end =
+          side[d] == 0 ? 0 : NumLevelFunctions(space.Knots[d], all[f].Level) - 1;
+        onSide = onSide && all[f].Index[d] == end;
+      }
+    }
+    if (onSide)
+    {
+      functions.emplace(key, static_cast<int>(f));
+    }
+  }
+  return functions;
+}
+
+/// Hierarchy boxes of the trace.
+template <int Dim, int Free>
+std::vector<HierarchyBox<Free>> TraceBoxes(const SplineSpace<Dim>& space, const SideOf<Dim>& side)
+{
+  std::vector<HierarchyBox<Free>> boxes;
+  for (const HierarchyBox<Dim>& box : HierarchyBoxes<Dim>(space))
+  {
+    HierarchyBox<Free> trace;
+    trace.Level = box.Level;
+    std::size_t next = 0;
+    bool touches = true;
+    for (std::size_t d = 0; d < Dim; ++d)
+    {
+      if (side[d] < 0)
+      {
+        trace.Lower[next] = box.Lower[d];
+        trace.Upper[next] = box.Upper[d];
+        ++next;
+      }
+      else
+      {
+        touches = touches &&
+          (side[d] == 0
+              ? box.Lower[d] == 0
+              : box.Upper[d] == std::int64_t{ space.Knots[d].NumElements() } << box.Level);
+      }
+    }
+    if (touches)
+    {
+      boxes.push_back(trace);
+    }
+  }
+  return boxes;
+}
+
+template <int Dim, int Free>
+Result<SplineSpacePtr<Free>> TraceSpace(const SplineSpace<Dim>& space, const SideOf<Dim>& side)
+{
+  std::array<KnotVector, Free> knots;
+  const std::vector<int> free = FreeDirections<Dim>(side);
+  for (std::size_t k = 0; k < Free; ++k)
+  {
+    knots[k] = space.Knots[At(free[k])];
+  }
+  return space.Kind == SpaceKind::Hierarchical
+    ? MakeHierarchicalSpace<Free>(knots, TraceBoxes<Dim, Free>(space, side))
+    : MakeTensorSpace<Free>(knots);
+}
+
+/// Where function number i of a trace space is in the patch's space.
+template <int Free>
+std::vector<int> Renumber(
+  const SplineSpace<Free>& trace, const std::map<FunctionKey, int>& functions)
+{
+  std::vector<int> result;
+  for (const FunctionInfo<Free>& info : DescribeFunctions<Free>(trace))
+  {
+    FunctionKey key{ info.Level, 0, 0 };
+    for (std::size_t k = 0; k < Free; ++k)
+    {
+      key[1 + k] = info.Index[k];
+    }
+    const auto found = functions.find(key);
+    if (found == functions.end())
+    {
+      return {};
+    }
+    result.push_back(found->second);
+  }
+  return result;
+}
+
+/// outer o inner at parameters (or element + local parameters without a domain), first failure
+/// kept.
+template <int Dim>
+class Composed
+{
+public:
+  Composed(const BezierForm<Dim>& inner, const PointMap& outer) : Inner(inner), Outer(outer) {}
+
+  bool Evaluate(
+    int element, const PointMatrix& local, const PointMatrix& parameters, PointMatrix& values) const
+  {
+    EvaluationBatch batch;
+    EvaluationParams params;
+    params.Threads = 1;
+    Status status;
+    if (this->Inner.Space->HasDomain)
+    {
+      status = EvaluateParameters<Dim>(this->Inner, parameters, params, batch);
+    }
+    else
+    {
+      const std::vector<int> elements(At(local.rows()), element);
+      status = EvaluateElements<Dim>(this->Inner, elements, local, params, batch);
+    }
+    if (status)
+    {
+      PointMatrix result;
+      status = this->Outer(batch.Values, result);
+      if (status)
+      {
+        values = result;
+        return true;
+      }
+    }
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    if (this->First)
+    {
+      this->First = status;
+    }
+    return false;
+  }
+
+  /// The first failure of the outer map if there was one, else the projection's own status.
+  Status Explain(const Status& status) const { return this->First ? status : this->First; }
+
+private:
+  const BezierForm<Dim>& Inner;
+  const PointMap& Outer;
+  mutable std::mutex Mutex;
+  mutable Status First;
+};
+
+template <int Dim>
+Result<PointMatrix> Project(const Spline<Dim>& inner, const SplineSpacePtr<Dim>& space,
+  int numComponents, const PointMap& outer, int threads)
+{
+  const BezierForm<Dim> form = MakeBezierForm<Dim>(inner, threads);
+  const Composed<Dim> composed(form, outer);
+  ProjectionParams params;
+  params.Threads = threads;
+  const Result<Spline<Dim>> projected = ProjectOntoSpace<Dim>(
+    space, numComponents,
+    [&](int element, const PointMatrix& local, const PointMatrix& parameters, PointMatrix& values)
+    { return composed.Evaluate(element, local, parameters, values); },
+    params);
+  if (!projected)
+  {
+    return composed.Explain(projected.Status);
+  }
+  return projected.Value.ControlPoints;
+}
+
+/// A symmetry of the free directions: new direction k runs along old direction Axis[k], reversed or
+/// not.
+struct Orientation
+{
+  std::array<int, 2> Axis{ 0, 1 };
+  std::array<bool, 2> Reverse{};
+};
+
+std::vector<Orientation> Orientations(int free)
+{
+  std::vector<Orientation> all;
+  for (int s = 0; s < (free == 0 ? 1 : free == 1 ? 2 : 8); ++s)
+  {
+    Orientation o;
+    o.Reverse = { (s & 1) != 0, (s & 2) != 0 };
+    if ((s & 4) != 0)
+    {
+      o.Axis = { 1, 0 };
+    }
+    all.push_back(o);
+  }
+  return all;
+}
+
+/// Knots of the free directions of a side.
+template <int Dim>
+std::vector<const KnotVector*> SideKnots(const SplineSpace<Dim>& space, const SideOf<Dim>& side)
+{
+  std::vector<const KnotVector*> knots;
+  for (const int d : FreeDirections<Dim>(side))
+  {
+    knots.push_back(&space.Knots[At(d)]);
+  }
+  return knots;
+}
+
+/// The same knots up to an affine change, optionally reversed.
+bool SameKnots(const KnotVector& a, const KnotVector& b, bool reverse)
+{
+  if (a.Degree() != b.Degree() || a.Knots().size() != b.Knots().size())
+  {
+    return false;
+  }
+  const std::size_t n = a.Knots().size();
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    const double ta = (a.Knots()[i] - a.Begin()) / (a.End() - a.Begin());
+    const double tb = reverse ? (b.End() - b.Knots()[n - 1 - i]) / (b.End() - b.Begin())
+                              : (b.Knots()[i] - b.Begin()) / (b.End() - b.Begin());
+    if (std::abs(ta - tb) > 1e-9)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Key in side b of a function of side a; counts are those of b's level bases.
+FunctionKey Oriented(
+  const FunctionKey& key, const Orientation& o, const std::vector<const KnotVector*>& knotsB)
+{
+  FunctionKey result{ key[0], 0, 0 };
+  for (std::size_t k = 0; k < knotsB.size(); ++k)
+  {
+    const std::int64_t index = key[1 + At(o.Axis[k])];
+    result[1 + k] =
+      o.Reverse[k] ? NumLevelFunctions(*knotsB[k], static_cast<int>(key[0])) - 1 - index : index;
+  }
+  return result;
+}
+
+/// One side of one patch.
+template <int Dim>
+struct Entity
+{
+  int Patch = 0;
+  SideOf<Dim> Side{};
+  int Free = 0;
+  int Owner = 0; ///< entity that is projected for this one (maybe itself)
+  Orientation FromOwner;
+};
+
+template <int Dim>
+class Composer
+{
+public:
+  Composer(const std::vector<Spline<Dim>>& inner, int numComponents, const PointMap& outer,
+    const CompositionParams& params)
+    : Inner(inner), NumComponents(numComponents), Outer(outer), Params(params)
+  {
+  }
+
+  Result<CompositionResult<Dim>> Run()
+  {
+    CompositionResult<Dim> result;
+    for (const Spline<Dim>& spline : this->Inner)
+    {
+      this->Spaces.push_back(spline.Space);
+    }
+    this->FindEntities(result);
+    for (int round = 0;; ++round)
+    {
+      Status status = this->ProjectAll(result);
+      if (!status)
+      {
+        return status;
+      }
+      std::vector<std::vector<int>> marked(this->Spaces.size());
+      result.Distances.assign(this->Spaces.size(), 0.0);
+      for (std::size_t p = 0; p < this->Spaces.size(); ++p)
+      {
+        status = this->Measure(p, result, marked[p]);
+        if (!status)
+        {
+          return WithPatch(status, p);
+        }
+      }
+      if (this->Params.Progress &&
+        !this->Params.Progress(
+          static_cast<double>(round + 1) / static_cast<double>(this->Params.MaxLevel + 2)))
+      {
+        return { ErrorCode::Aborted, "" };
+      }
+      bool refined = false;
+      status = this->Refine(marked, refined);
+      if (!status)
+      {
+        return status;
+      }
+      if (!refined)
+      {
+        return result;
+      }
+    }
+  }
+
+private:
+  static Status WithPatch(const Status& status, std::size_t patch)
+  {
+    return { status.Code, "patch " + std::to_string(patch) + ": " + status.Detail };
+  }
+
+  /// All sides, edges and corners, and which of them are the same.
+  void FindEntities(CompositionResult<Dim>& result)
+  {
+    std::map<std::string, std::vector<int>> buckets;
+    int numSides = 1;
+    for (int d = 0; d < Dim; ++d)
+    {
+      numSides *= 3;
+    }
+    for (std::size_t p = 0; p < this->Inner.size(); ++p)
+    {
+      const SplineSpace<Dim>& space = *this->Inner[p].Space;
+      for (int code = 0; code < numSides && space.HasDomain; ++code)
+      {
+        Entity<Dim> entity;
+        entity.Patch = static_cast<int>(p);
+        bool clamped = true;
+        int rest = code;
+        for (std::size_t d = 0; d < Dim; ++d, rest /= 3)
+        {
+          entity.Side[d] = rest % 3 - 1;
+          entity.Free += entity.Side[d] < 0 ? 1 : 0;
+          clamped = clamped && (entity.Side[d] < 0 || IsClamped(space.Knots[d]));
+        }
+        if (entity.Free == Dim || !clamped)
+        {
+          continue;
+        }
+        const int index = static_cast<int>(this->Entities.size());
+        entity.Owner = index;
+        // The points of a side as an unordered set: equal sides have equal buckets.
+        std::vector<std::string> points;
+        for (const auto& [key, function] : TraceFunctions<Dim>(space, entity.Side))
+        {
+          points.push_back(this->PointBytes(static_cast<int>(p), function));
+        }
+        std::sort(points.begin(), points.end());
+        std::string bucket(1, static_cast<char>('0' + entity.Free));
+        for (const std::string& bytes : points)
+        {
+          bucket += bytes;
+        }
+        std::vector<int>& owners = buckets[bucket];
+        for (const int owner : owners)
+        {
+          if (this->MatchEntities(this->Entities[At(owner)], entity))
+          {
+            entity.Owner = owner;
+            result.NumInterfaces += entity.Free == Dim - 1 ? 1 : 0;
+            break;
+          }
+        }
+        if (entity.Owner == index)
+        {
+          owners.push_back(index);
+        }
+        this->Entities.push_back(entity);
+      }
+    }
+  }
+
+  std::string PointBytes(int patch, int function) const
+  {
+    const Spline<Dim>& spline = this->Inner[At(patch)];
+    std::vector<double> values;
+    for (Eigen::Index c = 0; c < spline.ControlPoints.cols(); ++c)
+    {
+      values.push_back(spline.ControlPoints(function, c) + 0.0);
+    }
+    values.push_back(spline.IsRational() ? spline.Weights[function] : 1.0);
+    return { reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double) };
+  }
+
+  bool MatchEntities(const Entity<Dim>& owner, Entity<Dim>& entity) const
+  {
+    const SplineSpace<Dim>& spaceA = *this->Inner[At(owner.Patch)].Space;
+    const SplineSpace<Dim>& spaceB = *this->Inner[At(entity.Patch)].Space;
+    const auto functionsA = TraceFunctions<Dim>(spaceA, owner.Side);
+    const auto functionsB = TraceFunctions<Dim>(spaceB, entity.Side);
+    const auto knotsA = SideKnots<Dim>(spaceA, owner.Side);
+    const auto knotsB = SideKnots<Dim>(spaceB, entity.Side);
+    for (const Orientation& o : Orientations(entity.Free))
+    {
+      bool same = functionsA.size() == functionsB.size();
+      for (std::size_t k = 0; same && k < knotsB.size(); ++k)
+      {
+        same = SameKnots(*knotsA[At(o.Axis[k])], *knotsB[k], o.Reverse[k]);
+      }
+      for (auto it = functionsA.begin(); same && it != functionsA.end(); ++it)
+      {
+        const auto found = functionsB.find(Oriented(it->first, o, knotsB));
+        same = found != functionsB.end() &&
+          this->PointBytes(owner.Patch, it->second) ==
+            this->PointBytes(entity.Patch, found->second);
+      }
+      if (same)
+      {
+        entity.FromOwner = o;
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// Interiors first, then sides, edges, corners: each overwrites what came before.
+  Status ProjectAll(CompositionResult<Dim>& result)
+  {
+    result.Patches.assign(this->Inner.size(), {});
+    for (std::size_t p = 0; p < this->Inner.size(); ++p)
+    {
+      const Result<PointMatrix> projected = Project<Dim>(
+        this->Inner[p], this->Spaces[p], this->NumComponents, this->Outer, this->Params.Threads);
+      if (!projected)
+      {
+        return WithPatch(projected.Status, p);
+      }
+      result.Patches[p].Space = this->Spaces[p];
+      result.Patches[p].ControlPoints = projected.Value;
+    }
+    Status status;
+    if constexpr (Dim == 3)
+    {
+      status = this->ProjectEntities<2>(result);
+    }
+    if constexpr (Dim >= 2)
+    {
+      status = status ? this->ProjectEntities<1>(result) : status;
+    }
+    return status ? this->ProjectCorners(result) : status;
+  }
+
+  template <int Free>
+  Status ProjectEntities(CompositionResult<Dim>& result)
+  {
+    for (std::size_t i = 0; i < this->Entities.size(); ++i)
+    {
+      const Entity<Dim>& entity = this->Entities[i];
+      if (entity.Free != Free)
+      {
+        continue;
+      }
+      const std::size_t p = At(entity.Patch);
+      if (entity.Owner != static_cast<int>(i))
+      {
+        this->CopyFromOwner(entity, result);
+        continue;
+      }
+      const Spline<Dim>& inner = this->Inner[p];
+      const Result<SplineSpacePtr<Free>> source = TraceSpace<Dim, Free>(*inner.Space, entity.Side);
+      const Result<SplineSpacePtr<Free>> target =
+        TraceSpace<Dim, Free>(*this->Spaces[p], entity.Side);
+      if (!source || !target)
+      {
+        return WithPatch(source ? target.Status : source.Status, p);
+      }
+      const std::vector<int> from =
+        Renumber<Free>(*source.Value, TraceFunctions<Dim>(*inner.Space, entity.Side));
+      const std::vector<int> to =
+        Renumber<Free>(*target.Value, TraceFunctions<Dim>(*this->Spaces[p], entity.Side));
+      if (from.empty() || to.empty())
+      {
+        return WithPatch({ ErrorCode::InvalidTopology, "a side has no space of its own" }, p);
+      }
+      Spline<Free> trace;
+      trace.Space = source.Value;
+      trace.ControlPoints.resize(static_cast<Eigen::Index>(from.size()), inner.NumComponents());
+      trace.Weights.resize(inner.IsRational() ? trace.ControlPoints.rows() : 0);
+      for (std::size_t f = 0; f < from.size(); ++f)
+      {
+        trace.ControlPoints.row(static_cast<Eigen::Index>(f)) = inner.ControlPoints.row(from[f]);
+        if (inner.IsRational())
+        {
+          trace.Weights[static_cast<Eigen::Index>(f)] = inner.Weights[from[f]];
+        }
+      }
+      const Result<PointMatrix> projected =
+        Project<Free>(trace, target.Value, this->NumComponents, this->Outer, this->Params.Threads);
+      if (!projected)
+      {
+        return WithPatch(projected.Status, p);
+      }
+      for (std::size_t f = 0; f < to.size(); ++f)
+      {
+        result.Patches[p].ControlPoints.row(to[f]) =
+          projected.Value.row(static_cast<Eigen::Index>(f));
+      }
+    }
+    return {};
+  }
+
+  Status ProjectCorners(CompositionResult<Dim>& result)
+  {
+    for (std::size_t i = 0; i < this->Entities.size(); ++i)
+    {
+      const Entity<Dim>& entity = this->Entities[i];
+      if (entity.Free != 0)
+      {
+        continue;
+      }
+      const std::size_t p = At(entity.Patch);
+      const auto from = TraceFunctions<Dim>(*this->Inner[p].Space, entity.Side);
+      const auto to = TraceFunctions<Dim>(*this->Spaces[p], entity.Side);
+      const PointMatrix corner = this->Inner[p].ControlPoints.row(from.begin()->second);
+      PointMatrix value;
+      const Status status = this->Outer(corner, value);
+      if (!status)
+      {
+        return WithPatch(status, p);
+      }
+      result.Patches[p].ControlPoints.row(to.begin()->second) = value.row(0);
+    }
+    return {};
+  }
+
+  void CopyFromOwner(const Entity<Dim>& entity, CompositionResult<Dim>& result) const
+  {
+    const Entity<Dim>& owner = this->Entities[At(entity.Owner)];
+    const auto from = TraceFunctions<Dim>(*this->Spaces[At(owner.Patch)], owner.Side);
+    const auto to = TraceFunctions<Dim>(*this->Spaces[At(entity.Patch)], entity.Side);
+    const auto knots = SideKnots<Dim>(*this->Spaces[At(entity.Patch)], entity.Side);
+    for (const auto& [key, function] : from)
+    {
+      const auto found = to.find(Oriented(key, entity.FromOwner, knots));
+      if (found != to.end()) // always: MirrorRefinement made the trace spaces equal
+      {
+        result.Patches[At(entity.Patch)].ControlPoints.row(found->second) =
+          result.Patches[At(owner.Patch)].ControlPoints.row(function);
+      }
+    }
+  }
+
+  /// Distance on a regular grid of every element; elements above the tolerance are marked.
+  Status Measure(std::size_t p, CompositionResult<Dim>& result, std::vector<int>& marked) const
+  {
+    const SplineSpace<Dim>& space = *this->Spaces[p];
+    const BezierForm<Dim> inner = MakeBezierForm<Dim>(this->Inner[p], this->Params.Threads);
+    const BezierForm<Dim> approximation =
+      MakeBezierForm<Dim>(result.Patches[p], this->Params.Threads);
+    const Composed<Dim> composed(inner, this->Outer);
+    std::vector<double> distance(space.Elements.size(), 0.0);
+    std::vector<char> failed(space.Elements.size(), 0);
+    ParallelFor(space.Elements.size(), 8, this->Params.Threads,
+      [&](std::size_t begin, std::size_t end)
+      {
+        EvaluationBatch batch;
+        EvaluationParams evaluation;
+        evaluation.Threads = 1;
+        for (std::size_t e = begin; e < end; ++e)
+        {
+          const auto& element = space.Elements[e];
+          IntArray<Dim> counts;
+          Eigen::Index n = 1;
+          for (std::size_t d = 0; d < Dim; ++d)
+          {
+            counts[d] = this->Params.Samples != 0 ? this->Params.Samples : element.Degree[d] + 3;
+            n *= counts[d];
+          }
+          PointMatrix local(n, Dim);
+          PointMatrix parameters(n, Dim);
+          for (Eigen::Index i = 0; i < n; ++i)
+          {
+            Eigen::Index rest = i;
+            for (std::size_t d = 0; d < Dim; ++d)
+            {
+              const double t = static_cast<double>(rest % counts[d]) / (counts[d] - 1);
+              rest /= counts[d];
+              local(i, static_cast<Eigen::Index>(d)) = t;
+              parameters(i, static_cast<Eigen::Index>(d)) =
+                (1.0 - t) * element.Box.Lower[d] + t * element.Box.Upper[d];
+            }
+          }
+          PointMatrix exact;
+          const std::vector<int> elements(At(n), static_cast<int>(e));
+          if (!composed.Evaluate(static_cast<int>(e), local, parameters, exact) ||
+            !EvaluateElements<Dim>(approximation, elements, local, evaluation, batch))
+          {
+            failed[e] = 1;
+            continue;
+          }
+          distance[e] = (exact - batch.Values).rowwise().norm().maxCoeff();
+        }
+      });
+    for (std::size_t e = 0; e < distance.size(); ++e)
+    {
+      if (failed[e])
+      {
+        return composed.Explain({ ErrorCode::OutsideDomain, "element " + std::to_string(e) });
+      }
+      result.Distances[p] = std::max(result.Distances[p], distance[e]);
+      if (this->Params.Tolerance > 0.0 && distance[e] > this->Params.Tolerance && space.HasDomain &&
+        space.Elements[e].Level < this->Params.MaxLevel)
+      {
+        marked.push_back(static_cast<int>(e));
+      }
+    }
+    return {};
+  }
+
+  Status Refine(const std::vector<std::vector<int>>& marked, bool& refined)
+  {
+    refined = false;
+    for (std::size_t p = 0; p < marked.size(); ++p)
+    {
+      if (marked[p].empty())
+      {
+        continue;
+      }
+      RefinementParams params;
+      params.MaxLevel = this->Params.MaxLevel;
+      params.Extension = this->Params.Extension;
+      if (params.Extension < 0)
+      {
+        params.Extension = 0;
+        for (const KnotVector& knots : this->Spaces[p]->Knots)
+        {
+          params.Extension = std::max(params.Extension, knots.Degree() / 2);
+        }
+      }
+      const Result<SplineSpacePtr<Dim>> finer =
+        RefineElements<Dim>(this->Spaces[p], marked[p], params);
+      if (!finer)
+      {
+        return WithPatch(finer.Status, p);
+      }
+      refined = refined || finer.Value->NumElements() > this->Spaces[p]->NumElements();
+      this->Spaces[p] = finer.Value;
+    }
+    if (!refined)
+    {
+      return {};
+    }
+    // Until the traces of all sides that are one are refined alike.
+    for (bool changed = true; changed;)
+    {
+      changed = false;
+      for (const Entity<Dim>& entity : this->Entities)
+      {
+        const Entity<Dim>& owner = this->Entities[At(entity.Owner)];
+        if (&owner == &entity)
+        {
+          continue;
+        }
+        Status status;
+        if constexpr (Dim == 3)
+        {
+          if (entity.Free == 2)
+          {
+            status = this->Mirror<2>(owner, entity, changed);
+          }
+        }
+        if constexpr (Dim >= 2)
+        {
+          if (status && entity.Free == 1)
+          {
+            status = this->Mirror<1>(owner, entity, changed);
+          }
+        }
+        if (!status)
+        {
+          return status;
+        }
+      }
+    }
+    return {};
+  }
+
+  /// Refines both patches along a common side to the union of their traces' hierarchies.
+  template <int Free>
+  Status Mirror(const Entity<Dim>& owner, const Entity<Dim>& entity, bool& changed)
+  {
+    const Orientation& o = entity.FromOwner;
+    const auto knots = SideKnots<Dim>(*this->Spaces[At(entity.Patch)], entity.Side);
+    std::vector<HierarchyBox<Free>> toEntity =
+      TraceBoxes<Dim, Free>(*this->Spaces[At(owner.Patch)], owner.Side);
+    std::vector<HierarchyBox<Free>> toOwner =
+      TraceBoxes<Dim, Free>(*this->Spaces[At(entity.Patch)], entity.Side);
+    for (HierarchyBox<Free>& box : toEntity)
+    {
+      const HierarchyBox<Free> old = box;
+      for (std::size_t k = 0; k < Free; ++k)
+      {
+        const std::int64_t n = std::int64_t{ knots[k]->NumElements() } << box.Level;
+        const std::size_t from = At(o.Axis[k]);
+        box.Lower[k] = o.Reverse[k] ? n - old.Upper[from] : old.Lower[from];
+        box.Upper[k] = o.Reverse[k] ? n - old.Lower[from] : old.Upper[from];
+      }
+    }
+    for (HierarchyBox<Free>& box : toOwner)
+    {
+      const HierarchyBox<Free> old = box;
+      for (std::size_t k = 0; k < Free; ++k)
+      {
+        const std::int64_t n = std::int64_t{ knots[k]->NumElements() } << box.Level;
+        const std::size_t from = At(o.Axis[k]);
+        box.Lower[from] = o.Reverse[k] ? n - old.Upper[k] : old.Lower[k];
+        box.Upper[from] = o.Reverse[k] ? n - old.Lower[k] : old.Upper[k];
+      }
+    }
+    const Status status = this->RefineAlong<Free>(owner, toOwner, changed);
+    return status ? this->RefineAlong<Free>(entity, toEntity, changed) : status;
+  }
+
+  template <int Free>
+  Status RefineAlong(
+    const Entity<Dim>& entity, const std::vector<HierarchyBox<Free>>& traces, bool& changed)
+  {
+    SplineSpacePtr<Dim>& space = this->Spaces[At(entity.Patch)];
+    std::vector<HierarchyBox<Dim>> boxes;
+    for (const HierarchyBox<Free>& trace : traces)
+    {
+      HierarchyBox<Dim> box;
+      box.Level = trace.Level;
+      std::size_t next = 0;
+      for (std::size_t d = 0; d < Dim; ++d)
+      {
+        const std::int64_t n = std::int64_t{ space->Knots[d].NumElements() } << box.Level;
+        const bool free = entity.Side[d] < 0;
+        box.Lower[d] = free ? trace.Lower[next] : entity.Side[d] == 0 ? 0 : n - 2;
+        box.Upper[d] = free ? trace.Upper[next] : entity.Side[d] == 0 ? 2 : n;
+        next += free ? 1 : 0;
+      }
+      boxes.push_back(box);
+    }
+    if (boxes.empty())
+    {
+      return {};
+    }
+    const Result<SplineSpacePtr<Dim>> finer = RefineBoxes<Dim>(space, boxes);
+    if (!finer)
+    {
+      return WithPatch(finer.Status, At(entity.Patch));
+    }
+    if (finer.Value->NumElements() > space->NumElements())
+    {
+      changed = true;
+      space = finer.Value;
+    }
+    return {};
+  }
+
+  const std::vector<Spline<Dim>>& Inner;
+  int NumComponents;
+  const PointMap& Outer;
+  const CompositionParams& Params;
+  std::vector<SplineSpacePtr<Dim>> Spaces;
+  std::vector<Entity<Dim>> Entities;
+};
+}
+
+template <int Dim>
+Status MapPoints(const BezierForm<Dim>& map, const PointMatrixView& points, bool clamp, int threads,
+  PointMatrix& values)
+{
+  if (!map.Space->HasDomain)
+  {
+    return { ErrorCode::DimensionMismatch,
+      "the map has no parameter domain (Bezier elements of foreign origin)" };
+  }
+  if (points.cols() < Dim)
+  {
+    return { ErrorCode::DimensionMismatch,
+      "points with " + std::to_string(points.cols()) + " coordinates for a map with " +
+        std::to_string(Dim) + " parameters" };
+  }
+  const ParametricBox<Dim> domain = map.Space->Domain();
+  PointMatrix parameters = points.leftCols(Dim);
+  for (Eigen::Index i = 0; i < parameters.rows(); ++i)
+  {
+    for (int d = 0; d < Dim; ++d)
+    {
+      double& u = parameters(i, d);
+      const double lower = domain.Lower[At(d)];
+      const double upper = domain.Upper[At(d)];
+      if (!std::isfinite(u))
+      {
+        return { ErrorCode::NonFiniteInput, "point " + std::to_string(i) };
+      }
+      if (!clamp && (u < lower - 1e-12 * (upper - lower) || u > upper + 1e-12 * (upper - lower)))
+      {
+        return { ErrorCode::OutsideDomain,
+          "point " + std::to_string(i) + " has coordinate " + std::to_string(u) + " in direction " +
+            std::to_string(d) + ", the domain is [" + std::to_string(lower) + ", " +
+            std::to_string(upper) + "]" };
+      }
+      u = std::clamp(u, lower, upper);
+    }
+  }
+  EvaluationParams params;
+  params.Threads = threads;
+  EvaluationBatch batch;
+  const Status status = EvaluateParameters<Dim>(map, parameters, params, batch);
+  values = std::move(batch.Values);
+  return status;
+}
+
+template <int Dim>
+Result<CompositionResult<Dim>> ComposeSplines(const std::vector<Spline<Dim>>& inner,
+  int numComponents, const PointMap& outer, const CompositionParams& params)
+{
+  if (inner.empty())
+  {
+    return { ErrorCode::EmptyInput, "no spline to compose" };
+  }
+  if (!(params.Tolerance >= 0.0) || !std::isfinite(params.Tolerance) || params.MaxLevel < 0 ||
+    params.MaxLevel > 20 || params.Extension < -1 || params.Extension > 10 ||
+    (params.Samples != 0 && (params.Samples < 2 || params.Samples > 64)))
+  {
+    return { ErrorCode::InvalidParameter,
+      "the tolerance must be >= 0, the maximum level in [0, 20], the extension in [-1, 10], the "
+      "samples 0 or in [2, 64]" };
+  }
+  for (std::size_t p = 0; p < inner.size(); ++p)
+  {
+    const Status status = inner[p].Check();
+    if (!status)
+    {
+      return { status.Code, "patch " + std::to_string(p) + ": " + status.Detail };
+    }
+  }
+  return Composer<Dim>(inner, numComponents, outer, params).Run();
+}
+
+template Status MapPoints<1>(const BezierForm<1>&, const PointMatrixView&, bool, int, PointMatrix&);
+template Status MapPoints<2>(const BezierForm<2>&, const PointMatrixView&, bool, int, PointMatrix&);
+template Status MapPoints<3>(const BezierForm<3>&, const PointMatrixView&, bool, int, PointMatrix&);
+template Result<CompositionResult<1>> ComposeSplines<1>(
+  const std::vector<Spline<1>>&, int, const PointMap&, const CompositionParams&);
+template Result<CompositionResult<2>> ComposeSplines<2>(
+  const std::vector<Spline<2>>&, int, const PointMap&, const CompositionParams&);
+template Result<CompositionResult<3>> ComposeSplines<3>(
+  const std::vector<Spline<3>>&, int, const PointMap&, const CompositionParams&);
+}

@@ -1,0 +1,584 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ChordalBound.h"
+#include "Parallel.h"
+#include "TessellationParts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+namespace knotwork
+{
+namespace
+{
+using Pair = std::array<std::int64_t, 2>;
+
+std::size_t At(std::int64_t i)
+{
+  return static_cast<std::size_t>(i);
+}
+
+/// A Bezier quadrilateral to tessellate: an element with two parameters, or one side of an element
+/// with three.
+struct Face
+{
+  int Patch = 0;
+  int Element = 0;
+  int Chart = 0;
+  std::array<int, 2> Axes{ 0, 1 }; ///< parameters of the element along the face
+  int Fixed = -1;                  ///< the third one, if any, and its end
+  int End = 0;
+  bool Flip = false;
+  Pair Lower{};
+  Pair Size{};
+  std::array<bool, 4> Rim{}; ///< sides v = 0, u = 1, v = 1, u = 0
+  IntArray<2> Degree{};
+  std::vector<double> Points; ///< (p + 1)(q + 1) points with all planes; rims only for surfaces
+  std::vector<std::int64_t> Ids;
+  IntArray<2> Halvings{};
+};
+
+/// Direction along a side, and the fixed chart coordinate of the side.
+int SideAxis(int side)
+{
+  return side % 2;
+}
+std::int64_t SideFixed(const Face& face, int side)
+{
+  const std::size_t across = At(1 - SideAxis(side));
+  const bool high = side == 1 || side == 2;
+  return face.Lower[across] + (high ? face.Size[across] : 0);
+}
+
+/// Points of a side in ascending parameter.
+std::vector<double> SidePoints(const Face& face, int side, int planes)
+{
+  const int n0 = face.Degree[0] + 1;
+  const int n1 = face.Degree[1] + 1;
+  const int n = SideAxis(side) == 0 ? n0 : n1;
+  std::vector<double> points;
+  points.reserve(At(n * planes));
+  for (int i = 0; i < n; ++i)
+  {
+    const int at = side == 0 ? i
+      : side == 2            ? i + n0 * (n1 - 1)
+      : side == 3            ? n0 * i
+                             : n0 * i + n0 - 1;
+    points.insert(points.end(), face.Points.begin() + std::int64_t{ at } * planes,
+      face.Points.begin() + std::int64_t{ at + 1 } * planes);
+  }
+  return points;
+}
+std::vector<std::int64_t> SideIds(const Face& face, int side)
+{
+  const int n0 = face.Degree[0] + 1;
+  const int n1 = face.Degree[1] + 1;
+  std::vector<std::int64_t> ids;
+  for (int i = 0; !face.Ids.empty() && i < (SideAxis(side) == 0 ? n0 : n1); ++i)
+  {
+    const int at = side == 0 ? i
+      : side == 2            ? i + n0 * (n1 - 1)
+      : side == 3            ? n0 * i
+                             : n0 * i + n0 - 1;
+    ids.push_back(face.Ids[At(at)]);
+  }
+  return ids;
+}
+
+/// All control points of a side at one place, but for rounding.
+bool IsCollapsed(const std::vector<double>& points, int planes, int components)
+{
+  const std::size_t n = points.size() / At(planes);
+  for (int c = 0; c < components; ++c)
+  {
+    double size = 0.0;
+    double lower = 0.0;
+    double upper = 0.0;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      const double w = planes > components ? points[i * At(planes) + At(components)] : 1.0;
+      const double x = points[i * At(planes) + At(c)] / w;
+      size = std::max(size, std::abs(x));
+      lower = i == 0 ? x : std::min(lower, x);
+      upper = i == 0 ? x : std::max(upper, x);
+    }
+    if (upper - lower > 8.0 * std::numeric_limits<double>::epsilon() * size)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+std::vector<Face> MakeFaces(const std::vector<TessellationPatch<2>>& patches, int& numCharts)
+{
+  const auto cells = MakeCharts<2>(patches, numCharts);
+  std::vector<Face> faces;
+  for (std::size_t p = 0; p < patches.size(); ++p)
+  {
+    const BezierForm<2>& form = patches[p].Geometry;
+    const int planes = form.NumPlanes();
+    for (std::size_t e = 0; e < cells[p].size(); ++e)
+    {
+      const ChartCell<2>& cell = cells[p][e];
+      Face face;
+      face.Patch = static_cast<int>(p);
+      face.Element = static_cast<int>(e);
+      face.Chart = cell.Chart;
+      face.Lower = cell.Lower;
+      face.Size = cell.Size;
+      face.Rim = { cell.RimLow[1], cell.RimHigh[0], cell.RimHigh[1], cell.RimLow[0] };
+      face.Degree = form.Space->Elements[e].Degree;
+      if (std::find(face.Rim.begin(), face.Rim.end(), true) != face.Rim.end())
+      {
+        const int n = NumTensorFunctions<2>(face.Degree);
+        const double* block = form.Block(static_cast<int>(e));
+        for (int i = 0; i < n; ++i)
+        {
+          for (int c = 0; c < planes; ++c)
+          {
+            face.Points.push_back(block[c * n + i]);
+          }
+        }
+        if (!patches[p].PointIds.empty())
+        {
+          const auto first =
+            patches[p].PointIds.begin() + static_cast<std::int64_t>(form.Offsets[e] / At(planes));
+          face.Ids.assign(first, first + n);
+        }
+      }
+      faces.push_back(std::move(face));
+    }
+  }
+  return faces;
+}
+
+/// The outer faces: sides on the rim of their chart that match no other side.
+std::vector<Face> MakeFaces(const std::vector<TessellationPatch<3>>& patches, int& numCharts)
+{
+  const auto cells = MakeCharts<3>(patches, numCharts);
+  std::vector<Face> faces;
+  SideMatcher matcher;
+  for (std::size_t p = 0; p < patches.size(); ++p)
+  {
+    const BezierForm<3>& form = patches[p].Geometry;
+    for (std::size_t e = 0; e < cells[p].size(); ++e)
+    {
+      const ChartCell<3>& cell = cells[p][e];
+      for (int d = 0; d < 3; ++d)
+      {
+        for (int end = 0; end < 2; ++end)
+        {
+          if (!(end == 0 ? cell.RimLow[At(d)] : cell.RimHigh[At(d)]))
+          {
+            continue;
+          }
+          BlockSide<3> side = ExtractSide<3>(patches[p], static_cast<int>(e), d, end);
+          Face face;
+          face.Patch = static_cast<int>(p);
+          face.Element = static_cast<int>(e);
+          face.Chart = cell.Chart * 6 + 2 * d + end;
+          face.Axes = side.Axes;
+          face.Fixed = d;
+          face.End = end;
+          // Axes ascend: (1, 2), (0, 2), (0, 1); outward normals need (0, 2) turned round.
+          face.Flip = (end == 0) != (d == 1);
+          for (std::size_t a = 0; a < 2; ++a)
+          {
+            const std::size_t axis = At(side.Axes[a]);
+            face.Lower[a] = cell.Lower[axis];
+            face.Size[a] = cell.Size[axis];
+            face.Degree[a] = static_cast<int>(side.Count[a]) - 1;
+          }
+          const std::size_t u = At(side.Axes[0]);
+          const std::size_t v = At(side.Axes[1]);
+          face.Rim = { cell.RimLow[v], cell.RimHigh[u], cell.RimHigh[v], cell.RimLow[u] };
+          face.Points = std::move(side.Points);
+          face.Ids = std::move(side.Ids);
+          matcher.Add(
+            static_cast<int>(faces.size()), side.Count, form.NumPlanes(), face.Points, face.Ids);
+          faces.push_back(std::move(face));
+        }
+      }
+    }
+  }
+  numCharts *= 6;
+  std::vector<char> isInner(faces.size(), 0);
+  for (const SideMatch& match : matcher.Matches)
+  {
+    isInner[At(match.A)] = isInner[At(match.B)] = 1;
+  }
+  std::vector<Face> outer;
+  for (std::size_t f = 0; f < faces.size(); ++f)
+  {
+    if (!isInner[f])
+    {
+      outer.push_back(std::move(faces[f]));
+    }
+  }
+  return outer;
+}
+
+/// Bernstein planes of a face for the bounds.
+template <int Dim>
+SecondDerivativeBound<2> FaceBound(const BezierForm<Dim>& form, const Face& face)
+{
+  if (Dim == 2)
+  {
+    return BoundSecondDerivatives<2>(
+      face.Degree, form.NumComponents, form.Rational, form.Block(face.Element));
+  }
+  const int planes = form.NumPlanes();
+  const int n = NumTensorFunctions<2>(face.Degree);
+  std::vector<double> net(At(n * planes));
+  for (int i = 0; i < n; ++i)
+  {
+    for (int c = 0; c < planes; ++c)
+    {
+      net[At(c * n + i)] = face.Points[At(i * planes + c)];
+    }
+  }
+  return BoundSecondDerivatives<2>(face.Degree, form.NumComponents, form.Rational, net.data());
+}
+
+/// Vertices on the mesh lines of all charts: (chart and direction, fixed coordinate, position).
+class LinePoints
+{
+public:
+  /// Counts after the next Sort().
+  void Add(const Face& face, int side, std::int64_t position)
+  {
+    this->New.emplace_back(
+      2 * std::int64_t{ face.Chart } + SideAxis(side), SideFixed(face, side), position);
+  }
+  /// Takes up what was added; false when nothing of it is new.
+  bool Sort()
+  {
+    const std::size_t size = this->All.size();
+    this->All.insert(this->All.end(), this->New.begin(), this->New.end());
+    this->New.clear();
+    std::sort(this->All.begin(), this->All.end());
+    this->All.erase(std::unique(this->All.begin(), this->All.end()), this->All.end());
+    return this->All.size() > size;
+  }
+  /// Positions on a side, ends included, ascending.
+  std::vector<std::int64_t> Along(const Face& face, int side) const
+  {
+    const int axis = SideAxis(side);
+    const std::int64_t line = 2 * std::int64_t{ face.Chart } + axis;
+    const std::int64_t fixed = SideFixed(face, side);
+    const std::int64_t begin = face.Lower[At(axis)];
+    const std::int64_t end = begin + face.Size[At(axis)];
+    std::vector<std::int64_t> positions;
+    auto it = std::lower_bound(this->All.begin(), this->All.end(), Entry{ line, fixed, begin });
+    for (; it != this->All.end() && *it <= Entry{ line, fixed, end }; ++it)
+    {
+      positions.push_back(std::get<2>(*it));
+    }
+    return positions;
+  }
+
+private:
+  using Entry = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
+  std::vector<Entry> All;
+  std::vector<Entry> New;
+};
+
+/// Position on side B of a match that belongs to a position on side A. Charts may have sides of
+/// different lengths; positions of dyadic points stay whole.
+std::int64_t Transfer(
+  std::int64_t position, const Face& a, int sideA, const Face& b, int sideB, bool reversed)
+{
+  const std::size_t axisA = At(SideAxis(sideA));
+  const std::size_t axisB = At(SideAxis(sideB));
+  std::int64_t offset = position - a.Lower[axisA];
+  const std::int64_t lengthA = a.Size[axisA];
+  const std::int64_t lengthB = b.Size[axisB];
+  offset = lengthA >= lengthB ? offset / (lengthA / lengthB) : offset * (lengthB / lengthA);
+  return b.Lower[axisB] + (reversed ? lengthB - offset : offset);
+}
+
+ChartPoint PointOnSide(const Face& face, int side, std::int64_t position)
+{
+  const std::int64_t fixed = SideFixed(face, side);
+  return SideAxis(side) == 0 ? ChartPoint{ face.Chart, { position, fixed, 0 } }
+                             : ChartPoint{ face.Chart, { fixed, position, 0 } };
+}
+
+/// Cuts one face into cells.
+class FaceCutter
+{
+public:
+  FaceCutter(const Face& face, const LinePoints& lines, VertexTable& vertices, CellSoup& soup)
+    : F(face), Lines(lines), Vertices(vertices), Soup(soup)
+  {
+  }
+
+  void Cut()
+  {
+    this->N = { std::int64_t{ 1 } << this->F.Halvings[0],
+      std::int64_t{ 1 } << this->F.Halvings[1] };
+    this->Step = { this->F.Size[0] >> this->F.Halvings[0], this->F.Size[1] >> this->F.Halvings[1] };
+    this->Grid.assign(At((this->N[0] + 1) * (this->N[1] + 1)), -1);
+    for (int side = 0; side < 4; ++side)
+    {
+      this->MakeSide(side);
+    }
+    for (std::int64_t j = 1; j < this->N[1]; ++j)
+    {
+      for (std::int64_t i = 1; i < this->N[0]; ++i)
+      {
+        this->At2(i, j) = this->MakeUse(
+          { this->F.Lower[0] + i * this->Step[0], this->F.Lower[1] + j * this->Step[1] }, false);
+      }
+    }
+    for (std::int64_t j = 0; j < this->N[1]; ++j)
+    {
+      for (std::int64_t i = 0; i < this->N[0]; ++i)
+      {
+        this->MakeCell(i, j);
+      }
+    }
+  }
+
+private:
+  int& At2(std::int64_t i, std::int64_t j) { return this->Grid[At(i + (this->N[0] + 1) * j)]; }
+
+  int MakeUse(const Pair& x, bool onBorder)
+  {
+    VertexUse use;
+    use.Patch = this->F.Patch;
+    use.Element = this->F.Element;
+    use.Tangents = this->F.Axes;
+    use.Flip = this->F.Flip;
+    use.Vertex =
+      onBorder ? this->Vertices.At({ this->F.Chart, { x[0], x[1], 0 } }) : this->Vertices.Add();
+    if (this->F.Fixed >= 0)
+    {
+      use.Local[At(this->F.Fixed)] = this->F.End;
+    }
+    for (std::size_t a = 0; a < 2; ++a)
+    {
+      use.Local[At(this->F.Axes[a])] =
+        static_cast<double>(x[a] - this->F.Lower[a]) / static_cast<double>(this->F.Size[a]);
+    }
+    this->Soup.Uses.push_back(use);
+    return static_cast<int>(this->Soup.Uses.size()) - 1;
+  }
+
+  /// Uses along a side; those between grid points are kept by the cell they lie at.
+  void MakeSide(int side)
+  {
+    const int axis = SideAxis(side);
+    auto& extra = this->Extra[At(side)];
+    extra.assign(At(this->N[At(axis)]), {});
+    for (const std::int64_t position : this->Lines.Along(this->F, side))
+    {
+      const std::int64_t offset = position - this->F.Lower[At(axis)];
+      const std::int64_t cell = offset / this->Step[At(axis)];
+      const Pair x = axis == 0 ? Pair{ position, SideFixed(this->F, side) }
+                               : Pair{ SideFixed(this->F, side), position };
+      if (offset % this->Step[At(axis)] != 0)
+      {
+        extra[At(cell)].push_back(this->MakeUse(x, true));
+        continue;
+      }
+      int& corner = axis == 0 ? this->At2(cell, side == 0 ? 0 : this->N[1])
+                              : this->At2(side == 3 ? 0 : this->N[0], cell);
+      if (corner < 0)
+      {
+        corner = this->MakeUse(x, true);
+      }
+    }
+  }
+
+  void MakeCell(std::int64_t i, std::int64_t j)
+  {
+    std::vector<int>& loop = this->Loop;
+    loop.clear();
+    const auto append = [&](int side, std::int64_t cell, bool onSide, bool backward)
+    {
+      if (onSide)
+      {
+        const std::vector<int>& extra = this->Extra[At(side)][At(cell)];
+        if (backward)
+        {
+          loop.insert(loop.end(), extra.rbegin(), extra.rend());
+        }
+        else
+        {
+          loop.insert(loop.end(), extra.begin(), extra.end());
+        }
+      }
+    };
+    loop.push_back(this->At2(i, j));
+    append(0, i, j == 0, false);
+    loop.push_back(this->At2(i + 1, j));
+    append(1, j, i + 1 == this->N[0], false);
+    loop.push_back(this->At2(i + 1, j + 1));
+    append(2, i, j + 1 == this->N[1], true);
+    loop.push_back(this->At2(i, j + 1));
+    append(3, j, i == 0, true);
+    if (this->F.Flip)
+    {
+      std::reverse(loop.begin(), loop.end());
+    }
+    if (loop.size() == 4)
+    {
+      this->Soup.AddCell(
+        TessellationShape::Quadrilateral, loop.data(), 4, this->F.Patch, this->F.Element);
+      return;
+    }
+    const int middle = this->MakeUse({ this->F.Lower[0] + i * this->Step[0] + this->Step[0] / 2,
+                                       this->F.Lower[1] + j * this->Step[1] + this->Step[1] / 2 },
+      false);
+    for (std::size_t k = 0; k < loop.size(); ++k)
+    {
+      const std::array<int, 3> corners{ middle, loop[k], loop[(k + 1) % loop.size()] };
+      this->Soup.AddCell(
+        TessellationShape::Triangle, corners.data(), 3, this->F.Patch, this->F.Element);
+    }
+  }
+
+  const Face& F;
+  const LinePoints& Lines;
+  VertexTable& Vertices;
+  CellSoup& Soup;
+  Pair N{};
+  Pair Step{};
+  std::vector<int> Grid;
+  std::array<std::vector<std::vector<int>>, 4> Extra;
+  std::vector<int> Loop;
+};
+}
+
+template <int Dim>
+Status TessellateSurfaces(const std::vector<TessellationPatch<Dim>>& patches,
+  const TessellationParams& params, TessellationMesh& mesh)
+{
+  int numCharts = 0;
+  std::vector<Face> faces = MakeFaces(patches, numCharts);
+
+  // 1. Every face by its own bound.
+  std::vector<double> bounds(faces.size());
+  ParallelFor(faces.size(), 64, params.Threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t f = begin; f < end; ++f)
+      {
+        Face& face = faces[f];
+        const SecondDerivativeBound<2> bound =
+          FaceBound<Dim>(patches[At(face.Patch)].Geometry, face);
+        face.Halvings = HalvingsForTolerance<2>(bound, params.Tolerance, params.MaximumSubdivision);
+        bounds[f] = ChordalBound<2>(bound, face.Halvings);
+      }
+    });
+  double count = 0.0;
+  for (std::size_t f = 0; f < faces.size(); ++f)
+  {
+    mesh.Bound = std::max(mesh.Bound, bounds[f]);
+    count += std::ldexp(1.0, faces[f].Halvings[0] + faces[f].Halvings[1]);
+  }
+  if (count > 5e8)
+  {
+    return { ErrorCode::TooLarge,
+      "more than 500 million polygons; raise the tolerance or lower the maximum subdivision" };
+  }
+
+  // 2. Every side by the needs of all elements at it.
+  LinePoints lines;
+  for (const Face& face : faces)
+  {
+    for (int side = 0; side < 4; ++side)
+    {
+      const std::size_t axis = At(SideAxis(side));
+      const std::int64_t step = face.Size[axis] >> face.Halvings[axis];
+      for (std::int64_t i = 0; i <= std::int64_t{ 1 } << face.Halvings[axis]; ++i)
+      {
+        lines.Add(face, side, face.Lower[axis] + i * step);
+      }
+    }
+  }
+  lines.Sort();
+
+  SideMatcher matcher;
+  std::vector<int> collapsed;
+  for (std::size_t f = 0; f < faces.size(); ++f)
+  {
+    const Face& face = faces[f];
+    const BezierForm<Dim>& form = patches[At(face.Patch)].Geometry;
+    for (int side = 0; side < 4; ++side)
+    {
+      if (face.Rim[At(side)])
+      {
+        const std::vector<double> points = SidePoints(face, side, form.NumPlanes());
+        const int id = static_cast<int>(4 * f) + side;
+        matcher.Add(id, { face.Degree[At(SideAxis(side))] + 1, 1 }, form.NumPlanes(), points,
+          SideIds(face, side));
+        if (IsCollapsed(points, form.NumPlanes(), form.NumComponents))
+        {
+          collapsed.push_back(id);
+        }
+      }
+    }
+  }
+  do
+  {
+    for (const SideMatch& match : matcher.Matches)
+    {
+      const Face& a = faces[At(match.A / 4)];
+      const Face& b = faces[At(match.B / 4)];
+      const bool reversed = match.SymmetryA.Reverse[0] != match.SymmetryB.Reverse[0];
+      for (const std::int64_t position : lines.Along(a, match.A % 4))
+      {
+        lines.Add(b, match.B % 4, Transfer(position, a, match.A % 4, b, match.B % 4, reversed));
+      }
+      for (const std::int64_t position : lines.Along(b, match.B % 4))
+      {
+        lines.Add(a, match.A % 4, Transfer(position, b, match.B % 4, a, match.A % 4, reversed));
+      }
+    }
+  } while (lines.Sort());
+  if (params.Progress && !params.Progress(0.2))
+  {
+    return { ErrorCode::Aborted, "" };
+  }
+
+  // 3. Cells, then one vertex where sides match or collapse.
+  VertexTable vertices;
+  CellSoup soup;
+  for (const Face& face : faces)
+  {
+    FaceCutter(face, lines, vertices, soup).Cut();
+  }
+  for (const SideMatch& match : matcher.Matches)
+  {
+    const Face& a = faces[At(match.A / 4)];
+    const Face& b = faces[At(match.B / 4)];
+    const bool reversed = match.SymmetryA.Reverse[0] != match.SymmetryB.Reverse[0];
+    for (const std::int64_t position : lines.Along(a, match.A % 4))
+    {
+      const std::int64_t other = Transfer(position, a, match.A % 4, b, match.B % 4, reversed);
+      vertices.Sets.Unite(vertices.At(PointOnSide(a, match.A % 4, position)),
+        vertices.At(PointOnSide(b, match.B % 4, other)));
+    }
+  }
+  for (const int id : collapsed)
+  {
+    const Face& face = faces[At(id / 4)];
+    const std::vector<std::int64_t> along = lines.Along(face, id % 4);
+    for (const std::int64_t position : along)
+    {
+      vertices.Sets.Unite(vertices.At(PointOnSide(face, id % 4, along.front())),
+        vertices.At(PointOnSide(face, id % 4, position)));
+    }
+  }
+  return FinishTessellation<Dim>(patches, params, vertices, soup, mesh);
+}
+
+template Status TessellateSurfaces<2>(
+  const std::vector<TessellationPatch<2>>&, const TessellationParams&, TessellationMesh&);
+template Status TessellateSurfaces<3>(
+  const std::vector<TessellationPatch<3>>&, const TessellationParams&, TessellationMesh&);
+}

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ChordalBound.h"
+#include "Parallel.h"
+#include "TessellationParts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace knotwork
+{
+namespace
+{
+std::size_t At(std::int64_t i)
+{
+  return static_cast<std::size_t>(i);
+}
+
+/// A side of an element on the rim of its chart.
+struct RimFace
+{
+  int Patch = 0;
+  int Element = 0;
+  int Direction = 0;
+  int End = 0;
+  std::array<int, 2> Axes{};
+};
+
+/// Per chart and direction the level of the uniform grid: its cells are 2^-Level of a level-0 cell.
+using GridLevels = std::vector<std::array<int, 3>>;
+
+class VolumeCutter
+{
+public:
+  VolumeCutter(const std::vector<TessellationPatch<3>>& patches, const TessellationParams& params)
+    : Patches(patches), Params(params)
+  {
+    this->Cells = MakeCharts<3>(patches, this->NumCharts);
+  }
+
+  double ChooseLevels()
+  {
+    this->Levels.assign(At(this->NumCharts), { 0, 0, 0 });
+    std::vector<std::vector<SecondDerivativeBound<3>>> bounds(this->Patches.size());
+    for (std::size_t p = 0; p < this->Patches.size(); ++p)
+    {
+      const BezierForm<3>& form = this->Patches[p].Geometry;
+      bounds[p].resize(this->Cells[p].size());
+      ParallelFor(bounds[p].size(), 16, this->Params.Threads,
+        [&](std::size_t begin, std::size_t end)
+        {
+          for (std::size_t e = begin; e < end; ++e)
+          {
+            bounds[p][e] = BoundSecondDerivatives<3>(form.Space->Elements[e].Degree,
+              form.NumComponents, form.Rational, form.Block(static_cast<int>(e)));
+          }
+        });
+      for (std::size_t e = 0; e < bounds[p].size(); ++e)
+      {
+        const IntArray<3> halvings = HalvingsForTolerance<3>(
+          bounds[p][e], this->Params.Tolerance, this->Params.MaximumSubdivision);
+        auto& levels = this->Levels[At(this->Cells[p][e].Chart)];
+        for (std::size_t d = 0; d < 3; ++d)
+        {
+          levels[d] = std::max(levels[d], this->Cells[p][e].Level + halvings[d]);
+        }
+      }
+    }
+    this->MatchFaces();
+    double largest = 0.0;
+    for (std::size_t p = 0; p < this->Patches.size(); ++p)
+    {
+      for (std::size_t e = 0; e < bounds[p].size(); ++e)
+      {
+        largest = std::max(largest,
+          ChordalBound<3>(bounds[p][e], this->Halvings(static_cast<int>(p), static_cast<int>(e))));
+      }
+    }
+    return largest;
+  }
+
+  double CountCells() const
+  {
+    double count = 0.0;
+    for (std::size_t p = 0; p < this->Cells.size(); ++p)
+    {
+      for (std::size_t e = 0; e < this->Cells[p].size(); ++e)
+      {
+        const IntArray<3> s = this->Halvings(static_cast<int>(p), static_cast<int>(e));
+        count += std::ldexp(1.0, s[0] + s[1] + s[2]);
+      }
+    }
+    return count;
+  }
+
+  void Cut(VertexTable& vertices, CellSoup& soup)
+  {
+    for (std::size_t p = 0; p < this->Cells.size(); ++p)
+    {
+      for (std::size_t e = 0; e < this->Cells[p].size(); ++e)
+      {
+        this->CutElement(static_cast<int>(p), static_cast<int>(e), vertices, soup);
+      }
+    }
+    for (const SideMatch& match : this->Matches)
+    {
+      const RimFace& a = this->Faces[At(match.A)];
+      const RimFace& b = this->Faces[At(match.B)];
+      const auto countA = this->FaceCount(a);
+      const auto countB = this->FaceCount(b);
+      const auto size = match.SymmetryA.Count(countA);
+      if (size != match.SymmetryB.Count(countB))
+      {
+        continue; // grids that cannot agree: see MatchFaces
+      }
+      for (std::int64_t j = 0; j < size[1]; ++j)
+      {
+        for (std::int64_t i = 0; i < size[0]; ++i)
+        {
+          vertices.Sets.Unite(
+            vertices.At(this->FacePoint(a, match.SymmetryA.Original({ i, j }, countA))),
+            vertices.At(this->FacePoint(b, match.SymmetryB.Original({ i, j }, countB))));
+        }
+      }
+    }
+  }
+
+private:
+  const ChartCell<3>& Cell(int patch, int element) const
+  {
+    return this->Cells[At(patch)][At(element)];
+  }
+
+  IntArray<3> Halvings(int patch, int element) const
+  {
+    const ChartCell<3>& cell = this->Cell(patch, element);
+    IntArray<3> s;
+    for (std::size_t d = 0; d < 3; ++d)
+    {
+      s[d] = this->Levels[At(cell.Chart)][d] - cell.Level;
+    }
+    return s;
+  }
+
+  std::array<std::int64_t, 2> FaceCount(const RimFace& face) const
+  {
+    const IntArray<3> s = this->Halvings(face.Patch, face.Element);
+    return { (std::int64_t{ 1 } << s[At(face.Axes[0])]) + 1,
+      (std::int64_t{ 1 } << s[At(face.Axes[1])]) + 1 };
+  }
+
+  ChartPoint FacePoint(const RimFace& face, const std::array<std::int64_t, 2>& at) const
+  {
+    const ChartCell<3>& cell = this->Cell(face.Patch, face.Element);
+    const IntArray<3> s = this->Halvings(face.Patch, face.Element);
+    ChartPoint point{ cell.Chart, cell.Lower };
+    point.X[At(face.Direction)] += face.End == 0 ? 0 : cell.Size[At(face.Direction)];
+    for (std::size_t a = 0; a < 2; ++a)
+    {
+      const std::size_t axis = At(face.Axes[a]);
+      point.X[axis] += at[a] * (cell.Size[axis] >> s[axis]);
+    }
+    return point;
+  }
+
+  /// Finds the faces that are one and raises levels until their grids agree. The limit on sweeps
+  /// ends a model whose hierarchies contradict each other; such faces stay apart.
+  void MatchFaces()
+  {
+    SideMatcher matcher;
+    for (std::size_t p = 0; p < this->Cells.size(); ++p)
+    {
+      for (std::size_t e = 0; e < this->Cells[p].size(); ++e)
+      {
+        const ChartCell<3>& cell = this->Cells[p][e];
+        for (int side = 0; side < 6; ++side)
+        {
+          const int d = side / 2;
+          const int end = side % 2;
+          if (end == 0 ? cell.RimLow[At(d)] : cell.RimHigh[At(d)])
+          {
+            const BlockSide<3> block =
+              ExtractSide<3>(this->Patches[p], static_cast<int>(e), d, end);
+            matcher.Add(static_cast<int>(this->Faces.size()), block.Count,
+              this->Patches[p].Geometry.NumPlanes(), block.Points, block.Ids);
+            this->Faces.push_back({ static_cast<int>(p), static_cast<int>(e), d, end, block.Axes });
+          }
+        }
+      }
+    }
+    this->Matches = std::move(matcher.Matches);
+    bool changed = true;
+    for (int sweep = 0; sweep < 1000 && changed; ++sweep)
+    {
+      changed = false;
+      for (const SideMatch& match : this->Matches)
+      {
+        const RimFace& a = this->Faces[At(match.A)];
+        const RimFace& b = this->Faces[At(match.B)];
+        const int levelA = this->Cell(a.Patch, a.Element).Level;
+        const int levelB = this->Cell(b.Patch, b.Element).Level;
+        for (std::size_t i = 0; i < 2; ++i)
+        {
+          int& gridA = this->GridLevel(a, match.SymmetryA.Swap ? 1 - i : i);
+          int& gridB = this->GridLevel(b, match.SymmetryB.Swap ? 1 - i : i);
+          const int needed = std::max(gridA - levelA, gridB - levelB);
+          if (needed <= 24 && (gridA - levelA != needed || gridB - levelB != needed))
+          {
+            gridA = levelA + needed;
+            gridB = levelB + needed;
+            changed = true;
+          }
+        }
+      }
+    }
+  }
+
+  int& GridLevel(const RimFace& face, std::size_t axis)
+  {
+    return this->Levels[At(this->Cell(face.Patch, face.Element).Chart)][At(face.Axes[axis])];
+  }
+
+  void CutElement(int patch, int element, VertexTable& vertices, CellSoup& soup)
+  {
+    const ChartCell<3>& cell = this->Cell(patch, element);
+    const IntArray<3> s = this->Halvings(patch, element);
+    std::array<std::int64_t, 3> n;
+    for (std::size_t d = 0; d < 3; ++d)
+    {
+      n[d] = std::int64_t{ 1 } << s[d];
+    }
+    const std::int64_t first = static_cast<std::int64_t>(soup.Uses.size());
+    std::array<std::int64_t, 3> i{};
+    for (i[2] = 0; i[2] <= n[2]; ++i[2])
+    {
+      for (i[1] = 0; i[1] <= n[1]; ++i[1])
+      {
+        for (i[0] = 0; i[0] <= n[0]; ++i[0])
+        {
+          VertexUse use;
+          use.Patch = patch;
+          use.Element = element;
+          bool border = false;
+          ChartPoint point{ cell.Chart, {} };
+          for (std::size_t d = 0; d < 3; ++d)
+          {
+            use.Local[d] = static_cast<double>(i[d]) / static_cast<double>(n[d]);
+            point.X[d] = cell.Lower[d] + i[d] * (cell.Size[d] >> s[d]);
+            border = border || i[d] == 0 || i[d] == n[d];
+          }
+          use.Vertex = border ? vertices.At(point) : vertices.Add();
+          soup.Uses.push_back(use);
+        }
+      }
+    }
+    const auto at = [&](std::int64_t a, std::int64_t b, std::int64_t c)
+    { return static_cast<int>(first + a + (n[0] + 1) * (b + (n[1] + 1) * c)); };
+    for (std::int64_t c = 0; c < n[2]; ++c)
+    {
+      for (std::int64_t b = 0; b < n[1]; ++b)
+      {
+        for (std::int64_t a = 0; a < n[0]; ++a)
+        {
+          const std::array<int, 8> corners{ at(a, b, c), at(a + 1, b, c), at(a + 1, b + 1, c),
+            at(a, b + 1, c), at(a, b, c + 1), at(a + 1, b, c + 1), at(a + 1, b + 1, c + 1),
+            at(a, b + 1, c + 1) };
+          soup.AddCell(TessellationShape::Hexahedron, corners.data(), 8, patch, element);
+        }
+      }
+    }
+  }
+
+  const std::vector<TessellationPatch<3>>& Patches;
+  const TessellationParams& Params;
+  int NumCharts = 0;
+  std::vector<std::vector<ChartCell<3>>> Cells;
+  GridLevels Levels;
+  std::vector<RimFace> Faces;
+  std::vector<SideMatch> Matches;
+};
+}
+
+Status TessellateVolumes(const std::vector<TessellationPatch<3>>& patches,
+  const TessellationParams& params, TessellationMesh& mesh)
+{
+  VolumeCutter cutter(patches, params);
+  mesh.Bound = cutter.ChooseLevels();
+  if (cutter.CountCells() > 2e8)
+  {
+    return { ErrorCode::TooLarge,
+      "more than 200 million hexahedra; raise the tolerance or lower the maximum subdivision" };
+  }
+  if (params.Progress && !params.Progress(0.1))
+  {
+    return { ErrorCode::Aborted, "" };
+  }
+  VertexTable vertices;
+  CellSoup soup;
+  cutter.Cut(vertices, soup);
+  return FinishTessellation<3>(patches, params, vertices, soup, mesh);
+}
+}

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parts of the tessellation, private to the kernel: dyadic charts, sides that match, vertices.
+#pragma once
+#include "Tessellation.h"
+
+#include <string>
+#include <unordered_map>
+
+namespace knotwork
+{
+/// Chart coordinates: a level-0 cell is 2^ChartBits wide; 24 levels, 10 halvings and a middle point
+/// stay whole numbers.
+inline constexpr int ChartBits = 36;
+
+/// Position of an element on the dyadic grid of its chart. A chart is a patch with a parameter
+/// domain or a single element of a patch without.
+template <int Dim>
+struct ChartCell
+{
+  int Chart = 0;
+  int Level = 0;
+  std::array<std::int64_t, Dim> Lower{};
+  std::array<std::int64_t, Dim> Size{};
+  std::array<bool, Dim> RimLow{};
+  std::array<bool, Dim> RimHigh{};
+};
+
+/// Charts of all elements of all patches, patch after patch; numCharts receives their number.
+template <int Dim>
+std::vector<std::vector<ChartCell<Dim>>> MakeCharts(
+  const std::vector<TessellationPatch<Dim>>& patches, int& numCharts);
+
+/// Disjoint sets; the representative is the smallest member.
+class DisjointSets
+{
+public:
+  int Add();
+  int Find(int a) const;
+  void Unite(int a, int b);
+  int Size() const { return static_cast<int>(this->Parent.size()); }
+
+private:
+  mutable std::vector<int> Parent;
+};
+
+/// A point of a chart.
+struct ChartPoint
+{
+  int Chart = 0;
+  std::array<std::int64_t, 3> X{};
+  bool operator==(const ChartPoint& other) const
+  {
+    return this->Chart == other.Chart && this->X == other.X;
+  }
+};
+
+/// Vertices on the borders of elements, by position.
+class VertexTable
+{
+public:
+  /// Vertex at a position, made when it is new.
+  int At(const ChartPoint& point);
+  /// A vertex that no other element can have.
+  int Add() { return this->Sets.Add(); }
+  DisjointSets Sets;
+
+private:
+  struct Hash
+  {
+    std::size_t operator()(const ChartPoint& p) const;
+  };
+  std::unordered_map<ChartPoint, int, Hash> Map;
+};
+
+/// One of the 8 symmetries of a rectangle of grid points (2 for a chain, where count[1] == 1).
+struct GridSymmetry
+{
+  bool Swap = false;
+  std::array<bool, 2> Reverse{};
+  /// Grid point of the original rectangle (count points a direction) for a canonical point.
+  std::array<std::int64_t, 2> Original(
+    const std::array<std::int64_t, 2>& canonical, const std::array<std::int64_t, 2>& count) const;
+  /// Points a direction of the canonical rectangle.
+  std::array<std::int64_t, 2> Count(const std::array<std::int64_t, 2>& count) const
+  {
+    return this->Swap ? std::array<std::int64_t, 2>{ count[1], count[0] } : count;
+  }
+};
+
+/// Canonical description of a side's control points and the symmetry that leads to it.
+struct SideKey
+{
+  std::string Bytes;
+  GridSymmetry Symmetry;
+};
+
+/// Key from control points: count[0] x count[1] points, first direction fastest, of `width` 8-byte
+/// words each. Two sides have equal bytes exactly when a symmetry carries one onto the other.
+SideKey MakeSideKey(
+  char kind, const std::array<std::int64_t, 2>& count, int width, const std::vector<double>& words);
+
+/// Two sides that are one.
+struct SideMatch
+{
+  int A = 0;
+  int B = 0;
+  GridSymmetry SymmetryA;
+  GridSymmetry SymmetryB;
+};
+
+/// Collects sides and finds those that match.
+class SideMatcher
+{
+public:
+  /// @param points  count points of `planes` values each, point by point; @param ids may be empty.
+  void Add(int side, const std::array<std::int64_t, 2>& count, int planes,
+    const std::vector<double>& points, const std::vector<std::int64_t>& ids);
+  std::vector<SideMatch> Matches;
+
+private:
+  struct First
+  {
+    int Side;
+    GridSymmetry Symmetry;
+  };
+  void Insert(int side, SideKey key);
+  std::unordered_map<std::string, First> Map;
+};
+
+/// An element as the corner of a cell sees it: where a vertex is evaluated.
+struct VertexUse
+{
+  int Vertex = 0;
+  int Patch = 0;
+  int Element = 0;
+  std::array<double, 3> Local{};
+  std::array<int, 2> Tangents{ 0, 1 }; ///< the normal is the product of these derivatives
+  bool Flip = false;                   ///< times -1
+};
+
+/// Cells over vertex uses.
+struct CellSoup
+{
+  std::vector<VertexUse> Uses;
+  std::vector<TessellationShape> Shapes;
+  std::vector<std::int64_t> Offsets{ 0 };
+  std::vector<int> Corners; ///< uses
+  std::vector<int> CellPatch;
+  std::vector<int> CellElement;
+
+  void AddCell(TessellationShape shape, const int* corners, int n, int patch, int element);
+};
+
+/// Evaluates the uses, shares or splits points, drops collapsed polygons.
+template <int Dim>
+Status FinishTessellation(const std::vector<TessellationPatch<Dim>>& patches,
+  const TessellationParams& params, const VertexTable& vertices, const CellSoup& soup,
+  TessellationMesh& mesh);
+
+/// Lines of one-parameter patches.
+Status TessellateCurves(const std::vector<TessellationPatch<1>>& patches,
+  const TessellationParams& params, TessellationMesh& mesh);
+/// Polygons of two-parameter patches, or of the outer faces of three-parameter patches.
+template <int Dim>
+Status TessellateSurfaces(const std::vector<TessellationPatch<Dim>>& patches,
+  const TessellationParams& params, TessellationMesh& mesh);
+/// Hexahedra of three-parameter patches.
+Status TessellateVolumes(const std::vector<TessellationPatch<3>>& patches,
+  const TessellationParams& params, TessellationMesh& mesh);
+
+/// Points of one side of a block: the Bernstein control points with index 0 (end 0) or p (end 1) in
+/// a direction, point by point with all planes; ids likewise. Axes are the other directions in
+/// ascending order; count has the points along them (1 where there is none).
+template <int Dim>
+struct BlockSide
+{
+  std::array<int, 2> Axes{ -1, -1 };
+  std::array<std::int64_t, 2> Count{ 1, 1 };
+  std::vector<double> Points;
+  std::vector<std::int64_t> Ids;
+};
+template <int Dim>
+BlockSide<Dim> ExtractSide(
+  const TessellationPatch<Dim>& patch, int element, int direction, int end);
+}
