@@ -4,11 +4,11 @@
 #include "BezierProjection.h"
 #include "HierarchicalSpace.h"
 #include "Parallel.h"
+#include "PointClusters.h"
 #include "TensorSpace.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <mutex>
 #include <string>
@@ -380,7 +380,8 @@ private:
   /// All sides, edges and corners, and which of them are the same.
   void FindEntities(CompositionResult<Dim>& result)
   {
-    std::map<std::string, std::vector<int>> buckets;
+    this->NumberPoints();
+    std::map<std::vector<int>, std::vector<int>> buckets;
     int numSides = 1;
     for (int d = 0; d < Dim; ++d)
     {
@@ -408,17 +409,13 @@ private:
         const int index = static_cast<int>(this->Entities.size());
         entity.Owner = index;
         // The points of a side as an unordered set: equal sides have equal buckets.
-        std::vector<std::string> points;
+        std::vector<int> bucket;
         for (const auto& [key, function] : TraceFunctions<Dim>(space, entity.Side))
         {
-          points.push_back(this->PointBytes(static_cast<int>(p), function));
+          bucket.push_back(this->NumberOf(entity.Patch, function));
         }
-        std::sort(points.begin(), points.end());
-        std::string bucket(1, static_cast<char>('0' + entity.Free));
-        for (const std::string& bytes : points)
-        {
-          bucket += bytes;
-        }
+        std::sort(bucket.begin(), bucket.end());
+        bucket.push_back(entity.Free);
         std::vector<int>& owners = buckets[bucket];
         for (const int owner : owners)
         {
@@ -438,17 +435,35 @@ private:
     }
   }
 
-  std::string PointBytes(int patch, int function) const
+  /// Number of a control point among all patches, equal where points and weights agree.
+  void NumberPoints()
   {
-    const Spline<Dim>& spline = this->Inner[At(patch)];
-    std::vector<double> values;
-    for (Eigen::Index c = 0; c < spline.ControlPoints.cols(); ++c)
+    int columns = 0;
+    double largest = 1.0;
+    for (const Spline<Dim>& spline : this->Inner)
     {
-      values.push_back(spline.ControlPoints(function, c) + 0.0);
+      columns = std::max(columns, spline.NumComponents());
+      largest = std::max(largest, spline.ControlPoints.cwiseAbs().maxCoeff());
+      largest = std::max(largest, spline.IsRational() ? spline.Weights.maxCoeff() : 1.0);
     }
-    values.push_back(spline.IsRational() ? spline.Weights[function] : 1.0);
-    return { reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double) };
+    PointClusters clusters(columns + 1, largest * PointClusters::RelativeTolerance);
+    for (const Spline<Dim>& spline : this->Inner)
+    {
+      std::vector<int> numbers;
+      std::vector<double> point(At(columns + 1), 0.0);
+      for (Eigen::Index i = 0; i < spline.ControlPoints.rows(); ++i)
+      {
+        for (Eigen::Index c = 0; c < spline.ControlPoints.cols(); ++c)
+        {
+          point[At(c)] = spline.ControlPoints(i, c);
+        }
+        point.back() = spline.IsRational() ? spline.Weights[i] : 1.0;
+        numbers.push_back(clusters.Number(point.data()));
+      }
+      this->Numbers.push_back(std::move(numbers));
+    }
   }
+  int NumberOf(int patch, int function) const { return this->Numbers[At(patch)][At(function)]; }
 
   bool MatchEntities(const Entity<Dim>& owner, Entity<Dim>& entity) const
   {
@@ -469,8 +484,7 @@ private:
       {
         const auto found = functionsB.find(Oriented(it->first, o, knotsB));
         same = found != functionsB.end() &&
-          this->PointBytes(owner.Patch, it->second) ==
-            this->PointBytes(entity.Patch, found->second);
+          this->NumberOf(owner.Patch, it->second) == this->NumberOf(entity.Patch, found->second);
       }
       if (same)
       {
@@ -823,6 +837,7 @@ private:
   const CompositionParams& Params;
   std::vector<SplineSpacePtr<Dim>> Spaces;
   std::vector<Entity<Dim>> Entities;
+  std::vector<std::vector<int>> Numbers; ///< a patch and control point
 };
 }
 

@@ -47,10 +47,11 @@ struct CompositionResult
 ///
 /// Continuity: sides, edges and corners of patches are projected by themselves, from the trace of
 /// the inner spline alone, and overwrite the coefficients there. Sides of two patches whose traces
-/// are equal bit for bit (control points, weights; knots up to an affine change and 1e-9; any
-/// orientation) are projected once for both, and their refinement is mirrored, so shared interfaces
-/// have identical control points. This needs knot vectors with p + 1 equal end knots; other sides
-/// and patches without a parameter domain are projected as a whole and never refined or matched.
+/// agree but for rounding (control points and weights as PointClusters.h says; knots up to an
+/// affine change and 1e-9; any orientation) are projected once for both, and their refinement is
+/// mirrored, so shared interfaces have control points that are equal bit for bit. This needs knot
+/// vectors with p + 1 equal end knots; other sides and patches without a parameter domain are
+/// projected as a whole and never refined or matched.
 /// @return EmptyInput; InvalidParameter; what the inner splines' Check or the outer map return,
 /// with the patch; Aborted. A tolerance that MaxLevel does not allow is no error: read Distances.
 /// @complexity per round: (p + 2)^Dim evaluations of both maps an element.

@@ -6,18 +6,19 @@
 
 namespace knotwork
 {
-Status TessellateCurves(const std::vector<TessellationPatch<1>>& patches,
-  const TessellationParams& params, TessellationMesh& mesh)
+Status TessellateCurves(const std::vector<BezierForm<1>>& patches, const TessellationParams& params,
+  TessellationMesh& mesh)
 {
   int numCharts = 0;
   const auto cells = MakeCharts<1>(patches, numCharts);
   VertexTable vertices;
   CellSoup soup;
-  SideMatcher matcher;
+  const int planes = patches.front().NumComponents + 1;
+  SideMatcher matcher(planes, LargestValue<1>(patches));
   std::vector<ChartPoint> ends;
   for (std::size_t p = 0; p < patches.size(); ++p)
   {
-    const BezierForm<1>& form = patches[p].Geometry;
+    const BezierForm<1>& form = patches[p];
     for (std::size_t e = 0; e < cells[p].size(); ++e)
     {
       const ChartCell<1>& cell = cells[p][e];
@@ -47,18 +48,12 @@ Status TessellateCurves(const std::vector<TessellationPatch<1>>& patches,
       {
         if (end == 0 ? cell.RimLow[0] : cell.RimHigh[0])
         {
-          BlockSide<1> side = ExtractSide<1>(patches[p], static_cast<int>(e), 0, end);
-          if (form.Rational) // a point has no weight
+          BlockSide side = ExtractSide<1>(form, static_cast<int>(e), 0, end);
+          for (double& x : side.Points) // a point has no weight
           {
-            const double w = side.Points.back();
-            side.Points.pop_back();
-            for (double& x : side.Points)
-            {
-              x /= w;
-            }
+            x /= side.Points.back();
           }
-          matcher.Add(
-            static_cast<int>(ends.size()), side.Count, form.NumComponents, side.Points, side.Ids);
+          matcher.Add(static_cast<int>(ends.size()), side.Count, side.Points);
           ends.push_back({ cell.Chart, { cell.Lower[0] + (end == 0 ? 0 : cell.Size[0]), 0, 0 } });
         }
       }

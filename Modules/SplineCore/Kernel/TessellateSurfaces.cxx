@@ -34,8 +34,8 @@ struct Face
   Pair Size{};
   std::array<bool, 4> Rim{}; ///< sides v = 0, u = 1, v = 1, u = 0
   IntArray<2> Degree{};
-  std::vector<double> Points; ///< (p + 1)(q + 1) points with all planes; rims only for surfaces
-  std::vector<std::int64_t> Ids;
+  /// (p + 1)(q + 1) homogeneous points (w x, ..., w); of surfaces only on the rim of a chart.
+  std::vector<double> Points;
   IntArray<2> Halvings{};
 };
 
@@ -70,40 +70,23 @@ std::vector<double> SidePoints(const Face& face, int side, int planes)
   }
   return points;
 }
-std::vector<std::int64_t> SideIds(const Face& face, int side)
-{
-  const int n0 = face.Degree[0] + 1;
-  const int n1 = face.Degree[1] + 1;
-  std::vector<std::int64_t> ids;
-  for (int i = 0; !face.Ids.empty() && i < (SideAxis(side) == 0 ? n0 : n1); ++i)
-  {
-    const int at = side == 0 ? i
-      : side == 2            ? i + n0 * (n1 - 1)
-      : side == 3            ? n0 * i
-                             : n0 * i + n0 - 1;
-    ids.push_back(face.Ids[At(at)]);
-  }
-  return ids;
-}
-
 /// All control points of a side at one place, but for rounding.
-bool IsCollapsed(const std::vector<double>& points, int planes, int components)
+bool IsCollapsed(const std::vector<double>& points, int planes)
 {
   const std::size_t n = points.size() / At(planes);
-  for (int c = 0; c < components; ++c)
+  for (int c = 0; c + 1 < planes; ++c)
   {
     double size = 0.0;
-    double lower = 0.0;
-    double upper = 0.0;
+    double lower = std::numeric_limits<double>::infinity();
+    double upper = -lower;
     for (std::size_t i = 0; i < n; ++i)
     {
-      const double w = planes > components ? points[i * At(planes) + At(components)] : 1.0;
-      const double x = points[i * At(planes) + At(c)] / w;
+      const double x = points[i * At(planes) + At(c)] / points[(i + 1) * At(planes) - 1];
       size = std::max(size, std::abs(x));
-      lower = i == 0 ? x : std::min(lower, x);
-      upper = i == 0 ? x : std::max(upper, x);
+      lower = std::min(lower, x);
+      upper = std::max(upper, x);
     }
-    if (upper - lower > 8.0 * std::numeric_limits<double>::epsilon() * size)
+    if (upper - lower > PointClusters::RelativeTolerance * size)
     {
       return false;
     }
@@ -111,14 +94,13 @@ bool IsCollapsed(const std::vector<double>& points, int planes, int components)
   return true;
 }
 
-std::vector<Face> MakeFaces(const std::vector<TessellationPatch<2>>& patches, int& numCharts)
+std::vector<Face> MakeFaces(const std::vector<BezierForm<2>>& patches, int& numCharts)
 {
   const auto cells = MakeCharts<2>(patches, numCharts);
   std::vector<Face> faces;
   for (std::size_t p = 0; p < patches.size(); ++p)
   {
-    const BezierForm<2>& form = patches[p].Geometry;
-    const int planes = form.NumPlanes();
+    const BezierForm<2>& form = patches[p];
     for (std::size_t e = 0; e < cells[p].size(); ++e)
     {
       const ChartCell<2>& cell = cells[p][e];
@@ -136,16 +118,11 @@ std::vector<Face> MakeFaces(const std::vector<TessellationPatch<2>>& patches, in
         const double* block = form.Block(static_cast<int>(e));
         for (int i = 0; i < n; ++i)
         {
-          for (int c = 0; c < planes; ++c)
+          for (int c = 0; c < form.NumComponents; ++c)
           {
             face.Points.push_back(block[c * n + i]);
           }
-        }
-        if (!patches[p].PointIds.empty())
-        {
-          const auto first =
-            patches[p].PointIds.begin() + static_cast<std::int64_t>(form.Offsets[e] / At(planes));
-          face.Ids.assign(first, first + n);
+          face.Points.push_back(form.Rational ? block[form.NumComponents * n + i] : 1.0);
         }
       }
       faces.push_back(std::move(face));
@@ -155,14 +132,14 @@ std::vector<Face> MakeFaces(const std::vector<TessellationPatch<2>>& patches, in
 }
 
 /// The outer faces: sides on the rim of their chart that match no other side.
-std::vector<Face> MakeFaces(const std::vector<TessellationPatch<3>>& patches, int& numCharts)
+std::vector<Face> MakeFaces(const std::vector<BezierForm<3>>& patches, int& numCharts)
 {
   const auto cells = MakeCharts<3>(patches, numCharts);
   std::vector<Face> faces;
-  SideMatcher matcher;
+  SideMatcher matcher(patches.front().NumComponents + 1, LargestValue<3>(patches));
   for (std::size_t p = 0; p < patches.size(); ++p)
   {
-    const BezierForm<3>& form = patches[p].Geometry;
+    const BezierForm<3>& form = patches[p];
     for (std::size_t e = 0; e < cells[p].size(); ++e)
     {
       const ChartCell<3>& cell = cells[p][e];
@@ -174,7 +151,7 @@ std::vector<Face> MakeFaces(const std::vector<TessellationPatch<3>>& patches, in
           {
             continue;
           }
-          BlockSide<3> side = ExtractSide<3>(patches[p], static_cast<int>(e), d, end);
+          BlockSide side = ExtractSide<3>(form, static_cast<int>(e), d, end);
           Face face;
           face.Patch = static_cast<int>(p);
           face.Element = static_cast<int>(e);
@@ -195,9 +172,7 @@ std::vector<Face> MakeFaces(const std::vector<TessellationPatch<3>>& patches, in
           const std::size_t v = At(side.Axes[1]);
           face.Rim = { cell.RimLow[v], cell.RimHigh[u], cell.RimHigh[v], cell.RimLow[u] };
           face.Points = std::move(side.Points);
-          face.Ids = std::move(side.Ids);
-          matcher.Add(
-            static_cast<int>(faces.size()), side.Count, form.NumPlanes(), face.Points, face.Ids);
+          matcher.Add(static_cast<int>(faces.size()), side.Count, face.Points);
           faces.push_back(std::move(face));
         }
       }
@@ -236,7 +211,7 @@ SecondDerivativeBound<2> FaceBound(const BezierForm<Dim>& form, const Face& face
   {
     for (int c = 0; c < planes; ++c)
     {
-      net[At(c * n + i)] = face.Points[At(i * planes + c)];
+      net[At(c * n + i)] = face.Points[At(i * (form.NumComponents + 1) + c)];
     }
   }
   return BoundSecondDerivatives<2>(face.Degree, form.NumComponents, form.Rational, net.data());
@@ -454,7 +429,7 @@ private:
 }
 
 template <int Dim>
-Status TessellateSurfaces(const std::vector<TessellationPatch<Dim>>& patches,
+Status TessellateSurfaces(const std::vector<BezierForm<Dim>>& patches,
   const TessellationParams& params, TessellationMesh& mesh)
 {
   int numCharts = 0;
@@ -468,8 +443,7 @@ Status TessellateSurfaces(const std::vector<TessellationPatch<Dim>>& patches,
       for (std::size_t f = begin; f < end; ++f)
       {
         Face& face = faces[f];
-        const SecondDerivativeBound<2> bound =
-          FaceBound<Dim>(patches[At(face.Patch)].Geometry, face);
+        const SecondDerivativeBound<2> bound = FaceBound<Dim>(patches[At(face.Patch)], face);
         face.Halvings = HalvingsForTolerance<2>(bound, params.Tolerance, params.MaximumSubdivision);
         bounds[f] = ChordalBound<2>(bound, face.Halvings);
       }
@@ -502,21 +476,20 @@ Status TessellateSurfaces(const std::vector<TessellationPatch<Dim>>& patches,
   }
   lines.Sort();
 
-  SideMatcher matcher;
+  const int planes = patches.front().NumComponents + 1;
+  SideMatcher matcher(planes, LargestValue<Dim>(patches));
   std::vector<int> collapsed;
   for (std::size_t f = 0; f < faces.size(); ++f)
   {
     const Face& face = faces[f];
-    const BezierForm<Dim>& form = patches[At(face.Patch)].Geometry;
     for (int side = 0; side < 4; ++side)
     {
       if (face.Rim[At(side)])
       {
-        const std::vector<double> points = SidePoints(face, side, form.NumPlanes());
+        const std::vector<double> points = SidePoints(face, side, planes);
         const int id = static_cast<int>(4 * f) + side;
-        matcher.Add(id, { face.Degree[At(SideAxis(side))] + 1, 1 }, form.NumPlanes(), points,
-          SideIds(face, side));
-        if (IsCollapsed(points, form.NumPlanes(), form.NumComponents))
+        matcher.Add(id, { face.Degree[At(SideAxis(side))] + 1, 1 }, points);
+        if (IsCollapsed(points, planes))
         {
           collapsed.push_back(id);
         }
@@ -578,7 +551,7 @@ Status TessellateSurfaces(const std::vector<TessellationPatch<Dim>>& patches,
 }
 
 template Status TessellateSurfaces<2>(
-  const std::vector<TessellationPatch<2>>&, const TessellationParams&, TessellationMesh&);
+  const std::vector<BezierForm<2>>&, const TessellationParams&, TessellationMesh&);
 template Status TessellateSurfaces<3>(
-  const std::vector<TessellationPatch<3>>&, const TessellationParams&, TessellationMesh&);
+  const std::vector<BezierForm<3>>&, const TessellationParams&, TessellationMesh&);
 }

@@ -31,7 +31,7 @@ using GridLevels = std::vector<std::array<int, 3>>;
 class VolumeCutter
 {
 public:
-  VolumeCutter(const std::vector<TessellationPatch<3>>& patches, const TessellationParams& params)
+  VolumeCutter(const std::vector<BezierForm<3>>& patches, const TessellationParams& params)
     : Patches(patches), Params(params)
   {
     this->Cells = MakeCharts<3>(patches, this->NumCharts);
@@ -43,7 +43,7 @@ public:
     std::vector<std::vector<SecondDerivativeBound<3>>> bounds(this->Patches.size());
     for (std::size_t p = 0; p < this->Patches.size(); ++p)
     {
-      const BezierForm<3>& form = this->Patches[p].Geometry;
+      const BezierForm<3>& form = this->Patches[p];
       bounds[p].resize(this->Cells[p].size());
       ParallelFor(bounds[p].size(), 16, this->Params.Threads,
         [&](std::size_t begin, std::size_t end)
@@ -166,7 +166,7 @@ private:
   /// ends a model whose hierarchies contradict each other; such faces stay apart.
   void MatchFaces()
   {
-    SideMatcher matcher;
+    SideMatcher matcher(this->Patches.front().NumComponents + 1, LargestValue<3>(this->Patches));
     for (std::size_t p = 0; p < this->Cells.size(); ++p)
     {
       for (std::size_t e = 0; e < this->Cells[p].size(); ++e)
@@ -178,10 +178,8 @@ private:
           const int end = side % 2;
           if (end == 0 ? cell.RimLow[At(d)] : cell.RimHigh[At(d)])
           {
-            const BlockSide<3> block =
-              ExtractSide<3>(this->Patches[p], static_cast<int>(e), d, end);
-            matcher.Add(static_cast<int>(this->Faces.size()), block.Count,
-              this->Patches[p].Geometry.NumPlanes(), block.Points, block.Ids);
+            const BlockSide block = ExtractSide<3>(this->Patches[p], static_cast<int>(e), d, end);
+            matcher.Add(static_cast<int>(this->Faces.size()), block.Count, block.Points);
             this->Faces.push_back({ static_cast<int>(p), static_cast<int>(e), d, end, block.Axes });
           }
         }
@@ -269,7 +267,7 @@ private:
     }
   }
 
-  const std::vector<TessellationPatch<3>>& Patches;
+  const std::vector<BezierForm<3>>& Patches;
   const TessellationParams& Params;
   int NumCharts = 0;
   std::vector<std::vector<ChartCell<3>>> Cells;
@@ -279,7 +277,7 @@ private:
 };
 }
 
-Status TessellateVolumes(const std::vector<TessellationPatch<3>>& patches,
+Status TessellateVolumes(const std::vector<BezierForm<3>>& patches,
   const TessellationParams& params, TessellationMesh& mesh)
 {
   VolumeCutter cutter(patches, params);

@@ -16,17 +16,12 @@ std::size_t At(std::int64_t i)
 }
 
 template <int Dim>
-Status CheckPatch(const TessellationPatch<Dim>& patch, std::size_t index)
+Status CheckPatch(const BezierForm<Dim>& form, std::size_t index)
 {
-  const BezierForm<Dim>& form = patch.Geometry;
   const std::string name = "patch " + std::to_string(index);
   if (!form.Space || form.Offsets.size() != form.Space->Elements.size() + 1)
   {
     return { ErrorCode::SizeMismatch, name + " has no Bezier form of its space" };
-  }
-  if (!patch.PointIds.empty() && patch.PointIds.size() * At(form.NumPlanes()) != form.Data.size())
-  {
-    return { ErrorCode::SizeMismatch, name + " needs one point id for each control point" };
   }
   for (int e = 0; e < form.Space->NumElements(); ++e)
   {
@@ -95,11 +90,11 @@ bool NormalOf(const EvaluationBatch& batch, Eigen::Index i, const VertexUse& use
 }
 
 template <int Dim>
-Status FinishTessellation(const std::vector<TessellationPatch<Dim>>& patches,
+Status FinishTessellation(const std::vector<BezierForm<Dim>>& patches,
   const TessellationParams& params, const VertexTable& vertices, const CellSoup& soup,
   TessellationMesh& mesh)
 {
-  const int components = patches.front().Geometry.NumComponents;
+  const int components = patches.front().NumComponents;
   const bool polygons = Dim == 2 || (Dim == 3 && params.Output == TessellationOutput::Surface);
   const bool normals = params.Normals && polygons && (components == 2 || components == 3);
 
@@ -131,7 +126,7 @@ Status FinishTessellation(const std::vector<TessellationPatch<Dim>>& patches,
       }
     }
     EvaluationBatch batch;
-    const BezierForm<Dim>& form = patches[p].Geometry;
+    const BezierForm<Dim>& form = patches[p];
     Status status = EvaluateUses<Dim>(form, uses, 0.0, normals ? 1 : 0, params.Threads, batch);
     if (!status)
     {
@@ -299,7 +294,7 @@ Status FinishTessellation(const std::vector<TessellationPatch<Dim>>& patches,
 
 template <int Dim>
 Result<TessellationMesh> Tessellate(
-  const std::vector<TessellationPatch<Dim>>& patches, const TessellationParams& params)
+  const std::vector<BezierForm<Dim>>& patches, const TessellationParams& params)
 {
   if (!(params.Tolerance > 0.0) || !std::isfinite(params.Tolerance))
   {
@@ -317,8 +312,8 @@ Result<TessellationMesh> Tessellate(
     {
       return status;
     }
-    elements += patches[p].Geometry.Space->NumElements();
-    if (patches[p].Geometry.NumComponents != patches[0].Geometry.NumComponents)
+    elements += patches[p].Space->NumElements();
+    if (patches[p].NumComponents != patches[0].NumComponents)
     {
       return { ErrorCode::SizeMismatch, "patches with different numbers of components" };
     }
@@ -350,16 +345,16 @@ Result<TessellationMesh> Tessellate(
   return mesh;
 }
 
-template Status FinishTessellation<1>(const std::vector<TessellationPatch<1>>&,
-  const TessellationParams&, const VertexTable&, const CellSoup&, TessellationMesh&);
-template Status FinishTessellation<2>(const std::vector<TessellationPatch<2>>&,
-  const TessellationParams&, const VertexTable&, const CellSoup&, TessellationMesh&);
-template Status FinishTessellation<3>(const std::vector<TessellationPatch<3>>&,
-  const TessellationParams&, const VertexTable&, const CellSoup&, TessellationMesh&);
+template Status FinishTessellation<1>(const std::vector<BezierForm<1>>&, const TessellationParams&,
+  const VertexTable&, const CellSoup&, TessellationMesh&);
+template Status FinishTessellation<2>(const std::vector<BezierForm<2>>&, const TessellationParams&,
+  const VertexTable&, const CellSoup&, TessellationMesh&);
+template Status FinishTessellation<3>(const std::vector<BezierForm<3>>&, const TessellationParams&,
+  const VertexTable&, const CellSoup&, TessellationMesh&);
 template Result<TessellationMesh> Tessellate<1>(
-  const std::vector<TessellationPatch<1>>&, const TessellationParams&);
+  const std::vector<BezierForm<1>>&, const TessellationParams&);
 template Result<TessellationMesh> Tessellate<2>(
-  const std::vector<TessellationPatch<2>>&, const TessellationParams&);
+  const std::vector<BezierForm<2>>&, const TessellationParams&);
 template Result<TessellationMesh> Tessellate<3>(
-  const std::vector<TessellationPatch<3>>&, const TessellationParams&);
+  const std::vector<BezierForm<3>>&, const TessellationParams&);
 }

@@ -7,16 +7,6 @@
 
 namespace knotwork
 {
-/// One patch of a tessellation.
-template <int Dim>
-struct TessellationPatch
-{
-  BezierForm<Dim> Geometry; ///< 1..3 components
-  /// Empty, or an id for every Bernstein control point (element by element, first parameter
-  /// fastest): equal ids mean the same point of the model.
-  std::vector<std::int64_t> PointIds;
-};
-
 /// What becomes of a patch with three parameters.
 enum class TessellationOutput
 {
@@ -75,15 +65,16 @@ struct TessellationMesh
 /// Polygon cells with further vertices on their sides are split into triangles around a middle
 /// point. Hexahedra are cut on one uniform grid a patch (its finest element decides).
 ///
-/// Sides of elements on the rim of patches are the same side when all their point ids agree, or all
-/// their homogeneous control points bit for bit, in either orientation; a side whose control points
+/// Sides of elements on the rim of patches are the same side when their homogeneous control points
+/// agree in either orientation but for rounding (PointClusters.h); a side whose control points
 /// coincide is one vertex. Patches whose elements do not match side by side are not connected there
-/// (the gap is below twice the tolerance). Faces of solids that match are interior and do not
+/// (the gap is at most twice the tolerance). Faces of solids that match are interior and do not
 /// appear on the surface.
+/// @param patches  Bezier forms with the same number of components.
 /// @return EmptyInput without elements; InvalidParameter; NonFiniteInput, InvalidWeight with patch
 /// and element; SizeMismatch; TooLarge above 2^31 - 1 points; Aborted.
 /// @complexity linear in the output, sorting of the elements' rims apart.
 template <int Dim>
 Result<TessellationMesh> Tessellate(
-  const std::vector<TessellationPatch<Dim>>& patches, const TessellationParams& params = {});
+  const std::vector<BezierForm<Dim>>& patches, const TessellationParams& params = {});
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace knotwork
 {
@@ -17,13 +16,13 @@ std::size_t At(std::int64_t i)
 
 template <int Dim>
 std::vector<std::vector<ChartCell<Dim>>> MakeCharts(
-  const std::vector<TessellationPatch<Dim>>& patches, int& numCharts)
+  const std::vector<BezierForm<Dim>>& patches, int& numCharts)
 {
   std::vector<std::vector<ChartCell<Dim>>> cells(patches.size());
   numCharts = 0;
   for (std::size_t p = 0; p < patches.size(); ++p)
   {
-    const SplineSpace<Dim>& space = *patches[p].Geometry.Space;
+    const SplineSpace<Dim>& space = *patches[p].Space;
     cells[p].resize(space.Elements.size());
     for (std::size_t e = 0; e < space.Elements.size(); ++e)
     {
@@ -123,8 +122,7 @@ std::array<std::int64_t, 2> GridSymmetry::Original(
   return a;
 }
 
-SideKey MakeSideKey(
-  char kind, const std::array<std::int64_t, 2>& count, int width, const std::vector<double>& words)
+SideKey MakeSideKey(const std::array<std::int64_t, 2>& count, const std::vector<int>& numbers)
 {
   SideKey best;
   const int symmetries = count[1] == 1 ? 2 : 8;
@@ -134,19 +132,16 @@ SideKey MakeSideKey(
     symmetry.Reverse = { (s & 1) != 0, (s & 2) != 0 };
     symmetry.Swap = (s & 4) != 0;
     const std::array<std::int64_t, 2> size = symmetry.Count(count);
-    std::vector<double> ordered{ static_cast<double>(size[0]), static_cast<double>(size[1]) };
-    ordered.reserve(words.size() + 2);
+    std::vector<int> ordered{ static_cast<int>(size[0]), static_cast<int>(size[1]) };
     for (std::int64_t j = 0; j < size[1]; ++j)
     {
       for (std::int64_t i = 0; i < size[0]; ++i)
       {
         const auto at = symmetry.Original({ i, j }, count);
-        const double* from = words.data() + (at[0] + count[0] * at[1]) * width;
-        ordered.insert(ordered.end(), from, from + width);
+        ordered.push_back(numbers[At(at[0] + count[0] * at[1])]);
       }
     }
-    std::string bytes(1, kind);
-    bytes.append(reinterpret_cast<const char*>(ordered.data()), ordered.size() * sizeof(double));
+    std::string bytes(reinterpret_cast<const char*>(ordered.data()), ordered.size() * sizeof(int));
     if (s == 0 || bytes < best.Bytes)
     {
       best = { std::move(bytes), symmetry };
@@ -155,30 +150,34 @@ SideKey MakeSideKey(
   return best;
 }
 
-void SideMatcher::Add(int side, const std::array<std::int64_t, 2>& count, int planes,
-  const std::vector<double>& points, const std::vector<std::int64_t>& ids)
+void SideMatcher::Add(
+  int side, const std::array<std::int64_t, 2>& count, const std::vector<double>& points)
 {
-  std::vector<double> words(points);
-  for (double& x : words)
+  std::vector<int> numbers;
+  for (std::size_t i = 0; i < points.size(); i += At(this->Planes))
   {
-    x += 0.0; // -0 and 0 are one
+    numbers.push_back(this->Clusters.Number(points.data() + i));
   }
-  this->Insert(side, MakeSideKey('p', count, planes, words));
-  if (!ids.empty())
-  {
-    words.resize(ids.size());
-    std::memcpy(words.data(), ids.data(), ids.size() * sizeof(double));
-    this->Insert(side, MakeSideKey('i', count, 1, words));
-  }
-}
-
-void SideMatcher::Insert(int side, SideKey key)
-{
+  SideKey key = MakeSideKey(count, numbers);
   const auto [found, isNew] = this->Map.emplace(std::move(key.Bytes), First{ side, key.Symmetry });
   if (!isNew && found->second.Side != side)
   {
     this->Matches.push_back({ found->second.Side, side, found->second.Symmetry, key.Symmetry });
   }
+}
+
+template <int Dim>
+double LargestValue(const std::vector<BezierForm<Dim>>& patches)
+{
+  double largest = 1.0; // the weights of polynomial patches
+  for (const BezierForm<Dim>& form : patches)
+  {
+    for (const double x : form.Data)
+    {
+      largest = std::max(largest, std::abs(x));
+    }
+  }
+  return largest;
 }
 
 void CellSoup::AddCell(TessellationShape shape, const int* corners, int n, int patch, int element)
@@ -191,13 +190,11 @@ void CellSoup::AddCell(TessellationShape shape, const int* corners, int n, int p
 }
 
 template <int Dim>
-BlockSide<Dim> ExtractSide(const TessellationPatch<Dim>& patch, int element, int direction, int end)
+BlockSide ExtractSide(const BezierForm<Dim>& form, int element, int direction, int end)
 {
-  const BezierForm<Dim>& form = patch.Geometry;
   const IntArray<Dim>& degree = form.Space->Elements[At(element)].Degree;
   const int n = NumTensorFunctions<Dim>(degree);
-  const int planes = form.NumPlanes();
-  BlockSide<Dim> side;
+  BlockSide side;
   std::array<int, 3> stride{ 1, 1, 1 };
   int axis = 0;
   for (int d = 0, s = 1; d < Dim; ++d)
@@ -212,7 +209,6 @@ BlockSide<Dim> ExtractSide(const TessellationPatch<Dim>& patch, int element, int
     }
   }
   const int base = end == 0 ? 0 : stride[At(direction)] * degree[At(direction)];
-  const std::size_t firstId = form.Offsets[At(element)] / At(planes);
   const double* block = form.Block(element);
   for (std::int64_t j = 0; j < side.Count[1]; ++j)
   {
@@ -221,26 +217,26 @@ BlockSide<Dim> ExtractSide(const TessellationPatch<Dim>& patch, int element, int
       std::int64_t at = base;
       at += side.Axes[0] < 0 ? 0 : i * stride[At(side.Axes[0])];
       at += side.Axes[1] < 0 ? 0 : j * stride[At(side.Axes[1])];
-      for (int c = 0; c < planes; ++c)
+      for (int c = 0; c < form.NumComponents; ++c)
       {
         side.Points.push_back(block[c * n + at]);
       }
-      if (!patch.PointIds.empty())
-      {
-        side.Ids.push_back(patch.PointIds[firstId + At(at)]);
-      }
+      side.Points.push_back(form.Rational ? block[form.NumComponents * n + at] : 1.0);
     }
   }
   return side;
 }
 
 template std::vector<std::vector<ChartCell<1>>> MakeCharts<1>(
-  const std::vector<TessellationPatch<1>>&, int&);
+  const std::vector<BezierForm<1>>&, int&);
 template std::vector<std::vector<ChartCell<2>>> MakeCharts<2>(
-  const std::vector<TessellationPatch<2>>&, int&);
+  const std::vector<BezierForm<2>>&, int&);
 template std::vector<std::vector<ChartCell<3>>> MakeCharts<3>(
-  const std::vector<TessellationPatch<3>>&, int&);
-template BlockSide<1> ExtractSide<1>(const TessellationPatch<1>&, int, int, int);
-template BlockSide<2> ExtractSide<2>(const TessellationPatch<2>&, int, int, int);
-template BlockSide<3> ExtractSide<3>(const TessellationPatch<3>&, int, int, int);
+  const std::vector<BezierForm<3>>&, int&);
+template double LargestValue<1>(const std::vector<BezierForm<1>>&);
+template double LargestValue<2>(const std::vector<BezierForm<2>>&);
+template double LargestValue<3>(const std::vector<BezierForm<3>>&);
+template BlockSide ExtractSide<1>(const BezierForm<1>&, int, int, int);
+template BlockSide ExtractSide<2>(const BezierForm<2>&, int, int, int);
+template BlockSide ExtractSide<3>(const BezierForm<3>&, int, int, int);
 }

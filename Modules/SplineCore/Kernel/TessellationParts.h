@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Parts of the tessellation, private to the kernel: dyadic charts, sides that match, vertices.
 #pragma once
+#include "PointClusters.h"
 #include "Tessellation.h"
 
 #include <string>
@@ -28,7 +29,7 @@ struct ChartCell
 /// Charts of all elements of all patches, patch after patch; numCharts receives their number.
 template <int Dim>
 std::vector<std::vector<ChartCell<Dim>>> MakeCharts(
-  const std::vector<TessellationPatch<Dim>>& patches, int& numCharts);
+  const std::vector<BezierForm<Dim>>& patches, int& numCharts);
 
 /// Disjoint sets; the representative is the smallest member.
 class DisjointSets
@@ -94,10 +95,9 @@ struct SideKey
   GridSymmetry Symmetry;
 };
 
-/// Key from control points: count[0] x count[1] points, first direction fastest, of `width` 8-byte
-/// words each. Two sides have equal bytes exactly when a symmetry carries one onto the other.
-SideKey MakeSideKey(
-  char kind, const std::array<std::int64_t, 2>& count, int width, const std::vector<double>& words);
+/// Key from numbers of control points: count[0] x count[1] of them, first direction fastest. Two
+/// sides have equal bytes exactly when a symmetry carries one onto the other.
+SideKey MakeSideKey(const std::array<std::int64_t, 2>& count, const std::vector<int>& numbers);
 
 /// Two sides that are one.
 struct SideMatch
@@ -112,9 +112,13 @@ struct SideMatch
 class SideMatcher
 {
 public:
-  /// @param points  count points of `planes` values each, point by point; @param ids may be empty.
-  void Add(int side, const std::array<std::int64_t, 2>& count, int planes,
-    const std::vector<double>& points, const std::vector<std::int64_t>& ids);
+  /// @param largest  magnitude of the largest value that points will have.
+  SideMatcher(int planes, double largest)
+    : Planes(planes), Clusters(planes, largest * PointClusters::RelativeTolerance)
+  {
+  }
+  /// @param points  count points of `planes` values each, point by point.
+  void Add(int side, const std::array<std::int64_t, 2>& count, const std::vector<double>& points);
   std::vector<SideMatch> Matches;
 
 private:
@@ -123,9 +127,14 @@ private:
     int Side;
     GridSymmetry Symmetry;
   };
-  void Insert(int side, SideKey key);
+  int Planes;
+  PointClusters Clusters;
   std::unordered_map<std::string, First> Map;
 };
+
+/// Largest magnitude in the data of all patches.
+template <int Dim>
+double LargestValue(const std::vector<BezierForm<Dim>>& patches);
 
 /// An element as the corner of a cell sees it: where a vertex is evaluated.
 struct VertexUse
@@ -153,33 +162,30 @@ struct CellSoup
 
 /// Evaluates the uses, shares or splits points, drops collapsed polygons.
 template <int Dim>
-Status FinishTessellation(const std::vector<TessellationPatch<Dim>>& patches,
+Status FinishTessellation(const std::vector<BezierForm<Dim>>& patches,
   const TessellationParams& params, const VertexTable& vertices, const CellSoup& soup,
   TessellationMesh& mesh);
 
 /// Lines of one-parameter patches.
-Status TessellateCurves(const std::vector<TessellationPatch<1>>& patches,
-  const TessellationParams& params, TessellationMesh& mesh);
+Status TessellateCurves(const std::vector<BezierForm<1>>& patches, const TessellationParams& params,
+  TessellationMesh& mesh);
 /// Polygons of two-parameter patches, or of the outer faces of three-parameter patches.
 template <int Dim>
-Status TessellateSurfaces(const std::vector<TessellationPatch<Dim>>& patches,
+Status TessellateSurfaces(const std::vector<BezierForm<Dim>>& patches,
   const TessellationParams& params, TessellationMesh& mesh);
 /// Hexahedra of three-parameter patches.
-Status TessellateVolumes(const std::vector<TessellationPatch<3>>& patches,
+Status TessellateVolumes(const std::vector<BezierForm<3>>& patches,
   const TessellationParams& params, TessellationMesh& mesh);
 
 /// Points of one side of a block: the Bernstein control points with index 0 (end 0) or p (end 1) in
-/// a direction, point by point with all planes; ids likewise. Axes are the other directions in
-/// ascending order; count has the points along them (1 where there is none).
-template <int Dim>
+/// a direction, point by point (w x, ..., w), w = 1 when polynomial. Axes are the other directions
+/// in ascending order; count has the points along them (1 where there is none).
 struct BlockSide
 {
   std::array<int, 2> Axes{ -1, -1 };
   std::array<std::int64_t, 2> Count{ 1, 1 };
   std::vector<double> Points;
-  std::vector<std::int64_t> Ids;
 };
 template <int Dim>
-BlockSide<Dim> ExtractSide(
-  const TessellationPatch<Dim>& patch, int element, int direction, int end);
+BlockSide ExtractSide(const BezierForm<Dim>& form, int element, int direction, int end);
 }
