@@ -15,50 +15,25 @@ std::size_t At(int i)
   return static_cast<std::size_t>(i);
 }
 
-/// Coefficients of one plane and of its first and second derivatives. A derivative that vanishes
-/// (degree too low) is empty.
-template <int K>
-struct Jet
-{
-  std::vector<double> Value;
-  std::array<std::vector<double>, static_cast<std::size_t>(K)> First;
-  std::array<std::vector<double>, static_cast<std::size_t>(K* K)> Second; // e >= d
-};
+using Coefficients = std::vector<double>;
 
 template <int K>
-Jet<K> MakeJet(const IntArray<K>& degree, std::vector<double> plane)
+IntArray<K> Lowered(IntArray<K> degree, int direction)
 {
-  Jet<K> jet;
-  for (int d = 0; d < K; ++d)
-  {
-    jet.First[At(d)] = BernsteinDerivative<K>(degree, plane, d);
-    IntArray<K> lower = degree;
-    --lower[At(d)];
-    for (int e = d; e < K; ++e)
-    {
-      if (lower[At(e)] > 0)
-      {
-        jet.Second[At(d * K + e)] = BernsteinDerivative<K>(lower, jet.First[At(d)], e);
-      }
-    }
-  }
-  jet.Value = std::move(plane);
-  return jet;
+  --degree[At(direction)];
+  return degree;
 }
 
-/// Largest norm over the coefficients of vectors whose components are given plane by plane.
-template <typename Select>
-double LargestNorm(int numComponents, const Select& select)
+/// Largest norm over the coefficients of vectors given component by component.
+double LargestNorm(const std::vector<Coefficients>& components)
 {
   double largest = 0.0;
-  const std::size_t n = select(0).size();
-  for (std::size_t i = 0; i < n; ++i)
+  for (std::size_t i = 0; i < components.front().size(); ++i)
   {
     double sum = 0.0;
-    for (int c = 0; c < numComponents; ++c)
+    for (const Coefficients& component : components)
     {
-      const double x = select(c)[i];
-      sum += x * x;
+      sum += component[i] * component[i];
     }
     largest = std::max(largest, sum);
   }
@@ -67,89 +42,92 @@ double LargestNorm(int numComponents, const Select& select)
 
 template <int K>
 SecondDerivativeBound<K> PolynomialBound(
-  const IntArray<K>& degree, int numComponents, const double* net)
+  const IntArray<K>& degree, const std::vector<Coefficients>& components)
 {
-  const std::size_t n = At(NumTensorFunctions<K>(degree));
-  std::vector<Jet<K>> jets;
-  for (int c = 0; c < numComponents; ++c)
-  {
-    jets.push_back(MakeJet<K>(degree, { net + At(c) * n, net + At(c + 1) * n }));
-  }
   SecondDerivativeBound<K> bound{};
   for (int d = 0; d < K; ++d)
   {
+    const IntArray<K> once = Lowered<K>(degree, d);
     for (int e = d; e < K; ++e)
     {
-      bound[At(d * K + e)] = bound[At(e * K + d)] = LargestNorm(numComponents,
-        [&](int c) -> const std::vector<double>& { return jets[At(c)].Second[At(d * K + e)]; });
+      if (once[At(e)] == 0)
+      {
+        continue; // linear in this direction
+      }
+      std::vector<Coefficients> second;
+      for (const Coefficients& component : components)
+      {
+        second.push_back(
+          BernsteinDerivative<K>(once, BernsteinDerivative<K>(degree, component, d), e));
+      }
+      bound[At(d * K + e)] = bound[At(e * K + d)] = LargestNorm(second);
     }
   }
   return bound;
 }
 
-/// The rational bound on the element given by homogeneous planes.
+/// a - factor * b.
+Coefficients Subtract(Coefficients a, double factor, const Coefficients& b)
+{
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    a[i] -= factor * b[i];
+  }
+  return a;
+}
+
+/// The rational bound on the element given by homogeneous components and the weight.
 template <int K>
 SecondDerivativeBound<K> RationalBound(
-  const IntArray<K>& degree, int numComponents, const std::vector<std::vector<double>>& planes)
+  const IntArray<K>& degree, std::vector<Coefficients> components, const Coefficients& w)
 {
-  const std::vector<double>& w = planes[At(numComponents)];
-  const std::size_t n = w.size();
   const double smallest = *std::min_element(w.begin(), w.end());
-  // Centre of the control points' box, so that translations do not loosen the bound.
-  std::vector<Jet<K>> jets;
-  std::vector<double> square(n, 0.0);
-  for (int c = 0; c < numComponents; ++c)
+  for (Coefficients& a : components) // translations do not change derivatives, only rounding
   {
-    std::vector<double> plane = planes[At(c)];
-    double lower = plane[0] / w[0];
-    double upper = lower;
-    for (std::size_t i = 1; i < n; ++i)
-    {
-      lower = std::min(lower, plane[i] / w[i]);
-      upper = std::max(upper, plane[i] / w[i]);
-    }
-    const double centre = 0.5 * (lower + upper);
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      plane[i] -= centre * w[i];
-      square[i] += plane[i] / w[i] * (plane[i] / w[i]);
-    }
-    jets.push_back(MakeJet<K>(degree, std::move(plane)));
-  }
-  const double radius = std::sqrt(*std::max_element(square.begin(), square.end()));
-  const Jet<K> weight = MakeJet<K>(degree, w);
-  const auto scalar = [](const std::vector<double>& values)
-  {
-    double largest = 0.0;
-    for (double x : values)
-    {
-      largest = std::max(largest, std::abs(x));
-    }
-    return largest;
-  };
-  std::array<double, static_cast<std::size_t>(K)> weightFirst{};
-  std::array<double, static_cast<std::size_t>(K)> first{};
-  for (int d = 0; d < K; ++d)
-  {
-    weightFirst[At(d)] = scalar(weight.First[At(d)]);
-    const double numerator = LargestNorm(
-      numComponents, [&](int c) -> const std::vector<double>& { return jets[At(c)].First[At(d)]; });
-    first[At(d)] = (numerator + radius * weightFirst[At(d)]) / smallest;
+    a = Subtract(std::move(a), a[0] / w[0], w);
   }
   SecondDerivativeBound<K> bound{};
   for (int d = 0; d < K; ++d)
   {
+    const IntArray<K> once = Lowered<K>(degree, d);
+    const Coefficients wd = BernsteinDerivative<K>(degree, w, d);
+    // First derivatives n / w^2.
+    IntArray<K> firstDegree;
+    for (int k = 0; k < K; ++k)
+    {
+      firstDegree[At(k)] = degree[At(k)] + once[At(k)];
+    }
+    std::vector<Coefficients> first;
+    for (const Coefficients& a : components)
+    {
+      first.push_back(
+        Subtract(BernsteinProduct<K>(once, BernsteinDerivative<K>(degree, a, d), degree, w), 1.0,
+          BernsteinProduct<K>(degree, a, once, wd)));
+    }
     for (int e = d; e < K; ++e)
     {
-      const double numerator = LargestNorm(numComponents,
-        [&](int c) -> const std::vector<double>& { return jets[At(c)].Second[At(d * K + e)]; });
+      const IntArray<K> lowered = Lowered<K>(degree, e);
+      const Coefficients we = BernsteinDerivative<K>(degree, w, e);
+      std::vector<Coefficients> second;
+      for (const Coefficients& n : first)
+      {
+        second.push_back(Subtract(BernsteinProduct<K>(Lowered<K>(firstDegree, e),
+                                    BernsteinDerivative<K>(firstDegree, n, e), degree, w),
+          2.0, BernsteinProduct<K>(firstDegree, n, lowered, we)));
+      }
       bound[At(d * K + e)] = bound[At(e * K + d)] =
-        (numerator + first[At(d)] * weightFirst[At(e)] + first[At(e)] * weightFirst[At(d)] +
-          radius * scalar(weight.Second[At(d * K + e)])) /
-        smallest;
+        LargestNorm(second) / (smallest * smallest * smallest);
     }
   }
   return bound;
+}
+
+/// Whether a plane varies in a direction.
+template <int K>
+bool Varies(const IntArray<K>& degree, const Coefficients& plane, int direction)
+{
+  const Coefficients slope = BernsteinDerivative<K>(degree, plane, direction);
+  return std::any_of(slope.begin(), slope.end(), [](double x) { return x != 0.0; });
 }
 }
 
@@ -157,30 +135,55 @@ template <int K>
 SecondDerivativeBound<K> BoundSecondDerivatives(
   const IntArray<K>& degree, int numComponents, bool rational, const double* net)
 {
+  const std::size_t n = At(NumTensorFunctions<K>(degree));
+  std::vector<Coefficients> components;
+  for (int c = 0; c < numComponents; ++c)
+  {
+    components.emplace_back(net + At(c) * n, net + At(c + 1) * n);
+  }
   if (!rational)
   {
-    return PolynomialBound<K>(degree, numComponents, net);
+    return PolynomialBound<K>(degree, components);
   }
-  const std::size_t n = At(NumTensorFunctions<K>(degree));
+  const Coefficients weight(net + At(numComponents) * n, net + At(numComponents + 1) * n);
+  std::array<bool, static_cast<std::size_t>(K)> split{};
+  for (int d = 0; d < K; ++d)
+  {
+    split[At(d)] = Varies<K>(degree, weight, d);
+  }
   SecondDerivativeBound<K> bound{};
   for (int part = 0; part < (1 << K); ++part)
   {
-    std::vector<std::vector<double>> planes;
-    for (int c = 0; c <= numComponents; ++c)
+    std::vector<Coefficients> planes = components;
+    planes.push_back(weight);
+    bool isNew = true;
+    for (int d = 0; d < K; ++d)
     {
-      std::vector<double> plane(net + At(c) * n, net + At(c + 1) * n);
-      for (int d = 0; d < K; ++d)
+      const bool upper = ((part >> d) & 1) != 0;
+      isNew = isNew && (split[At(d)] || !upper);
+      for (Coefficients& plane : planes)
       {
-        const bool upper = ((part >> d) & 1) != 0;
-        plane = BernsteinRestrict<K>(degree, plane, d, upper ? 0.5 : 0.0, upper ? 1.0 : 0.5);
+        if (split[At(d)])
+        {
+          plane = BernsteinRestrict<K>(degree, plane, d, upper ? 0.5 : 0.0, upper ? 1.0 : 0.5);
+        }
       }
-      planes.push_back(std::move(plane));
     }
-    // The derivatives are with respect to a parameter that runs twice as fast: 2 * 2.
-    const SecondDerivativeBound<K> half = RationalBound<K>(degree, numComponents, planes);
-    for (std::size_t i = 0; i < bound.size(); ++i)
+    if (!isNew)
     {
-      bound[i] = std::max(bound[i], 4.0 * half[i]);
+      continue;
+    }
+    const Coefficients w = planes.back();
+    planes.pop_back();
+    const SecondDerivativeBound<K> half = RationalBound<K>(degree, std::move(planes), w);
+    for (int d = 0; d < K; ++d)
+    {
+      for (int e = 0; e < K; ++e)
+      {
+        // Local parameters of a half run twice as fast.
+        const double scale = (split[At(d)] ? 2.0 : 1.0) * (split[At(e)] ? 2.0 : 1.0);
+        bound[At(d * K + e)] = std::max(bound[At(d * K + e)], scale * half[At(d * K + e)]);
+      }
     }
   }
   return bound;

@@ -14,11 +14,11 @@
 /// So every linear cell with corners on the map is nearer than
 ///     1/8 sum_de M_de h_d h_e.
 /// For polynomials M_de is the largest second difference of the control points (convex hull of the
-/// derivative's Bernstein form). For rational maps S = A / w with A taken relative to the centre c
-/// of the control points and R = max |P_i - c|,
-///     |S_d|  <= (|A_d| + R |w_d|) / min w,
-///     |S_de| <= (|A_de| + |S_d| |w_e| + |S_e| |w_d| + R |w_de|) / min w,
-/// every term bounded by Bernstein coefficients, on halves of the element in each direction.
+/// derivative's Bernstein form). For rational maps S = A / w
+///     S_d = n_d / w^2,  n_d = A_d w - A w_d,     S_de = (n_d,e w - 2 n_d w_e) / w^3,
+/// the numerators are multiplied out in Bernstein form, and M_de is the largest norm of their
+/// coefficients over the cube of the smallest weight, on the halves of the element in every
+/// direction in which the weight varies.
 /// @source  Filip, Magedson, Markot, CAGD 3 (1986) 295-311 for the triangle; the extension to any
 /// convex combination is the derivation above.
 namespace knotwork
@@ -30,7 +30,7 @@ using SecondDerivativeBound = std::array<double, static_cast<std::size_t>(K* K)>
 
 /// @param net       planes of prod(p_d + 1) values as a block of a BezierForm.
 /// @param rational  then the last of numComponents + 1 planes is the weight (positive).
-/// @complexity  O(prod(p_d + 1)) times components; 2^K times that when rational.
+/// @complexity  O(prod(p_d + 1)) a component; when rational O(prod(p_d + 1)^2), up to 2^K times.
 template <int K>
 SecondDerivativeBound<K> BoundSecondDerivatives(
   const IntArray<K>& degree, int numComponents, bool rational, const double* net);
