@@ -136,29 +136,36 @@ ClosestPoints MappedPatch<Dim>::Project(const BezierForm<Dim>& form, const Point
   return best;
 }
 
-PolylineIndex::PolylineIndex(PointMatrix points) : Points(std::move(points))
+template <int Dim>
+PolylineIndex<Dim>::PolylineIndex(PointMatrix points) : Points(std::move(points))
 {
   const Eigen::Index n = this->Points.rows() - 1;
   const PointMatrix lower = this->Points.topRows(n).cwiseMin(this->Points.bottomRows(n));
   const PointMatrix upper = this->Points.topRows(n).cwiseMax(this->Points.bottomRows(n));
   this->Tree = BoxTree(lower, upper);
+  this->InverseLengths.resize(static_cast<std::size_t>(n));
+  for (Eigen::Index i = 0; i < n; ++i)
+  {
+    const double length = (this->Points.row(i + 1) - this->Points.row(i)).squaredNorm();
+    this->InverseLengths[static_cast<std::size_t>(i)] =
+      length >= std::numeric_limits<double>::min() ? 1.0 / length : 0.0;
+  }
 }
 
-double PolylineIndex::SegmentDistance(int segment, const double* point) const
+template <int Dim>
+double PolylineIndex<Dim>::SegmentDistance(int segment, const double* point) const
 {
-  const Eigen::Index dimension = this->Points.cols();
-  const double* a = this->Points.data() + segment * dimension;
-  const double* b = a + dimension;
-  double length = 0.0;
+  const double* a = this->Points.data() + static_cast<std::ptrdiff_t>(segment) * Dim;
+  const double* b = a + Dim;
   double along = 0.0;
-  for (Eigen::Index d = 0; d < dimension; ++d)
+  for (int d = 0; d < Dim; ++d)
   {
-    length += (b[d] - a[d]) * (b[d] - a[d]);
     along += (point[d] - a[d]) * (b[d] - a[d]);
   }
-  const double share = length > 0.0 ? std::min(std::max(along / length, 0.0), 1.0) : 0.0;
+  const double share =
+    std::min(std::max(along * this->InverseLengths[static_cast<std::size_t>(segment)], 0.0), 1.0);
   double sum = 0.0;
-  for (Eigen::Index d = 0; d < dimension; ++d)
+  for (int d = 0; d < Dim; ++d)
   {
     const double gap = point[d] - (share == 1.0 ? b[d] : a[d] + share * (b[d] - a[d]));
     sum += gap * gap;
@@ -166,13 +173,15 @@ double PolylineIndex::SegmentDistance(int segment, const double* point) const
   return sum;
 }
 
-NearestItem PolylineIndex::Nearest(const double* point, double bound) const
+template <int Dim>
+NearestItem PolylineIndex<Dim>::Nearest(const double* point, double bound) const
 {
   return this->Tree.Nearest(
     point, [&](int segment) { return this->SegmentDistance(segment, point); }, bound);
 }
 
-Eigen::VectorXd PolylineIndex::Walk(const PointMatrixView& sequence, int threads) const
+template <int Dim>
+Eigen::VectorXd PolylineIndex<Dim>::Walk(const PointMatrixView& sequence, int threads) const
 {
   Eigen::VectorXd bounds(sequence.rows());
   const int last = static_cast<int>(this->Points.rows()) - 2;
@@ -211,7 +220,9 @@ Eigen::VectorXd PolylineIndex::Walk(const PointMatrixView& sequence, int threads
   return bounds;
 }
 
-Eigen::VectorXd PolylineIndex::SquaredDistances(const PointMatrixView& sequence, int threads) const
+template <int Dim>
+Eigen::VectorXd PolylineIndex<Dim>::SquaredDistances(
+  const PointMatrixView& sequence, int threads) const
 {
   Eigen::VectorXd distances = this->Walk(sequence, threads);
   ParallelFor(static_cast<std::size_t>(sequence.rows()), Chunk, threads,
@@ -226,26 +237,24 @@ Eigen::VectorXd PolylineIndex::SquaredDistances(const PointMatrixView& sequence,
   return distances;
 }
 
-double PolylineIndex::LargestSquaredDistance(const PointMatrixView& sequence, int threads) const
+template <int Dim>
+double PolylineIndex<Dim>::LargestSquaredDistance(
+  const PointMatrixView& sequence, int threads) const
 {
   const Eigen::VectorXd bounds = this->Walk(sequence, threads);
-  std::vector<Eigen::Index> heap(static_cast<std::size_t>(bounds.size()));
-  for (std::size_t i = 0; i < heap.size(); ++i)
+  Eigen::Index first = 0;
+  double largest = bounds.maxCoeff(&first);
+  largest = this->Nearest(sequence.row(first).data(), largest).SquaredDistance;
+  for (Eigen::Index i = 0; i < bounds.size(); ++i)
   {
-    heap[i] = static_cast<Eigen::Index>(i);
-  }
-  const auto below = [&](Eigen::Index a, Eigen::Index b) { return bounds(a) < bounds(b); };
-  std::make_heap(heap.begin(), heap.end(), below);
-  double largest = 0.0;
-  while (!heap.empty() && bounds(heap.front()) > largest)
-  {
-    const Eigen::Index i = heap.front();
-    largest = std::max(largest, this->Nearest(sequence.row(i).data(), bounds(i)).SquaredDistance);
-    std::pop_heap(heap.begin(), heap.end(), below);
-    heap.pop_back();
+    if (bounds(i) > largest)
+    {
+      largest = std::max(largest, this->Nearest(sequence.row(i).data(), bounds(i)).SquaredDistance);
+    }
   }
   return largest;
 }
 
 template class MappedPatch<2>;
+template class PolylineIndex<2>;
 }

@@ -59,12 +59,13 @@ private:
   SampleIndex Index;
 };
 
-/// Distances from points to a polyline.
+/// Distances from points to a polyline in Dim-space.
+template <int Dim>
 class PolylineIndex
 {
 public:
   PolylineIndex() = default;
-  /// @param points  n x d, n >= 2, finite.
+  /// @param points  n x Dim, n >= 2, finite.
   explicit PolylineIndex(PointMatrix points);
 
   /// Nearest segment with squared distance <= bound.
@@ -82,6 +83,7 @@ private:
   Eigen::VectorXd Walk(const PointMatrixView& sequence, int threads) const;
 
   PointMatrix Points;
+  std::vector<double> InverseLengths; // 1 / |b - a|^2 of the segments, 0 for those of no length
   BoxTree Tree;
 };
 }

@@ -277,8 +277,13 @@ void PatchCurve::Evaluate(double t, double* point, double* derivative) const
   const double* first = this->Parameters.data();
   const Eigen::Index n = this->Parameters.size();
   t = std::min(std::max(t, this->Begin()), this->End());
-  const Eigen::Index piece = std::min<Eigen::Index>(
-    std::max<Eigen::Index>(std::upper_bound(first, first + n, t) - first - 1, 0), n - 2);
+  // Parameters are often equally spaced: guess, and search only when the guess is wrong.
+  const double guess = double(n - 1) * ((t - this->Begin()) / (this->End() - this->Begin()));
+  Eigen::Index piece = std::min(static_cast<Eigen::Index>(guess), n - 2);
+  if (!(first[piece] <= t && (t < first[piece + 1] || piece == n - 2)))
+  {
+    piece = std::min<Eigen::Index>(std::upper_bound(first, first + n, t) - first - 1, n - 2);
+  }
   const double width = first[piece + 1] - first[piece];
   const double share = (t - first[piece]) / width;
   for (Eigen::Index d = 0; d < this->Points.cols(); ++d)

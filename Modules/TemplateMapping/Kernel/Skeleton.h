@@ -55,7 +55,7 @@ public:
   double End() const { return this->Parameters(this->Parameters.size() - 1); }
   /// Position at t (clamped to [Begin, End]) and its derivative there, that of the piece on the
   /// right at a vertex.
-  /// @param derivative  may be null. @complexity O(log n).
+  /// @param derivative  may be null. @complexity O(1) for equally spaced parameters, else O(log n).
   void Evaluate(double t, double* point, double* derivative) const;
   /// The points themselves, or count points at equally spaced parameters.
   Eigen::VectorXd SampleParameters(int count) const;

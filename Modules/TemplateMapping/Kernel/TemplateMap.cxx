@@ -23,7 +23,7 @@ struct Constraint
   std::size_t Template = 0; // index of the template patch
   PointMatrix Points;       // p_i
   PointMatrix Normals;      // N_i; empty unless the method reads them
-  PolylineIndex Polyline;
+  PolylineIndex<Dim> Polyline;
   ClosestPoints Closest; // present parameters, feet and distances
 };
 
@@ -176,7 +176,7 @@ struct Problem
       {
         constraint.Normals = UnitNormals(patch);
       }
-      constraint.Polyline = PolylineIndex(patch.Points);
+      constraint.Polyline = PolylineIndex<Dim>(patch.Points);
       this->Constraints.push_back(std::move(constraint));
     }
   }

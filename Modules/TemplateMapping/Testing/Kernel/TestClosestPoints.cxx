@@ -133,7 +133,7 @@ TEST(PolylineIndex, AgreesWithTryingAllSegments_CrossOracle)
     {
       points.row(n / 2) = points.row(n / 2 - 1); // a segment of no length
     }
-    const PolylineIndex index(points);
+    const PolylineIndex<2> index(points);
     const PointMatrix queries = PointMatrix::NullaryExpr(3000, 2, [&] { return real(random); });
     const Eigen::VectorXd distances = index.SquaredDistances(queries, 2);
     for (int q = 0; q < queries.rows(); q += 7)
