@@ -55,6 +55,7 @@ Job MakeSourceJob(CLI::App& app)
   KNOTWORK_FREE_OPTION(options, filter, InnerRadius, "inner radius");
   KNOTWORK_FREE_OPTION(options, filter, OuterRadius, "outer radius");
   KNOTWORK_FREE_OPTION(options, filter, Angle, "angle about z, degrees");
+  KNOTWORK_OPTION(options, filter, Sectors, "patches that share the angle of a sector or tube");
   KNOTWORK_FREE_OPTION(options, filter, PolarAngle, "range of latitudes of a ball sector, degrees");
   KNOTWORK_FREE_OPTION(options, filter, Height, "length along z");
   KNOTWORK_FREE_OPTION(options, filter, Twist, "turn of a twisted bar, degrees");

@@ -31,6 +31,7 @@ void vtkSplineSource::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "InnerRadius: " << this->InnerRadius << "\n";
   os << indent << "OuterRadius: " << this->OuterRadius << "\n";
   os << indent << "Angle: " << this->Angle << "\n";
+  os << indent << "Sectors: " << this->Sectors << "\n";
   os << indent << "PolarAngle: " << this->PolarAngle << "\n";
   os << indent << "Height: " << this->Height << "\n";
   os << indent << "Twist: " << this->Twist << "\n";
@@ -65,6 +66,7 @@ knotwork::Status vtkSplineSource::Compute(vtkInformationVector**, vtkInformation
   params.InnerRadius = this->InnerRadius;
   params.OuterRadius = this->OuterRadius;
   params.Angle = this->Angle;
+  params.Sectors = this->Sectors;
   params.PolarAngle = this->PolarAngle;
   params.Height = this->Height;
   params.Twist = this->Twist;

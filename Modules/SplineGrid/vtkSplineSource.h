@@ -95,6 +95,12 @@ public:
   vtkGetMacro(Angle, double);
   ///@}
   ///@{
+  /** Patches that share Angle equally (annulus sector, solid tube); with Angle 360 a closed ring.
+   * Default 1, valid range [1, 4096]. */
+  vtkSetClampMacro(Sectors, int, 1, 4096);
+  vtkGetMacro(Sectors, int);
+  ///@}
+  ///@{
   /** Angle between the lowest and the highest latitude of a ball sector in degrees. Default 90,
    * valid range (0, 180]. */
   vtkSetMacro(PolarAngle, double);
@@ -136,6 +142,7 @@ private:
   double InnerRadius = 0.5;
   double OuterRadius = 1.0;
   double Angle = 90.0;
+  int Sectors = 1;
   double PolarAngle = 90.0;
   double Height = 1.0;
   double Twist = 90.0;

@@ -65,6 +65,17 @@ Curve UnitArc(double begin, double angle)
   return arc;
 }
 
+/// Arcs of a row of sectors; neighbours' common ends are equal bit for bit.
+Curve SectorArc(const ShapeParams& s, int sector)
+{
+  const double begin = s.Angle * sector / s.Sectors;
+  const double end = s.Angle * (sector + 1) / s.Sectors;
+  Curve arc = UnitArc(begin, end - begin);
+  const auto [cosine, sine] = CosSin(end);
+  arc.Points.bottomRows<1>() << cosine, sine, 0.0, 1.0;
+  return arc;
+}
+
 Curve Scaled(Curve curve, double factor)
 {
   curve.Points.leftCols<3>() *= factor;
@@ -324,19 +335,20 @@ std::vector<Patch> MakePatches(const ShapeParams& s)
       break;
     case ShapeKind::AnnulusSector:
     case ShapeKind::SolidTube:
-    {
-      const Curve arc = UnitArc(0.0, s.Angle);
-      const Surface sector = Ruled(Scaled(arc, s.InnerRadius), Scaled(arc, s.OuterRadius));
-      if (s.Kind == ShapeKind::AnnulusSector)
+      for (int k = 0; k < s.Sectors; ++k)
       {
-        patches.push_back({ sector });
-      }
-      else
-      {
-        patches.push_back({ Extruded(sector, s.Height) });
+        const Curve arc = SectorArc(s, k);
+        const Surface sector = Ruled(Scaled(arc, s.InnerRadius), Scaled(arc, s.OuterRadius));
+        if (s.Kind == ShapeKind::AnnulusSector)
+        {
+          patches.push_back({ sector });
+        }
+        else
+        {
+          patches.push_back({ Extruded(sector, s.Height) });
+        }
       }
       break;
-    }
     case ShapeKind::Disc:
     case ShapeKind::SolidCylinder:
       for (const Surface& patch : DiscPatches(s.InnerRadius, s.OuterRadius))
@@ -504,6 +516,10 @@ Status CheckParams(const ShapeParams& s)
   if (!(s.Angle > 0.0 && s.Angle <= 360.0))
   {
     return bad("the angle must be in (0, 360] degrees, it is " + std::to_string(s.Angle));
+  }
+  if (s.Sectors < 1 || s.Sectors > 4096)
+  {
+    return bad("the sectors must be in [1, 4096], they are " + std::to_string(s.Sectors));
   }
   if (!(s.PolarAngle > 0.0 && s.PolarAngle <= 180.0))
   {

@@ -52,6 +52,8 @@ struct ShapeParams
   double InnerRadius = 0.5;                 ///< > 0 (BallSector: >= 0) and < OuterRadius
   double OuterRadius = 1.0;                 ///< > 0
   double Angle = 90.0;                      ///< (0, 360]; at 360 a seam of equal points remains
+  int Sectors = 1;                          ///< patches that share Angle (AnnulusSector,
+                                            ///< SolidTube), [1, 4096]; a ring at 360 degrees
   double PolarAngle = 90.0;                 ///< (0, 180]
   double Height = 1.0;                      ///< > 0
   double Twist = 90.0;                      ///< [-3600, 3600]

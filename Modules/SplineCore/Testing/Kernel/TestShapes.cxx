@@ -568,3 +568,23 @@ TEST(Shapes, EveryFailureIsReachable)
   huge.Elements = { 2000, 2000, 2000 };
   EXPECT_EQ(MakeShape(huge).Status.Code, ErrorCode::TooLarge);
 }
+
+// Oracle: the ring of sectors covers the annulus and neighbours' sides are the same numbers.
+TEST(Shapes, SectorsShareTheirSidesBitForBit_ExactOracle)
+{
+  ShapeParams params = Params(ShapeKind::AnnulusSector);
+  params.Angle = 360.0;
+  params.Sectors = 7;
+  const auto patches = Make(params);
+  ASSERT_EQ(patches.size(), 7u);
+  for (std::size_t k = 0; k < patches.size(); ++k)
+  {
+    const auto& spline = std::get<Spline<2>>(patches[k]);
+    const auto& next = std::get<Spline<2>>(patches[(k + 1) % 7]);
+    const Eigen::Index last = spline.ControlPoints.rows() - 2; // radial direction first, two points
+    EXPECT_EQ(spline.ControlPoints.row(last), next.ControlPoints.row(0)) << "inner end of " << k;
+    EXPECT_EQ(spline.ControlPoints.row(last + 1), next.ControlPoints.row(1)) << "outer end of " << k;
+  }
+  params.Sectors = 0;
+  EXPECT_EQ(MakeShape(params).Status.Code, ErrorCode::InvalidParameter);
+}
