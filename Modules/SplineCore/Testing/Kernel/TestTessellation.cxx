@@ -332,7 +332,8 @@ TEST(Tessellate, HexahedraConformAndFillTheVolume_ExactOracle)
         const double radius = kind == ShapeKind::Ball ? x.norm() : std::hypot(x[0], x[1]);
         const bool wall = std::abs(radius - 1.0) < 1e-9 ||
           (kind == ShapeKind::SolidTube && std::abs(radius - 0.5) < 1e-9);
-        const bool rim = wall || (kind != ShapeKind::Ball && (x[2] == bottom || x[2] == top));
+        const bool rim =
+          wall || (kind != ShapeKind::Ball && (x[2] - bottom < 1e-9 || top - x[2] < 1e-9));
         outside += n == 1 && !rim ? 1 : 0;
       }
     }
