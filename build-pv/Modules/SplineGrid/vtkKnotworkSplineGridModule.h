@@ -1,0 +1,47 @@
+
+#ifndef VTKKNOTWORKSPLINEGRID_EXPORT_H
+#define VTKKNOTWORKSPLINEGRID_EXPORT_H
+
+#ifdef VTKKNOTWORKSPLINEGRID_STATIC_DEFINE
+#  define VTKKNOTWORKSPLINEGRID_EXPORT
+#  define VTKKNOTWORKSPLINEGRID_NO_EXPORT
+#else
+#  ifndef VTKKNOTWORKSPLINEGRID_EXPORT
+#    ifdef SplineGrid_EXPORTS
+        /* We are building this library */
+#      define VTKKNOTWORKSPLINEGRID_EXPORT __attribute__((visibility("default")))
+#    else
+        /* We are using this library */
+#      define VTKKNOTWORKSPLINEGRID_EXPORT __attribute__((visibility("default")))
+#    endif
+#  endif
+
+#  ifndef VTKKNOTWORKSPLINEGRID_NO_EXPORT
+#    define VTKKNOTWORKSPLINEGRID_NO_EXPORT __attribute__((visibility("hidden")))
+#  endif
+#endif
+
+#ifndef VTKKNOTWORKSPLINEGRID_DEPRECATED
+#  define VTKKNOTWORKSPLINEGRID_DEPRECATED __attribute__ ((__deprecated__))
+#endif
+
+#ifndef VTKKNOTWORKSPLINEGRID_DEPRECATED_EXPORT
+#  define VTKKNOTWORKSPLINEGRID_DEPRECATED_EXPORT VTKKNOTWORKSPLINEGRID_EXPORT VTKKNOTWORKSPLINEGRID_DEPRECATED
+#endif
+
+#ifndef VTKKNOTWORKSPLINEGRID_DEPRECATED_NO_EXPORT
+#  define VTKKNOTWORKSPLINEGRID_DEPRECATED_NO_EXPORT VTKKNOTWORKSPLINEGRID_NO_EXPORT VTKKNOTWORKSPLINEGRID_DEPRECATED
+#endif
+
+#if 0 /* DEFINE_NO_DEPRECATED */
+#  ifndef VTKKNOTWORKSPLINEGRID_NO_DEPRECATED
+#    define VTKKNOTWORKSPLINEGRID_NO_DEPRECATED
+#  endif
+#endif
+
+/* VTK-HeaderTest-Exclude: vtkKnotworkSplineGridModule.h */
+
+/* Include ABI Namespace */
+#include "vtkABINamespace.h"
+
+#endif /* VTKKNOTWORKSPLINEGRID_EXPORT_H */
