@@ -79,6 +79,9 @@ endfunction()
 
 # A GoogleTest program whose cases become the tests <MODULE>.<Suite>.<Name>.
 function(knotwork_add_gtest target module)
+  if(KNOTWORK_PARAVIEW) # VTK's module system enters the modules' Testing folders; the tests are the main tree's
+    return()
+  endif()
   cmake_parse_arguments(PARSE_ARGV 2 arg "DISPLAY" "TIMEOUT" "SOURCES;LIBRARIES;LABELS")
   add_executable(${target} ${arg_SOURCES})
   target_link_libraries(${target} PRIVATE ${arg_LIBRARIES} GTest::gtest_main)
