@@ -72,9 +72,10 @@ foreach(list_file IN LISTS lists)
   file(READ "${ROOT}/${list_file}" text)
   string(REGEX MATCH "DEPENDS([ \t\r\n]+[A-Za-z]+)+" depends "${text}")
   string(REGEX MATCHALL "[A-Za-z]+" words "${depends}")
+  list(POP_FRONT words)
   foreach(other IN LISTS words)
-    if(other MATCHES "^[A-Z]+$") # a keyword
-      continue()
+    if(other MATCHES "^[A-Z]+$") # the next keyword: no longer dependencies
+      break()
     endif()
     if(NOT DEFINED rank_${module} OR NOT DEFINED rank_${other} OR NOT rank_${other} LESS rank_${module})
       list(APPEND problems "${list_file}: ${module} may not depend on ${other}")
