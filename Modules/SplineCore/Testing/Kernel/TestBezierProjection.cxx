@@ -3,6 +3,7 @@
 #include "BezierForm.h"
 #include "BezierProjection.h"
 #include "BezierSpace.h"
+#include "MixedRowSpace.h"
 #include "Quadrature.h"
 #include "RandomSplines.h"
 
@@ -258,6 +259,23 @@ TEST(BezierProjection, BezierSpacesAreProjectedOnto_ExactOracle)
   Random random(2);
   const Spline<1> truth = RandomSpline<1>(random, space, 3, false);
   const auto result = ProjectOntoSpace<1>(space, 3, Values(truth));
+  ASSERT_TRUE(result) << result.Status.Message();
+  EXPECT_LE((result.Value.ControlPoints - truth.ControlPoints).cwiseAbs().maxCoeff(),
+    ReproductionTolerance);
+}
+
+TEST(BezierProjection, FunctionsWithoutARowOfTheirOwnAreFound_ExactOracle)
+{
+  Eigen::MatrixXd map(5, 4);
+  map << 1, 0, 0, 0,    //
+    0.5, 0.5, 0, 0,     //
+    0, 0.75, 0.25, 0,   //
+    0, 0.25, 0.5, 0.25, //
+    0, 0, 0, 1;
+  const auto space = MixedRowSpace(map, 2, 2);
+  Random random(4);
+  const Spline<1> truth = RandomSpline<1>(random, space, 2, false);
+  const auto result = ProjectOntoSpace<1>(space, 2, Values(truth));
   ASSERT_TRUE(result) << result.Status.Message();
   EXPECT_LE((result.Value.ControlPoints - truth.ControlPoints).cwiseAbs().maxCoeff(),
     ReproductionTolerance);

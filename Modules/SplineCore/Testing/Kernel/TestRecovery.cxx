@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BezierSpace.h"
+#include "MixedRowSpace.h"
 #include "RandomSplines.h"
 #include "Recovery.h"
 
@@ -79,44 +80,6 @@ std::vector<double> RandomFactors(Random& random, int count)
     f = std::pow(10.0, random.In(-2.0, 2.0));
   }
   return factors;
-}
-
-/// A chain of Bezier elements whose functions are the columns of a matrix: row j holds their values
-/// of Bezier point j of the chain.
-SplineSpacePtr<1> MixedRowSpace(const Eigen::MatrixXd& map, int elements, int degree)
-{
-  auto space = std::make_shared<SplineSpace<1>>();
-  space->Kind = SpaceKind::Bezier;
-  space->HasDomain = false;
-  space->NumFunctions = static_cast<int>(map.cols());
-  space->NumLocalFunctions = static_cast<int>(map.rows());
-  space->RowStart.push_back(0);
-  for (Eigen::Index j = 0; j < map.rows(); ++j)
-  {
-    for (Eigen::Index f = 0; f < map.cols(); ++f)
-    {
-      if (map(j, f) != 0.0)
-      {
-        space->RowFunction.push_back(static_cast<int>(f));
-        space->RowCoefficient.push_back(map(j, f));
-      }
-    }
-    space->RowStart.push_back(space->RowFunction.size());
-  }
-  for (int e = 0; e < elements; ++e)
-  {
-    SplineSpace<1>::Element element;
-    element.Degree = { degree };
-    element.Factor = { -1 };
-    element.Box.Upper = { 1.0 };
-    element.FirstLocal = space->LocalFunctionIds.size();
-    for (int i = 0; i <= degree; ++i)
-    {
-      space->LocalFunctionIds.push_back(e * degree + i); // neighbours share an end
-    }
-    space->Elements.push_back(element);
-  }
-  return space;
 }
 }
 
@@ -387,6 +350,37 @@ TEST(Recovery, MixedRowsAreSolvedByLeastSquares_ExactOracle)
     const Spline<1> truth = RandomSpline<1>(random, space, 2, rational);
     ExpectRecovered(RecoverSpline(MakeBezierForm(truth)), truth);
   }
+}
+
+TEST(Recovery, RowsOfOneFunctionAreNotItsCoefficientUnlessOne_ExactOracle)
+{
+  Eigen::MatrixXd map(3, 3);
+  map << 1, 0, 0, //
+    0, 0.5, 0,    //
+    0, 0, 1;
+  Random random(6);
+  const Spline<1> truth = RandomSpline<1>(random, MixedRowSpace(map, 1, 2), 2, false);
+  ExpectRecovered(RecoverSpline(MakeBezierForm(truth)), truth);
+}
+
+TEST(Recovery, EquationsWeighByTheirAmplification_GoldenOracle)
+{
+  // Two functions of half the middle row: each is its value. The first element sees the value 10 as
+  // its Bezier point 2 with weight 1, the second 2 Q_0 - Q_1 = 19 by a functional of row sum 3 with
+  // weight 1/9: the mean is (10 + 19 / 9) / (1 + 1 / 9) = 10.9.
+  Eigen::MatrixXd map = Eigen::MatrixXd::Zero(5, 6);
+  map(0, 0) = map(1, 1) = map(3, 4) = map(4, 5) = 1.0;
+  map(2, 2) = map(2, 3) = 0.5;
+  auto space = std::make_shared<SplineSpace<1>>(*MixedRowSpace(map, 2, 2));
+  space->FactorData = { 0.5, 0, 0, 0.5, 1, 0, 0, 0, 1 };
+  space->Elements[1].Factor = { 0 };
+  const BezierForm<1> form{ space, 1, false, { 0, 3, 6 }, { 1, 2, 10, 12.5, 6, 3 } };
+  const auto result = RecoverSpline(form);
+  ASSERT_TRUE(result) << result.Status.Message();
+  EXPECT_NEAR(result.Value.ControlPoints(2, 0), 10.9, 64.0 * Eps * 3.0 * 12.5);
+  EXPECT_NEAR(result.Value.ControlPoints(3, 0), 10.9, 64.0 * Eps * 3.0 * 12.5);
+  EXPECT_EQ(result.Value.ControlPoints(4, 0), 6.0);
+  EXPECT_NEAR(result.Amplification, 3.0, 64.0 * Eps);
 }
 
 TEST(Recovery, LeastSquaresMinimizesTheDistance_CrossOracle)
