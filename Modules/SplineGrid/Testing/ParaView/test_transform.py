@@ -23,7 +23,7 @@ SHAPES = ["Arc", "Annulus Sector", "Disc", "Solid Tube", "Ball Sector"]
 def source(shape):
     """A spline grid of three elements a direction, one corner of it refined (THB)."""
     made = SplineSource(Shape=shape, Elements=[3, 3, 3], Degree=3)
-    return SplineRefine(Input=made, Mode="Cell Array", SelectInputArray=["CELLS", "ElementId"], LowerThreshold=0,
+    return SplineRefine(Input=made, Mode="Cell Array", Array=["CELLS", "ElementId"], LowerThreshold=0,
                         UpperThreshold=0)
 
 
@@ -81,7 +81,8 @@ def test_threshold_by_patch():
     original = source("Disc")
     points, weights, patches = net(original)
     for patch in sorted(set(patches)):
-        kept = Threshold(Input=original, Scalars=["CELLS", "PatchId"], LowerThreshold=patch, UpperThreshold=patch)
+        kept = Threshold(Input=original, Scalars=["CELLS", "PatchId"])  # resets the range to that of the array
+        kept.LowerThreshold = kept.UpperThreshold = patch
         found, found_weights, found_patches = net(kept)
         assert (found == points[patches == patch]).all()
         assert (found_weights == weights[patches == patch]).all()
@@ -109,7 +110,7 @@ def test_files():
 
 def test_groups_are_accepted():
     first, second = source("Disc"), source("Solid Tube")
-    refined = SplineRefine(Input=GroupDatasets(Input=[first, second], OutputType="Partitioned Data Set Collection"))
+    refined = SplineRefine(Input=GroupDatasets(Input=[first, second], OutputType="vtkPartitionedDataSetCollection"))
     refined.UpdatePipeline()
     output = refined.GetClientSideObject().GetOutputDataObject(0)
     assert output.IsA("vtkPartitionedDataSetCollection"), output.GetClassName()
