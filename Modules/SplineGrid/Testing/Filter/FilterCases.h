@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What tests of filters share: recorded errors, sources, good and bad input.
+#pragma once
+#include "SplineModel.h"
+#include "vtkSplineAlgorithm.h"
+#include "vtkSplineSource.h"
+
+#include "vtkCommand.h"
+#include "vtkErrorCode.h"
+#include "vtkExecutive.h"
+#include "vtkNew.h"
+#include "vtkPartitionedDataSet.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace knotwork
+{
+/// Collects the error and warning messages of an algorithm instead of printing them.
+class MessageRecorder : public vtkCommand
+{
+public:
+  static MessageRecorder* New() { return new MessageRecorder; }
+  void Execute(vtkObject*, unsigned long event, void* text) override
+  {
+    (event == vtkCommand::ErrorEvent ? this->Errors : this->Warnings)
+      .push_back(static_cast<const char*>(text));
+  }
+  void Watch(vtkAlgorithm* algorithm)
+  {
+    for (vtkObject* source :
+      std::initializer_list<vtkObject*>{ algorithm, algorithm->GetExecutive() })
+    {
+      source->AddObserver(vtkCommand::ErrorEvent, this);
+      source->AddObserver(vtkCommand::WarningEvent, this);
+    }
+  }
+  std::vector<std::string> Errors;
+  std::vector<std::string> Warnings;
+};
+
+/// A copy of the source's grid.
+inline vtkSmartPointer<vtkUnstructuredGrid> ShapeGrid(
+  int shape, int degree = 0, std::array<int, 3> elements = { 1, 1, 1 })
+{
+  vtkNew<vtkSplineSource> source;
+  source->SetShape(shape);
+  source->SetDegree(degree);
+  source->SetElements(elements.data());
+  source->Update();
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  grid->DeepCopy(source->GetOutputDataObject(0));
+  return grid;
+}
+
+/// Every grid a block of its own.
+inline vtkSmartPointer<vtkPartitionedDataSetCollection> Collect(
+  const std::vector<vtkSmartPointer<vtkUnstructuredGrid>>& grids)
+{
+  auto collection = vtkSmartPointer<vtkPartitionedDataSetCollection>::New();
+  for (unsigned int b = 0; b < grids.size(); ++b)
+  {
+    vtkNew<vtkPartitionedDataSet> block;
+    block->SetPartition(0, grids[b]);
+    collection->SetPartitionedDataSet(b, block);
+  }
+  return collection;
+}
+
+/// The patches of a dataset; a failed decoding fails the test.
+inline SplineModel DecodePatches(vtkDataObject* data)
+{
+  auto model = DecodeSplineModel(data);
+  EXPECT_TRUE(model) << model.Status.Message();
+  return model.Value;
+}
+
+/// Runs a filter that must fail: one error line with the words, the error code, an empty output.
+inline void ExpectFailure(vtkSplineAlgorithm* filter, ErrorCode code, const std::string& words)
+{
+  vtkNew<MessageRecorder> recorder;
+  recorder->Watch(filter);
+  filter->Modified();
+  filter->Update();
+  EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::UserError + static_cast<unsigned long>(code));
+  ASSERT_FALSE(recorder->Errors.empty());
+  EXPECT_NE(recorder->Errors[0].find(words), std::string::npos) << recorder->Errors[0];
+  vtkDataObject* output = filter->GetOutputDataObject(0);
+  EXPECT_EQ(output->GetNumberOfElements(vtkDataObject::CELL), 0);
+  EXPECT_EQ(output->GetNumberOfElements(vtkDataObject::POINT), 0);
+  filter->RemoveObserver(recorder);
+  filter->GetExecutive()->RemoveObserver(recorder);
+}
+
+/// What every filter of spline grids does with empty, non-finite, foreign, truncated and damaged
+/// input.
+void ExpectBadInputIsRefused(vtkSplineAlgorithm* filter);
+}
