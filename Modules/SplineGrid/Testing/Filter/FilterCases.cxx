@@ -61,7 +61,7 @@ void ExpectBadInputIsRefused(vtkSplineAlgorithm* filter)
       grid->GetCellData()->GetArray(name)->SetComponent(1, 0, 2.5);
     }
     filter->SetInputDataObject(grid);
-    ExpectFailure(filter, ErrorCode::InvalidTopology, "");
+    ExpectFailure(filter, ErrorCode::InvalidDegree, "");
   }
   {
     SCOPED_TRACE("mismatched: cells that are no Bezier cells");

@@ -47,8 +47,8 @@ TEST(vtkSplineControlNet, PointsAreTheControlPoints_CrossOracle)
       for (int c = 0; c < 3; ++c)
       {
         EXPECT_EQ(x[c], spline.ControlPoints(i, c));
-        EXPECT_NEAR(net->GetPointData()->GetArray("Greville")->GetComponent(next, c),
-          greville(i, c), 1e-15);
+        EXPECT_NEAR(
+          net->GetPointData()->GetArray("Greville")->GetComponent(next, c), greville(i, c), 1e-15);
       }
       EXPECT_EQ(net->GetPointData()->GetArray("Weight")->GetTuple1(next),
         spline.IsRational() ? spline.Weights[i] : 1.0);

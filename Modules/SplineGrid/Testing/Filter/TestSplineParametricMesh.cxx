@@ -86,7 +86,8 @@ TEST(vtkSplineParametricMesh, CornersAreInTheOrderOfVTK_PropertyOracle)
     vtkIdType n;
     const vtkIdType* ids;
     mesh->GetCellPoints(cell, n, ids);
-    const auto edge = [&](int a, int b) {
+    const auto edge = [&](int a, int b)
+    {
       double x[3];
       double y[3];
       mesh->GetPoint(ids[a], x);

@@ -23,7 +23,8 @@ void ExpectSame(vtkDataObject* data, const ShapeParams& params)
     EXPECT_EQ(model.Patches[p].Id, static_cast<int>(p));
     ASSERT_EQ(model.Patches[p].Geometry.index(), shape.Value[p].index());
     std::visit(
-      [&](const auto& expected) {
+      [&](const auto& expected)
+      {
         using Spline = std::decay_t<decltype(expected)>;
         const Spline& found = std::get<Spline>(model.Patches[p].Geometry);
         EXPECT_EQ(found.ControlPoints, expected.ControlPoints);
@@ -61,7 +62,8 @@ TEST(vtkSplineSource, EveryShapeIsThatOfTheKernel_CrossOracle)
 
 TEST(vtkSplineSource, EveryPropertyReachesTheShape_CrossOracle)
 {
-  for (const ShapeKind kind : { ShapeKind::BallSector, ShapeKind::TwistedBar, ShapeKind::SolidTube })
+  for (const ShapeKind kind :
+    { ShapeKind::BallSector, ShapeKind::TwistedBar, ShapeKind::SolidTube })
   {
     SCOPED_TRACE(ToString(kind));
     ShapeParams params;

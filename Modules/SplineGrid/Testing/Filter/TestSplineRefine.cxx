@@ -1,0 +1,484 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BezierForm.h"
+#include "FilterCases.h"
+#include "RandomModels.h"
+#include "vtkSplineRefine.h"
+
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
+#include "vtkPlane.h"
+#include "vtkPointData.h"
+#include "vtkSelection.h"
+#include "vtkSelectionNode.h"
+#include "vtkSphere.h"
+
+#include <limits>
+#include <random>
+#include <set>
+
+using namespace knotwork;
+
+namespace
+{
+vtkUnstructuredGrid* GridOf(vtkSplineRefine* filter)
+{
+  return vtkUnstructuredGrid::SafeDownCast(filter->GetOutputDataObject(0));
+}
+
+void AddCellArray(vtkUnstructuredGrid* grid, const char* name, const std::vector<double>& values)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  for (const double value : values)
+  {
+    array->InsertNextValue(value);
+  }
+  grid->GetCellData()->AddArray(array);
+}
+
+void RefineByArray(vtkSplineRefine* filter, const char* name)
+{
+  filter->SetMode(vtkSplineRefine::CELL_ARRAY);
+  filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, name);
+}
+
+double CellValue(vtkUnstructuredGrid* grid, const char* name, vtkIdType cell, int component = 0)
+{
+  return grid->GetCellData()->GetArray(name)->GetComponent(cell, component);
+}
+
+/// The element's box lies in that of the cell.
+bool IsInside(
+  vtkUnstructuredGrid* fine, vtkIdType child, vtkUnstructuredGrid* coarse, vtkIdType cell)
+{
+  bool inside = CellValue(fine, "PatchId", child) == CellValue(coarse, "PatchId", cell);
+  for (int d = 0; d < 3; ++d)
+  {
+    inside = inside &&
+      CellValue(fine, "ParametricBounds", child, 2 * d) >=
+        CellValue(coarse, "ParametricBounds", cell, 2 * d) &&
+      CellValue(fine, "ParametricBounds", child, 2 * d + 1) <=
+        CellValue(coarse, "ParametricBounds", cell, 2 * d + 1);
+  }
+  return inside;
+}
+
+/// Values of the map and of all fields at random parameters.
+PointMatrix Sample(const SplinePatch& patch)
+{
+  return std::visit(
+    [&](const auto& geometry)
+    {
+      using Space = std::decay_t<decltype(*geometry.Space)>;
+      constexpr int Dim = std::tuple_size<decltype(typename Space::Element{}.Degree)>::value;
+      std::mt19937 random(5);
+      std::uniform_real_distribution<double> uniform(0.0, 1.0);
+      const auto domain = geometry.Space->Domain();
+      PointMatrix parameters(300, Dim);
+      for (Eigen::Index i = 0; i < parameters.rows(); ++i)
+      {
+        for (int d = 0; d < Dim; ++d)
+        {
+          const auto k = static_cast<std::size_t>(d);
+          parameters(i, d) =
+            domain.Lower[k] + (domain.Upper[k] - domain.Lower[k]) * uniform(random);
+        }
+      }
+      Eigen::Index columns = 0;
+      PointMatrix values(parameters.rows(), 100);
+      const auto evaluate = [&](const PointMatrix& coefficients)
+      {
+        Spline<Dim> spline = geometry;
+        spline.ControlPoints = coefficients;
+        EvaluationBatch batch;
+        EXPECT_TRUE(EvaluateParameters(MakeBezierForm(spline), parameters, {}, batch));
+        values.middleCols(columns, coefficients.cols()) = batch.Values;
+        columns += coefficients.cols();
+      };
+      evaluate(geometry.ControlPoints);
+      for (const SplineField& field : patch.Fields)
+      {
+        evaluate(field.Coefficients);
+      }
+      return PointMatrix(values.leftCols(columns));
+    },
+    patch.Geometry);
+}
+
+double WorstDifference(vtkDataObject* coarse, vtkDataObject* fine)
+{
+  const SplineModel a = DecodePatches(coarse);
+  const SplineModel b = DecodePatches(fine);
+  EXPECT_EQ(a.Patches.size(), b.Patches.size());
+  double worst = 0.0;
+  for (std::size_t p = 0; p < a.Patches.size() && p < b.Patches.size(); ++p)
+  {
+    EXPECT_EQ(a.Patches[p].Id, b.Patches[p].Id);
+    EXPECT_EQ(a.Patches[p].Fields.size(), b.Patches[p].Fields.size());
+    const PointMatrix x = Sample(a.Patches[p]);
+    const PointMatrix y = Sample(b.Patches[p]);
+    EXPECT_EQ(x.cols(), y.cols());
+    if (x.cols() == y.cols())
+    {
+      worst = std::max(worst, (x - y).cwiseAbs().maxCoeff() / x.cwiseAbs().maxCoeff());
+    }
+  }
+  return worst;
+}
+
+vtkSmartPointer<vtkSelection> SelectCells(const std::vector<vtkIdType>& cells)
+{
+  vtkNew<vtkIdTypeArray> ids;
+  for (const vtkIdType cell : cells)
+  {
+    ids->InsertNextValue(cell);
+  }
+  vtkNew<vtkSelectionNode> node;
+  node->SetContentType(vtkSelectionNode::INDICES);
+  node->SetFieldType(vtkSelectionNode::CELL);
+  node->SetSelectionList(ids);
+  auto selection = vtkSmartPointer<vtkSelection>::New();
+  selection->AddNode(node);
+  return selection;
+}
+
+class RefineModels : public ::testing::TestWithParam<ModelCase>
+{
+};
+}
+
+TEST_P(RefineModels, MapWeightsAndFieldsStay_PropertyOracle)
+{
+  const auto grid = Encode(RandomModel(GetParam()));
+  vtkNew<vtkSplineRefine> refine;
+  refine->SetInputData(grid);
+  refine->Update();
+  // weights up to 2 and several levels of knot insertion: some thousand rounding errors at most
+  EXPECT_LE(WorstDifference(grid, GridOf(refine)), 1e-12);
+  EXPECT_EQ(GridOf(refine)->GetNumberOfCells(),
+    grid->GetNumberOfCells() << DecodePatches(grid).Patches[0].Geometry.index() << 1);
+
+  std::vector<double> marks(static_cast<std::size_t>(grid->GetNumberOfCells()), 0.0);
+  marks.front() = marks.back() = 1.0;
+  AddCellArray(grid, "Mark", marks);
+  RefineByArray(refine, "Mark");
+  refine->SetLowerThreshold(1.0);
+  refine->SetNumberOfRefinements(2);
+  refine->Update();
+  EXPECT_GT(GridOf(refine)->GetNumberOfCells(), grid->GetNumberOfCells());
+  EXPECT_LE(WorstDifference(grid, GridOf(refine)), 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+  vtkSplineRefine, RefineModels, ::testing::ValuesIn(AllModelCases()), NameOf);
+
+TEST(vtkSplineRefine, DegreeElevationKeepsTheMap_PropertyOracle)
+{
+  const auto grid = ShapeGrid(vtkSplineSource::BALL_SECTOR, 0, { 1, 2, 1 });
+  vtkNew<vtkSplineRefine> refine;
+  refine->SetInputData(grid);
+  refine->SetNumberOfRefinements(0);
+  refine->SetDegreeElevation(2);
+  refine->Update();
+  EXPECT_LE(WorstDifference(grid, GridOf(refine)), 1e-14);
+  EXPECT_EQ(CellValue(GridOf(refine), "BezierDegrees", 0, 0), 3.0);
+  EXPECT_EQ(CellValue(GridOf(refine), "BezierDegrees", 0, 1), 4.0);
+  EXPECT_EQ(GridOf(refine)->GetNumberOfCells(), grid->GetNumberOfCells());
+}
+
+TEST(vtkSplineRefine, ThresholdMarksExactlyItsCells_GoldenOracle)
+{
+  const auto grid = ShapeGrid(vtkSplineSource::SQUARE, 2, { 4, 4, 1 });
+  std::vector<double> values(16, 0.0);
+  values[5] = 1.0; // lowest value: in
+  values[6] = 2.0; // highest value: in
+  values[9] = 2.5; // above
+  values[10] = std::numeric_limits<double>::quiet_NaN();
+  AddCellArray(grid, "Error", values);
+  vtkNew<vtkSplineRefine> refine;
+  refine->SetInputData(grid);
+  RefineByArray(refine, "Error");
+  refine->SetLowerThreshold(1.0);
+  refine->SetUpperThreshold(2.0);
+  refine->SetExtension(0);
+  refine->Update();
+  EXPECT_EQ(GridOf(refine)->GetNumberOfCells(), 14 + 2 * 4);
+  std::set<vtkIdType> split;
+  for (vtkIdType child = 0; child < GridOf(refine)->GetNumberOfCells(); ++child)
+  {
+    for (vtkIdType cell = 0; cell < 16; ++cell)
+    {
+      if (IsInside(GridOf(refine), child, grid, cell))
+      {
+        const double value = CellValue(GridOf(refine), "Error", child);
+        EXPECT_TRUE(value == values[static_cast<std::size_t>(cell)] ||
+          (std::isnan(value) && cell == 10)); // the array passes to the children
+        if (CellValue(GridOf(refine), "Level", child) == 1.0)
+        {
+          split.insert(cell);
+        }
+      }
+    }
+  }
+  EXPECT_EQ(split, (std::set<vtkIdType>{ 5, 6 }));
+
+  // children of marked elements are marked: the level follows the number of refinements
+  refine->SetNumberOfRefinements(3);
+  refine->Update();
+  EXPECT_EQ(GridOf(refine)->GetNumberOfCells(), 14 + 2 * 64);
+  // ... up to the highest level
+  refine->SetMaxLevel(2);
+  refine->Update();
+  EXPECT_EQ(GridOf(refine)->GetNumberOfCells(), 14 + 2 * 16);
+}
+
+TEST(vtkSplineRefine, AutomaticExtensionBringsNewFunctions_GoldenOracle)
+{
+  for (int degree = 1; degree <= 5; ++degree)
+  {
+    const auto grid = ShapeGrid(vtkSplineSource::SQUARE, degree, { 16, 16, 1 });
+    std::vector<double> values(256, 0.0);
+    values[8 * 16 + 8] = 1.0;
+    AddCellArray(grid, "Error", values);
+    const auto highestLevel = [&](int extension)
+    {
+      vtkNew<vtkSplineRefine> refine;
+      refine->SetInputData(grid);
+      RefineByArray(refine, "Error");
+      refine->SetLowerThreshold(0.5);
+      refine->SetExtension(extension);
+      refine->Update();
+      const SplineModel model = DecodePatches(GridOf(refine));
+      int level = 0;
+      for (const auto& info :
+        DescribeFunctions(*std::get<Spline<2>>(model.Patches[0].Geometry).Space))
+      {
+        level = std::max(level, info.Level);
+      }
+      return level;
+    };
+    EXPECT_EQ(highestLevel(-1), 1) << "degree " << degree;
+    if (degree >= 4) // 2 rings grow to whole cells: 6 new ones a side; 1 and 0 rings to 4 and 2
+    {
+      EXPECT_EQ(highestLevel(0), 0) << "degree " << degree;
+    }
+  }
+}
+
+TEST(vtkSplineRefine, GlobalRefinementStaysTensorProduct_PropertyOracle)
+{
+  auto grid = ShapeGrid(vtkSplineSource::DISC, 3, { 2, 2, 1 });
+  std::vector<double> values(static_cast<std::size_t>(grid->GetNumberOfCells()), 0.0);
+  values[0] = 1.0; // patch 0 only
+  AddCellArray(grid, "Error", values);
+  vtkNew<vtkSplineRefine> refine;
+  refine->SetInputData(grid);
+  RefineByArray(refine, "Error");
+  refine->SetLowerThreshold(0.5);
+  refine->GlobalRefinementOn();
+  refine->Update();
+  EXPECT_EQ(GridOf(refine)->GetNumberOfCells(), grid->GetNumberOfCells() + 3 * 4);
+  for (const SplinePatch& patch : DecodePatches(GridOf(refine)).Patches)
+  {
+    EXPECT_EQ(std::get<Spline<2>>(patch.Geometry).Space->Kind, SpaceKind::Tensor);
+  }
+  EXPECT_LE(WorstDifference(grid, GridOf(refine)), 1e-14);
+}
+
+TEST(vtkSplineRefine, ImplicitFunctionMarksCrossedAndInside_CrossOracle)
+{
+  const auto grid = ShapeGrid(vtkSplineSource::SQUARE, 1, { 8, 8, 1 }); // cells of side 1/8
+  vtkNew<vtkPlane> plane;
+  plane->SetOrigin(0.05, 0.0, 0.0); // in the fifth column, negative on the left
+  plane->SetNormal(1.0, 0.0, 0.0);
+  vtkNew<vtkSplineRefine> refine;
+  refine->SetInputData(grid);
+  refine->SetMode(vtkSplineRefine::IMPLICIT_FUNCTION);
+  refine->SetImplicitFunction(plane);
+  refine->SetExtension(0);
+  refine->Update();
+  EXPECT_EQ(GridOf(refine)->GetNumberOfCells(), 24 + 4 * 40);
+  refine->SetImplicitRegion(vtkSplineRefine::CROSSED);
+  refine->Update();
+  EXPECT_EQ(GridOf(refine)->GetNumberOfCells(), 56 + 4 * 8);
+  // the function is a part of the filter
+  plane->SetOrigin(100.0, 0.0, 0.0);
+  refine->Update();
+  EXPECT_EQ(GridOf(refine)->GetNumberOfCells(), 64);
+  // new elements are sampled again: only the crossed half of the column is split once more
+  plane->SetOrigin(0.05, 0.0, 0.0);
+  refine->SetNumberOfRefinements(2);
+  refine->Update();
+  EXPECT_EQ(GridOf(refine)->GetNumberOfCells(), 56 + 16 + 16 * 4);
+}
+
+TEST(vtkSplineRefine, SelectedCellsAreRefined_GoldenOracle)
+{
+  const auto grid = ShapeGrid(vtkSplineSource::SQUARE, 2, { 4, 4, 1 });
+  vtkNew<vtkSplineRefine> refine;
+  refine->SetInputData(grid);
+  refine->SetMode(vtkSplineRefine::SELECTION);
+  refine->SetSelectionData(SelectCells({ 0, 15, 7 }));
+  refine->SetExtension(0);
+  refine->Update();
+  EXPECT_EQ(GridOf(refine)->GetNumberOfCells(), 13 + 3 * 4);
+  for (const vtkIdType cell : { 0, 15, 7 })
+  {
+    int children = 0;
+    for (vtkIdType child = 0; child < GridOf(refine)->GetNumberOfCells(); ++child)
+    {
+      children += IsInside(GridOf(refine), child, grid, cell) ? 1 : 0;
+    }
+    EXPECT_EQ(children, 4);
+  }
+  EXPECT_FALSE(GridOf(refine)->GetCellData()->HasArray("vtkInsidedness"));
+  // ids that are not there select nothing
+  refine->SetSelectionData(SelectCells({ -3, 1000 }));
+  refine->Update();
+  EXPECT_EQ(GridOf(refine)->GetNumberOfCells(), 16);
+  vtkNew<vtkSelection> nothing;
+  refine->SetSelectionData(nothing);
+  refine->Update();
+  EXPECT_EQ(GridOf(refine)->GetNumberOfCells(), 16);
+}
+
+TEST(vtkSplineRefine, AdmissibleClassGradesLevels_PropertyOracle)
+{
+  const auto cells = [](int admissible)
+  {
+    const auto grid = ShapeGrid(vtkSplineSource::SQUARE, 2, { 8, 8, 1 });
+    std::vector<double> values(64, 0.0);
+    values[27] = 1.0;
+    AddCellArray(grid, "Error", values);
+    vtkNew<vtkSplineRefine> refine;
+    refine->SetInputData(grid);
+    RefineByArray(refine, "Error");
+    refine->SetLowerThreshold(0.5);
+    refine->SetNumberOfRefinements(4);
+    refine->SetAdmissibleClass(admissible);
+    refine->Update();
+    return GridOf(refine)->GetNumberOfCells();
+  };
+  EXPECT_GT(cells(2), cells(3));
+  EXPECT_GE(cells(3), cells(0));
+}
+
+TEST(vtkSplineRefine, CollectionsKeepTheirBlocks_GoldenOracle)
+{
+  auto first = ShapeGrid(vtkSplineSource::SQUARE, 1, { 2, 2, 1 });
+  auto second = ShapeGrid(vtkSplineSource::DISC, 2);
+  AddCellArray(first, "Tag", { 1.0, 2.0, 3.0, 4.0 });
+  const auto input = Collect({ first, second });
+  vtkNew<vtkSplineRefine> refine;
+  refine->SetInputDataObject(input);
+  refine->Update();
+  auto* output = vtkPartitionedDataSetCollection::SafeDownCast(refine->GetOutputDataObject(0));
+  ASSERT_TRUE(output);
+  ASSERT_EQ(output->GetNumberOfPartitionedDataSets(), 2u);
+  auto* square = vtkUnstructuredGrid::SafeDownCast(output->GetPartition(0, 0));
+  auto* disc = vtkUnstructuredGrid::SafeDownCast(output->GetPartition(1, 0));
+  ASSERT_TRUE(square && disc);
+  EXPECT_EQ(square->GetNumberOfCells(), 16);
+  EXPECT_EQ(disc->GetNumberOfCells(), 20);
+  std::array<int, 5> tags{};
+  for (vtkIdType cell = 0; cell < 16; ++cell)
+  {
+    ++tags[static_cast<std::size_t>(CellValue(square, "Tag", cell))];
+  }
+  EXPECT_EQ(tags, (std::array<int, 5>{ 0, 4, 4, 4, 4 }));
+  // the array marks cells of its own block
+  RefineByArray(refine, "Tag");
+  refine->SetLowerThreshold(4.0);
+  refine->SetExtension(0);
+  refine->Update();
+  EXPECT_EQ(output->GetPartition(0, 0)->GetNumberOfCells(), 7);
+  EXPECT_EQ(output->GetPartition(1, 0)->GetNumberOfCells(), 5);
+}
+
+TEST(vtkSplineRefine, BezierGridsAreSubdividedGlobally_GoldenOracle)
+{
+  auto grid = ShapeGrid(vtkSplineSource::DISC, 2, { 2, 2, 1 });
+  const vtkIdType cells = grid->GetNumberOfCells();
+  grid->GetFieldData()->Initialize();
+  for (const char* name : { "ElementId", "Level", "ParametricBounds", "PatchBasis" })
+  {
+    grid->GetCellData()->RemoveArray(name);
+  }
+  std::vector<double> values(static_cast<std::size_t>(cells), 1.0);
+  AddCellArray(grid, "Error", values);
+  vtkNew<vtkSplineRefine> refine;
+  refine->SetInputData(grid);
+  refine->Update();
+  EXPECT_EQ(GridOf(refine)->GetNumberOfCells(), 4 * cells);
+  // each patch had 5 x 5 points, glued they become 9 x 9
+  EXPECT_EQ(grid->GetNumberOfPoints(), 5 * 25);
+  EXPECT_EQ(GridOf(refine)->GetNumberOfPoints(), 5 * 81);
+  RefineByArray(refine, "Error");
+  ExpectFailure(refine, ErrorCode::DimensionMismatch, "all together");
+  refine->GlobalRefinementOn();
+  refine->Update();
+  EXPECT_EQ(GridOf(refine)->GetNumberOfCells(), 4 * cells);
+}
+
+TEST(vtkSplineRefine, EveryFailureIsReachable)
+{
+  auto grid = ShapeGrid(vtkSplineSource::SQUARE, 2, { 2, 2, 1 });
+  AddCellArray(grid, "Error", { 1.0, 0.0, 0.0, 0.0 });
+  vtkNew<vtkSplineRefine> refine;
+  refine->SetInputData(grid);
+  RefineByArray(refine, "NoSuchArray");
+  ExpectFailure(refine, ErrorCode::InvalidParameter, "no such cell array");
+  RefineByArray(refine, "BezierDegrees");
+  ExpectFailure(refine, ErrorCode::InvalidParameter, "one value a cell");
+  refine->SetMode(vtkSplineRefine::IMPLICIT_FUNCTION);
+  ExpectFailure(refine, ErrorCode::InvalidParameter, "implicit function");
+  refine->SetMode(vtkSplineRefine::SELECTION);
+  ExpectFailure(refine, ErrorCode::InvalidParameter, "set the selection");
+  auto points = SelectCells({ 0 });
+  points->GetNode(0u)->SetFieldType(vtkSelectionNode::POINT);
+  refine->SetSelectionData(points);
+  ExpectFailure(refine, ErrorCode::InvalidParameter, "must select cells");
+  refine->SetMode(vtkSplineRefine::UNIFORM);
+  refine->SetDegreeElevation(8);
+  ExpectFailure(refine, ErrorCode::InvalidDegree, "patch 0");
+  refine->SetDegreeElevation(0);
+  refine->SetAdmissibleClass(1);
+  ExpectFailure(refine, ErrorCode::InvalidParameter, "admissible class");
+  refine->SetAdmissibleClass(0);
+  RefineByArray(refine, "Error");
+  refine->SetLowerThreshold(0.5);
+  refine->Update();
+  vtkNew<vtkSplineRefine> second;
+  second->SetInputDataObject(GridOf(refine));
+  second->SetDegreeElevation(1);
+  ExpectFailure(second, ErrorCode::DimensionMismatch, "hierarchical");
+}
+
+TEST(vtkSplineRefine, AbortLeavesAnEmptyOutput_PropertyOracle)
+{
+  class Stop : public vtkCommand
+  {
+  public:
+    static Stop* New() { return new Stop; }
+    void Execute(vtkObject* caller, unsigned long, void*) override
+    {
+      static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
+    }
+  };
+  vtkNew<vtkSplineRefine> refine;
+  vtkNew<Stop> stop;
+  refine->AddObserver(vtkCommand::ProgressEvent, stop);
+  refine->SetInputData(ShapeGrid(vtkSplineSource::DISC));
+  refine->Update();
+  EXPECT_EQ(refine->GetErrorCode(), vtkErrorCode::UserError + static_cast<int>(ErrorCode::Aborted));
+  EXPECT_EQ(GridOf(refine)->GetNumberOfCells(), 0);
+}
+
+TEST(vtkSplineRefine, BadInputIsRefused)
+{
+  vtkNew<vtkSplineRefine> filter;
+  ExpectBadInputIsRefused(filter);
+}

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The source, the refinement, the control net and the parametric mesh from Python."""
+import math
+
+import knotwork
+import knotwork_testing
+from vtkmodules.vtkCommonDataModel import vtkSphere, vtkTable, vtkUnstructuredGrid
+
+
+def source(name, **properties):
+    made = knotwork.vtkSplineSource()
+    made.SetShapeName(name)
+    for key, value in properties.items():
+        getattr(made, "Set" + key)(value)
+    return made
+
+
+def test_shapes_by_name():
+    shapes = knotwork.vtkSplineSource
+    ball = source("Ball", InnerRadius=0.25, OuterRadius=2.0)
+    assert ball.GetShape() == shapes.BALL
+    assert ball.GetShapeName() == "Ball"
+    ball.Update()
+    grid = ball.GetOutputDataObject(0)
+    assert isinstance(grid, vtkUnstructuredGrid)
+    assert grid.GetNumberOfCells() == 7
+    assert math.isclose(grid.GetBounds()[1], -grid.GetBounds()[0])
+
+
+def test_chain():
+    disc = source("Disc", Degree=2, Elements=(2, 2, 1))
+    sphere = vtkSphere()
+    sphere.SetCenter(1, 0, 0)
+    sphere.SetRadius(0.2)
+    refine = knotwork.vtkSplineRefine()
+    refine.SetInputConnection(disc.GetOutputPort())
+    refine.SetMode(refine.IMPLICIT_FUNCTION)
+    refine.SetImplicitFunction(sphere)
+    refine.SetNumberOfRefinements(2)
+    mesh = knotwork.vtkSplineParametricMesh()
+    mesh.SetInputConnection(refine.GetOutputPort())
+    mesh.Update()
+    net = knotwork.vtkSplineControlNet()
+    net.SetInputConnection(refine.GetOutputPort())
+    net.Update()
+    grid = refine.GetOutputDataObject(0)
+    assert grid.GetCellData().GetArray("Level").GetRange() == (0, 2)
+    assert mesh.GetOutputDataObject(0).GetNumberOfCells() == grid.GetNumberOfCells()
+    points = net.GetOutputDataObject(0)
+    assert points.GetNumberOfVerts() == points.GetNumberOfPoints() > 0
+    assert points.GetPointData().GetArray("Level").GetRange()[1] >= 1
+    assert points.GetPointData().GetArray("Weight").GetRange()[0] < 1
+
+
+def test_errors_are_one_line():
+    bad = source("Disc", InnerRadius=3.0)
+    with knotwork_testing.Errors(bad) as errors:
+        bad.Update()
+    assert bad.GetErrorCode() > 40000
+    assert "inner radius" in errors[0]
+    assert bad.GetOutputDataObject(0).GetNumberOfCells() == 0
+    with knotwork_testing.Errors(bad) as errors:
+        bad.SetShapeName("Nothing")
+    assert len(errors) == 1
+
+    for kind in (knotwork.vtkSplineRefine, knotwork.vtkSplineControlNet, knotwork.vtkSplineParametricMesh):
+        wrong = kind()
+        wrong.SetInputDataObject(vtkTable())
+        with knotwork_testing.Errors(wrong) as errors:
+            wrong.Update()
+        assert errors
+
+
+knotwork_testing.main(globals())
