@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BezierForm.h"
 #include "FilterCases.h"
+#include "HierarchicalSpace.h"
 #include "RandomModels.h"
 #include "vtkSplineRefine.h"
 
