@@ -109,6 +109,10 @@ Status vtkSplineRefine::Marker::PrepareSelection(vtkDataObject* input, vtkSelect
   {
     return { ErrorCode::InvalidParameter, "set the selection to refine by (input port 1)" };
   }
+  if (selection->GetNumberOfNodes() == 0) // nothing is selected
+  {
+    return {};
+  }
   vtkNew<vtkExtractSelection> extract;
   extract->SetInputDataObject(0, input);
   extract->SetInputDataObject(1, selection);
@@ -117,7 +121,7 @@ Status vtkSplineRefine::Marker::PrepareSelection(vtkDataObject* input, vtkSelect
   for (const auto& [block, grid] : knotwork::GridsByBlock(extract->GetOutputDataObject(0)))
   {
     vtkDataArray* inside = grid->GetCellData()->GetArray("vtkInsidedness");
-    if (!inside && selection->GetNumberOfNodes() > 0 && grid->GetNumberOfCells() > 0)
+    if (!inside && grid->GetNumberOfCells() > 0)
     {
       return { ErrorCode::InvalidParameter, "the selection to refine by must select cells" };
     }

@@ -30,7 +30,7 @@ vtkSmartPointer<vtkUnstructuredGrid> LocallyRefined(int shape, std::array<int, 3
 {
   vtkNew<vtkSphere> sphere;
   sphere->SetRadius(0.3);
-  sphere->SetCenter(0.3, 0.3, 0.3);
+  sphere->SetCenter(0.3, 0.3, 0.0);
   vtkNew<vtkSplineRefine> refine;
   refine->SetInputData(ShapeGrid(shape, 2, elements));
   refine->SetMode(vtkSplineRefine::IMPLICIT_FUNCTION);
