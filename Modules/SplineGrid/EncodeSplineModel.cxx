@@ -719,8 +719,8 @@ Status EncodeSplineModel(const SplineModel& model, vtkDataObject* like, vtkDataO
   return {};
 }
 
-void PassCellData(vtkUnstructuredGrid* input, const std::vector<vtkIdType>& sourceCells,
-  vtkUnstructuredGrid* output)
+void PassCellData(
+  vtkUnstructuredGrid* input, const std::vector<vtkIdType>& sourceCells, vtkDataSet* output)
 {
   static const std::set<std::string> ours{ name::PatchId, name::ElementId, name::Level,
     name::Bounds, name::Basis, name::Degrees, name::DegreesCopy };

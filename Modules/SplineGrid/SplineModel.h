@@ -9,6 +9,7 @@
 #include <vector>
 
 class vtkDataObject;
+class vtkDataSet;
 class vtkUnstructuredGrid;
 
 /// The bridge between VTK datasets and the kernels: every filter decodes with it, calls a kernel,
@@ -65,8 +66,8 @@ VTKKNOTWORKSPLINEGRID_EXPORT Status EncodeSplineModel(
 
 /// Copies cell arrays (other than ours) of input to output: sourceCells[i] is the input cell of
 /// output cell i, -1 for none.
-VTKKNOTWORKSPLINEGRID_EXPORT void PassCellData(vtkUnstructuredGrid* input,
-  const std::vector<vtkIdType>& sourceCells, vtkUnstructuredGrid* output);
+VTKKNOTWORKSPLINEGRID_EXPORT void PassCellData(
+  vtkUnstructuredGrid* input, const std::vector<vtkIdType>& sourceCells, vtkDataSet* output);
 
 /// Index of a Bernstein coefficient (first direction fastest) for every VTK point of a Bezier
 /// curve, quadrilateral or hexahedron: result[vtkPoint] = i + (p + 1) (j + (q + 1) k).

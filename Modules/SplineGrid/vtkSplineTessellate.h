@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkSplineTessellate
+ * @brief   linear cells that follow a spline grid to a guaranteed tolerance
+ *
+ * Curves become lines, surfaces quadrilaterals and triangles, solids their outer boundary (Output
+ * SURFACE, a vtkPolyData) or hexahedra (Output VOLUME, a vtkUnstructuredGrid, in which curves and
+ * surfaces stay lines and polygons). A vtkPartitionedDataSetCollection becomes one of such
+ * datasets.
+ *
+ * Guarantee: no point of a linear cell is farther than ChordalTolerance from the spline at the same
+ * parameters, proven from bounds of second derivatives, not sampled. Points are evaluated in double
+ * precision, once each. The mesh is watertight across elements, hierarchy levels and those sides of
+ * patches whose control points agree. Where MaximumSubdivision stops the halving of elements the
+ * guarantee is the field-data array ChordalBound (largest proven deviation), and a warning says so.
+ *
+ * Point arrays: fields of the grid (exact; zero on patches without the field), Normals (exact), and
+ * where the point was evaluated: PatchId, ElementId, LocalParameters. A point that several elements
+ * share belongs to the first of them. Cell arrays: PatchId, ElementId, Level and those of the
+ * input.
+ *
+ * Errors: those of decoding; TooLarge above 500 million polygons or 200 million hexahedra.
+ */
+#ifndef vtkSplineTessellate_h
+#define vtkSplineTessellate_h
+#include "vtkKnotworkSplineGridModule.h" // for export macro
+#include "vtkSplineAlgorithm.h"
+
+class VTKKNOTWORKSPLINEGRID_EXPORT vtkSplineTessellate : public vtkSplineAlgorithm
+{
+public:
+  static vtkSplineTessellate* New();
+  vtkTypeMacro(vtkSplineTessellate, vtkSplineAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum Outputs
+  {
+    SURFACE = 0,
+    VOLUME
+  };
+
+  ///@{
+  /** Largest deviation, as RelativeTolerance says. Default 1e-3, valid range [1e-12, 1e12]. */
+  vtkSetClampMacro(ChordalTolerance, double, 1e-12, 1e12);
+  vtkGetMacro(ChordalTolerance, double);
+  ///@}
+  ///@{
+  /** Whether the tolerance is a share of the diagonal of the bounding box of the grid's (of each
+   * block's) points, else a length. Default on. */
+  vtkSetMacro(RelativeTolerance, bool);
+  vtkGetMacro(RelativeTolerance, bool);
+  vtkBooleanMacro(RelativeTolerance, bool);
+  ///@}
+  ///@{
+  /** How often an element is halved in a direction at most. Default 8, valid range [0, 10]. */
+  vtkSetClampMacro(MaximumSubdivision, int, 0, 10);
+  vtkGetMacro(MaximumSubdivision, int);
+  ///@}
+  ///@{
+  /** What becomes of solids, one of Outputs. Default SURFACE, valid range [SURFACE, VOLUME]. */
+  vtkSetClampMacro(Output, int, SURFACE, VOLUME);
+  vtkGetMacro(Output, int);
+  ///@}
+  ///@{
+  /** Whether polygons get point normals (outward on solids with det J > 0). Default on. */
+  vtkSetMacro(Normals, bool);
+  vtkGetMacro(Normals, bool);
+  vtkBooleanMacro(Normals, bool);
+  ///@}
+  ///@{
+  /** Off: points are shared wherever the grid is connected; the normal at a crease is the mean of
+   * its sides. On: points are repeated, bit for bit, between patches and at creases, so that
+   * normals and fields are exact on every side. Default off. */
+  vtkSetMacro(Splitting, bool);
+  vtkGetMacro(Splitting, bool);
+  vtkBooleanMacro(Splitting, bool);
+  ///@}
+
+protected:
+  vtkSplineTessellate() = default;
+  ~vtkSplineTessellate() override = default;
+  int RequestDataObject(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkSplineTessellate(const vtkSplineTessellate&) = delete;
+  void operator=(const vtkSplineTessellate&) = delete;
+
+  double ChordalTolerance = 1e-3;
+  bool RelativeTolerance = true;
+  int MaximumSubdivision = 8;
+  int Output = SURFACE;
+  bool Normals = true;
+  bool Splitting = false;
+};
+#endif
