@@ -165,7 +165,7 @@ def broken_copies(proxy):
 
     def shift_default(element):
         words = element.get("default_values").split()
-        words[-1] = str(float(words[-1]) + 1)
+        words[-1] = str(float(words[-1]) + abs(float(words[-1])) + 1)
         element.set("default_values", " ".join(words))
 
     yield from change("default", numeric, shift_default)

@@ -583,7 +583,8 @@ TEST(Shapes, SectorsShareTheirSidesBitForBit_ExactOracle)
     const auto& next = std::get<Spline<2>>(patches[(k + 1) % 7]);
     const Eigen::Index last = spline.ControlPoints.rows() - 2; // radial direction first, two points
     EXPECT_EQ(spline.ControlPoints.row(last), next.ControlPoints.row(0)) << "inner end of " << k;
-    EXPECT_EQ(spline.ControlPoints.row(last + 1), next.ControlPoints.row(1)) << "outer end of " << k;
+    EXPECT_EQ(spline.ControlPoints.row(last + 1), next.ControlPoints.row(1))
+      << "outer end of " << k;
   }
   params.Sectors = 0;
   EXPECT_EQ(MakeShape(params).Status.Code, ErrorCode::InvalidParameter);
