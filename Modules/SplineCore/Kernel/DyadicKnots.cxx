@@ -2,7 +2,6 @@
 #include "DyadicKnots.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace knotwork
 {
@@ -68,14 +67,15 @@ double DyadicKnots::Value(int level, const Position& position) const
     return lower;
   }
   const double length = breaks[At(position.Element) + 1] - lower;
-  return lower + length * std::ldexp(static_cast<double>(position.Fraction), -level);
+  const double parts = static_cast<double>(std::int64_t(1) << level); // exact, as is the quotient
+  return lower + length * (static_cast<double>(position.Fraction) / parts);
 }
 
 double DyadicKnots::Offset(int level, std::int64_t cell, const Position& position) const
 {
   const auto& breaks = this->Base->Breaks();
   const std::size_t origin = At(cell >> level);
-  const double parts = std::ldexp(1.0, level);
+  const double parts = static_cast<double>(std::int64_t(1) << level);
   const double fraction = static_cast<double>(cell & ((std::int64_t(1) << level) - 1));
   const double lower = breaks[origin], upper = breaks[origin + 1], length = upper - lower;
   if (position.Outer >= 0)

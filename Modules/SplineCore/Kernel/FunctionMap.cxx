@@ -6,6 +6,21 @@
 
 namespace knotwork
 {
+namespace
+{
+/// Comparing the arrays would call memcmp.
+template <int Dim>
+bool IsSame(const LevelIndex<Dim>& a, const LevelIndex<Dim>& b)
+{
+  bool same = true;
+  for (std::size_t d = 0; d < Dim; ++d)
+  {
+    same = same && a[d] == b[d];
+  }
+  return same;
+}
+}
+
 template <int Dim>
 FunctionMap<Dim>::FunctionMap(
   const LevelIndex<Dim>& lower, const LevelIndex<Dim>& upper, std::size_t cells)
@@ -43,7 +58,7 @@ std::size_t FunctionMap<Dim>::Slot(const LevelIndex<Dim>& index) const
   }
   const std::size_t mask = this->Table.size() - 1;
   std::size_t slot = static_cast<std::size_t>(h) & mask;
-  while (this->Table[slot] != 0 && this->Indices[this->Table[slot] - 1] != index)
+  while (this->Table[slot] != 0 && !IsSame<Dim>(this->Indices[this->Table[slot] - 1], index))
   {
     slot = (slot + 1) & mask;
   }
@@ -83,17 +98,25 @@ void FunctionMap<Dim>::CountBlock(
         }
         return;
       }
+      std::size_t next = 0; // neighbours often follow each other: one look saves the hashing
       for (int i = 0; i < shape[0]; ++i, ++index[0])
       {
+        if (i > 0 && next < this->Indices.size() && IsSame<Dim>(this->Indices[next], index))
+        {
+          this->Counters[next++] += value;
+          continue;
+        }
         const std::size_t slot = this->Slot(index);
         if (this->Table[slot] != 0)
         {
-          this->Counters[this->Table[slot] - 1] += value;
+          next = this->Table[slot];
+          this->Counters[next - 1] += value;
           continue;
         }
         this->Indices.push_back(index);
         this->Counters.push_back(value);
-        this->Table[slot] = static_cast<std::uint32_t>(this->Indices.size());
+        next = this->Indices.size();
+        this->Table[slot] = static_cast<std::uint32_t>(next);
         if (2 * this->Indices.size() > this->Table.size())
         {
           this->Grow();
@@ -175,12 +198,20 @@ void FunctionMap<Dim>::FindBlock(
       {
         index[d] += offset[d];
       }
-      const std::size_t start = this->Dense ? this->Linear(index) : 0;
+      if (this->Dense)
+      {
+        const std::uint32_t* entries = this->Table.data() + this->Linear(index);
+        numbers = std::transform(entries, entries + shape[0], numbers,
+          [](std::uint32_t entry) { return static_cast<int>(entry) - 1; });
+        return;
+      }
+      std::size_t next = 0;
       for (int i = 0; i < shape[0]; ++i, ++index[0])
       {
-        const std::size_t slot =
-          this->Dense ? start + static_cast<std::size_t>(i) : this->Slot(index);
-        *numbers++ = static_cast<int>(this->Table[slot]) - 1;
+        const bool follows =
+          i > 0 && next < this->Indices.size() && IsSame<Dim>(this->Indices[next], index);
+        next = follows ? next + 1 : this->Table[this->Slot(index)];
+        *numbers++ = static_cast<int>(next) - 1;
       }
     });
 }

@@ -19,48 +19,44 @@ struct TruncationRows
   std::vector<double> Coefficient;
 };
 
-/// Sums sparse rows in a dense array that is cleared by stamps.
+/// Sums sparse rows of positive coefficients in a dense array that is zero between two sums.
 class RowSum
 {
 public:
   explicit RowSum(int functions)
-    : Sum(static_cast<std::size_t>(functions)), Stamp(static_cast<std::size_t>(functions), 0)
+    : Sum(static_cast<std::size_t>(functions), 0.0),
+      Touched(static_cast<std::size_t>(functions) + 1)
   {
-  }
-  void Begin()
-  {
-    ++this->Current;
-    this->Touched.clear();
   }
   void Add(const TruncationRows& rows, std::size_t row, double weight)
   {
     for (std::size_t k = rows.Start[row]; k < rows.Start[row + 1]; ++k)
     {
-      const std::size_t f = static_cast<std::size_t>(rows.Function[k]);
-      if (this->Stamp[f] != this->Current)
-      {
-        this->Stamp[f] = this->Current;
-        this->Sum[f] = 0.0;
-        this->Touched.push_back(rows.Function[k]);
-      }
-      this->Sum[f] += weight * rows.Coefficient[k];
+      double& sum = this->Sum[static_cast<std::size_t>(rows.Function[k])];
+      this->Touched[this->NumTouched] = rows.Function[k]; // kept when it is new: no branch
+      this->NumTouched += sum == 0.0 ? 1 : 0;
+      sum += weight * rows.Coefficient[k];
     }
   }
-  void AppendTo(TruncationRows& rows)
+  /// Appends the sum to the rows and clears it.
+  void MoveTo(TruncationRows& rows)
   {
-    std::sort(this->Touched.begin(), this->Touched.end());
-    for (int f : this->Touched)
+    const auto end = this->Touched.begin() + static_cast<std::ptrdiff_t>(this->NumTouched);
+    std::sort(this->Touched.begin(), end);
+    rows.Function.insert(rows.Function.end(), this->Touched.begin(), end);
+    for (std::size_t i = 0; i < this->NumTouched; ++i)
     {
-      rows.Function.push_back(f);
-      rows.Coefficient.push_back(this->Sum[static_cast<std::size_t>(f)]);
+      double& sum = this->Sum[static_cast<std::size_t>(this->Touched[i])];
+      rows.Coefficient.push_back(sum);
+      sum = 0.0;
     }
+    this->NumTouched = 0;
   }
 
 private:
   std::vector<double> Sum;
-  std::vector<unsigned> Stamp;
   std::vector<int> Touched;
-  unsigned Current = 0;
+  std::size_t NumTouched = 0;
 };
 
 /// The recursion of truncation: a function inside Omega^level has a unit row, any other is what its
@@ -84,12 +80,11 @@ TruncationRows MakeRows(const std::vector<DyadicKnots>& knots, const Hierarchy<D
     else if (fine.Ids[i] == HierarchyLevel<Dim>::Partial)
     {
       parents.Find(hierarchy.Levels[level - 1].Functions, fine.Functions.Index(i));
-      sum.Begin();
       for (std::size_t k = 0; k < parents.Numbers.size(); ++k)
       {
         sum.Add(coarse, static_cast<std::size_t>(parents.Numbers[k]), parents.Weights[k]);
       }
-      sum.AppendTo(rows);
+      sum.MoveTo(rows);
     }
     rows.Start.push_back(rows.Function.size());
   }
