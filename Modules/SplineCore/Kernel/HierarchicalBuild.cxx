@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace knotwork
 {
@@ -44,11 +45,11 @@ public:
     const auto end = this->Touched.begin() + static_cast<std::ptrdiff_t>(this->NumTouched);
     std::sort(this->Touched.begin(), end);
     rows.Function.insert(rows.Function.end(), this->Touched.begin(), end);
+    rows.Coefficient.resize(rows.Function.size());
+    double* coefficient = rows.Coefficient.data() + (rows.Function.size() - this->NumTouched);
     for (std::size_t i = 0; i < this->NumTouched; ++i)
     {
-      double& sum = this->Sum[static_cast<std::size_t>(this->Touched[i])];
-      rows.Coefficient.push_back(sum);
-      sum = 0.0;
+      coefficient[i] = std::exchange(this->Sum[static_cast<std::size_t>(this->Touched[i])], 0.0);
     }
     this->NumTouched = 0;
   }
@@ -69,6 +70,9 @@ TruncationRows MakeRows(const std::vector<DyadicKnots>& knots, const Hierarchy<D
   const HierarchyLevel<Dim>& fine = hierarchy.Levels[level];
   TruncationRows rows;
   rows.Start.reserve(fine.Ids.size() + 1);
+  // Rows grow from level to level and soon keep their mean length.
+  rows.Function.reserve(fine.Ids.size() + 3 * coarse.Function.size());
+  rows.Coefficient.reserve(rows.Function.capacity());
   ParentStencil<Dim> parents(knots, static_cast<int>(level));
   for (std::size_t i = 0; i < fine.Ids.size(); ++i)
   {
