@@ -71,6 +71,7 @@ TEST(vtkSplineSource, EveryPropertyReachesTheShape_CrossOracle)
     params.InnerRadius = 0.7;
     params.OuterRadius = 1.9;
     params.Angle = 130.0;
+    params.Sectors = 3;
     params.PolarAngle = 40.0;
     params.Height = 3.0;
     params.Twist = -140.0;
@@ -83,6 +84,7 @@ TEST(vtkSplineSource, EveryPropertyReachesTheShape_CrossOracle)
     source->SetInnerRadius(0.7);
     source->SetOuterRadius(1.9);
     source->SetAngle(130.0);
+    source->SetSectors(3);
     source->SetPolarAngle(40.0);
     source->SetHeight(3.0);
     source->SetTwist(-140.0);
