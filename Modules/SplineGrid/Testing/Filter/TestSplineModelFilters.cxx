@@ -2,6 +2,8 @@
 // Filters of VTK that move points or join grids: the decoded splines are the moved ones.
 #include "RandomModels.h"
 
+#include "TensorSpace.h"
+
 #include "vtkAppendFilter.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
@@ -198,6 +200,29 @@ TEST_P(SplineModelFilters, EditedWeightsAreRecovered_ExactOracle)
         tolerance);
     }
   }
+}
+
+// Other weights make another field of the same values: the cached coefficients no longer count.
+TEST(SplineModelWeights, FieldsFollowTheirWeights_PropertyOracle)
+{
+  const auto space = // C^2: not every set of Bezier points is a spline
+    MakeTensorSpace<2>({ KnotVector::Uniform(3, 3), KnotVector::Uniform(3, 3) }).Value;
+  SplineModel model;
+  model.Patches.resize(1);
+  model.Patches[0].Geometry =
+    Spline<2>{ space, PointMatrix::Random(36, 3), Eigen::VectorXd::LinSpaced(36, 1.0, 2.0) };
+  model.Patches[0].Fields = { { "Temperature", PointMatrix::Random(36, 1) } };
+  const auto grid = Encode(model);
+  SplineModel other = model;
+  auto& weights = std::get<Spline<2>>(other.Patches[0].Geometry).Weights;
+  weights = weights.cwiseInverse();
+  const auto edited = Encode(other);
+  grid->GetPoints()->DeepCopy(edited->GetPoints());
+  grid->GetPointData()->GetRationalWeights()->DeepCopy(
+    edited->GetPointData()->GetRationalWeights());
+  const SplineModel back = Decode(grid);
+  ASSERT_EQ(back.Warnings.size(), 1U);
+  EXPECT_NE(back.Warnings[0].find("field 'Temperature'"), std::string::npos) << back.Warnings[0];
 }
 
 TEST_P(SplineModelFilters, FieldsOfOtherToolsAreRecovered_ExactOracle)
