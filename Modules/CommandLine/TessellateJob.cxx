@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Jobs.h"
+#include "Options.h"
+#include "Session.h"
+
+#include "vtkSplineTessellate.h"
+
+#include <vtkDataObject.h>
+#include <vtkNew.h>
+
+#include <memory>
+
+namespace knotwork
+{
+namespace
+{
+struct TessellateJob
+{
+  std::string Input;
+  std::string Output;
+  vtkNew<vtkSplineTessellate> Filter;
+  std::unique_ptr<Options> FilterOptions;
+
+  Status Run(Session& session)
+  {
+    auto input = session.Read(this->Input);
+    if (!input)
+    {
+      return input.Status;
+    }
+    this->Filter->SetInputDataObject(input.Value);
+    session.Report["input"] = this->Input;
+    session.Report["output"] = this->Output;
+    this->FilterOptions->Apply(session.Report);
+    this->Filter->SetThreads(session.Threads);
+    if (Status status = session.Run(this->Filter, "'" + this->Input + "'"); !status)
+    {
+      return status;
+    }
+    vtkDataObject* result = this->Filter->GetOutputDataObject(0);
+    session.Report["number_of_points"] = result->GetNumberOfElements(vtkDataObject::POINT);
+    session.Report["number_of_cells"] = result->GetNumberOfElements(vtkDataObject::CELL);
+    return session.Write(result, this->Output);
+  }
+};
+}
+
+Job MakeTessellateJob(CLI::App& app)
+{
+  auto job = std::make_shared<TessellateJob>();
+  app.add_option("input", job->Input, "spline grid (.vtu .vtpc)")->required();
+  app.add_option("--output", job->Output, "linear cells (surface .vtp, volume .vtu)")->required();
+  job->FilterOptions = std::make_unique<Options>(app);
+  Options& options = *job->FilterOptions;
+  vtkSplineTessellate* filter = job->Filter;
+  KNOTWORK_OPTION(options, filter, ChordalTolerance, "largest deviation of a cell from the spline");
+  KNOTWORK_FREE_OPTION(options, filter, RelativeTolerance,
+    "whether the tolerance is a share of the bounding box's diagonal");
+  KNOTWORK_OPTION(options, filter, MaximumSubdivision, "halvings of an element at most");
+  options.AddChoice(
+    "Cells", { "surface", "volume" }, filter->GetOutput(),
+    [filter](int cells) { filter->SetOutput(cells); }, "cells that solids become");
+  KNOTWORK_FREE_OPTION(options, filter, Normals, "exact normals of surfaces");
+  KNOTWORK_FREE_OPTION(
+    options, filter, Splitting, "points repeated at creases and between patches");
+  return [job](Session& session) { return job->Run(session); };
+}
+}
