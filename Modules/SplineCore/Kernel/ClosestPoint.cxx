@@ -68,7 +68,7 @@ Result<ClosestPointSearch<Dim>> ClosestPointSearch<Dim>::Create(
       for (std::size_t d = 0; d < Dim; ++d)
       {
         start.Counts[d] =
-          params.Samples != 0 ? params.Samples : patches[p].Space->Elements[At(e)].Degree[d] + 1;
+          params.Samples != 0 ? params.Samples : patches[p].Space->Elements[At(e)].Degree[d] + 2;
         count *= start.Counts[d];
       }
       numSamples += count;
@@ -151,41 +151,66 @@ Result<ClosestPointSearch<Dim>> ClosestPointSearch<Dim>::Create(
 
 template <int Dim>
 typename ClosestPointSearch<Dim>::Candidate ClosestPointSearch<Dim>::SearchElement(
-  const Start& start, const double* query, EvaluationBatch& batch) const
+  const Start& start, const double* query, std::vector<double>& distances,
+  EvaluationBatch& batch) const
+{
+  const int c = this->Hulls.Dimension();
+
+  // Starts: the samples of the element that are nearer than their neighbours in the grid.
+  std::int64_t count = 1;
+  std::array<std::int64_t, Dim> stride;
+  for (std::size_t d = 0; d < Dim; ++d)
+  {
+    stride[d] = count;
+    count *= start.Counts[d];
+  }
+  const double* samples =
+    this->Samples.Samples().data() + static_cast<std::int64_t>(start.FirstSample) * c;
+  distances.resize(At(count));
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    double sum = 0.0;
+    for (int k = 0; k < c; ++k)
+    {
+      sum += (samples[i * c + k] - query[k]) * (samples[i * c + k] - query[k]);
+    }
+    distances[At(i)] = sum;
+  }
+  Candidate best;
+  best.SquaredDistance = std::numeric_limits<double>::infinity();
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    bool isStart = true;
+    for (std::size_t d = 0; d < Dim && isStart; ++d)
+    {
+      const std::int64_t k = i / stride[d] % start.Counts[d];
+      isStart = (k == 0 || distances[At(i)] < distances[At(i - stride[d])]) &&
+        (k + 1 == start.Counts[d] || distances[At(i)] <= distances[At(i + stride[d])]);
+    }
+    if (isStart)
+    {
+      Candidate candidate;
+      candidate.Local = GridParameter<Dim>(start.Counts, i);
+      std::copy(samples + i * c, samples + (i + 1) * c, candidate.Point.begin());
+      candidate.SquaredDistance = distances[At(i)];
+      this->Improve(start, query, candidate, batch);
+      if (candidate.SquaredDistance < best.SquaredDistance)
+      {
+        best = candidate;
+      }
+    }
+  }
+  return best;
+}
+
+template <int Dim>
+void ClosestPointSearch<Dim>::Improve(
+  const Start& start, const double* query, Candidate& best, EvaluationBatch& batch) const
 {
   const BezierForm<Dim>& form = this->Patches[At(start.Patch)];
   const int c = form.NumComponents;
   using Vector = Eigen::Matrix<double, Dim, 1>;
   using Matrix = Eigen::Matrix<double, Dim, Dim>;
-
-  // The nearest sample of the element.
-  std::int64_t count = 1;
-  for (const int k : start.Counts)
-  {
-    count *= k;
-  }
-  Candidate best;
-  best.SquaredDistance = std::numeric_limits<double>::infinity();
-  std::int64_t nearest = 0;
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    const double* sample =
-      this->Samples.Samples().data() + (static_cast<std::int64_t>(start.FirstSample) + i) * c;
-    double sum = 0.0;
-    for (int k = 0; k < c; ++k)
-    {
-      sum += (sample[k] - query[k]) * (sample[k] - query[k]);
-    }
-    if (sum < best.SquaredDistance)
-    {
-      best.SquaredDistance = sum;
-      nearest = i;
-    }
-  }
-  best.Local = GridParameter<Dim>(start.Counts, nearest);
-  const double* sample =
-    this->Samples.Samples().data() + (static_cast<std::int64_t>(start.FirstSample) + nearest) * c;
-  std::copy(sample, sample + c, best.Point.begin());
 
   // Derivatives come with respect to the domain: lengths of the element turn them local.
   Vector length = Vector::Ones();
@@ -306,7 +331,6 @@ typename ClosestPointSearch<Dim>::Candidate ClosestPointSearch<Dim>::SearchEleme
       break;
     }
   }
-  return best;
 }
 
 template <int Dim>
@@ -342,6 +366,7 @@ Status ClosestPointSearch<Dim>::Find(const PointMatrixView& queries, ClosestPoin
       [&](std::size_t from, std::size_t to)
       {
         EvaluationBatch batch;
+        std::vector<double> distances;
         for (std::size_t i = begin + from; i < begin + to; ++i)
         {
           const auto row = static_cast<Eigen::Index>(i);
@@ -355,7 +380,8 @@ Status ClosestPointSearch<Dim>::Find(const PointMatrixView& queries, ClosestPoin
             query,
             [&](int item)
             {
-              const Candidate candidate = this->SearchElement(this->Starts[At(item)], query, batch);
+              const Candidate candidate =
+                this->SearchElement(this->Starts[At(item)], query, distances, batch);
               if (candidate.SquaredDistance < best.SquaredDistance ||
                 (candidate.SquaredDistance == best.SquaredDistance && item < bestItem))
               {

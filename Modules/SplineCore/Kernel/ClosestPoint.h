@@ -7,7 +7,7 @@ namespace knotwork
 {
 struct ClosestPointParams
 {
-  int Samples = 0;        ///< starting points per direction and element, [2, 64]; 0: degree + 1
+  int Samples = 0;        ///< starting points per direction and element, [2, 64]; 0: degree + 2
   int MaxIterations = 50; ///< Newton steps from a start, [0, 1000]
   int Threads = 0;
   ProgressCallback Progress;
@@ -27,12 +27,12 @@ struct ClosestPoints
 /// many components as parameters, the inverse of a map (distance 0 inside its image).
 ///
 /// The nearest of dense samples bounds the distance. Every element whose control points' box (which
-/// holds the element by the convex hull property) lies within the bound is then searched from its
-/// nearest sample by a projected Newton iteration on the squared distance: full Hessian where it is
-/// positive definite on the free parameters, else Gauss-Newton, halved until the distance falls,
-/// clamped to the element. A worse point is never accepted, so the result is at least as near as
-/// the nearest sample. It is the global minimum wherever an element has no second local minimum
-/// between its samples.
+/// holds the element by the convex hull property) lies within the bound is then searched from each
+/// of its samples that is nearer than its neighbours, by a projected Newton iteration on the
+/// squared distance: full Hessian where it is positive definite on the free parameters, else
+/// Gauss-Newton, halved until the distance falls, clamped to the element. A worse point is never
+/// accepted, so the result is at least as near as the nearest sample. It is the global minimum
+/// unless an element hides a local minimum between its samples.
 /// @source  Piegl & Tiller, The NURBS Book, 6.1 (point inversion); Bertsekas, SIAM J. Control
 /// Optim. 20 (1982) 221-246 (projected Newton).
 template <int Dim>
@@ -64,7 +64,10 @@ private:
     std::array<double, 4> Point{};
     double SquaredDistance = 0.0;
   };
-  Candidate SearchElement(const Start& start, const double* query, EvaluationBatch& batch) const;
+  Candidate SearchElement(const Start& start, const double* query, std::vector<double>& distances,
+    EvaluationBatch& batch) const;
+  void Improve(
+    const Start& start, const double* query, Candidate& best, EvaluationBatch& batch) const;
 
   std::vector<BezierForm<Dim>> Patches;
   ClosestPointParams Params;

@@ -910,6 +910,10 @@ Result<CompositionResult<Dim>> ComposeSplines(const std::vector<Spline<Dim>>& in
     {
       return { status.Code, "patch " + std::to_string(p) + ": " + status.Detail };
     }
+    if (inner[p].NumComponents() > 4)
+    {
+      return { ErrorCode::DimensionMismatch, "splines with more than 4 components" };
+    }
   }
   return Composer<Dim>(inner, numComponents, outer, params).Run();
 }

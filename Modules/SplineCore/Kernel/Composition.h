@@ -52,6 +52,7 @@ struct CompositionResult
 /// mirrored, so shared interfaces have control points that are equal bit for bit. This needs knot
 /// vectors with p + 1 equal end knots; other sides and patches without a parameter domain are
 /// projected as a whole and never refined or matched.
+/// @param inner  1 to 4 components each.
 /// @return EmptyInput; InvalidParameter; what the inner splines' Check or the outer map return,
 /// with the patch; Aborted. A tolerance that MaxLevel does not allow is no error: read Distances.
 /// @complexity per round: (p + 2)^Dim evaluations of both maps an element.
