@@ -4,10 +4,12 @@ import argparse
 import os
 
 import knotwork
+import numpy as np
 import vtkmodules.vtkRenderingFreeType  # noqa: F401
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
-from vtkmodules.vtkFiltersCore import vtkTubeFilter
-from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingCore import (vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkTextActor,
                                          vtkWindowToImageFilter)
@@ -57,6 +59,50 @@ def actor(polydata, colour, line_width=None, opacity=1.0, lighting=False):
         properties.SetLineWidth(line_width)
         properties.SetRenderLinesAsTubes(False)
     return result
+
+
+def patches(surface):
+    """An actor of tessellated patches, each in a colour of its own."""
+    ids = vtk_to_numpy(surface.GetCellData().GetArray("PatchId"))
+    table = (255 * np.array(COLOURS)).round().astype(np.uint8)
+    colours = numpy_to_vtk(table[ids % len(table)], deep=1)
+    coloured = vtkPolyData()
+    coloured.ShallowCopy(surface)
+    coloured.GetCellData().SetScalars(colours)
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputData(coloured)
+    mapper.SetScalarModeToUseCellData()
+    result = vtkActor()
+    result.SetMapper(mapper)
+    result.GetProperty().LightingOff()
+    return result
+
+
+def element_edges(grid, samples=12):
+    """Polylines along the edges of the elements of a planar spline grid, evaluated on the spline."""
+    corners = np.linspace(0, 1, samples)
+    zero, one = np.zeros(samples), np.ones(samples)
+    sides = np.vstack([np.c_[corners, zero], np.c_[corners, one], np.c_[zero, corners], np.c_[one, corners]])
+    bounds = vtk_to_numpy(grid.GetCellData().GetArray("ParametricBounds"))
+    patch = vtk_to_numpy(grid.GetCellData().GetArray("PatchId"))
+    parameters = (bounds[:, None, (0, 2)] + sides[None] * (bounds[:, None, (1, 3)] - bounds[:, None, (0, 2)]))
+    parameters = parameters.reshape(-1, 2)
+    points = vtkPoints()
+    points.SetDataTypeToDouble()
+    points.SetData(numpy_to_vtk(np.c_[parameters, np.zeros(len(parameters))], deep=1))
+    lines = vtkCellArray()
+    for first in range(0, len(parameters), samples):
+        lines.InsertNextCell(samples, list(range(first, first + samples)))
+    polydata = vtkPolyData()
+    polydata.SetPoints(points)
+    polydata.SetLines(lines)
+    ids = numpy_to_vtk(np.repeat(patch, len(sides)).astype(np.int32), deep=1)
+    ids.SetName("PatchId")
+    polydata.GetPointData().AddArray(ids)
+    evaluate = knotwork.vtkSplineEvaluate()
+    evaluate.SetInputDataObject(0, grid)
+    evaluate.SetInputDataObject(1, polydata)
+    return updated(evaluate).GetOutputDataObject(0)
 
 
 def label(text, x, y, size=22):

@@ -27,6 +27,8 @@ ARCHIVE = "/usr/share/doc/libcgal-dev/data.tar.gz"
 TEETH = 10
 TEMPLATE_SAMPLES = 4001
 TARGET_SAMPLES = 4000
+INNER_KNOTS = 60
+ITERATIONS = 20
 
 
 def read_off(name):
@@ -153,7 +155,7 @@ def main():
     mapping = knotwork.vtkTemplateMapping()
     mapping.SetInputDataObject(0, template)
     mapping.SetInputDataObject(1, target)
-    mapping.SetMethodToTDM()
+    mapping.SetMethod(mapping.TDM)
     mapping.SetDegree(3)
     mapping.SetInnerKnots(INNER_KNOTS)
     mapping.SetIterations(ITERATIONS)
@@ -165,3 +167,45 @@ def main():
           f"largest distance {table.GetValueByName(last, 'MaxError').ToDouble():.2e} "
           f"(outer radius {np.linalg.norm(outer, axis=1).max():.3f}), "
           f"negative Jacobian {table.GetValueByName(last, 'NegativeJacobianPercent').ToDouble():.4f} %")
+
+    ring = knotwork.vtkSplineSource()
+    ring.SetShapeName("AnnulusSector")
+    ring.SetInnerRadius(bore_radius)
+    ring.SetOuterRadius(outer_radius)
+    ring.SetAngle(360)
+    ring.SetSectors(TEETH)
+    ring.SetDegree(3)
+    ring.SetElements(8, 16, 1)
+    gear = knotwork.vtkSplineWarp()
+    gear.SetInputConnection(ring.GetOutputPort())
+    gear.SetMapConnection(mapping.GetOutputPort())
+    gear.SetTolerance(1e-4)
+    scene.updated(gear)
+    grid = gear.GetOutputDataObject(0)
+    print(f"patches {TEETH}, elements {grid.GetNumberOfCells()}, "
+          f"distance to the composition {grid.GetCellData().GetArray('Distance').GetRange()[1]:.1e}")
+    write(vtkXMLUnstructuredGridWriter(), grid, os.path.join(folder, "gear.vtu"))
+
+    half = 1.06 * np.abs(outer).max()
+    scene.save([view(ring, template, (0.0, 0, 0.5, 1), half), view(gear, target, (0.5, 0, 1.0, 1), half)],
+               os.path.join(folder, "gear.png"), (1200, 600))
+
+
+def view(splines, outline, viewport, half):
+    """Patches in colours, their elements' lines, and the outline that they shall follow."""
+    surface = knotwork.vtkSplineTessellate()
+    surface.SetInputConnection(splines.GetOutputPort())
+    surface.SetChordalTolerance(1e-4)
+    scene.updated(surface)
+    faces = scene.patches(surface.GetOutputDataObject(0))
+    lines = scene.actor(scene.element_edges(splines.GetOutputDataObject(0)), scene.INK, 1.0)
+    border = scene.actor(outline, (0.75, 0.1, 0.1), 2.5)
+    lines.SetPosition(0, 0, 0.001)
+    border.SetPosition(0, 0, 0.002)
+    result = scene.renderer([faces, lines, border], viewport)
+    result.GetActiveCamera().SetParallelScale(half)
+    return result
+
+
+if __name__ == "__main__":
+    main()

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Messages.h"
 
+#include <vtkLogger.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
 #include <vtkSmartPointer.h>
@@ -69,6 +70,7 @@ MessageCapture::MessageCapture()
 {
   vtkSmartPointer<CaptureWindow> window = vtkSmartPointer<CaptureWindow>::New();
   vtkOutputWindow::SetInstance(window);
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF); // it repeats what the window is told
 }
 
 MessageCapture::~MessageCapture()

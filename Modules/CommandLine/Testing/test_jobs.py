@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every job of the program on good input; numbers of the report against independent ones."""
+import json
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
+
+import knotwork_testing
+import skeletons
+
+
+def path(name):
+    return knotwork_testing.output("cli/" + name)
+
+
+def run(*arguments):
+    """Runs a job with a report; returns the report."""
+    report = path("report.json")
+    done = knotwork_testing.run_program(*arguments, "--report", report, "--quiet")
+    assert done.returncode == 0, done.stderr
+    assert done.stderr == "", done.stderr
+    with open(report) as stream:
+        return json.load(stream)
+
+
+def read(reader, name):
+    reader.SetFileName(name)
+    reader.Update()
+    return reader.GetOutput()
+
+
+def points_of(data):
+    return vtk_to_numpy(data.GetPoints().GetData())
+
+
+def annulus():
+    run("source", "--shape", "annulus-sector", "--elements", 4, 4, 1, "--output", path("annulus.vtu"))
+    return path("annulus.vtu")
+
+
+def test_map_reports_the_numbers_of_its_outputs():
+    template = skeletons.write(skeletons.polydata(skeletons.curves(0.0, 1, 2001)), path("template.vtp"))
+    target = skeletons.write(skeletons.polydata(skeletons.curves(0.1, 5, 200)), path("target.vtp"))
+    report = run("map", template, target, "--output", path("map.vtu"), "--mapped", path("mapped.vtp"),
+                 "--table", path("table.csv"), "--iterations", 5, "--method", "pdm", "--threads", 1)
+    assert report["functions"] == (11 + 4) ** 2  # inner knots + degree + 1 a direction
+    assert report["iterations"] == 5 and report["method"] == "pdm" and report["tikhonov_weight"] == 0.02
+    errors = report["squared_l2_errors"]
+    assert errors[-1] == report["squared_l2_error"] < 1e-3 * 0.25 < errors[0] * 1e3
+    assert report["negative_jacobian_percents"][-1] == report["negative_jacobian_percent"]
+    assert 0 < report["seconds"] and 0 < report["cpu_seconds"] and 0 < report["seconds_io"]
+    # the two-sided maximum is at least that of the mapped skeleton's own points
+    mapped = read(vtkXMLPolyDataReader(), path("mapped.vtp"))
+    distance = vtk_to_numpy(mapped.GetPointData().GetArray("Distance"))
+    assert distance.max() <= report["max_error"] * (1 + 1e-9)
+    with open(path("table.csv")) as stream:
+        assert len(stream.readlines()) == 1 + len(errors)
+
+
+def test_fixed_pdm_and_tdm_reach_the_published_pattern():
+    template = skeletons.write(skeletons.polydata(skeletons.curves(0.0, 1, 2001)), path("template.vtp"))
+    target = skeletons.write(skeletons.polydata(skeletons.curves(0.2, 5, 200)), path("target.vtp"))
+    errors = [run("map", template, target, "--output", path("map.vtu"), "--method", method)["squared_l2_error"]
+              for method in ("fixed", "pdm", "tdm")]
+    assert errors[0] > errors[1] > errors[2], errors
+
+
+def test_refine_keeps_the_map():
+    source = annulus()
+    report = run("refine", source, "--output", path("fine.vtu"), "--sphere", 1, 0, 0, 0.2)
+    assert report["elements"] > 16
+    at = skeletons.write(skeletons.polydata([np.random.default_rng(7).random((50, 2))]), path("at.vtp"))
+    run("evaluate", source, at, "--output", path("a.vtp"), "--derivatives", 1, "--patch-id-array", "none")
+    run("evaluate", path("fine.vtu"), at, "--output", path("b.vtp"), "--patch-id-array", "none")
+    a = points_of(read(vtkXMLPolyDataReader(), path("a.vtp")))
+    b = points_of(read(vtkXMLPolyDataReader(), path("b.vtp")))
+    assert np.abs(a - b).max() < 1e-14  # a few roundings of numbers of size 1
+    radius = np.linalg.norm(a, axis=1)
+    assert radius.min() >= 0.5 - 1e-14 and radius.max() <= 1 + 1e-14
+
+
+def test_probe_inverts_evaluation():
+    source = annulus()
+    parameters = np.random.default_rng(3).random((40, 2))
+    at = skeletons.write(skeletons.polydata([parameters]), path("at.vtp"))
+    run("evaluate", source, at, "--output", path("on.vtp"), "--patch-id-array", "none")
+    report = run("evaluate", source, path("on.vtp"), "--output", path("probe.vtp"), "--mode", "probe")
+    assert report["number_of_points"] == 40 and report["max_distance"] < 1e-12
+
+
+def test_tessellation_lies_on_the_circle():
+    source = annulus()
+    report = run("tessellate", source, "--output", path("annulus.vtp"), "--chordal-tolerance", 1e-4)
+    surface = read(vtkXMLPolyDataReader(), path("annulus.vtp"))
+    assert report["number_of_points"] == surface.GetNumberOfPoints() > 25
+    radius = np.linalg.norm(points_of(surface), axis=1)
+    assert radius.min() >= 0.5 - 1e-14 and radius.max() <= 1 + 1e-14
+
+
+def test_warp_sends_points_and_splines_alike():
+    source = annulus()
+    run("source", "--shape", "square", "--center", 0.5, 0.5, 0, "--size", 0.5, 0.5, 1, "--degree", 3,
+        "--output", path("square.vtu"))
+    report = run("warp", path("square.vtu"), source, "--output", path("image.vtu"), "--tolerance", 1e-6)
+    assert report["max_distance"] <= 1e-6
+    info = run("info", path("image.vtu"))
+    assert info["patches"] == 1 and info["parametric_dimension"] == 2 and not info["rational"]
+    corners = skeletons.write(skeletons.polydata([np.array([(0.25, 0.25), (0.75, 0.25), (0.75, 0.75)])]),
+                              path("corners.vtp"))
+    run("warp", corners, source, "--output", path("sent.vtp"))
+    sent = points_of(read(vtkXMLPolyDataReader(), path("sent.vtp")))
+    # radial parameter first: radii 0.5 + u / 2
+    assert np.allclose(np.linalg.norm(sent, axis=1), [0.625, 0.875, 0.875], rtol=0, atol=1e-14)
+
+
+def test_convert_writes_every_encoding_without_loss():
+    source = annulus()
+    expected = points_of(read(vtkXMLUnstructuredGridReader(), source))
+    for encoding in ("ascii", "binary", "appended"):
+        run("convert", source, "--output", path("again.vtu"), "--encoding", encoding)
+        again = points_of(read(vtkXMLUnstructuredGridReader(), path("again.vtu")))
+        assert np.array_equal(again, expected), encoding
+    run("convert", source, "--output", path("again.vtpc"))
+    assert run("info", path("again.vtpc"))["functions"] == run("info", source)["functions"]
+
+
+def test_threads_do_not_change_a_bit():
+    template = skeletons.write(skeletons.polydata(skeletons.curves(0.0, 1, 501)), path("template.vtp"))
+    target = skeletons.write(skeletons.polydata(skeletons.curves(0.1, 3, 100)), path("target.vtp"))
+    maps = []
+    for threads in (1, 2):
+        run("map", template, target, "--output", path("map.vtu"), "--iterations", 3, "--threads", threads)
+        maps.append(points_of(read(vtkXMLUnstructuredGridReader(), path("map.vtu"))).copy())
+    assert np.array_equal(*maps)
+
+
+def test_options_are_those_of_the_filters():
+    done = knotwork_testing.run_program("map", "--help")
+    assert done.returncode == 0
+    for option in ("method", "iterations", "degree", "inner-knots", "template-samples", "newton-steps",
+                   "tikhonov-weight", "threads", "report", "mapped", "table"):
+        assert "--" + option in done.stdout, option
+
+
+knotwork_testing.main(globals())
