@@ -24,7 +24,7 @@ mkdir -p "$output"
 export PATH="$release/bin:$PATH"
 export PYTHONPATH="$(echo "$release"/lib/python3.*/site-packages)"
 export PYTHONDONTWRITEBYTECODE=1
-for example in "$root"/Examples/Gallery/*.py; do
+for example in "$root"/Examples/Gallery/[!_]*.py; do
   echo "== $(basename "$example")"
   "$root/CMake/with-display.sh" /usr/bin/python3 "$example" --output "$output"
 done
