@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -84,6 +85,30 @@ public:
   double Dot(const Lanes&) const { return 0.0; }
 };
 
+/// The same for a row whose length is known at run time only.
+class AnyLanes
+{
+  int Count = 0;
+  std::array<double, MaxDegree + 1> Values{};
+
+public:
+  AnyLanes() = default;
+  explicit AnyLanes(int count) : Count(count) {}
+  void Load(const double* p) { std::copy_n(p, this->Count, this->Values.begin()); }
+  void Add(double w, const AnyLanes& row)
+  {
+    for (int i = 0; i < this->Count; ++i)
+    {
+      this->Values[static_cast<std::size_t>(i)] += w * row.Values[static_cast<std::size_t>(i)];
+    }
+  }
+  double Dot(const AnyLanes& other) const
+  {
+    return std::inner_product(
+      this->Values.begin(), this->Values.begin() + this->Count, other.Values.begin(), 0.0);
+  }
+};
+
 /// The points start, start + 1, ... of a batch and where their results go.
 template <int Dim>
 struct Job
@@ -96,50 +121,14 @@ struct Job
   double* Second;
 };
 
-/// A block is contracted with functions of the directions 1 .. Dim-1 first: one weight a row and
-/// set. Sets in 1D: {1}; in 2D: v, v', v''; in 3D: vw, v'w, vw', v''w, v'w', vw''.
+/// A plane is contracted with the functions of the directions 1 .. Dim-1 first, which leaves one
+/// row a set. Sets in 1D: {1}; in 2D: v, v', v''; in 3D: vw, v'w, vw', v''w, v'w', vw''.
 constexpr int NumRowSets(int dim, int order)
 {
   return dim == 1 ? 1 : NumDerivativeTerms(dim - 1, order);
 }
-
-/// Fills the weights of all sets (3D), or points to where they are already (1D, 2D).
-/// @param basis  of direction d at basis + d * (Order + 1) * stride.
-template <int Dim, int Order, typename DegreeFunction>
-inline const double* RowWeights(
-  const DegreeFunction& degree, const double* basis, int stride, double* weights)
-{
-  if constexpr (Dim == 1)
-  {
-    weights[0] = 1.0;
-    return weights;
-  }
-  else if constexpr (Dim == 2)
-  {
-    return basis + (Order + 1) * stride;
-  }
-  else
-  {
-    constexpr int V[6] = { 0, 1, 0, 2, 1, 0 };
-    constexpr int W[6] = { 0, 0, 1, 0, 1, 2 };
-    const int nv = degree(1) + 1;
-    const int nw = degree(2) + 1;
-    for (int m = 0; m < NumRowSets(3, Order); ++m)
-    {
-      const double* v = basis + ((Order + 1) + V[m]) * stride;
-      const double* w = basis + (2 * (Order + 1) + W[m]) * stride;
-      double* out = weights + m * stride * stride;
-      for (int k = 0; k < nw; ++k)
-      {
-        for (int j = 0; j < nv; ++j)
-        {
-          out[k * nv + j] = w[k] * v[j];
-        }
-      }
-    }
-    return weights;
-  }
-}
+constexpr int SetOrderV[6] = { 0, 1, 0, 2, 1, 0 };
+constexpr int SetOrderW[6] = { 0, 0, 1, 0, 1, 2 };
 
 /// Terms of one component; dot(m, k) = set m contracted with the k-th derivatives of direction 0.
 template <int Dim, int Order, typename DotFunction>
@@ -167,6 +156,62 @@ inline void GatherTerms(const DotFunction& dot, double* terms)
       second[k] = dot(k, 0);
     }
   }
+}
+
+/// Terms of the component whose plane begins at q.
+/// @param basis  functions of direction d and their derivatives at basis + d * (Order + 1) *
+/// stride.
+/// @param u      those of direction 0 as rows.
+/// @param zero   a row of zeros.
+/// @return the end of the plane.
+template <int Dim, int Order, typename Row, typename DegreeFunction>
+inline const double* ContractPlane(const DegreeFunction& degree, const double* basis, int stride,
+  const Row* u, const Row& zero, const double* q, double* terms)
+{
+  constexpr int numSets = NumRowSets(Dim, Order);
+  const int length = degree(0) + 1;
+  std::array<Row, numSets> sets;
+  sets.fill(zero);
+  Row row = zero;
+  if constexpr (Dim == 1)
+  {
+    sets[0].Load(q);
+    q += length;
+  }
+  else
+  {
+    const int numRows = degree(1) + 1;
+    const int numSlices = Dim == 3 ? degree(Dim - 1) + 1 : 1;
+    const double* v = basis + (Order + 1) * stride;
+    const double* w = basis + (Dim - 1) * (Order + 1) * stride;
+    for (int k = 0; k < numSlices; ++k)
+    {
+      std::array<Row, Order + 1> slice;
+      slice.fill(zero);
+      for (int j = 0; j < numRows; ++j, q += length)
+      {
+        row.Load(q);
+        for (std::size_t a = 0; a <= Order; ++a)
+        {
+          slice[a].Add(v[static_cast<int>(a) * stride + j], row);
+        }
+      }
+      if constexpr (Dim == 2)
+      {
+        sets = slice;
+      }
+      else
+      {
+        for (std::size_t m = 0; m < numSets; ++m)
+        {
+          sets[m].Add(w[SetOrderW[m] * stride + k], slice[static_cast<std::size_t>(SetOrderV[m])]);
+        }
+      }
+    }
+  }
+  const auto dot = [&](int m, int k) { return sets[static_cast<std::size_t>(m)].Dot(u[k]); };
+  GatherTerms<Dim, Order>(dot, terms);
+  return q;
 }
 
 /// Writes the terms of all components of point i.
@@ -247,7 +292,6 @@ void EvaluateFixed(const Job<Dim>& job, std::size_t begin, std::size_t end)
 {
   constexpr int n = P + 1;
   constexpr int rows = Dim == 1 ? 1 : (Dim == 2 ? n : n * n);
-  constexpr int sets = NumRowSets(Dim, Order);
   constexpr int numTerms = NumDerivativeTerms(Dim, Order);
   constexpr std::size_t blockBytes = sizeof(double) * Planes * rows * n;
   constexpr std::size_t ahead =
@@ -275,9 +319,7 @@ void EvaluateFixed(const Job<Dim>& job, std::size_t begin, std::size_t end)
       continue;
     }
     double basis[Dim * (Order + 1) * n];
-    double buffer[Dim == 3 ? sets * rows : 1];
     PointBasis<Dim, Order>(space, e, degree, job.Local + i * Dim, basis, n);
-    const double* weights = RowWeights<Dim, Order>(degree, basis, n, buffer);
     Lanes<n> u[Order + 1];
     for (int k = 0; k <= Order; ++k)
     {
@@ -287,18 +329,7 @@ void EvaluateFixed(const Job<Dim>& job, std::size_t begin, std::size_t end)
     const double* q = job.Form.Block(e);
     for (int c = 0; c < Planes; ++c)
     {
-      Lanes<n> sums[sets];
-      for (int r = 0; r < rows; ++r, q += n)
-      {
-        Lanes<n> row;
-        row.Load(q);
-        for (int m = 0; m < sets; ++m)
-        {
-          sums[m].Add(weights[m * rows + r], row);
-        }
-      }
-      GatherTerms<Dim, Order>(
-        [&](int m, int k) { return sums[m].Dot(u[k]); }, terms + c * numTerms);
+      q = ContractPlane<Dim, Order>(degree, basis, n, u, Lanes<n>(), q, terms + c * numTerms);
     }
     if (job.Form.Rational)
     {
@@ -316,14 +347,11 @@ template <int Dim, int Order>
 void EvaluateAny(const Job<Dim>& job, std::size_t begin, std::size_t end)
 {
   constexpr int n = MaxDegree + 1;
-  constexpr int sets = NumRowSets(Dim, Order);
   constexpr int numTerms = NumDerivativeTerms(Dim, Order);
   const SplineSpace<Dim>& space = *job.Form.Space;
   const int planes = job.Form.NumPlanes();
   std::vector<double> terms(static_cast<std::size_t>(planes * numTerms));
   double basis[Dim * (Order + 1) * n];
-  double buffer[Dim == 3 ? sets * n * n : 1];
-  double sums[sets * n];
 
   for (std::size_t i = begin; i < end; ++i)
   {
@@ -336,35 +364,18 @@ void EvaluateAny(const Job<Dim>& job, std::size_t begin, std::size_t end)
     const IntArray<Dim>& degrees = space.Elements[static_cast<std::size_t>(e)].Degree;
     const auto degree = [&](int d) { return degrees[static_cast<std::size_t>(d)]; };
     PointBasis<Dim, Order>(space, e, degree, job.Local + i * Dim, basis, n);
-    const double* weights = RowWeights<Dim, Order>(degree, basis, n, buffer);
-    const int setStride = Dim == 3 ? n * n : n;
-    const int columns = degree(0) + 1;
-    const int rows = NumTensorFunctions<Dim>(degrees) / columns;
+    const AnyLanes zero(degree(0) + 1);
+    std::array<AnyLanes, Order + 1> u;
+    u.fill(zero);
+    for (std::size_t k = 0; k <= Order; ++k)
+    {
+      u[k].Load(basis + static_cast<int>(k) * n);
+    }
     const double* q = job.Form.Block(e);
     for (int c = 0; c < planes; ++c)
     {
-      std::fill_n(sums, sets * n, 0.0);
-      for (int r = 0; r < rows; ++r, q += columns)
-      {
-        for (int m = 0; m < sets; ++m)
-        {
-          const double w = weights[m * setStride + r];
-          for (int j = 0; j < columns; ++j)
-          {
-            sums[m * n + j] += w * q[j];
-          }
-        }
-      }
-      const auto dot = [&](int m, int k)
-      {
-        double sum = 0.0;
-        for (int j = 0; j < columns; ++j)
-        {
-          sum += sums[m * n + j] * basis[k * n + j];
-        }
-        return sum;
-      };
-      GatherTerms<Dim, Order>(dot, terms.data() + c * numTerms);
+      q =
+        ContractPlane<Dim, Order>(degree, basis, n, u.data(), zero, q, terms.data() + c * numTerms);
     }
     WriteTerms<Dim, Order>(job, i, terms.data(), job.Form.NumComponents, job.Form.Rational);
   }
