@@ -4,6 +4,7 @@
 #include "Types.h"
 
 #include <algorithm>
+#include <type_traits>
 
 namespace knotwork
 {
@@ -320,6 +321,54 @@ std::vector<double> BernsteinGramInverse(int degree)
   return inverse;
 }
 
+namespace
+{
+/// One direction of ApplyFactors: lines of n values, stride apart.
+/// @param n  int, or std::integral_constant to compile the loops for the usual lengths.
+template <typename Length>
+void ApplyFactorOf(const Length n, int stride, int size, const double* factor, double* values)
+{
+  for (int start = 0; start < size; start += n * stride)
+  {
+    for (double* first = values + start; first != values + start + stride; ++first)
+    {
+      double line[MaxDegree + 1] = {};
+      for (int i = 0; i < n; ++i)
+      {
+        const double value = first[i * stride];
+        for (int k = 0; k < n; ++k)
+        {
+          line[k] += value * factor[i * n + k];
+        }
+      }
+      for (int k = 0; k < n; ++k)
+      {
+        first[k * stride] = line[k];
+      }
+    }
+  }
+}
+
+void ApplyFactor(int n, int stride, int size, const double* factor, double* values)
+{
+  switch (n)
+  {
+    case 2:
+      return ApplyFactorOf(std::integral_constant<int, 2>(), stride, size, factor, values);
+    case 3:
+      return ApplyFactorOf(std::integral_constant<int, 3>(), stride, size, factor, values);
+    case 4:
+      return ApplyFactorOf(std::integral_constant<int, 4>(), stride, size, factor, values);
+    case 5:
+      return ApplyFactorOf(std::integral_constant<int, 5>(), stride, size, factor, values);
+    case 6:
+      return ApplyFactorOf(std::integral_constant<int, 6>(), stride, size, factor, values);
+    default:
+      return ApplyFactorOf(n, stride, size, factor, values);
+  }
+}
+}
+
 template <int Dim>
 void ApplyFactors(const IntArray<Dim>& degree, const std::array<const double*, Dim>& factors,
   const double* in, double* out)
@@ -329,30 +378,13 @@ void ApplyFactors(const IntArray<Dim>& degree, const std::array<const double*, D
   {
     std::copy(in, in + size, out);
   }
-  double line[MaxDegree + 1];
   int stride = 1;
   for (std::size_t d = 0; d < Dim; ++d)
   {
     const int n = degree[d] + 1;
-    const double* factor = factors[d];
-    for (int start = 0; factor && start < size; start += n * stride)
+    if (factors[d])
     {
-      for (double* first = out + start; first != out + start + stride; ++first)
-      {
-        std::fill(line, line + n, 0.0);
-        for (int i = 0; i < n; ++i)
-        {
-          const double value = first[i * stride];
-          for (int k = 0; k < n; ++k)
-          {
-            line[k] += value * factor[i * n + k];
-          }
-        }
-        for (int k = 0; k < n; ++k)
-        {
-          first[k * stride] = line[k];
-        }
-      }
+      ApplyFactor(n, stride, size, factors[d], out);
     }
     stride *= n;
   }

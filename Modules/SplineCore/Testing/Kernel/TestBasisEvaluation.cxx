@@ -137,6 +137,75 @@ TEST(BasisEvaluation, TensorFunctionsTimesPointsIsTheMap_CrossOracle)
   }
 }
 
+template <int Dim>
+SplineSpacePtr<Dim> RandomHierarchy(std::mt19937_64& random, int degree)
+{
+  std::array<KnotVector, Dim> knots;
+  for (KnotVector& k : knots)
+  {
+    k = KnotVector::Uniform(degree, 5);
+  }
+  std::vector<HierarchyBox<Dim>> boxes;
+  for (int level = 1; level <= 3; ++level)
+  {
+    HierarchyBox<Dim> box; // one that shrinks to a random corner cell of the coarse grid
+    box.Level = level;
+    for (std::size_t d = 0; d < Dim; ++d)
+    {
+      const int n = 5 << (level - 1);
+      const int first = static_cast<int>(random() % static_cast<unsigned>(n - 3));
+      box.Lower[d] = 2 * first;
+      box.Upper[d] = 2 * (first + 4 - level / 3);
+    }
+    boxes.push_back(box);
+  }
+  return MakeHierarchicalSpace<Dim>(knots, boxes).Value;
+}
+
+TEST(BasisEvaluation, HierarchicalFunctionsTimesPointsIsTheMap_CrossOracle)
+{
+  for (unsigned seed = 1; seed <= 6; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 random(seed);
+    const auto run = [&](auto space, double scale)
+    {
+      constexpr int dim = std::tuple_size_v<decltype(space->Knots)>;
+      ASSERT_TRUE(space);
+      ASSERT_FALSE(space->IsIdentityMap());
+      Spline<dim> spline;
+      spline.Space = space;
+      spline.ControlPoints = RandomMatrix(random, space->NumFunctions, 3);
+      if (seed % 2 == 0)
+      {
+        spline.Weights =
+          (RandomMatrix(random, space->NumFunctions, 1).array() * 0.5 + 1.0).matrix();
+      }
+      CompareWithEvaluation<dim>(spline, random, scale);
+    };
+    // elements of level 3 are 1/40 long; derivatives of degree p reach (2 p 40)^order
+    const int p = 1 + static_cast<int>(seed) % 4;
+    run(RandomHierarchy<1>(random, p), 80.0 * p);
+    run(RandomHierarchy<2>(random, p), 80.0 * p);
+    run(RandomHierarchy<3>(random, 2), 160.0);
+  }
+}
+
+TEST(BasisEvaluation, HierarchicalCollocationTimesPointsIsTheMap_CrossOracle)
+{
+  std::mt19937_64 random(19);
+  Spline<2> spline;
+  spline.Space = RandomHierarchy<2>(random, 3);
+  spline.ControlPoints = RandomMatrix(random, spline.Space->NumFunctions, 2);
+  const PointMatrix u = RandomParameters<2>(random, *spline.Space, 2000);
+  const auto matrix = CollocationMatrix<2>(*spline.Space, u);
+  ASSERT_TRUE(matrix) << matrix.Status.Message();
+  EvaluationBatch batch;
+  ASSERT_TRUE(EvaluateParameters(MakeBezierForm(spline), u, {}, batch));
+  const PointMatrix values = matrix.Value * spline.ControlPoints;
+  EXPECT_LE((values - batch.Values).cwiseAbs().maxCoeff(), 1e3 * Epsilon);
+}
+
 TEST(BasisEvaluation, BezierCellsThatShareAPoint_CrossOracle)
 {
   // the second cell has a collapsed edge: one id twice

@@ -327,6 +327,40 @@ TEST(BezierEvaluation, MixedDegreesOfBezierCells_CrossOracle)
   }
 }
 
+TEST(BezierEvaluation, RefinedHierarchicallyTheMapStays_CrossOracle)
+{
+  for (bool rational : { false, true })
+  {
+    std::mt19937_64 random(13);
+    const auto coarse = RandomTensorSpline<2>(random, { 3, 2 }, { 5, 4 }, 3, rational);
+    HierarchyBox<2> inner;
+    inner.Level = 1;
+    inner.Lower = { 2, 0 };
+    inner.Upper = { 10, 6 };
+    HierarchyBox<2> corner;
+    corner.Level = 2;
+    corner.Lower = { 4, 0 };
+    corner.Upper = { 12, 8 };
+    const auto space = MakeHierarchicalSpace<2>(coarse.Space->Knots, { inner, corner });
+    ASSERT_TRUE(space) << space.Status.Message();
+    const auto fine = TransferToRefined<2>(coarse, space.Value);
+    ASSERT_TRUE(fine) << fine.Status.Message();
+    const PointMatrix u = RandomParameters<2>(random, *coarse.Space, 1000);
+    EvaluationBatch a;
+    EvaluationBatch b;
+    ASSERT_TRUE(EvaluateParameters(MakeBezierForm(coarse), u, Order(2), a));
+    ASSERT_TRUE(EvaluateParameters(MakeBezierForm(fine.Value), u, Order(2), b));
+    // a knot at which the map is not smooth enough stays a knot: derivatives agree everywhere
+    const double size = 4.0 * DerivativeSize<2>(*coarse.Space, 1) * (rational ? 4.0 : 1.0);
+    const auto difference = [](const PointMatrix& x, const PointMatrix& y)
+    { return (x - y).cwiseAbs().maxCoeff(); };
+    EXPECT_LE(difference(a.Values, b.Values), 1e3 * Epsilon);
+    EXPECT_LE(difference(a.First, b.First), 1e3 * Epsilon * size);
+    EXPECT_LE(difference(a.Second, b.Second), 1e3 * Epsilon * size * size);
+    EXPECT_GT(space.Value->NumElements(), coarse.Space->NumElements());
+  }
+}
+
 TEST(BezierEvaluation, BreaksBelongToTheRightAndEndsInterpolate_ExactOracle)
 {
   Spline<1> spline;
