@@ -33,6 +33,9 @@ if(KNOTWORK_NATIVE)
 endif()
 
 set(KNOTWORK_WARNINGS -Wall -Wextra -Wshadow)
+if(KNOTWORK_NATIVE)
+  list(APPEND KNOTWORK_WARNINGS -Wno-array-bounds) # false alarms of GCC 12 in Eigen's AVX code for Vector3d
+endif()
 if(KNOTWORK_WERROR)
   list(APPEND KNOTWORK_WARNINGS -Werror)
 endif()
