@@ -25,6 +25,12 @@ cmake --build "$release" -j "$jobs"
 configure paraview "-DKNOTWORK_PARAVIEW_PREFIX=$prefix" "-DKNOTWORK_KERNELS_FROM=$release"
 cmake --build "$paraview" -j "$jobs"
 
+# Template-mapping cases as files, where they lie beside the project; their test skips itself without them.
+cases="$root/../shared/data/template"
+if [ -z "${KNOTWORK_TEMPLATE_CASES:-}" ] && [ -d "$cases" ]; then
+  export KNOTWORK_TEMPLATE_CASES="$cases"
+fi
+
 # One display for all tests that draw; they start their own where there is none.
 cd "$release"
 exec "$root/CMake/with-display.sh" ctest --no-tests=error --output-on-failure -j "$jobs" "${select[@]}"
