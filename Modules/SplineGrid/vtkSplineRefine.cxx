@@ -15,10 +15,12 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkSelection.h"
+#include "vtkSelectionNode.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 using knotwork::ErrorCode;
 using knotwork::Status;
@@ -113,6 +115,23 @@ Status vtkSplineRefine::Marker::PrepareSelection(vtkDataObject* input, vtkSelect
   {
     return {};
   }
+  for (unsigned int n = 0; n < selection->GetNumberOfNodes(); ++n)
+  {
+    vtkSelectionNode* node = selection->GetNode(n);
+    // those that vtkExtractSelection itself knows; it crashes on others
+    static const std::set<int> known{ vtkSelectionNode::GLOBALIDS, vtkSelectionNode::PEDIGREEIDS,
+      vtkSelectionNode::VALUES, vtkSelectionNode::INDICES, vtkSelectionNode::FRUSTUM,
+      vtkSelectionNode::LOCATIONS, vtkSelectionNode::THRESHOLDS, vtkSelectionNode::BLOCKS };
+    if (node->GetFieldType() != vtkSelectionNode::CELL)
+    {
+      return { ErrorCode::InvalidParameter, "the selection to refine by must select cells" };
+    }
+    if (known.count(node->GetContentType()) == 0)
+    {
+      return { ErrorCode::InvalidParameter,
+        "queries cannot be followed: freeze the selection, so that it is a list of cells" };
+    }
+  }
   vtkNew<vtkExtractSelection> extract;
   extract->SetInputDataObject(0, input);
   extract->SetInputDataObject(1, selection);
@@ -123,7 +142,7 @@ Status vtkSplineRefine::Marker::PrepareSelection(vtkDataObject* input, vtkSelect
     vtkDataArray* inside = grid->GetCellData()->GetArray("vtkInsidedness");
     if (!inside && grid->GetNumberOfCells() > 0)
     {
-      return { ErrorCode::InvalidParameter, "the selection to refine by must select cells" };
+      return { ErrorCode::InvalidParameter, "the selection does not fit the input" };
     }
     std::vector<char>& marks = this->Cells[block];
     for (vtkIdType cell = 0; inside && cell < inside->GetNumberOfTuples(); ++cell)

@@ -442,6 +442,10 @@ TEST(vtkSplineRefine, EveryFailureIsReachable)
   points->GetNode(0u)->SetFieldType(vtkSelectionNode::POINT);
   refine->SetSelectionData(points);
   ExpectFailure(refine, ErrorCode::InvalidParameter, "must select cells");
+  auto query = SelectCells({ 0 });
+  query->GetNode(0u)->SetContentType(vtkSelectionNode::QUERY);
+  refine->SetSelectionData(query);
+  ExpectFailure(refine, ErrorCode::InvalidParameter, "freeze the selection");
   refine->SetMode(vtkSplineRefine::UNIFORM);
   refine->SetDegreeElevation(8);
   ExpectFailure(refine, ErrorCode::InvalidDegree, "patch 0");
