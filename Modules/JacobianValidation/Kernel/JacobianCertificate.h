@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "BernsteinCells.h"
+
+namespace knotwork
+{
+/// What is proved of a cell's Jacobian: of det J for cells of as many components as parameters, of
+/// |S_u x S_v| for surfaces and |C_u| for curves in a space of more components. Derivatives are
+/// with respect to the cell's local parameters.
+enum class Verdict : std::int8_t
+{
+  Invalid = -1,  ///< it is <= 0 at the witness, and not < 0 throughout
+  Undecided = 0, ///< a limit stopped the proof: CellCertificate::Limit
+  Valid = 1,     ///< it is > 0 throughout (but for the degenerate places, when there are some)
+  Reversed = 2   ///< det J < 0 throughout (never of surfaces and curves in space)
+};
+
+/// Which limit stopped an undecided cell.
+enum class JacobianLimit : std::uint8_t
+{
+  None,
+  Boxes,   ///< JacobianParams::MaxBoxes: more would go on
+  Depth,   ///< boxes of size 2^-48: a zero that no finite subdivision separates
+  Exponent ///< magnitudes too far apart or too extreme for the exact arithmetic's limits
+};
+
+/// Bits of CellCertificate::Degenerate: where det J is exactly zero although the cell is valid.
+enum DegeneratePlace : std::uint8_t
+{
+  DegenerateVertex = 1,
+  DegenerateEdge = 2,
+  DegenerateFace = 4
+};
+
+struct JacobianParams
+{
+  /// Of the bounds asked for: Upper - Lower <= RelativeGap * max(|Lower|, |Upper|), in (0, 1]. 1
+  /// asks for the sign only; the bounds are then what the proof of the sign gave.
+  double RelativeGap = 1.0;
+  /// Also bring the bounds of the maximum to the gap; otherwise they are the first bounds found.
+  bool ComputeMax = false;
+  /// Boxes over all cells that needed subdivision, >= 1. Each such cell gets an equal share, at
+  /// least 4096, and those still open share what the others left.
+  std::int64_t MaxBoxes = 1000000;
+  /// Edges and faces of a cell whose control points agree within this part of its largest
+  /// coordinate are taken as collapsed exactly, and corner values of det J within this part of its
+  /// terms as zero: both are what rounding makes of a degenerate map. 0: the stored numbers and
+  /// nothing else. Cells where it was used say so (Snapped). In [0, 1e-6].
+  double CollapseTolerance = 0x1p-46;
+  int Threads = 0; ///< 0 = all cores; the result does not depend on it
+};
+
+struct CellCertificate
+{
+  knotwork::Verdict Verdict = knotwork::Verdict::Undecided;
+  JacobianLimit Limit = JacobianLimit::None;
+  std::uint8_t Degenerate = 0; ///< DegeneratePlace bits
+  bool Snapped = false;        ///< CollapseTolerance changed the cell within that tolerance
+  /// Surfaces and curves in space: proved that the normal (tangent) stays on one side of a plane.
+  bool OneSided = false;
+  std::int32_t Witness = -1; ///< into JacobianCertificate::Witnesses
+  std::int64_t Boxes = 0;    ///< sub-boxes looked at; 0: the cell's own coefficients decided
+  /// Rounded outward: MinLower <= min det J <= MinUpper, MaxLower <= max det J <= MaxUpper.
+  double MinLower = 0.0;
+  double MinUpper = 0.0;
+  double MaxLower = 0.0;
+  double MaxUpper = 0.0;
+};
+
+/// A point where det J <= 0 is proved.
+struct JacobianWitness
+{
+  int Cell = -1;
+  std::array<double, 3> Parameters{}; ///< local, exact dyadic numbers
+  double Upper = 0.0;                 ///< det J there is <= Upper <= 0
+  /// The sub-box of the cell that has the witness for a corner: its corners' local parameters in
+  /// the cell's order of corners (CornerParameters).
+  int NumCorners = 0;
+  std::array<std::array<double, 3>, 8> Corners{};
+};
+
+struct JacobianCertificate
+{
+  std::vector<CellCertificate> Cells;     ///< one a cell
+  std::vector<JacobianWitness> Witnesses; ///< by ascending cell
+  /// Valid or Reversed if all cells are, Invalid if one is or if some are valid and some reversed,
+  /// else Undecided.
+  knotwork::Verdict Verdict = knotwork::Verdict::Undecided;
+  int NumValid = 0;
+  int NumReversed = 0;
+  int NumInvalid = 0;
+  int NumUndecided = 0;
+  int NumDegenerate = 0;
+  std::int64_t Boxes = 0;
+  /// Over all cells, as in CellCertificate.
+  double MinLower = 0.0;
+  double MinUpper = 0.0;
+  double MaxLower = 0.0;
+  double MaxUpper = 0.0;
+};
+
+/// Proves for every cell where its Jacobian is positive, for the geometry that the stored doubles
+/// are: Bernstein coefficients of the numerator of minimal degree with a static error bound, then
+/// subdivision in outward-rounded arithmetic, then exact arithmetic for what these leave open.
+/// @return what BernsteinCells::Check says; DimensionMismatch for fewer components than parameters
+/// or more than 3; InvalidParameter; Aborted.
+/// @complexity two convolutions a cell when its own coefficients decide.
+/// @source  Johnen, Remacle, Geuzaine, JCP 233 (2013) 359-372 (adaptive Bernstein bounds).
+Result<JacobianCertificate> ValidateJacobian(const BernsteinCells& cells,
+  const JacobianParams& params = {}, const ProgressCallback& progress = {});
+
+/// The cells with x and y alone when every z is the same number in each cell (as a plane map is
+/// stored in a VTK grid), else the cells unchanged. @pre cells.Check() is Ok.
+BernsteinCells PlanarCells(const BernsteinCells& cells);
+
+/// Checks a certificate by other and simpler means: rational arithmetic throughout, det J by its
+/// definition and not by minimal forms, subdivision of its own. Witnesses are evaluated; valid and
+/// reversed cells are proved anew, and their MinLower and MaxUpper; MinUpper and MaxLower are held
+/// against points. Slow: for tests and doubts.
+/// @param maxBoxes  a cell; cells that need more are counted in Unchecked.
+struct CertificateCheck
+{
+  int Confirmed = 0;
+  int Unchecked = 0;
+  int Refuted = 0;
+  std::string FirstRefuted; ///< which cell, and what is wrong
+};
+CertificateCheck VerifyCertificate(const BernsteinCells& cells,
+  const JacobianCertificate& certificate, const JacobianParams& params = {}, int maxBoxes = 2000);
+}

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BernsteinCells.h"
+
+#include <cmath>
+#include <string>
+
+namespace knotwork
+{
+namespace
+{
+constexpr int TriangleSize(int p)
+{
+  return (p + 1) * (p + 2) / 2;
+}
+constexpr int TetrahedronSize(int p)
+{
+  return (p + 1) * (p + 2) * (p + 3) / 6;
+}
+/// Entries (i, j) of a triangle of degree p in the rows before j.
+constexpr int RowsBefore(int p, int j)
+{
+  return j * (p + 1) - j * (j - 1) / 2;
+}
+
+bool IsDegree(CellShape shape, const CellDegree& degree)
+{
+  const int n = NumParameters(shape);
+  for (int d = 0; d < 3; ++d)
+  {
+    const int p = degree[static_cast<std::size_t>(d)];
+    if (d < n ? p < 1 || p > MaxDegree : p != 0)
+    {
+      return false;
+    }
+  }
+  switch (shape)
+  {
+    case CellShape::Triangle:
+    case CellShape::Wedge:
+      return degree[0] == degree[1];
+    case CellShape::Tetrahedron:
+      return degree[0] == degree[1] && degree[0] == degree[2];
+    default:
+      return true;
+  }
+}
+}
+
+int NumParameters(CellShape shape)
+{
+  constexpr int numbers[NumCellShapes] = { 1, 2, 3, 2, 3, 3 };
+  return numbers[static_cast<int>(shape)];
+}
+
+int NumCorners(CellShape shape)
+{
+  constexpr int numbers[NumCellShapes] = { 2, 4, 8, 3, 4, 6 };
+  return numbers[static_cast<int>(shape)];
+}
+
+std::array<double, 3> CornerParameters(CellShape shape, int corner)
+{
+  std::array<double, 3> u{};
+  switch (shape)
+  {
+    case CellShape::Triangle:
+    case CellShape::Tetrahedron:
+      if (corner > 0)
+      {
+        u[static_cast<std::size_t>(corner - 1)] = 1.0;
+      }
+      break;
+    case CellShape::Wedge:
+      if (corner % 3 > 0)
+      {
+        u[static_cast<std::size_t>(corner % 3 - 1)] = 1.0;
+      }
+      u[2] = corner / 3;
+      break;
+    default:
+      for (int d = 0; d < NumParameters(shape); ++d)
+      {
+        u[static_cast<std::size_t>(d)] = (corner >> d) & 1;
+      }
+  }
+  return u;
+}
+
+int NumCellCoefficients(CellShape shape, const CellDegree& degree)
+{
+  switch (shape)
+  {
+    case CellShape::Triangle:
+      return TriangleSize(degree[0]);
+    case CellShape::Tetrahedron:
+      return TetrahedronSize(degree[0]);
+    case CellShape::Wedge:
+      return TriangleSize(degree[0]) * (degree[2] + 1);
+    default:
+      return NumTensorFunctions<3>(degree);
+  }
+}
+
+int CellCoefficient(CellShape shape, const CellDegree& degree, int i, int j, int k)
+{
+  const int p = degree[0];
+  switch (shape)
+  {
+    case CellShape::Triangle:
+      return RowsBefore(p, j) + i;
+    case CellShape::Tetrahedron:
+      // the layers below k, then rows of a triangle of degree p - k
+      return TetrahedronSize(p) - TetrahedronSize(p - k) + RowsBefore(p - k, j) + i;
+    case CellShape::Wedge:
+      return TriangleSize(p) * k + RowsBefore(p, j) + i;
+    default:
+      return i + (p + 1) * (j + (degree[1] + 1) * k);
+  }
+}
+
+int BernsteinCells::Add(CellShape shape, const CellDegree& degree)
+{
+  this->Shapes.push_back(shape);
+  this->Degrees.push_back(degree);
+  this->Data.resize(this->Data.size() +
+    static_cast<std::size_t>(NumCellCoefficients(shape, degree) * this->NumPlanes()));
+  this->Offsets.push_back(this->Data.size());
+  return this->NumCells() - 1;
+}
+
+Status BernsteinCells::Check() const
+{
+  const std::size_t n = this->Shapes.size();
+  if (this->Degrees.size() != n || this->Offsets.size() != n + 1 || this->Offsets.front() != 0 ||
+    this->Offsets.back() != this->Data.size() ||
+    (!this->Errors.empty() && this->Errors.size() != n))
+  {
+    return { ErrorCode::SizeMismatch, "shapes, degrees, offsets, data and errors do not fit" };
+  }
+  for (std::size_t c = 0; c < n; ++c)
+  {
+    const std::string name = "cell " + std::to_string(c);
+    if (static_cast<int>(this->Shapes[c]) >= NumCellShapes ||
+      !IsDegree(this->Shapes[c], this->Degrees[c]))
+    {
+      return { ErrorCode::InvalidDegree, name + ": degrees must fit the shape and lie in [1, 9]" };
+    }
+    const std::size_t size =
+      static_cast<std::size_t>(NumCellCoefficients(this->Shapes[c], this->Degrees[c]));
+    if (this->Offsets[c + 1] - this->Offsets[c] !=
+      size * static_cast<std::size_t>(this->NumPlanes()))
+    {
+      return { ErrorCode::SizeMismatch, name + ": block of a wrong size" };
+    }
+    const double* block = this->Block(static_cast<int>(c));
+    for (std::size_t i = 0; i < size * static_cast<std::size_t>(this->NumPlanes()); ++i)
+    {
+      if (!std::isfinite(block[i]))
+      {
+        return { ErrorCode::NonFiniteInput, name + ": a coefficient is not finite" };
+      }
+    }
+    if (this->Rational)
+    {
+      const double* weights = block + size * static_cast<std::size_t>(this->NumComponents);
+      for (std::size_t i = 0; i < size; ++i)
+      {
+        if (!(weights[i] > 0.0))
+        {
+          return { ErrorCode::InvalidWeight, name + ": a Bernstein weight is not positive" };
+        }
+      }
+    }
+    if (!this->Errors.empty() && !(this->Errors[c] >= 0.0 && std::isfinite(this->Errors[c])))
+    {
+      return { ErrorCode::NonFiniteInput, name + ": its error is negative or not finite" };
+    }
+  }
+  return {};
+}
+
+template <int Dim>
+BernsteinCells MakeBernsteinCells(const BezierForm<Dim>& form)
+{
+  constexpr CellShape shape = Dim == 1 ? CellShape::Curve
+    : Dim == 2                         ? CellShape::Quadrilateral
+                                       : CellShape::Hexahedron;
+  const std::size_t n = form.Space->Elements.size();
+  BernsteinCells cells;
+  cells.NumComponents = form.NumComponents;
+  cells.Rational = form.Rational;
+  cells.Shapes.assign(n, shape);
+  cells.Degrees.assign(n, CellDegree{});
+  for (std::size_t e = 0; e < n; ++e)
+  {
+    const auto& degree = form.Space->Elements[e].Degree;
+    std::copy(degree.begin(), degree.end(), cells.Degrees[e].begin());
+  }
+  cells.Offsets = form.Offsets;
+  cells.Data = form.Data;
+  return cells;
+}
+
+template BernsteinCells MakeBernsteinCells<1>(const BezierForm<1>&);
+template BernsteinCells MakeBernsteinCells<2>(const BezierForm<2>&);
+template BernsteinCells MakeBernsteinCells<3>(const BezierForm<3>&);
+}
