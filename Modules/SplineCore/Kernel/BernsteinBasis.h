@@ -8,27 +8,30 @@ namespace knotwork
 /// evaluation: with a degree known at compile time (std::integral_constant) straight code. Rows of
 /// length degree + 1 at values, values + stride, ...: the polynomials, then (as far as Order) their
 /// first and second derivatives times scale and scale^2.
+/// @tparam Real  double, or a vector of doubles with a point a lane.
 /// @param scale  d(local) / d(parameter) of the direction, so rows are derivatives with respect to
 /// the domain's parameter.
-template <int Order, typename Degree>
-inline void BernsteinBasis(const Degree degree, double t, double scale, double* values, int stride)
+template <int Order, typename Degree, typename Real>
+inline void BernsteinBasis(
+  const Degree degree, const Real& t, const Real& scale, Real* values, int stride)
 {
-  const double s = 1.0 - t;
+  const Real s = 1.0 - t;
+  const Real zero{};
   // B^q from B^{q-1} in place; the differences of B^{p-1} and B^{p-2} are the derivatives.
-  values[0] = 1.0;
+  values[0] = zero + 1.0;
   for (int q = 1; q <= degree; ++q)
   {
     if constexpr (Order >= 2)
     {
       if (q == degree - 1)
       {
-        const double f = degree * (degree - 1) * scale * scale;
-        double* second = values + 2 * stride;
+        const Real f = static_cast<double>(degree * (degree - 1)) * scale * scale;
+        Real* second = values + 2 * stride;
         for (int i = 0; i <= degree; ++i)
         {
-          const double right = i < q ? values[i] : 0.0;
-          const double middle = i >= 1 && i - 1 < q ? values[i - 1] : 0.0;
-          const double left = i >= 2 ? values[i - 2] : 0.0;
+          const Real right = i < q ? values[i] : zero;
+          const Real middle = i >= 1 && i - 1 < q ? values[i - 1] : zero;
+          const Real left = i >= 2 ? values[i - 2] : zero;
           second[i] = f * (left - 2.0 * middle + right);
         }
       }
@@ -37,8 +40,8 @@ inline void BernsteinBasis(const Degree degree, double t, double scale, double* 
     {
       if (q == degree)
       {
-        const double f = degree * scale;
-        double* first = values + stride;
+        const Real f = static_cast<double>(degree) * scale;
+        Real* first = values + stride;
         first[0] = -f * values[0];
         for (int i = 1; i < degree; ++i)
         {
@@ -60,7 +63,7 @@ inline void BernsteinBasis(const Degree degree, double t, double scale, double* 
     {
       for (int i = 0; i <= degree; ++i)
       {
-        values[2 * stride + i] = 0.0;
+        values[2 * stride + i] = zero;
       }
     }
   }

@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <numeric>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace knotwork
@@ -18,8 +20,10 @@ namespace knotwork
 namespace
 {
 constexpr std::size_t ChunkSize = 512;
-constexpr int MaxFixedDegree = 5;
-constexpr int MaxFixedPlanes = 5; // four components and a weight
+
+/// Four points, or four neighbours of a row, in one register where AVX is, in two without.
+typedef double Four __attribute__((vector_size(32)));
+constexpr int NumLanes = 4;
 
 template <int Width>
 struct VectorOf
@@ -34,18 +38,18 @@ struct VectorOf<2>
 template <>
 struct VectorOf<4>
 {
-  typedef double Type __attribute__((vector_size(32)));
+  using Type = Four;
 };
 
 /// N doubles in registers: vectors of four and two, then a scalar. A bicubic row is one AVX
 /// register; without AVX the compiler splits the vectors.
 template <int N>
-class Lanes
+class Row
 {
   static constexpr int Width = N >= 4 ? 4 : (N >= 2 ? 2 : 1);
   using Vector = typename VectorOf<Width>::Type;
   Vector Head{};
-  Lanes<N - Width> Tail;
+  Row<N - Width> Tail;
 
 public:
   void Load(const double* p)
@@ -53,61 +57,54 @@ public:
     std::memcpy(&this->Head, p, sizeof(Vector));
     this->Tail.Load(p + Width);
   }
+  void Store(double* p) const
+  {
+    std::memcpy(p, &this->Head, sizeof(Vector));
+    this->Tail.Store(p + Width);
+  }
   /// this += w * row
-  void Add(double w, const Lanes& row)
+  void Add(double w, const Row& row)
   {
     this->Head += w * row.Head;
     this->Tail.Add(w, row.Tail);
   }
-  double Dot(const Lanes& other) const
-  {
-    const Vector product = this->Head * other.Head;
-    if constexpr (Width == 4)
-    {
-      return ((product[0] + product[2]) + (product[1] + product[3])) + this->Tail.Dot(other.Tail);
-    }
-    else if constexpr (Width == 2)
-    {
-      return (product[0] + product[1]) + this->Tail.Dot(other.Tail);
-    }
-    else
-    {
-      return product;
-    }
-  }
 };
 template <>
-class Lanes<0>
+class Row<0>
 {
 public:
   void Load(const double*) {}
-  void Add(double, const Lanes&) {}
-  double Dot(const Lanes&) const { return 0.0; }
+  void Store(double*) const {}
+  void Add(double, const Row&) {}
 };
 
-/// The same for a row whose length is known at run time only.
-class AnyLanes
+/// columns[i] = (rows[i], rows[stride + i], rows[2 stride + i], rows[3 stride + i]), i < N.
+template <int N>
+inline void Transpose(const double* rows, int stride, Four* columns)
 {
-  int Count = 0;
-  std::array<double, MaxDegree + 1> Values{};
-
-public:
-  AnyLanes() = default;
-  explicit AnyLanes(int count) : Count(count) {}
-  void Load(const double* p) { std::copy_n(p, this->Count, this->Values.begin()); }
-  void Add(double w, const AnyLanes& row)
+  using Mask = std::int64_t __attribute__((vector_size(32)));
+  int i = 0;
+  for (; i + NumLanes <= N; i += NumLanes)
   {
-    for (int i = 0; i < this->Count; ++i)
-    {
-      this->Values[static_cast<std::size_t>(i)] += w * row.Values[static_cast<std::size_t>(i)];
-    }
+    Four r0, r1, r2, r3;
+    std::memcpy(&r0, rows + i, sizeof(Four));
+    std::memcpy(&r1, rows + stride + i, sizeof(Four));
+    std::memcpy(&r2, rows + 2 * stride + i, sizeof(Four));
+    std::memcpy(&r3, rows + 3 * stride + i, sizeof(Four));
+    const Four a = __builtin_shuffle(r0, r1, Mask{ 0, 4, 2, 6 });
+    const Four b = __builtin_shuffle(r0, r1, Mask{ 1, 5, 3, 7 });
+    const Four c = __builtin_shuffle(r2, r3, Mask{ 0, 4, 2, 6 });
+    const Four d = __builtin_shuffle(r2, r3, Mask{ 1, 5, 3, 7 });
+    columns[i] = __builtin_shuffle(a, c, Mask{ 0, 1, 4, 5 });
+    columns[i + 1] = __builtin_shuffle(b, d, Mask{ 0, 1, 4, 5 });
+    columns[i + 2] = __builtin_shuffle(a, c, Mask{ 2, 3, 6, 7 });
+    columns[i + 3] = __builtin_shuffle(b, d, Mask{ 2, 3, 6, 7 });
   }
-  double Dot(const AnyLanes& other) const
+  for (; i < N; ++i)
   {
-    return std::inner_product(
-      this->Values.begin(), this->Values.begin() + this->Count, other.Values.begin(), 0.0);
+    columns[i] = Four{ rows[i], rows[stride + i], rows[2 * stride + i], rows[3 * stride + i] };
   }
-};
+}
 
 /// The points start, start + 1, ... of a batch and where their results go.
 template <int Dim>
@@ -127,116 +124,110 @@ constexpr int NumRowSets(int dim, int order)
 {
   return dim == 1 ? 1 : NumDerivativeTerms(dim - 1, order);
 }
-constexpr int SetOrderV[6] = { 0, 1, 0, 2, 1, 0 };
-constexpr int SetOrderW[6] = { 0, 0, 1, 0, 1, 2 };
+template <int Dim>
+constexpr int SetOrderV(int m)
+{
+  constexpr int orders[6] = { 0, 1, 0, 2, 1, 0 };
+  return Dim == 3 ? orders[m] : m;
+}
+template <int Dim>
+constexpr int SetOrderW(int m)
+{
+  constexpr int orders[6] = { 0, 0, 1, 0, 1, 2 };
+  return Dim == 3 ? orders[m] : 0;
+}
 
 /// Terms of one component; dot(m, k) = set m contracted with the k-th derivatives of direction 0.
-template <int Dim, int Order, typename DotFunction>
-inline void GatherTerms(const DotFunction& dot, double* terms)
+template <int Dim, int Order, typename Real, typename DotFunction>
+inline void GatherTerms(const DotFunction& dot, Real* terms)
 {
-  terms[0] = dot(0, 0);
+  dot(0, 0, terms[0]);
   if constexpr (Order >= 1)
   {
-    terms[1] = dot(0, 1);
+    dot(0, 1, terms[1]);
     for (int d = 1; d < Dim; ++d)
     {
-      terms[1 + d] = dot(d, 0);
+      dot(d, 0, terms[1 + d]);
     }
   }
   if constexpr (Order >= 2)
   {
-    double* second = terms + 1 + Dim;
-    second[0] = dot(0, 2);
+    Real* second = terms + 1 + Dim;
+    dot(0, 2, second[0]);
     for (int d = 1; d < Dim; ++d)
     {
-      second[d] = dot(d, 1);
+      dot(d, 1, second[d]);
     }
     for (int k = Dim; k < NumRowSets(Dim, Order); ++k)
     {
-      second[k] = dot(k, 0);
+      dot(k, 0, second[k]);
     }
   }
 }
 
-/// Terms of the component whose plane begins at q.
-/// @param basis  functions of direction d and their derivatives at basis + d * (Order + 1) *
-/// stride.
-/// @param u      those of direction 0 as rows.
-/// @param zero   a row of zeros.
-/// @return the end of the plane.
-template <int Dim, int Order, typename Row, typename DegreeFunction>
-inline const double* ContractPlane(const DegreeFunction& degree, const double* basis, int stride,
-  const Row* u, const Row& zero, const double* q, double* terms)
+/// Contracts the plane q with the directions 1 .. Dim-1; the sets go to sets, n numbers each.
+/// @param functions  of all directions, (Order + 1) * n each, those of the a-th derivative from
+///                   a * n on.
+template <int Dim, int n, int Order>
+inline void ContractPlane(const double* functions, const double* q, double* sets)
 {
-  constexpr int numSets = NumRowSets(Dim, Order);
-  const int length = degree(0) + 1;
-  std::array<Row, numSets> sets;
-  sets.fill(zero);
-  Row row = zero;
   if constexpr (Dim == 1)
   {
-    sets[0].Load(q);
-    q += length;
+    std::copy_n(q, n, sets);
+    return;
   }
-  else
+  const double* v = functions + (Order + 1) * n;
+  const double* w = functions + (Dim - 1) * (Order + 1) * n;
+  constexpr int numSets = NumRowSets(Dim, Order);
+  constexpr int numSlices = Dim == 3 ? n : 1;
+  std::array<Row<n>, numSets> sums;
+  for (int k = 0; k < numSlices; ++k)
   {
-    const int numRows = degree(1) + 1;
-    const int numSlices = Dim == 3 ? degree(Dim - 1) + 1 : 1;
-    const double* v = basis + (Order + 1) * stride;
-    const double* w = basis + (Dim - 1) * (Order + 1) * stride;
-    for (int k = 0; k < numSlices; ++k)
+    std::array<Row<n>, Order + 1> slice;
+    Row<n> row;
+    for (int j = 0; j < n; ++j, q += n)
     {
-      std::array<Row, Order + 1> slice;
-      slice.fill(zero);
-      for (int j = 0; j < numRows; ++j, q += length)
+      row.Load(q);
+      for (int a = 0; a <= Order; ++a)
       {
-        row.Load(q);
-        for (std::size_t a = 0; a <= Order; ++a)
-        {
-          slice[a].Add(v[static_cast<int>(a) * stride + j], row);
-        }
+        slice[static_cast<std::size_t>(a)].Add(v[a * n + j], row);
       }
-      if constexpr (Dim == 2)
+    }
+    if constexpr (Dim == 2)
+    {
+      sums = slice;
+    }
+    else
+    {
+      for (std::size_t m = 0; m < numSets; ++m)
       {
-        sets = slice;
-      }
-      else
-      {
-        for (std::size_t m = 0; m < numSets; ++m)
-        {
-          sets[m].Add(w[SetOrderW[m] * stride + k], slice[static_cast<std::size_t>(SetOrderV[m])]);
-        }
+        const int index = static_cast<int>(m);
+        sums[m].Add(
+          w[SetOrderW<Dim>(index) * n + k], slice[static_cast<std::size_t>(SetOrderV<Dim>(index))]);
       }
     }
   }
-  const auto dot = [&](int m, int k) { return sets[static_cast<std::size_t>(m)].Dot(u[k]); };
-  GatherTerms<Dim, Order>(dot, terms);
-  return q;
+  for (int m = 0; m < numSets; ++m)
+  {
+    sums[static_cast<std::size_t>(m)].Store(sets + m * n);
+  }
 }
 
-/// Writes the terms of all components of point i.
-/// @param terms  planes x NumDerivativeTerms(Dim, Order), those of the weight last when rational.
-template <int Dim, int Order, typename Count>
-inline void WriteTerms(
-  const Job<Dim>& job, std::size_t i, double* terms, const Count numComponents, bool rational)
+/// Writes the terms of point i; those of its neighbours lie between them.
+/// @param terms  planes x NumDerivativeTerms(Dim, Order), lanes apart.
+template <int Dim, int Order>
+inline void WriteTerms(const Job<Dim>& job, std::size_t i, const double* terms, int lanes)
 {
   constexpr int numTerms = NumDerivativeTerms(Dim, Order);
-  if (rational)
-  {
-    const double* w = terms + numComponents * numTerms;
-    for (int c = 0; c < numComponents; ++c)
-    {
-      DivideTerms<Dim>(Order, w, terms + c * numTerms);
-    }
-  }
+  const int numComponents = job.Form.NumComponents;
   const auto write = [&](double* rows, int first, int count)
   {
     double* row = rows + i * static_cast<std::size_t>(count * numComponents);
-    for (int k = 0; k < count; ++k)
+    for (int c = 0; c < numComponents; ++c)
     {
-      for (int c = 0; c < numComponents; ++c)
+      for (int k = 0; k < count; ++k)
       {
-        row[k * numComponents + c] = terms[c * numTerms + first + k];
+        row[k * numComponents + c] = terms[(c * numTerms + first + k) * lanes];
       }
     }
   };
@@ -248,6 +239,17 @@ inline void WriteTerms(
   if constexpr (Order >= 2)
   {
     write(job.Second, 1 + Dim, Dim * (Dim + 1) / 2);
+  }
+}
+
+/// Divides the terms of all components by those of the weight, which are the last.
+template <int Dim, int Order, typename Real>
+inline void DivideByWeight(int numComponents, Real* terms)
+{
+  constexpr int numTerms = NumDerivativeTerms(Dim, Order);
+  for (int c = 0; c < numComponents; ++c)
+  {
+    DivideTerms<Dim>(Order, terms + numComponents * numTerms, terms + c * numTerms);
   }
 }
 
@@ -268,90 +270,118 @@ void WriteNaN(const Job<Dim>& job, std::size_t i)
   }
 }
 
-/// Bernstein polynomials of all directions at the point, derivatives by the domain's parameters.
-/// @param degree  of a direction; an integral constant when compiled for it.
-template <int Dim, int Order, typename DegreeFunction>
-inline void PointBasis(const SplineSpace<Dim>& space, int element, const DegreeFunction& degree,
-  const double* local, double* basis, int stride)
-{
-  for (int d = 0; d < Dim; ++d)
-  {
-    double scale = 1.0;
-    if constexpr (Order >= 1)
-    {
-      const auto& box = space.Elements[static_cast<std::size_t>(element)].Box;
-      scale = 1.0 / (box.Upper[d] - box.Lower[d]);
-    }
-    BernsteinBasis<Order>(degree(d), local[d], scale, basis + d * (Order + 1) * stride, stride);
-  }
-}
-
-/// Points on elements of one degree P in all directions.
-template <int Dim, int P, int Planes, int Order>
+/// Points on elements of one degree P in all directions, four at a time: the functions and the last
+/// contraction with a point a lane, the contractions before with a row of an element's control
+/// points a register.
+template <int Dim, int P, int Order>
 void EvaluateFixed(const Job<Dim>& job, std::size_t begin, std::size_t end)
 {
   constexpr int n = P + 1;
-  constexpr int rows = Dim == 1 ? 1 : (Dim == 2 ? n : n * n);
+  constexpr int block = Dim == 1 ? n : (Dim == 2 ? n * n : n * n * n);
   constexpr int numTerms = NumDerivativeTerms(Dim, Order);
-  constexpr std::size_t blockBytes = sizeof(double) * Planes * rows * n;
-  constexpr std::size_t ahead =
-    std::max<std::size_t>(2, std::min<std::size_t>(8, 3072 / blockBytes));
+  constexpr int numSets = NumRowSets(Dim, Order);
+  constexpr int numBasis = (Order + 1) * n; // of one direction
   const SplineSpace<Dim>& space = *job.Form.Space;
-  const auto degree = [](int) { return std::integral_constant<int, P>(); };
-  for (std::size_t i = begin; i < end; ++i)
+  const int planes = job.Form.NumPlanes();
+  const std::size_t blockBytes = sizeof(double) * static_cast<std::size_t>(planes * block);
+  std::vector<Four> terms(static_cast<std::size_t>(planes * numTerms));
+  std::vector<double> sets(static_cast<std::size_t>(planes * NumLanes * numSets * n));
+
+  for (std::size_t i = begin; i < end; i += NumLanes)
   {
-    // in place: GCC drops calls of functions that only prefetch
-    const int next = job.Elements[std::min(i + ahead, end - 1)];
-    const auto* line = reinterpret_cast<const char*>(
-      job.Form.Data.data() + job.Form.Offsets[static_cast<std::size_t>(std::max(next, 0))]);
-    for (std::size_t k = 0; k < blockBytes; k += 64)
+    const std::size_t count = std::min<std::size_t>(NumLanes, end - i);
+    std::array<int, NumLanes> elements{};
+    Four local[Dim];
+    Four scale[Dim];
+    for (std::size_t l = 0; l < NumLanes; ++l)
     {
-      __builtin_prefetch(line + k);
+      const std::size_t point = i + std::min(l, count - 1);
+      elements[l] = std::max(job.Elements[point], 0);
+      const auto& box = space.Elements[static_cast<std::size_t>(elements[l])].Box;
+      for (std::size_t d = 0; d < Dim; ++d)
+      {
+        local[d][l] = job.Local[point * Dim + d];
+        scale[d][l] = Order >= 1 ? box.Upper[d] - box.Lower[d] : 1.0;
+      }
     }
-    if constexpr (Order >= 1)
+    Four basis[Dim * numBasis];
+    for (int d = 0; d < Dim; ++d)
     {
-      __builtin_prefetch(&space.Elements[static_cast<std::size_t>(std::max(next, 0))].Box);
+      BernsteinBasis<Order>(
+        std::integral_constant<int, P>(), local[d], 1.0 / scale[d], basis + d * numBasis, n);
     }
-    const int e = job.Elements[i];
-    if (e < 0)
+
+    for (int l = 0; l < NumLanes; ++l)
     {
-      WriteNaN<Dim, Order>(job, i);
-      continue;
+      // in place: GCC drops calls of functions that only prefetch
+      const std::size_t ahead = std::min(i + NumLanes + static_cast<std::size_t>(l), end - 1);
+      const int next = std::max(job.Elements[ahead], 0);
+      const auto* line = reinterpret_cast<const char*>(job.Form.Block(next));
+      for (std::size_t k = 0; k < blockBytes; k += 64)
+      {
+        __builtin_prefetch(line + k);
+      }
+      if constexpr (Order >= 1)
+      {
+        __builtin_prefetch(&space.Elements[static_cast<std::size_t>(next)].Box);
+      }
+      double functions[Dim * numBasis];
+      for (int k = 0; k < Dim * numBasis; ++k)
+      {
+        functions[k] = basis[k][l];
+      }
+      const double* q = job.Form.Block(elements[static_cast<std::size_t>(l)]);
+      for (int c = 0; c < planes; ++c)
+      {
+        ContractPlane<Dim, n, Order>(
+          functions, q + c * block, sets.data() + (c * NumLanes + l) * numSets * n);
+      }
     }
-    double basis[Dim * (Order + 1) * n];
-    PointBasis<Dim, Order>(space, e, degree, job.Local + i * Dim, basis, n);
-    Lanes<n> u[Order + 1];
-    for (int k = 0; k <= Order; ++k)
+    for (int c = 0; c < planes; ++c)
     {
-      u[k].Load(basis + k * n);
-    }
-    double terms[Planes * numTerms];
-    const double* q = job.Form.Block(e);
-    for (int c = 0; c < Planes; ++c)
-    {
-      q = ContractPlane<Dim, Order>(degree, basis, n, u, Lanes<n>(), q, terms + c * numTerms);
+      Four columns[numSets * n];
+      Transpose<numSets * n>(sets.data() + c * NumLanes * numSets * n, numSets * n, columns);
+      const auto dot = [&](int m, int k, Four& sum)
+      {
+        sum = columns[m * n] * basis[k * n];
+        for (int j = 1; j < n; ++j)
+        {
+          sum += columns[m * n + j] * basis[k * n + j];
+        }
+      };
+      GatherTerms<Dim, Order>(dot, terms.data() + c * numTerms);
     }
     if (job.Form.Rational)
     {
-      WriteTerms<Dim, Order>(job, i, terms, std::integral_constant<int, Planes - 1>(), true);
+      DivideByWeight<Dim, Order>(job.Form.NumComponents, terms.data());
     }
-    else
+    for (std::size_t l = 0; l < count; ++l)
     {
-      WriteTerms<Dim, Order>(job, i, terms, std::integral_constant<int, Planes>(), false);
+      if (job.Elements[i + l] < 0)
+      {
+        WriteNaN<Dim, Order>(job, i + l);
+      }
+      else
+      {
+        WriteTerms<Dim, Order>(
+          job, i + l, reinterpret_cast<const double*>(terms.data()) + l, NumLanes);
+      }
     }
   }
 }
 
-/// Points on elements of any degrees.
+/// Points on elements of unequal degrees.
 template <int Dim, int Order>
 void EvaluateAny(const Job<Dim>& job, std::size_t begin, std::size_t end)
 {
-  constexpr int n = MaxDegree + 1;
+  constexpr int stride = MaxDegree + 1;
   constexpr int numTerms = NumDerivativeTerms(Dim, Order);
+  constexpr int numSets = NumRowSets(Dim, Order);
   const SplineSpace<Dim>& space = *job.Form.Space;
   const int planes = job.Form.NumPlanes();
   std::vector<double> terms(static_cast<std::size_t>(planes * numTerms));
-  double basis[Dim * (Order + 1) * n];
+  double basis[3][(Order + 1) * stride] = {};
+  basis[1][0] = basis[2][0] = 1.0;
 
   for (std::size_t i = begin; i < end; ++i)
   {
@@ -361,92 +391,90 @@ void EvaluateAny(const Job<Dim>& job, std::size_t begin, std::size_t end)
       WriteNaN<Dim, Order>(job, i);
       continue;
     }
-    const IntArray<Dim>& degrees = space.Elements[static_cast<std::size_t>(e)].Degree;
-    const auto degree = [&](int d) { return degrees[static_cast<std::size_t>(d)]; };
-    PointBasis<Dim, Order>(space, e, degree, job.Local + i * Dim, basis, n);
-    const AnyLanes zero(degree(0) + 1);
-    std::array<AnyLanes, Order + 1> u;
-    u.fill(zero);
-    for (std::size_t k = 0; k <= Order; ++k)
+    const auto& element = space.Elements[static_cast<std::size_t>(e)];
+    IntArray<3> size{ 1, 1, 1 };
+    for (std::size_t d = 0; d < Dim; ++d)
     {
-      u[k].Load(basis + static_cast<int>(k) * n);
+      size[d] = element.Degree[d] + 1;
+      BernsteinBasis<Order>(element.Degree[d], job.Local[i * Dim + d],
+        1.0 / (element.Box.Upper[d] - element.Box.Lower[d]), basis[d], stride);
     }
     const double* q = job.Form.Block(e);
     for (int c = 0; c < planes; ++c)
     {
-      q =
-        ContractPlane<Dim, Order>(degree, basis, n, u.data(), zero, q, terms.data() + c * numTerms);
+      double sets[numSets][stride] = {};
+      for (int k = 0; k < size[2]; ++k)
+      {
+        for (int j = 0; j < size[1]; ++j, q += size[0])
+        {
+          for (int m = 0; m < numSets; ++m)
+          {
+            const double factor =
+              basis[1][SetOrderV<Dim>(m) * stride + j] * basis[2][SetOrderW<Dim>(m) * stride + k];
+            for (int l = 0; l < size[0]; ++l)
+            {
+              sets[m][l] += factor * q[l];
+            }
+          }
+        }
+      }
+      const auto dot = [&](int m, int k, double& sum)
+      { sum = std::inner_product(sets[m], sets[m] + size[0], basis[0] + k * stride, 0.0); };
+      GatherTerms<Dim, Order>(dot, terms.data() + c * numTerms);
     }
-    WriteTerms<Dim, Order>(job, i, terms.data(), job.Form.NumComponents, job.Form.Rational);
+    if (job.Form.Rational)
+    {
+      DivideByWeight<Dim, Order>(job.Form.NumComponents, terms.data());
+    }
+    WriteTerms<Dim, Order>(job, i, terms.data(), 1);
   }
 }
 
 template <int Dim>
 using RangeFunction = void (*)(const Job<Dim>&, std::size_t, std::size_t);
 
-template <int Dim, int P, int Order>
-RangeFunction<Dim> SelectPlanes(int planes)
-{
-  switch (planes)
-  {
-    case 1:
-      return &EvaluateFixed<Dim, P, 1, Order>;
-    case 2:
-      return &EvaluateFixed<Dim, P, 2, Order>;
-    case 3:
-      return &EvaluateFixed<Dim, P, 3, Order>;
-    case 4:
-      return &EvaluateFixed<Dim, P, 4, Order>;
-    case 5:
-      return &EvaluateFixed<Dim, P, 5, Order>;
-    default:
-      return &EvaluateAny<Dim, Order>;
-  }
-}
-
-/// One function a degree; entry 0 is for degrees above 5 or unequal ones.
+/// One function a degree; entry 0 is for elements of unequal degrees.
 template <int Dim>
-struct Dispatch
+class Dispatch
 {
-  std::array<RangeFunction<Dim>, MaxFixedDegree + 1> Functions;
+  std::array<RangeFunction<Dim>, MaxDegree + 1> Functions;
 
-  Dispatch(int planes, int order)
+  template <int Order, int... Degrees>
+  void Fill(std::integer_sequence<int, Degrees...>)
   {
+    this->Functions = { &EvaluateAny<Dim, Order>, &EvaluateFixed<Dim, Degrees + 1, Order>... };
+  }
+
+public:
+  explicit Dispatch(int order)
+  {
+    const auto degrees = std::make_integer_sequence<int, MaxDegree>();
     if (order == 0)
     {
-      this->Fill<0>(planes);
+      this->template Fill<0>(degrees);
     }
     else if (order == 1)
     {
-      this->Fill<1>(planes);
+      this->template Fill<1>(degrees);
     }
     else
     {
-      this->Fill<2>(planes);
+      this->template Fill<2>(degrees);
     }
   }
   RangeFunction<Dim> operator()(int degreeClass) const
   {
     return this->Functions[static_cast<std::size_t>(degreeClass)];
   }
-
-private:
-  template <int Order>
-  void Fill(int planes)
-  {
-    this->Functions = { &EvaluateAny<Dim, Order>, SelectPlanes<Dim, 1, Order>(planes),
-      SelectPlanes<Dim, 2, Order>(planes), SelectPlanes<Dim, 3, Order>(planes),
-      SelectPlanes<Dim, 4, Order>(planes), SelectPlanes<Dim, 5, Order>(planes) };
-  }
 };
 
-/// The common degree of an element when it is one of the compiled ones, else 0.
+/// The common degree of an element in all directions, else 0.
 template <int Dim>
 int DegreeClass(const IntArray<Dim>& degree)
 {
   const bool equal =
     std::all_of(degree.begin(), degree.end(), [&](int p) { return p == degree[0]; });
-  return equal && degree[0] <= MaxFixedDegree ? degree[0] : 0;
+  return equal ? degree[0] : 0;
 }
 
 /// Evaluates located points, run by run of one degree class; only a Bezier space has several.
@@ -515,7 +543,7 @@ Status EvaluateBatch(const BezierForm<Dim>& form, const PointMatrixView& points,
   batch.Second.resize(order >= 2 ? n : 0, Dim * (Dim + 1) / 2 * c);
   batch.Elements.resize(static_cast<std::size_t>(n));
 
-  const Dispatch<Dim> dispatch(form.NumPlanes(), order);
+  const Dispatch<Dim> dispatch(order);
   ParallelFor(static_cast<std::size_t>(n), ChunkSize, params.Threads,
     [&](std::size_t begin, std::size_t end)
     {
@@ -562,10 +590,7 @@ Status EvaluateParameters(const BezierForm<Dim>& form, const PointMatrixView& pa
   const auto locate = [&](std::size_t begin, std::size_t end, double* local)
   {
     const double* u = parameters.data() + static_cast<Eigen::Index>(begin) * stride;
-    for (std::size_t i = begin; i < end; ++i, u += stride)
-    {
-      batch.Elements[i] = space.Locate(u, local + (i - begin) * Dim);
-    }
+    space.Locate(u, stride, end - begin, batch.Elements.data() + begin, local);
     return static_cast<const double*>(local);
   };
   return EvaluateBatch(form, parameters, params, locate, batch);

@@ -52,8 +52,8 @@ struct EvaluationBatch
 /// @param parameters  n x Dim.
 /// @return SizeMismatch, DimensionMismatch (no domain), InvalidParameter; OutsideDomain when a
 /// point lies outside (the others are evaluated; the detail names the first).
-/// @complexity one location and (p+1)^Dim multiplications a component and point; degrees 1..5
-/// and 1..4 components are compiled for their size.
+/// @complexity one location and (p+1)^Dim multiplications a component and point; equal
+/// degrees in all directions are compiled for their size.
 template <int Dim>
 Status EvaluateParameters(const BezierForm<Dim>& form, const PointMatrixView& parameters,
   const EvaluationParams& params, EvaluationBatch& batch);

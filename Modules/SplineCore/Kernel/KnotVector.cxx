@@ -143,6 +143,32 @@ std::array<int, 2> KnotVector::Support(int function) const
     static_cast<int>(std::min<std::ptrdiff_t>(last, this->NumElements() - 1)) };
 }
 
+void KnotVector::FindElements(const double* u, std::size_t n, int* elements) const
+{
+  const double begin = this->B.front();
+  const double scale = this->BucketScale;
+  const double last = static_cast<double>(this->Bucket.size() - 1);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    const double position = (u[i] - begin) * scale;
+    // a NaN compares false and goes to the first element
+    elements[i] = static_cast<int>(position > 0.0 ? std::min(position, last) : 0.0);
+  }
+  const int end = this->NumElements() - 1;
+  const double* upper = this->B.data() + 1;
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    int e = this->Bucket[static_cast<std::size_t>(elements[i])];
+    // the usual one step is taken without a branch, which could not be predicted
+    e = std::min(e + static_cast<int>(u[i] >= upper[e]), end);
+    while (e < end && u[i] >= upper[e])
+    {
+      ++e;
+    }
+    elements[i] = e;
+  }
+}
+
 double KnotVector::Greville(int function) const
 {
   double sum = 0.0;

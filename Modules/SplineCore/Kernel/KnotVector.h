@@ -49,21 +49,12 @@ public:
   /// last element; parameters outside go to the nearest element. O(1) expected (bucket table).
   int FindElement(double u) const
   {
-    const double position = (u - this->B.front()) * this->BucketScale;
-    const double last = static_cast<double>(this->Bucket.size() - 1);
-    // a NaN compares false and goes to the first element
-    const int bucket = position > 0.0 ? static_cast<int>(std::min(position, last)) : 0;
-    const int end = static_cast<int>(this->S.size()) - 1;
-    const double* upper = this->B.data() + 1;
-    int e = this->Bucket[static_cast<std::size_t>(bucket)];
-    // the usual one step is taken without a branch, which could not be predicted
-    e = std::min(e + static_cast<int>(u >= upper[e]), end);
-    while (e < end && u >= upper[e])
-    {
-      ++e;
-    }
-    return e;
+    int element = 0;
+    this->FindElements(&u, 1, &element);
+    return element;
   }
+  /// The same of n parameters.
+  void FindElements(const double* u, std::size_t n, int* elements) const;
   /// Mean of the p inner knots of a function.
   double Greville(int function) const;
 

@@ -14,10 +14,11 @@ constexpr int NumDerivativeTerms(int dim, int order)
 /// R_de = (A_de - R_d W_e - R_e W_d - R W_de) / W.
 /// @param w  terms of the denominator, w[0] != 0. @param a  terms of the numerator, overwritten.
 /// @source  The NURBS Book, 2nd edition, eqs. (4.8), (4.20).
-template <int Dim>
-inline void DivideTerms(int order, const double* w, double* a)
+/// @tparam Real  double, or a vector of doubles with a point a lane.
+template <int Dim, typename Real>
+inline void DivideTerms(int order, const Real* w, Real* a)
 {
-  const double inverse = 1.0 / w[0];
+  const Real inverse = 1.0 / w[0];
   a[0] *= inverse;
   if (order >= 1)
   {

@@ -20,44 +20,107 @@ ParametricBox<Dim> SplineSpace<Dim>::Domain() const
   return box;
 }
 
+namespace
+{
+constexpr std::size_t LocateBlockSize = 64;
+
+/// Root cells and local parameters of up to LocateBlockSize points; cell -1 outside. One direction
+/// and one step of the arithmetic at a time, so that the compiler uses vectors.
 template <int Dim>
-int SplineSpace<Dim>::Locate(const double* u, double* local) const
+void LocateRootCells(const std::array<KnotVector, Dim>& knots, const double* u,
+  std::ptrdiff_t stride, std::size_t n, int* cells, double* local)
+{
+  std::fill_n(cells, n, 0);
+  bool inside[LocateBlockSize];
+  std::fill_n(inside, n, true);
+  int numCells = 1;
+  for (std::size_t d = 0; d < Dim; ++d)
+  {
+    double x[LocateBlockSize] = {};
+    double lower[LocateBlockSize];
+    double upper[LocateBlockSize];
+    int elements[LocateBlockSize];
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      x[i] = u[static_cast<std::ptrdiff_t>(i) * stride + static_cast<std::ptrdiff_t>(d)];
+    }
+    knots[d].FindElements(x, n, elements);
+    const double* breaks = knots[d].Breaks().data();
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      lower[i] = breaks[elements[i]];
+      upper[i] = breaks[elements[i] + 1];
+      cells[i] += numCells * elements[i];
+    }
+    const double slack = 1e-12 * (knots[d].End() - knots[d].Begin());
+    const double begin = knots[d].Begin() - slack;
+    const double end = knots[d].End() + slack;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      inside[i] = inside[i] && x[i] >= begin && x[i] <= end;
+    }
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      x[i] = std::clamp((x[i] - lower[i]) / (upper[i] - lower[i]), 0.0, 1.0);
+    }
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      local[i * Dim + d] = x[i];
+    }
+    numCells *= knots[d].NumElements();
+  }
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    cells[i] = inside[i] ? cells[i] : -1;
+  }
+}
+}
+
+template <int Dim>
+void SplineSpace<Dim>::Locate(
+  const double* u, std::ptrdiff_t stride, std::size_t n, int* elements, double* local) const
 {
   if (!this->HasDomain)
   {
-    return -1;
+    std::fill_n(elements, n, -1);
+    return;
   }
-  std::size_t cell = 0;
-  std::size_t stride = 1;
-  for (std::size_t d = 0; d < Dim; ++d)
+  for (std::size_t begin = 0; begin < n; begin += LocateBlockSize)
   {
-    const KnotVector& knots = this->Knots[d];
-    const double slack = 1e-12 * (knots.End() - knots.Begin());
-    if (!(u[d] >= knots.Begin() - slack && u[d] <= knots.End() + slack))
+    const std::size_t count = std::min(LocateBlockSize, n - begin);
+    double* t = local + begin * Dim;
+    LocateRootCells<Dim>(this->Knots, u + static_cast<std::ptrdiff_t>(begin) * stride, stride,
+      count, elements + begin, t);
+    for (std::size_t i = begin; i < begin + count; ++i, t += Dim)
     {
-      return -1;
+      if (elements[i] < 0)
+      {
+        continue;
+      }
+      int node = this->RootCells[static_cast<std::size_t>(elements[i])];
+      while (node < 0)
+      {
+        std::size_t child = 0;
+        for (std::size_t d = 0; d < Dim; ++d)
+        {
+          // doubling and subtracting one are exact, so no error builds up over the levels
+          const bool upper = t[d] >= 0.5;
+          t[d] = 2.0 * t[d] - (upper ? 1.0 : 0.0);
+          child |= static_cast<std::size_t>(upper) << d;
+        }
+        node = this->Tree[(static_cast<std::size_t>(-1 - node) << Dim) + child];
+      }
+      elements[i] = node;
     }
-    const int e = knots.FindElement(u[d]);
-    const double lower = knots.Breaks()[static_cast<std::size_t>(e)];
-    const double upper = knots.Breaks()[static_cast<std::size_t>(e) + 1];
-    local[d] = std::clamp((u[d] - lower) / (upper - lower), 0.0, 1.0);
-    cell += stride * static_cast<std::size_t>(e);
-    stride *= static_cast<std::size_t>(knots.NumElements());
   }
-  int node = this->RootCells[cell];
-  while (node < 0)
-  {
-    std::size_t child = 0;
-    for (std::size_t d = 0; d < Dim; ++d)
-    {
-      // doubling and subtracting one are exact, so no error builds up over the levels
-      const bool upper = local[d] >= 0.5;
-      local[d] = 2.0 * local[d] - (upper ? 1.0 : 0.0);
-      child |= static_cast<std::size_t>(upper) << d;
-    }
-    node = this->Tree[(static_cast<std::size_t>(-1 - node) << Dim) + child];
-  }
-  return node;
+}
+
+template <int Dim>
+int SplineSpace<Dim>::Locate(const double* u, double* local) const
+{
+  int element = -1;
+  this->Locate(u, Dim, 1, &element, local);
+  return element;
 }
 
 template <int Dim>

@@ -119,6 +119,11 @@ public:
   /// 1e-12 of the domain's size count as inside. @return -1 outside, for NaN, or without a domain.
   /// Cost: O(1) a direction plus one step a level.
   int Locate(const double* u, double* local) const;
+  /// The same of n points, several times as fast a point.
+  /// @param u         point i is u[i * stride], ..., u[i * stride + Dim - 1].
+  /// @param elements  n. @param local  n x Dim.
+  void Locate(
+    const double* u, std::ptrdiff_t stride, std::size_t n, int* elements, double* local) const;
 
   /// q = T P for c columns; identity: a copy.
   PointMatrix LocalCoefficients(const PointMatrixView& controlPoints) const;
