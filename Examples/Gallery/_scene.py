@@ -2,6 +2,8 @@
 """What the gallery scripts share: the command line, pictures of spline grids, colours."""
 import argparse
 import os
+import sys
+import tarfile
 
 import knotwork
 import numpy as np
@@ -14,6 +16,7 @@ from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingCore import (vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkTextActor,
                                          vtkWindowToImageFilter)
 
+ARCHIVE = "/usr/share/doc/libcgal-dev/data.tar.gz"
 INK = (0.12, 0.14, 0.18)
 # Okabe and Ito's palette: told apart by everybody.
 COLOURS = ((0.34, 0.71, 0.91), (0.90, 0.62, 0.00), (0.00, 0.62, 0.45), (0.95, 0.90, 0.25), (0.00, 0.45, 0.70),
@@ -27,6 +30,49 @@ def output_folder():
     folder = parser.parse_args().output
     os.makedirs(folder, exist_ok=True)
     return folder
+
+
+def read_off(name):
+    """Vertices and triangles of an OFF mesh in CGAL's archive of data (Debian's libcgal-demo)."""
+    if not os.path.exists(ARCHIVE):
+        sys.exit(f"{ARCHIVE} is missing; install the package libcgal-demo")
+    with tarfile.open(ARCHIVE) as archive:
+        text = archive.extractfile("data/meshes/" + name).read().decode()
+    words = " ".join(line for line in text.splitlines() if not line.startswith("#")).split()
+    vertices, faces = int(words[1]), int(words[2])
+    numbers = words[4:]
+    points = np.array(numbers[:3 * vertices], float).reshape(-1, 3)
+    return points, np.array(numbers[3 * vertices:3 * vertices + 4 * faces], int).reshape(-1, 4)[:, 1:]
+
+
+def triangle_mesh(points, triangles):
+    """Polydata of triangles, points in double precision."""
+    mesh = vtkPolyData()
+    vertices = vtkPoints()
+    vertices.SetDataTypeToDouble()
+    vertices.SetData(numpy_to_vtk(np.ascontiguousarray(points), deep=1))
+    cells = vtkCellArray()
+    for triangle in triangles:
+        cells.InsertNextCell(3, [int(i) for i in triangle])
+    mesh.SetPoints(vertices)
+    mesh.SetPolys(cells)
+    return mesh
+
+
+def polylines(lines):
+    """Polydata with a polyline for every n x 3 array of points."""
+    points = vtkPoints()
+    points.SetDataTypeToDouble()
+    points.SetData(numpy_to_vtk(np.vstack(lines), deep=1))
+    cells = vtkCellArray()
+    first = 0
+    for line in lines:
+        cells.InsertNextCell(len(line), list(range(first, first + len(line))))
+        first += len(line)
+    polydata = vtkPolyData()
+    polydata.SetPoints(points)
+    polydata.SetLines(cells)
+    return polydata
 
 
 def updated(algorithm):
@@ -44,6 +90,12 @@ def updated(algorithm):
     return algorithm
 
 
+def soften(item):
+    """Light that leaves no black corners."""
+    item.GetProperty().SetAmbient(0.35)
+    item.GetProperty().SetDiffuse(0.75)
+
+
 def actor(polydata, colour, line_width=None, opacity=1.0, lighting=False):
     """A flat actor of polydata in one colour."""
     mapper = vtkPolyDataMapper()
@@ -55,15 +107,17 @@ def actor(polydata, colour, line_width=None, opacity=1.0, lighting=False):
     properties.SetColor(*colour)
     properties.SetOpacity(opacity)
     properties.SetLighting(lighting)
+    if lighting:
+        soften(result)
     if line_width:
         properties.SetLineWidth(line_width)
         properties.SetRenderLinesAsTubes(False)
     return result
 
 
-def patches(surface):
-    """An actor of tessellated patches, each in a colour of its own."""
-    ids = vtk_to_numpy(surface.GetCellData().GetArray("PatchId"))
+def patches(surface, by="PatchId", lighting=False):
+    """An actor of tessellated patches, each (or each value of another cell array) in a colour of its own."""
+    ids = vtk_to_numpy(surface.GetCellData().GetArray(by))
     table = (255 * np.array(COLOURS)).round().astype(np.uint8)
     colours = numpy_to_vtk(table[ids % len(table)], deep=1)
     coloured = vtkPolyData()
@@ -74,7 +128,9 @@ def patches(surface):
     mapper.SetScalarModeToUseCellData()
     result = vtkActor()
     result.SetMapper(mapper)
-    result.GetProperty().LightingOff()
+    result.GetProperty().SetLighting(lighting)
+    if lighting:
+        soften(result)
     return result
 
 
@@ -144,6 +200,7 @@ def save(renderers, file, size):
     grab.SetInput(window)
     grab.ReadFrontBufferOff()
     writer = vtkPNGWriter()
+    writer.SetCompressionLevel(9)
     writer.SetInputConnection(grab.GetOutputPort())
     writer.SetFileName(file)
     writer.Write()

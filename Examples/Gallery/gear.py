@@ -11,8 +11,6 @@ usage: gear.py [--output DIR]
 """
 import math
 import os
-import sys
-import tarfile
 
 import numpy as np
 import knotwork
@@ -24,7 +22,6 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWrit
 
 import _scene as scene
 
-ARCHIVE = "/usr/share/doc/libcgal-dev/data.tar.gz"
 TEETH = 10
 TEMPLATE_SAMPLES = 2001
 TARGET_SAMPLES = 3000
@@ -33,17 +30,6 @@ CIRCLES = 70
 # Share of the length of the outline in its parameter, against the angle: length alone bends the lines from bore to
 # outline too much, angle alone shears the flanks of the teeth.
 LENGTH_SHARE = 0.3
-
-
-def read_off(name):
-    """Vertices and triangles of an OFF mesh in CGAL's archive of data."""
-    with tarfile.open(ARCHIVE) as archive:
-        text = archive.extractfile("data/meshes/" + name).read().decode()
-    words = " ".join(line for line in text.splitlines() if not line.startswith("#")).split()
-    vertices, faces = int(words[1]), int(words[2])
-    numbers = words[4:]
-    points = np.array(numbers[:3 * vertices], float).reshape(-1, 3)
-    return points, np.array(numbers[3 * vertices:3 * vertices + 4 * faces], int).reshape(-1, 4)[:, 1:]
 
 
 def cross_section(points, triangles):
@@ -57,15 +43,7 @@ def cross_section(points, triangles):
     axis, first = frame[:, 0], frame[:, 1]
     second = np.cross(axis, first)
 
-    mesh = vtkPolyData()
-    vertices = vtkPoints()
-    vertices.SetDataTypeToDouble()
-    vertices.SetData(numpy_to_vtk(points, deep=1))
-    cells = vtkCellArray()
-    for triangle in triangles:
-        cells.InsertNextCell(3, [int(i) for i in triangle])
-    mesh.SetPoints(vertices)
-    mesh.SetPolys(cells)
+    mesh = scene.triangle_mesh(points, triangles)
     plane = vtkPlane()
     plane.SetNormal(*axis)
     plane.SetOrigin(*(0.1 * np.ptp(points @ axis) * axis))
@@ -143,9 +121,7 @@ def write(writer, data, file):
 
 def main():
     folder = scene.output_folder()
-    if not os.path.exists(ARCHIVE):
-        sys.exit(f"{ARCHIVE} is missing; install the package libcgal-demo")
-    outer, bore = cross_section(*read_off("pinion.off"))
+    outer, bore = cross_section(*scene.read_off("pinion.off"))
     bore_radius = np.linalg.norm(bore, axis=1).mean()
     # the circle that encloses the area of the toothed outline
     area = 0.5 * abs(np.sum(np.cross(outer[:-1], outer[1:])))

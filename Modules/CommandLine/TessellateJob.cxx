@@ -58,8 +58,8 @@ Job MakeTessellateJob(CLI::App& app)
     "whether the tolerance is a share of the bounding box's diagonal");
   KNOTWORK_OPTION(options, filter, MaximumSubdivision, "halvings of an element at most");
   options.AddChoice(
-    "Cells", { "surface", "volume" }, filter->GetOutput(),
-    [filter](int cells) { filter->SetOutput(cells); }, "cells that solids become");
+    "Cells", { "surface", "volume" }, filter->GetCells(),
+    [filter](int cells) { filter->SetCells(cells); }, "cells that solids become");
   KNOTWORK_FREE_OPTION(options, filter, Normals, "exact normals of surfaces");
   KNOTWORK_FREE_OPTION(
     options, filter, Splitting, "points repeated at creases and between patches");

@@ -140,7 +140,7 @@ Status TessellateDimension(const std::vector<const SplinePatch*>& patches,
   return mesh.Status;
 }
 
-void SetCells(const BlockMesh& block, vtkDataSet* output)
+void FillCells(const BlockMesh& block, vtkDataSet* output)
 {
   if (auto* polygons = vtkPolyData::SafeDownCast(output))
   {
@@ -280,7 +280,7 @@ void vtkSplineTessellate::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ChordalTolerance: " << this->ChordalTolerance << "\n";
   os << indent << "RelativeTolerance: " << this->RelativeTolerance << "\n";
   os << indent << "MaximumSubdivision: " << this->MaximumSubdivision << "\n";
-  os << indent << "Output: " << this->Output << "\n";
+  os << indent << "Cells: " << this->Cells << "\n";
   os << indent << "Normals: " << this->Normals << "\n";
   os << indent << "Splitting: " << this->Splitting << "\n";
 }
@@ -294,7 +294,7 @@ int vtkSplineTessellate::FillOutputPortInformation(int, vtkInformation* info)
 int vtkSplineTessellate::RequestDataObject(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  if (this->Output == VOLUME || vtkPartitionedDataSetCollection::GetData(inputs[0], 0))
+  if (this->Cells == VOLUME || vtkPartitionedDataSetCollection::GetData(inputs[0], 0))
   {
     return this->Superclass::RequestDataObject(request, inputs, outputs);
   }
@@ -316,7 +316,7 @@ Status vtkSplineTessellate::Compute(vtkInformationVector** inputs, vtkInformatio
   }
   this->ReportWarnings(model->Warnings);
   return knotwork::MakeByBlock(model.Value, input, vtkDataObject::GetData(outputs),
-    this->Output == VOLUME ? VTK_UNSTRUCTURED_GRID : VTK_POLY_DATA,
+    this->Cells == VOLUME ? VTK_UNSTRUCTURED_GRID : VTK_POLY_DATA,
     [this](const std::vector<const SplinePatch*>& patches, vtkUnstructuredGrid* source,
       vtkDataSet* output)
     {
@@ -333,8 +333,8 @@ Status vtkSplineTessellate::Compute(vtkInformationVector** inputs, vtkInformatio
         params.Tolerance *= diagonal > 0.0 ? diagonal : 1.0;
       }
       params.MaximumSubdivision = this->MaximumSubdivision;
-      params.Output = this->Output == VOLUME ? knotwork::TessellationOutput::Volume
-                                             : knotwork::TessellationOutput::Surface;
+      params.Output = this->Cells == VOLUME ? knotwork::TessellationOutput::Volume
+                                            : knotwork::TessellationOutput::Surface;
       params.Normals = this->Normals;
       params.Splitting = this->Splitting;
       params.Threads = this->KernelThreads();
@@ -357,7 +357,7 @@ Status vtkSplineTessellate::Compute(vtkInformationVector** inputs, vtkInformatio
       {
         vtkUnstructuredGrid::SafeDownCast(output)->SetPoints(points);
       }
-      SetCells(block, output);
+      FillCells(block, output);
       SetCellData(block, patches, source, output);
       status = SetPointData(block, patches, params.Threads, output);
       vtkNew<vtkDoubleArray> bound;

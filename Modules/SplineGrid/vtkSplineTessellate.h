@@ -3,8 +3,8 @@
  * @class   vtkSplineTessellate
  * @brief   linear cells that follow a spline grid to a guaranteed tolerance
  *
- * Curves become lines, surfaces quadrilaterals and triangles, solids their outer boundary (Output
- * SURFACE, a vtkPolyData) or hexahedra (Output VOLUME, a vtkUnstructuredGrid, in which curves and
+ * Curves become lines, surfaces quadrilaterals and triangles, solids their outer boundary (Cells
+ * SURFACE, a vtkPolyData) or hexahedra (Cells VOLUME, a vtkUnstructuredGrid, in which curves and
  * surfaces stay lines and polygons). A vtkPartitionedDataSetCollection becomes one of such
  * datasets.
  *
@@ -33,7 +33,7 @@ public:
   vtkTypeMacro(vtkSplineTessellate, vtkSplineAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  enum Outputs
+  enum CellTypes
   {
     SURFACE = 0,
     VOLUME
@@ -57,9 +57,9 @@ public:
   vtkGetMacro(MaximumSubdivision, int);
   ///@}
   ///@{
-  /** What becomes of solids, one of Outputs. Default SURFACE, valid range [SURFACE, VOLUME]. */
-  vtkSetClampMacro(Output, int, SURFACE, VOLUME);
-  vtkGetMacro(Output, int);
+  /** What becomes of solids, one of CellTypes. Default SURFACE, valid range [SURFACE, VOLUME]. */
+  vtkSetClampMacro(Cells, int, SURFACE, VOLUME);
+  vtkGetMacro(Cells, int);
   ///@}
   ///@{
   /** Whether polygons get point normals (outward on solids with det J > 0). Default on. */
@@ -91,7 +91,7 @@ private:
   double ChordalTolerance = 1e-3;
   bool RelativeTolerance = true;
   int MaximumSubdivision = 8;
-  int Output = SURFACE;
+  int Cells = SURFACE;
   bool Normals = true;
   bool Splitting = false;
 };

@@ -19,7 +19,9 @@
 #include "vtkPoints.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
 #include <map>
+#include <sstream>
 
 using knotwork::ErrorCode;
 using knotwork::PointMatrix;
@@ -336,6 +338,18 @@ Status vtkSplineWarp::Compute(vtkInformationVector** inputs, vtkInformationVecto
   if (!status)
   {
     return status;
+  }
+  double largest = 0.0;
+  for (const auto& [patch, distance] : distances)
+  {
+    largest = std::max(largest, distance);
+  }
+  if (this->Tolerance > 0.0 && largest > this->Tolerance)
+  {
+    std::ostringstream text;
+    text << "the distance to the composition is " << largest << ", above the tolerance "
+         << this->Tolerance << ": raise MaxLevel";
+    this->ReportWarnings({ text.str() });
   }
   const auto sources = knotwork::GridsByBlock(input);
   const auto results = knotwork::GridsByBlock(output);

@@ -12,8 +12,8 @@
  * space, which is refined locally (THB) wherever the distance to the composition exceeds Tolerance.
  * Sides that patches share are projected once, so the image is as connected as the input. The
  * result is polynomial; the cell array Distance holds the largest distance found for the patch,
- * measured on a grid of samples in every element at equal parameters. Fields of the patches are
- * carried to the new space by projection.
+ * measured on a grid of samples in every element at equal parameters; a warning tells when MaxLevel
+ * does not allow the tolerance. Fields of the patches are carried to the new space by projection.
  *
  * A point outside the map's domain is an error that names it, or with Clamp is moved to the nearest
  * parameters inside. See Composition.h.

@@ -189,14 +189,14 @@ TEST(SplineTessellate, SolidsBecomeSurfacesOrHexahedra_ExactOracle)
   }
   vtkNew<vtkSplineTessellate> filter;
   filter->SetInputDataObject(ShapeGrid(vtkSplineSource::SOLID_CYLINDER));
-  filter->SetOutput(vtkSplineTessellate::VOLUME);
+  filter->SetCells(vtkSplineTessellate::VOLUME);
   filter->Update();
   auto* grid = vtkUnstructuredGrid::SafeDownCast(filter->GetOutputDataObject(0));
   ASSERT_TRUE(grid);
   EXPECT_TRUE(grid->IsHomogeneous());
   EXPECT_EQ(grid->GetCellType(0), VTK_HEXAHEDRON);
   // Back to the surface, then to hexahedra again: the output changes its type.
-  filter->SetOutput(vtkSplineTessellate::SURFACE);
+  filter->SetCells(vtkSplineTessellate::SURFACE);
   filter->Update();
   EXPECT_TRUE(vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0)));
 }

@@ -148,6 +148,28 @@ TEST(SplineWarp, ImagesStayConnected_PropertyOracle)
   }
 }
 
+TEST(SplineWarp, ToleranceOutOfReachIsReported_PropertyOracle)
+{
+  vtkNew<vtkSplineWarp> warp;
+  vtkNew<MessageRecorder> recorder;
+  recorder->Watch(warp);
+  warp->SetInputDataObject(SmallDisc(2));
+  warp->SetMapData(AnnulusMap());
+  warp->SetTolerance(1e-6);
+  warp->SetMaxLevel(1);
+  warp->Update();
+  EXPECT_EQ(warp->GetErrorCode(), vtkErrorCode::NoError);
+  ASSERT_EQ(recorder->Warnings.size(), 1u);
+  EXPECT_NE(recorder->Warnings[0].find("MaxLevel"), std::string::npos);
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(warp->GetOutputDataObject(0));
+  EXPECT_GT(grid->GetCellData()->GetArray("Distance")->GetRange()[1], 1e-6);
+  warp->SetTolerance(0.1);
+  warp->Update();
+  warp->SetTolerance(0.0); // no wish, no word
+  warp->Update();
+  EXPECT_EQ(recorder->Warnings.size(), 1u);
+}
+
 TEST(SplineWarp, CollectionsAndOutsideAndClamp_PropertyOracle)
 {
   vtkNew<vtkSplineWarp> warp;

@@ -40,7 +40,7 @@ def polygons(mesh):
 def test_defaults():
     made = knotwork.vtkSplineTessellate()
     assert (made.GetChordalTolerance(), made.GetRelativeTolerance(), made.GetMaximumSubdivision()) == (1e-3, True, 8)
-    assert (made.GetOutput(), made.GetNormals(), made.GetSplitting(), made.GetThreads()) == (made.SURFACE, True, False, 0)
+    assert (made.GetCells(), made.GetNormals(), made.GetSplitting(), made.GetThreads()) == (made.SURFACE, True, False, 0)
     made.SetMaximumSubdivision(99)
     assert made.GetMaximumSubdivision() == 10
 
@@ -90,7 +90,7 @@ def test_fields_are_exact_and_arrays_lead_back():
 def test_solids():
     surface = tessellate(source("Cube"))
     assert surface.GetOutputDataObject(0).GetNumberOfPolys() == 6
-    surface.SetOutput(surface.VOLUME)
+    surface.SetCells(surface.VOLUME)
     surface.Update()
     volume = surface.GetOutputDataObject(0)
     assert isinstance(volume, vtkUnstructuredGrid)
