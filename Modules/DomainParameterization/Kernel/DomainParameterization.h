@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "DomainBoundary.h"
+#include "JacobianCertificate.h"
+
+#include <string>
+#include <vector>
+
+namespace knotwork
+{
+/// Control points of the first map, from the boundary alone.
+enum class InitialMapMethod
+{
+  Automatic, ///< Coons; where that folds, the harmonic map if it folds less
+  Coons,     ///< Boolean sum at the Greville abscissae
+  Spring,    ///< every inner control point is the mean of its neighbours
+  Harmonic   ///< least squares of the Laplacian
+};
+
+enum class DomainOptimizer
+{
+  Automatic, ///< what is the faster one: Lbfgs
+  Lbfgs,     ///< limited-memory BFGS, preconditioned
+  Newton     ///< projected Newton, sparse Cholesky factorization
+};
+
+/// How folds of the first map are removed.
+enum class FoldoverRemoval
+{
+  Automatic, ///< Penalty
+  Penalty,   ///< det J in the denominator of the quality functional becomes positive by
+             ///< (det J + sqrt(eps^2 + det J^2)) / 2, eps falling
+  Relu       ///< int max(0, delta - det J), delta falling
+};
+
+enum class WeightMode
+{
+  Automatic, ///< optimized only when control points alone give no valid map
+  Fixed,     ///< those of the first map
+  Optimized  ///< control points and weights in turn
+};
+
+struct DomainParams
+{
+  InitialMapMethod InitialMap = InitialMapMethod::Automatic;
+  DomainOptimizer Optimizer = DomainOptimizer::Automatic;
+  FoldoverRemoval Foldover = FoldoverRemoval::Automatic;
+  WeightMode Weights = WeightMode::Automatic;
+  double UniformityWeight = 1.0;      ///< lambda, >= 0
+  double FoldoverMargin = 0.05;       ///< delta / S of the ReLU functional, (0, 1)
+  double WinslowEpsilon = 1e-10;      ///< added to det J / S where that is cut off at 0, > 0
+  double AlternationTolerance = 0.01; ///< eps0: stop when a round lowers the energy by less, > 0
+  int MaxAlternations = 5;            ///< rounds of control points and weights, [1, 100]
+  int MaxIterations = 1000;           ///< of one minimization, [1, 1000000]
+  double GradientTolerance = 1e-4;    ///< of the gradient, relative to the first one's, (0, 1)
+  int MaxRefinements = 3;             ///< rounds of local refinement when the space is too poor,
+                                      ///< [0, 10]; 0: never
+  int MetricSamples = 0;              ///< a direction, [2, 5001]; 0: 501 in 2D, 51 in 3D
+  double GapTolerance = 1e-9;         ///< see BoundaryParams
+  std::int64_t MaxBoxes = 1000000;    ///< of the certificate, see JacobianParams
+  int Threads = 0;                    ///< 0: all cores; the result does not depend on it
+};
+
+/// What a row of the convergence table belongs to.
+enum class DomainStage
+{
+  Initial,  ///< the first map
+  Foldover, ///< foldover removal
+  Quality,  ///< the quality functional in the control points
+  Weights   ///< the quality functional in the logarithms of the inner weights
+};
+
+struct DomainIteration
+{
+  DomainStage Stage = DomainStage::Initial;
+  int Iteration = 0;         ///< within the stage's run, from 0 (its start)
+  double Energy = 0.0;       ///< of the stage's functional
+  double MinDet = 0.0;       ///< over S, at the quadrature points
+  double GradientNorm = 0.0; ///< of the free unknowns, largest component
+  int Functions = 0;         ///< of the map's space
+};
+
+/// Measures at Samples^Dim equally spaced parameters, ends included. Det: of the map from the unit
+/// square (cube). Scaled: det J over the product of the lengths of J's columns. Condition:
+/// |J|_F |J^-1|_F / Dim, 1 at best; points with det J = 0 do not count.
+struct DomainMetrics
+{
+  int Samples = 0;
+  double Area = 0.0; ///< S, signed, from the boundary alone (theorem of Green; of Gauss in 3D)
+  double MinDet = 0.0;
+  double MaxDet = 0.0;
+  double MinDetOverArea = 0.0;
+  double MaxDetOverArea = 0.0;
+  double MinScaledJacobian = 0.0;
+  double MeanScaledJacobian = 0.0;
+  double MeanConditionNumber = 0.0;
+  int NonPositive = 0; ///< samples with det J <= 0
+};
+
+/// A place where the boundary alone makes det J <= 0, whatever the interior: a corner whose
+/// tangents span no positive area, or a point of an edge between two faces.
+struct BoundaryFold
+{
+  std::array<double, 3> Parameters{};
+  std::array<double, 3> Position{};
+  double Det = 0.0;                       ///< of the sides' derivatives there
+  std::array<int, 3> Sides{ -1, -1, -1 }; ///< of the map that meet there; -1: none
+  std::string Message; ///< one sentence with the place and the given sides' numbers
+};
+
+template <int Dim>
+struct DomainParameterization
+{
+  Spline<Dim> Map; ///< Dim components, on [0, 1]^Dim
+  Spline<Dim> InitialMap;
+  CompatibleBoundary<Dim> Boundary;
+  JacobianCertificate Certificate; ///< of Map: verdict, bounds, witnesses
+  DomainMetrics Metrics;           ///< of Map
+  DomainMetrics InitialMetrics;    ///< of InitialMap
+  std::vector<DomainIteration> History;
+  int Iterations = 0;  ///< over all stages
+  int Evaluations = 0; ///< of functionals, over all stages
+  bool WeightsOptimized = false;
+  int Refinements = 0; ///< rounds of local refinement that were made
+  InitialMapMethod UsedInitialMap = InitialMapMethod::Coons;
+  std::vector<BoundaryFold> Folds;   ///< empty unless the boundary makes a valid map impossible
+  std::vector<std::string> Messages; ///< what a stage failed at, one sentence each
+  double SecondsOptimization = 0.0;  ///< of the wall clock: everything before the metrics and
+                                     ///< without the certificate
+  double SecondsCertificate = 0.0;
+  double SecondsMetrics = 0.0;
+  bool IsImpossible() const { return !this->Folds.empty(); }
+};
+
+/// Spline map of the unit square (cube) onto the domain that four curves (six faces) enclose. The
+/// control points and weights of the (compatible) boundary are those of the map, bit for bit, and
+/// are never moved. Inner control points minimize
+///     int |J|^2 / (det J)^(2/Dim) + lambda int (det J / S - 1)^2,   S the area (volume),
+/// the Winslow functional in the plane, after folds of the first map are removed. The map comes
+/// with a certificate: Valid is proved, not sampled. A map that is not Valid is returned too, with
+/// the reasons in Folds and Messages.
+/// @return failures of MakeCompatible; InvalidParameter naming an option; Aborted.
+/// @complexity an evaluation: O(quadrature points * degree), (p+1)^Dim points an element.
+/// @source  Ji, Yu, Wang, Zhu, CAGD 2021 (functionals, control points and weights in turn);
+/// Garanzha, Kaporin, Kudryavtseva, Protais, Ray, Sokolov, ACM TOG 40 (2021) (penalty).
+template <int Dim>
+Result<DomainParameterization<Dim>> ParameterizeDomain(const DomainBoundary<Dim>& boundary,
+  const DomainParams& params = {}, const ProgressCallback& progress = {});
+}
