@@ -10,7 +10,7 @@ import numpy as np
 import vtkmodules.vtkRenderingFreeType  # noqa: F401
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingCore import (vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkTextActor,
@@ -75,18 +75,23 @@ def polylines(lines):
     return polydata
 
 
+# Errors of any algorithm, also of those upstream: the scripts must not draw what is left after a failure.
+errors = []
+
+
+def _record(caller, event, text=""):
+    errors.append(text)
+
+
+_record.CallDataType = "string0"
+vtkOutputWindow.GetInstance().AddObserver("ErrorEvent", _record)
+
+
 def updated(algorithm):
-    """Runs an algorithm and raises with its own message when it fails."""
-    messages = []
-
-    def record(caller, event, text=""):
-        messages.append(text)
-
-    record.CallDataType = "string0"
-    algorithm.AddObserver("ErrorEvent", record)
+    """Runs an algorithm and what it needs, and raises with the first message when something fails."""
     algorithm.Update()
-    if messages:
-        raise RuntimeError(messages[0].strip())
+    if errors:
+        raise RuntimeError(errors[0].strip())
     return algorithm
 
 
@@ -196,6 +201,8 @@ def save(renderers, file, size):
     for item in renderers:
         window.AddRenderer(item)
     window.Render()
+    if errors:
+        raise RuntimeError(errors[0].strip())
     grab = vtkWindowToImageFilter()
     grab.SetInput(window)
     grab.ReadFrontBufferOff()
