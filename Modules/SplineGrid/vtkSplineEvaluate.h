@@ -22,6 +22,11 @@
  * ... (a field's are <name>_u, ...), for 2 also Derivative_uu, Derivative_uv, ...: with respect to
  * the parameters of the domain (of the element's unit square where a patch has no domain). Patches
  * of different parametric dimension leave the derivatives that they do not have zero.
+ *
+ * Errors: no spline, or no array of the given name (EmptyInput); several patches and none chosen
+ * (InvalidParameter); a PatchId that the splines do not have (InvalidTopology); too few parameters
+ * or a patch without a domain in mode PARAMETERS (DimensionMismatch); a parameter outside the
+ * domain (OutsideDomain); a position that is not finite (NonFiniteInput); those of decoding.
  */
 #ifndef vtkSplineEvaluate_h
 #define vtkSplineEvaluate_h

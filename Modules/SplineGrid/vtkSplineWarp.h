@@ -17,6 +17,10 @@
  *
  * A point outside the map's domain is an error that names it, or with Clamp is moved to the nearest
  * parameters inside. See Composition.h.
+ *
+ * Errors: a map without patches (EmptyInput), with several and none chosen or without the one
+ * chosen (InvalidParameter), without a parameter domain (DimensionMismatch); a point that is not
+ * finite (NonFiniteInput) or outside (OutsideDomain); those of decoding.
  */
 #ifndef vtkSplineWarp_h
 #define vtkSplineWarp_h
