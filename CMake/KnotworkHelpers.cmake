@@ -161,12 +161,12 @@ function(knotwork_add_command_test name)
     ENVIRONMENT "${arg_ENVIRONMENT}")
 endfunction()
 
-# knotwork_add_python_test(MODULE script.py [IMAGE] [SLOW] [LABELS label...] [ARGUMENTS ...])
+# knotwork_add_python_test(MODULE script.py [IMAGE] [SLOW] [PROGRAM] [LABELS label...] [ARGUMENTS ...])
 #   Runs the script on the Python that has VTK with `import knotwork` and `import knotwork_testing` at hand; exit
-#   status 0 passes. The test is <MODULE>.Python.<script>.
+#   status 0 passes. PROGRAM: the script runs the program and does not import knotwork. The test is <MODULE>.Python.<script>.
 function(knotwork_add_python_test module script)
-  cmake_parse_arguments(PARSE_ARGV 2 arg "IMAGE;SLOW" "NAME" "LABELS;ARGUMENTS")
-  if(NOT KNOTWORK_FILTERS OR NOT KNOTWORK_PYTHON)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "IMAGE;SLOW;PROGRAM" "NAME" "LABELS;ARGUMENTS")
+  if(NOT KNOTWORK_FILTERS OR (NOT KNOTWORK_PYTHON AND NOT arg_PROGRAM))
     return()
   endif()
   get_filename_component(path "${script}" ABSOLUTE)

@@ -10,7 +10,7 @@ packages=(
   # kernels
   libeigen3-dev libtbb-dev libnanoflann-dev libboost-dev
   # filters, command line, Python
-  libvtk9-dev python3-vtk9 python3-dev libcli11-dev nlohmann-json3-dev
+  libvtk9-dev python3-vtk9 python3-dev libcli11-dev nlohmann-json3-dev libpugixml-dev
   # ParaView plugin
   paraview paraview-dev qtbase5-dev qttools5-dev libqt5svg5-dev python3-mpi4py
   # tests, benchmarks, pictures

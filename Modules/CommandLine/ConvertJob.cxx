@@ -40,6 +40,11 @@ struct ConvertJob
       {
         return { model.Status.Code, "'" + this->Input + "': " + model.Status.Message() };
       }
+      if (model->Patches.empty())
+      {
+        return { ErrorCode::EmptyInput, "'" + this->Input + "' holds no splines, only points" };
+      }
+      session.Warn(model->Warnings);
       session.Report["patches"] = model->Patches.size();
       const bool collection =
         CLI::detail::to_lower(this->Output).find(".vtpc") != std::string::npos;

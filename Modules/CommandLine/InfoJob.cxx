@@ -75,6 +75,10 @@ struct InfoJob
     {
       return { model.Status.Code, "'" + this->Input + "': " + model.Status.Message() };
     }
+    if (model->Patches.empty())
+    {
+      return { ErrorCode::EmptyInput, "'" + this->Input + "' holds no splines, only points" };
+    }
     long long functions = 0;
     long long elements = 0;
     std::vector<int> patchIds;
@@ -115,10 +119,7 @@ struct InfoJob
       dimension = std::max(dimension, static_cast<int>(patch.Geometry.index()) + 1);
       residual = std::max(residual, patch.Residual);
     }
-    for (const std::string& warning : model->Warnings)
-    {
-      std::cerr << (session.Quiet ? "" : warning + "\n");
-    }
+    session.Warn(model->Warnings);
     session.Report["input"] = this->Input;
     session.Report["patches"] = model->Patches.size();
     session.Report["patch_ids"] = patchIds;

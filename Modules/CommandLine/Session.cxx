@@ -2,6 +2,8 @@
 #include "Session.h"
 
 #include "Messages.h"
+#include "TrialRead.h"
+#include "XmlCheck.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkCallbackCommand.h>
@@ -157,8 +159,27 @@ Result<vtkSmartPointer<vtkDataObject>> Session::Read(const std::string& file)
   }
   const std::string ending = Ending(file);
   vtkSmartPointer<vtkDataObject> data;
+  if (Status status = CheckXmlFile(file, ending); !status)
+  {
+    return status;
+  }
   MessageCapture messages;
-  data = ReadByEnding(file, ending);
+  if (ending == ".vtk" || ending == ".obj" || ending == ".ply" || ending == ".stl")
+  {
+    if (Status status = TrialRead(file, [&] { ReadByEnding(file, ending); }); !status)
+    {
+      return status;
+    }
+  }
+  try
+  {
+    data = ReadByEnding(file, ending);
+  }
+  catch (const std::exception& failure) // out of memory: sizes in the file are wrong
+  {
+    return { ErrorCode::TooLarge,
+      "'" + file + "' is damaged, or larger than the memory: " + failure.what() };
+  }
   if (!data)
   {
     return { ErrorCode::InvalidParameter,
@@ -202,11 +223,23 @@ Status Session::Run(vtkAlgorithm* filter, const std::string& what)
   {
     return { ErrorCode::InvalidTopology, what + ": " + messages.FirstError() };
   }
+  if (IsEmpty(filter->GetOutputDataObject(0)))
+  {
+    return { ErrorCode::EmptyInput, what + ": there are no cells to work on; check the input" };
+  }
   if (!this->Quiet)
   {
     std::cerr << messages.Warnings();
   }
   return {};
+}
+
+void Session::Warn(const std::vector<std::string>& warnings) const
+{
+  for (const std::string& warning : warnings)
+  {
+    std::cerr << (this->Quiet ? "" : warning + "\n");
+  }
 }
 
 Result<fs::path> Session::Stage(const std::string& file)

@@ -31,12 +31,15 @@ public:
   nlohmann::ordered_json Report = nlohmann::ordered_json::object();
 
   /// Reads a dataset by the ending of its name: .vtu .vtp .vtpc, and .vtk; meshes .off .obj .ply
-  /// .stl. An unreadable, truncated or empty file is an error that names the file.
+  /// .stl. An unreadable, truncated, damaged or empty file is an error that names the file.
   Result<vtkSmartPointer<vtkDataObject>> Read(const std::string& file);
 
   /// Updates a filter with progress on a terminal; messages of VTK become the status. `what` names
   /// the inputs in the message.
   Status Run(vtkAlgorithm* filter, const std::string& what);
+
+  /// Prints warnings of a decoding on stderr, unless quiet.
+  void Warn(const std::vector<std::string>& warnings) const;
 
   /// Stages an output by the ending of its name: .vtu .vtp .vtpc for datasets, .csv for tables.
   Status Write(

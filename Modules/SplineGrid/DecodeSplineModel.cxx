@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BezierSpace.h"
+#include "Numbers.h"
 #include "Recovery.h"
 #include "SplineSchema.h"
 
@@ -616,10 +617,15 @@ Status GridReader::Gather(
       {
         return { ErrorCode::NonFiniteInput, place() + ": a coordinate is not a finite number" };
       }
-      if (!std::isfinite(row[3]) || row[3] <= 0.0)
+      if (!(std::max({ std::abs(row[0]), std::abs(row[1]), std::abs(row[2]) }) <= LargestNumber))
+      {
+        return { ErrorCode::TooLarge, place() + ": " + BeyondLimit() };
+      }
+      if (!(row[3] >= 1.0 / LargestWeight && row[3] <= LargestWeight))
       {
         std::ostringstream text;
-        text << place() << ": the weight is " << row[3];
+        text << place() << ": the weight is " << row[3] << ", not in [" << 1.0 / LargestWeight
+             << ", " << LargestWeight << "]";
         return { ErrorCode::InvalidWeight, text.str() };
       }
     }
@@ -639,6 +645,11 @@ Status GridReader::GatherField(const std::string& where, vtkDataArray* array,
   {
     return { ErrorCode::NonFiniteInput,
       where + ": the point array '" + array->GetName() + "' has a value that is not finite" };
+  }
+  if (!AllWithinLimit(values))
+  {
+    return { ErrorCode::TooLarge,
+      where + ": point array '" + array->GetName() + "': " + BeyondLimit() };
   }
   return {};
 }

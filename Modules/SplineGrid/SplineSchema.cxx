@@ -144,7 +144,9 @@ void Append(std::vector<double>& values, const PointMatrix& rows)
 
 Status Damaged(const std::string& what)
 {
-  return { ErrorCode::InvalidTopology, "field data of the spline grid is damaged: " + what };
+  return { ErrorCode::InvalidTopology,
+    "field data of the spline grid is damaged: " + what +
+      "; without the field data Knotwork* the grid is read as plain Bezier elements" };
 }
 
 // Takes the next count rows of a table; false when there are not so many.

@@ -205,6 +205,11 @@ Status vtkSplineRefine::Marker::MarkByFunction(
       Eigen::Map<Eigen::RowVector3d>(x, 3) =
         batch.Values.row(static_cast<Eigen::Index>(e) * samples + i).template head<3>();
       const double value = this->Filter->ImplicitFunction->FunctionValue(x);
+      if (std::isnan(value))
+      {
+        return { ErrorCode::NonFiniteInput,
+          "the implicit function has no value at element " + std::to_string(e) };
+      }
       inside = inside || value <= 0.0;
       outside = outside || value >= 0.0;
     }

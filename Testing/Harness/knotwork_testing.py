@@ -104,7 +104,7 @@ def save_and_compare(view, name, size=300):
 def run_program(*arguments, timeout=120):
     """Runs the program `knotwork`; the result has returncode, stdout and stderr."""
     return subprocess.run([PROGRAM, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                          timeout=timeout)
+                          errors="replace", timeout=timeout)
 
 
 def main(namespace):

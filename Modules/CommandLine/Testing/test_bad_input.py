@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Bad input: exit status 1, one line that names the file, no output file, an existing one untouched; wrong usage: 2."""
 import os
+import re
 
 import numpy as np
 
+import damages
 import knotwork_testing
 import skeletons
 
@@ -98,6 +100,183 @@ def test_map_refuses_bad_skeletons():
     assert_refused(["map", template, other], path("map.vtu"), "ids.vtp")
     grid = source()
     assert_refused(["map", template, grid], path("map.vtu"), "square.vtu")
+
+
+def spline():
+    """An annulus sector of biquadratic rational elements with a refined corner and a field."""
+    for job in (["source", "--shape", "annulus-sector", "--degree", 2, "--elements", 2, 2, 1],
+                ["refine", path("coarse.vtu"), "--array", "ElementId", "--upper-threshold", 0]):
+        done = knotwork_testing.run_program(*job, "--output", path("coarse.vtu"))
+        assert done.returncode == 0, done.stderr
+    grid = damages.read(path("coarse.vtu"))
+    damages.add_field(grid, "Temperature")
+    damages.write(grid, path("field.vtu"))
+    done = knotwork_testing.run_program("convert", path("field.vtu"), "--output", path("spline.vtu"))
+    assert done.returncode == 0, done.stderr
+    return path("spline.vtu")
+
+
+def jobs_on(file):
+    """Every job that reads splines, on that file."""
+    points = skeleton("points.vtp", [np.array([(0.2, 0.3), (0.4, 0.5)])])
+    grid, polydata = ["--output", path("out.vtu")], ["--output", path("out.vtp")]
+    yield ["info", file]
+    yield ["convert", file, *grid]
+    yield ["refine", file, *grid]
+    yield ["tessellate", file, *polydata]
+    yield ["evaluate", file, points, *polydata]
+    yield ["evaluate", file, points, "--mode", "probe", *polydata]
+    yield ["warp", points, file, *polydata]
+
+
+def outcome(arguments, before):
+    """Exit status and stderr of a job; what failed has said so in one line and left the output as it was."""
+    output = arguments[-1] if "--output" in arguments else path("none")
+    if os.path.exists(output):
+        os.remove(output)
+    if before:
+        with open(output, "w") as stream:
+            stream.write("kept as it is")
+    done = knotwork_testing.run_program(*arguments)
+    assert done.returncode in (0, 1), (arguments, done.returncode, done.stderr)
+    if done.returncode == 1:
+        assert len(done.stderr.splitlines()) == 1, (arguments, done.stderr)
+        assert os.path.exists(output) == before, arguments
+        assert not before or open(output).read() == "kept as it is"
+    assert not [name for name in os.listdir(os.path.dirname(output)) if name.startswith(".knotwork")]
+    return done.returncode, done.stderr
+
+
+def test_every_spline_job_refuses_every_damage():
+    good = spline()
+    for name, spoil, words in damages.REFUSED:
+        grid = damages.read(good)
+        spoil(grid)
+        file = damages.write(grid, path(name + ".vtu"))
+        for i, arguments in enumerate(jobs_on(file)):
+            status, text = outcome(arguments, before=i % 2 == 1)
+            assert status == 1, (name, arguments[0], text)
+            for word in [name + ".vtu", *words]:
+                assert word in text, (name, arguments[0], word, text)
+
+
+def test_what_is_kept_beside_the_points_may_be_lost():
+    good = spline()
+    for name, spoil in damages.SURVIVED:
+        grid = damages.read(good)
+        spoil(grid)
+        file = damages.write(grid, path(name + ".vtu"))
+        for arguments in jobs_on(file):
+            status, text = outcome(arguments, before=False)
+            # a grid that lost its basis has no parameters any more
+            lost = name in ("no_patches", "no_version") and arguments[0] in ("evaluate", "warp")
+            assert status == 0 or lost and "parameter domain" in text, (name, arguments[0], text)
+
+
+def test_points_and_skeletons_with_bad_numbers_are_refused():
+    grid = spline()
+    curves = {"template": skeletons.curves(0.0, 1, 101), "target": skeletons.curves(0.1, 5, 50)}
+    files = {name: skeleton(name + ".vtp", lines) for name, lines in curves.items()}
+    for word, value in (("nan", np.nan), ("inf", np.inf), ("huge", damages.HUGE)):
+        name = word + "_points.vtp"
+        points = skeleton(name, [np.array([(0.2, 0.3), (value, 0.5)])])
+        assert_refused(["evaluate", grid, points], path("out.vtp"), name, "point 1")
+        assert_refused(["evaluate", grid, points, "--mode", "probe"], path("out.vtp"), name, "query 1")
+        assert_refused(["warp", points, grid], path("out.vtp"), name, "point 1")
+        for role in curves:
+            lines = [line.copy() for line in curves[role]]
+            lines[4][7, 1] = value
+            broken = {**files, role: skeleton(word + "_lines.vtp", lines)}
+            assert_refused(["map", broken["template"], broken["target"]], path("map.vtu"), word + "_lines.vtp",
+                           role + " patch 4")
+
+
+def test_skeletons_that_do_not_fit_are_refused():
+    curves = skeletons.curves(0.0, 1, 101)
+    good = skeleton("good.vtp", curves)
+    for name, lines, ids, word in (
+            ("point", curves[:4] + [np.repeat(curves[4][:1], 5, axis=0)], None, "single point"),
+            ("tiny", [line * 1e-200 for line in curves], None, "single point"),
+            ("other", curves, [0, 1, 2, 3, 9], "9"),
+            ("open", curves, [0, 1, 2, 3, 3], "patch 3 is open")):
+        file = skeleton(name + ".vtp", lines, ids)
+        assert_refused(["map", good, file], path("map.vtu"), name + ".vtp", word)
+        assert_refused(["map", file, good], path("map.vtu"), name + ".vtp", word)
+
+
+def test_damaged_xml_is_refused():
+    done = knotwork_testing.run_program("convert", spline(), "--encoding", "ascii", "--output", path("ascii.vtu"))
+    assert done.returncode == 0, done.stderr
+    with open(path("ascii.vtu")) as stream:
+        text = stream.read()
+
+    def first_of(array, value):
+        begin = re.search(f'Name="{array}".*?>\\s*', text, re.S).end()
+        return text[:begin] + value + " " + text[begin:].split(None, 1)[1]
+
+    cases = {f"{count}_{value}": re.sub(f'{count}="\\d+"', f'{count}="{value}"', text)
+             for count in ("NumberOfPoints", "NumberOfCells", "NumberOfTuples", "NumberOfComponents")
+             for value in (2**60, 2**31 - 1, -1, "1152921504606846976000")}
+    cases.update({
+        "type": text.replace('type="Float64"', 'type="Strange"'),
+        "root": text.replace("UnstructuredGrid", "PolyData"),
+        "no_piece": re.sub("<Piece.*</Piece>", "", text, flags=re.S),
+        "no_points": re.sub("<Points>.*</Points>", "", text, flags=re.S),
+        "no_cells": re.sub("<Cells>.*</Cells>", "", text, flags=re.S),
+        "point_id": first_of("connectivity", "99999999"), "point_id_negative": first_of("connectivity", "-4"),
+        "offset": first_of("offsets", "99999999"), "offset_negative": first_of("offsets", "-9"),
+        "cell_type": first_of("types", "200"), "polyhedron": first_of("types", "42")})
+    for name, content in cases.items():
+        assert content != text, name
+        assert_refused(["refine", write_text(name + ".vtu", content)], path("out.vtu"), name + ".vtu")
+
+
+def test_bytes_anywhere_may_be_wrong_PropertyOracle():
+    with open(spline(), "rb") as stream:
+        good = stream.read()
+    for cut in range(0, len(good) * 11 // 12, len(good) // 12):
+        with open(path("cut.vtu"), "wb") as stream:
+            stream.write(good[:cut])
+        assert_refused(["refine", path("cut.vtu")], path("out.vtu"), "cut.vtu")
+    for seed in range(40):
+        random = np.random.default_rng(seed)
+        content = bytearray(good)
+        for at in random.integers(0, len(content) if seed % 2 else 4000, 4):
+            content[at] = random.integers(256)
+        with open(path(f"flipped{seed}.vtu"), "wb") as stream:
+            stream.write(content)
+        outcome(["refine", path(f"flipped{seed}.vtu"), "--quiet", "--output", path("out.vtu")], before=seed % 3 == 0)
+
+
+def test_meshes_and_old_files_cut_short_are_refused_PropertyOracle():
+    for ending, content in (
+            (".vtk", "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 3 double\n0 0 0 1 0 0 2 1 0\n"
+                     "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n79\n"),
+            (".ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                     "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
+            (".stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+                     "endfacet\nendsolid\n"),
+            (".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")):
+        for cut in {*range(0, len(content), 1 + len(content) // 8), len(content)}:
+            name = f"cut{cut}{ending}"
+            status, text = outcome(["refine", write_text(name, content[:cut]), "--output", path("out.vtu")], False)
+            assert status == 1 and name in text, (name, status, text)
+
+
+def test_numbers_that_no_option_takes_are_refused():
+    for arguments, word in ((["--size", "nan", 1, 1], "nan"), (["--size", 0, 1, 1], "size 0 is 0"),
+                            (["--size", 1e308, 1, 1], "1e+60"), (["--elements", 0, 1, 1], "elements"),
+                            (["--elements", 10**9, 10**9, 1], "control points"), (["--center", "inf", 0, 0], "centre"),
+                            (["--shape", "arc", "--angle", 1e308], "1e+308"),
+                            (["--shape", "twisted-bar", "--twist", "nan"], "twist"),
+                            (["--shape", "disc", "--outer-radius", 1e308], "1e+60")):
+        assert_refused(["source", *arguments], path("out.vtu"), word)
+    grid = spline()
+    assert_refused(["refine", grid, "--sphere", "nan", 0, 0, 1], path("out.vtu"), "implicit function")
+    assert_refused(["tessellate", grid, "--chordal-tolerance", "nan"], path("out.vtp"), "tolerance")
+    assert_refused(["warp", grid, source(), "--clamp", 1, "--tolerance", "nan"], path("out.vtu"), "tolerance")
+    lines = skeleton("lines.vtp", skeletons.curves(0.1, 3, 20))
+    assert_refused(["map", lines, lines, "--tikhonov-weight", "nan"], path("map.vtu"), "Tikhonov")
 
 
 def test_points_outside_are_named():

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BernsteinBasis.h"
 #include "BezierForm.h"
+#include "Numbers.h"
 #include "Parallel.h"
 #include "QuotientRule.h"
 
@@ -563,7 +564,7 @@ Status EvaluateBatch(const BezierForm<Dim>& form, const PointMatrixView& points,
     std::string detail = "point " + std::to_string(i) + " (";
     for (int d = 0; d < Dim; ++d)
     {
-      detail += (d > 0 ? ", " : "") + std::to_string(points(i, d));
+      detail += (d > 0 ? ", " : "") + Digits(points(i, d));
     }
     return { ErrorCode::OutsideDomain, detail + ")" };
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ClosestPoint.h"
 
+#include "Numbers.h"
 #include "Parallel.h"
 
 #include <Eigen/Dense>
@@ -348,6 +349,10 @@ Status ClosestPointSearch<Dim>::Find(const PointMatrixView& queries, ClosestPoin
     if (!queries.row(i).allFinite())
     {
       return { ErrorCode::NonFiniteInput, "query " + std::to_string(i) };
+    }
+    if (!AllWithinLimit(queries.row(i)))
+    {
+      return { ErrorCode::TooLarge, "query " + std::to_string(i) + ": " + BeyondLimit() };
     }
   }
   const PointMatrix points = queries; // rows contiguous

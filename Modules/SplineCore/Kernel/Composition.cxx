@@ -3,6 +3,7 @@
 
 #include "BezierProjection.h"
 #include "HierarchicalSpace.h"
+#include "Numbers.h"
 #include "Parallel.h"
 #include "PointClusters.h"
 #include "TensorSpace.h"
@@ -872,9 +873,8 @@ Status MapPoints(const BezierForm<Dim>& map, const PointMatrixView& points, bool
       if (!clamp && (u < lower - 1e-12 * (upper - lower) || u > upper + 1e-12 * (upper - lower)))
       {
         return { ErrorCode::OutsideDomain,
-          "point " + std::to_string(i) + " has coordinate " + std::to_string(u) + " in direction " +
-            std::to_string(d) + ", the domain is [" + std::to_string(lower) + ", " +
-            std::to_string(upper) + "]" };
+          "point " + std::to_string(i) + " has coordinate " + Digits(u) + " in direction " +
+            std::to_string(d) + ", the domain is [" + Digits(lower) + ", " + Digits(upper) + "]" };
       }
       u = std::clamp(u, lower, upper);
     }

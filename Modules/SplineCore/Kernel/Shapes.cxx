@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Shapes.h"
 
+#include "Numbers.h"
+
 #include "Bernstein.h"
 #include "TensorSpace.h"
 
@@ -484,8 +486,7 @@ Status CheckParams(const ShapeParams& s)
   {
     if (!positive(s.Size[d]))
     {
-      return bad(
-        "sizes must be positive, size " + std::to_string(d) + " is " + std::to_string(s.Size[d]));
+      return bad("sizes must be positive, size " + std::to_string(d) + " is " + Digits(s.Size[d]));
     }
   }
   const bool plate = Uses(s.Kind, { K::PlateWithHole, K::QuarterPlateWithHole });
@@ -497,25 +498,24 @@ Status CheckParams(const ShapeParams& s)
   const bool mayVanish = s.Kind == K::BallSector && s.InnerRadius == 0.0;
   if (inner && !mayVanish && !positive(s.InnerRadius))
   {
-    return bad("the inner radius must be positive, it is " + std::to_string(s.InnerRadius));
+    return bad("the inner radius must be positive, it is " + Digits(s.InnerRadius));
   }
   if (outer && !positive(s.OuterRadius))
   {
-    return bad("the outer radius must be positive, it is " + std::to_string(s.OuterRadius));
+    return bad("the outer radius must be positive, it is " + Digits(s.OuterRadius));
   }
   if (inner && outer && !(s.InnerRadius < s.OuterRadius))
   {
     return bad("the inner radius must be less than the outer radius, they are " +
-      std::to_string(s.InnerRadius) + " and " + std::to_string(s.OuterRadius));
+      Digits(s.InnerRadius) + " and " + Digits(s.OuterRadius));
   }
   if (plate && !(2 * s.InnerRadius < std::min(s.Size[0], s.Size[1])))
   {
-    return bad(
-      "the hole of radius " + std::to_string(s.InnerRadius) + " does not fit in the plate");
+    return bad("the hole of radius " + Digits(s.InnerRadius) + " does not fit in the plate");
   }
   if (!(s.Angle > 0.0 && s.Angle <= 360.0))
   {
-    return bad("the angle must be in (0, 360] degrees, it is " + std::to_string(s.Angle));
+    return bad("the angle must be in (0, 360] degrees, it is " + Digits(s.Angle));
   }
   if (s.Sectors < 1 || s.Sectors > 4096)
   {
@@ -523,16 +523,15 @@ Status CheckParams(const ShapeParams& s)
   }
   if (!(s.PolarAngle > 0.0 && s.PolarAngle <= 180.0))
   {
-    return bad(
-      "the polar angle must be in (0, 180] degrees, it is " + std::to_string(s.PolarAngle));
+    return bad("the polar angle must be in (0, 180] degrees, it is " + Digits(s.PolarAngle));
   }
   if (!(std::abs(s.Twist) <= 3600.0))
   {
-    return bad("the twist must be in [-3600, 3600] degrees, it is " + std::to_string(s.Twist));
+    return bad("the twist must be in [-3600, 3600] degrees, it is " + Digits(s.Twist));
   }
   if (!positive(s.Height))
   {
-    return bad("the height must be positive, it is " + std::to_string(s.Height));
+    return bad("the height must be positive, it is " + Digits(s.Height));
   }
   return {};
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Spline.h"
 
+#include "Numbers.h"
+
 #include <cmath>
 
 namespace knotwork
@@ -30,6 +32,10 @@ Status Spline<Dim>::Check() const
     if (!this->ControlPoints.row(i).allFinite())
     {
       return { ErrorCode::NonFiniteInput, "control point " + std::to_string(i) };
+    }
+    if (!AllWithinLimit(this->ControlPoints.row(i)))
+    {
+      return { ErrorCode::TooLarge, "control point " + std::to_string(i) + ": " + BeyondLimit() };
     }
     if (this->IsRational() && !(this->Weights[i] > 0.0 && std::isfinite(this->Weights[i])))
     {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Skeleton.h"
+#include "Numbers.h"
 
 #include <algorithm>
 #include <iterator>
@@ -75,6 +76,10 @@ Status CheckPatch(const char* skeleton, const SkeletonPatch<Dim>& patch)
     if (bad >= 0)
     {
       return { ErrorCode::NonFiniteInput, name + ", " + part.What + " " + std::to_string(bad) };
+    }
+    if (!AllWithinLimit(part.Rows))
+    {
+      return { ErrorCode::TooLarge, name + ", a " + part.What + ": " + BeyondLimit() };
     }
   }
   if (!(Length<Dim>(patch.Points) > 0.0))

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "Status.h"
+
+#include <functional>
+#include <string>
+
+namespace knotwork
+{
+/// Runs a reader in a child process first: VTK's readers of meshes crash on some damaged files, and
+/// their libraries print on stderr. Either is an error that names the file.
+/// @complexity that of the reader
+Status TrialRead(const std::string& file, const std::function<void()>& read);
+}

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <Eigen/Core>
+
+#include <sstream>
+#include <string>
+
+namespace knotwork
+{
+/// Largest magnitude of coordinates and field values. Beyond the range of a float, and so small
+/// that fourth powers (squared lengths of normals) are finite.
+inline constexpr double LargestNumber = 1e60;
+/// Weights lie in [1 / LargestWeight, LargestWeight].
+inline constexpr double LargestWeight = 1e30;
+
+/// True when all values are finite and at most LargestNumber in magnitude.
+template <typename Derived>
+bool AllWithinLimit(const Eigen::DenseBase<Derived>& values)
+{
+  return (values.derived().array().abs() <= LargestNumber).all();
+}
+
+/// A number for a message, six significant digits.
+inline std::string Digits(double value)
+{
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+/// What to say about a value beyond the limit.
+inline std::string BeyondLimit()
+{
+  return "a value is larger than " + Digits(LargestNumber) + "; choose a larger unit";
+}
+}
