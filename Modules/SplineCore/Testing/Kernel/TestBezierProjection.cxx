@@ -308,6 +308,10 @@ TEST(BezierProjection, ProgressRunsFromZeroToOneAndStops_ExactOracle)
   EXPECT_EQ(ProjectOntoSpace<1>(space, 2, counted, params).Status.Code, ErrorCode::Aborted);
   EXPECT_GT(calls, 0);
   EXPECT_LT(calls, 700);
+  params.Progress = [](double share) { return share < 1.0; };
+  const Status last = ProjectOntoSpace<1>(space, 2, counted, params).Status;
+  EXPECT_EQ(last.Code, ErrorCode::Aborted);
+  EXPECT_NE(last.Detail.find("last element"), std::string::npos) << last.Detail;
 }
 
 TEST(BezierProjection, EveryFailureIsReachable)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "BezierSpace.h"
 #include "Composition.h"
 #include "HierarchicalSpace.h"
 #include "Shapes.h"
@@ -338,6 +339,11 @@ TEST(ComposeSplines, EveryFailureIsReachable)
   CompositionParams params;
   params.Progress = [](double) { return false; };
   EXPECT_EQ(ComposeSplines<2>(square, 3, Wave, params).Status.Code, ErrorCode::Aborted);
+  auto wide = square;
+  wide[0].ControlPoints = PointMatrix::Zero(wide[0].ControlPoints.rows(), 5);
+  const Status many = ComposeSplines<2>(wide, 3, Wave).Status;
+  EXPECT_EQ(many.Code, ErrorCode::DimensionMismatch);
+  EXPECT_NE(many.Detail.find("more than 4"), std::string::npos) << many.Detail;
 }
 
 TEST(MapPoints, EvaluatesClampsAndRefuses_ExactOracle)
@@ -361,4 +367,10 @@ TEST(MapPoints, EvaluatesClampsAndRefuses_ExactOracle)
   EXPECT_EQ(MapPoints<2>(form, points, true, 1, values).Code, ErrorCode::NonFiniteInput);
   EXPECT_EQ(MapPoints<2>(form, PointMatrix::Zero(2, 1), true, 1, values).Code,
     ErrorCode::DimensionMismatch);
+  Spline<1> foreign{ MakeBezierSpace<1>({ { 1 } }, { 0, 1 }, 2).Value, PointMatrix::Zero(2, 2),
+    {} };
+  const Status domain =
+    MapPoints<1>(MakeBezierForm(foreign), PointMatrix::Zero(1, 1), true, 1, values);
+  EXPECT_EQ(domain.Code, ErrorCode::DimensionMismatch);
+  EXPECT_NE(domain.Detail.find("no parameter domain"), std::string::npos) << domain.Detail;
 }

@@ -85,6 +85,14 @@ TEST(Status, SplineCheckNamesTheFirstBadRow_ExactOracle)
     EXPECT_EQ(spline.Check().Code, ErrorCode::NonFiniteInput);
     EXPECT_NE(spline.Check().Detail.find("5"), std::string::npos);
   }
+  {
+    auto spline = Surface();
+    spline.ControlPoints(6, 1) = -1e61;
+    EXPECT_EQ(spline.Check().Code, ErrorCode::TooLarge);
+    EXPECT_NE(spline.Check().Detail.find("6"), std::string::npos);
+    spline.ControlPoints(6, 1) = -1e60;
+    EXPECT_TRUE(spline.Check());
+  }
   for (double weight : { 0.0, -1.0, NaN, std::numeric_limits<double>::infinity() })
   {
     auto spline = Surface();

@@ -439,10 +439,46 @@ TEST(Tessellate, EveryFailureIsReachable)
   params = Tolerance(1e-2);
   params.Progress = [](double) { return false; };
   EXPECT_EQ(Tessellate<2>(forms, params).Status.Code, ErrorCode::Aborted);
+  broken = forms;
+  broken[2].Offsets.pop_back();
+  const Status formless = Tessellate<2>(broken).Status;
+  EXPECT_EQ(formless.Code, ErrorCode::SizeMismatch);
+  EXPECT_NE(formless.Detail.find("patch 2"), std::string::npos) << formless.Detail;
   // The limit is no failure, the bound tells.
   params = Tolerance(1e-6);
   params.MaximumSubdivision = 1;
   const auto coarse = Tessellate<2>(forms, params);
   ASSERT_TRUE(coarse);
   EXPECT_GT(coarse->Bound, 1e-6);
+}
+
+// Whenever the callback asks for it, whatever is being done then.
+template <int Dim>
+void ExpectAbortAtEveryCall(const std::vector<BezierForm<Dim>>& forms)
+{
+  int calls = 0;
+  TessellationParams params = Tolerance(1e-2);
+  params.Progress = [&](double)
+  {
+    ++calls;
+    return true;
+  };
+  ASSERT_TRUE(Tessellate<Dim>(forms, params));
+  const int all = calls;
+  ASSERT_GT(all, 1);
+  for (int last = 1; last <= all; ++last)
+  {
+    calls = 0;
+    params.Progress = [&](double) { return ++calls < last; };
+    const auto result = Tessellate<Dim>(forms, params);
+    EXPECT_EQ(result.Status.Code, ErrorCode::Aborted) << "call " << last << " of " << all;
+    EXPECT_EQ(calls, last);
+    EXPECT_EQ(result->Points.rows(), 0);
+  }
+}
+
+TEST(Tessellate, AbortsAtEveryCall_PropertyOracle)
+{
+  ExpectAbortAtEveryCall<2>(Forms<2>(Shape(ShapeKind::Disc)));
+  ExpectAbortAtEveryCall<3>(Forms<3>(Shape(ShapeKind::SolidCylinder)));
 }

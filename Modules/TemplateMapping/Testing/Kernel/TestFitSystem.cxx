@@ -126,6 +126,11 @@ TEST(FitSystem, EveryFailureIsReachable)
   const Result<PointMatrix> singular = system.Step(c.Samples, { 1.0, 0.0, 0.0 });
   EXPECT_EQ(singular.Status.Code, ErrorCode::SingularSystem);
   EXPECT_NE(singular.Status.Detail.find("Tikhonov"), std::string::npos);
+  Case huge(3);
+  huge.Samples.Residuals.setConstant(1e308);
+  const Result<PointMatrix> overflow = system.Step(huge.Samples, { 1.0, 0.0, 1.0 });
+  EXPECT_EQ(overflow.Status.Code, ErrorCode::SingularSystem);
+  EXPECT_EQ(overflow.Status.Detail, "the step is not finite");
   c.Samples.Parameters(7, 0) = 1.5;
   const Result<PointMatrix> outside = system.Step(c.Samples, { 1.0, 0.0, 1.0 });
   EXPECT_EQ(outside.Status.Code, ErrorCode::OutsideDomain);

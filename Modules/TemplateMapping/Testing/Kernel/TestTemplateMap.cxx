@@ -331,6 +331,10 @@ TEST(TemplateMap, ProgressRisesAndAborts_ExactOracle)
   const auto aborted = MapTemplate(CircleTemplate(101), LobedTarget(), params);
   EXPECT_EQ(aborted.Status.Code, ErrorCode::Aborted);
   EXPECT_EQ(aborted.Status.Detail, "before iteration 3");
+  params.Progress = [&](double share) { return share < 1.0; };
+  const auto late = MapTemplate(CircleTemplate(101), LobedTarget(), params);
+  EXPECT_EQ(late.Status.Code, ErrorCode::Aborted);
+  EXPECT_EQ(late.Status.Detail, "after the last iteration");
 }
 
 TEST(TemplateMap, EveryFailureIsReachable)
