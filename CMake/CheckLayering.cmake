@@ -3,7 +3,8 @@
 # The wall between the layers. Fails when a file below some Modules/<X>/Kernel
 #   - includes a VTK header or one for input and output,
 #   - includes a header of another kernel that is not below it in the order of the layers, or of SplineIO,
-# when two kernels have a header of the same name, and when there is no kernel file at all.
+# when two kernels have a header of the same name or a type of the same name (their programs would mix them up without a
+# word), and when there is no kernel file at all.
 cmake_minimum_required(VERSION 3.22)
 
 # Modules on one line are peers and may not use each other.
@@ -38,6 +39,20 @@ foreach(header IN LISTS headers)
     list(APPEND problems "${header}: ${owner_${name}} has a header of this name too")
   endif()
   set("owner_${name}" ${module})
+endforeach()
+
+# All kernels are one namespace.
+foreach(header IN LISTS headers)
+  if(header MATCHES "^Modules/[^/]+/Kernel/")
+    file(STRINGS "${ROOT}/${header}" types REGEX "^(struct|class|enum class) [A-Za-z0-9]+( :.*)?$")
+    foreach(line IN LISTS types)
+      string(REGEX REPLACE "^(struct|class|enum class) ([A-Za-z0-9]+).*" "\\2" type "${line}")
+      if(DEFINED "type_${type}")
+        list(APPEND problems "${header}: ${type_${type}} defines ${type} too")
+      endif()
+      set("type_${type}" "${header}")
+    endforeach()
+  endif()
 endforeach()
 
 foreach(file IN LISTS files)

@@ -53,12 +53,12 @@ PointMatrix MappedPatch<Dim>::DomainPoints(const Eigen::VectorXd& parameters) co
 }
 
 template <int Dim>
-ClosestPoints MappedPatch<Dim>::At(const BezierForm<Dim>& form, const PointMatrixView& points,
+PatchFeet MappedPatch<Dim>::At(const BezierForm<Dim>& form, const PointMatrixView& points,
   const Eigen::VectorXd& parameters, int threads) const
 {
   EvaluationBatch batch;
   EvaluateParameters(form, this->DomainPoints(parameters), { 0, threads }, batch);
-  ClosestPoints result;
+  PatchFeet result;
   result.Parameters = parameters;
   result.SquaredDistances = (points - batch.Values).rowwise().squaredNorm();
   result.Feet = std::move(batch.Values);
@@ -66,10 +66,10 @@ ClosestPoints MappedPatch<Dim>::At(const BezierForm<Dim>& form, const PointMatri
 }
 
 template <int Dim>
-ClosestPoints MappedPatch<Dim>::Project(const BezierForm<Dim>& form, const PointMatrixView& points,
+PatchFeet MappedPatch<Dim>::Project(const BezierForm<Dim>& form, const PointMatrixView& points,
   const Eigen::VectorXd& known, int newtonSteps, int threads) const
 {
-  ClosestPoints best = this->At(form, points, known, threads);
+  PatchFeet best = this->At(form, points, known, threads);
   ParallelFor(static_cast<std::size_t>(points.rows()), Chunk, threads,
     [&](std::size_t begin, std::size_t end)
     {

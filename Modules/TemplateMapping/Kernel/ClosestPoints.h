@@ -7,7 +7,7 @@
 namespace knotwork
 {
 /// Points of a mapped patch closest to some points: one row or entry a query.
-struct ClosestPoints
+struct PatchFeet
 {
   Eigen::VectorXd Parameters;       ///< t, parameter of the patch
   PointMatrix Feet;                 ///< s(ghat(t))
@@ -39,7 +39,7 @@ public:
   /// Points ghat(t), n x Dim, inside the domain.
   PointMatrix DomainPoints(const Eigen::VectorXd& parameters) const;
   /// Feet and distances of points at given parameters; nothing is searched.
-  ClosestPoints At(const BezierForm<Dim>& form, const PointMatrixView& points,
+  PatchFeet At(const BezierForm<Dim>& form, const PointMatrixView& points,
     const Eigen::VectorXd& parameters, int threads) const;
 
   /// Closest points from the better one of known parameters and the nearest dense sample, then
@@ -47,7 +47,7 @@ public:
   /// s(ghat(t)), clamped to the patch; a step to a worse point is not taken.
   /// @pre   Update(form).
   /// @source Sajavicius, Juettler, Speh (2018), step 3; squared norms in the system.
-  ClosestPoints Project(const BezierForm<Dim>& form, const PointMatrixView& points,
+  PatchFeet Project(const BezierForm<Dim>& form, const PointMatrixView& points,
     const Eigen::VectorXd& known, int newtonSteps, int threads) const;
 
 private:

@@ -24,7 +24,7 @@ struct Constraint
   PointMatrix Points;       // p_i
   PointMatrix Normals;      // N_i; empty unless the method reads them
   PolylineIndex<Dim> Polyline;
-  ClosestPoints Closest; // present parameters, feet and distances
+  PatchFeet Closest; // present parameters, feet and distances
 };
 
 Status OutOfRange(const char* option, const std::string& range, const std::string& value)
@@ -230,7 +230,7 @@ struct Problem
     for (Constraint<Dim>& c : this->Constraints)
     {
       const MappedPatch<Dim>& patch = this->Patches[c.Template];
-      ClosestPoints closest = patch.Project(
+      PatchFeet closest = patch.Project(
         form, c.Points, c.Closest.Parameters, this->Params.NewtonSteps, this->Params.Threads);
       largest = std::max({ largest, closest.SquaredDistances.maxCoeff(),
         c.Polyline.LargestSquaredDistance(patch.MappedSamples(), this->Params.Threads) });

@@ -61,8 +61,7 @@ TEST(ClosestPoints, OnACircleTheyAreRadial_ExactOracle)
     queries.row(i) << 0.5 + radii(i) * std::cos(2 * cases::Pi * turns(i)),
       0.5 + radii(i) * std::sin(2 * cases::Pi * turns(i));
   }
-  const ClosestPoints found =
-    patch.Project(form, queries, Eigen::VectorXd::Constant(200, 0.5), 15, 1);
+  const PatchFeet found = patch.Project(form, queries, Eigen::VectorXd::Constant(200, 0.5), 15, 1);
   // The polygon's chords stay within 0.25 (1 - cos(pi / n)) of the circle; its nearest points lie
   // within half a chord of the radial one. Without the curvature in the step the error falls by
   // |r - 0.25| / 0.25 <= 0.4 a step: 15 steps from a seed within 1/100 turn are enough.
@@ -86,9 +85,9 @@ TEST(ClosestPoints, AreNoFartherThanAnyDenseSample_CrossOracle)
     std::uniform_real_distribution<double> real(0.0, 1.0);
     const PointMatrix queries = PointMatrix::NullaryExpr(40, 2, [&] { return real(random); });
     const Eigen::VectorXd known = Eigen::VectorXd::NullaryExpr(40, [&] { return real(random); });
-    const ClosestPoints seeds = patch.Project(form, queries, known, 0, 2);
-    const ClosestPoints found = patch.Project(form, queries, known, 4, 2);
-    const ClosestPoints again = patch.At(form, queries, found.Parameters, 2);
+    const PatchFeet seeds = patch.Project(form, queries, known, 0, 2);
+    const PatchFeet found = patch.Project(form, queries, known, 4, 2);
+    const PatchFeet again = patch.At(form, queries, found.Parameters, 2);
     for (int i = 0; i < 40; ++i)
     {
       const double nearest =
@@ -114,7 +113,7 @@ TEST(ClosestPoints, StayOnThePatch_PropertyOracle)
   patch.Update(form, 1);
   PointMatrix queries(3, 2);
   queries << -3.0, 0.5, 9.0, 7.0, 0.613, 0.9;
-  const ClosestPoints found = patch.Project(form, queries, Eigen::Vector3d(0.4, 0.4, 0.4), 2, 1);
+  const PatchFeet found = patch.Project(form, queries, Eigen::Vector3d(0.4, 0.4, 0.4), 2, 1);
   EXPECT_EQ(found.Parameters(0), 0.0);
   EXPECT_EQ(found.Parameters(1), 1.0);
   EXPECT_NEAR(found.Parameters(2), (0.613 - 0.25) / 0.5, 1e-14); // one exact Newton step
