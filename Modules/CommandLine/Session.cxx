@@ -166,7 +166,12 @@ Result<vtkSmartPointer<vtkDataObject>> Session::Read(const std::string& file)
   MessageCapture messages;
   if (ending == ".vtk" || ending == ".obj" || ending == ".ply" || ending == ".stl")
   {
-    if (Status status = TrialRead(file, [&] { ReadByEnding(file, ending); }); !status)
+    const auto read = [&]
+    {
+      ReadByEnding(file, ending);
+      std::cerr << messages.FirstError();
+    };
+    if (Status status = TrialRead(file, read); !status)
     {
       return status;
     }

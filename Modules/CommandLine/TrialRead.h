@@ -8,7 +8,8 @@
 namespace knotwork
 {
 /// Runs a reader in a child process first: VTK's readers of meshes crash on some damaged files, and
-/// their libraries print on stderr. Either is an error that names the file.
+/// their libraries print on stderr. Either, or text that `read` prints there, is an error that
+/// names the file.
 /// @complexity that of the reader
 Status TrialRead(const std::string& file, const std::function<void()>& read);
 }
