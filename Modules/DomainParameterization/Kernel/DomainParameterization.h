@@ -52,7 +52,7 @@ struct DomainParams
   double AlternationTolerance = 0.01; ///< eps0: stop when a round lowers the energy by less, > 0
   int MaxAlternations = 5;            ///< rounds of control points and weights, [1, 100]
   int MaxIterations = 1000;           ///< of one minimization, [1, 1000000]
-  double GradientTolerance = 1e-4;    ///< of the gradient, relative to the first one's, (0, 1)
+  double EnergyTolerance = 1e-7;      ///< stop when an iteration lowers the energy by a smaller
   int MaxRefinements = 3;             ///< rounds of local refinement when the space is too poor,
                                       ///< [0, 10]; 0: never
   int MetricSamples = 0;              ///< a direction, [2, 5001]; 0: 501 in 2D, 51 in 3D

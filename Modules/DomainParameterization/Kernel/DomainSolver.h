@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "DomainEnergy.h"
+#include "DomainParameterization.h"
+#include "FastLaplacian.h"
+#include "Minimize.h"
+
+namespace knotwork
+{
+/// The stages of an optimization on one space: holds the map, moves its free control points and
+/// weights, keeps the history.
+template <int Dim>
+class DomainSolver
+{
+public:
+  /// @param map  polynomial or rational, the boundary set; its fixed functions are never changed.
+  /// @param area  S > 0.
+  DomainSolver(const Spline<Dim>& map, double area, const DomainParams& params);
+
+  const Spline<Dim>& Map() const { return this->Current; }
+  void SetMap(const Spline<Dim>& map);
+
+  /// Gauss points a direction: degree + 1 + extra[e] on element e; the rows and columns of such
+  /// elements get them too on tensor-product spaces.
+  void SetQuadrature(const std::vector<int>& extra);
+
+  /// At the quadrature points, over S.
+  double MinDet();
+  double Energy();
+
+  /// @return true when det J > 0 at all quadrature points afterwards.
+  bool RemoveFolds();
+  /// Minimizes the quality functional in the control points. @pre MinDet() > 0
+  void ImprovePoints();
+  /// The same in the logarithms of the inner weights.
+  void ImproveWeights();
+
+  std::vector<DomainIteration> History;
+  int Iterations = 0;
+  int Evaluations = 0;
+  bool Aborted = false;
+  /// Asked after every iteration; false aborts.
+  std::function<bool()> Continue;
+
+private:
+  void Gather(Eigen::VectorXd& free) const;
+  void Scatter(const Eigen::VectorXd& free);
+  void Publish();
+  EnergyValue Evaluate(const Density& density, double* gradient, double* weightGradient);
+  MinimizeResult Minimize(
+    DomainStage stage, const Density& density, const MinimizeParams& params, double stopAtMinDet);
+
+  const DomainParams& Params;
+  Spline<Dim> Current;
+  double Area;
+  double Scale;
+  Eigen::Matrix<double, 1, Dim> Center;
+  std::vector<int> Free;                      ///< functions that may move
+  std::vector<double> Planes, PlaneGradients; ///< scaled control points
+  std::vector<double> Weights, WeightGradients;
+  std::unique_ptr<DomainEnergy<Dim>> Functional;
+  std::unique_ptr<FastLaplacian<Dim>> Laplacian;
+};
+
+/// Functions that the boundary of the domain needs, for tensor-product and hierarchical spaces.
+template <int Dim>
+std::vector<bool> FixedFunctions(const SplineSpace<Dim>& space);
+}

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "DomainBoundary.h"
+
+namespace knotwork
+{
+/// The map's space, boundary control points and weights set, inner ones zero (weights one).
+template <int Dim>
+Spline<Dim> MapOfBoundary(const CompatibleBoundary<Dim>& boundary);
+
+/// True for control points of the boundary of a tensor-product space.
+template <int Dim>
+std::vector<bool> BoundaryFunctions(const SplineSpace<Dim>& space);
+
+// The three first maps: inner control points from those of the boundary, which stay as they are.
+// Map: as MapOfBoundary makes it.
+
+/// Boolean sum at the Greville abscissae, I - prod (I - L_k) with L_k the linear interpolation
+/// between opposite sides; weights alike by their logarithms. Reproduces multilinear maps.
+template <int Dim>
+void FillCoons(Spline<Dim>& map);
+
+/// Every inner control point is the mean of its 2 Dim neighbours. Weights as FillCoons.
+/// @return SingularSystem never in exact arithmetic.
+template <int Dim>
+Status FillSpring(Spline<Dim>& map);
+
+/// Minimizes int |Laplacian of the map|^2 over the parameter domain, or int |grad|^2 when a degree
+/// is 1, for the control points alone (as if polynomial). Reproduces affine maps. Weights as
+/// FillCoons.
+template <int Dim>
+Status FillHarmonic(Spline<Dim>& map);
+
+/// Dense 1D integrals of products of derivatives, over a clamped knot vector.
+struct LineIntegrals
+{
+  Eigen::MatrixXd Mass;      ///< int N_i N_j
+  Eigen::MatrixXd Stiffness; ///< int N_i' N_j'
+  Eigen::MatrixXd Bending;   ///< int N_i'' N_j''
+  Eigen::MatrixXd Mixed;     ///< int N_i'' N_j
+};
+LineIntegrals IntegrateLine(const KnotVector& knots);
+}
