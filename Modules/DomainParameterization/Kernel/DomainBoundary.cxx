@@ -4,11 +4,11 @@
 #include "Bernstein.h"
 #include "BezierForm.h"
 #include "DomainMeasure.h"
+#include "NumberText.h"
 #include "Recovery.h"
 #include "TensorSpace.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -21,14 +21,6 @@ namespace
 constexpr double KnotTolerance = 1e-12;
 /// Weights that agree to this relative difference are one.
 constexpr double WeightTolerance = 1e-10;
-
-std::string Number(double value)
-{
-  char text[32];
-  const auto end =
-    std::to_chars(text, text + sizeof text, value, std::chars_format::general, 6).ptr;
-  return std::string(text, end);
-}
 
 std::string Given(int side)
 {
@@ -458,13 +450,13 @@ Status GapError(const std::array<Spline<Dim - 1>, 2 * Dim>& sides,
           if (distance > worst)
           {
             worst = distance;
-            detail = "gap of " + Number(distance) + " (allowed " + Number(tolerance) +
+            detail = "gap of " + NumberText(distance) + " (allowed " + NumberText(tolerance) +
               ") at the corner " + CornerName<Dim>(corner) + " between " +
               Given(origins[static_cast<std::size_t>(a)].Input) + " and " +
               Given(origins[static_cast<std::size_t>(b)].Input) + ", near (";
             for (int c = 0; c < Dim; ++c)
             {
-              detail += (c ? ", " : "") + Number(pointA[c]);
+              detail += (c ? ", " : "") + NumberText(pointA[c]);
             }
             detail += ")";
           }
@@ -749,14 +741,14 @@ Status ShareRows(CompatibleBoundary<Dim>& boundary, double tolerance)
         if (!(gap <= tolerance))
         {
           return { ErrorCode::InvalidTopology,
-            "gap of " + Number(gap) + " (allowed " + Number(tolerance) +
+            "gap of " + NumberText(gap) + " (allowed " + NumberText(tolerance) +
               ") between control points " + where };
         }
         if (side.IsRational() && !SameWeight(side.Weights[i], other.Weights[j]))
         {
           return { ErrorCode::InvalidWeight,
-            "weights " + Number(side.Weights[i]) + " and " + Number(other.Weights[j]) + " " +
-              where + " are not proportional" };
+            "weights " + NumberText(side.Weights[i]) + " and " + NumberText(other.Weights[j]) +
+              " " + where + " are not proportional" };
         }
         side.ControlPoints.row(i) = other.ControlPoints.row(j);
         if (side.IsRational())
@@ -795,7 +787,7 @@ Result<CompatibleBoundary<Dim>> MakeCompatible(
   if (!(params.GapTolerance >= 0.0 && params.GapTolerance <= 0.1))
   {
     return { ErrorCode::InvalidParameter,
-      "gap tolerance " + Number(params.GapTolerance) + " is outside [0, 0.1]" };
+      "gap tolerance " + NumberText(params.GapTolerance) + " is outside [0, 0.1]" };
   }
   if (boundary.Sides.empty())
   {

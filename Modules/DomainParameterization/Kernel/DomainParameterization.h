@@ -11,7 +11,7 @@ namespace knotwork
 /// Control points of the first map, from the boundary alone.
 enum class InitialMapMethod
 {
-  Automatic, ///< Coons; where that folds, the harmonic map if it folds less
+  Automatic, ///< Coons; harmonic when the folds of that cannot be removed
   Coons,     ///< Boolean sum at the Greville abscissae
   Spring,    ///< every inner control point is the mean of its neighbours
   Harmonic   ///< least squares of the Laplacian
@@ -57,6 +57,8 @@ struct DomainParams
                                       ///< [0, 10]; 0: never
   int MetricSamples = 0;              ///< a direction, [2, 5001]; 0: 501 in 2D, 51 in 3D
   double GapTolerance = 1e-9;         ///< see BoundaryParams
+  double CertificateGap = 0.1;        ///< of the bounds of each element's min det J, (0, 1], see
+                                      ///< JacobianParams::RelativeGap
   std::int64_t MaxBoxes = 1000000;    ///< of the certificate, see JacobianParams
   int Threads = 0;                    ///< 0: all cores; the result does not depend on it
 };
@@ -82,7 +84,7 @@ struct DomainIteration
 
 /// Measures at Samples^Dim equally spaced parameters, ends included. Det: of the map from the unit
 /// square (cube). Scaled: det J over the product of the lengths of J's columns. Condition:
-/// |J|_F |J^-1|_F / Dim, 1 at best; points with det J = 0 do not count.
+/// |J|_F |J^-1|_F, Dim at best; points with det J = 0 do not count.
 struct DomainMetrics
 {
   int Samples = 0;
@@ -115,8 +117,14 @@ struct DomainParameterization
   Spline<Dim> InitialMap;
   CompatibleBoundary<Dim> Boundary;
   JacobianCertificate Certificate; ///< of Map: verdict, bounds, witnesses
-  DomainMetrics Metrics;           ///< of Map
-  DomainMetrics InitialMetrics;    ///< of InitialMap
+  /// Proved bounds of the smallest and largest det J of the map from the unit square (cube); the
+  /// certificate's own numbers are per element with respect to local parameters.
+  double MinDetLower = 0.0;
+  double MinDetUpper = 0.0;
+  double MaxDetLower = 0.0;
+  double MaxDetUpper = 0.0;
+  DomainMetrics Metrics;        ///< of Map
+  DomainMetrics InitialMetrics; ///< of InitialMap
   std::vector<DomainIteration> History;
   int Iterations = 0;  ///< over all stages
   int Evaluations = 0; ///< of functionals, over all stages

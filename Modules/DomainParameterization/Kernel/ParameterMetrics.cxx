@@ -1,0 +1,405 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ParameterMetrics.h"
+
+#include "BezierForm.h"
+#include "JacobianField.h"
+#include "NumberText.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace knotwork
+{
+namespace
+{
+inline void SquareRoot(RowVector& x)
+{
+  for (int l = 0; l < RowLanes; ++l)
+  {
+    x[l] = std::sqrt(x[l]);
+  }
+}
+
+/// Sums and extremes over points, RowLanes at a time.
+template <int Dim>
+class Collector
+{
+public:
+  /// @param j  Dim * c + k: derivative of component c along direction k
+  /// @param counts  1 for a point, 0 for a lane that is to be left out
+  void Add(const RowVector* j, const RowVector& counts)
+  {
+    const RowVector zero{};
+    const RowVector huge = zero + std::numeric_limits<double>::infinity();
+    RowVector det;
+    RowVector cofactors;
+    RowVector f = zero;
+    RowVector product = zero + 1.0;
+    for (int k = 0; k < Dim; ++k)
+    {
+      RowVector length = zero;
+      for (int c = 0; c < Dim; ++c)
+      {
+        length += j[Dim * c + k] * j[Dim * c + k];
+      }
+      f += length;
+      product *= length;
+    }
+    if constexpr (Dim == 2)
+    {
+      det = j[0] * j[3] - j[1] * j[2];
+      cofactors = f;
+    }
+    else
+    {
+      cofactors = zero;
+      for (int c = 2; c >= 0; --c)
+      {
+        const RowVector* a = j + 3 * ((c + 1) % 3);
+        const RowVector* b = j + 3 * ((c + 2) % 3);
+        const RowVector n0 = a[1] * b[2] - a[2] * b[1];
+        const RowVector n1 = a[2] * b[0] - a[0] * b[2];
+        const RowVector n2 = a[0] * b[1] - a[1] * b[0];
+        cofactors += n0 * n0 + n1 * n1 + n2 * n2;
+        det = j[3 * c] * n0 + j[3 * c + 1] * n1 + j[3 * c + 2] * n2;
+      }
+    }
+    SquareRoot(product);
+    RowVector condition = f * cofactors;
+    SquareRoot(condition);
+    const RowVector scaled = product > zero ? det / product : zero;
+    const RowVector size = det < zero ? -det : det;
+    const RowVector regular = size > zero ? counts : zero;
+    condition = size > zero ? condition / size : zero;
+    const RowVector low = counts > zero ? det : huge;
+    const RowVector high = counts > zero ? det : -huge;
+    const RowVector scaledLow = counts > zero ? scaled : huge;
+    this->MinDet = low < this->MinDet ? low : this->MinDet;
+    this->MaxDet = high > this->MaxDet ? high : this->MaxDet;
+    this->MinScaled = scaledLow < this->MinScaled ? scaledLow : this->MinScaled;
+    this->SumScaled += counts * scaled;
+    this->SumCondition += regular * condition;
+    this->NumConditions += regular;
+    this->NonPositive += det > zero ? zero : counts;
+    this->Count += counts;
+  }
+
+  DomainMetrics Result(double area, int samples) const
+  {
+    const auto sum = [](const RowVector& v) { return (v[0] + v[2]) + (v[1] + v[3]); };
+    const auto least = [](const RowVector& v)
+    { return std::min(std::min(v[0], v[1]), std::min(v[2], v[3])); };
+    DomainMetrics metrics;
+    metrics.Samples = samples;
+    metrics.Area = area;
+    metrics.MinDet = least(this->MinDet);
+    metrics.MaxDet = -least(-this->MaxDet);
+    metrics.MinDetOverArea = metrics.MinDet / area;
+    metrics.MaxDetOverArea = metrics.MaxDet / area;
+    metrics.MinScaledJacobian = least(this->MinScaled);
+    metrics.MeanScaledJacobian = sum(this->SumScaled) / sum(this->Count);
+    metrics.MeanConditionNumber = sum(this->SumCondition) / std::max(1.0, sum(this->NumConditions));
+    metrics.NonPositive = static_cast<int>(sum(this->NonPositive));
+    return metrics;
+  }
+
+private:
+  RowVector MinDet = RowVector{} + std::numeric_limits<double>::infinity();
+  RowVector MaxDet = RowVector{} - std::numeric_limits<double>::infinity();
+  RowVector MinScaled = RowVector{} + std::numeric_limits<double>::infinity();
+  RowVector SumScaled{};
+  RowVector SumCondition{};
+  RowVector NumConditions{};
+  RowVector NonPositive{};
+  RowVector Count{};
+};
+
+template <int Dim>
+class MetricBody final : public RowBody
+{
+public:
+  explicit MetricBody(bool rational) : Rational(rational) {}
+  Collector<Dim> Sums;
+
+  void Row(
+    int n, const double* fields, double*, const double*, double, const double* padding) override
+  {
+    const int numPlanes = Dim + (this->Rational ? 1 : 0);
+    for (int i = 0; i < n; i += RowLanes)
+    {
+      const auto at = [&](int t, int c) -> const RowVectorAt&
+      { return At(fields + (t * numPlanes + c) * n + i); };
+      RowVector j[Dim * Dim];
+      for (int c = 0; c < Dim; ++c)
+      {
+        for (int k = 0; k < Dim; ++k)
+        {
+          j[Dim * c + k] = at(k + 1, c);
+          if (this->Rational)
+          {
+            const RowVector inverse = 1.0 / (at(0, Dim) + At(padding + i));
+            j[Dim * c + k] = (j[Dim * c + k] - at(0, c) * inverse * at(k + 1, Dim)) * inverse;
+          }
+        }
+      }
+      this->Sums.Add(j, 1.0 - At(padding + i));
+    }
+  }
+
+private:
+  bool Rational;
+};
+
+/// First derivatives of a side at points; row: direction 0, direction 1.
+template <int D>
+PointMatrix Derivatives(const Spline<D>& side, const PointMatrix& parameters)
+{
+  EvaluationParams params;
+  params.Derivatives = 1;
+  params.Threads = 1;
+  EvaluationBatch batch;
+  EvaluateParameters<D>(MakeBezierForm<D>(side, 1), parameters, params, batch);
+  return batch.First;
+}
+
+/// Directions of the map's side 2 d + e.
+int PositionOf(int direction, int side)
+{
+  return direction > side / 2 ? direction - 1 : direction;
+}
+
+/// Keeps the worst fold of a corner or edge.
+template <int Dim>
+class FoldSearch
+{
+public:
+  /// Tangents that are parallel but for rounding are degenerate, not folded.
+  static constexpr double Tolerance = 1e-10;
+
+  explicit FoldSearch(const CompatibleBoundary<Dim>& boundary) : Boundary(boundary) {}
+
+  /// @param tangents  column k: derivative along direction k
+  void Try(const std::array<double, Dim>& u, const Eigen::Matrix<double, Dim, Dim>& tangents,
+    const Eigen::Matrix<double, 1, Dim>& position, const std::vector<int>& sides)
+  {
+    const double lengths = tangents.colwise().norm().prod();
+    const double det = tangents.determinant();
+    const double scaled = lengths > 0.0 ? det / lengths : 0.0;
+    if (scaled < -Tolerance && scaled < this->Worst)
+    {
+      this->Worst = scaled;
+      this->Found.Det = det;
+      for (std::size_t d = 0; d < Dim; ++d)
+      {
+        this->Found.Parameters[d] = u[d];
+        this->Found.Position[d] = position[static_cast<Eigen::Index>(d)];
+      }
+      for (std::size_t s = 0; s < 3; ++s)
+      {
+        this->Found.Sides[s] = s < sides.size() ? sides[s] : -1;
+      }
+    }
+  }
+
+  /// Appends the worst one, if any, with its sentence.
+  void Close(std::vector<BoundaryFold>& folds)
+  {
+    if (this->Worst == 0.0)
+    {
+      return;
+    }
+    constexpr const char* names = "uvw";
+    bool corner = true;
+    std::string parameters;
+    std::string position;
+    for (std::size_t d = 0; d < Dim; ++d)
+    {
+      const double u = this->Found.Parameters[d];
+      corner = corner && (u == 0.0 || u == 1.0);
+      parameters += std::string(d ? ", " : "") + names[d] + " = " + NumberText(u);
+      position += (d ? ", " : "") + NumberText(this->Found.Position[d]);
+    }
+    std::string sides;
+    for (int s : this->Found.Sides)
+    {
+      if (s >= 0)
+      {
+        sides += (sides.empty() ? "" : " and ") + std::string("side ") +
+          std::to_string(this->Boundary.Origins[static_cast<std::size_t>(s)].Input);
+      }
+    }
+    this->Found.Message = std::string("the boundary folds at the ") +
+      (corner ? "corner (" : "point (") + parameters + ") of the map, at (" + position +
+      "), where " + sides + " meet: their tangents there have a scaled Jacobian of " +
+      NumberText(this->Worst) + ", so no interior makes the map valid";
+    folds.push_back(this->Found);
+    this->Worst = 0.0;
+  }
+
+private:
+  const CompatibleBoundary<Dim>& Boundary;
+  BoundaryFold Found;
+  double Worst = 0.0;
+};
+}
+
+template <int Dim>
+DomainMetrics MeasureMap(const Spline<Dim>& map, double area, int samples)
+{
+  if (map.Space->Kind == SpaceKind::Tensor)
+  {
+    std::array<LinePoints, Dim> lines;
+    for (std::size_t d = 0; d < Dim; ++d)
+    {
+      lines[d] = UniformLine(map.Space->Knots[d], samples);
+    }
+    const PointMatrix rows = map.HomogeneousPoints();
+    const Eigen::MatrixXd planes = rows; // by columns
+    MetricBody<Dim> body(map.IsRational());
+    MakeTensorField<Dim>(map.Space->Knots, lines)
+      ->Visit(planes.data(), nullptr, static_cast<int>(planes.cols()), map.IsRational(), body);
+    return body.Sums.Result(area, samples);
+  }
+  const BezierForm<Dim> form = MakeBezierForm<Dim>(map, 1);
+  const ParametricBox<Dim> domain = map.Space->Domain();
+  EvaluationParams params;
+  params.Derivatives = 1;
+  params.Threads = 1;
+  EvaluationBatch batch;
+  Collector<Dim> sums;
+  PointMatrix line(samples, Dim);
+  const int numLines = Dim == 2 ? samples : samples * samples;
+  for (int l = 0; l < numLines; ++l)
+  {
+    for (int i = 0; i < samples; ++i)
+    {
+      const int index[3] = { i, l % samples, l / samples };
+      for (int d = 0; d < Dim; ++d)
+      {
+        const std::size_t at = static_cast<std::size_t>(d);
+        line(i, d) =
+          domain.Lower[at] + (domain.Upper[at] - domain.Lower[at]) * index[d] / (samples - 1);
+      }
+    }
+    EvaluateParameters<Dim>(form, line, params, batch);
+    for (int i = 0; i < samples; i += RowLanes)
+    {
+      RowVector j[Dim * Dim] = {};
+      RowVector counts{};
+      for (int lane = 0; lane < std::min(RowLanes, samples - i); ++lane)
+      {
+        counts[lane] = 1.0;
+        for (int c = 0; c < Dim; ++c)
+        {
+          for (int k = 0; k < Dim; ++k)
+          {
+            j[Dim * c + k][lane] = batch.First(i + lane, k * Dim + c);
+          }
+        }
+      }
+      sums.Add(j, counts);
+    }
+  }
+  return sums.Result(area, samples);
+}
+
+template <>
+std::vector<BoundaryFold> FindBoundaryFolds<2>(const CompatibleBoundary<2>& boundary)
+{
+  std::vector<BoundaryFold> folds;
+  FoldSearch<2> search(boundary);
+  PointMatrix ends(2, 1);
+  ends << 0.0, 1.0;
+  std::array<PointMatrix, 4> tangents;
+  for (std::size_t s = 0; s < 4; ++s)
+  {
+    tangents[s] = Derivatives<1>(boundary.Sides[s], ends);
+  }
+  for (int corner = 0; corner < 4; ++corner)
+  {
+    const int u = corner & 1;
+    const int v = corner >> 1;
+    Eigen::Matrix2d j;
+    j.col(0) = tangents[static_cast<std::size_t>(2 + v)].row(u).transpose();
+    j.col(1) = tangents[static_cast<std::size_t>(u)].row(v).transpose();
+    const PointMatrix& points = boundary.Sides[static_cast<std::size_t>(u)].ControlPoints;
+    const Eigen::RowVector2d position = points.row(v ? points.rows() - 1 : 0);
+    search.Try({ double(u), double(v) }, j, position, { u, 2 + v });
+    search.Close(folds);
+  }
+  return folds;
+}
+
+template <>
+std::vector<BoundaryFold> FindBoundaryFolds<3>(const CompatibleBoundary<3>& boundary)
+{
+  constexpr int perElement = 64;
+  std::vector<BoundaryFold> folds;
+  FoldSearch<3> search(boundary);
+  for (int along = 0; along < 3; ++along)
+  {
+    const int a = along == 0 ? 1 : 0; // the two directions across the edge
+    const int b = along == 2 ? 1 : 2;
+    const std::vector<double>& breaks = boundary.Knots[static_cast<std::size_t>(along)].Breaks();
+    std::vector<double> samples{ breaks.front() };
+    for (std::size_t e = 0; e + 1 < breaks.size(); ++e)
+    {
+      for (int i = 1; i <= perElement; ++i)
+      {
+        samples.push_back(i == perElement
+            ? breaks[e + 1]
+            : breaks[e] + (breaks[e + 1] - breaks[e]) * i / perElement);
+      }
+    }
+    for (int ends = 0; ends < 4; ++ends)
+    {
+      const int endA = ends & 1;
+      const int endB = ends >> 1;
+      const int sideA = 2 * a + endA; // holds the edge and direction b
+      const int sideB = 2 * b + endB;
+      PointMatrix onA(static_cast<Eigen::Index>(samples.size()), 2);
+      PointMatrix onB(onA.rows(), 2);
+      for (Eigen::Index i = 0; i < onA.rows(); ++i)
+      {
+        onA(i, PositionOf(along, sideA)) = onB(i, PositionOf(along, sideB)) =
+          samples[static_cast<std::size_t>(i)];
+        onA(i, PositionOf(b, sideA)) = endB;
+        onB(i, PositionOf(a, sideB)) = endA;
+      }
+      const Spline<2>& faceA = boundary.Sides[static_cast<std::size_t>(sideA)];
+      const Spline<2>& faceB = boundary.Sides[static_cast<std::size_t>(sideB)];
+      EvaluationParams params;
+      params.Derivatives = 1;
+      params.Threads = 1;
+      EvaluationBatch atA;
+      EvaluateParameters<2>(MakeBezierForm<2>(faceA, 1), onA, params, atA);
+      const PointMatrix firstB = Derivatives<2>(faceB, onB);
+      for (Eigen::Index i = 0; i < onA.rows(); ++i)
+      {
+        const bool corner = i == 0 || i + 1 == onA.rows();
+        Eigen::Matrix3d j;
+        j.col(along) = atA.First.row(i).segment<3>(3 * PositionOf(along, sideA)).transpose();
+        j.col(b) = atA.First.row(i).segment<3>(3 * PositionOf(b, sideA)).transpose();
+        j.col(a) = firstB.row(i).segment<3>(3 * PositionOf(a, sideB)).transpose();
+        std::array<double, 3> u{};
+        u[static_cast<std::size_t>(along)] = samples[static_cast<std::size_t>(i)];
+        u[static_cast<std::size_t>(a)] = endA;
+        u[static_cast<std::size_t>(b)] = endB;
+        std::vector<int> sides{ sideA, sideB };
+        if (corner)
+        {
+          sides.push_back(2 * along + (i == 0 ? 0 : 1));
+        }
+        search.Try(u, j, atA.Values.row(i), sides);
+      }
+      search.Close(folds);
+    }
+  }
+  return folds;
+}
+
+template DomainMetrics MeasureMap<2>(const Spline<2>&, double, int);
+template DomainMetrics MeasureMap<3>(const Spline<3>&, double, int);
+}
