@@ -19,9 +19,10 @@ enum class Verdict : std::int8_t
 enum class JacobianLimit : std::uint8_t
 {
   None,
-  Boxes,   ///< JacobianParams::MaxBoxes: more would go on
-  Depth,   ///< boxes of size 2^-48: a zero that no finite subdivision separates
-  Exponent ///< magnitudes too far apart or too extreme for the exact arithmetic's limits
+  Boxes,    ///< JacobianParams::MaxBoxes: more would go on
+  Depth,    ///< sub-boxes whose corners are multiples of 2^-51: a zero that no finite subdivision
+            ///< separates
+  Precision ///< the errors that BernsteinCells::Errors states hide the sign
 };
 
 /// Bits of CellCertificate::Degenerate: where det J is exactly zero although the cell is valid.
@@ -46,7 +47,7 @@ struct JacobianParams
   /// coordinate are taken as collapsed exactly, and corner values of det J within this part of its
   /// terms as zero: both are what rounding makes of a degenerate map. 0: the stored numbers and
   /// nothing else. Cells where it was used say so (Snapped). In [0, 1e-6].
-  double CollapseTolerance = 0x1p-46;
+  double CollapseTolerance = 0x1p-48;
   int Threads = 0; ///< 0 = all cores; the result does not depend on it
 };
 
@@ -67,7 +68,9 @@ struct CellCertificate
   double MaxUpper = 0.0;
 };
 
-/// A point where det J <= 0 is proved.
+/// A point where det J <= 0 is proved (of surfaces in a plane x, y or z = const: where the normal
+/// is turned against that of other points of the cell; of other surfaces and of curves: where the
+/// Jacobian is zero).
 struct JacobianWitness
 {
   int Cell = -1;
@@ -113,18 +116,19 @@ Result<JacobianCertificate> ValidateJacobian(const BernsteinCells& cells,
 /// stored in a VTK grid), else the cells unchanged. @pre cells.Check() is Ok.
 BernsteinCells PlanarCells(const BernsteinCells& cells);
 
-/// Checks a certificate by other and simpler means: rational arithmetic throughout, det J by its
-/// definition and not by minimal forms, subdivision of its own. Witnesses are evaluated; valid and
-/// reversed cells are proved anew, and their MinLower and MaxUpper; MinUpper and MaxLower are held
-/// against points. Slow: for tests and doubts.
-/// @param maxBoxes  a cell; cells that need more are counted in Unchecked.
 struct CertificateCheck
 {
   int Confirmed = 0;
-  int Unchecked = 0;
+  int Unchecked = 0; ///< undecided or snapped cells, and those that the budget did not settle
   int Refuted = 0;
   std::string FirstRefuted; ///< which cell, and what is wrong
 };
-CertificateCheck VerifyCertificate(const BernsteinCells& cells,
-  const JacobianCertificate& certificate, const JacobianParams& params = {}, int maxBoxes = 2000);
+
+/// Checks a certificate by other and simpler means: integers throughout, det J by its definition
+/// and not by minimal forms, subdivision of its own. Witnesses are evaluated; signs are proved
+/// anew, and so are the four bounds (to 1e-9 of the largest, since a bound may be attained). Slow:
+/// for tests and doubts.
+/// @pre cells.Errors is empty.  @param maxBoxes  a proof.
+CertificateCheck VerifyCertificate(
+  const BernsteinCells& cells, const JacobianCertificate& certificate, int maxBoxes = 2000);
 }

@@ -128,7 +128,7 @@ int BernsteinCells::Add(CellShape shape, const CellDegree& degree)
   return this->NumCells() - 1;
 }
 
-Status BernsteinCells::Check() const
+Status BernsteinCells::CheckStructure() const
 {
   const std::size_t n = this->Shapes.size();
   if (this->Degrees.size() != n || this->Offsets.size() != n + 1 || this->Offsets.front() != 0 ||
@@ -137,41 +137,53 @@ Status BernsteinCells::Check() const
   {
     return { ErrorCode::SizeMismatch, "shapes, degrees, offsets, data and errors do not fit" };
   }
+  std::size_t size = 0;
   for (std::size_t c = 0; c < n; ++c)
   {
+    if (c == 0 || this->Shapes[c] != this->Shapes[c - 1] ||
+      this->Degrees[c] != this->Degrees[c - 1])
+    {
+      if (static_cast<int>(this->Shapes[c]) >= NumCellShapes ||
+        !IsDegree(this->Shapes[c], this->Degrees[c]))
+      {
+        return { ErrorCode::InvalidDegree,
+          "cell " + std::to_string(c) + ": degrees must fit the shape and lie in [1, 9]" };
+      }
+      size = static_cast<std::size_t>(
+        NumCellCoefficients(this->Shapes[c], this->Degrees[c]) * this->NumPlanes());
+    }
+    if (this->Offsets[c] + size != this->Offsets[c + 1])
+    {
+      return { ErrorCode::SizeMismatch, "cell " + std::to_string(c) + ": block of a wrong size" };
+    }
+  }
+  return {};
+}
+
+Status BernsteinCells::Check() const
+{
+  if (const Status status = this->CheckStructure(); !status)
+  {
+    return status;
+  }
+  for (int c = 0; c < this->NumCells(); ++c)
+  {
+    const std::size_t at = static_cast<std::size_t>(c);
     const std::string name = "cell " + std::to_string(c);
-    if (static_cast<int>(this->Shapes[c]) >= NumCellShapes ||
-      !IsDegree(this->Shapes[c], this->Degrees[c]))
-    {
-      return { ErrorCode::InvalidDegree, name + ": degrees must fit the shape and lie in [1, 9]" };
-    }
-    const std::size_t size =
-      static_cast<std::size_t>(NumCellCoefficients(this->Shapes[c], this->Degrees[c]));
-    if (this->Offsets[c + 1] - this->Offsets[c] !=
-      size * static_cast<std::size_t>(this->NumPlanes()))
-    {
-      return { ErrorCode::SizeMismatch, name + ": block of a wrong size" };
-    }
-    const double* block = this->Block(static_cast<int>(c));
-    for (std::size_t i = 0; i < size * static_cast<std::size_t>(this->NumPlanes()); ++i)
+    const int size = NumCellCoefficients(this->Shapes[at], this->Degrees[at]);
+    const double* block = this->Block(c);
+    for (int i = 0; i < size * this->NumPlanes(); ++i)
     {
       if (!std::isfinite(block[i]))
       {
         return { ErrorCode::NonFiniteInput, name + ": a coefficient is not finite" };
       }
-    }
-    if (this->Rational)
-    {
-      const double* weights = block + size * static_cast<std::size_t>(this->NumComponents);
-      for (std::size_t i = 0; i < size; ++i)
+      if (this->Rational && i >= size * this->NumComponents && !(block[i] > 0.0))
       {
-        if (!(weights[i] > 0.0))
-        {
-          return { ErrorCode::InvalidWeight, name + ": a Bernstein weight is not positive" };
-        }
+        return { ErrorCode::InvalidWeight, name + ": a Bernstein weight is not positive" };
       }
     }
-    if (!this->Errors.empty() && !(this->Errors[c] >= 0.0 && std::isfinite(this->Errors[c])))
+    if (!this->Errors.empty() && !(this->Errors[at] >= 0.0 && std::isfinite(this->Errors[at])))
     {
       return { ErrorCode::NonFiniteInput, name + ": its error is negative or not finite" };
     }

@@ -75,6 +75,8 @@ struct BernsteinCells
   /// Sizes fit, degrees lie in [1, 9], values and errors are finite, weights are positive; the
   /// detail names the first bad cell.
   Status Check() const;
+  /// The same without looking at the values.
+  Status CheckStructure() const;
 };
 
 /// The elements of a Bezier form, in order: curves, quadrilaterals or hexahedra.

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CoefficientFilter.h"
+
+#include <limits>
+
+namespace knotwork
+{
+namespace
+{
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+
+/// Square root a lane.
+Pack Root(const Pack& a)
+{
+  Pack root = a;
+  for (int l = 0; l < PackSize; ++l)
+  {
+    root[l] = std::sqrt(a[l]);
+  }
+  return root;
+}
+
+Pack Power(const Pack& a, int n)
+{
+  Pack power = Pack{} + 1.0;
+  for (int k = 0; k < n; ++k)
+  {
+    power = power * a;
+  }
+  return power;
+}
+}
+
+void CoefficientFilter::Load(CellShape shape, const CellDegree& degree, int numComponents,
+  bool rational, const std::array<const double*, PackSize>& blocks, const Pack& given,
+  CoefficientBounds& bounds)
+{
+  const int n = NumCellCoefficients(shape, degree);
+  const int planes = numComponents + (rational ? 1 : 0);
+  this->Planes.resize(static_cast<std::size_t>(planes * n));
+  bounds = CoefficientBounds{};
+  for (int i = 0; i < planes * n; ++i)
+  {
+    Pack x;
+    for (int l = 0; l < PackSize; ++l)
+    {
+      x[l] = blocks[static_cast<std::size_t>(l)][i];
+    }
+    this->Planes[static_cast<std::size_t>(i)] = x;
+    bounds.NotFinite += 0.0 * x;
+  }
+  bounds.SmallestWeight = bounds.LargestWeight = Pack{} + 1.0;
+  const Pack* w = this->Planes.data() + numComponents * n;
+  if (rational)
+  {
+    bounds.SmallestWeight = bounds.LargestWeight = w[0];
+    for (int i = 1; i < n; ++i)
+    {
+      bounds.SmallestWeight = Smaller(bounds.SmallestWeight, w[i]);
+      bounds.LargestWeight = Larger(bounds.LargestWeight, w[i]);
+    }
+    bounds.Magnitude = bounds.LargestWeight;
+  }
+  std::array<const Pack*, 4> pointers{};
+  std::array<Pack, 4> absolute{};
+  for (int c = 0; c < planes; ++c)
+  {
+    Pack* p = this->Planes.data() + c * n;
+    pointers[static_cast<std::size_t>(c)] = p;
+    Pack size = Pack{};
+    Pack error = given;
+    if (rational && c < numComponents)
+    {
+      // to the cell's middle: two roundings a coefficient
+      const Pack centre = 0.5 * (p[0] / w[0] + p[n - 1] / w[n - 1]);
+      for (int i = 0; i < n; ++i)
+      {
+        p[i] = p[i] - centre * w[i];
+        size = Larger(size, Magnitude(p[i]));
+      }
+      error = error + Magnitude(centre) * given +
+        2.0 * UnitRoundoff * (Magnitude(centre) * bounds.LargestWeight + size);
+    }
+    else if (c < numComponents)
+    {
+      for (int i = 0; i < n; ++i)
+      {
+        size = Larger(size, Magnitude(p[i]));
+      }
+    }
+    absolute[static_cast<std::size_t>(c)] = error;
+    bounds.Magnitude = Larger(bounds.Magnitude, size);
+  }
+  this->Forms.Set(shape, degree, numComponents, rational, pointers, absolute);
+}
+
+namespace
+{
+Pack ErrorOf(const Form<Pack>& form)
+{
+  const int roundings = form.Roundings + form.Layout->MultinomialRoundings + 1;
+  return RoundingFactor(roundings) * form.Magnitude + form.Absolute * (1.0 + 0x1p-30) + 0x1p-700;
+}
+}
+
+void CoefficientFilter::Determinant(CellShape shape, const CellDegree& degree, bool rational,
+  const std::array<const double*, PackSize>& blocks, const Pack& given, CoefficientBounds& bounds)
+{
+  const int components = NumParameters(shape);
+  this->Load(shape, degree, components, rational, blocks, given, bounds);
+  const Form<Pack>& form = this->Forms.Determinant();
+  const FormLayout& layout = *form.Layout;
+  bounds.Smallest = Pack{} + Infinity;
+  bounds.Largest = -bounds.Smallest;
+  for (int i = 0; i < layout.Size; ++i)
+  {
+    const std::size_t at = static_cast<std::size_t>(i);
+    const Pack value = form.C[at] / layout.Multinomials[at];
+    bounds.Smallest = Smaller(bounds.Smallest, value);
+    bounds.Largest = Larger(bounds.Largest, value);
+  }
+  bounds.Error = ErrorOf(form);
+  bounds.SmallestCorner = Pack{} + Infinity;
+  bounds.LargestCorner = -bounds.SmallestCorner;
+  const FormLayout& cell = this->Cache.Get(shape, degree);
+  const Pack* w = this->Planes.data() + components * cell.Size;
+  for (std::size_t c = 0; c < layout.Corners.size(); ++c)
+  {
+    Pack value = form.C[static_cast<std::size_t>(layout.Corners[c])]; // its multinomial is 1
+    if (rational)
+    {
+      value = value / Power(w[cell.Corners[c]], this->Forms.WeightPower());
+    }
+    bounds.SmallestCorner = Smaller(bounds.SmallestCorner, value);
+    bounds.LargestCorner = Larger(bounds.LargestCorner, value);
+  }
+}
+
+void CoefficientFilter::Norm(CellShape shape, const CellDegree& degree, int numComponents,
+  bool rational, const std::array<const double*, PackSize>& blocks, const Pack& given,
+  CoefficientBounds& bounds)
+{
+  this->Load(shape, degree, numComponents, rational, blocks, given, bounds);
+  const int n = this->Forms.NumNormals();
+  std::array<const Form<Pack>*, 3> normals{};
+  std::array<Pack, 3> mean{};
+  Pack length{};
+  for (int c = 0; c < n; ++c)
+  {
+    const std::size_t k = static_cast<std::size_t>(c);
+    normals[k] = &this->Forms.Normal(c);
+    const FormLayout& layout = *normals[k]->Layout;
+    for (int i = 0; i < layout.Size; ++i)
+    {
+      const std::size_t at = static_cast<std::size_t>(i);
+      mean[k] += normals[k]->C[at] / layout.Multinomials[at];
+    }
+    length += mean[k] * mean[k];
+  }
+  length = Root(length);
+  const FormLayout& layout = *normals[0]->Layout;
+  bounds.Smallest = Pack{} + Infinity;
+  bounds.SmallestCorner = Pack{} + Infinity;
+  Pack magnitudes{};
+  for (int c = 0; c < n; ++c)
+  {
+    const std::size_t k = static_cast<std::size_t>(c);
+    // a direction within 8 u of unit length; none: the loop below finds zeros
+    mean[k] = length > 0.0 ? mean[k] / length : Pack{};
+    bounds.Error = bounds.Error + ErrorOf(*normals[k]);
+    magnitudes = magnitudes + normals[k]->Magnitude;
+  }
+  for (int i = 0; i < layout.Size; ++i)
+  {
+    const std::size_t at = static_cast<std::size_t>(i);
+    Pack along{};
+    Pack square{};
+    for (int c = 0; c < n; ++c)
+    {
+      const std::size_t k = static_cast<std::size_t>(c);
+      const Pack value = normals[k]->C[at] / layout.Multinomials[at];
+      along += value * mean[k];
+      square += value * value;
+    }
+    bounds.Smallest = Smaller(bounds.Smallest, along);
+    bounds.Largest = Larger(bounds.Largest, square);
+    const auto corner = std::find(layout.Corners.begin(), layout.Corners.end(), i);
+    if (corner != layout.Corners.end())
+    {
+      if (rational)
+      {
+        const FormLayout& cell = this->Cache.Get(shape, degree);
+        const Pack* w = this->Planes.data() + numComponents * cell.Size;
+        square = square /
+          Power(w[cell.Corners[static_cast<std::size_t>(corner - layout.Corners.begin())]],
+            2 * this->Forms.WeightPower());
+      }
+      bounds.SmallestCorner = Smaller(bounds.SmallestCorner, square);
+      bounds.LargestCorner = Larger(bounds.LargestCorner, square);
+    }
+  }
+  bounds.Largest = Root(bounds.Largest) * (1.0 + 0x1p-48);
+  bounds.SmallestCorner = Root(bounds.SmallestCorner);
+  bounds.LargestCorner = Root(bounds.LargestCorner);
+  // the products with the direction, and its length
+  bounds.Error = bounds.Error + 16.0 * UnitRoundoff * magnitudes;
+}
+}
