@@ -12,7 +12,8 @@ set(layers
   "SplineCore"
   "JacobianValidation"
   "TemplateMapping DomainParameterization MeshParameterization SurfaceFitting"
-  "SurfaceTrimming CADFitting")
+  "SurfaceTrimming CADFitting"
+  "SplineIO")
 set(rank 0)
 foreach(layer IN LISTS layers)
   string(REPLACE " " ";" modules "${layer}")

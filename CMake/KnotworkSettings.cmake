@@ -42,6 +42,7 @@ endif()
 
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(TBB REQUIRED)
+find_package(pugixml REQUIRED)
 if(BUILD_TESTING AND NOT KNOTWORK_PARAVIEW)
   find_package(GTest REQUIRED)
   include(GoogleTest)
@@ -52,7 +53,7 @@ set(Python3_EXECUTABLE "/usr/bin/python3" CACHE FILEPATH "Python with VTK's modu
 
 # The VTK components that our modules and tests use; KnotworkConfig.cmake asks for the first list.
 set(KNOTWORK_VTK_COMPONENTS CommonCore CommonDataModel CommonExecutionModel CommonMath CommonMisc
-  CommonTransforms FiltersCore FiltersGeneral FiltersExtraction FiltersGeometry FiltersSources IOXML
+  CommonTransforms FiltersCore FiltersGeneral FiltersExtraction FiltersGeometry FiltersSources IOCore IOXML
   IOLegacy IOGeometry IOParallelXML IOPLY ParallelCore)
 set(KNOTWORK_VTK_TEST_COMPONENTS IOImage ImagingCore InteractionStyle RenderingAnnotation
   RenderingCore RenderingFreeType RenderingOpenGL2)

@@ -39,6 +39,8 @@ const char* ToString(ErrorCode code)
       return "the iteration did not converge";
     case ErrorCode::Aborted:
       return "aborted on request";
+    case ErrorCode::InvalidFormat:
+      return "the text does not follow its file format";
   }
   return "unknown error";
 }

@@ -24,7 +24,8 @@ enum class ErrorCode
   SingularSystem,    ///< the equations have no unique solution
   TooLarge,          ///< a count that exceeds the documented limits
   NotConverged,      ///< an iteration stopped at its limit before its goal
-  Aborted            ///< the progress callback asked to stop
+  Aborted,           ///< the progress callback asked to stop
+  InvalidFormat      ///< text that does not follow its file format
 };
 
 /// One plain sentence for a code, without a full stop.

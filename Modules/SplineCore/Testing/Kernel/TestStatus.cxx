@@ -28,7 +28,7 @@ Spline<2> Surface()
 TEST(Status, EveryCodeHasASentenceOfItsOwn_PropertyOracle)
 {
   std::set<std::string> sentences;
-  const int count = static_cast<int>(ErrorCode::Aborted) + 1;
+  const int count = static_cast<int>(ErrorCode::InvalidFormat) + 1;
   for (int code = 0; code < count; ++code)
   {
     const std::string sentence = ToString(static_cast<ErrorCode>(code));

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GoToolsG2.h"
+
+#include "NumberText.h"
+#include "TensorSpace.h"
+
+#include <limits>
+
+namespace knotwork
+{
+namespace
+{
+constexpr long long MaxInt = std::numeric_limits<int>::max();
+constexpr int MaxComponents = 64;
+
+struct KnownClass
+{
+  int Id;
+  const char* Name;
+};
+constexpr KnownClass OtherClasses[] = { { 110, "CurveOnSurface" }, { 120, "Line" },
+  { 130, "Circle" }, { 140, "Ellipse" }, { 210, "BoundedSurface" }, { 250, "Plane" },
+  { 260, "Cylinder" }, { 270, "Sphere" }, { 280, "Cone" }, { 290, "Torus" },
+  { 293, "LRSplineSurface" }, { 400, "PointCloud" }, { 410, "LineCloud" } };
+
+/// Reads one text; the first failure stays in Outcome and every later step does nothing.
+class G2Parser
+{
+public:
+  explicit G2Parser(std::string_view text) : Words(text) {}
+
+  Result<SplineFile> Read()
+  {
+    SplineFile file;
+    while (!this->Words.AtEnd())
+    {
+      this->ReadObject(file);
+      if (!this->Outcome)
+      {
+        return this->Outcome;
+      }
+    }
+    if (file.Splines.empty())
+    {
+      return { ErrorCode::EmptyInput, "the g2 text holds no object" };
+    }
+    return file;
+  }
+
+private:
+  /// Keeps a failure with its place: the word read last.
+  void Fail(ErrorCode code, const std::string& what)
+  {
+    if (this->Outcome)
+    {
+      this->Outcome = { code,
+        "line " + std::to_string(this->Words.Line()) + ", word " +
+          std::to_string(this->Words.Count()) + ", " + what };
+    }
+  }
+
+  std::string_view Word(const char* meaning)
+  {
+    if (!this->Outcome)
+    {
+      return {};
+    }
+    const std::string_view word = this->Words.Next();
+    if (word.empty())
+    {
+      this->Fail(ErrorCode::InvalidFormat,
+        std::string(meaning) +
+          " is missing: the text ends; the file is truncated or its counts are "
+          "too large");
+    }
+    return word;
+  }
+
+  long long Integer(const char* meaning, long long lowest, long long highest,
+    ErrorCode code = ErrorCode::InvalidFormat)
+  {
+    long long value = lowest;
+    const std::string_view word = this->Word(meaning);
+    if (this->Outcome)
+    {
+      if (const Status status = ParseInteger(word, lowest, highest, value); !status)
+      {
+        this->Fail(code, std::string(meaning) + ": " + status.Detail);
+        value = lowest;
+      }
+    }
+    return value;
+  }
+
+  template <typename Number>
+  Number Real(const char* meaning)
+  {
+    Number value = 0;
+    const std::string_view word = this->Word(meaning);
+    if (this->Outcome)
+    {
+      if (const Status status = ParseReal(word, value); !status)
+      {
+        this->Fail(status.Code, std::string(meaning) + ": " + status.Detail);
+      }
+    }
+    return value;
+  }
+
+  void ReadObject(SplineFile& file)
+  {
+    const long long id = this->Integer("class of an object", 0, MaxInt);
+    for (const KnownClass& other : OtherClasses)
+    {
+      if (this->Outcome && id == other.Id)
+      {
+        this->Fail(ErrorCode::InvalidFormat,
+          std::string("an object of class ") + std::to_string(id) + " (" + other.Name +
+            ") cannot be read; keep only spline curves (100), surfaces (200) and volumes (700)");
+      }
+    }
+    if (this->Outcome && id != 100 && id != 200 && id != 700)
+    {
+      this->Fail(ErrorCode::InvalidFormat,
+        "an object has class " + std::to_string(id) +
+          "; classes that can be read are 100, 200 and 700; this is no g2 file, or the object "
+          "before "
+          "has more numbers than it says");
+    }
+    this->Integer("major version", 0, MaxInt);
+    this->Integer("minor version", 0, MaxInt);
+    const long long auxiliary = this->Integer("number of auxiliary integers", 0, MaxInt);
+    for (long long i = 0; i < auxiliary && this->Outcome; ++i)
+    {
+      this->Integer("auxiliary integer", std::numeric_limits<long long>::min(),
+        std::numeric_limits<long long>::max());
+    }
+    if (this->Outcome)
+    {
+      id == 100     ? this->ReadSpline<1>(file)
+        : id == 200 ? this->ReadSpline<2>(file)
+                    : this->ReadSpline<3>(file);
+    }
+  }
+
+  KnotVector ReadBasis()
+  {
+    const long long count = this->Integer("number of basis functions", 1, MaxInt);
+    const long long order =
+      this->Integer("order of a basis", 2, MaxDegree + 1, ErrorCode::InvalidDegree);
+    if (this->Outcome && count < order)
+    {
+      this->Fail(ErrorCode::InvalidFormat,
+        std::to_string(count) + " basis functions of order " + std::to_string(order) +
+          "; there must be at least as many as the order");
+    }
+    std::vector<double> knots;
+    for (long long i = 0; i < count + order && this->Outcome; ++i)
+    {
+      knots.push_back(this->Real<double>("knot"));
+    }
+    if (!this->Outcome)
+    {
+      return {};
+    }
+    Result<KnotVector> made = KnotVector::Create(static_cast<int>(order) - 1, std::move(knots));
+    if (!made)
+    {
+      this->Fail(made.Status.Code, "end of a knot vector: " + made.Status.Detail);
+    }
+    return made.Value;
+  }
+
+  template <int Dim>
+  void ReadSpline(SplineFile& file)
+  {
+    const auto components = static_cast<Eigen::Index>(this->Integer("dimension", 1, MaxComponents));
+    const bool rational = this->Integer("rational flag", 0, 1) == 1;
+    std::array<KnotVector, Dim> knots;
+    double functions = 1.0;
+    for (KnotVector& direction : knots)
+    {
+      direction = this->ReadBasis();
+      functions *= direction.NumFunctions();
+    }
+    const Eigen::Index columns = components + (rational ? 1 : 0);
+    if (this->Outcome &&
+      functions * static_cast<double>(columns) > static_cast<double>(this->Words.Remaining()))
+    {
+      this->Fail(ErrorCode::InvalidFormat,
+        "the text is too short for the control points of its bases; the file is truncated or its "
+        "counts are too large");
+    }
+    if (!this->Outcome)
+    {
+      return;
+    }
+    const auto rows = static_cast<Eigen::Index>(functions);
+    Spline<Dim> spline;
+    spline.ControlPoints.resize(rows, components);
+    spline.Weights.resize(rational ? rows : 0);
+    for (Eigen::Index i = 0; i < rows && this->Outcome; ++i)
+    {
+      rational ? this->ReadRationalRow(spline, i) : this->ReadRow(spline, i);
+    }
+    if (!this->Outcome)
+    {
+      return;
+    }
+    Result<SplineSpacePtr<Dim>> space = MakeTensorSpace<Dim>(knots);
+    if (!space)
+    {
+      this->Fail(space.Status.Code, space.Status.Detail);
+      return;
+    }
+    spline.Space = space.Value;
+    file.Ids.push_back(static_cast<int>(file.Splines.size()));
+    file.Splines.emplace_back(std::move(spline));
+  }
+
+  template <int Dim>
+  void ReadRow(Spline<Dim>& spline, Eigen::Index row)
+  {
+    for (Eigen::Index c = 0; c < spline.ControlPoints.cols() && this->Outcome; ++c)
+    {
+      spline.ControlPoints(row, c) = this->Real<double>("coordinate of a control point");
+    }
+  }
+
+  template <int Dim>
+  void ReadRationalRow(Spline<Dim>& spline, Eigen::Index row)
+  {
+    std::array<long double, MaxComponents> product{};
+    const auto columns = static_cast<std::size_t>(spline.ControlPoints.cols());
+    for (std::size_t c = 0; c < columns && this->Outcome; ++c)
+    {
+      product[c] = this->Real<long double>("coordinate of a control point");
+    }
+    const double weight = this->Real<double>("weight");
+    if (this->Outcome && !(weight > 0.0))
+    {
+      this->Fail(ErrorCode::InvalidWeight,
+        "the weight of control point " + std::to_string(row) + " is not positive");
+    }
+    if (!this->Outcome)
+    {
+      return;
+    }
+    spline.Weights[row] = weight;
+    for (std::size_t c = 0; c < columns; ++c)
+    {
+      spline.ControlPoints(row, static_cast<Eigen::Index>(c)) = Quotient(product[c], weight);
+    }
+    if (!spline.ControlPoints.row(row).allFinite())
+    {
+      this->Fail(ErrorCode::NonFiniteInput,
+        "control point " + std::to_string(row) + " divided by its weight is not finite");
+    }
+  }
+
+  WordScanner Words;
+  Status Outcome;
+};
+}
+
+Result<SplineFile> ReadG2(std::string_view text)
+{
+  return G2Parser(text).Read();
+}
+}

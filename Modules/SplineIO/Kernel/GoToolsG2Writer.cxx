@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GoToolsG2.h"
+
+#include "NumberText.h"
+
+namespace knotwork
+{
+namespace
+{
+constexpr int ClassIds[] = { 0, 100, 200, 700 };
+
+template <int Dim>
+Status AppendSpline(const Spline<Dim>& spline, std::string& text)
+{
+  if (Status status = spline.Check(); !status)
+  {
+    return status;
+  }
+  const SplineSpace<Dim>& space = *spline.Space;
+  if (space.Kind != SpaceKind::Tensor &&
+    !(space.Kind == SpaceKind::Hierarchical && space.IsIdentityMap()))
+  {
+    return { ErrorCode::InvalidParameter,
+      space.Kind == SpaceKind::Hierarchical
+        ? "a hierarchical spline cannot be written as g2; write G+Smo XML"
+        : "Bezier elements without knots cannot be written as g2; write .vtu" };
+  }
+  const Eigen::Index columns = spline.ControlPoints.cols();
+  text += std::to_string(ClassIds[Dim]) + " 1 0 0\n";
+  text += std::to_string(columns) + (spline.IsRational() ? " 1\n" : " 0\n");
+  for (const KnotVector& knots : space.Knots)
+  {
+    text += std::to_string(knots.NumFunctions()) + " " + std::to_string(knots.Degree() + 1) + "\n";
+    for (std::size_t i = 0; i < knots.Knots().size(); ++i)
+    {
+      text += i > 0 ? " " : "";
+      AppendReal(text, knots.Knots()[i]);
+    }
+    text += "\n";
+  }
+  for (Eigen::Index i = 0; i < spline.ControlPoints.rows(); ++i)
+  {
+    for (Eigen::Index c = 0; c < columns; ++c)
+    {
+      text += c > 0 ? " " : "";
+      AppendProduct(
+        text, spline.ControlPoints(i, c), spline.IsRational() ? spline.Weights[i] : 1.0);
+    }
+    if (spline.IsRational())
+    {
+      text += " ";
+      AppendReal(text, spline.Weights[i]);
+    }
+    text += "\n";
+  }
+  text += "\n";
+  return {};
+}
+}
+
+Result<std::string> WriteG2(const std::vector<AnySpline>& splines)
+{
+  if (splines.empty())
+  {
+    return { ErrorCode::EmptyInput, "there is no spline to write" };
+  }
+  std::string text;
+  for (std::size_t i = 0; i < splines.size(); ++i)
+  {
+    const Status status =
+      std::visit([&](const auto& spline) { return AppendSpline(spline, text); }, splines[i]);
+    if (!status)
+    {
+      return { status.Code, "spline " + std::to_string(i) + ": " + status.Detail };
+    }
+  }
+  return text;
+}
+}

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Files written by hand from the description of their formats, seeded files, and how two files are
+// compared.
+#pragma once
+#include "RandomSplines.h"
+#include "SplineFile.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace knotwork::testing
+{
+/// A g2 curve, rational quarter of a circle, and a bilinear polynomial surface in the plane.
+inline const std::string HandWrittenG2 = R"(100 1 0 0
+3 1
+3 3
+0 0 0 1 1 1
+1 0 0 1
+0.5 0.5 0 0.5
+0 2 0 2
+
+200 1 0 4 255 0 0 255
+2 0
+2 2
+0 0 1 1
+3 2
+-1 -1 .5 2e0 2
++1 2   3 4
+5 6 7 8
+9 10 11 12
+)";
+
+/// Two bilinear squares side by side with their interface, a rational curve, and a THB function of
+/// degree 1 on 2 x 1 elements, the left one refined: of the 3 x 2 functions of level 0 the four at
+/// u = 1 and u = 2 stay, and 2 x 3 of level 1 come in at u = 0 and u = 0.5.
+inline const std::string HandWrittenXml = R"(<?xml version="1.0" encoding="UTF-8"?>
+<!-- by hand -->
+<xml>
+ <Geometry type="TensorBSpline2" id="4" label="left">
+  <Basis type="TensorBSplineBasis2">
+   <Basis type="BSplineBasis" index="0"><KnotVector degree="1">0 0 1 1 </KnotVector></Basis>
+   <Basis type="BSplineBasis" index="1"><KnotVector degree="1">0 0 1 1 </KnotVector></Basis>
+  </Basis>
+  <coefs geoDim="2">0 0
+1 0
+0 1 <!-- a remark -->
+1 1</coefs>
+ </Geometry>
+ <Geometry type="TensorBSpline2" id="7">
+  <Basis type="TensorBSplineBasis2">
+   <Basis type="BSplineBasis" index="0"><KnotVector degree="1">0 0 1 1</KnotVector></Basis>
+   <Basis type="BSplineBasis" index="1"><KnotVector degree="1">0 0 1 1</KnotVector></Basis>
+  </Basis>
+  <coefs geoDim="2">1 0 2 0 1 1 2 1</coefs>
+ </Geometry>
+ <Geometry type="Nurbs">
+  <Basis type="NurbsBasis">
+   <Basis type="BSplineBasis"><KnotVector degree="2">0 0 0 1 1 1</KnotVector></Basis>
+   <weights>1 0.5 2</weights>
+  </Basis>
+  <coefs geoDim="3">1 0 0  1 1 0  0 1 0</coefs>
+ </Geometry>
+ <Geometry type="THBSpline2" id="9">
+  <Basis type="THBSplineBasis2">
+   <Basis type="TensorBSplineBasis2">
+    <Basis type="BSplineBasis" index="0"><KnotVector degree="1">0 0 1 2 2</KnotVector></Basis>
+    <Basis type="BSplineBasis" index="1"><KnotVector degree="1">0 0 1 1</KnotVector></Basis>
+   </Basis>
+   <box level="0">0 0 2 1</box>
+   <box level="1">0 0 2 2</box>
+  </Basis>
+  <coefs geoDim="1">1 2 3 4 5 6 7 8 9 10</coefs>
+ </Geometry>
+ <Function type="FunctionExpr" id="21">x</Function>
+ <MultiPatch parDim="2" id="11">
+  <patches type="id_index">4 7</patches>
+  <interfaces>4 2 7 1 0 1 1 1
+  </interfaces>
+  <boundary>4 1
+4 3
+4 4
+7 2
+7 3
+7 4</boundary>
+ </MultiPatch>
+</xml>
+)";
+
+template <int Dim>
+::testing::AssertionResult SameSpline(const Spline<Dim>& a, const Spline<Dim>& b)
+{
+  const auto fail = [](const char* what) { return ::testing::AssertionFailure() << what; };
+  if (!(a.Space->Knots == b.Space->Knots))
+  {
+    return fail("knots differ");
+  }
+  if (a.Space->NumFunctions != b.Space->NumFunctions ||
+    a.Space->RowFunction != b.Space->RowFunction ||
+    a.Space->RowCoefficient != b.Space->RowCoefficient ||
+    a.Space->LocalFunctionIds != b.Space->LocalFunctionIds)
+  {
+    return fail("spaces differ");
+  }
+  if (a.ControlPoints.rows() != b.ControlPoints.rows() ||
+    a.ControlPoints.cols() != b.ControlPoints.cols() || a.ControlPoints != b.ControlPoints)
+  {
+    return fail("control points differ");
+  }
+  if (a.Weights.size() != b.Weights.size() || a.Weights != b.Weights)
+  {
+    return fail("weights differ");
+  }
+  return ::testing::AssertionSuccess();
+}
+
+/// Bit for bit.
+inline ::testing::AssertionResult SameSplines(
+  const std::vector<AnySpline>& a, const std::vector<AnySpline>& b)
+{
+  if (a.size() != b.size())
+  {
+    return ::testing::AssertionFailure() << a.size() << " and " << b.size() << " splines";
+  }
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    if (a[i].index() != b[i].index())
+    {
+      return ::testing::AssertionFailure() << "spline " << i << " has another dimension";
+    }
+    const auto same = std::visit([&](const auto& spline)
+      { return SameSpline(spline, std::get<std::decay_t<decltype(spline)>>(b[i])); },
+      a[i]);
+    if (!same)
+    {
+      return ::testing::AssertionFailure() << "spline " << i << ": " << same.message();
+    }
+  }
+  return ::testing::AssertionSuccess();
+}
+
+/// A double with random sign, exponent and all bits of the mantissa.
+inline double WildNumber(Random& random, int maxExponent)
+{
+  const double mantissa = 1.0 + random.Unit() + std::ldexp(random.Unit(), -32);
+  return std::ldexp(mantissa, random.Int(-maxExponent, maxExponent)) *
+    (random.Int(0, 1) == 1 ? 1.0 : -1.0);
+}
+
+/// Numbers of every size in place of a spline's control points and weights.
+template <int Dim>
+Spline<Dim> WithWildNumbers(Random& random, Spline<Dim> spline)
+{
+  for (Eigen::Index i = 0; i < spline.ControlPoints.size(); ++i)
+  {
+    spline.ControlPoints.data()[i] = random.Int(0, 9) == 0 ? 0.0 : WildNumber(random, 60);
+  }
+  for (double& w : spline.Weights)
+  {
+    w = std::fabs(WildNumber(random, 10));
+  }
+  return spline;
+}
+
+/// Splines of every dimension, polynomial and rational, with degrees up to 9 for curves.
+inline SplineFile RandomFile(unsigned seed, bool hierarchical)
+{
+  Random random(seed);
+  SplineFile file;
+  const auto add = [&](auto space)
+  {
+    for (bool rational : { false, true })
+    {
+      file.Ids.push_back(3 * static_cast<int>(file.Splines.size()) + random.Int(0, 2));
+      file.Splines.emplace_back(
+        WithWildNumbers(random, RandomSpline(random, space, random.Int(1, 4), rational)));
+    }
+  };
+  add(RandomTensorSpace<1>(random, 9, 6));
+  add(RandomTensorSpace<2>(random, 5, 4));
+  add(RandomTensorSpace<3>(random, 3, 2));
+  if (hierarchical)
+  {
+    add(RandomHierarchicalSpace<1>(random, 5, 5, 3));
+    add(RandomHierarchicalSpace<2>(random, 4, 4, 3));
+    add(RandomHierarchicalSpace<3>(random, 2, 2, 2));
+  }
+  return file;
+}
+}

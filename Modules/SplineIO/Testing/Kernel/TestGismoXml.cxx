@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BezierForm.h"
+#include "BezierSpace.h"
+#include "FileCases.h"
+#include "GismoXml.h"
+
+using namespace knotwork;
+using namespace knotwork::testing;
+
+TEST(GismoXml, HandWrittenFile_GoldenOracle)
+{
+  const Result<SplineFile> file = ReadGismoXml(HandWrittenXml);
+  ASSERT_TRUE(file) << file.Status.Message();
+  ASSERT_EQ(file->Splines.size(), 4u);
+  EXPECT_EQ(file->Ids, (std::vector<int>{ 4, 7, 0, 9 })); // the third has none: the smallest free
+  EXPECT_TRUE(file->Warnings.empty());
+
+  const auto& left = std::get<Spline<2>>(file->Splines[0]);
+  PointMatrix points(4, 2); // first parameter fastest
+  points << 0, 0, 1, 0, 0, 1, 1, 1;
+  EXPECT_EQ(left.ControlPoints, points);
+  EXPECT_EQ(left.Space->Kind, SpaceKind::Tensor);
+
+  const auto& curve = std::get<Spline<1>>(file->Splines[2]);
+  EXPECT_EQ(curve.Weights, Eigen::Vector3d(1, 0.5, 2));
+  EXPECT_EQ(curve.ControlPoints.row(1), Eigen::RowVector3d(1, 1, 0)); // not divided by the weight
+
+  ASSERT_EQ(file->MultiPatches.size(), 1u);
+  const MultiPatch& patches = file->MultiPatches[0];
+  EXPECT_EQ(patches.Dimension, 2);
+  EXPECT_EQ(patches.Splines, (std::vector<int>{ 0, 1 }));
+  ASSERT_EQ(patches.Interfaces.size(), 1u);
+  EXPECT_EQ(patches.Interfaces[0].First.Spline, 0);
+  EXPECT_EQ(patches.Interfaces[0].First.Side, 2);
+  EXPECT_EQ(patches.Interfaces[0].Second.Spline, 1);
+  EXPECT_EQ(patches.Interfaces[0].Second.Side, 1);
+  EXPECT_EQ(patches.Interfaces[0].DirectionMap, (std::array<int, 3>{ 0, 1, 0 }));
+  EXPECT_EQ(patches.Interfaces[0].SameSense, (std::array<int, 3>{ 1, 1, 0 }));
+  ASSERT_EQ(patches.Boundaries.size(), 6u);
+  EXPECT_EQ(patches.Boundaries[3].Spline, 1);
+  EXPECT_EQ(patches.Boundaries[3].Side, 2);
+}
+
+TEST(GismoXml, OrderOfHierarchicalCoefficients_GoldenOracle)
+{
+  const Result<SplineFile> file = ReadGismoXml(HandWrittenXml);
+  ASSERT_TRUE(file) << file.Status.Message();
+  const auto& function = std::get<Spline<2>>(file->Splines[3]);
+  EXPECT_EQ(function.Space->Kind, SpaceKind::Hierarchical);
+  ASSERT_EQ(function.Space->NumFunctions, 10);
+  const BezierForm<2> form = MakeBezierForm(function);
+  // Of degree 1 the coefficients are values: first the four of level 0, u fastest, then those of
+  // level 1. Half-way along the edge at u = 1 nothing is refined: the mean of 1 and 3.
+  PointMatrix at(11, 2);
+  at << 1, 0, 2, 0, 1, 1, 2, 1, 0, 0, 0.5, 0, 0, 0.5, 0.5, 0.5, 0, 1, 0.5, 1, 1, 0.5;
+  EvaluationBatch batch;
+  ASSERT_TRUE(EvaluateParameters(form, at, {}, batch));
+  const double expected[] = { 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 2 };
+  for (int i = 0; i < 11; ++i)
+  {
+    EXPECT_DOUBLE_EQ(batch.Values(i, 0), expected[i]) << "point " << i;
+  }
+}
+
+TEST(GismoXml, WrittenFile_GoldenOracle)
+{
+  const std::string expected = R"(<?xml version="1.0" encoding="UTF-8"?>
+<xml>
+<Geometry type="BSpline" id="0">
+<Basis type="BSplineBasis"><KnotVector degree="1">0 0 1 1</KnotVector></Basis>
+<coefs geoDim="2">
+0.1 -2.5
+1e+100 3
+</coefs>
+</Geometry>
+<MultiPatch parDim="1" id="1">
+<patches type="id_index">0</patches>
+<boundary>
+0 1
+0 2
+</boundary>
+</MultiPatch>
+</xml>
+)";
+  Spline<1> line;
+  line.Space = MakeTensorSpace<1>({ KnotVector::Uniform(1, 1) }).Value;
+  line.ControlPoints = PointMatrix(2, 2);
+  line.ControlPoints << 0.1, -2.5, 1e100, 3;
+  SplineFile file;
+  file.Splines = { line };
+  file.MultiPatches = { { 1, { 0 }, {}, { { 0, 1 }, { 0, 2 } } } };
+  const Result<std::string> text = WriteGismoXml(file);
+  ASSERT_TRUE(text) << text.Status.Message();
+  EXPECT_EQ(text.Value, expected);
+}
+
+TEST(GismoXml, WrittenTypesAndBoxes_GoldenOracle)
+{
+  const Result<SplineFile> file = ReadGismoXml(HandWrittenXml);
+  const std::string text = WriteGismoXml(file.Value).Value;
+  for (const char* part : { "<Geometry type=\"TensorBSpline2\" id=\"4\">",
+         "<Basis type=\"TensorBSplineBasis2\">\n<Basis type=\"BSplineBasis\" index=\"0\">",
+         "<Geometry type=\"Nurbs\" id=\"0\">\n<Basis type=\"NurbsBasis\">\n<Basis "
+         "type=\"BSplineBasis\">",
+         "<weights>\n1\n0.5\n2\n</weights>\n</Basis>\n<coefs geoDim=\"3\">",
+         "<Geometry type=\"THBSpline2\" id=\"9\">\n<Basis type=\"THBSplineBasis2\">",
+         "<box level=\"1\">0 0 2 2</box>", "<interfaces>\n4 2 7 1 0 1 1 1\n</interfaces>",
+         "<MultiPatch parDim=\"2\" id=\"10\">" })
+  {
+    EXPECT_NE(text.find(part), std::string::npos) << part;
+  }
+}
+
+TEST(GismoXml, RoundTripsAreExact_PropertyOracle)
+{
+  for (unsigned seed = 1; seed <= 60; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const SplineFile file = RandomFile(seed, true);
+    const Result<std::string> text = WriteGismoXml(file);
+    ASSERT_TRUE(text) << text.Status.Message();
+    const Result<SplineFile> again = ReadGismoXml(text.Value);
+    ASSERT_TRUE(again) << again.Status.Message();
+    ASSERT_TRUE(SameSplines(file.Splines, again->Splines));
+    ASSERT_EQ(file.Ids, again->Ids);
+    ASSERT_EQ(WriteGismoXml(again.Value).Value, text.Value);
+  }
+}
+
+TEST(GismoXml, MultiPatchesComeBack_PropertyOracle)
+{
+  const Result<SplineFile> file = ReadGismoXml(HandWrittenXml);
+  const std::string text = WriteGismoXml(file.Value).Value;
+  const Result<SplineFile> again = ReadGismoXml(text);
+  ASSERT_TRUE(again) << again.Status.Message();
+  EXPECT_TRUE(SameSplines(file->Splines, again->Splines));
+  EXPECT_EQ(again->Ids, file->Ids);
+  EXPECT_EQ(WriteGismoXml(again.Value).Value, text);
+  ASSERT_EQ(again->MultiPatches.size(), 1u);
+  EXPECT_EQ(again->MultiPatches[0].Splines, file->MultiPatches[0].Splines);
+  EXPECT_EQ(again->MultiPatches[0].Boundaries.size(), 6u);
+}
+
+namespace
+{
+/// A biquadratic THB surface on 4 x 4 elements with the boxes given.
+std::string WithBoxes(const std::string& boxes, int coefficients)
+{
+  const std::string knots = "\"><KnotVector degree=\"2\">0 0 0 1 2 3 4 4 4</KnotVector></Basis>";
+  std::string numbers;
+  for (int i = 0; i < coefficients; ++i)
+  {
+    numbers += std::to_string(i) + " ";
+  }
+  return "<xml><Geometry type=\"THBSpline2\"><Basis type=\"THBSplineBasis2\">"
+         "<Basis type=\"TensorBSplineBasis2\"><Basis type=\"BSplineBasis\" index=\"0" +
+    knots + "<Basis type=\"BSplineBasis\" index=\"1" + knots + "</Basis>" + boxes +
+    "</Basis><coefs geoDim=\"1\">" + numbers + "</coefs></Geometry></xml>";
+}
+}
+
+TEST(GismoXml, BoxesOfOneHierarchyInManyForms_CrossOracle)
+{
+  // Omega^1 = [0, 3]^2 in elements, Omega^2 = [0.5, 1.5] x [0, 1]
+  const std::string whole = "<box level=\"1\">0 0 6 6</box><box level=\"2\">2 0 6 4</box>";
+  // leaves that do not overlap, some of which end inside an element of level 0, as G+Smo writes
+  const std::string leaves = "<box level=\"2\">2 0 6 4</box><box level=\"1\">0 0 1 6</box>"
+                             "<box level=\"1\">1 2 3 6</box><box level=\"1\">3 0 6 6</box>";
+  const std::array<KnotVector, 2> knots = {
+    KnotVector::Create(2, { 0, 0, 0, 1, 2, 3, 4, 4, 4 }).Value,
+    KnotVector::Create(2, { 0, 0, 0, 1, 2, 3, 4, 4, 4 }).Value
+  };
+  const auto space =
+    MakeHierarchicalSpace<2>(knots, { { 1, { 0, 0 }, { 6, 6 } }, { 2, { 2, 0 }, { 6, 4 } } });
+  const int n = space->get()->NumFunctions;
+  for (const std::string& boxes : { whole, leaves, leaves + whole, leaves + leaves })
+  {
+    const Result<SplineFile> file = ReadGismoXml(WithBoxes(boxes, n));
+    ASSERT_TRUE(file) << file.Status.Message() << "\n" << boxes;
+    EXPECT_EQ(std::get<Spline<2>>(file->Splines[0]).Space->LocalFunctionIds,
+      space->get()->LocalFunctionIds);
+  }
+}
+
+TEST(GismoXml, BoxesWithinCoarserElementsAreRefused_ExactOracle)
+{
+  const Result<SplineFile> file = ReadGismoXml(WithBoxes("<box level=\"1\">1 0 6 6</box>", 36));
+  EXPECT_EQ(file.Status.Code, ErrorCode::InvalidTopology) << file.Status.Message();
+  EXPECT_NE(file.Status.Detail.find("whole elements"), std::string::npos);
+}
+
+TEST(GismoXml, OtherTypesAreLeftOutWithAWarning_ExactOracle)
+{
+  std::string text = HandWrittenXml;
+  text.replace(text.find("<Geometry type=\"Nurbs\""), 22, "<Geometry type=\"Other\"");
+  const Result<SplineFile> file = ReadGismoXml(text);
+  ASSERT_TRUE(file) << file.Status.Message();
+  EXPECT_EQ(file->Splines.size(), 3u);
+  ASSERT_EQ(file->Warnings.size(), 1u);
+  EXPECT_NE(file->Warnings[0].find("line 21"), std::string::npos) << file->Warnings[0];
+  EXPECT_NE(file->Warnings[0].find("'Other'"), std::string::npos);
+}
+
+TEST(GismoXml, WhatTheFormatHasNotIsRefused_ExactOracle)
+{
+  EXPECT_EQ(WriteGismoXml({}).Status.Code, ErrorCode::EmptyInput);
+  SplineFile file = RandomFile(1, false);
+  file.Ids.assign(file.Splines.size(), 1);
+  EXPECT_EQ(WriteGismoXml(file).Status.Code, ErrorCode::InvalidTopology);
+  file.Ids.clear();
+  EXPECT_TRUE(WriteGismoXml(file));
+  file.MultiPatches = { { 2, { 0 }, {}, {} } };
+  EXPECT_EQ(WriteGismoXml(file).Status.Code, ErrorCode::InvalidTopology);
+  file.MultiPatches = { { 1, { 0 }, {}, { { 0, 3 } } } };
+  EXPECT_EQ(WriteGismoXml(file).Status.Code, ErrorCode::InvalidTopology);
+}
