@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Jobs.h"
+#include "PatchTopology.h"
 #include "Session.h"
 #include "SplineModel.h"
 
@@ -66,6 +67,7 @@ struct ConvertJob
       {
         return { status.Code, "'" + this->Input + "': " + status.Message() };
       }
+      PassPatchTopology(data, output);
       data = output;
     }
     return session.Write(data, this->Output, this->Encoding);
@@ -76,9 +78,10 @@ struct ConvertJob
 Job MakeConvertJob(CLI::App& app)
 {
   auto job = std::make_shared<ConvertJob>();
-  app.add_option("input", job->Input, "spline grid or skeleton (.vtu .vtp .vtpc .vtk)")->required();
-  app.add_option("--output", job->Output, "the same data (.vtu .vtp .vtpc)")->required();
-  app.add_option("--encoding", job->Encoding, "how numbers are written")
+  app.add_option("input", job->Input, "spline grid or skeleton (.vtu .vtp .vtpc .vtk .xml .g2)")
+    ->required();
+  app.add_option("--output", job->Output, "the same data (.vtu .vtp .vtpc .xml .g2)")->required();
+  app.add_option("--encoding", job->Encoding, "how numbers are written in .vtu .vtp .vtpc")
     ->check(CLI::IsMember({ "ascii", "binary", "appended" }))
     ->capture_default_str();
   return [job](Session& session) { return job->Run(session); };

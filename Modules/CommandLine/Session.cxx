@@ -5,6 +5,11 @@
 #include "TrialRead.h"
 #include "XmlCheck.h"
 
+#include "vtkGismoXMLReader.h"
+#include "vtkGismoXMLWriter.h"
+#include "vtkGoToolsG2Reader.h"
+#include "vtkGoToolsG2Writer.h"
+
 #include <vtkAlgorithm.h>
 #include <vtkCallbackCommand.h>
 #include <vtkDataObject.h>
@@ -86,6 +91,14 @@ vtkSmartPointer<vtkDataObject> ReadByEnding(const std::string& file, const std::
   {
     return ReadWith<vtkUnstructuredGridReader>(file);
   }
+  if (ending == ".xml")
+  {
+    return ReadWith<vtkGismoXMLReader>(file);
+  }
+  if (ending == ".g2")
+  {
+    return ReadWith<vtkGoToolsG2Reader>(file);
+  }
   if (ending == ".obj")
   {
     return ReadWith<vtkOBJReader>(file);
@@ -120,6 +133,15 @@ bool WriteWith(vtkDataObject* data, const fs::path& file, const std::string& enc
     writer->SetDataModeToAppended();
     writer->EncodeAppendedDataOff();
   }
+  return writer->Write() == 1;
+}
+
+template <typename Writer>
+bool WriteSplines(vtkDataObject* data, const fs::path& file)
+{
+  vtkNew<Writer> writer;
+  writer->SetFileName(file.c_str());
+  writer->SetInputDataObject(data);
   return writer->Write() == 1;
 }
 
@@ -189,7 +211,7 @@ Result<vtkSmartPointer<vtkDataObject>> Session::Read(const std::string& file)
   {
     return { ErrorCode::InvalidParameter,
       "'" + file + "' has the ending '" + ending +
-        "'; formats that can be read: .vtu .vtp .vtpc .vtk .obj .ply .stl" };
+        "'; formats that can be read: .vtu .vtp .vtpc .vtk .xml .g2 .obj .ply .stl" };
   }
   if (messages.HasError())
   {
@@ -274,10 +296,12 @@ Status Session::Write(vtkDataObject* data, const std::string& file, const std::s
   const auto collection = vtkPartitionedDataSetCollection::SafeDownCast(data);
   const auto table = vtkTable::SafeDownCast(data);
   const char* expected = grid ? ".vtu" : polydata ? ".vtp" : collection ? ".vtpc" : ".csv";
-  if (ending != expected)
+  const bool asSplines = grid && (ending == ".xml" || ending == ".g2");
+  if (ending != expected && !asSplines)
   {
     return { ErrorCode::InvalidParameter,
-      "'" + file + "': this output is written as " + expected + "; change the ending" };
+      "'" + file + "': this output is written as " + expected + (grid ? ", .xml or .g2" : "") +
+        "; change the ending" };
   }
   Result<fs::path> staged = this->Stage(file);
   if (!staged)
@@ -286,7 +310,12 @@ Status Session::Write(vtkDataObject* data, const std::string& file, const std::s
   }
   MessageCapture messages;
   bool written = true;
-  if (grid)
+  if (asSplines)
+  {
+    written = ending == ".xml" ? WriteSplines<vtkGismoXMLWriter>(data, staged.Value)
+                               : WriteSplines<vtkGoToolsG2Writer>(data, staged.Value);
+  }
+  else if (grid)
   {
     written = WriteWith<vtkXMLUnstructuredGridWriter>(data, staged.Value, encoding);
   }

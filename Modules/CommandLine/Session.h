@@ -30,8 +30,9 @@ public:
   /// Flat JSON object of the report; jobs add the numbers they are about.
   nlohmann::ordered_json Report = nlohmann::ordered_json::object();
 
-  /// Reads a dataset by the ending of its name: .vtu .vtp .vtpc, and .vtk; meshes .off .obj .ply
-  /// .stl. An unreadable, truncated, damaged or empty file is an error that names the file.
+  /// Reads a dataset by the ending of its name: .vtu .vtp .vtpc, and .vtk; splines .xml (G+Smo) .g2
+  /// (GoTools); meshes .off .obj .ply .stl. An unreadable, truncated, damaged or empty file is an
+  /// error that names the file.
   Result<vtkSmartPointer<vtkDataObject>> Read(const std::string& file);
 
   /// Updates a filter with progress on a terminal; messages of VTK become the status. `what` names
@@ -41,7 +42,8 @@ public:
   /// Prints warnings of a decoding on stderr, unless quiet.
   void Warn(const std::vector<std::string>& warnings) const;
 
-  /// Stages an output by the ending of its name: .vtu .vtp .vtpc for datasets, .csv for tables.
+  /// Stages an output by the ending of its name: .vtu .vtp .vtpc for datasets, .xml and .g2
+  /// for spline grids, .csv for tables.
   Status Write(
     vtkDataObject* data, const std::string& file, const std::string& encoding = "appended");
 

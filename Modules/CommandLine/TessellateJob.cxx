@@ -48,7 +48,7 @@ struct TessellateJob
 Job MakeTessellateJob(CLI::App& app)
 {
   auto job = std::make_shared<TessellateJob>();
-  app.add_option("input", job->Input, "spline grid (.vtu .vtpc)")->required();
+  app.add_option("input", job->Input, "spline grid (.vtu .vtpc .xml .g2)")->required();
   app.add_option("--output", job->Output, "linear cells (surface .vtp, volume .vtu)")->required();
   job->FilterOptions = std::make_unique<Options>(app);
   Options& options = *job->FilterOptions;

@@ -3,7 +3,7 @@
 
 Holds each proxy of ParaView's XML against the filter that it shows: the class and every command exist, defaults are those
 of a newly constructed filter, ranges are those that it clamps to, every choice of a list is accepted, every
-proxy and property has help of its own, and the proxy is in the menu category Knotwork. Then breaks a copy of each
+proxy and property has help of its own, and the proxy is in the menu category Knotwork or a reader or writer. Then breaks a copy of each
 proxy in one place after the other and insists on noticing.
 """
 import copy
@@ -25,7 +25,7 @@ def help_problems(element, name):
         yield f"{name}: no help: '{text}'"
     elif VAGUE.search(text):
         yield f"{name}: vague help: '{text}'"
-    if element.tag == "SourceProxy" and documentation is not None:
+    if element.tag in ("SourceProxy", "WriterProxy") and documentation is not None:
         short = documentation.get("short_help", "")
         if len(short) < 10 or VAGUE.search(short):
             yield f"{name}: no short_help"
@@ -139,7 +139,8 @@ def proxy_problems(proxy):
     instance = factory()
     yield from help_problems(proxy, name)
     menu = proxy.find("Hints/ShowInMenu")
-    if menu is None or menu.get("category") != "Knotwork":
+    in_file_dialog = proxy.find("Hints/ReaderFactory") is not None or proxy.find("Hints/WriterFactory") is not None
+    if not in_file_dialog and (menu is None or menu.get("category") != "Knotwork"):
         yield f"{name}: not in the menu category Knotwork"
     for element in proxy.iter():
         if element.tag in PROPERTIES:
@@ -176,12 +177,13 @@ def broken_copies(proxy):
                       lambda e: setattr(e, "text", "Lorem ipsum dolor sit amet."))
     yield from change("command", lambda e: e.tag in PROPERTIES and e.get("command"),
                       lambda e: e.set("command", e.get("command") + "NoSuchMethod"))
-    yield from change("class", lambda e: e.tag == "SourceProxy", lambda e: e.set("class", "vtkNoSuchClass"))
+    yield from change("class", lambda e: e.tag in ("SourceProxy", "WriterProxy"), lambda e: e.set("class", "vtkNoSuchClass"))
     yield from change("menu", lambda e: e.tag == "ShowInMenu", lambda e: e.set("category", "Other"))
 
 
 def check(path):
-    proxies = ElementTree.parse(path).getroot().findall(".//SourceProxy")
+    root = ElementTree.parse(path).getroot()
+    proxies = root.findall(".//SourceProxy") + root.findall(".//WriterProxy")
     if not proxies:
         yield f"{path}: no proxy"
     noticed = 0

@@ -15,7 +15,8 @@ def proxies():
     found = []
     for path in sys.argv[1:]:
         for group in ElementTree.parse(path).getroot().findall("ProxyGroup"):
-            found += [(group.get("name"), proxy.get("name"), proxy.get("class")) for proxy in group.findall("SourceProxy")]
+            found += [(group.get("name"), proxy.get("name"), proxy.get("class"))
+                      for tag in ("SourceProxy", "WriterProxy") for proxy in group.findall(tag)]
     return found
 
 

@@ -588,6 +588,36 @@ void XmlParser::ReadMultiPatch(pugi::xml_node node, SplineFile& file)
 }
 }
 
+bool LooksLikeGismoXml(std::string_view beginning)
+{
+  std::size_t at = 0;
+  const auto startsWith = [&](std::string_view word)
+  { return beginning.substr(at, word.size()) == word; };
+  const auto skipTo = [&](std::string_view end)
+  {
+    at = beginning.find(end, at);
+    at = at == std::string_view::npos ? beginning.size() : at + end.size();
+  };
+  at += startsWith("\xef\xbb\xbf") ? 3 : 0;
+  while (at < beginning.size())
+  {
+    at = std::min(beginning.find_first_not_of(" \t\r\n", at), beginning.size());
+    if (startsWith("<?"))
+    {
+      skipTo("?>");
+    }
+    else if (startsWith("<!--"))
+    {
+      skipTo("-->");
+    }
+    else
+    {
+      return startsWith("<xml>") || startsWith("<xml ") || startsWith("<xml\n");
+    }
+  }
+  return false;
+}
+
 Result<SplineFile> ReadGismoXml(std::string_view text)
 {
   return XmlParser(text).Read();

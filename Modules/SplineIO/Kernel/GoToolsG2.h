@@ -16,6 +16,9 @@ namespace knotwork
 /// @complexity time and memory O(size of the text), whatever counts the text claims.
 Result<SplineFile> ReadG2(std::string_view text);
 
+/// Whether a text's beginning is a header of one of GoTools' classes.
+bool LooksLikeG2(std::string_view beginning);
+
 /// Writes splines with any number of components. Numbers have the fewest digits that give the same
 /// double again: ReadG2(WriteG2(f)) has the splines of f bit for bit, and a second writing gives
 /// the same text. Where long double is not longer than double, coordinates of rational splines may

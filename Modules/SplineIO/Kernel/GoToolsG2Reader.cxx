@@ -4,6 +4,7 @@
 #include "NumberText.h"
 #include "TensorSpace.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace knotwork
@@ -261,6 +262,22 @@ private:
   WordScanner Words;
   Status Outcome;
 };
+}
+
+bool LooksLikeG2(std::string_view beginning)
+{
+  WordScanner words(beginning);
+  std::array<long long, 4> header{};
+  for (long long& number : header)
+  {
+    if (!ParseInteger(words.Next(), 0, 9999, number))
+    {
+      return false;
+    }
+  }
+  const auto isClass = [&](const KnownClass& known) { return header[0] == known.Id; };
+  return header[0] == 100 || header[0] == 200 || header[0] == 700 ||
+    std::any_of(std::begin(OtherClasses), std::end(OtherClasses), isClass);
 }
 
 Result<SplineFile> ReadG2(std::string_view text)

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SplineFileModel.h"
+
+#include <algorithm>
+#include <set>
+
+namespace knotwork
+{
+Result<SplineModel> ModelFromFile(const SplineFile& file)
+{
+  SplineModel model;
+  model.Warnings = file.Warnings;
+  for (std::size_t i = 0; i < file.Splines.size(); ++i)
+  {
+    SplinePatch patch;
+    patch.Id = file.Ids[i];
+    patch.Geometry = file.Splines[i];
+    const Status status = std::visit(
+      [&](auto& spline) -> Status
+      {
+        const Eigen::Index columns = spline.ControlPoints.cols();
+        if (columns > 3)
+        {
+          return { ErrorCode::DimensionMismatch,
+            "geometry " + std::to_string(patch.Id) + " has " + std::to_string(columns) +
+              " coordinates; a grid has three" };
+        }
+        PointMatrix points = PointMatrix::Zero(spline.ControlPoints.rows(), 3);
+        points.leftCols(columns) = spline.ControlPoints;
+        spline.ControlPoints = std::move(points);
+        return {};
+      },
+      patch.Geometry);
+    if (!status)
+    {
+      return status;
+    }
+    model.Patches.push_back(std::move(patch));
+  }
+  return model;
+}
+
+Result<SplineFile> FileFromModel(const SplineModel& model, int coordinates)
+{
+  SplineFile file;
+  file.Warnings = model.Warnings;
+  std::set<int> distinct;
+  std::set<std::string> fields;
+  Eigen::Index needed = 2; // coordinates that are not 0
+  for (const SplinePatch& patch : model.Patches)
+  {
+    file.Splines.push_back(patch.Geometry);
+    file.Ids.push_back(patch.Id);
+    distinct.insert(patch.Id);
+    for (const SplineField& field : patch.Fields)
+    {
+      fields.insert(field.Name);
+    }
+    std::visit(
+      [&](const auto& spline)
+      {
+        const bool inPlane = (spline.ControlPoints.col(2).array() == 0.0).all();
+        needed = inPlane && patch.Geometry.index() < 2 ? needed : 3;
+      },
+      patch.Geometry);
+  }
+  if (distinct.size() != file.Ids.size() || (!distinct.empty() && *distinct.begin() < 0))
+  {
+    for (std::size_t i = 0; i < file.Ids.size(); ++i)
+    {
+      file.Ids[i] = static_cast<int>(i);
+    }
+    file.Warnings.emplace_back("patches have been numbered anew: their ids were not distinct");
+  }
+  for (const std::string& field : fields)
+  {
+    file.Warnings.push_back("the field " + field + " is left out: the format has no fields");
+  }
+  const Eigen::Index columns = coordinates > 0 ? coordinates : needed;
+  for (std::size_t i = 0; i < file.Splines.size(); ++i)
+  {
+    const bool fits = std::visit(
+      [&](auto& spline)
+      {
+        const Eigen::Index rest = spline.ControlPoints.cols() - columns;
+        if (!(spline.ControlPoints.rightCols(rest).array() == 0.0).all())
+        {
+          return false;
+        }
+        spline.ControlPoints = PointMatrix(spline.ControlPoints.leftCols(columns));
+        return true;
+      },
+      file.Splines[i]);
+    if (!fits)
+    {
+      return { ErrorCode::InvalidParameter,
+        "patch " + std::to_string(file.Ids[i]) + " does not lie in the space of the first " +
+          std::to_string(columns) + " coordinates; write all three" };
+    }
+  }
+  return file;
+}
+}

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkGismoXMLWriter.h"
+
+#include "GismoXml.h"
+
+#include "vtkObjectFactory.h"
+
+vtkStandardNewMacro(vtkGismoXMLWriter);
+
+vtkGismoXMLWriter::vtkGismoXMLWriter() = default;
+
+knotwork::Result<std::string> vtkGismoXMLWriter::Format(const knotwork::SplineFile& file)
+{
+  return knotwork::WriteGismoXml(file);
+}

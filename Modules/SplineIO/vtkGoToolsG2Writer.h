@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkGoToolsG2Writer
+ * @brief   splines to GoTools g2 files
+ *
+ * Tensor-product curves, surfaces and volumes, polynomial and rational, in the order of the
+ * patches; the format has no ids and no topology. What is written is read again bit for bit.
+ * Errors: patches of kind Bezier and hierarchical patches (InvalidParameter).
+ */
+#ifndef vtkGoToolsG2Writer_h
+#define vtkGoToolsG2Writer_h
+#include "vtkKnotworkSplineIOModule.h" // for export macro
+#include "vtkSplineFileWriter.h"
+
+class VTKKNOTWORKSPLINEIO_EXPORT vtkGoToolsG2Writer : public vtkSplineFileWriter
+{
+public:
+  static vtkGoToolsG2Writer* New();
+  vtkTypeMacro(vtkGoToolsG2Writer, vtkSplineFileWriter);
+
+protected:
+  vtkGoToolsG2Writer();
+  ~vtkGoToolsG2Writer() override = default;
+  knotwork::Result<std::string> Format(const knotwork::SplineFile& file) override;
+
+private:
+  vtkGoToolsG2Writer(const vtkGoToolsG2Writer&) = delete;
+  void operator=(const vtkGoToolsG2Writer&) = delete;
+};
+#endif

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSplineFileWriter.h"
+
+#include "PatchTopology.h"
+#include "SplineFileModel.h"
+
+#include "vtkDataObject.h"
+#include "vtkErrorCode.h"
+#include "vtkInformation.h"
+
+#include <cstdio>
+#include <exception>
+#include <fstream>
+
+vtkSplineFileWriter::vtkSplineFileWriter() = default;
+
+vtkSplineFileWriter::~vtkSplineFileWriter()
+{
+  this->SetFileName(nullptr);
+}
+
+void vtkSplineFileWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+  os << indent << "Coordinates: " << this->Coordinates << "\n";
+}
+
+int vtkSplineFileWriter::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPartitionedDataSetCollection");
+  return 1;
+}
+
+knotwork::Status vtkSplineFileWriter::MakeText(std::string& text)
+{
+  using namespace knotwork;
+  if (!this->FileName || this->FileName[0] == '\0')
+  {
+    return { ErrorCode::InvalidParameter, "there is no file name" };
+  }
+  const Result<SplineModel> model = DecodeSplineModel(this->GetInput());
+  if (!model)
+  {
+    return model.Status;
+  }
+  Result<SplineFile> file = FileFromModel(model.Value, this->Coordinates);
+  if (!file)
+  {
+    return file.Status;
+  }
+  const std::string lost = GetPatchTopology(this->GetInput(), file.Value);
+  if (!lost.empty())
+  {
+    file->Warnings.push_back(lost);
+  }
+  for (const std::string& warning : file->Warnings)
+  {
+    vtkWarningMacro("" << warning);
+  }
+  Result<std::string> made = this->Format(file.Value);
+  text = std::move(made.Value);
+  return made.Status;
+}
+
+void vtkSplineFileWriter::WriteData()
+{
+  using namespace knotwork;
+  this->SetErrorCode(vtkErrorCode::NoError);
+  std::string text;
+  Status status;
+  try
+  {
+    status = this->MakeText(text);
+  }
+  catch (const std::exception& error) // of a library below the kernel, out of memory
+  {
+    status = { ErrorCode::TooLarge, error.what() };
+  }
+  if (!status)
+  {
+    this->SetErrorCode(vtkErrorCode::UserError + static_cast<unsigned long>(status.Code));
+    vtkErrorMacro("" << status.Message());
+    return;
+  }
+  std::ofstream stream(this->FileName, std::ios::binary);
+  const bool opened = static_cast<bool>(stream);
+  stream.write(text.data(), static_cast<std::streamsize>(text.size()));
+  stream.close();
+  if (!stream)
+  {
+    if (opened)
+    {
+      std::remove(this->FileName); // a part of a file is no file
+    }
+    this->SetErrorCode(
+      opened ? vtkErrorCode::OutOfDiskSpaceError : vtkErrorCode::CannotOpenFileError);
+    vtkErrorMacro("'" << this->FileName << "' cannot be written");
+  }
+}
