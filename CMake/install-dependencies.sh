@@ -10,11 +10,11 @@ packages=(
   # kernels
   libeigen3-dev libtbb-dev libnanoflann-dev libpugixml-dev libboost-dev
   # filters, command line, Python
-  libvtk9-dev python3-vtk9 python3-dev libcli11-dev nlohmann-json3-dev libpugixml-dev
+  libvtk9-dev python3-vtk9 python3-dev libcli11-dev nlohmann-json3-dev
   # ParaView plugin
   paraview paraview-dev qtbase5-dev qttools5-dev libqt5svg5-dev python3-mpi4py
   # tests, benchmarks, pictures
-  libgtest-dev libbenchmark-dev clang-format xvfb libgl1-mesa-dri python3-numpy
+  libgtest-dev libbenchmark-dev clang clang-format libclang-rt-14-dev xvfb libgl1-mesa-dri python3-numpy
   # real data for examples and tests
   libcgal-demo
 )

@@ -6,8 +6,9 @@
 
 #include "vtkUnstructuredGrid.h"
 
+#include <filesystem>
 #include <fstream>
-#include <limits>
+#include <system_error>
 
 vtkSplineFileReader::vtkSplineFileReader()
 {
@@ -43,9 +44,11 @@ knotwork::Status vtkSplineFileReader::Compute(vtkInformationVector**, vtkInforma
   }
   const std::string name = std::string("'") + this->FileName + "'";
   std::ifstream stream(this->FileName, std::ios::binary | std::ios::ate);
-  const std::streamoff size = stream ? static_cast<std::streamoff>(stream.tellg()) : -1;
+  std::error_code ignored;
+  const bool opened = stream && !std::filesystem::is_directory(this->FileName, ignored);
+  const std::streamoff size = opened ? static_cast<std::streamoff>(stream.tellg()) : -1;
   std::string text;
-  if (size >= 0 && size < std::numeric_limits<std::streamoff>::max()) // a folder has no end
+  if (size >= 0)
   {
     text.resize(static_cast<std::size_t>(size));
     stream.seekg(0);

@@ -431,6 +431,11 @@ void XmlParser::ReadSpline(pugi::xml_node node, const GeometryType& type, Spline
     }
     spline.Weights = Eigen::Map<const Eigen::VectorXd>(weights.data(), spline.Space->NumFunctions);
   }
+  if (Status status = spline.Check(); !status)
+  {
+    this->Fail(status.Code, node, status.Detail);
+    return;
+  }
   this->ReadId(node);
   file.Splines.emplace_back(std::move(spline));
 }

@@ -215,6 +215,11 @@ private:
       return;
     }
     spline.Space = space.Value;
+    if (Status status = spline.Check(); !status)
+    {
+      this->Fail(status.Code, "end of an object: " + status.Detail);
+      return;
+    }
     file.Ids.push_back(static_cast<int>(file.Splines.size()));
     file.Splines.emplace_back(std::move(spline));
   }

@@ -7,85 +7,26 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
 #include <string>
 
 namespace knotwork::testing
 {
-/// A g2 curve, rational quarter of a circle, and a bilinear polynomial surface in the plane.
-inline const std::string HandWrittenG2 = R"(100 1 0 0
-3 1
-3 3
-0 0 0 1 1 1
-1 0 0 1
-0.5 0.5 0 0.5
-0 2 0 2
+inline std::string TextOfData(const std::string& name)
+{
+  std::ifstream stream(KNOTWORK_DATA_DIR "/SplineIO/" + name, std::ios::binary);
+  EXPECT_TRUE(stream) << name;
+  return { std::istreambuf_iterator<char>(stream), {} };
+}
 
-200 1 0 4 255 0 0 255
-2 0
-2 2
-0 0 1 1
-3 2
--1 -1 .5 2e0 2
-+1 2   3 4
-5 6 7 8
-9 10 11 12
-)";
+/// A rational g2 curve and a bilinear polynomial surface in the plane.
+inline const std::string HandWrittenG2 = TextOfData("by_hand.g2");
 
 /// Two bilinear squares side by side with their interface, a rational curve, and a THB function of
 /// degree 1 on 2 x 1 elements, the left one refined: of the 3 x 2 functions of level 0 the four at
 /// u = 1 and u = 2 stay, and 2 x 3 of level 1 come in at u = 0 and u = 0.5.
-inline const std::string HandWrittenXml = R"(<?xml version="1.0" encoding="UTF-8"?>
-<!-- by hand -->
-<xml>
- <Geometry type="TensorBSpline2" id="4" label="left">
-  <Basis type="TensorBSplineBasis2">
-   <Basis type="BSplineBasis" index="0"><KnotVector degree="1">0 0 1 1 </KnotVector></Basis>
-   <Basis type="BSplineBasis" index="1"><KnotVector degree="1">0 0 1 1 </KnotVector></Basis>
-  </Basis>
-  <coefs geoDim="2">0 0
-1 0
-0 1 <!-- a remark -->
-1 1</coefs>
- </Geometry>
- <Geometry type="TensorBSpline2" id="7">
-  <Basis type="TensorBSplineBasis2">
-   <Basis type="BSplineBasis" index="0"><KnotVector degree="1">0 0 1 1</KnotVector></Basis>
-   <Basis type="BSplineBasis" index="1"><KnotVector degree="1">0 0 1 1</KnotVector></Basis>
-  </Basis>
-  <coefs geoDim="2">1 0 2 0 1 1 2 1</coefs>
- </Geometry>
- <Geometry type="Nurbs">
-  <Basis type="NurbsBasis">
-   <Basis type="BSplineBasis"><KnotVector degree="2">0 0 0 1 1 1</KnotVector></Basis>
-   <weights>1 0.5 2</weights>
-  </Basis>
-  <coefs geoDim="3">1 0 0  1 1 0  0 1 0</coefs>
- </Geometry>
- <Geometry type="THBSpline2" id="9">
-  <Basis type="THBSplineBasis2">
-   <Basis type="TensorBSplineBasis2">
-    <Basis type="BSplineBasis" index="0"><KnotVector degree="1">0 0 1 2 2</KnotVector></Basis>
-    <Basis type="BSplineBasis" index="1"><KnotVector degree="1">0 0 1 1</KnotVector></Basis>
-   </Basis>
-   <box level="0">0 0 2 1</box>
-   <box level="1">0 0 2 2</box>
-  </Basis>
-  <coefs geoDim="1">1 2 3 4 5 6 7 8 9 10</coefs>
- </Geometry>
- <Function type="FunctionExpr" id="21">x</Function>
- <MultiPatch parDim="2" id="11">
-  <patches type="id_index">4 7</patches>
-  <interfaces>4 2 7 1 0 1 1 1
-  </interfaces>
-  <boundary>4 1
-4 3
-4 4
-7 2
-7 3
-7 4</boundary>
- </MultiPatch>
-</xml>
-)";
+inline const std::string HandWrittenXml = TextOfData("by_hand.xml");
 
 template <int Dim>
 ::testing::AssertionResult SameSpline(const Spline<Dim>& a, const Spline<Dim>& b)

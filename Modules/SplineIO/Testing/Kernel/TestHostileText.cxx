@@ -99,6 +99,7 @@ std::vector<HostileCase> G2Cases()
       ErrorCode::InvalidWeight, { "line 6" } },
     { "TinyWeight", ReadG2, With(good, "0 2 0 2", "0 1e300 0 1e-300"), ErrorCode::NonFiniteInput,
       { "line 7" } },
+    { "TooLarge", ReadG2, With(good, "5 6 7 8", "5 6 7e60 8"), ErrorCode::TooLarge, { "1e+60" } },
     { "Surplus", ReadG2, good + "13 14\n", format, { "13", "classes" } },
   };
 }
@@ -171,6 +172,8 @@ std::vector<HostileCase> XmlCases()
       { "9 numbers" } },
     { "WrongToken", ReadGismoXml, With(good, "\n0 1 <!--", "\n0 x <!--"), format,
       { "line 11", "<coefs>", "number 6", "'x'" } },
+    { "TooLarge", ReadGismoXml, With(good, "\n0 1 <!--", "\n0 1e61 <!--"), ErrorCode::TooLarge,
+      { "line 4", "1e+60" } },
     { "NoWeights", ReadGismoXml, With(good, "<weights>1 0.5 2</weights>", ""), format,
       { "<weights>" } },
     { "FewWeights", ReadGismoXml, With(good, "1 0.5 2<", "1 0.5<"), ErrorCode::SizeMismatch,

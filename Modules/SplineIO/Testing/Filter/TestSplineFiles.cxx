@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FilterCases.h"
+#include "RandomModels.h"
+
+#include "vtkDataArray.h"
+#include "vtkFieldData.h"
+#include "vtkGismoXMLReader.h"
+#include "vtkGismoXMLWriter.h"
+#include "vtkGoToolsG2Reader.h"
+#include "vtkGoToolsG2Writer.h"
+#include "vtkXMLUnstructuredGridWriter.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+using namespace knotwork;
+namespace fs = std::filesystem;
+
+namespace
+{
+std::string DataFile(const std::string& name)
+{
+  return KNOTWORK_DATA_DIR "/SplineIO/" + name;
+}
+
+std::string OutputFile(const std::string& name)
+{
+  fs::create_directories(KNOTWORK_OUTPUT_DIR "/SplineIO");
+  return KNOTWORK_OUTPUT_DIR "/SplineIO/" + name;
+}
+
+std::string TextOf(const std::string& file)
+{
+  std::ifstream stream(file, std::ios::binary);
+  return { std::istreambuf_iterator<char>(stream), {} };
+}
+
+void WriteText(const std::string& file, const std::string& text)
+{
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+template <typename Writer>
+void WriteGrid(vtkDataObject* grid, const std::string& file)
+{
+  vtkNew<Writer> writer;
+  vtkNew<MessageRecorder> messages;
+  messages->Watch(writer);
+  writer->SetFileName(file.c_str());
+  writer->SetInputDataObject(grid);
+  EXPECT_EQ(writer->Write(), 1);
+  EXPECT_TRUE(messages->Errors.empty()) << messages->Errors.front();
+}
+
+template <typename Reader>
+vtkSmartPointer<vtkUnstructuredGrid> ReadGrid(const std::string& file)
+{
+  vtkNew<Reader> reader;
+  vtkNew<MessageRecorder> messages;
+  messages->Watch(reader);
+  reader->SetFileName(file.c_str());
+  EXPECT_EQ(reader->CanReadFile(file.c_str()), 1);
+  reader->Update();
+  EXPECT_TRUE(messages->Errors.empty()) << messages->Errors.front();
+  return vtkUnstructuredGrid::SafeDownCast(reader->GetOutputDataObject(0));
+}
+
+template <typename Reader>
+void ExpectRefused(const std::string& file, ErrorCode code, const std::string& word)
+{
+  SCOPED_TRACE(file);
+  vtkNew<Reader> reader;
+  vtkNew<MessageRecorder> messages;
+  messages->Watch(reader);
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  EXPECT_EQ(reader->GetErrorCode(), vtkErrorCode::UserError + static_cast<unsigned long>(code));
+  ASSERT_FALSE(messages->Errors.empty());
+  EXPECT_NE(messages->Errors[0].find(word), std::string::npos) << messages->Errors[0];
+  EXPECT_EQ(
+    vtkUnstructuredGrid::SafeDownCast(reader->GetOutputDataObject(0))->GetNumberOfCells(), 0);
+}
+
+class SplineFiles : public ::testing::TestWithParam<ModelCase>
+{
+};
+}
+
+TEST_P(SplineFiles, GridsComeBackFromGismoXml_PropertyOracle)
+{
+  SplineModel model = RandomModel(GetParam());
+  const std::string file = OutputFile(NameOf({ GetParam(), 0 }) + ".xml");
+  const auto grid = Encode(model);
+  WriteGrid<vtkGismoXMLWriter>(grid, file);
+  const SplineModel again = Decode(ReadGrid<vtkGismoXMLReader>(file));
+  for (SplinePatch& patch : model.Patches)
+  {
+    patch.Fields.clear(); // which the format does not have
+  }
+  EXPECT_TRUE(Identical(model, again));
+}
+
+TEST_P(SplineFiles, GridsComeBackFromG2_PropertyOracle)
+{
+  SplineModel model = RandomModel(GetParam());
+  const std::string file = OutputFile(NameOf({ GetParam(), 0 }) + ".g2");
+  if (GetParam().Kind != SpaceKind::Tensor)
+  {
+    vtkNew<vtkGoToolsG2Writer> writer;
+    vtkNew<MessageRecorder> messages;
+    messages->Watch(writer);
+    WriteText(file, "kept as it is");
+    writer->SetFileName(file.c_str());
+    writer->SetInputDataObject(Encode(model));
+    EXPECT_EQ(writer->Write(), 0);
+    EXPECT_EQ(messages->Errors.size(), 1u);
+    EXPECT_EQ(TextOf(file), "kept as it is");
+    return;
+  }
+  WriteGrid<vtkGoToolsG2Writer>(Encode(model), file);
+  const SplineModel again = Decode(ReadGrid<vtkGoToolsG2Reader>(file));
+  for (std::size_t i = 0; i < model.Patches.size(); ++i)
+  {
+    model.Patches[i].Fields.clear();
+    model.Patches[i].Id = static_cast<int>(i); // the format has no ids
+  }
+  EXPECT_TRUE(Identical(model, again));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SplineFiles, ::testing::ValuesIn(AllModelCases()), NameOf);
+
+TEST(SplineFile, HandWrittenXml_GoldenOracle)
+{
+  const auto grid = ReadGrid<vtkGismoXMLReader>(DataFile("by_hand.xml"));
+  const SplineModel model = Decode(grid);
+  ASSERT_EQ(model.Patches.size(), 4u);
+  EXPECT_EQ(ControlPoints(PatchOf(model, 7)).row(1), Eigen::RowVector3d(2, 0, 0)); // z is 0
+  EXPECT_EQ(Weights(PatchOf(model, 0))[2], 2.0);
+  EXPECT_EQ(KindOf(PatchOf(model, 9)), SpaceKind::Hierarchical);
+  vtkDataArray* interfaces = grid->GetFieldData()->GetArray("PatchInterfaces");
+  vtkDataArray* boundaries = grid->GetFieldData()->GetArray("PatchBoundaries");
+  ASSERT_TRUE(interfaces && boundaries);
+  ASSERT_EQ(interfaces->GetNumberOfTuples(), 1);
+  const double expected[] = { 4, 2, 7, 1, 0, 1, 0, 1, 1, 0 };
+  for (int c = 0; c < 10; ++c)
+  {
+    EXPECT_EQ(interfaces->GetComponent(0, c), expected[c]) << c;
+  }
+  EXPECT_EQ(boundaries->GetNumberOfTuples(), 6);
+}
+
+TEST(SplineFile, TopologyComesBack_PropertyOracle)
+{
+  const std::string first = OutputFile("first.xml");
+  const std::string second = OutputFile("second.xml");
+  WriteGrid<vtkGismoXMLWriter>(ReadGrid<vtkGismoXMLReader>(DataFile("by_hand.xml")), first);
+  WriteGrid<vtkGismoXMLWriter>(ReadGrid<vtkGismoXMLReader>(first), second);
+  EXPECT_EQ(TextOf(first), TextOf(second));
+  EXPECT_NE(TextOf(first).find("<interfaces>\n4 2 7 1 0 1 1 1\n</interfaces>"), std::string::npos);
+}
+
+TEST(SplineFile, Coordinates_ExactOracle)
+{
+  const auto square = ShapeGrid(vtkSplineSource::SQUARE);
+  const auto cube = ShapeGrid(vtkSplineSource::CUBE);
+  const std::string file = OutputFile("coordinates.xml");
+  const auto written = [&](vtkUnstructuredGrid* grid, int coordinates)
+  {
+    vtkNew<vtkGismoXMLWriter> writer;
+    vtkNew<MessageRecorder> messages;
+    messages->Watch(writer);
+    writer->SetFileName(file.c_str());
+    writer->SetCoordinates(coordinates);
+    writer->SetInputDataObject(grid);
+    writer->Write();
+    const std::string text = TextOf(file);
+    fs::remove(file);
+    const std::size_t at = text.find("geoDim=\"");
+    return at == std::string::npos ? '-' : text[at + 8];
+  };
+  EXPECT_EQ(written(square, 0), '2');
+  EXPECT_EQ(written(square, 3), '3');
+  EXPECT_EQ(written(square, 1), '-'); // y is not 0
+  EXPECT_EQ(written(cube, 0), '3');
+  EXPECT_EQ(written(cube, 2), '-');
+}
+
+TEST(SplineFile, CollectionsAreWritten_CrossOracle)
+{
+  const auto collection =
+    Collect({ ShapeGrid(vtkSplineSource::SQUARE), ShapeGrid(vtkSplineSource::ANNULUS_SECTOR) });
+  const std::string file = OutputFile("collection.xml");
+  WriteGrid<vtkGismoXMLWriter>(collection, file);
+  EXPECT_EQ(Decode(ReadGrid<vtkGismoXMLReader>(file)).Patches.size(), 2u);
+}
+
+TEST(SplineFile, BadFilesAreErrors_ExactOracle)
+{
+  ExpectRefused<vtkGismoXMLReader>(OutputFile("missing.xml"), ErrorCode::EmptyInput, "missing.xml");
+  ExpectRefused<vtkGismoXMLReader>(KNOTWORK_OUTPUT_DIR, ErrorCode::EmptyInput, "cannot be read");
+  ExpectRefused<vtkGismoXMLReader>("", ErrorCode::EmptyInput, "no file name");
+  const std::string xml = TextOf(DataFile("by_hand.xml"));
+  WriteText(OutputFile("truncated.xml"), xml.substr(0, xml.size() / 2));
+  ExpectRefused<vtkGismoXMLReader>(
+    OutputFile("truncated.xml"), ErrorCode::InvalidFormat, "truncated.xml");
+  const std::string g2 = TextOf(DataFile("by_hand.g2"));
+  WriteText(OutputFile("truncated.g2"), g2.substr(0, g2.size() / 3));
+  ExpectRefused<vtkGoToolsG2Reader>(
+    OutputFile("truncated.g2"), ErrorCode::InvalidFormat, "truncated.g2");
+  WriteText(OutputFile("four.g2"), "100 1 0 0\n4 0\n2 2\n0 0 1 1\n1 2 3 4\n5 6 7 8\n");
+  ExpectRefused<vtkGoToolsG2Reader>(
+    OutputFile("four.g2"), ErrorCode::DimensionMismatch, "4 coordinates");
+}
+
+TEST(SplineFile, FormatsAreKnownByContent_ExactOracle)
+{
+  vtkNew<vtkGismoXMLReader> xml;
+  vtkNew<vtkGoToolsG2Reader> g2;
+  EXPECT_EQ(xml->CanReadFile(DataFile("by_hand.xml").c_str()), 1);
+  EXPECT_EQ(g2->CanReadFile(DataFile("by_hand.xml").c_str()), 0);
+  EXPECT_EQ(xml->CanReadFile(DataFile("by_hand.g2").c_str()), 0);
+  EXPECT_EQ(g2->CanReadFile(DataFile("by_hand.g2").c_str()), 1);
+  EXPECT_EQ(xml->CanReadFile(OutputFile("nothing").c_str()), 0);
+  EXPECT_EQ(g2->CanReadFile(nullptr), 0);
+  const std::string grid = OutputFile("grid.xml"); // VTK's own XML under this ending
+  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  writer->SetFileName(grid.c_str());
+  writer->SetInputDataObject(ShapeGrid(vtkSplineSource::SQUARE));
+  writer->Write();
+  EXPECT_EQ(xml->CanReadFile(grid.c_str()), 0);
+  ExpectRefused<vtkGismoXMLReader>(grid, ErrorCode::InvalidFormat, "<VTKFile>");
+}
+
+TEST(SplineFile, WriterErrorsKeepWhatWasThere_ExactOracle)
+{
+  auto grid = ShapeGrid(vtkSplineSource::SQUARE);
+  grid->GetFieldData()->Initialize(); // kind Bezier now: no knots
+  const std::string file = OutputFile("kept.xml");
+  WriteText(file, "kept as it is");
+  vtkNew<vtkGismoXMLWriter> writer;
+  vtkNew<MessageRecorder> messages;
+  messages->Watch(writer);
+  writer->SetFileName(file.c_str());
+  writer->SetInputDataObject(grid);
+  EXPECT_EQ(writer->Write(), 0);
+  ASSERT_EQ(messages->Errors.size(), 1u);
+  EXPECT_NE(messages->Errors[0].find("without knots"), std::string::npos) << messages->Errors[0];
+  EXPECT_EQ(TextOf(file), "kept as it is");
+  writer->SetFileName((KNOTWORK_OUTPUT_DIR "/no/such/folder/a.xml"));
+  writer->SetInputDataObject(ShapeGrid(vtkSplineSource::SQUARE));
+  EXPECT_EQ(writer->Write(), 0);
+  EXPECT_EQ(messages->Errors.size(), 2u);
+}
