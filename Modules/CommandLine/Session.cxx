@@ -215,6 +215,10 @@ Result<vtkSmartPointer<vtkDataObject>> Session::Read(const std::string& file)
   }
   if (messages.HasError())
   {
+    if (ending == ".xml" || ending == ".g2") // our own readers name the file
+    {
+      return { ErrorCode::InvalidFormat, messages.FirstError() };
+    }
     return { ErrorCode::InvalidTopology,
       "'" + file + "' is damaged or not what its ending says: " + messages.FirstError() };
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GismoHierarchy.h"
 #include "GismoXml.h"
-#include "NumberText.h"
 #include "TensorSpace.h"
+#include "TextWords.h"
 
 #include <pugixml.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GismoXml.h"
 #include "HierarchicalSpace.h"
-#include "NumberText.h"
+#include "TextWords.h"
 
 #include <algorithm>
 #include <set>

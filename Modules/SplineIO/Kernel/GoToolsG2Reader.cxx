@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GoToolsG2.h"
 
-#include "NumberText.h"
 #include "TensorSpace.h"
+#include "TextWords.h"
 
 #include <algorithm>
 #include <limits>

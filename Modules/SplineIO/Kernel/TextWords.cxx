@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "NumberText.h"
+#include "TextWords.h"
 
 #include <array>
 #include <charconv>
