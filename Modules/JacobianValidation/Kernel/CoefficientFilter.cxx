@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CoefficientFilter.h"
 
+#include "FixedFilter.h"
+
 #include <limits>
 
 namespace knotwork
@@ -101,11 +103,77 @@ Pack ErrorOf(const Form<Pack>& form)
   const int roundings = form.Roundings + form.Layout->MultinomialRoundings + 1;
   return RoundingFactor(roundings) * form.Magnitude + form.Absolute * (1.0 + 0x1p-30) + 0x1p-700;
 }
+
+/// The usual degrees; false for the others.
+bool FixedDeterminant(CellShape shape, const CellDegree& degree, bool rational,
+  const std::array<const double*, PackSize>& blocks, CoefficientBounds& bounds)
+{
+  const int p = degree[0];
+  if (shape == CellShape::Quadrilateral && degree[1] == p)
+  {
+    switch (rational ? -p : p)
+    {
+      case 1:
+        fixed::PolynomialQuadrilateral<1, 1>(blocks, bounds);
+        return true;
+      case 2:
+        fixed::PolynomialQuadrilateral<2, 2>(blocks, bounds);
+        return true;
+      case 3:
+        fixed::PolynomialQuadrilateral<3, 3>(blocks, bounds);
+        return true;
+      case 4:
+        fixed::PolynomialQuadrilateral<4, 4>(blocks, bounds);
+        return true;
+      case -1:
+        fixed::RationalQuadrilateral<1, 1>(blocks, bounds);
+        return true;
+      case -2:
+        fixed::RationalQuadrilateral<2, 2>(blocks, bounds);
+        return true;
+      case -3:
+        fixed::RationalQuadrilateral<3, 3>(blocks, bounds);
+        return true;
+      case -4:
+        fixed::RationalQuadrilateral<4, 4>(blocks, bounds);
+        return true;
+      default:
+        return false;
+    }
+  }
+  if (shape == CellShape::Hexahedron && !rational && degree[1] == p && degree[2] == p)
+  {
+    switch (p)
+    {
+      case 1:
+        fixed::PolynomialHexahedron<1, 1, 1>(blocks, bounds);
+        return true;
+      case 2:
+        fixed::PolynomialHexahedron<2, 2, 2>(blocks, bounds);
+        return true;
+      case 3:
+        fixed::PolynomialHexahedron<3, 3, 3>(blocks, bounds);
+        return true;
+      default:
+        return false;
+    }
+  }
+  return false;
+}
 }
 
 void CoefficientFilter::Determinant(CellShape shape, const CellDegree& degree, bool rational,
   const std::array<const double*, PackSize>& blocks, const Pack& given, CoefficientBounds& bounds)
 {
+  bool exactInput = true;
+  for (int l = 0; l < PackSize; ++l)
+  {
+    exactInput = exactInput && given[l] == 0.0;
+  }
+  if (exactInput && FixedDeterminant(shape, degree, rational, blocks, bounds))
+  {
+    return;
+  }
   const int components = NumParameters(shape);
   this->Load(shape, degree, components, rational, blocks, given, bounds);
   const Form<Pack>& form = this->Forms.Determinant();

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CoefficientFilter.h"
+#include "ExactForm.h"
+#include "JacobianCorpus.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace knotwork
+{
+namespace
+{
+struct Shape
+{
+  CellShape Kind;
+  CellDegree Degree;
+  bool Rational;
+};
+
+const Shape Shapes[] = { { CellShape::Quadrilateral, { 1, 1, 0 }, false },
+  { CellShape::Quadrilateral, { 2, 2, 0 }, false },
+  { CellShape::Quadrilateral, { 3, 3, 0 }, false },
+  { CellShape::Quadrilateral, { 4, 4, 0 }, false },
+  { CellShape::Quadrilateral, { 5, 2, 0 }, false }, { CellShape::Quadrilateral, { 1, 1, 0 }, true },
+  { CellShape::Quadrilateral, { 2, 2, 0 }, true }, { CellShape::Quadrilateral, { 3, 3, 0 }, true },
+  { CellShape::Quadrilateral, { 4, 4, 0 }, true }, { CellShape::Hexahedron, { 1, 1, 1 }, false },
+  { CellShape::Hexahedron, { 2, 2, 2 }, false }, { CellShape::Hexahedron, { 3, 3, 3 }, false },
+  { CellShape::Hexahedron, { 1, 2, 1 }, false }, { CellShape::Hexahedron, { 2, 2, 2 }, true },
+  { CellShape::Triangle, { 3, 3, 0 }, true }, { CellShape::Tetrahedron, { 2, 2, 2 }, false },
+  { CellShape::Wedge, { 2, 2, 1 }, false } };
+
+std::vector<double> RandomBlock(oracle::Random& random, const Shape& shape, double offset)
+{
+  const int n = NumCellCoefficients(shape.Kind, shape.Degree);
+  const int d = NumParameters(shape.Kind);
+  std::vector<double> block(static_cast<std::size_t>(n * (d + shape.Rational)));
+  for (int i = 0; i < n; ++i)
+  {
+    const double w = shape.Rational ? random.In(0.5, 2.0) : 1.0;
+    for (int c = 0; c < d; ++c)
+    {
+      block[static_cast<std::size_t>(c * n + i)] = w * (random.In(-1.0, 1.0) + offset);
+    }
+    if (shape.Rational)
+    {
+      block[static_cast<std::size_t>(d * n + i)] = w;
+    }
+  }
+  return block;
+}
+
+/// Every lane's smallest and largest coefficient are those of the exact numerator to within the
+/// error bound, for compiled degrees and others.
+TEST(CoefficientFilter, BoundsAreThoseOfTheExactForm_CrossOracle)
+{
+  oracle::Random random(21);
+  CoefficientFilter filter;
+  LayoutCache cache;
+  for (const Shape& shape : Shapes)
+  {
+    for (const double offset : { 0.0, 1000.0 })
+    {
+      std::vector<std::vector<double>> data;
+      std::array<const double*, PackSize> blocks;
+      for (std::size_t l = 0; l < PackSize; ++l)
+      {
+        data.push_back(RandomBlock(random, shape, offset));
+      }
+      for (std::size_t l = 0; l < PackSize; ++l)
+      {
+        blocks[l] = data[l].data();
+      }
+      CoefficientBounds bounds;
+      filter.Determinant(shape.Kind, shape.Degree, shape.Rational, blocks, Pack{}, bounds);
+      for (int l = 0; l < PackSize; ++l)
+      {
+        const int d = NumParameters(shape.Kind);
+        const FormLayout& layout = cache.Get(shape.Kind, shape.Degree);
+        const ExactCell cell =
+          MakeExactCell(layout, d, shape.Rational, data[static_cast<std::size_t>(l)].data(), 0.0);
+        std::array<const ExactInteger*, 4> planes{};
+        for (std::size_t c = 0; c < 4; ++c)
+        {
+          planes[c] = cell.Planes[c].data();
+        }
+        JacobianForms<ExactInteger> forms(cache);
+        forms.Set(shape.Kind, shape.Degree, d, shape.Rational, planes, {});
+        const Form<ExactInteger>& numerator = forms.Determinant();
+        ExactForm exact;
+        exact.Layout = numerator.Layout;
+        exact.C = numerator.C;
+        exact.Exponent = cell.Exponent * (d + shape.Rational);
+        double smallest = std::numeric_limits<double>::infinity();
+        double largest = -smallest;
+        for (const double v : exact.CoefficientsAt(0))
+        {
+          smallest = std::min(smallest, v);
+          largest = std::max(largest, v);
+        }
+        const double ulps = 8.0 * UnitRoundoff * std::max(std::fabs(smallest), std::fabs(largest));
+        EXPECT_NEAR(bounds.Smallest[l], smallest, bounds.Error[l] + ulps);
+        EXPECT_NEAR(bounds.Largest[l], largest, bounds.Error[l] + ulps);
+        EXPECT_LT(bounds.Error[l], (offset > 0.0 ? 1e-7 : 1e-10) * (largest - smallest));
+        EXPECT_EQ(bounds.NotFinite[l], 0.0);
+        double smallestCorner = std::numeric_limits<double>::infinity();
+        for (int c = 0; c < NumCorners(shape.Kind); ++c)
+        {
+          double v = exact.ValueAt(CornerParameters(shape.Kind, c));
+          double w = 1.0;
+          if (shape.Rational)
+          {
+            w = data[static_cast<std::size_t>(l)][static_cast<std::size_t>(
+              d * layout.Size + layout.Corners[static_cast<std::size_t>(c)])];
+          }
+          smallestCorner = std::min(smallestCorner, v / std::pow(w, shape.Rational ? d + 1 : 0));
+        }
+        EXPECT_NEAR(bounds.SmallestCorner[l], smallestCorner,
+          bounds.Error[l] * (shape.Rational ? 16.0 : 1.0) + 16.0 * ulps);
+      }
+    }
+  }
+}
+
+TEST(CoefficientFilter, NotFiniteInputIsSeen_PropertyOracle)
+{
+  oracle::Random random(22);
+  CoefficientFilter filter;
+  for (const Shape& shape : Shapes)
+  {
+    for (const double bad :
+      { std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity() })
+    {
+      std::vector<double> good = RandomBlock(random, shape, 0.0);
+      std::vector<double> damaged = good;
+      damaged[static_cast<std::size_t>(random.Int(0, static_cast<int>(good.size()) - 1))] = bad;
+      std::array<const double*, PackSize> blocks;
+      blocks.fill(good.data());
+      blocks[2] = damaged.data();
+      CoefficientBounds bounds;
+      filter.Determinant(shape.Kind, shape.Degree, shape.Rational, blocks, Pack{}, bounds);
+      EXPECT_EQ(bounds.NotFinite[1], 0.0);
+      EXPECT_TRUE(std::isnan(bounds.NotFinite[2]));
+    }
+  }
+}
+}
+}
