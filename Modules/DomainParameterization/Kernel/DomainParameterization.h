@@ -27,7 +27,7 @@ enum class DomainOptimizer
 /// How folds of the first map are removed.
 enum class FoldoverRemoval
 {
-  Automatic, ///< Penalty
+  Automatic, ///< Relu for a few rounds, Penalty when that is not enough
   Penalty,   ///< det J in the denominator of the quality functional becomes positive by
              ///< (det J + sqrt(eps^2 + det J^2)) / 2, eps falling
   Relu       ///< int max(0, delta - det J), delta falling
@@ -56,6 +56,7 @@ struct DomainParams
   int MaxRefinements = 3;             ///< rounds of local refinement when the space is too poor,
                                       ///< [0, 10]; 0: never
   int MetricSamples = 0;              ///< a direction, [2, 5001]; 0: 501 in 2D, 51 in 3D
+  bool MeasureInitialMap = false;     ///< also the metrics of the first map
   double GapTolerance = 1e-9;         ///< see BoundaryParams
   double CertificateGap = 0.1;        ///< of the bounds of each element's min det J, (0, 1], see
                                       ///< JacobianParams::RelativeGap
@@ -124,7 +125,7 @@ struct DomainParameterization
   double MaxDetLower = 0.0;
   double MaxDetUpper = 0.0;
   DomainMetrics Metrics;        ///< of Map
-  DomainMetrics InitialMetrics; ///< of InitialMap
+  DomainMetrics InitialMetrics; ///< of InitialMap; Samples = 0: not asked for
   std::vector<DomainIteration> History;
   int Iterations = 0;  ///< over all stages
   int Evaluations = 0; ///< of functionals, over all stages

@@ -9,6 +9,12 @@
 
 namespace knotwork
 {
+namespace
+{
+/// Smallest det J over S from where the quality functional goes on by itself.
+constexpr double EnoughDet = 0.02;
+}
+
 template <int Dim>
 std::vector<bool> FixedFunctions(const SplineSpace<Dim>& space)
 {
@@ -239,31 +245,61 @@ MinimizeResult DomainSolver<Dim>::Minimize(
 template <int Dim>
 bool DomainSolver<Dim>::RemoveFolds()
 {
-  constexpr double enough = 0.02; // of S: then the quality functional goes on by itself
-  double minDet = this->MinDet();
+  if (this->MinDet() > 0.0)
+  {
+    return true;
+  }
+  switch (this->Params.Foldover)
+  {
+    case FoldoverRemoval::Relu:
+      return this->UnfoldRelu(10, this->Params.MaxIterations);
+    case FoldoverRemoval::Penalty:
+      return this->UnfoldPenalty();
+    case FoldoverRemoval::Automatic:
+      break;
+  }
+  // small folds go fast with the first, large ones safely with the second
+  const Spline<Dim> start = this->Current;
+  if (this->UnfoldRelu(4, 60))
+  {
+    return true;
+  }
+  this->SetMap(start);
+  return !this->Aborted && this->UnfoldPenalty();
+}
+
+template <int Dim>
+bool DomainSolver<Dim>::UnfoldRelu(int rounds, int iterations)
+{
   Density density;
+  density.Kind = DensityKind::Relu;
+  density.Delta = this->Params.FoldoverMargin;
+  MinimizeParams minimize;
+  minimize.MaxIterations = std::min(iterations, this->Params.MaxIterations);
+  minimize.EnergyTolerance = 1e-6;
+  double minDet = 0.0;
+  for (int k = 0; k < rounds && !(minDet > 0.0) && !this->Aborted; ++k, density.Delta *= 0.1)
+  {
+    this->Minimize(DomainStage::Foldover, density, minimize, EnoughDet);
+    minDet = this->MinDet();
+  }
+  return minDet > 0.0;
+}
+
+template <int Dim>
+bool DomainSolver<Dim>::UnfoldPenalty()
+{
+  Density density;
+  density.Kind = DensityKind::Penalty;
   density.Lambda = this->Params.UniformityWeight;
   MinimizeParams minimize;
   minimize.MaxIterations = std::min(100, this->Params.MaxIterations);
   minimize.EnergyTolerance = 1e-4;
-  if (this->Params.Foldover == FoldoverRemoval::Relu)
-  {
-    density.Kind = DensityKind::Relu;
-    density.Delta = this->Params.FoldoverMargin;
-    for (int k = 0; k < 10 && !(minDet > 0.0) && !this->Aborted; ++k, density.Delta *= 0.1)
-    {
-      minimize.EnergyTolerance = 1e-6;
-      minimize.MaxIterations = this->Params.MaxIterations;
-      this->Minimize(DomainStage::Foldover, density, minimize, enough);
-      minDet = this->MinDet();
-    }
-    return minDet > 0.0;
-  }
-  density.Kind = DensityKind::Penalty;
+  double minDet = this->MinDet();
   for (int k = 0; k < 40 && !(minDet > 0.0) && !this->Aborted; ++k)
   {
     density.Delta = std::sqrt(1e-8 + 0.04 * minDet * minDet);
-    this->Minimize(DomainStage::Foldover, density, minimize, enough);
+    this->Minimize(DomainStage::Foldover, density, minimize, EnoughDet);
     minDet = this->MinDet();
   }
   return minDet > 0.0;

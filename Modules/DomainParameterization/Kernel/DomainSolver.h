@@ -43,6 +43,8 @@ public:
   std::function<bool()> Continue;
 
 private:
+  bool UnfoldRelu(int rounds, int iterations);
+  bool UnfoldPenalty();
   void Gather(Eigen::VectorXd& free) const;
   void Scatter(const Eigen::VectorXd& free);
   void Publish();

@@ -14,33 +14,22 @@ namespace knotwork
 {
 namespace
 {
-inline void SquareRoot(RowVector& x)
-{
-  for (int l = 0; l < RowLanes; ++l)
-  {
-    x[l] = std::sqrt(x[l]);
-  }
-}
-
-/// Sums and extremes over points, RowLanes at a time.
+/// Sums and extremes over points that come one by one.
 template <int Dim>
 class Collector
 {
 public:
   /// @param j  Dim * c + k: derivative of component c along direction k
-  /// @param counts  1 for a point, 0 for a lane that is to be left out
-  void Add(const RowVector* j, const RowVector& counts)
+  void Add(const std::array<double, Dim * Dim>& j)
   {
-    const RowVector zero{};
-    const RowVector huge = zero + std::numeric_limits<double>::infinity();
-    RowVector det;
-    RowVector cofactors;
-    RowVector f = zero;
-    RowVector product = zero + 1.0;
-    for (int k = 0; k < Dim; ++k)
+    double det = 0.0;
+    double cofactors = 0.0; // squared norm
+    double f = 0.0;
+    double product = 1.0;
+    for (std::size_t k = 0; k < Dim; ++k)
     {
-      RowVector length = zero;
-      for (int c = 0; c < Dim; ++c)
+      double length = 0.0;
+      for (std::size_t c = 0; c < Dim; ++c)
       {
         length += j[Dim * c + k] * j[Dim * c + k];
       }
@@ -54,66 +43,56 @@ public:
     }
     else
     {
-      cofactors = zero;
-      for (int c = 2; c >= 0; --c)
+      for (std::size_t c = 0; c < 3; ++c)
       {
-        const RowVector* a = j + 3 * ((c + 1) % 3);
-        const RowVector* b = j + 3 * ((c + 2) % 3);
-        const RowVector n0 = a[1] * b[2] - a[2] * b[1];
-        const RowVector n1 = a[2] * b[0] - a[0] * b[2];
-        const RowVector n2 = a[0] * b[1] - a[1] * b[0];
-        cofactors += n0 * n0 + n1 * n1 + n2 * n2;
-        det = j[3 * c] * n0 + j[3 * c + 1] * n1 + j[3 * c + 2] * n2;
+        const double* a = j.data() + 3 * ((c + 1) % 3);
+        const double* b = j.data() + 3 * ((c + 2) % 3);
+        const double n[3] = { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+          a[0] * b[1] - a[1] * b[0] };
+        cofactors += n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+        det = j[3 * c] * n[0] + j[3 * c + 1] * n[1] + j[3 * c + 2] * n[2];
       }
     }
-    SquareRoot(product);
-    RowVector condition = f * cofactors;
-    SquareRoot(condition);
-    const RowVector scaled = product > zero ? det / product : zero;
-    const RowVector size = det < zero ? -det : det;
-    const RowVector regular = size > zero ? counts : zero;
-    condition = size > zero ? condition / size : zero;
-    const RowVector low = counts > zero ? det : huge;
-    const RowVector high = counts > zero ? det : -huge;
-    const RowVector scaledLow = counts > zero ? scaled : huge;
-    this->MinDet = low < this->MinDet ? low : this->MinDet;
-    this->MaxDet = high > this->MaxDet ? high : this->MaxDet;
-    this->MinScaled = scaledLow < this->MinScaled ? scaledLow : this->MinScaled;
-    this->SumScaled += counts * scaled;
-    this->SumCondition += regular * condition;
-    this->NumConditions += regular;
-    this->NonPositive += det > zero ? zero : counts;
-    this->Count += counts;
+    const double scaled = product > 0.0 ? det / std::sqrt(product) : 0.0;
+    this->MinDet = std::min(this->MinDet, det);
+    this->MaxDet = std::max(this->MaxDet, det);
+    this->MinScaled = std::min(this->MinScaled, scaled);
+    this->SumScaled += scaled;
+    this->NonPositive += det > 0.0 ? 0 : 1;
+    if (det != 0.0)
+    {
+      // in the plane both norms are one
+      this->SumCondition += (Dim == 2 ? f : std::sqrt(f * cofactors)) / std::abs(det);
+      ++this->NumConditions;
+    }
+    ++this->Count;
   }
 
   DomainMetrics Result(double area, int samples) const
   {
-    const auto sum = [](const RowVector& v) { return (v[0] + v[2]) + (v[1] + v[3]); };
-    const auto least = [](const RowVector& v)
-    { return std::min(std::min(v[0], v[1]), std::min(v[2], v[3])); };
     DomainMetrics metrics;
     metrics.Samples = samples;
     metrics.Area = area;
-    metrics.MinDet = least(this->MinDet);
-    metrics.MaxDet = -least(-this->MaxDet);
-    metrics.MinDetOverArea = metrics.MinDet / area;
-    metrics.MaxDetOverArea = metrics.MaxDet / area;
-    metrics.MinScaledJacobian = least(this->MinScaled);
-    metrics.MeanScaledJacobian = sum(this->SumScaled) / sum(this->Count);
-    metrics.MeanConditionNumber = sum(this->SumCondition) / std::max(1.0, sum(this->NumConditions));
-    metrics.NonPositive = static_cast<int>(sum(this->NonPositive));
+    metrics.MinDet = this->MinDet;
+    metrics.MaxDet = this->MaxDet;
+    metrics.MinDetOverArea = this->MinDet / area;
+    metrics.MaxDetOverArea = this->MaxDet / area;
+    metrics.MinScaledJacobian = this->MinScaled;
+    metrics.MeanScaledJacobian = this->SumScaled / this->Count;
+    metrics.MeanConditionNumber = this->SumCondition / std::max(1, this->NumConditions);
+    metrics.NonPositive = this->NonPositive;
     return metrics;
   }
 
 private:
-  RowVector MinDet = RowVector{} + std::numeric_limits<double>::infinity();
-  RowVector MaxDet = RowVector{} - std::numeric_limits<double>::infinity();
-  RowVector MinScaled = RowVector{} + std::numeric_limits<double>::infinity();
-  RowVector SumScaled{};
-  RowVector SumCondition{};
-  RowVector NumConditions{};
-  RowVector NonPositive{};
-  RowVector Count{};
+  double MinDet = std::numeric_limits<double>::infinity();
+  double MaxDet = -std::numeric_limits<double>::infinity();
+  double MinScaled = std::numeric_limits<double>::infinity();
+  double SumScaled = 0.0;
+  double SumCondition = 0.0;
+  int NumConditions = 0;
+  int NonPositive = 0;
+  int Count = 0;
 };
 
 template <int Dim>
@@ -127,24 +106,24 @@ public:
     int n, const double* fields, double*, const double*, double, const double* padding) override
   {
     const int numPlanes = Dim + (this->Rational ? 1 : 0);
-    for (int i = 0; i < n; i += RowLanes)
+    for (int i = 0; i < n && padding[i] == 0.0; ++i)
     {
-      const auto at = [&](int t, int c) -> const RowVectorAt&
-      { return At(fields + (t * numPlanes + c) * n + i); };
-      RowVector j[Dim * Dim];
+      const auto at = [&](int t, int c) { return fields[(t * numPlanes + c) * n + i]; };
+      const double inverse = this->Rational ? 1.0 / at(0, Dim) : 1.0;
+      std::array<double, Dim * Dim> j;
       for (int c = 0; c < Dim; ++c)
       {
         for (int k = 0; k < Dim; ++k)
         {
-          j[Dim * c + k] = at(k + 1, c);
+          double& entry = j[static_cast<std::size_t>(Dim * c + k)];
+          entry = at(k + 1, c);
           if (this->Rational)
           {
-            const RowVector inverse = 1.0 / (at(0, Dim) + At(padding + i));
-            j[Dim * c + k] = (j[Dim * c + k] - at(0, c) * inverse * at(k + 1, Dim)) * inverse;
+            entry = (entry - at(0, c) * inverse * at(k + 1, Dim)) * inverse;
           }
         }
       }
-      this->Sums.Add(j, 1.0 - At(padding + i));
+      this->Sums.Add(j);
     }
   }
 
@@ -284,22 +263,17 @@ DomainMetrics MeasureMap(const Spline<Dim>& map, double area, int samples)
       }
     }
     EvaluateParameters<Dim>(form, line, params, batch);
-    for (int i = 0; i < samples; i += RowLanes)
+    for (int i = 0; i < samples; ++i)
     {
-      RowVector j[Dim * Dim] = {};
-      RowVector counts{};
-      for (int lane = 0; lane < std::min(RowLanes, samples - i); ++lane)
+      std::array<double, Dim * Dim> j;
+      for (int c = 0; c < Dim; ++c)
       {
-        counts[lane] = 1.0;
-        for (int c = 0; c < Dim; ++c)
+        for (int k = 0; k < Dim; ++k)
         {
-          for (int k = 0; k < Dim; ++k)
-          {
-            j[Dim * c + k][lane] = batch.First(i + lane, k * Dim + c);
-          }
+          j[static_cast<std::size_t>(Dim * c + k)] = batch.First(i, k * Dim + c);
         }
       }
-      sums.Add(j, counts);
+      sums.Add(j);
     }
   }
   return sums.Result(area, samples);

@@ -199,7 +199,10 @@ public:
     const int samples =
       this->Params.MetricSamples > 0 ? this->Params.MetricSamples : (Dim == 2 ? 501 : 51);
     this->Out.Metrics = MeasureMap<Dim>(this->Out.Map, this->Area, samples);
-    this->Out.InitialMetrics = MeasureMap<Dim>(this->Out.InitialMap, this->Area, samples);
+    if (this->Params.MeasureInitialMap)
+    {
+      this->Out.InitialMetrics = MeasureMap<Dim>(this->Out.InitialMap, this->Area, samples);
+    }
     this->Out.SecondsMetrics = SecondsSince(start);
   }
 
