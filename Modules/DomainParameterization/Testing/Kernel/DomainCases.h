@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Boundaries for domain parameterization, made from formulas.
+#pragma once
+#include "DomainBoundary.h"
+#include "SplineOracle.h"
+#include "TensorSpace.h"
+
+#include <cmath>
+#include <functional>
+
+namespace knotwork::cases
+{
+inline constexpr double Pi = 3.14159265358979323846;
+
+inline Spline<1> Curve(const KnotVector& knots, const std::vector<std::array<double, 2>>& points)
+{
+  Spline<1> curve;
+  curve.Space = MakeTensorSpace<1>({ knots }).Value;
+  curve.ControlPoints.resize(static_cast<Eigen::Index>(points.size()), 2);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    curve.ControlPoints.row(static_cast<Eigen::Index>(i)) << points[i][0], points[i][1];
+  }
+  return curve;
+}
+
+inline Spline<1> Segment(std::array<double, 2> a, std::array<double, 2> b)
+{
+  return Curve(KnotVector::Uniform(1, 1), { a, b });
+}
+
+/// Circular arc about the origin, less than 180 degrees, one quadratic element.
+inline Spline<1> Arc(double radius, double begin, double end)
+{
+  const double half = 0.5 * (end - begin);
+  const double middle = 0.5 * (begin + end);
+  const double w = std::cos(half);
+  Spline<1> arc = Curve(KnotVector::Uniform(2, 1),
+    { { radius * std::cos(begin), radius * std::sin(begin) },
+      { radius / w * std::cos(middle), radius / w * std::sin(middle) },
+      { radius * std::cos(end), radius * std::sin(end) } });
+  arc.Weights = Eigen::Vector3d(1.0, w, 1.0);
+  return arc;
+}
+
+/// West, east, south, north of the unit square.
+inline DomainBoundary<2> Square()
+{
+  return { { Segment({ 0, 0 }, { 0, 1 }), Segment({ 1, 0 }, { 1, 1 }), Segment({ 0, 0 }, { 1, 0 }),
+    Segment({ 0, 1 }, { 1, 1 }) } };
+}
+
+/// The sides of a map of the unit square (cube), as splines of their own.
+template <int Dim>
+DomainBoundary<Dim> SidesOf(const Spline<Dim>& map)
+{
+  DomainBoundary<Dim> boundary;
+  for (int s = 0; s < 2 * Dim; ++s)
+  {
+    std::array<KnotVector, Dim - 1> knots;
+    std::array<int, Dim> stride{};
+    std::array<int, Dim> count{};
+    int next = 1;
+    int k = 0;
+    for (int d = 0; d < Dim; ++d)
+    {
+      stride[d] = next;
+      count[d] = map.Space->Knots[d].NumFunctions();
+      next *= count[d];
+      if (d != s / 2)
+      {
+        knots[k++] = map.Space->Knots[d];
+      }
+    }
+    Spline<Dim - 1> side;
+    side.Space = MakeTensorSpace<Dim - 1>(knots).Value;
+    side.ControlPoints.resize(side.Space->NumFunctions, Dim);
+    side.Weights.resize(map.IsRational() ? side.Space->NumFunctions : 0);
+    for (int i = 0; i < side.Space->NumFunctions; ++i)
+    {
+      int from = s % 2 ? (count[s / 2] - 1) * stride[s / 2] : 0;
+      int rest = i;
+      for (int d = 0; d < Dim; ++d)
+      {
+        if (d != s / 2)
+        {
+          from += rest % count[d] * stride[d];
+          rest /= count[d];
+        }
+      }
+      side.ControlPoints.row(i) = map.ControlPoints.row(from);
+      if (map.IsRational())
+      {
+        side.Weights[i] = map.Weights[from];
+      }
+    }
+    boundary.Sides.push_back(side);
+  }
+  return boundary;
+}
+
+/// A tensor-product map whose control points are a function of the Greville abscissae.
+template <int Dim>
+Spline<Dim> GrevilleMap(const std::array<KnotVector, Dim>& knots,
+  const std::function<std::array<double, Dim>(const std::array<double, Dim>&)>& f)
+{
+  Spline<Dim> map;
+  map.Space = MakeTensorSpace<Dim>(knots).Value;
+  const PointMatrix u = GrevillePoints<Dim>(*map.Space);
+  map.ControlPoints.resize(u.rows(), Dim);
+  for (Eigen::Index i = 0; i < u.rows(); ++i)
+  {
+    std::array<double, Dim> x{};
+    for (int d = 0; d < Dim; ++d)
+    {
+      x[d] = u(i, d);
+    }
+    const auto y = f(x);
+    for (int d = 0; d < Dim; ++d)
+    {
+      map.ControlPoints(i, d) = y[d];
+    }
+  }
+  return map;
+}
+
+/// Two arcs of the radii 1 and 2 through 90 degrees, radial segments, in any orientation.
+inline DomainBoundary<2> AnnulusSector()
+{
+  return { { Arc(1.0, 0.0, Pi / 2), Arc(2.0, 0.0, Pi / 2), Segment({ 1, 0 }, { 2, 0 }),
+    Segment({ 0, 1 }, { 0, 2 }) } };
+}
+
+/// A curve run backwards.
+inline Spline<1> Backwards(const Spline<1>& curve)
+{
+  Spline<1> result = curve;
+  std::vector<double> knots(
+    curve.Space->Knots[0].Knots().rbegin(), curve.Space->Knots[0].Knots().rend());
+  const double sum = knots.front() + knots.back();
+  for (double& t : knots)
+  {
+    t = sum - t;
+  }
+  result.Space =
+    MakeTensorSpace<1>({ KnotVector::Create(curve.Space->Knots[0].Degree(), knots).Value }).Value;
+  result.ControlPoints = curve.ControlPoints.colwise().reverse().eval();
+  if (curve.IsRational())
+  {
+    result.Weights = curve.Weights.reverse().eval();
+  }
+  return result;
+}
+}
