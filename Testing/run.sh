@@ -31,6 +31,12 @@ if [ -z "${KNOTWORK_TEMPLATE_CASES:-}" ] && [ -d "$cases" ]; then
   export KNOTWORK_TEMPLATE_CASES="$cases"
 fi
 
+# Domain boundaries as files, likewise.
+domains="$root/../shared/data/domains"
+if [ -z "${KNOTWORK_DOMAIN_CASES:-}" ] && [ -d "$domains" ]; then
+  export KNOTWORK_DOMAIN_CASES="$domains"
+fi
+
 # One display for all tests that draw; they start their own where there is none.
 cd "$release"
 exec "$root/CMake/with-display.sh" ctest --no-tests=error --output-on-failure -j "$jobs" "${select[@]}"

@@ -320,6 +320,10 @@ void DomainSolver<Dim>::ImprovePoints()
 template <int Dim>
 void DomainSolver<Dim>::ImproveWeights()
 {
+  if (this->Free.empty())
+  {
+    return;
+  }
   if (this->Weights.empty())
   {
     this->Current.Weights = Eigen::VectorXd::Ones(this->Current.Space->NumFunctions);

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BezierForm.h"
+#include "DomainCases.h"
+#include "DomainMeasure.h"
+#include "DomainParameterization.h"
+#include "ParameterMetrics.h"
+
+#include <gtest/gtest.h>
+
+namespace knotwork
+{
+namespace
+{
+/// Boundary rows of the map are the compatible sides, bit for bit.
+template <int Dim>
+void ExpectBoundaryBits(const DomainParameterization<Dim>& result)
+{
+  const DomainBoundary<Dim> sides = cases::SidesOf<Dim>(result.Map);
+  for (std::size_t s = 0; s < 2 * Dim; ++s)
+  {
+    EXPECT_TRUE(sides.Sides[s].ControlPoints == result.Boundary.Sides[s].ControlPoints);
+    if (result.Boundary.IsRational())
+    {
+      EXPECT_TRUE(sides.Sides[s].Weights == result.Boundary.Sides[s].Weights);
+    }
+  }
+}
+
+/// The certificate is checked by the second, simpler verifier.
+template <int Dim>
+void ExpectConfirmed(const DomainParameterization<Dim>& result)
+{
+  const CertificateCheck check =
+    VerifyCertificate(MakeBernsteinCells<Dim>(MakeBezierForm<Dim>(result.Map)), result.Certificate);
+  EXPECT_EQ(check.Refuted, 0) << check.FirstRefuted;
+  EXPECT_GT(check.Confirmed, 0);
+}
+
+/// A bay cut into the south side, so deep that the first maps fold.
+DomainBoundary<2> Bay(double depth, int elements = 8)
+{
+  DomainBoundary<2> boundary = cases::Square();
+  const KnotVector knots = KnotVector::Uniform(3, elements);
+  std::vector<std::array<double, 2>> south, north;
+  for (int i = 0; i < knots.NumFunctions(); ++i)
+  {
+    const double u = knots.Greville(i);
+    const double bump = std::exp(-40.0 * (u - 0.5) * (u - 0.5));
+    south.push_back({ u, i == 0 || i + 1 == knots.NumFunctions() ? 0.0 : depth * bump });
+    north.push_back({ u, 1.0 });
+  }
+  boundary.Sides[2] = cases::Curve(knots, south);
+  boundary.Sides[3] = cases::Curve(knots, north);
+  boundary.Sides[0] =
+    InsertKnots<1>(ElevateDegree<1>(boundary.Sides[0], 0, 2).Value, 0, { 0.25, 0.5, 0.75 }).Value;
+  return boundary;
+}
+
+TEST(ParameterizeDomain, SquareStaysTheIdentity_ExactOracle)
+{
+  DomainBoundary<2> boundary = cases::Square();
+  boundary.Sides[0] =
+    InsertKnots<1>(ElevateDegree<1>(boundary.Sides[0], 0, 2).Value, 0, { 0.3, 0.6 }).Value;
+  boundary.Sides[2] = ElevateDegree<1>(boundary.Sides[2], 0, 1).Value;
+  const auto result = ParameterizeDomain<2>(boundary);
+  ASSERT_TRUE(result) << result.Status.Message();
+  EXPECT_EQ(result->Certificate.Verdict, Verdict::Valid);
+  EXPECT_NEAR(result->Metrics.MinDet, 1.0, 1e-6);
+  EXPECT_NEAR(result->Metrics.MaxDet, 1.0, 1e-6);
+  EXPECT_NEAR(result->Metrics.MeanConditionNumber, 2.0, 1e-9);
+  EXPECT_NEAR(result->Metrics.MinScaledJacobian, 1.0, 1e-9);
+  EXPECT_EQ(result->Metrics.Samples, 501);
+  EXPECT_LE(result->MinDetLower, 1.0);
+  EXPECT_GE(result->MaxDetUpper, 1.0 - 1e-12);
+  ExpectBoundaryBits<2>(result.Value);
+  ExpectConfirmed<2>(result.Value);
+}
+
+TEST(ParameterizeDomain, BayIsUnfoldedAndCertified_PropertyOracle)
+{
+  for (double depth : { 0.3, 0.6, 0.8 })
+  {
+    SCOPED_TRACE("depth " + std::to_string(depth));
+    for (FoldoverRemoval removal :
+      { FoldoverRemoval::Automatic, FoldoverRemoval::Penalty, FoldoverRemoval::Relu })
+    {
+      for (InitialMapMethod first :
+        { InitialMapMethod::Coons, InitialMapMethod::Spring, InitialMapMethod::Harmonic })
+      {
+        DomainParams params;
+        params.Foldover = removal;
+        params.InitialMap = first;
+        const auto result = ParameterizeDomain<2>(Bay(depth), params);
+        ASSERT_TRUE(result) << result.Status.Message();
+        EXPECT_EQ(result->UsedInitialMap, first);
+        ASSERT_EQ(result->Certificate.Verdict, Verdict::Valid)
+          << (result->Messages.empty() ? "" : result->Messages.front());
+        EXPECT_GT(result->MinDetLower, 0.0);
+        EXPECT_LE(result->MinDetLower, result->Metrics.MinDet);
+        EXPECT_GE(result->MaxDetUpper, result->Metrics.MaxDet);
+        EXPECT_TRUE(result->Messages.empty());
+        ExpectBoundaryBits<2>(result.Value);
+      }
+    }
+  }
+}
+
+TEST(ParameterizeDomain, HistoryFallsWithinEveryStage_PropertyOracle)
+{
+  const auto result = ParameterizeDomain<2>(Bay(0.6));
+  ASSERT_TRUE(result) << result.Status.Message();
+  ASSERT_GT(result->History.size(), 5u);
+  EXPECT_EQ(result->History.front().Stage, DomainStage::Initial);
+  for (std::size_t i = 1; i < result->History.size(); ++i)
+  {
+    const DomainIteration& row = result->History[i];
+    if (row.Iteration > 0)
+    {
+      EXPECT_LE(row.Energy, result->History[i - 1].Energy);
+    }
+    if (row.Stage == DomainStage::Quality)
+    {
+      EXPECT_GT(row.MinDet, 0.0);
+    }
+  }
+  EXPECT_GT(result->Iterations, 0);
+  EXPECT_GE(result->Evaluations, result->Iterations);
+}
+
+TEST(ParameterizeDomain, ResultDoesNotDependOnThreads_PropertyOracle)
+{
+  DomainParams params;
+  params.Threads = 1;
+  const auto one = ParameterizeDomain<2>(Bay(0.6), params);
+  params.Threads = 3;
+  const auto three = ParameterizeDomain<2>(Bay(0.6), params);
+  EXPECT_TRUE(one->Map.ControlPoints == three->Map.ControlPoints);
+  EXPECT_EQ(one->MinDetLower, three->MinDetLower);
+  EXPECT_EQ(one->Metrics.MeanConditionNumber, three->Metrics.MeanConditionNumber);
+}
+
+TEST(ParameterizeDomain, CommutesWithSimilarities_PropertyOracle)
+{
+  const auto plain = ParameterizeDomain<2>(Bay(0.5));
+  DomainBoundary<2> moved = Bay(0.5);
+  constexpr double scale = 1000.0;
+  for (Spline<1>& side : moved.Sides) // turned by 90 degrees, scaled, shifted
+  {
+    PointMatrix points(side.ControlPoints.rows(), 2);
+    points.col(0) = (-scale * side.ControlPoints.col(1)).array() + 5e4;
+    points.col(1) = (scale * side.ControlPoints.col(0)).array() - 3e4;
+    side.ControlPoints = points;
+  }
+  const auto result = ParameterizeDomain<2>(moved);
+  ASSERT_TRUE(result) << result.Status.Message();
+  EXPECT_EQ(result->Certificate.Verdict, Verdict::Valid);
+  // iterations stop within the energy tolerance of each other
+  EXPECT_NEAR(result->Metrics.MinDetOverArea, plain->Metrics.MinDetOverArea, 5e-3);
+  EXPECT_NEAR(result->Metrics.MaxDetOverArea, plain->Metrics.MaxDetOverArea, 5e-3);
+}
+
+TEST(ParameterizeDomain, FoldedCornerIsNamed_GoldenOracle)
+{
+  // the south curve leaves (0, 0) into the left of the west curve: v x u < 0 at that corner
+  DomainBoundary<2> boundary = cases::Square();
+  boundary.Sides[2] =
+    cases::Curve(KnotVector::Uniform(3, 1), { { 0, 0 }, { -0.3, 0.2 }, { 0.5, -0.6 }, { 1, 0 } });
+  const auto result = ParameterizeDomain<2>(boundary);
+  ASSERT_TRUE(result) << result.Status.Message();
+  EXPECT_EQ(result->Certificate.Verdict, Verdict::Invalid);
+  EXPECT_TRUE(result->IsImpossible());
+  ASSERT_EQ(result->Folds.size(), 1u);
+  EXPECT_EQ(result->Folds[0].Parameters[0], 0.0);
+  EXPECT_EQ(result->Folds[0].Parameters[1], 0.0);
+  // tangents (-0.9, 0.6) and (0, 1): det -0.9, scaled -0.9 / |(-0.9, 0.6)| = -0.832050
+  EXPECT_NEAR(result->Folds[0].Det, -0.9, 1e-13);
+  ASSERT_FALSE(result->Messages.empty());
+  EXPECT_NE(result->Messages[0].find("corner (u = 0, v = 0)"), std::string::npos);
+  EXPECT_NE(result->Messages[0].find("side 0 and side 2"), std::string::npos);
+  EXPECT_NE(result->Messages[0].find("-0.83205"), std::string::npos) << result->Messages[0];
+  ExpectBoundaryBits<2>(result.Value);
+}
+
+TEST(ParameterizeDomain, AnnulusSectorIsExactWithAndWithoutWeights_PropertyOracle)
+{
+  for (WeightMode mode : { WeightMode::Fixed, WeightMode::Optimized, WeightMode::Automatic })
+  {
+    DomainParams params;
+    params.Weights = mode;
+    const auto result = ParameterizeDomain<2>(cases::AnnulusSector(), params);
+    ASSERT_TRUE(result) << result.Status.Message();
+    EXPECT_EQ(result->Certificate.Verdict, Verdict::Valid);
+    EXPECT_NEAR(result->Metrics.Area, 3 * cases::Pi / 4, 1e-12);
+    ExpectBoundaryBits<2>(result.Value);
+    EXPECT_EQ(result->WeightsOptimized, mode == WeightMode::Optimized);
+  }
+}
+
+TEST(ParameterizeDomain, FacesOfABentBarAreFilledAndCertified_PropertyOracle)
+{
+  const Spline<3> bar = cases::GrevilleMap<3>(
+    { KnotVector::Uniform(2, 6), KnotVector::Uniform(2, 2), KnotVector::Uniform(2, 2) },
+    [](const std::array<double, 3>& u)
+    {
+      const double a = 1.5 * cases::Pi * u[0];
+      const double r = 2.0 - u[1];
+      return std::array<double, 3>{ r * std::sin(a), -r * std::cos(a), u[2] };
+    });
+  const DomainBoundary<3> faces = cases::SidesOf<3>(bar);
+  const auto result = ParameterizeDomain<3>(faces);
+  ASSERT_TRUE(result) << result.Status.Message();
+  EXPECT_EQ(result->Certificate.Verdict, Verdict::Valid);
+  EXPECT_EQ(result->Metrics.Samples, 51);
+  EXPECT_GT(result->MinDetLower, 0.0);
+  EXPECT_LE(result->MinDetLower, result->Metrics.MinDet);
+  ExpectBoundaryBits<3>(result.Value);
+}
+
+TEST(ParameterizeDomain, ProgressAborts)
+{
+  int calls = 0;
+  double last = -1.0;
+  const auto result = ParameterizeDomain<2>(Bay(0.6), {},
+    [&](double share)
+    {
+      EXPECT_GE(share, last);
+      EXPECT_LE(share, 1.0);
+      last = share;
+      return ++calls < 4;
+    });
+  EXPECT_EQ(result.Status.Code, ErrorCode::Aborted);
+  EXPECT_EQ(calls, 4);
+}
+
+TEST(ParameterizeDomain, OptionsOutsideTheirRangeAreNamed)
+{
+  const auto code = [](auto&& change)
+  {
+    DomainParams params;
+    change(params);
+    const auto result = ParameterizeDomain<2>(cases::Square(), params);
+    EXPECT_FALSE(result.Status.Detail.empty());
+    return result.Status.Code;
+  };
+  using P = DomainParams;
+  for (const auto& change :
+    std::vector<std::function<void(P&)>>{ [](P& p) { p.UniformityWeight = -1.0; },
+      [](P& p) { p.FoldoverMargin = 0.0; }, [](P& p) { p.WinslowEpsilon = 0.0; },
+      [](P& p) { p.AlternationTolerance = 0.0; }, [](P& p) { p.MaxAlternations = 0; },
+      [](P& p) { p.MaxIterations = 0; }, [](P& p) { p.EnergyTolerance = 0.0; },
+      [](P& p) { p.MaxRefinements = 11; }, [](P& p) { p.MetricSamples = 1; },
+      [](P& p) { p.CertificateGap = 0.0; }, [](P& p) { p.MaxBoxes = 0; },
+      [](P& p) { p.Threads = -1; }, [](P& p) { p.GapTolerance = 0.2; } })
+  {
+    EXPECT_EQ(code(change), ErrorCode::InvalidParameter);
+  }
+  EXPECT_EQ(ParameterizeDomain<2>({}).Status.Code, ErrorCode::EmptyInput);
+}
+}
+}
