@@ -83,7 +83,6 @@ public:
 template <int N>
 inline void Transpose(const double* rows, int stride, Four* columns)
 {
-  using Mask = std::int64_t __attribute__((vector_size(32)));
   int i = 0;
   for (; i + NumLanes <= N; i += NumLanes)
   {
@@ -92,14 +91,14 @@ inline void Transpose(const double* rows, int stride, Four* columns)
     std::memcpy(&r1, rows + stride + i, sizeof(Four));
     std::memcpy(&r2, rows + 2 * stride + i, sizeof(Four));
     std::memcpy(&r3, rows + 3 * stride + i, sizeof(Four));
-    const Four a = __builtin_shuffle(r0, r1, Mask{ 0, 4, 2, 6 });
-    const Four b = __builtin_shuffle(r0, r1, Mask{ 1, 5, 3, 7 });
-    const Four c = __builtin_shuffle(r2, r3, Mask{ 0, 4, 2, 6 });
-    const Four d = __builtin_shuffle(r2, r3, Mask{ 1, 5, 3, 7 });
-    columns[i] = __builtin_shuffle(a, c, Mask{ 0, 1, 4, 5 });
-    columns[i + 1] = __builtin_shuffle(b, d, Mask{ 0, 1, 4, 5 });
-    columns[i + 2] = __builtin_shuffle(a, c, Mask{ 2, 3, 6, 7 });
-    columns[i + 3] = __builtin_shuffle(b, d, Mask{ 2, 3, 6, 7 });
+    const Four a = __builtin_shufflevector(r0, r1, 0, 4, 2, 6);
+    const Four b = __builtin_shufflevector(r0, r1, 1, 5, 3, 7);
+    const Four c = __builtin_shufflevector(r2, r3, 0, 4, 2, 6);
+    const Four d = __builtin_shufflevector(r2, r3, 1, 5, 3, 7);
+    columns[i] = __builtin_shufflevector(a, c, 0, 1, 4, 5);
+    columns[i + 1] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
+    columns[i + 2] = __builtin_shufflevector(a, c, 2, 3, 6, 7);
+    columns[i + 3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
   }
   for (; i < N; ++i)
   {
