@@ -93,6 +93,16 @@ Status ParseReal(std::string_view word, double& value)
 
 Status ParseReal(std::string_view word, long double& value)
 {
+  // libstdc++ 12 reads beyond the end of a word that begins as "nan" or "inf" do
+  const std::size_t first = word.find_first_not_of("+-");
+  if (first == std::string_view::npos ||
+    std::string_view("0123456789.").find(word[first]) == std::string_view::npos)
+  {
+    double other = 0.0;
+    const Status status = ParseFinite(word, other);
+    value = other;
+    return status;
+  }
   return ParseFinite(word, value);
 }
 
@@ -134,25 +144,13 @@ void AppendProduct(std::string& text, double value, double weight)
   std::array<char, 64> buffer;
   char* const begin = buffer.data();
   char* const limit = begin + buffer.size();
-  constexpr auto general = std::chars_format::general;
   // Decimals of 15 digits are far enough apart that the first one that fits is what another program
-  // wrote with as many digits.
-  const double rounded = value * weight;
-  for (int digits = 15; digits <= 17 && std::isfinite(rounded); ++digits)
-  {
-    const auto result = std::to_chars(begin, limit, rounded, general, digits);
-    if (Gives(begin, result.ptr, value, weight))
-    {
-      text.append(begin, result.ptr);
-      return;
-    }
-  }
-  // The products of doubles are not dense enough to divide into every double: more digits are.
+  // wrote with as many digits; those of 17 are closer together than the quotients are.
   const long double product = static_cast<long double>(value) * static_cast<long double>(weight);
   char* end = begin;
-  for (int digits = 18; digits <= 21; ++digits)
+  for (int digits = 15; digits <= 17; ++digits)
   {
-    end = std::to_chars(begin, limit, product, general, digits).ptr;
+    end = std::to_chars(begin, limit, product, std::chars_format::general, digits).ptr;
     if (Gives(begin, end, value, weight))
     {
       break;

@@ -46,7 +46,7 @@ Status ParseInteger(std::string_view word, long long lowest, long long highest, 
 
 /// Appends the fewest digits that ParseReal turns into the same number.
 void AppendReal(std::string& text, double value);
-/// Appends few digits of a number c such that Quotient(c, weight) is the value.
+/// Appends at most 17 digits of a number c such that Quotient(c, weight) is the value.
 void AppendProduct(std::string& text, double value, double weight);
 inline double Quotient(long double product, double weight)
 {

@@ -101,6 +101,8 @@ TEST(GoToolsG2, ProductsDivideIntoEveryDouble_PropertyOracle)
     long double product = 0.0L;
     ASSERT_TRUE(ParseReal(text, product)) << text;
     ASSERT_EQ(Quotient(product, weight), value) << text << " / " << weight;
+    const std::string mantissa = text.substr(0, text.find('e'));
+    ASSERT_LE(mantissa.find_last_of("0123456789") + 1, 23u) << text; // -0.000 and 17 digits
   }
 }
 
