@@ -13,6 +13,8 @@ namespace
 {
 /// Smallest det J over S from where the quality functional goes on by itself.
 constexpr double EnoughDet = 0.02;
+/// Weights stay within a factor of 100 of 1.
+constexpr double LargestLogarithm = 4.6;
 }
 
 template <int Dim>
@@ -193,13 +195,21 @@ void DomainSolver<Dim>::Publish()
 }
 
 template <int Dim>
-MinimizeResult DomainSolver<Dim>::Minimize(
+void DomainSolver<Dim>::Minimize(
   DomainStage stage, const Density& density, const MinimizeParams& params, double stopAtMinDet)
 {
+  const bool weights = stage == DomainStage::Weights;
   const std::size_t n = static_cast<std::size_t>(this->Current.Space->NumFunctions);
   const std::size_t count = this->Free.size();
   double lastMinDet = 0.0;
-  const Objective objective = [&](const Eigen::VectorXd& x, Eigen::VectorXd& gradient)
+  const auto collect = [&](const std::vector<double>& full, std::size_t plane, double* free)
+  {
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      free[k] = full[plane * n + static_cast<std::size_t>(this->Free[k])];
+    }
+  };
+  const Objective ofPoints = [&](const Eigen::VectorXd& x, Eigen::VectorXd& gradient)
   {
     this->Scatter(x);
     const EnergyValue value = this->Evaluate(density, this->PlaneGradients.data(), nullptr);
@@ -207,12 +217,30 @@ MinimizeResult DomainSolver<Dim>::Minimize(
     gradient.resize(x.size());
     for (std::size_t c = 0; c < Dim; ++c)
     {
-      for (std::size_t k = 0; k < count; ++k)
-      {
-        gradient[static_cast<Eigen::Index>(c * count + k)] =
-          this->PlaneGradients[c * n + static_cast<std::size_t>(this->Free[k])];
-      }
+      collect(this->PlaneGradients, c, gradient.data() + c * count);
     }
+    return value.Energy;
+  };
+  const auto setWeights = [&](const Eigen::VectorXd& logarithms)
+  {
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      this->Weights[static_cast<std::size_t>(this->Free[k])] =
+        std::exp(logarithms[static_cast<Eigen::Index>(k)]);
+    }
+  };
+  const Objective ofWeights = [&](const Eigen::VectorXd& x, Eigen::VectorXd& gradient)
+  {
+    gradient.resize(x.size());
+    if (!(x.cwiseAbs().maxCoeff() <= LargestLogarithm))
+    {
+      return std::numeric_limits<double>::infinity();
+    }
+    setWeights(x);
+    const EnergyValue value =
+      this->Evaluate(density, this->PlaneGradients.data(), this->WeightGradients.data());
+    lastMinDet = value.MinDet;
+    collect(this->WeightGradients, 0, gradient.data());
     return value.Energy;
   };
   const MinimizeHook hook = [&](const MinimizeState& state)
@@ -228,18 +256,29 @@ MinimizeResult DomainSolver<Dim>::Minimize(
     this->Aborted = this->Aborted || (this->Continue && !this->Continue());
     return !this->Aborted && !(lastMinDet >= stopAtMinDet);
   };
-  Preconditioner preconditioner;
-  if (this->Laplacian)
-  {
-    preconditioner = [&](Eigen::VectorXd& v) { this->Laplacian->Apply(v); };
-  }
   Eigen::VectorXd x;
-  this->Gather(x);
-  MinimizeResult result = MinimizeLbfgs(x, objective, params, preconditioner, hook);
-  this->Scatter(x);
+  MinimizeResult result;
+  if (weights)
+  {
+    x.resize(static_cast<Eigen::Index>(count));
+    collect(this->Weights, 0, x.data());
+    x = x.array().log();
+    result = MinimizeLbfgs(x, ofWeights, params, {}, hook);
+    setWeights(x);
+  }
+  else
+  {
+    Preconditioner preconditioner;
+    if (this->Laplacian)
+    {
+      preconditioner = [&](Eigen::VectorXd& v) { this->Laplacian->Apply(v); };
+    }
+    this->Gather(x);
+    result = MinimizeLbfgs(x, ofPoints, params, preconditioner, hook);
+    this->Scatter(x);
+  }
   this->Publish();
   this->Iterations += result.State.Iteration;
-  return result;
 }
 
 template <int Dim>
@@ -318,75 +357,56 @@ void DomainSolver<Dim>::ImprovePoints()
 }
 
 template <int Dim>
+void DomainSolver<Dim>::MakeRational()
+{
+  if (this->Weights.empty())
+  {
+    Spline<Dim> map = this->Current;
+    map.Weights = Eigen::VectorXd::Ones(map.Space->NumFunctions);
+    this->SetMap(map);
+  }
+}
+
+template <int Dim>
 void DomainSolver<Dim>::ImproveWeights()
 {
   if (this->Free.empty())
   {
     return;
   }
-  if (this->Weights.empty())
-  {
-    this->Current.Weights = Eigen::VectorXd::Ones(this->Current.Space->NumFunctions);
-    this->SetMap(Spline<Dim>(this->Current));
-  }
-  const std::size_t count = this->Free.size();
+  this->MakeRational();
   Density density;
   density.Lambda = this->Params.UniformityWeight;
   density.Epsilon = this->Params.WinslowEpsilon;
   MinimizeParams minimize;
   minimize.MaxIterations = this->Params.MaxIterations;
   minimize.EnergyTolerance = this->Params.EnergyTolerance;
-  constexpr double largest = 4.6; // |log w|: weights stay within a factor of 100
-  double lastMinDet = 0.0;
-  const Objective objective = [&](const Eigen::VectorXd& x, Eigen::VectorXd& gradient)
+  this->Minimize(DomainStage::Weights, density, minimize, std::numeric_limits<double>::infinity());
+}
+
+template <int Dim>
+bool DomainSolver<Dim>::RemoveFoldsWithWeights()
+{
+  double minDet = this->MinDet();
+  if (this->Free.empty() || minDet > 0.0)
   {
-    gradient.resize(x.size());
-    if (!(x.cwiseAbs().maxCoeff() <= largest))
-    {
-      return std::numeric_limits<double>::infinity();
-    }
-    for (std::size_t k = 0; k < count; ++k)
-    {
-      this->Weights[static_cast<std::size_t>(this->Free[k])] =
-        std::exp(x[static_cast<Eigen::Index>(k)]);
-    }
-    const EnergyValue value =
-      this->Evaluate(density, this->PlaneGradients.data(), this->WeightGradients.data());
-    lastMinDet = value.MinDet;
-    for (std::size_t k = 0; k < count; ++k)
-    {
-      gradient[static_cast<Eigen::Index>(k)] =
-        this->WeightGradients[static_cast<std::size_t>(this->Free[k])];
-    }
-    return value.Energy;
-  };
-  const MinimizeHook hook = [&](const MinimizeState& state)
-  {
-    DomainIteration row;
-    row.Stage = DomainStage::Weights;
-    row.Iteration = state.Iteration;
-    row.Energy = state.Value;
-    row.MinDet = lastMinDet;
-    row.GradientNorm = state.GradientNorm;
-    row.Functions = this->Current.Space->NumFunctions;
-    this->History.push_back(row);
-    this->Aborted = this->Aborted || (this->Continue && !this->Continue());
-    return !this->Aborted;
-  };
-  Eigen::VectorXd x(static_cast<Eigen::Index>(count));
-  for (std::size_t k = 0; k < count; ++k)
-  {
-    x[static_cast<Eigen::Index>(k)] =
-      std::log(this->Weights[static_cast<std::size_t>(this->Free[k])]);
+    return minDet > 0.0;
   }
-  const MinimizeResult result = MinimizeLbfgs(x, objective, minimize, {}, hook);
-  for (std::size_t k = 0; k < count; ++k)
+  this->MakeRational();
+  Density density;
+  density.Kind = DensityKind::Penalty;
+  density.Lambda = this->Params.UniformityWeight;
+  MinimizeParams minimize;
+  minimize.MaxIterations = std::min(50, this->Params.MaxIterations);
+  minimize.EnergyTolerance = 1e-4;
+  for (int k = 0; k < 40 && !(minDet > 0.0) && !this->Aborted; ++k)
   {
-    this->Weights[static_cast<std::size_t>(this->Free[k])] =
-      std::exp(x[static_cast<Eigen::Index>(k)]);
+    density.Delta = std::sqrt(1e-8 + 0.04 * minDet * minDet);
+    this->Minimize(
+      k % 2 ? DomainStage::Foldover : DomainStage::Weights, density, minimize, EnoughDet);
+    minDet = this->MinDet();
   }
-  this->Publish();
-  this->Iterations += result.State.Iteration;
+  return minDet > 0.0;
 }
 
 template std::vector<bool> FixedFunctions<2>(const SplineSpace<2>&);

@@ -32,8 +32,10 @@ public:
   bool RemoveFolds();
   /// Minimizes the quality functional in the control points. @pre MinDet() > 0
   void ImprovePoints();
-  /// The same in the logarithms of the inner weights.
+  /// The same in the logarithms of the inner weights (all 1 when the map was polynomial).
   void ImproveWeights();
+  /// RemoveFolds in control points and weights, in turn.
+  bool RemoveFoldsWithWeights();
 
   std::vector<DomainIteration> History;
   int Iterations = 0;
@@ -49,8 +51,9 @@ private:
   void Scatter(const Eigen::VectorXd& free);
   void Publish();
   EnergyValue Evaluate(const Density& density, double* gradient, double* weightGradient);
-  MinimizeResult Minimize(
+  void Minimize(
     DomainStage stage, const Density& density, const MinimizeParams& params, double stopAtMinDet);
+  void MakeRational();
 
   const DomainParams& Params;
   Spline<Dim> Current;

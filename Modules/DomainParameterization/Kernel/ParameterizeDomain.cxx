@@ -167,7 +167,7 @@ public:
     }
     const bool wanted = this->Params.Weights == WeightMode::Optimized ||
       (this->Params.Weights == WeightMode::Automatic && !this->IsValid() && !this->IsImpossible());
-    if (wanted && unfolded)
+    if (wanted)
     {
       if (const Status status = this->Alternate(); !status)
       {
@@ -363,9 +363,8 @@ private:
   Status Alternate()
   {
     this->Solver->SetMap(this->Out.Map);
-    if (!(this->Solver->MinDet() > 0.0) && !this->Solver->RemoveFolds())
+    if (!this->Solver->RemoveFoldsWithWeights())
     {
-      this->Solver->SetMap(this->Out.Map);
       return {};
     }
     double energy = this->Solver->Energy();
