@@ -338,6 +338,7 @@ bool DomainSolver<Dim>::UnfoldPenalty()
   for (int k = 0; k < 40 && !(minDet > 0.0) && !this->Aborted; ++k)
   {
     density.Delta = std::sqrt(1e-8 + 0.04 * minDet * minDet);
+    minimize.EnergyTolerance = k < 5 ? 1e-4 : 1e-6;
     this->Minimize(DomainStage::Foldover, density, minimize, EnoughDet);
     minDet = this->MinDet();
   }
@@ -397,11 +398,12 @@ bool DomainSolver<Dim>::RemoveFoldsWithWeights()
   density.Kind = DensityKind::Penalty;
   density.Lambda = this->Params.UniformityWeight;
   MinimizeParams minimize;
-  minimize.MaxIterations = std::min(50, this->Params.MaxIterations);
+  minimize.MaxIterations = std::min(100, this->Params.MaxIterations);
   minimize.EnergyTolerance = 1e-4;
   for (int k = 0; k < 40 && !(minDet > 0.0) && !this->Aborted; ++k)
   {
     density.Delta = std::sqrt(1e-8 + 0.04 * minDet * minDet);
+    minimize.EnergyTolerance = k < 8 ? 1e-4 : 1e-6;
     this->Minimize(
       k % 2 ? DomainStage::Foldover : DomainStage::Weights, density, minimize, EnoughDet);
     minDet = this->MinDet();

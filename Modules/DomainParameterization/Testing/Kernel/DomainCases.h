@@ -151,4 +151,97 @@ inline Spline<1> Backwards(const Spline<1>& curve)
   }
   return result;
 }
+
+/// The unit square's width, height `height`, with a disc of the given radius about (x, 0) bitten
+/// out of the south side: three arcs' worth of quadratic rational elements. West has degree
+/// `degree`, so there are degree - 1 rows of inner control points: few enough that a tall domain
+/// needs weights.
+inline DomainBoundary<2> Bite(double radius, double x, double height, int degree)
+{
+  const double w = std::cos(Pi / 4);
+  const double l = x - radius;
+  const double r = x + radius;
+  DomainBoundary<2> boundary;
+  Spline<1> south =
+    Curve(KnotVector::Create(2, { 0, 0, 0, .25, .25, .5, .5, .75, .75, 1, 1, 1 }).Value,
+      { { 0, 0 }, { l / 2, 0 }, { l, 0 }, { l, radius }, { x, radius }, { r, radius }, { r, 0 },
+        { (1 + r) / 2, 0 }, { 1, 0 } });
+  south.Weights = Eigen::VectorXd::Ones(9);
+  south.Weights[3] = south.Weights[5] = w;
+  boundary.Sides = { ElevateDegree<1>(Segment({ 0, 0 }, { 0, height }), 0, degree - 1).Value,
+    Segment({ 1, 0 }, { 1, height }), south, Segment({ 0, height }, { 1, height }) };
+  return boundary;
+}
+
+/// A sector of the annulus between radii 1 and 2 whose inner arc has a bump outward at parameter
+/// `at` of its `elements` elements.
+inline DomainBoundary<2> BumpedSector(double bump, double at, int elements, int degree)
+{
+  DomainBoundary<2> boundary = AnnulusSector();
+  std::vector<double> knots;
+  for (int i = 1; i < elements; ++i)
+  {
+    knots.push_back(double(i) / elements);
+  }
+  Spline<1> inner = InsertKnots<1>(boundary.Sides[0], 0, knots).Value;
+  for (Eigen::Index i = 1; i + 1 < inner.ControlPoints.rows(); ++i)
+  {
+    const double u = inner.Space->Knots[0].Greville(static_cast<int>(i)) - at;
+    inner.ControlPoints.row(i) *= 1 + bump * std::exp(-40 * u * u);
+  }
+  boundary.Sides[0] = inner;
+  boundary.Sides[2] = ElevateDegree<1>(boundary.Sides[2], 0, degree - 1).Value;
+  return boundary;
+}
+
+/// The faces of a bar bent like the letter G: its axis is an arc of radius 1.2 through 295 degrees,
+/// a tighter left turn and a straight end. Cross lines are skewed: on the outer face positions
+/// along the axis run ahead by up to `skew` of its length.
+inline DomainBoundary<3> LetterG(int elements, int across, int degree, double width, double skew)
+{
+  // curvature of the axis, piece by piece: length, curvature
+  const std::array<std::array<double, 2>, 3> pieces{ { { 1.2 * 295 * Pi / 180, 1 / 1.2 },
+    { 0.5 * 105 * Pi / 180, 1 / 0.5 }, { 0.35, 0.0 } } };
+  double total = 0.0;
+  for (const auto& piece : pieces)
+  {
+    total += piece[0];
+  }
+  const auto axis = [&](double t, double& heading)
+  {
+    std::array<double, 2> x{ 1.2 * std::cos(50 * Pi / 180), 1.2 * std::sin(50 * Pi / 180) };
+    heading = 140 * Pi / 180;
+    double rest = t * total;
+    for (const auto& piece : pieces)
+    {
+      const double s = std::min(rest, piece[0]);
+      const double turn = piece[1] * s;
+      if (piece[1] > 0.0)
+      {
+        x[0] += (std::sin(heading + turn) - std::sin(heading)) / piece[1];
+        x[1] -= (std::cos(heading + turn) - std::cos(heading)) / piece[1];
+      }
+      else
+      {
+        x[0] += s * std::cos(heading);
+        x[1] += s * std::sin(heading);
+      }
+      heading += turn;
+      rest -= s;
+    }
+    return x;
+  };
+  return SidesOf<3>(
+    GrevilleMap<3>({ KnotVector::Uniform(degree, elements), KnotVector::Uniform(degree, across),
+                     KnotVector::Uniform(degree, across) },
+      [&](const std::array<double, 3>& u)
+      {
+        double heading = 0.0;
+        const double t = u[0] + skew * u[1] * std::sin(Pi * u[0]) * std::sin(3 * Pi * u[0]);
+        const auto x = axis(t, heading);
+        const double side = width * (u[1] - 0.5);
+        return std::array<double, 3>{ x[0] - side * std::sin(heading),
+          x[1] + side * std::cos(heading), 0.6 * u[2] };
+      }));
+}
 }

@@ -216,6 +216,120 @@ TEST(ParameterizeDomain, FacesOfABentBarAreFilledAndCertified_PropertyOracle)
   ExpectBoundaryBits<3>(result.Value);
 }
 
+TEST(ParameterizeDomain, LetterGIsValidOrSaysOtherwise_PropertyOracle)
+{
+  int numValid = 0;
+  for (double skew : { 0.0, 0.05, 0.1 })
+  {
+    for (double width : { 0.4, 0.6, 0.8 })
+    {
+      SCOPED_TRACE("skew " + std::to_string(skew) + " width " + std::to_string(width));
+      const auto result = ParameterizeDomain<3>(cases::LetterG(20, 2, 2, width, skew));
+      ASSERT_TRUE(result) << result.Status.Message();
+      if (result->Certificate.Verdict == Verdict::Valid)
+      {
+        ++numValid;
+        EXPECT_EQ(result->Metrics.NonPositive, 0);
+        EXPECT_FALSE(result->IsImpossible());
+        EXPECT_TRUE(result->Messages.empty());
+        ExpectConfirmed<3>(result.Value);
+      }
+      else
+      {
+        EXPECT_FALSE(result->Messages.empty());
+      }
+      if (result->Map.Space->Kind == SpaceKind::Tensor)
+      {
+        ExpectBoundaryBits<3>(result.Value);
+      }
+    }
+  }
+  EXPECT_GE(numValid, 6);
+}
+
+TEST(ParameterizeDomain, WeightsMakeATallBiteValid_PropertyOracle)
+{
+  for (double height : { 2.5, 3.0, 4.0 })
+  {
+    SCOPED_TRACE("height " + std::to_string(height));
+    const DomainBoundary<2> boundary = cases::Bite(0.46, 0.5, height, 3);
+    DomainParams params;
+    params.MaxRefinements = 0;
+    params.Weights = WeightMode::Fixed;
+    const auto fixed = ParameterizeDomain<2>(boundary, params);
+    ASSERT_TRUE(fixed) << fixed.Status.Message();
+    EXPECT_NE(fixed->Certificate.Verdict, Verdict::Valid);
+    EXPECT_FALSE(fixed->Messages.empty());
+    for (WeightMode mode : { WeightMode::Optimized, WeightMode::Automatic })
+    {
+      params.Weights = mode;
+      const auto result = ParameterizeDomain<2>(boundary, params);
+      ASSERT_TRUE(result) << result.Status.Message();
+      EXPECT_EQ(result->Certificate.Verdict, Verdict::Valid);
+      EXPECT_TRUE(result->WeightsOptimized);
+      EXPECT_GT(result->Map.Weights.minCoeff(), 0.0);
+      ExpectBoundaryBits<2>(result.Value);
+      ExpectConfirmed<2>(result.Value);
+    }
+  }
+}
+
+TEST(ParameterizeDomain, WeightsLowerTheEnergy_PropertyOracle)
+{
+  const auto last = [](const DomainParameterization<2>& result)
+  { return result.History.back().Energy; };
+  DomainParams params;
+  params.MaxRefinements = 0;
+  for (double at : { 0.5, 0.35 })
+  {
+    params.Weights = WeightMode::Fixed;
+    const auto fixed = ParameterizeDomain<2>(cases::BumpedSector(0.9, at, 8, 3), params);
+    ASSERT_TRUE(fixed) << fixed.Status.Message();
+    params.Weights = WeightMode::Optimized;
+    const auto moved = ParameterizeDomain<2>(cases::BumpedSector(0.9, at, 8, 3), params);
+    ASSERT_TRUE(moved) << moved.Status.Message();
+    EXPECT_EQ(moved->Certificate.Verdict, Verdict::Valid);
+    EXPECT_LT(last(moved.Value), last(fixed.Value));
+    ExpectBoundaryBits<2>(moved.Value);
+  }
+}
+
+TEST(ParameterizeDomain, PoorSpacesAreRefinedLocally_PropertyOracle)
+{
+  // bilinear across: no inner control points at all
+  DomainBoundary<2> boundary = cases::Bite(0.4, 0.5, 0.5, 1);
+  DomainParams params;
+  params.MaxRefinements = 0;
+  const auto poor = ParameterizeDomain<2>(boundary, params);
+  ASSERT_TRUE(poor) << poor.Status.Message();
+  EXPECT_EQ(poor->Certificate.Verdict, Verdict::Invalid);
+  EXPECT_FALSE(poor->IsImpossible());
+  params.MaxRefinements = 3;
+  const auto result = ParameterizeDomain<2>(boundary, params);
+  ASSERT_TRUE(result) << result.Status.Message();
+  EXPECT_EQ(result->Certificate.Verdict, Verdict::Valid);
+  EXPECT_GT(result->Refinements, 0);
+  EXPECT_EQ(result->Map.Space->Kind, SpaceKind::Hierarchical);
+  EXPECT_LT(result->Map.Space->NumFunctions, 100);
+  ExpectConfirmed<2>(result.Value);
+  // the boundary is the same curve: compared with the tensor-product map's boundary
+  const BezierForm<2> refined = MakeBezierForm<2>(result->Map);
+  const BezierForm<2> plain = MakeBezierForm<2>(poor->Map);
+  PointMatrix edge(200, 2);
+  for (int i = 0; i < 50; ++i)
+  {
+    const double t = i / 49.0;
+    edge.row(4 * i) << 0.0, t;
+    edge.row(4 * i + 1) << 1.0, t;
+    edge.row(4 * i + 2) << t, 0.0;
+    edge.row(4 * i + 3) << t, 1.0;
+  }
+  EvaluationBatch a, b;
+  ASSERT_TRUE(EvaluateParameters<2>(refined, edge, {}, a));
+  ASSERT_TRUE(EvaluateParameters<2>(plain, edge, {}, b));
+  EXPECT_LE((a.Values - b.Values).cwiseAbs().maxCoeff(), 1e-14);
+}
+
 TEST(ParameterizeDomain, ProgressAborts)
 {
   int calls = 0;
