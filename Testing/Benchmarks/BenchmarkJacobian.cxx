@@ -77,13 +77,13 @@ void Cases(benchmark::State& state, int threads)
   {
     case 0:
       state.SetLabel("linear hexahedra");
-      return Validate(state, CellShape::Hexahedron, { 1, 1, 1 }, false, 100000, threads);
+      return Validate(state, CellShape::Hexahedron, { 1, 1, 1 }, false, 20000, threads);
     case 1:
       state.SetLabel("bicubic quadrilaterals");
-      return Validate(state, CellShape::Quadrilateral, { 3, 3, 0 }, false, 100000, threads);
+      return Validate(state, CellShape::Quadrilateral, { 3, 3, 0 }, false, 20000, threads);
     case 2:
       state.SetLabel("biquadratic rational quadrilaterals");
-      return Validate(state, CellShape::Quadrilateral, { 2, 2, 0 }, true, 100000, threads);
+      return Validate(state, CellShape::Quadrilateral, { 2, 2, 0 }, true, 20000, threads);
     case 3:
       state.SetLabel("tricubic hexahedra");
       return Validate(state, CellShape::Hexahedron, { 3, 3, 3 }, false, 2000, threads);
@@ -95,13 +95,13 @@ void Cases(benchmark::State& state, int threads)
       return Validate(state, CellShape::Wedge, { 2, 2, 2 }, false, 10000, threads);
     case 6:
       state.SetLabel("biquadratic quadrilaterals");
-      return Validate(state, CellShape::Quadrilateral, { 2, 2, 0 }, false, 100000, threads);
+      return Validate(state, CellShape::Quadrilateral, { 2, 2, 0 }, false, 20000, threads);
     case 7:
       state.SetLabel("triquadratic hexahedra");
       return Validate(state, CellShape::Hexahedron, { 2, 2, 2 }, false, 10000, threads);
     default:
       state.SetLabel("bicubic rational quadrilaterals");
-      return Validate(state, CellShape::Quadrilateral, { 3, 3, 0 }, true, 50000, threads);
+      return Validate(state, CellShape::Quadrilateral, { 3, 3, 0 }, true, 20000, threads);
   }
 }
 

@@ -146,7 +146,7 @@ bool FixedDeterminant(CellShape shape, const CellDegree& degree, bool rational,
     switch (p)
     {
       case 1:
-        fixed::PolynomialHexahedron<1, 1, 1>(blocks, bounds);
+        fixed::LinearHexahedron(blocks, bounds);
         return true;
       case 2:
         fixed::PolynomialHexahedron<2, 2, 2>(blocks, bounds);

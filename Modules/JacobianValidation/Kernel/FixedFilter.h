@@ -252,6 +252,94 @@ void PolynomialHexahedron(const Blocks& blocks, CoefficientBounds& bounds)
     0x1p-700;
 }
 
+/// Trilinear cells: the same with all loops unrolled; binomials are 1 but in the result.
+inline void LinearHexahedron(const Blocks& blocks, CoefficientBounds& bounds)
+{
+  Pack du[3][4]; // index v + 2 w
+  Pack dv[3][4]; // u + 2 w
+  Pack dw[3][4]; // u + 2 v
+  Pack mu[3] = {};
+  Pack mv[3] = {};
+  Pack mw[3] = {};
+  Pack notFinite = {};
+#pragma GCC unroll 3
+  for (int c = 0; c < 3; ++c)
+  {
+    Pack x[8];
+#pragma GCC unroll 8
+    for (int i = 0; i < 8; ++i)
+    {
+      x[i] = Gather(blocks, 8 * c + i);
+      notFinite += 0.0 * x[i];
+    }
+#pragma GCC unroll 4
+    for (int i = 0; i < 4; ++i)
+    {
+      du[c][i] = x[2 * i + 1] - x[2 * i];
+      dv[c][i] = x[(i & 1) + 4 * (i >> 1) + 2] - x[(i & 1) + 4 * (i >> 1)];
+      dw[c][i] = x[i + 4] - x[i];
+      mu[c] = Larger(mu[c], Magnitude(du[c][i]));
+      mv[c] = Larger(mv[c], Magnitude(dv[c][i]));
+      mw[c] = Larger(mw[c], Magnitude(dw[c][i]));
+    }
+  }
+  bounds.NotFinite = notFinite;
+  bounds.Magnitude = Larger(Larger(Larger(mu[0], mu[1]), Larger(mu[2], mv[0])),
+    Larger(Larger(Larger(mv[1], mv[2]), Larger(mw[0], mw[1])), mw[2]));
+  Extremes<2, 2, 2> extremes{ bounds, 1.0 };
+  extremes.Start();
+  Pack corners[8];
+#pragma GCC unroll 3
+  for (int k = 0; k < 3; ++k)
+  {
+    Pack layer[3][3] = {};
+#pragma GCC unroll 2
+    for (int l = 0; l < 2; ++l)
+    {
+#pragma GCC unroll 2
+      for (int i = 0; i < 2; ++i)
+      {
+#pragma GCC unroll 3
+        for (int c = 0; c < 3; ++c)
+        {
+          const int a = (c + 1) % 3;
+          const int b = (c + 2) % 3;
+          Pack cross = {};
+#pragma GCC unroll 2
+          for (int n = 0; n < 2; ++n)
+          {
+            const int m = k - n;
+            if (m == 0 || m == 1)
+            {
+              cross += du[a][l + 2 * n] * dv[b][i + 2 * m];
+              cross -= du[b][l + 2 * n] * dv[a][i + 2 * m];
+            }
+          }
+          layer[l][i] += cross * dw[c][0];
+          layer[l][i + 1] += cross * dw[c][1];
+          layer[l + 1][i] += cross * dw[c][2];
+          layer[l + 1][i + 1] += cross * dw[c][3];
+        }
+      }
+    }
+#pragma GCC unroll 3
+    for (int l = 0; l < 3; ++l)
+    {
+      extremes.Row(l, k, layer[l], corners);
+    }
+  }
+#pragma GCC unroll 8
+  for (const Pack& corner : corners)
+  {
+    extremes.Corner(corner);
+  }
+  // differences 1 + 1, cross 1 + 4, product 1 + 1, sums of 12, constants 2
+  bounds.Error = RoundingFactor(2 + 5 + 2 + 12 + 2) *
+      (mw[0] * (mu[1] * mv[2] + mu[2] * mv[1]) + mw[1] * (mu[2] * mv[0] + mu[0] * mv[2]) +
+        mw[2] * (mu[0] * mv[1] + mu[1] * mv[0])) +
+    0x1p-700;
+}
+
 /// See JacobianForms::PlanarMinor for the form.
 template <int P, int Q>
 void RationalQuadrilateral(const Blocks& blocks, CoefficientBounds& bounds)

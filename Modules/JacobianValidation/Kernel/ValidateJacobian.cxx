@@ -30,9 +30,7 @@ public:
     for (std::size_t c = begin; c < end;)
     {
       std::size_t count = 1;
-      while (count < PackSize && c + count < end &&
-        this->Cells.Shapes[c + count] == this->Cells.Shapes[c] &&
-        this->Cells.Degrees[c + count] == this->Cells.Degrees[c])
+      while (count < PackSize && c + count < end && this->Cells.AreAlike(c + count, c))
       {
         ++count;
       }
@@ -84,6 +82,7 @@ private:
       return true;
     }
     constexpr double Outward = 1.0 + 0x1p-48; // covers the few roundings from here on
+    constexpr double Inward = 1.0 - 0x1p-48;
     const double e = b.Error[l];
     const bool reversed = !norm && b.Largest[l] < 0.0;
     double smallest = reversed ? -b.Largest[l] : b.Smallest[l];
@@ -94,7 +93,7 @@ private:
     {
       return true;
     }
-    double lower = (smallest - e) / Outward;
+    double lower = (smallest - e) * Inward;
     double upper = (largest + e) * Outward;
     double cornerError = e;
     if (power > 0)
@@ -106,7 +105,7 @@ private:
         low *= b.SmallestWeight[l] - given;
         high *= b.LargestWeight[l] + given;
       }
-      lower = lower / high / Outward;
+      lower = lower / high * Inward;
       upper = upper / low * Outward;
       cornerError = e / low * Outward;
       if (given > 0.0)
@@ -116,7 +115,7 @@ private:
       }
     }
     const double cornerUpper = (corner + cornerError) * Outward;
-    const double cornerLower = std::max((largestCorner - cornerError) / Outward, lower);
+    const double cornerLower = std::max((largestCorner - cornerError) * Inward, lower);
     if (cornerUpper - lower > this->Params.RelativeGap * cornerUpper ||
       (this->Params.ComputeMax && upper - cornerLower > this->Params.RelativeGap * upper))
     {
@@ -165,6 +164,10 @@ Status CheckInput(const BernsteinCells& cells, const JacobianParams& params)
   }
   for (std::size_t c = 0; c < cells.Shapes.size(); ++c)
   {
+    if (c > 0 && cells.Shapes[c] == cells.Shapes[c - 1])
+    {
+      continue;
+    }
     if (cells.NumComponents < NumParameters(cells.Shapes[c]) || cells.NumComponents > 3)
     {
       return { ErrorCode::DimensionMismatch,

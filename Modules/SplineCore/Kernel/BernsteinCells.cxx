@@ -140,8 +140,7 @@ Status BernsteinCells::CheckStructure() const
   std::size_t size = 0;
   for (std::size_t c = 0; c < n; ++c)
   {
-    if (c == 0 || this->Shapes[c] != this->Shapes[c - 1] ||
-      this->Degrees[c] != this->Degrees[c - 1])
+    if (c == 0 || !this->AreAlike(c, c - 1))
     {
       if (static_cast<int>(this->Shapes[c]) >= NumCellShapes ||
         !IsDegree(this->Shapes[c], this->Degrees[c]))

@@ -69,6 +69,12 @@ struct BernsteinCells
   {
     return this->Data.data() + this->Offsets[static_cast<std::size_t>(cell)];
   }
+  /// Two cells are of one shape and degree.
+  bool AreAlike(std::size_t a, std::size_t b) const
+  {
+    return this->Shapes[a] == this->Shapes[b] && this->Degrees[a][0] == this->Degrees[b][0] &&
+      this->Degrees[a][1] == this->Degrees[b][1] && this->Degrees[a][2] == this->Degrees[b][2];
+  }
   /// Appends a cell of zeros and gives its number; fill Block(number).
   int Add(CellShape shape, const CellDegree& degree);
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Bernstein.h"
 #include "ExactForm.h"
 #include "JacobianCorpus.h"
 
@@ -212,6 +213,64 @@ TEST(JacobianForms, ValuesAreTheDeterminant_CrossOracle)
       EXPECT_NEAR(exact, static_cast<double>(direct), 1e-13 * largest)
         << static_cast<int>(shape) << " " << degree[0] << degree[1] << degree[2] << rational;
       EXPECT_EQ(form.SignAt(at), exact > 0.0 ? 1 : -1);
+    }
+  }
+}
+
+/// The form of degree (4p - 1, 4q - 1), (X_u W - X W_u)(Y_v W - Y W_v) - (X_v W - X W_v)(Y_u W
+/// - Y W_u), is the minimal one times W, raised by one degree.
+TEST(JacobianForms, RedundantFormIsTheMinimalTimesWeights_CrossOracle)
+{
+  LayoutCache cache;
+  oracle::Random random(6);
+  for (int trial = 0; trial < 12; ++trial)
+  {
+    const IntArray<2> pq{ random.Int(1, 4), random.Int(1, 4) };
+    const CellDegree degree{ pq[0], pq[1], 0 };
+    const RandomCell cell = MakeCell(random, CellShape::Quadrilateral, degree, 2, true);
+    const std::size_t n = static_cast<std::size_t>(NumTensorFunctions<2>(pq));
+    std::array<std::vector<double>, 3> x;
+    for (std::size_t c = 0; c < 3; ++c)
+    {
+      x[c].assign(cell.Block.data() + c * n, cell.Block.data() + (c + 1) * n);
+    }
+    const auto lower = [&](int d)
+    {
+      IntArray<2> l = pq;
+      --l[static_cast<std::size_t>(d)];
+      return l;
+    };
+    const auto quotient = [&](std::size_t c, int d)
+    {
+      auto a = BernsteinProduct<2>(lower(d), BernsteinDerivative<2>(pq, x[c], d), pq, x[2]);
+      const auto b = BernsteinProduct<2>(lower(d), BernsteinDerivative<2>(pq, x[2], d), pq, x[c]);
+      for (std::size_t k = 0; k < a.size(); ++k)
+      {
+        a[k] -= b[k];
+      }
+      return a;
+    };
+    const IntArray<2> du{ 2 * pq[0] - 1, 2 * pq[1] };
+    const IntArray<2> dv{ 2 * pq[0], 2 * pq[1] - 1 };
+    auto redundant = BernsteinProduct<2>(du, quotient(0, 0), dv, quotient(1, 1));
+    const auto second = BernsteinProduct<2>(du, quotient(1, 0), dv, quotient(0, 1));
+    double largest = 0.0;
+    for (std::size_t k = 0; k < redundant.size(); ++k)
+    {
+      redundant[k] -= second[k];
+      largest = std::max(largest, std::fabs(redundant[k]));
+    }
+    const ExactForm minimal = ExactDeterminant(cache, CellShape::Quadrilateral, degree, cell);
+    const IntArray<2> md{ minimal.Layout->Degree[0], minimal.Layout->Degree[1] };
+    EXPECT_EQ(md, (IntArray<2>{ 3 * pq[0] - 2, 3 * pq[1] - 2 }));
+    const auto product = BernsteinProduct<2>(md, minimal.CoefficientsAt(0), pq, x[2]);
+    const auto raised = BernsteinElevate<2>(
+      { md[0] + pq[0], md[1] + pq[1] }, product, { 4 * pq[0] - 1, 4 * pq[1] - 1 });
+    ASSERT_EQ(raised.size(), redundant.size());
+    for (std::size_t k = 0; k < raised.size(); ++k)
+    {
+      EXPECT_NEAR(
+        raised[k], redundant[k], 1e-12 * largest); // a few hundred roundings of terms of that size
     }
   }
 }
