@@ -100,6 +100,45 @@ public:
     return best;
   }
 
+  /// Calls use(item) for the items of all leaves whose boxes meet [lower, upper]: all items whose
+  /// own boxes do, and their neighbours in the tree. The order is fixed.
+  template <typename Use>
+  void ForNear(const double* lower, const double* upper, Use&& use) const
+  {
+    if (this->Order.empty())
+    {
+      return;
+    }
+    int stack[64];
+    int top = 0;
+    stack[top++] = 0;
+    while (top > 0)
+    {
+      const int node = stack[--top];
+      const double* box = this->Boxes.data() + static_cast<std::size_t>(node) * 2 * this->Stride;
+      bool meets = true;
+      for (int d = 0; d < this->D; ++d)
+      {
+        meets = meets && box[d] <= upper[d] && lower[d] <= box[this->D + d];
+      }
+      if (!meets)
+      {
+        continue;
+      }
+      if (node < this->FirstLeaf)
+      {
+        stack[top++] = 2 * node + 2;
+        stack[top++] = 2 * node + 1;
+        continue;
+      }
+      const std::size_t leaf = static_cast<std::size_t>(node - this->FirstLeaf);
+      for (int i = this->LeafStart[leaf]; i < this->LeafStart[leaf + 1]; ++i)
+      {
+        use(this->Order[static_cast<std::size_t>(i)]);
+      }
+    }
+  }
+
 private:
   double BoxDistance(int node, const double* point) const
   {

@@ -1,0 +1,830 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BoundaryInjectivity.h"
+#include "Parallel.h"
+#include "PreimageProof.h"
+#include "SideSeparation.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace knotwork
+{
+namespace
+{
+constexpr std::int64_t firstBoxes = 4096;
+/// Sides with common corners are an interface when they are nearer than this part of their size.
+constexpr double slender = 0.05;
+
+Status CheckInput(const BernsteinCells& cells, const CellComplex& complex,
+  const JacobianCertificate& certificate, const InjectivityParams& params)
+{
+  Status status = cells.Check();
+  if (!status)
+  {
+    return status;
+  }
+  const std::size_t n = cells.Shapes.size();
+  if (n == 0)
+  {
+    return { ErrorCode::EmptyInput, "there are no cells" };
+  }
+  for (std::size_t c = 0; c < n; ++c)
+  {
+    const int dim = NumParameters(cells.Shapes[c]);
+    if (dim != cells.NumComponents || dim < 2)
+    {
+      return { ErrorCode::DimensionMismatch,
+        "cell " + std::to_string(c) + " has " + std::to_string(dim) + " parameters and " +
+          std::to_string(cells.NumComponents) +
+          " components; global injectivity is of plane maps and volumes" };
+    }
+  }
+  if ((!complex.Patches.empty() && complex.Patches.size() != n) ||
+    (!complex.Boxes.empty() && complex.Boxes.size() != n))
+  {
+    return { ErrorCode::SizeMismatch, "patches and boxes must be empty or one a cell" };
+  }
+  if (!complex.PointIds.empty() &&
+    complex.PointIds.size() * static_cast<std::size_t>(cells.NumPlanes()) != cells.Data.size())
+  {
+    return { ErrorCode::SizeMismatch, "point ids must be empty or one a coefficient" };
+  }
+  if (certificate.Cells.size() != n)
+  {
+    return { ErrorCode::SizeMismatch,
+      "the certificate is of " + std::to_string(certificate.Cells.size()) + " cells, not of " +
+        std::to_string(n) };
+  }
+  const auto outside = [](const char* name, const char* range)
+  { return Status(ErrorCode::InvalidParameter, std::string(name) + " must lie in " + range); };
+  if (params.MaxBoxes < 1)
+  {
+    return outside("MaxBoxes", "[1, ...)");
+  }
+  if (!(params.GapTolerance >= 0.0 && params.GapTolerance <= 1.0))
+  {
+    return outside("GapTolerance", "[0, 1]");
+  }
+  if (!(params.InnerTolerance >= 0.0 && params.InnerTolerance <= 1e-6))
+  {
+    return outside("InnerTolerance", "[0, 1e-6]");
+  }
+  if (!(params.InterfaceTolerance >= 0.0 && params.InterfaceTolerance <= 1e-6))
+  {
+    return outside("InterfaceTolerance", "[0, 1e-6]");
+  }
+  if (!(params.CollapseTolerance >= 0.0 && params.CollapseTolerance <= 1e-6))
+  {
+    return outside("CollapseTolerance", "[0, 1e-6]");
+  }
+  if (params.Threads < 0)
+  {
+    return outside("Threads", "[0, ...)");
+  }
+  return {};
+}
+
+/// One run of the proof.
+class Run
+{
+public:
+  Run(const BernsteinCells& cells, const CellComplex& complex,
+    const JacobianCertificate& certificate, const InjectivityParams& params)
+    : Cells(cells), Complex(complex), Local(certificate), Params(params)
+  {
+  }
+
+  /// @return false when aborted.
+  bool Prove(const ProgressCallback& progress)
+  {
+    const auto report = [&](double part) { return !progress || progress(part); };
+    std::vector<int> signs;
+    for (const CellCertificate& c : this->Local.Cells)
+    {
+      signs.push_back(c.Verdict == Verdict::Reversed ? -1 : 1);
+    }
+    this->Gluing = GlueCells(this->Cells, this->Complex, signs, this->Params);
+    this->Out.NumBoundarySides = static_cast<int>(this->Gluing.Boundary.size());
+    this->Out.NumBoundaryComponents = this->Gluing.NumComponents;
+    this->Out.NumInterfaces = this->Gluing.NumInterfaces;
+    this->Out.NumSeams = this->Gluing.NumSeams;
+    this->Out.NumCollapsedSides = this->Gluing.NumCollapsed;
+    this->Out.NumTouching = this->Gluing.NumTouching;
+    this->Out.InnerRounding = this->Gluing.InnerRounding;
+    if (!report(0.1))
+    {
+      return false;
+    }
+    this->MakeTables();
+    this->FindPairs();
+    if (!report(0.3))
+    {
+      return false;
+    }
+    if (this->FindFolds())
+    {
+      return true;
+    }
+    this->Separate();
+    if (!report(0.8))
+    {
+      return false;
+    }
+    if (this->Out.Verdict != InjectivityVerdict::NotInjective && !this->FindObstacles())
+    {
+      this->CountAtComponents();
+    }
+    return report(1.0);
+  }
+
+  InjectivityCertificate Out;
+
+private:
+  using Place = InjectivityWitness::Place;
+
+  const BoundarySide& Side(int i) const
+  {
+    return this->Gluing.Boundary[static_cast<std::size_t>(i)];
+  }
+  CellShape Shape(int cell) const { return this->Cells.Shapes[static_cast<std::size_t>(cell)]; }
+  const CellLattice& LatticeOf(int cell) const
+  {
+    return this->Lattices.at(
+      { static_cast<int>(this->Shape(cell)), this->Cells.Degrees[static_cast<std::size_t>(cell)] });
+  }
+  Place MakePlace(int cell, int side, const std::array<double, 3>& u) const
+  {
+    return { cell, side, u, EvaluateCell(this->Cells, cell, u.data()).Position };
+  }
+  Place SidePlace(int side, const std::array<double, 3>& s) const
+  {
+    const BoundarySide& b = this->Side(side);
+    return this->MakePlace(b.Cell, b.Number, SideToCell(this->Shape(b.Cell), b.Frame, s.data()));
+  }
+  Place SideMiddle(int cell, int number) const
+  {
+    if (cell < 0)
+    {
+      return {};
+    }
+    const SideFrame& frame = GetSideFrame(this->Shape(cell), number);
+    const double middle = frame.Shape == CellShape::Triangle ? 0.25 : 0.5;
+    const double s[2] = { middle, middle };
+    return this->MakePlace(cell, number, SideToCell(this->Shape(cell), frame, s));
+  }
+  void Set(InjectivityVerdict verdict, InjectivityReason reason)
+  {
+    this->Out.Verdict = verdict;
+    this->Out.Reason = reason;
+  }
+  void SetWitness(const Place& a, const Place& b, double radius)
+  {
+    this->Out.HasWitness = true;
+    this->Out.Witness = { { a, b }, radius };
+  }
+
+  void MakeTables()
+  {
+    for (std::size_t c = 0; c < this->Cells.Shapes.size(); ++c)
+    {
+      this->Lattices.try_emplace(
+        { static_cast<int>(this->Cells.Shapes[c]), this->Cells.Degrees[c] }, this->Cells.Shapes[c],
+        this->Cells.Degrees[c]);
+    }
+    this->SideCells.NumComponents = this->Cells.NumComponents;
+    this->SideCells.Rational = this->Cells.Rational;
+    for (const BoundarySide& b : this->Gluing.Boundary)
+    {
+      this->SideLattices.try_emplace(
+        { static_cast<int>(b.Frame.Shape), b.Degree }, b.Frame.Shape, b.Degree);
+      const int i = this->SideCells.Add(b.Frame.Shape, b.Degree);
+      std::copy(b.Data.begin(), b.Data.end(), this->SideCells.Block(i));
+      this->SideCells.Errors.push_back(b.Error);
+    }
+  }
+
+  /// Boxes of cells, n x d each.
+  static void MakeBoxes(const BernsteinCells& cells, const CellLatticeTable& lattices,
+    PointMatrix& lower, PointMatrix& upper, int threads)
+  {
+    const Eigen::Index n = cells.NumCells();
+    lower.resize(n, cells.NumComponents);
+    upper.resize(n, cells.NumComponents);
+    ParallelFor(static_cast<std::size_t>(n), 256, threads,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t c = begin; c < end; ++c)
+        {
+          const auto& lattice =
+            lattices.at({ static_cast<int>(cells.Shapes[c]), cells.Degrees[c] });
+          const int cell = static_cast<int>(c);
+          const PieceHull hull = MakeHull(lattice, cells.NumComponents, cells.Rational,
+            MakePiece(lattice, cells.NumPlanes(), cells.Block(cell),
+              cells.Errors.empty() ? 0.0 : cells.Errors[c]));
+          for (int d = 0; d < cells.NumComponents; ++d)
+          {
+            const std::size_t at = static_cast<std::size_t>(d);
+            lower(cell, d) = hull.Lower[at];
+            upper(cell, d) = hull.Upper[at];
+          }
+        }
+      });
+  }
+
+  /// Pairs of sides whose boxes meet, without those that are gaps.
+  void FindPairs()
+  {
+    PointMatrix lower;
+    PointMatrix upper;
+    MakeBoxes(this->SideCells, this->SideLattices, lower, upper, this->Params.Threads);
+    const int n = this->SideCells.NumCells();
+    if (n == 0)
+    {
+      return;
+    }
+    const BoxTree tree(lower, upper);
+    this->ModelSize =
+      (upper.colwise().maxCoeff() - lower.colwise().minCoeff()).cwiseAbs().maxCoeff();
+    const double reach = this->Params.GapTolerance * this->ModelSize;
+    std::vector<std::vector<int>> near(static_cast<std::size_t>(n));
+    std::vector<std::vector<InterfaceGap>> gaps(static_cast<std::size_t>(n));
+    ParallelFor(static_cast<std::size_t>(n), 64, this->Params.Threads,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          const int a = static_cast<int>(i);
+          double low[3];
+          double high[3];
+          for (int d = 0; d < this->Cells.NumComponents; ++d)
+          {
+            low[d] = lower(a, d) - reach;
+            high[d] = upper(a, d) + reach;
+          }
+          near[i].push_back(a);
+          tree.ForNear(low, high,
+            [&](int b)
+            {
+              if (b <= a)
+              {
+                return;
+              }
+              bool meet = true;
+              bool close = true;
+              for (int d = 0; d < this->Cells.NumComponents; ++d)
+              {
+                close = close && lower(b, d) <= high[d] && low[d] <= upper(b, d);
+                meet = meet && lower(b, d) <= upper(a, d) && lower(a, d) <= upper(b, d);
+              }
+              InterfaceGap gap;
+              if (close && this->Side(a).Patch != this->Side(b).Patch && this->IsGap(a, b, gap))
+              {
+                gaps[i].push_back(gap);
+              }
+              else if (meet)
+              {
+                near[i].push_back(b);
+              }
+            });
+          std::sort(near[i].begin(), near[i].end());
+        }
+      });
+    for (std::size_t i = 0; i < near.size(); ++i)
+    {
+      for (const int b : near[i])
+      {
+        this->Pairs.push_back({ static_cast<int>(i), b });
+      }
+      std::sort(gaps[i].begin(), gaps[i].end(),
+        [](const InterfaceGap& x, const InterfaceGap& y)
+        { return std::tie(x.Cells, x.Sides) < std::tie(y.Cells, y.Sides); });
+      this->Out.Gaps.insert(this->Out.Gaps.end(), gaps[i].begin(), gaps[i].end());
+    }
+  }
+
+  /// Points of a side at a uniform lattice.
+  std::vector<std::array<double, 3>> SideSamples(int side, int n) const
+  {
+    const CellShape shape = this->Side(side).Frame.Shape;
+    std::vector<std::array<double, 3>> samples;
+    for (int j = 0; j <= (shape == CellShape::Curve ? 0 : n); ++j)
+    {
+      for (int i = 0; i <= n; ++i)
+      {
+        if (shape != CellShape::Triangle || i + j <= n)
+        {
+          samples.push_back({ static_cast<double>(i) / n, static_cast<double>(j) / n, 0.0 });
+        }
+      }
+    }
+    return samples;
+  }
+
+  /// Distance of a point to a side: the nearest sample, improved by Gauss-Newton steps.
+  double SideDistance(int side, const std::vector<std::array<double, 3>>& samples,
+    const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& x) const
+  {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < points.size(); ++i)
+    {
+      if ((points[i] - x).squaredNorm() < (points[best] - x).squaredNorm())
+      {
+        best = i;
+      }
+    }
+    double distance = (points[best] - x).norm();
+    const CellShape shape = this->Side(side).Frame.Shape;
+    const int dim = NumParameters(shape);
+    std::array<double, 3> s = samples[best];
+    for (int step = 0; step < 8; ++step)
+    {
+      const CellPoint p = EvaluateCell(this->SideCells, side, s.data());
+      const Eigen::Vector3d r = x - Eigen::Vector3d(p.Position.data());
+      distance = std::min(distance, r.norm());
+      Eigen::MatrixXd j(3, dim);
+      for (int d = 0; d < dim; ++d)
+      {
+        j.col(d) = Eigen::Vector3d(p.Derivative[static_cast<std::size_t>(d)].data());
+      }
+      const Eigen::VectorXd change = (j.transpose() * j).ldlt().solve(j.transpose() * r);
+      if (!change.allFinite())
+      {
+        break;
+      }
+      for (int d = 0; d < dim; ++d)
+      {
+        const std::size_t at = static_cast<std::size_t>(d);
+        s[at] = std::clamp(s[at] + change[d], 0.0, 1.0);
+      }
+      if (shape == CellShape::Triangle && s[0] + s[1] > 1.0)
+      {
+        const double over = 0.5 * (s[0] + s[1] - 1.0);
+        s[0] = std::clamp(s[0] - over, 0.0, 1.0);
+        s[1] = 1.0 - s[0];
+      }
+    }
+    return distance;
+  }
+
+  /// Whether two sides of different patches should be one interface.
+  bool IsGap(int a, int b, InterfaceGap& gap) const
+  {
+    const double tolerance = this->Params.GapTolerance * this->ModelSize;
+    const bool curve = this->Cells.NumComponents == 2;
+    std::vector<int> placesA(
+      this->Side(a).Places.begin(), this->Side(a).Places.begin() + this->Side(a).Frame.NumCorners);
+    std::vector<int> placesB(
+      this->Side(b).Places.begin(), this->Side(b).Places.begin() + this->Side(b).Frame.NumCorners);
+    std::sort(placesA.begin(), placesA.end());
+    std::sort(placesB.begin(), placesB.end());
+    const bool sameCorners = placesA == placesB;
+    bool isGap = false;
+    for (int turn = 0; turn < 2; ++turn)
+    {
+      const int from = turn == 0 ? a : b;
+      const int to = turn == 0 ? b : a;
+      const auto samples = this->SideSamples(from, curve ? 12 : 5);
+      const auto targets = this->SideSamples(to, curve ? 32 : 8);
+      std::vector<Eigen::Vector3d> points;
+      for (const auto& s : targets)
+      {
+        points.push_back(
+          Eigen::Vector3d(EvaluateCell(this->SideCells, to, s.data()).Position.data()));
+      }
+      std::size_t close = 0;
+      double largestClose = 0.0;
+      double largest = 0.0;
+      Eigen::Vector3d at = Eigen::Vector3d::Zero();
+      Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+      Eigen::Vector3d high = -low;
+      for (const auto& s : samples)
+      {
+        const Eigen::Vector3d x(EvaluateCell(this->SideCells, from, s.data()).Position.data());
+        low = low.cwiseMin(x);
+        high = high.cwiseMax(x);
+        const double distance = this->SideDistance(to, targets, points, x);
+        if (distance > largest)
+        {
+          largest = distance;
+          at = x;
+        }
+        if (distance <= tolerance)
+        {
+          ++close;
+          largestClose = std::max(largestClose, distance);
+        }
+      }
+      const double size = (high - low).norm();
+      const bool unequal = sameCorners && largest <= slender * size;
+      if (unequal || 2 * close > samples.size())
+      {
+        isGap = true;
+        const double found = unequal ? largest : largestClose;
+        if (found >= gap.Size)
+        {
+          gap.Size = found;
+          gap.Position = { at[0], at[1], at[2] };
+        }
+      }
+    }
+    gap.Cells = { this->Side(a).Cell, this->Side(b).Cell };
+    gap.Sides = { this->Side(a).Number, this->Side(b).Number };
+    return isGap;
+  }
+
+  bool IsDecided(int cell) const
+  {
+    const Verdict v = this->Local.Cells[static_cast<std::size_t>(cell)].Verdict;
+    return v == Verdict::Valid || v == Verdict::Reversed;
+  }
+
+  /// What contradicts injectivity without a look at the boundary: det J of both signs in one cell,
+  /// or two cells on one side of a side.
+  bool FindFolds()
+  {
+    for (std::size_t c = 0; c < this->Local.Cells.size(); ++c)
+    {
+      const CellCertificate& cell = this->Local.Cells[c];
+      if (cell.Verdict != Verdict::Invalid || !(cell.MaxLower > 0.0) || cell.Witness < 0)
+      {
+        continue;
+      }
+      const JacobianWitness& witness =
+        this->Local.Witnesses[static_cast<std::size_t>(cell.Witness)];
+      if (witness.Upper < 0.0)
+      {
+        this->Set(InjectivityVerdict::NotInjective, InjectivityReason::FoldedCell);
+        const Place place = this->MakePlace(static_cast<int>(c), -1, witness.Parameters);
+        this->SetWitness(place, place, 0.0);
+        return true;
+      }
+    }
+    const auto& folded = this->Gluing.Folded;
+    if (folded[0] >= 0 && this->IsDecided(folded[0]) && this->IsDecided(folded[2]))
+    {
+      this->Set(InjectivityVerdict::NotInjective, InjectivityReason::FoldedSide);
+      this->SetWitness(
+        this->SideMiddle(folded[0], folded[1]), this->SideMiddle(folded[2], folded[3]), 0.0);
+      return true;
+    }
+    return false;
+  }
+
+  struct PairState
+  {
+    SeparationResult Separation;
+    bool HasOverlap = false;
+    Place First;
+    Place Second;
+    double Radius = 0.0;
+  };
+
+  void Separate()
+  {
+    SeparationInput input;
+    input.Sides = &this->Gluing.Boundary;
+    input.Lattices = &this->SideLattices;
+    input.NumComponents = this->Cells.NumComponents;
+    input.Rational = this->Cells.Rational;
+    input.CollapseTolerance = this->Params.CollapseTolerance;
+    std::vector<PairState> states(this->Pairs.size());
+    const auto work = [&](const std::vector<std::size_t>& which, std::int64_t limit, bool last)
+    {
+      ParallelFor(which.size(), 4, this->Params.Threads,
+        [&](std::size_t begin, std::size_t end)
+        {
+          for (std::size_t k = begin; k < end; ++k)
+          {
+            PairState& state = states[which[k]];
+            const auto& pair = this->Pairs[which[k]];
+            state.Separation = SeparateSides(input, pair[0], pair[1], limit);
+            if (state.Separation.State == SeparationState::Stuck ||
+              (last && state.Separation.State == SeparationState::Boxes))
+            {
+              this->FindOverlap(pair, state);
+            }
+          }
+        });
+      for (const std::size_t k : which)
+      {
+        this->Out.Boxes += states[k].Separation.Boxes;
+      }
+    };
+    std::vector<std::size_t> all(this->Pairs.size());
+    for (std::size_t k = 0; k < all.size(); ++k)
+    {
+      all[k] = k;
+    }
+    const std::int64_t share =
+      std::max<std::int64_t>(1, std::min<std::int64_t>(firstBoxes, this->Params.MaxBoxes));
+    work(all, share, false);
+    std::vector<std::size_t> open;
+    bool overlaps = false;
+    for (const std::size_t k : all)
+    {
+      overlaps = overlaps || states[k].HasOverlap;
+      if (states[k].Separation.State == SeparationState::Boxes)
+      {
+        open.push_back(k);
+      }
+    }
+    if (!open.empty() && !overlaps)
+    {
+      const std::int64_t left = this->Params.MaxBoxes - this->Out.Boxes;
+      const std::int64_t each = left / static_cast<std::int64_t>(open.size());
+      work(open, std::max(each, share), true);
+    }
+    for (std::size_t k = 0; k < states.size(); ++k)
+    {
+      const PairState& state = states[k];
+      if (state.HasOverlap)
+      {
+        this->Set(InjectivityVerdict::NotInjective, InjectivityReason::Overlap);
+        this->SetWitness(state.First, state.Second, state.Radius);
+        return;
+      }
+    }
+    for (std::size_t k = 0; k < states.size(); ++k)
+    {
+      const auto& separation = states[k].Separation;
+      if (separation.State != SeparationState::Separate &&
+        (this->Obstacle == SeparationState::Separate ||
+          (this->Obstacle == SeparationState::Boxes && separation.State == SeparationState::Stuck)))
+      {
+        this->Obstacle = separation.State;
+        this->ObstaclePlaces = { this->SidePlace(this->Pairs[k][0], separation.At[0]),
+          this->SidePlace(this->Pairs[k][1], separation.At[1]) };
+      }
+    }
+  }
+
+  /// Where boundaries cross, the insides beside them overlap: points just inside one cell whose
+  /// images another cell takes too.
+  void FindOverlap(const std::array<int, 2>& pair, PairState& state) const
+  {
+    const int offsets = this->Cells.NumComponents == 2 ? 1 : 2;
+    for (int halving = 2; halving <= 42; halving += 2)
+    {
+      const double step = std::ldexp(1.0, -halving);
+      for (int turn = 0; turn < 2; ++turn)
+      {
+        const BoundarySide& from = this->Side(pair[static_cast<std::size_t>(turn)]);
+        const BoundarySide& to = this->Side(pair[static_cast<std::size_t>(1 - turn)]);
+        const CellLattice& lattice = this->LatticeOf(to.Cell);
+        const auto start = SideToCell(this->Shape(to.Cell), to.Frame,
+          state.Separation.At[static_cast<std::size_t>(1 - turn)].data());
+        const CellShape shape = this->Shape(from.Cell);
+        std::array<double, 3> middle{};
+        for (int c = 0; c < NumCorners(shape); ++c)
+        {
+          const auto u = CornerParameters(shape, c);
+          for (std::size_t d = 0; d < 3; ++d)
+          {
+            middle[d] += u[d] / NumCorners(shape);
+          }
+        }
+        for (int i = -1; i <= 1; ++i)
+        {
+          for (int j = offsets > 1 ? -1 : 0; j <= (offsets > 1 ? 1 : 0); ++j)
+          {
+            auto s = state.Separation.At[static_cast<std::size_t>(turn)];
+            s[0] = std::clamp(s[0] + i * step, 0.0, 1.0);
+            s[1] = offsets > 1 ? std::clamp(s[1] + j * step, 0.0, 1.0) : 0.0;
+            if (from.Frame.Shape == CellShape::Triangle && s[0] + s[1] > 1.0)
+            {
+              continue;
+            }
+            auto u = SideToCell(shape, from.Frame, s.data());
+            for (std::size_t d = 0; d < 3; ++d)
+            {
+              u[d] += step * (middle[d] - u[d]);
+            }
+            const ImagePoint image = EvaluateImage(this->Cells, from.Cell, u.data());
+            const auto preimage = ProvePreimage(this->Cells, lattice, to.Cell, start, image);
+            if (!preimage)
+            {
+              continue;
+            }
+            double apart = 0.0;
+            for (std::size_t d = 0; d < 3; ++d)
+            {
+              apart = std::max(apart, std::abs(preimage->Parameters[d] - u[d]));
+            }
+            if (from.Cell != to.Cell || apart > 2.0 * preimage->Radius)
+            {
+              state.HasOverlap = true;
+              state.First = this->MakePlace(from.Cell, -1, u);
+              state.Second = this->MakePlace(to.Cell, -1, preimage->Parameters);
+              state.Radius = preimage->Radius;
+              return;
+            }
+          }
+        }
+      }
+    }
+  }
+
+  /// What keeps the theorem's conditions from being proved.
+  bool FindObstacles()
+  {
+    const auto undecided = [&](InjectivityReason reason, const Place& a, const Place& b)
+    {
+      this->Set(InjectivityVerdict::Undecided, reason);
+      this->SetWitness(a, b, 0.0);
+      return true;
+    };
+    for (int c = 0; c < this->Cells.NumCells(); ++c)
+    {
+      if (!this->IsDecided(c))
+      {
+        const std::int32_t w = this->Local.Cells[static_cast<std::size_t>(c)].Witness;
+        std::array<double, 3> u{};
+        if (w >= 0)
+        {
+          u = this->Local.Witnesses[static_cast<std::size_t>(w)].Parameters;
+        }
+        const Place place = this->MakePlace(c, -1, u);
+        return undecided(InjectivityReason::LocalJacobian, place, place);
+      }
+    }
+    const CellGluing& g = this->Gluing;
+    if (g.Partial[0] >= 0)
+    {
+      const Place place = this->SideMiddle(g.Partial[0], g.Partial[1]);
+      return undecided(InjectivityReason::OpenSide, place, place);
+    }
+    if (g.Torn[0] >= 0)
+    {
+      InterfaceGap gap;
+      gap.Cells = { g.Torn[0], g.Torn[2] };
+      gap.Sides = { g.Torn[1], g.Torn[3] };
+      gap.Size = g.TornSize;
+      gap.Position = this->SideMiddle(g.Torn[0], g.Torn[1]).Position;
+      this->Out.Gaps.insert(this->Out.Gaps.begin(), gap);
+    }
+    if (!this->Out.Gaps.empty())
+    {
+      const auto largest = std::max_element(this->Out.Gaps.begin(), this->Out.Gaps.end(),
+        [](const InterfaceGap& a, const InterfaceGap& b) { return a.Size < b.Size; });
+      return undecided(InjectivityReason::Gap,
+        this->SideMiddle(largest->Cells[0], largest->Sides[0]),
+        this->SideMiddle(largest->Cells[1], largest->Sides[1]));
+    }
+    if (g.Open[0] >= 0 || g.Boundary.empty())
+    {
+      const Place place = this->SideMiddle(g.Open[0], g.Open[1]);
+      return undecided(InjectivityReason::OpenBoundary, place, place);
+    }
+    if (this->Obstacle != SeparationState::Separate)
+    {
+      return undecided(this->Obstacle == SeparationState::Boxes ? InjectivityReason::Boxes
+                                                                : InjectivityReason::TooClose,
+        this->ObstaclePlaces[0], this->ObstaclePlaces[1]);
+    }
+    return false;
+  }
+
+  /// The map covers a neighbourhood of one point of every component once. A single simple component
+  /// needs no look: the degree is 0 on one side of it and 1 on the other. Components that touch are
+  /// looked at side by side.
+  void CountAtComponents()
+  {
+    std::vector<int> places;
+    std::vector<bool> seen(static_cast<std::size_t>(this->Gluing.NumComponents), false);
+    for (std::size_t i = 0; i < this->Gluing.Boundary.size(); ++i)
+    {
+      const std::size_t component = static_cast<std::size_t>(this->Gluing.Boundary[i].Component);
+      if (!seen[component] || this->Gluing.NumTouching > 0)
+      {
+        seen[component] = true;
+        places.push_back(static_cast<int>(i));
+      }
+    }
+    if (places.size() > 1)
+    {
+      PointMatrix lower;
+      PointMatrix upper;
+      MakeBoxes(this->Cells, this->Lattices, lower, upper, this->Params.Threads);
+      const BoxTree tree(lower, upper);
+      std::vector<MultiplicityResult> results(places.size());
+      const std::int64_t each = std::max<std::int64_t>(firstBoxes,
+        (this->Params.MaxBoxes - this->Out.Boxes) / static_cast<std::int64_t>(places.size()));
+      ParallelFor(places.size(), 4, this->Params.Threads,
+        [&](std::size_t begin, std::size_t end)
+        {
+          for (std::size_t k = begin; k < end; ++k)
+          {
+            const BoundarySide& side = this->Side(places[k]);
+            results[k] = CountPreimages(this->Cells, this->Lattices, tree, side.Cell,
+              this->SideMiddle(side.Cell, side.Number).Parameters, each);
+          }
+        });
+      for (std::size_t k = 0; k < results.size(); ++k)
+      {
+        const MultiplicityResult& result = results[k];
+        this->Out.Boxes += result.Boxes;
+        const BoundarySide& side = this->Side(places[k]);
+        const Place place = this->SideMiddle(side.Cell, side.Number);
+        if (result.State == Multiplicity::Several)
+        {
+          this->Set(InjectivityVerdict::NotInjective, InjectivityReason::Overlap);
+          this->SetWitness(
+            place, this->MakePlace(result.Cell, -1, result.Other.Parameters), result.Other.Radius);
+          return;
+        }
+        if (result.State == Multiplicity::Unknown && !this->Out.HasWitness)
+        {
+          this->Set(InjectivityVerdict::Undecided,
+            result.Boxes > each ? InjectivityReason::Boxes : InjectivityReason::TooClose);
+          this->SetWitness(place, place, 0.0);
+        }
+      }
+      if (this->Out.HasWitness)
+      {
+        return;
+      }
+    }
+    bool collapsed = this->Gluing.NumCollapsed > 0;
+    for (const BoundarySide& b : this->Gluing.Boundary)
+    {
+      collapsed = collapsed ||
+        std::find(b.CollapsedEdges.begin(), b.CollapsedEdges.end(), true) != b.CollapsedEdges.end();
+    }
+    const InjectivityReason reason = this->Gluing.NumSeams > 0 ? InjectivityReason::Seam
+      : collapsed                                              ? InjectivityReason::CollapsedSide
+      : this->Gluing.NumTouching > 0                           ? InjectivityReason::Touching
+                                                               : InjectivityReason::None;
+    this->Set(reason == InjectivityReason::None ? InjectivityVerdict::Injective
+                                                : InjectivityVerdict::InjectiveUpToSeam,
+      reason);
+  }
+
+  const BernsteinCells& Cells;
+  const CellComplex& Complex;
+  const JacobianCertificate& Local;
+  const InjectivityParams& Params;
+  CellGluing Gluing;
+  CellLatticeTable Lattices;
+  LatticeTable SideLattices;
+  BernsteinCells SideCells;
+  double ModelSize = 0.0;
+  std::vector<std::array<int, 2>> Pairs;
+  SeparationState Obstacle = SeparationState::Separate;
+  std::array<Place, 2> ObstaclePlaces;
+};
+}
+
+const char* ToString(InjectivityReason reason)
+{
+  switch (reason)
+  {
+    case InjectivityReason::None:
+      return "the map is injective";
+    case InjectivityReason::Seam:
+      return "two sides of one patch have the same control points";
+    case InjectivityReason::CollapsedSide:
+      return "a side or an edge of the boundary is a point or a curve";
+    case InjectivityReason::Touching:
+      return "corners or edges of the boundary coincide exactly";
+    case InjectivityReason::FoldedCell:
+      return "the Jacobian determinant takes both signs in a cell";
+    case InjectivityReason::FoldedSide:
+      return "two cells lie on the same side of the side they share";
+    case InjectivityReason::Overlap:
+      return "two different points have the same image";
+    case InjectivityReason::LocalJacobian:
+      return "the local certificate does not prove a nonzero Jacobian determinant in a cell";
+    case InjectivityReason::Gap:
+      return "sides of two patches nearly agree, but are not equal";
+    case InjectivityReason::OpenSide:
+      return "a side of an element is only partly covered by its neighbours";
+    case InjectivityReason::OpenBoundary:
+      return "the boundary does not consist of closed curves or surfaces";
+    case InjectivityReason::Boxes:
+      return "the limit of boxes was reached";
+    case InjectivityReason::TooClose:
+      return "boundary points touch, or are too close to be told apart";
+  }
+  return "";
+}
+
+Result<InjectivityCertificate> ProveInjectivity(const BernsteinCells& cells,
+  const CellComplex& complex, const JacobianCertificate& certificate,
+  const InjectivityParams& params, const ProgressCallback& progress)
+{
+  Status status = CheckInput(cells, complex, certificate, params);
+  if (!status)
+  {
+    return status;
+  }
+  Run run(cells, complex, certificate, params);
+  if (!run.Prove(progress))
+  {
+    return Status(ErrorCode::Aborted, "the injectivity proof was stopped");
+  }
+  return std::move(run.Out);
+}
+}
