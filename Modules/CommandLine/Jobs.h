@@ -24,5 +24,6 @@ Job MakeMapJob(CLI::App& app);
 Job MakeRefineJob(CLI::App& app);
 Job MakeSourceJob(CLI::App& app);
 Job MakeTessellateJob(CLI::App& app);
+Job MakeValidateJob(CLI::App& app);
 Job MakeWarpJob(CLI::App& app);
 }

@@ -27,6 +27,7 @@ public:
   bool Quiet = false;
   int Threads = 0;
   std::string ReportFile;
+  int ExitStatus = 0; ///< of the program when the job has succeeded
   /// Flat JSON object of the report; jobs add the numbers they are about.
   nlohmann::ordered_json Report = nlohmann::ordered_json::object();
 

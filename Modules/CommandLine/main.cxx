@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// knotwork <job> [input...] --output FILE [--report FILE.json] [options]
-/// Exit status: 0 done; 1 bad input or failure, one line on stderr; 2 wrong usage.
+/// Exit status: 0 done; 1 bad input or failure, one line on stderr; 2 wrong usage; of validate also
+/// 3 invalid, 4 undecided.
 #include "Jobs.h"
 #include "Session.h"
 
@@ -31,6 +32,7 @@ constexpr Entry Jobs[] = {
   { "refine", "refine a spline, uniformly or locally", knotwork::MakeRefineJob },
   { "source", "make a spline of a standard shape", knotwork::MakeSourceJob },
   { "tessellate", "turn a spline into polygons within a tolerance", knotwork::MakeTessellateJob },
+  { "validate", "prove a grid valid or show where it is not", knotwork::MakeValidateJob },
   { "warp", "send points or splines through a spline map", knotwork::MakeWarpJob },
 };
 
@@ -88,7 +90,7 @@ int main(int argc, char* argv[])
       {
         status = session.Commit();
       }
-      return status ? 0 : Fail(job->get_name(), status.Detail);
+      return status ? session.ExitStatus : Fail(job->get_name(), status.Detail);
     }
     catch (const std::exception& error) // of a library, e.g. out of memory
     {

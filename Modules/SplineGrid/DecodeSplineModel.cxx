@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "BezierCells.h"
 #include "BezierSpace.h"
 #include "Numbers.h"
 #include "Recovery.h"
@@ -32,26 +33,6 @@ namespace
 {
 using AnySpace = std::variant<SplineSpacePtr<1>, SplineSpacePtr<2>, SplineSpacePtr<3>>;
 
-int DimensionOfCell(int type)
-{
-  switch (type)
-  {
-    case VTK_BEZIER_CURVE:
-      return 1;
-    case VTK_BEZIER_QUADRILATERAL:
-      return 2;
-    case VTK_BEZIER_HEXAHEDRON:
-      return 3;
-    default:
-      return 0;
-  }
-}
-
-std::string Cell(vtkIdType cell)
-{
-  return "cell " + std::to_string(cell);
-}
-
 std::string Patch(int id)
 {
   return "patch " + std::to_string(id);
@@ -79,7 +60,7 @@ Status ReadCellIntegers(vtkUnstructuredGrid* grid, const char* arrayName, std::v
     if (!(std::abs(value) <= std::numeric_limits<int>::max()) || value != std::floor(value))
     {
       std::ostringstream text;
-      text << what << " is " << value << " at " << Cell(static_cast<vtkIdType>(i))
+      text << what << " is " << value << " at " << CellName(static_cast<vtkIdType>(i))
            << ": not a whole number";
       return { ErrorCode::InvalidTopology, text.str() };
     }
@@ -111,7 +92,7 @@ class GridReader
 public:
   GridReader(vtkUnstructuredGrid* grid, int block, vtkIdType firstCell, std::set<int>& usedIds,
     SplineModel& model)
-    : Grid(grid), Block(block), FirstCell(firstCell), UsedIds(usedIds), Model(model)
+    : Grid(grid), Bezier(grid), Block(block), FirstCell(firstCell), UsedIds(usedIds), Model(model)
   {
   }
   Status Read();
@@ -130,9 +111,6 @@ private:
   template <int Dim>
   Status Gather(
     const std::string& where, const IntArray<Dim>* expected, PatchCells<Dim>& cells) const;
-  template <int Dim>
-  Status ReadDegree(const std::string& where, vtkIdType cell, vtkIdType numPoints,
-    const IntArray<Dim>* expected, IntArray<Dim>& degree) const;
   template <int Dim>
   Status CheckBounds(const std::string& where, const SplineSpace<Dim>& space,
     const std::vector<vtkIdType>& cells) const;
@@ -161,14 +139,13 @@ private:
   }
 
   vtkUnstructuredGrid* Grid;
+  BezierCells Bezier;
   int Block;
   vtkIdType FirstCell;
   std::set<int>& UsedIds;
   SplineModel& Model;
   SplineSchema Schema;
   std::vector<int> PatchIds, ElementIds, Bases;
-  std::vector<vtkDataArray*> Degrees; // in the order of priority
-  vtkDataArray* Weights = nullptr;
   std::vector<vtkDataArray*> Fields;
   std::map<int, std::pair<BasisDefinition, AnySpace>> Spaces;
 };
@@ -180,12 +157,12 @@ Status GridReader::CheckCells()
   for (vtkIdType cell = 0; cell < this->Grid->GetNumberOfCells(); ++cell)
   {
     const int type = this->Grid->GetCellType(cell);
-    if (DimensionOfCell(type) == 0)
+    if (BezierCellDimension(type) == 0)
     {
       const char* typeName = vtkCellTypes::GetClassNameFromTypeId(type);
       return { ErrorCode::InvalidTopology,
-        Cell(cell) + " is a " + (typeName ? typeName : "cell") + " (type " + std::to_string(type) +
-          "): splines are Bezier curves, quadrilaterals and hexahedra" };
+        CellName(cell) + " is a " + (typeName ? typeName : "cell") + " (type " +
+          std::to_string(type) + "): splines are Bezier curves, quadrilaterals and hexahedra" };
     }
     vtkIdType count = 0;
     const vtkIdType* points = nullptr;
@@ -195,7 +172,7 @@ Status GridReader::CheckCells()
       return (this->PatchIds.empty()
                  ? std::string()
                  : Patch(this->PatchIds[static_cast<std::size_t>(cell)]) + ", ") +
-        Cell(cell);
+        CellName(cell);
     };
     for (vtkIdType i = 0; i < count; ++i)
     {
@@ -228,27 +205,7 @@ Status GridReader::FindArrays()
       return status;
     }
   }
-  vtkCellData* cellData = this->Grid->GetCellData();
-  for (vtkDataArray* array : { cellData->GetHigherOrderDegrees(), cellData->GetArray(name::Degrees),
-         cellData->GetArray(name::DegreesCopy) })
-  {
-    if (array && array->GetNumberOfTuples() == this->Grid->GetNumberOfCells() &&
-      std::find(this->Degrees.begin(), this->Degrees.end(), array) == this->Degrees.end())
-    {
-      this->Degrees.push_back(array);
-    }
-  }
   vtkPointData* pointData = this->Grid->GetPointData();
-  for (vtkDataArray* array : { pointData->GetRationalWeights(), pointData->GetArray(name::Weights),
-         pointData->GetArray(name::WeightsCopy) })
-  {
-    if (array && array->GetNumberOfComponents() == 1 &&
-      array->GetNumberOfTuples() == this->Grid->GetNumberOfPoints())
-    {
-      this->Weights = array;
-      break;
-    }
-  }
   for (int a = 0; a < pointData->GetNumberOfArrays(); ++a)
   {
     vtkAbstractArray* any = pointData->GetAbstractArray(a);
@@ -281,7 +238,7 @@ Status GridReader::GroupCells(std::vector<CellGroup>& groups)
   for (vtkIdType cell = 0; cell < this->Grid->GetNumberOfCells(); ++cell)
   {
     const auto i = static_cast<std::size_t>(cell);
-    const int dimension = DimensionOfCell(this->Grid->GetCellType(cell));
+    const int dimension = BezierCellDimension(this->Grid->GetCellType(cell));
     const int id = this->PatchIds.empty() ? dimension : this->PatchIds[i];
     const int basis = this->Bases.empty() || this->PatchIds.empty() ? 0 : this->Bases[i];
     const auto [entry, isNew] = known.emplace(std::array<int, 2>{ id, basis }, groups.size());
@@ -291,11 +248,11 @@ Status GridReader::GroupCells(std::vector<CellGroup>& groups)
     }
     CellGroup& group = groups[entry->second];
     if (!group.Cells.empty() &&
-      DimensionOfCell(this->Grid->GetCellType(group.Cells.front())) != dimension)
+      BezierCellDimension(this->Grid->GetCellType(group.Cells.front())) != dimension)
     {
       return { ErrorCode::InvalidTopology,
-        Patch(id) + " has cells of different dimensions: " + Cell(group.Cells.front()) + " and " +
-          Cell(cell) };
+        Patch(id) + " has cells of different dimensions: " + CellName(group.Cells.front()) +
+          " and " + CellName(cell) };
     }
     group.Cells.push_back(cell);
   }
@@ -393,7 +350,7 @@ Status GridReader::Read()
 Status GridReader::ReadGroup(const CellGroup& group)
 {
   const PatchRecord* record = this->FindRecord(group);
-  const int dimension = DimensionOfCell(this->Grid->GetCellType(group.Cells.front()));
+  const int dimension = BezierCellDimension(this->Grid->GetCellType(group.Cells.front()));
   if (!record)
   {
     const bool lost = this->Bases.empty() ? this->Schema.Present : group.Basis != 0;
@@ -410,7 +367,7 @@ Status GridReader::ReadGroup(const CellGroup& group)
   if (record->Basis.Dimension != dimension)
   {
     return { ErrorCode::InvalidTopology,
-      Patch(group.Id) + ", " + Cell(group.Cells.front()) + ": the cell has dimension " +
+      Patch(group.Id) + ", " + CellName(group.Cells.front()) + ": the cell has dimension " +
         std::to_string(dimension) + ", the patch " + std::to_string(record->Basis.Dimension) };
   }
   return dimension == 1 ? this->ReadStructured<1>(group, *record)
@@ -437,7 +394,7 @@ Status GridReader::SplitCopies(
     if (present.back() < 0 || present.back() >= numElements)
     {
       return { ErrorCode::InvalidTopology,
-        where + ", " + Cell(cell) + ": ElementId is " + std::to_string(present.back()) +
+        where + ", " + CellName(cell) + ": ElementId is " + std::to_string(present.back()) +
           ", the patch has " + elements };
     }
   }
@@ -478,7 +435,7 @@ Status GridReader::SplitCopies(
       const auto i = static_cast<std::size_t>(e);
       return { ErrorCode::InvalidTopology,
         where + ": element " + std::to_string(e) + " occurs " + std::to_string(count[i]) +
-          " times (" + Cell(copies[0][i]) + ", " + Cell(copies[1][i]) + "), others " +
+          " times (" + CellName(copies[0][i]) + ", " + CellName(copies[1][i]) + "), others " +
           std::to_string(fewest) };
     }
   }
@@ -498,8 +455,8 @@ Status GridReader::SplitCopies(
           if (of >= 0 && of != static_cast<int>(k))
           {
             return { ErrorCode::InvalidTopology,
-              where + ", " + Cell(cell) + ": the patch occurs " + std::to_string(copies.size()) +
-                " times and its copies cannot be told apart" };
+              where + ", " + CellName(cell) + ": the patch occurs " +
+                std::to_string(copies.size()) + " times and its copies cannot be told apart" };
           }
           of = static_cast<int>(k);
         }
@@ -510,123 +467,33 @@ Status GridReader::SplitCopies(
 }
 
 template <int Dim>
-Status GridReader::ReadDegree(const std::string& where, vtkIdType cell, vtkIdType numPoints,
-  const IntArray<Dim>* expected, IntArray<Dim>& degree) const
-{
-  for (vtkDataArray* array : this->Degrees)
-  {
-    if (array->GetNumberOfComponents() < Dim)
-    {
-      continue;
-    }
-    vtkIdType product = 1;
-    bool whole = true;
-    for (int d = 0; d < Dim && whole; ++d)
-    {
-      const double p = array->GetComponent(cell, d);
-      whole = p >= 1 && p <= MaxDegree && p == std::floor(p);
-      degree[static_cast<std::size_t>(d)] = whole ? static_cast<int>(p) : 0;
-      product *= whole ? static_cast<vtkIdType>(p) + 1 : 0;
-    }
-    if (whole && product == numPoints && (!expected || degree == *expected))
-    {
-      return {};
-    }
-  }
-  if (this->Degrees.empty()) // then VTK takes the same degree in all directions
-  {
-    const double root = std::round(std::pow(static_cast<double>(numPoints), 1.0 / Dim));
-    degree.fill(static_cast<int>(root) - 1);
-    if (degree[0] >= 1 && degree[0] <= MaxDegree && NumTensorFunctions<Dim>(degree) == numPoints &&
-      (!expected || degree == *expected))
-    {
-      return {};
-    }
-  }
-  std::ostringstream text;
-  text << where << ", " << Cell(cell) << ": ";
-  if (this->Degrees.empty())
-  {
-    text << "there is no array " << name::Degrees;
-  }
-  else
-  {
-    text << this->Degrees.front()->GetName() << " is (";
-    for (int d = 0; d < std::min(Dim, this->Degrees.front()->GetNumberOfComponents()); ++d)
-    {
-      text << (d > 0 ? ", " : "") << this->Degrees.front()->GetComponent(cell, d);
-    }
-    text << ")";
-  }
-  text << "; needed are whole numbers in [1, " << MaxDegree << "] for a cell of " << numPoints
-       << " points";
-  if (expected)
-  {
-    text << " of a patch of degree (";
-    for (int d = 0; d < Dim; ++d)
-    {
-      text << (d > 0 ? ", " : "") << (*expected)[static_cast<std::size_t>(d)];
-    }
-    text << ")";
-  }
-  return { ErrorCode::InvalidDegree, text.str() };
-}
-
-template <int Dim>
 Status GridReader::Gather(
   const std::string& where, const IntArray<Dim>* expected, PatchCells<Dim>& cells) const
 {
-  std::map<IntArray<Dim>, std::vector<int>> orders;
+  std::vector<vtkIdType> points;
   for (vtkIdType cell : cells.Cells)
   {
-    vtkIdType count = 0;
-    const vtkIdType* points = nullptr;
-    this->Grid->GetCellPoints(cell, count, points);
     IntArray<Dim> degree{};
-    if (Status status = this->ReadDegree<Dim>(where, cell, count, expected, degree); !status)
+    if (Status status = this->Bezier.Read<Dim>(where + ", ", cell, expected, degree, points);
+        !status)
     {
       return status;
     }
-    std::vector<int>& order = orders[degree];
-    if (order.empty())
-    {
-      order = VtkPointOrder<Dim>(degree);
-    }
-    const std::size_t first = cells.Points.size();
-    cells.Points.resize(first + order.size());
-    for (std::size_t i = 0; i < order.size(); ++i)
-    {
-      cells.Points[first + static_cast<std::size_t>(order[i])] = points[i];
-    }
+    cells.Points.insert(cells.Points.end(), points.begin(), points.end());
     cells.Degrees.push_back(degree);
   }
   cells.Blocks.resize(static_cast<Eigen::Index>(cells.Points.size()), 4);
-  vtkPoints* points = this->Grid->GetPoints();
   std::size_t i = 0;
   for (std::size_t e = 0; e < cells.Cells.size(); ++e)
   {
     for (int k = 0; k < NumTensorFunctions<Dim>(cells.Degrees[e]); ++k, ++i)
     {
-      const vtkIdType point = cells.Points[i];
       double* row = cells.Blocks.row(static_cast<Eigen::Index>(i)).data();
-      points->GetPoint(point, row);
-      row[3] = this->Weights ? this->Weights->GetComponent(point, 0) : 1.0;
-      const auto place = [&]
-      { return where + ", " + Cell(cells.Cells[e]) + ", point " + std::to_string(point); };
-      if (!std::isfinite(row[0]) || !std::isfinite(row[1]) || !std::isfinite(row[2]))
+      if (Status status =
+            this->Bezier.ReadPoint(where + ", ", cells.Cells[e], cells.Points[i], row);
+          !status)
       {
-        return { ErrorCode::NonFiniteInput, place() + ": a coordinate is not a finite number" };
-      }
-      if (!(std::max({ std::abs(row[0]), std::abs(row[1]), std::abs(row[2]) }) <= LargestNumber))
-      {
-        return { ErrorCode::TooLarge, place() + ": " + BeyondLimit() };
-      }
-      if (!(row[3] >= 1.0 / LargestWeight && row[3] <= LargestWeight))
-      {
-        std::ostringstream text;
-        text << place() << ": the weight is " << row[3] << ", not in [" << 1.0 / LargestWeight
-             << ", " << LargestWeight << "]";
-        return { ErrorCode::InvalidWeight, text.str() };
+        return status;
       }
     }
   }
@@ -676,8 +543,8 @@ Status GridReader::CheckBounds(const std::string& where, const SplineSpace<Dim>&
         !(std::abs(bounds->GetComponent(cells[e], c + 1) - box.Upper[d]) <= slack))
       {
         return { ErrorCode::InvalidTopology,
-          where + ", " + Cell(cells[e]) + ": " + name::Bounds + " and " + name::ElementId + " " +
-            std::to_string(e) + " do not fit together" };
+          where + ", " + CellName(cells[e]) + ": " + name::Bounds + " and " + name::ElementId +
+            " " + std::to_string(e) + " do not fit together" };
       }
     }
   }
@@ -753,7 +620,7 @@ Status GridReader::ReadStructured(const CellGroup& group, const PatchRecord& rec
   {
     return { space.Status.Code, where + ": " + space.Status.Detail };
   }
-  if (record.Rational && !this->Weights)
+  if (record.Rational && !this->Bezier.HasWeights())
   {
     return { ErrorCode::InvalidWeight,
       where + " is rational, and its weights are missing (point array " + name::Weights + ")" };

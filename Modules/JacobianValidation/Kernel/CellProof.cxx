@@ -197,6 +197,9 @@ private:
       }
     }
     this->PointTolerance = this->Params.CollapseTolerance * coordinate;
+    const double* w = this->Plane(this->Components);
+    this->GivenTolerance =
+      this->PointTolerance * (this->Rational ? *std::min_element(w, w + n) : 1.0);
     double change = 4.0 * this->PointTolerance;
     for (int d = 0; d < NumParameters(this->Shape); ++d)
     {
@@ -303,13 +306,16 @@ private:
   }
 
   /// The numerator exactly; collapsed edges and zero corners are made so, zero faces are divided
-  /// out. @return false when it was done before, or the geometry is known to within errors only.
+  /// out. Of a geometry that is known to within errors only this decides degenerate cells, when the
+  /// errors are below what CollapseTolerance forgives; all others stay with the floating form.
+  /// @return false when it was done before or decides nothing.
   bool UseExact()
   {
-    if (this->Exact || this->Given > 0.0)
+    if (this->ExactWasTried || this->Given > this->GivenTolerance)
     {
       return false;
     }
+    this->ExactWasTried = true;
     const ExactCell cell = MakeExactCell(
       *this->Layout, this->Components, this->Rational, this->Block.data(), this->PointTolerance);
     this->Result.Snapped = cell.Snapped;
@@ -370,6 +376,17 @@ private:
     if (!isZero)
     {
       this->FindZeroFaces();
+    }
+    if (this->Given > 0.0)
+    {
+      if (isZero || this->Result.Degenerate == 0)
+      {
+        this->Exact = nullptr;
+        this->Result.Snapped = false;
+        this->UseFloating();
+        return false;
+      }
+      this->Result.Snapped = true;
     }
     return true;
   }
@@ -454,8 +471,8 @@ private:
   /// May the value be what rounding made of zero? Then exact arithmetic looks before the verdict.
   bool IsSnapWorthy(double upper) const
   {
-    return !this->Exact && this->Given == 0.0 && this->Params.CollapseTolerance > 0.0 &&
-      std::fabs(upper) <= 2.0 * this->ValueTolerance;
+    return !this->ExactWasTried && this->Given <= this->GivenTolerance &&
+      this->Params.CollapseTolerance > 0.0 && std::fabs(upper) <= 2.0 * this->ValueTolerance;
   }
 
   /// @return false when exact arithmetic is wanted.
@@ -845,6 +862,8 @@ private:
   bool Norm = false;
   bool Flat = false;
   double PointTolerance = 0.0;
+  double GivenTolerance = 0.0; ///< PointTolerance for homogeneous coefficients
+  bool ExactWasTried = false;
   double ValueTolerance = 0.0;
 
   BoxProblem Problem; ///< of the sign

@@ -15,6 +15,9 @@ enum class Verdict : std::int8_t
   Reversed = 2   ///< det J < 0 throughout (never of surfaces and curves in space)
 };
 
+/// "valid", "invalid", "reversed", "undecided".
+const char* ToString(Verdict verdict);
+
 /// Which limit stopped an undecided cell.
 enum class JacobianLimit : std::uint8_t
 {

@@ -322,6 +322,22 @@ Result<JacobianCertificate> ValidateJacobian(
   return result;
 }
 
+const char* ToString(Verdict verdict)
+{
+  switch (verdict)
+  {
+    case Verdict::Valid:
+      return "valid";
+    case Verdict::Invalid:
+      return "invalid";
+    case Verdict::Reversed:
+      return "reversed";
+    case Verdict::Undecided:
+      break;
+  }
+  return "undecided";
+}
+
 BernsteinCells PlanarCells(const BernsteinCells& cells)
 {
   if (cells.NumComponents != 3)

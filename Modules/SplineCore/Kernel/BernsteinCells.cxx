@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BernsteinCells.h"
+#include "Bernstein.h"
 
 #include <cmath>
+#include <numeric>
 #include <string>
 
 namespace knotwork
@@ -188,6 +190,97 @@ Status BernsteinCells::Check() const
     }
   }
   return {};
+}
+
+namespace
+{
+/// Bernstein polynomials of a simplex of 1 to 3 parameters, in the order of BernsteinCells.
+std::vector<double> SimplexValues(int parameters, int p, const double* t)
+{
+  double rest = 1.0;
+  for (int d = 0; d < parameters; ++d)
+  {
+    rest -= t[d];
+  }
+  std::vector<double> values;
+  for (int k = 0; k <= (parameters > 2 ? p : 0); ++k)
+  {
+    for (int j = 0; j <= (parameters > 1 ? p - k : 0); ++j)
+    {
+      for (int i = 0; i <= p - j - k; ++i)
+      {
+        double value = Binomial(p, k) * Binomial(p - k, j) * Binomial(p - k - j, i) *
+          std::pow(t[0], i) * std::pow(rest, p - i - j - k);
+        value *= parameters > 1 ? std::pow(t[1], j) : 1.0;
+        value *= parameters > 2 ? std::pow(t[2], k) : 1.0;
+        values.push_back(value);
+      }
+    }
+  }
+  return values;
+}
+
+/// Products of the values of the factors, the first fastest.
+std::vector<double> Products(const std::vector<std::vector<double>>& factors)
+{
+  std::vector<double> all{ 1.0 };
+  for (const std::vector<double>& factor : factors)
+  {
+    std::vector<double> next;
+    for (const double b : factor)
+    {
+      for (const double a : all)
+      {
+        next.push_back(a * b);
+      }
+    }
+    all = std::move(next);
+  }
+  return all;
+}
+}
+
+void EvaluateCell(
+  const BernsteinCells& cells, int cell, const std::array<double, 3>& parameters, double* point)
+{
+  const CellShape shape = cells.Shapes[static_cast<std::size_t>(cell)];
+  const CellDegree& degree = cells.Degrees[static_cast<std::size_t>(cell)];
+  const double* t = parameters.data();
+  std::vector<std::vector<double>> factors;
+  switch (shape)
+  {
+    case CellShape::Triangle:
+      factors.push_back(SimplexValues(2, degree[0], t));
+      break;
+    case CellShape::Tetrahedron:
+      factors.push_back(SimplexValues(3, degree[0], t));
+      break;
+    case CellShape::Wedge:
+      factors.push_back(SimplexValues(2, degree[0], t));
+      factors.push_back(SimplexValues(1, degree[2], t + 2));
+      break;
+    default:
+      for (int d = 0; d < NumParameters(shape); ++d)
+      {
+        factors.push_back(SimplexValues(1, degree[static_cast<std::size_t>(d)], t + d));
+      }
+  }
+  const std::vector<double> values = Products(factors);
+  const double* block = cells.Block(cell);
+  double weight = 1.0;
+  for (int c = cells.NumPlanes() - 1; c >= 0; --c)
+  {
+    const double sum = std::inner_product(
+      values.begin(), values.end(), block + static_cast<std::size_t>(c) * values.size(), 0.0);
+    if (c == cells.NumComponents)
+    {
+      weight = sum;
+    }
+    else
+    {
+      point[c] = sum / weight;
+    }
+  }
 }
 
 template <int Dim>

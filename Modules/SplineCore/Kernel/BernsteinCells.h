@@ -85,6 +85,11 @@ struct BernsteinCells
   Status CheckStructure() const;
 };
 
+/// Euclidean point of a cell at local parameters (those the shape does not have are ignored).
+/// @param point  NumComponents numbers.
+void EvaluateCell(
+  const BernsteinCells& cells, int cell, const std::array<double, 3>& parameters, double* point);
+
 /// The elements of a Bezier form, in order: curves, quadrilaterals or hexahedra.
 template <int Dim>
 BernsteinCells MakeBernsteinCells(const BezierForm<Dim>& form);

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Jobs.h"
+#include "Options.h"
+#include "Session.h"
+
+#include "vtkDomainParameterization.h"
+
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkStringArray.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <memory>
+
+namespace knotwork
+{
+namespace
+{
+struct ParameterizeJob
+{
+  std::string Input;
+  std::string Output;
+  std::string FirstMap;
+  std::string Table;
+  vtkNew<vtkDomainParameterization> Filter;
+  std::unique_ptr<Options> FilterOptions;
+
+  Status Run(Session& session)
+  {
+    auto input = session.Read(this->Input);
+    if (!input)
+    {
+      return input.Status;
+    }
+    session.Report["input"] = this->Input;
+    session.Report["output"] = this->Output;
+    this->Filter->SetInputDataObject(input.Value);
+    this->FilterOptions->Apply(session.Report);
+    this->Filter->SetThreads(session.Threads);
+    if (Status status = session.Run(this->Filter, "'" + this->Input + "'"); !status)
+    {
+      return status;
+    }
+    this->AddNumbers(session.Report);
+    const std::string* outputs[] = { &this->Output, &this->FirstMap, &this->Table };
+    for (int port = 0; port < 3; ++port)
+    {
+      if (!outputs[port]->empty())
+      {
+        if (Status status = session.Write(this->Filter->GetOutputDataObject(port), *outputs[port]);
+            !status)
+        {
+          return status;
+        }
+      }
+    }
+    return {};
+  }
+
+  void AddNumbers(nlohmann::ordered_json& report)
+  {
+    vtkFieldData* data = this->Filter->GetOutputDataObject(0)->GetFieldData();
+    const auto number = [data](const char* name) { return data->GetArray(name)->GetTuple1(0); };
+    report["verdict"] =
+      vtkStringArray::SafeDownCast(data->GetAbstractArray("Verdict"))->GetValue(0);
+    report["min_jacobian_lower"] = number("JacobianMinLower");
+    report["area"] = number("Area");
+    report["min_det_over_area"] = number("MinDetOverArea");
+    report["max_det_over_area"] = number("MaxDetOverArea");
+    report["min_scaled_jacobian"] = number("MinScaledJacobian");
+    report["mean_scaled_jacobian"] = number("MeanScaledJacobian");
+    report["mean_condition_number"] = number("MeanConditionNumber");
+    report["iterations"] = static_cast<long long>(number("Iterations"));
+    report["functions"] = static_cast<long long>(number("Functions"));
+    report["seconds_with_certificate"] = number("SecondsWithCertificate");
+  }
+};
+}
+
+Job MakeParameterizeJob(CLI::App& app)
+{
+  auto job = std::make_shared<ParameterizeJob>();
+  app
+    .add_option("boundary", job->Input,
+      "four curves or six faces, one patch a side (.vtu .vtpc .xml .g2 .json)")
+    ->required();
+  app.add_option("--output", job->Output, "the map as Bezier grid (.vtu)")->required();
+  app.add_option("--first-map", job->FirstMap, "the map before the optimization (.vtu)");
+  app.add_option("--table", job->Table, "the convergence table (.csv)");
+  job->FilterOptions = std::make_unique<Options>(app);
+  Options& options = *job->FilterOptions;
+  vtkDomainParameterization* filter = job->Filter;
+  options.AddChoice(
+    "InitialMap", { "automatic", "coons", "spring", "harmonic" }, filter->GetInitialMap(),
+    [filter](int map) { filter->SetInitialMap(map); }, "the map the optimization begins with");
+  options.AddChoice(
+    "Optimizer", { "automatic", "lbfgs", "newton" }, filter->GetOptimizer(),
+    [filter](int optimizer) { filter->SetOptimizer(optimizer); }, "how it is minimized");
+  options.AddChoice(
+    "Weights", { "automatic", "fixed", "optimized" }, filter->GetWeights(),
+    [filter](int weights) { filter->SetWeights(weights); },
+    "whether inner weights move too; automatic: when control points alone give no valid map");
+  KNOTWORK_OPTION(options, filter, UniformityWeight, "weight of the variation of det J");
+  KNOTWORK_OPTION(options, filter, MaximumIterations, "iterations of one minimization at most");
+  KNOTWORK_OPTION(
+    options, filter, MaximumAlternations, "rounds of control points and weights at most");
+  KNOTWORK_OPTION(
+    options, filter, MaximumRefinements, "rounds of local refinement of a space that is too poor");
+  KNOTWORK_OPTION(
+    options, filter, GapTolerance, "ends of sides this part of the size apart are one corner");
+  return [job](Session& session) { return job->Run(session); };
+}
+}

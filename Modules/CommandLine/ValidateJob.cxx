@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Jobs.h"
+#include "Options.h"
+#include "Session.h"
+
+#include "vtkJacobianValidator.h"
+
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkTable.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <iostream>
+#include <memory>
+
+namespace knotwork
+{
+namespace
+{
+constexpr int InvalidStatus = 3;
+constexpr int UndecidedStatus = 4;
+
+struct ValidateJob
+{
+  std::string Input;
+  std::string Output;
+  std::string Witnesses;
+  std::string Table;
+  vtkNew<vtkJacobianValidator> Filter;
+  std::unique_ptr<Options> FilterOptions;
+
+  Status Run(Session& session)
+  {
+    auto input = session.Read(this->Input);
+    if (!input)
+    {
+      return input.Status;
+    }
+    session.Report["input"] = this->Input;
+    this->Filter->SetInputDataObject(input.Value);
+    this->FilterOptions->Apply(session.Report);
+    this->Filter->SetThreads(session.Threads);
+    if (Status status = session.Run(this->Filter, "'" + this->Input + "'"); !status)
+    {
+      return status;
+    }
+    if (input.Value->GetNumberOfElements(vtkDataObject::CELL) == 0)
+    {
+      return { ErrorCode::EmptyInput, "'" + this->Input + "' has no cells to validate" };
+    }
+    const std::string verdict = this->AddNumbers(session.Report);
+    session.ExitStatus = verdict == "valid" ? 0
+      : verdict == "undecided"              ? UndecidedStatus
+                                            : InvalidStatus;
+    if (!session.Quiet)
+    {
+      std::cout << verdict << "\n";
+    }
+    const std::string* outputs[] = { &this->Output, &this->Witnesses, &this->Table };
+    for (int port = 0; port < 3; ++port)
+    {
+      if (!outputs[port]->empty())
+      {
+        if (Status status = session.Write(this->Filter->GetOutputDataObject(port), *outputs[port]);
+            !status)
+        {
+          return status;
+        }
+      }
+    }
+    return {};
+  }
+
+  /// @return the verdict of all cells.
+  std::string AddNumbers(nlohmann::ordered_json& report)
+  {
+    auto* table = vtkTable::SafeDownCast(this->Filter->GetOutputDataObject(2));
+    const vtkIdType all = table->GetNumberOfRows() - 1;
+    const auto number = [&](const char* column)
+    { return table->GetValueByName(all, column).ToDouble(); };
+    const auto count = [&](const char* column)
+    { return table->GetValueByName(all, column).ToTypeInt64(); };
+    const std::string verdict = table->GetValueByName(all, "Verdict").ToString();
+    report["verdict"] = verdict;
+    report["cells"] = count("Cells");
+    report["valid_cells"] = count("ValidCells");
+    report["invalid_cells"] = count("InvalidCells");
+    report["undecided_cells"] = count("UndecidedCells");
+    report["reversed_cells"] = count("ReversedCells");
+    report["degenerate_cells"] = count("DegenerateCells");
+    report["min_jacobian_lower"] = number("JacobianMinLower");
+    report["min_jacobian_upper"] = number("JacobianMinUpper");
+    report["max_jacobian_lower"] = number("JacobianMaxLower");
+    report["max_jacobian_upper"] = number("JacobianMaxUpper");
+    if (this->Filter->GetMeasures())
+    {
+      report["measure"] = number("Measure");
+      report["min_scaled_jacobian"] = number("ScaledJacobianMin");
+      report["mean_scaled_jacobian"] = number("ScaledJacobianMean");
+      report["max_condition_number"] = number("ConditionNumberMax");
+      report["mean_condition_number"] = number("ConditionNumberMean");
+    }
+    report["witness"] = nullptr;
+    auto* witnesses = vtkUnstructuredGrid::SafeDownCast(this->Filter->GetOutputDataObject(1));
+    if (witnesses->GetNumberOfCells() > 0)
+    {
+      double x[3];
+      witnesses->GetPoint(0, x);
+      const double* u = witnesses->GetPointData()->GetArray("LocalParameters")->GetTuple3(0);
+      report["witness"] = std::vector<double>{ x[0], x[1], x[2] };
+      report["witness_cell"] =
+        static_cast<long long>(witnesses->GetCellData()->GetArray("CellId")->GetTuple1(0));
+      report["witness_parameters"] = std::vector<double>{ u[0], u[1], u[2] };
+    }
+    return verdict;
+  }
+};
+}
+
+Job MakeValidateJob(CLI::App& app)
+{
+  auto job = std::make_shared<ValidateJob>();
+  app
+    .add_option(
+      "input", job->Input, "grid of Bezier, Lagrange, linear or quadratic cells (.vtu .vtpc .vtk)")
+    ->required();
+  app.add_option("--output", job->Output, "the grid with verdicts and bounds as cell arrays");
+  app.add_option("--witnesses", job->Witnesses, "points and boxes where cells are invalid (.vtu)");
+  app.add_option("--table", job->Table, "the verdict of every patch and of all (.csv)");
+  job->FilterOptions = std::make_unique<Options>(app);
+  Options& options = *job->FilterOptions;
+  vtkJacobianValidator* filter = job->Filter;
+  KNOTWORK_OPTION(options, filter, RelativeGap, "relative gap of the bounds; 1: the sign only");
+  KNOTWORK_FREE_OPTION(
+    options, filter, BoundMaximum, "whether the maximum is bounded as closely as the minimum");
+  KNOTWORK_FREE_OPTION(options, filter, Measures, "whether cells are measured, quality sampled");
+  KNOTWORK_OPTION(options, filter, SamplesPerEdge, "points along a cell's edges for the quality");
+  KNOTWORK_OPTION(options, filter, MaximumBoxes, "boxes looked at before cells stay undecided");
+  return [job](Session& session) { return job->Run(session); };
+}
+}

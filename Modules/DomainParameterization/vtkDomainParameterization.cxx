@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkDomainParameterization.h"
+
+#include "DomainParameterization.h"
+#include "SplineModel.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkStringArray.h"
+#include "vtkTable.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <string>
+
+using knotwork::ErrorCode;
+using knotwork::Status;
+
+vtkStandardNewMacro(vtkDomainParameterization);
+
+namespace
+{
+const char* StageName(knotwork::DomainStage stage)
+{
+  switch (stage)
+  {
+    case knotwork::DomainStage::Initial:
+      return "initial";
+    case knotwork::DomainStage::Foldover:
+      return "foldover";
+    case knotwork::DomainStage::Quality:
+      return "quality";
+    default:
+      return "weights";
+  }
+}
+
+/// Output 2.
+void FillTable(const std::vector<knotwork::DomainIteration>& history, vtkTable* table)
+{
+  const auto add = [&](auto* column, const char* name, const auto& value)
+  {
+    column->SetName(name);
+    for (const knotwork::DomainIteration& row : history)
+    {
+      column->InsertNextValue(value(row));
+    }
+    table->AddColumn(column);
+  };
+  using Row = knotwork::DomainIteration;
+  vtkNew<vtkStringArray> stage;
+  add(stage.Get(), "Stage", [](const Row& row) { return StageName(row.Stage); });
+  vtkNew<vtkIntArray> iteration;
+  add(iteration.Get(), "Iteration", [](const Row& row) { return row.Iteration; });
+  vtkNew<vtkDoubleArray> energy;
+  add(energy.Get(), "Energy", [](const Row& row) { return row.Energy; });
+  vtkNew<vtkDoubleArray> minimum;
+  add(minimum.Get(), "MinDetOverArea", [](const Row& row) { return row.MinDet; });
+  vtkNew<vtkDoubleArray> gradient;
+  add(gradient.Get(), "GradientNorm", [](const Row& row) { return row.GradientNorm; });
+  vtkNew<vtkIntArray> functions;
+  add(functions.Get(), "Functions", [](const Row& row) { return row.Functions; });
+}
+
+/// A map as a grid of one patch; a planar one lies at z = height.
+template <int Dim>
+Status EncodeMap(knotwork::Spline<Dim> map, double height, vtkUnstructuredGrid* grid)
+{
+  map.ControlPoints.conservativeResize(Eigen::NoChange, 3);
+  map.ControlPoints.rightCols(3 - Dim).setConstant(height);
+  knotwork::SplineModel model;
+  model.Patches.emplace_back();
+  model.Patches.back().Geometry = std::move(map);
+  return EncodeSplineGrid(model, grid);
+}
+
+void AddNumber(vtkUnstructuredGrid* grid, const char* name, double value)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
+  grid->GetFieldData()->AddArray(array);
+}
+
+/// The report of a map as field data.
+template <int Dim>
+void AddReport(const knotwork::DomainParameterization<Dim>& result, vtkUnstructuredGrid* grid)
+{
+  vtkNew<vtkStringArray> verdict;
+  verdict->SetName("Verdict");
+  verdict->InsertNextValue(ToString(result.Certificate.Verdict));
+  grid->GetFieldData()->AddArray(verdict);
+  const knotwork::DomainMetrics& metrics = result.Metrics;
+  AddNumber(grid, "JacobianMinLower", result.Certificate.MinLower);
+  AddNumber(grid, "Area", metrics.Area);
+  AddNumber(grid, "MinDetOverArea", metrics.MinDetOverArea);
+  AddNumber(grid, "MaxDetOverArea", metrics.MaxDetOverArea);
+  AddNumber(grid, "MinScaledJacobian", metrics.MinScaledJacobian);
+  AddNumber(grid, "MeanScaledJacobian", metrics.MeanScaledJacobian);
+  AddNumber(grid, "MeanConditionNumber", metrics.MeanConditionNumber);
+  AddNumber(grid, "Iterations", result.Iterations);
+  AddNumber(grid, "Functions", result.Map.Space->NumFunctions);
+  AddNumber(grid, "SecondsWithCertificate", result.SecondsOptimization + result.SecondsCertificate);
+}
+}
+
+vtkDomainParameterization::vtkDomainParameterization()
+{
+  this->SetNumberOfOutputPorts(3);
+}
+
+void vtkDomainParameterization::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "InitialMap: " << this->InitialMap << "\n";
+  os << indent << "Optimizer: " << this->Optimizer << "\n";
+  os << indent << "Weights: " << this->Weights << "\n";
+  os << indent << "UniformityWeight: " << this->UniformityWeight << "\n";
+  os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
+  os << indent << "MaximumAlternations: " << this->MaximumAlternations << "\n";
+  os << indent << "MaximumRefinements: " << this->MaximumRefinements << "\n";
+  os << indent << "GapTolerance: " << this->GapTolerance << "\n";
+  os << indent << "Verdict: " << this->Verdict << "\n";
+}
+
+int vtkDomainParameterization::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 2 ? "vtkTable" : "vtkUnstructuredGrid");
+  return 1;
+}
+
+int vtkDomainParameterization::RequestDataObject(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+{
+  for (int port = 0; port < 2; ++port)
+  {
+    if (!vtkUnstructuredGrid::GetData(outputs, port))
+    {
+      vtkNew<vtkUnstructuredGrid> grid;
+      outputs->GetInformationObject(port)->Set(vtkDataObject::DATA_OBJECT(), grid);
+    }
+  }
+  if (!vtkTable::GetData(outputs, 2))
+  {
+    vtkNew<vtkTable> table;
+    outputs->GetInformationObject(2)->Set(vtkDataObject::DATA_OBJECT(), table);
+  }
+  return 1;
+}
+
+Status vtkDomainParameterization::Compute(
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  this->Verdict = 0;
+  const auto model = knotwork::DecodeSplineModel(vtkDataObject::GetData(inputs[0], 0));
+  if (!model)
+  {
+    return model.Status;
+  }
+  this->ReportWarnings(model->Warnings);
+  if (model->Patches.empty())
+  {
+    return {};
+  }
+  return model->Patches.front().Geometry.index() == 0 ? this->Parameterize<2>(model.Value, outputs)
+                                                      : this->Parameterize<3>(model.Value, outputs);
+}
+
+template <int Dim>
+Status vtkDomainParameterization::Parameterize(
+  const knotwork::SplineModel& model, vtkInformationVector* outputs)
+{
+  knotwork::DomainBoundary<Dim> boundary;
+  for (const knotwork::SplinePatch& patch : model.Patches)
+  {
+    const auto* side = std::get_if<knotwork::Spline<Dim - 1>>(&patch.Geometry);
+    if (!side)
+    {
+      return { ErrorCode::DimensionMismatch,
+        "patch " + std::to_string(patch.Id) +
+          " is not of the same kind as the first: give four curves or six surfaces" };
+    }
+    boundary.Sides.push_back(*side);
+  }
+  knotwork::DomainParams params;
+  params.InitialMap = static_cast<knotwork::InitialMapMethod>(this->InitialMap);
+  params.Optimizer = static_cast<knotwork::DomainOptimizer>(this->Optimizer);
+  params.Weights = static_cast<knotwork::WeightMode>(this->Weights);
+  params.UniformityWeight = this->UniformityWeight;
+  params.MaxIterations = this->MaximumIterations;
+  params.MaxAlternations = this->MaximumAlternations;
+  params.MaxRefinements = this->MaximumRefinements;
+  params.GapTolerance = this->GapTolerance;
+  params.Threads = this->KernelThreads();
+  const auto result = ParameterizeDomain(boundary, params, this->Progress());
+  if (!result)
+  {
+    return result.Status;
+  }
+  for (const knotwork::BoundaryFold& fold : result->Folds)
+  {
+    vtkWarningMacro("" << fold.Message);
+  }
+  for (const std::string& message : result->Messages)
+  {
+    vtkWarningMacro("" << message);
+  }
+  this->Verdict = static_cast<int>(result->Certificate.Verdict);
+  // the plane of the curves
+  const double height = Dim == 2 ? boundary.Sides.front().ControlPoints(0, 2) : 0.0;
+  vtkUnstructuredGrid* grid = vtkUnstructuredGrid::GetData(outputs, 0);
+  FillTable(result->History, vtkTable::GetData(outputs, 2));
+  Status status = EncodeMap(result->Map, height, grid);
+  if (status)
+  {
+    AddReport(result.Value, grid);
+    status = EncodeMap(result->InitialMap, height, vtkUnstructuredGrid::GetData(outputs, 1));
+  }
+  return status;
+}

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkDomainParameterization
+ * @brief   spline map onto the domain that four curves or six faces enclose
+ *
+ * Input 0 is a spline grid with one patch a side (keyed by `PatchId`), in any order: four curves in
+ * a plane z = constant, or six faces in space, each polynomial or rational with its own degrees and
+ * knots. Which sides meet, and how they run, is found. The boundary is not moved.
+ *
+ * Output 0 is the map as a spline grid of one patch with the field-data arrays `Verdict` ("valid",
+ * "invalid", "undecided", "reversed": proved, not sampled), `JacobianMinLower` (proved bound of
+ * det J with respect to the parameters of the unit square or cube) and, over 501 x 501 (51^3)
+ * samples, `MinDetOverArea`, `MaxDetOverArea`, `MinScaledJacobian`, `MeanScaledJacobian`,
+ * `MeanConditionNumber`; `Area`, `Iterations` and `Functions`. Output 1 is the first map, before
+ * the optimization. Output 2 is the convergence table with a row an iteration: `Stage`,
+ * `Iteration`, `Energy`, `MinDetOverArea`, `GradientNorm`, `Functions`. A map that is not proved
+ * valid is an output like any other, with a warning that says where and why.
+ *
+ * @source Ji, Yu, Wang, Zhu (2021). The module's page has the method, limits and errors.
+ */
+#ifndef vtkDomainParameterization_h
+#define vtkDomainParameterization_h
+#include "vtkKnotworkDomainParameterizationModule.h" // for export macro
+#include "vtkSplineAlgorithm.h"
+
+namespace knotwork
+{
+struct SplineModel;
+}
+
+class VTKKNOTWORKDOMAINPARAMETERIZATION_EXPORT vtkDomainParameterization : public vtkSplineAlgorithm
+{
+public:
+  static vtkDomainParameterization* New();
+  vtkTypeMacro(vtkDomainParameterization, vtkSplineAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum InitialMaps
+  {
+    INITIAL_AUTOMATIC = 0, ///< Coons; where that folds, the harmonic map if it folds less
+    COONS,
+    SPRING,
+    HARMONIC
+  };
+  enum Optimizers
+  {
+    OPTIMIZER_AUTOMATIC = 0,
+    LBFGS,
+    NEWTON
+  };
+  enum WeightModes
+  {
+    WEIGHTS_AUTOMATIC = 0, ///< optimized only when control points alone give no valid map
+    WEIGHTS_FIXED,
+    WEIGHTS_OPTIMIZED
+  };
+
+  ///@{
+  /** First map, one of InitialMaps. Default INITIAL_AUTOMATIC. */
+  vtkSetClampMacro(InitialMap, int, INITIAL_AUTOMATIC, HARMONIC);
+  vtkGetMacro(InitialMap, int);
+  ///@}
+  ///@{
+  /** One of Optimizers. Default OPTIMIZER_AUTOMATIC: the faster one. */
+  vtkSetClampMacro(Optimizer, int, OPTIMIZER_AUTOMATIC, NEWTON);
+  vtkGetMacro(Optimizer, int);
+  ///@}
+  ///@{
+  /** Whether inner weights are optimized, one of WeightModes. Default WEIGHTS_AUTOMATIC. */
+  vtkSetClampMacro(Weights, int, WEIGHTS_AUTOMATIC, WEIGHTS_OPTIMIZED);
+  vtkGetMacro(Weights, int);
+  ///@}
+  ///@{
+  /** Weight lambda of the uniformity int (det J / S - 1)^2. Default 1, valid range [0, 1e6]. */
+  vtkSetClampMacro(UniformityWeight, double, 0.0, 1e6);
+  vtkGetMacro(UniformityWeight, double);
+  ///@}
+  ///@{
+  /** Iterations of one minimization at most. Default 1000, valid range [1, 1000000]. */
+  vtkSetClampMacro(MaximumIterations, int, 1, 1000000);
+  vtkGetMacro(MaximumIterations, int);
+  ///@}
+  ///@{
+  /** Rounds of control points and weights at most. Default 5, valid range [1, 100]. */
+  vtkSetClampMacro(MaximumAlternations, int, 1, 100);
+  vtkGetMacro(MaximumAlternations, int);
+  ///@}
+  ///@{
+  /** Rounds of local (THB) refinement where the space is too poor for a valid map. Default 3, valid
+   * range [0, 10]. */
+  vtkSetClampMacro(MaximumRefinements, int, 0, 10);
+  vtkGetMacro(MaximumRefinements, int);
+  ///@}
+  ///@{
+  /** Ends of sides at most this part of the boundary's size apart are one corner. Default 1e-9,
+   * valid range [0, 0.1]. */
+  vtkSetClampMacro(GapTolerance, double, 0.0, 0.1);
+  vtkGetMacro(GapTolerance, double);
+  ///@}
+
+  ///@{
+  /** Of the last update: 1 valid, 0 undecided, -1 invalid, 2 reversed. */
+  vtkGetMacro(Verdict, int);
+  ///@}
+
+protected:
+  vtkDomainParameterization();
+  ~vtkDomainParameterization() override = default;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestDataObject(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkDomainParameterization(const vtkDomainParameterization&) = delete;
+  void operator=(const vtkDomainParameterization&) = delete;
+
+  template <int Dim>
+  knotwork::Status Parameterize(const knotwork::SplineModel& model, vtkInformationVector* outputs);
+
+  int InitialMap = INITIAL_AUTOMATIC;
+  int Optimizer = OPTIMIZER_AUTOMATIC;
+  int Weights = WEIGHTS_AUTOMATIC;
+  double UniformityWeight = 1.0;
+  int MaximumIterations = 1000;
+  int MaximumAlternations = 5;
+  int MaximumRefinements = 3;
+  double GapTolerance = 1e-9;
+  int Verdict = 0;
+};
+#endif

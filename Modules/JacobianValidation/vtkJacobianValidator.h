@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkJacobianValidator
+ * @brief   proves the cells of a grid valid or shows where they are not
+ *
+ * Input 0 is a vtkUnstructuredGrid, or a vtkPartitionedDataSetCollection of such grids, of Bezier,
+ * Lagrange, linear and quadratic curves, quadrilaterals, hexahedra, triangles, tetrahedra and
+ * wedges. Cells of a plane z = constant are planar maps; quadrilaterals and triangles in space are
+ * surfaces, of which |S_u x S_v| takes the place of det J, and curves are judged by |C_u|. All
+ * derivatives are with respect to a cell's local parameters in [0, 1].
+ *
+ * Output 0 is the input with cell arrays: `JacobianVerdict` (1 valid, 0 undecided, -1 invalid or
+ * reversed), `JacobianReversed` (1 where det J < 0 throughout), `JacobianDegenerate` (1 where det J
+ * is zero at a vertex, edge or face of a valid cell and nowhere else), the proven bounds
+ * `JacobianMinLower` <= min det J <= `JacobianMinUpper` and `JacobianMaxLower` <= max det J <=
+ * `JacobianMaxUpper`; with Measures also `CellMeasure` (signed length, area or volume) and
+ * `ScaledJacobianMin` (smallest sampled det J / (|f_u| |f_v| |f_w|)). Output 1
+ * (vtkUnstructuredGrid) has for every invalid cell a vertex at a point where det J <= 0 is proved
+ * and the sub-box of the cell around it, with the cell arrays `CellId` (of its grid), `Block`,
+ * `PatchId` and `JacobianUpper` and the point array `LocalParameters`. Output 2 is a table with a
+ * row a patch (column `PatchId`; one row when cells have no `PatchId`) and a last row, with
+ * `PatchId` -1, for all together.
+ *
+ * @source Johnen, Remacle, Geuzaine (2013). The module's page has the method, limits and errors.
+ */
+#ifndef vtkJacobianValidator_h
+#define vtkJacobianValidator_h
+#include "vtkKnotworkJacobianValidationModule.h" // for export macro
+#include "vtkSplineAlgorithm.h"
+
+class VTKKNOTWORKJACOBIANVALIDATION_EXPORT vtkJacobianValidator : public vtkSplineAlgorithm
+{
+public:
+  static vtkJacobianValidator* New();
+  vtkTypeMacro(vtkJacobianValidator, vtkSplineAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /** How close the bounds of min det J are brought: upper - lower <= RelativeGap * max(|lower|,
+   * |upper|). 1 asks for the sign only. Default 1, valid range [1e-12, 1]. */
+  vtkSetClampMacro(RelativeGap, double, 1e-12, 1.0);
+  vtkGetMacro(RelativeGap, double);
+  ///@}
+  ///@{
+  /** Whether the bounds of max det J are brought as close. Default off. */
+  vtkSetMacro(BoundMaximum, bool);
+  vtkGetMacro(BoundMaximum, bool);
+  vtkBooleanMacro(BoundMaximum, bool);
+  ///@}
+  ///@{
+  /** Sub-boxes looked at, over all cells, before what is open stays undecided. Default 1000000,
+   * valid range [1, 1000000000]. */
+  vtkSetClampMacro(MaximumBoxes, vtkIdType, 1, 1000000000);
+  vtkGetMacro(MaximumBoxes, vtkIdType);
+  ///@}
+
+  ///@{
+  /** Whether cells are measured and their quality is sampled. Default on. */
+  vtkSetMacro(Measures, bool);
+  vtkGetMacro(Measures, bool);
+  vtkBooleanMacro(Measures, bool);
+  ///@}
+  ///@{
+  /** Points along every edge of a cell at which quality is sampled, ends included. Default 5, valid
+   * range [2, 64]. */
+  vtkSetClampMacro(SamplesPerEdge, int, 2, 64);
+  vtkGetMacro(SamplesPerEdge, int);
+  ///@}
+
+  ///@{
+  /** Of the last update, over all cells: 1 valid, 0 undecided, -1 invalid, 2 reversed. */
+  vtkGetMacro(Verdict, int);
+  ///@}
+
+protected:
+  vtkJacobianValidator();
+  ~vtkJacobianValidator() override = default;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestDataObject(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkJacobianValidator(const vtkJacobianValidator&) = delete;
+  void operator=(const vtkJacobianValidator&) = delete;
+
+  double RelativeGap = 1.0;
+  bool BoundMaximum = false;
+  vtkIdType MaximumBoxes = 1000000;
+  bool Measures = true;
+  int SamplesPerEdge = 5;
+  int Verdict = 0;
+};
+#endif
