@@ -21,6 +21,7 @@ Job MakeConvertJob(CLI::App& app);
 Job MakeEvaluateJob(CLI::App& app);
 Job MakeInfoJob(CLI::App& app);
 Job MakeMapJob(CLI::App& app);
+Job MakeParameterizeJob(CLI::App& app);
 Job MakeRefineJob(CLI::App& app);
 Job MakeSourceJob(CLI::App& app);
 Job MakeTessellateJob(CLI::App& app);

@@ -5,6 +5,7 @@
 #include "TrialRead.h"
 #include "XmlCheck.h"
 
+#include "vtkDomainBoundaryReader.h"
 #include "vtkGismoXMLReader.h"
 #include "vtkGismoXMLWriter.h"
 #include "vtkGoToolsG2Reader.h"
@@ -98,6 +99,10 @@ vtkSmartPointer<vtkDataObject> ReadByEnding(const std::string& file, const std::
   if (ending == ".g2")
   {
     return ReadWith<vtkGoToolsG2Reader>(file);
+  }
+  if (ending == ".json")
+  {
+    return ReadWith<vtkDomainBoundaryReader>(file);
   }
   if (ending == ".obj")
   {
@@ -211,11 +216,11 @@ Result<vtkSmartPointer<vtkDataObject>> Session::Read(const std::string& file)
   {
     return { ErrorCode::InvalidParameter,
       "'" + file + "' has the ending '" + ending +
-        "'; formats that can be read: .vtu .vtp .vtpc .vtk .xml .g2 .obj .ply .stl" };
+        "'; formats that can be read: .vtu .vtp .vtpc .vtk .xml .g2 .json .obj .ply .stl" };
   }
   if (messages.HasError())
   {
-    if (ending == ".xml" || ending == ".g2") // our own readers name the file
+    if (ending == ".xml" || ending == ".g2" || ending == ".json") // our own name the file
     {
       return { ErrorCode::InvalidFormat, messages.FirstError() };
     }

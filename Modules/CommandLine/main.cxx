@@ -29,6 +29,8 @@ constexpr Entry Jobs[] = {
   { "evaluate", "evaluate a spline at points, with derivatives", knotwork::MakeEvaluateJob },
   { "info", "say what a spline file holds", knotwork::MakeInfoJob },
   { "map", "carry a template skeleton onto target patches", knotwork::MakeMapJob },
+  { "parameterize", "fill a boundary with a spline map that is proved valid",
+    knotwork::MakeParameterizeJob },
   { "refine", "refine a spline, uniformly or locally", knotwork::MakeRefineJob },
   { "source", "make a spline of a standard shape", knotwork::MakeSourceJob },
   { "tessellate", "turn a spline into polygons within a tolerance", knotwork::MakeTessellateJob },

@@ -13,7 +13,7 @@ Result<SplineModel> ModelFromFile(const SplineFile& file)
   for (std::size_t i = 0; i < file.Splines.size(); ++i)
   {
     SplinePatch patch;
-    patch.Id = file.Ids[i];
+    patch.Id = file.Ids.empty() ? static_cast<int>(i) : file.Ids[i];
     patch.Geometry = file.Splines[i];
     const Status status = std::visit(
       [&](auto& spline) -> Status
