@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The jobs validate and parameterize: verdicts, exit statuses, numbers of the reports."""
+import json
+import math
+import os
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter
+
+import knotwork_testing
+
+
+def path(name):
+    return knotwork_testing.output("cli_validate/" + name)
+
+
+def run(status, *arguments):
+    """Runs a job that must end with the status; returns its report and what it printed."""
+    report = path("report.json")
+    done = knotwork_testing.run_program(*arguments, "--report", report, "--quiet")
+    assert done.returncode == status, (done.returncode, done.stderr)
+    with open(report) as stream:
+        return json.load(stream), done
+
+
+def read(name):
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(name)
+    reader.Update()
+    return reader.GetOutput()
+
+
+def annulus(name="annulus.vtu", move=None):
+    knotwork_testing.run_program("source", "--shape", "annulus-sector", "--elements", 4, 4, 1, "--output", path(name))
+    if move:
+        grid = read(path(name))
+        points = vtk_to_numpy(grid.GetPoints().GetData())
+        points[grid.GetCell(5).GetPointId(0)] += move
+        writer = vtkXMLUnstructuredGridWriter()
+        writer.SetFileName(path(name))
+        writer.SetInputData(grid)
+        writer.Write()
+    return path(name)
+
+
+def test_valid_grid():
+    report, _ = run(0, "validate", annulus(), "--output", path("annotated.vtu"), "--table", path("table.csv"))
+    assert report["verdict"] == "valid" and report["cells"] == 16
+    assert report["invalid_cells"] == report["undecided_cells"] == 0 and report["witness"] is None
+    assert abs(report["measure"] - math.pi / 4 * 0.75) < 1e-12
+    assert 0 < report["min_jacobian_lower"] <= report["min_jacobian_upper"]
+    assert abs(report["min_scaled_jacobian"] - 1) < 0.2 and report["seconds"] >= 0
+    verdicts = vtk_to_numpy(read(path("annotated.vtu")).GetCellData().GetArray("JacobianVerdict"))
+    assert (verdicts == 1).all()
+
+
+def test_folded_grid_has_a_witness():
+    report, done = run(3, "validate", annulus("folded.vtu", [0.3, 0.3, 0]), "--output", path("annotated.vtu"),
+                       "--witnesses", path("witnesses.vtu"))
+    assert report["verdict"] == "invalid" and report["invalid_cells"] > 0
+    assert done.stderr == "" and len(report["witness"]) == 3 and len(report["witness_parameters"]) == 3
+    cell_data = read(path("annotated.vtu")).GetCellData()
+    assert vtk_to_numpy(cell_data.GetArray("JacobianVerdict"))[report["witness_cell"]] == -1
+    assert read(path("witnesses.vtu")).GetNumberOfCells() == 2 * report["invalid_cells"]
+
+
+def test_reversed_grid():
+    grid = read(annulus())
+    points = vtk_to_numpy(grid.GetPoints().GetData())
+    points[:, 0] *= -1
+    writer = vtkXMLUnstructuredGridWriter()
+    writer.SetFileName(path("mirrored.vtu"))
+    writer.SetInputData(grid)
+    writer.Write()
+    report, _ = run(3, "validate", path("mirrored.vtu"))
+    assert report["verdict"] == "reversed" and report["reversed_cells"] == 16
+    assert report["measure"] < 0
+
+
+def test_limit_leaves_a_valley_undecided():
+    # x = u, y = u^2 v - u v^2 + v^3 / 3 + 1e-6 v, so that det J = (u - v)^2 + 1e-6
+    power = [[math.comb(k, i) / math.comb(3, i) for k in range(4)] for i in range(4)]  # u^i in Bernstein form
+    knots = "4 4\n0 0 0 0 1 1 1 1\n"
+    rows = ["%r %r" % (k / 3, power[2][k] * power[1][l] - power[1][k] * power[2][l] + power[3][l] / 3
+                       + 1e-6 * power[1][l]) for l in range(4) for k in range(4)]
+    with open(path("valley.g2"), "w") as stream:
+        stream.write("200 1 0 0\n2 0\n" + 2 * knots + "\n".join(rows) + "\n")
+    report, _ = run(4, "validate", path("valley.g2"), "--maximum-boxes", 1)
+    assert report["verdict"] == "undecided" and report["undecided_cells"] == 1
+    assert report["min_jacobian_lower"] <= 1e-6 <= report["min_jacobian_upper"]
+    report, _ = run(0, "validate", path("valley.g2"))
+    assert report["verdict"] == "valid" and report["min_jacobian_lower"] > 0
+
+
+def test_unreadable_input_leaves_nothing():
+    with open(path("broken.vtu"), "w") as stream:
+        stream.write("<VTKFile")
+    output = path("none.vtu")
+    done = knotwork_testing.run_program("validate", path("broken.vtu"), "--output", output)
+    assert done.returncode == 1 and len(done.stderr.splitlines()) == 1
+    assert not os.path.exists(output)
+
+
+def boundary(name, sides):
+    with open(path(name), "w") as stream:
+        json.dump({"curves": sides}, stream)
+    return path(name)
+
+
+def line(a, b):
+    return {"degree": 1, "knots": [0, 0, 1, 1], "control_points": [a, b]}
+
+
+def test_parameterize_reports_a_certified_map():
+    bite = {"degree": 2, "knots": [0, 0, 0, 1, 1, 1], "control_points": [[0, 0], [0.5, 0.7], [1, 0]]}
+    name = boundary("bite.json", [bite, line([0, 1], [1, 1]), line([0, 0], [0, 1]), line([1, 0], [1, 1])])
+    report, _ = run(0, "parameterize", name, "--output", path("bite.vtu"), "--first-map", path("first.vtu"),
+                    "--table", path("convergence.csv"))
+    assert report["verdict"] == "valid" and report["min_jacobian_lower"] > 0
+    assert abs(report["area"] - (1 - 0.7 / 3)) < 1e-12
+    assert 0 < report["min_det_over_area"] < 1 < report["max_det_over_area"]
+    for key in ("min_scaled_jacobian", "mean_scaled_jacobian", "mean_condition_number", "iterations", "functions",
+                "seconds"):
+        assert np.isfinite(report[key]), key
+    again, _ = run(0, "validate", path("bite.vtu"))
+    assert abs(again["measure"] - report["area"]) < 1e-12
+
+
+def test_boundary_with_a_gap_is_refused():
+    name = boundary("gap.json", [line([0, 0], [1, 0]), line([0, 1], [1, 1]), line([0, 0], [0, 1]),
+                                 line([1.25, 0], [1, 1])])
+    done = knotwork_testing.run_program("parameterize", name, "--output", path("gap.vtu"))
+    assert done.returncode == 1 and "0.25" in done.stderr and len(done.stderr.splitlines()) == 1
+    assert not os.path.exists(path("gap.vtu"))
+
+
+def test_boundary_files_that_are_damaged_are_refused():
+    for text, word in (("", "JSON"), ("{", "JSON"), ("[]", "JSON"), ("{}", "curves"), ('{"curves": 3}', "curves"),
+                       ('{"curves": [3]}', "side 0"), ('{"curves": [{"degree": 2}]}', "knots"),
+                       ('{"curves": [{"degree": 1e9, "knots": [0, 1], "control_points": [[0]]}]}', "side 0"),
+                       ('{"curves": [{"degree": 1, "knots": [0, 0, 1, 1], "control_points": [[0, 0], [1]]}]}', "point 1"),
+                       ('{"curves": [{"degree": 1, "knots": [0, 0, 1, 1], "control_points": [[0, 0], "x"]}]}', "side 0"),
+                       ("[" * 100000, "JSON")):
+        with open(path("damaged.json"), "w") as stream:
+            stream.write(text)
+        done = knotwork_testing.run_program("parameterize", path("damaged.json"), "--output", path("never.vtu"))
+        assert done.returncode == 1, (text[:60], done.returncode, done.stderr)
+        assert len(done.stderr.splitlines()) == 1 and word in done.stderr, (text[:60], done.stderr)
+        assert not os.path.exists(path("never.vtu"))
+
+
+knotwork_testing.main(globals())

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkDomainBoundaryReader.h"
+#include "vtkDomainParameterization.h"
+
+#include "vtkCellData.h"
+#include "vtkCommand.h"
+#include "vtkErrorCode.h"
+#include "vtkFieldData.h"
+#include "vtkNew.h"
+#include "vtkStringArray.h"
+#include "vtkTable.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <string>
+
+namespace
+{
+class Messages : public vtkCommand
+{
+public:
+  static Messages* New() { return new Messages; }
+  void Execute(vtkObject*, unsigned long event, void* text) override
+  {
+    (event == vtkCommand::ErrorEvent ? this->Errors : this->Warnings)
+      .emplace_back(static_cast<const char*>(text));
+  }
+  std::vector<std::string> Errors;
+  std::vector<std::string> Warnings;
+};
+
+std::string Line(double x0, double y0, double x1, double y1)
+{
+  return "{\"degree\": 1, \"knots\": [0, 0, 1, 1], \"control_points\": [[" + std::to_string(x0) +
+    ", " + std::to_string(y0) + "], [" + std::to_string(x1) + ", " + std::to_string(y1) + "]]}";
+}
+
+/// A quarter circle about the origin from (r, 0) to (0, r).
+std::string Arc(double r)
+{
+  const std::string s = std::to_string(r);
+  return "{\"degree\": 2, \"knots\": [0, 0, 0, 1, 1, 1], \"weights\": [1, "
+         "0.70710678118654757, 1], \"control_points\": [[" +
+    s + ", 0], [" + s + ", " + s + "], [0, " + s + "]]}";
+}
+
+/// Face of the unit cube where coordinate axis is end.
+std::string Face(int axis, int end)
+{
+  std::string points;
+  for (int k = 0; k < 4; ++k)
+  {
+    int x[3];
+    x[axis] = end;
+    x[axis == 0 ? 1 : 0] = k & 1;
+    x[axis == 2 ? 1 : 2] = k >> 1;
+    points += (k > 0 ? ", [" : "[") + std::to_string(x[0]) + ", " + std::to_string(x[1]) + ", " +
+      std::to_string(x[2]) + "]";
+  }
+  return "{\"degrees\": [1, 1], \"knots\": [[0, 0, 1, 1], [0, 0, 1, 1]], \"control_points\": [" +
+    points + "]}";
+}
+
+std::string Sides(const char* key, const std::vector<std::string>& sides)
+{
+  std::string list;
+  for (const std::string& side : sides)
+  {
+    list += (list.empty() ? "" : ", ") + side;
+  }
+  return std::string("{\"") + key + "\": [" + list + "]}";
+}
+
+/// The filter fed with a boundary by its JSON text.
+class Pipeline
+{
+public:
+  explicit Pipeline(const std::string& json, int maximumRefinements = 3)
+  {
+    const std::string file = std::string(KNOTWORK_OUTPUT_DIR) + "/domain_boundary_" +
+      testing::UnitTest::GetInstance()->current_test_info()->name() + ".json";
+    std::ofstream(file) << json;
+    this->Reader->SetFileName(file.c_str());
+    this->Filter->SetInputConnection(this->Reader->GetOutputPort());
+    this->Filter->SetMaximumRefinements(maximumRefinements);
+    this->Filter->AddObserver(vtkCommand::ErrorEvent, this->Said);
+    this->Filter->AddObserver(vtkCommand::WarningEvent, this->Said);
+    this->Filter->Update();
+  }
+  vtkUnstructuredGrid* Map(int port = 0)
+  {
+    return vtkUnstructuredGrid::SafeDownCast(this->Filter->GetOutputDataObject(port));
+  }
+  double Number(const char* name)
+  {
+    return this->Map()->GetFieldData()->GetArray(name)->GetTuple1(0);
+  }
+
+  vtkNew<vtkDomainBoundaryReader> Reader;
+  vtkNew<vtkDomainParameterization> Filter;
+  vtkNew<Messages> Said;
+};
+}
+
+TEST(DomainParameterization, UnitSquare_ExactOracle)
+{
+  Pipeline run(
+    Sides("curves", { Line(0, 0, 1, 0), Line(0, 1, 1, 1), Line(0, 0, 0, 1), Line(1, 0, 1, 1) }));
+  ASSERT_EQ(run.Filter->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
+  EXPECT_EQ(run.Filter->GetVerdict(), 1);
+  EXPECT_EQ(run.Map()->GetNumberOfCells(), 1);
+  EXPECT_NEAR(run.Number("Area"), 1.0, 1e-14);
+  EXPECT_NEAR(run.Number("MinDetOverArea"), 1.0, 1e-12);
+  EXPECT_NEAR(run.Number("MaxDetOverArea"), 1.0, 1e-12);
+  EXPECT_NEAR(run.Number("MeanConditionNumber"), 2.0, 1e-12); // |J|_F |J^-1|_F of the identity
+  auto* verdict =
+    vtkStringArray::SafeDownCast(run.Map()->GetFieldData()->GetAbstractArray("Verdict"));
+  ASSERT_TRUE(verdict);
+  EXPECT_EQ(verdict->GetValue(0), "valid");
+}
+
+TEST(DomainParameterization, QuarterAnnulus_ExactOracle)
+{
+  Pipeline run(Sides("curves", { Arc(0.5), Arc(1.0), Line(0.5, 0, 1, 0), Line(0, 0.5, 0, 1) }));
+  ASSERT_EQ(run.Filter->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
+  EXPECT_EQ(run.Filter->GetVerdict(), 1);
+  EXPECT_TRUE(run.Said->Warnings.empty());
+  EXPECT_NEAR(run.Number("Area"), 0.25 * std::acos(-1.0) * 0.75, 1e-12);
+  auto* table = vtkTable::SafeDownCast(run.Filter->GetOutputDataObject(2));
+  EXPECT_GE(table->GetNumberOfRows(), 1);
+  EXPECT_EQ(table->GetValueByName(0, "Stage").ToString(), "initial");
+  EXPECT_EQ(run.Map(1)->GetNumberOfCells(), run.Map()->GetNumberOfCells());
+}
+
+TEST(DomainParameterization, UnitCube_ExactOracle)
+{
+  Pipeline run(
+    Sides("faces", { Face(2, 1), Face(0, 0), Face(1, 1), Face(0, 1), Face(1, 0), Face(2, 0) }));
+  ASSERT_EQ(run.Filter->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
+  EXPECT_EQ(run.Filter->GetVerdict(), 1);
+  EXPECT_NEAR(run.Number("Area"), 1.0, 1e-14);
+  EXPECT_NEAR(run.Number("MinDetOverArea"), 1.0, 1e-12);
+}
+
+TEST(DomainParameterization, CornerThatFoldsIsNamed_PropertyOracle)
+{
+  // at (1, 0) the boundary turns by more than 180 degrees
+  Pipeline run(
+    Sides("curves",
+      { "{\"degree\": 2, \"knots\": [0, 0, 0, 1, 1, 1], \"control_points\": [[0, 0], [0.5, "
+        "0], [1, 0]]}",
+        Line(0, 1, 1, 1), Line(0, 0, 0, 1),
+        "{\"degree\": 2, \"knots\": [0, 0, 0, 1, 1, 1], \"control_points\": [[1, 0], [0.8, "
+        "-0.5], [1, 1]]}" }),
+    0);
+  EXPECT_EQ(run.Filter->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
+  EXPECT_EQ(run.Filter->GetVerdict(), -1);
+  ASSERT_FALSE(run.Said->Warnings.empty());
+  EXPECT_NE(run.Said->Warnings[0].find("corner"), std::string::npos) << run.Said->Warnings[0];
+  EXPECT_EQ(run.Map()->GetNumberOfCells(), 1);
+}
+
+TEST(DomainParameterization, BadBoundariesAreOneError_PropertyOracle)
+{
+  const auto expect = [](const std::string& json, const std::string& words)
+  {
+    SCOPED_TRACE(words);
+    Pipeline run(json);
+    ASSERT_FALSE(run.Said->Errors.empty());
+    EXPECT_NE(run.Said->Errors[0].find(words), std::string::npos) << run.Said->Errors[0];
+    EXPECT_EQ(run.Map()->GetNumberOfCells(), 0);
+    EXPECT_EQ(run.Map(1)->GetNumberOfCells(), 0);
+  };
+  const std::string south = Line(0, 0, 1, 0);
+  const std::string north = Line(0, 1, 1, 1);
+  const std::string west = Line(0, 0, 0, 1);
+  expect(Sides("curves", { south, north, west }), "3");
+  expect(Sides("curves", { south, north, west, Line(1, 0, 1.25, 1) }), "0.25");
+  expect(Sides("faces", { Face(0, 0), Face(0, 1) }), "2");
+}
