@@ -2,7 +2,7 @@
 #include "DomainSolver.h"
 
 #include "HierarchicalSpace.h"
-#include "InitialMaps.h"
+#include "NewtonSystem.h"
 
 #include <cmath>
 #include <limits>
@@ -83,6 +83,16 @@ void DomainSolver<Dim>::SetQuadrature(const std::vector<int>& extra)
 {
   const SplineSpace<Dim>& space = *this->Current.Space;
   std::unique_ptr<JacobianField<Dim>> field;
+  this->NumPoints.clear();
+  for (std::size_t e = 0; e < extra.size(); ++e)
+  {
+    int degree = 0;
+    for (int p : space.Elements[e].Degree)
+    {
+      degree = std::max(degree, p);
+    }
+    this->NumPoints.push_back(std::min(64, degree + 1 + extra[e]));
+  }
   if (space.Kind == SpaceKind::Tensor)
   {
     std::array<LinePoints, Dim> lines;
@@ -104,17 +114,7 @@ void DomainSolver<Dim>::SetQuadrature(const std::vector<int>& extra)
   }
   else
   {
-    std::vector<int> counts;
-    for (std::size_t e = 0; e < extra.size(); ++e)
-    {
-      int degree = 0;
-      for (int p : space.Elements[e].Degree)
-      {
-        degree = std::max(degree, p);
-      }
-      counts.push_back(std::min(64, degree + 1 + extra[e]));
-    }
-    field = MakeElementField<Dim>(space, counts);
+    field = MakeElementField<Dim>(space, this->NumPoints);
   }
   this->Functional = std::make_unique<DomainEnergy<Dim>>(std::move(field), space.NumFunctions);
 }
@@ -274,7 +274,23 @@ void DomainSolver<Dim>::Minimize(
       preconditioner = [&](Eigen::VectorXd& v) { this->Laplacian->Apply(v); };
     }
     this->Gather(x);
-    result = MinimizeLbfgs(x, ofPoints, params, preconditioner, hook);
+    if (this->Params.Optimizer == DomainOptimizer::Newton && density.Kind != DensityKind::Relu)
+    {
+      const SplineSpace<Dim>& space = *this->Current.Space;
+      NewtonSystem<Dim> system(space, this->NumPoints, this->Free, this->Current.Weights);
+      const NewtonStep newton =
+        [&](const Eigen::VectorXd& at, const Eigen::VectorXd& gradient, Eigen::VectorXd& step)
+      {
+        this->Scatter(at);
+        system.Assemble(density, this->Planes.data(), true);
+        return system.Solve(-gradient, step);
+      };
+      result = MinimizeNewton(x, ofPoints, newton, params, hook);
+    }
+    else
+    {
+      result = MinimizeLbfgs(x, ofPoints, params, preconditioner, hook);
+    }
     this->Scatter(x);
   }
   this->Publish();

@@ -60,6 +60,7 @@ private:
   double Area;
   double Scale;
   Eigen::Matrix<double, 1, Dim> Center;
+  std::vector<int> NumPoints;                 ///< Gauss points a direction of each element
   std::vector<int> Free;                      ///< functions that may move
   std::vector<double> Planes, PlaneGradients; ///< scaled control points
   std::vector<double> Weights, WeightGradients;

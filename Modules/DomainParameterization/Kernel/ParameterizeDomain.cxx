@@ -327,13 +327,14 @@ private:
   /// Where quadrature points did not see a fold, more of them, until the certificate is won.
   Status Densify(bool& unfolded)
   {
-    for (int round = 0; round < 4 && unfolded && !this->IsValid() && !this->IsImpossible() &&
-         !this->Solver->Aborted;
+    for (int round = 0; round < (Dim == 2 ? 4 : 3) && unfolded && !this->IsValid() &&
+         !this->IsImpossible() && !this->Solver->Aborted;
          ++round)
     {
       for (int e : this->OpenElements(this->Candidate))
       {
-        this->Extra[static_cast<std::size_t>(e)] += 2 << round;
+        // points grow with the power of the dimension
+        this->Extra[static_cast<std::size_t>(e)] += Dim == 2 ? 2 << round : 1 + round;
       }
       this->Solver->SetQuadrature(this->Extra);
       unfolded = this->Solver->RemoveFolds();

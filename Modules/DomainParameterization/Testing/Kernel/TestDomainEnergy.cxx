@@ -2,6 +2,7 @@
 #include "BasisEvaluation.h"
 #include "DomainCases.h"
 #include "DomainEnergy.h"
+#include "NewtonSystem.h"
 #include "Quadrature.h"
 #include "RandomSplines.h"
 
@@ -299,6 +300,87 @@ TEST(DomainEnergy, HierarchicalFieldHasExactGradients_ExactOracle)
     const double exact = PlainEnergy<2, Complex>(*space, {}, z, w).imag() / 1e-30;
     EXPECT_NEAR(gradient[i], exact, 1e-10);
     z[i] = points[i];
+  }
+}
+
+/// The Hessian times a direction against central differences of the exact gradient.
+template <int Dim>
+void ExpectExactHessian(unsigned seed, DensityKind kind, bool rational)
+{
+  Random random(seed);
+  std::array<KnotVector, Dim> knots;
+  knots.fill(KnotVector::Uniform(2, 2));
+  const Spline<Dim> identity = Identity<Dim>(knots);
+  std::vector<double> points, weights;
+  RandomPlanes<Dim>(random, identity, kind == DensityKind::Quality ? 0.03 : 0.3, points, weights);
+  Density density;
+  density.Kind = kind;
+  density.Delta = 0.1;
+  const std::size_t n = weights.size();
+  std::vector<int> free;
+  for (std::size_t i = 0; i < n; i += 2)
+  {
+    free.push_back(static_cast<int>(i));
+  }
+  const Eigen::VectorXd w = rational
+    ? Eigen::VectorXd(Eigen::Map<Eigen::VectorXd>(weights.data(), static_cast<Eigen::Index>(n)))
+    : Eigen::VectorXd();
+  NewtonSystem<Dim> system(
+    *identity.Space, std::vector<int>(identity.Space->Elements.size(), 3), free, w);
+  system.Assemble(density, points.data(), false);
+  const Eigen::SparseMatrix<double> whole =
+    system.Matrix().template selfadjointView<Eigen::Lower>();
+  const Eigen::MatrixXd full = whole;
+  DomainEnergy<Dim> energy(TensorPoints<Dim>(*identity.Space), identity.Space->NumFunctions);
+  Eigen::VectorXd direction(full.rows());
+  for (double& d : direction)
+  {
+    d = random.In(-1.0, 1.0);
+  }
+  const auto gradientAt = [&](double t)
+  {
+    std::vector<double> moved = points;
+    std::vector<double> gradient(points.size());
+    for (std::size_t c = 0; c < Dim; ++c)
+    {
+      for (std::size_t k = 0; k < free.size(); ++k)
+      {
+        moved[c * n + static_cast<std::size_t>(free[k])] +=
+          t * direction[static_cast<Eigen::Index>(c * free.size() + k)];
+      }
+    }
+    energy.Evaluate(
+      density, moved.data(), rational ? weights.data() : nullptr, gradient.data(), nullptr);
+    Eigen::VectorXd of(full.rows());
+    for (std::size_t c = 0; c < Dim; ++c)
+    {
+      for (std::size_t k = 0; k < free.size(); ++k)
+      {
+        of[static_cast<Eigen::Index>(c * free.size() + k)] =
+          gradient[c * n + static_cast<std::size_t>(free[k])];
+      }
+    }
+    return of;
+  };
+  constexpr double h = 1e-6;
+  const Eigen::VectorXd exact = full * direction;
+  const Eigen::VectorXd difference = (gradientAt(h) - gradientAt(-h)) / (2 * h);
+  // h^2 times fourth derivatives, which the penalty has of size 1 / delta^2 and more
+  EXPECT_LE((exact - difference).norm(), 1e-5 * exact.norm());
+}
+
+TEST(DomainEnergy, HessiansMatchDifferencesOfGradients_CrossOracle)
+{
+  for (unsigned seed = 1; seed <= 4; ++seed)
+  {
+    for (bool rational : { false, true })
+    {
+      SCOPED_TRACE("seed " + std::to_string(seed) + (rational ? " rational" : ""));
+      ExpectExactHessian<2>(seed, DensityKind::Quality, rational);
+      ExpectExactHessian<2>(seed, DensityKind::Penalty, rational);
+      ExpectExactHessian<3>(seed, DensityKind::Quality, rational);
+      ExpectExactHessian<3>(seed, DensityKind::Penalty, rational);
+    }
   }
 }
 
