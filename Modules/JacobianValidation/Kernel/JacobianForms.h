@@ -43,8 +43,12 @@ struct Form
   }
 };
 
-/// Doubles of as many cells, a cell a lane. The compiler splits it into the machine's registers.
+/// Doubles of as many cells, a cell a lane: one register of the machine. Results do not depend on it.
+#ifdef __AVX__
 inline constexpr int PackSize = 4;
+#else
+inline constexpr int PackSize = 2;
+#endif
 typedef double Pack __attribute__((vector_size(PackSize * sizeof(double))));
 
 /// |a| and max(a, b) of the arithmetics that need error bounds.
