@@ -43,7 +43,8 @@ struct Form
   }
 };
 
-/// Doubles of as many cells, a cell a lane: one register of the machine. Results do not depend on it.
+/// Doubles of as many cells, a cell a lane: one register of the machine. Results do not depend on
+/// it.
 #ifdef __AVX__
 inline constexpr int PackSize = 4;
 #else
