@@ -565,66 +565,78 @@ private:
   /// images another cell takes too.
   void FindOverlap(const std::array<int, 2>& pair, PairState& state) const
   {
-    const int offsets = this->Cells.NumComponents == 2 ? 1 : 2;
-    for (int halving = 2; halving <= 42; halving += 2)
+    // from where the proof stopped along the side, and inside by as much or, where the boundaries
+    // cross at an acute angle, by less
+    for (int halving = 2; halving <= 41; halving += 3)
     {
-      const double step = std::ldexp(1.0, -halving);
-      for (int turn = 0; turn < 2; ++turn)
+      for (int less = 0; less <= 15; less += 5)
       {
-        const BoundarySide& from = this->Side(pair[static_cast<std::size_t>(turn)]);
-        const BoundarySide& to = this->Side(pair[static_cast<std::size_t>(1 - turn)]);
-        const CellLattice& lattice = this->LatticeOf(to.Cell);
-        const auto start = SideToCell(this->Shape(to.Cell), to.Frame,
-          state.Separation.At[static_cast<std::size_t>(1 - turn)].data());
-        const CellShape shape = this->Shape(from.Cell);
-        std::array<double, 3> middle{};
-        for (int c = 0; c < NumCorners(shape); ++c)
+        const double along = std::ldexp(1.0, -halving);
+        const double inside = std::ldexp(along, -less);
+        if (this->TryOverlap(pair, 0, along, inside, state) ||
+          this->TryOverlap(pair, 1, along, inside, state))
         {
-          const auto u = CornerParameters(shape, c);
-          for (std::size_t d = 0; d < 3; ++d)
-          {
-            middle[d] += u[d] / NumCorners(shape);
-          }
-        }
-        for (int i = -1; i <= 1; ++i)
-        {
-          for (int j = offsets > 1 ? -1 : 0; j <= (offsets > 1 ? 1 : 0); ++j)
-          {
-            auto s = state.Separation.At[static_cast<std::size_t>(turn)];
-            s[0] = std::clamp(s[0] + i * step, 0.0, 1.0);
-            s[1] = offsets > 1 ? std::clamp(s[1] + j * step, 0.0, 1.0) : 0.0;
-            if (from.Frame.Shape == CellShape::Triangle && s[0] + s[1] > 1.0)
-            {
-              continue;
-            }
-            auto u = SideToCell(shape, from.Frame, s.data());
-            for (std::size_t d = 0; d < 3; ++d)
-            {
-              u[d] += step * (middle[d] - u[d]);
-            }
-            const ImagePoint image = EvaluateImage(this->Cells, from.Cell, u.data());
-            const auto preimage = ProvePreimage(this->Cells, lattice, to.Cell, start, image);
-            if (!preimage)
-            {
-              continue;
-            }
-            double apart = 0.0;
-            for (std::size_t d = 0; d < 3; ++d)
-            {
-              apart = std::max(apart, std::abs(preimage->Parameters[d] - u[d]));
-            }
-            if (from.Cell != to.Cell || apart > 2.0 * preimage->Radius)
-            {
-              state.HasOverlap = true;
-              state.First = this->MakePlace(from.Cell, -1, u);
-              state.Second = this->MakePlace(to.Cell, -1, preimage->Parameters);
-              state.Radius = preimage->Radius;
-              return;
-            }
-          }
+          return;
         }
       }
     }
+  }
+
+  bool TryOverlap(
+    const std::array<int, 2>& pair, int turn, double along, double inside, PairState& state) const
+  {
+    const bool plane = this->Cells.NumComponents == 2;
+    const std::size_t at = static_cast<std::size_t>(turn);
+    const BoundarySide& from = this->Side(pair[at]);
+    const BoundarySide& to = this->Side(pair[1 - at]);
+    const CellLattice& lattice = this->LatticeOf(to.Cell);
+    const auto start =
+      SideToCell(this->Shape(to.Cell), to.Frame, state.Separation.At[1 - at].data());
+    const CellShape shape = this->Shape(from.Cell);
+    std::array<double, 3> middle{};
+    for (int c = 0; c < NumCorners(shape); ++c)
+    {
+      const auto u = CornerParameters(shape, c);
+      for (std::size_t d = 0; d < 3; ++d)
+      {
+        middle[d] += u[d] / NumCorners(shape);
+      }
+    }
+    for (int k = 0; k < (plane ? 3 : 9); ++k)
+    {
+      auto s = state.Separation.At[at];
+      s[0] = std::clamp(s[0] + (k % 3 - 1) * along, 0.0, 1.0);
+      s[1] = plane ? 0.0 : std::clamp(s[1] + (k / 3 - 1) * along, 0.0, 1.0);
+      if (from.Frame.Shape == CellShape::Triangle && s[0] + s[1] > 1.0)
+      {
+        continue;
+      }
+      auto u = SideToCell(shape, from.Frame, s.data());
+      for (std::size_t d = 0; d < 3; ++d)
+      {
+        u[d] += inside * (middle[d] - u[d]);
+      }
+      const ImagePoint image = EvaluateImage(this->Cells, from.Cell, u.data());
+      const auto preimage = ProvePreimage(this->Cells, lattice, to.Cell, start, image);
+      if (!preimage)
+      {
+        continue;
+      }
+      double apart = 0.0;
+      for (std::size_t d = 0; d < 3; ++d)
+      {
+        apart = std::max(apart, std::abs(preimage->Parameters[d] - u[d]));
+      }
+      if (from.Cell != to.Cell || apart > 2.0 * preimage->Radius)
+      {
+        state.HasOverlap = true;
+        state.First = this->MakePlace(from.Cell, -1, u);
+        state.Second = this->MakePlace(to.Cell, -1, preimage->Parameters);
+        state.Radius = preimage->Radius;
+        return true;
+      }
+    }
+    return false;
   }
 
   /// What keeps the theorem's conditions from being proved.
@@ -768,7 +780,7 @@ private:
   const InjectivityParams& Params;
   CellGluing Gluing;
   CellLatticeTable Lattices;
-  LatticeTable SideLattices;
+  CellLatticeTable SideLattices;
   BernsteinCells SideCells;
   double ModelSize = 0.0;
   std::vector<std::array<int, 2>> Pairs;

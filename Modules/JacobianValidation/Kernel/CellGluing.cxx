@@ -305,6 +305,11 @@ private:
     return largest;
   }
 
+  const CellLattice& Lattice(CellShape shape, const CellDegree& degree)
+  {
+    return this->Lattices.try_emplace({ static_cast<int>(shape), degree }, shape, degree)
+      .first->second;
+  }
   const std::vector<Reframe>& Reframes(CellShape shape, const CellDegree& degree)
   {
     auto& entry = this->ReframeCache[{ static_cast<int>(shape), degree }];
@@ -341,7 +346,7 @@ private:
       }
       if (!this->Complex.PointIds.empty())
       {
-        const CellLattice lattice(shape, this->Degree(c));
+        const CellLattice& lattice = this->Lattice(shape, this->Degree(c));
         for (int k = 0; k < NumCorners(shape); ++k)
         {
           ids.Add(
@@ -660,7 +665,8 @@ private:
       {
         continue;
       }
-      const CellLattice lattice(frame.Shape, SideDegree(this->Shape(c), this->Degree(c), frame));
+      const CellLattice& lattice =
+        this->Lattice(frame.Shape, SideDegree(this->Shape(c), this->Degree(c), frame));
       for (std::size_t d = 0; d < 2 && !gone[k]; ++d)
       {
         bool collapsed = true;
@@ -1041,9 +1047,9 @@ private:
   }
 
   std::vector<int> EdgePoints(
-    const BoundarySide& side, int edge, const std::vector<int>& coefficients) const
+    const BoundarySide& side, int edge, const std::vector<int>& coefficients)
   {
-    const CellLattice lattice(side.Frame.Shape, side.Degree);
+    const CellLattice& lattice = this->Lattice(side.Frame.Shape, side.Degree);
     const auto ends = SideEdge(side.Frame.Shape, edge);
     for (const auto& direction : lattice.Directions)
     {
@@ -1087,7 +1093,7 @@ private:
     {
       const CellShape shape = this->Shape(b.Cell);
       const auto coefficients = SideCoefficients(shape, this->Degree(b.Cell), b.Frame);
-      const CellLattice lattice(b.Frame.Shape, b.Degree);
+      const CellLattice& lattice = this->Lattice(b.Frame.Shape, b.Degree);
       for (std::size_t k = 0; k < static_cast<std::size_t>(b.Frame.NumCorners); ++k)
       {
         positions.Add(
@@ -1304,6 +1310,7 @@ private:
   Union Edges;
   std::vector<std::array<int, 2>> EdgeCorners[NumCellShapes];
   std::map<std::pair<int, CellDegree>, std::vector<Reframe>> ReframeCache;
+  CellLatticeTable Lattices;
   std::vector<Side> Open;
   int Dim = 2;
   CellGluing Out;

@@ -16,7 +16,7 @@ struct CellMeasuresParams
   int SamplesPerEdge = 5;
   /// Sub-cells a cell for the proven bound of the scaled Jacobian, in [1, 65536]; it stops earlier
   /// when the bound is within 0.01 of the least sample. 0: no bound (-1 is reported).
-  int BoundBoxes = 256;
+  int BoundBoxes = 64;
   /// Volume of the cell's box in the parameter domain of its patch, > 0; empty: 1 each. Only det J
   /// over area knows of it.
   std::vector<double> ParametricVolumes;

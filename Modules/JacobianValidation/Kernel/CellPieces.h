@@ -2,6 +2,8 @@
 #pragma once
 #include "BernsteinCells.h"
 
+#include <map>
+
 /// Sub-cells of Bernstein cells of any shape, made by bisection, with a bound of their rounding:
 /// what the proofs of this module that are not about det J alone descend on.
 namespace knotwork
@@ -33,6 +35,9 @@ public:
   /// edges; Wedge: the triangle's three, then the third parameter.
   std::vector<Direction> Directions;
 };
+
+/// Lattices by shape and degree.
+using CellLatticeTable = std::map<std::pair<int, CellDegree>, CellLattice>;
 
 /// One sub-cell.
 struct CellPiece

@@ -3,7 +3,6 @@
 #include "BoxTree.h"
 #include "CellPieces.h"
 
-#include <map>
 #include <optional>
 
 /// Private to the injectivity proof: where a cell takes a value, and that no other place does.
@@ -43,8 +42,6 @@ struct MultiplicityResult
   Preimage Other;
   std::int64_t Boxes = 0;
 };
-
-using CellLatticeTable = std::map<std::pair<int, CellDegree>, CellLattice>;
 
 /// How often f takes the value f(u) of a point of a cell that no other cell shares.
 /// @param tree  of the boxes of all cells.

@@ -792,6 +792,10 @@ private:
         }
       }
     }
+    if (vectors.empty())
+    {
+      return false;
+    }
     Vector start = Vector::Zero();
     std::vector<Vector> units;
     for (const Vector& x : vectors)

@@ -2,9 +2,6 @@
 #pragma once
 #include "CellGluing.h"
 
-#include <functional>
-#include <map>
-
 /// Private to the injectivity proof: that two boundary sides meet nowhere but where they are known
 /// to share a corner or an edge.
 namespace knotwork
@@ -24,13 +21,10 @@ struct SeparationResult
   std::array<std::array<double, 3>, 2> At{};
 };
 
-/// Lattices of side shapes and degrees, made once.
-using LatticeTable = std::map<std::pair<int, CellDegree>, CellLattice>;
-
 struct SeparationInput
 {
   const std::vector<BoundarySide>* Sides = nullptr;
-  const LatticeTable* Lattices = nullptr;
+  const CellLatticeTable* Lattices = nullptr;
   int NumComponents = 2;
   bool Rational = false;
   double CollapseTolerance = 0.0;

@@ -4,6 +4,7 @@
 #include "TensorSpace.h"
 #include "TestCells.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -466,6 +467,138 @@ TEST(BoundaryInjectivity, PatchesApartOverlappingAndNested_ExactOracle)
   CheckOverlap(nested.Cells, c);
 }
 
+// Discs and balls of several patches: they overlap exactly when their centres are nearer than the
+// sum of their radii, boundaries crossing or not.
+TEST(BoundaryInjectivity, DiscsAndBallsAnywhere_ExactOracle)
+{
+  for (unsigned seed = 1; seed <= 40; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> uniform(0.0, 1.0);
+    const bool planar = seed % 4 != 0;
+    auto s = Shape(planar ? ShapeKind::Disc : ShapeKind::Ball, 1);
+    ShapeCells shape = MakeShapeCells(s, planar);
+    const double radius = 0.2 + 0.8 * uniform(random);
+    const double distance =
+      seed % 5 == 0 ? 1.0 + radius + (seed % 2 ? 1e-6 : -1e-6) : (1.5 + radius) * uniform(random);
+    const double angle = 2.0 * pi * uniform(random);
+    s.OuterRadius = radius;
+    s.InnerRadius = 0.5 * radius;
+    s.Center = { distance * std::cos(angle), distance * std::sin(angle), 0.0 };
+    const ShapeCells other = MakeShapeCells(s, planar);
+    const int first = *std::max_element(shape.Patches.begin(), shape.Patches.end()) + 1;
+    Append(shape.Cells, other.Cells);
+    shape.Boxes.insert(shape.Boxes.end(), other.Boxes.begin(), other.Boxes.end());
+    for (const int patch : other.Patches)
+    {
+      shape.Patches.push_back(first + patch);
+    }
+    const InjectivityCertificate c = Prove(shape);
+    if (distance > 1.0 + radius)
+    {
+      EXPECT_VERDICT(c, Injective, None);
+      EXPECT_EQ(c.NumBoundaryComponents, 2);
+    }
+    else
+    {
+      EXPECT_VERDICT(c, NotInjective, Overlap);
+      CheckOverlap(shape.Cells, c);
+    }
+  }
+}
+
+// Bands around random trigonometric curves, det J > 0 throughout; the oracle is the crossing test
+// of their boundaries' fine polygons.
+TEST(BoundaryInjectivity, RandomBands_CrossOracle)
+{
+  int injective = 0;
+  int overlapping = 0;
+  for (unsigned seed = 1; seed <= 60; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    double a[8];
+    for (double& x : a)
+    {
+      x = uniform(random);
+    }
+    const auto band = MapOfSquare(1, 24,
+      [&](double u, double v)
+      {
+        const double t = 4.0 * v;
+        const double x = 1.2 * t + a[0] * std::cos(2.0 * t) + a[1] * std::sin(3.0 * t);
+        const double y = 1.5 * a[2] * std::cos(2.0 * t + a[3]) + 1.2 * a[4] * std::sin(3.0 * t);
+        const double dx = 1.2 - 2.0 * a[0] * std::sin(2.0 * t) + 3.0 * a[1] * std::cos(3.0 * t);
+        const double dy = -3.0 * a[2] * std::sin(2.0 * t + a[3]) + 3.6 * a[4] * std::cos(3.0 * t);
+        const double n = std::hypot(dx, dy);
+        const double side = 0.02 * (u - 0.5);
+        return std::array<double, 2>{ x + side * dy / n, y - side * dx / n };
+      });
+    if (ValidateJacobian(band.Cells).Value.Verdict != Verdict::Valid)
+    {
+      continue; // too tight a bend
+    }
+    // polygons of the four sides
+    std::vector<Eigen::Vector2d> polygon;
+    const auto add = [&](int cell, double u, double v)
+    {
+      const double at[3] = { u, v, 0.0 };
+      const auto x = EvaluateCell(band.Cells, cell, at).Position;
+      polygon.push_back({ x[0], x[1] });
+    };
+    constexpr int steps = 20;
+    for (int c = 0; c < 24; ++c)
+    {
+      for (int i = 0; i < steps; ++i)
+      {
+        add(c, 1.0, static_cast<double>(i) / steps);
+      }
+    }
+    add(23, 1.0, 1.0);
+    for (int c = 23; c >= 0; --c)
+    {
+      for (int i = steps; i > 0; --i)
+      {
+        add(c, 0.0, static_cast<double>(i) / steps);
+      }
+    }
+    add(0, 0.0, 0.0);
+    const auto area =
+      [](const Eigen::Vector2d& p, const Eigen::Vector2d& q, const Eigen::Vector2d& r)
+    { return (q - p).x() * (r - p).y() - (q - p).y() * (r - p).x(); };
+    bool crosses = false;
+    const std::size_t n = polygon.size();
+    for (std::size_t i = 0; i < n && !crosses; ++i)
+    {
+      for (std::size_t j = i + 2; j < n && !crosses; ++j)
+      {
+        const auto& p = polygon[i];
+        const auto& q = polygon[(i + 1) % n];
+        const auto& r = polygon[j];
+        const auto& s = polygon[(j + 1) % n];
+        crosses = (i != 0 || j != n - 1) && area(p, q, r) * area(p, q, s) < 0.0 &&
+          area(r, s, p) * area(r, s, q) < 0.0;
+      }
+    }
+    const InjectivityCertificate c = Prove(band);
+    if (crosses)
+    {
+      ++overlapping;
+      EXPECT_VERDICT(c, NotInjective, Overlap);
+      CheckOverlap(band.Cells, c);
+    }
+    else
+    {
+      ++injective;
+      EXPECT_VERDICT(c, Injective, None);
+    }
+  }
+  EXPECT_GT(injective, 5);
+  EXPECT_GT(overlapping, 5);
+}
+
 TEST(BoundaryInjectivity, TouchingCornersAreNamed_ExactOracle)
 {
   ShapeCells chess = Rectangle(0., 1., 0., 1.);
@@ -690,6 +823,7 @@ TEST(BoundaryInjectivity, EveryFailureIsReachable)
   EXPECT_EQ(with([](P& p) { p.MaxBoxes = 0; }), ErrorCode::InvalidParameter);
   EXPECT_EQ(with([](P& p) { p.GapTolerance = -1.0; }), ErrorCode::InvalidParameter);
   EXPECT_EQ(with([](P& p) { p.InnerTolerance = 1.0; }), ErrorCode::InvalidParameter);
+  EXPECT_EQ(with([](P& p) { p.InterfaceTolerance = 1.0; }), ErrorCode::InvalidParameter);
   EXPECT_EQ(with([](P& p) { p.CollapseTolerance = 1.0; }), ErrorCode::InvalidParameter);
   EXPECT_EQ(with([](P& p) { p.Threads = -1; }), ErrorCode::InvalidParameter);
   EXPECT_EQ(code(square.Cells, {}, {}, [](double) { return false; }), ErrorCode::Aborted);
