@@ -762,6 +762,9 @@ private:
     {
       r.MinLower = r.MinUpper = 0.0;
     }
+    // the minimum is at most the maximum, and the bounds say so too
+    r.MinUpper = std::min(r.MinUpper, r.MaxUpper);
+    r.MaxLower = std::max(r.MaxLower, r.MinLower);
     r.MinLower = std::min(r.MinLower, r.MinUpper);
     r.MaxUpper = std::max(r.MaxUpper, r.MaxLower);
   }

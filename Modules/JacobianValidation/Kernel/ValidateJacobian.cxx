@@ -114,7 +114,7 @@ private:
         cornerError = std::max(cornerError, upper);
       }
     }
-    const double cornerUpper = (corner + cornerError) * Outward;
+    const double cornerUpper = std::min((corner + cornerError) * Outward, upper);
     const double cornerLower = std::max((largestCorner - cornerError) * Inward, lower);
     if (cornerUpper - lower > this->Params.RelativeGap * cornerUpper ||
       (this->Params.ComputeMax && upper - cornerLower > this->Params.RelativeGap * upper))

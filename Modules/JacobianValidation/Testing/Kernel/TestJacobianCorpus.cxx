@@ -281,6 +281,66 @@ TEST(JacobianCorpus, Surfaces_ExactOracle)
   EXPECT_EQ(cases, 240);
 }
 
+/// Small whole numbers: zeros at corners, along edges and inside abound. What is decided, the
+/// second verifier confirms.
+TEST(JacobianCorpus, WholeNumberCells_CrossOracle)
+{
+  oracle::Random random(17);
+  JacobianParams strict;
+  strict.CollapseTolerance = 0.0;
+  strict.MaxBoxes = 2000;
+  int confirmed = 0;
+  int decided = 0;
+  for (int trial = 0; trial < 1500; ++trial)
+  {
+    const CellShape shape = Determinants[trial % 5];
+    const int n = NumParameters(shape);
+    const CellDegree degree =
+      DegreeOf(shape, random.Int(1, n == 2 ? 2 : 1), random.Int(1, n == 2 ? 2 : 1), 1);
+    BernsteinCells cells;
+    cells.NumComponents = trial % 7 == 6 ? 3 : n;
+    cells.Rational = trial % 3 == 2;
+    const int size = NumCellCoefficients(shape, degree);
+    cells.Add(shape, degree);
+    for (int k = 0; k <= degree[2]; ++k)
+    {
+      for (int j = 0; j <= degree[1]; ++j)
+      {
+        for (int i = 0; i <= degree[0]; ++i)
+        {
+          const bool simplex = shape != CellShape::Quadrilateral && shape != CellShape::Hexahedron;
+          if (simplex && i + j + (shape == CellShape::Tetrahedron ? k : 0) > degree[0])
+          {
+            continue;
+          }
+          const int at = CellCoefficient(shape, degree, i, j, k);
+          const int index[3] = { i, j, k };
+          for (int c = 0; c < cells.NumComponents; ++c)
+          {
+            cells.Data[static_cast<std::size_t>(c * size + at)] =
+              (c < n ? index[c] : 0) + (random.Unit() < 0.35 ? random.Int(-1, 1) : 0);
+          }
+          if (cells.Rational)
+          {
+            cells.Data[static_cast<std::size_t>(cells.NumComponents * size + at)] =
+              random.Int(1, 3);
+          }
+        }
+      }
+    }
+    const auto result = ValidateJacobian(cells, strict);
+    ASSERT_TRUE(result);
+    const auto check = VerifyCertificate(cells, result.Value, 200);
+    EXPECT_EQ(check.Refuted, 0) << "trial " << trial << " shape " << static_cast<int>(shape) << " "
+                                << check.FirstRefuted << " verdict "
+                                << static_cast<int>(result.Value.Verdict);
+    confirmed += check.Confirmed;
+    decided += result.Value.Verdict != Verdict::Undecided;
+  }
+  EXPECT_GT(decided, 1400);
+  EXPECT_GT(confirmed, 1100);
+}
+
 /// A bowl on a hierarchical mesh of five levels: the folded element is the one that has the point.
 TEST(JacobianCorpus, HierarchicalMapsOverFiveLevels_ExactOracle)
 {
