@@ -102,6 +102,14 @@ struct ValidateJob
       report["max_condition_number"] = number("ConditionNumberMax");
       report["mean_condition_number"] = number("ConditionNumberMean");
     }
+    if (this->Filter->GetInjectivity())
+    {
+      report["injective"] = table->GetValueByName(all, "Injective").ToString();
+      report["injectivity_reason"] = table->GetValueByName(all, "InjectivityReason").ToString();
+      report["interfaces"] = count("Interfaces");
+      report["interface_gaps"] = count("InterfaceGaps");
+      report["largest_gap"] = number("LargestGap");
+    }
     report["witness"] = nullptr;
     auto* witnesses = vtkUnstructuredGrid::SafeDownCast(this->Filter->GetOutputDataObject(1));
     if (witnesses->GetNumberOfCells() > 0)
@@ -135,6 +143,8 @@ Job MakeValidateJob(CLI::App& app)
   KNOTWORK_OPTION(options, filter, RelativeGap, "relative gap of the bounds; 1: the sign only");
   KNOTWORK_FREE_OPTION(
     options, filter, BoundMaximum, "whether the maximum is bounded as closely as the minimum");
+  KNOTWORK_FREE_OPTION(
+    options, filter, Injectivity, "whether the map as a whole is proved injective");
   KNOTWORK_FREE_OPTION(options, filter, Measures, "whether cells are measured, quality sampled");
   KNOTWORK_OPTION(options, filter, SamplesPerEdge, "points along a cell's edges for the quality");
   KNOTWORK_OPTION(options, filter, MaximumBoxes, "boxes looked at before cells stay undecided");

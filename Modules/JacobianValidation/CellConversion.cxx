@@ -318,7 +318,9 @@ Result<CellConversion> MakeCellConversion(
     return unknown;
   }
   result.Permutation.clear();
-  result.Matrix = matrix.cast<double>();
+  // what should be zero is some 1e-19 here; the bound below knows what is dropped
+  result.Matrix =
+    matrix.unaryExpr([](long double m) { return std::fabs(m) < 1e-15L ? 0.0L : m; }).cast<double>();
   // M - exact = B^-1 (B M - W) for the matrix M that is used; the residual in long double is off by
   // less than 64 of its roundings times |B| |M|. Then one rounding a product and one a sum.
   const Matrix used = result.Matrix.cast<long double>();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkJacobianValidator.h"
 
+#include "BoundaryInjectivity.h"
 #include "CellMeasures.h"
 #include "CellsFromGrid.h"
 #include "JacobianCertificate.h"
@@ -200,6 +201,92 @@ knotwork::Result<std::vector<knotwork::CellMeasure>> Measure(const knotwork::Ber
   return measures;
 }
 
+/// How the cells of the grids fit together.
+knotwork::CellComplex ComplexOf(
+  const knotwork::GridCells& cells, const std::vector<GridPair>& grids)
+{
+  knotwork::CellComplex complex;
+  const auto all = [&](const char* name)
+  {
+    return std::all_of(grids.begin(), grids.end(),
+      [name](const GridPair& grid)
+      { return grid.Input->GetCellData()->GetArray(name) != nullptr; });
+  };
+  if (all("PatchId"))
+  {
+    std::map<std::pair<int, int>, int> numbers; // blocks may use the same ids
+    for (const GridPair& grid : grids)
+    {
+      for (vtkIdType i = 0; i < grid.Input->GetNumberOfCells(); ++i)
+      {
+        const std::pair<int, int> key(grid.Block, PatchOf(grid.Input, i));
+        complex.Patches.push_back(
+          numbers.emplace(key, static_cast<int>(numbers.size())).first->second);
+      }
+    }
+  }
+  if (all("ParametricBounds") && all("PatchId"))
+  {
+    for (const GridPair& grid : grids)
+    {
+      vtkDataArray* bounds = grid.Input->GetCellData()->GetArray("ParametricBounds");
+      for (vtkIdType i = 0; i < grid.Input->GetNumberOfCells(); ++i)
+      {
+        knotwork::ParametricBox<3> box;
+        for (int d = 0; d < 3 && bounds->GetNumberOfComponents() == 6; ++d)
+        {
+          const auto direction = static_cast<std::size_t>(d);
+          box.Lower[direction] = bounds->GetComponent(i, 2 * d);
+          box.Upper[direction] = bounds->GetComponent(i, 2 * d + 1);
+        }
+        complex.Boxes.push_back(box);
+      }
+    }
+  }
+  const bool known = std::all_of(
+    cells.Points.begin(), cells.Points.end(), [](vtkIdType point) { return point >= 0; });
+  if (known && !complex.Patches.empty())
+  {
+    vtkIdType firstPoint = 0;
+    std::size_t coefficient = 0;
+    for (std::size_t g = 0; g < grids.size(); ++g)
+    {
+      const std::size_t next =
+        g + 1 < grids.size() ? grids[g + 1].FirstCell : cells.FirstPoint.size();
+      const std::size_t end =
+        next < cells.FirstPoint.size() ? cells.FirstPoint[next] : cells.Points.size();
+      for (; coefficient < end; ++coefficient)
+      {
+        complex.PointIds.push_back(firstPoint + cells.Points[coefficient]);
+      }
+      firstPoint += grids[g].Input->GetNumberOfPoints();
+    }
+  }
+  return complex;
+}
+
+const char* InjectivityName(knotwork::InjectivityVerdict verdict)
+{
+  switch (verdict)
+  {
+    case knotwork::InjectivityVerdict::Injective:
+      return "injective";
+    case knotwork::InjectivityVerdict::InjectiveUpToSeam:
+      return "injective_up_to_seam";
+    case knotwork::InjectivityVerdict::NotInjective:
+      return "not_injective";
+    default:
+      return "undecided";
+  }
+}
+
+/// Is the map one of the plane or of space onto itself, so that it can be injective?
+bool CanBeInjective(const knotwork::BernsteinCells& cells)
+{
+  return std::all_of(cells.Shapes.begin(), cells.Shapes.end(),
+    [&](knotwork::CellShape shape) { return NumParameters(shape) == cells.NumComponents; });
+}
+
 /// VTK's linear cell of a shape; its corners in the order of CornerParameters are those of VTK but
 /// for quadrilaterals and hexahedra, where VTK goes around.
 int LinearCellType(knotwork::CellShape shape)
@@ -217,7 +304,8 @@ std::size_t CornerOfVtk(knotwork::CellShape shape, std::size_t corner)
 
 /// Output 1.
 void ShowWitnesses(const knotwork::BernsteinCells& cells,
-  const knotwork::JacobianCertificate& certificate, const std::vector<GridPair>& grids,
+  const knotwork::JacobianCertificate& certificate,
+  const knotwork::InjectivityCertificate& injectivity, const std::vector<GridPair>& grids,
   vtkUnstructuredGrid* output)
 {
   vtkNew<vtkPoints> points;
@@ -233,44 +321,59 @@ void ShowWitnesses(const knotwork::BernsteinCells& cells,
   patches->SetName("PatchId");
   vtkNew<vtkDoubleArray> uppers;
   uppers->SetName("JacobianUpper");
-  output->Allocate(static_cast<vtkIdType>(2 * certificate.Witnesses.size()));
+  vtkNew<vtkIntArray> kinds;
+  kinds->SetName("Kind");
+  output->Allocate(static_cast<vtkIdType>(2 * certificate.Witnesses.size() + 2));
 
+  const auto addPoint = [&](int cell, const std::array<double, 3>& at)
+  {
+    double x[3] = {};
+    EvaluateCell(cells, cell, at, x);
+    parameters->InsertNextTuple(at.data());
+    return points->InsertNextPoint(x);
+  };
+  const auto addCell =
+    [&](int kind, int cell, double upper, int type, vtkIdType count, const vtkIdType* ids)
+  {
+    const GridPair& owner = OwnerOf(grids, static_cast<std::size_t>(cell));
+    const vtkIdType local = cell - static_cast<vtkIdType>(owner.FirstCell);
+    output->InsertNextCell(type, count, ids);
+    kinds->InsertNextValue(kind);
+    cellIds->InsertNextValue(local);
+    blocks->InsertNextValue(owner.Block);
+    patches->InsertNextValue(PatchOf(owner.Input, local));
+    uppers->InsertNextValue(upper);
+  };
   for (const knotwork::JacobianWitness& witness : certificate.Witnesses)
   {
-    const auto cell = static_cast<std::size_t>(witness.Cell);
-    const GridPair& owner = OwnerOf(grids, cell);
-    const auto local = static_cast<vtkIdType>(cell - owner.FirstCell);
-    const auto addPoint = [&](const std::array<double, 3>& at)
-    {
-      double x[3] = {};
-      EvaluateCell(cells, witness.Cell, at, x);
-      parameters->InsertNextTuple(at.data());
-      return points->InsertNextPoint(x);
-    };
-    const auto describe = [&]
-    {
-      cellIds->InsertNextValue(local);
-      blocks->InsertNextValue(owner.Block);
-      patches->InsertNextValue(PatchOf(owner.Input, local));
-      uppers->InsertNextValue(witness.Upper);
-    };
-    const vtkIdType vertex = addPoint(witness.Parameters);
-    output->InsertNextCell(VTK_VERTEX, 1, &vertex);
-    describe();
+    const vtkIdType vertex = addPoint(witness.Cell, witness.Parameters);
+    addCell(
+      vtkJacobianValidator::FOLDED_POINT, witness.Cell, witness.Upper, VTK_VERTEX, 1, &vertex);
     if (witness.NumCorners > 0)
     {
-      const knotwork::CellShape shape = cells.Shapes[cell];
+      const knotwork::CellShape shape = cells.Shapes[static_cast<std::size_t>(witness.Cell)];
       std::array<vtkIdType, 8> corners{};
       for (std::size_t c = 0; c < static_cast<std::size_t>(witness.NumCorners); ++c)
       {
-        corners[c] = addPoint(witness.Corners[CornerOfVtk(shape, c)]);
+        corners[c] = addPoint(witness.Cell, witness.Corners[CornerOfVtk(shape, c)]);
       }
-      output->InsertNextCell(LinearCellType(shape), witness.NumCorners, corners.data());
-      describe();
+      addCell(vtkJacobianValidator::FOLDED_BOX, witness.Cell, witness.Upper, LinearCellType(shape),
+        witness.NumCorners, corners.data());
+    }
+  }
+  if (injectivity.Verdict == knotwork::InjectivityVerdict::NotInjective &&
+    injectivity.Reason == knotwork::InjectivityReason::Overlap && injectivity.HasWitness)
+  {
+    for (const auto& place : injectivity.Witness.Places)
+    {
+      const vtkIdType vertex = addPoint(place.Cell, place.Parameters);
+      const auto& cell = certificate.Cells[static_cast<std::size_t>(place.Cell)];
+      addCell(vtkJacobianValidator::OVERLAP, place.Cell, cell.MaxUpper, VTK_VERTEX, 1, &vertex);
     }
   }
   output->SetPoints(points);
   output->GetPointData()->AddArray(parameters);
+  output->GetCellData()->AddArray(kinds);
   output->GetCellData()->AddArray(cellIds);
   output->GetCellData()->AddArray(blocks);
   output->GetCellData()->AddArray(patches);
@@ -388,6 +491,42 @@ void FillTable(std::map<int, Summary>& patches, Summary& all, bool measures, vtk
     addColumn(Reals(), "JacobianOverMeanMax", [](int, Summary& s) { return s.UniformityMax; });
   }
 }
+
+/// Columns of output 2 that only the last row has.
+void FillInjectivity(
+  const knotwork::InjectivityCertificate& injectivity, bool applicable, vtkTable* table)
+{
+  const vtkIdType last = table->GetNumberOfRows() - 1;
+  const auto addText = [&](const char* name, const std::string& text)
+  {
+    vtkNew<vtkStringArray> column;
+    column->SetName(name);
+    column->SetNumberOfValues(last + 1);
+    column->SetValue(last, text.c_str());
+    table->AddColumn(column);
+  };
+  const auto addNumber = [&](auto* column, const char* name, auto value)
+  {
+    column->SetName(name);
+    column->SetNumberOfTuples(last + 1);
+    column->Fill(0);
+    column->SetValue(last, value);
+    table->AddColumn(column);
+  };
+  addText("Injective", applicable ? InjectivityName(injectivity.Verdict) : "not_applicable");
+  addText("InjectivityReason", applicable ? ToString(injectivity.Reason) : "");
+  vtkNew<vtkIntArray> interfaces;
+  addNumber(interfaces.Get(), "Interfaces", injectivity.NumInterfaces);
+  vtkNew<vtkIntArray> gaps;
+  addNumber(gaps.Get(), "InterfaceGaps", static_cast<int>(injectivity.Gaps.size()));
+  double largest = 0.0;
+  for (const knotwork::InterfaceGap& gap : injectivity.Gaps)
+  {
+    largest = std::max(largest, gap.Size);
+  }
+  vtkNew<vtkDoubleArray> sizes;
+  addNumber(sizes.Get(), "LargestGap", largest);
+}
 }
 
 vtkJacobianValidator::vtkJacobianValidator()
@@ -401,6 +540,7 @@ void vtkJacobianValidator::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RelativeGap: " << this->RelativeGap << "\n";
   os << indent << "BoundMaximum: " << this->BoundMaximum << "\n";
   os << indent << "MaximumBoxes: " << this->MaximumBoxes << "\n";
+  os << indent << "Injectivity: " << this->Injectivity << "\n";
   os << indent << "Measures: " << this->Measures << "\n";
   os << indent << "SamplesPerEdge: " << this->SamplesPerEdge << "\n";
   os << indent << "Verdict: " << this->Verdict << "\n";
@@ -465,6 +605,21 @@ Status vtkJacobianValidator::Compute(vtkInformationVector** inputs, vtkInformati
   {
     return certificate.Status;
   }
+  const bool isMap = CanBeInjective(cells);
+  knotwork::InjectivityCertificate injectivity;
+  if (this->Injectivity && isMap)
+  {
+    knotwork::InjectivityParams injectivityParams;
+    injectivityParams.MaxBoxes = this->MaximumBoxes;
+    injectivityParams.Threads = this->KernelThreads();
+    auto proved = ProveInjectivity(
+      cells, ComplexOf(read.Value, grids), certificate.Value, injectivityParams, this->Progress());
+    if (!proved)
+    {
+      return proved.Status;
+    }
+    injectivity = std::move(proved.Value);
+  }
   std::vector<knotwork::CellMeasure> measures;
   if (this->Measures)
   {
@@ -505,8 +660,14 @@ Status vtkJacobianValidator::Compute(vtkInformationVector** inputs, vtkInformati
       }
     }
   }
-  FillTable(patches, all, this->Measures, vtkTable::GetData(outputs, 2));
-  ShowWitnesses(read->Cells, certificate.Value, grids, vtkUnstructuredGrid::GetData(outputs, 1));
+  vtkTable* table = vtkTable::GetData(outputs, 2);
+  FillTable(patches, all, this->Measures, table);
+  if (this->Injectivity)
+  {
+    FillInjectivity(injectivity, isMap, table);
+  }
+  ShowWitnesses(
+    read->Cells, certificate.Value, injectivity, grids, vtkUnstructuredGrid::GetData(outputs, 1));
   this->Verdict = static_cast<int>(certificate->Verdict);
   return {};
 }

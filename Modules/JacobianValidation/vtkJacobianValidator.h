@@ -17,9 +17,13 @@
  * `ScaledJacobianMin` (smallest sampled det J / (|f_u| |f_v| |f_w|)). Output 1
  * (vtkUnstructuredGrid) has for every invalid cell a vertex at a point where det J <= 0 is proved
  * and the sub-box of the cell around it, with the cell arrays `CellId` (of its grid), `Block`,
- * `PatchId` and `JacobianUpper` and the point array `LocalParameters`. Output 2 is a table with a
- * row a patch (column `PatchId`; one row when cells have no `PatchId`) and a last row, with
- * `PatchId` -1, for all together.
+ * `PatchId`, `JacobianUpper` and `Kind` (one of WitnessKinds) and the point array
+ * `LocalParameters`; an overlap of a map that is not injective is two vertices. Output 2 is a table
+ * with a row a patch (column `PatchId`; one row when cells have no `PatchId`) and a last row, with
+ * `PatchId` -1, for all together, which also has the verdict on global injectivity (`Injective`:
+ * "injective", "injective_up_to_seam", "not_injective", "undecided", and "not_applicable" of
+ * surfaces and curves in space; `InjectivityReason`) and on the interfaces of the patches
+ * (`Interfaces`, `InterfaceGaps`, `LargestGap`).
  *
  * @source Johnen, Remacle, Geuzaine (2013). The module's page has the method, limits and errors.
  */
@@ -34,6 +38,13 @@ public:
   static vtkJacobianValidator* New();
   vtkTypeMacro(vtkJacobianValidator, vtkSplineAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum WitnessKinds
+  {
+    FOLDED_POINT = 0, ///< det J <= 0 here
+    FOLDED_BOX,       ///< a sub-box of the cell with such a corner
+    OVERLAP           ///< one of two points with the same image
+  };
 
   ///@{
   /** How close the bounds of min det J are brought: upper - lower <= RelativeGap * max(|lower|,
@@ -54,6 +65,12 @@ public:
   vtkGetMacro(MaximumBoxes, vtkIdType);
   ///@}
 
+  ///@{
+  /** Whether the map as a whole is proved injective (planar maps and volumes). Default on. */
+  vtkSetMacro(Injectivity, bool);
+  vtkGetMacro(Injectivity, bool);
+  vtkBooleanMacro(Injectivity, bool);
+  ///@}
   ///@{
   /** Whether cells are measured and their quality is sampled. Default on. */
   vtkSetMacro(Measures, bool);
@@ -87,6 +104,7 @@ private:
   double RelativeGap = 1.0;
   bool BoundMaximum = false;
   vtkIdType MaximumBoxes = 1000000;
+  bool Injectivity = true;
   bool Measures = true;
   int SamplesPerEdge = 5;
   int Verdict = 0;

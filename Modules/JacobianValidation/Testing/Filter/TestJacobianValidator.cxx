@@ -4,6 +4,7 @@
 #include "vtkSplineSource.h"
 
 #include "vtkCellData.h"
+#include "vtkCellSizeFilter.h"
 #include "vtkCellType.h"
 #include "vtkCellValidator.h"
 #include "vtkCommand.h"
@@ -12,11 +13,13 @@
 #include "vtkExecutive.h"
 #include "vtkIdList.h"
 #include "vtkIntArray.h"
+#include "vtkMeshQuality.h"
 #include "vtkNew.h"
 #include "vtkPartitionedDataSet.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPointData.h"
 #include "vtkSmartPointer.h"
+#include "vtkSphere.h"
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -210,6 +213,111 @@ TEST(JacobianValidator, ShapesOfTheSource_PropertyOracle)
     EXPECT_EQ(AllCells(filter, "UndecidedCells").ToInt(), 0);
     EXPECT_GT(AllCells(filter, "JacobianMaxLower").ToDouble(), 0.0);
   }
+}
+
+TEST(JacobianValidator, GlobalInjectivity_ExactOracle)
+{
+  // two unit squares, each a patch: side by side, apart, and one over the other
+  const auto two = [](double shift)
+  {
+    auto grid = OneCell(VTK_QUAD, { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } });
+    vtkNew<vtkIdList> ids;
+    for (const auto& x :
+      Points{ { shift, 0, 0 }, { shift + 1, 0, 0 }, { shift + 1, 1, 0 }, { shift, 1, 0 } })
+    {
+      ids->InsertNextId(grid->GetPoints()->InsertNextPoint(x.data()));
+    }
+    grid->InsertNextCell(VTK_QUAD, ids);
+    vtkNew<vtkIntArray> patches;
+    patches->SetName("PatchId");
+    patches->InsertNextValue(3);
+    patches->InsertNextValue(7);
+    grid->GetCellData()->AddArray(patches);
+    return grid;
+  };
+  vtkNew<vtkJacobianValidator> filter;
+  const auto verdict = [&](double shift)
+  {
+    filter->SetInputData(two(shift));
+    filter->Update();
+    EXPECT_EQ(filter->GetVerdict(), 1); // each cell is valid
+    return AllCells(filter, "Injective").ToString();
+  };
+  EXPECT_EQ(verdict(1.0), "injective");
+  EXPECT_EQ(AllCells(filter, "Interfaces").ToInt(), 1);
+  EXPECT_EQ(verdict(1.5), "injective");
+  EXPECT_EQ(AllCells(filter, "Interfaces").ToInt(), 0);
+  EXPECT_EQ(verdict(1.0 + 1e-9), "undecided");
+  EXPECT_EQ(AllCells(filter, "InterfaceGaps").ToInt(), 1);
+  EXPECT_NEAR(AllCells(filter, "LargestGap").ToDouble(), 1e-9, 1e-12);
+  EXPECT_EQ(verdict(0.5), "not_injective");
+  vtkUnstructuredGrid* witnesses = Grid(filter, 1);
+  ASSERT_EQ(witnesses->GetNumberOfCells(), 2);
+  for (vtkIdType i = 0; i < 2; ++i)
+  {
+    EXPECT_EQ(witnesses->GetCellData()->GetArray("Kind")->GetTuple1(i),
+      static_cast<double>(vtkJacobianValidator::OVERLAP));
+  }
+  for (int d = 0; d < 3; ++d)
+  {
+    EXPECT_NEAR(witnesses->GetPoint(0)[d], witnesses->GetPoint(1)[d], 1e-9);
+  }
+  EXPECT_NE(witnesses->GetCellData()->GetArray("PatchId")->GetTuple1(0),
+    witnesses->GetCellData()->GetArray("PatchId")->GetTuple1(1));
+}
+
+TEST(JacobianValidator, InjectivityOfSourcesAndHierarchies_PropertyOracle)
+{
+  vtkNew<vtkSplineSource> source;
+  source->SetShapeName("AnnulusSector");
+  source->SetElements(4, 4, 1);
+  vtkNew<vtkSphere> ball;
+  ball->SetCenter(1.0, 0.0, 0.0);
+  ball->SetRadius(0.2);
+  vtkNew<vtkSplineRefine> refine; // hanging nodes
+  refine->SetInputConnection(source->GetOutputPort());
+  refine->SetMode(vtkSplineRefine::IMPLICIT_FUNCTION);
+  refine->SetImplicitFunction(ball);
+  refine->SetNumberOfRefinements(2);
+  vtkNew<vtkJacobianValidator> filter;
+  filter->SetInputConnection(refine->GetOutputPort());
+  filter->Update();
+  EXPECT_GT(AllCells(filter, "Cells").ToInt(), 16);
+  EXPECT_EQ(AllCells(filter, "Injective").ToString(), "injective");
+  source->SetAngle(360.0);
+  filter->Update();
+  EXPECT_EQ(AllCells(filter, "Injective").ToString(), "injective_up_to_seam");
+  source->SetShapeName("CylinderSurface");
+  filter->Update();
+  EXPECT_EQ(AllCells(filter, "Injective").ToString(), "not_applicable");
+}
+
+TEST(JacobianValidator, AreaAndQualityThatVtkGetsWrong_ExactOracle)
+{
+  const double exact = std::acos(-1.0) / 4.0 * (2.0 * 2.0 - 1.0); // a quarter annulus, 2.356
+  vtkNew<vtkSplineSource> source;
+  source->SetShapeName("AnnulusSector");
+  source->SetInnerRadius(1.0);
+  source->SetOuterRadius(2.0);
+  vtkNew<vtkCellSizeFilter> vtksArea;
+  vtksArea->SetInputConnection(source->GetOutputPort());
+  vtksArea->Update();
+  auto* sized = vtkDataSet::SafeDownCast(vtksArea->GetOutputDataObject(0));
+  EXPECT_GT(std::abs(sized->GetCellData()->GetArray("Area")->GetTuple1(0) - exact), 0.1);
+  vtkNew<vtkMeshQuality> vtksQuality;
+  vtksQuality->SetInputConnection(source->GetOutputPort());
+  vtksQuality->SetQuadQualityMeasureToScaledJacobian();
+  vtksQuality->Update();
+  EXPECT_EQ(vtksQuality->GetOutput()->GetCellData()->GetArray("Quality")->GetTuple1(0), 0.0);
+
+  vtkNew<vtkJacobianValidator> filter;
+  filter->SetInputConnection(source->GetOutputPort());
+  filter->Update();
+  EXPECT_NEAR(CellValue(filter, "CellMeasure"), exact, 1e-12 * exact);
+  EXPECT_NEAR(AllCells(filter, "Measure").ToDouble(), exact, 1e-12 * exact);
+  // radii and circles meet at right angles
+  EXPECT_NEAR(CellValue(filter, "ScaledJacobianMin"), 1.0, 1e-12);
+  EXPECT_NEAR(AllCells(filter, "ScaledJacobianMean").ToDouble(), 1.0, 1e-12);
 }
 
 TEST(JacobianValidator, CollectionsKeepTheirStructure_PropertyOracle)
