@@ -163,6 +163,40 @@ TEST(CellMeasures, CentroidOfBentSimplices_ExactOracle)
   EXPECT_NEAR(v.Centroid[1], 0.25 + 0.1, 1e-14); // mean of x^2 is 6 (2! / 5!) = 1/10
 }
 
+// The same map in a higher degree is integrated by a longer rule.
+TEST(CellMeasures, DegreeElevationChangesNothing_PropertyOracle)
+{
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (const CellShape shape : AllCellShapes)
+  {
+    const int dim = NumParameters(shape);
+    for (int p = 1; p <= 3; ++p)
+    {
+      SCOPED_TRACE(
+        "shape " + std::to_string(static_cast<int>(shape)) + " degree " + std::to_string(p));
+      BernsteinCells cells;
+      cells.NumComponents = dim;
+      AddInterpolant(cells, shape, UniformDegree(shape, p),
+        [&](const std::array<double, 3>& u)
+        {
+          return std::array<double, 3>{ u[0] + 0.2 * uniform(random), u[1] + 0.2 * uniform(random),
+            u[2] + 0.2 * uniform(random) };
+        });
+      AddInterpolant(cells, shape, UniformDegree(shape, p + 3),
+        [&](const std::array<double, 3>& u) { return EvaluateCell(cells, 0, u.data()).Position; });
+      const CellMeasures measures = Measured(cells);
+      // rounding of the interpolation's solve
+      const double tolerance = 1e-12;
+      EXPECT_NEAR(measures.Cells[0].Measure, measures.Cells[1].Measure, tolerance);
+      for (std::size_t d = 0; d < static_cast<std::size_t>(dim); ++d)
+      {
+        EXPECT_NEAR(measures.Cells[0].Centroid[d], measures.Cells[1].Centroid[d], 10.0 * tolerance);
+      }
+    }
+  }
+}
+
 // w_i c^i is a reparameterization: the same quarter annulus with weights over five decades.
 TEST(CellMeasures, ExtremeWeightsOfTheSameAnnulus_ExactOracle)
 {
