@@ -1225,57 +1225,60 @@ private:
       const double ea = OneNorm(alpha) * b.Error;
       const double eb = OneNorm(beta) * b.Error;
       Range ar;
-      Range ratio;
+      double largest = 0.0;
       for (int j = 0; j <= b.Q; ++j)
       {
         for (int i = 0; i <= b.P; ++i)
         {
-          const double x = value(alpha, i, j);
-          ar.Add(x);
-          if (!(x - ea > 0.0))
-          {
-            return false;
-          }
-          const double y = value(beta, i, j);
-          ratio.Add((y - eb) / (y > eb ? x + ea : x - ea));
-          ratio.Add((y + eb) / (y + eb > 0.0 ? x - ea : x + ea));
+          ar.Add(value(alpha, i, j));
+          largest =
+            std::max({ largest, std::abs(value(alpha, i, j)), std::abs(value(beta, i, j)) });
         }
       }
-      ar.Widen(ea);
-      const double reach = ratio.Size() * (1.0 + 1e-9);
-      Range as;
-      Range bs;
-      Range at;
-      Range bt;
+      ar.Widen(ea + 4.0 * unitRoundoff * largest);
+      if (!(ar.Low > 0.0))
+      {
+        return false;
+      }
+      // (b/a)' = (a b' - b a') / a^2: a convex combination of the products of all coefficients,
+      // with the degrees as factors
+      const double error = 8.0 * (largest + ea + eb) * (ea + eb + 8.0 * unitRoundoff * largest);
+      Range crossS;
+      Range crossT;
+      crossT.Add(0.0);
+      const auto addProducts = [&](Range& range, int i, int j, int di, int dj)
+      {
+        const double da = value(alpha, i + di, j + dj) - value(alpha, i, j);
+        const double db = value(beta, i + di, j + dj) - value(beta, i, j);
+        for (int l = 0; l <= b.Q; ++l)
+        {
+          for (int m = 0; m <= b.P; ++m)
+          {
+            range.Add(value(alpha, m, l) * db - value(beta, m, l) * da);
+          }
+        }
+      };
       for (int j = 0; j <= b.Q; ++j)
       {
         for (int i = 0; i <= b.P; ++i)
         {
           if (i < b.P)
           {
-            as.Add(value(alpha, i + 1, j) - value(alpha, i, j));
-            bs.Add(sign * (value(beta, i + 1, j) - value(beta, i, j)));
+            addProducts(crossS, i, j, 1, 0);
           }
           if (j < b.Q)
           {
-            at.Add(value(alpha, i, j + 1) - value(alpha, i, j));
-            bt.Add(value(beta, i, j + 1) - value(beta, i, j));
+            addProducts(crossT, i, j, 0, 1);
           }
         }
       }
-      if (b.Q == 0)
-      {
-        at.Add(0.0);
-        bt.Add(0.0);
-      }
-      // d/ds (b/a) = (b_s - (b/a) a_s) / a, with the degrees as factors
-      const double low = (bs.Low - 2.0 * eb - reach * (as.Size() + 2.0 * ea)) * b.P;
+      const double low = ((sign > 0.0 ? crossS.Low : -crossS.High) - error) * b.P;
       if (!(low > 0.0))
       {
         return false;
       }
-      ss = std::min(ss, low / ar.High);
-      st = std::max(st, (bt.Size() + 2.0 * eb + reach * (at.Size() + 2.0 * ea)) * b.Q / ar.Low);
+      ss = std::min(ss, low / (ar.High * ar.High) * (1.0 - 1e-9));
+      st = std::max(st, (crossT.Size() + error) * b.Q / (ar.Low * ar.Low) * (1.0 + 1e-9));
       // alpha (S - P) itself
       const int acrossS = piece.To;
       const int acrossT = 3 - acrossS; // of the edge's first corner, over to t = 1

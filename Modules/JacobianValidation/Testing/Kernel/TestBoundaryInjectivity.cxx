@@ -228,9 +228,18 @@ TEST(BoundaryInjectivity, BallSectorsToTheCentreAndThePoles_ExactOracle)
   const InjectivityCertificate centre = Prove(MakeShapeCells(s));
   EXPECT_VERDICT(centre, InjectiveUpToSeam, CollapsedSide);
   EXPECT_EQ(centre.NumCollapsedSides, 1);
-  // to the poles: a regular face beside one with a collapsed edge is not told apart there
-  s.InnerRadius = 0.4;
+  // whole balls of one patch, their faces at the poles with a seam beside them
   s.PolarAngle = 180.0;
+  s.Angle = 360.0;
+  const InjectivityCertificate whole = Prove(MakeShapeCells(s));
+  EXPECT_VERDICT(whole, InjectiveUpToSeam, Seam);
+  EXPECT_EQ(whole.NumBoundaryComponents, 1);
+  s.InnerRadius = 0.4;
+  const InjectivityCertificate hollow = Prove(MakeShapeCells(s));
+  EXPECT_VERDICT(hollow, InjectiveUpToSeam, Seam);
+  EXPECT_EQ(hollow.NumBoundaryComponents, 2);
+  // a regular face beside one with a collapsed edge is not told apart at the pole
+  s.Angle = 80.0;
   EXPECT_VERDICT(Prove(MakeShapeCells(s)), Undecided, TooClose);
 }
 
