@@ -135,8 +135,10 @@ bool WriteWith(vtkDataObject* data, const fs::path& file, const std::string& enc
   }
   else
   {
+    // Raw bytes would be smaller, but Debian's ParaView 5.11 with the present libexpat cannot read
+    // them.
     writer->SetDataModeToAppended();
-    writer->EncodeAppendedDataOff();
+    writer->EncodeAppendedDataOn();
   }
   return writer->Write() == 1;
 }
