@@ -85,7 +85,8 @@ struct DomainIteration
 
 /// Measures at Samples^Dim equally spaced parameters, ends included. Det: of the map from the unit
 /// square (cube). Scaled: det J over the product of the lengths of J's columns. Condition:
-/// |J|_F |J^-1|_F, Dim at best; points with det J = 0 do not count.
+/// |J|_F |J^-1|_F, Dim at best; points with a scaled Jacobian
+/// below 1e-10 (degenerate corners) do not count for its mean.
 struct DomainMetrics
 {
   int Samples = 0;
@@ -132,10 +133,11 @@ struct DomainParameterization
   bool WeightsOptimized = false;
   int Refinements = 0; ///< rounds of local refinement that were made
   InitialMapMethod UsedInitialMap = InitialMapMethod::Coons;
-  std::vector<BoundaryFold> Folds;   ///< empty unless the boundary makes a valid map impossible
-  std::vector<std::string> Messages; ///< what a stage failed at, one sentence each
-  double SecondsOptimization = 0.0;  ///< of the wall clock: everything before the metrics and
-                                     ///< without the certificate
+  std::vector<BoundaryFold> Folds; ///< empty unless the boundary makes a valid map impossible
+  /// What a stage failed at, one sentence each, those of Folds first; empty when the map is valid.
+  std::vector<std::string> Messages;
+  double SecondsOptimization = 0.0; ///< of the wall clock: everything before the metrics and
+                                    ///< without the certificate
   double SecondsCertificate = 0.0;
   double SecondsMetrics = 0.0;
   bool IsImpossible() const { return !this->Folds.empty(); }

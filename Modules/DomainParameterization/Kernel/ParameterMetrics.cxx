@@ -14,6 +14,9 @@ namespace knotwork
 {
 namespace
 {
+/// Scaled Jacobians below this are what rounding leaves of a degenerate point.
+constexpr double DegenerateScaled = 1e-10;
+
 /// Sums and extremes over points that come one by one.
 template <int Dim>
 class Collector
@@ -59,7 +62,7 @@ public:
     this->MinScaled = std::min(this->MinScaled, scaled);
     this->SumScaled += scaled;
     this->NonPositive += det > 0.0 ? 0 : 1;
-    if (det != 0.0)
+    if (std::abs(scaled) > DegenerateScaled)
     {
       // in the plane both norms are one
       this->SumCondition += (Dim == 2 ? f : std::sqrt(f * cofactors)) / std::abs(det);
@@ -154,9 +157,6 @@ template <int Dim>
 class FoldSearch
 {
 public:
-  /// Tangents that are parallel but for rounding are degenerate, not folded.
-  static constexpr double Tolerance = 1e-10;
-
   explicit FoldSearch(const CompatibleBoundary<Dim>& boundary) : Boundary(boundary) {}
 
   /// @param tangents  column k: derivative along direction k
@@ -166,7 +166,7 @@ public:
     const double lengths = tangents.colwise().norm().prod();
     const double det = tangents.determinant();
     const double scaled = lengths > 0.0 ? det / lengths : 0.0;
-    if (scaled < -Tolerance && scaled < this->Worst)
+    if (scaled < -DegenerateScaled && scaled < this->Worst)
     {
       this->Worst = scaled;
       this->Found.Det = det;

@@ -183,7 +183,11 @@ public:
         return status;
       }
     }
-    if (!this->IsValid() && !this->IsImpossible())
+    if (this->IsValid())
+    {
+      this->Out.Messages.clear(); // what failed on the way does not matter any more
+    }
+    else if (!this->IsImpossible())
     {
       this->Out.Messages.push_back("no valid map was found in a space of " +
         std::to_string(this->Out.Map.Space->NumFunctions) + " functions; " +
@@ -324,6 +328,20 @@ private:
     return open;
   }
 
+  /// Whether an element lies at a corner of the domain, where the boundary decides alone.
+  bool AtCorner(std::size_t e) const
+  {
+    const ParametricBox<Dim>& box = this->Out.Map.Space->Elements[e].Box;
+    for (std::size_t d = 0; d < Dim; ++d)
+    {
+      if (box.Lower[d] != 0.0 && box.Upper[d] != 1.0)
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
   /// Where quadrature points did not see a fold, more of them, until the certificate is won.
   Status Densify(bool& unfolded)
   {
@@ -382,8 +400,6 @@ private:
         if (this->IsValid())
         {
           this->Solver->SetMap(this->Out.Map);
-          this->Out.Messages.push_back(
-            "a round of weights was undone: the certificate would have been lost");
           break;
         }
         for (int e : this->OpenElements(this->Candidate))
@@ -421,8 +437,16 @@ private:
     {
       refinement.Extension = std::max(refinement.Extension, (knots.Degree() + 1) / 2);
     }
-    auto refined = RefineMarkedElements<Dim>(
-      this->Out.Map, this->OpenElements(this->Out.Certificate), refinement);
+    std::vector<int> marked = this->OpenElements(this->Out.Certificate);
+    for (std::size_t e = 0; e < this->Out.Certificate.Cells.size(); ++e)
+    {
+      const CellCertificate& cell = this->Out.Certificate.Cells[e];
+      if (cell.Verdict == Verdict::Valid && cell.Degenerate != 0 && !this->AtCorner(e))
+      {
+        marked.push_back(static_cast<int>(e)); // only just regular, and not by the boundary alone
+      }
+    }
+    auto refined = RefineMarkedElements<Dim>(this->Out.Map, marked, refinement);
     if (!refined)
     {
       return refined.Status;

@@ -336,6 +336,7 @@ TEST(ParameterizeDomain, PoorSpacesAreRefinedLocally_PropertyOracle)
   EXPECT_GT(result->Refinements, 0);
   EXPECT_EQ(result->Map.Space->Kind, SpaceKind::Hierarchical);
   EXPECT_LT(result->Map.Space->NumFunctions, 100);
+  EXPECT_TRUE(result->Messages.empty());
   ExpectConfirmed<2>(result.Value);
   // the boundary is the same curve: compared with the tensor-product map's boundary
   const BezierForm<2> refined = MakeBezierForm<2>(result->Map);
@@ -353,6 +354,26 @@ TEST(ParameterizeDomain, PoorSpacesAreRefinedLocally_PropertyOracle)
   ASSERT_TRUE(EvaluateParameters<2>(refined, edge, {}, a));
   ASSERT_TRUE(EvaluateParameters<2>(plain, edge, {}, b));
   EXPECT_LE((a.Values - b.Values).cwiseAbs().maxCoeff(), 1e-14);
+}
+
+TEST(ParameterizeDomain, CircleOfFourArcsIsDegenerateAtItsCornersOnly_ExactOracle)
+{
+  DomainBoundary<2> boundary;
+  for (int quarter = 0; quarter < 4; ++quarter)
+  {
+    const double begin = quarter * cases::Pi / 2;
+    boundary.Sides.push_back(
+      InsertKnots<1>(cases::Arc(1.0, begin, begin + cases::Pi / 2), 0, { 0.25, 0.5, 0.75 }).Value);
+  }
+  const auto result = ParameterizeDomain<2>(boundary);
+  ASSERT_TRUE(result) << result.Status.Message();
+  EXPECT_TRUE(result->Folds.empty());
+  EXPECT_EQ(result->Certificate.Verdict, Verdict::Valid);
+  EXPECT_EQ(result->Certificate.NumDegenerate, 4);
+  EXPECT_NEAR(result->Metrics.Area, cases::Pi, 1e-12);
+  EXPECT_LT(result->Metrics.MeanConditionNumber, 3.0); // the four corners do not count
+  EXPECT_LE(std::abs(result->Metrics.MinDet), 1e-14);
+  ExpectBoundaryBits<2>(result.Value);
 }
 
 TEST(ParameterizeDomain, ProgressAborts)
