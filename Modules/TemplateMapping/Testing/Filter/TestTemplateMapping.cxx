@@ -2,6 +2,7 @@
 #include "../Kernel/TemplateCases.h"
 #include "SplineModel.h"
 #include "TemplateMap.h"
+#include "vtkJacobianValidator.h"
 #include "vtkTemplateMapping.h"
 
 #include <vtkCallbackCommand.h>
@@ -167,6 +168,22 @@ TEST(TemplateMappingFilter, OutputsAreTheKernelsResult_CrossOracle)
     EXPECT_EQ(value("Functions"), record.Functions);
     EXPECT_GT(value("Seconds"), 0.0);
   }
+}
+
+TEST(TemplateMappingFilter, MapsAreCertified_PropertyOracle)
+{
+  Mapping run;
+  run.Filter->SetTemplateSamples(2001);
+  run.On(ToPolyData(CircleTemplate(501)), ToPolyData(LobedTarget()));
+  ASSERT_TRUE(run.Errors.empty()) << run.Errors[0];
+  EXPECT_EQ(run.Last("NegativeJacobianPercent"), 0.0);
+  vtkNew<vtkJacobianValidator> validator; // what the percentage only looks at
+  validator->SetInputConnection(run.Filter->GetOutputPort());
+  validator->Update();
+  EXPECT_EQ(validator->GetVerdict(), 1);
+  auto* table = vtkTable::SafeDownCast(validator->GetOutputDataObject(2));
+  EXPECT_EQ(
+    table->GetValueByName(table->GetNumberOfRows() - 1, "Injective").ToString(), "injective");
 }
 
 TEST(TemplateMappingFilter, EveryPropertyReachesTheKernel_PropertyOracle)
