@@ -201,11 +201,7 @@ Status vtkDomainParameterization::Parameterize(
   {
     return result.Status;
   }
-  for (const knotwork::BoundaryFold& fold : result->Folds)
-  {
-    vtkWarningMacro("" << fold.Message);
-  }
-  for (const std::string& message : result->Messages)
+  for (const std::string& message : result->Messages) // those of folds of the boundary first
   {
     vtkWarningMacro("" << message);
   }

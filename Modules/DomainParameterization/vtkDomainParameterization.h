@@ -37,7 +37,7 @@ public:
 
   enum InitialMaps
   {
-    INITIAL_AUTOMATIC = 0, ///< Coons; where that folds, the harmonic map if it folds less
+    INITIAL_AUTOMATIC = 0, ///< Coons; harmonic when its folds cannot be removed
     COONS,
     SPRING,
     HARMONIC
