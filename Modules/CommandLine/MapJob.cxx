@@ -49,19 +49,7 @@ struct MapJob
       return status;
     }
     this->AddNumbers(session.Report);
-    const std::string* outputs[] = { &this->Output, &this->Mapped, &this->Table };
-    for (int port = 0; port < 3; ++port)
-    {
-      if (!outputs[port]->empty())
-      {
-        if (Status status = session.Write(this->Filter->GetOutputDataObject(port), *outputs[port]);
-            !status)
-        {
-          return status;
-        }
-      }
-    }
-    return {};
+    return session.WriteOutputs(this->Filter, { this->Output, this->Mapped, this->Table });
   }
 
   void AddNumbers(nlohmann::ordered_json& report)

@@ -354,6 +354,23 @@ Status Session::Write(vtkDataObject* data, const std::string& file, const std::s
   return {};
 }
 
+Status Session::WriteOutputs(vtkAlgorithm* filter, const std::vector<std::string>& files)
+{
+  for (std::size_t port = 0; port < files.size(); ++port)
+  {
+    if (files[port].empty())
+    {
+      continue;
+    }
+    vtkDataObject* output = filter->GetOutputDataObject(static_cast<int>(port));
+    if (Status status = this->Write(output, files[port]); !status)
+    {
+      return status;
+    }
+  }
+  return {};
+}
+
 Status Session::Commit()
 {
   if (!this->ReportFile.empty())

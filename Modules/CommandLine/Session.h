@@ -48,6 +48,9 @@ public:
   Status Write(
     vtkDataObject* data, const std::string& file, const std::string& encoding = "appended");
 
+  /// Stages the output of every port whose file has a name.
+  Status WriteOutputs(vtkAlgorithm* filter, const std::vector<std::string>& files);
+
   /// Writes the report (if asked for) and moves all staged files to their places.
   Status Commit();
 

@@ -58,19 +58,7 @@ struct ValidateJob
     {
       std::cout << verdict << "\n";
     }
-    const std::string* outputs[] = { &this->Output, &this->Witnesses, &this->Table };
-    for (int port = 0; port < 3; ++port)
-    {
-      if (!outputs[port]->empty())
-      {
-        if (Status status = session.Write(this->Filter->GetOutputDataObject(port), *outputs[port]);
-            !status)
-        {
-          return status;
-        }
-      }
-    }
-    return {};
+    return session.WriteOutputs(this->Filter, { this->Output, this->Witnesses, this->Table });
   }
 
   /// @return the verdict of all cells.
