@@ -95,7 +95,7 @@ void AddReport(const knotwork::DomainParameterization<Dim>& result, vtkUnstructu
   verdict->InsertNextValue(ToString(result.Certificate.Verdict));
   grid->GetFieldData()->AddArray(verdict);
   const knotwork::DomainMetrics& metrics = result.Metrics;
-  AddNumber(grid, "JacobianMinLower", result.Certificate.MinLower);
+  AddNumber(grid, "JacobianMinLower", result.MinDetLower);
   AddNumber(grid, "Area", metrics.Area);
   AddNumber(grid, "MinDetOverArea", metrics.MinDetOverArea);
   AddNumber(grid, "MaxDetOverArea", metrics.MaxDetOverArea);

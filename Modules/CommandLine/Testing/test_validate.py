@@ -120,6 +120,9 @@ def test_parameterize_reports_a_certified_map():
     assert report["verdict"] == "valid" and report["min_jacobian_lower"] > 0
     assert abs(report["area"] - (1 - 0.7 / 3)) < 1e-12
     assert 0 < report["min_det_over_area"] < 1 < report["max_det_over_area"]
+    # the proved bound is below the samples, and not far below
+    sampled = report["min_det_over_area"] * report["area"]
+    assert 0.8 * sampled < report["min_jacobian_lower"] <= sampled * (1 + 1e-12)
     for key in ("min_scaled_jacobian", "mean_scaled_jacobian", "mean_condition_number", "iterations", "functions",
                 "seconds"):
         assert np.isfinite(report[key]), key

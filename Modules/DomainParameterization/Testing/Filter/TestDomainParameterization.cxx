@@ -115,6 +115,7 @@ TEST(DomainParameterization, UnitSquare_ExactOracle)
   EXPECT_NEAR(run.Number("Area"), 1.0, 1e-14);
   EXPECT_NEAR(run.Number("MinDetOverArea"), 1.0, 1e-12);
   EXPECT_NEAR(run.Number("MaxDetOverArea"), 1.0, 1e-12);
+  EXPECT_NEAR(run.Number("JacobianMinLower"), 1.0, 1e-12);
   EXPECT_NEAR(run.Number("MeanConditionNumber"), 2.0, 1e-12); // |J|_F |J^-1|_F of the identity
   auto* verdict =
     vtkStringArray::SafeDownCast(run.Map()->GetFieldData()->GetAbstractArray("Verdict"));
