@@ -43,6 +43,7 @@ int main(int argc, char* argv[])
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputConnection(tessellate->GetOutputPort());
   writer->SetFileName(argv[1]);
+  writer->SetDataModeToBinary(); // which every ParaView reads
   if (!writer->Write() || tessellate->GetErrorCode() != 0)
   {
     return EXIT_FAILURE; // VTK has said why

@@ -116,6 +116,7 @@ def circle(radius):
 def write(writer, data, file):
     writer.SetInputData(data)
     writer.SetFileName(file)
+    writer.SetDataModeToBinary()  # which every ParaView reads
     writer.Write()
     print("file", file)
 

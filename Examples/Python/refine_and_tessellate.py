@@ -33,6 +33,7 @@ tessellate.SetChordalTolerance(1e-3)
 writer = vtkXMLPolyDataWriter()
 writer.SetInputConnection(tessellate.GetOutputPort())
 writer.SetFileName(sys.argv[1])
+writer.SetDataModeToBinary()  # which every ParaView reads
 if not writer.Write() or tessellate.GetErrorCode():
     sys.exit(1)  # VTK has said why
 

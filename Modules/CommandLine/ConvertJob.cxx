@@ -20,7 +20,7 @@ struct ConvertJob
 {
   std::string Input;
   std::string Output;
-  std::string Encoding = "appended";
+  std::string Encoding = "binary";
 
   Status Run(Session& session)
   {

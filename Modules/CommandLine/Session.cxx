@@ -135,10 +135,8 @@ bool WriteWith(vtkDataObject* data, const fs::path& file, const std::string& enc
   }
   else
   {
-    // Raw bytes would be smaller, but Debian's ParaView 5.11 with the present libexpat cannot read
-    // them.
     writer->SetDataModeToAppended();
-    writer->EncodeAppendedDataOn();
+    writer->EncodeAppendedDataOff();
   }
   return writer->Write() == 1;
 }

@@ -43,10 +43,11 @@ public:
   /// Prints warnings of a decoding on stderr, unless quiet.
   void Warn(const std::vector<std::string>& warnings) const;
 
-  /// Stages an output by the ending of its name: .vtu .vtp .vtpc for datasets, .xml and .g2
-  /// for spline grids, .csv for tables.
+  /// Stages an output. XML files hold base64 within their elements: Debian's ParaView 5.11 with the
+  /// present libexpat cannot read appended data. The ending of the name says the format: .vtu .vtp
+  /// .vtpc for datasets, .xml and .g2 for spline grids, .csv for tables.
   Status Write(
-    vtkDataObject* data, const std::string& file, const std::string& encoding = "appended");
+    vtkDataObject* data, const std::string& file, const std::string& encoding = "binary");
 
   /// Stages the output of every port whose file has a name.
   Status WriteOutputs(vtkAlgorithm* filter, const std::vector<std::string>& files);

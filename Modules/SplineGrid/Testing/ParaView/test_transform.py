@@ -103,8 +103,8 @@ def test_files():
     original = source("Disc")
     points, weights, _ = net(original)
     name = knotwork_testing.output("ParaViewSpline.vtu")
-    # not raw, which is ParaView's default: ParaView 5.11 cannot read its own raw files with Debian's present libexpat
-    SaveData(name, proxy=original, EncodeAppendedData=1)
+    # not appended, which is ParaView's default: ParaView 5.11 cannot read it back with Debian's present libexpat
+    SaveData(name, proxy=original, DataMode="Binary")
     found, found_weights, _ = net(XMLUnstructuredGridReader(FileName=[name]))
     assert (found == points).all() and (found_weights == weights).all()
 

@@ -38,7 +38,7 @@ def skeleton_file(name, samples, lobes):
     data.GetCellData().AddArray(ids)
     writer = vtkXMLPolyDataWriter()
     writer.SetInputData(data)
-    writer.SetDataModeToBinary()  # ParaView 5.11 cannot read raw appended data with Debian's present libexpat
+    writer.SetDataModeToBinary()  # ParaView 5.11 cannot read appended data with Debian's present libexpat
     writer.SetFileName(knotwork_testing.output(name))
     assert writer.Write() == 1
     return XMLPolyDataReader(FileName=[knotwork_testing.output(name)])
