@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "QualityFunctionals.h"
 #include "Spline.h"
 
-#include <Eigen/SparseCholesky>
+#include <memory>
 
 namespace knotwork
 {
@@ -11,39 +12,80 @@ template <int Dim>
 struct FitSamples
 {
   PointMatrix Parameters; ///< n x Dim, inside the domain
-  PointMatrix Residuals;  ///< n x Dim, p_i - s(u_i) under the present control points
+  PointMatrix Residuals;  ///< n x Dim, r_i = p_i - s(u_i) under the present control points
   PointMatrix Normals;    ///< n x Dim unit normals; not read when the normal weight is 0
 };
 
 /// Weights of the terms of a fit, >= 0.
 struct FitWeights
 {
-  double Point = 0.0;    ///< of sum |s(u_i) - p_i|^2
-  double Normal = 0.0;   ///< of sum ((s(u_i) - p_i) . N_i)^2
-  double Proximal = 0.0; ///< of sum |c - c_present|^2 over the control points
+  double Point = 0.0;            ///< of sum |s(u_i) - p_i|^2
+  double Normal = 0.0;           ///< of sum ((s(u_i) - p_i) . N_i)^2
+  double Proximal = 0.0;         ///< of sum |c - c_present|^2 over the control points
+  double Uniformity = 0.0;       ///< of the functionals of QualityFunctionals.h, from here on
+  double Length = 0.0;           ///<
+  double Orthogonality = 0.0;    ///<
+  double Skewness = 0.0;         ///<
+  double Eccentricity = 0.0;     ///<
+  double Area = 0.0;             ///<
+  double SelfIntersection = 0.0; ///<
 };
 
-/// Normal equations of one linear least-squares step for the control points of a polynomial spline
-/// map. The pattern of the matrix is that of the space and is analysed once; steps then only fill
-/// and factor (sparse LDL^T, minimum-degree order).
+/// The weight of a functional.
+double QualityWeight(const FitWeights& weights, QualityKind kind);
+/// Whether a functional that is not quadratic has a weight.
+bool HasMeasures(const FitWeights& weights);
+
+enum class FitSolver
+{
+  Automatic,         ///< Direct for Dim = 2, ConjugateGradients for Dim = 3
+  Direct,            ///< sparse LDL^T, minimum-degree order
+  ConjugateGradients ///< preconditioned, the matrix of the data is never formed
+};
+
+/// The diagnosis of all solvers for a singular matrix.
+Status UndeterminedControlPoints();
+
+/// What a solver of the normal equations is: see FitSystem::Step.
+template <int Dim>
+class FitEquations
+{
+public:
+  virtual ~FitEquations() = default;
+  virtual Result<PointMatrix> Step(const FitSamples<Dim>& samples, const FitWeights& weights,
+    const PointMatrix& present, const PointMatrix* guess) = 0;
+};
+
+/// One least-squares step for the control points of a polynomial spline map. What depends on the
+/// space alone (patterns, quadratic functionals) is made once and used by all steps.
 template <int Dim>
 class FitSystem
 {
 public:
-  /// @param coupled  true when normal terms couple the coordinates: Dim n unknowns instead of n.
-  FitSystem(SplineSpacePtr<Dim> space, bool coupled);
+  /// @param coupled  whether steps will have normal terms or measures that are not quadratic, which
+  ///   couple the coordinates: Dim n unknowns instead of Dim systems of n. A step that needs it is
+  ///   coupled anyway.
+  /// @param threads  0: all cores. Results do not depend on it.
+  FitSystem(SplineSpacePtr<Dim> space, bool coupled, FitSolver solver = FitSolver::Automatic,
+    int threads = 0);
 
-  /// Change of the control points, NumFunctions x Dim, that minimizes the weighted sum.
-  /// @param weights  Normal must be 0 unless coupled.
-  /// @return OutsideDomain for a parameter outside, SingularSystem when a control point is
-  /// determined by nothing (possible without a proximal term).
-  /// @complexity O(samples * (p+1)^(2 Dim)) plus the factorization.
-  Result<PointMatrix> Step(const FitSamples<Dim>& samples, const FitWeights& weights);
+  /// Change d of the control points, NumFunctions x Dim, that minimizes
+  ///     Point sum |r_i - s_d(u_i)|^2 + Normal sum ((r_i - s_d(u_i)) . N_i)^2 + Proximal |d|^2
+  ///     + Uniformity Q_u(c + d) + Length Q_l(c + d)
+  ///     + the Gauss-Newton models at c of the others, int sum (q_i(c) + dq_i(c) d)^2,
+  /// s_d the spline with control points d. A model is good near c only: whoever takes the step
+  /// halves it until the functionals themselves fall.
+  /// @param present  c, NumFunctions x Dim.
+  /// @param guess    nullptr, or a first guess of d for ConjugateGradients.
+  /// @return SizeMismatch; OutsideDomain for a parameter outside; SingularSystem when a control
+  /// point is determined by nothing (possible without a proximal term), or when the step is not
+  /// finite; NotConverged (ConjugateGradients, on systems near singular).
+  /// @complexity Direct: O(samples (p+1)^(2 Dim)) plus the factorization.
+  Result<PointMatrix> Step(const FitSamples<Dim>& samples, const FitWeights& weights,
+    const PointMatrix& present, const PointMatrix* guess = nullptr);
 
 private:
   SplineSpacePtr<Dim> Space;
-  bool Coupled;
-  Eigen::SparseMatrix<double> Matrix; // lower triangle; unknown f * Dim + d when coupled, else f
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> Solver;
+  std::unique_ptr<FitEquations<Dim>> Equations;
 };
 }

@@ -313,7 +313,9 @@ Result<TemplateMapResult<Dim>> MapTemplate(const Skeleton<Dim>& templateSkeleton
   const SplineSpace<Dim>& space = *result.Map.Space;
 
   const bool tangent = params.Method == TemplateMapMethod::Tdm;
-  const FitWeights weights{ tangent ? 0.0 : 1.0, tangent ? 1.0 : 0.0, params.TikhonovWeight };
+  FitWeights weights;
+  (tangent ? weights.Normal : weights.Point) = 1.0;
+  weights.Proximal = params.TikhonovWeight;
   Problem<Dim> problem(templateSkeleton, target, space, params);
   FitSystem<Dim> system(result.Map.Space, tangent);
   problem.Update(MakeBezierForm(result.Map, params.Threads));
@@ -323,7 +325,7 @@ Result<TemplateMapResult<Dim>> MapTemplate(const Skeleton<Dim>& templateSkeleton
     {
       return { ErrorCode::Aborted, "before iteration " + std::to_string(iteration) };
     }
-    Result<PointMatrix> step = system.Step(problem.Samples(), weights);
+    Result<PointMatrix> step = system.Step(problem.Samples(), weights, result.Map.ControlPoints);
     if (!step)
     {
       return { step.Status.Code,

@@ -61,7 +61,7 @@ TEST(FitSystem, GradientOfTheFunctionalVanishes_CrossOracle)
   {
     Case c(5);
     FitSystem<2> system(c.Map.Space, weights.Normal > 0);
-    const Result<PointMatrix> step = system.Step(c.Samples, weights);
+    const Result<PointMatrix> step = system.Step(c.Samples, weights, c.Map.ControlPoints);
     ASSERT_TRUE(step);
     const PointMatrix at = c.Map.ControlPoints + step.Value;
     // Central differences are exact for a quadratic functional up to the rounding of its values
@@ -92,10 +92,12 @@ TEST(FitSystem, ASystemIsUsedAgain_CrossOracle)
   Case first(1);
   Case second(2, 300);
   FitSystem<2> system(first.Map.Space, true);
-  ASSERT_TRUE(system.Step(first.Samples, TermsOfMethods[1]));
-  const Result<PointMatrix> used = system.Step(second.Samples, TermsOfMethods[1]);
+  ASSERT_TRUE(system.Step(first.Samples, TermsOfMethods[1], first.Map.ControlPoints));
+  const Result<PointMatrix> used =
+    system.Step(second.Samples, TermsOfMethods[1], second.Map.ControlPoints);
   const Result<PointMatrix> fresh =
-    FitSystem<2>(first.Map.Space, true).Step(second.Samples, TermsOfMethods[1]);
+    FitSystem<2>(first.Map.Space, true)
+      .Step(second.Samples, TermsOfMethods[1], second.Map.ControlPoints);
   EXPECT_EQ(used.Value, fresh.Value);
 }
 
@@ -103,9 +105,9 @@ TEST(FitSystem, CoupledAndPlainSystemsAgreeOnPoints_CrossOracle)
 {
   Case c(9);
   const Result<PointMatrix> plain =
-    FitSystem<2>(c.Map.Space, false).Step(c.Samples, TermsOfMethods[0]);
+    FitSystem<2>(c.Map.Space, false).Step(c.Samples, TermsOfMethods[0], c.Map.ControlPoints);
   const Result<PointMatrix> coupled =
-    FitSystem<2>(c.Map.Space, true).Step(c.Samples, TermsOfMethods[0]);
+    FitSystem<2>(c.Map.Space, true).Step(c.Samples, TermsOfMethods[0], c.Map.ControlPoints);
   ASSERT_TRUE(plain);
   ASSERT_TRUE(coupled);
   EXPECT_LE((plain.Value - coupled.Value).cwiseAbs().maxCoeff(), 1e-13);
@@ -115,7 +117,10 @@ TEST(FitSystem, NothingToCorrectIsNoStep_ExactOracle)
 {
   Case c(4);
   c.Samples.Residuals.setZero();
-  EXPECT_EQ(FitSystem<2>(c.Map.Space, true).Step(c.Samples, TermsOfMethods[1]).Value.norm(), 0.0);
+  EXPECT_EQ(FitSystem<2>(c.Map.Space, true)
+              .Step(c.Samples, TermsOfMethods[1], c.Map.ControlPoints)
+              .Value.norm(),
+    0.0);
 }
 
 TEST(FitSystem, EveryFailureIsReachable)
@@ -123,16 +128,19 @@ TEST(FitSystem, EveryFailureIsReachable)
   Case c(3);
   FitSystem<2> system(c.Map.Space, false);
   // Samples reach v <= 1 of [0, 2]: the other control points are free.
-  const Result<PointMatrix> singular = system.Step(c.Samples, { 1.0, 0.0, 0.0 });
+  const Result<PointMatrix> singular =
+    system.Step(c.Samples, { 1.0, 0.0, 0.0 }, c.Map.ControlPoints);
   EXPECT_EQ(singular.Status.Code, ErrorCode::SingularSystem);
   EXPECT_NE(singular.Status.Detail.find("Tikhonov"), std::string::npos);
   Case huge(3);
   huge.Samples.Residuals.setConstant(1e308);
-  const Result<PointMatrix> overflow = system.Step(huge.Samples, { 1.0, 0.0, 1.0 });
+  const Result<PointMatrix> overflow =
+    system.Step(huge.Samples, { 1.0, 0.0, 1.0 }, huge.Map.ControlPoints);
   EXPECT_EQ(overflow.Status.Code, ErrorCode::SingularSystem);
   EXPECT_EQ(overflow.Status.Detail, "the step is not finite");
   c.Samples.Parameters(7, 0) = 1.5;
-  const Result<PointMatrix> outside = system.Step(c.Samples, { 1.0, 0.0, 1.0 });
+  const Result<PointMatrix> outside =
+    system.Step(c.Samples, { 1.0, 0.0, 1.0 }, c.Map.ControlPoints);
   EXPECT_EQ(outside.Status.Code, ErrorCode::OutsideDomain);
   EXPECT_EQ(outside.Status.Detail, "sample 7");
 }
