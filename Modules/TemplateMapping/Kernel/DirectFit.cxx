@@ -33,6 +33,20 @@ void Scatter(ColumnMatrix& matrix, const std::vector<int>& unknowns, const Eigen
   }
 }
 
+/// Lower triangle of a matrix in local functions, in the functions.
+template <int Dim>
+ColumnMatrix LowerInFunctions(
+  const SplineSpace<Dim>& space, Eigen::SparseMatrix<double, Eigen::RowMajor> local)
+{
+  using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+  if (!space.IsIdentityMap())
+  {
+    const RowMatrix map = TruncationMatrix<Dim>(space);
+    local = RowMatrix(map.transpose()) * RowMatrix(local * map);
+  }
+  return ColumnMatrix(local.template triangularView<Eigen::Lower>());
+}
+
 template <int Dim>
 class DirectFit final : public FitEquations<Dim>
 {
@@ -51,6 +65,8 @@ private:
   void AddData(
     const LocatedSamples<Dim>& located, const FitSamples<Dim>& samples, const FitWeights& weights);
   void AddQuadratic(const FitWeights& weights, const PointMatrix& present);
+  void AddStiffness(const FitWeights& weights);
+  void AddSymmetric(const ColumnMatrix& lower);
   void AddMeasures(const FitWeights& weights, const PointMatrix& present);
 
   SplineSpacePtr<Dim> Space;
@@ -215,26 +231,37 @@ void DirectFit<Dim>::AddQuadratic(const FitWeights& weights, const PointMatrix& 
   if (weights.Uniformity != this->QuadraticWeights[0] ||
     weights.Length != this->QuadraticWeights[1])
   {
-    using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-    RowMatrix full =
-      QuadraticMatrix<Dim>(*this->Space, weights.Uniformity, weights.Length, this->Threads);
-    if (!this->Space->IsIdentityMap())
-    {
-      const RowMatrix map = TruncationMatrix<Dim>(*this->Space);
-      full = RowMatrix(map.transpose()) * RowMatrix(full * map);
-    }
-    this->Quadratic = ColumnMatrix(full.template triangularView<Eigen::Lower>());
+    this->Quadratic = LowerInFunctions(*this->Space,
+      QuadraticMatrix<Dim>(*this->Space, weights.Uniformity, weights.Length, this->Threads));
     this->QuadraticWeights[0] = weights.Uniformity;
     this->QuadraticWeights[1] = weights.Length;
   }
   const Eigen::MatrixXd columns = present;
   this->Right -= this->Quadratic.template selfadjointView<Eigen::Lower>() * columns;
+  this->AddSymmetric(this->Quadratic);
+}
+
+template <int Dim>
+void DirectFit<Dim>::AddStiffness(const FitWeights& weights)
+{
+  const auto isHeld = [](double weight) { return weight > 0.0; };
+  if (std::any_of(weights.Stiffness.begin(), weights.Stiffness.end(), isHeld))
+  {
+    this->AddSymmetric(LowerInFunctions(*this->Space,
+      QuadraticMatrix<Dim>(*this->Space, 0.0, 0.0, this->Threads, weights.Stiffness)));
+  }
+}
+
+/// The same for every coordinate. @param lower  triangle, in the functions.
+template <int Dim>
+void DirectFit<Dim>::AddSymmetric(const ColumnMatrix& lower)
+{
   const int width = this->Coupled ? Dim : 1;
   double* stored = this->Matrix.valuePtr();
   for (int j = 0; j < this->Matrix.cols(); ++j)
   {
     int k = this->Matrix.outerIndexPtr()[j];
-    for (ColumnMatrix::InnerIterator entry(this->Quadratic, j / width); entry; ++entry)
+    for (ColumnMatrix::InnerIterator entry(lower, j / width); entry; ++entry)
     {
       const int row = static_cast<int>(entry.row()) * width + j % width;
       while (this->Matrix.innerIndexPtr()[k] != row)
@@ -339,6 +366,7 @@ Result<PointMatrix> DirectFit<Dim>::Step(const FitSamples<Dim>& samples, const F
   this->Right = PointMatrix::Zero(this->Space->NumFunctions, Dim);
   this->AddData(located.Value, samples, weights);
   this->AddQuadratic(weights, present);
+  this->AddStiffness(weights);
   if (hasMeasures)
   {
     this->AddMeasures(weights, present);

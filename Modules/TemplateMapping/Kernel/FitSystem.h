@@ -29,6 +29,9 @@ struct FitWeights
   double Eccentricity = 0.0;     ///<
   double Area = 0.0;             ///<
   double SelfIntersection = 0.0; ///<
+  /// Empty, or a weight an element, of the integral over it of sum_k |d_k|^2, d_k the derivatives
+  /// of the step: holds single elements back.
+  std::vector<double> Stiffness;
 };
 
 /// The weight of a functional.
@@ -72,6 +75,7 @@ public:
   /// Change d of the control points, NumFunctions x Dim, that minimizes
   ///     Point sum |r_i - s_d(u_i)|^2 + Normal sum ((r_i - s_d(u_i)) . N_i)^2 + Proximal |d|^2
   ///     + Uniformity Q_u(c + d) + Length Q_l(c + d)
+  ///     + sum_e Stiffness_e int_e sum_k |d_k|^2
   ///     + the Gauss-Newton models at c of the others, int sum (q_i(c) + dq_i(c) d)^2,
   /// s_d the spline with control points d. A model is good near c only: whoever takes the step
   /// halves it until the functionals themselves fall.

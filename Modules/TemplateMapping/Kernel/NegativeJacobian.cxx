@@ -2,6 +2,7 @@
 #include "NegativeJacobian.h"
 
 #include "Bernstein.h"
+#include "JacobianCertificate.h"
 #include "Parallel.h"
 
 #include <algorithm>
@@ -55,24 +56,113 @@ Eigen::MatrixXd BernsteinTable(
   }
   return table;
 }
+
+template <int Dim>
+using Grid = std::array<std::vector<double>, Dim>;
+
+/// Points of a grid's part in an element with det J < 0.
+long long NegativePoints(const BezierForm<2>& form, int e, const Grid<2>& grid,
+  const IntArray<2>& first, const IntArray<2>& last)
+{
+  const auto& element = form.Space->Elements[static_cast<std::size_t>(e)];
+  double magnitude = 0.0;
+  const std::vector<double> det = DeterminantCoefficients(element.Degree, form.Block(e), magnitude);
+  const auto [low, high] = std::minmax_element(det.begin(), det.end());
+  // Rounding of the products and of convex combinations of up to 18 x 18 of them.
+  const double zero = 64.0 * std::numeric_limits<double>::epsilon() * magnitude;
+  if (*low >= -zero)
+  {
+    return 0;
+  }
+  if (*high < -zero)
+  {
+    return static_cast<long long>(last[0] - first[0]) * (last[1] - first[1]);
+  }
+  const int du = 2 * element.Degree[0] - 1;
+  const int dv = 2 * element.Degree[1] - 1;
+  const Eigen::Map<const Eigen::MatrixXd> coefficients(det.data(), du + 1, dv + 1);
+  const Eigen::MatrixXd tableU =
+    BernsteinTable(du, grid[0], first[0], last[0], element.Box.Lower[0], element.Box.Upper[0]);
+  const Eigen::MatrixXd tableV =
+    BernsteinTable(dv, grid[1], first[1], last[1], element.Box.Lower[1], element.Box.Upper[1]);
+  const Eigen::MatrixXd values = tableU.transpose() * (coefficients * tableV);
+  return (values.array() < -zero).count();
 }
 
-Result<double> NegativeJacobianShare(const BezierForm<2>& form, int pointsPerDirection, int threads)
+/// In space most elements of a map are proved positive by their certificate; in the others det J is
+/// evaluated at the points.
+long long NegativePoints(const BezierForm<3>& form, int e, const Grid<3>& grid,
+  const IntArray<3>& first, const IntArray<3>& last)
 {
-  if (!form.Space || !form.Space->HasDomain || form.NumComponents != 2 || form.Rational)
+  const auto& element = form.Space->Elements[static_cast<std::size_t>(e)];
+  BernsteinCells cell;
+  cell.NumComponents = 3;
+  cell.Add(CellShape::Hexahedron, { element.Degree[0], element.Degree[1], element.Degree[2] });
+  std::copy_n(form.Block(e), cell.Data.size(), cell.Block(0));
+  JacobianParams params;
+  params.MaxBoxes = 1;
+  params.Threads = 1;
+  const auto certificate = ValidateJacobian(cell, params);
+  if (certificate && certificate->Verdict == Verdict::Valid)
+  {
+    return 0;
+  }
+  const Eigen::Index count = Eigen::Index(last[0] - first[0]) * (last[1] - first[1]) *
+    (last[2] - first[2]);
+  PointMatrix local(count, 3);
+  Eigen::Index row = 0;
+  IntArray<3> i;
+  for (i[2] = first[2]; i[2] < last[2]; ++i[2])
+  {
+    for (i[1] = first[1]; i[1] < last[1]; ++i[1])
+    {
+      for (i[0] = first[0]; i[0] < last[0]; ++i[0], ++row)
+      {
+        for (std::size_t d = 0; d < 3; ++d)
+        {
+          local(row, static_cast<Eigen::Index>(d)) =
+            (grid[d][static_cast<std::size_t>(i[d])] - element.Box.Lower[d]) /
+            (element.Box.Upper[d] - element.Box.Lower[d]);
+        }
+      }
+    }
+  }
+  EvaluationBatch batch;
+  EvaluateElements(
+    form, std::vector<int>(static_cast<std::size_t>(count), e), local, { 1, 1 }, batch);
+  long long negative = 0;
+  for (row = 0; row < count; ++row)
+  {
+    const Eigen::Map<const Eigen::Matrix3d> jacobian(batch.First.row(row).data());
+    const double size =
+      jacobian.col(0).norm() * jacobian.col(1).norm() * jacobian.col(2).norm();
+    negative += jacobian.determinant() < -64.0 * std::numeric_limits<double>::epsilon() * size;
+  }
+  return negative;
+}
+}
+
+template <int Dim>
+Result<double> NegativeJacobianShare(
+  const BezierForm<Dim>& form, int pointsPerDirection, int threads)
+{
+  constexpr int most = Dim == 2 ? 100000 : 2000;
+  if (!form.Space || !form.Space->HasDomain || form.NumComponents != Dim || form.Rational)
   {
     return { ErrorCode::DimensionMismatch,
-      "the share of negative Jacobians needs a polynomial planar map with a parameter domain" };
+      "the share of negative Jacobians needs a polynomial map of a parameter domain with as many "
+      "components as parameters" };
   }
-  if (pointsPerDirection < 2 || pointsPerDirection > 100000)
+  if (pointsPerDirection < 2 || pointsPerDirection > most)
   {
     return { ErrorCode::InvalidParameter,
-      "points per direction must be in [2, 100000], not " + std::to_string(pointsPerDirection) };
+      "points per direction must be in [2, " + std::to_string(most) + "], not " +
+        std::to_string(pointsPerDirection) };
   }
-  const SplineSpace<2>& space = *form.Space;
-  const ParametricBox<2> domain = space.Domain();
-  std::array<std::vector<double>, 2> grid;
-  for (std::size_t d = 0; d < 2; ++d)
+  const SplineSpace<Dim>& space = *form.Space;
+  const ParametricBox<Dim> domain = space.Domain();
+  Grid<Dim> grid;
+  for (std::size_t d = 0; d < Dim; ++d)
   {
     grid[d].resize(static_cast<std::size_t>(pointsPerDirection));
     for (int i = 0; i < pointsPerDirection; ++i)
@@ -89,49 +179,27 @@ Result<double> NegativeJacobianShare(const BezierForm<2>& form, int pointsPerDir
     {
       for (std::size_t e = begin; e < end; ++e)
       {
-        const SplineSpace<2>::Element& element = space.Elements[e];
-        std::array<int, 2> first;
-        std::array<int, 2> last; // one behind
-        for (std::size_t d = 0; d < 2; ++d)
+        const ParametricBox<Dim>& box = space.Elements[e].Box;
+        IntArray<Dim> first;
+        IntArray<Dim> last; // one behind
+        bool isEmpty = false;
+        for (std::size_t d = 0; d < Dim; ++d)
         {
-          const ParametricBox<2>& box = element.Box;
           first[d] = FirstPointFrom(grid[d], box.Lower[d]);
           last[d] = box.Upper[d] == domain.Upper[d] ? pointsPerDirection
                                                     : FirstPointFrom(grid[d], box.Upper[d]);
+          isEmpty = isEmpty || last[d] <= first[d];
         }
-        const long long points =
-          static_cast<long long>(last[0] - first[0]) * static_cast<long long>(last[1] - first[1]);
-        if (points <= 0)
+        if (!isEmpty)
         {
-          continue;
+          negative[e] = NegativePoints(form, static_cast<int>(e), grid, first, last);
         }
-        double magnitude = 0.0;
-        const std::vector<double> det =
-          DeterminantCoefficients(element.Degree, form.Block(static_cast<int>(e)), magnitude);
-        const auto [low, high] = std::minmax_element(det.begin(), det.end());
-        // Rounding of the products and of convex combinations of up to 18 x 18 of them.
-        const double zero = 64.0 * std::numeric_limits<double>::epsilon() * magnitude;
-        if (*low >= -zero)
-        {
-          continue;
-        }
-        if (*high < -zero)
-        {
-          negative[e] = points;
-          continue;
-        }
-        const int du = 2 * element.Degree[0] - 1;
-        const int dv = 2 * element.Degree[1] - 1;
-        const Eigen::Map<const Eigen::MatrixXd> coefficients(det.data(), du + 1, dv + 1);
-        const Eigen::MatrixXd tableU = BernsteinTable(
-          du, grid[0], first[0], last[0], element.Box.Lower[0], element.Box.Upper[0]);
-        const Eigen::MatrixXd tableV = BernsteinTable(
-          dv, grid[1], first[1], last[1], element.Box.Lower[1], element.Box.Upper[1]);
-        const Eigen::MatrixXd values = tableU.transpose() * (coefficients * tableV);
-        negative[e] = (values.array() < -zero).count();
       }
     });
-  const double total = double(pointsPerDirection) * double(pointsPerDirection);
-  return double(std::accumulate(negative.begin(), negative.end(), 0LL)) / total;
+  return double(std::accumulate(negative.begin(), negative.end(), 0LL)) /
+    std::pow(double(pointsPerDirection), Dim);
 }
+
+template Result<double> NegativeJacobianShare(const BezierForm<2>&, int, int);
+template Result<double> NegativeJacobianShare(const BezierForm<3>&, int, int);
 }

@@ -360,8 +360,8 @@ double QualityValue(const SplineSpacePtr<Dim>& space, const PointMatrixView& con
 }
 
 template <int Dim>
-Eigen::SparseMatrix<double, Eigen::RowMajor> QuadraticMatrix(
-  const SplineSpace<Dim>& space, double uniformity, double length, int threads)
+Eigen::SparseMatrix<double, Eigen::RowMajor> QuadraticMatrix(const SplineSpace<Dim>& space,
+  double uniformity, double length, int threads, const std::vector<double>& lengths)
 {
   const LineTables<Dim> tables(space);
   const std::size_t size =
@@ -414,10 +414,16 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> QuadraticMatrix(
         for (std::size_t k = first[j]; k < first[j + 1]; ++k)
         {
           const int e = places[k].Element;
+          const double ownLength =
+            length + (lengths.empty() ? 0.0 : lengths[static_cast<std::size_t>(e)]);
+          if (!(uniformity > 0.0 || ownLength > 0.0))
+          {
+            continue;
+          }
           const IntArray<Dim>& degree = space.Elements[static_cast<std::size_t>(e)].Degree;
           const int n = NumTensorFunctions<Dim>(degree);
           row.resize(static_cast<std::size_t>(n));
-          ElementRow<Dim>(tables, degree, e, places[k].Number, uniformity, length, row.data());
+          ElementRow<Dim>(tables, degree, e, places[k].Number, uniformity, ownLength, row.data());
           const int* ids = space.LocalFunctions(e);
           for (int i = 0; i < n; ++i)
           {
@@ -484,7 +490,7 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> TruncationMatrix(const SplineSpace<
   template double QualityValue<Dim>(                                                               \
     const SplineSpacePtr<Dim>&, const PointMatrixView&, QualityKind, int);                         \
   template Eigen::SparseMatrix<double, Eigen::RowMajor> QuadraticMatrix<Dim>(                      \
-    const SplineSpace<Dim>&, double, double, int);                                                 \
+    const SplineSpace<Dim>&, double, double, int, const std::vector<double>&);                                                 \
   template Eigen::SparseMatrix<double, Eigen::RowMajor> TruncationMatrix<Dim>(                     \
     const SplineSpace<Dim>&)
 KNOTWORK_INSTANTIATE(2);

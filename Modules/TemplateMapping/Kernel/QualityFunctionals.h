@@ -43,10 +43,11 @@ double QualityValue(const SplineSpacePtr<Dim>& space, const PointMatrixView& con
 /// Symmetric matrix K of a weighted sum of the quadratic functionals in the space's *local
 /// functions*: with q = T c (see SplineSpace) the sum is trace(q^T K q); for a tensor-product space
 /// q = c. Integrals are exact: on an element they are products of one integral a direction.
-/// @complexity O(elements * prod(p + 1)^2), once a space.
+/// @param lengths  empty, or what each element's part of the length counts beside length.
+/// @complexity O(elements * prod(p + 1)^2); elements where nothing counts cost nothing.
 template <int Dim>
-Eigen::SparseMatrix<double, Eigen::RowMajor> QuadraticMatrix(
-  const SplineSpace<Dim>& space, double uniformity, double length, int threads = 0);
+Eigen::SparseMatrix<double, Eigen::RowMajor> QuadraticMatrix(const SplineSpace<Dim>& space,
+  double uniformity, double length, int threads = 0, const std::vector<double>& lengths = {});
 
 /// T as a sparse matrix, NumLocalFunctions x NumFunctions. @pre !space.IsIdentityMap()
 template <int Dim>

@@ -1,36 +1,73 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TemplateMap.h"
 
-#include "ClosestPoints.h"
-#include "FitSystem.h"
+#include "BasisEvaluation.h"
+#include "FinerSpace.h"
+#include "FoldRemoval.h"
+#include "HierarchicalSpace.h"
 #include "NegativeJacobian.h"
+#include "RegularityGuard.h"
+#include "TemplateProblem.h"
 #include "TensorSpace.h"
 
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <string>
 
 namespace knotwork
 {
 namespace
 {
-constexpr int JacobianGrid = 1000; // points a direction of the negative share: what papers report
-
-/// A target patch and the template patch that is carried onto it.
+/// Of the negative share a direction: a million in all is what papers report.
 template <int Dim>
-struct Constraint
-{
-  std::size_t Template = 0; // index of the template patch
-  PointMatrix Points;       // p_i
-  PointMatrix Normals;      // N_i; empty unless the method reads them
-  PolylineIndex<Dim> Polyline;
-  PatchFeet Closest; // present parameters, feet and distances
-};
+constexpr int GridPoints = Dim == 2 ? 1000 : 100;
+constexpr double ResultGap = 0.1;      // of the bounds that are reported
+constexpr std::int64_t ResultBoxes = 1000000;
+constexpr int Halvings = 10;           // of a step that does not lower what is minimized
+/// Factor of the proximal weight after a step that was not in danger, once the map was begun anew,
+/// and the least part of the given weight.
+constexpr double Relaxation = 0.5;
+constexpr double LeastProximal = 1e-3;
 
 Status OutOfRange(const char* option, const std::string& range, const std::string& value)
 {
   return { ErrorCode::InvalidParameter,
     std::string(option) + " must be in " + range + ", not " + value };
+}
+
+template <int Dim>
+Status CheckRefinement(const TemplateMapParams<Dim>& params)
+{
+  if (params.RefineEvery < 0 || params.RefineEvery > 100000)
+  {
+    return OutOfRange("iterations between refinements", "[0, 100000]", std::to_string(params.RefineEvery));
+  }
+  if (!(params.StagnationRatio > 0.0 && params.StagnationRatio < 1.0))
+  {
+    return OutOfRange("stagnation ratio", "(0, 1)", std::to_string(params.StagnationRatio));
+  }
+  if (!(params.RefineThreshold >= 0.0) || !std::isfinite(params.RefineThreshold))
+  {
+    return OutOfRange("refinement threshold", "[0, infinity)", std::to_string(params.RefineThreshold));
+  }
+  if (!(params.RefineShare >= 0.0 && params.RefineShare <= 1.0))
+  {
+    return OutOfRange("refined share", "[0, 1]", std::to_string(params.RefineShare));
+  }
+  if (params.Extension < 0 || params.Extension > 100)
+  {
+    return OutOfRange("extension", "[0, 100]", std::to_string(params.Extension));
+  }
+  if (params.MaxLevel < 0 || params.MaxLevel > 24)
+  {
+    return OutOfRange("largest level", "[0, 24]", std::to_string(params.MaxLevel));
+  }
+  if (params.MaxFunctions < 1)
+  {
+    return OutOfRange("number of functions", "[1, 2147483647]", std::to_string(params.MaxFunctions));
+  }
+  return {};
 }
 
 template <int Dim>
@@ -50,9 +87,36 @@ Status CheckOptions(const TemplateMapParams<Dim>& params)
   {
     return OutOfRange("Newton steps", "[0, 100]", std::to_string(params.NewtonSteps));
   }
-  if (!(params.TikhonovWeight >= 0.0) || !std::isfinite(params.TikhonovWeight))
+  const std::pair<const char*, double> weights[] = { { "PDM weight", params.PdmWeight },
+    { "TDM weight", params.TdmWeight }, { "Tikhonov weight", params.TikhonovWeight },
+    { "uniformity weight", params.UniformityWeight }, { "length weight", params.LengthWeight },
+    { "orthogonality weight", params.OrthogonalityWeight },
+    { "skewness weight", params.SkewnessWeight },
+    { "eccentricity weight", params.EccentricityWeight }, { "area weight", params.AreaWeight },
+    { "self-intersection weight", params.SelfIntersectionWeight } };
+  for (const auto& [name, weight] : weights)
   {
-    return OutOfRange("Tikhonov weight", "[0, infinity)", std::to_string(params.TikhonovWeight));
+    if (!(weight >= 0.0 && weight <= 1e30))
+    {
+      return OutOfRange(name, "[0, 1e30]", std::to_string(weight));
+    }
+  }
+  if (params.Method == TemplateMapMethod::Weighted && params.PdmWeight + params.TdmWeight == 0.0)
+  {
+    return { ErrorCode::InvalidParameter,
+      "the weights of point and tangent distances are both 0; give one of them a weight" };
+  }
+  if (!(params.Accuracy >= 0.0) || !std::isfinite(params.Accuracy))
+  {
+    return OutOfRange("accuracy", "[0, infinity)", std::to_string(params.Accuracy));
+  }
+  if (!(params.MaxIrregularShare >= 0.0 && params.MaxIrregularShare <= 1.0))
+  {
+    return OutOfRange("share of irregular points", "[0, 1]", std::to_string(params.MaxIrregularShare));
+  }
+  if (Status status = CheckRefinement(params); !status)
+  {
+    return status;
   }
   if (params.InitialMap)
   {
@@ -94,7 +158,7 @@ Status CheckInside(const ParametricBox<Dim>& inner, const ParametricBox<Dim>& ou
   return {};
 }
 
-/// The map of the first iteration: the given one, or the identity in Greville abscissae.
+/// The given map, or the identity in Greville abscissae.
 template <int Dim>
 Result<Spline<Dim>> StartMap(const Skeleton<Dim>& skeleton, const TemplateMapParams<Dim>& params)
 {
@@ -139,154 +203,344 @@ Result<Spline<Dim>> StartMap(const Skeleton<Dim>& skeleton, const TemplateMapPar
   return map;
 }
 
-/// What iterations share: the patches and what is searched on them.
+/// The iterations of MapTemplate: a step for the control points, an update of the closest points, a
+/// refinement of the space, in turn.
 template <int Dim>
-struct Problem
+class MapLoop
 {
+public:
+  MapLoop(TemplateProblem<Dim>& problem, const TemplateMapParams<Dim>& params, Spline<Dim> start)
+    : Problem(problem), Params(params), First(std::move(start)), Guard(params.Threads)
+  {
+    const bool tangent = params.Method == TemplateMapMethod::Tdm;
+    const bool both = params.Method == TemplateMapMethod::Weighted;
+    this->Weights.Point = both ? params.PdmWeight : tangent ? 0.0 : 1.0;
+    this->Weights.Normal = both ? params.TdmWeight : tangent ? 1.0 : 0.0;
+    this->Weights.Uniformity = params.UniformityWeight;
+    this->Weights.Length = params.LengthWeight;
+    this->Weights.Orthogonality = params.OrthogonalityWeight;
+    this->Weights.Skewness = params.SkewnessWeight;
+    this->Weights.Eccentricity = params.EccentricityWeight;
+    this->Weights.Area = params.AreaWeight;
+    this->Weights.SelfIntersection = params.SelfIntersectionWeight;
+  }
+
+  Result<TemplateMapResult<Dim>> Run()
+  {
+    Status status = this->Begin(false);
+    int iteration = 1;
+    while (status && iteration <= this->Params.Iterations && !this->IsDone)
+    {
+      if (this->Params.Progress &&
+        !this->Params.Progress(double(iteration - 1) / this->Params.Iterations))
+      {
+        return { ErrorCode::Aborted, "before iteration " + std::to_string(iteration) };
+      }
+      status = this->Iterate(iteration);
+      if (!status)
+      {
+        status.Detail = "iteration " + std::to_string(iteration) + ": " + status.Detail;
+      }
+      iteration = static_cast<int>(this->Out.History.size()) + 1;
+    }
+    return status ? this->Finish() : Result<TemplateMapResult<Dim>>(status);
+  }
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  /// The first map, and the samples where they were given or where they are closest to it.
+  Status Begin(bool closest)
+  {
+    this->Map = this->First;
+    this->Out.History.clear();
+    this->IsSearched = closest;
+    this->Weights.Proximal = this->Params.TikhonovWeight;
+    this->Problem.ForgetPlaces();
+    if (Status status = this->EnterSpace(); !status)
+    {
+      return status;
+    }
+    if (this->Params.Guard && !this->Guard.IsRegular())
+    {
+      Result<Spline<Dim>> unfolded = RemoveFolds(this->Map, this->Params.Threads);
+      if (!unfolded)
+      {
+        return unfolded.Status;
+      }
+      this->First = this->Map = std::move(unfolded.Value);
+      if (Status status = this->EnterSpace(); !status)
+      {
+        return status;
+      }
+    }
+    if (closest)
+    {
+      TemplateMapIteration ignored;
+      this->Problem.Project(this->Form, false, ignored);
+    }
+    else if (this->Params.Start == TemplateInitialMap::Moved && !this->Params.InitialMap)
+    {
+      return this->MoveByRowSums();
+    }
+    return {};
+  }
+
+  /// All that depends on the space, for the present map.
+  Status EnterSpace()
+  {
+    const bool coupled = this->Weights.Normal > 0.0 || HasMeasures(this->Weights);
+    this->System = std::make_unique<FitSystem<Dim>>(
+      this->Map.Space, coupled, FitSolver::Automatic, this->Params.Threads);
+    this->Problem.SetSpace(*this->Map.Space);
+    this->Form = MakeBezierForm(this->Map, this->Params.Threads);
+    this->Problem.Update(this->Form);
+    return this->Params.Guard ? this->Guard.Begin(this->Form) : Status{};
+  }
+
+  Status MoveByRowSums();
+  Status Iterate(int iteration);
+  /// @param restart  set when the map has to begin anew.
+  Status TakeStep(TemplateMapIteration& record, bool& restart);
+  /// Share of a step at which the sum of all terms falls: 1 when all of them are quadratic.
+  double FallingShare(const FitSamples<Dim>& samples, const PointMatrix& step) const;
+  bool IsRefinementDue() const;
+  Status Refine();
+  Result<TemplateMapResult<Dim>> Finish();
+
+  TemplateProblem<Dim>& Problem;
   const TemplateMapParams<Dim>& Params;
-  std::vector<int> Ids;                     // of the template
-  std::vector<MappedPatch<Dim>> Patches;    // of the template
-  std::vector<Constraint<Dim>> Constraints; // of the target
-
-  Problem(const Skeleton<Dim>& skeleton, const Skeleton<Dim>& target, const SplineSpace<Dim>& space,
-    const TemplateMapParams<Dim>& params)
-    : Params(params)
-  {
-    for (const SkeletonPatch<Dim>& patch : skeleton)
-    {
-      PatchCurve curve(patch.Points, ParametersOrUniform(patch, 0.0, 1.0).col(0));
-      Eigen::VectorXd samples = curve.SampleParameters(params.TemplateSamples);
-      this->Ids.push_back(patch.Id);
-      this->Patches.emplace_back(std::move(curve), std::move(samples), space);
-    }
-    for (const SkeletonPatch<Dim>& patch : target)
-    {
-      Constraint<Dim> constraint;
-      while (skeleton[constraint.Template].Id != patch.Id)
-      {
-        ++constraint.Template;
-      }
-      const PatchCurve& curve = this->Patches[constraint.Template].Curve();
-      constraint.Closest.Parameters = ParametersOrUniform(patch, curve.Begin(), curve.End())
-                                        .col(0)
-                                        .cwiseMax(curve.Begin())
-                                        .cwiseMin(curve.End());
-      constraint.Points = patch.Points;
-      if (params.Method == TemplateMapMethod::Tdm)
-      {
-        constraint.Normals = UnitNormals(patch);
-      }
-      constraint.Polyline = PolylineIndex<Dim>(patch.Points);
-      this->Constraints.push_back(std::move(constraint));
-    }
-  }
-
-  /// Dense samples and distances under a map; parameters stay.
-  void Update(const BezierForm<Dim>& form)
-  {
-    for (MappedPatch<Dim>& patch : this->Patches)
-    {
-      patch.Update(form, this->Params.Threads);
-    }
-    for (Constraint<Dim>& c : this->Constraints)
-    {
-      c.Closest =
-        this->Patches[c.Template].At(form, c.Points, c.Closest.Parameters, this->Params.Threads);
-    }
-  }
-
-  /// All target samples at their present parameters.
-  FitSamples<Dim> Samples() const
-  {
-    Eigen::Index total = 0;
-    for (const Constraint<Dim>& c : this->Constraints)
-    {
-      total += c.Points.rows();
-    }
-    FitSamples<Dim> samples;
-    samples.Parameters.resize(total, Dim);
-    samples.Residuals.resize(total, Dim);
-    samples.Normals.resize(this->Params.Method == TemplateMapMethod::Tdm ? total : 0, Dim);
-    Eigen::Index row = 0;
-    for (const Constraint<Dim>& c : this->Constraints)
-    {
-      const Eigen::Index n = c.Points.rows();
-      samples.Parameters.middleRows(row, n) =
-        this->Patches[c.Template].DomainPoints(c.Closest.Parameters);
-      samples.Residuals.middleRows(row, n) = c.Points - c.Closest.Feet;
-      if (c.Normals.rows() > 0)
-      {
-        samples.Normals.middleRows(row, n) = c.Normals;
-      }
-      row += n;
-    }
-    return samples;
-  }
-
-  /// The closest-point update, and the errors after it.
-  void Project(const BezierForm<Dim>& form, TemplateMapIteration& record)
-  {
-    double largest = 0.0;
-    for (Constraint<Dim>& c : this->Constraints)
-    {
-      const MappedPatch<Dim>& patch = this->Patches[c.Template];
-      PatchFeet closest = patch.Project(
-        form, c.Points, c.Closest.Parameters, this->Params.NewtonSteps, this->Params.Threads);
-      largest = std::max({ largest, closest.SquaredDistances.maxCoeff(),
-        c.Polyline.LargestSquaredDistance(patch.MappedSamples(), this->Params.Threads) });
-      if (this->Params.Method != TemplateMapMethod::Fixed)
-      {
-        c.Closest = std::move(closest);
-      }
-      record.SquaredError += c.Closest.SquaredDistances.sum();
-    }
-    record.MaxError = std::sqrt(largest);
-  }
-
-  void Finish(TemplateMapResult<Dim>& result) const;
+  Clock::time_point Start = Clock::now();
+  Spline<Dim> First;
+  Spline<Dim> Map;
+  BezierForm<Dim> Form; // of Map
+  RegularityGuard<Dim> Guard;
+  FitWeights Weights;
+  std::unique_ptr<FitSystem<Dim>> System;
+  TemplateMapResult<Dim> Out;
+  bool IsSearched = false; // the first step was made at closest points
+  bool IsDone = false;
 };
 
-/// Skeleton, parameters and errors of the finished map.
 template <int Dim>
-void Problem<Dim>::Finish(TemplateMapResult<Dim>& result) const
+Status MapLoop<Dim>::MoveByRowSums()
 {
-  const SplineSpace<Dim>& space = *result.Map.Space;
-  result.ElementErrors.assign(static_cast<std::size_t>(space.NumElements()), 0.0);
-  const auto raise = [&](int element, double error)
+  const FitSamples<Dim> samples = this->Problem.Samples();
+  auto values = CollocationMatrix(*this->Map.Space, samples.Parameters);
+  if (!values)
   {
-    double& largest = result.ElementErrors[static_cast<std::size_t>(element)];
-    largest = std::max(largest, error);
+    return values.Status;
+  }
+  const Eigen::VectorXd sums =
+    values->transpose() * Eigen::VectorXd::Ones(samples.Parameters.rows());
+  PointMatrix step = values->transpose() * Eigen::MatrixXd(samples.Residuals);
+  for (Eigen::Index f = 0; f < step.rows(); ++f)
+  {
+    step.row(f) *= sums(f) > 0.0 ? 1.0 / sums(f) : 0.0;
+  }
+  const PointMatrix before = this->Map.ControlPoints;
+  for (double length = 1.0; length > 1e-3; length *= 0.5)
+  {
+    this->Map.ControlPoints = before + length * step;
+    if (Status status = this->EnterSpace(); !status)
+    {
+      return status;
+    }
+    if (!this->Params.Guard || this->Guard.IsRegular())
+    {
+      return {};
+    }
+  }
+  this->Map.ControlPoints = before;
+  return this->EnterSpace();
+}
+
+template <int Dim>
+Status MapLoop<Dim>::Iterate(int iteration)
+{
+  TemplateMapIteration record;
+  record.Iteration = iteration;
+  const Spline<Dim> before = this->Map;
+  bool restart = false;
+  if (Status status = this->TakeStep(record, restart); !status)
+  {
+    return status;
+  }
+  if (restart)
+  {
+    return this->Begin(true);
+  }
+  if (!this->Params.Guard)
+  {
+    Result<double> share =
+      NegativeJacobianShare(this->Form, GridPoints<Dim>, this->Params.Threads);
+    if (!share)
+    {
+      return share.Status;
+    }
+    record.NegativeShare = share.Value;
+  }
+  if (record.NegativeShare > this->Params.MaxIrregularShare && !this->Out.History.empty())
+  {
+    this->Map = before;
+    this->Form = MakeBezierForm(this->Map, this->Params.Threads);
+    this->Problem.Update(this->Form);
+    this->IsDone = true;
+    return {};
+  }
+  this->Problem.Update(this->Form);
+  this->Problem.Project(this->Form, this->Params.Method == TemplateMapMethod::Fixed, record);
+  record.Functions = this->Map.Space->NumFunctions;
+  record.Seconds = std::chrono::duration<double>(Clock::now() - this->Start).count();
+  this->Out.History.push_back(record);
+  this->IsDone = record.MaxError <= this->Params.Accuracy;
+  const bool isLast = this->IsDone || iteration == this->Params.Iterations;
+  return !isLast && this->IsRefinementDue() ? this->Refine() : Status{};
+}
+
+template <int Dim>
+Status MapLoop<Dim>::TakeStep(TemplateMapIteration& record, bool& restart)
+{
+  const FitSamples<Dim> samples = this->Problem.Samples();
+  const auto shorten = [&](const PointMatrix& step) { return this->FallingShare(samples, step); };
+  if (!this->Params.Guard)
+  {
+    Result<PointMatrix> step =
+      this->System->Step(samples, this->Weights, this->Map.ControlPoints);
+    if (step)
+    {
+      record.StepLength = shorten(step.Value);
+      this->Map.ControlPoints += record.StepLength * step.Value;
+      this->Form = MakeBezierForm(this->Map, this->Params.Threads);
+    }
+    return step.Status;
+  }
+  // Places that were given can ask for a turn or a fold which closest points do not: begin there.
+  const bool giveUp = !this->IsSearched && this->Params.Method != TemplateMapMethod::Fixed;
+  const auto outcome = this->Guard.Step(
+    *this->System, samples, this->Weights, this->Map, this->Form, shorten, giveUp);
+  if (!outcome)
+  {
+    return outcome.Status;
+  }
+  restart = giveUp && outcome->IsEndangered;
+  record.StepLength = outcome->Length;
+  record.HeldElements = outcome->Held;
+  if (this->IsSearched && !outcome->IsEndangered)
+  {
+    this->Weights.Proximal = std::max(
+      Relaxation * this->Weights.Proximal, LeastProximal * this->Params.TikhonovWeight);
+  }
+  return {};
+}
+
+template <int Dim>
+double MapLoop<Dim>::FallingShare(
+  const FitSamples<Dim>& samples, const PointMatrix& step) const
+{
+  if (!HasMeasures(this->Weights))
+  {
+    return 1.0;
+  }
+  EvaluationBatch moved; // by the whole step
+  Spline<Dim> change = this->Map;
+  change.ControlPoints = step;
+  EvaluateParameters(MakeBezierForm(change, this->Params.Threads), samples.Parameters,
+    { 0, this->Params.Threads }, moved);
+  const auto total = [&](double length)
+  {
+    const PointMatrix left = samples.Residuals - length * moved.Values;
+    double sum = this->Weights.Point * left.squaredNorm() +
+      this->Weights.Proximal * length * length * step.squaredNorm();
+    if (this->Weights.Normal > 0.0)
+    {
+      sum += this->Weights.Normal * left.cwiseProduct(samples.Normals).rowwise().sum().squaredNorm();
+    }
+    const PointMatrix points = this->Map.ControlPoints + length * step;
+    for (int k = 0; k < NumQualityKinds; ++k)
+    {
+      const QualityKind kind = static_cast<QualityKind>(k);
+      const double weight = QualityWeight(this->Weights, kind);
+      if (weight > 0.0)
+      {
+        sum += weight * QualityValue<Dim>(this->Map.Space, points, kind, this->Params.Threads);
+      }
+    }
+    return sum;
   };
-  for (std::size_t k = 0; k < this->Patches.size(); ++k)
+  const double present = total(0.0);
+  double length = 1.0;
+  for (int k = 0; k < Halvings && !(total(length) < present); ++k)
   {
-    const MappedPatch<Dim>& patch = this->Patches[k];
-    MappedSkeletonPatch mapped;
-    mapped.Id = this->Ids[k];
-    mapped.Free = true;
-    mapped.Parameters = patch.SampleParameters();
-    mapped.Points = patch.MappedSamples();
-    mapped.Distances = Eigen::VectorXd::Constant(mapped.Points.rows(), -1.0);
-    result.Skeleton.push_back(std::move(mapped));
+    length *= 0.5;
   }
-  for (const Constraint<Dim>& c : this->Constraints)
+  return length;
+}
+
+template <int Dim>
+bool MapLoop<Dim>::IsRefinementDue() const
+{
+  if (this->Params.Refinement == TemplateRefinement::None)
   {
-    const MappedPatch<Dim>& patch = this->Patches[c.Template];
-    MappedSkeletonPatch& mapped = result.Skeleton[c.Template];
-    mapped.Free = false;
-    mapped.Distances = c.Polyline.SquaredDistances(mapped.Points, this->Params.Threads).cwiseSqrt();
-    for (Eigen::Index i = 0; i < mapped.Distances.size(); ++i)
-    {
-      raise(patch.SampleElements()[static_cast<std::size_t>(i)], mapped.Distances(i));
-    }
-    result.Parameters.push_back(c.Closest.Parameters);
-    result.SampleErrors.push_back(c.Closest.SquaredDistances.cwiseSqrt());
-    const PointMatrix places = patch.DomainPoints(c.Closest.Parameters);
-    for (Eigen::Index i = 0; i < places.rows(); ++i)
-    {
-      double local[Dim];
-      raise(space.Locate(places.row(i).data(), local), result.SampleErrors.back()(i));
-    }
+    return false;
   }
+  const auto& history = this->Out.History;
+  if (this->Params.RefineEvery > 0)
+  {
+    return history.size() % static_cast<std::size_t>(this->Params.RefineEvery) == 0;
+  }
+  const std::size_t last = history.size() - 1;
+  return last > 0 && history[last].Functions == history[last - 1].Functions &&
+    history[last].SquaredError >
+    (1.0 - this->Params.StagnationRatio) * history[last - 1].SquaredError;
+}
+
+template <int Dim>
+Status MapLoop<Dim>::Refine()
+{
+  const SplineSpacePtr<Dim>& space = this->Map.Space;
+  Result<SplineSpacePtr<Dim>> finer = this->Params.Refinement == TemplateRefinement::Global
+    ? RefineEverywhere(space, this->Params.MaxLevel)
+    : RefineAround(space,
+        this->Problem.FarSamples(this->Params.RefineThreshold, this->Params.RefineShare),
+        this->Params.Extension, this->Params.MaxLevel);
+  if (!finer)
+  {
+    return finer.Status;
+  }
+  if (finer.Value == space || finer.Value->NumFunctions > this->Params.MaxFunctions)
+  {
+    return {};
+  }
+  Result<Spline<Dim>> map = TransferToRefined(this->Map, finer.Value);
+  if (!map)
+  {
+    return map.Status;
+  }
+  this->Map = std::move(map.Value);
+  return this->EnterSpace();
+}
+
+template <int Dim>
+Result<TemplateMapResult<Dim>> MapLoop<Dim>::Finish()
+{
+  Result<Regularity> regularity =
+    MeasureRegularity(this->Form, ResultGap, ResultBoxes, this->Params.Threads);
+  if (!regularity)
+  {
+    return regularity.Status;
+  }
+  this->Out.MinJacobianBound = regularity->Bound();
+  this->Out.ElementMinJacobian = std::move(regularity->MinLower);
+  this->Out.ElementMaxJacobian = std::move(regularity->MaxUpper);
+  this->Out.Certificate = std::move(regularity->Certificate);
+  this->Out.Map = std::move(this->Map);
+  this->Problem.Report(this->Out);
+  if (this->Params.Progress && !this->Params.Progress(1.0))
+  {
+    return { ErrorCode::Aborted, "after the last iteration" };
+  }
+  return std::move(this->Out);
 }
 }
 
@@ -294,7 +548,6 @@ template <int Dim>
 Result<TemplateMapResult<Dim>> MapTemplate(const Skeleton<Dim>& templateSkeleton,
   const Skeleton<Dim>& target, const TemplateMapParams<Dim>& params)
 {
-  const auto start = std::chrono::steady_clock::now();
   if (Status status = CheckOptions(params); !status)
   {
     return status;
@@ -303,59 +556,17 @@ Result<TemplateMapResult<Dim>> MapTemplate(const Skeleton<Dim>& templateSkeleton
   {
     return status;
   }
-  Result<Spline<Dim>> startMap = StartMap(templateSkeleton, params);
-  if (!startMap)
+  Result<Spline<Dim>> start = StartMap(templateSkeleton, params);
+  if (!start)
   {
-    return startMap.Status;
+    return start.Status;
   }
-  TemplateMapResult<Dim> result;
-  result.Map = std::move(startMap.Value);
-  const SplineSpace<Dim>& space = *result.Map.Space;
-
-  const bool tangent = params.Method == TemplateMapMethod::Tdm;
-  FitWeights weights;
-  (tangent ? weights.Normal : weights.Point) = 1.0;
-  weights.Proximal = params.TikhonovWeight;
-  Problem<Dim> problem(templateSkeleton, target, space, params);
-  FitSystem<Dim> system(result.Map.Space, tangent);
-  problem.Update(MakeBezierForm(result.Map, params.Threads));
-  for (int iteration = 1; iteration <= params.Iterations; ++iteration)
-  {
-    if (params.Progress && !params.Progress(double(iteration - 1) / params.Iterations))
-    {
-      return { ErrorCode::Aborted, "before iteration " + std::to_string(iteration) };
-    }
-    Result<PointMatrix> step = system.Step(problem.Samples(), weights, result.Map.ControlPoints);
-    if (!step)
-    {
-      return { step.Status.Code,
-        "iteration " + std::to_string(iteration) + ": " + step.Status.Detail };
-    }
-    result.Map.ControlPoints += step.Value;
-    const BezierForm<Dim> form = MakeBezierForm(result.Map, params.Threads);
-    TemplateMapIteration record;
-    record.Iteration = iteration;
-    problem.Update(form);
-    problem.Project(form, record);
-    Result<double> share = NegativeJacobianShare(form, JacobianGrid, params.Threads);
-    if (!share)
-    {
-      return share.Status;
-    }
-    record.NegativeShare = share.Value;
-    record.Functions = space.NumFunctions;
-    record.Seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    result.History.push_back(record);
-  }
-  problem.Finish(result);
-  if (params.Progress && !params.Progress(1.0))
-  {
-    return { ErrorCode::Aborted, "after the last iteration" };
-  }
-  return result;
+  TemplateProblem<Dim> problem(templateSkeleton, target, *start->Space, params);
+  return MapLoop<Dim>(problem, params, std::move(start.Value)).Run();
 }
 
 template Result<TemplateMapResult<2>> MapTemplate(
   const Skeleton<2>&, const Skeleton<2>&, const TemplateMapParams<2>&);
+template Result<TemplateMapResult<3>> MapTemplate(
+  const Skeleton<3>&, const Skeleton<3>&, const TemplateMapParams<3>&);
 }

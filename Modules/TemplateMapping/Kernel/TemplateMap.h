@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "JacobianCertificate.h"
 #include "Skeleton.h"
 #include "Spline.h"
 
@@ -10,9 +11,28 @@ namespace knotwork
 /// How a spline map is asked to carry the template onto the target.
 enum class TemplateMapMethod
 {
-  Fixed, ///< samples keep their parameters: sum |s(ghat(t_i)) - p_i|^2
-  Pdm,   ///< point distance, parameters follow the closest points
-  Tdm    ///< tangent distance, sum ((s(ghat(t_i)) - p_i) . N_i)^2, N_i normal of the target
+  Fixed,   ///< samples keep their parameters: sum |s(ghat(t_i)) - p_i|^2
+  Pdm,     ///< point distance, parameters follow the closest points
+  Tdm,     ///< tangent distance, sum ((s(ghat(t_i)) - p_i) . N_i)^2, N_i normal of the target
+  Weighted ///< PdmWeight times the second plus TdmWeight times the third
+};
+
+/// The map of the first iteration, unless one is given.
+enum class TemplateInitialMap
+{
+  Identity,
+  /// The identity, each control point moved by the mean of the displacements p_i - ghat(t_i) of the
+  /// samples in the support of its function, weighted by the function's values there: one
+  /// control-point iteration whose system is replaced by its row sums. For maps that begin far off.
+  Moved
+};
+
+/// How the space grows between iterations.
+enum class TemplateRefinement
+{
+  None,
+  Local, ///< cells with large errors, by truncated hierarchical B-splines
+  Global ///< every cell
 };
 
 template <int Dim>
@@ -24,12 +44,49 @@ struct TemplateMapParams
   IntArray<Dim> InnerKnots;     ///< [0, 4096] a direction, equally spaced; 11 each
   int TemplateSamples = 0;      ///< dense samples a patch, [2, 10^7]; 0: the template's own points
   int NewtonSteps = 2;          ///< a closest-point update, [0, 100]
+  double PdmWeight = 1.0;       ///< of the point distances, Weighted only, >= 0
+  double TdmWeight = 1.0;       ///< of the tangent distances, Weighted only, >= 0; not both 0
   double TikhonovWeight = 2e-2; ///< of sum |c - c_previous|^2, >= 0
-  int Threads = 0;              ///< 0: all cores
+  /// Weights of the quality functionals (QualityFunctionals.h), >= 0. The last five are not
+  /// quadratic: a Gauss-Newton step, halved until the sum of all terms falls.
+  double UniformityWeight = 0.0;
+  double LengthWeight = 0.0;
+  double OrthogonalityWeight = 0.0;
+  double SkewnessWeight = 0.0;
+  double EccentricityWeight = 0.0;
+  double AreaWeight = 0.0;
+  double SelfIntersectionWeight = 0.0;
+  /// Keep every iterate regular: a step that would make the Jacobian of the map anywhere less than
+  /// positive is shortened, and one that has to be shortened much is replaced by a descent with a
+  /// barrier in front of det J = 0. The certificate decides, not samples. A given initial map with
+  /// folds has them removed first.
+  bool Guard = true;
+
+  /// Iterations end early when the largest error (MaxError) is not above this; 0: never. >= 0
+  double Accuracy = 0.0;
+  /// Iterations end, and the iterate before is the result, when a larger share of the grid points
+  /// of the domain has det J < 0. In [0, 1]; 1: never. Nothing to do with the guard on.
+  double MaxIrregularShare = 1.0;
+
+  TemplateRefinement Refinement = TemplateRefinement::None;
+  int RefineEvery = 1; ///< refine after every so many iterations, [0, 100000]; 0: when the squared
+                       ///< error falls by less than StagnationRatio of itself in an iteration
+  double StagnationRatio = 0.05; ///< (0, 1)
+  /// Local: cells with a target sample of an error of at least this are refined, >= 0.
+  double RefineThreshold = 1e-5;
+  /// Local: the threshold is the error that this share of the samples reaches, [0, 1]; 0: the
+  /// absolute threshold counts. Of two given ones the larger threshold counts.
+  double RefineShare = 0.0;
+  int Extension = 1;         ///< Local: cells of the new level around a marked one, [0, 100]
+  int MaxLevel = 10;         ///< cells of this level are not refined, [0, 24]
+  int MaxFunctions = 200000; ///< a refinement that would have more is not made, >= 1
+
+  int Threads = 0; ///< 0: all cores
   ProgressCallback Progress;
   /// Domain of the map; the template's bounding box when empty. It must contain the template.
   std::optional<ParametricBox<Dim>> Domain;
-  /// The map to start with; the identity when empty. Polynomial, Dim components, over a domain that
+  TemplateInitialMap Start = TemplateInitialMap::Identity;
+  /// The map to start with, in place of Start. Polynomial, Dim components, over a domain that
   /// contains the template; it decides the space: Degree, InnerKnots and Domain are then not read.
   std::optional<Spline<Dim>> InitialMap;
 
@@ -44,21 +101,26 @@ struct TemplateMapIteration
   /// update (Fixed: at the fixed parameters).
   double SquaredError = 0.0;
   /// Two-sided: the largest distance of a target sample to the mapped skeleton's patch, or of a
-  /// dense sample of the mapped patch to the target's polyline.
+  /// dense sample of the mapped patch to the target patch.
   double MaxError = 0.0;
-  double NegativeShare = 0.0; ///< of the 1000 x 1000 grid points of the domain, det J < 0
+  double NegativeShare = 0.0; ///< of 10^6 grid points of the domain (1000 x 1000, 100 x 100 x 100,
+                              ///< end points included), det J < 0
+  double StepLength = 1.0;    ///< share of the step that was taken
+  int HeldElements = 0;       ///< that the guard held back
   int Functions = 0;          ///< of the map's space
   double Seconds = 0.0;       ///< since the call
 };
 
 /// A template patch under the map: its dense samples.
+template <int Dim>
 struct MappedSkeletonPatch
 {
   int Id = 0;
-  bool Free = false;          ///< the target has no patch of this id
-  Eigen::VectorXd Parameters; ///< n
-  PointMatrix Points;         ///< n x Dim
-  Eigen::VectorXd Distances;  ///< n, to the target's polyline; -1 for free patches
+  bool Free = false;         ///< the target has no patch of this id
+  PointMatrix Places;        ///< n x PlaceSize<Dim>
+  PointMatrix Points;        ///< n x Dim
+  Eigen::VectorXd Distances; ///< n, to the target patch; -1 for free patches
+  std::vector<std::array<int, Dim>> Simplices; ///< Dim = 3: triangles of the samples
 };
 
 template <int Dim>
@@ -66,11 +128,16 @@ struct TemplateMapResult
 {
   Spline<Dim> Map;
   std::vector<TemplateMapIteration> History; ///< one entry an iteration
-  std::vector<MappedSkeletonPatch> Skeleton; ///< in the template's order
-  std::vector<Eigen::VectorXd> Parameters;   ///< t_i of the samples, in the target's order
+  std::vector<MappedSkeletonPatch<Dim>> Skeleton; ///< in the template's order
+  std::vector<PointMatrix> Places;           ///< t_i of the samples, in the target's order
   std::vector<Eigen::VectorXd> SampleErrors; ///< |s(ghat(t_i)) - p_i|, likewise
   std::vector<double> ElementErrors;         ///< per element of the map: largest distance, of both
                                              ///< kinds, of what lies in it; 0 where nothing does
+  JacobianCertificate Certificate;           ///< of the map, with respect to local parameters
+  std::vector<double> ElementMinJacobian;    ///< proved lower bounds of det J, with respect to the
+                                             ///< domain's parameters, an entry an element
+  std::vector<double> ElementMaxJacobian;    ///< proved upper bounds, likewise
+  double MinJacobianBound = 0.0;             ///< the smallest of the lower bounds
 };
 
 /// A spline map of the plane that carries the patches of a template onto the target patches of the
