@@ -23,7 +23,7 @@ struct Constraint
   std::size_t Template = 0; // index of the template patch
   PointMatrix Points;       // p_i
   PointMatrix Normals;      // N_i; empty unless the method reads them
-  PolylineIndex<Dim> Polyline;
+  TargetIndex<Dim> Target;
   PatchFeet Closest; // present parameters, feet and distances
 };
 
@@ -154,10 +154,8 @@ struct Problem
   {
     for (const SkeletonPatch<Dim>& patch : skeleton)
     {
-      PatchCurve curve(patch.Points, ParametersOrUniform(patch, 0.0, 1.0).col(0));
-      Eigen::VectorXd samples = curve.SampleParameters(params.TemplateSamples);
       this->Ids.push_back(patch.Id);
-      this->Patches.emplace_back(std::move(curve), std::move(samples), space);
+      this->Patches.emplace_back(patch, params.TemplateSamples, space);
     }
     for (const SkeletonPatch<Dim>& patch : target)
     {
@@ -166,17 +164,13 @@ struct Problem
       {
         ++constraint.Template;
       }
-      const PatchCurve& curve = this->Patches[constraint.Template].Curve();
-      constraint.Closest.Parameters = ParametersOrUniform(patch, curve.Begin(), curve.End())
-                                        .col(0)
-                                        .cwiseMax(curve.Begin())
-                                        .cwiseMin(curve.End());
+      constraint.Closest.Places = this->Patches[constraint.Template].FirstPlaces(patch);
       constraint.Points = patch.Points;
       if (params.Method == TemplateMapMethod::Tdm)
       {
         constraint.Normals = UnitNormals(patch);
       }
-      constraint.Polyline = PolylineIndex<Dim>(patch.Points);
+      constraint.Target = TargetIndex<Dim>(patch);
       this->Constraints.push_back(std::move(constraint));
     }
   }
@@ -191,7 +185,7 @@ struct Problem
     for (Constraint<Dim>& c : this->Constraints)
     {
       c.Closest =
-        this->Patches[c.Template].At(form, c.Points, c.Closest.Parameters, this->Params.Threads);
+        this->Patches[c.Template].At(form, c.Points, c.Closest.Places, this->Params.Threads);
     }
   }
 
@@ -212,7 +206,7 @@ struct Problem
     {
       const Eigen::Index n = c.Points.rows();
       samples.Parameters.middleRows(row, n) =
-        this->Patches[c.Template].DomainPoints(c.Closest.Parameters);
+        this->Patches[c.Template].DomainPoints(c.Closest.Places);
       samples.Residuals.middleRows(row, n) = c.Points - c.Closest.Feet;
       if (c.Normals.rows() > 0)
       {
@@ -231,9 +225,9 @@ struct Problem
     {
       const MappedPatch<Dim>& patch = this->Patches[c.Template];
       PatchFeet closest = patch.Project(
-        form, c.Points, c.Closest.Parameters, this->Params.NewtonSteps, this->Params.Threads);
+        form, c.Points, c.Closest.Places, this->Params.NewtonSteps, this->Params.Threads);
       largest = std::max({ largest, closest.SquaredDistances.maxCoeff(),
-        c.Polyline.LargestSquaredDistance(patch.MappedSamples(), this->Params.Threads) });
+        c.Target.LargestSquaredDistance(patch.MappedSamples(), this->Params.Threads) });
       if (this->Params.Method != TemplateMapMethod::Fixed)
       {
         c.Closest = std::move(closest);
@@ -263,7 +257,7 @@ void Problem<Dim>::Finish(TemplateMapResult<Dim>& result) const
     MappedSkeletonPatch mapped;
     mapped.Id = this->Ids[k];
     mapped.Free = true;
-    mapped.Parameters = patch.SampleParameters();
+    mapped.Places = patch.SamplePlaces();
     mapped.Points = patch.MappedSamples();
     mapped.Distances = Eigen::VectorXd::Constant(mapped.Points.rows(), -1.0);
     result.Skeleton.push_back(std::move(mapped));
@@ -273,14 +267,14 @@ void Problem<Dim>::Finish(TemplateMapResult<Dim>& result) const
     const MappedPatch<Dim>& patch = this->Patches[c.Template];
     MappedSkeletonPatch& mapped = result.Skeleton[c.Template];
     mapped.Free = false;
-    mapped.Distances = c.Polyline.SquaredDistances(mapped.Points, this->Params.Threads).cwiseSqrt();
+    mapped.Distances = c.Target.SquaredDistances(mapped.Points, this->Params.Threads).cwiseSqrt();
     for (Eigen::Index i = 0; i < mapped.Distances.size(); ++i)
     {
       raise(patch.SampleElements()[static_cast<std::size_t>(i)], mapped.Distances(i));
     }
-    result.Parameters.push_back(c.Closest.Parameters);
+    result.Parameters.push_back(c.Closest.Places.col(0));
     result.SampleErrors.push_back(c.Closest.SquaredDistances.cwiseSqrt());
-    const PointMatrix places = patch.DomainPoints(c.Closest.Parameters);
+    const PointMatrix places = patch.DomainPoints(c.Closest.Places);
     for (Eigen::Index i = 0; i < places.rows(); ++i)
     {
       double local[Dim];
