@@ -123,6 +123,9 @@ void AddCellArrays(const GridPair& grid, const std::vector<CellCertificate>& cel
     grid, "JacobianMaxLower", cells, [](const Cell& cell) { return cell.MaxLower; });
   AddCellArray<vtkDoubleArray>(
     grid, "JacobianMaxUpper", cells, [](const Cell& cell) { return cell.MaxUpper; });
+  // What is drawn in colours when nothing else is asked for.
+  grid.Output->GetCellData()->SetActiveScalars("JacobianVerdict");
+  grid.Output->GetPointData()->SetActiveScalars(nullptr);
 }
 
 /// Value of the cell array PatchId, 0 without one.

@@ -14,7 +14,8 @@
  * is zero at a vertex, edge or face of a valid cell and nowhere else), the proven bounds
  * `JacobianMinLower` <= min det J <= `JacobianMinUpper` and `JacobianMaxLower` <= max det J <=
  * `JacobianMaxUpper`; with Measures also `CellMeasure` (signed length, area or volume) and
- * `ScaledJacobianMin` (smallest sampled det J / (|f_u| |f_v| |f_w|)). Output 1
+ * `ScaledJacobianMin` (smallest sampled det J / (|f_u| |f_v| |f_w|)). `JacobianVerdict` is made the
+ * active scalars, of cells and points, so that it is what is drawn. Output 1
  * (vtkUnstructuredGrid) has for every invalid cell a vertex at a point where det J <= 0 is proved
  * and the sub-box of the cell around it, with the cell arrays `CellId` (of its grid), `Block`,
  * `PatchId`, `JacobianUpper` and `Kind` (one of WitnessKinds) and the point array

@@ -195,7 +195,7 @@ Result<Skeleton<2>> DecodeSkeleton(vtkPolyData* data, const char* name)
       return status;
     }
     skeleton.push_back({ chain.Id, Rows(points, chain.Points, 2),
-      Rows(parameters.Value, chain.Points, 1), Rows(normals.Value, chain.Points, 2) });
+      Rows(parameters.Value, chain.Points, 1), Rows(normals.Value, chain.Points, 2), {} });
   }
   return skeleton;
 }
@@ -221,7 +221,7 @@ void EncodeMappedSkeleton(const std::vector<MappedSkeletonPatch>& patches, vtkPo
     {
       lines->InsertCellPoint(points->InsertNextPoint(patch.Points(i, 0), patch.Points(i, 1), 0.0));
       pointIds->InsertNextValue(patch.Id);
-      parameters->InsertNextValue(patch.Parameters(i));
+      parameters->InsertNextValue(patch.Places(i, 0));
       distances->InsertNextValue(patch.Distances(i));
     }
   }

@@ -1,74 +1,103 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "BezierForm.h"
+#include "PatchGeometry.h"
 #include "SampleIndex.h"
-#include "Skeleton.h"
 
 namespace knotwork
 {
 /// Points of a mapped patch closest to some points: one row or entry a query.
 struct PatchFeet
 {
-  Eigen::VectorXd Parameters;       ///< t, parameter of the patch
-  PointMatrix Feet;                 ///< s(ghat(t))
+  PointMatrix Places;               ///< n x PlaceSize, t: places on the patch
+  PointMatrix Feet;                 ///< s(ghat(t)), n x Dim
   Eigen::VectorXd SquaredDistances; ///< |p - s(ghat(t))|^2
 };
 
 /// A template patch ghat under a spline map s, and closest points on s o ghat: the nearest of dense
-/// samples through a spatial index, then Newton steps on t.
+/// samples through a spatial index, then Newton steps on the place. Dim = 3 also begins at the
+/// nearest point of the triangles between the mapped samples: of the triangles around a sample only
+/// one can be stepped into.
 template <int Dim>
 class MappedPatch
 {
 public:
-  MappedPatch() = default;
-  /// @param samples  increasing parameters of the dense samples.
-  /// @pre   curve lies in the domain of space (rounding outside is clamped).
-  MappedPatch(PatchCurve curve, Eigen::VectorXd samples, const SplineSpace<Dim>& space);
+  static constexpr int NumDirections = Dim - 1;
 
-  const PatchCurve& Curve() const { return this->Template; }
-  const Eigen::VectorXd& SampleParameters() const { return this->Samples; }
+  MappedPatch() = default;
+  /// @param samples  about how many dense samples: PatchGeometry's SamplePlaces.
+  /// @pre   CheckSkeletons accepts the patch, which lies in the domain of space (rounding outside
+  /// is clamped); samples is 0 or at least 2.
+  MappedPatch(const SkeletonPatch<Dim>& patch, int samples, const SplineSpace<Dim>& space);
+
+  /// Another space over the same domain: elements of the dense samples are found again. Mapped
+  /// samples stay those of the last Update.
+  void SetSpace(const SplineSpace<Dim>& space);
+
+  /// Places of the dense samples, n x PlaceSize.
+  const PointMatrix& SamplePlaces() const { return this->Samples; }
   /// Elements that hold the dense samples.
   const std::vector<int>& SampleElements() const { return this->Elements; }
+  /// Triangles of the dense samples; empty for Dim = 2.
+  const std::vector<std::array<int, Dim>>& SampleSimplices() const { return this->Simplices; }
   /// The dense samples under the map of the last Update, n x Dim.
   const PointMatrix& MappedSamples() const { return this->Index.Samples(); }
 
-  /// Maps the dense samples and moves the index. @param form  of a spline in the constructor's
-  /// space. @complexity O(samples).
+  /// Maps the dense samples and moves the index. @param form  of a spline in the present space.
+  /// @complexity O(samples).
   void Update(const BezierForm<Dim>& form, int threads);
 
   /// Points ghat(t), n x Dim, inside the domain.
-  PointMatrix DomainPoints(const Eigen::VectorXd& parameters) const;
-  /// Feet and distances of points at given parameters; nothing is searched.
+  PointMatrix DomainPoints(const PointMatrix& places) const;
+  /// Places of the target's points before anything is searched: their parameters, n x PlaceSize.
+  /// Dim = 2 without parameters: uniform. Dim = 3 without on either side: 0 rows.
+  PointMatrix FirstPlaces(const SkeletonPatch<Dim>& target) const
+  {
+    return this->Template.FirstPlaces(target);
+  }
+  /// Feet and distances of points at given places; nothing is searched.
   PatchFeet At(const BezierForm<Dim>& form, const PointMatrixView& points,
-    const Eigen::VectorXd& parameters, int threads) const;
+    const PointMatrix& places, int threads) const;
 
-  /// Closest points from the better one of known parameters and the nearest dense sample, then
-  /// newtonSteps Gauss-Newton steps, dt = (r . g) / (g . g) with r = p - s(ghat(t)) and g = d/dt
-  /// s(ghat(t)), clamped to the patch; a step to a worse point is not taken.
+  /// Closest points from the best one of known places and the nearest dense sample, then
+  /// newtonSteps evaluations for Gauss-Newton steps, (g_k . g_l) dt = (r . g_k) with r = p -
+  /// s(ghat(t)) and g_k = d/dt_k s(ghat(t)), clamped to the patch. Dim = 3: ghat(t) + dghat dt is
+  /// carried back to the closest point of the mesh, and where that is no better, the step that ends
+  /// inside the triangle is tried. A step to a worse point is not taken.
+  /// @param known  places, or 0 rows: nothing is known.
   /// @pre   Update(form).
   /// @source Sajavicius, Juettler, Speh (2018), step 3; squared norms in the system.
   PatchFeet Project(const BezierForm<Dim>& form, const PointMatrixView& points,
-    const Eigen::VectorXd& known, int newtonSteps, int threads) const;
+    const PointMatrix& known, int newtonSteps, int threads) const;
 
 private:
-  PatchCurve Template;
+  void Clamp(double* point) const;
+  /// One step from a place towards a target; foot and first are s there and its derivatives.
+  /// @param whole  place where the step leads.
+  /// @param clamped  place to try if that is worse. @return false when there is none.
+  bool Step(const double* place, const double* target, const double* foot, const double* first,
+    double* whole, double* clamped) const;
+
+  PatchGeometry<Dim> Template;
   ParametricBox<Dim> Domain;
-  Eigen::VectorXd Samples;
+  PointMatrix Samples; // places
+  std::vector<std::array<int, Dim>> Simplices;
   std::vector<int> Elements;
   PointMatrix Local; // of the dense samples in their elements
   SampleIndex Index;
+  TriangleIndex<Dim> Mapped; // triangles of the mapped samples, Dim = 3
 };
 
-/// Distances from points to a polyline in Dim-space.
+/// Distances from points to the polyline or triangle mesh of a target patch.
 template <int Dim>
-class PolylineIndex
+class TargetIndex
 {
 public:
-  PolylineIndex() = default;
-  /// @param points  n x Dim, n >= 2, finite.
-  explicit PolylineIndex(PointMatrix points);
+  TargetIndex() = default;
+  /// @pre CheckSkeletons accepts the patch.
+  explicit TargetIndex(const SkeletonPatch<Dim>& patch);
 
-  /// Nearest segment with squared distance <= bound.
+  /// Nearest segment or triangle with squared distance <= bound.
   NearestItem Nearest(
     const double* point, double bound = std::numeric_limits<double>::infinity()) const;
   /// Squared distances of a sequence of points; neighbours in the sequence should be near each
@@ -78,12 +107,18 @@ public:
   double LargestSquaredDistance(const PointMatrixView& sequence, int threads) const;
 
 private:
-  double SegmentDistance(int segment, const double* point) const;
-  /// Squared distances to nearby segments found by walking along the polyline: upper bounds.
+  double ItemDistance(int item, const double* point) const;
+  /// Steps from an item to neighbours as long as they are nearer; returns the distance.
+  double Descend(int& item, const double* point) const;
+  /// Squared distances to nearby items found by walking along the patch: upper bounds.
   Eigen::VectorXd Walk(const PointMatrixView& sequence, int threads) const;
 
+  // Dim = 2
   PointMatrix Points;
   std::vector<double> InverseLengths; // 1 / |b - a|^2 of the segments, 0 for those of no length
   BoxTree Tree;
+  // Dim = 3
+  TriangleIndex<Dim> Triangles;
+  std::vector<Triangle> Neighbours;
 };
 }

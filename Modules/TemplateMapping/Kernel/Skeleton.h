@@ -3,29 +3,34 @@
 #include "Status.h"
 #include "Types.h"
 
+#include <array>
 #include <vector>
 
 namespace knotwork
 {
-/// One patch of a skeleton in Dim-space, a (Dim - 1)-manifold with parameters: for Dim = 2 a
-/// polyline. The polyline itself is the patch; between its points position is linear in the
-/// parameter.
+/// One patch of a skeleton in Dim-space, a (Dim - 1)-manifold: for Dim = 2 a polyline, for Dim = 3
+/// a triangle mesh, open or closed. The polyline or mesh itself is the patch; between its points
+/// position is linear in the parameters.
 template <int Dim>
 struct SkeletonPatch
 {
   int Id = 0;             ///< patches of template and target belong together by id
-  PointMatrix Points;     ///< n x Dim, n >= 2
-  PointMatrix Parameters; ///< n x (Dim - 1), or empty: i / (n - 1)
+  PointMatrix Points;     ///< n x Dim, n >= Dim
+  PointMatrix Parameters; ///< n x (Dim - 1), or empty: i / (n - 1) for Dim = 2, none for Dim = 3
   PointMatrix Normals;    ///< n x Dim of any length but zero, or empty: made from the points
+  /// Dim = 3: triangles as rows of Points, at least one; Dim = 2: empty, consecutive points are the
+  /// segments.
+  std::vector<std::array<int, Dim>> Simplices;
 };
 
 template <int Dim>
 using Skeleton = std::vector<SkeletonPatch<Dim>>;
 
 /// Everything that must hold before a template is carried onto a target: ids unique, every target
-/// id in the template, all finite, sizes fit, at least 2 points and a positive length a patch,
-/// template parameters strictly increasing, target parameters inside the template patch's range,
-/// normals not zero.
+/// id in the template, all finite, sizes fit, at least Dim points and a positive length or area a
+/// patch, triangles of three different points that exist, no point without a triangle, template
+/// parameters strictly increasing (Dim = 3: their triangles turn the same way), target parameters
+/// inside the template patch's range (Dim = 3: inside the box of its parameters), normals not zero.
 /// @return EmptyInput, InvalidTopology (ids, degenerate patches), NonFiniteInput, SizeMismatch or
 /// InvalidParameter; the detail names patch and point.
 template <int Dim>
@@ -43,25 +48,9 @@ PointMatrix ParametersOrUniform(const SkeletonPatch<2>& patch, double begin, dou
 /// -90 degrees. Nothing depends on their sign.
 PointMatrix UnitNormals(const SkeletonPatch<2>& patch);
 
-/// Position and derivatives of a polyline patch at parameters.
-class PatchCurve
-{
-public:
-  PatchCurve() = default;
-  /// @param parameters  one a point, strictly increasing.
-  PatchCurve(PointMatrix points, Eigen::VectorXd parameters);
-
-  double Begin() const { return this->Parameters(0); }
-  double End() const { return this->Parameters(this->Parameters.size() - 1); }
-  /// Position at t (clamped to [Begin, End]) and its derivative there, that of the piece on the
-  /// right at a vertex.
-  /// @param derivative  may be null. @complexity O(1) for equally spaced parameters, else O(log n).
-  void Evaluate(double t, double* point, double* derivative) const;
-  /// The points themselves, or count points at equally spaced parameters.
-  Eigen::VectorXd SampleParameters(int count) const;
-
-private:
-  PointMatrix Points;
-  Eigen::VectorXd Parameters;
-};
+/// The same of a triangle mesh: the given ones, or the sums of the normals of the triangles around
+/// each point, weighted by area. Triangles are first turned alike across their shared edges, and
+/// points at equal coordinates count as one; a point whose triangles have no area takes the normal
+/// of its neighbours.
+PointMatrix UnitNormals(const SkeletonPatch<3>& patch);
 }

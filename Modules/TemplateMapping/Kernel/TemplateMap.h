@@ -112,7 +112,6 @@ struct TemplateMapIteration
 };
 
 /// A template patch under the map: its dense samples.
-template <int Dim>
 struct MappedSkeletonPatch
 {
   int Id = 0;
@@ -120,7 +119,7 @@ struct MappedSkeletonPatch
   PointMatrix Places;        ///< n x PlaceSize<Dim>
   PointMatrix Points;        ///< n x Dim
   Eigen::VectorXd Distances; ///< n, to the target patch; -1 for free patches
-  std::vector<std::array<int, Dim>> Simplices; ///< Dim = 3: triangles of the samples
+  std::vector<std::array<int, 3>> Triangles; ///< Dim = 3: of the samples
 };
 
 template <int Dim>
@@ -128,7 +127,7 @@ struct TemplateMapResult
 {
   Spline<Dim> Map;
   std::vector<TemplateMapIteration> History; ///< one entry an iteration
-  std::vector<MappedSkeletonPatch<Dim>> Skeleton; ///< in the template's order
+  std::vector<MappedSkeletonPatch> Skeleton; ///< in the template's order
   std::vector<PointMatrix> Places;           ///< t_i of the samples, in the target's order
   std::vector<Eigen::VectorXd> SampleErrors; ///< |s(ghat(t_i)) - p_i|, likewise
   std::vector<double> ElementErrors;         ///< per element of the map: largest distance, of both

@@ -169,19 +169,22 @@ void TemplateProblem<Dim>::Report(TemplateMapResult<Dim>& result) const
   for (std::size_t k = 0; k < this->Patches.size(); ++k)
   {
     const MappedPatch<Dim>& patch = this->Patches[k];
-    MappedSkeletonPatch<Dim> mapped;
+    MappedSkeletonPatch mapped;
     mapped.Id = this->Ids[k];
     mapped.Free = true;
     mapped.Places = patch.SamplePlaces();
     mapped.Points = patch.MappedSamples();
-    mapped.Simplices = patch.SampleSimplices();
+    if constexpr (Dim == 3)
+    {
+      mapped.Triangles = patch.SampleSimplices();
+    }
     mapped.Distances = Eigen::VectorXd::Constant(mapped.Points.rows(), -1.0);
     result.Skeleton.push_back(std::move(mapped));
   }
   for (const TargetConstraint<Dim>& c : this->Constraints)
   {
     const MappedPatch<Dim>& patch = this->Patches[c.Template];
-    MappedSkeletonPatch<Dim>& mapped = result.Skeleton[c.Template];
+    MappedSkeletonPatch& mapped = result.Skeleton[c.Template];
     mapped.Free = false;
     mapped.Distances = c.Surface.SquaredDistances(mapped.Points, this->Threads).cwiseSqrt();
     for (Eigen::Index i = 0; i < mapped.Distances.size(); ++i)

@@ -357,6 +357,26 @@ TEST(JacobianValidator, CollectionsKeepTheirStructure_PropertyOracle)
   EXPECT_EQ(Grid(filter, 1)->GetCellData()->GetArray("PatchId")->GetTuple1(0), 11.0);
 }
 
+TEST(JacobianValidator, VerdictIsWhatIsDrawn_ExactOracle)
+{
+  const auto grid = BiquadraticSquare(2.5, 0.5);
+  vtkNew<vtkDoubleArray> scalars;
+  scalars->SetName("Temperature");
+  scalars->SetNumberOfTuples(grid->GetNumberOfPoints());
+  scalars->Fill(1.0);
+  grid->GetPointData()->SetScalars(scalars);
+  vtkNew<vtkJacobianValidator> filter;
+  filter->SetInputData(grid);
+  filter->Update();
+  vtkDataArray* drawn = Grid(filter)->GetCellData()->GetScalars();
+  ASSERT_TRUE(drawn);
+  EXPECT_STREQ(drawn->GetName(), "JacobianVerdict");
+  EXPECT_FALSE(Grid(filter)->GetPointData()->GetScalars());
+  EXPECT_EQ(Grid(filter)->GetPointData()->GetArray("Temperature"), scalars);
+  EXPECT_EQ(grid->GetPointData()->GetScalars(), scalars); // the input is what it was
+  EXPECT_EQ(grid->GetCellData()->GetNumberOfArrays(), 0);
+}
+
 TEST(JacobianValidator, BadInputIsOneError_PropertyOracle)
 {
   const auto expect = [](vtkDataObject* input, const std::string& words)

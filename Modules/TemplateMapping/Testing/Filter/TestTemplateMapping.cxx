@@ -149,7 +149,7 @@ TEST(TemplateMappingFilter, OutputsAreTheKernelsResult_CrossOracle)
       EXPECT_EQ(mapped->GetPoint(row)[0], patch.Points(i, 0));
       EXPECT_EQ(mapped->GetPoint(row)[1], patch.Points(i, 1));
       EXPECT_EQ(mapped->GetPointData()->GetArray("Distance")->GetTuple1(row), patch.Distances(i));
-      EXPECT_EQ(mapped->GetPointData()->GetArray("Parameter")->GetTuple1(row), patch.Parameters(i));
+      EXPECT_EQ(mapped->GetPointData()->GetArray("Parameter")->GetTuple1(row), patch.Places(i, 0));
       EXPECT_EQ(mapped->GetPointData()->GetArray("PatchId")->GetTuple1(row), patch.Id);
     }
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BezierForm.h"
+#include "PatchGeometry.h"
 #include "TemplateCases.h"
 #include "TemplateMap.h"
 #include "TensorSpace.h"

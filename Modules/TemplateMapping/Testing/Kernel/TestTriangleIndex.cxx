@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfaceCases.h"
+#include "TriangleIndex.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+using namespace knotwork;
+
+namespace
+{
+using Row = Eigen::RowVector3d;
+
+TriangleFoot Closest(const Row& a, const Row& b, const Row& c, const Row& p)
+{
+  return ClosestOnTriangle<3>(a.data(), b.data(), c.data(), p.data());
+}
+}
+
+TEST(TriangleIndex, ClosestPointsOfOneTriangle_ExactOracle)
+{
+  const Row a(0, 0, 0);
+  const Row b(4, 0, 0);
+  const Row c(0, 4, 0);
+  const auto expect = [&](const Row& p, double second, double third, double squared)
+  {
+    SCOPED_TRACE(testing::Message() << p);
+    const TriangleFoot foot = Closest(a, b, c, p);
+    EXPECT_DOUBLE_EQ(foot.Second, second);
+    EXPECT_DOUBLE_EQ(foot.Third, third);
+    EXPECT_DOUBLE_EQ(foot.SquaredDistance, squared);
+  };
+  expect({ 1, 2, 3 }, 0.25, 0.5, 9); // inside
+  expect({ 1, -2, 0 }, 0.25, 0, 4);  // edges
+  expect({ -1, 1, 2 }, 0, 0.25, 5);
+  expect({ 4, 4, 0 }, 0.5, 0.5, 8);
+  expect({ -3, -4, 0 }, 0, 0, 25); // corners
+  expect({ 6, 0, 0 }, 1, 0, 4);
+  expect({ -1, 5, 1 }, 0, 1, 3);
+
+  // Degenerate: a segment with the third corner inside, and a point.
+  const TriangleFoot segment = Closest({ 0, 0, 0 }, { 1, 0, 0 }, { 4, 0, 0 }, { 3, 2, 0 });
+  EXPECT_DOUBLE_EQ(segment.SquaredDistance, 4.0);
+  EXPECT_DOUBLE_EQ(segment.Second + 4.0 * segment.Third, 3.0);
+  EXPECT_DOUBLE_EQ(Closest(b, b, b, { 4, 3, 4 }).SquaredDistance, 25.0);
+}
+
+TEST(TriangleIndex, NoCornerIsNearerThanTheFoot_PropertyOracle)
+{
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> real(-1.0, 1.0);
+  const auto any = [&] { return Row(real(random), real(random), real(random)); };
+  for (int trial = 0; trial < 300; ++trial)
+  {
+    SCOPED_TRACE(trial);
+    const Row a = any();
+    const Row b = any();
+    // Well shaped, needles and flat obtuse ones down to nothing.
+    const double height = std::pow(10.0, -(trial % 20));
+    const Row c = a + 1.5 * real(random) * (b - a) + height * any();
+    const Row p = trial % 3 == 0 ? Row(a + 0.5 * (c - a) + 1e-3 * any()) : any();
+    const TriangleFoot foot = Closest(a, b, c, p);
+    EXPECT_GE(foot.Second, 0.0);
+    EXPECT_GE(foot.Third, 0.0);
+    EXPECT_LE(foot.Second + foot.Third, 1.0 + 1e-15);
+    const Row q = PointOfTriangle<3>(a.data(), b.data(), c.data(), foot.Second, foot.Third);
+    EXPECT_NEAR((p - q).norm(), std::sqrt(foot.SquaredDistance), 1e-15);
+    // q is the closest point of a convex set exactly when no corner lies on p's side of it; else
+    // the squared distance is too large by at most twice the largest of these products. Below the
+    // ratio where triangles count as slivers, their inner points lose 6 of 16 digits.
+    for (const Row& corner : { a, b, c })
+    {
+      EXPECT_LE((p - q).dot(corner - q), 1e-9 * (p - q).norm());
+    }
+  }
+}
+
+TEST(TriangleIndex, AgreesWithTryingAllTriangles_CrossOracle)
+{
+  for (unsigned seed = 1; seed <= 6; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> real(0.0, 1.0);
+    SkeletonPatch<3> mesh = cases::Sphere(static_cast<int>(seed) % 4);
+    TriangleIndex<3> index(mesh.Points, mesh.Simplices);
+    if (seed > 3) // moved: a crumpled sphere
+    {
+      mesh.Points +=
+        PointMatrix::NullaryExpr(mesh.Points.rows(), 3, [&] { return 0.3 * (real(random) - 0.5); });
+      index.Move(mesh.Points);
+    }
+    for (int q = 0; q < 200; ++q)
+    {
+      const Row p(real(random), real(random), real(random));
+      TriangleFoot expected;
+      for (std::size_t t = 0; t < mesh.Simplices.size(); ++t)
+      {
+        const TriangleFoot foot = index.Foot(static_cast<int>(t), p.data());
+        expected = foot.SquaredDistance < expected.SquaredDistance ? foot : expected;
+      }
+      const TriangleFoot found = index.Nearest(p.data());
+      EXPECT_EQ(found.Triangle, expected.Triangle);
+      EXPECT_EQ(found.SquaredDistance, expected.SquaredDistance);
+      EXPECT_EQ(index.Nearest(p.data(), expected.SquaredDistance).Triangle, expected.Triangle);
+      EXPECT_EQ(index.Nearest(p.data(), 0.999 * expected.SquaredDistance).Triangle,
+        expected.SquaredDistance > 0.0 ? -1 : expected.Triangle);
+    }
+  }
+}
+
+TEST(TriangleIndex, NeighboursShareAnEdge_ExactOracle)
+{
+  const cases::Triangles fan{ { 0, 1, 2 }, { 2, 1, 3 }, { 4, 5, 6 }, { 0, 2, 7 }, { 7, 2, 0 } };
+  const auto neighbours = TriangleNeighbours(fan);
+  const std::vector<Triangle> expected{ { -1, 1, -1 }, // the edge (2, 0) has three triangles
+    { 0, -1, -1 }, { -1, -1, -1 }, { -1, 4, 4 }, { 3, -1, 3 } };
+  EXPECT_EQ(neighbours[0], expected[0]);
+  EXPECT_EQ(neighbours[1], expected[1]);
+  EXPECT_EQ(neighbours[2], expected[2]);
+  EXPECT_EQ(neighbours[3][1], 4);
+  const SkeletonPatch<3> sphere = cases::Sphere(2);
+  for (const Triangle& t : TriangleNeighbours(sphere.Simplices))
+  {
+    EXPECT_TRUE(t[0] >= 0 && t[1] >= 0 && t[2] >= 0);
+  }
+
+  PointMatrix points(5, 2);
+  points << 0, 0, 1, 0, 0, 0, 1, -0.0, 1, 0;
+  EXPECT_EQ(FirstOfEqualPoints(points), (std::vector<int>{ 0, 1, 0, 1, 1 }));
+  EXPECT_EQ(ReplaceCorners({ { 2, 1, 0 } }, { 5, 6, 7 }), (std::vector<Triangle>{ { 7, 6, 5 } }));
+}
