@@ -15,12 +15,11 @@ import os
 
 import numpy as np
 import knotwork
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPlane, vtkPolyData
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkPlane
 from vtkmodules.vtkFiltersCore import vtkCutter, vtkStripper
-from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter
 
+import _cases as cases
 import _scene as scene
 
 TEETH = 10
@@ -87,38 +86,12 @@ def resample(loop, count):
 
 def skeleton(curves):
     """Polydata with a polyline a curve, PatchId and Parameter; curves are pairs of points and parameters."""
-    points = np.vstack([np.c_[curve, np.zeros(len(curve))] for curve, _ in curves])
-    polydata = vtkPolyData()
-    vertices = vtkPoints()
-    vertices.SetDataTypeToDouble()
-    vertices.SetData(numpy_to_vtk(points, deep=1))
-    polydata.SetPoints(vertices)
-    lines = vtkCellArray()
-    first = 0
-    for curve, _ in curves:
-        lines.InsertNextCell(len(curve), list(range(first, first + len(curve))))
-        first += len(curve)
-    polydata.SetLines(lines)
-    patch = numpy_to_vtk(np.arange(len(curves), dtype=np.int32), deep=1)
-    patch.SetName("PatchId")
-    polydata.GetCellData().AddArray(patch)
-    parameter = numpy_to_vtk(np.concatenate([parameters for _, parameters in curves]), deep=1)
-    parameter.SetName("Parameter")
-    polydata.GetPointData().AddArray(parameter)
-    return polydata
+    return cases.skeleton([cases.Patch(number, *curve) for number, curve in enumerate(curves)])
 
 
 def circle(radius):
-    share = np.linspace(0, 1, TEMPLATE_SAMPLES)
-    return radius * np.c_[np.cos(2 * math.pi * share), np.sin(2 * math.pi * share)], share
-
-
-def write(writer, data, file):
-    writer.SetInputData(data)
-    writer.SetFileName(file)
-    writer.SetDataModeToBinary()  # which every ParaView reads
-    writer.Write()
-    print("file", file)
+    made = cases.circle((0, 0), radius, TEMPLATE_SAMPLES, 0)
+    return made.points, made.parameters
 
 
 def main():
@@ -141,8 +114,8 @@ def main():
     shares = np.linspace(0, 1, CIRCLES + 1)
     template = skeleton([circle(bore_radius + s * (outer_radius - bore_radius)) for s in shares])
     target = skeleton([between(s) for s in shares])
-    write(vtkXMLPolyDataWriter(), template, os.path.join(folder, "gear_template.vtp"))
-    write(vtkXMLPolyDataWriter(), target, os.path.join(folder, "gear_target.vtp"))
+    cases.write(template, os.path.join(folder, "gear_template.vtp"))
+    cases.write(target, os.path.join(folder, "gear_target.vtp"))
 
     mapping = knotwork.vtkTemplateMapping()
     mapping.SetInputDataObject(0, template)
@@ -175,7 +148,7 @@ def main():
     grid = gear.GetOutputDataObject(0)
     print(f"patches {TEETH}, elements {grid.GetNumberOfCells()}, "
           f"distance to the composition {grid.GetCellData().GetArray('Distance').GetRange()[1]:.1e}")
-    write(vtkXMLUnstructuredGridWriter(), grid, os.path.join(folder, "gear.vtu"))
+    cases.write(grid, os.path.join(folder, "gear.vtu"))
     certify(gear)
 
     half = 1.06 * np.abs(outer).max()

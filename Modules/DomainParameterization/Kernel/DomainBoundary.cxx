@@ -1,313 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DomainBoundary.h"
 
-#include "Bernstein.h"
-#include "BezierForm.h"
 #include "DomainMeasure.h"
 #include "NumberText.h"
-#include "Recovery.h"
-#include "TensorSpace.h"
+#include "SideSplines.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace knotwork
 {
 namespace
 {
-/// Knots closer than this part of the domain are one.
-constexpr double KnotTolerance = 1e-12;
-/// Weights that agree to this relative difference are one.
-constexpr double WeightTolerance = 1e-10;
-
-std::string Given(int side)
-{
-  return "side " + std::to_string(side);
-}
-
-Status Named(const Status& status, int side)
-{
-  return { status.Code, Given(side) + ": " + status.Detail };
-}
-
-/// Directions of the map that side 2 d + e has: all but d, increasing.
-template <int Dim>
-std::array<int, Dim - 1> SideDirections(int side)
-{
-  std::array<int, Dim - 1> directions{};
-  int k = 0;
-  for (int d = 0; d < Dim; ++d)
-  {
-    if (d != side / 2)
-    {
-      directions[static_cast<std::size_t>(k++)] = d;
-    }
-  }
-  return directions;
-}
-
-/// The same side with other directions: new direction k is old direction axis[k], run backwards
-/// when reversed[k] (knots t become begin + end - t; here the domain is [0, 1]).
-template <int D>
-Spline<D> Reoriented(
-  const Spline<D>& spline, const std::array<int, D>& axis, const std::array<bool, D>& reversed)
-{
-  std::array<KnotVector, D> knots;
-  std::array<int, D> counts{};
-  std::array<int, D> strides{};
-  std::array<int, D> oldStride{};
-  int stride = 1;
-  for (std::size_t d = 0; d < D; ++d)
-  {
-    oldStride[d] = stride;
-    stride *= spline.Space->Knots[d].NumFunctions();
-  }
-  int first = 0;
-  for (std::size_t k = 0; k < D; ++k)
-  {
-    const std::size_t a = static_cast<std::size_t>(axis[k]);
-    const KnotVector& old = spline.Space->Knots[a];
-    counts[k] = old.NumFunctions();
-    strides[k] = oldStride[a];
-    knots[k] = old;
-    if (reversed[k])
-    {
-      std::vector<double> turned(old.Knots().rbegin(), old.Knots().rend());
-      for (double& t : turned)
-      {
-        t = 1.0 - t;
-      }
-      knots[k] = KnotVector::Create(old.Degree(), std::move(turned)).Value;
-      first += strides[k] * (counts[k] - 1);
-      strides[k] = -strides[k];
-    }
-  }
-  Spline<D> result;
-  result.Space = MakeTensorSpace<D>(knots).Value;
-  result.ControlPoints.resize(spline.ControlPoints.rows(), spline.ControlPoints.cols());
-  result.Weights.resize(spline.Weights.size());
-  std::array<int, D> index{};
-  for (Eigen::Index i = 0; i < result.ControlPoints.rows(); ++i)
-  {
-    int from = first;
-    for (std::size_t k = 0; k < D; ++k)
-    {
-      from += strides[k] * index[k];
-    }
-    result.ControlPoints.row(i) = spline.ControlPoints.row(from);
-    if (spline.IsRational())
-    {
-      result.Weights[i] = spline.Weights[from];
-    }
-    for (std::size_t k = 0; k < D && ++index[k] == counts[k]; ++k)
-    {
-      index[k] = 0;
-    }
-  }
-  return result;
-}
-
-/// Control point of a corner; bit k of corner is the end in direction k.
-template <int D>
-int CornerFunction(const SplineSpace<D>& space, int corner)
-{
-  int function = 0;
-  int stride = 1;
-  for (int k = 0; k < D; ++k)
-  {
-    const int n = space.Knots[static_cast<std::size_t>(k)].NumFunctions();
-    function += (corner >> k & 1) ? stride * (n - 1) : 0;
-    stride *= n;
-  }
-  return function;
-}
-
-/// Both ends of a direction interpolated: knots repeated up to p + 1 times, functions outside the
-/// domain dropped.
-template <int D>
-Result<Spline<D>> Clamped(Spline<D> spline, int direction)
-{
-  const std::size_t d = static_cast<std::size_t>(direction);
-  const KnotVector& knots = spline.Space->Knots[d];
-  const int p = knots.Degree();
-  const int last = knots.NumElements();
-  std::vector<double> missing(
-    static_cast<std::size_t>(std::max(0, p + 1 - knots.Multiplicity(0))), knots.Begin());
-  missing.insert(missing.end(),
-    static_cast<std::size_t>(std::max(0, p + 1 - knots.Multiplicity(last))), knots.End());
-  if (!missing.empty())
-  {
-    auto inserted = InsertKnots<D>(spline, direction, missing);
-    if (!inserted)
-    {
-      return inserted.Status;
-    }
-    spline = std::move(inserted.Value);
-  }
-  const KnotVector& full = spline.Space->Knots[d];
-  const int firstAlive = full.Span(0) - p;
-  const int numAlive = full.Span(full.NumElements() - 1) - firstAlive + 1;
-  if (numAlive == full.NumFunctions())
-  {
-    return spline;
-  }
-  const auto begin = full.Knots().begin() + firstAlive;
-  auto kept = KnotVector::Create(p, std::vector<double>(begin, begin + numAlive + p + 1));
-  if (!kept)
-  {
-    return kept.Status;
-  }
-  Spline<D> result;
-  std::array<KnotVector, D> newKnots = spline.Space->Knots;
-  newKnots[d] = kept.Value;
-  result.Space = MakeTensorSpace<D>(newKnots).Value;
-  result.ControlPoints.resize(result.Space->NumFunctions, spline.ControlPoints.cols());
-  result.Weights.resize(spline.IsRational() ? result.Space->NumFunctions : 0);
-  std::array<int, D> index{};
-  for (Eigen::Index i = 0; i < result.ControlPoints.rows(); ++i)
-  {
-    int from = 0;
-    int stride = 1;
-    for (std::size_t k = 0; k < D; ++k)
-    {
-      from += stride * (index[k] + (k == d ? firstAlive : 0));
-      stride *= spline.Space->Knots[k].NumFunctions();
-    }
-    result.ControlPoints.row(i) = spline.ControlPoints.row(from);
-    if (spline.IsRational())
-    {
-      result.Weights[i] = spline.Weights[from];
-    }
-    for (std::size_t k = 0; k < D && ++index[k] == newKnots[k].NumFunctions(); ++k)
-    {
-      index[k] = 0;
-    }
-  }
-  return result;
-}
-
-/// The side with other knots of the same number and multiplicities.
-template <int D>
-Status ReplaceKnots(Spline<D>& spline, int direction, const std::vector<double>& values)
-{
-  std::array<KnotVector, D> knots = spline.Space->Knots;
-  KnotVector& changed = knots[static_cast<std::size_t>(direction)];
-  auto replaced = KnotVector::Create(changed.Degree(), values);
-  if (!replaced)
-  {
-    return replaced.Status;
-  }
-  changed = replaced.Value;
-  spline.Space = MakeTensorSpace<D>(knots).Value;
-  return {};
-}
-
-/// A given side, checked, with Dim components, clamped on [0, 1]^D, without weights that do
-/// nothing.
-template <int Dim>
-Result<Spline<Dim - 1>> Prepared(const Spline<Dim - 1>& given)
-{
-  constexpr int D = Dim - 1;
-  if (const Status status = given.Check(); !status)
-  {
-    return status;
-  }
-  const int c = given.NumComponents();
-  if (given.Space->Kind != SpaceKind::Tensor)
-  {
-    return { ErrorCode::DimensionMismatch, "sides must be tensor-product splines" };
-  }
-  if (c != Dim && !(Dim == 2 && c == 3))
-  {
-    return { ErrorCode::DimensionMismatch,
-      std::to_string(c) + " components; sides of this domain have " + std::to_string(Dim) };
-  }
-  Spline<D> side = given;
-  side.ControlPoints = given.ControlPoints.leftCols(Dim);
-  if (given.IsRational() && given.Weights.minCoeff() == given.Weights.maxCoeff())
-  {
-    side.Weights.resize(0);
-  }
-  for (int d = 0; d < D; ++d)
-  {
-    auto clamped = Clamped<D>(std::move(side), d);
-    if (!clamped)
-    {
-      return clamped.Status;
-    }
-    side = std::move(clamped.Value);
-    const KnotVector& knots = side.Space->Knots[static_cast<std::size_t>(d)];
-    const double begin = knots.Begin();
-    const double length = knots.End() - begin;
-    std::vector<double> unit = knots.Knots();
-    for (double& t : unit)
-    {
-      t = t == knots.End() ? 1.0 : (t - begin) / length;
-    }
-    if (const Status status = ReplaceKnots<D>(side, d, unit); !status)
-    {
-      return status;
-    }
-  }
-  return side;
-}
-
 template <int Dim>
 struct Arrangement
 {
   std::array<SideOrigin<Dim>, 2 * Dim> Sides;
   double Gap = std::numeric_limits<double>::infinity();
 };
-
-/// All ways a side can lie: axis permutations and reversals, the given one first.
-template <int Dim>
-std::vector<SideOrigin<Dim>> Orientations()
-{
-  constexpr int D = Dim - 1;
-  std::vector<SideOrigin<Dim>> all;
-  for (int swap = 0; swap < D; ++swap)
-  {
-    for (int flips = 0; flips < (1 << D); ++flips)
-    {
-      SideOrigin<Dim> origin;
-      for (int k = 0; k < D; ++k)
-      {
-        origin.Axis[static_cast<std::size_t>(k)] = swap ? D - 1 - k : k;
-        origin.Reversed[static_cast<std::size_t>(k)] = (flips >> k & 1) != 0;
-      }
-      all.push_back(origin);
-    }
-  }
-  return all;
-}
-
-/// Corner of the given side that lies at corner `corner` of the map's side.
-template <int Dim>
-int GivenCorner(const SideOrigin<Dim>& origin, int corner)
-{
-  int given = 0;
-  for (std::size_t k = 0; k < Dim - 1; ++k)
-  {
-    const bool upper = (corner >> k & 1) != 0;
-    given |= static_cast<int>(upper != origin.Reversed[k]) << origin.Axis[k];
-  }
-  return given;
-}
-
-/// Corner of the map (bit d: the end in direction d) of a corner of its side.
-template <int Dim>
-int MapCorner(int side, int sideCorner)
-{
-  const auto directions = SideDirections<Dim>(side);
-  int corner = (side % 2) << (side / 2);
-  for (std::size_t k = 0; k < Dim - 1; ++k)
-  {
-    corner |= (sideCorner >> k & 1) << directions[k];
-  }
-  return corner;
-}
 
 template <int Dim>
 class Matcher
@@ -452,8 +163,8 @@ Status GapError(const std::array<Spline<Dim - 1>, 2 * Dim>& sides,
             worst = distance;
             detail = "gap of " + NumberText(distance) + " (allowed " + NumberText(tolerance) +
               ") at the corner " + CornerName<Dim>(corner) + " between " +
-              Given(origins[static_cast<std::size_t>(a)].Input) + " and " +
-              Given(origins[static_cast<std::size_t>(b)].Input) + ", near (";
+              GivenSide(origins[static_cast<std::size_t>(a)].Input) + " and " +
+              GivenSide(origins[static_cast<std::size_t>(b)].Input) + ", near (";
             for (int c = 0; c < Dim; ++c)
             {
               detail += (c ? ", " : "") + NumberText(pointA[c]);
@@ -467,28 +178,6 @@ Status GapError(const std::array<Spline<Dim - 1>, 2 * Dim>& sides,
   return { ErrorCode::InvalidTopology, detail };
 }
 
-/// Breaks and multiplicities of one direction over the sides that have it.
-struct CommonKnots
-{
-  int Degree = 1;
-  std::vector<double> Breaks;
-  std::vector<int> Multiplicities;
-};
-
-/// Index of the common break that a value belongs to. @pre it belongs to one
-std::size_t FindBreak(const CommonKnots& common, double value)
-{
-  std::size_t best = 0;
-  for (std::size_t b = 1; b < common.Breaks.size(); ++b)
-  {
-    if (std::abs(common.Breaks[b] - value) < std::abs(common.Breaks[best] - value))
-    {
-      best = b;
-    }
-  }
-  return best;
-}
-
 /// Brings all sides to the same degree and knots in each direction of the map.
 template <int Dim>
 Status MergeKnots(std::array<Spline<Dim - 1>, 2 * Dim>& sides,
@@ -497,7 +186,7 @@ Status MergeKnots(std::array<Spline<Dim - 1>, 2 * Dim>& sides,
   constexpr int D = Dim - 1;
   for (int d = 0; d < Dim; ++d)
   {
-    std::vector<std::pair<std::size_t, int>> users; // side and its direction
+    std::vector<SideDirection<D>> users;
     for (int s = 0; s < 2 * Dim; ++s)
     {
       const auto directions = SideDirections<Dim>(s);
@@ -505,144 +194,19 @@ Status MergeKnots(std::array<Spline<Dim - 1>, 2 * Dim>& sides,
       {
         if (directions[static_cast<std::size_t>(k)] == d)
         {
-          users.emplace_back(static_cast<std::size_t>(s), k);
+          const std::size_t at = static_cast<std::size_t>(s);
+          users.push_back({ &sides[at], k, origins[at].Input });
         }
       }
     }
-    const auto knotsOf = [&](const std::pair<std::size_t, int>& user) -> const KnotVector&
-    { return sides[user.first].Space->Knots[static_cast<std::size_t>(user.second)]; };
-    CommonKnots common;
-    for (const auto& user : users)
+    auto united = UniteKnots<D>(users, 1, 1);
+    if (!united)
     {
-      common.Degree = std::max(common.Degree, knotsOf(user).Degree());
+      return united.Status;
     }
-    std::vector<double> breaks;
-    for (const auto& user : users)
-    {
-      const int times = common.Degree - knotsOf(user).Degree();
-      if (times > 0)
-      {
-        auto elevated = ElevateDegree<D>(sides[user.first], user.second, times);
-        if (!elevated)
-        {
-          return Named(elevated.Status, origins[user.first].Input);
-        }
-        sides[user.first] = std::move(elevated.Value);
-      }
-      breaks.insert(breaks.end(), knotsOf(user).Breaks().begin(), knotsOf(user).Breaks().end());
-    }
-    std::sort(breaks.begin(), breaks.end());
-    for (double b : breaks)
-    {
-      if (common.Breaks.empty() || b - common.Breaks.back() > KnotTolerance)
-      {
-        common.Breaks.push_back(b);
-      }
-    }
-    common.Breaks.back() = 1.0;
-    common.Multiplicities.assign(common.Breaks.size(), 0);
-    for (const auto& user : users) // the sides' own numbers become the common ones
-    {
-      const KnotVector& own = knotsOf(user);
-      std::vector<double> snapped = own.Knots();
-      for (double& t : snapped)
-      {
-        t = common.Breaks[FindBreak(common, t)];
-      }
-      for (std::size_t b = 0; b < common.Breaks.size(); ++b)
-      {
-        common.Multiplicities[b] = std::max(common.Multiplicities[b],
-          static_cast<int>(std::count(snapped.begin(), snapped.end(), common.Breaks[b])));
-      }
-      if (const Status status = ReplaceKnots<D>(sides[user.first], user.second, snapped); !status)
-      {
-        return Named(status, origins[user.first].Input);
-      }
-    }
-    for (const auto& user : users)
-    {
-      std::vector<double> missing;
-      const std::vector<double> present = knotsOf(user).Knots();
-      for (std::size_t b = 0; b < common.Breaks.size(); ++b)
-      {
-        const auto count = std::count(present.begin(), present.end(), common.Breaks[b]);
-        missing.insert(missing.end(),
-          static_cast<std::size_t>(common.Multiplicities[b]) - static_cast<std::size_t>(count),
-          common.Breaks[b]);
-      }
-      if (!missing.empty())
-      {
-        auto inserted = InsertKnots<D>(sides[user.first], user.second, missing);
-        if (!inserted)
-        {
-          return Named(inserted.Status, origins[user.first].Input);
-        }
-        sides[user.first] = std::move(inserted.Value);
-      }
-    }
-    knots[static_cast<std::size_t>(d)] = knotsOf(users.front());
+    knots[static_cast<std::size_t>(d)] = std::move(united.Value);
   }
   return {};
-}
-
-/// Numerator and denominator of a curve on [0, 1] times the linear function from 1 to ratio: the
-/// same points at the same parameters, one degree more.
-/// Homogeneous, so a polynomial curve of three components goes in and out.
-Result<Spline<1>> TimesLinear(const Spline<1>& curve, double ratio)
-{
-  Spline<1> homogeneous;
-  homogeneous.Space = curve.Space;
-  homogeneous.ControlPoints = curve.HomogeneousPoints();
-  auto elevated = ElevateDegree<1>(homogeneous, 0, 1);
-  if (!elevated)
-  {
-    return elevated.Status;
-  }
-  const BezierForm<1> low = MakeBezierForm<1>(homogeneous, 1);
-  BezierForm<1> high = MakeBezierForm<1>(elevated.Value, 1);
-  const int p = curve.Space->Knots[0].Degree();
-  for (int e = 0; e < curve.Space->NumElements(); ++e)
-  {
-    const auto& box = curve.Space->Elements[static_cast<std::size_t>(e)].Box;
-    const std::vector<double> factor{ 1.0 + (ratio - 1.0) * box.Lower[0],
-      1.0 + (ratio - 1.0) * box.Upper[0] };
-    for (int c = 0; c < low.NumComponents; ++c)
-    {
-      const double* block = low.Block(e) + c * (p + 1);
-      const std::vector<double> product =
-        BernsteinProduct<1>({ p }, std::vector<double>(block, block + p + 1), { 1 }, factor);
-      std::copy(product.begin(), product.end(), high.Block(e) + c * (p + 2));
-    }
-  }
-  auto recovered = RecoverSpline<1>(high);
-  if (!recovered)
-  {
-    return recovered.Status;
-  }
-  Spline<1> result;
-  result.Space = recovered.Value.Space;
-  result.SetHomogeneousPoints(recovered.Value.ControlPoints, true);
-  if (!(result.Weights.minCoeff() > 0.0))
-  {
-    return { ErrorCode::InvalidWeight,
-      "weights at the corners fit no common map: the product with a linear function has a weight "
-      "that is not positive" };
-  }
-  return result;
-}
-
-template <int D>
-void MakeRational(Spline<D>& side)
-{
-  if (!side.IsRational())
-  {
-    side.Weights = Eigen::VectorXd::Ones(side.Space->NumFunctions);
-  }
-}
-
-bool SameWeight(double a, double b)
-{
-  return std::abs(a - b) <= WeightTolerance * std::max(a, b);
 }
 
 /// Weights of curves that meet become equal at the corners.
@@ -663,7 +227,7 @@ Status MatchWeights(std::array<Spline<1>, 4>& sides, const std::array<SideOrigin
     auto product = TimesLinear(sides[1], end(3) / end(1));
     if (!product)
     {
-      return Named(product.Status, origins[1].Input);
+      return NamedSide(product.Status, origins[1].Input);
     }
     sides[1] = std::move(product.Value);
   }
@@ -735,8 +299,8 @@ Status ShareRows(CompatibleBoundary<Dim>& boundary, double tolerance)
         const double gap = (side.ControlPoints.row(i) - other.ControlPoints.row(j)).norm();
         boundary.LargestGap = std::max(boundary.LargestGap, gap);
         const std::string where = "along the edge between " +
-          Given(boundary.Origins[static_cast<std::size_t>(o)].Input) + " (" + SideName<Dim>(o) +
-          ") and " + Given(boundary.Origins[static_cast<std::size_t>(s)].Input) + " (" +
+          GivenSide(boundary.Origins[static_cast<std::size_t>(o)].Input) + " (" + SideName<Dim>(o) +
+          ") and " + GivenSide(boundary.Origins[static_cast<std::size_t>(s)].Input) + " (" +
           SideName<Dim>(s) + ")";
         if (!(gap <= tolerance))
         {
@@ -807,10 +371,10 @@ Result<CompatibleBoundary<Dim>> MakeCompatible(
   double height = 0.0;
   for (std::size_t s = 0; s < NumSides; ++s)
   {
-    auto prepared = Prepared<Dim>(boundary.Sides[s]);
+    auto prepared = PreparedSide<Dim>(boundary.Sides[s]);
     if (!prepared)
     {
-      return Named(prepared.Status, static_cast<int>(s));
+      return NamedSide(prepared.Status, static_cast<int>(s));
     }
     given[s] = std::move(prepared.Value);
     lower = lower.cwiseMin(given[s].ControlPoints.colwise().minCoeff());
@@ -822,7 +386,7 @@ Result<CompatibleBoundary<Dim>> MakeCompatible(
     if (points.cols() > Dim && ((points.col(Dim).array() != height).any()))
     {
       return { ErrorCode::DimensionMismatch,
-        Given(static_cast<int>(s)) + ": the curves do not lie in one plane of constant z" };
+        GivenSide(static_cast<int>(s)) + ": the curves do not lie in one plane of constant z" };
     }
   }
   CompatibleBoundary<Dim> result;

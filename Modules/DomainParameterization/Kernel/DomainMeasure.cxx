@@ -45,45 +45,48 @@ void Integrate(const Spline<D>& side, int extraPoints, const Body& body)
 }
 }
 
-// The reference point keeps cancellation small for domains far from the origin.
 template <>
-double SignedMeasure<2>(const std::array<Spline<1>, 4>& sides)
+void AddSideMeasure<2>(
+  const Spline<1>& side, int number, const Eigen::RowVector2d& origin, double& sum)
 {
-  const Eigen::RowVector2d origin = sides[0].ControlPoints.row(0);
   constexpr double signs[4] = { -1.0, 1.0, 1.0, -1.0 }; // counter-clockwise along the sides
-  double area = 0.0;
-  for (std::size_t s = 0; s < 4; ++s)
-  {
-    Integrate<1>(sides[s], sides[s].IsRational() ? 12 : 0,
-      [&](const auto& point, const auto& tangent, double weight)
-      {
-        const double x = point[0] - origin[0];
-        const double y = point[1] - origin[1];
-        area += 0.5 * signs[s] * weight * (x * tangent[1] - y * tangent[0]);
-      });
-  }
-  return area;
+  Integrate<1>(side, side.IsRational() ? 12 : 0,
+    [&](const auto& point, const auto& tangent, double weight)
+    {
+      const double x = point[0] - origin[0];
+      const double y = point[1] - origin[1];
+      sum += 0.5 * signs[number] * weight * (x * tangent[1] - y * tangent[0]);
+    });
 }
 
 template <>
-double SignedMeasure<3>(const std::array<Spline<2>, 6>& sides)
+void AddSideMeasure<3>(
+  const Spline<2>& side, int number, const Eigen::RowVector3d& origin, double& sum)
 {
-  const Eigen::RowVector3d origin = sides[0].ControlPoints.row(0);
   // the product of a side's derivatives in increasing directions points outward at u = 1, w = 1
   // and inward at v = 1
   constexpr double signs[6] = { -1.0, 1.0, 1.0, -1.0, -1.0, 1.0 };
-  double volume = 0.0;
-  for (std::size_t s = 0; s < 6; ++s)
-  {
-    Integrate<2>(sides[s], sides[s].IsRational() ? 12 : 0,
-      [&](const auto& point, const auto& first, double weight)
-      {
-        const Eigen::RowVector3d a(first[0], first[1], first[2]);
-        const Eigen::RowVector3d b(first[3], first[4], first[5]);
-        const Eigen::RowVector3d x = Eigen::RowVector3d(point[0], point[1], point[2]) - origin;
-        volume += signs[s] * weight / 3.0 * x.dot(a.cross(b));
-      });
-  }
-  return volume;
+  Integrate<2>(side, side.IsRational() ? 12 : 0,
+    [&](const auto& point, const auto& first, double weight)
+    {
+      const Eigen::RowVector3d a(first[0], first[1], first[2]);
+      const Eigen::RowVector3d b(first[3], first[4], first[5]);
+      const Eigen::RowVector3d x = Eigen::RowVector3d(point[0], point[1], point[2]) - origin;
+      sum += signs[number] * weight / 3.0 * x.dot(a.cross(b));
+    });
 }
+
+template <int Dim>
+double SignedMeasure(const std::array<Spline<Dim - 1>, 2 * Dim>& sides)
+{
+  double measure = 0.0;
+  for (std::size_t s = 0; s < 2 * Dim; ++s)
+  {
+    AddSideMeasure<Dim>(sides[s], static_cast<int>(s), sides[0].ControlPoints.row(0), measure);
+  }
+  return measure;
+}
+
+template double SignedMeasure<2>(const std::array<Spline<1>, 4>&);
+template double SignedMeasure<3>(const std::array<Spline<2>, 6>&);
 }

@@ -112,26 +112,23 @@ struct BoundaryFold
   std::string Message; ///< one sentence with the place and the given sides' numbers
 };
 
-template <int Dim>
-struct DomainParameterization
+/// What a parameterization says of its result.
+struct DomainReport
 {
-  Spline<Dim> Map; ///< Dim components, on [0, 1]^Dim
-  Spline<Dim> InitialMap;
-  CompatibleBoundary<Dim> Boundary;
-  JacobianCertificate Certificate; ///< of Map: verdict, bounds, witnesses
+  JacobianCertificate Certificate; ///< of the map: verdict, bounds, witnesses
   /// Proved bounds of the smallest and largest det J of the map from the unit square (cube); the
   /// certificate's own numbers are per element with respect to local parameters.
   double MinDetLower = 0.0;
   double MinDetUpper = 0.0;
   double MaxDetLower = 0.0;
   double MaxDetUpper = 0.0;
-  DomainMetrics Metrics;        ///< of Map
-  DomainMetrics InitialMetrics; ///< of InitialMap; Samples = 0: not asked for
+  DomainMetrics Metrics;        ///< of the map
+  DomainMetrics InitialMetrics; ///< of the first map; Samples = 0: not asked for
   std::vector<DomainIteration> History;
   int Iterations = 0;  ///< over all stages
   int Evaluations = 0; ///< of functionals, over all stages
   bool WeightsOptimized = false;
-  int Refinements = 0; ///< rounds of local refinement that were made
+  int Refinements = 0; ///< rounds of refinement that were made
   InitialMapMethod UsedInitialMap = InitialMapMethod::Coons;
   std::vector<BoundaryFold> Folds; ///< empty unless the boundary makes a valid map impossible
   /// What a stage failed at, one sentence each, those of Folds first; empty when the map is valid.
@@ -141,6 +138,14 @@ struct DomainParameterization
   double SecondsCertificate = 0.0;
   double SecondsMetrics = 0.0;
   bool IsImpossible() const { return !this->Folds.empty(); }
+};
+
+template <int Dim>
+struct DomainParameterization : DomainReport
+{
+  Spline<Dim> Map; ///< Dim components, on [0, 1]^Dim
+  Spline<Dim> InitialMap;
+  CompatibleBoundary<Dim> Boundary;
 };
 
 /// Spline map of the unit square (cube) onto the domain that four curves (six faces) enclose. The

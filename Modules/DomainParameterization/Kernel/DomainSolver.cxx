@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DomainSolver.h"
 
-#include "HierarchicalSpace.h"
+#include "FastLaplacian.h"
+#include "GluedSystem.h"
 #include "NewtonSystem.h"
 
 #include <cmath>
@@ -18,105 +19,109 @@ constexpr double LargestLogarithm = 4.6;
 }
 
 template <int Dim>
-std::vector<bool> FixedFunctions(const SplineSpace<Dim>& space)
+DomainSolver<Dim>::DomainSolver(const GluedMap<Dim>& map, double area, const DomainParams& params)
+  : Params(params), NumFunctions(map.NumFunctions()), Scale(std::pow(area, 1.0 / Dim))
 {
-  std::vector<bool> fixed(static_cast<std::size_t>(space.NumFunctions));
-  const auto functions = DescribeFunctions<Dim>(space);
-  // numbers of functions of the level grids: a knot more in the middle of every element
-  for (std::size_t i = 0; i < fixed.size(); ++i)
+  this->Center = GluedPoints<Dim>(map).colwise().mean();
+  bool tensor = true;
+  for (const Spline<Dim>& patch : map.Patches)
   {
-    for (std::size_t d = 0; d < Dim; ++d)
-    {
-      const KnotVector& knots = space.Knots[d];
-      const std::int64_t grown =
-        (std::int64_t(1) << functions[i].Level) * knots.NumElements() - knots.NumElements();
-      const std::int64_t last = knots.NumFunctions() + grown - 1;
-      fixed[i] = fixed[i] || functions[i].Index[d] == 0 || functions[i].Index[d] == last;
-    }
+    tensor = tensor && patch.Space->Kind == SpaceKind::Tensor;
   }
-  return fixed;
-}
-
-template <int Dim>
-DomainSolver<Dim>::DomainSolver(const Spline<Dim>& map, double area, const DomainParams& params)
-  : Params(params), Area(area), Scale(std::pow(area, 1.0 / Dim))
-{
-  this->Center = map.ControlPoints.colwise().mean();
-  this->Current = map;
-  const std::vector<bool> fixed = FixedFunctions<Dim>(*map.Space);
-  for (std::size_t i = 0; i < fixed.size(); ++i)
+  for (std::size_t i = 0; i < map.Fixed.size(); ++i)
   {
-    if (!fixed[i])
+    if (!map.Fixed[i])
     {
       this->Free.push_back(static_cast<int>(i));
     }
   }
   this->SetMap(map);
-  this->SetQuadrature(std::vector<int>(map.Space->Elements.size(), 0));
-  if (map.Space->Kind == SpaceKind::Tensor)
+  this->SetQuadrature(std::vector<int>(static_cast<std::size_t>(map.NumElements()), 0));
+  if (tensor && map.Patches.size() == 1)
   {
-    this->Laplacian = std::make_unique<FastLaplacian<Dim>>(map.Space->Knots);
+    this->Precondition = [laplacian = FastLaplacian<Dim>(map.Patches.front().Space->Knots)](
+                           Eigen::VectorXd& planes) mutable { laplacian.Apply(planes); };
+  }
+  else if (tensor)
+  {
+    const auto laplacian = std::make_shared<const GluedSystem<Dim>>(map, GluedOperator::Laplacian);
+    this->Precondition = [laplacian](Eigen::VectorXd& planes) { laplacian->Apply(planes); };
   }
 }
 
 template <int Dim>
-void DomainSolver<Dim>::SetMap(const Spline<Dim>& map)
+void DomainSolver<Dim>::SetMap(const GluedMap<Dim>& map)
 {
   this->Current = map;
-  const int n = map.Space->NumFunctions;
-  this->Planes.resize(static_cast<std::size_t>(Dim * n));
+  const std::size_t n = static_cast<std::size_t>(this->NumFunctions);
+  this->Planes.resize(Dim * n);
   this->PlaneGradients.resize(this->Planes.size());
-  for (int c = 0; c < Dim; ++c)
+  this->Weights.resize(map.IsRational() ? n : 0);
+  this->WeightGradients.resize(this->Weights.size());
+  for (std::size_t p = 0; p < map.Patches.size(); ++p)
   {
-    for (int i = 0; i < n; ++i)
+    const Spline<Dim>& patch = map.Patches[p];
+    for (std::size_t i = 0; i < map.Functions[p].size(); ++i)
     {
-      this->Planes[static_cast<std::size_t>(c * n + i)] =
-        (map.ControlPoints(i, c) - this->Center[c]) / this->Scale;
+      const std::size_t number = static_cast<std::size_t>(map.Functions[p][i]);
+      const Eigen::Index row = static_cast<Eigen::Index>(i);
+      for (int c = 0; c < Dim; ++c)
+      {
+        this->Planes[static_cast<std::size_t>(c) * n + number] =
+          (patch.ControlPoints(row, c) - this->Center[c]) / this->Scale;
+      }
+      if (patch.IsRational())
+      {
+        this->Weights[number] = patch.Weights[row];
+      }
     }
   }
-  this->Weights.assign(map.Weights.data(), map.Weights.data() + map.Weights.size());
-  this->WeightGradients.resize(this->Weights.size());
 }
 
 template <int Dim>
 void DomainSolver<Dim>::SetQuadrature(const std::vector<int>& extra)
 {
-  const SplineSpace<Dim>& space = *this->Current.Space;
-  std::unique_ptr<JacobianField<Dim>> field;
   this->NumPoints.clear();
-  for (std::size_t e = 0; e < extra.size(); ++e)
+  std::vector<std::unique_ptr<JacobianField<Dim>>> fields;
+  for (const Spline<Dim>& patch : this->Current.Patches)
   {
-    int degree = 0;
-    for (int p : space.Elements[e].Degree)
+    const SplineSpace<Dim>& space = *patch.Space;
+    const std::size_t first = this->NumPoints.size();
+    for (const auto& element : space.Elements)
     {
-      degree = std::max(degree, p);
+      int degree = 0;
+      for (int p : element.Degree)
+      {
+        degree = std::max(degree, p);
+      }
+      this->NumPoints.push_back(std::min(64, degree + 1 + extra[this->NumPoints.size()]));
     }
-    this->NumPoints.push_back(std::min(64, degree + 1 + extra[e]));
-  }
-  if (space.Kind == SpaceKind::Tensor)
-  {
+    if (space.Kind != SpaceKind::Tensor)
+    {
+      fields.push_back(MakeElementField<Dim>(space,
+        { this->NumPoints.begin() + static_cast<std::ptrdiff_t>(first), this->NumPoints.end() }));
+      continue;
+    }
     std::array<LinePoints, Dim> lines;
-    int stride = 1;
+    std::size_t stride = 1;
     for (std::size_t d = 0; d < Dim; ++d)
     {
       const KnotVector& knots = space.Knots[d];
       std::vector<int> counts(static_cast<std::size_t>(knots.NumElements()), knots.Degree() + 1);
-      for (std::size_t e = 0; e < extra.size(); ++e)
+      for (std::size_t e = 0; e < space.Elements.size(); ++e)
       {
-        int& count = counts[e / static_cast<std::size_t>(stride) %
-          static_cast<std::size_t>(knots.NumElements())];
-        count = std::max(count, std::min(64, knots.Degree() + 1 + extra[e]));
+        int& count = counts[e / stride % counts.size()];
+        count = std::max(count, std::min(64, knots.Degree() + 1 + extra[first + e]));
       }
-      stride *= knots.NumElements();
+      stride *= counts.size();
       lines[d] = GaussLine(knots, counts);
     }
-    field = MakeTensorField<Dim>(space.Knots, lines);
+    fields.push_back(MakeTensorField<Dim>(space.Knots, lines));
   }
-  else
-  {
-    field = MakeElementField<Dim>(space, this->NumPoints);
-  }
-  this->Functional = std::make_unique<DomainEnergy<Dim>>(std::move(field), space.NumFunctions);
+  std::unique_ptr<JacobianField<Dim>> field = fields.size() == 1
+    ? std::move(fields.front())
+    : MakeGluedField<Dim>(std::move(fields), this->Current.Functions, this->NumFunctions);
+  this->Functional = std::make_unique<DomainEnergy<Dim>>(std::move(field), this->NumFunctions);
 }
 
 template <int Dim>
@@ -148,7 +153,7 @@ double DomainSolver<Dim>::Energy()
 template <int Dim>
 void DomainSolver<Dim>::Gather(Eigen::VectorXd& free) const
 {
-  const std::size_t n = static_cast<std::size_t>(this->Current.Space->NumFunctions);
+  const std::size_t n = static_cast<std::size_t>(this->NumFunctions);
   const std::size_t count = this->Free.size();
   free.resize(static_cast<Eigen::Index>(Dim * count));
   for (std::size_t c = 0; c < Dim; ++c)
@@ -164,7 +169,7 @@ void DomainSolver<Dim>::Gather(Eigen::VectorXd& free) const
 template <int Dim>
 void DomainSolver<Dim>::Scatter(const Eigen::VectorXd& free)
 {
-  const std::size_t n = static_cast<std::size_t>(this->Current.Space->NumFunctions);
+  const std::size_t n = static_cast<std::size_t>(this->NumFunctions);
   const std::size_t count = this->Free.size();
   for (std::size_t c = 0; c < Dim; ++c)
   {
@@ -179,17 +184,27 @@ void DomainSolver<Dim>::Scatter(const Eigen::VectorXd& free)
 template <int Dim>
 void DomainSolver<Dim>::Publish()
 {
-  const int n = this->Current.Space->NumFunctions;
-  for (int i : this->Free)
+  const std::size_t n = static_cast<std::size_t>(this->NumFunctions);
+  for (std::size_t p = 0; p < this->Current.Patches.size(); ++p)
   {
-    for (int c = 0; c < Dim; ++c)
+    Spline<Dim>& patch = this->Current.Patches[p];
+    for (std::size_t i = 0; i < this->Current.Functions[p].size(); ++i)
     {
-      this->Current.ControlPoints(i, c) =
-        this->Center[c] + this->Scale * this->Planes[static_cast<std::size_t>(c * n + i)];
-    }
-    if (this->Current.IsRational())
-    {
-      this->Current.Weights[i] = this->Weights[static_cast<std::size_t>(i)];
+      const std::size_t number = static_cast<std::size_t>(this->Current.Functions[p][i]);
+      const Eigen::Index row = static_cast<Eigen::Index>(i);
+      if (this->Current.Fixed[number])
+      {
+        continue;
+      }
+      for (int c = 0; c < Dim; ++c)
+      {
+        patch.ControlPoints(row, c) =
+          this->Center[c] + this->Scale * this->Planes[static_cast<std::size_t>(c) * n + number];
+      }
+      if (patch.IsRational())
+      {
+        patch.Weights[row] = this->Weights[number];
+      }
     }
   }
 }
@@ -199,7 +214,7 @@ void DomainSolver<Dim>::Minimize(
   DomainStage stage, const Density& density, const MinimizeParams& params, double stopAtMinDet)
 {
   const bool weights = stage == DomainStage::Weights;
-  const std::size_t n = static_cast<std::size_t>(this->Current.Space->NumFunctions);
+  const std::size_t n = static_cast<std::size_t>(this->NumFunctions);
   const std::size_t count = this->Free.size();
   double lastMinDet = 0.0;
   const auto collect = [&](const std::vector<double>& full, std::size_t plane, double* free)
@@ -251,7 +266,7 @@ void DomainSolver<Dim>::Minimize(
     row.Energy = state.Value;
     row.MinDet = lastMinDet;
     row.GradientNorm = state.GradientNorm;
-    row.Functions = this->Current.Space->NumFunctions;
+    row.Functions = this->NumFunctions;
     this->History.push_back(row);
     this->Aborted = this->Aborted || (this->Continue && !this->Continue());
     return !this->Aborted && !(lastMinDet >= stopAtMinDet);
@@ -268,16 +283,10 @@ void DomainSolver<Dim>::Minimize(
   }
   else
   {
-    Preconditioner preconditioner;
-    if (this->Laplacian)
-    {
-      preconditioner = [&](Eigen::VectorXd& v) { this->Laplacian->Apply(v); };
-    }
     this->Gather(x);
     if (this->Params.Optimizer == DomainOptimizer::Newton && density.Kind != DensityKind::Relu)
     {
-      const SplineSpace<Dim>& space = *this->Current.Space;
-      NewtonSystem<Dim> system(space, this->NumPoints, this->Free, this->Current.Weights);
+      NewtonSystem<Dim> system(this->Current, this->NumPoints, this->Free);
       const NewtonStep newton =
         [&](const Eigen::VectorXd& at, const Eigen::VectorXd& gradient, Eigen::VectorXd& step)
       {
@@ -289,7 +298,7 @@ void DomainSolver<Dim>::Minimize(
     }
     else
     {
-      result = MinimizeLbfgs(x, ofPoints, params, preconditioner, hook);
+      result = MinimizeLbfgs(x, ofPoints, params, this->Precondition, hook);
     }
     this->Scatter(x);
   }
@@ -314,7 +323,7 @@ bool DomainSolver<Dim>::RemoveFolds()
       break;
   }
   // small folds go fast with the first, large ones safely with the second
-  const Spline<Dim> start = this->Current;
+  const GluedMap<Dim> start = this->Current;
   if (this->UnfoldRelu(4, 60))
   {
     return true;
@@ -378,8 +387,11 @@ void DomainSolver<Dim>::MakeRational()
 {
   if (this->Weights.empty())
   {
-    Spline<Dim> map = this->Current;
-    map.Weights = Eigen::VectorXd::Ones(map.Space->NumFunctions);
+    GluedMap<Dim> map = this->Current;
+    for (Spline<Dim>& patch : map.Patches)
+    {
+      patch.Weights = Eigen::VectorXd::Ones(patch.Space->NumFunctions);
+    }
     this->SetMap(map);
   }
 }
@@ -427,8 +439,6 @@ bool DomainSolver<Dim>::RemoveFoldsWithWeights()
   return minDet > 0.0;
 }
 
-template std::vector<bool> FixedFunctions<2>(const SplineSpace<2>&);
-template std::vector<bool> FixedFunctions<3>(const SplineSpace<3>&);
 template class DomainSolver<2>;
 template class DomainSolver<3>;
 }

@@ -2,7 +2,7 @@
 #pragma once
 #include "DomainEnergy.h"
 #include "DomainParameterization.h"
-#include "FastLaplacian.h"
+#include "GluedMap.h"
 #include "Minimize.h"
 
 namespace knotwork
@@ -14,14 +14,15 @@ class DomainSolver
 {
 public:
   /// @param map  polynomial or rational, the boundary set; its fixed functions are never changed.
-  /// @param area  S > 0.
-  DomainSolver(const Spline<Dim>& map, double area, const DomainParams& params);
+  /// @param area  S > 0, a patch.
+  DomainSolver(const GluedMap<Dim>& map, double area, const DomainParams& params);
 
-  const Spline<Dim>& Map() const { return this->Current; }
-  void SetMap(const Spline<Dim>& map);
+  const GluedMap<Dim>& Map() const { return this->Current; }
+  /// @pre the spaces and numbers are those of the first map.
+  void SetMap(const GluedMap<Dim>& map);
 
-  /// Gauss points a direction: degree + 1 + extra[e] on element e; the rows and columns of such
-  /// elements get them too on tensor-product spaces.
+  /// Gauss points a direction: degree + 1 + extra[e] on element e (patch after patch); the rows and
+  /// columns of such elements get them too on tensor-product spaces.
   void SetQuadrature(const std::vector<int>& extra);
 
   /// At the quadrature points, over S.
@@ -56,8 +57,8 @@ private:
   void MakeRational();
 
   const DomainParams& Params;
-  Spline<Dim> Current;
-  double Area;
+  GluedMap<Dim> Current;
+  int NumFunctions;
   double Scale;
   Eigen::Matrix<double, 1, Dim> Center;
   std::vector<int> NumPoints;                 ///< Gauss points a direction of each element
@@ -65,10 +66,6 @@ private:
   std::vector<double> Planes, PlaneGradients; ///< scaled control points
   std::vector<double> Weights, WeightGradients;
   std::unique_ptr<DomainEnergy<Dim>> Functional;
-  std::unique_ptr<FastLaplacian<Dim>> Laplacian;
+  Preconditioner Precondition;
 };
-
-/// Functions that the boundary of the domain needs, for tensor-product and hierarchical spaces.
-template <int Dim>
-std::vector<bool> FixedFunctions(const SplineSpace<Dim>& space);
 }

@@ -78,7 +78,7 @@ void CoonsColumn(const SplineSpace<Dim>& space, Column&& values)
       }
       double sum = 0.0;
       // base 3 digits: 0 own index, 1 lower end, 2 upper end; not all own
-      constexpr int numTerms = Dim == 2 ? 9 : 27;
+      constexpr int numTerms = Dim == 1 ? 3 : Dim == 2 ? 9 : 27;
       for (int term = 1; term < numTerms; ++term)
       {
         double factor = -1.0;
@@ -237,7 +237,7 @@ Spline<Dim> MapOfBoundary(const CompatibleBoundary<Dim>& boundary)
 template <int Dim>
 void FillCoons(Spline<Dim>& map)
 {
-  for (int c = 0; c < Dim; ++c)
+  for (int c = 0; c < map.NumComponents(); ++c)
   {
     CoonsColumn<Dim>(*map.Space, map.ControlPoints.col(c));
   }
@@ -359,6 +359,8 @@ Status FillHarmonic(Spline<Dim>& map)
   template void FillCoons<Dim>(Spline<Dim>&);                                                      \
   template Status FillSpring<Dim>(Spline<Dim>&);                                                   \
   template Status FillHarmonic<Dim>(Spline<Dim>&);
+template std::vector<bool> BoundaryFunctions<1>(const SplineSpace<1>&);
+template void FillCoons<1>(Spline<1>&);
 KNOTWORK_INSTANTIATE(2)
 KNOTWORK_INSTANTIATE(3)
 #undef KNOTWORK_INSTANTIATE

@@ -16,7 +16,8 @@ std::vector<bool> BoundaryFunctions(const SplineSpace<Dim>& space);
 // Map: as MapOfBoundary makes it.
 
 /// Boolean sum at the Greville abscissae, I - prod (I - L_k) with L_k the linear interpolation
-/// between opposite sides; weights alike by their logarithms. Reproduces multilinear maps.
+/// between opposite sides; weights alike by their logarithms. Reproduces multilinear maps. Also of
+/// curves (linear between the ends) and of surfaces in space.
 template <int Dim>
 void FillCoons(Spline<Dim>& map);
 

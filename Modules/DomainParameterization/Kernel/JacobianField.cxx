@@ -455,6 +455,70 @@ private:
   std::vector<double> Weights, Padding;
   std::vector<double> Fields, FieldGradients;
 };
+
+/// Gathers for every field and adds its gradients.
+template <int Dim>
+class GluedField final : public JacobianField<Dim>
+{
+public:
+  GluedField(std::vector<std::unique_ptr<JacobianField<Dim>>> fields,
+    std::vector<std::vector<int>> numbers, int numFunctions)
+    : Fields(std::move(fields)), Numbers(std::move(numbers)), NumFunctions(numFunctions)
+  {
+  }
+
+  int NumPoints() const override
+  {
+    int total = 0;
+    for (const auto& field : this->Fields)
+    {
+      total += field->NumPoints();
+    }
+    return total;
+  }
+
+  void Visit(const double* coefficients, double* gradient, int numPlanes, bool values,
+    RowBody& body) override
+  {
+    if (gradient)
+    {
+      std::fill_n(gradient, numPlanes * this->NumFunctions, 0.0);
+    }
+    for (std::size_t p = 0; p < this->Fields.size(); ++p)
+    {
+      const std::vector<int>& numbers = this->Numbers[p];
+      const std::size_t n = numbers.size();
+      this->Own.resize(n * static_cast<std::size_t>(numPlanes));
+      this->OwnGradient.resize(gradient ? this->Own.size() : 0);
+      for (int c = 0; c < numPlanes; ++c)
+      {
+        const double* from = coefficients + c * this->NumFunctions;
+        double* to = this->Own.data() + static_cast<std::size_t>(c) * n;
+        for (std::size_t i = 0; i < n; ++i)
+        {
+          to[i] = from[numbers[i]];
+        }
+      }
+      this->Fields[p]->Visit(
+        this->Own.data(), gradient ? this->OwnGradient.data() : nullptr, numPlanes, values, body);
+      for (int c = 0; gradient && c < numPlanes; ++c)
+      {
+        const double* from = this->OwnGradient.data() + static_cast<std::size_t>(c) * n;
+        double* to = gradient + c * this->NumFunctions;
+        for (std::size_t i = 0; i < n; ++i)
+        {
+          to[numbers[i]] += from[i];
+        }
+      }
+    }
+  }
+
+private:
+  std::vector<std::unique_ptr<JacobianField<Dim>>> Fields;
+  std::vector<std::vector<int>> Numbers;
+  int NumFunctions = 0;
+  std::vector<double> Own, OwnGradient;
+};
 }
 
 LinePoints GaussLine(const KnotVector& knots, const std::vector<int>& numPoints)
@@ -505,6 +569,14 @@ std::unique_ptr<JacobianField<Dim>> MakeElementField(
   return std::make_unique<ElementField<Dim>>(space, numPoints);
 }
 
+template <int Dim>
+std::unique_ptr<JacobianField<Dim>> MakeGluedField(
+  std::vector<std::unique_ptr<JacobianField<Dim>>> fields, std::vector<std::vector<int>> numbers,
+  int numFunctions)
+{
+  return std::make_unique<GluedField<Dim>>(std::move(fields), std::move(numbers), numFunctions);
+}
+
 template std::unique_ptr<JacobianField<2>> MakeTensorField<2>(
   const std::array<KnotVector, 2>&, const std::array<LinePoints, 2>&);
 template std::unique_ptr<JacobianField<3>> MakeTensorField<3>(
@@ -513,4 +585,8 @@ template std::unique_ptr<JacobianField<2>> MakeElementField<2>(
   const SplineSpace<2>&, const std::vector<int>&);
 template std::unique_ptr<JacobianField<3>> MakeElementField<3>(
   const SplineSpace<3>&, const std::vector<int>&);
+template std::unique_ptr<JacobianField<2>> MakeGluedField<2>(
+  std::vector<std::unique_ptr<JacobianField<2>>>, std::vector<std::vector<int>>, int);
+template std::unique_ptr<JacobianField<3>> MakeGluedField<3>(
+  std::vector<std::unique_ptr<JacobianField<3>>>, std::vector<std::vector<int>>, int);
 }

@@ -74,4 +74,11 @@ std::unique_ptr<JacobianField<Dim>> MakeTensorField(
 template <int Dim>
 std::unique_ptr<JacobianField<Dim>> MakeElementField(
   const SplineSpace<Dim>& space, const std::vector<int>& numPoints);
+
+/// Fields side by side that share coefficients: coefficient i of field p is number numbers[p][i] of
+/// numFunctions.
+template <int Dim>
+std::unique_ptr<JacobianField<Dim>> MakeGluedField(
+  std::vector<std::unique_ptr<JacobianField<Dim>>> fields, std::vector<std::vector<int>> numbers,
+  int numFunctions);
 }

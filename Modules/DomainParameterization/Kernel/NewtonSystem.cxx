@@ -89,20 +89,33 @@ double Determinant(const Eigen::Matrix<double, Dim * Dim, 1>& j,
 }
 
 template <int Dim>
-NewtonSystem<Dim>::NewtonSystem(const SplineSpace<Dim>& space, const std::vector<int>& numPoints,
-  const std::vector<int>& free, const Eigen::VectorXd& weights)
-  : NumFunctions(space.NumFunctions), NumFree(static_cast<int>(free.size()))
+NewtonSystem<Dim>::NewtonSystem(
+  const GluedMap<Dim>& map, const std::vector<int>& numPoints, const std::vector<int>& free)
+  : NumFunctions(map.NumFunctions()), NumFree(static_cast<int>(free.size()))
 {
-  std::vector<int> unknown(static_cast<std::size_t>(space.NumFunctions), -1);
+  std::vector<int> unknown(static_cast<std::size_t>(this->NumFunctions), -1);
   for (std::size_t k = 0; k < free.size(); ++k)
   {
     unknown[static_cast<std::size_t>(free[k])] = static_cast<int>(k);
   }
+  const int* points = numPoints.data();
+  for (std::size_t p = 0; p < map.Patches.size(); ++p)
+  {
+    const Spline<Dim>& patch = map.Patches[p];
+    this->AddPatch(*patch.Space, points, patch.Weights, map.Functions[p], unknown);
+    points += patch.Space->NumElements();
+  }
+}
+
+template <int Dim>
+void NewtonSystem<Dim>::AddPatch(const SplineSpace<Dim>& space, const int* numPoints,
+  const Eigen::VectorXd& weights, const std::vector<int>& numbers, const std::vector<int>& unknown)
+{
   FunctionValues basis;
   for (int e = 0; e < space.NumElements(); ++e)
   {
     IntArray<Dim> counts;
-    counts.fill(numPoints[static_cast<std::size_t>(e)]);
+    counts.fill(numPoints[e]);
     const ElementQuadrature<Dim> rule = MakeElementQuadrature<Dim>(counts);
     const auto& box = space.Elements[static_cast<std::size_t>(e)].Box;
     double volume = 1.0;
@@ -118,12 +131,13 @@ NewtonSystem<Dim>::NewtonSystem(const SplineSpace<Dim>& space, const std::vector
         space, e, rule.Local.row(q).data(), 1, weights.size() > 0 ? &weights : nullptr, basis);
       if (q == 0)
       {
-        block.Functions = basis.Functions;
         block.Slopes.resize(
           static_cast<Eigen::Index>(Dim * basis.Functions.size()), rule.Local.rows());
         for (int f : basis.Functions)
         {
-          block.Unknowns.push_back(unknown[static_cast<std::size_t>(f)]);
+          const int number = numbers[static_cast<std::size_t>(f)];
+          block.Functions.push_back(number);
+          block.Unknowns.push_back(unknown[static_cast<std::size_t>(number)]);
         }
       }
       for (Eigen::Index f = 0; f < basis.Values.rows(); ++f)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "DomainEnergy.h"
+#include "GluedMap.h"
 #include "Minimize.h"
-#include "Spline.h"
 
 #include <Eigen/SparseCholesky>
 
@@ -15,10 +15,10 @@ template <int Dim>
 class NewtonSystem
 {
 public:
-  /// @param numPoints  Gauss points a direction of each element.
-  /// @param weights  NumFunctions, or empty.
-  NewtonSystem(const SplineSpace<Dim>& space, const std::vector<int>& numPoints,
-    const std::vector<int>& free, const Eigen::VectorXd& weights);
+  /// @param map  spaces, numbers and weights; its control points are not looked at.
+  /// @param numPoints  Gauss points a direction of each element, patch after patch.
+  NewtonSystem(
+    const GluedMap<Dim>& map, const std::vector<int>& numPoints, const std::vector<int>& free);
 
   /// @param points  Dim planes of NumFunctions coordinates, as DomainEnergy takes them.
   /// @param project  the Hessian of every quadrature point is replaced by the nearest positive
@@ -33,6 +33,9 @@ public:
   bool Solve(const Eigen::VectorXd& right, Eigen::VectorXd& step);
 
 private:
+  void AddPatch(const SplineSpace<Dim>& space, const int* numPoints, const Eigen::VectorXd& weights,
+    const std::vector<int>& numbers, const std::vector<int>& unknown);
+
   struct Block
   {
     std::vector<int> Functions;

@@ -81,8 +81,9 @@ public:
     metrics.MinDetOverArea = this->MinDet / area;
     metrics.MaxDetOverArea = this->MaxDet / area;
     metrics.MinScaledJacobian = this->MinScaled;
-    metrics.MeanScaledJacobian = this->SumScaled / this->Count;
-    metrics.MeanConditionNumber = this->SumCondition / std::max(1, this->NumConditions);
+    metrics.MeanScaledJacobian = this->SumScaled / static_cast<double>(this->Count);
+    metrics.MeanConditionNumber =
+      this->SumCondition / static_cast<double>(std::max<std::int64_t>(1, this->NumConditions));
     metrics.NonPositive = this->NonPositive;
     return metrics;
   }
@@ -93,17 +94,16 @@ private:
   double MinScaled = std::numeric_limits<double>::infinity();
   double SumScaled = 0.0;
   double SumCondition = 0.0;
-  int NumConditions = 0;
+  std::int64_t NumConditions = 0;
   int NonPositive = 0;
-  int Count = 0;
+  std::int64_t Count = 0;
 };
 
 template <int Dim>
 class MetricBody final : public RowBody
 {
 public:
-  explicit MetricBody(bool rational) : Rational(rational) {}
-  Collector<Dim> Sums;
+  MetricBody(bool rational, Collector<Dim>& sums) : Rational(rational), Sums(sums) {}
 
   void Row(
     int n, const double* fields, double*, const double*, double, const double* padding) override
@@ -132,7 +132,62 @@ public:
 
 private:
   bool Rational;
+  Collector<Dim>& Sums;
 };
+
+/// All samples of one patch.
+template <int Dim>
+void CollectPatch(const Spline<Dim>& map, int samples, Collector<Dim>& sums)
+{
+  if (map.Space->Kind == SpaceKind::Tensor)
+  {
+    std::array<LinePoints, Dim> lines;
+    for (std::size_t d = 0; d < Dim; ++d)
+    {
+      lines[d] = UniformLine(map.Space->Knots[d], samples);
+    }
+    const PointMatrix rows = map.HomogeneousPoints();
+    const Eigen::MatrixXd planes = rows; // by columns
+    MetricBody<Dim> body(map.IsRational(), sums);
+    MakeTensorField<Dim>(map.Space->Knots, lines)
+      ->Visit(planes.data(), nullptr, static_cast<int>(planes.cols()), map.IsRational(), body);
+    return;
+  }
+  const BezierForm<Dim> form = MakeBezierForm<Dim>(map, 1);
+  const ParametricBox<Dim> domain = map.Space->Domain();
+  EvaluationParams params;
+  params.Derivatives = 1;
+  params.Threads = 1;
+  EvaluationBatch batch;
+  PointMatrix line(samples, Dim);
+  const int numLines = Dim == 2 ? samples : samples * samples;
+  for (int l = 0; l < numLines; ++l)
+  {
+    for (int i = 0; i < samples; ++i)
+    {
+      const int index[3] = { i, l % samples, l / samples };
+      for (int d = 0; d < Dim; ++d)
+      {
+        const std::size_t at = static_cast<std::size_t>(d);
+        line(i, d) =
+          domain.Lower[at] + (domain.Upper[at] - domain.Lower[at]) * index[d] / (samples - 1);
+      }
+    }
+    EvaluateParameters<Dim>(form, line, params, batch);
+    for (int i = 0; i < samples; ++i)
+    {
+      std::array<double, Dim * Dim> j;
+      for (int c = 0; c < Dim; ++c)
+      {
+        for (int k = 0; k < Dim; ++k)
+        {
+          j[static_cast<std::size_t>(Dim * c + k)] = batch.First(i, k * Dim + c);
+        }
+      }
+      sums.Add(j);
+    }
+  }
+}
 
 /// First derivatives of a side at points; row: direction 0, direction 1.
 template <int D>
@@ -225,62 +280,19 @@ private:
 }
 
 template <int Dim>
-DomainMetrics MeasureMap(const Spline<Dim>& map, double area, int samples)
+DomainMetrics MeasureMaps(const std::vector<Spline<Dim>>& patches, double area, int samples)
 {
-  if (map.Space->Kind == SpaceKind::Tensor)
-  {
-    std::array<LinePoints, Dim> lines;
-    for (std::size_t d = 0; d < Dim; ++d)
-    {
-      lines[d] = UniformLine(map.Space->Knots[d], samples);
-    }
-    const PointMatrix rows = map.HomogeneousPoints();
-    const Eigen::MatrixXd planes = rows; // by columns
-    MetricBody<Dim> body(map.IsRational());
-    MakeTensorField<Dim>(map.Space->Knots, lines)
-      ->Visit(planes.data(), nullptr, static_cast<int>(planes.cols()), map.IsRational(), body);
-    return body.Sums.Result(area, samples);
-  }
-  const BezierForm<Dim> form = MakeBezierForm<Dim>(map, 1);
-  const ParametricBox<Dim> domain = map.Space->Domain();
-  EvaluationParams params;
-  params.Derivatives = 1;
-  params.Threads = 1;
-  EvaluationBatch batch;
   Collector<Dim> sums;
-  PointMatrix line(samples, Dim);
-  const int numLines = Dim == 2 ? samples : samples * samples;
-  for (int l = 0; l < numLines; ++l)
+  for (const Spline<Dim>& patch : patches)
   {
-    for (int i = 0; i < samples; ++i)
-    {
-      const int index[3] = { i, l % samples, l / samples };
-      for (int d = 0; d < Dim; ++d)
-      {
-        const std::size_t at = static_cast<std::size_t>(d);
-        line(i, d) =
-          domain.Lower[at] + (domain.Upper[at] - domain.Lower[at]) * index[d] / (samples - 1);
-      }
-    }
-    EvaluateParameters<Dim>(form, line, params, batch);
-    for (int i = 0; i < samples; ++i)
-    {
-      std::array<double, Dim * Dim> j;
-      for (int c = 0; c < Dim; ++c)
-      {
-        for (int k = 0; k < Dim; ++k)
-        {
-          j[static_cast<std::size_t>(Dim * c + k)] = batch.First(i, k * Dim + c);
-        }
-      }
-      sums.Add(j);
-    }
+    CollectPatch<Dim>(patch, samples, sums);
   }
   return sums.Result(area, samples);
 }
 
 template <>
-std::vector<BoundaryFold> FindBoundaryFolds<2>(const CompatibleBoundary<2>& boundary)
+std::vector<BoundaryFold> FindBoundaryFolds<2>(
+  const CompatibleBoundary<2>& boundary, const std::array<bool, 4>& given)
 {
   std::vector<BoundaryFold> folds;
   FoldSearch<2> search(boundary);
@@ -295,6 +307,10 @@ std::vector<BoundaryFold> FindBoundaryFolds<2>(const CompatibleBoundary<2>& boun
   {
     const int u = corner & 1;
     const int v = corner >> 1;
+    if (!given[static_cast<std::size_t>(u)] || !given[static_cast<std::size_t>(2 + v)])
+    {
+      continue;
+    }
     Eigen::Matrix2d j;
     j.col(0) = tangents[static_cast<std::size_t>(2 + v)].row(u).transpose();
     j.col(1) = tangents[static_cast<std::size_t>(u)].row(v).transpose();
@@ -307,7 +323,8 @@ std::vector<BoundaryFold> FindBoundaryFolds<2>(const CompatibleBoundary<2>& boun
 }
 
 template <>
-std::vector<BoundaryFold> FindBoundaryFolds<3>(const CompatibleBoundary<3>& boundary)
+std::vector<BoundaryFold> FindBoundaryFolds<3>(
+  const CompatibleBoundary<3>& boundary, const std::array<bool, 6>& given)
 {
   constexpr int perElement = 64;
   std::vector<BoundaryFold> folds;
@@ -333,6 +350,10 @@ std::vector<BoundaryFold> FindBoundaryFolds<3>(const CompatibleBoundary<3>& boun
       const int endB = ends >> 1;
       const int sideA = 2 * a + endA; // holds the edge and direction b
       const int sideB = 2 * b + endB;
+      if (!given[static_cast<std::size_t>(sideA)] || !given[static_cast<std::size_t>(sideB)])
+      {
+        continue;
+      }
       PointMatrix onA(static_cast<Eigen::Index>(samples.size()), 2);
       PointMatrix onB(onA.rows(), 2);
       for (Eigen::Index i = 0; i < onA.rows(); ++i)
@@ -374,6 +395,6 @@ std::vector<BoundaryFold> FindBoundaryFolds<3>(const CompatibleBoundary<3>& boun
   return folds;
 }
 
-template DomainMetrics MeasureMap<2>(const Spline<2>&, double, int);
-template DomainMetrics MeasureMap<3>(const Spline<3>&, double, int);
+template DomainMetrics MeasureMaps<2>(const std::vector<Spline<2>>&, double, int);
+template DomainMetrics MeasureMaps<3>(const std::vector<Spline<3>>&, double, int);
 }

@@ -117,29 +117,45 @@ bool MappedPatch<3>::Step(const double* place, const double* target, const doubl
 {
   using Row = Eigen::RowVector3d;
   using Map = Eigen::Map<const Row>;
-  Row position;
-  double along[6];
-  this->Template.Evaluate(place, position.data(), along);
-  std::array<Row, 2> tangents{ Row::Zero(), Row::Zero() };
-  for (int k = 0; k < 2; ++k)
+  // The minimum of the linear model over the triangle; at edges and corners over the best of the
+  // triangles there.
+  struct Model
   {
-    for (int d = 0; d < 3; ++d)
+    Row Position;
+    double Along[6];
+    Row Tangents[2];
+    TriangleFoot Inside;
+  } best;
+  this->Template.ForTrianglesAt(place,
+    [&](const double* same)
     {
-      tangents[static_cast<std::size_t>(k)] += along[3 * k + d] * Map(first + 3 * d);
-    }
-  }
-  // The minimum of the linear model over the triangle.
-  const int triangle = static_cast<int>(place[0]);
-  const Row a = Map(foot) - place[1] * tangents[0] - place[2] * tangents[1];
-  const Row b = a + tangents[0];
-  const Row c = a + tangents[1];
-  const TriangleFoot inside = ClosestOnTriangle<3>(a.data(), b.data(), c.data(), target, triangle);
+      Model model;
+      this->Template.Evaluate(same, model.Position.data(), model.Along);
+      for (int k = 0; k < 2; ++k)
+      {
+        model.Tangents[k].setZero();
+        for (int d = 0; d < 3; ++d)
+        {
+          model.Tangents[k] += model.Along[3 * k + d] * Map(first + 3 * d);
+        }
+      }
+      const Row a = Map(foot) - same[1] * model.Tangents[0] - same[2] * model.Tangents[1];
+      const Row b = a + model.Tangents[0];
+      const Row c = a + model.Tangents[1];
+      model.Inside =
+        ClosestOnTriangle<3>(a.data(), b.data(), c.data(), target, static_cast<int>(same[0]));
+      if (model.Inside.SquaredDistance < best.Inside.SquaredDistance)
+      {
+        best = model;
+      }
+    });
   const auto write = [](const TriangleFoot& to, double* row)
   {
     row[0] = double(to.Triangle);
     row[1] = to.Second;
     row[2] = to.Third;
   };
+  const TriangleFoot& inside = best.Inside;
   write(inside, clamped);
   write(inside, whole);
   if (inside.Second > 0.0 && inside.Third > 0.0 && inside.Second + inside.Third < 1.0)
@@ -148,19 +164,19 @@ bool MappedPatch<3>::Step(const double* place, const double* target, const doubl
   }
   // The minimum over the plane, carried back to the mesh.
   const Row residual = Map(target) - Map(foot);
-  const double a11 = tangents[0].squaredNorm();
-  const double a12 = tangents[0].dot(tangents[1]);
-  const double a22 = tangents[1].squaredNorm();
+  const double a11 = best.Tangents[0].squaredNorm();
+  const double a12 = best.Tangents[0].dot(best.Tangents[1]);
+  const double a22 = best.Tangents[1].squaredNorm();
   const double determinant = a11 * a22 - a12 * a12;
   if (!(determinant > 1e-12 * a11 * a22))
   {
     return false;
   }
-  const double b1 = residual.dot(tangents[0]);
-  const double b2 = residual.dot(tangents[1]);
+  const double b1 = residual.dot(best.Tangents[0]);
+  const double b2 = residual.dot(best.Tangents[1]);
   const double t1 = (a22 * b1 - a12 * b2) / determinant;
   const double t2 = (a11 * b2 - a12 * b1) / determinant;
-  const Row beyond = position + t1 * Map(along) + t2 * Map(along + 3);
+  const Row beyond = best.Position + t1 * Map(best.Along) + t2 * Map(best.Along + 3);
   const TriangleFoot back = this->Template.Mesh().Nearest(beyond.data());
   if (back.Triangle < 0) // too far away for squared distances
   {

@@ -63,7 +63,8 @@ public:
   /// newtonSteps evaluations for Gauss-Newton steps, (g_k . g_l) dt = (r . g_k) with r = p -
   /// s(ghat(t)) and g_k = d/dt_k s(ghat(t)), clamped to the patch. Dim = 3: ghat(t) + dghat dt is
   /// carried back to the closest point of the mesh, and where that is no better, the step that ends
-  /// inside the triangle is tried. A step to a worse point is not taken.
+  /// inside the triangle is tried; at an edge or corner the triangle is the one that promises most.
+  /// A step to a worse point is not taken.
   /// @param known  places, or 0 rows: nothing is known.
   /// @pre   Update(form).
   /// @source Sajavicius, Juettler, Speh (2018), step 3; squared norms in the system.

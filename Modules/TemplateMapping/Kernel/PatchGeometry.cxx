@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 namespace knotwork
 {
@@ -71,8 +72,28 @@ PointMatrix PatchCurve::FirstPlaces(const SkeletonPatch<2>& target) const
 }
 
 PatchSurface::PatchSurface(const SkeletonPatch<3>& patch)
-  : Index(patch.Points, patch.Simplices), Parameters(patch.Parameters)
+  : Index(patch.Points, patch.Simplices), Parameters(patch.Parameters),
+    Welded(ReplaceCorners(patch.Simplices, FirstOfEqualPoints(patch.Points)))
 {
+  this->RingStart.assign(static_cast<std::size_t>(patch.Points.rows()) + 1, 0);
+  for (const Triangle& t : this->Welded)
+  {
+    for (int corner : t)
+    {
+      ++this->RingStart[static_cast<std::size_t>(corner) + 1];
+    }
+  }
+  std::partial_sum(this->RingStart.begin(), this->RingStart.end(), this->RingStart.begin());
+  this->Rings.resize(3 * this->Welded.size());
+  std::vector<int> next = this->RingStart;
+  for (std::size_t t = 0; t < this->Welded.size(); ++t)
+  {
+    for (int corner : this->Welded[t])
+    {
+      this->Rings[static_cast<std::size_t>(next[static_cast<std::size_t>(corner)]++)] =
+        static_cast<int>(t);
+    }
+  }
 }
 
 void PatchSurface::Evaluate(const double* place, double* point, double* derivatives) const

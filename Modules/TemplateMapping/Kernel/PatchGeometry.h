@@ -67,11 +67,65 @@ public:
   /// Places of the target's parameters in the triangulation of this patch's parameters, closest
   /// ones for those outside; 0 rows when one of the two has none.
   PointMatrix FirstPlaces(const SkeletonPatch<3>& target) const;
+  /// Calls use(place) with the same point as a place of every triangle that has it: the one itself
+  /// inside, two at an edge, a ring at a corner. Points at equal coordinates count as one.
+  template <typename Use>
+  void ForTrianglesAt(const double* place, Use&& use) const;
 
 private:
   TriangleIndex<3> Index;
   PointMatrix Parameters;
+  std::vector<Triangle> Welded; // triangles with the first points of equal ones
+  std::vector<int> RingStart;   // offsets into Rings, an entry a point
+  std::vector<int> Rings;       // triangles around the points
 };
+
+template <typename Use>
+void PatchSurface::ForTrianglesAt(const double* place, Use&& use) const
+{
+  constexpr double Rounding = 1e-14;
+  const Triangle& corners = this->Welded[static_cast<std::size_t>(place[0])];
+  const std::array<double, 3> weights{ 1.0 - place[1] - place[2], place[1], place[2] };
+  std::size_t first = 0; // a corner with a weight
+  int numWeights = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    if (weights[k] > Rounding)
+    {
+      first = k;
+      ++numWeights;
+    }
+  }
+  if (numWeights == 3)
+  {
+    use(place);
+    return;
+  }
+  const auto point = static_cast<std::size_t>(corners[first]);
+  for (int r = this->RingStart[point]; r < this->RingStart[point + 1]; ++r)
+  {
+    const int triangle = this->Rings[static_cast<std::size_t>(r)];
+    const Triangle& others = this->Welded[static_cast<std::size_t>(triangle)];
+    std::array<double, 3> moved{};
+    int found = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      for (std::size_t other = 0; other < 3; ++other)
+      {
+        if (weights[k] > Rounding && others[other] == corners[k])
+        {
+          moved[other] = weights[k];
+          ++found;
+        }
+      }
+    }
+    if (found == numWeights)
+    {
+      const double same[3] = { double(triangle), moved[1], moved[2] };
+      use(same);
+    }
+  }
+}
 
 template <int Dim>
 using PatchGeometry = std::conditional_t<Dim == 2, PatchCurve, PatchSurface>;

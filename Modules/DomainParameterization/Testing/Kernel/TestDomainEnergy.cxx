@@ -322,11 +322,13 @@ void ExpectExactHessian(unsigned seed, DensityKind kind, bool rational)
   {
     free.push_back(static_cast<int>(i));
   }
-  const Eigen::VectorXd w = rational
-    ? Eigen::VectorXd(Eigen::Map<Eigen::VectorXd>(weights.data(), static_cast<Eigen::Index>(n)))
-    : Eigen::VectorXd();
+  Spline<Dim> weighted = identity;
+  if (rational)
+  {
+    weighted.Weights = Eigen::Map<Eigen::VectorXd>(weights.data(), static_cast<Eigen::Index>(n));
+  }
   NewtonSystem<Dim> system(
-    *identity.Space, std::vector<int>(identity.Space->Elements.size(), 3), free, w);
+    SingleMap<Dim>(weighted), std::vector<int>(identity.Space->Elements.size(), 3), free);
   system.Assemble(density, points.data(), false);
   const Eigen::SparseMatrix<double> whole =
     system.Matrix().template selfadjointView<Eigen::Lower>();

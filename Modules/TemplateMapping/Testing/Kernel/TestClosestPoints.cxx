@@ -238,10 +238,12 @@ TEST(ClosestPointsOfSurfaces, AreNoFartherThanAnyDenseSample_CrossOracle)
         EXPECT_NEAR(found.SquaredDistances(i), again.SquaredDistances(i), 1e-15);
         if (steps == 8)
         {
-          // 60000 samples are at most 0.01 apart; the nearest is at most a square of that off.
+          // 60000 samples are at most 0.01 apart; the nearest is at most that off. From 100
+          // samples, one of several local minima at the kinks of the mesh is found, not always the
+          // smallest.
           const double dense =
             (fine.MappedSamples().rowwise() - queries.row(i)).rowwise().squaredNorm().minCoeff();
-          EXPECT_LE(found.SquaredDistances(i), dense + 1e-3);
+          EXPECT_LE(found.SquaredDistances(i), dense + 1e-4);
           EXPECT_GE(std::sqrt(found.SquaredDistances(i)), std::sqrt(dense) - 0.01);
         }
       }

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "DomainParameterization.h"
+#include "GluedMap.h"
+
+namespace knotwork
+{
+/// What domains of one and of several patches differ in.
+template <int Dim>
+class DomainSource
+{
+public:
+  virtual ~DomainSource() = default;
+  /// @param method  not Automatic.
+  virtual Result<GluedMap<Dim>> FirstMap(InitialMapMethod method) = 0;
+  /// The same map in a larger space. @param certificate  of the elements, patch after patch.
+  virtual Result<GluedMap<Dim>> Refine(
+    const GluedMap<Dim>& map, const JacobianCertificate& certificate) = 0;
+};
+
+template <int Dim>
+struct DomainRun
+{
+  GluedMap<Dim> Map;
+  GluedMap<Dim> InitialMap;
+};
+
+/// The options that are numbers lie in their ranges.
+Status CheckParams(const DomainParams& params);
+
+/// Elements of the patches, patch after patch.
+template <int Dim>
+BernsteinCells GluedCells(const GluedMap<Dim>& map, int threads);
+
+/// First map, foldover removal, optimization, certificate, weights, refinement; then the metrics.
+/// @param area  S, of a patch.
+/// @param report  Folds (no optimization makes the map valid when there are some) and their
+///                Messages are looked at, everything else is filled.
+template <int Dim>
+Status RunDomain(DomainSource<Dim>& source, double area, const DomainParams& params,
+  const ProgressCallback& progress, DomainRun<Dim>& run, DomainReport& report);
+}

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "DomainBoundary.h"
+
+#include <string>
+
+/// Private to this module: sides of maps (curves of plane domains, faces of solid ones) as they are
+/// given, and what makes them fit together.
+namespace knotwork
+{
+/// "side 3".
+std::string GivenSide(int input);
+/// A status that names the given side.
+Status NamedSide(const Status& status, int input);
+
+/// Directions of the map that side 2 d + e has: all but d, increasing.
+template <int Dim>
+std::array<int, Dim - 1> SideDirections(int side);
+/// Corner of the map (bit d: the end in direction d) of a corner of its side.
+template <int Dim>
+int MapCorner(int side, int sideCorner);
+/// All ways a side can lie: axis permutations and reversals, the given one first.
+template <int Dim>
+std::vector<SideOrigin<Dim>> Orientations();
+/// Corner of the given side that lies at corner `corner` of the map's side.
+template <int Dim>
+int GivenCorner(const SideOrigin<Dim>& origin, int corner);
+/// Control point of a corner; bit k of corner is the end in direction k.
+template <int D>
+int CornerFunction(const SplineSpace<D>& space, int corner);
+
+/// A given side, checked, with Dim components, clamped on [0, 1]^(Dim - 1), without weights that do
+/// nothing.
+template <int Dim>
+Result<Spline<Dim - 1>> PreparedSide(const Spline<Dim - 1>& given);
+/// The same side with other directions: new direction k is old direction axis[k], run backwards
+/// when reversed[k] (knots t become 1 - t).
+template <int D>
+Spline<D> Reoriented(
+  const Spline<D>& spline, const std::array<int, D>& axis, const std::array<bool, D>& reversed);
+/// As above for one knot vector on [0, 1].
+KnotVector ReversedKnots(const KnotVector& knots);
+
+/// A direction of a side that shares its knots with others.
+template <int D>
+struct SideDirection
+{
+  Spline<D>* Side = nullptr;
+  int Direction = 0;
+  int Input = 0; ///< for messages
+};
+/// Brings prepared sides to one degree, at least minDegree, and the same knots in one direction
+/// each; elements are cut in equal parts until there are at least minElements. Exact up to
+/// rounding; knots closer than 1e-12 are one. @return the common knots. @pre users is not empty.
+template <int D>
+Result<KnotVector> UniteKnots(
+  const std::vector<SideDirection<D>>& users, int minDegree, int minElements);
+
+/// Weights that agree to 1e-10.
+bool SameWeight(double a, double b);
+/// Weights of one where there are none.
+template <int D>
+void MakeRational(Spline<D>& side);
+/// Numerator and denominator of a curve on [0, 1] times the linear function from 1 to ratio: the
+/// same points at the same parameters, one degree more.
+Result<Spline<1>> TimesLinear(const Spline<1>& curve, double ratio);
+}
