@@ -120,6 +120,6 @@ private:
   BoxTree Tree;
   // Dim = 3
   TriangleIndex<Dim> Triangles;
-  std::vector<Triangle> Neighbours;
+  std::vector<MeshTriangle> Neighbours;
 };
 }

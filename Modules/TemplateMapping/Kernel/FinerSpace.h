@@ -11,8 +11,8 @@ namespace knotwork
 /// @return the same space when nothing is to do; failures of RefineBoxes.
 /// @source  Kiss, Giannelli, Zore, Juettler, Grossmann, Barner, Graph. Models 76 (2014) 273-288.
 template <int Dim>
-Result<SplineSpacePtr<Dim>> RefineAround(const SplineSpacePtr<Dim>& space,
-  const PointMatrix& points, int extension, int maxLevel);
+Result<SplineSpacePtr<Dim>> RefineAround(
+  const SplineSpacePtr<Dim>& space, const PointMatrix& points, int extension, int maxLevel);
 
 /// The space with every cell halved in every direction.
 template <int Dim>

@@ -107,8 +107,8 @@ long long NegativePoints(const BezierForm<3>& form, int e, const Grid<3>& grid,
   {
     return 0;
   }
-  const Eigen::Index count = Eigen::Index(last[0] - first[0]) * (last[1] - first[1]) *
-    (last[2] - first[2]);
+  const Eigen::Index count =
+    Eigen::Index(last[0] - first[0]) * (last[1] - first[1]) * (last[2] - first[2]);
   PointMatrix local(count, 3);
   Eigen::Index row = 0;
   IntArray<3> i;
@@ -134,8 +134,7 @@ long long NegativePoints(const BezierForm<3>& form, int e, const Grid<3>& grid,
   for (row = 0; row < count; ++row)
   {
     const Eigen::Map<const Eigen::Matrix3d> jacobian(batch.First.row(row).data());
-    const double size =
-      jacobian.col(0).norm() * jacobian.col(1).norm() * jacobian.col(2).norm();
+    const double size = jacobian.col(0).norm() * jacobian.col(1).norm() * jacobian.col(2).norm();
     negative += jacobian.determinant() < -64.0 * std::numeric_limits<double>::epsilon() * size;
   }
   return negative;

@@ -76,7 +76,7 @@ PatchSurface::PatchSurface(const SkeletonPatch<3>& patch)
     Welded(ReplaceCorners(patch.Simplices, FirstOfEqualPoints(patch.Points)))
 {
   this->RingStart.assign(static_cast<std::size_t>(patch.Points.rows()) + 1, 0);
-  for (const Triangle& t : this->Welded)
+  for (const MeshTriangle& t : this->Welded)
   {
     for (int corner : t)
     {
@@ -111,13 +111,13 @@ void PatchSurface::Evaluate(const double* place, double* point, double* derivati
   }
 }
 
-PointMatrix PatchSurface::SamplePlaces(int count, std::vector<Triangle>& simplices) const
+PointMatrix PatchSurface::SamplePlaces(int count, std::vector<MeshTriangle>& simplices) const
 {
-  const std::vector<Triangle>& mesh = this->Index.Triangles();
+  const std::vector<MeshTriangle>& mesh = this->Index.Triangles();
   const long long numPoints = this->Index.Points().rows();
   const long long numTriangles = static_cast<long long>(mesh.size());
   std::map<std::pair<int, int>, int> edges; // in the order of their first use
-  for (const Triangle& t : mesh)
+  for (const MeshTriangle& t : mesh)
   {
     for (std::size_t k = 0; k < 3; ++k)
     {
@@ -139,7 +139,7 @@ PointMatrix PatchSurface::SamplePlaces(int count, std::vector<Triangle>& simplic
   Eigen::Index next = numPoints + numEdges * (cuts - 1); // first inner sample
   for (std::size_t t = 0; t < mesh.size(); ++t)
   {
-    const Triangle& corners = mesh[t];
+    const MeshTriangle& corners = mesh[t];
     // Row of the sample at (i, j): i steps towards corner 1, j towards corner 2.
     const auto onEdge = [&](int from, int to, int step)
     {

@@ -63,7 +63,7 @@ public:
   /// Places of dense samples and their triangles: the mesh itself for a count of 0, else every
   /// triangle cut into k^2 alike ones, k the smallest number that gives count points. Points on
   /// edges are shared; the mesh's own points come first, in their order.
-  PointMatrix SamplePlaces(int count, std::vector<Triangle>& simplices) const;
+  PointMatrix SamplePlaces(int count, std::vector<MeshTriangle>& simplices) const;
   /// Places of the target's parameters in the triangulation of this patch's parameters, closest
   /// ones for those outside; 0 rows when one of the two has none.
   PointMatrix FirstPlaces(const SkeletonPatch<3>& target) const;
@@ -75,16 +75,16 @@ public:
 private:
   TriangleIndex<3> Index;
   PointMatrix Parameters;
-  std::vector<Triangle> Welded; // triangles with the first points of equal ones
-  std::vector<int> RingStart;   // offsets into Rings, an entry a point
-  std::vector<int> Rings;       // triangles around the points
+  std::vector<MeshTriangle> Welded; // triangles with the first points of equal ones
+  std::vector<int> RingStart;       // offsets into Rings, an entry a point
+  std::vector<int> Rings;           // triangles around the points
 };
 
 template <typename Use>
 void PatchSurface::ForTrianglesAt(const double* place, Use&& use) const
 {
   constexpr double Rounding = 1e-14;
-  const Triangle& corners = this->Welded[static_cast<std::size_t>(place[0])];
+  const MeshTriangle& corners = this->Welded[static_cast<std::size_t>(place[0])];
   const std::array<double, 3> weights{ 1.0 - place[1] - place[2], place[1], place[2] };
   std::size_t first = 0; // a corner with a weight
   int numWeights = 0;
@@ -105,7 +105,7 @@ void PatchSurface::ForTrianglesAt(const double* place, Use&& use) const
   for (int r = this->RingStart[point]; r < this->RingStart[point + 1]; ++r)
   {
     const int triangle = this->Rings[static_cast<std::size_t>(r)];
-    const Triangle& others = this->Welded[static_cast<std::size_t>(triangle)];
+    const MeshTriangle& others = this->Welded[static_cast<std::size_t>(triangle)];
     std::array<double, 3> moved{};
     int found = 0;
     for (std::size_t k = 0; k < 3; ++k)

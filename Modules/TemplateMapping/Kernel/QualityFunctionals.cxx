@@ -490,7 +490,7 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> TruncationMatrix(const SplineSpace<
   template double QualityValue<Dim>(                                                               \
     const SplineSpacePtr<Dim>&, const PointMatrixView&, QualityKind, int);                         \
   template Eigen::SparseMatrix<double, Eigen::RowMajor> QuadraticMatrix<Dim>(                      \
-    const SplineSpace<Dim>&, double, double, int, const std::vector<double>&);                                                 \
+    const SplineSpace<Dim>&, double, double, int, const std::vector<double>&);                     \
   template Eigen::SparseMatrix<double, Eigen::RowMajor> TruncationMatrix<Dim>(                     \
     const SplineSpace<Dim>&)
 KNOTWORK_INSTANTIATE(2);

@@ -49,8 +49,6 @@ Result<Regularity> MeasureRegularity(
   return regularity;
 }
 
-template Result<Regularity> MeasureRegularity(
-  const BezierForm<2>&, double, std::int64_t, int);
-template Result<Regularity> MeasureRegularity(
-  const BezierForm<3>&, double, std::int64_t, int);
+template Result<Regularity> MeasureRegularity(const BezierForm<2>&, double, std::int64_t, int);
+template Result<Regularity> MeasureRegularity(const BezierForm<3>&, double, std::int64_t, int);
 }

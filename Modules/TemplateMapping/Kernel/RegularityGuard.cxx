@@ -37,8 +37,7 @@ template <int Dim>
 std::vector<std::size_t> RegularityGuard<Dim>::Endangered(const Regularity& trial) const
 {
   const std::vector<double>& before = this->Present.MinLower;
-  const double usual =
-    std::accumulate(before.begin(), before.end(), 0.0) / double(before.size());
+  const double usual = std::accumulate(before.begin(), before.end(), 0.0) / double(before.size());
   std::vector<std::size_t> found;
   for (std::size_t e = 0; e < before.size(); ++e)
   {
@@ -77,8 +76,7 @@ Result<std::vector<std::size_t>> RegularityGuard<Dim>::Try(
 template <int Dim>
 Result<typename RegularityGuard<Dim>::Outcome> RegularityGuard<Dim>::Step(FitSystem<Dim>& system,
   const FitSamples<Dim>& samples, const FitWeights& weights, Spline<Dim>& map,
-  BezierForm<Dim>& form, const std::function<double(const PointMatrix& step)>& shorten,
-  bool giveUp)
+  BezierForm<Dim>& form, const std::function<double(const PointMatrix& step)>& shorten, bool giveUp)
 {
   Outcome outcome;
   const double least =
@@ -105,8 +103,8 @@ Result<typename RegularityGuard<Dim>::Outcome> RegularityGuard<Dim>::Step(FitSys
     {
       return endangered.Status;
     }
-    outcome.Held = static_cast<int>(std::count_if(this->Stiffness.begin(), this->Stiffness.end(),
-      [](double value) { return value > 0.0; }));
+    outcome.Held = static_cast<int>(std::count_if(
+      this->Stiffness.begin(), this->Stiffness.end(), [](double value) { return value > 0.0; }));
     if (endangered->empty())
     {
       outcome.Length = length;
@@ -124,8 +122,7 @@ Result<typename RegularityGuard<Dim>::Outcome> RegularityGuard<Dim>::Step(FitSys
   }
   for (outcome.Length = 0.5; outcome.Length >= ShortestStep; outcome.Length *= 0.5)
   {
-    Result<std::vector<std::size_t>> endangered =
-      this->Try(outcome.Length * step, map, form);
+    Result<std::vector<std::size_t>> endangered = this->Try(outcome.Length * step, map, form);
     if (!endangered || endangered->empty())
     {
       return endangered ? Result<Outcome>(outcome) : Result<Outcome>(endangered.Status);

@@ -17,8 +17,8 @@ public:
   /// How a step was taken.
   struct Outcome
   {
-    double Length = 0.0; ///< share of the step; 0: none that is allowed was found
-    int Held = 0;        ///< elements that were held back
+    double Length = 0.0;       ///< share of the step; 0: none that is allowed was found
+    int Held = 0;              ///< elements that were held back
     bool IsEndangered = false; ///< the full step as it came would have been too much
   };
 

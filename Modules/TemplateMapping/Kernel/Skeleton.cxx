@@ -31,7 +31,7 @@ double Length(const PointMatrix& points)
 }
 
 /// Normal of a triangle in space, as long as twice its area.
-Eigen::RowVector3d AreaNormal(const PointMatrix& points, const Triangle& t)
+Eigen::RowVector3d AreaNormal(const PointMatrix& points, const MeshTriangle& t)
 {
   const Eigen::RowVector3d ab = points.row(t[1]) - points.row(t[0]);
   const Eigen::RowVector3d ac = points.row(t[2]) - points.row(t[0]);
@@ -88,7 +88,7 @@ Status CheckExtent(const std::string& name, const SkeletonPatch<3>& patch)
   double area = 0.0;
   for (std::size_t t = 0; t < patch.Simplices.size(); ++t)
   {
-    const Triangle& corners = patch.Simplices[t];
+    const MeshTriangle& corners = patch.Simplices[t];
     for (int corner : corners)
     {
       if (corner < 0 || static_cast<std::size_t>(corner) >= n)
@@ -146,13 +146,13 @@ Status CheckParameters(const std::string& name, const SkeletonPatch<3>& patch)
   {
     return {};
   }
-  const std::vector<Triangle> neighbours = TriangleNeighbours(patch.Simplices);
+  const std::vector<MeshTriangle> neighbours = TriangleNeighbours(patch.Simplices);
   const double rounding =
     1e-14 * (parameters.colwise().maxCoeff() - parameters.colwise().minCoeff()).squaredNorm();
   double area = 0.0;
   for (std::size_t t = 0; t < neighbours.size(); ++t)
   {
-    const Triangle& corners = patch.Simplices[t];
+    const MeshTriangle& corners = patch.Simplices[t];
     const double own = TurnOf(parameters, corners[0], corners[1], corners[2]);
     area += 0.5 * std::abs(own);
     for (std::size_t k = 0; k < 3; ++k)
@@ -162,7 +162,7 @@ Status CheckParameters(const std::string& name, const SkeletonPatch<3>& patch)
         continue;
       }
       const auto other = static_cast<std::size_t>(neighbours[t][k]);
-      const Triangle& back = neighbours[other];
+      const MeshTriangle& back = neighbours[other];
       const auto edge = static_cast<std::size_t>(
         std::find(back.begin(), back.end(), static_cast<int>(t)) - back.begin());
       const double beyond = TurnOf(
@@ -187,7 +187,7 @@ Status CheckParameters(const std::string& name, const SkeletonPatch<3>& patch)
 
 /// Signs that turn the triangles alike across shared edges, 1 for the first of each connected part.
 std::vector<double> AlikeTurns(
-  const std::vector<Triangle>& triangles, const std::vector<Triangle>& neighbours)
+  const std::vector<MeshTriangle>& triangles, const std::vector<MeshTriangle>& neighbours)
 {
   std::vector<double> turns(triangles.size(), 0.0);
   std::vector<std::size_t> front;
@@ -474,7 +474,7 @@ PointMatrix UnitNormals(const SkeletonPatch<3>& patch)
     return patch.Normals.rowwise().normalized();
   }
   const std::vector<int> first = FirstOfEqualPoints(patch.Points);
-  const std::vector<Triangle> triangles = ReplaceCorners(patch.Simplices, first);
+  const std::vector<MeshTriangle> triangles = ReplaceCorners(patch.Simplices, first);
   const std::vector<double> turns = AlikeTurns(triangles, TriangleNeighbours(triangles));
   const Eigen::Index n = patch.Points.rows();
   PointMatrix sums = PointMatrix::Zero(n, 3);
@@ -509,7 +509,7 @@ PointMatrix UnitNormals(const SkeletonPatch<3>& patch)
   for (bool grows = !missing.empty(); grows;)
   {
     PointMatrix next = sums;
-    for (const Triangle& corners : triangles)
+    for (const MeshTriangle& corners : triangles)
     {
       for (std::size_t k = 0; k < 3; ++k)
       {

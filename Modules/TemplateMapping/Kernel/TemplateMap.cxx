@@ -22,9 +22,9 @@ namespace
 /// Of the negative share a direction: a million in all is what papers report.
 template <int Dim>
 constexpr int GridPoints = Dim == 2 ? 1000 : 100;
-constexpr double ResultGap = 0.1;      // of the bounds that are reported
+constexpr double ResultGap = 0.1; // of the bounds that are reported
 constexpr std::int64_t ResultBoxes = 1000000;
-constexpr int Halvings = 10;           // of a step that does not lower what is minimized
+constexpr int Halvings = 10; // of a step that does not lower what is minimized
 /// Factor of the proximal weight after a step that was not in danger, once the map was begun anew,
 /// and the least part of the given weight.
 constexpr double Relaxation = 0.5;
@@ -41,7 +41,8 @@ Status CheckRefinement(const TemplateMapParams<Dim>& params)
 {
   if (params.RefineEvery < 0 || params.RefineEvery > 100000)
   {
-    return OutOfRange("iterations between refinements", "[0, 100000]", std::to_string(params.RefineEvery));
+    return OutOfRange(
+      "iterations between refinements", "[0, 100000]", std::to_string(params.RefineEvery));
   }
   if (!(params.StagnationRatio > 0.0 && params.StagnationRatio < 1.0))
   {
@@ -49,7 +50,8 @@ Status CheckRefinement(const TemplateMapParams<Dim>& params)
   }
   if (!(params.RefineThreshold >= 0.0) || !std::isfinite(params.RefineThreshold))
   {
-    return OutOfRange("refinement threshold", "[0, infinity)", std::to_string(params.RefineThreshold));
+    return OutOfRange(
+      "refinement threshold", "[0, infinity)", std::to_string(params.RefineThreshold));
   }
   if (!(params.RefineShare >= 0.0 && params.RefineShare <= 1.0))
   {
@@ -65,7 +67,8 @@ Status CheckRefinement(const TemplateMapParams<Dim>& params)
   }
   if (params.MaxFunctions < 1)
   {
-    return OutOfRange("number of functions", "[1, 2147483647]", std::to_string(params.MaxFunctions));
+    return OutOfRange(
+      "number of functions", "[1, 2147483647]", std::to_string(params.MaxFunctions));
   }
   return {};
 }
@@ -112,7 +115,8 @@ Status CheckOptions(const TemplateMapParams<Dim>& params)
   }
   if (!(params.MaxIrregularShare >= 0.0 && params.MaxIrregularShare <= 1.0))
   {
-    return OutOfRange("share of irregular points", "[0, 1]", std::to_string(params.MaxIrregularShare));
+    return OutOfRange(
+      "share of irregular points", "[0, 1]", std::to_string(params.MaxIrregularShare));
   }
   if (Status status = CheckRefinement(params); !status)
   {
@@ -372,8 +376,7 @@ Status MapLoop<Dim>::Iterate(int iteration)
   }
   if (!this->Params.Guard)
   {
-    Result<double> share =
-      NegativeJacobianShare(this->Form, GridPoints<Dim>, this->Params.Threads);
+    Result<double> share = NegativeJacobianShare(this->Form, GridPoints<Dim>, this->Params.Threads);
     if (!share)
     {
       return share.Status;
@@ -405,8 +408,7 @@ Status MapLoop<Dim>::TakeStep(TemplateMapIteration& record, bool& restart)
   const auto shorten = [&](const PointMatrix& step) { return this->FallingShare(samples, step); };
   if (!this->Params.Guard)
   {
-    Result<PointMatrix> step =
-      this->System->Step(samples, this->Weights, this->Map.ControlPoints);
+    Result<PointMatrix> step = this->System->Step(samples, this->Weights, this->Map.ControlPoints);
     if (step)
     {
       record.StepLength = shorten(step.Value);
@@ -417,8 +419,8 @@ Status MapLoop<Dim>::TakeStep(TemplateMapIteration& record, bool& restart)
   }
   // Places that were given can ask for a turn or a fold which closest points do not: begin there.
   const bool giveUp = !this->IsSearched && this->Params.Method != TemplateMapMethod::Fixed;
-  const auto outcome = this->Guard.Step(
-    *this->System, samples, this->Weights, this->Map, this->Form, shorten, giveUp);
+  const auto outcome =
+    this->Guard.Step(*this->System, samples, this->Weights, this->Map, this->Form, shorten, giveUp);
   if (!outcome)
   {
     return outcome.Status;
@@ -428,15 +430,14 @@ Status MapLoop<Dim>::TakeStep(TemplateMapIteration& record, bool& restart)
   record.HeldElements = outcome->Held;
   if (this->IsSearched && !outcome->IsEndangered)
   {
-    this->Weights.Proximal = std::max(
-      Relaxation * this->Weights.Proximal, LeastProximal * this->Params.TikhonovWeight);
+    this->Weights.Proximal =
+      std::max(Relaxation * this->Weights.Proximal, LeastProximal * this->Params.TikhonovWeight);
   }
   return {};
 }
 
 template <int Dim>
-double MapLoop<Dim>::FallingShare(
-  const FitSamples<Dim>& samples, const PointMatrix& step) const
+double MapLoop<Dim>::FallingShare(const FitSamples<Dim>& samples, const PointMatrix& step) const
 {
   if (!HasMeasures(this->Weights))
   {
@@ -454,7 +455,8 @@ double MapLoop<Dim>::FallingShare(
       this->Weights.Proximal * length * length * step.squaredNorm();
     if (this->Weights.Normal > 0.0)
     {
-      sum += this->Weights.Normal * left.cwiseProduct(samples.Normals).rowwise().sum().squaredNorm();
+      sum +=
+        this->Weights.Normal * left.cwiseProduct(samples.Normals).rowwise().sum().squaredNorm();
     }
     const PointMatrix points = this->Map.ControlPoints + length * step;
     for (int k = 0; k < NumQualityKinds; ++k)

@@ -115,10 +115,10 @@ struct TemplateMapIteration
 struct MappedSkeletonPatch
 {
   int Id = 0;
-  bool Free = false;         ///< the target has no patch of this id
-  PointMatrix Places;        ///< n x PlaceSize<Dim>
-  PointMatrix Points;        ///< n x Dim
-  Eigen::VectorXd Distances; ///< n, to the target patch; -1 for free patches
+  bool Free = false;                         ///< the target has no patch of this id
+  PointMatrix Places;                        ///< n x PlaceSize<Dim>
+  PointMatrix Points;                        ///< n x Dim
+  Eigen::VectorXd Distances;                 ///< n, to the target patch; -1 for free patches
   std::vector<std::array<int, 3>> Triangles; ///< Dim = 3: of the samples
 };
 

@@ -48,7 +48,7 @@ public:
 private:
   int Threads;
   int NewtonSteps;
-  std::vector<int> Ids;               // of the template
+  std::vector<int> Ids;                  // of the template
   std::vector<MappedPatch<Dim>> Patches; // of the template
   std::vector<TargetConstraint<Dim>> Constraints;
   std::vector<PointMatrix> FirstPlaces; // of the constraints; empty: not known

@@ -137,8 +137,8 @@ std::vector<int> FirstOfEqualPoints(const PointMatrix& points)
   return first;
 }
 
-std::vector<Triangle> ReplaceCorners(
-  std::vector<Triangle> triangles, const std::vector<int>& replacement)
+std::vector<MeshTriangle> ReplaceCorners(
+  std::vector<MeshTriangle> triangles, const std::vector<int>& replacement)
 {
   for (Triangle& corners : triangles)
   {
@@ -150,7 +150,7 @@ std::vector<Triangle> ReplaceCorners(
   return triangles;
 }
 
-std::vector<Triangle> TriangleNeighbours(const std::vector<Triangle>& triangles)
+std::vector<MeshTriangle> TriangleNeighbours(const std::vector<MeshTriangle>& triangles)
 {
   struct Side
   {
@@ -176,7 +176,7 @@ std::vector<Triangle> TriangleNeighbours(const std::vector<Triangle>& triangles)
       return std::tie(a.Low, a.High, a.Triangle, a.Edge) <
         std::tie(b.Low, b.High, b.Triangle, b.Edge);
     });
-  std::vector<Triangle> neighbours(triangles.size(), Triangle{ -1, -1, -1 });
+  std::vector<MeshTriangle> neighbours(triangles.size(), Triangle{ -1, -1, -1 });
   for (std::size_t i = 0; i < sides.size();)
   {
     std::size_t end = i + 1;
@@ -197,7 +197,7 @@ std::vector<Triangle> TriangleNeighbours(const std::vector<Triangle>& triangles)
 }
 
 template <int Dim>
-TriangleIndex<Dim>::TriangleIndex(PointMatrix points, std::vector<Triangle> triangles)
+TriangleIndex<Dim>::TriangleIndex(PointMatrix points, std::vector<MeshTriangle> triangles)
   : Corners(std::move(points)), Mesh(std::move(triangles))
 {
   PointMatrix lower;
@@ -224,7 +224,7 @@ void TriangleIndex<Dim>::Boxes(PointMatrix& lower, PointMatrix& upper) const
   upper.resize(n, Dim);
   for (Eigen::Index t = 0; t < n; ++t)
   {
-    const Triangle& corners = this->Mesh[static_cast<std::size_t>(t)];
+    const MeshTriangle& corners = this->Mesh[static_cast<std::size_t>(t)];
     const auto a = this->Corners.row(corners[0]);
     const auto b = this->Corners.row(corners[1]);
     const auto c = this->Corners.row(corners[2]);

@@ -7,7 +7,7 @@
 
 namespace knotwork
 {
-using Triangle = std::array<int, 3>;
+using MeshTriangle = std::array<int, 3>;
 
 /// A point of a triangle mesh, and how far it is from a query.
 struct TriangleFoot
@@ -39,12 +39,12 @@ TriangleFoot ClosestOnTriangle(
 std::vector<int> FirstOfEqualPoints(const PointMatrix& points);
 
 /// Triangles with every corner replaced: corner i by replacement[i].
-std::vector<Triangle> ReplaceCorners(
-  std::vector<Triangle> triangles, const std::vector<int>& replacement);
+std::vector<MeshTriangle> ReplaceCorners(
+  std::vector<MeshTriangle> triangles, const std::vector<int>& replacement);
 
 /// The triangle on the other side of each edge (corners k and k + 1), -1 where there is none or
 /// more than one.
-std::vector<Triangle> TriangleNeighbours(const std::vector<Triangle>& triangles);
+std::vector<MeshTriangle> TriangleNeighbours(const std::vector<MeshTriangle>& triangles);
 
 /// Closest points on a triangle mesh in Dim-space, whose points may move.
 template <int Dim>
@@ -53,12 +53,12 @@ class TriangleIndex
 public:
   TriangleIndex() = default;
   /// @param points  n x Dim, finite. @param triangles  at least one, of rows of points.
-  TriangleIndex(PointMatrix points, std::vector<Triangle> triangles);
+  TriangleIndex(PointMatrix points, std::vector<MeshTriangle> triangles);
   /// The same mesh with its points elsewhere. @complexity O(n).
   void Move(const PointMatrixView& points);
 
   const PointMatrix& Points() const { return this->Corners; }
-  const std::vector<Triangle>& Triangles() const { return this->Mesh; }
+  const std::vector<MeshTriangle>& Triangles() const { return this->Mesh; }
   const double* Corner(int triangle, int corner) const
   {
     const auto t = static_cast<std::size_t>(triangle);
@@ -84,7 +84,7 @@ private:
   void Boxes(PointMatrix& lower, PointMatrix& upper) const;
 
   PointMatrix Corners;
-  std::vector<Triangle> Mesh;
+  std::vector<MeshTriangle> Mesh;
   BoxTree Tree;
 };
 }

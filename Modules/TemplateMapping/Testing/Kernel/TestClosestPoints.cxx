@@ -341,7 +341,7 @@ TEST(TargetIndex, AgreesWithTryingAllTriangles_CrossOracle)
     for (int q = 0; q < queries.rows(); q += 7)
     {
       double nearest = std::numeric_limits<double>::infinity();
-      for (const Triangle& t : mesh.Simplices)
+      for (const MeshTriangle& t : mesh.Simplices)
       {
         nearest = std::min(nearest,
           ClosestOnTriangle<3>(mesh.Points.row(t[0]).data(), mesh.Points.row(t[1]).data(),

@@ -316,13 +316,13 @@ TEST(Skeleton, SamplesOfAMeshCutItsTriangles_PropertyOracle)
       EXPECT_EQ(point, patch.Points.row(i));
     }
     double area = 0.0;
-    const auto addArea = [&](const PointMatrix& points, const Triangle& t)
+    const auto addArea = [&](const PointMatrix& points, const MeshTriangle& t)
     {
       const Eigen::RowVector3d ab = points.row(t[1]) - points.row(t[0]);
       const Eigen::RowVector3d ac = points.row(t[2]) - points.row(t[0]);
       area += std::sqrt(ab.squaredNorm() * ac.squaredNorm() - std::pow(ab.dot(ac), 2)) / 2;
     };
-    for (const Triangle& t : patch.Simplices)
+    for (const MeshTriangle& t : patch.Simplices)
     {
       addArea(patch.Points, t);
     }
@@ -342,10 +342,10 @@ TEST(Skeleton, SamplesOfAMeshCutItsTriangles_PropertyOracle)
       EXPECT_EQ(simplices.size() % patch.Simplices.size(), 0U);
       const auto cuts = static_cast<long>(
         std::lround(std::sqrt(double(simplices.size()) / double(patch.Simplices.size()))));
-      const auto open = [](const std::vector<Triangle>& triangles)
+      const auto open = [](const std::vector<MeshTriangle>& triangles)
       {
         long edges = 0;
-        for (const Triangle& t : TriangleNeighbours(triangles))
+        for (const MeshTriangle& t : TriangleNeighbours(triangles))
         {
           edges += std::count(t.begin(), t.end(), -1);
         }
@@ -358,7 +358,7 @@ TEST(Skeleton, SamplesOfAMeshCutItsTriangles_PropertyOracle)
         EXPECT_EQ(first[i], static_cast<int>(i));
       }
       area = 0.0;
-      for (const Triangle& t : simplices)
+      for (const MeshTriangle& t : simplices)
       {
         addArea(points, t);
       }

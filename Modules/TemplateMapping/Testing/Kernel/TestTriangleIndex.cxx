@@ -114,14 +114,14 @@ TEST(TriangleIndex, NeighboursShareAnEdge_ExactOracle)
 {
   const cases::Triangles fan{ { 0, 1, 2 }, { 2, 1, 3 }, { 4, 5, 6 }, { 0, 2, 7 }, { 7, 2, 0 } };
   const auto neighbours = TriangleNeighbours(fan);
-  const std::vector<Triangle> expected{ { -1, 1, -1 }, // the edge (2, 0) has three triangles
+  const std::vector<MeshTriangle> expected{ { -1, 1, -1 }, // the edge (2, 0) has three triangles
     { 0, -1, -1 }, { -1, -1, -1 }, { -1, 4, 4 }, { 3, -1, 3 } };
   EXPECT_EQ(neighbours[0], expected[0]);
   EXPECT_EQ(neighbours[1], expected[1]);
   EXPECT_EQ(neighbours[2], expected[2]);
   EXPECT_EQ(neighbours[3][1], 4);
   const SkeletonPatch<3> sphere = cases::Sphere(2);
-  for (const Triangle& t : TriangleNeighbours(sphere.Simplices))
+  for (const MeshTriangle& t : TriangleNeighbours(sphere.Simplices))
   {
     EXPECT_TRUE(t[0] >= 0 && t[1] >= 0 && t[2] >= 0);
   }
@@ -129,5 +129,6 @@ TEST(TriangleIndex, NeighboursShareAnEdge_ExactOracle)
   PointMatrix points(5, 2);
   points << 0, 0, 1, 0, 0, 0, 1, -0.0, 1, 0;
   EXPECT_EQ(FirstOfEqualPoints(points), (std::vector<int>{ 0, 1, 0, 1, 1 }));
-  EXPECT_EQ(ReplaceCorners({ { 2, 1, 0 } }, { 5, 6, 7 }), (std::vector<Triangle>{ { 7, 6, 5 } }));
+  EXPECT_EQ(
+    ReplaceCorners({ { 2, 1, 0 } }, { 5, 6, 7 }), (std::vector<MeshTriangle>{ { 7, 6, 5 } }));
 }
