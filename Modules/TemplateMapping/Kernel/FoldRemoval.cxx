@@ -27,15 +27,15 @@ Result<Spline<Dim>> RemoveFolds(const Spline<Dim>& map, int threads)
   {
     DomainParams params;
     params.Threads = threads;
-    DomainSolver<Dim> solver(map, mean, params);
+    DomainSolver<Dim> solver(SingleMap(map), mean, params);
     if (solver.RemoveFolds())
     {
+      const Spline<Dim>& unfolded = solver.Map().Patches.front();
       const auto regularity =
-        MeasureRegularity(MakeBezierForm(solver.Map(), threads), 1.0, 1000000, threads);
+        MeasureRegularity(MakeBezierForm(unfolded, threads), 1.0, 1000000, threads);
       if (!regularity || regularity->IsRegular())
       {
-        return regularity ? Result<Spline<Dim>>(solver.Map())
-                          : Result<Spline<Dim>>(regularity.Status);
+        return regularity ? Result<Spline<Dim>>(unfolded) : Result<Spline<Dim>>(regularity.Status);
       }
     }
   }

@@ -5,6 +5,7 @@
 #include "JacobianCertificate.h"
 #include "Parallel.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numeric>

@@ -140,7 +140,7 @@ std::vector<int> FirstOfEqualPoints(const PointMatrix& points)
 std::vector<MeshTriangle> ReplaceCorners(
   std::vector<MeshTriangle> triangles, const std::vector<int>& replacement)
 {
-  for (Triangle& corners : triangles)
+  for (MeshTriangle& corners : triangles)
   {
     for (int& corner : corners)
     {
@@ -176,7 +176,7 @@ std::vector<MeshTriangle> TriangleNeighbours(const std::vector<MeshTriangle>& tr
       return std::tie(a.Low, a.High, a.Triangle, a.Edge) <
         std::tie(b.Low, b.High, b.Triangle, b.Edge);
     });
-  std::vector<MeshTriangle> neighbours(triangles.size(), Triangle{ -1, -1, -1 });
+  std::vector<MeshTriangle> neighbours(triangles.size(), MeshTriangle{ -1, -1, -1 });
   for (std::size_t i = 0; i < sides.size();)
   {
     std::size_t end = i + 1;
