@@ -11,8 +11,8 @@ cmake_minimum_required(VERSION 3.22)
 set(layers
   "SplineCore"
   "JacobianValidation"
-  "DomainParameterization"
-  "TemplateMapping MeshParameterization SurfaceFitting"
+  "DomainParameterization MeshParameterization SurfaceFitting"
+  "TemplateMapping"
   "SurfaceTrimming CADFitting"
   "SplineIO")
 set(rank 0)

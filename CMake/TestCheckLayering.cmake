@@ -40,7 +40,7 @@ expect("SplineCore may not use SplineIO" SplineIOByName ${core} SplineIO/Kernel/
 expect("SplineCore may not use TemplateMapping" Upward ${core}
   TemplateMapping/Kernel/Map.h "" SplineCore/Kernel/Bad.cxx "#include \"Map.h\"")
 expect("may not use SurfaceFitting" Sideways ${core}
-  SurfaceFitting/Kernel/Fit.h "" TemplateMapping/Kernel/Bad.cxx "#include \"Fit.h\"")
+  SurfaceFitting/Kernel/Fit.h "" MeshParameterization/Kernel/Bad.cxx "#include \"Fit.h\"")
 expect("may not depend on TemplateMapping" BuildFile ${core}
   SplineCore/Kernel/CMakeLists.txt "knotwork_add_kernel(SplineCore DEPENDS TemplateMapping SOURCES a.cxx)")
 expect("may not depend on SplineIO" BuildFileIO ${core}

@@ -2,6 +2,7 @@
 #include "BoundaryJson.h"
 
 #include "TensorSpace.h"
+#include "TextWords.h"
 
 #include <nlohmann/json.hpp>
 
@@ -190,7 +191,7 @@ Result<SplineFile> ReadSides(const Json& list, const char* key)
     std::string name = "side " + std::to_string(i);
     if (list[i].is_object() && list[i].contains("side") && list[i]["side"].is_string())
     {
-      name += " (" + list[i]["side"].get<std::string>().substr(0, 16) + ")";
+      name += " (" + Shown(list[i]["side"].get<std::string>()) + ")";
     }
     if (!list[i].is_object())
     {

@@ -56,9 +56,9 @@ TEST(BoundaryJson, ErrorsNameSideAndKey_ExactOracle)
     EXPECT_EQ(read.Status.Code, code) << to;
     EXPECT_NE(read.Status.Detail.find(words), std::string::npos) << read.Status.Detail;
   };
-  expect(Arc, "\"degree\"", "\"power\"", ErrorCode::InvalidFormat, "side 0 (west): \"degree\"");
+  expect(Arc, "\"degree\"", "\"power\"", ErrorCode::InvalidFormat, "side 0 ('west'): \"degree\"");
   expect(Arc, "2,", "1.5,", ErrorCode::InvalidFormat, "\"degree\"");
-  expect(Arc, "2,", "1000000000000,", ErrorCode::InvalidDegree, "side 0 (west)");
+  expect(Arc, "2,", "1000000000000,", ErrorCode::InvalidDegree, "side 0 ('west')");
   expect(Arc, "[0, 0, 0, 1, 1, 1]", "[0, 0, 1, 0, 1, 1]", ErrorCode::InvalidKnots, "side 0");
   expect(Arc, "[0, 0, 0, 1, 1, 1]", "3", ErrorCode::InvalidFormat, "\"knots\"");
   expect(Arc, "0.5", "-0.5", ErrorCode::InvalidWeight, "side 0");
@@ -67,6 +67,9 @@ TEST(BoundaryJson, ErrorsNameSideAndKey_ExactOracle)
   expect(Arc, ", [0, 1]]", "]", ErrorCode::SizeMismatch, "side 0");
   expect(Face, "[1, 1]", "[1]", ErrorCode::InvalidFormat, "\"degrees\"");
   expect(Face, "faces", "sides", ErrorCode::InvalidFormat, "curves");
+  // names from the file stay short and in one line
+  expect(Arc, "\"west\", \"degree\"", "\"a\\u000ab\", \"power\"", ErrorCode::InvalidFormat,
+    "side 0 ('a?b'): \"degree\"");
   EXPECT_EQ(ReadBoundaryJson(R"({"curves": []})").Status.Code, ErrorCode::EmptyInput);
   EXPECT_EQ(ReadBoundaryJson(std::string(200000, '[')).Status.Code, ErrorCode::InvalidFormat);
 }
