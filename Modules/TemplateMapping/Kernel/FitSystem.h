@@ -31,7 +31,7 @@ struct FitWeights
   double SelfIntersection = 0.0; ///<
   /// Empty, or a weight an element, of the integral over it of sum_k |d_k|^2, d_k the derivatives
   /// of the step: holds single elements back.
-  std::vector<double> Stiffness;
+  std::vector<double> Stiffness = {};
 };
 
 /// The weight of a functional.

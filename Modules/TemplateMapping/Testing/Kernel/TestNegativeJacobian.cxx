@@ -90,7 +90,7 @@ TEST(NegativeJacobian, EveryFailureIsReachable)
   EXPECT_EQ(NegativeJacobianShare(MakeBezierForm(map), 1).Status.Code, ErrorCode::InvalidParameter);
   EXPECT_EQ(
     NegativeJacobianShare(MakeBezierForm(map), 100001).Status.Code, ErrorCode::InvalidParameter);
-  EXPECT_EQ(NegativeJacobianShare({}, 10).Status.Code, ErrorCode::DimensionMismatch);
+  EXPECT_EQ(NegativeJacobianShare(BezierForm<2>{}, 10).Status.Code, ErrorCode::DimensionMismatch);
   map.Weights = Eigen::VectorXd::Ones(map.ControlPoints.rows());
   EXPECT_EQ(
     NegativeJacobianShare(MakeBezierForm(map), 10).Status.Code, ErrorCode::DimensionMismatch);

@@ -23,6 +23,7 @@ TemplateMapParams<2> With(TemplateMapMethod method)
 {
   TemplateMapParams<2> params;
   params.Method = method;
+  params.Guard = false; // as published
   return params;
 }
 
@@ -131,7 +132,7 @@ TEST(TemplateMap, ReportedErrorsAreThoseOfTheMap_CrossOracle)
       PointMatrix places(target[k].Points.rows(), 2);
       for (Eigen::Index i = 0; i < places.rows(); ++i)
       {
-        curve.Evaluate(result->Parameters[k](i), places.row(i).data(), nullptr);
+        curve.Evaluate(result->Places[k](i), places.row(i).data(), nullptr);
       }
       const PointMatrix feet = Values(result->Map, places);
       const Eigen::VectorXd errors = (feet - target[k].Points).rowwise().norm();
@@ -196,9 +197,9 @@ TEST(TemplateMap, ThreadsDoNotChangeABit_PropertyOracle)
       EXPECT_EQ(one->History[i].MaxError, two->History[i].MaxError);
       EXPECT_EQ(one->History[i].NegativeShare, two->History[i].NegativeShare);
     }
-    for (std::size_t k = 0; k < one->Parameters.size(); ++k)
+    for (std::size_t k = 0; k < one->Places.size(); ++k)
     {
-      EXPECT_EQ(one->Parameters[k], two->Parameters[k]);
+      EXPECT_EQ(one->Places[k], two->Places[k]);
       EXPECT_EQ(one->Skeleton[k].Distances, two->Skeleton[k].Distances);
     }
   }
