@@ -126,6 +126,10 @@ def test_parameterize_reports_a_certified_map():
     for key in ("min_scaled_jacobian", "mean_scaled_jacobian", "mean_condition_number", "iterations", "functions",
                 "seconds"):
         assert np.isfinite(report[key]), key
+    finer, _ = run(0, "parameterize", name, "--output", path("bite.vtu"), "--certificate-gap", 1e-9, "--foldover", "penalty",
+                   "--energy-tolerance", 1e-9, "--metric-samples", 11)
+    assert finer["foldover"] == "penalty" and finer["metric_samples"] == 11 and finer["energy_tolerance"] == 1e-9
+    assert 0 <= finer["min_jacobian_upper"] - finer["min_jacobian_lower"] <= 1e-9 * finer["min_jacobian_upper"]
     again, _ = run(0, "validate", path("bite.vtu"))
     assert abs(again["measure"] - report["area"]) < 1e-12
 
