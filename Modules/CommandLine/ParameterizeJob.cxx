@@ -52,6 +52,7 @@ struct ParameterizeJob
     report["verdict"] =
       vtkStringArray::SafeDownCast(data->GetAbstractArray("Verdict"))->GetValue(0);
     report["min_jacobian_lower"] = number("JacobianMinLower");
+    report["min_jacobian_upper"] = number("JacobianMinUpper");
     report["area"] = number("Area");
     report["min_det_over_area"] = number("MinDetOverArea");
     report["max_det_over_area"] = number("MaxDetOverArea");
@@ -85,17 +86,26 @@ Job MakeParameterizeJob(CLI::App& app)
     "Optimizer", { "automatic", "lbfgs", "newton" }, filter->GetOptimizer(),
     [filter](int optimizer) { filter->SetOptimizer(optimizer); }, "how it is minimized");
   options.AddChoice(
+    "Foldover", { "automatic", "penalty", "relu" }, filter->GetFoldover(),
+    [filter](int foldover) { filter->SetFoldover(foldover); },
+    "how folds of the first map are removed");
+  options.AddChoice(
     "Weights", { "automatic", "fixed", "optimized" }, filter->GetWeights(),
     [filter](int weights) { filter->SetWeights(weights); },
     "whether inner weights move too; automatic: when control points alone give no valid map");
   KNOTWORK_OPTION(options, filter, UniformityWeight, "weight of the variation of det J");
   KNOTWORK_OPTION(options, filter, MaximumIterations, "iterations of one minimization at most");
   KNOTWORK_OPTION(
+    options, filter, EnergyTolerance, "a minimization ends when iterations gain a smaller part");
+  KNOTWORK_OPTION(
     options, filter, MaximumAlternations, "rounds of control points and weights at most");
   KNOTWORK_OPTION(
     options, filter, MaximumRefinements, "rounds of local refinement of a space that is too poor");
   KNOTWORK_OPTION(
     options, filter, GapTolerance, "ends of sides this part of the size apart are one corner");
+  KNOTWORK_OPTION(
+    options, filter, MetricSamples, "samples a direction of the metrics; 0: 501, in space 51");
+  KNOTWORK_OPTION(options, filter, CertificateGap, "relative gap of the proved bounds of elements");
   return [job](Session& session) { return job->Run(session); };
 }
 }

@@ -22,6 +22,38 @@ namespace
 constexpr int InvalidStatus = 3;
 constexpr int UndecidedStatus = 4;
 
+/// A fold and an overlap are both proved, so either makes the map invalid. Where only the
+/// injectivity of the whole is open, the cells are valid all the same.
+int ExitStatus(const nlohmann::ordered_json& report)
+{
+  const std::string verdict = report["verdict"];
+  const bool overlaps = report.value("injective", "") == "not_injective";
+  if (overlaps || verdict == "invalid" || verdict == "reversed")
+  {
+    return InvalidStatus;
+  }
+  return verdict == "undecided" ? UndecidedStatus : 0;
+}
+
+/// Both verdicts, and the reason where the second is neither yes nor without meaning.
+std::string Sentence(const nlohmann::ordered_json& report)
+{
+  std::string text = report["verdict"];
+  const std::string injective = report.value("injective", "not_applicable");
+  if (injective == "injective")
+  {
+    text += ", injective";
+  }
+  else if (injective != "not_applicable")
+  {
+    text += injective == "undecided" ? ", injectivity undecided"
+      : injective == "not_injective" ? ", not injective"
+                                     : ", injective up to a seam";
+    text += ": " + report["injectivity_reason"].get<std::string>();
+  }
+  return text;
+}
+
 struct ValidateJob
 {
   std::string Input;
@@ -50,19 +82,16 @@ struct ValidateJob
     {
       return { ErrorCode::EmptyInput, "'" + this->Input + "' has no cells to validate" };
     }
-    const std::string verdict = this->AddNumbers(session.Report);
-    session.ExitStatus = verdict == "valid" ? 0
-      : verdict == "undecided"              ? UndecidedStatus
-                                            : InvalidStatus;
+    this->AddNumbers(session.Report);
+    session.ExitStatus = ExitStatus(session.Report);
     if (!session.Quiet)
     {
-      std::cout << verdict << "\n";
+      std::cout << Sentence(session.Report) << "\n";
     }
     return session.WriteOutputs(this->Filter, { this->Output, this->Witnesses, this->Table });
   }
 
-  /// @return the verdict of all cells.
-  std::string AddNumbers(nlohmann::ordered_json& report)
+  void AddNumbers(nlohmann::ordered_json& report)
   {
     auto* table = vtkTable::SafeDownCast(this->Filter->GetOutputDataObject(2));
     const vtkIdType all = table->GetNumberOfRows() - 1;
@@ -70,8 +99,7 @@ struct ValidateJob
     { return table->GetValueByName(all, column).ToDouble(); };
     const auto count = [&](const char* column)
     { return table->GetValueByName(all, column).ToTypeInt64(); };
-    const std::string verdict = table->GetValueByName(all, "Verdict").ToString();
-    report["verdict"] = verdict;
+    report["verdict"] = table->GetValueByName(all, "Verdict").ToString();
     report["cells"] = count("Cells");
     report["valid_cells"] = count("ValidCells");
     report["invalid_cells"] = count("InvalidCells");
@@ -110,7 +138,6 @@ struct ValidateJob
         static_cast<long long>(witnesses->GetCellData()->GetArray("CellId")->GetTuple1(0));
       report["witness_parameters"] = std::vector<double>{ u[0], u[1], u[2] };
     }
-    return verdict;
   }
 };
 }

@@ -96,6 +96,7 @@ void AddReport(const knotwork::DomainParameterization<Dim>& result, vtkUnstructu
   grid->GetFieldData()->AddArray(verdict);
   const knotwork::DomainMetrics& metrics = result.Metrics;
   AddNumber(grid, "JacobianMinLower", result.MinDetLower);
+  AddNumber(grid, "JacobianMinUpper", result.MinDetUpper);
   AddNumber(grid, "Area", metrics.Area);
   AddNumber(grid, "MinDetOverArea", metrics.MinDetOverArea);
   AddNumber(grid, "MaxDetOverArea", metrics.MaxDetOverArea);
@@ -118,12 +119,16 @@ void vtkDomainParameterization::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "InitialMap: " << this->InitialMap << "\n";
   os << indent << "Optimizer: " << this->Optimizer << "\n";
+  os << indent << "Foldover: " << this->Foldover << "\n";
   os << indent << "Weights: " << this->Weights << "\n";
   os << indent << "UniformityWeight: " << this->UniformityWeight << "\n";
   os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
+  os << indent << "EnergyTolerance: " << this->EnergyTolerance << "\n";
   os << indent << "MaximumAlternations: " << this->MaximumAlternations << "\n";
   os << indent << "MaximumRefinements: " << this->MaximumRefinements << "\n";
   os << indent << "GapTolerance: " << this->GapTolerance << "\n";
+  os << indent << "MetricSamples: " << this->MetricSamples << "\n";
+  os << indent << "CertificateGap: " << this->CertificateGap << "\n";
   os << indent << "Verdict: " << this->Verdict << "\n";
 }
 
@@ -189,12 +194,16 @@ Status vtkDomainParameterization::Parameterize(
   knotwork::DomainParams params;
   params.InitialMap = static_cast<knotwork::InitialMapMethod>(this->InitialMap);
   params.Optimizer = static_cast<knotwork::DomainOptimizer>(this->Optimizer);
+  params.Foldover = static_cast<knotwork::FoldoverRemoval>(this->Foldover);
   params.Weights = static_cast<knotwork::WeightMode>(this->Weights);
   params.UniformityWeight = this->UniformityWeight;
   params.MaxIterations = this->MaximumIterations;
+  params.EnergyTolerance = this->EnergyTolerance;
   params.MaxAlternations = this->MaximumAlternations;
   params.MaxRefinements = this->MaximumRefinements;
   params.GapTolerance = this->GapTolerance;
+  params.MetricSamples = this->MetricSamples == 1 ? 2 : this->MetricSamples;
+  params.CertificateGap = this->CertificateGap;
   params.Threads = this->KernelThreads();
   const auto result = ParameterizeDomain(boundary, params, this->Progress());
   if (!result)

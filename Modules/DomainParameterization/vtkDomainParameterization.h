@@ -8,13 +8,14 @@
  * knots. Which sides meet, and how they run, is found. The boundary is not moved.
  *
  * Output 0 is the map as a spline grid of one patch with the field-data arrays `Verdict` ("valid",
- * "invalid", "undecided", "reversed": proved, not sampled), `JacobianMinLower` (proved bound of
- * det J with respect to the parameters of the unit square or cube) and, over 501 x 501 (51^3)
- * samples, `MinDetOverArea`, `MaxDetOverArea`, `MinScaledJacobian`, `MeanScaledJacobian`,
- * `MeanConditionNumber`; `Area`, `Iterations` and `Functions`. Output 1 is the first map, before
- * the optimization. Output 2 is the convergence table with a row an iteration: `Stage`,
- * `Iteration`, `Energy`, `MinDetOverArea`, `GradientNorm`, `Functions`. A map that is not proved
- * valid is an output like any other, with a warning that says where and why.
+ * "invalid", "undecided", "reversed": proved, not sampled), `JacobianMinLower` and
+ * `JacobianMinUpper` (proved bounds of the smallest det J with respect to the parameters of the
+ * unit square or cube) and, over 501 x 501 (51^3) samples, `MinDetOverArea`, `MaxDetOverArea`,
+ * `MinScaledJacobian`, `MeanScaledJacobian`, `MeanConditionNumber`; `Area`, `Iterations` and
+ * `Functions`. Output 1 is the first map, before the optimization. Output 2 is the convergence
+ * table with a row an iteration: `Stage`, `Iteration`, `Energy`, `MinDetOverArea`, `GradientNorm`,
+ * `Functions`. A map that is not proved valid is an output like any other, with a warning that says
+ * where and why.
  *
  * @source Ji, Yu, Wang, Zhu (2021). The module's page has the method, limits and errors.
  */
@@ -48,6 +49,12 @@ public:
     LBFGS,
     NEWTON
   };
+  enum Foldovers
+  {
+    FOLDOVER_AUTOMATIC = 0, ///< a few rounds of ReLU, the penalty when that is not enough
+    PENALTY,
+    RELU
+  };
   enum WeightModes
   {
     WEIGHTS_AUTOMATIC = 0, ///< optimized only when control points alone give no valid map
@@ -66,6 +73,11 @@ public:
   vtkGetMacro(Optimizer, int);
   ///@}
   ///@{
+  /** How folds of the first map are removed, one of Foldovers. Default FOLDOVER_AUTOMATIC. */
+  vtkSetClampMacro(Foldover, int, FOLDOVER_AUTOMATIC, RELU);
+  vtkGetMacro(Foldover, int);
+  ///@}
+  ///@{
   /** Whether inner weights are optimized, one of WeightModes. Default WEIGHTS_AUTOMATIC. */
   vtkSetClampMacro(Weights, int, WEIGHTS_AUTOMATIC, WEIGHTS_OPTIMIZED);
   vtkGetMacro(Weights, int);
@@ -79,6 +91,12 @@ public:
   /** Iterations of one minimization at most. Default 1000, valid range [1, 1000000]. */
   vtkSetClampMacro(MaximumIterations, int, 1, 1000000);
   vtkGetMacro(MaximumIterations, int);
+  ///@}
+  ///@{
+  /** A minimization ends after three iterations in a row that lower the energy by less than this
+   * part of it. Default 1e-7, valid range [1e-15, 0.5]. */
+  vtkSetClampMacro(EnergyTolerance, double, 1e-15, 0.5);
+  vtkGetMacro(EnergyTolerance, double);
   ///@}
   ///@{
   /** Rounds of control points and weights at most. Default 5, valid range [1, 100]. */
@@ -96,6 +114,18 @@ public:
    * valid range [0, 0.1]. */
   vtkSetClampMacro(GapTolerance, double, 0.0, 0.1);
   vtkGetMacro(GapTolerance, double);
+  ///@}
+  ///@{
+  /** Samples a direction of the metrics, ends included; 0: 501 in the plane and 51 in space, 1: 2.
+   * The proved bounds do not depend on it. Default 0, valid range [0, 5001]. */
+  vtkSetClampMacro(MetricSamples, int, 0, 5001);
+  vtkGetMacro(MetricSamples, int);
+  ///@}
+  ///@{
+  /** How close the proved bounds of every element's smallest det J are brought: upper - lower <=
+   * CertificateGap * max(|lower|, |upper|). Default 0.1, valid range [1e-12, 1]. */
+  vtkSetClampMacro(CertificateGap, double, 1e-12, 1.0);
+  vtkGetMacro(CertificateGap, double);
   ///@}
 
   ///@{
@@ -120,12 +150,16 @@ private:
 
   int InitialMap = INITIAL_AUTOMATIC;
   int Optimizer = OPTIMIZER_AUTOMATIC;
+  int Foldover = FOLDOVER_AUTOMATIC;
   int Weights = WEIGHTS_AUTOMATIC;
   double UniformityWeight = 1.0;
   int MaximumIterations = 1000;
+  double EnergyTolerance = 1e-7;
   int MaximumAlternations = 5;
   int MaximumRefinements = 3;
   double GapTolerance = 1e-9;
+  int MetricSamples = 0;
+  double CertificateGap = 0.1;
   int Verdict = 0;
 };
 #endif

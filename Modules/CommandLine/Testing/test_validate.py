@@ -6,6 +6,8 @@ import os
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkIntArray, vtkPoints
+from vtkmodules.vtkCommonDataModel import VTK_QUAD, vtkUnstructuredGrid
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter
 
 import knotwork_testing
@@ -44,6 +46,40 @@ def annulus(name="annulus.vtu", move=None):
     return path(name)
 
 
+def quadrilaterals(name, corners, patches=None):
+    """A file of linear quadrilaterals, each with points of its own."""
+    grid, points, ids = vtkUnstructuredGrid(), vtkPoints(), vtkIntArray()
+    points.SetDataTypeToDouble()
+    for cell in corners:
+        grid.InsertNextCell(VTK_QUAD, 4, [points.InsertNextPoint(x, y, 0) for x, y in cell])
+    grid.SetPoints(points)
+    if patches:
+        ids.SetName("PatchId")
+        for patch in patches:
+            ids.InsertNextValue(patch)
+        grid.GetCellData().AddArray(ids)
+    writer = vtkXMLUnstructuredGridWriter()
+    writer.SetFileName(path(name))
+    writer.SetInputData(grid)
+    assert writer.Write() == 1
+    return path(name)
+
+
+def band(degrees, steps=40):
+    """Corners of cells between the radii 1 and 2 from 0 to so many degrees."""
+    def at(i, radius):
+        angle = math.radians(degrees * i / steps)
+        return radius * math.cos(angle), radius * math.sin(angle)
+    return [(at(i, 1), at(i, 2), at(i + 1, 2), at(i + 1, 1)) for i in range(steps)]
+
+
+def said(name, status, *arguments):
+    """What validate prints about a file."""
+    done = knotwork_testing.run_program("validate", path(name), *arguments)
+    assert done.returncode == status, (done.returncode, done.stderr)
+    return done.stdout.strip()
+
+
 def test_valid_grid():
     report, _ = run(0, "validate", annulus(), "--output", path("annotated.vtu"), "--table", path("table.csv"))
     assert report["verdict"] == "valid" and report["cells"] == 16
@@ -63,6 +99,25 @@ def test_folded_grid_has_a_witness():
     cell_data = read(path("annotated.vtu")).GetCellData()
     assert vtk_to_numpy(cell_data.GetArray("JacobianVerdict"))[report["witness_cell"]] == -1
     assert read(path("witnesses.vtu")).GetNumberOfCells() == 2 * report["invalid_cells"]
+
+
+def test_overlap_of_valid_cells_is_invalid():
+    report, _ = run(3, "validate", quadrilaterals("overlap.vtu", band(420)))
+    assert report["verdict"] == "valid" and report["invalid_cells"] == 0 and report["injective"] == "not_injective"
+    x, y, _ = report["witness"]
+    assert 0.9 < math.hypot(x, y) < 2.1 and 0 <= math.atan2(y, x) < math.radians(60)  # where it lies twice
+    assert said("overlap.vtu", 3) == "valid, not injective: two different points have the same image"
+    assert said("overlap.vtu", 0, "--injectivity", "false") == "valid"
+    quadrilaterals("once.vtu", band(300))
+    assert said("once.vtu", 0) == "valid, injective"
+
+
+def test_undecided_injectivity_of_valid_cells_is_said():
+    square = ((0, 0), (1, 0), (1, 1), (0, 1))
+    beside = [(x + 1 + 1e-9, y) for x, y in square]
+    report, _ = run(0, "validate", quadrilaterals("beside.vtu", [square, beside], patches=[0, 1]))
+    assert report["verdict"] == "valid" and report["injective"] == "undecided" and report["interface_gaps"] == 1
+    assert said("beside.vtu", 0) == "valid, injectivity undecided: sides of two patches nearly agree, but are not equal"
 
 
 def test_reversed_grid():
@@ -126,6 +181,10 @@ def test_parameterize_reports_a_certified_map():
     for key in ("min_scaled_jacobian", "mean_scaled_jacobian", "mean_condition_number", "iterations", "functions",
                 "seconds"):
         assert np.isfinite(report[key]), key
+    finer, _ = run(0, "parameterize", name, "--output", path("bite.vtu"), "--certificate-gap", 1e-9, "--foldover", "penalty",
+                   "--energy-tolerance", 1e-9, "--metric-samples", 11)
+    assert finer["foldover"] == "penalty" and finer["metric_samples"] == 11 and finer["energy_tolerance"] == 1e-9
+    assert 0 <= finer["min_jacobian_upper"] - finer["min_jacobian_lower"] <= 1e-9 * finer["min_jacobian_upper"]
     again, _ = run(0, "validate", path("bite.vtu"))
     assert abs(again["measure"] - report["area"]) < 1e-12
 

@@ -363,34 +363,16 @@ Result<CompatibleBoundary<Dim>> MakeCompatible(
       std::to_string(boundary.Sides.size()) + " sides; the boundary needs " +
         std::to_string(NumSides) + (Dim == 2 ? " curves" : " faces") };
   }
-  std::array<Spline<D>, NumSides> given;
-  Eigen::Matrix<double, 1, Dim> lower, upper;
-  lower.setConstant(std::numeric_limits<double>::infinity());
-  upper = -lower;
-  bool rational = false;
-  double height = 0.0;
-  for (std::size_t s = 0; s < NumSides; ++s)
+  const auto prepared = PreparedSides<Dim>(boundary.Sides);
+  if (!prepared)
   {
-    auto prepared = PreparedSide<Dim>(boundary.Sides[s]);
-    if (!prepared)
-    {
-      return NamedSide(prepared.Status, static_cast<int>(s));
-    }
-    given[s] = std::move(prepared.Value);
-    lower = lower.cwiseMin(given[s].ControlPoints.colwise().minCoeff());
-    upper = upper.cwiseMax(given[s].ControlPoints.colwise().maxCoeff());
-    rational = rational || given[s].IsRational();
-    const PointMatrix& points = boundary.Sides[s].ControlPoints;
-    const double z = points.cols() > Dim ? points(0, Dim) : 0.0;
-    height = s == 0 ? z : height;
-    if (points.cols() > Dim && ((points.col(Dim).array() != height).any()))
-    {
-      return { ErrorCode::DimensionMismatch,
-        GivenSide(static_cast<int>(s)) + ": the curves do not lie in one plane of constant z" };
-    }
+    return prepared.Status;
   }
+  const std::vector<Spline<D>>& given = prepared->Sides;
+  const bool rational = std::any_of(
+    given.begin(), given.end(), [](const Spline<D>& side) { return side.IsRational(); });
   CompatibleBoundary<Dim> result;
-  result.Size = (upper - lower).norm();
+  result.Size = prepared->Size;
   const double tolerance = params.GapTolerance * result.Size;
 
   Matcher<Dim> matcher;

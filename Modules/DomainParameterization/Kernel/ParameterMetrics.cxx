@@ -260,8 +260,9 @@ public:
     {
       if (s >= 0)
       {
-        sides += (sides.empty() ? "" : " and ") + std::string("side ") +
-          std::to_string(this->Boundary.Origins[static_cast<std::size_t>(s)].Input);
+        const int input = this->Boundary.Origins[static_cast<std::size_t>(s)].Input;
+        sides += (sides.empty() ? "" : " and ") +
+          (input >= 0 ? "side " + std::to_string(input) : "the straight side " + SideName<Dim>(s));
       }
     }
     this->Found.Message = std::string("the boundary folds at the ") +

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace knotwork
 {
@@ -139,6 +140,54 @@ void Subdivide(CommonKnots& common, int minElements)
   }
   common.Breaks = cut.Breaks;
   common.Multiplicities = cut.Multiplicities;
+}
+/// One of PreparedSides.
+template <int Dim>
+Result<Spline<Dim - 1>> PreparedSide(const Spline<Dim - 1>& given)
+{
+  constexpr int D = Dim - 1;
+  if (const Status status = given.Check(); !status)
+  {
+    return status;
+  }
+  const int c = given.NumComponents();
+  if (given.Space->Kind != SpaceKind::Tensor)
+  {
+    return { ErrorCode::DimensionMismatch, "sides must be tensor-product splines" };
+  }
+  if (c != Dim && !(Dim == 2 && c == 3))
+  {
+    return { ErrorCode::DimensionMismatch,
+      std::to_string(c) + " components; sides of this domain have " + std::to_string(Dim) };
+  }
+  Spline<D> side = given;
+  side.ControlPoints = given.ControlPoints.leftCols(Dim);
+  if (given.IsRational() && given.Weights.minCoeff() == given.Weights.maxCoeff())
+  {
+    side.Weights.resize(0);
+  }
+  for (int d = 0; d < D; ++d)
+  {
+    auto clamped = Clamped<D>(std::move(side), d);
+    if (!clamped)
+    {
+      return clamped.Status;
+    }
+    side = std::move(clamped.Value);
+    const KnotVector& knots = side.Space->Knots[static_cast<std::size_t>(d)];
+    const double begin = knots.Begin();
+    const double length = knots.End() - begin;
+    std::vector<double> unit = knots.Knots();
+    for (double& t : unit)
+    {
+      t = t == knots.End() ? 1.0 : (t - begin) / length;
+    }
+    if (const Status status = ReplaceKnots<D>(side, d, unit); !status)
+    {
+      return status;
+    }
+  }
+  return side;
 }
 }
 
@@ -291,51 +340,34 @@ Spline<D> Reoriented(
 }
 
 template <int Dim>
-Result<Spline<Dim - 1>> PreparedSide(const Spline<Dim - 1>& given)
+Result<SideList<Dim>> PreparedSides(const std::vector<Spline<Dim - 1>>& given)
 {
-  constexpr int D = Dim - 1;
-  if (const Status status = given.Check(); !status)
+  SideList<Dim> list;
+  Eigen::Matrix<double, 1, Dim> lower, upper;
+  lower.setConstant(std::numeric_limits<double>::infinity());
+  upper = -lower;
+  double height = 0.0;
+  for (std::size_t s = 0; s < given.size(); ++s)
   {
-    return status;
-  }
-  const int c = given.NumComponents();
-  if (given.Space->Kind != SpaceKind::Tensor)
-  {
-    return { ErrorCode::DimensionMismatch, "sides must be tensor-product splines" };
-  }
-  if (c != Dim && !(Dim == 2 && c == 3))
-  {
-    return { ErrorCode::DimensionMismatch,
-      std::to_string(c) + " components; sides of this domain have " + std::to_string(Dim) };
-  }
-  Spline<D> side = given;
-  side.ControlPoints = given.ControlPoints.leftCols(Dim);
-  if (given.IsRational() && given.Weights.minCoeff() == given.Weights.maxCoeff())
-  {
-    side.Weights.resize(0);
-  }
-  for (int d = 0; d < D; ++d)
-  {
-    auto clamped = Clamped<D>(std::move(side), d);
-    if (!clamped)
+    auto prepared = PreparedSide<Dim>(given[s]);
+    if (!prepared)
     {
-      return clamped.Status;
+      return NamedSide(prepared.Status, static_cast<int>(s));
     }
-    side = std::move(clamped.Value);
-    const KnotVector& knots = side.Space->Knots[static_cast<std::size_t>(d)];
-    const double begin = knots.Begin();
-    const double length = knots.End() - begin;
-    std::vector<double> unit = knots.Knots();
-    for (double& t : unit)
+    lower = lower.cwiseMin(prepared->ControlPoints.colwise().minCoeff());
+    upper = upper.cwiseMax(prepared->ControlPoints.colwise().maxCoeff());
+    const PointMatrix& points = given[s].ControlPoints;
+    const double z = points.cols() > Dim ? points(0, Dim) : 0.0;
+    height = s == 0 ? z : height;
+    if (points.cols() > Dim && ((points.col(Dim).array() != height).any()))
     {
-      t = t == knots.End() ? 1.0 : (t - begin) / length;
+      return { ErrorCode::DimensionMismatch,
+        GivenSide(static_cast<int>(s)) + ": the curves do not lie in one plane of constant z" };
     }
-    if (const Status status = ReplaceKnots<D>(side, d, unit); !status)
-    {
-      return status;
-    }
+    list.Sides.push_back(std::move(prepared.Value));
   }
-  return side;
+  list.Size = (upper - lower).norm();
+  return list;
 }
 
 template <int D>
@@ -478,13 +510,15 @@ Result<Spline<1>> TimesLinear(const Spline<1>& curve, double ratio)
   template int MapCorner<Dim>(int, int);                                                           \
   template std::vector<SideOrigin<Dim>> Orientations<Dim>();                                       \
   template int GivenCorner<Dim>(const SideOrigin<Dim>&, int);                                      \
-  template int CornerFunction<Dim - 1>(const SplineSpace<Dim - 1>&, int);                          \
-  template Result<Spline<Dim - 1>> PreparedSide<Dim>(const Spline<Dim - 1>&);                      \
+  template Result<SideList<Dim>> PreparedSides<Dim>(const std::vector<Spline<Dim - 1>>&);          \
   template Spline<Dim - 1> Reoriented<Dim - 1>(                                                    \
     const Spline<Dim - 1>&, const std::array<int, Dim - 1>&, const std::array<bool, Dim - 1>&);    \
   template Result<KnotVector> UniteKnots<Dim - 1>(                                                 \
     const std::vector<SideDirection<Dim - 1>>&, int, int);                                         \
   template void MakeRational<Dim - 1>(Spline<Dim - 1>&);
+template int CornerFunction<1>(const SplineSpace<1>&, int);
+template int CornerFunction<2>(const SplineSpace<2>&, int);
+template int CornerFunction<3>(const SplineSpace<3>&, int);
 KNOTWORK_INSTANTIATE(2)
 KNOTWORK_INSTANTIATE(3)
 #undef KNOTWORK_INSTANTIATE

@@ -29,10 +29,16 @@ int GivenCorner(const SideOrigin<Dim>& origin, int corner);
 template <int D>
 int CornerFunction(const SplineSpace<D>& space, int corner);
 
-/// A given side, checked, with Dim components, clamped on [0, 1]^(Dim - 1), without weights that do
-/// nothing.
 template <int Dim>
-Result<Spline<Dim - 1>> PreparedSide(const Spline<Dim - 1>& given);
+struct SideList
+{
+  std::vector<Spline<Dim - 1>> Sides;
+  double Size = 0.0; ///< diagonal of the control points' bounding box
+};
+/// Given sides, checked, with Dim components, clamped on [0, 1]^(Dim - 1), without weights that do
+/// nothing. Curves of three components lie in one plane of constant z.
+template <int Dim>
+Result<SideList<Dim>> PreparedSides(const std::vector<Spline<Dim - 1>>& given);
 /// The same side with other directions: new direction k is old direction axis[k], run backwards
 /// when reversed[k] (knots t become 1 - t).
 template <int D>

@@ -164,6 +164,66 @@ TEST(DomainParameterization, CornerThatFoldsIsNamed_PropertyOracle)
   EXPECT_EQ(run.Map()->GetNumberOfCells(), 1);
 }
 
+TEST(DomainParameterization, OptionsReachTheKernel_PropertyOracle)
+{
+  // a deep bite under a low roof: the Coons map folds
+  Pipeline run(Sides("curves",
+    { "{\"degree\": 3, \"knots\": [0, 0, 0, 0, 0.25, 0.5, 0.75, 1, 1, 1, 1], "
+      "\"control_points\": [[0, 0], [0.7, 0.1], [0.1, 0.7], [0.5, 1.1], [0.9, 0.7], [0.3, 0.1], "
+      "[1, 0]]}",
+      Line(0, 1.2, 1, 1.2), Line(0, 0, 0, 1.2), Line(1, 0, 1, 1.2) }));
+  run.Filter->SetInitialMap(vtkDomainParameterization::COONS);
+  run.Filter->Update();
+  ASSERT_EQ(run.Filter->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
+  EXPECT_EQ(run.Filter->GetVerdict(), 1);
+  const auto lastOfFoldover = [&]
+  {
+    run.Filter->Update();
+    auto* table = vtkTable::SafeDownCast(run.Filter->GetOutputDataObject(2));
+    double energy = -1.0;
+    for (vtkIdType i = 0; i < table->GetNumberOfRows(); ++i)
+    {
+      if (table->GetValueByName(i, "Stage").ToString() == "foldover")
+      {
+        energy = table->GetValueByName(i, "Energy").ToDouble();
+      }
+    }
+    return energy;
+  };
+  run.Filter->SetFoldover(vtkDomainParameterization::RELU);
+  const double relu = lastOfFoldover();
+  EXPECT_EQ(run.Filter->GetVerdict(), 1);
+  run.Filter->SetFoldover(vtkDomainParameterization::PENALTY);
+  const double penalty = lastOfFoldover();
+  EXPECT_EQ(run.Filter->GetVerdict(), 1);
+  EXPECT_EQ(relu, 0.0);    // the integral of max(0, delta - det J), or of what is left of it
+  EXPECT_GT(penalty, 1.0); // the quality functional, at least 2 in the plane
+  run.Filter->SetFoldover(vtkDomainParameterization::FOLDOVER_AUTOMATIC);
+
+  run.Filter->Update();
+  const double iterations = run.Number("Iterations");
+  run.Filter->SetEnergyTolerance(0.1);
+  run.Filter->Update();
+  EXPECT_LT(run.Number("Iterations"), iterations);
+  run.Filter->SetEnergyTolerance(1e-7);
+
+  run.Filter->Update();
+  const double coarse = run.Number("JacobianMinUpper") - run.Number("JacobianMinLower");
+  const double lower = run.Number("JacobianMinLower");
+  run.Filter->SetCertificateGap(1e-9);
+  run.Filter->Update();
+  EXPECT_EQ(run.Filter->GetVerdict(), 1);
+  EXPECT_GE(run.Number("JacobianMinLower"), lower);
+  EXPECT_LE(run.Number("JacobianMinUpper") - run.Number("JacobianMinLower"),
+    1e-9 * run.Number("JacobianMinUpper"));
+  EXPECT_GT(coarse, 1e-9 * run.Number("JacobianMinUpper"));
+
+  const double sampled = run.Number("MinDetOverArea");
+  run.Filter->SetMetricSamples(2); // the corners alone
+  run.Filter->Update();
+  EXPECT_GT(run.Number("MinDetOverArea"), sampled);
+}
+
 TEST(DomainParameterization, BadBoundariesAreOneError_PropertyOracle)
 {
   const auto expect = [](const std::string& json, const std::string& words)

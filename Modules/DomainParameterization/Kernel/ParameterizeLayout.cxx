@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ParameterizeLayout.h"
+
+#include "DomainRun.h"
+#include "FunctionMap.h"
+#include "GluedSystem.h"
+#include "InitialMaps.h"
+#include "ParameterMetrics.h"
+#include "Refinement.h"
+#include "TensorSpace.h"
+
+#include <chrono>
+#include <cmath>
+
+namespace knotwork
+{
+namespace
+{
+/// Part of a patch's lattice of control points: 0 and 1 are the ends of a direction, 2 all of it.
+template <int Dim>
+using Part = std::array<int, Dim>;
+
+template <int Dim>
+std::vector<Part<Dim>> PartsOf(int numFree)
+{
+  std::vector<Part<Dim>> parts;
+  for (int code = 0; code < (Dim == 2 ? 9 : 27); ++code)
+  {
+    Part<Dim> part{};
+    int rest = code;
+    int free = 0;
+    for (int& digit : part)
+    {
+      digit = rest % 3;
+      rest /= 3;
+      free += digit == 2;
+    }
+    if (free == numFree)
+    {
+      parts.push_back(part);
+    }
+  }
+  return parts;
+}
+
+/// Control points of a part, first free direction fastest.
+template <int Dim>
+std::vector<int> PartFunctions(const SplineSpace<Dim>& space, const Part<Dim>& part)
+{
+  IntArray<Dim> counts{};
+  std::array<int, Dim> strides{};
+  int first = 0;
+  int stride = 1;
+  for (std::size_t d = 0; d < Dim; ++d)
+  {
+    const int n = space.Knots[d].NumFunctions();
+    counts[d] = part[d] == 2 ? n : 1;
+    strides[d] = stride;
+    first += part[d] == 1 ? stride * (n - 1) : 0;
+    stride *= n;
+  }
+  std::vector<int> functions;
+  ForEachOffset<Dim>(counts,
+    [&](const IntArray<Dim>& index)
+    {
+      int f = first;
+      for (std::size_t d = 0; d < Dim; ++d)
+      {
+        f += strides[d] * index[d];
+      }
+      functions.push_back(f);
+    });
+  return functions;
+}
+
+/// A part as a spline of its own. @pre it has K free directions.
+template <int Dim, int K>
+Spline<K> Extract(
+  const Spline<Dim>& patch, const Part<Dim>& part, const std::vector<int>& functions)
+{
+  std::array<KnotVector, K> knots;
+  std::size_t k = 0;
+  for (std::size_t d = 0; d < Dim; ++d)
+  {
+    if (part[d] == 2)
+    {
+      knots[k++] = patch.Space->Knots[d];
+    }
+  }
+  Spline<K> spline;
+  spline.Space = MakeTensorSpace<K>(knots).Value;
+  spline.ControlPoints.resize(static_cast<Eigen::Index>(functions.size()), Dim);
+  spline.Weights.resize(patch.IsRational() ? spline.ControlPoints.rows() : 0);
+  for (std::size_t i = 0; i < functions.size(); ++i)
+  {
+    const Eigen::Index row = static_cast<Eigen::Index>(i);
+    spline.ControlPoints.row(row) = patch.ControlPoints.row(functions[i]);
+    if (patch.IsRational())
+    {
+      spline.Weights[row] = patch.Weights[functions[i]];
+    }
+  }
+  return spline;
+}
+
+/// Control points and weights by their numbers, taken out of the patches and put back.
+template <int Dim>
+class Numbered
+{
+public:
+  explicit Numbered(const GluedMap<Dim>& map) : Points(GluedPoints<Dim>(map))
+  {
+    this->Weights.setOnes(map.IsRational() ? map.NumFunctions() : 0);
+    for (std::size_t p = 0; p < map.Patches.size() && map.IsRational(); ++p)
+    {
+      for (std::size_t i = 0; i < map.Functions[p].size(); ++i)
+      {
+        this->Weights[map.Functions[p][i]] = map.Patches[p].Weights[static_cast<Eigen::Index>(i)];
+      }
+    }
+  }
+  void Into(GluedMap<Dim>& map, std::size_t p) const
+  {
+    for (std::size_t i = 0; i < map.Functions[p].size(); ++i)
+    {
+      const Eigen::Index row = static_cast<Eigen::Index>(i);
+      map.Patches[p].ControlPoints.row(row) = this->Points.row(map.Functions[p][i]);
+      if (map.IsRational())
+      {
+        map.Patches[p].Weights[row] = this->Weights[map.Functions[p][i]];
+      }
+    }
+  }
+  PointMatrix Points;
+  Eigen::VectorXd Weights;
+};
+
+/// Edges, faces or patches whose boundary is known are filled.
+template <int Dim, int K>
+void FillParts(GluedMap<Dim>& map, Numbered<Dim>& all, std::vector<bool>& known)
+{
+  for (std::size_t p = 0; p < map.Patches.size(); ++p)
+  {
+    all.Into(map, p);
+    for (const Part<Dim>& part : PartsOf<Dim>(K))
+    {
+      const std::vector<int> functions = PartFunctions<Dim>(*map.Patches[p].Space, part);
+      Spline<K> own = Extract<Dim, K>(map.Patches[p], part, functions);
+      const std::vector<bool> ends = BoundaryFunctions<K>(*own.Space);
+      FillCoons<K>(own);
+      for (std::size_t i = 0; i < functions.size(); ++i)
+      {
+        const int number = map.Functions[p][static_cast<std::size_t>(functions[i])];
+        if (ends[i] || known[static_cast<std::size_t>(number)])
+        {
+          continue;
+        }
+        known[static_cast<std::size_t>(number)] = true;
+        const Eigen::Index row = static_cast<Eigen::Index>(i);
+        all.Points.row(number) = own.ControlPoints.row(row);
+        if (own.IsRational())
+        {
+          all.Weights[number] = own.Weights[row];
+        }
+      }
+    }
+  }
+}
+
+/// Inner vertices from the layout, sides without a given one straight, patches by Boolean sums.
+template <int Dim>
+GluedMap<Dim> CoonsMap(const CompatibleLayout<Dim>& layout)
+{
+  GluedMap<Dim> map = layout.Map;
+  Numbered<Dim> all(map);
+  std::vector<bool> known = layout.Given;
+  const std::vector<Part<Dim>> corners = PartsOf<Dim>(0);
+  double sum = 0.0;
+  int count = 0;
+  std::vector<int> inner;
+  for (std::size_t p = 0; p < map.Patches.size(); ++p)
+  {
+    for (std::size_t c = 0; c < corners.size(); ++c)
+    {
+      // corners are listed first direction fastest, as the layout numbers them
+      const int function = PartFunctions<Dim>(*map.Patches[p].Space, corners[c]).front();
+      const int number = map.Functions[p][static_cast<std::size_t>(function)];
+      if (layout.Given[static_cast<std::size_t>(number)])
+      {
+        sum += map.IsRational() ? std::log(all.Weights[number]) : 0.0;
+        ++count;
+      }
+      else
+      {
+        known[static_cast<std::size_t>(number)] = true;
+        all.Points.row(number) = layout.Vertices.row(layout.Corners[p][c]);
+        inner.push_back(number);
+      }
+    }
+  }
+  for (int number : inner)
+  {
+    if (map.IsRational())
+    {
+      all.Weights[number] = std::exp(sum / count);
+    }
+  }
+  FillParts<Dim, 1>(map, all, known);
+  FillParts<Dim, 2>(map, all, known);
+  if constexpr (Dim == 3)
+  {
+    FillParts<Dim, 3>(map, all, known);
+  }
+  for (std::size_t p = 0; p < map.Patches.size(); ++p)
+  {
+    all.Into(map, p);
+  }
+  return map;
+}
+
+template <int Dim>
+class LayoutSource final : public DomainSource<Dim>
+{
+public:
+  explicit LayoutSource(const CompatibleLayout<Dim>& layout) : Layout(layout) {}
+
+  Result<GluedMap<Dim>> FirstMap(InitialMapMethod method) override
+  {
+    GluedMap<Dim> map = CoonsMap<Dim>(this->Layout);
+    if (method != InitialMapMethod::Coons)
+    {
+      const GluedSystem<Dim> system(
+        map, method == InitialMapMethod::Spring ? GluedOperator::Spring : GluedOperator::Laplacian);
+      if (Status status = system.Fill(map); !status)
+      {
+        return status;
+      }
+    }
+    return map;
+  }
+
+  Result<GluedMap<Dim>> Refine(const GluedMap<Dim>& map, const JacobianCertificate&) override
+  {
+    std::vector<Spline<Dim>> patches;
+    for (const Spline<Dim>& patch : map.Patches)
+    {
+      auto refined = RefineAllElements<Dim>(patch);
+      if (!refined)
+      {
+        return refined.Status;
+      }
+      patches.push_back(std::move(refined->Value));
+    }
+    auto glued = Glue<Dim>(patches, this->Layout.Shared, this->Layout.Corners);
+    for (std::size_t p = 0; p < patches.size() && glued; ++p)
+    {
+      for (int s = 0; s < 2 * Dim; ++s)
+      {
+        if (this->Layout.Fixed[p][static_cast<std::size_t>(s)])
+        {
+          for (int f : SideFunctions<Dim>(*patches[p].Space, s))
+          {
+            glued
+              ->Fixed[static_cast<std::size_t>(glued->Functions[p][static_cast<std::size_t>(f)])] =
+              true;
+          }
+        }
+      }
+    }
+    return glued;
+  }
+
+private:
+  const CompatibleLayout<Dim>& Layout;
+};
+
+/// Places where the fixed sides of one patch alone make det J <= 0.
+template <int Dim>
+void FindFolds(const CompatibleLayout<Dim>& layout, const GluedMap<Dim>& map, DomainReport& report)
+{
+  for (std::size_t p = 0; p < map.Patches.size(); ++p)
+  {
+    CompatibleBoundary<Dim> boundary;
+    boundary.Knots = map.Patches[p].Space->Knots;
+    for (int s = 0; s < 2 * Dim; ++s)
+    {
+      const std::size_t at = static_cast<std::size_t>(s);
+      Part<Dim> part;
+      part.fill(2);
+      part[at / 2] = s % 2;
+      boundary.Sides[at] = Extract<Dim, Dim - 1>(
+        map.Patches[p], part, PartFunctions<Dim>(*map.Patches[p].Space, part));
+      boundary.Origins[at].Input = layout.Inputs[p][at];
+    }
+    for (BoundaryFold& fold : FindBoundaryFolds<Dim>(boundary, layout.Fixed[p]))
+    {
+      fold.Message = "patch " + std::to_string(p) + ": " + fold.Message;
+      report.Messages.push_back(fold.Message);
+      report.Folds.push_back(std::move(fold));
+    }
+  }
+}
+
+/// How the elements fit together.
+template <int Dim>
+CellComplex ComplexOf(const GluedMap<Dim>& map)
+{
+  CellComplex complex;
+  for (std::size_t p = 0; p < map.Patches.size(); ++p)
+  {
+    for (const auto& element : map.Patches[p].Space->Elements)
+    {
+      ParametricBox<3> box{};
+      for (std::size_t d = 0; d < Dim; ++d)
+      {
+        box.Lower[d] = element.Box.Lower[d];
+        box.Upper[d] = element.Box.Upper[d];
+      }
+      complex.Patches.push_back(static_cast<int>(p));
+      complex.Boxes.push_back(box);
+    }
+  }
+  return complex;
+}
+}
+
+template <int Dim>
+Result<LayoutParameterization<Dim>> ParameterizeLayout(const PatchLayout<Dim>& layout,
+  const LayoutParams& layoutParams, const DomainParams& params, const ProgressCallback& progress)
+{
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  if (Status status = CheckParams(params); !status)
+  {
+    return status;
+  }
+  auto compatible = MakeCompatible<Dim>(layout, layoutParams);
+  if (!compatible)
+  {
+    return compatible.Status;
+  }
+  LayoutParameterization<Dim> out;
+  out.Layout = std::move(compatible.Value);
+  FindFolds<Dim>(out.Layout, CoonsMap<Dim>(out.Layout), out);
+  const double numPatches = static_cast<double>(out.Layout.Corners.size());
+  const std::chrono::duration<double> before = Clock::now() - start;
+  out.SecondsOptimization = before.count();
+  LayoutSource<Dim> source(out.Layout);
+  DomainRun<Dim> run;
+  if (Status status =
+        RunDomain<Dim>(source, out.Layout.Area / numPatches, params, progress, run, out);
+      !status)
+  {
+    return status;
+  }
+  out.Map = std::move(run.Map);
+  out.InitialMap = std::move(run.InitialMap);
+  out.Metrics.Area *= numPatches;
+  out.InitialMetrics.Area *= numPatches;
+  const Clock::time_point proof = Clock::now();
+  InjectivityParams injectivity;
+  injectivity.MaxBoxes = params.MaxBoxes;
+  injectivity.Threads = params.Threads;
+  auto proved = ProveInjectivity(GluedCells<Dim>(out.Map, params.Threads), ComplexOf<Dim>(out.Map),
+    out.Certificate, injectivity, progress);
+  if (!proved)
+  {
+    return proved.Status;
+  }
+  out.Injectivity = std::move(proved.Value);
+  const std::chrono::duration<double> after = Clock::now() - proof;
+  out.SecondsCertificate += after.count();
+  return out;
+}
+
+template Result<LayoutParameterization<2>> ParameterizeLayout<2>(
+  const PatchLayout<2>&, const LayoutParams&, const DomainParams&, const ProgressCallback&);
+template Result<LayoutParameterization<3>> ParameterizeLayout<3>(
+  const PatchLayout<3>&, const LayoutParams&, const DomainParams&, const ProgressCallback&);
+}
