@@ -141,11 +141,24 @@ def patches(surface, by="PatchId", lighting=False):
 
 def element_edges(grid, samples=12):
     """Polylines along the edges of the elements of a planar spline grid, evaluated on the spline."""
+    return edges_of_boxes(grid, vtk_to_numpy(grid.GetCellData().GetArray("ParametricBounds")),
+                          vtk_to_numpy(grid.GetCellData().GetArray("PatchId")), samples)
+
+
+def patch_edges(grid, samples=100):
+    """The same along the edges of the patches."""
+    bounds = vtk_to_numpy(grid.GetCellData().GetArray("ParametricBounds"))
+    patch = vtk_to_numpy(grid.GetCellData().GetArray("PatchId"))
+    ids = np.unique(patch)
+    boxes = [np.c_[bounds[patch == p][:, ::2].min(0), bounds[patch == p][:, 1::2].max(0)].ravel() for p in ids]
+    return edges_of_boxes(grid, np.array(boxes), ids, samples)
+
+
+def edges_of_boxes(grid, bounds, patch, samples):
+    """Polylines along the edges of parametric boxes of patches."""
     corners = np.linspace(0, 1, samples)
     zero, one = np.zeros(samples), np.ones(samples)
     sides = np.vstack([np.c_[corners, zero], np.c_[corners, one], np.c_[zero, corners], np.c_[one, corners]])
-    bounds = vtk_to_numpy(grid.GetCellData().GetArray("ParametricBounds"))
-    patch = vtk_to_numpy(grid.GetCellData().GetArray("PatchId"))
     parameters = (bounds[:, None, (0, 2)] + sides[None] * (bounds[:, None, (1, 3)] - bounds[:, None, (0, 2)]))
     parameters = parameters.reshape(-1, 2)
     points = vtkPoints()

@@ -19,6 +19,7 @@ namespace
 struct ParameterizeJob
 {
   std::string Input;
+  std::string Layout;
   std::string Output;
   std::string FirstMap;
   std::string Table;
@@ -35,6 +36,16 @@ struct ParameterizeJob
     session.Report["input"] = this->Input;
     session.Report["output"] = this->Output;
     this->Filter->SetInputDataObject(input.Value);
+    if (!this->Layout.empty())
+    {
+      auto layout = session.Read(this->Layout);
+      if (!layout)
+      {
+        return layout.Status;
+      }
+      session.Report["layout"] = this->Layout;
+      this->Filter->SetInputDataObject(1, layout.Value);
+    }
     this->FilterOptions->Apply(session.Report);
     this->Filter->SetThreads(session.Threads);
     if (Status status = session.Run(this->Filter, "'" + this->Input + "'"); !status)
@@ -49,8 +60,9 @@ struct ParameterizeJob
   {
     vtkFieldData* data = this->Filter->GetOutputDataObject(0)->GetFieldData();
     const auto number = [data](const char* name) { return data->GetArray(name)->GetTuple1(0); };
-    report["verdict"] =
-      vtkStringArray::SafeDownCast(data->GetAbstractArray("Verdict"))->GetValue(0);
+    const auto text = [data](const char* name)
+    { return vtkStringArray::SafeDownCast(data->GetAbstractArray(name))->GetValue(0); };
+    report["verdict"] = text("Verdict");
     report["min_jacobian_lower"] = number("JacobianMinLower");
     report["min_jacobian_upper"] = number("JacobianMinUpper");
     report["area"] = number("Area");
@@ -61,6 +73,11 @@ struct ParameterizeJob
     report["mean_condition_number"] = number("MeanConditionNumber");
     report["iterations"] = static_cast<long long>(number("Iterations"));
     report["functions"] = static_cast<long long>(number("Functions"));
+    report["patches"] = static_cast<long long>(number("Patches"));
+    if (!this->Layout.empty())
+    {
+      report["injective"] = text("Injective");
+    }
     report["seconds_with_certificate"] = number("SecondsWithCertificate");
   }
 };
@@ -74,6 +91,9 @@ Job MakeParameterizeJob(CLI::App& app)
       "four curves or six faces, one patch a side (.vtu .vtpc .xml .g2 .json)")
     ->required();
   app.add_option("--output", job->Output, "the map as Bezier grid (.vtu)")->required();
+  app.add_option("--layout", job->Layout,
+    "a mesh of quadrilaterals or hexahedra, one a patch: the boundary then has a curve or face for "
+    "every edge or face on its boundary (.vtu .vtp)");
   app.add_option("--first-map", job->FirstMap, "the map before the optimization (.vtu)");
   app.add_option("--table", job->Table, "the convergence table (.csv)");
   job->FilterOptions = std::make_unique<Options>(app);
@@ -106,6 +126,10 @@ Job MakeParameterizeJob(CLI::App& app)
   KNOTWORK_OPTION(
     options, filter, MetricSamples, "samples a direction of the metrics; 0: 501, in space 51");
   KNOTWORK_OPTION(options, filter, CertificateGap, "relative gap of the proved bounds of elements");
+  KNOTWORK_OPTION(options, filter, MinimumDegree, "with a layout: of directions of patches");
+  KNOTWORK_OPTION(options, filter, MinimumElements, "with a layout: of directions of patches");
+  KNOTWORK_FREE_OPTION(
+    options, filter, MoveInterfaces, "with a layout: whether sides between patches move");
   return [job](Session& session) { return job->Run(session); };
 }
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDomainParameterization.h"
 
-#include "DomainParameterization.h"
+#include "LayoutData.h"
+#include "ParameterizeLayout.h"
 #include "SplineModel.h"
 
+#include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
@@ -66,16 +68,29 @@ void FillTable(const std::vector<knotwork::DomainIteration>& history, vtkTable* 
   add(functions.Get(), "Functions", [](const Row& row) { return row.Functions; });
 }
 
-/// A map as a grid of one patch; a planar one lies at z = height.
+/// A map as a grid, a patch each; a planar one lies at z = height.
 template <int Dim>
-Status EncodeMap(knotwork::Spline<Dim> map, double height, vtkUnstructuredGrid* grid)
+Status EncodeMap(
+  const std::vector<knotwork::Spline<Dim>>& patches, double height, vtkUnstructuredGrid* grid)
 {
-  map.ControlPoints.conservativeResize(Eigen::NoChange, 3);
-  map.ControlPoints.rightCols(3 - Dim).setConstant(height);
   knotwork::SplineModel model;
-  model.Patches.emplace_back();
-  model.Patches.back().Geometry = std::move(map);
+  for (knotwork::Spline<Dim> patch : patches)
+  {
+    patch.ControlPoints.conservativeResize(Eigen::NoChange, 3);
+    patch.ControlPoints.rightCols(3 - Dim).setConstant(height);
+    model.Patches.emplace_back();
+    model.Patches.back().Id = static_cast<int>(model.Patches.size()) - 1;
+    model.Patches.back().Geometry = std::move(patch);
+  }
   return EncodeSplineGrid(model, grid);
+}
+
+void AddText(vtkUnstructuredGrid* grid, const char* name, const char* text)
+{
+  vtkNew<vtkStringArray> array;
+  array->SetName(name);
+  array->InsertNextValue(text);
+  grid->GetFieldData()->AddArray(array);
 }
 
 void AddNumber(vtkUnstructuredGrid* grid, const char* name, double value)
@@ -87,13 +102,9 @@ void AddNumber(vtkUnstructuredGrid* grid, const char* name, double value)
 }
 
 /// The report of a map as field data.
-template <int Dim>
-void AddReport(const knotwork::DomainParameterization<Dim>& result, vtkUnstructuredGrid* grid)
+void AddReport(const knotwork::DomainReport& result, vtkUnstructuredGrid* grid)
 {
-  vtkNew<vtkStringArray> verdict;
-  verdict->SetName("Verdict");
-  verdict->InsertNextValue(ToString(result.Certificate.Verdict));
-  grid->GetFieldData()->AddArray(verdict);
+  AddText(grid, "Verdict", ToString(result.Certificate.Verdict));
   const knotwork::DomainMetrics& metrics = result.Metrics;
   AddNumber(grid, "JacobianMinLower", result.MinDetLower);
   AddNumber(grid, "JacobianMinUpper", result.MinDetUpper);
@@ -104,13 +115,13 @@ void AddReport(const knotwork::DomainParameterization<Dim>& result, vtkUnstructu
   AddNumber(grid, "MeanScaledJacobian", metrics.MeanScaledJacobian);
   AddNumber(grid, "MeanConditionNumber", metrics.MeanConditionNumber);
   AddNumber(grid, "Iterations", result.Iterations);
-  AddNumber(grid, "Functions", result.Map.Space->NumFunctions);
   AddNumber(grid, "SecondsWithCertificate", result.SecondsOptimization + result.SecondsCertificate);
 }
 }
 
 vtkDomainParameterization::vtkDomainParameterization()
 {
+  this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(3);
 }
 
@@ -129,7 +140,21 @@ void vtkDomainParameterization::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "GapTolerance: " << this->GapTolerance << "\n";
   os << indent << "MetricSamples: " << this->MetricSamples << "\n";
   os << indent << "CertificateGap: " << this->CertificateGap << "\n";
+  os << indent << "MinimumDegree: " << this->MinimumDegree << "\n";
+  os << indent << "MinimumElements: " << this->MinimumElements << "\n";
+  os << indent << "MoveInterfaces: " << this->MoveInterfaces << "\n";
   os << indent << "Verdict: " << this->Verdict << "\n";
+}
+
+int vtkDomainParameterization::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 0)
+  {
+    return this->Superclass::FillInputPortInformation(port, info);
+  }
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  return 1;
 }
 
 int vtkDomainParameterization::FillOutputPortInformation(int port, vtkInformation* info)
@@ -171,26 +196,14 @@ Status vtkDomainParameterization::Compute(
   {
     return {};
   }
-  return model->Patches.front().Geometry.index() == 0 ? this->Parameterize<2>(model.Value, outputs)
-                                                      : this->Parameterize<3>(model.Value, outputs);
+  vtkDataSet* layout = vtkDataSet::GetData(inputs[1], 0);
+  return model->Patches.front().Geometry.index() == 0
+    ? this->Parameterize<2>(model.Value, layout, outputs)
+    : this->Parameterize<3>(model.Value, layout, outputs);
 }
 
-template <int Dim>
-Status vtkDomainParameterization::Parameterize(
-  const knotwork::SplineModel& model, vtkInformationVector* outputs)
+knotwork::DomainParams vtkDomainParameterization::KernelParams() const
 {
-  knotwork::DomainBoundary<Dim> boundary;
-  for (const knotwork::SplinePatch& patch : model.Patches)
-  {
-    const auto* side = std::get_if<knotwork::Spline<Dim - 1>>(&patch.Geometry);
-    if (!side)
-    {
-      return { ErrorCode::DimensionMismatch,
-        "patch " + std::to_string(patch.Id) +
-          " is not of the same kind as the first: give four curves or six surfaces" };
-    }
-    boundary.Sides.push_back(*side);
-  }
   knotwork::DomainParams params;
   params.InitialMap = static_cast<knotwork::InitialMapMethod>(this->InitialMap);
   params.Optimizer = static_cast<knotwork::DomainOptimizer>(this->Optimizer);
@@ -205,25 +218,92 @@ Status vtkDomainParameterization::Parameterize(
   params.MetricSamples = this->MetricSamples == 1 ? 2 : this->MetricSamples;
   params.CertificateGap = this->CertificateGap;
   params.Threads = this->KernelThreads();
-  const auto result = ParameterizeDomain(boundary, params, this->Progress());
+  return params;
+}
+
+template <int Dim>
+Status vtkDomainParameterization::Parameterize(
+  const knotwork::SplineModel& model, vtkDataSet* layoutData, vtkInformationVector* outputs)
+{
+  std::vector<knotwork::Spline<Dim - 1>> sides;
+  for (const knotwork::SplinePatch& patch : model.Patches)
+  {
+    const auto* side = std::get_if<knotwork::Spline<Dim - 1>>(&patch.Geometry);
+    if (!side)
+    {
+      return { ErrorCode::DimensionMismatch,
+        "patch " + std::to_string(patch.Id) +
+          " is not of the same kind as the first: give curves or surfaces, not both" };
+    }
+    sides.push_back(*side);
+  }
+  // the plane of the curves
+  const double height = Dim == 2 ? sides.front().ControlPoints(0, 2) : 0.0;
+  const knotwork::DomainParams params = this->KernelParams();
+  vtkUnstructuredGrid* grid = vtkUnstructuredGrid::GetData(outputs, 0);
+  if (!layoutData)
+  {
+    const auto result =
+      knotwork::ParameterizeDomain<Dim>({ std::move(sides) }, params, this->Progress());
+    if (!result)
+    {
+      return result.Status;
+    }
+    const Status status =
+      this->Encode<Dim>(result.Value, { result->Map }, { result->InitialMap }, height, outputs);
+    AddNumber(grid, "Functions", result->Map.Space->NumFunctions);
+    return status;
+  }
+  auto layout = knotwork::DecodeLayout<Dim>(layoutData);
+  if (!layout)
+  {
+    return layout.Status;
+  }
+  layout->Sides = std::move(sides);
+  knotwork::LayoutParams layoutParams;
+  layoutParams.GapTolerance = this->GapTolerance;
+  layoutParams.MinDegree = this->MinimumDegree;
+  layoutParams.MinElements = this->MinimumElements;
+  layoutParams.MoveInterfaces = this->MoveInterfaces;
+  const auto result =
+    knotwork::ParameterizeLayout<Dim>(layout.Value, layoutParams, params, this->Progress());
   if (!result)
   {
     return result.Status;
   }
-  for (const std::string& message : result->Messages) // those of folds of the boundary first
+  const knotwork::InjectivityCertificate& injectivity = result->Injectivity;
+  if (result->Certificate.Verdict == knotwork::Verdict::Valid &&
+    injectivity.Verdict != knotwork::InjectivityVerdict::Injective)
+  {
+    vtkWarningMacro(
+      "the patches are valid, but not proved injective together: " << ToString(injectivity.Reason));
+  }
+  const Status status = this->Encode<Dim>(
+    result.Value, result->Map.Patches, result->InitialMap.Patches, height, outputs);
+  AddNumber(grid, "Functions", result->Map.NumFunctions());
+  AddText(grid, "Injective", ToString(injectivity.Verdict));
+  return status;
+}
+
+/// All outputs.
+template <int Dim>
+Status vtkDomainParameterization::Encode(const knotwork::DomainReport& report,
+  const std::vector<knotwork::Spline<Dim>>& map, const std::vector<knotwork::Spline<Dim>>& firstMap,
+  double height, vtkInformationVector* outputs)
+{
+  for (const std::string& message : report.Messages) // those of folds of the boundary first
   {
     vtkWarningMacro("" << message);
   }
-  this->Verdict = static_cast<int>(result->Certificate.Verdict);
-  // the plane of the curves
-  const double height = Dim == 2 ? boundary.Sides.front().ControlPoints(0, 2) : 0.0;
+  this->Verdict = static_cast<int>(report.Certificate.Verdict);
   vtkUnstructuredGrid* grid = vtkUnstructuredGrid::GetData(outputs, 0);
-  FillTable(result->History, vtkTable::GetData(outputs, 2));
-  Status status = EncodeMap(result->Map, height, grid);
+  FillTable(report.History, vtkTable::GetData(outputs, 2));
+  Status status = EncodeMap<Dim>(map, height, grid);
   if (status)
   {
-    AddReport(result.Value, grid);
-    status = EncodeMap(result->InitialMap, height, vtkUnstructuredGrid::GetData(outputs, 1));
+    AddReport(report, grid);
+    AddNumber(grid, "Patches", static_cast<double>(map.size()));
+    status = EncodeMap<Dim>(firstMap, height, vtkUnstructuredGrid::GetData(outputs, 1));
   }
   return status;
 }

@@ -7,7 +7,13 @@
  * a plane z = constant, or six faces in space, each polynomial or rational with its own degrees and
  * knots. Which sides meet, and how they run, is found. The boundary is not moved.
  *
- * Output 0 is the map as a spline grid of one patch with the field-data arrays `Verdict` ("valid",
+ * Input 1 (optional) is a layout: a linear mesh of quadrilaterals or hexahedra, one a patch. Input
+ * 0 then has one curve (face) for every edge (face) on the mesh's boundary, found by the points
+ * that it joins, and may have some for inner ones. All patches are parameterized together; those
+ * inside start straight, or as given, and move with the points.
+ *
+ * Output 0 is the map as a spline grid of one patch (one a cell of the layout, `PatchId` its number
+ * among the quadrilaterals or hexahedra) with the field-data arrays `Verdict` ("valid",
  * "invalid", "undecided", "reversed": proved, not sampled), `JacobianMinLower` and
  * `JacobianMinUpper` (proved bounds of the smallest det J with respect to the parameters of the
  * unit square or cube) and, over 501 x 501 (51^3) samples, `MinDetOverArea`, `MaxDetOverArea`,
@@ -24,9 +30,17 @@
 #include "vtkKnotworkDomainParameterizationModule.h" // for export macro
 #include "vtkSplineAlgorithm.h"
 
+#include <vector> // for patches
+
+class vtkDataSet;
+
 namespace knotwork
 {
+struct DomainParams;
+struct DomainReport;
 struct SplineModel;
+template <int Dim>
+struct Spline;
 }
 
 class VTKKNOTWORKDOMAINPARAMETERIZATION_EXPORT vtkDomainParameterization : public vtkSplineAlgorithm
@@ -129,6 +143,25 @@ public:
   ///@}
 
   ///@{
+  /** With a layout: directions of patches have at least this degree. Default 2, valid range [1, 9].
+   */
+  vtkSetClampMacro(MinimumDegree, int, 1, 9);
+  vtkGetMacro(MinimumDegree, int);
+  ///@}
+  ///@{
+  /** With a layout: directions of patches have at least so many elements. Default 4, valid range
+   * [1, 1000]. */
+  vtkSetClampMacro(MinimumElements, int, 1, 1000);
+  vtkGetMacro(MinimumElements, int);
+  ///@}
+  ///@{
+  /** With a layout: whether sides between patches move. Default on. */
+  vtkSetMacro(MoveInterfaces, bool);
+  vtkGetMacro(MoveInterfaces, bool);
+  vtkBooleanMacro(MoveInterfaces, bool);
+  ///@}
+
+  ///@{
   /** Of the last update: 1 valid, 0 undecided, -1 invalid, 2 reversed. */
   vtkGetMacro(Verdict, int);
   ///@}
@@ -136,6 +169,7 @@ public:
 protected:
   vtkDomainParameterization();
   ~vtkDomainParameterization() override = default;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestDataObject(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
@@ -146,7 +180,14 @@ private:
   void operator=(const vtkDomainParameterization&) = delete;
 
   template <int Dim>
-  knotwork::Status Parameterize(const knotwork::SplineModel& model, vtkInformationVector* outputs);
+  knotwork::Status Parameterize(
+    const knotwork::SplineModel& model, vtkDataSet* layout, vtkInformationVector* outputs);
+  template <int Dim>
+  knotwork::Status Encode(const knotwork::DomainReport& report,
+    const std::vector<knotwork::Spline<Dim>>& map,
+    const std::vector<knotwork::Spline<Dim>>& firstMap, double height,
+    vtkInformationVector* outputs);
+  knotwork::DomainParams KernelParams() const;
 
   int InitialMap = INITIAL_AUTOMATIC;
   int Optimizer = OPTIMIZER_AUTOMATIC;
@@ -160,6 +201,9 @@ private:
   double GapTolerance = 1e-9;
   int MetricSamples = 0;
   double CertificateGap = 0.1;
+  int MinimumDegree = 2;
+  int MinimumElements = 4;
+  bool MoveInterfaces = true;
   int Verdict = 0;
 };
 #endif

@@ -268,21 +268,6 @@ knotwork::CellComplex ComplexOf(
   return complex;
 }
 
-const char* InjectivityName(knotwork::InjectivityVerdict verdict)
-{
-  switch (verdict)
-  {
-    case knotwork::InjectivityVerdict::Injective:
-      return "injective";
-    case knotwork::InjectivityVerdict::InjectiveUpToSeam:
-      return "injective_up_to_seam";
-    case knotwork::InjectivityVerdict::NotInjective:
-      return "not_injective";
-    default:
-      return "undecided";
-  }
-}
-
 /// Is the map one of the plane or of space onto itself, so that it can be injective?
 bool CanBeInjective(const knotwork::BernsteinCells& cells)
 {
@@ -516,7 +501,7 @@ void FillInjectivity(
     column->SetValue(last, value);
     table->AddColumn(column);
   };
-  addText("Injective", applicable ? InjectivityName(injectivity.Verdict) : "not_applicable");
+  addText("Injective", applicable ? ToString(injectivity.Verdict) : "not_applicable");
   addText("InjectivityReason", applicable ? ToString(injectivity.Reason) : "");
   vtkNew<vtkIntArray> interfaces;
   addNumber(interfaces.Get(), "Interfaces", injectivity.NumInterfaces);

@@ -189,6 +189,53 @@ def test_parameterize_reports_a_certified_map():
     assert abs(again["measure"] - report["area"]) < 1e-12
 
 
+def quarter(radius, k):
+    """A quarter of a circle about the origin, from 90 k degrees on."""
+    at = [math.radians(90 * k + 45 * i) for i in range(3)]
+    points = [[radius * r * math.cos(a), radius * r * math.sin(a)] for a, r in zip(at, (1, math.sqrt(2), 1))]
+    return {"degree": 2, "knots": [0, 0, 0, 1, 1, 1], "weights": [1, math.sqrt(0.5), 1], "control_points": points}
+
+
+def ring_layout(name):
+    """Four quadrilaterals between circles of the radii 1 and 2."""
+    points = vtkPoints()
+    points.SetDataTypeToDouble()
+    for radius in 1, 2:
+        for k in range(4):
+            points.InsertNextPoint(radius * math.cos(math.pi / 2 * k), radius * math.sin(math.pi / 2 * k), 0)
+    grid = vtkUnstructuredGrid()
+    grid.SetPoints(points)
+    for k in range(4):
+        grid.InsertNextCell(VTK_QUAD, 4, [k, 4 + k, 4 + (k + 1) % 4, (k + 1) % 4])
+    writer = vtkXMLUnstructuredGridWriter()
+    writer.SetFileName(path(name))
+    writer.SetInputData(grid)
+    writer.Write()
+    return path(name)
+
+
+def test_parameterize_layout_of_four_patches():
+    name = boundary("ring.json", [quarter(radius, k) for radius in (1, 2) for k in range(4)])
+    layout = ring_layout("ring_layout.vtu")
+    report, _ = run(0, "parameterize", name, "--layout", layout, "--output", path("ring.vtu"))
+    assert report["verdict"] == "valid" and report["injective"] == "injective" and report["patches"] == 4
+    assert report["layout"] == layout and report["move_interfaces"] is True
+    assert abs(report["area"] - 3 * math.pi) < 1e-12
+    # det J is compared with the mean area of a patch
+    sampled = report["min_det_over_area"] * report["area"] / 4
+    assert 0.8 * sampled < report["min_jacobian_lower"] <= sampled * (1 + 1e-12)
+    again, _ = run(0, "validate", path("ring.vtu"))
+    assert again["verdict"] == "valid" and again["injective"] == "injective" and again["cells"] == 64
+    assert abs(again["measure"] - 3 * math.pi) < 1e-12
+    coarse, _ = run(0, "parameterize", name, "--layout", layout, "--output", path("ring.vtu"), "--minimum-elements", 2,
+                    "--minimum-degree", 3, "--move-interfaces", "false")
+    assert coarse["functions"] == 4 * 5 * 5 - 4 * 5 and coarse["move_interfaces"] is False
+    name = boundary("open_ring.json", [quarter(radius, k) for radius in (1, 2) for k in range(4)][1:])
+    done = knotwork_testing.run_program("parameterize", name, "--layout", layout, "--output", path("never.vtu"))
+    assert done.returncode == 1 and "has no curve" in done.stderr and len(done.stderr.splitlines()) == 1
+    assert not os.path.exists(path("never.vtu"))
+
+
 def test_boundary_with_a_gap_is_refused():
     name = boundary("gap.json", [line([0, 0], [1, 0]), line([0, 1], [1, 1]), line([0, 0], [0, 1]),
                                  line([1.25, 0], [1, 1])])

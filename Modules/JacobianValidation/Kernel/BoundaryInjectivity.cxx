@@ -789,6 +789,21 @@ private:
 };
 }
 
+const char* ToString(InjectivityVerdict verdict)
+{
+  switch (verdict)
+  {
+    case InjectivityVerdict::Injective:
+      return "injective";
+    case InjectivityVerdict::InjectiveUpToSeam:
+      return "injective_up_to_seam";
+    case InjectivityVerdict::NotInjective:
+      return "not_injective";
+    default:
+      return "undecided";
+  }
+}
+
 const char* ToString(InjectivityReason reason)
 {
   switch (reason)

@@ -28,6 +28,8 @@ enum class InjectivityVerdict : std::int8_t
   Injective = 1,
   InjectiveUpToSeam = 2 ///< but for boundary points that exactly coincide: InjectivityReason
 };
+/// "injective", "injective_up_to_seam", "not_injective", "undecided".
+const char* ToString(InjectivityVerdict verdict);
 
 enum class InjectivityReason : std::uint8_t
 {

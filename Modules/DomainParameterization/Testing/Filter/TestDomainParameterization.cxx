@@ -7,6 +7,8 @@
 #include "vtkErrorCode.h"
 #include "vtkFieldData.h"
 #include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkSmartPointer.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
@@ -78,13 +80,18 @@ std::string Sides(const char* key, const std::vector<std::string>& sides)
 class Pipeline
 {
 public:
-  explicit Pipeline(const std::string& json, int maximumRefinements = 3)
+  explicit Pipeline(
+    const std::string& json, int maximumRefinements = 3, vtkUnstructuredGrid* layout = nullptr)
   {
     const std::string file = std::string(KNOTWORK_OUTPUT_DIR) + "/domain_boundary_" +
       testing::UnitTest::GetInstance()->current_test_info()->name() + ".json";
     std::ofstream(file) << json;
     this->Reader->SetFileName(file.c_str());
     this->Filter->SetInputConnection(this->Reader->GetOutputPort());
+    if (layout)
+    {
+      this->Filter->SetInputDataObject(1, layout);
+    }
     this->Filter->SetMaximumRefinements(maximumRefinements);
     this->Filter->AddObserver(vtkCommand::ErrorEvent, this->Said);
     this->Filter->AddObserver(vtkCommand::WarningEvent, this->Said);
@@ -144,6 +151,94 @@ TEST(DomainParameterization, UnitCube_ExactOracle)
   EXPECT_EQ(run.Filter->GetVerdict(), 1);
   EXPECT_NEAR(run.Number("Area"), 1.0, 1e-14);
   EXPECT_NEAR(run.Number("MinDetOverArea"), 1.0, 1e-12);
+}
+
+namespace
+{
+/// Three unit squares in the form of an L, as quadrilaterals at z = 7, with a line that is no
+/// patch. The boundary is made of straight curves.
+vtkSmartPointer<vtkUnstructuredGrid> LetterL()
+{
+  const double points[8][2] = { { 0, 0 }, { 1, 0 }, { 2, 0 }, { 0, 1 }, { 1, 1 }, { 2, 1 },
+    { 0, 2 }, { 1, 2 } };
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  vtkNew<vtkPoints> vertices;
+  for (const double* p : points)
+  {
+    vertices->InsertNextPoint(p[0], p[1], 7.0);
+  }
+  grid->SetPoints(vertices);
+  const vtkIdType line[2] = { 0, 1 };
+  const vtkIdType quads[3][4] = { { 0, 1, 4, 3 }, { 1, 2, 5, 4 }, { 3, 4, 7, 6 } };
+  grid->InsertNextCell(VTK_LINE, 2, line);
+  for (const vtkIdType* quad : quads)
+  {
+    grid->InsertNextCell(VTK_QUAD, 4, quad);
+  }
+  return grid;
+}
+
+std::string BoundaryOfL()
+{
+  return Sides("curves",
+    { Line(0, 0, 1, 0), Line(1, 0, 2, 0), Line(2, 0, 2, 1), Line(2, 1, 1, 1), Line(1, 1, 1, 2),
+      Line(1, 2, 0, 2), Line(0, 2, 0, 1), Line(0, 1, 0, 0) });
+}
+}
+
+TEST(DomainParameterization, LayoutOfThreePatches_ExactOracle)
+{
+  Pipeline run(BoundaryOfL(), 3, LetterL());
+  ASSERT_EQ(run.Filter->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError))
+    << run.Said->Errors.front();
+  EXPECT_EQ(run.Filter->GetVerdict(), 1);
+  EXPECT_TRUE(run.Said->Warnings.empty());
+  EXPECT_EQ(run.Map()->GetNumberOfCells(), 3 * 4 * 4);
+  double range[2];
+  run.Map()->GetCellData()->GetArray("PatchId")->GetRange(range);
+  EXPECT_EQ(range[0], 0.0);
+  EXPECT_EQ(range[1], 2.0);
+  EXPECT_EQ(run.Map()->GetBounds()[5], 0.0); // the plane of the curves
+  EXPECT_NEAR(run.Number("Area"), 3.0, 1e-13);
+  EXPECT_NEAR(run.Number("MinDetOverArea"), 1.0, 1e-6);
+  EXPECT_EQ(run.Number("Patches"), 3.0);
+  // 6 functions a direction, shared along two sides
+  EXPECT_EQ(run.Number("Functions"), 3 * 36 - 2 * 6);
+  auto* injective =
+    vtkStringArray::SafeDownCast(run.Map()->GetFieldData()->GetAbstractArray("Injective"));
+  ASSERT_TRUE(injective);
+  EXPECT_EQ(injective->GetValue(0), "injective");
+  // fewer elements, higher degree
+  run.Filter->SetMinimumElements(1);
+  run.Filter->SetMinimumDegree(3);
+  run.Filter->Update();
+  EXPECT_EQ(run.Map()->GetNumberOfCells(), 3);
+  EXPECT_EQ(run.Number("Functions"), 3 * 16 - 2 * 4);
+}
+
+TEST(DomainParameterization, LayoutErrorsNameThePlace_PropertyOracle)
+{
+  const auto fails = [](Pipeline& run, const char* part)
+  {
+    EXPECT_NE(run.Filter->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
+    ASSERT_EQ(run.Said->Errors.size(), 1u);
+    EXPECT_NE(run.Said->Errors[0].find(part), std::string::npos) << run.Said->Errors[0];
+    EXPECT_EQ(run.Map()->GetNumberOfCells(), 0);
+  };
+  auto layout = LetterL();
+  const vtkIdType triangle[3] = { 1, 2, 5 };
+  layout->InsertNextCell(VTK_TRIANGLE, 3, triangle);
+  Pipeline other(BoundaryOfL(), 3, layout);
+  fails(other, "cell 4 of the layout is no quadrilateral");
+  layout = LetterL();
+  layout->GetPoints()->SetPoint(5, 2.0, 1.25, 0.0);
+  Pipeline gap(BoundaryOfL(), 3, layout);
+  fails(gap, "gap of 0.25");
+  Pipeline missing(Sides("curves", { Line(0, 0, 1, 0) }), 3, LetterL());
+  fails(missing, "has no curve");
+  vtkNew<vtkUnstructuredGrid> empty;
+  Pipeline none(BoundaryOfL(), 3, empty);
+  fails(none, "no quadrilaterals");
 }
 
 TEST(DomainParameterization, CornerThatFoldsIsNamed_PropertyOracle)
