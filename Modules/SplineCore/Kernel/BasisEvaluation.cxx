@@ -15,63 +15,25 @@ namespace
 constexpr int MaxOrder = 2;
 constexpr int Stride = MaxDegree + 1;
 
-/// Values and derivatives of the 1D local functions of one direction, row by order.
-struct DirectionValues
-{
-  double Rows[MaxOrder + 1][Stride];
-};
-
-void EvaluateDirection(
-  int degree, const double* factor, double t, double scale, int order, DirectionValues& result)
-{
-  double bernstein[(MaxOrder + 1) * Stride];
-  if (order == 0)
-  {
-    BernsteinBasis<0>(degree, t, scale, bernstein, Stride);
-  }
-  else if (order == 1)
-  {
-    BernsteinBasis<1>(degree, t, scale, bernstein, Stride);
-  }
-  else
-  {
-    BernsteinBasis<2>(degree, t, scale, bernstein, Stride);
-  }
-  for (int k = 0; k <= order; ++k)
-  {
-    const double* row = bernstein + k * Stride;
-    for (int i = 0; i <= degree; ++i)
-    {
-      double sum = factor ? 0.0 : row[i];
-      for (int j = 0; factor && j <= degree; ++j)
-      {
-        sum += factor[i * (degree + 1) + j] * row[j];
-      }
-      result.Rows[k][i] = sum;
-    }
-  }
-}
-
 /// Calls add(local function, its terms) for all local functions of an element, in their order.
 template <int Dim, typename AddFunction>
 void ForEachLocalFunction(
   const SplineSpace<Dim>& space, int e, const double* local, int order, const AddFunction& add)
 {
   const auto& element = space.Elements[static_cast<std::size_t>(e)];
-  std::array<DirectionValues, 3> values;
+  double values[3][MaxOrder + 1][Stride]; // direction, order
   IntArray<3> size{ 1, 1, 1 };
   for (std::size_t d = 0; d < 3; ++d)
   {
     if (d < Dim)
     {
-      const double scale = 1.0 / (element.Box.Upper[d] - element.Box.Lower[d]);
-      EvaluateDirection(
-        element.Degree[d], space.Factor(e, static_cast<int>(d)), local[d], scale, order, values[d]);
+      EvaluateLocalLine(element.Degree[d], space.Factor(e, static_cast<int>(d)), local[d],
+        element.Box.Upper[d] - element.Box.Lower[d], order, values[d][0]);
       size[d] = element.Degree[d] + 1;
     }
     else
     {
-      values[d].Rows[0][0] = 1.0;
+      values[d][0][0] = 1.0;
     }
   }
   double terms[NumDerivativeTerms(Dim, MaxOrder)];
@@ -83,7 +45,7 @@ void ForEachLocalFunction(
       for (int a = 0; a < size[0]; ++a, ++j)
       {
         const auto product = [&](const IntArray<3>& k)
-        { return values[0].Rows[k[0]][a] * values[1].Rows[k[1]][b] * values[2].Rows[k[2]][c]; };
+        { return values[0][k[0]][a] * values[1][k[1]][b] * values[2][k[2]][c]; };
         int term = 0;
         terms[term++] = product({ 0, 0, 0 });
         for (std::size_t d = 0; order >= 1 && d < Dim; ++d)
@@ -151,6 +113,38 @@ void MakeRational(int order, const Eigen::VectorXd& weights, FunctionValues& res
     DivideTerms<Dim>(order, sum, result.Values.data() + i * numTerms);
   }
 }
+}
+
+void EvaluateLocalLine(
+  int degree, const double* factor, double t, double length, int order, double* rows)
+{
+  double bernstein[(MaxOrder + 1) * Stride];
+  const double scale = 1.0 / length;
+  if (order == 0)
+  {
+    BernsteinBasis<0>(degree, t, scale, bernstein, Stride);
+  }
+  else if (order == 1)
+  {
+    BernsteinBasis<1>(degree, t, scale, bernstein, Stride);
+  }
+  else
+  {
+    BernsteinBasis<2>(degree, t, scale, bernstein, Stride);
+  }
+  for (int k = 0; k <= order; ++k)
+  {
+    const double* row = bernstein + k * Stride;
+    for (int i = 0; i <= degree; ++i)
+    {
+      double sum = factor ? 0.0 : row[i];
+      for (int j = 0; factor && j <= degree; ++j)
+      {
+        sum += factor[i * (degree + 1) + j] * row[j];
+      }
+      rows[k * Stride + i] = sum;
+    }
+  }
 }
 
 template <int Dim>

@@ -22,6 +22,15 @@ template <int Dim>
 void EvaluateFunctions(const SplineSpace<Dim>& space, int element, const double* local, int order,
   const Eigen::VectorXd* weights, FunctionValues& result);
 
+/// Values and derivatives with respect to the domain's parameter of the local functions of one
+/// direction of an element; those of the element are their products.
+/// @param factor  SplineSpace::Factor of the direction.
+/// @param t       local parameter in [0, 1]. @param length  of the element's box.
+/// @param order   0, 1 or 2.
+/// @param rows    one row an order, of MaxDegree + 1 numbers; degree + 1 are written.
+void EvaluateLocalLine(
+  int degree, const double* factor, double t, double length, int order, double* rows);
+
 /// Sparse n x NumFunctions matrix of function values at n domain parameters (rows of points outside
 /// the domain: OutsideDomain, naming the first).
 template <int Dim>

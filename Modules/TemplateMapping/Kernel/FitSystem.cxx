@@ -2,6 +2,7 @@
 #include "FitSystem.h"
 
 #include "DirectFit.h"
+#include "GradientFit.h"
 
 #include <string>
 
@@ -47,9 +48,12 @@ Status UndeterminedControlPoints()
 }
 
 template <int Dim>
-FitSystem<Dim>::FitSystem(SplineSpacePtr<Dim> space, bool coupled, FitSolver, int threads)
-  : Space(std::move(space)), Equations(MakeDirectFit<Dim>(this->Space, coupled, threads))
+FitSystem<Dim>::FitSystem(SplineSpacePtr<Dim> space, bool coupled, FitSolver solver, int threads)
+  : Space(std::move(space))
 {
+  const bool isDirect = solver == FitSolver::Direct || (solver == FitSolver::Automatic && Dim == 2);
+  this->Equations = isDirect ? MakeDirectFit<Dim>(this->Space, coupled, threads)
+                             : MakeGradientFit<Dim>(this->Space, threads);
 }
 
 template <int Dim>

@@ -57,6 +57,8 @@ public:
   virtual ~FitEquations() = default;
   virtual Result<PointMatrix> Step(const FitSamples<Dim>& samples, const FitWeights& weights,
     const PointMatrix& present, const PointMatrix* guess) = 0;
+  /// Of the last step; 0 without iterations.
+  virtual int Iterations() const { return 0; }
 };
 
 /// One least-squares step for the control points of a polynomial spline map. What depends on the
@@ -87,6 +89,9 @@ public:
   /// @complexity Direct: O(samples (p+1)^(2 Dim)) plus the factorization.
   Result<PointMatrix> Step(const FitSamples<Dim>& samples, const FitWeights& weights,
     const PointMatrix& present, const PointMatrix* guess = nullptr);
+
+  /// Iterations of the last step; 0 for Direct.
+  int Iterations() const { return this->Equations->Iterations(); }
 
 private:
   SplineSpacePtr<Dim> Space;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "QualityFunctionals.h"
 
-#include "BernsteinBasis.h"
+#include "BasisEvaluation.h"
 #include "Parallel.h"
 #include "Quadrature.h"
 
@@ -94,21 +94,11 @@ LineMatrices IntegrateDirection(int degree, const double* factor, double length)
   }
   for (int q = 0; q < n; ++q)
   {
-    double bernstein[3 * stride];
-    BernsteinBasis<2>(
-      degree, rule.Nodes[static_cast<std::size_t>(q)], 1.0 / length, bernstein, stride);
+    double lines[3 * stride];
+    EvaluateLocalLine(degree, factor, rule.Nodes[static_cast<std::size_t>(q)], length, 2, lines);
     for (std::size_t order = 0; order < 3; ++order)
     {
-      double values[stride];
-      for (int i = 0; i < n; ++i)
-      {
-        const double* row = bernstein + order * stride;
-        values[i] = factor ? 0.0 : row[i];
-        for (int j = 0; factor && j < n; ++j)
-        {
-          values[i] += factor[i * n + j] * row[j];
-        }
-      }
+      const double* values = lines + order * stride;
       for (int i = 0; i < n; ++i)
       {
         for (int j = 0; j < n; ++j)
