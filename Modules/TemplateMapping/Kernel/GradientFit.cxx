@@ -41,7 +41,9 @@ private:
 
   PointMatrix ToLocal(const PointMatrix& x) const;
   PointMatrix FromLocal(const PointMatrix& x) const;
+  Eigen::VectorXd DiagonalInFunctions(const RowMatrix& matrix) const;
   void SetQuadratic(const FitWeights& weights);
+  void SetStiffness(const FitWeights& weights);
   void SetElements(const LocatedSamples<Dim>& located, bool all);
   template <typename Fill>
   PointMatrix SumOverElements(const Fill& fill);
@@ -61,6 +63,7 @@ private:
   RowMatrix Quadratic;                        // in local functions
   Eigen::VectorXd QuadraticDiagonal;          // in functions
   double QuadraticWeights[2] = { 0.0, 0.0 };
+  RowMatrix Stiffness; // of the step, likewise
   int NumIterations = 0;
 
   // of the present step
@@ -133,30 +136,15 @@ PointMatrix GradientFit<Dim>::FromLocal(const PointMatrix& x) const
   return this->Truncation.rows() == 0 ? x : Multiply(this->TruncationTransposed, x, this->Threads);
 }
 
-/// The matrix of the quadratic functionals, and its diagonal in the functions.
+/// Diagonal of T^T matrix T.
 template <int Dim>
-void GradientFit<Dim>::SetQuadratic(const FitWeights& weights)
+Eigen::VectorXd GradientFit<Dim>::DiagonalInFunctions(const RowMatrix& matrix) const
 {
-  if (weights.Uniformity == this->QuadraticWeights[0] &&
-    weights.Length == this->QuadraticWeights[1])
-  {
-    return;
-  }
-  this->QuadraticWeights[0] = weights.Uniformity;
-  this->QuadraticWeights[1] = weights.Length;
-  this->Quadratic = RowMatrix();
-  if (!(weights.Uniformity > 0.0 || weights.Length > 0.0))
-  {
-    return;
-  }
-  this->Quadratic =
-    QuadraticMatrix<Dim>(*this->Space, weights.Uniformity, weights.Length, this->Threads);
   if (this->Truncation.rows() == 0)
   {
-    this->QuadraticDiagonal = this->Quadratic.diagonal();
-    return;
+    return matrix.diagonal();
   }
-  this->QuadraticDiagonal.resize(this->Space->NumFunctions);
+  Eigen::VectorXd diagonal(this->Space->NumFunctions);
   ParallelFor(static_cast<std::size_t>(this->Space->NumFunctions), RowChunk, this->Threads,
     [&](std::size_t begin, std::size_t end)
     {
@@ -171,18 +159,50 @@ void GradientFit<Dim>::SetQuadratic(const FitWeights& weights)
         double sum = 0.0;
         for (Entry j(this->TruncationTransposed, f); j; ++j)
         {
-          for (Entry k(this->Quadratic, j.col()); k; ++k)
+          for (Entry k(matrix, j.col()); k; ++k)
           {
             sum += j.value() * k.value() * function(k.col());
           }
         }
-        this->QuadraticDiagonal(f) = sum;
+        diagonal(f) = sum;
         for (Entry j(this->TruncationTransposed, f); j; ++j)
         {
           function(j.col()) = 0.0;
         }
       }
     });
+  return diagonal;
+}
+
+template <int Dim>
+void GradientFit<Dim>::SetQuadratic(const FitWeights& weights)
+{
+  if (weights.Uniformity == this->QuadraticWeights[0] &&
+    weights.Length == this->QuadraticWeights[1])
+  {
+    return;
+  }
+  this->QuadraticWeights[0] = weights.Uniformity;
+  this->QuadraticWeights[1] = weights.Length;
+  this->Quadratic = RowMatrix();
+  if (weights.Uniformity > 0.0 || weights.Length > 0.0)
+  {
+    this->Quadratic =
+      QuadraticMatrix<Dim>(*this->Space, weights.Uniformity, weights.Length, this->Threads);
+    this->QuadraticDiagonal = this->DiagonalInFunctions(this->Quadratic);
+  }
+}
+
+template <int Dim>
+void GradientFit<Dim>::SetStiffness(const FitWeights& weights)
+{
+  this->Stiffness = RowMatrix();
+  if (std::any_of(weights.Stiffness.begin(), weights.Stiffness.end(),
+        [](double weight) { return weight > 0.0; }))
+  {
+    this->Stiffness =
+      QuadraticMatrix<Dim>(*this->Space, 0.0, 0.0, this->Threads, weights.Stiffness);
+  }
 }
 
 /// The elements of the step, and where the sums of every local function lie.
@@ -324,6 +344,10 @@ PointMatrix GradientFit<Dim>::Apply(const PointMatrix& x)
   {
     sum += Multiply(this->Quadratic, local, this->Threads);
   }
+  if (this->Stiffness.rows() > 0)
+  {
+    sum += Multiply(this->Stiffness, local, this->Threads);
+  }
   PointMatrix result = this->FromLocal(sum);
   result += this->Proximal * x;
   return result;
@@ -335,10 +359,19 @@ template <int Dim>
 std::vector<typename GradientFit<Dim>::Block> GradientFit<Dim>::DiagonalBlocks() const
 {
   const std::size_t n = static_cast<std::size_t>(this->Space->NumFunctions);
-  std::vector<Block> blocks(n, this->Proximal * Block::Identity());
-  for (std::size_t f = 0; this->Quadratic.rows() > 0 && f < n; ++f)
+  Eigen::VectorXd diagonal = Eigen::VectorXd::Constant(this->Space->NumFunctions, this->Proximal);
+  if (this->Quadratic.rows() > 0)
   {
-    blocks[f] += this->QuadraticDiagonal(static_cast<Eigen::Index>(f)) * Block::Identity();
+    diagonal += this->QuadraticDiagonal;
+  }
+  if (this->Stiffness.rows() > 0)
+  {
+    diagonal += this->DiagonalInFunctions(this->Stiffness);
+  }
+  std::vector<Block> blocks(n);
+  for (std::size_t f = 0; f < n; ++f)
+  {
+    blocks[f] = diagonal(static_cast<Eigen::Index>(f)) * Block::Identity();
   }
   const bool isIdentity = this->Truncation.rows() == 0;
   std::vector<double> values(isIdentity ? 0 : n, 0.0); // of all functions at a sample
@@ -508,6 +541,7 @@ Result<PointMatrix> GradientFit<Dim>::Step(const FitSamples<Dim>& samples,
     std::make_unique<DataTerms<Dim>>(*this->Space, located.Value, samples, weights, this->Threads);
   this->SetElements(located.Value, this->HasMeasureTerms);
   this->SetQuadratic(weights);
+  this->SetStiffness(weights);
   if (this->HasMeasureTerms)
   {
     if (!this->Measures)

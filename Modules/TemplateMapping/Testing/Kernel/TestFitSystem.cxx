@@ -270,6 +270,9 @@ TYPED_TEST(FitSystemTest, SolversAgree_CrossOracle)
   for (const SplineSpacePtr<Dim>& space : Spaces<Dim>())
   {
     const cases::FitCase<Dim> c(space, 8, NumSamples(Dim));
+    all.push_back(Weights(0.3, 0.7, 1e-3, 1e-3, 0.0)); // and a stiff element
+    all.back().Stiffness.assign(static_cast<std::size_t>(space->NumElements()), 0.0);
+    all.back().Stiffness[1] = 10.0;
     FitSystem<Dim> direct(space, true, FitSolver::Direct);
     FitSystem<Dim> iterative(space, true, TypeParam::Solver);
     for (const FitWeights& weights : all)
@@ -281,6 +284,7 @@ TYPED_TEST(FitSystemTest, SolversAgree_CrossOracle)
       EXPECT_EQ(direct.Iterations(), 0);
       EXPECT_GT(iterative.Iterations(), 0);
     }
+    all.pop_back();
   }
 }
 
