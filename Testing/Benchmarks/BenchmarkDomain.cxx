@@ -30,6 +30,10 @@ void Run(benchmark::State& state, const DomainBoundary<Dim>& boundary, DomainOpt
   state.counters["verdict"] = static_cast<double>(result->Certificate.Verdict);
   state.counters["evaluations"] = result->Evaluations;
   state.counters["functions"] = result->Map.Space->NumFunctions;
+  params.MetricSamples = 0;
+  const auto measured = ParameterizeDomain<Dim>(boundary, params);
+  state.counters["min_det"] = measured ? measured->Metrics.MinDetOverArea : NAN;
+  state.counters["max_det"] = measured ? measured->Metrics.MaxDetOverArea : NAN;
 }
 
 template <int Dim>

@@ -4,10 +4,12 @@
 
 usage: Testing/Benchmarks/table.py MODULE [BUILD_TREE]     (default build/benchmark)
 
-Testing/Benchmarks/MODULE.json names the page, the program and the rows: what is done, the unit, the benchmark of one
-thread, that of all threads, and for each peer a published number or the name of a benchmark of ours that does the same
-by plain loops. The table goes between two comment lines `benchmarks MODULE: begin` and `... end` on the page; the rows
-listed under "readme" go to the README alike.
+Testing/Benchmarks/MODULE.json names the page, the program and the rows. Without "columns" a row is: what is done, the unit,
+the benchmark of one thread, that of all threads, and for each peer a published number or the name of a benchmark of ours
+that does the same by plain loops. With "columns" a row is a list of cells: a text, or what was measured, `@BENCHMARK UNIT`
+where the unit is one of time, `1/s`, or a counter of the benchmark. The table goes between two comment lines
+`benchmarks MODULE: begin` and `... end` on the page; the rows listed under "readme" go to the README alike. "needs" names
+an environment variable without which not all rows can be measured.
 """
 import json
 import os
@@ -20,7 +22,8 @@ SCALE = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
 
 
 def measure(program):
-    """Seconds (a point where the benchmark counts points) and cells a second by benchmark; the fastest repetition."""
+    """Seconds (a point or cell where the benchmark counts such) by benchmark, and its counters by (benchmark, counter);
+    of the fastest repetition."""
     done = subprocess.run([program, "--benchmark_format=json"], check=True, capture_output=True, text=True)
     found = {}
     for run in json.loads(done.stdout)["benchmarks"]:
@@ -29,13 +32,27 @@ def measure(program):
         name = run["run_name"].replace("/real_time", "")
         name = "/".join(part for part in name.split("/") if not part.startswith(("min_time", "repeats")))
         time = run["real_time" if "real_time" in run["run_name"] else "cpu_time"] * SCALE[run["time_unit"]]
-        found[name] = run.get("point", time)
+        found[name] = run.get("point", run.get("cell", time))
+        found.update(((name, key), value) for key, value in run.items() if isinstance(value, (int, float)))
     return found
 
 
 def show(seconds, unit):
     value = seconds / SCALE[unit.split("/")[0]]
     return f"{value:.3g}" if value < 100 else f"{value:,.0f}"
+
+
+def cell(text, found):
+    """A cell of a table with columns."""
+    if not text.startswith("@"):
+        return text
+    name, unit = text[1:].split()
+    if unit == "1/s":
+        return f"{1 / found[name]:.1e}".replace("e+0", "e")
+    if unit in SCALE:
+        return show(found[name], unit)
+    value = found[name, unit]
+    return f"{value:.0f}" if value == round(value) else f"{value:.3g}" if value < 0.01 else f"{value:.4f}"
 
 
 def processor():
@@ -56,21 +73,28 @@ def main():
     module = sys.argv[1]
     tree = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else root / "build/benchmark"
     spec = json.loads((root / f"Testing/Benchmarks/{module}.json").read_text())
+    if "needs" in spec and spec["needs"] not in os.environ:
+        sys.exit(f"set {spec['needs']}: not all rows can be measured without it")
     load = os.getloadavg()[0]
     found = measure(tree / "bin" / spec["program"])
-    lines = ["| what | unit | one thread | all threads | " + " | ".join(spec["peers"]) + " |",
-             "| --- | --- | --- | --- |" + " --- |" * len(spec["peers"])]
     rows = []
-    for what, unit, one, every, *peers in spec["rows"]:
-        cells = [what, unit, show(found[one], unit), show(found[every], unit) if every else ""]
-        cells += [show(found[peer], unit) if peer in found else peer for peer in peers]
-        rows.append("| " + " | ".join(cells) + " |")
+    if "columns" in spec:
+        columns = spec["columns"]
+        rows = ["| " + " | ".join(cell(text, found) for text in row) + " |" for row in spec["rows"]]
+    else:
+        columns = ["what", "unit", "one thread", "all threads", *spec["peers"]]
+        for what, unit, one, every, *peers in spec["rows"]:
+            cells = [what, unit, show(found[one], unit), show(found[every], unit) if every else ""]
+            cells += [show(found[peer], unit) if peer in found else peer for peer in peers]
+            rows.append("| " + " | ".join(cells) + " |")
+    lines = ["| " + " | ".join(columns) + " |", "|" + " --- |" * len(columns)]
     closing = ["", f"{processor()}, {os.cpu_count()} threads, load {load:.1f} at the start, fastest of 20 repetitions; "
                "one thread: processor time. The command:", "",
                "    cmake --preset benchmark && cmake --build --preset benchmark",
-               f"    Testing/Benchmarks/table.py {module}"]
+               f"    {spec['needs'] + '=<folder> ' if 'needs' in spec else ''}Testing/Benchmarks/table.py {module}"]
     insert(root / spec["page"], module, lines + rows + closing)
-    insert(root / "README.md", module, lines + [rows[i] for i in spec["readme"]])
+    if "readme" in spec:
+        insert(root / "README.md", module, lines + [rows[i] for i in spec["readme"]])
 
 
 if __name__ == "__main__":
