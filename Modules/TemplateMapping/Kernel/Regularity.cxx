@@ -49,6 +49,32 @@ Result<Regularity> MeasureRegularity(
   return regularity;
 }
 
+template <int Dim>
+Result<InjectivityCertificate> ProveMapInjectivity(const BezierForm<Dim>& form,
+  const JacobianCertificate& certificate, std::int64_t maxBoxes, int threads)
+{
+  const auto& elements = form.Space->Elements;
+  CellComplex complex;
+  complex.Patches.assign(elements.size(), 0);
+  complex.Boxes.resize(elements.size());
+  for (std::size_t e = 0; e < elements.size(); ++e)
+  {
+    for (std::size_t d = 0; d < Dim; ++d)
+    {
+      complex.Boxes[e].Lower[d] = elements[e].Box.Lower[d];
+      complex.Boxes[e].Upper[d] = elements[e].Box.Upper[d];
+    }
+  }
+  InjectivityParams params;
+  params.MaxBoxes = maxBoxes;
+  params.Threads = threads;
+  return ProveInjectivity(MakeBernsteinCells<Dim>(form), complex, certificate, params);
+}
+
 template Result<Regularity> MeasureRegularity(const BezierForm<2>&, double, std::int64_t, int);
 template Result<Regularity> MeasureRegularity(const BezierForm<3>&, double, std::int64_t, int);
+template Result<InjectivityCertificate> ProveMapInjectivity(
+  const BezierForm<2>&, const JacobianCertificate&, std::int64_t, int);
+template Result<InjectivityCertificate> ProveMapInjectivity(
+  const BezierForm<3>&, const JacobianCertificate&, std::int64_t, int);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "BezierForm.h"
-#include "JacobianCertificate.h"
+#include "BoundaryInjectivity.h"
 
 #include <vector>
 
@@ -32,4 +32,9 @@ template <int Dim>
 Result<Regularity> MeasureRegularity(
   const BezierForm<Dim>& form, double relativeGap, std::int64_t maxBoxes, int threads);
 
+/// Whether the map takes no value twice: ProveInjectivity for the elements of one patch.
+/// @param certificate  of the same map. @return failures of ProveInjectivity.
+template <int Dim>
+Result<InjectivityCertificate> ProveMapInjectivity(const BezierForm<Dim>& form,
+  const JacobianCertificate& certificate, std::int64_t maxBoxes, int threads);
 }

@@ -532,6 +532,16 @@ Result<TemplateMapResult<Dim>> MapLoop<Dim>::Finish()
   {
     return regularity.Status;
   }
+  if (this->Params.Injectivity)
+  {
+    auto injectivity =
+      ProveMapInjectivity(this->Form, regularity->Certificate, ResultBoxes, this->Params.Threads);
+    if (!injectivity)
+    {
+      return injectivity.Status;
+    }
+    this->Out.Injectivity = std::move(injectivity.Value);
+  }
   this->Out.MinJacobianBound = regularity->Bound();
   this->Out.ElementMinJacobian = std::move(regularity->MinLower);
   this->Out.ElementMaxJacobian = std::move(regularity->MaxUpper);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "JacobianCertificate.h"
+#include "BoundaryInjectivity.h"
 #include "Skeleton.h"
 #include "Spline.h"
 
@@ -81,6 +81,8 @@ struct TemplateMapParams
   int MaxLevel = 10;         ///< cells of this level are not refined, [0, 24]
   int MaxFunctions = 200000; ///< a refinement that would have more is not made, >= 1
 
+  /// Whether the result is to be proved injective as a whole.
+  bool Injectivity = true;
   int Threads = 0; ///< 0: all cores
   ProgressCallback Progress;
   /// Domain of the map; the template's bounding box when empty. It must contain the template.
@@ -137,6 +139,8 @@ struct TemplateMapResult
                                              ///< domain's parameters, an entry an element
   std::vector<double> ElementMaxJacobian;    ///< proved upper bounds, likewise
   double MinJacobianBound = 0.0;             ///< the smallest of the lower bounds
+  /// That the map takes no value twice; undecided when it was not asked for.
+  InjectivityCertificate Injectivity;
 };
 
 /// A spline map of the plane that carries the patches of a template onto the target patches of the
