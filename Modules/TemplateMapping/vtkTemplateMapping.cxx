@@ -104,8 +104,8 @@ Status vtkTemplateMapping::Compute(vtkInformationVector** inputs, vtkInformation
   {
     return {};
   }
-  const auto skeleton = knotwork::DecodeSkeleton(templateData, "template");
-  const auto target = knotwork::DecodeSkeleton(targetData, "target");
+  const auto skeleton = knotwork::DecodeSkeleton<2>(templateData, "template");
+  const auto target = knotwork::DecodeSkeleton<2>(targetData, "target");
   for (const Status& status : { skeleton.Status, target.Status })
   {
     if (!status)

@@ -30,10 +30,10 @@ Result<long long> SampleCount(int samples, int standard)
 Status CheckTotal(long long total)
 {
   constexpr long long Largest = 100000000;
-  return total <= Largest
-    ? Status{}
-    : Status{ ErrorCode::TooLarge,
-        "would have " + std::to_string(total) + " points, more than " + std::to_string(Largest) };
+  return total <= Largest ? Status{}
+                          : Status{ ErrorCode::TooLarge,
+                              "the samples would be " + std::to_string(total) + ", more than " +
+                                std::to_string(Largest) };
 }
 
 /// Values of one direction of an element's boxes and, between each two, cuts - 1 more.
@@ -199,8 +199,8 @@ Result<SkeletonPatch<2>> SampleChain(int id, const BezierForm<1>& form, int cuts
       if (!((batch.Values.row(i) - batch.Values.row(i - 1)).norm() <= 1e-9 * size))
       {
         return { ErrorCode::InvalidTopology,
-          "is open: element " + std::to_string(element) + " does not begin where element " +
-            std::to_string(element - 1) + " ends" };
+          "element " + std::to_string(element) + " does not begin where element " +
+            std::to_string(element - 1) + " ends: the patch is open" };
       }
       continue;
     }
