@@ -102,15 +102,21 @@ bool IsFan(const PointMatrix& corners)
   const Row middle = corners.colwise().mean();
   const auto corner = [&](Eigen::Index k) -> Row { return corners.row(k % n) - middle; };
   Row normal = Row::Zero();
+  double ofTriangles = 0.0;
   for (Eigen::Index k = 0; k < n; ++k)
   {
     normal += corner(k).cross(corner(k + 1));
+    ofTriangles += (corner(k) - corner(0)).cross(corner(k + 1) - corner(0)).norm();
   }
   const double size = (corners.colwise().maxCoeff() - corners.colwise().minCoeff()).norm();
   const double area = normal.norm();
-  if (!(area > 1e-12 * size * size) || !std::isfinite(area))
+  if (!std::isfinite(ofTriangles) || ofTriangles <= 1e-12 * size * size)
   {
-    return true; // no area: triangles have none either; what is not finite is found later
+    return true; // not finite: found later; no area: triangles without area do no harm
+  }
+  if (area < 0.5 * ofTriangles)
+  {
+    return false;
   }
   normal /= area;
   const double rounding = -1e-9 * size * size;

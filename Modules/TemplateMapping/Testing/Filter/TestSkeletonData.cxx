@@ -261,9 +261,25 @@ TEST(SkeletonData, BezierCurvesBecomePolylines_CrossOracle)
   EXPECT_EQ(SkeletonDimension(grid, Lines()).Value, 2);
   EXPECT_EQ(DecodeSkeleton<2>(grid, "template").Value[0].Points.rows(), 2005);
 
-  const auto lifted = Damaged<vtkUnstructuredGrid>(
-    grid, [](auto* d) { d->GetPoints()->SetPoint(4, 0.4, 0.5, 0.25); });
-  ExpectError<2>(ErrorCode::DimensionMismatch, "template patch 11: control point", lifted);
+  using Grid = vtkUnstructuredGrid;
+  const auto lifted = Damaged<Grid>(grid,
+    [](auto* d)
+    {
+      for (vtkIdType i = 0; i < d->GetNumberOfPoints(); ++i)
+      {
+        const double* p = d->GetPoint(i);
+        d->GetPoints()->SetPoint(i, p[0], p[1], 0.25);
+      }
+    });
+  ExpectError<2>(
+    ErrorCode::DimensionMismatch, "template patch 11: control point 0 has z = 0.25", lifted);
+  // What the decoder of spline grids has to say is passed on.
+  const auto bent =
+    Damaged<Grid>(grid, [](auto* d) { d->GetPoints()->SetPoint(4, 0.4, 0.5, 0.0); });
+  std::vector<std::string> warnings;
+  EXPECT_TRUE(DecodeSkeleton<2>(bent, "target", 0, &warnings));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].find("the target: patch 11: the points are not those of a spline"), 0u);
   ExpectError<3>(ErrorCode::InvalidTopology, "the template has curves", grid);
 }
 
