@@ -89,6 +89,14 @@ inline Real Choose(int n, int k)
   return k < 0 || k > n ? 0 : c;
 }
 
+/// Whether a shape's cells have a coefficient with these indices.
+inline bool HasCoefficient(CellShape shape, const CellDegree& degree, int i, int j, int k)
+{
+  const bool triangle = shape == CellShape::Triangle || shape == CellShape::Wedge;
+  const bool tetrahedron = shape == CellShape::Tetrahedron;
+  return !(triangle && i + j > degree[0]) && !(tetrahedron && i + j + k > degree[0]);
+}
+
 /// Bernstein coefficients: u^i is sum_a C(a, i) / C(p, i) B_a^p, and alike on simplices with
 /// multinomials.
 inline std::vector<Real> Coefficients(
@@ -104,7 +112,7 @@ inline std::vector<Real> Coefficients(
     {
       for (int i = 0; i <= degree[0]; ++i)
       {
-        if ((triangle && i + j > p) || (tetrahedron && i + j + k > p))
+        if (!HasCoefficient(shape, degree, i, j, k))
         {
           continue;
         }
@@ -149,7 +157,8 @@ struct Disguise
 {
   bool Linear = true;
   Real Projective = 0;              ///< size of the projective part of the weights, in (-1, 1)
-  std::array<int, 3> Log2Weights{}; ///< weights 2^(i l0 + j l1 + k l2), tensor-product shapes
+  std::array<int, 3> Log2Weights{}; ///< weights 2^(i l0 + j l1 + k l2): a change of parameters that
+                                    ///< maps the cell's domain onto itself, simplices too
   bool Reverse = false;             ///< swap the sign of a component
   bool Rational = false;
   Real Offset = 0;
@@ -232,22 +241,22 @@ inline void AddCell(BernsteinCells& cells, CellShape shape, const CellDegree& de
       }
     }
     planes.push_back(weights);
-    if (shape == CellShape::Curve || shape == CellShape::Quadrilateral ||
-      shape == CellShape::Hexahedron)
+    for (int k = 0; k <= degree[2]; ++k)
     {
-      for (int k = 0; k <= degree[2]; ++k)
+      for (int j = 0; j <= degree[1]; ++j)
       {
-        for (int j = 0; j <= degree[1]; ++j)
+        for (int i = 0; i <= degree[0]; ++i)
         {
-          for (int i = 0; i <= degree[0]; ++i)
+          if (!HasCoefficient(shape, degree, i, j, k))
           {
-            const Real r = std::ldexp(Real(1),
-              i * disguise.Log2Weights[0] + j * disguise.Log2Weights[1] +
-                k * disguise.Log2Weights[2]);
-            for (auto& plane : planes)
-            {
-              plane[static_cast<std::size_t>(CellCoefficient(shape, degree, i, j, k))] *= r;
-            }
+            continue;
+          }
+          const Real r = std::ldexp(Real(1),
+            i * disguise.Log2Weights[0] + j * disguise.Log2Weights[1] +
+              k * disguise.Log2Weights[2]);
+          for (auto& plane : planes)
+          {
+            plane[static_cast<std::size_t>(CellCoefficient(shape, degree, i, j, k))] *= r;
           }
         }
       }

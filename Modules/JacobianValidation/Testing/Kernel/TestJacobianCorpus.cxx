@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace knotwork
 {
 namespace
@@ -98,6 +100,50 @@ TEST(JacobianCorpus, BowlsInEveryShape_ExactOracle)
     }
   }
   EXPECT_EQ(cases, 5 * 13 * 24);
+}
+
+/// Bowls under weights from 2^-10 to 2^10 in every shape; those of two corners are the extremes.
+TEST(JacobianCorpus, WeightsOverSixDecades_ExactOracle)
+{
+  int cases = 0;
+  oracle::Random random(18);
+  for (const CellShape shape : Determinants)
+  {
+    const int n = NumParameters(shape);
+    for (int seed = 0; seed < (n == 2 ? 8 : 3); ++seed)
+    {
+      for (int k = 1; k <= 10; k += 3)
+      {
+        for (const int sign : { 1, -1 })
+        {
+          // 2 * 5 in the first direction less 2 * 5 in the second: 20 powers of two in all; the
+          // third adds none in wedges and hexahedra
+          const CellDegree degree = DegreeOf(shape, 5, 5, n == 3 ? 2 : 0);
+          Case c;
+          Disguise disguise;
+          disguise.Rational = true;
+          disguise.Reverse = seed % 4 == 3;
+          disguise.Log2Weights =
+            seed % 2 == 0 ? std::array<int, 3>{ 2, -2, 0 } : std::array<int, 3>{ -2, 2, 0 };
+          const Polynomial g = Bowl(InnerPoint(random, shape), n, sign * std::pow(Real(10), -k));
+          AddCell(c.Cells, shape, degree, MapOf(g, n, random), disguise, random);
+          const std::size_t size = static_cast<std::size_t>(NumCellCoefficients(shape, degree));
+          const auto weights = c.Cells.Data.begin() + static_cast<std::ptrdiff_t>(n * size);
+          const auto [least, most] = std::minmax_element(weights, weights + size);
+          EXPECT_LE(*least, 1e-3);
+          EXPECT_GE(*most, 1e3);
+          c.Expected = sign < 0 ? Verdict::Invalid
+            : disguise.Reverse  ? Verdict::Reversed
+                                : Verdict::Valid;
+          c.Name = std::string("weights ") + ShapeNames[static_cast<int>(shape)] + " seed " +
+            std::to_string(seed) + " number " + std::to_string(sign) + "e-" + std::to_string(k);
+          c.Verify = n == 2 && seed == 0 && k == 4;
+          cases += RunCase(c);
+        }
+      }
+    }
+  }
+  EXPECT_EQ(cases, (2 * 8 + 3 * 3) * 4 * 2);
 }
 
 /// Maps of constant determinant: triangular polynomial maps with whole coefficients.
