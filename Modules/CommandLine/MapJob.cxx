@@ -6,8 +6,11 @@
 #include "vtkTemplateMapping.h"
 
 #include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkNew.h>
+#include <vtkStringArray.h>
 #include <vtkTable.h>
+#include <vtkUnstructuredGrid.h>
 
 #include <memory>
 
@@ -19,6 +22,8 @@ struct MapJob
 {
   std::string Template;
   std::string Target;
+  std::string Initial;
+  std::vector<double> Domain;
   std::string Output;
   std::string Mapped;
   std::string Table;
@@ -27,9 +32,13 @@ struct MapJob
 
   Status Run(Session& session)
   {
-    const std::string* files[] = { &this->Template, &this->Target };
-    for (int port = 0; port < 2; ++port)
+    const std::string* files[] = { &this->Template, &this->Target, &this->Initial };
+    for (int port = 0; port < 3; ++port)
     {
+      if (files[port]->empty())
+      {
+        continue;
+      }
       auto input = session.Read(*files[port]);
       if (!input)
       {
@@ -37,13 +46,29 @@ struct MapJob
       }
       this->Filter->SetInputDataObject(port, input.Value);
     }
+    if (this->Domain.size() == 5)
+    {
+      return { ErrorCode::InvalidParameter, "--domain takes 4 or 6 numbers, not 5" };
+    }
     session.Report["template"] = this->Template;
     session.Report["target"] = this->Target;
     session.Report["output"] = this->Output;
+    if (!this->Initial.empty())
+    {
+      session.Report["initial"] = this->Initial;
+    }
+    if (!this->Domain.empty())
+    {
+      session.Report["domain"] = this->Domain;
+      this->Domain.resize(6, 0.0);
+      this->Filter->SetDomain(this->Domain.data());
+      this->Filter->UseDomainOn();
+    }
     this->FilterOptions->Apply(session.Report);
     this->Filter->SetThreads(session.Threads);
-    if (Status status =
-          session.Run(this->Filter, "'" + this->Template + "' onto '" + this->Target + "'");
+    if (Status status = session.Run(this->Filter,
+          "'" + this->Template + "' onto '" + this->Target + "'" +
+            (this->Initial.empty() ? "" : " from '" + this->Initial + "'"));
         !status)
     {
       return status;
@@ -74,32 +99,107 @@ struct MapJob
     report["iterations"] = static_cast<long long>(column("Iteration").back());
     report["squared_l2_errors"] = errors;
     report["negative_jacobian_percents"] = negative;
+    const auto counts = [&](const char* name)
+    {
+      const std::vector<double> values = column(name);
+      return std::vector<long long>(values.begin(), values.end());
+    };
+    report["functions_per_iteration"] = counts("Functions");
+    report["held_elements"] = counts("HeldElements");
+    report["step_lengths"] = column("StepLength");
+    vtkFieldData* data = this->Filter->GetOutputDataObject(0)->GetFieldData();
+    report["min_jacobian_bound"] = data->GetArray("MinJacobianBound")->GetTuple1(0);
+    if (auto* injective = vtkStringArray::SafeDownCast(data->GetAbstractArray("Injective")))
+    {
+      report["injective"] = injective->GetValue(0);
+    }
   }
 };
+
+/// The space, what is minimized, and when that ends.
+void AddFitOptions(Options& options, vtkTemplateMapping* filter)
+{
+  options.AddChoice(
+    "Method", { "fixed", "pdm", "tdm", "weighted" }, filter->GetMethod(),
+    [filter](int method) { filter->SetMethod(method); },
+    "fixed parameters, point or tangent distance minimization, or both weighted");
+  KNOTWORK_OPTION(options, filter, Iterations, "number of iterations");
+  KNOTWORK_OPTION(options, filter, Degree, "degree of the map");
+  KNOTWORK_OPTION(options, filter, InnerKnots, "inner knots in each direction");
+  KNOTWORK_VECTOR_OPTION(options, filter, InnerKnotsPerDirection, int,
+    "the same of the single directions; -1: the common number");
+  KNOTWORK_OPTION(options, filter, TemplateSamples,
+    "samples of each template patch for closest points; 0: the points as given");
+  KNOTWORK_OPTION(options, filter, NewtonSteps, "Newton steps after the closest sample");
+  KNOTWORK_OPTION(options, filter, PdmWeight, "of point distances, with --method weighted");
+  KNOTWORK_OPTION(options, filter, TdmWeight, "of tangent distances, with --method weighted");
+  KNOTWORK_OPTION(options, filter, TikhonovWeight, "weight of the distance to the last iterate");
+  KNOTWORK_OPTION(options, filter, UniformityWeight, "of the integral of sum |s_kl|^2");
+  KNOTWORK_OPTION(options, filter, LengthWeight, "of the integral of sum |s_k|^2");
+  KNOTWORK_OPTION(options, filter, OrthogonalityWeight, "of the integral of sum (s_k . s_l)^2");
+  KNOTWORK_OPTION(
+    options, filter, SkewnessWeight, "of the integral of sum cos^4 of the angles of s_k and s_l");
+  KNOTWORK_OPTION(
+    options, filter, EccentricityWeight, "of the integral of sum ((s_k . s_kk) / |s_k|^2)^2");
+  KNOTWORK_OPTION(options, filter, AreaWeight, "of the integral of (det J)^2");
+  KNOTWORK_OPTION(
+    options, filter, SelfIntersectionWeight, "of the integral of sum 1 / (|s_k|^2 + 1e-7)^2");
+  options.AddChoice(
+    "InitialMap", { "identity", "moved" }, filter->GetInitialMap(),
+    [filter](int map) { filter->SetInitialMap(map); },
+    "the first map: the identity, or that with control points moved by mean displacements");
+  options.AddChoice(
+    "Guard", { "off", "on" }, filter->GetGuard() ? 1 : 0,
+    [filter](int guard) { filter->SetGuard(guard == 1); },
+    "keep every iterate regular: det J > 0 is proved everywhere");
+  options.AddChoice(
+    "Injectivity", { "off", "on" }, filter->GetInjectivity() ? 1 : 0,
+    [filter](int prove) { filter->SetInjectivity(prove == 1); },
+    "whether the map as a whole is proved injective");
+  KNOTWORK_OPTION(options, filter, Accuracy, "end when the largest error is not above this");
+  KNOTWORK_OPTION(options, filter, MaxIrregularShare,
+    "end with the iterate before when det J < 0 at a larger share of a million points");
+}
+
+/// How the space grows.
+void AddRefinementOptions(Options& options, vtkTemplateMapping* filter)
+{
+  options.AddChoice(
+    "Refine", { "none", "local", "global" }, filter->GetRefinement(),
+    [filter](int refinement) { filter->SetRefinement(refinement); },
+    "smaller cells between iterations: where errors are large, or everywhere");
+  KNOTWORK_OPTION(
+    options, filter, RefineEvery, "after so many iterations; 0: when the error stagnates");
+  KNOTWORK_OPTION(options, filter, StagnationRatio,
+    "the error stagnates when it falls by a smaller part of itself in an iteration");
+  KNOTWORK_OPTION(options, filter, RefineThreshold, "local: errors from this on mark their cell");
+  KNOTWORK_OPTION(options, filter, RefineShare,
+    "local: the errors of this share of the samples mark their cell; 0: the threshold alone does");
+  KNOTWORK_OPTION(options, filter, Extension, "local: cells of the new level around a marked one");
+  KNOTWORK_OPTION(options, filter, MaxLevel, "cells of this level are not refined");
+  KNOTWORK_OPTION(options, filter, MaxFunctions, "a refinement to more functions is not made");
+}
 }
 
 Job MakeMapJob(CLI::App& app)
 {
   auto job = std::make_shared<MapJob>();
-  app.add_option("template", job->Template, "skeleton of the template (.vtp)")->required();
-  app.add_option("target", job->Target, "target patches with the same PatchId (.vtp)")->required();
+  app.add_option("template", job->Template, "skeleton of the template (.vtp .vtu)")->required();
+  app.add_option("target", job->Target, "target patches with the same PatchId (.vtp .vtu)")
+    ->required();
   app.add_option("--output", job->Output, "the map as Bezier grid (.vtu)")->required();
   app.add_option("--mapped", job->Mapped, "the mapped skeleton with distances (.vtp)");
   app.add_option("--table", job->Table, "the convergence table (.csv)");
+  app.add_option(
+    "--initial", job->Initial, "the map to start with: spline grid of one patch (.vtu)");
+  app
+    .add_option("--domain", job->Domain,
+      "box of the map: xmin xmax ymin ymax [zmin zmax]; without it the template's")
+    ->expected(4, 6)
+    ->check(CLI::Number);
   job->FilterOptions = std::make_unique<Options>(app);
-  vtkTemplateMapping* filter = job->Filter;
-  job->FilterOptions->AddChoice(
-    "Method", { "fixed", "pdm", "tdm" }, filter->GetMethod(),
-    [filter](int method) { filter->SetMethod(method); },
-    "fixed parameters, point or tangent distance minimization");
-  Options& options = *job->FilterOptions;
-  KNOTWORK_OPTION(options, filter, Iterations, "number of iterations");
-  KNOTWORK_OPTION(options, filter, Degree, "degree of the map");
-  KNOTWORK_OPTION(options, filter, InnerKnots, "inner knots in each direction");
-  KNOTWORK_OPTION(options, filter, TemplateSamples,
-    "samples of each template patch for closest points; 0: the points as given");
-  KNOTWORK_OPTION(options, filter, NewtonSteps, "Newton steps after the closest sample");
-  KNOTWORK_OPTION(options, filter, TikhonovWeight, "weight of the distance to the last iterate");
+  AddFitOptions(*job->FilterOptions, job->Filter);
+  AddRefinementOptions(*job->FilterOptions, job->Filter);
   return [job](Session& session) { return job->Run(session); };
 }
 }

@@ -463,12 +463,16 @@ void EncodeConvergence(const std::vector<TemplateMapIteration>& history, vtkTabl
   vtkNew<vtkDoubleArray> squared;
   vtkNew<vtkDoubleArray> largest;
   vtkNew<vtkDoubleArray> negative;
+  vtkNew<vtkDoubleArray> lengths;
+  vtkNew<vtkIntArray> held;
   vtkNew<vtkIntArray> functions;
   vtkNew<vtkDoubleArray> seconds;
   iterations->SetName("Iteration");
   squared->SetName("SquaredL2Error");
   largest->SetName("MaxError");
   negative->SetName("NegativeJacobianPercent");
+  lengths->SetName("StepLength");
+  held->SetName("HeldElements");
   functions->SetName("Functions");
   seconds->SetName("Seconds");
   for (const TemplateMapIteration& row : history)
@@ -477,11 +481,13 @@ void EncodeConvergence(const std::vector<TemplateMapIteration>& history, vtkTabl
     squared->InsertNextValue(row.SquaredError);
     largest->InsertNextValue(row.MaxError);
     negative->InsertNextValue(100.0 * row.NegativeShare);
+    lengths->InsertNextValue(row.StepLength);
+    held->InsertNextValue(row.HeldElements);
     functions->InsertNextValue(row.Functions);
     seconds->InsertNextValue(row.Seconds);
   }
   for (vtkDataArray* column : std::initializer_list<vtkDataArray*>{
-         iterations, squared, largest, negative, functions, seconds })
+         iterations, squared, largest, negative, lengths, held, functions, seconds })
   {
     table->AddColumn(column);
   }

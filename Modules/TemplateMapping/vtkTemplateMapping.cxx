@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTemplateMapping.h"
 
+#include "MapData.h"
 #include "SkeletonData.h"
-#include "SplineModel.h"
 
-#include "vtkCellData.h"
-#include "vtkDoubleArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
@@ -14,43 +12,20 @@
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 
+using knotwork::Result;
 using knotwork::Status;
+using knotwork::TemplateMapParams;
 
 vtkStandardNewMacro(vtkTemplateMapping);
 
 namespace
 {
 constexpr const char* OutputTypes[] = { "vtkUnstructuredGrid", "vtkPolyData", "vtkTable" };
-
-/// The map as a grid of one patch with the cell array MaxError.
-Status EncodeMap(const knotwork::TemplateMapResult<2>& result, vtkUnstructuredGrid* grid)
-{
-  knotwork::Spline<2> map = result.Map;
-  map.ControlPoints.conservativeResize(Eigen::NoChange, 3);
-  map.ControlPoints.col(2).setZero();
-  knotwork::SplineModel model;
-  model.Patches.emplace_back();
-  model.Patches.back().Geometry = std::move(map);
-  if (Status status = EncodeSplineGrid(model, grid); !status)
-  {
-    return status;
-  }
-  vtkDataArray* elements = grid->GetCellData()->GetArray("ElementId");
-  vtkNew<vtkDoubleArray> errors;
-  errors->SetName("MaxError");
-  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
-  {
-    const auto element = static_cast<std::size_t>(elements->GetComponent(cell, 0));
-    errors->InsertNextValue(result.ElementErrors[element]);
-  }
-  grid->GetCellData()->AddArray(errors);
-  return {};
-}
 }
 
 vtkTemplateMapping::vtkTemplateMapping()
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfInputPorts(3);
   this->SetNumberOfOutputPorts(3);
 }
 
@@ -61,14 +36,53 @@ void vtkTemplateMapping::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Iterations: " << this->Iterations << "\n";
   os << indent << "Degree: " << this->Degree << "\n";
   os << indent << "InnerKnots: " << this->InnerKnots << "\n";
+  os << indent << "InnerKnotsPerDirection:";
+  for (const int number : this->InnerKnotsPerDirection)
+  {
+    os << " " << number;
+  }
+  os << "\n";
   os << indent << "TemplateSamples: " << this->TemplateSamples << "\n";
   os << indent << "NewtonSteps: " << this->NewtonSteps << "\n";
+  os << indent << "PdmWeight: " << this->PdmWeight << "\n";
+  os << indent << "TdmWeight: " << this->TdmWeight << "\n";
   os << indent << "TikhonovWeight: " << this->TikhonovWeight << "\n";
+  os << indent << "UniformityWeight: " << this->UniformityWeight << "\n";
+  os << indent << "LengthWeight: " << this->LengthWeight << "\n";
+  os << indent << "OrthogonalityWeight: " << this->OrthogonalityWeight << "\n";
+  os << indent << "SkewnessWeight: " << this->SkewnessWeight << "\n";
+  os << indent << "EccentricityWeight: " << this->EccentricityWeight << "\n";
+  os << indent << "AreaWeight: " << this->AreaWeight << "\n";
+  os << indent << "SelfIntersectionWeight: " << this->SelfIntersectionWeight << "\n";
+  os << indent << "Guard: " << this->Guard << "\n";
+  os << indent << "Accuracy: " << this->Accuracy << "\n";
+  os << indent << "MaxIrregularShare: " << this->MaxIrregularShare << "\n";
+  os << indent << "Refinement: " << this->Refinement << "\n";
+  os << indent << "RefineEvery: " << this->RefineEvery << "\n";
+  os << indent << "StagnationRatio: " << this->StagnationRatio << "\n";
+  os << indent << "RefineThreshold: " << this->RefineThreshold << "\n";
+  os << indent << "RefineShare: " << this->RefineShare << "\n";
+  os << indent << "Extension: " << this->Extension << "\n";
+  os << indent << "MaxLevel: " << this->MaxLevel << "\n";
+  os << indent << "MaxFunctions: " << this->MaxFunctions << "\n";
+  os << indent << "InitialMap: " << this->InitialMap << "\n";
+  os << indent << "UseDomain: " << this->UseDomain << "\n";
+  os << indent << "Domain:";
+  for (const double number : this->Domain)
+  {
+    os << " " << number;
+  }
+  os << "\n";
+  os << indent << "Injectivity: " << this->Injectivity << "\n";
 }
 
-int vtkTemplateMapping::FillInputPortInformation(int, vtkInformation* info)
+int vtkTemplateMapping::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  const char* other = port == 2 ? "vtkPartitionedDataSetCollection" : "vtkPolyData";
+  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), other);
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port == 2 ? 1 : 0);
   return 1;
 }
 
@@ -96,39 +110,108 @@ int vtkTemplateMapping::RequestDataObject(
   return 1;
 }
 
-Status vtkTemplateMapping::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
+template <int Dim>
+Result<TemplateMapParams<Dim>> vtkTemplateMapping::Parameters(vtkDataObject* initialMap)
 {
-  vtkPolyData* templateData = vtkPolyData::GetData(inputs[0]);
-  vtkPolyData* targetData = vtkPolyData::GetData(inputs[1]);
-  if (templateData->GetNumberOfPoints() == 0 && targetData->GetNumberOfPoints() == 0)
+  TemplateMapParams<Dim> params;
+  params.Method = static_cast<knotwork::TemplateMapMethod>(this->Method);
+  params.Iterations = this->Iterations;
+  params.Degree = this->Degree;
+  for (std::size_t d = 0; d < Dim; ++d)
   {
-    return {};
+    const int knots = this->InnerKnotsPerDirection[d];
+    params.InnerKnots[d] = knots == -1 ? this->InnerKnots : knots;
   }
-  const auto skeleton = knotwork::DecodeSkeleton<2>(templateData, "template");
-  const auto target = knotwork::DecodeSkeleton<2>(targetData, "target");
-  for (const Status& status : { skeleton.Status, target.Status })
+  params.TemplateSamples = this->TemplateSamples;
+  params.NewtonSteps = this->NewtonSteps;
+  params.PdmWeight = this->PdmWeight;
+  params.TdmWeight = this->TdmWeight;
+  params.TikhonovWeight = this->TikhonovWeight;
+  params.UniformityWeight = this->UniformityWeight;
+  params.LengthWeight = this->LengthWeight;
+  params.OrthogonalityWeight = this->OrthogonalityWeight;
+  params.SkewnessWeight = this->SkewnessWeight;
+  params.EccentricityWeight = this->EccentricityWeight;
+  params.AreaWeight = this->AreaWeight;
+  params.SelfIntersectionWeight = this->SelfIntersectionWeight;
+  params.Guard = this->Guard;
+  params.Accuracy = this->Accuracy;
+  params.MaxIrregularShare = this->MaxIrregularShare;
+  params.Refinement = static_cast<knotwork::TemplateRefinement>(this->Refinement);
+  params.RefineEvery = this->RefineEvery;
+  params.StagnationRatio = this->StagnationRatio;
+  params.RefineThreshold = this->RefineThreshold;
+  params.RefineShare = this->RefineShare;
+  params.Extension = this->Extension;
+  params.MaxLevel = this->MaxLevel;
+  params.MaxFunctions = this->MaxFunctions;
+  params.Start = static_cast<knotwork::TemplateInitialMap>(this->InitialMap);
+  params.Injectivity = this->Injectivity;
+  if (this->UseDomain)
+  {
+    params.Domain.emplace();
+    for (std::size_t d = 0; d < Dim; ++d)
+    {
+      params.Domain->Lower[d] = this->Domain[2 * d];
+      params.Domain->Upper[d] = this->Domain[2 * d + 1];
+    }
+  }
+  params.Threads = this->KernelThreads();
+  params.Progress = this->Progress();
+  if (initialMap)
+  {
+    std::vector<std::string> warnings;
+    auto map = knotwork::DecodeInitialMap<Dim>(initialMap, warnings);
+    this->ReportWarnings(warnings);
+    if (!map)
+    {
+      return map.Status;
+    }
+    params.InitialMap = std::move(map.Value);
+  }
+  return params;
+}
+
+template <int Dim>
+Status vtkTemplateMapping::MapSkeleton(vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  std::vector<std::string> warnings;
+  const auto skeleton = knotwork::DecodeSkeleton<Dim>(
+    vtkDataSet::GetData(inputs[0]), "template", this->TemplateSamples, &warnings);
+  const auto target =
+    knotwork::DecodeSkeleton<Dim>(vtkDataSet::GetData(inputs[1]), "target", 0, &warnings);
+  this->ReportWarnings(warnings);
+  const auto params = this->Parameters<Dim>(vtkDataObject::GetData(inputs[2]));
+  for (const Status& status : { skeleton.Status, target.Status, params.Status })
   {
     if (!status)
     {
       return status;
     }
   }
-  knotwork::TemplateMapParams<2> params;
-  params.Method = static_cast<knotwork::TemplateMapMethod>(this->Method);
-  params.Iterations = this->Iterations;
-  params.Degree = this->Degree;
-  params.InnerKnots.fill(this->InnerKnots);
-  params.TemplateSamples = this->TemplateSamples;
-  params.NewtonSteps = this->NewtonSteps;
-  params.TikhonovWeight = this->TikhonovWeight;
-  params.Threads = this->KernelThreads();
-  params.Progress = this->Progress();
-  const auto result = MapTemplate(skeleton.Value, target.Value, params);
+  const auto result = MapTemplate(skeleton.Value, target.Value, params.Value);
   if (!result)
   {
     return result.Status;
   }
   knotwork::EncodeMappedSkeleton(result->Skeleton, vtkPolyData::GetData(outputs, 1));
   knotwork::EncodeConvergence(result->History, vtkTable::GetData(outputs, 2));
-  return EncodeMap(result.Value, vtkUnstructuredGrid::GetData(outputs, 0));
+  return EncodeMap(result.Value, this->Injectivity, vtkUnstructuredGrid::GetData(outputs, 0));
+}
+
+Status vtkTemplateMapping::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkDataSet* templateData = vtkDataSet::GetData(inputs[0]);
+  vtkDataSet* targetData = vtkDataSet::GetData(inputs[1]);
+  if (templateData->GetNumberOfPoints() == 0 && targetData->GetNumberOfPoints() == 0)
+  {
+    return {};
+  }
+  const Result<int> dimension = knotwork::SkeletonDimension(templateData, targetData);
+  if (!dimension)
+  {
+    return dimension.Status;
+  }
+  return dimension.Value == 3 ? this->MapSkeleton<3>(inputs, outputs)
+                              : this->MapSkeleton<2>(inputs, outputs);
 }
