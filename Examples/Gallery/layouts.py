@@ -16,7 +16,8 @@ from vtkmodules.vtkCommonDataModel import VTK_QUAD, vtkUnstructuredGrid
 import _scene as scene
 from certified_maps import validated, wave
 
-HOLES = ((-1.15, 0.1, 0.45), (1.05, -0.1, 0.55))  # x, y, radius
+HOLES = ((-1.1, 0.08, 0.36), (1.0, -0.05, 0.44))  # x, y, radius
+HEIGHTS = (0.3, 0.3, 0.2, 0.3, 0.3, 0.2)  # of the waves
 RIM = [(-2, -1), (0, -1), (2, -1), (2, 1), (0, 1), (-2, 1)]
 
 
@@ -31,7 +32,7 @@ def arc(centre, radius, begin, end):
 def plate():
     """Vertices, quadrilaterals and boundary curves."""
     vertices, quads = [list(p) for p in RIM], []
-    curves = [wave(RIM[k], RIM[(k + 1) % 6], 0.35 if k in (0, 3) else -0.35, 1) for k in range(6)]
+    curves = [wave(RIM[k], RIM[(k + 1) % 6], HEIGHTS[k], 1) for k in range(6)]
     for h, (x, y, radius) in enumerate(HOLES):
         corners = [0, 1, 4, 5] if h == 0 else [1, 2, 3, 4]
         first = len(vertices)
@@ -57,9 +58,9 @@ def mesh(vertices, quads):
 def panel(grid, title, viewport):
     """A map's elements in the colours of their verdicts, the patches' edges thick."""
     actors, verdict, injective = validated(grid, 0.8)
-    edges = scene.actor(scene.patch_edges(grid), scene.INK, 4)
+    edges = scene.actor(scene.patch_edges(grid), scene.INK, 3)
     edges.SetPosition(0, 0, 0.0015)
-    result = scene.renderer(actors + [edges], viewport, 1.25)
+    result = scene.renderer(actors + [edges], viewport, 1.5)
     result.GetActiveCamera().SetWindowCenter(0, -0.08)  # room for the text
     text = scene.label(f"{title}: {verdict}, {injective.replace('_', ' ')}", 0.5, 0.03, 18)
     text.GetTextProperty().SetJustificationToCentered()
@@ -83,7 +84,7 @@ def main():
         raise RuntimeError("the map of the plate is not proved valid")
     scene.save([panel(domain.GetOutputDataObject(1), "first map", (0, 0, 0.5, 1)),
                 panel(domain.GetOutputDataObject(0), "optimized", (0.5, 0, 1, 1))],
-               os.path.join(folder, "layouts.png"), (1200, 420))
+               os.path.join(folder, "layouts.png"), (1200, 400))
 
 
 if __name__ == "__main__":

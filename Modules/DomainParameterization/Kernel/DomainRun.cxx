@@ -91,7 +91,7 @@ public:
       }
     }
     for (int round = 0; round < this->Params.MaxRefinements && !this->IsValid() &&
-         !this->IsImpossible() && !this->Solver->Aborted;
+         !this->IsImpossible() && !this->Solver->Aborted && this->Source.MayRefine(this->Out.Map);
          ++round)
     {
       if (const Status status = this->Refine(); !status)

@@ -13,6 +13,8 @@ public:
   virtual ~DomainSource() = default;
   /// @param method  not Automatic.
   virtual Result<GluedMap<Dim>> FirstMap(InitialMapMethod method) = 0;
+  /// Whether a larger space is worth its cost.
+  virtual bool MayRefine(const GluedMap<Dim>&) const { return true; }
   /// The same map in a larger space. @param certificate  of the elements, patch after patch.
   virtual Result<GluedMap<Dim>> Refine(
     const GluedMap<Dim>& map, const JacobianCertificate& certificate) = 0;

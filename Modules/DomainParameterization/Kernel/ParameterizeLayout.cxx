@@ -16,6 +16,9 @@ namespace knotwork
 {
 namespace
 {
+/// Of refined spaces: hopeless boundaries end in a time that can be waited for.
+constexpr std::int64_t MostFunctions = 10000;
+
 /// Part of a patch's lattice of control points: 0 and 1 are the ends of a direction, 2 all of it.
 template <int Dim>
 using Part = std::array<int, Dim>;
@@ -237,6 +240,11 @@ public:
       }
     }
     return map;
+  }
+
+  bool MayRefine(const GluedMap<Dim>& map) const override
+  {
+    return (std::int64_t(map.NumFunctions()) << Dim) <= MostFunctions;
   }
 
   Result<GluedMap<Dim>> Refine(const GluedMap<Dim>& map, const JacobianCertificate&) override
