@@ -23,11 +23,6 @@ DomainSolver<Dim>::DomainSolver(const GluedMap<Dim>& map, double area, const Dom
   : Params(params), NumFunctions(map.NumFunctions()), Scale(std::pow(area, 1.0 / Dim))
 {
   this->Center = GluedPoints<Dim>(map).colwise().mean();
-  bool tensor = true;
-  for (const Spline<Dim>& patch : map.Patches)
-  {
-    tensor = tensor && patch.Space->Kind == SpaceKind::Tensor;
-  }
   for (std::size_t i = 0; i < map.Fixed.size(); ++i)
   {
     if (!map.Fixed[i])
@@ -37,12 +32,12 @@ DomainSolver<Dim>::DomainSolver(const GluedMap<Dim>& map, double area, const Dom
   }
   this->SetMap(map);
   this->SetQuadrature(std::vector<int>(static_cast<std::size_t>(map.NumElements()), 0));
-  if (tensor && map.Patches.size() == 1)
+  if (map.Patches.size() == 1 && map.Patches.front().Space->Kind == SpaceKind::Tensor)
   {
     this->Precondition = [laplacian = FastLaplacian<Dim>(map.Patches.front().Space->Knots)](
                            Eigen::VectorXd& planes) mutable { laplacian.Apply(planes); };
   }
-  else if (tensor)
+  else
   {
     const auto laplacian = std::make_shared<const GluedSystem<Dim>>(map, GluedOperator::Laplacian);
     this->Precondition = [laplacian](Eigen::VectorXd& planes) { laplacian->Apply(planes); };

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GluedSystem.h"
 
+#include "BasisEvaluation.h"
 #include "FunctionMap.h"
 #include "InitialMaps.h"
+#include "Quadrature.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace knotwork
 {
@@ -68,6 +71,66 @@ void AddLaplacian(
     });
 }
 
+/// Sums entries of the same place.
+void Compress(Eigen::Index size, Triplets& triplets)
+{
+  Eigen::SparseMatrix<double> sums(size, size);
+  sums.setFromTriplets(triplets.begin(), triplets.end());
+  triplets.clear();
+  for (Eigen::Index column = 0; column < size; ++column)
+  {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(sums, column); entry; ++entry)
+    {
+      triplets.emplace_back(static_cast<int>(entry.row()), static_cast<int>(column), entry.value());
+    }
+  }
+}
+
+/// The same on any space, element by element.
+template <int Dim>
+void AddElementLaplacian(const SplineSpace<Dim>& space, const std::vector<int>& numbers,
+  Eigen::Index size, Triplets& triplets)
+{
+  constexpr std::size_t enough = std::size_t(1) << 22; // a function is alive on many elements
+  std::size_t limit = triplets.size() + enough;
+  FunctionValues basis;
+  Eigen::MatrixXd slopes, products;
+  for (int e = 0; e < space.NumElements(); ++e)
+  {
+    const auto& element = space.Elements[static_cast<std::size_t>(e)];
+    IntArray<Dim> counts;
+    double volume = 1.0;
+    for (std::size_t d = 0; d < Dim; ++d)
+    {
+      counts[d] = element.Degree[d] + 1; // exact
+      volume *= element.Box.Upper[d] - element.Box.Lower[d];
+    }
+    const ElementQuadrature<Dim> rule = MakeElementQuadrature<Dim>(counts);
+    for (Eigen::Index q = 0; q < rule.Local.rows(); ++q)
+    {
+      EvaluateFunctions<Dim>(space, e, rule.Local.row(q).data(), 1, nullptr, basis);
+      slopes.resize(basis.Values.rows(), Dim * rule.Local.rows());
+      slopes.middleCols(Dim * q, Dim) =
+        std::sqrt(volume * rule.Weights[q]) * basis.Values.middleCols(1, Dim);
+    }
+    products.noalias() = slopes * slopes.transpose();
+    for (std::size_t a = 0; a < basis.Functions.size(); ++a)
+    {
+      for (std::size_t b = 0; b < basis.Functions.size(); ++b)
+      {
+        triplets.emplace_back(numbers[static_cast<std::size_t>(basis.Functions[a])],
+          numbers[static_cast<std::size_t>(basis.Functions[b])],
+          products(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)));
+      }
+    }
+    if (triplets.size() > limit)
+    {
+      Compress(size, triplets);
+      limit = triplets.size() + enough;
+    }
+  }
+}
+
 template <int Dim>
 void AddPairs(const SplineSpace<Dim>& space, const std::vector<int>& numbers,
   std::vector<std::array<int, 2>>& pairs)
@@ -108,7 +171,11 @@ GluedSystem<Dim>::GluedSystem(const GluedMap<Dim>& map, GluedOperator kind)
   for (std::size_t p = 0; p < map.Patches.size(); ++p)
   {
     const SplineSpace<Dim>& space = *map.Patches[p].Space;
-    if (kind == GluedOperator::Laplacian)
+    if (kind == GluedOperator::Laplacian && space.Kind != SpaceKind::Tensor)
+    {
+      AddElementLaplacian<Dim>(space, map.Functions[p], map.NumFunctions(), all);
+    }
+    else if (kind == GluedOperator::Laplacian)
     {
       AddLaplacian<Dim>(space, map.Functions[p], all);
     }

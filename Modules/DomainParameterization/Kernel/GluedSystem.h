@@ -12,9 +12,9 @@ enum class GluedOperator
   Spring     ///< neighbours in a control net are joined by springs of length zero, each pair once
 };
 
-/// A symmetric positive definite operator on the functions of tensor-product patches, factorized
-/// for those that are not fixed: makes first maps, and as preconditioner does for several patches
-/// what FastLaplacian does for one.
+/// A symmetric positive definite operator on the functions of patches (Spring: tensor-product
+/// ones), factorized for those that are not fixed: makes first maps, and as preconditioner does for
+/// several patches and refined spaces what FastLaplacian does for one tensor-product patch.
 /// @complexity a sparse Cholesky factorization; a plane O(its entries).
 template <int Dim>
 class GluedSystem

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DomainCases.h"
+#include "GluedSystem.h"
+#include "HierarchicalSpace.h"
 #include "InitialMaps.h"
 
 #include <gtest/gtest.h>
@@ -84,6 +86,50 @@ TEST(InitialMaps, CoonsReproducesMultilinearAndHarmonicAffineMaps_ExactOracle)
   ExpectReproduction<3>(1);
   ExpectReproduction<3>(2);
   ExpectReproduction<3>(3);
+}
+
+namespace
+{
+/// Products of parameters are harmonic, so among all maps with their boundary they have the least
+/// int grad . grad, in any space that contains them.
+template <int Dim>
+void ExpectHarmonicOnRefined(int degree)
+{
+  const Spline<Dim> exact = cases::GrevilleMap<Dim>(SomeKnots<Dim>(degree), Multilinear<Dim>);
+  RefinementParams params;
+  params.Extension = 1;
+  auto space = RefineElements<Dim>(exact.Space, { 0, 5 }, params).Value;
+  space = RefineElements<Dim>(space, { space->NumElements() - 1 }, params).Value;
+  const auto refined = TransferToRefined<Dim>(exact, space);
+  ASSERT_TRUE(refined) << refined.Status.Message();
+  ASSERT_EQ(space->Kind, SpaceKind::Hierarchical);
+  GluedMap<Dim> map = SingleMap<Dim>(refined.Value);
+  int moved = 0;
+  for (std::size_t i = 0; i < map.Fixed.size(); ++i)
+  {
+    if (!map.Fixed[i])
+    {
+      map.Patches[0].ControlPoints.row(static_cast<Eigen::Index>(i)).array() += 1.0;
+      ++moved;
+    }
+  }
+  EXPECT_GT(moved, 10);
+  EXPECT_GT(Difference<Dim>(map.Patches[0], refined.Value), 0.9);
+  const GluedSystem<Dim> system(map, GluedOperator::Laplacian);
+  ASSERT_TRUE(system.Fill(map));
+  // rounding of sums over elements and of a factorization, condition some thousands
+  EXPECT_LE(Difference<Dim>(map.Patches[0], refined.Value), 1e-11);
+}
+}
+
+TEST(InitialMaps, HarmonicOnRefinedSpacesReproducesMultilinearMaps_ExactOracle)
+{
+  for (int degree = 2; degree <= 3; ++degree)
+  {
+    SCOPED_TRACE(degree);
+    ExpectHarmonicOnRefined<2>(degree);
+    ExpectHarmonicOnRefined<3>(degree);
+  }
 }
 
 TEST(InitialMaps, SpringPointsAreMeansOfTheirNeighbours_PropertyOracle)
