@@ -143,17 +143,27 @@ struct TemplateMapResult
   InjectivityCertificate Injectivity;
 };
 
-/// A spline map of the plane that carries the patches of a template onto the target patches of the
-/// same id. Template patches without a target are free: they follow. Each iteration solves one
-/// linear least-squares problem for the control points at the present parameters of the target
-/// samples, then moves each parameter to the closest point of its mapped patch (not for Fixed). The
-/// first iteration uses the samples' given parameters (SkeletonPatch::Parameters, or uniform).
+/// A spline map of the plane (space) that carries the patches of a template onto the target patches
+/// of the same id. Template patches without a target are free: they follow. Each iteration solves
+/// one linear least-squares problem for the control points at the present places of the target
+/// samples, then moves each sample to the closest point of its mapped patch (not for Fixed), and
+/// refines the space when that is asked for and due. The first iteration uses the samples' given
+/// parameters (SkeletonPatch::Parameters; in the plane uniform ones without), else closest points
+/// of the first map.
+///
+/// With the guard on every iterate is regular, proved by certificates: elements that a step would
+/// fold are held back, see RegularityGuard. When a step is in danger that still stems from given
+/// parameters, the map begins anew at the closest points of the first map (not for Fixed): given
+/// parameters may ask for turns that no regular map makes. From then on the proximal weight falls
+/// by half with every step that was in no danger, down to a thousandth.
+///
 /// Equal inputs give bit-identical results for any number of threads (Seconds apart).
 /// @return what CheckSkeletons finds; InvalidParameter, InvalidDegree or DimensionMismatch for
 /// options outside their range or an unfit domain or initial map; SingularSystem (possible with a
 /// Tikhonov weight of 0); Aborted.
 /// @complexity an iteration: O(dense samples) + O(samples log(dense samples)) + one sparse
-/// factorization.
+/// factorization (plane) or some hundred matrix-free conjugate gradients (space) a trial step + a
+/// certificate a trial step.
 /// @source  Sajavicius, Juettler, Speh, Template mapping using adaptive splines and optimization of
 /// the parameterization (2018), sections 3 and 4.
 template <int Dim>
