@@ -418,7 +418,8 @@ Status MapLoop<Dim>::TakeStep(TemplateMapIteration& record, bool& restart)
     return step.Status;
   }
   // Places that were given can ask for a turn or a fold which closest points do not: begin there.
-  const bool giveUp = !this->IsSearched && this->Params.Method != TemplateMapMethod::Fixed;
+  const bool giveUp = !this->IsSearched && this->Params.Method != TemplateMapMethod::Fixed &&
+    this->Problem.HasGivenPlaces();
   const auto outcome =
     this->Guard.Step(*this->System, samples, this->Weights, this->Map, this->Form, shorten, giveUp);
   if (!outcome)

@@ -47,6 +47,13 @@ void TemplateProblem<Dim>::SetSpace(const SplineSpace<Dim>& space)
 }
 
 template <int Dim>
+bool TemplateProblem<Dim>::HasGivenPlaces() const
+{
+  return std::any_of(this->FirstPlaces.begin(), this->FirstPlaces.end(),
+    [](const PointMatrix& places) { return places.rows() > 0; });
+}
+
+template <int Dim>
 void TemplateProblem<Dim>::ForgetPlaces()
 {
   for (std::size_t k = 0; k < this->Constraints.size(); ++k)

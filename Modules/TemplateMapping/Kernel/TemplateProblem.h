@@ -29,6 +29,8 @@ public:
 
   /// Another space over the same domain, and a map in it.
   void SetSpace(const SplineSpace<Dim>& space);
+  /// Some samples have places of their own before closest points are searched.
+  bool HasGivenPlaces() const;
   /// Samples go back to the places they were given.
   void ForgetPlaces();
   /// Dense samples and distances under a map; places stay, but for those that are not known yet:
