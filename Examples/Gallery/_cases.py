@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the examples of template mapping share: skeletons, runs of the map, files, the plot of convergence."""
+"""What examples share: skeletons for template mapping, runs of the map, files, the plot of convergence."""
 import knotwork
 import numpy as np
 import vtkmodules.vtkRenderingContextOpenGL2  # noqa: F401
