@@ -159,7 +159,7 @@ def chart(series, file, size, x_title, y_title, log_x=False):
         axis = plot.GetAxis(axis)
         axis.SetTitle(title)
         axis.SetLogScale(logarithmic)
-        axis.GetTitleProperties().SetFontSize(16)
+        axis.GetTitleProperties().SetFontSize(15)
         axis.GetTitleProperties().BoldOff()
         axis.GetLabelProperties().SetFontSize(14)
     plot.GetLegend().GetLabelProperties().SetFontSize(14)
