@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the examples of template mapping share: skeletons, runs of the map, files, the plot of convergence."""
+"""What examples share: skeletons for template mapping, runs of the map, files, the plot of convergence."""
 import knotwork
 import numpy as np
 import vtkmodules.vtkRenderingContextOpenGL2  # noqa: F401
@@ -159,7 +159,7 @@ def chart(series, file, size, x_title, y_title, log_x=False):
         axis = plot.GetAxis(axis)
         axis.SetTitle(title)
         axis.SetLogScale(logarithmic)
-        axis.GetTitleProperties().SetFontSize(16)
+        axis.GetTitleProperties().SetFontSize(15)
         axis.GetTitleProperties().BoldOff()
         axis.GetLabelProperties().SetFontSize(14)
     plot.GetLegend().GetLabelProperties().SetFontSize(14)

@@ -106,7 +106,7 @@ def waves():
             wave((1, 0), (1, 1), -0.32, 1.5)]
 
 
-def filled(folder, name, sides):
+def filled(folder, name, sides, optimizer=0):
     """The domain parameterization of a boundary; output 1 is its Coons map."""
     file = os.path.join(folder, name + ".json")
     with open(file, "w") as stream:
@@ -116,6 +116,7 @@ def filled(folder, name, sides):
     domain = knotwork.vtkDomainParameterization()
     domain.SetInputConnection(reader.GetOutputPort())
     domain.SetInitialMap(domain.COONS)
+    domain.SetOptimizer(optimizer)
     return scene.updated(domain)
 
 

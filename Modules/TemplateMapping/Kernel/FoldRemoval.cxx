@@ -7,6 +7,12 @@
 
 namespace knotwork
 {
+namespace
+{
+constexpr int Rounds = 5;
+constexpr std::int64_t Boxes = 1000000;
+}
+
 template <int Dim>
 Result<Spline<Dim>> RemoveFolds(const Spline<Dim>& map, int threads)
 {
@@ -28,15 +34,23 @@ Result<Spline<Dim>> RemoveFolds(const Spline<Dim>& map, int threads)
     DomainParams params;
     params.Threads = threads;
     DomainSolver<Dim> solver(SingleMap(map), mean, params);
-    if (solver.RemoveFolds())
+    std::vector<int> extra(map.Space->Elements.size(), 0);
+    for (int round = 0; round < Rounds && solver.RemoveFolds(); ++round)
     {
       const Spline<Dim>& unfolded = solver.Map().Patches.front();
       const auto regularity =
-        MeasureRegularity(MakeBezierForm(unfolded, threads), 1.0, 1000000, threads);
+        MeasureRegularity(MakeBezierForm(unfolded, threads), 1.0, Boxes, threads);
       if (!regularity || regularity->IsRegular())
       {
         return regularity ? Result<Spline<Dim>>(unfolded) : Result<Spline<Dim>>(regularity.Status);
       }
+      // The solver looks at points only: more of them where it missed a fold, and away from them.
+      for (std::size_t e = 0; e < extra.size(); ++e)
+      {
+        extra[e] += regularity->MinLower[e] > 0.0 ? 0 : 2;
+      }
+      solver.ImprovePoints();
+      solver.SetQuadrature(extra);
     }
   }
   return { ErrorCode::InvalidParameter,

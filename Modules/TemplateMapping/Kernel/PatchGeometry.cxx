@@ -116,6 +116,19 @@ PointMatrix PatchSurface::SamplePlaces(int count, std::vector<MeshTriangle>& sim
   const std::vector<MeshTriangle>& mesh = this->Index.Triangles();
   const long long numPoints = this->Index.Points().rows();
   const long long numTriangles = static_cast<long long>(mesh.size());
+  if (count <= numPoints)
+  {
+    PointMatrix corners(numPoints, 3);
+    for (std::size_t t = mesh.size(); t-- > 0;) // the first triangle of a point counts
+    {
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        corners.row(mesh[t][k]) << double(t), double(k == 1), double(k == 2);
+      }
+    }
+    simplices = mesh;
+    return corners;
+  }
   std::map<std::pair<int, int>, int> edges; // in the order of their first use
   for (const MeshTriangle& t : mesh)
   {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "MapCases.h"
 #include "NegativeJacobian.h"
 #include "TensorSpace.h"
 
@@ -57,6 +58,32 @@ TEST(NegativeJacobian, AgreesWithEvaluatingAMillionPoints_CrossOracle)
     total += share.Value;
   }
   EXPECT_GT(total, 0.01); // the maps do fold
+}
+
+TEST(NegativeJacobian, InSpaceItAgreesWithEvaluatingAllPoints_CrossOracle)
+{
+  double total = 0.0;
+  for (unsigned seed = 1; seed <= 3; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Spline<3> map = cases::IdentityMap<3>(static_cast<int>(seed), 3);
+    cases::Shake(map, 0.2, seed, true);
+    const BezierForm<3> form = MakeBezierForm(map);
+    const Eigen::VectorXd values = cases::Determinants(form, cases::GridOver<3>(40));
+    const Result<double> share = NegativeJacobianShare(form, 40);
+    ASSERT_TRUE(share);
+    // As above: points within rounding of zero.
+    EXPECT_NEAR(share.Value * 64000, static_cast<double>((values.array() < 0.0).count()), 1.5);
+    EXPECT_EQ(NegativeJacobianShare(form, 40, 1).Value, share.Value);
+    total += share.Value;
+  }
+  EXPECT_GT(total, 0.01); // the maps do fold
+  Spline<3> mirrored = cases::IdentityMap<3>(2, 2);
+  EXPECT_EQ(NegativeJacobianShare(MakeBezierForm(mirrored), 30).Value, 0.0);
+  mirrored.ControlPoints.col(2) *= -1.0;
+  EXPECT_EQ(NegativeJacobianShare(MakeBezierForm(mirrored), 30).Value, 1.0);
+  EXPECT_EQ(
+    NegativeJacobianShare(MakeBezierForm(mirrored), 2001).Status.Code, ErrorCode::InvalidParameter);
 }
 
 TEST(NegativeJacobian, KnownShares_ExactOracle)
