@@ -174,11 +174,17 @@ const double* DataTerms<Dim>::Values(int group, int sample) const
 }
 
 template <int Dim>
-Eigen::Matrix<double, Dim, Dim> DataTerms<Dim>::Weight(int group, int sample) const
+Eigen::Matrix<double, Dim, 1> DataTerms<Dim>::ScaledNormal(int group, int sample) const
 {
   const std::size_t k =
     this->Groups[static_cast<std::size_t>(group)].First + static_cast<std::size_t>(sample);
-  const Eigen::Map<const Eigen::Matrix<double, Dim, 1>> normal(this->Normals.data() + k * Dim);
+  return Eigen::Map<const Eigen::Matrix<double, Dim, 1>>(this->Normals.data() + k * Dim);
+}
+
+template <int Dim>
+Eigen::Matrix<double, Dim, Dim> DataTerms<Dim>::Weight(int group, int sample) const
+{
+  const Eigen::Matrix<double, Dim, 1> normal = this->ScaledNormal(group, sample);
   return this->Point * Eigen::Matrix<double, Dim, Dim>::Identity() + normal * normal.transpose();
 }
 

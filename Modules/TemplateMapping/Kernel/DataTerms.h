@@ -31,6 +31,10 @@ public:
   const double* Values(int group, int sample) const;
   /// W of a sample, Dim x Dim.
   Eigen::Matrix<double, Dim, Dim> Weight(int group, int sample) const;
+  double PointWeight() const { return this->Point; }
+  double NormalWeight() const { return this->Normal; }
+  /// N_i times the root of the normal weight.
+  Eigen::Matrix<double, Dim, 1> ScaledNormal(int group, int sample) const;
 
 private:
   std::vector<typename LocatedSamples<Dim>::Group> Groups;

@@ -33,20 +33,6 @@ void Scatter(ColumnMatrix& matrix, const std::vector<int>& unknowns, const Eigen
   }
 }
 
-/// Lower triangle of a matrix in local functions, in the functions.
-template <int Dim>
-ColumnMatrix LowerInFunctions(
-  const SplineSpace<Dim>& space, Eigen::SparseMatrix<double, Eigen::RowMajor> local)
-{
-  using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-  if (!space.IsIdentityMap())
-  {
-    const RowMatrix map = TruncationMatrix<Dim>(space);
-    local = RowMatrix(map.transpose()) * RowMatrix(local * map);
-  }
-  return ColumnMatrix(local.template triangularView<Eigen::Lower>());
-}
-
 template <int Dim>
 class DirectFit final : public FitEquations<Dim>
 {
@@ -231,7 +217,7 @@ void DirectFit<Dim>::AddQuadratic(const FitWeights& weights, const PointMatrix& 
   if (weights.Uniformity != this->QuadraticWeights[0] ||
     weights.Length != this->QuadraticWeights[1])
   {
-    this->Quadratic = LowerInFunctions(*this->Space,
+    this->Quadratic = LowerInFunctions<Dim>(*this->Space,
       QuadraticMatrix<Dim>(*this->Space, weights.Uniformity, weights.Length, this->Threads));
     this->QuadraticWeights[0] = weights.Uniformity;
     this->QuadraticWeights[1] = weights.Length;
@@ -247,7 +233,7 @@ void DirectFit<Dim>::AddStiffness(const FitWeights& weights)
   const auto isHeld = [](double weight) { return weight > 0.0; };
   if (std::any_of(weights.Stiffness.begin(), weights.Stiffness.end(), isHeld))
   {
-    this->AddSymmetric(LowerInFunctions(*this->Space,
+    this->AddSymmetric(LowerInFunctions<Dim>(*this->Space,
       QuadraticMatrix<Dim>(*this->Space, 0.0, 0.0, this->Threads, weights.Stiffness)));
   }
 }

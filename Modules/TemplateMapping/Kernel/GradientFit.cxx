@@ -2,6 +2,7 @@
 #include "GradientFit.h"
 
 #include "DataTerms.h"
+#include "IncompleteFactor.h"
 #include "MeasureTerms.h"
 #include "Parallel.h"
 
@@ -25,6 +26,7 @@ constexpr int MaxIterations = 10000;
 constexpr double LeastCurvature = 1e-13;
 
 using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+using ColumnMatrix = Eigen::SparseMatrix<double>;
 
 template <int Dim>
 class GradientFit final : public FitEquations<Dim>
@@ -41,7 +43,6 @@ private:
 
   PointMatrix ToLocal(const PointMatrix& x) const;
   PointMatrix FromLocal(const PointMatrix& x) const;
-  Eigen::VectorXd DiagonalInFunctions(const RowMatrix& matrix) const;
   void SetQuadratic(const FitWeights& weights);
   void SetStiffness(const FitWeights& weights);
   void SetElements(const LocatedSamples<Dim>& located, bool all);
@@ -61,9 +62,10 @@ private:
   std::size_t Stride;                         // numbers of a plane of an element's vectors
   RowMatrix Truncation, TruncationTransposed; // empty when local functions are the functions
   RowMatrix Quadratic;                        // in local functions
-  Eigen::VectorXd QuadraticDiagonal;          // in functions
+  ColumnMatrix QuadraticLower;                // in functions
   double QuadraticWeights[2] = { 0.0, 0.0 };
   RowMatrix Stiffness; // of the step, likewise
+  ColumnMatrix StiffnessLower;
   int NumIterations = 0;
 
   // of the present step
@@ -80,7 +82,9 @@ private:
   std::vector<double> Sums;             // per entry of Elements: Dim planes
   std::vector<std::size_t> FirstOffset; // by local function, into Offsets
   std::vector<std::size_t> Offsets;     // of the first plane in Sums
-  std::vector<Block> Inverse;
+  std::vector<Block> Inverse;           // of the diagonal blocks
+  IncompleteFactor<Dim> Factor;
+  bool UsesFactor = false;
 };
 
 template <int Dim>
@@ -136,44 +140,6 @@ PointMatrix GradientFit<Dim>::FromLocal(const PointMatrix& x) const
   return this->Truncation.rows() == 0 ? x : Multiply(this->TruncationTransposed, x, this->Threads);
 }
 
-/// Diagonal of T^T matrix T.
-template <int Dim>
-Eigen::VectorXd GradientFit<Dim>::DiagonalInFunctions(const RowMatrix& matrix) const
-{
-  if (this->Truncation.rows() == 0)
-  {
-    return matrix.diagonal();
-  }
-  Eigen::VectorXd diagonal(this->Space->NumFunctions);
-  ParallelFor(static_cast<std::size_t>(this->Space->NumFunctions), RowChunk, this->Threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      Eigen::VectorXd function = Eigen::VectorXd::Zero(this->Truncation.rows());
-      for (int f = static_cast<int>(begin); f < static_cast<int>(end); ++f)
-      {
-        using Entry = RowMatrix::InnerIterator;
-        for (Entry j(this->TruncationTransposed, f); j; ++j)
-        {
-          function(j.col()) = j.value();
-        }
-        double sum = 0.0;
-        for (Entry j(this->TruncationTransposed, f); j; ++j)
-        {
-          for (Entry k(matrix, j.col()); k; ++k)
-          {
-            sum += j.value() * k.value() * function(k.col());
-          }
-        }
-        diagonal(f) = sum;
-        for (Entry j(this->TruncationTransposed, f); j; ++j)
-        {
-          function(j.col()) = 0.0;
-        }
-      }
-    });
-  return diagonal;
-}
-
 template <int Dim>
 void GradientFit<Dim>::SetQuadratic(const FitWeights& weights)
 {
@@ -189,7 +155,7 @@ void GradientFit<Dim>::SetQuadratic(const FitWeights& weights)
   {
     this->Quadratic =
       QuadraticMatrix<Dim>(*this->Space, weights.Uniformity, weights.Length, this->Threads);
-    this->QuadraticDiagonal = this->DiagonalInFunctions(this->Quadratic);
+    this->QuadraticLower = LowerInFunctions<Dim>(*this->Space, this->Quadratic);
   }
 }
 
@@ -202,6 +168,7 @@ void GradientFit<Dim>::SetStiffness(const FitWeights& weights)
   {
     this->Stiffness =
       QuadraticMatrix<Dim>(*this->Space, 0.0, 0.0, this->Threads, weights.Stiffness);
+    this->StiffnessLower = LowerInFunctions<Dim>(*this->Space, this->Stiffness);
   }
 }
 
@@ -362,11 +329,11 @@ std::vector<typename GradientFit<Dim>::Block> GradientFit<Dim>::DiagonalBlocks()
   Eigen::VectorXd diagonal = Eigen::VectorXd::Constant(this->Space->NumFunctions, this->Proximal);
   if (this->Quadratic.rows() > 0)
   {
-    diagonal += this->QuadraticDiagonal;
+    diagonal += this->QuadraticLower.diagonal();
   }
   if (this->Stiffness.rows() > 0)
   {
-    diagonal += this->DiagonalInFunctions(this->Stiffness);
+    diagonal += this->StiffnessLower.diagonal();
   }
   std::vector<Block> blocks(n);
   for (std::size_t f = 0; f < n; ++f)
@@ -426,7 +393,8 @@ std::vector<typename GradientFit<Dim>::Block> GradientFit<Dim>::DiagonalBlocks()
   return blocks;
 }
 
-/// Inverts the diagonal blocks. A singular one makes the matrix singular, which is semidefinite.
+/// Inverts the diagonal blocks (a singular one makes the matrix singular, which is semidefinite)
+/// and factors.
 template <int Dim>
 Status GradientFit<Dim>::MakePreconditioner()
 {
@@ -446,16 +414,34 @@ Status GradientFit<Dim>::MakePreconditioner()
     }
     this->Inverse[f] = blocks[f].inverse();
   }
+  std::vector<const ColumnMatrix*> scalar;
+  if (this->Quadratic.rows() > 0)
+  {
+    scalar.push_back(&this->QuadraticLower);
+  }
+  if (this->Stiffness.rows() > 0)
+  {
+    scalar.push_back(&this->StiffnessLower);
+  }
+  this->UsesFactor = this->Factor.Compute(
+    *this->Space, *this->Data, this->Truncation, blocks, scalar, this->Threads);
   return {};
 }
 
 template <int Dim>
 PointMatrix GradientFit<Dim>::Precondition(const PointMatrix& r) const
 {
+  if (this->UsesFactor)
+  {
+    return this->Factor.Solve(r);
+  }
+  using Row = Eigen::Matrix<double, 1, Dim>;
   PointMatrix z(r.rows(), Dim);
   for (Eigen::Index j = 0; j < r.rows(); ++j)
   {
-    z.row(j) = r.row(j) * this->Inverse[static_cast<std::size_t>(j)];
+    const Eigen::Map<const Row> row(r.data() + j * Dim);
+    Eigen::Map<Row>(z.data() + j * Dim).noalias() =
+      row * this->Inverse[static_cast<std::size_t>(j)];
   }
   return z;
 }
@@ -507,7 +493,8 @@ Status GradientFit<Dim>::Solve(const PointMatrix& right, PointMatrix& x)
 }
 
 /// Whether the matrix is regular: the right-hand side of a fit lies in the range of the matrix and
-/// does not tell, a random one does.
+/// does not tell, a random one does. With the inverse blocks as preconditioner: a factor would be
+/// as singular as the matrix.
 template <int Dim>
 Status GradientFit<Dim>::CheckDetermined()
 {
@@ -523,7 +510,11 @@ Status GradientFit<Dim>::CheckDetermined()
     right.row(f) /= std::sqrt(this->Inverse[static_cast<std::size_t>(f)].trace());
   }
   PointMatrix x = PointMatrix::Zero(right.rows(), Dim);
-  return this->Solve(right, x);
+  const bool usesFactor = this->UsesFactor;
+  this->UsesFactor = false;
+  Status status = this->Solve(right, x);
+  this->UsesFactor = usesFactor;
+  return status;
 }
 
 template <int Dim>

@@ -474,6 +474,21 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> TruncationMatrix(const SplineSpace<
   return matrix;
 }
 
+template <int Dim>
+Eigen::SparseMatrix<double> LowerInFunctions(
+  const SplineSpace<Dim>& space, const Eigen::SparseMatrix<double, Eigen::RowMajor>& local)
+{
+  using ColumnMatrix = Eigen::SparseMatrix<double>;
+  if (space.IsIdentityMap())
+  {
+    return ColumnMatrix(local.template triangularView<Eigen::Lower>());
+  }
+  using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+  const RowMatrix map = TruncationMatrix<Dim>(space);
+  const RowMatrix product = RowMatrix(map.transpose()) * RowMatrix(local * map);
+  return ColumnMatrix(product.template triangularView<Eigen::Lower>());
+}
+
 #define KNOTWORK_INSTANTIATE(Dim)                                                                  \
   template int QualityResiduals<Dim>(QualityKind, const QualityJet<Dim>&, QualityResidual<Dim>*);  \
   template double QualityValue<Dim>(const BezierForm<Dim>&, QualityKind, int);                     \
@@ -482,7 +497,9 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> TruncationMatrix(const SplineSpace<
   template Eigen::SparseMatrix<double, Eigen::RowMajor> QuadraticMatrix<Dim>(                      \
     const SplineSpace<Dim>&, double, double, int, const std::vector<double>&);                     \
   template Eigen::SparseMatrix<double, Eigen::RowMajor> TruncationMatrix<Dim>(                     \
-    const SplineSpace<Dim>&)
+    const SplineSpace<Dim>&);                                                                      \
+  template Eigen::SparseMatrix<double> LowerInFunctions<Dim>(                                      \
+    const SplineSpace<Dim>&, const Eigen::SparseMatrix<double, Eigen::RowMajor>&)
 KNOTWORK_INSTANTIATE(2);
 KNOTWORK_INSTANTIATE(3);
 #undef KNOTWORK_INSTANTIATE

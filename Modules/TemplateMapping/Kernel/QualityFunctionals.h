@@ -53,6 +53,11 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> QuadraticMatrix(const SplineSpace<D
 template <int Dim>
 Eigen::SparseMatrix<double, Eigen::RowMajor> TruncationMatrix(const SplineSpace<Dim>& space);
 
+/// Lower triangle of T^T matrix T: a symmetric matrix in local functions, in the functions.
+template <int Dim>
+Eigen::SparseMatrix<double> LowerInFunctions(
+  const SplineSpace<Dim>& space, const Eigen::SparseMatrix<double, Eigen::RowMajor>& local);
+
 /// Derivatives of a map at a point that the measures which are not quadratic read: rows g_0, ...,
 /// then g_00, g_11, ....
 template <int Dim>

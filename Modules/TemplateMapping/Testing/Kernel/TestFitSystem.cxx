@@ -265,8 +265,8 @@ TYPED_TEST(FitSystemTest, SolversAgree_CrossOracle)
   {
     return; // compared with itself
   }
-  std::vector<FitWeights> all = WithMeasures();
-  all.insert(all.end(), std::begin(Quadratic), std::end(Quadratic));
+  std::vector<FitWeights> all(std::begin(Quadratic), std::end(Quadratic));
+  all.push_back(WithMeasures().back());
   for (const SplineSpacePtr<Dim>& space : Spaces<Dim>())
   {
     const cases::FitCase<Dim> c(space, 8, NumSamples(Dim));
