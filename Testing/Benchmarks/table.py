@@ -6,10 +6,10 @@ usage: Testing/Benchmarks/table.py MODULE [BUILD_TREE]     (default build/benchm
 
 Testing/Benchmarks/MODULE.json names the page, the program and the rows. Without "columns" a row is: what is done, the unit,
 the benchmark of one thread, that of all threads, and for each peer a published number or the name of a benchmark of ours
-that does the same by plain loops. With "columns" a row is a list of cells: a text, or what was measured, `@BENCHMARK UNIT`
-where the unit is one of time, `1/s`, or a counter of the benchmark. The table goes between two comment lines
-`benchmarks MODULE: begin` and `... end` on the page; the rows listed under "readme" go to the README alike. "needs" names
-an environment variable without which not all rows can be measured.
+that does the same by plain loops. With "columns" a row is a list of cells: a text; or what was measured, `@BENCHMARK UNIT`
+where the unit is one of time, `1/s`, or a counter of the benchmark; or a ratio, `@BENCHMARK COUNTER BENCHMARK`. The table
+goes between two comment lines `benchmarks MODULE: begin` and `... end` on the page; the rows listed under "readme" go to
+the README alike. "needs" names an environment variable without which not all rows can be measured.
 """
 import json
 import os
@@ -30,7 +30,7 @@ def measure(program):
         if run.get("aggregate_name") != "min":
             continue
         name = run["run_name"].replace("/real_time", "")
-        name = "/".join(part for part in name.split("/") if not part.startswith(("min_time", "repeats")))
+        name = "/".join(part for part in name.split("/") if not part.startswith(("min_time", "repeats", "process_time")))
         time = run["real_time" if "real_time" in run["run_name"] else "cpu_time"] * SCALE[run["time_unit"]]
         found[name] = run.get("point", run.get("cell", time))
         found.update(((name, key), value) for key, value in run.items() if isinstance(value, (int, float)))
@@ -46,7 +46,9 @@ def cell(text, found):
     """A cell of a table with columns."""
     if not text.startswith("@"):
         return text
-    name, unit = text[1:].split()
+    name, unit, *other = text[1:].split()
+    if other:
+        return f"{found[name, unit] / found[other[0], unit]:.2f}"
     if unit == "1/s":
         return f"{1 / found[name]:.1e}".replace("e+0", "e")
     if unit in SCALE:
