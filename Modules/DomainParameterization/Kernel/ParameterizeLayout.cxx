@@ -17,7 +17,7 @@ namespace knotwork
 namespace
 {
 /// Of refined spaces: hopeless boundaries end in a time that can be waited for.
-constexpr std::int64_t MostFunctions = 10000;
+constexpr std::int64_t MostFunctions = 4000;
 
 /// Part of a patch's lattice of control points: 0 and 1 are the ends of a direction, 2 all of it.
 template <int Dim>

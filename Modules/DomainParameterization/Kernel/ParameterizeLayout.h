@@ -29,7 +29,7 @@ struct LayoutParameterization : DomainReport
 /// the mean of its neighbours. Harmonic: the least int |grad|^2 (the Laplacian itself is not square
 /// integrable across C0 sides).
 ///
-/// Refinement, when no valid map is found, halves all elements of all patches, up to 10000
+/// Refinement, when no valid map is found, halves all elements of all patches, up to 4000
 /// functions.
 /// @param params  GapTolerance is not looked at, that of layoutParams is.
 /// @return failures of MakeCompatible; InvalidParameter naming an option; Aborted.

@@ -340,6 +340,61 @@ TEST(ParameterizeLayout, ResultDoesNotDependOnThreads_PropertyOracle)
   EXPECT_EQ(one->MinDetLower, three->MinDetLower);
 }
 
+/// A quarter turn of a patch's corners about its last direction; in space also the directions in
+/// turn.
+void Turn(std::array<int, 4>& c)
+{
+  c = { c[1], c[3], c[0], c[2] };
+}
+void Turn(std::array<int, 8>& c)
+{
+  const std::array<int, 8> about{ c[1], c[3], c[0], c[2], c[5], c[7], c[4], c[6] };
+  for (std::size_t i = 0; i < 8; ++i)
+  {
+    c[i] = about[(i << 1 & 7) | i >> 2];
+  }
+}
+
+template <int Dim>
+void ExpectTurnsDoNotMatter(PatchLayout<Dim> layout, const LayoutParams& params, unsigned seed)
+{
+  const auto straight = ParameterizeLayout<Dim>(layout, params);
+  ASSERT_TRUE(straight) << straight.Status.Message();
+  oracle::Random random(seed);
+  for (int round = 0; round < 3; ++round)
+  {
+    for (auto& corners : layout.Patches)
+    {
+      for (int turns = random.Int(0, 3); turns > 0; --turns)
+      {
+        Turn(corners);
+      }
+    }
+    const auto turned = ParameterizeLayout<Dim>(layout, params);
+    ASSERT_TRUE(turned) << turned.Status.Message();
+    ExpectGood<Dim>(turned.Value);
+    EXPECT_EQ(turned->Map.NumFunctions(), straight->Map.NumFunctions());
+    const double energy = LastEnergy(straight.Value, DomainStage::Quality);
+    // three iterations that gain less than 1e-7 each end the minimization
+    EXPECT_NEAR(LastEnergy(turned.Value, DomainStage::Quality), energy, 1e-5 * energy);
+  }
+}
+
+TEST(ParameterizeLayout, CornersMayBeListedFromAnyOne_PropertyOracle)
+{
+  ExpectTurnsDoNotMatter<2>(cases::Disc(0.4, 0.2), {}, 1);
+  ExpectTurnsDoNotMatter<2>(cases::Wedge(), {}, 2);
+  ExpectTurnsDoNotMatter<2>(cases::Ring(), {}, 3);
+  LayoutParams coarse;
+  coarse.MinElements = 2;
+  const PatchLayout<2> plane = cases::LetterL();
+  const auto flat = ParameterizeLayout<2>(plane, coarse);
+  ASSERT_TRUE(flat);
+  PatchLayout<3> layout = cases::Swept(plane, flat->InitialMap.Patches, 1.0);
+  layout.Vertices(12, 1) -= 1e-12; // within the tolerance
+  ExpectTurnsDoNotMatter<3>(layout, coarse, 4);
+}
+
 TEST(ParameterizeLayout, AbortAndBadOptionsAreErrors_PropertyOracle)
 {
   EXPECT_EQ(ParameterizeLayout<2>(cases::Wedge(), {}, {}, [](double) { return false; }).Status.Code,
