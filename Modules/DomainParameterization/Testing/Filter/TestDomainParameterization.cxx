@@ -291,7 +291,9 @@ TEST(DomainParameterization, OptionsReachTheKernel_PropertyOracle)
   run.Filter->SetFoldover(vtkDomainParameterization::PENALTY);
   const double penalty = lastOfFoldover();
   EXPECT_EQ(run.Filter->GetVerdict(), 1);
-  EXPECT_EQ(relu, 0.0);    // the integral of max(0, delta - det J), or of what is left of it
+  // int max(0, delta - det J) with delta = 0.05 at most, where no point is folded any more
+  EXPECT_GE(relu, 0.0);
+  EXPECT_LT(relu, 0.05);
   EXPECT_GT(penalty, 1.0); // the quality functional, at least 2 in the plane
   run.Filter->SetFoldover(vtkDomainParameterization::FOLDOVER_AUTOMATIC);
 
