@@ -127,59 +127,59 @@ public:
   ///@{
   /** Weight of the squared point distances, WEIGHTED only. Default 1, not negative; not 0 together
    * with TdmWeight. */
-  vtkSetClampMacro(PdmWeight, double, 0.0, VTK_DOUBLE_MAX);
+  vtkSetClampMacro(PdmWeight, double, 0.0, 1e30);
   vtkGetMacro(PdmWeight, double);
   ///@}
   ///@{
   /** Weight of the squared tangent distances, WEIGHTED only. Default 1, not negative. */
-  vtkSetClampMacro(TdmWeight, double, 0.0, VTK_DOUBLE_MAX);
+  vtkSetClampMacro(TdmWeight, double, 0.0, 1e30);
   vtkGetMacro(TdmWeight, double);
   ///@}
   ///@{
   /** Weight of the squared change of the control points in an iteration. Default 0.02, not
    * negative; 0 needs samples that determine every control point. */
-  vtkSetClampMacro(TikhonovWeight, double, 0.0, VTK_DOUBLE_MAX);
+  vtkSetClampMacro(TikhonovWeight, double, 0.0, 1e30);
   vtkGetMacro(TikhonovWeight, double);
   ///@}
   ///@{
   /** Weight of the integral of sum |s_kl|^2 over the domain: parameter lines bend little and are
    * evenly spaced. Default 0, not negative. */
-  vtkSetClampMacro(UniformityWeight, double, 0.0, VTK_DOUBLE_MAX);
+  vtkSetClampMacro(UniformityWeight, double, 0.0, 1e30);
   vtkGetMacro(UniformityWeight, double);
   ///@}
   ///@{
   /** Weight of the integral of sum |s_k|^2: parameter lines are short. Default 0, not negative. */
-  vtkSetClampMacro(LengthWeight, double, 0.0, VTK_DOUBLE_MAX);
+  vtkSetClampMacro(LengthWeight, double, 0.0, 1e30);
   vtkGetMacro(LengthWeight, double);
   ///@}
   ///@{
   /** Weight of the integral of sum (s_k . s_l)^2: parameter lines meet at right angles. Default 0,
    * not negative. */
-  vtkSetClampMacro(OrthogonalityWeight, double, 0.0, VTK_DOUBLE_MAX);
+  vtkSetClampMacro(OrthogonalityWeight, double, 0.0, 1e30);
   vtkGetMacro(OrthogonalityWeight, double);
   ///@}
   ///@{
   /** Weight of the integral of sum cos^4 of the angles between parameter lines. Default 0, not
    * negative. */
-  vtkSetClampMacro(SkewnessWeight, double, 0.0, VTK_DOUBLE_MAX);
+  vtkSetClampMacro(SkewnessWeight, double, 0.0, 1e30);
   vtkGetMacro(SkewnessWeight, double);
   ///@}
   ///@{
   /** Weight of the integral of sum ((s_k . s_kk) / |s_k|^2)^2: speed along parameter lines changes
    * little. Default 0, not negative. */
-  vtkSetClampMacro(EccentricityWeight, double, 0.0, VTK_DOUBLE_MAX);
+  vtkSetClampMacro(EccentricityWeight, double, 0.0, 1e30);
   vtkGetMacro(EccentricityWeight, double);
   ///@}
   ///@{
   /** Weight of the integral of (det J)^2: cells of equal area or volume. Default 0, not negative.
    */
-  vtkSetClampMacro(AreaWeight, double, 0.0, VTK_DOUBLE_MAX);
+  vtkSetClampMacro(AreaWeight, double, 0.0, 1e30);
   vtkGetMacro(AreaWeight, double);
   ///@}
   ///@{
   /** Weight of the integral of sum 1 / (|s_k|^2 + 1e-7)^2: parameter lines nowhere stop. Default 0,
    * not negative. */
-  vtkSetClampMacro(SelfIntersectionWeight, double, 0.0, VTK_DOUBLE_MAX);
+  vtkSetClampMacro(SelfIntersectionWeight, double, 0.0, 1e30);
   vtkGetMacro(SelfIntersectionWeight, double);
   ///@}
   ///@{

@@ -278,14 +278,21 @@ private:
         return status;
       }
     }
-    if (closest)
+    const bool moves = this->Params.Start == TemplateInitialMap::Moved && !this->Params.InitialMap;
+    for (int pass = moves ? 0 : 1; pass < 2; ++pass)
     {
-      TemplateMapIteration ignored;
-      this->Problem.Project(this->Form, false, ignored);
-    }
-    else if (this->Params.Start == TemplateInitialMap::Moved && !this->Params.InitialMap)
-    {
-      return this->MoveByRowSums();
+      if (closest)
+      {
+        TemplateMapIteration ignored;
+        this->Problem.Project(this->Form, false, ignored);
+      }
+      if (pass == 0)
+      {
+        if (Status status = this->MoveByRowSums(); !status)
+        {
+          return status;
+        }
+      }
     }
     return {};
   }
@@ -338,9 +345,10 @@ Status MapLoop<Dim>::MoveByRowSums()
   const Eigen::VectorXd sums =
     values->transpose() * Eigen::VectorXd::Ones(samples.Parameters.rows());
   PointMatrix step = values->transpose() * Eigen::MatrixXd(samples.Residuals);
+  const Eigen::RowVectorXd mean = samples.Residuals.colwise().mean();
   for (Eigen::Index f = 0; f < step.rows(); ++f)
   {
-    step.row(f) *= sums(f) > 0.0 ? 1.0 / sums(f) : 0.0;
+    step.row(f) = sums(f) > 0.0 ? Eigen::RowVectorXd(step.row(f) / sums(f)) : mean;
   }
   const PointMatrix before = this->Map.ControlPoints;
   for (double length = 1.0; length > 1e-3; length *= 0.5)

@@ -23,7 +23,8 @@ enum class TemplateInitialMap
   Identity,
   /// The identity, each control point moved by the mean of the displacements p_i - ghat(t_i) of the
   /// samples in the support of its function, weighted by the function's values there: one
-  /// control-point iteration whose system is replaced by its row sums. For maps that begin far off.
+  /// control-point iteration whose system is replaced by its row sums. Control points without
+  /// samples around them move by the mean of all. For maps that begin far off.
   Moved
 };
 
