@@ -87,8 +87,8 @@ PatchFeet MappedPatch<Dim>::At(const BezierForm<Dim>& form, const PointMatrixVie
 }
 
 template <>
-bool MappedPatch<2>::Step(const double* place, const double* target, const double* foot,
-  const double* first, double* whole, double*) const
+void MappedPatch<2>::Step(const double* place, const double* target, const double* foot,
+  const double* first, double* next) const
 {
   using Row = Eigen::RowVector2d;
   using Map = Eigen::Map<const Row>;
@@ -101,89 +101,50 @@ bool MappedPatch<2>::Step(const double* place, const double* target, const doubl
     tangent += along[d] * Map(first + 2 * d);
   }
   const double length = tangent.squaredNorm();
-  whole[0] = place[0];
+  next[0] = place[0];
   if (length > 0.0)
   {
     const Row residual = Map(target) - Map(foot);
-    whole[0] = std::min(std::max(place[0] + residual.dot(tangent) / length, this->Template.Begin()),
+    next[0] = std::min(std::max(place[0] + residual.dot(tangent) / length, this->Template.Begin()),
       this->Template.End());
   }
-  return false;
 }
 
 template <>
-bool MappedPatch<3>::Step(const double* place, const double* target, const double* foot,
-  const double* first, double* whole, double* clamped) const
+void MappedPatch<3>::Step(const double* place, const double* target, const double* foot,
+  const double* first, double* next) const
 {
   using Row = Eigen::RowVector3d;
   using Map = Eigen::Map<const Row>;
-  // The minimum of the linear model over the triangle; at edges and corners over the best of the
-  // triangles there.
-  struct Model
-  {
-    Row Position;
-    double Along[6];
-    Row Tangents[2];
-    TriangleFoot Inside;
-  } best;
+  TriangleFoot best;
   this->Template.ForTrianglesAt(place,
     [&](const double* same)
     {
-      Model model;
-      this->Template.Evaluate(same, model.Position.data(), model.Along);
+      Row position;
+      double along[6];
+      this->Template.Evaluate(same, position.data(), along);
+      std::array<Row, 2> tangents{ Row::Zero(), Row::Zero() };
       for (int k = 0; k < 2; ++k)
       {
-        model.Tangents[k].setZero();
         for (int d = 0; d < 3; ++d)
         {
-          model.Tangents[k] += model.Along[3 * k + d] * Map(first + 3 * d);
+          tangents[static_cast<std::size_t>(k)] += along[3 * k + d] * Map(first + 3 * d);
         }
       }
-      const Row a = Map(foot) - same[1] * model.Tangents[0] - same[2] * model.Tangents[1];
-      const Row b = a + model.Tangents[0];
-      const Row c = a + model.Tangents[1];
-      model.Inside =
+      // The image of the triangle under the linear model at the place.
+      const Row a = Map(foot) - same[1] * tangents[0] - same[2] * tangents[1];
+      const Row b = a + tangents[0];
+      const Row c = a + tangents[1];
+      const TriangleFoot inside =
         ClosestOnTriangle<3>(a.data(), b.data(), c.data(), target, static_cast<int>(same[0]));
-      if (model.Inside.SquaredDistance < best.Inside.SquaredDistance)
+      if (inside.SquaredDistance < best.SquaredDistance)
       {
-        best = model;
+        best = inside;
       }
     });
-  const auto write = [](const TriangleFoot& to, double* row)
-  {
-    row[0] = double(to.Triangle);
-    row[1] = to.Second;
-    row[2] = to.Third;
-  };
-  const TriangleFoot& inside = best.Inside;
-  write(inside, clamped);
-  write(inside, whole);
-  if (inside.Second > 0.0 && inside.Third > 0.0 && inside.Second + inside.Third < 1.0)
-  {
-    return false;
-  }
-  // The minimum over the plane, carried back to the mesh.
-  const Row residual = Map(target) - Map(foot);
-  const double a11 = best.Tangents[0].squaredNorm();
-  const double a12 = best.Tangents[0].dot(best.Tangents[1]);
-  const double a22 = best.Tangents[1].squaredNorm();
-  const double determinant = a11 * a22 - a12 * a12;
-  if (!(determinant > 1e-12 * a11 * a22))
-  {
-    return false;
-  }
-  const double b1 = residual.dot(best.Tangents[0]);
-  const double b2 = residual.dot(best.Tangents[1]);
-  const double t1 = (a22 * b1 - a12 * b2) / determinant;
-  const double t2 = (a11 * b2 - a12 * b1) / determinant;
-  const Row beyond = best.Position + t1 * Map(best.Along) + t2 * Map(best.Along + 3);
-  const TriangleFoot back = this->Template.Mesh().Nearest(beyond.data());
-  if (back.Triangle < 0) // too far away for squared distances
-  {
-    return false;
-  }
-  write(back, whole);
-  return !std::equal(whole, whole + 3, clamped);
+  next[0] = double(best.Triangle);
+  next[1] = best.Second;
+  next[2] = best.Third;
 }
 
 template <int Dim>
@@ -273,8 +234,6 @@ PatchFeet MappedPatch<Dim>::Project(const BezierForm<Dim>& form, const PointMatr
     trial = best.Places;
   }
 
-  PointMatrix clamped = trial;
-  std::vector<char> hasClamped(static_cast<std::size_t>(n), 0);
   for (int step = 0; step <= newtonSteps; ++step)
   {
     EvaluateParameters(
@@ -282,21 +241,17 @@ PatchFeet MappedPatch<Dim>::Project(const BezierForm<Dim>& form, const PointMatr
     each(
       [&](Eigen::Index i)
       {
-        char& other = hasClamped[static_cast<std::size_t>(i)];
         const double distance = (points.row(i) - batch.Values.row(i)).squaredNorm();
         const bool moved = trial.row(i) != best.Places.row(i);
         if (moved && !take(i, trial.row(i).data(), batch.Values.row(i).data(), distance))
         {
-          // The same step would fail again: without another one this point is done.
-          trial.row(i) = other ? clamped.row(i) : best.Places.row(i);
-          other = 0;
-          return;
+          trial.row(i) = best.Places.row(i);
+          return; // the same step would fail again: this point is done
         }
         if ((moved || step == 0) && step < newtonSteps)
         {
-          other =
-            this->Step(best.Places.row(i).data(), points.row(i).data(), batch.Values.row(i).data(),
-              batch.First.row(i).data(), trial.row(i).data(), clamped.row(i).data());
+          this->Step(best.Places.row(i).data(), points.row(i).data(), batch.Values.row(i).data(),
+            batch.First.row(i).data(), trial.row(i).data());
         }
       });
   }

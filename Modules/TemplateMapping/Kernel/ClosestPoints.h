@@ -60,11 +60,10 @@ public:
     const PointMatrix& places, int threads) const;
 
   /// Closest points from the best one of known places and the nearest dense sample, then
-  /// newtonSteps evaluations for Gauss-Newton steps, (g_k . g_l) dt = (r . g_k) with r = p -
-  /// s(ghat(t)) and g_k = d/dt_k s(ghat(t)), clamped to the patch. Dim = 3: ghat(t) + dghat dt is
-  /// carried back to the closest point of the mesh, and where that is no better, the step that ends
-  /// inside the triangle is tried; at an edge or corner the triangle is the one that promises most.
-  /// A step to a worse point is not taken.
+  /// newtonSteps Gauss-Newton steps, (g_k . g_l) dt = (r . g_k) with r = p - s(ghat(t)) and g_k =
+  /// d/dt_k s(ghat(t)), clamped to the patch. Dim = 3: to the triangle of the place, by the closest
+  /// point of its image under the linear model; at an edge or corner, to the one of the triangles
+  /// there that promises most. A step to a worse point is not taken.
   /// @param known  places, or 0 rows: nothing is known.
   /// @pre   Update(form).
   /// @source Sajavicius, Juettler, Speh (2018), step 3; squared norms in the system.
@@ -74,10 +73,8 @@ public:
 private:
   void Clamp(double* point) const;
   /// One step from a place towards a target; foot and first are s there and its derivatives.
-  /// @param whole  place where the step leads.
-  /// @param clamped  place to try if that is worse. @return false when there is none.
-  bool Step(const double* place, const double* target, const double* foot, const double* first,
-    double* whole, double* clamped) const;
+  void Step(const double* place, const double* target, const double* foot, const double* first,
+    double* next) const;
 
   PatchGeometry<Dim> Template;
   ParametricBox<Dim> Domain;

@@ -9,10 +9,6 @@ namespace knotwork
 {
 namespace
 {
-/// Below this ratio of height and side a triangle is tried as three segments too: the coordinates
-/// of its inner points lose that many digits.
-constexpr double Sliver = 1e-6;
-
 template <int Dim>
 using Row = Eigen::Matrix<double, 1, Dim>;
 
@@ -58,8 +54,9 @@ TriangleFoot ClosestOnTriangle(
     }
   };
 
-  // Foot in the plane, by one step of Gram and Schmidt from the longer side: normal equations
-  // would square the loss of digits in flat triangles.
+  // Foot in the plane, by one step of Gram and Schmidt from the longer side: however flat the
+  // triangle, errors in the one coordinate are made good by the other, while normal equations would
+  // square the loss of digits.
   const bool swapped = ac.squaredNorm() > ab.squaredNorm();
   const Row<Dim>& side = swapped ? ac : ab;
   const Row<Dim>& other = swapped ? ab : ac;
@@ -67,12 +64,10 @@ TriangleFoot ClosestOnTriangle(
   double first = -1.0;
   double second = -1.0;
   double third = -1.0;
-  bool flat = true;
   if (length >= std::numeric_limits<double>::min())
   {
     const Row<Dim> height = other - (other.dot(side) / length) * side;
     const double squaredHeight = height.squaredNorm();
-    flat = !(squaredHeight > Sliver * Sliver * length);
     if (squaredHeight >= std::numeric_limits<double>::min())
     {
       third = offset.dot(height) / squaredHeight;
@@ -82,26 +77,24 @@ TriangleFoot ClosestOnTriangle(
         std::swap(second, third);
       }
       first = 1.0 - second - third;
-      if (first >= 0.0 && second >= 0.0 && third >= 0.0)
-      {
-        take(second, third);
-        if (!flat)
-        {
-          return best;
-        }
-      }
     }
   }
-  // From outside, the closest point lies on an edge beyond which the query is.
-  if (flat || third < 0.0)
+  if (first >= 0.0 && second >= 0.0 && third >= 0.0)
+  {
+    take(second, third);
+    return best;
+  }
+  // From outside, the closest point lies on an edge beyond which the query is; without area, on any
+  // of the three.
+  if (third < 0.0)
   {
     take(AlongSegment<Dim>(ab, offset), 0.0);
   }
-  if (flat || second < 0.0)
+  if (second < 0.0)
   {
     take(0.0, AlongSegment<Dim>(ac, offset));
   }
-  if (flat || first < 0.0)
+  if (first < 0.0)
   {
     const double share = AlongSegment<Dim>(Map(c) - Map(b), Map(point) - Map(b));
     take(1.0 - share, share);

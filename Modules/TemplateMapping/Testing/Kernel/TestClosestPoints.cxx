@@ -282,6 +282,29 @@ TEST(ClosestPointsOfSurfaces, StepsEndAtRoundingOnAPlate_PropertyOracle)
   EXPECT_GT(inner, 60);
 }
 
+TEST(ClosestPointsOfSurfaces, TwoStepsAreEnoughNearTheSurface_PropertyOracle)
+{
+  // Queries as in a fit: within 0.02 of a mesh of 2048 triangles. Two steps end where many do, over
+  // the edges of triangles too.
+  const Spline<3> map = Wavy<3>(11);
+  const BezierForm<3> form = MakeBezierForm(map);
+  MappedPatch<3> patch(cases::Sphere(4), 0, *map.Space);
+  patch.Update(form, 2);
+  const int n = 4000;
+  PointMatrix queries = Queries(n, 12);
+  queries = (queries.rowwise() - Eigen::RowVector3d(0.5, 0.5, 0.5)).rowwise().normalized() * 0.25;
+  queries.rowwise() += Eigen::RowVector3d(0.5, 0.5, 0.5);
+  EvaluationBatch batch;
+  ASSERT_TRUE(EvaluateParameters(form, queries, { 0, 2 }, batch));
+  queries = batch.Values + 0.02 * (Queries(n, 13) - PointMatrix::Constant(n, 3, 0.5));
+  const PatchFeet two = patch.Project(form, queries, PointMatrix(0, 3), 2, 2);
+  const PatchFeet many = patch.Project(form, queries, PointMatrix(0, 3), 20, 2);
+  const Eigen::ArrayXd excess =
+    two.SquaredDistances.cwiseSqrt() - many.SquaredDistances.cwiseSqrt();
+  EXPECT_GE(excess.minCoeff(), 0.0);
+  EXPECT_LE(excess.maxCoeff(), 1e-9);
+}
+
 TEST(ClosestPointsOfSurfaces, AreTheSameForAnyNumberOfThreads_PropertyOracle)
 {
   const Spline<3> map = Wavy<3>(9);

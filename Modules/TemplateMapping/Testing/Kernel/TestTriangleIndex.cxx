@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 using namespace knotwork;
@@ -51,7 +52,7 @@ TEST(TriangleIndex, NoCornerIsNearerThanTheFoot_PropertyOracle)
   std::mt19937 random(5);
   std::uniform_real_distribution<double> real(-1.0, 1.0);
   const auto any = [&] { return Row(real(random), real(random), real(random)); };
-  for (int trial = 0; trial < 300; ++trial)
+  for (int trial = 0; trial < 3000; ++trial)
   {
     SCOPED_TRACE(trial);
     const Row a = any();
@@ -67,11 +68,54 @@ TEST(TriangleIndex, NoCornerIsNearerThanTheFoot_PropertyOracle)
     const Row q = PointOfTriangle<3>(a.data(), b.data(), c.data(), foot.Second, foot.Third);
     EXPECT_NEAR((p - q).norm(), std::sqrt(foot.SquaredDistance), 1e-15);
     // q is the closest point of a convex set exactly when no corner lies on p's side of it; else
-    // the squared distance is too large by at most twice the largest of these products. Below the
-    // ratio where triangles count as slivers, their inner points lose 6 of 16 digits.
+    // the squared distance is too large by at most twice the largest of these products: rounding.
     for (const Row& corner : { a, b, c })
     {
-      EXPECT_LE((p - q).dot(corner - q), 1e-9 * (p - q).norm());
+      EXPECT_LE((p - q).dot(corner - q), 1e-14);
+    }
+  }
+}
+
+TEST(TriangleIndex, NeedlesOfRoundingAreSegments_CrossOracle)
+{
+  // Corners on a line but for the last digits: the distance is that to the line's part.
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> real(-1.0, 1.0);
+  const auto any = [&] { return Row(real(random), real(random), real(random)); };
+  for (int trial = 0; trial < 3000; ++trial)
+  {
+    const Row start = any();
+    const Row along = any();
+    std::array<double, 3> places{ real(random), real(random), real(random) };
+    const Row a = start + places[0] * along;
+    const Row b = start + places[1] * along;
+    const Row c = start + places[2] * along;
+    const Row p = any();
+    std::sort(places.begin(), places.end());
+    const double t =
+      std::clamp((p - start).dot(along) / along.squaredNorm(), places.front(), places.back());
+    EXPECT_NEAR(std::sqrt(Closest(a, b, c, p).SquaredDistance), (p - start - t * along).norm(),
+      1e-14); // rounding of the corners
+  }
+}
+
+TEST(TriangleIndex, FlatBoxesHideNothing_PropertyOracle)
+{
+  // The corners' box has no height; feet must not be rounded out of it, or the tree, asked for
+  // exactly the distance of the foot, prunes the triangle.
+  SkeletonPatch<3> plate = cases::Plate(5);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> real(0.2, 0.8);
+  for (const double height : { 0.1, 0.3, 0.7 })
+  {
+    plate.Points.col(2).setConstant(height);
+    const TriangleIndex<3> index(plate.Points, plate.Simplices);
+    for (int q = 0; q < 1000; ++q)
+    {
+      const Row p(real(random), real(random), real(random));
+      const TriangleFoot found = index.Nearest(p.data());
+      EXPECT_EQ(found.SquaredDistance, (p.z() - height) * (p.z() - height));
+      EXPECT_EQ(index.Nearest(p.data(), found.SquaredDistance).Triangle, found.Triangle);
     }
   }
 }
