@@ -10,7 +10,7 @@ import knotwork_testing
 knotwork_testing.load_plugin()
 from paraview.simple import (  # noqa: E402
     ColorBy, CreateRenderView, Delete, DomainBoundaryReader, DomainParameterization, GetColorTransferFunction,
-    JacobianValidator, OutputPort, Show)
+    JacobianValidator, OutputPort, Plane, Show)
 
 COUNT = 12  # control points a side
 
@@ -96,6 +96,25 @@ def test_first_map_folds():
     validator = JacobianValidator(Input=OutputPort(domain, 1))
     validator.UpdatePipeline()
     assert summary(validator, "Verdict").ToString() == "invalid"
+
+
+def test_layout_is_a_mesh_of_any_source():
+    corners = [(0, 0), (1, 0), (2, 0), (2, 1), (1, 1), (0, 1)]
+    sides = [side(corners[k], corners[(k + 1) % 6], 0.1) for k in range(6)]
+    name = knotwork_testing.output("ParaViewTwoPatches.json")
+    with open(name, "w") as stream:
+        json.dump({"curves": sides}, stream)
+    plane = Plane(Origin=[0, 0, 0], Point1=[2, 0, 0], Point2=[0, 1, 0], XResolution=2, YResolution=1)
+    domain = DomainParameterization(Input=DomainBoundaryReader(FileName=name), Layout=plane)
+    domain.MinimumElements = 2
+    validator = JacobianValidator(Input=OutputPort(domain, 0))
+    validator.UpdatePipeline()
+    field = domain.GetClientSideObject().GetOutputDataObject(0).GetFieldData()
+    assert field.GetAbstractArray("Verdict").GetValue(0) == "valid"
+    assert field.GetAbstractArray("Injective").GetValue(0) == "injective"
+    assert field.GetArray("Patches").GetTuple1(0) == 2
+    assert summary(validator, "Injective").ToString() == "injective"
+    assert abs(summary(validator, "Measure").ToDouble() - field.GetArray("Area").GetTuple1(0)) < 1e-12
 
 
 def test_wrong_pictures_are_noticed():
