@@ -254,32 +254,32 @@ TEST(ClosestPointsOfSurfaces, AreNoFartherThanAnyDenseSample_CrossOracle)
 
 TEST(ClosestPointsOfSurfaces, StepsEndAtRoundingOnAPlate_PropertyOracle)
 {
-  // A bent plate: the residual of a closest inner point is normal to the surface.
+  // A bent plate: the residual of a closest inner point is normal to the surface. The two triangles
+  // meet without a kink, so nothing may end at their common edge only because it is one. The only
+  // samples are the corners: steps are long.
   const Spline<3> map = Wavy<3>(7);
   const BezierForm<3> form = MakeBezierForm(map);
-  const SkeletonPatch<3> plate = cases::Plate(1); // two triangles: no kinks within them
-  MappedPatch<3> patch(plate, 400, *map.Space);
+  MappedPatch<3> patch(cases::Plate(1), 0, *map.Space);
   patch.Update(form, 1);
-  PointMatrix queries = Queries(200, 8);
+  PointMatrix queries = Queries(400, 8);
   queries.col(2).array() = 0.5 + 0.02 * (queries.col(2).array() - 0.5);
-  const PatchFeet found = patch.Project(form, queries, PointMatrix(0, 3), 30, 1);
+  const PatchFeet found = patch.Project(form, queries, PointMatrix(0, 3), 60, 1);
+  const PointMatrix at = patch.DomainPoints(found.Places);
   EvaluationBatch batch;
-  ASSERT_TRUE(EvaluateParameters(form, patch.DomainPoints(found.Places), { 1, 1 }, batch));
+  ASSERT_TRUE(EvaluateParameters(form, at, { 1, 1 }, batch));
   int inner = 0;
-  for (int i = 0; i < 200; ++i)
+  for (int i = 0; i < queries.rows(); ++i)
   {
-    const double second = found.Places(i, 1);
-    const double third = found.Places(i, 2);
-    if (std::min({ second, third, 1.0 - second - third }) > 1e-6)
+    if (at.row(i).head<2>().minCoeff() > 0.2 + 1e-6 && at.row(i).head<2>().maxCoeff() < 0.8 - 1e-6)
     {
       ++inner;
       const Eigen::RowVector3d residual = queries.row(i) - found.Feet.row(i);
       // The plate's directions are x and y.
-      EXPECT_LE(std::abs(residual.dot(batch.First.row(i).head(3))), 1e-9) << i;
-      EXPECT_LE(std::abs(residual.dot(batch.First.row(i).segment(3, 3))), 1e-9) << i;
+      EXPECT_LE(std::abs(residual.dot(batch.First.row(i).head(3))), 1e-8) << i;
+      EXPECT_LE(std::abs(residual.dot(batch.First.row(i).segment(3, 3))), 1e-8) << i;
     }
   }
-  EXPECT_GT(inner, 60);
+  EXPECT_GT(inner, 100);
 }
 
 TEST(ClosestPointsOfSurfaces, TwoStepsAreEnoughNearTheSurface_PropertyOracle)
