@@ -383,7 +383,10 @@ void ExpectTurnsDoNotMatter(PatchLayout<Dim> layout, const LayoutParams& params,
 TEST(ParameterizeLayout, CornersMayBeListedFromAnyOne_PropertyOracle)
 {
   ExpectTurnsDoNotMatter<2>(cases::Disc(0.4, 0.2), {}, 1);
-  ExpectTurnsDoNotMatter<2>(cases::Wedge(), {}, 2);
+  PatchLayout<2> uneven = cases::Wedge();
+  uneven.Sides[0] = InsertKnots<1>(uneven.Sides[0], 0, { 0.1, 0.6, 0.6 }).Value;
+  uneven.Sides[2] = InsertKnots<1>(uneven.Sides[2], 0, { 0.15, 0.2 }).Value;
+  ExpectTurnsDoNotMatter<2>(uneven, {}, 2);
   ExpectTurnsDoNotMatter<2>(cases::Ring(), {}, 3);
   LayoutParams coarse;
   coarse.MinElements = 2;
