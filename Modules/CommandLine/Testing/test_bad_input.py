@@ -100,6 +100,20 @@ def test_map_refuses_bad_skeletons():
     assert_refused(["map", template, other], path("map.vtu"), "ids.vtp")
     grid = source()
     assert_refused(["map", template, grid], path("map.vtu"), "square.vtu")
+    ball = skeletons.write(skeletons.ball(), path("ball.vtp"))
+    assert_refused(["map", template, ball], path("map.vtu"), "ball.vtp", "curves")
+    for name, spoil, word in (("nan_ball", lambda points: points.__setitem__((7, 1), np.nan), "NaN"),
+                              ("flat_ball", lambda points: points.__imul__((1, 1, 0)), ""),
+                              ("point_ball", lambda points: points.__imul__(0), "")):
+        broken = skeletons.ball()
+        spoil(skeletons.points(broken))
+        broken = skeletons.write(broken, path(name + ".vtp"))
+        if name != "flat_ball":
+            assert_refused(["map", ball, broken], path("map.vtu"), name, word)
+        assert_refused(["map", broken, ball], path("map.vtu"), name, word)
+    unnumbered = skeletons.ball()
+    unnumbered.GetCellData().RemoveArray("PatchId")
+    assert_refused(["map", ball, skeletons.write(unnumbered, path("unnumbered.vtp"))], path("map.vtu"), "unnumbered", "PatchId")
 
 
 def spline():
@@ -277,6 +291,52 @@ def test_numbers_that_no_option_takes_are_refused():
     assert_refused(["warp", grid, source(), "--clamp", 1, "--tolerance", "nan"], path("out.vtu"), "tolerance")
     lines = skeleton("lines.vtp", skeletons.curves(0.1, 3, 20))
     assert_refused(["map", lines, lines, "--tikhonov-weight", "nan"], path("map.vtu"), "Tikhonov")
+
+
+def test_map_refuses_bad_options():
+    lines = skeleton("lines.vtp", skeletons.curves(0.1, 3, 20))
+    for name in ("pdm", "tdm", "uniformity", "length", "orthogonality", "skewness", "eccentricity", "area",
+                 "self-intersection"):
+        assert_refused(["map", lines, lines, f"--{name}-weight", "nan"], path("map.vtu"), "weight", "nan")
+    for name in ("accuracy", "max-irregular-share", "stagnation-ratio", "refine-threshold", "refine-share"):
+        assert_refused(["map", lines, lines, "--refine", "local", f"--{name}", "nan"], path("map.vtu"), "nan")
+    assert_refused(["map", lines, lines, "--method", "weighted", "--pdm-weight", 0, "--tdm-weight", 0], path("map.vtu"),
+                   "both 0")
+    for numbers, word in (((0, 1, 0, 0.9), "outside the domain"), ((1, 0, 0, 1), "empty"), ((0, "nan", 0, 1), "empty"),
+                          ((0, "inf", 0, 1), "empty"), ((0, 1, 0, 1, 0), "4 or 6")):
+        assert_refused(["map", lines, lines, "--domain", *numbers], path("map.vtu"), word)
+    assert_refused(["map", lines, lines, "--inner-knots-per-direction", -2, 3, 3], path("map.vtu"), "inner knots")
+    for usage in (["--guard", "maybe"], ["--refine", "sometimes"], ["--extension", -1], ["--refine-share", 2],
+                  ["--method", "best"], ["--initial-map", "random"], ["--max-level", 25], ["--area-weight", -1],
+                  ["--domain", 0, 1], ["--refine-every", -1], ["--max-functions", 0], ["--accuracy", "much"]):
+        done = knotwork_testing.run_program("map", lines, lines, "--output", path("map.vtu"), *usage)
+        assert done.returncode == 2, (usage, done.returncode, done.stderr)
+
+
+def test_map_refuses_bad_initial_maps():
+    lines = skeleton("lines.vtp", skeletons.curves(0.1, 3, 50))
+    for file, word in bad_grids():
+        assert_refused(["map", lines, lines, "--initial", file], path("map.vtu"), word)
+    good = path("first.vtu")
+    done = knotwork_testing.run_program("map", lines, lines, "--output", good, "--iterations", 1)
+    assert done.returncode == 0, done.stderr
+
+    def moved(name, row, *xyz):
+        grid = damages.read(good)
+        damages.point(grid, row, *xyz)
+        return damages.write(grid, path(name))
+
+    for file, words in ((moved("nan_map.vtu", 4, np.nan, 0, 0), ["nan_map.vtu", "NaN"]),
+                        (spline(), ["polynomial"]), (lines, ["lines.vtp"])):
+        assert_refused(["map", lines, lines, "--initial", file], path("map.vtu"), *words)
+    for name, spoil, words in damages.REFUSED:
+        grid = damages.read(spline())
+        spoil(grid)
+        file = damages.write(grid, path(name + ".vtu"))
+        status, text = outcome(["map", lines, lines, "--initial", file, "--output", path("map.vtu")], before=False)
+        assert status == 1, (name, text)
+        for word in [name + ".vtu", *words]:
+            assert word in text, (name, word, text)
 
 
 def test_points_outside_are_named():

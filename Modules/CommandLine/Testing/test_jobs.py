@@ -66,6 +66,116 @@ def test_fixed_pdm_and_tdm_reach_the_published_pattern():
     assert errors[0] > errors[1] > errors[2], errors
 
 
+def lobed_case(samples=1001, **shape):
+    target = {"amplitude": 0.2, "lobes": 5, "samples": 200, **shape}
+    return (skeletons.write(skeletons.polydata(skeletons.curves(0.0, 1, samples)), path("template.vtp")),
+            skeletons.write(skeletons.polydata(skeletons.curves(**target)), path("target.vtp")))
+
+
+def test_skewed_targets_are_regular_with_the_guard():
+    case = lobed_case(2001, amplitude=0.3, lobes=6, skew=0.8)
+    folded = run("map", *case, "--output", path("folded.vtu"), "--guard", "off")
+    regular = run("map", *case, "--output", path("regular.vtu"))
+    assert regular["guard"] == "on" and folded["guard"] == "off"
+    assert folded["negative_jacobian_percent"] > 1 and folded["min_jacobian_bound"] < 0, folded
+    assert folded["injective"] == "not_injective"
+    assert regular["negative_jacobian_percent"] == 0 and regular["min_jacobian_bound"] > 0, regular
+    assert regular["injective"] == "injective" and sum(regular["held_elements"]) > 0
+    assert regular["squared_l2_error"] <= folded["squared_l2_error"]
+    # The written map, read again.
+    verdict = run("validate", path("regular.vtu"))
+    assert verdict["verdict"] == "valid" and verdict["injective"] == "injective"
+    done = knotwork_testing.run_program("validate", path("folded.vtu"))
+    assert done.returncode != 0, done.stdout
+
+
+def test_local_refinement_takes_fewer_functions():
+    case = lobed_case()
+    report = {kind: run("map", *case, "--output", path(kind + ".vtu"), "--refine", kind, "--iterations", 3)
+              for kind in ("none", "local", "global")}
+    assert report["none"]["functions_per_iteration"] == [225, 225, 225]
+    assert report["global"]["functions_per_iteration"] == [225, 729, 2601]
+    local = report["local"]["functions_per_iteration"]
+    assert local[0] == 225 < local[1] <= local[2] < 729 and local[-1] == report["local"]["functions"]
+    assert report["local"]["squared_l2_error"] < 0.1 * report["none"]["squared_l2_error"]
+    for kind in report:
+        assert run("info", path(kind + ".vtu"))["functions"] == report[kind]["functions"]
+        assert run("validate", path(kind + ".vtu"))["verdict"] == "valid"
+
+    def functions(*options):
+        return run("map", *case, "--output", path("map.vtu"), "--refine", "local", "--iterations", 4,
+                   *options)["functions_per_iteration"]
+
+    base = functions()
+    assert functions("--extension", 3)[-1] > base[-1] > functions("--extension", 0)[-1]
+    assert functions("--refine-threshold", 1e-3)[-1] < base[-1] < functions("--refine-threshold", 1e-7)[-1]
+    assert functions("--refine-threshold", 0, "--refine-share", 0.01)[-1] < functions("--refine-threshold", 0)[-1]
+    assert functions("--max-functions", 230) == [225] * 4 == functions("--max-level", 0)
+    every = functions("--refine-every", 2)
+    assert every[0] == every[1] < every[2] == every[3]
+    assert functions("--refine-every", 0, "--stagnation-ratio", 0.999)[-1] > 225
+
+
+def test_every_weight_and_end_of_map_has_its_effect():
+    case = lobed_case(skew=0.35)
+
+    def error(*options, iterations=4):
+        return run("map", *case, "--output", path("map.vtu"), "--iterations", iterations, *options)
+
+    base = error()
+    assert base["method"] == "tdm" and base["refine"] == "none" and base["initial_map"] == "identity"
+    for name in ("uniformity", "length", "orthogonality", "skewness", "eccentricity", "area", "self_intersection"):
+        assert base[name + "_weight"] == 0
+        report = error(f"--{name.replace('_', '-')}-weight", 1e-3)
+        assert report[name + "_weight"] == 1e-3
+        assert report["squared_l2_error"] != base["squared_l2_error"], name
+    errors = [error("--method", "weighted", "--pdm-weight", pdm, "--tdm-weight", tdm)["squared_l2_error"]
+              for pdm, tdm in ((1, 0), (0, 1), (1, 1))]
+    assert len({f"{value:.6e}" for value in errors}) == 3, errors
+    assert abs(errors[1] / base["squared_l2_error"] - 1) < 1e-6  # coordinates solved together: rounding
+    early = error("--accuracy", 1.01 * base["max_error"], iterations=1000)
+    assert early["iterations"] <= 4 and early["max_error"] <= 1.01 * base["max_error"]
+    folding = ("--method", "fixed", "--guard", "off")
+    assert error(*folding, "--max-irregular-share", 0, iterations=20)["iterations"] < 20
+    assert error(*folding, iterations=20)["negative_jacobian_percent"] > 0
+    assert "injective" not in error("--injectivity", "off")
+
+
+def test_map_begins_where_it_is_told():
+    case = lobed_case()
+
+    def report(*options):
+        return run("map", *case, "--output", path("map.vtu"), "--iterations", 2, *options)
+
+    base = report()
+    run("map", *case, "--output", path("first.vtu"), "--iterations", 10, "--degree", 2)
+    onward = report("--initial", path("first.vtu"))
+    assert onward["functions"] == 14**2 and onward["initial"] == path("first.vtu")
+    assert onward["squared_l2_error"] < base["squared_l2_error"]
+    assert report("--initial-map", "moved")["squared_l2_error"] != base["squared_l2_error"]
+    assert report("--inner-knots-per-direction", 3, -1, -1)["functions"] == 7 * 15
+    wide = report("--domain", -1, 2, -0.5, 1.5)
+    assert wide["domain"] == [-1, 2, -0.5, 1.5] and wide["squared_l2_error"] != base["squared_l2_error"]
+    bounds = vtk_to_numpy(read(vtkXMLUnstructuredGridReader(), path("map.vtu")).GetCellData().GetArray("ParametricBounds"))
+    assert bounds[:, 0].min() == -1 and bounds[:, 1].max() == 2 and bounds[:, 3].max() == 1.5
+
+
+def test_surfaces_are_mapped_in_space():
+    egg = skeletons.ball()
+    x = skeletons.points(egg)
+    x[:, 1] = 0.5 + (1.2 + 0.4 * (x[:, 0] - 0.5)) * (x[:, 1] - 0.5)
+    case = skeletons.write(skeletons.ball(), path("ball.vtp")), skeletons.write(egg, path("egg.vtp"))
+    report = run("map", *case, "--output", path("egg.vtu"), "--mapped", path("mapped.vtp"), "--inner-knots", 2,
+                 "--iterations", 4, "--domain", 0, 1, 0, 1, 0, 1, "--refine", "local", "--refine-every", 2,
+                 "--extension", 1)
+    assert report["functions_per_iteration"][:2] == [216, 216] and report["functions"] > 216
+    assert report["squared_l2_error"] < 1e-4 and report["min_jacobian_bound"] > 0 and report["injective"] == "injective"
+    verdict = run("validate", path("egg.vtu"))
+    assert verdict["verdict"] == "valid" and verdict["injective"] == "injective"
+    distance = vtk_to_numpy(read(vtkXMLPolyDataReader(), path("mapped.vtp")).GetPointData().GetArray("Distance"))
+    assert distance.max() <= report["max_error"] * (1 + 1e-9)
+
+
 def test_refine_keeps_the_map():
     source = annulus()
     report = run("refine", source, "--output", path("fine.vtu"), "--sphere", 1, 0, 0, 0.2)
@@ -139,7 +249,11 @@ def test_options_are_those_of_the_filters():
     done = knotwork_testing.run_program("map", "--help")
     assert done.returncode == 0
     for option in ("method", "iterations", "degree", "inner-knots", "template-samples", "newton-steps",
-                   "tikhonov-weight", "threads", "report", "mapped", "table"):
+                   "tikhonov-weight", "threads", "report", "mapped", "table", "pdm-weight", "tdm-weight",
+                   "uniformity-weight", "length-weight", "orthogonality-weight", "skewness-weight", "eccentricity-weight",
+                   "area-weight", "self-intersection-weight", "guard", "accuracy", "max-irregular-share", "refine",
+                   "refine-every", "stagnation-ratio", "refine-threshold", "refine-share", "extension", "max-level",
+                   "max-functions", "initial-map", "initial", "domain", "inner-knots-per-direction", "injectivity"):
         assert "--" + option in done.stdout, option
 
 

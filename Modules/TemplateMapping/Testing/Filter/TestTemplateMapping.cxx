@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "../Kernel/SurfaceCases.h"
 #include "../Kernel/TemplateCases.h"
 #include "SplineModel.h"
 #include "TemplateMap.h"
@@ -12,12 +13,14 @@
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
 #include <vtkExecutive.h>
+#include <vtkFieldData.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSphereSource.h>
+#include <vtkStringArray.h>
 #include <vtkTable.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataReader.h>
@@ -60,6 +63,45 @@ vtkSmartPointer<vtkPolyData> ToPolyData(const Skeleton<2>& skeleton)
   data->SetLines(lines);
   data->GetCellData()->AddArray(ids);
   data->GetPointData()->AddArray(normals);
+  return data;
+}
+
+double FieldNumber(vtkDataObject* data, const char* name)
+{
+  vtkDataArray* array = data->GetFieldData()->GetArray(name);
+  return array ? array->GetComponent(0, 0) : NAN;
+}
+
+std::string FieldText(vtkDataObject* data, const char* name)
+{
+  auto* array = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray(name));
+  return array ? array->GetValue(0) : "none";
+}
+
+/// A sphere about (0.5, 0.5, 0.5), id 3, its points moved.
+template <typename Move>
+vtkSmartPointer<vtkPolyData> SphereData(int levels, const Move& move)
+{
+  const SkeletonPatch<3> sphere = cases::Sphere(levels);
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (Eigen::Index i = 0; i < sphere.Points.rows(); ++i)
+  {
+    const Eigen::RowVector3d x = move(Eigen::RowVector3d(sphere.Points.row(i)));
+    points->InsertNextPoint(x(0), x(1), x(2));
+  }
+  vtkNew<vtkCellArray> faces;
+  vtkNew<vtkIntArray> ids;
+  ids->SetName("PatchId");
+  for (const auto& triangle : sphere.Simplices)
+  {
+    faces->InsertNextCell({ triangle[0], triangle[1], triangle[2] });
+    ids->InsertNextValue(3);
+  }
+  data->SetPoints(points);
+  data->SetPolys(faces);
+  data->GetCellData()->AddArray(ids);
   return data;
 }
 
@@ -129,12 +171,21 @@ TEST(TemplateMappingFilter, OutputsAreTheKernelsResult_CrossOracle)
   const auto& map = std::get<Spline<2>>(model->Patches[0].Geometry);
   EXPECT_EQ(map.ControlPoints.leftCols(2), expected->Map.ControlPoints);
   EXPECT_EQ(map.ControlPoints.col(2).cwiseAbs().maxCoeff(), 0.0);
-  vtkDataArray* errors = run.Map()->GetCellData()->GetArray("MaxError");
-  ASSERT_TRUE(errors);
-  for (std::size_t e = 0; e < expected->ElementErrors.size(); ++e)
+  const auto expectCells = [&](const char* name, const std::vector<double>& values)
   {
-    EXPECT_EQ(errors->GetComponent(model->Patches[0].Cells[e], 0), expected->ElementErrors[e]);
-  }
+    vtkDataArray* array = run.Map()->GetCellData()->GetArray(name);
+    ASSERT_TRUE(array) << name;
+    for (std::size_t e = 0; e < values.size(); ++e)
+    {
+      EXPECT_EQ(array->GetComponent(model->Patches[0].Cells[e], 0), values[e]) << name;
+    }
+  };
+  expectCells("MaxError", expected->ElementErrors);
+  expectCells("JacobianMinLower", expected->ElementMinJacobian);
+  expectCells("JacobianMaxUpper", expected->ElementMaxJacobian);
+  EXPECT_EQ(FieldNumber(run.Map(), "MinJacobianBound"), expected->MinJacobianBound);
+  EXPECT_EQ(FieldText(run.Map(), "Injective"), ToString(expected->Injectivity.Verdict));
+  EXPECT_EQ(FieldText(run.Map(), "InjectivityReason"), ToString(expected->Injectivity.Reason));
 
   vtkPolyData* mapped = run.Mapped();
   ASSERT_EQ(mapped->GetNumberOfLines(), 5);
@@ -165,6 +216,8 @@ TEST(TemplateMappingFilter, OutputsAreTheKernelsResult_CrossOracle)
     EXPECT_EQ(value("SquaredL2Error"), record.SquaredError);
     EXPECT_EQ(value("MaxError"), record.MaxError);
     EXPECT_EQ(value("NegativeJacobianPercent"), 100.0 * record.NegativeShare);
+    EXPECT_EQ(value("StepLength"), record.StepLength);
+    EXPECT_EQ(value("HeldElements"), record.HeldElements);
     EXPECT_EQ(value("Functions"), record.Functions);
     EXPECT_GT(value("Seconds"), 0.0);
   }
@@ -186,30 +239,346 @@ TEST(TemplateMappingFilter, MapsAreCertified_PropertyOracle)
     table->GetValueByName(table->GetNumberOfRows() - 1, "Injective").ToString(), "injective");
 }
 
-TEST(TemplateMappingFilter, EveryPropertyReachesTheKernel_PropertyOracle)
+TEST(TemplateMappingFilter, EveryPropertyReachesTheKernel_CrossOracle)
 {
-  const auto skeleton = ToPolyData(CircleTemplate(301));
-  const auto target = ToPolyData(LobedTarget());
-  const auto errorWith = [&](const std::function<void(vtkTemplateMapping*)>& change)
+  using F = vtkTemplateMapping;
+  using P = TemplateMapParams<2>;
+  struct Change
+  {
+    const char* Name;
+    std::function<void(F*)> Set;
+    std::function<void(P&)> Expect;
+  };
+  const auto skewed = [](F* f)
+  {
+    f->SetMethod(F::FIXED);
+    f->GuardOff();
+  };
+  const auto skewedParams = [](P& p)
+  {
+    p.Method = TemplateMapMethod::Fixed;
+    p.Guard = false;
+  };
+  const auto local = [](F* f) { f->SetRefinement(F::LOCAL); };
+  const auto localParams = [](P& p) { p.Refinement = TemplateRefinement::Local; };
+  // In groups: the first of each is what the others of it change.
+  const std::vector<std::vector<Change>> groups = {
+    {
+      { "nothing", [](F*) {}, [](P&) {} },
+      { "Method fixed", [](F* f) { f->SetMethod(F::FIXED); },
+        [](P& p) { p.Method = TemplateMapMethod::Fixed; } },
+      { "Method pdm", [](F* f) { f->SetMethod(F::PDM); },
+        [](P& p) { p.Method = TemplateMapMethod::Pdm; } },
+      { "Iterations", [](F* f) { f->SetIterations(3); }, [](P& p) { p.Iterations = 3; } },
+      { "Degree", [](F* f) { f->SetDegree(2); }, [](P& p) { p.Degree = 2; } },
+      { "InnerKnots", [](F* f) { f->SetInnerKnots(5); },
+        [](P& p) {
+          p.InnerKnots = { 5, 5 };
+        } },
+      { "InnerKnotsPerDirection", [](F* f) { f->SetInnerKnotsPerDirection(0, -1, 7); },
+        [](P& p) {
+          p.InnerKnots = { 0, 11 };
+        } },
+      { "TemplateSamples", [](F* f) { f->SetTemplateSamples(50); },
+        [](P& p) { p.TemplateSamples = 50; } },
+      { "NewtonSteps", [](F* f) { f->SetNewtonSteps(0); }, [](P& p) { p.NewtonSteps = 0; } },
+      { "TikhonovWeight", [](F* f) { f->SetTikhonovWeight(0.5); },
+        [](P& p) { p.TikhonovWeight = 0.5; } },
+      { "UniformityWeight", [](F* f) { f->SetUniformityWeight(1e-4); },
+        [](P& p) { p.UniformityWeight = 1e-4; } },
+      { "LengthWeight", [](F* f) { f->SetLengthWeight(1e-2); },
+        [](P& p) { p.LengthWeight = 1e-2; } },
+      { "OrthogonalityWeight", [](F* f) { f->SetOrthogonalityWeight(1e-2); },
+        [](P& p) { p.OrthogonalityWeight = 1e-2; } },
+      { "SkewnessWeight", [](F* f) { f->SetSkewnessWeight(1e-2); },
+        [](P& p) { p.SkewnessWeight = 1e-2; } },
+      { "EccentricityWeight", [](F* f) { f->SetEccentricityWeight(1e-5); },
+        [](P& p) { p.EccentricityWeight = 1e-5; } },
+      { "AreaWeight", [](F* f) { f->SetAreaWeight(1e-2); }, [](P& p) { p.AreaWeight = 1e-2; } },
+      { "SelfIntersectionWeight", [](F* f) { f->SetSelfIntersectionWeight(1e-5); },
+        [](P& p) { p.SelfIntersectionWeight = 1e-5; } },
+      { "Accuracy", [](F* f) { f->SetAccuracy(0.02); }, [](P& p) { p.Accuracy = 0.02; } },
+      { "InitialMap", [](F* f) { f->SetInitialMap(F::MOVED); },
+        [](P& p) { p.Start = TemplateInitialMap::Moved; } },
+      { "Domain",
+        [](F* f)
+        {
+          f->UseDomainOn();
+          f->SetDomain(-1.0, 2.0, -0.5, 1.5, 7.0, 8.0);
+        },
+        [](P& p) {
+          p.Domain = ParametricBox<2>{ { -1.0, -0.5 }, { 2.0, 1.5 } };
+        } },
+      { "Refinement global",
+        [](F* f)
+        {
+          f->SetRefinement(F::GLOBAL);
+          f->SetIterations(2);
+        },
+        [](P& p)
+        {
+          p.Refinement = TemplateRefinement::Global;
+          p.Iterations = 2;
+        } },
+      { "Refinement local", local, localParams },
+    },
+    {
+      { "weighted", [](F* f) { f->SetMethod(F::WEIGHTED); },
+        [](P& p) { p.Method = TemplateMapMethod::Weighted; } },
+      { "PdmWeight",
+        [](F* f)
+        {
+          f->SetMethod(F::WEIGHTED);
+          f->SetPdmWeight(0.1);
+        },
+        [](P& p)
+        {
+          p.Method = TemplateMapMethod::Weighted;
+          p.PdmWeight = 0.1;
+        } },
+      { "TdmWeight",
+        [](F* f)
+        {
+          f->SetMethod(F::WEIGHTED);
+          f->SetTdmWeight(0.1);
+        },
+        [](P& p)
+        {
+          p.Method = TemplateMapMethod::Weighted;
+          p.TdmWeight = 0.1;
+        } },
+    },
+    {
+      { "without the guard", skewed, skewedParams },
+      { "Guard", [](F* f) { f->SetMethod(F::FIXED); },
+        [](P& p) { p.Method = TemplateMapMethod::Fixed; } },
+      { "MaxIrregularShare",
+        [&](F* f)
+        {
+          skewed(f);
+          f->SetMaxIrregularShare(0.0);
+        },
+        [&](P& p)
+        {
+          skewedParams(p);
+          p.MaxIrregularShare = 0.0;
+        } },
+    },
+    {
+      { "local", local, localParams },
+      { "RefineEvery",
+        [&](F* f)
+        {
+          local(f);
+          f->SetRefineEvery(2);
+        },
+        [&](P& p)
+        {
+          localParams(p);
+          p.RefineEvery = 2;
+        } },
+      { "RefineThreshold",
+        [&](F* f)
+        {
+          local(f);
+          f->SetRefineThreshold(1e-2);
+        },
+        [&](P& p)
+        {
+          localParams(p);
+          p.RefineThreshold = 1e-2;
+        } },
+      { "RefineShare",
+        [&](F* f)
+        {
+          local(f);
+          f->SetRefineShare(0.01);
+        },
+        [&](P& p)
+        {
+          localParams(p);
+          p.RefineShare = 0.01;
+        } },
+      { "Extension",
+        [&](F* f)
+        {
+          local(f);
+          f->SetExtension(3);
+        },
+        [&](P& p)
+        {
+          localParams(p);
+          p.Extension = 3;
+        } },
+      { "MaxLevel",
+        [&](F* f)
+        {
+          local(f);
+          f->SetMaxLevel(0);
+        },
+        [&](P& p)
+        {
+          localParams(p);
+          p.MaxLevel = 0;
+        } },
+      { "MaxFunctions",
+        [&](F* f)
+        {
+          local(f);
+          f->SetMaxFunctions(230);
+        },
+        [&](P& p)
+        {
+          localParams(p);
+          p.MaxFunctions = 230;
+        } },
+    },
+    {
+      { "at stagnation",
+        [&](F* f)
+        {
+          local(f);
+          f->SetRefineEvery(0);
+        },
+        [&](P& p)
+        {
+          localParams(p);
+          p.RefineEvery = 0;
+        } },
+      { "StagnationRatio",
+        [&](F* f)
+        {
+          local(f);
+          f->SetRefineEvery(0);
+          f->SetStagnationRatio(0.999);
+        },
+        [&](P& p)
+        {
+          localParams(p);
+          p.RefineEvery = 0;
+          p.StagnationRatio = 0.999;
+        } },
+    },
+  };
+  const Skeleton<2> skeleton = CircleTemplate(301);
+  Skeleton<2> target = LobedTarget();
+  for (SkeletonPatch<2>& patch : target)
+  {
+    patch.Normals = UnitNormals(patch);
+  }
+  const auto templateData = ToPolyData(skeleton);
+  const auto targetData = ToPolyData(target);
+  for (const std::vector<Change>& group : groups)
+  {
+    std::vector<PointMatrix> maps;
+    for (const Change& change : group)
+    {
+      SCOPED_TRACE(change.Name);
+      TemplateMapParams<2> params;
+      params.Iterations = 4;
+      change.Expect(params);
+      const auto expected = MapTemplate(skeleton, target, params);
+      ASSERT_TRUE(expected) << expected.Status.Message();
+      Mapping run;
+      run.Filter->SetIterations(4);
+      change.Set(run.Filter);
+      run.On(templateData, targetData);
+      ASSERT_TRUE(run.Errors.empty()) << run.Errors[0];
+      EXPECT_EQ(run.Table()->GetNumberOfRows(), static_cast<vtkIdType>(expected->History.size()));
+      const auto model = DecodeSplineModel(run.Map());
+      const auto& map = std::get<Spline<2>>(model->Patches[0].Geometry);
+      EXPECT_EQ(PointMatrix(map.ControlPoints.leftCols(2)), expected->Map.ControlPoints);
+      maps.push_back(expected->Map.ControlPoints);
+      EXPECT_TRUE(maps.size() == 1 || maps.back() != maps[0]) << "no effect";
+    }
+  }
+}
+
+TEST(TemplateMappingFilter, InjectivityIsLeftOutWhenNotAskedFor_ExactOracle)
+{
+  Mapping run;
+  run.Filter->SetIterations(1);
+  run.Filter->InjectivityOff();
+  run.On(ToPolyData(CircleTemplate(301)), ToPolyData(LobedTarget()));
+  EXPECT_EQ(FieldText(run.Map(), "Injective"), "none");
+  run.Filter->InjectivityOn();
+  run.Filter->Update();
+  EXPECT_EQ(FieldText(run.Map(), "Injective"), "injective");
+}
+
+TEST(TemplateMappingFilter, SkewedTargetsStayRegular_CrossOracle)
+{
+  const auto skeleton = ToPolyData(CircleTemplate(2001));
+  const auto target = ToPolyData(LobedTarget({ 0.3, 6, 0.8, 0.0 }));
+  double errors[2];
+  for (const bool guard : { false, true })
   {
     Mapping run;
-    run.Filter->SetMethod(vtkTemplateMapping::PDM);
-    run.Filter->SetIterations(2);
-    change(run.Filter);
+    run.Filter->SetGuard(guard);
     run.On(skeleton, target);
-    EXPECT_TRUE(run.Errors.empty());
-    return run.Last("SquaredL2Error");
+    ASSERT_TRUE(run.Errors.empty()) << run.Errors[0];
+    errors[guard] = run.Last("SquaredL2Error");
+    EXPECT_EQ(run.Last("NegativeJacobianPercent") == 0.0, guard);
+    EXPECT_EQ(FieldNumber(run.Map(), "MinJacobianBound") > 0.0, guard);
+    EXPECT_EQ(FieldText(run.Map(), "Injective") == "injective", guard);
+    vtkNew<vtkJacobianValidator> validator; // reads the encoded map
+    validator->SetInputConnection(run.Filter->GetOutputPort());
+    validator->Update();
+    EXPECT_EQ(validator->GetVerdict() == 1, guard);
+  }
+  EXPECT_LE(errors[1], errors[0]);
+}
+
+TEST(TemplateMappingFilter, AGivenMapIsContinued_PropertyOracle)
+{
+  const auto skeleton = ToPolyData(CircleTemplate(1001));
+  const auto target = ToPolyData(LobedTarget());
+  Mapping first;
+  first.Filter->SetIterations(5);
+  first.Filter->SetDegree(2);
+  first.On(skeleton, target);
+  Mapping second;
+  second.Filter->SetIterations(3);
+  second.Filter->SetInitialMapConnection(first.Filter->GetOutputPort());
+  second.On(skeleton, target);
+  ASSERT_TRUE(second.Errors.empty()) << second.Errors[0];
+  EXPECT_EQ(second.Last("Functions"), 14 * 14); // of degree 2, as given
+  EXPECT_LT(second.Last("SquaredL2Error"), first.Last("SquaredL2Error"));
+}
+
+TEST(TemplateMappingFilter, ASphereIsCarriedOntoAnEgg_PropertyOracle)
+{
+  const auto same = [](const Eigen::RowVector3d& x) { return x; };
+  const auto egg = [](const Eigen::RowVector3d& x)
+  {
+    return Eigen::RowVector3d(
+      0.1 + 0.8 * x(0), 0.5 + (1.2 + 0.4 * (x(0) - 0.5)) * (x(1) - 0.5), x(2) + 0.1 * x(0));
   };
-  const double base = errorWith([](vtkTemplateMapping*) {});
-  EXPECT_NE(errorWith([](auto* f) { f->SetMethod(vtkTemplateMapping::FIXED); }), base);
-  EXPECT_NE(errorWith([](auto* f) { f->SetMethod(vtkTemplateMapping::TDM); }), base);
-  EXPECT_NE(errorWith([](auto* f) { f->SetIterations(3); }), base);
-  EXPECT_NE(errorWith([](auto* f) { f->SetDegree(2); }), base);
-  EXPECT_NE(errorWith([](auto* f) { f->SetInnerKnots(5); }), base);
-  EXPECT_NE(errorWith([](auto* f) { f->SetTemplateSamples(50); }), base);
-  EXPECT_NE(errorWith([](auto* f) { f->SetNewtonSteps(0); }), base);
-  EXPECT_NE(errorWith([](auto* f) { f->SetTikhonovWeight(0.5); }), base);
-  EXPECT_EQ(errorWith([](auto* f) { f->SetThreads(1); }), base);
+  for (const int refinement : { vtkTemplateMapping::NONE, vtkTemplateMapping::LOCAL })
+  {
+    Mapping run;
+    run.Filter->SetInnerKnots(2);
+    run.Filter->SetIterations(3);
+    run.Filter->SetRefinement(refinement);
+    run.Filter->SetExtension(0);
+    run.Filter->UseDomainOn();
+    run.On(SphereData(3, same), SphereData(3, egg));
+    ASSERT_TRUE(run.Errors.empty()) << run.Errors[0];
+    EXPECT_LT(run.Last("SquaredL2Error"), 1e-3);
+    EXPECT_EQ(run.Last("NegativeJacobianPercent"), 0.0);
+    EXPECT_GT(FieldNumber(run.Map(), "MinJacobianBound"), 0.0);
+    EXPECT_EQ(FieldText(run.Map(), "Injective"), "injective");
+    EXPECT_EQ(run.Last("Functions") > 216, refinement == vtkTemplateMapping::LOCAL);
+    EXPECT_EQ(run.Map()->GetCellType(0), VTK_BEZIER_HEXAHEDRON);
+    EXPECT_EQ(run.Mapped()->GetNumberOfLines(), 0);
+    EXPECT_GE(run.Mapped()->GetNumberOfPolys(), 512);
+    vtkDataArray* distance = run.Mapped()->GetPointData()->GetArray("Distance");
+    ASSERT_TRUE(distance);
+    EXPECT_LE(distance->GetRange()[1], run.Last("MaxError") * (1 + 1e-12));
+    double bounds[6];
+    run.Map()->GetCellData()->GetArray("ParametricBounds")->GetTuple(0, bounds);
+    EXPECT_EQ(bounds[0], 0.0); // of the given box, which is larger than the sphere's
+  }
 }
 
 TEST(TemplateMappingFilter, CellsOfOnePatchAreJoined_CrossOracle)
@@ -367,6 +736,81 @@ TEST(TemplateMappingFilter, BadInputIsOneClearError)
     });
   expect(ErrorCode::InvalidTopology, "has the point id 2 of 2", good, bad, nothing);
 
+  expect(ErrorCode::InvalidTopology, "curves", good, SphereData(1, [](const auto& x) { return x; }),
+    nothing);
+
+  const auto withMap = [](vtkDataObject* map)
+  { return [map](vtkTemplateMapping* f) { f->SetInitialMapData(map); }; };
+  Mapping mapping;
+  mapping.Filter->SetIterations(1);
+  vtkUnstructuredGrid* map = mapping.On(good, goodTarget).Map();
+  const auto damagedMap = [&](const std::function<void(SplineModel&)>& damage)
+  {
+    SplineModel model = DecodeSplineModel(map).Value;
+    damage(model);
+    auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+    EXPECT_TRUE(EncodeSplineGrid(model, grid));
+    return grid;
+  };
+  const auto spline = [](SplineModel& model) -> Spline<2>&
+  { return std::get<Spline<2>>(model.Patches[0].Geometry); };
+  vtkNew<vtkUnstructuredGrid> none;
+  expect(ErrorCode::InvalidTopology, "initial map has 0 patches", good, goodTarget, withMap(none));
+  auto badMap = damagedMap(
+    [](auto& model)
+    {
+      model.Patches.push_back(model.Patches[0]);
+      model.Patches[1].Id = 7;
+    });
+  expect(
+    ErrorCode::InvalidTopology, "initial map has 2 patches", good, goodTarget, withMap(badMap));
+  badMap = damagedMap([&](auto& model) { spline(model).ControlPoints(5, 2) = 0.1; });
+  expect(ErrorCode::DimensionMismatch, "control point 5 of the initial map has z", good, goodTarget,
+    withMap(badMap));
+  badMap = damagedMap([&](auto& model)
+    { spline(model).Weights = Eigen::VectorXd::Ones(spline(model).ControlPoints.rows()); });
+  expect(ErrorCode::DimensionMismatch, "polynomial", good, goodTarget, withMap(badMap));
+  badMap = damagedMap([&](auto& model) { spline(model).ControlPoints.col(0) *= -1.0; });
+  expect(ErrorCode::InvalidParameter, "initial map has folds", good, goodTarget, withMap(badMap));
+  vtkNew<vtkUnstructuredGrid> nanMap;
+  nanMap->DeepCopy(map);
+  nanMap->GetPoints()->SetPoint(3, NAN, 0.0, 0.0);
+  expect(ErrorCode::NonFiniteInput, "initial map", good, goodTarget, withMap(nanMap));
+  {
+    Mapping cube;
+    cube.Filter->SetInnerKnots(0);
+    cube.Filter->SetIterations(1);
+    const auto ball = SphereData(1, [](const auto& x) { return x; });
+    expect(ErrorCode::DimensionMismatch, "does not have 2 parameters", good, goodTarget,
+      withMap(cube.On(ball, ball).Map()));
+    expect(ErrorCode::DimensionMismatch, "does not have 3 parameters", ball, ball, withMap(map));
+  }
+
+  const auto withDomain = [](std::array<double, 4> box)
+  {
+    return [box](vtkTemplateMapping* f)
+    {
+      f->UseDomainOn();
+      f->SetDomain(box[0], box[1], box[2], box[3], 0.0, 0.0);
+    };
+  };
+  expect(ErrorCode::InvalidParameter, "outside the domain in direction 1", good, goodTarget,
+    withDomain({ 0, 1, 0.5, 1 }));
+  expect(ErrorCode::InvalidParameter, "domain is empty in direction 0", good, goodTarget,
+    withDomain({ 1, 0, 0, 1 }));
+  expect(ErrorCode::InvalidParameter, "domain is empty in direction 1", good, goodTarget,
+    withDomain({ 0, 1, 0, NAN }));
+  expect(ErrorCode::InvalidParameter, "both 0", good, goodTarget,
+    [](auto* f)
+    {
+      f->SetMethod(vtkTemplateMapping::WEIGHTED);
+      f->SetPdmWeight(0.0);
+      f->SetTdmWeight(0.0);
+    });
+  expect(ErrorCode::InvalidParameter, "uniformity weight", good, goodTarget,
+    [](auto* f) { f->SetUniformityWeight(NAN); });
+  expect(ErrorCode::InvalidParameter, "inner knots", good, goodTarget,
+    [](auto* f) { f->SetInnerKnotsPerDirection(-2, 3, 3); });
   expect(ErrorCode::InvalidParameter, "template samples", good, goodTarget,
     [](auto* f) { f->SetTemplateSamples(1); });
   expect(ErrorCode::SingularSystem, "Tikhonov", good, goodTarget,
@@ -438,12 +882,33 @@ TEST(TemplateMappingFilter, FiveLobesFromFiles_GoldenOracle)
   const double expected[3][2] = { { 3.530e-05, 1.59 }, { 1.985e-05, 0.483 }, { 8.715e-06, 0.0 } };
   for (int method = vtkTemplateMapping::FIXED; method <= vtkTemplateMapping::TDM; ++method)
   {
+    // As published; where nothing folds the guard changes nothing.
+    for (const bool guard : { false, true })
+    {
+      Mapping run;
+      run.Filter->SetMethod(method);
+      run.Filter->SetGuard(guard);
+      run.On(skeleton->GetOutput(), target->GetOutput());
+      if (!guard || method == vtkTemplateMapping::TDM)
+      {
+        EXPECT_NEAR(run.Last("SquaredL2Error"), expected[method][0], 0.03 * expected[method][0]);
+        EXPECT_NEAR(
+          run.Last("NegativeJacobianPercent"), expected[method][1], 0.03 * expected[method][1]);
+      }
+      EXPECT_TRUE(!guard || FieldNumber(run.Map(), "MinJacobianBound") > 0.0);
+    }
+  }
+  for (const int extension : { 1, 2 })
+  {
     Mapping run;
-    run.Filter->SetMethod(method);
-    run.Filter->GuardOff(); // as published
+    run.Filter->SetRefinement(vtkTemplateMapping::LOCAL);
+    run.Filter->SetRefineThreshold(5e-6);
+    run.Filter->SetExtension(extension);
+    run.Filter->SetIterations(8);
     run.On(skeleton->GetOutput(), target->GetOutput());
-    EXPECT_NEAR(run.Last("SquaredL2Error"), expected[method][0], 0.03 * expected[method][0]);
-    EXPECT_NEAR(
-      run.Last("NegativeJacobianPercent"), expected[method][1], 0.03 * expected[method][1]);
+    EXPECT_LE(run.Last("SquaredL2Error"), 7.3e-11); // of global refinement to 9801 functions
+    EXPECT_LE(run.Last("Functions"), 980);
+    EXPECT_EQ(run.Last("NegativeJacobianPercent"), 0.0);
+    EXPECT_GT(FieldNumber(run.Map(), "MinJacobianBound"), 0.0);
   }
 }

@@ -221,6 +221,35 @@ TEST(TemplateMapOptions, GlobalRefinementHalvesCells_ExactOracle)
   EXPECT_LT(result.History[2].SquaredError, 0.1 * result.History[1].SquaredError);
 }
 
+// Published: four iterations and three refinements of every cell end with 9801 functions.
+TEST(TemplateMapOptions, LocalRefinementNeedsATenthOfTheFunctions_GoldenOracle)
+{
+  const Skeleton<2> skeleton = CircleTemplate();
+  const auto everywhere = Map(skeleton, LobedTarget(),
+    [](auto& p)
+    {
+      p.Refinement = TemplateRefinement::Global;
+      p.Iterations = 4;
+    });
+  EXPECT_EQ(everywhere.History.back().Functions, 9801);
+  EXPECT_NEAR(everywhere.History.back().SquaredError, 7.25e-11, 0.03 * 7.25e-11);
+  for (const int extension : { 1, 2 })
+  {
+    const auto local = Map(skeleton, LobedTarget(),
+      [&](auto& p)
+      {
+        p.Refinement = TemplateRefinement::Local;
+        p.RefineThreshold = 5e-6;
+        p.Extension = extension;
+        p.Iterations = 8;
+      });
+    EXPECT_LE(local.History.back().SquaredError, 7.3e-11);
+    EXPECT_LE(local.History.back().Functions, 980);
+    EXPECT_EQ(local.History.back().NegativeShare, 0.0);
+    EXPECT_GT(local.MinJacobianBound, 0.0);
+  }
+}
+
 TEST(TemplateMapOptions, LocalRefinementIsSteered_PropertyOracle)
 {
   const auto run = [](const auto& change)
