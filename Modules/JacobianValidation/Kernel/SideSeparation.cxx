@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SideSeparation.h"
 
+#include "Bernstein.h"
+
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -170,16 +172,19 @@ private:
   std::unique_ptr<Node> MakeNode(int k, CellPiece piece) const
   {
     auto node = std::make_unique<Node>();
-    node->Hull =
-      MakeHull(*this->Lattice[k], this->Input.NumComponents, this->Input.Rational, piece);
     node->Piece = std::move(piece);
+    this->Complete(*this->Lattice[k], *node);
+    return node;
+  }
+  void Complete(const CellLattice& lattice, Node& node) const
+  {
+    node.Hull = MakeHull(lattice, this->Input.NumComponents, this->Input.Rational, node.Piece);
     for (std::size_t d = 0; d < static_cast<std::size_t>(this->Input.NumComponents); ++d)
     {
-      node->Size = std::max(node->Size, node->Hull.Upper[d] - node->Hull.Lower[d]);
-      node->Largest =
-        std::max({ node->Largest, std::abs(node->Hull.Lower[d]), std::abs(node->Hull.Upper[d]) });
+      node.Size = std::max(node.Size, node.Hull.Upper[d] - node.Hull.Lower[d]);
+      node.Largest =
+        std::max({ node.Largest, std::abs(node.Hull.Lower[d]), std::abs(node.Hull.Upper[d]) });
     }
-    return node;
   }
 
   std::array<int, 2> Split(int k, int index)
@@ -766,17 +771,33 @@ private:
     return found && apart(direction);
   }
 
-  /// A plane through the common corner with one piece on either side: the pieces meet there only.
   bool ConesApart(const Relation& relation, const Node& a, const Node& b) const
   {
+    return this->ConesApart(
+      { { { this->Lattice[0], &a, relation.A }, { this->Lattice[1], &b, relation.B } } });
+  }
+
+  /// A piece seen from one of its corners.
+  struct Cone
+  {
+    const CellLattice* Lattice;
+    const Node* Piece;
+    int Corner;
+  };
+
+  /// A plane through the common corner with one piece on either side: the pieces meet there only.
+  bool ConesApart(const std::array<Cone, 2>& cones) const
+  {
+    const Node& a = *cones[0].Piece;
+    const Node& b = *cones[1].Piece;
     const double largest = std::max(a.Largest, b.Largest);
     const double error = 2.0 * std::max(a.Hull.Error, b.Hull.Error) + 4.0 * unitRoundoff * largest;
     std::vector<Vector> vectors;
-    for (int k = 0; k < 2; ++k)
+    for (std::size_t k = 0; k < 2; ++k)
     {
-      const Node& node = k == 0 ? a : b;
-      const CellLattice& lattice = *this->Lattice[k];
-      const int at = lattice.Corners[static_cast<std::size_t>(k == 0 ? relation.A : relation.B)];
+      const Node& node = *cones[k].Piece;
+      const CellLattice& lattice = *cones[k].Lattice;
+      const int at = lattice.Corners[static_cast<std::size_t>(cones[k].Corner)];
       const Vector corner = this->PointOf(node, at);
       for (int i = 0; i < lattice.Size; ++i)
       {
@@ -858,7 +879,10 @@ private:
   }
   Slopes MakeSlopes(int k, const Node& node, int from, int to) const
   {
-    const CellLattice& lattice = *this->Lattice[k];
+    return this->MakeSlopes(*this->Lattice[k], node, from, to);
+  }
+  Slopes MakeSlopes(const CellLattice& lattice, const Node& node, int from, int to) const
+  {
     Slopes slopes;
     slopes.Of = &node;
     const Vector centre = this->Centre(node);
@@ -966,7 +990,7 @@ private:
       if (shape == CellShape::Quadrilateral && this->IsCollapsed(0, a, e))
       {
         const auto ends = SideEdge(shape, e);
-        return this->HavePolarChart({ { 0, &a, e, ends[0], ends[1] } });
+        return this->HavePolarChart({ { this->Lattice[0], &a, ends[0], ends[1] } });
       }
     }
     return false;
@@ -1068,15 +1092,29 @@ private:
           }
         }
       }
+      const auto polar = [&](int k)
+      {
+        const auto corners = SideEdge(shapes[k], pole[k]);
+        return PolarPiece{ this->Lattice[k], nodes[k], ends[k][end],
+          corners[0] == ends[k][end] ? corners[1] : corners[0] };
+      };
       if (pole[0] >= 0 && pole[1] >= 0)
       {
-        const auto other = [&](int k)
-        {
-          const auto corners = SideEdge(shapes[k], pole[k]);
-          return corners[0] == ends[k][end] ? corners[1] : corners[0];
-        };
-        return this->HavePolarChart({ { 0, &a, pole[0], ends[0][end], other(0) },
-          { 1, &b, pole[1], ends[1][end], other(1) } });
+        return this->HavePolarChart({ polar(0), polar(1) });
+      }
+      if (pole[0] >= 0 || pole[1] >= 0)
+      {
+        // The other piece is regular there: cut along its diagonal, it is two with a collapsed
+        // edge, one at the common edge, one that has the end alone in common.
+        const int k = pole[0] >= 0 ? 0 : 1;
+        const int apex = ends[1 - k][end];
+        const int next = ends[1 - k][1 - end];
+        const Half beside = this->MakeHalf(1 - k, *nodes[1 - k], apex, next);
+        const Half rest = this->MakeHalf(1 - k, *nodes[1 - k], apex, 3 - next);
+        const PolarPiece piece = polar(k);
+        return this->HavePolarChart({ piece, { &beside.Lattice, &beside.Piece, 0, 1 } }) &&
+          this->ConesApart(
+            { { { piece.Lattice, piece.Piece, piece.From }, { &rest.Lattice, &rest.Piece, 0 } } });
       }
     }
     return false;
@@ -1113,12 +1151,75 @@ private:
   /// that edge. Of two such pieces the first corners are on their common edge.
   struct PolarPiece
   {
-    int K;
+    const CellLattice* Lattice;
     const Node* Piece;
-    int Edge;
     int From;
     int To;
   };
+
+  /// Half of a quadrilateral piece S.
+  struct Half
+  {
+    CellLattice Lattice;
+    Node Piece;
+  };
+
+  /// The half between the edge from the apex to the corner `along` and the diagonal, as the piece
+  /// S(t, s t): s from that edge to the diagonal, t from the apex, which is the edge t = 0.
+  /// Coefficients are means of those of S: B_j^q(s t) = sum over m of B_m^q(t) times the polynomial
+  /// with the coefficients C(m, j) C(q - m, a - j) / C(q, a).
+  Half MakeHalf(int k, const Node& node, int apex, int along) const
+  {
+    const CellLattice& lattice = *this->Lattice[k];
+    const std::size_t ud = (apex ^ along) == 1 ? 0 : 1;
+    const std::size_t vd = 1 - ud;
+    const int p = lattice.Degree[ud];
+    const int q = lattice.Degree[vd];
+    Half half;
+    half.Lattice = CellLattice(CellShape::Quadrilateral, { q, p + q, 0 });
+    half.Piece.Piece.Data.resize(static_cast<std::size_t>(this->NumPlanes() * half.Lattice.Size));
+    double largest = 0.0;
+    for (int plane = 0; plane < this->NumPlanes(); ++plane)
+    {
+      const double* from = node.Piece.Data.data() + plane * lattice.Size;
+      double* to = half.Piece.Piece.Data.data() + plane * half.Lattice.Size;
+      const auto value = [&](int i, int j)
+      {
+        std::array<int, 2> at{};
+        at[ud] = (apex >> ud & 1) == 0 ? i : p - i;
+        at[vd] = (apex >> vd & 1) == 0 ? j : q - j;
+        return from[CellCoefficient(lattice.Shape, lattice.Degree, at[0], at[1], 0)];
+      };
+      for (int n = 0; n <= p + q; ++n)
+      {
+        for (int a = 0; a <= q; ++a)
+        {
+          double sum = 0.0;
+          for (int m = std::max(0, n - p); m <= std::min(n, q); ++m)
+          {
+            const double outer = Binomial(p, n - m) * Binomial(q, m) / Binomial(p + q, n);
+            for (int j = std::max(0, a + m - q); j <= std::min(a, m); ++j)
+            {
+              const double inner = Binomial(m, j) * Binomial(q - m, a - j) / Binomial(q, a);
+              sum += outer * inner * value(n - m, j);
+            }
+          }
+          to[CellCoefficient(CellShape::Quadrilateral, half.Lattice.Degree, a, n, 0)] = sum;
+        }
+      }
+      for (int i = 0; i < lattice.Size; ++i)
+      {
+        largest = std::max(largest, std::abs(from[i]));
+      }
+    }
+    // a mean of at most (p + 1) (q + 1) values, its factors of six roundings each
+    const double terms = (p + 1) * (q + 1) + 8;
+    half.Piece.Piece.Error = 1.01 *
+      (node.Piece.Error +
+        terms * (unitRoundoff * (largest + node.Piece.Error) + std::numeric_limits<double>::min()));
+    this->Complete(half.Lattice, half.Piece);
+    return half;
+  }
 
   /// S - P = t R. The chart is (beta R / alpha R, alpha (S - P)): a projective one, regular at P.
   bool HavePolarChart(const std::vector<PolarPiece>& pieces) const
@@ -1138,7 +1239,7 @@ private:
     for (std::size_t k = 0; k < pieces.size(); ++k)
     {
       const PolarPiece& piece = pieces[k];
-      const CellLattice& lattice = *this->Lattice[piece.K];
+      const CellLattice& lattice = *piece.Lattice;
       const double* data = piece.Piece->Piece.Data.data();
       const int n = lattice.Size;
       const int pole = lattice.Corners[static_cast<std::size_t>(piece.From)];
@@ -1219,6 +1320,7 @@ private:
     {
       const PolarPiece& piece = pieces[k];
       const Blown& b = blown[k];
+      const CellLattice& lattice = *piece.Lattice;
       const double sign = k == 0 ? 1.0 : -1.0;
       const auto value = [&](const Vector& f, int i, int j)
       { return f.dot(b.R[static_cast<std::size_t>(j * (b.P + 1) + i)]); };
@@ -1282,15 +1384,14 @@ private:
       // alpha (S - P) itself
       const int acrossS = piece.To;
       const int acrossT = 3 - acrossS; // of the edge's first corner, over to t = 1
-      const Slopes slopesS = this->MakeSlopes(piece.K, *piece.Piece, piece.From, piece.To);
-      const Slopes slopesT = this->MakeSlopes(piece.K, *piece.Piece, piece.From, acrossT);
+      const Slopes slopesS = this->MakeSlopes(lattice, *piece.Piece, piece.From, piece.To);
+      const Slopes slopesT = this->MakeSlopes(lattice, *piece.Piece, piece.From, acrossT);
       double lowWeight = 1.0;
       double highWeight = 1.0;
       if (rational)
       {
-        const double* w =
-          piece.Piece->Piece.Data.data() + components * this->Lattice[piece.K]->Size;
-        const auto [least, most] = std::minmax_element(w, w + this->Lattice[piece.K]->Size);
+        const double* w = piece.Piece->Piece.Data.data() + components * lattice.Size;
+        const auto [least, most] = std::minmax_element(w, w + lattice.Size);
         lowWeight = *least - piece.Piece->Piece.Error;
         highWeight = *most + piece.Piece->Piece.Error;
       }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SideSeparation.h"
+#include "SplineOracle.h"
 #include "TestCells.h"
 
 using namespace knotwork;
@@ -40,6 +41,7 @@ struct Sides
     input.Sides = &this->List;
     input.Lattices = &this->Lattices;
     input.NumComponents = this->NumComponents;
+    input.CollapseTolerance = 0x1p-46;
     return SeparateSides(input, a, b, 200000).State;
   }
 };
@@ -148,6 +150,78 @@ TEST(SideSeparation, SurfacesFromOneCorner_ExactOracle)
     EXPECT_EQ(surfaces.Separate(0, 1) == SeparationState::Separate, a < 0.0);
     EXPECT_EQ(surfaces.Separate(0, 2), SeparationState::Separate);
   }
+}
+
+// A sector of the plane z = 0 between the x axis and y = x, whose edge t = 0 is the origin, and a
+// surface that begins at the x axis too: x e + v d + x v f, regular at the origin. Their other
+// common points have v > 0 and z = v (d_z + x f_z) = 0, so they are on the line x = -d_z / f_z, on
+// the sector where d_y + x f_y > 0.
+TEST(SideSeparation, RegularSurfaceAtThePoleOfAnother_CrossOracle)
+{
+  oracle::Random random(23);
+  int meeting = 0;
+  int apart = 0;
+  int proved = 0;
+  for (int seed = 0; seed < 400; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    Eigen::Vector3d d(random.In(-1, 1), random.In(-1, 1), random.In(-1, 1));
+    Eigen::Vector3d f(random.In(-1, 1), random.In(-1, 1), random.In(-1, 1));
+    const double at = std::ldexp(1.0, -random.Int(1, 16));
+    if (seed % 2 == 0) // they meet close to the pole, if at all
+    {
+      f[2] = f[2] < 0.0 ? -0.5 : 0.5;
+      d[2] = -f[2] * at;
+    }
+    if (seed % 8 == 1) // they meet along the edge of the surface that comes from the pole
+    {
+      d = { 1.0, random.In(0.2, 0.8), 0.0 };
+      f[2] = f[2] < 0.0 ? -1.0 : 1.0;
+    }
+    const auto heightAt = [&](double x) { return d[2] + x * f[2]; };
+    const double zero = f[2] != 0.0 ? -d[2] / f[2] : -1.0;
+    const bool crosses = zero >= 0.0 && zero < 1.0 && d[1] + zero * f[1] > 0.0;
+    double least = 10.0; // angle between the surface and the sector along the common edge
+    for (int i = 0; i <= 100; ++i)
+    {
+      least = std::min(least, std::abs(std::atan2(heightAt(i / 100.0), d[1] + i / 100.0 * f[1])));
+    }
+    Sides surfaces;
+    surfaces.NumComponents = 3;
+    surfaces.Add(CellShape::Quadrilateral, 2,
+      [](const Point& u) {
+        return Point{ u[1], u[1] * u[0], 0.0 };
+      });
+    surfaces.Add(CellShape::Quadrilateral, 2,
+      [&](const Point& u)
+      {
+        return Point{ u[0] + u[1] * (d[0] + u[0] * f[0]), u[1] * (d[1] + u[0] * f[1]),
+          u[1] * heightAt(u[0]) };
+      });
+    surfaces.List[0].CollapsedEdges[0] = true;
+    surfaces.List[0].Places[1] = surfaces.List[0].Places[0];
+    surfaces.List[1].Places[0] = surfaces.List[0].Places[0];
+    surfaces.List[1].Places[1] = surfaces.List[0].Places[2];
+    surfaces.List[1].Edges[0] = surfaces.List[0].Edges[3];
+    for (const auto& [a, b] : { std::pair{ 0, 1 }, std::pair{ 1, 0 } })
+    {
+      const bool separate = surfaces.Separate(a, b) == SeparationState::Separate;
+      if (crosses)
+      {
+        EXPECT_FALSE(separate) << "at " << zero;
+        ++meeting;
+      }
+      else if (least > 1.0)
+      {
+        proved += separate;
+        ++apart;
+      }
+    }
+  }
+  EXPECT_GT(meeting, 200);
+  // what is apart may stay open, but not often where the angle between them is large
+  EXPECT_GT(apart, 150);
+  EXPECT_GT(proved, apart * 9 / 10) << apart;
 }
 
 TEST(SideSeparation, LimitOfBoxesIsKept_ExactOracle)
