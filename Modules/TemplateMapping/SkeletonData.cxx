@@ -246,7 +246,8 @@ Status CheckPlane(
     if (std::abs(z) > tolerance)
     {
       return { ErrorCode::DimensionMismatch,
-        place + " has z = " + std::to_string(z) + "; skeletons lie in the plane z = 0" };
+        place + " has z = " + std::to_string(z) +
+          "; curves lie in the plane z = 0, skeletons in space are faces" };
     }
   }
   return {};

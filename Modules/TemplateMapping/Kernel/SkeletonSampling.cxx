@@ -230,7 +230,7 @@ Result<SkeletonPatch<2>> SampleCurve(int id, const Spline<1>& curve, int samples
     {
       return { ErrorCode::DimensionMismatch,
         "control point " + std::to_string(i) + " has z = " + Digits(points(i, 2)) +
-          "; skeletons of curves lie in the plane z = 0" };
+          "; curves lie in the plane z = 0, skeletons in space are faces" };
     }
   }
   const BezierForm<1> form = MakeBezierForm(curve);
