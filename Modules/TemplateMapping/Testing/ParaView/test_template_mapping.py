@@ -101,6 +101,46 @@ def test_main_job():
     Delete(view)
 
 
+def test_local_refinement():
+    mapping = main_job()
+    mapping.Refinement = "Local"
+    mapping.RefineThreshold = 1e-4
+    mapping.Extension = 2
+    mapping.Iterations = 6
+    mapping.UniformityWeight = 1e-7
+    assert mapping.Guard == 1  # the default
+    mapping.UpdatePipeline()
+    assert mapping.GetDataInformation().GetNumberOfCells() > ELEMENTS**2
+    assert mapping.CellData.GetArray("Level").GetRange()[1] >= 1
+    assert mapping.CellData.GetArray("JacobianMinLower").GetRange()[0] > 0
+    assert mapping.FieldData.GetArray("MinJacobianBound").GetRange()[0] > 0
+    table = mapping.GetClientSideObject().GetOutputDataObject(2)
+    functions = [table.GetValueByName(row, "Functions").ToInt() for row in range(table.GetNumberOfRows())]
+    assert functions[0] == 225 < functions[-1] and functions == sorted(functions), functions
+
+
+def test_a_map_is_connected_as_third_input():
+    first = main_job()
+    first.Iterations = 3
+    mapping = main_job()
+    mapping.FirstMap = first
+    mapping.Iterations = 2
+    mapping.UpdatePipeline()
+    errors = [job.GetClientSideObject().GetOutputDataObject(2).GetColumnByName("SquaredL2Error").GetTuple1(1)
+              for job in (first, mapping)]
+    assert errors[1] < errors[0], errors
+
+
+def test_panel_is_in_groups():
+    groups = [group.GetXMLLabel() for group in panel_groups(main_job())]
+    assert groups == ["Method", "Functionals", "Regularity", "Refinement", "Termination", "Initial Map"], groups
+
+
+def panel_groups(mapping):
+    proxy = mapping.SMProxy
+    return [proxy.GetPropertyGroup(i) for i in range(proxy.GetNumberOfPropertyGroups())]
+
+
 def test_wrong_pictures_are_noticed():
     baseline = knotwork_testing.BASELINE_DIR
     expected = os.path.join(baseline, "ParaViewTemplateMapping.png")

@@ -49,7 +49,15 @@ def test_defaults():
     made = knotwork.vtkTemplateMapping()
     assert (made.GetMethod(), made.GetIterations(), made.GetDegree()) == (made.TDM, 20, 3)
     assert (made.GetInnerKnots(), made.GetTemplateSamples(), made.GetNewtonSteps()) == (11, 0, 2)
-    assert made.GetTikhonovWeight() == 0.02
+    assert made.GetTikhonovWeight() == 0.02 and made.GetPdmWeight() == made.GetTdmWeight() == 1
+    for functional in ("Uniformity", "Length", "Orthogonality", "Skewness", "Eccentricity", "Area", "SelfIntersection"):
+        assert getattr(made, f"Get{functional}Weight")() == 0, functional
+    assert made.GetGuard() and made.GetInjectivity() and not made.GetUseDomain()
+    assert (made.GetRefinement(), made.GetRefineEvery(), made.GetExtension()) == (made.NONE, 1, 1)
+    assert (made.GetRefineThreshold(), made.GetRefineShare(), made.GetStagnationRatio()) == (1e-5, 0, 0.05)
+    assert (made.GetAccuracy(), made.GetMaxIrregularShare(), made.GetMaxLevel()) == (0, 1, 10)
+    assert made.GetMaxFunctions() == 200000 and made.GetInitialMap() == made.IDENTITY
+    assert made.GetInnerKnotsPerDirection() == (-1, -1, -1)
 
 
 def test_target_is_reached():
@@ -66,6 +74,54 @@ def test_target_is_reached():
     grid = dataset_adapter.WrapDataObject(made.GetOutputDataObject(0))
     assert grid.GetNumberOfCells() == 144
     assert abs(grid.CellData["MaxError"].max() - largest) < 1e-3
+
+
+def field(mapping, name):
+    array = mapping.GetOutputDataObject(0).GetFieldData().GetAbstractArray(name)
+    return array and array.GetValue(0)
+
+
+def test_map_is_proved_regular():
+    made = mapping()
+    made.Update()
+    grid = dataset_adapter.WrapDataObject(made.GetOutputDataObject(0))
+    assert field(made, "MinJacobianBound") == grid.CellData["JacobianMinLower"].min() > 0
+    assert (grid.CellData["JacobianMaxUpper"] >= grid.CellData["JacobianMinLower"]).all()
+    assert field(made, "Injective") == "injective"
+    made.InjectivityOff()
+    made.Update()
+    assert field(made, "Injective") is None
+
+
+def test_local_refinement_and_functionals():
+    made = mapping(0.3)
+    made.SetRefinement(made.LOCAL)
+    made.SetRefineThreshold(1e-4)
+    made.SetExtension(2)
+    made.SetUniformityWeight(1e-7)
+    made.SetMethod(made.WEIGHTED)
+    made.SetPdmWeight(0.1)
+    made.SetIterations(5)
+    made.Update()
+    functions = vtk_to_numpy(made.GetOutputDataObject(2).GetColumnByName("Functions"))
+    assert functions[0] == 225 < functions[-1] < 2601 and (functions[1:] >= functions[:-1]).all(), functions
+    grid = dataset_adapter.WrapDataObject(made.GetOutputDataObject(0))
+    assert grid.CellData["Level"].max() >= 1 and field(made, "MinJacobianBound") > 0
+    assert (vtk_to_numpy(made.GetOutputDataObject(2).GetColumnByName("StepLength")) == 1).all()
+    assert (vtk_to_numpy(made.GetOutputDataObject(2).GetColumnByName("HeldElements")) == 0).all()
+
+
+def test_given_map_is_continued():
+    first = mapping()
+    first.SetIterations(4)
+    first.SetInnerKnotsPerDirection(5, 8, -1)
+    second = mapping()
+    second.SetIterations(2)
+    second.SetInitialMapConnection(first.GetOutputPort())
+    second.Update()
+    last = [vtk_to_numpy(made.GetOutputDataObject(2).GetColumnByName("SquaredL2Error"))[-1] for made in (first, second)]
+    assert last[1] < last[0]
+    assert vtk_to_numpy(second.GetOutputDataObject(2).GetColumnByName("Functions"))[-1] == 9 * 12
 
 
 def test_error_is_one_clear_line():
