@@ -75,6 +75,13 @@ Result<PointMatrix> FitSystem<Dim>::Step(const FitSamples<Dim>& samples, const F
       "control points of a fit: the space has " + std::to_string(this->Space->NumFunctions) +
         " functions" };
   }
+  if (!weights.Stiffness.empty() &&
+    weights.Stiffness.size() != static_cast<std::size_t>(this->Space->NumElements()))
+  {
+    return { ErrorCode::SizeMismatch,
+      "stiffness of a fit: the space has " + std::to_string(this->Space->NumElements()) +
+        " elements" };
+  }
   Result<PointMatrix> step = this->Equations->Step(samples, weights, present, guess);
   if (step && !step.Value.allFinite())
   {

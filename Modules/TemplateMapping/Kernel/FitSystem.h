@@ -19,16 +19,17 @@ struct FitSamples
 /// Weights of the terms of a fit, >= 0.
 struct FitWeights
 {
-  double Point = 0.0;            ///< of sum |s(u_i) - p_i|^2
-  double Normal = 0.0;           ///< of sum ((s(u_i) - p_i) . N_i)^2
-  double Proximal = 0.0;         ///< of sum |c - c_present|^2 over the control points
-  double Uniformity = 0.0;       ///< of the functionals of QualityFunctionals.h, from here on
-  double Length = 0.0;           ///<
-  double Orthogonality = 0.0;    ///<
-  double Skewness = 0.0;         ///<
-  double Eccentricity = 0.0;     ///<
-  double Area = 0.0;             ///<
-  double SelfIntersection = 0.0; ///<
+  double Point = 0.0;    ///< of sum |s(u_i) - p_i|^2
+  double Normal = 0.0;   ///< of sum ((s(u_i) - p_i) . N_i)^2
+  double Proximal = 0.0; ///< of sum |c - c_present|^2 over the control points
+  // of the functionals of QualityFunctionals.h, of the map after the step:
+  double Uniformity = 0.0;       ///< thin plate
+  double Length = 0.0;           ///< sum of the squared first derivatives
+  double Orthogonality = 0.0;    ///< products of first derivatives, squared
+  double Skewness = 0.0;         ///< fourth powers of the cosines between first derivatives
+  double Eccentricity = 0.0;     ///< squared slopes of the logarithms of speeds
+  double Area = 0.0;             ///< (det J)^2
+  double SelfIntersection = 0.0; ///< inverse fourth powers of speeds
   /// Empty, or a weight an element, of the integral over it of sum_k |d_k|^2, d_k the derivatives
   /// of the step: holds single elements back.
   std::vector<double> Stiffness = {};
@@ -86,7 +87,9 @@ public:
   /// @return SizeMismatch; OutsideDomain for a parameter outside; SingularSystem when a control
   /// point is determined by nothing (possible without a proximal term), or when the step is not
   /// finite; NotConverged (ConjugateGradients, on systems near singular).
-  /// @complexity Direct: O(samples (p+1)^(2 Dim)) plus the factorization.
+  /// @complexity Direct: O(samples (p+1)^(2 Dim)) plus the factorization. ConjugateGradients: as
+  /// much for the preconditioner, then O((samples + n) (p+1)^Dim) an iteration, 20 to 60 of them
+  /// for usual weights; relative residual 1e-11.
   Result<PointMatrix> Step(const FitSamples<Dim>& samples, const FitWeights& weights,
     const PointMatrix& present, const PointMatrix* guess = nullptr);
 

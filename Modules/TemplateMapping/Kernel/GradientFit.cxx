@@ -20,8 +20,8 @@ constexpr std::size_t ElementChunk = 8;
 constexpr std::size_t RowChunk = 512;
 /// Of the residual in the preconditioner's norm, against that of the right-hand side: steps then
 /// agree with those of the factorization to about 1e-9 of their size.
-constexpr double Tolerance = 1e-10;
-constexpr int MaxIterations = 10000;
+constexpr double Tolerance = 1e-11;
+constexpr int MaxIterations = 3000;
 /// A curvature below this part of the preconditioner's is what rounding left of zero.
 constexpr double LeastCurvature = 1e-13;
 

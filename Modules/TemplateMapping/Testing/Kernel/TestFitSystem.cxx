@@ -417,6 +417,9 @@ TYPED_TEST(FitSystemTest, EveryFailureIsReachable)
   EXPECT_EQ(codeOf(uneven, Weights(0.0, 1.0, 1.0)).Code, ErrorCode::SizeMismatch);
   EXPECT_EQ(
     system.Step(c.Samples, free, c.Samples.Parameters).Status.Code, ErrorCode::SizeMismatch);
+  FitWeights stiff = Weights(1.0, 0.0, 1.0);
+  stiff.Stiffness = { 1.0 };
+  EXPECT_EQ(codeOf(c.Samples, stiff).Code, ErrorCode::SizeMismatch);
 }
 
 TEST(FitSystem, AGoodGuessSavesIterations_PropertyOracle)
