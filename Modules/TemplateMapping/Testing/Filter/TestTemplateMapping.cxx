@@ -828,27 +828,38 @@ TEST(TemplateMappingFilter, NothingOntoNothingIsNothing_ExactOracle)
 
 TEST(TemplateMappingFilter, ReportsProgressAndAborts_PropertyOracle)
 {
-  Mapping run;
-  std::vector<double> shares;
-  vtkNew<vtkCallbackCommand> watch;
-  watch->SetClientData(&shares);
-  watch->SetCallback(
-    [](vtkObject* filter, unsigned long, void* data, void* share)
-    {
-      auto* seen = static_cast<std::vector<double>*>(data);
-      seen->push_back(*static_cast<double*>(share));
-      if (seen->back() > 0.3)
+  const auto same = [](const Eigen::RowVector3d& x) { return x; };
+  const auto wide = [](const Eigen::RowVector3d& x)
+  { return Eigen::RowVector3d(x(0), 1.2 * x(1), x(2)); };
+  for (const bool inSpace : { false, true })
+  {
+    Mapping run;
+    std::vector<double> shares;
+    vtkNew<vtkCallbackCommand> watch;
+    watch->SetClientData(&shares);
+    watch->SetCallback(
+      [](vtkObject* filter, unsigned long, void* data, void* share)
       {
-        vtkAlgorithm::SafeDownCast(filter)->SetAbortExecute(1);
-      }
-    });
-  run.Filter->AddObserver(vtkCommand::ProgressEvent, watch);
-  run.Filter->SetIterations(10);
-  run.On(ToPolyData(CircleTemplate(101)), ToPolyData(LobedTarget({}, 50)));
-  EXPECT_TRUE(run.Errors.empty());
-  EXPECT_EQ(run.Map()->GetNumberOfCells(), 0);
-  const auto beyond = [](double share) { return share > 0.3 && share < 1.0; };
-  EXPECT_EQ(std::count_if(shares.begin(), shares.end(), beyond), 1);
+        auto* seen = static_cast<std::vector<double>*>(data);
+        seen->push_back(*static_cast<double*>(share));
+        if (seen->back() > 0.3)
+        {
+          vtkAlgorithm::SafeDownCast(filter)->SetAbortExecute(1);
+        }
+      });
+    run.Filter->AddObserver(vtkCommand::ProgressEvent, watch);
+    run.Filter->SetIterations(10);
+    run.Filter->SetInnerKnots(2);
+    run.Filter->SetRefinement(vtkTemplateMapping::LOCAL);
+    run.On(inSpace ? SphereData(2, same) : ToPolyData(CircleTemplate(101)),
+      inSpace ? SphereData(2, wide) : ToPolyData(LobedTarget({}, 50)));
+    EXPECT_TRUE(run.Errors.empty());
+    EXPECT_EQ(run.Map()->GetNumberOfCells(), 0);
+    EXPECT_EQ(run.Mapped()->GetNumberOfCells(), 0);
+    EXPECT_EQ(run.Table()->GetNumberOfRows(), 0);
+    const auto beyond = [](double share) { return share > 0.3 && share < 1.0; };
+    EXPECT_EQ(std::count_if(shares.begin(), shares.end(), beyond), 1);
+  }
 }
 
 TEST(TemplateMappingFilter, RunsAgainOnlyWhenSomethingChanged_PropertyOracle)
