@@ -22,6 +22,8 @@ constexpr std::size_t RowChunk = 512;
 /// agree with those of the factorization to about 1e-9 of their size.
 constexpr double Tolerance = 1e-11;
 constexpr int MaxIterations = 3000;
+/// A factor is made anew when it needs so many times the iterations that it needed at first.
+constexpr int MoreIterations = 2;
 /// A curvature below this part of the preconditioner's is what rounding left of zero.
 constexpr double LeastCurvature = 1e-13;
 
@@ -51,7 +53,8 @@ private:
   PointMatrix RightSide(const PointMatrix& present);
   PointMatrix Apply(const PointMatrix& x);
   std::vector<Block> DiagonalBlocks() const;
-  Status MakePreconditioner();
+  Status MakePreconditioner(const FitWeights& weights);
+  bool IsFactorOfUse(const FitWeights& weights) const;
   PointMatrix Precondition(const PointMatrix& r) const;
   Status Solve(const PointMatrix& right, PointMatrix& x);
   Status CheckDetermined();
@@ -83,8 +86,10 @@ private:
   std::vector<std::size_t> FirstOffset; // by local function, into Offsets
   std::vector<std::size_t> Offsets;     // of the first plane in Sums
   std::vector<Block> Inverse;           // of the diagonal blocks
-  IncompleteFactor<Dim> Factor;
+  IncompleteFactor<Dim> Factor;         // kept between steps
   bool UsesFactor = false;
+  FitWeights FactorWeights;  // with which it was made
+  int FactorIterations = -1; // of the first solve with it; -1: none yet
 };
 
 template <int Dim>
@@ -396,7 +401,7 @@ std::vector<typename GradientFit<Dim>::Block> GradientFit<Dim>::DiagonalBlocks()
 /// Inverts the diagonal blocks (a singular one makes the matrix singular, which is semidefinite)
 /// and factors.
 template <int Dim>
-Status GradientFit<Dim>::MakePreconditioner()
+Status GradientFit<Dim>::MakePreconditioner(const FitWeights& weights)
 {
   const std::vector<Block> blocks = this->DiagonalBlocks();
   double largest = 0.0;
@@ -414,6 +419,10 @@ Status GradientFit<Dim>::MakePreconditioner()
     }
     this->Inverse[f] = blocks[f].inverse();
   }
+  if (this->IsFactorOfUse(weights))
+  {
+    return {};
+  }
   std::vector<const ColumnMatrix*> scalar;
   if (this->Quadratic.rows() > 0)
   {
@@ -425,7 +434,22 @@ Status GradientFit<Dim>::MakePreconditioner()
   }
   this->UsesFactor = this->Factor.Compute(
     *this->Space, *this->Data, this->Truncation, blocks, scalar, this->Threads);
+  this->FactorWeights = weights;
+  this->FactorIterations = -1;
   return {};
+}
+
+/// The factor of an earlier step serves while the samples have moved little, which the number of
+/// iterations tells.
+template <int Dim>
+bool GradientFit<Dim>::IsFactorOfUse(const FitWeights& weights) const
+{
+  const FitWeights& then = this->FactorWeights;
+  return this->UsesFactor && this->FactorIterations >= 0 &&
+    this->NumIterations <= MoreIterations * std::max(1, this->FactorIterations) &&
+    weights.Point == then.Point && weights.Normal == then.Normal &&
+    weights.Proximal == then.Proximal && weights.Uniformity == then.Uniformity &&
+    weights.Length == then.Length && weights.Stiffness == then.Stiffness;
 }
 
 template <int Dim>
@@ -543,7 +567,7 @@ Result<PointMatrix> GradientFit<Dim>::Step(const FitSamples<Dim>& samples,
     this->Measures->Linearize(weights, this->ToLocal(present));
   }
   const PointMatrix right = this->RightSide(present);
-  Status status = this->MakePreconditioner();
+  Status status = this->MakePreconditioner(weights);
   if (status && !(weights.Proximal > 0.0))
   {
     status = this->CheckDetermined();
@@ -557,6 +581,10 @@ Result<PointMatrix> GradientFit<Dim>::Step(const FitSamples<Dim>& samples,
   if (!status)
   {
     return status;
+  }
+  if (this->FactorIterations < 0)
+  {
+    this->FactorIterations = this->NumIterations;
   }
   return x;
 }
