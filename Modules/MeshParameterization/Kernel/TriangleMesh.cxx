@@ -1,0 +1,485 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TriangleMesh.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace knotwork
+{
+namespace
+{
+constexpr double SmallestHeight = 1e-12; // of a triangle, over its longest edge
+
+/// "3 triangles (1, 5, 7)"; of more than five ids the first ones.
+std::string List(const std::vector<int>& ids, const std::string& what)
+{
+  std::string text = std::to_string(ids.size()) + " " + what + (ids.size() == 1 ? " (" : "s (");
+  for (std::size_t i = 0; i < std::min<std::size_t>(5, ids.size()); ++i)
+  {
+    text += (i > 0 ? ", " : "") + std::to_string(ids[i]);
+  }
+  return text + (ids.size() > 5 ? ", ...)" : ")");
+}
+
+/// One side of a triangle, from its corner Side to the next one.
+struct HalfEdge
+{
+  int Low = 0;
+  int High = 0;
+  int Triangle = 0;
+  int Side = 0;
+  bool operator<(const HalfEdge& other) const
+  {
+    return std::tie(this->Low, this->High, this->Triangle, this->Side) <
+      std::tie(other.Low, other.High, other.Triangle, other.Side);
+  }
+};
+
+Status CheckTriangles(const TriangleMesh& mesh)
+{
+  const int n = static_cast<int>(mesh.Points.rows());
+  std::vector<int> bad;
+  for (int i = 0; i < n; ++i)
+  {
+    if (!mesh.Points.row(i).allFinite())
+    {
+      bad.push_back(i);
+    }
+  }
+  if (!bad.empty())
+  {
+    return { ErrorCode::NonFiniteInput, "coordinates of " + List(bad, "point") };
+  }
+  std::vector<int> outside;
+  for (std::size_t t = 0; t < mesh.Triangles.size(); ++t)
+  {
+    const auto& corners = mesh.Triangles[t];
+    if (std::any_of(corners.begin(), corners.end(), [n](int c) { return c < 0 || c >= n; }))
+    {
+      outside.push_back(static_cast<int>(t));
+      continue;
+    }
+    const Eigen::RowVector3d a = mesh.Points.row(corners[0]);
+    const Eigen::RowVector3d ab = mesh.Points.row(corners[1]) - a;
+    const Eigen::RowVector3d ac = mesh.Points.row(corners[2]) - a;
+    const double longest = std::max({ ab.norm(), ac.norm(), (ac - ab).norm() });
+    if (!(ab.cross(ac).norm() > SmallestHeight * longest * longest))
+    {
+      bad.push_back(static_cast<int>(t));
+    }
+  }
+  if (!outside.empty())
+  {
+    return { ErrorCode::InvalidTopology,
+      "corners that are no points in " + List(outside, "triangle") };
+  }
+  if (!bad.empty())
+  {
+    return { ErrorCode::InvalidTopology,
+      List(bad, "degenerate triangle") + "; remove them, for example with vtkCleanPolyData" };
+  }
+  return {};
+}
+
+/// Triangle and side on the other side of each side; -1 on the boundary.
+struct Adjacency
+{
+  std::vector<std::array<int, 3>> Triangle;
+  std::vector<std::array<int, 3>> Side;
+};
+
+Status FindAdjacency(const std::vector<std::array<int, 3>>& triangles, Adjacency& adjacency)
+{
+  std::vector<HalfEdge> edges;
+  edges.reserve(3 * triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const int a = triangles[t][static_cast<std::size_t>(k)];
+      const int b = triangles[t][static_cast<std::size_t>((k + 1) % 3)];
+      edges.push_back({ std::min(a, b), std::max(a, b), static_cast<int>(t), k });
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  adjacency.Triangle.assign(triangles.size(), { -1, -1, -1 });
+  adjacency.Side.assign(triangles.size(), { -1, -1, -1 });
+  int crowded = 0;
+  std::string first;
+  for (std::size_t i = 0; i < edges.size();)
+  {
+    std::size_t j = i + 1;
+    while (j < edges.size() && edges[j].Low == edges[i].Low && edges[j].High == edges[i].High)
+    {
+      ++j;
+    }
+    if (j - i > 2)
+    {
+      if (crowded++ < 5)
+      {
+        first += (first.empty() ? "" : ", ") + std::to_string(edges[i].Low) + "-" +
+          std::to_string(edges[i].High);
+      }
+    }
+    else if (j - i == 2)
+    {
+      const auto link = [&](const HalfEdge& from, const HalfEdge& to)
+      {
+        const auto t = static_cast<std::size_t>(from.Triangle);
+        const auto k = static_cast<std::size_t>(from.Side);
+        adjacency.Triangle[t][k] = to.Triangle;
+        adjacency.Side[t][k] = to.Side;
+      };
+      link(edges[i], edges[i + 1]);
+      link(edges[i + 1], edges[i]);
+    }
+    i = j;
+  }
+  if (crowded > 0)
+  {
+    return { ErrorCode::InvalidTopology,
+      std::to_string(crowded) + " edges of more than two triangles (points " + first +
+        (crowded > 5 ? ", ..." : "") + ")" };
+  }
+  return {};
+}
+
+/// Component of each triangle; turns triangles over so that neighbours agree.
+Status Orient(std::vector<std::array<int, 3>>& triangles, const Adjacency& adjacency,
+  std::vector<int>& component, std::vector<int>& sizes, std::vector<char>& turned)
+{
+  component.assign(triangles.size(), -1);
+  turned.assign(triangles.size(), 0);
+  std::vector<int> stack;
+  for (std::size_t start = 0; start < triangles.size(); ++start)
+  {
+    if (component[start] >= 0)
+    {
+      continue;
+    }
+    const int number = static_cast<int>(sizes.size());
+    sizes.push_back(0);
+    component[start] = number;
+    stack.push_back(static_cast<int>(start));
+    while (!stack.empty())
+    {
+      const auto t = static_cast<std::size_t>(stack.back());
+      stack.pop_back();
+      ++sizes.back();
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        if (adjacency.Triangle[t][k] < 0)
+        {
+          continue;
+        }
+        const auto other = static_cast<std::size_t>(adjacency.Triangle[t][k]);
+        const auto side = static_cast<std::size_t>(adjacency.Side[t][k]);
+        // sides as given run the same way: one of the two has to be turned
+        const bool same = triangles[t][k] == triangles[other][side];
+        const char wanted = static_cast<char>(turned[t] != (same ? 1 : 0) ? 1 : 0);
+        if (component[other] < 0)
+        {
+          component[other] = number;
+          turned[other] = wanted;
+          stack.push_back(static_cast<int>(other));
+        }
+        else if (turned[other] != wanted)
+        {
+          return { ErrorCode::InvalidTopology,
+            "the surface has one side only (triangles " + std::to_string(t) + " and " +
+              std::to_string(other) + " cannot be oriented alike)" };
+        }
+      }
+    }
+  }
+  // within a component the side of the majority stays
+  std::vector<int> count(sizes.size(), 0);
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+  {
+    count[static_cast<std::size_t>(component[t])] += turned[t];
+  }
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+  {
+    const auto c = static_cast<std::size_t>(component[t]);
+    if (2 * count[c] > sizes[c])
+    {
+      turned[t] = static_cast<char>(1 - turned[t]);
+    }
+    if (turned[t])
+    {
+      std::swap(triangles[t][1], triangles[t][2]);
+    }
+  }
+  return {};
+}
+
+/// Fans, lengths and boundary marks of an oriented mesh.
+Status BuildFans(DiscMesh& mesh)
+{
+  const auto n = static_cast<std::size_t>(mesh.Points.rows());
+  std::vector<int> count(n + 1, 0);
+  for (const auto& corners : mesh.Triangles)
+  {
+    for (int c : corners)
+    {
+      ++count[static_cast<std::size_t>(c) + 1];
+    }
+  }
+  for (std::size_t v = 0; v < n; ++v)
+  {
+    count[v + 1] += count[v];
+  }
+  std::vector<std::array<int, 2>> sides(static_cast<std::size_t>(count[n])); // opposite v
+  std::vector<int> used(n, 0);
+  for (const auto& corners : mesh.Triangles)
+  {
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const auto v = static_cast<std::size_t>(corners[k]);
+      sides[static_cast<std::size_t>(count[v] + used[v]++)] = { corners[(k + 1) % 3],
+        corners[(k + 2) % 3] };
+    }
+  }
+  mesh.FanStart.assign(1, 0);
+  mesh.Fan.clear();
+  mesh.OnBoundary.assign(n, 0);
+  std::vector<int> pinched;
+  for (std::size_t v = 0; v < n; ++v)
+  {
+    const auto begin = sides.begin() + count[v];
+    const auto end = sides.begin() + count[v + 1];
+    auto current = begin;
+    for (auto side = begin; side != end; ++side) // an open fan begins where no side ends
+    {
+      const bool starts = std::none_of(
+        begin, end, [&](const std::array<int, 2>& other) { return other[1] == (*side)[0]; });
+      if (starts)
+      {
+        current = side;
+        mesh.OnBoundary[v] = 1;
+        break;
+      }
+    }
+    std::ptrdiff_t visited = 0;
+    const int first = (*current)[0];
+    mesh.Fan.push_back(first);
+    int last = first;
+    while (current != end && visited < end - begin)
+    {
+      ++visited;
+      last = (*current)[1];
+      if (last == first)
+      {
+        break;
+      }
+      mesh.Fan.push_back(last);
+      current = std::find_if(
+        begin, end, [last](const std::array<int, 2>& side) { return side[0] == last; });
+    }
+    if (visited != end - begin)
+    {
+      pinched.push_back(mesh.PointIds[v]);
+    }
+    mesh.FanStart.push_back(static_cast<int>(mesh.Fan.size()));
+  }
+  if (!pinched.empty())
+  {
+    return { ErrorCode::InvalidTopology,
+      "triangles touch in a point only, without a common edge, at " + List(pinched, "point") };
+  }
+  mesh.Spokes.resize(mesh.Fan.size());
+  mesh.Rims.resize(mesh.Fan.size());
+  for (std::size_t v = 0; v < n; ++v)
+  {
+    const int begin = mesh.FanStart[v];
+    const int end = mesh.FanStart[v + 1];
+    for (int j = begin; j < end; ++j)
+    {
+      const auto at = static_cast<std::size_t>(j);
+      const int a = mesh.Fan[at];
+      mesh.Spokes[at] = (mesh.Points.row(a) - mesh.Points.row(static_cast<int>(v))).norm();
+      const bool open = j + 1 == end && mesh.OnBoundary[v];
+      const int b = mesh.Fan[static_cast<std::size_t>(j + 1 == end ? begin : j + 1)];
+      mesh.Rims[at] = open ? 0.0 : (mesh.Points.row(a) - mesh.Points.row(b)).norm();
+    }
+  }
+  return {};
+}
+
+void BuildLoops(DiscMesh& mesh)
+{
+  const auto n = static_cast<std::size_t>(mesh.NumPoints());
+  std::vector<char> done(n, 0);
+  std::vector<double> lengths;
+  std::vector<std::vector<int>> loops;
+  for (std::size_t start = 0; start < n; ++start)
+  {
+    if (!mesh.OnBoundary[start] || done[start])
+    {
+      continue;
+    }
+    std::vector<int> loop;
+    double length = 0.0;
+    std::size_t v = start;
+    while (!done[v]) // the first spoke of an open fan has its triangle on the left
+    {
+      done[v] = 1;
+      loop.push_back(static_cast<int>(v));
+      const auto first = static_cast<std::size_t>(mesh.FanStart[v]);
+      length += mesh.Spokes[first];
+      v = static_cast<std::size_t>(mesh.Fan[first]);
+    }
+    loops.push_back(std::move(loop));
+    lengths.push_back(length);
+  }
+  std::vector<std::size_t> order(loops.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    order[i] = i;
+  }
+  std::stable_sort(order.begin(), order.end(),
+    [&](std::size_t a, std::size_t b) { return lengths[a] > lengths[b]; });
+  for (std::size_t i : order)
+  {
+    mesh.Loops.push_back(std::move(loops[i]));
+  }
+}
+
+Status KeepComponent(const TriangleMesh& mesh, const std::vector<std::array<int, 3>>& triangles,
+  const std::vector<int>& component, const std::vector<int>& sizes, bool largest, DiscMesh& disc)
+{
+  const int kept = static_cast<int>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+  std::vector<char> referenced(static_cast<std::size_t>(mesh.Points.rows()), 0);
+  for (const auto& corners : triangles)
+  {
+    for (int c : corners)
+    {
+      referenced[static_cast<std::size_t>(c)] = 1;
+    }
+  }
+  std::vector<int> unreferenced;
+  for (std::size_t v = 0; v < referenced.size(); ++v)
+  {
+    if (!referenced[v])
+    {
+      unreferenced.push_back(static_cast<int>(v));
+    }
+  }
+  if (!largest && !unreferenced.empty())
+  {
+    return { ErrorCode::InvalidTopology,
+      List(unreferenced, "point") +
+        " of no triangle; the option for the largest component drops them" };
+  }
+  if (!largest && sizes.size() > 1)
+  {
+    return { ErrorCode::InvalidTopology,
+      std::to_string(sizes.size()) + " components; the option for the largest component keeps " +
+        std::to_string(sizes[static_cast<std::size_t>(kept)]) + " of " +
+        std::to_string(triangles.size()) + " triangles" };
+  }
+  std::vector<int> number(referenced.size(), -1);
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+  {
+    if (component[t] == kept)
+    {
+      disc.Triangles.push_back(triangles[t]);
+      disc.TriangleIds.push_back(static_cast<int>(t));
+      for (int c : triangles[t])
+      {
+        number[static_cast<std::size_t>(c)] = 0;
+      }
+    }
+  }
+  for (std::size_t v = 0; v < number.size(); ++v)
+  {
+    if (number[v] == 0)
+    {
+      number[v] = static_cast<int>(disc.PointIds.size());
+      disc.PointIds.push_back(static_cast<int>(v));
+    }
+  }
+  for (auto& corners : disc.Triangles)
+  {
+    for (int& c : corners)
+    {
+      c = number[static_cast<std::size_t>(c)];
+    }
+  }
+  disc.Points.resize(static_cast<Eigen::Index>(disc.PointIds.size()), 3);
+  for (std::size_t v = 0; v < disc.PointIds.size(); ++v)
+  {
+    disc.Points.row(static_cast<Eigen::Index>(v)) = mesh.Points.row(disc.PointIds[v]);
+  }
+  return {};
+}
+}
+
+Result<DiscMesh> CheckMesh(const TriangleMesh& mesh, bool largestComponent)
+{
+  if (mesh.Points.rows() == 0 || mesh.Triangles.empty())
+  {
+    return { ErrorCode::EmptyInput, "the mesh has no triangles" };
+  }
+  if (mesh.Points.cols() != 3)
+  {
+    return { ErrorCode::DimensionMismatch, "points of a mesh have three coordinates" };
+  }
+  if (Status status = CheckTriangles(mesh); !status)
+  {
+    return status;
+  }
+  Adjacency adjacency;
+  if (Status status = FindAdjacency(mesh.Triangles, adjacency); !status)
+  {
+    return status;
+  }
+  std::vector<std::array<int, 3>> triangles = mesh.Triangles;
+  std::vector<int> component;
+  std::vector<int> sizes;
+  std::vector<char> turned;
+  if (Status status = Orient(triangles, adjacency, component, sizes, turned); !status)
+  {
+    return status;
+  }
+  Result<DiscMesh> result;
+  DiscMesh& disc = result.Value;
+  disc.Components = static_cast<int>(sizes.size());
+  if (Status status = KeepComponent(mesh, triangles, component, sizes, largestComponent, disc);
+      !status)
+  {
+    return status;
+  }
+  for (int t : disc.TriangleIds)
+  {
+    disc.Reversed += turned[static_cast<std::size_t>(t)];
+  }
+  if (Status status = BuildFans(disc); !status)
+  {
+    return status;
+  }
+  BuildLoops(disc);
+  const auto loops = static_cast<int>(disc.Loops.size());
+  if (loops == 0)
+  {
+    return { ErrorCode::InvalidTopology, "the surface is closed; cut it open first" };
+  }
+  // every inner edge is the spoke of two fans, every boundary edge too
+  const int euler = disc.NumPoints() - static_cast<int>(disc.Fan.size() / 2) +
+    static_cast<int>(disc.Triangles.size());
+  if (const int genus = (2 - loops - euler) / 2; genus > 0)
+  {
+    return { ErrorCode::InvalidTopology,
+      "the surface has " + std::to_string(genus) + (genus == 1 ? " handle" : " handles") +
+        " (genus); cut it open first" };
+  }
+  for (const auto& corners : disc.Triangles)
+  {
+    const Eigen::Vector3d a = disc.Point(corners[0]);
+    disc.Area += 0.5 * (disc.Point(corners[1]) - a).cross(disc.Point(corners[2]) - a).norm();
+  }
+  return result;
+}
+}

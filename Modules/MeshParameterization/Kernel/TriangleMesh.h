@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "Status.h"
+#include "Types.h"
+
+#include <array>
+#include <vector>
+
+namespace knotwork
+{
+/// Triangles in space as they are given.
+struct TriangleMesh
+{
+  PointMatrix Points;                        ///< n x 3
+  std::vector<std::array<int, 3>> Triangles; ///< rows of Points
+};
+
+/// A checked mesh: one component of an oriented manifold with a boundary, without handles (genus
+/// 0), and what its algorithms ask for. Points and triangles may be fewer than those of the input.
+struct DiscMesh
+{
+  PointMatrix Points;
+  std::vector<std::array<int, 3>> Triangles; ///< oriented alike
+  std::vector<int> PointIds;                 ///< of the input's points
+  std::vector<int> TriangleIds;              ///< of the input's triangles
+  int Reversed = 0;                          ///< triangles that were turned over
+  int Components = 1;                        ///< of the input
+
+  /// Neighbours of vertex v, counterclockwise: Fan[FanStart[v]] ... Fan[FanStart[v + 1] - 1].
+  /// Triangles of v are (v, Fan[j], Fan[j + 1]); at an inner vertex the last one closes the fan.
+  std::vector<int> FanStart;
+  std::vector<int> Fan;
+  std::vector<double> Spokes; ///< length of v - Fan[j]
+  std::vector<double> Rims;   ///< length of Fan[j] - next of the fan; 0 at the end of an open fan
+  std::vector<char> OnBoundary;
+  /// Boundary loops, the longest one first; triangles lie to the left.
+  std::vector<std::vector<int>> Loops;
+  double Area = 0.0;
+
+  int NumPoints() const { return static_cast<int>(this->OnBoundary.size()); }
+  Eigen::Vector3d Point(int v) const { return this->Points.row(v).transpose(); }
+};
+
+/// Checks a mesh and finds its boundary loops.
+/// @param largestComponent  keep the component of the most triangles and drop unreferenced points,
+///        instead of refusing several components and such points.
+/// @return EmptyInput; NonFiniteInput (ids of points); InvalidTopology: a corner that is no point,
+/// degenerate triangles (height below 1e-12 of the longest edge), an edge of three triangles, a
+/// vertex where fans of triangles touch, a surface of one side, unreferenced points, several
+/// components, a closed surface, handles. Details name up to five ids of the input.
+/// @complexity O(n log n).
+Result<DiscMesh> CheckMesh(const TriangleMesh& mesh, bool largestComponent = false);
+}
