@@ -301,6 +301,12 @@ TYPED_TEST(FitSystemTest, ASystemIsUsedAgain_CrossOracle)
   const Result<PointMatrix> fresh = FitSystem<Dim>(first.Map.Space, true, TypeParam::Solver)
                                       .Step(second.Samples, Quadratic[1], second.Map.ControlPoints);
   EXPECT_EQ(used.Value, fresh.Value);
+  // Now a preconditioner of other samples serves: the solvers' tolerance.
+  const Result<PointMatrix> again =
+    system.Step(first.Samples, Quadratic[1], first.Map.ControlPoints);
+  const Result<PointMatrix> alone = FitSystem<Dim>(first.Map.Space, true, TypeParam::Solver)
+                                      .Step(first.Samples, Quadratic[1], first.Map.ControlPoints);
+  EXPECT_LE((again.Value - alone.Value).norm(), 1e-9 * alone->norm());
 }
 
 TYPED_TEST(FitSystemTest, UncoupledSystemsAreCoupledWhenNeeded_CrossOracle)
