@@ -107,8 +107,8 @@ TEST(TriangleMesh, EdgeOfThreeTrianglesIsNamed_ExactOracle)
 TEST(TriangleMesh, PinchedVertexIsNamed_ExactOracle)
 {
   // two triangles joined by a strip, touching once more in point 2
-  ExpectError(Mesh({ { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, 1, 0 }, { 0, 2, 0 }, { 1, 2, 0 }, { 1, -1, 0 },
-                     { 2, 3, 0 } },
+  ExpectError(Mesh({ { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, 1, 0 }, { 0, 2, 0 }, { 1, 2, 0 },
+                     { 1, -1, 0 }, { 2, 3, 0 } },
                 { { 0, 1, 2 }, { 2, 4, 3 }, { 0, 5, 1 }, { 1, 5, 6 }, { 1, 6, 4 }, { 4, 6, 3 } }),
     ErrorCode::InvalidTopology, "1 point (2)");
 }
