@@ -212,9 +212,18 @@ def view(splines, outlines, stride, viewport):
     return result
 
 
+def gap(first, second):
+    """Smallest distance between the samples of two patches."""
+    return min(np.hypot(*(point - second.points).T).min() for point in first.points)
+
+
 def main():
     folder = scene.output_folder()
     curves, profiles = skeletons()
+    gaps = [gap(profiles[i], profiles[k]) for i, k in ((6, 7), (6, 4), (6, 5), (7, 4), (7, 5))]
+    print(f"clearance between the rotors {gaps[0]:.3f}, to the casing {min(gaps[1:]):.3f}")
+    cases.require(0.99 * CLEARANCE < gaps[0] < 1.02 * CLEARANCE, "the rotors do not mesh with their clearance")
+    cases.require(min(gaps[1:]) > CLEARANCE, "a rotor touches the casing")
     template, target = cases.skeleton(curves), cases.skeleton(profiles)
     cases.write(template, os.path.join(folder, "rotors_template.vtp"))
     cases.write(target, os.path.join(folder, "rotors_target.vtp"))
