@@ -228,12 +228,16 @@ Result<JacobianCertificate> ValidateJacobian(
 
   // The progress callback belongs to this thread: between slices.
   constexpr std::size_t Slice = std::size_t(1) << 19;
-  constexpr std::size_t Chunk = 2048;
+  // Work for all threads from some hundred heavy cells on.
+  constexpr std::size_t ChunkData = std::size_t(1) << 16;
+  const std::size_t perCell = cells.Data.size() / std::max<std::size_t>(n, 1) + 1;
+  const std::size_t chunk =
+    std::clamp<std::size_t>(ChunkData / perCell & ~std::size_t(7), 64, 2048);
   std::atomic<bool> good{ true };
   for (std::size_t first = 0; first < n; first += Slice)
   {
     const std::size_t last = std::min(n, first + Slice);
-    ParallelFor(last - first, Chunk, params.Threads,
+    ParallelFor(last - first, chunk, params.Threads,
       [&](std::size_t begin, std::size_t end)
       {
         FilterRun run(cells, params);
