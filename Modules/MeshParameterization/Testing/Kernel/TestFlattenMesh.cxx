@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FlattenReport.h"
+#include "InjectiveMap.h"
 #include "MeshCases.h"
 #include "MeshWeights.h"
 
@@ -143,6 +144,51 @@ TEST(FlattenMesh, HillHasNoFlipsAndBoundedStretch_PropertyOracle)
   const double arap = Flatten(hill, Method(FlattenMethod::Arap)).Measures.IsometryError;
   const double lscm = Flatten(hill, Method(FlattenMethod::Lscm)).Measures.IsometryError;
   EXPECT_LT(arap, lscm);
+}
+
+/// A deep hat over the square: conformal and rigid maps of it fold.
+MeshCase Hat(double height)
+{
+  MeshCase hat = FlatCase(-1.0, 1.0, -1.0, 1.0, 0.1, [](double, double) { return true; });
+  Lift(hat,
+    [height](double x, double y)
+    { return Eigen::RowVector3d(x, y, height * std::exp(-8.0 * (x * x + y * y))); });
+  return hat;
+}
+
+TEST(FlattenMesh, BarycentricMapFlipsNothing_PropertyOracle)
+{
+  for (const MeshCase& data : { Hat(4.0), SOnCone(0.1), PlateWithHoles(0.05) })
+  {
+    const auto disc = CheckMesh(data.Mesh);
+    ASSERT_TRUE(disc);
+    const auto map = BarycentricMap(disc.Value);
+    ASSERT_TRUE(map) << map.Status.Message();
+    EXPECT_EQ(CountFlips(disc.Value, map.Value.UV), 0);
+    EXPECT_NEAR(map.Value.UV.rowwise().norm().maxCoeff(), 1.0, 1e-12);
+  }
+}
+
+TEST(FlattenMesh, InjectiveFlipsNothingAndIsIsometricWherePossible_ExactOracle)
+{
+  const MeshCase roll = CylinderWithHoles(0.06);
+  const auto flat = Flatten(roll, Method(FlattenMethod::Injective));
+  EXPECT_EQ(flat.Measures.FlippedTriangles, 0);
+  EXPECT_LE(RigidError(flat.UV, roll.Flat), 2e-3); // chords of 0.06, and where iterations end
+  const auto hat = Flatten(Hat(4.0), Method(FlattenMethod::Injective));
+  EXPECT_EQ(hat.Measures.FlippedTriangles, 0);
+  const auto conformal = Flatten(Hat(4.0), Method(FlattenMethod::Lscm));
+  EXPECT_LT(hat.Measures.MeanStretch, conformal.Measures.MeanStretch);
+}
+
+TEST(FlattenMesh, FallbackOfFoldedHlleFlipsNothing_PropertyOracle)
+{
+  const MeshCase hat = Hat(4.0);
+  ASSERT_GT(Flatten(hat, Method(FlattenMethod::Hlle)).Measures.FlippedTriangles, 0);
+  const auto map = Flatten(hat, {});
+  EXPECT_EQ(map.Measures.FlippedTriangles, 0);
+  EXPECT_NE(map.Used, FlattenMethod::Hlle);
+  EXPECT_NE(map.FallbackReason.find("hlle flips"), std::string::npos);
 }
 
 TEST(FlattenMesh, MeasuresOfALinearMapAreItsSingularValues_ExactOracle)
