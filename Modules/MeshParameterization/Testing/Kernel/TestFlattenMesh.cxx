@@ -247,6 +247,23 @@ TEST(FlattenMesh, FallbackIsAnnounced_PropertyOracle)
   EXPECT_TRUE(Flatten(PlateWithHoles(0.08), {}).FallbackReason.empty());
 }
 
+TEST(FlattenMesh, EigenvectorsOnASmallPartAreRejected_PropertyOracle)
+{
+  // linear functions on a plate live on about 5/9 of it, and are the first two eigenvectors
+  const MeshCase plate = PlateWithHoles(0.06);
+  FlattenParams params = Method(FlattenMethod::Hlle);
+  params.MinParticipation = 0.3;
+  EXPECT_EQ(Flatten(plate, params).RejectedEigenvectors, 0);
+  params.MinParticipation = 0.95;
+  const Status status = FlattenMesh(plate.Mesh, params).Status;
+  EXPECT_EQ(status.Code, ErrorCode::SingularSystem);
+  EXPECT_NE(status.Detail.find("few vertices"), std::string::npos);
+  params.Fallback = true;
+  const auto map = Flatten(plate, params);
+  EXPECT_EQ(map.Used, FlattenMethod::Arap);
+  EXPECT_NE(map.FallbackReason.find("few vertices"), std::string::npos);
+}
+
 TEST(FlattenMesh, DoesNotDependOnThreads_ExactOracle)
 {
   const MeshCase hill = Hill(0.02, 0.3);
