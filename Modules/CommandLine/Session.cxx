@@ -2,6 +2,7 @@
 #include "Session.h"
 
 #include "Messages.h"
+#include "OffFile.h"
 #include "TrialRead.h"
 #include "XmlCheck.h"
 
@@ -186,6 +187,20 @@ Result<vtkSmartPointer<vtkDataObject>> Session::Read(const std::string& file)
   }
   const std::string ending = Ending(file);
   vtkSmartPointer<vtkDataObject> data;
+  if (ending == ".off")
+  {
+    auto mesh = ReadOffFile(file);
+    if (!mesh)
+    {
+      return mesh.Status;
+    }
+    if (IsEmpty(mesh.Value))
+    {
+      return { ErrorCode::EmptyInput, "'" + file + "' holds no points" };
+    }
+    this->SecondsOfFiles += Now() - begin;
+    return vtkSmartPointer<vtkDataObject>(mesh.Value);
+  }
   if (Status status = CheckXmlFile(file, ending); !status)
   {
     return status;
@@ -216,7 +231,7 @@ Result<vtkSmartPointer<vtkDataObject>> Session::Read(const std::string& file)
   {
     return { ErrorCode::InvalidParameter,
       "'" + file + "' has the ending '" + ending +
-        "'; formats that can be read: .vtu .vtp .vtpc .vtk .xml .g2 .json .obj .ply .stl" };
+        "'; formats that can be read: .vtu .vtp .vtpc .vtk .xml .g2 .json .off .obj .ply .stl" };
   }
   if (messages.HasError())
   {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FlattenReport.h"
+#include "InjectiveMap.h"
 #include "ReferenceMaps.h"
 #include "SpectralMaps.h"
 
@@ -53,6 +54,9 @@ Result<FlatMesh> RunMethod(const DiscMesh& mesh, FlattenMethod method, const Fla
     case FlattenMethod::Arap:
       result = AsRigidAsPossibleMap(mesh, params.MaxIterations);
       break;
+    case FlattenMethod::Injective:
+      result = InjectiveMap(mesh, params.MaxIterations);
+      break;
   }
   if (result && !result.Value.UV.allFinite())
   {
@@ -92,8 +96,10 @@ const char* ToString(FlattenMethod method)
       return "laplacian";
     case FlattenMethod::Lscm:
       return "lscm";
-    default:
+    case FlattenMethod::Arap:
       return "arap";
+    default:
+      return "injective";
   }
 }
 
@@ -124,7 +130,8 @@ Result<MeshParameterization> FlattenMesh(const TriangleMesh& mesh, const Flatten
   {
     const std::string reason = std::string(ToString(params.Method)) +
       (flat ? " flips " + std::to_string(flips) + " triangles" : ": " + flat.Status.Message());
-    for (FlattenMethod method : { FlattenMethod::Arap, FlattenMethod::Lscm })
+    for (FlattenMethod method :
+      { FlattenMethod::Arap, FlattenMethod::Injective, FlattenMethod::Lscm })
     {
       if (flips == 0 || method == params.Method)
       {

@@ -114,6 +114,20 @@ void NormalizeSimilarity(const DiscMesh& mesh, PointMatrix& uv)
   }
   const Eigen::RowVector2d centre = uv.colwise().mean();
   uv.rowwise() -= centre;
+  if (uv(0, 0) < 0.0)
+  {
+    uv *= -1.0; // half a turn
+  }
+}
+
+void TurnToAxes(PointMatrix& uv)
+{
+  const PointMatrix centred = uv.rowwise() - Eigen::RowVector2d(uv.colwise().mean());
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(centred.transpose() * centred);
+  const Eigen::Vector2d along = axes.eigenvectors().col(1);
+  Eigen::Matrix2d turn; // a rotation: its second column is the first one turned left
+  turn << along[0], -along[1], along[1], along[0];
+  uv = (uv * turn).eval();
 }
 
 FlattenMeasures MeasureMap(const DiscMesh& mesh, const PointMatrix& uv, GeodesicEstimator estimator)

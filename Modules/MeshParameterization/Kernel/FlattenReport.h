@@ -16,8 +16,11 @@ int CountFlips(const DiscMesh& mesh, const PointMatrix& uv);
 void NormalizeAffinely(const DiscMesh& mesh, PointMatrix& uv);
 
 /// Mirrors UV if most of its area is negative, scales it to the best isometry (least squares of
-/// singular values), centres it at the origin.
+/// singular values), centres it at the origin, turns it by half a turn if point 0 has u < 0.
 void NormalizeSimilarity(const DiscMesh& mesh, PointMatrix& uv);
+
+/// Turns the longer principal axis along u: what eigenvectors of a double eigenvalue leave open.
+void TurnToAxes(PointMatrix& uv);
 
 /// All measures of a map that has been normalized.
 /// @param estimator  of the distances that DistanceError compares with.

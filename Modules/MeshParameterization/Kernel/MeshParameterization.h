@@ -13,7 +13,8 @@ enum class FlattenMethod
   Isomap,    ///< geodesic distances; wrong by nature where the flat domain is not convex
   Laplacian, ///< Laplacian eigenmaps; distorts everywhere
   Lscm,      ///< least squares conformal
-  Arap       ///< as rigid as possible
+  Arap,      ///< as rigid as possible
+  Injective  ///< least symmetric Dirichlet energy, by steps that flip no triangle
 };
 
 enum class LaplacianWeights
@@ -29,10 +30,10 @@ struct FlattenParams
   GeodesicEstimator Geodesics = GeodesicEstimator::Unfolding; ///< of Isomap
   int Neighbours = 10;     ///< of a vertex, for the Hessian, [6, 50]
   int Landmarks = 50;      ///< of Isomap, [3, 10000]
-  int MaxIterations = 100; ///< of Arap, [1, 10000]
+  int MaxIterations = 100; ///< of Arap and Injective, [1, 10000]
   double MinParticipation =
     0.02;               ///< an eigenvector on a smaller part of the area is rejected, [0, 1)
-  bool Fallback = true; ///< of Hlle, when it fails or folds, to Arap or Lscm if they fold less
+  bool Fallback = true; ///< of Hlle, when it fails or folds, to Arap, Injective or Lscm
   bool LargestComponent = false; ///< see CheckMesh
   int Threads = 0;               ///< 0: all cores; the result does not depend on it
 };
@@ -66,7 +67,8 @@ struct MeshParameterization
 {
   DiscMesh
     Mesh; ///< its Loops: the outer one first by area in UV, counterclockwise; holes clockwise
-  PointMatrix UV; ///< n x 2, centred; at the scale of the mesh; most triangles counterclockwise
+  PointMatrix UV; ///< n x 2, centred, at the scale of the mesh; most
+                  ///< triangles counterclockwise
   FlattenMeasures Measures;
   FlattenMethod Used = FlattenMethod::Hlle;
   std::string FallbackReason; ///< one sentence; empty when the method asked for was used

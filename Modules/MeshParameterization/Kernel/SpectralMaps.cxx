@@ -49,6 +49,7 @@ PointMatrix PairOf(
   uv.col(0) = pairs.Vectors.col(first);
   uv.col(1) = pairs.Vectors.col(second);
   NormalizeAffinely(mesh, uv);
+  TurnToAxes(uv);
   return uv;
 }
 

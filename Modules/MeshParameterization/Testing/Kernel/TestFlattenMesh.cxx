@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FlattenReport.h"
+#include "InjectiveMap.h"
 #include "MeshCases.h"
 #include "MeshWeights.h"
 
@@ -145,6 +146,51 @@ TEST(FlattenMesh, HillHasNoFlipsAndBoundedStretch_PropertyOracle)
   EXPECT_LT(arap, lscm);
 }
 
+/// A deep hat over the square: conformal and rigid maps of it fold.
+MeshCase Hat(double height)
+{
+  MeshCase hat = FlatCase(-1.0, 1.0, -1.0, 1.0, 0.1, [](double, double) { return true; });
+  Lift(hat,
+    [height](double x, double y)
+    { return Eigen::RowVector3d(x, y, height * std::exp(-8.0 * (x * x + y * y))); });
+  return hat;
+}
+
+TEST(FlattenMesh, BarycentricMapFlipsNothing_PropertyOracle)
+{
+  for (const MeshCase& data : { Hat(4.0), SOnCone(0.1), PlateWithHoles(0.05) })
+  {
+    const auto disc = CheckMesh(data.Mesh);
+    ASSERT_TRUE(disc);
+    const auto map = BarycentricMap(disc.Value);
+    ASSERT_TRUE(map) << map.Status.Message();
+    EXPECT_EQ(CountFlips(disc.Value, map.Value.UV), 0);
+    EXPECT_NEAR(map.Value.UV.rowwise().norm().maxCoeff(), 1.0, 1e-12);
+  }
+}
+
+TEST(FlattenMesh, InjectiveFlipsNothingAndIsIsometricWherePossible_ExactOracle)
+{
+  const MeshCase roll = CylinderWithHoles(0.06);
+  const auto flat = Flatten(roll, Method(FlattenMethod::Injective));
+  EXPECT_EQ(flat.Measures.FlippedTriangles, 0);
+  EXPECT_LE(RigidError(flat.UV, roll.Flat), 2e-3); // chords of 0.06, and where iterations end
+  const auto hat = Flatten(Hat(4.0), Method(FlattenMethod::Injective));
+  EXPECT_EQ(hat.Measures.FlippedTriangles, 0);
+  const auto conformal = Flatten(Hat(4.0), Method(FlattenMethod::Lscm));
+  EXPECT_LT(hat.Measures.MeanStretch, conformal.Measures.MeanStretch);
+}
+
+TEST(FlattenMesh, FallbackOfFoldedHlleFlipsNothing_PropertyOracle)
+{
+  const MeshCase hat = Hat(4.0);
+  ASSERT_GT(Flatten(hat, Method(FlattenMethod::Hlle)).Measures.FlippedTriangles, 0);
+  const auto map = Flatten(hat, {});
+  EXPECT_EQ(map.Measures.FlippedTriangles, 0);
+  EXPECT_NE(map.Used, FlattenMethod::Hlle);
+  EXPECT_NE(map.FallbackReason.find("hlle flips"), std::string::npos);
+}
+
 TEST(FlattenMesh, MeasuresOfALinearMapAreItsSingularValues_ExactOracle)
 {
   const MeshCase plate = PlateWithHoles(0.1);
@@ -199,6 +245,23 @@ TEST(FlattenMesh, FallbackIsAnnounced_PropertyOracle)
   EXPECT_EQ(
     FlattenMesh(small.Mesh, Method(FlattenMethod::Hlle)).Status.Code, ErrorCode::InvalidParameter);
   EXPECT_TRUE(Flatten(PlateWithHoles(0.08), {}).FallbackReason.empty());
+}
+
+TEST(FlattenMesh, EigenvectorsOnASmallPartAreRejected_PropertyOracle)
+{
+  // linear functions on a plate live on about 5/9 of it, and are the first two eigenvectors
+  const MeshCase plate = PlateWithHoles(0.06);
+  FlattenParams params = Method(FlattenMethod::Hlle);
+  params.MinParticipation = 0.3;
+  EXPECT_EQ(Flatten(plate, params).RejectedEigenvectors, 0);
+  params.MinParticipation = 0.95;
+  const Status status = FlattenMesh(plate.Mesh, params).Status;
+  EXPECT_EQ(status.Code, ErrorCode::SingularSystem);
+  EXPECT_NE(status.Detail.find("few vertices"), std::string::npos);
+  params.Fallback = true;
+  const auto map = Flatten(plate, params);
+  EXPECT_EQ(map.Used, FlattenMethod::Arap);
+  EXPECT_NE(map.FallbackReason.find("few vertices"), std::string::npos);
 }
 
 TEST(FlattenMesh, DoesNotDependOnThreads_ExactOracle)

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "MeshParameterization.h"
+
+namespace knotwork
+{
+/// Barycentric map of a mesh whose longest boundary loop goes to a circle and whose holes are
+/// closed by one point each: no triangle flips (but for rounding, where triangles become tiny).
+/// @source Tutte, Proc. London Math. Soc. 13 (1963) 743-767; Floater, CAGD 14 (1997) 231-250.
+Result<FlatMesh> BarycentricMap(const DiscMesh& mesh);
+
+/// Map of the least symmetric Dirichlet energy int |J|^2 + |J^-1|^2 found from a map without flips
+/// (the conformal one, or else the barycentric one); steps never flip a triangle.
+/// @return NotConverged: the first map has flips already.
+/// @source Rabinovich, Poranne, Panozzo, Sorkine-Hornung, ACM TOG 36 (2017) 16.
+Result<FlatMesh> InjectiveMap(const DiscMesh& mesh, int maxIterations);
+}

@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A rolled plate with a hole through vtkMeshParameterization and `knotwork flatten`: the flat plate comes back; bad meshes
+are refused with the reason."""
+import json
+
+import knotwork
+import knotwork_testing
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
+
+
+def plate(n=40):
+    """Points of a rectangle with a square hole, and its triangles."""
+    x, y = np.meshgrid(np.linspace(0, 2, 2 * n + 1), np.linspace(0, 1, n + 1))
+    grid = np.c_[x.ravel(), y.ravel()]
+    triangles = []
+    for j in range(n):
+        for i in range(2 * n):
+            if abs(i + 0.5 - 0.5 * n) < 0.2 * n and abs(j + 0.5 - 0.5 * n) < 0.2 * n:
+                continue
+            a = j * (2 * n + 1) + i
+            b = a + 2 * n + 1
+            triangles += [(a, a + 1, b + 1), (a, b + 1, b)]
+    used, cells = np.unique(triangles, return_inverse=True)
+    return grid[used], cells.reshape(-1, 3)
+
+
+def polydata(points, triangles):
+    mesh = vtkPolyData()
+    vertices = vtkPoints()
+    vertices.SetDataTypeToDouble()
+    vertices.SetData(numpy_to_vtk(np.ascontiguousarray(points), deep=1))
+    cells = vtkCellArray()
+    for triangle in triangles:
+        cells.InsertNextCell(len(triangle), [int(i) for i in triangle])
+    mesh.SetPoints(vertices)
+    mesh.SetPolys(cells)
+    return mesh
+
+
+FLAT, TRIANGLES = plate()
+ROLLED = np.c_[0.5 * np.cos(2 * FLAT[:, 0]), 0.5 * np.sin(2 * FLAT[:, 0]), FLAT[:, 1]]
+
+
+def rolled():
+    mesh = polydata(ROLLED, TRIANGLES)
+    height = numpy_to_vtk(FLAT[:, 1].copy(), deep=1)
+    height.SetName("Height")
+    mesh.GetPointData().AddArray(height)
+    number = numpy_to_vtk(np.arange(len(TRIANGLES)), deep=1)
+    number.SetName("Number")
+    mesh.GetCellData().AddArray(number)
+    return mesh
+
+
+def rigid_error(uv, truth):
+    """Root mean square distance after the best rotation or reflection, over the diagonal."""
+    a, b = uv - uv.mean(0), truth - truth.mean(0)
+    u, _, v = np.linalg.svd(a.T @ b)
+    return np.sqrt(((a @ u @ v - b) ** 2).sum(1).mean()) / np.linalg.norm(np.ptp(truth, axis=0))
+
+
+def flatten(mesh, **options):
+    parameterization = knotwork.vtkMeshParameterization()
+    parameterization.SetInputDataObject(mesh)
+    for name, value in options.items():
+        getattr(parameterization, "Set" + name)(value)
+    parameterization.Update()
+    return parameterization
+
+
+def error_of(mesh, **options):
+    """The filter's error code, 0: none. On an error there is one message and the outputs are empty."""
+    parameterization = knotwork.vtkMeshParameterization()
+    messages = []
+    parameterization.AddObserver("ErrorEvent", lambda *_: messages.append(1))
+    parameterization.SetInputDataObject(mesh)
+    for name, value in options.items():
+        getattr(parameterization, "Set" + name)(value)
+    parameterization.Update()
+    code = parameterization.GetErrorCode()
+    assert len(messages) == (code != 0)
+    assert code == 0 or parameterization.GetOutputDataObject(0).GetNumberOfPoints() == 0
+    return code
+
+
+def test_cylinder_unrolls():
+    for method in (knotwork.vtkMeshParameterization.HLLE, knotwork.vtkMeshParameterization.LSCM,
+                   knotwork.vtkMeshParameterization.ARAP):
+        result = flatten(rolled(), Method=method)
+        mesh, loops, table = (result.GetOutputDataObject(port) for port in range(3))
+        uv = vtk_to_numpy(mesh.GetPointData().GetTCoords())
+        # chords: edges of 0.025 on a radius of 0.5 are short by (0.05)^2 / 24 = 1e-4
+        assert rigid_error(uv, FLAT) < 2e-4
+        assert vtk_to_numpy(mesh.GetCellData().GetArray("Flipped")).sum() == 0
+        values = vtk_to_numpy(mesh.GetCellData().GetArray("SingularValues"))
+        assert abs(values - 1).max() < 2e-2
+        assert (vtk_to_numpy(mesh.GetPointData().GetArray("Height")) == FLAT[:, 1]).all()
+        assert (vtk_to_numpy(mesh.GetCellData().GetArray("Number")) == np.arange(len(TRIANGLES))).all()
+        assert (vtk_to_numpy(mesh.GetPoints().GetData()) == ROLLED).all()
+        assert table.GetNumberOfRows() == 1 and table.GetValueByName(0, "Loops").ToInt() == 2
+        assert table.GetValueByName(0, "Fallback").ToInt() == 0
+        lengths = vtk_to_numpy(loops.GetCellData().GetArray("Length"))
+        assert loops.GetNumberOfCells() == 2
+        assert abs(lengths - (6, 1.6)).max() < 2e-3
+        for loop in range(2):  # outer one counterclockwise, hole clockwise
+            ids = loops.GetCell(loop).GetPointIds()
+            at = vtk_to_numpy(loops.GetPointData().GetArray("UV"))[[ids.GetId(i) for i in range(ids.GetNumberOfIds())]]
+            assert (at[0] == at[-1]).all()
+            area = 0.5 * (at[:-1, 0] * at[1:, 1] - at[1:, 0] * at[:-1, 1]).sum()
+            assert abs(area - (2, -0.16)[loop]) < 2e-3, area
+
+
+def test_flat_output_lies_in_the_plane():
+    result = flatten(rolled(), FlatOutput=True)
+    for port in range(2):
+        data = result.GetOutputDataObject(port)
+        points = vtk_to_numpy(data.GetPoints().GetData())
+        assert (points[:, :2] == vtk_to_numpy(data.GetPointData().GetArray("UV"))).all() and (points[:, 2] == 0).all()
+
+
+def test_bad_meshes_are_refused():
+    assert error_of(polydata(ROLLED, TRIANGLES)) == 0
+    assert error_of(polydata(ROLLED, [(0, 1, 2, 3)])) > 0  # no triangle
+    assert error_of(polydata(ROLLED, [(0, 0, 1)])) > 0
+    more = np.vstack([ROLLED, [[9, 9, 9]]])
+    assert error_of(polydata(more, TRIANGLES)) > 0
+    assert error_of(polydata(more, TRIANGLES), LargestComponent=True) == 0
+    more[3] = np.nan
+    assert error_of(polydata(more, TRIANGLES), LargestComponent=True) > 0
+    tetrahedron = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)]
+    assert error_of(polydata(np.vstack([np.zeros(3), np.eye(3)]), tetrahedron)) > 0
+    assert error_of(vtkPolyData()) > 0
+
+
+def test_job_reports_what_the_filter_says():
+    name = knotwork_testing.output("rolled_plate.vtp")
+    writer = vtkXMLPolyDataWriter()
+    writer.SetFileName(name)
+    writer.SetDataModeToBinary()
+    writer.SetInputData(rolled())
+    writer.Write()
+    out, loops, report = (knotwork_testing.output(end) for end in ("flat.vtp", "flat_loops.vtp", "flat.json"))
+    done = knotwork_testing.run_program("flatten", name, "--method", "hlle", "--output", out, "--loops", loops,
+                                        "--report", report, "--quiet")
+    assert done.returncode == 0 and done.stderr == "", done.stderr
+    with open(report) as stream:
+        said = json.load(stream)
+    assert said["flipped_triangles"] == 0 and said["loops"] == 2
+    assert said["method"] == "hlle" and said["fallback"] is False
+    assert 1 <= said["mean_stretch"] <= said["max_stretch"] < 1.02
+    assert said["seconds"] > 0
+    reader = vtkXMLPolyDataReader()
+    reader.SetFileName(out)
+    reader.Update()
+    assert rigid_error(vtk_to_numpy(reader.GetOutput().GetPointData().GetArray("UV")), FLAT) < 2e-4
+    done = knotwork_testing.run_program("flatten", name, "--method", "laplacian", "--output", out,
+                                        "--report", report, "--quiet")
+    assert done.returncode == 0, done.stderr
+    with open(report) as stream:
+        assert json.load(stream)["mean_stretch"] > 1.5
+
+
+def test_job_refuses_bad_meshes():
+    name = knotwork_testing.output("two_triangles.off")
+    out = knotwork_testing.output("never.vtp")
+    with open(name, "w") as stream:
+        stream.write("OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n5 0 0\n6 0 0\n5 1 0\n3 0 1 2\n3 3 4 5\n")
+    done = knotwork_testing.run_program("flatten", name, "--output", out)
+    assert done.returncode == 1 and "2 components" in done.stderr, done.stderr
+    done = knotwork_testing.run_program("flatten", name, "--output", out, "--neighbours", 2)
+    assert done.returncode == 2, done.stderr
+
+
+knotwork_testing.main(globals())

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMeshParameterization.h"
+
+#include "MeshData.h"
+
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkTable.h"
+
+vtkStandardNewMacro(vtkMeshParameterization);
+
+vtkMeshParameterization::vtkMeshParameterization()
+{
+  this->SetNumberOfInputPorts(1);
+  this->SetNumberOfOutputPorts(3);
+}
+
+void vtkMeshParameterization::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Method: " << this->Method << "\n";
+  os << indent << "LaplacianWeights: " << this->LaplacianWeights << "\n";
+  os << indent << "Geodesics: " << this->Geodesics << "\n";
+  os << indent << "Neighbours: " << this->Neighbours << "\n";
+  os << indent << "Landmarks: " << this->Landmarks << "\n";
+  os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
+  os << indent << "MinimumParticipation: " << this->MinimumParticipation << "\n";
+  os << indent << "Fallback: " << this->Fallback << "\n";
+  os << indent << "LargestComponent: " << this->LargestComponent << "\n";
+  os << indent << "FlatOutput: " << this->FlatOutput << "\n";
+}
+
+int vtkMeshParameterization::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
+  return 1;
+}
+
+int vtkMeshParameterization::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 2 ? "vtkTable" : "vtkPolyData");
+  return 1;
+}
+
+int vtkMeshParameterization::RequestDataObject(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+{
+  for (int port = 0; port < 2; ++port)
+  {
+    if (!vtkPolyData::GetData(outputs, port))
+    {
+      vtkNew<vtkPolyData> data;
+      outputs->GetInformationObject(port)->Set(vtkDataObject::DATA_OBJECT(), data);
+    }
+  }
+  if (!vtkTable::GetData(outputs, 2))
+  {
+    vtkNew<vtkTable> table;
+    outputs->GetInformationObject(2)->Set(vtkDataObject::DATA_OBJECT(), table);
+  }
+  return 1;
+}
+
+knotwork::Status vtkMeshParameterization::Compute(
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkPointSet* input = vtkPointSet::GetData(inputs[0], 0);
+  const auto decoded = knotwork::DecodeMesh(input);
+  if (!decoded)
+  {
+    return decoded.Status;
+  }
+  knotwork::FlattenParams params;
+  params.Method = static_cast<knotwork::FlattenMethod>(this->Method);
+  params.Weights = static_cast<knotwork::LaplacianWeights>(this->LaplacianWeights);
+  params.Geodesics = static_cast<knotwork::GeodesicEstimator>(this->Geodesics);
+  params.Neighbours = this->Neighbours;
+  params.Landmarks = this->Landmarks;
+  params.MaxIterations = this->MaximumIterations;
+  params.MinParticipation = this->MinimumParticipation;
+  params.Fallback = this->Fallback;
+  params.LargestComponent = this->LargestComponent;
+  params.Threads = this->KernelThreads();
+  const auto map = knotwork::FlattenMesh(decoded.Value.Mesh, params);
+  if (!map)
+  {
+    return map.Status;
+  }
+  std::vector<std::string> warnings;
+  if (!map.Value.FallbackReason.empty())
+  {
+    warnings.push_back(
+      map.Value.FallbackReason + ": " + ToString(map.Value.Used) + " was used instead");
+  }
+  if (map.Value.Measures.FlippedTriangles > 0)
+  {
+    warnings.push_back(std::to_string(map.Value.Measures.FlippedTriangles) +
+      " triangles are flipped in the plane (" + ToString(map.Value.Used) + ")");
+  }
+  this->ReportWarnings(warnings);
+  knotwork::EncodeMesh(
+    decoded.Value, map.Value, input, this->FlatOutput, vtkPolyData::GetData(outputs, 0));
+  knotwork::EncodeLoops(map.Value, this->FlatOutput, vtkPolyData::GetData(outputs, 1));
+  knotwork::EncodeSummary(map.Value, params.Method, vtkTable::GetData(outputs, 2));
+  return {};
+}

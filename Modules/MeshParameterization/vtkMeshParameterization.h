@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkMeshParameterization
+ * @brief   lays a triangle mesh with holes into the plane
+ *
+ * Input 0 is a triangle mesh (vtkPolyData or vtkUnstructuredGrid): one component of a manifold with
+ * a boundary and without handles. Triangles that look the other way than most are turned over.
+ *
+ * Output 0 is the mesh with its data, plane coordinates as the point array `UV` (also the texture
+ * coordinates; centred, at the scale of the mesh) and the cell arrays `SingularValues` of the map
+ * from each triangle (the second one is negative where it is flipped) and `Flipped`. Output 1 are
+ * the boundary loops as closed polylines, the outer one first (counterclockwise in UV, holes
+ * clockwise), with `UV`, `PointIds`, `Loop` and `Length`. Output 2 is a table of one row: the
+ * method asked for and the one used, why another one was used, flipped triangles, stretch, singular
+ * values, area distortion, isometry and distance errors.
+ *
+ * HLLE that folds or fails is replaced by a method that folds less, with a warning. A map that has
+ * flipped triangles all the same is an output with a warning.
+ *
+ * @source Donoho, Grimes (2003); Ruiz, Mejia, Cadavid (2015). The module's page has methods, limits
+ * and errors.
+ */
+#ifndef vtkMeshParameterization_h
+#define vtkMeshParameterization_h
+#include "vtkKnotworkMeshParameterizationModule.h" // for export macro
+#include "vtkSplineAlgorithm.h"
+
+class VTKKNOTWORKMESHPARAMETERIZATION_EXPORT vtkMeshParameterization : public vtkSplineAlgorithm
+{
+public:
+  static vtkMeshParameterization* New();
+  vtkTypeMacro(vtkMeshParameterization, vtkSplineAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum Methods
+  {
+    HLLE = 0,
+    ISOMAP,
+    LAPLACIAN,
+    LSCM,
+    ARAP,
+    INJECTIVE ///< as the fallback uses it: steps that flip no triangle
+  };
+  enum LaplacianWeightings
+  {
+    COTANGENT = 0,
+    GRAPH
+  };
+  enum GeodesicEstimators
+  {
+    UNFOLDING = 0,
+    EDGE_GRAPH
+  };
+
+  ///@{
+  /** One of Methods. Default HLLE. */
+  vtkSetClampMacro(Method, int, HLLE, INJECTIVE);
+  vtkGetMacro(Method, int);
+  ///@}
+  ///@{
+  /** Of LAPLACIAN, one of LaplacianWeightings. Default COTANGENT. */
+  vtkSetClampMacro(LaplacianWeights, int, COTANGENT, GRAPH);
+  vtkGetMacro(LaplacianWeights, int);
+  ///@}
+  ///@{
+  /** Distances of ISOMAP and of the distance error, one of GeodesicEstimators. Default UNFOLDING.
+   */
+  vtkSetClampMacro(Geodesics, int, UNFOLDING, EDGE_GRAPH);
+  vtkGetMacro(Geodesics, int);
+  ///@}
+  ///@{
+  /** Geodesic neighbours of a vertex for HLLE. Default 10, valid range [6, 50]. */
+  vtkSetClampMacro(Neighbours, int, 6, 50);
+  vtkGetMacro(Neighbours, int);
+  ///@}
+  ///@{
+  /** Points whose distances ISOMAP takes. Default 50, valid range [3, 10000]. */
+  vtkSetClampMacro(Landmarks, int, 3, 10000);
+  vtkGetMacro(Landmarks, int);
+  ///@}
+  ///@{
+  /** Iterations of ARAP and INJECTIVE at most. Default 100, valid range [1, 10000]. */
+  vtkSetClampMacro(MaximumIterations, int, 1, 10000);
+  vtkGetMacro(MaximumIterations, int);
+  ///@}
+  ///@{
+  /** HLLE rejects eigenvectors that live on a smaller part of the area. Default 0.02, valid range
+   * [0, 0.99]. */
+  vtkSetClampMacro(MinimumParticipation, double, 0.0, 0.99);
+  vtkGetMacro(MinimumParticipation, double);
+  ///@}
+  ///@{
+  /** Whether HLLE may be replaced when it folds or fails. Default on. */
+  vtkSetMacro(Fallback, bool);
+  vtkGetMacro(Fallback, bool);
+  vtkBooleanMacro(Fallback, bool);
+  ///@}
+  ///@{
+  /** Whether the component of the most triangles is taken instead of refusing several ones, and
+   * points of no triangle. Default off. */
+  vtkSetMacro(LargestComponent, bool);
+  vtkGetMacro(LargestComponent, bool);
+  vtkBooleanMacro(LargestComponent, bool);
+  ///@}
+  ///@{
+  /** Whether points of outputs 0 and 1 are (u, v, 0) instead of those of the input. Default off. */
+  vtkSetMacro(FlatOutput, bool);
+  vtkGetMacro(FlatOutput, bool);
+  vtkBooleanMacro(FlatOutput, bool);
+  ///@}
+
+protected:
+  vtkMeshParameterization();
+  ~vtkMeshParameterization() override = default;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestDataObject(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkMeshParameterization(const vtkMeshParameterization&) = delete;
+  void operator=(const vtkMeshParameterization&) = delete;
+
+  int Method = HLLE;
+  int LaplacianWeights = COTANGENT;
+  int Geodesics = UNFOLDING;
+  int Neighbours = 10;
+  int Landmarks = 50;
+  int MaximumIterations = 100;
+  double MinimumParticipation = 0.02;
+  bool Fallback = true;
+  bool LargestComponent = false;
+  bool FlatOutput = false;
+};
+#endif
