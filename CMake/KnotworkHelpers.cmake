@@ -161,11 +161,11 @@ function(knotwork_add_command_test name)
     ENVIRONMENT "${arg_ENVIRONMENT}")
 endfunction()
 
-# knotwork_add_python_test(MODULE script.py [IMAGE] [SLOW] [PROGRAM] [LABELS label...] [ARGUMENTS ...])
+# knotwork_add_python_test(MODULE script.py [IMAGE] [SLOW] [PROGRAM] [TIMEOUT s] [LABELS label...] [ARGUMENTS ...])
 #   Runs the script on the Python that has VTK with `import knotwork` and `import knotwork_testing` at hand; exit
 #   status 0 passes. PROGRAM: the script runs the program and does not import knotwork. The test is <MODULE>.Python.<script>.
 function(knotwork_add_python_test module script)
-  cmake_parse_arguments(PARSE_ARGV 2 arg "IMAGE;SLOW;PROGRAM" "NAME" "LABELS;ARGUMENTS")
+  cmake_parse_arguments(PARSE_ARGV 2 arg "IMAGE;SLOW;PROGRAM" "NAME;TIMEOUT" "LABELS;ARGUMENTS")
   if(NOT KNOTWORK_FILTERS OR (NOT KNOTWORK_PYTHON AND NOT arg_PROGRAM))
     return()
   endif()
@@ -173,6 +173,9 @@ function(knotwork_add_python_test module script)
   get_filename_component(stem "${script}" NAME_WE)
   if(arg_NAME)
     set(stem "${arg_NAME}")
+  endif()
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 300)
   endif()
   set(labels python ${module} ${arg_LABELS})
   set(display "")
@@ -185,6 +188,7 @@ function(knotwork_add_python_test module script)
   endif()
   knotwork_add_command_test(${module}.Python.${stem} ${display} LABELS ${labels}
     COMMAND "${Python3_EXECUTABLE}" "${path}" ${arg_ARGUMENTS}
+    TIMEOUT ${arg_TIMEOUT}
     ENVIRONMENT "PYTHONPATH=${CMAKE_BINARY_DIR}/${KNOTWORK_PYTHON_DIR}:${CMAKE_SOURCE_DIR}/Testing/Harness")
 endfunction()
 
