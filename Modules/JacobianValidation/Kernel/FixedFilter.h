@@ -19,6 +19,22 @@ constexpr double Choose(int n, int k)
   return c;
 }
 
+/// The binomials of a degree, worked out by the compiler.
+template <int N>
+struct BinomialTable
+{
+  double Of[N + 1]{};
+  constexpr BinomialTable()
+  {
+    for (int i = 0; i <= N; ++i)
+    {
+      this->Of[i] = Choose(N, i);
+    }
+  }
+};
+template <int N>
+inline constexpr BinomialTable<N> Binomials{};
+
 using Blocks = std::array<const double*, PackSize>;
 
 inline Pack Gather(const Blocks& blocks, int i)
@@ -50,7 +66,7 @@ inline void Differences(const Pack* plane, Pack* out, Pack& largest)
         const Pack difference = plane[at + Stride] - plane[at];
         largest = Larger(largest, Magnitude(difference));
         out[i + (A + 1) * (j + (B + 1) * k)] =
-          difference * (Choose(A, i) * Choose(B, j) * Choose(C, k));
+          difference * (Binomials<A>.Of[i] * Binomials<B>.Of[j] * Binomials<C>.Of[k]);
       }
     }
   }
@@ -78,12 +94,31 @@ inline void AddRows(const Pack* a, const Pack* b, Pack* sum)
   }
 }
 
-/// Takes the finished rows of a result of degrees N, L, K.
-template <int N, int L, int K>
+/// Takes the finished rows of Factor times a result of degrees N, L, K.
+template <int N, int L, int K, int Factor>
 struct Extremes
 {
   CoefficientBounds& Bounds;
-  double Factor;
+  /// Factor over the binomials, row by row.
+  struct Table
+  {
+    double Of[(N + 1) * (L + 1) * (K + 1)]{};
+    constexpr Table()
+    {
+      for (int k = 0; k <= K; ++k)
+      {
+        for (int l = 0; l <= L; ++l)
+        {
+          for (int i = 0; i <= N; ++i)
+          {
+            this->Of[i + (N + 1) * (l + (L + 1) * k)] =
+              Factor / (Choose(N, i) * Choose(L, l) * Choose(K, k));
+          }
+        }
+      }
+    }
+  };
+  static constexpr Table Scale{};
 
   void Start()
   {
@@ -95,10 +130,11 @@ struct Extremes
   }
   void Row(int l, int k, const Pack* row, Pack* corners)
   {
+    const double* scale = Scale.Of + (N + 1) * (l + (L + 1) * k);
     for (int i = 0; i <= N; ++i)
     {
       // two roundings: of the quotient of constants, and of the product
-      const Pack value = row[i] * (this->Factor / (Choose(N, i) * Choose(L, l) * Choose(K, k)));
+      const Pack value = row[i] * scale[i];
       this->Bounds.Smallest = Smaller(this->Bounds.Smallest, value);
       this->Bounds.Largest = Larger(this->Bounds.Largest, value);
       if ((i == 0 || i == N) && (l == 0 || l == L) && (k == 0 || k == K))
@@ -136,7 +172,7 @@ void PolynomialQuadrilateral(const Blocks& blocks, CoefficientBounds& bounds)
   }
   bounds.NotFinite = notFinite;
   bounds.Magnitude = Larger(Larger(mu[0], mu[1]), Larger(mv[0], mv[1]));
-  Extremes<2 * P - 1, 2 * Q - 1, 0> extremes{ bounds, static_cast<double>(P * Q) };
+  Extremes<2 * P - 1, 2 * Q - 1, 0, P * Q> extremes{ bounds };
   extremes.Start();
   Pack corners[4];
   for (int l = 0; l < 2 * Q; ++l)
@@ -215,7 +251,7 @@ void PolynomialHexahedron(const Blocks& blocks, CoefficientBounds& bounds)
     }
   }
 
-  Extremes<3 * P - 1, 3 * Q - 1, 3 * R - 1> extremes{ bounds, static_cast<double>(P * Q * R) };
+  Extremes<3 * P - 1, 3 * Q - 1, 3 * R - 1, P * Q * R> extremes{ bounds };
   extremes.Start();
   Pack corners[8];
   for (int k = 0; k < 3 * R; ++k)
@@ -286,7 +322,7 @@ inline void LinearHexahedron(const Blocks& blocks, CoefficientBounds& bounds)
   bounds.NotFinite = notFinite;
   bounds.Magnitude = Larger(Larger(Larger(mu[0], mu[1]), Larger(mu[2], mv[0])),
     Larger(Larger(Larger(mv[1], mv[2]), Larger(mw[0], mw[1])), mw[2]));
-  Extremes<2, 2, 2> extremes{ bounds, 1.0 };
+  Extremes<2, 2, 2, 1> extremes{ bounds };
   extremes.Start();
   Pack corners[8];
 #pragma GCC unroll 3
@@ -390,12 +426,12 @@ void RationalQuadrilateral(const Blocks& blocks, CoefficientBounds& bounds)
       for (int i = 0; i < P; ++i)
       {
         const Pack* p = planes[c] + i + (P + 1) * j;
-        const double first = Choose(P - 1, i) * Choose(Q, j);
+        const double first = Binomials<P - 1>.Of[i] * Binomials<Q>.Of[j];
         side[c][0][i + P * j] = p[0] * first;
         side[c][1][i + P * j] = p[1] * first;
         if (j < Q)
         {
-          const double both = Choose(P - 1, i) * Choose(Q - 1, j);
+          const double both = Binomials<P - 1>.Of[i] * Binomials<Q - 1>.Of[j];
           net[c][0][i + P * j] = p[0] * both;
           net[c][1][i + P * j] = p[1] * both;
           net[c][2][i + P * j] = p[P + 1] * both;
@@ -430,7 +466,7 @@ void RationalQuadrilateral(const Blocks& blocks, CoefficientBounds& bounds)
     }
   }
 
-  Extremes<3 * P - 2, 3 * Q - 2, 0> extremes{ bounds, static_cast<double>(P * Q) };
+  Extremes<3 * P - 2, 3 * Q - 2, 0, P * Q> extremes{ bounds };
   extremes.Start();
   bounds.NotFinite = notFinite;
   bounds.SmallestWeight = smallestWeight;
