@@ -86,7 +86,8 @@ Result<typename RegularityGuard<Dim>::Outcome> RegularityGuard<Dim>::Step(FitSys
     value = value > least ? value / Growth : 0.0;
   }
   FitWeights held = weights;
-  PointMatrix step;
+  PointMatrix step; // the share of the solver's that is allowed for other reasons
+  double length = 1.0;
   for (int trial = 0; trial < Trials; ++trial)
   {
     held.Stiffness = this->Stiffness;
@@ -96,7 +97,7 @@ Result<typename RegularityGuard<Dim>::Outcome> RegularityGuard<Dim>::Step(FitSys
       return solved.Status;
     }
     step = std::move(solved.Value);
-    const double length = shorten(step);
+    length = shorten(step);
     step *= length;
     Result<std::vector<std::size_t>> endangered = this->Try(step, map, form);
     if (!endangered)
@@ -120,15 +121,19 @@ Result<typename RegularityGuard<Dim>::Outcome> RegularityGuard<Dim>::Step(FitSys
       this->Stiffness[e] = std::max(least, Growth * this->Stiffness[e]);
     }
   }
-  for (outcome.Length = 0.5; outcome.Length >= ShortestStep; outcome.Length *= 0.5)
+  for (double share = 0.5; share >= ShortestStep; share *= 0.5)
   {
-    Result<std::vector<std::size_t>> endangered = this->Try(outcome.Length * step, map, form);
-    if (!endangered || endangered->empty())
+    Result<std::vector<std::size_t>> endangered = this->Try(share * step, map, form);
+    if (!endangered)
     {
-      return endangered ? Result<Outcome>(outcome) : Result<Outcome>(endangered.Status);
+      return endangered.Status;
+    }
+    if (endangered->empty())
+    {
+      outcome.Length = share * length;
+      return outcome;
     }
   }
-  outcome.Length = 0.0;
   return outcome;
 }
 

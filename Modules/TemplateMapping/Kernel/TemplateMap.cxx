@@ -391,7 +391,8 @@ Status MapLoop<Dim>::Iterate(int iteration)
     }
     record.NegativeShare = share.Value;
   }
-  if (record.NegativeShare > this->Params.MaxIrregularShare && !this->Out.History.empty())
+  const bool isTooIrregular = record.NegativeShare > this->Params.MaxIrregularShare;
+  if (isTooIrregular && !this->Out.History.empty())
   {
     this->Map = before;
     this->Form = MakeBezierForm(this->Map, this->Params.Threads);
@@ -404,7 +405,7 @@ Status MapLoop<Dim>::Iterate(int iteration)
   record.Functions = this->Map.Space->NumFunctions;
   record.Seconds = std::chrono::duration<double>(Clock::now() - this->Start).count();
   this->Out.History.push_back(record);
-  this->IsDone = record.MaxError <= this->Params.Accuracy;
+  this->IsDone = isTooIrregular || record.MaxError <= this->Params.Accuracy;
   const bool isLast = this->IsDone || iteration == this->Params.Iterations;
   return !isLast && this->IsRefinementDue() ? this->Refine() : Status{};
 }

@@ -65,8 +65,9 @@ struct TemplateMapParams
 
   /// Iterations end early when the largest error (MaxError) is not above this; 0: never. >= 0
   double Accuracy = 0.0;
-  /// Iterations end, and the iterate before is the result, when a larger share of the grid points
-  /// of the domain has det J < 0. In [0, 1]; 1: never. Nothing to do with the guard on.
+  /// Iterations end, and the iterate before (of the first: itself) is the result, when a larger
+  /// share of the grid points of the domain has det J < 0. In [0, 1]; 1: never. Nothing to do with
+  /// the guard on.
   double MaxIrregularShare = 1.0;
 
   TemplateRefinement Refinement = TemplateRefinement::None;
