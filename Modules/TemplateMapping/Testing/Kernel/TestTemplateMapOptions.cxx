@@ -201,6 +201,15 @@ TEST(TemplateMapOptions, IrregularIteratesAreNotKept_PropertyOracle)
     });
   EXPECT_EQ(ended.Map.ControlPoints, same.Map.ControlPoints);
   EXPECT_EQ(ended.SampleErrors, same.SampleErrors);
+  // A first iterate that folds is the last one too.
+  const auto turned = Map(skeleton, LobedTarget({ 0.3, 6, 0.8, 0.3 }),
+    [&](auto& p)
+    {
+      free(p);
+      p.MaxIrregularShare = 1e-3;
+    });
+  ASSERT_EQ(turned.History.size(), 1u);
+  EXPECT_GT(turned.History[0].NegativeShare, 1e-3);
 }
 
 TEST(TemplateMapOptions, GlobalRefinementHalvesCells_ExactOracle)
