@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "BackMap.h"
+#include "FaceCertificate.h"
+#include "TrimLoops.h"
+#include "TrimmedMesh.h"
+
+namespace knotwork
+{
+struct TrimParams
+{
+  BackMapParams BackMap; ///< its Tolerance, Threads and Progress are set from those below
+  double CornerAngle = 40.0;
+  /// Largest distance between mesh and face, unit of the points; 0: a thousandth of the diagonal of
+  /// the points' box.
+  double Tolerance = 0.0;
+  /// Of the triangulation; 0: a quarter of Tolerance.
+  double ChordalTolerance = 0.0;
+  bool Triangulation = true; ///< whether Mesh is made
+  int Threads = 0;
+  ProgressCallback Progress;
+};
+
+struct TrimmedSurface
+{
+  TrimmedModel Model; ///< a face a chart
+  TrimmedMesh Mesh;
+  TrimLoops Loops;               ///< without its Loops, which are in Model
+  std::vector<BackMap> BackMaps; ///< without their surfaces, which are in Model
+  std::vector<ChartDeviation> Deviations;
+  std::vector<FaceCertificate> Certificates;
+  double Tolerance = 0.0; ///< that was asked for
+  double MaxDeviation =
+    0.0; ///< bound of the distance from mesh to faces and back, boundary included
+  double RmsDeviation = 0.0;
+  double MinNormal = 0.0; ///< least of the certificates
+  bool WithinTolerance = false;
+};
+
+/// Trimmed spline faces of charts: surface, loops, certificates, triangulation.
+/// @return failures of the steps.
+Result<TrimmedSurface> TrimSurface(const std::vector<ChartMesh>& charts, const TrimParams& params);
+}

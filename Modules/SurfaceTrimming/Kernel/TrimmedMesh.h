@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "TrimmedModel.h"
+
+namespace knotwork
+{
+struct TrimmedMeshParams
+{
+  double Tolerance = 0.0; ///< largest distance between triangles and faces, unit of the points, > 0
+  int MaxTriangles = 5000000; ///< over all faces, >= 1
+  int Threads = 0;
+  ProgressCallback Progress;
+};
+
+/// Triangles of trimmed faces, watertight along common edges.
+struct TrimmedMesh
+{
+  PointMatrix Points;  ///< n x 3; a point of an edge is stored once and lies on the edge's curve
+  PointMatrix Normals; ///< n x 3 unit; at edges of several faces that of the first one
+  std::vector<std::array<int, 3>> Triangles; ///< counterclockwise seen against the face's normal
+  std::vector<int> TriangleFace;
+  std::vector<std::array<std::array<double, 2>, 3>>
+    TriangleUV; ///< parameters of the corners in the triangle's face
+  double Bound =
+    0.0; ///< of the distance of triangles to faces; above Tolerance only when MaxTriangles stopped
+};
+
+/// Constrained Delaunay triangulations in the parameter planes, refined until the chordal deviation
+/// is within the tolerance.
+/// @return failures of TrimmedModel::Check; InvalidParameter; InvalidTopology for loops that cross;
+/// TooLarge; Aborted.
+Result<TrimmedMesh> TriangulateFaces(const TrimmedModel& model, const TrimmedMeshParams& params);
+}
