@@ -34,8 +34,18 @@ TemplateMapResult<2> FiveLobes(const Change& change)
   return Map(CircleTemplate(1001), LobedTarget(), change);
 }
 
-/// Curves at which plain TDM folds.
-const LobedCurve Skewed[] = { { 0.3, 6, 0.8, 0.0 }, { 0.3, 6, 0.8, 0.3 }, { 0.3, 5, 0.8, 0.5 } };
+/// Curves at which plain TDM folds, and the row of the table on the module's page.
+struct SkewedCase
+{
+  LobedCurve Curve;
+  double PlainError;
+  double PlainNegative; ///< share of the Jacobian
+  double GuardedError;
+  double GuardedBound; ///< of det J
+};
+const SkewedCase Skewed[] = { { { 0.3, 6, 0.8, 0.0 }, 4.61e-4, 0.0687, 2.39e-6, 0.0025 },
+  { { 0.3, 6, 0.8, 0.3 }, 2.01e-3, 0.1374, 3.72e-6, 0.00029 },
+  { { 0.3, 5, 0.8, 0.5 }, 7.79e-5, 0.1567, 1.00e-7, 0.073 } };
 
 int LargestLevel(const SplineSpace<2>& space)
 {
@@ -102,13 +112,17 @@ TEST(TemplateMapOptions, EveryFunctionalFallsWithItsWeight_PropertyOracle)
 
 TEST(TemplateMapOptions, TheGuardKeepsSkewedTargetsRegular_PropertyOracle)
 {
-  for (const LobedCurve& curve : Skewed)
+  for (const SkewedCase& skewed : Skewed)
   {
+    const LobedCurve& curve = skewed.Curve;
     SCOPED_TRACE(std::to_string(curve.Lobes) + ", " + std::to_string(curve.Shift));
-    const Skeleton<2> skeleton = CircleTemplate(2001);
+    const Skeleton<2> skeleton = CircleTemplate(10001);
     const Skeleton<2> target = LobedTarget(curve);
     const auto plain = Map(skeleton, target, [](auto& p) { p.Guard = false; });
     EXPECT_GT(plain.History.back().NegativeShare, 0.01); // the paper's method folds
+    // Half a digit of the page's numbers.
+    EXPECT_NEAR(plain.History.back().SquaredError, skewed.PlainError, 5e-3 * skewed.PlainError);
+    EXPECT_NEAR(plain.History.back().NegativeShare, skewed.PlainNegative, 5e-5);
     EXPECT_LT(plain.MinJacobianBound, 0.0);
     EXPECT_NE(plain.Certificate.Verdict, Verdict::Valid);
     EXPECT_NE(plain.Injectivity.Verdict, InjectivityVerdict::Injective);
@@ -116,6 +130,14 @@ TEST(TemplateMapOptions, TheGuardKeepsSkewedTargetsRegular_PropertyOracle)
     {
       const auto guarded = Map(skeleton, target, [&](auto& p) { p.Method = method; });
       EXPECT_EQ(guarded.Certificate.Verdict, Verdict::Valid);
+      if (method == TemplateMapMethod::Tdm)
+      {
+        // Which elements are held follows from signs: rounding moves the result by more than a
+        // digit's half.
+        EXPECT_NEAR(
+          guarded.History.back().SquaredError, skewed.GuardedError, 0.1 * skewed.GuardedError);
+        EXPECT_NEAR(guarded.MinJacobianBound, skewed.GuardedBound, 0.1 * skewed.GuardedBound);
+      }
       EXPECT_GT(guarded.MinJacobianBound, 0.0);
       EXPECT_EQ(guarded.Injectivity.Verdict, InjectivityVerdict::Injective);
       EXPECT_LE(guarded.History.back().SquaredError, plain.History.back().SquaredError);
