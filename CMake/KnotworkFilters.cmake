@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The VTK modules: every Modules/<name>/vtk.module that has classes.
+# The VTK modules: every Modules/<name>/vtk.module.
 set(KNOTWORK_PYTHON_DIR "")
 set(python_component "")
 if(KNOTWORK_PYTHON)

@@ -15,7 +15,8 @@ namespace knotwork
 {
 /// The grids of a dataset by block, cells numbered as SplinePatch::Cells: the pieces of a block
 /// are appended. A vtkUnstructuredGrid is block 0.
-std::map<int, vtkSmartPointer<vtkUnstructuredGrid>> GridsByBlock(vtkDataObject* data);
+VTKKNOTWORKSPLINEGRID_EXPORT std::map<int, vtkSmartPointer<vtkUnstructuredGrid>> GridsByBlock(
+  vtkDataObject* data);
 
 /// Fills a dataset from the patches of one block; source holds their cells.
 using BlockMaker = std::function<Status(const std::vector<const SplinePatch*>& patches,
@@ -24,6 +25,6 @@ using BlockMaker = std::function<Status(const std::vector<const SplinePatch*>& p
 /// Calls make for every block of the model. A dataset as output is filled itself; in a
 /// vtkPartitionedDataSetCollection every block becomes a new dataset of class `type` in the
 /// structure of the input.
-Status MakeByBlock(const SplineModel& model, vtkDataObject* input, vtkDataObject* output, int type,
-  const BlockMaker& make);
+VTKKNOTWORKSPLINEGRID_EXPORT Status MakeByBlock(const SplineModel& model, vtkDataObject* input,
+  vtkDataObject* output, int type, const BlockMaker& make);
 }

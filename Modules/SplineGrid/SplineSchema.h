@@ -51,7 +51,7 @@ template <int Dim>
 Result<SplineSpacePtr<Dim>> BuildSpace(const BasisDefinition& basis);
 
 /// Checksum over values and shapes; order matters.
-class Checksum
+class VTKKNOTWORKSPLINEGRID_EXPORT Checksum
 {
 public:
   void Add(std::uint64_t word);

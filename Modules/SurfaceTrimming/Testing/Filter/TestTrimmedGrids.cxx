@@ -1,0 +1,459 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Trimmed models in two grids: what they carry, what filters do to them, what damage is refused.
+#include "TrimmedGrids.h"
+
+#include "ModelCases.h"
+#include "SplineModel.h"
+
+#include "vtkAppendFilter.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkPartitionedDataSet.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkPointData.h"
+#include "vtkSmartPointer.h"
+#include "vtkThreshold.h"
+#include "vtkTransform.h"
+#include "vtkTransformFilter.h"
+#include "vtkUnstructuredGrid.h"
+#include "vtkXMLUnstructuredGridReader.h"
+#include "vtkXMLUnstructuredGridWriter.h"
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+
+using namespace knotwork;
+
+namespace
+{
+using GridPointer = vtkSmartPointer<vtkUnstructuredGrid>;
+
+struct Grids
+{
+  GridPointer Surfaces = GridPointer::New();
+  GridPointer Curves = GridPointer::New();
+
+  explicit Grids(const TrimmedModel& model)
+  {
+    const Status status = EncodeTrimmedModel(model, this->Surfaces, this->Curves);
+    EXPECT_TRUE(status) << status.Message();
+  }
+  Grids(GridPointer surfaces, GridPointer curves)
+    : Surfaces(std::move(surfaces)), Curves(std::move(curves))
+  {
+  }
+  TrimmedModel Decode() const
+  {
+    std::vector<std::string> warnings;
+    auto model = DecodeTrimmedModel(this->Surfaces, this->Curves, &warnings);
+    EXPECT_TRUE(model) << model.Status.Message();
+    EXPECT_EQ(warnings, std::vector<std::string>());
+    return model.Value;
+  }
+};
+
+GridPointer Appended(const std::vector<GridPointer>& grids)
+{
+  vtkNew<vtkAppendFilter> append;
+  for (const GridPointer& grid : grids)
+  {
+    append->AddInputData(grid);
+  }
+  append->Update();
+  return append->GetOutput();
+}
+
+GridPointer Moved(vtkUnstructuredGrid* grid, vtkTransform* transform)
+{
+  vtkNew<vtkTransformFilter> filter; // as ParaView's Transform does it
+  filter->SetInputData(grid);
+  filter->SetTransform(transform);
+  filter->SetTransformAllInputVectors(true);
+  filter->Update();
+  return vtkUnstructuredGrid::SafeDownCast(filter->GetOutput());
+}
+
+GridPointer Selected(vtkUnstructuredGrid* grid, double lower, double upper)
+{
+  vtkNew<vtkThreshold> threshold;
+  threshold->SetInputData(grid);
+  threshold->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "PatchId");
+  threshold->SetLowerThreshold(lower);
+  threshold->SetUpperThreshold(upper);
+  threshold->Update();
+  return threshold->GetOutput();
+}
+
+/// Faces a, then faces b, nothing shared.
+TrimmedModel Joined(const TrimmedModel& a, const TrimmedModel& b)
+{
+  TrimmedModel both = a;
+  for (TrimmedFace face : b.Faces)
+  {
+    for (TrimmedLoop& loop : face.Loops)
+    {
+      for (TrimmingCurve& use : loop.Curves)
+      {
+        use.Edge += a.NumEdges;
+        use.Vertices[0] += a.NumVertices;
+        use.Vertices[1] += a.NumVertices;
+      }
+    }
+    both.Faces.push_back(face);
+  }
+  both.NumEdges += b.NumEdges;
+  both.NumVertices += b.NumVertices;
+  return both;
+}
+
+/// Edges and vertices in the order of their first use, as decoding numbers them.
+TrimmedModel Renumbered(TrimmedModel model)
+{
+  std::map<int, int> edges;
+  std::map<int, int> vertices;
+  for (TrimmedFace& face : model.Faces)
+  {
+    for (TrimmedLoop& loop : face.Loops)
+    {
+      for (TrimmingCurve& use : loop.Curves)
+      {
+        use.Edge = edges.emplace(use.Edge, static_cast<int>(edges.size())).first->second;
+        for (int& vertex : use.Vertices)
+        {
+          vertex = vertices.emplace(vertex, static_cast<int>(vertices.size())).first->second;
+        }
+      }
+    }
+  }
+  model.NumEdges = static_cast<int>(edges.size());
+  model.NumVertices = static_cast<int>(vertices.size());
+  return model;
+}
+
+TEST(TrimmedGrids, CarryTheWholeModel_ExactOracle)
+{
+  for (unsigned seed = 1; seed <= 5; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const TrimmedModel model = Renumbered(TwoFaces(seed));
+    const Grids grids(model);
+    EXPECT_TRUE(Identical(grids.Decode(), model));
+    EXPECT_TRUE(Identical(Grids(grids.Decode()).Decode(), model));
+    EXPECT_EQ(grids.Surfaces->GetNumberOfCells(), 6 + 4);
+    EXPECT_EQ(grids.Curves->GetNumberOfCells(), (4 + 3) + 2 + (4 + 5));
+    // a difference is found
+    TrimmedModel other = model;
+    other.Faces[1].Loops[0].Curves[0].UV(0, 1) += 1e-12;
+    EXPECT_FALSE(Identical(grids.Decode(), other));
+  }
+}
+
+TEST(TrimmedGrids, AreBezierGridsThatVtkReadsAndWrites_ExactOracle)
+{
+  const TrimmedModel model = Renumbered(TwoFaces());
+  const Grids grids(model);
+  const auto through = [](vtkUnstructuredGrid* grid, int mode)
+  {
+    vtkNew<vtkXMLUnstructuredGridWriter> writer;
+    writer->SetInputData(grid);
+    writer->SetWriteToOutputString(true);
+    writer->SetDataMode(mode);
+    EXPECT_EQ(writer->Write(), 1);
+    vtkNew<vtkXMLUnstructuredGridReader> reader;
+    reader->SetReadFromInputString(true);
+    reader->SetInputString(writer->GetOutputString());
+    reader->Update();
+    return GridPointer(reader->GetOutput());
+  };
+  for (int mode : { vtkXMLWriter::Ascii, vtkXMLWriter::Binary, vtkXMLWriter::Appended })
+  {
+    SCOPED_TRACE(mode);
+    const Grids read(through(grids.Surfaces, mode), through(grids.Curves, mode));
+    EXPECT_TRUE(Identical(read.Decode(), model));
+  }
+}
+
+TEST(TrimmedGrids, MoveWithTheirPoints_ExactOracle)
+{
+  TrimmedModel model = Renumbered(TwoFaces());
+  const Grids grids(model);
+  vtkNew<vtkTransform> transform;
+  transform->Translate(3, -2, 1);
+  transform->RotateWXYZ(37, 1, 2, 3);
+  transform->Scale(2, 1, 0.5);
+  const Grids moved(Moved(grids.Surfaces, transform), Moved(grids.Curves, transform));
+  const TrimmedModel found = moved.Decode();
+  ASSERT_EQ(found.Faces.size(), model.Faces.size());
+  const auto distance = [&](const PointMatrix& from, const PointMatrix& to)
+  {
+    double largest = 0.0;
+    for (Eigen::Index i = 0; i < from.rows(); ++i)
+    {
+      Eigen::RowVector3d image;
+      transform->TransformPoint(from.row(i).data(), image.data());
+      largest = std::max(largest, (image - to.row(i)).cwiseAbs().maxCoeff());
+    }
+    return largest;
+  };
+  // recovery from Bezier points of size 8: rounding times its amplification, below 100 here
+  const double tolerance = 64 * 100 * 8 * std::numeric_limits<double>::epsilon();
+  for (std::size_t f = 0; f < model.Faces.size(); ++f)
+  {
+    EXPECT_LE(distance(model.Faces[f].Surface.ControlPoints, found.Faces[f].Surface.ControlPoints),
+      tolerance);
+    model.Faces[f].Surface = found.Faces[f].Surface;
+    for (std::size_t l = 0; l < model.Faces[f].Loops.size(); ++l)
+    {
+      for (std::size_t c = 0; c < model.Faces[f].Loops[l].Curves.size(); ++c)
+      {
+        TrimmingCurve& before = model.Faces[f].Loops[l].Curves[c];
+        const TrimmingCurve& after = found.Faces[f].Loops[l].Curves[c];
+        EXPECT_LE(distance(before.Curve.ControlPoints, after.Curve.ControlPoints), tolerance);
+        EXPECT_LE((before.UV - after.UV).cwiseAbs().maxCoeff(), tolerance);
+        before.Curve = after.Curve;
+        before.UV = after.UV;
+      }
+    }
+  }
+  EXPECT_TRUE(Identical(found, model)) << "names, colours, numbers";
+}
+
+TEST(TrimmedGrids, ASelectedFaceKeepsItsLoops_ExactOracle)
+{
+  const TrimmedModel model = TwoFaces();
+  const Grids grids(model);
+  for (int face : { 0, 1 })
+  {
+    TrimmedModel alone = model;
+    alone.Faces = { model.Faces[static_cast<std::size_t>(face)] };
+    const Grids selected(Selected(grids.Surfaces, face, face), grids.Curves);
+    EXPECT_TRUE(Identical(selected.Decode(), Renumbered(alone)));
+  }
+}
+
+TEST(TrimmedGrids, SeveralModelsInOneGrid_ExactOracle)
+{
+  const TrimmedModel first = TwoFaces(1);
+  const TrimmedModel second = TwoFaces(2); // the same bases, other points
+  const Grids a(first);
+  const Grids b(second);
+  const auto decode =
+    [](const std::vector<GridPointer>& surfaces, const std::vector<GridPointer>& curves)
+  {
+    auto model = DecodeTrimmedModel(Appended(surfaces), Appended(curves));
+    EXPECT_TRUE(model) << model.Status.Message();
+    return model.Value;
+  };
+  const TrimmedModel both = decode({ a.Surfaces, b.Surfaces }, { a.Curves, b.Curves });
+  EXPECT_EQ(both.NumEdges, 8);
+  EXPECT_EQ(both.NumVertices, 6);
+  // what is appended last has lost its cached control points: recovered, to rounding
+  const TrimmedModel expected = Renumbered(Joined(first, second));
+  ASSERT_EQ(both.Faces.size(), 4U);
+  for (std::size_t f = 0; f < 4; ++f)
+  {
+    const TrimmedFace& face = expected.Faces[f];
+    EXPECT_LE((both.Faces[f].Surface.ControlPoints - face.Surface.ControlPoints).norm(), 1e-12);
+    ASSERT_EQ(both.Faces[f].Loops.size(), face.Loops.size());
+    for (std::size_t l = 0; l < face.Loops.size(); ++l)
+    {
+      ASSERT_EQ(both.Faces[f].Loops[l].Curves.size(), face.Loops[l].Curves.size());
+      for (std::size_t c = 0; c < face.Loops[l].Curves.size(); ++c)
+      {
+        const TrimmingCurve& x = face.Loops[l].Curves[c];
+        const TrimmingCurve& y = both.Faces[f].Loops[l].Curves[c];
+        EXPECT_LE(
+          (x.UV - y.UV).norm() + (x.Curve.ControlPoints - y.Curve.ControlPoints).norm(), 1e-12);
+        EXPECT_EQ(x.Edge, y.Edge);
+        EXPECT_EQ(x.Vertices, y.Vertices);
+      }
+    }
+  }
+  // a model and its moved copy
+  vtkNew<vtkTransform> transform;
+  transform->Translate(0, 0, 5);
+  const TrimmedModel copies =
+    decode({ a.Surfaces, Moved(a.Surfaces, transform) }, { a.Curves, Moved(a.Curves, transform) });
+  ASSERT_EQ(copies.Faces.size(), 4U);
+  EXPECT_EQ(copies.NumEdges, 8);
+  const auto height = [&](std::size_t face)
+  { return copies.Faces[face].Loops[0].Curves[0].Curve.ControlPoints(0, 2); };
+  EXPECT_NEAR(height(2) - height(0), 5.0, 1e-12);
+  EXPECT_NEAR(height(3) - height(1), 5.0, 1e-12);
+}
+
+TEST(TrimmedGrids, CollectionsOfModels_ExactOracle)
+{
+  const TrimmedModel first = TwoFaces(1);
+  const TrimmedModel second = TwoFaces(2, 4);
+  const Grids a(first);
+  const Grids b(second);
+  const auto collect = [](const std::vector<GridPointer>& grids)
+  {
+    auto collection = vtkSmartPointer<vtkPartitionedDataSetCollection>::New();
+    for (unsigned int i = 0; i < grids.size(); ++i)
+    {
+      vtkNew<vtkPartitionedDataSet> block;
+      block->SetPartition(0, grids[i]);
+      collection->SetPartitionedDataSet(i, block);
+    }
+    return collection;
+  };
+  const auto model =
+    DecodeTrimmedModel(collect({ a.Surfaces, b.Surfaces }), collect({ a.Curves, b.Curves }));
+  ASSERT_TRUE(model) << model.Status.Message();
+  EXPECT_TRUE(Identical(model.Value, Renumbered(Joined(first, second))));
+}
+
+TEST(TrimmedGrids, FacesWithoutCurves_PropertyOracle)
+{
+  TrimmedModel whole = TwoFaces();
+  const Grids trimmed(whole);
+  std::vector<std::string> warnings;
+  auto found = DecodeTrimmedModel(trimmed.Surfaces, nullptr, &warnings);
+  ASSERT_TRUE(found) << found.Status.Message();
+  EXPECT_EQ(warnings.size(), 1U);
+  EXPECT_TRUE(found->Faces[0].Loops.empty());
+  for (TrimmedFace& face : whole.Faces)
+  {
+    face.Loops.clear();
+  }
+  whole.NumEdges = whole.NumVertices = 0;
+  EXPECT_TRUE(Identical(found.Value, whole));
+  // never trimmed: nothing is missing, with and without an (empty) grid of curves
+  const Grids untrimmed(whole);
+  EXPECT_EQ(untrimmed.Curves->GetNumberOfCells(), 0);
+  EXPECT_TRUE(Identical(untrimmed.Decode(), whole));
+  // any spline grid of surfaces is a model
+  for (const char* name : { "ModelId", "FaceId", "FaceReversed", "Body", "TrimmingCurves" })
+  {
+    untrimmed.Surfaces->GetCellData()->RemoveArray(name);
+  }
+  warnings.clear();
+  found = DecodeTrimmedModel(untrimmed.Surfaces, nullptr, &warnings);
+  ASSERT_TRUE(found) << found.Status.Message();
+  EXPECT_TRUE(warnings.empty());
+  EXPECT_EQ(found->Faces.size(), 2U);
+}
+
+void SetAll(vtkUnstructuredGrid* grid, const char* name, double from, double to)
+{
+  vtkDataArray* array = grid->GetCellData()->GetArray(name);
+  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
+  {
+    if (array->GetComponent(cell, 0) == from)
+    {
+      array->SetComponent(cell, 0, to);
+    }
+  }
+}
+
+TEST(TrimmedGrids, DamageIsRefused)
+{
+  struct Damage
+  {
+    const char* Name;
+    std::function<void(Grids&)> Do;
+    ErrorCode Code;
+    const char* Words;
+  };
+  const auto without = [](const char* name)
+  { return [name](Grids& grids) { grids.Curves->GetCellData()->RemoveArray(name); }; };
+  std::vector<Damage> damages = {
+    { "plane curves", [](Grids& grids) { grids.Curves->GetPointData()->RemoveArray("UV"); },
+      ErrorCode::InvalidTopology, "'UV'" },
+    { "NaN in UV",
+      [](Grids& grids)
+      {
+        grids.Curves->GetPointData()->GetArray("UV")->SetComponent(
+          3, 1, std::numeric_limits<double>::quiet_NaN());
+      },
+      ErrorCode::NonFiniteInput, "UV" },
+    { "NaN in a point",
+      [](Grids& grids) { grids.Surfaces->GetPoints()->SetPoint(4, std::nan(""), 0.0, 0.0); },
+      ErrorCode::NonFiniteInput, "surfaces" },
+    { "curves of another model", [](Grids& grids) { grids.Curves = Grids(TwoFaces(7)).Curves; },
+      ErrorCode::InvalidTopology, "face 0 has 0 of its 3" },
+    { "a curve is missing", [](Grids& grids) { grids.Curves = Selected(grids.Curves, 1, 9); },
+      ErrorCode::InvalidTopology, "face 0 has 2 of its 3" },
+    { "an element is missing",
+      [](Grids& grids)
+      {
+        vtkNew<vtkThreshold> threshold;
+        threshold->SetInputData(grids.Surfaces);
+        threshold->SetInputArrayToProcess(
+          0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "ElementId");
+        threshold->SetLowerThreshold(1);
+        threshold->SetUpperThreshold(99);
+        threshold->Update();
+        grids.Surfaces = threshold->GetOutput();
+      },
+      ErrorCode::InvalidTopology, "missing: 0" },
+    { "one edge, two curves", [](Grids& grids) { SetAll(grids.Curves, "EdgeId", 1, 0); },
+      ErrorCode::InvalidTopology, "edge 0 has two different" },
+    { "open loop", [](Grids& grids) { SetAll(grids.Curves, "BeginVertex", 1, 2); },
+      ErrorCode::InvalidTopology, "does not end where" },
+    { "loop left out", [](Grids& grids) { SetAll(grids.Curves, "LoopId", 1, 2); },
+      ErrorCode::InvalidTopology, "loop 2" },
+    { "place taken twice", [](Grids& grids) { SetAll(grids.Curves, "CurveId", 1, 0); },
+      ErrorCode::InvalidTopology, "face 0 has 2 of its 3" },
+    { "numbers differ within a patch",
+      [](Grids& grids) { grids.Curves->GetCellData()->GetArray("LoopId")->SetTuple1(1, 1); },
+      ErrorCode::InvalidTopology, "differs between its cells" },
+    { "no whole number",
+      [](Grids& grids)
+      {
+        vtkNew<vtkDoubleArray> body;
+        body->SetName("Body");
+        body->SetNumberOfTuples(grids.Surfaces->GetNumberOfCells());
+        body->Fill(0.5);
+        grids.Surfaces->GetCellData()->AddArray(body);
+      },
+      ErrorCode::InvalidTopology, "'Body' is not a whole number" },
+    { "numbers of two components",
+      [](Grids& grids)
+      {
+        vtkNew<vtkIntArray> body;
+        body->SetName("Body");
+        body->SetNumberOfComponents(2);
+        body->SetNumberOfTuples(grids.Surfaces->GetNumberOfCells());
+        body->Fill(0.0);
+        grids.Surfaces->GetCellData()->AddArray(body);
+      },
+      ErrorCode::InvalidTopology, "'Body' is not one number a cell" },
+    { "curves in the place of surfaces",
+      [](Grids& grids) { std::swap(grids.Surfaces, grids.Curves); }, ErrorCode::DimensionMismatch,
+      "no tensor-product surface" },
+    { "no surfaces", [](Grids& grids) { grids.Surfaces = GridPointer::New(); },
+      ErrorCode::EmptyInput, "no surfaces" },
+  };
+  for (const char* name : { "FaceId", "LoopId", "CurveId", "EdgeId", "BeginVertex", "EndVertex" })
+  {
+    damages.push_back({ name, without(name), ErrorCode::InvalidTopology, "is missing" });
+  }
+  for (const Damage& damage : damages)
+  {
+    SCOPED_TRACE(damage.Name);
+    Grids grids(TwoFaces());
+    damage.Do(grids);
+    const auto found = DecodeTrimmedModel(grids.Surfaces, grids.Curves);
+    EXPECT_EQ(found.Status.Code, damage.Code) << found.Status.Message();
+    EXPECT_NE(found.Status.Detail.find(damage.Words), std::string::npos) << found.Status.Detail;
+  }
+  EXPECT_EQ(DecodeTrimmedModel(nullptr, nullptr).Status.Code, ErrorCode::InvalidTopology);
+}
+
+TEST(TrimmedGrids, BadModelsAreNotWritten)
+{
+  TrimmedModel model = TwoFaces();
+  model.Faces[0].Loops[0].Curves[0].Edge = 9;
+  vtkNew<vtkUnstructuredGrid> surfaces;
+  vtkNew<vtkUnstructuredGrid> curves;
+  EXPECT_EQ(EncodeTrimmedModel(model, surfaces, curves).Code, ErrorCode::InvalidTopology);
+  EXPECT_EQ(EncodeTrimmedModel({}, surfaces, curves).Code, ErrorCode::EmptyInput);
+}
+}

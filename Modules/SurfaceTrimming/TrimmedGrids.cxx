@@ -1,0 +1,524 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TrimmedGrids.h"
+
+#include "SplineBlocks.h"
+#include "SplineModel.h"
+#include "SplineSchema.h"
+
+#include "vtkCellData.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkStringArray.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <tuple>
+
+namespace knotwork
+{
+namespace
+{
+constexpr const char* PlaneCurve = "UV";
+
+/// Equal for equal models; tells the faces and edges of several models apart.
+int ModelNumber(const TrimmedModel& model)
+{
+  Checksum sum;
+  for (const TrimmedFace& face : model.Faces)
+  {
+    sum.Add(face.Surface.ControlPoints);
+    for (const TrimmedLoop& loop : face.Loops)
+    {
+      for (const TrimmingCurve& use : loop.Curves)
+      {
+        sum.Add(use.Curve.ControlPoints);
+        sum.Add(use.UV);
+      }
+    }
+  }
+  return static_cast<int>(
+    sum.Value() & static_cast<std::uint64_t>(std::numeric_limits<int>::max()));
+}
+
+/// One number a patch as a cell array.
+void AddNumbers(vtkUnstructuredGrid* grid, const char* arrayName, const std::vector<int>& ofPatch)
+{
+  vtkDataArray* patches = grid->GetCellData()->GetArray(name::PatchId);
+  vtkNew<vtkIntArray> array;
+  array->SetName(arrayName);
+  array->SetNumberOfTuples(grid->GetNumberOfCells());
+  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
+  {
+    array->SetValue(cell, ofPatch[static_cast<std::size_t>(patches->GetTuple1(cell))]);
+  }
+  grid->GetCellData()->AddArray(array);
+}
+
+void AddColors(vtkUnstructuredGrid* grid, const std::vector<TrimmedFace>& faces)
+{
+  vtkDataArray* patches = grid->GetCellData()->GetArray(name::PatchId);
+  vtkNew<vtkUnsignedCharArray> colors;
+  colors->SetName("Color");
+  colors->SetNumberOfComponents(4); // filters that turn vectors leave these alone
+  colors->SetNumberOfTuples(grid->GetNumberOfCells());
+  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
+  {
+    const TrimmedFace& face = faces[static_cast<std::size_t>(patches->GetTuple1(cell))];
+    for (int c = 0; c < 3; ++c)
+    {
+      const double value = std::clamp(face.Color[static_cast<std::size_t>(c)], 0.0, 1.0);
+      colors->SetTypedComponent(cell, c, static_cast<unsigned char>(std::lround(255.0 * value)));
+    }
+    colors->SetTypedComponent(cell, 3, face.HasColor ? 255 : 0);
+  }
+  grid->GetCellData()->AddArray(colors);
+}
+
+void AddNames(vtkUnstructuredGrid* grid, const std::vector<TrimmedFace>& faces)
+{
+  vtkDataArray* patches = grid->GetCellData()->GetArray(name::PatchId);
+  vtkNew<vtkStringArray> names;
+  names->SetName("Name");
+  names->SetNumberOfValues(grid->GetNumberOfCells());
+  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
+  {
+    names->SetValue(cell, faces[static_cast<std::size_t>(patches->GetTuple1(cell))].Name);
+  }
+  grid->GetCellData()->AddArray(names);
+}
+
+/// A decoded grid, its patches in the order of the cells, whose cell arrays are looked up by patch.
+class PatchReader
+{
+public:
+  PatchReader(std::string what, vtkDataObject* data) : What(std::move(what))
+  {
+    auto decoded = DecodeSplineModel(data);
+    this->Outcome = decoded.Status;
+    if (!decoded)
+    {
+      this->Outcome.Detail = this->What + ": " + this->Outcome.Detail;
+      return;
+    }
+    this->Model = std::move(decoded.Value);
+    const auto begin = [](const SplinePatch& patch) {
+      return std::make_pair(patch.Block, *std::min_element(patch.Cells.begin(), patch.Cells.end()));
+    };
+    std::sort(this->Model.Patches.begin(), this->Model.Patches.end(),
+      [&](const SplinePatch& a, const SplinePatch& b) { return begin(a) < begin(b); });
+    this->Grids = GridsByBlock(data);
+  }
+
+  std::string Place(const SplinePatch& patch) const
+  {
+    return this->What + ", patch " + std::to_string(patch.Id);
+  }
+
+  template <typename Array>
+  Array* Find(const SplinePatch& patch, const char* arrayName) const
+  {
+    vtkUnstructuredGrid* grid = this->Grids.at(patch.Block);
+    return Array::SafeDownCast(grid->GetCellData()->GetAbstractArray(arrayName));
+  }
+
+  /// A whole number, the same in all cells of the patch.
+  /// @param otherwise  when there is no such array; nothing: that is an error.
+  Status ReadNumber(const SplinePatch& patch, const char* arrayName, std::optional<int> otherwise,
+    int& number) const
+  {
+    const std::string where = this->Place(patch) + ": cell array '" + arrayName + "' ";
+    vtkUnstructuredGrid* grid = this->Grids.at(patch.Block);
+    if (!grid->GetCellData()->HasArray(arrayName))
+    {
+      if (!otherwise)
+      {
+        return { ErrorCode::InvalidTopology, where + "is missing" };
+      }
+      number = *otherwise;
+      return {};
+    }
+    auto* array = this->Find<vtkDataArray>(patch, arrayName);
+    if (!array || array->GetNumberOfComponents() != 1)
+    {
+      return { ErrorCode::InvalidTopology, where + "is not one number a cell" };
+    }
+    const double value = array->GetComponent(patch.Cells.front(), 0);
+    if (!(std::abs(value) <= std::numeric_limits<int>::max()) || value != std::floor(value))
+    {
+      return { ErrorCode::InvalidTopology, where + "is not a whole number" };
+    }
+    const auto differs = [&](vtkIdType cell) { return array->GetComponent(cell, 0) != value; };
+    if (std::any_of(patch.Cells.begin(), patch.Cells.end(), differs))
+    {
+      return { ErrorCode::InvalidTopology, where + "differs between its cells" };
+    }
+    number = static_cast<int>(value);
+    return {};
+  }
+
+  std::string What;
+  Status Outcome;
+  SplineModel Model;
+
+private:
+  std::map<int, vtkSmartPointer<vtkUnstructuredGrid>> Grids;
+};
+
+/// The numbers that place a use of an edge.
+struct UseNumbers
+{
+  int Model = 0;
+  int Face = 0;
+  int Loop = 0;
+  int Curve = 0;
+  int Edge = 0;
+  int Begin = 0;
+  int End = 0;
+  int Reversed = 0;
+};
+
+/// Block, model, number within the model, which of its copies.
+using Key = std::array<int, 4>;
+
+struct FaceUses
+{
+  int Index = 0;                                     ///< in TrimmedModel::Faces
+  int Expected = 0;                                  ///< trimming curves; -1: not known
+  std::map<std::pair<int, int>, TrimmingCurve> Uses; ///< by loop and place in it
+};
+
+class ModelReader
+{
+public:
+  ModelReader(vtkDataObject* surfaces, std::vector<std::string>* warnings)
+    : Surfaces("surfaces", surfaces), Warnings(warnings)
+  {
+  }
+  Result<TrimmedModel> Read(vtkDataObject* curves);
+
+private:
+  Status ReadFace(const SplinePatch& patch);
+  void ReadLook(const SplinePatch& patch, TrimmedFace& face) const;
+  Status ReadUse(const PatchReader& curves, const SplinePatch& patch);
+  Status ShareEdge(const std::string& place, const Key& edge, TrimmingCurve& use);
+  Status AssembleLoops(const std::string& place, const FaceUses& uses, TrimmedFace& face) const;
+  void Warn(const std::vector<std::string>& texts)
+  {
+    if (this->Warnings)
+    {
+      this->Warnings->insert(this->Warnings->end(), texts.begin(), texts.end());
+    }
+  }
+
+  PatchReader Surfaces;
+  std::vector<std::string>* Warnings;
+  TrimmedModel Model;
+  std::map<Key, FaceUses> Faces;
+  std::map<std::array<int, 5>, int> Copies; // of a use: block, model, face, loop, curve
+  std::map<Key, TrimmingCurve> Edges;       // the first use of each
+  std::map<Key, int> Vertices;
+};
+
+Status ModelReader::ReadFace(const SplinePatch& patch)
+{
+  const auto* surface = std::get_if<Spline<2>>(&patch.Geometry);
+  if (!surface || surface->Space->Kind != SpaceKind::Tensor)
+  {
+    return { ErrorCode::DimensionMismatch,
+      this->Surfaces.Place(patch) + " is no tensor-product surface" };
+  }
+  TrimmedFace face;
+  face.Surface = *surface;
+  FaceUses uses;
+  int model = 0;
+  int id = 0;
+  int reversed = 0;
+  const std::tuple<const char*, int, int*> numbers[] = { { "ModelId", 0, &model },
+    { "FaceId", patch.Id, &id }, { "FaceReversed", 0, &reversed }, { "Body", 0, &face.Body },
+    { "TrimmingCurves", -1, &uses.Expected } };
+  for (const auto& [arrayName, otherwise, number] : numbers)
+  {
+    if (Status status = this->Surfaces.ReadNumber(patch, arrayName, otherwise, *number); !status)
+    {
+      return status;
+    }
+  }
+  face.Reversed = reversed != 0;
+  this->ReadLook(patch, face);
+  uses.Index = static_cast<int>(this->Model.Faces.size());
+  Key key{ patch.Block, model, id, 0 };
+  while (!this->Faces.emplace(key, uses).second)
+  {
+    ++key[3];
+  }
+  this->Model.Faces.push_back(std::move(face));
+  return {};
+}
+
+void ModelReader::ReadLook(const SplinePatch& patch, TrimmedFace& face) const
+{
+  const vtkIdType cell = patch.Cells.front();
+  if (auto* names = this->Surfaces.Find<vtkStringArray>(patch, "Name"))
+  {
+    face.Name = names->GetValue(cell);
+  }
+  auto* colors = this->Surfaces.Find<vtkUnsignedCharArray>(patch, "Color");
+  if (colors && colors->GetNumberOfComponents() >= 3)
+  {
+    face.HasColor = colors->GetNumberOfComponents() == 3 || colors->GetTypedComponent(cell, 3) > 0;
+    for (int c = 0; c < 3; ++c)
+    {
+      face.Color[static_cast<std::size_t>(c)] =
+        face.HasColor ? colors->GetTypedComponent(cell, c) / 255.0 : 0.0;
+    }
+  }
+}
+
+/// Uses of one edge have one curve: the first one that was read.
+Status ModelReader::ShareEdge(const std::string& place, const Key& edge, TrimmingCurve& use)
+{
+  const auto [found, isNew] = this->Edges.emplace(edge, use);
+  if (isNew)
+  {
+    found->second.Edge = this->Model.NumEdges++;
+  }
+  const TrimmingCurve& first = found->second;
+  const Spline<1>& a = first.Curve;
+  const Spline<1>& b = use.Curve;
+  // recovered from points of single precision, after a filter that moved them
+  const double size = a.ControlPoints.cwiseAbs().maxCoeff();
+  const double rounding = 1024.0 * static_cast<double>(std::numeric_limits<float>::epsilon());
+  if (!(a.Space->Knots[0] == b.Space->Knots[0]) || a.IsRational() != b.IsRational() ||
+    !((a.ControlPoints - b.ControlPoints).cwiseAbs().maxCoeff() <= rounding * size) ||
+    first.Vertices != use.Vertices)
+  {
+    return { ErrorCode::InvalidTopology,
+      place + ": edge " + std::to_string(edge[2]) + " has two different curves" };
+  }
+  use.Curve = a;
+  use.Edge = first.Edge;
+  return {};
+}
+
+Status ModelReader::ReadUse(const PatchReader& curves, const SplinePatch& patch)
+{
+  const std::string place = curves.Place(patch);
+  UseNumbers n;
+  const std::tuple<const char*, std::optional<int>, int*> numbers[] = { { "ModelId", 0, &n.Model },
+    { "FaceId", {}, &n.Face }, { "LoopId", {}, &n.Loop }, { "CurveId", {}, &n.Curve },
+    { "EdgeId", {}, &n.Edge }, { "BeginVertex", {}, &n.Begin }, { "EndVertex", {}, &n.End },
+    { "Reversed", 0, &n.Reversed } };
+  for (const auto& [arrayName, otherwise, number] : numbers)
+  {
+    if (Status status = curves.ReadNumber(patch, arrayName, otherwise, *number); !status)
+    {
+      return status;
+    }
+  }
+  const int copy = this->Copies[{ patch.Block, n.Model, n.Face, n.Loop, n.Curve }]++;
+  const auto face = this->Faces.find({ patch.Block, n.Model, n.Face, copy });
+  if (face == this->Faces.end()) // was not selected
+  {
+    return {};
+  }
+  const auto* curve = std::get_if<Spline<1>>(&patch.Geometry);
+  if (!curve || curve->Space->Kind != SpaceKind::Tensor)
+  {
+    return { ErrorCode::DimensionMismatch, place + " is no B-spline curve" };
+  }
+  const auto field = std::find_if(patch.Fields.begin(), patch.Fields.end(),
+    [](const SplineField& candidate) { return candidate.Name == PlaneCurve; });
+  if (field == patch.Fields.end() || field->Coefficients.cols() != 2)
+  {
+    return { ErrorCode::InvalidTopology,
+      place + ": the point array 'UV' with two components is missing" };
+  }
+  TrimmingCurve use;
+  use.Curve = *curve;
+  use.UV = field->Coefficients;
+  use.Reversed = n.Reversed != 0;
+  for (std::size_t end = 0; end < 2; ++end)
+  {
+    const Key vertex{ patch.Block, n.Model, end == 0 ? n.Begin : n.End, copy };
+    const int next = static_cast<int>(this->Vertices.size());
+    use.Vertices[end] = this->Vertices.emplace(vertex, next).first->second;
+  }
+  if (Status status = this->ShareEdge(place, { patch.Block, n.Model, n.Edge, copy }, use); !status)
+  {
+    return status;
+  }
+  face->second.Uses[{ n.Loop, n.Curve }] = std::move(use);
+  return {};
+}
+
+Status ModelReader::AssembleLoops(
+  const std::string& place, const FaceUses& uses, TrimmedFace& face) const
+{
+  const auto found = static_cast<int>(uses.Uses.size());
+  if (uses.Expected >= 0 && uses.Expected != found)
+  {
+    return { ErrorCode::InvalidTopology,
+      place + " has " + std::to_string(found) + " of its " + std::to_string(uses.Expected) +
+        " trimming curves; keep or remove whole faces, and use curves of the same model" };
+  }
+  for (const auto& [at, use] : uses.Uses)
+  {
+    const auto [loop, curve] = at;
+    if (loop == static_cast<int>(face.Loops.size()))
+    {
+      face.Loops.emplace_back();
+    }
+    if (loop + 1 != static_cast<int>(face.Loops.size()) ||
+      curve != static_cast<int>(face.Loops.back().Curves.size()))
+    {
+      return { ErrorCode::InvalidTopology,
+        place + ": LoopId and CurveId leave out what comes before loop " + std::to_string(loop) +
+          ", curve " + std::to_string(curve) };
+    }
+    face.Loops.back().Curves.push_back(use);
+  }
+  return {};
+}
+
+Result<TrimmedModel> ModelReader::Read(vtkDataObject* curves)
+{
+  if (!this->Surfaces.Outcome)
+  {
+    return this->Surfaces.Outcome;
+  }
+  this->Warn(this->Surfaces.Model.Warnings);
+  if (this->Surfaces.Model.Patches.empty())
+  {
+    return { ErrorCode::EmptyInput, "there are no surfaces" };
+  }
+  for (const SplinePatch& patch : this->Surfaces.Model.Patches)
+  {
+    if (Status status = this->ReadFace(patch); !status)
+    {
+      return status;
+    }
+  }
+  if (!curves)
+  {
+    const auto trimmed = [](const auto& face) { return face.second.Expected > 0; };
+    if (std::any_of(this->Faces.begin(), this->Faces.end(), trimmed))
+    {
+      this->Warn({ "trimming curves are not given: the faces are the whole surfaces" });
+    }
+    return this->Model;
+  }
+  const PatchReader reader("curves", curves);
+  if (!reader.Outcome)
+  {
+    return reader.Outcome;
+  }
+  this->Warn(reader.Model.Warnings);
+  for (const SplinePatch& patch : reader.Model.Patches)
+  {
+    if (Status status = this->ReadUse(reader, patch); !status)
+    {
+      return status;
+    }
+  }
+  this->Model.NumVertices = static_cast<int>(this->Vertices.size());
+  for (const auto& [key, uses] : this->Faces)
+  {
+    TrimmedFace& face = this->Model.Faces[static_cast<std::size_t>(uses.Index)];
+    const std::string place = "face " + std::to_string(key[2]);
+    if (Status status = this->AssembleLoops(place, uses, face); !status)
+    {
+      return status;
+    }
+  }
+  if (Status status = this->Model.Check(); !status)
+  {
+    return status;
+  }
+  return this->Model;
+}
+}
+
+Status EncodeTrimmedModel(
+  const TrimmedModel& model, vtkUnstructuredGrid* surfaces, vtkUnstructuredGrid* curves)
+{
+  if (Status status = model.Check(); !status)
+  {
+    return status;
+  }
+  SplineModel faces;
+  SplineModel uses;
+  std::map<std::string, std::vector<int>> ofFace;
+  std::map<std::string, std::vector<int>> ofUse;
+  const int modelNumber = ModelNumber(model);
+  for (const TrimmedFace& face : model.Faces)
+  {
+    const auto f = static_cast<int>(faces.Patches.size());
+    faces.Patches.emplace_back();
+    faces.Patches.back().Id = f;
+    faces.Patches.back().Geometry = face.Surface;
+    const std::size_t before = uses.Patches.size();
+    for (std::size_t l = 0; l < face.Loops.size(); ++l)
+    {
+      for (std::size_t c = 0; c < face.Loops[l].Curves.size(); ++c)
+      {
+        const TrimmingCurve& use = face.Loops[l].Curves[c];
+        SplinePatch patch;
+        patch.Id = static_cast<int>(uses.Patches.size());
+        patch.Geometry = use.Curve;
+        patch.Fields = { { PlaneCurve, use.UV } };
+        uses.Patches.push_back(std::move(patch));
+        ofUse["ModelId"].push_back(modelNumber);
+        ofUse["FaceId"].push_back(f);
+        ofUse["LoopId"].push_back(static_cast<int>(l));
+        ofUse["CurveId"].push_back(static_cast<int>(c));
+        ofUse["EdgeId"].push_back(use.Edge);
+        ofUse["BeginVertex"].push_back(use.Vertices[0]);
+        ofUse["EndVertex"].push_back(use.Vertices[1]);
+        ofUse["Reversed"].push_back(use.Reversed ? 1 : 0);
+      }
+    }
+    ofFace["ModelId"].push_back(modelNumber);
+    ofFace["FaceId"].push_back(f);
+    ofFace["FaceReversed"].push_back(face.Reversed ? 1 : 0);
+    ofFace["Body"].push_back(face.Body);
+    ofFace["TrimmingCurves"].push_back(static_cast<int>(uses.Patches.size() - before));
+  }
+  Status status = EncodeSplineGrid(faces, surfaces);
+  status = status ? EncodeSplineGrid(uses, curves) : status;
+  if (!status)
+  {
+    return status;
+  }
+  for (const auto& [arrayName, numbers] : ofFace)
+  {
+    AddNumbers(surfaces, arrayName.c_str(), numbers);
+  }
+  for (const auto& [arrayName, numbers] : ofUse)
+  {
+    AddNumbers(curves, arrayName.c_str(), numbers);
+  }
+  const auto any = [&](auto has)
+  { return std::any_of(model.Faces.begin(), model.Faces.end(), has); };
+  if (any([](const TrimmedFace& face) { return face.HasColor; }))
+  {
+    AddColors(surfaces, model.Faces);
+  }
+  if (any([](const TrimmedFace& face) { return !face.Name.empty(); }))
+  {
+    AddNames(surfaces, model.Faces);
+  }
+  return {};
+}
+
+Result<TrimmedModel> DecodeTrimmedModel(
+  vtkDataObject* surfaces, vtkDataObject* curves, std::vector<std::string>* warnings)
+{
+  return ModelReader(surfaces, warnings).Read(curves);
+}
+}
