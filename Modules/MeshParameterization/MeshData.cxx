@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshData.h"
 
+#include "TableRow.h"
+
 #include "vtkCell.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -12,8 +14,6 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
-#include "vtkStringArray.h"
-#include "vtkTable.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
@@ -50,30 +50,6 @@ vtkSmartPointer<vtkPoints> PointsOf(
          : points->SetPoint(at, p.data());
   }
   return points;
-}
-
-void AddColumn(vtkTable* table, const char* name, double value)
-{
-  vtkNew<vtkDoubleArray> column;
-  column->SetName(name);
-  column->InsertNextValue(value);
-  table->AddColumn(column);
-}
-
-void AddColumn(vtkTable* table, const char* name, int value)
-{
-  vtkNew<vtkIntArray> column;
-  column->SetName(name);
-  column->InsertNextValue(value);
-  table->AddColumn(column);
-}
-
-void AddColumn(vtkTable* table, const char* name, const std::string& value)
-{
-  vtkNew<vtkStringArray> column;
-  column->SetName(name);
-  column->InsertNextValue(value);
-  table->AddColumn(column);
 }
 }
 

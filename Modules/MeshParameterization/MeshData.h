@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "MeshParameterization.h"
+#include "vtkKnotworkMeshParameterizationModule.h" // for export macro
 
 class vtkPointSet;
 class vtkPolyData;
@@ -17,7 +18,7 @@ struct DecodedMesh
 
 /// Triangles of a data set; vertices and lines are not looked at.
 /// @return InvalidTopology: other cells of two or three dimensions (ids).
-Result<DecodedMesh> DecodeMesh(vtkPointSet* data);
+VTKKNOTWORKMESHPARAMETERIZATION_EXPORT Result<DecodedMesh> DecodeMesh(vtkPointSet* data);
 
 /// The flattened triangles with the point and cell data of their origin, the point array `UV` (also
 /// the texture coordinates) and the cell arrays `SingularValues` and `Flipped`.

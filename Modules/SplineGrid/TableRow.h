@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tables of one row, as filters give their numbers.
+#pragma once
+#include "vtkDoubleArray.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkStringArray.h"
+#include "vtkTable.h"
+
+#include <string>
+
+namespace knotwork
+{
+template <typename Array, typename Value>
+void AddToRow(vtkTable* table, const char* name, const Value& value)
+{
+  vtkNew<Array> column;
+  column->SetName(name);
+  column->InsertNextValue(value);
+  table->AddColumn(column);
+}
+
+inline void AddColumn(vtkTable* table, const char* name, double value)
+{
+  AddToRow<vtkDoubleArray>(table, name, value);
+}
+
+inline void AddColumn(vtkTable* table, const char* name, int value)
+{
+  AddToRow<vtkIntArray>(table, name, value);
+}
+
+inline void AddColumn(vtkTable* table, const char* name, const std::string& value)
+{
+  AddToRow<vtkStringArray>(table, name, value);
+}
+}
