@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BackMap.h"
+#include "PenalizedFit.h"
+
+#include <cmath>
+
+namespace knotwork
+{
+namespace
+{
+Status CheckParams(const BackMapParams& params)
+{
+  const auto bad = [](const char* text) { return Status(ErrorCode::InvalidParameter, text); };
+  if (params.Degree < 1 || params.Degree > MaxDegree)
+  {
+    return bad("the degree of a back-map lies in [1, 9]");
+  }
+  if (params.Elements < 0 || params.Elements > 2000)
+  {
+    return bad("the spans of a back-map lie in [1, 2000]; 0 is by need");
+  }
+  if (params.MaxElements < 1 || params.MaxElements > 2000)
+  {
+    return bad("the most spans of a back-map lie in [1, 2000]");
+  }
+  if (!(params.Tolerance > 0.0) || !std::isfinite(params.Tolerance))
+  {
+    return bad("the tolerance of a back-map is not positive");
+  }
+  if (!(params.Margin >= 0.0 && params.Margin <= 1.0))
+  {
+    return bad("the margin of a back-map lies in [0, 1]");
+  }
+  if (!(params.Smoothing > 0.0) || !std::isfinite(params.Smoothing))
+  {
+    return bad("the smoothing of a back-map is not positive");
+  }
+  if (params.Centres < 10 || params.Centres > 20000)
+  {
+    return bad("the centres of a back-map lie in [10, 20000]");
+  }
+  if (params.Threads < 0)
+  {
+    return bad("a number of threads is negative");
+  }
+  return {};
+}
+}
+
+const char* ToString(BackMapMethod method)
+{
+  switch (method)
+  {
+    case BackMapMethod::Nurbs:
+      return "nurbs";
+    case BackMapMethod::Rbf:
+      return "rbf";
+    case BackMapMethod::Hybrid:
+      return "hybrid";
+    case BackMapMethod::Penalized:
+      break;
+  }
+  return "penalized";
+}
+
+Result<BackMap> FitBackMap(const ChartMesh& chart, const BackMapParams& params)
+{
+  Status status = chart.Check();
+  if (status)
+  {
+    status = CheckParams(params);
+  }
+  if (!status)
+  {
+    return status;
+  }
+  if (params.Method != BackMapMethod::Penalized)
+  {
+    return { ErrorCode::InvalidParameter,
+      std::string("back-maps by the method ") + ToString(params.Method) + " are not built" };
+  }
+  return FitPenalized(chart, params);
+}
+}
