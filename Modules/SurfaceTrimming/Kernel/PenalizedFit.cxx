@@ -23,6 +23,9 @@ constexpr double BendingShare = 0.25;
 /// Least weight of the thin-plate energy, by the fourth power of the longest side: Cholesky's
 /// rounding grows with its inverse.
 constexpr double LeastSmoothing = 1e-14;
+/// Weight of the length of bilinear splines, by the square of the longest side: their folds along
+/// knots are not seen by the thin-plate energy.
+constexpr double BilinearStretching = 1e-13;
 constexpr int MaxAttempts = 5;
 constexpr int MaxFunctions = 1500000;
 
@@ -134,13 +137,14 @@ Result<PointMatrix> Solve(
 {
   const NetKnots& knots = space.Knots;
   const std::array<double, 2> sides = Sides(knots);
-  const double fourth = std::pow(std::max(sides[0], sides[1]), 4.0);
-  double smoothing = std::max(
-    params.Smoothing * std::pow(FirstElements * SmallestSpan(knots), 4.0), LeastSmoothing * fourth);
+  const double longest = std::max(sides[0], sides[1]);
+  double smoothing = std::max(params.Smoothing * std::pow(FirstElements * SmallestSpan(knots), 4.0),
+    LeastSmoothing * std::pow(longest, 4.0));
+  const double stretching = params.Degree == 1 ? BilinearStretching * longest * longest : 0.0;
   Result<PointMatrix> solution;
   for (int attempt = 0; attempt < MaxAttempts; ++attempt, smoothing *= 100.0)
   {
-    solution = SolvePenalized(space, samples, smoothing, params.Threads);
+    solution = SolvePenalized(space, samples, smoothing, stretching, params.Threads);
     if (solution || solution.Status.Code != ErrorCode::SingularSystem)
     {
       break;

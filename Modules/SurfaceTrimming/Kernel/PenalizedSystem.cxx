@@ -201,14 +201,14 @@ void AddSamples(const SplineSpace<2>& space, const ChartSamples& samples, int th
 }
 }
 
-Result<PointMatrix> SolvePenalized(
-  const SplineSpace<2>& space, const ChartSamples& samples, double smoothing, int threads)
+Result<PointMatrix> SolvePenalized(const SplineSpace<2>& space, const ChartSamples& samples,
+  double smoothing, double stretching, int threads)
 {
   Sparse lower;
   {
     // symmetric: its rows are its columns
     const Eigen::SparseMatrix<double, Eigen::RowMajor> upper =
-      QuadraticMatrix<2>(space, smoothing, 0.0, threads).triangularView<Eigen::Upper>();
+      QuadraticMatrix<2>(space, smoothing, stretching, threads).triangularView<Eigen::Upper>();
     lower = upper.transpose();
   }
   Eigen::MatrixXd sides = Eigen::MatrixXd::Zero(space.NumFunctions, 3);
