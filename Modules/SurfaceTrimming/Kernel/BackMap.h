@@ -26,14 +26,14 @@ struct BackMapParams
   int MaxElements = 400; ///< in a direction
   /// Largest distance between mesh (inside triangles too) and surface, unit of the points, > 0.
   double Tolerance = 0.0;
-  double Margin = 0.02;    ///< of W around UV, part of its longest side, [0, 1]
+  double Margin = 0.02; ///< of W around UV, part of its longest side, [0, 1]
   /// Weight of the thin-plate energy, > 0, independent of units and of the number of points. It is
   /// that of a net of eight spans; finer nets have less, by the fourth power of the smallest span:
   /// against the data it stays as small, where there is none it rules alone.
   double Smoothing = 1e-7;
-  int Centres = 2000;      ///< radial basis functions at most: all points up to so many, else the
-                           ///< greedy choice of so many at most, [10, 20000]
-  int Threads = 0;         ///< 0: all cores; the result does not depend on it
+  int Centres = 2000; ///< radial basis functions at most: all points up to so many, else the
+                      ///< greedy choice of so many at most, [10, 20000]
+  int Threads = 0;    ///< 0: all cores; the result does not depend on it
   ProgressCallback Progress;
 };
 

@@ -229,7 +229,7 @@ ChartSamples SampleChart(const ChartMesh& chart, const std::vector<std::array<in
   append(looked);
   samples.Parameters.resize(count + chart.UV.rows(), 2);
   samples.Points.resize(count + chart.UV.rows(), 3);
-  samples.Weights.resize(samples.NumWeighted);
+  samples.Weights.setZero(samples.Parameters.rows());
   double* parameters = samples.Parameters.data();
   double* points = samples.Points.data();
   double* weights = samples.Weights.data();

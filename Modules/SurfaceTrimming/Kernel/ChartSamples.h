@@ -13,7 +13,7 @@ struct ChartSamples
 {
   PointMatrix Parameters;  ///< n x 2
   PointMatrix Points;      ///< n x 3
-  Eigen::VectorXd Weights; ///< of the rows before NumWeighted
+  Eigen::VectorXd Weights; ///< n; 0 from NumWeighted on
   Eigen::Index NumInside = 0;
   Eigen::Index NumWeighted = 0;
 };

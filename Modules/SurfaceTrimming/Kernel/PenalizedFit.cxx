@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PenalizedFit.h"
-#include "Parallel.h"
 #include "PenalizedSystem.h"
 #include "TensorSpace.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <memory>
 
 namespace knotwork
 {
@@ -18,6 +17,8 @@ constexpr int FirstElements = 8;
 constexpr int MaxPasses = 24;
 /// Spans are halved for points beyond this part of the tolerance.
 constexpr double Goal = 0.7;
+/// The same once far points weigh more: then most are near the tolerance.
+constexpr double ReweightedGoal = 0.95;
 /// A direction is refined where the surface bends in it at least so much of the most.
 constexpr double BendingShare = 0.25;
 /// Least weight of the thin-plate energy, by the fourth power of the longest side: Cholesky's
@@ -27,11 +28,18 @@ constexpr double LeastSmoothing = 1e-14;
 /// knots are not seen by the thin-plate energy.
 constexpr double BilinearStretching = 1e-13;
 constexpr int MaxAttempts = 5;
+/// Far points get more weight when none is farther than so many tolerances, so many times.
+constexpr double ReweightReach = 5.0;
+constexpr int MaxReweightings = 4;
+/// Less progress than this ends it.
+constexpr double LeastProgress = 0.9;
+constexpr double SampleShare = 0.05;
+constexpr double MostGain = 30.0;
 constexpr int MaxFunctions = 1500000;
 
-std::array<double, 2> Sides(const NetKnots& knots)
+double LongestSide(const NetKnots& knots)
 {
-  return { knots[0].End() - knots[0].Begin(), knots[1].End() - knots[1].Begin() };
+  return std::max(knots[0].End() - knots[0].Begin(), knots[1].End() - knots[1].Begin());
 }
 
 /// Clamped knots on given breaks.
@@ -77,10 +85,12 @@ KnotVector Halved(
 NetKnots RefinedNet(const NetKnots& knots, const BezierForm<2>& surface,
   const ChartSamples& samples, const BackMapResiduals& residuals, const BackMapParams& params)
 {
+  const bool reweighted = residuals.Max <= ReweightReach * params.Tolerance;
+  const double goal = (reweighted ? ReweightedGoal : Goal) * params.Tolerance;
   std::vector<Eigen::Index> far;
   for (Eigen::Index i = 0; i < residuals.Distances.size(); ++i)
   {
-    if (residuals.Distances[i] > Goal * params.Tolerance)
+    if (residuals.Distances[i] > goal)
     {
       far.push_back(i);
     }
@@ -125,32 +135,107 @@ NetKnots RefinedNet(const NetKnots& knots, const BezierForm<2>& surface,
       }
     }
   }
-  const std::array<double, 2> sides = Sides(knots);
-  const double shortest = std::max(sides[0], sides[1]) / (4.0 * params.MaxElements);
+  const double shortest = LongestSide(knots) / (8.0 * params.MaxElements);
   return { Halved(knots[0], need[0], params.MaxElements, shortest),
     Halved(knots[1], need[1], params.MaxElements, shortest) };
 }
 
-/// Control points on a net; where rounding makes the system singular, with more smoothing.
-Result<PointMatrix> Solve(
-  const SplineSpace<2>& space, const ChartSamples& samples, const BackMapParams& params)
+double SmoothingOf(const NetKnots& knots, const BackMapParams& params)
 {
-  const NetKnots& knots = space.Knots;
-  const std::array<double, 2> sides = Sides(knots);
-  const double longest = std::max(sides[0], sides[1]);
-  double smoothing = std::max(params.Smoothing * std::pow(FirstElements * SmallestSpan(knots), 4.0),
+  const double longest = LongestSide(knots);
+  return std::max(params.Smoothing * std::pow(FirstElements * SmallestSpan(knots), 4.0),
     LeastSmoothing * std::pow(longest, 4.0));
+}
+
+/// A net with its samples and equations.
+struct NetFit
+{
+  SplineSpacePtr<2> Space;
+  ChartSamples Samples;
+  std::unique_ptr<PenalizedSystem> System;
+};
+
+/// Control points of a net; where rounding makes the system singular, with more smoothing.
+Result<PointMatrix> FirstSolution(NetFit& net, const BackMapParams& params)
+{
+  const double longest = LongestSide(net.Space->Knots);
   const double stretching = params.Degree == 1 ? BilinearStretching * longest * longest : 0.0;
+  double smoothing = SmoothingOf(net.Space->Knots, params);
   Result<PointMatrix> solution;
   for (int attempt = 0; attempt < MaxAttempts; ++attempt, smoothing *= 100.0)
   {
-    solution = SolvePenalized(space, samples, smoothing, stretching, params.Threads);
+    net.System =
+      std::make_unique<PenalizedSystem>(net.Space, smoothing, stretching, params.Threads);
+    solution = net.System->Solve(net.Samples, net.Samples.Weights);
     if (solution || solution.Status.Code != ErrorCode::SingularSystem)
     {
       break;
     }
   }
   return solution;
+}
+
+/// What a sample weighs at least once it counts: a part of the spans around it.
+double LeastWeight(const NetKnots& knots, const Eigen::RowVector2d& parameter)
+{
+  double weight = SampleShare;
+  for (std::size_t d = 0; d < 2; ++d)
+  {
+    const auto e =
+      static_cast<std::size_t>(knots[d].FindElement(parameter[static_cast<Eigen::Index>(d)]));
+    weight *= knots[d].Breaks()[e + 1] - knots[d].Breaks()[e];
+  }
+  return weight;
+}
+
+void SetSurface(BackMap& map, const SplineSpacePtr<2>& space, PointMatrix control,
+  const BackMapResiduals& residuals, double tolerance)
+{
+  map.Surface.Space = space;
+  map.Surface.ControlPoints = std::move(control);
+  map.MaxResidual = residuals.Max;
+  map.RmsResidual = residuals.Rms;
+  map.WithinTolerance = residuals.Max <= tolerance;
+}
+
+/// Makes points that are far weigh more, until all are within the tolerance or it no longer helps:
+/// at sharp edges and tips least squares leave more than the space can do.
+void Reweight(NetFit& net, const BackMapParams& params, BackMap& map, BackMapResiduals& residuals)
+{
+  Eigen::VectorXd weights = net.Samples.Weights;
+  BackMapResiduals last = residuals;
+  for (int k = 0; k < MaxReweightings && residuals.Max > params.Tolerance; ++k)
+  {
+    for (Eigen::Index i = 0; i < weights.size(); ++i)
+    {
+      const double ratio = last.Distances[i] / (Goal * params.Tolerance);
+      if (ratio > 1.0)
+      {
+        weights[i] =
+          std::max(weights[i], LeastWeight(net.Space->Knots, net.Samples.Parameters.row(i))) *
+          std::min(ratio * ratio, MostGain);
+      }
+    }
+    Result<PointMatrix> control = net.System->Solve(net.Samples, weights);
+    if (!control)
+    {
+      return;
+    }
+    Spline<2> surface;
+    surface.Space = net.Space;
+    surface.ControlPoints = control.Value;
+    last = MeasureBackMap(MakeBezierForm(surface, params.Threads), net.Samples, params.Threads);
+    const double before = residuals.Max;
+    if (last.Max < before)
+    {
+      residuals = last;
+      SetSurface(map, net.Space, std::move(control.Value), residuals, params.Tolerance);
+    }
+    if (last.Max > LeastProgress * before)
+    {
+      return;
+    }
+  }
 }
 }
 
@@ -220,21 +305,26 @@ Result<BackMap> FitPenalized(const ChartMesh& chart, const BackMapParams& params
     {
       return space.Status;
     }
-    const ChartSamples samples = SampleChart(chart, boundary, knots, params.Threads);
-    const Result<PointMatrix> control = Solve(*space.Value, samples, params);
+    NetFit net;
+    net.Space = space.Value;
+    net.Samples = SampleChart(chart, boundary, knots, params.Threads);
+    Result<PointMatrix> control = FirstSolution(net, params);
     if (!control)
     {
       return control.Status;
     }
-    map.Surface.Space = space.Value;
-    map.Surface.ControlPoints = control.Value;
+    Spline<2> surface;
+    surface.Space = net.Space;
+    surface.ControlPoints = control.Value;
+    BackMapResiduals residuals =
+      MeasureBackMap(MakeBezierForm(surface, params.Threads), net.Samples, params.Threads);
+    SetSurface(map, net.Space, std::move(control.Value), residuals, params.Tolerance);
     ++map.Passes;
-    const BezierForm<2> form = MakeBezierForm(map.Surface, params.Threads);
-    const BackMapResiduals residuals = MeasureBackMap(form, samples, params.Threads);
-    map.MaxResidual = residuals.Max;
-    map.RmsResidual = residuals.Rms;
-    map.WithinTolerance = residuals.Max <= params.Tolerance;
-    const double done = std::min(1.0, map.WithinTolerance ? 1.0 : params.Tolerance / residuals.Max);
+    if (byNeed && residuals.Max <= ReweightReach * params.Tolerance)
+    {
+      Reweight(net, params, map, residuals);
+    }
+    const double done = map.WithinTolerance ? 1.0 : params.Tolerance / residuals.Max;
     if (params.Progress && !params.Progress(done))
     {
       return { ErrorCode::Aborted, "the back-map was stopped" };
@@ -243,7 +333,8 @@ Result<BackMap> FitPenalized(const ChartMesh& chart, const BackMapParams& params
     {
       return map;
     }
-    NetKnots finer = RefinedNet(knots, form, samples, residuals, params);
+    NetKnots finer = RefinedNet(
+      knots, MakeBezierForm(map.Surface, params.Threads), net.Samples, residuals, params);
     if (finer == knots)
     {
       return map;

@@ -3,7 +3,6 @@
 #include "BasisEvaluation.h"
 #include "Parallel.h"
 #include "QualityFunctionals.h"
-#include "SparseCholesky.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +15,7 @@ constexpr std::size_t SampleChunk = 4096;
 constexpr Eigen::Index RowBlock = 512;
 using Sparse = Eigen::SparseMatrix<double>;
 
-/// Weighted samples in the order of their elements.
+/// Samples that have a weight in the order of their elements.
 struct SortedSamples
 {
   std::vector<int> Order;
@@ -24,9 +23,14 @@ struct SortedSamples
   std::vector<double> Local;      ///< two a sample, as they come
 };
 
-SortedSamples Sort(const SplineSpace<2>& space, const ChartSamples& samples, int threads)
+SortedSamples Sort(const SplineSpace<2>& space, const ChartSamples& samples,
+  const Eigen::VectorXd& weights, int threads)
 {
-  const auto count = static_cast<std::size_t>(samples.NumWeighted);
+  auto count = static_cast<std::size_t>(samples.Parameters.rows());
+  while (count > 0 && !(weights[static_cast<Eigen::Index>(count) - 1] > 0.0))
+  {
+    --count; // most often those that are looked at only
+  }
   std::vector<int> elements(count);
   SortedSamples sorted;
   sorted.Local.resize(2 * count);
@@ -37,18 +41,23 @@ SortedSamples Sort(const SplineSpace<2>& space, const ChartSamples& samples, int
         sorted.Local.data() + 2 * begin);
     });
   sorted.First.assign(space.Elements.size() + 1, 0);
-  for (int e : elements)
+  for (std::size_t i = 0; i < count; ++i)
   {
-    ++sorted.First[static_cast<std::size_t>(e) + 1];
+    sorted.First[static_cast<std::size_t>(elements[i]) + 1] +=
+      weights[static_cast<Eigen::Index>(i)] > 0.0;
   }
   for (std::size_t e = 0; e < space.Elements.size(); ++e)
   {
     sorted.First[e + 1] += sorted.First[e];
   }
   std::vector<std::size_t> next(sorted.First.begin(), sorted.First.end() - 1);
-  sorted.Order.resize(count);
+  sorted.Order.resize(sorted.First.back());
   for (std::size_t i = 0; i < count; ++i)
   {
+    if (!(weights[static_cast<Eigen::Index>(i)] > 0.0))
+    {
+      continue;
+    }
     sorted.Order[next[static_cast<std::size_t>(elements[i])]++] = static_cast<int>(i);
   }
   return sorted;
@@ -90,8 +99,9 @@ private:
 class ElementSums
 {
 public:
-  ElementSums(const SplineSpace<2>& space, const ChartSamples& samples, const SortedSamples& sorted)
-    : Space(space), Samples(samples), Sorted(sorted), P(space.Knots[0].Degree())
+  ElementSums(const SplineSpace<2>& space, const ChartSamples& samples,
+    const Eigen::VectorXd& weights, const SortedSamples& sorted)
+    : Space(space), Samples(samples), Weights(weights), Sorted(sorted), P(space.Knots[0].Degree())
   {
     this->Size = (this->P + 1) * (this->P + 1);
     this->Rows.resize(RowBlock, this->Size);
@@ -113,7 +123,7 @@ public:
         EvaluateLocalLine(this->P, this->Space.Factor(element, d),
           this->Sorted.Local[static_cast<std::size_t>(2 * i + d)], 1.0, 0, lines[d]);
       }
-      const double root = std::sqrt(this->Samples.Weights[i]);
+      const double root = std::sqrt(this->Weights[i]);
       double* row = this->Rows.data() + rows * this->Size;
       for (int b = 0; b <= this->P; ++b)
       {
@@ -146,6 +156,7 @@ private:
   }
   const SplineSpace<2>& Space;
   const ChartSamples& Samples;
+  const Eigen::VectorXd& Weights;
   const SortedSamples& Sorted;
   int P;
   int Size;
@@ -155,10 +166,10 @@ private:
 
 /// Adds the samples' equations, one row of elements after the other. Rows p + 1 apart have no
 /// functions in common: they run at once, and every sum has its order.
-void AddSamples(const SplineSpace<2>& space, const ChartSamples& samples, int threads,
-  Sparse& lower, Eigen::MatrixXd& sides)
+void AddSamples(const SplineSpace<2>& space, const ChartSamples& samples,
+  const Eigen::VectorXd& weights, int threads, Sparse& lower, Eigen::MatrixXd& sides)
 {
-  const SortedSamples sorted = Sort(space, samples, threads);
+  const SortedSamples sorted = Sort(space, samples, weights, threads);
   const LowerPattern pattern(space, lower);
   const int p = space.Knots[0].Degree();
   const int columns = space.Knots[0].NumElements();
@@ -166,7 +177,7 @@ void AddSamples(const SplineSpace<2>& space, const ChartSamples& samples, int th
   double* values = lower.valuePtr();
   const auto addRow = [&](int row)
   {
-    ElementSums sums(space, samples, sorted);
+    ElementSums sums(space, samples, weights, sorted);
     for (int e = row * columns; e < (row + 1) * columns; ++e)
     {
       const auto index = static_cast<std::size_t>(e);
@@ -201,25 +212,28 @@ void AddSamples(const SplineSpace<2>& space, const ChartSamples& samples, int th
 }
 }
 
-Result<PointMatrix> SolvePenalized(const SplineSpace<2>& space, const ChartSamples& samples,
-  double smoothing, double stretching, int threads)
+PenalizedSystem::PenalizedSystem(
+  SplineSpacePtr<2> space, double smoothing, double stretching, int threads)
+  : Space(std::move(space)), Threads(threads)
 {
-  Sparse lower;
-  {
-    // symmetric: its rows are its columns
-    const Eigen::SparseMatrix<double, Eigen::RowMajor> upper =
-      QuadraticMatrix<2>(space, smoothing, stretching, threads).triangularView<Eigen::Upper>();
-    lower = upper.transpose();
-  }
-  Eigen::MatrixXd sides = Eigen::MatrixXd::Zero(space.NumFunctions, 3);
-  AddSamples(space, samples, threads, lower, sides);
-  SparseCholesky cholesky;
-  const Status status = cholesky.Factorize(lower);
+  // symmetric: its rows are its columns
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> upper =
+    QuadraticMatrix<2>(*this->Space, smoothing, stretching, threads).triangularView<Eigen::Upper>();
+  this->Energy = upper.transpose();
+}
+
+Result<PointMatrix> PenalizedSystem::Solve(
+  const ChartSamples& samples, const Eigen::VectorXd& weights)
+{
+  Sparse lower = this->Energy;
+  Eigen::MatrixXd sides = Eigen::MatrixXd::Zero(this->Space->NumFunctions, 3);
+  AddSamples(*this->Space, samples, weights, this->Threads, lower, sides);
+  const Status status = this->Cholesky.Factorize(lower);
   if (!status)
   {
     return status;
   }
-  cholesky.Solve(sides);
+  this->Cholesky.Solve(sides);
   if (!sides.allFinite())
   {
     return { ErrorCode::SingularSystem, "control points of the back-map are not determined" };
