@@ -44,6 +44,10 @@ find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(TBB REQUIRED)
 find_package(pugixml REQUIRED)
 find_package(nlohmann_json REQUIRED)
+# The components below data exchange, and what its own libraries need; KnotworkConfig.cmake asks for them too.
+set(KNOTWORK_OPENCASCADE_COMPONENTS FoundationClasses ModelingData ModelingAlgorithms Visualization
+  ApplicationFramework DataExchange)
+find_package(OpenCASCADE REQUIRED COMPONENTS ${KNOTWORK_OPENCASCADE_COMPONENTS})
 if(BUILD_TESTING AND NOT KNOTWORK_PARAVIEW)
   find_package(GTest REQUIRED)
   include(GoogleTest)

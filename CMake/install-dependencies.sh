@@ -9,6 +9,7 @@ packages=(
   build-essential cmake ninja-build ccache git pkg-config
   # kernels
   libeigen3-dev libtbb-dev libnanoflann-dev libpugixml-dev libboost-dev libsuitesparse-dev libopenblas0-serial
+  libocct-data-exchange-dev libocct-modeling-algorithms-dev libocct-ocaf-dev
   # filters, command line, Python
   libvtk9-dev python3-vtk9 python3-dev libcli11-dev nlohmann-json3-dev
   # ParaView plugin

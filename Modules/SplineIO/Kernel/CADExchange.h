@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// STEP and IGES files through OpenCASCADE. The format follows from the ending of the file name:
+// .step, .stp, .iges, .igs, in any case. OpenCASCADE keeps global settings: calls wait for each
+// other, and what they set is restored. Nothing is printed.
+#pragma once
+#include "TrimmedModel.h"
+
+namespace knotwork
+{
+/// What one unit of length in a file is; the numbers in it are those of the model.
+enum class LengthUnit
+{
+  Micrometre,
+  Millimetre,
+  Centimetre,
+  Metre,
+  Inch,
+  Foot
+};
+inline constexpr int NumLengthUnits = 6;
+
+/// Application protocol of a STEP file.
+enum class STEPSchema
+{
+  AP214,
+  AP242
+};
+
+struct CADWriteParams
+{
+  LengthUnit Unit = LengthUnit::Millimetre;
+  STEPSchema Schema = STEPSchema::AP214;
+  /// Sides of faces without loops are one edge when they are nowhere farther apart at equal (or
+  /// opposite) parameters than this share of the model's size, in (0, 0.1].
+  double SewTolerance = 1e-6;
+  std::string Name = "Knotwork"; ///< of the product
+};
+
+/// Whether a file name has one of the endings.
+bool HasCADEnding(const std::string& file);
+
+/// Writes trimmed faces: B-spline surfaces, curves in space and pcurves of the same
+/// parametrization, common edges and vertices. Faces of a body that hang together are a shell, a
+/// closed one is a solid with its normals outward; faces are turned where neighbours of a body
+/// disagree. A face without loops gets the sides of its surface; a side of one point is a
+/// degenerate edge. Names and colours of faces are kept (IGES: names of up to 8 characters).
+///
+/// Tolerances of edges and vertices are the largest distance found between curve and image of the
+/// pcurve (16 samples a knot span) times 1.02, at least 1e-7. A file that exists is replaced only
+/// when everything could be written.
+/// @return failures of TrimmedModel::Check; InvalidParameter: ending, SewTolerance;
+/// InvalidKnots: a curve or surface that jumps; OutsideDomain: a pcurve that leaves its surface;
+/// InvalidTopology: uses of an edge that do not fit each other; InvalidFormat: OpenCASCADE refuses,
+/// or the file cannot be written.
+Status WriteCAD(
+  const TrimmedModel& model, const std::string& file, const CADWriteParams& params = {});
+
+/// What OpenCASCADE finds in a file that it reads with its default settings.
+struct CADSummary
+{
+  bool Valid = false;               ///< BRepCheck_Analyzer has no complaint
+  std::vector<std::string> Defects; ///< the first ten complaints in words
+  int NumSolids = 0;
+  int NumShells = 0;
+  int NumFaces = 0;
+  int NumWires = 0;
+  int NumEdges = 0; ///< without degenerate ones
+  int NumVertices = 0;
+  int NumFreeLoops = 0; ///< connected pieces of what edges of a single face make
+  double MaxEdgeTolerance = 0.0;
+  double MaxVertexTolerance = 0.0;
+  double Area = 0.0;
+  bool Closed = false;              ///< no free edge
+  double Volume = 0.0;              ///< of the solids
+  std::array<double, 3> BoxLower{}; ///< of the faces, found on their poles and curves:
+  std::array<double, 3> BoxUpper{}; ///< it holds the shape
+};
+
+/// Reads a file again and checks it.
+/// @param unit  of lengths in the summary.
+/// @return EmptyInput: no such file, or nothing in it; InvalidFormat: damaged.
+Result<CADSummary> CheckCAD(const std::string& file, LengthUnit unit = LengthUnit::Millimetre);
+}

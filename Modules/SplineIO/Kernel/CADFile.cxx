@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CADFile.h"
+
+#include <Interface_Check.hxx>
+#include <Interface_CheckIterator.hxx>
+#include <Interface_InterfaceModel.hxx>
+#include <OSD_FileSystem.hxx>
+#include <Standard_IStream.hxx>
+#include <XSControl_WorkSession.hxx>
+
+#include <algorithm>
+
+namespace knotwork
+{
+namespace
+{
+/// First and last characters of a file.
+struct Ends
+{
+  bool Opened = false;
+  std::string First;
+  std::string Last;
+};
+
+Ends ReadEnds(const std::string& file)
+{
+  constexpr std::streamoff Length = 2048;
+  Ends ends;
+  const auto stream =
+    OSD_FileSystem::DefaultFileSystem()->OpenIStream(file.c_str(), std::ios::in | std::ios::binary);
+  if (!stream || !*stream)
+  {
+    return ends;
+  }
+  const auto read = [&](std::streamoff count)
+  {
+    std::string text(static_cast<std::size_t>(count), '\0');
+    stream->read(text.data(), count);
+    text.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream->gcount(), 0)));
+    stream->clear();
+    return text;
+  };
+  ends.First = read(Length);
+  ends.Opened = true;
+  stream->seekg(0, std::ios::end);
+  const std::streamoff size = stream->tellg();
+  if (size > 0)
+  {
+    stream->seekg(std::max<std::streamoff>(size - Length, 0));
+    ends.Last = read(std::min(size, Length));
+  }
+  return ends;
+}
+
+/// What OpenCASCADE would read as far as it goes without a word.
+Status CheckText(const Ends& ends, CADFormat format)
+{
+  if (format == CADFormat::STEP)
+  {
+    if (ends.First.find("ISO-10303-21") == std::string::npos)
+    {
+      return { ErrorCode::InvalidFormat, "this is not a STEP file: no ISO-10303-21 at its begin" };
+    }
+    if (ends.Last.find("END-ISO-10303-21") == std::string::npos)
+    {
+      return { ErrorCode::InvalidFormat, "the file is truncated: no END-ISO-10303-21 at its end" };
+    }
+    return {};
+  }
+  // lines of 80 characters, the section's letter in column 73
+  constexpr std::size_t Column = 72;
+  if (ends.First.size() <= Column || ends.First[Column] != 'S')
+  {
+    return { ErrorCode::InvalidFormat, "this is not an IGES file: no start section" };
+  }
+  const std::size_t end = ends.Last.find_last_not_of(" \r\n\t\0");
+  const std::size_t begin = ends.Last.find_last_of("\r\n", end);
+  const std::size_t line = begin == std::string::npos ? 0 : begin + 1;
+  if (ends.Last.size() <= line + Column || ends.Last[line + Column] != 'T')
+  {
+    return { ErrorCode::InvalidFormat, "the file is truncated: no terminate section" };
+  }
+  return {};
+}
+
+/// Failures of syntax and of geometry or topology: OpenCASCADE would go on with what is missing.
+Status CheckEntities(const XSControl_Reader& reader)
+{
+  Interface_CheckIterator checks = reader.WS()->ModelCheckList(true);
+  for (checks.Start(); checks.More(); checks.Next())
+  {
+    const Handle(Interface_Check)& check = checks.Value();
+    if (!check->HasFailed())
+    {
+      continue;
+    }
+    const std::string text = check->CFail(1);
+    if (checks.Number() <= 0)
+    {
+      if (text.find("syntax") != std::string::npos)
+      {
+        return { ErrorCode::InvalidFormat, "the file is damaged: " + text };
+      }
+      continue;
+    }
+    const std::string type = reader.Model()->Value(checks.Number())->DynamicType()->Name();
+    for (const char* prefix : { "StepGeom_", "StepShape_", "IGESGeom_", "IGESSolid_" })
+    {
+      if (type.rfind(prefix, 0) == 0)
+      {
+        return { ErrorCode::InvalidFormat,
+          "the file is damaged: " + type.substr(type.find('_') + 1) + ": " + text };
+      }
+    }
+  }
+  return {};
+}
+}
+
+Status LoadCAD(XSControl_Reader& reader, CADFormat format, const std::string& file)
+{
+  const std::string place = "'" + file + "'";
+  if (format == CADFormat::Unknown)
+  {
+    return { ErrorCode::InvalidParameter,
+      place + ": the ending must be .step, .stp, .iges or .igs" };
+  }
+  const Ends ends = ReadEnds(file);
+  if (!ends.Opened || ends.First.empty())
+  {
+    return { ErrorCode::EmptyInput,
+      place +
+        (ends.Opened ? " is empty or a folder"
+                     : " cannot be read; check its name and permissions") };
+  }
+  if (Status status = CheckText(ends, format); !status)
+  {
+    return { status.Code, place + ": " + status.Detail };
+  }
+  if (reader.ReadFile(file.c_str()) != IFSelect_RetDone)
+  {
+    return { ErrorCode::InvalidFormat, place + ": OpenCASCADE cannot read it; it is damaged" };
+  }
+  if (Status status = CheckEntities(reader); !status)
+  {
+    return { status.Code, place + ": " + status.Detail };
+  }
+  reader.TransferRoots();
+  if (reader.NbShapes() == 0)
+  {
+    return { ErrorCode::EmptyInput, place + ": there is no shape in it" };
+  }
+  return {};
+}
+}

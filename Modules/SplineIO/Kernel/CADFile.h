@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "CADSession.h"
+
+#include <XSControl_Reader.hxx>
+
+namespace knotwork
+{
+/// Reads all shapes of a file with the settings of the session.
+/// @return EmptyInput: no such file, nothing in it; InvalidFormat: damaged.
+Status LoadCAD(XSControl_Reader& reader, CADFormat format, const std::string& file);
+}

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CADGeometry.h"
+
+#include "TensorSpace.h"
+
+#include <TColStd_Array1OfInteger.hxx>
+#include <TColStd_Array1OfReal.hxx>
+#include <TColStd_Array2OfReal.hxx>
+#include <TColgp_Array1OfPnt.hxx>
+#include <TColgp_Array1OfPnt2d.hxx>
+#include <TColgp_Array2OfPnt.hxx>
+
+namespace knotwork
+{
+namespace
+{
+struct DistinctKnots
+{
+  explicit DistinctKnots(const KnotVector& knots)
+    : Values(1, static_cast<int>(knots.Breaks().size())), Multiplicities(1, Values.Length())
+  {
+    for (int b = 0; b < this->Values.Length(); ++b)
+    {
+      this->Values.SetValue(b + 1, knots.Breaks()[static_cast<std::size_t>(b)]);
+      this->Multiplicities.SetValue(b + 1, knots.Multiplicity(b));
+    }
+  }
+  TColStd_Array1OfReal Values;
+  TColStd_Array1OfInteger Multiplicities;
+};
+
+template <class Handle>
+Result<SplineSpacePtr<1>> CurveSpace(const Handle& curve)
+{
+  TColStd_Array1OfReal flat(1, curve->NbPoles() + curve->Degree() + 1);
+  curve->KnotSequence(flat);
+  auto knots = KnotVector::Create(curve->Degree(), { flat.begin(), flat.end() });
+  return knots ? MakeTensorSpace<1>({ knots.Value }) : Result<SplineSpacePtr<1>>(knots.Status);
+}
+
+gp_Pnt PointOfRow(const PointMatrix& points, Eigen::Index i)
+{
+  return { points(i, 0), points(i, 1), points(i, 2) };
+}
+}
+
+template <int Dim>
+Result<Spline<Dim>> Clamped(const Spline<Dim>& spline)
+{
+  Spline<Dim> result = spline;
+  for (std::size_t d = 0; d < Dim; ++d)
+  {
+    const KnotVector& old = result.Space->Knots[d];
+    const int order = old.Degree() + 1;
+    std::vector<double> missing;
+    missing.insert(
+      missing.end(), static_cast<std::size_t>(order - old.Multiplicity(0)), old.Begin());
+    missing.insert(missing.end(),
+      static_cast<std::size_t>(order - old.Multiplicity(old.NumElements())), old.End());
+    if (missing.empty())
+    {
+      continue;
+    }
+    auto inserted = InsertKnots<Dim>(result, static_cast<int>(d), missing);
+    if (!inserted)
+    {
+      return inserted.Status;
+    }
+    // the functions between the first and the last clamped knots are what the domain needs
+    const std::vector<double>& all = inserted->Space->Knots[d].Knots();
+    const auto first = std::lower_bound(all.begin(), all.end(), old.Begin());
+    const auto last = std::upper_bound(all.begin(), all.end(), old.End());
+    auto knots = inserted->Space->Knots;
+    const int oldCount = knots[d].NumFunctions();
+    auto inner = KnotVector::Create(old.Degree(), { first, last });
+    if (!inner)
+    {
+      return inner.Status;
+    }
+    knots[d] = inner.Value;
+    const auto space = MakeTensorSpace<Dim>(knots);
+    if (!space)
+    {
+      return space.Status;
+    }
+    int stride = 1;
+    for (std::size_t e = 0; e < d; ++e)
+    {
+      stride *= knots[e].NumFunctions();
+    }
+    const int newCount = knots[d].NumFunctions();
+    const int offset = static_cast<int>(first - all.begin());
+    const PointMatrix points = inserted->HomogeneousPoints();
+    PointMatrix kept(space.Value->NumFunctions, points.cols());
+    for (int row = 0; row < space.Value->NumFunctions; ++row)
+    {
+      const int index = row / stride % newCount;
+      const int block = row / (stride * newCount);
+      kept.row(row) = points.row((block * oldCount + index + offset) * stride + row % stride);
+    }
+    Spline<Dim> next;
+    next.Space = space.Value;
+    next.SetHomogeneousPoints(kept, result.IsRational());
+    result = std::move(next);
+  }
+  return result;
+}
+
+Handle(Geom_BSplineSurface) ToOpenCASCADE(const Spline<2>& surface)
+{
+  const auto& knots = surface.Space->Knots;
+  const int nu = knots[0].NumFunctions();
+  const int nv = knots[1].NumFunctions();
+  TColgp_Array2OfPnt poles(1, nu, 1, nv);
+  TColStd_Array2OfReal weights(1, nu, 1, nv);
+  for (int j = 0; j < nv; ++j)
+  {
+    for (int i = 0; i < nu; ++i)
+    {
+      poles.SetValue(i + 1, j + 1, PointOfRow(surface.ControlPoints, j * nu + i));
+      weights.SetValue(i + 1, j + 1, surface.IsRational() ? surface.Weights[j * nu + i] : 1.0);
+    }
+  }
+  const DistinctKnots u(knots[0]);
+  const DistinctKnots v(knots[1]);
+  return new Geom_BSplineSurface(poles, weights, u.Values, v.Values, u.Multiplicities,
+    v.Multiplicities, knots[0].Degree(), knots[1].Degree());
+}
+
+Handle(Geom_BSplineCurve) ToOpenCASCADE(const Spline<1>& curve)
+{
+  const int n = curve.Space->NumFunctions;
+  TColgp_Array1OfPnt poles(1, n);
+  TColStd_Array1OfReal weights(1, n);
+  for (int i = 0; i < n; ++i)
+  {
+    poles.SetValue(i + 1, PointOfRow(curve.ControlPoints, i));
+    weights.SetValue(i + 1, curve.IsRational() ? curve.Weights[i] : 1.0);
+  }
+  const DistinctKnots t(curve.Space->Knots[0]);
+  return new Geom_BSplineCurve(
+    poles, weights, t.Values, t.Multiplicities, curve.Space->Knots[0].Degree());
+}
+
+Handle(Geom2d_BSplineCurve) ToOpenCASCADEPlane(const Spline<1>& curve)
+{
+  const int n = curve.Space->NumFunctions;
+  TColgp_Array1OfPnt2d poles(1, n);
+  TColStd_Array1OfReal weights(1, n);
+  for (int i = 0; i < n; ++i)
+  {
+    poles.SetValue(i + 1, gp_Pnt2d(curve.ControlPoints(i, 0), curve.ControlPoints(i, 1)));
+    weights.SetValue(i + 1, curve.IsRational() ? curve.Weights[i] : 1.0);
+  }
+  const DistinctKnots t(curve.Space->Knots[0]);
+  return new Geom2d_BSplineCurve(
+    poles, weights, t.Values, t.Multiplicities, curve.Space->Knots[0].Degree());
+}
+
+Result<Spline<2>> FromOpenCASCADE(const Handle(Geom_BSplineSurface) & surface)
+{
+  const int nu = surface->NbUPoles();
+  const int nv = surface->NbVPoles();
+  TColStd_Array1OfReal u(1, nu + surface->UDegree() + 1);
+  TColStd_Array1OfReal v(1, nv + surface->VDegree() + 1);
+  surface->UKnotSequence(u);
+  surface->VKnotSequence(v);
+  auto knotsU = KnotVector::Create(surface->UDegree(), { u.begin(), u.end() });
+  auto knotsV = KnotVector::Create(surface->VDegree(), { v.begin(), v.end() });
+  if (!knotsU || !knotsV)
+  {
+    return knotsU ? knotsV.Status : knotsU.Status;
+  }
+  auto space = MakeTensorSpace<2>({ knotsU.Value, knotsV.Value });
+  if (!space)
+  {
+    return space.Status;
+  }
+  Spline<2> result;
+  result.Space = space.Value;
+  result.ControlPoints.resize(static_cast<Eigen::Index>(nu) * nv, 3);
+  const bool rational = surface->IsURational() || surface->IsVRational();
+  result.Weights.resize(rational ? result.ControlPoints.rows() : 0);
+  for (int j = 0; j < nv; ++j)
+  {
+    for (int i = 0; i < nu; ++i)
+    {
+      const gp_Pnt& pole = surface->Pole(i + 1, j + 1);
+      result.ControlPoints.row(j * nu + i) << pole.X(), pole.Y(), pole.Z();
+      if (rational)
+      {
+        result.Weights[j * nu + i] = surface->Weight(i + 1, j + 1);
+      }
+    }
+  }
+  return result;
+}
+
+Result<Spline<1>> FromOpenCASCADE(const Handle(Geom_BSplineCurve) & curve)
+{
+  auto space = CurveSpace(curve);
+  if (!space)
+  {
+    return space.Status;
+  }
+  Spline<1> result;
+  result.Space = space.Value;
+  result.ControlPoints.resize(curve->NbPoles(), 3);
+  result.Weights.resize(curve->IsRational() ? curve->NbPoles() : 0);
+  for (int i = 0; i < curve->NbPoles(); ++i)
+  {
+    const gp_Pnt& pole = curve->Pole(i + 1);
+    result.ControlPoints.row(i) << pole.X(), pole.Y(), pole.Z();
+    if (curve->IsRational())
+    {
+      result.Weights[i] = curve->Weight(i + 1);
+    }
+  }
+  return result;
+}
+
+Result<Spline<1>> FromOpenCASCADE(const Handle(Geom2d_BSplineCurve) & curve)
+{
+  auto space = CurveSpace(curve);
+  if (!space)
+  {
+    return space.Status;
+  }
+  Spline<1> result;
+  result.Space = space.Value;
+  result.ControlPoints.resize(curve->NbPoles(), 2);
+  result.Weights.resize(curve->IsRational() ? curve->NbPoles() : 0);
+  for (int i = 0; i < curve->NbPoles(); ++i)
+  {
+    const gp_Pnt2d& pole = curve->Pole(i + 1);
+    result.ControlPoints.row(i) << pole.X(), pole.Y();
+    if (curve->IsRational())
+    {
+      result.Weights[i] = curve->Weight(i + 1);
+    }
+  }
+  return result;
+}
+
+template Result<Spline<1>> Clamped<1>(const Spline<1>&);
+template Result<Spline<2>> Clamped<2>(const Spline<2>&);
+}

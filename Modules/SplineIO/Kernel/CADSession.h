@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "CADExchange.h"
+
+#include <Message_SequenceOfPrinters.hxx>
+
+#include <functional>
+#include <mutex>
+
+namespace knotwork
+{
+enum class CADFormat
+{
+  Unknown,
+  STEP,
+  IGES
+};
+
+/// By the ending of the file name, in any case.
+CADFormat FormatOfFile(const std::string& file);
+
+/// OpenCASCADE's name of a unit, and its length in millimetres.
+const char* NameOfUnit(LengthUnit unit);
+double Millimetres(LengthUnit unit);
+
+/// The use of OpenCASCADE's global state by one thread: nothing is printed, and settings made here
+/// are taken back at the end.
+class CADSession
+{
+public:
+  /// @param unit  of lengths in shapes, while reading and writing.
+  explicit CADSession(LengthUnit unit);
+  ~CADSession();
+  CADSession(const CADSession&) = delete;
+  CADSession& operator=(const CADSession&) = delete;
+
+  void Set(const char* name, int value);
+  void Set(const char* name, double value);
+  void Set(const char* name, const char* value);
+  /// Reading as OpenCASCADE does when nothing is set.
+  void SetDefaultsOfReading();
+
+private:
+  std::unique_lock<std::mutex> Lock;
+  Message_SequenceOfPrinters Printers;
+  std::vector<std::function<void()>> Restore;
+};
+
+/// Runs what may throw exceptions of OpenCASCADE or of memory; they become InvalidFormat and
+/// TooLarge with the place before the text.
+Status CatchFailures(const std::string& place, const std::function<Status()>& body);
+}

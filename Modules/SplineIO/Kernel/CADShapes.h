@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "TrimmedModel.h"
+
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Shape.hxx>
+
+namespace knotwork
+{
+struct CADShapes
+{
+  TopoDS_Shape Shape;             ///< a shell, a solid, or a compound of them
+  std::vector<TopoDS_Face> Faces; ///< of the model's faces, as they lie in Shape
+  double MaxGap = 0.0; ///< largest distance of a curve or vertex to the image of a pcurve
+};
+
+/// The model as OpenCASCADE's topology. May throw OpenCASCADE's exceptions.
+/// @param sewTolerance  as CADWriteParams::SewTolerance.
+/// @return failures as of WriteCAD.
+Result<CADShapes> MakeShapes(const TrimmedModel& model, double sewTolerance);
+}
