@@ -299,6 +299,28 @@ std::vector<double> BernsteinRestrict(const IntArray<Dim>& degree, const std::ve
     });
 }
 
+void BernsteinRestriction(int degree, double lower, double upper, double* matrix)
+{
+  const int n = degree + 1;
+  double first[TableSize];
+  double second[TableSize];
+  for (int k = 0; k <= degree; ++k)
+  {
+    // of the i factors t of B_i^p, j take an argument at upper and i - j one at lower
+    BernsteinValues(k, upper, first);
+    BernsteinValues(degree - k, lower, second);
+    for (int i = 0; i <= degree; ++i)
+    {
+      double sum = 0.0;
+      for (int j = std::max(0, i - (degree - k)); j <= std::min(i, k); ++j)
+      {
+        sum += first[j] * second[i - j];
+      }
+      matrix[i * n + k] = sum;
+    }
+  }
+}
+
 std::vector<double> BernsteinGramInverse(int degree)
 {
   const int n = degree;
@@ -332,7 +354,7 @@ void ApplyFactorOf(const Length n, int stride, int size, const double* factor, d
   {
     for (double* first = values + start; first != values + start + stride; ++first)
     {
-      double line[MaxDegree + 1] = {};
+      double line[MaxDegree + 2] = {};
       for (int i = 0; i < n; ++i)
       {
         const double value = first[i * stride];

@@ -45,6 +45,12 @@ template <int Dim>
 std::vector<double> BernsteinRestrict(const IntArray<Dim>& degree, const std::vector<double>& a,
   int direction, double lower, double upper);
 
+/// The same as a factor for ApplyFactors, for many polynomials and without allocation: entry (i, k)
+/// is the blossom of B_i^p at (lower^{p-k}, upper^k). Exact for halves; no entry is negative when
+/// 0 <= lower <= upper <= 1. (A constant keeps its value only up to rounding.)
+/// @param degree  at most 56. @param matrix  (p+1) x (p+1) row-major.
+void BernsteinRestriction(int degree, double lower, double upper, double* matrix);
+
 /// Inverse of the Gram matrix of the Bernstein polynomials of degree p on [0, 1], (p+1) x (p+1)
 /// row-major. @source  Juettler, Adv. Comput. Math. 8 (1998) 345-352.
 std::vector<double> BernsteinGramInverse(int degree);
@@ -52,6 +58,7 @@ std::vector<double> BernsteinGramInverse(int degree);
 /// y = (F_0^T (x) ... )^T applied direction by direction: multiplies a tensor array by one square
 /// matrix a direction: out[k_0,..] = sum_i in[i_0,..] prod_d factor_d[i_d][k_d]. A null factor is
 /// the identity. in and out are prod(p_d + 1) values each and may be the same array.
+/// @param degree  each at most MaxDegree + 1.
 template <int Dim>
 void ApplyFactors(const IntArray<Dim>& degree, const std::array<const double*, Dim>& factors,
   const double* in, double* out);

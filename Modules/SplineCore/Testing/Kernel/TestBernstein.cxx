@@ -295,6 +295,32 @@ TYPED_TEST(BernsteinInDimension, Restriction_PointwiseOracle)
   }
 }
 
+TYPED_TEST(BernsteinInDimension, RestrictionFactor_CrossOracle)
+{
+  constexpr int Dim = TypeParam::value;
+  oracle::Random random(18);
+  for (int run = 0; run < 60; ++run)
+  {
+    const auto p = RandomDegree<Dim>(random, 0, 10);
+    const auto a = RandomCoefficients<Dim>(random, p);
+    const std::size_t direction = static_cast<std::size_t>(random.Int(0, Dim - 1));
+    const double lower = run % 4 == 0 ? 0.0 : random.Unit();
+    const double upper = run % 4 == 1 ? 1.0 : random.Unit();
+    const auto expected = BernsteinRestrict<Dim>(p, a, static_cast<int>(direction), lower, upper);
+    std::vector<double> matrix(static_cast<std::size_t>((p[direction] + 1) * (p[direction] + 1)));
+    BernsteinRestriction(p[direction], lower, upper, matrix.data());
+    std::array<const double*, Dim> factors{};
+    factors[direction] = matrix.data();
+    std::vector<double> b(a.size());
+    ApplyFactors<Dim>(p, factors, a.data(), b.data());
+    for (std::size_t i = 0; i < a.size(); ++i)
+    {
+      ASSERT_NEAR(
+        b[i], expected[i], 64 * Epsilon); // both are convex combinations of values in [-1, 1]
+    }
+  }
+}
+
 TEST(Bernstein, RestrictionBeyondTheInterval_PointwiseOracle)
 {
   oracle::Random random(17);
