@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "FlattenOptions.h"
 #include "Jobs.h"
 #include "Options.h"
 #include "Session.h"
@@ -6,8 +7,6 @@
 #include "vtkMeshParameterization.h"
 
 #include <vtkNew.h>
-#include <vtkTable.h>
-#include <vtkVariant.h>
 
 #include <memory>
 
@@ -40,30 +39,8 @@ struct FlattenJob
     {
       return status;
     }
-    this->AddNumbers(session.Report);
+    ReportFlattening(this->Filter, "", session.Report);
     return session.WriteOutputs(this->Filter, { this->Output, this->Loops, this->Table });
-  }
-
-  void AddNumbers(nlohmann::ordered_json& report)
-  {
-    vtkTable* table = vtkTable::SafeDownCast(this->Filter->GetOutputDataObject(2));
-    const auto value = [table](const char* name) { return table->GetValueByName(0, name); };
-    const bool fallback = value("Fallback").ToInt() != 0;
-    report["requested_method"] = value("RequestedMethod").ToString();
-    report["method"] = value("Method").ToString(); // the one that was used
-    report["fallback"] = fallback;
-    report["fallback_reason"] = value("FallbackReason").ToString();
-    for (const char* name :
-      { "Points", "Triangles", "Loops", "TurnedTriangles", "FlippedTriangles" })
-    {
-      report[Options::SnakeCase(name)] = value(name).ToInt();
-    }
-    for (const char* name : { "MeanStretch", "MaxStretch", "MinSingularValue", "MaxSingularValue",
-           "MeanAreaDistortion", "MaxAreaDistortion", "IsometryError", "DistanceError" })
-    {
-      report[Options::SnakeCase(name)] = value(name).ToDouble();
-    }
-    report["seconds_of_method"] = value("Seconds").ToDouble();
   }
 };
 }
@@ -80,25 +57,7 @@ Job MakeFlattenJob(CLI::App& app)
   job->FilterOptions = std::make_unique<Options>(app);
   Options& options = *job->FilterOptions;
   vtkMeshParameterization* filter = job->Filter;
-  options.AddChoice(
-    "Method", { "hlle", "isomap", "laplacian", "lscm", "arap", "injective" }, filter->GetMethod(),
-    [filter](int method) { filter->SetMethod(method); }, "how the mesh is laid into the plane");
-  options.AddChoice(
-    "LaplacianWeights", { "cotangent", "graph" }, filter->GetLaplacianWeights(),
-    [filter](int weights) { filter->SetLaplacianWeights(weights); }, "of Laplacian eigenmaps");
-  options.AddChoice(
-    "Geodesics", { "unfolding", "edge-graph" }, filter->GetGeodesics(),
-    [filter](int geodesics) { filter->SetGeodesics(geodesics); },
-    "distances of Isomap and of the distance error");
-  KNOTWORK_OPTION(options, filter, Neighbours, "geodesic neighbours of a vertex for HLLE");
-  KNOTWORK_OPTION(options, filter, Landmarks, "points whose distances Isomap takes");
-  KNOTWORK_OPTION(options, filter, MaximumIterations, "iterations of ARAP and Injective at most");
-  KNOTWORK_OPTION(options, filter, MinimumParticipation,
-    "HLLE rejects eigenvectors that live on a smaller part of the area");
-  KNOTWORK_FREE_OPTION(
-    options, filter, Fallback, "whether HLLE is replaced when it folds or fails");
-  KNOTWORK_FREE_OPTION(options, filter, LargestComponent,
-    "take the component of the most triangles instead of refusing several ones");
+  AddFlattenOptions(options, filter, "Method");
   KNOTWORK_FREE_OPTION(options, filter, FlatOutput, "points of the output are (u, v, 0)");
   return [job](Session& session) { return job->Run(session); };
 }
