@@ -18,6 +18,11 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double boundGap = 0.5;
 /// Halving for the sake of the bound ends with so many pieces.
 constexpr std::size_t maxPieces = std::size_t(1) << 20;
+/// Boxes of a proof: a piece that is halved when it fails gets few, one that has to be proved as it
+/// is the total of all.
+constexpr std::int64_t firstBoxes = 256;
+constexpr std::int64_t lastBoxes = 100000;
+constexpr std::size_t maxLast = 64;
 constexpr double inward = 1.0 - 0x1p-50; // covers the three roundings of a scaled bound
 constexpr double outward = 1.0 + 0x1p-50;
 
@@ -62,11 +67,25 @@ public:
     }
     while (!pieces.empty())
     {
-      if (const Status status = this->Prove(pieces, 1.0); !status)
+      if (const Status status = this->Prove(pieces, 1.0, firstBoxes); !status)
       {
         return status;
       }
       pieces = this->Sort(pieces);
+      if (this->Found.Verdict == Verdict::Invalid)
+      {
+        return this->Found;
+      }
+    }
+    if (!this->Last.empty())
+    {
+      pieces.swap(this->Last);
+      if (const Status status = this->Prove(pieces, 1.0, lastBoxes); !status)
+      {
+        return status;
+      }
+      this->IsLast = true;
+      this->Sort(pieces);
       if (this->Found.Verdict == Verdict::Invalid)
       {
         return this->Found;
@@ -215,7 +234,7 @@ private:
   }
 
   /// Certificates of pieces, into LastProof; the bounds of those that are valid.
-  Status Prove(std::vector<Piece>& pieces, double gap)
+  Status Prove(std::vector<Piece>& pieces, double gap, std::int64_t boxes)
   {
     const BernsteinCells cells = this->MakeCells(pieces);
     JacobianParams params;
@@ -223,6 +242,7 @@ private:
     params.ComputeMax =
       gap < 1.0 && cells.NumComponents == 2; // of reversed cells it is the minimum
     params.CollapseTolerance = 0.0;
+    params.MaxBoxes = boxes;
     params.Threads = this->Params.Threads;
     const double begin = 1.0 - std::ldexp(1.0, -this->Round);
     ++this->Round;
@@ -288,6 +308,10 @@ private:
       if (piece.Place == RegionPlace::Boundary && piece.Depth < this->Params.MaxDepth)
       {
         AddQuarters(piece, quarters);
+      }
+      else if (!this->IsLast && cell.Limit == JacobianLimit::Boxes && this->Last.size() < maxLast)
+      {
+        this->Last.push_back(piece);
       }
       else if (!this->Found.HasWitness)
       {
@@ -394,7 +418,7 @@ private:
       this->DropOutside(again);
       if (!again.empty())
       {
-        if (const Status status = this->Prove(again, boundGap); !status)
+        if (const Status status = this->Prove(again, boundGap, firstBoxes); !status)
         {
           return status;
         }
@@ -409,6 +433,8 @@ private:
   BezierForm<2> Form;
   double Largest = 0.0;
   std::vector<Piece> Valid;
+  std::vector<Piece> Last; ///< that more boxes may decide
+  bool IsLast = false;     ///< they are being decided
   JacobianCertificate LastProof;
   FaceCertificate Found;
   int Round = 0;

@@ -14,7 +14,7 @@ namespace
 /// Of the numbers that enter a value: some hundred roundings.
 constexpr double unitRounding = 0x1p-45;
 /// Halvings a triangle, and how many more a part that the elements make.
-constexpr int maxHalvings = 4000;
+constexpr int maxHalvings = 1000;
 constexpr int halvingsAPart = 4;
 /// Sides of a part relative to the triangle's box are not more unequal than this.
 constexpr double largestAspect = 4.0;
@@ -27,6 +27,11 @@ RealArray<2> Difference(const RealArray<2>& a, const RealArray<2>& b)
 double Cross(const RealArray<2>& a, const RealArray<2>& b)
 {
   return a[0] * b[1] - a[1] * b[0];
+}
+
+double Length(const RealArray<3>& a)
+{
+  return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
 }
 }
 
@@ -343,18 +348,135 @@ void DeviationSearch::Measure(Part& part)
     largest = std::max(largest, square(i));
   }
   part.Upper = std::sqrt(largest);
-  const ElementPart& element = this->Elements[static_cast<std::size_t>(part.Element)];
+  if (part.Upper <= this->Found)
+  {
+    return;
+  }
+  bool inside = true;
   for (int k = 0; k < 4; ++k)
   {
     const int right = k & 1;
     const int top = k >> 1;
+    const bool on = this->IsOnTriangle(this->Elements[static_cast<std::size_t>(part.Element)],
+      part.Lower[0] + right * part.Size[0], part.Lower[1] + top * part.Size[1]);
+    inside = inside && on;
     const double value =
       square(right * this->Degree[0] + top * (this->Count - this->Degree[0] - 1));
-    if (value > this->Found * this->Found &&
-      this->IsOnTriangle(
-        element, part.Lower[0] + right * part.Size[0], part.Lower[1] + top * part.Size[1]))
+    if (on && value > this->Found * this->Found)
     {
       this->Found = std::sqrt(value);
+    }
+  }
+  if (!inside && part.Upper > this->Goal())
+  {
+    this->MeasureClipped(part);
+  }
+}
+
+void DeviationSearch::MeasureClipped(Part& part)
+{
+  Polygon polygon;
+  this->Clip(part, polygon);
+  if (polygon.Size == 0)
+  {
+    return; // only rounding lets them meet
+  }
+  // Linear parts of all planes: means, and mean differences of opposite sides.
+  const int row = this->Degree[0] + 1;
+  const int column = this->Degree[1] + 1;
+  double linear[4][3] = { {}, {}, {}, { 1.0 } };
+  double rest = 0.0; // largest square of a coefficient of what is not linear
+  double restOfWeight = 0.0;
+  for (int plane = 0; plane < this->Planes; ++plane)
+  {
+    const double* a = this->At(part) + plane * this->Count;
+    double sum = 0.0;
+    double sides[2] = { 0.0, 0.0 };
+    for (int i = 0; i < this->Count; ++i)
+    {
+      sum += a[i];
+    }
+    for (int j = 0; j < column; ++j)
+    {
+      sides[0] += a[(j + 1) * row - 1] - a[j * row];
+    }
+    for (int i = 0; i < row; ++i)
+    {
+      sides[1] += a[this->Count - row + i] - a[i];
+    }
+    linear[plane][1] = sides[0] / column;
+    linear[plane][2] = sides[1] / row;
+    linear[plane][0] = sum / this->Count - 0.5 * (linear[plane][1] + linear[plane][2]);
+  }
+  for (int j = 0; j < column; ++j)
+  {
+    for (int i = 0; i < row; ++i)
+    {
+      double square = 0.0;
+      for (int plane = 0; plane < this->Planes; ++plane)
+      {
+        const double* l = linear[plane];
+        const double difference = this->At(part)[plane * this->Count + j * row + i] - l[0] -
+          l[1] * i / this->Degree[0] - l[2] * j / this->Degree[1];
+        if (plane == 3)
+        {
+          restOfWeight = std::max(restOfWeight, std::abs(difference));
+        }
+        else
+        {
+          square += difference * difference;
+        }
+      }
+      rest = std::max(rest, square);
+    }
+  }
+  rest = std::sqrt(rest);
+  double upper = 0.0;
+  for (int k = 0; k < polygon.Size; ++k)
+  {
+    const auto value = [&](int plane)
+    {
+      const double* l = linear[plane];
+      const RealArray<2>& point = polygon.Points[static_cast<std::size_t>(k)];
+      return l[0] + l[1] * point[0] + l[2] * point[1];
+    };
+    const double length = Length({ value(0), value(1), value(2) });
+    const double least = value(3) - restOfWeight;
+    upper = std::max(
+      upper, least > 0.0 ? (length + rest) / least : std::numeric_limits<double>::infinity());
+    this->Found = std::max(this->Found, (length - rest) / (value(3) + restOfWeight));
+  }
+  part.Upper = std::min(part.Upper, upper);
+}
+
+void DeviationSearch::Clip(const Part& part, Polygon& polygon) const
+{
+  polygon.Size = 4;
+  polygon.Points = { { { 0.0, 0.0 }, { 1.0, 0.0 }, { 1.0, 1.0 }, { 0.0, 1.0 } } };
+  for (const RealArray<3>& edge : this->Elements[static_cast<std::size_t>(part.Element)].Edges)
+  {
+    const double constant =
+      edge[0] + edge[1] * part.Lower[0] + edge[2] * part.Lower[1] + this->EdgeSlack;
+    const auto side = [&](const RealArray<2>& point)
+    { return constant + edge[1] * part.Size[0] * point[0] + edge[2] * part.Size[1] * point[1]; };
+    const Polygon whole = polygon;
+    polygon.Size = 0;
+    for (int k = 0; k < whole.Size; ++k)
+    {
+      const RealArray<2>& a = whole.Points[static_cast<std::size_t>(k)];
+      const RealArray<2>& b = whole.Points[static_cast<std::size_t>((k + 1) % whole.Size)];
+      const double atA = side(a);
+      const double atB = side(b);
+      if (atA >= 0.0)
+      {
+        polygon.Points[static_cast<std::size_t>(polygon.Size++)] = a;
+      }
+      if ((atA >= 0.0) != (atB >= 0.0))
+      {
+        const double t = atA / (atA - atB);
+        polygon.Points[static_cast<std::size_t>(polygon.Size++)] = { a[0] + t * (b[0] - a[0]),
+          a[1] + t * (b[1] - a[1]) };
+      }
     }
   }
 }

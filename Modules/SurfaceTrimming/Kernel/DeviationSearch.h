@@ -16,14 +16,17 @@ ChartTriangle CornersOf(const ChartMesh& chart, std::size_t triangle);
 struct TriangleDeviation
 {
   double Bound = 0.0; ///< |S - X| is not larger on the triangle
-  double Found = 0.0; ///< largest value met on the triangle
+  double Found = 0.0; ///< largest value that is met on the triangle, or proved to be reached
 };
 
 /// Bounds of |S(u) - X(u)| over triangles, X linear in each of them. The triangle's box is cut
 /// by the elements; on each part S - X in Bernstein form lies in the hull of its coefficients, so
 /// the longest of them is a bound. Parts with the largest bounds are halved first and what does not
-/// meet the triangle is dropped. A rational surface N / w has S - X = (N - X w) / w, a convex
-/// combination of the quotients of the coefficients of numerator and denominator in one degree.
+/// meet the triangle is dropped. Where the triangle is only a part of the box, S - X is the linear
+/// function nearest to its coefficients plus a rest: the former is longest at a corner of the
+/// common polygon, the latter is bounded by its coefficients. A rational surface N / w has
+/// S - X = (N - X w) / w, a convex combination of the quotients of the coefficients of numerator
+/// and denominator in one degree; quotients of linear functions are longest at corners too.
 /// Keeps its buffers from triangle to triangle: one object a thread.
 class DeviationSearch
 {
@@ -60,7 +63,15 @@ private:
   void Fill(const Part& part, double* to);
   void FillRational(const Part& part, double* to);
   RealArray<3> PointOnTriangle(const ElementPart& element, double s, double t) const;
+  /// What is common to a part and the triangle, in [0, 1]^2 of the part: a box cut by three lines.
+  struct Polygon
+  {
+    int Size = 0;
+    std::array<RealArray<2>, 16> Points; // 7, and more only when rounding bends a side
+  };
   void Measure(Part& part);
+  void MeasureClipped(Part& part);
+  void Clip(const Part& part, Polygon& polygon) const;
   void Halve(const Part& part);
   std::size_t HalvingDirection(const Part& part);
   void Keep(const Part& part);

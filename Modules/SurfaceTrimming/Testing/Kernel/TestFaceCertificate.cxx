@@ -409,7 +409,7 @@ TEST(BoundDeviation, ParaboloidAndOneTriangle_ExactOracle)
     const ChartDeviation deviation = Deviate(chart, surface);
     EXPECT_GE(deviation.MaxBound, largest);
     EXPECT_LE(deviation.MaxBound, 1.05 * largest + 1e-12);
-    EXPECT_LE(deviation.MaxFound, largest + 1e-15);
+    EXPECT_LE(deviation.MaxFound, largest + 1e-13); // rounding of what is on the triangle
     EXPECT_GE(deviation.MaxFound, largest / 1.06);
     // mean of (sum_{i<j} l_i l_j d_ij)^2: the means of l_i^2 l_j^2 and l_i^2 l_j l_k are 1/90,
     // 1/180

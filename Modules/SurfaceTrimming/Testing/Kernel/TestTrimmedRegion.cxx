@@ -106,15 +106,15 @@ TEST(TrimmedRegion, CurvesOfDegreeNine_CrossOracle)
     const TrimmingCurve curve = testing::MakeTrimmingCurve(knots, points, weights);
     const TrimmedRegion region = MakeRegion({ { { curve } } });
     Polygon fine;
-    for (int k = 0; k < 2000; ++k)
+    for (int k = 0; k < 600; ++k)
     {
-      const auto p = oracle::Evaluate<1>(curve.ParameterCurve(), { k / 2000.0 });
+      const auto p = oracle::Evaluate<1>(curve.ParameterCurve(), { k / 600.0 });
       fine.push_back({ p[0], p[1] });
     }
     for (int k = 0; k < 200; ++k)
     {
       const RealArray<2> point{ random.In(-1.0, 1.0), random.In(-1.0, 1.0) };
-      if (testing::DistanceTo(fine, point) > 1e-4) // sagitta of the 2000 chords is about 1e-5
+      if (testing::DistanceTo(fine, point) > 1e-3) // sagitta of the 600 chords is about 1e-4
       {
         ASSERT_EQ(region.Contains(point),
           testing::IsInside(fine, point) ? RegionPlace::Inside : RegionPlace::Outside);
