@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "FlattenMethods.h"
 #include "FlattenReport.h"
 #include "InjectiveMap.h"
 #include "ReferenceMaps.h"
@@ -10,9 +11,7 @@
 
 namespace knotwork
 {
-namespace
-{
-Status CheckParams(const FlattenParams& params)
+Status CheckFlattenParams(const FlattenParams& params)
 {
   const auto bad = [](const char* text) { return Status(ErrorCode::InvalidParameter, text); };
   if (params.Neighbours < 6 || params.Neighbours > 50)
@@ -34,7 +33,8 @@ Status CheckParams(const FlattenParams& params)
   return {};
 }
 
-Result<FlatMesh> RunMethod(const DiscMesh& mesh, FlattenMethod method, const FlattenParams& params)
+Result<FlatMesh> RunFlattenMethod(
+  const DiscMesh& mesh, FlattenMethod method, const FlattenParams& params)
 {
   Result<FlatMesh> result;
   switch (method)
@@ -65,8 +65,7 @@ Result<FlatMesh> RunMethod(const DiscMesh& mesh, FlattenMethod method, const Fla
   return result;
 }
 
-/// Outer loop first: the one of the largest area in UV.
-void SortLoops(DiscMesh& mesh, const PointMatrix& uv)
+void SortLoopsByArea(DiscMesh& mesh, const PointMatrix& uv)
 {
   const auto area = [&](const std::vector<int>& loop)
   {
@@ -81,7 +80,6 @@ void SortLoops(DiscMesh& mesh, const PointMatrix& uv)
   };
   std::stable_sort(mesh.Loops.begin(), mesh.Loops.end(),
     [&](const auto& a, const auto& b) { return area(a) > area(b); });
-}
 }
 
 const char* ToString(FlattenMethod method)
@@ -106,7 +104,7 @@ const char* ToString(FlattenMethod method)
 Result<MeshParameterization> FlattenMesh(const TriangleMesh& mesh, const FlattenParams& params)
 {
   const auto start = std::chrono::steady_clock::now();
-  if (Status status = CheckParams(params); !status)
+  if (Status status = CheckFlattenParams(params); !status)
   {
     return status;
   }
@@ -119,7 +117,7 @@ Result<MeshParameterization> FlattenMesh(const TriangleMesh& mesh, const Flatten
   MeshParameterization& map = result.Value;
   map.Mesh = std::move(disc.Value);
   map.Used = params.Method;
-  auto flat = RunMethod(map.Mesh, params.Method, params);
+  auto flat = RunFlattenMethod(map.Mesh, params.Method, params);
   const bool mayFallBack = params.Fallback && params.Method == FlattenMethod::Hlle;
   if (!flat && !mayFallBack)
   {
@@ -137,7 +135,7 @@ Result<MeshParameterization> FlattenMesh(const TriangleMesh& mesh, const Flatten
       {
         continue;
       }
-      auto other = RunMethod(map.Mesh, method, params);
+      auto other = RunFlattenMethod(map.Mesh, method, params);
       const int otherFlips = other ? CountFlips(map.Mesh, other->UV) : -1;
       if (other && (flips < 0 || otherFlips < flips))
       {
@@ -155,7 +153,7 @@ Result<MeshParameterization> FlattenMesh(const TriangleMesh& mesh, const Flatten
   map.UV = std::move(flat->UV);
   map.RejectedEigenvectors = flat->RejectedEigenvectors;
   NormalizeSimilarity(map.Mesh, map.UV);
-  SortLoops(map.Mesh, map.UV);
+  SortLoopsByArea(map.Mesh, map.UV);
   map.Seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   map.Measures = MeasureMap(map.Mesh, map.UV, params.Geodesics);
   return result;

@@ -130,6 +130,19 @@ void TurnToAxes(PointMatrix& uv)
   uv = (uv * turn).eval();
 }
 
+double LargestStretch(const DiscMesh& mesh, const PointMatrix& uv)
+{
+  double largest = 1.0;
+  for (std::size_t t = 0; t < mesh.Triangles.size(); ++t)
+  {
+    const SingularValues s = Decompose(TriangleJacobian(mesh, uv, t));
+    const double stretch =
+      s.Small > 0.0 ? std::max(s.Large, 1.0 / s.Small) : std::numeric_limits<double>::infinity();
+    largest = std::max(largest, stretch);
+  }
+  return largest;
+}
+
 FlattenMeasures MeasureMap(const DiscMesh& mesh, const PointMatrix& uv, GeodesicEstimator estimator)
 {
   FlattenMeasures measures;

@@ -22,6 +22,9 @@ void NormalizeSimilarity(const DiscMesh& mesh, PointMatrix& uv);
 /// Turns the longer principal axis along u: what eigenvectors of a double eigenvalue leave open.
 void TurnToAxes(PointMatrix& uv);
 
+/// max(s1, 1 / s2) over all triangles; infinite when one is flipped (NaN values count as flipped).
+double LargestStretch(const DiscMesh& mesh, const PointMatrix& uv);
+
 /// All measures of a map that has been normalized.
 /// @param estimator  of the distances that DistanceError compares with.
 FlattenMeasures MeasureMap(

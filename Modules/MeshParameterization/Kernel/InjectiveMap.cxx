@@ -252,19 +252,22 @@ Result<FlatMesh> BarycentricMap(const DiscMesh& mesh)
   return result;
 }
 
-Result<FlatMesh> InjectiveMap(const DiscMesh& mesh, int maxIterations)
+Result<FlatMesh> MapWithoutFlips(const DiscMesh& mesh)
 {
   auto result = LeastSquaresConformalMap(mesh);
   if (!result || CountFlips(mesh, result.Value.UV) > 0)
   {
     result = BarycentricMap(mesh);
   }
-  if (!result)
+  if (result)
   {
-    return result;
+    NormalizeSimilarity(mesh, result.Value.UV);
   }
-  PointMatrix& uv = result.Value.UV;
-  NormalizeSimilarity(mesh, uv);
+  return result;
+}
+
+Status RelaxMap(const DiscMesh& mesh, int maxIterations, PointMatrix& uv)
+{
   const Elements elements = BuildElements(mesh);
   double energy = Energy(mesh, elements, uv);
   if (!std::isfinite(energy))
@@ -303,6 +306,16 @@ Result<FlatMesh> InjectiveMap(const DiscMesh& mesh, int maxIterations)
     {
       break;
     }
+  }
+  return {};
+}
+
+Result<FlatMesh> InjectiveMap(const DiscMesh& mesh, int maxIterations)
+{
+  auto result = MapWithoutFlips(mesh);
+  if (result)
+  {
+    result.Status = RelaxMap(mesh, maxIterations, result.Value.UV);
   }
   return result;
 }

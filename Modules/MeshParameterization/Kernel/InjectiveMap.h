@@ -9,9 +9,15 @@ namespace knotwork
 /// @source Tutte, Proc. London Math. Soc. 13 (1963) 743-767; Floater, CAGD 14 (1997) 231-250.
 Result<FlatMesh> BarycentricMap(const DiscMesh& mesh);
 
-/// Map of the least symmetric Dirichlet energy int |J|^2 + |J^-1|^2 found from a map without flips
-/// (the conformal one, or else the barycentric one); steps never flip a triangle.
-/// @return NotConverged: the first map has flips already.
+/// The conformal map or, when it flips triangles, the barycentric one; normalized.
+Result<FlatMesh> MapWithoutFlips(const DiscMesh& mesh);
+
+/// Lets the symmetric Dirichlet energy int |J|^2 + |J^-1|^2 of a map without flips become least; no
+/// step flips a triangle.
+/// @return NotConverged: the map has flips already.
 /// @source Rabinovich, Poranne, Panozzo, Sorkine-Hornung, ACM TOG 36 (2017) 16.
+Status RelaxMap(const DiscMesh& mesh, int maxIterations, PointMatrix& uv);
+
+/// MapWithoutFlips and RelaxMap.
 Result<FlatMesh> InjectiveMap(const DiscMesh& mesh, int maxIterations);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TriangleMesh.h"
 
+#include "TriangleAdjacency.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -22,20 +24,6 @@ std::string List(const std::vector<int>& ids, const std::string& what)
   }
   return text + (ids.size() > 5 ? ", ...)" : ")");
 }
-
-/// One side of a triangle, from its corner Side to the next one.
-struct HalfEdge
-{
-  int Low = 0;
-  int High = 0;
-  int Triangle = 0;
-  int Side = 0;
-  bool operator<(const HalfEdge& other) const
-  {
-    return std::tie(this->Low, this->High, this->Triangle, this->Side) <
-      std::tie(other.Low, other.High, other.Triangle, other.Side);
-  }
-};
 
 Status CheckTriangles(const TriangleMesh& mesh)
 {
@@ -83,71 +71,8 @@ Status CheckTriangles(const TriangleMesh& mesh)
   return {};
 }
 
-/// Triangle and side on the other side of each side; -1 on the boundary.
-struct Adjacency
-{
-  std::vector<std::array<int, 3>> Triangle;
-  std::vector<std::array<int, 3>> Side;
-};
-
-Status FindAdjacency(const std::vector<std::array<int, 3>>& triangles, Adjacency& adjacency)
-{
-  std::vector<HalfEdge> edges;
-  edges.reserve(3 * triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      const int a = triangles[t][static_cast<std::size_t>(k)];
-      const int b = triangles[t][static_cast<std::size_t>((k + 1) % 3)];
-      edges.push_back({ std::min(a, b), std::max(a, b), static_cast<int>(t), k });
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  adjacency.Triangle.assign(triangles.size(), { -1, -1, -1 });
-  adjacency.Side.assign(triangles.size(), { -1, -1, -1 });
-  int crowded = 0;
-  std::string first;
-  for (std::size_t i = 0; i < edges.size();)
-  {
-    std::size_t j = i + 1;
-    while (j < edges.size() && edges[j].Low == edges[i].Low && edges[j].High == edges[i].High)
-    {
-      ++j;
-    }
-    if (j - i > 2)
-    {
-      if (crowded++ < 5)
-      {
-        first += (first.empty() ? "" : ", ") + std::to_string(edges[i].Low) + "-" +
-          std::to_string(edges[i].High);
-      }
-    }
-    else if (j - i == 2)
-    {
-      const auto link = [&](const HalfEdge& from, const HalfEdge& to)
-      {
-        const auto t = static_cast<std::size_t>(from.Triangle);
-        const auto k = static_cast<std::size_t>(from.Side);
-        adjacency.Triangle[t][k] = to.Triangle;
-        adjacency.Side[t][k] = to.Side;
-      };
-      link(edges[i], edges[i + 1]);
-      link(edges[i + 1], edges[i]);
-    }
-    i = j;
-  }
-  if (crowded > 0)
-  {
-    return { ErrorCode::InvalidTopology,
-      std::to_string(crowded) + " edges of more than two triangles (points " + first +
-        (crowded > 5 ? ", ..." : "") + ")" };
-  }
-  return {};
-}
-
 /// Component of each triangle; turns triangles over so that neighbours agree.
-Status Orient(std::vector<std::array<int, 3>>& triangles, const Adjacency& adjacency,
+Status Orient(std::vector<std::array<int, 3>>& triangles, const TriangleAdjacency& adjacency,
   std::vector<int>& component, std::vector<int>& sizes, std::vector<char>& turned)
 {
   component.assign(triangles.size(), -1);
@@ -417,7 +342,7 @@ Status KeepComponent(const TriangleMesh& mesh, const std::vector<std::array<int,
 }
 }
 
-Result<DiscMesh> CheckMesh(const TriangleMesh& mesh, bool largestComponent)
+Result<DiscMesh> CheckSurface(const TriangleMesh& mesh, bool largestComponent)
 {
   if (mesh.Points.rows() == 0 || mesh.Triangles.empty())
   {
@@ -431,16 +356,16 @@ Result<DiscMesh> CheckMesh(const TriangleMesh& mesh, bool largestComponent)
   {
     return status;
   }
-  Adjacency adjacency;
-  if (Status status = FindAdjacency(mesh.Triangles, adjacency); !status)
+  const auto adjacency = FindAdjacency(mesh.Triangles);
+  if (!adjacency)
   {
-    return status;
+    return adjacency.Status;
   }
   std::vector<std::array<int, 3>> triangles = mesh.Triangles;
   std::vector<int> component;
   std::vector<int> sizes;
   std::vector<char> turned;
-  if (Status status = Orient(triangles, adjacency, component, sizes, turned); !status)
+  if (Status status = Orient(triangles, adjacency.Value, component, sizes, turned); !status)
   {
     return status;
   }
@@ -461,6 +386,16 @@ Result<DiscMesh> CheckMesh(const TriangleMesh& mesh, bool largestComponent)
     return status;
   }
   BuildLoops(disc);
+  for (const auto& corners : disc.Triangles)
+  {
+    const Eigen::Vector3d a = disc.Point(corners[0]);
+    disc.Area += 0.5 * (disc.Point(corners[1]) - a).cross(disc.Point(corners[2]) - a).norm();
+  }
+  return result;
+}
+
+Status CheckDisc(const DiscMesh& disc)
+{
   const auto loops = static_cast<int>(disc.Loops.size());
   if (loops == 0)
   {
@@ -475,10 +410,15 @@ Result<DiscMesh> CheckMesh(const TriangleMesh& mesh, bool largestComponent)
       "the surface has " + std::to_string(genus) + (genus == 1 ? " handle" : " handles") +
         " (genus); cut it open first" };
   }
-  for (const auto& corners : disc.Triangles)
+  return {};
+}
+
+Result<DiscMesh> CheckMesh(const TriangleMesh& mesh, bool largestComponent)
+{
+  auto result = CheckSurface(mesh, largestComponent);
+  if (result)
   {
-    const Eigen::Vector3d a = disc.Point(corners[0]);
-    disc.Area += 0.5 * (disc.Point(corners[1]) - a).cross(disc.Point(corners[2]) - a).norm();
+    result.Status = CheckDisc(result.Value);
   }
   return result;
 }

@@ -15,8 +15,8 @@ struct TriangleMesh
   std::vector<std::array<int, 3>> Triangles; ///< rows of Points
 };
 
-/// A checked mesh: one component of an oriented manifold with a boundary, without handles (genus
-/// 0), and what its algorithms ask for. Points and triangles may be fewer than those of the input.
+/// A checked mesh: one component of an oriented manifold, and what its algorithms ask for; of
+/// CheckMesh a disc with holes. Points and triangles may be fewer than those of the input.
 struct DiscMesh
 {
   PointMatrix Points;
@@ -41,13 +41,20 @@ struct DiscMesh
   Eigen::Vector3d Point(int v) const { return this->Points.row(v).transpose(); }
 };
 
-/// Checks a mesh and finds its boundary loops.
+/// Checks a mesh, which may be closed and have handles, and finds its boundary loops.
 /// @param largestComponent  keep the component of the most triangles and drop unreferenced points,
 ///        instead of refusing several components and such points.
 /// @return EmptyInput; NonFiniteInput (ids of points); InvalidTopology: a corner that is no point,
 /// degenerate triangles (height below 1e-12 of the longest edge), an edge of three triangles, a
 /// vertex where fans of triangles touch, a surface of one side, unreferenced points, several
-/// components, a closed surface, handles. Details name up to five ids of the input.
+/// components. Details name up to five ids of the input.
 /// @complexity O(n log n).
+Result<DiscMesh> CheckSurface(const TriangleMesh& mesh, bool largestComponent = false);
+
+/// Whether a checked surface is a disc with holes.
+/// @return InvalidTopology: a closed surface, handles.
+Status CheckDisc(const DiscMesh& surface);
+
+/// CheckSurface and CheckDisc.
 Result<DiscMesh> CheckMesh(const TriangleMesh& mesh, bool largestComponent = false);
 }

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DivideChart.h"
+
+#include "CutLine.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace knotwork
+{
+namespace
+{
+constexpr double LeastCoherence = 0.5; // of normals at a hole: |sum| / sum of sizes
+constexpr double LeastIsland = 0.02;   // of the area of the chart
+constexpr int RepairRounds = 20;
+
+std::vector<int> TrianglesOf(const CutMesh& mesh, int chart)
+{
+  std::vector<int> triangles;
+  for (std::size_t t = 0; t < mesh.Charts.size(); ++t)
+  {
+    if (mesh.Charts[t] == chart)
+    {
+      triangles.push_back(static_cast<int>(t));
+    }
+  }
+  return triangles;
+}
+
+/// Divides triangles along the zero line and gives them the sides of the line.
+/// @param part  the chart, whose Sides are in the mesh.
+void CutAlong(CutMesh& mesh, const ChartPart& part, const Eigen::VectorXd& values)
+{
+  const auto sign = [](double value) { return (value > 0.0 ? 1 : 0) - (value < 0.0 ? 1 : 0); };
+  std::unordered_map<std::uint64_t, int> points;
+  std::unordered_map<int, int> signs; // of points of the mesh; those on the line have 0
+  for (int v = 0; v < part.Mesh.NumPoints(); ++v)
+  {
+    const auto at = static_cast<std::size_t>(v);
+    signs[part.Points[at]] = sign(values[v]);
+    for (int j = part.Mesh.FanStart[at]; j < part.Mesh.FanStart[at + 1]; ++j)
+    {
+      const int w = part.Mesh.Fan[static_cast<std::size_t>(j)];
+      if (v < w && values[v] * values[w] < 0.0)
+      {
+        const int a = part.Points[at];
+        const int b = part.Points[static_cast<std::size_t>(w)];
+        const int p = mesh.AddPoint(a, b, values[v] / (values[v] - values[w]));
+        points[CutMesh::EdgeKey(a, b)] = p;
+        signs[p] = 0;
+      }
+    }
+  }
+  const int chart = mesh.Charts[static_cast<std::size_t>(part.Triangles.front())];
+  mesh.Split(points);
+  for (int t : TrianglesOf(mesh, chart))
+  {
+    int sum = 0;
+    for (int c : mesh.Triangles[static_cast<std::size_t>(t)])
+    {
+      sum += signs.at(c);
+    }
+    if (sum != 0)
+    {
+      mesh.Sides[static_cast<std::size_t>(t)] = sum > 0 ? 1 : 0;
+    }
+  }
+}
+
+/// Where a side touches itself in a point all triangles there get the side of most of the area.
+/// @param holes  one a point; triangles at a hole give it all.
+/// @return whether there was such a point.
+bool JoinTouching(const DiscMesh& mesh, const std::vector<double>& areas,
+  const std::vector<int>& holes, Sides& sides)
+{
+  std::unordered_map<std::uint64_t, int> triangleAt; // of the directed side a -> b
+  for (std::size_t t = 0; t < mesh.Triangles.size(); ++t)
+  {
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const auto a = static_cast<std::uint64_t>(mesh.Triangles[t][k]);
+      const auto b = static_cast<std::uint64_t>(mesh.Triangles[t][(k + 1) % 3]);
+      triangleAt[a << 32 | b] = static_cast<int>(t);
+    }
+  }
+  bool any = false;
+  for (int v = 0; v < mesh.NumPoints(); ++v)
+  {
+    const auto at = static_cast<std::size_t>(v);
+    std::vector<std::size_t> star;
+    for (int j = mesh.FanStart[at]; j < mesh.FanStart[at + 1]; ++j)
+    {
+      const auto w = static_cast<std::uint64_t>(mesh.Fan[static_cast<std::size_t>(j)]);
+      const auto found = triangleAt.find(static_cast<std::uint64_t>(v) << 32 | w);
+      if (found != triangleAt.end())
+      {
+        star.push_back(static_cast<std::size_t>(found->second));
+      }
+    }
+    int changes = mesh.OnBoundary[at] ? 1 : 0; // an open fan ends and begins
+    for (std::size_t i = mesh.OnBoundary[at] ? 1 : 0; i < star.size(); ++i)
+    {
+      changes += sides[star[i]] != sides[star[(i + star.size() - 1) % star.size()]] ? 1 : 0;
+    }
+    if (changes <= 2)
+    {
+      continue;
+    }
+    any = true;
+    double sum = 0.0;
+    for (std::size_t t : star)
+    {
+      double weight = areas[t];
+      for (int c : mesh.Triangles[t])
+      {
+        weight += holes[static_cast<std::size_t>(c)] >= 0 ? mesh.Area : 0.0;
+      }
+      sum += sides[t] ? weight : -weight;
+    }
+    for (std::size_t t : star)
+    {
+      sides[t] = sum > 0.0 ? 1 : 0;
+    }
+  }
+  return any;
+}
+
+/// One component of a side gives up small islands, and points where it touches itself.
+Status RepairSides(CutMesh& mesh, int chart, const std::vector<int>& holes)
+{
+  const auto part = TakePart(mesh, TrianglesOf(mesh, chart));
+  if (!part)
+  {
+    return part.Status;
+  }
+  std::vector<int> localHoles;
+  for (int p : part.Value.Points)
+  {
+    const auto at = static_cast<std::size_t>(p);
+    localHoles.push_back(at < holes.size() ? holes[at] : -1);
+  }
+  const SurfaceParts parts(part.Value.Mesh, localHoles);
+  Sides sides;
+  for (int t : part.Value.Triangles)
+  {
+    sides.push_back(mesh.Sides[static_cast<std::size_t>(t)]);
+  }
+  for (int round = 0; round < RepairRounds; ++round)
+  {
+    JoinIslands(parts.Adjacency, parts.Areas, LeastIsland, sides);
+    if (!JoinTouching(part.Value.Mesh, parts.Areas, localHoles, sides))
+    {
+      break;
+    }
+  }
+  for (std::size_t i = 0; i < sides.size(); ++i)
+  {
+    mesh.Sides[static_cast<std::size_t>(part.Value.Triangles[i])] = sides[i];
+  }
+  return {};
+}
+
+bool HasBothSides(const CutMesh& mesh, const std::vector<int>& triangles)
+{
+  const auto side = [&](int t) { return mesh.Sides[static_cast<std::size_t>(t)]; };
+  return std::any_of(
+    triangles.begin(), triangles.end(), [&](int t) { return side(t) != side(triangles.front()); });
+}
+
+void SetSides(CutMesh& mesh, const ChartPart& part, const Sides& sides)
+{
+  for (std::size_t i = 0; i < sides.size(); ++i)
+  {
+    mesh.Sides[static_cast<std::size_t>(part.Triangles[i])] = sides[i];
+  }
+}
+}
+
+std::vector<int> FindSmallHoles(const DiscMesh& mesh)
+{
+  std::vector<int> holes(static_cast<std::size_t>(mesh.NumPoints()), -1);
+  int count = 0;
+  for (const auto& loop : mesh.Loops)
+  {
+    double length = 0.0;
+    for (std::size_t i = 0; i < loop.size(); ++i)
+    {
+      length += (mesh.Point(loop[(i + 1) % loop.size()]) - mesh.Point(loop[i])).norm();
+    }
+    if (length < std::sqrt(mesh.Area))
+    {
+      for (int v : loop)
+      {
+        holes[static_cast<std::size_t>(v)] = count;
+      }
+      ++count;
+    }
+  }
+  std::vector<Eigen::Vector3d> sums(static_cast<std::size_t>(count), Eigen::Vector3d::Zero());
+  std::vector<double> sizes(static_cast<std::size_t>(count), 0.0);
+  for (const auto& corners : mesh.Triangles)
+  {
+    const Eigen::Vector3d a = mesh.Point(corners[0]);
+    const Eigen::Vector3d normal = (mesh.Point(corners[1]) - a).cross(mesh.Point(corners[2]) - a);
+    for (int c : corners)
+    {
+      if (const int hole = holes[static_cast<std::size_t>(c)]; hole >= 0)
+      {
+        sums[static_cast<std::size_t>(hole)] += normal;
+        sizes[static_cast<std::size_t>(hole)] += normal.norm();
+      }
+    }
+  }
+  for (int& hole : holes)
+  {
+    const auto at = static_cast<std::size_t>(hole);
+    hole = hole >= 0 && sums[at].norm() >= LeastCoherence * sizes[at] ? hole : -1;
+  }
+  return holes;
+}
+
+Result<std::vector<int>> DivideChart(CutMesh& mesh, int chart, ChartFault fault,
+  const std::vector<int>& holes, double creaseAngle, int& numCharts)
+{
+  const std::vector<int> before = TrianglesOf(mesh, chart);
+  const auto part = TakePart(mesh, before);
+  if (!part)
+  {
+    return part.Status;
+  }
+  std::vector<int> localHoles;
+  for (int p : part.Value.Points)
+  {
+    const auto at = static_cast<std::size_t>(p);
+    localHoles.push_back(at < holes.size() ? holes[at] : -1);
+  }
+  const SurfaceParts parts(part.Value.Mesh, localHoles);
+  using Division = Sides (*)(const SurfaceParts&);
+  const std::array<Division, 2> divisions = fault == ChartFault::Shape
+    ? std::array<Division, 2>{ DivideByNormals, DivideByLength }
+    : std::array<Division, 2>{ DivideByLength, DivideByNormals };
+  bool divided = false;
+  for (Division division : divisions)
+  {
+    Sides sides = division(parts);
+    if (sides.empty())
+    {
+      continue;
+    }
+    JoinIslands(parts.Adjacency, parts.Areas, LeastIsland, sides);
+    Eigen::VectorXd values = CutFunction(parts, sides, creaseAngle);
+    if (values.size() == 0)
+    {
+      values = EdgeFunction(parts, sides);
+    }
+    SetSides(mesh, part.Value, sides);
+    CutAlong(mesh, part.Value, values);
+    if (Status status = RepairSides(mesh, chart, holes); !status)
+    {
+      return status;
+    }
+    divided = HasBothSides(mesh, TrianglesOf(mesh, chart));
+    break; // triangles are divided: the part is not the chart any more
+  }
+  if (!divided)
+  {
+    const auto again = TakePart(mesh, TrianglesOf(mesh, chart));
+    if (!again)
+    {
+      return again.Status;
+    }
+    const std::vector<int> none(again.Value.Points.size(), -1);
+    const Sides sides = DivideByPosition(SurfaceParts(again.Value.Mesh, none));
+    if (sides.empty())
+    {
+      return { ErrorCode::InvalidTopology, "a single triangle cannot be divided" };
+    }
+    SetSides(mesh, again.Value, sides);
+  }
+  const auto components = Components(mesh, TrianglesOf(mesh, chart));
+  Result<std::vector<int>> result;
+  for (std::size_t i = 0; i < components.size(); ++i)
+  {
+    const int number = i == 0 ? chart : numCharts++;
+    for (int t : components[i])
+    {
+      mesh.Charts[static_cast<std::size_t>(t)] = number;
+    }
+    result.Value.push_back(number);
+  }
+  return result;
+}
+}

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "CutMesh.h"
+
+namespace knotwork
+{
+/// Numbers of the holes that must not be cut, one a point, -1 at others: loops that are shorter
+/// than the root of the area, and whose triangles face one side.
+std::vector<int> FindSmallHoles(const DiscMesh& mesh);
+
+enum class ChartFault
+{
+  Shape,  ///< no disc, or stretched too much: sides of different normals are divided
+  Overlap ///< lies over itself in the plane: divided across its length
+};
+
+/// Cuts a chart in two or more parts: one keeps its number, the others get the next ones.
+/// @param holes     of FindSmallHoles, one a point of the mesh that was the first.
+/// @param numCharts  raised by the number of new charts.
+/// @return charts that are new or changed; InvalidTopology when the chart is a single triangle.
+Result<std::vector<int>> DivideChart(CutMesh& mesh, int chart, ChartFault fault,
+  const std::vector<int>& holes, double creaseAngle, int& numCharts);
+}

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "Status.h"
+
+#include <array>
+#include <vector>
+
+namespace knotwork
+{
+/// Triangle and side on the other side of each side k (corner k to the next one); -1 on the
+/// boundary.
+struct TriangleAdjacency
+{
+  std::vector<std::array<int, 3>> Triangle;
+  std::vector<std::array<int, 3>> Side;
+};
+
+/// @return InvalidTopology: edges of more than two triangles (number, first points).
+/// @complexity O(n log n).
+Result<TriangleAdjacency> FindAdjacency(const std::vector<std::array<int, 3>>& triangles);
+}
