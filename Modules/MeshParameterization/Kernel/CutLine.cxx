@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CutLine.h"
 
-#include "MeshWeights.h"
-#include "SparseCholesky.h"
+#include "HeatFlow.h"
 
 #include <algorithm>
 #include <cmath>
@@ -136,68 +135,12 @@ Eigen::VectorXd CutFunction(const SurfaceParts& parts, const Sides& sides, doubl
       held[static_cast<std::size_t>(v)] = 1;
     }
   }
-  // implicit steps of (M + tau L) f = M f, held points on the right-hand side
   const double width = SmoothingLength * length / count;
-  const double tau = 0.5 * width * width / HeatSteps;
-  std::vector<int> number;
-  int unknowns = 0;
-  for (char h : held)
+  for (int step = 0; step < HeatSteps; ++step)
   {
-    number.push_back(h ? -1 : unknowns++);
-  }
-  const Eigen::VectorXd masses = VertexAreas(mesh);
-  const Eigen::SparseMatrix<double> laplacian = CotangentLaplacian(mesh);
-  std::vector<Eigen::Triplet<double>> entries;
-  Eigen::VectorXd constant = Eigen::VectorXd::Zero(unknowns);
-  for (int column = 0; column < n; ++column)
-  {
-    const int q = number[static_cast<std::size_t>(column)];
-    for (Eigen::SparseMatrix<double>::InnerIterator at(laplacian, column); at; ++at)
-    {
-      const auto row = static_cast<int>(at.row());
-      const int p = number[static_cast<std::size_t>(row)];
-      const double value = tau * at.value() + (row == column ? masses[row] : 0.0);
-      if (p >= 0 && q >= 0)
-      {
-        entries.emplace_back(std::max(p, q), std::min(p, q), value);
-      }
-      else if (p >= 0)
-      {
-        constant[p] -= value * values[column];
-      }
-      else if (q >= 0)
-      {
-        constant[q] -= value * values[row];
-      }
-    }
-  }
-  if (unknowns > 0)
-  {
-    Eigen::SparseMatrix<double> matrix(unknowns, unknowns);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    SparseCholesky cholesky;
-    if (!cholesky.Factorize(matrix))
+    if (!FlowHeat(mesh, held, 0.5 * width * width / HeatSteps, values))
     {
       return {};
-    }
-    for (int step = 0; step < HeatSteps; ++step)
-    {
-      Eigen::MatrixXd side = constant;
-      for (int v = 0; v < n; ++v)
-      {
-        if (const int p = number[static_cast<std::size_t>(v)]; p >= 0)
-        {
-          side(p, 0) += masses[v] * values[v];
-        }
-      }
-      cholesky.Solve(side);
-      for (int v = 0; v < n; ++v)
-      {
-        if (const int p = number[static_cast<std::size_t>(v)]; p >= 0)
-        {
-          values[v] = side(p, 0);
-        }
-      }
     }
   }
   Snap(parts, held, values);

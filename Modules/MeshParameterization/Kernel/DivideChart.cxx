@@ -169,6 +169,26 @@ bool HasBothSides(const CutMesh& mesh, const std::vector<int>& triangles)
     triangles.begin(), triangles.end(), [&](int t) { return side(t) != side(triangles.front()); });
 }
 
+Sides DivideAtCrossing(
+  const SurfaceParts& parts, const std::vector<int>& points, const EdgeCrossing& crossing)
+{
+  std::vector<int> first;
+  std::vector<int> second;
+  for (std::size_t v = 0; v < points.size(); ++v)
+  {
+    const int p = points[v];
+    if (p == crossing.First[0] || p == crossing.First[1])
+    {
+      first.push_back(static_cast<int>(v));
+    }
+    if (p == crossing.Second[0] || p == crossing.Second[1])
+    {
+      second.push_back(static_cast<int>(v));
+    }
+  }
+  return DivideBetween(parts, first, second);
+}
+
 void SetSides(CutMesh& mesh, const ChartPart& part, const Sides& sides)
 {
   for (std::size_t i = 0; i < sides.size(); ++i)
@@ -221,7 +241,7 @@ std::vector<int> FindSmallHoles(const DiscMesh& mesh)
   return holes;
 }
 
-Result<std::vector<int>> DivideChart(CutMesh& mesh, int chart, ChartFault fault,
+Result<std::vector<int>> DivideChart(CutMesh& mesh, int chart, const EdgeCrossing& crossing,
   const std::vector<int>& holes, double creaseAngle, int& numCharts)
 {
   const std::vector<int> before = TrianglesOf(mesh, chart);
@@ -237,18 +257,11 @@ Result<std::vector<int>> DivideChart(CutMesh& mesh, int chart, ChartFault fault,
     localHoles.push_back(at < holes.size() ? holes[at] : -1);
   }
   const SurfaceParts parts(part.Value.Mesh, localHoles);
-  using Division = Sides (*)(const SurfaceParts&);
-  const std::array<Division, 2> divisions = fault == ChartFault::Shape
-    ? std::array<Division, 2>{ DivideByNormals, DivideByLength }
-    : std::array<Division, 2>{ DivideByLength, DivideByNormals };
-  bool divided = false;
-  for (Division division : divisions)
+  Sides sides = crossing ? DivideAtCrossing(parts, part.Value.Points, crossing) : Sides{};
+  sides = sides.empty() ? DivideByNormals(parts) : sides;
+  sides = sides.empty() ? DivideByLength(parts) : sides;
+  if (!sides.empty())
   {
-    Sides sides = division(parts);
-    if (sides.empty())
-    {
-      continue;
-    }
     JoinIslands(parts.Adjacency, parts.Areas, LeastIsland, sides);
     Eigen::VectorXd values = CutFunction(parts, sides, creaseAngle);
     if (values.size() == 0)
@@ -261,10 +274,8 @@ Result<std::vector<int>> DivideChart(CutMesh& mesh, int chart, ChartFault fault,
     {
       return status;
     }
-    divided = HasBothSides(mesh, TrianglesOf(mesh, chart));
-    break; // triangles are divided: the part is not the chart any more
   }
-  if (!divided)
+  if (!HasBothSides(mesh, TrianglesOf(mesh, chart)))
   {
     const auto again = TakePart(mesh, TrianglesOf(mesh, chart));
     if (!again)
@@ -272,7 +283,7 @@ Result<std::vector<int>> DivideChart(CutMesh& mesh, int chart, ChartFault fault,
       return again.Status;
     }
     const std::vector<int> none(again.Value.Points.size(), -1);
-    const Sides sides = DivideByPosition(SurfaceParts(again.Value.Mesh, none));
+    sides = DivideByPosition(SurfaceParts(again.Value.Mesh, none));
     if (sides.empty())
     {
       return { ErrorCode::InvalidTopology, "a single triangle cannot be divided" };

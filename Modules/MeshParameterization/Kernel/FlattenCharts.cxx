@@ -25,7 +25,7 @@ constexpr int TrialIterations = 10; // after which a hopeless map is given up
 struct ChartMap
 {
   bool Good = false;
-  bool Crosses = false;
+  EdgeCrossing Crossing;     ///< of a map without flips
   double Stretch = Infinite; ///< infinite without a map, or when it flips
   PointMatrix UV;            ///< without rows when there is no map
   FlattenMethod Used = FlattenMethod::Hlle;
@@ -47,8 +47,11 @@ bool Consider(
 {
   ChartMap map;
   map.Stretch = LargestStretch(mesh, uv);
-  map.Crosses = std::isfinite(map.Stretch) && LoopsCross(mesh, uv);
-  map.Good = map.Stretch <= limit && !map.Crosses;
+  if (std::isfinite(map.Stretch))
+  {
+    map.Crossing = FindCrossing(mesh, uv);
+  }
+  map.Good = map.Stretch <= limit && !map.Crossing;
   map.Used = method;
   if (map.Good || best.UV.rows() == 0 || map.Stretch < best.Stretch)
   {
@@ -70,8 +73,8 @@ std::string Fault(const Result<FlatMesh>& flat, const DiscMesh& mesh, const Char
   {
     return "flips " + std::to_string(CountFlips(mesh, flat->UV)) + " triangles";
   }
-  return map.Crosses ? "lets the boundary cross itself"
-                     : "stretches " + Text(map.Stretch) + " times";
+  return map.Crossing ? "lets the boundary cross itself"
+                      : "stretches " + Text(map.Stretch) + " times";
 }
 
 ChartMap MapChart(const DiscMesh& mesh, const FlattenParams& params, double limit)
@@ -105,12 +108,11 @@ ChartMap MapChart(const DiscMesh& mesh, const FlattenParams& params, double limi
   // the conformal map's scale varies like exp(distance) where the best map's does like distance
   const bool hopeless = LargestStretch(mesh, uv) > std::exp(2.0 * limit);
   const int trial = std::min(TrialIterations, params.MaxIterations);
-  if (hopeless || !RelaxMap(mesh, trial, uv) || LargestStretch(mesh, uv) > 2.0 * limit)
+  if (!hopeless && RelaxMap(mesh, trial, uv) && LargestStretch(mesh, uv) < 2.0 * limit &&
+    !FindCrossing(mesh, uv))
   {
-    Consider(mesh, limit, FlattenMethod::Injective, std::move(uv), best);
-    return best;
+    RelaxMap(mesh, params.MaxIterations - trial, uv);
   }
-  RelaxMap(mesh, params.MaxIterations - trial, uv);
   NormalizeSimilarity(mesh, uv);
   Consider(mesh, limit, FlattenMethod::Injective, std::move(uv), best);
   return best;
@@ -145,7 +147,13 @@ Result<ChartMap> LayChart(CutMesh& mesh, int chart, const FlattenParams& params,
   {
     map.Stretch = Infinite;
   }
-  map.Crosses = map.Crosses && std::isfinite(map.Stretch);
+  for (auto* edge : { &map.Crossing.First, &map.Crossing.Second })
+  {
+    for (int& v : *edge)
+    {
+      v = v < 0 ? v : part.Value.Points[static_cast<std::size_t>(v)];
+    }
+  }
   return map;
 }
 
@@ -250,11 +258,10 @@ Result<ChartedMesh> FlattenCharts(
     {
       break;
     }
-    const ChartFault fault = worst->Crosses && worst->Stretch <= charts.MaxStretch
-      ? ChartFault::Overlap
-      : ChartFault::Shape;
+    const EdgeCrossing crossing =
+      worst->Stretch <= charts.MaxStretch ? worst->Crossing : EdgeCrossing{};
     auto divided =
-      DivideChart(cut, static_cast<int>(worst - maps.begin()), fault, holes, crease, numCharts);
+      DivideChart(cut, static_cast<int>(worst - maps.begin()), crossing, holes, crease, numCharts);
     if (!divided)
     {
       return divided.Status;

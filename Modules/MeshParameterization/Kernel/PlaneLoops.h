@@ -4,8 +4,17 @@
 
 namespace knotwork
 {
-/// Whether boundary edges cross each other in the plane (common ends do not count). A map without
-/// flips whose boundary does not cross itself is injective.
+/// Two boundary edges, by their points.
+struct EdgeCrossing
+{
+  std::array<int, 2> First{ -1, -1 };
+  std::array<int, 2> Second{ -1, -1 };
+  explicit operator bool() const { return this->First[0] >= 0; }
+};
+
+/// Boundary edges that cross each other in the plane (common ends do not count): of all such pairs
+/// the one with the longest way along the boundary between them; loops are farthest from each
+/// other. A map without flips whose boundary does not cross itself is injective.
 /// @complexity O(n log n) when few edges are near each other.
-bool LoopsCross(const DiscMesh& mesh, const PointMatrix& uv);
+EdgeCrossing FindCrossing(const DiscMesh& mesh, const PointMatrix& uv);
 }

@@ -2,6 +2,7 @@
 #include "SurfaceSides.h"
 
 #include "GraphCut.h"
+#include "HeatFlow.h"
 #include "MeshWeights.h"
 #include "SmallEigenpairs.h"
 
@@ -84,6 +85,16 @@ Sides BySign(const SurfaceParts& parts, const std::vector<double>& values)
     ofNode.push_back(sum > 0.0 ? 1 : 0);
   }
   return ToTriangles(parts, nodes, ofNode);
+}
+
+Sides ByPoints(const SurfaceParts& parts, const Eigen::VectorXd& values)
+{
+  std::vector<double> means;
+  for (const auto& corners : parts.Mesh.Triangles)
+  {
+    means.push_back(values[corners[0]] + values[corners[1]] + values[corners[2]]);
+  }
+  return BySign(parts, means);
 }
 
 struct NormalCut
@@ -226,6 +237,28 @@ Sides DivideByNormals(const SurfaceParts& parts)
   return best.Of;
 }
 
+Sides DivideBetween(
+  const SurfaceParts& parts, const std::vector<int>& first, const std::vector<int>& second)
+{
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(parts.Mesh.NumPoints());
+  std::vector<char> held(static_cast<std::size_t>(parts.Mesh.NumPoints()), 0);
+  for (int v : first)
+  {
+    values[v] += 1.0;
+    held[static_cast<std::size_t>(v)] = 1;
+  }
+  for (int v : second)
+  {
+    values[v] -= 1.0;
+    held[static_cast<std::size_t>(v)] = 1;
+  }
+  if (!FlowHeat(parts.Mesh, held, std::numeric_limits<double>::infinity(), values))
+  {
+    return {};
+  }
+  return ByPoints(parts, values);
+}
+
 Sides DivideByLength(const SurfaceParts& parts)
 {
   if (parts.Mesh.NumPoints() < 8)
@@ -239,17 +272,7 @@ Sides DivideByLength(const SurfaceParts& parts)
   {
     return {};
   }
-  std::vector<double> values;
-  for (const auto& corners : parts.Mesh.Triangles)
-  {
-    double sum = 0.0;
-    for (int c : corners)
-    {
-      sum += pairs.Value.Vectors(c, 0);
-    }
-    values.push_back(sum);
-  }
-  return BySign(parts, values);
+  return ByPoints(parts, pairs.Value.Vectors.col(0));
 }
 
 Sides DivideByPosition(const SurfaceParts& parts)

@@ -30,6 +30,11 @@ using Sides = std::vector<char>;
 /// Veksler, Zabih, IEEE PAMI 23 (2001) 1222.
 Sides DivideByNormals(const SurfaceParts& parts);
 
+/// Sides of the sign of the harmonic function that is 1 at some points and -1 at others: the cut
+/// runs between the two.
+Sides DivideBetween(
+  const SurfaceParts& parts, const std::vector<int>& first, const std::vector<int>& second);
+
 /// Sides of the sign of the first eigenvector of the Laplacian: halves of a long surface.
 Sides DivideByLength(const SurfaceParts& parts);
 

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ClosedCases.h"
+#include "CutLine.h"
+#include "CutMesh.h"
+#include "DivideChart.h"
+#include "GraphCut.h"
+#include "HeatFlow.h"
+#include "MeshCases.h"
+#include "PlaneLoops.h"
+
+#include <gtest/gtest.h>
+#include <limits>
+#include <random>
+
+namespace knotwork
+{
+namespace
+{
+double Infinite()
+{
+  return std::numeric_limits<double>::infinity();
+}
+
+TEST(GraphCut, SmallGraphsAreCutAsByTrial_ExactOracle)
+{
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> value(0.0, 1.0);
+  for (int trial = 0; trial < 200; ++trial)
+  {
+    const int n = 2 + static_cast<int>(random() % 8);
+    std::vector<double> costs;
+    std::vector<GraphEdge> edges;
+    for (int i = 0; i < n; ++i)
+    {
+      costs.push_back(4.0 * value(random) - 2.0);
+      for (int j = 0; j < i; ++j)
+      {
+        if (value(random) < 0.5)
+        {
+          edges.push_back({ i, j, value(random) });
+        }
+      }
+    }
+    const auto energy = [&](const auto& side)
+    {
+      double sum = 0.0;
+      for (int i = 0; i < n; ++i)
+      {
+        sum += side(i) ? costs[static_cast<std::size_t>(i)] : 0.0;
+      }
+      for (const GraphEdge& edge : edges)
+      {
+        sum += side(edge.A) != side(edge.B) ? edge.Weight : 0.0;
+      }
+      return sum;
+    };
+    double least = Infinite();
+    for (unsigned mask = 0; mask < 1U << n; ++mask)
+    {
+      least = std::min(least, energy([mask](int i) { return (mask >> i & 1U) != 0; }));
+    }
+    const auto sides = CutGraph(costs, edges);
+    const double found = energy([&](int i) { return sides[static_cast<std::size_t>(i)] != 0; });
+    EXPECT_NEAR(found, least, 1e-6); // weights are rounded to 2^-30 of their sum
+  }
+}
+
+TEST(GraphCut, HeldNodesKeepTheirSides_ExactOracle)
+{
+  const std::vector<GraphEdge> chain{ { 0, 1, 3.0 }, { 1, 2, 1.0 }, { 2, 3, 2.0 } };
+  const std::vector<char> expected{ 0, 0, 1, 1 };
+  EXPECT_EQ(CutGraph({ Infinite(), 0.0, 0.0, -Infinite() }, chain), expected);
+}
+
+TEST(CutMesh, DivisionKeepsAreasPlacesAndOrientation_ExactOracle)
+{
+  const MeshCase plate = PlateWithHoles(0.2);
+  const auto disc = CheckMesh(plate.Mesh);
+  ASSERT_TRUE(disc);
+  CutMesh mesh(disc.Value);
+  for (std::size_t t = 0; t < mesh.Triangles.size(); ++t)
+  {
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      mesh.UV[t][k] = 2.0 * mesh.Points[static_cast<std::size_t>(mesh.Triangles[t][k])].head<2>();
+    }
+  }
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> weight(0.2, 0.8);
+  for (int round = 0; round < 3; ++round) // triangles of one, two and three new points
+  {
+    std::unordered_map<std::uint64_t, int> points;
+    const std::size_t count = mesh.Triangles.size();
+    for (std::size_t t = 0; t < count; ++t)
+    {
+      const auto corners = mesh.Triangles[t];
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        const auto key = CutMesh::EdgeKey(corners[k], corners[(k + 1) % 3]);
+        if (random() % 2 == 0 && points.count(key) == 0)
+        {
+          points[key] = mesh.AddPoint(corners[k], corners[(k + 1) % 3], weight(random));
+        }
+      }
+    }
+    mesh.Split(points);
+  }
+  std::vector<double> areas(disc->Triangles.size(), 0.0);
+  for (std::size_t t = 0; t < mesh.Triangles.size(); ++t)
+  {
+    std::array<Eigen::Vector2d, 3> at;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      at[k] = mesh.Points[static_cast<std::size_t>(mesh.Triangles[t][k])].head<2>();
+      EXPECT_LE((mesh.UV[t][k] - 2.0 * at[k]).norm(), 1e-14);
+    }
+    const Eigen::Vector2d p = at[1] - at[0];
+    const Eigen::Vector2d q = at[2] - at[0];
+    const double area = 0.5 * (p[0] * q[1] - p[1] * q[0]);
+    EXPECT_GT(area, 0.0);
+    areas[static_cast<std::size_t>(mesh.TriangleIds[t])] += area;
+  }
+  for (std::size_t t = 0; t < areas.size(); ++t)
+  {
+    const auto& c = disc->Triangles[t];
+    const Eigen::Vector3d p = disc->Point(c[1]) - disc->Point(c[0]);
+    const Eigen::Vector3d q = disc->Point(c[2]) - disc->Point(c[0]);
+    EXPECT_NEAR(areas[t], 0.5 * (p[0] * q[1] - p[1] * q[0]), 1e-15);
+  }
+  std::vector<int> all(mesh.Triangles.size());
+  for (std::size_t t = 0; t < all.size(); ++t)
+  {
+    all[t] = static_cast<int>(t);
+  }
+  const auto part = TakePart(mesh, all); // conforming: the same loops
+  ASSERT_TRUE(part) << part.Status.Message();
+  EXPECT_EQ(part->Mesh.Loops.size(), 3u);
+}
+
+TEST(CutMesh, FansThatTouchGetPointsOfTheirOwn_ExactOracle)
+{
+  const auto disc =
+    CheckMesh(FlatCase(0.0, 2.0, 0.0, 2.0, 1.0, [](double, double) { return true; }).Mesh);
+  ASSERT_TRUE(disc);
+  CutMesh mesh(disc.Value);
+  // a ring around one corner triangle of the middle point, which is opened on one side
+  int middle = 0;
+  for (int v = 0; v < disc->NumPoints(); ++v)
+  {
+    middle = disc->OnBoundary[static_cast<std::size_t>(v)] ? middle : v;
+  }
+  std::vector<int> star;
+  for (std::size_t t = 0; t < mesh.Triangles.size(); ++t)
+  {
+    const auto& c = mesh.Triangles[t];
+    if (c[0] == middle || c[1] == middle || c[2] == middle)
+    {
+      star.push_back(static_cast<int>(t));
+    }
+  }
+  ASSERT_EQ(star.size(), 6u);
+  std::vector<int> all;
+  for (int t = 0; t < static_cast<int>(mesh.Triangles.size()); ++t)
+  {
+    if (t != star[1] && t != star[4])
+    {
+      all.push_back(t);
+    }
+  }
+  const auto components = Components(mesh, all);
+  for (const auto& component : components)
+  {
+    const auto part = TakePart(mesh, component);
+    ASSERT_TRUE(part) << part.Status.Message(); // refused by CheckSurface without copies
+  }
+}
+
+TEST(PlaneLoops, CrossingIsFoundAndOnlyThat_ExactOracle)
+{
+  const MeshCase plate = FlatCase(0.0, 6.0, 0.0, 0.4, 0.1, [](double, double) { return true; });
+  const auto disc = CheckMesh(plate.Mesh);
+  ASSERT_TRUE(disc);
+  const auto roll = [&](double turns)
+  {
+    PointMatrix uv(plate.Flat.rows(), 2);
+    for (Eigen::Index i = 0; i < uv.rows(); ++i)
+    {
+      const double angle = -2.0 * std::acos(-1.0) * turns * plate.Flat(i, 0) / 6.0;
+      const double radius = 1.0 + plate.Flat(i, 1);
+      uv.row(i) << radius * std::cos(angle), radius * std::sin(angle);
+    }
+    return uv;
+  };
+  EXPECT_FALSE(FindCrossing(disc.Value, plate.Flat));
+  EXPECT_FALSE(FindCrossing(disc.Value, roll(0.9)));
+  const EdgeCrossing crossing = FindCrossing(disc.Value, roll(1.1));
+  ASSERT_TRUE(crossing);
+  // the two ends of the strip
+  const double x = plate.Flat(crossing.First[0], 0);
+  const double y = plate.Flat(crossing.Second[0], 0);
+  EXPECT_GT(std::abs(x - y), 4.5);
+}
+
+TEST(HeatFlow, HarmonicFunctionOfARectangleIsLinear_ExactOracle)
+{
+  const MeshCase plate = FlatCase(0.0, 2.0, 0.0, 1.0, 0.1, [](double, double) { return true; });
+  const auto disc = CheckMesh(plate.Mesh);
+  ASSERT_TRUE(disc);
+  Eigen::VectorXd values(disc->NumPoints());
+  std::vector<char> held;
+  for (int v = 0; v < disc->NumPoints(); ++v)
+  {
+    values[v] = disc->Points(v, 0);
+    held.push_back(disc->OnBoundary[static_cast<std::size_t>(v)]);
+  }
+  const Eigen::VectorXd linear = values;
+  for (int v = 0; v < disc->NumPoints(); ++v)
+  {
+    values[v] = held[static_cast<std::size_t>(v)] ? values[v] : 7.0;
+  }
+  ASSERT_TRUE(FlowHeat(disc.Value, held, Infinite(), values));
+  EXPECT_LE((values - linear).cwiseAbs().maxCoeff(), 1e-12);
+  // the step conserves heat
+  Eigen::VectorXd heat = linear.array().square();
+  const Eigen::VectorXd before = heat;
+  ASSERT_TRUE(FlowHeat(disc.Value, std::vector<char>(held.size(), 0), 0.1, heat));
+  EXPECT_LT(heat.maxCoeff(), before.maxCoeff());
+  EXPECT_GT(heat.minCoeff(), before.minCoeff());
+}
+
+TEST(SurfaceSides, LongSurfaceIsHalved_PropertyOracle)
+{
+  const auto disc =
+    CheckMesh(FlatCase(0.0, 4.0, 0.0, 1.0, 0.1, [](double, double) { return true; }).Mesh);
+  ASSERT_TRUE(disc);
+  const std::vector<int> holes(static_cast<std::size_t>(disc->NumPoints()), -1);
+  const SurfaceParts parts(disc.Value, holes);
+  EXPECT_TRUE(DivideByNormals(parts).empty()); // one direction only
+  for (const Sides& sides : { DivideByLength(parts), DivideByPosition(parts) })
+  {
+    ASSERT_EQ(sides.size(), parts.Areas.size());
+    double area = 0.0;
+    for (std::size_t t = 0; t < sides.size(); ++t)
+    {
+      area += sides[t] ? parts.Areas[t] : 0.0;
+      const auto& c = disc->Triangles[t];
+      const double x =
+        (disc->Points(c[0], 0) + disc->Points(c[1], 0) + disc->Points(c[2], 0)) / 3.0;
+      EXPECT_TRUE(std::abs(x - 2.0) < 0.2 ||
+        (sides[t] == sides[0]) == ((x < 2.0) == (disc->Points(disc->Triangles[0][0], 0) < 2.0)));
+    }
+    EXPECT_NEAR(area, 2.0, 0.15); // an edge's width
+  }
+}
+
+TEST(SurfaceSides, IslandsJoinAndTheLargestStay_ExactOracle)
+{
+  // a chain of triangles
+  TriangleAdjacency chain;
+  const int n = 20;
+  for (int i = 0; i < n; ++i)
+  {
+    chain.Triangle.push_back({ i - 1, i + 1 < n ? i + 1 : -1, -1 });
+  }
+  const std::vector<double> areas(n, 1.0);
+  Sides sides(n, 0);
+  sides[3] = 1;
+  sides[10] = sides[11] = sides[12] = 1;
+  JoinIslands(chain, areas, 0.1, sides);
+  Sides expected(n, 0);
+  expected[10] = expected[11] = expected[12] = 1;
+  EXPECT_EQ(sides, expected);
+}
+
+TEST(DivideChart, HolesAreSmallAndOnOneSide_ExactOracle)
+{
+  const auto fuselage = CheckSurface(Fuselage(4.0, 3));
+  ASSERT_TRUE(fuselage);
+  std::vector<int> holes = FindSmallHoles(fuselage.Value);
+  for (int v = 0; v < fuselage->NumPoints(); ++v)
+  {
+    EXPECT_EQ(holes[static_cast<std::size_t>(v)] >= 0,
+      fuselage->OnBoundary[static_cast<std::size_t>(v)] != 0);
+  }
+  // the ends of a tube face all sides
+  const auto tube = CheckSurface(
+    Without(Fuselage(12.0, 1), [](const Eigen::Vector3d& p) { return p[0] < 0.1 || p[0] > 11.9; }));
+  ASSERT_TRUE(tube);
+  ASSERT_EQ(tube->Loops.size(), 4u);
+  holes = FindSmallHoles(tube.Value);
+  for (int v = 0; v < tube->NumPoints(); ++v)
+  {
+    const double x = tube->Points(v, 0);
+    EXPECT_EQ(holes[static_cast<std::size_t>(v)] >= 0,
+      tube->OnBoundary[static_cast<std::size_t>(v)] != 0 && x > 1.0 && x < 11.0);
+  }
+}
+}
+}
