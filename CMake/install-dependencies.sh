@@ -10,6 +10,7 @@ packages=(
   # kernels
   libeigen3-dev libtbb-dev libnanoflann-dev libpugixml-dev libboost-dev libsuitesparse-dev libopenblas0-serial
   libocct-data-exchange-dev libocct-modeling-algorithms-dev libocct-ocaf-dev
+  libcgal-dev
   # filters, command line, Python
   libvtk9-dev python3-vtk9 python3-dev libcli11-dev nlohmann-json3-dev
   # ParaView plugin
