@@ -481,6 +481,27 @@ TEST(BoundDeviation, QuarterCylinderArea_ExactOracle)
   }
 }
 
+TEST(BoundDeviation, UnequalWeights_ExactOracle)
+{
+  // (u, v, 1 / w) with w = 1 - 2.5 u (1 - u) over the plane z = 0: at most 8 / 3, at u = 1/2; the
+  // linear part of w knows nothing of that
+  Spline<2> surface;
+  surface.Space =
+    MakeTensorSpace<2>({ KnotVector::Uniform(3, 1), KnotVector::Uniform(1, 1) }).Value;
+  surface.ControlPoints.resize(8, 3);
+  surface.ControlPoints << 0, 0, 1, 2, 0, 6, -1, 0, 6, 1, 0, 1, 0, 1, 1, 2, 1, 6, -1, 1, 6, 1, 1, 1;
+  surface.Weights.resize(8);
+  surface.Weights << 1, 1.0 / 6, 1.0 / 6, 1, 1, 1.0 / 6, 1.0 / 6, 1;
+  const ChartMesh chart = Chart({ { 0.01, 0.0 }, { 1.0, 0.1 }, { 0.47, 0.99 } }, { { 0, 1, 2 } },
+    [](double u, double v) {
+      return RealArray<3>{ u, v, 0.0 };
+    });
+  const ChartDeviation deviation = Deviate(chart, surface);
+  EXPECT_GE(deviation.MaxBound, 8.0 / 3.0);
+  EXPECT_LE(deviation.MaxBound, 1.05 * 8.0 / 3.0 + 1e-12);
+  EXPECT_LE(deviation.MaxFound, 8.0 / 3.0 + 1e-12);
+}
+
 TEST(BoundDeviation, CoarseTriangleOnFineNet_CrossOracle)
 {
   // one triangle over some hundred elements, of a wave: quadrature has to follow the elements
