@@ -7,7 +7,7 @@ namespace knotwork
 {
 enum class LoopVerdict : std::int8_t
 {
-  Crossing = -1, ///< loops cross themselves or each other, or are not nested
+  Crossing = -1, ///< proved: loops cross themselves or each other, or are not nested and oriented
   Undecided = 0,
   SimpleNested = 1 ///< proved: simple closed curves, holes inside the outer one and outside others
 };
@@ -15,12 +15,17 @@ enum class LoopVerdict : std::int8_t
 const char* ToString(LoopVerdict verdict);
 
 /// Proves that the loops of a face are simple, disjoint, closed, nested and oriented (outer one
-/// counterclockwise, holes clockwise), in the parameter plane.
+/// counterclockwise, holes clockwise), in the parameter plane. A face without loops is. Ends of
+/// curves that meet may differ by 1e-12 of their coordinates; loops with larger gaps are undecided.
+/// @return SizeMismatch, NonFiniteInput, InvalidWeight (as Spline::Check), DimensionMismatch,
+/// EmptyInput for a loop without curves.
+/// @source see ProveSimpleCurves; windings by angles, orientation by area.
 Result<LoopVerdict> ProveLoops(const TrimmedFace& face, int threads = 0);
 
 struct LoopParams
 {
-  /// Largest distance in space between the mesh's boundary and the curve that replaces it, > 0.
+  /// Largest distance in space, measured on the surface, between the mesh's boundary and the pcurve
+  /// that replaces it, > 0. (How far the surface is from the mesh comes on top in space.)
   double Tolerance = 0.0;
   /// A boundary that turns by more than so many degrees at a point has a corner there: edges end.
   /// (0, 180].
@@ -36,18 +41,26 @@ struct TrimLoops
   int NumEdges = 0;
   int NumVertices = 0;
   int NumBoundaryLoops = 0; ///< of the whole surface: loops of edges that only one chart uses
-  double MaxBoundaryDistance = 0.0; ///< bound of the distance |curve(t) - boundary(t)| in space
-  double MaxEdgeGap = 0.0;          ///< bound of |curve(t) - S(pcurve(t))| over all uses
+  /// Bounds over all edges and their parameters, proved up to rounding:
+  double MaxBoundaryDistance = 0.0; ///< |curve(t) - boundary(t)| in space
+  double MaxTrimDistance = 0.0;     ///< |S(pcurve(t)) - S(UV boundary(t))| over all uses
+  double MaxEdgeGap = 0.0;          ///< |curve(t) - S(pcurve(t))| over all uses
 };
 
 /// Boundary loops of charts as trimming curves: chains of boundary edges between corners, and
 /// between points where other charts begin, become one edge each, which all charts along it use.
 /// Pcurves are least squares splines with as many knots as the tolerance asks; where loops cross,
-/// the tolerance is halved until they do not. Edge curves follow S(pcurve) (the mean of both
-/// surfaces) to a hundredth of the tolerance beyond what the surfaces disagree.
-/// @param surfaces  of the charts.
-/// @return InvalidTopology (a boundary that is no manifold, an edge of three charts), SizeMismatch,
-/// InvalidParameter, NotConverged, Aborted.
+/// the tolerance is halved until they do not, up to seven times: then the verdict says so. Edge
+/// curves follow S(pcurve) (the mean of both surfaces) to a hundredth of the tolerance beyond what
+/// the surfaces disagree. All curves are cubic; between corners of the mesh's boundary that are
+/// duller than CornerAngle they have two continuous derivatives unless only a multiple knot reaches
+/// the tolerance.
+/// @param surfaces  of the charts: polynomial tensor products over domains that hold all UV.
+/// @return EmptyInput; SizeMismatch; InvalidParameter; failures of both Check; DimensionMismatch;
+/// OutsideDomain; InvalidTopology: an edge of three charts or triangles, triangles that lie on one
+/// side of an edge or touch in a point only, common points that lie apart, a chart that is not one
+/// disc with holes; NotConverged; Aborted. Details name chart, edge and points.
+/// @complexity O(n log n) for n triangles, plus that of the fits.
 Result<TrimLoops> FitLoops(const std::vector<ChartMesh>& charts,
   const std::vector<Spline<2>>& surfaces, const LoopParams& params);
 }
