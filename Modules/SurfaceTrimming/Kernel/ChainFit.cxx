@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace knotwork
 {
@@ -378,42 +379,85 @@ private:
         return;
       }
     }
-    const double width = end - begin;
-    const double middle = 0.5 * (begin + end);
-    if (last - first != 1)
+    if (last - first > 1)
     {
-      // of many points the one next to the middle
-      double knot = middle;
-      for (auto vertex = first; vertex < last; ++vertex)
-      {
-        if (std::abs(*vertex - middle) < (knot == middle ? 0.25 * width : std::abs(knot - middle)))
-        {
-          knot = *vertex;
-        }
-      }
-      this->Knots.push_back(knot);
+      this->InsertBetween(begin, end, first, last);
       return;
     }
-    // A cubic spline over knots with distance h rounds a corner off by h / 6 of the jump of the
-    // velocity there, within 2 h.
-    const double vertex = *first;
-    const std::size_t number = static_cast<std::size_t>(first - t.begin());
-    const double h = 4.0 * this->Tolerance / std::max(this->Jump(number), 1e-300);
-    this->Knots.push_back(vertex);
-    const double room = 0.4 * std::min(vertex - begin, end - vertex);
-    if (2.0 * h < room && h > leastSpan)
+    // one corner inside, or some at the ends
+    bool isNew = false;
+    for (auto vertex = first - 1; vertex <= last; ++vertex)
     {
-      for (const double away : { -2.0, -1.0, 1.0, 2.0 })
+      if (*vertex >= begin && *vertex <= end && *vertex > 0.0 && *vertex < 1.0)
       {
-        this->Knots.push_back(vertex + away * h);
+        isNew = this->Surround(static_cast<std::size_t>(vertex - t.begin())) || isNew;
       }
     }
+    if (!isNew)
+    {
+      this->Knots.push_back(0.5 * (begin + end));
+    }
+  }
+
+  /// A knot at the corner that is next to the middle of the span, if any is near.
+  void InsertBetween(double begin, double end, std::vector<double>::const_iterator first,
+    std::vector<double>::const_iterator last)
+  {
+    const double middle = 0.5 * (begin + end);
+    double knot = middle;
+    double least = 0.25 * (end - begin);
+    for (auto vertex = first; vertex != last; ++vertex)
+    {
+      if (std::abs(*vertex - middle) < least)
+      {
+        least = std::abs(*vertex - middle);
+        knot = *vertex;
+      }
+    }
+    this->Knots.push_back(knot);
+  }
+
+  /// Knots around a corner, once. A cubic spline over knots with distance h rounds a corner off by
+  /// h / 6 of the jump of the velocity there, within 2 h.
+  bool Surround(std::size_t vertex)
+  {
+    if (!this->Surrounded.insert(vertex).second)
+    {
+      return false;
+    }
+    const auto& t = this->Chain.Parameters;
+    const double h = 4.0 * this->Tolerance / std::max(this->Jump(vertex), 1e-300);
+    if (!(h > leastSpan))
+    {
+      return false;
+    }
+    std::vector<double> knots{ t[vertex] };
+    for (const double away : { -2.0, -1.0, 1.0, 2.0 })
+    {
+      const double room = away < 0.0 ? t[vertex] - t[vertex - 1] : t[vertex + 1] - t[vertex];
+      if (2.0 * h < 0.45 * room)
+      {
+        knots.push_back(t[vertex] + away * h);
+      }
+    }
+    bool isNew = false;
+    for (const double knot : knots)
+    {
+      if (std::none_of(this->Knots.begin(), this->Knots.end(),
+            [&](double other) { return std::abs(other - knot) < 0.25 * h; }))
+      {
+        this->Knots.push_back(knot);
+        isNew = true;
+      }
+    }
+    return isNew;
   }
 
   const ChainPolyline& Chain;
   const std::vector<const SurfaceBounds*>& Surfaces;
   double Tolerance;
   std::vector<double> Knots;
+  std::set<std::size_t> Surrounded;
 };
 
 // ---- curve in space --------------------------------------------------------------------------
@@ -743,10 +787,10 @@ ChainPolyline MakeChainPolyline(const PointMatrix& points, const std::vector<Poi
   chain.Parameters.assign(1, 0.0);
   for (Eigen::Index i = 1; i < n; ++i)
   {
-    double length = (points.row(i) - points.row(i - 1)).norm();
+    double length = 0.0;
     for (const PointMatrix& plane : uv)
     {
-      length = std::max(length, 0.1 * (plane.row(i) - plane.row(i - 1)).norm());
+      length += (plane.row(i) - plane.row(i - 1)).norm();
     }
     chain.Parameters.push_back(chain.Parameters.back() + length);
   }

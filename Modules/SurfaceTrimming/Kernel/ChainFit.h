@@ -5,7 +5,9 @@
 /// Private to FitLoops: one chain of boundary edges as splines over one cubic space.
 namespace knotwork
 {
-/// A chain as polylines over t in [0, 1], about its arc length.
+/// A chain as polylines over t in [0, 1]: its length in the plane, the mean of all uses, which is
+/// about that in space. (Straight parts stay straight whatever the stretch, and points of the mesh
+/// that coincide in space do not harm.)
 struct ChainPolyline
 {
   std::vector<double> Parameters; ///< n, increasing from 0 to 1
@@ -13,8 +15,7 @@ struct ChainPolyline
   PointMatrix UV;                 ///< n x 2 m, of the m uses side by side
 };
 
-/// @param uv  of the uses. Lengths are those in space, but at least a tenth of those in the plane:
-/// edges may be points in space.
+/// @param uv  of the uses.
 ChainPolyline MakeChainPolyline(const PointMatrix& points, const std::vector<PointMatrix>& uv);
 
 struct ChainFitParams

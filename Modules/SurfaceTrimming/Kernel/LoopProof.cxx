@@ -210,9 +210,6 @@ private:
   /// Hole l lies inside the outer loop and outside all others. @pre the loops are disjoint.
   LoopVerdict ProveNesting(std::size_t l) const
   {
-    const int cell = this->Loops[l][0].Curve;
-    const auto point = this->End(cell, this->Loops[l][0].Reversed);
-    const double error = this->Cells.Errors[static_cast<std::size_t>(cell)];
     LoopVerdict verdict = LoopVerdict::SimpleNested;
     for (std::size_t other = 0; other < this->Loops.size(); ++other)
     {
@@ -220,25 +217,45 @@ private:
       {
         continue;
       }
-      const Box& box = this->Boxes[other];
-      bool isFar = false;
-      for (std::size_t d = 0; d < 2; ++d)
-      {
-        const double away = 1e-3 * (box.Upper[d] - box.Lower[d]);
-        isFar = isFar || point[d] < box.Lower[d] - away || point[d] > box.Upper[d] + away;
-      }
-      const auto windings =
-        isFar ? 0 : CountWindings(this->Cells, this->Loops[other], point, error);
-      if (!windings)
+      const auto isInside = this->IsInside(l, other);
+      if (!isInside)
       {
         verdict = LoopVerdict::Undecided;
       }
-      else if ((*windings != 0) != (other == 0))
+      else if (*isInside != (other == 0))
       {
         return LoopVerdict::Crossing;
       }
     }
     return verdict;
+  }
+
+  /// By one point of the first loop; by another one where the loops nearly touch.
+  std::optional<bool> IsInside(std::size_t l, std::size_t other) const
+  {
+    constexpr std::size_t tries = 8;
+    const auto& steps = this->Loops[l];
+    for (std::size_t k = 0; k < tries; ++k)
+    {
+      const CurveStep& step = steps[k * steps.size() / tries];
+      const auto point = this->End(step.Curve, (k % 2 == 0) == step.Reversed);
+      const Box& box = this->Boxes[other];
+      for (std::size_t d = 0; d < 2; ++d)
+      {
+        const double away = 1e-3 * (box.Upper[d] - box.Lower[d]);
+        if (point[d] < box.Lower[d] - away || point[d] > box.Upper[d] + away)
+        {
+          return false;
+        }
+      }
+      const auto windings = CountWindings(this->Cells, this->Loops[other], point,
+        this->Cells.Errors[static_cast<std::size_t>(step.Curve)]);
+      if (windings)
+      {
+        return *windings != 0;
+      }
+    }
+    return {};
   }
 
   BernsteinCells Cells = []

@@ -3,6 +3,8 @@
 #include "ChartMesh.h"
 #include "TensorSpace.h"
 
+#include <Eigen/LU>
+
 #include <cmath>
 #include <functional>
 

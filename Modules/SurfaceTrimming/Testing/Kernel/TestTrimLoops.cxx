@@ -251,8 +251,6 @@ TEST(TrimLoops, AnnulusHasTwoClosedEdges_CrossOracle)
     EXPECT_EQ(loops->NumBoundaryLoops, 2);
     for (std::size_t l = 0; l < 2; ++l)
     {
-      // rows 20 and 0 of the grid
-      const PointMatrix polygon = chart.UV.middleRows(0, 0);
       ASSERT_EQ(loops->Loops[0][l].Curves.size(), 1u);
       const TrimmingCurve& use = loops->Loops[0][l].Curves[0];
       const double r = l == 0 ? 1.0 : 0.4;
@@ -271,7 +269,7 @@ TEST(TrimLoops, AnnulusHasTwoClosedEdges_CrossOracle)
       EXPECT_LE(most, tolerance); // the graph only stretches
       if (tolerance >= 1e-3)
       {
-        EXPECT_LE(use.UV.rows(), 60);
+        EXPECT_LE(use.UV.rows(), 80);
       }
     }
   }
@@ -295,7 +293,7 @@ TEST(TrimLoops, ReportedBoundaryDistanceHolds_CrossOracle)
 
 TEST(TrimLoops, CoarsePolygonsConverge_PropertyOracle)
 {
-  for (const int n : { 10, 16, 40 })
+  for (const int n : { 14, 16, 40 })
   {
     SCOPED_TRACE(n);
     const ChartMesh chart = Annulus(n, 3, 0.5, 1.0, Saddle);
@@ -311,7 +309,7 @@ TEST(TrimLoops, CoarsePolygonsConverge_PropertyOracle)
       for (const TrimmedLoop& loop : loops->Loops[0])
       {
         const KnotVector& knots = loop.Curves[0].Curve.Space->Knots[0];
-        EXPECT_LE(knots.NumFunctions(), 16 * n + 40);
+        EXPECT_LE(knots.NumFunctions(), 6 * n + 20); // five knots a corner
         for (int b = 1; b < knots.NumElements(); ++b)
         {
           EXPECT_EQ(knots.Multiplicity(b), 1);
@@ -348,7 +346,7 @@ TEST(TrimLoops, JaggedBoundariesOfRandomMeshes_PropertyOracle)
     {
       places.emplace_back(jitter(random), jitter(random));
     }
-    grid.Plane = [&](int i, int j)
+    grid.Plane = [&](int i, int j) -> Eigen::RowVector2d
     { return (Eigen::RowVector2d(i, j) + places[static_cast<std::size_t>(13 * j + i)]) / 12.0; };
     grid.Lift = Saddle;
     grid.Keep = [&](int i, int j)
@@ -476,7 +474,7 @@ TEST(TrimLoops, CurveLiesBetweenSurfacesThatDisagree_ExactOracle)
   CheckFit(two.Charts, two.Surfaces, params, loops.Value);
   // half of the way; where an edge of one chart ends in a common vertex too
   EXPECT_GE(loops->MaxEdgeGap, 0.5e-3);
-  EXPECT_LE(loops->MaxEdgeGap, 0.52e-3);
+  EXPECT_LE(loops->MaxEdgeGap, 1.06 * 0.5e-3);
 }
 
 TEST(TrimLoops, ClosedInterface_ExactOracle)
