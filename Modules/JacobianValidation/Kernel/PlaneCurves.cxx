@@ -602,7 +602,7 @@ std::optional<int> FindOrientation(const BernsteinCells& curves, const std::vect
       }
     }
     pieces = std::move(finer);
-    if (pieces.size() > 1000000)
+    if (pieces.size() > std::max<std::size_t>(16384, 64 * loop.size()))
     {
       break;
     }
