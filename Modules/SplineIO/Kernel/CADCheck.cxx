@@ -318,6 +318,11 @@ Result<CADSummary> CheckCAD(const std::string& file, LengthUnit unit)
       {
         return loaded;
       }
+      reader.TransferRoots();
+      if (reader.NbShapes() == 0)
+      {
+        return { ErrorCode::EmptyInput, place + ": there is no shape in it" };
+      }
       summary = Summarize(reader.OneShape());
       return {};
     });

@@ -80,4 +80,32 @@ struct CADSummary
 /// @param unit  of lengths in the summary.
 /// @return EmptyInput: no such file, or nothing in it; InvalidFormat: damaged.
 Result<CADSummary> CheckCAD(const std::string& file, LengthUnit unit = LengthUnit::Millimetre);
+
+struct CADReadParams
+{
+  LengthUnit Unit = LengthUnit::Millimetre; ///< of lengths in the model
+  /// Edges whose curve and pcurves have no exact common form (their parametrizations differ) become
+  /// cubic within this distance, unit of the model; 0: a millionth of the model's size.
+  double Tolerance = 0.0;
+};
+
+struct CADContents
+{
+  TrimmedModel Model;
+  double MaxGap = 0.0; ///< largest distance found between a curve and the image of its pcurve
+  int NumRefitted = 0; ///< edges that became cubic
+  std::vector<std::string> Warnings; ///< what was left out or is not as it should be, one line each
+};
+
+/// Faces of a STEP or IGES file. B-spline surfaces come as they are, others (planes, cylinders,
+/// spheres, ...) as the rational spline that is the same surface over the face's part of it;
+/// periodic ones are cut open. Loops of a face come with pcurves, also along seams, and with
+/// degenerate edges (a curve of equal points). Assemblies are resolved; a solid, a shell and a face
+/// that is in neither is a body each. Names of faces are theirs, else their product's unless that
+/// is "Knotwork"; colours are those of face, shell or solid, the nearest one.
+///
+/// What WriteCAD wrote comes back bit for bit, as far as a STEP file says it: surfaces, curves and
+/// pcurves of splines with clamped knots whose surfaces are not closed.
+/// @return as of CheckCAD; InvalidParameter; EmptyInput: a file without faces.
+Result<CADContents> ReadCAD(const std::string& file, const CADReadParams& params = {});
 }

@@ -145,11 +145,6 @@ Status LoadCAD(XSControl_Reader& reader, CADFormat format, const std::string& fi
   {
     return { status.Code, place + ": " + status.Detail };
   }
-  reader.TransferRoots();
-  if (reader.NbShapes() == 0)
-  {
-    return { ErrorCode::EmptyInput, place + ": there is no shape in it" };
-  }
   return {};
 }
 }

@@ -6,7 +6,7 @@
 
 namespace knotwork
 {
-/// Reads all shapes of a file with the settings of the session.
+/// Reads the entities of a file with the settings of the session; nothing is transferred yet.
 /// @return EmptyInput: no such file, nothing in it; InvalidFormat: damaged.
 Status LoadCAD(XSControl_Reader& reader, CADFormat format, const std::string& file);
 }

@@ -29,12 +29,27 @@ struct DistinctKnots
   TColStd_Array1OfInteger Multiplicities;
 };
 
+/// OpenCASCADE leaves the outermost knots of a spline that was periodic where they were; they are
+/// without influence when the others make a clamped end.
+Result<KnotVector> KnotsFrom(int degree, const TColStd_Array1OfReal& flat)
+{
+  std::vector<double> knots(flat.begin(), flat.end());
+  const auto p = static_cast<std::size_t>(degree);
+  const std::size_t n = knots.size();
+  if (n > 2 * p + 1)
+  {
+    knots[0] = knots[1] == knots[p] ? knots[1] : knots[0];
+    knots[n - 1] = knots[n - 2] == knots[n - 1 - p] ? knots[n - 2] : knots[n - 1];
+  }
+  return KnotVector::Create(degree, std::move(knots));
+}
+
 template <class Handle>
 Result<SplineSpacePtr<1>> CurveSpace(const Handle& curve)
 {
   TColStd_Array1OfReal flat(1, curve->NbPoles() + curve->Degree() + 1);
   curve->KnotSequence(flat);
-  auto knots = KnotVector::Create(curve->Degree(), { flat.begin(), flat.end() });
+  auto knots = KnotsFrom(curve->Degree(), flat);
   return knots ? MakeTensorSpace<1>({ knots.Value }) : Result<SplineSpacePtr<1>>(knots.Status);
 }
 
@@ -165,8 +180,8 @@ Result<Spline<2>> FromOpenCASCADE(const Handle(Geom_BSplineSurface) & surface)
   TColStd_Array1OfReal v(1, nv + surface->VDegree() + 1);
   surface->UKnotSequence(u);
   surface->VKnotSequence(v);
-  auto knotsU = KnotVector::Create(surface->UDegree(), { u.begin(), u.end() });
-  auto knotsV = KnotVector::Create(surface->VDegree(), { v.begin(), v.end() });
+  auto knotsU = KnotsFrom(surface->UDegree(), u);
+  auto knotsV = KnotsFrom(surface->VDegree(), v);
   if (!knotsU || !knotsV)
   {
     return knotsU ? knotsV.Status : knotsU.Status;

@@ -4,7 +4,7 @@
 #include "BezierForm.h"
 #include "CADGeometry.h"
 #include "CADShells.h"
-#include "Composition.h"
+#include "EdgeSamples.h"
 #include "Numbers.h"
 #include "SewnBoundary.h"
 
@@ -21,10 +21,7 @@ namespace knotwork
 {
 namespace
 {
-constexpr int SamplesOfSpan = 16;
 constexpr double ToleranceFactor = 1.02; ///< for what lies between the samples
-/// Of the surface's domain: pcurves that leave it by rounding.
-constexpr double DomainTolerance = 1e-9;
 
 std::string PlaceOfFace(std::size_t face)
 {
@@ -155,55 +152,20 @@ private:
 Status ShapeMaker::MeasureUse(const BoundaryCurve& use, const EdgeState& edge,
   const BezierForm<2>& surface, const std::string& place, double& gap)
 {
-  std::vector<double> breaks = edge.Curve.Space->Knots[0].Breaks();
-  const std::vector<double>& others = use.Parameters.Space->Knots[0].Breaks();
-  breaks.insert(breaks.end(), others.begin(), others.end());
-  std::sort(breaks.begin(), breaks.end());
-  breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
-  const auto spans = static_cast<Eigen::Index>(breaks.size()) - 1;
-  PointMatrix t(spans * SamplesOfSpan + 1, 1);
-  for (Eigen::Index i = 0; i < t.rows(); ++i)
+  const auto samples = SampleEdge(edge.Curve, use.Parameters, surface);
+  if (!samples)
   {
-    const auto span = static_cast<std::size_t>(std::min(i / SamplesOfSpan, spans - 1));
-    const double s =
-      static_cast<double>(i - static_cast<Eigen::Index>(span) * SamplesOfSpan) / SamplesOfSpan;
-    t(i, 0) = (1.0 - s) * breaks[span] + s * breaks[span + 1];
+    return { samples.Status.Code,
+      place + ", edge " + std::to_string(use.Edge) + ": " + samples.Status.Detail };
   }
-  EvaluationBatch curve;
-  EvaluationBatch parameters;
-  const EvaluationParams params;
-  EvaluateParameters<1>(MakeBezierForm<1>(edge.Curve), t, params, curve);
-  EvaluateParameters<1>(MakeBezierForm<1>(use.Parameters), t, params, parameters);
-  const ParametricBox<2> domain = surface.Space->Domain();
-  for (Eigen::Index i = 0; i < t.rows(); ++i)
+  gap = samples->MaxGap();
+  for (std::size_t end = 0; end < 2; ++end)
   {
-    for (std::size_t d = 0; d < 2; ++d)
-    {
-      double& u = parameters.Values(i, static_cast<Eigen::Index>(d));
-      const double allowed = DomainTolerance * (domain.Upper[d] - domain.Lower[d]);
-      if (!(u >= domain.Lower[d] - allowed && u <= domain.Upper[d] + allowed))
-      {
-        return { ErrorCode::OutsideDomain,
-          place + ": the pcurve of edge " + std::to_string(use.Edge) +
-            " leaves the surface's domain: " + (d == 0 ? "u = " : "v = ") + Digits(u) };
-      }
-      u = std::min(std::max(u, domain.Lower[d]), domain.Upper[d]);
-    }
-  }
-  EvaluationBatch image;
-  if (Status status = EvaluateParameters<2>(surface, parameters.Values, params, image); !status)
-  {
-    return { status.Code, place + ": " + status.Detail };
-  }
-  gap = (curve.Values - image.Values).rowwise().norm().maxCoeff();
-  for (int end = 0; end < 2; ++end)
-  {
-    VertexState& vertex =
-      this->Vertices[static_cast<std::size_t>(use.Vertices[static_cast<std::size_t>(end)])];
-    const Eigen::Index row = end == 0 ? 0 : t.rows() - 1;
-    vertex.Ends.emplace_back(curve.Values.row(row));
-    vertex.Ends.emplace_back(image.Values.row(row));
-    vertex.Sum += curve.Values.row(row).transpose();
+    VertexState& vertex = this->Vertices[static_cast<std::size_t>(use.Vertices[end])];
+    const Eigen::Index row = end == 0 ? 0 : samples->Curve.rows() - 1;
+    vertex.Ends.emplace_back(samples->Curve.row(row));
+    vertex.Ends.emplace_back(samples->Image.row(row));
+    vertex.Sum += samples->Curve.row(row).transpose();
     ++vertex.NumCurves;
   }
   return {};

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CADSurface.h"
+
+#include "Types.h"
+
+#include <BRepTools.hxx>
+#include <BRep_Tool.hxx>
+#include <GeomConvert.hxx>
+#include <GeomConvert_ApproxSurface.hxx>
+#include <Geom_RectangularTrimmedSurface.hxx>
+#include <TopoDS.hxx>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace knotwork
+{
+namespace
+{
+constexpr double Same = 1e-9;  ///< of the surface's size: two maps are one
+constexpr int GridOfCheck = 9; ///< parameters a direction at which maps are compared
+constexpr int MaxIterations = 30;
+
+using Range = std::array<double, 2>;
+
+/// The range of parameters of a face within the surface's own, where they differ by rounding.
+void FitRange(Range& range, const Range& natural, bool periodic)
+{
+  const double rounding = Same * std::abs(range[1] - range[0]);
+  for (double& end : range)
+  {
+    for (double bound : natural)
+    {
+      end = std::abs(end - bound) <= rounding ? bound : end;
+    }
+  }
+  if (periodic)
+  {
+    range[1] = std::min(range[1], range[0] + (natural[1] - natural[0]));
+  }
+  else
+  {
+    range[0] = std::max(range[0], natural[0]);
+    range[1] = std::min(range[1], natural[1]);
+  }
+}
+
+/// Without periods, the domain beginning at (or a period from) the given parameters.
+Handle(Geom_BSplineSurface)
+  CutOpen(const Handle(Geom_BSplineSurface) & surface, double beginU, double beginV)
+{
+  if (!surface->IsUPeriodic() && !surface->IsVPeriodic())
+  {
+    return surface;
+  }
+  const auto open = Handle(Geom_BSplineSurface)::DownCast(surface->Copy());
+  const auto indexOf = [](const TColStd_Array1OfReal& knots, double begin)
+  {
+    const double period = knots.Last() - knots.First();
+    const double moved = begin - period * std::floor((begin - knots.First()) / period + Same);
+    int best = knots.Lower();
+    for (int k = knots.Lower(); k <= knots.Upper(); ++k)
+    {
+      best = std::abs(knots(k) - moved) < std::abs(knots(best) - moved) ? k : best;
+    }
+    return std::make_pair(
+      std::abs(knots(best) - moved) <= Same * period, std::make_pair(best, moved));
+  };
+  if (open->IsUPeriodic())
+  {
+    auto place = indexOf(open->UKnots(), beginU);
+    if (!place.first)
+    {
+      open->InsertUKnot(place.second.second, 1, 0.0);
+      place = indexOf(open->UKnots(), beginU);
+    }
+    if (place.second.first > 1 && place.second.first < open->NbUKnots())
+    {
+      open->SetUOrigin(place.second.first);
+    }
+    open->SetUNotPeriodic();
+  }
+  if (open->IsVPeriodic())
+  {
+    auto place = indexOf(open->VKnots(), beginV);
+    if (!place.first)
+    {
+      open->InsertVKnot(place.second.second, 1, 0.0);
+      place = indexOf(open->VKnots(), beginV);
+    }
+    if (place.second.first > 1 && place.second.first < open->NbVKnots())
+    {
+      open->SetVOrigin(place.second.first);
+    }
+    open->SetVNotPeriodic();
+  }
+  return open;
+}
+
+double SizeOf(const Handle(Geom_BSplineSurface) & surface)
+{
+  double size = 0.0;
+  const gp_Pnt& first = surface->Pole(1, 1);
+  for (int i = 1; i <= surface->NbUPoles(); ++i)
+  {
+    for (int j = 1; j <= surface->NbVPoles(); ++j)
+    {
+      size = std::max(size, first.Distance(surface->Pole(i, j)));
+    }
+  }
+  return size;
+}
+
+/// Degrees that knot vectors can have.
+Handle(Geom_BSplineSurface) WithLowDegree(const Handle(Geom_BSplineSurface) & surface)
+{
+  if (surface->UDegree() <= MaxDegree && surface->VDegree() <= MaxDegree)
+  {
+    return surface;
+  }
+  const GeomConvert_ApproxSurface approximation(
+    surface, 1e-7 * SizeOf(surface), GeomAbs_C1, GeomAbs_C1, MaxDegree, MaxDegree, 1000, 1);
+  return approximation.HasResult() ? approximation.Surface() : Handle(Geom_BSplineSurface)();
+}
+}
+
+CADSurface::CADSurface(const TopoDS_Face& face) : From(BRep_Tool::Surface(face))
+{
+  Range u{};
+  Range v{};
+  BRepTools::UVBounds(TopoDS::Face(face.Oriented(TopAbs_FORWARD)), u[0], u[1], v[0], v[1]);
+  Range naturalU{};
+  Range naturalV{};
+  this->From->Bounds(naturalU[0], naturalU[1], naturalV[0], naturalV[1]);
+  FitRange(u, naturalU, this->From->IsUPeriodic());
+  FitRange(v, naturalV, this->From->IsVPeriodic());
+  Handle(Geom_BSplineSurface) own = Handle(Geom_BSplineSurface)::DownCast(this->From);
+  if (own.IsNull())
+  {
+    own = GeomConvert::SurfaceToBSplineSurface(
+      new Geom_RectangularTrimmedSurface(this->From, u[0], u[1], v[0], v[1]));
+  }
+  own = CutOpen(own, u[0], v[0]);
+  this->To = WithLowDegree(own);
+  if (this->To.IsNull())
+  {
+    return;
+  }
+  this->To->Bounds(this->Lower[0], this->Upper[0], this->Lower[1], this->Upper[1]);
+  const auto periods = [](bool periodic, const Range& natural, double lower, const Range& range)
+  {
+    const double period = natural[1] - natural[0];
+    return periodic ? period * std::round((lower - range[0]) / period) : 0.0;
+  };
+  this->Shift = gp_XY(periods(this->From->IsUPeriodic(), naturalU, this->Lower[0], u),
+    periods(this->From->IsVPeriodic(), naturalV, this->Lower[1], v));
+  this->Size = SizeOf(this->To);
+  double best = HUGE_VAL;
+  for (Transfer kind : { Transfer::Identity, Transfer::Separate, Transfer::General })
+  {
+    const double residual = this->WorstResidual(kind);
+    if (residual < best)
+    {
+      best = residual;
+      this->Kind = kind;
+    }
+    if (best <= Same * this->Size)
+    {
+      break;
+    }
+  }
+}
+
+/// Gauss-Newton on the distance to the point of the old surface, which lies on the new one.
+gp_XY CADSurface::Invert(const gp_XY& parameters, const gp_XY& guess) const
+{
+  const gp_Pnt target = this->From->Value(parameters.X(), parameters.Y());
+  gp_XY best = guess;
+  double distance = HUGE_VAL;
+  gp_XY next = guess;
+  for (int i = 0; i < MaxIterations; ++i)
+  {
+    next.SetX(std::min(std::max(next.X(), this->Lower[0]), this->Upper[0]));
+    next.SetY(std::min(std::max(next.Y(), this->Lower[1]), this->Upper[1]));
+    gp_Pnt point;
+    gp_Vec du;
+    gp_Vec dv;
+    this->To->D1(next.X(), next.Y(), point, du, dv);
+    const gp_Vec residual(point, target);
+    if (residual.Magnitude() >= distance)
+    {
+      break;
+    }
+    distance = residual.Magnitude();
+    best = next;
+    // a direction in which the surface stands still (a pole) is left alone
+    const double tiny = 1e-20 * this->Size * this->Size;
+    const double uu = du.Dot(du) + tiny;
+    const double vv = dv.Dot(dv) + tiny;
+    const double uv = du.Dot(dv);
+    const double determinant = uu * vv - uv * uv;
+    const double ru = residual.Dot(du);
+    const double rv = residual.Dot(dv);
+    next = best + gp_XY((ru * vv - rv * uv) / determinant, (rv * uu - ru * uv) / determinant);
+  }
+  return best;
+}
+
+gp_XY CADSurface::MapAs(Transfer kind, const gp_XY& parameters) const
+{
+  gp_XY result = parameters;
+  if (kind == Transfer::Separate)
+  {
+    // away from poles, where one parameter means nothing
+    const double u = 0.5 * (this->Lower[0] + this->Upper[0]);
+    const double v = 0.5 * (this->Lower[1] + this->Upper[1]);
+    const gp_XY alongU(parameters.X(), v);
+    const gp_XY alongV(u, parameters.Y());
+    result = gp_XY(this->Invert(alongU, alongU).X(), this->Invert(alongV, alongV).Y());
+  }
+  else if (kind == Transfer::General)
+  {
+    result = this->Invert(parameters, parameters);
+  }
+  result.SetX(std::min(std::max(result.X(), this->Lower[0]), this->Upper[0]));
+  result.SetY(std::min(std::max(result.Y(), this->Lower[1]), this->Upper[1]));
+  return result;
+}
+
+gp_XY CADSurface::Map(const gp_XY& parameters) const
+{
+  return this->MapAs(this->Kind, parameters + this->Shift);
+}
+
+double CADSurface::WorstResidual(Transfer kind) const
+{
+  double worst = 0.0;
+  for (int i = 0; i < GridOfCheck; ++i)
+  {
+    for (int j = 0; j < GridOfCheck; ++j)
+    {
+      const gp_XY old(this->Lower[0] + i * (this->Upper[0] - this->Lower[0]) / (GridOfCheck - 1),
+        this->Lower[1] + j * (this->Upper[1] - this->Lower[1]) / (GridOfCheck - 1));
+      const gp_XY mapped = this->MapAs(kind, old);
+      worst = std::max(worst,
+        this->From->Value(old.X(), old.Y()).Distance(this->To->Value(mapped.X(), mapped.Y())));
+    }
+  }
+  return worst;
+}
+}
