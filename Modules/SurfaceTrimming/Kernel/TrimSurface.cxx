@@ -217,8 +217,8 @@ void Summarize(TrimmedSurface& trimmed)
     area += deviation.MeshArea;
     trimmed.MinNormal = std::min(trimmed.MinNormal, trimmed.Certificates[c].MinNormal);
   }
-  // A point of the mesh beyond a trimming curve is as near to the curve as that to the boundary.
-  trimmed.MaxDeviation += trimmed.Loops.MaxBoundaryDistance;
+  // Points between a trimming curve and the boundary: as far as both are from each other.
+  trimmed.MaxDeviation += trimmed.Loops.MaxTrimDistance;
   trimmed.RmsDeviation = area > 0.0 ? std::sqrt(squares / area) : 0.0;
   trimmed.WithinTolerance = trimmed.MaxDeviation <= trimmed.Tolerance;
 }
