@@ -119,26 +119,7 @@ PlanarPoint FaceTriangulation::Planar(const std::array<double, 2>& uv) const
 
 void FaceTriangulation::SetPlane(const std::vector<SampledEdge>& edges)
 {
-  constexpr int n = 8;
-  const ParametricBox<2> domain = this->Form.Space->Domain();
-  PointMatrix samples(n * n, 2);
-  for (int i = 0; i < n * n; ++i)
-  {
-    const std::array<double, 2> share{ (i % n + 0.5) / n, (i / n + 0.5) / n };
-    for (int d = 0; d < 2; ++d)
-    {
-      samples(i, d) =
-        domain.Lower[At(d)] + share[At(d)] * (domain.Upper[At(d)] - domain.Lower[At(d)]);
-    }
-  }
-  EvaluationBatch batch;
-  EvaluateParameters<2>(this->Form, samples, { 1, 1 }, batch);
-  for (int d = 0; d < 2; ++d)
-  {
-    const double mean = batch.First.middleCols(3 * d, 3).rowwise().norm().mean();
-    const double side = domain.Upper[At(d)] - domain.Lower[At(d)];
-    this->Scale[At(d)] = mean * side > 0.0 ? mean : 1.0 / side;
-  }
+  this->Scale = this->Cells.MeanSpeeds();
   this->CollectBoundary(edges);
   std::array<double, 2> lower{};
   std::array<double, 2> upper{};

@@ -5,7 +5,8 @@
 #include "ChordalBound.h"
 #include "Parallel.h"
 
-#include <cmath>
+#include <algorithm>
+#include <string>
 
 namespace knotwork
 {
@@ -83,6 +84,28 @@ std::vector<DerivativeBounds> BoundElements(const BezierForm<2>& form, int threa
   return bounds;
 }
 
+/// Mean norms of the first derivatives over the domain.
+std::array<double, 2> FindMeanSpeeds(const BezierForm<2>& form)
+{
+  constexpr int n = 8;
+  const ParametricBox<2> domain = form.Space->Domain();
+  PointMatrix samples(n * n, 2);
+  for (int i = 0; i < n * n; ++i)
+  {
+    samples(i, 0) = domain.Lower[0] + (i % n + 0.5) / n * Side(domain, 0);
+    samples(i, 1) = domain.Lower[1] + (i / n + 0.5) / n * Side(domain, 1);
+  }
+  EvaluationBatch batch;
+  EvaluateParameters<2>(form, samples, { 1, 1 }, batch);
+  std::array<double, 2> speeds;
+  for (int d = 0; d < 2; ++d)
+  {
+    const double mean = batch.First.middleCols(3 * d, 3).rowwise().norm().mean();
+    speeds[At(d)] = mean * Side(domain, d) > 0.0 ? mean : 1.0 / Side(domain, d);
+  }
+  return speeds;
+}
+
 /// A cell that may be divided, and its elements: [Begin, End) in each direction.
 struct Range
 {
@@ -90,6 +113,24 @@ struct Range
   IntArray<2> Begin{};
   IntArray<2> End{};
   int Halvings = 0; ///< since the bounds were taken
+
+  bool IsInElement() const
+  {
+    return this->End[0] - this->Begin[0] == 1 && this->End[1] - this->Begin[1] == 1;
+  }
+};
+
+/// Longest cell, by its shape in space. Triangles are Delaunay there: longer ones would be cut
+/// across and not keep to the cells.
+constexpr double MaxAspect = 1.5;
+/// Unless the surface is straight along them, but for this share of the tolerance.
+constexpr double Straight = 1e-4;
+
+/// Where and in which direction a cell is to be divided.
+struct Cut
+{
+  int Direction = -1; ///< -1: not at all
+  double At = 0.0;
 };
 }
 
@@ -112,132 +153,170 @@ double ChordalDeviation(const DerivativeBounds& bounds, const std::array<double,
     8.0;
 }
 
-Result<SurfaceCells> SurfaceCells::Create(
-  const BezierForm<2>& form, double tolerance, std::size_t maxCells, int threads)
+/// Divides the domain into cells.
+class SurfaceCells::Builder
 {
-  const auto& knots = form.Space->Knots;
-  const std::vector<DerivativeBounds> elements = BoundElements(form, threads);
-  SurfaceCells cells;
-  for (int d = 0; d < 2; ++d)
+public:
+  Builder(const BezierForm<2>& form, double tolerance, int threads)
+    : Form(form), Tolerance(tolerance), Elements(BoundElements(form, threads))
   {
-    const KnotVector& k = knots[At(d)];
-    for (int b = 1; b < k.NumElements(); ++b)
+    this->Cells.Speeds = FindMeanSpeeds(form);
+    for (int d = 0; d < 2; ++d)
     {
-      if (k.Multiplicity(b) >= k.Degree())
+      const KnotVector& knots = this->Knots(d);
+      for (int b = 1; b < knots.NumElements(); ++b)
       {
-        cells.Breaks[At(d)].push_back(k.Breaks()[At(b)]);
+        if (knots.Multiplicity(b) >= knots.Degree())
+        {
+          this->Cells.Breaks[At(d)].push_back(knots.Breaks()[At(b)]);
+        }
       }
     }
   }
-  const auto boundOf = [&](const Range& range)
+
+  Result<SurfaceCells> Build(std::size_t maxCells)
+  {
+    Range whole;
+    whole.End = { this->Knots(0).NumElements(), this->Knots(1).NumElements() };
+    std::vector<Cell>& tree = this->Cells.Tree;
+    tree.push_back({ this->Form.Space->Domain(), this->BoundOf(whole), -1 });
+    std::vector<Range> stack{ whole };
+    while (!stack.empty())
+    {
+      const Range range = stack.back();
+      stack.pop_back();
+      const Cut cut = this->ChooseCut(range);
+      if (cut.Direction < 0)
+      {
+        continue;
+      }
+      if (tree.size() > 2 * maxCells)
+      {
+        return { ErrorCode::TooLarge, "more than " + std::to_string(maxCells) + " cells" };
+      }
+      const int children = static_cast<int>(tree.size());
+      tree[At(range.Cell)].Children = children;
+      for (int half = 0; half < 2; ++half)
+      {
+        stack.push_back(this->Divide(range, cut, half));
+      }
+    }
+    for (std::size_t c = tree.size(); c-- > 0;) // children tell their parents
+    {
+      if (tree[c].Children >= 0)
+      {
+        tree[c].Bounds = tree[At(tree[c].Children)].Bounds;
+        tree[c].Bounds.Include(tree[At(tree[c].Children + 1)].Bounds);
+      }
+    }
+    return std::move(this->Cells);
+  }
+
+private:
+  const KnotVector& Knots(int d) const { return this->Form.Space->Knots[At(d)]; }
+
+  DerivativeBounds BoundOf(const Range& range) const
   {
     DerivativeBounds bounds;
     for (int j = range.Begin[1]; j < range.End[1]; ++j)
     {
       for (int i = range.Begin[0]; i < range.End[0]; ++i)
       {
-        bounds.Include(elements[At(i + knots[0].NumElements() * j)]);
+        bounds.Include(this->Elements[At(i + this->Knots(0).NumElements() * j)]);
       }
     }
     return bounds;
-  };
-  Range whole;
-  whole.End = { knots[0].NumElements(), knots[1].NumElements() };
-  cells.Tree.push_back({ form.Space->Domain(), boundOf(whole), -1 });
-  std::vector<Range> stack{ whole };
-  while (!stack.empty())
+  }
+
+  double Deviation(const Cell& cell) const
   {
-    const Range range = stack.back();
-    stack.pop_back();
-    const Cell cell = cells.Tree[At(range.Cell)];
-    const std::array<double, 2> sides{ Side(cell.Box, 0), Side(cell.Box, 1) };
-    int direction = -1;
-    double at = 0.0;
-    for (int d = 0; d < 2 && direction < 0; ++d) // creases first, the middle one of them
+    return ChordalDeviation(cell.Bounds, { Side(cell.Box, 0), Side(cell.Box, 1) });
+  }
+
+  /// At creases first, then where interpolation deviates.
+  Cut ChooseCut(const Range& range) const
+  {
+    const Cell& cell = this->Cells.Tree[At(range.Cell)];
+    for (int d = 0; d < 2; ++d)
     {
-      const auto& breaks = cells.Breaks[At(d)];
+      const std::vector<double>& breaks = this->Cells.Breaks[At(d)];
       const auto first = std::upper_bound(breaks.begin(), breaks.end(), cell.Box.Lower[At(d)]);
       const auto last = std::lower_bound(breaks.begin(), breaks.end(), cell.Box.Upper[At(d)]);
       if (first < last)
       {
-        direction = d;
-        at = *(first + (last - first) / 2);
+        return { d, *(first + (last - first) / 2) };
       }
     }
-    if (direction < 0)
+    if (this->Deviation(cell) <= this->Tolerance)
     {
-      if (ChordalDeviation(cell.Bounds, sides) <= tolerance)
-      {
-        continue;
-      }
-      direction =
-        cell.Bounds.Second[0] * sides[0] * sides[0] >= cell.Bounds.Second[2] * sides[1] * sides[1]
-        ? 0
-        : 1;
-      const int begin = range.Begin[At(direction)];
-      const int end = range.End[At(direction)];
-      at = end - begin > 1 ? knots[At(direction)].Breaks()[At(begin + (end - begin) / 2)]
-                           : 0.5 * (cell.Box.Lower[At(direction)] + cell.Box.Upper[At(direction)]);
+      return {};
     }
-    if (cells.Tree.size() > 2 * maxCells)
+    const std::array<double, 2> need{ cell.Bounds.Second[0] * Side(cell.Box, 0) *
+        Side(cell.Box, 0) / 8.0,
+      cell.Bounds.Second[2] * Side(cell.Box, 1) * Side(cell.Box, 1) / 8.0 };
+    int d = need[0] >= need[1] ? 0 : 1;
+    const std::array<double, 2> length{ this->Cells.Speeds[0] * Side(cell.Box, 0),
+      this->Cells.Speeds[1] * Side(cell.Box, 1) };
+    if (length[At(1 - d)] > MaxAspect * length[At(d)] &&
+      need[At(1 - d)] > Straight * this->Tolerance)
     {
-      return { ErrorCode::TooLarge, "more than " + std::to_string(maxCells) + " cells" };
+      d = 1 - d;
     }
-    const int children = static_cast<int>(cells.Tree.size());
-    cells.Tree[At(range.Cell)].Children = children;
-    for (int upper = 0; upper < 2; ++upper)
-    {
-      Range part = range;
-      part.Cell = children + upper;
-      Cell child = cell;
-      child.Children = -1;
-      (upper == 1 ? child.Box.Lower : child.Box.Upper)[At(direction)] = at;
-      const auto& breaks = knots[At(direction)].Breaks();
-      if (upper == 1)
-      {
-        part.Begin[At(direction)] =
-          static_cast<int>(std::upper_bound(breaks.begin(), breaks.end(), at) - breaks.begin() - 1);
-      }
-      else
-      {
-        part.End[At(direction)] =
-          static_cast<int>(std::lower_bound(breaks.begin(), breaks.end(), at) - breaks.begin());
-      }
-      // Bounds are taken anew where that may save several cells.
-      ++part.Halvings;
-      const bool single = part.End[0] - part.Begin[0] == 1 && part.End[1] - part.Begin[1] == 1;
-      const bool wasSingle =
-        range.End[0] - range.Begin[0] == 1 && range.End[1] - range.Begin[1] == 1;
-      if (!wasSingle)
-      {
-        child.Bounds = boundOf(part);
-      }
-      else if (part.Halvings >= 2 &&
-        ChordalDeviation(child.Bounds, { Side(child.Box, 0), Side(child.Box, 1) }) >
-          2.0 * tolerance)
-      {
-        part.Halvings = 0;
-        child.Bounds.Second =
-          BoundSecond(form, part.Begin[0] + knots[0].NumElements() * part.Begin[1], child.Box);
-      }
-      if (single && !wasSingle)
-      {
-        part.Halvings = 0;
-      }
-      cells.Tree.push_back(child);
-      stack.push_back(part);
-    }
+    const int begin = range.Begin[At(d)];
+    const int count = range.End[At(d)] - begin;
+    return { d,
+      count > 1 ? this->Knots(d).Breaks()[At(begin + count / 2)]
+                : 0.5 * (cell.Box.Lower[At(d)] + cell.Box.Upper[At(d)]) };
   }
-  for (std::size_t c = cells.Tree.size(); c-- > 0;) // children tell their parents
+
+  /// Makes the lower or upper half of a cell.
+  Range Divide(const Range& range, const Cut& cut, int half)
   {
-    Cell& cell = cells.Tree[c];
-    if (cell.Children >= 0)
+    Cell child = this->Cells.Tree[At(range.Cell)];
+    Range part = range;
+    child.Children = -1;
+    part.Cell = static_cast<int>(this->Cells.Tree.size());
+    ++part.Halvings;
+    const std::size_t d = At(cut.Direction);
+    const std::vector<double>& breaks = this->Knots(cut.Direction).Breaks();
+    if (half == 0)
     {
-      cell.Bounds = cells.Tree[At(cell.Children)].Bounds;
-      cell.Bounds.Include(cells.Tree[At(cell.Children + 1)].Bounds);
+      child.Box.Upper[d] = cut.At;
+      part.End[d] =
+        static_cast<int>(std::lower_bound(breaks.begin(), breaks.end(), cut.At) - breaks.begin());
     }
+    else
+    {
+      child.Box.Lower[d] = cut.At;
+      part.Begin[d] = static_cast<int>(
+        std::upper_bound(breaks.begin(), breaks.end(), cut.At) - breaks.begin() - 1);
+    }
+    if (!range.IsInElement())
+    {
+      child.Bounds = this->BoundOf(part);
+      part.Halvings = part.IsInElement() ? 0 : part.Halvings;
+    }
+    else if (part.Halvings >= 2 && this->Deviation(child) > 2.0 * this->Tolerance)
+    {
+      // Taken anew where that may save cells.
+      part.Halvings = 0;
+      child.Bounds.Second = BoundSecond(
+        this->Form, part.Begin[0] + this->Knots(0).NumElements() * part.Begin[1], child.Box);
+    }
+    this->Cells.Tree.push_back(child);
+    return part;
   }
-  return cells;
+
+  const BezierForm<2>& Form;
+  double Tolerance;
+  std::vector<DerivativeBounds> Elements;
+  SurfaceCells Cells;
+};
+
+Result<SurfaceCells> SurfaceCells::Create(
+  const BezierForm<2>& form, double tolerance, std::size_t maxCells, int threads)
+{
+  return Builder(form, tolerance, threads).Build(maxCells);
 }
 
 DerivativeBounds SurfaceCells::Bound(const ParametricBox<2>& box) const

@@ -45,8 +45,14 @@ public:
   /// Inner parameters where the surface may have a crease: cells end there.
   const std::array<std::vector<double>, 2>& Creases() const { return this->Breaks; }
 
+  /// Mean |S_u|, |S_v| over the domain; positive.
+  const std::array<double, 2>& MeanSpeeds() const { return this->Speeds; }
+
 private:
+  class Builder;
+
   std::vector<Cell> Tree;
   std::array<std::vector<double>, 2> Breaks;
+  std::array<double, 2> Speeds{};
 };
 }

@@ -20,7 +20,7 @@ std::size_t At(int i)
 }
 
 constexpr double EdgeShare = 0.25; ///< of the tolerance, for the pieces of edges
-constexpr double CellShare = 0.5;  ///< of the tolerance, for cells of the surface
+constexpr double CellShare = 0.9;  ///< of the tolerance, for cells of the surface
 constexpr int MaxTopologyPasses = 40;
 constexpr int MaxRefinementPasses = 60;
 constexpr int MaxCoarsenings = 30; ///< by factors of 4
