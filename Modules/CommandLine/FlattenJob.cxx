@@ -48,9 +48,7 @@ struct FlattenJob
 Job MakeFlattenJob(CLI::App& app)
 {
   auto job = std::make_shared<FlattenJob>();
-  app
-    .add_option("mesh", job->Input, "triangle mesh with a boundary (.off .obj .ply .stl .vtp .vtu)")
-    ->required();
+  app.add_option("mesh", job->Input, "triangle mesh (.off .obj .ply .stl .vtp .vtu)")->required();
   app.add_option("--output", job->Output, "the mesh with plane coordinates UV (.vtp)")->required();
   app.add_option("--loops", job->Loops, "its boundary loops, the outer one first (.vtp)");
   app.add_option("--table", job->Table, "the summary of distortions (.csv)");

@@ -27,8 +27,12 @@ void AddFlattenOptions(Options& options, vtkMeshParameterization* filter, const 
   KNOTWORK_OPTION(options, filter, MaximumIterations, "iterations of ARAP and Injective at most");
   KNOTWORK_OPTION(options, filter, MinimumParticipation,
     "HLLE rejects eigenvectors that live on a smaller part of the area");
-  KNOTWORK_FREE_OPTION(
-    options, filter, Fallback, "whether HLLE is replaced when it folds or fails");
+  KNOTWORK_OPTION(options, filter, MaximumStretch,
+    "above 1: cut the mesh into charts that are stretched less; 0: one chart");
+  KNOTWORK_OPTION(options, filter, MaximumCharts, "charts at most");
+  KNOTWORK_OPTION(options, filter, CreaseAngle, "degrees; cuts run along sharper edges");
+  KNOTWORK_FREE_OPTION(options, filter, Fallback,
+    "whether HLLE is replaced when it folds or fails, or stretches a chart too much");
   KNOTWORK_FREE_OPTION(options, filter, LargestComponent,
     "take the component of the most triangles instead of refusing several ones");
 }
@@ -42,7 +46,8 @@ void ReportFlattening(
   report["requested_method"] = value("RequestedMethod").ToString();
   report["fallback"] = value("Fallback").ToInt() != 0;
   report["fallback_reason"] = value("FallbackReason").ToString();
-  for (const char* name : { "Points", "Triangles", "Loops", "TurnedTriangles", "FlippedTriangles" })
+  for (const char* name :
+    { "Charts", "Points", "Triangles", "Loops", "TurnedTriangles", "FlippedTriangles" })
   {
     report[Options::SnakeCase(name)] = value(name).ToInt();
   }

@@ -17,39 +17,84 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <set>
 
 namespace knotwork
 {
 namespace
 {
-/// Rows `ids` of uv as an array.
-vtkSmartPointer<vtkDoubleArray> UvArray(const PointMatrix& uv, const std::vector<int>& ids)
+/// A point of the output: a point of a chart.
+struct ChartPoint
 {
-  auto array = vtkSmartPointer<vtkDoubleArray>::New();
-  array->SetName("UV");
-  array->SetNumberOfComponents(2);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(ids.size()));
-  for (std::size_t i = 0; i < ids.size(); ++i)
+  const MeshParameterization* Chart = nullptr;
+  int Point = 0;
+
+  int CutPoint() const { return this->Chart->Mesh.PointIds[static_cast<std::size_t>(this->Point)]; }
+};
+
+/// Points with `UV` and `CutPointId`.
+void SetPoints(const std::vector<ChartPoint>& from, bool flat, int precision, vtkPolyData* output)
+{
+  const auto n = static_cast<vtkIdType>(from.size());
+  vtkNew<vtkPoints> points;
+  points->SetDataType(flat ? VTK_DOUBLE : precision);
+  points->SetNumberOfPoints(n);
+  vtkNew<vtkDoubleArray> places;
+  places->SetName("UV");
+  places->SetNumberOfComponents(2);
+  places->SetNumberOfTuples(n);
+  vtkNew<vtkIdTypeArray> ids;
+  ids->SetName("CutPointId");
+  ids->SetNumberOfTuples(n);
+  for (vtkIdType i = 0; i < n; ++i)
   {
-    array->SetTuple2(static_cast<vtkIdType>(i), uv(ids[i], 0), uv(ids[i], 1));
+    const ChartPoint& point = from[static_cast<std::size_t>(i)];
+    const auto uv = point.Chart->UV.row(point.Point);
+    const Eigen::Vector3d p = point.Chart->Mesh.Point(point.Point);
+    flat ? points->SetPoint(i, uv[0], uv[1], 0.0) : points->SetPoint(i, p.data());
+    places->SetTuple2(i, uv[0], uv[1]);
+    ids->SetValue(i, point.CutPoint());
   }
-  return array;
+  output->SetPoints(points);
+  output->GetPointData()->AddArray(places);
+  output->GetPointData()->AddArray(ids);
 }
 
-vtkSmartPointer<vtkPoints> PointsOf(
-  const MeshParameterization& map, const std::vector<int>& ids, bool flat, int precision)
+bool IsInputPoint(const PointOrigin& origin)
 {
-  auto points = vtkSmartPointer<vtkPoints>::New();
-  points->SetDataType(flat ? VTK_DOUBLE : precision);
-  points->SetNumberOfPoints(static_cast<vtkIdType>(ids.size()));
-  for (std::size_t i = 0; i < ids.size(); ++i)
+  return origin.Points[1] < 0;
+}
+
+/// Point data of the input; no global ids where points have copies or are new.
+void CopyPointData(const std::vector<ChartPoint>& from, const std::vector<PointOrigin>& origins,
+  vtkPointData* input, vtkPointData* output)
+{
+  const bool same =
+    from.size() == origins.size() && std::all_of(origins.begin(), origins.end(), IsInputPoint);
+  output->CopyAllOn();
+  output->SetCopyGlobalIds(same);
+  output->CopyAllocate(input, static_cast<vtkIdType>(from.size()));
+  vtkNew<vtkIdList> ids;
+  for (std::size_t i = 0; i < from.size(); ++i)
   {
-    const auto at = static_cast<vtkIdType>(i);
-    const Eigen::Vector3d p = map.Mesh.Point(ids[i]);
-    flat ? points->SetPoint(at, map.UV(ids[i], 0), map.UV(ids[i], 1), 0.0)
-         : points->SetPoint(at, p.data());
+    const PointOrigin& origin = origins[static_cast<std::size_t>(from[i].CutPoint())];
+    const auto to = static_cast<vtkIdType>(i);
+    if (IsInputPoint(origin))
+    {
+      output->CopyData(input, origin.Points[0], to);
+      continue;
+    }
+    ids->Reset();
+    std::array<double, 3> weights = origin.Weights;
+    for (int id : origin.Points)
+    {
+      if (id >= 0)
+      {
+        ids->InsertNextId(id);
+      }
+    }
+    output->InterpolatePoint(input, to, ids, weights.data());
   }
-  return points;
 }
 }
 
@@ -95,100 +140,160 @@ Result<DecodedMesh> DecodeMesh(vtkPointSet* data)
   return result;
 }
 
-void EncodeMesh(const DecodedMesh& decoded, const MeshParameterization& map, vtkPointSet* input,
+void EncodeMesh(const DecodedMesh& decoded, const ChartedMesh& charted, vtkPointSet* input,
   bool flat, vtkPolyData* output)
 {
-  const DiscMesh& mesh = map.Mesh;
-  std::vector<int> all(mesh.PointIds.size());
-  for (std::size_t i = 0; i < all.size(); ++i)
-  {
-    all[i] = static_cast<int>(i);
-  }
-  output->SetPoints(PointsOf(map, all, flat, input->GetPoints()->GetDataType()));
+  std::vector<ChartPoint> from;
   vtkNew<vtkCellArray> cells;
-  for (const auto& corners : mesh.Triangles)
-  {
-    const vtkIdType ids[3] = { corners[0], corners[1], corners[2] };
-    cells->InsertNextCell(3, ids);
-  }
-  output->SetPolys(cells);
-  vtkPointData* points = output->GetPointData();
-  points->CopyAllOn();
-  points->CopyAllocate(input->GetPointData(), static_cast<vtkIdType>(all.size()));
-  for (std::size_t i = 0; i < all.size(); ++i)
-  {
-    points->CopyData(input->GetPointData(), mesh.PointIds[i], static_cast<vtkIdType>(i));
-  }
-  points->AddArray(UvArray(map.UV, all));
-  points->SetActiveTCoords("UV");
   vtkCellData* data = output->GetCellData();
   data->CopyAllOn();
-  data->CopyAllocate(input->GetCellData(), static_cast<vtkIdType>(mesh.Triangles.size()));
+  data->SetCopyGlobalIds(charted.Triangles.size() <= decoded.Cells.size());
+  data->CopyAllocate(input->GetCellData(), static_cast<vtkIdType>(charted.Triangles.size()));
+  vtkNew<vtkIntArray> number;
+  number->SetName("ChartId");
   vtkNew<vtkDoubleArray> values;
   values->SetName("SingularValues");
   values->SetNumberOfComponents(2);
   vtkNew<vtkUnsignedCharArray> flipped;
   flipped->SetName("Flipped");
-  for (std::size_t t = 0; t < mesh.Triangles.size(); ++t)
+  for (std::size_t c = 0; c < charted.Charts.size(); ++c)
   {
-    const auto triangle = static_cast<std::size_t>(mesh.TriangleIds[t]);
-    data->CopyData(input->GetCellData(), decoded.Cells[triangle], static_cast<vtkIdType>(t));
-    const auto s = map.Measures.SingularValues.row(static_cast<Eigen::Index>(t));
-    values->InsertNextTuple2(s[0], s[1]);
-    flipped->InsertNextValue(s[1] > 0.0 ? 0 : 1);
+    const DiscMesh& mesh = charted.Charts[c].Mesh;
+    const auto first = static_cast<vtkIdType>(from.size());
+    for (int v = 0; v < mesh.NumPoints(); ++v)
+    {
+      from.push_back({ &charted.Charts[c], v });
+    }
+    for (std::size_t t = 0; t < mesh.Triangles.size(); ++t)
+    {
+      const auto& corners = mesh.Triangles[t];
+      const vtkIdType ids[3] = { first + corners[0], first + corners[1], first + corners[2] };
+      const vtkIdType cell = cells->InsertNextCell(3, ids);
+      const auto triangle = static_cast<std::size_t>(mesh.TriangleIds[t]);
+      const auto origin = static_cast<std::size_t>(charted.TriangleIds[triangle]);
+      data->CopyData(input->GetCellData(), decoded.Cells[origin], cell);
+      const auto s = charted.Charts[c].Measures.SingularValues.row(static_cast<Eigen::Index>(t));
+      number->InsertNextValue(static_cast<int>(c));
+      values->InsertNextTuple2(s[0], s[1]);
+      flipped->InsertNextValue(s[1] > 0.0 ? 0 : 1);
+    }
   }
+  CopyPointData(from, charted.Origins, input->GetPointData(), output->GetPointData());
+  SetPoints(from, flat, input->GetPoints()->GetDataType(), output);
+  output->GetPointData()->SetActiveTCoords("UV");
+  output->SetPolys(cells);
+  data->AddArray(number);
   data->AddArray(values);
   data->AddArray(flipped);
 }
 
-void EncodeLoops(const MeshParameterization& map, bool flat, vtkPolyData* output)
+void EncodeLoops(const ChartedMesh& charted, bool flat, vtkPolyData* output)
 {
-  std::vector<int> all;
+  std::vector<ChartPoint> from;
   vtkNew<vtkCellArray> lines;
+  vtkNew<vtkIntArray> chart;
+  chart->SetName("Chart");
   vtkNew<vtkIntArray> number;
   number->SetName("Loop");
   vtkNew<vtkDoubleArray> length;
   length->SetName("Length");
-  for (const std::vector<int>& loop : map.Mesh.Loops)
+  for (std::size_t c = 0; c < charted.Charts.size(); ++c)
   {
-    lines->InsertNextCell(static_cast<int>(loop.size()) + 1);
-    double sum = 0.0;
-    for (std::size_t i = 0; i <= loop.size(); ++i)
+    const DiscMesh& mesh = charted.Charts[c].Mesh;
+    for (std::size_t l = 0; l < mesh.Loops.size(); ++l)
     {
-      const std::size_t at = i % loop.size();
-      lines->InsertCellPoint(static_cast<vtkIdType>(all.size() + at));
-      sum += i == 0 ? 0.0 : (map.Mesh.Point(loop[at]) - map.Mesh.Point(loop[i - 1])).norm();
+      const std::vector<int>& loop = mesh.Loops[l];
+      const auto first = static_cast<vtkIdType>(from.size());
+      const auto n = static_cast<vtkIdType>(loop.size());
+      lines->InsertNextCell(static_cast<int>(n) + 1);
+      for (vtkIdType i = 0; i <= n; ++i)
+      {
+        lines->InsertCellPoint(first + i % n);
+      }
+      double sum = 0.0;
+      for (std::size_t i = 0; i < loop.size(); ++i)
+      {
+        from.push_back({ &charted.Charts[c], loop[i] });
+        sum += (mesh.Point(loop[(i + 1) % loop.size()]) - mesh.Point(loop[i])).norm();
+      }
+      chart->InsertNextValue(static_cast<int>(c));
+      number->InsertNextValue(static_cast<int>(l));
+      length->InsertNextValue(sum);
     }
-    all.insert(all.end(), loop.begin(), loop.end());
-    number->InsertNextValue(static_cast<int>(number->GetNumberOfTuples()));
-    length->InsertNextValue(sum);
   }
-  output->SetPoints(PointsOf(map, all, flat, VTK_DOUBLE));
+  SetPoints(from, flat, VTK_DOUBLE, output);
   output->SetLines(lines);
   vtkNew<vtkIdTypeArray> ids;
   ids->SetName("PointIds");
-  for (int v : all)
+  for (const ChartPoint& point : from)
   {
-    ids->InsertNextValue(map.Mesh.PointIds[static_cast<std::size_t>(v)]);
+    const PointOrigin& origin = charted.Origins[static_cast<std::size_t>(point.CutPoint())];
+    ids->InsertNextValue(IsInputPoint(origin) ? origin.Points[0] : -1);
   }
-  output->GetPointData()->AddArray(UvArray(map.UV, all));
   output->GetPointData()->AddArray(ids);
+  output->GetCellData()->AddArray(chart);
   output->GetCellData()->AddArray(number);
   output->GetCellData()->AddArray(length);
 }
 
-void EncodeSummary(const MeshParameterization& map, FlattenMethod asked, vtkTable* output)
+std::string DescribeFallbacks(const ChartedMesh& charted)
 {
-  const FlattenMeasures& measures = map.Measures;
+  std::set<std::string> methods;
+  std::string reason; // of the first chart that has one
+  int count = 0;
+  for (const MeshParameterization& chart : charted.Charts)
+  {
+    if (!chart.FallbackReason.empty())
+    {
+      methods.insert(ToString(chart.Used));
+      reason = count++ == 0 ? chart.FallbackReason : reason;
+    }
+  }
+  if (count == 0 || charted.Charts.size() == 1)
+  {
+    return reason;
+  }
+  return std::to_string(count) + " of " + std::to_string(charted.Charts.size()) +
+    " charts, the first one: " + reason;
+}
+
+std::string DescribeMethods(const ChartedMesh& charted)
+{
+  std::string methods;
+  std::set<FlattenMethod> used;
+  for (const MeshParameterization& chart : charted.Charts)
+  {
+    if (used.insert(chart.Used).second)
+    {
+      methods += (methods.empty() ? "" : ", ") + std::string(ToString(chart.Used));
+    }
+  }
+  return methods;
+}
+
+void EncodeSummary(const ChartedMesh& charted, FlattenMethod asked, vtkTable* output)
+{
+  const FlattenMeasures measures = TotalMeasures(charted);
+  const std::string reason = DescribeFallbacks(charted);
+  int loops = 0;
+  int points = 0;
+  int rejected = 0;
+  for (const MeshParameterization& chart : charted.Charts)
+  {
+    loops += static_cast<int>(chart.Mesh.Loops.size());
+    points += chart.Mesh.NumPoints();
+    rejected += chart.RejectedEigenvectors;
+  }
   AddColumn(output, "RequestedMethod", std::string(ToString(asked)));
-  AddColumn(output, "Method", std::string(ToString(map.Used)));
-  AddColumn(output, "Fallback", map.FallbackReason.empty() ? 0 : 1);
-  AddColumn(output, "FallbackReason", map.FallbackReason);
-  AddColumn(output, "Points", map.Mesh.NumPoints());
-  AddColumn(output, "Triangles", static_cast<int>(map.Mesh.Triangles.size()));
-  AddColumn(output, "Loops", static_cast<int>(map.Mesh.Loops.size()));
-  AddColumn(output, "Components", map.Mesh.Components);
-  AddColumn(output, "TurnedTriangles", map.Mesh.Reversed);
+  AddColumn(output, "Method", DescribeMethods(charted));
+  AddColumn(output, "Fallback", reason.empty() ? 0 : 1);
+  AddColumn(output, "FallbackReason", reason);
+  AddColumn(output, "Charts", static_cast<int>(charted.Charts.size()));
+  AddColumn(output, "Points", points);
+  AddColumn(output, "Triangles", static_cast<int>(charted.Triangles.size()));
+  AddColumn(output, "Loops", loops);
+  AddColumn(output, "Components", charted.Components);
+  AddColumn(output, "TurnedTriangles", charted.Reversed);
   AddColumn(output, "FlippedTriangles", measures.FlippedTriangles);
   AddColumn(output, "MeanStretch", measures.MeanStretch);
   AddColumn(output, "MaxStretch", measures.MaxStretch);
@@ -198,7 +303,7 @@ void EncodeSummary(const MeshParameterization& map, FlattenMethod asked, vtkTabl
   AddColumn(output, "MaxAreaDistortion", measures.MaxAreaDistortion);
   AddColumn(output, "IsometryError", measures.IsometryError);
   AddColumn(output, "DistanceError", measures.DistanceError);
-  AddColumn(output, "RejectedEigenvectors", map.RejectedEigenvectors);
-  AddColumn(output, "Seconds", map.Seconds);
+  AddColumn(output, "RejectedEigenvectors", rejected);
+  AddColumn(output, "Seconds", charted.Seconds);
 }
 }

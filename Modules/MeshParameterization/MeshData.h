@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "MeshParameterization.h"
+#include "FlattenCharts.h"
 #include "vtkKnotworkMeshParameterizationModule.h" // for export macro
 
 class vtkPointSet;
@@ -20,16 +20,25 @@ struct DecodedMesh
 /// @return InvalidTopology: other cells of two or three dimensions (ids).
 VTKKNOTWORKMESHPARAMETERIZATION_EXPORT Result<DecodedMesh> DecodeMesh(vtkPointSet* data);
 
-/// The flattened triangles with the point and cell data of their origin, the point array `UV` (also
-/// the texture coordinates) and the cell arrays `SingularValues` and `Flipped`.
+/// The triangles of all charts with the point and cell data of their origin (linear where a cut
+/// made a point), chart by chart with points of its own; the point arrays `UV` (also the texture
+/// coordinates) and `CutPointId` (equal on copies of a point), the cell arrays `ChartId`,
+/// `SingularValues` and `Flipped`.
 /// @param flat  points are (u, v, 0) instead of those of the input.
-void EncodeMesh(const DecodedMesh& decoded, const MeshParameterization& map, vtkPointSet* input,
+void EncodeMesh(const DecodedMesh& decoded, const ChartedMesh& charted, vtkPointSet* input,
   bool flat, vtkPolyData* output);
 
-/// One closed polyline a loop, the outer one first, with `UV`, the input's ids of points, and the
-/// cell arrays `Loop` and `Length`.
-void EncodeLoops(const MeshParameterization& map, bool flat, vtkPolyData* output);
+/// One closed polyline a loop, chart by chart, the outer one first, with `UV`, `PointIds` of the
+/// input (-1 where a cut made a point), `CutPointId`, and the cell arrays `Chart`, `Loop` (number
+/// in its chart) and `Length`.
+void EncodeLoops(const ChartedMesh& charted, bool flat, vtkPolyData* output);
 
 /// One row with all numbers of the report.
-void EncodeSummary(const MeshParameterization& map, FlattenMethod asked, vtkTable* output);
+void EncodeSummary(const ChartedMesh& charted, FlattenMethod asked, vtkTable* output);
+
+/// Methods that were used, in the order of the first charts: "hlle, injective".
+std::string DescribeMethods(const ChartedMesh& charted);
+
+/// Why another method than the one asked for was used, in one sentence; empty when none was.
+std::string DescribeFallbacks(const ChartedMesh& charted);
 }

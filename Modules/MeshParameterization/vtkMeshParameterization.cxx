@@ -13,6 +13,36 @@
 
 vtkStandardNewMacro(vtkMeshParameterization);
 
+namespace
+{
+std::vector<std::string> Warnings(const knotwork::ChartedMesh& charted)
+{
+  std::vector<std::string> warnings;
+  const std::string used = knotwork::DescribeMethods(charted);
+  if (const std::string reason = knotwork::DescribeFallbacks(charted); !reason.empty())
+  {
+    warnings.push_back(charted.Charts.size() == 1 ? reason + ": " + used + " was used instead"
+                                                  : reason + "; methods used: " + used);
+  }
+  int flips = 0;
+  for (const knotwork::MeshParameterization& chart : charted.Charts)
+  {
+    flips += chart.Measures.FlippedTriangles;
+  }
+  if (flips > 0)
+  {
+    warnings.push_back(
+      std::to_string(flips) + " triangles are flipped in the plane (" + used + ")");
+  }
+  if (!charted.WithinLimit)
+  {
+    warnings.push_back(std::to_string(charted.Charts.size()) +
+      " charts are too few: some are stretched more than allowed or lie over themselves");
+  }
+  return warnings;
+}
+}
+
 vtkMeshParameterization::vtkMeshParameterization()
 {
   this->SetNumberOfInputPorts(1);
@@ -29,6 +59,9 @@ void vtkMeshParameterization::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Landmarks: " << this->Landmarks << "\n";
   os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
   os << indent << "MinimumParticipation: " << this->MinimumParticipation << "\n";
+  os << indent << "MaximumStretch: " << this->MaximumStretch << "\n";
+  os << indent << "MaximumCharts: " << this->MaximumCharts << "\n";
+  os << indent << "CreaseAngle: " << this->CreaseAngle << "\n";
   os << indent << "Fallback: " << this->Fallback << "\n";
   os << indent << "LargestComponent: " << this->LargestComponent << "\n";
   os << indent << "FlatOutput: " << this->FlatOutput << "\n";
@@ -87,26 +120,28 @@ knotwork::Status vtkMeshParameterization::Compute(
   params.Fallback = this->Fallback;
   params.LargestComponent = this->LargestComponent;
   params.Threads = this->KernelThreads();
-  const auto map = knotwork::FlattenMesh(decoded.Value.Mesh, params);
-  if (!map)
+  const auto charted = this->Flatten(decoded.Value.Mesh, params);
+  if (!charted)
   {
-    return map.Status;
+    return charted.Status;
   }
-  std::vector<std::string> warnings;
-  if (!map.Value.FallbackReason.empty())
-  {
-    warnings.push_back(
-      map.Value.FallbackReason + ": " + ToString(map.Value.Used) + " was used instead");
-  }
-  if (map.Value.Measures.FlippedTriangles > 0)
-  {
-    warnings.push_back(std::to_string(map.Value.Measures.FlippedTriangles) +
-      " triangles are flipped in the plane (" + ToString(map.Value.Used) + ")");
-  }
-  this->ReportWarnings(warnings);
+  this->ReportWarnings(Warnings(charted.Value));
   knotwork::EncodeMesh(
-    decoded.Value, map.Value, input, this->FlatOutput, vtkPolyData::GetData(outputs, 0));
-  knotwork::EncodeLoops(map.Value, this->FlatOutput, vtkPolyData::GetData(outputs, 1));
-  knotwork::EncodeSummary(map.Value, params.Method, vtkTable::GetData(outputs, 2));
+    decoded.Value, charted.Value, input, this->FlatOutput, vtkPolyData::GetData(outputs, 0));
+  knotwork::EncodeLoops(charted.Value, this->FlatOutput, vtkPolyData::GetData(outputs, 1));
+  knotwork::EncodeSummary(charted.Value, params.Method, vtkTable::GetData(outputs, 2));
   return {};
+}
+
+knotwork::Result<knotwork::ChartedMesh> vtkMeshParameterization::Flatten(
+  const knotwork::TriangleMesh& mesh, const knotwork::FlattenParams& params) const
+{
+  if (this->MaximumStretch > 0.0)
+  {
+    return knotwork::FlattenCharts(
+      mesh, params, { this->MaximumStretch, this->MaximumCharts, this->CreaseAngle });
+  }
+  auto map = knotwork::FlattenMesh(mesh, params);
+  return map ? knotwork::OneChart(std::move(map.Value))
+             : knotwork::Result<knotwork::ChartedMesh>(map.Status);
 }

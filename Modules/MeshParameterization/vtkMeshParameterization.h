@@ -4,14 +4,19 @@
  * @brief   lays a triangle mesh with holes into the plane
  *
  * Input 0 is a triangle mesh (vtkPolyData or vtkUnstructuredGrid): one component of a manifold with
- * a boundary and without handles. Triangles that look the other way than most are turned over.
+ * a boundary and without handles. Triangles that look the other way than most are turned over. With
+ * a MaximumStretch the surface may also be closed and have handles: it is cut into charts where
+ * that is needed, each of them a disc with holes whose map is stretched less and does not fold.
  *
  * Output 0 is the mesh with its data, plane coordinates as the point array `UV` (also the texture
- * coordinates; centred, at the scale of the mesh) and the cell arrays `SingularValues` of the map
- * from each triangle (the second one is negative where it is flipped) and `Flipped`. Output 1 are
- * the boundary loops as closed polylines, the outer one first (counterclockwise in UV, holes
- * clockwise), with `UV`, `PointIds`, `Loop` and `Length`. Output 2 is a table of one row: the
- * method asked for and the one used, why another one was used, flipped triangles, stretch, singular
+ * coordinates; centred, at the scale of the mesh) and the cell arrays `ChartId`, `SingularValues`
+ * of the map from each triangle (the second one is negative where it is flipped) and `Flipped`.
+ * Charts have points of their own and lie side by side in the plane; copies of a point have the
+ * same `CutPointId` (point array). Where a cut crosses a triangle it is divided; point data is
+ * linear there. Output 1 are the boundary loops of each chart as closed polylines, the outer one
+ * first (counterclockwise in UV, holes clockwise), with `UV`, `PointIds` (-1 where a cut made a
+ * point), `CutPointId`, `Chart`, `Loop` and `Length`. Output 2 is a table of one row: the method
+ * asked for and those used, why others were used, charts, flipped triangles, stretch, singular
  * values, area distortion, isometry and distance errors.
  *
  * HLLE that folds or fails is replaced by a method that folds less, with a warning. A map that has
@@ -24,6 +29,13 @@
 #define vtkMeshParameterization_h
 #include "vtkKnotworkMeshParameterizationModule.h" // for export macro
 #include "vtkSplineAlgorithm.h"
+
+namespace knotwork
+{
+struct ChartedMesh;
+struct FlattenParams;
+struct TriangleMesh;
+}
 
 class VTKKNOTWORKMESHPARAMETERIZATION_EXPORT vtkMeshParameterization : public vtkSplineAlgorithm
 {
@@ -90,7 +102,26 @@ public:
   vtkGetMacro(MinimumParticipation, double);
   ///@}
   ///@{
-  /** Whether HLLE may be replaced when it folds or fails. Default on. */
+  /** Stretch max(s1, 1/s2) that no chart exceeds, above 1; with 0 the mesh is one chart whatever
+   * its stretch. Default 0, valid range [0, 1000] without (0, 1]. */
+  vtkSetClampMacro(MaximumStretch, double, 0.0, 1000.0);
+  vtkGetMacro(MaximumStretch, double);
+  ///@}
+  ///@{
+  /** Charts at most; more stretch comes with a warning then. Default 500, valid range [1, 100000].
+   */
+  vtkSetClampMacro(MaximumCharts, int, 1, 100000);
+  vtkGetMacro(MaximumCharts, int);
+  ///@}
+  ///@{
+  /** Angle between triangles, in degrees, above which cuts run along an edge where they can.
+   * Default 40, valid range [1, 179]. */
+  vtkSetClampMacro(CreaseAngle, double, 1.0, 179.0);
+  vtkGetMacro(CreaseAngle, double);
+  ///@}
+  ///@{
+  /** Whether HLLE may be replaced when it folds or fails, and in charts any method that stretches
+   * too much. Default on. */
   vtkSetMacro(Fallback, bool);
   vtkGetMacro(Fallback, bool);
   vtkBooleanMacro(Fallback, bool);
@@ -122,6 +153,9 @@ private:
   vtkMeshParameterization(const vtkMeshParameterization&) = delete;
   void operator=(const vtkMeshParameterization&) = delete;
 
+  knotwork::Result<knotwork::ChartedMesh> Flatten(
+    const knotwork::TriangleMesh& mesh, const knotwork::FlattenParams& params) const;
+
   int Method = HLLE;
   int LaplacianWeights = COTANGENT;
   int Geodesics = UNFOLDING;
@@ -129,6 +163,9 @@ private:
   int Landmarks = 50;
   int MaximumIterations = 100;
   double MinimumParticipation = 0.02;
+  double MaximumStretch = 0.0;
+  int MaximumCharts = 500;
+  double CreaseAngle = 40.0;
   bool Fallback = true;
   bool LargestComponent = false;
   bool FlatOutput = false;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace knotwork
 {
@@ -34,6 +35,30 @@ PointOrigin Mean(const PointOrigin& a, const PointOrigin& b, double weight)
   add(a, 1.0 - weight);
   add(b, weight);
   return mean;
+}
+
+/// Points in the order of the cut mesh.
+void SortPoints(std::vector<int>& points, std::vector<std::array<int, 3>>& triangles)
+{
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{ 0 });
+  std::stable_sort(order.begin(), order.end(),
+    [&](std::size_t a, std::size_t b) { return points[a] < points[b]; });
+  std::vector<int> sorted;
+  std::vector<int> place(points.size());
+  for (std::size_t v : order)
+  {
+    place[v] = static_cast<int>(sorted.size());
+    sorted.push_back(points[v]);
+  }
+  points = std::move(sorted);
+  for (auto& corners : triangles)
+  {
+    for (int& c : corners)
+    {
+      c = place[static_cast<std::size_t>(c)];
+    }
+  }
 }
 }
 
@@ -184,6 +209,19 @@ void CutMesh::Split(const std::unordered_map<std::uint64_t, int>& points)
   }
 }
 
+std::vector<int> CutMesh::TrianglesOf(int chart) const
+{
+  std::vector<int> triangles;
+  for (std::size_t t = 0; t < this->Charts.size(); ++t)
+  {
+    if (this->Charts[t] == chart)
+    {
+      triangles.push_back(static_cast<int>(t));
+    }
+  }
+  return triangles;
+}
+
 std::vector<std::vector<int>> Components(const CutMesh& mesh, const std::vector<int>& triangles)
 {
   std::vector<std::array<int, 3>> corners;
@@ -282,6 +320,7 @@ Result<ChartPart> TakePart(const CutMesh& mesh, const std::vector<int>& triangle
       }
     }
   }
+  SortPoints(result.Value.Points, part.Triangles);
   part.Points.resize(static_cast<Eigen::Index>(result.Value.Points.size()), 3);
   for (std::size_t v = 0; v < result.Value.Points.size(); ++v)
   {

@@ -33,6 +33,9 @@ struct CutMesh
   /// @param points  the new point of an edge, by its key.
   void Split(const std::unordered_map<std::uint64_t, int>& points);
 
+  /// Triangles of a chart, ascending.
+  std::vector<int> TrianglesOf(int chart) const;
+
 private:
   struct OnEdge
   {
@@ -48,7 +51,7 @@ private:
 struct ChartPart
 {
   DiscMesh Mesh;
-  std::vector<int> Points;    ///< of the cut mesh, one a point of Mesh
+  std::vector<int> Points;    ///< of the cut mesh, one a point of Mesh, ascending
   std::vector<int> Triangles; ///< of the cut mesh, one a triangle of Mesh
 };
 

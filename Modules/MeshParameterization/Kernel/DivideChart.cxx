@@ -16,19 +16,6 @@ constexpr double LeastCoherence = 0.5; // of normals at a hole: |sum| / sum of s
 constexpr double LeastIsland = 0.02;   // of the area of the chart
 constexpr int RepairRounds = 20;
 
-std::vector<int> TrianglesOf(const CutMesh& mesh, int chart)
-{
-  std::vector<int> triangles;
-  for (std::size_t t = 0; t < mesh.Charts.size(); ++t)
-  {
-    if (mesh.Charts[t] == chart)
-    {
-      triangles.push_back(static_cast<int>(t));
-    }
-  }
-  return triangles;
-}
-
 /// Divides triangles along the zero line and gives them the sides of the line.
 /// @param part  the chart, whose Sides are in the mesh.
 void CutAlong(CutMesh& mesh, const ChartPart& part, const Eigen::VectorXd& values)
@@ -55,7 +42,7 @@ void CutAlong(CutMesh& mesh, const ChartPart& part, const Eigen::VectorXd& value
   }
   const int chart = mesh.Charts[static_cast<std::size_t>(part.Triangles.front())];
   mesh.Split(points);
-  for (int t : TrianglesOf(mesh, chart))
+  for (int t : mesh.TrianglesOf(chart))
   {
     int sum = 0;
     for (int c : mesh.Triangles[static_cast<std::size_t>(t)])
@@ -130,7 +117,7 @@ bool JoinTouching(const DiscMesh& mesh, const std::vector<double>& areas,
 /// One component of a side gives up small islands, and points where it touches itself.
 Status RepairSides(CutMesh& mesh, int chart, const std::vector<int>& holes)
 {
-  const auto part = TakePart(mesh, TrianglesOf(mesh, chart));
+  const auto part = TakePart(mesh, mesh.TrianglesOf(chart));
   if (!part)
   {
     return part.Status;
@@ -244,7 +231,7 @@ std::vector<int> FindSmallHoles(const DiscMesh& mesh)
 Result<std::vector<int>> DivideChart(CutMesh& mesh, int chart, const EdgeCrossing& crossing,
   const std::vector<int>& holes, double creaseAngle, int& numCharts)
 {
-  const std::vector<int> before = TrianglesOf(mesh, chart);
+  const std::vector<int> before = mesh.TrianglesOf(chart);
   const auto part = TakePart(mesh, before);
   if (!part)
   {
@@ -275,9 +262,9 @@ Result<std::vector<int>> DivideChart(CutMesh& mesh, int chart, const EdgeCrossin
       return status;
     }
   }
-  if (!HasBothSides(mesh, TrianglesOf(mesh, chart)))
+  if (!HasBothSides(mesh, mesh.TrianglesOf(chart)))
   {
-    const auto again = TakePart(mesh, TrianglesOf(mesh, chart));
+    const auto again = TakePart(mesh, mesh.TrianglesOf(chart));
     if (!again)
     {
       return again.Status;
@@ -290,7 +277,7 @@ Result<std::vector<int>> DivideChart(CutMesh& mesh, int chart, const EdgeCrossin
     }
     SetSides(mesh, again.Value, sides);
   }
-  const auto components = Components(mesh, TrianglesOf(mesh, chart));
+  const auto components = Components(mesh, mesh.TrianglesOf(chart));
   Result<std::vector<int>> result;
   for (std::size_t i = 0; i < components.size(); ++i)
   {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FlattenCharts.h"
 
+#include "ChartLayout.h"
 #include "DivideChart.h"
 #include "FlattenMethods.h"
 #include "FlattenReport.h"
-#include "InjectiveMap.h"
-#include "PlaneLoops.h"
+#include "JoinCharts.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <sstream>
+#include <numeric>
 
 namespace knotwork
 {
@@ -19,143 +19,6 @@ namespace
 {
 constexpr double Pi = 3.14159265358979323846;
 constexpr double Infinite = std::numeric_limits<double>::infinity();
-constexpr int TrialIterations = 10; // after which a hopeless map is given up
-
-/// What is known of a chart's map.
-struct ChartMap
-{
-  bool Good = false;
-  EdgeCrossing Crossing;     ///< of a map without flips
-  double Stretch = Infinite; ///< infinite without a map, or when it flips
-  PointMatrix UV;            ///< without rows when there is no map
-  FlattenMethod Used = FlattenMethod::Hlle;
-  std::string Reason; ///< why the method asked for was not used
-  int RejectedEigenvectors = 0;
-};
-
-std::string Text(double value)
-{
-  std::ostringstream stream;
-  stream.precision(3);
-  stream << value;
-  return stream.str();
-}
-
-/// Takes a map over when it is better than the one there is. @return whether it is good.
-bool Consider(
-  const DiscMesh& mesh, double limit, FlattenMethod method, PointMatrix uv, ChartMap& best)
-{
-  ChartMap map;
-  map.Stretch = LargestStretch(mesh, uv);
-  if (std::isfinite(map.Stretch))
-  {
-    map.Crossing = FindCrossing(mesh, uv);
-  }
-  map.Good = map.Stretch <= limit && !map.Crossing;
-  map.Used = method;
-  if (map.Good || best.UV.rows() == 0 || map.Stretch < best.Stretch)
-  {
-    map.UV = std::move(uv);
-    map.Reason = std::move(best.Reason);
-    map.RejectedEigenvectors = best.RejectedEigenvectors;
-    best = std::move(map);
-  }
-  return best.Good;
-}
-
-std::string Fault(const Result<FlatMesh>& flat, const DiscMesh& mesh, const ChartMap& map)
-{
-  if (!flat)
-  {
-    return flat.Status.Message();
-  }
-  if (!std::isfinite(map.Stretch))
-  {
-    return "flips " + std::to_string(CountFlips(mesh, flat->UV)) + " triangles";
-  }
-  return map.Crossing ? "lets the boundary cross itself"
-                      : "stretches " + Text(map.Stretch) + " times";
-}
-
-ChartMap MapChart(const DiscMesh& mesh, const FlattenParams& params, double limit)
-{
-  ChartMap best;
-  if (!CheckDisc(mesh))
-  {
-    return best;
-  }
-  auto flat = RunFlattenMethod(mesh, params.Method, params);
-  if (flat)
-  {
-    NormalizeSimilarity(mesh, flat->UV);
-    best.RejectedEigenvectors = flat->RejectedEigenvectors;
-    if (Consider(mesh, limit, params.Method, flat->UV, best))
-    {
-      return best;
-    }
-  }
-  if (!params.Fallback || params.Method == FlattenMethod::Injective)
-  {
-    return best;
-  }
-  best.Reason = std::string(ToString(params.Method)) + " " + Fault(flat, mesh, best);
-  auto injective = MapWithoutFlips(mesh);
-  if (!injective)
-  {
-    return best;
-  }
-  PointMatrix& uv = injective->UV;
-  // the conformal map's scale varies like exp(distance) where the best map's does like distance
-  const bool hopeless = LargestStretch(mesh, uv) > std::exp(2.0 * limit);
-  const int trial = std::min(TrialIterations, params.MaxIterations);
-  if (!hopeless && RelaxMap(mesh, trial, uv) && LargestStretch(mesh, uv) < 2.0 * limit &&
-    !FindCrossing(mesh, uv))
-  {
-    RelaxMap(mesh, params.MaxIterations - trial, uv);
-  }
-  NormalizeSimilarity(mesh, uv);
-  Consider(mesh, limit, FlattenMethod::Injective, std::move(uv), best);
-  return best;
-}
-
-/// Maps a chart, lays its triangles out in the cut mesh. @return without UV.
-Result<ChartMap> LayChart(CutMesh& mesh, int chart, const FlattenParams& params, double limit)
-{
-  std::vector<int> triangles;
-  for (std::size_t t = 0; t < mesh.Charts.size(); ++t)
-  {
-    if (mesh.Charts[t] == chart)
-    {
-      triangles.push_back(static_cast<int>(t));
-    }
-  }
-  const auto part = TakePart(mesh, triangles);
-  if (!part)
-  {
-    return part.Status;
-  }
-  ChartMap map = MapChart(part.Value.Mesh, params, limit);
-  for (std::size_t i = 0; i < triangles.size() && map.UV.rows() > 0; ++i)
-  {
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      mesh.UV[static_cast<std::size_t>(triangles[i])][k] =
-        map.UV.row(part.Value.Mesh.Triangles[i][k]).transpose();
-    }
-  }
-  if (map.UV.rows() == 0)
-  {
-    map.Stretch = Infinite;
-  }
-  for (auto* edge : { &map.Crossing.First, &map.Crossing.Second })
-  {
-    for (int& v : *edge)
-    {
-      v = v < 0 ? v : part.Value.Points[static_cast<std::size_t>(v)];
-    }
-  }
-  return map;
-}
 
 Status CheckChartParams(const ChartParams& params)
 {
@@ -176,8 +39,8 @@ Status CheckChartParams(const ChartParams& params)
 }
 
 /// Charts with their loops and measures, from the places of triangles.
-Status CollectCharts(const CutMesh& mesh, std::vector<ChartMap>& maps, GeodesicEstimator geodesics,
-  ChartedMesh& result)
+Status CollectCharts(const CutMesh& mesh, const std::vector<ChartMap>& maps,
+  const FlattenParams& params, ChartedMesh& result)
 {
   std::vector<std::vector<int>> triangles(maps.size());
   for (std::size_t t = 0; t < mesh.Charts.size(); ++t)
@@ -205,10 +68,9 @@ Status CollectCharts(const CutMesh& mesh, std::vector<ChartMap>& maps, GeodesicE
     chart.Mesh.PointIds = std::move(part.Value.Points);
     chart.Mesh.TriangleIds = triangles[c];
     SortLoopsByArea(chart.Mesh, chart.UV);
-    chart.Measures = MeasureMap(chart.Mesh, chart.UV, geodesics);
+    chart.Measures = MeasureMap(chart.Mesh, chart.UV, params.Geodesics);
     chart.Used = maps[c].Used;
-    chart.FallbackReason =
-      chart.Used == maps[c].Used && !maps[c].Reason.empty() ? maps[c].Reason : "";
+    chart.FallbackReason = chart.Used == params.Method ? std::string() : maps[c].Reason;
     chart.RejectedEigenvectors = maps[c].RejectedEigenvectors;
     result.Charts.push_back(std::move(chart));
   }
@@ -244,12 +106,14 @@ Result<ChartedMesh> FlattenCharts(
     maps.resize(static_cast<std::size_t>(numCharts));
     for (int chart : changed)
     {
-      auto map = LayChart(cut, chart, params, charts.MaxStretch);
-      if (!map)
+      const auto part = TakePart(cut, cut.TrianglesOf(chart));
+      if (!part)
       {
-        return map.Status;
+        return part.Status;
       }
-      maps[static_cast<std::size_t>(chart)] = std::move(map.Value);
+      ChartMap& map = maps[static_cast<std::size_t>(chart)];
+      map = MapChart(part.Value.Mesh, params, charts.MaxStretch);
+      PlaceTriangles(part.Value, map, cut);
     }
     const auto worst = std::max_element(maps.begin(), maps.end(),
       [](const ChartMap& a, const ChartMap& b)
@@ -268,27 +132,32 @@ Result<ChartedMesh> FlattenCharts(
     }
     changed = std::move(divided.Value);
   }
+  if (Status status = JoinCharts(cut, params, charts, maps); !status)
+  {
+    return status;
+  }
   Result<ChartedMesh> result;
   ChartedMesh& charted = result.Value;
   int without = 0;
   for (const ChartMap& map : maps)
   {
-    without += map.UV.rows() == 0 ? 1 : 0;
+    without += map.Exists ? 0 : 1;
     charted.WithinLimit = charted.WithinLimit && map.Good;
   }
   if (without > 0)
   {
     return { ErrorCode::NotConverged,
-      std::to_string(without) + " of " + std::to_string(numCharts) +
+      std::to_string(without) + " of " + std::to_string(maps.size()) +
         " charts are no discs yet; allow more charts" };
   }
   charted.Seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   charted.Reversed = surface->Reversed;
   charted.Components = surface->Components;
-  if (Status status = CollectCharts(cut, maps, params.Geodesics, charted); !status)
+  if (Status status = CollectCharts(cut, maps, params, charted); !status)
   {
     return status;
   }
+  PlaceSideBySide(charted.Charts);
   charted.Points.resize(static_cast<Eigen::Index>(cut.Points.size()), 3);
   for (std::size_t i = 0; i < cut.Points.size(); ++i)
   {
@@ -298,5 +167,63 @@ Result<ChartedMesh> FlattenCharts(
   charted.Triangles = std::move(cut.Triangles);
   charted.TriangleIds = std::move(cut.TriangleIds);
   return result;
+}
+
+ChartedMesh OneChart(MeshParameterization map)
+{
+  ChartedMesh mesh;
+  mesh.Points = map.Mesh.Points;
+  mesh.Triangles = map.Mesh.Triangles;
+  mesh.TriangleIds = map.Mesh.TriangleIds;
+  mesh.Reversed = map.Mesh.Reversed;
+  mesh.Components = map.Mesh.Components;
+  mesh.Seconds = map.Seconds;
+  for (int id : map.Mesh.PointIds)
+  {
+    PointOrigin origin;
+    origin.Points[0] = id;
+    origin.Weights[0] = 1.0;
+    mesh.Origins.push_back(origin);
+  }
+  std::iota(map.Mesh.PointIds.begin(), map.Mesh.PointIds.end(), 0);
+  std::iota(map.Mesh.TriangleIds.begin(), map.Mesh.TriangleIds.end(), 0);
+  mesh.Charts.push_back(std::move(map));
+  return mesh;
+}
+
+FlattenMeasures TotalMeasures(const ChartedMesh& mesh)
+{
+  FlattenMeasures total;
+  total.MinSingularValue = Infinite;
+  total.SingularValues.resize(static_cast<Eigen::Index>(mesh.Triangles.size()), 2);
+  double area = 0.0;
+  double points = 0.0;
+  for (const MeshParameterization& chart : mesh.Charts)
+  {
+    const FlattenMeasures& m = chart.Measures;
+    const double a = chart.Mesh.Area;
+    const double n = chart.Mesh.NumPoints();
+    area += a;
+    points += n;
+    total.FlippedTriangles += m.FlippedTriangles;
+    total.MeanStretch += a * m.MeanStretch;
+    total.MaxStretch = std::max(total.MaxStretch, m.MaxStretch);
+    total.MinSingularValue = std::min(total.MinSingularValue, m.MinSingularValue);
+    total.MaxSingularValue = std::max(total.MaxSingularValue, m.MaxSingularValue);
+    total.MeanAreaDistortion += a * m.MeanAreaDistortion;
+    total.MaxAreaDistortion = std::max(total.MaxAreaDistortion, m.MaxAreaDistortion);
+    total.IsometryError += a * m.IsometryError * m.IsometryError;
+    total.DistanceError += n * m.DistanceError * m.DistanceError;
+    for (std::size_t t = 0; t < chart.Mesh.TriangleIds.size(); ++t)
+    {
+      total.SingularValues.row(chart.Mesh.TriangleIds[t]) =
+        m.SingularValues.row(static_cast<Eigen::Index>(t));
+    }
+  }
+  total.MeanStretch /= area;
+  total.MeanAreaDistortion /= area;
+  total.IsometryError = std::sqrt(total.IsometryError / area);
+  total.DistanceError = std::sqrt(total.DistanceError / points);
+  return total;
 }
 }

@@ -19,7 +19,8 @@ struct PointOrigin
   std::array<double, 3> Weights{};         ///< sum 1
 };
 
-/// A mesh that is divided into charts, each of them laid into the plane.
+/// A mesh that is divided into charts, each of them laid into the plane; their images lie side by
+/// side.
 struct ChartedMesh
 {
   PointMatrix Points; ///< n x 3, without copies: neighbouring charts share those of their borders
@@ -51,4 +52,11 @@ struct ChartedMesh
 /// IEEE PAMI 23 (2001) 1222 (cuts of a graph).
 Result<ChartedMesh> FlattenCharts(
   const TriangleMesh& mesh, const FlattenParams& params = {}, const ChartParams& charts = {});
+
+/// A surface that is laid out as one chart.
+ChartedMesh OneChart(MeshParameterization map);
+
+/// Measures of all charts together: sums, extremes and means by area; of distance errors the mean
+/// square by points. SingularValues in the order of Triangles.
+FlattenMeasures TotalMeasures(const ChartedMesh& mesh);
 }

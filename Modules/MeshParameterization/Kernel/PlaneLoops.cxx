@@ -72,6 +72,11 @@ EdgeCrossing FindCrossing(const DiscMesh& mesh, const PointMatrix& uv)
     const Eigen::RowVector2d q = uv.row(c) - uv.row(a);
     return p[0] * q[1] - p[1] * q[0];
   };
+  const auto apart = [&](Eigen::Index i, Eigen::Index j) // as edges of one line are
+  {
+    return (lower.row(i).array() > upper.row(j).array()).any() ||
+      (lower.row(j).array() > upper.row(i).array()).any();
+  };
   const auto cross = [&](const BoundaryEdge& p, const BoundaryEdge& q)
   {
     const bool neighbours = p.A == q.A || p.A == q.B || p.B == q.A || p.B == q.B;
@@ -87,7 +92,8 @@ EdgeCrossing FindCrossing(const DiscMesh& mesh, const PointMatrix& uv)
       [&](int item)
       {
         const BoundaryEdge& other = boundary.Edges[static_cast<std::size_t>(item)];
-        if (item > i && cross(edge, other) && boundary.Way(edge, other) > longest)
+        if (item > i && !apart(i, item) && cross(edge, other) &&
+          boundary.Way(edge, other) > longest)
         {
           longest = boundary.Way(edge, other);
           crossing.First = { edge.A, edge.B };

@@ -8,6 +8,8 @@
 #include "MeshCases.h"
 #include "PlaneLoops.h"
 
+#include <Eigen/Geometry>
+
 #include <gtest/gtest.h>
 #include <limits>
 #include <random>
@@ -175,6 +177,20 @@ TEST(CutMesh, FansThatTouchGetPointsOfTheirOwn_ExactOracle)
   }
 }
 
+/// Points of the boundary of [0, 6] x [0, 0.4] exactly on it.
+PointMatrix Straight(const DiscMesh& mesh, PointMatrix uv)
+{
+  for (int v = 0; v < mesh.NumPoints(); ++v)
+  {
+    if (mesh.OnBoundary[static_cast<std::size_t>(v)])
+    {
+      uv(v, 0) = uv(v, 0) < 0.05 ? 0.0 : uv(v, 0) > 5.95 ? 6.0 : uv(v, 0);
+      uv(v, 1) = uv(v, 1) < 0.05 ? 0.0 : uv(v, 1) > 0.35 ? 0.4 : uv(v, 1);
+    }
+  }
+  return uv;
+}
+
 TEST(PlaneLoops, CrossingIsFoundAndOnlyThat_ExactOracle)
 {
   const MeshCase plate = FlatCase(0.0, 6.0, 0.0, 0.4, 0.1, [](double, double) { return true; });
@@ -192,6 +208,8 @@ TEST(PlaneLoops, CrossingIsFoundAndOnlyThat_ExactOracle)
     return uv;
   };
   EXPECT_FALSE(FindCrossing(disc.Value, plate.Flat));
+  const Eigen::Rotation2Dd turn(0.3); // edges of one line, but for rounding, do not cross
+  EXPECT_FALSE(FindCrossing(disc.Value, Straight(disc.Value, plate.Flat) * turn.matrix()));
   EXPECT_FALSE(FindCrossing(disc.Value, roll(0.9)));
   const EdgeCrossing crossing = FindCrossing(disc.Value, roll(1.1));
   ASSERT_TRUE(crossing);

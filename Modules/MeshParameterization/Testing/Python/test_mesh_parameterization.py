@@ -9,6 +9,8 @@ import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
+from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
 
 
@@ -162,6 +164,101 @@ def test_job_reports_what_the_filter_says():
     assert done.returncode == 0, done.stderr
     with open(report) as stream:
         assert json.load(stream)["mean_stretch"] > 1.5
+
+
+def sphere():
+    """A closed surface with its points as point data and the numbers of its cells."""
+    source = vtkSphereSource()
+    source.SetThetaResolution(31)
+    source.SetPhiResolution(21)
+    source.SetOutputPointsPrecision(vtkAlgorithm.DOUBLE_PRECISION)
+    source.Update()
+    mesh = vtkPolyData()
+    mesh.SetPoints(source.GetOutput().GetPoints())
+    mesh.SetPolys(source.GetOutput().GetPolys())
+    place = numpy_to_vtk(vtk_to_numpy(mesh.GetPoints().GetData()).copy(), deep=1)
+    place.SetName("Place")
+    mesh.GetPointData().AddArray(place)
+    number = numpy_to_vtk(np.arange(mesh.GetNumberOfCells()), deep=1)
+    number.SetName("Number")
+    mesh.GetCellData().AddArray(number)
+    return mesh
+
+
+def areas(points, corners):
+    a, b, c = (points[corners[:, k]] for k in range(3))
+    return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+
+
+def test_closed_surface_gets_charts():
+    mesh = sphere()
+    assert error_of(mesh) > 0  # closed
+    assert error_of(mesh, MaximumStretch=0.5) > 0
+    assert error_of(mesh, MaximumStretch=2, MaximumCharts=1) > 0
+    result = flatten(mesh, MaximumStretch=1.2)
+    out, loops, table = (result.GetOutputDataObject(port) for port in range(3))
+    points, uv, cut, place = (vtk_to_numpy(data) for data in (
+        out.GetPoints().GetData(), *(out.GetPointData().GetArray(name) for name in ("UV", "CutPointId", "Place"))))
+    chart, number, values = (vtk_to_numpy(out.GetCellData().GetArray(name))
+                             for name in ("ChartId", "Number", "SingularValues"))
+    corners = vtk_to_numpy(out.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    count = table.GetValueByName(0, "Charts").ToInt()
+    assert count > 2 and sorted(set(chart)) == list(range(count))
+    assert (1 / values[:, 1]).max() <= 1.2 and values[:, 0].max() <= 1.2
+    assert abs(table.GetValueByName(0, "MaxStretch").ToDouble() - max(values[:, 0].max(), (1 / values[:, 1]).max())) < 1e-9
+    # point data is linear, as the points are; rounding
+    assert abs(place - points).max() < 1e-14
+    before = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    whole = areas(vtk_to_numpy(mesh.GetPoints().GetData()), before)
+    assert abs(np.bincount(number, areas(points, corners)) - whole).max() < 1e-14
+    # the same id is the same place, and copies belong to different charts
+    _, first, copies = np.unique(cut, return_index=True, return_inverse=True)
+    assert (points == points[first][copies]).all()
+    assert len(first) < len(points) and len(np.unique(points, axis=0)) == len(first)
+    edges = np.sort(cut[corners[:, [0, 1, 1, 2, 2, 0]]].reshape(-1, 2), axis=1)
+    assert (np.unique(edges, axis=0, return_counts=True)[1] == 2).all()  # closed by its ids
+    # images side by side
+    boxes = [(uv[corners[chart == c].ravel()].min(0), uv[corners[chart == c].ravel()].max(0)) for c in range(count)]
+    for c in range(count):
+        for d in range(c):
+            assert (np.maximum(boxes[c][0], boxes[d][0]) > np.minimum(boxes[c][1], boxes[d][1])).any()
+    of_loop = vtk_to_numpy(loops.GetCellData().GetArray("Chart"))
+    assert sorted(set(of_loop)) == list(range(count))
+    ids = vtk_to_numpy(loops.GetPointData().GetArray("PointIds"))
+    at = vtk_to_numpy(loops.GetPoints().GetData())
+    given = vtk_to_numpy(mesh.GetPoints().GetData())
+    assert (ids == -1).any() and (at[ids >= 0] == given[ids[ids >= 0]]).all()
+    assert set(vtk_to_numpy(loops.GetPointData().GetArray("CutPointId"))) <= set(cut)
+
+
+def test_one_good_chart_is_the_mesh():
+    result = flatten(rolled(), MaximumStretch=1.5).GetOutputDataObject(0)
+    plain = flatten(rolled()).GetOutputDataObject(0)
+    for name in ("UV", "CutPointId"):
+        one, other = (vtk_to_numpy(data.GetPointData().GetArray(name)) for data in (result, plain))
+        assert abs(one - other).max() < 1e-12
+    assert (vtk_to_numpy(plain.GetPointData().GetArray("CutPointId")) == np.arange(len(FLAT))).all()
+    assert vtk_to_numpy(result.GetCellData().GetArray("ChartId")).max() == 0
+
+
+def test_job_makes_charts():
+    name = knotwork_testing.output("sphere.vtp")
+    writer = vtkXMLPolyDataWriter()
+    writer.SetFileName(name)
+    writer.SetInputData(sphere())
+    writer.Write()
+    out, report = (knotwork_testing.output(end) for end in ("charts.vtp", "charts.json"))
+    done = knotwork_testing.run_program("flatten", name, "--maximum-stretch", 2, "--output", out, "--report", report,
+                                        "--quiet")
+    assert done.returncode == 0, done.stderr
+    with open(report) as stream:
+        said = json.load(stream)
+    assert said["charts"] == 2 and said["loops"] == 2 and said["flipped_triangles"] == 0
+    assert said["max_stretch"] <= 2 and said["maximum_stretch"] == 2 and said["crease_angle"] == 40
+    done = knotwork_testing.run_program("flatten", name, "--output", out)
+    assert done.returncode == 1 and "closed" in done.stderr, done.stderr
+    done = knotwork_testing.run_program("flatten", name, "--maximum-stretch", -1, "--output", out)
+    assert done.returncode == 2, done.stderr
 
 
 def test_job_refuses_bad_meshes():
