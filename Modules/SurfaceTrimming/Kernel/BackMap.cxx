@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BackMap.h"
+#include "GridExtrapolation.h"
 #include "PenalizedFit.h"
+#include "RadialBackMap.h"
 
 #include <cmath>
 
@@ -74,10 +76,15 @@ Result<BackMap> FitBackMap(const ChartMesh& chart, const BackMapParams& params)
   {
     return status;
   }
-  if (params.Method != BackMapMethod::Penalized)
+  switch (params.Method)
   {
-    return { ErrorCode::InvalidParameter,
-      std::string("back-maps by the method ") + ToString(params.Method) + " are not built" };
+    case BackMapMethod::Nurbs:
+      return FitExtrapolated(chart, params);
+    case BackMapMethod::Rbf:
+    case BackMapMethod::Hybrid:
+      return FitRadial(chart, params);
+    case BackMapMethod::Penalized:
+      break;
   }
   return FitPenalized(chart, params);
 }
