@@ -81,21 +81,26 @@ void SetInside(const ChartMesh& chart, const std::array<int, 3>& corners, KnownG
   }
 }
 
-/// The polynomial through the known points next to (i, j) in a direction, degree + 1 of them at
-/// most, at (i, j) (Lagrange). @return whether there are any.
-bool Extrapolate(
-  const KnownGrid& grid, int i, int j, int di, int dj, int degree, Eigen::RowVector3d& point)
+/// What a direction says about a grid point: the polynomial through the known points next to it,
+/// degree + 1 of them at most (Lagrange).
+struct Continued
+{
+  Eigen::RowVector3d Point = Eigen::RowVector3d::Zero();
+  int Count = 0; ///< of the points
+};
+
+Continued Extrapolate(const KnownGrid& grid, int i, int j, int di, int dj, int degree)
 {
   const std::size_t d = di != 0 ? 0 : 1;
+  Continued line;
   std::vector<double> at;
-  std::vector<Eigen::Index> rows;
-  for (int k = 1; k <= degree + 1 && grid.IsKnown(i + k * di, j + k * dj); ++k)
+  while (line.Count <= degree && grid.IsKnown(i + (line.Count + 1) * di, j + (line.Count + 1) * dj))
   {
-    at.push_back(grid.Lines[d][static_cast<std::size_t>(d == 0 ? i + k * di : j + k * dj)]);
-    rows.push_back(grid.Place(i + k * di, j + k * dj));
+    ++line.Count;
+    at.push_back(
+      grid.Lines[d][static_cast<std::size_t>(d == 0 ? i + line.Count * di : j + line.Count * dj)]);
   }
   const double u = grid.Lines[d][static_cast<std::size_t>(d == 0 ? i : j)];
-  point.setZero();
   for (std::size_t k = 0; k < at.size(); ++k)
   {
     double factor = 1.0;
@@ -103,45 +108,53 @@ bool Extrapolate(
     {
       factor *= m == k ? 1.0 : (u - at[m]) / (at[k] - at[m]);
     }
-    point += factor * grid.Points.row(rows[k]);
+    const int steps = static_cast<int>(k) + 1;
+    line.Point += factor * grid.Points.row(grid.Place(i + steps * di, j + steps * dj));
   }
-  return !at.empty();
+  return line;
 }
 
-/// One layer: all grid points beside known ones. @return how many there were.
+/// One layer: of the grid points beside known ones those with polynomials of the highest degree.
+/// @return how many.
 std::size_t Grow(KnownGrid& grid, int degree)
 {
+  int best = 1;
   std::vector<Eigen::Index> places;
-  std::vector<Eigen::RowVector3d> points;
+  std::vector<Eigen::RowVector3d> values;
   for (int j = 0; j < grid.Size(1); ++j)
   {
     for (int i = 0; i < grid.Size(0); ++i)
     {
-      if (grid.IsKnown(i, j))
-      {
-        continue;
-      }
       Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
       int count = 0;
       for (const auto& step : { std::array<int, 2>{ -1, 0 }, { 1, 0 }, { 0, -1 }, { 0, 1 } })
       {
-        Eigen::RowVector3d point;
-        if (Extrapolate(grid, i, j, step[0], step[1], degree, point))
+        const Continued line =
+          grid.IsKnown(i, j) ? Continued() : Extrapolate(grid, i, j, step[0], step[1], degree);
+        if (line.Count > best)
         {
-          sum += point;
+          best = line.Count;
+          places.clear();
+          values.clear();
+          sum.setZero();
+          count = 0;
+        }
+        if (line.Count == best)
+        {
+          sum += line.Point;
           ++count;
         }
       }
       if (count > 0)
       {
         places.push_back(grid.Place(i, j));
-        points.push_back(sum / count);
+        values.push_back(sum / count);
       }
     }
   }
   for (std::size_t k = 0; k < places.size(); ++k)
   {
-    grid.Points.row(places[k]) = points[k];
+    grid.Points.row(places[k]) = values[k];
     grid.Known[static_cast<std::size_t>(places[k])] = 1;
   }
   return places.size();
@@ -209,13 +222,16 @@ Result<BackMap> FitExtrapolated(const ChartMesh& chart, const BackMapParams& par
     {
       return surface.Status;
     }
-    map.Surface = std::move(surface.Value);
-    const BackMapResiduals residuals = MeasureBackMap(MakeBezierForm(map.Surface, params.Threads),
+    const BackMapResiduals residuals = MeasureBackMap(MakeBezierForm(surface.Value, params.Threads),
       SampleChart(chart, boundary, knots, params.Threads), params.Threads);
+    if (map.Passes == 0 || residuals.Max < map.MaxResidual) // finer nets may be worse
+    {
+      map.Surface = std::move(surface.Value);
+      map.MaxResidual = residuals.Max;
+      map.RmsResidual = residuals.Rms;
+      map.WithinTolerance = residuals.Max <= params.Tolerance;
+    }
     ++map.Passes;
-    map.MaxResidual = residuals.Max;
-    map.RmsResidual = residuals.Rms;
-    map.WithinTolerance = residuals.Max <= params.Tolerance;
     if (params.Progress &&
       !params.Progress(static_cast<double>(elements) / std::max(elements, params.MaxElements)))
     {

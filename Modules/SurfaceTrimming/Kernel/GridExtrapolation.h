@@ -8,10 +8,11 @@ namespace knotwork
 ///
 /// Greville points of the net that lie in the chart get its points by linear interpolation in the
 /// triangles. From there the known part grows, layer by layer: a grid point beside known ones takes
-/// the polynomial through the last known ones of its row or column, the mean over the directions
-/// from which it can. The spline interpolates the grid. A net by need is halved everywhere until
-/// the tolerance is kept. Polynomials that are continued far fold the surface outside of the
-/// chart: that is in the method.
+/// the polynomial through the last known ones of its row or column, the mean over the directions;
+/// points with polynomials of full degree come first. The spline interpolates the grid. A net by
+/// need is halved everywhere until the tolerance is kept; the best net is the result. What is
+/// continued from layer to layer grows without bound: it folds outside of the chart, and on fine
+/// nets spoils the surface inside along the boundary. That is in the method.
 /// @source  Ruiz, Mejia, Cadavid, Triangular mesh parameterization with trimmed surfaces, 2015.
 /// @return SingularSystem when no grid point lies in the chart, or when values overflow.
 Result<BackMap> FitExtrapolated(const ChartMesh& chart, const BackMapParams& params);

@@ -2,6 +2,7 @@
 #include "PenalizedSystem.h"
 #include "BasisEvaluation.h"
 #include "Parallel.h"
+#include "Quadrature.h"
 #include "QualityFunctionals.h"
 
 #include <algorithm>
@@ -13,6 +14,9 @@ namespace
 {
 constexpr std::size_t SampleChunk = 4096;
 constexpr Eigen::Index RowBlock = 512;
+/// How much more the energy weighs on elements without samples: so much that slopes which waver
+/// along a boundary within spans do not fold what goes on beyond it.
+constexpr double OuterStiffness = 300.0;
 using Sparse = Eigen::SparseMatrix<double>;
 
 /// Samples that have a weight in the order of their elements.
@@ -141,6 +145,43 @@ public:
     }
     this->Flush(rows);
   }
+
+  /// Products of second derivatives instead: the thin-plate energy of an element, exact.
+  void Bend(int element, double weight)
+  {
+    this->Products.setZero(this->Size, this->Size);
+    this->Sides.setZero(this->Size, 3);
+    const auto& box = this->Space.Elements[static_cast<std::size_t>(element)].Box;
+    const std::array<double, 2> length{ box.Upper[0] - box.Lower[0], box.Upper[1] - box.Lower[1] };
+    const QuadratureRule rule = GaussLegendre(this->P + 1);
+    Eigen::Index rows = 0;
+    for (std::size_t q = 0; q < rule.Nodes.size() * rule.Nodes.size(); ++q)
+    {
+      const std::array<std::size_t, 2> node{ q % rule.Nodes.size(), q / rule.Nodes.size() };
+      double lines[2][3][MaxDegree + 1];
+      for (std::size_t d = 0; d < 2; ++d)
+      {
+        EvaluateLocalLine(this->P, this->Space.Factor(element, static_cast<int>(d)),
+          rule.Nodes[node[d]], length[d], 2, lines[d][0]);
+      }
+      const double root =
+        std::sqrt(weight * length[0] * length[1] * rule.Weights[node[0]] * rule.Weights[node[1]]);
+      for (int k = 0; k < 3; ++k) // uu, uv twice, vv
+      {
+        double* row = this->Rows.data() + rows * this->Size;
+        for (int b = 0; b <= this->P; ++b)
+        {
+          for (int a = 0; a <= this->P; ++a)
+          {
+            *row++ = (k == 1 ? std::sqrt(2.0) : 1.0) * root * lines[0][2 - k][a] * lines[1][k][b];
+          }
+        }
+        ++rows;
+      }
+    }
+    this->Points.topRows(rows).setZero();
+    this->Flush(rows);
+  }
   Eigen::MatrixXd Products;
   PointMatrix Sides;
 
@@ -167,7 +208,8 @@ private:
 /// Adds the samples' equations, one row of elements after the other. Rows p + 1 apart have no
 /// functions in common: they run at once, and every sum has its order.
 void AddSamples(const SplineSpace<2>& space, const ChartSamples& samples,
-  const Eigen::VectorXd& weights, int threads, Sparse& lower, Eigen::MatrixXd& sides)
+  const Eigen::VectorXd& weights, double stiffness, int threads, Sparse& lower,
+  Eigen::MatrixXd& sides)
 {
   const SortedSamples sorted = Sort(space, samples, weights, threads);
   const LowerPattern pattern(space, lower);
@@ -183,9 +225,12 @@ void AddSamples(const SplineSpace<2>& space, const ChartSamples& samples,
       const auto index = static_cast<std::size_t>(e);
       if (sorted.First[index] == sorted.First[index + 1])
       {
-        continue;
+        sums.Bend(e, stiffness);
       }
-      sums.Sum(e);
+      else
+      {
+        sums.Sum(e);
+      }
       const int* functions = space.LocalFunctions(e);
       for (int b = 0; b < (p + 1) * (p + 1); ++b)
       {
@@ -216,6 +261,7 @@ PenalizedSystem::PenalizedSystem(
   SplineSpacePtr<2> space, double smoothing, double stretching, int threads)
   : Space(std::move(space)), Threads(threads)
 {
+  this->Stiffness = OuterStiffness * smoothing;
   // symmetric: its rows are its columns
   const Eigen::SparseMatrix<double, Eigen::RowMajor> upper =
     QuadraticMatrix<2>(*this->Space, smoothing, stretching, threads).triangularView<Eigen::Upper>();
@@ -227,7 +273,7 @@ Result<PointMatrix> PenalizedSystem::Solve(
 {
   Sparse lower = this->Energy;
   Eigen::MatrixXd sides = Eigen::MatrixXd::Zero(this->Space->NumFunctions, 3);
-  AddSamples(*this->Space, samples, weights, this->Threads, lower, sides);
+  AddSamples(*this->Space, samples, weights, this->Stiffness, this->Threads, lower, sides);
   const Status status = this->Cholesky.Factorize(lower);
   if (!status)
   {
