@@ -23,7 +23,7 @@ constexpr double ReweightedGoal = 0.95;
 constexpr double BendingShare = 0.25;
 /// Least weight of the thin-plate energy, by the fourth power of the longest side: Cholesky's
 /// rounding grows with its inverse.
-constexpr double LeastSmoothing = 1e-14;
+constexpr double LeastSmoothing = 1e-17;
 /// Weight of the length of bilinear splines, by the square of the longest side: their folds along
 /// knots are not seen by the thin-plate energy.
 constexpr double BilinearStretching = 1e-13;
