@@ -4,12 +4,13 @@
 
 usage: Testing/Benchmarks/table.py MODULE [BUILD_TREE]     (default build/benchmark)
 
-Testing/Benchmarks/MODULE.json names the page, the program and the rows. Without "columns" a row is: what is done, the unit,
-the benchmark of one thread, that of all threads, and for each peer a published number or the name of a benchmark of ours
-that does the same by plain loops. With "columns" a row is a list of cells: a text; or what was measured, `@BENCHMARK UNIT`
-where the unit is one of time, `1/s`, or a counter of the benchmark; or a ratio, `@BENCHMARK COUNTER BENCHMARK`. The table
-goes between two comment lines `benchmarks MODULE: begin` and `... end` on the page; the rows listed under "readme" go to
-the README alike. "needs" names an environment variable without which not all rows can be measured.
+Testing/Benchmarks/MODULE.json names the page, the program, of which only the benchmarks that "filter" names are run, and the
+rows. Without "columns" a row is: what is done, the unit, the benchmark of one thread, that of all threads, and for each peer
+a published number or the name of a benchmark of ours that does the same by plain loops. With "columns" a row is a list of
+cells: a text; or what was measured, `@BENCHMARK UNIT` where the unit is one of time, `1/s`, or a counter of the benchmark; or
+a ratio, `@BENCHMARK COUNTER BENCHMARK`. The table goes between two comment lines `benchmarks MODULE: begin` and `... end` on
+the page; the rows listed under "readme" go to the README alike. "needs" names an environment variable without which not all
+rows can be measured.
 """
 import json
 import os
@@ -21,10 +22,11 @@ import sys
 SCALE = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
 
 
-def measure(program):
+def measure(program, only):
     """Seconds (a point or cell where the benchmark counts such) by benchmark, and its counters by (benchmark, counter);
     of the fastest repetition."""
-    done = subprocess.run([program, "--benchmark_format=json"], check=True, capture_output=True, text=True)
+    done = subprocess.run([program, "--benchmark_format=json", f"--benchmark_filter={only}"], check=True,
+                          capture_output=True, text=True)
     found = {}
     for run in json.loads(done.stdout)["benchmarks"]:
         if run.get("aggregate_name") != "min":
@@ -78,7 +80,7 @@ def main():
     if "needs" in spec and spec["needs"] not in os.environ:
         sys.exit(f"set {spec['needs']}: not all rows can be measured without it")
     load = os.getloadavg()[0]
-    found = measure(tree / "bin" / spec["program"])
+    found = measure(tree / "bin" / spec["program"], spec.get("filter", "."))
     rows = []
     if "columns" in spec:
         columns = spec["columns"]
