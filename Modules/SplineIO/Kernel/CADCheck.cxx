@@ -305,11 +305,11 @@ Result<CADSummary> CheckCAD(const std::string& file, LengthUnit unit)
   CADSummary summary;
   const std::string place = "'" + file + "'";
   const CADFormat format = FormatOfFile(file);
-  const Status status = CatchFailures(place,
+  CADSession session(unit);
+  session.SetDefaultsOfReading();
+  const Status status = session.Run(place,
     [&]() -> Status
     {
-      CADSession session(unit);
-      session.SetDefaultsOfReading();
       STEPControl_Reader step;
       IGESControl_Reader iges;
       XSControl_Reader& reader =

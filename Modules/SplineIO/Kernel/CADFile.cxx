@@ -104,7 +104,7 @@ Status CheckEntities(const XSControl_Reader& reader)
       continue;
     }
     const std::string type = reader.Model()->Value(checks.Number())->DynamicType()->Name();
-    for (const char* prefix : { "StepGeom_", "StepShape_", "IGESGeom_", "IGESSolid_" })
+    for (const char* prefix : { "StepGeom_", "StepShape_", "StepRepr_", "IGESGeom_", "IGESSolid_" })
     {
       if (type.rfind(prefix, 0) == 0)
       {

@@ -222,12 +222,12 @@ Result<CADContents> ReadCAD(const std::string& file, const CADReadParams& params
   CADContents contents;
   const std::string place = "'" + file + "'";
   const CADFormat format = FormatOfFile(file);
-  const Status status = CatchFailures(place,
+  CADSession session(params.Unit);
+  session.SetDefaultsOfReading();
+  session.Set("read.stepcaf.subshapes.name", 1);
+  const Status status = session.Run(place,
     [&]() -> Status
     {
-      CADSession session(params.Unit);
-      session.SetDefaultsOfReading();
-      session.Set("read.stepcaf.subshapes.name", 1);
       Handle(TDocStd_Document) document = new TDocStd_Document("Knotwork");
       XCAFDoc_DocumentTool::Set(document->Main(), false);
       const auto read = [&](auto& cafReader, XSControl_Reader& reader, const EntityNames& names)
@@ -243,6 +243,7 @@ Result<CADContents> ReadCAD(const std::string& file, const CADReadParams& params
       if (format == CADFormat::IGES)
       {
         IGESCAFControl_Reader reader;
+        reader.SetNameMode(false); // it stumbles over entities without a name
         loaded = read(reader, reader, NamesOfIGES(reader));
       }
       else

@@ -40,13 +40,15 @@ public:
   /// Reading as OpenCASCADE does when nothing is set.
   void SetDefaultsOfReading();
 
+  /// Runs what may throw exceptions of OpenCASCADE or of memory; they become InvalidFormat and
+  /// TooLarge with the place before the text. OpenCASCADE's readers follow null pointers in damaged
+  /// files: while the body runs that is turned into a failure too, in its documented way (what they
+  /// hold is lost then).
+  Status Run(const std::string& place, const std::function<Status()>& body);
+
 private:
   std::unique_lock<std::mutex> Lock;
   Message_SequenceOfPrinters Printers;
   std::vector<std::function<void()>> Restore;
 };
-
-/// Runs what may throw exceptions of OpenCASCADE or of memory; they become InvalidFormat and
-/// TooLarge with the place before the text.
-Status CatchFailures(const std::string& place, const std::function<Status()>& body);
 }

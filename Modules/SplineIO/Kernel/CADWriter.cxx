@@ -201,7 +201,8 @@ Status WriteCAD(const TrimmedModel& model, const std::string& file, const CADWri
     return { ErrorCode::InvalidParameter, "SewTolerance must lie in (0, 0.1]" };
   }
   const std::string place = "'" + file + "'";
-  return CatchFailures(place,
+  CADSession session(params.Unit);
+  return session.Run(place,
     [&]() -> Status
     {
       const auto shapes = MakeShapes(model, params.SewTolerance);
@@ -209,7 +210,6 @@ Status WriteCAD(const TrimmedModel& model, const std::string& file, const CADWri
       {
         return shapes.Status;
       }
-      CADSession session(params.Unit);
       session.Set("write.surfacecurve.mode", 1); // with pcurves
       session.Set("write.precision.mode", 2);    // the stated uncertainty is the value
       // readers keep a pcurve whose ends are that near to the curve
