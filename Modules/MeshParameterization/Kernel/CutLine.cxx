@@ -10,7 +10,7 @@ namespace knotwork
 {
 namespace
 {
-constexpr double SmoothingLength = 3.0; // in edges of the cut
+constexpr std::array<double, 3> SmoothingLengths{ 3.0, 1.0, 0.3 }; // in edges of the cut
 constexpr int HeatSteps = 2;
 constexpr double SnapShare = 0.15; // of an edge
 constexpr double LeastShare = 0.2; // of the area of a side that is left of it
@@ -36,6 +36,26 @@ std::vector<int> HoleSides(const SurfaceParts& parts, const Sides& sides)
     result.push_back(sum > 0.0 ? 1 : -1);
   }
   return result;
+}
+
+/// +-1 at points of one side only, 0 between.
+Eigen::VectorXd EdgeFunction(const SurfaceParts& parts, const Sides& sides)
+{
+  const int n = parts.Mesh.NumPoints();
+  Eigen::VectorXi found = Eigen::VectorXi::Zero(n); // bit 1: side 0, bit 2: side 1
+  for (std::size_t t = 0; t < sides.size(); ++t)
+  {
+    for (int c : parts.Mesh.Triangles[t])
+    {
+      found[c] |= sides[t] ? 2 : 1;
+    }
+  }
+  Eigen::VectorXd values(n);
+  for (int v = 0; v < n; ++v)
+  {
+    values[v] = found[v] == 3 ? 0.0 : (found[v] == 2 ? 1.0 : -1.0);
+  }
+  return values;
 }
 
 /// Where the line comes near a point it goes through it.
@@ -77,25 +97,6 @@ std::array<double, 2> SideAreas(const SurfaceParts& parts, const Eigen::VectorXd
 }
 }
 
-Eigen::VectorXd EdgeFunction(const SurfaceParts& parts, const Sides& sides)
-{
-  const int n = parts.Mesh.NumPoints();
-  Eigen::VectorXi found = Eigen::VectorXi::Zero(n); // bit 1: side 0, bit 2: side 1
-  for (std::size_t t = 0; t < sides.size(); ++t)
-  {
-    for (int c : parts.Mesh.Triangles[t])
-    {
-      found[c] |= sides[t] ? 2 : 1;
-    }
-  }
-  Eigen::VectorXd values(n);
-  for (int v = 0; v < n; ++v)
-  {
-    values[v] = found[v] == 3 ? 0.0 : (found[v] == 2 ? 1.0 : -1.0);
-  }
-  return values;
-}
-
 Eigen::VectorXd CutFunction(const SurfaceParts& parts, const Sides& sides, double creaseAngle)
 {
   const DiscMesh& mesh = parts.Mesh;
@@ -124,7 +125,7 @@ Eigen::VectorXd CutFunction(const SurfaceParts& parts, const Sides& sides, doubl
   }
   if (count == 0)
   {
-    return {};
+    return values;
   }
   const std::vector<int> holeSides = HoleSides(parts, sides);
   for (int v = 0; v < n; ++v)
@@ -135,22 +136,27 @@ Eigen::VectorXd CutFunction(const SurfaceParts& parts, const Sides& sides, doubl
       held[static_cast<std::size_t>(v)] = 1;
     }
   }
-  const double width = SmoothingLength * length / count;
-  for (int step = 0; step < HeatSteps; ++step)
-  {
-    if (!FlowHeat(mesh, held, 0.5 * width * width / HeatSteps, values))
-    {
-      return {};
-    }
-  }
-  Snap(parts, held, values);
   std::array<double, 2> wanted{ 0.0, 0.0 };
   for (std::size_t t = 0; t < sides.size(); ++t)
   {
     wanted[static_cast<std::size_t>(sides[t])] += parts.Areas[t];
   }
-  const std::array<double, 2> got = SideAreas(parts, values);
-  const bool lost = got[0] < LeastShare * wanted[0] || got[1] < LeastShare * wanted[1];
-  return lost ? Eigen::VectorXd{} : values;
+  for (const double smoothing : SmoothingLengths)
+  {
+    const double width = smoothing * length / count;
+    Eigen::VectorXd smooth = values;
+    bool solved = true;
+    for (int step = 0; step < HeatSteps && solved; ++step)
+    {
+      solved = static_cast<bool>(FlowHeat(mesh, held, 0.5 * width * width / HeatSteps, smooth));
+    }
+    Snap(parts, held, smooth);
+    const std::array<double, 2> got = SideAreas(parts, smooth);
+    if (solved && got[0] >= LeastShare * wanted[0] && got[1] >= LeastShare * wanted[1])
+    {
+      return smooth;
+    }
+  }
+  return values;
 }
 }

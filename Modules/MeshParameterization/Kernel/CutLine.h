@@ -9,9 +9,6 @@ namespace knotwork
 /// creases between the sides have exactly 0, those of holes the sign of their hole; where the line
 /// comes near a point that point has exactly 0, so that no small triangles are cut off.
 /// @param creaseAngle  radians: edges between the sides that are sharper are kept.
-/// @return empty when the function would leave nothing of one of the sides.
+/// Less smooth, and at last along edges, where much would be lost of one of the sides.
 Eigen::VectorXd CutFunction(const SurfaceParts& parts, const Sides& sides, double creaseAngle);
-
-/// The same without smoothing: the line runs along edges.
-Eigen::VectorXd EdgeFunction(const SurfaceParts& parts, const Sides& sides);
 }

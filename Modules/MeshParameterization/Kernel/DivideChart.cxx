@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace knotwork
 {
@@ -114,6 +115,18 @@ bool JoinTouching(const DiscMesh& mesh, const std::vector<double>& areas,
   return any;
 }
 
+/// Holes of a part's points; cuts make points at no hole.
+std::vector<int> HolesOf(const ChartPart& part, const std::vector<int>& holes)
+{
+  std::vector<int> result;
+  for (int p : part.Points)
+  {
+    const auto at = static_cast<std::size_t>(p);
+    result.push_back(at < holes.size() ? holes[at] : -1);
+  }
+  return result;
+}
+
 /// One component of a side gives up small islands, and points where it touches itself.
 Status RepairSides(CutMesh& mesh, int chart, const std::vector<int>& holes)
 {
@@ -122,12 +135,7 @@ Status RepairSides(CutMesh& mesh, int chart, const std::vector<int>& holes)
   {
     return part.Status;
   }
-  std::vector<int> localHoles;
-  for (int p : part.Value.Points)
-  {
-    const auto at = static_cast<std::size_t>(p);
-    localHoles.push_back(at < holes.size() ? holes[at] : -1);
-  }
+  const std::vector<int> localHoles = HolesOf(part.Value, holes);
   const SurfaceParts parts(part.Value.Mesh, localHoles);
   Sides sides;
   for (int t : part.Value.Triangles)
@@ -231,51 +239,51 @@ std::vector<int> FindSmallHoles(const DiscMesh& mesh)
 Result<std::vector<int>> DivideChart(CutMesh& mesh, int chart, const EdgeCrossing& crossing,
   const std::vector<int>& holes, double creaseAngle, int& numCharts)
 {
-  const std::vector<int> before = mesh.TrianglesOf(chart);
-  const auto part = TakePart(mesh, before);
-  if (!part)
+  using Division = std::function<Sides(const SurfaceParts&, const std::vector<int>&)>;
+  const std::array<Division, 4> divisions = { [&](const SurfaceParts& parts,
+                                                const std::vector<int>& points)
+    { return crossing ? DivideAtCrossing(parts, points, crossing) : Sides{}; },
+    [](const SurfaceParts& parts, const std::vector<int>&) { return DivideByNormals(parts); },
+    [](const SurfaceParts& parts, const std::vector<int>&) { return DivideByLength(parts); },
+    [](const SurfaceParts& parts, const std::vector<int>&) { return DivideByPosition(parts); } };
+  bool divided = false;
+  for (std::size_t i = 0; i < divisions.size() && !divided; ++i)
   {
-    return part.Status;
-  }
-  std::vector<int> localHoles;
-  for (int p : part.Value.Points)
-  {
-    const auto at = static_cast<std::size_t>(p);
-    localHoles.push_back(at < holes.size() ? holes[at] : -1);
-  }
-  const SurfaceParts parts(part.Value.Mesh, localHoles);
-  Sides sides = crossing ? DivideAtCrossing(parts, part.Value.Points, crossing) : Sides{};
-  sides = sides.empty() ? DivideByNormals(parts) : sides;
-  sides = sides.empty() ? DivideByLength(parts) : sides;
-  if (!sides.empty())
-  {
-    JoinIslands(parts.Adjacency, parts.Areas, LeastIsland, sides);
-    Eigen::VectorXd values = CutFunction(parts, sides, creaseAngle);
-    if (values.size() == 0)
+    const auto part = TakePart(mesh, mesh.TrianglesOf(chart));
+    if (!part)
     {
-      values = EdgeFunction(parts, sides);
+      return part.Status;
     }
+    const std::vector<int> localHoles = HolesOf(part.Value, holes);
+    const SurfaceParts parts(part.Value.Mesh, localHoles);
+    Sides sides = divisions[i](parts, part.Value.Points);
+    if (sides.empty())
+    {
+      continue;
+    }
+    JoinIslands(parts.Adjacency, parts.Areas, LeastIsland, sides);
     SetSides(mesh, part.Value, sides);
-    CutAlong(mesh, part.Value, values);
+    CutAlong(mesh, part.Value, CutFunction(parts, sides, creaseAngle));
     if (Status status = RepairSides(mesh, chart, holes); !status)
     {
       return status;
     }
+    divided = HasBothSides(mesh, mesh.TrianglesOf(chart));
   }
-  if (!HasBothSides(mesh, mesh.TrianglesOf(chart)))
+  if (!divided) // repairs took it all: cut along edges as they are
   {
-    const auto again = TakePart(mesh, mesh.TrianglesOf(chart));
-    if (!again)
+    const auto part = TakePart(mesh, mesh.TrianglesOf(chart));
+    if (!part)
     {
-      return again.Status;
+      return part.Status;
     }
-    const std::vector<int> none(again.Value.Points.size(), -1);
-    sides = DivideByPosition(SurfaceParts(again.Value.Mesh, none));
+    const std::vector<int> localHoles = HolesOf(part.Value, holes);
+    const Sides sides = DivideByPosition(SurfaceParts(part.Value.Mesh, localHoles));
     if (sides.empty())
     {
       return { ErrorCode::InvalidTopology, "a single triangle cannot be divided" };
     }
-    SetSides(mesh, again.Value, sides);
+    SetSides(mesh, part.Value, sides);
   }
   const auto components = Components(mesh, mesh.TrianglesOf(chart));
   Result<std::vector<int>> result;

@@ -17,7 +17,7 @@ namespace knotwork
 {
 namespace
 {
-constexpr double LeastDecrease = 1e-6; // of the energy in an iteration, relative
+constexpr double LeastDecrease = 1e-6; // of the energy in an iteration
 constexpr double ShareOfStep = 0.8;    // of the step at which a first triangle degenerates
 constexpr double Pi = 3.14159265358979323846;
 
@@ -266,7 +266,7 @@ Result<FlatMesh> MapWithoutFlips(const DiscMesh& mesh)
   return result;
 }
 
-Status RelaxMap(const DiscMesh& mesh, int maxIterations, PointMatrix& uv)
+Status RelaxMap(const DiscMesh& mesh, int maxIterations, double leastDecrease, PointMatrix& uv)
 {
   const Elements elements = BuildElements(mesh);
   double energy = Energy(mesh, elements, uv);
@@ -299,7 +299,7 @@ Status RelaxMap(const DiscMesh& mesh, int maxIterations, PointMatrix& uv)
     {
       break;
     }
-    const bool done = energy - next < LeastDecrease * energy;
+    const bool done = energy - next < leastDecrease * energy;
     uv = moved;
     energy = next;
     if (done)
@@ -315,7 +315,7 @@ Result<FlatMesh> InjectiveMap(const DiscMesh& mesh, int maxIterations)
   auto result = MapWithoutFlips(mesh);
   if (result)
   {
-    result.Status = RelaxMap(mesh, maxIterations, result.Value.UV);
+    result.Status = RelaxMap(mesh, maxIterations, LeastDecrease, result.Value.UV);
   }
   return result;
 }

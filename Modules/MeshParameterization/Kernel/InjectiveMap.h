@@ -14,9 +14,10 @@ Result<FlatMesh> MapWithoutFlips(const DiscMesh& mesh);
 
 /// Lets the symmetric Dirichlet energy int |J|^2 + |J^-1|^2 of a map without flips become least; no
 /// step flips a triangle.
+/// @param leastDecrease  of the energy in an iteration, relative: where iterations end.
 /// @return NotConverged: the map has flips already.
 /// @source Rabinovich, Poranne, Panozzo, Sorkine-Hornung, ACM TOG 36 (2017) 16.
-Status RelaxMap(const DiscMesh& mesh, int maxIterations, PointMatrix& uv);
+Status RelaxMap(const DiscMesh& mesh, int maxIterations, double leastDecrease, PointMatrix& uv);
 
 /// MapWithoutFlips and RelaxMap.
 Result<FlatMesh> InjectiveMap(const DiscMesh& mesh, int maxIterations);

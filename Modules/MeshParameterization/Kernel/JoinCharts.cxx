@@ -87,6 +87,13 @@ public:
     this->Areas[a] = 0.0;
   }
 
+  /// Another one after each change of the chart.
+  std::size_t Number(int chart) const
+  {
+    const auto c = static_cast<std::size_t>(chart);
+    return c * (this->Mesh.Triangles.size() + 1) + this->Triangles[c].size();
+  }
+
   const CutMesh& Mesh;
   TriangleAdjacency Adjacency;
   std::vector<std::vector<int>> Triangles;
@@ -139,15 +146,20 @@ Status JoinCharts(CutMesh& mesh, const FlattenParams& params, const ChartParams&
   {
     waiting.insert({ patchwork.Areas[c], static_cast<int>(c) });
   }
+  std::set<std::pair<std::size_t, std::size_t>> tried;
+  std::set<std::pair<double, int>> failed;
   while (!waiting.empty() && waiting.begin()->first < SmallShare * patchwork.Area)
   {
-    const int small = waiting.begin()->second;
+    const auto at = *waiting.begin();
+    const int small = at.second;
     waiting.erase(waiting.begin());
+    failed.insert(at);
     int trials = 0;
     for (int other : patchwork.Neighbours(small))
     {
       const std::vector<int> triangles = patchwork.Union(small, other);
-      if (triangles.size() > MostTriangles || trials++ == MostTrials)
+      if (triangles.size() > MostTriangles || trials++ == MostTrials ||
+        !tried.insert({ patchwork.Number(small), patchwork.Number(other) }).second)
       {
         continue;
       }
@@ -166,14 +178,20 @@ Status JoinCharts(CutMesh& mesh, const FlattenParams& params, const ChartParams&
         continue;
       }
       PlaceTriangles(part.Value, map, mesh);
-      waiting.erase({ patchwork.Areas[static_cast<std::size_t>(other)], other });
       for (int t : patchwork.Triangles[static_cast<std::size_t>(small)])
       {
         mesh.Charts[static_cast<std::size_t>(t)] = other;
       }
+      const std::pair<double, int> before{ patchwork.Areas[static_cast<std::size_t>(other)],
+        other };
+      waiting.erase(before);
+      failed.erase(before);
+      failed.erase(at);
       patchwork.Join(small, other);
       maps[static_cast<std::size_t>(other)] = std::move(map);
       waiting.insert({ patchwork.Areas[static_cast<std::size_t>(other)], other });
+      waiting.insert(failed.begin(), failed.end()); // its neighbours may join it now
+      failed.clear();
       break;
     }
   }

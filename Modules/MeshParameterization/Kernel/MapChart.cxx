@@ -13,7 +13,8 @@ namespace knotwork
 {
 namespace
 {
-constexpr int TrialIterations = 10; // after which a hopeless map is given up
+constexpr int TrialIterations = 10;    // after which a hopeless map is given up
+constexpr double LeastDecrease = 1e-4; // of the energy in an iteration: many maps are tried
 
 std::string Text(double value)
 {
@@ -92,10 +93,10 @@ ChartMap MapChart(const DiscMesh& mesh, const FlattenParams& params, double limi
   // the conformal map's scale varies like exp(distance) where the best map's does like distance
   const bool hopeless = LargestStretch(mesh, uv) > std::exp(2.0 * limit);
   const int trial = std::min(TrialIterations, params.MaxIterations);
-  if (!hopeless && RelaxMap(mesh, trial, uv) && LargestStretch(mesh, uv) < 2.0 * limit &&
-    !FindCrossing(mesh, uv))
+  if (!hopeless && RelaxMap(mesh, trial, LeastDecrease, uv) &&
+    LargestStretch(mesh, uv) < 2.0 * limit && !FindCrossing(mesh, uv))
   {
-    RelaxMap(mesh, params.MaxIterations - trial, uv);
+    RelaxMap(mesh, params.MaxIterations - trial, LeastDecrease, uv);
   }
   NormalizeSimilarity(mesh, uv);
   Consider(mesh, limit, FlattenMethod::Injective, std::move(uv), best);

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "ChartLayout.h"
 #include "ClosedCases.h"
 #include "CutLine.h"
 #include "CutMesh.h"
 #include "DivideChart.h"
+#include "FlattenReport.h"
 #include "GraphCut.h"
 #include "HeatFlow.h"
+#include "JoinCharts.h"
 #include "MeshCases.h"
 #include "PlaneLoops.h"
 
@@ -312,6 +315,119 @@ TEST(DivideChart, HolesAreSmallAndOnOneSide_ExactOracle)
     EXPECT_EQ(holes[static_cast<std::size_t>(v)] >= 0,
       tube->OnBoundary[static_cast<std::size_t>(v)] != 0 && x > 1.0 && x < 11.0);
   }
+}
+
+TEST(CutLine, LineIsSmoothAwayFromCreasesAndExactOnThem_ExactOracle)
+{
+  // sides by a slanted line across the triangles of a plate: labels zigzag, the line does not
+  const MeshCase plate = FlatCase(0.0, 2.0, 0.0, 1.0, 0.05, [](double, double) { return true; });
+  const auto divided = [](const DiscMesh& mesh, const auto& isOne)
+  {
+    Sides sides;
+    for (const auto& c : mesh.Triangles)
+    {
+      const Eigen::Vector3d centre = (mesh.Point(c[0]) + mesh.Point(c[1]) + mesh.Point(c[2])) / 3.0;
+      sides.push_back(isOne(centre) ? 1 : 0);
+    }
+    return sides;
+  };
+  const auto disc = CheckMesh(plate.Mesh);
+  ASSERT_TRUE(disc);
+  const std::vector<int> none(static_cast<std::size_t>(disc->NumPoints()), -1);
+  const SurfaceParts parts(disc.Value, none);
+  const auto slanted = [](const Eigen::Vector3d& p) { return p[0] - 1.0 > 0.3 * (p[1] - 0.5); };
+  const Eigen::VectorXd line = CutFunction(parts, divided(disc.Value, slanted), 0.7);
+  for (int v = 0; v < disc->NumPoints(); ++v)
+  {
+    const double distance = disc->Points(v, 0) - 1.0 - 0.3 * (disc->Points(v, 1) - 0.5);
+    // half an edge from the smoothed line to the given one, more at its ends
+    EXPECT_TRUE(std::abs(distance) < 0.04 || distance * line[v] > 0.0);
+  }
+  // a cube's side: all its points are on creases
+  const auto cube = CheckSurface(Cube(4));
+  ASSERT_TRUE(cube);
+  const std::vector<int> free(static_cast<std::size_t>(cube->NumPoints()), -1);
+  const SurfaceParts sides(cube.Value, free);
+  const Eigen::VectorXd exact = CutFunction(
+    sides, divided(cube.Value, [](const Eigen::Vector3d& p) { return p[2] > 3.99; }), 0.7);
+  for (int v = 0; v < cube->NumPoints(); ++v)
+  {
+    const bool above = cube->Points(v, 2) == 4.0;
+    const bool rim = above &&
+      (cube->Points(v, 0) == 0.0 || cube->Points(v, 0) == 4.0 || cube->Points(v, 1) == 0.0 ||
+        cube->Points(v, 1) == 4.0);
+    EXPECT_EQ(exact[v] == 0.0, rim);
+    EXPECT_TRUE(rim || (exact[v] > 0.0) == above);
+  }
+}
+
+TEST(JoinCharts, SmallChartsGoToTheirNeighbours_ExactOracle)
+{
+  const MeshCase plate = FlatCase(0.0, 2.0, 0.0, 1.0, 0.1, [](double, double) { return true; });
+  const auto disc = CheckMesh(plate.Mesh);
+  ASSERT_TRUE(disc);
+  CutMesh mesh(disc.Value);
+  for (std::size_t t = 0; t < mesh.Triangles.size(); ++t)
+  {
+    const Eigen::Vector3d p = disc->Point(disc->Triangles[t][0]);
+    mesh.Charts[t] = p[0] < 0.2 && p[1] < 0.25 ? 1 : p[0] > 1.0 ? 2 : 0;
+  }
+  std::vector<ChartMap> maps(3);
+  ASSERT_TRUE(JoinCharts(mesh, {}, {}, maps));
+  ASSERT_EQ(maps.size(), 2u); // the corner joins; halves are not small
+  EXPECT_TRUE(maps[0].Good);
+  for (std::size_t t = 0; t < mesh.Triangles.size(); ++t)
+  {
+    EXPECT_EQ(mesh.Charts[t], disc->Point(disc->Triangles[t][0])[0] > 1.0 ? 1 : 0);
+  }
+}
+
+TEST(JoinCharts, ClosedSurfaceIsNotJoined_ExactOracle)
+{
+  const auto sphere = CheckSurface(Sphere(12));
+  ASSERT_TRUE(sphere);
+  CutMesh mesh(sphere.Value);
+  for (std::size_t t = 0; t < mesh.Triangles.size(); ++t)
+  {
+    mesh.Charts[t] = sphere->Point(sphere->Triangles[t][0])[0] > 0.95 ? 1 : 0;
+  }
+  std::vector<ChartMap> maps(2);
+  ASSERT_TRUE(JoinCharts(mesh, {}, {}, maps));
+  EXPECT_EQ(maps.size(), 2u);
+}
+
+TEST(ChartLayout, ImagesLieSideBySide_PropertyOracle)
+{
+  std::vector<MeshParameterization> charts;
+  for (const double length : { 3.0, 1.0, 2.0, 0.5 })
+  {
+    auto map =
+      FlattenMesh(FlatCase(0.0, 0.4, 0.0, length, 0.1, [](double, double) { return true; }).Mesh);
+    ASSERT_TRUE(map);
+    charts.push_back(std::move(map.Value));
+  }
+  std::vector<PointMatrix> before;
+  for (const auto& chart : charts)
+  {
+    before.push_back(chart.UV);
+  }
+  PlaceSideBySide(charts);
+  for (std::size_t i = 0; i < charts.size(); ++i)
+  {
+    EXPECT_LE(RigidError(charts[i].UV, before[i]), 1e-14);
+    EXPECT_EQ(CountFlips(charts[i].Mesh, charts[i].UV), 0);
+    for (std::size_t j = 0; j < i; ++j)
+    {
+      const Eigen::RowVector2d low =
+        charts[i].UV.colwise().minCoeff().cwiseMax(charts[j].UV.colwise().minCoeff());
+      const Eigen::RowVector2d high =
+        charts[i].UV.colwise().maxCoeff().cwiseMin(charts[j].UV.colwise().maxCoeff());
+      EXPECT_TRUE((low.array() > high.array()).any());
+    }
+  }
+  std::vector<MeshParameterization> one{ charts[0] };
+  PlaceSideBySide(one);
+  EXPECT_TRUE(one[0].UV == charts[0].UV);
 }
 }
 }

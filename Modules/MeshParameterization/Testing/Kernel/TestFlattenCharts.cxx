@@ -63,12 +63,25 @@ int EulerCharacteristic(const std::vector<std::array<int, 3>>& triangles)
     static_cast<int>(triangles.size());
 }
 
+/// Inner loops along the boundary of the whole surface.
 int InnerLoops(const ChartedMesh& charted)
 {
+  const std::map<std::array<int, 2>, int> all = CountEdges(charted.Triangles);
   int loops = 0;
   for (const MeshParameterization& chart : charted.Charts)
   {
-    loops += static_cast<int>(chart.Mesh.Loops.size()) - 1;
+    for (std::size_t l = 1; l < chart.Mesh.Loops.size(); ++l)
+    {
+      const auto& loop = chart.Mesh.Loops[l];
+      bool outside = true;
+      for (std::size_t i = 0; i < loop.size(); ++i)
+      {
+        const int a = chart.Mesh.PointIds[static_cast<std::size_t>(loop[i])];
+        const int b = chart.Mesh.PointIds[static_cast<std::size_t>(loop[(i + 1) % loop.size()])];
+        outside = outside && all.at({ std::min(a, b), std::max(a, b) }) == 1;
+      }
+      loops += outside ? 1 : 0;
+    }
   }
   return loops;
 }
