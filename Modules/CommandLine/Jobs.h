@@ -26,6 +26,7 @@ Job MakeParameterizeJob(CLI::App& app);
 Job MakeRefineJob(CLI::App& app);
 Job MakeSourceJob(CLI::App& app);
 Job MakeTessellateJob(CLI::App& app);
+Job MakeTrimJob(CLI::App& app);
 Job MakeValidateJob(CLI::App& app);
 Job MakeWarpJob(CLI::App& app);
 }

@@ -6,6 +6,8 @@
 #include "TrialRead.h"
 #include "XmlCheck.h"
 
+#include "CADExchange.h"
+#include "TrimmedGrids.h"
 #include "vtkDomainBoundaryReader.h"
 #include "vtkGismoXMLReader.h"
 #include "vtkGismoXMLWriter.h"
@@ -250,7 +252,7 @@ Result<vtkSmartPointer<vtkDataObject>> Session::Read(const std::string& file)
   return data;
 }
 
-Status Session::Run(vtkAlgorithm* filter, const std::string& what)
+Status Session::Run(vtkAlgorithm* filter, const std::string& what, int port)
 {
   vtkNew<vtkCallbackCommand> progress;
   progress->SetCallback(PrintProgress);
@@ -274,7 +276,7 @@ Status Session::Run(vtkAlgorithm* filter, const std::string& what)
   {
     return { ErrorCode::InvalidTopology, what + ": " + messages.FirstError() };
   }
-  if (IsEmpty(filter->GetOutputDataObject(0)))
+  if (IsEmpty(filter->GetOutputDataObject(port)))
   {
     return { ErrorCode::EmptyInput, what + ": there are no cells to work on; check the input" };
   }
@@ -382,6 +384,28 @@ Status Session::WriteOutputs(vtkAlgorithm* filter, const std::vector<std::string
     }
   }
   return {};
+}
+
+Status Session::WriteFaces(
+  vtkDataObject* surfaces, vtkDataObject* curves, const std::string& file, CADSummary& found)
+{
+  const double begin = Now();
+  Result<fs::path> staged = this->Stage(file);
+  if (!staged)
+  {
+    return staged.Status;
+  }
+  auto model = DecodeTrimmedModel(surfaces, curves);
+  Status status = model ? WriteCAD(model.Value, staged->string()) : model.Status;
+  if (status)
+  {
+    auto summary = CheckCAD(staged->string());
+    status = summary.Status;
+    found = std::move(summary.Value);
+  }
+  this->SecondsOfFiles += Now() - begin;
+  return status ? status
+                : Status(status.Code, "'" + file + "' cannot be written: " + status.Detail);
 }
 
 Status Session::Commit()

@@ -14,6 +14,8 @@ class vtkDataObject;
 
 namespace knotwork
 {
+struct CADSummary;
+
 /// One run of a job: reads inputs, runs filters, stages outputs, collects the report. Outputs
 /// appear under their names only when everything has succeeded, all of them or none.
 class Session
@@ -37,8 +39,8 @@ public:
   Result<vtkSmartPointer<vtkDataObject>> Read(const std::string& file);
 
   /// Updates a filter with progress on a terminal; messages of VTK become the status. `what` names
-  /// the inputs in the message.
-  Status Run(vtkAlgorithm* filter, const std::string& what);
+  /// the inputs in the message. No points in the output of `port` are an error.
+  Status Run(vtkAlgorithm* filter, const std::string& what, int port = 0);
 
   /// Prints warnings of a decoding on stderr, unless quiet.
   void Warn(const std::vector<std::string>& warnings) const;
@@ -51,6 +53,11 @@ public:
 
   /// Stages the output of every port whose file has a name.
   Status WriteOutputs(vtkAlgorithm* filter, const std::vector<std::string>& files);
+
+  /// Stages trimmed faces (two grids, see TrimmedGrids.h) as .step, .stp, .iges or .igs.
+  /// @param found  what the written file holds when it is read again.
+  Status WriteFaces(
+    vtkDataObject* surfaces, vtkDataObject* curves, const std::string& file, CADSummary& found);
 
   /// Writes the report (if asked for) and moves all staged files to their places.
   Status Commit();

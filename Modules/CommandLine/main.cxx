@@ -35,6 +35,7 @@ constexpr Entry Jobs[] = {
   { "refine", "refine a spline, uniformly or locally", knotwork::MakeRefineJob },
   { "source", "make a spline of a standard shape", knotwork::MakeSourceJob },
   { "tessellate", "turn a spline into polygons within a tolerance", knotwork::MakeTessellateJob },
+  { "trim", "turn a triangle mesh into trimmed spline faces", knotwork::MakeTrimJob },
   { "validate", "prove a grid valid or show where it is not", knotwork::MakeValidateJob },
   { "warp", "send points or splines through a spline map", knotwork::MakeWarpJob },
 };

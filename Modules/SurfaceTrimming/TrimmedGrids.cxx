@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TrimmedGrids.h"
 
+#include "JoinElements.h"
 #include "SplineBlocks.h"
 #include "SplineModel.h"
 #include "SplineSchema.h"
@@ -93,6 +94,50 @@ void AddNames(vtkUnstructuredGrid* grid, const std::vector<TrimmedFace>& faces)
   grid->GetCellData()->AddArray(names);
 }
 
+/// Geometry and fields of a patch of Bezier elements in a tensor-product space, see JoinElements.
+template <int Dim>
+Status JoinPatch(vtkDataArray* bounds, Spline<Dim>& spline, SplinePatch& patch)
+{
+  std::vector<ParametricBox<Dim>> boxes;
+  for (vtkIdType cell : patch.Cells)
+  {
+    boxes.emplace_back();
+    for (int d = 0; d < Dim; ++d)
+    {
+      boxes.back().Lower[static_cast<std::size_t>(d)] = bounds->GetComponent(cell, 2 * d);
+      boxes.back().Upper[static_cast<std::size_t>(d)] = bounds->GetComponent(cell, 2 * d + 1);
+    }
+  }
+  Eigen::Index columns = 3;
+  for (const SplineField& field : patch.Fields)
+  {
+    columns += field.Coefficients.cols();
+  }
+  Spline<Dim> all{ spline.Space, PointMatrix(spline.ControlPoints.rows(), columns),
+    spline.Weights };
+  all.ControlPoints.leftCols(3) = spline.ControlPoints;
+  columns = 3;
+  for (const SplineField& field : patch.Fields)
+  {
+    all.ControlPoints.middleCols(columns, field.Coefficients.cols()) = field.Coefficients;
+    columns += field.Coefficients.cols();
+  }
+  auto joined = JoinElements<Dim>(all, boxes);
+  if (!joined)
+  {
+    return joined.Status;
+  }
+  spline = { joined->Space, joined->ControlPoints.leftCols(3), joined->Weights };
+  columns = 3;
+  for (SplineField& field : patch.Fields)
+  {
+    const Eigen::Index width = field.Coefficients.cols();
+    field.Coefficients = joined->ControlPoints.middleCols(columns, width);
+    columns += width;
+  }
+  return {};
+}
+
 /// A decoded grid, its patches in the order of the cells, whose cell arrays are looked up by patch.
 class PatchReader
 {
@@ -113,6 +158,11 @@ public:
     std::sort(this->Model.Patches.begin(), this->Model.Patches.end(),
       [&](const SplinePatch& a, const SplinePatch& b) { return begin(a) < begin(b); });
     this->Grids = GridsByBlock(data);
+    for (SplinePatch& patch : this->Model.Patches)
+    {
+      Status status = this->Join(patch);
+      this->Outcome = this->Outcome ? status : this->Outcome;
+    }
   }
 
   std::string Place(const SplinePatch& patch) const
@@ -167,6 +217,23 @@ public:
   SplineModel Model;
 
 private:
+  /// A patch that lost its knots (appended behind others) is put together from its elements.
+  Status Join(SplinePatch& patch) const
+  {
+    return std::visit(
+      [&](auto& spline) -> Status
+      {
+        auto* bounds = this->Find<vtkDataArray>(patch, name::Bounds);
+        if (spline.Space->Kind != SpaceKind::Bezier || !bounds)
+        {
+          return {};
+        }
+        const Status status = JoinPatch(bounds, spline, patch);
+        return { status.Code, status ? "" : this->Place(patch) + ": " + status.Detail };
+      },
+      patch.Geometry);
+  }
+
   std::map<int, vtkSmartPointer<vtkUnstructuredGrid>> Grids;
 };
 

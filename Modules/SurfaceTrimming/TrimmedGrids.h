@@ -26,7 +26,8 @@ VTKKNOTWORKSURFACETRIMMING_EXPORT Status EncodeTrimmedModel(
 /// The model of two spline grids, or collections of them. Faces stand in the order of the cells;
 /// edges and vertices are numbered anew in the order of their first use. Curves of faces that are
 /// not there (selection) are left out; curves that are missing are an error. Copies of a model, and
-/// several models in one grid, are told apart by `ModelId` and the order they occur in.
+/// several models in one grid, are told apart by `ModelId` and the order they occur in; appended
+/// ones that lost their knots keep their map, with knots of multiplicity degree.
 /// @param curves    null: faces are the whole surfaces, with a warning if they were trimmed.
 /// @param warnings  takes what a user should know; may be null.
 /// @return failures of DecodeSplineModel and TrimmedModel::Check; EmptyInput without surfaces;

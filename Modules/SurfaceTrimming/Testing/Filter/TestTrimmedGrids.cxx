@@ -2,6 +2,7 @@
 // Trimmed models in two grids: what they carry, what filters do to them, what damage is refused.
 #include "TrimmedGrids.h"
 
+#include "BezierForm.h"
 #include "ModelCases.h"
 #include "SplineModel.h"
 
@@ -284,6 +285,31 @@ TEST(TrimmedGrids, SeveralModelsInOneGrid_ExactOracle)
   { return copies.Faces[face].Loops[0].Curves[0].Curve.ControlPoints(0, 2); };
   EXPECT_NEAR(height(2) - height(0), 5.0, 1e-12);
   EXPECT_NEAR(height(3) - height(1), 5.0, 1e-12);
+}
+
+TEST(TrimmedGrids, AppendedModelsOfOtherBasesKeepTheirMaps_CrossOracle)
+{
+  const TrimmedModel first = TwoFaces(1);
+  const TrimmedModel second = TwoFaces(2, 5);
+  const Grids a(first);
+  const Grids b(second);
+  std::vector<std::string> warnings;
+  const auto both = DecodeTrimmedModel(
+    Appended({ a.Surfaces, b.Surfaces }), Appended({ a.Curves, b.Curves }), &warnings);
+  ASSERT_TRUE(both) << both.Status.Message();
+  EXPECT_EQ(both->NumEdges, 8);
+  EXPECT_FALSE(warnings.empty());
+  ASSERT_EQ(both->Faces.size(), 4U);
+  EXPECT_EQ(both->Faces[0].Surface.ControlPoints, first.Faces[0].Surface.ControlPoints);
+  const Spline<2>& before = second.Faces[0].Surface;
+  const Spline<2>& after = both->Faces[2].Surface;
+  EXPECT_GT(after.Space->NumFunctions, before.Space->NumFunctions);
+  const PointMatrix parameters = 0.5 * (PointMatrix::Random(100, 2).array() + 1.0);
+  EvaluationBatch x;
+  EvaluationBatch y;
+  ASSERT_TRUE(EvaluateParameters<2>(MakeBezierForm(before), parameters, { 1, 0 }, x));
+  ASSERT_TRUE(EvaluateParameters<2>(MakeBezierForm(after), parameters, { 1, 0 }, y));
+  EXPECT_LE((x.Values - y.Values).norm() + (x.First - y.First).norm(), 1e-11);
 }
 
 TEST(TrimmedGrids, CollectionsOfModels_ExactOracle)

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FlattenOptions.h"
+#include "Jobs.h"
+#include "Options.h"
+#include "Session.h"
+
+#include "CADExchange.h"
+#include "vtkMeshParameterization.h"
+#include "vtkTrimmedSurface.h"
+
+#include <vtkDataArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPointSet.h>
+#include <vtkTable.h>
+#include <vtkVariant.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace knotwork
+{
+namespace
+{
+/// Meshes that a single map would stretch more are cut into charts, unless the option says
+/// otherwise: nets follow the plane, so what is stretched costs control points.
+constexpr double ChartStretch = 3.0;
+
+/// Of vtkTrimmedSurface.
+enum Port
+{
+  Triangles,
+  Surfaces,
+  Curves,
+  Deviation,
+  Numbers
+};
+
+struct TrimJob
+{
+  std::string Input;
+  std::string Output;
+  std::string FlatFile;
+  std::string TriangleFile;
+  std::string SurfaceFile;
+  std::string CurveFile;
+  std::string DeviationFile;
+  std::string TableFile;
+  vtkNew<vtkMeshParameterization> Flatten;
+  vtkNew<vtkTrimmedSurface> Trim;
+  std::unique_ptr<Options> FilterOptions;
+
+  Status Run(Session& session)
+  {
+    const bool asCAD = HasCADEnding(this->Output);
+    if (!asCAD && !HasEnding(this->Output, ".vtu"))
+    {
+      return { ErrorCode::InvalidParameter,
+        "'" + this->Output + "': faces are written as .step, .stp, .iges or .igs, their surfaces " +
+          "alone as .vtu; change the ending" };
+    }
+    auto input = session.Read(this->Input);
+    if (!input)
+    {
+      return input.Status;
+    }
+    session.Report["input"] = this->Input;
+    session.Report["output"] = this->Output;
+    this->FilterOptions->Apply(session.Report);
+    const std::string what = "'" + this->Input + "'";
+    vtkDataObject* mesh = input.Value;
+    session.Report["flatten_method"] = "given";
+    session.Report["fallback"] = false;
+    session.Report["flipped_triangles"] = 0;
+    if (!HasPlane(mesh))
+    {
+      this->Flatten->SetInputDataObject(mesh);
+      this->Flatten->SetThreads(session.Threads);
+      if (Status status = session.Run(this->Flatten, what); !status)
+      {
+        return status;
+      }
+      ReportFlattening(this->Flatten, "flatten_", session.Report);
+      mesh = this->Flatten->GetOutputDataObject(0);
+      if (!this->FlatFile.empty())
+      {
+        if (Status status = session.Write(mesh, this->FlatFile); !status)
+        {
+          return status;
+        }
+      }
+    }
+    this->Trim->SetInputDataObject(mesh);
+    this->Trim->SetTriangulation(!this->TriangleFile.empty());
+    this->Trim->SetThreads(session.Threads);
+    if (Status status = session.Run(this->Trim, what, Surfaces); !status)
+    {
+      return status;
+    }
+    this->AddNumbers(mesh, session.Report);
+    Status status = asCAD ? this->WriteFaces(session)
+                          : session.Write(this->Trim->GetOutputDataObject(Surfaces), this->Output);
+    return status ? session.WriteOutputs(this->Trim,
+                      { this->TriangleFile, this->SurfaceFile, this->CurveFile, this->DeviationFile,
+                        this->TableFile })
+                  : status;
+  }
+
+  /// Writes the file, reads it again and reports what was found in it.
+  Status WriteFaces(Session& session)
+  {
+    CADSummary found;
+    Status status = session.WriteFaces(this->Trim->GetOutputDataObject(Surfaces),
+      this->Trim->GetOutputDataObject(Curves), this->Output, found);
+    if (!status)
+    {
+      return status;
+    }
+    const double tolerance = session.Report["tolerance"];
+    session.Report["brep_valid"] = found.Valid;
+    session.Report["max_edge_tolerance"] = found.MaxEdgeTolerance;
+    session.Report["max_vertex_tolerance"] = found.MaxVertexTolerance;
+    session.Report["file_faces"] = found.NumFaces;
+    session.Report["file_loops"] = found.NumFreeLoops;
+    session.Report["file_area"] = found.Area;
+    if (!found.Valid)
+    {
+      return { ErrorCode::InvalidTopology,
+        "'" + this->Output + "' is not valid when it is read again: " +
+          (found.Defects.empty() ? "no reason given" : found.Defects.front()) };
+    }
+    std::vector<std::string> warnings;
+    if (std::max(found.MaxEdgeTolerance, found.MaxVertexTolerance) > tolerance)
+    {
+      warnings.push_back("'" + this->Output + "' has an edge or vertex tolerance of " +
+        std::to_string(std::max(found.MaxEdgeTolerance, found.MaxVertexTolerance)) +
+        ", above the tolerance " + std::to_string(tolerance));
+    }
+    session.Warn(warnings);
+    return {};
+  }
+
+  static bool HasEnding(const std::string& file, const std::string& ending)
+  {
+    return file.size() > ending.size() &&
+      file.compare(file.size() - ending.size(), ending.size(), ending) == 0;
+  }
+
+  static bool HasPlane(vtkDataObject* mesh)
+  {
+    auto* points = vtkPointSet::SafeDownCast(mesh);
+    vtkDataArray* uv = points ? points->GetPointData()->GetArray("UV") : nullptr;
+    return uv && uv->GetNumberOfComponents() == 2;
+  }
+
+  void AddNumbers(vtkDataObject* mesh, nlohmann::ordered_json& report)
+  {
+    vtkTable* table = vtkTable::SafeDownCast(this->Trim->GetOutputDataObject(Numbers));
+    const auto value = [table](const char* name) { return table->GetValueByName(0, name); };
+    report["points"] = mesh->GetNumberOfElements(vtkDataObject::POINT);
+    report["triangles"] = mesh->GetNumberOfElements(vtkDataObject::CELL);
+    for (const char* name : { "Tolerance", "MaxDeviation", "MaxDeviationFound", "RmsDeviation",
+           "MaxBoundaryDistance", "MaxEdgeGap", "MinNormalBound", "Area", "MeshArea" })
+    {
+      report[Options::SnakeCase(name)] = value(name).ToDouble();
+    }
+    for (const char* name : { "WithinTolerance", "LoopsProved" })
+    {
+      report[Options::SnakeCase(name)] = value(name).ToInt() != 0;
+    }
+    for (const char* name :
+      { "Faces", "Loops", "Edges", "Vertices", "ControlPoints", "Centres", "Passes" })
+    {
+      report[Options::SnakeCase(name)] = value(name).ToInt();
+    }
+    for (const char* name : { "Verdict", "LoopVerdict", "Nets" })
+    {
+      report[Options::SnakeCase(name)] = value(name).ToString();
+    }
+    report["charts"] = value("Faces").ToInt();
+    report["face_triangles"] = value("Triangles").ToInt();
+    report["seconds_of_trimming"] = value("Seconds").ToDouble();
+  }
+};
+}
+
+Job MakeTrimJob(CLI::App& app)
+{
+  auto job = std::make_shared<TrimJob>();
+  app
+    .add_option("mesh", job->Input,
+      "triangle mesh (.off .obj .ply .stl .vtp .vtu); with a point array UV it is used as it is, "
+      "else it is laid into the plane first")
+    ->required();
+  app
+    .add_option("--output", job->Output,
+      "the trimmed faces (.step .stp .iges .igs), or their surfaces alone (.vtu)")
+    ->required();
+  app.add_option("--surface", job->SurfaceFile, "the surfaces as Bezier grid (.vtu)");
+  app.add_option("--curves", job->CurveFile, "the trimming curves as Bezier grid (.vtu)");
+  app.add_option("--triangles", job->TriangleFile, "the faces as watertight triangles (.vtp)");
+  app.add_option("--deviation", job->DeviationFile, "the mesh with its deviation (.vtp)");
+  app.add_option("--flat", job->FlatFile, "the mesh with plane coordinates UV (.vtp)");
+  app.add_option("--table", job->TableFile, "the numbers (.csv)");
+  job->FilterOptions = std::make_unique<Options>(app);
+  Options& options = *job->FilterOptions;
+  vtkTrimmedSurface* filter = job->Trim;
+  options.AddChoice(
+    "Method", { "nurbs", "rbf", "hybrid", "penalized" }, filter->GetMethod(),
+    [filter](int method) { filter->SetMethod(method); }, "how the surfaces are made");
+  KNOTWORK_OPTION(options, filter, Tolerance,
+    "largest distance between mesh and faces; 0: a thousandth of the diagonal");
+  KNOTWORK_OPTION(options, filter, ChordalTolerance,
+    "largest distance between triangles and faces; 0: a quarter of the tolerance");
+  KNOTWORK_OPTION(options, filter, Elements,
+    "spans of a net in its longer direction; 0: as many as the tolerance asks for");
+  KNOTWORK_OPTION(options, filter, MaximumElements, "spans of a net in a direction at most");
+  KNOTWORK_OPTION(options, filter, Degree, "of the surfaces");
+  KNOTWORK_OPTION(
+    options, filter, Margin, "of the surfaces around their charts, part of the longest side");
+  KNOTWORK_OPTION(
+    options, filter, Smoothing, "weight of the thin-plate energy of the penalized method");
+  KNOTWORK_OPTION(options, filter, Centres, "radial basis functions at most");
+  KNOTWORK_OPTION(options, filter, CornerAngle,
+    "a boundary that turns by more degrees at a point has a corner there");
+  job->Flatten->SetMaximumStretch(ChartStretch);
+  AddFlattenOptions(options, job->Flatten, "Flatten");
+  return [job](Session& session) { return job->Run(session); };
+}
+}

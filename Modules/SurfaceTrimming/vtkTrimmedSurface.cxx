@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTrimmedSurface.h"
+
+#include "TrimData.h"
+#include "TrimmedGrids.h"
+
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkTable.h"
+#include "vtkTimerLog.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <sstream>
+
+vtkStandardNewMacro(vtkTrimmedSurface);
+
+namespace
+{
+constexpr int NumOutputs = 5;
+constexpr int DeviationPort = 3;
+constexpr const char* OutputTypes[NumOutputs] = { "vtkPolyData", "vtkUnstructuredGrid",
+  "vtkUnstructuredGrid", "vtkPointSet", "vtkTable" };
+
+template <typename T>
+void MakeOutput(vtkInformationVector* outputs, int port)
+{
+  if (!T::GetData(outputs, port))
+  {
+    vtkNew<T> data;
+    outputs->GetInformationObject(port)->Set(vtkDataObject::DATA_OBJECT(), data);
+  }
+}
+
+/// What a user should know about faces that are not as asked for.
+std::vector<std::string> Shortcomings(const knotwork::TrimmedSurface& trimmed)
+{
+  std::vector<std::string> texts;
+  if (!trimmed.WithinTolerance)
+  {
+    std::ostringstream text;
+    text << "the deviation is up to " << trimmed.MaxDeviation << ", above the tolerance "
+         << trimmed.Tolerance;
+    texts.push_back(text.str());
+  }
+  const knotwork::Verdict verdict = knotwork::WorstVerdict(trimmed);
+  if (verdict != knotwork::Verdict::Valid)
+  {
+    texts.push_back(std::string("regularity of the faces: ") + ToString(verdict));
+  }
+  const knotwork::LoopVerdict loops = knotwork::WorstLoops(trimmed);
+  if (loops != knotwork::LoopVerdict::SimpleNested)
+  {
+    texts.push_back(std::string("trimming loops: ") + ToString(loops));
+  }
+  return texts;
+}
+}
+
+vtkTrimmedSurface::vtkTrimmedSurface()
+{
+  this->SetNumberOfInputPorts(1);
+  this->SetNumberOfOutputPorts(NumOutputs);
+}
+
+void vtkTrimmedSurface::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Method: " << this->Method << "\n";
+  os << indent << "Tolerance: " << this->Tolerance << "\n";
+  os << indent << "ChordalTolerance: " << this->ChordalTolerance << "\n";
+  os << indent << "Elements: " << this->Elements << "\n";
+  os << indent << "MaximumElements: " << this->MaximumElements << "\n";
+  os << indent << "Degree: " << this->Degree << "\n";
+  os << indent << "Margin: " << this->Margin << "\n";
+  os << indent << "Smoothing: " << this->Smoothing << "\n";
+  os << indent << "Centres: " << this->Centres << "\n";
+  os << indent << "CornerAngle: " << this->CornerAngle << "\n";
+  os << indent << "Triangulation: " << this->Triangulation << "\n";
+}
+
+int vtkTrimmedSurface::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
+  return 1;
+}
+
+int vtkTrimmedSurface::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), OutputTypes[port]);
+  return 1;
+}
+
+int vtkTrimmedSurface::RequestDataObject(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  MakeOutput<vtkPolyData>(outputs, 0);
+  MakeOutput<vtkUnstructuredGrid>(outputs, 1);
+  MakeOutput<vtkUnstructuredGrid>(outputs, 2);
+  if (vtkPolyData::GetData(inputs[0], 0))
+  {
+    MakeOutput<vtkPolyData>(outputs, DeviationPort);
+  }
+  else
+  {
+    MakeOutput<vtkUnstructuredGrid>(outputs, DeviationPort);
+  }
+  MakeOutput<vtkTable>(outputs, 4);
+  return 1;
+}
+
+knotwork::Status vtkTrimmedSurface::Compute(
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkPointSet* input = vtkPointSet::GetData(inputs[0], 0);
+  const double begin = vtkTimerLog::GetUniversalTime();
+  const auto decoded = knotwork::DecodeCharts(input);
+  if (!decoded)
+  {
+    return decoded.Status;
+  }
+  knotwork::TrimParams params;
+  params.BackMap.Method = static_cast<knotwork::BackMapMethod>(this->Method);
+  params.BackMap.Degree = this->Degree;
+  params.BackMap.Elements = this->Elements;
+  params.BackMap.MaxElements = this->MaximumElements;
+  params.BackMap.Margin = this->Margin;
+  params.BackMap.Smoothing = this->Smoothing;
+  params.BackMap.Centres = this->Centres;
+  params.CornerAngle = this->CornerAngle;
+  params.Tolerance = this->Tolerance;
+  params.ChordalTolerance = this->ChordalTolerance;
+  params.Triangulation = this->Triangulation;
+  params.Threads = this->KernelThreads();
+  params.Progress = this->Progress();
+  auto trimmed = knotwork::TrimSurface(decoded->Charts, params);
+  if (!trimmed)
+  {
+    return trimmed.Status;
+  }
+  this->ReportWarnings(Shortcomings(trimmed.Value));
+  knotwork::TurnFaces(decoded->Turned, trimmed.Value);
+  knotwork::EncodeTriangles(trimmed->Mesh, vtkPolyData::GetData(outputs, 0));
+  const knotwork::Status status = knotwork::EncodeTrimmedModel(trimmed->Model,
+    vtkUnstructuredGrid::GetData(outputs, 1), vtkUnstructuredGrid::GetData(outputs, 2));
+  if (!status)
+  {
+    return status;
+  }
+  vtkPointSet* deviation = vtkPointSet::GetData(outputs, DeviationPort);
+  deviation->ShallowCopy(input);
+  knotwork::EncodeDeviation(decoded.Value, trimmed.Value, deviation);
+  const double seconds = vtkTimerLog::GetUniversalTime() - begin;
+  knotwork::EncodeNumbers(trimmed.Value, seconds, vtkTable::GetData(outputs, 4));
+  return {};
+}

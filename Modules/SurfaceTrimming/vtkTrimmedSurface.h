@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkTrimmedSurface
+ * @brief   makes trimmed spline faces of a triangle mesh with plane coordinates
+ *
+ * Input 0 is a triangle mesh (vtkPolyData or vtkUnstructuredGrid) with the point array `UV`, as
+ * vtkMeshParameterization makes it: no triangle is flipped in the plane. With a cell array
+ * `ChartId` every chart becomes a face; points where charts meet are shared, or have the same
+ * value of the point array `CutPointId`.
+ *
+ * Output 0 are the faces as a watertight triangulation with normals, `FaceId` and their parameters
+ * (`UV`, or `CornerUV` of the cells when there are several faces). Outputs 1 and 2 are the faces
+ * themselves, their surfaces and their trimming curves as spline grids (TrimmedGrids.h). Output 3
+ * is the input with the point array `Deviation` and the cell array `DeviationBound`: distances to
+ * the surface, proved inside the triangles. Output 4 is a table of one row with all numbers.
+ *
+ * Faces that miss the tolerance, or are not proved regular, and loops that are not proved simple
+ * are an output with a warning.
+ *
+ * @source Ruiz, Mejia, Cadavid (2015). The module's page has methods, certificates, limits, errors.
+ */
+#ifndef vtkTrimmedSurface_h
+#define vtkTrimmedSurface_h
+#include "vtkKnotworkSurfaceTrimmingModule.h" // for export macro
+#include "vtkSplineAlgorithm.h"
+
+class VTKKNOTWORKSURFACETRIMMING_EXPORT vtkTrimmedSurface : public vtkSplineAlgorithm
+{
+public:
+  static vtkTrimmedSurface* New();
+  vtkTypeMacro(vtkTrimmedSurface, vtkSplineAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum Methods
+  {
+    NURBS = 0, ///< a grid of interpolated points, continued outwards by extrapolation
+    RBF,       ///< thin-plate radial basis functions, followed by a spline
+    HYBRID,    ///< control points are values of the radial basis functions
+    PENALIZED  ///< least squares with thin-plate energy
+  };
+
+  ///@{
+  /** How the surfaces are made, one of Methods. Default PENALIZED. */
+  vtkSetClampMacro(Method, int, NURBS, PENALIZED);
+  vtkGetMacro(Method, int);
+  ///@}
+  ///@{
+  /** Largest distance between mesh and faces, unit of the points. Default 0 (a thousandth of the
+   * diagonal of the mesh's box), valid range >= 0. */
+  vtkSetClampMacro(Tolerance, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(Tolerance, double);
+  ///@}
+  ///@{
+  /** Largest distance between triangulation and faces, unit of the points. Default 0 (a quarter of
+   * Tolerance), valid range >= 0. */
+  vtkSetClampMacro(ChordalTolerance, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(ChordalTolerance, double);
+  ///@}
+  ///@{
+  /** Spans of a net in its longer direction. Default 0 (as many as the tolerance asks for), valid
+   * range [0, 2000]. */
+  vtkSetClampMacro(Elements, int, 0, 2000);
+  vtkGetMacro(Elements, int);
+  ///@}
+  ///@{
+  /** Spans of a net in a direction at most, when Elements is 0. Default 400, valid range [1, 2000].
+   */
+  vtkSetClampMacro(MaximumElements, int, 1, 2000);
+  vtkGetMacro(MaximumElements, int);
+  ///@}
+  ///@{
+  /** Degree of the surfaces. Default 3, valid range [1, 9]. */
+  vtkSetClampMacro(Degree, int, 1, 9);
+  vtkGetMacro(Degree, int);
+  ///@}
+  ///@{
+  /** Margin of the surfaces around their charts, part of the longest side. Default 0.02, valid
+   * range [0, 1]. */
+  vtkSetClampMacro(Margin, double, 0.0, 1.0);
+  vtkGetMacro(Margin, double);
+  ///@}
+  ///@{
+  /** Weight of the thin-plate energy of PENALIZED, independent of units and net. Default 1e-7,
+   * valid range [1e-15, 1e3]. */
+  vtkSetClampMacro(Smoothing, double, 1e-15, 1e3);
+  vtkGetMacro(Smoothing, double);
+  ///@}
+  ///@{
+  /** Radial basis functions of RBF and HYBRID at most: all points up to so many, else the greedy
+   * choice of so many. Default 2000, valid range [10, 20000]. */
+  vtkSetClampMacro(Centres, int, 10, 20000);
+  vtkGetMacro(Centres, int);
+  ///@}
+  ///@{
+  /** A boundary that turns by more degrees at a point has a corner there. Default 40, valid range
+   * [1, 180]. */
+  vtkSetClampMacro(CornerAngle, double, 1.0, 180.0);
+  vtkGetMacro(CornerAngle, double);
+  ///@}
+  ///@{
+  /** Whether output 0 is made. Default on. */
+  vtkSetMacro(Triangulation, bool);
+  vtkGetMacro(Triangulation, bool);
+  vtkBooleanMacro(Triangulation, bool);
+  ///@}
+
+protected:
+  vtkTrimmedSurface();
+  ~vtkTrimmedSurface() override = default;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestDataObject(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkTrimmedSurface(const vtkTrimmedSurface&) = delete;
+  void operator=(const vtkTrimmedSurface&) = delete;
+
+  int Method = PENALIZED;
+  double Tolerance = 0.0;
+  double ChordalTolerance = 0.0;
+  int Elements = 0;
+  int MaximumElements = 400;
+  int Degree = 3;
+  double Margin = 0.02;
+  double Smoothing = 1e-7;
+  int Centres = 2000;
+  double CornerAngle = 40.0;
+  bool Triangulation = true;
+};
+#endif
