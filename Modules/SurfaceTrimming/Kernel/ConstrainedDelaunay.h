@@ -8,8 +8,9 @@ namespace knotwork
 {
 /// Constrained Delaunay triangulation of the convex hull of points, counterclockwise. One of two
 /// sources implements it: ConstrainedDelaunay.cxx by CGAL with exact predicates (and a symbolic
-/// perturbation where points are cocircular: the result depends on the points alone),
-/// ConstrainedDelaunayOcct.cxx by OpenCASCADE for builds without libraries under the GPL.
+/// perturbation where points are cocircular), ConstrainedDelaunayPermissive.cxx by
+/// FlipTriangulation for builds without libraries under the GPL. The result depends on the points
+/// and segments alone.
 /// @param segments  edges that the triangulation must have. @pre FindCrossings finds none; a point
 /// on a segment is one of its ends.
 /// @return InvalidTopology when that does not hold or no triangle exists.

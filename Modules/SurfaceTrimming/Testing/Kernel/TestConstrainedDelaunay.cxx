@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ConstrainedDelaunay.h"
+#include "FlipTriangulation.h"
 
 #include <gtest/gtest.h>
 
@@ -214,7 +215,18 @@ TEST(PlanarRegion, InsidePolygonsCountsSegments_ExactOracle)
   EXPECT_EQ(InsidePolygons(points, segments, queries), expected);
 }
 
-TEST(ConstrainedDelaunay, CoversTheHullOnce_ExactOracle)
+using Triangulator = Result<std::vector<std::array<int, 3>>> (*)(
+  const std::vector<PlanarPoint>&, const std::vector<PlanarSegment>&);
+
+/// That of the build, and our own.
+class Triangulations : public ::testing::TestWithParam<Triangulator>
+{
+};
+INSTANTIATE_TEST_SUITE_P(Both, Triangulations,
+  ::testing::Values(&ConstrainedDelaunay, &FlipTriangulation),
+  [](const auto& param) { return param.index == 0 ? "ConstrainedDelaunay" : "FlipTriangulation"; });
+
+TEST_P(Triangulations, CoversTheHullOnce_ExactOracle)
 {
   for (unsigned seed = 1; seed <= 20; ++seed)
   {
@@ -222,7 +234,7 @@ TEST(ConstrainedDelaunay, CoversTheHullOnce_ExactOracle)
     const std::vector<PlanarPoint> points = RandomPoints(seed, 60, 2000);
     const auto segments = RandomSegments(seed, points, 40);
     ASSERT_GE(segments.size(), 5u);
-    const auto triangles = ConstrainedDelaunay(points, segments);
+    const auto triangles = GetParam()(points, segments);
     ASSERT_TRUE(triangles) << triangles.Status.Message();
     std::int64_t area = 0;
     std::set<std::array<int, 2>> edges;
@@ -244,7 +256,7 @@ TEST(ConstrainedDelaunay, CoversTheHullOnce_ExactOracle)
   }
 }
 
-TEST(ConstrainedDelaunay, CirclesAreEmpty_PropertyOracle)
+TEST_P(Triangulations, CirclesAreEmpty_PropertyOracle)
 {
   for (unsigned seed = 1; seed <= 20; ++seed)
   {
@@ -257,7 +269,7 @@ TEST(ConstrainedDelaunay, CirclesAreEmpty_PropertyOracle)
       fixed.insert({ s[0], s[1] });
       fixed.insert({ s[1], s[0] });
     }
-    const auto triangles = ConstrainedDelaunay(points, segments);
+    const auto triangles = GetParam()(points, segments);
     ASSERT_TRUE(triangles) << triangles.Status.Message();
     std::map<std::array<int, 2>, int> apex;
     for (const auto& t : triangles.Value)
@@ -279,7 +291,7 @@ TEST(ConstrainedDelaunay, CirclesAreEmpty_PropertyOracle)
   }
 }
 
-TEST(ConstrainedDelaunay, OrderOfSegmentsDoesNotMatter_PropertyOracle)
+TEST_P(Triangulations, OrderOfSegmentsDoesNotMatter_PropertyOracle)
 {
   // Cocircular points everywhere: a grid with a polygon.
   std::vector<PlanarPoint> points;
@@ -289,18 +301,37 @@ TEST(ConstrainedDelaunay, OrderOfSegmentsDoesNotMatter_PropertyOracle)
   }
   auto segments = RandomSegments(1, points, 60);
   ASSERT_GE(segments.size(), 5u);
-  const auto first = ConstrainedDelaunay(points, segments);
+  const auto first = GetParam()(points, segments);
   ASSERT_TRUE(first) << first.Status.Message();
   std::reverse(segments.begin(), segments.end());
-  EXPECT_EQ(ConstrainedDelaunay(points, segments).Value, first.Value);
+  EXPECT_EQ(GetParam()(points, segments).Value, first.Value);
 }
 
-TEST(ConstrainedDelaunay, EveryFailureIsReachable)
+TEST_P(Triangulations, EveryFailureIsReachable)
 {
   const std::vector<PlanarPoint> line{ { 0, 0 }, { 1, 1 }, { 2, 2 } };
-  EXPECT_EQ(ConstrainedDelaunay(line, {}).Status.Code, ErrorCode::InvalidTopology);
+  EXPECT_EQ(GetParam()(line, {}).Status.Code, ErrorCode::InvalidTopology);
   const std::vector<PlanarPoint> twice{ { 0, 0 }, { 4, 0 }, { 0, 4 }, { 0, 0 } };
-  EXPECT_EQ(ConstrainedDelaunay(twice, { { 0, 3 } }).Status.Code, ErrorCode::InvalidTopology);
+  EXPECT_EQ(GetParam()(twice, { { 0, 3 } }).Status.Code, ErrorCode::InvalidTopology);
+}
+
+TEST(FlipTriangulation, AgreesWithTheBuildsOwn_CrossOracle)
+{
+  // In general position and with the largest coordinates there is one constrained Delaunay
+  // triangulation.
+  for (unsigned seed = 1; seed <= 10; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::vector<PlanarPoint> points = RandomPoints(seed, 400, 100000);
+    const auto segments = RandomSegments(seed, points, 100);
+    for (PlanarPoint& p : points)
+    {
+      p = { p[0] * 8388608.0, p[1] * 8388608.0 }; // times 2^23: crossings stay crossings
+    }
+    const auto flips = FlipTriangulation(points, segments);
+    ASSERT_TRUE(flips) << flips.Status.Message();
+    EXPECT_EQ(flips.Value, ConstrainedDelaunay(points, segments).Value);
+  }
 }
 
 TEST(PlanarRegion, SelectsWhatLiesToTheLeft_ExactOracle)
