@@ -135,7 +135,7 @@ CurveBounds BoundInSpace(const PlaneCurve& curve, const SurfaceCells& cells)
         box.Upper[At(d)] = i == 0 ? x : std::max(box.Upper[At(d)], x);
       }
     }
-    const DerivativeBounds surface = cells.Bound(box);
+    const CellBounds surface = cells.Bound(box);
     bounds.Second.push_back(surface.First[0] * curve.Bounds[0].Second[At(e)] +
       surface.First[1] * curve.Bounds[1].Second[At(e)]);
   }

@@ -89,8 +89,7 @@ const double* CreaseBetween(const std::vector<double>& creases, double a, double
 /// most the second derivatives of S but for three times the one along the crease, and differs from
 /// S by at most twice the first derivative times the width of the shorter side, in the corners and
 /// in the point between them.
-double CreasedDeviation(
-  DerivativeBounds bounds, const ParametricBox<2>& box, std::size_t d, double at)
+double CreasedDeviation(CellBounds bounds, const ParametricBox<2>& box, std::size_t d, double at)
 {
   bounds.Second[d == 0 ? 2 : 0] *= 3.0;
   const double width = std::min(at - box.Lower[d], box.Upper[d] - at);
@@ -322,7 +321,7 @@ double FaceTriangulation::OffSide(std::size_t s) const
   {
     return 0.0;
   }
-  const DerivativeBounds bounds = this->Cells.Bound(box);
+  const CellBounds bounds = this->Cells.Bound(box);
   return bounds.First[0] * off[0] + bounds.First[1] * off[1];
 }
 
@@ -393,7 +392,7 @@ void FaceTriangulation::CheckTriangles(double tolerance, int threads)
         offEdge = i;
       }
     }
-    const DerivativeBounds bounds = this->Cells.Bound(box);
+    const CellBounds bounds = this->Cells.Bound(box);
     const std::array<double, 2> extent{ box.Upper[0] - box.Lower[0], box.Upper[1] - box.Lower[1] };
     double chord = ChordalDeviation(bounds, extent);
     std::array<const double*, 2> crease{};

@@ -54,7 +54,7 @@ std::array<double, 3> BoundSecond(
 
 /// Bounds on all elements: the second derivatives by their control nets, the first ones by their
 /// values in the middle and the mean value theorem.
-std::vector<DerivativeBounds> BoundElements(const BezierForm<2>& form, int threads)
+std::vector<CellBounds> BoundElements(const BezierForm<2>& form, int threads)
 {
   const int n = form.Space->NumElements();
   std::vector<int> elements(At(n));
@@ -64,14 +64,14 @@ std::vector<DerivativeBounds> BoundElements(const BezierForm<2>& form, int threa
   }
   EvaluationBatch middle;
   EvaluateElements<2>(form, elements, PointMatrix::Constant(n, 2, 0.5), { 1, threads }, middle);
-  std::vector<DerivativeBounds> bounds(At(n));
+  std::vector<CellBounds> bounds(At(n));
   ParallelFor(At(n), 64, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t e = begin; e < end; ++e)
       {
         const ParametricBox<2>& box = form.Space->Elements[e].Box;
-        DerivativeBounds& bound = bounds[e];
+        CellBounds& bound = bounds[e];
         bound.Second = BoundSecond(form, static_cast<int>(e), box);
         for (int d = 0; d < 2; ++d)
         {
@@ -134,7 +134,7 @@ struct Cut
 };
 }
 
-void DerivativeBounds::Include(const DerivativeBounds& other)
+void CellBounds::Include(const CellBounds& other)
 {
   for (std::size_t i = 0; i < 2; ++i)
   {
@@ -146,7 +146,7 @@ void DerivativeBounds::Include(const DerivativeBounds& other)
   }
 }
 
-double ChordalDeviation(const DerivativeBounds& bounds, const std::array<double, 2>& sides)
+double ChordalDeviation(const CellBounds& bounds, const std::array<double, 2>& sides)
 {
   return (bounds.Second[0] * sides[0] * sides[0] + 2.0 * bounds.Second[1] * sides[0] * sides[1] +
            bounds.Second[2] * sides[1] * sides[1]) /
@@ -215,9 +215,9 @@ public:
 private:
   const KnotVector& Knots(int d) const { return this->Form.Space->Knots[At(d)]; }
 
-  DerivativeBounds BoundOf(const Range& range) const
+  CellBounds BoundOf(const Range& range) const
   {
-    DerivativeBounds bounds;
+    CellBounds bounds;
     for (int j = range.Begin[1]; j < range.End[1]; ++j)
     {
       for (int i = range.Begin[0]; i < range.End[0]; ++i)
@@ -309,7 +309,7 @@ private:
 
   const BezierForm<2>& Form;
   double Tolerance;
-  std::vector<DerivativeBounds> Elements;
+  std::vector<CellBounds> Elements;
   SurfaceCells Cells;
 };
 
@@ -319,7 +319,7 @@ Result<SurfaceCells> SurfaceCells::Create(
   return Builder(form, tolerance, threads).Build(maxCells);
 }
 
-DerivativeBounds SurfaceCells::Bound(const ParametricBox<2>& box) const
+CellBounds SurfaceCells::Bound(const ParametricBox<2>& box) const
 {
   ParametricBox<2> clamped = box;
   const ParametricBox<2>& domain = this->Tree.front().Box;
@@ -328,7 +328,7 @@ DerivativeBounds SurfaceCells::Bound(const ParametricBox<2>& box) const
     clamped.Lower[d] = std::clamp(box.Lower[d], domain.Lower[d], domain.Upper[d]);
     clamped.Upper[d] = std::clamp(box.Upper[d], domain.Lower[d], domain.Upper[d]);
   }
-  DerivativeBounds bounds;
+  CellBounds bounds;
   std::vector<int> stack{ 0 };
   while (!stack.empty())
   {

@@ -8,16 +8,16 @@
 namespace knotwork
 {
 /// Upper bounds of norms of a surface's derivatives by the parameters of its domain.
-struct DerivativeBounds
+struct CellBounds
 {
   std::array<double, 2> First{};  ///< |S_u|, |S_v|
   std::array<double, 3> Second{}; ///< |S_uu|, |S_uv|, |S_vv|
 
-  void Include(const DerivativeBounds& other);
+  void Include(const CellBounds& other);
 };
 
 /// Chordal bound of linear interpolation between points of a box with these sides (ChordalBound.h).
-double ChordalDeviation(const DerivativeBounds& bounds, const std::array<double, 2>& sides);
+double ChordalDeviation(const CellBounds& bounds, const std::array<double, 2>& sides);
 
 /// A tensor surface's domain, halved again and again into cells within which linear interpolation
 /// keeps a tolerance: between elements while they are many, then within elements. What any box of
@@ -33,14 +33,14 @@ public:
   struct Cell
   {
     ParametricBox<2> Box;
-    DerivativeBounds Bounds; ///< of the cell; with children of all of them
-    int Children = -1;       ///< first of two
+    CellBounds Bounds; ///< of the cell; with children of all of them
+    int Children = -1; ///< first of two
   };
   const std::vector<Cell>& Cells() const { return this->Tree; } ///< the whole domain first
 
   /// Largest bounds of the cells whose inner points a box has; of the nearest cell when there are
   /// none.
-  DerivativeBounds Bound(const ParametricBox<2>& box) const;
+  CellBounds Bound(const ParametricBox<2>& box) const;
 
   /// Inner parameters where the surface may have a crease: cells end there.
   const std::array<std::vector<double>, 2>& Creases() const { return this->Breaks; }
