@@ -10,7 +10,7 @@ a published number or the name of a benchmark of ours that does the same by plai
 cells: a text; or what was measured, `@BENCHMARK UNIT` where the unit is one of time, `1/s`, or a counter of the benchmark; or
 a ratio, `@BENCHMARK COUNTER BENCHMARK`. The table goes between two comment lines `benchmarks MODULE: begin` and `... end` on
 the page; the rows listed under "readme" go to the README alike. "needs" names an environment variable without which not all
-rows can be measured.
+rows can be measured; "repetitions" is their number where it is not 20.
 """
 import json
 import os
@@ -32,7 +32,7 @@ def measure(program, only):
         if run.get("aggregate_name") != "min":
             continue
         name = run["run_name"].replace("/real_time", "")
-        name = "/".join(part for part in name.split("/") if not part.startswith(("min_time", "repeats", "process_time")))
+        name = "/".join(part for part in name.split("/") if not part.startswith(("iterations", "min_time", "repeats", "process_time")))
         time = run["real_time" if "real_time" in run["run_name"] else "cpu_time"] * SCALE[run["time_unit"]]
         found[name] = run.get("point", run.get("cell", time))
         found.update(((name, key), value) for key, value in run.items() if isinstance(value, (int, float)))
@@ -56,6 +56,8 @@ def cell(text, found):
     if unit in SCALE:
         return show(found[name], unit)
     value = found[name, unit]
+    if abs(value) >= 1e6:
+        return f"{value:.0e}"
     return f"{value:.0f}" if value == round(value) else f"{value:.3g}" if value < 0.01 else f"{value:.4f}"
 
 
@@ -92,7 +94,8 @@ def main():
             cells += [show(found[peer], unit) if peer in found else peer for peer in peers]
             rows.append("| " + " | ".join(cells) + " |")
     lines = ["| " + " | ".join(columns) + " |", "|" + " --- |" * len(columns)]
-    closing = ["", f"{processor()}, {os.cpu_count()} threads, load {load:.1f} at the start, fastest of 20 repetitions; "
+    closing = ["", f"{processor()}, {os.cpu_count()} threads, load {load:.1f} at the start, fastest of "
+               f"{spec.get('repetitions', 20)} repetitions; "
                "one thread: processor time. The command:", "",
                "    cmake --preset benchmark && cmake --build --preset benchmark",
                f"    {spec['needs'] + '=<folder> ' if 'needs' in spec else ''}Testing/Benchmarks/table.py {module}"]

@@ -19,6 +19,8 @@ constexpr int MaxPasses = 24;
 constexpr double Goal = 0.7;
 /// The same once far points weigh more: then most are near the tolerance.
 constexpr double ReweightedGoal = 0.95;
+/// What is within this part of the tolerance can be proved to be within it cheaply.
+constexpr double ProofShare = 0.95;
 /// A direction is refined where the surface bends in it at least so much of the most.
 constexpr double BendingShare = 0.25;
 /// Least weight of the thin-plate energy, by the fourth power of the longest side: Cholesky's
@@ -189,13 +191,44 @@ double LeastWeight(const NetKnots& knots, const Eigen::RowVector2d& parameter)
 }
 
 void SetSurface(BackMap& map, const SplineSpacePtr<2>& space, PointMatrix control,
-  const BackMapResiduals& residuals, double tolerance)
+  const BackMapResiduals& residuals)
 {
   map.Surface.Space = space;
   map.Surface.ControlPoints = std::move(control);
   map.MaxResidual = residuals.Max;
   map.RmsResidual = residuals.Rms;
-  map.WithinTolerance = residuals.Max <= tolerance;
+}
+
+/// Least squares on a net.
+Status FitNet(const ChartMesh& chart, const std::vector<std::array<int, 2>>& boundary,
+  const NetKnots& knots, const BackMapParams& params, NetFit& net, BackMap& map,
+  BackMapResiduals& residuals)
+{
+  if (static_cast<double>(knots[0].NumFunctions()) * knots[1].NumFunctions() > MaxFunctions)
+  {
+    return { ErrorCode::TooLarge,
+      "a net of " + std::to_string(knots[0].NumFunctions()) + " x " +
+        std::to_string(knots[1].NumFunctions()) + " control points; ask for fewer spans" };
+  }
+  const auto space = MakeTensorSpace<2>(knots);
+  if (!space)
+  {
+    return space.Status;
+  }
+  net.Space = space.Value;
+  net.Samples = SampleChart(chart, boundary, knots, params.Threads);
+  Result<PointMatrix> control = FirstSolution(net, params);
+  if (!control)
+  {
+    return control.Status;
+  }
+  Spline<2> surface;
+  surface.Space = net.Space;
+  surface.ControlPoints = control.Value;
+  residuals = MeasureBackMap(MakeBezierForm(surface, params.Threads), net.Samples, params.Threads);
+  SetSurface(map, net.Space, std::move(control.Value), residuals);
+  ++map.Passes;
+  return {};
 }
 
 /// Makes points that are far weigh more, until all are within the tolerance or it no longer helps:
@@ -229,7 +262,7 @@ void Reweight(NetFit& net, const BackMapParams& params, BackMap& map, BackMapRes
     if (last.Max < before)
     {
       residuals = last;
-      SetSurface(map, net.Space, std::move(control.Value), residuals, params.Tolerance);
+      SetSurface(map, net.Space, std::move(control.Value), residuals);
     }
     if (last.Max > LeastProgress * before)
     {
@@ -286,60 +319,45 @@ BackMapResiduals MeasureBackMap(
 
 Result<BackMap> FitPenalized(const ChartMesh& chart, const BackMapParams& params)
 {
-  const ParametricBox<2> rectangle = BackMapRectangle(chart, params.Margin);
   const std::vector<std::array<int, 2>> boundary = BoundaryEdges(chart.Triangles);
   const bool byNeed = params.Elements == 0;
-  NetKnots knots = UniformNet(rectangle, params.Degree,
+  BackMapParams aim = params;
+  aim.Tolerance *= ProofShare;
+  NetKnots knots = UniformNet(BackMapRectangle(chart, params.Margin), params.Degree,
     byNeed ? std::min(FirstElements, params.MaxElements) : params.Elements);
   BackMap map;
-  while (true)
+  for (bool last = false; !last;)
   {
-    if (static_cast<double>(knots[0].NumFunctions()) * knots[1].NumFunctions() > MaxFunctions)
-    {
-      return { ErrorCode::TooLarge,
-        "a net of " + std::to_string(knots[0].NumFunctions()) + " x " +
-          std::to_string(knots[1].NumFunctions()) + " control points; ask for fewer spans" };
-    }
-    const auto space = MakeTensorSpace<2>(knots);
-    if (!space)
-    {
-      return space.Status;
-    }
     NetFit net;
-    net.Space = space.Value;
-    net.Samples = SampleChart(chart, boundary, knots, params.Threads);
-    Result<PointMatrix> control = FirstSolution(net, params);
-    if (!control)
+    BackMapResiduals residuals;
+    Status status = FitNet(chart, boundary, knots, aim, net, map, residuals);
+    if (!status)
     {
-      return control.Status;
+      return status;
     }
-    Spline<2> surface;
-    surface.Space = net.Space;
-    surface.ControlPoints = control.Value;
-    BackMapResiduals residuals =
-      MeasureBackMap(MakeBezierForm(surface, params.Threads), net.Samples, params.Threads);
-    SetSurface(map, net.Space, std::move(control.Value), residuals, params.Tolerance);
-    ++map.Passes;
-    if (byNeed && residuals.Max <= ReweightReach * params.Tolerance)
+    last = !byNeed || residuals.Max <= aim.Tolerance || map.Passes == MaxPasses;
+    if (!last && residuals.Max <= ReweightReach * aim.Tolerance)
     {
-      Reweight(net, params, map, residuals);
+      Reweight(net, aim, map, residuals);
     }
-    const double done = map.WithinTolerance ? 1.0 : params.Tolerance / residuals.Max;
-    if (params.Progress && !params.Progress(done))
+    if (params.Progress && !params.Progress(std::min(1.0, aim.Tolerance / residuals.Max)))
     {
       return { ErrorCode::Aborted, "the back-map was stopped" };
     }
-    if (!byNeed || map.WithinTolerance || map.Passes == MaxPasses)
+    if (last || residuals.Max <= aim.Tolerance)
     {
-      return map;
+      break;
     }
-    NetKnots finer = RefinedNet(
-      knots, MakeBezierForm(map.Surface, params.Threads), net.Samples, residuals, params);
-    if (finer == knots)
+    NetKnots finer =
+      RefinedNet(knots, MakeBezierForm(map.Surface, params.Threads), net.Samples, residuals, aim);
+    last = finer == knots;
+    if (last && residuals.Max > ReweightReach * aim.Tolerance)
     {
-      return map;
+      Reweight(net, aim, map, residuals); // as near as this net comes
     }
     knots = std::move(finer);
   }
+  map.WithinTolerance = map.MaxResidual <= params.Tolerance;
+  return map;
 }
 }

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Back-maps of charts: a sum of waves at many points, and the meshes of the folder that the
+// environment variable KNOTWORK_MESHES names, by all methods.
+#include "BackMap.h"
+#include "BenchmarkTools.h"
+#include "FlattenCharts.h"
+#include "RadialSurface.h"
+#include "SurfaceFairness.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <string>
+
+namespace knotwork
+{
+namespace
+{
+/// n x n points of the unit square, lifted by waves.
+ChartMesh Waves(int n)
+{
+  ChartMesh chart;
+  chart.UV.resize(static_cast<Eigen::Index>(n) * n, 2);
+  chart.Points.resize(chart.UV.rows(), 3);
+  for (int i = 0; i < n * n; ++i)
+  {
+    const double u = static_cast<double>(i % n) / (n - 1);
+    const double v = static_cast<double>(i / n) / (n - 1);
+    chart.UV.row(i) << u, v;
+    chart.Points.row(i) << u, v, 0.05 * std::sin(9.0 * u + 2.0 * v) * std::cos(7.0 * v);
+  }
+  for (int j = 0; j + 1 < n; ++j)
+  {
+    for (int i = 0; i + 1 < n; ++i)
+    {
+      const int a = j * n + i;
+      chart.Triangles.push_back({ a, a + 1, a + n + 1 });
+      chart.Triangles.push_back({ a, a + n + 1, a + n });
+    }
+  }
+  return chart;
+}
+
+void RunPenalized(benchmark::State& state, int elements, int threads)
+{
+  const ChartMesh chart = Waves(317); // a hundred thousand points
+  BackMapParams params;
+  params.Tolerance = 1e-3;
+  params.Elements = elements;
+  params.Margin = 0.0;
+  params.Threads = threads;
+  for (auto _ : state)
+  {
+    const auto map = FitBackMap(chart, params);
+    if (!map)
+    {
+      state.SkipWithError(map.Status.Message().c_str());
+      return;
+    }
+    state.counters["rms"] = map->RmsResidual;
+  }
+}
+
+void RunRadial(benchmark::State& state, int centres)
+{
+  const PointMatrix flat = RandomPoints(centres, 2);
+  const PointMatrix points = RandomPoints(centres, 3, 43);
+  for (auto _ : state)
+  {
+    const auto surface = RadialSurface::Interpolate(flat, points);
+    if (!surface)
+    {
+      state.SkipWithError(surface.Status.Message().c_str());
+      return;
+    }
+    benchmark::DoNotOptimize(surface.Value);
+  }
+}
+
+/// Triangles of an OFF file; empty when there is no such file.
+TriangleMesh ReadOff(const std::string& path)
+{
+  TriangleMesh mesh;
+  std::ifstream file(path);
+  std::string word;
+  int points = 0;
+  int triangles = 0;
+  int edges = 0;
+  if (!(file >> word >> points >> triangles >> edges) || word != "OFF")
+  {
+    return mesh;
+  }
+  mesh.Points.resize(points, 3);
+  for (Eigen::Index i = 0; i < mesh.Points.size(); ++i)
+  {
+    file >> mesh.Points.data()[i];
+  }
+  mesh.Triangles.resize(static_cast<std::size_t>(triangles));
+  for (auto& [a, b, c] : mesh.Triangles)
+  {
+    int corners = 0;
+    file >> corners >> a >> b >> c;
+  }
+  return file ? mesh : TriangleMesh();
+}
+
+struct Case
+{
+  std::vector<ChartMesh> Charts;
+  double Diagonal = 0.0;
+};
+
+Case ReadCase(const std::string& path)
+{
+  Case result;
+  const auto flat = FlattenCharts(ReadOff(path));
+  if (flat)
+  {
+    result.Diagonal =
+      (flat->Points.colwise().maxCoeff() - flat->Points.colwise().minCoeff()).norm();
+    for (const MeshParameterization& map : flat->Charts)
+    {
+      result.Charts.push_back({ map.Mesh.Points, map.UV, map.Mesh.Triangles, {} });
+    }
+  }
+  return result;
+}
+
+/// All charts of a mesh to a thousandth of its diagonal; largest deviation by the tolerance, and
+/// what the surfaces are like outside of the mesh.
+void RunMethod(benchmark::State& state, const Case& data, BackMapMethod method)
+{
+  BackMapParams params;
+  params.Method = method;
+  params.Tolerance = 1e-3 * data.Diagonal;
+  params.Threads = 1;
+  std::vector<BackMap> maps;
+  for (auto _ : state)
+  {
+    maps.clear();
+    for (const ChartMesh& chart : data.Charts)
+    {
+      auto map = FitBackMap(chart, params);
+      if (!map)
+      {
+        state.SkipWithError(map.Status.Message().c_str());
+        return;
+      }
+      maps.push_back(std::move(map.Value));
+    }
+  }
+  double deviation = 0.0;
+  double elements = 0.0;
+  double centres = 0.0;
+  double folded = 0.0;
+  double dot = 1.0;
+  double area = 0.0;
+  for (std::size_t i = 0; i < maps.size(); ++i)
+  {
+    const SurfaceFairness fairness = MeasureFairness(data.Charts[i], maps[i].Surface);
+    deviation = std::max(deviation, maps[i].MaxResidual / params.Tolerance);
+    elements += maps[i].Surface.Space->NumElements();
+    centres += maps[i].Centres;
+    folded = std::max(folded, fairness.FoldedShare);
+    dot = std::min(dot, fairness.MinDot);
+    area = std::max(area, fairness.AreaFactor);
+  }
+  state.counters["charts"] = static_cast<double>(maps.size());
+  state.counters["deviation"] = deviation;
+  state.counters["elements"] = elements;
+  state.counters["centres"] = centres;
+  state.counters["folded"] = 100.0 * folded;
+  state.counters["dot"] = dot;
+  state.counters["area"] = area;
+}
+
+/// As Repeat, of what takes seconds.
+void RepeatFew(benchmark::internal::Benchmark* b)
+{
+  b->Iterations(1)->Repetitions(2)->ReportAggregatesOnly(true)->Unit(benchmark::kMillisecond);
+  b->ComputeStatistics(
+    "min", [](const std::vector<double>& v) { return *std::min_element(v.begin(), v.end()); });
+}
+
+const bool registered = []
+{
+  for (int elements : { 100, 200 })
+  {
+    const std::string name = "Penalized/" + std::to_string(elements);
+    Repeat(benchmark::RegisterBenchmark(
+      name.c_str(), [elements](benchmark::State& state) { RunPenalized(state, elements, 1); }));
+    auto* all = benchmark::RegisterBenchmark((name + "/all").c_str(),
+      [elements](benchmark::State& state) { RunPenalized(state, elements, 0); });
+    all->UseRealTime();
+    Repeat(all);
+  }
+  for (int centres : { 2000, 5000 })
+  {
+    RepeatFew(benchmark::RegisterBenchmark(("Radial/" + std::to_string(centres)).c_str(),
+      [centres](benchmark::State& state) { RunRadial(state, centres); }));
+  }
+  const char* folder = std::getenv("KNOTWORK_MESHES");
+  for (const char* name : { "scone_2k", "beetle", "maskgen_3k", "half_glove_a" })
+  {
+    const Case data = folder ? ReadCase(std::string(folder) + "/" + name + ".off") : Case();
+    for (BackMapMethod method :
+      { BackMapMethod::Nurbs, BackMapMethod::Rbf, BackMapMethod::Hybrid, BackMapMethod::Penalized })
+    {
+      if (!data.Charts.empty())
+      {
+        RepeatFew(benchmark::RegisterBenchmark((std::string(name) + "/" + ToString(method)).c_str(),
+          [data, method](benchmark::State& state) { RunMethod(state, data, method); }));
+      }
+    }
+  }
+  return true;
+}();
+}
+}
