@@ -27,11 +27,13 @@ constexpr double leastSpan = 1e-9;
 
 /// A cubic in Bernstein form, a coefficient a row.
 using Cubic = Eigen::Matrix<double, degree + 1, Eigen::Dynamic, Eigen::RowMajor>;
+using PlaneCubic = Eigen::Matrix<double, degree + 1, 2, Eigen::RowMajor>;
 
-std::array<Cubic, 2> Halve(const Cubic& whole)
+template <typename Matrix>
+std::array<Matrix, 2> Halve(const Matrix& whole)
 {
-  Cubic left = whole;
-  Cubic right = whole;
+  Matrix left = whole;
+  Matrix right = whole;
   for (int r = 1; r <= degree; ++r)
   {
     for (int i = 0; i <= degree - r; ++i)
@@ -307,8 +309,8 @@ private:
     }
     return bound;
   }
-  double Bound(
-    const SurfaceBounds& surface, const Cubic& curve, const Cubic& difference, int depth) const
+  double Bound(const SurfaceBounds& surface, const PlaneCubic& curve, const PlaneCubic& difference,
+    int depth) const
   {
     const auto bound = [&](const DerivativeBounds& derivatives)
     {
@@ -322,15 +324,18 @@ private:
       return anywhere;
     }
     ParametricBox<2> box;
+    double length = 0.0;
     for (int d = 0; d < 2; ++d)
     {
       const std::size_t at = static_cast<std::size_t>(d);
       const auto other = curve.col(d) - difference.col(d);
       box.Lower[at] = std::min(curve.col(d).minCoeff(), other.minCoeff());
       box.Upper[at] = std::max(curve.col(d).maxCoeff(), other.maxCoeff());
+      length = std::max(length, curve.col(d).maxCoeff() - curve.col(d).minCoeff());
     }
+    // halves of a piece that is shorter than its distance lie in no smaller box
     DerivativeBounds here;
-    if (surface.Over(box, here) || depth >= maxDepth)
+    if (surface.Over(box, here) || depth >= maxDepth || length <= difference.cwiseAbs().maxCoeff())
     {
       return bound(here);
     }
@@ -522,6 +527,40 @@ public:
   }
 
 private:
+  struct SpanPart
+  {
+    int Span = 0;
+    double Begin = 0.0;
+    double End = 0.0;
+  };
+  /// Spans in equal parts, about one an element of a surface on the way.
+  std::vector<SpanPart> CutSpans(const Spline<1>& pcurves) const
+  {
+    std::vector<SpanPart> parts;
+    for (const CurvePiece& span : CutAtCorners(pcurves, { 0.0, 1.0 }))
+    {
+      int count = 1;
+      for (std::size_t k = 0; k < this->Surfaces.size(); ++k)
+      {
+        ParametricBox<2> box;
+        for (std::size_t d = 0; d < 2; ++d)
+        {
+          const auto column = span.Curve.col(static_cast<Eigen::Index>(2 * k + d));
+          box.Lower[d] = column.minCoeff();
+          box.Upper[d] = column.maxCoeff();
+        }
+        count = std::max(count, this->Surfaces[k]->ElementsAcross(box));
+      }
+      for (int i = 0; i < count; ++i)
+      {
+        const auto at = [&](int n)
+        { return span.Begin + (span.End - span.Begin) * static_cast<double>(n) / count; };
+        parts.push_back({ span.Span, at(i), i + 1 == count ? span.End : at(i + 1) });
+      }
+    }
+    return parts;
+  }
+
   /// Points of a surface at parameters that rounding may have moved out of the domain.
   static Status Evaluate(const SurfaceBounds& surface, PointMatrix uv, PointMatrix& values)
   {
@@ -567,12 +606,11 @@ private:
 
   Result<Spline<1>> Fit(const Spline<1>& pcurves) const
   {
-    const std::vector<double>& breaks = pcurves.Space->Knots[0].Breaks();
     std::vector<double> t;
     std::vector<double> weights;
-    for (std::size_t e = 0; e + 1 < breaks.size(); ++e)
+    for (const SpanPart& part : this->CutSpans(pcurves))
     {
-      AppendGauss(breaks[e], breaks[e + 1], t, weights);
+      AppendGauss(part.Begin, part.End, t, weights);
     }
     Samples samples;
     const Eigen::Index n = static_cast<Eigen::Index>(t.size());
@@ -593,15 +631,15 @@ private:
   /// Middles of spans in which the curve is too far from its target.
   Status FindFar(const Spline<1>& curve, const Spline<1>& pcurves, std::vector<double>& knots) const
   {
-    constexpr int each = 8;
-    const std::vector<double>& breaks = curve.Space->Knots[0].Breaks();
-    const Eigen::Index n = static_cast<Eigen::Index>(each * (breaks.size() - 1));
-    PointMatrix t(n, 1);
-    for (Eigen::Index i = 0; i < n; ++i)
+    // ends too: errors of least squares are largest there
+    constexpr int each = 9;
+    const std::vector<SpanPart> parts = this->CutSpans(pcurves);
+    PointMatrix t(static_cast<Eigen::Index>(each * parts.size()), 1);
+    for (Eigen::Index i = 0; i < t.rows(); ++i)
     {
-      const std::size_t e = static_cast<std::size_t>(i / each);
-      const double s = (static_cast<double>(i % each) + 0.5) / each;
-      t(i, 0) = breaks[e] + s * (breaks[e + 1] - breaks[e]);
+      const SpanPart& part = parts[static_cast<std::size_t>(i / each)];
+      const double s = static_cast<double>(i % each) / (each - 1);
+      t(i, 0) = (1.0 - s) * part.Begin + s * part.End;
     }
     PointMatrix target;
     EvaluationParams params;
@@ -617,11 +655,17 @@ private:
       return status;
     }
     const Eigen::VectorXd far = (batch.Values - target).rowwise().norm();
-    for (std::size_t e = 0; e + 1 < breaks.size(); ++e)
+    const std::vector<double>& breaks = curve.Space->Knots[0].Breaks();
+    std::vector<double> most(breaks.size() - 1, 0.0);
+    for (std::size_t p = 0; p < parts.size(); ++p)
+    {
+      double& here = most[static_cast<std::size_t>(parts[p].Span)];
+      here = std::max(here, far.segment(static_cast<Eigen::Index>(p) * each, each).maxCoeff());
+    }
+    for (std::size_t e = 0; e < most.size(); ++e)
     {
       // samples miss a little of the largest distance
-      const double most = far.segment(static_cast<Eigen::Index>(e) * each, each).maxCoeff();
-      if (most > 0.8 * this->Params.CurveTolerance && breaks[e + 1] - breaks[e] > leastSpan)
+      if (most[e] > 0.8 * this->Params.CurveTolerance && breaks[e + 1] - breaks[e] > leastSpan)
       {
         knots.push_back(0.5 * (breaks[e] + breaks[e + 1]));
       }

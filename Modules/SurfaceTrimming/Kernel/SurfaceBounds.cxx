@@ -129,4 +129,15 @@ bool SurfaceBounds::Over(const ParametricBox<2>& box, DerivativeBounds& bounds) 
   bounds.IsSmooth = isSmooth;
   return true;
 }
+
+int SurfaceBounds::ElementsAcross(const ParametricBox<2>& box) const
+{
+  int count = 1;
+  for (std::size_t d = 0; d < 2; ++d)
+  {
+    const KnotVector& knots = this->Bezier.Space->Knots[d];
+    count += knots.FindElement(box.Upper[d]) - knots.FindElement(box.Lower[d]);
+  }
+  return count;
+}
 }

@@ -32,6 +32,9 @@ public:
   /// Over a box of parameters; false (and Everywhere) when it meets too many elements.
   bool Over(const ParametricBox<2>& box, DerivativeBounds& bounds) const;
 
+  /// Elements that a curve inside a box may meet, when it runs straight.
+  int ElementsAcross(const ParametricBox<2>& box) const;
+
 private:
   BezierForm<2> Bezier;
   ParametricBox<2> Box;

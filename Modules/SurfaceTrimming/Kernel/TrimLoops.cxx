@@ -15,7 +15,7 @@ namespace
 /// Halvings of the tolerance where loops cross.
 constexpr int maxAttempts = 8;
 /// Of the tolerance: how near a curve in space is to the surfaces, beyond what they disagree.
-constexpr double curveShare = 0.01;
+constexpr double curveShare = 0.04;
 
 Status CheckLoopInput(const std::vector<ChartMesh>& charts, const std::vector<Spline<2>>& surfaces,
   const LoopParams& params)

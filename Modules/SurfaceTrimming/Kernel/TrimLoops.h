@@ -51,7 +51,7 @@ struct TrimLoops
 /// between points where other charts begin, become one edge each, which all charts along it use.
 /// Pcurves are least squares splines with as many knots as the tolerance asks; where loops cross,
 /// the tolerance is halved until they do not, up to seven times: then the verdict says so. Edge
-/// curves follow S(pcurve) (the mean of both surfaces) to a hundredth of the tolerance beyond what
+/// curves follow S(pcurve) (the mean of both surfaces) to a 25th of the tolerance beyond what
 /// the surfaces disagree. All curves are cubic; between corners of the mesh's boundary that are
 /// duller than CornerAngle they have two continuous derivatives unless only a multiple knot reaches
 /// the tolerance.

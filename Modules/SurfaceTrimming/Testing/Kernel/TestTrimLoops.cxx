@@ -186,7 +186,7 @@ void CheckFit(const std::vector<ChartMesh>& charts, const std::vector<Spline<2>>
   }
   const double rounding = 64.0 * eps * 10.0; // evaluation of points of size 10 at most
   EXPECT_LE(gap, loops.MaxEdgeGap + rounding);
-  EXPECT_LE(loops.MaxEdgeGap, 1.1 * gap + 2e-3 * params.Tolerance);
+  EXPECT_LE(loops.MaxEdgeGap, 1.1 * gap + 5e-3 * params.Tolerance);
 }
 }
 
@@ -288,7 +288,7 @@ TEST(TrimLoops, ReportedBoundaryDistanceHolds_CrossOracle)
   EXPECT_GE(loops->MaxBoundaryDistance, 0.99 * chord);
   EXPECT_LE(loops->MaxBoundaryDistance, 2.0 * chord);
   EXPECT_LE(loops->MaxTrimDistance, 64.0 * eps * 2.0);
-  EXPECT_LE(loops->MaxEdgeGap, 0.011 * params.Tolerance);
+  EXPECT_LE(loops->MaxEdgeGap, 0.042 * params.Tolerance);
 }
 
 TEST(TrimLoops, CoarsePolygonsConverge_PropertyOracle)
