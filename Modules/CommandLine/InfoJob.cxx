@@ -24,6 +24,8 @@ const char* Name(SpaceKind kind)
       return "tensor-product";
     case SpaceKind::Hierarchical:
       return "THB";
+    case SpaceKind::LocallyRefined:
+      return "LR";
   }
   return "unknown";
 }

@@ -528,7 +528,7 @@ void GridWriter::AddSpline(const SplinePatch& patch, const Spline<Dim>& spline, 
     firstId += static_cast<std::size_t>(n);
   }
 
-  if (space.Kind != SpaceKind::Bezier) // there the points are the control points
+  if (record.Basis.Kind != SpaceKind::Bezier) // there the points are the control points
   {
     // The checksum is that of the grid's values: a shared point has one owner.
     PointMatrix blocks(static_cast<Eigen::Index>(numbering.Ids.size()), 4);

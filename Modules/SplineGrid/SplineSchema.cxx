@@ -235,12 +235,12 @@ template <int Dim>
 BasisDefinition DescribeBasis(const SplineSpace<Dim>& space)
 {
   BasisDefinition basis;
-  basis.Kind = space.Kind;
   basis.Dimension = Dim;
-  if (space.Kind == SpaceKind::Bezier)
+  if (space.Kind == SpaceKind::Bezier || space.Kind == SpaceKind::LocallyRefined)
   {
     return basis;
   }
+  basis.Kind = space.Kind;
   for (std::size_t d = 0; d < Dim; ++d)
   {
     basis.Degree[d] = space.Knots[d].Degree();

@@ -44,6 +44,7 @@ struct BasisDefinition
   int Hash() const;
 };
 
+/// Locally refined spaces are described as Bezier elements.
 template <int Dim>
 BasisDefinition DescribeBasis(const SplineSpace<Dim>& space);
 /// @return InvalidTopology for kind Bezier, the builder's errors.

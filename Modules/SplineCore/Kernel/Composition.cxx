@@ -45,6 +45,13 @@ std::vector<int> FreeDirections(const SideOf<Dim>& side)
   return free;
 }
 
+/// Whether functions of the space are those of its sides: not known for locally refined spaces.
+template <int Dim>
+bool HasSideFunctions(const SplineSpace<Dim>& space)
+{
+  return space.HasDomain && space.Kind != SpaceKind::LocallyRefined;
+}
+
 bool IsClamped(const KnotVector& knots)
 {
   return knots.Multiplicity(0) == knots.Degree() + 1 &&
@@ -391,7 +398,7 @@ private:
     for (std::size_t p = 0; p < this->Inner.size(); ++p)
     {
       const SplineSpace<Dim>& space = *this->Inner[p].Space;
-      for (int code = 0; code < numSides && space.HasDomain; ++code)
+      for (int code = 0; code < numSides && HasSideFunctions(space); ++code)
       {
         Entity<Dim> entity;
         entity.Patch = static_cast<int>(p);

@@ -2,6 +2,7 @@
 #include "ControlNet.h"
 
 #include "HierarchicalSpace.h"
+#include "LRSpace.h"
 
 #include <algorithm>
 #include <map>
@@ -44,9 +45,52 @@ std::vector<NetEdge> BezierEdges(const SplineSpace<Dim>& space)
 }
 }
 
+namespace
+{
+std::vector<NetEdge> LREdges(const LRBasis& basis)
+{
+  // the knots that two neighbours have in common: all but the first, all but the last
+  const auto shared = [&basis](int f, int direction, int skip)
+  {
+    std::vector<int> key{ direction };
+    for (int d = 0; d < 2; ++d)
+    {
+      const int* local = basis.Local(f, d);
+      const int n = basis.Degree[static_cast<std::size_t>(d)] + 2;
+      key.insert(key.end(), local + (d == direction ? skip : 0),
+        local + n - (d == direction ? 1 - skip : 0));
+    }
+    return key;
+  };
+  std::map<std::vector<int>, int> ids;
+  for (int f = 0; f < basis.NumFunctions(); ++f)
+  {
+    ids.emplace(shared(f, 0, 0), f);
+    ids.emplace(shared(f, 1, 0), f);
+  }
+  std::vector<NetEdge> edges;
+  for (int f = 0; f < basis.NumFunctions(); ++f)
+  {
+    for (int d = 0; d < 2; ++d)
+    {
+      const auto neighbour = ids.find(shared(f, d, 1));
+      if (neighbour != ids.end())
+      {
+        edges.push_back({ f, neighbour->second, d });
+      }
+    }
+  }
+  return edges;
+}
+}
+
 template <int Dim>
 std::vector<NetEdge> ControlNetEdges(const SplineSpace<Dim>& space)
 {
+  if (space.Kind == SpaceKind::LocallyRefined)
+  {
+    return LREdges(space.LocallyRefined->Basis);
+  }
   if (space.Kind == SpaceKind::Bezier)
   {
     return BezierEdges(space);

@@ -14,7 +14,8 @@ struct NetEdge
 
 /// Lines of the control net of a space. Tensor: neighbours in the grid of control points.
 /// Hierarchical: functions of the same level with neighbouring indices, both active, so every level
-/// has a net of its own. Bezier: the nets of the elements, every line once.
+/// has a net of its own. LocallyRefined: functions whose knots differ by one step along one
+/// direction and are equal along the other. Bezier: the nets of the elements, every line once.
 /// Ordered by the first function, then the direction (Bezier: by element).
 /// @complexity O(functions log functions).
 template <int Dim>

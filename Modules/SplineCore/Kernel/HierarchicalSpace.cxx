@@ -2,6 +2,7 @@
 #include "HierarchicalSpace.h"
 
 #include "Hierarchy.h"
+#include "LRSpace.h"
 
 #include <algorithm>
 #include <limits>
@@ -338,6 +339,29 @@ Result<SplineSpacePtr<Dim>> RefineBoxes(const SplineSpacePtr<Dim>& space,
   return FinishRefinement(space, tree, params);
 }
 
+namespace
+{
+template <int Dim>
+std::vector<FunctionInfo<Dim>> DescribeLRFunctions(const LRBasis& basis)
+{
+  std::vector<FunctionInfo<Dim>> infos(static_cast<std::size_t>(basis.NumFunctions()));
+  for (std::size_t f = 0; f < infos.size(); ++f)
+  {
+    infos[f].Index[0] = static_cast<std::int64_t>(f);
+    for (std::size_t d = 0; d < std::min<std::size_t>(Dim, 2); ++d)
+    {
+      const int* local = basis.Local(static_cast<int>(f), static_cast<int>(d));
+      for (int i = 1; i <= basis.Degree[d]; ++i)
+      {
+        infos[f].Greville[d] +=
+          basis.Knots[d][static_cast<std::size_t>(local[i])] / basis.Degree[d];
+      }
+    }
+  }
+  return infos;
+}
+}
+
 template <int Dim>
 std::vector<FunctionInfo<Dim>> DescribeFunctions(const SplineSpace<Dim>& space)
 {
@@ -361,6 +385,10 @@ std::vector<FunctionInfo<Dim>> DescribeFunctions(const SplineSpace<Dim>& space)
     }
     infos.push_back(info);
   };
+  if (space.Kind == SpaceKind::LocallyRefined)
+  {
+    return DescribeLRFunctions<Dim>(space.LocallyRefined->Basis);
+  }
   if (space.Kind == SpaceKind::Tensor)
   {
     IntArray<Dim> shape;

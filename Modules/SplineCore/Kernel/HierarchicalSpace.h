@@ -59,7 +59,8 @@ Result<Spline<Dim>> TransferToRefined(
   const Spline<Dim>& spline, const SplineSpacePtr<Dim>& refined);
 
 /// Level and multi-index (in the level's tensor-product basis) of every function, and its anchor:
-/// the centre of its Greville abscissae. Works for Tensor and Hierarchical spaces.
+/// the centre of its Greville abscissae. Works for Tensor and Hierarchical spaces; functions of a
+/// LocallyRefined space all have level 0 and the number of the function as their first index.
 template <int Dim>
 struct FunctionInfo
 {

@@ -3,6 +3,7 @@
 
 #include "Bernstein.h"
 #include "BezierSpace.h"
+#include "LRStrategies.h"
 #include "TensorSpace.h"
 
 #include <algorithm>
@@ -346,6 +347,7 @@ Result<RefinedSpline<Dim>> RefineAllElements(const Spline<Dim>& spline)
     case SpaceKind::Bezier:
       return SplitBezierElements(spline);
     case SpaceKind::Hierarchical:
+    case SpaceKind::LocallyRefined:
     {
       std::vector<int> all(spline.Space->Elements.size());
       std::iota(all.begin(), all.end(), 0);
@@ -396,6 +398,20 @@ Result<RefinedSpline<Dim>> RefineMarkedElements(
     std::iota(result.Parents.begin(), result.Parents.end(), 0);
     return result;
   }
+  if constexpr (Dim == 2)
+  {
+    if (spline.Space->Kind == SpaceKind::LocallyRefined)
+    {
+      const auto segments = SegmentsForElements(*spline.Space, marked);
+      auto refined = segments ? InsertSegments(spline, segments.Value) : segments.Status;
+      if (refined)
+      {
+        result.Value = std::move(refined.Value);
+        result.Parents = FindParents(*spline.Space, *result.Value.Space);
+      }
+      return refined ? Result<RefinedSpline<Dim>>(std::move(result)) : refined.Status;
+    }
+  }
   auto space = RefineElements<Dim>(spline.Space, marked, params);
   if (!space)
   {
@@ -437,10 +453,12 @@ Result<Spline<Dim>> ElevateAllDegrees(const Spline<Dim>& spline, int times)
       }
     }
   }
-  if (spline.Space->Kind == SpaceKind::Hierarchical)
+  if (spline.Space->Kind == SpaceKind::Hierarchical ||
+    spline.Space->Kind == SpaceKind::LocallyRefined)
   {
     return { ErrorCode::DimensionMismatch,
-      "the degree of a hierarchical spline cannot be raised; raise it before local refinement" };
+      "the degree of a locally refined or hierarchical spline cannot be raised; raise it before "
+      "local refinement" };
   }
   if (spline.Space->Kind == SpaceKind::Bezier)
   {

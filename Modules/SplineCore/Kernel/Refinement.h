@@ -14,8 +14,9 @@ struct RefinedSpline
 };
 
 /// Halves every element in every direction: knots at the midpoints (Tensor), one more level
-/// everywhere (Hierarchical), de Casteljau's subdivision (Bezier: elements stay glued exactly where
-/// they were, so the faces that two elements share must carry the same functions).
+/// everywhere (Hierarchical), full-span segments (LocallyRefined), de Casteljau's subdivision
+/// (Bezier: elements stay glued exactly where they were, so the faces that two elements share must
+/// carry the same functions).
 /// @return the failures of the kernels it calls; InvalidTopology when a Bezier element has a
 /// function twice.
 /// @complexity O(elements * (p+1)^(Dim+1)).
@@ -23,15 +24,16 @@ template <int Dim>
 Result<RefinedSpline<Dim>> RefineAllElements(const Spline<Dim>& spline);
 
 /// Splits the marked elements of a Tensor or Hierarchical spline; the result is Hierarchical (the
-/// given spline when nothing is marked).
+/// given spline when nothing is marked). Elements of a LocallyRefined spline are halved by
+/// full-span segments in both directions; params do not matter.
 /// @param marked  element ids. @return DimensionMismatch for the kind Bezier, InvalidParameter.
 template <int Dim>
 Result<RefinedSpline<Dim>> RefineMarkedElements(
   const Spline<Dim>& spline, const std::vector<int>& marked, const RefinementParams& params = {});
 
 /// Raises the degree in every direction by times >= 0 (result at most 9). Continuity stays as it
-/// is. @return DimensionMismatch for the kind Hierarchical: the finer levels of an elevated
-/// hierarchy are smoother than the map; InvalidDegree.
+/// is. @return DimensionMismatch for the kinds Hierarchical and LocallyRefined: finer levels of an
+/// elevated hierarchy are smoother than the map; InvalidDegree.
 template <int Dim>
 Result<Spline<Dim>> ElevateAllDegrees(const Spline<Dim>& spline, int times);
 }

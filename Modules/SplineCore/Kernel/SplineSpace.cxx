@@ -2,6 +2,7 @@
 #include "SplineSpace.h"
 
 #include "FactorPool.h"
+#include "LRSpace.h"
 
 #include <algorithm>
 #include <cmath>
@@ -74,6 +75,36 @@ void LocateRootCells(const std::array<KnotVector, Dim>& knots, const double* u,
     cells[i] = inside[i] ? cells[i] : -1;
   }
 }
+
+void LocateInBoxes(const SplineSpace<2>& space, const double* u, std::ptrdiff_t stride,
+  std::size_t n, int* elements, double* local)
+{
+  const BoxLocator& locator = space.LocallyRefined->Locator;
+  const ParametricBox<2> domain = space.Domain();
+  RealArray<2> slack;
+  for (std::size_t d = 0; d < 2; ++d)
+  {
+    slack[d] = 1e-12 * (domain.Upper[d] - domain.Lower[d]);
+  }
+  for (std::size_t i = 0; i < n; ++i, u += stride, local += 2)
+  {
+    bool inside = true;
+    for (std::size_t d = 0; d < 2; ++d)
+    {
+      inside = inside && u[d] >= domain.Lower[d] - slack[d] && u[d] <= domain.Upper[d] + slack[d];
+    }
+    elements[i] = inside ? locator.Find(u[0], u[1]) : -1;
+    if (!inside)
+    {
+      continue;
+    }
+    const ParametricBox<2>& box = space.Elements[static_cast<std::size_t>(elements[i])].Box;
+    for (std::size_t d = 0; d < 2; ++d)
+    {
+      local[d] = std::clamp((u[d] - box.Lower[d]) / (box.Upper[d] - box.Lower[d]), 0.0, 1.0);
+    }
+  }
+}
 }
 
 template <int Dim>
@@ -84,6 +115,14 @@ void SplineSpace<Dim>::Locate(
   {
     std::fill_n(elements, n, -1);
     return;
+  }
+  if constexpr (Dim == 2)
+  {
+    if (this->Kind == SpaceKind::LocallyRefined)
+    {
+      LocateInBoxes(*this, u, stride, n, elements, local);
+      return;
+    }
   }
   for (std::size_t begin = 0; begin < n; begin += LocateBlockSize)
   {

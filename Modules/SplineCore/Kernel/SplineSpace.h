@@ -12,9 +12,10 @@ namespace knotwork
 /// Families of spline spaces. A family is a builder of SplineSpace and its definition.
 enum class SpaceKind
 {
-  Bezier,      ///< independent or glued Bezier elements without a common parameter domain
-  Tensor,      ///< tensor-product B-splines
-  Hierarchical ///< truncated hierarchical B-splines (THB)
+  Bezier,        ///< independent or glued Bezier elements without a common parameter domain
+  Tensor,        ///< tensor-product B-splines
+  Hierarchical,  ///< truncated hierarchical B-splines (THB)
+  LocallyRefined ///< LR B-splines, two parameters
 };
 
 /// Box of elements of a level grid: cells with index in [Lower, Upper) per direction belong to
@@ -30,6 +31,8 @@ struct HierarchyBox
 /// Data private to the hierarchical family: active functions by level, the refinement tree.
 template <int Dim>
 struct Hierarchy;
+/// Data private to the locally refined family (LRSpace.h).
+struct LRData;
 
 /// A spline space on Dim parameters in the form every algorithm takes: elements with Bezier
 /// extraction.
@@ -48,7 +51,8 @@ struct Hierarchy;
 /// (truncation and preservation of coefficients); D'Angella et al., CMAME 328 (2018) (hierarchical
 /// extraction).
 ///
-/// Spaces are made by the builders (TensorSpace.h, HierarchicalSpace.h, BezierSpace.h), never
+/// Spaces are made by the builders (TensorSpace.h, HierarchicalSpace.h, LRSpace.h,
+/// BezierSpace.h), never
 /// changed afterwards, and shared as SplineSpacePtr.
 template <int Dim>
 class SplineSpace
@@ -80,13 +84,16 @@ public:
   std::vector<int> RowFunction;      ///< ascending within a row
   std::vector<double> RowCoefficient;
 
-  /// Level-0 knot vectors (Tensor and Hierarchical).
+  /// Level-0 knot vectors (Tensor and Hierarchical); those of the smallest tensor-product space
+  /// that contains the space (LocallyRefined).
   std::array<KnotVector, Dim> Knots;
   /// Hierarchical only.
   std::shared_ptr<const Hierarchy<Dim>> Levels;
+  /// LocallyRefined only.
+  std::shared_ptr<const LRData> LocallyRefined;
   /// Element of a level-0 cell (>= 0), or -1 - block when the cell is refined: children of block k
   /// are Tree[k * 2^Dim ... ], bit d of the child number = upper half in direction d. First
-  /// direction fastest. Empty when !HasDomain.
+  /// direction fastest. Empty when !HasDomain and for LocallyRefined, which has its own locator.
   std::vector<int> RootCells;
   std::vector<int> Tree;
 
@@ -117,7 +124,7 @@ public:
 
   /// Element and local parameters in [0, 1]^Dim of a point of the domain. Points outside by at most
   /// 1e-12 of the domain's size count as inside. @return -1 outside, for NaN, or without a domain.
-  /// Cost: O(1) a direction plus one step a level.
+  /// Cost: O(1) a direction plus one step a level (LocallyRefined: expected O(1)).
   int Locate(const double* u, double* local) const;
   /// The same of n points, several times as fast a point.
   /// @param u         point i is u[i * stride], ..., u[i * stride + Dim - 1].

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TessellationParts.h"
 
+#include "ChartLines.h"
+#include "LRSpace.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,6 +14,26 @@ namespace
 std::size_t At(std::int64_t i)
 {
   return static_cast<std::size_t>(i);
+}
+
+void PlaceBoxes(const LRData& data, int chart, std::vector<ChartCell<2>>& cells)
+{
+  const std::array<std::vector<std::int64_t>, 2> lines{ ChartLines(data.Basis.Knots[0]),
+    ChartLines(data.Basis.Knots[1]) };
+  for (std::size_t e = 0; e < cells.size(); ++e)
+  {
+    ChartCell<2>& cell = cells[e];
+    cell.Chart = chart;
+    for (std::size_t d = 0; d < 2; ++d)
+    {
+      const int low = data.ElementKnots[e][d];
+      const int high = data.ElementKnots[e][d + 2];
+      cell.Lower[d] = lines[d][At(low)];
+      cell.Size[d] = lines[d][At(high)] - cell.Lower[d];
+      cell.RimLow[d] = low == 0;
+      cell.RimHigh[d] = At(high) + 1 == lines[d].size();
+    }
+  }
 }
 }
 
@@ -24,6 +47,14 @@ std::vector<std::vector<ChartCell<Dim>>> MakeCharts(
   {
     const SplineSpace<Dim>& space = *patches[p].Space;
     cells[p].resize(space.Elements.size());
+    if constexpr (Dim == 2)
+    {
+      if (space.Kind == SpaceKind::LocallyRefined)
+      {
+        PlaceBoxes(*space.LocallyRefined, numCharts++, cells[p]);
+        continue;
+      }
+    }
     for (std::size_t e = 0; e < space.Elements.size(); ++e)
     {
       ChartCell<Dim>& cell = cells[p][e];

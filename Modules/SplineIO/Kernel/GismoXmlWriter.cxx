@@ -214,6 +214,11 @@ Result<std::string> WriteGismoXml(const SplineFile& file)
           return { ErrorCode::InvalidParameter,
             "Bezier elements without knots cannot be written as G+Smo XML; write .vtu" };
         }
+        if (spline.Space->Kind == SpaceKind::LocallyRefined)
+        {
+          return { ErrorCode::InvalidParameter,
+            "a locally refined spline cannot be written as G+Smo XML; write g2 (GoTools)" };
+        }
         AppendSpline(text, spline, ids[i]);
         return {};
       },

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GoToolsG2.h"
 
+#include "GoToolsLR.h"
 #include "TensorSpace.h"
-#include "TextWords.h"
 
 #include <algorithm>
 #include <limits>
@@ -12,7 +12,7 @@ namespace knotwork
 namespace
 {
 constexpr long long MaxInt = std::numeric_limits<int>::max();
-constexpr int MaxComponents = 64;
+constexpr int MaxComponents = MaxG2Components;
 
 struct KnownClass
 {
@@ -21,14 +21,13 @@ struct KnownClass
 };
 constexpr KnownClass OtherClasses[] = { { 110, "CurveOnSurface" }, { 120, "Line" },
   { 130, "Circle" }, { 140, "Ellipse" }, { 210, "BoundedSurface" }, { 250, "Plane" },
-  { 260, "Cylinder" }, { 270, "Sphere" }, { 280, "Cone" }, { 290, "Torus" },
-  { 293, "LRSplineSurface" }, { 400, "PointCloud" }, { 410, "LineCloud" } };
+  { 260, "Cylinder" }, { 270, "Sphere" }, { 280, "Cone" }, { 290, "Torus" }, { 400, "PointCloud" },
+  { 410, "LineCloud" } };
 
-/// Reads one text; the first failure stays in Outcome and every later step does nothing.
-class G2Parser
+class G2Parser : private G2Words
 {
 public:
-  explicit G2Parser(std::string_view text) : Words(text) {}
+  explicit G2Parser(std::string_view text) : G2Words(text) {}
 
   Result<SplineFile> Read()
   {
@@ -49,65 +48,6 @@ public:
   }
 
 private:
-  /// Keeps a failure with its place: the word read last.
-  void Fail(ErrorCode code, const std::string& what)
-  {
-    if (this->Outcome)
-    {
-      this->Outcome = { code,
-        "line " + std::to_string(this->Words.Line()) + ", word " +
-          std::to_string(this->Words.Count()) + ", " + what };
-    }
-  }
-
-  std::string_view Word(const char* meaning)
-  {
-    if (!this->Outcome)
-    {
-      return {};
-    }
-    const std::string_view word = this->Words.Next();
-    if (word.empty())
-    {
-      this->Fail(ErrorCode::InvalidFormat,
-        std::string(meaning) +
-          " is missing: the text ends; the file is truncated or its counts are "
-          "too large");
-    }
-    return word;
-  }
-
-  long long Integer(const char* meaning, long long lowest, long long highest,
-    ErrorCode code = ErrorCode::InvalidFormat)
-  {
-    long long value = lowest;
-    const std::string_view word = this->Word(meaning);
-    if (this->Outcome)
-    {
-      if (const Status status = ParseInteger(word, lowest, highest, value); !status)
-      {
-        this->Fail(code, std::string(meaning) + ": " + status.Detail);
-        value = lowest;
-      }
-    }
-    return value;
-  }
-
-  template <typename Number>
-  Number Real(const char* meaning)
-  {
-    Number value = 0;
-    const std::string_view word = this->Word(meaning);
-    if (this->Outcome)
-    {
-      if (const Status status = ParseReal(word, value); !status)
-      {
-        this->Fail(status.Code, std::string(meaning) + ": " + status.Detail);
-      }
-    }
-    return value;
-  }
-
   void ReadObject(SplineFile& file)
   {
     const long long id = this->Integer("class of an object", 0, MaxInt);
@@ -117,14 +57,16 @@ private:
       {
         this->Fail(ErrorCode::InvalidFormat,
           std::string("an object of class ") + std::to_string(id) + " (" + other.Name +
-            ") cannot be read; keep only spline curves (100), surfaces (200) and volumes (700)");
+            ") cannot be read; keep only spline curves (100), surfaces (200), LR surfaces (293) "
+            "and volumes "
+            "(700)");
       }
     }
-    if (this->Outcome && id != 100 && id != 200 && id != 700)
+    if (this->Outcome && id != 100 && id != 200 && id != 293 && id != 700)
     {
       this->Fail(ErrorCode::InvalidFormat,
         "an object has class " + std::to_string(id) +
-          "; classes that can be read are 100, 200 and 700; this is no g2 file, or the object "
+          "; classes that can be read are 100, 200, 293 and 700; this is no g2 file, or the object "
           "before "
           "has more numbers than it says");
     }
@@ -140,6 +82,7 @@ private:
     {
       id == 100     ? this->ReadSpline<1>(file)
         : id == 200 ? this->ReadSpline<2>(file)
+        : id == 293 ? this->Keep(file, ReadLRSurface(*this))
                     : this->ReadSpline<3>(file);
     }
   }
@@ -215,6 +158,16 @@ private:
       return;
     }
     spline.Space = space.Value;
+    this->Keep(file, std::move(spline));
+  }
+
+  template <int Dim>
+  void Keep(SplineFile& file, Spline<Dim> spline)
+  {
+    if (!this->Outcome)
+    {
+      return;
+    }
     if (Status status = spline.Check(); !status)
     {
       this->Fail(status.Code, "end of an object: " + status.Detail);
@@ -263,9 +216,6 @@ private:
         "control point " + std::to_string(row) + " divided by its weight is not finite");
     }
   }
-
-  WordScanner Words;
-  Status Outcome;
 };
 }
 
@@ -281,7 +231,7 @@ bool LooksLikeG2(std::string_view beginning)
     }
   }
   const auto isClass = [&](const KnownClass& known) { return header[0] == known.Id; };
-  return header[0] == 100 || header[0] == 200 || header[0] == 700 ||
+  return header[0] == 100 || header[0] == 200 || header[0] == 293 || header[0] == 700 ||
     std::any_of(std::begin(OtherClasses), std::end(OtherClasses), isClass);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GoToolsG2.h"
 
-#include "TextWords.h"
+#include "GoToolsLR.h"
 
 namespace knotwork
 {
@@ -17,6 +17,14 @@ Status AppendSpline(const Spline<Dim>& spline, std::string& text)
     return status;
   }
   const SplineSpace<Dim>& space = *spline.Space;
+  if constexpr (Dim == 2)
+  {
+    if (space.Kind == SpaceKind::LocallyRefined)
+    {
+      AppendLRSurface(spline, text);
+      return {};
+    }
+  }
   if (space.Kind != SpaceKind::Tensor &&
     !(space.Kind == SpaceKind::Hierarchical && space.IsIdentityMap()))
   {

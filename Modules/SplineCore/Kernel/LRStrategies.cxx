@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LRStrategies.h"
+
+#include <algorithm>
+
+namespace knotwork
+{
+namespace
+{
+std::size_t At(int i)
+{
+  return static_cast<std::size_t>(i);
+}
+
+/// A local function's knots by their values.
+class View
+{
+public:
+  explicit View(const SplineSpace<2>& space) : Data(*space.LocallyRefined) {}
+
+  double Knot(int f, int d, int i) const
+  {
+    return this->Data.Basis.Knots[At(d)][At(this->Data.Basis.Local(f, d)[i])];
+  }
+  double Low(int f, int d) const { return this->Knot(f, d, 0); }
+  double High(int f, int d) const { return this->Knot(f, d, this->Degree(d) + 1); }
+  double Length(int f, int d) const { return this->High(f, d) - this->Low(f, d); }
+  int Degree(int d) const { return this->Data.Basis.Degree[At(d)]; }
+  const int* AliveBegin(int e) const
+  {
+    return this->Data.AliveFunctions.data() + this->Data.AliveStart[At(e)];
+  }
+  const int* AliveEnd(int e) const
+  {
+    return this->Data.AliveFunctions.data() + this->Data.AliveStart[At(e) + 1];
+  }
+  /// The function on an element for which a measure is least, the first of equals.
+  template <typename Measure>
+  int Least(int e, Measure&& measure) const
+  {
+    return *std::min_element(this->AliveBegin(e), this->AliveEnd(e),
+      [&](int a, int b) { return measure(a) < measure(b); });
+  }
+
+private:
+  const LRData& Data;
+};
+
+void HalveSpans(const View& view, int f, int d, bool all, std::vector<LRSegment>& segments)
+{
+  int longest = 0;
+  const auto length = [&](int i) { return view.Knot(f, d, i + 1) - view.Knot(f, d, i); };
+  for (int i = 1; i <= view.Degree(d); ++i)
+  {
+    longest = length(i) > length(longest) ? i : longest;
+  }
+  for (int i = 0; i <= view.Degree(d); ++i)
+  {
+    if (length(i) > 0.0 && (all || i == longest))
+    {
+      segments.push_back({ d, 0.5 * (view.Knot(f, d, i) + view.Knot(f, d, i + 1)),
+        view.Low(f, 1 - d), view.High(f, 1 - d) });
+    }
+  }
+}
+
+void HalveElement(const SplineSpace<2>& space, const View& view, int e, int d, LRStrategy strategy,
+  std::vector<LRSegment>& segments)
+{
+  const ParametricBox<2>& box = space.Elements[At(e)].Box;
+  const int across = 1 - d;
+  LRSegment segment{ d, 0.5 * (box.Lower[At(d)] + box.Upper[At(d)]), box.Lower[At(across)],
+    box.Upper[At(across)] };
+  if (strategy == LRStrategy::StructuredMesh)
+  {
+    const int f = view.Least(e, [&](int i) { return view.Length(i, 0) * view.Length(i, 1); });
+    HalveSpans(view, f, d, true, segments);
+    return;
+  }
+  if (strategy == LRStrategy::MinimumSpan)
+  {
+    const int f = view.Least(e, [&](int i) { return view.Length(i, across); });
+    segment.Start = view.Low(f, across);
+    segment.End = view.High(f, across);
+  }
+  else
+  {
+    for (const int* f = view.AliveBegin(e); f != view.AliveEnd(e); ++f)
+    {
+      segment.Start = std::min(segment.Start, view.Low(*f, across));
+      segment.End = std::max(segment.End, view.High(*f, across));
+    }
+  }
+  segments.push_back(segment);
+}
+
+Status CheckIds(
+  const SplineSpace<2>& space, const std::vector<int>& ids, int count, const char* what)
+{
+  if (space.Kind != SpaceKind::LocallyRefined)
+  {
+    return { ErrorCode::DimensionMismatch, "the space is not locally refined" };
+  }
+  for (const int id : ids)
+  {
+    if (id < 0 || id >= count)
+    {
+      return { ErrorCode::InvalidParameter,
+        std::string("there is no ") + what + " " + std::to_string(id) + " among " +
+          std::to_string(count) };
+    }
+  }
+  return {};
+}
+}
+
+Result<std::vector<LRSegment>> SegmentsForElements(
+  const SplineSpace<2>& space, const std::vector<int>& elements, const LRStrategyParams& params)
+{
+  if (Status status = CheckIds(space, elements, space.NumElements(), "element"); !status)
+  {
+    return status;
+  }
+  const View view(space);
+  std::vector<LRSegment> segments;
+  for (const int e : elements)
+  {
+    for (int d = 0; d < 2; ++d)
+    {
+      if (params.Directions[At(d)])
+      {
+        HalveElement(space, view, e, d, params.Strategy, segments);
+      }
+    }
+  }
+  return segments;
+}
+
+Result<std::vector<LRSegment>> SegmentsForFunctions(
+  const SplineSpace<2>& space, const std::vector<int>& functions, const LRStrategyParams& params)
+{
+  if (Status status = CheckIds(space, functions, space.NumFunctions, "function"); !status)
+  {
+    return status;
+  }
+  const View view(space);
+  if (params.Strategy == LRStrategy::FullSpan)
+  {
+    std::vector<bool> chosen(At(space.NumFunctions), false);
+    for (const int f : functions)
+    {
+      chosen[At(f)] = true;
+    }
+    std::vector<int> elements;
+    for (int e = 0; e < space.NumElements(); ++e)
+    {
+      if (std::any_of(view.AliveBegin(e), view.AliveEnd(e), [&](int f) { return chosen[At(f)]; }))
+      {
+        elements.push_back(e);
+      }
+    }
+    return SegmentsForElements(space, elements, params);
+  }
+  std::vector<LRSegment> segments;
+  for (const int f : functions)
+  {
+    for (int d = 0; d < 2; ++d)
+    {
+      if (params.Directions[At(d)])
+      {
+        HalveSpans(view, f, d, params.Strategy == LRStrategy::StructuredMesh, segments);
+      }
+    }
+  }
+  return segments;
+}
+}
