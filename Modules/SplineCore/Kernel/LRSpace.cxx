@@ -2,6 +2,7 @@
 #include "LRSpace.h"
 
 #include "Bernstein.h"
+#include "LRLineRows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -158,104 +159,31 @@ Status CheckFunctions(const LRBasis& basis)
   return {};
 }
 
-/// Bernstein coefficients of univariate B-splines on the intervals between mesh lines, each worked
-/// out once.
-class LineRows
+using LineRows = LRLineRows<double>;
+
+void MakeRow(
+  const LRBasis& basis, int direction, const int* knots, int low, int high, double* result)
 {
-public:
-  LineRows(const LRBasis& basis, int direction)
-    : Basis(basis), Direction(direction), Degree(basis.Degree[At(direction)])
+  const int p = basis.Degree[At(direction)];
+  const std::vector<double>& values = basis.Knots[At(direction)];
+  int indices[2 * MaxDegree];
+  double local[2 * MaxDegree];
+  const int span = LRLocalKnots(p, knots, low, indices);
+  std::transform(indices, indices + 2 * p, local, [&](int k) { return values[At(k)]; });
+  double matrix[(MaxDegree + 1) * (MaxDegree + 1)];
+  ExtractionFromLocalKnots(p, local, matrix);
+  const double* begin = matrix + (p - span) * (p + 1);
+  std::copy(begin, begin + p + 1, result);
+  if (low != knots[span] || high != knots[span + 1])
   {
-    // equal local knot vectors get one number
-    const int n = this->Degree + 2;
-    std::vector<int> order(At(basis.NumFunctions()));
-    std::iota(order.begin(), order.end(), 0);
-    const auto less = [&](int a, int b)
-    {
-      const int* first = basis.Local(a, direction);
-      const int* second = basis.Local(b, direction);
-      return std::lexicographical_compare(first, first + n, second, second + n);
-    };
-    std::sort(order.begin(), order.end(), less);
-    this->Vectors.resize(order.size());
-    std::size_t cells = 0;
-    for (std::size_t i = 0; i < order.size(); ++i)
-    {
-      if (i == 0 || less(order[i - 1], order[i]))
-      {
-        this->First.push_back(cells);
-        const int* knots = basis.Local(order[i], direction);
-        cells += At(knots[n - 1] - knots[0]);
-      }
-      this->Vectors[At(order[i])] = static_cast<int>(this->First.size()) - 1;
-    }
-    this->Heads.assign(cells, -1);
-  }
-
-  /// Offset of the row of p + 1 numbers of a function between two knots.
-  int Find(int function, int low, int high)
-  {
-    const int* knots = this->Basis.Local(function, this->Direction);
-    const std::size_t cell = this->First[At(this->Vectors[At(function)])] + At(low - knots[0]);
-    for (int entry = this->Heads[cell]; entry >= 0; entry = this->Entries[At(entry)].Next)
-    {
-      if (this->Entries[At(entry)].High == high)
-      {
-        return entry * (this->Degree + 1);
-      }
-    }
-    const auto entry = static_cast<int>(this->Entries.size());
-    this->Entries.push_back({ high, this->Heads[cell] });
-    this->Heads[cell] = entry;
-    this->AppendRow(knots, low, high);
-    return entry * (this->Degree + 1);
-  }
-
-  const double* Row(int offset) const { return this->Rows.data() + offset; }
-
-private:
-  void AppendRow(const int* knots, int low, int high)
-  {
-    const int p = this->Degree;
-    const std::vector<double>& values = this->Basis.Knots[At(this->Direction)];
-    int span = 0; // knots[span] <= low < high <= knots[span + 1]
-    while (knots[span + 1] <= low)
-    {
-      ++span;
-    }
-    double local[2 * MaxDegree];
-    for (int j = 0; j < 2 * p; ++j)
-    {
-      local[j] = values[At(knots[std::clamp(span - p + 1 + j, 0, p + 1)])];
-    }
-    double matrix[(MaxDegree + 1) * (MaxDegree + 1)];
-    ExtractionFromLocalKnots(p, local, matrix);
-    const double* begin = matrix + (p - span) * (p + 1);
-    std::vector<double> row(begin, begin + p + 1);
     const double left = values[At(knots[span])];
     const double length = values[At(knots[span + 1])] - left;
-    if (low != knots[span] || high != knots[span + 1])
-    {
-      row = BernsteinRestrict<1>(
-        { p }, row, 0, (values[At(low)] - left) / length, (values[At(high)] - left) / length);
-    }
-    this->Rows.insert(this->Rows.end(), row.begin(), row.end());
+    const std::vector<double> row =
+      BernsteinRestrict<1>({ p }, std::vector<double>(begin, begin + p + 1), 0,
+        (values[At(low)] - left) / length, (values[At(high)] - left) / length);
+    std::copy(row.begin(), row.end(), result);
   }
-
-  struct Entry
-  {
-    int High;
-    int Next;
-  };
-  const LRBasis& Basis;
-  int Direction;
-  int Degree;
-  std::vector<int> Vectors;       // of a function
-  std::vector<std::size_t> First; // cell of a vector's first knot
-  std::vector<int> Heads;         // entries of intervals that begin at a knot of a vector
-  std::vector<Entry> Entries;
-  std::vector<double> Rows;
-};
+}
 
 /// A function on an element.
 struct Incidence
@@ -282,6 +210,11 @@ std::vector<Incidence> FindIncidences(LRData& data, std::array<LineRows, 2>& row
     std::size_t Element;
     Incidence Item;
   };
+  const auto make = [&basis](int d)
+  {
+    return [&basis, d](const int* knots, int low, int high, double* row)
+    { MakeRow(basis, d, knots, low, high, row); };
+  };
   std::vector<Pair> pairs;
   data.AliveStart.assign(elements.size() + 1, 0);
   for (int f = 0; f < basis.NumFunctions(); ++f)
@@ -297,8 +230,9 @@ std::vector<Incidence> FindIncidences(LRData& data, std::array<LineRows, 2>& row
       for (; e != end && (*e)[0] < right; ++e)
       {
         const auto id = static_cast<std::size_t>(e - elements.begin());
-        pairs.push_back(
-          { id, { f, rows[0].Find(f, (*e)[0], (*e)[2]), rows[1].Find(f, (*e)[1], (*e)[3]) } });
+        pairs.push_back({ id,
+          { f, rows[0].Find(f, (*e)[0], (*e)[2], make(0)),
+            rows[1].Find(f, (*e)[1], (*e)[3], make(1)) } });
         ++data.AliveStart[id + 1];
       }
     }
