@@ -17,8 +17,7 @@ namespace knotwork
 {
 namespace
 {
-constexpr double LeastDecrease = 1e-6; // of the energy in an iteration
-constexpr double ShareOfStep = 0.8;    // of the step at which a first triangle degenerates
+constexpr double ShareOfStep = 0.8; // of the step at which a first triangle degenerates
 constexpr double Pi = 3.14159265358979323846;
 
 /// What does not change: gradients of the corners' functions, a column each, and areas.
@@ -266,7 +265,7 @@ Result<FlatMesh> MapWithoutFlips(const DiscMesh& mesh)
   return result;
 }
 
-Status RelaxMap(const DiscMesh& mesh, int maxIterations, double leastDecrease, PointMatrix& uv)
+Status RelaxMap(const DiscMesh& mesh, const RelaxParams& params, PointMatrix& uv)
 {
   const Elements elements = BuildElements(mesh);
   double energy = Energy(mesh, elements, uv);
@@ -278,7 +277,7 @@ Status RelaxMap(const DiscMesh& mesh, int maxIterations, double leastDecrease, P
   SparseCholesky cholesky;
   Eigen::SparseMatrix<double> matrix;
   Eigen::MatrixXd side;
-  for (int iteration = 0; iteration < maxIterations; ++iteration)
+  for (int iteration = 0; iteration < params.MaxIterations; ++iteration)
   {
     AssembleProxy(mesh, elements, uv, proximal, matrix, side);
     if (!cholesky.Factorize(matrix))
@@ -299,10 +298,10 @@ Status RelaxMap(const DiscMesh& mesh, int maxIterations, double leastDecrease, P
     {
       break;
     }
-    const bool done = energy - next < leastDecrease * energy;
+    const bool done = energy - next < params.LeastDecrease * energy;
     uv = moved;
     energy = next;
-    if (done)
+    if (done || (params.GoOn && !params.GoOn(uv)))
     {
       break;
     }
@@ -315,7 +314,9 @@ Result<FlatMesh> InjectiveMap(const DiscMesh& mesh, int maxIterations)
   auto result = MapWithoutFlips(mesh);
   if (result)
   {
-    result.Status = RelaxMap(mesh, maxIterations, LeastDecrease, result.Value.UV);
+    RelaxParams params;
+    params.MaxIterations = maxIterations;
+    result.Status = RelaxMap(mesh, params, result.Value.UV);
   }
   return result;
 }

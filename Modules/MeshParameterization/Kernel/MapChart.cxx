@@ -24,9 +24,8 @@ std::string Text(double value)
   return stream.str();
 }
 
-/// Takes a map over when it is better than the one there is. @return whether it is good.
-bool Consider(
-  const DiscMesh& mesh, double limit, FlattenMethod method, PointMatrix uv, ChartMap& best)
+/// What a map is worth, without its UV.
+ChartMap Judge(const DiscMesh& mesh, double limit, FlattenMethod method, const PointMatrix& uv)
 {
   ChartMap map;
   map.Stretch = LargestStretch(mesh, uv);
@@ -37,14 +36,21 @@ bool Consider(
   map.Good = map.Stretch <= limit && !map.Crossing;
   map.Used = method;
   map.Exists = true;
-  if (map.Good || !best.Exists || map.Stretch < best.Stretch)
+  return map;
+}
+
+/// Takes a map over when it is good, or better than one that is not.
+void Keep(const ChartMap& map, PointMatrix uv, ChartMap& best)
+{
+  if (map.Good || !best.Exists || (!best.Good && map.Stretch < best.Stretch))
   {
-    map.UV = std::move(uv);
-    map.Reason = std::move(best.Reason);
-    map.RejectedEigenvectors = best.RejectedEigenvectors;
-    best = std::move(map);
+    std::string reason = std::move(best.Reason);
+    const int rejected = best.RejectedEigenvectors;
+    best = map;
+    best.UV = std::move(uv);
+    best.Reason = std::move(reason);
+    best.RejectedEigenvectors = rejected;
   }
-  return best.Good;
 }
 
 std::string Fault(const Result<FlatMesh>& flat, const DiscMesh& mesh, const ChartMap& map)
@@ -57,12 +63,12 @@ std::string Fault(const Result<FlatMesh>& flat, const DiscMesh& mesh, const Char
   {
     return "flips " + std::to_string(CountFlips(mesh, flat->UV)) + " triangles";
   }
-  return map.Crossing ? "lets the boundary cross itself"
+  return map.Crossing ? "lets parts of the boundary meet"
                       : "stretches " + Text(map.Stretch) + " times";
 }
 }
 
-ChartMap MapChart(const DiscMesh& mesh, const FlattenParams& params, double limit)
+ChartMap MapChart(const DiscMesh& mesh, const FlattenParams& params, double maxStretch)
 {
   ChartMap best;
   if (!CheckDisc(mesh))
@@ -74,12 +80,9 @@ ChartMap MapChart(const DiscMesh& mesh, const FlattenParams& params, double limi
   {
     NormalizeSimilarity(mesh, flat->UV);
     best.RejectedEigenvectors = flat->RejectedEigenvectors;
-    if (Consider(mesh, limit, params.Method, flat->UV, best))
-    {
-      return best;
-    }
+    Keep(Judge(mesh, maxStretch, params.Method, flat->UV), flat->UV, best);
   }
-  if (!params.Fallback || params.Method == FlattenMethod::Injective)
+  if (best.Good || !params.Fallback || params.Method == FlattenMethod::Injective)
   {
     return best;
   }
@@ -89,17 +92,31 @@ ChartMap MapChart(const DiscMesh& mesh, const FlattenParams& params, double limi
   {
     return best;
   }
-  PointMatrix& uv = injective->UV;
-  // the conformal map's scale varies like exp(distance) where the best map's does like distance
-  const bool hopeless = LargestStretch(mesh, uv) > std::exp(2.0 * limit);
-  const int trial = std::min(TrialIterations, params.MaxIterations);
-  if (!hopeless && RelaxMap(mesh, trial, LeastDecrease, uv) &&
-    LargestStretch(mesh, uv) < 2.0 * limit && !FindCrossing(mesh, uv))
+  const auto consider = [&](const PointMatrix& uv)
   {
-    RelaxMap(mesh, params.MaxIterations - trial, LeastDecrease, uv);
+    ChartMap map = Judge(mesh, maxStretch, FlattenMethod::Injective, uv);
+    Keep(map, uv, best);
+    return map;
+  };
+  // the conformal map's scale varies like exp(distance) where the best map's does like distance
+  if (consider(injective->UV).Stretch > std::exp(2.0 * maxStretch))
+  {
+    return best;
   }
-  NormalizeSimilarity(mesh, uv);
-  Consider(mesh, limit, FlattenMethod::Injective, std::move(uv), best);
+  int iteration = 0;
+  RelaxParams relax;
+  relax.MaxIterations = params.MaxIterations;
+  relax.LeastDecrease = LeastDecrease;
+  relax.GoOn = [&](PointMatrix uv)
+  {
+    const bool wasGood = best.Good;
+    NormalizeSimilarity(mesh, uv);
+    const ChartMap map = consider(uv);
+    // the boundary may come to cross itself while the energy falls: then the last good map stays
+    const bool hopeless = map.Crossing || map.Stretch > 2.0 * maxStretch;
+    return map.Good || (!wasGood && (++iteration < TrialIterations || !hopeless));
+  };
+  RelaxMap(mesh, relax, injective->UV);
   return best;
 }
 

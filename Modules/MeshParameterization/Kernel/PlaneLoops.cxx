@@ -4,6 +4,7 @@
 #include "BoxTree.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace knotwork
@@ -16,6 +17,7 @@ struct BoundaryEdge
   int B = 0;
   std::size_t Loop = 0;
   double Passed = 0.0; ///< length of its loop up to it
+  double Length = 0.0; ///< in space
 };
 
 struct BoundaryEdges
@@ -33,8 +35,9 @@ struct BoundaryEdges
       {
         const int a = loop[i];
         const int b = loop[(i + 1) % loop.size()];
-        this->Edges.push_back({ a, b, l, passed });
-        passed += (mesh.Point(b) - mesh.Point(a)).norm();
+        const double length = (mesh.Point(b) - mesh.Point(a)).norm();
+        this->Edges.push_back({ a, b, l, passed, length });
+        passed += length;
       }
       this->Lengths.push_back(passed);
     }
@@ -51,6 +54,51 @@ struct BoundaryEdges
     return std::min(way, this->Lengths[p.Loop] - way);
   }
 };
+
+constexpr double Near = 0.5; // of an edge in the plane
+constexpr double Far = 2.0;  // of an edge, in space
+
+/// Distance of two segments that do not cross: an end of one is nearest.
+double SegmentDistance(const PointMatrix& points, const BoundaryEdge& p, const BoundaryEdge& q)
+{
+  const auto distance = [&](int point, const BoundaryEdge& edge)
+  {
+    const auto along = points.row(edge.B) - points.row(edge.A);
+    const auto to = points.row(point) - points.row(edge.A);
+    const double share = std::clamp(to.dot(along) / along.squaredNorm(), 0.0, 1.0);
+    return (to - share * along).norm();
+  };
+  return std::min({ distance(p.A, q), distance(p.B, q), distance(q.A, p), distance(q.B, p) });
+}
+
+bool Cross(const PointMatrix& uv, const BoundaryEdge& p, const BoundaryEdge& q)
+{
+  const auto side = [&](int a, int b, int c) // of the line a -> b
+  {
+    const Eigen::RowVector2d ab = uv.row(b) - uv.row(a);
+    const Eigen::RowVector2d ac = uv.row(c) - uv.row(a);
+    return ab[0] * ac[1] - ab[1] * ac[0];
+  };
+  const auto apart = [&](int d) // as edges of one line are
+  {
+    return std::max(uv(p.A, d), uv(p.B, d)) < std::min(uv(q.A, d), uv(q.B, d)) ||
+      std::max(uv(q.A, d), uv(q.B, d)) < std::min(uv(p.A, d), uv(p.B, d));
+  };
+  return !apart(0) && !apart(1) && side(p.A, p.B, q.A) * side(p.A, p.B, q.B) <= 0.0 &&
+    side(q.A, q.B, p.A) * side(q.A, q.B, p.B) <= 0.0;
+}
+
+bool Conflict(
+  const DiscMesh& mesh, const PointMatrix& uv, const BoundaryEdge& p, const BoundaryEdge& q)
+{
+  if (p.A == q.A || p.A == q.B || p.B == q.A || p.B == q.B)
+  {
+    return false;
+  }
+  const double size = 0.5 * (p.Length + q.Length);
+  return Cross(uv, p, q) ||
+    (SegmentDistance(uv, p, q) < Near * size && SegmentDistance(mesh.Points, p, q) > Far * size);
+}
 }
 
 EdgeCrossing FindCrossing(const DiscMesh& mesh, const PointMatrix& uv)
@@ -62,27 +110,11 @@ EdgeCrossing FindCrossing(const DiscMesh& mesh, const PointMatrix& uv)
   for (Eigen::Index i = 0; i < n; ++i)
   {
     const BoundaryEdge& edge = boundary.Edges[static_cast<std::size_t>(i)];
-    lower.row(i) = uv.row(edge.A).cwiseMin(uv.row(edge.B));
-    upper.row(i) = uv.row(edge.A).cwiseMax(uv.row(edge.B));
+    const double margin = 0.5 * Near * edge.Length;
+    lower.row(i) = uv.row(edge.A).cwiseMin(uv.row(edge.B)).array() - margin;
+    upper.row(i) = uv.row(edge.A).cwiseMax(uv.row(edge.B)).array() + margin;
   }
   const BoxTree tree(lower, upper);
-  const auto side = [&](int a, int b, int c) // of the line a -> b
-  {
-    const Eigen::RowVector2d p = uv.row(b) - uv.row(a);
-    const Eigen::RowVector2d q = uv.row(c) - uv.row(a);
-    return p[0] * q[1] - p[1] * q[0];
-  };
-  const auto apart = [&](Eigen::Index i, Eigen::Index j) // as edges of one line are
-  {
-    return (lower.row(i).array() > upper.row(j).array()).any() ||
-      (lower.row(j).array() > upper.row(i).array()).any();
-  };
-  const auto cross = [&](const BoundaryEdge& p, const BoundaryEdge& q)
-  {
-    const bool neighbours = p.A == q.A || p.A == q.B || p.B == q.A || p.B == q.B;
-    return !neighbours && side(p.A, p.B, q.A) * side(p.A, p.B, q.B) <= 0.0 &&
-      side(q.A, q.B, p.A) * side(q.A, q.B, p.B) <= 0.0;
-  };
   EdgeCrossing crossing;
   double longest = -1.0;
   for (Eigen::Index i = 0; i < n; ++i)
@@ -92,8 +124,7 @@ EdgeCrossing FindCrossing(const DiscMesh& mesh, const PointMatrix& uv)
       [&](int item)
       {
         const BoundaryEdge& other = boundary.Edges[static_cast<std::size_t>(item)];
-        if (item > i && !apart(i, item) && cross(edge, other) &&
-          boundary.Way(edge, other) > longest)
+        if (item > i && boundary.Way(edge, other) > longest && Conflict(mesh, uv, edge, other))
         {
           longest = boundary.Way(edge, other);
           crossing.First = { edge.A, edge.B };

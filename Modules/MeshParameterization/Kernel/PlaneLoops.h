@@ -12,9 +12,11 @@ struct EdgeCrossing
   explicit operator bool() const { return this->First[0] >= 0; }
 };
 
-/// Boundary edges that cross each other in the plane (common ends do not count): of all such pairs
-/// the one with the longest way along the boundary between them; loops are farthest from each
-/// other. A map without flips whose boundary does not cross itself is injective.
+/// Boundary edges that cross each other in the plane (common ends do not count), or that come
+/// nearer to each other than half an edge there, but not than two edges in space: what lies between
+/// such sheets could not be fitted. Of all such pairs the one with the longest way along the
+/// boundary between them; loops are farthest from each other. A map without flips whose boundary
+/// does not cross itself is injective.
 /// @complexity O(n log n) when few edges are near each other.
 EdgeCrossing FindCrossing(const DiscMesh& mesh, const PointMatrix& uv);
 }

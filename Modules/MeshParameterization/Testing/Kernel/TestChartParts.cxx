@@ -214,6 +214,7 @@ TEST(PlaneLoops, CrossingIsFoundAndOnlyThat_ExactOracle)
   const Eigen::Rotation2Dd turn(0.3); // edges of one line, but for rounding, do not cross
   EXPECT_FALSE(FindCrossing(disc.Value, Straight(disc.Value, plate.Flat) * turn.matrix()));
   EXPECT_FALSE(FindCrossing(disc.Value, roll(0.9)));
+  EXPECT_TRUE(FindCrossing(disc.Value, roll(0.995))); // a gap of a third of an edge
   const EdgeCrossing crossing = FindCrossing(disc.Value, roll(1.1));
   ASSERT_TRUE(crossing);
   // the two ends of the strip
