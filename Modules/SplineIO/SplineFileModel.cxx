@@ -1,11 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SplineFileModel.h"
 
+#include "HierarchicalSpace.h"
+
 #include <algorithm>
 #include <set>
 
 namespace knotwork
 {
+namespace
+{
+/// Points (f, 0, 0) of a height function become those of its graph (u, v, f(u, v)).
+template <int Dim>
+void MakeGraph(const SplineSpace<Dim>& space, PointMatrix& points)
+{
+  points.col(2) = points.col(0).eval();
+  const auto functions = DescribeFunctions(space);
+  for (std::size_t i = 0; i < functions.size(); ++i)
+  {
+    for (std::size_t d = 0; d < std::min<std::size_t>(Dim, 2); ++d)
+    {
+      points(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(d)) = functions[i].Greville[d];
+    }
+  }
+}
+}
+
 Result<SplineModel> ModelFromFile(const SplineFile& file)
 {
   SplineModel model;
@@ -27,6 +47,10 @@ Result<SplineModel> ModelFromFile(const SplineFile& file)
         }
         PointMatrix points = PointMatrix::Zero(spline.ControlPoints.rows(), 3);
         points.leftCols(columns) = spline.ControlPoints;
+        if (columns == 1 && spline.Space->Kind == SpaceKind::LocallyRefined)
+        {
+          MakeGraph(*spline.Space, points);
+        }
         spline.ControlPoints = std::move(points);
         return {};
       },
