@@ -35,4 +35,13 @@ def test_flat_output_and_loops():
     assert mesh.PointData["UV"].GetNumberOfComponents() == 2
 
 
+def test_closed_mesh_gets_charts():
+    mesh = MeshParameterization(Input=Sphere(ThetaResolution=24, PhiResolution=24), MaximumStretch=2, MaximumCharts=10,
+                                CreaseAngle=60)
+    assert summary(mesh, "Charts").ToInt() == 2
+    assert summary(mesh, "MaxStretch").ToDouble() <= 2
+    assert mesh.CellData["ChartId"].GetRange() == (0, 1)
+    assert mesh.PointData["CutPointId"] is not None
+
+
 knotwork_testing.main(globals())
