@@ -37,6 +37,12 @@ if [ -z "${KNOTWORK_DOMAIN_CASES:-}" ] && [ -d "$domains" ]; then
   export KNOTWORK_DOMAIN_CASES="$domains"
 fi
 
+# Meshes, likewise.
+meshes="$root/../shared/data/meshes"
+if [ -z "${KNOTWORK_MESH_CASES:-}" ] && [ -d "$meshes" ]; then
+  export KNOTWORK_MESH_CASES="$meshes"
+fi
+
 # One display for all tests that draw; they start their own where there is none.
 cd "$release"
 exec "$root/CMake/with-display.sh" ctest --no-tests=error --output-on-failure -j "$jobs" "${select[@]}"
