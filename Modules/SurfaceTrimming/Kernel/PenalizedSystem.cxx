@@ -16,7 +16,7 @@ constexpr std::size_t SampleChunk = 4096;
 constexpr Eigen::Index RowBlock = 512;
 /// How much more the energy weighs on elements without samples: so much that slopes which waver
 /// along a boundary within spans do not fold what goes on beyond it.
-constexpr double OuterStiffness = 300.0;
+constexpr double OuterStiffness = 100.0;
 using Sparse = Eigen::SparseMatrix<double>;
 
 /// Samples that have a weight in the order of their elements.

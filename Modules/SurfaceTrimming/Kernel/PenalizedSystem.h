@@ -9,7 +9,7 @@ namespace knotwork
 /// Control points of a tensor-product space of one degree, simple inner knots, that minimize
 ///     sum_i w_i |S(u_i) - x_i|^2 + smoothing int |S_uu|^2 + 2 |S_uv|^2 + |S_vv|^2
 ///     + stretching int |S_u|^2 + |S_v|^2,
-/// smoothing some hundred times larger on elements without samples.
+/// smoothing a hundred times larger on elements without samples.
 /// Bit-identical for any number of threads.
 class PenalizedSystem
 {
