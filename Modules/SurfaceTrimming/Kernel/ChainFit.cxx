@@ -18,12 +18,14 @@ namespace
 {
 constexpr int degree = 3;
 constexpr int maxRounds = 60;
-/// From then on knots become multiple where the tolerance does not hold.
+/// From then on, and when there are many, knots become multiple where the tolerance does not hold.
 constexpr int patience = 40;
 constexpr int maxCurveRounds = 30;
 constexpr int maxDepth = 40;
 /// Spans of a length that rounding does not spoil.
 constexpr double leastSpan = 1e-9;
+/// Corners that would have to be rounded within less stay corners.
+constexpr double leastRounding = 1e-7;
 
 /// A cubic in Bernstein form, a coefficient a row.
 using Cubic = Eigen::Matrix<double, degree + 1, Eigen::Dynamic, Eigen::RowMajor>;
@@ -217,13 +219,19 @@ public:
       {
         return curve;
       }
+      const std::size_t before = this->Knots.size();
+      const bool multiply = round >= patience || before > this->MaxKnots();
       const std::vector<double> breaks = curve->Space->Knots[0].Breaks();
       for (std::size_t e = 0; e < worst.size(); ++e)
       {
         if (worst[e] > this->Tolerance)
         {
-          this->Refine(breaks[e], breaks[e + 1], round >= patience);
+          this->Refine(breaks[e], breaks[e + 1], multiply);
         }
+      }
+      if (this->Knots.size() == before && !this->FollowExactly())
+      {
+        break;
       }
       std::sort(this->Knots.begin(), this->Knots.end());
     }
@@ -363,6 +371,38 @@ private:
     return largest;
   }
 
+  std::size_t MaxKnots() const { return 24 * this->Chain.Parameters.size() + 200; }
+
+  /// A corner of the curve at every corner of the boundary, and nothing else. @return false when
+  /// that has been tried.
+  bool FollowExactly()
+  {
+    if (this->IsExact)
+    {
+      return false;
+    }
+    this->IsExact = true;
+    this->Knots.clear();
+    for (std::size_t v = 1; v + 1 < this->Chain.Parameters.size(); ++v)
+    {
+      this->Knots.insert(this->Knots.end(), degree, this->Chain.Parameters[v]);
+    }
+    return true;
+  }
+
+  /// Inner corners of the boundary from a to b become corners of the curve.
+  void Multiply(std::vector<double>::const_iterator a, std::vector<double>::const_iterator b)
+  {
+    for (auto vertex = a; vertex <= b; ++vertex)
+    {
+      if (*vertex > 0.0 && *vertex < 1.0)
+      {
+        const auto count = std::count(this->Knots.begin(), this->Knots.end(), *vertex);
+        this->Knots.insert(this->Knots.end(), static_cast<std::size_t>(degree - count), *vertex);
+      }
+    }
+  }
+
   void Refine(double begin, double end, bool multiply)
   {
     const auto& t = this->Chain.Parameters;
@@ -370,19 +410,8 @@ private:
     const auto last = std::lower_bound(t.begin(), t.end(), end);
     if (multiply || end - begin < leastSpan)
     {
-      // a corner of its own at both ends
-      for (const auto vertex : { first - 1, last })
-      {
-        if (*vertex > 0.0 && *vertex < 1.0)
-        {
-          const auto count = std::count(this->Knots.begin(), this->Knots.end(), *vertex);
-          this->Knots.insert(this->Knots.end(), static_cast<std::size_t>(degree - count), *vertex);
-        }
-      }
-      if (end - begin < leastSpan)
-      {
-        return;
-      }
+      this->Multiply(first - 1, last);
+      return;
     }
     if (last - first > 1)
     {
@@ -432,9 +461,11 @@ private:
     }
     const auto& t = this->Chain.Parameters;
     const double h = 4.0 * this->Tolerance / std::max(this->Jump(vertex), 1e-300);
-    if (!(h > leastSpan))
+    if (!(h > leastRounding))
     {
-      return false;
+      const auto at = t.begin() + static_cast<std::ptrdiff_t>(vertex);
+      this->Multiply(at, at);
+      return true;
     }
     std::vector<double> knots{ t[vertex] };
     for (const double away : { -2.0, -1.0, 1.0, 2.0 })
@@ -463,6 +494,7 @@ private:
   double Tolerance;
   std::vector<double> Knots;
   std::set<std::size_t> Surrounded;
+  bool IsExact = false;
 };
 
 // ---- curve in space --------------------------------------------------------------------------

@@ -332,6 +332,32 @@ TEST(TrimLoops, CornersAreRoundedWhenNoneAreAllowed_PropertyOracle)
   EXPECT_GT(loops->MaxTrimDistance, 0.0);
 }
 
+// A tolerance that only corners of the curve reach, and one below rounding.
+TEST(TrimLoops, StubbornCornersBecomeMultipleKnots_ExactOracle)
+{
+  const ChartMesh chart = SquareWithSquareHole(6, Flat);
+  const std::vector<Spline<2>> surfaces{ InterpolatingSurface(Flat, 1, 1, BoxOf(chart, 0.0)) };
+  LoopParams params = WithTolerance(1e-11);
+  params.CornerAngle = 180.0;
+  const auto loops = FitLoops({ chart }, surfaces, params);
+  ASSERT_TRUE(loops) << loops.Status.Message();
+  CheckFit({ chart }, surfaces, params, loops.Value);
+  EXPECT_EQ(loops->NumEdges, 2);
+  EXPECT_LE(loops->MaxTrimDistance, 64.0 * eps);
+  const KnotVector& knots = loops->Loops[0][0].Curves[0].Curve.Space->Knots[0];
+  int corners = 0;
+  for (int b = 1; b < knots.NumElements(); ++b)
+  {
+    corners += knots.Multiplicity(b) == 3 ? 1 : 0;
+  }
+  EXPECT_GE(corners, 3); // the fourth is the closed edge's vertex
+  params.Tolerance = 1e-40;
+  const ChartMesh ring = Annulus(40, 3, 0.4, 1.0, Saddle);
+  EXPECT_EQ(
+    FitLoops({ ring }, { InterpolatingSurface(Saddle, 2, 2, BoxOf(ring)) }, params).Status.Code,
+    ErrorCode::NotConverged);
+}
+
 TEST(TrimLoops, JaggedBoundariesOfRandomMeshes_PropertyOracle)
 {
   for (unsigned seed = 1; seed <= 8; ++seed)
