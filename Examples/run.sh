@@ -19,6 +19,9 @@ done
 configure_release
 cmake --build "$release" -j "$jobs" --target products
 
+"$root/CMake/make-paraview-prefix.sh" "$prefix" # ParaView's Python, for the picture of faces in ParaView
+export KNOTWORK_PARAVIEW_PREFIX="$prefix"
+
 output="$root/build/examples"
 mkdir -p "$output"
 export PATH="$release/bin:$PATH"

@@ -2,8 +2,8 @@
 """Triangle meshes that become trimmed spline faces (trimmed_faces.png), and what continues a surface where there is no mesh
 (back_maps.png).
 
-A CAD patch and a bust of Debian's libcgal-demo: the mesh, the mesh in the plane with its loops, the surface over its
-rectangle with the trimmed part in orange, the face. Then an S on a cone that is made here: surfaces by NURBS extrapolation, by the
+A bust of Debian's libcgal-demo, whose eyes and mouth are cut out here, and a CAD patch: the mesh, the mesh in the plane with its loops,
+the surface over its rectangle with the trimmed part in orange, the face. Then an S on a cone that is made here: surfaces by NURBS extrapolation, by the
 hybrid of radial basis functions and splines, and by penalized least squares; what is folded is red.
 """
 import os
@@ -145,11 +145,27 @@ def row(mesh, bottom, top, direction, up):
     return panels
 
 
+def without(mesh_arrays, places):
+    """Points and triangles without those in ellipses; x, y and half axes as shares of the box."""
+    points, triangles = mesh_arrays
+    centres = (points[triangles].mean(1) - points.min(0)) / np.ptp(points, axis=0)
+    keep = np.ones(len(triangles), bool)
+    for x, y, a, b in places:
+        keep &= ((centres[:, 0] - x) / a)**2 + ((centres[:, 1] - y) / b)**2 > 1
+    used, cells = np.unique(triangles[keep], return_inverse=True)
+    return points[used], cells.reshape(-1, 3)
+
+
+def bust():
+    """Points and triangles of a bust whose eyes and mouth are holes."""
+    features = ((0.27, 0.66, 0.11, 0.045), (0.73, 0.66, 0.11, 0.045), (0.51, 0.21, 0.13, 0.05))
+    return without(scene.read_off("nefertiti.off"), features)
+
+
 def main():
     folder = scene.output_folder()
-    patch = scene.triangle_mesh(*scene.read_off("patch-20.off"))
-    bust = scene.triangle_mesh(*scene.read_off("nefertiti.off"))
-    panels = row(patch, 0.5, 1, None, None) + row(bust, 0, 0.5, None, None)
+    panels = row(scene.triangle_mesh(*bust()), 0.5, 1, None, None)
+    panels += row(scene.triangle_mesh(*scene.read_off("patch-30.off")), 0, 0.5, (1, -1.4, 1), (0, 0, 1))
     scene.save(panels, os.path.join(folder, "trimmed_faces.png"), (1200, 640))
 
     letter = s_on_cone()
