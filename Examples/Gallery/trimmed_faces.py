@@ -87,7 +87,7 @@ def surface_actor(face, n=240):
     mapper.SetInputData(mesh)
     mapper.SetScalarModeToUseCellData()
     mapper.SetResolveCoincidentTopologyToPolygonOffset()
-    mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(2, 2)
+    mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(4, 400)  # behind the trimmed part
     actor = vtkActor()
     actor.SetMapper(mapper)
     scene.soften(actor)
@@ -112,7 +112,7 @@ def number(face, name):
     return face.GetOutputDataObject(4).GetValueByName(0, name).ToDouble()
 
 
-def aimed(shown, direction, up):
+def aimed(shown, direction, up, zoom=1.0):
     """The renderer, seen from a direction."""
     if direction is not None:
         camera = shown.GetActiveCamera()
@@ -120,13 +120,13 @@ def aimed(shown, direction, up):
         camera.SetPosition(*direction)
         camera.SetViewUp(*up)
         shown.ResetCamera()
-        camera.Zoom(1.3)
+        camera.Zoom(zoom)
     return shown
 
 
 def row(mesh, bottom, top, direction, up):
     """Mesh, plane, surface, face from left to right."""
-    face = trimmed(mesh)
+    face = trimmed(mesh, tolerance=3e-3 * mesh.GetLength())
     flat = flattened(mesh, flat=True)
     triangles = face.GetOutputDataObject(0)
     plane = scene.renderer([wire(flat.GetOutputDataObject(0), False), scene.actor(flat.GetOutputDataObject(1), (0.8, 0.1, 0.1), 3)],
@@ -137,7 +137,7 @@ def row(mesh, bottom, top, direction, up):
                         direction, up))
     panels.append(aimed(scene.renderer([scene.actor(triangles, ORANGE, lighting=True), curves(face)], (0.75, bottom, 1, top),
                                        flat=False), direction, up))
-    loops, relative = int(number(face, "Loops")), number(face, "MaxDeviation") / (1000 * number(face, "Tolerance"))
+    loops, relative = int(number(face, "Loops")), number(face, "MaxDeviation") / mesh.GetLength()
     panels[0].AddActor(scene.label(f"{mesh.GetNumberOfCells()} triangles", 0.04, 0.03, 14))
     plane.AddActor(scene.label(f"{loops} loop{'s' if loops > 1 else ''}", 0.04, 0.03, 14))
     panels[2].AddActor(scene.label(f"{int(number(face, 'ControlPoints'))} control points", 0.04, 0.03, 14))
@@ -171,12 +171,13 @@ def main():
     letter = s_on_cone()
     panels = []
     for k, (method, name) in enumerate((("NURBS", "NURBS extrapolation"), ("HYBRID", "hybrid"), ("PENALIZED", "penalized"))):
-        face = trimmed(letter, method)
+        face = trimmed(letter, method, elements=40)
         actor, share = surface_actor(face)
         shown = scene.renderer([actor, scene.actor(face.GetOutputDataObject(0), ORANGE, lighting=True), curves(face)],
                                (k / 3, 0, (k + 1) / 3, 1), flat=False)
         shown.AddActor(scene.label(f"{name}: {100 * share:.2g} % folded", 0.04, 0.03, 14))
-        panels.append(aimed(shown, (6, -6, 3), (0, 0, 1)))
+        aimed(shown, (6, 0, 2), (0, 0, 1)).ResetCamera(face.GetOutputDataObject(0).GetBounds())  # extrapolation goes far
+        panels.append(shown)
     scene.save(panels, os.path.join(folder, "back_maps.png"), (1200, 420))
 
 
