@@ -61,47 +61,25 @@ public:
       pieces[e].Element = static_cast<int>(e);
     }
     this->DropOutside(pieces);
-    if (pieces.empty())
+    if (const Status status = this->Decide(std::move(pieces)); !status)
     {
-      return { ErrorCode::EmptyInput, "the loops enclose no part of the surface" };
-    }
-    while (!pieces.empty())
-    {
-      if (const Status status = this->Prove(pieces, 1.0, firstBoxes); !status)
-      {
-        return status;
-      }
-      pieces = this->Sort(pieces);
-      if (this->Found.Verdict == Verdict::Invalid)
-      {
-        return this->Found;
-      }
-    }
-    if (!this->Last.empty())
-    {
-      pieces.swap(this->Last);
-      if (const Status status = this->Prove(pieces, 1.0, lastBoxes); !status)
-      {
-        return status;
-      }
-      this->IsLast = true;
-      this->Sort(pieces);
-      if (this->Found.Verdict == Verdict::Invalid)
-      {
-        return this->Found;
-      }
+      return status;
     }
     if (this->Found.HasWitness)
     {
-      return this->Found; // undecided
+      return this->Found; // invalid or undecided
     }
     if (const Status status = this->Sharpen(); !status)
     {
       return status;
     }
+    if (this->Regular.empty())
+    {
+      return { ErrorCode::EmptyInput, "the loops enclose no part of the surface" };
+    }
     this->Found.Verdict = Verdict::Valid;
     this->Found.MinNormal = infinity;
-    for (const Piece& piece : this->Valid)
+    for (const Piece& piece : this->Regular)
     {
       this->Found.MinNormal = std::min(this->Found.MinNormal, piece.Lower);
     }
@@ -284,8 +262,33 @@ private:
         (cell.Verdict == Verdict::Reversed && cell.MaxUpper < 0.0));
   }
 
+  /// Fills Regular, or finds a witness.
+  Status Decide(std::vector<Piece> pieces)
+  {
+    while (!pieces.empty() && this->Found.Verdict != Verdict::Invalid)
+    {
+      if (const Status status = this->Prove(pieces, 1.0, firstBoxes); !status)
+      {
+        return status;
+      }
+      pieces = this->Sort(pieces);
+    }
+    if (this->Last.empty() || this->Found.Verdict == Verdict::Invalid)
+    {
+      return {};
+    }
+    pieces.swap(this->Last);
+    this->IsLast = true;
+    if (const Status status = this->Prove(pieces, 1.0, lastBoxes); !status)
+    {
+      return status;
+    }
+    this->Sort(pieces);
+    return {};
+  }
+
   /// Takes what LastProof says of pieces. @return the quarters of those that may be regular where
-  /// the region is.
+  /// the region is; none when the face is found to be invalid.
   std::vector<Piece> Sort(const std::vector<Piece>& pieces)
   {
     std::vector<Piece> quarters;
@@ -295,7 +298,7 @@ private:
       const CellCertificate& cell = this->LastProof.Cells[k];
       if (IsRegular(cell))
       {
-        this->Valid.push_back(piece);
+        this->Regular.push_back(piece);
         continue;
       }
       if (const auto witness = this->Singularity(piece, cell))
@@ -385,7 +388,7 @@ private:
     while (true)
     {
       double upper = infinity;
-      for (const Piece& piece : this->Valid)
+      for (const Piece& piece : this->Regular)
       {
         if (piece.Place == RegionPlace::Inside)
         {
@@ -394,10 +397,10 @@ private:
       }
       std::vector<Piece> again;
       std::vector<Piece> kept;
-      for (const Piece& piece : this->Valid)
+      for (const Piece& piece : this->Regular)
       {
         const bool split = piece.Tight && piece.Place == RegionPlace::Boundary &&
-          piece.Depth < this->Params.MaxDepth && this->Valid.size() < maxPieces;
+          piece.Depth < this->Params.MaxDepth && this->Regular.size() < maxPieces;
         if (piece.Lower >= boundGap * upper || (piece.Tight && !split))
         {
           kept.push_back(piece);
@@ -424,7 +427,7 @@ private:
         }
       }
       kept.insert(kept.end(), again.begin(), again.end());
-      this->Valid = std::move(kept);
+      this->Regular = std::move(kept);
     }
   }
 
@@ -432,9 +435,9 @@ private:
   const FaceCertificateParams& Params;
   BezierForm<2> Form;
   double Largest = 0.0;
-  std::vector<Piece> Valid;
-  std::vector<Piece> Last; ///< that more boxes may decide
-  bool IsLast = false;     ///< they are being decided
+  std::vector<Piece> Regular; ///< proved, with bounds
+  std::vector<Piece> Last;    ///< that more boxes may decide
+  bool IsLast = false;        ///< they are being decided
   JacobianCertificate LastProof;
   FaceCertificate Found;
   int Round = 0;

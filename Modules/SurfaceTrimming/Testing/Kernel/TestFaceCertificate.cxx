@@ -265,6 +265,12 @@ TEST(CertifyFace, Errors_ExactOracle)
   EXPECT_EQ(CertifyFace(Face(surface, { testing::RectangleLoop(2, 3, 2, 3) })).Status.Code,
     ErrorCode::EmptyInput);
   EXPECT_EQ(CertifyFace(Face(surface, { {} })).Status.Code, ErrorCode::EmptyInput);
+  // near a singular side of the surface, but outside
+  const Spline<2> cone = testing::PolynomialSurface(1,
+    { Monomials{ {}, { 0.0, 1.0 } }, Monomials{ { 0.0, 1.0 } }, Monomials{ { 0.0, 1.0 } } },
+    { 0.0, 0.0 }, { 1.0, 1.0 }, 1);
+  EXPECT_EQ(CertifyFace(Face(cone, { testing::RectangleLoop(0.1, 0.9, -1.0, -0.01) })).Status.Code,
+    ErrorCode::EmptyInput);
 }
 
 /// A chart over triangles in the plane with points x(u, v).
