@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BezierForm.h"
+#include "LRSpace.h"
 #include "SplineSchema.h"
 
 #include "vtkCellArray.h"
@@ -241,6 +242,63 @@ Numbering NumberBezier(const SplineSpace<Dim>& space)
   return numbering;
 }
 
+// Points on a side that two elements have in common from end to end, and on corners, are one where
+// no line of full multiplicity is near.
+Numbering NumberLR(const LRData& data)
+{
+  using Key = std::array<int, 5>; // corner: -1, knots; side: direction, line, its ends, point
+  const LRBasis& basis = data.Basis;
+  const auto most = [&basis](std::size_t d, int line)
+  {
+    int m = 0;
+    for (const LRPiece& piece : basis.Lines[d][static_cast<std::size_t>(line)])
+    {
+      m = std::max(m, piece.Multiplicity);
+    }
+    return m;
+  };
+  std::array<std::vector<bool>, 2> torn; // lines that the map may jump across
+  for (std::size_t d = 0; d < 2; ++d)
+  {
+    const auto last = static_cast<int>(basis.Knots[d].size()) - 1;
+    for (int k = 0; k <= last; ++k)
+    {
+      torn[d].push_back(k > 0 && k < last && most(d, k) > basis.Degree[d]);
+    }
+  }
+  Numbering numbering;
+  std::map<Key, vtkIdType> shared;
+  for (const auto& box : data.ElementKnots)
+  {
+    for (int j = 0; j <= basis.Degree[1]; ++j)
+    {
+      for (int i = 0; i <= basis.Degree[0]; ++i)
+      {
+        const std::array<int, 2> line{ i == 0 ? box[0]
+            : i == basis.Degree[0]            ? box[2]
+                                              : -1,
+          j == 0                   ? box[1]
+            : j == basis.Degree[1] ? box[3]
+                                   : -1 };
+        const bool jumps = (line[0] >= 0 && torn[0][static_cast<std::size_t>(line[0])]) ||
+          (line[1] >= 0 && torn[1][static_cast<std::size_t>(line[1])]);
+        if (jumps || (line[0] < 0 && line[1] < 0))
+        {
+          numbering.Ids.push_back(numbering.Count++);
+          continue;
+        }
+        const Key key = line[0] >= 0 && line[1] >= 0 ? Key{ -1, line[0], line[1], 0, 0 }
+          : line[0] >= 0                             ? Key{ 0, line[0], box[1], box[3], j }
+                                                     : Key{ 1, line[1], box[0], box[2], i };
+        const auto [place, isNew] = shared.try_emplace(key, numbering.Count);
+        numbering.Count += isNew ? 1 : 0;
+        numbering.Ids.push_back(place->second);
+      }
+    }
+  }
+  return numbering;
+}
+
 template <int Dim>
 Numbering NumberPoints(const SplineSpace<Dim>& space)
 {
@@ -250,6 +308,8 @@ Numbering NumberPoints(const SplineSpace<Dim>& space)
       return NumberTensor<Dim>(space, IndexElements(space));
     case SpaceKind::Hierarchical:
       return NumberHierarchical<Dim>(space, IndexElements(space));
+    case SpaceKind::LocallyRefined:
+      return NumberLR(*space.LocallyRefined);
     default:
       return NumberBezier<Dim>(space);
   }

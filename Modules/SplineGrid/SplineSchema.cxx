@@ -3,6 +3,7 @@
 
 #include "BezierSpace.h"
 #include "HierarchicalSpace.h"
+#include "LRSpace.h"
 #include "TensorSpace.h"
 
 #include "vtkDataArray.h"
@@ -25,13 +26,16 @@ constexpr const char* VersionArray = "KnotworkSchemaVersion";
 constexpr const char* PatchArray = "KnotworkPatches";
 constexpr const char* KnotArray = "KnotworkKnots";
 constexpr const char* BoxArray = "KnotworkBoxes";
+constexpr const char* PieceArray = "KnotworkMeshLines";
+constexpr const char* LocalKnotArray = "KnotworkLocalKnots";
+constexpr const char* ScalingArray = "KnotworkScaling";
 constexpr const char* PointArray = "KnotworkControlPoints";
 constexpr const char* FieldNameArray = "KnotworkFieldNames";
 constexpr const char* FieldRowArray = "KnotworkFieldRows";
 constexpr const char* FieldChecksumArray = "KnotworkFieldChecksums";
 constexpr const char* FieldPrefix = "KnotworkField.";
 
-// Columns of KnotworkPatches.
+// Columns of KnotworkPatches. Boxes counts the rows of KnotworkMeshLines for kind 3.
 enum Column
 {
   Id,
@@ -192,6 +196,9 @@ Status ReadRecord(const IntegerTable& patches, std::size_t row, PatchRecord& rec
     case 2:
       record.Basis.Kind = SpaceKind::Hierarchical;
       break;
+    case 3:
+      record.Basis.Kind = SpaceKind::LocallyRefined;
+      break;
     default:
       return Damaged(patch + " is of the unknown kind " + std::to_string(at(Kind)));
   }
@@ -228,7 +235,80 @@ int BasisDefinition::Hash() const
       sum.Add(static_cast<std::uint64_t>(value));
     }
   }
+  for (const auto& piece : this->Pieces)
+  {
+    for (std::int64_t value : piece)
+    {
+      sum.Add(static_cast<std::uint64_t>(value));
+    }
+  }
+  for (std::int64_t knot : this->LocalKnots)
+  {
+    sum.Add(static_cast<std::uint64_t>(knot));
+  }
+  for (double gamma : this->Scaling)
+  {
+    sum.Add(gamma);
+  }
   return 1 + static_cast<int>(sum.Value() % 0x7ffffffeU);
+}
+
+namespace
+{
+void DescribeLRBasis(const LRBasis& from, BasisDefinition& basis)
+{
+  for (std::size_t d = 0; d < 2; ++d)
+  {
+    basis.Degree[d] = from.Degree[d];
+    basis.Knots[d] = from.Knots[d];
+    for (std::size_t k = 0; k < from.Lines[d].size(); ++k)
+    {
+      for (const LRPiece& piece : from.Lines[d][k])
+      {
+        basis.Pieces.push_back({ static_cast<std::int64_t>(d), static_cast<std::int64_t>(k),
+          piece.Knot, piece.Multiplicity });
+      }
+    }
+  }
+  basis.LocalKnots.assign(from.LocalKnots.begin(), from.LocalKnots.end());
+  basis.Scaling = from.Scaling;
+}
+
+// MakeLRSpace checks the rest.
+Result<SplineSpacePtr<2>> BuildLRSpace(const BasisDefinition& basis)
+{
+  constexpr std::int64_t most = std::numeric_limits<int>::max();
+  const auto fits = [](std::int64_t value) { return value >= 0 && value <= most; };
+  LRBasis made;
+  for (std::size_t d = 0; d < 2; ++d)
+  {
+    made.Degree[d] = basis.Degree[d];
+    made.Knots[d] = basis.Knots[d];
+    made.Lines[d].resize(basis.Knots[d].size());
+  }
+  for (const auto& piece : basis.Pieces)
+  {
+    const bool known = (piece[0] == 0 || piece[0] == 1) && fits(piece[1]) && fits(piece[2]) &&
+      fits(piece[3]) &&
+      static_cast<std::size_t>(piece[1]) < made.Lines[static_cast<std::size_t>(piece[0])].size();
+    if (!known)
+    {
+      return { ErrorCode::InvalidTopology, "a piece of a mesh line is out of range" };
+    }
+    made.Lines[static_cast<std::size_t>(piece[0])][static_cast<std::size_t>(piece[1])].push_back(
+      { static_cast<int>(piece[2]), static_cast<int>(piece[3]) });
+  }
+  for (const std::int64_t knot : basis.LocalKnots)
+  {
+    if (!fits(knot))
+    {
+      return { ErrorCode::InvalidTopology, "a local knot is out of range" };
+    }
+    made.LocalKnots.push_back(static_cast<int>(knot));
+  }
+  made.Scaling = basis.Scaling;
+  return MakeLRSpace(std::move(made));
+}
 }
 
 template <int Dim>
@@ -236,11 +316,16 @@ BasisDefinition DescribeBasis(const SplineSpace<Dim>& space)
 {
   BasisDefinition basis;
   basis.Dimension = Dim;
-  if (space.Kind == SpaceKind::Bezier || space.Kind == SpaceKind::LocallyRefined)
+  if (space.Kind == SpaceKind::Bezier)
   {
     return basis;
   }
   basis.Kind = space.Kind;
+  if (space.Kind == SpaceKind::LocallyRefined)
+  {
+    DescribeLRBasis(space.LocallyRefined->Basis, basis);
+    return basis;
+  }
   for (std::size_t d = 0; d < Dim; ++d)
   {
     basis.Degree[d] = space.Knots[d].Degree();
@@ -262,6 +347,13 @@ BasisDefinition DescribeBasis(const SplineSpace<Dim>& space)
 template <int Dim>
 Result<SplineSpacePtr<Dim>> BuildSpace(const BasisDefinition& basis)
 {
+  if constexpr (Dim == 2)
+  {
+    if (basis.Kind == SpaceKind::LocallyRefined)
+    {
+      return BuildLRSpace(basis);
+    }
+  }
   std::array<KnotVector, Dim> knots;
   for (std::size_t d = 0; d < Dim; ++d)
   {
@@ -292,10 +384,76 @@ Result<SplineSpacePtr<Dim>> BuildSpace(const BasisDefinition& basis)
   return MakeHierarchicalSpace<Dim>(knots, boxes);
 }
 
+namespace
+{
+std::int64_t NumberOfKind(SpaceKind kind)
+{
+  return kind == SpaceKind::LocallyRefined ? 3 : kind == SpaceKind::Hierarchical ? 2 : 1;
+}
+
+// The definitions of locally refined spaces, patch after patch.
+class LRTables
+{
+public:
+  explicit LRTables(vtkFieldData* fieldData)
+  {
+    ReadIntegers(fieldData, PieceArray, 4, this->Pieces);
+    ReadIntegers(fieldData, LocalKnotArray, 1, this->LocalKnots);
+    ReadDoubles(fieldData, ScalingArray, this->Scaling);
+  }
+
+  // The status has a detail for Damaged.
+  Status Take(std::int64_t numPieces, PatchRecord& record)
+  {
+    const auto fail = [](const char* arrayName)
+    { return Status(ErrorCode::InvalidTopology, std::string(arrayName) + " ends too early"); };
+    BasisDefinition& basis = record.Basis;
+    const auto stride =
+      static_cast<std::size_t>(basis.Degree[0]) + static_cast<std::size_t>(basis.Degree[1]) + 4;
+    const auto numFunctions = static_cast<std::size_t>(record.NumFunctions);
+    if (static_cast<std::size_t>(numPieces) > this->Pieces.Rows() - this->NextPiece)
+    {
+      return fail(PieceArray);
+    }
+    if (numFunctions > (this->LocalKnots.Rows() - this->NextKnot) / stride)
+    {
+      return fail(LocalKnotArray);
+    }
+    PointMatrix taken;
+    if (this->Scaling.cols() != 1 ||
+      !TakeRows(this->Scaling, this->NextScaling, record.NumFunctions, taken))
+    {
+      return fail(ScalingArray);
+    }
+    for (std::int64_t i = 0; i < numPieces; ++i, ++this->NextPiece)
+    {
+      basis.Pieces.push_back(
+        { this->Pieces.At(this->NextPiece, 0), this->Pieces.At(this->NextPiece, 1),
+          this->Pieces.At(this->NextPiece, 2), this->Pieces.At(this->NextPiece, 3) });
+    }
+    const auto first =
+      this->LocalKnots.Values.begin() + static_cast<std::ptrdiff_t>(this->NextKnot);
+    this->NextKnot += numFunctions * stride;
+    basis.LocalKnots.assign(
+      first, this->LocalKnots.Values.begin() + static_cast<std::ptrdiff_t>(this->NextKnot));
+    basis.Scaling.assign(taken.data(), taken.data() + taken.size());
+    return {};
+  }
+
+private:
+  IntegerTable Pieces;
+  IntegerTable LocalKnots;
+  PointMatrix Scaling;
+  std::size_t NextPiece = 0;
+  std::size_t NextKnot = 0;
+  Eigen::Index NextScaling = 0;
+};
+}
+
 void WriteSchema(const SplineSchema& schema, vtkFieldData* fieldData)
 {
-  std::vector<std::int64_t> patches, boxes, fieldRows, fieldChecksums;
-  std::vector<double> knots, points;
+  std::vector<std::int64_t> patches, boxes, pieces, localKnots, fieldRows, fieldChecksums;
+  std::vector<double> knots, points, scaling;
   std::vector<std::string> names;
   std::vector<std::vector<double>> fields;
   std::vector<int> components;
@@ -314,16 +472,16 @@ void WriteSchema(const SplineSchema& schema, vtkFieldData* fieldData)
   for (const PatchRecord& record : schema.Patches)
   {
     const BasisDefinition& basis = record.Basis;
-    std::array<std::int64_t, NumColumns> row{ record.Id,
-      basis.Kind == SpaceKind::Hierarchical ? 2 : 1, basis.Dimension, record.Rational,
-      record.NumElements, record.NumFunctions };
+    std::array<std::int64_t, NumColumns> row{ record.Id, NumberOfKind(basis.Kind), basis.Dimension,
+      record.Rational, record.NumElements, record.NumFunctions };
     for (std::size_t d = 0; d < 3; ++d)
     {
       row[Degree0 + d] = basis.Degree[d];
       row[Knots0 + d] = static_cast<std::int64_t>(basis.Knots[d].size());
       knots.insert(knots.end(), basis.Knots[d].begin(), basis.Knots[d].end());
     }
-    row[Boxes] = static_cast<std::int64_t>(basis.Boxes.size());
+    const bool isLR = basis.Kind == SpaceKind::LocallyRefined;
+    row[Boxes] = static_cast<std::int64_t>(isLR ? basis.Pieces.size() : basis.Boxes.size());
     row[BasisHash] = basis.Hash();
     row[GeometryCheck] = static_cast<std::int64_t>(record.ControlPoints.Stored);
     patches.insert(patches.end(), row.begin(), row.end());
@@ -331,6 +489,12 @@ void WriteSchema(const SplineSchema& schema, vtkFieldData* fieldData)
     {
       boxes.insert(boxes.end(), box.begin(), box.end());
     }
+    for (const auto& piece : basis.Pieces)
+    {
+      pieces.insert(pieces.end(), piece.begin(), piece.end());
+    }
+    localKnots.insert(localKnots.end(), basis.LocalKnots.begin(), basis.LocalKnots.end());
+    scaling.insert(scaling.end(), basis.Scaling.begin(), basis.Scaling.end());
     Append(points, record.ControlPoints.Rows);
     for (std::size_t f = 0; f < names.size(); ++f)
     {
@@ -365,6 +529,13 @@ void WriteSchema(const SplineSchema& schema, vtkFieldData* fieldData)
     const char* const boxNames[] = { "Level", "Lower0", "Lower1", "Lower2", "Upper0", "Upper1",
       "Upper2" };
     WriteIntegers(fieldData, BoxArray, 7, boxes, boxNames);
+  }
+  if (!pieces.empty())
+  {
+    const char* const pieceNames[] = { "Direction", "Line", "Knot", "Multiplicity" };
+    WriteIntegers(fieldData, PieceArray, 4, pieces, pieceNames);
+    WriteIntegers(fieldData, LocalKnotArray, 1, localKnots);
+    WriteDoubles(fieldData, ScalingArray, 1, scaling);
   }
   WriteDoubles(fieldData, PointArray, 4, points);
   if (names.empty())
@@ -435,6 +606,7 @@ Result<SplineSchema> ReadSchema(vtkFieldData* fieldData)
     ReadDoubles(fieldData, fieldName.c_str(), fieldTables[f]);
   }
 
+  LRTables lrBases(fieldData);
   Eigen::Index nextKnot = 0;
   Eigen::Index nextPoint = 0;
   std::size_t nextBox = 0;
@@ -456,7 +628,15 @@ Result<SplineSchema> ReadSchema(vtkFieldData* fieldData)
       }
       record.Basis.Knots[d].assign(taken.data(), taken.data() + taken.size());
     }
-    for (std::int64_t b = 0; b < patches.At(row, Boxes); ++b, ++nextBox)
+    if (record.Basis.Kind == SpaceKind::LocallyRefined)
+    {
+      if (const Status status = lrBases.Take(patches.At(row, Boxes), record); !status)
+      {
+        return Damaged(status.Detail + patch);
+      }
+    }
+    const bool hasBoxes = record.Basis.Kind != SpaceKind::LocallyRefined;
+    for (std::int64_t b = 0; hasBoxes && b < patches.At(row, Boxes); ++b, ++nextBox)
     {
       if (nextBox >= boxes.Rows())
       {

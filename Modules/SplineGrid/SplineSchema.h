@@ -33,18 +33,25 @@ struct BasisDefinition
   std::array<int, 3> Degree{};
   std::array<std::vector<double>, 3> Knots;
   std::vector<std::array<std::int64_t, 7>> Boxes; ///< level, lower corner, upper corner
+  /// Kind LocallyRefined, as in LRBasis (Knots are the distinct ones): direction, line, first knot
+  /// and multiplicity of every piece of a mesh line; local knots and scaling factors of the
+  /// functions.
+  std::vector<std::array<std::int64_t, 4>> Pieces;
+  std::vector<std::int64_t> LocalKnots;
+  std::vector<double> Scaling;
 
   bool operator==(const BasisDefinition& other) const
   {
     return this->Kind == other.Kind && this->Dimension == other.Dimension &&
-      this->Degree == other.Degree && this->Knots == other.Knots && this->Boxes == other.Boxes;
+      this->Degree == other.Degree && this->Knots == other.Knots && this->Boxes == other.Boxes &&
+      this->Pieces == other.Pieces && this->LocalKnots == other.LocalKnots &&
+      this->Scaling == other.Scaling;
   }
   /// Value of the cell array PatchBasis: 0 for kind Bezier, positive for all others. Equal
   /// definitions have equal values.
   int Hash() const;
 };
 
-/// Locally refined spaces are described as Bezier elements.
 template <int Dim>
 BasisDefinition DescribeBasis(const SplineSpace<Dim>& space);
 /// @return InvalidTopology for kind Bezier, the builder's errors.

@@ -76,32 +76,19 @@ private:
       [this, d](const int* knots, int a, int b, Number* row) { this->Make(d, knots, a, b, row); });
   }
 
-  /// Coefficient k is the blossom at (low^{p-k}, high^k), by de Boor's steps.
   void Make(std::size_t d, const int* knots, int low, int high, Number* row)
   {
-    const int p = this->Data.Basis.Degree[d];
-    int local[2 * MaxDegree];
-    const int span = LRLocalKnots(p, knots, low, local);
     const std::vector<Number>& t = this->Knots[d];
-    for (int k = 0; k <= p; ++k)
-    {
-      Number c[MaxDegree + 1] = {};
-      c[p - span] = 1;
-      for (int r = 1; r <= p; ++r)
+    LRBlossomRow(
+      this->Data.Basis.Degree[d], knots, low, high,
+      [&](int u, int lower, int upper, Number a, Number b)
       {
-        const Number u = t[At(r <= p - k ? low : high)];
-        for (int j = p; j >= r; --j)
-        {
-          const int lower = local[j - 1];
-          const int upper = local[j + p - r];
-          const Number left = this->Field.Multiply(this->Field.Subtract(t[At(upper)], u), c[j - 1]);
-          const Number right = this->Field.Multiply(this->Field.Subtract(u, t[At(lower)]), c[j]);
-          c[j] = this->Field.Multiply(
-            this->Field.Add(left, right), this->InverseLength(d, lower, upper));
-        }
-      }
-      row[k] = c[p];
-    }
+        const Number left = this->Field.Multiply(this->Field.Subtract(t[At(upper)], t[At(u)]), a);
+        const Number right = this->Field.Multiply(this->Field.Subtract(t[At(u)], t[At(lower)]), b);
+        return this->Field.Multiply(
+          this->Field.Add(left, right), this->InverseLength(d, lower, upper));
+      },
+      row);
   }
 
   Number InverseLength(std::size_t d, int lower, int upper)

@@ -98,20 +98,40 @@ private:
   std::vector<Value> Rows;
 };
 
-/// The knots that matter on a span of a function, for ExtractionFromLocalKnots: the ends repeated.
-/// @param low  knot in [knots[span], knots[span + 1]). @param local  2p entries. @return the span;
-/// the function is number p - span of the functions there.
-inline int LRLocalKnots(int degree, const int* knots, int low, int* local)
+/// Bernstein coefficients of B[knots] between two knots inside one of its spans: coefficient k is
+/// the blossom at (low^{p-k}, high^k), by de Boor's steps.
+/// @param combine  combine(u, lower, upper, a, b) = ((upper - u) a + (u - lower) b) / (upper -
+/// lower) for knot indices u, lower < upper and numbers a, b. In floating point all terms are
+/// positive, so there is no cancellation, and what vanishes is 0.
+/// @param row  p + 1 numbers.
+/// @source  Ramshaw, CAGD 6 (1989) 323-358 (blossoms); de Boor, J. Approx. Theory 6 (1972) 50-62.
+template <typename Value, typename Combine>
+void LRBlossomRow(int degree, const int* knots, int low, int high, Combine&& combine, Value* row)
 {
-  int span = 0;
+  int span = 0; // knots[span] <= low < high <= knots[span + 1]
   while (knots[span + 1] <= low)
   {
     ++span;
   }
+  // the 2p knots that matter on the span, the ends repeated; the function has number p - span
+  int local[2 * MaxDegree];
   for (int j = 0; j < 2 * degree; ++j)
   {
     local[j] = knots[std::clamp(span - degree + 1 + j, 0, degree + 1)];
   }
-  return span;
+  for (int k = 0; k <= degree; ++k)
+  {
+    Value c[MaxDegree + 1] = {};
+    c[degree - span] = Value(1);
+    for (int r = 1; r <= degree; ++r)
+    {
+      const int u = r <= degree - k ? low : high;
+      for (int j = degree; j >= r; --j)
+      {
+        c[j] = combine(u, local[j - 1], local[j + degree - r], c[j - 1], c[j]);
+      }
+    }
+    row[k] = c[degree];
+  }
 }
 }

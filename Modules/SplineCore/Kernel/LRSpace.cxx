@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LRSpace.h"
 
-#include "Bernstein.h"
 #include "LRLineRows.h"
 
 #include <algorithm>
@@ -161,28 +160,17 @@ Status CheckFunctions(const LRBasis& basis)
 
 using LineRows = LRLineRows<double>;
 
-void MakeRow(
-  const LRBasis& basis, int direction, const int* knots, int low, int high, double* result)
+void MakeRow(const LRBasis& basis, int direction, const int* knots, int low, int high, double* row)
 {
-  const int p = basis.Degree[At(direction)];
-  const std::vector<double>& values = basis.Knots[At(direction)];
-  int indices[2 * MaxDegree];
-  double local[2 * MaxDegree];
-  const int span = LRLocalKnots(p, knots, low, indices);
-  std::transform(indices, indices + 2 * p, local, [&](int k) { return values[At(k)]; });
-  double matrix[(MaxDegree + 1) * (MaxDegree + 1)];
-  ExtractionFromLocalKnots(p, local, matrix);
-  const double* begin = matrix + (p - span) * (p + 1);
-  std::copy(begin, begin + p + 1, result);
-  if (low != knots[span] || high != knots[span + 1])
-  {
-    const double left = values[At(knots[span])];
-    const double length = values[At(knots[span + 1])] - left;
-    const std::vector<double> row =
-      BernsteinRestrict<1>({ p }, std::vector<double>(begin, begin + p + 1), 0,
-        (values[At(low)] - left) / length, (values[At(high)] - left) / length);
-    std::copy(row.begin(), row.end(), result);
-  }
+  const std::vector<double>& t = basis.Knots[At(direction)];
+  LRBlossomRow(
+    basis.Degree[At(direction)], knots, low, high,
+    [&t](int u, int lower, int upper, double a, double b)
+    {
+      return ((t[At(upper)] - t[At(u)]) * a + (t[At(u)] - t[At(lower)]) * b) /
+        (t[At(upper)] - t[At(lower)]);
+    },
+    row);
 }
 
 /// A function on an element.

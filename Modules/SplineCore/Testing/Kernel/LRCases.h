@@ -4,6 +4,8 @@
 #include "LRRefinement.h"
 #include "RandomSplines.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 
 namespace knotwork::testing
@@ -128,7 +130,10 @@ inline std::vector<LRSegment> RandomSegments(Random& random, SplineSpacePtr<2> s
     {
       segments.push_back(segment);
       space = next.Value;
+      continue;
     }
+    // refused by the rules of insertion, not by a check of what came out
+    EXPECT_EQ(next.Status.Detail.find("segment 0"), 0u) << next.Status.Message();
   }
   return segments;
 }

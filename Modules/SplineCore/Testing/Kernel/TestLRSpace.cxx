@@ -487,6 +487,7 @@ TEST(LRSpace, EveryFailureIsReachable_ExactOracle)
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto code = [&](const LRSegment& s) { return InsertSegments(tensor, { s }).Status.Code; };
   EXPECT_EQ(code({ 0, 0.3, 0.0, 0.75 }), ErrorCode::Ok);
+  EXPECT_EQ(code({ 0, 0.3, 0.0, 0.75, 3 }), ErrorCode::Ok);
   EXPECT_EQ(code({ 0, 0.25, 0.0, 0.25 }), ErrorCode::Ok); // is there already
   EXPECT_EQ(code({ 2, 0.3, 0.0, 0.75 }), ErrorCode::InvalidParameter);
   EXPECT_EQ(code({ 0, 0.3, 0.0, 0.75, 0 }), ErrorCode::InvalidParameter);
