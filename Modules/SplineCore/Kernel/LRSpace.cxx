@@ -13,6 +13,7 @@ namespace knotwork
 namespace
 {
 constexpr double UnityTolerance = 1e-9;
+constexpr std::size_t MaxOverload = 16; // functions on an element on average, over (p + 1)(q + 1)
 
 std::size_t At(int i)
 {
@@ -181,8 +182,10 @@ struct Incidence
   int RowV;
 };
 
-/// Functions and rows of every element, functions ascending; fills AliveStart.
-std::vector<Incidence> FindIncidences(LRData& data, std::array<LineRows, 2>& rows)
+/// Functions and rows of every element, functions ascending; fills AliveStart. Empty when there are
+/// more than limit.
+std::vector<Incidence> FindIncidences(
+  LRData& data, std::array<LineRows, 2>& rows, std::size_t limit)
 {
   const LRBasis& basis = data.Basis;
   const std::vector<std::array<int, 4>>& elements = data.ElementKnots;
@@ -224,6 +227,10 @@ std::vector<Incidence> FindIncidences(LRData& data, std::array<LineRows, 2>& row
         ++data.AliveStart[id + 1];
       }
     }
+    if (pairs.size() > limit)
+    {
+      return {};
+    }
   }
   std::partial_sum(data.AliveStart.begin(), data.AliveStart.end(), data.AliveStart.begin());
   std::vector<Incidence> incidences(pairs.size());
@@ -241,13 +248,18 @@ class RowBuilder
 public:
   RowBuilder(SplineSpace<2>& space, LRData& data)
     : Space(space), Data(data), Rows{ LineRows(data.Basis, 0), LineRows(data.Basis, 1) },
-      Incidences(FindIncidences(data, this->Rows)), N0(data.Basis.Degree[0] + 1),
+      Incidences(FindIncidences(data, this->Rows, MostAlive(data))), N0(data.Basis.Degree[0] + 1),
       N1(data.Basis.Degree[1] + 1)
   {
   }
 
   Status Build()
   {
+    if (this->Incidences.empty())
+    {
+      return { ErrorCode::TooLarge,
+        "more than " + std::to_string(MostAlive(this->Data)) + " functions on elements" };
+    }
     this->Data.AliveFunctions.reserve(this->Incidences.size());
     std::size_t entries = 0;
     for (const Incidence& item : this->Incidences)
@@ -256,8 +268,8 @@ public:
       entries += CountPositive(this->Rows[0].Row(item.RowU), this->N0) *
         CountPositive(this->Rows[1].Row(item.RowV), this->N1);
     }
-    this->Space.RowFunction.resize(entries);
-    this->Space.RowCoefficient.resize(entries);
+    this->Space.RowFunction.resize(entries + 1);
+    this->Space.RowCoefficient.resize(entries + 1);
     this->Space.RowStart.reserve(At(this->Space.NumLocalFunctions) + 1);
     this->Space.RowStart.push_back(0);
     for (std::size_t e = 0; e < this->Data.ElementKnots.size(); ++e)
@@ -268,10 +280,18 @@ public:
           "the functions' sum on element " + std::to_string(e) + " is not 1" };
       }
     }
+    this->Space.RowFunction.resize(this->Space.RowStart.back());
+    this->Space.RowCoefficient.resize(this->Space.RowStart.back());
     return {};
   }
 
 private:
+  /// Functions on elements, counted by element: a bound on what damaged definitions may ask for.
+  static std::size_t MostAlive(const LRData& data)
+  {
+    return MaxOverload * At(NumTensorFunctions<2>(data.Basis.Degree)) * data.ElementKnots.size();
+  }
+
   static std::size_t CountPositive(const double* row, int n)
   {
     return At(static_cast<int>(std::count_if(row, row + n, [](double x) { return x > 0.0; })));
@@ -304,12 +324,12 @@ private:
         double sum = 0.0;
         for (std::size_t k = first; k < first + alive; ++k, u += this->N0, v += this->N1)
         {
-          if (*u > 0.0 && *v > 0.0)
-          {
-            this->Space.RowFunction[next] = this->Incidences[k].Function;
-            this->Space.RowCoefficient[next++] = *u * *v;
-            sum += *u * *v;
-          }
+          // written in any case, kept when positive: a branch would be a matter of luck
+          const double value = *u * *v;
+          this->Space.RowFunction[next] = this->Incidences[k].Function;
+          this->Space.RowCoefficient[next] = value;
+          next += value > 0.0 ? 1 : 0;
+          sum += value;
         }
         this->Space.RowStart.push_back(next);
         off = std::max(off, std::fabs(sum - 1.0));

@@ -74,7 +74,8 @@ struct LRData
 /// tensor-product space that contains it.
 /// @return InvalidDegree, InvalidKnots, SizeMismatch, InvalidTopology: lines that do not divide the
 /// domain into boxes, ends of multiplicity other than p + 1, functions that are not of minimal
-/// support on the mesh, or whose sum differs from 1 by more than 1e-9. TooLarge.
+/// support on the mesh, or whose sum differs from 1 by more than 1e-9. TooLarge: 2^31 Bernstein
+/// coefficients, or 16 (p + 1)(q + 1) functions alive on an element on average.
 /// @complexity O(functions * elements in a support * (p+1)^2).
 Result<SplineSpacePtr<2>> MakeLRSpace(LRBasis basis);
 
