@@ -364,7 +364,10 @@ private:
     double largest = 0.0;
     for (int k = 0; k < this->NumUses(); ++k)
     {
-      const DerivativeBounds& bounds = this->Surfaces[static_cast<std::size_t>(k)]->Everywhere();
+      const ParametricBox<2> point{ { this->Chain.UV(v, 2 * k), this->Chain.UV(v, 2 * k + 1) },
+        { this->Chain.UV(v, 2 * k), this->Chain.UV(v, 2 * k + 1) } };
+      DerivativeBounds bounds;
+      this->Surfaces[static_cast<std::size_t>(k)]->Over(point, bounds);
       largest =
         std::max(largest, bounds.U * std::abs(jump[2 * k]) + bounds.V * std::abs(jump[2 * k + 1]));
     }

@@ -332,6 +332,18 @@ TEST(TrimLoops, CornersAreRoundedWhenNoneAreAllowed_PropertyOracle)
   EXPECT_GT(loops->MaxTrimDistance, 0.0);
 }
 
+// Bilinear elements: the curves on the surface have a corner at every line between elements.
+TEST(TrimLoops, SurfaceWithCreases_CrossOracle)
+{
+  const ChartMesh chart = Annulus(60, 6, 0.4, 1.0, Saddle);
+  const std::vector<Spline<2>> surfaces{ InterpolatingSurface(Saddle, 1, 7, BoxOf(chart)) };
+  const LoopParams params = WithTolerance(1e-2);
+  const auto loops = FitLoops({ chart }, surfaces, params);
+  ASSERT_TRUE(loops) << loops.Status.Message();
+  CheckFit({ chart }, surfaces, params, loops.Value);
+  EXPECT_LE(loops->MaxEdgeGap, 0.05 * params.Tolerance);
+}
+
 // A tolerance that only corners of the curve reach, and one below rounding.
 TEST(TrimLoops, StubbornCornersBecomeMultipleKnots_ExactOracle)
 {
