@@ -168,8 +168,7 @@ struct TrimJob
     {
       report[Options::SnakeCase(name)] = value(name).ToInt() != 0;
     }
-    for (const char* name :
-      { "Faces", "Loops", "Edges", "Vertices", "ControlPoints", "Centres", "Passes" })
+    for (const char* name : { "Faces", "Loops", "Edges", "Vertices", "ControlPoints", "Passes" })
     {
       report[Options::SnakeCase(name)] = value(name).ToInt();
     }
@@ -178,6 +177,7 @@ struct TrimJob
       report[Options::SnakeCase(name)] = value(name).ToString();
     }
     report["charts"] = value("Faces").ToInt();
+    report["centres_used"] = value("Centres").ToInt();
     report["face_triangles"] = value("Triangles").ToInt();
     report["seconds_of_trimming"] = value("Seconds").ToDouble();
   }

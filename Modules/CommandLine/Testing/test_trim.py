@@ -137,9 +137,39 @@ def test_every_method_and_its_options():
         report = trim(rolled(), "--output", path("method.step"), "--method", method, "--tolerance", 0.01)
         assert report["method"] == method and report["tolerance"] == 0.01
         assert report["within_tolerance"] is True and report["brep_valid"] is True
-        assert (report["centres"] > 0) == (method in ("rbf", "hybrid"))
+        assert (report["centres_used"] > 0) == (method in ("rbf", "hybrid"))
     report = trim(rolled(), "--output", path("method.step"), "--elements", 10, "--degree", 2, "--tolerance", 0.01)
     assert report["nets"].startswith("12 x "), report["nets"]
+
+
+def sphere(name, levels=3):
+    """An octahedron whose triangles are quartered and pushed out."""
+    points = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
+    triangles = [(x, y, z) if (x + y + z) % 2 else (y, x, z) for x in (0, 1) for y in (2, 3) for z in (4, 5)]
+    triangles = [t if np.linalg.det(np.array(points)[list(t)]) > 0 else t[::-1] for t in triangles]
+    for _ in range(levels):
+        middle = {}
+
+        def between(a, b):
+            key = (min(a, b), max(a, b))
+            if key not in middle:
+                p = np.add(points[a], points[b])
+                points.append(tuple(p / np.linalg.norm(p)))
+                middle[key] = len(points) - 1
+            return middle[key]
+
+        triangles = [t for a, b, c in triangles for ab, bc, ca in [(between(a, b), between(b, c), between(c, a))]
+                     for t in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))]
+    return write_off(name, points, triangles)
+
+
+def test_a_closed_surface_is_cut_into_charts_that_close_again():
+    report = trim(sphere("sphere.off"), "--output", path("sphere.step"), "--tolerance", 0.01, warns=True)
+    assert report["charts"] == report["faces"] == report["file_faces"] >= 2
+    assert report["loops"] == report["file_loops"] == 0
+    assert report["brep_valid"] is True and report["within_tolerance"] is True
+    assert report["flipped_triangles"] == 0 and report["max_stretch"] <= 3
+    assert abs(report["file_area"] / (4 * math.pi) - 1) < 0.02  # inscribed triangles of edges up to 0.2
 
 
 def test_a_tolerance_that_is_not_reached_is_reported():
