@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LRDependence.h"
 
-#include "LRLineRows.h"
-#include "PrimeField.h"
+#include "LRModular.h"
 
 #include <Eigen/SVD>
 #include <cmath>
 #include <map>
-#include <unordered_map>
 
 namespace knotwork
 {
 namespace
 {
 using Number = PrimeField::Number;
-using Row = std::vector<Number>;
 
 constexpr std::size_t MaxEliminated = 3000; // functions of one elimination
 
@@ -22,170 +19,6 @@ std::size_t At(int i)
 {
   return static_cast<std::size_t>(i);
 }
-
-/// Bernstein coefficients of the unscaled functions modulo a prime.
-class ModularRows
-{
-public:
-  explicit ModularRows(const LRData& data)
-    : Data(data), Lines{ LRLineRows<Number>(data.Basis, 0), LRLineRows<Number>(data.Basis, 1) }
-  {
-  }
-
-  void SetPrime(Number prime)
-  {
-    this->Field = PrimeField(prime);
-    this->Unlucky = false;
-    for (std::size_t d = 0; d < 2; ++d)
-    {
-      this->Knots[d].clear();
-      for (const double knot : this->Data.Basis.Knots[d])
-      {
-        this->Knots[d].push_back(this->Field.OfDouble(knot));
-      }
-      this->Lines[d].Clear();
-      this->Inverses[d].clear();
-    }
-  }
-
-  const PrimeField& GetField() const { return this->Field; }
-  /// Two knots are the same modulo the prime: its rows mean nothing.
-  bool IsUnlucky() const { return this->Unlucky; }
-
-  /// (p + 1)(q + 1) coefficients of a function on an element.
-  void Get(int function, int element, Row& result)
-  {
-    const std::array<int, 4>& box = this->Data.ElementKnots[At(element)];
-    const int u = this->Find(0, function, box[0], box[2]);
-    const int v = this->Find(1, function, box[1], box[3]);
-    const IntArray<2>& degree = this->Data.Basis.Degree;
-    result.clear();
-    for (int j = 0; j <= degree[1]; ++j)
-    {
-      for (int i = 0; i <= degree[0]; ++i)
-      {
-        result.push_back(this->Field.Multiply(this->Lines[0].Row(u)[i], this->Lines[1].Row(v)[j]));
-      }
-    }
-  }
-
-private:
-  int Find(std::size_t d, int function, int low, int high)
-  {
-    return this->Lines[d].Find(function, low, high,
-      [this, d](const int* knots, int a, int b, Number* row) { this->Make(d, knots, a, b, row); });
-  }
-
-  void Make(std::size_t d, const int* knots, int low, int high, Number* row)
-  {
-    const std::vector<Number>& t = this->Knots[d];
-    LRBlossomRow(
-      this->Data.Basis.Degree[d], knots, low, high,
-      [&](int u, int lower, int upper, Number a, Number b)
-      {
-        const Number left = this->Field.Multiply(this->Field.Subtract(t[At(upper)], t[At(u)]), a);
-        const Number right = this->Field.Multiply(this->Field.Subtract(t[At(u)], t[At(lower)]), b);
-        return this->Field.Multiply(
-          this->Field.Add(left, right), this->InverseLength(d, lower, upper));
-      },
-      row);
-  }
-
-  Number InverseLength(std::size_t d, int lower, int upper)
-  {
-    const std::uint64_t key =
-      (static_cast<std::uint64_t>(lower) << 32) | static_cast<std::uint64_t>(upper);
-    const auto [place, isNew] = this->Inverses[d].try_emplace(key, 0);
-    if (isNew)
-    {
-      const Number length =
-        this->Field.Subtract(this->Knots[d][At(upper)], this->Knots[d][At(lower)]);
-      this->Unlucky = this->Unlucky || length == 0;
-      place->second = this->Field.Inverse(length);
-    }
-    return place->second;
-  }
-
-  const LRData& Data;
-  PrimeField Field;
-  std::array<std::vector<Number>, 2> Knots;
-  std::array<LRLineRows<Number>, 2> Lines;
-  std::array<std::unordered_map<std::uint64_t, Number>, 2> Inverses;
-  bool Unlucky = false;
-};
-
-/// Row echelon form that grows row by row: reduced rows with leading ones.
-class Echelon
-{
-public:
-  explicit Echelon(const PrimeField& field) : Field(field) {}
-
-  /// @return whether the row was independent of the rows before.
-  bool Add(Row row)
-  {
-    for (const auto& [pivot, other] : this->Rows)
-    {
-      this->Eliminate(row, other, pivot);
-    }
-    std::size_t pivot = 0;
-    while (pivot < row.size() && row[pivot] == 0)
-    {
-      ++pivot;
-    }
-    if (pivot == row.size())
-    {
-      return false;
-    }
-    const Number scale = this->Field.Inverse(row[pivot]);
-    for (Number& x : row)
-    {
-      x = this->Field.Multiply(x, scale);
-    }
-    this->Rows.emplace(pivot, std::move(row));
-    return true;
-  }
-
-  std::size_t Rank() const { return this->Rows.size(); }
-
-  /// A vector that all rows annihilate, 1 in the first column without pivot. @pre there is one.
-  Row Kernel(std::size_t columns) const
-  {
-    std::size_t free = 0;
-    while (this->Rows.count(free) > 0)
-    {
-      ++free;
-    }
-    Row x(columns, 0);
-    x[free] = 1;
-    for (auto row = this->Rows.rbegin(); row != this->Rows.rend(); ++row)
-    {
-      Number sum = 0;
-      for (std::size_t c = row->first + 1; c < columns; ++c)
-      {
-        sum = this->Field.Add(sum, this->Field.Multiply(row->second[c], x[c]));
-      }
-      x[row->first] = this->Field.Subtract(0, sum);
-    }
-    return x;
-  }
-
-private:
-  void Eliminate(Row& row, const Row& other, std::size_t pivot) const
-  {
-    const Number factor = row[pivot];
-    if (factor == 0)
-    {
-      return;
-    }
-    for (std::size_t c = pivot; c < row.size(); ++c)
-    {
-      row[c] = this->Field.Subtract(row[c], this->Field.Multiply(factor, other[c]));
-    }
-  }
-
-  const PrimeField& Field;
-  std::map<std::size_t, Row> Rows; // by pivot
-};
 
 std::vector<std::vector<int>> ElementsOfFunctions(const LRData& data)
 {
@@ -202,7 +35,7 @@ std::vector<std::vector<int>> ElementsOfFunctions(const LRData& data)
 
 /// Functions that no element proves to be in no relation.
 std::vector<int> Peel(
-  const LRData& data, const std::vector<std::vector<int>>& elements, ModularRows& rows)
+  const LRData& data, const std::vector<std::vector<int>>& elements, LRModularRows& rows)
 {
   const auto perElement = At(NumTensorFunctions<2>(data.Basis.Degree));
   std::vector<bool> on(At(data.Basis.NumFunctions()), true);
@@ -213,7 +46,7 @@ std::vector<int> Peel(
     queue.push_back(static_cast<int>(e));
   }
   std::vector<int> left;
-  Row row;
+  ModularRow row;
   while (!queue.empty())
   {
     const int e = queue.back();
@@ -231,7 +64,7 @@ std::vector<int> Peel(
     {
       continue;
     }
-    Echelon echelon(rows.GetField());
+    ModularEchelon echelon(rows.GetField());
     bool independent = true;
     for (std::size_t i = 0; i < left.size() && independent; ++i)
     {
@@ -326,10 +159,10 @@ public:
 
   /// Calls use(row) until it says false.
   template <typename Use>
-  void ForEachRow(ModularRows& rows, Use&& use) const
+  void ForEachRow(LRModularRows& rows, Use&& use) const
   {
     const auto perElement = At(NumTensorFunctions<2>(this->Data.Basis.Degree));
-    std::vector<Row> columns;
+    std::vector<ModularRow> columns;
     for (const auto& [e, ids] : this->Columns)
     {
       columns.resize(ids.size());
@@ -339,7 +172,7 @@ public:
       }
       for (std::size_t b = 0; b < perElement; ++b)
       {
-        Row row(this->Functions.size(), 0);
+        ModularRow row(this->Functions.size(), 0);
         for (std::size_t k = 0; k < ids.size(); ++k)
         {
           row[ids[k]] = columns[k][b];
@@ -352,11 +185,11 @@ public:
     }
   }
 
-  Echelon Reduce(ModularRows& rows) const
+  ModularEchelon Reduce(LRModularRows& rows) const
   {
-    Echelon echelon(rows.GetField());
+    ModularEchelon echelon(rows.GetField());
     this->ForEachRow(rows,
-      [&](Row row)
+      [&](ModularRow row)
       {
         echelon.Add(std::move(row));
         return echelon.Rank() < this->Functions.size();
@@ -418,39 +251,6 @@ private:
   std::map<int, std::vector<std::size_t>> Columns; // of an element
 };
 
-/// Primes one after the other, those left out modulo which two knots are the same.
-class Primes
-{
-public:
-  explicit Primes(const LRData& data) : Rows(data) {}
-
-  /// Calls use(rows) with a new prime until their product exceeds 2^bits or use says false.
-  /// @return whether all calls said true.
-  template <typename Use>
-  bool Exceed(double bits, Use&& use)
-  {
-    Number prime = PrimeField::LargestPrime;
-    for (double product = 0.0; product <= bits;)
-    {
-      this->Rows.SetPrime(prime);
-      const bool good = use(this->Rows);
-      if (!this->Rows.IsUnlucky())
-      {
-        if (!good)
-        {
-          return false;
-        }
-        product += std::log2(static_cast<double>(prime)) - 1e-6;
-      }
-      prime = PrimeField::PrimeBelow(prime);
-    }
-    return true;
-  }
-
-private:
-  ModularRows Rows;
-};
-
 /// The fraction n / d with |n|, d < 2^15 that a residue stands for; d = 0 when there is none.
 std::array<std::int64_t, 2> Fraction(Number residue, const PrimeField& field)
 {
@@ -472,7 +272,7 @@ std::array<std::int64_t, 2> Fraction(Number residue, const PrimeField& field)
 }
 
 /// Whole numbers proportional to residues; empty when they would be large.
-std::vector<std::int64_t> WholeNumbers(const Row& residues, const PrimeField& field)
+std::vector<std::int64_t> WholeNumbers(const ModularRow& residues, const PrimeField& field)
 {
   constexpr std::int64_t limit = std::int64_t{ 1 } << 40;
   std::vector<std::array<std::int64_t, 2>> fractions;
@@ -499,7 +299,7 @@ std::vector<std::int64_t> WholeNumbers(const Row& residues, const PrimeField& fi
 }
 
 /// The relation holds modulo primes whose product exceeds what its sum, made whole, can be.
-bool IsExact(Primes& primes, const PartMatrix& matrix, const std::vector<int>& functions,
+bool IsExact(LRPrimes& primes, const PartMatrix& matrix, const std::vector<int>& functions,
   const std::vector<std::int64_t>& numbers)
 {
   double bits = 2.0;
@@ -510,10 +310,10 @@ bool IsExact(Primes& primes, const PartMatrix& matrix, const std::vector<int>& f
     size += std::fabs(static_cast<double>(numbers[k]));
   }
   return primes.Exceed(bits + std::log2(size + 1.0),
-    [&](ModularRows& rows)
+    [&](LRModularRows& rows)
     {
       const PrimeField& field = rows.GetField();
-      Row residues;
+      ModularRow residues;
       for (const std::int64_t n : numbers)
       {
         const auto magnitude =
@@ -522,7 +322,7 @@ bool IsExact(Primes& primes, const PartMatrix& matrix, const std::vector<int>& f
       }
       bool zero = true;
       matrix.ForEachRow(rows,
-        [&](const Row& row)
+        [&](const ModularRow& row)
         {
           Number sum = 0;
           for (std::size_t c = 0; c < row.size(); ++c)
@@ -538,7 +338,7 @@ bool IsExact(Primes& primes, const PartMatrix& matrix, const std::vector<int>& f
 
 /// Coefficients of the relation of the columns before the free one and it, in double precision.
 std::vector<double> RoundedRelation(
-  const SplineSpace<2>& space, const std::vector<int>& functions, const Row& kernel)
+  const SplineSpace<2>& space, const std::vector<int>& functions, const ModularRow& kernel)
 {
   const LRData& data = *space.LocallyRefined;
   std::vector<int> column(At(space.NumFunctions), -1);
@@ -584,8 +384,8 @@ std::vector<double> RoundedRelation(
 }
 
 /// Fills the relation from a vector of the kernel modulo the first prime.
-void Exhibit(const SplineSpace<2>& space, Primes& primes, const PartMatrix& matrix,
-  const std::vector<int>& functions, const Row& kernel, const PrimeField& field,
+void Exhibit(const SplineSpace<2>& space, LRPrimes& primes, const PartMatrix& matrix,
+  const std::vector<int>& functions, const ModularRow& kernel, const PrimeField& field,
   LRDependenceResult& result)
 {
   const LRData& data = *space.LocallyRefined;
@@ -637,9 +437,9 @@ Result<LRDependenceResult> DecideDependence(const SplineSpace<2>& space)
   LRDependenceResult result;
   const auto elements = ElementsOfFunctions(data);
   // one prime that tells all knots apart does
-  Primes primes(data);
+  LRPrimes primes(data);
   primes.Exceed(0.0,
-    [&](ModularRows& rows)
+    [&](LRModularRows& rows)
     {
       result.Unpeeled = Peel(data, elements, rows);
       return true;
@@ -654,12 +454,12 @@ Result<LRDependenceResult> DecideDependence(const SplineSpace<2>& space)
     }
     const PartMatrix matrix(data, part, elements);
     int defect = 0;
-    Row kernel;
+    ModularRow kernel;
     PrimeField field;
     const bool isShort = primes.Exceed(matrix.MinorBits(),
-      [&](ModularRows& rows)
+      [&](LRModularRows& rows)
       {
-        const Echelon echelon = matrix.Reduce(rows);
+        const ModularEchelon echelon = matrix.Reduce(rows);
         if (echelon.Rank() == part.size())
         {
           return false;
@@ -684,122 +484,5 @@ Result<LRDependenceResult> DecideDependence(const SplineSpace<2>& space)
     }
   }
   return result;
-}
-
-namespace
-{
-/// Segments across the support of a function that split it: first along lines that are there in
-/// part, then through the middle of its longest spans.
-std::vector<LRSegment> SplittingSegments(const LRBasis& basis, int f)
-{
-  std::vector<LRSegment> going, fresh;
-  for (int d = 0; d < 2; ++d)
-  {
-    const std::vector<double>& values = basis.Knots[At(d)];
-    const int* knots = basis.Local(f, d);
-    const int* across = basis.Local(f, 1 - d);
-    const int last = basis.Degree[At(d)] + 1;
-    const int low = across[0];
-    const int high = across[basis.Degree[At(1 - d)] + 1];
-    LRSegment segment;
-    segment.Direction = d;
-    segment.Start = basis.Knots[At(1 - d)][At(low)];
-    segment.End = basis.Knots[At(1 - d)][At(high)];
-    for (int k = knots[0] + 1; k < knots[last]; ++k)
-    {
-      int most = 0;
-      for (int i = low; i < high; ++i)
-      {
-        most = std::max(most, LRMultiplicity(basis.Lines[At(d)][At(k)], i, i + 1));
-      }
-      if (most > 0 && std::find(knots, knots + last + 1, k) == knots + last + 1)
-      {
-        segment.Value = values[At(k)];
-        going.push_back(segment);
-      }
-    }
-    for (int i = 0; i < last; ++i)
-    {
-      if (knots[i] < knots[i + 1])
-      {
-        segment.Value = 0.5 * (values[At(knots[i])] + values[At(knots[i + 1])]);
-        fresh.push_back(segment);
-      }
-    }
-  }
-  going.insert(going.end(), fresh.begin(), fresh.end());
-  return going;
-}
-
-/// The first of the segments that leaves fewer relations.
-Result<SplineSpacePtr<2>> Improve(const SplineSpacePtr<2>& space,
-  const LRDependenceResult& relation, LRSegment& chosen, LRDependenceResult& better)
-{
-  for (const int f : relation.Functions)
-  {
-    for (const LRSegment& segment : SplittingSegments(space->LocallyRefined->Basis, f))
-    {
-      Result<SplineSpacePtr<2>> refined = InsertSegments(space, { segment });
-      if (!refined)
-      {
-        continue;
-      }
-      Result<LRDependenceResult> decided = DecideDependence(*refined.Value);
-      if (decided->Verdict != LRVerdict::Undecided && decided->Defect < relation.Defect)
-      {
-        chosen = segment;
-        better = std::move(decided.Value);
-        return refined;
-      }
-    }
-  }
-  return { ErrorCode::NotConverged, "no segment across a function of the relation resolves it" };
-}
-}
-
-Result<LRResolution> ResolveDependence(const Spline<2>& spline, int maxSegments)
-{
-  if (Status status = spline.Check(); !status)
-  {
-    return status;
-  }
-  Result<LRDependenceResult> decided = DecideDependence(*spline.Space);
-  if (!decided)
-  {
-    return decided.Status;
-  }
-  LRResolution resolution;
-  SplineSpacePtr<2> space = spline.Space;
-  while (decided->Verdict == LRVerdict::Dependent)
-  {
-    if (static_cast<int>(resolution.Segments.size()) >= maxSegments)
-    {
-      return { ErrorCode::NotConverged,
-        std::to_string(decided->Defect) + " relations are left after " +
-          std::to_string(maxSegments) + " segments" };
-    }
-    LRSegment segment;
-    LRDependenceResult better;
-    Result<SplineSpacePtr<2>> refined = Improve(space, decided.Value, segment, better);
-    if (!refined)
-    {
-      return refined.Status;
-    }
-    space = refined.Value;
-    decided.Value = std::move(better);
-    resolution.Segments.push_back(segment);
-  }
-  if (decided->Verdict == LRVerdict::Undecided)
-  {
-    return { ErrorCode::NotConverged,
-      std::to_string(decided->Unpeeled.size()) + " functions are too many for an elimination" };
-  }
-  Result<Spline<2>> value = InsertSegments(spline, resolution.Segments);
-  if (!value)
-  {
-    return value.Status;
-  }
-  resolution.Value = std::move(value.Value);
-  return resolution;
 }
 }
