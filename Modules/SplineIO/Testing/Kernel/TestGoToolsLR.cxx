@@ -3,6 +3,7 @@
 #include "FileCases.h"
 #include "GoToolsG2.h"
 #include "LRCases.h"
+#include "LRDependence.h"
 
 #include <cstdlib>
 #include <fstream>
@@ -159,6 +160,17 @@ TEST(GoToolsLR, ReferenceSurfaces_GoldenOracle)
       }
     }
     EXPECT_GE(points, 50);
+    const bool dependent = std::string(name) == "lr5_linearly_dependent";
+    const auto resolved = ResolveDependence(surface);
+    ASSERT_TRUE(resolved) << resolved.Status.Message();
+    EXPECT_EQ(resolved->Segments.empty(), !dependent);
+    EXPECT_EQ(DecideDependence(*resolved->Value.Space)->Verdict, LRVerdict::Independent);
+    Random random(7);
+    const PointMatrix some = RandomParameters(random, *surface.Space, 50);
+    EvaluationBatch before, after;
+    ASSERT_TRUE(EvaluateParameters(form, some, {}, before));
+    ASSERT_TRUE(EvaluateParameters(MakeBezierForm(resolved->Value), some, {}, after));
+    EXPECT_LE((before.Values - after.Values).cwiseAbs().maxCoeff(), 1e-14);
     const Result<std::string> written = WriteG2(file->Splines);
     ASSERT_TRUE(written) << written.Status.Message();
     const Result<SplineFile> again = ReadG2(written.Value);
