@@ -281,7 +281,8 @@ Result<std::vector<int>> DivideChart(CutMesh& mesh, int chart, const EdgeCrossin
     const Sides sides = DivideByPosition(SurfaceParts(part.Value.Mesh, localHoles));
     if (sides.empty())
     {
-      return { ErrorCode::InvalidTopology, "a single triangle cannot be divided" };
+      return { ErrorCode::InvalidTopology,
+        "a chart of one triangle is not laid out by the method; allow the fallback" };
     }
     SetSides(mesh, part.Value, sides);
   }

@@ -40,13 +40,15 @@ struct ChartedMesh
 /// a map without flips whose boundary does not cross itself, stretched by MaxStretch at most.
 ///
 /// A surface that can be laid out as it is stays uncut. A chart that cannot is cut in two, between
-/// sides of different normals or, where these are alike, across its length; cuts are smooth lines
-/// across triangles, or run along creases. Holes that are small (length below the root of the
-/// area, in one side of the surface) are not cut.
+/// sides of different normals or, where it only lies over itself in the plane, between the places
+/// that meet; cuts are smooth lines across triangles, or run along creases. At the end small charts
+/// join neighbours where both together have a good map. Holes that are small (length below the root
+/// of the area, in one side of the surface) are not cut.
 /// @param params  Method is tried first; with Fallback, Injective when it fails, flips, crosses or
 ///        stretches too much.
 /// @return InvalidParameter; failures of CheckSurface; NotConverged: MaxCharts are too few for
-/// charts that are discs. Charts that are stretched more are a result: see WithinLimit.
+/// charts that are discs; InvalidTopology: a chart of one triangle that Method without Fallback
+/// does not lay out. Charts that are stretched more are a result: see WithinLimit.
 /// @complexity O(n log n) graph cuts and factorizations of O(n^1.5), times the depth of cuts.
 /// @source Cohen-Steiner, Alliez, Desbrun, ACM TOG 23 (2004) 905 (normals); Boykov, Veksler, Zabih,
 /// IEEE PAMI 23 (2001) 1222 (cuts of a graph).

@@ -325,6 +325,17 @@ TEST(FlattenCharts, WithoutFallbackTheMethodIsTheOnlyOne_PropertyOracle)
   }
 }
 
+TEST(FlattenCharts, MethodThatNeedsMorePointsNeedsTheFallback_ExactOracle)
+{
+  FlattenParams params; // HLLE of a cube's corners
+  params.Fallback = false;
+  const Status status = FlattenCharts(Cube(1), params).Status;
+  EXPECT_EQ(status.Code, ErrorCode::InvalidTopology);
+  EXPECT_NE(status.Detail.find("allow the fallback"), std::string::npos);
+  params.Fallback = true;
+  EXPECT_TRUE(FlattenCharts(Cube(1), params));
+}
+
 TEST(FlattenCharts, FallbackOfAChartIsAnnounced_PropertyOracle)
 {
   ChartParams params;
