@@ -21,12 +21,19 @@ struct TrimmedMesh
   std::vector<int> TriangleFace;
   std::vector<std::array<std::array<double, 2>, 3>>
     TriangleUV; ///< parameters of the corners in the triangle's face
-  double Bound =
-    0.0; ///< of the distance of triangles to faces; above Tolerance only when MaxTriangles stopped
+  /// Of the distance of triangles to faces and of faces to triangles, proved. Above Tolerance only
+  /// where MaxTriangles stopped, or where curves of edges are further than half of it from the
+  /// surface.
+  double Bound = 0.0;
 };
 
 /// Constrained Delaunay triangulations in the parameter planes, refined until the chordal deviation
-/// is within the tolerance.
+/// is within the tolerance: edges are sampled once for all faces along them, faces at the corners
+/// of cells within which linear interpolation is good enough (ChordalBound.h), and every triangle
+/// is bounded, by the second derivatives around it, by how far chords are from the curves of edges
+/// and by how far those are from the surface. Polygons that cross although their curves do not are
+/// divided. Triangles are not flipped in the parameter plane. The result does not depend on
+/// threads.
 /// @return failures of TrimmedModel::Check; InvalidParameter; InvalidTopology for loops that cross;
 /// TooLarge; Aborted.
 Result<TrimmedMesh> TriangulateFaces(const TrimmedModel& model, const TrimmedMeshParams& params);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FaceCases.h"
+#include "RandomSplines.h"
+#include "SurfaceCells.h"
 
 using namespace knotwork;
 using namespace knotwork::testing;
@@ -302,6 +304,173 @@ TEST(TriangulateFaces, ThinSliverBetweenCurves_ExactOracle)
   EXPECT_GT(mesh.Triangles.size(), 20u); // chords were divided until they left each other alone
   const TrimmedMesh fine = Triangulated(model, Within(1e-7));
   EXPECT_NEAR(Area(fine), width, 2e-7); // chords of both sides are within the tolerance
+}
+
+TEST(TriangulateFaces, NeighboursFollowEdgesThatAreDivided_ExactOracle)
+{
+  // A sliver whose loop crosses itself until its edges are divided, and a wide face above that
+  // would not need it.
+  TrimmedModel model;
+  model.Faces.resize(2);
+  for (TrimmedFace& face : model.Faces)
+  {
+    face.Surface = Plane();
+  }
+  const double width = 1e-4;
+  const Path low = [](double t) -> std::array<double, 2> {
+    return { t, 0.1 + t * (1.0 - t) };
+  };
+  const Path high = [width](double t) -> std::array<double, 2>
+  {
+    const double x = t * (1.0 + t) / 2.0;
+    return { x, 0.1 + width + x * (1.0 - x) };
+  };
+  const Spline<2>& plane = model.Faces[0].Surface;
+  const double y = 0.1 + width;
+  TrimmedLoop sliver;
+  sliver.Curves.push_back(Along(plane, low, KnotVector::Uniform(4, 1), 0, { 0, 1 }));
+  sliver.Curves.push_back(Along(plane, Straight({ 1, 0.1 }, { 1, y }), {}, 1, { 1, 2 }));
+  sliver.Curves.push_back(Along(plane, high, KnotVector::Uniform(4, 1), 2, { 3, 2 }, true));
+  sliver.Curves.push_back(Along(plane, Straight({ 0, y }, { 0, 0.1 }), {}, 3, { 3, 0 }));
+  model.Faces[0].Loops.push_back(sliver);
+  TrimmedLoop wide;
+  wide.Curves.push_back(sliver.Curves[2]);
+  wide.Curves[0].Reversed = false;
+  wide.Curves.push_back(Along(plane, Straight({ 1, y }, { 1, 1 }), {}, 4, { 2, 4 }));
+  wide.Curves.push_back(Along(plane, Straight({ 1, 1 }, { 0, 1 }), {}, 5, { 4, 5 }));
+  wide.Curves.push_back(Along(plane, Straight({ 0, 1 }, { 0, y }), {}, 6, { 5, 3 }));
+  model.Faces[1].Loops.push_back(wide);
+  model.NumEdges = 7;
+  model.NumVertices = 6;
+  const TrimmedMesh mesh = Triangulated(model, Within(0.05));
+  const MeshTopology topology = TopologyOf(mesh);
+  EXPECT_TRUE(topology.Manifold);
+  EXPECT_EQ(topology.Euler, 1);
+  EXPECT_EQ(topology.BoundaryLoops, 1); // nothing open along the common edge
+}
+
+TEST(TriangulateFaces, ChordsOfACircleCountInTheBound_ExactOracle)
+{
+  TrimmedModel model = OneFace(Plane());
+  AddClosed(
+    model, model.Faces[0], Wavy({ 0.5, 0.5 }, 0.4, 0.0, 1, 1.0), KnotVector::Uniform(3, 80));
+  for (double tolerance : { 5e-2, 1e-2, 1e-3 })
+  {
+    const TrimmedMesh mesh = Triangulated(model, Within(tolerance));
+    const Eigen::RowVector2d middle(0.5, 0.5);
+    double off = 0.0;
+    for (const auto& t : mesh.Triangles)
+    {
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        const Eigen::RowVector2d a = mesh.Points.row(t[i]).head<2>() - middle;
+        const Eigen::RowVector2d b = mesh.Points.row(t[(i + 1) % 3]).head<2>() - middle;
+        const bool isNext = a.dot(b) > 0.0 && a[0] * b[1] - a[1] * b[0] > 0.0;
+        const double sagitta = 0.4 - (0.5 * (a + b)).norm();
+        const double half = Pi / static_cast<double>(mesh.Points.rows());
+        if (isNext && sagitta < 2.0 * 0.4 * (1.0 - std::cos(half))) // a side of the polygon
+        {
+          off = std::max(off, sagitta);
+        }
+      }
+    }
+    EXPECT_GT(off, 0.0);
+    EXPECT_LE(off, mesh.Bound);
+    EXPECT_LE(mesh.Bound, tolerance);
+    EXPECT_NEAR(Area(mesh), 0.16 * Pi, 0.8 * Pi * tolerance);
+  }
+}
+
+TEST(TriangulateFaces, RandomFacesKeepTheirBound_PropertyOracle)
+{
+  // Polynomial and rational surfaces of degrees 1 to 4, with creases; edges interpolate the
+  // surface, so at creases they are off it.
+  for (int seed = 1; seed <= 25; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const bool rational = random.Int(0, 1) > 0;
+    const auto space = RandomTensorSpace<2>(random, random.Int(1, 4), random.Int(1, 6));
+    TrimmedModel model = OneFace(RandomSpline<2>(random, space, 3, rational));
+    TrimmedFace& face = model.Faces[0];
+    face.Surface.ControlPoints.leftCols(2) = GrevillePoints<2>(*space);
+    face.Surface.ControlPoints.col(2) *= random.In(0.0, 0.2);
+    const ParametricBox<2> box = space->Domain();
+    const auto star = [&](double x, double y, double radius, double turns) -> Path
+    {
+      const double wave = random.In(0.0, 0.4);
+      const double phase = random.In(0.0, 6.0);
+      const int waves = random.Int(1, 9);
+      return [=](double t) -> std::array<double, 2>
+      {
+        const double angle = 2.0 * Pi * turns * t;
+        const double r = radius * (1.0 + wave * std::cos(waves * angle + phase)) / 1.4;
+        return { box.Lower[0] + (box.Upper[0] - box.Lower[0]) * (x + r * std::cos(angle)),
+          box.Lower[1] + (box.Upper[1] - box.Lower[1]) * (y + r * std::sin(angle)) };
+      };
+    };
+    AddClosed(model, face, star(0.5, 0.5, 0.48, 1.0), KnotVector::Uniform(3, random.Int(60, 200)));
+    const int holes = random.Int(0, 3);
+    for (int k = 0; k < holes; ++k)
+    {
+      const double angle = 2.0 * Pi * k / 3;
+      AddClosed(model, face,
+        star(0.5 + 0.09 * std::cos(angle), 0.5 + 0.09 * std::sin(angle), 0.05, -1.0),
+        KnotVector::Uniform(3, random.Int(20, 40)));
+    }
+    const TrimmedMesh mesh = Triangulated(model, Within(std::pow(10.0, random.In(-2.0, -0.5))));
+    EXPECT_LE(SampledDeviation(model, mesh, 4), mesh.Bound);
+    const MeshTopology topology = TopologyOf(mesh);
+    EXPECT_TRUE(topology.Manifold);
+    EXPECT_EQ(topology.Euler, 1 - holes);
+    EXPECT_EQ(topology.BoundaryLoops, 1 + holes);
+  }
+}
+
+TEST(SurfaceCells, BoundsHoldInAnyBox_PropertyOracle)
+{
+  for (int seed = 1; seed <= 30; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const auto space = RandomTensorSpace<2>(random, 4, 4);
+    const BezierForm<2> form =
+      MakeBezierForm(RandomSpline<2>(random, space, 3, random.Int(0, 1) > 0));
+    const auto cells = SurfaceCells::Create(form, 0.5, 1000000, 1);
+    ASSERT_TRUE(cells) << cells.Status.Message();
+    for (int k = 0; k < 20; ++k)
+    {
+      ParametricBox<2> box;
+      for (std::size_t d = 0; d < 2; ++d)
+      {
+        const ParametricBox<2> domain = space->Domain();
+        const double a = random.In(domain.Lower[d], domain.Upper[d]);
+        const double b = random.In(domain.Lower[d], domain.Upper[d]);
+        box.Lower[d] = std::min(a, b);
+        box.Upper[d] = std::max(a, b);
+      }
+      PointMatrix inside(30, 2);
+      for (int i = 0; i < 30; ++i)
+      {
+        inside.row(i) << random.In(box.Lower[0], box.Upper[0]),
+          random.In(box.Lower[1], box.Upper[1]);
+      }
+      EvaluationBatch batch;
+      EvaluateParameters<2>(form, inside, { 2, 1 }, batch);
+      const auto bounds = cells->Bound(box);
+      const auto largest = [](const PointMatrix& values, int part)
+      { return values.middleCols(3 * part, 3).rowwise().norm().maxCoeff(); };
+      for (int d = 0; d < 2; ++d) // rounding: some hundred operations
+      {
+        EXPECT_LE(largest(batch.First, d), bounds.First[static_cast<std::size_t>(d)] * (1 + 1e-12));
+      }
+      for (int d = 0; d < 3; ++d)
+      {
+        EXPECT_LE(largest(batch.Second, d),
+          bounds.Second[static_cast<std::size_t>(d)] * (1 + 1e-12) + 1e-11);
+      }
+    }
+  }
 }
 
 TEST(TriangulateFaces, HoleBesideACoarseChordStaysInside_PropertyOracle)
