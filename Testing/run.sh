@@ -43,6 +43,12 @@ if [ -z "${KNOTWORK_MESH_CASES:-}" ] && [ -d "$meshes" ]; then
   export KNOTWORK_MESH_CASES="$meshes"
 fi
 
+# LR surfaces, likewise.
+surfaces="$root/../shared/data/lr"
+if [ -z "${KNOTWORK_LR_CASES:-}" ] && [ -d "$surfaces" ]; then
+  export KNOTWORK_LR_CASES="$surfaces"
+fi
+
 # One display for all tests that draw; they start their own where there is none.
 cd "$release"
 exec "$root/CMake/with-display.sh" ctest --no-tests=error --output-on-failure -j "$jobs" "${select[@]}"
