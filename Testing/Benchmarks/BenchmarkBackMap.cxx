@@ -193,7 +193,7 @@ const bool registered = []
     auto* all = benchmark::RegisterBenchmark((name + "/all").c_str(),
       [elements](benchmark::State& state) { RunPenalized(state, elements, 0); });
     all->UseRealTime();
-    Repeat(all);
+    RepeatFew(all);
   }
   for (int centres : { 2000, 5000 })
   {

@@ -94,11 +94,12 @@ def main():
             cells += [show(found[peer], unit) if peer in found else peer for peer in peers]
             rows.append("| " + " | ".join(cells) + " |")
     lines = ["| " + " | ".join(columns) + " |", "|" + " --- |" * len(columns)]
+    other, options = ("", "") if tree.name == "benchmark" else (f" build/{tree.name}", " -DKNOTWORK_BENCHMARKS=ON")
     closing = ["", f"{processor()}, {os.cpu_count()} threads, load {load:.1f} at the start, fastest of "
                f"{spec.get('repetitions', 20)} repetitions; "
                "one thread: processor time. The command:", "",
-               "    cmake --preset benchmark && cmake --build --preset benchmark",
-               f"    {spec['needs'] + '=<folder> ' if 'needs' in spec else ''}Testing/Benchmarks/table.py {module}"]
+               f"    cmake --preset {tree.name}{options} && cmake --build --preset {tree.name}",
+               f"    {spec['needs'] + '=<folder> ' if 'needs' in spec else ''}Testing/Benchmarks/table.py {module}{other}"]
     insert(root / spec["page"], module, lines + rows + closing)
     if "readme" in spec:
         insert(root / "README.md", module, lines + [rows[i] for i in spec["readme"]])
