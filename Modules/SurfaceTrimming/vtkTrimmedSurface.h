@@ -80,8 +80,8 @@ public:
   vtkGetMacro(Margin, double);
   ///@}
   ///@{
-  /** Weight of the thin-plate energy of PENALIZED, independent of units and net. Default 1e-7,
-   * valid range [1e-15, 1e3]. */
+  /** Weight of the thin-plate energy of PENALIZED, independent of units; less on finer nets.
+   * Default 1e-7, valid range [1e-15, 1e3]. */
   vtkSetClampMacro(Smoothing, double, 1e-15, 1e3);
   vtkGetMacro(Smoothing, double);
   ///@}
