@@ -10,10 +10,6 @@
 
 namespace knotwork
 {
-/// The same map with clamped knots. @return failures of InsertKnots.
-template <int Dim>
-Result<Spline<Dim>> Clamped(const Spline<Dim>& spline);
-
 /// Clamped splines of tensor kind, interior multiplicities at most the degree.
 opencascade::handle<Geom_BSplineSurface> ToOpenCASCADE(const Spline<2>& surface);
 opencascade::handle<Geom_BSplineCurve> ToOpenCASCADE(const Spline<1>& curve);

@@ -4,6 +4,7 @@
 #include "BezierForm.h"
 #include "CADGeometry.h"
 #include "CADShells.h"
+#include "ClampedSpline.h"
 #include "EdgeSamples.h"
 #include "Numbers.h"
 #include "SewnBoundary.h"
