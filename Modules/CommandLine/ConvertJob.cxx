@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "CADExchange.h"
 #include "Jobs.h"
 #include "PatchTopology.h"
 #include "Session.h"
@@ -20,7 +21,37 @@ struct ConvertJob
 {
   std::string Input;
   std::string Output;
+  std::string Curves;
   std::string Encoding = "binary";
+
+  /// STEP and IGES: faces are surfaces and trimming curves, whatever else their grids hold.
+  Status RunCAD(Session& session, vtkDataObject* surfaces)
+  {
+    const bool fromCAD = HasCADEnding(this->Input);
+    vtkSmartPointer<vtkDataObject> curves = session.Curves;
+    if (!fromCAD && !this->Curves.empty())
+    {
+      auto read = session.Read(this->Curves);
+      if (!read)
+      {
+        return read.Status;
+      }
+      curves = read.Value;
+    }
+    if (fromCAD && !this->Curves.empty())
+    {
+      if (Status status = session.Write(curves, this->Curves, this->Encoding); !status)
+      {
+        return status;
+      }
+    }
+    if (!HasCADEnding(this->Output) || !curves)
+    {
+      return session.Write(surfaces, this->Output, this->Encoding);
+    }
+    CADSummary found;
+    return session.WriteFaces(surfaces, curves, this->Output, found);
+  }
 
   Status Run(Session& session)
   {
@@ -33,6 +64,11 @@ struct ConvertJob
     session.Report["output"] = this->Output;
     session.Report["encoding"] = this->Encoding;
     vtkSmartPointer<vtkDataObject> data = input.Value;
+    const bool toGrid = CLI::detail::to_lower(this->Output).find(".vtu") != std::string::npos;
+    if (HasCADEnding(this->Output) || (HasCADEnding(this->Input) && toGrid))
+    {
+      return this->RunCAD(session, data);
+    }
     if (!vtkPolyData::SafeDownCast(data))
     {
       // a decoded model written again has its attributes tagged and its schema complete
@@ -56,11 +92,10 @@ struct ConvertJob
         like->SetPartition(0, 0, data);
         data = like;
       }
-      const bool toGrid = !collection;
-      vtkSmartPointer<vtkDataObject> output = toGrid
+      vtkSmartPointer<vtkDataObject> output = !collection
         ? vtkSmartPointer<vtkDataObject>(vtkSmartPointer<vtkUnstructuredGrid>::New())
         : vtkSmartPointer<vtkDataObject>(vtkSmartPointer<vtkPartitionedDataSetCollection>::New());
-      const Status status = toGrid
+      const Status status = !collection
         ? EncodeSplineGrid(model.Value, vtkUnstructuredGrid::SafeDownCast(output))
         : EncodeSplineModel(model.Value, data, output);
       if (!status)
@@ -78,9 +113,14 @@ struct ConvertJob
 Job MakeConvertJob(CLI::App& app)
 {
   auto job = std::make_shared<ConvertJob>();
-  app.add_option("input", job->Input, "spline grid or skeleton (.vtu .vtp .vtpc .vtk .xml .g2)")
+  app
+    .add_option(
+      "input", job->Input, "spline grid or skeleton (.vtu .vtp .vtpc .vtk .xml .g2 .step .iges)")
     ->required();
-  app.add_option("--output", job->Output, "the same data (.vtu .vtp .vtpc .xml .g2)")->required();
+  app.add_option("--output", job->Output, "the same data (.vtu .vtp .vtpc .xml .g2 .step .iges)")
+    ->required();
+  app.add_option("--curves", job->Curves,
+    "trimming curves (.vtu): written when the input is STEP or IGES, else read");
   app.add_option("--encoding", job->Encoding, "how numbers are written in .vtu .vtp .vtpc")
     ->check(CLI::IsMember({ "ascii", "binary", "appended" }))
     ->capture_default_str();

@@ -61,7 +61,7 @@ struct EvaluateJob
 Job MakeEvaluateJob(CLI::App& app)
 {
   auto job = std::make_shared<EvaluateJob>();
-  app.add_option("input", job->Input, "spline grid (.vtu .vtpc .xml .g2)")->required();
+  app.add_option("input", job->Input, "spline grid (.vtu .vtpc .xml .g2 .step .iges)")->required();
   app.add_option("points", job->Points, "points (.vtp .vtu)")->required();
   app.add_option("--output", job->Output, "the points on the spline, with derivatives")->required();
   job->FilterOptions = std::make_unique<Options>(app);

@@ -141,7 +141,8 @@ struct InfoJob
 Job MakeInfoJob(CLI::App& app)
 {
   auto job = std::make_shared<InfoJob>();
-  app.add_option("input", job->Input, "spline grid (.vtu .vtpc .vtk .xml .g2)")->required();
+  app.add_option("input", job->Input, "spline grid (.vtu .vtpc .vtk .xml .g2 .step .iges)")
+    ->required();
   return [job](Session& session) { return job->Run(session); };
 }
 }

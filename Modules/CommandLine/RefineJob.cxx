@@ -83,7 +83,7 @@ struct RefineJob
 Job MakeRefineJob(CLI::App& app)
 {
   auto job = std::make_shared<RefineJob>();
-  app.add_option("input", job->Input, "spline grid (.vtu .vtpc .xml .g2)")->required();
+  app.add_option("input", job->Input, "spline grid (.vtu .vtpc .xml .g2 .step .iges)")->required();
   app.add_option("--output", job->Output, "the refined grid, same type")->required();
   auto* array =
     app.add_option("--array", job->Array, "refine cells by the value of this cell array");

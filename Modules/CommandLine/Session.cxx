@@ -8,6 +8,8 @@
 
 #include "CADExchange.h"
 #include "TrimmedGrids.h"
+#include "vtkCADReader.h"
+#include "vtkCADWriter.h"
 #include "vtkDomainBoundaryReader.h"
 #include "vtkGismoXMLReader.h"
 #include "vtkGismoXMLWriter.h"
@@ -77,7 +79,9 @@ vtkSmartPointer<vtkDataObject> ReadWith(const std::string& file)
   return reader->GetOutputDataObject(0);
 }
 
-vtkSmartPointer<vtkDataObject> ReadByEnding(const std::string& file, const std::string& ending)
+/// @param curves  set to the trimming curves of a STEP or IGES file.
+vtkSmartPointer<vtkDataObject> ReadByEnding(
+  const std::string& file, const std::string& ending, vtkSmartPointer<vtkDataObject>& curves)
 {
   if (ending == ".vtu")
   {
@@ -102,6 +106,15 @@ vtkSmartPointer<vtkDataObject> ReadByEnding(const std::string& file, const std::
   if (ending == ".g2")
   {
     return ReadWith<vtkGoToolsG2Reader>(file);
+  }
+  if (HasCADEnding(file))
+  {
+    vtkNew<vtkCADReader> reader;
+    reader->SetFileName(file.c_str());
+    reader->TriangulationOff();
+    reader->Update();
+    curves = reader->GetOutputDataObject(1);
+    return reader->GetOutputDataObject(0);
   }
   if (ending == ".json")
   {
@@ -208,11 +221,12 @@ Result<vtkSmartPointer<vtkDataObject>> Session::Read(const std::string& file)
     return status;
   }
   MessageCapture messages;
-  if (ending == ".vtk" || ending == ".obj" || ending == ".ply" || ending == ".stl")
+  if (ending == ".vtk" || ending == ".obj" || ending == ".ply" || ending == ".stl" ||
+    ending == ".igs" || ending == ".iges")
   {
     const auto read = [&]
     {
-      ReadByEnding(file, ending);
+      ReadByEnding(file, ending, this->Curves);
       std::cerr << messages.FirstError();
     };
     if (Status status = TrialRead(file, read); !status)
@@ -222,7 +236,7 @@ Result<vtkSmartPointer<vtkDataObject>> Session::Read(const std::string& file)
   }
   try
   {
-    data = ReadByEnding(file, ending);
+    data = ReadByEnding(file, ending, this->Curves);
   }
   catch (const std::exception& failure) // out of memory: sizes in the file are wrong
   {
@@ -233,11 +247,13 @@ Result<vtkSmartPointer<vtkDataObject>> Session::Read(const std::string& file)
   {
     return { ErrorCode::InvalidParameter,
       "'" + file + "' has the ending '" + ending +
-        "'; formats that can be read: .vtu .vtp .vtpc .vtk .xml .g2 .json .off .obj .ply .stl" };
+        "'; formats that can be read: .vtu .vtp .vtpc .vtk .xml .g2 .json .step .iges .off .obj "
+        ".ply .stl" };
   }
   if (messages.HasError())
   {
-    if (ending == ".xml" || ending == ".g2" || ending == ".json") // our own name the file
+    if (ending == ".xml" || ending == ".g2" || ending == ".json" ||
+      HasCADEnding(file)) // our own name the file
     {
       return { ErrorCode::InvalidFormat, messages.FirstError() };
     }
@@ -323,11 +339,12 @@ Status Session::Write(vtkDataObject* data, const std::string& file, const std::s
   const auto table = vtkTable::SafeDownCast(data);
   const char* expected = grid ? ".vtu" : polydata ? ".vtp" : collection ? ".vtpc" : ".csv";
   const bool asSplines = grid && (ending == ".xml" || ending == ".g2");
-  if (ending != expected && !asSplines)
+  const bool asCAD = (grid || collection) && HasCADEnding(file);
+  if (ending != expected && !asSplines && !asCAD)
   {
     return { ErrorCode::InvalidParameter,
-      "'" + file + "': this output is written as " + expected + (grid ? ", .xml or .g2" : "") +
-        "; change the ending" };
+      "'" + file + "': this output is written as " + expected +
+        (grid ? ", .xml, .g2, .step or .iges" : "") + "; change the ending" };
   }
   Result<fs::path> staged = this->Stage(file);
   if (!staged)
@@ -336,7 +353,14 @@ Status Session::Write(vtkDataObject* data, const std::string& file, const std::s
   }
   MessageCapture messages;
   bool written = true;
-  if (asSplines)
+  if (asCAD)
+  {
+    written = WriteSplines<vtkCADWriter>(data, staged.Value);
+    this->Warn(messages.HasError() || messages.Warnings().empty()
+        ? std::vector<std::string>()
+        : std::vector<std::string>{ messages.Warnings() });
+  }
+  else if (asSplines)
   {
     written = ending == ".xml" ? WriteSplines<vtkGismoXMLWriter>(data, staged.Value)
                                : WriteSplines<vtkGoToolsG2Writer>(data, staged.Value);

@@ -29,13 +29,15 @@ public:
   bool Quiet = false;
   int Threads = 0;
   std::string ReportFile;
+  /// Trimming curves of the STEP or IGES file that was read last.
+  vtkSmartPointer<vtkDataObject> Curves;
   int ExitStatus = 0; ///< of the program when the job has succeeded
   /// Flat JSON object of the report; jobs add the numbers they are about.
   nlohmann::ordered_json Report = nlohmann::ordered_json::object();
 
   /// Reads a dataset by the ending of its name: .vtu .vtp .vtpc, and .vtk; splines .xml (G+Smo) .g2
-  /// (GoTools); meshes .off .obj .ply .stl. An unreadable, truncated, damaged or empty file is an
-  /// error that names the file.
+  /// (GoTools); surfaces of .step .stp .iges .igs (their trimming is in Curves); meshes .off .obj
+  /// .ply .stl. An unreadable, truncated, damaged or empty file is an error that names the file.
   Result<vtkSmartPointer<vtkDataObject>> Read(const std::string& file);
 
   /// Updates a filter with progress on a terminal; messages of VTK become the status. `what` names
@@ -47,7 +49,8 @@ public:
 
   /// Stages an output. XML files hold base64 within their elements: Debian's ParaView 5.11 with the
   /// present libexpat cannot read appended data. The ending of the name says the format: .vtu .vtp
-  /// .vtpc for datasets, .xml and .g2 for spline grids, .csv for tables.
+  /// .vtpc for datasets, .xml and .g2 for spline grids, .step .stp .iges .igs for surfaces and
+  /// volumes, .csv for tables.
   Status Write(
     vtkDataObject* data, const std::string& file, const std::string& encoding = "binary");
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "CADExchange.h"
 #include "Jobs.h"
 #include "Options.h"
 #include "Session.h"
 
+#include "vtkCADReader.h"
 #include "vtkSplineTessellate.h"
 
 #include <vtkDataObject.h>
@@ -21,8 +23,33 @@ struct TessellateJob
   vtkNew<vtkSplineTessellate> Filter;
   std::unique_ptr<Options> FilterOptions;
 
+  /// Trimmed faces have a triangulation of their own.
+  Status RunCAD(Session& session)
+  {
+    vtkNew<vtkCADReader> reader;
+    reader->SetFileName(this->Input.c_str());
+    reader->SetChordalTolerance(this->Filter->GetChordalTolerance());
+    reader->SetRelativeTolerance(this->Filter->GetRelativeTolerance());
+    reader->SetThreads(session.Threads);
+    session.Report["input"] = this->Input;
+    session.Report["output"] = this->Output;
+    this->FilterOptions->Apply(session.Report);
+    if (Status status = session.Run(reader, "'" + this->Input + "'"); !status)
+    {
+      return status;
+    }
+    vtkDataObject* result = reader->GetOutputDataObject(2);
+    session.Report["number_of_points"] = result->GetNumberOfElements(vtkDataObject::POINT);
+    session.Report["number_of_cells"] = result->GetNumberOfElements(vtkDataObject::CELL);
+    return session.Write(result, this->Output);
+  }
+
   Status Run(Session& session)
   {
+    if (HasCADEnding(this->Input))
+    {
+      return this->RunCAD(session);
+    }
     auto input = session.Read(this->Input);
     if (!input)
     {
@@ -48,7 +75,10 @@ struct TessellateJob
 Job MakeTessellateJob(CLI::App& app)
 {
   auto job = std::make_shared<TessellateJob>();
-  app.add_option("input", job->Input, "spline grid (.vtu .vtpc .xml .g2)")->required();
+  app
+    .add_option(
+      "input", job->Input, "spline grid (.vtu .vtpc .xml .g2), or trimmed faces (.step .iges)")
+    ->required();
   app.add_option("--output", job->Output, "linear cells (surface .vtp, volume .vtu)")->required();
   job->FilterOptions = std::make_unique<Options>(app);
   Options& options = *job->FilterOptions;

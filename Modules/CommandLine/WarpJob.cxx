@@ -63,9 +63,11 @@ struct WarpJob
 Job MakeWarpJob(CLI::App& app)
 {
   auto job = std::make_shared<WarpJob>();
-  app.add_option("input", job->Input, "points or splines to send (.vtu .vtp .vtpc .xml .g2)")
+  app
+    .add_option(
+      "input", job->Input, "points or splines to send (.vtu .vtp .vtpc .xml .g2 .step .iges)")
     ->required();
-  app.add_option("map", job->Map, "the spline map (.vtu .xml .g2)")->required();
+  app.add_option("map", job->Map, "the spline map (.vtu .xml .g2 .step .iges)")->required();
   app.add_option("--output", job->Output, "the image, same type as the input")->required();
   job->FilterOptions = std::make_unique<Options>(app);
   Options& options = *job->FilterOptions;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "TrimSurface.h"
+#include "vtkKnotworkSurfaceTrimmingModule.h" // for export macro
 
 #include "vtkType.h"
 
@@ -33,7 +34,8 @@ void TurnFaces(const std::vector<char>& turned, TrimmedSurface& trimmed);
 /// Triangles with shared points, unit `Normals`, the cell array `FaceId`, and parameters: the point
 /// array `UV` where every point has one pair (also the texture coordinates), else the cell array
 /// `CornerUV` (u, v of the three corners).
-void EncodeTriangles(const TrimmedMesh& mesh, vtkPolyData* output);
+VTKKNOTWORKSURFACETRIMMING_EXPORT void EncodeTriangles(
+  const TrimmedMesh& mesh, vtkPolyData* output);
 
 /// Adds the point array `Deviation` and the cell array `DeviationBound`; 0 beside the charts.
 void EncodeDeviation(

@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef OCC_CONVERT_SIGNALS
-#define OCC_CONVERT_SIGNALS // OCC_CATCH_SIGNALS below is to have an effect
-#endif
 #include "CADSession.h"
 
 #include <IGESCAFControl_Reader.hxx>
@@ -9,14 +6,11 @@
 #include <Interface_Static.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
-#include <OSD.hxx>
 #include <STEPCAFControl_Controller.hxx>
-#include <Standard_ErrorHandler.hxx>
 #include <Standard_Failure.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
 
 #include <algorithm>
-#include <csignal>
 #include <new>
 
 namespace knotwork
@@ -28,38 +22,6 @@ std::mutex& GlobalState()
   static std::mutex mutex;
   return mutex;
 }
-
-/// Lets OpenCASCADE turn faults of memory and arithmetic into its exceptions; other signals, and
-/// afterwards these too, go to whom they went before.
-class SignalGuard
-{
-public:
-  SignalGuard()
-  {
-    for (std::size_t i = 0; i < Signals.size(); ++i)
-    {
-      sigaction(Signals[i], nullptr, &this->Before[i]);
-    }
-    OSD::SetSignal(OSD_SignalMode_Set, false);
-    this->Restore(NumFaults, Signals.size());
-  }
-  ~SignalGuard() { this->Restore(0, NumFaults); }
-  SignalGuard(const SignalGuard&) = delete;
-  SignalGuard& operator=(const SignalGuard&) = delete;
-
-private:
-  static constexpr std::size_t NumFaults = 5;
-  static constexpr std::array<int, 8> Signals{ SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGSYS, SIGHUP,
-    SIGINT, SIGQUIT };
-  void Restore(std::size_t begin, std::size_t end)
-  {
-    for (std::size_t i = begin; i < end; ++i)
-    {
-      sigaction(Signals[i], &this->Before[i], nullptr);
-    }
-  }
-  std::array<struct sigaction, 8> Before{};
-};
 }
 
 CADFormat FormatOfFile(const std::string& file)
@@ -148,10 +110,8 @@ void CADSession::SetDefaultsOfReading()
 
 Status CADSession::Run(const std::string& place, const std::function<Status()>& body)
 {
-  const SignalGuard guard;
   try
   {
-    OCC_CATCH_SIGNALS
     return body();
   }
   catch (const Standard_Failure& failure)

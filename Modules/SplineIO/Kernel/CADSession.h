@@ -41,9 +41,7 @@ public:
   void SetDefaultsOfReading();
 
   /// Runs what may throw exceptions of OpenCASCADE or of memory; they become InvalidFormat and
-  /// TooLarge with the place before the text. OpenCASCADE's readers follow null pointers in damaged
-  /// files: while the body runs that is turned into a failure too, in its documented way (what they
-  /// hold is lost then).
+  /// TooLarge with the place before the text.
   Status Run(const std::string& place, const std::function<Status()>& body);
 
 private:

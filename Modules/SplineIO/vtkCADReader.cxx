@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkCADReader.h"
+
+#include "CADExchange.h"
+#include "TrimData.h"
+#include "TrimmedGrids.h"
+#include "TrimmedMesh.h"
+
+#include "vtkCellData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkStringArray.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <cmath>
+#include <fstream>
+
+vtkStandardNewMacro(vtkCADReader);
+
+namespace
+{
+using namespace knotwork;
+
+double SizeOf(const TrimmedModel& model)
+{
+  Eigen::RowVector3d lower = model.Faces.front().Surface.ControlPoints.row(0);
+  Eigen::RowVector3d upper = lower;
+  for (const TrimmedFace& face : model.Faces)
+  {
+    lower = lower.cwiseMin(face.Surface.ControlPoints.colwise().minCoeff());
+    upper = upper.cwiseMax(face.Surface.ControlPoints.colwise().maxCoeff());
+  }
+  return (upper - lower).norm();
+}
+
+/// What the file says of the faces, on their triangles.
+void AddAttributes(const TrimmedModel& model, const TrimmedMesh& mesh, vtkPolyData* triangles)
+{
+  vtkNew<vtkIntArray> patches;
+  patches->SetName("PatchId");
+  vtkNew<vtkStringArray> names;
+  names->SetName("Name");
+  vtkNew<vtkUnsignedCharArray> colors;
+  colors->SetName("Color");
+  colors->SetNumberOfComponents(3);
+  for (int f : mesh.TriangleFace)
+  {
+    const TrimmedFace& face = model.Faces[static_cast<std::size_t>(f)];
+    patches->InsertNextValue(f);
+    names->InsertNextValue(face.Name);
+    for (double share : face.Color)
+    {
+      colors->InsertNextValue(
+        static_cast<unsigned char>(face.HasColor ? std::lround(255.0 * share) : 255));
+    }
+  }
+  triangles->GetCellData()->AddArray(patches);
+  triangles->GetCellData()->AddArray(names);
+  triangles->GetCellData()->AddArray(colors);
+}
+}
+
+vtkCADReader::vtkCADReader()
+{
+  this->SetNumberOfInputPorts(0);
+  this->SetNumberOfOutputPorts(3);
+}
+
+vtkCADReader::~vtkCADReader()
+{
+  this->SetFileName(nullptr);
+}
+
+void vtkCADReader::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+  os << indent << "Unit: " << this->Unit << "\n";
+  os << indent << "Tolerance: " << this->Tolerance << "\n";
+  os << indent << "Triangulation: " << this->Triangulation << "\n";
+  os << indent << "ChordalTolerance: " << this->ChordalTolerance << "\n";
+  os << indent << "RelativeTolerance: " << this->RelativeTolerance << "\n";
+}
+
+int vtkCADReader::CanReadFile(const char* fileName)
+{
+  return fileName && HasCADEnding(fileName) && std::ifstream(fileName) ? 1 : 0;
+}
+
+int vtkCADReader::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 2 ? "vtkPolyData" : "vtkUnstructuredGrid");
+  return 1;
+}
+
+int vtkCADReader::RequestDataObject(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+{
+  for (int port = 0; port < 2; ++port)
+  {
+    if (!vtkUnstructuredGrid::GetData(outputs, port))
+    {
+      vtkNew<vtkUnstructuredGrid> grid;
+      outputs->GetInformationObject(port)->Set(vtkDataObject::DATA_OBJECT(), grid);
+    }
+  }
+  if (!vtkPolyData::GetData(outputs, 2))
+  {
+    vtkNew<vtkPolyData> triangles;
+    outputs->GetInformationObject(2)->Set(vtkDataObject::DATA_OBJECT(), triangles);
+  }
+  return 1;
+}
+
+Status vtkCADReader::Compute(vtkInformationVector**, vtkInformationVector* outputs)
+{
+  if (!this->FileName || this->FileName[0] == '\0')
+  {
+    return { ErrorCode::EmptyInput, "there is no file name" };
+  }
+  CADReadParams params;
+  params.Unit = static_cast<LengthUnit>(this->Unit);
+  params.Tolerance = this->Tolerance;
+  const auto contents = ReadCAD(this->FileName, params);
+  if (!contents)
+  {
+    return contents.Status;
+  }
+  this->ReportWarnings(contents->Warnings);
+  const TrimmedModel& model = contents->Model;
+  Status status = EncodeTrimmedModel(
+    model, vtkUnstructuredGrid::GetData(outputs, 0), vtkUnstructuredGrid::GetData(outputs, 1));
+  if (!status || !this->Triangulation)
+  {
+    return status;
+  }
+  TrimmedMeshParams meshing;
+  meshing.Tolerance = this->ChordalTolerance * (this->RelativeTolerance ? SizeOf(model) : 1.0);
+  meshing.Threads = this->KernelThreads();
+  meshing.Progress = this->Progress();
+  const auto mesh = TriangulateFaces(model, meshing);
+  if (!mesh)
+  {
+    return { mesh.Status.Code, "the triangles of output 2: " + mesh.Status.Detail };
+  }
+  vtkPolyData* triangles = vtkPolyData::GetData(outputs, 2);
+  EncodeTriangles(mesh.Value, triangles);
+  AddAttributes(model, mesh.Value, triangles);
+  return {};
+}

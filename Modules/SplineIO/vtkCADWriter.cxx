@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkCADWriter.h"
+
+#include "BoundaryFaces.h"
+#include "CADExchange.h"
+#include "SplineModel.h"
+#include "TrimmedGrids.h"
+
+#include "vtkAlgorithmOutput.h"
+#include "vtkDataObject.h"
+#include "vtkErrorCode.h"
+#include "vtkExecutive.h"
+#include "vtkInformation.h"
+#include "vtkObjectFactory.h"
+
+#include <exception>
+
+vtkStandardNewMacro(vtkCADWriter);
+
+namespace
+{
+using namespace knotwork;
+
+/// Faces of surfaces, with their trimming curves, or the boundary of volumes.
+Result<TrimmedModel> DecodeFaces(
+  vtkDataObject* grid, vtkDataObject* curves, double tolerance, std::vector<std::string>& warnings)
+{
+  const Result<SplineModel> model = DecodeSplineModel(grid);
+  if (!model)
+  {
+    return model.Status;
+  }
+  std::vector<Spline<3>> volumes;
+  for (const SplinePatch& patch : model->Patches)
+  {
+    if (const auto* volume = std::get_if<Spline<3>>(&patch.Geometry))
+    {
+      volumes.push_back(*volume);
+    }
+  }
+  if (volumes.empty())
+  {
+    return DecodeTrimmedModel(grid, curves, &warnings);
+  }
+  if (volumes.size() != model->Patches.size())
+  {
+    return { ErrorCode::DimensionMismatch,
+      "the grid has volumes and patches of other dimensions; write them to files of their own" };
+  }
+  warnings = model->Warnings;
+  if (curves)
+  {
+    warnings.emplace_back("volumes are not trimmed: the curves are left out");
+  }
+  return BoundaryFaces(volumes, tolerance);
+}
+}
+
+vtkCADWriter::vtkCADWriter()
+{
+  this->SetNumberOfInputPorts(2);
+}
+
+vtkCADWriter::~vtkCADWriter()
+{
+  this->SetFileName(nullptr);
+  this->SetProductName(nullptr);
+}
+
+void vtkCADWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+  os << indent << "Unit: " << this->Unit << "\n";
+  os << indent << "Schema: " << this->Schema << "\n";
+  os << indent << "SewTolerance: " << this->SewTolerance << "\n";
+  os << indent << "ProductName: " << (this->ProductName ? this->ProductName : "(none)") << "\n";
+}
+
+int vtkCADWriter::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPartitionedDataSetCollection");
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return 1;
+}
+
+Status vtkCADWriter::WriteModel()
+{
+  if (!this->FileName || this->FileName[0] == '\0')
+  {
+    return { ErrorCode::InvalidParameter, "there is no file name" };
+  }
+  vtkDataObject* curves =
+    this->GetNumberOfInputConnections(1) > 0 ? this->GetInputDataObject(1, 0) : nullptr;
+  std::vector<std::string> warnings;
+  const auto model = DecodeFaces(this->GetInput(), curves, this->SewTolerance, warnings);
+  if (!model)
+  {
+    return model.Status;
+  }
+  for (const std::string& warning : warnings)
+  {
+    vtkWarningMacro("" << warning);
+  }
+  CADWriteParams params;
+  params.Unit = static_cast<LengthUnit>(this->Unit);
+  params.Schema = this->Schema == 1 ? STEPSchema::AP242 : STEPSchema::AP214;
+  params.SewTolerance = this->SewTolerance;
+  if (this->ProductName && this->ProductName[0] != '\0')
+  {
+    params.Name = this->ProductName;
+  }
+  return WriteCAD(model.Value, this->FileName, params);
+}
+
+void vtkCADWriter::WriteData()
+{
+  this->SetErrorCode(vtkErrorCode::NoError);
+  Status status;
+  try
+  {
+    status = this->WriteModel();
+  }
+  catch (const std::exception& error) // of a library below the kernel, out of memory
+  {
+    status = { ErrorCode::TooLarge, error.what() };
+  }
+  if (!status)
+  {
+    this->SetErrorCode(vtkErrorCode::UserError + static_cast<unsigned long>(status.Code));
+    vtkErrorMacro("" << status.Message());
+  }
+}
