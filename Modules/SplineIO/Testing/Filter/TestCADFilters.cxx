@@ -132,7 +132,7 @@ TEST(CADFilters, ShapesBecomeFacesAndSolids_ExactOracle)
     EXPECT_NEAR(summary->Area, c.Area, 1e-6);
     vtkNew<vtkCADReader> reader;
     reader->SetUnit(vtkCADReader::Metre);
-    reader->SetChordalTolerance(1e-4);
+    reader->SetChordalTolerance(3e-4);
     Read(reader, file);
     EXPECT_NEAR(AreaOf(Triangles(reader)), c.Area, 2e-3 * c.Area);
     auto* names =
@@ -170,7 +170,8 @@ TEST(CADFilters, FailuresAreErrorsOfTheFilter_PropertyOracle)
   EXPECT_EQ(reader->CanReadFile(FileOf("missing.step").c_str()), 0);
   reader->SetFileName(FileOf("missing.step").c_str());
   reader->Update();
-  EXPECT_EQ(messages->Errors.size(), 1u);
+  ASSERT_FALSE(messages->Errors.empty());
+  EXPECT_NE(messages->Errors[0].find("missing.step"), std::string::npos);
   EXPECT_EQ(reader->GetErrorCode(),
     vtkErrorCode::UserError + static_cast<unsigned long>(ErrorCode::EmptyInput));
   EXPECT_EQ(reader->GetOutputDataObject(0)->GetNumberOfElements(vtkDataObject::CELL), 0);
