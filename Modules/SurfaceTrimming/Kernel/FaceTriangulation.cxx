@@ -325,26 +325,121 @@ double FaceTriangulation::OffSide(std::size_t s) const
   return bounds.First[0] * off[0] + bounds.First[1] * off[1];
 }
 
+/// The segment between two points, -1: none.
+int FaceTriangulation::FindSide(int a, int b) const
+{
+  const auto found = std::lower_bound(
+    this->SidesByEnds.begin(), this->SidesByEnds.end(), std::make_pair(PlanarSegment{ a, b }, -1));
+  return found != this->SidesByEnds.end() && found->first == PlanarSegment{ a, b } ? found->second
+                                                                                   : -1;
+}
+
+/// Bound of a triangle, and where it is to be divided when that is above the tolerance.
+/// @param off  of segments: bound of |S(chord) - S(pcurve)|.
+FaceTriangulation::Verdict FaceTriangulation::CheckTriangle(
+  std::size_t t, const std::vector<double>& off, double tolerance) const
+{
+  const ParametricBox<2> domain = this->Form.Space->Domain();
+  std::array<double, 2> margin{};
+  for (std::size_t d = 0; d < 2; ++d)
+  {
+    margin[d] = 1e-12 * (domain.Upper[d] - domain.Lower[d]);
+  }
+  const std::array<int, 3>& corners = this->Triangles[t];
+  ParametricBox<2> box{ this->Points[At(corners[0])].UV, this->Points[At(corners[0])].UV };
+  double gap = 0.0;
+  double largestOff = 0.0;
+  int offEdge = 0;
+  for (int i = 0; i < 3; ++i)
+  {
+    const FacePoint& point = this->Points[At(corners[At(i)])];
+    gap = std::max(gap, point.Gap);
+    for (std::size_t d = 0; d < 2; ++d)
+    {
+      box.Lower[d] = std::min(box.Lower[d], point.UV[d]);
+      box.Upper[d] = std::max(box.Upper[d], point.UV[d]);
+    }
+    const int side = this->FindSide(corners[At(i)], corners[At((i + 1) % 3)]);
+    if (side >= 0 && off[At(side)] > largestOff)
+    {
+      largestOff = off[At(side)];
+      offEdge = i;
+    }
+  }
+  const CellBounds bounds = this->Cells.Bound(box);
+  const std::array<double, 2> extent{ box.Upper[0] - box.Lower[0], box.Upper[1] - box.Lower[1] };
+  double chord = ChordalDeviation(bounds, extent);
+  std::array<const double*, 2> crease{};
+  for (std::size_t d = 0; d < 2; ++d)
+  {
+    crease[d] = CreaseBetween(this->Cells.Creases()[d], box.Lower[d], box.Upper[d], margin[d]);
+  }
+  const bool creased = crease[0] != nullptr || crease[1] != nullptr;
+  if (creased)
+  {
+    chord = bounds.First[0] * extent[0] + bounds.First[1] * extent[1];
+    for (std::size_t d = 0; d < 2; ++d)
+    {
+      if (crease[d] != nullptr && crease[1 - d] == nullptr &&
+        CreaseBetween(this->Cells.Creases()[d], *crease[d], box.Upper[d], margin[d]) == nullptr)
+      {
+        chord = std::min(chord, CreasedDeviation(bounds, box, d, *crease[d]));
+      }
+    }
+  }
+  Verdict verdict;
+  verdict.Bound = chord + largestOff + gap;
+  verdict.Excess = chord + largestOff - std::max(tolerance - gap, 0.5 * tolerance);
+  if (verdict.Excess <= 0.0)
+  {
+    verdict.Excess = 0.0;
+    return verdict;
+  }
+  if (largestOff > chord)
+  {
+    verdict.Edge = offEdge;
+    return verdict;
+  }
+  double largest = -1.0;
+  for (int i = 0; i < 3; ++i)
+  {
+    const std::array<double, 2>& p = this->Points[At(corners[At(i)])].UV;
+    const std::array<double, 2>& q = this->Points[At(corners[At((i + 1) % 3)])].UV;
+    const std::array<double, 2> along{ std::abs(q[0] - p[0]), std::abs(q[1] - p[1]) };
+    double share = 0.5;
+    double need = ChordalDeviation(bounds, along);
+    if (creased)
+    {
+      need = -1.0;
+      for (std::size_t d = 0; d < 2; ++d)
+      {
+        const double* at = CreaseBetween(this->Cells.Creases()[d], p[d], q[d], margin[d]);
+        if (at != nullptr && bounds.First[0] * along[0] + bounds.First[1] * along[1] > need)
+        {
+          need = bounds.First[0] * along[0] + bounds.First[1] * along[1];
+          share = (*at - p[d]) / (q[d] - p[d]);
+        }
+      }
+    }
+    if (need > largest)
+    {
+      largest = need;
+      verdict.Edge = i;
+      verdict.Share = share;
+    }
+  }
+  return verdict;
+}
+
 /// Bounds of all triangles, and requests for those above the tolerance.
 void FaceTriangulation::CheckTriangles(double tolerance, int threads)
 {
-  const int numBoundary = static_cast<int>(this->Points.size() - this->Interior.size());
-  std::vector<std::pair<PlanarSegment, int>> sides; // by their ends
+  this->SidesByEnds.clear();
   for (std::size_t s = 0; s < this->Segments.size(); ++s)
   {
-    sides.emplace_back(this->Segments[s], static_cast<int>(s));
+    this->SidesByEnds.emplace_back(this->Segments[s], static_cast<int>(s));
   }
-  std::sort(sides.begin(), sides.end());
-  const auto findSide = [&](int a, int b)
-  {
-    if (a >= numBoundary || b >= numBoundary)
-    {
-      return -1;
-    }
-    const auto found =
-      std::lower_bound(sides.begin(), sides.end(), std::make_pair(PlanarSegment{ a, b }, -1));
-    return found != sides.end() && found->first == PlanarSegment{ a, b } ? found->second : -1;
-  };
+  std::sort(this->SidesByEnds.begin(), this->SidesByEnds.end());
   std::vector<double> off(this->Segments.size());
   ParallelFor(off.size(), 256, threads,
     [&](std::size_t begin, std::size_t end)
@@ -355,120 +450,30 @@ void FaceTriangulation::CheckTriangles(double tolerance, int threads)
       }
     });
 
-  const ParametricBox<2> domain = this->Form.Space->Domain();
-  std::array<double, 2> margin{};
-  for (std::size_t d = 0; d < 2; ++d)
-  {
-    margin[d] = 1e-12 * (domain.Upper[d] - domain.Lower[d]);
-  }
-  struct Verdict
-  {
-    double Bound = 0.0;
-    double Excess = 0.0;
-    int Edge = 0;       // the edge to divide begins at this corner
-    double Share = 0.5; // there
-  };
   std::vector<Verdict> verdicts(this->Triangles.size());
-  const auto check = [&](std::size_t t)
-  {
-    const std::array<int, 3>& corners = this->Triangles[t];
-    ParametricBox<2> box{ this->Points[At(corners[0])].UV, this->Points[At(corners[0])].UV };
-    double gap = 0.0;
-    double largestOff = 0.0;
-    int offEdge = 0;
-    for (int i = 0; i < 3; ++i)
-    {
-      const FacePoint& point = this->Points[At(corners[At(i)])];
-      gap = std::max(gap, point.Gap);
-      for (std::size_t d = 0; d < 2; ++d)
-      {
-        box.Lower[d] = std::min(box.Lower[d], point.UV[d]);
-        box.Upper[d] = std::max(box.Upper[d], point.UV[d]);
-      }
-      const int side = findSide(corners[At(i)], corners[At((i + 1) % 3)]);
-      if (side >= 0 && off[At(side)] > largestOff)
-      {
-        largestOff = off[At(side)];
-        offEdge = i;
-      }
-    }
-    const CellBounds bounds = this->Cells.Bound(box);
-    const std::array<double, 2> extent{ box.Upper[0] - box.Lower[0], box.Upper[1] - box.Lower[1] };
-    double chord = ChordalDeviation(bounds, extent);
-    std::array<const double*, 2> crease{};
-    for (std::size_t d = 0; d < 2; ++d)
-    {
-      crease[d] = CreaseBetween(this->Cells.Creases()[d], box.Lower[d], box.Upper[d], margin[d]);
-    }
-    const bool creased = crease[0] != nullptr || crease[1] != nullptr;
-    if (creased)
-    {
-      chord = bounds.First[0] * extent[0] + bounds.First[1] * extent[1];
-      for (std::size_t d = 0; d < 2; ++d)
-      {
-        if (crease[d] != nullptr && crease[1 - d] == nullptr &&
-          CreaseBetween(this->Cells.Creases()[d], *crease[d], box.Upper[d], margin[d]) == nullptr)
-        {
-          chord = std::min(chord, CreasedDeviation(bounds, box, d, *crease[d]));
-        }
-      }
-    }
-    Verdict& verdict = verdicts[t];
-    verdict.Bound = chord + largestOff + gap;
-    verdict.Excess = chord + largestOff - std::max(tolerance - gap, 0.5 * tolerance);
-    if (verdict.Excess <= 0.0)
-    {
-      verdict.Excess = 0.0;
-      return;
-    }
-    if (largestOff > chord)
-    {
-      verdict.Edge = offEdge;
-      return;
-    }
-    double largest = -1.0;
-    for (int i = 0; i < 3; ++i)
-    {
-      const std::array<double, 2>& p = this->Points[At(corners[At(i)])].UV;
-      const std::array<double, 2>& q = this->Points[At(corners[At((i + 1) % 3)])].UV;
-      const std::array<double, 2> along{ std::abs(q[0] - p[0]), std::abs(q[1] - p[1]) };
-      double share = 0.5;
-      double need = ChordalDeviation(bounds, along);
-      if (creased)
-      {
-        need = -1.0;
-        for (std::size_t d = 0; d < 2; ++d)
-        {
-          const double* at = CreaseBetween(this->Cells.Creases()[d], p[d], q[d], margin[d]);
-          if (at != nullptr && bounds.First[0] * along[0] + bounds.First[1] * along[1] > need)
-          {
-            need = bounds.First[0] * along[0] + bounds.First[1] * along[1];
-            share = (*at - p[d]) / (q[d] - p[d]);
-          }
-        }
-      }
-      if (need > largest)
-      {
-        largest = need;
-        verdict.Edge = i;
-        verdict.Share = share;
-      }
-    }
-  };
   ParallelFor(verdicts.size(), 256, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t t = begin; t < end; ++t)
       {
-        check(t);
+        verdicts[t] = this->CheckTriangle(t, off, tolerance);
       }
     });
 
-  std::vector<int> bad;
   this->Bound = 0.0;
+  for (const Verdict& verdict : verdicts)
+  {
+    this->Bound = std::max(this->Bound, verdict.Bound);
+  }
+  this->RequestPoints(verdicts);
+}
+
+/// Points that divide the triangles above the tolerance, the worst ones first.
+void FaceTriangulation::RequestPoints(const std::vector<Verdict>& verdicts)
+{
+  std::vector<int> bad;
   for (std::size_t t = 0; t < verdicts.size(); ++t)
   {
-    this->Bound = std::max(this->Bound, verdicts[t].Bound);
     if (verdicts[t].Excess > 0.0)
     {
       bad.push_back(static_cast<int>(t));
@@ -505,7 +510,7 @@ void FaceTriangulation::CheckTriangles(double tolerance, int threads)
     taken.insert(key(edgeOf(t, verdict.Edge)));
     const int a = this->Triangles[At(t)][At(verdict.Edge)];
     const int b = this->Triangles[At(t)][At((verdict.Edge + 1) % 3)];
-    int side = findSide(a, b);
+    int side = this->FindSide(a, b);
     double share = verdict.Share;
     const std::array<double, 2>& p = this->Points[At(a)].UV;
     const std::array<double, 2>& q = this->Points[At(b)].UV;

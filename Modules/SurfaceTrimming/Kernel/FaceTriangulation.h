@@ -81,11 +81,21 @@ private:
     const PlaneCurve* Curve;
     std::array<double, 2> Outside; ///< how far the ends were outside the domain
   };
+  struct Verdict // on a triangle
+  {
+    double Bound = 0.0;
+    double Excess = 0.0; ///< above what is allowed
+    int Edge = 0;        ///< the edge to divide begins at this corner
+    double Share = 0.5;  ///< there
+  };
   PlanarPoint Planar(const std::array<double, 2>& uv) const;
   void CollectBoundary(const std::vector<SampledEdge>& edges);
   void MeasureGaps(const std::vector<SampledEdge>& edges, const PointMatrix& vertices);
   void ChooseInterior();
+  Verdict CheckTriangle(std::size_t t, const std::vector<double>& off, double tolerance) const;
   void CheckTriangles(double tolerance, int threads);
+  void RequestPoints(const std::vector<Verdict>& verdicts);
+  int FindSide(int a, int b) const;
   void RequestSide(std::size_t side, double excess, double share = 0.5);
   double OffSide(std::size_t side) const;
 
@@ -97,5 +107,6 @@ private:
   std::vector<PlanarPoint> Plane;
   std::vector<PlanarSegment> Segments;
   std::vector<Side> Sides; ///< of Segments
+  std::vector<std::pair<PlanarSegment, int>> SidesByEnds;
 };
 }
