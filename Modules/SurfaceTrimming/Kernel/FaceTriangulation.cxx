@@ -32,21 +32,8 @@ class SegmentTree
 {
 public:
   SegmentTree(const std::vector<PlanarPoint>& points, const std::vector<PlanarSegment>& segments)
-    : Points(points), Segments(segments)
+    : Points(points), Segments(segments), Tree(SegmentBoxes(points, segments).Tree)
   {
-    const Eigen::Index n = static_cast<Eigen::Index>(segments.size());
-    PointMatrix lower(n, 2);
-    PointMatrix upper(n, 2);
-    for (Eigen::Index s = 0; s < n; ++s)
-    {
-      const auto& [a, b] = segments[static_cast<std::size_t>(s)];
-      for (int d = 0; d < 2; ++d)
-      {
-        lower(s, d) = std::min(points[At(a)][At(d)], points[At(b)][At(d)]);
-        upper(s, d) = std::max(points[At(a)][At(d)], points[At(b)][At(d)]);
-      }
-    }
-    this->Tree = BoxTree(lower, upper);
   }
 
   /// Segment nearer than a distance, -1: none.

@@ -122,31 +122,41 @@ int Orientation(const PlanarPoint& a, const PlanarPoint& b, const PlanarPoint& c
   return leftError > rightError ? 1 : (leftError < rightError ? -1 : 0);
 }
 
-std::vector<std::array<int, 2>> FindCrossings(
+PlanarBoxes SegmentBoxes(
   const std::vector<PlanarPoint>& points, const std::vector<PlanarSegment>& segments)
 {
   const Eigen::Index n = static_cast<Eigen::Index>(segments.size());
-  PointMatrix lower(n, 2);
-  PointMatrix upper(n, 2);
+  PlanarBoxes boxes;
+  boxes.Lower.resize(n, 2);
+  boxes.Upper.resize(n, 2);
   for (Eigen::Index s = 0; s < n; ++s)
   {
     const auto& [a, b] = segments[static_cast<std::size_t>(s)];
     for (int d = 0; d < 2; ++d)
     {
-      lower(s, d) = std::min(points[At(a)][At(d)], points[At(b)][At(d)]);
-      upper(s, d) = std::max(points[At(a)][At(d)], points[At(b)][At(d)]);
+      boxes.Lower(s, d) = std::min(points[At(a)][At(d)], points[At(b)][At(d)]);
+      boxes.Upper(s, d) = std::max(points[At(a)][At(d)], points[At(b)][At(d)]);
     }
   }
-  const BoxTree tree(lower, upper);
+  boxes.Tree = BoxTree(boxes.Lower, boxes.Upper);
+  return boxes;
+}
+
+std::vector<std::array<int, 2>> FindCrossings(
+  const std::vector<PlanarPoint>& points, const std::vector<PlanarSegment>& segments)
+{
+  const PlanarBoxes boxes = SegmentBoxes(points, segments);
+  const PointMatrix& lower = boxes.Lower;
+  const PointMatrix& upper = boxes.Upper;
   std::vector<std::array<int, 2>> crossings;
-  for (int s = 0; s < n; ++s)
+  for (int s = 0; s < static_cast<int>(segments.size()); ++s)
   {
     if (points[At(segments[At(s)][0])] == points[At(segments[At(s)][1])])
     {
       crossings.push_back({ s, s });
     }
     const std::size_t first = crossings.size();
-    tree.ForNear(lower.row(s).data(), upper.row(s).data(),
+    boxes.Tree.ForNear(lower.row(s).data(), upper.row(s).data(),
       [&](int t)
       {
         if (t > s && (lower.row(s).array() <= upper.row(t).array()).all() &&

@@ -2,6 +2,8 @@
 // Polygons in the plane, private to the triangulation of faces. Coordinates are whole numbers, so
 // that the questions asked of them have exact answers.
 #pragma once
+#include "BoxTree.h"
+
 #include <array>
 #include <vector>
 
@@ -16,6 +18,16 @@ int Orientation(const PlanarPoint& a, const PlanarPoint& b, const PlanarPoint& c
 
 /// From the first point to the second one; the region lies to the left.
 using PlanarSegment = std::array<int, 2>;
+
+/// Boxes of segments, a row each, and their tree.
+struct PlanarBoxes
+{
+  PointMatrix Lower; ///< n x 2
+  PointMatrix Upper; ///< n x 2
+  BoxTree Tree;
+};
+PlanarBoxes SegmentBoxes(
+  const std::vector<PlanarPoint>& points, const std::vector<PlanarSegment>& segments);
 
 /// Pairs of segments that have a point in common other than one end of both, each pair once in
 /// ascending order; a segment without length pairs with itself. Exact.
