@@ -15,6 +15,9 @@ constexpr double BoundaryShare = 0.25;
 /// The bound inside triangles is larger than what the fit found: fits are repeated with what is
 /// missing taken off their tolerance.
 constexpr int MaxFits = 3;
+/// Surfaces that round sharp edges and wrinkles lose area: those that lose a larger share are
+/// fitted again with a smaller tolerance.
+constexpr double MaxAreaError = 2e-3;
 /// Faces that are not proved regular are fitted again, so often at most, with so much more
 /// smoothing.
 constexpr int MaxAttempts = 4;
@@ -94,16 +97,18 @@ Result<ProvedBackMap> FitWithProof(
       return measured.Status;
     }
     const double bound = measured->MaxBound;
+    const double areaError = std::abs(measured->Area / measured->MeshArea - 1.0);
     if (pass == 0 || bound < best->Deviation.MaxBound)
     {
       best.Value = { std::move(map.Value), std::move(measured.Value) };
     }
     // A net that was given is not changed; one that ended above its own tolerance is at its limit.
-    if (bound <= goal || params.Elements > 0 || !best->Map.WithinTolerance)
+    if ((bound <= goal && areaError <= MaxAreaError) || params.Elements > 0 ||
+      !best->Map.WithinTolerance)
     {
       break;
     }
-    fit.Tolerance *= 0.9 * goal / bound;
+    fit.Tolerance *= bound > goal ? 0.9 * goal / bound : 0.6;
   }
   return best;
 }
