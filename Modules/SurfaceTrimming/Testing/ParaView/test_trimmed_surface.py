@@ -19,6 +19,7 @@ def test_methods():
     flat = half_sphere()
     for method in ("NURBS", "RBF", "Hybrid", "Penalized"):
         trimmed = TrimmedSurface(Input=OutputPort(flat, 0), Method=method, Tolerance=0.01)
+        trimmed.Elements = 12 if method == "NURBS" else 0  # extrapolation on fine nets is wild
         assert number(trimmed, "Faces") == 1 and number(trimmed, "Loops") == 1, method
         assert number(trimmed, "MaxDeviation") > 0, method
 
