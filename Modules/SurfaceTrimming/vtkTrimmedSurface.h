@@ -126,7 +126,7 @@ private:
   double Margin = 0.02;
   double Smoothing = 1e-7;
   int Centres = 2000;
-  double CornerAngle = 40.0;
+  double CornerAngle = 20.0;
   bool Triangulation = true;
 };
 #endif

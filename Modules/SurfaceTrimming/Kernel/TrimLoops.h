@@ -29,7 +29,7 @@ struct LoopParams
   double Tolerance = 0.0;
   /// A boundary that turns by more than so many degrees at a point has a corner there: edges end.
   /// (0, 180].
-  double CornerAngle = 40.0;
+  double CornerAngle = 20.0;
   int Threads = 0;
   ProgressCallback Progress;
 };

@@ -10,7 +10,7 @@ namespace knotwork
 struct TrimParams
 {
   BackMapParams BackMap; ///< its Tolerance, Threads and Progress are set from those below
-  double CornerAngle = 40.0;
+  double CornerAngle = 20.0;
   /// Largest distance between mesh and face, unit of the points; 0: a thousandth of the diagonal of
   /// the points' box.
   double Tolerance = 0.0;
