@@ -11,9 +11,10 @@ cmake_minimum_required(VERSION 3.22)
 set(layers
   "SplineCore"
   "JacobianValidation"
-  "DomainParameterization MeshParameterization SurfaceFitting"
+  "DomainParameterization MeshParameterization"
   "TemplateMapping"
   "SurfaceTrimming CADFitting"
+  "SurfaceFitting"
   "SplineIO")
 set(rank 0)
 foreach(layer IN LISTS layers)
