@@ -222,12 +222,15 @@ Result<vtkSmartPointer<vtkDataObject>> Session::Read(const std::string& file)
   }
   MessageCapture messages;
   if (ending == ".vtk" || ending == ".obj" || ending == ".ply" || ending == ".stl" ||
-    ending == ".igs" || ending == ".iges")
+    HasCADEnding(file))
   {
     const auto read = [&]
     {
       ReadByEnding(file, ending, this->Curves);
-      std::cerr << messages.FirstError();
+      if (!HasCADEnding(file)) // those errors come again below, in our own words
+      {
+        std::cerr << messages.FirstError();
+      }
     };
     if (Status status = TrialRead(file, read); !status)
     {

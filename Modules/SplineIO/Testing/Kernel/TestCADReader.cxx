@@ -312,34 +312,3 @@ TEST(CADReader, DamagedFilesAreRefused_PropertyOracle)
   EXPECT_EQ(ReadCAD(FileOf("good.step"), params).Status.Code, ErrorCode::InvalidParameter);
   EXPECT_EQ(ReadCAD(FileOf("good.txt")).Status.Code, ErrorCode::InvalidParameter);
 }
-
-TEST(CADReader, RandomDamageEndsInAResultOrAnError_PropertyOracle)
-{
-  // OpenCASCADE's reader of IGES may crash: the program reads such files in a child process first
-  ShapeParams params;
-  params.Kind = ShapeKind::TorusSurface;
-  oracle::Random random(20);
-  const std::string good = FileOf("whole.step");
-  const std::string bad = FileOf("hurt.step");
-  ASSERT_TRUE(WriteCAD(NaturalFaces(params), good));
-  std::ifstream stream(good, std::ios::binary);
-  const std::string text{ std::istreambuf_iterator<char>(stream), {} };
-  int refused = 0;
-  for (int i = 0; i < 100; ++i)
-  {
-    std::string hurt = text;
-    const int last = static_cast<int>(text.size()) - 200;
-    for (int k = random.Int(1, 5); k > 0; --k)
-    {
-      const auto place = static_cast<std::size_t>(random.Int(500, last));
-      const auto from = static_cast<std::size_t>(random.Int(500, last));
-      hurt.replace(place, 20, text, from, 20);
-    }
-    std::ofstream(bad, std::ios::binary) << hurt;
-    const auto read = ReadCAD(bad);
-    refused += read ? 0 : 1;
-    EXPECT_TRUE(read ? read->Model.Check() : Status()); // what comes is sound
-    EXPECT_TRUE(read || !read.Status.Detail.empty());
-  }
-  EXPECT_GT(refused, 20);
-}
