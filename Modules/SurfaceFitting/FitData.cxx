@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FitData.h"
+
+#include "MeshData.h"
+#include "PlaneParameters.h"
+#include "SplineModel.h"
+
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkImageData.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkStringArray.h"
+#include "vtkTable.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+
+namespace knotwork
+{
+namespace
+{
+template <typename T>
+void CopyColumns(const T* from, int stride, int columns, PointMatrix& to, Eigen::Index column)
+{
+  for (Eigen::Index i = 0; i < to.rows(); ++i, from += stride)
+  {
+    for (int c = 0; c < columns; ++c)
+    {
+      to(i, column + c) = static_cast<double>(from[c]);
+    }
+  }
+}
+
+/// The first components of an array become columns of a matrix.
+void CopyArray(vtkDataArray* array, int columns, PointMatrix& to, Eigen::Index column)
+{
+  const int stride = array->GetNumberOfComponents();
+  if (auto* doubles = vtkDoubleArray::FastDownCast(array))
+  {
+    CopyColumns(doubles->GetPointer(0), stride, columns, to, column);
+  }
+  else if (auto* floats = vtkFloatArray::FastDownCast(array))
+  {
+    CopyColumns(floats->GetPointer(0), stride, columns, to, column);
+  }
+  else
+  {
+    for (Eigen::Index i = 0; i < to.rows(); ++i)
+    {
+      for (int c = 0; c < columns; ++c)
+      {
+        to(i, column + c) = array->GetComponent(i, c);
+      }
+    }
+  }
+}
+
+PointMatrix CopyArray(vtkDataArray* array, int columns)
+{
+  PointMatrix to(array->GetNumberOfTuples(), columns);
+  CopyArray(array, columns, to, 0);
+  return to;
+}
+
+std::string Quoted(vtkDataArray* array)
+{
+  return std::string("'") + (array->GetName() ? array->GetName() : "") + "'";
+}
+
+Status CheckArray(vtkDataArray* array, vtkIdType points, int components, const char* what)
+{
+  if (!array)
+  {
+    return {};
+  }
+  if (array->GetNumberOfTuples() != points || array->GetNumberOfComponents() < components)
+  {
+    return { ErrorCode::SizeMismatch,
+      std::string(what) + ": the array " + Quoted(array) + " has " +
+        std::to_string(array->GetNumberOfTuples()) + " rows of " +
+        std::to_string(array->GetNumberOfComponents()) + " numbers; " + std::to_string(points) +
+        " rows of " + std::to_string(components) + " are needed, one a point" };
+  }
+  return {};
+}
+
+/// The arrays to fit along.
+Status FindFields(vtkPointSet* data, const CloudChoice& choice, std::vector<vtkDataArray*>& fields)
+{
+  vtkPointData* arrays = data->GetPointData();
+  const auto add = [&](vtkDataArray* array)
+  {
+    if (std::find(fields.begin(), fields.end(), array) == fields.end())
+    {
+      fields.push_back(array);
+    }
+  };
+  for (const std::string& name : choice.Fields)
+  {
+    vtkDataArray* array = arrays->GetArray(name.c_str());
+    if (!array)
+    {
+      return { ErrorCode::InvalidParameter,
+        "there is no point array '" + name + "' of numbers to fit along; check the name" };
+    }
+    add(array);
+  }
+  for (int i = 0; choice.AllFields && i < arrays->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = arrays->GetArray(i);
+    if (array && array->GetName() && array != choice.Given && array != choice.Tolerances &&
+      array != choice.Significant)
+    {
+      add(array);
+    }
+  }
+  for (vtkDataArray* array : fields)
+  {
+    if (Status status = CheckArray(array, data->GetNumberOfPoints(), 1, "array to fit along");
+        !status)
+    {
+      return status;
+    }
+  }
+  return {};
+}
+
+/// Plane coordinates of a mesh that covers all points.
+Result<PointMatrix> MeshParameters(const TriangleMesh& mesh, int threads)
+{
+  FlattenParams params;
+  params.Threads = threads;
+  auto flat = FlattenMesh(mesh, params);
+  if (!flat)
+  {
+    return { flat.Status.Code,
+      flat.Status.Detail +
+        "; a surface is fitted to triangles that are a disc with holes, with "
+        "other parameters give an array of them" };
+  }
+  if (flat->Measures.FlippedTriangles > 0)
+  {
+    return { ErrorCode::NotInSpace,
+      std::to_string(flat->Measures.FlippedTriangles) +
+        " triangles are flipped in the plane; cut the mesh into charts, or give parameters" };
+  }
+  PointMatrix uv = PointMatrix::Zero(mesh.Points.rows(), 2);
+  for (std::size_t i = 0; i < flat->Mesh.PointIds.size(); ++i)
+  {
+    uv.row(flat->Mesh.PointIds[i]) = flat->UV.row(static_cast<Eigen::Index>(i));
+  }
+  return uv;
+}
+
+Result<PointMatrix> FindParameters(
+  vtkPointSet* data, const PointMatrix& points, const CloudChoice& choice)
+{
+  if (choice.Parameters == CloudParameters::HeightField)
+  {
+    return PointMatrix(points.leftCols<2>());
+  }
+  if (choice.Parameters == CloudParameters::Given)
+  {
+    if (!choice.Given)
+    {
+      return { ErrorCode::InvalidParameter,
+        "the parameters of the points are missing; name a point array of two components, or have "
+        "them computed" };
+    }
+    return CopyArray(choice.Given, 2);
+  }
+  auto decoded = DecodeMesh(data);
+  if (!decoded)
+  {
+    return decoded.Status;
+  }
+  return decoded->Mesh.Triangles.empty() ? PlaneParameters(points)
+                                         : MeshParameters(decoded->Mesh, choice.Threads);
+}
+
+template <typename Array, typename Value>
+void AddValues(vtkFieldData* data, const char* name, const std::vector<Value>& values)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  data->AddArray(array);
+}
+}
+
+Result<DecodedCloud> DecodeCloud(vtkPointSet* data, const CloudChoice& choice)
+{
+  const vtkIdType n = data->GetNumberOfPoints();
+  if (n == 0)
+  {
+    return { ErrorCode::EmptyInput, "there are no points to fit a surface to" };
+  }
+  Status status = CheckArray(choice.Given, n, 2, "parameters");
+  status = status ? CheckArray(choice.Tolerances, n, 1, "tolerances") : status;
+  status = status ? CheckArray(choice.Significant, n, 1, "significant points") : status;
+  std::vector<vtkDataArray*> fields;
+  status = status ? FindFields(data, choice, fields) : status;
+  if (!status)
+  {
+    return status;
+  }
+  const PointMatrix points = CopyArray(data->GetPoints()->GetData(), 3);
+  auto parameters = FindParameters(data, points, choice);
+  if (!parameters)
+  {
+    return parameters.Status;
+  }
+  DecodedCloud decoded;
+  decoded.NumMeasured = choice.Parameters == CloudParameters::HeightField ? 1 : 3;
+  PointCloud& cloud = decoded.Cloud;
+  cloud.Parameters = std::move(parameters.Value);
+  Eigen::Index columns = decoded.NumMeasured;
+  for (vtkDataArray* array : fields)
+  {
+    decoded.Names.emplace_back(array->GetName());
+    decoded.Components.push_back(array->GetNumberOfComponents());
+    columns += array->GetNumberOfComponents();
+  }
+  cloud.Values.resize(n, columns);
+  cloud.Values.leftCols(decoded.NumMeasured) = points.rightCols(decoded.NumMeasured);
+  columns = decoded.NumMeasured;
+  for (vtkDataArray* array : fields)
+  {
+    CopyArray(array, array->GetNumberOfComponents(), cloud.Values, columns);
+    columns += array->GetNumberOfComponents();
+  }
+  if (choice.Tolerances)
+  {
+    cloud.Tolerances = CopyArray(choice.Tolerances, 1).col(0);
+  }
+  for (vtkIdType i = 0; choice.Significant && i < n; ++i)
+  {
+    cloud.Significant.push_back(choice.Significant->GetComponent(i, 0) != 0.0 ? 1 : 0);
+  }
+  return decoded;
+}
+
+Status EncodeFit(const DecodedCloud& cloud, const SurfaceFit& fit, vtkUnstructuredGrid* output)
+{
+  const PointMatrix& values = fit.Surface.ControlPoints;
+  Spline<2> surface;
+  surface.Space = fit.Surface.Space;
+  surface.ControlPoints.resize(values.rows(), 3);
+  if (cloud.NumMeasured == 1)
+  {
+    surface.ControlPoints.leftCols<2>() = fit.DomainPoints;
+  }
+  surface.ControlPoints.rightCols(cloud.NumMeasured) = values.leftCols(cloud.NumMeasured);
+  SplinePatch patch;
+  patch.Geometry = std::move(surface);
+  Eigen::Index column = cloud.NumMeasured;
+  for (std::size_t i = 0; i < cloud.Names.size(); ++i)
+  {
+    patch.Fields.push_back({ cloud.Names[i], values.middleCols(column, cloud.Components[i]) });
+    column += cloud.Components[i];
+  }
+  SplineModel model;
+  model.Patches.push_back(std::move(patch));
+  return EncodeSplineGrid(model, output);
+}
+
+void EncodeDistances(const DecodedCloud& cloud, const SurfaceFit& fit, vtkPointSet* output)
+{
+  vtkPointData* data = output->GetPointData();
+  AddValues<vtkDoubleArray>(data, "Distance", fit.Distances);
+  AddValues<vtkDoubleArray>(data, "Tolerance", fit.Tolerances);
+  std::vector<std::uint8_t> outliers = fit.Outliers;
+  outliers.resize(fit.Distances.size(), 0);
+  AddValues<vtkUnsignedCharArray>(data, "Outlier", outliers);
+  if (cloud.NumMeasured == 3)
+  {
+    const PointMatrix& uv = cloud.Cloud.Parameters;
+    vtkNew<vtkDoubleArray> array;
+    array->SetName("UV");
+    array->SetNumberOfComponents(2);
+    array->SetNumberOfTuples(uv.rows());
+    std::copy(uv.data(), uv.data() + uv.size(), array->GetPointer(0));
+    data->AddArray(array);
+  }
+}
+
+void EncodeIterations(const SurfaceFit& fit, vtkTable* output)
+{
+  std::vector<FitIteration> rows = fit.Iterations;
+  rows.push_back(fit.Final);
+  const auto add = [&](const char* name, auto array, auto value)
+  {
+    array->SetName(name);
+    for (const FitIteration& row : rows)
+    {
+      array->InsertNextValue(value(row));
+    }
+    output->AddColumn(array);
+  };
+  using Row = const FitIteration&;
+  const auto whole = [&](const char* name, auto value)
+  { add(name, vtkSmartPointer<vtkIdTypeArray>::New(), value); };
+  const auto real = [&](const char* name, auto value)
+  { add(name, vtkSmartPointer<vtkDoubleArray>::New(), value); };
+  whole("Iteration", [](Row r) { return static_cast<vtkIdType>(r.Iteration); });
+  add("Method", vtkSmartPointer<vtkStringArray>::New(),
+    [](Row r) { return r.LeastSquares ? "least-squares" : "mba"; });
+  whole("Functions", [](Row r) { return static_cast<vtkIdType>(r.NumFunctions); });
+  whole("Elements", [](Row r) { return static_cast<vtkIdType>(r.NumElements); });
+  real("MaxError", [](Row r) { return r.MaxError; });
+  real("MeanError", [](Row r) { return r.MeanError; });
+  real("RmsError", [](Row r) { return r.RmsError; });
+  whole("PointsOutside", [](Row r) { return static_cast<vtkIdType>(r.NumOutside); });
+  whole("Outliers", [](Row r) { return static_cast<vtkIdType>(r.NumOutliers); });
+  real("LogLikelihood", [](Row r) { return r.LogLikelihood; });
+  real("DegreesOfFreedom", [](Row r) { return r.DegreesOfFreedom; });
+  real("AIC", [](Row r) { return r.AIC; });
+  real("BIC", [](Row r) { return r.BIC; });
+  real("Seconds", [](Row r) { return r.Seconds; });
+}
+
+void EncodeFeatures(
+  const FitFeatures& features, const ParametricBox<2>& domain, vtkImageData* output)
+{
+  const int n = features.Size;
+  if (n == 0)
+  {
+    return;
+  }
+  output->SetDimensions(n + 1, n + 1, 1);
+  output->SetOrigin(domain.Lower[0], domain.Lower[1], 0.0);
+  output->SetSpacing(
+    (domain.Upper[0] - domain.Lower[0]) / n, (domain.Upper[1] - domain.Lower[1]) / n, 1.0);
+  vtkCellData* data = output->GetCellData();
+  AddValues<vtkDoubleArray>(data, "Height", features.Height);
+  AddValues<vtkDoubleArray>(data, "Slope", features.Slope);
+  AddValues<vtkDoubleArray>(data, "Roughness", features.Roughness);
+  AddValues<vtkDoubleArray>(data, "MaxError", features.MaxError);
+  AddValues<vtkDoubleArray>(data, "ElementSize", features.ElementSize);
+  AddValues<vtkIntArray>(data, "NumPoints", features.NumPoints);
+  AddValues<vtkIntArray>(data, "NumOutside", features.NumOutside);
+}
+}

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "SurfaceFit.h"
+
+#include <string>
+#include <vector>
+
+class vtkDataArray;
+class vtkImageData;
+class vtkPointSet;
+class vtkTable;
+class vtkUnstructuredGrid;
+
+namespace knotwork
+{
+enum class CloudParameters
+{
+  HeightField, ///< x, y; z is what is fitted
+  Given,       ///< an array; x, y, z are fitted
+  Computed     ///< of the triangles when there are some, else in the plane of least squares
+};
+
+/// What of a data set is fitted.
+struct CloudChoice
+{
+  CloudParameters Parameters = CloudParameters::HeightField;
+  vtkDataArray* Given = nullptr;       ///< two components
+  vtkDataArray* Tolerances = nullptr;  ///< one component, > 0
+  vtkDataArray* Significant = nullptr; ///< one component
+  std::vector<std::string> Fields;     ///< point arrays to fit along
+  bool AllFields = false;              ///< all other numeric point arrays
+  int Threads = 0;
+};
+
+struct DecodedCloud
+{
+  PointCloud Cloud;
+  int NumMeasured = 1;
+  std::vector<std::string> Names; ///< of the arrays fitted along, in the order of the columns
+  std::vector<int> Components;    ///< of each of them
+};
+
+/// The points of a data set with parameters and values.
+/// @return EmptyInput; NonFiniteInput naming point and array; SizeMismatch and InvalidParameter for
+/// arrays; failures of PlaneParameters and FlattenCharts.
+Result<DecodedCloud> DecodeCloud(vtkPointSet* data, const CloudChoice& choice);
+
+/// The surface (x, y, z) with the arrays fitted along as fields on the same space.
+Status EncodeFit(const DecodedCloud& cloud, const SurfaceFit& fit, vtkUnstructuredGrid* output);
+
+/// Adds the point arrays `Distance`, `Tolerance`, `Outlier`, and with other parameters than x, y
+/// the parameters `UV`.
+void EncodeDistances(const DecodedCloud& cloud, const SurfaceFit& fit, vtkPointSet* output);
+
+/// A row an iteration, the last one that of the result: Iteration, Method, Functions, Elements,
+/// MaxError, MeanError, RmsError, PointsOutside, Outliers, LogLikelihood, DegreesOfFreedom, AIC,
+/// BIC, Seconds.
+void EncodeIterations(const SurfaceFit& fit, vtkTable* output);
+
+/// A cell a cell of the grid, with the cell arrays Height, Slope, Roughness, MaxError, ElementSize,
+/// NumPoints, NumOutside.
+void EncodeFeatures(
+  const FitFeatures& features, const ParametricBox<2>& domain, vtkImageData* output);
+}

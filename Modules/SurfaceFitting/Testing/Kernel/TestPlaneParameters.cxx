@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PlaneParameters.h"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+using namespace knotwork;
+
+namespace
+{
+/// Points of a wave over a rectangle of 4 x 2 in its own frame, tilted and far from the origin.
+PointMatrix TiltedWave(unsigned seed, int n, PointMatrix& plane)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const Eigen::Matrix3d turn(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, 2.0, -1.0).normalized()));
+  PointMatrix points(n, 3);
+  plane.resize(n, 2);
+  for (int i = 0; i < n; i += 2)
+  {
+    const double u = 2.0 * unit(random);
+    const double v = unit(random);
+    const double z = 0.1 * std::sin(3.0 * u) * std::sin(2.0 * v); // odd: the plane is exact
+    for (int side = 0; side < 2; ++side)
+    {
+      // with its mirror images the covariance is diagonal in the frame
+      const Eigen::Vector3d local(side == 0 ? u : -u, v, side == 0 ? z : -z);
+      plane.row(i + side) = local.head<2>().transpose();
+      points.row(i + side) = (turn * local + Eigen::Vector3d(100.0, -50.0, 20.0)).transpose();
+    }
+  }
+  return points;
+}
+}
+
+TEST(PlaneParameters, AreDistancesInThePlane_ExactOracle)
+{
+  // Points of a plane: distances of parameters are distances in space.
+  for (unsigned seed = 1; seed <= 10; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    PointMatrix plane;
+    PointMatrix points = TiltedWave(seed, 200, plane);
+    const Eigen::Vector3d a(0.6, 0.0, 0.8);
+    const Eigen::Vector3d b(0.0, 1.0, 0.0);
+    points = plane.col(0) * a.transpose() + plane.col(1) * b.transpose();
+    const auto uv = PlaneParameters(points);
+    ASSERT_TRUE(uv) << uv.Status.Message();
+    for (Eigen::Index i = 1; i < points.rows(); ++i)
+    {
+      // round-off of rotating vectors of length 5
+      EXPECT_NEAR(
+        (uv->row(i) - uv->row(0)).norm(), (points.row(i) - points.row(0)).norm(), 1e-14 * 5 * 8);
+    }
+  }
+}
+
+TEST(PlaneParameters, FindTheFrameOfAWave_PropertyOracle)
+{
+  PointMatrix plane;
+  const PointMatrix points = TiltedWave(3, 20000, plane);
+  const auto uv = PlaneParameters(points);
+  ASSERT_TRUE(uv) << uv.Status.Message();
+  // The long side comes first, and the normal is found up to the tilt of the sample's moments.
+  const Eigen::RowVector2d size = uv->colwise().maxCoeff() - uv->colwise().minCoeff();
+  EXPECT_NEAR(size[0], 4.0, 0.1);
+  EXPECT_NEAR(size[1], 2.0, 0.1);
+  EXPECT_GT(size[1], 1.9);
+}
+
+TEST(PlaneParameters, MovePointsAndFrameMoves_PropertyOracle)
+{
+  PointMatrix plane;
+  const PointMatrix points = TiltedWave(4, 1000, plane);
+  const PointMatrix moved = points.rowwise() + Eigen::RowVector3d(3.0, 4.0, 5.0);
+  const auto first = PlaneParameters(points);
+  const auto second = PlaneParameters(moved);
+  ASSERT_TRUE(first && second);
+  // rounding of coordinates of some hundred
+  EXPECT_LE((first.Value - second.Value).cwiseAbs().maxCoeff(), 1e-11);
+}
+
+TEST(PlaneParameters, EveryFailureIsReachable)
+{
+  PointMatrix plane;
+  const PointMatrix points = TiltedWave(5, 4000, plane);
+  EXPECT_EQ(PlaneParameters(points.topRows(2)).Status.Code, ErrorCode::EmptyInput);
+  PointMatrix bad = points;
+  bad(7, 1) = std::numeric_limits<double>::quiet_NaN();
+  const auto nan = PlaneParameters(bad);
+  EXPECT_EQ(nan.Status.Code, ErrorCode::NonFiniteInput);
+  EXPECT_EQ(nan.Status.Detail, "point 7");
+  PointMatrix line = points;
+  line.col(1) = 2.0 * line.col(0);
+  line.col(2) = -line.col(0);
+  EXPECT_EQ(PlaneParameters(line).Status.Code, ErrorCode::SingularSystem);
+  EXPECT_EQ(PlaneParameters(PointMatrix::Ones(5, 3)).Status.Code, ErrorCode::SingularSystem);
+  PointMatrix sphere = points.rowwise() - points.colwise().mean();
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  for (Eigen::Index i = 0; i < sphere.rows(); ++i)
+  {
+    sphere.row(i) << normal(random), normal(random), normal(random);
+    sphere.row(i).normalize();
+  }
+  const auto folded = PlaneParameters(sphere);
+  EXPECT_EQ(folded.Status.Code, ErrorCode::NotInSpace);
+  EXPECT_NE(folded.Status.Detail.find("layers"), std::string::npos);
+}
