@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "SurfaceFit.h"
+
+namespace knotwork
+{
+/// What FitSurface says about its arguments.
+Status CheckFit(const PointCloud& cloud, const FitParams& params);
+
+/// The domain of a fit: the one asked for, or the box of the parameters (a side without length
+/// gets one).
+ParametricBox<2> FitDomain(const PointCloud& cloud, const FitParams& params);
+
+/// The tolerance of every point. @pre CheckFit is Ok.
+std::vector<double> FitTolerances(const PointCloud& cloud, const FitParams& params);
+}

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FitLikelihood.h"
+
+#include "Parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace knotwork
+{
+namespace
+{
+constexpr std::size_t PointChunk = 65536;
+constexpr int ClassBits = 6; // classes an octave: 2^6
+constexpr int Octaves = 80;  // 2^-60 to 2^20
+constexpr std::size_t NumClasses = std::size_t{ Octaves } << ClassBits;
+constexpr std::uint64_t FirstClass = std::uint64_t{ 1023 - 60 } << ClassBits;
+constexpr double LeastFreedom = 0.5;
+constexpr double MostFreedom = 200.0;
+
+/// Exponent and leading digits of a positive number.
+std::size_t ClassOf(double x)
+{
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &x, sizeof bits);
+  const std::uint64_t code = bits >> (52 - ClassBits);
+  return code <= FirstClass
+    ? 0
+    : std::min<std::size_t>(static_cast<std::size_t>(code - FirstClass), NumClasses - 1);
+}
+
+double MiddleOf(std::size_t number)
+{
+  const auto octave = static_cast<int>(number >> ClassBits) - 60;
+  const auto part = static_cast<double>(number & ((1U << ClassBits) - 1)) + 0.5;
+  return std::ldexp(1.0 + part / (1U << ClassBits), octave);
+}
+
+struct Class
+{
+  double Square;
+  double Count;
+};
+
+double LogLikelihood(const std::vector<Class>& classes, double total, double scale, double freedom)
+{
+  double sum = 0.0;
+  for (const Class& c : classes)
+  {
+    sum += c.Count * std::log1p(c.Square / (freedom * scale * scale));
+  }
+  return total *
+    (std::lgamma(0.5 * (freedom + 1.0)) - std::lgamma(0.5 * freedom) -
+      0.5 * std::log(freedom * 3.14159265358979323846) - std::log(scale)) -
+    0.5 * (freedom + 1.0) * sum;
+}
+
+/// The most likely scale at given degrees of freedom, from a first guess.
+double FitScale(const std::vector<Class>& classes, double total, double scale, double freedom)
+{
+  for (int k = 0; k < 100; ++k)
+  {
+    double sum = 0.0;
+    for (const Class& c : classes)
+    {
+      sum += c.Count * (freedom + 1.0) * c.Square / (freedom + c.Square / (scale * scale));
+    }
+    const double next = std::sqrt(sum / total);
+    const bool done = std::fabs(next - scale) <= 1e-6 * scale;
+    scale = next;
+    if (done)
+    {
+      break;
+    }
+  }
+  return scale;
+}
+}
+
+TDistribution FitTDistribution(const FitPoints& points, int threads)
+{
+  const std::size_t chunks = (points.Size() + PointChunk - 1) / PointChunk;
+  std::vector<std::vector<int>> counts(chunks);
+  ParallelFor(points.Size(), PointChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      std::vector<int>& own = counts[begin / PointChunk];
+      own.assign(NumClasses, 0);
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        if (points.Base[i] > 0.0)
+        {
+          ++own[ClassOf(std::fabs(points.Distance[i]))];
+        }
+      }
+    });
+  std::vector<Class> classes;
+  double total = 0.0;
+  double squares = 0.0;
+  for (std::size_t k = 0; k < NumClasses; ++k)
+  {
+    double count = 0.0;
+    for (const std::vector<int>& own : counts)
+    {
+      count += own[k];
+    }
+    if (count > 0.0)
+    {
+      const double x = MiddleOf(k);
+      classes.push_back({ x * x, count });
+      total += count;
+      squares += count * x * x;
+    }
+  }
+  TDistribution best;
+  if (total == 0.0)
+  {
+    return best;
+  }
+  // one-dimensional search over the logarithm of the degrees of freedom, scale the best for each
+  const auto at = [&](double logFreedom)
+  {
+    TDistribution t;
+    t.DegreesOfFreedom = std::exp(logFreedom);
+    t.Scale = FitScale(classes, total, best.Scale > 0.0 ? best.Scale : std::sqrt(squares / total),
+      t.DegreesOfFreedom);
+    t.LogLikelihood = LogLikelihood(classes, total, t.Scale, t.DegreesOfFreedom);
+    return t;
+  };
+  double low = std::log(LeastFreedom);
+  double high = std::log(MostFreedom);
+  const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
+  double a = high - golden * (high - low);
+  double b = low + golden * (high - low);
+  TDistribution atA = at(a);
+  best = atA;
+  TDistribution atB = at(b);
+  while (high - low > 1e-3)
+  {
+    if (atA.LogLikelihood >= atB.LogLikelihood)
+    {
+      high = b;
+      b = a;
+      atB = atA;
+      a = high - golden * (high - low);
+      atA = at(a);
+    }
+    else
+    {
+      low = a;
+      a = b;
+      atA = atB;
+      b = low + golden * (high - low);
+      atB = at(b);
+    }
+    best = atA.LogLikelihood >= atB.LogLikelihood ? atA : atB;
+  }
+  return best;
+}
+}

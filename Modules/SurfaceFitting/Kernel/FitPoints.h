@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "SurfaceFit.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace knotwork
+{
+/// The points of a fit in the order of the elements that hold them, a column a property: everything
+/// an element's points need is contiguous. When an element is split only its own points move.
+struct FitPoints
+{
+  std::vector<double> U; ///< in the domain's coordinates
+  std::vector<double> V;
+  std::vector<std::vector<double>> Values; ///< one a component
+  std::vector<double> Tolerance;
+  std::vector<double> Base;     ///< weight asked for; 0 of an outlier
+  std::vector<double> Boost;    ///< weight gained by being outside, >= 1
+  std::vector<double> Distance; ///< signed with one measured component
+  std::vector<int> Order;       ///< row in the cloud
+
+  /// Points [Begin, End) of an element.
+  struct Range
+  {
+    std::size_t Begin = 0;
+    std::size_t End = 0;
+    std::size_t Count() const { return this->End - this->Begin; }
+  };
+  std::vector<Range> Ranges; ///< one an element
+
+  std::size_t Size() const { return this->U.size(); }
+  int NumComponents() const { return static_cast<int>(this->Values.size()); }
+};
+
+/// Points of a cloud by the elements of a space.
+/// @pre the points are in the domain. @param tolerances one a point.
+FitPoints GroupPoints(const SplineSpace<2>& space, const PointCloud& cloud,
+  const std::vector<double>& tolerances, double significantWeight, int threads);
+
+/// Which element of a coarser space holds each element of a finer one.
+/// @pre the finer mesh divides the elements of the coarser one.
+std::vector<int> FindParents(const SplineSpace<2>& coarse, const SplineSpace<2>& fine);
+
+/// Moves the points of every element of the coarser space to its parts.
+void RegroupPoints(const SplineSpace<2>& coarse, const SplineSpace<2>& fine,
+  const std::vector<int>& parents, FitPoints& points, int threads);
+}

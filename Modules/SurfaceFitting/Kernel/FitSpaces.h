@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "SurfaceFit.h"
+
+namespace knotwork
+{
+/// The space of a fit and what is carried from one to the next, larger one.
+struct FitState
+{
+  SplineSpacePtr<2> Space;
+  PointMatrix Coefficients; ///< NumFunctions x c
+  PointMatrix DomainPoints; ///< NumFunctions x 2
+};
+
+/// An element to be split and by lines of which directions (parameter 0 constant, 1 constant).
+struct SplitMark
+{
+  int Element = 0;
+  std::array<bool, 2> Directions{ true, true };
+};
+
+/// The first space: equal elements over a domain. Coefficients are 0.
+Result<FitState> MakeFirstState(const FitParams& params, const ParametricBox<2>& domain,
+  int numComponents, std::size_t numPoints);
+
+/// The same surface in a space in which elements are split.
+/// @param independent  LR: dependent functions are resolved.
+Result<FitState> RefineState(
+  const FitState& state, const std::vector<SplitMark>& marks, const FitParams& params);
+}

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PointDistances.h"
+
+#include "Parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+namespace knotwork
+{
+namespace
+{
+constexpr std::size_t ElementChunk = 16;
+constexpr int Lanes = 8;
+
+std::size_t At(int i)
+{
+  return static_cast<std::size_t>(i);
+}
+
+/// Bernstein polynomials at eight points at a time.
+template <typename Degree>
+inline void BasisRows(const Degree degree, const double* t, double (*rows)[Lanes])
+{
+  double s[Lanes];
+  for (int i = 0; i < Lanes; ++i)
+  {
+    s[i] = 1.0 - t[i];
+    rows[0][i] = 1.0;
+  }
+  for (int q = 1; q <= degree; ++q)
+  {
+    for (int i = 0; i < Lanes; ++i)
+    {
+      rows[q][i] = t[i] * rows[q - 1][i];
+    }
+    for (int k = q - 1; k > 0; --k)
+    {
+      for (int i = 0; i < Lanes; ++i)
+      {
+        rows[k][i] = s[i] * rows[k][i] + t[i] * rows[k - 1][i];
+      }
+    }
+    for (int i = 0; i < Lanes; ++i)
+    {
+      rows[0][i] *= s[i];
+    }
+  }
+}
+
+/// Squares of the distances at up to eight points from first on; with one component the differences
+/// value - surface themselves.
+template <typename DegreeU, typename DegreeV>
+inline void Differences(const DegreeU p, const DegreeV q, const ParametricBox<2>& box,
+  const RealArray<2>& scale, const FitPoints& points, std::size_t first, int count, int components,
+  const double* local, double* out)
+{
+  double s[Lanes] = {};
+  double t[Lanes] = {};
+  for (int i = 0; i < count; ++i)
+  {
+    s[i] = (points.U[first + At(i)] - box.Lower[0]) * scale[0];
+    t[i] = (points.V[first + At(i)] - box.Lower[1]) * scale[1];
+  }
+  double u[MaxDegree + 1][Lanes];
+  double v[MaxDegree + 1][Lanes];
+  BasisRows(p, s, u);
+  BasisRows(q, t, v);
+  std::fill_n(out, Lanes, 0.0);
+  for (int c = 0; c < components; ++c)
+  {
+    const double* coefficients = local + c * (p + 1) * (q + 1);
+    double sum[Lanes] = {};
+    for (int k = 0; k <= q; ++k)
+    {
+      double line[Lanes] = {};
+      for (int j = 0; j <= p; ++j)
+      {
+        const double b = coefficients[k * (p + 1) + j];
+        for (int i = 0; i < Lanes; ++i)
+        {
+          line[i] += b * u[j][i];
+        }
+      }
+      for (int i = 0; i < Lanes; ++i)
+      {
+        sum[i] += v[k][i] * line[i];
+      }
+    }
+    for (int i = 0; i < count; ++i)
+    {
+      const double difference = points.Values[At(c)][first + At(i)] - sum[i];
+      out[i] = components == 1 ? difference : out[i] + difference * difference;
+    }
+  }
+}
+
+template <typename DegreeU, typename DegreeV>
+ElementErrors MeasureElement(const DegreeU p, const DegreeV q, const ParametricBox<2>& box,
+  const double* local, int measured, const FitPoints::Range& range, FitPoints& points)
+{
+  const RealArray<2> scale{ 1.0 / (box.Upper[0] - box.Lower[0]),
+    1.0 / (box.Upper[1] - box.Lower[1]) };
+  ElementErrors errors;
+  for (std::size_t first = range.Begin; first < range.End; first += Lanes)
+  {
+    const int count = static_cast<int>(std::min<std::size_t>(Lanes, range.End - first));
+    double distance[Lanes];
+    Differences(p, q, box, scale, points, first, count, measured, local, distance);
+    for (int i = 0; i < count; ++i)
+    {
+      const std::size_t k = first + At(i);
+      const double size = measured == 1 ? std::fabs(distance[i]) : std::sqrt(distance[i]);
+      points.Distance[k] = measured == 1 ? distance[i] : size;
+      if (points.Base[k] == 0.0)
+      {
+        continue;
+      }
+      errors.Max = std::max(errors.Max, size);
+      errors.Ratio = std::max(errors.Ratio, size / points.Tolerance[k]);
+      errors.Sum += size;
+      errors.Squares += size * size;
+      errors.NumOutside += size > points.Tolerance[k] ? 1 : 0;
+      ++errors.Count;
+    }
+  }
+  return errors;
+}
+}
+
+std::vector<ElementErrors> MeasureDistances(const SplineSpace<2>& space,
+  const ElementFunctions& functions, const PointMatrix& coefficients, int numMeasured,
+  FitPoints& points, int threads)
+{
+  std::vector<ElementErrors> errors(At(space.NumElements()));
+  ParallelFor(errors.size(), ElementChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      std::vector<double> local(
+        At(functions.PerElement) * static_cast<std::size_t>(coefficients.cols()));
+      for (std::size_t e = begin; e < end; ++e)
+      {
+        functions.LocalCoefficients(static_cast<int>(e), coefficients, local.data());
+        const SplineSpace<2>::Element& element = space.Elements[e];
+        const auto measure = [&](const auto p, const auto q)
+        {
+          errors[e] =
+            MeasureElement(p, q, element.Box, local.data(), numMeasured, points.Ranges[e], points);
+        };
+        if (element.Degree == IntArray<2>{ 2, 2 })
+        {
+          measure(std::integral_constant<int, 2>{}, std::integral_constant<int, 2>{});
+        }
+        else if (element.Degree == IntArray<2>{ 3, 3 })
+        {
+          measure(std::integral_constant<int, 3>{}, std::integral_constant<int, 3>{});
+        }
+        else
+        {
+          measure(element.Degree[0], element.Degree[1]);
+        }
+      }
+    });
+  return errors;
+}
+
+RealArray<2> SplitGains(
+  const ParametricBox<2>& box, const FitPoints& points, const FitPoints::Range& range)
+{
+  // x -> (2x - 1)|2x - 1| without its part in the quadratics, which a least-squares fit has already
+  const auto kink = [](double x)
+  {
+    const double y = 2.0 * x - 1.0;
+    return y * std::fabs(y) - 0.75 * y;
+  };
+  double sums[2][3] = {};
+  double norms[2][3] = {};
+  for (std::size_t i = range.Begin; i < range.End; ++i)
+  {
+    const double weight = points.Base[i];
+    const double x[2] = { (points.U[i] - box.Lower[0]) / (box.Upper[0] - box.Lower[0]),
+      (points.V[i] - box.Lower[1]) / (box.Upper[1] - box.Lower[1]) };
+    for (int d = 0; d < 2; ++d)
+    {
+      const double k = kink(x[d]);
+      const double t = x[1 - d];
+      const double across[3] = { (1.0 - t) * (1.0 - t), 2.0 * t * (1.0 - t), t * t };
+      for (int j = 0; j < 3; ++j)
+      {
+        sums[d][j] += weight * points.Distance[i] * k * across[j];
+        norms[d][j] += weight * k * k * across[j] * across[j];
+      }
+    }
+  }
+  RealArray<2> gains{};
+  for (int d = 0; d < 2; ++d)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      gains[At(d)] += norms[d][j] > 0.0 ? sums[d][j] * sums[d][j] / norms[d][j] : 0.0;
+    }
+  }
+  return gains;
+}
+}

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "ElementFunctions.h"
+#include "FitPoints.h"
+
+namespace knotwork
+{
+/// The distances of the points of an element, outliers (weight 0) left out.
+struct ElementErrors
+{
+  double Max = 0.0;   ///< of absolute values
+  double Ratio = 0.0; ///< largest distance / tolerance
+  double Sum = 0.0;   ///< of absolute values
+  double Squares = 0.0;
+  std::size_t NumOutside = 0;
+  std::size_t Count = 0;
+};
+
+/// Measures all points: fills points.Distance, value - surface with one measured component, else
+/// the length of the difference of the measured ones.
+/// @param numMeasured  of the components. @return one an element.
+std::vector<ElementErrors> MeasureDistances(const SplineSpace<2>& space,
+  const ElementFunctions& functions, const PointMatrix& coefficients, int numMeasured,
+  FitPoints& points, int threads);
+
+/// How much of the distances of an element a new knot line in the middle could take away, for each
+/// direction: the part of their squares along piecewise polynomials with a kink there.
+RealArray<2> SplitGains(
+  const ParametricBox<2>& box, const FitPoints& points, const FitPoints::Range& range);
+}
