@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "PointFile.h"
 #include "SplineFile.h"
 
 #include <string_view>
 
 namespace knotwork
 {
-/// Reads all objects of a GoTools g2 text: SplineCurve (100), SplineSurface (200), LRSplineSurface
-/// (293), SplineVolume (700), polynomial and rational. Rational rows are homogeneous, (w x, w y, w
+/// Reads all splines of a GoTools g2 text: SplineCurve (100), SplineSurface (200), LRSplineSurface
+/// (293), SplineVolume (700), polynomial and rational; point clouds (400) are left out with a
+/// warning. Rational rows are homogeneous, (w x, w y, w
 /// z, w); the quotient is taken in extended precision, so that what WriteG2 wrote comes back bit
 /// for bit.
 /// @param text  words separated by white space; read independently of the locale.
@@ -16,6 +18,18 @@ namespace knotwork
 /// LR functions that do not fit their mesh (MakeLRSpace); EmptyInput without an object.
 /// @complexity time and memory O(size of the text), whatever counts the text claims.
 Result<SplineFile> ReadG2(std::string_view text);
+
+/// Reads all point clouds (400) of a g2 text, one group each; splines are left out with a warning.
+/// @return as ReadG2; EmptyInput without a point.
+Result<PointFile> ReadG2Points(std::string_view text);
+
+/// Whether the first object of a text is a point cloud.
+bool BeginsWithG2Points(std::string_view beginning);
+
+/// Writes points as point clouds, one a group: ReadG2Points gives the same bits again. Channels
+/// are not written: the format has none.
+/// @return EmptyInput without a point; SizeMismatch for groups that do not follow each other.
+Result<std::string> WriteG2Points(const PointFile& file);
 
 /// Whether a text's beginning is a header of one of GoTools' classes.
 bool LooksLikeG2(std::string_view beginning);

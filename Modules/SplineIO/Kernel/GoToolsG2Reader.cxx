@@ -13,6 +13,7 @@ namespace
 {
 constexpr long long MaxInt = std::numeric_limits<int>::max();
 constexpr int MaxComponents = MaxG2Components;
+constexpr int PointCloudClass = 400;
 
 struct KnownClass
 {
@@ -21,34 +22,72 @@ struct KnownClass
 };
 constexpr KnownClass OtherClasses[] = { { 110, "CurveOnSurface" }, { 120, "Line" },
   { 130, "Circle" }, { 140, "Ellipse" }, { 210, "BoundedSurface" }, { 250, "Plane" },
-  { 260, "Cylinder" }, { 270, "Sphere" }, { 280, "Cone" }, { 290, "Torus" }, { 400, "PointCloud" },
-  { 410, "LineCloud" } };
+  { 260, "Cylinder" }, { 270, "Sphere" }, { 280, "Cone" }, { 290, "Torus" }, { 410, "LineCloud" } };
 
 class G2Parser : private G2Words
 {
 public:
   explicit G2Parser(std::string_view text) : G2Words(text) {}
 
-  Result<SplineFile> Read()
+  Result<SplineFile> ReadSplines()
   {
     SplineFile file;
-    while (!this->Words.AtEnd())
+    std::vector<double> coordinates;
+    if (!this->ReadObjects(file, coordinates))
     {
-      this->ReadObject(file);
-      if (!this->Outcome)
-      {
-        return this->Outcome;
-      }
+      return this->Outcome;
     }
     if (file.Splines.empty())
     {
-      return { ErrorCode::EmptyInput, "the g2 text holds no object" };
+      return { ErrorCode::EmptyInput,
+        coordinates.empty() ? "the g2 text holds no object"
+                            : "the g2 text holds points only; read it as a point cloud" };
+    }
+    if (!coordinates.empty())
+    {
+      file.Warnings.push_back(std::to_string(coordinates.size() / 3) +
+        " points of point clouds (400) are left out; they are read as a point cloud");
     }
     return file;
   }
 
+  Result<PointFile> ReadPoints()
+  {
+    SplineFile file;
+    std::vector<double> coordinates;
+    if (!this->ReadObjects(file, coordinates))
+    {
+      return this->Outcome;
+    }
+    if (coordinates.empty())
+    {
+      return { ErrorCode::EmptyInput, "the g2 text holds no point cloud (400)" };
+    }
+    PointFile points;
+    points.Points = Eigen::Map<const PointMatrix>(
+      coordinates.data(), static_cast<Eigen::Index>(coordinates.size() / 3), 3);
+    points.Channels.resize(points.Points.rows(), 0);
+    points.Groups = std::move(this->Groups);
+    if (!file.Splines.empty())
+    {
+      points.Warnings.push_back(std::to_string(file.Splines.size()) +
+        " splines are left out; a reader of splines takes them");
+    }
+    return points;
+  }
+
 private:
-  void ReadObject(SplineFile& file)
+  /// @param coordinates  of all point clouds, three a point.
+  bool ReadObjects(SplineFile& file, std::vector<double>& coordinates)
+  {
+    while (this->Outcome && !this->Words.AtEnd())
+    {
+      this->ReadObject(file, coordinates);
+    }
+    return static_cast<bool>(this->Outcome);
+  }
+
+  void ReadObject(SplineFile& file, std::vector<double>& coordinates)
   {
     const long long id = this->Integer("class of an object", 0, MaxInt);
     for (const KnownClass& other : OtherClasses)
@@ -57,35 +96,73 @@ private:
       {
         this->Fail(ErrorCode::InvalidFormat,
           std::string("an object of class ") + std::to_string(id) + " (" + other.Name +
-            ") cannot be read; keep only spline curves (100), surfaces (200), LR surfaces (293) "
-            "and volumes "
-            "(700)");
+            ") cannot be read; keep only spline curves (100), surfaces (200), LR surfaces (293), "
+            "point clouds (400) and volumes (700)");
       }
     }
-    if (this->Outcome && id != 100 && id != 200 && id != 293 && id != 700)
+    if (this->Outcome && id != 100 && id != 200 && id != 293 && id != PointCloudClass && id != 700)
     {
       this->Fail(ErrorCode::InvalidFormat,
         "an object has class " + std::to_string(id) +
-          "; classes that can be read are 100, 200, 293 and 700; this is no g2 file, or the object "
-          "before "
-          "has more numbers than it says");
+          "; classes that can be read are 100, 200, 293, 400 and 700; this is no g2 file, or the "
+          "object before has more numbers than it says");
     }
     this->Integer("major version", 0, MaxInt);
     this->Integer("minor version", 0, MaxInt);
     const long long auxiliary = this->Integer("number of auxiliary integers", 0, MaxInt);
+    std::array<long long, 4> color{};
     for (long long i = 0; i < auxiliary && this->Outcome; ++i)
     {
-      this->Integer("auxiliary integer", std::numeric_limits<long long>::min(),
-        std::numeric_limits<long long>::max());
+      const long long number = this->Integer("auxiliary integer",
+        std::numeric_limits<long long>::min(), std::numeric_limits<long long>::max());
+      color[static_cast<std::size_t>(std::min(i, 3LL))] = number;
     }
     if (this->Outcome)
     {
-      id == 100     ? this->ReadSpline<1>(file)
-        : id == 200 ? this->ReadSpline<2>(file)
-        : id == 293 ? this->Keep(file, ReadLRSurface(*this))
-                    : this->ReadSpline<3>(file);
+      id == 100                 ? this->ReadSpline<1>(file)
+        : id == 200             ? this->ReadSpline<2>(file)
+        : id == 293             ? this->Keep(file, ReadLRSurface(*this))
+        : id == PointCloudClass ? this->ReadCloud(auxiliary == 4, color, coordinates)
+                                : this->ReadSpline<3>(file);
     }
   }
+
+  void ReadCloud(
+    bool colored, const std::array<long long, 4>& color, std::vector<double>& coordinates)
+  {
+    const long long count = this->Integer("number of points", 0, MaxInt);
+    if (this->Outcome &&
+      3.0 * static_cast<double>(count) > static_cast<double>(this->Words.Remaining()))
+    {
+      this->Fail(ErrorCode::InvalidFormat,
+        "the text is too short for " + std::to_string(count) +
+          " points; the file is truncated or its count is too large");
+    }
+    PointGroup group;
+    group.Begin = static_cast<Eigen::Index>(coordinates.size() / 3);
+    group.HasColor = colored;
+    for (std::size_t i = 0; colored && i < 4 && this->Outcome; ++i)
+    {
+      group.Color[i] = static_cast<int>(color[i]);
+      if (color[i] < 0 || color[i] > 255)
+      {
+        this->Fail(ErrorCode::InvalidFormat,
+          "the colour of a point cloud has the share " + std::to_string(color[i]) +
+            ", outside 0 to 255");
+      }
+    }
+    if (this->Outcome && count > 0)
+    {
+      this->Groups.push_back(group);
+      coordinates.reserve(coordinates.size() + 3 * static_cast<std::size_t>(count));
+    }
+    for (long long i = 0; i < 3 * count && this->Outcome; ++i)
+    {
+      coordinates.push_back(this->Real<double>("coordinate of a point"));
+    }
+  }
+
+  std::vector<PointGroup> Groups;
 
   KnotVector ReadBasis()
   {
@@ -231,12 +308,24 @@ bool LooksLikeG2(std::string_view beginning)
     }
   }
   const auto isClass = [&](const KnownClass& known) { return header[0] == known.Id; };
-  return header[0] == 100 || header[0] == 200 || header[0] == 293 || header[0] == 700 ||
-    std::any_of(std::begin(OtherClasses), std::end(OtherClasses), isClass);
+  return header[0] == 100 || header[0] == 200 || header[0] == 293 || header[0] == PointCloudClass ||
+    header[0] == 700 || std::any_of(std::begin(OtherClasses), std::end(OtherClasses), isClass);
 }
 
 Result<SplineFile> ReadG2(std::string_view text)
 {
-  return G2Parser(text).Read();
+  return G2Parser(text).ReadSplines();
+}
+
+Result<PointFile> ReadG2Points(std::string_view text)
+{
+  return G2Parser(text).ReadPoints();
+}
+
+bool BeginsWithG2Points(std::string_view beginning)
+{
+  long long id = 0;
+  return LooksLikeG2(beginning) &&
+    ParseInteger(WordScanner(beginning).Next(), PointCloudClass, PointCloudClass, id);
 }
 }

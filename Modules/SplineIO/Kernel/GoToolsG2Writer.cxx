@@ -84,4 +84,43 @@ Result<std::string> WriteG2(const std::vector<AnySpline>& splines)
   }
   return text;
 }
+
+Result<std::string> WriteG2Points(const PointFile& file)
+{
+  const Eigen::Index n = file.Points.rows();
+  if (n == 0)
+  {
+    return { ErrorCode::EmptyInput, "there is no point to write" };
+  }
+  const std::vector<PointGroup> groups =
+    file.Groups.empty() ? std::vector<PointGroup>(1) : file.Groups;
+  std::string text;
+  for (std::size_t i = 0; i < groups.size(); ++i)
+  {
+    const Eigen::Index begin = groups[i].Begin;
+    const Eigen::Index end = i + 1 < groups.size() ? groups[i + 1].Begin : n;
+    if (begin >= end || (i == 0 && begin != 0))
+    {
+      return { ErrorCode::SizeMismatch, "the groups of points do not follow each other" };
+    }
+    text += "400 1 0";
+    text += groups[i].HasColor ? " 4" : " 0";
+    for (std::size_t c = 0; groups[i].HasColor && c < 4; ++c)
+    {
+      text += " " + std::to_string(groups[i].Color[c]);
+    }
+    text += "\n" + std::to_string(end - begin) + "\n";
+    for (Eigen::Index row = begin; row < end; ++row)
+    {
+      for (Eigen::Index c = 0; c < 3; ++c)
+      {
+        text += c > 0 ? " " : "";
+        AppendReal(text, file.Points(row, c));
+      }
+      text += "\n";
+    }
+    text += "\n";
+  }
+  return text;
+}
 }

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSplineSurfaceFit.h"
+
+#include "FitData.h"
+
+#include "vtkDataObject.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkSmartPointer.h"
+#include "vtkTable.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <sstream>
+
+vtkStandardNewMacro(vtkSplineSurfaceFit);
+
+namespace
+{
+constexpr int NumOutputs = 4;
+constexpr const char* OutputTypes[NumOutputs] = { "vtkUnstructuredGrid", "vtkPointSet", "vtkTable",
+  "vtkImageData" };
+
+template <typename T>
+void MakeOutput(vtkInformationVector* outputs, int port)
+{
+  if (!T::GetData(outputs, port))
+  {
+    vtkNew<T> data;
+    outputs->GetInformationObject(port)->Set(vtkDataObject::DATA_OBJECT(), data);
+  }
+}
+
+std::string DescribeMiss(const knotwork::SurfaceFit& fit)
+{
+  std::ostringstream text;
+  text << fit.Final.NumOutside << " of " << fit.Distances.size()
+       << " points are farther away than their tolerance, by a largest distance of "
+       << fit.Final.MaxError << "; allow more iterations, functions or time, or smaller elements";
+  return text.str();
+}
+}
+
+vtkSplineSurfaceFit::vtkSplineSurfaceFit()
+{
+  this->SetNumberOfInputPorts(1);
+  this->SetNumberOfOutputPorts(NumOutputs);
+}
+
+void vtkSplineSurfaceFit::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Parameterization: " << this->Parameterization << "\n";
+  os << indent << "FieldArrays:";
+  for (const std::string& name : this->FieldArrays)
+  {
+    os << " " << name;
+  }
+  os << "\n" << indent << "AllFields: " << this->AllFields << "\n";
+  os << indent << "Space: " << this->Space << "\n";
+  os << indent << "Degree: " << this->Degree << "\n";
+  os << indent << "SecondDegree: " << this->SecondDegree << "\n";
+  os << indent << "InitialElementsU: " << this->InitialElementsU << "\n";
+  os << indent << "InitialElementsV: " << this->InitialElementsV << "\n";
+  os << indent << "Domain: " << this->Domain[0] << " " << this->Domain[1] << " " << this->Domain[2]
+     << " " << this->Domain[3] << "\n";
+  os << indent << "Method: " << this->Method << "\n";
+  os << indent << "SwitchIteration: " << this->SwitchIteration << "\n";
+  os << indent << "Smoothing: " << this->Smoothing << "\n";
+  os << indent << "SignificantWeight: " << this->SignificantWeight << "\n";
+  os << indent << "Tolerance: " << this->Tolerance << "\n";
+  os << indent << "ToleranceBoxes: " << this->ToleranceBoxes.size() << "\n";
+  os << indent << "DistanceMode: " << this->DistanceMode << "\n";
+  os << indent << "DistanceSlope: " << this->DistanceSlope << "\n";
+  os << indent << "DistanceCentre: " << this->DistanceCentre[0] << " " << this->DistanceCentre[1]
+     << "\n";
+  os << indent << "Side: " << this->Side << "\n";
+  os << indent << "FindOutliers: " << this->FindOutliers << "\n";
+  os << indent << "OutlierScale: " << this->OutlierScale << "\n";
+  os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
+  os << indent << "MaximumFunctions: " << this->MaximumFunctions << "\n";
+  os << indent << "MaximumSeconds: " << this->MaximumSeconds << "\n";
+  os << indent << "Criterion: " << this->Criterion << "\n";
+  os << indent << "Threshold: " << this->Threshold << "\n";
+  os << indent << "ThresholdShare: " << this->ThresholdShare << "\n";
+  os << indent << "Directions: " << this->Directions << "\n";
+  os << indent << "Strategy: " << this->Strategy << "\n";
+  os << indent << "Independent: " << this->Independent << "\n";
+  os << indent << "MinimumElementSize: " << this->MinimumElementSize << "\n";
+  os << indent << "FeatureGridSize: " << this->FeatureGridSize << "\n";
+}
+
+void vtkSplineSurfaceFit::AddFieldArray(const char* name)
+{
+  if (name && name[0] != '\0')
+  {
+    this->FieldArrays.emplace_back(name);
+    this->Modified();
+  }
+}
+
+void vtkSplineSurfaceFit::ClearFieldArrays()
+{
+  if (!this->FieldArrays.empty())
+  {
+    this->FieldArrays.clear();
+    this->Modified();
+  }
+}
+
+void vtkSplineSurfaceFit::AddToleranceBox(
+  double u0, double u1, double v0, double v1, double tolerance)
+{
+  this->ToleranceBoxes.push_back({ u0, u1, v0, v1, tolerance });
+  this->Modified();
+}
+
+void vtkSplineSurfaceFit::ClearToleranceBoxes()
+{
+  if (!this->ToleranceBoxes.empty())
+  {
+    this->ToleranceBoxes.clear();
+    this->Modified();
+  }
+}
+
+int vtkSplineSurfaceFit::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+  return 1;
+}
+
+int vtkSplineSurfaceFit::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), OutputTypes[port]);
+  return 1;
+}
+
+int vtkSplineSurfaceFit::RequestDataObject(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  MakeOutput<vtkUnstructuredGrid>(outputs, 0);
+  const vtkPointSet* input = vtkPointSet::GetData(inputs[0], 0);
+  vtkDataObject* points = vtkDataObject::GetData(outputs, 1);
+  if (input && (!points || !points->IsA(input->GetClassName())))
+  {
+    const auto like = vtkSmartPointer<vtkDataObject>::Take(input->NewInstance());
+    outputs->GetInformationObject(1)->Set(vtkDataObject::DATA_OBJECT(), like);
+  }
+  MakeOutput<vtkTable>(outputs, 2);
+  MakeOutput<vtkImageData>(outputs, 3);
+  return 1;
+}
+
+knotwork::Status vtkSplineSurfaceFit::FindArray(
+  int index, const char* what, vtkInformationVector** inputs, vtkDataArray*& array)
+{
+  vtkInformation* info = this->GetInputArrayInformation(index);
+  const char* name = info->Get(vtkDataObject::FIELD_NAME());
+  if ((!name || name[0] == '\0') && !info->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
+  {
+    return {};
+  }
+  int association = vtkDataObject::POINT;
+  array = this->GetInputArrayToProcess(index, inputs, association);
+  if (!array || association != vtkDataObject::POINT)
+  {
+    array = nullptr;
+    return { knotwork::ErrorCode::InvalidParameter,
+      std::string(what) + ": there is no point array " +
+        (name ? "'" + std::string(name) + "'" : "of this attribute") +
+        " of numbers; check the name" };
+  }
+  return {};
+}
+
+knotwork::Status vtkSplineSurfaceFit::Compute(
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  using namespace knotwork;
+  vtkPointSet* input = vtkPointSet::GetData(inputs[0], 0);
+  CloudChoice choice;
+  choice.Parameters = static_cast<CloudParameters>(this->Parameterization);
+  choice.Fields = this->FieldArrays;
+  choice.AllFields = this->AllFields;
+  choice.Threads = this->KernelThreads();
+  Status status;
+  if (choice.Parameters == CloudParameters::Given)
+  {
+    status = this->FindArray(0, "parameters", inputs, choice.Given);
+    choice.Given = choice.Given || !status ? choice.Given : input->GetPointData()->GetArray("UV");
+    choice.Given = choice.Given || !status ? choice.Given : input->GetPointData()->GetTCoords();
+  }
+  status = status ? this->FindArray(1, "tolerances", inputs, choice.Tolerances) : status;
+  status = status ? this->FindArray(2, "significant points", inputs, choice.Significant) : status;
+  if (!status)
+  {
+    return status;
+  }
+  const Result<DecodedCloud> decoded = DecodeCloud(input, choice);
+  if (!decoded)
+  {
+    return decoded.Status;
+  }
+  FitParams params;
+  params.Space = static_cast<FitSpace>(this->Space);
+  params.Degree = { this->Degree, this->SecondDegree > 0 ? this->SecondDegree : this->Degree };
+  params.NumInitialElements = { this->InitialElementsU, this->InitialElementsV };
+  params.Domain = { { this->Domain[0], this->Domain[2] }, { this->Domain[1], this->Domain[3] } };
+  params.NumMeasured = decoded->NumMeasured;
+  params.Method = static_cast<FitMethod>(this->Method);
+  params.SwitchIteration = this->SwitchIteration;
+  params.Smoothing = this->Smoothing;
+  params.SignificantWeight = this->SignificantWeight;
+  params.Tolerance = this->Tolerance;
+  for (const auto& [u0, u1, v0, v1, tolerance] : this->ToleranceBoxes)
+  {
+    params.ToleranceBoxes.push_back({ { { u0, v0 }, { u1, v1 } }, tolerance });
+  }
+  params.Distance = static_cast<FitDistance>(this->DistanceMode);
+  params.DistanceSlope = this->DistanceSlope;
+  params.DistanceCentre = { this->DistanceCentre[0], this->DistanceCentre[1] };
+  params.Side = static_cast<FitSide>(this->Side);
+  params.FindOutliers = this->FindOutliers;
+  params.OutlierScale = this->OutlierScale;
+  params.MaxIterations = this->MaximumIterations;
+  params.MaxFunctions = this->MaximumFunctions;
+  params.MaxSeconds = this->MaximumSeconds;
+  params.Criterion = static_cast<FitCriterion>(this->Criterion);
+  params.Threshold = static_cast<FitThreshold>(this->Threshold);
+  params.ThresholdShare = this->ThresholdShare;
+  params.Directions = static_cast<FitDirections>(this->Directions);
+  params.Strategy = static_cast<LRStrategy>(this->Strategy);
+  params.Independent = this->Independent;
+  params.MinElementSize = this->MinimumElementSize;
+  params.FeatureGridSize = this->FeatureGridSize;
+  params.Threads = this->KernelThreads();
+  params.Progress = this->Progress();
+  const Result<SurfaceFit> fit = FitSurface(decoded->Cloud, params);
+  if (!fit)
+  {
+    return fit.Status;
+  }
+  if (!fit->WithinTolerance)
+  {
+    this->ReportWarnings({ DescribeMiss(fit.Value) });
+  }
+  vtkPointSet* points = vtkPointSet::GetData(outputs, 1);
+  points->ShallowCopy(input);
+  EncodeDistances(decoded.Value, fit.Value, points);
+  EncodeIterations(fit.Value, vtkTable::GetData(outputs, 2));
+  EncodeFeatures(fit->Features, fit->Surface.Space->Domain(), vtkImageData::GetData(outputs, 3));
+  return EncodeFit(decoded.Value, fit.Value, vtkUnstructuredGrid::GetData(outputs));
+}

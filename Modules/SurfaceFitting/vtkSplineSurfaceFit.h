@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkSplineSurfaceFit
+ * @brief   fits a spline surface to scattered points
+ *
+ * Input 0 is a vtkPointSet. By default its points are those of a height field z(x, y); a surface in
+ * space is fitted to points with parameters, which are given or computed. Point arrays are fitted
+ * along. Elements are split where points are farther away than their tolerance, until none is.
+ *
+ * SetInputArrayToProcess: 0 the parameters (two components; without it the array `UV`, then the
+ * texture coordinates), 1 tolerances of the points, 2 where a point is significant (not 0).
+ *
+ * Output 0 is the surface (x, y, z) as a spline grid of kind LR or THB; arrays fitted along are
+ * fields on the same space. Output 1 are the points with `Distance` (value minus surface; of
+ * surfaces in space its length), `Tolerance` and `Outlier`, and with the parameters `UV` of a
+ * surface in space. Output 2 is the table of iterations, whose last row is the result. Output 3 is
+ * the feature grid (vtkImageData), empty when FeatureGridSize is 0.
+ *
+ * A fit that ends by a limit is an output with a warning.
+ *
+ * @source Skytt, Barrowclough, Dokken (2015). The module's page has options, limits, errors.
+ */
+#ifndef vtkSplineSurfaceFit_h
+#define vtkSplineSurfaceFit_h
+#include "vtkKnotworkSurfaceFittingModule.h" // for export macro
+#include "vtkSplineAlgorithm.h"
+
+#include <array> // for tolerance boxes
+
+class vtkDataArray;
+
+class VTKKNOTWORKSURFACEFITTING_EXPORT vtkSplineSurfaceFit : public vtkSplineAlgorithm
+{
+public:
+  static vtkSplineSurfaceFit* New();
+  vtkTypeMacro(vtkSplineSurfaceFit, vtkSplineAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum Parameterizations
+  {
+    HEIGHT_FIELD = 0, ///< parameters x, y; z is fitted
+    GIVEN,            ///< parameters are an array; x, y, z are fitted
+    COMPUTED          ///< plane coordinates of triangles, else of the plane of least squares
+  };
+  enum Spaces
+  {
+    LR = 0,
+    THB
+  };
+  enum Methods
+  {
+    LEAST_SQUARES = 0,
+    MBA,
+    COMBINED ///< least squares until SwitchIteration, then MBA
+  };
+  enum Distances
+  {
+    NO_DISTANCE = 0,
+    VALUE_DISTANCE, ///< tolerances grow with the height's absolute value
+    POINT_DISTANCE  ///< tolerances grow with the distance from DistanceCentre
+  };
+  enum Sides
+  {
+    BOTH_SIDES = 0,
+    ABOVE, ///< no point above the surface
+    BELOW  ///< no point below the surface
+  };
+  enum Criteria
+  {
+    TOLERANCE = 0,
+    AIC,
+    BIC
+  };
+  enum Thresholds
+  {
+    ALL_ELEMENTS = 0,
+    LARGEST_ERRORS,
+    MOST_POINTS
+  };
+  enum DirectionChoices
+  {
+    BOTH_DIRECTIONS = 0,
+    ALTERNATING,
+    BY_ERROR
+  };
+  enum Strategies
+  {
+    FULL_SPAN = 0,
+    MINIMUM_SPAN,
+    STRUCTURED_MESH
+  };
+
+  ///@{
+  /** Where the parameters come from, one of Parameterizations. Default HEIGHT_FIELD. */
+  vtkSetClampMacro(Parameterization, int, HEIGHT_FIELD, COMPUTED);
+  vtkGetMacro(Parameterization, int);
+  ///@}
+  ///@{
+  /** Point arrays that are fitted along, besides those of AllFields. */
+  void AddFieldArray(const char* name);
+  void ClearFieldArrays();
+  ///@}
+  ///@{
+  /** Whether all other point arrays of numbers are fitted along. Default off. */
+  vtkSetMacro(AllFields, bool);
+  vtkGetMacro(AllFields, bool);
+  vtkBooleanMacro(AllFields, bool);
+  ///@}
+  ///@{
+  /** Kind of the spline space, one of Spaces. Default LR. */
+  vtkSetClampMacro(Space, int, LR, THB);
+  vtkGetMacro(Space, int);
+  ///@}
+  ///@{
+  /** Degree in the first parameter. Default 2, valid range [1, 9]. */
+  vtkSetClampMacro(Degree, int, 1, 9);
+  vtkGetMacro(Degree, int);
+  ///@}
+  ///@{
+  /** Degree in the second parameter; 0: as the first. Default 0, valid range [0, 9]. */
+  vtkSetClampMacro(SecondDegree, int, 0, 9);
+  vtkGetMacro(SecondDegree, int);
+  ///@}
+  ///@{
+  /** Elements of the initial space in the first and the second parameter; 0: chosen by the number
+   * of points. Default 0, valid range [0, 10000]. */
+  vtkSetClampMacro(InitialElementsU, int, 0, 10000);
+  vtkGetMacro(InitialElementsU, int);
+  vtkSetClampMacro(InitialElementsV, int, 0, 10000);
+  vtkGetMacro(InitialElementsV, int);
+  ///@}
+  ///@{
+  /** Parameter domain u0, u1, v0, v1; without an area the box of the parameters. Default 0 0 0 0.
+   */
+  vtkSetVector4Macro(Domain, double);
+  vtkGetVector4Macro(Domain, double);
+  ///@}
+  ///@{
+  /** How control points are found, one of Methods. Default COMBINED. */
+  vtkSetClampMacro(Method, int, LEAST_SQUARES, COMBINED);
+  vtkGetMacro(Method, int);
+  ///@}
+  ///@{
+  /** First iteration of MBA, of COMBINED. Default 6, valid range [0, 1000]. */
+  vtkSetClampMacro(SwitchIteration, int, 0, 1000);
+  vtkGetMacro(SwitchIteration, int);
+  ///@}
+  ///@{
+  /** Weight of the thin-plate energy in least squares, relative to the data term. Default 1e-9,
+   * valid range [0, 1e3]. */
+  vtkSetClampMacro(Smoothing, double, 0.0, 1e3);
+  vtkGetMacro(Smoothing, double);
+  ///@}
+  ///@{
+  /** How many times a significant point counts. Default 10, valid range [1, 1e6]. */
+  vtkSetClampMacro(SignificantWeight, double, 1.0, 1e6);
+  vtkGetMacro(SignificantWeight, double);
+  ///@}
+  ///@{
+  /** Largest distance of points from the surface, unit of the values; 0: a thousandth of the range
+   * of the values. Default 0, valid range >= 0. */
+  vtkSetClampMacro(Tolerance, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(Tolerance, double);
+  ///@}
+  ///@{
+  /** Points with parameters in [u0, u1] x [v0, v1] have a tolerance of their own; the smallest one
+   * where boxes overlap. */
+  void AddToleranceBox(double u0, double u1, double v0, double v1, double tolerance);
+  void ClearToleranceBoxes();
+  ///@}
+  ///@{
+  /** What the tolerance grows with, one of Distances. Default NO_DISTANCE. */
+  vtkSetClampMacro(DistanceMode, int, NO_DISTANCE, POINT_DISTANCE);
+  vtkGetMacro(DistanceMode, int);
+  ///@}
+  ///@{
+  /** Growth of the tolerance a unit of distance. Default 0, valid range >= 0. */
+  vtkSetClampMacro(DistanceSlope, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(DistanceSlope, double);
+  ///@}
+  ///@{
+  /** Parameters from which POINT_DISTANCE is measured. Default 0 0. */
+  vtkSetVector2Macro(DistanceCentre, double);
+  vtkGetVector2Macro(DistanceCentre, double);
+  ///@}
+  ///@{
+  /** On which side of the surface points may be, one of Sides. Default BOTH_SIDES. */
+  vtkSetClampMacro(Side, int, BOTH_SIDES, BELOW);
+  vtkGetMacro(Side, int);
+  ///@}
+  ///@{
+  /** Whether outliers are looked for; they do not count. Default off. */
+  vtkSetMacro(FindOutliers, bool);
+  vtkGetMacro(FindOutliers, bool);
+  vtkBooleanMacro(FindOutliers, bool);
+  ///@}
+  ///@{
+  /** Robust standard deviations of the distances nearby beyond which a point is an outlier. Default
+   * 4.5, valid range [0.1, 1000]. */
+  vtkSetClampMacro(OutlierScale, double, 0.1, 1000.0);
+  vtkGetMacro(OutlierScale, double);
+  ///@}
+  ///@{
+  /** Refinements at most. Default 30, valid range [0, 1000]. */
+  vtkSetClampMacro(MaximumIterations, int, 0, 1000);
+  vtkGetMacro(MaximumIterations, int);
+  ///@}
+  ///@{
+  /** Functions at most; 0: no limit. Default 0, valid range [0, 1e9]. */
+  vtkSetClampMacro(MaximumFunctions, int, 0, 1000000000);
+  vtkGetMacro(MaximumFunctions, int);
+  ///@}
+  ///@{
+  /** Seconds after which no iteration begins; 0: no limit. Default 0, valid range >= 0. */
+  vtkSetClampMacro(MaximumSeconds, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(MaximumSeconds, double);
+  ///@}
+  ///@{
+  /** What ends the fit besides tolerance and limits, one of Criteria. Default TOLERANCE. */
+  vtkSetClampMacro(Criterion, int, TOLERANCE, BIC);
+  vtkGetMacro(Criterion, int);
+  ///@}
+  ///@{
+  /** Which elements with points outside their tolerance are split, one of Thresholds. Default
+   * ALL_ELEMENTS. */
+  vtkSetClampMacro(Threshold, int, ALL_ELEMENTS, MOST_POINTS);
+  vtkGetMacro(Threshold, int);
+  ///@}
+  ///@{
+  /** Share of the largest error or number from which on LARGEST_ERRORS and MOST_POINTS split.
+   * Default 0.5, valid range [0, 1]. */
+  vtkSetClampMacro(ThresholdShare, double, 0.0, 1.0);
+  vtkGetMacro(ThresholdShare, double);
+  ///@}
+  ///@{
+  /** Directions in which elements are split, one of DirectionChoices. Default BY_ERROR. */
+  vtkSetClampMacro(Directions, int, BOTH_DIRECTIONS, BY_ERROR);
+  vtkGetMacro(Directions, int);
+  ///@}
+  ///@{
+  /** How far the lines of an LR split reach, one of Strategies. Default FULL_SPAN. */
+  vtkSetClampMacro(Strategy, int, FULL_SPAN, STRUCTURED_MESH);
+  vtkGetMacro(Strategy, int);
+  ///@}
+  ///@{
+  /** Whether no step of an LR space leaves linearly dependent functions (slower). Default off. */
+  vtkSetMacro(Independent, bool);
+  vtkGetMacro(Independent, bool);
+  vtkBooleanMacro(Independent, bool);
+  ///@}
+  ///@{
+  /** Share of the domain below which elements are not split. Default 1e-7, valid range [1e-12,
+   * 0.5]. */
+  vtkSetClampMacro(MinimumElementSize, double, 1e-12, 0.5);
+  vtkGetMacro(MinimumElementSize, double);
+  ///@}
+  ///@{
+  /** Cells of the feature grid in each direction; 0: no grid. Default 0, valid range [0, 20000]. */
+  vtkSetClampMacro(FeatureGridSize, int, 0, 20000);
+  vtkGetMacro(FeatureGridSize, int);
+  ///@}
+
+protected:
+  vtkSplineSurfaceFit();
+  ~vtkSplineSurfaceFit() override = default;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestDataObject(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkSplineSurfaceFit(const vtkSplineSurfaceFit&) = delete;
+  void operator=(const vtkSplineSurfaceFit&) = delete;
+  knotwork::Status FindArray(
+    int index, const char* what, vtkInformationVector** inputs, vtkDataArray*& array);
+
+  int Parameterization = HEIGHT_FIELD;
+  std::vector<std::string> FieldArrays;
+  bool AllFields = false;
+  int Space = LR;
+  int Degree = 2;
+  int SecondDegree = 0;
+  int InitialElementsU = 0;
+  int InitialElementsV = 0;
+  double Domain[4] = { 0.0, 0.0, 0.0, 0.0 };
+  int Method = COMBINED;
+  int SwitchIteration = 6;
+  double Smoothing = 1e-9;
+  double SignificantWeight = 10.0;
+  double Tolerance = 0.0;
+  std::vector<std::array<double, 5>> ToleranceBoxes;
+  int DistanceMode = NO_DISTANCE;
+  double DistanceSlope = 0.0;
+  double DistanceCentre[2] = { 0.0, 0.0 };
+  int Side = BOTH_SIDES;
+  bool FindOutliers = false;
+  double OutlierScale = 4.5;
+  int MaximumIterations = 30;
+  int MaximumFunctions = 0;
+  double MaximumSeconds = 0.0;
+  int Criterion = TOLERANCE;
+  int Threshold = ALL_ELEMENTS;
+  double ThresholdShare = 0.5;
+  int Directions = BY_ERROR;
+  int Strategy = FULL_SPAN;
+  bool Independent = false;
+  double MinimumElementSize = 1e-7;
+  int FeatureGridSize = 0;
+};
+#endif
