@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "StitchTiles.h"
+
+#include "LRSpace.h"
+#include "LocallyRefinedForm.h"
+#include "TileCorners.h"
+#include "TileJumps.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace knotwork
+{
+namespace
+{
+std::size_t At(int i)
+{
+  return static_cast<std::size_t>(i);
+}
+
+Status CheckParams(const std::vector<Spline<2>>& tiles, const StitchParams& params)
+{
+  if (tiles.empty())
+  {
+    return { ErrorCode::EmptyInput, "there are no tiles to stitch" };
+  }
+  if (params.Continuity != 0 && params.Continuity != 1)
+  {
+    return { ErrorCode::InvalidParameter,
+      "continuity " + std::to_string(params.Continuity) + ": choose 0 or 1" };
+  }
+  if (!(params.Tolerance > 0.0 && params.Tolerance <= 0.1))
+  {
+    return { ErrorCode::InvalidParameter, "the tolerance of boundaries must lie in (0, 0.1]" };
+  }
+  for (std::size_t t = 0; t < tiles.size(); ++t)
+  {
+    const std::string tile = "tile " + std::to_string(t);
+    if (const Status status = tiles[t].Check(); !status)
+    {
+      return { status.Code, tile + ": " + status.Detail };
+    }
+    if (tiles[t].IsRational())
+    {
+      return { ErrorCode::InvalidWeight,
+        tile + " is rational: only polynomial tiles, as fits are, can be stitched" };
+    }
+    if (tiles[t].NumComponents() != tiles.front().NumComponents())
+    {
+      return { ErrorCode::SizeMismatch,
+        tile + " has " + std::to_string(tiles[t].NumComponents()) + " components, tile 0 has " +
+          std::to_string(tiles.front().NumComponents()) };
+    }
+  }
+  if (params.NumMeasured < 0 || params.NumMeasured > tiles.front().NumComponents())
+  {
+    return { ErrorCode::InvalidParameter,
+      "of " + std::to_string(tiles.front().NumComponents()) + " components, " +
+        std::to_string(params.NumMeasured) + " cannot be measured" };
+  }
+  return {};
+}
+
+std::vector<BezierForm<2>> MakeForms(const std::vector<Spline<2>>& tiles, int threads)
+{
+  std::vector<BezierForm<2>> forms;
+  for (const Spline<2>& tile : tiles)
+  {
+    forms.push_back(MakeBezierForm(tile, threads));
+  }
+  return forms;
+}
+
+/// Averages both sides of an edge, corners left out.
+Status AverageEdge(
+  std::vector<Spline<2>>& tiles, const TileRows& rows, const TileEdge& edge, int continuity)
+{
+  std::array<std::vector<int>, 2> numbers;
+  std::array<const SideRows*, 2> sides;
+  std::array<PointMatrix*, 2> points;
+  std::array<double, 2> factors; // from the difference of two rows to the derivative
+  for (std::size_t i = 0; i < 2; ++i)
+  {
+    const int tile = edge.Pair.Tiles[i];
+    const int side = edge.Pair.Sides[i];
+    const IntArray<2>& degree = tiles[At(tile)].Space->LocallyRefined->Basis.Degree;
+    sides[i] = &rows[At(tile)][At(side)];
+    points[i] = &tiles[At(tile)].ControlPoints;
+    numbers[i] = EdgeFunctions(*sides[i], degree[AlongSide(side)], edge.Low[i], edge.High[i]);
+    factors[i] = degree[AcrossSide(side)] / sides[i]->Span * (i == 1 ? edge.Ratio() : 1.0);
+  }
+  if (edge.Pair.Reversed)
+  {
+    std::reverse(numbers[1].begin(), numbers[1].end());
+  }
+  if (numbers[0].size() != numbers[1].size())
+  {
+    return { ErrorCode::InvalidKnots,
+      "knots of tiles " + std::to_string(edge.Pair.Tiles[0]) + " and " +
+        std::to_string(edge.Pair.Tiles[1]) + " are closer than can be told apart" };
+  }
+  const auto atEnds = static_cast<std::size_t>(continuity + 1);
+  for (std::size_t k = atEnds; k + atEnds < numbers[0].size(); ++k)
+  {
+    const auto row = [&](std::size_t i, std::size_t r)
+    { return points[i]->row(sides[i]->Functions[r][At(numbers[i][k])]); };
+    const Eigen::RowVectorXd value = 0.5 * (row(0, 0) + row(1, 0));
+    if (continuity == 1)
+    {
+      // inwards on the first side, so outwards on the second
+      const Eigen::RowVectorXd slope =
+        0.5 * (factors[0] * (row(0, 1) - row(0, 0)) - factors[1] * (row(1, 1) - row(1, 0)));
+      row(0, 1) = value + slope / factors[0];
+      row(1, 1) = value - slope / factors[1];
+    }
+    row(0, 0) = value;
+    row(1, 0) = value;
+  }
+  return {};
+}
+}
+
+Result<StitchedTiles> StitchTiles(const std::vector<Spline<2>>& tiles, const StitchParams& params)
+{
+  if (Status status = CheckParams(tiles, params); !status)
+  {
+    return status;
+  }
+  StitchedTiles result;
+  for (std::size_t t = 0; t < tiles.size(); ++t)
+  {
+    auto tile = MakeLocallyRefined(tiles[t]);
+    if (!tile)
+    {
+      return { tile.Status.Code, "tile " + std::to_string(t) + ": " + tile.Status.Detail };
+    }
+    result.NumFunctionsAdded -= tile->Space->NumFunctions;
+    result.Tiles.push_back(std::move(tile.Value));
+  }
+  const auto edges = FindTileEdges(result.Tiles, params);
+  if (!edges)
+  {
+    return edges.Status;
+  }
+  const int measured = params.NumMeasured > 0 ? params.NumMeasured : tiles.front().NumComponents();
+  {
+    const auto forms = MakeForms(result.Tiles, params.Threads);
+    for (const TileEdge& edge : edges.Value)
+    {
+      const EdgeJump jump = MeasureJump(forms, edge, measured);
+      StitchedEdge stitched;
+      stitched.Pair = edge.Pair;
+      stitched.Start = edge.Low;
+      stitched.End = edge.High;
+      stitched.JumpBefore = jump.Value;
+      stitched.SlopeJumpBefore = jump.Slope;
+      result.Edges.push_back(stitched);
+    }
+  }
+  const auto rows = PrepareStrips(result.Tiles, edges.Value, params);
+  if (!rows)
+  {
+    return rows.Status;
+  }
+  auto corners = FindTileCorners(result.Tiles, rows.Value, edges.Value, params);
+  if (!corners)
+  {
+    return corners.Status;
+  }
+  std::vector<PointMatrix> before;
+  for (const Spline<2>& tile : result.Tiles)
+  {
+    result.NumFunctionsAdded += tile.Space->NumFunctions;
+    before.push_back(tile.ControlPoints);
+  }
+  for (const TileEdge& edge : edges.Value)
+  {
+    if (Status status = AverageEdge(result.Tiles, rows.Value, edge, params.Continuity); !status)
+    {
+      return status;
+    }
+  }
+  for (const std::vector<TileCorner>& together : corners.Value)
+  {
+    AverageCorners(result.Tiles, together, params.Continuity);
+  }
+  for (std::size_t t = 0; t < before.size(); ++t)
+  {
+    const double change =
+      (result.Tiles[t].ControlPoints - before[t]).leftCols(measured).rowwise().norm().maxCoeff();
+    result.MaxChange = std::max(result.MaxChange, change);
+  }
+  const auto forms = MakeForms(result.Tiles, params.Threads);
+  for (std::size_t e = 0; e < edges->size(); ++e)
+  {
+    StitchedEdge& edge = result.Edges[e];
+    const EdgeJump jump = MeasureJump(forms, edges.Value[e], measured);
+    edge.Jump = jump.Value;
+    edge.SlopeJump = jump.Slope;
+    result.MaxJumpBefore = std::max(result.MaxJumpBefore, edge.JumpBefore);
+    result.MaxJump = std::max(result.MaxJump, edge.Jump);
+    result.MaxSlopeJumpBefore = std::max(result.MaxSlopeJumpBefore, edge.SlopeJumpBefore);
+    result.MaxSlopeJump = std::max(result.MaxSlopeJump, edge.SlopeJump);
+  }
+  if (params.Progress && !params.Progress(1.0))
+  {
+    return { ErrorCode::Aborted, "" };
+  }
+  return result;
+}
+}
