@@ -67,7 +67,6 @@ public:
     this->Move(points.Tolerance, begin, from);
     this->Move(points.Base, begin, from);
     this->Move(points.Boost, begin, from);
-    this->Move(points.Distance, begin, from);
     this->Kept.resize(from.size());
     for (std::size_t i = 0; i < from.size(); ++i)
     {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace knotwork
 {
@@ -18,212 +17,233 @@ std::size_t At(int i)
 {
   return static_cast<std::size_t>(i);
 }
+}
 
-/// Matrices and right-hand sides of the functions alive on every element.
-struct ElementMatrices
-{
-  std::vector<std::size_t> Start; ///< of an element's alive^2 numbers
-  std::vector<double> Matrices;
-  std::vector<double> Right; ///< an entry of ElementFunctions x components
-};
-
-ElementMatrices MakeElementMatrices(const ElementFunctions& functions,
-  const ElementMoments& moments, const IntArray<2>& degree, int components,
+LeastSquaresSystem::LeastSquaresSystem(const ElementFunctions& functions,
+  const ElementMoments& moments, const IntArray<2>& degree, int numComponents,
   const LeastSquaresParams& params)
+  : Functions(functions), Moments(moments), Params(params), Components(numComponents),
+    Energy(ThinPlateMatrix(degree)), Groups((At(functions.NumFunctions) + RowChunk - 1) / RowChunk),
+    Diagonal(functions.NumFunctions), Right(functions.NumFunctions, numComponents)
 {
-  const int n = functions.PerElement;
   const int numElements = functions.NumElements();
   double weight = 0.0;
+  this->ElementStart.assign(At(numElements) + 1, 0);
   for (int e = 0; e < numElements; ++e)
   {
     weight += moments.Weight(e);
+    this->ElementStart[At(e) + 1] =
+      this->ElementStart[At(e)] + At(functions.Alive(e)) * At(functions.Alive(e));
   }
-  std::vector<double> energy = ThinPlateMatrix(degree);
-  for (double& value : energy)
+  for (double& value : this->Energy)
   {
     value *= params.Smoothing * weight / numElements;
   }
-  ElementMatrices result;
-  result.Start.assign(At(numElements) + 1, 0);
-  for (int e = 0; e < numElements; ++e)
-  {
-    result.Start[At(e) + 1] = result.Start[At(e)] + At(functions.Alive(e) * functions.Alive(e));
-  }
-  result.Matrices.resize(result.Start.back());
-  result.Right.resize(functions.Functions.size() * At(components));
+  this->ElementMatrices.resize(this->ElementStart.back());
+  this->ElementRight.resize(functions.Functions.size() * At(numComponents));
   ParallelFor(At(numElements), ElementChunk, params.Threads,
     [&](std::size_t begin, std::size_t end)
     {
-      std::vector<double> gram(At(n * n));
-      std::vector<double> product(At(n));
       for (std::size_t e = begin; e < end; ++e)
       {
-        const int id = static_cast<int>(e);
-        moments.Gram(id, gram.data());
-        for (std::size_t i = 0; i < gram.size(); ++i)
-        {
-          gram[i] += energy[i];
-        }
-        const int alive = functions.Alive(id);
-        double* matrix = result.Matrices.data() + result.Start[e];
-        for (int k = 0; k < alive; ++k)
-        {
-          const double* row = functions.Row(functions.First(id) + At(k));
-          std::fill(product.begin(), product.end(), 0.0);
-          for (int a = 0; a < n; ++a)
-          {
-            if (const double r = row[a]; r != 0.0)
-            {
-              const double* from = gram.data() + a * n;
-              for (int b = 0; b < n; ++b)
-              {
-                product[At(b)] += r * from[b];
-              }
-            }
-          }
-          for (int l = 0; l <= k; ++l)
-          {
-            const double* other = functions.Row(functions.First(id) + At(l));
-            double sum = 0.0;
-            for (int b = 0; b < n; ++b)
-            {
-              sum += product[At(b)] * other[b];
-            }
-            matrix[k * alive + l] = sum;
-            matrix[l * alive + k] = sum;
-          }
-          for (int c = 0; c < components; ++c)
-          {
-            const double* right = moments.Right(id, c);
-            double sum = 0.0;
-            for (int b = 0; b < n; ++b)
-            {
-              sum += row[b] * right[b];
-            }
-            result.Right[(functions.First(id) + At(k)) * At(components) + At(c)] = sum;
-          }
-        }
+        this->MakeElement(static_cast<int>(e));
       }
     });
-  return result;
+  ParallelFor(At(functions.NumFunctions), RowChunk, params.Threads,
+    [&](std::size_t begin, std::size_t end) { this->FindColumns(begin, end); });
 }
 
-/// Rows of the matrix of all functions, in chunks that are made and used by themselves.
-class SystemMatrix
+void LeastSquaresSystem::MakeElement(int e)
 {
-public:
-  SystemMatrix(
-    const ElementFunctions& functions, const ElementMatrices& elements, int components, int threads)
-    : N(functions.NumFunctions), Threads(threads), Chunks((At(this->N) + RowChunk - 1) / RowChunk),
-      Diagonal(this->N), Right(this->N, components)
+  const int n = this->Functions.PerElement;
+  double gram[100 * 100];
+  double product[100];
+  this->Moments.Gram(e, gram);
+  for (int i = 0; i < n * n; ++i)
   {
-    ParallelFor(At(this->N), RowChunk, threads,
-      [&](std::size_t begin, std::size_t end) { this->MakeRows(functions, elements, begin, end); });
+    gram[i] += this->Energy[At(i)];
   }
-
-  void Multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const
+  const int alive = this->Functions.Alive(e);
+  const std::size_t first = this->Functions.First(e);
+  double* matrix = this->ElementMatrices.data() + this->ElementStart[At(e)];
+  for (int k = 0; k < alive; ++k)
   {
-    ParallelFor(At(this->N), RowChunk, this->Threads,
-      [&](std::size_t begin, std::size_t end)
-      {
-        const Chunk& chunk = this->Chunks[begin / RowChunk];
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          double sum = 0.0;
-          for (std::size_t k = chunk.Start[i - begin]; k < chunk.Start[i - begin + 1]; ++k)
-          {
-            sum += chunk.Values[k] * x[chunk.Columns[k]];
-          }
-          y[static_cast<Eigen::Index>(i)] = sum;
-        }
-      });
-  }
-
-  int N;
-  int Threads;
-
-private:
-  struct Chunk
-  {
-    std::vector<std::size_t> Start;
-    std::vector<int> Columns;
-    std::vector<double> Values;
-  };
-
-  void MakeRows(const ElementFunctions& functions, const ElementMatrices& elements,
-    std::size_t begin, std::size_t end)
-  {
-    Chunk& chunk = this->Chunks[begin / RowChunk];
-    std::vector<int> place(At(this->N), -1);
-    const auto components = this->Right.cols();
-    chunk.Start.push_back(0);
-    for (std::size_t i = begin; i < end; ++i)
+    const double* row = this->Functions.Row(first + At(k));
+    std::fill_n(product, n, 0.0);
+    for (int a = 0; a < n; ++a)
     {
-      const std::size_t first = chunk.Columns.size();
-      this->Right.row(static_cast<Eigen::Index>(i)).setZero();
-      for (std::size_t use = functions.UseStart[i]; use < functions.UseStart[i + 1]; ++use)
+      if (const double r = row[a]; r != 0.0)
       {
-        const std::size_t entry = functions.Uses[use];
-        const int e = functions.ElementOfEntry[entry];
-        const std::size_t start = functions.First(e);
-        const int alive = functions.Alive(e);
-        const double* row =
-          elements.Matrices.data() + elements.Start[At(e)] + (entry - start) * At(alive);
-        for (int l = 0; l < alive; ++l)
+        const double* from = gram + a * n;
+        for (int b = 0; b < n; ++b)
         {
-          const int column = functions.Functions[start + At(l)];
-          int& where = place[At(column)];
-          if (where < static_cast<int>(first))
-          {
-            where = static_cast<int>(chunk.Columns.size());
-            chunk.Columns.push_back(column);
-            chunk.Values.push_back(0.0);
-          }
-          chunk.Values[At(where)] += row[l];
-        }
-        for (Eigen::Index c = 0; c < components; ++c)
-        {
-          this->Right(static_cast<Eigen::Index>(i), c) +=
-            elements
-              .Right[entry * static_cast<std::size_t>(components) + static_cast<std::size_t>(c)];
+          product[b] += r * from[b];
         }
       }
-      this->Diagonal[static_cast<Eigen::Index>(i)] = chunk.Values[At(place[i])];
-      chunk.Start.push_back(chunk.Columns.size());
+    }
+    for (int l = 0; l <= k; ++l)
+    {
+      const double* other = this->Functions.Row(first + At(l));
+      double sum = 0.0;
+      for (int b = 0; b < n; ++b)
+      {
+        sum += product[b] * other[b];
+      }
+      matrix[k * alive + l] = sum;
+      matrix[l * alive + k] = sum;
+    }
+    for (int c = 0; c < this->Components; ++c)
+    {
+      const double* right = this->Moments.Right(e, c);
+      double sum = 0.0;
+      for (int b = 0; b < n; ++b)
+      {
+        sum += row[b] * right[b];
+      }
+      this->ElementRight[(first + At(k)) * At(this->Components) + At(c)] = sum;
     }
   }
-
-  std::vector<Chunk> Chunks;
-
-public:
-  Eigen::VectorXd Diagonal;
-  PointMatrix Right;
-};
-
-/// In pieces of a fixed size, so that the sum does not depend on who adds up what.
-double Dot(const Eigen::VectorXd& a, const Eigen::VectorXd& b)
-{
-  return a.dot(b);
 }
 
-/// Conjugate gradients with the diagonal as preconditioner.
-bool Solve(const SystemMatrix& matrix, const Eigen::VectorXd& right,
-  const LeastSquaresParams& params, Eigen::VectorXd& x)
+void LeastSquaresSystem::FindColumns(std::size_t begin, std::size_t end)
 {
-  Eigen::VectorXd product(matrix.N);
-  matrix.Multiply(x, product);
-  Eigen::VectorXd residual = right - product;
-  Eigen::VectorXd scaled = residual.cwiseQuotient(matrix.Diagonal);
-  Eigen::VectorXd direction = scaled;
-  double rho = Dot(residual, scaled);
-  for (int k = 0; k < params.MaxIterations; ++k)
+  RowGroup& group = this->Groups[begin / RowChunk];
+  std::vector<int> places(At(this->Functions.NumFunctions), -1);
+  group.Start.push_back(0);
+  for (std::size_t i = begin; i < end; ++i)
   {
-    if (scaled.lpNorm<Eigen::Infinity>() <= params.Accuracy)
+    const auto first = static_cast<int>(group.Columns.size());
+    for (std::size_t use = this->Functions.UseStart[i]; use < this->Functions.UseStart[i + 1];
+         ++use)
+    {
+      const int e = this->Functions.ElementOfEntry[this->Functions.Uses[use]];
+      const std::size_t start = this->Functions.First(e);
+      for (int l = 0; l < this->Functions.Alive(e); ++l)
+      {
+        const int column = this->Functions.Functions[start + At(l)];
+        if (places[At(column)] < first)
+        {
+          places[At(column)] = static_cast<int>(group.Columns.size());
+          group.Columns.push_back(column);
+        }
+      }
+    }
+    group.Start.push_back(group.Columns.size());
+    group.Values.resize(group.Columns.size());
+    this->FillRow(i, places);
+  }
+}
+
+/// @param places  of the row's columns among those of its group.
+void LeastSquaresSystem::FillRow(std::size_t function, std::vector<int>& places)
+{
+  RowGroup& group = this->Groups[function / RowChunk];
+  const std::size_t row = function % RowChunk;
+  std::fill(group.Values.begin() + static_cast<std::ptrdiff_t>(group.Start[row]),
+    group.Values.begin() + static_cast<std::ptrdiff_t>(group.Start[row + 1]), 0.0);
+  const auto i = static_cast<Eigen::Index>(function);
+  this->Right.row(i).setZero();
+  for (std::size_t use = this->Functions.UseStart[function];
+       use < this->Functions.UseStart[function + 1]; ++use)
+  {
+    const std::size_t entry = this->Functions.Uses[use];
+    const int e = this->Functions.ElementOfEntry[entry];
+    const std::size_t start = this->Functions.First(e);
+    const int alive = this->Functions.Alive(e);
+    const double* from =
+      this->ElementMatrices.data() + this->ElementStart[At(e)] + (entry - start) * At(alive);
+    for (int l = 0; l < alive; ++l)
+    {
+      group.Values[At(places[At(this->Functions.Functions[start + At(l)])])] += from[l];
+    }
+    for (int c = 0; c < this->Components; ++c)
+    {
+      this->Right(i, c) += this->ElementRight[entry * At(this->Components) + At(c)];
+    }
+  }
+  this->Diagonal[i] = group.Values[At(places[function])];
+}
+
+void LeastSquaresSystem::Update(const std::vector<int>& elements)
+{
+  std::vector<int> rows;
+  for (const int e : elements)
+  {
+    const auto first = this->Functions.Functions.begin();
+    rows.insert(rows.end(), first + static_cast<std::ptrdiff_t>(this->Functions.Start[At(e)]),
+      first + static_cast<std::ptrdiff_t>(this->Functions.Start[At(e) + 1]));
+  }
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  ParallelFor(elements.size(), ElementChunk, this->Params.Threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t k = begin; k < end; ++k)
+      {
+        this->MakeElement(elements[k]);
+      }
+    });
+  ParallelFor(rows.size(), RowChunk, this->Params.Threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      std::vector<int> places(At(this->Functions.NumFunctions), -1);
+      for (std::size_t k = begin; k < end; ++k)
+      {
+        const std::size_t row = At(rows[k]);
+        const RowGroup& group = this->Groups[row / RowChunk];
+        for (std::size_t j = group.Start[row % RowChunk]; j < group.Start[row % RowChunk + 1]; ++j)
+        {
+          places[At(group.Columns[j])] = static_cast<int>(j);
+        }
+        this->FillRow(row, places);
+      }
+    });
+}
+
+void LeastSquaresSystem::Multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const
+{
+  ParallelFor(At(this->Functions.NumFunctions), RowChunk, this->Params.Threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      const RowGroup& group = this->Groups[begin / RowChunk];
+      const double* from = x.data();
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        double sums[2] = {};
+        std::size_t k = group.Start[i - begin];
+        const std::size_t last = group.Start[i - begin + 1];
+        for (; k + 1 < last; k += 2)
+        {
+          sums[0] += group.Values[k] * from[group.Columns[k]];
+          sums[1] += group.Values[k + 1] * from[group.Columns[k + 1]];
+        }
+        if (k < last)
+        {
+          sums[0] += group.Values[k] * from[group.Columns[k]];
+        }
+        y[static_cast<Eigen::Index>(i)] = sums[0] + sums[1];
+      }
+    });
+}
+
+bool LeastSquaresSystem::SolveColumn(const Eigen::VectorXd& right, Eigen::VectorXd& x) const
+{
+  const Eigen::VectorXd scale =
+    this->Diagonal.cwiseMax(1e-300 + 1e-14 * this->Diagonal.maxCoeff()).cwiseInverse();
+  Eigen::VectorXd product(x.size());
+  this->Multiply(x, product);
+  Eigen::VectorXd residual = right - product;
+  Eigen::VectorXd scaled = residual.cwiseProduct(scale);
+  Eigen::VectorXd direction = scaled;
+  double rho = residual.dot(scaled);
+  for (int k = 0; k < this->Params.MaxIterations; ++k)
+  {
+    if (scaled.lpNorm<Eigen::Infinity>() <= this->Params.Accuracy)
     {
       return true;
     }
-    matrix.Multiply(direction, product);
-    const double curvature = Dot(direction, product);
+    this->Multiply(direction, product);
+    const double curvature = direction.dot(product);
     if (!(curvature > 0.0) || !std::isfinite(curvature))
     {
       return false;
@@ -231,29 +251,21 @@ bool Solve(const SystemMatrix& matrix, const Eigen::VectorXd& right,
     const double step = rho / curvature;
     x += step * direction;
     residual -= step * product;
-    scaled = residual.cwiseQuotient(matrix.Diagonal);
-    const double next = Dot(residual, scaled);
+    scaled = residual.cwiseProduct(scale);
+    const double next = residual.dot(scaled);
     direction = scaled + next / rho * direction;
     rho = next;
   }
   return true;
 }
-}
 
-bool SolveLeastSquares(const ElementFunctions& functions, const ElementMoments& moments,
-  const IntArray<2>& degree, const LeastSquaresParams& params, PointMatrix& coefficients)
+bool LeastSquaresSystem::Solve(PointMatrix& coefficients) const
 {
-  const auto components = static_cast<int>(coefficients.cols());
-  SystemMatrix matrix(functions,
-    MakeElementMatrices(functions, moments, degree, components, params), components,
-    params.Threads);
-  const double floor = 1e-300 + 1e-14 * matrix.Diagonal.maxCoeff();
-  matrix.Diagonal = matrix.Diagonal.cwiseMax(floor);
   bool solved = true;
-  for (int c = 0; c < components; ++c)
+  for (int c = 0; c < this->Components; ++c)
   {
     Eigen::VectorXd x = coefficients.col(c);
-    solved = Solve(matrix, matrix.Right.col(c), params, x) && solved;
+    solved = this->SolveColumn(this->Right.col(c), x) && solved;
     coefficients.col(c) = x;
   }
   return solved;

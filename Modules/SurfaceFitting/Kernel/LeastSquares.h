@@ -13,12 +13,50 @@ struct LeastSquaresParams
   int Threads = 0;
 };
 
-/// Coefficients that minimize the weighted sum of squared distances plus a thin-plate energy:
-/// Smoothing times the mean weight of the points of an element times the energy of every element in
-/// its own parameters, so that it means the same on every level of refinement. Conjugate gradients
-/// from the given coefficients on; the sums have a fixed order.
-/// @param coefficients  NumFunctions x c. @return false when a direction of negative curvature or
-/// what is not finite was met; coefficients are what was reached before.
-bool SolveLeastSquares(const ElementFunctions& functions, const ElementMoments& moments,
-  const IntArray<2>& degree, const LeastSquaresParams& params, PointMatrix& coefficients);
+/// The equations of the coefficients that minimize the weighted sum of squared distances plus a
+/// thin-plate energy: Smoothing times the mean weight of the points of an element times the energy
+/// of every element in its own parameters, so that it means the same on every level of refinement.
+/// All sums have a fixed order.
+class LeastSquaresSystem
+{
+public:
+  /// functions and moments must outlive the object.
+  LeastSquaresSystem(const ElementFunctions& functions, const ElementMoments& moments,
+    const IntArray<2>& degree, int numComponents, const LeastSquaresParams& params);
+
+  /// After the moments of some elements have changed.
+  void Update(const std::vector<int>& elements);
+
+  /// Conjugate gradients from the given coefficients on, scaled by the diagonal.
+  /// @param coefficients  NumFunctions x c. @return false when a direction without curvature or
+  /// what is not finite was met; coefficients are what was reached before.
+  bool Solve(PointMatrix& coefficients) const;
+
+private:
+  /// Consecutive rows of the matrix, made and used by themselves.
+  struct RowGroup
+  {
+    std::vector<std::size_t> Start;
+    std::vector<int> Columns;
+    std::vector<double> Values;
+  };
+
+  void MakeElement(int e);
+  void FindColumns(std::size_t begin, std::size_t end);
+  void FillRow(std::size_t function, std::vector<int>& places);
+  void Multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
+  bool SolveColumn(const Eigen::VectorXd& right, Eigen::VectorXd& x) const;
+
+  const ElementFunctions& Functions;
+  const ElementMoments& Moments;
+  LeastSquaresParams Params;
+  int Components;
+  std::vector<double> Energy;            ///< of an element, weighted
+  std::vector<std::size_t> ElementStart; ///< of an element's alive^2 numbers
+  std::vector<double> ElementMatrices;
+  std::vector<double> ElementRight; ///< an entry of ElementFunctions x components
+  std::vector<RowGroup> Groups;
+  Eigen::VectorXd Diagonal;
+  PointMatrix Right;
+};
 }

@@ -16,7 +16,16 @@ namespace knotwork
 {
 namespace
 {
-constexpr int MultilevelSteps = 2; // an iteration
+constexpr int MultilevelSteps = 2;      // an iteration
+constexpr double SolverAccuracy = 0.03; // of the smallest tolerance
+constexpr double SplitBoth =
+  0.5; // a direction's gain, of the other one's, from which both are split
+// Points outside gain weight when they are few and not far: ratio to the tolerance, share of all.
+constexpr int ReweightSteps = 3;
+constexpr double ReweightRatio = 1.3;
+constexpr double ReweightShare = 1e-3;
+constexpr double ReweightFloor = 0.9; // of the tolerance: from here on
+constexpr double ReweightGain = 4.0;
 
 std::size_t At(int i)
 {
@@ -35,7 +44,7 @@ public:
   Result<SurfaceFit> Run()
   {
     const std::vector<double> tolerances = FitTolerances(this->Cloud, this->Params);
-    this->Accuracy = 0.01 * *std::min_element(tolerances.begin(), tolerances.end());
+    this->Accuracy = SolverAccuracy * *std::min_element(tolerances.begin(), tolerances.end());
     auto first = MakeFirstState(this->Params, FitDomain(this->Cloud, this->Params),
       static_cast<int>(this->Cloud.Values.cols()),
       static_cast<std::size_t>(this->Cloud.Parameters.rows()));
@@ -84,21 +93,84 @@ private:
   {
     this->LeastSquares = this->Params.Method == FitMethod::LeastSquares ||
       (this->Params.Method == FitMethod::Combined && iteration < this->Params.SwitchIteration);
-    if (this->LeastSquares)
+    if (!this->LeastSquares)
     {
-      LeastSquaresParams params;
-      params.Smoothing = this->Params.Smoothing;
-      params.Accuracy = this->Accuracy;
-      params.Threads = this->Params.Threads;
-      SolveLeastSquares(
-        this->Functions, *this->Moments, this->Params.Degree, params, this->State.Coefficients);
+      for (int k = 0; k < MultilevelSteps; ++k)
+      {
+        MultilevelStep(*this->State.Space, this->Functions, this->Points, this->Params.Threads,
+          this->State.Coefficients);
+      }
+      this->Measure();
       return;
     }
-    for (int k = 0; k < MultilevelSteps; ++k)
+    LeastSquaresParams params;
+    params.Smoothing = this->Params.Smoothing;
+    params.Accuracy = this->Accuracy;
+    params.Threads = this->Params.Threads;
+    LeastSquaresSystem system(this->Functions, *this->Moments, this->Params.Degree,
+      static_cast<int>(this->State.Coefficients.cols()), params);
+    system.Solve(this->State.Coefficients);
+    this->Measure();
+    for (int k = 0; k < ReweightSteps; ++k)
     {
-      MultilevelStep(*this->State.Space, this->Functions, this->Points, this->Params.Threads,
-        this->State.Coefficients);
+      const std::vector<int> changed = this->Reweight();
+      if (changed.empty())
+      {
+        break;
+      }
+      this->Moments->Recompute(*this->State.Space, changed, this->Points, this->Params.Threads);
+      system.Update(changed);
+      system.Solve(this->State.Coefficients);
+      this->Measure();
     }
+  }
+
+  void Measure()
+  {
+    this->Errors = MeasureDistances(*this->State.Space, this->Functions, this->State.Coefficients,
+      this->Params.NumMeasured, this->Points, this->Params.Threads);
+  }
+
+  /// Gives points outside more weight where this can bring them inside. @return the elements of
+  /// these points; empty when it is not worthwhile.
+  std::vector<int> Reweight()
+  {
+    std::vector<int> changed;
+    double worst = 0.0;
+    std::size_t outside = 0;
+    std::size_t total = 0;
+    for (const ElementErrors& errors : this->Errors)
+    {
+      worst = std::max(worst, errors.Ratio);
+      outside += errors.NumOutside;
+      total += errors.Count;
+    }
+    if (outside == 0 || worst > ReweightRatio ||
+      static_cast<double>(outside) > ReweightShare * static_cast<double>(total))
+    {
+      return changed;
+    }
+    for (int e = 0; e < this->State.Space->NumElements(); ++e)
+    {
+      const ElementErrors& errors = this->Errors[At(e)];
+      if (errors.Ratio <= 1.0)
+      {
+        continue;
+      }
+      changed.push_back(e);
+      const FitPoints::Range& range = this->Points.Ranges[At(e)];
+      const double unit =
+        std::max(1.0, static_cast<double>(range.Count()) / this->Functions.PerElement);
+      for (std::size_t i = range.Begin; i < range.End; ++i)
+      {
+        const double ratio = std::fabs(this->Points.Distance[i]) / this->Points.Tolerance[i];
+        if (ratio > ReweightFloor)
+        {
+          this->Points.Boost[i] += ReweightGain * unit * (ratio - ReweightFloor) / ReweightFloor;
+        }
+      }
+    }
+    return changed;
   }
 
   FitIteration Summarize(int iteration) const
@@ -179,7 +251,7 @@ private:
       else if (this->Params.Directions == FitDirections::ByError)
       {
         const RealArray<2> gains = SplitGains(box, this->Points, this->Points.Ranges[At(e)]);
-        mark.Directions = { gains[0] >= 0.5 * gains[1], gains[1] >= 0.5 * gains[0] };
+        mark.Directions = { gains[0] >= SplitBoth * gains[1], gains[1] >= SplitBoth * gains[0] };
       }
       for (std::size_t d = 0; d < 2; ++d)
       {

@@ -104,9 +104,11 @@ struct FitParams
   ParametricBox<2> Domain;
   int NumMeasured = 1; ///< in [1, columns of Values]
 
-  FitMethod Method = FitMethod::Combined;
-  int SwitchIteration = 6;         ///< >= 0
-  double Smoothing = 1e-9;         ///< >= 0, of the thin-plate energy, relative to the data term
+  FitMethod Method = FitMethod::LeastSquares;
+  int SwitchIteration = 6; ///< >= 0
+  /// >= 0: weight of the thin-plate energy of an element in its own parameters, relative to the
+  /// mean weight of the points of an element, so it means the same on every level.
+  double Smoothing = 1e-9;
   double SignificantWeight = 10.0; ///< >= 1
 
   double Tolerance = 0.0; ///< > 0, or 0: a thousandth of the range of the measured values
@@ -124,8 +126,8 @@ struct FitParams
   double MaxSeconds = 0.0; ///< 0: no limit
   FitCriterion Criterion = FitCriterion::Tolerance;
 
-  FitThreshold Threshold = FitThreshold::All;
-  double ThresholdShare = 0.5; ///< in [0, 1]
+  FitThreshold Threshold = FitThreshold::LargestErrors;
+  double ThresholdShare = 0.1; ///< in [0, 1]
   FitDirections Directions = FitDirections::ByError;
   LRStrategy Strategy = LRStrategy::FullSpan;
   bool Independent = false; ///< LR: no step leaves linearly dependent functions (slower)
