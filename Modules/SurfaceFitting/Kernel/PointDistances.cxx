@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PointDistances.h"
 
+#include "Bernstein.h"
 #include "Parallel.h"
 
 #include <algorithm>
@@ -165,40 +166,55 @@ std::vector<ElementErrors> MeasureDistances(const SplineSpace<2>& space,
   return errors;
 }
 
-RealArray<2> SplitGains(
-  const ParametricBox<2>& box, const FitPoints& points, const FitPoints::Range& range)
+RealArray<2> SplitGains(const SplineSpace<2>& space, const ElementFunctions& functions,
+  const PointMatrix& coefficients, int numMeasured, const FitPoints& points, int e)
 {
-  // x -> (2x - 1)|2x - 1| without its part in the quadratics, which a least-squares fit has already
+  // y|y| without its part in the quadratics, which a least-squares fit has already
   const auto kink = [](double x)
   {
     const double y = 2.0 * x - 1.0;
     return y * std::fabs(y) - 0.75 * y;
   };
-  double sums[2][3] = {};
-  double norms[2][3] = {};
-  for (std::size_t i = range.Begin; i < range.End; ++i)
+  const SplineSpace<2>::Element& element = space.Elements[At(e)];
+  const FitPoints::Range& range = points.Ranges[At(e)];
+  const ParametricBox<2>& box = element.Box;
+  std::vector<double> local;
+  if (numMeasured > 1)
   {
-    const double weight = points.Base[i];
-    const double x[2] = { (points.U[i] - box.Lower[0]) / (box.Upper[0] - box.Lower[0]),
-      (points.V[i] - box.Lower[1]) / (box.Upper[1] - box.Lower[1]) };
-    for (int d = 0; d < 2; ++d)
-    {
-      const double k = kink(x[d]);
-      const double t = x[1 - d];
-      const double across[3] = { (1.0 - t) * (1.0 - t), 2.0 * t * (1.0 - t), t * t };
-      for (int j = 0; j < 3; ++j)
-      {
-        sums[d][j] += weight * points.Distance[i] * k * across[j];
-        norms[d][j] += weight * k * k * across[j] * across[j];
-      }
-    }
+    local.resize(At(functions.PerElement) * static_cast<std::size_t>(coefficients.cols()));
+    functions.LocalCoefficients(e, coefficients, local.data());
   }
   RealArray<2> gains{};
-  for (int d = 0; d < 2; ++d)
+  for (int c = 0; c < numMeasured; ++c)
   {
-    for (int j = 0; j < 3; ++j)
+    double sums[2][3] = {};
+    double norms[2][3] = {};
+    for (std::size_t i = range.Begin; i < range.End; ++i)
     {
-      gains[At(d)] += norms[d][j] > 0.0 ? sums[d][j] * sums[d][j] / norms[d][j] : 0.0;
+      const double weight = points.Base[i];
+      const double x[2] = { (points.U[i] - box.Lower[0]) / (box.Upper[0] - box.Lower[0]),
+        (points.V[i] - box.Lower[1]) / (box.Upper[1] - box.Lower[1]) };
+      const double distance = numMeasured == 1 ? points.Distance[i]
+                                               : points.Values[At(c)][i] -
+          BernsteinEvaluate<2>(element.Degree, local.data() + c * functions.PerElement, x);
+      for (int d = 0; d < 2; ++d)
+      {
+        const double k = kink(x[d]);
+        const double t = x[1 - d];
+        const double across[3] = { (1.0 - t) * (1.0 - t), 2.0 * t * (1.0 - t), t * t };
+        for (int j = 0; j < 3; ++j)
+        {
+          sums[d][j] += weight * distance * k * across[j];
+          norms[d][j] += weight * k * k * across[j] * across[j];
+        }
+      }
+    }
+    for (int d = 0; d < 2; ++d)
+    {
+      for (int j = 0; j < 3; ++j)
+      {
+        gains[At(d)] += norms[d][j] > 0.0 ? sums[d][j] * sums[d][j] / norms[d][j] : 0.0;
+      }
     }
   }
   return gains;

@@ -2,30 +2,27 @@
 #include "SurfaceFit.h"
 
 #include "FitChecks.h"
+#include "FitFeatures.h"
 #include "FitLikelihood.h"
-#include "FitSpaces.h"
+#include "FitMarks.h"
+#include "FitSides.h"
 #include "LeastSquares.h"
 #include "Multilevel.h"
-#include "PointDistances.h"
+#include "OutlierSearch.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
 
 namespace knotwork
 {
 namespace
 {
 constexpr int MultilevelSteps = 2;      // an iteration
+constexpr int ReweightSteps = 3;        // an iteration
+constexpr int OutlierSteps = 3;         // an iteration
 constexpr double SolverAccuracy = 0.03; // of the smallest tolerance
-constexpr double SplitBoth =
-  0.5; // a direction's gain, of the other one's, from which both are split
-// Points outside gain weight when they are few and not far: ratio to the tolerance, share of all.
-constexpr int ReweightSteps = 3;
-constexpr double ReweightRatio = 1.3;
-constexpr double ReweightShare = 1e-3;
-constexpr double ReweightFloor = 0.9; // of the tolerance: from here on
-constexpr double ReweightGain = 4.0;
 
 std::size_t At(int i)
 {
@@ -37,92 +34,154 @@ class Fitting
 {
 public:
   Fitting(const PointCloud& cloud, const FitParams& params)
-    : Cloud(cloud), Params(params), Begin(std::chrono::steady_clock::now())
+    : Cloud(cloud), Params(params), Begin(std::chrono::steady_clock::now()),
+      Tolerances(FitTolerances(cloud, params)), Components(static_cast<int>(cloud.Values.cols())),
+      Moments(params.Degree, this->Components)
   {
   }
 
   Result<SurfaceFit> Run()
   {
-    const std::vector<double> tolerances = FitTolerances(this->Cloud, this->Params);
-    this->Accuracy = SolverAccuracy * *std::min_element(tolerances.begin(), tolerances.end());
-    auto first = MakeFirstState(this->Params, FitDomain(this->Cloud, this->Params),
-      static_cast<int>(this->Cloud.Values.cols()),
-      static_cast<std::size_t>(this->Cloud.Parameters.rows()));
+    if (Status status = this->Start(); !status)
+    {
+      return status;
+    }
+    for (int iteration = 0;; ++iteration)
+    {
+      this->Approximate(iteration);
+      this->Fit.Iterations.push_back(this->Summarize(iteration));
+      const FitIteration& row = this->Fit.Iterations.back();
+      if (row.NumOutside == 0 || this->CriterionReached() || this->LimitReached())
+      {
+        break;
+      }
+      if (this->Params.Progress && !this->Params.Progress(this->Share()))
+      {
+        return { ErrorCode::Aborted, "stopped in iteration " + std::to_string(iteration) };
+      }
+      const std::vector<SplitMark> marks = MarkElements(
+        this->State, this->Functions, this->Points, this->Errors, this->Params, iteration);
+      auto refined = this->RefineWithinLimit(marks);
+      if (!refined)
+      {
+        return refined.Status;
+      }
+      if (!refined.Value.Space)
+      {
+        break; // nothing can be split
+      }
+      this->Adopt(std::move(refined.Value));
+    }
+    this->Deliver();
+    return std::move(this->Fit);
+  }
+
+private:
+  Status Start()
+  {
+    const ParametricBox<2> domain = FitDomain(this->Cloud, this->Params);
+    auto first = MakeFirstState(this->Params, domain, this->Components, this->Tolerances.size());
     if (!first)
     {
       return first.Status;
     }
     this->State = std::move(first.Value);
-    this->Points = GroupPoints(*this->State.Space, this->Cloud, tolerances,
-      this->Params.SignificantWeight, this->Params.Threads);
-    this->Functions = FindElementFunctions(*this->State.Space, this->Params.Threads);
-    ElementMoments moments(this->Params.Degree, static_cast<int>(this->Cloud.Values.cols()));
-    this->Moments = &moments;
-    moments.Update(*this->State.Space, {}, {}, this->Points, this->Params.Threads);
-    for (int iteration = 0;; ++iteration)
+    this->Group();
+    this->Accuracy = SolverAccuracy *
+      *std::min_element(this->Points.Tolerance.begin(), this->Points.Tolerance.end());
+    this->Moments.Update(*this->State.Space, {}, {}, this->Points, this->Params.Threads);
+    if (this->Params.FindOutliers)
     {
-      this->Approximate(iteration);
-      this->Errors = MeasureDistances(*this->State.Space, this->Functions, this->State.Coefficients,
-        this->Params.NumMeasured, this->Points, this->Params.Threads);
-      this->Fit.Iterations.push_back(this->Summarize(iteration));
-      if (this->Fit.Iterations.back().NumOutside == 0 || this->LimitReached(iteration))
+      this->Outliers.assign(this->Tolerances.size(), 0);
+      this->Weights.resize(this->Tolerances.size());
+      for (std::size_t i = 0; i < this->Points.Size(); ++i)
       {
-        break;
+        this->Weights[At(this->Points.Order[i])] = this->Points.Base[i];
       }
-      if (this->Params.Progress &&
-        !this->Params.Progress(std::min(0.99, static_cast<double>(iteration + 1) / 16.0)))
-      {
-        return { ErrorCode::Aborted, "stopped at iteration " + std::to_string(iteration) };
-      }
-      const std::vector<SplitMark> marks = this->MarkElements(iteration);
-      if (marks.empty())
-      {
-        break;
-      }
-      if (Status status = this->Refine(marks); !status)
-      {
-        return status;
-      }
+      this->Search = std::make_unique<OutlierSearch>(this->Cloud, domain);
     }
-    this->Deliver(tolerances);
-    return std::move(this->Fit);
+    return {};
   }
 
-private:
+  /// The points by the elements of the state's space.
+  void Group()
+  {
+    this->Points = GroupPoints(*this->State.Space, this->Cloud, this->Tolerances,
+      this->Params.SignificantWeight, this->Params.Threads);
+    for (std::size_t i = 0; !this->Outliers.empty() && i < this->Points.Size(); ++i)
+    {
+      if (this->Outliers[At(this->Points.Order[i])] != 0)
+      {
+        this->Points.Base[i] = 0.0;
+      }
+    }
+    if (this->Params.Side != FitSide::Both)
+    {
+      MoveToBands(this->Params.Side, this->Points);
+    }
+    this->Functions = FindElementFunctions(*this->State.Space, this->Params.Threads);
+  }
+
   void Approximate(int iteration)
   {
-    this->LeastSquares = this->Params.Method == FitMethod::LeastSquares ||
+    this->IsLeastSquares = this->Params.Method == FitMethod::LeastSquares ||
       (this->Params.Method == FitMethod::Combined && iteration < this->Params.SwitchIteration);
-    if (!this->LeastSquares)
+    std::unique_ptr<LeastSquaresSystem> system;
+    if (this->IsLeastSquares)
     {
-      for (int k = 0; k < MultilevelSteps; ++k)
-      {
-        MultilevelStep(*this->State.Space, this->Functions, this->Points, this->Params.Threads,
-          this->State.Coefficients);
-      }
-      this->Measure();
-      return;
+      LeastSquaresParams params;
+      params.Smoothing = this->Params.Smoothing;
+      params.Accuracy = this->Accuracy;
+      params.Threads = this->Params.Threads;
+      system = std::make_unique<LeastSquaresSystem>(
+        this->Functions, this->Moments, this->Params.Degree, this->Components, params);
     }
-    LeastSquaresParams params;
-    params.Smoothing = this->Params.Smoothing;
-    params.Accuracy = this->Accuracy;
-    params.Threads = this->Params.Threads;
-    LeastSquaresSystem system(this->Functions, *this->Moments, this->Params.Degree,
-      static_cast<int>(this->State.Coefficients.cols()), params);
-    system.Solve(this->State.Coefficients);
-    this->Measure();
-    for (int k = 0; k < ReweightSteps; ++k)
+    this->Solve(system.get());
+    for (int k = 0; this->Search && k < OutlierSteps; ++k)
     {
-      const std::vector<int> changed = this->Reweight();
+      const std::vector<int> changed = this->Search->Update(this->Points, this->Weights,
+        this->Params.OutlierScale, this->Outliers, this->Params.Threads);
       if (changed.empty())
       {
         break;
       }
-      this->Moments->Recompute(*this->State.Space, changed, this->Points, this->Params.Threads);
-      system.Update(changed);
-      system.Solve(this->State.Coefficients);
-      this->Measure();
+      this->SolveAgain(changed, system.get());
     }
+    for (int k = 0; system && k < ReweightSteps; ++k)
+    {
+      const std::vector<int> changed =
+        ReweightPoints(this->Errors, this->Functions.PerElement, this->Points);
+      if (changed.empty())
+      {
+        break;
+      }
+      this->SolveAgain(changed, system.get());
+    }
+  }
+
+  /// @param changed  elements with points whose weights have changed.
+  void SolveAgain(const std::vector<int>& changed, LeastSquaresSystem* system)
+  {
+    this->Moments.Recompute(*this->State.Space, changed, this->Points, this->Params.Threads);
+    if (system)
+    {
+      system->Update(changed);
+    }
+    this->Solve(system);
+  }
+
+  void Solve(const LeastSquaresSystem* system)
+  {
+    if (system)
+    {
+      system->Solve(this->State.Coefficients);
+    }
+    for (int k = 0; !system && k < MultilevelSteps; ++k)
+    {
+      MultilevelStep(*this->State.Space, this->Functions, this->Points, this->Params.Threads,
+        this->State.Coefficients);
+    }
+    this->Measure();
   }
 
   void Measure()
@@ -131,151 +190,121 @@ private:
       this->Params.NumMeasured, this->Points, this->Params.Threads);
   }
 
-  /// Gives points outside more weight where this can bring them inside. @return the elements of
-  /// these points; empty when it is not worthwhile.
-  std::vector<int> Reweight()
-  {
-    std::vector<int> changed;
-    double worst = 0.0;
-    std::size_t outside = 0;
-    std::size_t total = 0;
-    for (const ElementErrors& errors : this->Errors)
-    {
-      worst = std::max(worst, errors.Ratio);
-      outside += errors.NumOutside;
-      total += errors.Count;
-    }
-    if (outside == 0 || worst > ReweightRatio ||
-      static_cast<double>(outside) > ReweightShare * static_cast<double>(total))
-    {
-      return changed;
-    }
-    for (int e = 0; e < this->State.Space->NumElements(); ++e)
-    {
-      const ElementErrors& errors = this->Errors[At(e)];
-      if (errors.Ratio <= 1.0)
-      {
-        continue;
-      }
-      changed.push_back(e);
-      const FitPoints::Range& range = this->Points.Ranges[At(e)];
-      const double unit =
-        std::max(1.0, static_cast<double>(range.Count()) / this->Functions.PerElement);
-      for (std::size_t i = range.Begin; i < range.End; ++i)
-      {
-        const double ratio = std::fabs(this->Points.Distance[i]) / this->Points.Tolerance[i];
-        if (ratio > ReweightFloor)
-        {
-          this->Points.Boost[i] += ReweightGain * unit * (ratio - ReweightFloor) / ReweightFloor;
-        }
-      }
-    }
-    return changed;
-  }
-
   FitIteration Summarize(int iteration) const
   {
     FitIteration row;
     row.Iteration = iteration;
-    row.LeastSquares = this->LeastSquares;
+    row.LeastSquares = this->IsLeastSquares;
     row.NumFunctions = this->State.Space->NumFunctions;
     row.NumElements = this->State.Space->NumElements();
     std::size_t count = 0;
     double squares = 0.0;
-    for (const ElementErrors& errors : this->Errors)
+    for (const ElementErrors& own : this->Errors)
     {
-      row.MaxError = std::max(row.MaxError, errors.Max);
-      row.MeanError += errors.Sum;
-      squares += errors.Squares;
-      row.NumOutside += errors.NumOutside;
-      count += errors.Count;
+      row.MaxError = std::max(row.MaxError, own.Max);
+      row.MeanError += own.Sum;
+      squares += own.Squares;
+      row.NumOutside += own.NumOutside;
+      count += own.Count;
     }
-    if (count > 0)
-    {
-      row.MeanError /= static_cast<double>(count);
-      row.RmsError = std::sqrt(squares / static_cast<double>(count));
-    }
+    const auto number = static_cast<double>(std::max<std::size_t>(count, 1));
+    row.MeanError /= number;
+    row.RmsError = std::sqrt(squares / number);
     row.NumOutliers = this->Points.Size() - count;
     const TDistribution t = FitTDistribution(this->Points, this->Params.Threads);
     row.LogLikelihood = t.LogLikelihood;
     row.DegreesOfFreedom = t.DegreesOfFreedom;
     row.AIC = 2.0 * row.NumFunctions - 2.0 * t.LogLikelihood;
-    row.BIC = std::log(static_cast<double>(std::max<std::size_t>(count, 1))) * row.NumFunctions -
-      2.0 * t.LogLikelihood;
+    row.BIC = std::log(number) * row.NumFunctions - 2.0 * t.LogLikelihood;
     row.Seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - this->Begin).count();
     return row;
   }
 
-  bool LimitReached(int iteration) const
+  /// Part of the work done, by the logarithm of the number of points outside.
+  double Share() const
   {
     const FitIteration& row = this->Fit.Iterations.back();
-    return iteration >= this->Params.MaxIterations ||
-      (this->Params.MaxFunctions > 0 && row.NumFunctions >= this->Params.MaxFunctions) ||
+    const double left = std::log1p(static_cast<double>(row.NumOutside)) /
+      std::log1p(static_cast<double>(this->Points.Size()));
+    const double limit = (row.Iteration + 1.0) / (this->Params.MaxIterations + 1.0);
+    return std::clamp(std::max(1.0 - left, limit), 0.0, 0.99);
+  }
+
+  /// Keeps the state of the least value of the information criterion; true when it has risen twice.
+  bool CriterionReached()
+  {
+    if (this->Params.Criterion == FitCriterion::Tolerance)
+    {
+      return false;
+    }
+    const FitIteration& row = this->Fit.Iterations.back();
+    const double value = this->Params.Criterion == FitCriterion::AIC ? row.AIC : row.BIC;
+    if (row.Iteration == 0 || value < this->BestCriterion)
+    {
+      this->BestCriterion = value;
+      this->Best = this->State;
+      this->BestOutliers = this->Outliers;
+      this->NumRises = 0;
+      return false;
+    }
+    return ++this->NumRises == 2;
+  }
+
+  bool LimitReached() const
+  {
+    const FitIteration& row = this->Fit.Iterations.back();
+    return row.Iteration >= this->Params.MaxIterations ||
       (this->Params.MaxSeconds > 0.0 && row.Seconds >= this->Params.MaxSeconds);
   }
 
-  std::vector<SplitMark> MarkElements(int iteration) const
+  /// The next state; without a space when nothing can be split. When all marks make more functions
+  /// than are allowed, the worst elements are split, as many as fit.
+  Result<FitState> RefineWithinLimit(const std::vector<SplitMark>& marks) const
   {
-    double worst = 0.0;
-    std::size_t most = 0;
-    for (const ElementErrors& errors : this->Errors)
+    if (marks.empty())
     {
-      worst = std::max(worst, errors.Ratio);
-      most = std::max(most, errors.NumOutside);
+      return FitState{};
     }
-    const ParametricBox<2> domain = this->State.Space->Domain();
-    std::vector<SplitMark> marks;
-    for (int e = 0; e < this->State.Space->NumElements(); ++e)
+    auto refined = RefineState(this->State, marks, this->Params);
+    const int limit = this->Params.MaxFunctions;
+    if (!refined || limit == 0 || refined.Value.Space->NumFunctions <= limit)
     {
-      const ElementErrors& errors = this->Errors[At(e)];
-      if (errors.NumOutside == 0)
+      return refined;
+    }
+    std::vector<SplitMark> ranked = marks;
+    std::stable_sort(ranked.begin(), ranked.end(),
+      [&](const SplitMark& a, const SplitMark& b)
+      { return this->Errors[At(a.Element)].Ratio > this->Errors[At(b.Element)].Ratio; });
+    FitState best;
+    std::size_t low = 0; // marks that fit
+    std::size_t high = ranked.size();
+    while (high - low > std::max<std::size_t>(1, ranked.size() / 16))
+    {
+      const std::size_t middle = (low + high) / 2;
+      std::vector<SplitMark> some(
+        ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(middle));
+      std::sort(some.begin(), some.end(),
+        [](const SplitMark& a, const SplitMark& b) { return a.Element < b.Element; });
+      refined = RefineState(this->State, some, this->Params);
+      if (!refined)
       {
-        continue;
+        return refined;
       }
-      const double share = this->Params.ThresholdShare;
-      if ((this->Params.Threshold == FitThreshold::LargestErrors &&
-            errors.Ratio - 1.0 < share * (worst - 1.0)) ||
-        (this->Params.Threshold == FitThreshold::MostPoints &&
-          static_cast<double>(errors.NumOutside) < share * static_cast<double>(most)))
+      const bool fits = refined.Value.Space->NumFunctions <= limit;
+      (fits ? low : high) = middle;
+      if (fits)
       {
-        continue;
-      }
-      const ParametricBox<2>& box = this->State.Space->Elements[At(e)].Box;
-      SplitMark mark;
-      mark.Element = e;
-      if (this->Params.Directions == FitDirections::Alternating)
-      {
-        mark.Directions = { iteration % 2 == 0, iteration % 2 == 1 };
-      }
-      else if (this->Params.Directions == FitDirections::ByError)
-      {
-        const RealArray<2> gains = SplitGains(box, this->Points, this->Points.Ranges[At(e)]);
-        mark.Directions = { gains[0] >= SplitBoth * gains[1], gains[1] >= SplitBoth * gains[0] };
-      }
-      for (std::size_t d = 0; d < 2; ++d)
-      {
-        const double length = box.Upper[d] - box.Lower[d];
-        mark.Directions[d] = mark.Directions[d] &&
-          0.5 * length >= this->Params.MinElementSize * (domain.Upper[d] - domain.Lower[d]);
-      }
-      if (mark.Directions[0] || mark.Directions[1])
-      {
-        marks.push_back(mark);
+        best = std::move(refined.Value);
       }
     }
-    return marks;
+    return best;
   }
 
-  Status Refine(const std::vector<SplitMark>& marks)
+  void Adopt(FitState refined)
   {
-    auto refined = RefineState(this->State, marks, this->Params);
-    if (!refined)
-    {
-      return refined.Status;
-    }
     const SplineSpace<2>& coarse = *this->State.Space;
-    const SplineSpace<2>& fine = *refined.Value.Space;
+    const SplineSpace<2>& fine = *refined.Space;
     const std::vector<int> parents = FindParents(coarse, fine);
     std::vector<int> parts(At(coarse.NumElements()), 0);
     for (const int parent : parents)
@@ -285,45 +314,69 @@ private:
     std::vector<bool> isSplit(parts.size());
     std::transform(parts.begin(), parts.end(), isSplit.begin(), [](int n) { return n > 1; });
     RegroupPoints(coarse, fine, parents, this->Points, this->Params.Threads);
-    this->Moments->Update(fine, parents, isSplit, this->Points, this->Params.Threads);
-    this->State = std::move(refined.Value);
+    this->Moments.Update(fine, parents, isSplit, this->Points, this->Params.Threads);
+    this->State = std::move(refined);
     this->Functions = FindElementFunctions(*this->State.Space, this->Params.Threads);
-    return {};
   }
 
-  void Deliver(const std::vector<double>& tolerances)
+  void Deliver()
   {
+    const bool isOther = this->Best.Space && this->Best.Space != this->State.Space;
+    if (isOther)
+    {
+      this->State = this->Best;
+      this->Outliers = this->BestOutliers;
+      this->Group();
+    }
+    if (this->Params.Side != FitSide::Both)
+    {
+      MoveFromBands(this->Cloud, this->Tolerances, this->Points);
+      this->Measure();
+      ShiftToSide(this->Params.Side, this->Functions, this->Points, this->State.Coefficients);
+    }
+    this->Fit.Final = this->Fit.Iterations.back();
+    if (isOther || this->Params.Side != FitSide::Both)
+    {
+      this->Measure();
+      this->Fit.Final = this->Summarize(this->Fit.Iterations.back().Iteration);
+    }
+    this->Fit.WithinTolerance = this->Fit.Final.NumOutside == 0;
     this->Fit.Surface.Space = this->State.Space;
     this->Fit.Surface.ControlPoints = std::move(this->State.Coefficients);
     this->Fit.DomainPoints = std::move(this->State.DomainPoints);
-    this->Fit.Tolerances = tolerances;
     this->Fit.Distances.resize(this->Points.Size());
     for (std::size_t i = 0; i < this->Points.Size(); ++i)
     {
       this->Fit.Distances[At(this->Points.Order[i])] = this->Points.Distance[i];
     }
-    if (this->Params.FindOutliers)
+    this->Fit.Tolerances = std::move(this->Tolerances);
+    this->Fit.Outliers = std::move(this->Outliers);
+    if (this->Params.FeatureGridSize > 0)
     {
-      this->Fit.Outliers.resize(this->Points.Size());
-      for (std::size_t i = 0; i < this->Points.Size(); ++i)
-      {
-        this->Fit.Outliers[At(this->Points.Order[i])] = this->Points.Base[i] == 0.0 ? 1 : 0;
-      }
+      this->Fit.Features = ComputeFeatures(this->Cloud, this->Fit, this->Params.NumMeasured,
+        this->Params.FeatureGridSize, this->Params.Threads);
     }
-    this->Fit.Final = this->Fit.Iterations.back();
-    this->Fit.WithinTolerance = this->Fit.Final.NumOutside == 0;
   }
 
   const PointCloud& Cloud;
   const FitParams& Params;
   std::chrono::steady_clock::time_point Begin;
+  std::vector<double> Tolerances;
+  int Components;
   double Accuracy = 0.0;
-  bool LeastSquares = true;
+  bool IsLeastSquares = true;
   FitState State;
   FitPoints Points;
   ElementFunctions Functions;
-  ElementMoments* Moments = nullptr;
+  ElementMoments Moments;
   std::vector<ElementErrors> Errors;
+  std::unique_ptr<OutlierSearch> Search;
+  std::vector<std::uint8_t> Outliers;
+  std::vector<double> Weights; // asked for, in the cloud's order
+  FitState Best;
+  std::vector<std::uint8_t> BestOutliers;
+  double BestCriterion = 0.0;
+  int NumRises = 0;
   SurfaceFit Fit;
 };
 }

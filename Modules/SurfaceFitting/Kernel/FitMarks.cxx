@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FitMarks.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace knotwork
+{
+namespace
+{
+constexpr double SplitBoth = 0.5;      // a direction's gain, of the other one's: from here on both
+constexpr double ReweightRatio = 1.3;  // largest distance / tolerance
+constexpr double ReweightShare = 1e-3; // of all points may be outside
+constexpr double ReweightFloor = 0.9;  // of the tolerance: from here on points gain
+constexpr double ReweightGain = 4.0;
+
+std::size_t At(int i)
+{
+  return static_cast<std::size_t>(i);
+}
+}
+
+std::vector<SplitMark> MarkElements(const FitState& state, const ElementFunctions& functions,
+  const FitPoints& points, const std::vector<ElementErrors>& errors, const FitParams& params,
+  int iteration)
+{
+  double worst = 0.0;
+  std::size_t most = 0;
+  for (const ElementErrors& own : errors)
+  {
+    worst = std::max(worst, own.Ratio);
+    most = std::max(most, own.NumOutside);
+  }
+  const auto chosen = [&](const ElementErrors& own)
+  {
+    switch (params.Threshold)
+    {
+      case FitThreshold::LargestErrors:
+        return own.Ratio - 1.0 >= params.ThresholdShare * (worst - 1.0);
+      case FitThreshold::MostPoints:
+        return static_cast<double>(own.NumOutside) >=
+          params.ThresholdShare * static_cast<double>(most);
+      default:
+        return true;
+    }
+  };
+  const ParametricBox<2> domain = state.Space->Domain();
+  std::vector<SplitMark> marks;
+  for (int e = 0; e < state.Space->NumElements(); ++e)
+  {
+    if (errors[At(e)].NumOutside == 0 || !chosen(errors[At(e)]))
+    {
+      continue;
+    }
+    SplitMark mark;
+    mark.Element = e;
+    if (params.Directions == FitDirections::Alternating)
+    {
+      mark.Directions = { iteration % 2 == 0, iteration % 2 == 1 };
+    }
+    else if (params.Directions == FitDirections::ByError)
+    {
+      const RealArray<2> gains =
+        SplitGains(*state.Space, functions, state.Coefficients, params.NumMeasured, points, e);
+      mark.Directions = { gains[0] >= SplitBoth * gains[1], gains[1] >= SplitBoth * gains[0] };
+    }
+    const ParametricBox<2>& box = state.Space->Elements[At(e)].Box;
+    for (std::size_t d = 0; d < 2; ++d)
+    {
+      const double half = 0.5 * (box.Upper[d] - box.Lower[d]);
+      mark.Directions[d] =
+        mark.Directions[d] && half >= params.MinElementSize * (domain.Upper[d] - domain.Lower[d]);
+    }
+    if (mark.Directions[0] || mark.Directions[1])
+    {
+      marks.push_back(mark);
+    }
+  }
+  return marks;
+}
+
+std::vector<int> ReweightPoints(
+  const std::vector<ElementErrors>& errors, int perElement, FitPoints& points)
+{
+  double worst = 0.0;
+  std::size_t outside = 0;
+  std::size_t total = 0;
+  for (const ElementErrors& own : errors)
+  {
+    worst = std::max(worst, own.Ratio);
+    outside += own.NumOutside;
+    total += own.Count;
+  }
+  std::vector<int> changed;
+  if (outside == 0 || worst > ReweightRatio ||
+    static_cast<double>(outside) > ReweightShare * static_cast<double>(total))
+  {
+    return changed;
+  }
+  for (std::size_t e = 0; e < errors.size(); ++e)
+  {
+    if (errors[e].NumOutside == 0)
+    {
+      continue;
+    }
+    changed.push_back(static_cast<int>(e));
+    const FitPoints::Range& range = points.Ranges[e];
+    const double unit = std::max(1.0, static_cast<double>(range.Count()) / perElement);
+    for (std::size_t i = range.Begin; i < range.End; ++i)
+    {
+      const double ratio = std::fabs(points.Distance[i]) / points.Tolerance[i];
+      if (ratio > ReweightFloor)
+      {
+        points.Boost[i] += ReweightGain * unit * (ratio - ReweightFloor) / ReweightFloor;
+      }
+    }
+  }
+  return changed;
+}
+}
