@@ -119,7 +119,7 @@ RealArray<2> ContourArcs::PointBetween(
     point[solved] = std::abs(valueLow) < std::abs(valueHigh) ? low : high;
     return point;
   }
-  point[solved] = FindSignChange(degree, line, low, high, 0.5 * (a[solved] + b[solved]));
+  point[solved] = FindSignChange(degree, line, low, high, 0.5 * (a[solved] + b[solved]), 1e-8);
   return point;
 }
 

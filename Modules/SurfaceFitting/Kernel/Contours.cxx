@@ -160,7 +160,8 @@ private:
 
   Status FindSides()
   {
-    this->Sides = FindElementSides(this->Form, this->Component, this->Params.JoinSeams);
+    this->Sides =
+      FindElementSides(this->Form, this->Component, this->Params.JoinSeams, this->Params.Threads);
     if (const Status status = this->ShiftLevels(); !status)
     {
       return status;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ElementSides.h"
 
-#include "Bernstein.h"
+#include "Parallel.h"
+#include "SignRoots.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,8 +63,9 @@ private:
 class SideFinder
 {
 public:
-  SideFinder(const BezierForm<2>& form, int component, bool seams)
-    : Form(form), Space(*form.Space), Component(component), Seams(seams && form.NumComponents > 1)
+  SideFinder(const BezierForm<2>& form, int component, bool seams, int threads)
+    : Form(form), Space(*form.Space), Component(component), Seams(seams && form.NumComponents > 1),
+      Threads(threads)
   {
   }
 
@@ -77,6 +79,7 @@ public:
     {
       this->FindByFunctions();
     }
+    this->CutJumps();
     this->ListPieces();
     this->JoinVertices();
     return std::move(this->Sides);
@@ -102,10 +105,6 @@ private:
     }
     return p;
   }
-  static double Evaluate(int p, const double* values, double t)
-  {
-    return BernsteinEvaluate<1>({ p }, values, &t);
-  }
   /// Largest difference of a component along a piece; size is that of the coefficients.
   double Difference(const SidePiece& piece, int component, double* size) const
   {
@@ -126,6 +125,16 @@ private:
         *size = std::max(*size, std::abs(value[k][i] / weight[k][i]));
       }
     }
+    if (!this->Form.Rational && degree[0] == degree[1] && piece.Begin[0] == piece.Begin[1] &&
+      piece.End[0] == piece.End[1])
+    {
+      double largest = 0.0; // bounds the difference
+      for (int i = 0; i <= degree[0]; ++i)
+      {
+        largest = std::max(largest, std::abs(value[0][i] - value[1][i]));
+      }
+      return largest;
+    }
     const int samples = degree[0] + degree[1]; // as many as a difference of degree p + q may vanish
     double difference = 0.0;
     for (int i = 0; i <= samples; ++i)
@@ -135,48 +144,60 @@ private:
       for (std::size_t k = 0; k < 2; ++k)
       {
         const double t = piece.Begin[k] + s * (piece.End[k] - piece.Begin[k]);
-        f[k] = Evaluate(degree[k], value[k], t);
-        f[k] /= this->Form.Rational ? Evaluate(degree[k], weight[k], t) : 1.0;
+        f[k] = EvaluateBernstein(degree[k], value[k], t, nullptr);
+        f[k] /= this->Form.Rational ? EvaluateBernstein(degree[k], weight[k], t, nullptr) : 1.0;
       }
       difference = std::max(difference, std::abs(f[0] - f[1]));
     }
     return difference;
   }
-  bool IsContinuous(const SidePiece& piece)
+  /// Difference of the values along a piece; -1 where they jump.
+  double FindGap(const SidePiece& piece) const
   {
     double size;
-    const double difference = this->Difference(piece, this->Component, &size);
-    if (difference > JumpTolerance * size)
+    const double gap = this->Difference(piece, this->Component, &size);
+    bool continuous = gap <= JumpTolerance * size;
+    for (int c = 0; piece.Seam && continuous && c < this->Form.NumComponents; ++c)
     {
-      return false;
+      continuous = this->Difference(piece, c, &size) <= JumpTolerance * size;
     }
-    for (int c = 0; piece.Seam && c < this->Form.NumComponents; ++c)
-    {
-      if (this->Difference(piece, c, &size) > JumpTolerance * size)
-      {
-        return false;
-      }
-    }
-    this->Sides.LargestGap = std::max(this->Sides.LargestGap, difference);
-    return true;
+    return continuous ? gap : -1.0;
   }
 
   // ---- pieces
-  void Add(const SidePiece& piece)
+  /// Pieces with a jump become two on the boundary.
+  void CutJumps()
   {
-    if (piece.Element[1] < 0 || this->IsContinuous(piece))
+    std::vector<SidePiece> pieces;
+    pieces.swap(this->Sides.Pieces);
+    std::vector<double> gaps(pieces.size(), 0.0);
+    ParallelFor(pieces.size(), 512, this->Threads,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t p = begin; p < end; ++p)
+        {
+          gaps[p] = pieces[p].Element[1] < 0 ? 0.0 : this->FindGap(pieces[p]);
+        }
+      });
+    this->Sides.Pieces.reserve(pieces.size());
+    for (std::size_t p = 0; p < pieces.size(); ++p)
     {
-      this->Sides.Pieces.push_back(piece);
-      return;
-    }
-    for (std::size_t k = 0; k < 2; ++k)
-    {
-      SidePiece alone;
-      alone.Element[0] = piece.Element[k];
-      alone.Side[0] = piece.Side[k];
-      alone.Begin[0] = std::min(piece.Begin[k], piece.End[k]);
-      alone.End[0] = std::max(piece.Begin[k], piece.End[k]);
-      this->Sides.Pieces.push_back(alone);
+      const SidePiece& piece = pieces[p];
+      this->Sides.LargestGap = std::max(this->Sides.LargestGap, gaps[p]);
+      if (gaps[p] >= 0.0)
+      {
+        this->Sides.Pieces.push_back(piece);
+        continue;
+      }
+      for (std::size_t k = 0; k < 2; ++k)
+      {
+        SidePiece alone;
+        alone.Element[0] = piece.Element[k];
+        alone.Side[0] = piece.Side[k];
+        alone.Begin[0] = std::min(piece.Begin[k], piece.End[k]);
+        alone.End[0] = std::max(piece.Begin[k], piece.End[k]);
+        this->Sides.Pieces.push_back(alone);
+      }
     }
   }
 
@@ -206,7 +227,7 @@ private:
       }
       if (begin < end)
       {
-        this->Add(piece);
+        this->Sides.Pieces.push_back(piece);
       }
       i += a.End == end ? 1 : 0;
       j += b.End == end ? 1 : 0;
@@ -307,7 +328,7 @@ private:
           piece.Begin[1] = 1.0;
           piece.End[1] = 0.0;
         }
-        this->Add(piece);
+        this->Sides.Pieces.push_back(piece);
         continue;
       }
       for (const Use& use : uses)
@@ -437,6 +458,7 @@ private:
   const SplineSpace<2>& Space;
   int Component;
   bool Seams;
+  int Threads;
   ElementSides Sides;
   std::vector<int> Place; // of a piece in the lists of its two sides
   std::vector<int> FirstHanging;
@@ -444,8 +466,8 @@ private:
 };
 }
 
-ElementSides FindElementSides(const BezierForm<2>& form, int component, bool seams)
+ElementSides FindElementSides(const BezierForm<2>& form, int component, bool seams, int threads)
 {
-  return SideFinder(form, component, seams).Run();
+  return SideFinder(form, component, seams, threads).Run();
 }
 }

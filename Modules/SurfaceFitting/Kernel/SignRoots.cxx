@@ -38,7 +38,7 @@ void FindIn(int degree, const double* coefficients, double low, double length, i
       const double first = coefficients[0];
       const double last = coefficients[degree];
       const double guess = first / (first - last);
-      roots.push_back(low + length * FindSignChange(degree, coefficients, 0.0, 1.0, guess));
+      roots.push_back(low + length * FindSignChange(degree, coefficients, 0.0, 1.0, guess, 1e-16));
     }
     return;
   }
@@ -95,7 +95,8 @@ void FindSignChanges(int degree, const double* coefficients, std::vector<double>
   FindIn(degree, coefficients, 0.0, 1.0, 0, roots);
 }
 
-double FindSignChange(int degree, const double* coefficients, double low, double high, double t)
+double FindSignChange(
+  int degree, const double* coefficients, double low, double high, double t, double enough)
 {
   const bool positiveLow = IsPositive(EvaluateBernstein(degree, coefficients, low, nullptr));
   for (int step = 0; step < 100; ++step)
@@ -108,9 +109,13 @@ double FindSignChange(int degree, const double* coefficients, double low, double
     const double value = EvaluateBernstein(degree, coefficients, t, &slope);
     (IsPositive(value) == positiveLow ? low : high) = t;
     const double next = t - value / slope;
-    if (value == 0.0 || std::abs(next - t) <= 1e-16 * t || high - low <= 1e-16 * high)
+    if (value == 0.0 || high - low <= 1e-16 * high)
     {
       break;
+    }
+    if (std::abs(next - t) <= enough * t)
+    {
+      return next > low && next < high ? next : t;
     }
     t = next;
   }

@@ -23,6 +23,9 @@ void SetEndSigns(int degree, double* coefficients, bool positiveBegin, bool posi
 void FindSignChanges(int degree, const double* coefficients, std::vector<double>& roots);
 
 /// The sign change between two places whose values have different signs, by Newton's iteration
-/// inside a bracket. @param t  first guess.
-double FindSignChange(int degree, const double* coefficients, double low, double high, double t);
+/// inside a bracket.
+/// @param t      first guess.
+/// @param enough  a step so short, relative to t, is the last one (the error is about its square).
+double FindSignChange(
+  int degree, const double* coefficients, double low, double high, double t, double enough);
 }
