@@ -12,6 +12,7 @@ struct ChainPoint
 {
   int Element = 0;
   RealArray<2> Local{};
+  RealArray<2> End{}; // of the straight piece
   RealArray<2> Parameter{};
 };
 
@@ -67,7 +68,9 @@ private:
   {
     const ParametricBox<2>& box =
       this->Space.Elements[static_cast<std::size_t>(path.Path.Element)].Box;
-    ChainPoint point{ path.Path.Element, path.Points[i], {} };
+    const bool loop = path.Path.From < 0;
+    const std::size_t next = i + 1 < path.Path.NumPoints ? i + 1 : (loop ? 0 : i);
+    ChainPoint point{ path.Path.Element, path.Points[i], path.Points[next], {} };
     for (std::size_t d = 0; d < 2; ++d)
     {
       point.Parameter[d] = point.Local[d] == 1.0
@@ -161,6 +164,7 @@ private:
     }
     previous.Element = point.Element;
     previous.Local = point.Local;
+    previous.End = point.End;
   }
 
   void Store()
@@ -169,12 +173,14 @@ private:
     this->Contours.Elements.resize(n);
     this->Contours.Local.resize(static_cast<Eigen::Index>(n), 2);
     this->Contours.Parameters.resize(static_cast<Eigen::Index>(n), 2);
+    this->Contours.PieceEnds.resize(static_cast<Eigen::Index>(n), 2);
     for (std::size_t i = 0; i < n; ++i)
     {
       const Eigen::Index row = static_cast<Eigen::Index>(i);
       const ChainPoint& point = this->Points[i];
       this->Contours.Elements[i] = point.Element;
       this->Contours.Local.row(row) << point.Local[0], point.Local[1];
+      this->Contours.PieceEnds.row(row) << point.End[0], point.End[1];
       this->Contours.Parameters.row(row) << point.Parameter[0], point.Parameter[1];
     }
     this->Contours.NumComponents.assign(this->Contours.Levels.size(), 0);

@@ -77,6 +77,12 @@ private:
         "component " + std::to_string(this->Component) + " of a surface with " +
           std::to_string(this->Form.NumComponents) };
     }
+    if (this->Params.NumSpaceComponents > this->Form.NumComponents)
+    {
+      return { ErrorCode::DimensionMismatch,
+        std::to_string(this->Params.NumSpaceComponents) + " space components of " +
+          std::to_string(this->Form.NumComponents) };
+    }
     for (double level : this->Params.Levels)
     {
       if (!(std::abs(level) <= LargestNumber))
@@ -232,7 +238,8 @@ private:
     element.ChordTolerance = this->Params.ChordTolerance;
     element.MaxCells = this->Params.MaxCells;
     element.NumComponents = this->Form.NumComponents;
-    element.NumSpaceComponents = this->Component;
+    element.NumSpaceComponents =
+      this->Params.NumSpaceComponents < 0 ? this->Component : this->Params.NumSpaceComponents;
     element.Rational = this->Form.Rational;
     element.Block = this->Form.Block(element.Element);
     const double least = this->LeastWeights[e];

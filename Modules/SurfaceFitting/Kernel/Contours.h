@@ -14,8 +14,10 @@ struct ContourParams
   /// Of |value - level| everywhere on a contour; > 0, or 0: a ten-thousandth of the range of the
   /// values at the elements' corners.
   double Tolerance = 0.0;
-  /// Of the distance in space (components before Component) between a straight piece and the
-  /// surface curve with the same parameters; >= 0, 0: as it comes.
+  int NumSpaceComponents =
+    -1; ///< the first ones are positions in space; -1: those before Component
+  /// Of the distance in space between a straight piece and the surface curve with the same
+  /// parameters; >= 0, 0: as it comes.
   double ChordTolerance = 0.0;
   /// Opposite sides of the domain that lie on each other (all components) are joined.
   bool JoinSeams = true;
@@ -47,10 +49,14 @@ struct ContourSet
 {
   std::vector<double> Levels;               ///< ascending, each once
   std::vector<ContourComponent> Components; ///< by level
-  std::vector<int> Elements;                ///< of points
-  PointMatrix Local;                        ///< n x 2 in [0, 1]^2, of Elements
-  PointMatrix Parameters;                   ///< n x 2, of the domain (Local without a domain)
-  std::vector<int> NumComponents;           ///< a level
+  /// Of points: that of the straight piece that begins there.
+  std::vector<int> Elements;
+  PointMatrix Local;      ///< n x 2 in [0, 1]^2, of Elements
+  PointMatrix Parameters; ///< n x 2, of the domain (Local without a domain)
+  /// n x 2 in [0, 1]^2: the other end of the straight piece that begins at a point, on the point's
+  /// own element; Local itself at the end of an open component and before a seam.
+  PointMatrix PieceEnds;
+  std::vector<int> NumComponents; ///< a level
   std::vector<int> NumClosed;
   std::vector<UndecidedBox> Undecided;
   double MaxError = 0.0;

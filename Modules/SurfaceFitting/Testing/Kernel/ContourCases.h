@@ -178,7 +178,7 @@ inline Spline<2> OverMesh(const Spline<2>& surface, MeshKind kind, unsigned seed
 }
 
 /// Largest |value - level| at samples of all straight pieces, evaluated on the element each piece
-/// names; pieces of no length in space (at seams) are left out.
+/// names.
 inline double SampledError(
   const BezierForm<2>& form, const ContourSet& contours, int component = -1)
 {
@@ -187,34 +187,15 @@ inline double SampledError(
   std::vector<int> elements;
   std::vector<double> local;
   std::vector<double> levels;
-  const auto toLocal = [&](int e, const Eigen::RowVector2d& p) -> Eigen::RowVector2d
-  {
-    const ParametricBox<2>& box = form.Space->Elements[static_cast<std::size_t>(e)].Box;
-    return { (p[0] - box.Lower[0]) / (box.Upper[0] - box.Lower[0]),
-      (p[1] - box.Lower[1]) / (box.Upper[1] - box.Lower[1]) };
-  };
   for (const ContourComponent& component1 : contours.Components)
   {
     const std::size_t n = component1.NumPoints;
     for (std::size_t i = 0; i + (component1.Closed ? 0 : 1) < n; ++i)
     {
       const std::size_t a = component1.First + i;
-      const std::size_t b = component1.First + (i + 1) % n;
       const int e = contours.Elements[a];
       const Eigen::RowVector2d from = contours.Local.row(static_cast<Eigen::Index>(a));
-      Eigen::RowVector2d to = contours.Local.row(static_cast<Eigen::Index>(b));
-      if (form.Space->HasDomain)
-      {
-        to = toLocal(e, contours.Parameters.row(static_cast<Eigen::Index>(b)));
-      }
-      else if (contours.Elements[b] != e)
-      {
-        continue; // its end is a point of another element: checked by tests with a domain
-      }
-      if (to.minCoeff() < -1e-6 || to.maxCoeff() > 1.0 + 1e-6)
-      {
-        continue; // the other side of a seam
-      }
+      const Eigen::RowVector2d to = contours.PieceEnds.row(static_cast<Eigen::Index>(a));
       for (int k = 0; k <= Samples; ++k)
       {
         const Eigen::RowVector2d p = from + (to - from) * k / Samples;
@@ -235,6 +216,26 @@ inline double SampledError(
     error = std::max(error, std::abs(batch.Values(static_cast<Eigen::Index>(i), c) - levels[i]));
   }
   return error;
+}
+
+/// Largest distance in space between the end of a straight piece and the next point.
+inline double LargestBreak(const BezierForm<2>& form, const ContourSet& contours)
+{
+  EvaluationBatch points;
+  EvaluationBatch ends;
+  EXPECT_TRUE(EvaluateElements<2>(form, contours.Elements, contours.Local, {}, points));
+  EXPECT_TRUE(EvaluateElements<2>(form, contours.Elements, contours.PieceEnds, {}, ends));
+  double largest = 0.0;
+  for (const ContourComponent& component : contours.Components)
+  {
+    for (std::size_t i = 0; i + (component.Closed ? 0 : 1) < component.NumPoints; ++i)
+    {
+      const auto a = static_cast<Eigen::Index>(component.First + i);
+      const auto b = static_cast<Eigen::Index>(component.First + (i + 1) % component.NumPoints);
+      largest = std::max(largest, (ends.Values.row(a) - points.Values.row(b)).norm());
+    }
+  }
+  return largest;
 }
 
 /// Open components end on the border of the domain.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BezierSpace.h"
 #include "ContourCases.h"
+#include "ContourCurves.h"
 
 #include <limits>
 
@@ -21,6 +22,7 @@ ContourSet Trace(const Spline<2>& surface, const std::vector<double>& levels, do
   EXPECT_TRUE(contours.Undecided.empty()) << contours.Undecided.size();
   EXPECT_LE(contours.MaxError, tolerance);
   EXPECT_LE(SampledError(form, contours), contours.MaxError + 1e-15);
+  EXPECT_LE(LargestBreak(form, contours), 1e-9); // points nearer than 1e-10 of an element are one
   if (surface.Space->HasDomain)
   {
     EXPECT_TRUE(EndsOnBorder(*surface.Space, contours));
@@ -275,4 +277,268 @@ TEST(Contours, ThreadsDoNotMatter_PropertyOracle)
     EXPECT_EQ(one->NumComponents, more->NumComponents);
     EXPECT_EQ(one->MaxError, more->MaxError);
   }
+}
+
+namespace
+{
+/// A torus of radii 2 and 1 around the z axis as a rational biquadratic surface.
+Spline<2> Torus()
+{
+  const double s = std::sqrt(0.5);
+  const double x[9] = { 1, 1, 0, -1, -1, -1, 0, 1, 1 };
+  const double y[9] = { 0, 1, 1, 1, 0, -1, -1, -1, 0 };
+  std::vector<double> knots{ 0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4 };
+  const KnotVector k = KnotVector::Create(2, knots).Value;
+  Spline<2> torus;
+  torus.Space = MakeTensorSpace<2>({ k, k }).Value;
+  torus.ControlPoints.resize(81, 3);
+  torus.Weights.resize(81);
+  for (int j = 0, n = 0; j < 9; ++j)
+  {
+    for (int i = 0; i < 9; ++i, ++n)
+    {
+      const double r = 2.0 + x[j];
+      torus.ControlPoints.row(n) << r * x[i], r * y[i], y[j];
+      torus.Weights[n] = (i % 2 ? s : 1.0) * (j % 2 ? s : 1.0);
+    }
+  }
+  return torus;
+}
+}
+
+TEST(Contours, ClosedSurfacesHaveClosedContours_ExactOracle)
+{
+  const Spline<2> torus = Torus();
+  const BezierForm<2> form = MakeBezierForm(torus);
+  ContourParams params;
+  params.NumSpaceComponents = 3;
+  params.Tolerance = 1e-5;
+  // z: two circles; x: two loops outside of the hole, one loop above the waist; near its saddles
+  const std::vector<std::pair<int, std::vector<std::pair<double, int>>>> cases{
+    { 2, { { 0.5, 2 }, { -0.999, 2 }, { 0.0, 2 } } },
+    { 0, { { 0.3, 2 }, { 0.999999, 2 }, { 1.000001, 1 }, { 2.9, 1 }, { -1.5, 1 } } }
+  };
+  for (const auto& [component, levels] : cases)
+  {
+    for (const auto& [level, count] : levels)
+    {
+      SCOPED_TRACE(std::to_string(component) + " = " + std::to_string(level));
+      params.Component = component;
+      params.Levels = { level };
+      params.JoinSeams = true;
+      const auto joined = TraceContours(form, params);
+      ASSERT_TRUE(joined) << joined.Status.Message();
+      EXPECT_EQ(joined->NumComponents[0], count);
+      EXPECT_EQ(joined->NumClosed[0], count);
+      EXPECT_LE(SampledError(form, joined.Value, component), 1e-5);
+      EXPECT_LE(LargestBreak(form, joined.Value), 1e-9);
+      params.JoinSeams = false;
+      const auto open = TraceContours(form, params);
+      ASSERT_TRUE(open);
+      EXPECT_GT(open->NumComponents[0], open->NumClosed[0]);
+    }
+  }
+}
+
+TEST(Contours, ContoursEndAtJumps_ExactOracle)
+{
+  // value = u on [0, 1) and u + 1 on [1, 2], times v-independent: one line a level, none between
+  const KnotVector u = KnotVector::Create(1, { 0, 0, 1, 1, 2, 2 }).Value;
+  const KnotVector v = KnotVector::Create(1, { 0, 0, 1, 1 }).Value;
+  Spline<2> surface;
+  surface.Space = MakeTensorSpace<2>({ u, v }).Value;
+  surface.ControlPoints.resize(8, 3);
+  const double x[4] = { 0, 1, 1, 2 };
+  // slanted on the left, so that the level 0.5 meets the jump
+  const double left[2][4] = { { 0, 1, 2, 3 }, { -1, 0, 2, 3 } };
+  for (int j = 0; j < 2; ++j)
+  {
+    for (int i = 0; i < 4; ++i)
+    {
+      surface.ControlPoints.row(4 * j + i) << x[i], j, left[j][i];
+    }
+  }
+  const BezierForm<2> form = MakeBezierForm(surface);
+  ContourParams params;
+  params.Levels = { 0.5, 1.5, 2.5 };
+  params.Tolerance = 1e-6;
+  const auto contours = TraceContours(form, params);
+  ASSERT_TRUE(contours) << contours.Status.Message();
+  EXPECT_EQ(contours->NumComponents, (std::vector<int>{ 1, 0, 1 }));
+  EXPECT_EQ(contours->NumClosed, (std::vector<int>{ 0, 0, 0 }));
+  const ContourComponent& first = contours->Components[0];
+  std::set<double> ends{ contours->Parameters(0, 0),
+    contours->Parameters(static_cast<Eigen::Index>(first.NumPoints) - 1, 0) };
+  EXPECT_EQ(*ends.rbegin(), 1.0);
+}
+
+TEST(Contours, ChordsKeepNearTheSurfaceInSpace_PropertyOracle)
+{
+  const BezierForm<2> form = MakeBezierForm(Torus());
+  ContourParams params;
+  params.NumSpaceComponents = 3;
+  params.Component = 2;
+  params.Levels = { 0.3 };
+  params.Tolerance = 0.1;
+  const auto coarse = TraceContours(form, params);
+  params.ChordTolerance = 1e-4;
+  const auto fine = TraceContours(form, params);
+  ASSERT_TRUE(coarse && fine);
+  for (const bool isFine : { false, true })
+  {
+    const ContourSet& contours = isFine ? fine.Value : coarse.Value;
+    EvaluationBatch ends[3];
+    const PointMatrix middle = 0.5 * (contours.Local + contours.PieceEnds);
+    ASSERT_TRUE(EvaluateElements<2>(form, contours.Elements, contours.Local, {}, ends[0]));
+    ASSERT_TRUE(EvaluateElements<2>(form, contours.Elements, contours.PieceEnds, {}, ends[1]));
+    ASSERT_TRUE(EvaluateElements<2>(form, contours.Elements, middle, {}, ends[2]));
+    const double distance =
+      (0.5 * (ends[0].Values + ends[1].Values) - ends[2].Values).rowwise().norm().maxCoeff();
+    EXPECT_EQ(distance <= 1e-4, isFine) << distance;
+  }
+}
+
+TEST(Contours, SplineCurvesKeepTheTolerance_PropertyOracle)
+{
+  const auto check = [](const Spline<2>& surface, int component, double level, double space)
+  {
+    const BezierForm<2> form = MakeBezierForm(surface);
+    ContourParams params;
+    params.NumSpaceComponents = 3;
+    params.Component = component;
+    params.Levels = { level };
+    params.Tolerance = 1e-5;
+    params.ChordTolerance = space;
+    const auto contours = TraceContours(form, params);
+    ASSERT_TRUE(contours) << contours.Status.Message();
+    const auto curves = FitContourCurves(form, contours.Value, params);
+    ASSERT_TRUE(curves);
+    ASSERT_EQ(curves->size(), contours->Components.size());
+    std::size_t pieces = 0;
+    for (const ContourCurve& curve : curves.Value)
+    {
+      ASSERT_TRUE(curve.Curve.Check());
+      EXPECT_LE(curve.MaxError, 1e-5);
+      const BezierForm<1> line = MakeBezierForm(curve.Curve);
+      pieces += static_cast<std::size_t>(curve.Curve.Space->NumElements());
+      std::vector<int> elements;
+      std::vector<double> local;
+      for (int e = 0; e < curve.Curve.Space->NumElements(); ++e)
+      {
+        for (int k = 0; k <= 16; ++k)
+        {
+          elements.push_back(e);
+          local.push_back(k / 16.0);
+        }
+      }
+      EvaluationBatch on;
+      const Eigen::Map<const PointMatrix> at(
+        local.data(), static_cast<Eigen::Index>(local.size()), 1);
+      ASSERT_TRUE(EvaluateElements<1>(line, elements, at, {}, on));
+      const ParametricBox<2> box = surface.Space->Domain();
+      PointMatrix uv = on.Values.leftCols(2);
+      for (Eigen::Index i = 0; i < uv.size(); ++i)
+      {
+        const std::size_t d = static_cast<std::size_t>(i % 2);
+        uv.data()[i] = std::clamp(uv.data()[i], box.Lower[d], box.Upper[d]);
+      }
+      EvaluationBatch there;
+      ASSERT_TRUE(EvaluateParameters<2>(form, uv, {}, there));
+      EXPECT_LE(
+        (there.Values.col(component).array() - level).abs().maxCoeff(), curve.MaxError + 1e-12);
+      const double distance =
+        (there.Values.leftCols(3) - on.Values.rightCols(3)).rowwise().norm().maxCoeff();
+      EXPECT_LE(distance, curve.SpaceDistance + 1e-12);
+      if (contours->Components[static_cast<std::size_t>(curve.Component)].Closed)
+      {
+        EXPECT_EQ(curve.Curve.ControlPoints.row(0).tail(3),
+          curve.Curve.ControlPoints.bottomRows(1).row(0).tail(3));
+      }
+    }
+    EXPECT_LT(2 * pieces, contours->Elements.size()); // worth it
+  };
+  check(OverMesh(SquareSurface(Circle(0.1, 0.2, 0.3)), MeshKind::LocallyRefined), 2, 0.0, 0.0);
+  check(
+    OverMesh(SquareSurface(Circle(0.1, 0.2, 0.0) * Circle(-0.3, 0.2, 0.0)), MeshKind::Hierarchical),
+    2, 0.01, 0.0);
+  check(Torus(), 2, 0.3, 1e-4);
+  check(Torus(), 0, 1.1, 1e-4);
+}
+
+TEST(Contours, AFlatMaximumOnTheLevelStaysUndecided_ExactOracle)
+{
+  // -(x + y / 2 - 0.1)^2 = 0 is a line; a strip of width 2^-22 would take 4 million cells
+  const Spline<2> surface = SquareSurface(Conic(-1.0, -1.0, -0.25, 0.2, 0.1, -0.01));
+  ContourParams params;
+  params.Levels = { 0.0 };
+  params.Tolerance = 1e-4;
+  params.MaxCells = 512;
+  const auto contours = TraceContours(MakeBezierForm(surface), params);
+  ASSERT_TRUE(contours);
+  ASSERT_FALSE(contours->Undecided.empty());
+  for (const UndecidedBox& box : contours->Undecided)
+  {
+    // the line passes every box that is left
+    const double low = box.Box.Lower[0] + 0.5 * box.Box.Lower[1] - 0.1;
+    const double high = box.Box.Upper[0] + 0.5 * box.Box.Upper[1] - 0.1;
+    EXPECT_LE(low, 1e-6);
+    EXPECT_GE(high, -1e-6);
+  }
+  params.Levels = { -1e-4 };
+  params.MaxCells = 65536;
+  EXPECT_TRUE(TraceContours(MakeBezierForm(surface), params)->Undecided.empty());
+}
+
+TEST(Contours, EveryFailureIsReachable)
+{
+  const Spline<2> surface = SquareSurface(Circle(0.0, 0.0, 0.5));
+  const BezierForm<2> form = MakeBezierForm(surface);
+  const auto code = [](const BezierForm<2>& f, const ContourParams& params)
+  { return TraceContours(f, params).Status.Code; };
+  const auto with = [&](const std::function<void(ContourParams&)>& change)
+  {
+    ContourParams params;
+    change(params);
+    return code(form, params);
+  };
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(code({}, {}), ErrorCode::EmptyInput);
+  EXPECT_EQ(with([](ContourParams&) {}), ErrorCode::Ok);
+  EXPECT_EQ(with([](ContourParams& p) { p.Component = 3; }), ErrorCode::DimensionMismatch);
+  EXPECT_EQ(with([](ContourParams& p) { p.NumSpaceComponents = 4; }), ErrorCode::DimensionMismatch);
+  EXPECT_EQ(with([](ContourParams& p) { p.Levels = { nan }; }), ErrorCode::InvalidParameter);
+  EXPECT_EQ(with([](ContourParams& p) { p.NumLevels = 0; }), ErrorCode::InvalidParameter);
+  EXPECT_EQ(with([](ContourParams& p) { p.Tolerance = -1.0; }), ErrorCode::InvalidParameter);
+  EXPECT_EQ(with([](ContourParams& p) { p.Tolerance = nan; }), ErrorCode::InvalidParameter);
+  EXPECT_EQ(with([](ContourParams& p) { p.Tolerance = 1e-15; }), ErrorCode::InvalidParameter);
+  EXPECT_EQ(with([](ContourParams& p) { p.ChordTolerance = -1.0; }), ErrorCode::InvalidParameter);
+  EXPECT_EQ(with([](ContourParams& p) { p.MaxCells = 1; }), ErrorCode::InvalidParameter);
+  for (int stop = 0; stop < 5; ++stop)
+  {
+    int calls = 0;
+    EXPECT_EQ(with([&](ContourParams& p) { p.Progress = [&](double) { return calls++ < stop; }; }),
+      stop < 4 ? ErrorCode::Aborted : ErrorCode::Ok)
+      << stop;
+  }
+  BezierForm<2> bad = form;
+  bad.Data[20] = nan;
+  EXPECT_EQ(code(bad, {}), ErrorCode::NonFiniteInput);
+  bad.Data[20] = 1e300;
+  EXPECT_EQ(code(bad, {}), ErrorCode::NonFiniteInput);
+  const auto set = TraceContours(form, {});
+  ContourParams params;
+  params.Component = 7;
+  EXPECT_EQ(FitContourCurves(form, set.Value, params).Status.Code, ErrorCode::DimensionMismatch);
+}
+
+TEST(Contours, LevelsDivideTheRangeOfTheCorners_GoldenOracle)
+{
+  const BezierForm<2> form =
+    MakeBezierForm(SquareSurface(Conic(0.0, 0.0, 0.0, 1.0, 2.0, 0.0))); // -3 to 3
+  EXPECT_EQ(CornerRange(form, 2), (std::array<double, 2>{ -3.0, 3.0 }));
+  EXPECT_EQ(ContourLevels({ -3.0, 3.0 }, 3), (std::vector<double>{ -1.5, 0.0, 1.5 }));
+  ContourParams params;
+  params.NumLevels = 3;
+  EXPECT_EQ(TraceContours(form, params)->Levels, (std::vector<double>{ -1.5, 0.0, 1.5 }));
+  EXPECT_EQ(TraceContours(form, params)->Tolerance, 1e-4 * 6.0);
 }
