@@ -31,8 +31,8 @@ BezierForm<Dim> MakeBezierForm(const Spline<Dim>& spline, int threads)
   const double* coefficients = spline.ControlPoints.data();
   if (form.Rational || !space.IsIdentityMap())
   {
-    copy =
-      space.LocalCoefficients(form.Rational ? spline.HomogeneousPoints() : spline.ControlPoints);
+    copy = space.LocalCoefficients(
+      form.Rational ? spline.HomogeneousPoints() : spline.ControlPoints, threads);
     coefficients = copy.data();
   }
   ParallelFor(numElements, 256, threads,

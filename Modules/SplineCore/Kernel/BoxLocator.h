@@ -39,6 +39,7 @@ private:
     int Below = 0;
     int Above = 0;
   };
+  class Divider;
   std::size_t Bucket(std::size_t d, double x) const
   {
     const double position = (x - this->Begin[d]) * this->Scale[d];
@@ -46,9 +47,6 @@ private:
       ? static_cast<std::size_t>(position < this->Last[d] ? position : this->Last[d])
       : 0;
   }
-  int Divide(const std::vector<ParametricBox<2>>& boxes, const std::vector<int>& inside,
-    const RealArray<2>& floor);
-
   std::array<std::size_t, 2> Size{};
   RealArray<2> Begin{};
   RealArray<2> Scale{};

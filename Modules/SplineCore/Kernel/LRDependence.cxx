@@ -6,6 +6,7 @@
 #include <Eigen/SVD>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 namespace knotwork
 {

@@ -3,7 +3,7 @@
 #include "LRSpace.h"
 
 #include <algorithm>
-#include <numeric>
+#include <cstdint>
 
 namespace knotwork
 {
@@ -17,37 +17,40 @@ public:
   LRLineRows(const LRBasis& basis, int direction)
     : Basis(basis), Direction(direction), Degree(basis.Degree[static_cast<std::size_t>(direction)])
   {
-    // equal local knot vectors get one number
-    const int n = this->Degree + 2;
-    std::vector<int> order(static_cast<std::size_t>(basis.NumFunctions()));
-    std::iota(order.begin(), order.end(), 0);
-    const auto less = [&](int a, int b)
+    // equal local knot vectors share their cells; a table by hash holds the first function of each
+    const auto n = static_cast<std::size_t>(basis.NumFunctions());
+    std::size_t size = 64;
+    while (size < 2 * n)
     {
-      const int* first = basis.Local(a, direction);
-      const int* second = basis.Local(b, direction);
-      return std::lexicographical_compare(first, first + n, second, second + n);
-    };
-    std::sort(order.begin(), order.end(), less);
-    this->Cells.resize(order.size());
+      size *= 2;
+    }
+    std::vector<int> table(size, -1);
+    this->Cells.resize(n);
     std::size_t cells = 0;
-    std::size_t first = 0;
-    for (std::size_t i = 0; i < order.size(); ++i)
+    for (int f = 0; f < basis.NumFunctions(); ++f)
     {
-      const int* knots = basis.Local(order[i], direction);
-      if (i == 0 || less(order[i - 1], order[i]))
+      const int* knots = basis.Local(f, direction);
+      std::size_t slot = Hash(knots, this->Degree + 2) & (size - 1);
+      while (table[slot] >= 0 &&
+        !std::equal(knots, knots + this->Degree + 2, basis.Local(table[slot], direction)))
       {
-        first = cells;
-        cells += static_cast<std::size_t>(knots[n - 1] - knots[0]);
+        slot = (slot + 1) & (size - 1);
       }
-      this->Cells[static_cast<std::size_t>(order[i])] = first;
+      std::size_t& cell = this->Cells[static_cast<std::size_t>(f)];
+      if (table[slot] >= 0)
+      {
+        cell = this->Cells[static_cast<std::size_t>(table[slot])];
+        continue;
+      }
+      table[slot] = f;
+      cell = cells;
+      cells += static_cast<std::size_t>(knots[this->Degree + 1] - knots[0]);
     }
     this->Heads.assign(cells, -1);
   }
 
-  /// Offset of the row of p + 1 numbers of a function between two knots inside one of its spans.
-  /// @param make  make(knots, low, high, row) writes it: knots as LRBasis::Local.
-  template <typename Make>
-  int Find(int function, int low, int high, Make&& make)
+  /// Number of the row of a function between two knots inside one of its spans.
+  int Number(int function, int low, int high)
   {
     const int* knots = this->Basis.Local(function, this->Direction);
     const std::size_t cell =
@@ -57,16 +60,47 @@ public:
     {
       if (this->Entries[static_cast<std::size_t>(entry)].High == high)
       {
-        return entry * (this->Degree + 1);
+        return entry;
       }
     }
-    const auto entry = static_cast<int>(this->Entries.size());
-    this->Entries.push_back({ cell, high, head });
+    const int entry = this->Size();
+    this->Entries.push_back({ cell, function, low, high, head });
     head = entry;
-    Value row[MaxDegree + 1];
-    make(knots, low, high, row);
-    this->Rows.insert(this->Rows.end(), row, row + this->Degree + 1);
-    return entry * (this->Degree + 1);
+    return entry;
+  }
+
+  int Size() const { return static_cast<int>(this->Entries.size()); }
+
+  /// Works out the rows of some numbers. Ranges that share no number may run at the same time.
+  /// @param make  make(knots, low, high, row) writes p + 1 numbers: knots as LRBasis::Local.
+  /// @pre Allocate() since the last new number.
+  template <typename Make>
+  void Fill(int begin, int end, Make&& make)
+  {
+    for (int k = begin; k < end; ++k)
+    {
+      const Entry& entry = this->Entries[static_cast<std::size_t>(k)];
+      make(this->Basis.Local(entry.Function, this->Direction), entry.Low, entry.High,
+        this->Rows.data() + std::ptrdiff_t{ k } * (this->Degree + 1));
+    }
+  }
+  void Allocate()
+  {
+    this->Rows.resize(this->Entries.size() * static_cast<std::size_t>(this->Degree + 1));
+  }
+
+  /// Number and row together.
+  template <typename Make>
+  int Find(int function, int low, int high, Make&& make)
+  {
+    const int before = this->Size();
+    const int number = this->Number(function, low, high);
+    if (number == before)
+    {
+      this->Allocate();
+      this->Fill(number, number + 1, make);
+    }
+    return number;
   }
 
   /// Forgets all rows.
@@ -80,15 +114,33 @@ public:
     this->Rows.clear();
   }
 
-  const Value* Row(int offset) const { return this->Rows.data() + offset; }
+  /// p + 1 numbers.
+  const Value* Row(int number) const
+  {
+    return this->Rows.data() + std::ptrdiff_t{ number } * (this->Degree + 1);
+  }
 
 private:
   struct Entry
   {
     std::size_t Cell;
+    int Function; // one of those with these knots
+    int Low;
     int High;
     int Next;
   };
+
+  static std::size_t Hash(const int* knots, int n)
+  {
+    std::uint64_t h = 0x9e3779b97f4a7c15ULL;
+    for (int i = 0; i < n; ++i)
+    {
+      h = (h ^ static_cast<std::uint64_t>(knots[i])) * 0xff51afd7ed558ccdULL;
+      h ^= h >> 32;
+    }
+    return h;
+  }
+
   const LRBasis& Basis;
   int Direction;
   int Degree;
@@ -119,19 +171,26 @@ void LRBlossomRow(int degree, const int* knots, int low, int high, Combine&& com
   {
     local[j] = knots[std::clamp(span - degree + 1 + j, 0, degree + 1)];
   }
-  for (int k = 0; k <= degree; ++k)
+  // c: the points after some steps at low; the steps at high that are left end in a coefficient
+  Value c[MaxDegree + 1] = {};
+  c[degree - span] = Value(1);
+  const auto step = [&](int u, int r, Value* values)
   {
-    Value c[MaxDegree + 1] = {};
-    c[degree - span] = Value(1);
-    for (int r = 1; r <= degree; ++r)
+    for (int j = degree; j >= r; --j)
     {
-      const int u = r <= degree - k ? low : high;
-      for (int j = degree; j >= r; --j)
-      {
-        c[j] = combine(u, local[j - 1], local[j + degree - r], c[j - 1], c[j]);
-      }
+      values[j] = combine(u, local[j - 1], local[j + degree - r], values[j - 1], values[j]);
     }
-    row[k] = c[degree];
+  };
+  for (int done = 0; done <= degree; ++done)
+  {
+    Value t[MaxDegree + 1];
+    std::copy_n(c, degree + 1, t);
+    for (int r = done + 1; r <= degree; ++r)
+    {
+      step(high, r, t);
+    }
+    row[degree - done] = t[degree];
+    step(low, done + 1, c);
   }
 }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LRRefinement.h"
 
+#include "LRParts.h"
 #include "Numbers.h"
 
 #include <algorithm>
@@ -702,7 +703,7 @@ int LRRefinement::NumFunctions() const
   return this->S->Count;
 }
 
-Result<SplineSpacePtr<2>> LRRefinement::Finish(PointMatrix* rows) const
+Result<SplineSpacePtr<2>> LRRefinement::Finish(PointMatrix* rows, int threads) const
 {
   const State& s = *this->S;
   LRBasis basis;
@@ -772,6 +773,6 @@ Result<SplineSpacePtr<2>> LRRefinement::Finish(PointMatrix* rows) const
       (*rows)(static_cast<Eigen::Index>(i), c) = s.Rows[At(order[i]) * At(s.Columns) + At(c)];
     }
   }
-  return MakeLRSpace(std::move(basis));
+  return AssembleLRSpace(std::move(basis), threads);
 }
 }

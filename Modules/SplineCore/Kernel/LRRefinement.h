@@ -47,7 +47,8 @@ public:
   int NumFunctions() const;
 
   /// The space as it is now. @param rows  its functions' coefficients, when not null.
-  Result<SplineSpacePtr<2>> Finish(PointMatrix* rows) const;
+  /// @param threads  0 = all cores; the space is the same for any number.
+  Result<SplineSpacePtr<2>> Finish(PointMatrix* rows, int threads = 0) const;
 
 private:
   struct State;

@@ -76,8 +76,9 @@ struct LRData
 /// domain into boxes, ends of multiplicity other than p + 1, functions that are not of minimal
 /// support on the mesh, or whose sum differs from 1 by more than 1e-9. TooLarge: 2^31 Bernstein
 /// coefficients, or 16 (p + 1)(q + 1) functions alive on an element on average.
+/// @param threads  0 = all cores; the space is the same for any number.
 /// @complexity O(functions * elements in a support * (p+1)^2).
-Result<SplineSpacePtr<2>> MakeLRSpace(LRBasis basis);
+Result<SplineSpacePtr<2>> MakeLRSpace(LRBasis basis, int threads = 0);
 
 /// The definition of a tensor-product space as LR B-splines; functions keep their numbers.
 /// @return DimensionMismatch unless the space is of kind Tensor; InvalidKnots when an end has not

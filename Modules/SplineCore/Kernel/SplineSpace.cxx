@@ -3,9 +3,11 @@
 
 #include "FactorPool.h"
 #include "LRSpace.h"
+#include "Parallel.h"
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace knotwork
 {
@@ -24,6 +26,7 @@ ParametricBox<Dim> SplineSpace<Dim>::Domain() const
 namespace
 {
 constexpr std::size_t LocateBlockSize = 64;
+constexpr std::size_t RowChunk = 4096;
 
 /// Root cells and local parameters of up to LocateBlockSize points; cell -1 outside. One direction
 /// and one step of the arithmetic at a time, so that the compiler uses vectors.
@@ -163,21 +166,49 @@ int SplineSpace<Dim>::Locate(const double* u, double* local) const
 }
 
 template <int Dim>
-PointMatrix SplineSpace<Dim>::LocalCoefficients(const PointMatrixView& controlPoints) const
+PointMatrix SplineSpace<Dim>::LocalCoefficients(
+  const PointMatrixView& controlPoints, int threads) const
 {
   if (this->IsIdentityMap())
   {
     return controlPoints;
   }
-  PointMatrix q = PointMatrix::Zero(this->NumLocalFunctions, controlPoints.cols());
-  for (int j = 0; j < this->NumLocalFunctions; ++j)
+  PointMatrix q(this->NumLocalFunctions, controlPoints.cols());
+  const auto apply = [&](auto columns, std::size_t begin, std::size_t end)
   {
-    const std::size_t end = this->RowStart[static_cast<std::size_t>(j) + 1];
-    for (std::size_t k = this->RowStart[static_cast<std::size_t>(j)]; k < end; ++k)
+    constexpr int C = decltype(columns)::value; // 0: any number
+    const Eigen::Index c = C > 0 ? C : controlPoints.cols();
+    for (std::size_t j = begin; j < end; ++j)
     {
-      q.row(j) += this->RowCoefficient[k] * controlPoints.row(this->RowFunction[k]);
+      double* sum = q.data() + static_cast<Eigen::Index>(j) * c;
+      std::fill_n(sum, c, 0.0);
+      for (std::size_t k = this->RowStart[j]; k < this->RowStart[j + 1]; ++k)
+      {
+        const double w = this->RowCoefficient[k];
+        const double* point =
+          controlPoints.data() + controlPoints.outerStride() * this->RowFunction[k];
+        for (Eigen::Index i = 0; i < c; ++i)
+        {
+          sum[i] += w * point[i];
+        }
+      }
     }
-  }
+  };
+  ParallelFor(static_cast<std::size_t>(this->NumLocalFunctions), RowChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      switch (q.cols())
+      {
+        case 1:
+          return apply(std::integral_constant<int, 1>(), begin, end);
+        case 3:
+          return apply(std::integral_constant<int, 3>(), begin, end);
+        case 4:
+          return apply(std::integral_constant<int, 4>(), begin, end);
+        default:
+          return apply(std::integral_constant<int, 0>(), begin, end);
+      }
+    });
   return q;
 }
 

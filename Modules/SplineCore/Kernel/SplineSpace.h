@@ -132,8 +132,8 @@ public:
   void Locate(
     const double* u, std::ptrdiff_t stride, std::size_t n, int* elements, double* local) const;
 
-  /// q = T P for c columns; identity: a copy.
-  PointMatrix LocalCoefficients(const PointMatrixView& controlPoints) const;
+  /// q = T P for c columns; identity: a copy. @param threads  0 = all cores.
+  PointMatrix LocalCoefficients(const PointMatrixView& controlPoints, int threads = 0) const;
 
   /// Ids of the functions alive on an element, ascending.
   std::vector<int> AliveFunctions(int e) const;

@@ -554,6 +554,37 @@ TEST(LRSpace, FailedInsertionChangesNothing_PropertyOracle)
   EXPECT_TRUE(after.Value->LocallyRefined->Basis == lr->LocallyRefined->Basis);
 }
 
+TEST(LRSpace, ThreadsChangeNothing_PropertyOracle)
+{
+  const auto tensor =
+    MakeTensorSpace<2>({ KnotVector::Uniform(3, 40), KnotVector::Uniform(2, 40) }).Value;
+  auto lr = InsertSegments(tensor, {}).Value;
+  for (int step = 0; step < 3; ++step)
+  {
+    // around a diagonal, so that elements of several sizes meet
+    std::vector<int> chosen;
+    for (int e = 0; e < lr->NumElements(); ++e)
+    {
+      const auto& box = lr->Elements[static_cast<std::size_t>(e)].Box;
+      if (box.Lower[0] < box.Upper[1] && box.Lower[1] < box.Upper[0])
+      {
+        chosen.push_back(e);
+      }
+    }
+    lr = InsertSegments(lr, SegmentsForElements(*lr, chosen).Value).Value;
+  }
+  const auto one = MakeLRSpace(lr->LocallyRefined->Basis, 1).Value;
+  const auto many = MakeLRSpace(lr->LocallyRefined->Basis, 4).Value;
+  ASSERT_GT(one->NumFunctions, 2000);
+  EXPECT_EQ(one->LocallyRefined->AliveStart, many->LocallyRefined->AliveStart);
+  EXPECT_EQ(one->LocallyRefined->AliveFunctions, many->LocallyRefined->AliveFunctions);
+  EXPECT_EQ(one->RowStart, many->RowStart);
+  EXPECT_EQ(one->RowFunction, many->RowFunction);
+  EXPECT_EQ(one->RowCoefficient, many->RowCoefficient);
+  const PointMatrix points = PointMatrix::Random(one->NumFunctions, 3);
+  EXPECT_EQ(one->LocalCoefficients(points, 1), many->LocalCoefficients(points, 4));
+}
+
 /// The 1000 segments of the reference implementation's benchmark, in the folder that the
 /// environment variable names.
 TEST(LRSpace, ReplayHasTheReferencesFunctions_GoldenOracle)
