@@ -25,6 +25,7 @@ Job MakeMapJob(CLI::App& app);
 Job MakeParameterizeJob(CLI::App& app);
 Job MakeRefineJob(CLI::App& app);
 Job MakeSourceJob(CLI::App& app);
+Job MakeStitchJob(CLI::App& app);
 Job MakeTessellateJob(CLI::App& app);
 Job MakeTrimJob(CLI::App& app);
 Job MakeValidateJob(CLI::App& app);

@@ -34,6 +34,8 @@ constexpr Entry Jobs[] = {
     knotwork::MakeParameterizeJob },
   { "refine", "refine a spline, uniformly or locally", knotwork::MakeRefineJob },
   { "source", "make a spline of a standard shape", knotwork::MakeSourceJob },
+  { "stitch", "make tiles that were fitted apart meet, continuously or smoothly",
+    knotwork::MakeStitchJob },
   { "tessellate", "turn a spline into polygons within a tolerance", knotwork::MakeTessellateJob },
   { "trim", "turn a triangle mesh into trimmed spline faces", knotwork::MakeTrimJob },
   { "validate", "prove a grid valid or show where it is not", knotwork::MakeValidateJob },

@@ -2,6 +2,7 @@
 #include "vtkSplineRefine.h"
 
 #include "BezierForm.h"
+#include "PatchFields.h"
 #include "Refinement.h"
 #include "SplineBlocks.h"
 #include "SplineModel.h"
@@ -221,42 +222,6 @@ Status vtkSplineRefine::Marker::MarkByFunction(
 
 namespace
 {
-/// Geometry and fields as one spline, so that all of them are refined in one go.
-template <int Dim>
-knotwork::Spline<Dim> Join(
-  const knotwork::Spline<Dim>& geometry, const std::vector<knotwork::SplineField>& fields)
-{
-  Eigen::Index columns = 3;
-  for (const knotwork::SplineField& field : fields)
-  {
-    columns += field.Coefficients.cols();
-  }
-  knotwork::Spline<Dim> all = geometry;
-  all.ControlPoints.resize(geometry.ControlPoints.rows(), columns);
-  all.ControlPoints.leftCols(3) = geometry.ControlPoints;
-  columns = 3;
-  for (const knotwork::SplineField& field : fields)
-  {
-    all.ControlPoints.middleCols(columns, field.Coefficients.cols()) = field.Coefficients;
-    columns += field.Coefficients.cols();
-  }
-  return all;
-}
-
-template <int Dim>
-void Separate(const knotwork::Spline<Dim>& all, knotwork::SplinePatch& patch)
-{
-  Eigen::Index columns = 3;
-  for (knotwork::SplineField& field : patch.Fields)
-  {
-    field.Coefficients = all.ControlPoints.middleCols(columns, field.Coefficients.cols()).eval();
-    columns += field.Coefficients.cols();
-  }
-  knotwork::Spline<Dim> geometry = all;
-  geometry.ControlPoints = all.ControlPoints.leftCols(3).eval();
-  patch.Geometry = std::move(geometry);
-}
-
 /// Smallest extension for which a marked element brings new functions in every direction.
 template <int Dim>
 int AutomaticExtension(const knotwork::SplineSpace<Dim>& space)
@@ -360,7 +325,7 @@ Status vtkSplineRefine::Compute(vtkInformationVector** inputs, vtkInformationVec
     std::vector<vtkIdType> cells = patch.Cells;
     const auto refine = [&](const auto& geometry)
     {
-      auto elevated = ElevateAllDegrees(Join(geometry, patch.Fields), this->DegreeElevation);
+      auto elevated = ElevateAllDegrees(JoinFields(geometry, patch.Fields), this->DegreeElevation);
       if (!elevated)
       {
         return elevated.Status;
@@ -416,7 +381,7 @@ Status vtkSplineRefine::Compute(vtkInformationVector** inputs, vtkInformationVec
           return Status(ErrorCode::Aborted, "");
         }
       }
-      Separate(spline, patch);
+      SeparateFields(spline, patch);
       return Status();
     };
     const knotwork::AnySpline geometry = patch.Geometry;

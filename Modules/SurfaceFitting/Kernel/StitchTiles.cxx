@@ -40,11 +40,6 @@ Status CheckParams(const std::vector<Spline<2>>& tiles, const StitchParams& para
     {
       return { status.Code, tile + ": " + status.Detail };
     }
-    if (tiles[t].IsRational())
-    {
-      return { ErrorCode::InvalidWeight,
-        tile + " is rational: only polynomial tiles, as fits are, can be stitched" };
-    }
     if (tiles[t].NumComponents() != tiles.front().NumComponents())
     {
       return { ErrorCode::SizeMismatch,
@@ -57,6 +52,24 @@ Status CheckParams(const std::vector<Spline<2>>& tiles, const StitchParams& para
     return { ErrorCode::InvalidParameter,
       "of " + std::to_string(tiles.front().NumComponents()) + " components, " +
         std::to_string(params.NumMeasured) + " cannot be measured" };
+  }
+  return {};
+}
+
+/// Tiles without neighbours may be rational.
+Status CheckPolynomial(const std::vector<Spline<2>>& tiles, const std::vector<TileEdge>& edges)
+{
+  for (const TileEdge& edge : edges)
+  {
+    for (const int tile : edge.Pair.Tiles)
+    {
+      if (tiles[At(tile)].IsRational())
+      {
+        return { ErrorCode::InvalidWeight,
+          "tile " + std::to_string(tile) +
+            " is rational: only polynomial tiles, as fits are, can be stitched" };
+      }
+    }
   }
   return {};
 }
@@ -138,9 +151,9 @@ Result<StitchedTiles> StitchTiles(const std::vector<Spline<2>>& tiles, const Sti
     result.Tiles.push_back(std::move(tile.Value));
   }
   const auto edges = FindTileEdges(result.Tiles, params);
-  if (!edges)
+  if (Status status = edges ? CheckPolynomial(result.Tiles, edges.Value) : edges.Status; !status)
   {
-    return edges.Status;
+    return status;
   }
   const int measured = params.NumMeasured > 0 ? params.NumMeasured : tiles.front().NumComponents();
   {
