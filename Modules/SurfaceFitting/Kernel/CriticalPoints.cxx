@@ -37,7 +37,7 @@ Status CheckInput(const Spline<2>& spline, const CriticalPointParams& params)
 }
 
 /// Points on edges are found from several elements: keeps the first of each.
-void RemoveRepeated(std::vector<FoundPoint>& points, std::vector<UndecidedBox>& undecided)
+void RemoveRepeated(std::vector<FoundPoint>& points, std::vector<OpenBox>& undecided)
 {
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{ 0 });
@@ -57,19 +57,20 @@ void RemoveRepeated(std::vector<FoundPoint>& points, std::vector<UndecidedBox>& 
         continue;
       }
       open[kept++] = k;
-      if (!Meet(points[k].Enclosure, mine))
+      if (points[k].Layer != points[i].Layer || points[i].Layer == Layer::Corner ||
+        !Meet(points[k].Enclosure, mine))
       {
         continue;
       }
-      if (Holds(points[k].Box, mine) || Holds(points[i].Box, points[k].Enclosure))
+      if (Holds(points[k].Reach, mine) || Holds(points[i].Reach, points[k].Enclosure))
       {
         dropped[std::max(i, k)] = true;
         continue;
       }
       // one point or two: neither box tells
       dropped[i] = dropped[k] = true;
-      undecided.push_back({ points[i].Element, points[i].Box });
-      undecided.push_back({ points[k].Element, points[k].Box });
+      undecided.push_back({ points[i].Element, points[i].Box, points[i].Layer });
+      undecided.push_back({ points[k].Element, points[k].Box, points[k].Layer });
     }
     open.resize(kept);
     open.push_back(i);
@@ -86,7 +87,7 @@ void RemoveRepeated(std::vector<FoundPoint>& points, std::vector<UndecidedBox>& 
 }
 
 /// Undecided boxes inside uniqueness boxes say nothing new.
-void RemoveCovered(const std::vector<FoundPoint>& points, std::vector<UndecidedBox>& undecided)
+void RemoveCovered(const std::vector<FoundPoint>& points, std::vector<OpenBox>& undecided)
 {
   if (undecided.empty() || points.empty())
   {
@@ -101,7 +102,7 @@ void RemoveCovered(const std::vector<FoundPoint>& points, std::vector<UndecidedB
   {
     widest = std::max(widest, point.Box[0].Width());
   }
-  const auto covered = [&](const UndecidedBox& box)
+  const auto covered = [&](const OpenBox& box)
   {
     auto at = std::upper_bound(order.begin(), order.end(), box.Box[0].Lo,
       [&](double x, std::size_t i) { return x < points[i].Box[0].Lo; });
@@ -113,7 +114,8 @@ void RemoveCovered(const std::vector<FoundPoint>& points, std::vector<UndecidedB
       {
         return false;
       }
-      if (Holds(point.Box, box.Box))
+      const bool sameSide = box.Layer < Layer::Side || box.Layer == point.Layer;
+      if (sameSide && box.Layer != Layer::Corner && Holds(point.Box, box.Box))
       {
         return true;
       }
@@ -154,7 +156,7 @@ struct OutputFrame
 /// Joins boxes that touch, of the same element and of neighbours, and numbers the sets by their
 /// first box.
 std::vector<int> NumberClusters(
-  const ScalarPieces& pieces, const std::vector<UndecidedBox>& boxes, int& count)
+  const ScalarPieces& pieces, const std::vector<OpenBox>& boxes, int& count)
 {
   std::vector<int> parent(boxes.size());
   std::iota(parent.begin(), parent.end(), 0);
@@ -169,7 +171,7 @@ std::vector<int> NumberClusters(
   };
   // boxes ascend by element
   std::vector<std::size_t> start(static_cast<std::size_t>(pieces.NumPieces()) + 1, 0);
-  for (const UndecidedBox& box : boxes)
+  for (const OpenBox& box : boxes)
   {
     ++start[static_cast<std::size_t>(box.Element) + 1];
   }
@@ -213,11 +215,10 @@ std::vector<int> NumberClusters(
   return number;
 }
 
-void AddClusters(
-  const ScalarPieces& pieces, std::vector<UndecidedBox>& boxes, CriticalPoints& result)
+void AddClusters(const ScalarPieces& pieces, std::vector<OpenBox>& boxes, CriticalPoints& result)
 {
   std::stable_sort(boxes.begin(), boxes.end(),
-    [](const UndecidedBox& a, const UndecidedBox& b) { return a.Element < b.Element; });
+    [](const OpenBox& a, const OpenBox& b) { return a.Element < b.Element; });
   int count = 0;
   const std::vector<int> number = NumberClusters(pieces, boxes, count);
   std::vector<std::size_t> order(boxes.size());
@@ -271,7 +272,7 @@ void AddPoint(const ScalarPieces& pieces, const FoundPoint& found, CriticalPoint
 }
 
 /// Searches all elements; false when aborted.
-bool SearchAll(const ScalarPieces& pieces, const CriticalPointParams& params, SearchResult& all)
+bool SearchAll(const ScalarPieces& pieces, const CriticalPointParams& params, FoundPoints& all)
 {
   constexpr std::size_t chunk = 16;
   const std::size_t count = pieces.Pieces.size();
@@ -284,7 +285,7 @@ bool SearchAll(const ScalarPieces& pieces, const CriticalPointParams& params, Se
       return false;
     }
     const std::size_t size = std::min(round, count - first);
-    std::vector<SearchResult> parts((size + chunk - 1) / chunk);
+    std::vector<FoundPoints> parts((size + chunk - 1) / chunk);
     ParallelFor(size, chunk, params.Threads,
       [&](std::size_t begin, std::size_t end)
       {
@@ -295,7 +296,7 @@ bool SearchAll(const ScalarPieces& pieces, const CriticalPointParams& params, Se
           SearchSides(pieces, e, params, parts[i / chunk]);
         }
       });
-    for (const SearchResult& part : parts)
+    for (const FoundPoints& part : parts)
     {
       all.Points.insert(all.Points.end(), part.Points.begin(), part.Points.end());
       all.Undecided.insert(all.Undecided.end(), part.Undecided.begin(), part.Undecided.end());
@@ -320,7 +321,7 @@ Result<CriticalPoints> FindCriticalPoints(
     return made.Status;
   }
   const ScalarPieces& pieces = made.Value;
-  SearchResult all;
+  FoundPoints all;
   CriticalPoints result;
   if (!SearchAll(pieces, params, all))
   {

@@ -25,7 +25,8 @@ struct BernsteinField
   /// Half the width of the range at a point.
   double Noise() const
   {
-    return this->Error + 8.0 * (this->Degree[0] + this->Degree[1]) * 0x1p-53 * this->Magnitude;
+    return this->Error + 8.0 * (this->Degree[0] + this->Degree[1]) * 0x1p-53 * this->Magnitude +
+      0x1p-900;
   }
   double Evaluate(const RealArray<2>& local) const;
 };

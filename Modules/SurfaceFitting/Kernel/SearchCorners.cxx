@@ -66,13 +66,17 @@ public:
       [](JoinKind kind) { return kind != JoinKind::Boundary; });
   }
 
-  /// f may have kinks in both directions.
+  /// f may have kinks in both directions, or a slit ends here.
   bool IsCandidate() const
   {
+    if (std::count(this->Rays.begin(), this->Rays.end(), JoinKind::Boundary) == 1)
+    {
+      return true;
+    }
     return (this->IsRough(0) || this->IsRough(2)) && (this->IsRough(1) || this->IsRough(3));
   }
 
-  void Search(bool boundary, SearchResult& result) const
+  void Search(bool boundary, FoundPoints& result) const
   {
     if (this->IsInside())
     {
@@ -166,7 +170,7 @@ private:
     return true;
   }
 
-  void SearchArc(std::size_t first, std::size_t count, bool circle, SearchResult& result) const
+  void SearchArc(std::size_t first, std::size_t count, bool circle, FoundPoints& result) const
   {
     ++result.NumTested;
     if (circle && (this->IsMonotone(0, 4, 0) || this->IsMonotone(0, 4, 1)))
@@ -196,7 +200,7 @@ private:
     if (!known || !this->MakeBox(first, count, point.Box))
     {
       result.Undecided.push_back(
-        { this->Elements[first], { Interval(this->At[0]), Interval(this->At[1]) } });
+        { this->Elements[first], { Interval(this->At[0]), Interval(this->At[1]) }, Layer::Corner });
       return;
     }
     int changes = 0;
@@ -229,6 +233,8 @@ private:
     }
     point.Enclosure = { Interval(this->At[0]), Interval(this->At[1]) };
     point.Value = this->Pieces.ValueRange(point.Element, point.Enclosure);
+    point.Reach = point.Box;
+    point.Layer = Layer::Corner;
     result.Points.push_back(point);
   }
 
@@ -302,7 +308,7 @@ std::vector<CornerEntry> GatherCorners(const ScalarPieces& pieces)
 }
 
 void SearchCorners(const ScalarPieces& pieces, const CriticalPointParams& params,
-  SearchResult& result, int& characteristic)
+  FoundPoints& result, int& characteristic)
 {
   const std::vector<CornerEntry> entries = GatherCorners(pieces);
   int joined = 0;

@@ -9,7 +9,7 @@ class ElementSearch
 {
 public:
   ElementSearch(
-    const ScalarPieces& pieces, int e, const CriticalPointParams& params, SearchResult& result)
+    const ScalarPieces& pieces, int e, const CriticalPointParams& params, FoundPoints& result)
     : Pieces(pieces), Piece(pieces[e]), Element(e), Params(params), Result(result),
       FirstPoint(result.Points.size())
   {
@@ -61,7 +61,7 @@ private:
     const PlaneBox box = BoxInPlane(this->Piece, local);
     for (std::size_t i = this->FirstPoint; i < this->Result.Points.size(); ++i)
     {
-      if (Holds(this->Result.Points[i].Box, box))
+      if (Holds(this->Result.Points[i].Reach, box))
       {
         return true;
       }
@@ -99,12 +99,12 @@ private:
     {
       return false;
     }
-    PlaneBox cover = box;
+    // centred: where the Hessian jumps at the zero, Krawczyk's operator is as large on both sides
+    PlaneBox cover;
     for (std::size_t d = 0; d < 2; ++d)
     {
-      const double slack = 0.1 * box[d].Width();
-      cover[d].Lo = std::min(cover[d].Lo, z[d]) - slack;
-      cover[d].Hi = std::max(cover[d].Hi, z[d]) + slack;
+      const double radius = 1.1 * std::max(std::abs(box[d].Hi - z[d]), std::abs(box[d].Lo - z[d]));
+      cover[d] = Interval(z[d] - radius, z[d] + radius);
     }
     FoundPoint point;
     if (ProveUniqueness(this->Pieces, home, z, cover, true, point) ||
@@ -112,7 +112,7 @@ private:
       this->ProveSmall(home, z, cover, point))
     {
       this->Result.Points.push_back(point);
-      return Holds(point.Box, box);
+      return Holds(point.Reach, box);
     }
     return false;
   }
@@ -136,7 +136,7 @@ private:
     const PlaneBox at{ Interval(z[0]), Interval(z[1]) };
     for (std::size_t i = this->FirstPoint; i < this->Result.Points.size(); ++i)
     {
-      if (Holds(this->Result.Points[i].Box, at))
+      if (Holds(this->Result.Points[i].Reach, at))
       {
         return true;
       }
@@ -148,7 +148,7 @@ private:
   const ScalarPiece& Piece;
   int Element;
   const CriticalPointParams& Params;
-  SearchResult& Result;
+  FoundPoints& Result;
   std::size_t FirstPoint;
 };
 }
@@ -167,8 +167,30 @@ PlaneBox BoxInPlane(const ScalarPiece& piece, const PlaneBox& local)
   return box;
 }
 
+PlaneBox OffLines(const ScalarPieces& pieces, const std::vector<int>& elements, const PlaneBox& box,
+  const PlaneBox& enclosure)
+{
+  PlaneBox result = box;
+  for (std::size_t d = 0; d < 2; ++d)
+  {
+    for (const int e : elements)
+    {
+      const Interval& side = pieces[e].Box[d];
+      if (box[d].Lo == side.Lo || box[d].Lo == side.Hi)
+      {
+        result[d].Lo = box[d].Lo + 0.5 * (enclosure[d].Lo - box[d].Lo);
+      }
+      if (box[d].Hi == side.Lo || box[d].Hi == side.Hi)
+      {
+        result[d].Hi = box[d].Hi + 0.5 * (enclosure[d].Hi - box[d].Hi);
+      }
+    }
+  }
+  return result;
+}
+
 void SearchElement(
-  const ScalarPieces& pieces, int e, const CriticalPointParams& params, SearchResult& result)
+  const ScalarPieces& pieces, int e, const CriticalPointParams& params, FoundPoints& result)
 {
   ElementSearch(pieces, e, params, result).Run();
 }

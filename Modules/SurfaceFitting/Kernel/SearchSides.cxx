@@ -10,7 +10,7 @@ class SideSearch
 {
 public:
   SideSearch(const ScalarPieces& pieces, int e, const PieceJoin& join,
-    const CriticalPointParams& params, SearchResult& result)
+    const CriticalPointParams& params, FoundPoints& result)
     : Pieces(pieces), Element(e), Join(join), Params(params), Result(result),
       Normal(static_cast<std::size_t>(join.Side / 2)), Tangent(1 - this->Normal),
       Upper(join.Side % 2 == 1), FirstPoint(result.Points.size())
@@ -43,6 +43,10 @@ public:
   }
 
 private:
+  int LayerOf() const
+  {
+    return this->Join.Kind == JoinKind::Crease ? Layer::Crease : Layer::Side + this->Join.Side;
+  }
   /// A part of the line, with a thickness on one side of it.
   PlaneBox BoxOf(const Interval& along, double thickness = 0.0, bool above = false) const
   {
@@ -77,7 +81,7 @@ private:
     }
     for (std::size_t i = this->FirstPoint; i < this->Result.Points.size(); ++i)
     {
-      if (Holds(this->Result.Points[i].Box, box))
+      if (Holds(this->Result.Points[i].Reach, box))
       {
         return true;
       }
@@ -89,7 +93,7 @@ private:
     const double noise = this->Pieces[this->Element].Gradient[this->Tangent].Noise();
     if (last || slope.Width() <= 4.0 * noise)
     {
-      this->Result.Undecided.push_back({ this->Element, box });
+      this->Result.Undecided.push_back({ this->Element, box, this->LayerOf() });
       return true;
     }
     return false;
@@ -265,7 +269,7 @@ private:
       }
     }
     this->Result.Points.push_back(point);
-    return point.Box[this->Tangent].Holds(part);
+    return point.Reach[this->Tangent].Holds(part);
   }
 
   bool Prove(double z, Interval part, FoundPoint& point) const
@@ -298,7 +302,7 @@ private:
       return false;
     }
     Interval x = part;
-    for (int step = 0; step < 6; ++step)
+    for (int step = 0; step < 60; ++step)
     {
       // interval Newton: x = m - f'(m) / f''(x)
       const double m = x.Middle();
@@ -306,20 +310,24 @@ private:
         Interval(m) - this->SlopeAt(mine, m) / this->Hull(mine, this->BoxOf(x), curvature);
       const double width = x.Width();
       x = Interval(std::max(x.Lo, next.Lo), std::min(x.Hi, next.Hi));
-      if (!(x.Width() < 0.5 * width))
+      if (!(x.Width() < 0.9 * width))
       {
         break;
       }
     }
     this->Describe(x, mine, bend, grows, point);
-    point.Box = this->BoxOf(part);
-    double& low = point.Box[this->Normal].Lo;
-    double& high = point.Box[this->Normal].Hi;
+    point.Reach = this->BoxOf(part);
+    double& low = point.Reach[this->Normal].Lo;
+    double& high = point.Reach[this->Normal].Hi;
     (this->Upper ? low : high) += this->Upper ? -thickness : thickness;
     if (!isBoundary)
     {
       (this->Upper ? high : low) += this->Upper ? thicknessBeyond : -thicknessBeyond;
     }
+    // the ends of the part only: the line itself is where the point lies
+    point.Box = point.Reach;
+    point.Box[this->Tangent] =
+      OffLines(this->Pieces, mine, this->BoxOf(part), point.Enclosure)[this->Tangent];
     return true;
   }
 
@@ -329,6 +337,7 @@ private:
     const bool isBoundary = this->Join.Kind == JoinKind::Boundary;
     point.Place = isBoundary ? CriticalPlace::Boundary : CriticalPlace::Crease;
     point.InwardSign = isBoundary ? grows : 0;
+    point.Layer = this->LayerOf();
     if (bend == grows)
     {
       point.Kind = bend > 0 ? CriticalKind::Minimum : CriticalKind::Maximum;
@@ -373,7 +382,7 @@ private:
   int Element;
   const PieceJoin& Join;
   const CriticalPointParams& Params;
-  SearchResult& Result;
+  FoundPoints& Result;
   std::size_t Normal;
   std::size_t Tangent;
   bool Upper;
@@ -383,7 +392,7 @@ private:
 }
 
 void SearchSides(
-  const ScalarPieces& pieces, int e, const CriticalPointParams& params, SearchResult& result)
+  const ScalarPieces& pieces, int e, const CriticalPointParams& params, FoundPoints& result)
 {
   for (const PieceJoin* join = pieces.BeginJoins(e); join != pieces.EndJoins(e); ++join)
   {

@@ -107,10 +107,35 @@ Interval GradientAt(const ScalarPieces& pieces, int home, const RealArray<2>& z,
   return piece.Gradient[d].Range(piece.Local({ Interval(z[0]), Interval(z[1]) }));
 }
 
-/// Makes the enclosure of the point small.
+/// Proves the zero in a box that is as small as rounding allows.
+void ShrinkTo(const ScalarPieces& pieces, int home, const RealArray<2>& z,
+  const std::vector<int>& elements, PlaneBox& enclosure)
+{
+  for (double share = 0x1p-46; share < 0x1p-10; share *= 16.0)
+  {
+    PlaneBox box;
+    for (std::size_t d = 0; d < 2; ++d)
+    {
+      const double radius = share * std::max(pieces[home].Box[d].Width(), 0x1p-4 * std::abs(z[d]));
+      box[d] = Interval(z[d] - radius, z[d] + radius);
+      if (!enclosure[d].Holds(box[d]))
+      {
+        return;
+      }
+    }
+    const KrawczykStep step = Krawczyk(pieces, home, z, box, BoundHessian(pieces, elements, box));
+    if (step.Valid && box[0].HoldsInside(step.K[0]) && box[1].HoldsInside(step.K[1]))
+    {
+      enclosure = step.K;
+      return;
+    }
+  }
+}
+
+/// Makes the enclosure of the point smaller.
 void Tighten(const ScalarPieces& pieces, const std::vector<int>& elements, PlaneBox& x)
 {
-  for (int step = 0; step < 6; ++step)
+  for (int step = 0; step < 30; ++step)
   {
     const RealArray<2> z{ x[0].Middle(), x[1].Middle() };
     const auto home =
@@ -130,7 +155,7 @@ void Tighten(const ScalarPieces& pieces, const std::vector<int>& elements, Plane
       const double width = x[d].Width();
       x[d].Lo = std::max(x[d].Lo, next.K[d].Lo);
       x[d].Hi = std::min(x[d].Hi, next.K[d].Hi);
-      smaller = smaller || x[d].Width() < 0.5 * width;
+      smaller = smaller || x[d].Width() < 0.9 * width;
     }
     if (!smaller)
     {
@@ -247,8 +272,9 @@ bool ProveUniqueness(const ScalarPieces& pieces, int home, const RealArray<2>& z
   {
     return false;
   }
-  point.Box = box;
+  point.Reach = box;
   point.Enclosure = step.K;
+  ShrinkTo(pieces, home, z, elements, point.Enclosure);
   Tighten(pieces, elements, point.Enclosure);
   point.Index = step.Sign;
   if (step.Sign < 0)
@@ -265,6 +291,7 @@ bool ProveUniqueness(const ScalarPieces& pieces, int home, const RealArray<2>& z
     }
     point.Kind = sign > 0 ? CriticalKind::Minimum : CriticalKind::Maximum;
   }
+  point.Box = OffLines(pieces, elements, box, point.Enclosure);
   point.Element = -1;
   const RealArray<2> middle{ point.Enclosure[0].Middle(), point.Enclosure[1].Middle() };
   bool first = true;

@@ -69,8 +69,8 @@ inline Spline<2> PolynomialSpline(
 }
 
 /// The same on a square, divided evenly.
-inline Spline<2> PolynomialOn(double low, double high, int degree, int elements,
-  const std::vector<Monomial>& terms)
+inline Spline<2> PolynomialOn(
+  double low, double high, int degree, int elements, const std::vector<Monomial>& terms)
 {
   std::vector<double> breaks;
   for (int i = 0; i <= elements; ++i)

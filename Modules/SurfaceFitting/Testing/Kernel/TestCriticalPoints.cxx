@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BezierForm.h"
+#include "BezierSpace.h"
 #include "CriticalCases.h"
 #include "CriticalPoints.h"
+
+#include <map>
+#include <sstream>
 
 namespace knotwork::testing
 {
@@ -14,14 +18,23 @@ CriticalPoints Find(const Spline<2>& f, const CriticalPointParams& params = {})
   return found.Value;
 }
 
-int NumAt(const CriticalPoints& found, CriticalPlace place)
+/// Random coefficients in a random space: in turn tensor product, hierarchical, locally refined
+/// with lines of any multiplicity (slits included); one in three rational.
+Spline<2> RandomFunction(Random& random, unsigned family)
 {
-  int n = 0;
-  for (const CriticalPoint& point : found.Points)
+  const bool rational = random.Int(0, 2) == 0;
+  if (family % 3 == 0)
   {
-    n += point.Place == place ? 1 : 0;
+    return RandomSpline<2>(random, RandomTensorSpace<2>(random, 4, 6), 1, rational);
   }
-  return n;
+  if (family % 3 == 1)
+  {
+    return RandomSpline<2>(random, RandomHierarchicalSpace<2>(random, 4, 4, 2), 1, rational);
+  }
+  const Spline<2> clamped = RandomClampedSurface(random, 4, 4, 1, false);
+  const SplineSpacePtr<2> space =
+    InsertSegments(clamped.Space, RandomSegments(random, clamped.Space, 8)).Value;
+  return RandomSpline<2>(random, space, 1, rational);
 }
 
 std::string Summary(const CriticalPoints& found)
@@ -33,39 +46,547 @@ std::string Summary(const CriticalPoints& found)
        << ", " << found.NumTested << " tested";
   return text.str();
 }
+
+/// The point of a kind next to parameters, or none.
+const CriticalPoint* At(const CriticalPoints& found, double u, double v, double tolerance)
+{
+  for (const CriticalPoint& point : found.Points)
+  {
+    if (std::abs(point.Parameters[0] - u) <= tolerance &&
+      std::abs(point.Parameters[1] - v) <= tolerance)
+    {
+      return &point;
+    }
+  }
+  return nullptr;
+}
+
+void ExpectPoint(const CriticalPoints& found, double u, double v, CriticalKind kind,
+  CriticalPlace place, int index, double tolerance = 1e-12)
+{
+  const CriticalPoint* point = At(found, u, v, tolerance);
+  ASSERT_NE(point, nullptr) << "(" << u << ", " << v << ")";
+  EXPECT_EQ(point->Kind, kind) << "(" << u << ", " << v << ")";
+  EXPECT_EQ(point->Place, place) << "(" << u << ", " << v << ")";
+  EXPECT_EQ(point->Index, index) << "(" << u << ", " << v << ")";
+}
+
+bool InCluster(const CriticalPoints& found, double u, double v)
+{
+  for (const CriticalBox& box : found.Boxes)
+  {
+    if (box.Box.Lower[0] <= u && u <= box.Box.Upper[0] && box.Box.Lower[1] <= v &&
+      v <= box.Box.Upper[1])
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// a(u) + b(v), each given by its coefficients.
+Spline<2> SumOf(const std::array<KnotVector, 2>& knots, const std::vector<double>& a,
+  const std::vector<double>& b)
+{
+  Spline<2> f;
+  f.Space = MakeTensorSpace<2>(knots).Value;
+  f.ControlPoints.resize(f.Space->NumFunctions, 1);
+  for (std::size_t i = 0; i < a.size() * b.size(); ++i)
+  {
+    f.ControlPoints(static_cast<Eigen::Index>(i), 0) = a[i % a.size()] + b[i / a.size()];
+  }
+  return f;
+}
+
+/// Index of a point from values on a small ring about it: 1 - (characteristic of where f is
+/// lower).
+int RingIndex(const BezierForm<2>& form, const CriticalPoint& point)
+{
+  constexpr int n = 720;
+  const ParametricBox<2> domain = form.Space->Domain();
+  PointMatrix ring(n + 1, 2);
+  ring.row(n) << point.Parameters[0], point.Parameters[1];
+  for (int i = 0; i < n; ++i)
+  {
+    const double t = 2.0 * M_PI * i / n; // the axes too: on lines the second order counts
+    const double c[2] = { i % (n / 2) == n / 4 ? 0.0 : std::cos(t),
+      i % (n / 2) == 0 ? 0.0 : std::sin(t) };
+    for (std::size_t d = 0; d < 2; ++d)
+    {
+      const double up = point.Box.Upper[d] - point.Parameters[d];
+      const double down = point.Parameters[d] - point.Box.Lower[d];
+      // on the boundary one of them is zero
+      const double radius = 1e-3 * (std::min(up, down) > 0.0 ? std::min(up, down) : up + down);
+      ring(i, static_cast<Eigen::Index>(d)) = point.Parameters[d] + radius * c[d];
+    }
+  }
+  int lower = 0;
+  int runs = 0;
+  int inside = 0;
+  EvaluationBatch batch;
+  PointMatrix clamped = ring;
+  for (int i = 0; i <= n; ++i)
+  {
+    for (Eigen::Index d = 0; d < 2; ++d)
+    {
+      const auto k = static_cast<std::size_t>(d);
+      clamped(i, d) = std::min(std::max(ring(i, d), domain.Lower[k]), domain.Upper[k]);
+    }
+  }
+  EXPECT_TRUE(EvaluateParameters<2>(form, clamped, {}, batch));
+  std::vector<int> signs(n); // -1 lower, 1 higher, 0 outside
+  for (int i = 0; i < n; ++i)
+  {
+    const bool outside = clamped.row(i) != ring.row(i);
+    signs[static_cast<std::size_t>(i)] = outside ? 0
+      : batch.Values(i, 0) < batch.Values(n, 0)  ? -1
+                                                 : 1;
+  }
+  for (int i = 0; i < n; ++i)
+  {
+    const int sign = signs[static_cast<std::size_t>(i)];
+    inside += sign != 0 ? 1 : 0;
+    lower += sign < 0 ? 1 : 0;
+    runs += sign < 0 && signs[static_cast<std::size_t>((i + n - 1) % n)] >= 0 ? 1 : 0;
+  }
+  return lower == n ? 1 : 1 - runs;
+}
 }
 
 TEST(CriticalPoints, RandomSplinesHaveTheIndexOfTheirDomain_PropertyOracle)
 {
-  int numPoints = 0;
-  int numCreases = 0;
-  for (unsigned seed = 1; seed <= 600; ++seed)
+  std::array<int, 5> places{};
+  for (unsigned seed = 1; seed <= 300; ++seed)
   {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
-    Spline<2> f;
-    const int family = static_cast<int>(seed % 3);
-    const bool rational = random.Int(0, 2) == 0;
-    if (family == 0)
+    const CriticalPoints found = Find(RandomFunction(random, seed));
+    for (const CriticalPoint& point : found.Points)
     {
-      f = RandomSpline<2>(random, RandomTensorSpace<2>(random, 4, 6), 1, rational);
+      ++places[static_cast<std::size_t>(point.Place)];
     }
-    else if (family == 1)
-    {
-      f = RandomSpline<2>(random, RandomHierarchicalSpace<2>(random, 4, 4, 2), 1, rational);
-    }
-    else
-    {
-      f = RandomClampedSurface(random, 4, 5, 1, rational);
-    }
-    const CriticalPoints found = Find(f);
-    numPoints += static_cast<int>(found.Points.size());
-    numCreases += NumAt(found, CriticalPlace::Crease);
     EXPECT_TRUE(found.Proved) << Summary(found);
     EXPECT_EQ(found.IndexSum, found.EulerCharacteristic) << Summary(found);
-    EXPECT_EQ(found.EulerCharacteristic, 1);
-    if (::testing::Test::HasFailure()) { std::cout << seed << " " << Summary(found) << "\n"; for (const CriticalBox& b : found.Boxes) std::cout << b.Element << ": " << b.Box.Lower[0] << " " << b.Box.Lower[1] << " " << b.Box.Upper[0] - b.Box.Lower[0] << " " << b.Box.Upper[1]-b.Box.Lower[1] << "\n"; break; }
   }
-  std::cout << numPoints << " " << numCreases << "\n";
+  // all places occur, on smooth edges by chance never
+  EXPECT_GT(places[0], 1000);
+  EXPECT_GT(places[2], 100);
+  EXPECT_GT(places[3], 100);
+  EXPECT_GT(places[4], 100);
+}
+
+TEST(CriticalPoints, KindsAreThoseOfValuesAround_CrossOracle)
+{
+  for (unsigned seed = 1; seed <= 40; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const Spline<2> f = RandomFunction(random, seed % 2);
+    const BezierForm<2> form = MakeBezierForm(f);
+    for (const CriticalPoint& point : Find(f).Points)
+    {
+      EXPECT_EQ(RingIndex(form, point), point.Index)
+        << point.Parameters[0] << ", " << point.Parameters[1] << " kind "
+        << static_cast<int>(point.Kind) << " place " << static_cast<int>(point.Place);
+    }
+  }
+}
+
+TEST(CriticalPoints, BoxesHoldTheirPointAlone_PropertyOracle)
+{
+  for (unsigned seed = 1; seed <= 30; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const Spline<2> f = RandomFunction(random, seed % 2);
+    const BezierForm<2> form = MakeBezierForm(f);
+    const CriticalPoints found = Find(f);
+    for (const CriticalPoint& a : found.Points)
+    {
+      for (const CriticalPoint& b : found.Points)
+      {
+        bool holds = true;
+        for (std::size_t d = 0; d < 2; ++d)
+        {
+          holds = holds && a.Box.Lower[d] <= b.Enclosure.Lower[d] &&
+            b.Enclosure.Upper[d] <= a.Box.Upper[d];
+        }
+        EXPECT_EQ(holds, &a == &b);
+      }
+      PointMatrix at(1, 2);
+      at << a.Parameters[0], a.Parameters[1];
+      EvaluationBatch batch;
+      ASSERT_TRUE(EvaluateParameters<2>(form, at, {}, batch));
+      EXPECT_LE(a.ValueBounds[0], batch.Values(0, 0) + 1e-14);
+      EXPECT_GE(a.ValueBounds[1], batch.Values(0, 0) - 1e-14);
+      // 64 (p + q + 2) units of 10 and the curvature over the enclosure, twice when rational
+      EXPECT_LE(a.ValueBounds[1] - a.ValueBounds[0], 1e-9);
+    }
+  }
+}
+
+TEST(CriticalPoints, DoubleWell_ExactOracle)
+{
+  // f = u^4 / 4 - u^2 / 2 + v^2 / 2; with four elements a direction its points lie on corners
+  for (const int elements : { 1, 2, 3, 4, 7 })
+  {
+    SCOPED_TRACE(elements);
+    const CriticalPoints found =
+      Find(PolynomialOn(-2.0, 2.0, 4, elements, { { 0.25, 4, 0 }, { -0.5, 2, 0 }, { 0.5, 0, 2 } }));
+    const CriticalPlace well = elements == 4 ? CriticalPlace::Edge
+      : elements % 2 == 0                    ? CriticalPlace::Edge
+                                             : CriticalPlace::Interior;
+    EXPECT_TRUE(found.Proved) << Summary(found);
+    EXPECT_EQ(found.Points.size(), 3u + 4u + 2u + 6u) << Summary(found);
+    ExpectPoint(found, -1.0, 0.0, CriticalKind::Minimum, well, 1);
+    ExpectPoint(found, 1.0, 0.0, CriticalKind::Minimum, well, 1);
+    ExpectPoint(found, 0.0, 0.0, CriticalKind::Saddle, well, -1);
+    for (const double u : { -2.0, 2.0 })
+    {
+      ExpectPoint(found, u, 0.0, CriticalKind::Saddle, CriticalPlace::Boundary, 0);
+      ExpectPoint(found, u, -2.0, CriticalKind::Maximum, CriticalPlace::Corner, 0, 0.0);
+      ExpectPoint(found, -1.0, u, CriticalKind::Saddle, CriticalPlace::Boundary, 0);
+      ExpectPoint(found, 0.0, u, CriticalKind::Maximum, CriticalPlace::Boundary, 0);
+    }
+    const CriticalPoint* minimum = At(found, 1.0, 0.0, 1e-12);
+    ASSERT_NE(minimum, nullptr);
+    EXPECT_NEAR(minimum->Value, -0.25, 1e-13);
+    EXPECT_NEAR(minimum->Eigenvalues[0], 1.0, 1e-10);
+    EXPECT_NEAR(minimum->Eigenvalues[1], 2.0, 1e-10);
+    const CriticalPoint* side = At(found, 2.0, 0.0, 1e-12);
+    ASSERT_NE(side, nullptr);
+    EXPECT_EQ(side->InwardSign, -1);
+  }
+}
+
+TEST(CriticalPoints, ACubicOfTwoNearPoints_ExactOracle)
+{
+  // f = u^3 / 3 - e^2 u + v^2 / 2: a minimum at e and a saddle at -e in one element
+  for (const double e : { 1e-1, 1e-3, 1e-5 })
+  {
+    SCOPED_TRACE(e);
+    CriticalPointParams params;
+    params.Boundary = false;
+    const CriticalPoints found =
+      Find(PolynomialOn(-1.0, 1.5, 3, 1, { { 1.0 / 3.0, 3, 0 }, { -e * e, 1, 0 }, { 0.5, 0, 2 } }),
+        params);
+    EXPECT_TRUE(found.Proved) << Summary(found);
+    ASSERT_EQ(found.Points.size(), 2u);
+    // the error of the slope, some 1e-13, over the curvature 2 e
+    const double tolerance = 1e-12 / e;
+    ExpectPoint(found, e, 0.0, CriticalKind::Minimum, CriticalPlace::Interior, 1, tolerance);
+    ExpectPoint(found, -e, 0.0, CriticalKind::Saddle, CriticalPlace::Interior, -1, tolerance);
+  }
+}
+
+TEST(CriticalPoints, CurvatureMayJumpAtAnEdge_ExactOracle)
+{
+  const KnotVector knots = BreakKnots(2, { -1.0, 0.0, 1.0 });
+  // u^2 before and 3 u^2 behind the knot
+  const CriticalPoints bowl = Find(SumOf({ knots, knots }, { 1, 0, 0, 3 }, { 1, 0, 0, 2 }));
+  EXPECT_TRUE(bowl.Proved) << Summary(bowl);
+  ExpectPoint(bowl, 0.0, 0.0, CriticalKind::Minimum, CriticalPlace::Edge, 1);
+  const CriticalPoints saddle = Find(SumOf({ knots, knots }, { 1, 0, 0, 3 }, { -1, 0, 0, -2 }));
+  EXPECT_TRUE(saddle.Proved) << Summary(saddle);
+  ExpectPoint(saddle, 0.0, 0.0, CriticalKind::Saddle, CriticalPlace::Edge, -1);
+  // u |u| + v^2: the index is 0, neither kind
+  const CriticalPoints neither = Find(SumOf({ knots, knots }, { -1, 0, 0, 1 }, { 1, 0, 0, 1 }));
+  EXPECT_FALSE(neither.Proved);
+  EXPECT_TRUE(InCluster(neither, 0.0, 0.0));
+  EXPECT_EQ(At(neither, 0.0, 0.0, 1e-3), nullptr);
+}
+
+TEST(CriticalPoints, CreasesAreClassifiedByTheirSides_ExactOracle)
+{
+  const KnotVector sharp = BreakKnots(2, { -1.0, 0.0, 1.0 }, 2);
+  const KnotVector smooth = BreakKnots(2, { -1.0, 0.3, 1.0 });
+  const std::vector<double> kink{ 1, 0.5, 0, 0.5, 1 };     // |u|
+  const std::vector<double> roof{ -1, -0.5, 0, -0.5, -1 }; // -|u|
+  const std::vector<double> skew{ -1, -0.5, 0, 1, 2 };     // u + ..., no sign change
+  const std::vector<double> bowl{ 1, -0.3, -0.3, 1 };      // some quadratic, smooth at 0.3
+  const auto at = [&](const std::vector<double>& b, const KnotVector& v)
+  {
+    CriticalPointParams params;
+    params.Boundary = false;
+    const CriticalPoints found = Find(SumOf({ sharp, v }, kink, b), params);
+    return found;
+  };
+  // bowl's minimum on the knot or off it is one point on the crease
+  const CriticalPoints valley = at(bowl, smooth);
+  EXPECT_TRUE(valley.Proved) << Summary(valley);
+  ASSERT_EQ(valley.Points.size(), 1u);
+  EXPECT_EQ(valley.Points[0].Kind, CriticalKind::Minimum);
+  EXPECT_EQ(valley.Points[0].Place, CriticalPlace::Crease);
+  EXPECT_EQ(valley.Points[0].Parameters[0], 0.0);
+  CriticalPointParams params;
+  params.Boundary = false;
+  const CriticalPoints ridge = Find(SumOf({ sharp, smooth }, roof, bowl), params);
+  ASSERT_EQ(ridge.Points.size(), 1u) << Summary(ridge);
+  EXPECT_EQ(ridge.Points[0].Kind, CriticalKind::Saddle);
+  EXPECT_EQ(ridge.Points[0].Index, -1);
+  const CriticalPoints passing = Find(SumOf({ sharp, smooth }, skew, bowl), params);
+  EXPECT_EQ(passing.Points.size(), 0u) << Summary(passing);
+  EXPECT_TRUE(passing.Proved) << Summary(passing);
+  // where two creases cross
+  const CriticalPoints cone = at(kink, sharp);
+  EXPECT_TRUE(cone.Proved) << Summary(cone);
+  ASSERT_EQ(cone.Points.size(), 1u);
+  ExpectPoint(cone, 0.0, 0.0, CriticalKind::Minimum, CriticalPlace::Crease, 1, 0.0);
+  const CriticalPoints cross = at(roof, sharp);
+  ASSERT_EQ(cross.Points.size(), 1u) << Summary(cross);
+  ExpectPoint(cross, 0.0, 0.0, CriticalKind::Saddle, CriticalPlace::Crease, -1, 0.0);
+  const CriticalPoints peak = Find(SumOf({ sharp, sharp }, roof, roof), params);
+  ASSERT_EQ(peak.Points.size(), 1u) << Summary(peak);
+  ExpectPoint(peak, 0.0, 0.0, CriticalKind::Maximum, CriticalPlace::Crease, 1, 0.0);
+  const CriticalPoints none = at(skew, sharp);
+  EXPECT_EQ(none.Points.size(), 0u) << Summary(none);
+  EXPECT_TRUE(none.Proved) << Summary(none);
+}
+
+TEST(CriticalPoints, ACreasePointOnASmoothKnot_ExactOracle)
+{
+  const KnotVector sharp = BreakKnots(2, { -1.0, 0.0, 1.0 }, 2);
+  const KnotVector smooth = BreakKnots(2, { -1.0, 0.0, 1.0 });
+  CriticalPointParams params;
+  params.Boundary = false;
+  const CriticalPoints found =
+    Find(SumOf({ sharp, smooth }, { 1, 0.5, 0, 0.5, 1 }, { 1, 0, 0, 2 }), params);
+  EXPECT_TRUE(found.Proved) << Summary(found);
+  ASSERT_EQ(found.Points.size(), 1u);
+  ExpectPoint(found, 0.0, 0.0, CriticalKind::Minimum, CriticalPlace::Crease, 1);
+}
+
+TEST(CriticalPoints, AMonkeySaddleIsACluster_ExactOracle)
+{
+  for (const int elements : { 1, 2, 3 })
+  {
+    SCOPED_TRACE(elements);
+    const CriticalPoints found =
+      Find(PolynomialOn(-1.0, 1.0, 3, elements, { { 1.0, 3, 0 }, { -2.0, 1, 2 } }));
+    ASSERT_EQ(found.Clusters.size(), 1u) << Summary(found);
+    EXPECT_TRUE(InCluster(found, 0.0, 0.0));
+    for (const CriticalBox& box : found.Boxes)
+    {
+      for (std::size_t d = 0; d < 2; ++d)
+      {
+        // where the gradient, about 3 r^2, is larger than its error, some 1e-13
+        EXPECT_LT(std::abs(box.Box.Lower[d]), 1e-5);
+        EXPECT_LT(std::abs(box.Box.Upper[d]), 1e-5);
+      }
+    }
+    EXPECT_FALSE(found.Proved);
+    EXPECT_EQ(found.IndexSum, found.EulerCharacteristic + 2);
+    EXPECT_LE(found.Clusters[0].ValueBounds[0], 0.0);
+    EXPECT_GE(found.Clusters[0].ValueBounds[1], 0.0);
+  }
+}
+
+TEST(CriticalPoints, AValleyLineIsCoveredByBoxes_ExactOracle)
+{
+  const Spline<2> f = PolynomialOn(-1.0, 1.3, 3, 3, { { 1.0, 2, 0 } });
+  const CriticalPoints found = Find(f);
+  EXPECT_FALSE(found.Proved);
+  EXPECT_GE(found.Clusters.size(), 1u);
+  for (int i = 0; i <= 1000; ++i)
+  {
+    const double t = std::min(-1.0 + 2.3e-3 * i, 1.3);
+    EXPECT_TRUE(InCluster(found, 0.0, t)) << t;
+    EXPECT_TRUE(InCluster(found, -1.0, t)) << t; // constant along these sides
+    EXPECT_TRUE(InCluster(found, 1.3, t)) << t;
+  }
+  double area = 0.0;
+  for (const CriticalBox& box : found.Boxes)
+  {
+    area += (box.Box.Upper[0] - box.Box.Lower[0]) * (box.Box.Upper[1] - box.Box.Lower[1]);
+  }
+  EXPECT_LT(area, 0.2);
+  EXPECT_LE(found.Boxes.size(), 2000u);
+}
+
+TEST(CriticalPoints, APlateauIsOneCluster_ExactOracle)
+{
+  const CriticalPoints found = Find(PolynomialOn(0.0, 1.0, 2, 4, { { 0.1, 0, 0 } }));
+  ASSERT_EQ(found.Clusters.size(), 1u) << Summary(found);
+  EXPECT_EQ(found.Points.size(), 0u);
+  EXPECT_LE(found.Clusters[0].ValueBounds[0], 0.1);
+  EXPECT_GE(found.Clusters[0].ValueBounds[1], 0.1);
+  EXPECT_LT(found.NumTested, 100);
+  for (const double t : { 0.0, 0.3, 1.0 })
+  {
+    EXPECT_TRUE(InCluster(found, t, 1.0 - t));
+  }
+}
+
+TEST(CriticalPoints, ScalesDoNotMatter_PropertyOracle)
+{
+  Random random(7);
+  const Spline<2> f = RandomSpline<2>(random, RandomTensorSpace<2>(random, 3, 5), 1, false);
+  const CriticalPoints expected = Find(f);
+  ASSERT_TRUE(expected.Proved);
+  const auto compare = [&](const CriticalPoints& found, double size)
+  {
+    ASSERT_EQ(found.Points.size(), expected.Points.size());
+    for (std::size_t i = 0; i < found.Points.size(); ++i)
+    {
+      EXPECT_EQ(found.Points[i].Kind, expected.Points[i].Kind);
+      EXPECT_NEAR(found.Points[i].Parameters[0] / size, expected.Points[i].Parameters[0], 1e-9);
+    }
+  };
+  for (const double scale : { 1e-50, 1e-9, 1e9, 1e50 })
+  {
+    SCOPED_TRACE(scale);
+    Spline<2> g = f;
+    g.ControlPoints *= scale;
+    compare(Find(g), 1.0);
+    std::array<KnotVector, 2> knots;
+    for (std::size_t d = 0; d < 2; ++d)
+    {
+      std::vector<double> t = f.Space->Knots[d].Knots();
+      for (double& x : t)
+      {
+        x *= scale;
+      }
+      knots[d] = KnotVector::Create(f.Space->Knots[d].Degree(), t).Value;
+    }
+    g = f;
+    g.Space = MakeTensorSpace<2>(knots).Value;
+    compare(Find(g), scale);
+  }
+  Spline<2> high = f; // heights of 1e6 + 10
+  high.ControlPoints.array() += 1e6;
+  compare(Find(high), 1.0);
+}
+
+TEST(CriticalPoints, RationalFormOfAPolynomial_ExactOracle)
+{
+  // f = u^2 + v^2 / 2 - u v / 4 over the weight 1 + u / 4 + v / 5
+  const std::vector<Monomial> weight{ { 1.0, 0, 0 }, { 0.25, 1, 0 }, { 0.2, 0, 1 } };
+  const std::vector<Monomial> terms{ { 1.0, 2, 0 }, { 0.5, 0, 2 }, { -0.25, 1, 1 } };
+  std::vector<Monomial> product;
+  for (const Monomial& a : weight)
+  {
+    for (const Monomial& b : terms)
+    {
+      product.push_back({ a.C * b.C, a.A + b.A, a.B + b.B });
+    }
+  }
+  for (const int elements : { 1, 2, 3 })
+  {
+    SCOPED_TRACE(elements);
+    Spline<2> f = PolynomialOn(-1.0, 1.0, 3, elements, product);
+    f.Weights = PolynomialOn(-1.0, 1.0, 3, elements, weight).ControlPoints.col(0);
+    f.ControlPoints.col(0).array() /= f.Weights.array();
+    const CriticalPoints found = Find(f);
+    EXPECT_TRUE(found.Proved) << Summary(found);
+    ExpectPoint(found, 0.0, 0.0, CriticalKind::Minimum,
+      elements == 2 ? CriticalPlace::Edge : CriticalPlace::Interior, 1);
+    const CriticalPoint* minimum = At(found, 0.0, 0.0, 1e-12);
+    ASSERT_NE(minimum, nullptr);
+    EXPECT_NEAR(minimum->Value, 0.0, 1e-13);
+    const double radius = std::hypot(0.5, 0.25);
+    EXPECT_NEAR(minimum->Eigenvalues[0], 1.5 - radius, 1e-10);
+    EXPECT_NEAR(minimum->Eigenvalues[1], 1.5 + radius, 1e-10);
+    EXPECT_EQ(found.IndexSum, 1);
+  }
+}
+
+TEST(CriticalPoints, BezierElementsAreLaidOut_CrossOracle)
+{
+  // elements of a spline on whole knots without their knots, every other one turned
+  Random random(3);
+  const KnotVector knots = BreakKnots(3, { 0.0, 1.0, 2.0, 3.0 });
+  const Spline<2> f = RandomSpline<2>(random, MakeTensorSpace<2>({ knots, knots }).Value, 1, false);
+  const BezierForm<2> form = MakeBezierForm(f);
+  std::vector<int> ids;
+  PointMatrix points(100, 1);
+  for (int e = 0; e < 9; ++e)
+  {
+    for (int j = 0; j < 4; ++j)
+    {
+      for (int i = 0; i < 4; ++i)
+      {
+        const int a = e % 2 == 0 ? i : j;
+        const int b = e % 2 == 0 ? j : 3 - i;
+        const int id = 3 * (e % 3) + a + 10 * (3 * (e / 3) + b);
+        ids.push_back(id);
+        points(id, 0) = form.Block(e)[a + 4 * b];
+      }
+    }
+  }
+  Spline<2> bezier;
+  bezier.Space = MakeBezierSpace<2>(std::vector<IntArray<2>>(9, { 3, 3 }), ids, 100).Value;
+  bezier.ControlPoints = points;
+  const CriticalPoints expected = Find(f);
+  const CriticalPoints found = Find(bezier);
+  EXPECT_TRUE(found.Proved) << Summary(found);
+  ASSERT_EQ(found.Points.size(), expected.Points.size());
+  for (std::size_t i = 0; i < found.Points.size(); ++i)
+  {
+    const CriticalPoint& point = found.Points[i];
+    const int e = point.Element;
+    const double s = point.Parameters[0];
+    const double t = point.Parameters[1];
+    const CriticalPoint* same =
+      At(expected, e % 3 + (e % 2 == 0 ? s : t), e / 3 + (e % 2 == 0 ? t : 1.0 - s), 1e-11);
+    ASSERT_NE(same, nullptr);
+    EXPECT_EQ(same->Kind, point.Kind);
+    EXPECT_EQ(same->Place, point.Place);
+    EXPECT_LE(point.Box.Lower[0], s);
+    EXPECT_GE(point.Box.Upper[1], t);
+  }
+}
+
+TEST(CriticalPoints, AnyNumberOfThreads_PropertyOracle)
+{
+  Random random(11);
+  const Spline<2> f = RandomSpline<2>(random, RandomHierarchicalSpace<2>(random, 3, 9, 3), 1, true);
+  CriticalPointParams params;
+  params.Threads = 1;
+  const CriticalPoints one = Find(f, params);
+  for (const int threads : { 2, 4 })
+  {
+    params.Threads = threads;
+    const CriticalPoints many = Find(f, params);
+    ASSERT_EQ(one.Points.size(), many.Points.size());
+    EXPECT_EQ(one.NumTested, many.NumTested);
+    for (std::size_t i = 0; i < one.Points.size(); ++i)
+    {
+      EXPECT_EQ(one.Points[i].Parameters, many.Points[i].Parameters);
+      EXPECT_EQ(one.Points[i].Box.Lower, many.Points[i].Box.Lower);
+      EXPECT_EQ(one.Points[i].Value, many.Points[i].Value);
+    }
+  }
+}
+
+TEST(CriticalPoints, EveryFailureIsReachable)
+{
+  const Spline<2> f = PolynomialOn(0.0, 1.0, 2, 2, { { 1.0, 2, 0 }, { 1.0, 0, 1 } });
+  const auto code = [](const Spline<2>& spline, const CriticalPointParams& params)
+  { return FindCriticalPoints(spline, params).Status.Code; };
+  CriticalPointParams params;
+  params.Component = 1;
+  EXPECT_EQ(code(f, params), ErrorCode::InvalidParameter);
+  params = {};
+  params.MaxDepth = 51;
+  EXPECT_EQ(code(f, params), ErrorCode::InvalidParameter);
+  params = {};
+  params.MaxBoxes = 3;
+  EXPECT_EQ(code(f, params), ErrorCode::InvalidParameter);
+  params = {};
+  params.Progress = [](double) { return false; };
+  EXPECT_EQ(code(f, params), ErrorCode::Aborted);
+  Spline<2> bad = f;
+  bad.ControlPoints(3, 0) = std::nan("");
+  EXPECT_EQ(code(bad, {}), ErrorCode::NonFiniteInput);
+  bad = f;
+  bad.ControlPoints.conservativeResize(3, 1);
+  EXPECT_EQ(code(bad, {}), ErrorCode::SizeMismatch);
+  // four bilinear elements in a ring: 0 1 | 2 3 | 4 5 | 6 7
+  Spline<2> tube;
+  tube.Space = MakeBezierSpace<2>(
+    std::vector<IntArray<2>>(4, { 1, 1 }), { 0, 2, 1, 3, 2, 4, 3, 5, 4, 6, 5, 7, 6, 0, 7, 1 }, 8)
+                 .Value;
+  tube.ControlPoints = PointMatrix::Random(8, 1);
+  EXPECT_EQ(code(tube, {}), ErrorCode::InvalidTopology);
 }
 }
