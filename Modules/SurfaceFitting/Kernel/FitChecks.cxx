@@ -12,6 +12,7 @@ namespace knotwork
 namespace
 {
 constexpr double DomainSlack = 1e-12;     // of the domain's size, as SplineSpace::Locate
+constexpr double LargestNumber = 1e100;   // squares and their sums are finite
 constexpr double DefaultTolerance = 1e-3; // of the range of the measured values
 
 bool HasArea(const ParametricBox<2>& box)
@@ -167,14 +168,21 @@ Status CheckPoints(const PointCloud& cloud, const FitParams& params)
   for (Eigen::Index i = 0; i < cloud.Parameters.rows(); ++i)
   {
     bool finite = std::isfinite(cloud.Parameters(i, 0)) && std::isfinite(cloud.Parameters(i, 1));
+    double size = std::max(std::fabs(cloud.Parameters(i, 0)), std::fabs(cloud.Parameters(i, 1)));
     for (Eigen::Index c = 0; c < cloud.Values.cols(); ++c)
     {
       finite = finite && std::isfinite(cloud.Values(i, c));
+      size = std::max(size, std::fabs(cloud.Values(i, c)));
     }
     if (!finite)
     {
       return { ErrorCode::NonFiniteInput,
         "point " + std::to_string(i) + " has a parameter or value that is not finite" };
+    }
+    if (size > LargestNumber)
+    {
+      return Bad("point " + std::to_string(i) + " has a number above " + Digits(LargestNumber) +
+        "; choose other units");
     }
     if (cloud.Tolerances.size() != 0 &&
       !(cloud.Tolerances[i] > 0.0 && std::isfinite(cloud.Tolerances[i])))

@@ -15,6 +15,9 @@ constexpr double PointsPerCell = 4.0;
 constexpr std::size_t LeastNeighbours = 12;
 constexpr int MostRings = 4;
 constexpr double NormalDeviation = 1.4826; // of a normal distribution, over its median deviation
+constexpr std::size_t NumNearest = 8;      // whose distances speak for a feature
+constexpr int FeatureSupport = 2;          // of them, alike
+constexpr double FeatureLikeness = 0.3;    // part of a point's own distance from the median
 constexpr std::size_t ElementChunk = 64;
 
 std::size_t At(int i)
@@ -65,14 +68,16 @@ int OutlierSearch::CellOf(std::size_t direction, double x) const
   return std::clamp(static_cast<int>(share * this->Size[direction]), 0, this->Size[direction] - 1);
 }
 
-bool OutlierSearch::IsOutlier(int row, const std::vector<double>& distances, double tolerance,
-  double scale, std::vector<double>& work) const
+bool OutlierSearch::IsOutlier(
+  int row, const std::vector<double>& distances, double tolerance, double scale, Work& work) const
 {
   const int x = this->CellOf(0, this->Cloud.Parameters(row, 0));
   const int y = this->CellOf(1, this->Cloud.Parameters(row, 1));
+  const RealArray<2> step{ (this->Domain.Upper[0] - this->Domain.Lower[0]) / this->Size[0],
+    (this->Domain.Upper[1] - this->Domain.Lower[1]) / this->Size[1] };
   for (int rings = 1; rings <= MostRings; ++rings)
   {
-    work.clear();
+    work.Near.clear();
     for (int j = std::max(0, y - rings); j <= std::min(this->Size[1] - 1, y + rings); ++j)
     {
       const int first = this->Start[At(j * this->Size[0] + std::max(0, x - rings))];
@@ -83,26 +88,46 @@ bool OutlierSearch::IsOutlier(int row, const std::vector<double>& distances, dou
         const int other = this->Rows[At(k)];
         if (other != row)
         {
-          work.push_back(distances[At(other)]);
+          const double du =
+            (this->Cloud.Parameters(other, 0) - this->Cloud.Parameters(row, 0)) / step[0];
+          const double dv =
+            (this->Cloud.Parameters(other, 1) - this->Cloud.Parameters(row, 1)) / step[1];
+          work.Near.push_back({ du * du + dv * dv, other });
         }
       }
     }
-    if (work.size() >= LeastNeighbours)
+    if (work.Near.size() >= LeastNeighbours)
     {
       break;
     }
   }
-  if (work.size() < LeastNeighbours)
+  if (work.Near.size() < LeastNeighbours)
   {
     return false;
   }
-  const double median = Median(work);
-  const double off = std::fabs(distances[At(row)] - median);
-  for (double& value : work)
+  work.Values.clear();
+  for (const auto& near : work.Near)
+  {
+    work.Values.push_back(distances[At(near.second)]);
+  }
+  const double median = Median(work.Values);
+  const double off = distances[At(row)] - median;
+  for (double& value : work.Values)
   {
     value = std::fabs(value - median);
   }
-  return off > tolerance && off > scale * NormalDeviation * Median(work);
+  if (std::fabs(off) <= tolerance ||
+    std::fabs(off) <= scale * NormalDeviation * Median(work.Values))
+  {
+    return false;
+  }
+  std::nth_element(work.Near.begin(), work.Near.begin() + static_cast<std::ptrdiff_t>(NumNearest),
+    work.Near.end());
+  const auto alike =
+    std::count_if(work.Near.begin(), work.Near.begin() + static_cast<std::ptrdiff_t>(NumNearest),
+      [&](const auto& near)
+      { return (distances[At(near.second)] - median) / off >= FeatureLikeness; });
+  return alike < FeatureSupport;
 }
 
 std::vector<int> OutlierSearch::Update(FitPoints& points, const std::vector<double>& weights,
@@ -117,7 +142,7 @@ std::vector<int> OutlierSearch::Update(FitPoints& points, const std::vector<doub
   ParallelFor(points.Ranges.size(), ElementChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
-      std::vector<double> work;
+      Work work;
       for (std::size_t e = begin; e < end; ++e)
       {
         for (std::size_t i = points.Ranges[e].Begin; i < points.Ranges[e].End; ++i)

@@ -8,7 +8,9 @@ namespace knotwork
 /// points are alike, an outlier's is not like those of the points around it. A point is one when it
 /// is outside its tolerance, and differs from the median of its neighbours by more than its
 /// tolerance and more than a number of robust standard deviations (1.4826 times the median absolute
-/// deviation) of the neighbours.
+/// deviation) of the neighbours, and at most one of its eight nearest is off alike (to the same
+/// side and at least 0.3 times as far): the points of a ridge or a cliff narrower than a
+/// neighbourhood speak for each other.
 ///
 /// Neighbours are the points in 3 x 3 cells of a grid with about four points a cell, more where
 /// these hold less than twelve.
@@ -28,8 +30,14 @@ public:
 
 private:
   int CellOf(std::size_t direction, double x) const;
+  /// Memory that is kept between calls.
+  struct Work
+  {
+    std::vector<std::pair<double, int>> Near; ///< squared distance in cells, row
+    std::vector<double> Values;
+  };
   bool IsOutlier(int row, const std::vector<double>& distances, double tolerance, double scale,
-    std::vector<double>& work) const;
+    Work& work) const;
 
   const PointCloud& Cloud;
   ParametricBox<2> Domain;

@@ -14,6 +14,7 @@ namespace
 {
 constexpr std::size_t ElementChunk = 16;
 constexpr int Lanes = 8;
+constexpr int Slices = 8; // of an element, for the choice of directions
 
 std::size_t At(int i)
 {
@@ -169,12 +170,6 @@ std::vector<ElementErrors> MeasureDistances(const SplineSpace<2>& space,
 RealArray<2> SplitGains(const SplineSpace<2>& space, const ElementFunctions& functions,
   const PointMatrix& coefficients, int numMeasured, const FitPoints& points, int e)
 {
-  // y|y| without its part in the quadratics, which a least-squares fit has already
-  const auto kink = [](double x)
-  {
-    const double y = 2.0 * x - 1.0;
-    return y * std::fabs(y) - 0.75 * y;
-  };
   const SplineSpace<2>::Element& element = space.Elements[At(e)];
   const FitPoints::Range& range = points.Ranges[At(e)];
   const ParametricBox<2>& box = element.Box;
@@ -187,11 +182,10 @@ RealArray<2> SplitGains(const SplineSpace<2>& space, const ElementFunctions& fun
   RealArray<2> gains{};
   for (int c = 0; c < numMeasured; ++c)
   {
-    double sums[2][3] = {};
-    double norms[2][3] = {};
+    double sums[2][Slices] = {};
+    double weights[2][Slices] = {};
     for (std::size_t i = range.Begin; i < range.End; ++i)
     {
-      const double weight = points.Base[i];
       const double x[2] = { (points.U[i] - box.Lower[0]) / (box.Upper[0] - box.Lower[0]),
         (points.V[i] - box.Lower[1]) / (box.Upper[1] - box.Lower[1]) };
       const double distance = numMeasured == 1 ? points.Distance[i]
@@ -199,21 +193,16 @@ RealArray<2> SplitGains(const SplineSpace<2>& space, const ElementFunctions& fun
           BernsteinEvaluate<2>(element.Degree, local.data() + c * functions.PerElement, x);
       for (int d = 0; d < 2; ++d)
       {
-        const double k = kink(x[d]);
-        const double t = x[1 - d];
-        const double across[3] = { (1.0 - t) * (1.0 - t), 2.0 * t * (1.0 - t), t * t };
-        for (int j = 0; j < 3; ++j)
-        {
-          sums[d][j] += weight * distance * k * across[j];
-          norms[d][j] += weight * k * k * across[j] * across[j];
-        }
+        const int k = std::clamp(static_cast<int>(x[d] * Slices), 0, Slices - 1);
+        sums[d][k] += points.Base[i] * distance;
+        weights[d][k] += points.Base[i];
       }
     }
     for (int d = 0; d < 2; ++d)
     {
-      for (int j = 0; j < 3; ++j)
+      for (int k = 0; k < Slices; ++k)
       {
-        gains[At(d)] += norms[d][j] > 0.0 ? sums[d][j] * sums[d][j] / norms[d][j] : 0.0;
+        gains[At(d)] += weights[d][k] > 0.0 ? sums[d][k] * sums[d][k] / weights[d][k] : 0.0;
       }
     }
   }

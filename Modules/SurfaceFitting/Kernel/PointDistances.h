@@ -23,9 +23,9 @@ std::vector<ElementErrors> MeasureDistances(const SplineSpace<2>& space,
   const ElementFunctions& functions, const PointMatrix& coefficients, int numMeasured,
   FitPoints& points, int threads);
 
-/// How much of the distances of an element a new knot line in its middle could take away, for each
-/// direction: the part of their squares along piecewise quadratics with a kink there. The measured
-/// components count alike.
+/// How much the distances of an element vary along each direction: the sum over eight slices across
+/// it of weight * (mean distance)^2, which new lines across the direction could take away. The
+/// measured components count alike.
 RealArray<2> SplitGains(const SplineSpace<2>& space, const ElementFunctions& functions,
   const PointMatrix& coefficients, int numMeasured, const FitPoints& points, int e);
 }

@@ -1,0 +1,628 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfaceFit.h"
+
+#include "BasisEvaluation.h"
+#include "BezierForm.h"
+#include "CloudCases.h"
+#include "LRDependence.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace knotwork
+{
+namespace
+{
+/// Distances of a result's surface, evaluated by the code for all splines.
+std::vector<double> Measure(const PointCloud& cloud, const Spline<2>& surface, int measured)
+{
+  EvaluationBatch batch;
+  const Status status =
+    EvaluateParameters<2>(MakeBezierForm<2>(surface), cloud.Parameters, {}, batch);
+  EXPECT_TRUE(status) << status.Message();
+  std::vector<double> distances;
+  for (Eigen::Index i = 0; i < cloud.Values.rows(); ++i)
+  {
+    const auto difference =
+      (cloud.Values.row(i).head(measured) - batch.Values.row(i).head(measured)).eval();
+    distances.push_back(measured == 1 ? difference(0) : difference.norm());
+  }
+  return distances;
+}
+
+/// Reported and measured distances are the same and within the tolerances.
+void ExpectWithin(const PointCloud& cloud, const SurfaceFit& fit, int measured = 1)
+{
+  EXPECT_TRUE(fit.WithinTolerance);
+  EXPECT_EQ(fit.Final.NumOutside, 0U);
+  ASSERT_TRUE(fit.Surface.Check());
+  const std::vector<double> distances = Measure(cloud, fit.Surface, measured);
+  const double rounding = 1e-13 * (1.0 + fit.Surface.ControlPoints.cwiseAbs().maxCoeff());
+  double most = 0.0;
+  for (std::size_t i = 0; i < distances.size(); ++i)
+  {
+    if (!fit.Outliers.empty() && fit.Outliers[i] != 0)
+    {
+      continue;
+    }
+    ASSERT_NEAR(distances[i], fit.Distances[i], rounding) << "point " << i;
+    ASSERT_LE(std::fabs(distances[i]), fit.Tolerances[i] + rounding) << "point " << i;
+    most = std::max(most, std::fabs(distances[i]));
+  }
+  EXPECT_NEAR(most, fit.Final.MaxError, rounding);
+}
+
+SurfaceFit Fit(const PointCloud& cloud, const FitParams& params)
+{
+  auto fit = FitSurface(cloud, params);
+  EXPECT_TRUE(fit) << fit.Status.Message();
+  return std::move(fit.Value);
+}
+
+FitParams WithTolerance(double tolerance)
+{
+  FitParams params;
+  params.Tolerance = tolerance;
+  return params;
+}
+
+double Wave(double x, double y)
+{
+  return 0.3 * std::sin(7.0 * x) * std::cos(5.0 * y) + 0.1 * x;
+}
+}
+
+TEST(SurfaceFit, PeaksNeedAtMost490Functions_CrossOracle)
+{
+  const PointCloud cloud = clouds::PeaksCloud();
+  const SurfaceFit fit = Fit(cloud, WithTolerance(0.002));
+  ExpectWithin(cloud, fit);
+  EXPECT_LE(fit.Surface.Space->NumFunctions, 490);
+}
+
+TEST(SurfaceFit, AMillionPointsNeedAtMost523Functions_CrossOracle)
+{
+  const PointCloud cloud = clouds::LargePeaksCloud();
+  const SurfaceFit fit = Fit(cloud, WithTolerance(0.002));
+  ExpectWithin(cloud, fit);
+  EXPECT_LE(fit.Surface.Space->NumFunctions, 523);
+}
+
+TEST(SurfaceFit, TheCliffNeedsAtMost12394Functions_CrossOracle)
+{
+  const PointCloud cloud = clouds::TerrainCloud();
+  const SurfaceFit fit = Fit(cloud, WithTolerance(0.01));
+  ExpectWithin(cloud, fit);
+  EXPECT_LE(fit.Surface.Space->NumFunctions, 12394);
+}
+
+TEST(SurfaceFit, OutliersAreFoundAndFeaturesAreNot_CrossOracle)
+{
+  std::vector<std::uint8_t> labels;
+  const PointCloud cloud = clouds::NoisyPeaksCloud(labels);
+  FitParams params = WithTolerance(0.01);
+  params.FindOutliers = true;
+  const SurfaceFit fit = Fit(cloud, params);
+  ExpectWithin(cloud, fit);
+  ASSERT_EQ(fit.Outliers.size(), labels.size());
+  std::size_t found = 0;
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < labels.size(); ++i)
+  {
+    found += fit.Outliers[i] != 0 && labels[i] != 0 ? 1 : 0;
+    wrong += fit.Outliers[i] != 0 && labels[i] == 0 ? 1 : 0;
+  }
+  EXPECT_GE(found, 508U); // 95 % of 534
+  EXPECT_LE(wrong, 10U);  // 2 %
+  EXPECT_EQ(fit.Final.NumOutliers, found + wrong);
+  PointCloud truth = cloud;
+  for (Eigen::Index i = 0; i < truth.Values.rows(); ++i)
+  {
+    truth.Values(i, 0) = clouds::Peaks(truth.Parameters(i, 0), truth.Parameters(i, 1));
+  }
+  double squares = 0.0;
+  for (const double d : Measure(truth, fit.Surface, 1))
+  {
+    squares += d * d;
+  }
+  EXPECT_LE(std::sqrt(squares / static_cast<double>(labels.size())), 5.9e-4);
+}
+
+TEST(SurfaceFit, ACliffIsNoOutlier_PropertyOracle)
+{
+  // 200 points an area of the cliff's length times the points' mean spacing; its few points half
+  // way up cannot be told from outliers at this density
+  const PointCloud cloud = clouds::HeightField(40000, 5, clouds::Terrain());
+  FitParams params = WithTolerance(0.01);
+  params.FindOutliers = true;
+  params.MaxIterations = 6;
+  const SurfaceFit fit = Fit(cloud, params);
+  EXPECT_LE(fit.Final.NumOutliers, 80U);
+}
+
+TEST(SurfaceFit, ThreadsDoNotMatter_ExactOracle)
+{
+  std::vector<std::uint8_t> labels;
+  const PointCloud cloud = clouds::NoisyPeaksCloud(labels);
+  for (const FitSpace space : { FitSpace::LocallyRefined, FitSpace::Hierarchical })
+  {
+    for (const FitMethod method :
+      { FitMethod::LeastSquares, FitMethod::MultilevelApproximation, FitMethod::Combined })
+    {
+      FitParams params = WithTolerance(0.01);
+      params.Space = space;
+      params.Method = method;
+      params.SwitchIteration = 2;
+      params.FindOutliers = true;
+      params.Threads = 1;
+      const SurfaceFit one = Fit(cloud, params);
+      ExpectWithin(cloud, one);
+      for (const int threads : { 2, 4 })
+      {
+        params.Threads = threads;
+        const SurfaceFit other = Fit(cloud, params);
+        EXPECT_EQ(one.Surface.ControlPoints, other.Surface.ControlPoints);
+        EXPECT_EQ(one.Distances, other.Distances);
+        EXPECT_EQ(one.Outliers, other.Outliers);
+        EXPECT_EQ(one.Final.LogLikelihood, other.Final.LogLikelihood);
+      }
+    }
+  }
+}
+
+TEST(SurfaceFit, LeastSquaresSolveTheNormalEquations_CrossOracle)
+{
+  const PointCloud cloud = clouds::HeightField(600, 11, Wave);
+  for (const IntArray<2> degree : { IntArray<2>{ 2, 2 }, { 3, 3 }, { 1, 4 } })
+  {
+    for (const FitSpace space : { FitSpace::LocallyRefined, FitSpace::Hierarchical })
+    {
+      // a tolerance that a split of the whole mesh does not reach, and a precise solution for it
+      FitParams params = WithTolerance(1e-9);
+      params.Space = space;
+      params.Degree = degree;
+      params.NumInitialElements = { 3, 2 };
+      params.MaxIterations = 1;
+      params.Smoothing = 0.0;
+      const SurfaceFit fit = Fit(cloud, params);
+      const auto matrix = CollocationMatrix<2>(*fit.Surface.Space, cloud.Parameters);
+      ASSERT_TRUE(matrix);
+      const Eigen::MatrixXd dense = matrix.Value;
+      const Eigen::VectorXd residual =
+        cloud.Values.col(0) - dense * fit.Surface.ControlPoints.col(0);
+      // the coefficients' accuracy times a row of the Gram matrix (its sum is a column's sum)
+      EXPECT_LE((dense.transpose() * residual).cwiseAbs().maxCoeff(),
+        1e-9 * dense.colwise().sum().maxCoeff());
+      EXPECT_GT(residual.cwiseAbs().maxCoeff(), 1e-7);
+    }
+  }
+}
+
+TEST(SurfaceFit, OneMultilevelStepPassesThroughASinglePoint_GoldenOracle)
+{
+  // bilinear on one element, a point at (1/4, 1/2): w = (3, 1, 3, 1) / 8, sum w^2 = 20 / 64, so
+  // coefficients are 4 w / sum w^2 = (4.8, 1.6, 4.8, 1.6)
+  PointCloud cloud;
+  cloud.Parameters.resize(1, 2);
+  cloud.Parameters << 0.25, 0.5;
+  cloud.Values.resize(1, 1);
+  cloud.Values << 4.0;
+  FitParams params = WithTolerance(1e-6);
+  params.Method = FitMethod::MultilevelApproximation;
+  params.Degree = { 1, 1 };
+  params.NumInitialElements = { 1, 1 };
+  params.Domain = { { 0.0, 0.0 }, { 1.0, 1.0 } };
+  const SurfaceFit fit = Fit(cloud, params);
+  ASSERT_EQ(fit.Surface.ControlPoints.rows(), 4);
+  const double expected[4] = { 4.8, 1.6, 4.8, 1.6 };
+  for (int i = 0; i < 4; ++i)
+  {
+    EXPECT_NEAR(fit.Surface.ControlPoints(i, 0), expected[i], 1e-14);
+  }
+}
+
+TEST(SurfaceFit, PolynomialsAreReproduced_ExactOracle)
+{
+  const auto quadric = [](double x, double y) { return 1.0 - 2.0 * x + 3.0 * x * y + y * y; };
+  const PointCloud cloud = clouds::HeightField(2000, 3, quadric);
+  const SurfaceFit fit = Fit(cloud, WithTolerance(1e-6));
+  ExpectWithin(cloud, fit);
+  EXPECT_EQ(fit.Iterations.size(), 1U);
+}
+
+TEST(SurfaceFit, DomainPointsAreTheDomain_ExactOracle)
+{
+  const PointCloud cloud = clouds::HeightField(20000, 4, clouds::Peaks);
+  for (const FitSpace space : { FitSpace::LocallyRefined, FitSpace::Hierarchical })
+  {
+    FitParams params = WithTolerance(0.005);
+    params.Space = space;
+    const SurfaceFit fit = Fit(cloud, params);
+    ASSERT_GT(fit.Iterations.size(), 2U);
+    Spline<2> plane;
+    plane.Space = fit.Surface.Space;
+    plane.ControlPoints = fit.DomainPoints;
+    EvaluationBatch batch;
+    ASSERT_TRUE(EvaluateParameters<2>(MakeBezierForm<2>(plane), cloud.Parameters, {}, batch));
+    EXPECT_LE((batch.Values - cloud.Parameters).cwiseAbs().maxCoeff(), 1e-14);
+  }
+}
+
+TEST(SurfaceFit, SurfacesInSpaceWithAFurtherChannel_CrossOracle)
+{
+  // half a torus, and a temperature that is fitted along
+  clouds::Random random(21);
+  PointCloud cloud;
+  cloud.Parameters.resize(30000, 2);
+  cloud.Values.resize(30000, 4);
+  for (Eigen::Index i = 0; i < cloud.Values.rows(); ++i)
+  {
+    const double u = random.Uniform();
+    const double v = 2.0 * random.Uniform();
+    const double r = 2.0 + std::cos(2.0 * clouds::Pi * u);
+    cloud.Parameters.row(i) << u, v;
+    cloud.Values.row(i) << r * std::cos(0.5 * clouds::Pi * v), r * std::sin(0.5 * clouds::Pi * v),
+      std::sin(2.0 * clouds::Pi * u), 20.0 + v;
+  }
+  for (const FitMethod method : { FitMethod::LeastSquares, FitMethod::MultilevelApproximation })
+  {
+    FitParams params = WithTolerance(0.001);
+    params.NumMeasured = 3;
+    params.Method = method;
+    const SurfaceFit fit = Fit(cloud, params);
+    ExpectWithin(cloud, fit, 3);
+    PointCloud channel = cloud;
+    channel.Values = cloud.Values.col(3);
+    Spline<2> along = fit.Surface;
+    along.ControlPoints = fit.Surface.ControlPoints.col(3).eval();
+    for (const double d : Measure(channel, along, 1))
+    {
+      ASSERT_LE(std::fabs(d), method == FitMethod::LeastSquares ? 0.001 : 0.05);
+    }
+  }
+}
+
+TEST(SurfaceFit, EveryPointHasItsTolerance_PropertyOracle)
+{
+  const PointCloud cloud = clouds::HeightField(20000, 6, clouds::Peaks);
+  FitParams params = WithTolerance(0.02);
+  const int loose = Fit(cloud, params).Surface.Space->NumFunctions;
+
+  params.ToleranceBoxes = { { { { 0.5, 0.5 }, { 0.7, 0.7 } }, 0.002 },
+    { { { 0.55, 0.55 }, { 0.6, 0.6 } }, 0.001 } };
+  const SurfaceFit boxes = Fit(cloud, params);
+  ExpectWithin(cloud, boxes);
+  EXPECT_GT(boxes.Surface.Space->NumFunctions, loose);
+  for (Eigen::Index i = 0; i < cloud.Parameters.rows(); ++i)
+  {
+    const double x = cloud.Parameters(i, 0);
+    const double y = cloud.Parameters(i, 1);
+    const bool outer = x >= 0.5 && x <= 0.7 && y >= 0.5 && y <= 0.7;
+    const bool inner = x >= 0.55 && x <= 0.6 && y >= 0.55 && y <= 0.6;
+    ASSERT_EQ(
+      boxes.Tolerances[static_cast<std::size_t>(i)], inner ? 0.001 : (outer ? 0.002 : 0.02));
+  }
+
+  params.ToleranceBoxes.clear();
+  params.Tolerance = 0.001;
+  params.Distance = FitDistance::Point;
+  params.DistanceSlope = 0.05;
+  params.DistanceCentre = { 0.3, 0.8 };
+  const SurfaceFit distance = Fit(cloud, params);
+  ExpectWithin(cloud, distance);
+  EXPECT_NEAR(distance.Tolerances[7],
+    0.001 + 0.05 * std::hypot(cloud.Parameters(7, 0) - 0.3, cloud.Parameters(7, 1) - 0.8), 1e-15);
+
+  params.Distance = FitDistance::Value;
+  const SurfaceFit value = Fit(cloud, params);
+  ExpectWithin(cloud, value);
+  EXPECT_NEAR(value.Tolerances[7], 0.001 + 0.05 * std::fabs(cloud.Values(7, 0)), 1e-15);
+
+  PointCloud own = cloud;
+  own.Tolerances.setConstant(cloud.Values.rows(), 0.05);
+  own.Tolerances[12] = 0.0005;
+  const SurfaceFit points = Fit(own, WithTolerance(1.0));
+  ExpectWithin(own, points);
+  EXPECT_EQ(points.Tolerances[12], 0.0005);
+  EXPECT_EQ(points.Tolerances[13], 0.05);
+}
+
+TEST(SurfaceFit, OneSidedSurfacesStayOnTheirSide_PropertyOracle)
+{
+  const PointCloud cloud = clouds::HeightField(20000, 8, clouds::Peaks);
+  for (const FitSide side : { FitSide::Above, FitSide::Below })
+  {
+    const double sign = side == FitSide::Above ? 1.0 : -1.0;
+    FitParams params = WithTolerance(0.005);
+    params.Side = side;
+    const SurfaceFit fit = Fit(cloud, params);
+    ExpectWithin(cloud, fit);
+    for (const double d : Measure(cloud, fit.Surface, 1))
+    {
+      ASSERT_LE(sign * d, 1e-14);
+    }
+    params.MaxIterations = 1; // far from the tolerance
+    const SurfaceFit coarse = Fit(cloud, params);
+    EXPECT_FALSE(coarse.WithinTolerance);
+    for (const double d : Measure(cloud, coarse.Surface, 1))
+    {
+      ASSERT_LE(sign * d, 1e-14);
+    }
+  }
+}
+
+TEST(SurfaceFit, SignificantPointsAreMetBetter_PropertyOracle)
+{
+  PointCloud cloud = clouds::HeightField(5000, 9, Wave);
+  clouds::Random noise(10);
+  for (Eigen::Index i = 0; i < cloud.Values.rows(); ++i)
+  {
+    cloud.Values(i, 0) += 0.01 * noise.Normal();
+  }
+  FitParams params = WithTolerance(1e-6);
+  params.MaxIterations = 0;
+  params.SignificantWeight = 100.0;
+  const auto sum = [&](const SurfaceFit& fit)
+  {
+    double squares = 0.0;
+    for (std::size_t i = 0; i < 50; ++i)
+    {
+      squares += fit.Distances[i] * fit.Distances[i];
+    }
+    return squares;
+  };
+  const double before = sum(Fit(cloud, params));
+  cloud.Significant.assign(5000, 0);
+  std::fill_n(cloud.Significant.begin(), 50, std::uint8_t{ 1 });
+  EXPECT_LT(sum(Fit(cloud, params)), 0.8 * before);
+}
+
+TEST(SurfaceFit, AGapIsBridged_PropertyOracle)
+{
+  // a slope without points on the right half of the square
+  PointCloud cloud = clouds::HeightField(4000, 12, [](double x, double y) { return x - 2.0 * y; });
+  cloud.Parameters.col(0) *= 0.4;
+  for (Eigen::Index i = 0; i < cloud.Values.rows(); ++i)
+  {
+    cloud.Values(i, 0) = cloud.Parameters(i, 0) - 2.0 * cloud.Parameters(i, 1);
+  }
+  FitParams params = WithTolerance(1e-4);
+  params.Domain = { { 0.0, 0.0 }, { 1.0, 1.0 } };
+  const SurfaceFit fit = Fit(cloud, params);
+  ExpectWithin(cloud, fit);
+  EXPECT_LE(fit.Surface.ControlPoints.cwiseAbs().maxCoeff(), 10.0);
+}
+
+TEST(SurfaceFit, DirectionsFollowTheError_PropertyOracle)
+{
+  const PointCloud cloud =
+    clouds::HeightField(20000, 13, [](double x, double) { return std::tanh((x - 0.43) / 0.01); });
+  FitParams params = WithTolerance(0.01);
+  const SurfaceFit byError = Fit(cloud, params);
+  ExpectWithin(cloud, byError);
+  params.Directions = FitDirections::Both;
+  const SurfaceFit both = Fit(cloud, params);
+  ExpectWithin(cloud, both);
+  params.Directions = FitDirections::Alternating;
+  const SurfaceFit alternating = Fit(cloud, params);
+  ExpectWithin(cloud, alternating);
+  EXPECT_LT(2 * byError.Surface.Space->NumFunctions, both.Surface.Space->NumFunctions);
+}
+
+TEST(SurfaceFit, StrategiesAndThresholdsReachTheTolerance_CrossOracle)
+{
+  const PointCloud cloud = clouds::HeightField(20000, 14, clouds::Peaks);
+  for (const LRStrategy strategy :
+    { LRStrategy::FullSpan, LRStrategy::MinimumSpan, LRStrategy::StructuredMesh })
+  {
+    for (const FitThreshold threshold :
+      { FitThreshold::All, FitThreshold::LargestErrors, FitThreshold::MostPoints })
+    {
+      FitParams params = WithTolerance(0.005);
+      params.Strategy = strategy;
+      params.Threshold = threshold;
+      ExpectWithin(cloud, Fit(cloud, params));
+    }
+  }
+}
+
+TEST(SurfaceFit, IndependentFunctions_CrossOracle)
+{
+  const PointCloud cloud = clouds::HeightField(20000, 15, clouds::Peaks);
+  FitParams params = WithTolerance(0.005);
+  params.Strategy = LRStrategy::MinimumSpan;
+  params.Independent = true;
+  const SurfaceFit fit = Fit(cloud, params);
+  ExpectWithin(cloud, fit);
+  const auto verdict = DecideDependence(*fit.Surface.Space);
+  ASSERT_TRUE(verdict);
+  EXPECT_EQ(verdict.Value.Verdict, LRVerdict::Independent);
+}
+
+TEST(SurfaceFit, LimitsAreKept_ExactOracle)
+{
+  const PointCloud cloud = clouds::HeightField(20000, 16, clouds::Peaks);
+  FitParams params = WithTolerance(0.0005);
+  params.MaxFunctions = 250;
+  const SurfaceFit functions = Fit(cloud, params);
+  EXPECT_FALSE(functions.WithinTolerance);
+  EXPECT_LE(functions.Surface.Space->NumFunctions, 250);
+  EXPECT_GT(functions.Surface.Space->NumFunctions, 225);
+  EXPECT_EQ(functions.Final.NumFunctions, functions.Surface.Space->NumFunctions);
+
+  params.MaxFunctions = 0;
+  params.MaxIterations = 2;
+  EXPECT_EQ(Fit(cloud, params).Iterations.size(), 3U);
+
+  params.MaxIterations = 30;
+  params.MaxSeconds = 1e-9;
+  EXPECT_EQ(Fit(cloud, params).Iterations.size(), 1U);
+
+  params.MaxSeconds = 0.0;
+  int calls = 0;
+  double last = 0.0;
+  params.Progress = [&](double share)
+  {
+    EXPECT_GE(share, last);
+    EXPECT_LE(share, 1.0);
+    last = share;
+    return ++calls < 3;
+  };
+  EXPECT_EQ(FitSurface(cloud, params).Status.Code, ErrorCode::Aborted);
+  EXPECT_EQ(calls, 3);
+}
+
+TEST(SurfaceFit, InformationCriteriaStopBeforeTheNoiseIsFitted_PropertyOracle)
+{
+  PointCloud cloud = clouds::HeightField(20000, 17, Wave);
+  clouds::Random noise(18);
+  for (Eigen::Index i = 0; i < cloud.Values.rows(); ++i)
+  {
+    cloud.Values(i, 0) += 0.01 * noise.Normal();
+  }
+  for (const FitCriterion criterion : { FitCriterion::AIC, FitCriterion::BIC })
+  {
+    FitParams params = WithTolerance(0.005); // half a standard deviation
+    params.NumInitialElements = { 4, 4 };
+    params.Threshold = FitThreshold::All;
+    params.Criterion = criterion;
+    const SurfaceFit fit = Fit(cloud, params);
+    EXPECT_FALSE(fit.WithinTolerance);
+    const auto value = [&](const FitIteration& row)
+    { return criterion == FitCriterion::AIC ? row.AIC : row.BIC; };
+    ASSERT_GE(fit.Iterations.size(), 3U);
+    for (const FitIteration& row : fit.Iterations)
+    {
+      EXPECT_GE(value(row) + 1e-9 * std::fabs(value(row)), value(fit.Final));
+    }
+    EXPECT_EQ(fit.Final.NumFunctions, fit.Surface.Space->NumFunctions);
+    EXPECT_NEAR(fit.Final.RmsError, 0.01, 0.0003);
+  }
+}
+
+TEST(SurfaceFit, FeatureGridsCountThePoints_CrossOracle)
+{
+  const PointCloud cloud = clouds::HeightField(20000, 19, Wave);
+  FitParams params = WithTolerance(0.002);
+  params.FeatureGridSize = 7;
+  const SurfaceFit fit = Fit(cloud, params);
+  const FitFeatures& features = fit.Features;
+  ASSERT_EQ(features.Size, 7);
+  ASSERT_EQ(features.Height.size(), 49U);
+  int count = 0;
+  for (const int n : features.NumPoints)
+  {
+    count += n;
+  }
+  EXPECT_EQ(count, 20000);
+  EXPECT_EQ(
+    *std::max_element(features.MaxError.begin(), features.MaxError.end()), fit.Final.MaxError);
+  const ParametricBox<2> domain = fit.Surface.Space->Domain();
+  for (int k = 0; k < 49; ++k)
+  {
+    const auto at = static_cast<std::size_t>(k);
+    const double x = domain.Lower[0] + (k % 7 + 0.5) / 7.0 * (domain.Upper[0] - domain.Lower[0]);
+    const double y = domain.Lower[1] + (k / 7 + 0.5) / 7.0 * (domain.Upper[1] - domain.Lower[1]);
+    EXPECT_NEAR(features.Height[at], Wave(x, y), 0.002);
+    EXPECT_NEAR(features.Slope[at],
+      std::hypot(2.1 * std::cos(7.0 * x) * std::cos(5.0 * y) + 0.1,
+        -1.5 * std::sin(7.0 * x) * std::sin(5.0 * y)),
+      0.2);
+    EXPECT_GT(features.ElementSize[at], 0.0);
+    EXPECT_LE(features.Roughness[at], features.MaxError[at]);
+  }
+}
+
+TEST(SurfaceFit, EveryFailureIsReachable_ExactOracle)
+{
+  const PointCloud good = clouds::HeightField(100, 20, Wave);
+  const auto code = [](const PointCloud& cloud, const FitParams& params)
+  {
+    const auto fit = FitSurface(cloud, params);
+    EXPECT_FALSE(fit.Status.Detail.empty());
+    return fit.Status.Code;
+  };
+  EXPECT_EQ(code({}, {}), ErrorCode::EmptyInput);
+  PointCloud bad = good;
+  bad.Values.resize(99, 1);
+  EXPECT_EQ(code(bad, {}), ErrorCode::SizeMismatch);
+  bad = good;
+  bad.Tolerances.setOnes(3);
+  EXPECT_EQ(code(bad, {}), ErrorCode::SizeMismatch);
+  bad = good;
+  bad.Significant.assign(3, 1);
+  EXPECT_EQ(code(bad, {}), ErrorCode::SizeMismatch);
+  bad = good;
+  bad.Values(17, 0) = std::numeric_limits<double>::quiet_NaN();
+  const auto status = FitSurface(bad, {}).Status;
+  EXPECT_EQ(status.Code, ErrorCode::NonFiniteInput);
+  EXPECT_NE(status.Detail.find("17"), std::string::npos);
+  bad = good;
+  bad.Values(17, 0) = 1e200;
+  EXPECT_EQ(code(bad, {}), ErrorCode::InvalidParameter);
+  bad = good;
+  bad.Tolerances.setOnes(100);
+  bad.Tolerances[5] = 0.0;
+  EXPECT_EQ(code(bad, {}), ErrorCode::InvalidParameter);
+  FitParams params;
+  params.Domain = { { 0.0, 0.0 }, { 0.5, 0.5 } };
+  EXPECT_EQ(code(good, params), ErrorCode::OutsideDomain);
+  const auto with = [&](const auto& change)
+  {
+    FitParams changed;
+    change(changed);
+    return code(good, changed);
+  };
+  EXPECT_EQ(with([](FitParams& p) { p.Degree = { 2, 10 }; }), ErrorCode::InvalidDegree);
+  EXPECT_EQ(with([](FitParams& p) { p.Degree = { 0, 2 }; }), ErrorCode::InvalidDegree);
+  const ErrorCode option = ErrorCode::InvalidParameter;
+  EXPECT_EQ(with([](FitParams& p) { p.NumInitialElements = { -1, 0 }; }), option);
+  EXPECT_EQ(with([](FitParams& p) { p.NumMeasured = 2; }), option);
+  EXPECT_EQ(with([](FitParams& p) { p.SwitchIteration = -1; }), option);
+  EXPECT_EQ(with([](FitParams& p) { p.Smoothing = -1.0; }), option);
+  EXPECT_EQ(with([](FitParams& p) { p.SignificantWeight = 0.5; }), option);
+  EXPECT_EQ(with([](FitParams& p) { p.Tolerance = -1.0; }), option);
+  EXPECT_EQ(with([](FitParams& p) { p.Tolerance = std::nan(""); }), option);
+  EXPECT_EQ(with([](FitParams& p) { p.ToleranceBoxes = { {} }; }), option);
+  EXPECT_EQ(with([](FitParams& p) { p.DistanceSlope = -1.0; }), option);
+  EXPECT_EQ(with([](FitParams& p) { p.OutlierScale = 0.0; }), option);
+  EXPECT_EQ(with([](FitParams& p) { p.MaxIterations = -1; }), option);
+  EXPECT_EQ(with([](FitParams& p) { p.MaxFunctions = -1; }), option);
+  EXPECT_EQ(with([](FitParams& p) { p.MaxSeconds = -1.0; }), option);
+  EXPECT_EQ(with([](FitParams& p) { p.ThresholdShare = 2.0; }), option);
+  EXPECT_EQ(with([](FitParams& p) { p.MinElementSize = 0.0; }), option);
+  EXPECT_EQ(with([](FitParams& p) { p.FeatureGridSize = -1; }), option);
+  EXPECT_EQ(with([](FitParams& p) { p.Threads = -1; }), option);
+}
+
+TEST(SurfaceFit, DegenerateCloudsGiveSurfaces_PropertyOracle)
+{
+  const auto cloud = [](std::initializer_list<std::array<double, 3>> rows)
+  {
+    PointCloud made;
+    made.Parameters.resize(static_cast<Eigen::Index>(rows.size()), 2);
+    made.Values.resize(static_cast<Eigen::Index>(rows.size()), 1);
+    Eigen::Index i = 0;
+    for (const auto& row : rows)
+    {
+      made.Parameters.row(i) << row[0], row[1];
+      made.Values(i++, 0) = row[2];
+    }
+    return made;
+  };
+  // one point, points on a line, the same parameters twice (no surface meets both values)
+  for (const PointCloud& some : { cloud({ { 3.0, 4.0, 5.0 } }),
+         cloud({ { 0.0, 1.0, 0.0 }, { 1.0, 1.0, 1.0 }, { 2.0, 1.0, 0.0 } }),
+         cloud({ { 0.0, 0.0, 7.0 }, { 1.0, 1e-9, 7.0 } }) })
+  {
+    const SurfaceFit fit = Fit(some, {});
+    ExpectWithin(some, fit);
+  }
+  const PointCloud twice =
+    cloud({ { 0.0, 0.0, 0.0 }, { 1.0, 1.0, 0.0 }, { 0.5, 0.5, 0.0 }, { 0.5, 0.5, 1.0 } });
+  const SurfaceFit fit = Fit(twice, WithTolerance(0.01));
+  EXPECT_FALSE(fit.WithinTolerance);
+  EXPECT_NEAR(fit.Final.MaxError, 0.5, 0.1);
+}
+}
