@@ -55,7 +55,7 @@ struct ConvertJob
 
   Status Run(Session& session)
   {
-    auto input = session.Read(this->Input);
+    auto input = session.ReadPoints(this->Input);
     if (!input)
     {
       return input.Status;
@@ -114,10 +114,12 @@ Job MakeConvertJob(CLI::App& app)
 {
   auto job = std::make_shared<ConvertJob>();
   app
-    .add_option(
-      "input", job->Input, "spline grid or skeleton (.vtu .vtp .vtpc .vtk .xml .g2 .step .iges)")
+    .add_option("input", job->Input,
+      "spline grid, skeleton or points (.vtu .vtp .vtpc .vtk .xml .g2 .step .iges .xyz .txt .csv)")
     ->required();
-  app.add_option("--output", job->Output, "the same data (.vtu .vtp .vtpc .xml .g2 .step .iges)")
+  app
+    .add_option("--output", job->Output,
+      "the same data (.vtu .vtp .vtpc .xml .g2 .step .iges, points .xyz .txt .csv .g2)")
     ->required();
   app.add_option("--curves", job->Curves,
     "trimming curves (.vtu): written when the input is STEP or IGES, else read");

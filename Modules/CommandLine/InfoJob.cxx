@@ -4,9 +4,12 @@
 #include "SplineModel.h"
 
 #include <CLI/CLI.hpp>
-#include <vtkDataObject.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <iostream>
 #include <memory>
 
@@ -65,12 +68,46 @@ struct InfoJob
 {
   std::string Input;
 
+  /// Says how many points there are, where, and what they carry.
+  Status DescribePoints(Session& session, vtkPolyData* points)
+  {
+    std::array<double, 6> box{};
+    points->GetBounds(box.data());
+    const bool finite =
+      std::all_of(box.begin(), box.end(), [](double side) { return std::isfinite(side); });
+    if (!finite)
+    {
+      return { ErrorCode::NonFiniteInput,
+        "'" + this->Input + "' has points that are not finite; remove them" };
+    }
+    std::vector<std::string> arrays;
+    std::cout << points->GetNumberOfPoints() << " points, box [" << box[0] << ", " << box[1]
+              << "] x [" << box[2] << ", " << box[3] << "] x [" << box[4] << ", " << box[5] << "]";
+    for (int i = 0; i < points->GetPointData()->GetNumberOfArrays(); ++i)
+    {
+      const char* name = points->GetPointData()->GetArrayName(i);
+      arrays.emplace_back(name ? name : "");
+      std::cout << ", array " << arrays.back();
+    }
+    std::cout << "\n";
+    session.Report["input"] = this->Input;
+    session.Report["points"] = points->GetNumberOfPoints();
+    session.Report["lower"] = { box[0], box[2], box[4] };
+    session.Report["upper"] = { box[1], box[3], box[5] };
+    session.Report["arrays"] = arrays;
+    return {};
+  }
+
   Status Run(Session& session)
   {
-    auto input = session.Read(this->Input);
+    auto input = session.ReadPoints(this->Input);
     if (!input)
     {
       return input.Status;
+    }
+    if (vtkPolyData* points = vtkPolyData::SafeDownCast(input.Value))
+    {
+      return this->DescribePoints(session, points);
     }
     Result<SplineModel> model = DecodeSplineModel(input.Value);
     if (!model)
@@ -141,7 +178,9 @@ struct InfoJob
 Job MakeInfoJob(CLI::App& app)
 {
   auto job = std::make_shared<InfoJob>();
-  app.add_option("input", job->Input, "spline grid (.vtu .vtpc .vtk .xml .g2 .step .iges)")
+  app
+    .add_option("input", job->Input,
+      "spline grid or points (.vtu .vtpc .vtk .xml .g2 .step .iges .xyz .txt .csv .ply .vtp)")
     ->required();
   return [job](Session& session) { return job->Run(session); };
 }

@@ -15,11 +15,14 @@
 #include "vtkGismoXMLWriter.h"
 #include "vtkGoToolsG2Reader.h"
 #include "vtkGoToolsG2Writer.h"
+#include "vtkPointCloudReader.h"
+#include "vtkPointCloudWriter.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkCallbackCommand.h>
 #include <vtkDataObject.h>
 #include <vtkDelimitedTextWriter.h>
+#include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkOBJReader.h>
 #include <vtkPLYReader.h>
@@ -29,6 +32,7 @@
 #include <vtkTable.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkUnstructuredGridReader.h>
+#include <vtkXMLImageDataWriter.h>
 #include <vtkXMLPartitionedDataSetCollectionReader.h>
 #include <vtkXMLPartitionedDataSetCollectionWriter.h>
 #include <vtkXMLPolyDataReader.h>
@@ -42,6 +46,7 @@
 #include <fstream>
 #include <iostream>
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace fs = std::filesystem;
@@ -58,6 +63,14 @@ double Now()
 double CpuNow()
 {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+/// Largest memory of the process so far.
+long long PeakBytes()
+{
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024LL * usage.ru_maxrss;
 }
 
 std::string Ending(const std::string& file)
@@ -77,6 +90,18 @@ vtkSmartPointer<vtkDataObject> ReadWith(const std::string& file)
   reader->SetFileName(file.c_str());
   reader->Update();
   return reader->GetOutputDataObject(0);
+}
+
+/// Text of a point a line.
+bool IsPointEnding(const std::string& ending)
+{
+  return ending == ".xyz" || ending == ".txt" || ending == ".csv";
+}
+
+bool HoldsPoints(const std::string& file)
+{
+  vtkNew<vtkPointCloudReader> reader;
+  return reader->CanReadFile(file.c_str()) != 0;
 }
 
 /// @param curves  set to the trimming curves of a STEP or IGES file.
@@ -102,6 +127,10 @@ vtkSmartPointer<vtkDataObject> ReadByEnding(
   if (ending == ".xml")
   {
     return ReadWith<vtkGismoXMLReader>(file);
+  }
+  if (IsPointEnding(ending) || (ending == ".g2" && HoldsPoints(file)))
+  {
+    return ReadWith<vtkPointCloudReader>(file);
   }
   if (ending == ".g2")
   {
@@ -158,7 +187,7 @@ bool WriteWith(vtkDataObject* data, const fs::path& file, const std::string& enc
 }
 
 template <typename Writer>
-bool WriteSplines(vtkDataObject* data, const fs::path& file)
+bool WriteFile(vtkDataObject* data, const fs::path& file)
 {
   vtkNew<Writer> writer;
   writer->SetFileName(file.c_str());
@@ -189,6 +218,26 @@ Session::~Session()
 }
 
 Result<vtkSmartPointer<vtkDataObject>> Session::Read(const std::string& file)
+{
+  const std::string ending = Ending(file);
+  const bool isForeign = ending == ".vtk" || ending == ".obj" || ending == ".ply" ||
+    ending == ".stl" || HasCADEnding(file);
+  return this->ReadWith(file, isForeign,
+    [&](const std::string& known) { return ReadByEnding(file, known, this->Curves); });
+}
+
+Result<vtkSmartPointer<vtkDataObject>> Session::ReadPoints(const std::string& file)
+{
+  if (Ending(file) != ".ply")
+  {
+    return this->Read(file);
+  }
+  return this->ReadWith(
+    file, false, [&](const std::string&) { return knotwork::ReadWith<vtkPointCloudReader>(file); });
+}
+
+Result<vtkSmartPointer<vtkDataObject>> Session::ReadWith(
+  const std::string& file, bool isForeign, const Reading& reading)
 {
   const double begin = Now();
   std::error_code error;
@@ -221,12 +270,11 @@ Result<vtkSmartPointer<vtkDataObject>> Session::Read(const std::string& file)
     return status;
   }
   MessageCapture messages;
-  if (ending == ".vtk" || ending == ".obj" || ending == ".ply" || ending == ".stl" ||
-    HasCADEnding(file))
+  if (isForeign)
   {
     const auto read = [&]
     {
-      ReadByEnding(file, ending, this->Curves);
+      reading(ending);
       if (!HasCADEnding(file)) // those errors come again below, in our own words
       {
         std::cerr << messages.FirstError();
@@ -239,7 +287,7 @@ Result<vtkSmartPointer<vtkDataObject>> Session::Read(const std::string& file)
   }
   try
   {
-    data = ReadByEnding(file, ending, this->Curves);
+    data = reading(ending);
   }
   catch (const std::exception& failure) // out of memory: sizes in the file are wrong
   {
@@ -251,12 +299,13 @@ Result<vtkSmartPointer<vtkDataObject>> Session::Read(const std::string& file)
     return { ErrorCode::InvalidParameter,
       "'" + file + "' has the ending '" + ending +
         "'; formats that can be read: .vtu .vtp .vtpc .vtk .xml .g2 .json .step .iges .off .obj "
-        ".ply .stl" };
+        ".ply .stl .xyz .txt .csv" };
   }
   if (messages.HasError())
   {
-    if (ending == ".xml" || ending == ".g2" || ending == ".json" ||
-      HasCADEnding(file)) // our own name the file
+    const bool isOwn = ending == ".xml" || ending == ".g2" || ending == ".json" ||
+      IsPointEnding(ending) || HasCADEnding(file) || (ending == ".ply" && !isForeign);
+    if (isOwn) // names the file
     {
       return { ErrorCode::InvalidFormat, messages.FirstError() };
     }
@@ -340,14 +389,23 @@ Status Session::Write(vtkDataObject* data, const std::string& file, const std::s
   const auto polydata = vtkPolyData::SafeDownCast(data);
   const auto collection = vtkPartitionedDataSetCollection::SafeDownCast(data);
   const auto table = vtkTable::SafeDownCast(data);
-  const char* expected = grid ? ".vtu" : polydata ? ".vtp" : collection ? ".vtpc" : ".csv";
+  const auto image = vtkImageData::SafeDownCast(data);
+  const char* expected = grid ? ".vtu"
+    : polydata                ? ".vtp"
+    : collection              ? ".vtpc"
+    : image                   ? ".vti"
+                              : ".csv";
   const bool asSplines = grid && (ending == ".xml" || ending == ".g2");
   const bool asCAD = (grid || collection) && HasCADEnding(file);
-  if (ending != expected && !asSplines && !asCAD)
+  const bool asPoints = polydata && (IsPointEnding(ending) || ending == ".g2");
+  if (ending != expected && !asSplines && !asCAD && !asPoints)
   {
     return { ErrorCode::InvalidParameter,
       "'" + file + "': this output is written as " + expected +
-        (grid ? ", .xml, .g2, .step or .iges" : "") + "; change the ending" };
+        (grid          ? ", .xml, .g2, .step or .iges"
+            : polydata ? ", its points as .xyz, .txt, .csv or .g2"
+                       : "") +
+        "; change the ending" };
   }
   Result<fs::path> staged = this->Stage(file);
   if (!staged)
@@ -358,15 +416,22 @@ Status Session::Write(vtkDataObject* data, const std::string& file, const std::s
   bool written = true;
   if (asCAD)
   {
-    written = WriteSplines<vtkCADWriter>(data, staged.Value);
+    written = WriteFile<vtkCADWriter>(data, staged.Value);
     this->Warn(messages.HasError() || messages.Warnings().empty()
         ? std::vector<std::string>()
         : std::vector<std::string>{ messages.Warnings() });
   }
   else if (asSplines)
   {
-    written = ending == ".xml" ? WriteSplines<vtkGismoXMLWriter>(data, staged.Value)
-                               : WriteSplines<vtkGoToolsG2Writer>(data, staged.Value);
+    written = ending == ".xml" ? WriteFile<vtkGismoXMLWriter>(data, staged.Value)
+                               : WriteFile<vtkGoToolsG2Writer>(data, staged.Value);
+  }
+  else if (asPoints)
+  {
+    written = WriteFile<vtkPointCloudWriter>(data, staged.Value);
+    this->Warn(messages.HasError() || messages.Warnings().empty()
+        ? std::vector<std::string>()
+        : std::vector<std::string>{ messages.Warnings() });
   }
   else if (grid)
   {
@@ -375,6 +440,10 @@ Status Session::Write(vtkDataObject* data, const std::string& file, const std::s
   else if (polydata)
   {
     written = WriteWith<vtkXMLPolyDataWriter>(data, staged.Value, encoding);
+  }
+  else if (image)
+  {
+    written = WriteWith<vtkXMLImageDataWriter>(data, staged.Value, encoding);
   }
   else if (collection)
   {
@@ -442,6 +511,7 @@ Status Session::Commit()
     this->Report["seconds"] = this->Seconds;
     this->Report["cpu_seconds"] = this->CpuSeconds;
     this->Report["seconds_io"] = this->SecondsOfFiles;
+    this->Report["peak_bytes"] = PeakBytes();
     Result<fs::path> staged = this->Stage(this->ReportFile);
     if (!staged)
     {

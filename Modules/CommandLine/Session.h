@@ -6,6 +6,7 @@
 #include <vtkSmartPointer.h>
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -37,8 +38,12 @@ public:
 
   /// Reads a dataset by the ending of its name: .vtu .vtp .vtpc, and .vtk; splines .xml (G+Smo) .g2
   /// (GoTools); surfaces of .step .stp .iges .igs (their trimming is in Curves); meshes .off .obj
-  /// .ply .stl. An unreadable, truncated, damaged or empty file is an error that names the file.
+  /// .ply .stl; points .xyz .txt .csv, and .g2 that begins with points. An unreadable, truncated,
+  /// damaged or empty file is an error that names the file.
   Result<vtkSmartPointer<vtkDataObject>> Read(const std::string& file);
+
+  /// Reads points with what belongs to them: as Read, but .ply with all digits and properties.
+  Result<vtkSmartPointer<vtkDataObject>> ReadPoints(const std::string& file);
 
   /// Updates a filter with progress on a terminal; messages of VTK become the status. `what` names
   /// the inputs in the message. No points in the output of `port` are an error.
@@ -50,7 +55,8 @@ public:
   /// Stages an output. XML files hold base64 within their elements: Debian's ParaView 5.11 with the
   /// present libexpat cannot read appended data. The ending of the name says the format: .vtu .vtp
   /// .vtpc for datasets, .xml and .g2 for spline grids, .step .stp .iges .igs for surfaces and
-  /// volumes, .csv for tables.
+  /// volumes, .xyz .txt .csv .g2 for the points of polydata, .csv for tables,
+  /// .vti for images.
   Status Write(
     vtkDataObject* data, const std::string& file, const std::string& encoding = "binary");
 
@@ -66,6 +72,10 @@ public:
   Status Commit();
 
 private:
+  using Reading = std::function<vtkSmartPointer<vtkDataObject>(const std::string& ending)>;
+  /// @param isForeign  the reader may crash on damaged files: it is tried in a child process first.
+  Result<vtkSmartPointer<vtkDataObject>> ReadWith(
+    const std::string& file, bool isForeign, const Reading& reading);
   Result<std::filesystem::path> Stage(const std::string& file);
 
   struct StagedFile

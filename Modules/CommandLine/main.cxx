@@ -27,6 +27,7 @@ struct Entry
 constexpr Entry Jobs[] = {
   { "convert", "write a dataset in another format or encoding", knotwork::MakeConvertJob },
   { "evaluate", "evaluate a spline at points, with derivatives", knotwork::MakeEvaluateJob },
+  { "fit", "fit a spline surface to scattered points", knotwork::MakeFitJob },
   { "flatten", "lay a triangle mesh with holes into the plane", knotwork::MakeFlattenJob },
   { "info", "say what a spline file holds", knotwork::MakeInfoJob },
   { "map", "carry a template skeleton onto target patches", knotwork::MakeMapJob },

@@ -16,5 +16,5 @@ knotwork::Result<knotwork::SplineFile> vtkGoToolsG2Reader::Parse(std::string_vie
 
 bool vtkGoToolsG2Reader::Recognize(std::string_view beginning)
 {
-  return knotwork::LooksLikeG2(beginning);
+  return knotwork::LooksLikeG2(beginning) && !knotwork::BeginsWithG2Points(beginning);
 }

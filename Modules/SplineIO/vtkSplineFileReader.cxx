@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSplineFileReader.h"
 
+#include "FileText.h"
 #include "PatchTopology.h"
 #include "SplineFileModel.h"
 
 #include "vtkUnstructuredGrid.h"
-
-#include <filesystem>
-#include <fstream>
-#include <system_error>
 
 vtkSplineFileReader::vtkSplineFileReader()
 {
@@ -28,37 +25,20 @@ void vtkSplineFileReader::PrintSelf(ostream& os, vtkIndent indent)
 
 int vtkSplineFileReader::CanReadFile(const char* fileName)
 {
-  std::ifstream stream(fileName ? fileName : "", std::ios::binary);
-  std::string beginning(4096, '\0');
-  stream.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
-  beginning.resize(static_cast<std::size_t>(stream.gcount()));
+  const std::string beginning = knotwork::BeginningOfFile(fileName ? fileName : "");
   return this->Recognize(beginning) ? 1 : 0;
 }
 
 knotwork::Status vtkSplineFileReader::Compute(vtkInformationVector**, vtkInformationVector* outputs)
 {
   using namespace knotwork;
-  if (!this->FileName || this->FileName[0] == '\0')
+  const Result<std::string> text = TextOfFile(this->FileName ? this->FileName : "");
+  if (!text)
   {
-    return { ErrorCode::EmptyInput, "there is no file name" };
+    return text.Status;
   }
   const std::string name = std::string("'") + this->FileName + "'";
-  std::ifstream stream(this->FileName, std::ios::binary | std::ios::ate);
-  std::error_code ignored;
-  const bool opened = stream && !std::filesystem::is_directory(this->FileName, ignored);
-  const std::streamoff size = opened ? static_cast<std::streamoff>(stream.tellg()) : -1;
-  std::string text;
-  if (size >= 0)
-  {
-    text.resize(static_cast<std::size_t>(size));
-    stream.seekg(0);
-    stream.read(text.data(), size);
-  }
-  if (size < 0 || !stream)
-  {
-    return { ErrorCode::EmptyInput, name + " cannot be read; check its name and permissions" };
-  }
-  const Result<SplineFile> file = this->Parse(text);
+  const Result<SplineFile> file = this->Parse(text.Value);
   if (!file)
   {
     return { file.Status.Code, name + ": " + file.Status.Detail };

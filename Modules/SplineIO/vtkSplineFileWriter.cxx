@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSplineFileWriter.h"
 
+#include "FileText.h"
 #include "PatchTopology.h"
 #include "SplineFileModel.h"
 
@@ -8,9 +9,7 @@
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"
 
-#include <cstdio>
 #include <exception>
-#include <fstream>
 
 vtkSplineFileWriter::vtkSplineFileWriter() = default;
 
@@ -85,18 +84,11 @@ void vtkSplineFileWriter::WriteData()
     vtkErrorMacro("" << status.Message());
     return;
   }
-  std::ofstream stream(this->FileName, std::ios::binary);
-  const bool opened = static_cast<bool>(stream);
-  stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-  stream.close();
-  if (!stream)
+  const WriteOutcome outcome = WriteText(this->FileName, text);
+  if (!outcome.Written)
   {
-    if (opened)
-    {
-      std::remove(this->FileName); // a part of a file is no file
-    }
     this->SetErrorCode(
-      opened ? vtkErrorCode::OutOfDiskSpaceError : vtkErrorCode::CannotOpenFileError);
+      outcome.Opened ? vtkErrorCode::OutOfDiskSpaceError : vtkErrorCode::CannotOpenFileError);
     vtkErrorMacro("'" << this->FileName << "' cannot be written");
   }
 }

@@ -65,7 +65,7 @@ def bad_grids():
     yield write_text("empty.vtu", ""), "empty.vtu"
     yield truncated("truncated.vtu", source()), "truncated.vtu"
     yield write_text("text.vtu", "not a grid\n"), "text.vtu"
-    yield write_text("grid.xyz", "0 0 0\n"), ".xyz"
+    yield write_text("grid.abc", "0 0 0\n"), ".abc"
 
 
 def test_grid_jobs_refuse_bad_files():

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Jobs.h"
+#include "Options.h"
+#include "Session.h"
+
+#include "vtkSplineSurfaceFit.h"
+
+#include <vtkCellArray.h>
+#include <vtkDataArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPointSet.h>
+#include <vtkPolyData.h>
+#include <vtkTable.h>
+#include <vtkVariant.h>
+
+#include <memory>
+
+namespace knotwork
+{
+namespace
+{
+/// Points of a grid as polydata, for formats of points.
+vtkSmartPointer<vtkPolyData> AsPolyData(vtkPointSet* data)
+{
+  if (auto* polydata = vtkPolyData::SafeDownCast(data))
+  {
+    return polydata;
+  }
+  auto points = vtkSmartPointer<vtkPolyData>::New();
+  points->SetPoints(data->GetPoints());
+  points->GetPointData()->ShallowCopy(data->GetPointData());
+  vtkNew<vtkCellArray> vertices;
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  {
+    vertices->InsertNextCell(1, &i);
+  }
+  points->SetVerts(vertices);
+  return points;
+}
+
+struct FitJob
+{
+  std::string Input;
+  std::string Output;
+  std::string Points;
+  std::string Table;
+  std::string Features;
+  std::vector<std::string> Fields;
+  std::array<std::string, 3> Arrays; ///< parameters, tolerances, significant points
+  std::vector<double> ToleranceBoxes;
+  std::vector<double> Domain{ 0.0, 0.0, 0.0, 0.0 };
+  std::vector<double> DistanceCentre{ 0.0, 0.0 };
+  vtkNew<vtkSplineSurfaceFit> Filter;
+  std::unique_ptr<Options> FilterOptions;
+
+  void ApplyOptions(Session& session)
+  {
+    vtkSplineSurfaceFit* filter = this->Filter;
+    this->FilterOptions->Apply(session.Report);
+    for (const std::string& name : this->Fields)
+    {
+      filter->AddFieldArray(name.c_str());
+    }
+    for (std::size_t i = 0; i < this->Arrays.size(); ++i)
+    {
+      if (!this->Arrays[i].empty())
+      {
+        filter->SetInputArrayToProcess(static_cast<int>(i), 0, 0,
+          vtkDataObject::FIELD_ASSOCIATION_POINTS, this->Arrays[i].c_str());
+      }
+    }
+    const std::vector<double>& boxes = this->ToleranceBoxes;
+    for (std::size_t i = 0; i + 4 < boxes.size(); i += 5)
+    {
+      filter->AddToleranceBox(boxes[i], boxes[i + 1], boxes[i + 2], boxes[i + 3], boxes[i + 4]);
+    }
+    filter->SetDomain(this->Domain.data());
+    filter->SetDistanceCentre(this->DistanceCentre.data());
+    filter->SetThreads(session.Threads);
+    session.Report["fields"] = this->Fields;
+    session.Report["parameter_array"] = this->Arrays[0];
+    session.Report["tolerance_array"] = this->Arrays[1];
+    session.Report["significant_array"] = this->Arrays[2];
+    session.Report["tolerance_boxes"] = this->ToleranceBoxes;
+    session.Report["domain"] = this->Domain;
+    session.Report["distance_centre"] = this->DistanceCentre;
+  }
+
+  void ReportFit(Session& session)
+  {
+    auto* points = vtkPointSet::SafeDownCast(this->Filter->GetOutputDataObject(1));
+    auto* table = vtkTable::SafeDownCast(this->Filter->GetOutputDataObject(2));
+    const vtkIdType last = table->GetNumberOfRows() - 1;
+    const auto value = [&](const char* name) { return table->GetValueByName(last, name); };
+    double tolerances[2] = { 0.0, 0.0 };
+    points->GetPointData()->GetArray("Tolerance")->GetRange(tolerances);
+    auto& report = session.Report;
+    report["points"] = points->GetNumberOfPoints();
+    report["smallest_tolerance"] = tolerances[0];
+    report["largest_tolerance"] = tolerances[1];
+    report["functions"] = value("Functions").ToLongLong();
+    report["elements"] = value("Elements").ToLongLong();
+    report["iterations"] = value("Iteration").ToLongLong();
+    report["max_error"] = value("MaxError").ToDouble();
+    report["mean_error"] = value("MeanError").ToDouble();
+    report["rms_error"] = value("RmsError").ToDouble();
+    report["points_outside"] = value("PointsOutside").ToLongLong();
+    report["outliers"] = value("Outliers").ToLongLong();
+    report["aic"] = value("AIC").ToDouble();
+    report["bic"] = value("BIC").ToDouble();
+    report["within_tolerance"] = value("PointsOutside").ToLongLong() == 0;
+    report["seconds_of_fit"] = value("Seconds").ToDouble();
+  }
+
+  Status Run(Session& session)
+  {
+    const bool asG2 = CLI::detail::to_lower(this->Output).find(".g2") != std::string::npos;
+    auto input = session.ReadPoints(this->Input);
+    if (!input)
+    {
+      return input.Status;
+    }
+    if (!vtkPointSet::SafeDownCast(input.Value))
+    {
+      return { ErrorCode::InvalidTopology,
+        "'" + this->Input + "' is no single set of points; give one of its parts" };
+    }
+    session.Report["input"] = this->Input;
+    session.Report["output"] = this->Output;
+    this->Filter->SetInputDataObject(input.Value);
+    this->ApplyOptions(session);
+    if (asG2 && this->Filter->GetSpace() == vtkSplineSurfaceFit::THB)
+    {
+      return { ErrorCode::InvalidParameter,
+        "'" + this->Output +
+          "': a hierarchical spline cannot be written as g2; write .vtu or .xml" };
+    }
+    if (Status status = session.Run(this->Filter, "'" + this->Input + "'"); !status)
+    {
+      return status;
+    }
+    this->ReportFit(session);
+    Status status =
+      session.WriteOutputs(this->Filter, { this->Output, {}, this->Table, this->Features });
+    if (status && !this->Points.empty())
+    {
+      status = session.Write(
+        AsPolyData(vtkPointSet::SafeDownCast(this->Filter->GetOutputDataObject(1))), this->Points);
+    }
+    return status;
+  }
+};
+
+void AddArrayOptions(CLI::App& app, FitJob& job)
+{
+  app.add_option("--field", job.Fields, "point arrays that are fitted along")
+    ->expected(1)
+    ->take_all();
+  app.add_option("--parameter-array", job.Arrays[0],
+    "point array of given parameters; without one UV, then the texture coordinates");
+  app.add_option("--tolerance-array", job.Arrays[1], "point array of tolerances");
+  app.add_option(
+    "--significant-array", job.Arrays[2], "point array that is not 0 where a point is significant");
+  app
+    .add_option("--tolerance-box", job.ToleranceBoxes,
+      "u0 u1 v0 v1 tolerance of the points in a box of parameters; several boxes one after the "
+      "other")
+    ->expected(5)
+    ->take_all();
+  app
+    .add_option("--domain", job.Domain, "parameter domain u0 u1 v0 v1; 0 0 0 0: box of the points")
+    ->expected(4)
+    ->capture_default_str();
+  app
+    .add_option("--distance-centre", job.DistanceCentre,
+      "parameters from which the distance mode 'point' measures")
+    ->expected(2)
+    ->capture_default_str();
+}
+
+void AddFitOptions(Options& options, vtkSplineSurfaceFit* filter)
+{
+  const auto choice = [&](const char* name, const std::vector<std::string>& names, int initial,
+                        void (vtkSplineSurfaceFit::*set)(int), const std::string& help)
+  {
+    options.AddChoice(
+      name, names, initial, [=](int value) { (filter->*set)(value); }, help);
+  };
+  using Fit = vtkSplineSurfaceFit;
+  choice("Space", { "lr", "thb" }, filter->GetSpace(), &Fit::SetSpace, "kind of the spline space");
+  KNOTWORK_OPTION(options, filter, Tolerance,
+    "largest distance of points; 0: a thousandth of the range of the values");
+  choice("Parameterization", { "height-field", "given", "computed" }, filter->GetParameterization(),
+    &Fit::SetParameterization, "where parameters come from: x and y, an array, or a projection");
+  KNOTWORK_FREE_OPTION(options, filter, AllFields, "fit all point arrays of numbers along");
+  KNOTWORK_OPTION(options, filter, Degree, "in the first parameter");
+  KNOTWORK_OPTION(options, filter, SecondDegree, "in the second parameter; 0: as the first");
+  KNOTWORK_OPTION(
+    options, filter, InitialElementsU, "of the initial space; 0: by the number of points");
+  KNOTWORK_OPTION(
+    options, filter, InitialElementsV, "of the initial space; 0: by the number of points");
+  choice("Method", { "least-squares", "mba", "combined" }, filter->GetMethod(), &Fit::SetMethod,
+    "how control points are found");
+  KNOTWORK_OPTION(
+    options, filter, SwitchIteration, "first iteration of MBA in the combined method");
+  KNOTWORK_OPTION(options, filter, Smoothing, "weight of the thin-plate energy in least squares");
+  KNOTWORK_OPTION(options, filter, SignificantWeight, "how many times a significant point counts");
+  choice("DistanceMode", { "none", "value", "point" }, filter->GetDistanceMode(),
+    &Fit::SetDistanceMode, "what the tolerance grows with");
+  KNOTWORK_OPTION(options, filter, DistanceSlope, "growth of the tolerance a unit of distance");
+  choice("Side", { "both", "above", "below" }, filter->GetSide(), &Fit::SetSide,
+    "above: no point above the surface; below: none below it");
+  KNOTWORK_FREE_OPTION(options, filter, FindOutliers, "whether outliers are looked for");
+  KNOTWORK_OPTION(options, filter, OutlierScale, "robust standard deviations that make an outlier");
+  KNOTWORK_OPTION(options, filter, MaximumIterations, "refinements at most");
+  KNOTWORK_OPTION(options, filter, MaximumFunctions, "functions at most; 0: no limit");
+  KNOTWORK_OPTION(options, filter, MaximumSeconds, "no iteration begins later; 0: no limit");
+  choice("Criterion", { "tolerance", "aic", "bic" }, filter->GetCriterion(), &Fit::SetCriterion,
+    "what ends the fit besides tolerance and limits");
+  choice("Threshold", { "all", "largest-errors", "most-points" }, filter->GetThreshold(),
+    &Fit::SetThreshold, "which elements with points outside are split");
+  KNOTWORK_OPTION(options, filter, ThresholdShare, "of the largest error or number");
+  choice("Directions", { "both", "alternating", "by-error" }, filter->GetDirections(),
+    &Fit::SetDirections, "in which elements are split");
+  choice("Strategy", { "full-span", "minimum-span", "structured-mesh" }, filter->GetStrategy(),
+    &Fit::SetStrategy, "how far lines of an LR space reach");
+  KNOTWORK_FREE_OPTION(options, filter, Independent, "no step leaves dependent functions (slower)");
+  KNOTWORK_OPTION(options, filter, MinimumElementSize, "share of the domain; not split below");
+  KNOTWORK_OPTION(options, filter, FeatureGridSize, "cells of the feature grid in each direction");
+}
+}
+
+Job MakeFitJob(CLI::App& app)
+{
+  auto job = std::make_shared<FitJob>();
+  app
+    .add_option(
+      "points", job->Input, "points (.xyz .txt .csv .g2 .ply .vtp .vtu, meshes .stl .obj .off)")
+    ->required();
+  app.add_option("--output", job->Output, "the surface (.vtu .g2 .xml)")->required();
+  app.add_option(
+    "--points", job->Points, "the points with distances, tolerances, outliers (.vtp .csv .xyz)");
+  app.add_option("--table", job->Table, "the iterations (.csv)");
+  app.add_option("--features", job->Features, "the feature grid (.vti)");
+  AddArrayOptions(app, *job);
+  job->FilterOptions = std::make_unique<Options>(app);
+  AddFitOptions(*job->FilterOptions, job->Filter);
+  return [job](Session& session) { return job->Run(session); };
+}
+}

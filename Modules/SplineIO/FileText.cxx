@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FileText.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+namespace knotwork
+{
+Result<std::string> TextOfFile(const std::string& file)
+{
+  if (file.empty())
+  {
+    return { ErrorCode::EmptyInput, "there is no file name" };
+  }
+  std::ifstream stream(file, std::ios::binary | std::ios::ate);
+  std::error_code ignored;
+  const bool opened = stream && !std::filesystem::is_directory(file, ignored);
+  const std::streamoff size = opened ? static_cast<std::streamoff>(stream.tellg()) : -1;
+  std::string text;
+  if (size >= 0)
+  {
+    text.resize(static_cast<std::size_t>(size));
+    stream.seekg(0);
+    stream.read(text.data(), size);
+  }
+  if (size < 0 || !stream)
+  {
+    return { ErrorCode::EmptyInput,
+      "'" + file + "' cannot be read; check its name and permissions" };
+  }
+  return text;
+}
+
+std::string BeginningOfFile(const std::string& file)
+{
+  std::ifstream stream(file, std::ios::binary);
+  std::string beginning(4096, '\0');
+  stream.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+  beginning.resize(static_cast<std::size_t>(stream.gcount()));
+  return beginning;
+}
+
+std::string LowerEnding(const std::string& file)
+{
+  std::string ending = std::filesystem::path(file).extension().string();
+  for (char& c : ending)
+  {
+    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  return ending;
+}
+
+WriteOutcome WriteText(const std::string& file, const std::string& text)
+{
+  std::ofstream stream(file, std::ios::binary);
+  WriteOutcome outcome;
+  outcome.Opened = static_cast<bool>(stream);
+  stream.write(text.data(), static_cast<std::streamsize>(text.size()));
+  stream.close();
+  outcome.Written = static_cast<bool>(stream);
+  if (outcome.Opened && !outcome.Written)
+  {
+    std::remove(file.c_str()); // a part of a file is no file
+  }
+  return outcome;
+}
+}

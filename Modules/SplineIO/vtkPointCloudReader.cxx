@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkPointCloudReader.h"
+
+#include "FileText.h"
+#include "GoToolsG2.h"
+#include "PlyPoints.h"
+#include "PointData.h"
+#include "PointText.h"
+
+#include "vtkDataObject.h"
+#include "vtkErrorCode.h"
+#include "vtkEventForwarderCommand.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkXMLPolyDataReader.h"
+
+vtkStandardNewMacro(vtkPointCloudReader);
+
+namespace
+{
+using namespace knotwork;
+
+bool IsTextEnding(const std::string& ending)
+{
+  return ending == ".xyz" || ending == ".txt" || ending == ".csv";
+}
+
+Result<PointFile> Parse(const std::string& ending, const std::string& text, int threads)
+{
+  if (IsTextEnding(ending))
+  {
+    return ReadPointText(text, threads);
+  }
+  if (ending == ".g2")
+  {
+    return ReadG2Points(text);
+  }
+  if (ending == ".ply")
+  {
+    return ReadPly(text);
+  }
+  return { ErrorCode::InvalidParameter,
+    "the ending '" + ending + "' is none of .xyz .txt .csv .g2 .ply .vtp" };
+}
+}
+
+vtkPointCloudReader::vtkPointCloudReader()
+{
+  this->SetNumberOfInputPorts(0);
+}
+
+vtkPointCloudReader::~vtkPointCloudReader()
+{
+  this->SetFileName(nullptr);
+}
+
+void vtkPointCloudReader::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+}
+
+int vtkPointCloudReader::CanReadFile(const char* fileName)
+{
+  const std::string ending = LowerEnding(fileName ? fileName : "");
+  const std::string beginning = BeginningOfFile(fileName ? fileName : "");
+  return (IsTextEnding(ending) && LooksLikePointText(beginning)) ||
+      (ending == ".g2" && BeginsWithG2Points(beginning)) ||
+      (ending == ".ply" && beginning.compare(0, 3, "ply") == 0) ||
+      (ending == ".vtp" && !beginning.empty())
+    ? 1
+    : 0;
+}
+
+int vtkPointCloudReader::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPolyData");
+  return 1;
+}
+
+int vtkPointCloudReader::RequestDataObject(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+{
+  if (!vtkPolyData::GetData(outputs))
+  {
+    vtkNew<vtkPolyData> points;
+    outputs->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), points);
+  }
+  return 1;
+}
+
+knotwork::Status vtkPointCloudReader::Compute(vtkInformationVector**, vtkInformationVector* outputs)
+{
+  auto* output = vtkPolyData::GetData(outputs);
+  const std::string file = this->FileName ? this->FileName : "";
+  if (LowerEnding(file) == ".vtp")
+  {
+    vtkNew<vtkXMLPolyDataReader> reader;
+    vtkNew<vtkEventForwarderCommand> errors; // its messages are this reader's
+    errors->SetTarget(this);
+    reader->AddObserver(vtkCommand::ErrorEvent, errors);
+    reader->SetFileName(file.c_str());
+    reader->Update();
+    output->ShallowCopy(reader->GetOutput());
+    return reader->GetErrorCode() == vtkErrorCode::NoError && output->GetNumberOfPoints() > 0
+      ? Status()
+      : Status(ErrorCode::EmptyInput, "'" + file + "' holds no points that can be read");
+  }
+  Result<std::string> text = TextOfFile(file);
+  if (!text)
+  {
+    return text.Status;
+  }
+  Result<PointFile> points = Parse(LowerEnding(file), text.Value, this->KernelThreads());
+  text.Value = {};
+  if (!points)
+  {
+    return { points.Status.Code, "'" + file + "': " + points.Status.Detail };
+  }
+  this->ReportWarnings(points->Warnings);
+  EncodePoints(points.Value, output);
+  return {};
+}

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkPointCloudReader
+ * @brief   points from text, g2, PLY and VTK files
+ *
+ * The ending says the format: .xyz, .txt and .csv have a point a line (PointText.h), .g2 point
+ * clouds of class 400, .ply vertices with all properties (and faces), .vtp what VTK wrote. Output:
+ * vtkPolyData with double coordinates, a vertex a point where there are no faces, further columns
+ * and properties as point arrays, `CloudId` where there are several clouds, `Color` where they have
+ * one. Errors: a file that is missing or cannot be read (EmptyInput), and those of the formats,
+ * with the place in the file.
+ */
+#ifndef vtkPointCloudReader_h
+#define vtkPointCloudReader_h
+#include "vtkKnotworkSplineIOModule.h" // for export macro
+#include "vtkSplineAlgorithm.h"
+
+class VTKKNOTWORKSPLINEIO_EXPORT vtkPointCloudReader : public vtkSplineAlgorithm
+{
+public:
+  static vtkPointCloudReader* New();
+  vtkTypeMacro(vtkPointCloudReader, vtkSplineAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /** The file to read: .xyz, .txt, .csv, .g2, .ply or .vtp. */
+  vtkSetFilePathMacro(FileName);
+  vtkGetFilePathMacro(FileName);
+  ///@}
+
+  /** 1 when the ending and the beginning of a file are those of points, else 0; the file may still
+   * be damaged. */
+  int CanReadFile(const char* fileName);
+
+protected:
+  vtkPointCloudReader();
+  ~vtkPointCloudReader() override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestDataObject(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+  char* FileName = nullptr;
+
+private:
+  vtkPointCloudReader(const vtkPointCloudReader&) = delete;
+  void operator=(const vtkPointCloudReader&) = delete;
+};
+#endif

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkPointCloudWriter.h"
+
+#include "FileText.h"
+#include "GoToolsG2.h"
+#include "PointData.h"
+#include "PointText.h"
+
+#include "vtkErrorCode.h"
+#include "vtkInformation.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointSet.h"
+
+#include <exception>
+
+vtkStandardNewMacro(vtkPointCloudWriter);
+
+vtkPointCloudWriter::vtkPointCloudWriter() = default;
+
+vtkPointCloudWriter::~vtkPointCloudWriter()
+{
+  this->SetFileName(nullptr);
+}
+
+void vtkPointCloudWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+}
+
+int vtkPointCloudWriter::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+  return 1;
+}
+
+knotwork::Status vtkPointCloudWriter::MakeText(std::string& text)
+{
+  using namespace knotwork;
+  if (!this->FileName || this->FileName[0] == '\0')
+  {
+    return { ErrorCode::InvalidParameter, "there is no file name" };
+  }
+  const std::string ending = LowerEnding(this->FileName);
+  const bool asG2 = ending == ".g2";
+  if (!asG2 && ending != ".xyz" && ending != ".txt" && ending != ".csv")
+  {
+    return { ErrorCode::InvalidParameter,
+      std::string("'") + this->FileName + "': points are written as .xyz, .txt, .csv or .g2" };
+  }
+  const PointFile file = DecodePoints(vtkPointSet::SafeDownCast(this->GetInput()));
+  if (asG2 && !file.Names.empty())
+  {
+    vtkWarningMacro("the point arrays are left out: the format has none");
+  }
+  Result<std::string> made =
+    asG2 ? WriteG2Points(file) : WritePointText(file, ending == ".csv" ? ',' : ' ');
+  text = std::move(made.Value);
+  return made.Status;
+}
+
+void vtkPointCloudWriter::WriteData()
+{
+  using namespace knotwork;
+  this->SetErrorCode(vtkErrorCode::NoError);
+  std::string text;
+  Status status;
+  try
+  {
+    status = this->MakeText(text);
+  }
+  catch (const std::exception& error) // out of memory
+  {
+    status = { ErrorCode::TooLarge, error.what() };
+  }
+  if (!status)
+  {
+    this->SetErrorCode(vtkErrorCode::UserError + static_cast<unsigned long>(status.Code));
+    vtkErrorMacro("" << status.Message());
+    return;
+  }
+  const WriteOutcome outcome = WriteText(this->FileName, text);
+  if (!outcome.Written)
+  {
+    this->SetErrorCode(
+      outcome.Opened ? vtkErrorCode::OutOfDiskSpaceError : vtkErrorCode::CannotOpenFileError);
+    vtkErrorMacro("'" << this->FileName << "' cannot be written");
+  }
+}
