@@ -2,6 +2,7 @@
 #include "FitData.h"
 
 #include "MeshData.h"
+#include "Numbers.h"
 #include "PlaneParameters.h"
 #include "SplineModel.h"
 
@@ -185,6 +186,22 @@ Result<PointMatrix> FindParameters(
                                          : MeshParameters(decoded->Mesh, choice.Threads);
 }
 
+/// A spline grid takes no larger numbers.
+Status CheckSizes(const PointCloud& cloud)
+{
+  const auto isLarge = [](const auto& row) { return (row.array().abs() > LargestNumber).any(); };
+  for (Eigen::Index i = 0; i < cloud.Values.rows(); ++i)
+  {
+    if (isLarge(cloud.Parameters.row(i)) || isLarge(cloud.Values.row(i)))
+    {
+      return { ErrorCode::TooLarge,
+        "point " + std::to_string(i) +
+          " has a number of which the absolute value is larger than 1e+60; choose a larger unit" };
+    }
+  }
+  return {};
+}
+
 template <typename Array, typename Value>
 void AddValues(vtkFieldData* data, const char* name, const std::vector<Value>& values)
 {
@@ -236,6 +253,10 @@ Result<DecodedCloud> DecodeCloud(vtkPointSet* data, const CloudChoice& choice)
   {
     CopyArray(array, array->GetNumberOfComponents(), cloud.Values, columns);
     columns += array->GetNumberOfComponents();
+  }
+  if (status = CheckSizes(cloud); !status)
+  {
+    return status;
   }
   if (choice.Tolerances)
   {
