@@ -166,8 +166,8 @@ void AddArrayOptions(CLI::App& app, FitJob& job)
     .add_option("--tolerance-box", job.ToleranceBoxes,
       "u0 u1 v0 v1 tolerance of the points in a box of parameters; several boxes one after the "
       "other")
-    ->expected(5)
-    ->take_all();
+    ->type_size(5)
+    ->expected(1, 100000);
   app
     .add_option("--domain", job.Domain, "parameter domain u0 u1 v0 v1; 0 0 0 0: box of the points")
     ->expected(4)

@@ -194,9 +194,7 @@ Status CheckSizes(const PointCloud& cloud)
   {
     if (isLarge(cloud.Parameters.row(i)) || isLarge(cloud.Values.row(i)))
     {
-      return { ErrorCode::TooLarge,
-        "point " + std::to_string(i) +
-          " has a number of which the absolute value is larger than 1e+60; choose a larger unit" };
+      return { ErrorCode::TooLarge, "point " + std::to_string(i) + ": " + BeyondLimit() };
     }
   }
   return {};

@@ -1,0 +1,456 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Clouds whose surface is known.
+#include "vtkSplineSurfaceFit.h"
+
+#include "FilterCases.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkMath.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkSplineEvaluate.h"
+#include "vtkTable.h"
+#include "vtkVariant.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+
+using namespace knotwork;
+
+namespace
+{
+using Shape = std::function<std::array<double, 3>(double u, double v)>;
+
+/// Points of a shape over [0, 2] x [0, 1], seeded, with the arrays Uv and TwoU = (2 u, v - u).
+template <typename Data>
+vtkSmartPointer<Data> MakeCloud(const Shape& shape, int n = 2000, unsigned seed = 1)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkDoubleArray> uv;
+  uv->SetName("Uv");
+  uv->SetNumberOfComponents(2);
+  vtkNew<vtkDoubleArray> field;
+  field->SetName("TwoU");
+  field->SetNumberOfComponents(2);
+  for (int i = 0; i < n; ++i)
+  {
+    const double u = 2.0 * unit(random);
+    const double v = unit(random);
+    points->InsertNextPoint(shape(u, v).data());
+    uv->InsertNextTuple2(u, v);
+    field->InsertNextTuple2(2.0 * u, v - u);
+  }
+  auto data = vtkSmartPointer<Data>::New();
+  data->SetPoints(points);
+  data->GetPointData()->AddArray(uv);
+  data->GetPointData()->AddArray(field);
+  return data;
+}
+
+std::array<double, 3> Saddle(double u, double v)
+{
+  return { u, v, 1.0 + u * v - 0.5 * u * u };
+}
+
+std::array<double, 3> Wave(double u, double v)
+{
+  return { u, v, std::sin(4.0 * u) * std::cos(3.0 * v) };
+}
+
+double Number(vtkSplineSurfaceFit* filter, const char* name)
+{
+  auto* table = vtkTable::SafeDownCast(filter->GetOutputDataObject(2));
+  return table->GetValueByName(table->GetNumberOfRows() - 1, name).ToDouble();
+}
+
+vtkPointSet* PointsOf(vtkSplineSurfaceFit* filter)
+{
+  return vtkPointSet::SafeDownCast(filter->GetOutputDataObject(1));
+}
+
+/// Values of the surface and of a field at parameters, by the filter of evaluation.
+vtkSmartPointer<vtkPolyData> Evaluate(vtkSplineSurfaceFit* filter, vtkDataArray* uv)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (vtkIdType i = 0; i < uv->GetNumberOfTuples(); ++i)
+  {
+    points->InsertNextPoint(uv->GetComponent(i, 0), uv->GetComponent(i, 1), 0.0);
+  }
+  vtkNew<vtkPolyData> at;
+  at->SetPoints(points);
+  vtkNew<vtkSplineEvaluate> evaluate;
+  evaluate->SetInputConnection(0, filter->GetOutputPort(0));
+  evaluate->SetInputData(1, at);
+  evaluate->Update();
+  return vtkPolyData::SafeDownCast(evaluate->GetOutputDataObject(0));
+}
+
+TEST(SplineSurfaceFit, ReproducesASplineOfItsSpace_ExactOracle)
+{
+  for (int space : { vtkSplineSurfaceFit::LR, vtkSplineSurfaceFit::THB })
+  {
+    const auto cloud = MakeCloud<vtkPolyData>(Saddle);
+    vtkNew<vtkSplineSurfaceFit> filter;
+    filter->SetInputData(cloud);
+    filter->SetSpace(space);
+    filter->SetSmoothing(0.0);
+    filter->SetTolerance(1e-9);
+    filter->AddFieldArray("TwoU");
+    filter->Update();
+    ASSERT_EQ(filter->GetErrorCode(), 0U);
+    // a biquadratic function; equations are solved to some 1e-11 of the values
+    EXPECT_LT(Number(filter, "MaxError"), 1e-10);
+    EXPECT_EQ(Number(filter, "PointsOutside"), 0);
+    const SplineModel model = DecodePatches(filter->GetOutputDataObject(0));
+    ASSERT_EQ(model.Patches.size(), 1U);
+    const auto& surface = std::get<Spline<2>>(model.Patches[0].Geometry);
+    EXPECT_EQ(surface.Space->Kind == SpaceKind::LocallyRefined, space == vtkSplineSurfaceFit::LR);
+    ASSERT_EQ(model.Patches[0].Fields.size(), 1U);
+    EXPECT_EQ(model.Patches[0].Fields[0].Name, "TwoU");
+    const auto values = Evaluate(filter, cloud->GetPointData()->GetArray("Uv"));
+    vtkDataArray* field = values->GetPointData()->GetArray("TwoU");
+    ASSERT_TRUE(field);
+    for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+    {
+      for (int c = 0; c < 3; ++c)
+      {
+        EXPECT_NEAR(values->GetPoint(i)[c], cloud->GetPoint(i)[c], 1e-10);
+      }
+      for (int c = 0; c < 2; ++c)
+      {
+        EXPECT_NEAR(field->GetComponent(i, c),
+          cloud->GetPointData()->GetArray("TwoU")->GetComponent(i, c), 1e-10);
+      }
+    }
+  }
+}
+
+TEST(SplineSurfaceFit, DistancesAreThoseOfTheOutput_CrossOracle)
+{
+  const Shape roll = [](double u, double v) {
+    return std::array<double, 3>{ std::cos(u), std::sin(u), v + 0.1 * u * u * u };
+  };
+  const auto cloud = MakeCloud<vtkPolyData>(roll);
+  for (bool given : { false, true })
+  {
+    // the array by name, or UV as other filters leave it
+    const auto data = vtkSmartPointer<vtkPolyData>::New();
+    data->ShallowCopy(cloud);
+    vtkNew<vtkDoubleArray> uv;
+    uv->DeepCopy(cloud->GetPointData()->GetArray("Uv"));
+    uv->SetName("UV");
+    vtkNew<vtkSplineSurfaceFit> filter;
+    filter->SetParameterization(vtkSplineSurfaceFit::GIVEN);
+    given ? filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Uv")
+          : void(data->GetPointData()->AddArray(uv));
+    filter->SetInputData(data);
+    filter->SetTolerance(1e-3);
+    filter->Update();
+    ASSERT_EQ(filter->GetErrorCode(), 0U);
+    const auto values = Evaluate(filter, cloud->GetPointData()->GetArray("Uv"));
+    vtkDataArray* distance = PointsOf(filter)->GetPointData()->GetArray("Distance");
+    double largest = 0.0;
+    for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+    {
+      double p[3];
+      double q[3];
+      values->GetPoint(i, p);
+      cloud->GetPoint(i, q);
+      const double d = std::sqrt(vtkMath::Distance2BetweenPoints(p, q));
+      EXPECT_NEAR(distance->GetComponent(i, 0), d, 1e-14);
+      largest = std::max(largest, d);
+    }
+    EXPECT_LE(largest, 1e-3);
+    EXPECT_NEAR(largest, Number(filter, "MaxError"), 1e-14);
+    EXPECT_EQ(PointsOf(filter)->GetPointData()->GetArray("UV")->GetNumberOfComponents(), 2);
+  }
+}
+
+TEST(SplineSurfaceFit, TrianglesGiveParameters_PropertyOracle)
+{
+  // a rolled sheet cannot be projected on a plane, but it can be laid into one
+  constexpr int n = 24;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> triangles;
+  for (int j = 0; j <= n; ++j)
+  {
+    for (int i = 0; i <= 2 * n; ++i)
+    {
+      const double angle = 4.5 * i / (2.0 * n);
+      points->InsertNextPoint(std::cos(angle), std::sin(angle), 1.0 * j / n);
+    }
+  }
+  for (vtkIdType j = 0; j < n; ++j)
+  {
+    for (vtkIdType i = 0; i < 2 * n; ++i)
+    {
+      const vtkIdType a = i + j * (2 * n + 1);
+      const vtkIdType b = a + 2 * n + 1;
+      triangles->InsertNextCell({ a, a + 1, b + 1 });
+      triangles->InsertNextCell({ a, b + 1, b });
+    }
+  }
+  vtkNew<vtkPolyData> sheet;
+  sheet->SetPoints(points);
+  sheet->SetPolys(triangles);
+  vtkNew<vtkSplineSurfaceFit> filter;
+  filter->SetInputData(sheet);
+  filter->SetParameterization(vtkSplineSurfaceFit::COMPUTED);
+  filter->SetTolerance(1e-3);
+  filter->Update();
+  ASSERT_EQ(filter->GetErrorCode(), 0U);
+  EXPECT_LE(Number(filter, "MaxError"), 1e-3);
+  EXPECT_EQ(Number(filter, "PointsOutside"), 0);
+}
+
+TEST(SplineSurfaceFit, OutputsFollowTheInput_PropertyOracle)
+{
+  const auto cloud = MakeCloud<vtkUnstructuredGrid>(Wave);
+  vtkNew<vtkSplineSurfaceFit> filter;
+  filter->SetInputData(cloud);
+  filter->SetTolerance(0.01);
+  filter->SetFeatureGridSize(8);
+  filter->AllFieldsOn();
+  filter->Update();
+  ASSERT_EQ(filter->GetErrorCode(), 0U);
+  EXPECT_TRUE(vtkUnstructuredGrid::SafeDownCast(filter->GetOutputDataObject(1)));
+  EXPECT_EQ(PointsOf(filter)->GetNumberOfPoints(), cloud->GetNumberOfPoints());
+  EXPECT_EQ(cloud->GetPointData()->GetArray("Distance"), nullptr); // the input is left alone
+  const SplineModel model = DecodePatches(filter->GetOutputDataObject(0));
+  EXPECT_EQ(model.Patches[0].Fields.size(), 2U);
+  auto* image = vtkImageData::SafeDownCast(filter->GetOutputDataObject(3));
+  EXPECT_EQ(image->GetNumberOfCells(), 64);
+  const double* bounds = image->GetBounds();
+  const double* box = cloud->GetBounds();
+  for (int side = 0; side < 4; ++side)
+  {
+    EXPECT_NEAR(bounds[side], box[side], 1e-14);
+  }
+  double points = 0.0;
+  for (vtkIdType c = 0; c < 64; ++c)
+  {
+    points += image->GetCellData()->GetArray("NumPoints")->GetComponent(c, 0);
+  }
+  EXPECT_EQ(points, cloud->GetNumberOfPoints());
+  filter->SetFeatureGridSize(0);
+  filter->Update();
+  EXPECT_EQ(image->GetNumberOfCells(), 0);
+  // another kind of input
+  filter->SetInputData(MakeCloud<vtkPolyData>(Wave));
+  filter->Update();
+  EXPECT_TRUE(vtkPolyData::SafeDownCast(filter->GetOutputDataObject(1)));
+}
+
+TEST(SplineSurfaceFit, FloatPointsAreTakenAsTheyAre_CrossOracle)
+{
+  const auto doubles = MakeCloud<vtkPolyData>(Wave);
+  const auto floats = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> single;
+  single->SetDataTypeToFloat();
+  vtkNew<vtkPoints> rounded;
+  rounded->SetDataTypeToDouble();
+  for (vtkIdType i = 0; i < doubles->GetNumberOfPoints(); ++i)
+  {
+    single->InsertNextPoint(doubles->GetPoint(i));
+    rounded->InsertNextPoint(single->GetPoint(i));
+  }
+  floats->SetPoints(single);
+  doubles->SetPoints(rounded);
+  vtkNew<vtkSplineSurfaceFit> filter;
+  filter->SetTolerance(0.01);
+  filter->SetInputData(floats);
+  filter->Update();
+  const SplineModel first = DecodePatches(filter->GetOutputDataObject(0));
+  filter->SetInputData(doubles);
+  filter->Update();
+  const SplineModel second = DecodePatches(filter->GetOutputDataObject(0));
+  EXPECT_EQ(std::get<Spline<2>>(first.Patches[0].Geometry).ControlPoints,
+    std::get<Spline<2>>(second.Patches[0].Geometry).ControlPoints);
+}
+
+TEST(SplineSurfaceFit, LimitsAreAWarning)
+{
+  vtkNew<vtkSplineSurfaceFit> filter;
+  vtkNew<MessageRecorder> recorder;
+  recorder->Watch(filter);
+  filter->SetInputData(MakeCloud<vtkPolyData>(Wave));
+  filter->SetTolerance(1e-6);
+  filter->SetMaximumIterations(1);
+  filter->Update();
+  EXPECT_TRUE(recorder->Errors.empty());
+  ASSERT_EQ(recorder->Warnings.size(), 1U);
+  EXPECT_NE(recorder->Warnings[0].find("farther away than their tolerance"), std::string::npos);
+  EXPECT_GT(Number(filter, "PointsOutside"), 0);
+  EXPECT_GT(filter->GetOutputDataObject(0)->GetNumberOfElements(vtkDataObject::CELL), 0);
+}
+
+TEST(SplineSurfaceFit, EveryFailureIsOneErrorWithItsPlace)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  struct Case
+  {
+    const char* Name;
+    std::function<void(vtkSplineSurfaceFit*, vtkPolyData*)> Spoil;
+    ErrorCode Code;
+    const char* Words;
+  };
+  const auto array = [](int index, const char* name)
+  {
+    return [=](vtkSplineSurfaceFit* filter, vtkPolyData*)
+    { filter->SetInputArrayToProcess(index, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name); };
+  };
+  const auto add = [](vtkPolyData* data, const char* name, double value)
+  {
+    vtkNew<vtkDoubleArray> values;
+    values->SetName(name);
+    values->SetNumberOfTuples(data->GetNumberOfPoints());
+    values->Fill(0.1);
+    values->SetValue(17, value);
+    data->GetPointData()->AddArray(values);
+  };
+  const std::vector<Case> cases = {
+    { "empty", [](auto*, auto* data) { data->Initialize(); }, ErrorCode::EmptyInput, "no points" },
+    { "nan", [=](auto*, auto* data) { data->GetPoints()->SetPoint(17, 0.0, nan, 0.0); },
+      ErrorCode::NonFiniteInput, "17" },
+    { "huge", [](auto*, auto* data) { data->GetPoints()->SetPoint(17, 0.0, 0.0, 1e61); },
+      ErrorCode::TooLarge, "point 17" },
+    { "tolerance name", array(1, "none"), ErrorCode::InvalidParameter, "'none'" },
+    { "significant name", array(2, "none"), ErrorCode::InvalidParameter, "'none'" },
+    { "tolerance zero",
+      [=](auto* filter, auto* data)
+      {
+        add(data, "Limit", 0.0);
+        array(1, "Limit")(filter, data);
+      },
+      ErrorCode::InvalidParameter, "17" },
+    { "field name", [](auto* filter, auto*) { filter->AddFieldArray("none"); },
+      ErrorCode::InvalidParameter, "'none'" },
+    { "field nan",
+      [=](auto* filter, auto* data)
+      {
+        add(data, "Heat", nan);
+        filter->AddFieldArray("Heat");
+      },
+      ErrorCode::NonFiniteInput, "17" },
+    { "no parameters",
+      [](auto* filter, auto*) { filter->SetParameterization(vtkSplineSurfaceFit::GIVEN); },
+      ErrorCode::InvalidParameter, "parameters" },
+    { "one component",
+      [=](auto* filter, auto* data)
+      {
+        add(data, "One", 0.0);
+        filter->SetParameterization(vtkSplineSurfaceFit::GIVEN);
+        array(0, "One")(filter, data);
+      },
+      ErrorCode::SizeMismatch, "'One'" },
+    { "domain", [](auto* filter, auto*) { filter->SetDomain(0.5, 0.6, 0.5, 0.6); },
+      ErrorCode::OutsideDomain, "point" },
+    { "domain nan", [=](auto* filter, auto*) { filter->SetDomain(0.5, nan, 0.5, 0.6); },
+      ErrorCode::InvalidParameter, "Domain" },
+    { "box", [](auto* filter, auto*) { filter->AddToleranceBox(0.0, 1.0, 0.0, 1.0, 0.0); },
+      ErrorCode::InvalidParameter, "box" },
+    { "line",
+      [](auto* filter, auto* data)
+      {
+        for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+        {
+          data->GetPoints()->SetPoint(i, i, 2.0 * i, 3.0 * i);
+        }
+        filter->SetParameterization(vtkSplineSurfaceFit::COMPUTED);
+      },
+      ErrorCode::SingularSystem, "line" },
+    { "two triangles",
+      [](auto* filter, auto* data)
+      {
+        vtkNew<vtkCellArray> triangles;
+        triangles->InsertNextCell({ 0, 1, 2 });
+        triangles->InsertNextCell({ 3, 4, 5 });
+        data->SetPolys(triangles);
+        filter->SetParameterization(vtkSplineSurfaceFit::COMPUTED);
+      },
+      ErrorCode::InvalidTopology, "disc" },
+  };
+  for (const Case& test : cases)
+  {
+    SCOPED_TRACE(test.Name);
+    const auto cloud = MakeCloud<vtkPolyData>(Wave, 200);
+    vtkNew<vtkSplineSurfaceFit> filter;
+    vtkNew<MessageRecorder> recorder;
+    recorder->Watch(filter);
+    filter->SetInputData(cloud);
+    test.Spoil(filter, cloud);
+    filter->Update();
+    EXPECT_EQ(
+      filter->GetErrorCode(), vtkErrorCode::UserError + static_cast<unsigned long>(test.Code));
+    ASSERT_FALSE(recorder->Errors.empty());
+    EXPECT_NE(recorder->Errors[0].find(test.Words), std::string::npos) << recorder->Errors[0];
+    for (int port = 0; port < 4; ++port)
+    {
+      EXPECT_EQ(filter->GetOutputDataObject(port)->GetNumberOfElements(vtkDataObject::POINT), 0);
+    }
+  }
+}
+
+TEST(SplineSurfaceFit, ThreadsDoNotChangeABit_PropertyOracle)
+{
+  const auto cloud = MakeCloud<vtkPolyData>(Wave, 20000);
+  std::vector<PointMatrix> found;
+  for (int threads : { 1, 2 })
+  {
+    vtkNew<vtkSplineSurfaceFit> filter;
+    filter->SetInputData(cloud);
+    filter->SetTolerance(1e-3);
+    filter->SetThreads(threads);
+    filter->Update();
+    const SplineModel model = DecodePatches(filter->GetOutputDataObject(0));
+    found.push_back(std::get<Spline<2>>(model.Patches[0].Geometry).ControlPoints);
+  }
+  EXPECT_EQ(found[0], found[1]);
+}
+
+TEST(SplineSurfaceFit, ReportsProgressAndAborts)
+{
+  vtkNew<vtkSplineSurfaceFit> filter;
+  filter->SetInputData(MakeCloud<vtkPolyData>(Wave));
+  filter->SetTolerance(1e-4);
+  std::vector<double> shares;
+  vtkNew<vtkCallbackCommand> watch;
+  watch->SetClientData(&shares);
+  watch->SetCallback(
+    [](vtkObject* caller, unsigned long, void* data, void*)
+    {
+      static_cast<std::vector<double>*>(data)->push_back(
+        static_cast<vtkAlgorithm*>(caller)->GetProgress());
+    });
+  filter->AddObserver(vtkCommand::ProgressEvent, watch);
+  filter->Update();
+  ASSERT_GT(shares.size(), 2U);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_LE(shares.back(), 1.0);
+  filter->RemoveObserver(watch);
+  vtkNew<vtkCallbackCommand> stop;
+  stop->SetCallback([](vtkObject* caller, unsigned long, void*, void*)
+    { static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1); });
+  filter->AddObserver(vtkCommand::ProgressEvent, stop);
+  vtkNew<MessageRecorder> recorder;
+  recorder->Watch(filter);
+  filter->Modified();
+  filter->Update();
+  EXPECT_TRUE(recorder->Errors.empty());
+  EXPECT_EQ(filter->GetOutputDataObject(0)->GetNumberOfElements(vtkDataObject::POINT), 0);
+}
+}
