@@ -19,6 +19,7 @@ using Job = std::function<Status(Session&)>;
 /// Each adds the options of one job to its subcommand and returns the job.
 Job MakeConvertJob(CLI::App& app);
 Job MakeEvaluateJob(CLI::App& app);
+Job MakeExtremaJob(CLI::App& app);
 Job MakeFitJob(CLI::App& app);
 Job MakeFlattenJob(CLI::App& app);
 Job MakeInfoJob(CLI::App& app);

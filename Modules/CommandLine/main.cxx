@@ -27,6 +27,8 @@ struct Entry
 constexpr Entry Jobs[] = {
   { "convert", "write a dataset in another format or encoding", knotwork::MakeConvertJob },
   { "evaluate", "evaluate a spline at points, with derivatives", knotwork::MakeEvaluateJob },
+  { "extrema", "find all minima, maxima and saddles of a surface, proved",
+    knotwork::MakeExtremaJob },
   { "fit", "fit a spline surface to scattered points", knotwork::MakeFitJob },
   { "flatten", "lay a triangle mesh with holes into the plane", knotwork::MakeFlattenJob },
   { "info", "say what a spline file holds", knotwork::MakeInfoJob },

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSplineExtrema.h"
+
+#include "ExtremaData.h"
+
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkTable.h"
+
+using knotwork::Result;
+using knotwork::Status;
+
+vtkStandardNewMacro(vtkSplineExtrema);
+
+vtkSplineExtrema::vtkSplineExtrema()
+{
+  this->SetNumberOfOutputPorts(3);
+}
+
+vtkSplineExtrema::~vtkSplineExtrema()
+{
+  this->SetFieldName(nullptr);
+}
+
+void vtkSplineExtrema::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FieldName: " << (this->FieldName ? this->FieldName : "") << "\n";
+  os << indent << "Component: " << this->Component << "\n";
+  os << indent << "Minima: " << this->Minima << "\n";
+  os << indent << "Maxima: " << this->Maxima << "\n";
+  os << indent << "Saddles: " << this->Saddles << "\n";
+  os << indent << "Boundary: " << this->Boundary << "\n";
+  os << indent << "OnSurface: " << this->OnSurface << "\n";
+  os << indent << "MaximumDepth: " << this->MaximumDepth << "\n";
+  os << indent << "MaximumBoxes: " << this->MaximumBoxes << "\n";
+}
+
+int vtkSplineExtrema::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 2 ? "vtkTable" : "vtkPolyData");
+  return 1;
+}
+
+int vtkSplineExtrema::RequestDataObject(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+{
+  for (int port = 0; port < 2; ++port)
+  {
+    if (!vtkPolyData::GetData(outputs, port))
+    {
+      vtkNew<vtkPolyData> data;
+      outputs->GetInformationObject(port)->Set(vtkDataObject::DATA_OBJECT(), data);
+    }
+  }
+  if (!vtkTable::GetData(outputs, 2))
+  {
+    vtkNew<vtkTable> table;
+    outputs->GetInformationObject(2)->Set(vtkDataObject::DATA_OBJECT(), table);
+  }
+  return 1;
+}
+
+Status vtkSplineExtrema::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  using namespace knotwork;
+  const Result<SplineModel> model = DecodeSplineModel(vtkDataObject::GetData(inputs[0], 0));
+  if (!model)
+  {
+    return model.Status;
+  }
+  this->ReportWarnings(model->Warnings);
+  const std::string field = this->FieldName ? this->FieldName : "";
+  const ProgressCallback progress = this->Progress();
+  const auto count = static_cast<double>(model->Patches.size());
+  std::vector<PatchPoints> patches;
+  for (const SplinePatch& patch : model->Patches)
+  {
+    CriticalPointParams params;
+    params.Component = this->Component;
+    params.Boundary = this->Boundary;
+    params.MaxDepth = this->MaximumDepth;
+    params.MaxBoxes = this->MaximumBoxes;
+    params.Threads = this->KernelThreads();
+    const auto done = static_cast<double>(patches.size());
+    params.Progress = [&progress, done, count](double share)
+    { return progress((done + share) / count); };
+    const Result<Spline<2>> function = FunctionOf(patch, field, params.Component);
+    if (!function)
+    {
+      return function.Status;
+    }
+    Result<CriticalPoints> found = FindCriticalPoints(function.Value, params);
+    if (!found)
+    {
+      return { found.Status.Code,
+        "patch " + std::to_string(patch.Id) + ": " + found.Status.Detail };
+    }
+    patches.push_back({ &patch, std::move(found.Value) });
+  }
+  EncodeCounts(patches, vtkTable::GetData(outputs, 2));
+  return EncodeExtrema(patches,
+    { { this->Minima, this->Maxima, this->Saddles }, this->OnSurface, this->KernelThreads() },
+    vtkPolyData::GetData(outputs, 0), vtkPolyData::GetData(outputs, 1));
+}
