@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Spline Extrema in ParaView: the highest and the lowest points of a torus, its corners where it is cut."""
+import knotwork_testing
+
+knotwork_testing.load_plugin()
+from paraview.simple import OutputPort, SplineExtrema, SplineSource  # noqa: E402
+
+
+def test_a_torus():
+    torus = SplineSource(Shape="TorusSurface", Angle=270)
+    extrema = SplineExtrema(Input=torus, Component=0)
+    extrema.UpdatePipeline()
+    numbers = extrema.GetClientSideObject().GetOutputDataObject(2)
+    points = sum(numbers.GetValueByName(0, name).ToInt() for name in ("Minima", "Maxima", "Saddles"))
+    assert points > 0
+    assert extrema.GetDataInformation().GetNumberOfPoints() == points
+    boxes = OutputPort(extrema, 1).GetCellDataInformation()
+    assert boxes.GetArray("Unique") is not None and boxes.GetArray("ParametricBounds") is not None
+
+
+knotwork_testing.main(globals())
