@@ -38,7 +38,7 @@ struct ExtremaJob
     this->FilterOptions->Apply(session.Report);
     this->Filter->SetInputDataObject(input.Value);
     this->Filter->SetThreads(session.Threads);
-    // a plane has no points in any output
+    // the table: no point of the chosen kinds is a result, too
     if (Status status = session.Run(this->Filter, "'" + this->Input + "'", 2); !status)
     {
       return status;

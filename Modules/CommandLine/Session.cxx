@@ -204,7 +204,8 @@ void PrintProgress(vtkObject* caller, unsigned long, void*, void*)
 
 bool IsEmpty(vtkDataObject* data)
 {
-  return data->GetNumberOfElements(vtkDataObject::POINT) == 0;
+  return data->GetNumberOfElements(vtkDataObject::POINT) == 0 &&
+    data->GetNumberOfElements(vtkDataObject::ROW) == 0;
 }
 }
 
