@@ -3,6 +3,7 @@
 #include "BezierSpace.h"
 #include "CriticalCases.h"
 #include "CriticalPoints.h"
+#include "ScalarPieces.h"
 
 #include <map>
 #include <sstream>
@@ -354,6 +355,69 @@ TEST(CriticalPoints, ACreasePointOnASmoothKnot_ExactOracle)
   EXPECT_TRUE(found.Proved) << Summary(found);
   ASSERT_EQ(found.Points.size(), 1u);
   ExpectPoint(found, 0.0, 0.0, CriticalKind::Minimum, CriticalPlace::Crease, 1);
+}
+
+TEST(CriticalPoints, JoinsOfSimpleKnotsAreSmooth_PropertyOracle)
+{
+  for (unsigned seed = 1; seed <= 40; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const int degree = random.Int(2, 5);
+    const std::vector<double> breaks{ 0.0, 0.7, 1.1, 2.5, 3.0 };
+    SplineSpacePtr<2> space =
+      MakeTensorSpace<2>({ BreakKnots(degree, breaks), BreakKnots(2, breaks) }).Value;
+    if (seed % 2 == 0)
+    {
+      for (int step = 0; step < 4; ++step)
+      {
+        const int e = random.Int(0, space->NumElements() - 1);
+        space = RefineElements<2>(space, { e }, { 1, 0, 24 }).Value;
+      }
+    }
+    else
+    {
+      std::vector<LRSegment> segments = RandomSegments(random, space, 10);
+      space = InsertSegments(space, {}).Value;
+      for (LRSegment& segment : segments)
+      {
+        segment.Multiplicity = 1;
+        const auto next = InsertSegments(space, { segment });
+        space = next ? next.Value : space; // some needed the multiplicity of others
+      }
+    }
+    Spline<2> f = RandomSpline<2>(random, space, 1, seed % 3 == 0);
+    f.ControlPoints.array() += seed % 4 == 0 ? 1e5 : 0.0;
+    const auto made = MakeScalarPieces(f, 0, 1);
+    ASSERT_TRUE(made);
+    double boundary = 0.0;
+    for (const PieceJoin& join : made.Value.Joins)
+    {
+      EXPECT_NE(join.Kind, JoinKind::Crease);
+      boundary += join.Kind == JoinKind::Boundary ? join.Along.Width() : 0.0;
+    }
+    EXPECT_NEAR(boundary, 12.0, 1e-12);
+  }
+}
+
+TEST(CriticalPoints, LocalRefinementChangesNothing_PropertyOracle)
+{
+  const Spline<2> coarse =
+    PolynomialOn(-2.0, 2.0, 4, 4, { { 0.25, 4, 0 }, { -0.5, 2, 0 }, { 0.5, 0, 2 } });
+  const SplineSpacePtr<2> hierarchical =
+    RefineElements<2>(coarse.Space, { 5, 6 }, { 2, 0, 24 }).Value;
+  const std::vector<LRSegment> segments = { { 0, 0.5, -2.0, 2.0, 1 }, { 1, 0.0, -2.0, 2.0, 2 } };
+  for (const Spline<2>& f : { TransferToRefined<2>(coarse, hierarchical).Value,
+         InsertSegments(InsertSegments(coarse, {}).Value, segments).Value })
+  {
+    ASSERT_GT(f.Space->NumElements(), 16);
+    const CriticalPoints found = Find(f);
+    EXPECT_TRUE(found.Proved) << Summary(found);
+    EXPECT_EQ(found.Points.size(), 15u) << Summary(found);
+    ExpectPoint(found, 1.0, 0.0, CriticalKind::Minimum, CriticalPlace::Edge, 1);
+    ExpectPoint(found, 0.0, 0.0, CriticalKind::Saddle, CriticalPlace::Edge, -1);
+    ExpectPoint(found, 2.0, 0.0, CriticalKind::Saddle, CriticalPlace::Boundary, 0);
+  }
 }
 
 TEST(CriticalPoints, AMonkeySaddleIsACluster_ExactOracle)
