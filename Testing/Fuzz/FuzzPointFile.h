@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "PointFile.h"
+
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+namespace knotwork
+{
+/// A text gives an error of one line, or points that are written and read again bit for bit.
+template <typename Read, typename Write, typename ReadAgain>
+void CheckPoints(const std::uint8_t* data, std::size_t size, const Read& read, const Write& write,
+  const ReadAgain& readAgain)
+{
+  const Result<PointFile> file = read({ reinterpret_cast<const char*>(data), size });
+  if (!file)
+  {
+    if (file.Status.Detail.empty() || file.Status.Detail.find('\n') != std::string::npos)
+    {
+      std::abort();
+    }
+    return;
+  }
+  const Result<std::string> text = write(file.Value);
+  const Result<PointFile> again = text ? readAgain(text.Value) : Result<PointFile>(text.Status);
+  if (!again || again->Points != file->Points || again->Channels != file->Channels)
+  {
+    std::abort();
+  }
+}
+
+template <typename Read, typename Write>
+void CheckPoints(const std::uint8_t* data, std::size_t size, const Read& read, const Write& write)
+{
+  CheckPoints(data, size, read, write, read);
+}
+}
