@@ -11,5 +11,5 @@ vtkGoToolsG2Writer::vtkGoToolsG2Writer() = default;
 
 knotwork::Result<std::string> vtkGoToolsG2Writer::Format(const knotwork::SplineFile& file)
 {
-  return knotwork::WriteG2(file.Splines);
+  return knotwork::WriteG2File(file);
 }

@@ -7,6 +7,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace knotwork;
   CheckText(
     data, size, [](std::string_view text) { return ReadG2(text); },
-    [](const SplineFile& file) { return WriteG2(file.Splines); });
+    [](const SplineFile& file) { return WriteG2File(file); });
   return 0;
 }

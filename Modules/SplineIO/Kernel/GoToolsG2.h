@@ -8,7 +8,8 @@
 namespace knotwork
 {
 /// Reads all splines of a GoTools g2 text: SplineCurve (100), SplineSurface (200), LRSplineSurface
-/// (293), SplineVolume (700), polynomial and rational; point clouds (400) are left out with a
+/// (293), SplineVolume (700), polynomial and rational, and surfaces that are bounded by spline
+/// curves (210); point clouds (400) are left out with a
 /// warning. Rational rows are homogeneous, (w x, w y, w
 /// z, w); the quotient is taken in extended precision, so that what WriteG2 wrote comes back bit
 /// for bit.
@@ -41,4 +42,7 @@ bool LooksLikeG2(std::string_view beginning);
 /// @return InvalidParameter for a spline that is not of tensor-product or locally refined kind (or
 /// a hierarchy without refined cells): the format has no other; Spline::Check's codes.
 Result<std::string> WriteG2(const std::vector<AnySpline>& splines);
+
+/// The same for splines of which some are bounded (DimensionMismatch: one that is no surface).
+Result<std::string> WriteG2File(const SplineFile& file);
 }

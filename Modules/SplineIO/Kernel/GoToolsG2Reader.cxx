@@ -13,6 +13,7 @@ namespace
 {
 constexpr long long MaxInt = std::numeric_limits<int>::max();
 constexpr int MaxComponents = MaxG2Components;
+constexpr int BoundedClass = 210;
 constexpr int PointCloudClass = 400;
 
 struct KnownClass
@@ -21,8 +22,8 @@ struct KnownClass
   const char* Name;
 };
 constexpr KnownClass OtherClasses[] = { { 110, "CurveOnSurface" }, { 120, "Line" },
-  { 130, "Circle" }, { 140, "Ellipse" }, { 210, "BoundedSurface" }, { 250, "Plane" },
-  { 260, "Cylinder" }, { 270, "Sphere" }, { 280, "Cone" }, { 290, "Torus" }, { 410, "LineCloud" } };
+  { 130, "Circle" }, { 140, "Ellipse" }, { 250, "Plane" }, { 260, "Cylinder" }, { 270, "Sphere" },
+  { 280, "Cone" }, { 290, "Torus" }, { 410, "LineCloud" } };
 
 class G2Parser : private G2Words
 {
@@ -96,15 +97,17 @@ private:
       {
         this->Fail(ErrorCode::InvalidFormat,
           std::string("an object of class ") + std::to_string(id) + " (" + other.Name +
-            ") cannot be read; keep only spline curves (100), surfaces (200), LR surfaces (293), "
-            "point clouds (400) and volumes (700)");
+            ") cannot be read; keep only spline curves (100), surfaces (200), bounded surfaces "
+            "(210), LR surfaces (293), point clouds (400) and volumes (700)");
       }
     }
-    if (this->Outcome && id != 100 && id != 200 && id != 293 && id != PointCloudClass && id != 700)
+    if (this->Outcome && id != 100 && id != 200 && id != BoundedClass && id != 293 &&
+      id != PointCloudClass && id != 700)
     {
       this->Fail(ErrorCode::InvalidFormat,
         "an object has class " + std::to_string(id) +
-          "; classes that can be read are 100, 200, 293, 400 and 700; this is no g2 file, or the "
+          "; classes that can be read are 100, 200, 210, 293, 400 and 700; this is no g2 file, or "
+          "the "
           "object before has more numbers than it says");
     }
     this->Integer("major version", 0, MaxInt);
@@ -119,11 +122,12 @@ private:
     }
     if (this->Outcome)
     {
-      id == 100                 ? this->ReadSpline<1>(file)
-        : id == 200             ? this->ReadSpline<2>(file)
+      id == 100                 ? this->Keep(file, this->ReadSpline<1>())
+        : id == 200             ? this->Keep(file, this->ReadSpline<2>())
+        : id == BoundedClass    ? this->ReadBounded(file)
         : id == 293             ? this->Keep(file, ReadLRSurface(*this))
         : id == PointCloudClass ? this->ReadCloud(auxiliary == 4, color, coordinates)
-                                : this->ReadSpline<3>(file);
+                                : this->Keep(file, this->ReadSpline<3>());
     }
   }
 
@@ -192,8 +196,84 @@ private:
     return made.Value;
   }
 
+  void ReadBounded(SplineFile& file)
+  {
+    const long long id = this->Integer("class of the surface that is bounded", 0, MaxInt);
+    if (this->Outcome && id != 200 && id != 293)
+    {
+      this->Fail(ErrorCode::InvalidFormat,
+        "a bounded surface of class " + std::to_string(id) +
+          " cannot be read; its surface must be of class 200 or 293");
+    }
+    if (!this->Outcome)
+    {
+      return;
+    }
+    BoundedSurface bounded;
+    bounded.Spline = static_cast<int>(file.Splines.size());
+    this->Keep(file, id == 200 ? this->ReadSpline<2>() : ReadLRSurface(*this));
+    const long long loops = this->Integer("number of loops", 0, MaxInt);
+    for (long long l = 0; l < loops && this->Outcome; ++l)
+    {
+      BoundaryLoop loop;
+      const long long curves = this->Integer("number of curves of a loop", 1, MaxInt);
+      loop.Tolerance = this->Real<double>("tolerance of a loop");
+      for (long long c = 0; c < curves && this->Outcome; ++c)
+      {
+        loop.Curves.push_back(this->ReadBoundaryCurve());
+      }
+      bounded.Loops.push_back(std::move(loop));
+    }
+    if (this->Outcome)
+    {
+      file.Bounded.push_back(std::move(bounded));
+    }
+  }
+
+  BoundaryCurve ReadBoundaryCurve()
+  {
+    BoundaryCurve curve;
+    curve.PreferParameter = this->Integer("preference of a boundary curve", 0, 1) == 1;
+    const bool inPlane = this->HasCurve("class of a curve in the parameter plane");
+    const bool inSpace = this->HasCurve("class of a curve in space");
+    if (this->Outcome && !inPlane && !inSpace)
+    {
+      this->Fail(ErrorCode::InvalidFormat,
+        "a boundary curve is neither in the parameter plane nor in space");
+    }
+    curve.Parameter = inPlane ? this->ReadBoundary(2) : Spline<1>();
+    curve.Space = inSpace ? this->ReadBoundary(3) : Spline<1>();
+    return curve;
+  }
+
+  /// 0 is none, 1 what older files have for 100.
+  bool HasCurve(const char* meaning)
+  {
+    const long long id = this->Integer(meaning, 0, MaxInt);
+    if (this->Outcome && id != 0 && id != 1 && id != 100)
+    {
+      this->Fail(ErrorCode::InvalidFormat,
+        "a boundary curve of class " + std::to_string(id) +
+          " cannot be read; make it a spline curve (100)");
+    }
+    return id != 0;
+  }
+
+  Spline<1> ReadBoundary(int components)
+  {
+    Spline<1> curve = this->ReadSpline<1>();
+    if (this->Outcome && curve.NumComponents() != components)
+    {
+      this->Fail(ErrorCode::DimensionMismatch,
+        "end of a boundary curve: it has " + std::to_string(curve.NumComponents()) +
+          " coordinates where " + std::to_string(components) + " are needed");
+    }
+    return curve;
+  }
+
+  /// @return an empty spline when Outcome tells of a failure.
   template <int Dim>
-  void ReadSpline(SplineFile& file)
+  Spline<Dim> ReadSpline()
   {
     const auto components = static_cast<Eigen::Index>(this->Integer("dimension", 1, MaxComponents));
     const bool rational = this->Integer("rational flag", 0, 1) == 1;
@@ -214,7 +294,7 @@ private:
     }
     if (!this->Outcome)
     {
-      return;
+      return {};
     }
     const auto rows = static_cast<Eigen::Index>(functions);
     Spline<Dim> spline;
@@ -226,16 +306,21 @@ private:
     }
     if (!this->Outcome)
     {
-      return;
+      return {};
     }
     Result<SplineSpacePtr<Dim>> space = MakeTensorSpace<Dim>(knots);
     if (!space)
     {
       this->Fail(space.Status.Code, space.Status.Detail);
-      return;
+      return {};
     }
     spline.Space = space.Value;
-    this->Keep(file, std::move(spline));
+    if (Status status = spline.Check(); !status)
+    {
+      this->Fail(status.Code, "end of an object: " + status.Detail);
+      return {};
+    }
+    return spline;
   }
 
   template <int Dim>

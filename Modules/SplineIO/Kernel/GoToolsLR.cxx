@@ -196,7 +196,6 @@ void AppendLRSurface(const Spline<2>& spline, std::string& text)
 {
   const LRBasis& basis = spline.Space->LocallyRefined->Basis;
   const bool rational = spline.IsRational();
-  text += "293 1 0 0\n";
   text += std::string(rational ? "1 " : "0 ") + KnotTolerance + "\n";
   for (const std::vector<double>& knots : basis.Knots)
   {

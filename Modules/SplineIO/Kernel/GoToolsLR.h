@@ -10,6 +10,7 @@ namespace knotwork
 /// scaling factors are kept. @return an empty spline when words.Outcome tells of a failure.
 Spline<2> ReadLRSurface(G2Words& words);
 
-/// Appends an LRSplineSurface, header included. @pre spline.Check() is Ok, kind LocallyRefined.
+/// Appends what follows the header of an LRSplineSurface. @pre spline.Check() is Ok, kind
+/// LocallyRefined.
 void AppendLRSurface(const Spline<2>& spline, std::string& text);
 }

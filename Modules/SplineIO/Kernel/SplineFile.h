@@ -36,12 +36,36 @@ struct MultiPatch
   std::vector<PatchSide> Boundaries;
 };
 
+/// A curve that bounds a surface: in its parameter plane, in space, or both. A spline without a
+/// space is not there.
+struct BoundaryCurve
+{
+  Spline<1> Parameter; ///< 2 coordinates
+  Spline<1> Space;     ///< 3 coordinates
+  bool PreferParameter = true;
+};
+
+/// Curves end to end.
+struct BoundaryLoop
+{
+  std::vector<BoundaryCurve> Curves;
+  double Tolerance = 0.0; ///< of the file: within which curves meet
+};
+
+/// A surface of which a part is meant: the loops bound it, the outer one first.
+struct BoundedSurface
+{
+  int Spline = 0; ///< index into SplineFile::Splines
+  std::vector<BoundaryLoop> Loops;
+};
+
 /// What a file of splines holds.
 struct SplineFile
 {
   std::vector<AnySpline> Splines;
   std::vector<int> Ids; ///< of the splines, distinct and >= 0; empty: 0, 1, 2, ...
   std::vector<MultiPatch> MultiPatches;
-  std::vector<std::string> Warnings; ///< what was left out in reading, one line each
+  std::vector<BoundedSurface> Bounded; ///< at most one a spline
+  std::vector<std::string> Warnings;   ///< what was left out in reading, one line each
 };
 }

@@ -52,7 +52,7 @@ std::vector<HostileCase> G2Cases()
         8),
       format, { "line 1" } },
     { "OtherClass", ReadG2, "290 1 0 0\n", format, { "290", "Torus", "100" } },
-    { "UnknownClass", ReadG2, "42 1 0 0\n", format, { "42", "100, 200, 293, 400 and 700" } },
+    { "UnknownClass", ReadG2, "42 1 0 0\n", format, { "42", "100, 200, 210, 293, 400 and 700" } },
     { "NegativeClass", ReadG2, "-1 1 0 0\n", format, { "'-1'" } },
     { "HugeAuxiliary", ReadG2, "100 1 0 1000000000\n 1 2 3", format, { "truncated" } },
     { "HugeFunctions", ReadG2, "100 1 0 0 3 0 1000000000000000000 4 0 0", format,
