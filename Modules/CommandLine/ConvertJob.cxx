@@ -53,6 +53,27 @@ struct ConvertJob
     return session.WriteFaces(surfaces, curves, this->Output, found);
   }
 
+  /// Boundary curves of g2: from the file or --curves to the file or --curves.
+  Status CarryBoundaries(Session& session)
+  {
+    const auto isG2 = [](const std::string& file)
+    { return CLI::detail::to_lower(file).find(".g2") != std::string::npos; };
+    if (isG2(this->Input))
+    {
+      session.BoundaryCurves = session.Curves;
+      return this->Curves.empty() || !session.Curves
+        ? Status()
+        : session.Write(session.Curves, this->Curves, this->Encoding);
+    }
+    if (isG2(this->Output) && !this->Curves.empty())
+    {
+      auto read = session.Read(this->Curves);
+      session.BoundaryCurves = read.Value;
+      return read.Status;
+    }
+    return {};
+  }
+
   Status Run(Session& session)
   {
     auto input = session.ReadPoints(this->Input);
@@ -68,6 +89,10 @@ struct ConvertJob
     if (HasCADEnding(this->Output) || (HasCADEnding(this->Input) && toGrid))
     {
       return this->RunCAD(session, data);
+    }
+    if (Status status = this->CarryBoundaries(session); !status)
+    {
+      return status;
     }
     if (!vtkPolyData::SafeDownCast(data))
     {
@@ -122,7 +147,7 @@ Job MakeConvertJob(CLI::App& app)
       "the same data (.vtu .vtp .vtpc .xml .g2 .step .iges, points .xyz .txt .csv .g2)")
     ->required();
   app.add_option("--curves", job->Curves,
-    "trimming curves (.vtu): written when the input is STEP or IGES, else read");
+    "trimming curves (.vtu): written when the input is STEP, IGES or g2, else read");
   app.add_option("--encoding", job->Encoding, "how numbers are written in .vtu .vtp .vtpc")
     ->check(CLI::IsMember({ "ascii", "binary", "appended" }))
     ->capture_default_str();

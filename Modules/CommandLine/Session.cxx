@@ -92,6 +92,12 @@ vtkSmartPointer<vtkDataObject> ReadWith(const std::string& file)
   return reader->GetOutputDataObject(0);
 }
 
+bool IsEmpty(vtkDataObject* data)
+{
+  return data->GetNumberOfElements(vtkDataObject::POINT) == 0 &&
+    data->GetNumberOfElements(vtkDataObject::ROW) == 0;
+}
+
 /// Text of a point a line.
 bool IsPointEnding(const std::string& ending)
 {
@@ -104,7 +110,7 @@ bool HoldsPoints(const std::string& file)
   return reader->CanReadFile(file.c_str()) != 0;
 }
 
-/// @param curves  set to the trimming curves of a STEP or IGES file.
+/// @param curves  set to the trimming curves of a STEP, IGES or g2 file.
 vtkSmartPointer<vtkDataObject> ReadByEnding(
   const std::string& file, const std::string& ending, vtkSmartPointer<vtkDataObject>& curves)
 {
@@ -134,7 +140,11 @@ vtkSmartPointer<vtkDataObject> ReadByEnding(
   }
   if (ending == ".g2")
   {
-    return ReadWith<vtkGoToolsG2Reader>(file);
+    vtkNew<vtkGoToolsG2Reader> reader;
+    reader->SetFileName(file.c_str());
+    reader->Update();
+    curves = IsEmpty(reader->GetOutputDataObject(1)) ? nullptr : reader->GetOutputDataObject(1);
+    return reader->GetOutputDataObject(0);
   }
   if (HasCADEnding(file))
   {
@@ -195,6 +205,18 @@ bool WriteFile(vtkDataObject* data, const fs::path& file)
   return writer->Write() == 1;
 }
 
+bool WriteG2(vtkDataObject* data, vtkDataObject* curves, const fs::path& file)
+{
+  vtkNew<vtkGoToolsG2Writer> writer;
+  writer->SetFileName(file.c_str());
+  writer->SetInputDataObject(data);
+  if (curves)
+  {
+    writer->SetCurvesData(curves);
+  }
+  return writer->Write() == 1;
+}
+
 void PrintProgress(vtkObject* caller, unsigned long, void*, void*)
 {
   const double share = static_cast<vtkAlgorithm*>(caller)->GetProgress();
@@ -202,11 +224,6 @@ void PrintProgress(vtkObject* caller, unsigned long, void*, void*)
   std::fflush(stderr);
 }
 
-bool IsEmpty(vtkDataObject* data)
-{
-  return data->GetNumberOfElements(vtkDataObject::POINT) == 0 &&
-    data->GetNumberOfElements(vtkDataObject::ROW) == 0;
-}
 }
 
 Session::~Session()
@@ -425,7 +442,7 @@ Status Session::Write(vtkDataObject* data, const std::string& file, const std::s
   else if (asSplines)
   {
     written = ending == ".xml" ? WriteFile<vtkGismoXMLWriter>(data, staged.Value)
-                               : WriteFile<vtkGoToolsG2Writer>(data, staged.Value);
+                               : WriteG2(data, this->BoundaryCurves, staged.Value);
   }
   else if (asPoints)
   {

@@ -30,8 +30,10 @@ public:
   bool Quiet = false;
   int Threads = 0;
   std::string ReportFile;
-  /// Trimming curves of the STEP or IGES file that was read last.
+  /// Trimming curves of the STEP, IGES or g2 file that was read last; null without any.
   vtkSmartPointer<vtkDataObject> Curves;
+  /// Boundary curves of the surfaces that are written as .g2; null: they have none.
+  vtkSmartPointer<vtkDataObject> BoundaryCurves;
   int ExitStatus = 0; ///< of the program when the job has succeeded
   /// Flat JSON object of the report; jobs add the numbers they are about.
   nlohmann::ordered_json Report = nlohmann::ordered_json::object();

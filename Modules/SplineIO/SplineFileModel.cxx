@@ -30,11 +30,6 @@ Result<SplineModel> ModelFromFile(const SplineFile& file)
 {
   SplineModel model;
   model.Warnings = file.Warnings;
-  if (!file.Bounded.empty())
-  {
-    model.Warnings.push_back("the boundary curves of " + std::to_string(file.Bounded.size()) +
-      " bounded surfaces (210) are left out: patches are whole surfaces");
-  }
   for (std::size_t i = 0; i < file.Splines.size(); ++i)
   {
     SplinePatch patch;

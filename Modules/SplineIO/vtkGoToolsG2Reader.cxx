@@ -1,13 +1,45 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGoToolsG2Reader.h"
 
+#include "BoundaryGrid.h"
 #include "GoToolsG2.h"
 
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkUnstructuredGrid.h"
 
 vtkStandardNewMacro(vtkGoToolsG2Reader);
 
-vtkGoToolsG2Reader::vtkGoToolsG2Reader() = default;
+vtkGoToolsG2Reader::vtkGoToolsG2Reader()
+{
+  this->SetNumberOfOutputPorts(2);
+}
+
+int vtkGoToolsG2Reader::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkUnstructuredGrid");
+  return 1;
+}
+
+int vtkGoToolsG2Reader::RequestDataObject(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  if (!vtkUnstructuredGrid::GetData(outputs, 1))
+  {
+    vtkNew<vtkUnstructuredGrid> curves;
+    outputs->GetInformationObject(1)->Set(vtkDataObject::DATA_OBJECT(), curves);
+  }
+  return this->Superclass::RequestDataObject(request, inputs, outputs);
+}
+
+knotwork::Status vtkGoToolsG2Reader::EncodeMore(
+  const knotwork::SplineFile& file, vtkInformationVector* outputs)
+{
+  return knotwork::EncodeBoundaries(file, vtkUnstructuredGrid::GetData(outputs, 1));
+}
 
 knotwork::Result<knotwork::SplineFile> vtkGoToolsG2Reader::Parse(std::string_view text)
 {

@@ -3,9 +3,9 @@
  * @class   vtkGoToolsG2Writer
  * @brief   splines to GoTools g2 files
  *
- * Tensor-product curves, surfaces and volumes, polynomial and rational, in the order of the
- * patches; the format has no ids and no topology. What is written is read again bit for bit.
- * Errors: patches of kind Bezier and hierarchical patches (InvalidParameter).
+ * Tensor-product curves, surfaces and volumes, polynomial and rational, and LR surfaces, in the
+ * order of the patches; the format has no ids and no topology. What is written is read again bit
+ * for bit. Errors: patches of kind Bezier and hierarchical patches (InvalidParameter).
  */
 #ifndef vtkGoToolsG2Writer_h
 #define vtkGoToolsG2Writer_h
@@ -18,10 +18,18 @@ public:
   static vtkGoToolsG2Writer* New();
   vtkTypeMacro(vtkGoToolsG2Writer, vtkSplineFileWriter);
 
+  ///@{
+  /** Boundary curves of the surfaces, as vtkGoToolsG2Reader gives them; optional. */
+  void SetCurvesConnection(vtkAlgorithmOutput* port) { this->SetInputConnection(1, port); }
+  void SetCurvesData(vtkDataObject* curves) { this->SetInputDataObject(1, curves); }
+  ///@}
+
 protected:
   vtkGoToolsG2Writer();
   ~vtkGoToolsG2Writer() override = default;
   knotwork::Result<std::string> Format(const knotwork::SplineFile& file) override;
+  knotwork::Status AddMore(knotwork::SplineFile& file) override;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
 
 private:
   vtkGoToolsG2Writer(const vtkGoToolsG2Writer&) = delete;

@@ -55,5 +55,5 @@ knotwork::Status vtkSplineFileReader::Compute(vtkInformationVector**, vtkInforma
   {
     SetPatchTopology(file.Value, grid);
   }
-  return status;
+  return status ? this->EncodeMore(file.Value, outputs) : status;
 }

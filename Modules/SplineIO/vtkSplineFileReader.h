@@ -39,6 +39,11 @@ protected:
 
   /** The splines of a file's text. */
   virtual knotwork::Result<knotwork::SplineFile> Parse(std::string_view text) = 0;
+  /** Fills further outputs. */
+  virtual knotwork::Status EncodeMore(const knotwork::SplineFile&, vtkInformationVector*)
+  {
+    return {};
+  }
   /** Whether a text may begin like this (its first 4096 characters). */
   virtual bool Recognize(std::string_view beginning) = 0;
 

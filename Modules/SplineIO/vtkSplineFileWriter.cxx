@@ -55,6 +55,10 @@ knotwork::Status vtkSplineFileWriter::MakeText(std::string& text)
   {
     file->Warnings.push_back(lost);
   }
+  if (Status status = this->AddMore(file.Value); !status)
+  {
+    return status;
+  }
   for (const std::string& warning : file->Warnings)
   {
     vtkWarningMacro("" << warning);

@@ -39,6 +39,8 @@ protected:
   void WriteData() override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
 
+  /** Adds what further inputs say. */
+  virtual knotwork::Status AddMore(knotwork::SplineFile&) { return {}; }
   /** The text of a file. */
   virtual knotwork::Result<std::string> Format(const knotwork::SplineFile& file) = 0;
 
