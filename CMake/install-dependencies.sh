@@ -18,7 +18,7 @@ packages=(
   # tests, benchmarks, pictures
   libgtest-dev libbenchmark-dev clang clang-format libclang-rt-14-dev xvfb libgl1-mesa-dri python3-numpy
   # real data for examples and tests
-  libcgal-demo
+  libcgal-demo gmsh-doc
 )
 if [ "${KNOTWORK_NO_INSTALL:-0}" = 1 ]; then
   exit 0

@@ -48,11 +48,12 @@ def fitted(mesh):
 
 def contours(surface, bounds):
     """Lines of equal height, on the surface."""
-    filter = knotwork.vtkSplineContour()
-    filter.SetInputDataObject(surface)
-    for i, level in enumerate(np.arange(STEP * np.ceil(bounds[4] / STEP), bounds[5], STEP)):
-        filter.SetValue(i, level)
-    return scene.updated(filter).GetOutputDataObject(0)
+    contour = knotwork.vtkSplineContour()
+    contour.SetInputDataObject(surface)
+    for level in np.arange(STEP * np.ceil(bounds[4] / STEP), bounds[5], STEP):
+        contour.AddLevel(level)
+    contour.SetTolerance(1e-3)
+    return scene.updated(contour).GetOutputDataObject(0)
 
 
 def tall(actor):
@@ -119,7 +120,7 @@ def main():
     skin = scene.updated(tessellate).GetOutputDataObject(0)
     lines = contours(surface, points.GetBounds())
     heights = vtk_to_numpy(lines.GetPoints().GetData())[:, 2]
-    assert np.abs(heights / STEP - np.round(heights / STEP)).max() * STEP < 1e-2, "points of contours are not at their heights"
+    assert np.abs(heights / STEP - np.round(heights / STEP)).max() * STEP <= 1e-3, "points of contours are not at their heights"
     third = 1 / 3
     renderers = [
         view([distances(points)], (0, 0, third, 1)),
