@@ -2,6 +2,7 @@
 #include "FitChecks.h"
 
 #include "Numbers.h"
+#include "Parallel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,7 @@ namespace knotwork
 {
 namespace
 {
+constexpr std::size_t PointChunk = 16384;
 constexpr double DomainSlack = 1e-12;     // of the domain's size, as SplineSpace::Locate
 constexpr double LargestNumber = 1e100;   // squares and their sums are finite
 constexpr double DefaultTolerance = 1e-3; // of the range of the measured values
@@ -163,53 +165,62 @@ Status CheckSteps(const FitParams& params)
   return {};
 }
 
-Status CheckPoints(const PointCloud& cloud, const FitParams& params)
+Status CheckPoint(const PointCloud& cloud, const FitParams& params, Eigen::Index i)
 {
-  for (Eigen::Index i = 0; i < cloud.Parameters.rows(); ++i)
+  bool finite = std::isfinite(cloud.Parameters(i, 0)) && std::isfinite(cloud.Parameters(i, 1));
+  double size = std::max(std::fabs(cloud.Parameters(i, 0)), std::fabs(cloud.Parameters(i, 1)));
+  for (Eigen::Index c = 0; c < cloud.Values.cols(); ++c)
   {
-    bool finite = std::isfinite(cloud.Parameters(i, 0)) && std::isfinite(cloud.Parameters(i, 1));
-    double size = std::max(std::fabs(cloud.Parameters(i, 0)), std::fabs(cloud.Parameters(i, 1)));
-    for (Eigen::Index c = 0; c < cloud.Values.cols(); ++c)
-    {
-      finite = finite && std::isfinite(cloud.Values(i, c));
-      size = std::max(size, std::fabs(cloud.Values(i, c)));
-    }
-    if (!finite)
-    {
-      return { ErrorCode::NonFiniteInput,
-        "point " + std::to_string(i) + " has a parameter or value that is not finite" };
-    }
-    if (size > LargestNumber)
-    {
-      return Bad("point " + std::to_string(i) + " has a number above " + Digits(LargestNumber) +
-        "; choose other units");
-    }
-    if (cloud.Tolerances.size() != 0 &&
-      !(cloud.Tolerances[i] > 0.0 && std::isfinite(cloud.Tolerances[i])))
-    {
-      return Bad("the tolerance of point " + std::to_string(i) + " is " +
-        Digits(cloud.Tolerances[i]) + ", it must be positive");
-    }
+    finite = finite && std::isfinite(cloud.Values(i, c));
+    size = std::max(size, std::fabs(cloud.Values(i, c)));
   }
-  if (HasArea(params.Domain))
+  if (!finite)
   {
-    for (Eigen::Index i = 0; i < cloud.Parameters.rows(); ++i)
+    return { ErrorCode::NonFiniteInput,
+      "point " + std::to_string(i) + " has a parameter or value that is not finite" };
+  }
+  if (size > LargestNumber)
+  {
+    return Bad("point " + std::to_string(i) + " has a number above " + Digits(LargestNumber) +
+      "; choose other units");
+  }
+  if (cloud.Tolerances.size() != 0 &&
+    !(cloud.Tolerances[i] > 0.0 && std::isfinite(cloud.Tolerances[i])))
+  {
+    return Bad("the tolerance of point " + std::to_string(i) + " is " +
+      Digits(cloud.Tolerances[i]) + ", it must be positive");
+  }
+  for (std::size_t d = 0; HasArea(params.Domain) && d < 2; ++d)
+  {
+    const double x = cloud.Parameters(i, static_cast<Eigen::Index>(d));
+    const double slack = DomainSlack * (params.Domain.Upper[d] - params.Domain.Lower[d]);
+    if (x < params.Domain.Lower[d] - slack || x > params.Domain.Upper[d] + slack)
     {
-      for (std::size_t d = 0; d < 2; ++d)
-      {
-        const double x = cloud.Parameters(i, static_cast<Eigen::Index>(d));
-        const double slack = DomainSlack * (params.Domain.Upper[d] - params.Domain.Lower[d]);
-        if (x < params.Domain.Lower[d] - slack || x > params.Domain.Upper[d] + slack)
-        {
-          return { ErrorCode::OutsideDomain,
-            "point " + std::to_string(i) +
-              " lies outside the domain; enlarge the domain or leave "
-              "it out" };
-        }
-      }
+      return { ErrorCode::OutsideDomain,
+        "point " + std::to_string(i) +
+          " lies outside the domain; enlarge the domain or leave it out" };
     }
   }
   return {};
+}
+
+/// The first bad point.
+Status CheckPoints(const PointCloud& cloud, const FitParams& params)
+{
+  const auto n = static_cast<std::size_t>(cloud.Parameters.rows());
+  std::vector<Status> found((n + PointChunk - 1) / PointChunk);
+  ParallelFor(n, PointChunk, params.Threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      Status& own = found[begin / PointChunk];
+      for (std::size_t i = begin; own && i < end; ++i)
+      {
+        own = CheckPoint(cloud, params, static_cast<Eigen::Index>(i));
+      }
+    });
+  const auto bad =
+    std::find_if(found.begin(), found.end(), [](const Status& status) { return !status; });
+  return bad == found.end() ? Status() : *bad;
 }
 }
 
@@ -285,7 +296,12 @@ std::vector<double> FitTolerances(const PointCloud& cloud, const FitParams& para
     }
     base = range > 0.0 ? DefaultTolerance * range : std::max(DefaultTolerance * size, 1e-12);
   }
-  std::vector<double> tolerances(n);
+  std::vector<double> tolerances(n, base);
+  if (params.Distance == FitDistance::None && params.ToleranceBoxes.empty() &&
+    cloud.Tolerances.size() == 0)
+  {
+    return tolerances;
+  }
   for (std::size_t i = 0; i < n; ++i)
   {
     const auto row = static_cast<Eigen::Index>(i);

@@ -67,7 +67,7 @@ double FitScale(const std::vector<Class>& classes, double total, double scale, d
       sum += c.Count * (freedom + 1.0) * c.Square / (freedom + c.Square / (scale * scale));
     }
     const double next = std::sqrt(sum / total);
-    const bool done = std::fabs(next - scale) <= 1e-6 * scale;
+    const bool done = std::fabs(next - scale) <= 1e-5 * scale;
     scale = next;
     if (done)
     {

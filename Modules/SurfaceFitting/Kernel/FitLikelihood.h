@@ -12,7 +12,7 @@ struct TDistribution
   double LogLikelihood = 0.0;
 };
 
-/// Distances of points that are no outliers, counted in classes of a relative width of 1/64, so
+/// Distances of points that are no outliers, counted in classes of a relative width of 1/16, so
 /// the fit's cost is one pass over the points.
 /// @source  Liu, Rubin, Statistica Sinica 5 (1995) 19-39 (ECME); Skytt, Dokken, "Scattered data
 /// approximation by LR B-spline surfaces" (information criteria for a stop).

@@ -60,7 +60,7 @@ public:
   {
     this->Move(points.U, begin, from);
     this->Move(points.V, begin, from);
-    for (std::vector<double>& column : points.Values)
+    for (FitPoints::Column& column : points.Values)
     {
       this->Move(column, begin, from);
     }
@@ -77,7 +77,7 @@ public:
   }
 
 private:
-  void Move(std::vector<double>& column, std::size_t begin, const std::vector<int>& from)
+  void Move(FitPoints::Column& column, std::size_t begin, const std::vector<int>& from)
   {
     this->Numbers.resize(from.size());
     for (std::size_t i = 0; i < from.size(); ++i)
@@ -98,38 +98,52 @@ FitPoints GroupPoints(const SplineSpace<2>& space, const PointCloud& cloud,
 {
   const auto n = static_cast<std::size_t>(cloud.Parameters.rows());
   const std::vector<int> elements = LocateAll(space, cloud.Parameters, threads);
-  FitPoints points;
-  points.Ranges.resize(At(space.NumElements()));
-  for (const int e : elements)
-  {
-    ++points.Ranges[At(e)].End;
-  }
-  std::size_t sum = 0;
-  for (FitPoints::Range& range : points.Ranges)
-  {
-    const std::size_t count = range.End;
-    range = { sum, sum };
-    sum += count;
-  }
-  points.Order.resize(n);
-  for (std::size_t i = 0; i < n; ++i)
-  {
-    points.Order[points.Ranges[At(elements[i])].End++] = static_cast<int>(i);
-  }
-  points.U.resize(n);
-  points.V.resize(n);
-  points.Tolerance.resize(n);
-  points.Base.assign(n, 1.0);
-  points.Boost.assign(n, 1.0);
-  points.Distance.assign(n, 0.0);
-  const auto columns = static_cast<std::size_t>(cloud.Values.cols());
-  points.Values.assign(columns, std::vector<double>(n));
+  // a stable counting sort in chunks: where a chunk's points of an element begin
+  const std::size_t chunks = (n + PointChunk - 1) / PointChunk;
+  const std::size_t numElements = At(space.NumElements());
+  std::vector<std::size_t> next(chunks * numElements, 0);
   ParallelFor(n, PointChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
+      std::size_t* counts = next.data() + begin / PointChunk * numElements;
       for (std::size_t i = begin; i < end; ++i)
       {
-        const std::size_t row = At(points.Order[i]);
+        ++counts[elements[i]];
+      }
+    });
+  FitPoints points;
+  points.Ranges.resize(numElements);
+  std::size_t sum = 0;
+  for (std::size_t e = 0; e < numElements; ++e)
+  {
+    points.Ranges[e].Begin = sum;
+    for (std::size_t k = 0; k < chunks; ++k)
+    {
+      sum += std::exchange(next[k * numElements + e], sum);
+    }
+    points.Ranges[e].End = sum;
+  }
+  points.Order.resize(n);
+  points.U.resize(n);
+  points.V.resize(n);
+  points.Tolerance.resize(n);
+  points.Base.resize(n);
+  points.Boost.resize(n);
+  points.Distance.resize(n);
+  const auto columns = static_cast<std::size_t>(cloud.Values.cols());
+  points.Values.resize(columns);
+  for (FitPoints::Column& column : points.Values)
+  {
+    column.resize(n);
+  }
+  ParallelFor(n, PointChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      std::size_t* place = next.data() + begin / PointChunk * numElements;
+      for (std::size_t row = begin; row < end; ++row)
+      {
+        const std::size_t i = place[elements[row]]++;
+        points.Order[i] = static_cast<int>(row);
         points.U[i] = cloud.Parameters.data()[2 * row];
         points.V[i] = cloud.Parameters.data()[2 * row + 1];
         points.Tolerance[i] = tolerances[row];
@@ -137,10 +151,10 @@ FitPoints GroupPoints(const SplineSpace<2>& space, const PointCloud& cloud,
         {
           points.Values[c][i] = cloud.Values.data()[row * columns + c];
         }
-        if (!cloud.Significant.empty() && cloud.Significant[row] != 0)
-        {
-          points.Base[i] = significantWeight;
-        }
+        const bool significant = !cloud.Significant.empty() && cloud.Significant[row] != 0;
+        points.Base[i] = significant ? significantWeight : 1.0;
+        points.Boost[i] = 1.0;
+        points.Distance[i] = 0.0;
       }
     });
   return points;

@@ -3,22 +3,47 @@
 #include "SurfaceFit.h"
 
 #include <cstdint>
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace knotwork
 {
+/// Memory that is not written when it is made: what fills it in parallel finds it untouched.
+template <typename T>
+struct UntouchedAllocator : std::allocator<T>
+{
+  template <typename U>
+  struct rebind
+  {
+    using other = UntouchedAllocator<U>;
+  };
+  template <typename U>
+  void construct(U*) noexcept
+  {
+  }
+  template <typename U, typename First, typename... Rest>
+  void construct(U* at, First&& first, Rest&&... rest)
+  {
+    ::new (static_cast<void*>(at)) U(std::forward<First>(first), std::forward<Rest>(rest)...);
+  }
+};
+template <typename T>
+using UntouchedVector = std::vector<T, UntouchedAllocator<T>>;
+
 /// The points of a fit in the order of the elements that hold them, a column a property: everything
 /// an element's points need is contiguous. When an element is split only its own points move.
 struct FitPoints
 {
-  std::vector<double> U; ///< in the domain's coordinates
-  std::vector<double> V;
-  std::vector<std::vector<double>> Values; ///< one a component
-  std::vector<double> Tolerance;
-  std::vector<double> Base;     ///< weight asked for; 0 of an outlier
-  std::vector<double> Boost;    ///< weight gained by being outside, >= 1
-  std::vector<double> Distance; ///< signed with one measured component
-  std::vector<int> Order;       ///< row in the cloud
+  using Column = UntouchedVector<double>;
+  Column U; ///< in the domain's coordinates
+  Column V;
+  std::vector<Column> Values; ///< one a component
+  Column Tolerance;
+  Column Base;                ///< weight asked for; 0 of an outlier
+  Column Boost;               ///< weight gained by being outside, >= 1
+  Column Distance;            ///< signed with one measured component
+  UntouchedVector<int> Order; ///< row in the cloud
 
   /// Points [Begin, End) of an element.
   struct Range

@@ -9,6 +9,7 @@
 #include "LeastSquares.h"
 #include "Multilevel.h"
 #include "OutlierSearch.h"
+#include "Parallel.h"
 
 #include <algorithm>
 #include <chrono>
@@ -19,6 +20,7 @@ namespace knotwork
 {
 namespace
 {
+constexpr std::size_t PointChunk = 16384;
 constexpr int MultilevelSteps = 2;      // an iteration
 constexpr int ReweightSteps = 3;        // an iteration
 constexpr int OutlierSteps = 3;         // an iteration
@@ -345,10 +347,14 @@ private:
     this->Fit.Surface.ControlPoints = std::move(this->State.Coefficients);
     this->Fit.DomainPoints = std::move(this->State.DomainPoints);
     this->Fit.Distances.resize(this->Points.Size());
-    for (std::size_t i = 0; i < this->Points.Size(); ++i)
-    {
-      this->Fit.Distances[At(this->Points.Order[i])] = this->Points.Distance[i];
-    }
+    ParallelFor(this->Points.Size(), PointChunk, this->Params.Threads,
+      [this](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          this->Fit.Distances[At(this->Points.Order[i])] = this->Points.Distance[i];
+        }
+      });
     this->Fit.Tolerances = std::move(this->Tolerances);
     this->Fit.Outliers = std::move(this->Outliers);
     if (this->Params.FeatureGridSize > 0)

@@ -12,7 +12,7 @@ namespace
 FitPoints WithDistances(const std::vector<double>& distances)
 {
   FitPoints points;
-  points.Distance = distances;
+  points.Distance.assign(distances.begin(), distances.end());
   points.U.resize(distances.size());
   points.Base.assign(distances.size(), 1.0);
   return points;
@@ -29,7 +29,7 @@ TEST(FitLikelihood, CauchyDistances_ExactOracle)
     distances.push_back(0.003 * std::tan(clouds::Pi * ((i + 0.5) / n - 0.5)));
   }
   const TDistribution t = FitTDistribution(WithDistances(distances), 2);
-  // classes are 1/64 wide; the cut tail of the quantiles is worth less
+  // classes are 1/16 wide; the cut tail of the quantiles is worth less
   EXPECT_NEAR(t.DegreesOfFreedom, 1.0, 0.01);
   EXPECT_NEAR(t.Scale, 0.003, 0.003 * 0.01);
   // entropy of the distribution is log(4 pi scale)
