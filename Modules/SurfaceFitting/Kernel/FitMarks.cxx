@@ -9,6 +9,7 @@ namespace knotwork
 namespace
 {
 constexpr double SplitBoth = 0.5;      // a direction's gain, of the other one's: from here on both
+constexpr double EndShare = 0.01;      // of the elements
 constexpr double ReweightRatio = 1.3;  // largest distance / tolerance
 constexpr double ReweightShare = 1e-3; // of all points may be outside
 constexpr double ReweightFloor = 0.9;  // of the tolerance: from here on points gain
@@ -31,8 +32,16 @@ std::vector<SplitMark> MarkElements(const FitState& state, const ElementFunction
     worst = std::max(worst, own.Ratio);
     most = std::max(most, own.NumOutside);
   }
+  // near the end what is left is split at once
+  const auto left = std::count_if(
+    errors.begin(), errors.end(), [](const ElementErrors& own) { return own.NumOutside > 0; });
+  const bool isEnd = static_cast<double>(left) <= EndShare * static_cast<double>(errors.size());
   const auto chosen = [&](const ElementErrors& own)
   {
+    if (isEnd)
+    {
+      return true;
+    }
     switch (params.Threshold)
     {
       case FitThreshold::LargestErrors:

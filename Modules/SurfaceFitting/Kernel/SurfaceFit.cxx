@@ -341,6 +341,7 @@ private:
     {
       this->Measure();
       this->Fit.Final = this->Summarize(this->Fit.Iterations.back().Iteration);
+      this->Fit.Iterations.push_back(this->Fit.Final);
     }
     this->Fit.WithinTolerance = this->Fit.Final.NumOutside == 0;
     this->Fit.Surface.Space = this->State.Space;

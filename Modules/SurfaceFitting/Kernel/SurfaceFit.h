@@ -45,7 +45,8 @@ enum class FitSide
   Below  ///< no point below the surface
 };
 
-/// How many of the elements with points outside the tolerance an iteration splits.
+/// How many of the elements with points outside the tolerance an iteration splits; all of them when
+/// they are at most one in a hundred of all elements.
 enum class FitThreshold
 {
   All,           ///< all of them
@@ -161,6 +162,8 @@ struct SurfaceFit
   std::vector<double> Distances;      ///< n; signed (value - surface) when NumMeasured is 1
   std::vector<double> Tolerances;     ///< n, those that were used
   std::vector<std::uint8_t> Outliers; ///< n, 1: an outlier; empty unless FindOutliers
+  /// The last row is Final. One-sided fits: errors before are distances from the middle of the band
+  /// between the points and their tolerances.
   std::vector<FitIteration> Iterations;
   FitFeatures Features;
   FitIteration Final; ///< the numbers of the result, computed anew
