@@ -136,7 +136,7 @@ public:
   vtkGetVector4Macro(Domain, double);
   ///@}
   ///@{
-  /** How control points are found, one of Methods. Default COMBINED. */
+  /** How control points are found, one of Methods. Default LEAST_SQUARES. */
   vtkSetClampMacro(Method, int, LEAST_SQUARES, COMBINED);
   vtkGetMacro(Method, int);
   ///@}
@@ -222,13 +222,13 @@ public:
   ///@}
   ///@{
   /** Which elements with points outside their tolerance are split, one of Thresholds. Default
-   * ALL_ELEMENTS. */
+   * LARGEST_ERRORS. */
   vtkSetClampMacro(Threshold, int, ALL_ELEMENTS, MOST_POINTS);
   vtkGetMacro(Threshold, int);
   ///@}
   ///@{
   /** Share of the largest error or number from which on LARGEST_ERRORS and MOST_POINTS split.
-   * Default 0.5, valid range [0, 1]. */
+   * Default 0.1, valid range [0, 1]. */
   vtkSetClampMacro(ThresholdShare, double, 0.0, 1.0);
   vtkGetMacro(ThresholdShare, double);
   ///@}
@@ -284,7 +284,7 @@ private:
   int InitialElementsU = 0;
   int InitialElementsV = 0;
   double Domain[4] = { 0.0, 0.0, 0.0, 0.0 };
-  int Method = COMBINED;
+  int Method = LEAST_SQUARES;
   int SwitchIteration = 6;
   double Smoothing = 1e-9;
   double SignificantWeight = 10.0;
@@ -300,8 +300,8 @@ private:
   int MaximumFunctions = 0;
   double MaximumSeconds = 0.0;
   int Criterion = TOLERANCE;
-  int Threshold = ALL_ELEMENTS;
-  double ThresholdShare = 0.5;
+  int Threshold = LARGEST_ERRORS;
+  double ThresholdShare = 0.1;
   int Directions = BY_ERROR;
   int Strategy = FULL_SPAN;
   bool Independent = false;

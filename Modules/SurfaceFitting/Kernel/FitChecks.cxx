@@ -76,9 +76,9 @@ Status CheckShape(const FitParams& params)
   }
   for (const int n : params.NumInitialElements)
   {
-    if (n < 0 || n > 4096)
+    if (n < 0 || n > 10000)
     {
-      return Bad("NumInitialElements is " + std::to_string(n) + ", choose 0 to 4096");
+      return Bad("NumInitialElements is " + std::to_string(n) + ", choose 0 to 10000");
     }
   }
   for (std::size_t d = 0; d < 2; ++d)
@@ -153,10 +153,10 @@ Status CheckSteps(const FitParams& params)
   {
     return Bad("ThresholdShare is " + Digits(params.ThresholdShare) + ", choose within [0, 1]");
   }
-  if (params.FeatureGridSize < 0 || params.FeatureGridSize > 16384)
+  if (params.FeatureGridSize < 0 || params.FeatureGridSize > 20000)
   {
     return Bad(
-      "FeatureGridSize is " + std::to_string(params.FeatureGridSize) + ", choose 0 to 16384");
+      "FeatureGridSize is " + std::to_string(params.FeatureGridSize) + ", choose 0 to 20000");
   }
   if (params.Threads < 0)
   {
