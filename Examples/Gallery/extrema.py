@@ -82,7 +82,7 @@ def main():
             camera.SetPosition(*(np.array(camera.GetFocalPoint()) + (0.9, -1.6, 1.5)))
             camera.SetViewUp(0, 0, 1)
             panel.ResetCamera()
-            camera.Zoom(1.45)
+            camera.Zoom(1.2)
         else:
             elements = knotwork.vtkSplineParametricMesh()
             elements.SetInputDataObject(surface)
