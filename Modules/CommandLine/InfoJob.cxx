@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Jobs.h"
+#include "LRDependence.h"
 #include "Session.h"
 #include "SplineModel.h"
 
@@ -64,6 +65,28 @@ int NumLevels(const SplineSpace<Dim>& space)
   return level + 1;
 }
 
+/// Whether the functions are linearly independent; those of all kinds but LR always are.
+template <int Dim>
+std::string Dependence(const SplineSpace<Dim>& space)
+{
+  if constexpr (Dim == 2)
+  {
+    if (space.Kind == SpaceKind::LocallyRefined)
+    {
+      switch (DecideDependence(space)->Verdict)
+      {
+        case LRVerdict::Independent:
+          break;
+        case LRVerdict::Dependent:
+          return "dependent";
+        case LRVerdict::Undecided:
+          return "undecided";
+      }
+    }
+  }
+  return "independent";
+}
+
 struct InfoJob
 {
   std::string Input;
@@ -123,6 +146,7 @@ struct InfoJob
     std::vector<int> patchIds;
     std::vector<std::string> kinds;
     std::vector<std::string> degrees;
+    std::vector<std::string> dependences;
     bool rational = false;
     int dimension = 0;
     int levels = 0;
@@ -141,6 +165,13 @@ struct InfoJob
           {
             std::cout << ", field " << field.Name << " (" << field.Coefficients.cols() << ")";
           }
+          const std::string dependence = Dependence(space);
+          if (dependence != "independent")
+          {
+            std::cout << ", functions linearly " << dependence
+                      << " (refine --keep-independent true resolves it)";
+          }
+          dependences.push_back(dependence);
           if (patch.Recovered)
           {
             std::cout << ", control points recovered with residual " << patch.Residual;
@@ -164,6 +195,7 @@ struct InfoJob
     session.Report["patch_ids"] = patchIds;
     session.Report["kinds"] = kinds;
     session.Report["degrees"] = degrees;
+    session.Report["dependences"] = dependences;
     session.Report["parametric_dimension"] = dimension;
     session.Report["functions"] = functions;
     session.Report["elements"] = elements;

@@ -20,6 +20,7 @@ using Job = std::function<Status(Session&)>;
 Job MakeConvertJob(CLI::App& app);
 Job MakeEvaluateJob(CLI::App& app);
 Job MakeExtremaJob(CLI::App& app);
+Job MakeExtractJob(CLI::App& app);
 Job MakeFitJob(CLI::App& app);
 Job MakeFlattenJob(CLI::App& app);
 Job MakeInfoJob(CLI::App& app);

@@ -112,6 +112,23 @@ Job MakeRefineJob(CLI::App& app)
   KNOTWORK_OPTION(options, filter, AdmissibleClass,
     "functions alive on an element belong to at most so many levels; 0: no limit");
   KNOTWORK_OPTION(options, filter, MaxLevel, "cells of this level are not split");
+  options.AddChoice(
+    "LocalSpace", { "thb", "lr" }, filter->GetLocalSpace(),
+    [filter](int space) { filter->SetLocalSpace(space); },
+    "what local refinement makes of tensor-product surfaces");
+  options.AddChoice(
+    "LrStrategy", { "full-span", "minimum-span", "structured-mesh" }, filter->GetLRStrategy(),
+    [filter](int strategy) { filter->SetLRStrategy(strategy); },
+    "how long lines of LR patches are");
+  options.AddChoice(
+    "LrTarget", { "elements", "functions" }, filter->GetLRTarget(),
+    [filter](int target) { filter->SetLRTarget(target); }, "what is halved in LR patches");
+  options.AddChoice(
+    "LrDirections", { "both", "alternating", "first", "second" }, filter->GetLRDirections(),
+    [filter](int directions) { filter->SetLRDirections(directions); },
+    "the parameter that is constant on new lines of LR patches");
+  KNOTWORK_FREE_OPTION(options, filter, KeepIndependent,
+    "whether the functions of LR patches are made linearly independent, with no refinements too");
   return [job](Session& session) { return job->Run(session); };
 }
 }

@@ -29,6 +29,8 @@ constexpr Entry Jobs[] = {
   { "evaluate", "evaluate a spline at points, with derivatives", knotwork::MakeEvaluateJob },
   { "extrema", "find all minima, maxima and saddles of a surface, proved",
     knotwork::MakeExtremaJob },
+  { "extract", "take a part or an iso-curve of surfaces, or exchange, reverse, expand",
+    knotwork::MakeExtractJob },
   { "fit", "fit a spline surface to scattered points", knotwork::MakeFitJob },
   { "flatten", "lay a triangle mesh with holes into the plane", knotwork::MakeFlattenJob },
   { "info", "say what a spline file holds", knotwork::MakeInfoJob },

@@ -222,6 +222,19 @@ Status vtkSplineRefine::Marker::MarkByFunction(
 
 namespace
 {
+/// Values of elements become those of their children.
+template <typename Value>
+void PassToChildren(const std::vector<int>& parents, std::vector<Value>& values)
+{
+  std::vector<Value> passed;
+  passed.reserve(parents.size());
+  for (const int parent : parents)
+  {
+    passed.push_back(values[static_cast<std::size_t>(parent)]);
+  }
+  values = std::move(passed);
+}
+
 /// Smallest extension for which a marked element brings new functions in every direction.
 template <int Dim>
 int AutomaticExtension(const knotwork::SplineSpace<Dim>& space)
@@ -259,6 +272,11 @@ void vtkSplineRefine::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Extension: " << this->Extension << "\n";
   os << indent << "AdmissibleClass: " << this->AdmissibleClass << "\n";
   os << indent << "MaxLevel: " << this->MaxLevel << "\n";
+  os << indent << "LocalSpace: " << this->LocalSpace << "\n";
+  os << indent << "LRStrategy: " << this->LRStrategy << "\n";
+  os << indent << "LRTarget: " << this->LRTarget << "\n";
+  os << indent << "LRDirections: " << this->LRDirections << "\n";
+  os << indent << "KeepIndependent: " << this->KeepIndependent << "\n";
 }
 
 vtkMTimeType vtkSplineRefine::GetMTime()
@@ -292,6 +310,84 @@ int vtkSplineRefine::FillInputPortInformation(int port, vtkInformation* info)
   return this->Superclass::FillInputPortInformation(port, info);
 }
 
+/// A refinement of a patch, by the properties of the filter.
+class vtkSplineRefine::Stepper
+{
+public:
+  explicit Stepper(vtkSplineRefine* filter) : Filter(filter) {}
+
+  /// @param round  number of the refinement.
+  template <int Dim>
+  knotwork::Result<knotwork::RefinedSpline<Dim>> Refine(
+    const knotwork::Spline<Dim>& spline, std::vector<int> marked, int round) const
+  {
+    const knotwork::SpaceKind kind = spline.Space->Kind;
+    const bool everywhere = this->Filter->Mode == UNIFORM || this->Filter->GlobalRefinement;
+    if constexpr (Dim == 2)
+    {
+      if (kind == knotwork::SpaceKind::LocallyRefined && everywhere)
+      {
+        marked.resize(spline.Space->Elements.size());
+        std::iota(marked.begin(), marked.end(), 0);
+      }
+      if (kind == knotwork::SpaceKind::LocallyRefined ||
+        (kind == knotwork::SpaceKind::Tensor && !everywhere &&
+          this->Filter->LocalSpace == LOCALLY_REFINED))
+      {
+        return RefineMarkedLR(spline, marked, this->LRParams(round));
+      }
+    }
+    if (everywhere)
+    {
+      return RefineAllElements(spline);
+    }
+    knotwork::RefinementParams params;
+    params.Extension =
+      this->Filter->Extension < 0 ? AutomaticExtension(*spline.Space) : this->Filter->Extension;
+    params.AdmissibleClass = this->Filter->AdmissibleClass;
+    params.MaxLevel = this->Filter->MaxLevel;
+    return RefineMarkedElements(spline, marked, params);
+  }
+
+  /// A dependence that came in goes, also when nothing was refined.
+  template <int Dim>
+  Status Finish(knotwork::Spline<Dim>& spline, std::vector<vtkIdType>& cells) const
+  {
+    if constexpr (Dim == 2)
+    {
+      if (this->Filter->KeepIndependent &&
+        spline.Space->Kind == knotwork::SpaceKind::LocallyRefined)
+      {
+        auto refined = RefineMarkedLR(spline, {}, this->LRParams(0));
+        if (!refined)
+        {
+          return refined.Status;
+        }
+        spline = std::move(refined->Value);
+        PassToChildren(refined->Parents, cells);
+      }
+    }
+    return {};
+  }
+
+private:
+  knotwork::LRRefinementParams LRParams(int round) const
+  {
+    const int directions = this->Filter->LRDirections;
+    const int first = directions == ALTERNATING ? round % 2 : directions - FIRST;
+    knotwork::LRRefinementParams params;
+    params.Segments.Strategy = static_cast<knotwork::LRStrategy>(this->Filter->LRStrategy);
+    params.Segments.Directions = { directions == BOTH || first == 0,
+      directions == BOTH || first == 1 };
+    params.ByFunction = this->Filter->LRTarget == FUNCTIONS;
+    params.KeepIndependent = this->Filter->KeepIndependent;
+    params.Threads = this->Filter->KernelThreads();
+    return params;
+  }
+
+  vtkSplineRefine* Filter;
+};
+
 Status vtkSplineRefine::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
@@ -313,6 +409,7 @@ Status vtkSplineRefine::Compute(vtkInformationVector** inputs, vtkInformationVec
     return status;
   }
 
+  const Stepper stepper(this);
   const knotwork::ProgressCallback progress = this->Progress();
   std::map<int, std::vector<vtkIdType>> sources; // cells by block
   for (std::size_t p = 0; p < model.Patches.size(); ++p)
@@ -353,33 +450,23 @@ Status vtkSplineRefine::Compute(vtkInformationVector** inputs, vtkInformationVec
         {
           break;
         }
-        knotwork::RefinementParams params;
-        params.Extension =
-          this->Extension < 0 ? AutomaticExtension(*spline.Space) : this->Extension;
-        params.AdmissibleClass = this->AdmissibleClass;
-        params.MaxLevel = this->MaxLevel;
-        auto refined = this->Mode == UNIFORM || this->GlobalRefinement
-          ? RefineAllElements(spline)
-          : RefineMarkedElements(spline, marked, params);
+        auto refined = stepper.Refine(spline, marked, round);
         if (!refined)
         {
           return refined.Status;
         }
         spline = std::move(refined->Value);
-        std::vector<vtkIdType> newCells;
-        std::vector<char> newMarks;
-        for (const int parent : refined->Parents)
-        {
-          newCells.push_back(cells[static_cast<std::size_t>(parent)]);
-          newMarks.push_back(marks[static_cast<std::size_t>(parent)]);
-        }
-        cells = std::move(newCells);
-        marks = std::move(newMarks);
+        PassToChildren(refined->Parents, cells);
+        PassToChildren(refined->Parents, marks);
         if (!progress((static_cast<double>(p) + (round + 1.0) / this->NumberOfRefinements) /
               static_cast<double>(model.Patches.size())))
         {
           return Status(ErrorCode::Aborted, "");
         }
+      }
+      if (const Status status = stepper.Finish(spline, cells); !status)
+      {
+        return status;
       }
       SeparateFields(spline, patch);
       return Status();

@@ -15,17 +15,29 @@
  * is not seen.
  * - SELECTION: cells that a vtkSelection on port 1 selects.
  *
- * Marked elements are refined locally: the patch becomes a truncated hierarchical (THB) spline.
- * With GlobalRefinement every patch that has a marked element is refined as by UNIFORM. In repeated
- * refinements the children of marked elements are marked (CELL_ARRAY, SELECTION), or the new
- * elements are sampled again (IMPLICIT_FUNCTION).
+ * Marked elements are refined locally. What a tensor-product surface becomes is LocalSpace's
+ * choice: a truncated hierarchical (THB) spline or an LR spline; curves and volumes become
+ * hierarchical. Patches that are hierarchical or LR stay it. With GlobalRefinement every patch that
+ * has a marked element is refined as by UNIFORM. In repeated refinements the children of marked
+ * elements are marked (CELL_ARRAY, SELECTION), or the new elements are sampled again
+ * (IMPLICIT_FUNCTION).
+ *
+ * An LR patch is refined by mesh lines, in UNIFORM mode too. LRStrategy says how long they are:
+ * across all functions alive on an element (FULL_SPAN), across the smallest (MINIMUM_SPAN), or all
+ * knot spans of a function halved (STRUCTURED_MESH). LRTarget says what is halved: the marked
+ * elements, or FUNCTIONS, namely those with at least half of their support marked and for every
+ * marked element the one with the largest part marked. LRDirections restricts the lines to one
+ * parameter, or to one after the other with every refinement. With KeepIndependent lines are added
+ * until the functions of LR patches are linearly independent, after every refinement, and with
+ * NumberOfRefinements 0 also of patches that came in dependent. See LRStrategies.h, LRDependence.h.
  *
  * The map, its weights and all fields do not change (up to rounding). Cell arrays other than those
  * of the spline grid pass to the children.
  *
  * Errors: local refinement of Bezier patches and degree elevation of hierarchical patches
- * (DimensionMismatch), degree above 9 (InvalidDegree), no such array, function or selection
- * (InvalidParameter), and those of decoding.
+ * (DimensionMismatch), a dependence that 100 more lines do not resolve (NotConverged), degree above
+ * 9 (InvalidDegree), no such array, function or selection (InvalidParameter), and those of
+ * decoding.
  */
 #ifndef vtkSplineRefine_h
 #define vtkSplineRefine_h
@@ -47,6 +59,29 @@ public:
     CELL_ARRAY,
     IMPLICIT_FUNCTION,
     SELECTION
+  };
+  enum LocalSpaces
+  {
+    HIERARCHICAL = 0,
+    LOCALLY_REFINED
+  };
+  enum LRStrategies
+  {
+    FULL_SPAN = 0,
+    MINIMUM_SPAN,
+    STRUCTURED_MESH
+  };
+  enum LRTargets
+  {
+    ELEMENTS = 0,
+    FUNCTIONS
+  };
+  enum LRDirectionChoices
+  {
+    BOTH = 0,
+    ALTERNATING,
+    FIRST,
+    SECOND
   };
   enum Regions
   {
@@ -116,6 +151,34 @@ public:
   vtkGetMacro(MaxLevel, int);
   ///@}
   ///@{
+  /** What local refinement makes of tensor-product surfaces, one of LocalSpaces. Default
+   * HIERARCHICAL. */
+  vtkSetClampMacro(LocalSpace, int, HIERARCHICAL, LOCALLY_REFINED);
+  vtkGetMacro(LocalSpace, int);
+  ///@}
+  ///@{
+  /** How long the new lines of LR patches are, one of LRStrategies. Default FULL_SPAN. */
+  vtkSetClampMacro(LRStrategy, int, FULL_SPAN, STRUCTURED_MESH);
+  vtkGetMacro(LRStrategy, int);
+  ///@}
+  ///@{
+  /** What is halved in LR patches, one of LRTargets. Default ELEMENTS. */
+  vtkSetClampMacro(LRTarget, int, ELEMENTS, FUNCTIONS);
+  vtkGetMacro(LRTarget, int);
+  ///@}
+  ///@{
+  /** The parameter that is constant on new lines of LR patches, one of LRDirectionChoices; when
+   * ALTERNATING the first one to begin with. Default BOTH. */
+  vtkSetClampMacro(LRDirections, int, BOTH, SECOND);
+  vtkGetMacro(LRDirections, int);
+  ///@}
+  ///@{
+  /** Whether the functions of LR patches are made linearly independent. Default off. */
+  vtkSetMacro(KeepIndependent, bool);
+  vtkGetMacro(KeepIndependent, bool);
+  vtkBooleanMacro(KeepIndependent, bool);
+  ///@}
+  ///@{
   /** The selection of mode SELECTION (input port 1, optional). */
   void SetSelectionConnection(vtkAlgorithmOutput* output);
   void SetSelectionData(vtkDataObject* selection);
@@ -133,6 +196,7 @@ private:
   vtkSplineRefine(const vtkSplineRefine&) = delete;
   void operator=(const vtkSplineRefine&) = delete;
   class Marker;
+  class Stepper;
 
   int Mode = UNIFORM;
   int NumberOfRefinements = 1;
@@ -145,5 +209,10 @@ private:
   int Extension = -1;
   int AdmissibleClass = 0;
   int MaxLevel = 24;
+  int LocalSpace = HIERARCHICAL;
+  int LRStrategy = FULL_SPAN;
+  int LRTarget = ELEMENTS;
+  int LRDirections = BOTH;
+  bool KeepIndependent = false;
 };
 #endif

@@ -17,38 +17,39 @@ Status InsertAll(LRRefinement& refinement, const std::vector<LRSegment>& segment
   return {};
 }
 
-Result<SplineSpacePtr<2>> AsLocallyRefined(const SplineSpacePtr<2>& space)
+Result<SplineSpacePtr<2>> AsLocallyRefined(const SplineSpacePtr<2>& space, int threads)
 {
   if (space->Kind == SpaceKind::LocallyRefined)
   {
     return space;
   }
   Result<LRBasis> basis = LRBasisOfTensor(*space);
-  return basis ? MakeLRSpace(std::move(basis.Value)) : basis.Status;
+  return basis ? MakeLRSpace(std::move(basis.Value), threads) : basis.Status;
 }
 }
 
 Result<SplineSpacePtr<2>> InsertSegments(
-  const SplineSpacePtr<2>& space, const std::vector<LRSegment>& segments)
+  const SplineSpacePtr<2>& space, const std::vector<LRSegment>& segments, int threads)
 {
-  const Result<SplineSpacePtr<2>> start = AsLocallyRefined(space);
+  const Result<SplineSpacePtr<2>> start = AsLocallyRefined(space, threads);
   if (!start || segments.empty())
   {
     return start;
   }
   LRRefinement refinement(*start.Value, PointMatrix(space->NumFunctions, 0));
   const Status status = InsertAll(refinement, segments);
-  return status ? refinement.Finish(nullptr) : status;
+  return status ? refinement.Finish(nullptr, threads) : status;
 }
 
-Result<Spline<2>> InsertSegments(const Spline<2>& spline, const std::vector<LRSegment>& segments)
+Result<Spline<2>> InsertSegments(
+  const Spline<2>& spline, const std::vector<LRSegment>& segments, int threads)
 {
   if (Status status = spline.Check(); !status)
   {
     return status;
   }
   Spline<2> result = spline;
-  Result<SplineSpacePtr<2>> space = AsLocallyRefined(spline.Space);
+  Result<SplineSpacePtr<2>> space = AsLocallyRefined(spline.Space, threads);
   if (space && !segments.empty())
   {
     LRRefinement refinement(*space.Value, spline.HomogeneousPoints());
@@ -57,8 +58,17 @@ Result<Spline<2>> InsertSegments(const Spline<2>& spline, const std::vector<LRSe
       return status;
     }
     PointMatrix rows;
-    space = refinement.Finish(&rows);
-    result.SetHomogeneousPoints(rows, spline.IsRational());
+    const Result<SplineSpacePtr<2>> larger = refinement.Finish(&rows, threads);
+    if (!larger)
+    {
+      return larger.Status;
+    }
+    // where all was there already, points keep every bit
+    if (!(larger.Value->LocallyRefined->Basis == space.Value->LocallyRefined->Basis))
+    {
+      space = larger;
+      result.SetHomogeneousPoints(rows, spline.IsRational());
+    }
   }
   result.Space = space.Value;
   return space ? Result<Spline<2>>(std::move(result)) : space.Status;

@@ -58,8 +58,10 @@ private:
 /// The same map in the larger space. A tensor-product spline becomes LocallyRefined first.
 /// @return what LRBasisOfTensor and Insert return, naming the segment; DimensionMismatch for other
 /// kinds.
-Result<Spline<2>> InsertSegments(const Spline<2>& spline, const std::vector<LRSegment>& segments);
+/// @param threads  0 = all cores.
+Result<Spline<2>> InsertSegments(
+  const Spline<2>& spline, const std::vector<LRSegment>& segments, int threads = 0);
 /// The same of a space.
 Result<SplineSpacePtr<2>> InsertSegments(
-  const SplineSpacePtr<2>& space, const std::vector<LRSegment>& segments);
+  const SplineSpacePtr<2>& space, const std::vector<LRSegment>& segments, int threads = 0);
 }

@@ -3,7 +3,6 @@
 
 #include "Bernstein.h"
 #include "BezierSpace.h"
-#include "LRStrategies.h"
 #include "TensorSpace.h"
 
 #include <algorithm>
@@ -314,10 +313,10 @@ Result<RefinedSpline<Dim>> SplitBezierElements(const Spline<Dim>& spline)
   };
   return Rebuild<Dim>(spline, makeLattice, coefficients);
 }
+}
 
-/// Element of the coarser space that holds the centre of each element of the finer one.
 template <int Dim>
-std::vector<int> FindParents(const SplineSpace<Dim>& coarse, const SplineSpace<Dim>& fine)
+std::vector<int> ParentElements(const SplineSpace<Dim>& coarse, const SplineSpace<Dim>& fine)
 {
   std::vector<int> parents;
   parents.reserve(fine.Elements.size());
@@ -332,7 +331,6 @@ std::vector<int> FindParents(const SplineSpace<Dim>& coarse, const SplineSpace<D
     parents.push_back(coarse.Locate(center.data(), local));
   }
   return parents;
-}
 }
 
 template <int Dim>
@@ -373,7 +371,7 @@ Result<RefinedSpline<Dim>> RefineAllElements(const Spline<Dim>& spline)
     }
     result.Value = std::move(refined.Value);
   }
-  result.Parents = FindParents(*spline.Space, *result.Value.Space);
+  result.Parents = ParentElements(*spline.Space, *result.Value.Space);
   return result;
 }
 
@@ -402,14 +400,7 @@ Result<RefinedSpline<Dim>> RefineMarkedElements(
   {
     if (spline.Space->Kind == SpaceKind::LocallyRefined)
     {
-      const auto segments = SegmentsForElements(*spline.Space, marked);
-      auto refined = segments ? InsertSegments(spline, segments.Value) : segments.Status;
-      if (refined)
-      {
-        result.Value = std::move(refined.Value);
-        result.Parents = FindParents(*spline.Space, *result.Value.Space);
-      }
-      return refined ? Result<RefinedSpline<Dim>>(std::move(result)) : refined.Status;
+      return RefineMarkedLR(spline, marked);
     }
   }
   auto space = RefineElements<Dim>(spline.Space, marked, params);
@@ -423,7 +414,7 @@ Result<RefinedSpline<Dim>> RefineMarkedElements(
     return transferred.Status;
   }
   result.Value = std::move(transferred.Value);
-  result.Parents = FindParents(*spline.Space, *result.Value.Space);
+  result.Parents = ParentElements(*spline.Space, *result.Value.Space);
   return result;
 }
 
@@ -497,6 +488,9 @@ Result<Spline<Dim>> ElevateAllDegrees(const Spline<Dim>& spline, int times)
 template struct RefinedSpline<1>;
 template struct RefinedSpline<2>;
 template struct RefinedSpline<3>;
+template std::vector<int> ParentElements<1>(const SplineSpace<1>&, const SplineSpace<1>&);
+template std::vector<int> ParentElements<2>(const SplineSpace<2>&, const SplineSpace<2>&);
+template std::vector<int> ParentElements<3>(const SplineSpace<3>&, const SplineSpace<3>&);
 template Result<RefinedSpline<1>> RefineAllElements<1>(const Spline<1>&);
 template Result<RefinedSpline<2>> RefineAllElements<2>(const Spline<2>&);
 template Result<RefinedSpline<3>> RefineAllElements<3>(const Spline<3>&);

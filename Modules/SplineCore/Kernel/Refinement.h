@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "HierarchicalSpace.h"
+#include "LRStrategies.h"
 
 namespace knotwork
 {
@@ -30,6 +31,32 @@ Result<RefinedSpline<Dim>> RefineAllElements(const Spline<Dim>& spline);
 template <int Dim>
 Result<RefinedSpline<Dim>> RefineMarkedElements(
   const Spline<Dim>& spline, const std::vector<int>& marked, const RefinementParams& params = {});
+
+/// How a step of refinement by LR B-splines goes.
+struct LRRefinementParams
+{
+  LRStrategyParams Segments;
+  /// Functions are split instead of elements: those with at least half of their support marked, and
+  /// for every marked element the one alive on it with the largest part marked, the first of
+  /// equals.
+  bool ByFunction = false;
+  /// Segments are added until the functions are linearly independent (ResolveDependence), also when
+  /// nothing is marked.
+  bool KeepIndependent = false;
+  int Threads = 0; ///< 0 = all cores
+};
+
+/// Splits the marked elements of a Tensor or LocallyRefined surface; the result is LocallyRefined
+/// (the given spline when there is nothing to do).
+/// @param marked  element ids. @return DimensionMismatch for other kinds, InvalidParameter;
+/// InvalidKnots when an end of a Tensor space has not multiplicity p + 1; NotConverged when a
+/// dependence is not resolved.
+Result<RefinedSpline<2>> RefineMarkedLR(
+  const Spline<2>& spline, const std::vector<int>& marked, const LRRefinementParams& params = {});
+
+/// Element of the coarser space that holds the centre of each element of the finer one.
+template <int Dim>
+std::vector<int> ParentElements(const SplineSpace<Dim>& coarse, const SplineSpace<Dim>& fine);
 
 /// Raises the degree in every direction by times >= 0 (result at most 9). Continuity stays as it
 /// is. @return DimensionMismatch for the kinds Hierarchical and LocallyRefined: finer levels of an

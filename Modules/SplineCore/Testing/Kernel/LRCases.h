@@ -148,4 +148,28 @@ inline PointMatrix RandomParameters(Random& random, const SplineSpace<2>& space,
   }
   return points;
 }
+
+inline std::vector<LRSegment> KnownSegments()
+{
+  return { { 1, 3, 3, 9 }, { 0, 7, 2, 6 }, { 0, 5, 2, 7 }, { 1, 5, 1, 7 }, { 0, 4, 1, 5 } };
+}
+
+/// Biquadratic functions with one relation among 82: five segments on a tensor-product mesh.
+inline Spline<2> DependentSurface(bool rational = false)
+{
+  const auto knots = [](std::vector<double> inner, double end)
+  {
+    std::vector<double> t{ 0, 0, 0 };
+    t.insert(t.end(), inner.begin(), inner.end());
+    t.insert(t.end(), 3, end);
+    return KnotVector::Create(2, t).Value;
+  };
+  Random random(9);
+  const auto tensor =
+    MakeTensorSpace<2>({ knots({ 1, 2, 3, 6, 8, 9 }, 10), knots({ 1, 2, 4, 6, 7 }, 8) }).Value;
+  const auto surface = InsertSegments(RandomSpline(random, tensor, 3, rational), KnownSegments());
+  EXPECT_TRUE(surface) << surface.Status.Message();
+  EXPECT_EQ(surface->Space->NumFunctions, 82);
+  return surface.Value;
+}
 }

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSplineExtract.h"
+
+#include "PatchFields.h"
+#include "SplineModel.h"
+#include "SurfaceExtraction.h"
+
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+
+using knotwork::ErrorCode;
+using knotwork::Status;
+
+vtkStandardNewMacro(vtkSplineExtract);
+
+vtkSplineExtract::vtkSplineExtract() = default;
+
+void vtkSplineExtract::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "RestrictToBox: " << this->RestrictToBox << "\n";
+  os << indent << "Box: " << this->Box[0] << ", " << this->Box[1] << ", " << this->Box[2] << ", "
+     << this->Box[3] << "\n";
+  os << indent << "SwapParameters: " << this->SwapParameters << "\n";
+  os << indent << "ReverseFirst: " << this->ReverseFirst << "\n";
+  os << indent << "ReverseSecond: " << this->ReverseSecond << "\n";
+  os << indent << "ExpandToTensor: " << this->ExpandToTensor << "\n";
+  os << indent << "IsoCurve: " << this->IsoCurve << "\n";
+  os << indent << "IsoValue: " << this->IsoValue << "\n";
+}
+
+Status vtkSplineExtract::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
+  auto model = knotwork::DecodeSplineModel(input);
+  if (!model)
+  {
+    return model.Status;
+  }
+  this->ReportWarnings(model->Warnings);
+  knotwork::ExtractionParams params;
+  params.Restrict = this->RestrictToBox;
+  params.Box.Lower = { this->Box[0], this->Box[2] };
+  params.Box.Upper = { this->Box[1], this->Box[3] };
+  params.Swap = this->SwapParameters;
+  params.Reverse = { this->ReverseFirst, this->ReverseSecond };
+  params.ExpandToTensor = this->ExpandToTensor;
+  params.IsoDirection = this->IsoCurve - FIRST;
+  params.IsoValue = this->IsoValue;
+
+  const knotwork::ProgressCallback progress = this->Progress();
+  const std::size_t count = model->Patches.size();
+  for (std::size_t p = 0; p < count; ++p)
+  {
+    if (!progress(static_cast<double>(p) / static_cast<double>(count)))
+    {
+      return { ErrorCode::Aborted, "" };
+    }
+    knotwork::SplinePatch& patch = model->Patches[p];
+    const std::string where = "patch " + std::to_string(patch.Id) + ": ";
+    const auto* surface = std::get_if<knotwork::Spline<2>>(&patch.Geometry);
+    if (!surface)
+    {
+      return { ErrorCode::DimensionMismatch,
+        where + "it has " + std::to_string(patch.Geometry.index() + 1) +
+          " parameter(s), only surfaces have parts and iso-curves here" };
+    }
+    const auto extracted = ExtractFromSurface(JoinFields(*surface, patch.Fields), params);
+    if (!extracted)
+    {
+      return { extracted.Status.Code, where + extracted.Status.Detail };
+    }
+    std::visit([&patch](const auto& all) { SeparateFields(all, patch); }, extracted.Value);
+    patch.Cells.clear();
+  }
+  return EncodeSplineModel(model.Value, input, vtkDataObject::GetData(outputs));
+}

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkSplineExtract
+ * @brief   parts, iso-curves and other parametrizations of spline surfaces
+ *
+ * What is switched on is done in this order:
+ *
+ * - RestrictToBox: the part of the surface over Box becomes the patch.
+ * - SwapParameters: S'(u, v) = S(v, u).
+ * - ReverseFirst, ReverseSecond: a parameter t becomes begin + end - t of its domain.
+ * - ExpandToTensor: a locally refined (LR) surface becomes a tensor product, every mesh line as
+ *   long as the domain.
+ * - IsoCurve: the curve on which a parameter is IsoValue, over the domain of the other one.
+ *
+ * Tensor-product and LR surfaces stay what they are otherwise; weights and fields are carried
+ * along. Patch numbers stay; cell arrays other than those of the spline grid are dropped.
+ *
+ * Errors: patches that are no surfaces, hierarchical and Bezier surfaces (DimensionMismatch), a
+ * box or value outside the domain of a patch (OutsideDomain), ends of a tensor product whose knots
+ * have not full multiplicity (InvalidKnots), more than 5e7 control points of an expansion
+ * (TooLarge), and those of decoding. See SurfaceExtraction.h.
+ */
+#ifndef vtkSplineExtract_h
+#define vtkSplineExtract_h
+#include "vtkKnotworkSplineGridModule.h" // for export macro
+#include "vtkSplineAlgorithm.h"
+
+class VTKKNOTWORKSPLINEGRID_EXPORT vtkSplineExtract : public vtkSplineAlgorithm
+{
+public:
+  static vtkSplineExtract* New();
+  vtkTypeMacro(vtkSplineExtract, vtkSplineAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum IsoCurves
+  {
+    NONE = 0,
+    FIRST,
+    SECOND
+  };
+
+  ///@{
+  /** Whether the surfaces are restricted to Box. Default off. */
+  vtkSetMacro(RestrictToBox, bool);
+  vtkGetMacro(RestrictToBox, bool);
+  vtkBooleanMacro(RestrictToBox, bool);
+  ///@}
+  ///@{
+  /** The box of parameters, u from Box[0] to Box[1], v from Box[2] to Box[3]. Default 0, 1, 0, 1.
+   */
+  vtkSetVector4Macro(Box, double);
+  vtkGetVector4Macro(Box, double);
+  ///@}
+  ///@{
+  /** Whether the parameters are exchanged. Default off. */
+  vtkSetMacro(SwapParameters, bool);
+  vtkGetMacro(SwapParameters, bool);
+  vtkBooleanMacro(SwapParameters, bool);
+  ///@}
+  ///@{
+  /** Whether the first parameter is reversed. Default off. */
+  vtkSetMacro(ReverseFirst, bool);
+  vtkGetMacro(ReverseFirst, bool);
+  vtkBooleanMacro(ReverseFirst, bool);
+  ///@}
+  ///@{
+  /** Whether the second parameter is reversed. Default off. */
+  vtkSetMacro(ReverseSecond, bool);
+  vtkGetMacro(ReverseSecond, bool);
+  vtkBooleanMacro(ReverseSecond, bool);
+  ///@}
+  ///@{
+  /** Whether LR surfaces become tensor products. Default off. */
+  vtkSetMacro(ExpandToTensor, bool);
+  vtkGetMacro(ExpandToTensor, bool);
+  vtkBooleanMacro(ExpandToTensor, bool);
+  ///@}
+  ///@{
+  /** The parameter that is constant on the curve that is taken, one of IsoCurves. Default NONE: the
+   * surface. */
+  vtkSetClampMacro(IsoCurve, int, NONE, SECOND);
+  vtkGetMacro(IsoCurve, int);
+  ///@}
+  ///@{
+  /** Its value. Default 0.5. */
+  vtkSetMacro(IsoValue, double);
+  vtkGetMacro(IsoValue, double);
+  ///@}
+
+protected:
+  vtkSplineExtract();
+  ~vtkSplineExtract() override = default;
+  knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkSplineExtract(const vtkSplineExtract&) = delete;
+  void operator=(const vtkSplineExtract&) = delete;
+
+  bool RestrictToBox = false;
+  double Box[4] = { 0.0, 1.0, 0.0, 1.0 };
+  bool SwapParameters = false;
+  bool ReverseFirst = false;
+  bool ReverseSecond = false;
+  bool ExpandToTensor = false;
+  int IsoCurve = NONE;
+  double IsoValue = 0.5;
+};
+#endif
