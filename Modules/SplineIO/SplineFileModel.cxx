@@ -3,6 +3,7 @@
 
 #include "HierarchicalSpace.h"
 
+#include <Eigen/IterativeLinearSolvers>
 #include <algorithm>
 #include <set>
 
@@ -10,17 +11,56 @@ namespace knotwork
 {
 namespace
 {
-/// Points (f, 0, 0) of a height function become those of its graph (u, v, f(u, v)).
-template <int Dim>
-void MakeGraph(const SplineSpace<Dim>& space, PointMatrix& points)
+/// Points (f, 0, 0) of a height function become those of its graph (u, v, f(u, v)). The parameters'
+/// coefficients are the means of local knots on tensor-product meshes only; from there they are
+/// found by the equations T x = Bernstein coefficients, which have a solution.
+void MakeGraph(const SplineSpace<2>& space, PointMatrix& points)
 {
-  points.col(2) = points.col(0).eval();
+  constexpr double tolerance = 1e-14;
+  constexpr int maxIterations = 10000;
   const auto functions = DescribeFunctions(space);
-  for (std::size_t i = 0; i < functions.size(); ++i)
+  Eigen::SparseMatrix<double, Eigen::RowMajor> matrix(space.NumLocalFunctions, space.NumFunctions);
+  matrix.reserve(static_cast<Eigen::Index>(space.RowFunction.size()));
+  Eigen::MatrixX2d wanted(space.NumLocalFunctions, 2);
+  Eigen::Index row = 0;
+  for (const auto& element : space.Elements)
   {
-    for (std::size_t d = 0; d < std::min<std::size_t>(Dim, 2); ++d)
+    for (int k = 0; k < NumTensorFunctions<2>(element.Degree); ++k, ++row)
     {
-      points(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(d)) = functions[i].Greville[d];
+      const int index[2] = { k % (element.Degree[0] + 1), k / (element.Degree[0] + 1) };
+      for (std::size_t d = 0; d < 2; ++d)
+      {
+        const double share = static_cast<double>(index[d]) / element.Degree[d];
+        wanted(row, static_cast<Eigen::Index>(d)) =
+          (1.0 - share) * element.Box.Lower[d] + share * element.Box.Upper[d];
+      }
+      matrix.startVec(row);
+      const auto at = static_cast<std::size_t>(row);
+      for (std::size_t i = space.RowStart[at]; i < space.RowStart[at + 1]; ++i)
+      {
+        matrix.insertBack(row, space.RowFunction[i]) = space.RowCoefficient[i];
+      }
+    }
+  }
+  matrix.finalize();
+  Eigen::LeastSquaresConjugateGradient<Eigen::SparseMatrix<double, Eigen::RowMajor>> solver(matrix);
+  solver.setTolerance(tolerance);
+  solver.setMaxIterations(maxIterations);
+  points.col(2) = points.col(0).eval();
+  for (std::size_t d = 0; d < 2; ++d)
+  {
+    const auto column = static_cast<Eigen::Index>(d);
+    Eigen::VectorXd means(space.NumFunctions);
+    for (std::size_t f = 0; f < functions.size(); ++f)
+    {
+      means[static_cast<Eigen::Index>(f)] = functions[f].Greville[d];
+    }
+    // what is left of the parameter, so that rounding is that of a small correction
+    const Eigen::VectorXd rest = wanted.col(column) - matrix * means;
+    points.col(column) = means;
+    if (rest.cwiseAbs().maxCoeff() > tolerance * wanted.col(column).cwiseAbs().maxCoeff())
+    {
+      points.col(column) += solver.solve(rest);
     }
   }
 }
@@ -47,9 +87,14 @@ Result<SplineModel> ModelFromFile(const SplineFile& file)
         }
         PointMatrix points = PointMatrix::Zero(spline.ControlPoints.rows(), 3);
         points.leftCols(columns) = spline.ControlPoints;
-        if (columns == 1 && spline.Space->Kind == SpaceKind::LocallyRefined)
+        if constexpr (std::is_same_v<std::decay_t<decltype(spline)>, Spline<2>>)
         {
-          MakeGraph(*spline.Space, points);
+          // the graph of a rational function is not in its space
+          if (columns == 1 && spline.Space->Kind == SpaceKind::LocallyRefined &&
+            !spline.IsRational())
+          {
+            MakeGraph(*spline.Space, points);
+          }
         }
         spline.ControlPoints = std::move(points);
         return {};

@@ -2,7 +2,9 @@
 #include "BezierForm.h"
 #include "FilterCases.h"
 #include "HierarchicalSpace.h"
+#include "LRDependence.h"
 #include "RandomModels.h"
+#include "TensorSpace.h"
 #include "vtkSplineRefine.h"
 
 #include "vtkCellData.h"
@@ -144,6 +146,29 @@ vtkSmartPointer<vtkSelection> SelectCells(const std::vector<vtkIdType>& cells)
   auto selection = vtkSmartPointer<vtkSelection>::New();
   selection->AddNode(node);
   return selection;
+}
+
+/// Biquadratic functions with one relation among 82: five lines on a tensor-product mesh (Patrizi,
+/// Dokken, CAGD 77 (2020)).
+Spline<2> DependentSurface()
+{
+  const auto u = KnotVector::Create(2, { 0, 0, 0, 1, 2, 3, 6, 8, 9, 10, 10, 10 }).Value;
+  const auto v = KnotVector::Create(2, { 0, 0, 0, 1, 2, 4, 6, 7, 8, 8, 8 }).Value;
+  Spline<2> surface;
+  surface.Space = MakeTensorSpace<2>({ u, v }).Value;
+  surface.ControlPoints = PointMatrix::Random(surface.Space->NumFunctions, 3);
+  const auto refined = InsertSegments(
+    surface, { { 1, 3, 3, 9 }, { 0, 7, 2, 6 }, { 0, 5, 2, 7 }, { 1, 5, 1, 7 }, { 0, 4, 1, 5 } });
+  EXPECT_TRUE(refined) << refined.Status.Message();
+  return refined.Value;
+}
+
+SplineModel LRModelOf(const Spline<2>& surface)
+{
+  SplineModel model;
+  model.Patches.resize(1);
+  model.Patches[0].Geometry = surface;
+  return model;
 }
 
 class RefineModels : public ::testing::TestWithParam<ModelCase>
@@ -486,4 +511,96 @@ TEST(vtkSplineRefine, BadInputIsRefused)
 {
   vtkNew<vtkSplineRefine> filter;
   ExpectBadInputIsRefused(filter);
+}
+
+namespace
+{
+/// Cells and functions of a biquadratic square of 8 x 8 elements after its cell (3, 3) is refined.
+std::array<int, 2> CountsOfLR(vtkSplineRefine* refine)
+{
+  const auto grid = ShapeGrid(vtkSplineSource::SQUARE, 2, { 8, 8, 1 });
+  std::vector<double> values(64, 0.0);
+  values[27] = 1.0;
+  AddCellArray(grid, "Error", values);
+  refine->SetInputData(grid);
+  RefineByArray(refine, "Error");
+  refine->SetLowerThreshold(0.5);
+  refine->SetLocalSpace(vtkSplineRefine::LOCALLY_REFINED);
+  refine->Update();
+  EXPECT_LE(WorstDifference(grid, GridOf(refine)), 1e-13);
+  const SplineModel model = DecodePatches(GridOf(refine));
+  const auto& space = *std::get<Spline<2>>(model.Patches[0].Geometry).Space;
+  EXPECT_EQ(space.Kind, SpaceKind::LocallyRefined);
+  return { static_cast<int>(GridOf(refine)->GetNumberOfCells()), space.NumFunctions };
+}
+}
+
+TEST(vtkSplineRefine, LinesOfLRPatchesFollowTheOptions_GoldenOracle)
+{
+  using Pair = std::array<int, 2>;
+  vtkNew<vtkSplineRefine> refine;
+  EXPECT_EQ(CountsOfLR(refine)[0], 64 + 11); // two lines across 5 elements, crossing
+  refine->SetLRStrategy(vtkSplineRefine::MINIMUM_SPAN);
+  EXPECT_EQ(CountsOfLR(refine)[0], 64 + 7);
+  refine->SetLRStrategy(vtkSplineRefine::STRUCTURED_MESH);
+  refine->SetLRTarget(vtkSplineRefine::FUNCTIONS);
+  EXPECT_EQ(CountsOfLR(refine)[0], 64 + 27); // 3 x 3 elements into quarters
+  refine->SetLRStrategy(vtkSplineRefine::FULL_SPAN);
+  refine->SetLRTarget(vtkSplineRefine::ELEMENTS);
+  for (const int directions :
+    { vtkSplineRefine::ALTERNATING, vtkSplineRefine::FIRST, vtkSplineRefine::SECOND })
+  {
+    refine->SetLRDirections(directions);
+    EXPECT_EQ(CountsOfLR(refine), (Pair{ 64 + 5, 100 + 3 }));
+  }
+  // the line of the second refinement goes the other way, or halves the two halves again
+  refine->SetNumberOfRefinements(2);
+  refine->SetLRDirections(vtkSplineRefine::ALTERNATING);
+  refine->SetLRStrategy(vtkSplineRefine::MINIMUM_SPAN);
+  refine->KeepIndependentOn();
+  const Pair alternating = CountsOfLR(refine);
+  refine->SetLRDirections(vtkSplineRefine::SECOND);
+  const Pair one = CountsOfLR(refine);
+  EXPECT_NE(alternating, one);
+  EXPECT_GT(alternating[1], 101);
+  EXPECT_GT(one[1], 101);
+}
+
+TEST(vtkSplineRefine, LRPatchesStayLR_PropertyOracle)
+{
+  const auto grid = Encode(LRModelOf(DependentSurface()));
+  vtkNew<vtkSplineRefine> refine;
+  refine->SetInputData(grid);
+  for (const bool global : { false, true })
+  {
+    refine->SetGlobalRefinement(global);
+    for (const int strategy : { vtkSplineRefine::FULL_SPAN, vtkSplineRefine::STRUCTURED_MESH })
+    {
+      refine->SetLRStrategy(strategy);
+      refine->Update();
+      EXPECT_GT(GridOf(refine)->GetNumberOfCells(), 2 * grid->GetNumberOfCells());
+      EXPECT_LE(WorstDifference(grid, GridOf(refine)), 1e-12);
+    }
+  }
+}
+
+TEST(vtkSplineRefine, DependenceIsResolvedWithoutRefinement_CrossOracle)
+{
+  const auto grid = Encode(LRModelOf(DependentSurface()));
+  const auto verdict = [](vtkUnstructuredGrid* data)
+  {
+    const SplineModel model = DecodePatches(data);
+    return DecideDependence(*std::get<Spline<2>>(model.Patches[0].Geometry).Space)->Verdict;
+  };
+  EXPECT_EQ(verdict(grid), LRVerdict::Dependent);
+  vtkNew<vtkSplineRefine> refine;
+  refine->SetInputData(grid);
+  refine->SetNumberOfRefinements(0);
+  refine->Update();
+  EXPECT_EQ(verdict(GridOf(refine)), LRVerdict::Dependent);
+  EXPECT_EQ(GridOf(refine)->GetNumberOfCells(), grid->GetNumberOfCells());
+  refine->KeepIndependentOn();
+  refine->Update();
+  EXPECT_EQ(verdict(GridOf(refine)), LRVerdict::Independent);
+  EXPECT_LE(WorstDifference(grid, GridOf(refine)), 1e-13);
 }

@@ -8,8 +8,8 @@ import knotwork_testing
 
 MODULE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 KERNEL = os.path.join(MODULE, "..", "SplineCore", "Kernel")
-CLASSES = ["vtkSplineSource", "vtkSplineRefine", "vtkSplineTessellate", "vtkSplineEvaluate", "vtkSplineWarp",
-           "vtkSplineControlNet", "vtkSplineParametricMesh"]
+CLASSES = ["vtkSplineSource", "vtkSplineRefine", "vtkSplineExtract", "vtkSplineTessellate", "vtkSplineEvaluate",
+           "vtkSplineWarp", "vtkSplineControlNet", "vtkSplineParametricMesh"]
 
 
 def read(*path):

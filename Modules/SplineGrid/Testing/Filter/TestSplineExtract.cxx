@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BezierForm.h"
+#include "FilterCases.h"
+#include "LRRefinement.h"
+#include "RandomModels.h"
+#include "TensorSpace.h"
+#include "vtkSplineExtract.h"
+
+#include "vtkCellData.h"
+
+using namespace knotwork;
+
+namespace
+{
+/// A surface over [0, 2] x [0, 1] with a field, tensor-product or with two local lines.
+SplineModel Model(bool locallyRefined, bool rational)
+{
+  const auto space =
+    MakeTensorSpace<2>({ KnotVector::Uniform(3, 4, 0.0, 2.0), KnotVector::Uniform(2, 4) }).Value;
+  Spline<2> all;
+  all.Space = space;
+  all.ControlPoints = PointMatrix::Random(space->NumFunctions, 5);
+  if (rational)
+  {
+    all.Weights = Eigen::VectorXd::LinSpaced(space->NumFunctions, 0.5, 2.0);
+  }
+  if (locallyRefined)
+  {
+    const auto refined = InsertSegments(all, { { 0, 0.75, 0.0, 0.75 }, { 1, 0.375, 0.0, 2.0 } });
+    EXPECT_TRUE(refined) << refined.Status.Message();
+    all = refined.Value;
+  }
+  SplineModel model;
+  model.Patches.resize(1);
+  model.Patches[0].Id = 7;
+  model.Patches[0].Fields.push_back({ "Heat", all.ControlPoints.rightCols(2) });
+  all.ControlPoints = all.ControlPoints.leftCols(3).eval();
+  model.Patches[0].Geometry = all;
+  return model;
+}
+
+/// Values of the map and the field at a parameter.
+template <int Dim>
+Eigen::RowVectorXd ValuesAt(const SplinePatch& patch, const std::array<double, Dim>& at)
+{
+  auto spline = std::get<Spline<Dim>>(patch.Geometry);
+  PointMatrix parameters(1, Dim);
+  std::copy(at.begin(), at.end(), parameters.data());
+  Eigen::RowVectorXd values(5);
+  EvaluationBatch batch;
+  EXPECT_TRUE(EvaluateParameters(MakeBezierForm(spline), parameters, {}, batch));
+  values.leftCols(3) = batch.Values;
+  spline.ControlPoints = patch.Fields[0].Coefficients;
+  EXPECT_TRUE(EvaluateParameters(MakeBezierForm(spline), parameters, {}, batch));
+  values.rightCols(2) = batch.Values;
+  return values;
+}
+
+SplinePatch Extracted(vtkSplineExtract* filter)
+{
+  filter->Update();
+  const SplineModel model = DecodePatches(filter->GetOutputDataObject(0));
+  EXPECT_EQ(model.Patches.size(), 1u);
+  return model.Patches.empty() ? SplinePatch() : model.Patches[0];
+}
+}
+
+TEST(vtkSplineExtract, PartsCurvesAndParametrizations_PropertyOracle)
+{
+  for (const int kind : { 0, 1, 2, 3 })
+  {
+    const SplineModel model = Model(kind % 2 == 1, kind > 1);
+    const SplinePatch& patch = model.Patches[0];
+    vtkNew<vtkSplineExtract> filter;
+    filter->SetInputData(Encode(model));
+    filter->RestrictToBoxOn();
+    filter->SetBox(0.3, 1.9, 0.1, 0.7);
+    filter->SwapParametersOn();
+    filter->ReverseSecondOn(); // the first one of the input
+    const SplinePatch part = Extracted(filter);
+    EXPECT_EQ(part.Id, 7);
+    const auto& space = *std::get<Spline<2>>(part.Geometry).Space;
+    EXPECT_EQ(space.Kind, kind % 2 == 1 ? SpaceKind::LocallyRefined : SpaceKind::Tensor);
+    EXPECT_EQ(space.Domain().Lower, (RealArray<2>{ 0.1, 0.3 }));
+    EXPECT_EQ(space.Domain().Upper, (RealArray<2>{ 0.7, 1.9 }));
+    // control points of size 1, knots inserted in both directions
+    EXPECT_LE((ValuesAt<2>(part, { 0.35, 0.8 }) - ValuesAt<2>(patch, { 1.4, 0.35 })).norm(), 1e-13);
+
+    filter->ExpandToTensorOn();
+    const SplinePatch tensor = Extracted(filter);
+    EXPECT_EQ(std::get<Spline<2>>(tensor.Geometry).Space->Kind, SpaceKind::Tensor);
+    EXPECT_LE(
+      (ValuesAt<2>(tensor, { 0.35, 0.8 }) - ValuesAt<2>(patch, { 1.4, 0.35 })).norm(), 1e-13);
+
+    filter->SetIsoCurve(vtkSplineExtract::SECOND);
+    filter->SetIsoValue(0.8);
+    const SplinePatch curve = Extracted(filter);
+    EXPECT_LE((ValuesAt<1>(curve, { 0.35 }) - ValuesAt<2>(patch, { 1.4, 0.35 })).norm(), 1e-13);
+  }
+}
+
+TEST(vtkSplineExtract, NothingToDoChangesNothing_ExactOracle)
+{
+  for (const int kind : { 0, 1, 2, 3 })
+  {
+    const SplineModel model = Model(kind % 2 == 1, kind > 1);
+    vtkNew<vtkSplineExtract> filter;
+    filter->SetInputData(Encode(model));
+    const SplinePatch same = Extracted(filter);
+    const auto& before = std::get<Spline<2>>(model.Patches[0].Geometry);
+    const auto& after = std::get<Spline<2>>(same.Geometry);
+    EXPECT_EQ(after.ControlPoints, before.ControlPoints);
+    EXPECT_EQ(after.Weights, before.Weights);
+    EXPECT_EQ(same.Fields[0].Coefficients, model.Patches[0].Fields[0].Coefficients);
+  }
+}
+
+TEST(vtkSplineExtract, CollectionsKeepTheirBlocks_GoldenOracle)
+{
+  const auto input = Collect(
+    { ShapeGrid(vtkSplineSource::SQUARE, 1, { 2, 2, 1 }), ShapeGrid(vtkSplineSource::DISC, 2) });
+  vtkNew<vtkSplineExtract> filter;
+  filter->SetInputDataObject(input);
+  filter->SetIsoCurve(vtkSplineExtract::FIRST);
+  filter->Update();
+  auto* output = vtkPartitionedDataSetCollection::SafeDownCast(filter->GetOutputDataObject(0));
+  ASSERT_TRUE(output);
+  ASSERT_EQ(output->GetNumberOfPartitionedDataSets(), 2u);
+  EXPECT_EQ(output->GetPartition(0, 0)->GetNumberOfCells(), 2);
+  EXPECT_EQ(output->GetPartition(1, 0)->GetNumberOfCells(), 5);
+}
+
+TEST(vtkSplineExtract, BadInputIsRefused_ExactOracle)
+{
+  vtkNew<vtkSplineExtract> filter;
+  ExpectBadInputIsRefused(filter);
+  filter->SetInputData(ShapeGrid(vtkSplineSource::CUBE));
+  ExpectFailure(filter, ErrorCode::DimensionMismatch, "patch 0");
+  filter->SetInputData(ShapeGrid(vtkSplineSource::SQUARE));
+  filter->RestrictToBoxOn();
+  filter->SetBox(0.0, 2.0, 0.0, 1.0);
+  ExpectFailure(filter, ErrorCode::OutsideDomain, "direction 0");
+  filter->RestrictToBoxOff();
+  filter->SetIsoCurve(vtkSplineExtract::SECOND);
+  filter->SetIsoValue(-1.0);
+  ExpectFailure(filter, ErrorCode::OutsideDomain, "patch 0");
+}
