@@ -6,7 +6,7 @@
 #include "TensorSpace.h"
 #include "vtkSplineExtract.h"
 
-#include "vtkCellData.h"
+#include <cmath>
 
 using namespace knotwork;
 
@@ -41,19 +41,29 @@ SplineModel Model(bool locallyRefined, bool rational)
 
 /// Values of the map and the field at a parameter.
 template <int Dim>
-Eigen::RowVectorXd ValuesAt(const SplinePatch& patch, const std::array<double, Dim>& at)
+std::array<double, 5> ValuesAt(const SplinePatch& patch, const std::array<double, Dim>& at)
 {
   auto spline = std::get<Spline<Dim>>(patch.Geometry);
   PointMatrix parameters(1, Dim);
   std::copy(at.begin(), at.end(), parameters.data());
-  Eigen::RowVectorXd values(5);
+  std::array<double, 5> values{};
   EvaluationBatch batch;
   EXPECT_TRUE(EvaluateParameters(MakeBezierForm(spline), parameters, {}, batch));
-  values.leftCols(3) = batch.Values;
+  std::copy_n(batch.Values.data(), 3, values.begin());
   spline.ControlPoints = patch.Fields[0].Coefficients;
   EXPECT_TRUE(EvaluateParameters(MakeBezierForm(spline), parameters, {}, batch));
-  values.rightCols(2) = batch.Values;
+  std::copy_n(batch.Values.data(), 2, values.begin() + 3);
   return values;
+}
+
+double Distance(const std::array<double, 5>& a, const std::array<double, 5>& b)
+{
+  double worst = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    worst = std::max(worst, std::fabs(a[i] - b[i]));
+  }
+  return worst;
 }
 
 SplinePatch Extracted(vtkSplineExtract* filter)
@@ -84,18 +94,18 @@ TEST(vtkSplineExtract, PartsCurvesAndParametrizations_PropertyOracle)
     EXPECT_EQ(space.Domain().Lower, (RealArray<2>{ 0.1, 0.3 }));
     EXPECT_EQ(space.Domain().Upper, (RealArray<2>{ 0.7, 1.9 }));
     // control points of size 1, knots inserted in both directions
-    EXPECT_LE((ValuesAt<2>(part, { 0.35, 0.8 }) - ValuesAt<2>(patch, { 1.4, 0.35 })).norm(), 1e-13);
+    EXPECT_LE(Distance(ValuesAt<2>(part, { 0.35, 0.8 }), ValuesAt<2>(patch, { 1.4, 0.35 })), 1e-13);
 
     filter->ExpandToTensorOn();
     const SplinePatch tensor = Extracted(filter);
     EXPECT_EQ(std::get<Spline<2>>(tensor.Geometry).Space->Kind, SpaceKind::Tensor);
     EXPECT_LE(
-      (ValuesAt<2>(tensor, { 0.35, 0.8 }) - ValuesAt<2>(patch, { 1.4, 0.35 })).norm(), 1e-13);
+      Distance(ValuesAt<2>(tensor, { 0.35, 0.8 }), ValuesAt<2>(patch, { 1.4, 0.35 })), 1e-13);
 
     filter->SetIsoCurve(vtkSplineExtract::SECOND);
     filter->SetIsoValue(0.8);
     const SplinePatch curve = Extracted(filter);
-    EXPECT_LE((ValuesAt<1>(curve, { 0.35 }) - ValuesAt<2>(patch, { 1.4, 0.35 })).norm(), 1e-13);
+    EXPECT_LE(Distance(ValuesAt<1>(curve, { 0.35 }), ValuesAt<2>(patch, { 1.4, 0.35 })), 1e-13);
   }
 }
 

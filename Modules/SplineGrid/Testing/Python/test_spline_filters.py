@@ -52,6 +52,27 @@ def test_chain():
     assert points.GetPointData().GetArray("Weight").GetRange()[0] < 1
 
 
+def test_lr_and_extract():
+    sphere = vtkSphere()
+    sphere.SetCenter(-0.4, 0, 0)
+    sphere.SetRadius(0.1)
+    refine = knotwork.vtkSplineRefine()
+    refine.SetInputConnection(source("Square", Degree=2, Elements=(6, 6, 1)).GetOutputPort())
+    refine.SetMode(refine.IMPLICIT_FUNCTION)
+    refine.SetImplicitFunction(sphere)
+    refine.SetLocalSpace(refine.LOCALLY_REFINED)
+    refine.SetLRStrategy(refine.MINIMUM_SPAN)
+    refine.KeepIndependentOn()
+    extract = knotwork.vtkSplineExtract()
+    extract.SetInputConnection(refine.GetOutputPort())
+    extract.SetIsoCurve(extract.FIRST)
+    extract.SetIsoValue(0.25)
+    extract.Update()
+    assert 36 < refine.GetOutputDataObject(0).GetNumberOfCells() < 144
+    x = extract.GetOutputDataObject(0).GetBounds()  # the square of side 1 around the origin
+    assert math.isclose(x[0], -0.25) and math.isclose(x[1], -0.25) and math.isclose(x[2], -0.5) and math.isclose(x[3], 0.5)
+
+
 def test_errors_are_one_line():
     bad = source("Disc", InnerRadius=3.0)
     with knotwork_testing.Errors(bad) as errors:
@@ -63,7 +84,8 @@ def test_errors_are_one_line():
         bad.SetShapeName("Nothing")
     assert len(errors) == 1
 
-    for kind in (knotwork.vtkSplineRefine, knotwork.vtkSplineControlNet, knotwork.vtkSplineParametricMesh):
+    for kind in (knotwork.vtkSplineRefine, knotwork.vtkSplineExtract, knotwork.vtkSplineControlNet,
+                 knotwork.vtkSplineParametricMesh):
         wrong = kind()
         wrong.SetInputDataObject(vtkTable())
         with knotwork_testing.Errors(wrong) as errors:
