@@ -99,13 +99,14 @@ FitPoints GroupPoints(const SplineSpace<2>& space, const PointCloud& cloud,
   const auto n = static_cast<std::size_t>(cloud.Parameters.rows());
   const std::vector<int> elements = LocateAll(space, cloud.Parameters, threads);
   // a stable counting sort in chunks: where a chunk's points of an element begin
-  const std::size_t chunks = (n + PointChunk - 1) / PointChunk;
   const std::size_t numElements = At(space.NumElements());
+  const std::size_t chunk = std::max(PointChunk, numElements);
+  const std::size_t chunks = (n + chunk - 1) / chunk;
   std::vector<std::size_t> next(chunks * numElements, 0);
-  ParallelFor(n, PointChunk, threads,
+  ParallelFor(n, chunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
-      std::size_t* counts = next.data() + begin / PointChunk * numElements;
+      std::size_t* counts = next.data() + begin / chunk * numElements;
       for (std::size_t i = begin; i < end; ++i)
       {
         ++counts[elements[i]];
@@ -136,10 +137,10 @@ FitPoints GroupPoints(const SplineSpace<2>& space, const PointCloud& cloud,
   {
     column.resize(n);
   }
-  ParallelFor(n, PointChunk, threads,
+  ParallelFor(n, chunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
-      std::size_t* place = next.data() + begin / PointChunk * numElements;
+      std::size_t* place = next.data() + begin / chunk * numElements;
       for (std::size_t row = begin; row < end; ++row)
       {
         const std::size_t i = place[elements[row]]++;

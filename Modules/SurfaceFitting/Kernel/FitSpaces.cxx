@@ -33,6 +33,21 @@ IntArray<2> InitialElements(
         std::clamp(static_cast<int>(std::lround(most * share[d])), 1, 2 * MostInitialElements);
     }
   }
+  const auto numFunctions = [&]
+  { return (elements[0] + params.Degree[0]) * (elements[1] + params.Degree[1]); };
+  while (params.MaxFunctions > 0 && numFunctions() > params.MaxFunctions)
+  {
+    // the direction with more elements, of those that are not asked for
+    const std::size_t d = params.NumInitialElements[0] != 0 ||
+        (params.NumInitialElements[1] == 0 && elements[1] > elements[0])
+      ? 1
+      : 0;
+    if (params.NumInitialElements[d] != 0 || elements[d] == 1)
+    {
+      break;
+    }
+    --elements[d];
+  }
   return elements;
 }
 

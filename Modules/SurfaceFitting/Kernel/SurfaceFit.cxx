@@ -224,13 +224,14 @@ private:
   }
 
   /// Part of the work done, by the logarithm of the number of points outside.
-  double Share() const
+  double Share()
   {
     const FitIteration& row = this->Fit.Iterations.back();
     const double left = std::log1p(static_cast<double>(row.NumOutside)) /
       std::log1p(static_cast<double>(this->Points.Size()));
     const double limit = (row.Iteration + 1.0) / (this->Params.MaxIterations + 1.0);
-    return std::clamp(std::max(1.0 - left, limit), 0.0, 0.99);
+    this->Done = std::clamp(std::max(1.0 - left, limit), this->Done, 0.99);
+    return this->Done;
   }
 
   /// Keeps the state of the least value of the information criterion; true when it has risen twice.
@@ -384,6 +385,7 @@ private:
   std::vector<std::uint8_t> BestOutliers;
   double BestCriterion = 0.0;
   int NumRises = 0;
+  double Done = 0.0; // share that was reported
   SurfaceFit Fit;
 };
 }

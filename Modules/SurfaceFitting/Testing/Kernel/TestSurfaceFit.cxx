@@ -451,6 +451,9 @@ TEST(SurfaceFit, LimitsAreKept_ExactOracle)
   EXPECT_GT(functions.Surface.Space->NumFunctions, 225);
   EXPECT_EQ(functions.Final.NumFunctions, functions.Surface.Space->NumFunctions);
 
+  params.MaxFunctions = 20;
+  EXPECT_LE(Fit(cloud, params).Surface.Space->NumFunctions, 20);
+
   params.MaxFunctions = 0;
   params.MaxIterations = 2;
   EXPECT_EQ(Fit(cloud, params).Iterations.size(), 3U);
@@ -467,10 +470,10 @@ TEST(SurfaceFit, LimitsAreKept_ExactOracle)
     EXPECT_GE(share, last);
     EXPECT_LE(share, 1.0);
     last = share;
-    return ++calls < 3;
+    return ++calls < 6;
   };
   EXPECT_EQ(FitSurface(cloud, params).Status.Code, ErrorCode::Aborted);
-  EXPECT_EQ(calls, 3);
+  EXPECT_EQ(calls, 6);
 }
 
 TEST(SurfaceFit, InformationCriteriaStopBeforeTheNoiseIsFitted_PropertyOracle)
