@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A real terrain as a spline surface (terrain.png).
 
-Corners of the triangles of a terrain (Debian's gmsh-doc) are fitted within one metre: the points, coloured by how far they are from the
-surface; the surface with the edges of its elements; the surface with contour lines every ten metres, draped. Heights are drawn three
-times as large. The surface is written beside the picture as terrain.g2.
+A terrain of triangles (Debian's gmsh-doc), each divided into sixteen, whose corners are fitted within one metre: the points, coloured by
+how far they are from the surface; the surface with the edges of its elements; the surface with contour lines every five metres, draped.
+Heights are drawn three times as large. The surface is written beside the picture as terrain.g2.
 """
 import gzip
 import os
@@ -13,15 +13,18 @@ import tempfile
 import _scene as scene
 import knotwork
 import numpy as np
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLookupTable
+from vtkmodules.vtkFiltersCore import vtkContourFilter
+from vtkmodules.vtkFiltersModeling import vtkLinearSubdivisionFilter
 from vtkmodules.vtkIOGeometry import vtkSTLReader
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
 TERRAIN = "/usr/share/doc/gmsh-doc/doc/gmsh/demos/api/terrain_stl_data.stl.gz"
 TOLERANCE = 1.0
-STEP = 10.0
+STEP = 5.0
 EXAGGERATION = 3.0
+CHORD = 0.1  # of the triangles, metres
 BROWN, GREEN = (0.35, 0.22, 0.10), (0.80, 0.86, 0.74)
 
 
@@ -35,8 +38,10 @@ def read_terrain():
             plain.write(packed.read())
         plain.flush()
         reader.SetFileName(plain.name)
-        reader.Update()
-    return reader.GetOutput()
+        divide = vtkLinearSubdivisionFilter()  # the large triangles of flat parts hold no points to fit to
+        divide.SetInputConnection(reader.GetOutputPort())
+        divide.SetNumberOfSubdivisions(2)
+        return scene.updated(divide).GetOutput()
 
 
 def fitted(mesh):
@@ -46,13 +51,16 @@ def fitted(mesh):
     return scene.updated(fit)
 
 
-def contours(surface, bounds):
-    """Lines of equal height, on the surface."""
-    contour = knotwork.vtkSplineContour()
-    contour.SetInputDataObject(surface)
-    for level in np.arange(STEP * np.ceil(bounds[4] / STEP), bounds[5], STEP):
-        contour.AddLevel(level)
-    contour.SetTolerance(1e-3)
+def contours(skin):
+    """Lines of equal height on the triangles of the surface."""
+    heights = numpy_to_vtk(vtk_to_numpy(skin.GetPoints().GetData())[:, 2].copy(), deep=1)
+    heights.SetName("Height")
+    skin.GetPointData().SetScalars(heights)
+    low, high = heights.GetRange()
+    contour = vtkContourFilter()
+    contour.SetInputData(skin)
+    for i, level in enumerate(np.arange(STEP * np.ceil(low / STEP), high, STEP)):
+        contour.SetValue(i, level)
     return scene.updated(contour).GetOutputDataObject(0)
 
 
@@ -79,7 +87,7 @@ def distances(points):
     actor = vtkActor()
     actor.SetMapper(mapper)
     actor.GetProperty().SetRepresentationToPoints()
-    actor.GetProperty().SetPointSize(4)
+    actor.GetProperty().SetPointSize(2)
     actor.GetProperty().SetLighting(False)
     return tall(actor)
 
@@ -91,7 +99,7 @@ def view(actors, viewport):
     camera.SetPosition(1325 - 1500, 1245 - 3600, 3300)
     camera.SetViewUp(0, 0, 1)
     result.ResetCamera()
-    camera.Zoom(1.5)
+    camera.Zoom(1.02)
     return result
 
 
@@ -116,22 +124,20 @@ def main():
     assert writer.Write() == 1
     tessellate = knotwork.vtkSplineTessellate()
     tessellate.SetInputDataObject(surface)
-    tessellate.SetChordalTolerance(0.3)
+    tessellate.SetChordalTolerance(CHORD)
     skin = scene.updated(tessellate).GetOutputDataObject(0)
-    lines = contours(surface, points.GetBounds())
-    heights = vtk_to_numpy(lines.GetPoints().GetData())[:, 2]
-    assert np.abs(heights / STEP - np.round(heights / STEP)).max() * STEP <= 1e-3, "points of contours are not at their heights"
+    lines = contours(skin)
     third = 1 / 3
     renderers = [
         view([distances(points)], (0, 0, third, 1)),
         view([tall(scene.actor(skin, GREEN, lighting=True)),
               lifted(scene.actor(scene.element_edges(surface), scene.INK, 1), 3)], (third, 0, 2 * third, 1)),
         view([tall(scene.actor(skin, GREEN, lighting=True)), lifted(scene.actor(lines, BROWN, 2), 3)], (2 * third, 0, 1, 1))]
-    texts = (f"{points.GetNumberOfPoints()} points", f"{numbers['Functions']:.0f} LR functions, at most {numbers['MaxError']:.2f} m off",
+    texts = (f"{points.GetNumberOfPoints()} points, off by up to {numbers['MaxError']:.2f} m", f"{numbers['Functions']:.0f} LR functions",
              f"contour lines every {STEP:.0f} m")
     for renderer, text in zip(renderers, texts):
         renderer.AddActor2D(scene.label(text, 0.05, 0.03, 18))
-    scene.save(renderers, os.path.join(folder, "terrain.png"), (1500, 520))
+    scene.save(renderers, os.path.join(folder, "terrain.png"), (1500, 420))
 
 
 main()
