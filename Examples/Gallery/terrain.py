@@ -99,7 +99,7 @@ def view(actors, viewport):
     camera.SetPosition(1325 - 1500, 1245 - 3600, 3300)
     camera.SetViewUp(0, 0, 1)
     result.ResetCamera()
-    camera.Zoom(1.02)
+    camera.Zoom(1.25)
     return result
 
 
@@ -132,7 +132,7 @@ def main():
         view([distances(points)], (0, 0, third, 1)),
         view([tall(scene.actor(skin, GREEN, lighting=True)),
               lifted(scene.actor(scene.element_edges(surface), scene.INK, 1), 3)], (third, 0, 2 * third, 1)),
-        view([tall(scene.actor(skin, GREEN, lighting=True)), lifted(scene.actor(lines, BROWN, 2), 3)], (2 * third, 0, 1, 1))]
+        view([tall(scene.actor(skin, GREEN, lighting=True)), lifted(scene.actor(lines, BROWN, 1.5), 3)], (2 * third, 0, 1, 1))]
     texts = (f"{points.GetNumberOfPoints()} points, off by up to {numbers['MaxError']:.2f} m", f"{numbers['Functions']:.0f} LR functions",
              f"contour lines every {STEP:.0f} m")
     for renderer, text in zip(renderers, texts):
