@@ -17,7 +17,9 @@ class Session;
 using Job = std::function<Status(Session&)>;
 
 /// Each adds the options of one job to its subcommand and returns the job.
+Job MakeCombineJob(CLI::App& app);
 Job MakeConvertJob(CLI::App& app);
+Job MakeDistanceJob(CLI::App& app);
 Job MakeEvaluateJob(CLI::App& app);
 Job MakeExtremaJob(CLI::App& app);
 Job MakeExtractJob(CLI::App& app);

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CombineSplines.h"
+
+#include "BezierForm.h"
+#include "CommonRefinement.h"
+#include "LROperations.h"
+#include "LocallyRefinedForm.h"
+#include "Numbers.h"
+#include "TensorSpace.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace knotwork
+{
+namespace
+{
+constexpr double SameDomain = 1e-9; // of a side
+
+Status CheckSplines(const Spline<2>& a, const Spline<2>& b, const CombineParams& params)
+{
+  const char* const names[] = { "the first spline", "the second spline" };
+  for (int i = 0; i < 2; ++i)
+  {
+    const Spline<2>& spline = i == 0 ? a : b;
+    const std::string name = names[i];
+    if (const Status status = spline.Check(); !status)
+    {
+      return { status.Code, name + ": " + status.Detail };
+    }
+    if (!spline.Space->HasDomain)
+    {
+      return { ErrorCode::DimensionMismatch,
+        name + " is made of Bezier elements without a common parameter domain" };
+    }
+    if (spline.IsRational())
+    {
+      return { ErrorCode::InvalidWeight,
+        name + " is rational: only polynomial splines, as fits are, can be combined" };
+    }
+  }
+  if (a.NumComponents() != b.NumComponents())
+  {
+    return { ErrorCode::SizeMismatch,
+      "the splines have " + std::to_string(a.NumComponents()) + " and " +
+        std::to_string(b.NumComponents()) + " components" };
+  }
+  if (params.NumKept < 0 || params.NumKept > a.NumComponents())
+  {
+    return { ErrorCode::InvalidParameter,
+      "of " + std::to_string(a.NumComponents()) + " components, " + std::to_string(params.NumKept) +
+        " cannot be kept" };
+  }
+  return {};
+}
+
+/// Domains as they are, or restricted to what they have in common.
+Status ShareDomain(Spline<2>& a, Spline<2>& b, const CombineParams& params)
+{
+  const ParametricBox<2> boxA = a.Space->Domain();
+  const ParametricBox<2> boxB = b.Space->Domain();
+  ParametricBox<2> common;
+  bool same = true;
+  bool exactly = true;
+  for (std::size_t d = 0; d < 2; ++d)
+  {
+    const double tolerance = SameDomain * (boxA.Upper[d] - boxA.Lower[d]);
+    common.Lower[d] = std::max(boxA.Lower[d], boxB.Lower[d]);
+    common.Upper[d] = std::min(boxA.Upper[d], boxB.Upper[d]);
+    const double low = std::fabs(boxA.Lower[d] - boxB.Lower[d]);
+    const double high = std::fabs(boxA.Upper[d] - boxB.Upper[d]);
+    same = same && low <= tolerance && high <= tolerance;
+    exactly = exactly && low == 0.0 && high == 0.0;
+  }
+  if (exactly)
+  {
+    return {};
+  }
+  if (!same && !params.CommonDomain)
+  {
+    const auto text = [](const ParametricBox<2>& box)
+    {
+      return "[" + Digits(box.Lower[0]) + ", " + Digits(box.Upper[0]) + "] x [" +
+        Digits(box.Lower[1]) + ", " + Digits(box.Upper[1]) + "]";
+    };
+    return { ErrorCode::InvalidTopology,
+      "the domains differ, " + text(boxA) + " and " + text(boxB) +
+        "; combine the splines on their common domain" };
+  }
+  if (!(common.Lower[0] < common.Upper[0] && common.Lower[1] < common.Upper[1]))
+  {
+    return { ErrorCode::InvalidTopology, "the domains have nothing in common" };
+  }
+  for (Spline<2>* spline : { &a, &b })
+  {
+    auto local = MakeLocallyRefined(*spline);
+    auto part = local ? RestrictToBox(local.Value, common) : local;
+    if (!part)
+    {
+      return part.Status;
+    }
+    *spline = std::move(part.Value);
+  }
+  return {};
+}
+
+Status ShareDegree(Spline<2>& a, Spline<2>& b)
+{
+  for (std::size_t d = 0; d < 2; ++d)
+  {
+    const int p = a.Space->Elements.front().Degree[d];
+    const int q = b.Space->Elements.front().Degree[d];
+    Spline<2>& lower = p < q ? a : b;
+    if (p == q)
+    {
+      continue;
+    }
+    if (lower.Space->Kind != SpaceKind::Tensor)
+    {
+      return { ErrorCode::InvalidDegree,
+        "degrees " + std::to_string(p) + " and " + std::to_string(q) + " in direction " +
+          std::to_string(d) + ": fit both surfaces with the same degrees" };
+    }
+    auto elevated = ElevateDegree<2>(lower, static_cast<int>(d), std::abs(p - q));
+    if (!elevated)
+    {
+      return elevated.Status;
+    }
+    lower = std::move(elevated.Value);
+  }
+  return {};
+}
+
+void BoundComponents(CombinedSpline& combined, int threads)
+{
+  const BezierForm<2> form = MakeBezierForm(combined.Value, threads);
+  const auto c = static_cast<std::size_t>(form.NumComponents);
+  combined.Lower.assign(c, HUGE_VAL);
+  combined.Upper.assign(c, -HUGE_VAL);
+  for (int e = 0; e < form.Space->NumElements(); ++e)
+  {
+    const IntArray<2>& degree = form.Space->Elements[static_cast<std::size_t>(e)].Degree;
+    const auto n = static_cast<std::size_t>(NumTensorFunctions<2>(degree));
+    for (std::size_t i = 0; i < c * n; ++i)
+    {
+      combined.Lower[i / n] = std::min(combined.Lower[i / n], form.Block(e)[i]);
+      combined.Upper[i / n] = std::max(combined.Upper[i / n], form.Block(e)[i]);
+    }
+  }
+}
+}
+
+Result<CombinedSpline> CombineSplines(const Spline<2>& a, const Spline<2>& b, double weightA,
+  double weightB, const CombineParams& params)
+{
+  Status status = CheckSplines(a, b, params);
+  if (status && !(std::isfinite(weightA) && std::isfinite(weightB)))
+  {
+    status = { ErrorCode::InvalidParameter, "weights must be finite" };
+  }
+  if (!status)
+  {
+    return status;
+  }
+  Spline<2> first = a;
+  Spline<2> second = b;
+  status = ShareDegree(first, second);
+  status = status ? ShareDomain(first, second, params) : status;
+  status = status ? MakeCommon(first, second) : status;
+  if (status && first.ControlPoints.rows() != second.ControlPoints.rows())
+  {
+    status = { ErrorCode::NotInSpace, "knots of both splines are closer than can be told apart" };
+  }
+  if (!status)
+  {
+    return status;
+  }
+  CombinedSpline result;
+  result.Value = first;
+  const Eigen::Index mixed = a.ControlPoints.cols() - params.NumKept;
+  result.Value.ControlPoints.rightCols(mixed) = weightA * first.ControlPoints.rightCols(mixed) +
+    weightB * second.ControlPoints.rightCols(mixed);
+  BoundComponents(result, params.Threads);
+  return result;
+}
+}

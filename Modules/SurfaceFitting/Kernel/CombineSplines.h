@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "Spline.h"
+
+namespace knotwork
+{
+struct CombineParams
+{
+  /// The first components, which the result takes from the first spline as they are: x and y of
+  /// height fields.
+  int NumKept = 0;
+  /// Both splines are restricted to the box that their domains have in common; else domains that
+  /// differ are an error.
+  bool CommonDomain = false;
+  int Threads = 0;
+};
+
+struct CombinedSpline
+{
+  Spline<2> Value;
+  /// Every component lies between these, proved by its Bernstein coefficients.
+  std::vector<double> Lower;
+  std::vector<double> Upper;
+};
+
+/// weightA a + weightB b as one spline: difference (1, -1), average (1/2, 1/2), any other mean.
+///
+/// Both are brought into a common refinement, so the result is exact up to rounding: tensor-product
+/// splines take each other's knots (and stay of their kind; degrees are raised where they are
+/// lower), hierarchical ones of the same level-0 knots the union of their hierarchies; else both
+/// become LR splines and take each other's lines. Lines that cannot be inserted as they are become
+/// as long as the domain.
+/// @return Spline::Check's codes naming the spline; InvalidWeight for rational splines;
+/// SizeMismatch (components); InvalidDegree for degrees that differ unless both are tensor-product
+/// splines; InvalidTopology for domains that differ (by more than 1e-9 of a side) or have nothing
+/// in common; InvalidParameter; what MakeLocallyRefined and the insertion of segments return.
+/// @complexity that of the insertions.
+Result<CombinedSpline> CombineSplines(const Spline<2>& a, const Spline<2>& b, double weightA,
+  double weightB, const CombineParams& params = {});
+}

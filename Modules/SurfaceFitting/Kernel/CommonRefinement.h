@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "Spline.h"
+
+namespace knotwork
+{
+/// Brings two splines of one degree and one domain into one space; the maps do not change. Both
+/// spaces have the same functions in the same order afterwards (their knots may differ by
+/// rounding).
+/// @return what the insertions return; NotInSpace.
+Status MakeCommon(Spline<2>& a, Spline<2>& b);
+}

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSplinePointDistance.h"
+
+#include "SplineModel.h"
+#include "SurfaceDistance.h"
+#include "TableRow.h"
+
+#include "vtkDataObject.h"
+#include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkSmartPointer.h"
+
+#include <cstdlib>
+#include <functional>
+#include <limits>
+
+using knotwork::ErrorCode;
+using knotwork::Status;
+
+vtkStandardNewMacro(vtkSplinePointDistance);
+
+namespace
+{
+constexpr int NumOutputs = 3;
+constexpr const char* OutputTypes[NumOutputs] = { "vtkPointSet", "vtkTable", "vtkTable" };
+
+template <typename Array>
+void AddPointArray(vtkPointSet* output, const char* name, int components, vtkIdType points,
+  const std::function<double(vtkIdType, int)>& value)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(points);
+  for (vtkIdType i = 0; i < points; ++i)
+  {
+    for (int c = 0; c < components; ++c)
+    {
+      array->SetComponent(i, c, value(i, c));
+    }
+  }
+  output->GetPointData()->AddArray(array);
+}
+
+void EncodePoints(
+  const knotwork::SurfaceDistances& found, const std::vector<int>& patchIds, vtkPointSet* output)
+{
+  const vtkIdType n = output->GetNumberOfPoints();
+  const auto at = [](const auto& values, vtkIdType i)
+  { return values[static_cast<std::size_t>(i)]; };
+  AddPointArray<vtkDoubleArray>(
+    output, "Distance", 1, n, [&](vtkIdType i, int) { return at(found.Distances, i); });
+  AddPointArray<vtkIntArray>(
+    output, "DistanceClass", 1, n, [&](vtkIdType i, int) { return at(found.Classes, i); });
+  AddPointArray<vtkDoubleArray>(
+    output, "SurfacePoint", 3, n, [&](vtkIdType i, int c) { return found.Feet(i, c); });
+  AddPointArray<vtkIntArray>(output, "SurfacePatchId", 1, n,
+    [&](vtkIdType i, int)
+    {
+      const int surface = at(found.Surfaces, i);
+      return surface < 0 ? -1 : at(patchIds, surface);
+    });
+  AddPointArray<vtkIntArray>(
+    output, "SurfaceElementId", 1, n, [&](vtkIdType i, int) { return at(found.Elements, i); });
+  output->GetPointData()->SetActiveScalars("Distance");
+}
+
+/// Rows of statistics; columns whose names begin the same in both tables.
+void EncodeStatistics(
+  const std::vector<knotwork::DistanceStatistics>& rows, std::size_t all, vtkTable* table)
+{
+  using Row = knotwork::DistanceStatistics;
+  const auto add = [&](const char* name, auto get)
+  {
+    vtkNew<vtkDoubleArray> column;
+    column->SetName(name);
+    for (const Row& row : rows)
+    {
+      column->InsertNextValue(get(row));
+    }
+    table->AddColumn(column);
+  };
+  vtkNew<vtkIdTypeArray> points;
+  points->SetName("Points");
+  for (const Row& row : rows)
+  {
+    points->InsertNextValue(static_cast<vtkIdType>(row.NumPoints));
+  }
+  table->AddColumn(points);
+  add("Share",
+    [all](const Row& row)
+    { return static_cast<double>(row.NumPoints) / static_cast<double>(all); });
+  add("Min", [](const Row& row) { return row.Min; });
+  add("Max", [](const Row& row) { return row.Max; });
+  add("Mean", [](const Row& row) { return row.Mean; });
+  add("MeanAbsolute", [](const Row& row) { return row.MeanAbsolute; });
+  add("Rms", [](const Row& row) { return row.Rms; });
+}
+
+void EncodeClasses(
+  const knotwork::SurfaceDistances& found, const std::vector<double>& tolerances, vtkTable* table)
+{
+  vtkNew<vtkIntArray> classes;
+  vtkNew<vtkDoubleArray> lower;
+  vtkNew<vtkDoubleArray> upper;
+  classes->SetName("Class");
+  lower->SetName("Lower");
+  upper->SetName("Upper");
+  const auto k = static_cast<int>(tolerances.size());
+  const auto limit = [&](int c) // upper end of class c >= 0
+  {
+    return c < k ? tolerances[static_cast<std::size_t>(c)]
+                 : std::numeric_limits<double>::infinity();
+  };
+  for (const knotwork::DistanceStatistics& row : found.ByClass)
+  {
+    const int c = std::abs(row.Class);
+    classes->InsertNextValue(row.Class);
+    const double inner = c == 0 ? -limit(0) : limit(c - 1);
+    lower->InsertNextValue(row.Class < 0 ? -limit(c) : inner);
+    upper->InsertNextValue(row.Class < 0 ? -inner : limit(c));
+  }
+  table->AddColumn(classes);
+  table->AddColumn(lower);
+  table->AddColumn(upper);
+  EncodeStatistics(found.ByClass, found.Distances.size(), table);
+}
+}
+
+vtkSplinePointDistance::vtkSplinePointDistance()
+{
+  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfOutputPorts(NumOutputs);
+}
+
+void vtkSplinePointDistance::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Kind: " << this->Kind << "\n" << indent << "Tolerances:";
+  for (const double tolerance : this->Tolerances)
+  {
+    os << " " << tolerance;
+  }
+  os << "\n";
+}
+
+void vtkSplinePointDistance::AddTolerance(double tolerance)
+{
+  this->Tolerances.push_back(tolerance);
+  this->Modified();
+}
+
+void vtkSplinePointDistance::ClearTolerances()
+{
+  if (!this->Tolerances.empty())
+  {
+    this->Tolerances.clear();
+    this->Modified();
+  }
+}
+
+void vtkSplinePointDistance::SetSurfaceConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(1, output);
+}
+
+void vtkSplinePointDistance::SetSurfaceData(vtkDataObject* surface)
+{
+  this->SetInputDataObject(1, surface);
+}
+
+int vtkSplinePointDistance::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 1)
+  {
+    return this->Superclass::FillInputPortInformation(0, info);
+  }
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+  return 1;
+}
+
+int vtkSplinePointDistance::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), OutputTypes[port]);
+  return 1;
+}
+
+int vtkSplinePointDistance::RequestDataObject(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  const vtkPointSet* input = vtkPointSet::GetData(inputs[0], 0);
+  vtkDataObject* points = vtkDataObject::GetData(outputs, 0);
+  if (input && (!points || !points->IsA(input->GetClassName())))
+  {
+    auto made = vtkSmartPointer<vtkDataObject>::Take(input->NewInstance());
+    outputs->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), made);
+  }
+  for (int port = 1; port < NumOutputs; ++port)
+  {
+    if (!vtkTable::GetData(outputs, port))
+    {
+      vtkNew<vtkTable> table;
+      outputs->GetInformationObject(port)->Set(vtkDataObject::DATA_OBJECT(), table);
+    }
+  }
+  return 1;
+}
+
+Status vtkSplinePointDistance::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkPointSet* input = vtkPointSet::GetData(inputs[0], 0);
+  vtkPointSet* output = vtkPointSet::GetData(outputs, 0);
+  if (input->GetNumberOfPoints() == 0)
+  {
+    output->ShallowCopy(input);
+    return {};
+  }
+  auto decoded = knotwork::DecodeSplineModel(vtkDataObject::GetData(inputs[1], 0));
+  if (!decoded)
+  {
+    return decoded.Status;
+  }
+  this->ReportWarnings(decoded->Warnings);
+  std::vector<knotwork::Spline<2>> surfaces;
+  std::vector<int> patchIds;
+  for (const knotwork::SplinePatch& patch : decoded->Patches)
+  {
+    if (!std::holds_alternative<knotwork::Spline<2>>(patch.Geometry))
+    {
+      return { ErrorCode::DimensionMismatch,
+        "patch " + std::to_string(patch.Id) + " of the second input is not a surface" };
+    }
+    surfaces.push_back(std::get<knotwork::Spline<2>>(patch.Geometry));
+    patchIds.push_back(patch.Id);
+  }
+  knotwork::PointMatrix points(input->GetNumberOfPoints(), 3);
+  for (vtkIdType i = 0; i < input->GetNumberOfPoints(); ++i)
+  {
+    input->GetPoint(i, points.data() + 3 * i);
+  }
+
+  knotwork::SurfaceDistanceParams params;
+  params.Kind = static_cast<knotwork::DistanceKind>(this->Kind);
+  params.Tolerances = this->Tolerances;
+  params.Threads = this->KernelThreads();
+  params.Progress = this->Progress();
+  const auto found = knotwork::MeasureSurfaceDistances(points, surfaces, params);
+  if (!found)
+  {
+    return found.Status;
+  }
+
+  output->ShallowCopy(input);
+  EncodePoints(found.Value, patchIds, output);
+  EncodeClasses(found.Value, this->Tolerances, vtkTable::GetData(outputs, 1));
+  vtkTable* numbers = vtkTable::GetData(outputs, 2);
+  knotwork::AddColumn(numbers, "Kind",
+    std::string(found->Kind == knotwork::DistanceKind::Vertical ? "vertical" : "closest"));
+  knotwork::AddToRow<vtkIdTypeArray>(
+    numbers, "PointsWithout", static_cast<vtkIdType>(found->NumWithout));
+  EncodeStatistics({ found->All }, found->Distances.size(), numbers);
+  return {};
+}
