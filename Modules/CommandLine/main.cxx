@@ -27,6 +27,7 @@ struct Entry
 constexpr Entry Jobs[] = {
   { "combine", "subtract or average two spline surfaces", knotwork::MakeCombineJob },
   { "convert", "write a dataset in another format or encoding", knotwork::MakeConvertJob },
+  { "crop", "trim a fitted surface to where its points are", knotwork::MakeCropJob },
   { "distance", "measure how far points are from spline surfaces", knotwork::MakeDistanceJob },
   { "evaluate", "evaluate a spline at points, with derivatives", knotwork::MakeEvaluateJob },
   { "extrema", "find all minima, maxima and saddles of a surface, proved",

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSplineTrimToPoints.h"
+
+#include "FilterCases.h"
+#include "HeightTiles.h"
+#include "TrimmedGrids.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkMassProperties.h"
+#include "vtkPolyData.h"
+#include "vtkTable.h"
+#include "vtkVariant.h"
+
+#include <cmath>
+
+using namespace knotwork;
+
+namespace
+{
+/// A lattice of 81 x 81 points over [0, 2]^2 at height 0, without those in a disc.
+vtkSmartPointer<vtkPolyData> LatticeWithHole()
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (int i = 0; i < 81 * 81; ++i)
+  {
+    const double x = 0.025 * (i % 81);
+    const double y = 0.025 * (i / 81);
+    if (std::hypot(x - 0.8, y - 1.1) > 0.4)
+    {
+      points->InsertNextPoint(x, y, 0.0);
+    }
+  }
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  return data;
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> FlatSurface()
+{
+  return GridOfPatches(
+    { HeightTile(0, { { 0, 0 }, { 2, 2 } }, 4, [](double, double) { return 0.0; }) });
+}
+
+double Number(vtkSplineTrimToPoints* filter, const char* name)
+{
+  return vtkTable::SafeDownCast(filter->GetOutputDataObject(3))->GetValueByName(0, name).ToDouble();
+}
+}
+
+TEST(SplineTrimToPointsFilter, ASquareWithAHole_ExactOracle)
+{
+  vtkNew<vtkSplineTrimToPoints> filter;
+  filter->SetInputDataObject(0, FlatSurface());
+  filter->SetPointsData(LatticeWithHole());
+  filter->Update();
+  ASSERT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
+  EXPECT_EQ(Number(filter, "Faces"), 1);
+  EXPECT_EQ(Number(filter, "Loops"), 2);
+  EXPECT_EQ(Number(filter, "LoopsProved"), 1);
+  EXPECT_EQ(Number(filter, "FacesRegular"), 1);
+  vtkNew<vtkMassProperties> mass;
+  mass->SetInputData(vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0)));
+  // half a cell along the circle
+  const double cell = Number(filter, "CellSize");
+  EXPECT_NEAR(mass->GetSurfaceArea(), 4.0 - 3.14159265 * 0.16, 2.6 * cell);
+  const auto model =
+    DecodeTrimmedModel(filter->GetOutputDataObject(1), filter->GetOutputDataObject(2));
+  ASSERT_TRUE(model) << model.Status.Message();
+  EXPECT_EQ(model->Faces[0].Loops.size(), 2u);
+}
+
+TEST(SplineTrimToPointsFilter, BadInput)
+{
+  vtkNew<vtkSplineTrimToPoints> filter;
+  filter->SetPointsData(LatticeWithHole());
+  filter->SetInputDataObject(0, ShapeGrid(vtkSplineSource::CUBE));
+  ExpectFailure(filter, ErrorCode::DimensionMismatch, "one surface");
+  filter->SetInputDataObject(0, GridOfPatches(FourTiles(0.0)));
+  ExpectFailure(filter, ErrorCode::DimensionMismatch, "one surface");
+  filter->SetInputDataObject(0, ShapeGrid(vtkSplineSource::CYLINDER_SURFACE));
+  ExpectFailure(filter, ErrorCode::InvalidParameter, "UV");
+  filter->SetInputDataObject(0, FlatSurface());
+  vtkNew<vtkPolyData> nothing;
+  filter->SetPointsData(nothing);
+  ExpectFailure(filter, ErrorCode::EmptyInput, "three points");
+  filter->SetPointsData(LatticeWithHole());
+  filter->SetCellSize(1e-6);
+  ExpectFailure(filter, ErrorCode::TooLarge, "larger cell size");
+  filter->SetCellSize(0.0);
+  filter->Update();
+  EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError) << "the filter works again";
+}
+
+TEST(SplineTrimToPointsFilter, Aborts_PropertyOracle)
+{
+  vtkNew<vtkSplineTrimToPoints> filter;
+  filter->SetInputDataObject(0, FlatSurface());
+  filter->SetPointsData(LatticeWithHole());
+  vtkNew<vtkCallbackCommand> abort;
+  abort->SetCallback([](vtkObject* caller, unsigned long, void*, void*)
+    { static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1); });
+  filter->AddObserver(vtkCommand::ProgressEvent, abort);
+  filter->Update();
+  EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::UserError + static_cast<int>(ErrorCode::Aborted));
+  EXPECT_EQ(filter->GetOutputDataObject(0)->GetNumberOfElements(vtkDataObject::CELL), 0);
+}
