@@ -18,6 +18,7 @@ using Job = std::function<Status(Session&)>;
 
 /// Each adds the options of one job to its subcommand and returns the job.
 Job MakeCombineJob(CLI::App& app);
+Job MakeContourJob(CLI::App& app);
 Job MakeConvertJob(CLI::App& app);
 Job MakeCropJob(CLI::App& app);
 Job MakeDistanceJob(CLI::App& app);

@@ -26,6 +26,8 @@ struct Entry
 
 constexpr Entry Jobs[] = {
   { "combine", "subtract or average two spline surfaces", knotwork::MakeCombineJob },
+  { "contour", "iso-curves of a spline surface to a guaranteed tolerance",
+    knotwork::MakeContourJob },
   { "convert", "write a dataset in another format or encoding", knotwork::MakeConvertJob },
   { "crop", "trim a fitted surface to where its points are", knotwork::MakeCropJob },
   { "distance", "measure how far points are from spline surfaces", knotwork::MakeDistanceJob },

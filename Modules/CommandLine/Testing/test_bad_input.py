@@ -138,6 +138,7 @@ def jobs_on(file):
     yield ["convert", file, *grid]
     yield ["refine", file, *grid]
     yield ["tessellate", file, *polydata]
+    yield ["contour", file, *polydata]
     yield ["evaluate", file, points, *polydata]
     yield ["evaluate", file, points, "--mode", "probe", *polydata]
     yield ["warp", points, file, *polydata]

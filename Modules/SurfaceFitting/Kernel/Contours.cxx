@@ -220,6 +220,39 @@ private:
     return degree[0] * slope[0] + degree[1] * slope[1];
   }
 
+  /// Positions other than the traced component are polynomials of degree 1: straight pieces lie as
+  /// near to the surface as their values to each other.
+  bool IsFlat(std::size_t e) const
+  {
+    if (this->Form.Rational)
+    {
+      return false;
+    }
+    const IntArray<2>& degree = this->Space.Elements[e].Degree;
+    const int size = NumTensorFunctions<2>(degree);
+    const int width = degree[0] + 1;
+    for (int c = 0; c < this->NumSpace(); ++c)
+    {
+      const double* x = this->Form.Block(static_cast<int>(e)) + c * size;
+      const double du = (x[width - 1] - x[0]) / degree[0];
+      const double dv = (x[size - width] - x[0]) / degree[1];
+      const double rounding =
+        1e-12 * std::max({ std::abs(x[0]), std::abs(x[width - 1]), std::abs(x[size - width]) });
+      for (int k = 0; c != this->Component && k < size; ++k)
+      {
+        if (std::abs(x[k] - (x[0] + k % width * du + k / width * dv)) > rounding)
+        {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+  int NumSpace() const
+  {
+    return this->Params.NumSpaceComponents < 0 ? this->Component : this->Params.NumSpaceComponents;
+  }
+
   struct Traced
   {
     ContourPieces Pieces;
@@ -235,11 +268,11 @@ private:
     ContourElement element;
     element.Degree = this->Space.Elements[e].Degree;
     element.Element = static_cast<int>(e);
-    element.ChordTolerance = this->Params.ChordTolerance;
+    const bool easy = this->Params.ChordTolerance >= 2.0 * this->Contours.Tolerance;
+    element.ChordTolerance = easy && this->IsFlat(e) ? 0.0 : this->Params.ChordTolerance;
     element.MaxCells = this->Params.MaxCells;
     element.NumComponents = this->Form.NumComponents;
-    element.NumSpaceComponents =
-      this->Params.NumSpaceComponents < 0 ? this->Component : this->Params.NumSpaceComponents;
+    element.NumSpaceComponents = this->NumSpace();
     element.Rational = this->Form.Rational;
     element.Block = this->Form.Block(element.Element);
     const double least = this->LeastWeights[e];

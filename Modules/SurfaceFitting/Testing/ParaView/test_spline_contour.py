@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Spline Contour in ParaView: levels, outputs, coordinates."""
+import knotwork_testing
+
+knotwork_testing.load_plugin()
+from paraview.simple import OutputPort, SplineContour, SplineSource  # noqa: E402
+
+
+def test_levels_of_a_coordinate():
+    square = SplineSource(Shape="Square", Degree=2, Elements=(4, 4, 1))
+    contour = SplineContour(Input=square, Component=0, Curves=1)
+    contour.Levels = [-0.25, 0.125]
+    contour.UpdatePipeline()
+    lines = contour.GetClientSideObject().GetOutputDataObject(0)
+    assert lines.GetNumberOfLines() == 2
+    assert {lines.GetPoint(i)[0] for i in range(lines.GetNumberOfPoints())} == {-0.25, 0.125}
+    assert OutputPort(contour, 1).GetCellDataInformation().GetArray("Level") is not None
+    assert OutputPort(contour, 2).GetRowDataInformation().GetArray("Components") is not None
+
+
+def test_a_torus_has_closed_contours():
+    contour = SplineContour(Input=SplineSource(Shape="Torus Surface", Angle=360), NumberOfLevels=4)
+    contour.UpdatePipeline()
+    table = contour.GetClientSideObject().GetOutputDataObject(2)
+    assert [table.GetValueByName(i, "Closed").ToInt() for i in range(4)] == [2] * 4
+
+
+knotwork_testing.main(globals())

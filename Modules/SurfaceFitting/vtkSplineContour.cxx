@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSplineContour.h"
+
+#include "ContourData.h"
+
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkTable.h"
+#include "vtkUnstructuredGrid.h"
+
+vtkStandardNewMacro(vtkSplineContour);
+
+namespace
+{
+constexpr int NumOutputs = 4;
+constexpr const char* OutputTypes[NumOutputs] = { "vtkPolyData", "vtkUnstructuredGrid", "vtkTable",
+  "vtkPolyData" };
+
+template <typename T>
+void MakeOutput(vtkInformationVector* outputs, int port)
+{
+  if (!T::GetData(outputs, port))
+  {
+    vtkNew<T> data;
+    outputs->GetInformationObject(port)->Set(vtkDataObject::DATA_OBJECT(), data);
+  }
+}
+}
+
+vtkSplineContour::vtkSplineContour()
+{
+  this->SetNumberOfOutputPorts(NumOutputs);
+}
+
+void vtkSplineContour::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Levels:";
+  for (double level : this->Levels)
+  {
+    os << " " << level;
+  }
+  os << "\n" << indent << "NumberOfLevels: " << this->NumberOfLevels << "\n";
+  os << indent << "Range: " << this->Range[0] << " " << this->Range[1] << "\n";
+  os << indent << "FieldName: " << this->FieldName << "\n";
+  os << indent << "Component: " << this->Component << "\n";
+  os << indent << "Tolerance: " << this->Tolerance << "\n";
+  os << indent << "ChordalTolerance: " << this->ChordalTolerance << "\n";
+  os << indent << "JoinSeams: " << this->JoinSeams << "\n";
+  os << indent << "ProjectToLevel: " << this->ProjectToLevel << "\n";
+  os << indent << "Curves: " << this->Curves << "\n";
+  os << indent << "MaximumCells: " << this->MaximumCells << "\n";
+}
+
+void vtkSplineContour::AddLevel(double level)
+{
+  this->Levels.push_back(level);
+  this->Modified();
+}
+
+void vtkSplineContour::ClearLevels()
+{
+  if (!this->Levels.empty())
+  {
+    this->Levels.clear();
+    this->Modified();
+  }
+}
+
+int vtkSplineContour::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), OutputTypes[port]);
+  return 1;
+}
+
+int vtkSplineContour::RequestDataObject(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+{
+  MakeOutput<vtkPolyData>(outputs, 0);
+  MakeOutput<vtkUnstructuredGrid>(outputs, 1);
+  MakeOutput<vtkTable>(outputs, 2);
+  MakeOutput<vtkPolyData>(outputs, 3);
+  return 1;
+}
+
+knotwork::Status vtkSplineContour::Compute(
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  using namespace knotwork;
+  const auto model = DecodeSplineModel(vtkDataObject::GetData(inputs[0], 0));
+  if (!model)
+  {
+    return model.Status;
+  }
+  this->ReportWarnings(model->Warnings);
+  ContourChoice choice;
+  choice.Field = this->FieldName;
+  choice.Component = this->Component;
+  choice.Range = { this->Range[0], this->Range[1] };
+  choice.Curves = this->Curves;
+  choice.Params.Levels = this->Levels;
+  choice.Params.NumLevels = this->NumberOfLevels;
+  choice.Params.Tolerance = this->Tolerance;
+  choice.Params.ChordTolerance = this->ChordalTolerance;
+  choice.Params.JoinSeams = this->JoinSeams;
+  choice.Params.MaxCells = this->MaximumCells;
+  choice.Params.Threads = this->KernelThreads();
+  choice.Params.Progress = this->Progress();
+  const auto patches = TracePatches(model.Value, choice);
+  if (!patches)
+  {
+    return patches.Status;
+  }
+  std::size_t undecided = 0;
+  for (const PatchContours& patch : patches.Value)
+  {
+    undecided += patch.Contours.Undecided.size();
+  }
+  if (undecided > 0)
+  {
+    this->ReportWarnings({ std::to_string(undecided) +
+      " cells stay undecided (output 3): a ridge or valley on the level, perhaps; move the level "
+      "or raise MaximumCells" });
+  }
+  const int threads = this->KernelThreads();
+  EncodeLevels(patches.Value, vtkTable::GetData(outputs, 2));
+  Status status =
+    EncodePolylines(patches.Value, this->ProjectToLevel, threads, vtkPolyData::GetData(outputs));
+  status = status
+    ? EncodeCurves(patches.Value, this->ProjectToLevel, vtkUnstructuredGrid::GetData(outputs, 1))
+    : status;
+  return status ? EncodeUndecided(patches.Value, threads, vtkPolyData::GetData(outputs, 3))
+                : status;
+}
