@@ -141,6 +141,20 @@ TEST(SurfaceFit, ACliffIsNoOutlier_PropertyOracle)
   EXPECT_LE(fit.Final.NumOutliers, 80U);
 }
 
+TEST(SurfaceFit, ANarrowRidgeIsNoOutlier_PropertyOracle)
+{
+  // 0.004 wide at a mean spacing of 0.005, while the elements are still wide: without the nearest
+  // points' say more than 400 points of it are taken for outliers
+  const PointCloud cloud = clouds::HeightField(
+    40000, 5, [](double x, double y) { return 0.3 * std::exp(-std::pow((x - y) / 0.004, 2)); });
+  FitParams params = WithTolerance(0.01);
+  params.FindOutliers = true;
+  params.MaxIterations = 3;
+  const SurfaceFit fit = Fit(cloud, params);
+  EXPECT_GT(fit.Final.NumOutside, 1000U);
+  EXPECT_LE(fit.Final.NumOutliers, 40U);
+}
+
 TEST(SurfaceFit, ThreadsDoNotMatter_ExactOracle)
 {
   std::vector<std::uint8_t> labels;
