@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Spline Extrema in ParaView: the highest and the lowest points of a torus, its corners where it is cut."""
+"""Spline Extrema in ParaView: the points and boxes of a coordinate on a torus."""
 import knotwork_testing
 
 knotwork_testing.load_plugin()
