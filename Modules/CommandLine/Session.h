@@ -48,7 +48,7 @@ public:
   Result<vtkSmartPointer<vtkDataObject>> ReadPoints(const std::string& file);
 
   /// Updates a filter with progress on a terminal; messages of VTK become the status. `what` names
-  /// the inputs in the message. No points (no rows of a table) in the output of `port` are an error.
+  /// the inputs in the message. No points or rows in the output of `port` are an error.
   Status Run(vtkAlgorithm* filter, const std::string& what, int port = 0);
 
   /// Prints warnings of a decoding on stderr, unless quiet.
