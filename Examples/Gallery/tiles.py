@@ -82,7 +82,7 @@ def coloured(polydata, largest):
     return made
 
 
-def panel(actors, viewport, text, zoom=1.35):
+def panel(actors, viewport, text, zoom=1.15):
     made = scene.renderer(actors, viewport, flat=False)
     camera = made.GetActiveCamera()
     camera.SetPosition(*(np.array(camera.GetFocalPoint()) + (-0.6, -1.7, 1.8)))
