@@ -59,10 +59,10 @@ Status EncodeBoundaries(const SplineFile& file, vtkUnstructuredGrid* output)
     const double face = file.Ids.empty() ? bounded.Spline : file.Ids[spline];
     for (std::size_t l = 0; l < bounded.Loops.size(); ++l)
     {
-      const BoundaryLoop& loop = bounded.Loops[l];
+      const SurfaceLoop& loop = bounded.Loops[l];
       for (std::size_t c = 0; c < loop.Curves.size(); ++c)
       {
-        const BoundaryCurve& curve = loop.Curves[c];
+        const LoopCurve& curve = loop.Curves[c];
         Row row{ face, static_cast<double>(l), static_cast<double>(c), 1.0,
           curve.PreferParameter ? 1.0 : 0.0, loop.Tolerance };
         AddCurve(curve.Parameter, row, model, rows);
@@ -136,8 +136,8 @@ Status DecodeBoundaries(vtkDataObject* grid, SplineFile& file)
       file.Bounded.push_back({ static_cast<int>(face), {} });
       found = file.Bounded.end() - 1;
     }
-    BoundaryLoop* loop = EntryOf(found->Loops, row[1]);
-    BoundaryCurve* curve = loop ? EntryOf(loop->Curves, row[2]) : nullptr;
+    SurfaceLoop* loop = EntryOf(found->Loops, row[1]);
+    LoopCurve* curve = loop ? EntryOf(loop->Curves, row[2]) : nullptr;
     if (!curve)
     {
       return { ErrorCode::InvalidTopology,

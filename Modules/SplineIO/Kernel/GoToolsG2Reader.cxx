@@ -215,7 +215,7 @@ private:
     const long long loops = this->Integer("number of loops", 0, MaxInt);
     for (long long l = 0; l < loops && this->Outcome; ++l)
     {
-      BoundaryLoop loop;
+      SurfaceLoop loop;
       const long long curves = this->Integer("number of curves of a loop", 1, MaxInt);
       loop.Tolerance = this->Real<double>("tolerance of a loop");
       for (long long c = 0; c < curves && this->Outcome; ++c)
@@ -230,9 +230,9 @@ private:
     }
   }
 
-  BoundaryCurve ReadBoundaryCurve()
+  LoopCurve ReadBoundaryCurve()
   {
-    BoundaryCurve curve;
+    LoopCurve curve;
     curve.PreferParameter = this->Integer("preference of a boundary curve", 0, 1) == 1;
     const bool inPlane = this->HasCurve("class of a curve in the parameter plane");
     const bool inSpace = this->HasCurve("class of a curve in space");

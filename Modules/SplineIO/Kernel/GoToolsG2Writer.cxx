@@ -81,7 +81,7 @@ void AppendSpline(const Spline<Dim>& spline, const char* version, std::string& t
   text += version[0] != '\0' ? "\n" : "";
 }
 
-Status AppendBoundary(const BoundaryCurve& curve, std::string& text)
+Status AppendBoundary(const LoopCurve& curve, std::string& text)
 {
   for (const Spline<1>* side : { &curve.Parameter, &curve.Space })
   {
@@ -111,12 +111,12 @@ Status AppendBoundary(const BoundaryCurve& curve, std::string& text)
 Status AppendLoops(const BoundedSurface& bounded, std::string& text)
 {
   text += std::to_string(bounded.Loops.size()) + "\n";
-  for (const BoundaryLoop& loop : bounded.Loops)
+  for (const SurfaceLoop& loop : bounded.Loops)
   {
     text += std::to_string(loop.Curves.size()) + " ";
     AppendReal(text, loop.Tolerance);
     text += "\n";
-    for (const BoundaryCurve& curve : loop.Curves)
+    for (const LoopCurve& curve : loop.Curves)
     {
       if (Status status = AppendBoundary(curve, text); !status)
       {

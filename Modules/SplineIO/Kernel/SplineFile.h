@@ -38,7 +38,7 @@ struct MultiPatch
 
 /// A curve that bounds a surface: in its parameter plane, in space, or both. A spline without a
 /// space is not there.
-struct BoundaryCurve
+struct LoopCurve
 {
   Spline<1> Parameter; ///< 2 coordinates
   Spline<1> Space;     ///< 3 coordinates
@@ -46,9 +46,9 @@ struct BoundaryCurve
 };
 
 /// Curves end to end.
-struct BoundaryLoop
+struct SurfaceLoop
 {
-  std::vector<BoundaryCurve> Curves;
+  std::vector<LoopCurve> Curves;
   double Tolerance = 0.0; ///< of the file: within which curves meet
 };
 
@@ -56,7 +56,7 @@ struct BoundaryLoop
 struct BoundedSurface
 {
   int Spline = 0; ///< index into SplineFile::Splines
-  std::vector<BoundaryLoop> Loops;
+  std::vector<SurfaceLoop> Loops;
 };
 
 /// What a file of splines holds.

@@ -14,6 +14,7 @@
 #include "vtkPolyData.h"
 #include "vtkXMLPolyDataWriter.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -184,8 +185,9 @@ TEST(PointClouds, EveryFailureIsOneErrorWithTheFile)
     EXPECT_EQ(
       reader->GetErrorCode(), vtkErrorCode::UserError + static_cast<unsigned long>(test.Code));
     ASSERT_FALSE(recorder->Errors.empty());
-    EXPECT_NE(recorder->Errors.back().find(test.Words), std::string::npos)
-      << recorder->Errors.back();
+    const bool said = std::any_of(recorder->Errors.begin(), recorder->Errors.end(),
+      [&](const std::string& text) { return text.find(test.Words) != std::string::npos; });
+    EXPECT_TRUE(said) << recorder->Errors.front();
   }
   vtkNew<vtkPointCloudWriter> writer;
   vtkNew<MessageRecorder> recorder;

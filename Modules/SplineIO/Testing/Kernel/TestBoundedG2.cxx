@@ -33,7 +33,7 @@ TEST(BoundedG2, ReadsWhatIsWrittenByHand_GoldenOracle)
   ASSERT_EQ(bounded.Loops.size(), 2U);
   EXPECT_EQ(bounded.Loops[0].Tolerance, 1e-6);
   ASSERT_EQ(bounded.Loops[1].Curves.size(), 2U);
-  const BoundaryCurve& both = bounded.Loops[1].Curves[0];
+  const LoopCurve& both = bounded.Loops[1].Curves[0];
   EXPECT_FALSE(both.PreferParameter);
   EXPECT_EQ(both.Parameter.ControlPoints(1, 0), 0.8);
   EXPECT_EQ(both.Space.ControlPoints(1, 0), 1.6);
