@@ -72,11 +72,11 @@ def test_program():
 
 def test_errors():
     output = knotwork_testing.output("uncombined.vtu")
-    square = knotwork_testing.output("combine_square.vtu")
-    done = knotwork_testing.run_program("source", "--shape", "square", "--size", 2, 2, 1, "--output", square)
+    ring = knotwork_testing.output("combine_ring.vtu")
+    done = knotwork_testing.run_program("source", "--shape", "annulus-sector", "--output", ring)
     assert done.returncode == 0, done.stderr
-    done = knotwork_testing.run_program("combine", FIRST_FILE, square, "--output", output)
-    assert done.returncode == 1 and "degrees" in done.stderr, done.stderr
+    done = knotwork_testing.run_program("combine", FIRST_FILE, ring, "--output", output)
+    assert done.returncode == 1 and "rational" in done.stderr, done.stderr
     done = knotwork_testing.run_program("combine", FIRST_FILE, "--output", output)
     assert done.returncode == 2
 
