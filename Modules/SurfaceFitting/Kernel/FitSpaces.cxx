@@ -124,7 +124,7 @@ Result<FitState> RefineLocally(
       }
     }
   }
-  auto space = refinement.Finish(&both);
+  auto space = refinement.Finish(&both, params.Threads);
   if (!space)
   {
     return space.Status;
@@ -177,7 +177,7 @@ Result<FitState> MakeFirstState(
     {
       return basis.Status;
     }
-    auto space = MakeLRSpace(std::move(basis.Value));
+    auto space = MakeLRSpace(std::move(basis.Value), params.Threads);
     if (!space)
     {
       return space.Status;
