@@ -85,7 +85,7 @@ def test_dependence_is_resolved():
     domain = np.loadtxt(os.path.join(FOLDER, "lr5_linearly_dependent.eval.txt"))[:, :2].max(axis=0)
     run("refine", given, "--number-of-refinements", 0, "--keep-independent", "true", "--output", path("resolved.g2"))
     info = run("info", path("resolved.g2"))
-    assert info["dependences"] == ["independent"] and info["functions"] > 82
+    assert info["dependences"] == ["independent"] and info["functions"] >= 82  # one relation fewer, as many functions
     parameters = uniform() * domain
     assert np.abs(values(given, parameters) - values(path("resolved.g2"), parameters)).max() <= 1e-13
     done = knotwork_testing.run_program("info", given)
