@@ -13,9 +13,8 @@ import tempfile
 import _scene as scene
 import knotwork
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLookupTable
-from vtkmodules.vtkFiltersCore import vtkContourFilter
 from vtkmodules.vtkFiltersModeling import vtkLinearSubdivisionFilter
 from vtkmodules.vtkIOGeometry import vtkSTLReader
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
@@ -24,7 +23,7 @@ TERRAIN = "/usr/share/doc/gmsh-doc/doc/gmsh/demos/api/terrain_stl_data.stl.gz"
 TOLERANCE = 1.0
 STEP = 5.0
 EXAGGERATION = 3.0
-CHORD = 0.1  # of the triangles, metres
+CHORD = 0.1  # of triangles and contour lines, metres
 BROWN, GREEN = (0.35, 0.22, 0.10), (0.80, 0.86, 0.74)
 
 
@@ -51,16 +50,14 @@ def fitted(mesh):
     return scene.updated(fit)
 
 
-def contours(skin):
-    """Lines of equal height on the triangles of the surface."""
-    heights = numpy_to_vtk(vtk_to_numpy(skin.GetPoints().GetData())[:, 2].copy(), deep=1)
-    heights.SetName("Height")
-    skin.GetPointData().SetScalars(heights)
-    low, high = heights.GetRange()
-    contour = vtkContourFilter()
-    contour.SetInputData(skin)
-    for i, level in enumerate(np.arange(STEP * np.ceil(low / STEP), high, STEP)):
-        contour.SetValue(i, level)
+def contours(surface):
+    """Lines of equal height, proved to be within CHORD of their level."""
+    contour = knotwork.vtkSplineContour()
+    contour.SetInputDataObject(surface)
+    contour.SetTolerance(CHORD)
+    heights = vtk_to_numpy(surface.GetPoints().GetData())[:, 2]
+    for level in np.arange(STEP * np.ceil(heights.min() / STEP), heights.max(), STEP):
+        contour.AddLevel(level)
     return scene.updated(contour).GetOutputDataObject(0)
 
 
@@ -126,7 +123,7 @@ def main():
     tessellate.SetInputDataObject(surface)
     tessellate.SetChordalTolerance(CHORD)
     skin = scene.updated(tessellate).GetOutputDataObject(0)
-    lines = contours(skin)
+    lines = contours(surface)
     third = 1 / 3
     renderers = [
         view([distances(points)], (0, 0, third, 1)),
@@ -136,7 +133,7 @@ def main():
     texts = (f"{points.GetNumberOfPoints()} points, off by up to {numbers['MaxError']:.2f} m", f"{numbers['Functions']:.0f} LR functions",
              f"contour lines every {STEP:.0f} m")
     for renderer, text in zip(renderers, texts):
-        renderer.AddActor2D(scene.label(text, 0.05, 0.03, 18))
+        renderer.AddActor2D(scene.label(text, 0.05, 0.90, 18))
     scene.save(renderers, os.path.join(folder, "terrain.png"), (1500, 420))
 
 
