@@ -313,8 +313,7 @@ void EncodeDistances(const DecodedCloud& cloud, const SurfaceFit& fit, vtkPointS
 
 void EncodeIterations(const SurfaceFit& fit, vtkTable* output)
 {
-  std::vector<FitIteration> rows = fit.Iterations;
-  rows.push_back(fit.Final);
+  const std::vector<FitIteration>& rows = fit.Iterations;
   const auto add = [&](const char* name, auto array, auto value)
   {
     array->SetName(name);
