@@ -2,9 +2,10 @@
 #include "SplineFileModel.h"
 
 #include "HierarchicalSpace.h"
+#include "Recovery.h"
 
-#include <Eigen/IterativeLinearSolvers>
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace knotwork
@@ -12,57 +13,50 @@ namespace knotwork
 namespace
 {
 /// Points (f, 0, 0) of a height function become those of its graph (u, v, f(u, v)). The parameters'
-/// coefficients are the means of local knots on tensor-product meshes only; from there they are
-/// found by the equations T x = Bernstein coefficients, which have a solution.
-void MakeGraph(const SplineSpace<2>& space, PointMatrix& points)
+/// coefficients are the means of local knots on tensor-product meshes only; what is left of the
+/// parameters from there is recovered from its Bernstein coefficients, so that rounding is that of
+/// a small correction.
+Status MakeGraph(const SplineSpacePtr<2>& space, PointMatrix& points)
 {
-  constexpr double tolerance = 1e-14;
-  constexpr int maxIterations = 10000;
-  const auto functions = DescribeFunctions(space);
-  Eigen::SparseMatrix<double, Eigen::RowMajor> matrix(space.NumLocalFunctions, space.NumFunctions);
-  matrix.reserve(static_cast<Eigen::Index>(space.RowFunction.size()));
-  Eigen::MatrixX2d wanted(space.NumLocalFunctions, 2);
-  Eigen::Index row = 0;
-  for (const auto& element : space.Elements)
+  constexpr double rounding = 1e-14;
+  const auto functions = DescribeFunctions(*space);
+  PointMatrix means(space->NumFunctions, 2);
+  for (std::size_t f = 0; f < functions.size(); ++f)
   {
-    for (int k = 0; k < NumTensorFunctions<2>(element.Degree); ++k, ++row)
+    means.row(static_cast<Eigen::Index>(f)) << functions[f].Greville[0], functions[f].Greville[1];
+  }
+  BezierForm<2> rest = MakeBezierForm(Spline<2>{ space, means, {} });
+  double largest = 0.0;
+  double size = 0.0;
+  for (int e = 0; e < space->NumElements(); ++e)
+  {
+    const auto& element = space->Elements[static_cast<std::size_t>(e)];
+    double* value = rest.Block(e);
+    for (std::size_t d = 0; d < 2; ++d)
     {
-      const int index[2] = { k % (element.Degree[0] + 1), k / (element.Degree[0] + 1) };
-      for (std::size_t d = 0; d < 2; ++d)
+      for (int k = 0; k < NumTensorFunctions<2>(element.Degree); ++k, ++value)
       {
+        const int index[2] = { k % (element.Degree[0] + 1), k / (element.Degree[0] + 1) };
         const double share = static_cast<double>(index[d]) / element.Degree[d];
-        wanted(row, static_cast<Eigen::Index>(d)) =
-          (1.0 - share) * element.Box.Lower[d] + share * element.Box.Upper[d];
-      }
-      matrix.startVec(row);
-      const auto at = static_cast<std::size_t>(row);
-      for (std::size_t i = space.RowStart[at]; i < space.RowStart[at + 1]; ++i)
-      {
-        matrix.insertBack(row, space.RowFunction[i]) = space.RowCoefficient[i];
+        const double wanted = (1.0 - share) * element.Box.Lower[d] + share * element.Box.Upper[d];
+        *value = wanted - *value;
+        largest = std::max(largest, std::fabs(*value));
+        size = std::max(size, std::fabs(wanted));
       }
     }
   }
-  matrix.finalize();
-  Eigen::LeastSquaresConjugateGradient<Eigen::SparseMatrix<double, Eigen::RowMajor>> solver(matrix);
-  solver.setTolerance(tolerance);
-  solver.setMaxIterations(maxIterations);
-  points.col(2) = points.col(0).eval();
-  for (std::size_t d = 0; d < 2; ++d)
+  if (!(largest <= rounding * size))
   {
-    const auto column = static_cast<Eigen::Index>(d);
-    Eigen::VectorXd means(space.NumFunctions);
-    for (std::size_t f = 0; f < functions.size(); ++f)
+    const RecoveryResult<2> correction = RecoverField(rest, {});
+    if (!correction)
     {
-      means[static_cast<Eigen::Index>(f)] = functions[f].Greville[d];
+      return correction.Status;
     }
-    // what is left of the parameter, so that rounding is that of a small correction
-    const Eigen::VectorXd rest = wanted.col(column) - matrix * means;
-    points.col(column) = means;
-    if (rest.cwiseAbs().maxCoeff() > tolerance * wanted.col(column).cwiseAbs().maxCoeff())
-    {
-      points.col(column) += solver.solve(rest);
-    }
+    means += correction.Value.ControlPoints;
   }
+  points.col(2) = points.col(0).eval();
+  points.leftCols(2) = means;
+  return {};
 }
 }
 
@@ -93,7 +87,10 @@ Result<SplineModel> ModelFromFile(const SplineFile& file)
           if (columns == 1 && spline.Space->Kind == SpaceKind::LocallyRefined &&
             !spline.IsRational())
           {
-            MakeGraph(*spline.Space, points);
+            if (Status status = MakeGraph(spline.Space, points); !status)
+            {
+              return status;
+            }
           }
         }
         spline.ControlPoints = std::move(points);

@@ -32,12 +32,14 @@ struct RecoveryResult
 /// extraction) of the element with the least amplification among those on which the function's own
 /// local coefficient appears (unit row of T; for hierarchical spaces: elements of the function's
 /// level, by preservation of coefficients). Functions without such an element are found by one
-/// sparse least squares, of minimum norm if dependent. Inside the space the result is exact to 64
-/// eps * Amplification * Size; outside it is a projection and Residual tells the distance.
+/// sparse least squares, of minimum norm (SparseLeastSquares.h) if dependent. Inside the space the
+/// result is exact to 64 eps * Amplification * Size; outside it is a projection and Residual tells
+/// the distance.
 /// @param form  Space set; Data may come from anywhere.
 /// @return NonFiniteInput, InvalidWeight, SizeMismatch with the element; InvalidWeight with the
 /// function when the space would need a weight that is not positive; EmptyInput without a space.
-/// @complexity O(NumFunctions * prod(p + 1) * components), plus the sparse least squares if any.
+/// @complexity O(NumFunctions * prod(p + 1) * components), plus the sparse least squares if any: on
+/// LR B-splines those of all functions but the corners'.
 /// @source  Thomas et al., CMAME 284 (2015) 55-105 (reconstruction operators); Giannelli, Juettler,
 /// Speleers, CAGD 29 (2012) (preservation of coefficients).
 template <int Dim>

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RowEquations.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/OrderingMethods>
-#include <Eigen/SparseQR>
+#include "SparseLeastSquares.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,35 +60,6 @@ void RowEquations::Add(int equation, double weight, const double* values)
   }
 }
 
-namespace
-{
-/// Least-squares solution of minimum norm of a sparse system, which may be rank-deficient.
-/// The kernel N of A from its QR factors corrects a basic solution x to x - N (N^T N)^-1 N^T x; the
-/// defect of a spline space is small, so N is dense.
-Eigen::MatrixXd SolveMinimumNorm(
-  const Eigen::SparseMatrix<double>& a, const Eigen::MatrixXd& rightSide)
-{
-  Eigen::SparseQR<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> qr(a);
-  Eigen::MatrixXd x = qr.solve(rightSide);
-  const Eigen::Index n = a.cols();
-  const Eigen::Index rank = qr.rank();
-  if (rank < n)
-  {
-    Eigen::MatrixXd kernel(n, n - rank);
-    const Eigen::SparseMatrix<double> r = qr.matrixR();
-    Eigen::MatrixXd dependent = -Eigen::MatrixXd(r.block(0, rank, rank, n - rank));
-    const Eigen::SparseMatrix<double> square = r.block(0, 0, rank, rank);
-    square.triangularView<Eigen::Upper>().solveInPlace(dependent);
-    kernel.topRows(rank) = dependent;
-    kernel.bottomRows(n - rank).setIdentity();
-    kernel = (qr.colsPermutation() * kernel).eval();
-    const Eigen::MatrixXd gram = kernel.transpose() * kernel;
-    x -= kernel * gram.ldlt().solve(kernel.transpose() * x);
-  }
-  return x;
-}
-}
-
 void RowEquations::Solve(const Eigen::VectorXd* scale, PointMatrix& coefficients) const
 {
   if (this->IsEmpty())
@@ -100,10 +69,8 @@ void RowEquations::Solve(const Eigen::VectorXd* scale, PointMatrix& coefficients
   const auto equations = static_cast<Eigen::Index>(this->Rows.size()) - 1;
   const auto unknowns = static_cast<Eigen::Index>(this->Columns.size());
   const auto scaleOf = [&](int f) { return scale ? (*scale)[f] : 1.0; };
-  // The QR wants at least as many rows as columns; rows of zeros change nothing.
-  const Eigen::Index rows = std::max(equations, unknowns);
   std::vector<Eigen::Triplet<double>> triplets;
-  Eigen::MatrixXd rightSide = Eigen::MatrixXd::Zero(rows, coefficients.cols());
+  Eigen::MatrixXd rightSide = Eigen::MatrixXd::Zero(equations, coefficients.cols());
   for (Eigen::Index j = 0; j < equations; ++j)
   {
     const double weight = this->SumWeights[j];
@@ -130,10 +97,9 @@ void RowEquations::Solve(const Eigen::VectorXd* scale, PointMatrix& coefficients
   {
     return;
   }
-  Eigen::SparseMatrix<double> a(rows, unknowns);
+  Eigen::SparseMatrix<double, Eigen::RowMajor> a(equations, unknowns);
   a.setFromTriplets(triplets.begin(), triplets.end());
-  a.makeCompressed();
-  const Eigen::MatrixXd change = SolveMinimumNorm(a, rightSide);
+  const Eigen::MatrixXd change = SolveSparseLeastSquares(a, rightSide).Value;
   for (Eigen::Index u = 0; u < unknowns; ++u)
   {
     const int f = this->Columns[static_cast<std::size_t>(u)];

@@ -27,7 +27,8 @@ public:
 
   /// Corrects the unknown rows of the coefficients, in place: the known rows stay, and of all
   /// least-squares solutions it takes the one nearest to the given values (after division by the
-  /// functions' scale), so zeros on input give the solution of minimum norm.
+  /// functions' scale, in the norm of SparseLeastSquares.h), so zeros on input give the solution of
+  /// minimum norm.
   /// @param scale  nullptr, or a positive number a function.
   void Solve(const Eigen::VectorXd* scale, PointMatrix& coefficients) const;
 
