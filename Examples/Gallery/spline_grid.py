@@ -133,6 +133,33 @@ def refinement(file):
     scene.save(panels, file, (1080, 370))
 
 
+def extracted(surface, **properties):
+    made = knotwork.vtkSplineExtract()
+    made.SetInputConnection(surface.GetOutputPort())
+    for key, value in properties.items():
+        getattr(made, "Set" + key)(value)
+    return made
+
+
+def extraction(file):
+    """A surface in parts over boxes of parameters, one of them with its iso-curves."""
+    torus = source("TorusSurface", Angle=270, Elements=(4, 4, 1))
+    box = (0.2, 0.85, 0.05, 0.45)
+    part = extracted(torus, RestrictToBox=True, Box=box)
+    items = [scene.actor(tessellated(part, 2e-4), (0.95, 0.75, 0.30), lighting=True)]
+    for rest in ((0, box[0], 0, 1), (box[1], 1, 0, 1), (*box[:2], 0, box[2]), (*box[:2], box[3], 1)):
+        items.append(scene.actor(tessellated(extracted(torus, RestrictToBox=True, Box=rest), 2e-4), (0.80, 0.84, 0.90),
+                                 lighting=True))
+    for k, (direction, colour) in enumerate(((part.FIRST, (0.75, 0.1, 0.1)), (part.SECOND, (0.0, 0.3, 0.6)))):
+        for value in np.linspace(box[2 * k], box[2 * k + 1], (7, 4)[k]):
+            curve = extracted(part, IsoCurve=direction, IsoValue=value)
+            items.append(tubes(tessellated(curve, 2e-4), 0.014, colour=colour))
+    panel = scene.renderer(items, flat=False)
+    look(panel, (1.2, -2.2, 1.9))
+    panel.GetActiveCamera().Zoom(1.75)
+    scene.save([panel], file, (640, 400))
+
+
 def control_nets(file):
     """A rational disc of five patches with its net, and the nets of all levels of a refined plate."""
     disc = source("Disc")
@@ -302,7 +329,8 @@ def frame(lines):
 
 def main():
     folder = scene.output_folder()
-    for name, draw in (("shapes", shapes), ("refinement", refinement), ("tessellation", tessellation),
+    for name, draw in (("shapes", shapes), ("refinement", refinement), ("extraction", extraction),
+                       ("tessellation", tessellation),
                        ("evaluation", evaluation), ("warp", warp), ("control_net", control_nets),
                        ("parametric_mesh", parametric_mesh)):
         draw(os.path.join(folder, name + ".png"))

@@ -47,6 +47,7 @@ Status vtkSplineExtract::Compute(vtkInformationVector** inputs, vtkInformationVe
   params.ExpandToTensor = this->ExpandToTensor;
   params.IsoDirection = this->IsoCurve - FIRST;
   params.IsoValue = this->IsoValue;
+  params.Threads = this->KernelThreads();
 
   const knotwork::ProgressCallback progress = this->Progress();
   const std::size_t count = model->Patches.size();

@@ -87,9 +87,9 @@ Result<SplineModel> ModelFromFile(const SplineFile& file)
           if (columns == 1 && spline.Space->Kind == SpaceKind::LocallyRefined &&
             !spline.IsRational())
           {
-            if (Status status = MakeGraph(spline.Space, points); !status)
+            if (Status made = MakeGraph(spline.Space, points); !made)
             {
-              return status;
+              return made;
             }
           }
         }

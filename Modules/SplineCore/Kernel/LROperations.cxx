@@ -40,7 +40,8 @@ Status CheckDirection(int direction)
 }
 
 /// The spline of functions in any order; rows are points of the given spline.
-Result<Spline<2>> Assemble(LRBasis basis, const Spline<2>& spline, const std::vector<int>& rows)
+Result<Spline<2>> Assemble(
+  LRBasis basis, const Spline<2>& spline, const std::vector<int>& rows, int threads)
 {
   std::vector<int> order(rows.size());
   std::iota(order.begin(), order.end(), 0);
@@ -77,7 +78,7 @@ Result<Spline<2>> Assemble(LRBasis basis, const Spline<2>& spline, const std::ve
     std::copy_n(
       basis.Local(from, 0), basis.Stride(), sorted.LocalKnots.begin() + i * basis.Stride());
   }
-  Result<SplineSpacePtr<2>> space = MakeLRSpace(std::move(sorted));
+  Result<SplineSpacePtr<2>> space = MakeLRSpace(std::move(sorted), threads);
   result.Space = space.Value;
   return space ? Result<Spline<2>>(std::move(result)) : space.Status;
 }
@@ -157,7 +158,7 @@ Crossing FindCrossing(const SplineSpace<2>& space, int direction, double value)
 }
 }
 
-Result<Spline<2>> ExpandToTensor(const Spline<2>& spline)
+Result<Spline<2>> ExpandToTensor(const Spline<2>& spline, int threads)
 {
   if (Status status = CheckLocallyRefined(spline); !status)
   {
@@ -180,7 +181,7 @@ Result<Spline<2>> ExpandToTensor(const Spline<2>& spline)
         { d, knots.Breaks()[At(b)], across.Begin(), across.End(), knots.Multiplicity(b) });
     }
   }
-  Result<Spline<2>> expanded = InsertSegments(spline, segments);
+  Result<Spline<2>> expanded = InsertSegments(spline, segments, threads);
   if (!expanded)
   {
     return expanded;
@@ -190,7 +191,7 @@ Result<Spline<2>> ExpandToTensor(const Spline<2>& spline)
   return tensor ? std::move(expanded) : tensor.Status;
 }
 
-Result<Spline<2>> SwapParameters(const Spline<2>& spline)
+Result<Spline<2>> SwapParameters(const Spline<2>& spline, int threads)
 {
   if (Status status = CheckLocallyRefined(spline); !status)
   {
@@ -206,10 +207,10 @@ Result<Spline<2>> SwapParameters(const Spline<2>& spline)
   std::swap(basis.Knots[0], basis.Knots[1]);
   std::swap(basis.Lines[0], basis.Lines[1]);
   const std::vector<int> rows = AllRows(basis);
-  return Assemble(std::move(basis), spline, rows);
+  return Assemble(std::move(basis), spline, rows, threads);
 }
 
-Result<Spline<2>> ReverseParameter(const Spline<2>& spline, int direction)
+Result<Spline<2>> ReverseParameter(const Spline<2>& spline, int direction, int threads)
 {
   Status status = CheckLocallyRefined(spline);
   status = status ? CheckDirection(direction) : status;
@@ -247,10 +248,10 @@ Result<Spline<2>> ReverseParameter(const Spline<2>& spline, int direction)
     std::for_each(f + offset, f + offset + basis.Degree[d] + 2, [last](int& k) { k = last - k; });
   }
   const std::vector<int> rows = AllRows(basis);
-  return Assemble(std::move(basis), spline, rows);
+  return Assemble(std::move(basis), spline, rows, threads);
 }
 
-Result<Spline<2>> RestrictToBox(const Spline<2>& spline, const ParametricBox<2>& box)
+Result<Spline<2>> RestrictToBox(const Spline<2>& spline, const ParametricBox<2>& box, int threads)
 {
   if (Status status = CheckLocallyRefined(spline); !status)
   {
@@ -274,7 +275,7 @@ Result<Spline<2>> RestrictToBox(const Spline<2>& spline, const ParametricBox<2>&
         { d, value, domain.Lower[At(1 - d)], domain.Upper[At(1 - d)], degree[At(d)] + 1 });
     }
   }
-  const Result<Spline<2>> cut = InsertSegments(spline, segments);
+  const Result<Spline<2>> cut = InsertSegments(spline, segments, threads);
   if (!cut)
   {
     return cut.Status;
@@ -326,10 +327,10 @@ Result<Spline<2>> RestrictToBox(const Spline<2>& spline, const ParametricBox<2>&
       }
     }
   }
-  return Assemble(std::move(basis), cut.Value, rows);
+  return Assemble(std::move(basis), cut.Value, rows, threads);
 }
 
-Result<Spline<1>> IsoCurve(const Spline<2>& spline, int direction, double value)
+Result<Spline<1>> IsoCurve(const Spline<2>& spline, int direction, double value, int threads)
 {
   Status status = CheckLocallyRefined(spline);
   status = status ? CheckDirection(direction) : status;
@@ -358,7 +359,7 @@ Result<Spline<1>> IsoCurve(const Spline<2>& spline, int direction, double value)
   {
     return curveSpace.Status;
   }
-  const BezierForm<2> form = MakeBezierForm(spline);
+  const BezierForm<2> form = MakeBezierForm(spline, threads);
   const int planes = form.NumPlanes();
   PointMatrix points(knots.Value.NumFunctions(), planes);
   const std::vector<double>& t = knots.Value.Knots();

@@ -9,8 +9,9 @@ Result<AnySpline> ExtractFromSurface(const Spline<2>& surface, const ExtractionP
   {
     return status;
   }
+  const int threads = params.Threads;
   const bool toTensor = params.ExpandToTensor || surface.Space->Kind == SpaceKind::Tensor;
-  Result<Spline<2>> result = InsertSegments(surface, {});
+  Result<Spline<2>> result = InsertSegments(surface, {}, threads);
   const auto apply = [&result](auto&& operation)
   {
     if (result)
@@ -20,27 +21,27 @@ Result<AnySpline> ExtractFromSurface(const Spline<2>& surface, const ExtractionP
   };
   if (params.Restrict)
   {
-    apply([&](const Spline<2>& spline) { return RestrictToBox(spline, params.Box); });
+    apply([&](const Spline<2>& spline) { return RestrictToBox(spline, params.Box, threads); });
   }
   if (params.Swap)
   {
-    apply([](const Spline<2>& spline) { return SwapParameters(spline); });
+    apply([&](const Spline<2>& spline) { return SwapParameters(spline, threads); });
   }
   for (int d = 0; d < 2; ++d)
   {
     if (params.Reverse[static_cast<std::size_t>(d)])
     {
-      apply([d](const Spline<2>& spline) { return ReverseParameter(spline, d); });
+      apply([&](const Spline<2>& spline) { return ReverseParameter(spline, d, threads); });
     }
   }
   if (result && params.IsoDirection >= 0)
   {
-    Result<Spline<1>> curve = IsoCurve(result.Value, params.IsoDirection, params.IsoValue);
+    Result<Spline<1>> curve = IsoCurve(result.Value, params.IsoDirection, params.IsoValue, threads);
     return curve ? Result<AnySpline>(AnySpline(std::move(curve.Value))) : curve.Status;
   }
   if (toTensor)
   {
-    apply([](const Spline<2>& spline) { return ExpandToTensor(spline); });
+    apply([&](const Spline<2>& spline) { return ExpandToTensor(spline, threads); });
   }
   return result ? Result<AnySpline>(AnySpline(std::move(result.Value))) : result.Status;
 }

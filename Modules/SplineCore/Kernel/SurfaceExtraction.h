@@ -15,6 +15,7 @@ struct ExtractionParams
   /// Parameter that is constant on a curve, -1 for a surface.
   int IsoDirection = -1;
   double IsoValue = 0.0;
+  int Threads = 0; ///< 0 = all cores; the result is the same for any number
 };
 
 /// The surface or curve. A tensor-product surface stays a tensor product.

@@ -130,3 +130,32 @@ TEST(ExtractFromSurface, Failures_ExactOracle)
   hierarchical.Weights.resize(0);
   EXPECT_EQ(code(hierarchical, {}), ErrorCode::DimensionMismatch);
 }
+
+TEST(ExtractFromSurface, SameForAnyNumberOfThreads_PropertyOracle)
+{
+  Random random(4);
+  const Spline<2> tensor = RandomClampedSurface(random, 3, 6, 3, true);
+  const auto surface = InsertSegments(tensor, RandomSegments(random, tensor.Space, 20));
+  ASSERT_TRUE(surface) << surface.Status.Message();
+  const ParametricBox<2> domain = tensor.Space->Domain();
+  ExtractionParams params;
+  params.Restrict = params.Swap = params.ExpandToTensor = true;
+  params.Reverse = { true, true };
+  for (std::size_t d = 0; d < 2; ++d)
+  {
+    const double length = domain.Upper[d] - domain.Lower[d];
+    params.Box.Lower[d] = domain.Lower[d] + 0.2 * length;
+    params.Box.Upper[d] = domain.Lower[d] + 0.9 * length;
+  }
+  std::vector<Spline<2>> results;
+  for (const int threads : { 0, 1, 3 })
+  {
+    params.Threads = threads;
+    const auto result = ExtractFromSurface(surface.Value, params);
+    ASSERT_TRUE(result) << result.Status.Message();
+    results.push_back(std::get<Spline<2>>(result.Value));
+    EXPECT_EQ(results.back().ControlPoints, results.front().ControlPoints);
+    EXPECT_EQ(results.back().Weights, results.front().Weights);
+    EXPECT_EQ(results.back().Space->Knots, results.front().Space->Knots);
+  }
+}

@@ -3,6 +3,7 @@
 #include "Rendering.h"
 #include "vtkSplineControlNet.h"
 #include "vtkSplineEvaluate.h"
+#include "vtkSplineExtract.h"
 #include "vtkSplineParametricMesh.h"
 #include "vtkSplineRefine.h"
 #include "vtkSplineSource.h"
@@ -234,6 +235,48 @@ TEST(SplineImages, Evaluate_GoldenOracle)
   renderer->ResetCamera();
   renderer->GetActiveCamera()->Zoom(1.3);
   EXPECT_TRUE(RenderAndCompare(renderer, "SplineEvaluate", 400));
+}
+
+TEST(SplineImages, Extract_GoldenOracle)
+{
+  // A surface, its part over a box lifted above it, and curves of that part.
+  vtkNew<vtkSplineSource> source;
+  source->SetShape(vtkSplineSource::ANNULUS_SECTOR);
+  source->SetDegree(2);
+  source->SetElements(4, 8, 1);
+  vtkNew<vtkSplineTessellate> whole;
+  whole->SetInputConnection(source->GetOutputPort());
+  whole->SetChordalTolerance(1e-3);
+  vtkNew<vtkRenderer> renderer;
+  renderer->AddActor(DrawFlat(whole, 0.85, 0.9, 0.97, -0.02));
+  vtkNew<vtkSplineExtract> part;
+  part->SetInputConnection(source->GetOutputPort());
+  part->RestrictToBoxOn();
+  part->SetBox(0.25, 0.8, 0.2, 0.6);
+  vtkNew<vtkSplineTessellate> mesh;
+  mesh->SetInputConnection(part->GetOutputPort());
+  mesh->SetChordalTolerance(1e-3);
+  renderer->AddActor(DrawFlat(mesh, 0.95, 0.75, 0.3, 0.0));
+  for (const int direction : { vtkSplineExtract::FIRST, vtkSplineExtract::SECOND })
+  {
+    for (const double value : { 0.3, 0.4, 0.5 })
+    {
+      vtkNew<vtkSplineExtract> curve;
+      curve->SetInputConnection(part->GetOutputPort());
+      curve->SetIsoCurve(direction);
+      curve->SetIsoValue(value);
+      vtkNew<vtkSplineTessellate> line;
+      line->SetInputConnection(curve->GetOutputPort());
+      line->SetChordalTolerance(1e-3);
+      const bool first = direction == vtkSplineExtract::FIRST;
+      renderer->AddActor(
+        DrawFlat(line, first ? 0.8 : 0.0, first ? 0.1 : 0.3, first ? 0.1 : 0.6, 0.02));
+    }
+  }
+  renderer->GetActiveCamera()->ParallelProjectionOn();
+  renderer->ResetCamera();
+  renderer->GetActiveCamera()->Zoom(1.3);
+  EXPECT_TRUE(RenderAndCompare(renderer, "SplineExtract", 400));
 }
 
 TEST(SplineImages, Warp_GoldenOracle)

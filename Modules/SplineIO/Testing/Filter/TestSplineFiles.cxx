@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "BezierForm.h"
 #include "FilterCases.h"
+#include "GoToolsG2.h"
+#include "LRRefinement.h"
 #include "RandomModels.h"
+#include "TensorSpace.h"
 
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
@@ -158,6 +162,36 @@ TEST(SplineFile, TopologyComesBack_PropertyOracle)
   WriteGrid<vtkGismoXMLWriter>(ReadGrid<vtkGismoXMLReader>(first), second);
   EXPECT_EQ(TextOf(first), TextOf(second));
   EXPECT_NE(TextOf(first).find("<interfaces>\n4 2 7 1 0 1 1 1\n</interfaces>"), std::string::npos);
+}
+
+TEST(SplineFile, HeightsOfLocallyRefinedFunctionsAreGraphs_ExactOracle)
+{
+  // local lines, so that the parameters' coefficients are not the means of local knots
+  const auto tensor = MakeTensorSpace<2>(
+    { KnotVector::Uniform(3, 6, 0.0, 3.0), KnotVector::Uniform(2, 5, -1.0, 1.0) })
+                        .Value;
+  const auto space = InsertSegments(tensor,
+    { { 0, 1.25, -0.6, 0.6 }, { 1, 0.1, 0.5, 2.5 }, { 0, 1.375, -0.6, 0.6 },
+      { 1, -0.1, 0.5, 2.5 } });
+  ASSERT_TRUE(space) << space.Status.Message();
+  std::vector<AnySpline> written;
+  Spline<2> heights{ space.Value, PointMatrix::Random(space.Value->NumFunctions, 1), {} };
+  written.emplace_back(heights);
+  const auto text = WriteG2(written);
+  ASSERT_TRUE(text) << text.Status.Message();
+  const std::string file = OutputFile("heights.g2");
+  WriteText(file, text.Value);
+  const SplineModel model = Decode(ReadGrid<vtkGoToolsG2Reader>(file));
+  ASSERT_EQ(model.Patches.size(), 1u);
+  const auto& graph = std::get<Spline<2>>(model.Patches[0].Geometry);
+  PointMatrix parameters = PointMatrix::Random(200, 2);
+  parameters.col(0) = 1.5 * (parameters.col(0).array() + 1.0).matrix();
+  EvaluationBatch points, values;
+  ASSERT_TRUE(EvaluateParameters(MakeBezierForm(graph), parameters, {}, points));
+  ASSERT_TRUE(EvaluateParameters(MakeBezierForm(heights), parameters, {}, values));
+  // a few roundings of numbers up to 3
+  EXPECT_LE((points.Values.leftCols(2) - parameters).cwiseAbs().maxCoeff(), 1e-14);
+  EXPECT_LE((points.Values.col(2) - values.Values.col(0)).cwiseAbs().maxCoeff(), 1e-14);
 }
 
 TEST(SplineFile, Coordinates_ExactOracle)
