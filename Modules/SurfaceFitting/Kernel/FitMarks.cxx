@@ -14,10 +14,53 @@ constexpr double ReweightRatio = 1.3;  // largest distance / tolerance
 constexpr double ReweightShare = 1e-3; // of all points may be outside
 constexpr double ReweightFloor = 0.9;  // of the tolerance: from here on points gain
 constexpr double ReweightGain = 4.0;
+constexpr std::size_t MostCompared = 32; // points of an element, with each other
 
 std::size_t At(int i)
 {
   return static_cast<std::size_t>(i);
+}
+
+/// False when the element is as small as they get or all its points outside are beside ones in the
+/// same place with values so different that no surface meets both.
+/// @param least  size of an element.
+bool SplitHelps(const ParametricBox<2>& box, const RealArray<2>& least, const FitPoints& points,
+  int numMeasured, std::size_t e)
+{
+  if (box.Upper[0] - box.Lower[0] < 2.0 * least[0] && box.Upper[1] - box.Lower[1] < 2.0 * least[1])
+  {
+    return false;
+  }
+  const FitPoints::Range range = points.Ranges[e];
+  if (range.Count() > MostCompared)
+  {
+    return true; // its parts will tell
+  }
+  const auto contradict = [&](std::size_t i, std::size_t k)
+  {
+    double squares = 0.0;
+    for (std::size_t c = 0; c < At(numMeasured); ++c)
+    {
+      const FitPoints::Column& values = points.Values[c];
+      squares += (values[i] - values[k]) * (values[i] - values[k]);
+    }
+    return points.Base[k] > 0.0 && std::fabs(points.U[i] - points.U[k]) < least[0] &&
+      std::fabs(points.V[i] - points.V[k]) < least[1] &&
+      std::sqrt(squares) > points.Tolerance[i] + points.Tolerance[k];
+  };
+  for (std::size_t i = range.Begin; i < range.End; ++i)
+  {
+    bool isHopeless = points.Base[i] == 0.0 || std::fabs(points.Distance[i]) <= points.Tolerance[i];
+    for (std::size_t k = range.Begin; k < range.End && !isHopeless; ++k)
+    {
+      isHopeless = contradict(i, k);
+    }
+    if (!isHopeless)
+    {
+      return true;
+    }
+  }
+  return false;
 }
 }
 
@@ -27,14 +70,23 @@ std::vector<SplitMark> MarkElements(const FitState& state, const ElementFunction
 {
   double worst = 0.0;
   std::size_t most = 0;
-  for (const ElementErrors& own : errors)
+  std::size_t left = 0;
+  const ParametricBox<2> domain = state.Space->Domain();
+  const RealArray<2> least{ params.MinElementSize * (domain.Upper[0] - domain.Lower[0]),
+    params.MinElementSize * (domain.Upper[1] - domain.Lower[1]) };
+  std::vector<bool> helps(errors.size(), false);
+  for (std::size_t e = 0; e < errors.size(); ++e)
   {
-    worst = std::max(worst, own.Ratio);
-    most = std::max(most, own.NumOutside);
+    helps[e] = errors[e].NumOutside > 0 &&
+      SplitHelps(state.Space->Elements[e].Box, least, points, params.NumMeasured, e);
+    if (helps[e])
+    {
+      worst = std::max(worst, errors[e].Ratio);
+      most = std::max(most, errors[e].NumOutside);
+      ++left;
+    }
   }
   // near the end what is left is split at once
-  const auto left = std::count_if(
-    errors.begin(), errors.end(), [](const ElementErrors& own) { return own.NumOutside > 0; });
   const bool isEnd = static_cast<double>(left) <= EndShare * static_cast<double>(errors.size());
   const auto chosen = [&](const ElementErrors& own)
   {
@@ -53,11 +105,10 @@ std::vector<SplitMark> MarkElements(const FitState& state, const ElementFunction
         return true;
     }
   };
-  const ParametricBox<2> domain = state.Space->Domain();
   std::vector<SplitMark> marks;
   for (int e = 0; e < state.Space->NumElements(); ++e)
   {
-    if (errors[At(e)].NumOutside == 0 || !chosen(errors[At(e)]))
+    if (!helps[At(e)] || !chosen(errors[At(e)]))
     {
       continue;
     }
@@ -77,8 +128,7 @@ std::vector<SplitMark> MarkElements(const FitState& state, const ElementFunction
     for (std::size_t d = 0; d < 2; ++d)
     {
       const double half = 0.5 * (box.Upper[d] - box.Lower[d]);
-      mark.Directions[d] =
-        mark.Directions[d] && half >= params.MinElementSize * (domain.Upper[d] - domain.Lower[d]);
+      mark.Directions[d] = mark.Directions[d] && half >= least[d];
     }
     if (mark.Directions[0] || mark.Directions[1])
     {

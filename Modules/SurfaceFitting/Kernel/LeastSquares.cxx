@@ -12,6 +12,9 @@ namespace
 {
 constexpr std::size_t ElementChunk = 64;
 constexpr std::size_t RowChunk = 512;
+constexpr double LeastPoints = 1.0 / 30.0; // in the middle of a function, that it counts as more
+constexpr double LeastShare = 1.0 / 6.0;   // of what points spread evenly would weigh with it
+constexpr double Pi = 3.14159265358979323846;
 
 std::size_t At(int i)
 {
@@ -24,14 +27,31 @@ LeastSquaresSystem::LeastSquaresSystem(const ElementFunctions& functions,
   const LeastSquaresParams& params)
   : Functions(functions), Moments(moments), Params(params), Components(numComponents),
     Energy(ThinPlateMatrix(degree)), Groups((At(functions.NumFunctions) + RowChunk - 1) / RowChunk),
-    Diagonal(functions.NumFunctions), Right(functions.NumFunctions, numComponents)
+    Diagonal(functions.NumFunctions), Damping(functions.NumFunctions),
+    Right(functions.NumFunctions, numComponents)
 {
   const int numElements = functions.NumElements();
+  if (params.IsDamped)
+  {
+    // the integral of the square of a uniform B-spline, its mean over the support, and the square
+    // of its largest value, about: those of a normal distribution
+    this->PointDamping = LeastPoints;
+    this->DampingShare = LeastShare;
+    for (const int p : degree)
+    {
+      const double square = std::sqrt(3.0 / (Pi * (p + 1)));
+      this->PointDamping *= square;
+      this->DampingShare *= square / (p + 1);
+      this->SquaredPeak *= 6.0 / (Pi * (p + 1));
+    }
+  }
   double weight = 0.0;
+  this->Weights.resize(At(numElements));
   this->ElementStart.assign(At(numElements) + 1, 0);
   for (int e = 0; e < numElements; ++e)
   {
-    weight += moments.Weight(e);
+    this->Weights[At(e)] = moments.Weight(e);
+    weight += this->Weights[At(e)];
     this->ElementStart[At(e) + 1] =
       this->ElementStart[At(e)] + At(functions.Alive(e)) * At(functions.Alive(e));
   }
@@ -138,11 +158,13 @@ void LeastSquaresSystem::FindColumns(std::size_t begin, std::size_t end)
 void LeastSquaresSystem::FillRow(std::size_t function, std::vector<int>& places)
 {
   RowGroup& group = this->Groups[function / RowChunk];
-  const std::size_t row = function % RowChunk;
-  std::fill(group.Values.begin() + static_cast<std::ptrdiff_t>(group.Start[row]),
-    group.Values.begin() + static_cast<std::ptrdiff_t>(group.Start[row + 1]), 0.0);
+  const std::size_t own = function % RowChunk;
+  std::fill(group.Values.begin() + static_cast<std::ptrdiff_t>(group.Start[own]),
+    group.Values.begin() + static_cast<std::ptrdiff_t>(group.Start[own + 1]), 0.0);
   const auto i = static_cast<Eigen::Index>(function);
   this->Right.row(i).setZero();
+  double weight = 0.0;
+  double peak = 0.0;
   for (std::size_t use = this->Functions.UseStart[function];
        use < this->Functions.UseStart[function + 1]; ++use)
   {
@@ -150,6 +172,9 @@ void LeastSquaresSystem::FillRow(std::size_t function, std::vector<int>& places)
     const int e = this->Functions.ElementOfEntry[entry];
     const std::size_t start = this->Functions.First(e);
     const int alive = this->Functions.Alive(e);
+    weight += this->Weights[At(e)];
+    const double* row = this->Functions.Row(entry);
+    peak = std::max(peak, *std::max_element(row, row + this->Functions.PerElement));
     const double* from =
       this->ElementMatrices.data() + this->ElementStart[At(e)] + (entry - start) * At(alive);
     for (int l = 0; l < alive; ++l)
@@ -162,6 +187,9 @@ void LeastSquaresSystem::FillRow(std::size_t function, std::vector<int>& places)
     }
   }
   this->Diagonal[i] = group.Values[At(places[function])];
+  const double scale = std::min(1.0, peak * peak / this->SquaredPeak); // LR functions have factors
+  this->Damping[i] = scale * this->PointDamping +
+    std::max(0.0, scale * this->DampingShare * weight - this->Diagonal[i]);
 }
 
 void LeastSquaresSystem::Update(const std::vector<int>& elements)
@@ -180,6 +208,7 @@ void LeastSquaresSystem::Update(const std::vector<int>& elements)
     {
       for (std::size_t k = begin; k < end; ++k)
       {
+        this->Weights[At(elements[k])] = this->Moments.Weight(elements[k]);
         this->MakeElement(elements[k]);
       }
     });
@@ -228,8 +257,9 @@ void LeastSquaresSystem::Multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) 
 
 bool LeastSquaresSystem::SolveColumn(const Eigen::VectorXd& right, Eigen::VectorXd& x) const
 {
-  const Eigen::VectorXd scale =
-    this->Diagonal.cwiseMax(1e-300 + 1e-14 * this->Diagonal.maxCoeff()).cwiseInverse();
+  const Eigen::VectorXd scale = (this->Diagonal + this->Damping)
+                                  .cwiseMax(1e-300 + 1e-14 * this->Diagonal.maxCoeff())
+                                  .cwiseInverse();
   Eigen::VectorXd product(x.size());
   this->Multiply(x, product);
   Eigen::VectorXd residual = right - product;
@@ -243,6 +273,7 @@ bool LeastSquaresSystem::SolveColumn(const Eigen::VectorXd& right, Eigen::Vector
       return true;
     }
     this->Multiply(direction, product);
+    product += this->Damping.cwiseProduct(direction);
     const double curvature = direction.dot(product);
     if (!(curvature > 0.0) || !std::isfinite(curvature))
     {

@@ -8,6 +8,10 @@ namespace knotwork
 struct LeastSquaresParams
 {
   double Smoothing = 1e-9;
+  /// Coefficients whose functions meet few points, or points only with their tails, stay near what
+  /// they are: their squared changes get weights. A function amid as many points as elsewhere in
+  /// its support, at least one, changes freely.
+  bool IsDamped = false;
   double Accuracy = 0.0; ///< of the coefficients, > 0
   int MaxIterations = 300;
   int Threads = 0;
@@ -17,6 +21,7 @@ struct LeastSquaresParams
 /// thin-plate energy: Smoothing times the mean weight of the points of an element times the energy
 /// of every element in its own parameters, so that it means the same on every level of refinement.
 /// All sums have a fixed order.
+/// @source  damping: Levenberg, Quart. Appl. Math. 2 (1944) 164-168, by functions.
 class LeastSquaresSystem
 {
 public:
@@ -52,11 +57,16 @@ private:
   LeastSquaresParams Params;
   int Components;
   std::vector<double> Energy;            ///< of an element, weighted
+  std::vector<double> Weights;           ///< of the points of an element
+  double PointDamping = 0.0;             ///< of every function
+  double DampingShare = 0.0;             ///< of the weight in a function's support
+  double SquaredPeak = 1.0;              ///< of a function that these numbers are for
   std::vector<std::size_t> ElementStart; ///< of an element's alive^2 numbers
   std::vector<double> ElementMatrices;
   std::vector<double> ElementRight; ///< an entry of ElementFunctions x components
   std::vector<RowGroup> Groups;
   Eigen::VectorXd Diagonal;
+  Eigen::VectorXd Damping; ///< added to the diagonal of what changes
   PointMatrix Right;
 };
 }

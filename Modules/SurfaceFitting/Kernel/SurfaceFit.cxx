@@ -15,6 +15,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 namespace knotwork
 {
@@ -25,6 +26,9 @@ constexpr int MultilevelSteps = 2;      // an iteration
 constexpr int ReweightSteps = 3;        // an iteration
 constexpr int OutlierSteps = 3;         // an iteration
 constexpr double SolverAccuracy = 0.03; // of the smallest tolerance
+constexpr double FirstSmoothing = 1e-3; // of the surface that the first one starts from
+constexpr int FirstSteps = 3;           // damped, to the first one
+constexpr double LeastProgress = 0.9;   // of the points outside may be left by an iteration
 
 std::size_t At(int i)
 {
@@ -61,18 +65,25 @@ public:
       {
         return { ErrorCode::Aborted, "stopped in iteration " + std::to_string(iteration) };
       }
-      const std::vector<SplitMark> marks = MarkElements(
-        this->State, this->Functions, this->Points, this->Errors, this->Params, iteration);
-      auto refined = this->RefineWithinLimit(marks);
-      if (!refined)
+      if (this->IsSplit)
       {
-        return refined.Status;
+        const std::vector<SplitMark> marks = MarkElements(
+          this->State, this->Functions, this->Points, this->Errors, this->Params, iteration);
+        auto refined = this->RefineWithinLimit(marks);
+        if (!refined)
+        {
+          return refined.Status;
+        }
+        this->IsSplit = refined.Value.Space != nullptr;
+        if (this->IsSplit)
+        {
+          this->Adopt(std::move(refined.Value));
+        }
       }
-      if (!refined.Value.Space)
+      else if (!this->IsNearer())
       {
-        break; // nothing can be split
+        break;
       }
-      this->Adopt(std::move(refined.Value));
     }
     this->Deliver();
     return std::move(this->Fit);
@@ -92,6 +103,10 @@ private:
     this->Accuracy = SolverAccuracy *
       *std::min_element(this->Points.Tolerance.begin(), this->Points.Tolerance.end());
     this->Moments.Update(*this->State.Space, {}, {}, this->Points, this->Params.Threads);
+    if (this->Params.Smoothing > 0.0)
+    {
+      this->BeginWithMeans();
+    }
     if (this->Params.FindOutliers)
     {
       this->Outliers.assign(this->Tolerances.size(), 0);
@@ -103,6 +118,23 @@ private:
       this->Search = std::make_unique<OutlierSearch>(this->Cloud, domain);
     }
     return {};
+  }
+
+  /// Where there are no points an average of all is better than 0.
+  void BeginWithMeans()
+  {
+    for (int c = 0; c < this->Components; ++c)
+    {
+      double sum = 0.0;
+      double weight = 0.0;
+      for (int e = 0; e < this->State.Space->NumElements(); ++e)
+      {
+        const double* right = this->Moments.Right(e, c);
+        sum += std::accumulate(right, right + this->Moments.PerElement(), 0.0);
+        weight += this->Moments.Weight(e);
+      }
+      this->State.Coefficients.col(c).setConstant(sum / weight);
+    }
   }
 
   /// The points by the elements of the state's space.
@@ -133,10 +165,19 @@ private:
     {
       LeastSquaresParams params;
       params.Smoothing = this->Params.Smoothing;
+      params.IsDamped = params.Smoothing > 0.0;
       params.Accuracy = this->Accuracy;
       params.Threads = this->Params.Threads;
       system = std::make_unique<LeastSquaresSystem>(
         this->Functions, this->Moments, this->Params.Degree, this->Components, params);
+      if (iteration == 0 && params.IsDamped)
+      {
+        this->SolveStiffly(params);
+        for (int k = 1; k < FirstSteps; ++k)
+        {
+          system->Solve(this->State.Coefficients);
+        }
+      }
     }
     this->Solve(system.get());
     for (int k = 0; this->Search && k < OutlierSteps; ++k)
@@ -159,6 +200,16 @@ private:
       }
       this->SolveAgain(changed, system.get());
     }
+  }
+
+  /// A surface that is sensible where there are no points, for the first one to start from.
+  void SolveStiffly(LeastSquaresParams params)
+  {
+    params.Smoothing = std::max(params.Smoothing, FirstSmoothing);
+    params.IsDamped = false;
+    LeastSquaresSystem(
+      this->Functions, this->Moments, this->Params.Degree, this->Components, params)
+      .Solve(this->State.Coefficients);
   }
 
   /// @param changed  elements with points whose weights have changed.
@@ -254,6 +305,14 @@ private:
     return ++this->NumRises == 2;
   }
 
+  /// Whether the last iteration, in the space of the one before, has brought points inside.
+  bool IsNearer() const
+  {
+    const std::size_t before = this->Fit.Iterations[this->Fit.Iterations.size() - 2].NumOutside;
+    return static_cast<double>(this->Fit.Iterations.back().NumOutside) <=
+      LeastProgress * static_cast<double>(before);
+  }
+
   bool LimitReached() const
   {
     const FitIteration& row = this->Fit.Iterations.back();
@@ -270,8 +329,9 @@ private:
       return FitState{};
     }
     auto refined = RefineState(this->State, marks, this->Params);
-    const int limit = this->Params.MaxFunctions;
-    if (!refined || limit == 0 || refined.Value.Space->NumFunctions <= limit)
+    const int limit = this->Params.MaxFunctions > 0 ? this->Params.MaxFunctions
+                                                    : static_cast<int>(this->Points.Size());
+    if (!refined || refined.Value.Space->NumFunctions <= limit)
     {
       return refined;
     }
@@ -373,6 +433,7 @@ private:
   int Components;
   double Accuracy = 0.0;
   bool IsLeastSquares = true;
+  bool IsSplit = true; ///< there has been something to split
   FitState State;
   FitPoints Points;
   ElementFunctions Functions;

@@ -108,7 +108,10 @@ struct FitParams
   FitMethod Method = FitMethod::LeastSquares;
   int SwitchIteration = 6; ///< >= 0
   /// >= 0: weight of the thin-plate energy of an element in its own parameters, relative to the
-  /// mean weight of the points of an element, so it means the same on every level.
+  /// mean weight of the points of an element, so it means the same on every level. Unless it is 0,
+  /// the first surface comes from a stiff one, and from then on control points change little where
+  /// there are few points or none. 0: nothing but the points decides, with spikes between sparse
+  /// ones.
   double Smoothing = 1e-9;
   double SignificantWeight = 10.0; ///< >= 1
 
@@ -123,7 +126,7 @@ struct FitParams
   double OutlierScale = 4.5; ///< robust standard deviations of the distances nearby, > 0
 
   int MaxIterations = 30;  ///< >= 0
-  int MaxFunctions = 0;    ///< 0: no limit
+  int MaxFunctions = 0;    ///< 0: the number of points
   double MaxSeconds = 0.0; ///< 0: no limit
   FitCriterion Criterion = FitCriterion::Tolerance;
 
