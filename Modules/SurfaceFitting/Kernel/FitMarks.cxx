@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FitMarks.h"
 
+#include "Parallel.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -14,6 +16,8 @@ constexpr double ReweightRatio = 1.3;  // largest distance / tolerance
 constexpr double ReweightShare = 1e-3; // of all points may be outside
 constexpr double ReweightFloor = 0.9;  // of the tolerance: from here on points gain
 constexpr double ReweightGain = 4.0;
+constexpr std::size_t ElementChunk = 64;
+constexpr std::size_t MarkChunk = 4;
 constexpr std::size_t MostCompared = 32; // points of an element, with each other
 
 std::size_t At(int i)
@@ -74,12 +78,20 @@ std::vector<SplitMark> MarkElements(const FitState& state, const ElementFunction
   const ParametricBox<2> domain = state.Space->Domain();
   const RealArray<2> least{ params.MinElementSize * (domain.Upper[0] - domain.Lower[0]),
     params.MinElementSize * (domain.Upper[1] - domain.Lower[1]) };
-  std::vector<bool> helps(errors.size(), false);
+  std::vector<std::uint8_t> helps(errors.size(), 0);
+  ParallelFor(errors.size(), ElementChunk, params.Threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t e = begin; e < end; ++e)
+      {
+        const bool own = errors[e].NumOutside > 0 &&
+          SplitHelps(state.Space->Elements[e].Box, least, points, params.NumMeasured, e);
+        helps[e] = own ? 1 : 0;
+      }
+    });
   for (std::size_t e = 0; e < errors.size(); ++e)
   {
-    helps[e] = errors[e].NumOutside > 0 &&
-      SplitHelps(state.Space->Elements[e].Box, least, points, params.NumMeasured, e);
-    if (helps[e])
+    if (helps[e] != 0)
     {
       worst = std::max(worst, errors[e].Ratio);
       most = std::max(most, errors[e].NumOutside);
@@ -108,12 +120,14 @@ std::vector<SplitMark> MarkElements(const FitState& state, const ElementFunction
   std::vector<SplitMark> marks;
   for (int e = 0; e < state.Space->NumElements(); ++e)
   {
-    if (!helps[At(e)] || !chosen(errors[At(e)]))
+    if (helps[At(e)] != 0 && chosen(errors[At(e)]))
     {
-      continue;
+      marks.emplace_back().Element = e;
     }
-    SplitMark mark;
-    mark.Element = e;
+  }
+  const auto choose = [&](SplitMark& mark)
+  {
+    const int e = mark.Element;
     if (params.Directions == FitDirections::Alternating)
     {
       mark.Directions = { iteration % 2 == 0, iteration % 2 == 1 };
@@ -130,11 +144,16 @@ std::vector<SplitMark> MarkElements(const FitState& state, const ElementFunction
       const double half = 0.5 * (box.Upper[d] - box.Lower[d]);
       mark.Directions[d] = mark.Directions[d] && half >= least[d];
     }
-    if (mark.Directions[0] || mark.Directions[1])
+  };
+  ParallelFor(marks.size(), MarkChunk, params.Threads,
+    [&](std::size_t begin, std::size_t end)
     {
-      marks.push_back(mark);
-    }
-  }
+      std::for_each(marks.begin() + static_cast<std::ptrdiff_t>(begin),
+        marks.begin() + static_cast<std::ptrdiff_t>(end), choose);
+    });
+  marks.erase(std::remove_if(marks.begin(), marks.end(),
+                [](const SplitMark& mark) { return !mark.Directions[0] && !mark.Directions[1]; }),
+    marks.end());
   return marks;
 }
 

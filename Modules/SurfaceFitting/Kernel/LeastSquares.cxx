@@ -11,7 +11,8 @@ namespace knotwork
 namespace
 {
 constexpr std::size_t ElementChunk = 64;
-constexpr std::size_t RowChunk = 512;
+constexpr std::size_t RowChunk = 128;
+constexpr std::size_t ProductChunk = 4 * RowChunk; // a row's product is little work
 constexpr double LeastPoints = 1.0 / 30.0; // in the middle of a function, that it counts as more
 constexpr double LeastShare = 1.0 / 6.0;   // of what points spread evenly would weigh with it
 constexpr double Pi = 3.14159265358979323846;
@@ -47,10 +48,17 @@ LeastSquaresSystem::LeastSquaresSystem(const ElementFunctions& functions,
   }
   double weight = 0.0;
   this->Weights.resize(At(numElements));
+  ParallelFor(At(numElements), ElementChunk, params.Threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t e = begin; e < end; ++e)
+      {
+        this->Weights[e] = moments.Weight(static_cast<int>(e));
+      }
+    });
   this->ElementStart.assign(At(numElements) + 1, 0);
   for (int e = 0; e < numElements; ++e)
   {
-    this->Weights[At(e)] = moments.Weight(e);
     weight += this->Weights[At(e)];
     this->ElementStart[At(e) + 1] =
       this->ElementStart[At(e)] + At(functions.Alive(e)) * At(functions.Alive(e));
@@ -231,16 +239,16 @@ void LeastSquaresSystem::Update(const std::vector<int>& elements)
 
 void LeastSquaresSystem::Multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const
 {
-  ParallelFor(At(this->Functions.NumFunctions), RowChunk, this->Params.Threads,
+  ParallelFor(At(this->Functions.NumFunctions), ProductChunk, this->Params.Threads,
     [&](std::size_t begin, std::size_t end)
     {
-      const RowGroup& group = this->Groups[begin / RowChunk];
       const double* from = x.data();
       for (std::size_t i = begin; i < end; ++i)
       {
+        const RowGroup& group = this->Groups[i / RowChunk];
         double sums[2] = {};
-        std::size_t k = group.Start[i - begin];
-        const std::size_t last = group.Start[i - begin + 1];
+        std::size_t k = group.Start[i % RowChunk];
+        const std::size_t last = group.Start[i % RowChunk + 1];
         for (; k + 1 < last; k += 2)
         {
           sums[0] += group.Values[k] * from[group.Columns[k]];
