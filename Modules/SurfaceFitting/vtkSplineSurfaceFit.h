@@ -206,7 +206,7 @@ public:
   vtkGetMacro(MaximumIterations, int);
   ///@}
   ///@{
-  /** Functions at most; 0: no limit. Default 0, valid range [0, 1e9]. */
+  /** Functions at most; 0: as many as there are points. Default 0, valid range [0, 1e9]. */
   vtkSetClampMacro(MaximumFunctions, int, 0, 1000000000);
   vtkGetMacro(MaximumFunctions, int);
   ///@}
