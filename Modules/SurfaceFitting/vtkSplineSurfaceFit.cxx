@@ -15,6 +15,7 @@
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <cstring>
 #include <sstream>
 
 vtkStandardNewMacro(vtkSplineSurfaceFit);
@@ -161,7 +162,9 @@ knotwork::Status vtkSplineSurfaceFit::FindArray(
 {
   vtkInformation* info = this->GetInputArrayInformation(index);
   const char* name = info->Get(vtkDataObject::FIELD_NAME());
-  if ((!name || name[0] == '\0') && !info->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
+  const bool isNone =
+    !name || name[0] == '\0' || std::strcmp(name, "None") == 0; // as ParaView says
+  if (isNone && !info->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
   {
     return {};
   }

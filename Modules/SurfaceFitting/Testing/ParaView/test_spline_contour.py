@@ -13,9 +13,12 @@ def test_levels_of_a_coordinate():
     contour.UpdatePipeline()
     lines = contour.GetClientSideObject().GetOutputDataObject(0)
     assert lines.GetNumberOfLines() == 2
-    assert {lines.GetPoint(i)[0] for i in range(lines.GetNumberOfPoints())} == {-0.25, 0.125}
+    for i in range(lines.GetNumberOfPoints()):
+        x = lines.GetPoint(i)[0]
+        assert min(abs(x + 0.25), abs(x - 0.125)) < 1e-12, x
     assert OutputPort(contour, 1).GetCellDataInformation().GetArray("Level") is not None
-    assert OutputPort(contour, 2).GetRowDataInformation().GetArray("Components") is not None
+    table = contour.GetClientSideObject().GetOutputDataObject(2)
+    assert [table.GetValueByName(i, "Components").ToInt() for i in range(2)] == [1, 1]
 
 
 def test_a_torus_has_closed_contours():

@@ -7,7 +7,7 @@ from paraview.simple import OutputPort, SplineExtrema, SplineSource  # noqa: E40
 
 
 def test_a_torus():
-    torus = SplineSource(Shape="TorusSurface", Angle=270)
+    torus = SplineSource(Shape="Torus Surface", Angle=270)
     extrema = SplineExtrema(Input=torus, Component=0)
     extrema.UpdatePipeline()
     numbers = extrema.GetClientSideObject().GetOutputDataObject(2)

@@ -3,7 +3,7 @@
 import knotwork_testing
 
 knotwork_testing.load_plugin()
-from paraview.simple import OutputPort, SplineSource, SplineStitch  # noqa: E402
+from paraview.simple import SplineSource, SplineStitch  # noqa: E402
 
 
 def square(x):
@@ -16,7 +16,7 @@ def test_two_squares_as_two_inputs():
     numbers = stitch.GetClientSideObject().GetOutputDataObject(2)
     assert numbers.GetValueByName(0, "Edges").ToInt() == 1
     assert numbers.GetValueByName(0, "MaxChange").ToDouble() < 1e-14
-    assert OutputPort(stitch, 1).GetRowDataInformation().GetArray("JumpBefore") is not None
+    assert stitch.GetClientSideObject().GetOutputDataObject(1).GetColumnByName("JumpBefore") is not None
 
 
 def test_pairs():
