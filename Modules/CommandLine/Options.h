@@ -5,7 +5,6 @@
 
 #include <functional>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -19,8 +18,7 @@ class Options
 public:
   explicit Options(CLI::App& job) : Job(job) {}
 
-  /// A number, a truth value (true when the option stands alone), or a list of numbers when T is a
-  /// std::vector of the default's length.
+  /// A number, or a list of them when T is a std::vector of the default's length.
   template <typename T>
   CLI::Option* Add(const char* property, const T& initial, std::function<void(const T&)> set,
     const std::string& help)
@@ -28,10 +26,6 @@ public:
     auto value = std::make_shared<T>(initial);
     CLI::Option* option = this->Job.add_option("--" + KebabCase(property), *value, help);
     option->capture_default_str();
-    if constexpr (std::is_same_v<T, bool>)
-    {
-      option->expected(0, 1); // without a value it is true
-    }
     this->Bound.push_back({ SnakeCase(property),
       [value, set = std::move(set)](nlohmann::ordered_json& json)
       {

@@ -269,7 +269,7 @@ def test_outliers_are_a_mask():
     points[:, 2] += 0.002 * random.normal(size=len(points))
     wild = random.random(len(points)) < 0.01
     points[wild, 2] += 0.5
-    report = fit(write_xyz("o.xyz", points), "o.g2", "--tolerance", 0.012, "--find-outliers", "--points", path("out.vtp"))
+    report = fit(write_xyz("o.xyz", points), "o.g2", "--tolerance", 0.012, "--find-outliers", 1, "--points", path("out.vtp"))
     mask = read_points("out.vtp")[1]["Outlier"] == 1
     assert report["outliers"] == mask.sum()
     assert (mask & wild).sum() >= 0.95 * wild.sum() and (mask & ~wild).sum() <= 0.02 * wild.sum() + 1
