@@ -8,8 +8,8 @@
  * along. Elements are split where points are farther away than their tolerance, until none is.
  *
  * SetInputArrayToProcess: 0 the parameters (two components; without it the array `UV`, then the
- * texture coordinates), 1 tolerances of the points, 2 where a point is significant (not 0). The name
- * `None` stands for no array.
+ * texture coordinates), 1 tolerances of the points, 2 where a point is significant (not 0). The
+ * name `None` stands for no array.
  *
  * Output 0 is the surface (x, y, z) as a spline grid of kind LR or THB; arrays fitted along are
  * fields on the same space. Output 1 are the points with `Distance` (value minus surface; of
