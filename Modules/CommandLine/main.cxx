@@ -12,6 +12,10 @@
 #include <utility>
 #include <vector>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace
 {
 constexpr int Failure = 1;
@@ -66,6 +70,13 @@ int Fail(const std::string& job, std::string message)
 
 int main(int argc, char* argv[])
 {
+#ifdef __GLIBC__
+  // Large arrays come from the heap and stay there: given back to the system and fetched again,
+  // their pages would be cleared each time, which threads wait for.
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);
+  mallopt(M_TOP_PAD, 64 << 20);
+#endif
   CLI::App app("Spline geometry that is fitted, refined and proved valid.", "knotwork");
   app.require_subcommand(1);
   app.set_version_flag("--version", KNOTWORK_VERSION);
