@@ -5,6 +5,7 @@
 #include "vtkSplineAlgorithm.h"
 #include "vtkSplineSource.h"
 
+#include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
 #include "vtkErrorCode.h"
 #include "vtkExecutive.h"
@@ -16,6 +17,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -95,6 +97,38 @@ inline void ExpectFailure(vtkSplineAlgorithm* filter, ErrorCode code, const std:
   EXPECT_EQ(output->GetNumberOfElements(vtkDataObject::POINT), 0);
   filter->RemoveObserver(recorder);
   filter->GetExecutive()->RemoveObserver(recorder);
+}
+
+/// Progress rises from 0 to 1 in more than `steps` reports; stopped at the first of them, the
+/// filter has no output and no error.
+inline void ExpectProgressAndAbort(vtkAlgorithm* filter, std::size_t steps)
+{
+  std::vector<double> shares;
+  vtkNew<vtkCallbackCommand> watch;
+  watch->SetClientData(&shares);
+  watch->SetCallback(
+    [](vtkObject* caller, unsigned long, void* data, void*)
+    {
+      static_cast<std::vector<double>*>(data)->push_back(
+        static_cast<vtkAlgorithm*>(caller)->GetProgress());
+    });
+  filter->AddObserver(vtkCommand::ProgressEvent, watch);
+  filter->Update();
+  ASSERT_GT(shares.size(), steps);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_GE(shares.front(), 0.0);
+  EXPECT_LE(shares.back(), 1.0);
+  filter->RemoveObserver(watch);
+  vtkNew<vtkCallbackCommand> stop;
+  stop->SetCallback([](vtkObject* caller, unsigned long, void*, void*)
+    { static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1); });
+  filter->AddObserver(vtkCommand::ProgressEvent, stop);
+  vtkNew<MessageRecorder> recorder;
+  recorder->Watch(filter);
+  filter->Modified();
+  filter->Update();
+  EXPECT_TRUE(recorder->Errors.empty());
+  EXPECT_EQ(filter->GetOutputDataObject(0)->GetNumberOfElements(vtkDataObject::POINT), 0);
 }
 
 /// What every filter of spline grids does with empty, non-finite, foreign, truncated and damaged

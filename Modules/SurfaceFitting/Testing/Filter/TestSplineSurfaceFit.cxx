@@ -4,7 +4,6 @@
 
 #include "FilterCases.h"
 
-#include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
@@ -427,30 +426,6 @@ TEST(SplineSurfaceFit, ReportsProgressAndAborts)
   vtkNew<vtkSplineSurfaceFit> filter;
   filter->SetInputData(MakeCloud<vtkPolyData>(Wave));
   filter->SetTolerance(1e-4);
-  std::vector<double> shares;
-  vtkNew<vtkCallbackCommand> watch;
-  watch->SetClientData(&shares);
-  watch->SetCallback(
-    [](vtkObject* caller, unsigned long, void* data, void*)
-    {
-      static_cast<std::vector<double>*>(data)->push_back(
-        static_cast<vtkAlgorithm*>(caller)->GetProgress());
-    });
-  filter->AddObserver(vtkCommand::ProgressEvent, watch);
-  filter->Update();
-  ASSERT_GT(shares.size(), 2U);
-  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
-  EXPECT_LE(shares.back(), 1.0);
-  filter->RemoveObserver(watch);
-  vtkNew<vtkCallbackCommand> stop;
-  stop->SetCallback([](vtkObject* caller, unsigned long, void*, void*)
-    { static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1); });
-  filter->AddObserver(vtkCommand::ProgressEvent, stop);
-  vtkNew<MessageRecorder> recorder;
-  recorder->Watch(filter);
-  filter->Modified();
-  filter->Update();
-  EXPECT_TRUE(recorder->Errors.empty());
-  EXPECT_EQ(filter->GetOutputDataObject(0)->GetNumberOfElements(vtkDataObject::POINT), 0);
+  ExpectProgressAndAbort(filter, 2);
 }
 }

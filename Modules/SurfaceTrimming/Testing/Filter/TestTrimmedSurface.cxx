@@ -6,7 +6,6 @@
 #include "TrimmedGrids.h"
 
 #include "vtkAppendFilter.h"
-#include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
@@ -480,31 +479,6 @@ TEST(TrimmedSurface, CanBeStopped_PropertyOracle)
 {
   vtkNew<vtkTrimmedSurface> filter;
   filter->SetInputDataObject(MakePlate({}));
-  std::vector<double> shares;
-  vtkNew<vtkCallbackCommand> watch;
-  watch->SetClientData(&shares);
-  watch->SetCallback(
-    [](vtkObject* caller, unsigned long, void* data, void*)
-    {
-      static_cast<std::vector<double>*>(data)->push_back(
-        static_cast<vtkAlgorithm*>(caller)->GetProgress());
-    });
-  filter->AddObserver(vtkCommand::ProgressEvent, watch);
-  filter->Update();
-  ASSERT_GT(shares.size(), 3U);
-  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
-  EXPECT_GE(shares.front(), 0.0);
-  EXPECT_LE(shares.back(), 1.0);
-  filter->RemoveObserver(watch);
-  vtkNew<vtkCallbackCommand> stop;
-  stop->SetCallback([](vtkObject* caller, unsigned long, void*, void*)
-    { static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1); });
-  filter->AddObserver(vtkCommand::ProgressEvent, stop);
-  vtkNew<MessageRecorder> recorder;
-  recorder->Watch(filter);
-  filter->Modified();
-  filter->Update();
-  EXPECT_TRUE(recorder->Errors.empty());
-  EXPECT_EQ(filter->GetOutputDataObject(0)->GetNumberOfElements(vtkDataObject::POINT), 0);
+  ExpectProgressAndAbort(filter, 3);
 }
 }
