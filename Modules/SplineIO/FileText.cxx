@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FileText.h"
 
+#include "vtkErrorCode.h"
+
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
@@ -52,18 +55,35 @@ std::string LowerEnding(const std::string& file)
   return ending;
 }
 
-WriteOutcome WriteText(const std::string& file, const std::string& text)
+WriteOutcome WriteText(const std::string& file, const std::function<Status(std::string&)>& makeText)
 {
+  std::string text;
+  Status status;
+  try
+  {
+    status = makeText(text);
+  }
+  catch (const std::exception& error) // out of memory, or of a library below the kernel
+  {
+    status = { ErrorCode::TooLarge, error.what() };
+  }
+  if (!status)
+  {
+    return { vtkErrorCode::UserError + static_cast<unsigned long>(status.Code), status.Message() };
+  }
   std::ofstream stream(file, std::ios::binary);
-  WriteOutcome outcome;
-  outcome.Opened = static_cast<bool>(stream);
+  const bool opened = static_cast<bool>(stream);
   stream.write(text.data(), static_cast<std::streamsize>(text.size()));
   stream.close();
-  outcome.Written = static_cast<bool>(stream);
-  if (outcome.Opened && !outcome.Written)
+  if (stream)
+  {
+    return {};
+  }
+  if (opened)
   {
     std::remove(file.c_str()); // a part of a file is no file
   }
-  return outcome;
+  return { opened ? vtkErrorCode::OutOfDiskSpaceError : vtkErrorCode::CannotOpenFileError,
+    "'" + file + "' cannot be written; check its folder, permissions and the free space" };
 }
 }

@@ -2,6 +2,7 @@
 #pragma once
 #include "Status.h"
 
+#include <functional>
 #include <string>
 
 namespace knotwork
@@ -15,11 +16,15 @@ std::string BeginningOfFile(const std::string& file);
 /// The ending of a name with its point, in small letters.
 std::string LowerEnding(const std::string& file);
 
-/// Writes a whole file or none. @return whether it could be opened, and written.
+/// How the writing of a file ended: an error code as VTK's writers have them, and what to tell.
 struct WriteOutcome
 {
-  bool Opened = false;
-  bool Written = false;
+  unsigned long Code = 0;
+  std::string Message; ///< empty when the file is written
 };
-WriteOutcome WriteText(const std::string& file, const std::string& text);
+
+/// Makes a text and writes it. Nothing is written unless all of it could be made; memory that does
+/// not suffice, or an exception of a library, is an outcome too.
+WriteOutcome WriteText(
+  const std::string& file, const std::function<Status(std::string&)>& makeText);
 }

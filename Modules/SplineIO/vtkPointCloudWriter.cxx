@@ -6,12 +6,9 @@
 #include "PointData.h"
 #include "PointText.h"
 
-#include "vtkErrorCode.h"
 #include "vtkInformation.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
-
-#include <exception>
 
 vtkStandardNewMacro(vtkPointCloudWriter);
 
@@ -61,29 +58,11 @@ knotwork::Status vtkPointCloudWriter::MakeText(std::string& text)
 
 void vtkPointCloudWriter::WriteData()
 {
-  using namespace knotwork;
-  this->SetErrorCode(vtkErrorCode::NoError);
-  std::string text;
-  Status status;
-  try
+  const knotwork::WriteOutcome outcome = knotwork::WriteText(this->FileName ? this->FileName : "",
+    [this](std::string& text) { return this->MakeText(text); });
+  this->SetErrorCode(outcome.Code);
+  if (!outcome.Message.empty())
   {
-    status = this->MakeText(text);
-  }
-  catch (const std::exception& error) // out of memory
-  {
-    status = { ErrorCode::TooLarge, error.what() };
-  }
-  if (!status)
-  {
-    this->SetErrorCode(vtkErrorCode::UserError + static_cast<unsigned long>(status.Code));
-    vtkErrorMacro("" << status.Message());
-    return;
-  }
-  const WriteOutcome outcome = WriteText(this->FileName, text);
-  if (!outcome.Written)
-  {
-    this->SetErrorCode(
-      outcome.Opened ? vtkErrorCode::OutOfDiskSpaceError : vtkErrorCode::CannotOpenFileError);
-    vtkErrorMacro("'" << this->FileName << "' cannot be written");
+    vtkErrorMacro("" << outcome.Message);
   }
 }
