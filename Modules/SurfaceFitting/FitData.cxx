@@ -2,7 +2,7 @@
 #include "FitData.h"
 
 #include "MeshData.h"
-#include "Numbers.h"
+#include "Parallel.h"
 #include "PlaneParameters.h"
 #include "SplineModel.h"
 
@@ -27,46 +27,52 @@ namespace knotwork
 {
 namespace
 {
-template <typename T>
-void CopyColumns(const T* from, int stride, int columns, PointMatrix& to, Eigen::Index column)
-{
-  for (Eigen::Index i = 0; i < to.rows(); ++i, from += stride)
-  {
-    for (int c = 0; c < columns; ++c)
-    {
-      to(i, column + c) = static_cast<double>(from[c]);
-    }
-  }
-}
+constexpr std::size_t RowChunk = 16384;
 
-/// The first components of an array become columns of a matrix.
-void CopyArray(vtkDataArray* array, int columns, PointMatrix& to, Eigen::Index column)
+/// Components [first, first + count) of an array become columns of a matrix, from `column` on.
+void CopyArray(
+  vtkDataArray* array, int first, int count, PointMatrix& to, Eigen::Index column, int threads)
 {
   const int stride = array->GetNumberOfComponents();
+  const auto copy = [&](const auto* values)
+  {
+    ParallelFor(static_cast<std::size_t>(to.rows()), RowChunk, threads,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          const auto* from = values + i * static_cast<std::size_t>(stride) + first;
+          for (int c = 0; c < count; ++c)
+          {
+            to(static_cast<Eigen::Index>(i), column + c) = static_cast<double>(from[c]);
+          }
+        }
+      });
+  };
   if (auto* doubles = vtkDoubleArray::FastDownCast(array))
   {
-    CopyColumns(doubles->GetPointer(0), stride, columns, to, column);
+    copy(doubles->GetPointer(0));
   }
   else if (auto* floats = vtkFloatArray::FastDownCast(array))
   {
-    CopyColumns(floats->GetPointer(0), stride, columns, to, column);
+    copy(floats->GetPointer(0));
   }
   else
   {
     for (Eigen::Index i = 0; i < to.rows(); ++i)
     {
-      for (int c = 0; c < columns; ++c)
+      for (int c = 0; c < count; ++c)
       {
-        to(i, column + c) = array->GetComponent(i, c);
+        to(i, column + c) = array->GetComponent(i, first + c);
       }
     }
   }
 }
 
-PointMatrix CopyArray(vtkDataArray* array, int columns)
+PointMatrix CopyArray(vtkDataArray* array, int count, int threads)
 {
-  PointMatrix to(array->GetNumberOfTuples(), columns);
-  CopyArray(array, columns, to, 0);
+  PointMatrix to(array->GetNumberOfTuples(), count);
+  CopyArray(array, 0, count, to, 0, threads);
   return to;
 }
 
@@ -160,12 +166,12 @@ Result<PointMatrix> MeshParameters(const TriangleMesh& mesh, int threads)
   return uv;
 }
 
-Result<PointMatrix> FindParameters(
-  vtkPointSet* data, const PointMatrix& points, const CloudChoice& choice)
+Result<PointMatrix> FindParameters(vtkPointSet* data, const CloudChoice& choice)
 {
+  vtkDataArray* points = data->GetPoints()->GetData();
   if (choice.Parameters == CloudParameters::HeightField)
   {
-    return PointMatrix(points.leftCols<2>());
+    return CopyArray(points, 2, choice.Threads);
   }
   if (choice.Parameters == CloudParameters::Given)
   {
@@ -175,29 +181,15 @@ Result<PointMatrix> FindParameters(
         "the parameters of the points are missing; name a point array of two components, or have "
         "them computed" };
     }
-    return CopyArray(choice.Given, 2);
+    return CopyArray(choice.Given, 2, choice.Threads);
   }
   auto decoded = DecodeMesh(data);
   if (!decoded)
   {
     return decoded.Status;
   }
-  return decoded->Mesh.Triangles.empty() ? PlaneParameters(points)
+  return decoded->Mesh.Triangles.empty() ? PlaneParameters(CopyArray(points, 3, choice.Threads))
                                          : MeshParameters(decoded->Mesh, choice.Threads);
-}
-
-/// A spline grid takes no larger numbers.
-Status CheckSizes(const PointCloud& cloud)
-{
-  const auto isLarge = [](const auto& row) { return (row.array().abs() > LargestNumber).any(); };
-  for (Eigen::Index i = 0; i < cloud.Values.rows(); ++i)
-  {
-    if (isLarge(cloud.Parameters.row(i)) || isLarge(cloud.Values.row(i)))
-    {
-      return { ErrorCode::TooLarge, "point " + std::to_string(i) + ": " + BeyondLimit() };
-    }
-  }
-  return {};
 }
 
 template <typename Array, typename Value>
@@ -227,8 +219,7 @@ Result<DecodedCloud> DecodeCloud(vtkPointSet* data, const CloudChoice& choice)
   {
     return status;
   }
-  const PointMatrix points = CopyArray(data->GetPoints()->GetData(), 3);
-  auto parameters = FindParameters(data, points, choice);
+  auto parameters = FindParameters(data, choice);
   if (!parameters)
   {
     return parameters.Status;
@@ -245,20 +236,17 @@ Result<DecodedCloud> DecodeCloud(vtkPointSet* data, const CloudChoice& choice)
     columns += array->GetNumberOfComponents();
   }
   cloud.Values.resize(n, columns);
-  cloud.Values.leftCols(decoded.NumMeasured) = points.rightCols(decoded.NumMeasured);
+  CopyArray(data->GetPoints()->GetData(), 3 - decoded.NumMeasured, decoded.NumMeasured,
+    cloud.Values, 0, choice.Threads);
   columns = decoded.NumMeasured;
   for (vtkDataArray* array : fields)
   {
-    CopyArray(array, array->GetNumberOfComponents(), cloud.Values, columns);
+    CopyArray(array, 0, array->GetNumberOfComponents(), cloud.Values, columns, choice.Threads);
     columns += array->GetNumberOfComponents();
-  }
-  if (status = CheckSizes(cloud); !status)
-  {
-    return status;
   }
   if (choice.Tolerances)
   {
-    cloud.Tolerances = CopyArray(choice.Tolerances, 1).col(0);
+    cloud.Tolerances = CopyArray(choice.Tolerances, 1, choice.Threads).col(0);
   }
   for (vtkIdType i = 0; choice.Significant && i < n; ++i)
   {

@@ -129,7 +129,7 @@ Result<RefinedSpline<2>> RefineMarkedLR(
     }
     result.Value = std::move(resolution->Value);
   }
-  result.Parents = ParentElements(*spline.Space, *result.Value.Space);
+  result.Parents = ParentElements(*spline.Space, *result.Value.Space, 1);
   return result;
 }
 }

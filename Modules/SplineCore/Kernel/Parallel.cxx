@@ -7,6 +7,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <map>
 
 namespace knotwork
 {
@@ -24,8 +25,15 @@ void ParallelFor(std::size_t count, std::size_t chunk, int threads,
     }
     return;
   }
-  const int cores = tbb::info::default_concurrency(); // asked for more, TBB warns on stderr
-  tbb::task_arena arena(threads > 0 ? std::min(threads, cores) : cores);
-  arena.execute([&] { tbb::parallel_for(std::size_t(0), chunks, one, tbb::simple_partitioner()); });
+  const auto all = [&]
+  { tbb::parallel_for(std::size_t(0), chunks, one, tbb::simple_partitioner()); };
+  if (threads <= 0 || threads >= tbb::info::default_concurrency())
+  {
+    all();
+    return;
+  }
+  // workers take 50 microseconds to find a new arena: a thread keeps those it has used
+  thread_local std::map<int, tbb::task_arena> arenas;
+  arenas.try_emplace(threads, threads).first->second.execute(all);
 }
 }

@@ -3,6 +3,7 @@
 
 #include "Bernstein.h"
 #include "BezierSpace.h"
+#include "Parallel.h"
 #include "TensorSpace.h"
 
 #include <algorithm>
@@ -13,6 +14,8 @@ namespace knotwork
 {
 namespace
 {
+constexpr std::size_t ElementChunk = 256;
+
 /// Numbers the points of finer lattices on glued Bezier elements. Points inside a vertex, edge or
 /// face belong to the list of functions that the elements share there, read in the one of its
 /// orientations that comes first, so every element finds the same numbers.
@@ -316,20 +319,25 @@ Result<RefinedSpline<Dim>> SplitBezierElements(const Spline<Dim>& spline)
 }
 
 template <int Dim>
-std::vector<int> ParentElements(const SplineSpace<Dim>& coarse, const SplineSpace<Dim>& fine)
+std::vector<int> ParentElements(
+  const SplineSpace<Dim>& coarse, const SplineSpace<Dim>& fine, int threads)
 {
-  std::vector<int> parents;
-  parents.reserve(fine.Elements.size());
-  for (const auto& element : fine.Elements)
-  {
-    RealArray<Dim> center;
-    for (std::size_t d = 0; d < Dim; ++d)
+  std::vector<int> parents(fine.Elements.size());
+  ParallelFor(parents.size(), ElementChunk, threads,
+    [&](std::size_t begin, std::size_t end)
     {
-      center[d] = 0.5 * (element.Box.Lower[d] + element.Box.Upper[d]);
-    }
-    double local[Dim];
-    parents.push_back(coarse.Locate(center.data(), local));
-  }
+      for (std::size_t e = begin; e < end; ++e)
+      {
+        const ParametricBox<Dim>& box = fine.Elements[e].Box;
+        RealArray<Dim> center;
+        for (std::size_t d = 0; d < Dim; ++d)
+        {
+          center[d] = 0.5 * (box.Lower[d] + box.Upper[d]);
+        }
+        double local[Dim];
+        parents[e] = coarse.Locate(center.data(), local);
+      }
+    });
   return parents;
 }
 
@@ -371,7 +379,7 @@ Result<RefinedSpline<Dim>> RefineAllElements(const Spline<Dim>& spline)
     }
     result.Value = std::move(refined.Value);
   }
-  result.Parents = ParentElements(*spline.Space, *result.Value.Space);
+  result.Parents = ParentElements(*spline.Space, *result.Value.Space, 1);
   return result;
 }
 
@@ -414,7 +422,7 @@ Result<RefinedSpline<Dim>> RefineMarkedElements(
     return transferred.Status;
   }
   result.Value = std::move(transferred.Value);
-  result.Parents = ParentElements(*spline.Space, *result.Value.Space);
+  result.Parents = ParentElements(*spline.Space, *result.Value.Space, 1);
   return result;
 }
 
@@ -488,9 +496,9 @@ Result<Spline<Dim>> ElevateAllDegrees(const Spline<Dim>& spline, int times)
 template struct RefinedSpline<1>;
 template struct RefinedSpline<2>;
 template struct RefinedSpline<3>;
-template std::vector<int> ParentElements<1>(const SplineSpace<1>&, const SplineSpace<1>&);
-template std::vector<int> ParentElements<2>(const SplineSpace<2>&, const SplineSpace<2>&);
-template std::vector<int> ParentElements<3>(const SplineSpace<3>&, const SplineSpace<3>&);
+template std::vector<int> ParentElements<1>(const SplineSpace<1>&, const SplineSpace<1>&, int);
+template std::vector<int> ParentElements<2>(const SplineSpace<2>&, const SplineSpace<2>&, int);
+template std::vector<int> ParentElements<3>(const SplineSpace<3>&, const SplineSpace<3>&, int);
 template Result<RefinedSpline<1>> RefineAllElements<1>(const Spline<1>&);
 template Result<RefinedSpline<2>> RefineAllElements<2>(const Spline<2>&);
 template Result<RefinedSpline<3>> RefineAllElements<3>(const Spline<3>&);

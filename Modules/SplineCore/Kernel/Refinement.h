@@ -56,7 +56,8 @@ Result<RefinedSpline<2>> RefineMarkedLR(
 
 /// Element of the coarser space that holds the centre of each element of the finer one.
 template <int Dim>
-std::vector<int> ParentElements(const SplineSpace<Dim>& coarse, const SplineSpace<Dim>& fine);
+std::vector<int> ParentElements(
+  const SplineSpace<Dim>& coarse, const SplineSpace<Dim>& fine, int threads);
 
 /// Raises the degree in every direction by times >= 0 (result at most 9). Continuity stays as it
 /// is. @return DimensionMismatch for the kinds Hierarchical and LocallyRefined: finer levels of an

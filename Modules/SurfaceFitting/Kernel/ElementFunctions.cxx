@@ -11,7 +11,7 @@ namespace knotwork
 {
 namespace
 {
-constexpr std::size_t ElementChunk = 256;
+constexpr std::size_t ElementChunk = 32;
 
 std::size_t At(int i)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "SplineSpace.h"
+#include "UntouchedVector.h"
 
 #include <vector>
 
@@ -14,10 +15,10 @@ struct ElementFunctions
   int PerElement = 0;                ///< Bernstein polynomials of an element
   std::vector<std::size_t> Start;    ///< elements + 1, offsets into Functions
   std::vector<int> Functions;        ///< ascending on an element
-  std::vector<double> Rows;          ///< PerElement Bernstein coefficients of every entry
+  UntouchedVector<double> Rows;      ///< PerElement Bernstein coefficients of every entry
   std::vector<std::size_t> UseStart; ///< functions + 1, offsets into Uses
-  std::vector<std::size_t> Uses;     ///< entries of Functions that are this function, ascending
-  std::vector<int> ElementOfEntry;
+  UntouchedVector<std::size_t> Uses; ///< entries of Functions that are this function, ascending
+  UntouchedVector<int> ElementOfEntry;
 
   int NumElements() const { return static_cast<int>(this->Start.size()) - 1; }
   std::size_t First(int e) const { return this->Start[static_cast<std::size_t>(e)]; }

@@ -38,7 +38,6 @@ void AddPoints(const DegreeU p, const DegreeV q, const ParametricBox<2>& box,
     const double t = (points.V[i] - box.Lower[1]) * scale1;
     double u[2 * MaxDegree + 1];
     double v[2 * MaxDegree + 1];
-    BernsteinBasis<0>(std::integral_constant<int, 0>{}, s, 1.0, u, 0);
     const auto basis = [](const auto degree, double x, double* values)
     { BernsteinBasis<0>(degree, x, 1.0, values, 0); };
     if constexpr (std::is_same_v<DegreeU, int>)
@@ -120,7 +119,7 @@ void ElementMoments::Update(const SplineSpace<2>& space, const std::vector<int>&
   const std::vector<bool>& isSplit, const FitPoints& points, int threads)
 {
   const std::size_t stride = At(this->Stride());
-  std::vector<double> old(At(space.NumElements()) * stride);
+  UntouchedVector<double> old(At(space.NumElements()) * stride);
   old.swap(this->Data);
   ParallelFor(At(space.NumElements()), ElementChunk, threads,
     [&](std::size_t begin, std::size_t end)

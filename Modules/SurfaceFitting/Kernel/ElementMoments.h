@@ -18,7 +18,7 @@ public:
 
   /// Takes the moments of elements that are as they were and sums up those of the others.
   /// @param parents  of the elements in the space that the moments belong to; empty: all are new.
-  /// @param changed  elements of the space whose weights have changed; empty: none.
+  /// @param isSplit  elements of that space that are divided now.
   void Update(const SplineSpace<2>& space, const std::vector<int>& parents,
     const std::vector<bool>& isSplit, const FitPoints& points, int threads);
   /// Sums up the moments of some elements anew.
@@ -44,7 +44,7 @@ private:
 
   IntArray<2> Degree;
   int Components;
-  std::vector<double> Data;
+  UntouchedVector<double> Data;
   std::array<std::vector<double>, 2> Factors; // C(p, i) C(p, k) / C(2p, i + k)
 };
 

@@ -14,7 +14,6 @@ namespace
 {
 constexpr std::size_t PointChunk = 16384;
 constexpr double DomainSlack = 1e-12;     // of the domain's size, as SplineSpace::Locate
-constexpr double LargestNumber = 1e100;   // squares and their sums are finite
 constexpr double DefaultTolerance = 1e-3; // of the range of the measured values
 
 bool HasArea(const ParametricBox<2>& box)
@@ -181,8 +180,7 @@ Status CheckPoint(const PointCloud& cloud, const FitParams& params, Eigen::Index
   }
   if (size > LargestNumber)
   {
-    return Bad("point " + std::to_string(i) + " has a number above " + Digits(LargestNumber) +
-      "; choose other units");
+    return { ErrorCode::TooLarge, "point " + std::to_string(i) + ": " + BeyondLimit() };
   }
   if (cloud.Tolerances.size() != 0 &&
     !(cloud.Tolerances[i] > 0.0 && std::isfinite(cloud.Tolerances[i])))
@@ -252,15 +250,32 @@ ParametricBox<2> FitDomain(const PointCloud& cloud, const FitParams& params)
   {
     return params.Domain;
   }
-  ParametricBox<2> box{ { cloud.Parameters(0, 0), cloud.Parameters(0, 1) },
-    { cloud.Parameters(0, 0), cloud.Parameters(0, 1) } };
-  for (Eigen::Index i = 1; i < cloud.Parameters.rows(); ++i)
+  const auto n = static_cast<std::size_t>(cloud.Parameters.rows());
+  const Eigen::RowVector2d first = cloud.Parameters.row(0);
+  std::vector<ParametricBox<2>> boxes(
+    (n + PointChunk - 1) / PointChunk, { { first[0], first[1] }, { first[0], first[1] } });
+  ParallelFor(n, PointChunk, params.Threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      ParametricBox<2> own = boxes[begin / PointChunk];
+      for (const double* x = cloud.Parameters.data() + 2 * begin;
+           x != cloud.Parameters.data() + 2 * end; x += 2)
+      {
+        for (std::size_t d = 0; d < 2; ++d)
+        {
+          own.Lower[d] = std::min(own.Lower[d], x[d]);
+          own.Upper[d] = std::max(own.Upper[d], x[d]);
+        }
+      }
+      boxes[begin / PointChunk] = own;
+    });
+  ParametricBox<2> box = boxes[0];
+  for (const ParametricBox<2>& part : boxes)
   {
     for (std::size_t d = 0; d < 2; ++d)
     {
-      const double x = cloud.Parameters(i, static_cast<Eigen::Index>(d));
-      box.Lower[d] = std::min(box.Lower[d], x);
-      box.Upper[d] = std::max(box.Upper[d], x);
+      box.Lower[d] = std::min(box.Lower[d], part.Lower[d]);
+      box.Upper[d] = std::max(box.Upper[d], part.Upper[d]);
     }
   }
   // points on a line or at one place: a domain with an area around them

@@ -11,8 +11,8 @@ namespace knotwork
 {
 namespace
 {
-constexpr std::size_t PointChunk = 65536;
-constexpr int ClassBits = 6; // classes an octave: 2^6
+constexpr std::size_t PointChunk = 16384;
+constexpr int ClassBits = 4; // classes an octave: 2^4
 constexpr int Octaves = 80;  // 2^-60 to 2^20
 constexpr std::size_t NumClasses = std::size_t{ Octaves } << ClassBits;
 constexpr std::uint64_t FirstClass = std::uint64_t{ 1023 - 60 } << ClassBits;
@@ -56,23 +56,32 @@ double LogLikelihood(const std::vector<Class>& classes, double total, double sca
     0.5 * (freedom + 1.0) * sum;
 }
 
-/// The most likely scale at given degrees of freedom, from a first guess.
-double FitScale(const std::vector<Class>& classes, double total, double scale, double freedom)
+/// The most likely scale at given degrees of freedom by Newton's method in logarithms.
+/// @param most   no scale is larger: the root of the mean square.
+/// @param scale  to begin with.
+double FitScale(
+  const std::vector<Class>& classes, double total, double most, double scale, double freedom)
 {
+  double least = 0.0;
   for (int k = 0; k < 100; ++k)
   {
     double sum = 0.0;
+    double slope = 0.0;
     for (const Class& c : classes)
     {
-      sum += c.Count * (freedom + 1.0) * c.Square / (freedom + c.Square / (scale * scale));
+      const double share = c.Square / (freedom * scale * scale + c.Square);
+      sum += c.Count * share;
+      slope += c.Count * share * (1.0 - share);
     }
-    const double next = std::sqrt(sum / total);
-    const bool done = std::fabs(next - scale) <= 1e-5 * scale;
-    scale = next;
-    if (done)
+    const double gain = (freedom + 1.0) * sum / total; // 1 at the scale sought, falling
+    const double step = std::log(gain) * 0.5 * sum / slope;
+    if (std::fabs(step) <= 1e-6)
     {
       break;
     }
+    (gain > 1.0 ? least : most) = scale;
+    const double next = scale * std::exp(step);
+    scale = next > least && next < most ? next : 0.5 * (least + most);
   }
   return scale;
 }
@@ -118,13 +127,14 @@ TDistribution FitTDistribution(const FitPoints& points, int threads)
   {
     return best;
   }
+  const double most = std::sqrt(squares / total);
   // one-dimensional search over the logarithm of the degrees of freedom, scale the best for each
   const auto at = [&](double logFreedom)
   {
     TDistribution t;
     t.DegreesOfFreedom = std::exp(logFreedom);
-    t.Scale = FitScale(classes, total, best.Scale > 0.0 ? best.Scale : std::sqrt(squares / total),
-      t.DegreesOfFreedom);
+    t.Scale =
+      FitScale(classes, total, most, best.Scale > 0.0 ? best.Scale : most, t.DegreesOfFreedom);
     t.LogLikelihood = LogLikelihood(classes, total, t.Scale, t.DegreesOfFreedom);
     return t;
   };

@@ -161,20 +161,6 @@ FitPoints GroupPoints(const SplineSpace<2>& space, const PointCloud& cloud,
   return points;
 }
 
-std::vector<int> FindParents(const SplineSpace<2>& coarse, const SplineSpace<2>& fine)
-{
-  std::vector<int> parents;
-  parents.reserve(At(fine.NumElements()));
-  for (const SplineSpace<2>::Element& element : fine.Elements)
-  {
-    const double middle[2] = { 0.5 * (element.Box.Lower[0] + element.Box.Upper[0]),
-      0.5 * (element.Box.Lower[1] + element.Box.Upper[1]) };
-    double local[2];
-    parents.push_back(coarse.Locate(middle, local));
-  }
-  return parents;
-}
-
 void RegroupPoints(const SplineSpace<2>& coarse, const SplineSpace<2>& fine,
   const std::vector<int>& parents, FitPoints& points, int threads)
 {

@@ -1,36 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "SurfaceFit.h"
+#include "UntouchedVector.h"
 
-#include <cstdint>
-#include <memory>
-#include <utility>
 #include <vector>
 
 namespace knotwork
 {
-/// Memory that is not written when it is made: what fills it in parallel finds it untouched.
-template <typename T>
-struct UntouchedAllocator : std::allocator<T>
-{
-  template <typename U>
-  struct rebind
-  {
-    using other = UntouchedAllocator<U>;
-  };
-  template <typename U>
-  void construct(U*) noexcept
-  {
-  }
-  template <typename U, typename First, typename... Rest>
-  void construct(U* at, First&& first, Rest&&... rest)
-  {
-    ::new (static_cast<void*>(at)) U(std::forward<First>(first), std::forward<Rest>(rest)...);
-  }
-};
-template <typename T>
-using UntouchedVector = std::vector<T, UntouchedAllocator<T>>;
-
 /// The points of a fit in the order of the elements that hold them, a column a property: everything
 /// an element's points need is contiguous. When an element is split only its own points move.
 struct FitPoints
@@ -63,11 +39,8 @@ struct FitPoints
 FitPoints GroupPoints(const SplineSpace<2>& space, const PointCloud& cloud,
   const std::vector<double>& tolerances, double significantWeight, int threads);
 
-/// Which element of a coarser space holds each element of a finer one.
-/// @pre the finer mesh divides the elements of the coarser one.
-std::vector<int> FindParents(const SplineSpace<2>& coarse, const SplineSpace<2>& fine);
-
 /// Moves the points of every element of the coarser space to its parts.
+/// @param parents  elements of the coarser space that hold those of the finer one (ParentElements).
 void RegroupPoints(const SplineSpace<2>& coarse, const SplineSpace<2>& fine,
   const std::vector<int>& parents, FitPoints& points, int threads);
 }

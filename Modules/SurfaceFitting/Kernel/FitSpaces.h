@@ -24,7 +24,7 @@ Result<FitState> MakeFirstState(const FitParams& params, const ParametricBox<2>&
   int numComponents, std::size_t numPoints);
 
 /// The same surface in a space in which elements are split.
-/// @param independent  LR: dependent functions are resolved.
+/// @return failures of the refinement; of ResolveDependence with params.Independent.
 Result<FitState> RefineState(
   const FitState& state, const std::vector<SplitMark>& marks, const FitParams& params);
 }

@@ -10,9 +10,10 @@ namespace knotwork
 {
 namespace
 {
-constexpr std::size_t ElementChunk = 64;
-constexpr std::size_t RowChunk = 128;
-constexpr std::size_t ProductChunk = 4 * RowChunk; // a row's product is little work
+constexpr std::size_t ElementChunk = 16;
+constexpr std::size_t LeastRows = 16;      // of a group
+constexpr std::size_t MostGroups = 64;     // each one needs an entry a function while it is made
+constexpr std::size_t ProductChunk = 512;  // a row's product is little work
 constexpr double LeastPoints = 1.0 / 30.0; // in the middle of a function, that it counts as more
 constexpr double LeastShare = 1.0 / 6.0;   // of what points spread evenly would weigh with it
 constexpr double Pi = 3.14159265358979323846;
@@ -27,7 +28,9 @@ LeastSquaresSystem::LeastSquaresSystem(const ElementFunctions& functions,
   const ElementMoments& moments, const IntArray<2>& degree, int numComponents,
   const LeastSquaresParams& params)
   : Functions(functions), Moments(moments), Params(params), Components(numComponents),
-    Energy(ThinPlateMatrix(degree)), Groups((At(functions.NumFunctions) + RowChunk - 1) / RowChunk),
+    Energy(ThinPlateMatrix(degree)),
+    GroupRows(std::max(LeastRows, At(functions.NumFunctions) / MostGroups)),
+    Groups((At(functions.NumFunctions) + GroupRows - 1) / GroupRows),
     Diagonal(functions.NumFunctions), Damping(functions.NumFunctions),
     Right(functions.NumFunctions, numComponents)
 {
@@ -77,7 +80,7 @@ LeastSquaresSystem::LeastSquaresSystem(const ElementFunctions& functions,
         this->MakeElement(static_cast<int>(e));
       }
     });
-  ParallelFor(At(functions.NumFunctions), RowChunk, params.Threads,
+  ParallelFor(At(functions.NumFunctions), this->GroupRows, params.Threads,
     [&](std::size_t begin, std::size_t end) { this->FindColumns(begin, end); });
 }
 
@@ -135,7 +138,7 @@ void LeastSquaresSystem::MakeElement(int e)
 
 void LeastSquaresSystem::FindColumns(std::size_t begin, std::size_t end)
 {
-  RowGroup& group = this->Groups[begin / RowChunk];
+  RowGroup& group = this->Groups[begin / this->GroupRows];
   std::vector<int> places(At(this->Functions.NumFunctions), -1);
   group.Start.push_back(0);
   for (std::size_t i = begin; i < end; ++i)
@@ -165,8 +168,8 @@ void LeastSquaresSystem::FindColumns(std::size_t begin, std::size_t end)
 /// @param places  of the row's columns among those of its group.
 void LeastSquaresSystem::FillRow(std::size_t function, std::vector<int>& places)
 {
-  RowGroup& group = this->Groups[function / RowChunk];
-  const std::size_t own = function % RowChunk;
+  RowGroup& group = this->Groups[function / this->GroupRows];
+  const std::size_t own = function % this->GroupRows;
   std::fill(group.Values.begin() + static_cast<std::ptrdiff_t>(group.Start[own]),
     group.Values.begin() + static_cast<std::ptrdiff_t>(group.Start[own + 1]), 0.0);
   const auto i = static_cast<Eigen::Index>(function);
@@ -220,15 +223,16 @@ void LeastSquaresSystem::Update(const std::vector<int>& elements)
         this->MakeElement(elements[k]);
       }
     });
-  ParallelFor(rows.size(), RowChunk, this->Params.Threads,
+  ParallelFor(rows.size(), this->GroupRows, this->Params.Threads,
     [&](std::size_t begin, std::size_t end)
     {
       std::vector<int> places(At(this->Functions.NumFunctions), -1);
       for (std::size_t k = begin; k < end; ++k)
       {
         const std::size_t row = At(rows[k]);
-        const RowGroup& group = this->Groups[row / RowChunk];
-        for (std::size_t j = group.Start[row % RowChunk]; j < group.Start[row % RowChunk + 1]; ++j)
+        const RowGroup& group = this->Groups[row / this->GroupRows];
+        for (std::size_t j = group.Start[row % this->GroupRows];
+             j < group.Start[row % this->GroupRows + 1]; ++j)
         {
           places[At(group.Columns[j])] = static_cast<int>(j);
         }
@@ -245,10 +249,10 @@ void LeastSquaresSystem::Multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) 
       const double* from = x.data();
       for (std::size_t i = begin; i < end; ++i)
       {
-        const RowGroup& group = this->Groups[i / RowChunk];
+        const RowGroup& group = this->Groups[i / this->GroupRows];
         double sums[2] = {};
-        std::size_t k = group.Start[i % RowChunk];
-        const std::size_t last = group.Start[i % RowChunk + 1];
+        std::size_t k = group.Start[i % this->GroupRows];
+        const std::size_t last = group.Start[i % this->GroupRows + 1];
         for (; k + 1 < last; k += 2)
         {
           sums[0] += group.Values[k] * from[group.Columns[k]];

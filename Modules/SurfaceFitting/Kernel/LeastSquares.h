@@ -62,8 +62,9 @@ private:
   double DampingShare = 0.0;             ///< of the weight in a function's support
   double SquaredPeak = 1.0;              ///< of a function that these numbers are for
   std::vector<std::size_t> ElementStart; ///< of an element's alive^2 numbers
-  std::vector<double> ElementMatrices;
-  std::vector<double> ElementRight; ///< an entry of ElementFunctions x components
+  UntouchedVector<double> ElementMatrices;
+  UntouchedVector<double> ElementRight; ///< an entry of ElementFunctions x components
+  std::size_t GroupRows = 1;
   std::vector<RowGroup> Groups;
   Eigen::VectorXd Diagonal;
   Eigen::VectorXd Damping; ///< added to the diagonal of what changes

@@ -7,7 +7,7 @@ namespace knotwork
 {
 /// One step of multilevel B-spline approximation: every coefficient moves by the average of what
 /// each of its points alone would ask for, weighted as in the paper, so no equations are solved.
-/// A measured surface's distances must not be known: the step evaluates it.
+/// The step evaluates the surface itself: distances need not be measured before.
 ///   phi_ic = w_ic r_c / sum_k w_kc^2,   Delta P_i = sum_c w_ic^2 phi_ic / sum_c w_ic^2
 /// with w_ic = N_i(u_c, v_c); points weigh Base * Boost in both sums.
 /// @source  Lee, Wolberg, Shin, IEEE TVCG 3 (1997) 228-244, equations (3) and (5); for LR

@@ -10,6 +10,7 @@
 #include "Multilevel.h"
 #include "OutlierSearch.h"
 #include "Parallel.h"
+#include "Refinement.h"
 
 #include <algorithm>
 #include <chrono>
@@ -368,7 +369,7 @@ private:
   {
     const SplineSpace<2>& coarse = *this->State.Space;
     const SplineSpace<2>& fine = *refined.Space;
-    const std::vector<int> parents = FindParents(coarse, fine);
+    const std::vector<int> parents = ParentElements(coarse, fine, this->Params.Threads);
     std::vector<int> parts(At(coarse.NumElements()), 0);
     for (const int parent : parents)
     {

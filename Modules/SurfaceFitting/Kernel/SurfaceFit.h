@@ -176,7 +176,7 @@ struct SurfaceFit
 /// Fits a spline surface to points until all of them (outliers left out) are within tolerance:
 /// approximate, measure, split elements, again. Bit-identical for every number of threads.
 ///
-/// @return EmptyInput; NonFiniteInput naming the point; SizeMismatch; InvalidDegree;
+/// @return EmptyInput; NonFiniteInput and TooLarge naming the point; SizeMismatch; InvalidDegree;
 /// InvalidParameter naming the option; OutsideDomain naming the point; Aborted. A fit that ends by
 /// a limit is a result with WithinTolerance false.
 /// @complexity an iteration O(points (p + 1)^2) and the solve.
