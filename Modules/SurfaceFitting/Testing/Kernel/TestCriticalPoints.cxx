@@ -3,6 +3,7 @@
 #include "BezierSpace.h"
 #include "CriticalCases.h"
 #include "CriticalPoints.h"
+#include "MergeTrees.h"
 #include "ScalarPieces.h"
 
 #include <map>
@@ -103,50 +104,13 @@ Spline<2> SumOf(const std::array<KnotVector, 2>& knots, const std::vector<double
 /// lower).
 int RingIndex(const BezierForm<2>& form, const CriticalPoint& point)
 {
-  constexpr int n = 720;
-  const ParametricBox<2> domain = form.Space->Domain();
-  PointMatrix ring(n + 1, 2);
-  ring.row(n) << point.Parameters[0], point.Parameters[1];
-  for (int i = 0; i < n; ++i)
-  {
-    const double t = 2.0 * M_PI * i / n; // the axes too: on lines the second order counts
-    const double c[2] = { i % (n / 2) == n / 4 ? 0.0 : std::cos(t),
-      i % (n / 2) == 0 ? 0.0 : std::sin(t) };
-    for (std::size_t d = 0; d < 2; ++d)
-    {
-      const double up = point.Box.Upper[d] - point.Parameters[d];
-      const double down = point.Parameters[d] - point.Box.Lower[d];
-      // on the boundary one of them is zero
-      const double radius = 1e-3 * (std::min(up, down) > 0.0 ? std::min(up, down) : up + down);
-      ring(i, static_cast<Eigen::Index>(d)) = point.Parameters[d] + radius * c[d];
-    }
-  }
+  const std::vector<int> signs = RingAround(form, point).Signs;
+  const int n = static_cast<int>(signs.size());
   int lower = 0;
   int runs = 0;
-  int inside = 0;
-  EvaluationBatch batch;
-  PointMatrix clamped = ring;
-  for (int i = 0; i <= n; ++i)
-  {
-    for (Eigen::Index d = 0; d < 2; ++d)
-    {
-      const auto k = static_cast<std::size_t>(d);
-      clamped(i, d) = std::min(std::max(ring(i, d), domain.Lower[k]), domain.Upper[k]);
-    }
-  }
-  EXPECT_TRUE(EvaluateParameters<2>(form, clamped, {}, batch));
-  std::vector<int> signs(n); // -1 lower, 1 higher, 0 outside
-  for (int i = 0; i < n; ++i)
-  {
-    const bool outside = clamped.row(i) != ring.row(i);
-    signs[static_cast<std::size_t>(i)] = outside ? 0
-      : batch.Values(i, 0) < batch.Values(n, 0)  ? -1
-                                                 : 1;
-  }
   for (int i = 0; i < n; ++i)
   {
     const int sign = signs[static_cast<std::size_t>(i)];
-    inside += sign != 0 ? 1 : 0;
     lower += sign < 0 ? 1 : 0;
     runs += sign < 0 && signs[static_cast<std::size_t>((i + n - 1) % n)] >= 0 ? 1 : 0;
   }
