@@ -13,17 +13,45 @@ namespace
 {
 constexpr long long MaxInt = std::numeric_limits<int>::max();
 constexpr int MaxComponents = MaxG2Components;
+constexpr int CurveClass = 100;
+constexpr int SurfaceClass = 200;
 constexpr int BoundedClass = 210;
+constexpr int LRSurfaceClass = 293;
 constexpr int PointCloudClass = 400;
+constexpr int VolumeClass = 700;
 
 struct KnownClass
 {
   int Id;
   const char* Name;
 };
+constexpr KnownClass ReadableClasses[] = { { CurveClass, "spline curves" },
+  { SurfaceClass, "surfaces" }, { BoundedClass, "bounded surfaces" },
+  { LRSurfaceClass, "LR surfaces" }, { PointCloudClass, "point clouds" },
+  { VolumeClass, "volumes" } };
 constexpr KnownClass OtherClasses[] = { { 110, "CurveOnSurface" }, { 120, "Line" },
   { 130, "Circle" }, { 140, "Ellipse" }, { 250, "Plane" }, { 260, "Cylinder" }, { 270, "Sphere" },
   { 280, "Cone" }, { 290, "Torus" }, { 410, "LineCloud" } };
+
+/// The class of that number; null without.
+template <std::size_t N>
+const KnownClass* FindClass(const KnownClass (&classes)[N], long long id)
+{
+  const auto found = std::find_if(std::begin(classes), std::end(classes),
+    [&](const KnownClass& known) { return known.Id == id; });
+  return found == std::end(classes) ? nullptr : found;
+}
+
+std::string NamesOfReadableClasses()
+{
+  std::string names;
+  for (const KnownClass& known : ReadableClasses)
+  {
+    names += names.empty() ? "" : &known == std::end(ReadableClasses) - 1 ? " and " : ", ";
+    names += std::string(known.Name) + " (" + std::to_string(known.Id) + ")";
+  }
+  return names;
+}
 
 class G2Parser : private G2Words
 {
@@ -91,24 +119,18 @@ private:
   void ReadObject(SplineFile& file, std::vector<double>& coordinates)
   {
     const long long id = this->Integer("class of an object", 0, MaxInt);
-    for (const KnownClass& other : OtherClasses)
-    {
-      if (this->Outcome && id == other.Id)
-      {
-        this->Fail(ErrorCode::InvalidFormat,
-          std::string("an object of class ") + std::to_string(id) + " (" + other.Name +
-            ") cannot be read; keep only spline curves (100), surfaces (200), bounded surfaces "
-            "(210), LR surfaces (293), point clouds (400) and volumes (700)");
-      }
-    }
-    if (this->Outcome && id != 100 && id != 200 && id != BoundedClass && id != 293 &&
-      id != PointCloudClass && id != 700)
+    if (const KnownClass* other = FindClass(OtherClasses, id); this->Outcome && other)
     {
       this->Fail(ErrorCode::InvalidFormat,
-        "an object has class " + std::to_string(id) +
-          "; classes that can be read are 100, 200, 210, 293, 400 and 700; this is no g2 file, or "
-          "the "
-          "object before has more numbers than it says");
+        "an object of class " + std::to_string(id) + " (" + other->Name +
+          ") cannot be read; keep only " + NamesOfReadableClasses());
+    }
+    if (this->Outcome && !FindClass(ReadableClasses, id))
+    {
+      this->Fail(ErrorCode::InvalidFormat,
+        "an object has class " + std::to_string(id) + "; classes that can be read are " +
+          NamesOfReadableClasses() +
+          "; this is no g2 file, or the object before has more numbers than it says");
     }
     this->Integer("major version", 0, MaxInt);
     this->Integer("minor version", 0, MaxInt);
@@ -122,10 +144,10 @@ private:
     }
     if (this->Outcome)
     {
-      id == 100                 ? this->Keep(file, this->ReadSpline<1>())
-        : id == 200             ? this->Keep(file, this->ReadSpline<2>())
+      id == CurveClass          ? this->Keep(file, this->ReadSpline<1>())
+        : id == SurfaceClass    ? this->Keep(file, this->ReadSpline<2>())
         : id == BoundedClass    ? this->ReadBounded(file)
-        : id == 293             ? this->Keep(file, ReadLRSurface(*this))
+        : id == LRSurfaceClass  ? this->Keep(file, ReadLRSurface(*this))
         : id == PointCloudClass ? this->ReadCloud(auxiliary == 4, color, coordinates)
                                 : this->Keep(file, this->ReadSpline<3>());
     }
@@ -199,7 +221,7 @@ private:
   void ReadBounded(SplineFile& file)
   {
     const long long id = this->Integer("class of the surface that is bounded", 0, MaxInt);
-    if (this->Outcome && id != 200 && id != 293)
+    if (this->Outcome && id != SurfaceClass && id != LRSurfaceClass)
     {
       this->Fail(ErrorCode::InvalidFormat,
         "a bounded surface of class " + std::to_string(id) +
@@ -211,7 +233,7 @@ private:
     }
     BoundedSurface bounded;
     bounded.Spline = static_cast<int>(file.Splines.size());
-    this->Keep(file, id == 200 ? this->ReadSpline<2>() : ReadLRSurface(*this));
+    this->Keep(file, id == SurfaceClass ? this->ReadSpline<2>() : ReadLRSurface(*this));
     const long long loops = this->Integer("number of loops", 0, MaxInt);
     for (long long l = 0; l < loops && this->Outcome; ++l)
     {
@@ -250,7 +272,7 @@ private:
   bool HasCurve(const char* meaning)
   {
     const long long id = this->Integer(meaning, 0, MaxInt);
-    if (this->Outcome && id != 0 && id != 1 && id != 100)
+    if (this->Outcome && id != 0 && id != 1 && id != CurveClass)
     {
       this->Fail(ErrorCode::InvalidFormat,
         "a boundary curve of class " + std::to_string(id) +
@@ -392,9 +414,7 @@ bool LooksLikeG2(std::string_view beginning)
       return false;
     }
   }
-  const auto isClass = [&](const KnownClass& known) { return header[0] == known.Id; };
-  return header[0] == 100 || header[0] == 200 || header[0] == 293 || header[0] == PointCloudClass ||
-    header[0] == 700 || std::any_of(std::begin(OtherClasses), std::end(OtherClasses), isClass);
+  return FindClass(ReadableClasses, header[0]) || FindClass(OtherClasses, header[0]);
 }
 
 Result<SplineFile> ReadG2(std::string_view text)

@@ -12,6 +12,7 @@
 #include "vtkGismoXMLWriter.h"
 #include "vtkGoToolsG2Reader.h"
 #include "vtkGoToolsG2Writer.h"
+#include "vtkPointCloudReader.h"
 #include "vtkXMLUnstructuredGridWriter.h"
 
 #include <filesystem>
@@ -264,6 +265,25 @@ TEST(SplineFile, FormatsAreKnownByContent_ExactOracle)
   writer->Write();
   EXPECT_EQ(xml->CanReadFile(grid.c_str()), 0);
   ExpectRefused<vtkGismoXMLReader>(grid, ErrorCode::InvalidFormat, "<VTKFile>");
+}
+
+TEST(SplineFile, EveryClassOfG2IsKnownByItsHeader_ExactOracle)
+{
+  vtkNew<vtkGoToolsG2Reader> splines;
+  vtkNew<vtkPointCloudReader> points;
+  const std::string file = OutputFile("class.g2");
+  for (int id : { 100, 200, 210, 293, 400, 700 })
+  {
+    SCOPED_TRACE(id);
+    WriteText(file, std::to_string(id) + " 1 0 0\n200\n3 0\n");
+    EXPECT_EQ(splines->CanReadFile(file.c_str()), id == 400 ? 0 : 1);
+    EXPECT_EQ(points->CanReadFile(file.c_str()), id == 400 ? 1 : 0);
+  }
+  for (const char* other : { "101 1 0 0\n", "0 1 0 0\n", "210 1.5 0 0\n", "210 1 0\n" })
+  {
+    WriteText(file, other);
+    EXPECT_EQ(splines->CanReadFile(file.c_str()), 0) << other;
+  }
 }
 
 TEST(SplineFile, WriterErrorsKeepWhatWasThere_ExactOracle)
