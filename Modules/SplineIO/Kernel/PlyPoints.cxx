@@ -20,6 +20,8 @@ enum class Encoding
   BigEndian
 };
 
+constexpr const char* VertexName = "vertex";
+
 enum class Scalar
 {
   Int8,
@@ -152,6 +154,12 @@ private:
       {
         Element element;
         element.Name = std::string(words.Next());
+        const bool again = std::any_of(this->Elements.begin(), this->Elements.end(),
+          [&](const Element& other) { return other.Name == element.Name; });
+        if (again && element.Name == VertexName)
+        {
+          this->FailLine("a second element 'vertex'; put all vertices into one");
+        }
         const Status status =
           ParseInteger(words.Next(), 0, std::numeric_limits<int>::max(), element.Count);
         if (!status)
@@ -217,7 +225,14 @@ private:
       this->FailLine("a property without a name or an element");
       return;
     }
-    this->Elements.back().Properties.push_back(std::move(property));
+    Element& element = this->Elements.back();
+    const bool again = std::any_of(element.Properties.begin(), element.Properties.end(),
+      [&](const Property& other) { return other.Name == property.Name; });
+    if (again && element.Name == VertexName)
+    {
+      this->FailLine("vertices have the property " + Shown(property.Name) + " twice; rename one");
+    }
+    element.Properties.push_back(std::move(property));
   }
 
   template <typename T>
@@ -311,7 +326,7 @@ private:
     {
       return;
     }
-    if (element.Name == "vertex")
+    if (element.Name == VertexName)
     {
       this->ReadVertices(element, file);
       return;
