@@ -7,7 +7,8 @@
  * point a line, separated by blanks, .csv by commas, with all point arrays of numbers as columns
  * (components as `name:0`, `name:1`, ...); .g2 has point clouds (400), one a `CloudId` with its
  * `Color`, and other arrays are left out with a warning. What is written is read again bit for bit.
- * Errors: no points (EmptyInput), another ending (InvalidParameter), a file that cannot be written.
+ * Errors: no points (EmptyInput), a coordinate that is not finite (NonFiniteInput; other numbers
+ * may be NaN), another ending (InvalidParameter), a file that cannot be written.
  */
 #ifndef vtkPointCloudWriter_h
 #define vtkPointCloudWriter_h

@@ -29,7 +29,8 @@ bool BeginsWithG2Points(std::string_view beginning);
 
 /// Writes points as point clouds, one a group: ReadG2Points gives the same bits again. Channels
 /// are not written: the format has none.
-/// @return EmptyInput without a point; SizeMismatch for groups that do not follow each other.
+/// @return EmptyInput without a point; SizeMismatch for groups that do not follow each other;
+/// NonFiniteInput naming point and coordinate.
 Result<std::string> WriteG2Points(const PointFile& file);
 
 /// Whether a text's beginning is a header of one of GoTools' classes.

@@ -185,6 +185,10 @@ Result<std::string> WriteG2Points(const PointFile& file)
   {
     return { ErrorCode::EmptyInput, "there is no point to write" };
   }
+  if (Status status = CheckCoordinates(file.Points); !status)
+  {
+    return status;
+  }
   const std::vector<PointGroup> groups =
     file.Groups.empty() ? std::vector<PointGroup>(1) : file.Groups;
   std::string text;

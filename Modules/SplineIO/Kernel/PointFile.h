@@ -26,4 +26,7 @@ struct PointFile
   std::vector<std::vector<int>> Polygons; ///< rows of Points, at least three each
   std::vector<std::string> Warnings;      ///< what was left out in reading, one line each
 };
+
+/// What writers of points ask of them. @return NonFiniteInput naming point and coordinate.
+Status CheckCoordinates(const PointMatrix& points);
 }

@@ -107,6 +107,11 @@ struct Layout
   std::size_t Columns = 0;
   std::array<std::size_t, 3> Position{ 0, 1, 2 }; ///< columns of x, y, z
   std::vector<std::string> Names;                 ///< of all columns; empty: without names
+
+  bool IsCoordinate(std::size_t column) const
+  {
+    return std::find(this->Position.begin(), this->Position.end(), column) != this->Position.end();
+  }
 };
 
 /// Finds the columns that are x, y, z by name.
@@ -288,7 +293,7 @@ private:
     }
     double value = 0.0;
     const auto [end, error] = std::from_chars(first, stop, value);
-    if (error != std::errc() || !std::isfinite(value) ||
+    if (error != std::errc() || (!std::isfinite(value) && this->Columns.IsCoordinate(column)) ||
       (end < stop && !IsBlank(*end) && *end != '\n' && *end != this->Columns.Separator))
     {
       return false;
@@ -308,7 +313,7 @@ private:
       const Status status = fields[c].empty()
         ? Status(ErrorCode::InvalidFormat, "there is no number")
         : ParseReal(fields[c], value);
-      if (!status)
+      if (!status && (status.Code != ErrorCode::NonFiniteInput || this->Columns.IsCoordinate(c)))
       {
         const bool decimals =
           this->Columns.Separator != ',' && fields[c].find(',') != std::string_view::npos;
@@ -388,7 +393,7 @@ Result<PointFile> ReadPointText(std::string_view text, int threads)
   std::vector<std::size_t> others;
   for (std::size_t c = 0; c < layout.Columns; ++c)
   {
-    if (std::find(layout.Position.begin(), layout.Position.end(), c) == layout.Position.end())
+    if (!layout.IsCoordinate(c))
     {
       others.push_back(c);
       file.Names.push_back(layout.Names.empty() || layout.Names[c].empty()
@@ -440,6 +445,10 @@ Result<std::string> WritePointText(const PointFile& file, char separator)
   {
     return { ErrorCode::SizeMismatch, "the channels do not fit the points or their names" };
   }
+  if (Status status = CheckCoordinates(file.Points); !status)
+  {
+    return status;
+  }
   std::string text;
   if (separator == ',' || !file.Names.empty())
   {
@@ -459,7 +468,8 @@ Result<std::string> WritePointText(const PointFile& file, char separator)
       {
         text += separator;
       }
-      AppendReal(text, c < 3 ? file.Points(i, c) : file.Channels(i, c - 3));
+      const double value = c < 3 ? file.Points(i, c) : file.Channels(i, c - 3);
+      AppendReal(text, std::isnan(value) ? std::fabs(value) : value); // no "-nan"
     }
     text += '\n';
   }

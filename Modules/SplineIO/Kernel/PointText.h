@@ -11,10 +11,12 @@ namespace knotwork
 /// begin with '#', '%' or '//' are left out. The first line may name the columns: x, y, z are those
 /// of that name (also X, Y, Z; Points:0, Points:1, Points:2), else the first three. A comment
 /// directly above the first line that begins with x y z and has a word a column names them too.
-/// Channels without a name are Column4, Column5, ...
+/// Channels without a name are Column4, Column5, ... Coordinates are finite; channels may be nan or
+/// inf, as what has no value at a point is written.
 /// @param text  read independently of the locale; numbers are rounded to the nearest double.
 /// @param threads  0: all cores; the result does not depend on it.
-/// @return EmptyInput without a point; InvalidFormat or NonFiniteInput with line, column and word.
+/// @return EmptyInput without a point; InvalidFormat or, for a coordinate, NonFiniteInput with
+/// line, column and word.
 /// @complexity time and memory O(size of the text).
 Result<PointFile> ReadPointText(std::string_view text, int threads = 0);
 
@@ -22,9 +24,9 @@ Result<PointFile> ReadPointText(std::string_view text, int threads = 0);
 /// columns or more.
 bool LooksLikePointText(std::string_view beginning);
 
-/// Writes points as text that ReadPointText reads again bit for bit, with a first line that names
-/// the columns when there are channels.
+/// Writes points as text that ReadPointText reads again bit for bit (NaN as NaN), with a first line
+/// that names the columns when there are channels.
 /// @param separator  ' ' or ','; with ',' the names are always written, with ' ' as a comment.
-/// @return EmptyInput without a point; SizeMismatch.
+/// @return EmptyInput without a point; SizeMismatch; NonFiniteInput naming point and coordinate.
 Result<std::string> WritePointText(const PointFile& file, char separator);
 }

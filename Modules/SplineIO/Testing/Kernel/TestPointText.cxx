@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <random>
 
 using namespace knotwork;
@@ -120,6 +121,43 @@ TEST(PointText, ComesBackBitForBit_PropertyOracle)
     ASSERT_TRUE(again) << again.Status.Message();
     EXPECT_EQ(again->Points, file.Points);
     EXPECT_EQ(WriteG2Points(again.Value).Value, text.Value);
+  }
+}
+
+TEST(PointText, WhatHasNoValueComesBack_PropertyOracle)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double inf = std::numeric_limits<double>::infinity();
+  PointFile file;
+  file.Points = Matrix({ { 1, 2, 3 }, { 4, 5, 6 }, { 7, 8, 9 } });
+  file.Channels = Matrix({ { nan, 1 }, { -nan, -inf }, { 0.5, inf } });
+  file.Names = { "distance", "limit" };
+  for (char separator : { ' ', ',' })
+  {
+    const auto text = WritePointText(file, separator);
+    ASSERT_TRUE(text) << text.Status.Message();
+    const auto again = ReadPointText(text.Value);
+    ASSERT_TRUE(again) << again.Status.Message();
+    EXPECT_EQ(again->Points, file.Points);
+    EXPECT_TRUE(std::isnan(again->Channels(0, 0)) && std::isnan(again->Channels(1, 0)));
+    EXPECT_EQ(again->Channels(2, 0), 0.5);
+    EXPECT_EQ(again->Channels.col(1), file.Channels.col(1));
+    EXPECT_EQ(WritePointText(again.Value, separator).Value, text.Value);
+  }
+  // columns by name: a coordinate behind a channel
+  EXPECT_TRUE(ReadPointText("d,x,y,z\nNaN,1,2,3\n"));
+  EXPECT_EQ(ReadPointText("d,x,y,z\n1,1,2,nan\n").Status.Detail,
+    "line 2, column 4: 'nan' is not a finite number; correct or remove the line");
+  for (double value : { nan, inf })
+  {
+    file.Points(1, 2) = value;
+    for (const auto& text :
+      { WritePointText(file, ' '), WritePointText(file, ','), WriteG2Points(file) })
+    {
+      EXPECT_EQ(text.Status.Code, ErrorCode::NonFiniteInput);
+      EXPECT_EQ(
+        text.Status.Detail, "point 1 has a coordinate z that is not finite; remove the point");
+    }
   }
 }
 

@@ -76,4 +76,20 @@ def test_program():
     assert done.returncode == 1 and "lifted.vtp" in done.stderr, done.stderr
 
 
+def test_points_beside_the_surface_are_written_as_text_and_read_again():
+    beside = LIFTED[:20] + numpy.where(numpy.arange(20) % 2 == 0, 5.0, 0.0)[:, None] * (1, 0, 0)
+    points = write(vtkXMLPolyDataWriter(), cloud(beside), "beside.vtp")
+    surface = write(vtkXMLUnstructuredGridWriter(), FIT.GetOutputDataObject(0), "distance_surface.vtu")
+    text, again = knotwork_testing.output("beside.csv"), knotwork_testing.output("beside_again.vtp")
+    done = knotwork_testing.run_program("distance", points, surface, "--kind", "vertical", "--output", text)
+    assert done.returncode == 0, done.stderr
+    done = knotwork_testing.run_program("convert", text, "--output", again)
+    assert done.returncode == 0, done.stderr
+    reader = vtkXMLPolyDataReader()
+    reader.SetFileName(again)
+    reader.Update()
+    distance = vtk_to_numpy(reader.GetOutput().GetPointData().GetArray("Distance"))
+    assert numpy.array_equal(numpy.isnan(distance), beside[:, 0] > 1)
+
+
 knotwork_testing.main(globals())
