@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "FileEnding.h"
 #include "Jobs.h"
 #include "Options.h"
 #include "Session.h"
@@ -51,8 +52,7 @@ struct ContourJob
     {
       this->Filter->AddLevel(level);
     }
-    const bool polylines =
-      this->Output.size() > 4 && this->Output.compare(this->Output.size() - 4, 4, ".vtp") == 0;
+    const bool polylines = LowerEnding(this->Output) == ".vtp";
     this->Filter->SetCurves(!polylines);
     this->Filter->SetThreads(session.Threads);
     if (Status status = session.Run(this->Filter, "'" + this->Input + "'", Levels); !status)

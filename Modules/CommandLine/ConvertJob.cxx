@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CADExchange.h"
+#include "FileEnding.h"
 #include "Jobs.h"
 #include "PatchTopology.h"
 #include "Session.h"
@@ -56,16 +57,14 @@ struct ConvertJob
   /// Boundary curves of g2: from the file or --curves to the file or --curves.
   Status CarryBoundaries(Session& session)
   {
-    const auto isG2 = [](const std::string& file)
-    { return CLI::detail::to_lower(file).find(".g2") != std::string::npos; };
-    if (isG2(this->Input))
+    if (LowerEnding(this->Input) == ".g2")
     {
       session.BoundaryCurves = session.Curves;
       return this->Curves.empty() || !session.Curves
         ? Status()
         : session.Write(session.Curves, this->Curves, this->Encoding);
     }
-    if (isG2(this->Output) && !this->Curves.empty())
+    if (LowerEnding(this->Output) == ".g2" && !this->Curves.empty())
     {
       auto read = session.Read(this->Curves);
       session.BoundaryCurves = read.Value;
@@ -85,7 +84,7 @@ struct ConvertJob
     session.Report["output"] = this->Output;
     session.Report["encoding"] = this->Encoding;
     vtkSmartPointer<vtkDataObject> data = input.Value;
-    const bool toGrid = CLI::detail::to_lower(this->Output).find(".vtu") != std::string::npos;
+    const bool toGrid = LowerEnding(this->Output) == ".vtu";
     if (HasCADEnding(this->Output) || (HasCADEnding(this->Input) && toGrid))
     {
       return this->RunCAD(session, data);
@@ -108,8 +107,7 @@ struct ConvertJob
       }
       session.Warn(model->Warnings);
       session.Report["patches"] = model->Patches.size();
-      const bool collection =
-        CLI::detail::to_lower(this->Output).find(".vtpc") != std::string::npos;
+      const bool collection = LowerEnding(this->Output) == ".vtpc";
       if (collection && !vtkPartitionedDataSetCollection::SafeDownCast(data))
       {
         vtkNew<vtkPartitionedDataSetCollection> like;

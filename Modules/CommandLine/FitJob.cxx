@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "FileEnding.h"
 #include "Jobs.h"
 #include "Options.h"
 #include "Session.h"
@@ -115,7 +116,7 @@ struct FitJob
 
   Status Run(Session& session)
   {
-    const bool asG2 = CLI::detail::to_lower(this->Output).find(".g2") != std::string::npos;
+    const bool asG2 = LowerEnding(this->Output) == ".g2";
     auto input = session.ReadPoints(this->Input);
     if (!input)
     {

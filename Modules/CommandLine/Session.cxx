@@ -7,6 +7,7 @@
 #include "XmlCheck.h"
 
 #include "CADExchange.h"
+#include "FileEnding.h"
 #include "TrimmedGrids.h"
 #include "vtkCADReader.h"
 #include "vtkCADWriter.h"
@@ -71,16 +72,6 @@ long long PeakBytes()
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return 1024LL * usage.ru_maxrss;
-}
-
-std::string Ending(const std::string& file)
-{
-  std::string ending = fs::path(file).extension().string();
-  for (char& c : ending)
-  {
-    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  return ending;
 }
 
 template <typename Reader>
@@ -237,7 +228,7 @@ Session::~Session()
 
 Result<vtkSmartPointer<vtkDataObject>> Session::Read(const std::string& file)
 {
-  const std::string ending = Ending(file);
+  const std::string ending = LowerEnding(file);
   const bool isForeign = ending == ".vtk" || ending == ".obj" || ending == ".ply" ||
     ending == ".stl" || HasCADEnding(file);
   return this->ReadWith(file, isForeign,
@@ -246,7 +237,7 @@ Result<vtkSmartPointer<vtkDataObject>> Session::Read(const std::string& file)
 
 Result<vtkSmartPointer<vtkDataObject>> Session::ReadPoints(const std::string& file)
 {
-  if (Ending(file) != ".ply")
+  if (LowerEnding(file) != ".ply")
   {
     return this->Read(file);
   }
@@ -267,7 +258,7 @@ Result<vtkSmartPointer<vtkDataObject>> Session::ReadWith(
   {
     return { ErrorCode::EmptyInput, "'" + file + "' cannot be read; check its permissions" };
   }
-  const std::string ending = Ending(file);
+  const std::string ending = LowerEnding(file);
   vtkSmartPointer<vtkDataObject> data;
   if (ending == ".off")
   {
@@ -402,7 +393,7 @@ Result<fs::path> Session::Stage(const std::string& file)
 Status Session::Write(vtkDataObject* data, const std::string& file, const std::string& encoding)
 {
   const double begin = Now();
-  const std::string ending = Ending(file);
+  const std::string ending = LowerEnding(file);
   const auto grid = vtkUnstructuredGrid::SafeDownCast(data);
   const auto polydata = vtkPolyData::SafeDownCast(data);
   const auto collection = vtkPartitionedDataSetCollection::SafeDownCast(data);

@@ -5,6 +5,7 @@
 #include "Session.h"
 
 #include "CADExchange.h"
+#include "FileEnding.h"
 #include "vtkMeshParameterization.h"
 #include "vtkTrimmedSurface.h"
 
@@ -53,7 +54,7 @@ struct TrimJob
   Status Run(Session& session)
   {
     const bool asCAD = HasCADEnding(this->Output);
-    if (!asCAD && !HasEnding(this->Output, ".vtu"))
+    if (!asCAD && LowerEnding(this->Output) != ".vtu")
     {
       return { ErrorCode::InvalidParameter,
         "'" + this->Output + "': faces are written as .step, .stp, .iges or .igs, their surfaces " +
@@ -138,12 +139,6 @@ struct TrimJob
     }
     session.Warn(warnings);
     return {};
-  }
-
-  static bool HasEnding(const std::string& file, const std::string& ending)
-  {
-    return file.size() > ending.size() &&
-      file.compare(file.size() - ending.size(), ending.size(), ending) == 0;
   }
 
   static bool HasPlane(vtkDataObject* mesh)

@@ -45,16 +45,6 @@ std::string BeginningOfFile(const std::string& file)
   return beginning;
 }
 
-std::string LowerEnding(const std::string& file)
-{
-  std::string ending = std::filesystem::path(file).extension().string();
-  for (char& c : ending)
-  {
-    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  }
-  return ending;
-}
-
 WriteOutcome WriteText(const std::string& file, const std::function<Status(std::string&)>& makeText)
 {
   std::string text;

@@ -13,9 +13,6 @@ Result<std::string> TextOfFile(const std::string& file);
 /// The first 4096 bytes; none when the file cannot be read.
 std::string BeginningOfFile(const std::string& file);
 
-/// The ending of a name with its point, in small letters.
-std::string LowerEnding(const std::string& file);
-
 /// How the writing of a file ended: an error code as VTK's writers have them, and what to tell.
 struct WriteOutcome
 {

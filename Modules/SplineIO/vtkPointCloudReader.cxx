@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkPointCloudReader.h"
 
+#include "FileEnding.h"
 #include "FileText.h"
 #include "GoToolsG2.h"
 #include "PlyPoints.h"

@@ -193,6 +193,20 @@ def test_spaces_and_formats_hold_the_same_surface_CrossOracle():
             assert stream.read() == first, threads
 
 
+def test_endings_are_those_of_the_file_in_small_letters():
+    file = write_xyz("bump.txt", cloud(2, 200))
+    os.makedirs(path("run.g2"), exist_ok=True)
+    for output in ("run.g2/thb.vtu", "thb.g2.XML"):
+        assert fit(file, output, "--tolerance", 0.1, "--space", "thb")["within_tolerance"], output
+    done = knotwork_testing.run_program("fit", file, "--output", path("thb.G2"), "--tolerance", 0.1, "--space", "thb")
+    assert done.returncode == 1 and "cannot be written as g2" in done.stderr, done.stderr
+    for output in ("run.g2/again.VTU", "run.g2/again.Vtpc"):
+        done = knotwork_testing.run_program("convert", path("run.g2/thb.vtu"), "--output", path(output))
+        assert done.returncode == 0, done.stderr
+    done = knotwork_testing.run_program("contour", path("run.g2/again.VTU"), "--output", path("LINES.VTP"))
+    assert done.returncode == 0, done.stderr
+
+
 def test_large_coordinates_CrossOracle():
     points = cloud(3, 5000) * (3000, 2000, 400) + (5e5, 5.2e6, 100)
     for space, output in (("lr", "utm.g2"), ("thb", "utm.vtu")):

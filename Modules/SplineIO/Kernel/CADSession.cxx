@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CADSession.h"
 
+#include "FileEnding.h"
+
 #include <IGESCAFControl_Reader.hxx>
 #include <IGESControl_Controller.hxx>
 #include <Interface_Static.hxx>
@@ -26,10 +28,7 @@ std::mutex& GlobalState()
 
 CADFormat FormatOfFile(const std::string& file)
 {
-  const std::size_t dot = file.find_last_of('.');
-  std::string ending = dot == std::string::npos ? std::string() : file.substr(dot);
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const std::string ending = LowerEnding(file);
   if (ending == ".step" || ending == ".stp")
   {
     return CADFormat::STEP;
