@@ -34,4 +34,24 @@ def test_commands():
         assert done.returncode == 0, (command, done.stderr)
 
 
+def test_all_jobs_are_listed():
+    done = subprocess.run([knotwork_testing.PROGRAM, "--help"], stdout=subprocess.PIPE, text=True)
+    jobs = re.findall(r"^  (\w+) ", re.split(r"^subcommands:$", done.stdout, flags=re.M | re.I)[1], re.M)
+    assert "fit" in jobs
+    listed = re.search(r"one job a verb \(`([^`]+)`\)", TEXT).group(1).split()
+    assert sorted(listed) == sorted(jobs), set(listed) ^ set(jobs)
+
+
+def test_packages_that_examples_read_are_named():
+    gallery = os.path.join(os.path.dirname(os.path.abspath(sys.argv[1])), "Examples", "Gallery")
+    packages = set()
+    for name in os.listdir(gallery):
+        if name.endswith(".py"):
+            with open(os.path.join(gallery, name), encoding="utf-8") as file:
+                packages.update(re.findall(r"install the package ([\w-]+)", file.read()))
+    assert packages
+    for package in packages:
+        assert f"`{package}`" in TEXT, package
+
+
 knotwork_testing.main(globals())
