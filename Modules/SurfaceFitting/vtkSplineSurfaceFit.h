@@ -250,14 +250,14 @@ public:
   vtkBooleanMacro(Independent, bool);
   ///@}
   ///@{
-  /** Share of the domain below which elements are not split. Default 1e-7, valid range [1e-12,
-   * 0.5]. */
+  /** Elements whose halves would be a smaller share of the domain are not split. Default 1e-7,
+   * valid range [1e-12, 0.5]. */
   vtkSetClampMacro(MinimumElementSize, double, 1e-12, 0.5);
   vtkGetMacro(MinimumElementSize, double);
   ///@}
   ///@{
-  /** Cells of the feature grid in each direction; 0: no grid. Default 0, valid range [0, 20000]. */
-  vtkSetClampMacro(FeatureGridSize, int, 0, 20000);
+  /** Cells of the feature grid in each direction; 0: no grid. Default 0, valid range [0, 4096]. */
+  vtkSetClampMacro(FeatureGridSize, int, 0, 4096);
   vtkGetMacro(FeatureGridSize, int);
   ///@}
 

@@ -111,6 +111,13 @@ Status CheckTolerance(const FitParams& params)
   {
     return Bad("DistanceSlope is " + Digits(params.DistanceSlope) + ", choose 0 or more");
   }
+  if (!(params.DistanceSlope <= LargestNumber) || !(params.Tolerance <= LargestNumber) ||
+    !(std::fabs(params.DistanceCentre[0]) <= LargestNumber) ||
+    !(std::fabs(params.DistanceCentre[1]) <= LargestNumber))
+  {
+    return Bad("Tolerance, DistanceSlope or DistanceCentre is not finite or beyond " +
+      Digits(LargestNumber) + "; choose a smaller one");
+  }
   if (params.Side != FitSide::Both && params.NumMeasured != 1)
   {
     return Bad("Side needs NumMeasured 1: only a height has an above and a below");
@@ -152,10 +159,10 @@ Status CheckSteps(const FitParams& params)
   {
     return Bad("ThresholdShare is " + Digits(params.ThresholdShare) + ", choose within [0, 1]");
   }
-  if (params.FeatureGridSize < 0 || params.FeatureGridSize > 20000)
+  if (params.FeatureGridSize < 0 || params.FeatureGridSize > 4096)
   {
     return Bad(
-      "FeatureGridSize is " + std::to_string(params.FeatureGridSize) + ", choose 0 to 20000");
+      "FeatureGridSize is " + std::to_string(params.FeatureGridSize) + ", choose 0 to 4096");
   }
   if (params.Threads < 0)
   {
@@ -317,33 +324,37 @@ std::vector<double> FitTolerances(const PointCloud& cloud, const FitParams& para
   {
     return tolerances;
   }
-  for (std::size_t i = 0; i < n; ++i)
-  {
-    const auto row = static_cast<Eigen::Index>(i);
-    const RealArray<2> x{ cloud.Parameters(row, 0), cloud.Parameters(row, 1) };
-    double tolerance = base;
-    if (params.Distance == FitDistance::Value)
+  ParallelFor(n, PointChunk, params.Threads,
+    [&](std::size_t begin, std::size_t end)
     {
-      tolerance += params.DistanceSlope * std::fabs(cloud.Values(row, params.NumMeasured - 1));
-    }
-    else if (params.Distance == FitDistance::Point)
-    {
-      tolerance += params.DistanceSlope *
-        std::hypot(x[0] - params.DistanceCentre[0], x[1] - params.DistanceCentre[1]);
-    }
-    double least = std::numeric_limits<double>::infinity();
-    for (const ToleranceBox& box : params.ToleranceBoxes)
-    {
-      const bool inside = x[0] >= box.Box.Lower[0] && x[0] <= box.Box.Upper[0] &&
-        x[1] >= box.Box.Lower[1] && x[1] <= box.Box.Upper[1];
-      least = inside ? std::min(least, box.Tolerance) : least;
-    }
-    tolerances[i] = std::isfinite(least) ? least : tolerance;
-    if (cloud.Tolerances.size() != 0)
-    {
-      tolerances[i] = cloud.Tolerances[row];
-    }
-  }
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const auto row = static_cast<Eigen::Index>(i);
+        const RealArray<2> x{ cloud.Parameters(row, 0), cloud.Parameters(row, 1) };
+        double tolerance = base;
+        if (params.Distance == FitDistance::Value)
+        {
+          tolerance += params.DistanceSlope * std::fabs(cloud.Values(row, params.NumMeasured - 1));
+        }
+        else if (params.Distance == FitDistance::Point)
+        {
+          tolerance += params.DistanceSlope *
+            std::hypot(x[0] - params.DistanceCentre[0], x[1] - params.DistanceCentre[1]);
+        }
+        double least = std::numeric_limits<double>::infinity();
+        for (const ToleranceBox& box : params.ToleranceBoxes)
+        {
+          const bool inside = x[0] >= box.Box.Lower[0] && x[0] <= box.Box.Upper[0] &&
+            x[1] >= box.Box.Lower[1] && x[1] <= box.Box.Upper[1];
+          least = inside ? std::min(least, box.Tolerance) : least;
+        }
+        tolerances[i] = std::isfinite(least) ? least : tolerance;
+        if (cloud.Tolerances.size() != 0)
+        {
+          tolerances[i] = cloud.Tolerances[row];
+        }
+      }
+    });
   return tolerances;
 }
 }

@@ -13,29 +13,43 @@ namespace
 {
 constexpr std::size_t PointChunk = 16384;
 constexpr int ClassBits = 4; // classes an octave: 2^4
-constexpr int Octaves = 80;  // 2^-60 to 2^20
+constexpr int Octaves = 61;  // up to that of the largest distance
 constexpr std::size_t NumClasses = std::size_t{ Octaves } << ClassBits;
-constexpr std::uint64_t FirstClass = std::uint64_t{ 1023 - 60 } << ClassBits;
 constexpr double LeastFreedom = 0.5;
 constexpr double MostFreedom = 200.0;
+constexpr double Pi = 3.14159265358979323846;
 
-/// Exponent and leading digits of a positive number.
-std::size_t ClassOf(double x)
+/// Classes of positive numbers by exponent and leading digits.
+class Classes
 {
-  std::uint64_t bits = 0;
-  std::memcpy(&bits, &x, sizeof bits);
-  const std::uint64_t code = bits >> (52 - ClassBits);
-  return code <= FirstClass
-    ? 0
-    : std::min<std::size_t>(static_cast<std::size_t>(code - FirstClass), NumClasses - 1);
-}
+public:
+  explicit Classes(double largest)
+    : LowestOctave(std::max(largest > 0.0 ? std::ilogb(largest) : 0, -900) - Octaves + 1),
+      FirstCode(static_cast<std::uint64_t>(this->LowestOctave + 1023) << ClassBits)
+  {
+  }
 
-double MiddleOf(std::size_t number)
-{
-  const auto octave = static_cast<int>(number >> ClassBits) - 60;
-  const auto part = static_cast<double>(number & ((1U << ClassBits) - 1)) + 0.5;
-  return std::ldexp(1.0 + part / (1U << ClassBits), octave);
-}
+  std::size_t Of(double x) const
+  {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &x, sizeof bits);
+    const std::uint64_t code = bits >> (52 - ClassBits);
+    return code <= this->FirstCode
+      ? 0
+      : std::min<std::size_t>(static_cast<std::size_t>(code - this->FirstCode), NumClasses - 1);
+  }
+
+  double Middle(std::size_t number) const
+  {
+    const auto octave = static_cast<int>(number >> ClassBits) + this->LowestOctave;
+    const auto part = static_cast<double>(number & ((1U << ClassBits) - 1)) + 0.5;
+    return std::ldexp(1.0 + part / (1U << ClassBits), octave);
+  }
+
+private:
+  int LowestOctave;
+  std::uint64_t FirstCode;
+};
 
 struct Class
 {
@@ -52,7 +66,7 @@ double LogLikelihood(const std::vector<Class>& classes, double total, double sca
   }
   return total *
     (std::lgamma(0.5 * (freedom + 1.0)) - std::lgamma(0.5 * freedom) -
-      0.5 * std::log(freedom * 3.14159265358979323846) - std::log(scale)) -
+      0.5 * std::log(freedom * Pi) - std::log(scale)) -
     0.5 * (freedom + 1.0) * sum;
 }
 
@@ -90,6 +104,18 @@ double FitScale(
 TDistribution FitTDistribution(const FitPoints& points, int threads)
 {
   const std::size_t chunks = (points.Size() + PointChunk - 1) / PointChunk;
+  std::vector<double> largest(chunks, 0.0);
+  ParallelFor(points.Size(), PointChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      double own = 0.0;
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        own = std::max(own, points.Base[i] > 0.0 ? std::fabs(points.Distance[i]) : 0.0);
+      }
+      largest[begin / PointChunk] = own;
+    });
+  const Classes all(chunks > 0 ? *std::max_element(largest.begin(), largest.end()) : 0.0);
   std::vector<std::vector<int>> counts(chunks);
   ParallelFor(points.Size(), PointChunk, threads,
     [&](std::size_t begin, std::size_t end)
@@ -100,7 +126,7 @@ TDistribution FitTDistribution(const FitPoints& points, int threads)
       {
         if (points.Base[i] > 0.0)
         {
-          ++own[ClassOf(std::fabs(points.Distance[i]))];
+          ++own[all.Of(std::fabs(points.Distance[i]))];
         }
       }
     });
@@ -116,7 +142,7 @@ TDistribution FitTDistribution(const FitPoints& points, int threads)
     }
     if (count > 0.0)
     {
-      const double x = MiddleOf(k);
+      const double x = all.Middle(k);
       classes.push_back({ x * x, count });
       total += count;
       squares += count * x * x;

@@ -25,16 +25,25 @@ std::size_t At(int i)
   return static_cast<std::size_t>(i);
 }
 
-/// False when the element is as small as they get or all its points outside are beside ones in the
-/// same place with values so different that no surface meets both.
+/// Directions in which an element may be split. A hierarchical space splits in both or not at all.
 /// @param least  size of an element.
-bool SplitHelps(const ParametricBox<2>& box, const RealArray<2>& least, const FitPoints& points,
-  int numMeasured, std::size_t e)
+std::array<bool, 2> AllowedDirections(
+  const ParametricBox<2>& box, const RealArray<2>& least, FitSpace space)
 {
-  if (box.Upper[0] - box.Lower[0] < 2.0 * least[0] && box.Upper[1] - box.Lower[1] < 2.0 * least[1])
+  std::array<bool, 2> allowed{};
+  for (std::size_t d = 0; d < 2; ++d)
   {
-    return false;
+    allowed[d] = 0.5 * (box.Upper[d] - box.Lower[d]) >= least[d];
   }
+  const bool both = allowed[0] && allowed[1];
+  return space == FitSpace::Hierarchical ? std::array<bool, 2>{ both, both } : allowed;
+}
+
+/// False when all of the element's points outside are beside ones in the same place with values so
+/// different that no surface meets both.
+/// @param least  size of an element.
+bool SplitHelps(const RealArray<2>& least, const FitPoints& points, int numMeasured, std::size_t e)
+{
   const FitPoints::Range range = points.Ranges[e];
   if (range.Count() > MostCompared)
   {
@@ -66,32 +75,36 @@ bool SplitHelps(const ParametricBox<2>& box, const RealArray<2>& least, const Fi
   }
   return false;
 }
+
+/// Directions in which an element is split, of the allowed ones.
+std::array<bool, 2> ChooseDirections(const std::array<bool, 2>& allowed, const FitState& state,
+  const ElementFunctions& functions, const FitPoints& points, const FitParams& params,
+  int iteration, int e)
+{
+  if (!allowed[0] || !allowed[1] || params.Space == FitSpace::Hierarchical ||
+    params.Directions == FitDirections::Both)
+  {
+    return allowed;
+  }
+  if (params.Directions == FitDirections::Alternating)
+  {
+    return { iteration % 2 == 0, iteration % 2 == 1 };
+  }
+  const RealArray<2> gains =
+    SplitGains(*state.Space, functions, state.Coefficients, params.NumMeasured, points, e);
+  return { gains[0] >= SplitBoth * gains[1], gains[1] >= SplitBoth * gains[0] };
 }
 
-std::vector<SplitMark> MarkElements(const FitState& state, const ElementFunctions& functions,
-  const FitPoints& points, const std::vector<ElementErrors>& errors, const FitParams& params,
-  int iteration)
+/// Those of the elements that may be split that FitParams::Threshold asks for.
+std::vector<SplitMark> ChooseElements(const std::vector<std::array<bool, 2>>& allowed,
+  const std::vector<ElementErrors>& errors, const FitParams& params)
 {
   double worst = 0.0;
   std::size_t most = 0;
   std::size_t left = 0;
-  const ParametricBox<2> domain = state.Space->Domain();
-  const RealArray<2> least{ params.MinElementSize * (domain.Upper[0] - domain.Lower[0]),
-    params.MinElementSize * (domain.Upper[1] - domain.Lower[1]) };
-  std::vector<std::uint8_t> helps(errors.size(), 0);
-  ParallelFor(errors.size(), ElementChunk, params.Threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t e = begin; e < end; ++e)
-      {
-        const bool own = errors[e].NumOutside > 0 &&
-          SplitHelps(state.Space->Elements[e].Box, least, points, params.NumMeasured, e);
-        helps[e] = own ? 1 : 0;
-      }
-    });
   for (std::size_t e = 0; e < errors.size(); ++e)
   {
-    if (helps[e] != 0)
+    if (allowed[e][0] || allowed[e][1])
     {
       worst = std::max(worst, errors[e].Ratio);
       most = std::max(most, errors[e].NumOutside);
@@ -100,12 +113,8 @@ std::vector<SplitMark> MarkElements(const FitState& state, const ElementFunction
   }
   // near the end what is left is split at once
   const bool isEnd = static_cast<double>(left) <= EndShare * static_cast<double>(errors.size());
-  const auto chosen = [&](const ElementErrors& own)
+  const auto isChosen = [&](const ElementErrors& own)
   {
-    if (isEnd)
-    {
-      return true;
-    }
     switch (params.Threshold)
     {
       case FitThreshold::LargestErrors:
@@ -118,42 +127,47 @@ std::vector<SplitMark> MarkElements(const FitState& state, const ElementFunction
     }
   };
   std::vector<SplitMark> marks;
-  for (int e = 0; e < state.Space->NumElements(); ++e)
+  for (std::size_t e = 0; e < errors.size(); ++e)
   {
-    if (helps[At(e)] != 0 && chosen(errors[At(e)]))
+    if ((allowed[e][0] || allowed[e][1]) && (isEnd || isChosen(errors[e])))
     {
-      marks.emplace_back().Element = e;
+      marks.push_back({ static_cast<int>(e), allowed[e] });
     }
   }
-  const auto choose = [&](SplitMark& mark)
-  {
-    const int e = mark.Element;
-    if (params.Directions == FitDirections::Alternating)
+  return marks;
+}
+}
+
+std::vector<SplitMark> MarkElements(const FitState& state, const ElementFunctions& functions,
+  const FitPoints& points, const std::vector<ElementErrors>& errors, const FitParams& params,
+  int iteration)
+{
+  const ParametricBox<2> domain = state.Space->Domain();
+  const RealArray<2> least{ params.MinElementSize * (domain.Upper[0] - domain.Lower[0]),
+    params.MinElementSize * (domain.Upper[1] - domain.Lower[1]) };
+  std::vector<std::array<bool, 2>> allowed(errors.size(), { false, false });
+  ParallelFor(errors.size(), ElementChunk, params.Threads,
+    [&](std::size_t begin, std::size_t end)
     {
-      mark.Directions = { iteration % 2 == 0, iteration % 2 == 1 };
-    }
-    else if (params.Directions == FitDirections::ByError)
-    {
-      const RealArray<2> gains =
-        SplitGains(*state.Space, functions, state.Coefficients, params.NumMeasured, points, e);
-      mark.Directions = { gains[0] >= SplitBoth * gains[1], gains[1] >= SplitBoth * gains[0] };
-    }
-    const ParametricBox<2>& box = state.Space->Elements[At(e)].Box;
-    for (std::size_t d = 0; d < 2; ++d)
-    {
-      const double half = 0.5 * (box.Upper[d] - box.Lower[d]);
-      mark.Directions[d] = mark.Directions[d] && half >= least[d];
-    }
-  };
+      for (std::size_t e = begin; e < end; ++e)
+      {
+        if (errors[e].NumOutside > 0 && SplitHelps(least, points, params.NumMeasured, e))
+        {
+          allowed[e] = AllowedDirections(state.Space->Elements[e].Box, least, params.Space);
+        }
+      }
+    });
+  std::vector<SplitMark> marks = ChooseElements(allowed, errors, params);
   ParallelFor(marks.size(), MarkChunk, params.Threads,
     [&](std::size_t begin, std::size_t end)
     {
-      std::for_each(marks.begin() + static_cast<std::ptrdiff_t>(begin),
-        marks.begin() + static_cast<std::ptrdiff_t>(end), choose);
+      for (std::size_t k = begin; k < end; ++k)
+      {
+        SplitMark& mark = marks[k];
+        mark.Directions = ChooseDirections(
+          mark.Directions, state, functions, points, params, iteration, mark.Element);
+      }
     });
-  marks.erase(std::remove_if(marks.begin(), marks.end(),
-                [](const SplitMark& mark) { return !mark.Directions[0] && !mark.Directions[1]; }),
-    marks.end());
   return marks;
 }
 

@@ -58,7 +58,8 @@ public:
       this->Approximate(iteration);
       this->Fit.Iterations.push_back(this->Summarize(iteration));
       const FitIteration& row = this->Fit.Iterations.back();
-      if (row.NumOutside == 0 || this->CriterionReached() || this->LimitReached())
+      this->IsBestEarlier = row.NumOutside > 0 && this->CriterionReached();
+      if (row.NumOutside == 0 || this->IsBestEarlier || this->LimitReached())
       {
         break;
       }
@@ -385,8 +386,7 @@ private:
 
   void Deliver()
   {
-    const bool isOther = this->Best.Space && this->Best.Space != this->State.Space;
-    if (isOther)
+    if (this->IsBestEarlier)
     {
       this->State = this->Best;
       this->Outliers = this->BestOutliers;
@@ -399,7 +399,7 @@ private:
       ShiftToSide(this->Params.Side, this->Functions, this->Points, this->State.Coefficients);
     }
     this->Fit.Final = this->Fit.Iterations.back();
-    if (isOther || this->Params.Side != FitSide::Both)
+    if (this->IsBestEarlier || this->Params.Side != FitSide::Both)
     {
       this->Measure();
       this->Fit.Final = this->Summarize(this->Fit.Iterations.back().Iteration);
@@ -447,7 +447,8 @@ private:
   std::vector<std::uint8_t> BestOutliers;
   double BestCriterion = 0.0;
   int NumRises = 0;
-  double Done = 0.0; // share that was reported
+  bool IsBestEarlier = false; ///< the criterion has ended the fit
+  double Done = 0.0;          // share that was reported
   SurfaceFit Fit;
 };
 }

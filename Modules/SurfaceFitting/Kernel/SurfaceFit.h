@@ -131,11 +131,12 @@ struct FitParams
   FitCriterion Criterion = FitCriterion::Tolerance;
 
   FitThreshold Threshold = FitThreshold::LargestErrors;
-  double ThresholdShare = 0.1; ///< in [0, 1]
-  FitDirections Directions = FitDirections::ByError;
+  double ThresholdShare = 0.1;                       ///< in [0, 1]
+  FitDirections Directions = FitDirections::ByError; ///< LR; THB elements are split in both
   LRStrategy Strategy = LRStrategy::FullSpan;
   bool Independent = false; ///< LR: no step leaves linearly dependent functions (slower)
-  /// Elements are not split below this share of the domain; in (0, 1).
+  /// Elements whose halves would be smaller than this share of the domain are not split; lines of
+  /// an LR space that come from beside them may still cross them. In (0, 1).
   double MinElementSize = 1e-7;
 
   int FeatureGridSize = 0; ///< n: an n x n grid of FitFeatures; 0: none

@@ -61,4 +61,28 @@ TEST(FitLikelihood, WeightZeroDoesNotCount_PropertyOracle)
     FitTDistribution(WithDistances({ 0.1, -0.2, 0.3 }), 1).LogLikelihood);
   EXPECT_EQ(FitTDistribution(WithDistances({}), 1).LogLikelihood, 0.0);
 }
+
+TEST(FitLikelihood, TheUnitDoesNotMatter_PropertyOracle)
+{
+  std::vector<double> distances;
+  clouds::Random random(11);
+  for (int i = 0; i < 5000; ++i)
+  {
+    distances.push_back(0.01 * random.Normal() / (0.1 + std::fabs(random.Normal())));
+  }
+  const TDistribution metre = FitTDistribution(WithDistances(distances), 1);
+  for (const int octaves : { -300, -40, 40, 180 })
+  {
+    std::vector<double> other = distances;
+    for (double& distance : other)
+    {
+      distance = std::ldexp(distance, octaves);
+    }
+    const TDistribution t = FitTDistribution(WithDistances(other), 1);
+    EXPECT_NEAR(
+      t.DegreesOfFreedom, metre.DegreesOfFreedom, 1e-9); // sums in other units round alike
+    EXPECT_NEAR(std::ldexp(t.Scale, -octaves), metre.Scale, 1e-9 * metre.Scale);
+    EXPECT_NEAR(t.LogLikelihood, metre.LogLikelihood - 5000 * octaves * std::log(2.0), 1e-6);
+  }
+}
 }

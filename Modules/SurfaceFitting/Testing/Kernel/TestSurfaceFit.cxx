@@ -600,15 +600,87 @@ TEST(SurfaceFit, StrategiesAndThresholdsReachTheTolerance_CrossOracle)
 
 TEST(SurfaceFit, IndependentFunctions_CrossOracle)
 {
-  const PointCloud cloud = clouds::HeightField(20000, 15, clouds::Peaks);
-  FitParams params = WithTolerance(0.005);
+  // cliffs across the elements: short lines cross near one another
+  const auto cliffs = [](double x, double y)
+  { return std::tanh((x - y) / 0.01) + std::tanh((x * x + y * y - 0.5) / 0.01); };
+  const PointCloud cloud = clouds::HeightField(3000, 3, cliffs);
+  FitParams params = WithTolerance(0.05);
+  params.Degree = { 3, 3 };
+  params.Directions = FitDirections::Both;
   params.Strategy = LRStrategy::MinimumSpan;
   params.Independent = true;
-  const SurfaceFit fit = Fit(cloud, params);
-  ExpectWithin(cloud, fit);
-  const auto verdict = DecideDependence(*fit.Surface.Space);
-  ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict.Value.Verdict, LRVerdict::Independent);
+  const auto verdict = [&]
+  {
+    const SurfaceFit fit = Fit(cloud, params);
+    ExpectWithin(cloud, fit);
+    const auto decided = DecideDependence(*fit.Surface.Space);
+    EXPECT_TRUE(decided);
+    return decided.Value.Verdict;
+  };
+  EXPECT_EQ(verdict(), LRVerdict::Independent);
+  params.Independent = false;
+  EXPECT_EQ(verdict(), LRVerdict::Dependent); // the option has had something to do
+}
+
+TEST(SurfaceFit, ACriterionKeepsAFitThatMeetsItsTolerance_PropertyOracle)
+{
+  const PointCloud cloud = clouds::HeightField(20000, 21, clouds::Peaks);
+  for (const FitCriterion criterion : { FitCriterion::AIC, FitCriterion::BIC })
+  {
+    FitParams params = WithTolerance(0.005); // no noise: every refinement explains more
+    params.Criterion = criterion;
+    const SurfaceFit fit = Fit(cloud, params);
+    EXPECT_GT(fit.Iterations.size(), 2U);
+    ExpectWithin(cloud, fit);
+    params.MaxIterations = 2; // ended by a limit: the last iteration is the result
+    const SurfaceFit limited = Fit(cloud, params);
+    EXPECT_EQ(limited.Iterations.size(), 3U);
+    EXPECT_EQ(limited.Final.NumFunctions, limited.Surface.Space->NumFunctions);
+    EXPECT_EQ(limited.Final.Iteration, 2);
+  }
+}
+
+TEST(SurfaceFit, ElementsKeepTheirLeastSize_PropertyOracle)
+{
+  // a step along a line of the mesh and noise along the other direction
+  clouds::Random random(5);
+  PointCloud cloud =
+    clouds::HeightField(20000, 31, [](double x, double) { return x < 0.5 ? 0 : 1; });
+  for (Eigen::Index i = 0; i < cloud.Values.rows(); ++i)
+  {
+    cloud.Values(i, 0) += 0.01 * random.Normal() * (cloud.Parameters(i, 1) < 0.5 ? 1.0 : 0.0);
+  }
+  for (const FitSpace space : { FitSpace::LocallyRefined, FitSpace::Hierarchical })
+  {
+    for (const FitDirections directions :
+      { FitDirections::Both, FitDirections::Alternating, FitDirections::ByError })
+    {
+      FitParams params = WithTolerance(0.001);
+      params.Space = space;
+      params.Directions = directions;
+      params.Domain = { { 0.0, 0.0 }, { 1.0, 1.0 } };
+      params.NumInitialElements = { 32, 8 };
+      params.MinElementSize = 1.0 / 64.0;
+      const SurfaceFit fit = Fit(cloud, params);
+      RealArray<2> least{ 1.0, 1.0 };
+      for (const auto& element : fit.Surface.Space->Elements)
+      {
+        for (std::size_t d = 0; d < 2; ++d)
+        {
+          least[d] = std::min(least[d], element.Box.Upper[d] - element.Box.Lower[d]);
+        }
+      }
+      EXPECT_EQ(least[0], 1.0 / 64.0);
+      if (space == FitSpace::Hierarchical)
+      {
+        EXPECT_GE(least[1], 1.0 / 64.0);
+      }
+      else
+      {
+        EXPECT_LE(least[1], 1.0 / 64.0); // goes on where the first direction is exhausted
+      }
+    }
+  }
 }
 
 TEST(SurfaceFit, LimitsAreKept_ExactOracle)
@@ -760,6 +832,8 @@ TEST(SurfaceFit, EveryFailureIsReachable_ExactOracle)
   EXPECT_EQ(with([](FitParams& p) { p.Tolerance = std::nan(""); }), option);
   EXPECT_EQ(with([](FitParams& p) { p.ToleranceBoxes = { {} }; }), option);
   EXPECT_EQ(with([](FitParams& p) { p.DistanceSlope = -1.0; }), option);
+  EXPECT_EQ(with([](FitParams& p) { p.DistanceCentre = { 0.0, std::nan("") }; }), option);
+  EXPECT_EQ(with([](FitParams& p) { p.Tolerance = 1e61; }), option);
   EXPECT_EQ(with([](FitParams& p) { p.OutlierScale = 0.0; }), option);
   EXPECT_EQ(with([](FitParams& p) { p.MaxIterations = -1; }), option);
   EXPECT_EQ(with([](FitParams& p) { p.MaxFunctions = -1; }), option);
@@ -767,6 +841,7 @@ TEST(SurfaceFit, EveryFailureIsReachable_ExactOracle)
   EXPECT_EQ(with([](FitParams& p) { p.ThresholdShare = 2.0; }), option);
   EXPECT_EQ(with([](FitParams& p) { p.MinElementSize = 0.0; }), option);
   EXPECT_EQ(with([](FitParams& p) { p.FeatureGridSize = -1; }), option);
+  EXPECT_EQ(with([](FitParams& p) { p.FeatureGridSize = 4097; }), option);
   EXPECT_EQ(with([](FitParams& p) { p.Threads = -1; }), option);
 }
 
