@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "LRKnotHash.h"
 #include "LRState.h"
 
 namespace knotwork
 {
 std::uint64_t LRRefinement::State::HashOf(const int* local) const
 {
-  std::uint64_t h = 0x9e3779b97f4a7c15ULL;
-  for (int i = 0; i < this->Stride; ++i)
-  {
-    h = (h ^ static_cast<std::uint64_t>(local[i])) * 0xff51afd7ed558ccdULL;
-    h ^= h >> 32;
-  }
-  return h;
+  return LRKnotHash(local, this->Stride);
 }
 
 std::size_t LRRefinement::State::Slot(const int* local, std::uint64_t hash) const

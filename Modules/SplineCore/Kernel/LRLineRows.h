@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "LRKnotHash.h"
 #include "LRSpace.h"
 
 #include <algorithm>
-#include <cstdint>
 
 namespace knotwork
 {
@@ -30,7 +30,7 @@ public:
     for (int f = 0; f < basis.NumFunctions(); ++f)
     {
       const int* knots = basis.Local(f, direction);
-      std::size_t slot = Hash(knots, this->Degree + 2) & (size - 1);
+      std::size_t slot = LRKnotHash(knots, this->Degree + 2) & (size - 1);
       while (table[slot] >= 0 &&
         !std::equal(knots, knots + this->Degree + 2, basis.Local(table[slot], direction)))
       {
@@ -129,17 +129,6 @@ private:
     int High;
     int Next;
   };
-
-  static std::size_t Hash(const int* knots, int n)
-  {
-    std::uint64_t h = 0x9e3779b97f4a7c15ULL;
-    for (int i = 0; i < n; ++i)
-    {
-      h = (h ^ static_cast<std::uint64_t>(knots[i])) * 0xff51afd7ed558ccdULL;
-      h ^= h >> 32;
-    }
-    return h;
-  }
 
   const LRBasis& Basis;
   int Direction;

@@ -89,29 +89,6 @@ std::vector<std::vector<ChartCell<Dim>>> MakeCharts(
   return cells;
 }
 
-int DisjointSets::Add()
-{
-  this->Parent.push_back(static_cast<int>(this->Parent.size()));
-  return this->Parent.back();
-}
-
-int DisjointSets::Find(int a) const
-{
-  while (this->Parent[At(a)] != a)
-  {
-    this->Parent[At(a)] = this->Parent[At(this->Parent[At(a)])];
-    a = this->Parent[At(a)];
-  }
-  return a;
-}
-
-void DisjointSets::Unite(int a, int b)
-{
-  a = this->Find(a);
-  b = this->Find(b);
-  this->Parent[At(std::max(a, b))] = std::min(a, b);
-}
-
 std::size_t VertexTable::Hash::operator()(const ChartPoint& p) const
 {
   std::uint64_t h = static_cast<std::uint64_t>(p.Chart);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Parts of the tessellation, private to the kernel: dyadic charts, sides that match, vertices.
 #pragma once
+#include "DisjointSets.h"
 #include "PointClusters.h"
 #include "Tessellation.h"
 
@@ -30,19 +31,6 @@ struct ChartCell
 template <int Dim>
 std::vector<std::vector<ChartCell<Dim>>> MakeCharts(
   const std::vector<BezierForm<Dim>>& patches, int& numCharts);
-
-/// Disjoint sets; the representative is the smallest member.
-class DisjointSets
-{
-public:
-  int Add();
-  int Find(int a) const;
-  void Unite(int a, int b);
-  int Size() const { return static_cast<int>(this->Parent.size()); }
-
-private:
-  mutable std::vector<int> Parent;
-};
 
 /// A point of a chart.
 struct ChartPoint

@@ -3,12 +3,12 @@
 
 #include "BezierForm.h"
 #include "ClampedSpline.h"
+#include "DisjointSets.h"
 #include "PointClusters.h"
 #include "TensorSpace.h"
 
 #include <Eigen/Geometry>
 #include <map>
-#include <numeric>
 
 namespace knotwork
 {
@@ -166,15 +166,6 @@ bool IsCollapsed(const PointMatrix& points, double tolerance)
   }
   return rows || columns;
 }
-
-int RootOf(std::vector<int>& parent, int i)
-{
-  while (parent[static_cast<std::size_t>(i)] != i)
-  {
-    i = parent[static_cast<std::size_t>(i)];
-  }
-  return i;
-}
 }
 
 Result<TrimmedModel> BoundaryFaces(const std::vector<Spline<3>>& patches, double tolerance)
@@ -226,8 +217,7 @@ Result<TrimmedModel> BoundaryFaces(const std::vector<Spline<3>>& patches, double
     upper = upper.cwiseMax(side.Points.colwise().maxCoeff());
   }
   const double allowed = tolerance * (upper - lower).norm();
-  std::vector<int> parent(patches.size());
-  std::iota(parent.begin(), parent.end(), 0);
+  DisjointSets bodies(static_cast<int>(patches.size()));
   PointClusters centers(3, allowed);
   std::multimap<int, std::size_t> sidesAt; // the samples' means tell most sides apart
   for (std::size_t s = 0; s < sides.size(); ++s)
@@ -242,8 +232,7 @@ Result<TrimmedModel> BoundaryFaces(const std::vector<Spline<3>>& patches, double
       {
         sides[s].Covered = true;
         other.Covered = true;
-        parent[static_cast<std::size_t>(RootOf(parent, static_cast<int>(sides[s].Patch)))] =
-          RootOf(parent, static_cast<int>(other.Patch));
+        bodies.Unite(static_cast<int>(sides[s].Patch), static_cast<int>(other.Patch));
         break;
       }
     }
@@ -257,7 +246,7 @@ Result<TrimmedModel> BoundaryFaces(const std::vector<Spline<3>>& patches, double
       TrimmedFace face;
       face.Surface = std::move(side.Surface);
       face.Reversed = !side.Outward;
-      face.Body = RootOf(parent, static_cast<int>(side.Patch));
+      face.Body = bodies.Find(static_cast<int>(side.Patch));
       model.Faces.push_back(std::move(face));
     }
   }

@@ -2,6 +2,7 @@
 #include "CADExchange.h"
 #include "CADFile.h"
 #include "CADSession.h"
+#include "DisjointSets.h"
 
 #include <BRepBndLib.hxx>
 #include <BRepCheck.hxx>
@@ -22,8 +23,6 @@
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Vertex.hxx>
-
-#include <numeric>
 
 namespace knotwork
 {
@@ -168,18 +167,7 @@ void CountFreeLoops(const TopoDS_Shape& shape, CADSummary& summary)
   TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, facesOfEdge);
   TopTools_IndexedMapOfShape vertices;
   TopExp::MapShapes(shape, TopAbs_VERTEX, vertices);
-  std::vector<int> parent(static_cast<std::size_t>(vertices.Extent()) + 1);
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int v)
-  {
-    while (parent[static_cast<std::size_t>(v)] != v)
-    {
-      int& up = parent[static_cast<std::size_t>(v)];
-      up = parent[static_cast<std::size_t>(up)];
-      v = up;
-    }
-    return v;
-  };
+  DisjointSets loops(vertices.Extent() + 1);
   std::vector<int> ends;
   for (int i = 1; i <= facesOfEdge.Extent(); ++i)
   {
@@ -195,12 +183,12 @@ void CountFreeLoops(const TopoDS_Shape& shape, CADSummary& summary)
     TopExp::Vertices(edge, first, last);
     if (!first.IsNull() && !last.IsNull())
     {
-      parent[static_cast<std::size_t>(root(vertices.FindIndex(first)))] =
-        root(vertices.FindIndex(last));
+      loops.Unite(vertices.FindIndex(first), vertices.FindIndex(last));
       ends.push_back(vertices.FindIndex(first));
     }
   }
-  std::transform(ends.begin(), ends.end(), ends.begin(), root);
+  std::transform(
+    ends.begin(), ends.end(), ends.begin(), [&](int vertex) { return loops.Find(vertex); });
   std::sort(ends.begin(), ends.end());
   summary.NumFreeLoops = static_cast<int>(std::unique(ends.begin(), ends.end()) - ends.begin());
   summary.Closed = summary.NumFreeLoops == 0;

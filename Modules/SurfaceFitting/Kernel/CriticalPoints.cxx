@@ -2,6 +2,7 @@
 #include "CriticalPoints.h"
 
 #include "CriticalSearch.h"
+#include "DisjointSets.h"
 #include "Parallel.h"
 
 #include <numeric>
@@ -158,17 +159,7 @@ struct OutputFrame
 std::vector<int> NumberClusters(
   const ScalarPieces& pieces, const std::vector<OpenBox>& boxes, int& count)
 {
-  std::vector<int> parent(boxes.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int i)
-  {
-    while (parent[static_cast<std::size_t>(i)] != i)
-    {
-      i = parent[static_cast<std::size_t>(i)] =
-        parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(i)])];
-    }
-    return i;
-  };
+  DisjointSets sets(static_cast<int>(boxes.size()));
   // boxes ascend by element
   std::vector<std::size_t> start(static_cast<std::size_t>(pieces.NumPieces()) + 1, 0);
   for (const OpenBox& box : boxes)
@@ -183,9 +174,7 @@ std::vector<int> NumberClusters(
     {
       if (k != i && Meet(boxes[i].Box, boxes[k].Box))
       {
-        const int a = root(static_cast<int>(i));
-        const int b = root(static_cast<int>(k));
-        parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+        sets.Unite(static_cast<int>(i), static_cast<int>(k));
       }
     }
   };
@@ -205,7 +194,7 @@ std::vector<int> NumberClusters(
   count = 0;
   for (std::size_t i = 0; i < boxes.size(); ++i)
   {
-    const auto first = static_cast<std::size_t>(root(static_cast<int>(i)));
+    const auto first = static_cast<std::size_t>(sets.Find(static_cast<int>(i)));
     if (number[first] < 0)
     {
       number[first] = count++;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ElementSides.h"
 
+#include "DisjointSets.h"
 #include "Parallel.h"
 #include "SignRoots.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 namespace knotwork
 {
@@ -389,16 +389,6 @@ private:
     const bool upper = atEnd == (piece.End[k] > piece.Begin[k]);
     return this->Node(piece.Element[k], piece.Side[k], this->Place[2 * p + k] + (upper ? 1 : 0));
   }
-  int Root(int node)
-  {
-    while (this->Parent[static_cast<std::size_t>(node)] != node)
-    {
-      int& parent = this->Parent[static_cast<std::size_t>(node)];
-      parent = this->Parent[static_cast<std::size_t>(parent)];
-      node = parent;
-    }
-    return node;
-  }
   void JoinVertices()
   {
     int numNodes = 4 * this->NumElements();
@@ -409,15 +399,12 @@ private:
       const std::size_t pieces = this->Sides.Start[s + 1] - this->Sides.Start[s];
       numNodes += pieces > 1 ? static_cast<int>(pieces) - 1 : 0;
     }
-    this->Parent.resize(static_cast<std::size_t>(numNodes));
-    std::iota(this->Parent.begin(), this->Parent.end(), 0);
+    this->Nodes = DisjointSets(numNodes); // a set's smallest is a corner when it has one
     for (std::size_t p = 0; p < this->Sides.Pieces.size(); ++p)
     {
       for (int end = 0; end < 2 && this->Sides.Pieces[p].Element[1] >= 0; ++end)
       {
-        const int a = this->Root(this->PieceNode(p, 0, end == 1));
-        const int b = this->Root(this->PieceNode(p, 1, end == 1));
-        this->Parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b); // corners first
+        this->Nodes.Unite(this->PieceNode(p, 0, end == 1), this->PieceNode(p, 1, end == 1));
       }
     }
     this->NumberVertices(numNodes);
@@ -427,19 +414,19 @@ private:
     std::vector<int> vertex(static_cast<std::size_t>(numNodes), -1);
     for (int node = 0; node < 4 * this->NumElements(); ++node)
     {
-      if (this->Root(node) == node)
+      if (this->Nodes.Find(node) == node)
       {
         vertex[static_cast<std::size_t>(node)] = static_cast<int>(this->Sides.Vertices.size());
         this->Sides.Vertices.push_back({ node / 4, { node % 2 * 1.0, node / 2 % 2 * 1.0 } });
       }
-      this->Sides.Corners.push_back(vertex[static_cast<std::size_t>(this->Root(node))]);
+      this->Sides.Corners.push_back(vertex[static_cast<std::size_t>(this->Nodes.Find(node))]);
     }
     for (std::size_t p = 0; p < this->Sides.Pieces.size(); ++p)
     {
       SidePiece& piece = this->Sides.Pieces[p];
       for (std::size_t end = 0; end < 2; ++end)
       {
-        const int node = this->Root(this->PieceNode(p, 0, end == 1));
+        const int node = this->Nodes.Find(this->PieceNode(p, 0, end == 1));
         int& number = vertex[static_cast<std::size_t>(node)];
         if (number < 0) // a hanging place at a jump
         {
@@ -462,7 +449,7 @@ private:
   ElementSides Sides;
   std::vector<int> Place; // of a piece in the lists of its two sides
   std::vector<int> FirstHanging;
-  std::vector<int> Parent;
+  DisjointSets Nodes;
 };
 }
 
