@@ -3,6 +3,7 @@
 # The wall between the layers. Fails when a file below some Modules/<X>/Kernel
 #   - includes a VTK header or one for input and output,
 #   - includes a header of another kernel that is not below it in the order of the layers, or of SplineIO,
+# when a kernel's build file lists a module of which no file of the kernel includes a header,
 # when two kernels have a header of the same name or a type of the same name (their programs would mix them up without a
 # word), and when there is no kernel file at all.
 cmake_minimum_required(VERSION 3.22)
@@ -73,6 +74,7 @@ foreach(file IN LISTS files)
       list(APPEND problems "${file}: a kernel uses SplineIO: ${path}")
     elseif(DEFINED "owner_${name}" AND NOT "${owner_${name}}" STREQUAL module)
       set(other ${owner_${name}})
+      set("uses_${module}_${other}" TRUE)
       if(NOT DEFINED rank_${module} OR NOT DEFINED rank_${other})
         list(APPEND problems "${file}: no order is known for ${module} -> ${other}: ${path}")
       elseif(NOT rank_${other} LESS rank_${module})
@@ -97,6 +99,8 @@ foreach(list_file IN LISTS lists)
     endif()
     if(NOT DEFINED rank_${module} OR NOT DEFINED rank_${other} OR NOT rank_${other} LESS rank_${module})
       list(APPEND problems "${list_file}: ${module} may not depend on ${other}")
+    elseif(NOT "${uses_${module}_${other}}")
+      list(APPEND problems "${list_file}: ${module} lists ${other} and includes none of its headers")
     endif()
   endforeach()
 endforeach()

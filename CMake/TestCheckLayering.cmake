@@ -45,6 +45,9 @@ expect("may not depend on TemplateMapping" BuildFile ${core}
   SplineCore/Kernel/CMakeLists.txt "knotwork_add_kernel(SplineCore DEPENDS TemplateMapping SOURCES a.cxx)")
 expect("may not depend on SplineIO" BuildFileIO ${core}
   TemplateMapping/Kernel/CMakeLists.txt "knotwork_add_kernel(TemplateMapping\n  DEPENDS\n    SplineCore\n    SplineIO\n  SOURCES a.cxx)")
+expect("lists JacobianValidation and includes none" UnusedDepends ${core} JacobianValidation/Kernel/Proof.h ""
+  TemplateMapping/Kernel/Map.cxx "#include \"Knots.h\""
+  TemplateMapping/Kernel/CMakeLists.txt "knotwork_add_kernel(TemplateMapping DEPENDS SplineCore JacobianValidation SOURCES Map.cxx)")
 expect("defines Span too" SameType SplineCore/Kernel/Knots.h "struct Span\n{\n}\n"
   TemplateMapping/Kernel/Map.h "struct Span\n{\n}\n")
 expect("has a header of this name" SameName ${core} TemplateMapping/Kernel/Knots.h "")
