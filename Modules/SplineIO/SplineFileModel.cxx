@@ -1,65 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SplineFileModel.h"
 
-#include "HierarchicalSpace.h"
-#include "Recovery.h"
+#include "FunctionGraph.h"
 
-#include <algorithm>
-#include <cmath>
 #include <set>
 
 namespace knotwork
 {
-namespace
-{
-/// Points (f, 0, 0) of a height function become those of its graph (u, v, f(u, v)). The parameters'
-/// coefficients are the means of local knots on tensor-product meshes only; what is left of the
-/// parameters from there is recovered from its Bernstein coefficients, so that rounding is that of
-/// a small correction.
-Status MakeGraph(const SplineSpacePtr<2>& space, PointMatrix& points)
-{
-  constexpr double rounding = 1e-14;
-  const auto functions = DescribeFunctions(*space);
-  PointMatrix means(space->NumFunctions, 2);
-  for (std::size_t f = 0; f < functions.size(); ++f)
-  {
-    means.row(static_cast<Eigen::Index>(f)) << functions[f].Greville[0], functions[f].Greville[1];
-  }
-  BezierForm<2> rest = MakeBezierForm(Spline<2>{ space, means, {} });
-  double largest = 0.0;
-  double size = 0.0;
-  for (int e = 0; e < space->NumElements(); ++e)
-  {
-    const auto& element = space->Elements[static_cast<std::size_t>(e)];
-    double* value = rest.Block(e);
-    for (std::size_t d = 0; d < 2; ++d)
-    {
-      for (int k = 0; k < NumTensorFunctions<2>(element.Degree); ++k, ++value)
-      {
-        const int index[2] = { k % (element.Degree[0] + 1), k / (element.Degree[0] + 1) };
-        const double share = static_cast<double>(index[d]) / element.Degree[d];
-        const double wanted = (1.0 - share) * element.Box.Lower[d] + share * element.Box.Upper[d];
-        *value = wanted - *value;
-        largest = std::max(largest, std::fabs(*value));
-        size = std::max(size, std::fabs(wanted));
-      }
-    }
-  }
-  if (!(largest <= rounding * size))
-  {
-    const RecoveryResult<2> correction = RecoverField(rest, {});
-    if (!correction)
-    {
-      return correction.Status;
-    }
-    means += correction.Value.ControlPoints;
-  }
-  points.col(2) = points.col(0).eval();
-  points.leftCols(2) = means;
-  return {};
-}
-}
-
 Result<SplineModel> ModelFromFile(const SplineFile& file)
 {
   SplineModel model;
@@ -87,10 +34,12 @@ Result<SplineModel> ModelFromFile(const SplineFile& file)
           if (columns == 1 && spline.Space->Kind == SpaceKind::LocallyRefined &&
             !spline.IsRational())
           {
-            if (Status made = MakeGraph(spline.Space, points); !made)
+            Result<Spline<2>> graph = GraphOfFunction(spline);
+            if (!graph)
             {
-              return made;
+              return graph.Status;
             }
+            points = std::move(graph->ControlPoints);
           }
         }
         spline.ControlPoints = std::move(points);
