@@ -166,6 +166,77 @@ bool IsCollapsed(const PointMatrix& points, double tolerance)
   }
   return rows || columns;
 }
+/// The six sides of a volume.
+Status AddSides(const Spline<3>& patch, std::size_t number, std::vector<Side>& sides)
+{
+  if (Status status = patch.Check(); !status)
+  {
+    return status;
+  }
+  if (patch.Space->Kind != SpaceKind::Tensor || patch.NumComponents() != 3)
+  {
+    return { ErrorCode::DimensionMismatch, "no tensor product in space" };
+  }
+  const auto volume = Clamped<3>(patch);
+  if (!volume)
+  {
+    return volume.Status;
+  }
+  const bool rightHanded = IsRightHanded(volume.Value);
+  for (std::size_t d = 0; d < 3; ++d)
+  {
+    for (int upper = 0; upper < 2; ++upper)
+    {
+      Side& side = sides.emplace_back();
+      side.Patch = number;
+      side.Surface = SideSurface(volume.Value, d, upper == 1);
+      // d_0 x d_1 = d_2 and its cyclic shifts, but the sides of d_1 have the order d_0, d_2
+      side.Outward = ((upper == 1) == (d != 1)) == rightHanded;
+      side.Points = Evaluated<2>(side.Surface, Grid<2>(side.Surface, Samples), 0).Values;
+    }
+  }
+  return {};
+}
+
+/// Diagonal of the box around the samples.
+double SizeOf(const std::vector<Side>& sides)
+{
+  Eigen::RowVector3d lower = sides.front().Points.colwise().minCoeff();
+  Eigen::RowVector3d upper = sides.front().Points.colwise().maxCoeff();
+  for (const Side& side : sides)
+  {
+    lower = lower.cwiseMin(side.Points.colwise().minCoeff());
+    upper = upper.cwiseMax(side.Points.colwise().maxCoeff());
+  }
+  return (upper - lower).norm();
+}
+
+/// Marks the sides that cover each other. @return patches that hang together.
+DisjointSets CoverSides(std::vector<Side>& sides, std::size_t numPatches, double tolerance)
+{
+  DisjointSets bodies(static_cast<int>(numPatches));
+  PointClusters centers(3, tolerance);
+  std::multimap<int, std::size_t> sidesAt; // the samples' means tell most sides apart
+  for (std::size_t s = 0; s < sides.size(); ++s)
+  {
+    const Eigen::RowVector3d mean = sides[s].Points.colwise().mean();
+    const int center = centers.Number(mean.data());
+    const auto range = sidesAt.equal_range(center);
+    for (auto it = range.first; it != range.second; ++it)
+    {
+      Side& other = sides[it->second];
+      if (!other.Covered && Cover(sides[s].Points, other.Points, tolerance))
+      {
+        sides[s].Covered = true;
+        other.Covered = true;
+        bodies.Unite(static_cast<int>(sides[s].Patch), static_cast<int>(other.Patch));
+        break;
+      }
+    }
+    sidesAt.emplace(center, s);
+  }
+  return bodies;
+}
 }
 
 Result<TrimmedModel> BoundaryFaces(const std::vector<Spline<3>>& patches, double tolerance)
@@ -181,63 +252,13 @@ Result<TrimmedModel> BoundaryFaces(const std::vector<Spline<3>>& patches, double
   std::vector<Side> sides;
   for (std::size_t p = 0; p < patches.size(); ++p)
   {
-    const std::string place = "volume " + std::to_string(p);
-    if (Status status = patches[p].Check(); !status)
+    if (Status status = AddSides(patches[p], p, sides); !status)
     {
-      return { status.Code, place + ": " + status.Detail };
-    }
-    if (patches[p].Space->Kind != SpaceKind::Tensor || patches[p].NumComponents() != 3)
-    {
-      return { ErrorCode::DimensionMismatch, place + " is no tensor product in space" };
-    }
-    const auto volume = Clamped<3>(patches[p]);
-    if (!volume)
-    {
-      return { volume.Status.Code, place + ": " + volume.Status.Detail };
-    }
-    const bool rightHanded = IsRightHanded(volume.Value);
-    for (std::size_t d = 0; d < 3; ++d)
-    {
-      for (int upper = 0; upper < 2; ++upper)
-      {
-        Side& side = sides.emplace_back();
-        side.Patch = p;
-        side.Surface = SideSurface(volume.Value, d, upper == 1);
-        // d_0 x d_1 = d_2 and its cyclic shifts, but the sides of d_1 have the order d_0, d_2
-        side.Outward = ((upper == 1) == (d != 1)) == rightHanded;
-        side.Points = Evaluated<2>(side.Surface, Grid<2>(side.Surface, Samples), 0).Values;
-      }
+      return { status.Code, "volume " + std::to_string(p) + ": " + status.Detail };
     }
   }
-  Eigen::RowVector3d lower = sides.front().Points.colwise().minCoeff();
-  Eigen::RowVector3d upper = sides.front().Points.colwise().maxCoeff();
-  for (const Side& side : sides)
-  {
-    lower = lower.cwiseMin(side.Points.colwise().minCoeff());
-    upper = upper.cwiseMax(side.Points.colwise().maxCoeff());
-  }
-  const double allowed = tolerance * (upper - lower).norm();
-  DisjointSets bodies(static_cast<int>(patches.size()));
-  PointClusters centers(3, allowed);
-  std::multimap<int, std::size_t> sidesAt; // the samples' means tell most sides apart
-  for (std::size_t s = 0; s < sides.size(); ++s)
-  {
-    const Eigen::RowVector3d mean = sides[s].Points.colwise().mean();
-    const int center = centers.Number(mean.data());
-    const auto range = sidesAt.equal_range(center);
-    for (auto it = range.first; it != range.second; ++it)
-    {
-      Side& other = sides[it->second];
-      if (!other.Covered && Cover(sides[s].Points, other.Points, allowed))
-      {
-        sides[s].Covered = true;
-        other.Covered = true;
-        bodies.Unite(static_cast<int>(sides[s].Patch), static_cast<int>(other.Patch));
-        break;
-      }
-    }
-    sidesAt.emplace(center, s);
-  }
+  const double allowed = tolerance * SizeOf(sides);
+  const DisjointSets bodies = CoverSides(sides, patches.size(), allowed);
   TrimmedModel model;
   for (Side& side : sides)
   {
