@@ -124,18 +124,23 @@ struct PointKey
   }
 };
 
+template <typename Numbers>
+std::size_t HashNumbers(std::uint64_t h, const Numbers& numbers)
+{
+  for (const auto x : numbers)
+  {
+    h = (h ^ static_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15ULL;
+    h ^= h >> 29;
+  }
+  return static_cast<std::size_t>(h);
+}
+
 template <int Dim>
 struct PointKeyHash
 {
   std::size_t operator()(const PointKey<Dim>& key) const
   {
-    std::uint64_t h = static_cast<std::uint64_t>(key.Level);
-    for (std::int64_t x : key.Position)
-    {
-      h = (h ^ static_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15ULL;
-      h ^= h >> 29;
-    }
-    return static_cast<std::size_t>(h);
+    return HashNumbers(static_cast<std::uint64_t>(key.Level), key.Position);
   }
 };
 
@@ -266,8 +271,9 @@ Numbering NumberLR(const LRData& data)
       torn[d].push_back(k > 0 && k < last && most(d, k) > basis.Degree[d]);
     }
   }
+  const auto hash = [](const Key& key) { return HashNumbers(0, key); };
   Numbering numbering;
-  std::map<Key, vtkIdType> shared;
+  std::unordered_map<Key, vtkIdType, decltype(hash)> shared(8 * data.ElementKnots.size(), hash);
   for (const auto& box : data.ElementKnots)
   {
     for (int j = 0; j <= basis.Degree[1]; ++j)

@@ -82,7 +82,7 @@ void Run(benchmark::State& state, const std::string& name, FitParams params)
   state.counters["error"] = fit.Value.Final.MaxError / params.Tolerance;
   state.counters["rms"] = fit.Value.Final.RmsError;
   state.counters["outliers"] = static_cast<double>(fit.Value.Final.NumOutliers);
-  state.counters["steps"] = static_cast<double>(fit.Value.Iterations.size());
+  state.counters["steps"] = fit.Value.Final.Iteration;
 }
 
 void Register(const std::string& cloud, const std::string& variant, const FitParams& params)

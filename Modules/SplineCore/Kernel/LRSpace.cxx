@@ -2,6 +2,7 @@
 #include "LRSpace.h"
 
 #include "LRParts.h"
+#include "Parallel.h"
 
 #include <algorithm>
 #include <limits>
@@ -16,7 +17,7 @@ std::size_t At(int i)
   return static_cast<std::size_t>(i);
 }
 
-void AppendElements(SplineSpace<2>& space, LRData& data)
+void AppendElements(SplineSpace<2>& space, const LRData& data)
 {
   const LRBasis& basis = data.Basis;
   const int perElement = NumTensorFunctions<2>(basis.Degree);
@@ -26,8 +27,6 @@ void AppendElements(SplineSpace<2>& space, LRData& data)
   space.LocalFunctionIds.resize(At(space.NumLocalFunctions));
   std::iota(space.LocalFunctionIds.begin(), space.LocalFunctionIds.end(), 0);
   space.Elements.resize(numElements);
-  std::vector<ParametricBox<2>> boxes;
-  boxes.reserve(numElements);
   for (std::size_t e = 0; e < numElements; ++e)
   {
     const std::array<int, 4>& corners = data.ElementKnots[e];
@@ -40,10 +39,18 @@ void AppendElements(SplineSpace<2>& space, LRData& data)
       element.Box.Lower[d] = basis.Knots[d][At(corners[d])];
       element.Box.Upper[d] = basis.Knots[d][At(corners[d + 2])];
     }
+  }
+}
+
+BoxLocator MakeLocator(const SplineSpace<2>& space, const LRBasis& basis)
+{
+  std::vector<ParametricBox<2>> boxes;
+  boxes.reserve(space.Elements.size());
+  for (const auto& element : space.Elements)
+  {
     boxes.push_back(element.Box);
   }
-  data.Locator =
-    BoxLocator(space.Domain(), boxes, { basis.Knots[0].size() - 1, basis.Knots[1].size() - 1 });
+  return { space.Domain(), boxes, { basis.Knots[0].size() - 1, basis.Knots[1].size() - 1 } };
 }
 
 Result<KnotVector> TensorKnots(const LRBasis& basis, int d)
@@ -112,11 +119,19 @@ Result<SplineSpacePtr<2>> AssembleLRSpace(LRBasis basis, int threads)
   data->Basis = std::move(basis);
   data->ElementKnots = std::move(elements.Value);
   AppendElements(*space, *data);
-  Status status = FindAliveFunctions(*data, threads);
-  if (status)
-  {
-    status = BuildLRRows(*space, *data, threads);
-  }
+  // the locator has nothing to do with the functions
+  Status status;
+  ParallelFor(2, 1, threads,
+    [&](std::size_t part, std::size_t)
+    {
+      if (part == 0)
+      {
+        data->Locator = MakeLocator(*space, data->Basis);
+        return;
+      }
+      status = FindAliveFunctions(*data, threads);
+      status = status ? BuildLRRows(*space, *data, threads) : status;
+    });
   if (!status)
   {
     return status;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Parallel.h"
 
-#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
 #include <tbb/task_arena.h>
@@ -27,7 +26,8 @@ void ParallelFor(std::size_t count, std::size_t chunk, int threads,
   }
   const auto all = [&]
   { tbb::parallel_for(std::size_t(0), chunks, one, tbb::simple_partitioner()); };
-  if (threads <= 0 || threads >= tbb::info::default_concurrency())
+  // a call from a body has the threads of the one around it, no more
+  if (threads <= 0 || threads >= tbb::this_task_arena::max_concurrency())
   {
     all();
     return;

@@ -267,7 +267,7 @@ void LeastSquaresSystem::Multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) 
     });
 }
 
-bool LeastSquaresSystem::SolveColumn(const Eigen::VectorXd& right, Eigen::VectorXd& x) const
+void LeastSquaresSystem::SolveColumn(const Eigen::VectorXd& right, Eigen::VectorXd& x) const
 {
   const Eigen::VectorXd scale = (this->Diagonal + this->Damping)
                                   .cwiseMax(1e-300 + 1e-14 * this->Diagonal.maxCoeff())
@@ -282,14 +282,14 @@ bool LeastSquaresSystem::SolveColumn(const Eigen::VectorXd& right, Eigen::Vector
   {
     if (scaled.lpNorm<Eigen::Infinity>() <= this->Params.Accuracy)
     {
-      return true;
+      return;
     }
     this->Multiply(direction, product);
     product += this->Damping.cwiseProduct(direction);
     const double curvature = direction.dot(product);
     if (!(curvature > 0.0) || !std::isfinite(curvature))
     {
-      return false;
+      return;
     }
     const double step = rho / curvature;
     x += step * direction;
@@ -299,18 +299,15 @@ bool LeastSquaresSystem::SolveColumn(const Eigen::VectorXd& right, Eigen::Vector
     direction = scaled + next / rho * direction;
     rho = next;
   }
-  return true;
 }
 
-bool LeastSquaresSystem::Solve(PointMatrix& coefficients) const
+void LeastSquaresSystem::Solve(PointMatrix& coefficients) const
 {
-  bool solved = true;
   for (int c = 0; c < this->Components; ++c)
   {
     Eigen::VectorXd x = coefficients.col(c);
-    solved = this->SolveColumn(this->Right.col(c), x) && solved;
+    this->SolveColumn(this->Right.col(c), x);
     coefficients.col(c) = x;
   }
-  return solved;
 }
 }

@@ -32,10 +32,11 @@ public:
   /// After the moments of some elements have changed.
   void Update(const std::vector<int>& elements);
 
-  /// Conjugate gradients from the given coefficients on, scaled by the diagonal.
-  /// @param coefficients  NumFunctions x c. @return false when a direction without curvature or
-  /// what is not finite was met; coefficients are what was reached before.
-  bool Solve(PointMatrix& coefficients) const;
+  /// Conjugate gradients from the given coefficients on, scaled by the diagonal; they end early
+  /// where a direction without curvature or what is not finite is met, with what was reached
+  /// before.
+  /// @param coefficients  NumFunctions x c.
+  void Solve(PointMatrix& coefficients) const;
 
 private:
   /// Consecutive rows of the matrix, made and used by themselves.
@@ -50,7 +51,7 @@ private:
   void FindColumns(std::size_t begin, std::size_t end);
   void FillRow(std::size_t function, std::vector<int>& places);
   void Multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
-  bool SolveColumn(const Eigen::VectorXd& right, Eigen::VectorXd& x) const;
+  void SolveColumn(const Eigen::VectorXd& right, Eigen::VectorXd& x) const;
 
   const ElementFunctions& Functions;
   const ElementMoments& Moments;

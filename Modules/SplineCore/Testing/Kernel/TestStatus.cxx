@@ -7,10 +7,12 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <set>
 #include <string>
+#include <thread>
 
 using namespace knotwork;
 
@@ -183,6 +185,31 @@ TEST(ParallelFor, CoversTheRangeOnceInFixedChunks_ExactOracle)
         }
       }
     }
+  }
+}
+
+TEST(ParallelFor, ACallFromABodyAddsNoThreads_ExactOracle)
+{
+  for (const int threads : { 1, 2, 3 })
+  {
+    std::atomic<int> running{ 0 };
+    std::atomic<int> most{ 0 };
+    ParallelFor(8, 1, threads,
+      [&](std::size_t, std::size_t)
+      {
+        ParallelFor(50, 1, threads,
+          [&](std::size_t, std::size_t)
+          {
+            const int now = ++running;
+            for (int before = most; before < now && !most.compare_exchange_weak(before, now);)
+            {
+            }
+            std::this_thread::yield();
+            --running;
+          });
+      });
+    EXPECT_GE(most, 1);
+    EXPECT_LE(most, threads);
   }
 }
 
