@@ -5,7 +5,6 @@
 #include "HeightTiles.h"
 #include "SurfaceDistance.h"
 
-#include "vtkCallbackCommand.h"
 #include "vtkDataArray.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -101,7 +100,7 @@ TEST(SplinePointDistanceFilter, IsTheKernelsResult_CrossOracle)
   }
 }
 
-TEST(SplinePointDistanceFilter, BadInput)
+TEST(SplinePointDistanceFilter, BadInput_ExactOracle)
 {
   vtkNew<vtkSplinePointDistance> filter;
   filter->SetInputDataObject(0, PointsOf(Lattice()));
@@ -127,22 +126,10 @@ TEST(SplinePointDistanceFilter, BadInput)
   EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError) << "no points: no output, no error";
 }
 
-TEST(SplinePointDistanceFilter, Aborts_PropertyOracle)
+TEST(SplinePointDistanceFilter, ReportsProgressAndAborts_PropertyOracle)
 {
   vtkNew<vtkSplinePointDistance> filter;
   filter->SetInputDataObject(0, PointsOf(Lattice()));
   filter->SetSurfaceData(GridOfPatches(FourTiles(0.0)));
-  vtkNew<vtkCallbackCommand> abort;
-  abort->SetCallback(
-    [](vtkObject* caller, unsigned long, void*, void* share)
-    {
-      if (*static_cast<double*>(share) > 0.0)
-      {
-        static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
-      }
-    });
-  filter->AddObserver(vtkCommand::ProgressEvent, abort);
-  filter->Update();
-  EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::UserError + static_cast<int>(ErrorCode::Aborted));
-  EXPECT_EQ(filter->GetOutputDataObject(0)->GetNumberOfElements(vtkDataObject::POINT), 0);
+  ExpectProgressAndAbort(filter, 1);
 }

@@ -281,7 +281,7 @@ TEST(SplineSurfaceFit, FloatPointsAreTakenAsTheyAre_CrossOracle)
     std::get<Spline<2>>(second.Patches[0].Geometry).ControlPoints);
 }
 
-TEST(SplineSurfaceFit, LimitsAreAWarning)
+TEST(SplineSurfaceFit, LimitsAreAWarning_PropertyOracle)
 {
   vtkNew<vtkSplineSurfaceFit> filter;
   vtkNew<MessageRecorder> recorder;
@@ -297,7 +297,7 @@ TEST(SplineSurfaceFit, LimitsAreAWarning)
   EXPECT_GT(filter->GetOutputDataObject(0)->GetNumberOfElements(vtkDataObject::CELL), 0);
 }
 
-TEST(SplineSurfaceFit, EveryFailureIsOneErrorWithItsPlace)
+TEST(SplineSurfaceFit, EveryFailureIsOneErrorWithItsPlace_ExactOracle)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   struct Case
@@ -421,7 +421,7 @@ TEST(SplineSurfaceFit, ThreadsDoNotChangeABit_PropertyOracle)
   EXPECT_EQ(found[0], found[1]);
 }
 
-TEST(SplineSurfaceFit, ReportsProgressAndAborts)
+TEST(SplineSurfaceFit, ReportsProgressAndAborts_PropertyOracle)
 {
   vtkNew<vtkSplineSurfaceFit> filter;
   filter->SetInputData(MakeCloud<vtkPolyData>(Wave));
