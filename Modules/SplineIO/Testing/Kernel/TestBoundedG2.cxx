@@ -86,7 +86,7 @@ TEST(BoundedG2, SamplesComeBackUnchanged_PropertyOracle)
   }
 }
 
-TEST(BoundedG2, EveryDamageIsOneErrorWithItsPlace)
+TEST(BoundedG2, EveryDamageIsOneErrorWithItsPlace_ExactOracle)
 {
   const struct
   {

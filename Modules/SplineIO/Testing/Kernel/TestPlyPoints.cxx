@@ -81,7 +81,7 @@ TEST(PlyPoints, EveryEncodingHoldsTheSame_GoldenOracle)
   }
 }
 
-TEST(PlyPoints, EveryDamageIsOneErrorWithItsPlace)
+TEST(PlyPoints, EveryDamageIsOneErrorWithItsPlace_ExactOracle)
 {
   const struct
   {

@@ -223,7 +223,7 @@ TEST(PointText, ReadsCloudsOfG2_GoldenOracle)
   EXPECT_FALSE(BeginsWithG2Points("400"));
 }
 
-TEST(PointText, EveryDamageHasItsLineAndRemedy)
+TEST(PointText, EveryDamageHasItsLineAndRemedy_ExactOracle)
 {
   const struct
   {

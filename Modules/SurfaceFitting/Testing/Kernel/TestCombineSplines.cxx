@@ -155,7 +155,7 @@ TEST(CombineSplines, CommonDomain_CrossOracle)
     (ValuesAt(result->Value, at) - ValuesAt(a, at) + ValuesAt(b, at)).cwiseAbs().maxCoeff(), 1e-11);
 }
 
-TEST(CombineSplines, EveryFailureIsReachable)
+TEST(CombineSplines, EveryFailureIsReachable_ExactOracle)
 {
   Random random(5);
   const Spline<2> a = RandomOn(random, Box, { 2, 2 }, 2);

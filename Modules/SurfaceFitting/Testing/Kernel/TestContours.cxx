@@ -489,7 +489,7 @@ TEST(Contours, AFlatMaximumOnTheLevelStaysUndecided_ExactOracle)
   EXPECT_TRUE(TraceContours(MakeBezierForm(surface), params)->Undecided.empty());
 }
 
-TEST(Contours, EveryFailureIsReachable)
+TEST(Contours, EveryFailureIsReachable_ExactOracle)
 {
   const Spline<2> surface = SquareSurface(Circle(0.0, 0.0, 0.5));
   const BezierForm<2> form = MakeBezierForm(surface);

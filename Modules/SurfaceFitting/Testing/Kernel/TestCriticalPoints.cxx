@@ -586,7 +586,7 @@ TEST(CriticalPoints, AnyNumberOfThreads_PropertyOracle)
   }
 }
 
-TEST(CriticalPoints, EveryFailureIsReachable)
+TEST(CriticalPoints, EveryFailureIsReachable_ExactOracle)
 {
   const Spline<2> f = PolynomialOn(0.0, 1.0, 2, 2, { { 1.0, 2, 0 }, { 1.0, 0, 1 } });
   const auto code = [](const Spline<2>& spline, const CriticalPointParams& params)

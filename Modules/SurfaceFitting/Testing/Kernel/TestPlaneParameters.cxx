@@ -84,7 +84,7 @@ TEST(PlaneParameters, MovePointsAndFrameMoves_PropertyOracle)
   EXPECT_LE((first.Value - second.Value).cwiseAbs().maxCoeff(), 1e-11);
 }
 
-TEST(PlaneParameters, EveryFailureIsReachable)
+TEST(PlaneParameters, EveryFailureIsReachable_ExactOracle)
 {
   PointMatrix plane;
   const PointMatrix points = TiltedWave(5, 4000, plane);

@@ -416,7 +416,7 @@ TEST(StitchTiles, GeometryFindsTheSidesThatTheDomainFinds_CrossOracle)
   EXPECT_LE(byGeometry->MaxSlopeJumpBefore, 1e-9);
 }
 
-TEST(StitchTiles, ThreeTilesAroundACorner)
+TEST(StitchTiles, ThreeTilesAroundACorner_PropertyOracle)
 {
   Random random(4);
   std::vector<Spline<2>> tiles;
@@ -465,7 +465,7 @@ TEST(StitchTiles, TheSameForAnyNumberOfThreads_PropertyOracle)
   }
 }
 
-TEST(StitchTiles, EveryFailureIsReachable)
+TEST(StitchTiles, EveryFailureIsReachable_ExactOracle)
 {
   Random random(9);
   const ParametricBox<2> left{ { 0, 0 }, { 1, 1 } };

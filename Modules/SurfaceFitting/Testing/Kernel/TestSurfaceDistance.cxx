@@ -175,7 +175,7 @@ TEST(SurfaceDistance, SeveralSurfacesAndThreads_PropertyOracle)
   }
 }
 
-TEST(SurfaceDistance, EveryFailureIsReachable)
+TEST(SurfaceDistance, EveryFailureIsReachable_ExactOracle)
 {
   const Spline<2> surface = Saddle(SpaceKind::Tensor);
   const PointMatrix points = PointMatrix::Ones(2, 3);

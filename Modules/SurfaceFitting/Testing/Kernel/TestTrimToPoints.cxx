@@ -141,7 +141,7 @@ TEST(TrimToPoints, TheSameForAnyNumberOfThreads_PropertyOracle)
   EXPECT_EQ(one->Model.Faces[0].Loops[0].Curves[0].UV, three->Model.Faces[0].Loops[0].Curves[0].UV);
 }
 
-TEST(TrimToPoints, EveryFailureIsReachable)
+TEST(TrimToPoints, EveryFailureIsReachable_ExactOracle)
 {
   Random random(9);
   const PointMatrix good = RingPoints(random);
