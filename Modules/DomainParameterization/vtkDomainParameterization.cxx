@@ -2,6 +2,7 @@
 #include "vtkDomainParameterization.h"
 
 #include "LayoutData.h"
+#include "NamedArray.h"
 #include "ParameterizeLayout.h"
 #include "SplineModel.h"
 
@@ -44,28 +45,18 @@ const char* StageName(knotwork::DomainStage stage)
 /// Output 2.
 void FillTable(const std::vector<knotwork::DomainIteration>& history, vtkTable* table)
 {
-  const auto add = [&](auto* column, const char* name, const auto& value)
-  {
-    column->SetName(name);
-    for (const knotwork::DomainIteration& row : history)
-    {
-      column->InsertNextValue(value(row));
-    }
-    table->AddColumn(column);
-  };
   using Row = knotwork::DomainIteration;
-  vtkNew<vtkStringArray> stage;
-  add(stage.Get(), "Stage", [](const Row& row) { return StageName(row.Stage); });
-  vtkNew<vtkIntArray> iteration;
-  add(iteration.Get(), "Iteration", [](const Row& row) { return row.Iteration; });
-  vtkNew<vtkDoubleArray> energy;
-  add(energy.Get(), "Energy", [](const Row& row) { return row.Energy; });
-  vtkNew<vtkDoubleArray> minimum;
-  add(minimum.Get(), "MinDetOverArea", [](const Row& row) { return row.MinDet; });
-  vtkNew<vtkDoubleArray> gradient;
-  add(gradient.Get(), "GradientNorm", [](const Row& row) { return row.GradientNorm; });
-  vtkNew<vtkIntArray> functions;
-  add(functions.Get(), "Functions", [](const Row& row) { return row.Functions; });
+  const auto whole = [&](const char* name, auto value)
+  { table->AddColumn(knotwork::ArrayOf<vtkIntArray>(name, history, value)); };
+  const auto real = [&](const char* name, auto value)
+  { table->AddColumn(knotwork::ArrayOf<vtkDoubleArray>(name, history, value)); };
+  table->AddColumn(knotwork::ArrayOf<vtkStringArray>(
+    "Stage", history, [](const Row& row) { return StageName(row.Stage); }));
+  whole("Iteration", [](const Row& row) { return row.Iteration; });
+  real("Energy", [](const Row& row) { return row.Energy; });
+  real("MinDetOverArea", [](const Row& row) { return row.MinDet; });
+  real("GradientNorm", [](const Row& row) { return row.GradientNorm; });
+  whole("Functions", [](const Row& row) { return row.Functions; });
 }
 
 /// A map as a grid, a patch each; a planar one lies at z = height.
@@ -166,20 +157,7 @@ int vtkDomainParameterization::FillOutputPortInformation(int port, vtkInformatio
 int vtkDomainParameterization::RequestDataObject(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
-  for (int port = 0; port < 2; ++port)
-  {
-    if (!vtkUnstructuredGrid::GetData(outputs, port))
-    {
-      vtkNew<vtkUnstructuredGrid> grid;
-      outputs->GetInformationObject(port)->Set(vtkDataObject::DATA_OBJECT(), grid);
-    }
-  }
-  if (!vtkTable::GetData(outputs, 2))
-  {
-    vtkNew<vtkTable> table;
-    outputs->GetInformationObject(2)->Set(vtkDataObject::DATA_OBJECT(), table);
-  }
-  return 1;
+  return this->MakeDeclaredOutputs(outputs);
 }
 
 Status vtkDomainParameterization::Compute(

@@ -5,6 +5,7 @@
 #include "CellMeasures.h"
 #include "CellsFromGrid.h"
 #include "JacobianCertificate.h"
+#include "NamedArray.h"
 
 #include "vtkCellData.h"
 #include "vtkCellType.h"
@@ -89,10 +90,8 @@ template <typename ArrayType, typename Cell, typename ValueFunction>
 void AddCellArray(const GridPair& grid, const char* name, const std::vector<Cell>& cells,
   const ValueFunction& value)
 {
-  vtkNew<ArrayType> array;
-  array->SetName(name);
   const vtkIdType n = grid.Output->GetNumberOfCells();
-  array->SetNumberOfTuples(n);
+  const auto array = knotwork::NamedArray<ArrayType>(name, 1, n);
   for (vtkIdType i = 0; i < n; ++i)
   {
     array->SetValue(i, value(cells[grid.FirstCell + static_cast<std::size_t>(i)]));
@@ -433,13 +432,8 @@ void FillTable(std::map<int, Summary>& patches, Summary& all, bool measures, vtk
   const auto addColumn = [&](auto kind, const char* name, const auto& value)
   {
     using ArrayType = typename decltype(kind)::ElementType;
-    vtkNew<ArrayType> column;
-    column->SetName(name);
-    for (auto& [id, summary] : rows)
-    {
-      column->InsertNextValue(value(id, *summary));
-    }
-    table->AddColumn(column);
+    table->AddColumn(knotwork::ArrayOf<ArrayType>(
+      name, rows, [&](const auto& row) { return value(row.first, *row.second); }));
   };
   struct Integers
   {
@@ -547,17 +541,8 @@ int vtkJacobianValidator::FillOutputPortInformation(int port, vtkInformation* in
 int vtkJacobianValidator::RequestDataObject(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  if (!vtkUnstructuredGrid::GetData(outputs, 1))
-  {
-    vtkNew<vtkUnstructuredGrid> witnesses;
-    outputs->GetInformationObject(1)->Set(vtkDataObject::DATA_OBJECT(), witnesses);
-  }
-  if (!vtkTable::GetData(outputs, 2))
-  {
-    vtkNew<vtkTable> table;
-    outputs->GetInformationObject(2)->Set(vtkDataObject::DATA_OBJECT(), table);
-  }
-  return this->Superclass::RequestDataObject(request, inputs, outputs);
+  this->Superclass::RequestDataObject(request, inputs, outputs);
+  return this->MakeDeclaredOutputs(outputs);
 }
 
 Status vtkJacobianValidator::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tables of one row, as filters give their numbers.
 #pragma once
+#include "NamedArray.h"
+
 #include "vtkDoubleArray.h"
 #include "vtkIntArray.h"
-#include "vtkNew.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 
@@ -14,8 +15,7 @@ namespace knotwork
 template <typename Array, typename Value>
 void AddToRow(vtkTable* table, const char* name, const Value& value)
 {
-  vtkNew<Array> column;
-  column->SetName(name);
+  const auto column = NamedArray<Array>(name);
   column->InsertNextValue(value);
   table->AddColumn(column);
 }

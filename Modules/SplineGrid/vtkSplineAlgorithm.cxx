@@ -2,12 +2,13 @@
 #include "vtkSplineAlgorithm.h"
 
 #include "vtkDataObject.h"
+#include "vtkDataObjectTypes.h"
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
 #include "vtkPartitionedDataSetCollection.h"
-#include "vtkUnstructuredGrid.h"
+#include "vtkSmartPointer.h"
 
 #include <exception>
 
@@ -31,25 +32,47 @@ int vtkSplineAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
   return 1;
 }
 
+void vtkSplineAlgorithm::MakeOutput(vtkInformationVector* outputs, int port, const char* type)
+{
+  vtkInformation* info = outputs->GetInformationObject(port);
+  vtkDataObject* output = info->Get(vtkDataObject::DATA_OBJECT());
+  if (!output || !output->IsA(type))
+  {
+    const auto made = vtkSmartPointer<vtkDataObject>::Take(vtkDataObjectTypes::NewDataObject(type));
+    info->Set(vtkDataObject::DATA_OBJECT(), made);
+  }
+}
+
+void vtkSplineAlgorithm::MakeOutputLike(
+  vtkInformationVector* outputs, int port, vtkDataObject* input)
+{
+  vtkInformation* info = outputs->GetInformationObject(port);
+  vtkDataObject* output = info->Get(vtkDataObject::DATA_OBJECT());
+  if (input && (!output || !output->IsA(input->GetClassName())))
+  {
+    const auto made = vtkSmartPointer<vtkDataObject>::Take(input->NewInstance());
+    info->Set(vtkDataObject::DATA_OBJECT(), made);
+  }
+}
+
+int vtkSplineAlgorithm::MakeDeclaredOutputs(vtkInformationVector* outputs)
+{
+  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    MakeOutput(
+      outputs, port, this->GetOutputPortInformation(port)->Get(vtkDataObject::DATA_TYPE_NAME()));
+  }
+  return 1;
+}
+
 int vtkSplineAlgorithm::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   const bool collection = this->GetNumberOfInputPorts() > 0 &&
     vtkPartitionedDataSetCollection::GetData(inputs[0], 0) != nullptr;
-  vtkInformation* info = outputs->GetInformationObject(0);
-  if (!info)
+  if (outputs->GetInformationObject(0))
   {
-    return 1;
-  }
-  const char* type = collection ? "vtkPartitionedDataSetCollection" : "vtkUnstructuredGrid";
-  vtkDataObject* output = info->Get(vtkDataObject::DATA_OBJECT());
-  if (!output || !output->IsA(type))
-  {
-    vtkDataObject* made = collection
-      ? static_cast<vtkDataObject*>(vtkPartitionedDataSetCollection::New())
-      : static_cast<vtkDataObject*>(vtkUnstructuredGrid::New());
-    info->Set(vtkDataObject::DATA_OBJECT(), made);
-    made->Delete();
+    MakeOutput(outputs, 0, collection ? "vtkPartitionedDataSetCollection" : "vtkUnstructuredGrid");
   }
   return 1;
 }

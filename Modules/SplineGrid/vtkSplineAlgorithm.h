@@ -46,6 +46,13 @@ protected:
   /** Threads to hand to kernels: the property, or one under MPI when it is 0. */
   int KernelThreads() const;
 
+  /** Makes output `port` an empty object of a class, unless it is one. */
+  static void MakeOutput(vtkInformationVector* outputs, int port, const char* type);
+  /** The same of an input's class; nothing without an input. */
+  static void MakeOutputLike(vtkInformationVector* outputs, int port, vtkDataObject* input);
+  /** The same for all ports, of the types that FillOutputPortInformation tells. @return 1. */
+  int MakeDeclaredOutputs(vtkInformationVector* outputs);
+
   int FillInputPortInformation(int port, vtkInformation* info) override;
   /** Output 0 of the input's type; override for tables, polydata and further ports. */
   int RequestDataObject(

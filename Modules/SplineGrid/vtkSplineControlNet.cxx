@@ -3,6 +3,7 @@
 
 #include "ControlNet.h"
 #include "HierarchicalSpace.h"
+#include "NamedArray.h"
 #include "SplineBlocks.h"
 #include "SplineModel.h"
 
@@ -25,15 +26,6 @@ vtkStandardNewMacro(vtkSplineControlNet);
 
 namespace
 {
-template <typename Array>
-vtkSmartPointer<Array> NewArray(const char* name, int components = 1)
-{
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  return array;
-}
-
 /// Control points and lines of one block.
 class Net
 {
@@ -69,7 +61,7 @@ public:
     // vertices come before lines in polydata
     for (const char* name : { "PatchId", "Level", "Direction" })
     {
-      auto all = NewArray<vtkIntArray>(name);
+      auto all = knotwork::NamedArray<vtkIntArray>(name);
       const int which = name[0] == 'P' ? 0 : name[0] == 'L' ? 1 : 2;
       for (const auto& cells : { &this->VertexCells, &this->LineCells })
       {
@@ -92,7 +84,7 @@ private:
         field.Name != "FunctionId" && field.Name != "Level" && field.Name != "PatchId" &&
         field.Name != "Greville")
       {
-        this->Fields.push_back(NewArray<vtkDoubleArray>(
+        this->Fields.push_back(knotwork::NamedArray<vtkDoubleArray>(
           field.Name.c_str(), static_cast<int>(field.Coefficients.cols())));
       }
     }
@@ -159,11 +151,11 @@ private:
   vtkNew<vtkPoints> Points;
   vtkNew<vtkCellArray> Verts;
   vtkNew<vtkCellArray> Edges;
-  vtkSmartPointer<vtkDoubleArray> Weight = NewArray<vtkDoubleArray>("Weight");
-  vtkSmartPointer<vtkIntArray> FunctionId = NewArray<vtkIntArray>("FunctionId");
-  vtkSmartPointer<vtkIntArray> Level = NewArray<vtkIntArray>("Level");
-  vtkSmartPointer<vtkIntArray> PatchId = NewArray<vtkIntArray>("PatchId");
-  vtkSmartPointer<vtkDoubleArray> Greville = NewArray<vtkDoubleArray>("Greville", 3);
+  vtkSmartPointer<vtkDoubleArray> Weight = knotwork::NamedArray<vtkDoubleArray>("Weight");
+  vtkSmartPointer<vtkIntArray> FunctionId = knotwork::NamedArray<vtkIntArray>("FunctionId");
+  vtkSmartPointer<vtkIntArray> Level = knotwork::NamedArray<vtkIntArray>("Level");
+  vtkSmartPointer<vtkIntArray> PatchId = knotwork::NamedArray<vtkIntArray>("PatchId");
+  vtkSmartPointer<vtkDoubleArray> Greville = knotwork::NamedArray<vtkDoubleArray>("Greville", 3);
   std::vector<vtkSmartPointer<vtkDoubleArray>> Fields;
   std::vector<std::array<int, 3>> VertexCells; ///< patch, level, direction
   std::vector<std::array<int, 3>> LineCells;
@@ -186,11 +178,7 @@ int vtkSplineControlNet::RequestDataObject(
   {
     return this->Superclass::RequestDataObject(request, inputs, outputs);
   }
-  if (!vtkPolyData::GetData(outputs))
-  {
-    vtkNew<vtkPolyData> output;
-    outputs->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), output);
-  }
+  MakeOutput(outputs, 0, "vtkPolyData");
   return 1;
 }
 

@@ -285,15 +285,7 @@ int vtkSplineEvaluate::FillOutputPortInformation(int, vtkInformation* info)
 int vtkSplineEvaluate::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  vtkPointSet* points = vtkPointSet::GetData(inputs[1], 0);
-  vtkInformation* info = outputs->GetInformationObject(0);
-  vtkDataObject* output = info->Get(vtkDataObject::DATA_OBJECT());
-  if (points && (!output || !output->IsA(points->GetClassName())))
-  {
-    vtkPointSet* made = points->NewInstance();
-    info->Set(vtkDataObject::DATA_OBJECT(), made);
-    made->Delete();
-  }
+  MakeOutputLike(outputs, 0, vtkPointSet::GetData(inputs[1], 0));
   return 1;
 }
 

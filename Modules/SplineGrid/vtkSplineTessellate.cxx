@@ -298,11 +298,7 @@ int vtkSplineTessellate::RequestDataObject(
   {
     return this->Superclass::RequestDataObject(request, inputs, outputs);
   }
-  if (!vtkPolyData::GetData(outputs))
-  {
-    vtkNew<vtkPolyData> output;
-    outputs->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), output);
-  }
+  MakeOutput(outputs, 0, "vtkPolyData");
   return 1;
 }
 

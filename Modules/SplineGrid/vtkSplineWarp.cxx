@@ -287,15 +287,7 @@ int vtkSplineWarp::FillOutputPortInformation(int, vtkInformation* info)
 int vtkSplineWarp::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
-  vtkInformation* info = outputs->GetInformationObject(0);
-  vtkDataObject* output = info->Get(vtkDataObject::DATA_OBJECT());
-  if (input && (!output || !output->IsA(input->GetClassName())))
-  {
-    vtkDataObject* made = input->NewInstance();
-    info->Set(vtkDataObject::DATA_OBJECT(), made);
-    made->Delete();
-  }
+  MakeOutputLike(outputs, 0, vtkDataObject::GetData(inputs[0], 0));
   return 1;
 }
 

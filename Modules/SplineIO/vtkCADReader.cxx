@@ -101,20 +101,7 @@ int vtkCADReader::FillOutputPortInformation(int port, vtkInformation* info)
 int vtkCADReader::RequestDataObject(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
-  for (int port = 0; port < 2; ++port)
-  {
-    if (!vtkUnstructuredGrid::GetData(outputs, port))
-    {
-      vtkNew<vtkUnstructuredGrid> grid;
-      outputs->GetInformationObject(port)->Set(vtkDataObject::DATA_OBJECT(), grid);
-    }
-  }
-  if (!vtkPolyData::GetData(outputs, 2))
-  {
-    vtkNew<vtkPolyData> triangles;
-    outputs->GetInformationObject(2)->Set(vtkDataObject::DATA_OBJECT(), triangles);
-  }
-  return 1;
+  return this->MakeDeclaredOutputs(outputs);
 }
 
 Status vtkCADReader::Compute(vtkInformationVector**, vtkInformationVector* outputs)

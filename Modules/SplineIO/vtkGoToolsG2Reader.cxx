@@ -7,7 +7,6 @@
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -25,14 +24,9 @@ int vtkGoToolsG2Reader::FillOutputPortInformation(int, vtkInformation* info)
 }
 
 int vtkGoToolsG2Reader::RequestDataObject(
-  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
-  if (!vtkUnstructuredGrid::GetData(outputs, 1))
-  {
-    vtkNew<vtkUnstructuredGrid> curves;
-    outputs->GetInformationObject(1)->Set(vtkDataObject::DATA_OBJECT(), curves);
-  }
-  return this->Superclass::RequestDataObject(request, inputs, outputs);
+  return this->MakeDeclaredOutputs(outputs);
 }
 
 knotwork::Status vtkGoToolsG2Reader::EncodeMore(

@@ -85,12 +85,7 @@ int vtkPointCloudReader::FillOutputPortInformation(int, vtkInformation* info)
 int vtkPointCloudReader::RequestDataObject(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
-  if (!vtkPolyData::GetData(outputs))
-  {
-    vtkNew<vtkPolyData> points;
-    outputs->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), points);
-  }
-  return 1;
+  return this->MakeDeclaredOutputs(outputs);
 }
 
 knotwork::Status vtkPointCloudReader::Compute(vtkInformationVector**, vtkInformationVector* outputs)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ContourData.h"
 
+#include "NamedArray.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
@@ -120,15 +121,6 @@ void CompleteParams(
     params.Levels.push_back((1.0 - share) * choice.Range[0] + share * choice.Range[1]);
   }
 }
-
-template <typename Array>
-vtkSmartPointer<Array> MakeArray(const char* name, int components = 1)
-{
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  return array;
-}
 }
 
 Result<std::vector<PatchContours>> TracePatches(
@@ -187,14 +179,14 @@ Status EncodePolylines(
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   vtkNew<vtkCellArray> lines;
-  const auto value = MakeArray<vtkDoubleArray>("Value");
-  const auto element = MakeArray<vtkIntArray>("ElementId");
-  const auto uv = MakeArray<vtkDoubleArray>("UV", 2);
-  const auto level = MakeArray<vtkDoubleArray>("Level");
-  const auto number = MakeArray<vtkIntArray>("ComponentId");
-  const auto closed = MakeArray<vtkIntArray>("Closed");
-  const auto patchId = MakeArray<vtkIntArray>("PatchId");
-  const auto error = MakeArray<vtkDoubleArray>("MaxError");
+  const auto value = NamedArray<vtkDoubleArray>("Value");
+  const auto element = NamedArray<vtkIntArray>("ElementId");
+  const auto uv = NamedArray<vtkDoubleArray>("UV", 2);
+  const auto level = NamedArray<vtkDoubleArray>("Level");
+  const auto number = NamedArray<vtkIntArray>("ComponentId");
+  const auto closed = NamedArray<vtkIntArray>("Closed");
+  const auto patchId = NamedArray<vtkIntArray>("PatchId");
+  const auto error = NamedArray<vtkDoubleArray>("MaxError");
   EvaluationParams params;
   params.Threads = threads;
   for (const PatchContours& patch : patches)
@@ -284,11 +276,11 @@ Status EncodeCurves(
     return status;
   }
   vtkDataArray* number = output->GetCellData()->GetArray("PatchId");
-  const auto level = MakeArray<vtkDoubleArray>("Level");
-  const auto component = MakeArray<vtkIntArray>("ComponentId");
-  const auto closed = MakeArray<vtkIntArray>("Closed");
-  const auto surface = MakeArray<vtkIntArray>("SurfaceId");
-  const auto error = MakeArray<vtkDoubleArray>("MaxError");
+  const auto level = NamedArray<vtkDoubleArray>("Level");
+  const auto component = NamedArray<vtkIntArray>("ComponentId");
+  const auto closed = NamedArray<vtkIntArray>("Closed");
+  const auto surface = NamedArray<vtkIntArray>("SurfaceId");
+  const auto error = NamedArray<vtkDoubleArray>("MaxError");
   for (vtkIdType cell = 0; cell < output->GetNumberOfCells(); ++cell)
   {
     const std::size_t i = static_cast<std::size_t>(number->GetTuple1(cell));
@@ -308,13 +300,13 @@ Status EncodeCurves(
 
 void EncodeLevels(const std::vector<PatchContours>& patches, vtkTable* output)
 {
-  const auto level = MakeArray<vtkDoubleArray>("Level");
-  const auto components = MakeArray<vtkIntArray>("Components");
-  const auto closed = MakeArray<vtkIntArray>("Closed");
-  const auto points = MakeArray<vtkIdTypeArray>("Points");
-  const auto error = MakeArray<vtkDoubleArray>("MaxError");
-  const auto undecided = MakeArray<vtkIntArray>("Undecided");
-  const auto tolerance = MakeArray<vtkDoubleArray>("Tolerance");
+  const auto level = NamedArray<vtkDoubleArray>("Level");
+  const auto components = NamedArray<vtkIntArray>("Components");
+  const auto closed = NamedArray<vtkIntArray>("Closed");
+  const auto points = NamedArray<vtkIdTypeArray>("Points");
+  const auto error = NamedArray<vtkDoubleArray>("MaxError");
+  const auto undecided = NamedArray<vtkIntArray>("Undecided");
+  const auto tolerance = NamedArray<vtkDoubleArray>("Tolerance");
   const std::size_t n = patches.empty() ? 0 : patches[0].Contours.Levels.size();
   for (std::size_t l = 0; l < n; ++l)
   {
@@ -359,10 +351,10 @@ Status EncodeUndecided(const std::vector<PatchContours>& patches, int threads, v
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   vtkNew<vtkCellArray> quads;
-  const auto level = MakeArray<vtkDoubleArray>("Level");
-  const auto patchId = MakeArray<vtkIntArray>("PatchId");
-  const auto element = MakeArray<vtkIntArray>("ElementId");
-  const auto bounds = MakeArray<vtkDoubleArray>("ParametricBounds", 4);
+  const auto level = NamedArray<vtkDoubleArray>("Level");
+  const auto patchId = NamedArray<vtkIntArray>("PatchId");
+  const auto element = NamedArray<vtkIntArray>("ElementId");
+  const auto bounds = NamedArray<vtkDoubleArray>("ParametricBounds", 4);
   EvaluationParams params;
   params.Threads = threads;
   for (const PatchContours& patch : patches)

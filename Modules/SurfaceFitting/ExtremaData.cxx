@@ -23,9 +23,7 @@ namespace
 template <typename Array>
 vtkSmartPointer<Array> NewArray(vtkDataSetAttributes* data, const char* name, int components = 1)
 {
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
+  auto array = NamedArray<Array>(name, components);
   data->AddArray(array);
   return array;
 }

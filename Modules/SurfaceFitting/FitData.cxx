@@ -2,6 +2,7 @@
 #include "FitData.h"
 
 #include "MeshData.h"
+#include "NamedArray.h"
 #include "Parallel.h"
 #include "PlaneParameters.h"
 #include "SplineModel.h"
@@ -195,9 +196,7 @@ Result<PointMatrix> FindParameters(vtkPointSet* data, const CloudChoice& choice)
 template <typename Array, typename Value>
 void AddValues(vtkFieldData* data, const char* name, const std::vector<Value>& values)
 {
-  vtkNew<Array> array;
-  array->SetName(name);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
+  const auto array = NamedArray<Array>(name, 1, static_cast<vtkIdType>(values.size()));
   std::copy(values.begin(), values.end(), array->GetPointer(0));
   data->AddArray(array);
 }
@@ -290,10 +289,7 @@ void EncodeDistances(const DecodedCloud& cloud, const SurfaceFit& fit, vtkPointS
   if (cloud.NumMeasured == 3)
   {
     const PointMatrix& uv = cloud.Cloud.Parameters;
-    vtkNew<vtkDoubleArray> array;
-    array->SetName("UV");
-    array->SetNumberOfComponents(2);
-    array->SetNumberOfTuples(uv.rows());
+    const auto array = NamedArray<vtkDoubleArray>("UV", 2, uv.rows());
     std::copy(uv.data(), uv.data() + uv.size(), array->GetPointer(0));
     data->AddArray(array);
   }
@@ -301,24 +297,14 @@ void EncodeDistances(const DecodedCloud& cloud, const SurfaceFit& fit, vtkPointS
 
 void EncodeIterations(const SurfaceFit& fit, vtkTable* output)
 {
-  const std::vector<FitIteration>& rows = fit.Iterations;
-  const auto add = [&](const char* name, auto array, auto value)
-  {
-    array->SetName(name);
-    for (const FitIteration& row : rows)
-    {
-      array->InsertNextValue(value(row));
-    }
-    output->AddColumn(array);
-  };
   using Row = const FitIteration&;
   const auto whole = [&](const char* name, auto value)
-  { add(name, vtkSmartPointer<vtkIdTypeArray>::New(), value); };
+  { output->AddColumn(ArrayOf<vtkIdTypeArray>(name, fit.Iterations, value)); };
   const auto real = [&](const char* name, auto value)
-  { add(name, vtkSmartPointer<vtkDoubleArray>::New(), value); };
+  { output->AddColumn(ArrayOf<vtkDoubleArray>(name, fit.Iterations, value)); };
   whole("Iteration", [](Row r) { return static_cast<vtkIdType>(r.Iteration); });
-  add("Method", vtkSmartPointer<vtkStringArray>::New(),
-    [](Row r) { return r.LeastSquares ? "least-squares" : "mba"; });
+  output->AddColumn(ArrayOf<vtkStringArray>(
+    "Method", fit.Iterations, [](Row r) { return r.LeastSquares ? "least-squares" : "mba"; }));
   whole("Functions", [](Row r) { return static_cast<vtkIdType>(r.NumFunctions); });
   whole("Elements", [](Row r) { return static_cast<vtkIdType>(r.NumElements); });
   real("MaxError", [](Row r) { return r.MaxError; });

@@ -4,6 +4,7 @@
 #include "BezierForm.h"
 #include "CombineSplines.h"
 #include "HeightField.h"
+#include "NamedArray.h"
 #include "PatchFields.h"
 
 #include "vtkDataObject.h"
@@ -124,17 +125,7 @@ int vtkSplineCombine::FillOutputPortInformation(int port, vtkInformation* info)
 int vtkSplineCombine::RequestDataObject(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
-  if (!vtkUnstructuredGrid::GetData(outputs, 0))
-  {
-    vtkNew<vtkUnstructuredGrid> grid;
-    outputs->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), grid);
-  }
-  if (!vtkTable::GetData(outputs, 1))
-  {
-    vtkNew<vtkTable> table;
-    outputs->GetInformationObject(1)->Set(vtkDataObject::DATA_OBJECT(), table);
-  }
-  return 1;
+  return this->MakeDeclaredOutputs(outputs);
 }
 
 Status vtkSplineCombine::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
@@ -163,10 +154,10 @@ Status vtkSplineCombine::Compute(vtkInformationVector** inputs, vtkInformationVe
   const double weightB = this->Mode == WEIGHTED ? this->SecondWeight : isDifference ? -1.0 : 0.5;
   const knotwork::ProgressCallback progress = this->Progress();
   std::set<std::string> dropped;
-  vtkNew<vtkIntArray> ids;
-  vtkNew<vtkIntArray> functions;
-  vtkNew<vtkDoubleArray> lower;
-  vtkNew<vtkDoubleArray> upper;
+  const auto ids = knotwork::NamedArray<vtkIntArray>("PatchId");
+  const auto functions = knotwork::NamedArray<vtkIntArray>("Functions");
+  const auto lower = knotwork::NamedArray<vtkDoubleArray>("MinBound");
+  const auto upper = knotwork::NamedArray<vtkDoubleArray>("MaxBound");
   for (std::size_t p = 0; p < second.size(); ++p)
   {
     if (!progress(static_cast<double>(p) / static_cast<double>(second.size())))
@@ -216,10 +207,6 @@ Status vtkSplineCombine::Compute(vtkInformationVector** inputs, vtkInformationVe
   }
   this->ReportWarnings(warnings);
   vtkTable* table = vtkTable::GetData(outputs, 1);
-  ids->SetName("PatchId");
-  functions->SetName("Functions");
-  lower->SetName("MinBound");
-  upper->SetName("MaxBound");
   table->AddColumn(ids);
   table->AddColumn(functions);
   table->AddColumn(lower);

@@ -6,7 +6,6 @@
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkTable.h"
@@ -19,16 +18,6 @@ namespace
 constexpr int NumOutputs = 4;
 constexpr const char* OutputTypes[NumOutputs] = { "vtkPolyData", "vtkUnstructuredGrid", "vtkTable",
   "vtkPolyData" };
-
-template <typename T>
-void MakeOutput(vtkInformationVector* outputs, int port)
-{
-  if (!T::GetData(outputs, port))
-  {
-    vtkNew<T> data;
-    outputs->GetInformationObject(port)->Set(vtkDataObject::DATA_OBJECT(), data);
-  }
-}
 }
 
 vtkSplineContour::vtkSplineContour()
@@ -80,11 +69,7 @@ int vtkSplineContour::FillOutputPortInformation(int port, vtkInformation* info)
 int vtkSplineContour::RequestDataObject(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
-  MakeOutput<vtkPolyData>(outputs, 0);
-  MakeOutput<vtkUnstructuredGrid>(outputs, 1);
-  MakeOutput<vtkTable>(outputs, 2);
-  MakeOutput<vtkPolyData>(outputs, 3);
-  return 1;
+  return this->MakeDeclaredOutputs(outputs);
 }
 
 knotwork::Status vtkSplineContour::Compute(

@@ -5,7 +5,6 @@
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkTable.h"
@@ -48,20 +47,7 @@ int vtkSplineExtrema::FillOutputPortInformation(int port, vtkInformation* info)
 int vtkSplineExtrema::RequestDataObject(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
-  for (int port = 0; port < 2; ++port)
-  {
-    if (!vtkPolyData::GetData(outputs, port))
-    {
-      vtkNew<vtkPolyData> data;
-      outputs->GetInformationObject(port)->Set(vtkDataObject::DATA_OBJECT(), data);
-    }
-  }
-  if (!vtkTable::GetData(outputs, 2))
-  {
-    vtkNew<vtkTable> table;
-    outputs->GetInformationObject(2)->Set(vtkDataObject::DATA_OBJECT(), table);
-  }
-  return 1;
+  return this->MakeDeclaredOutputs(outputs);
 }
 
 Status vtkSplineExtrema::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)

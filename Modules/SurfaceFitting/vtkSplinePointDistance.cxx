@@ -12,7 +12,6 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
-#include "vtkSmartPointer.h"
 
 #include <cstdlib>
 #include <functional>
@@ -32,10 +31,7 @@ template <typename Array>
 void AddPointArray(vtkPointSet* output, const char* name, int components, vtkIdType points,
   const std::function<double(vtkIdType, int)>& value)
 {
-  vtkNew<Array> array;
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(points);
+  const auto array = knotwork::NamedArray<Array>(name, components, points);
   for (vtkIdType i = 0; i < points; ++i)
   {
     for (int c = 0; c < components; ++c)
@@ -75,22 +71,9 @@ void EncodeStatistics(
 {
   using Row = knotwork::DistanceStatistics;
   const auto add = [&](const char* name, auto get)
-  {
-    vtkNew<vtkDoubleArray> column;
-    column->SetName(name);
-    for (const Row& row : rows)
-    {
-      column->InsertNextValue(get(row));
-    }
-    table->AddColumn(column);
-  };
-  vtkNew<vtkIdTypeArray> points;
-  points->SetName("Points");
-  for (const Row& row : rows)
-  {
-    points->InsertNextValue(static_cast<vtkIdType>(row.NumPoints));
-  }
-  table->AddColumn(points);
+  { table->AddColumn(knotwork::ArrayOf<vtkDoubleArray>(name, rows, get)); };
+  table->AddColumn(knotwork::ArrayOf<vtkIdTypeArray>(
+    "Points", rows, [](const Row& row) { return static_cast<vtkIdType>(row.NumPoints); }));
   add("Share",
     [all](const Row& row)
     { return static_cast<double>(row.NumPoints) / static_cast<double>(all); });
@@ -104,12 +87,9 @@ void EncodeStatistics(
 void EncodeClasses(
   const knotwork::SurfaceDistances& found, const std::vector<double>& tolerances, vtkTable* table)
 {
-  vtkNew<vtkIntArray> classes;
-  vtkNew<vtkDoubleArray> lower;
-  vtkNew<vtkDoubleArray> upper;
-  classes->SetName("Class");
-  lower->SetName("Lower");
-  upper->SetName("Upper");
+  const auto classes = knotwork::NamedArray<vtkIntArray>("Class");
+  const auto lower = knotwork::NamedArray<vtkDoubleArray>("Lower");
+  const auto upper = knotwork::NamedArray<vtkDoubleArray>("Upper");
   const auto k = static_cast<int>(tolerances.size());
   const auto limit = [&](int c) // upper end of class c >= 0
   {
@@ -192,22 +172,8 @@ int vtkSplinePointDistance::FillOutputPortInformation(int port, vtkInformation* 
 int vtkSplinePointDistance::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  const vtkPointSet* input = vtkPointSet::GetData(inputs[0], 0);
-  vtkDataObject* points = vtkDataObject::GetData(outputs, 0);
-  if (input && (!points || !points->IsA(input->GetClassName())))
-  {
-    auto made = vtkSmartPointer<vtkDataObject>::Take(input->NewInstance());
-    outputs->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), made);
-  }
-  for (int port = 1; port < NumOutputs; ++port)
-  {
-    if (!vtkTable::GetData(outputs, port))
-    {
-      vtkNew<vtkTable> table;
-      outputs->GetInformationObject(port)->Set(vtkDataObject::DATA_OBJECT(), table);
-    }
-  }
-  return 1;
+  MakeOutputLike(outputs, 0, vtkDataObject::GetData(inputs[0], 0));
+  return this->MakeDeclaredOutputs(outputs);
 }
 
 Status vtkSplinePointDistance::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)

@@ -73,13 +73,7 @@ template <typename Array, typename Get>
 void AddEdgeColumn(
   vtkTable* table, const char* name, const std::vector<knotwork::StitchedEdge>& edges, Get get)
 {
-  vtkNew<Array> column;
-  column->SetName(name);
-  for (const knotwork::StitchedEdge& edge : edges)
-  {
-    column->InsertNextValue(get(edge));
-  }
-  table->AddColumn(column);
+  table->AddColumn(knotwork::ArrayOf<Array>(name, edges, get));
 }
 
 void EncodeEdges(const std::vector<knotwork::StitchedEdge>& edges, vtkTable* table)
@@ -173,20 +167,7 @@ int vtkSplineStitch::FillOutputPortInformation(int port, vtkInformation* info)
 int vtkSplineStitch::RequestDataObject(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
-  if (!vtkUnstructuredGrid::GetData(outputs, 0))
-  {
-    vtkNew<vtkUnstructuredGrid> grid;
-    outputs->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), grid);
-  }
-  for (int port = 1; port < NumOutputs; ++port)
-  {
-    if (!vtkTable::GetData(outputs, port))
-    {
-      vtkNew<vtkTable> table;
-      outputs->GetInformationObject(port)->Set(vtkDataObject::DATA_OBJECT(), table);
-    }
-  }
-  return 1;
+  return this->MakeDeclaredOutputs(outputs);
 }
 
 Status vtkSplineStitch::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)

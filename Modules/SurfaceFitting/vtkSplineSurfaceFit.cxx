@@ -7,11 +7,9 @@
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
-#include "vtkSmartPointer.h"
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -25,16 +23,6 @@ namespace
 constexpr int NumOutputs = 4;
 constexpr const char* OutputTypes[NumOutputs] = { "vtkUnstructuredGrid", "vtkPointSet", "vtkTable",
   "vtkImageData" };
-
-template <typename T>
-void MakeOutput(vtkInformationVector* outputs, int port)
-{
-  if (!T::GetData(outputs, port))
-  {
-    vtkNew<T> data;
-    outputs->GetInformationObject(port)->Set(vtkDataObject::DATA_OBJECT(), data);
-  }
-}
 
 std::string DescribeMiss(const knotwork::SurfaceFit& fit)
 {
@@ -144,17 +132,8 @@ int vtkSplineSurfaceFit::FillOutputPortInformation(int port, vtkInformation* inf
 int vtkSplineSurfaceFit::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  MakeOutput<vtkUnstructuredGrid>(outputs, 0);
-  const vtkPointSet* input = vtkPointSet::GetData(inputs[0], 0);
-  vtkDataObject* points = vtkDataObject::GetData(outputs, 1);
-  if (input && (!points || !points->IsA(input->GetClassName())))
-  {
-    const auto like = vtkSmartPointer<vtkDataObject>::Take(input->NewInstance());
-    outputs->GetInformationObject(1)->Set(vtkDataObject::DATA_OBJECT(), like);
-  }
-  MakeOutput<vtkTable>(outputs, 2);
-  MakeOutput<vtkImageData>(outputs, 3);
-  return 1;
+  MakeOutputLike(outputs, 1, vtkDataObject::GetData(inputs[0], 0));
+  return this->MakeDeclaredOutputs(outputs);
 }
 
 knotwork::Status vtkSplineSurfaceFit::FindArray(

@@ -32,16 +32,6 @@ constexpr int NumOutputs = 4;
 constexpr const char* OutputTypes[NumOutputs] = { "vtkPolyData", "vtkUnstructuredGrid",
   "vtkUnstructuredGrid", "vtkTable" };
 
-template <typename T>
-void MakeOutput(vtkInformationVector* outputs, int port)
-{
-  if (!T::GetData(outputs, port))
-  {
-    vtkNew<T> data;
-    outputs->GetInformationObject(port)->Set(vtkDataObject::DATA_OBJECT(), data);
-  }
-}
-
 /// x and y of points over a height field, else their array UV.
 knotwork::Result<knotwork::PointMatrix> ParametersOf(vtkPointSet* points, bool isHeightField)
 {
@@ -148,11 +138,7 @@ int vtkSplineTrimToPoints::FillOutputPortInformation(int port, vtkInformation* i
 int vtkSplineTrimToPoints::RequestDataObject(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
-  MakeOutput<vtkPolyData>(outputs, 0);
-  MakeOutput<vtkUnstructuredGrid>(outputs, 1);
-  MakeOutput<vtkUnstructuredGrid>(outputs, 2);
-  MakeOutput<vtkTable>(outputs, 3);
-  return 1;
+  return this->MakeDeclaredOutputs(outputs);
 }
 
 Status vtkSplineTrimToPoints::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)

@@ -7,7 +7,6 @@
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkTable.h"
@@ -24,16 +23,6 @@ constexpr int NumOutputs = 5;
 constexpr int DeviationPort = 3;
 constexpr const char* OutputTypes[NumOutputs] = { "vtkPolyData", "vtkUnstructuredGrid",
   "vtkUnstructuredGrid", "vtkPointSet", "vtkTable" };
-
-template <typename T>
-void MakeOutput(vtkInformationVector* outputs, int port)
-{
-  if (!T::GetData(outputs, port))
-  {
-    vtkNew<T> data;
-    outputs->GetInformationObject(port)->Set(vtkDataObject::DATA_OBJECT(), data);
-  }
-}
 
 /// What a user should know about faces that are not as asked for.
 std::vector<std::string> Shortcomings(const knotwork::TrimmedSurface& trimmed)
@@ -99,19 +88,9 @@ int vtkTrimmedSurface::FillOutputPortInformation(int port, vtkInformation* info)
 int vtkTrimmedSurface::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  MakeOutput<vtkPolyData>(outputs, 0);
-  MakeOutput<vtkUnstructuredGrid>(outputs, 1);
-  MakeOutput<vtkUnstructuredGrid>(outputs, 2);
-  if (vtkPolyData::GetData(inputs[0], 0))
-  {
-    MakeOutput<vtkPolyData>(outputs, DeviationPort);
-  }
-  else
-  {
-    MakeOutput<vtkUnstructuredGrid>(outputs, DeviationPort);
-  }
-  MakeOutput<vtkTable>(outputs, 4);
-  return 1;
+  MakeOutput(outputs, DeviationPort,
+    vtkPolyData::GetData(inputs[0], 0) ? "vtkPolyData" : "vtkUnstructuredGrid");
+  return this->MakeDeclaredOutputs(outputs);
 }
 
 knotwork::Status vtkTrimmedSurface::Compute(

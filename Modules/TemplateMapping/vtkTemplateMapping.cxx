@@ -6,7 +6,6 @@
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkTable.h"
@@ -95,19 +94,7 @@ int vtkTemplateMapping::FillOutputPortInformation(int port, vtkInformation* info
 int vtkTemplateMapping::RequestDataObject(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
-  const auto make = [&](int port, auto* kind)
-  {
-    using Type = std::remove_pointer_t<decltype(kind)>;
-    if (!Type::GetData(outputs, port))
-    {
-      vtkNew<Type> output;
-      outputs->GetInformationObject(port)->Set(vtkDataObject::DATA_OBJECT(), output);
-    }
-  };
-  make(0, static_cast<vtkUnstructuredGrid*>(nullptr));
-  make(1, static_cast<vtkPolyData*>(nullptr));
-  make(2, static_cast<vtkTable*>(nullptr));
-  return 1;
+  return this->MakeDeclaredOutputs(outputs);
 }
 
 template <int Dim>

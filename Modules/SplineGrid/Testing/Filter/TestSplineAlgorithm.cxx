@@ -11,6 +11,9 @@
 #include "vtkObjectFactory.h"
 #include "vtkPartitionedDataSet.h"
 #include "vtkPartitionedDataSetCollection.h"
+#include "vtkPolyData.h"
+#include "vtkTable.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -52,6 +55,36 @@ protected:
 };
 vtkStandardNewMacro(Copy);
 
+/// Declares a grid, points as the input's and a table.
+class Three : public vtkSplineAlgorithm
+{
+public:
+  static Three* New();
+  vtkTypeMacro(Three, vtkSplineAlgorithm);
+
+protected:
+  Three() { this->SetNumberOfOutputPorts(3); }
+  int FillOutputPortInformation(int port, vtkInformation* info) override
+  {
+    constexpr const char* types[] = { "vtkUnstructuredGrid", "vtkPointSet", "vtkTable" };
+    info->Set(vtkDataObject::DATA_TYPE_NAME(), types[port]);
+    return 1;
+  }
+  int FillInputPortInformation(int, vtkInformation* info) override
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+    return 1;
+  }
+  int RequestDataObject(
+    vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override
+  {
+    MakeOutputLike(outputs, 1, vtkDataObject::GetData(inputs[0]));
+    return this->MakeDeclaredOutputs(outputs);
+  }
+  Status Compute(vtkInformationVector**, vtkInformationVector*) override { return {}; }
+};
+vtkStandardNewMacro(Three);
+
 struct Messages
 {
   std::vector<std::string> Errors;
@@ -84,6 +117,21 @@ TEST(SplineAlgorithm, OutputHasTheTypeOfTheInput_ExactOracle)
   filter->SetInputDataObject(vtkNew<vtkUnstructuredGrid>());
   filter->Update();
   EXPECT_TRUE(vtkUnstructuredGrid::SafeDownCast(filter->GetOutputDataObject(0)));
+}
+
+TEST(SplineAlgorithm, OutputsAreOfTheDeclaredTypesAndStay_ExactOracle)
+{
+  vtkNew<Three> filter;
+  filter->SetInputDataObject(vtkNew<vtkPolyData>());
+  filter->Update();
+  EXPECT_TRUE(vtkUnstructuredGrid::SafeDownCast(filter->GetOutputDataObject(0)));
+  EXPECT_TRUE(vtkPolyData::SafeDownCast(filter->GetOutputDataObject(1)));
+  vtkDataObject* table = filter->GetOutputDataObject(2);
+  EXPECT_TRUE(vtkTable::SafeDownCast(table));
+  filter->SetInputDataObject(vtkNew<vtkUnstructuredGrid>());
+  filter->Update();
+  EXPECT_TRUE(vtkUnstructuredGrid::SafeDownCast(filter->GetOutputDataObject(1)));
+  EXPECT_EQ(filter->GetOutputDataObject(2), table);
 }
 
 TEST(SplineAlgorithm, ErrorIsReportedOnceAndTheOutputIsEmpty)
