@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Multilevel.h"
 
-#include "Bernstein.h"
 #include "Parallel.h"
+#include "PointLanes.h"
 
 #include <algorithm>
 
@@ -12,11 +12,20 @@ namespace
 {
 constexpr std::size_t ElementChunk = 16;
 constexpr std::size_t FunctionChunk = 1024;
-constexpr int Lanes = 8;
 
 std::size_t At(int i)
 {
   return static_cast<std::size_t>(i);
+}
+
+double Sum(const Eight& numbers)
+{
+  double sum = 0.0;
+  for (int i = 0; i < Lanes; ++i)
+  {
+    sum += numbers[i];
+  }
+  return sum;
 }
 
 /// The two sums of the functions alive on an element, numerators of all components first.
@@ -35,15 +44,15 @@ public:
     const int n = this->Functions.PerElement;
     const int alive = this->Functions.Alive(e);
     this->Functions.LocalCoefficients(e, coefficients, this->Local.data());
-    this->Basis.resize(At(n * Lanes));
-    this->Values.resize(At(alive * Lanes));
-    this->Residuals.resize(At(this->Components * Lanes));
+    this->Basis.resize(At(n));
+    this->Values.resize(At(alive));
+    this->Residuals.resize(At(this->Components));
     const FitPoints::Range range = points.Ranges[At(e)];
     for (std::size_t first = range.Begin; first < range.End; first += Lanes)
     {
       const int count = static_cast<int>(std::min<std::size_t>(Lanes, range.End - first));
       this->Evaluate(element, e, points, first, count);
-      this->Sum(e, points, first, count, sums);
+      this->AddPoints(e, points, first, count, sums);
     }
   }
 
@@ -52,41 +61,30 @@ private:
     std::size_t first, int count)
   {
     const int n0 = element.Degree[0] + 1;
-    const int n1 = element.Degree[1] + 1;
-    const int n = n0 * n1;
-    const ParametricBox<2>& box = element.Box;
-    for (int i = 0; i < Lanes; ++i)
+    const int n = n0 * (element.Degree[1] + 1);
+    Eight u[MaxDegree + 1];
+    Eight v[MaxDegree + 1];
+    BasisAtPoints(element.Degree[0], element.Degree[1], element.Box, points, first, count, u, v);
+    for (int b = 0; b < n; ++b)
     {
-      const std::size_t k = first + At(std::min(i, count - 1));
-      double u[MaxDegree + 1];
-      double v[MaxDegree + 1];
-      BernsteinValues(n0 - 1, (points.U[k] - box.Lower[0]) / (box.Upper[0] - box.Lower[0]), u);
-      BernsteinValues(n1 - 1, (points.V[k] - box.Lower[1]) / (box.Upper[1] - box.Lower[1]), v);
-      for (int b = 0; b < n; ++b)
-      {
-        this->Basis[At(b * Lanes + i)] = u[b % n0] * v[b / n0];
-      }
+      this->Basis[At(b)] = u[b % n0] * v[b / n0];
     }
-    const auto combine = [&](const double* row, double* out)
+    const auto combine = [&](const double* row, Eight& out)
     {
-      double sum[Lanes] = {};
+      Eight sum{};
       for (int b = 0; b < n; ++b)
       {
-        for (int i = 0; i < Lanes; ++i)
-        {
-          sum[i] += row[b] * this->Basis[At(b * Lanes + i)];
-        }
+        sum += row[b] * this->Basis[At(b)];
       }
-      std::copy_n(sum, Lanes, out);
+      out = sum;
     };
     for (int k = 0; k < this->Functions.Alive(e); ++k)
     {
-      combine(
-        this->Functions.Row(this->Functions.First(e) + At(k)), this->Values.data() + At(k * Lanes));
+      combine(this->Functions.Row(this->Functions.First(e) + At(k)), this->Values[At(k)]);
     }
     for (int c = 0; c < this->Components; ++c)
     {
-      double* out = this->Residuals.data() + At(c * Lanes);
+      Eight& out = this->Residuals[At(c)];
       combine(this->Local.data() + At(c * n), out);
       for (int i = 0; i < count; ++i)
       {
@@ -95,41 +93,28 @@ private:
     }
   }
 
-  void Sum(int e, const FitPoints& points, std::size_t first, int count, double* sums) const
+  void AddPoints(int e, const FitPoints& points, std::size_t first, int count, double* sums) const
   {
     const int alive = this->Functions.Alive(e);
-    double squares[Lanes] = {};
+    Eight squares{};
     for (int k = 0; k < alive; ++k)
     {
-      const double* w = this->Values.data() + At(k * Lanes);
-      for (int i = 0; i < Lanes; ++i)
-      {
-        squares[i] += w[i] * w[i];
-      }
+      squares += this->Values[At(k)] * this->Values[At(k)];
     }
-    double weight[Lanes] = {};
+    Eight weight{};
     for (int i = 0; i < count; ++i)
     {
       weight[i] = points.Base[first + At(i)] * points.Boost[first + At(i)];
     }
     for (int k = 0; k < alive; ++k)
     {
-      const double* w = this->Values.data() + At(k * Lanes);
+      const Eight& w = this->Values[At(k)];
       double* out = sums + k * (this->Components + 1);
-      double factor[Lanes];
-      for (int i = 0; i < Lanes; ++i)
-      {
-        factor[i] = weight[i] * w[i] * w[i];
-        out[this->Components] += factor[i];
-        factor[i] *= w[i] / squares[i];
-      }
+      const Eight factor = weight * w * w;
+      out[this->Components] += Sum(factor);
       for (int c = 0; c < this->Components; ++c)
       {
-        const double* r = this->Residuals.data() + At(c * Lanes);
-        for (int i = 0; i < count; ++i)
-        {
-          out[c] += factor[i] * r[i];
-        }
+        out[c] += Sum(factor * w / squares * this->Residuals[At(c)]);
       }
     }
   }
@@ -137,9 +122,9 @@ private:
   const ElementFunctions& Functions;
   int Components;
   std::vector<double> Local;
-  std::vector<double> Basis;
-  std::vector<double> Values;
-  std::vector<double> Residuals;
+  std::vector<Eight> Basis;
+  std::vector<Eight> Values;
+  std::vector<Eight> Residuals;
 };
 }
 

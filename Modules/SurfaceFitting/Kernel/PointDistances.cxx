@@ -3,6 +3,7 @@
 
 #include "Bernstein.h"
 #include "Parallel.h"
+#include "PointLanes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,6 @@ namespace knotwork
 namespace
 {
 constexpr std::size_t ElementChunk = 16;
-constexpr int Lanes = 8;
 constexpr int Slices = 8; // of an element, for the choice of directions
 
 std::size_t At(int i)
@@ -21,74 +21,29 @@ std::size_t At(int i)
   return static_cast<std::size_t>(i);
 }
 
-/// Bernstein polynomials at eight points at a time.
-template <typename Degree>
-inline void BasisRows(const Degree degree, const double* t, double (*rows)[Lanes])
-{
-  double s[Lanes];
-  for (int i = 0; i < Lanes; ++i)
-  {
-    s[i] = 1.0 - t[i];
-    rows[0][i] = 1.0;
-  }
-  for (int q = 1; q <= degree; ++q)
-  {
-    for (int i = 0; i < Lanes; ++i)
-    {
-      rows[q][i] = t[i] * rows[q - 1][i];
-    }
-    for (int k = q - 1; k > 0; --k)
-    {
-      for (int i = 0; i < Lanes; ++i)
-      {
-        rows[k][i] = s[i] * rows[k][i] + t[i] * rows[k - 1][i];
-      }
-    }
-    for (int i = 0; i < Lanes; ++i)
-    {
-      rows[0][i] *= s[i];
-    }
-  }
-}
-
 /// Squares of the distances at up to eight points from first on; with one component the differences
 /// value - surface themselves.
 template <typename DegreeU, typename DegreeV>
 inline void Differences(const DegreeU p, const DegreeV q, const ParametricBox<2>& box,
-  const RealArray<2>& scale, const FitPoints& points, std::size_t first, int count, int components,
-  const double* local, double* out)
+  const FitPoints& points, std::size_t first, int count, int components, const double* local,
+  double* out)
 {
-  double s[Lanes] = {};
-  double t[Lanes] = {};
-  for (int i = 0; i < count; ++i)
-  {
-    s[i] = (points.U[first + At(i)] - box.Lower[0]) * scale[0];
-    t[i] = (points.V[first + At(i)] - box.Lower[1]) * scale[1];
-  }
-  double u[MaxDegree + 1][Lanes];
-  double v[MaxDegree + 1][Lanes];
-  BasisRows(p, s, u);
-  BasisRows(q, t, v);
+  Eight u[MaxDegree + 1];
+  Eight v[MaxDegree + 1];
+  BasisAtPoints(p, q, box, points, first, count, u, v);
   std::fill_n(out, Lanes, 0.0);
   for (int c = 0; c < components; ++c)
   {
     const double* coefficients = local + c * (p + 1) * (q + 1);
-    double sum[Lanes] = {};
+    Eight sum{};
     for (int k = 0; k <= q; ++k)
     {
-      double line[Lanes] = {};
+      Eight line{};
       for (int j = 0; j <= p; ++j)
       {
-        const double b = coefficients[k * (p + 1) + j];
-        for (int i = 0; i < Lanes; ++i)
-        {
-          line[i] += b * u[j][i];
-        }
+        line += coefficients[k * (p + 1) + j] * u[j];
       }
-      for (int i = 0; i < Lanes; ++i)
-      {
-        sum[i] += v[k][i] * line[i];
-      }
+      sum += v[k] * line;
     }
     for (int i = 0; i < count; ++i)
     {
@@ -102,14 +57,12 @@ template <typename DegreeU, typename DegreeV>
 ElementErrors MeasureElement(const DegreeU p, const DegreeV q, const ParametricBox<2>& box,
   const double* local, int measured, const FitPoints::Range& range, FitPoints& points)
 {
-  const RealArray<2> scale{ 1.0 / (box.Upper[0] - box.Lower[0]),
-    1.0 / (box.Upper[1] - box.Lower[1]) };
   ElementErrors errors;
   for (std::size_t first = range.Begin; first < range.End; first += Lanes)
   {
     const int count = static_cast<int>(std::min<std::size_t>(Lanes, range.End - first));
     double distance[Lanes];
-    Differences(p, q, box, scale, points, first, count, measured, local, distance);
+    Differences(p, q, box, points, first, count, measured, local, distance);
     for (int i = 0; i < count; ++i)
     {
       const std::size_t k = first + At(i);
