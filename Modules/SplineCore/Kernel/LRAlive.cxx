@@ -10,7 +10,7 @@ namespace knotwork
 {
 namespace
 {
-constexpr std::size_t ChunkSize = 256;  // functions
+constexpr std::size_t ChunkSize = 64;   // functions
 constexpr std::size_t MaxOverload = 16; // functions on an element on average, over (p + 1)(q + 1)
 
 std::size_t At(int i)

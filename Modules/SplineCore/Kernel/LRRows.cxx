@@ -14,8 +14,8 @@ namespace knotwork
 namespace
 {
 constexpr double UnityTolerance = 1e-9;
-constexpr std::size_t ElementChunk = 128;
-constexpr std::size_t RowChunk = 512;
+constexpr std::size_t ElementChunk = 32;
+constexpr std::size_t RowChunk = 128;
 constexpr std::size_t WordBits = 64;
 
 std::size_t At(int i)
