@@ -51,7 +51,12 @@ struct ConvertJob
       return session.Write(surfaces, this->Output, this->Encoding);
     }
     CADSummary found;
-    return session.WriteFaces(surfaces, curves, this->Output, found);
+    Status status = session.WriteFaces(surfaces, curves, this->Output, found);
+    if (!status && !fromCAD && !this->Curves.empty())
+    {
+      status.Detail += " (curves of '" + this->Curves + "')";
+    }
+    return status;
   }
 
   /// Boundary curves of g2: from the file or --curves to the file or --curves.

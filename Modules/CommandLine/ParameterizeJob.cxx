@@ -48,7 +48,9 @@ struct ParameterizeJob
     }
     this->FilterOptions->Apply(session.Report);
     this->Filter->SetThreads(session.Threads);
-    if (Status status = session.Run(this->Filter, "'" + this->Input + "'"); !status)
+    const std::string what =
+      "'" + this->Input + "'" + (this->Layout.empty() ? "" : " with '" + this->Layout + "'");
+    if (Status status = session.Run(this->Filter, what); !status)
     {
       return status;
     }

@@ -3,6 +3,7 @@
 #include "Options.h"
 #include "Session.h"
 
+#include "SplineModel.h"
 #include "vtkSplineStitch.h"
 
 #include <vtkDataObject.h>
@@ -10,6 +11,7 @@
 #include <vtkTable.h>
 #include <vtkVariant.h>
 
+#include <algorithm>
 #include <memory>
 #include <tuple>
 
@@ -26,6 +28,34 @@ struct StitchJob
   vtkNew<vtkSplineStitch> Filter;
   std::unique_ptr<Options> FilterOptions;
 
+  /// The inputs, as many as fit in a message.
+  std::string Names() const
+  {
+    constexpr std::size_t Most = 4;
+    std::string names;
+    for (std::size_t i = 0; i < std::min(this->Inputs.size(), Most); ++i)
+    {
+      names += (i == 0 ? "'" : ", '") + this->Inputs[i] + "'";
+    }
+    return this->Inputs.size() <= Most
+      ? names
+      : names + " and " + std::to_string(this->Inputs.size() - Most) + " more";
+  }
+
+  /// What is wrong with the first file that holds no sound splines; Ok: the error is elsewhere.
+  Status FindDamage() const
+  {
+    for (std::size_t i = 0; i < this->Inputs.size(); ++i)
+    {
+      auto decoded = DecodeSplineModel(this->Filter->GetInputDataObject(0, static_cast<int>(i)));
+      if (!decoded)
+      {
+        return { decoded.Status.Code, "'" + this->Inputs[i] + "': " + decoded.Status.Message() };
+      }
+    }
+    return {};
+  }
+
   Status Run(Session& session)
   {
     for (const std::string& file : this->Inputs)
@@ -34,6 +64,10 @@ struct StitchJob
       if (!input)
       {
         return input.Status;
+      }
+      if (input.Value->GetNumberOfElements(vtkDataObject::CELL) == 0)
+      {
+        return { ErrorCode::EmptyInput, "'" + file + "' holds no cells; leave it out" };
       }
       this->Filter->AddInputDataObject(input.Value);
     }
@@ -50,11 +84,10 @@ struct StitchJob
       session.Report["matching"] = "pairs";
     }
     this->Filter->SetThreads(session.Threads);
-    const std::string what = "'" + this->Inputs.front() + "'" +
-      (this->Inputs.size() > 1 ? " and " + std::to_string(this->Inputs.size() - 1) + " more" : "");
-    if (Status status = session.Run(this->Filter, what); !status)
+    if (Status status = session.Run(this->Filter, this->Names()); !status)
     {
-      return status;
+      Status damage = this->FindDamage();
+      return damage ? status : damage;
     }
     vtkTable* numbers = vtkTable::SafeDownCast(this->Filter->GetOutputDataObject(2));
     for (const char* name : { "Tiles", "Edges", "Functions", "FunctionsAdded" })

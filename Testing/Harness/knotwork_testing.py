@@ -101,10 +101,10 @@ def save_and_compare(view, name, size=300):
     compare_image(name)
 
 
-def run_program(*arguments, timeout=120):
-    """Runs the program `knotwork`; the result has returncode, stdout and stderr."""
+def run_program(*arguments, timeout=120, folder=None):
+    """Runs the program `knotwork`, in the folder if one is given; the result has returncode, stdout and stderr."""
     return subprocess.run([PROGRAM, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                          errors="replace", timeout=timeout)
+                          errors="replace", timeout=timeout, cwd=folder)
 
 
 def main(namespace):

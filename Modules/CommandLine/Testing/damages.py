@@ -4,7 +4,7 @@ import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import (
-    VTK_BEZIER_QUADRILATERAL, VTK_TETRA, vtkCellArray, vtkUnstructuredGrid)
+    VTK_BEZIER_QUADRILATERAL, VTK_QUAD, VTK_TETRA, vtkCellArray, vtkUnstructuredGrid)
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter
 
 HUGE = 1e308
@@ -109,6 +109,13 @@ def lone_cell(kind, points, degree=None):
     return replaced(make)
 
 
+def quadrilateral():
+    """The unit square as one linear cell."""
+    grid = vtkUnstructuredGrid()
+    lone_cell(VTK_QUAD, [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)])(grid)
+    return grid
+
+
 def square_points(count):
     return [(i % count, i // count, 0) for i in range(count * count)]
 
@@ -120,8 +127,8 @@ def weights(value):
     return do
 
 
-def field(value):
-    return lambda grid: fill(grid.GetPointData().GetArray("Temperature"), value, 5)
+def field(value, name="Temperature"):
+    return lambda grid: fill(grid.GetPointData().GetArray(name), value, 5)
 
 
 def degrees(value):
@@ -184,6 +191,37 @@ REFUSED = [
     ("box_corner_negative", lambda g: table(g, "KnotworkBoxes", 1, -2**62), []),
     ("basis_wrong", patches("Degree1", 3), []),
     ("basis_hash_wrong", patches("PatchBasis", 2**60), ["PatchBasis"]),
+]
+
+# Of a biquadratic LR height field over [0, 1]^2 with the field Heat.
+REFUSED_LR = [
+    ("lr_nan_point", lambda g: point(g, 4, np.nan, 0, 0), ["NaN"]),
+    ("lr_huge_point", lambda g: point(g, 4, HUGE, -HUGE, HUGE), ["point 4", "1e+60"]),
+    ("lr_nan_field", field(np.nan, "Heat"), ["Heat"]),
+    ("lr_missing_element", keep_cells(3), ["missing"]),
+    ("lr_as_thb", patches("Kind", 2), []),
+    ("lr_in_space", patches("Dimension", 3), []),
+    ("lr_functions_fewer", patches("Functions", 3), []),
+    ("lr_degree_3", patches("Degree0", 3), []),
+    ("lr_lines_2_60", patches("Boxes", 2**60), ["Boxes"]),
+    ("lr_lines_fewer", patches("Boxes", 2), []),
+    ("lr_no_lines", without("KnotworkMeshLines"), ["KnotworkMeshLines"]),
+    ("lr_no_local_knots", without("KnotworkLocalKnots"), ["KnotworkLocalKnots"]),
+    ("lr_no_scaling", without("KnotworkScaling"), ["KnotworkScaling"]),
+    ("lr_no_knots", without("KnotworkKnots"), ["KnotworkKnots"]),
+    ("lr_knot_nan", lambda g: table(g, "KnotworkKnots", 1, np.nan), []),
+    ("lr_knot_descends", lambda g: table(g, "KnotworkKnots", 1, -1), []),
+    ("lr_line_direction", lambda g: table(g, "KnotworkMeshLines", 0, 7, 1), []),
+    ("lr_line_far", lambda g: table(g, "KnotworkMeshLines", 1, 2**60, 1), []),
+    ("lr_line_negative", lambda g: table(g, "KnotworkMeshLines", 2, -2**62, 1), []),
+    ("lr_line_multiplicity", lambda g: table(g, "KnotworkMeshLines", 3, 2**60, 1), []),
+    ("lr_local_knot_far", lambda g: table(g, "KnotworkLocalKnots", 9, 2**60), []),
+    ("lr_local_knot_negative", lambda g: table(g, "KnotworkLocalKnots", 9, -1), []),
+    ("lr_local_knots_descend", lambda g: table(g, "KnotworkLocalKnots", 0, 3), []),
+    ("lr_scaling_nan", lambda g: table(g, "KnotworkScaling", 3, np.nan), []),
+    ("lr_scaling_zero", lambda g: table(g, "KnotworkScaling", 3, 0), []),
+    ("lr_scaling_negative", lambda g: table(g, "KnotworkScaling", 3, -1), []),
+    ("lr_scaling_twice", lambda g: table(g, "KnotworkScaling", 3, 2), []),
 ]
 
 # What a spline survives: the points count, not what is kept beside them.

@@ -267,7 +267,9 @@ Result<Spline<2>> RestrictToBox(const Spline<2>& spline, const ParametricBox<2>&
     if (!(domain.Lower[At(d)] <= low && low < high && high <= domain.Upper[At(d)]))
     {
       return { ErrorCode::OutsideDomain,
-        "[" + Digits(low) + ", " + Digits(high) + "] in direction " + std::to_string(d) };
+        "the box is [" + Digits(low) + ", " + Digits(high) + "] in direction " + std::to_string(d) +
+          (low < high ? "" : ", which has no length") + "; the domain is [" +
+          Digits(domain.Lower[At(d)]) + ", " + Digits(domain.Upper[At(d)]) + "]" };
     }
     for (const double value : { low, high })
     {

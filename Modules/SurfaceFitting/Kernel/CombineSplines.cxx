@@ -169,7 +169,8 @@ Result<CombinedSpline> CombineSplines(const Spline<2>& a, const Spline<2>& b, do
   status = status ? MakeCommon(first, second) : status;
   if (status && first.ControlPoints.rows() != second.ControlPoints.rows())
   {
-    status = { ErrorCode::NotInSpace, "knots of both splines are closer than can be told apart" };
+    status = { ErrorCode::NotInSpace,
+      "knots of both splines are closer than can be told apart; fit one of them anew" };
   }
   if (!status)
   {

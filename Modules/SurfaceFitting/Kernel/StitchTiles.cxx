@@ -110,7 +110,8 @@ Status AverageEdge(
   {
     return { ErrorCode::InvalidKnots,
       "knots of tiles " + std::to_string(edge.Pair.Tiles[0]) + " and " +
-        std::to_string(edge.Pair.Tiles[1]) + " are closer than can be told apart" };
+        std::to_string(edge.Pair.Tiles[1]) +
+        " are closer than can be told apart; fit one of them anew" };
   }
   const auto atEnds = static_cast<std::size_t>(continuity + 1);
   for (std::size_t k = atEnds; k + atEnds < numbers[0].size(); ++k)

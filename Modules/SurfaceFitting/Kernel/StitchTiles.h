@@ -83,7 +83,8 @@ struct StitchedTiles
 /// tile multiplied by the ratio of the sides' lengths in parameters.
 /// @return EmptyInput; Spline::Check's codes naming the tile; SizeMismatch (components);
 /// InvalidWeight for rational tiles that share an edge; InvalidDegree when degrees along a boundary
-/// differ, or are below 2 for C1; InvalidParameter; InvalidTopology: domains that overlap, several
+/// differ, or are below 2 for C1; InvalidKnots for knots closer than can be told apart (2e-12 of a
+/// side); InvalidParameter; InvalidTopology: domains that overlap, several
 /// tiles of which no two share an edge, a side in two pairs, C1 where other than four tiles meet
 /// around a point; Aborted; what MakeLocallyRefined returns.
 /// @complexity a few insertions a knot on a boundary and an assembly of every tile's space.

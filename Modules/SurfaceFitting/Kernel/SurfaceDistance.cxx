@@ -3,6 +3,7 @@
 
 #include "ClosestPoint.h"
 #include "HeightField.h"
+#include "Numbers.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -39,6 +40,10 @@ Status Check(const PointMatrixView& points, const std::vector<Spline<2>>& surfac
     if (!points.row(i).allFinite())
     {
       return { ErrorCode::NonFiniteInput, "point " + std::to_string(i) };
+    }
+    if (!AllWithinLimit(points.row(i)))
+    {
+      return { ErrorCode::TooLarge, "point " + std::to_string(i) + ": " + BeyondLimit() };
     }
   }
   for (std::size_t s = 0; s < surfaces.size(); ++s)

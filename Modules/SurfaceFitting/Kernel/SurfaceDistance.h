@@ -55,7 +55,8 @@ struct SurfaceDistances
 /// sign of Closest is that of the tangent plane there; 0 counts as above.
 /// @param points  n x 3, finite. @param surfaces  3 components or more, of which 3 count.
 /// @return EmptyInput without points or surfaces; Spline::Check's codes naming the surface;
-/// SizeMismatch; NonFiniteInput naming the point; InvalidParameter for tolerances; Aborted.
+/// SizeMismatch; NonFiniteInput and TooLarge (beyond 1e60) naming the point; InvalidParameter for
+/// tolerances; Aborted.
 /// @complexity Vertical: a location and an evaluation a point; Closest: see ClosestPointSearch.
 /// Bit-identical for any number of threads.
 Result<SurfaceDistances> MeasureSurfaceDistances(const PointMatrixView& points,

@@ -351,8 +351,10 @@ Result<TileRows> PrepareStrips(
             statuses[t] = refined.Status;
             if (refined && refined->Space->NumFunctions == tiles[t].Space->NumFunctions)
             {
-              statuses[t] = { ErrorCode::InvalidKnots,
-                "knots of its neighbours are closer to its own than can be told apart" };
+              statuses[t] = {
+                ErrorCode::InvalidKnots,
+                "knots of its neighbours are closer to its own than can be told apart; fit it anew"
+              };
             }
             tiles[t] = refined ? std::move(refined.Value) : tiles[t];
             grown[t] = 1;

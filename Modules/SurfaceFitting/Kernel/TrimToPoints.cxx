@@ -8,6 +8,7 @@
 #include "TrimmedRegion.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 namespace knotwork
@@ -16,12 +17,32 @@ namespace
 {
 constexpr std::size_t ChunkSize = 1024; // points
 
-Result<Spline<2>> TensorSurface(const Spline<2>& surface)
+/// NaN passes: the outline names it.
+Status CheckInside(const Spline<2>& surface, const PointMatrixView& parameters)
 {
   if (Status status = surface.Check(); !status)
   {
     return status;
   }
+  const ParametricBox<2> domain = surface.Space->Domain();
+  for (Eigen::Index d = 0; d < std::min<Eigen::Index>(2, parameters.cols()); ++d)
+  {
+    const double lower = domain.Lower[static_cast<std::size_t>(d)];
+    const double upper = domain.Upper[static_cast<std::size_t>(d)];
+    for (Eigen::Index i = 0; i < parameters.rows(); ++i)
+    {
+      if (parameters(i, d) < lower || parameters(i, d) > upper)
+      {
+        return { ErrorCode::OutsideDomain,
+          "point " + std::to_string(i) + " is not over the surface; leave it out" };
+      }
+    }
+  }
+  return {};
+}
+
+Result<Spline<2>> TensorSurface(const Spline<2>& surface)
+{
   if (surface.IsRational())
   {
     return { ErrorCode::InvalidWeight,
@@ -128,24 +149,12 @@ Result<TrimmedToPoints> TrimToPoints(
   {
     return { ErrorCode::InvalidParameter, "the tolerance must be 0 or more" };
   }
-  const auto tensor = TensorSurface(surface);
+  const Status inside = CheckInside(surface, parameters);
+  const auto tensor = inside ? TensorSurface(surface) : inside;
   const auto outline = tensor ? FindCloudOutline(parameters, params.Outline) : tensor.Status;
   if (!outline)
   {
     return outline.Status;
-  }
-  const ParametricBox<2> domain = tensor->Space->Domain();
-  for (Eigen::Index i = 0; i < parameters.rows(); ++i)
-  {
-    for (std::size_t d = 0; d < 2; ++d)
-    {
-      const double x = parameters(i, static_cast<Eigen::Index>(d));
-      if (!(x >= domain.Lower[d] && x <= domain.Upper[d]))
-      {
-        return { ErrorCode::OutsideDomain,
-          "point " + std::to_string(i) + " is not over the surface; leave it out" };
-      }
-    }
   }
   const auto charts = MakeCharts(outline.Value, tensor.Value);
   if (!charts)

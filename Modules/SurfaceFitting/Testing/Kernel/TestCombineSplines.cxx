@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BezierForm.h"
+#include "BezierSpace.h"
 #include "CombineSplines.h"
 #include "LRCases.h"
 #include "LROperations.h"
+#include "LocallyRefinedForm.h"
 
 #include <gtest/gtest.h>
 
@@ -180,4 +182,19 @@ TEST(CombineSplines, EveryFailureIsReachable_ExactOracle)
   params.CommonDomain = true;
   EXPECT_EQ(code(RandomOn(random, { { 5, 5 }, { 6, 6 } }, { 2, 2 }, 0), params),
     ErrorCode::InvalidTopology);
+  bad.Space = MakeBezierSpace<2>({ { 2, 2 } }, { 0, 1, 2, 3, 4, 5, 6, 7, 8 }, 9).Value;
+  bad.ControlPoints = PointMatrix::Zero(9, a.ControlPoints.cols());
+  EXPECT_EQ(code(bad), ErrorCode::DimensionMismatch);
+  EXPECT_EQ(MakeLocallyRefined(bad).Status.Code, ErrorCode::DimensionMismatch);
+  // two lines of one spline where the other has one, and no room to tell which it is
+  std::array<Spline<2>, 2> near;
+  for (std::size_t k = 0; k < 2; ++k)
+  {
+    std::vector<double> t{ 0, 0, 0, 0.3, 1, 1, 1 };
+    t.insert(t.begin() + 4, k, 0.3 + 1e-13);
+    const auto knots = KnotVector::Create(2, std::move(t)).Value;
+    const auto space = MakeTensorSpace<2>({ KnotVector::Uniform(2, 2, 0, 1), knots }).Value;
+    near[k] = RandomSpline<2>(random, space, 1, false);
+  }
+  EXPECT_EQ(CombineSplines(near[0], near[1], 1.0, -1.0).Status.Code, ErrorCode::NotInSpace);
 }

@@ -32,6 +32,17 @@ Spline<2> TensorTile(Random& random, const ParametricBox<2>& box, const IntArray
   return RandomSpline<2>(random, MakeTensorSpace<2>(knots).Value, components, false);
 }
 
+/// On [begin, begin + 1] x [0, 1], biquadratic, with these inner knots along its second parameter.
+Spline<2> TileWithLines(Random& random, double begin, const std::vector<double>& lines)
+{
+  std::vector<double> t(3, 0.0);
+  t.insert(t.end(), lines.begin(), lines.end());
+  t.insert(t.end(), 3, 1.0);
+  const auto along = KnotVector::Create(2, std::move(t));
+  const auto across = KnotVector::Uniform(2, 2, begin, begin + 1.0);
+  return RandomSpline<2>(random, MakeTensorSpace<2>({ across, along.Value }).Value, 1, false);
+}
+
 /// The same with random lines inserted, and coefficients that have nothing to do with it.
 Spline<2> LocalTile(Random& random, const ParametricBox<2>& box, const IntArray<2>& degree,
   int segments, int components)
@@ -516,6 +527,9 @@ TEST(StitchTiles, EveryFailureIsReachable_ExactOracle)
   bad = good;
   bad[0].Weights = Eigen::VectorXd::Ones(bad[0].ControlPoints.rows());
   EXPECT_EQ(code(bad), ErrorCode::InvalidWeight);
+  // two lines of one tile where the other has one, and no room to tell which it is
+  bad = { TileWithLines(random, 0.0, { 0.3 }), TileWithLines(random, 1.0, { 0.3, 0.3 + 1e-13 }) };
+  EXPECT_EQ(code(bad), ErrorCode::InvalidKnots);
 }
 
 TEST(LocallyRefinedForm, IsTheSameMap_CrossOracle)

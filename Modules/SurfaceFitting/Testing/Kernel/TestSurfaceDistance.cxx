@@ -189,6 +189,8 @@ TEST(SurfaceDistance, EveryFailureIsReachable_ExactOracle)
   PointMatrix bad = points;
   bad(1, 2) = std::nan("");
   EXPECT_EQ(code(bad, { surface }), ErrorCode::NonFiniteInput);
+  bad(1, 2) = 1e61;
+  EXPECT_EQ(code(bad, { surface }), ErrorCode::TooLarge);
   Spline<2> flat = surface;
   flat.ControlPoints = surface.ControlPoints.leftCols(2).eval();
   EXPECT_EQ(code(points, { flat }), ErrorCode::SizeMismatch);

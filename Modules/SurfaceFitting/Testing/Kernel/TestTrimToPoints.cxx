@@ -154,8 +154,11 @@ TEST(TrimToPoints, EveryFailureIsReachable_ExactOracle)
   bad(3, 1) = std::nan("");
   EXPECT_EQ(code(surface, bad), ErrorCode::NonFiniteInput);
   bad = good;
-  bad(3, 1) = 1.5;
-  EXPECT_EQ(code(surface, bad), ErrorCode::OutsideDomain);
+  for (const double outside : { 1.5, 1e308 })
+  {
+    bad(3, 1) = outside;
+    EXPECT_EQ(code(surface, bad), ErrorCode::OutsideDomain);
+  }
   bad = good;
   bad.col(1).setZero();
   EXPECT_EQ(code(surface, bad), ErrorCode::SingularSystem);

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every input of every job of the program: what it takes, and a run in which everything else is in order."""
+import numpy as np
+
+import damages
+import skeletons
+from refusals import good, path, write_text
+
+FILE = "the file in question"  # its place in a run
+
+# endings of what an input takes, the one to begin with first
+ENDINGS = {"surface": (".vtu", ".xml", ".g2", ".step", ".iges"), "points": (".vtp", ".xyz", ".csv", ".ply", ".g2"),
+           "cells": (".vtp",), "mesh": (".off", ".obj", ".ply", ".stl", ".vtp"), "curves": (".vtp",),
+           "boundary": (".json",), "map": (".vtu",), "trim": (".vtu",), "grid": (".vtu",), "layout": (".vtu",)}
+
+BOUNDARY = ('{"curves": [%s]}' % ", ".join(
+    '{"degree": 1, "knots": [0, 0, 1, 1], "control_points": [%s]}' % ends
+    for ends in ("[0, 0], [1, 0]", "[0, 1], [1, 1]", "[0, 0], [0, 1]", "[1, 0], [1, 1]")))
+
+
+def triangles(ending):
+    """A square as four triangles, which fill it from its middle."""
+    points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0.5, 0.5, 0.1)]
+    corners = [(i, (i + 1) % 4, 4) for i in range(4)]
+    if ending == ".off":
+        lines = ["OFF", "5 4 0", *(" ".join(map(str, p)) for p in points), *("3 %d %d %d" % c for c in corners)]
+    elif ending == ".obj":
+        lines = [*("v %g %g %g" % p for p in points), *("f %d %d %d" % tuple(i + 1 for i in c) for c in corners)]
+    elif ending == ".ply":
+        lines = ["ply", "format ascii 1.0", "element vertex 5", "property float x", "property float y", "property float z",
+                 "element face 4", "property list uchar int vertex_indices", "end_header",
+                 *(" ".join(map(str, p)) for p in points), *("3 %d %d %d" % c for c in corners)]
+    else:
+        facets = ["facet normal 0 0 1\nouter loop\n" + "\n".join("vertex %g %g %g" % points[i] for i in c) +
+                  "\nendloop\nendfacet" for c in corners]
+        lines = ["solid x", *facets, "endsolid"]
+    return "\n".join(lines) + "\n"
+
+
+SOUND = {"surface": "square", "points": "cloud", "cells": "cloud", "mesh": "mesh", "curves": "target", "boundary": "boundary",
+         "map": "map", "trim": "trim", "grid": "square", "layout": "quads"}
+
+
+def sound(kind, ending):
+    """A file that is in order."""
+    return path(SOUND[kind] + ending)
+
+
+def make_files():
+    """Writes all of them, small ones."""
+    x, y = np.meshgrid(np.linspace(0, 1, 15), np.linspace(0, 1, 15))
+    heights = np.c_[x.ravel(), y.ravel(), (0.2 * np.sin(5 * x) * y).ravel()]
+    rows = [" ".join("%.17g" % value for value in point) for point in heights]
+    write_text("cloud.csv", "x,y,z,Heat\n" + "".join(row.replace(" ", ",") + ",1\n" for row in rows))
+    write_text("cloud.xyz", "\n".join(rows) + "\n")
+    write_text("cloud.ply", "ply\nformat ascii 1.0\nelement vertex 225\nproperty double x\nproperty double y\n"
+               "property double z\nend_header\n" + "\n".join(rows) + "\n")
+    for ending in (".g2", ".vtp"):
+        good("convert", path("cloud.csv"), "--output", path("cloud" + ending))
+    good("fit", path("cloud.csv"), "--tolerance", 1e-3, "--field", "Heat", "--output", path("height.vtu"))
+    for name, x in (("square", 0.5), ("east", 1.5)):
+        good("source", "--degree", 2, "--elements", 2, 2, 1, "--center", x, 0.5, 0, "--output", path(name + ".vtu"))
+    good("source", "--shape", "cube", "--output", path("cube.vtu"))
+    for ending in (".xml", ".g2", ".step", ".iges"):
+        good("convert", path("square.vtu"), "--output", path("square" + ending))
+    for ending in (".off", ".obj", ".ply", ".stl"):
+        write_text("mesh" + ending, triangles(ending))
+    good("flatten", path("mesh.off"), "--output", path("mesh.vtp"))
+    skeletons.write(skeletons.polydata(skeletons.curves(0.0, 1, 101)), path("template.vtp"))
+    skeletons.write(skeletons.polydata(skeletons.curves(0.1, 5, 50)), path("target.vtp"))
+    write_text("boundary.json", BOUNDARY)
+    good("crop", path("height.vtu"), path("cloud.vtp"), "--curves", path("trim.vtu"), "--output", path("face.vtu"))
+    damages.write(damages.quadrilateral(), path("quads.vtu"))
+    good("map", path("template.vtp"), path("target.vtp"), "--iterations", 1, "--output", path("map.vtu"))
+
+
+def runs():
+    """Pairs of a run and the kind of the file in question."""
+    surface, points, mesh = path("square.vtu"), path("cloud.vtp"), path("mesh.off")
+    height = path("height.vtu")
+    template, target, grid, polydata = path("template.vtp"), path("target.vtp"), "out.vtu", "out.vtp"
+    by_geometry = ["--matching", "geometry", "--edges", "table.csv"]
+    report = ["--report", "report.json", "--quiet"]
+    for arguments, kind in (
+            (["combine", FILE, height, "--output", grid], "surface"),
+            (["combine", height, FILE, "--output", grid], "surface"),
+            (["contour", FILE, "--table", "table.csv", "--output", polydata], "surface"),
+            (["convert", FILE, "--output", grid], "surface"),
+            (["convert", path("face.vtu"), "--curves", FILE, "--output", "out.step"], "trim"),
+            (["crop", FILE, points, "--triangles", polydata, "--output", "out.step"], "surface"),
+            (["crop", height, FILE, "--triangles", polydata, "--output", "out.step"], "points"),
+            (["distance", points, FILE, "--class-table", "table.csv", "--output", polydata], "surface"),
+            (["distance", FILE, height, "--class-table", "table.csv", "--output", polydata], "points"),
+            (["evaluate", FILE, points, "--output", polydata], "surface"),
+            (["evaluate", FILE, points, "--mode", "probe", "--output", polydata], "surface"),
+            (["evaluate", surface, FILE, "--output", polydata], "cells"),
+            (["extrema", FILE, "--component", 0, "--boxes", "boxes.vtp", "--output", polydata], "surface"),
+            (["extract", FILE, "--output", grid], "surface"),
+            (["extract", FILE, "--iso-curve", "first", "--output", grid], "surface"),
+            (["fit", FILE, "--table", "table.csv", "--points", polydata, "--output", grid], "points"),
+            (["flatten", FILE, "--loops", "loops.vtp", "--output", polydata], "mesh"),
+            (["info", FILE], "surface"),
+            (["info", FILE], "points"),
+            (["map", template, FILE, "--mapped", polydata, "--output", grid], "curves"),
+            (["map", FILE, target, "--mapped", polydata, "--output", grid], "curves"),
+            (["map", template, target, "--initial", FILE, "--output", grid], "map"),
+            (["parameterize", FILE, "--first-map", "first.vtu", "--output", grid], "boundary"),
+            (["parameterize", path("boundary.json"), "--layout", FILE, "--output", grid], "layout"),
+            (["refine", FILE, "--output", grid], "surface"),
+            (["stitch", FILE, path("east.vtu"), *by_geometry, "--output", grid], "surface"),
+            (["stitch", path("east.vtu"), FILE, *by_geometry, "--output", grid], "surface"),
+            (["tessellate", FILE, "--output", polydata], "surface"),
+            (["trim", FILE, "--triangles", polydata, "--output", "out.step"], "mesh"),
+            (["validate", FILE, "--table", "table.csv", "--output", grid], "grid"),
+            (["warp", FILE, surface, "--output", polydata], "points"),
+            (["warp", surface, FILE, "--output", grid], "surface")):
+        yield arguments + report, kind
+
+
+def on(arguments, file):
+    """The run with that file."""
+    return [file if argument is FILE else argument for argument in arguments]
