@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "FuzzPointFile.h"
 #include "FuzzSplineFile.h"
 #include "GoToolsG2.h"
 
@@ -8,5 +9,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   CheckText(
     data, size, [](std::string_view text) { return ReadG2(text); },
     [](const SplineFile& file) { return WriteG2File(file); });
+  CheckPoints(
+    data, size, [](std::string_view text) { return ReadG2Points(text); },
+    [](const PointFile& file) { return WriteG2Points(file); });
   return 0;
 }
