@@ -169,7 +169,7 @@ struct InfoJob
           if (dependence != "independent")
           {
             std::cout << ", functions linearly " << dependence
-                      << " (refine --keep-independent true resolves it)";
+                      << " (refine --keep-independent resolves it)";
           }
           dependences.push_back(dependence);
           if (patch.Recovered)

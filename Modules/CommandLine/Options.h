@@ -4,7 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include <functional>
+#include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -18,14 +20,24 @@ class Options
 public:
   explicit Options(CLI::App& job) : Job(job) {}
 
-  /// A number, or a list of them when T is a std::vector of the default's length.
+  /// A number, a list of them when T is a std::vector of the default's length, or a truth value,
+  /// which is on where the option stands without one (see TruthValues.h).
   template <typename T>
   CLI::Option* Add(const char* property, const T& initial, std::function<void(const T&)> set,
     const std::string& help)
   {
     auto value = std::make_shared<T>(initial);
-    CLI::Option* option = this->Job.add_option("--" + KebabCase(property), *value, help);
-    option->capture_default_str();
+    CLI::Option* option = nullptr;
+    if constexpr (std::is_same_v<T, bool>)
+    {
+      option = this->Job.add_flag("--" + KebabCase(property), *value, help);
+      option->option_text(initial ? "[0|1]=1" : "[0|1]=0");
+    }
+    else
+    {
+      option = this->Job.add_option("--" + KebabCase(property), *value, help);
+      option->capture_default_str();
+    }
     this->Bound.push_back({ SnakeCase(property),
       [value, set = std::move(set)](nlohmann::ordered_json& json)
       {

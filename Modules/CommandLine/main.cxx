@@ -4,11 +4,14 @@
 /// 3 invalid, 4 undecided.
 #include "Jobs.h"
 #include "Session.h"
+#include "TruthValues.h"
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <exception>
 #include <iostream>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -95,7 +98,9 @@ int main(int argc, char* argv[])
   }
   try
   {
-    app.parse(argc, argv);
+    std::vector<std::string> words = knotwork::JoinTruthValues(argc, argv, app);
+    std::reverse(words.begin(), words.end()); // as the parser takes them
+    app.parse(std::move(words));
   }
   catch (const CLI::ParseError& error)
   {

@@ -24,12 +24,30 @@ constexpr int NumOutputs = 4;
 constexpr const char* OutputTypes[NumOutputs] = { "vtkUnstructuredGrid", "vtkPointSet", "vtkTable",
   "vtkImageData" };
 
+const char* DescribeEnd(knotwork::FitEnd end)
+{
+  switch (end)
+  {
+    case knotwork::FitEnd::Iterations:
+      return "the limit of iterations is reached; allow more";
+    case knotwork::FitEnd::Functions:
+      return "the limit of functions is reached; allow more, or choose a tolerance above the noise";
+    case knotwork::FitEnd::Seconds:
+      return "the limit of time is reached; allow more";
+    case knotwork::FitEnd::Criterion:
+      return "the information criterion has ended the fit; without it the fit goes on";
+    default:
+      return "they contradict points in the same place, or elements are not split any "
+             "smaller; leave points out, find outliers, or allow smaller elements";
+  }
+}
+
 std::string DescribeMiss(const knotwork::SurfaceFit& fit)
 {
   std::ostringstream text;
   text << fit.Final.NumOutside << " of " << fit.Distances.size()
        << " points are farther away than their tolerance, by a largest distance of "
-       << fit.Final.MaxError << "; allow more iterations, functions or time, or smaller elements";
+       << fit.Final.MaxError << ": " << DescribeEnd(fit.End);
   return text.str();
 }
 }

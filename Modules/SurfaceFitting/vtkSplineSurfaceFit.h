@@ -207,7 +207,8 @@ public:
   vtkGetMacro(MaximumIterations, int);
   ///@}
   ///@{
-  /** Functions at most; 0: as many as there are points. Default 0, valid range [0, 1e9]. */
+  /** Functions at most; 0: ten times the number of points but at most a million, or the number of
+   * points if that is more. Default 0, valid range [0, 1e9]. */
   vtkSetClampMacro(MaximumFunctions, int, 0, 1000000000);
   vtkGetMacro(MaximumFunctions, int);
   ///@}

@@ -289,6 +289,36 @@ def test_outliers_are_a_mask():
     assert (mask & wild).sum() >= 0.95 * wild.sum() and (mask & ~wild).sum() <= 0.02 * wild.sum() + 1
 
 
+def test_truth_values_stand_alone_or_with_a_value():
+    file = write_xyz("t.xyz", cloud(14, 500))
+    for value, expected in (([], False), (["--find-outliers"], True), (["--find-outliers", 1], True), (["--find-outliers", 0], False),
+                            (["--find-outliers=0"], False), (["--find-outliers=True"], True), (["--find-outliers", "OFF"], False),
+                            (["--find-outliers", "on"], True), (["--find-outliers", "--all-fields", 0], True)):
+        assert fit(file, "t.g2", *value)["find_outliers"] is expected, value
+    # what follows is the file, not a value
+    done = knotwork_testing.run_program("fit", "--find-outliers", file, "--output", path("t.g2"), "--report", path("r.json"))
+    assert done.returncode == 0, done.stderr
+    with open(path("r.json")) as stream:
+        assert json.load(stream)["find_outliers"] is True
+    # all jobs with files as input: with a missing one they end with 1, with a wrong option with 2
+    checked = 0
+    for job, files in (("combine", 2), ("contour", 1), ("extract", 1), ("extrema", 1), ("fit", 1), ("flatten", 1), ("refine", 1),
+                       ("tessellate", 1), ("validate", 1), ("warp", 2)):
+        lines = knotwork_testing.run_program(job, "--help").stdout.splitlines()
+        options = [line.split()[0] for line in lines if "[0|1]=" in line]
+        assert options, job
+        inputs = [path(f"missing{i}.vtu") for i in range(files)]
+        every = [word for option in options for word in ([option], [option, "false"], [option + "=1"])]
+        words = [word for group in every for word in group]
+        more = ["--levels", 1] if job == "contour" else []
+        done = knotwork_testing.run_program(job, *words, *inputs, "--output", path("t.vtu"), *more)
+        assert done.returncode == 1 and "missing" in done.stderr, (job, done.stderr)
+        done = knotwork_testing.run_program(job, *inputs, "--output", path("t.vtu"), *more, options[0] + "=maybe")
+        assert done.returncode == 2, (job, done.stderr)
+        checked += len(options)
+    assert checked >= 20
+
+
 def test_limits_end_the_fit_with_a_warning():
     points = cloud(9)
     file = write_xyz("l.xyz", points)
@@ -298,6 +328,13 @@ def test_limits_end_the_fit_with_a_warning():
     assert (np.abs(d) > 1e-5).sum() == report["points_outside"]
     report = fit(file, "l.g2", "--tolerance", 1e-5, "--maximum-functions", 200, warns=True)
     assert report["functions"] <= 200 and report["within_tolerance"] is False
+    for arguments, reason in ((("--maximum-iterations", 1), "limit of iterations"), (("--maximum-functions", 200), "limit of functions"),
+                              (("--maximum-seconds", 1e-9), "limit of time")):
+        done = knotwork_testing.run_program("fit", file, "--output", path("l.g2"), "--tolerance", 1e-5, *arguments)
+        assert done.returncode == 0 and reason in done.stderr, done.stderr
+    again = np.r_[points, points[:5] + (0, 0, 0.1)]  # in the same place, at another height
+    done = knotwork_testing.run_program("fit", write_xyz("l.xyz", again), "--output", path("l.g2"), "--tolerance", 1e-3)
+    assert done.returncode == 0 and "contradict" in done.stderr, done.stderr
 
 
 def test_few_points_have_a_surface_too():

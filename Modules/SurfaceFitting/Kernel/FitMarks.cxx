@@ -12,6 +12,7 @@ namespace
 {
 constexpr double SplitBoth = 0.5;      // a direction's gain, of the other one's: from here on both
 constexpr double EndShare = 0.01;      // of the elements
+constexpr int LastOfShare = 10;        // iteration; from then on the share is halved in each
 constexpr double ReweightRatio = 1.3;  // largest distance / tolerance
 constexpr double ReweightShare = 1e-3; // of all points may be outside
 constexpr double ReweightFloor = 0.9;  // of the tolerance: from here on points gain
@@ -96,8 +97,9 @@ std::array<bool, 2> ChooseDirections(const std::array<bool, 2>& allowed, const F
 }
 
 /// Those of the elements that may be split that FitParams::Threshold asks for.
+/// @param share  of the largest error or number.
 std::vector<SplitMark> ChooseElements(const std::vector<std::array<bool, 2>>& allowed,
-  const std::vector<ElementErrors>& errors, const FitParams& params)
+  const std::vector<ElementErrors>& errors, const FitParams& params, double share)
 {
   double worst = 0.0;
   std::size_t most = 0;
@@ -118,10 +120,9 @@ std::vector<SplitMark> ChooseElements(const std::vector<std::array<bool, 2>>& al
     switch (params.Threshold)
     {
       case FitThreshold::LargestErrors:
-        return own.Ratio - 1.0 >= params.ThresholdShare * (worst - 1.0);
+        return own.Ratio - 1.0 >= share * (worst - 1.0);
       case FitThreshold::MostPoints:
-        return static_cast<double>(own.NumOutside) >=
-          params.ThresholdShare * static_cast<double>(most);
+        return static_cast<double>(own.NumOutside) >= share * static_cast<double>(most);
       default:
         return true;
     }
@@ -157,7 +158,8 @@ std::vector<SplitMark> MarkElements(const FitState& state, const ElementFunction
         }
       }
     });
-  std::vector<SplitMark> marks = ChooseElements(allowed, errors, params);
+  std::vector<SplitMark> marks = ChooseElements(allowed, errors, params,
+    std::ldexp(params.ThresholdShare, -std::clamp(iteration - LastOfShare, 0, 1000)));
   ParallelFor(marks.size(), MarkChunk, params.Threads,
     [&](std::size_t begin, std::size_t end)
     {

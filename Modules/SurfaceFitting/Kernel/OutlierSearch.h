@@ -2,15 +2,26 @@
 #pragma once
 #include "FitPoints.h"
 
+#include <array>
+#include <cstdint>
+#include <tuple>
+#include <vector>
+
 namespace knotwork
 {
 /// Tells outliers from features that the surface does not follow yet: the distances of a feature's
 /// points are alike, an outlier's is not like those of the points around it. A point is one when it
 /// is outside its tolerance, and differs from the median of its neighbours by more than its
 /// tolerance and more than a number of robust standard deviations (1.4826 times the median absolute
-/// deviation) of the neighbours, and at most one of its eight nearest is off alike (to the same
-/// side and at least 0.3 times as far): the points of a ridge or a cliff narrower than a
-/// neighbourhood speak for each other.
+/// deviation) of the neighbours, unless
+/// - as many of its eight nearest are off alike (to the same side and at least 0.3 times as far) as
+///   outliers in this number, strewn at random, hardly ever are: two, or three or more where there
+///   are many outliers. So the points of a ridge speak for each other.
+/// - six of its eight nearest have its value, within the tolerance: it is the surface that is off,
+///   beside a step.
+/// - it lies on a step: a line through it parts its neighbours into two flat sides, at different
+///   heights, and its value is between these. No other point need be as high as one in the middle
+///   of a cliff.
 ///
 /// Neighbours are the points in 3 x 3 cells of a grid with about four points a cell, more where
 /// these hold less than twelve.
@@ -19,7 +30,7 @@ namespace knotwork
 class OutlierSearch
 {
 public:
-  OutlierSearch(const PointCloud& cloud, const ParametricBox<2>& domain);
+  OutlierSearch(const PointCloud& cloud, const ParametricBox<2>& domain, int numMeasured);
 
   /// Decides anew about every point outside its tolerance and every outlier.
   /// @param outliers  n, in the cloud's order, updated. @param scale  FitParams::OutlierScale.
@@ -30,16 +41,35 @@ public:
 
 private:
   int CellOf(std::size_t direction, double x) const;
+  struct Neighbour
+  {
+    double SquaredDistance = 0.0; ///< in cells
+    int Row = 0;
+    RealArray<2> Offset{}; ///< in cells, from the point
+    bool operator<(const Neighbour& other) const
+    {
+      return std::tie(this->SquaredDistance, this->Row) <
+        std::tie(other.SquaredDistance, other.Row);
+    }
+  };
   /// Memory that is kept between calls.
   struct Work
   {
-    std::vector<std::pair<double, int>> Near; ///< squared distance in cells, row
+    std::vector<Neighbour> Near;
     std::vector<double> Values;
+    std::vector<double> Sides[2];
   };
-  bool IsOutlier(int row, const std::vector<double>& distances, double tolerance, double scale,
+  /// Fills work.Near; false when there are too few.
+  bool FindNeighbours(int row, Work& work) const;
+  /// How many of the nearest are off as the point is, of one that may be an outlier; else -1.
+  int CountAlike(int row, const std::vector<double>& distances, double tolerance, double scale,
     Work& work) const;
+  /// @pre work.Near are the neighbours; their order changes, the farthest are left out.
+  bool IsCommon(int row, double tolerance, Work& work) const;
+  bool IsOnStep(int row, double tolerance, Work& work) const;
 
   const PointCloud& Cloud;
+  int NumMeasured;
   ParametricBox<2> Domain;
   std::array<int, 2> Size{};
   std::vector<int> Start; ///< of a cell's rows

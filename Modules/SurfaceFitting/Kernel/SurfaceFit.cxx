@@ -23,13 +23,15 @@ namespace knotwork
 namespace
 {
 constexpr std::size_t PointChunk = 16384;
-constexpr int MultilevelSteps = 2;      // an iteration
-constexpr int ReweightSteps = 3;        // an iteration
-constexpr int OutlierSteps = 3;         // an iteration
-constexpr double SolverAccuracy = 0.03; // of the smallest tolerance
-constexpr double FirstSmoothing = 1e-3; // of the surface that the first one starts from
-constexpr int FirstSteps = 3;           // damped, to the first one
-constexpr double LeastProgress = 0.9;   // of the points outside may be left by an iteration
+constexpr int MultilevelSteps = 2;             // an iteration
+constexpr int ReweightSteps = 3;               // an iteration
+constexpr int OutlierSteps = 3;                // an iteration
+constexpr double SolverAccuracy = 0.03;        // of the smallest tolerance
+constexpr double FirstSmoothing = 1e-3;        // of the surface that the first one starts from
+constexpr int FirstSteps = 3;                  // damped, to the first one
+constexpr double LeastProgress = 0.9;          // of the points outside may be left by an iteration
+constexpr std::size_t FunctionsPerPoint = 10;  // unless a limit is given
+constexpr std::size_t MostFunctions = 1000000; // of clouds with fewer points
 
 std::size_t At(int i)
 {
@@ -77,6 +79,7 @@ public:
           return refined.Status;
         }
         this->IsSplit = refined.Value.Space != nullptr;
+        this->Stuck = this->Fit.End;
         if (this->IsSplit)
         {
           this->Adopt(std::move(refined.Value));
@@ -84,6 +87,7 @@ public:
       }
       else if (!this->IsNearer())
       {
+        this->Fit.End = this->Stuck;
         break;
       }
     }
@@ -101,6 +105,10 @@ private:
       return first.Status;
     }
     this->State = std::move(first.Value);
+    if (this->Params.Side != FitSide::Both)
+    {
+      this->Bands = EvenBands(this->Cloud.Parameters, domain, this->Tolerances);
+    }
     this->Group();
     this->Accuracy = SolverAccuracy *
       *std::min_element(this->Points.Tolerance.begin(), this->Points.Tolerance.end());
@@ -117,7 +125,7 @@ private:
       {
         this->Weights[At(this->Points.Order[i])] = this->Points.Base[i];
       }
-      this->Search = std::make_unique<OutlierSearch>(this->Cloud, domain);
+      this->Search = std::make_unique<OutlierSearch>(this->Cloud, domain, this->Params.NumMeasured);
     }
     return {};
   }
@@ -153,7 +161,7 @@ private:
     }
     if (this->Params.Side != FitSide::Both)
     {
-      MoveToBands(this->Params.Side, this->Points);
+      MoveToBands(this->Params.Side, this->Bands, this->Points);
     }
     this->Functions = FindElementFunctions(*this->State.Space, this->Params.Threads);
   }
@@ -296,6 +304,7 @@ private:
     }
     const FitIteration& row = this->Fit.Iterations.back();
     const double value = this->Params.Criterion == FitCriterion::AIC ? row.AIC : row.BIC;
+    this->Fit.End = FitEnd::Criterion;
     if (row.Iteration == 0 || value < this->BestCriterion)
     {
       this->BestCriterion = value;
@@ -315,24 +324,40 @@ private:
       LeastProgress * static_cast<double>(before);
   }
 
-  bool LimitReached() const
+  /// Time is up, too, when another iteration like the last one would take longer.
+  bool LimitReached()
   {
-    const FitIteration& row = this->Fit.Iterations.back();
-    return row.Iteration >= this->Params.MaxIterations ||
-      (this->Params.MaxSeconds > 0.0 && row.Seconds >= this->Params.MaxSeconds);
+    const std::vector<FitIteration>& rows = this->Fit.Iterations;
+    const double now = rows.back().Seconds;
+    const double last = rows.size() > 1 ? now - rows[rows.size() - 2].Seconds : 0.0;
+    if (this->Params.MaxSeconds > 0.0 && now + last >= this->Params.MaxSeconds)
+    {
+      this->Fit.End = FitEnd::Seconds;
+      return true;
+    }
+    this->Fit.End = FitEnd::Iterations;
+    return rows.back().Iteration >= this->Params.MaxIterations;
+  }
+
+  int FunctionLimit() const
+  {
+    const std::size_t n = this->Points.Size();
+    return this->Params.MaxFunctions > 0
+      ? this->Params.MaxFunctions
+      : static_cast<int>(std::max(n, std::min(FunctionsPerPoint * n, MostFunctions)));
   }
 
   /// The next state; without a space when nothing can be split. When all marks make more functions
   /// than are allowed, the worst elements are split, as many as fit.
-  Result<FitState> RefineWithinLimit(const std::vector<SplitMark>& marks) const
+  Result<FitState> RefineWithinLimit(const std::vector<SplitMark>& marks)
   {
+    this->Fit.End = marks.empty() ? FitEnd::Resolution : FitEnd::Functions;
     if (marks.empty())
     {
       return FitState{};
     }
     auto refined = RefineState(this->State, marks, this->Params);
-    const int limit = this->Params.MaxFunctions > 0 ? this->Params.MaxFunctions
-                                                    : static_cast<int>(this->Points.Size());
+    const int limit = this->FunctionLimit();
     if (!refined || refined.Value.Space->NumFunctions <= limit)
     {
       return refined;
@@ -406,6 +431,7 @@ private:
       this->Fit.Iterations.push_back(this->Fit.Final);
     }
     this->Fit.WithinTolerance = this->Fit.Final.NumOutside == 0;
+    this->Fit.End = this->Fit.WithinTolerance ? FitEnd::Tolerance : this->Fit.End;
     this->Fit.Surface.Space = this->State.Space;
     this->Fit.Surface.ControlPoints = std::move(this->State.Coefficients);
     this->Fit.DomainPoints = std::move(this->State.DomainPoints);
@@ -431,10 +457,12 @@ private:
   const FitParams& Params;
   std::chrono::steady_clock::time_point Begin;
   std::vector<double> Tolerances;
+  std::vector<double> Bands; ///< one-sided fits: their widths
   int Components;
   double Accuracy = 0.0;
   bool IsLeastSquares = true;
-  bool IsSplit = true; ///< there has been something to split
+  bool IsSplit = true;              ///< there has been something to split
+  FitEnd Stuck = FitEnd::Tolerance; ///< why not
   FitState State;
   FitPoints Points;
   ElementFunctions Functions;

@@ -45,8 +45,8 @@ enum class FitSide
   Below  ///< no point below the surface
 };
 
-/// How many of the elements with points outside the tolerance an iteration splits; all of them when
-/// they are at most one in a hundred of all elements.
+/// Which elements with points outside the tolerance an iteration splits; all of them when they are
+/// at most one in a hundred of all elements. After ten iterations ThresholdShare is halved in each.
 enum class FitThreshold
 {
   All,           ///< all of them
@@ -67,6 +67,17 @@ enum class FitCriterion
   Tolerance,
   AIC, ///< the information criterion has risen twice: the fit before is the result
   BIC
+};
+
+/// Why a fit ended.
+enum class FitEnd
+{
+  Tolerance, ///< all points are within
+  Iterations,
+  Functions,
+  Seconds,
+  Criterion, ///< the information criterion has risen
+  Resolution ///< what is outside lies where no element may be split, or contradicts its neighbours
 };
 
 /// What the tolerance grows with.
@@ -125,8 +136,10 @@ struct FitParams
   bool FindOutliers = false;
   double OutlierScale = 4.5; ///< robust standard deviations of the distances nearby, > 0
 
-  int MaxIterations = 30;  ///< >= 0
-  int MaxFunctions = 0;    ///< 0: the number of points
+  int MaxIterations = 30; ///< >= 0
+  /// 0: ten times the number of points but at most a million, or the number of points if that is
+  /// more.
+  int MaxFunctions = 0;
   double MaxSeconds = 0.0; ///< 0: no limit
   FitCriterion Criterion = FitCriterion::Tolerance;
 
@@ -172,6 +185,7 @@ struct SurfaceFit
   FitFeatures Features;
   FitIteration Final; ///< the numbers of the result, computed anew
   bool WithinTolerance = false;
+  FitEnd End = FitEnd::Tolerance;
 };
 
 /// Fits a spline surface to points until all of them (outliers left out) are within tolerance:
