@@ -195,17 +195,31 @@ bool OutlierSearch::IsOnStep(int row, double tolerance, Work& work) const
       work.Near.end());
     work.Near.resize(StepPoints);
   }
-  for (int k = 0; k < StepDirections * this->NumMeasured; ++k)
+  // values in space count by what they have in the direction in which the point is off
+  const auto n = static_cast<Eigen::Index>(this->NumMeasured);
+  Eigen::RowVectorXd off = this->Cloud.Values.row(row).head(n);
+  for (Eigen::Index c = 0; c < n; ++c)
   {
-    const double angle = Pi * (k % StepDirections) / StepDirections;
+    work.Values.clear();
+    for (const Neighbour& near : work.Near)
+    {
+      work.Values.push_back(this->Cloud.Values(near.Row, c));
+    }
+    off[c] -= Median(work.Values);
+  }
+  off.normalize();
+  const auto height = [&](int other) { return this->Cloud.Values.row(other).head(n).dot(off); };
+  const double value = height(row);
+  for (int k = 0; k < StepDirections; ++k)
+  {
+    const double angle = Pi * k / StepDirections;
     const double normal[2] = { std::cos(angle), std::sin(angle) };
-    const int column = k / StepDirections;
     work.Sides[0].clear();
     work.Sides[1].clear();
     for (const Neighbour& near : work.Near)
     {
       const bool isAhead = normal[0] * near.Offset[0] + normal[1] * near.Offset[1] > 0.0;
-      work.Sides[isAhead ? 1 : 0].push_back(this->Cloud.Values(near.Row, column));
+      work.Sides[isAhead ? 1 : 0].push_back(height(near.Row));
     }
     if (std::min(work.Sides[0].size(), work.Sides[1].size()) < LeastOfSide)
     {
@@ -216,7 +230,6 @@ bool OutlierSearch::IsOnStep(int row, double tolerance, Work& work) const
     const double roughness =
       MedianDeviation(work.Sides[0], heights[0]) + MedianDeviation(work.Sides[1], heights[1]);
     const double slack = tolerance + StepSlack * roughness;
-    const double value = this->Cloud.Values(row, column);
     if (step > 2.0 * tolerance && step > StepClearness * roughness &&
       value >= std::min(heights[0], heights[1]) - slack &&
       value <= std::max(heights[0], heights[1]) + slack)
