@@ -199,6 +199,41 @@ TEST(SurfaceFit, OutliersNearACliffAndManyOfThem_CrossOracle)
   }
 }
 
+TEST(SurfaceFit, OutliersInSpace_CrossOracle)
+{
+  // where the surface is steep in one coordinate, an outlier is off in the others, too
+  const PointCloud flat = clouds::HeightField(20000, 65, Wave);
+  PointCloud cloud = flat;
+  cloud.Values.resize(20000, 3);
+  clouds::Random random(66);
+  std::vector<bool> labels;
+  for (Eigen::Index i = 0; i < 20000; ++i)
+  {
+    const double u = 2.0 * clouds::Pi * cloud.Parameters(i, 0);
+    const double v = clouds::Pi * (cloud.Parameters(i, 1) - 0.5);
+    cloud.Values.row(i) << std::cos(u) * std::cos(v), std::sin(u) * std::cos(v), std::sin(v);
+    labels.push_back(random.Uniform() < 0.01);
+    for (Eigen::Index c = 0; c < 3; ++c)
+    {
+      cloud.Values(i, c) += 0.001 * random.Normal() + (labels.back() ? random.Normal() : 0.0);
+    }
+  }
+  FitParams params = WithTolerance(0.006);
+  params.NumMeasured = 3;
+  params.FindOutliers = true;
+  const SurfaceFit fit = Fit(cloud, params);
+  ExpectWithin(cloud, fit, 3);
+  std::size_t missed = 0;
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < labels.size(); ++i)
+  {
+    missed += labels[i] && fit.Outliers[i] == 0 ? 1 : 0;
+    wrong += !labels[i] && fit.Outliers[i] != 0 ? 1 : 0;
+  }
+  EXPECT_LE(missed, 2U); // of 200; nearer than the tolerance by chance
+  EXPECT_LE(wrong, 2U);
+}
+
 TEST(SurfaceFit, ACliffIsNoOutlier_PropertyOracle)
 {
   // a fifth of the points' spacing wide: those half way up are alone
@@ -604,6 +639,22 @@ TEST(SurfaceFit, PointsApartAreAllMet_CrossOracle)
       EXPECT_EQ(fit.End, FitEnd::Tolerance);
     }
   }
+}
+
+TEST(SurfaceFit, TolerancesFarApartAreMet_CrossOracle)
+{
+  // with a constant threshold, 30 iterations leave the cliff to the loose points for good
+  const PointCloud all = clouds::TerrainCloud();
+  PointCloud cloud;
+  cloud.Parameters = all.Parameters.topRows(10000);
+  cloud.Values = all.Values.topRows(10000);
+  cloud.Tolerances.setConstant(10000, 0.1);
+  for (Eigen::Index i = 0; i < 10000; i += 100)
+  {
+    cloud.Tolerances[i] = 1e-6;
+  }
+  const SurfaceFit fit = Fit(cloud, {});
+  ExpectWithin(cloud, fit);
 }
 
 TEST(SurfaceFit, NoiseTakesNoMoreFunctionsThanAllowed_PropertyOracle)
