@@ -101,7 +101,7 @@ struct ConvertJob
     if (!vtkPolyData::SafeDownCast(data))
     {
       // a decoded model written again has its attributes tagged and its schema complete
-      Result<SplineModel> model = DecodeSplineModel(data);
+      Result<SplineModel> model = DecodeSplineModel(data, session.Threads);
       if (!model)
       {
         return { model.Status.Code, "'" + this->Input + "': " + model.Status.Message() };

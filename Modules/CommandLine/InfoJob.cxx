@@ -132,7 +132,7 @@ struct InfoJob
     {
       return this->DescribePoints(session, points);
     }
-    Result<SplineModel> model = DecodeSplineModel(input.Value);
+    Result<SplineModel> model = DecodeSplineModel(input.Value, session.Threads);
     if (!model)
     {
       return { model.Status.Code, "'" + this->Input + "': " + model.Status.Message() };

@@ -47,7 +47,8 @@ struct StitchJob
   {
     for (std::size_t i = 0; i < this->Inputs.size(); ++i)
     {
-      auto decoded = DecodeSplineModel(this->Filter->GetInputDataObject(0, static_cast<int>(i)));
+      auto decoded = DecodeSplineModel(
+        this->Filter->GetInputDataObject(0, static_cast<int>(i)), this->Filter->GetThreads());
       if (!decoded)
       {
         return { decoded.Status.Code, "'" + this->Inputs[i] + "': " + decoded.Status.Message() };

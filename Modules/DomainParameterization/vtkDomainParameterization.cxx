@@ -164,7 +164,8 @@ Status vtkDomainParameterization::Compute(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   this->Verdict = 0;
-  const auto model = knotwork::DecodeSplineModel(vtkDataObject::GetData(inputs[0], 0));
+  const auto model =
+    knotwork::DecodeSplineModel(vtkDataObject::GetData(inputs[0], 0), this->KernelThreads());
   if (!model)
   {
     return model.Status;

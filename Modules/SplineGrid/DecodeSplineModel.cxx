@@ -91,8 +91,9 @@ class GridReader
 {
 public:
   GridReader(vtkUnstructuredGrid* grid, int block, vtkIdType firstCell, std::set<int>& usedIds,
-    SplineModel& model)
-    : Grid(grid), Bezier(grid), Block(block), FirstCell(firstCell), UsedIds(usedIds), Model(model)
+    int threads, SplineModel& model)
+    : Grid(grid), Bezier(grid), Block(block), FirstCell(firstCell), UsedIds(usedIds),
+      Threads(threads), Model(model)
   {
   }
   Status Read();
@@ -143,6 +144,7 @@ private:
   int Block;
   vtkIdType FirstCell;
   std::set<int>& UsedIds;
+  int Threads;
   SplineModel& Model;
   SplineSchema Schema;
   std::vector<int> PatchIds, ElementIds, Bases;
@@ -560,7 +562,7 @@ Result<SplineSpacePtr<Dim>> GridReader::Space(const PatchRecord& record)
   {
     return std::get<SplineSpacePtr<Dim>>(known->second.second);
   }
-  Result<SplineSpacePtr<Dim>> made = BuildSpace<Dim>(record.Basis);
+  Result<SplineSpacePtr<Dim>> made = BuildSpace<Dim>(record.Basis, this->Threads);
   if (made &&
     (made.Value->NumElements() != record.NumElements ||
       made.Value->NumFunctions != record.NumFunctions))
@@ -668,7 +670,7 @@ Status GridReader::ReadStructured(const CellGroup& group, const PatchRecord& rec
     else
     {
       RecoveryResult<Dim> recovered =
-        RecoverSpline(FormOf<Dim>(space.Value, cells.Blocks, 3, rational ? 3 : -1));
+        RecoverSpline(FormOf<Dim>(space.Value, cells.Blocks, 3, rational ? 3 : -1), this->Threads);
       if (!recovered)
       {
         return { recovered.Status.Code, where + ": " + recovered.Status.Detail };
@@ -736,8 +738,9 @@ Status GridReader::ReadFields(const std::string& where, const PatchRecord& recor
     }
     else
     {
-      RecoveryResult<Dim> recovered = RecoverField(
-        FormOf<Dim>(spline.Space, values, static_cast<int>(values.cols()), -1), spline.Weights);
+      RecoveryResult<Dim> recovered =
+        RecoverField(FormOf<Dim>(spline.Space, values, static_cast<int>(values.cols()), -1),
+          spline.Weights, this->Threads);
       if (!recovered)
       {
         return { recovered.Status.Code,
@@ -831,7 +834,8 @@ Status GridReader::ReadBezier(const CellGroup& group)
   return {};
 }
 
-Status DecodeCollection(vtkPartitionedDataSetCollection* collection, SplineModel& model)
+Status DecodeCollection(
+  vtkPartitionedDataSetCollection* collection, int threads, SplineModel& model)
 {
   for (unsigned int b = 0; b < collection->GetNumberOfPartitionedDataSets(); ++b)
   {
@@ -852,7 +856,8 @@ Status DecodeCollection(vtkPartitionedDataSetCollection* collection, SplineModel
         }
         continue;
       }
-      const Status status = GridReader(grid, static_cast<int>(b), firstCell, usedIds, model).Read();
+      const Status status =
+        GridReader(grid, static_cast<int>(b), firstCell, usedIds, threads, model).Read();
       if (!status)
       {
         return { status.Code, where + ": " + status.Detail };
@@ -864,18 +869,18 @@ Status DecodeCollection(vtkPartitionedDataSetCollection* collection, SplineModel
 }
 }
 
-Result<SplineModel> DecodeSplineModel(vtkDataObject* data)
+Result<SplineModel> DecodeSplineModel(vtkDataObject* data, int threads)
 {
   SplineModel model;
   Status status;
   if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data))
   {
     std::set<int> usedIds;
-    status = GridReader(grid, 0, 0, usedIds, model).Read();
+    status = GridReader(grid, 0, 0, usedIds, threads, model).Read();
   }
   else if (auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(data))
   {
-    status = DecodeCollection(collection, model);
+    status = DecodeCollection(collection, threads, model);
   }
   else
   {

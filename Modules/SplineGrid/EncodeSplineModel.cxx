@@ -506,7 +506,7 @@ void GridWriter::AddSpline(const SplinePatch& patch, const Spline<Dim>& spline, 
     all.ControlPoints.middleCols(columns, field.Coefficients.cols()) = field.Coefficients;
     columns += field.Coefficients.cols();
   }
-  const BezierForm<Dim> form = MakeBezierForm(all);
+  const BezierForm<Dim> form = MakeBezierForm(all, 1);
 
   PatchRecord record;
   record.Id = id;

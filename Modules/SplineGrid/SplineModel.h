@@ -49,9 +49,11 @@ struct SplineModel
 /// Decodes a vtkUnstructuredGrid or a vtkPartitionedDataSetCollection of such grids. An empty grid
 /// gives a model without patches. Bezier cells without our field data become patches of kind Bezier
 /// (by PatchId when there is one, else one patch per parametric dimension).
+/// @param threads  0 = all cores; the model is the same for any number.
 /// @return InvalidTopology, NonFiniteInput, InvalidWeight, ... with patch and cell: damage is never
 /// mis-decoded.
-VTKKNOTWORKSPLINEGRID_EXPORT Result<SplineModel> DecodeSplineModel(vtkDataObject* data);
+VTKKNOTWORKSPLINEGRID_EXPORT Result<SplineModel> DecodeSplineModel(
+  vtkDataObject* data, int threads);
 
 /// Encodes the patches (of all blocks) as one grid: Bezier cells, shared points, attributes, cell
 /// arrays PatchId, ElementId, Level, ParametricBounds, the field-data schema with control-point

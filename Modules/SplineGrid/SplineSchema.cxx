@@ -275,7 +275,7 @@ void DescribeLRBasis(const LRBasis& from, BasisDefinition& basis)
 }
 
 // MakeLRSpace checks the rest.
-Result<SplineSpacePtr<2>> BuildLRSpace(const BasisDefinition& basis)
+Result<SplineSpacePtr<2>> BuildLRSpace(const BasisDefinition& basis, int threads)
 {
   constexpr std::int64_t most = std::numeric_limits<int>::max();
   const auto fits = [](std::int64_t value) { return value >= 0 && value <= most; };
@@ -307,7 +307,7 @@ Result<SplineSpacePtr<2>> BuildLRSpace(const BasisDefinition& basis)
     made.LocalKnots.push_back(static_cast<int>(knot));
   }
   made.Scaling = basis.Scaling;
-  return MakeLRSpace(std::move(made));
+  return MakeLRSpace(std::move(made), threads);
 }
 }
 
@@ -345,13 +345,13 @@ BasisDefinition DescribeBasis(const SplineSpace<Dim>& space)
 }
 
 template <int Dim>
-Result<SplineSpacePtr<Dim>> BuildSpace(const BasisDefinition& basis)
+Result<SplineSpacePtr<Dim>> BuildSpace(const BasisDefinition& basis, [[maybe_unused]] int threads)
 {
   if constexpr (Dim == 2)
   {
     if (basis.Kind == SpaceKind::LocallyRefined)
     {
-      return BuildLRSpace(basis);
+      return BuildLRSpace(basis, threads);
     }
   }
   std::array<KnotVector, Dim> knots;
@@ -714,7 +714,7 @@ Checksum GeometryChecksum(const std::vector<IntArray<Dim>>& degrees, const Point
 
 #define KNOTWORK_INSTANTIATE(Dim)                                                                  \
   template BasisDefinition DescribeBasis<Dim>(const SplineSpace<Dim>&);                            \
-  template Result<SplineSpacePtr<Dim>> BuildSpace<Dim>(const BasisDefinition&);                    \
+  template Result<SplineSpacePtr<Dim>> BuildSpace<Dim>(const BasisDefinition&, int);               \
   template Checksum GeometryChecksum<Dim>(const std::vector<IntArray<Dim>>&, const PointMatrix&);
 KNOTWORK_INSTANTIATE(1)
 KNOTWORK_INSTANTIATE(2)

@@ -56,7 +56,7 @@ template <int Dim>
 BasisDefinition DescribeBasis(const SplineSpace<Dim>& space);
 /// @return InvalidTopology for kind Bezier, the builder's errors.
 template <int Dim>
-Result<SplineSpacePtr<Dim>> BuildSpace(const BasisDefinition& basis);
+Result<SplineSpacePtr<Dim>> BuildSpace(const BasisDefinition& basis, int threads);
 
 /// Checksum over values and shapes; order matters.
 class VTKKNOTWORKSPLINEGRID_EXPORT Checksum

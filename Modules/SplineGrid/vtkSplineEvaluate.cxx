@@ -299,7 +299,7 @@ Status vtkSplineEvaluate::Compute(vtkInformationVector** inputs, vtkInformationV
     return {};
   }
   const Result<SplineModel> decoded =
-    knotwork::DecodeSplineModel(vtkDataObject::GetData(inputs[0]));
+    knotwork::DecodeSplineModel(vtkDataObject::GetData(inputs[0]), this->KernelThreads());
   if (!decoded)
   {
     return decoded.Status;

@@ -32,7 +32,7 @@ void vtkSplineExtract::PrintSelf(ostream& os, vtkIndent indent)
 Status vtkSplineExtract::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
-  auto model = knotwork::DecodeSplineModel(input);
+  auto model = knotwork::DecodeSplineModel(input, this->KernelThreads());
   if (!model)
   {
     return model.Status;

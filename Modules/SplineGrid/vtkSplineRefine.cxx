@@ -392,7 +392,7 @@ Status vtkSplineRefine::Compute(vtkInformationVector** inputs, vtkInformationVec
 {
   vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
   vtkDataObject* output = vtkDataObject::GetData(outputs, 0);
-  auto decoded = knotwork::DecodeSplineModel(input);
+  auto decoded = knotwork::DecodeSplineModel(input, this->KernelThreads());
   if (!decoded)
   {
     return decoded.Status;

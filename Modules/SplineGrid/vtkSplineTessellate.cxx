@@ -305,7 +305,7 @@ int vtkSplineTessellate::RequestDataObject(
 Status vtkSplineTessellate::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
-  auto model = knotwork::DecodeSplineModel(input);
+  auto model = knotwork::DecodeSplineModel(input, this->KernelThreads());
   if (!model)
   {
     return model.Status;

@@ -60,9 +60,9 @@ struct Map
   knotwork::PointMap Function;
   Status Outcome;
 
-  Map(vtkDataObject* data, int patchId, bool clamp)
+  Map(vtkDataObject* data, int patchId, bool clamp, int threads)
   {
-    auto decoded = knotwork::DecodeSplineModel(data);
+    auto decoded = knotwork::DecodeSplineModel(data, threads);
     this->Outcome = decoded.Status;
     if (!decoded)
     {
@@ -87,7 +87,7 @@ struct Map
       return;
     }
     std::visit(
-      [this, clamp](const auto& spline)
+      [this, clamp, threads](const auto& spline)
       {
         if (!spline.Space->HasDomain)
         {
@@ -96,7 +96,7 @@ struct Map
           return;
         }
         // one thread inside: the composition calls it from several
-        this->Function = [form = knotwork::MakeBezierForm(spline), clamp](
+        this->Function = [form = knotwork::MakeBezierForm(spline, threads), clamp](
                            const PointMatrix& points, PointMatrix& values)
         { return knotwork::MapPoints(form, points, clamp, 1, values); };
       },
@@ -300,7 +300,8 @@ Status vtkSplineWarp::Compute(vtkInformationVector** inputs, vtkInformationVecto
   {
     return {};
   }
-  const Map map(vtkDataObject::GetData(inputs[1], 0), this->MapPatchId, this->Clamp);
+  const Map map(
+    vtkDataObject::GetData(inputs[1], 0), this->MapPatchId, this->Clamp, this->KernelThreads());
   if (!map.Outcome)
   {
     return { map.Outcome.Code, "map: " + map.Outcome.Detail };
@@ -310,7 +311,7 @@ Status vtkSplineWarp::Compute(vtkInformationVector** inputs, vtkInformationVecto
     return WarpPoints(points, map, vtkPointSet::SafeDownCast(output));
   }
 
-  auto decoded = knotwork::DecodeSplineModel(input);
+  auto decoded = knotwork::DecodeSplineModel(input, this->KernelThreads());
   if (!decoded)
   {
     return decoded.Status;

@@ -95,7 +95,7 @@ Status EncodeBoundaries(const SplineFile& file, vtkUnstructuredGrid* output)
 Status DecodeBoundaries(vtkDataObject* grid, SplineFile& file)
 {
   auto* cells = vtkUnstructuredGrid::SafeDownCast(grid);
-  const Result<SplineModel> model = DecodeSplineModel(grid);
+  const Result<SplineModel> model = DecodeSplineModel(grid, 1);
   if (!model)
   {
     return { model.Status.Code, "boundary curves: " + model.Status.Detail };

@@ -34,7 +34,7 @@ Result<SplineModel> ModelFromFile(const SplineFile& file)
           if (columns == 1 && spline.Space->Kind == SpaceKind::LocallyRefined &&
             !spline.IsRational())
           {
-            Result<Spline<2>> graph = GraphOfFunction(spline);
+            Result<Spline<2>> graph = GraphOfFunction(spline, 1);
             if (!graph)
             {
               return graph.Status;

@@ -25,7 +25,7 @@ using namespace knotwork;
 Result<TrimmedModel> DecodeFaces(
   vtkDataObject* grid, vtkDataObject* curves, double tolerance, std::vector<std::string>& warnings)
 {
-  const Result<SplineModel> model = DecodeSplineModel(grid);
+  const Result<SplineModel> model = DecodeSplineModel(grid, 1);
   if (!model)
   {
     return model.Status;

@@ -37,7 +37,7 @@ knotwork::Status vtkSplineFileWriter::MakeText(std::string& text)
   {
     return { ErrorCode::InvalidParameter, "there is no file name" };
   }
-  const Result<SplineModel> model = DecodeSplineModel(this->GetInput());
+  const Result<SplineModel> model = DecodeSplineModel(this->GetInput(), 1);
   if (!model)
   {
     return model.Status;

@@ -30,10 +30,10 @@ vtkStandardNewMacro(vtkSplineCombine);
 namespace
 {
 /// Surface patches in the order of their ids.
-Status TakeSurfaces(vtkDataObject* data, const std::string& name, std::vector<SplinePatch>& patches,
-  std::vector<std::string>& warnings)
+Status TakeSurfaces(vtkDataObject* data, const std::string& name, int threads,
+  std::vector<SplinePatch>& patches, std::vector<std::string>& warnings)
 {
-  auto decoded = knotwork::DecodeSplineModel(data);
+  auto decoded = knotwork::DecodeSplineModel(data, threads);
   if (!decoded)
   {
     return { decoded.Status.Code, name + ": " + decoded.Status.Detail };
@@ -80,9 +80,9 @@ void ShareFields(SplinePatch& a, SplinePatch& b, std::set<std::string>& dropped)
   keep(b, a);
 }
 
-bool IsHeight(const SplinePatch& patch)
+bool IsHeight(const SplinePatch& patch, int threads)
 {
-  return IsHeightField(MakeBezierForm(std::get<Spline<2>>(patch.Geometry)));
+  return IsHeightField(MakeBezierForm(std::get<Spline<2>>(patch.Geometry), threads));
 }
 }
 
@@ -130,14 +130,15 @@ int vtkSplineCombine::RequestDataObject(
 
 Status vtkSplineCombine::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  const int threads = this->KernelThreads();
   knotwork::SplineModel model;
   std::vector<SplinePatch> second;
   std::vector<std::string> warnings;
-  Status status =
-    TakeSurfaces(vtkDataObject::GetData(inputs[0], 0), "first surface", model.Patches, warnings);
-  status = status
-    ? TakeSurfaces(vtkDataObject::GetData(inputs[1], 0), "second surface", second, warnings)
-    : status;
+  Status status = TakeSurfaces(
+    vtkDataObject::GetData(inputs[0], 0), "first surface", threads, model.Patches, warnings);
+  status = status ? TakeSurfaces(vtkDataObject::GetData(inputs[1], 0), "second surface", threads,
+                      second, warnings)
+                  : status;
   if (status && model.Patches.size() != second.size())
   {
     status = { ErrorCode::SizeMismatch,
@@ -167,7 +168,7 @@ Status vtkSplineCombine::Compute(vtkInformationVector** inputs, vtkInformationVe
     SplinePatch& a = model.Patches[p];
     SplinePatch& b = second[p];
     ShareFields(a, b, dropped);
-    const bool heights = IsHeight(a) && IsHeight(b);
+    const bool heights = IsHeight(a, threads) && IsHeight(b, threads);
     if (isDifference && !heights)
     {
       for (SplinePatch* patch : { &a, &b })
@@ -179,7 +180,7 @@ Status vtkSplineCombine::Compute(vtkInformationVector** inputs, vtkInformationVe
     knotwork::CombineParams params;
     params.NumKept = heights ? 2 : isDifference ? 3 : 0;
     params.CommonDomain = this->CommonDomain;
-    params.Threads = this->KernelThreads();
+    params.Threads = threads;
     const auto combined = CombineSplines(JoinFields(std::get<Spline<2>>(a.Geometry), a.Fields),
       JoinFields(std::get<Spline<2>>(b.Geometry), b.Fields), weightA, weightB, params);
     if (!combined)

@@ -76,7 +76,7 @@ knotwork::Status vtkSplineContour::Compute(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   using namespace knotwork;
-  const auto model = DecodeSplineModel(vtkDataObject::GetData(inputs[0], 0));
+  const auto model = DecodeSplineModel(vtkDataObject::GetData(inputs[0], 0), this->KernelThreads());
   if (!model)
   {
     return model.Status;

@@ -53,7 +53,8 @@ int vtkSplineExtrema::RequestDataObject(
 Status vtkSplineExtrema::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   using namespace knotwork;
-  const Result<SplineModel> model = DecodeSplineModel(vtkDataObject::GetData(inputs[0], 0));
+  const Result<SplineModel> model =
+    DecodeSplineModel(vtkDataObject::GetData(inputs[0], 0), this->KernelThreads());
   if (!model)
   {
     return model.Status;

@@ -185,7 +185,8 @@ Status vtkSplinePointDistance::Compute(vtkInformationVector** inputs, vtkInforma
     output->ShallowCopy(input);
     return {};
   }
-  auto decoded = knotwork::DecodeSplineModel(vtkDataObject::GetData(inputs[1], 0));
+  auto decoded =
+    knotwork::DecodeSplineModel(vtkDataObject::GetData(inputs[1], 0), this->KernelThreads());
   if (!decoded)
   {
     return decoded.Status;

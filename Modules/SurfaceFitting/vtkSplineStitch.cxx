@@ -175,7 +175,8 @@ Status vtkSplineStitch::Compute(vtkInformationVector** inputs, vtkInformationVec
   knotwork::SplineModel model;
   for (int i = 0; i < inputs[0]->GetNumberOfInformationObjects(); ++i)
   {
-    auto decoded = knotwork::DecodeSplineModel(vtkDataObject::GetData(inputs[0], i));
+    auto decoded =
+      knotwork::DecodeSplineModel(vtkDataObject::GetData(inputs[0], i), this->KernelThreads());
     if (!decoded)
     {
       return decoded.Status;

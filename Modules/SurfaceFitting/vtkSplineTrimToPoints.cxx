@@ -143,7 +143,8 @@ int vtkSplineTrimToPoints::RequestDataObject(
 
 Status vtkSplineTrimToPoints::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  auto decoded = knotwork::DecodeSplineModel(vtkDataObject::GetData(inputs[0], 0));
+  auto decoded =
+    knotwork::DecodeSplineModel(vtkDataObject::GetData(inputs[0], 0), this->KernelThreads());
   if (!decoded)
   {
     return decoded.Status;
@@ -159,8 +160,8 @@ Status vtkSplineTrimToPoints::Compute(vtkInformationVector** inputs, vtkInformat
     return { ErrorCode::DimensionMismatch,
       "the first input must be one surface; select a patch of it" };
   }
-  const auto parameters = ParametersOf(
-    vtkPointSet::GetData(inputs[1], 0), IsHeightField(knotwork::MakeBezierForm(*surface)));
+  const auto parameters = ParametersOf(vtkPointSet::GetData(inputs[1], 0),
+    IsHeightField(knotwork::MakeBezierForm(*surface, this->KernelThreads())));
   if (!parameters)
   {
     return parameters.Status;

@@ -144,7 +144,7 @@ class PatchReader
 public:
   PatchReader(std::string what, vtkDataObject* data) : What(std::move(what))
   {
-    auto decoded = DecodeSplineModel(data);
+    auto decoded = DecodeSplineModel(data, 1);
     this->Outcome = decoded.Status;
     if (!decoded)
     {

@@ -82,7 +82,7 @@ Result<Skeleton<Dim>> DecodeBezierSkeleton(vtkUnstructuredGrid* grid, const Skel
       return SampleByCell(grid, cells, name, samples);
     }
   }
-  const Result<SplineModel> model = DecodeSplineModel(grid);
+  const Result<SplineModel> model = DecodeSplineModel(grid, 1);
   if (!model)
   {
     return { model.Status.Code, "the " + name + ": " + model.Status.Detail };

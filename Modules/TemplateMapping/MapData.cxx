@@ -26,9 +26,10 @@ void AddText(vtkUnstructuredGrid* grid, const char* name, const char* text)
 }
 
 template <int Dim>
-Result<Spline<Dim>> DecodeInitialMap(vtkDataObject* data, std::vector<std::string>& warnings)
+Result<Spline<Dim>> DecodeInitialMap(
+  vtkDataObject* data, int threads, std::vector<std::string>& warnings)
 {
-  Result<SplineModel> model = DecodeSplineModel(data);
+  Result<SplineModel> model = DecodeSplineModel(data, threads);
   if (!model)
   {
     return { model.Status.Code, "initial map: " + model.Status.Detail };
@@ -102,8 +103,8 @@ Status EncodeMap(const TemplateMapResult<Dim>& result, bool injectivity, vtkUnst
   return {};
 }
 
-template Result<Spline<2>> DecodeInitialMap(vtkDataObject*, std::vector<std::string>&);
-template Result<Spline<3>> DecodeInitialMap(vtkDataObject*, std::vector<std::string>&);
+template Result<Spline<2>> DecodeInitialMap(vtkDataObject*, int, std::vector<std::string>&);
+template Result<Spline<3>> DecodeInitialMap(vtkDataObject*, int, std::vector<std::string>&);
 template Status EncodeMap(const TemplateMapResult<2>&, bool, vtkUnstructuredGrid*);
 template Status EncodeMap(const TemplateMapResult<3>&, bool, vtkUnstructuredGrid*);
 }

@@ -18,7 +18,8 @@ namespace knotwork
 /// @return failures of DecodeSplineModel; InvalidTopology (not one patch), DimensionMismatch
 /// (another number of parameters, z).
 template <int Dim>
-Result<Spline<Dim>> DecodeInitialMap(vtkDataObject* data, std::vector<std::string>& warnings);
+Result<Spline<Dim>> DecodeInitialMap(
+  vtkDataObject* data, int threads, std::vector<std::string>& warnings);
 
 /// The map as a grid of one patch with the cell arrays MaxError, JacobianMinLower,
 /// JacobianMaxUpper and the field data MinJacobianBound, Injective, InjectivityReason (the last two

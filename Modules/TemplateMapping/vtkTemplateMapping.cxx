@@ -148,7 +148,7 @@ Result<TemplateMapParams<Dim>> vtkTemplateMapping::Parameters(vtkDataObject* ini
   if (initialMap)
   {
     std::vector<std::string> warnings;
-    auto map = knotwork::DecodeInitialMap<Dim>(initialMap, warnings);
+    auto map = knotwork::DecodeInitialMap<Dim>(initialMap, params.Threads, warnings);
     this->ReportWarnings(warnings);
     if (!map)
     {

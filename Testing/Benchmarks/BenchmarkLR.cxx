@@ -28,7 +28,7 @@ SplineSpacePtr<2> BaseSpace(int variant = Bicubic)
     MakeTensorSpace<2>({ KnotVector::Uniform(3, BaseElements),
                          KnotVector::Uniform(variant == CubicQuadratic ? 2 : 3, BaseElements) })
       .Value,
-    {})
+    {}, 0)
     .Value;
 }
 
@@ -133,10 +133,10 @@ BENCHMARK(LRReplayAllThreads)->Apply(ReplaySizes)->UseRealTime();
 void LRMakeSpace(benchmark::State& state)
 {
   const auto space = BaseSpace();
-  const auto refined = InsertSegments(space, LegalSegments(space, 1000)).Value;
+  const auto refined = InsertSegments(space, LegalSegments(space, 1000), 0).Value;
   for (auto _ : state)
   {
-    benchmark::DoNotOptimize(MakeLRSpace(refined->LocallyRefined->Basis));
+    benchmark::DoNotOptimize(MakeLRSpace(refined->LocallyRefined->Basis, 0));
   }
 }
 BENCHMARK(LRMakeSpace)->Apply(Repeat);
@@ -144,7 +144,7 @@ BENCHMARK(LRMakeSpace)->Apply(Repeat);
 void LRDecideDependence(benchmark::State& state)
 {
   const auto space = BaseSpace();
-  const auto refined = InsertSegments(space, LegalSegments(space, 1000)).Value;
+  const auto refined = InsertSegments(space, LegalSegments(space, 1000), 0).Value;
   for (auto _ : state)
   {
     benchmark::DoNotOptimize(DecideDependence(*refined));
@@ -155,7 +155,7 @@ BENCHMARK(LRDecideDependence)->Apply(Repeat);
 void LREvaluate(benchmark::State& state)
 {
   const auto space = BaseSpace();
-  const auto refined = InsertSegments(space, LegalSegments(space, 1000)).Value;
+  const auto refined = InsertSegments(space, LegalSegments(space, 1000), 0).Value;
   const auto form = MakeBezierForm(RandomSpline<2>(refined, 3));
   RunEvaluation(
     state, form, RandomPoints(NumBenchmarkPoints, 2), static_cast<int>(state.range(0)), 1);
@@ -166,7 +166,7 @@ BENCHMARK(LREvaluate)->Apply(Repeat)->ArgName("derivatives")->DenseRange(0, 2);
 Spline<2> TwoPeaks()
 {
   const KnotVector knots = KnotVector::Uniform(2, 8);
-  auto space = InsertSegments(MakeTensorSpace<2>({ knots, knots }).Value, {}).Value;
+  auto space = InsertSegments(MakeTensorSpace<2>({ knots, knots }).Value, {}, 0).Value;
   const double peaks[2][2] = { { 0.3, 0.35 }, { 0.7, 0.6 } };
   for (const double radius : { 0.2, 0.14, 0.07 })
   {
@@ -182,7 +182,7 @@ Spline<2> TwoPeaks()
         near.push_back(e);
       }
     }
-    space = InsertSegments(space, SegmentsForElements(*space, near).Value).Value;
+    space = InsertSegments(space, SegmentsForElements(*space, near).Value, 0).Value;
   }
   return RandomSpline<2>(space, 1);
 }

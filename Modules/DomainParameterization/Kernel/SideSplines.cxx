@@ -488,7 +488,7 @@ Result<Spline<1>> TimesLinear(const Spline<1>& curve, double ratio)
       std::copy(product.begin(), product.end(), high.Block(e) + c * (p + 2));
     }
   }
-  auto recovered = RecoverSpline<1>(high);
+  auto recovered = RecoverSpline<1>(high, 1);
   if (!recovered)
   {
     return recovered.Status;

@@ -188,7 +188,7 @@ void EvaluateFunctions(const SplineSpace<Dim>& space, int element, const double*
 
 template <int Dim>
 Result<Eigen::SparseMatrix<double, Eigen::RowMajor>> CollocationMatrix(
-  const SplineSpace<Dim>& space, const PointMatrixView& parameters)
+  const SplineSpace<Dim>& space, const PointMatrixView& parameters, int threads)
 {
   using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
   if (parameters.cols() != Dim)
@@ -211,7 +211,7 @@ Result<Eigen::SparseMatrix<double, Eigen::RowMajor>> CollocationMatrix(
   constexpr std::size_t chunkSize = 1024;
   const std::size_t numPoints = static_cast<std::size_t>(parameters.rows());
   std::vector<Chunk> chunks((numPoints + chunkSize - 1) / chunkSize);
-  ParallelFor(numPoints, chunkSize, 0,
+  ParallelFor(numPoints, chunkSize, threads,
     [&](std::size_t begin, std::size_t end)
     {
       Chunk& chunk = chunks[begin / chunkSize];
@@ -272,7 +272,7 @@ Result<Eigen::SparseMatrix<double, Eigen::RowMajor>> CollocationMatrix(
   template void EvaluateFunctions<Dim>(                                                            \
     const SplineSpace<Dim>&, int, const double*, int, const Eigen::VectorXd*, FunctionValues&);    \
   template Result<Eigen::SparseMatrix<double, Eigen::RowMajor>> CollocationMatrix<Dim>(            \
-    const SplineSpace<Dim>&, const PointMatrixView&)
+    const SplineSpace<Dim>&, const PointMatrixView&, int)
 KNOTWORK_INSTANTIATE(1);
 KNOTWORK_INSTANTIATE(2);
 KNOTWORK_INSTANTIATE(3);

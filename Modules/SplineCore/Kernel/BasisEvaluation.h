@@ -32,8 +32,8 @@ void EvaluateLocalLine(
   int degree, const double* factor, double t, double length, int order, double* rows);
 
 /// Sparse n x NumFunctions matrix of function values at n domain parameters (rows of points outside
-/// the domain: OutsideDomain, naming the first).
+/// the domain: OutsideDomain, naming the first). @param threads  0 = all cores.
 template <int Dim>
 Result<Eigen::SparseMatrix<double, Eigen::RowMajor>> CollocationMatrix(
-  const SplineSpace<Dim>& space, const PointMatrixView& parameters);
+  const SplineSpace<Dim>& space, const PointMatrixView& parameters, int threads);
 }

@@ -242,7 +242,7 @@ public:
     }
   }
 
-  PointMatrix Finish()
+  PointMatrix Finish(int threads)
   {
     for (Eigen::Index f = 0; f < this->Sums.rows(); ++f)
     {
@@ -251,7 +251,7 @@ public:
         this->Sums.row(f) /= this->Weights[f];
       }
     }
-    this->Equations.Solve(nullptr, this->Sums);
+    this->Equations.Solve(nullptr, this->Sums, threads);
     return std::move(this->Sums);
   }
 
@@ -327,7 +327,7 @@ Result<Spline<Dim>> ProjectOntoSpace(const SplineSpacePtr<Dim>& space, int numCo
   {
     return { ErrorCode::Aborted, "projection stopped after the last element" };
   }
-  return Spline<Dim>{ space, averages.Finish(), {} };
+  return Spline<Dim>{ space, averages.Finish(params.Threads), {} };
 }
 
 template Result<Spline<1>> ProjectOntoSpace(

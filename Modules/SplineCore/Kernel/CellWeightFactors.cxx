@@ -83,11 +83,11 @@ Link FaceLink(const BezierForm<Dim>& form, int e, std::size_t direction)
 }
 
 template <int Dim>
-std::vector<Link> FaceLinks(const BezierForm<Dim>& form)
+std::vector<Link> FaceLinks(const BezierForm<Dim>& form, int threads)
 {
   const auto elements = static_cast<std::size_t>(form.Space->NumElements());
   std::vector<Link> links(elements * Dim);
-  ParallelFor(elements, 64, 0,
+  ParallelFor(elements, 64, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t e = begin; e < end; ++e)
@@ -145,10 +145,10 @@ std::vector<Link> FunctionLinks(const BezierForm<Dim>& form, const DualFunctiona
 
 template <int Dim>
 std::vector<double> CellWeightFactors(
-  const BezierForm<Dim>& form, const DualFunctionals<Dim>& duals)
+  const BezierForm<Dim>& form, const DualFunctionals<Dim>& duals, int threads)
 {
   const std::vector<Link> links =
-    form.Space->HasDomain ? FaceLinks(form) : FunctionLinks(form, duals);
+    form.Space->HasDomain ? FaceLinks(form, threads) : FunctionLinks(form, duals);
   const auto elements = static_cast<std::size_t>(form.Space->NumElements());
   std::vector<std::vector<std::pair<std::size_t, double>>> neighbours(elements);
   for (const Link& link : links)
@@ -186,7 +186,10 @@ std::vector<double> CellWeightFactors(
   return factors;
 }
 
-template std::vector<double> CellWeightFactors(const BezierForm<1>&, const DualFunctionals<1>&);
-template std::vector<double> CellWeightFactors(const BezierForm<2>&, const DualFunctionals<2>&);
-template std::vector<double> CellWeightFactors(const BezierForm<3>&, const DualFunctionals<3>&);
+template std::vector<double> CellWeightFactors(
+  const BezierForm<1>&, const DualFunctionals<1>&, int);
+template std::vector<double> CellWeightFactors(
+  const BezierForm<2>&, const DualFunctionals<2>&, int);
+template std::vector<double> CellWeightFactors(
+  const BezierForm<3>&, const DualFunctionals<3>&, int);
 }

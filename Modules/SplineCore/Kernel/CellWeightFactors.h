@@ -11,8 +11,8 @@ namespace knotwork
 /// with a domain neighbours are compared at the middle of their shared face; without one, at the
 /// coefficients of shared functions. Factors spread breadth first, from factor 1 in the first
 /// element of each set of connected elements.
-/// @pre form is rational and its weights are positive.
+/// @pre form is rational and its weights are positive. @param threads  0 = all cores.
 template <int Dim>
 std::vector<double> CellWeightFactors(
-  const BezierForm<Dim>& form, const DualFunctionals<Dim>& duals);
+  const BezierForm<Dim>& form, const DualFunctionals<Dim>& duals, int threads);
 }

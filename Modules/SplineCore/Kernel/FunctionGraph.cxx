@@ -40,7 +40,7 @@ bool SubtractFromParameters(BezierForm<2>& form)
 }
 }
 
-Result<Spline<2>> GraphOfFunction(const Spline<2>& function)
+Result<Spline<2>> GraphOfFunction(const Spline<2>& function, int threads)
 {
   if (Status status = function.Check(); !status)
   {
@@ -61,10 +61,10 @@ Result<Spline<2>> GraphOfFunction(const Spline<2>& function)
   {
     means.row(static_cast<Eigen::Index>(f)) << functions[f].Greville[0], functions[f].Greville[1];
   }
-  BezierForm<2> rest = MakeBezierForm(Spline<2>{ function.Space, means, {} });
+  BezierForm<2> rest = MakeBezierForm(Spline<2>{ function.Space, means, {} }, threads);
   if (SubtractFromParameters(rest))
   {
-    const RecoveryResult<2> correction = RecoverField(rest, {});
+    const RecoveryResult<2> correction = RecoverField(rest, {}, threads);
     if (!correction)
     {
       return correction.Status;

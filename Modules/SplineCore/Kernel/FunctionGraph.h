@@ -9,7 +9,8 @@ namespace knotwork
 /// (tensor products), and are recovered from Bernstein coefficients where local refinement takes
 /// that away (RecoverField, of the small rest only).
 /// @return DimensionMismatch unless f has one component; InvalidParameter for a rational function,
-/// whose graph is not in its space; Spline::Check's codes; RecoverField's.
+/// whose graph is not in its space; Spline::Check's codes; RecoverField's. @param threads  0 = all
+/// cores.
 /// @complexity O(size of the Bezier form), plus that of RecoverField where it is needed.
-Result<Spline<2>> GraphOfFunction(const Spline<2>& function);
+Result<Spline<2>> GraphOfFunction(const Spline<2>& function, int threads);
 }

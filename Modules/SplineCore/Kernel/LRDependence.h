@@ -40,6 +40,9 @@ struct LRDependenceResult
 /// (2020) 101803.
 Result<LRDependenceResult> DecideDependence(const SplineSpace<2>& space);
 
+/// For callers without a limit of their own.
+inline constexpr int MaxResolvingSegments = 100;
+
 /// A spline whose functions are independent.
 struct LRResolution
 {
@@ -50,7 +53,7 @@ struct LRResolution
 /// Inserts segments that split functions of a relation until the functions are independent; the map
 /// stays. Lines that end inside such a function's support are preferred: they only go on. Used
 /// after every refinement step it is refinement that never keeps a dependence.
-/// @param maxSegments  >= 0. @return NotConverged when they do not suffice or the elimination is
-/// undecided.
-Result<LRResolution> ResolveDependence(const Spline<2>& spline, int maxSegments = 100);
+/// @param maxSegments  >= 0. @param threads  0 = all cores. @return NotConverged when they do not
+/// suffice or the elimination is undecided.
+Result<LRResolution> ResolveDependence(const Spline<2>& spline, int maxSegments, int threads);
 }

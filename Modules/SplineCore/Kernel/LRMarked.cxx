@@ -122,7 +122,8 @@ Result<RefinedSpline<2>> RefineMarkedLR(
   }
   if (params.KeepIndependent && result.Value.Space->Kind == SpaceKind::LocallyRefined)
   {
-    Result<LRResolution> resolution = ResolveDependence(result.Value);
+    Result<LRResolution> resolution =
+      ResolveDependence(result.Value, MaxResolvingSegments, params.Threads);
     if (!resolution)
     {
       return resolution.Status;

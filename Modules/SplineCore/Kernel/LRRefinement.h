@@ -48,7 +48,7 @@ public:
 
   /// The space as it is now. @param rows  its functions' coefficients, when not null.
   /// @param threads  0 = all cores; the space is the same for any number.
-  Result<SplineSpacePtr<2>> Finish(PointMatrix* rows, int threads = 0) const;
+  Result<SplineSpacePtr<2>> Finish(PointMatrix* rows, int threads) const;
 
 private:
   struct State;
@@ -60,8 +60,8 @@ private:
 /// kinds.
 /// @param threads  0 = all cores.
 Result<Spline<2>> InsertSegments(
-  const Spline<2>& spline, const std::vector<LRSegment>& segments, int threads = 0);
+  const Spline<2>& spline, const std::vector<LRSegment>& segments, int threads);
 /// The same of a space.
 Result<SplineSpacePtr<2>> InsertSegments(
-  const SplineSpacePtr<2>& space, const std::vector<LRSegment>& segments, int threads = 0);
+  const SplineSpacePtr<2>& space, const std::vector<LRSegment>& segments, int threads);
 }

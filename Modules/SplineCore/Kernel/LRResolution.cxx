@@ -57,13 +57,13 @@ std::vector<LRSegment> SplittingSegments(const LRBasis& basis, int f)
 
 /// The first of the segments that leaves fewer relations.
 Result<SplineSpacePtr<2>> Improve(const SplineSpacePtr<2>& space,
-  const LRDependenceResult& relation, LRSegment& chosen, LRDependenceResult& better)
+  const LRDependenceResult& relation, int threads, LRSegment& chosen, LRDependenceResult& better)
 {
   for (const int f : relation.Functions)
   {
     for (const LRSegment& segment : SplittingSegments(space->LocallyRefined->Basis, f))
     {
-      Result<SplineSpacePtr<2>> refined = InsertSegments(space, { segment });
+      Result<SplineSpacePtr<2>> refined = InsertSegments(space, { segment }, threads);
       if (!refined)
       {
         continue;
@@ -81,7 +81,7 @@ Result<SplineSpacePtr<2>> Improve(const SplineSpacePtr<2>& space,
 }
 }
 
-Result<LRResolution> ResolveDependence(const Spline<2>& spline, int maxSegments)
+Result<LRResolution> ResolveDependence(const Spline<2>& spline, int maxSegments, int threads)
 {
   if (Status status = spline.Check(); !status)
   {
@@ -104,7 +104,7 @@ Result<LRResolution> ResolveDependence(const Spline<2>& spline, int maxSegments)
     }
     LRSegment segment;
     LRDependenceResult better;
-    Result<SplineSpacePtr<2>> refined = Improve(space, decided.Value, segment, better);
+    Result<SplineSpacePtr<2>> refined = Improve(space, decided.Value, threads, segment, better);
     if (!refined)
     {
       return refined.Status;
@@ -118,7 +118,7 @@ Result<LRResolution> ResolveDependence(const Spline<2>& spline, int maxSegments)
     return { ErrorCode::NotConverged,
       std::to_string(decided->Unpeeled.size()) + " functions are too many for an elimination" };
   }
-  Result<Spline<2>> value = InsertSegments(spline, resolution.Segments);
+  Result<Spline<2>> value = InsertSegments(spline, resolution.Segments, threads);
   if (!value)
   {
     return value.Status;

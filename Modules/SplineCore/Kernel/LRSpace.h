@@ -78,7 +78,7 @@ struct LRData
 /// coefficients, or 16 (p + 1)(q + 1) functions alive on an element on average.
 /// @param threads  0 = all cores; the space is the same for any number.
 /// @complexity O(functions * elements in a support * (p+1)^2).
-Result<SplineSpacePtr<2>> MakeLRSpace(LRBasis basis, int threads = 0);
+Result<SplineSpacePtr<2>> MakeLRSpace(LRBasis basis, int threads);
 
 /// The definition of a tensor-product space as LR B-splines; functions keep their numbers.
 /// @return DimensionMismatch unless the space is of kind Tensor; InvalidKnots when an end has not

@@ -70,8 +70,8 @@ template <int Dim>
 class Reader
 {
 public:
-  explicit Reader(const SplineSpacePtr<Dim>& space)
-    : Space(*space), Duals(*space), Sites(ChooseSites(*space, this->Duals))
+  Reader(const SplineSpacePtr<Dim>& space, int threads)
+    : Threads(threads), Space(*space), Duals(*space), Sites(ChooseSites(*space, this->Duals))
   {
     this->Known.resize(this->Sites.size());
     for (std::size_t f = 0; f < this->Sites.size(); ++f)
@@ -83,6 +83,7 @@ public:
 
   const DualFunctionals<Dim>& Functionals() const { return this->Duals; }
   double Amplification() const { return this->Growth; }
+  int NumThreads() const { return this->Threads; }
 
   /// Coefficients of `count` planes from plane `first` of the form, NumFunctions x count.
   /// @param factors  empty, or one number an element by which its block is divided.
@@ -92,7 +93,7 @@ public:
     const std::vector<double>& factors, const Eigen::VectorXd* scale, double start)
   {
     PointMatrix result = PointMatrix::Constant(this->Space.NumFunctions, count, start);
-    ParallelFor(this->Sites.size(), 256, 0,
+    ParallelFor(this->Sites.size(), 256, this->Threads,
       [&](std::size_t begin, std::size_t end)
       {
         std::vector<double> row;
@@ -154,9 +155,10 @@ private:
         }
       }
     }
-    equations.Solve(scale, result);
+    equations.Solve(scale, result, this->Threads);
   }
 
+  int Threads;
   const SplineSpace<Dim>& Space;
   DualFunctionals<Dim> Duals;
   std::vector<FunctionalSite> Sites;
@@ -165,12 +167,12 @@ private:
 };
 
 /// Largest over the elements of a number that is computed for each.
-double LargestOverElements(int elements, const std::function<double(int)>& measure)
+double LargestOverElements(int elements, int threads, const std::function<double(int)>& measure)
 {
   constexpr std::size_t chunk = 64;
   const auto count = static_cast<std::size_t>(elements);
   std::vector<double> largest((count + chunk - 1) / chunk, 0.0);
-  ParallelFor(count, chunk, 0,
+  ParallelFor(count, chunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       double value = 0.0;
@@ -185,9 +187,10 @@ double LargestOverElements(int elements, const std::function<double(int)>& measu
 
 /// Bezier form of the weight function alone.
 template <int Dim>
-BezierForm<Dim> WeightForm(const SplineSpacePtr<Dim>& space, const Eigen::VectorXd& weights)
+BezierForm<Dim> WeightForm(
+  const SplineSpacePtr<Dim>& space, const Eigen::VectorXd& weights, int threads)
 {
-  return MakeBezierForm(Spline<Dim>{ space, PointMatrix(weights), {} });
+  return MakeBezierForm(Spline<Dim>{ space, PointMatrix(weights), {} }, threads);
 }
 
 template <int Dim>
@@ -208,8 +211,8 @@ Weights<Dim> ReadWeights(
   const double start = space.NumElements() > 0 ? form.Block(0)[plane * BlockSize(space, 0)] : 1.0;
   Weights<Dim> weights;
   weights.Values = reader.Read(form, plane, 1, factors, nullptr, start / divisor).col(0);
-  const BezierForm<Dim> found = WeightForm(form.Space, weights.Values);
-  weights.Residual = LargestOverElements(space.NumElements(),
+  const BezierForm<Dim> found = WeightForm(form.Space, weights.Values, reader.NumThreads());
+  weights.Residual = LargestOverElements(space.NumElements(), reader.NumThreads(),
     [&](int e)
     {
       const int size = BlockSize(space, e);
@@ -233,16 +236,17 @@ Weights<Dim> FitWeights(Reader<Dim>& reader, const BezierForm<Dim>& form)
   {
     return plain;
   }
-  Weights<Dim> scaled = ReadWeights(reader, form, CellWeightFactors(form, reader.Functionals()));
+  Weights<Dim> scaled =
+    ReadWeights(reader, form, CellWeightFactors(form, reader.Functionals(), reader.NumThreads()));
   return scaled.Residual < 0.5 * plain.Residual ? scaled : plain;
 }
 
 /// Size and Residual: Euclidean points of a form against those of the result.
 template <int Dim>
-void Compare(const BezierForm<Dim>& form, RecoveryResult<Dim>& result)
+void Compare(const BezierForm<Dim>& form, int threads, RecoveryResult<Dim>& result)
 {
   const SplineSpace<Dim>& space = *form.Space;
-  const BezierForm<Dim> found = MakeBezierForm(result.Value);
+  const BezierForm<Dim> found = MakeBezierForm(result.Value, threads);
   const auto points = [&](const BezierForm<Dim>& from, int e) -> PointMatrix
   {
     const Eigen::Map<const PointMatrix> planes(
@@ -255,8 +259,8 @@ void Compare(const BezierForm<Dim>& form, RecoveryResult<Dim>& result)
     return euclidean;
   };
   result.Size = LargestOverElements(
-    space.NumElements(), [&](int e) { return points(form, e).cwiseAbs().maxCoeff(); });
-  result.Residual = LargestOverElements(space.NumElements(),
+    space.NumElements(), threads, [&](int e) { return points(form, e).cwiseAbs().maxCoeff(); });
+  result.Residual = LargestOverElements(space.NumElements(), threads,
     [&](int e) { return (points(form, e) - points(found, e)).colwise().norm().maxCoeff(); });
 }
 
@@ -291,7 +295,7 @@ Status CheckWeights(const Eigen::VectorXd& weights, const std::string& reason)
 }
 
 template <int Dim>
-RecoveryResult<Dim> RecoverSpline(const BezierForm<Dim>& form)
+RecoveryResult<Dim> RecoverSpline(const BezierForm<Dim>& form, int threads)
 {
   RecoveryResult<Dim> result;
   result.Status = CheckForm(form);
@@ -299,7 +303,7 @@ RecoveryResult<Dim> RecoverSpline(const BezierForm<Dim>& form)
   {
     return result;
   }
-  Reader<Dim> reader(form.Space);
+  Reader<Dim> reader(form.Space, threads);
   result.Value.Space = form.Space;
   std::vector<double> factors;
   if (form.Rational)
@@ -317,12 +321,13 @@ RecoveryResult<Dim> RecoverSpline(const BezierForm<Dim>& form)
     factors = std::move(weights.Factors);
   }
   ReadCoefficients(reader, form, factors, result);
-  Compare(form, result);
+  Compare(form, threads, result);
   return result;
 }
 
 template <int Dim>
-RecoveryResult<Dim> RecoverField(const BezierForm<Dim>& form, const Eigen::VectorXd& weights)
+RecoveryResult<Dim> RecoverField(
+  const BezierForm<Dim>& form, const Eigen::VectorXd& weights, int threads)
 {
   RecoveryResult<Dim> result;
   result.Status = CheckForm(form);
@@ -343,7 +348,7 @@ RecoveryResult<Dim> RecoverField(const BezierForm<Dim>& form, const Eigen::Vecto
   {
     return result;
   }
-  Reader<Dim> reader(form.Space);
+  Reader<Dim> reader(form.Space, threads);
   result.Value.Space = form.Space;
   result.Value.Weights = weights;
   if (weights.size() == 0)
@@ -353,7 +358,7 @@ RecoveryResult<Dim> RecoverField(const BezierForm<Dim>& form, const Eigen::Vecto
   else
   {
     BezierForm<Dim> product = form;
-    const BezierForm<Dim> factor = WeightForm(form.Space, weights);
+    const BezierForm<Dim> factor = WeightForm(form.Space, weights, threads);
     for (int e = 0; e < form.Space->NumElements(); ++e)
     {
       const int size = BlockSize(*form.Space, e);
@@ -362,14 +367,14 @@ RecoveryResult<Dim> RecoverField(const BezierForm<Dim>& form, const Eigen::Vecto
     }
     ReadCoefficients(reader, product, {}, result);
   }
-  Compare(form, result);
+  Compare(form, threads, result);
   return result;
 }
 
-template RecoveryResult<1> RecoverSpline(const BezierForm<1>&);
-template RecoveryResult<2> RecoverSpline(const BezierForm<2>&);
-template RecoveryResult<3> RecoverSpline(const BezierForm<3>&);
-template RecoveryResult<1> RecoverField(const BezierForm<1>&, const Eigen::VectorXd&);
-template RecoveryResult<2> RecoverField(const BezierForm<2>&, const Eigen::VectorXd&);
-template RecoveryResult<3> RecoverField(const BezierForm<3>&, const Eigen::VectorXd&);
+template RecoveryResult<1> RecoverSpline(const BezierForm<1>&, int);
+template RecoveryResult<2> RecoverSpline(const BezierForm<2>&, int);
+template RecoveryResult<3> RecoverSpline(const BezierForm<3>&, int);
+template RecoveryResult<1> RecoverField(const BezierForm<1>&, const Eigen::VectorXd&, int);
+template RecoveryResult<2> RecoverField(const BezierForm<2>&, const Eigen::VectorXd&, int);
+template RecoveryResult<3> RecoverField(const BezierForm<3>&, const Eigen::VectorXd&, int);
 }

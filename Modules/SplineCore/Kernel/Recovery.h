@@ -36,6 +36,7 @@ struct RecoveryResult
 /// result is exact to 64 eps * Amplification * Size; outside it is a projection and Residual tells
 /// the distance.
 /// @param form  Space set; Data may come from anywhere.
+/// @param threads  0 = all cores; the result is the same for any number.
 /// @return NonFiniteInput, InvalidWeight, SizeMismatch with the element; InvalidWeight with the
 /// function when the space would need a weight that is not positive; EmptyInput without a space.
 /// @complexity O(NumFunctions * prod(p + 1) * components), plus the sparse least squares if any: on
@@ -43,7 +44,7 @@ struct RecoveryResult
 /// @source  Thomas et al., CMAME 284 (2015) 55-105 (reconstruction operators); Giannelli, Juettler,
 /// Speleers, CAGD 29 (2012) (preservation of coefficients).
 template <int Dim>
-RecoveryResult<Dim> RecoverSpline(const BezierForm<Dim>& form);
+RecoveryResult<Dim> RecoverSpline(const BezierForm<Dim>& form, int threads);
 
 /// Coefficients of a field of any component count in the geometry's space with the geometry's
 /// weights.
@@ -52,5 +53,6 @@ RecoveryResult<Dim> RecoverSpline(const BezierForm<Dim>& form);
 /// @param weights  weights of the geometry (size 0 when polynomial), NumFunctions.
 /// @return as RecoverSpline; SizeMismatch also for a rational form or a wrong number of weights.
 template <int Dim>
-RecoveryResult<Dim> RecoverField(const BezierForm<Dim>& form, const Eigen::VectorXd& weights);
+RecoveryResult<Dim> RecoverField(
+  const BezierForm<Dim>& form, const Eigen::VectorXd& weights, int threads);
 }

@@ -60,7 +60,7 @@ void RowEquations::Add(int equation, double weight, const double* values)
   }
 }
 
-void RowEquations::Solve(const Eigen::VectorXd* scale, PointMatrix& coefficients) const
+void RowEquations::Solve(const Eigen::VectorXd* scale, PointMatrix& coefficients, int threads) const
 {
   if (this->IsEmpty())
   {
@@ -99,7 +99,7 @@ void RowEquations::Solve(const Eigen::VectorXd* scale, PointMatrix& coefficients
   }
   Eigen::SparseMatrix<double, Eigen::RowMajor> a(equations, unknowns);
   a.setFromTriplets(triplets.begin(), triplets.end());
-  const Eigen::MatrixXd change = SolveSparseLeastSquares(a, rightSide).Value;
+  const Eigen::MatrixXd change = SolveSparseLeastSquares(a, rightSide, threads).Value;
   for (Eigen::Index u = 0; u < unknowns; ++u)
   {
     const int f = this->Columns[static_cast<std::size_t>(u)];

@@ -29,8 +29,8 @@ public:
   /// least-squares solutions it takes the one nearest to the given values (after division by the
   /// functions' scale, in the norm of SparseLeastSquares.h), so zeros on input give the solution of
   /// minimum norm.
-  /// @param scale  nullptr, or a positive number a function.
-  void Solve(const Eigen::VectorXd* scale, PointMatrix& coefficients) const;
+  /// @param scale  nullptr, or a positive number a function. @param threads  0 = all cores.
+  void Solve(const Eigen::VectorXd* scale, PointMatrix& coefficients, int threads) const;
 
 private:
   std::vector<int> Numbers;      ///< local function -> equation

@@ -18,7 +18,7 @@ using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 using Columns = Eigen::SparseMatrix<double>;
 
 /// The lower triangle of A^T A, a column at a time.
-Columns NormalMatrix(const Rows& a, const Columns& columns)
+Columns NormalMatrix(const Rows& a, const Columns& columns, int threads)
 {
   struct Column
   {
@@ -27,7 +27,7 @@ Columns NormalMatrix(const Rows& a, const Columns& columns)
   };
   const auto n = static_cast<std::size_t>(a.cols());
   std::vector<Column> found(n);
-  ParallelFor(n, 512, 0,
+  ParallelFor(n, 512, threads,
     [&](std::size_t begin, std::size_t end)
     {
       std::vector<double> sums(n, 0.0);
@@ -146,7 +146,7 @@ bool Gains(const Eigen::MatrixXd& step, const Eigen::MatrixXd& before, const Eig
 }
 }
 
-SparseSolution SolveSparseLeastSquares(const Rows& a, const Eigen::MatrixXd& b)
+SparseSolution SolveSparseLeastSquares(const Rows& a, const Eigen::MatrixXd& b, int threads)
 {
   constexpr int maxSteps = 100;
   Eigen::VectorXd scale = Eigen::VectorXd::Zero(a.cols());
@@ -163,7 +163,7 @@ SparseSolution SolveSparseLeastSquares(const Rows& a, const Eigen::MatrixXd& b)
   }
   const Rows scaled = a * scale.asDiagonal();
   const Columns columns = scaled;
-  const ShiftedFactor factor(NormalMatrix(scaled, columns));
+  const ShiftedFactor factor(NormalMatrix(scaled, columns, threads));
   Eigen::MatrixXd step = factor.Step(columns.transpose() * b);
   Eigen::MatrixXd x = step;
   SparseSolution solution;

@@ -82,8 +82,9 @@ EvaluationBatch Evaluated(const Spline<Dim>& spline, const PointMatrix& places, 
 {
   EvaluationParams params;
   params.Derivatives = derivatives;
+  params.Threads = 1;
   EvaluationBatch batch;
-  EvaluateParameters<Dim>(MakeBezierForm<Dim>(spline), places, params, batch);
+  EvaluateParameters<Dim>(MakeBezierForm<Dim>(spline, 1), places, params, batch);
   return batch;
 }
 

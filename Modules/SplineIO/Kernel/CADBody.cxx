@@ -216,7 +216,7 @@ Status BodyReader::MakeFace(const CADFace& source, const FaceInWork& work)
   face.Name = source.Name;
   face.HasColor = source.HasColor;
   face.Color = source.Color;
-  const BezierForm<2> form = MakeBezierForm<2>(face.Surface);
+  const BezierForm<2> form = MakeBezierForm<2>(face.Surface, 1);
   std::vector<std::pair<double, TrimmedLoop>> loops;
   double gap = 0.0;
   for (const std::vector<UseInWire>& wire : work.Wires)

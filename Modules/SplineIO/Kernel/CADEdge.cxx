@@ -234,7 +234,7 @@ struct Collocation
   Status Prepare(const SplineSpace<1>& space)
   {
     this->Points = GrevillePoints<1>(space);
-    auto matrix = CollocationMatrix<1>(space, this->Points);
+    auto matrix = CollocationMatrix<1>(space, this->Points, 1);
     if (!matrix)
     {
       return matrix.Status;

@@ -200,7 +200,7 @@ Status ShapeMaker::CollectUses()
 {
   for (std::size_t f = 0; f < this->Boundary.Faces.size(); ++f)
   {
-    const BezierForm<2> surface = MakeBezierForm<2>(this->Model.Faces[f].Surface);
+    const BezierForm<2> surface = MakeBezierForm<2>(this->Model.Faces[f].Surface, 1);
     for (const BoundaryLoop& loop : this->Boundary.Faces[f])
     {
       for (const BoundaryCurve& use : loop)

@@ -161,7 +161,7 @@ private:
       this->Basis.LocalKnots.insert(
         this->Basis.LocalKnots.end(), record.Local.begin(), record.Local.end());
     }
-    Result<SplineSpacePtr<2>> space = MakeLRSpace(std::move(this->Basis));
+    Result<SplineSpacePtr<2>> space = MakeLRSpace(std::move(this->Basis), 1);
     if (!space)
     {
       this->W.Fail(space.Status.Code, "end of an LR surface: " + space.Status.Detail);

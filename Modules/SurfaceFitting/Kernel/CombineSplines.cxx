@@ -93,8 +93,8 @@ Status ShareDomain(Spline<2>& a, Spline<2>& b, const CombineParams& params)
   }
   for (Spline<2>* spline : { &a, &b })
   {
-    auto local = MakeLocallyRefined(*spline);
-    auto part = local ? RestrictToBox(local.Value, common) : local;
+    auto local = MakeLocallyRefined(*spline, params.Threads);
+    auto part = local ? RestrictToBox(local.Value, common, params.Threads) : local;
     if (!part)
     {
       return part.Status;
@@ -166,7 +166,7 @@ Result<CombinedSpline> CombineSplines(const Spline<2>& a, const Spline<2>& b, do
   Spline<2> second = b;
   status = ShareDegree(first, second);
   status = status ? ShareDomain(first, second, params) : status;
-  status = status ? MakeCommon(first, second) : status;
+  status = status ? MakeCommon(first, second, params.Threads) : status;
   if (status && first.ControlPoints.rows() != second.ControlPoints.rows())
   {
     status = { ErrorCode::NotInSpace,

@@ -124,7 +124,7 @@ std::vector<LRSegment> LinesOf(const LRBasis& basis)
 }
 
 /// Inserts the lines of another mesh of the same domain.
-Status InsertLines(Spline<2>& spline, const SplineSpace<2>& other)
+Status InsertLines(Spline<2>& spline, const SplineSpace<2>& other, int threads)
 {
   LRRefinement refinement(*spline.Space, spline.ControlPoints);
   const ParametricBox<2> domain = spline.Space->Domain();
@@ -154,7 +154,7 @@ Status InsertLines(Spline<2>& spline, const SplineSpace<2>& other)
     }
     left = std::move(refused);
   }
-  auto space = refinement.Finish(&spline.ControlPoints);
+  auto space = refinement.Finish(&spline.ControlPoints, threads);
   if (space)
   {
     spline.Space = std::move(space.Value);
@@ -162,12 +162,12 @@ Status InsertLines(Spline<2>& spline, const SplineSpace<2>& other)
   return space.Status;
 }
 
-Status ShareLines(Spline<2>& a, Spline<2>& b)
+Status ShareLines(Spline<2>& a, Spline<2>& b, int threads)
 {
   for (int exchange = 0; exchange < MaxExchanges; ++exchange)
   {
-    Status status = InsertLines(a, *b.Space);
-    status = status ? InsertLines(b, *a.Space) : status;
+    Status status = InsertLines(a, *b.Space, threads);
+    status = status ? InsertLines(b, *a.Space, threads) : status;
     if (!status)
     {
       return status;
@@ -180,7 +180,7 @@ Status ShareLines(Spline<2>& a, Spline<2>& b)
   // lines as long as the domain have one set of functions
   for (Spline<2>* spline : { &a, &b })
   {
-    auto tensor = ExpandToTensor(*spline);
+    auto tensor = ExpandToTensor(*spline, threads);
     if (!tensor)
     {
       return tensor.Status;
@@ -191,7 +191,7 @@ Status ShareLines(Spline<2>& a, Spline<2>& b)
 }
 }
 
-Status MakeCommon(Spline<2>& a, Spline<2>& b)
+Status MakeCommon(Spline<2>& a, Spline<2>& b, int threads)
 {
   const auto both = [&](SpaceKind kind) { return a.Space->Kind == kind && b.Space->Kind == kind; };
   if (both(SpaceKind::Tensor))
@@ -204,13 +204,13 @@ Status MakeCommon(Spline<2>& a, Spline<2>& b)
   }
   for (Spline<2>* spline : { &a, &b })
   {
-    auto local = MakeLocallyRefined(*spline);
+    auto local = MakeLocallyRefined(*spline, threads);
     if (!local)
     {
       return local.Status;
     }
     *spline = std::move(local.Value);
   }
-  return ShareLines(a, b);
+  return ShareLines(a, b, threads);
 }
 }

@@ -7,6 +7,7 @@ namespace knotwork
 /// Brings two splines of one degree and one domain into one space; the maps do not change. Both
 /// spaces have the same functions in the same order afterwards (their knots may differ by
 /// rounding).
+/// @param threads  0 = all cores.
 /// @return what the insertions return; NotInSpace.
-Status MakeCommon(Spline<2>& a, Spline<2>& b);
+Status MakeCommon(Spline<2>& a, Spline<2>& b, int threads);
 }

@@ -63,6 +63,5 @@ inline int SideCoefficient(const IntArray<2>& degree, int side, int k)
 /// jump: both sides become boundary. Opposite sides of the domain whose other components (at least
 /// one) agree as well are neighbours too when seams is set.
 /// @complexity O(n log n).
-ElementSides FindElementSides(
-  const BezierForm<2>& form, int component, bool seams, int threads = 0);
+ElementSides FindElementSides(const BezierForm<2>& form, int component, bool seams, int threads);
 }

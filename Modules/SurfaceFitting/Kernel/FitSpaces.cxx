@@ -136,7 +136,7 @@ Result<FitState> RefineLocally(
   Spline<2> spline;
   spline.Space = space.Value;
   spline.ControlPoints = both;
-  auto resolved = ResolveDependence(spline);
+  auto resolved = ResolveDependence(spline, MaxResolvingSegments, params.Threads);
   if (!resolved)
   {
     return resolved.Status;

@@ -67,7 +67,7 @@ void AddHalvings(const SplineSpace<2>& space, const std::array<std::vector<doubl
 }
 
 /// The tensor-product space of the level-0 knots as LR B-splines, the ends clamped.
-Result<SplineSpacePtr<2>> ClampedRoot(const SplineSpace<2>& space)
+Result<SplineSpacePtr<2>> ClampedRoot(const SplineSpace<2>& space, int threads)
 {
   std::array<KnotVector, 2> clamped;
   for (std::size_t d = 0; d < 2; ++d)
@@ -89,7 +89,7 @@ Result<SplineSpacePtr<2>> ClampedRoot(const SplineSpace<2>& space)
   }
   const auto tensor = MakeTensorSpace<2>(clamped);
   auto basis = tensor ? LRBasisOfTensor(*tensor.Value) : tensor.Status;
-  return basis ? MakeLRSpace(std::move(basis.Value)) : basis.Status;
+  return basis ? MakeLRSpace(std::move(basis.Value), threads) : basis.Status;
 }
 
 /// Every line of the hierarchical mesh as long as the domain.
@@ -114,9 +114,9 @@ std::vector<LRSegment> LongLines(
 }
 
 /// The spline's Bezier points on the elements of a finer mesh, and the control points behind them.
-RecoveryResult<2> Recover(const Spline<2>& spline, const SplineSpacePtr<2>& fine)
+RecoveryResult<2> Recover(const Spline<2>& spline, const SplineSpacePtr<2>& fine, int threads)
 {
-  const BezierForm<2> form = MakeBezierForm(spline);
+  const BezierForm<2> form = MakeBezierForm(spline, threads);
   BezierForm<2> parts;
   parts.Space = fine;
   parts.NumComponents = form.NumComponents;
@@ -149,7 +149,7 @@ RecoveryResult<2> Recover(const Spline<2>& spline, const SplineSpacePtr<2>& fine
     }
     parts.Offsets.push_back(parts.Data.size());
   }
-  return RecoverSpline(parts);
+  return RecoverSpline(parts, threads);
 }
 
 Result<Spline<2>> Checked(RecoveryResult<2> recovered)
@@ -161,26 +161,26 @@ Result<Spline<2>> Checked(RecoveryResult<2> recovered)
   return recovered ? Result<Spline<2>>(std::move(recovered.Value)) : recovered.Status;
 }
 
-Result<Spline<2>> FromTensor(const Spline<2>& spline)
+Result<Spline<2>> FromTensor(const Spline<2>& spline, int threads)
 {
-  const auto root = ClampedRoot(*spline.Space);
+  const auto root = ClampedRoot(*spline.Space, threads);
   if (!root)
   {
     return root.Status;
   }
   if (root.Value->Knots != spline.Space->Knots)
   {
-    return Checked(Recover(spline, root.Value));
+    return Checked(Recover(spline, root.Value, threads));
   }
   Spline<2> result = spline;
   result.Space = root.Value;
   return result;
 }
 
-Result<Spline<2>> FromHierarchical(const Spline<2>& spline)
+Result<Spline<2>> FromHierarchical(const Spline<2>& spline, int threads)
 {
   const SplineSpace<2>& space = *spline.Space;
-  const auto root = ClampedRoot(space);
+  const auto root = ClampedRoot(space, threads);
   if (!root)
   {
     return root.Status;
@@ -199,28 +199,28 @@ Result<Spline<2>> FromHierarchical(const Spline<2>& spline)
     {
       AddHalvings(*fine, breaks, boxes[b], segments);
     }
-    auto next = InsertSegments(fine, segments);
+    auto next = InsertSegments(fine, segments, threads);
     if (!next)
     {
       return next.Status;
     }
     fine = std::move(next.Value);
   }
-  RecoveryResult<2> recovered = Recover(spline, fine);
+  RecoveryResult<2> recovered = Recover(spline, fine, threads);
   if (recovered && recovered.Residual > InSpace * recovered.Size)
   {
-    auto all = InsertSegments(root.Value, LongLines(space, boxes));
+    auto all = InsertSegments(root.Value, LongLines(space, boxes), threads);
     if (!all)
     {
       return all.Status;
     }
-    recovered = Recover(spline, all.Value);
+    recovered = Recover(spline, all.Value, threads);
   }
   return Checked(std::move(recovered));
 }
 }
 
-Result<Spline<2>> MakeLocallyRefined(const Spline<2>& spline)
+Result<Spline<2>> MakeLocallyRefined(const Spline<2>& spline, int threads)
 {
   if (Status status = spline.Check(); !status)
   {
@@ -231,13 +231,13 @@ Result<Spline<2>> MakeLocallyRefined(const Spline<2>& spline)
     case SpaceKind::LocallyRefined:
       return spline;
     case SpaceKind::Hierarchical:
-      return FromHierarchical(spline);
+      return FromHierarchical(spline, threads);
     case SpaceKind::Bezier:
       return { ErrorCode::DimensionMismatch,
         "Bezier elements without a common parameter domain have no locally refined form" };
     case SpaceKind::Tensor:
       break;
   }
-  return FromTensor(spline);
+  return FromTensor(spline, threads);
 }
 }

@@ -12,6 +12,6 @@ namespace knotwork
 /// size), all lines become as long as the domain: the tensor-product space of all lines contains
 /// every level's functions.
 /// @return Spline::Check's codes; DimensionMismatch for the kind Bezier; what LRBasisOfTensor and
-/// the insertion of segments return; NotInSpace.
-Result<Spline<2>> MakeLocallyRefined(const Spline<2>& spline);
+/// the insertion of segments return; NotInSpace. @param threads  0 = all cores.
+Result<Spline<2>> MakeLocallyRefined(const Spline<2>& spline, int threads);
 }

@@ -143,7 +143,7 @@ Result<StitchedTiles> StitchTiles(const std::vector<Spline<2>>& tiles, const Sti
   StitchedTiles result;
   for (std::size_t t = 0; t < tiles.size(); ++t)
   {
-    auto tile = MakeLocallyRefined(tiles[t]);
+    auto tile = MakeLocallyRefined(tiles[t], params.Threads);
     if (!tile)
     {
       return { tile.Status.Code, "tile " + std::to_string(t) + ": " + tile.Status.Detail };

@@ -24,7 +24,7 @@ std::string SideName(int tile, int side)
 }
 
 /// Moves the ends of a tile's knots in a direction; those between follow.
-Status MoveEnds(Spline<2>& tile, std::size_t d, double low, double high)
+Status MoveEnds(Spline<2>& tile, std::size_t d, double low, double high, int threads)
 {
   LRBasis basis = tile.Space->LocallyRefined->Basis;
   std::vector<double>& knots = basis.Knots[d];
@@ -35,7 +35,7 @@ Status MoveEnds(Spline<2>& tile, std::size_t d, double low, double high)
     const double s = (knot - begin) / (end - begin);
     knot = knot == begin ? low : knot == end ? high : (1.0 - s) * low + s * high;
   }
-  auto space = MakeLRSpace(std::move(basis));
+  auto space = MakeLRSpace(std::move(basis), threads);
   if (space)
   {
     tile.Space = std::move(space.Value);
@@ -44,7 +44,7 @@ Status MoveEnds(Spline<2>& tile, std::size_t d, double low, double high)
 }
 
 /// Makes boxes fit that are within the tolerance of each other.
-Status FitBoxes(std::vector<Spline<2>>& tiles, double tolerance)
+Status FitBoxes(std::vector<Spline<2>>& tiles, const StitchParams& params)
 {
   for (std::size_t d = 0; d < 2; ++d)
   {
@@ -61,7 +61,7 @@ Status FitBoxes(std::vector<Spline<2>>& tiles, double tolerance)
     {
       // the first of the ends that lie close together
       auto at = std::lower_bound(ends.begin(), ends.end(), value);
-      while (at != ends.begin() && *at - *(at - 1) <= tolerance * shortest)
+      while (at != ends.begin() && *at - *(at - 1) <= params.Tolerance * shortest)
       {
         --at;
       }
@@ -80,7 +80,7 @@ Status FitBoxes(std::vector<Spline<2>>& tiles, double tolerance)
       }
       if (low != box.Lower[d] || high != box.Upper[d])
       {
-        if (Status status = MoveEnds(tiles[t], d, low, high); !status)
+        if (Status status = MoveEnds(tiles[t], d, low, high, params.Threads); !status)
         {
           return status;
         }
@@ -140,7 +140,7 @@ Result<std::vector<TileEdge>> EdgesOfBoxes(const std::vector<Spline<2>>& tiles)
 /// Points of a side at its lower end, its middle and its upper end.
 using SidePoints = std::array<Eigen::RowVectorXd, 3>;
 
-Result<std::array<SidePoints, 4>> PointsOfSides(const Spline<2>& tile, int components)
+Result<std::array<SidePoints, 4>> PointsOfSides(const Spline<2>& tile, int components, int threads)
 {
   const ParametricBox<2> box = tile.Space->Domain();
   PointMatrix at(12, 2);
@@ -158,7 +158,8 @@ Result<std::array<SidePoints, 4>> PointsOfSides(const Spline<2>& tile, int compo
     }
   }
   EvaluationBatch batch;
-  const Status status = EvaluateParameters(MakeBezierForm(tile), at, {}, batch);
+  const Status status =
+    EvaluateParameters(MakeBezierForm(tile, threads), at, { 0, threads }, batch);
   std::array<SidePoints, 4> points;
   for (int i = 0; i < 12 && status; ++i)
   {
@@ -177,7 +178,7 @@ Result<std::vector<TilePair>> PairsOfGeometry(
   Eigen::RowVectorXd high = low;
   for (const Spline<2>& tile : tiles)
   {
-    auto sides = PointsOfSides(tile, components);
+    auto sides = PointsOfSides(tile, components, params.Threads);
     if (!sides)
     {
       return sides.Status;
@@ -253,7 +254,7 @@ Result<std::vector<TileEdge>> FindTileEdges(
   Result<std::vector<TileEdge>> edges;
   if (params.Matching == TileMatching::Domain)
   {
-    const Status status = FitBoxes(tiles, params.Tolerance);
+    const Status status = FitBoxes(tiles, params);
     edges = status ? EdgesOfBoxes(tiles) : status;
   }
   else if (params.Matching == TileMatching::Geometry)

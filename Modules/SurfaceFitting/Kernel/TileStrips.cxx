@@ -347,7 +347,7 @@ Result<TileRows> PrepareStrips(
           const auto segments = MissingLines(*tiles[t].Space, demands[t], numRows);
           if (!segments.empty())
           {
-            auto refined = InsertSegments(tiles[t], segments);
+            auto refined = InsertSegments(tiles[t], segments, 1);
             statuses[t] = refined.Status;
             if (refined && refined->Space->NumFunctions == tiles[t].Space->NumFunctions)
             {

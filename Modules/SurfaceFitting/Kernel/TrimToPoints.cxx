@@ -41,7 +41,7 @@ Status CheckInside(const Spline<2>& surface, const PointMatrixView& parameters)
   return {};
 }
 
-Result<Spline<2>> TensorSurface(const Spline<2>& surface)
+Result<Spline<2>> TensorSurface(const Spline<2>& surface, int threads)
 {
   if (surface.IsRational())
   {
@@ -58,19 +58,20 @@ Result<Spline<2>> TensorSurface(const Spline<2>& surface)
   {
     return geometry;
   }
-  auto local = MakeLocallyRefined(geometry);
-  return local ? ExpandToTensor(local.Value) : local;
+  auto local = MakeLocallyRefined(geometry, threads);
+  return local ? ExpandToTensor(local.Value, threads) : local;
 }
 
 /// Parts of the outline on the surface.
-Result<std::vector<ChartMesh>> MakeCharts(const CloudOutline& outline, const Spline<2>& surface)
+Result<std::vector<ChartMesh>> MakeCharts(
+  const CloudOutline& outline, const Spline<2>& surface, int threads)
 {
-  const BezierForm<2> form = MakeBezierForm(surface);
+  const BezierForm<2> form = MakeBezierForm(surface, threads);
   std::vector<ChartMesh> charts;
   for (const OutlinePart& part : outline.Parts)
   {
     EvaluationBatch batch;
-    if (Status status = EvaluateParameters(form, part.Points, {}, batch); !status)
+    if (Status status = EvaluateParameters(form, part.Points, { 0, threads }, batch); !status)
     {
       return status;
     }
@@ -150,13 +151,13 @@ Result<TrimmedToPoints> TrimToPoints(
     return { ErrorCode::InvalidParameter, "the tolerance must be 0 or more" };
   }
   const Status inside = CheckInside(surface, parameters);
-  const auto tensor = inside ? TensorSurface(surface) : inside;
+  auto tensor = inside ? TensorSurface(surface, params.Threads) : inside;
   const auto outline = tensor ? FindCloudOutline(parameters, params.Outline) : tensor.Status;
   if (!outline)
   {
     return outline.Status;
   }
-  const auto charts = MakeCharts(outline.Value, tensor.Value);
+  const auto charts = MakeCharts(outline.Value, tensor.Value, params.Threads);
   if (!charts)
   {
     return charts.Status;

@@ -149,7 +149,7 @@ struct Samples
 Result<PointMatrix> ProjectOnto(const SplineSpace<1>& space, const Samples& samples,
   const Eigen::RowVectorXd& first, const Eigen::RowVectorXd& last)
 {
-  auto basis = CollocationMatrix<1>(space, samples.Parameters);
+  auto basis = CollocationMatrix<1>(space, samples.Parameters, 1);
   if (!basis)
   {
     return basis.Status;

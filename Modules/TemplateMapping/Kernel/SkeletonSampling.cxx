@@ -233,7 +233,7 @@ Result<SkeletonPatch<2>> SampleCurve(int id, const Spline<1>& curve, int samples
           "; curves lie in the plane z = 0, skeletons in space are faces" };
     }
   }
-  const BezierForm<1> form = MakeBezierForm(curve);
+  const BezierForm<1> form = MakeBezierForm(curve, 1);
   if (!curve.Space->HasDomain)
   {
     const int numElements = curve.Space->NumElements();
@@ -269,7 +269,7 @@ Result<SkeletonPatch<3>> SampleSurface(int id, const Spline<2>& surface, int sam
   {
     return count.Status;
   }
-  const BezierForm<2> form = MakeBezierForm(surface);
+  const BezierForm<2> form = MakeBezierForm(surface, 1);
   if (!surface.Space->HasDomain)
   {
     return SampleCells(id, MakeBernsteinCells(form), samples);

@@ -337,7 +337,7 @@ template <int Dim>
 Status MapLoop<Dim>::MoveByRowSums()
 {
   const FitSamples<Dim> samples = this->Problem.Samples();
-  auto values = CollocationMatrix(*this->Map.Space, samples.Parameters);
+  auto values = CollocationMatrix(*this->Map.Space, samples.Parameters, this->Params.Threads);
   if (!values)
   {
     return values.Status;

@@ -120,12 +120,12 @@ inline LRSegment RandomSegment(Random& random, const SplineSpace<2>& space)
 /// Segments that can be inserted one after the other, at most count.
 inline std::vector<LRSegment> RandomSegments(Random& random, SplineSpacePtr<2> space, int count)
 {
-  space = InsertSegments(space, {}).Value;
+  space = InsertSegments(space, {}, 0).Value;
   std::vector<LRSegment> segments;
   for (int i = 0; i < count; ++i)
   {
     const LRSegment segment = RandomSegment(random, *space);
-    const auto next = InsertSegments(space, { segment });
+    const auto next = InsertSegments(space, { segment }, 0);
     if (next)
     {
       segments.push_back(segment);
@@ -167,7 +167,8 @@ inline Spline<2> DependentSurface(bool rational = false)
   Random random(9);
   const auto tensor =
     MakeTensorSpace<2>({ knots({ 1, 2, 3, 6, 8, 9 }, 10), knots({ 1, 2, 4, 6, 7 }, 8) }).Value;
-  const auto surface = InsertSegments(RandomSpline(random, tensor, 3, rational), KnownSegments());
+  const auto surface =
+    InsertSegments(RandomSpline(random, tensor, 3, rational), KnownSegments(), 0);
   EXPECT_TRUE(surface) << surface.Status.Message();
   EXPECT_EQ(surface->Space->NumFunctions, 82);
   return surface.Value;

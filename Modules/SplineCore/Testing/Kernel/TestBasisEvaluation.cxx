@@ -198,7 +198,7 @@ TEST(BasisEvaluation, HierarchicalCollocationTimesPointsIsTheMap_CrossOracle)
   spline.Space = RandomHierarchy<2>(random, 3);
   spline.ControlPoints = RandomMatrix(random, spline.Space->NumFunctions, 2);
   const PointMatrix u = RandomParameters<2>(random, *spline.Space, 2000);
-  const auto matrix = CollocationMatrix<2>(*spline.Space, u);
+  const auto matrix = CollocationMatrix<2>(*spline.Space, u, 0);
   ASSERT_TRUE(matrix) << matrix.Status.Message();
   EvaluationBatch batch;
   ASSERT_TRUE(EvaluateParameters(MakeBezierForm(spline), u, {}, batch));
@@ -231,7 +231,7 @@ TEST(BasisEvaluation, CollocationTimesPointsIsTheMap_CrossOracle)
   std::mt19937_64 random(11);
   const auto spline = RandomTensorSpline<2>(random, { 2, 4 }, { 5, 6 }, 3, false);
   const PointMatrix u = RandomParameters<2>(random, *spline.Space, 3000);
-  const auto matrix = CollocationMatrix<2>(*spline.Space, u);
+  const auto matrix = CollocationMatrix<2>(*spline.Space, u, 0);
   ASSERT_TRUE(matrix) << matrix.Status.Message();
   ASSERT_EQ(matrix.Value.rows(), u.rows());
   ASSERT_EQ(matrix.Value.cols(), spline.Space->NumFunctions);
@@ -246,16 +246,16 @@ TEST(BasisEvaluation, CollocationFailures)
 {
   const auto space = MakeTensorSpace<1>({ KnotVector::Uniform(2, 3) }).Value;
   EXPECT_EQ(
-    CollocationMatrix<1>(*space, PointMatrix::Zero(2, 2)).Status.Code, ErrorCode::SizeMismatch);
+    CollocationMatrix<1>(*space, PointMatrix::Zero(2, 2), 0).Status.Code, ErrorCode::SizeMismatch);
   PointMatrix u = PointMatrix::Constant(2000, 1, 0.5);
   u(1500, 0) = 1.5;
   u(1700, 0) = std::nan("");
-  const auto outside = CollocationMatrix<1>(*space, u);
+  const auto outside = CollocationMatrix<1>(*space, u, 0);
   EXPECT_EQ(outside.Status.Code, ErrorCode::OutsideDomain);
   EXPECT_NE(outside.Status.Detail.find("1500"), std::string::npos) << outside.Status.Detail;
   const auto bezier = MakeBezierSpace<1>({ { 1 } }, { 0, 1 }, 2).Value;
-  EXPECT_EQ(CollocationMatrix<1>(*bezier, u).Status.Code, ErrorCode::DimensionMismatch);
-  const auto empty = CollocationMatrix<1>(*space, PointMatrix(0, 1));
+  EXPECT_EQ(CollocationMatrix<1>(*bezier, u, 0).Status.Code, ErrorCode::DimensionMismatch);
+  const auto empty = CollocationMatrix<1>(*space, PointMatrix(0, 1), 0);
   ASSERT_TRUE(empty);
   EXPECT_EQ(empty.Value.rows(), 0);
   EXPECT_EQ(empty.Value.cols(), 5);

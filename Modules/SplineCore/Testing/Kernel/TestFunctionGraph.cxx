@@ -13,7 +13,7 @@ namespace
 void ExpectGraph(Random& random, const SplineSpacePtr<2>& space)
 {
   const Spline<2> function = RandomSpline(random, space, 1, false);
-  const auto graph = GraphOfFunction(function);
+  const auto graph = GraphOfFunction(function, 0);
   ASSERT_TRUE(graph) << graph.Status.Message();
   EXPECT_EQ(graph->Space, space);
   EXPECT_EQ(graph->ControlPoints.col(2), function.ControlPoints.col(0));
@@ -36,7 +36,7 @@ TEST(FunctionGraph, HasTheParametersThemselves_ExactOracle)
     ExpectGraph(random, tensor);
     ExpectGraph(random, RandomHierarchicalSpace<2>(random, 3, 4, 3));
     const Spline<2> surface = RandomClampedSurface(random, 3, 5, 1, false);
-    const auto local = InsertSegments(surface.Space, RandomSegments(random, surface.Space, 8));
+    const auto local = InsertSegments(surface.Space, RandomSegments(random, surface.Space, 8), 0);
     ASSERT_TRUE(local) << local.Status.Message();
     ExpectGraph(random, local.Value);
   }
@@ -46,12 +46,12 @@ TEST(FunctionGraph, EveryFailureIsReachable_ExactOracle)
 {
   Random random(1);
   const auto space = RandomTensorSpace<2>(random, 3, 3);
-  EXPECT_EQ(GraphOfFunction(RandomSpline(random, space, 2, false)).Status.Code,
+  EXPECT_EQ(GraphOfFunction(RandomSpline(random, space, 2, false), 0).Status.Code,
     ErrorCode::DimensionMismatch);
-  EXPECT_EQ(
-    GraphOfFunction(RandomSpline(random, space, 1, true)).Status.Code, ErrorCode::InvalidParameter);
-  EXPECT_EQ(GraphOfFunction({}).Status.Code, ErrorCode::EmptyInput);
+  EXPECT_EQ(GraphOfFunction(RandomSpline(random, space, 1, true), 0).Status.Code,
+    ErrorCode::InvalidParameter);
+  EXPECT_EQ(GraphOfFunction({}, 0).Status.Code, ErrorCode::EmptyInput);
   Spline<2> bad = RandomSpline(random, space, 1, false);
   bad.ControlPoints(0, 0) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(GraphOfFunction(bad).Status.Code, ErrorCode::NonFiniteInput);
+  EXPECT_EQ(GraphOfFunction(bad, 0).Status.Code, ErrorCode::NonFiniteInput);
 }

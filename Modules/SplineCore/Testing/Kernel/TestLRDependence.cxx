@@ -124,7 +124,7 @@ TEST(LRDependence, UnevenKnotsAreDecidedExactly_CrossOracle)
   }
   const auto tensor = MakeTensorSpace<2>(
     { vector({ 0, 1, 2, 3, 6, 8, 9, 10 }, 0), vector({ 0, 1, 2, 4, 6, 7, 8 }, 1) });
-  const auto space = InsertSegments(tensor.Value, segments);
+  const auto space = InsertSegments(tensor.Value, segments, 0);
   ASSERT_TRUE(space) << space.Status.Message();
   EXPECT_EQ(DefectBySingularValues(*space.Value), 1);
   const auto result = DecideDependence(*space.Value);
@@ -146,12 +146,12 @@ TEST(LRDependence, VerdictsMatchSingularValues_CrossOracle)
     {
       k = KnotVector::Uniform(2, random.Int(5, 7));
     }
-    SplineSpacePtr<2> space = InsertSegments(MakeTensorSpace<2>(knots).Value, {}).Value;
+    SplineSpacePtr<2> space = InsertSegments(MakeTensorSpace<2>(knots).Value, {}, 0).Value;
     for (int i = 0; i < 40; ++i)
     {
       LRSegment segment = RandomSegment(random, *space);
       segment.Multiplicity = 1;
-      const auto refined = InsertSegments(space, { segment });
+      const auto refined = InsertSegments(space, { segment }, 0);
       space = refined ? refined.Value : space;
     }
     const auto result = DecideDependence(*space);
@@ -173,7 +173,7 @@ TEST(LRDependence, ResolutionKeepsTheMap_CrossOracle)
   for (const bool rational : { false, true })
   {
     const Spline<2> surface = DependentSurface(rational);
-    const auto resolved = ResolveDependence(surface);
+    const auto resolved = ResolveDependence(surface, MaxResolvingSegments, 0);
     ASSERT_TRUE(resolved) << resolved.Status.Message();
     EXPECT_GE(resolved->Segments.size(), 1u);
     EXPECT_EQ(DecideDependence(*resolved->Value.Space)->Verdict, LRVerdict::Independent);
@@ -184,7 +184,7 @@ TEST(LRDependence, ResolutionKeepsTheMap_CrossOracle)
     ASSERT_TRUE(EvaluateParameters(MakeBezierForm(surface), points, {}, a));
     ASSERT_TRUE(EvaluateParameters(MakeBezierForm(resolved->Value), points, {}, b));
     EXPECT_LE((a.Values - b.Values).cwiseAbs().maxCoeff(), 1e-13 * 10);
-    EXPECT_EQ(ResolveDependence(surface, 0).Status.Code, ErrorCode::NotConverged);
+    EXPECT_EQ(ResolveDependence(surface, 0, 0).Status.Code, ErrorCode::NotConverged);
   }
 }
 
@@ -194,12 +194,13 @@ TEST(LRDependence, IndependentSplinesStay_ExactOracle)
   const auto tensor = RandomSpline(random,
     MakeTensorSpace<2>({ KnotVector::Uniform(3, 4), KnotVector::Uniform(2, 5) }).Value, 2, false);
   EXPECT_EQ(DecideDependence(*tensor.Space).Status.Code, ErrorCode::DimensionMismatch);
-  EXPECT_EQ(ResolveDependence(tensor).Status.Code, ErrorCode::DimensionMismatch);
-  const auto lr = InsertSegments(tensor, {});
+  EXPECT_EQ(
+    ResolveDependence(tensor, MaxResolvingSegments, 0).Status.Code, ErrorCode::DimensionMismatch);
+  const auto lr = InsertSegments(tensor, {}, 0);
   const auto result = DecideDependence(*lr->Space);
   EXPECT_EQ(result->Verdict, LRVerdict::Independent);
   EXPECT_TRUE(result->Unpeeled.empty());
-  const auto resolved = ResolveDependence(lr.Value);
+  const auto resolved = ResolveDependence(lr.Value, MaxResolvingSegments, 0);
   ASSERT_TRUE(resolved) << resolved.Status.Message();
   EXPECT_TRUE(resolved->Segments.empty());
   EXPECT_EQ(resolved->Value.Space, lr->Space);

@@ -34,7 +34,7 @@ Spline<2> WavySurface(unsigned seed, bool rational)
   {
     w = random.In(0.8, 1.25);
   }
-  return InsertSegments(tensor, RandomSegments(random, tensor.Space, 12)).Value;
+  return InsertSegments(tensor, RandomSegments(random, tensor.Space, 12), 0).Value;
 }
 
 /// Edges of polygons that one polygon has; an interior one would be a gap.
@@ -114,7 +114,7 @@ TEST(LRGeometry, ControlPointsComeBackFromBezierPoints_ExactOracle)
   {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Spline<2> surface = WavySurface(seed, seed % 2 == 0);
-    const auto recovered = RecoverSpline(MakeBezierForm(surface));
+    const auto recovered = RecoverSpline(MakeBezierForm(surface), 0);
     ASSERT_TRUE(recovered) << recovered.Status.Message();
     EXPECT_LE(recovered.Residual, 1e-12);
     const double difference =

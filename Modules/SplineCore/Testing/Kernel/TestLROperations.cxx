@@ -17,7 +17,7 @@ Spline<2> RandomSurface(unsigned seed)
   Random random(seed);
   const Spline<2> tensor = RandomClampedSurface(random, 4, 4, 2, seed % 3 == 0);
   const auto surface =
-    InsertSegments(tensor, RandomSegments(random, tensor.Space, random.Int(1, 10)));
+    InsertSegments(tensor, RandomSegments(random, tensor.Space, random.Int(1, 10)), 0);
   EXPECT_TRUE(surface) << surface.Status.Message();
   return surface.Value;
 }
@@ -54,7 +54,7 @@ TEST(LROperations, ExpansionIsTheSameMap_CrossOracle)
   {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Spline<2> surface = RandomSurface(seed);
-    const auto tensor = ExpandToTensor(surface);
+    const auto tensor = ExpandToTensor(surface, 0);
     ASSERT_TRUE(tensor) << tensor.Status.Message();
     EXPECT_EQ(tensor->Space->Kind, SpaceKind::Tensor);
     ASSERT_TRUE(tensor->Check());
@@ -73,16 +73,16 @@ TEST(LROperations, SwapAndReversal_ExactOracle)
     Random random(seed);
     const PointMatrix points = InnerParameters(random, *surface.Space, 50);
     const PointMatrix values = Values(surface, points);
-    const auto swapped = SwapParameters(surface);
+    const auto swapped = SwapParameters(surface, 0);
     ASSERT_TRUE(swapped) << swapped.Status.Message();
     EXPECT_LE(Distance(Values(swapped.Value, points.rowwise().reverse()), values), Tolerance);
-    const auto twice = SwapParameters(swapped.Value);
+    const auto twice = SwapParameters(swapped.Value, 0);
     EXPECT_TRUE(twice->Space->LocallyRefined->Basis == surface.Space->LocallyRefined->Basis);
     EXPECT_EQ(twice->ControlPoints, surface.ControlPoints);
     const ParametricBox<2> domain = surface.Space->Domain();
     for (int d = 0; d < 2; ++d)
     {
-      const auto reversed = ReverseParameter(surface, d);
+      const auto reversed = ReverseParameter(surface, d, 0);
       ASSERT_TRUE(reversed) << reversed.Status.Message();
       PointMatrix mirrored = points;
       mirrored.col(d).array() = domain.Lower[d] + domain.Upper[d] - points.col(d).array();
@@ -108,7 +108,7 @@ TEST(LROperations, RestrictionIsTheSameMap_CrossOracle)
       box.Upper[d] =
         random.Unit() < 0.3 ? knots.back() : domain.Upper[d] - length * random.In(0, 0.4);
     }
-    const auto part = RestrictToBox(surface, box);
+    const auto part = RestrictToBox(surface, box, 0);
     ASSERT_TRUE(part) << part.Status.Message();
     EXPECT_EQ(part->Space->Domain().Lower, box.Lower);
     EXPECT_EQ(part->Space->Domain().Upper, box.Upper);
@@ -132,7 +132,7 @@ TEST(LROperations, IsoCurvesLieOnTheSurface_CrossOracle)
       const double value = turn < 2 ? random.In(domain.Lower[d], domain.Upper[d])
         : turn < 4                  ? knots[random.Int(0, static_cast<int>(knots.size()) - 1)]
                                     : domain.Upper[d];
-      const auto curve = IsoCurve(surface, d, value);
+      const auto curve = IsoCurve(surface, d, value, 0);
       ASSERT_TRUE(curve) << curve.Status.Message();
       PointMatrix points = InnerParameters(random, *surface.Space, 20);
       points.col(d).setConstant(value);
@@ -148,17 +148,17 @@ TEST(LROperations, EveryFailureIsReachable_ExactOracle)
 {
   Random random(1);
   const Spline<2> tensor = RandomClampedSurface(random, 2, 3, 2, false);
-  const Spline<2> surface = InsertSegments(tensor, {}).Value;
+  const Spline<2> surface = InsertSegments(tensor, {}, 0).Value;
   const ParametricBox<2> domain = surface.Space->Domain();
-  EXPECT_EQ(ExpandToTensor(tensor).Status.Code, ErrorCode::DimensionMismatch);
-  EXPECT_EQ(SwapParameters(tensor).Status.Code, ErrorCode::DimensionMismatch);
-  EXPECT_EQ(ReverseParameter(tensor, 0).Status.Code, ErrorCode::DimensionMismatch);
-  EXPECT_EQ(ReverseParameter(surface, 2).Status.Code, ErrorCode::InvalidParameter);
+  EXPECT_EQ(ExpandToTensor(tensor, 0).Status.Code, ErrorCode::DimensionMismatch);
+  EXPECT_EQ(SwapParameters(tensor, 0).Status.Code, ErrorCode::DimensionMismatch);
+  EXPECT_EQ(ReverseParameter(tensor, 0, 0).Status.Code, ErrorCode::DimensionMismatch);
+  EXPECT_EQ(ReverseParameter(surface, 2, 0).Status.Code, ErrorCode::InvalidParameter);
   ParametricBox<2> box = domain;
   box.Upper[1] = box.Lower[1];
-  EXPECT_EQ(RestrictToBox(surface, box).Status.Code, ErrorCode::OutsideDomain);
+  EXPECT_EQ(RestrictToBox(surface, box, 0).Status.Code, ErrorCode::OutsideDomain);
   box.Upper[1] = domain.Upper[1] + 1.0;
-  EXPECT_EQ(RestrictToBox(surface, box).Status.Code, ErrorCode::OutsideDomain);
-  EXPECT_EQ(IsoCurve(surface, -1, domain.Lower[0]).Status.Code, ErrorCode::InvalidParameter);
-  EXPECT_EQ(IsoCurve(surface, 0, domain.Upper[0] + 1.0).Status.Code, ErrorCode::OutsideDomain);
+  EXPECT_EQ(RestrictToBox(surface, box, 0).Status.Code, ErrorCode::OutsideDomain);
+  EXPECT_EQ(IsoCurve(surface, -1, domain.Lower[0], 0).Status.Code, ErrorCode::InvalidParameter);
+  EXPECT_EQ(IsoCurve(surface, 0, domain.Upper[0] + 1.0, 0).Status.Code, ErrorCode::OutsideDomain);
 }

@@ -165,7 +165,7 @@ Case RandomCase(unsigned seed)
   const int degree = seed % 7 == 0 ? 9 : 4;
   c.Tensor = RandomClampedSurface(random, degree, 4, 2, seed % 3 == 0);
   c.Segments = RandomSegments(random, c.Tensor.Space, random.Int(1, 14));
-  const auto refined = InsertSegments(c.Tensor, c.Segments);
+  const auto refined = InsertSegments(c.Tensor, c.Segments, 0);
   EXPECT_TRUE(refined) << refined.Status.Message();
   c.Refined = refined.Value;
   return c;
@@ -181,7 +181,7 @@ TEST(LRSpace, BilinearSplit_GoldenOracle)
     MakeTensorSpace<2>({ KnotVector::Uniform(1, 2, 0, 2), KnotVector::Uniform(1, 2, 0, 2) }).Value;
   spline.ControlPoints = PointMatrix(9, 1);
   spline.ControlPoints << 3, 5, 7, 11, 13, 17, 19, 23, 29;
-  const auto refined = InsertSegments(spline, { { 0, 0.5, 0.0, 1.0 } });
+  const auto refined = InsertSegments(spline, { { 0, 0.5, 0.0, 1.0 } }, 0);
   ASSERT_TRUE(refined) << refined.Status.Message();
   const LRBasis& basis = refined->Space->LocallyRefined->Basis;
   EXPECT_EQ(basis.Knots[0], (std::vector<double>{ 0, 0.5, 1, 2 }));
@@ -202,7 +202,7 @@ TEST(LRSpace, TensorSpaceStaysItself_CrossOracle)
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     const Spline<2> tensor = RandomClampedSurface(random, 5, 5, 3, seed % 2 == 0);
-    const auto lr = InsertSegments(tensor, {});
+    const auto lr = InsertSegments(tensor, {}, 0);
     ASSERT_TRUE(lr) << lr.Status.Message();
     EXPECT_EQ(lr->ControlPoints, tensor.ControlPoints); // same functions in the same order
     EXPECT_EQ(lr->Space->NumElements(), tensor.Space->NumElements());
@@ -278,14 +278,15 @@ TEST(LRSpace, MeshAndMinimalSupportByDefinition_ExactOracle)
       ASSERT_TRUE(mesh.HasMinimalSupport(basis, f)) << "function " << f;
     }
     // before the last segment some function has not: the check can fail
-    const auto fewer = InsertSegments(c.Tensor.Space, { c.Segments.begin(), c.Segments.end() - 1 });
+    const auto fewer =
+      InsertSegments(c.Tensor.Space, { c.Segments.begin(), c.Segments.end() - 1 }, 0);
     const LRBasis& old = fewer.Value->LocallyRefined->Basis;
     bool all = true;
     for (int f = 0; f < old.NumFunctions(); ++f)
     {
       all = all && mesh.HasMinimalSupport(old, f);
     }
-    const auto last = InsertSegments(fewer.Value, { c.Segments.back() });
+    const auto last = InsertSegments(fewer.Value, { c.Segments.back() }, 0);
     EXPECT_EQ(all, last.Value->LocallyRefined->Basis == old);
   }
 }
@@ -300,7 +301,7 @@ TEST(LRSpace, FunctionsSumToOne_PropertyOracle)
     EXPECT_LE(UnityError(space), 1e-14);
     Random random(seed);
     const PointMatrix points = RandomParameters(random, space, 20);
-    const auto matrix = CollocationMatrix(space, points);
+    const auto matrix = CollocationMatrix(space, points, 0);
     ASSERT_TRUE(matrix) << matrix.Status.Message();
     for (Eigen::Index i = 0; i < points.rows(); ++i)
     {
@@ -333,7 +334,7 @@ TEST(LRSpace, OrderOfLegalInsertionsDoesNotMatter_PropertyOracle)
     for (int turn = 0; turn < 3; ++turn)
     {
       // a random order; what is not legal yet waits
-      Spline<2> spline = InsertSegments(c.Tensor, {}).Value;
+      Spline<2> spline = InsertSegments(c.Tensor, {}, 0).Value;
       std::vector<LRSegment> waiting = c.Segments;
       bool progress = true;
       while (!waiting.empty() && progress)
@@ -345,7 +346,7 @@ TEST(LRSpace, OrderOfLegalInsertionsDoesNotMatter_PropertyOracle)
           const auto at = waiting.begin() + random.Int(0, static_cast<int>(waiting.size()) - 1);
           const LRSegment segment = *at;
           waiting.erase(at);
-          auto more = InsertSegments(spline, { segment });
+          auto more = InsertSegments(spline, { segment }, 0);
           if (more)
           {
             spline = more.Value;
@@ -425,7 +426,7 @@ TEST(LRSpace, StrategiesAreLegalInAnyOrder_PropertyOracle)
     Random random(seed);
     Spline<2> spline = RandomClampedSurface(random, 4, 6, 2, seed % 2 == 0);
     const Spline<2> start = spline;
-    spline = InsertSegments(spline, {}).Value;
+    spline = InsertSegments(spline, {}, 0).Value;
     for (int step = 0; step < 4; ++step)
     {
       LRStrategyParams params;
@@ -443,7 +444,7 @@ TEST(LRSpace, StrategiesAreLegalInAnyOrder_PropertyOracle)
                                  : SegmentsForElements(*spline.Space, marked, params);
       ASSERT_TRUE(segments) << segments.Status.Message();
       std::reverse(segments.Value.begin(), segments.Value.end());
-      const auto refined = InsertSegments(spline, segments.Value);
+      const auto refined = InsertSegments(spline, segments.Value, 0);
       ASSERT_TRUE(refined) << refined.Status.Message();
       EXPECT_GT(refined->Space->NumFunctions, spline.Space->NumFunctions);
       spline = refined.Value;
@@ -485,7 +486,8 @@ TEST(LRSpace, EveryFailureIsReachable_ExactOracle)
   const auto tensor =
     MakeTensorSpace<2>({ KnotVector::Uniform(2, 4), KnotVector::Uniform(2, 4) }).Value;
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const auto code = [&](const LRSegment& s) { return InsertSegments(tensor, { s }).Status.Code; };
+  const auto code = [&](const LRSegment& s)
+  { return InsertSegments(tensor, { s }, 0).Status.Code; };
   EXPECT_EQ(code({ 0, 0.3, 0.0, 0.75 }), ErrorCode::Ok);
   EXPECT_EQ(code({ 0, 0.3, 0.0, 0.75, 3 }), ErrorCode::Ok);
   EXPECT_EQ(code({ 0, 0.25, 0.0, 0.25 }), ErrorCode::Ok); // is there already
@@ -498,22 +500,22 @@ TEST(LRSpace, EveryFailureIsReachable_ExactOracle)
   EXPECT_EQ(code({ 0, 0.3, 0.1, 0.75 }), ErrorCode::InvalidTopology);  // starts at no line
   EXPECT_EQ(code({ 0, 0.3, 0.25, 0.75 }), ErrorCode::InvalidTopology); // traverses nothing
   // v = 1/8 is a line for u in [0, 3/4] only: a segment cannot start on it at u = 0.9
-  const auto part = InsertSegments(tensor, { { 1, 0.125, 0.0, 0.75 } });
+  const auto part = InsertSegments(tensor, { { 1, 0.125, 0.0, 0.75 } }, 0);
   ASSERT_TRUE(part) << part.Status.Message();
-  const auto hanging = InsertSegments(part.Value, { { 0, 0.9, 0.125, 1.0 } });
+  const auto hanging = InsertSegments(part.Value, { { 0, 0.9, 0.125, 1.0 } }, 0);
   EXPECT_EQ(hanging.Status.Code, ErrorCode::InvalidTopology);
   EXPECT_NE(hanging.Status.Detail.find("inside an element"), std::string::npos);
   EXPECT_NE(hanging.Status.Detail.find("segment 0"), std::string::npos);
 
   const auto open = KnotVector::Create(2, { 0, 1, 2, 3, 4, 5 }).Value;
-  EXPECT_EQ(InsertSegments(MakeTensorSpace<2>({ open, open }).Value, {}).Status.Code,
+  EXPECT_EQ(InsertSegments(MakeTensorSpace<2>({ open, open }).Value, {}, 0).Status.Code,
     ErrorCode::InvalidKnots);
   const auto hierarchy = MakeHierarchicalSpace<2>(tensor->Knots, { { 1, { 0, 0 }, { 4, 4 } } });
-  EXPECT_EQ(InsertSegments(hierarchy.Value, {}).Status.Code, ErrorCode::DimensionMismatch);
+  EXPECT_EQ(InsertSegments(hierarchy.Value, {}, 0).Status.Code, ErrorCode::DimensionMismatch);
 
   // definitions that are none
   const LRBasis good = LRBasisOfTensor(*tensor).Value;
-  const auto made = [](const LRBasis& basis) { return MakeLRSpace(basis).Status.Code; };
+  const auto made = [](const LRBasis& basis) { return MakeLRSpace(basis, 0).Status.Code; };
   EXPECT_EQ(made(good), ErrorCode::Ok);
   LRBasis bad = good;
   bad.Degree[0] = 10;
@@ -537,7 +539,7 @@ TEST(LRSpace, EveryFailureIsReachable_ExactOracle)
   EXPECT_EQ(made(bad), ErrorCode::InvalidTopology);
 
   EXPECT_EQ(SegmentsForElements(*tensor, { 0 }).Status.Code, ErrorCode::DimensionMismatch);
-  const auto lr = InsertSegments(tensor, {}).Value;
+  const auto lr = InsertSegments(tensor, {}, 0).Value;
   EXPECT_EQ(SegmentsForElements(*lr, { 16 }).Status.Code, ErrorCode::InvalidParameter);
   EXPECT_EQ(SegmentsForFunctions(*lr, { -1 }).Status.Code, ErrorCode::InvalidParameter);
 }
@@ -546,10 +548,10 @@ TEST(LRSpace, FailedInsertionChangesNothing_PropertyOracle)
 {
   const auto tensor =
     MakeTensorSpace<2>({ KnotVector::Uniform(3, 6), KnotVector::Uniform(2, 5) }).Value;
-  const auto lr = InsertSegments(tensor, {}).Value;
+  const auto lr = InsertSegments(tensor, {}, 0).Value;
   LRRefinement refinement(*lr, PointMatrix(lr->NumFunctions, 0));
   EXPECT_FALSE(refinement.Insert({ 0, 0.3, 0.2, 0.4 }));
-  const auto after = refinement.Finish(nullptr);
+  const auto after = refinement.Finish(nullptr, 0);
   ASSERT_TRUE(after) << after.Status.Message();
   EXPECT_TRUE(after.Value->LocallyRefined->Basis == lr->LocallyRefined->Basis);
 }
@@ -558,7 +560,7 @@ TEST(LRSpace, ThreadsChangeNothing_PropertyOracle)
 {
   const auto tensor =
     MakeTensorSpace<2>({ KnotVector::Uniform(3, 40), KnotVector::Uniform(2, 40) }).Value;
-  auto lr = InsertSegments(tensor, {}).Value;
+  auto lr = InsertSegments(tensor, {}, 0).Value;
   for (int step = 0; step < 3; ++step)
   {
     // around a diagonal, so that elements of several sizes meet
@@ -571,7 +573,7 @@ TEST(LRSpace, ThreadsChangeNothing_PropertyOracle)
         chosen.push_back(e);
       }
     }
-    lr = InsertSegments(lr, SegmentsForElements(*lr, chosen).Value).Value;
+    lr = InsertSegments(lr, SegmentsForElements(*lr, chosen).Value, 0).Value;
   }
   const auto one = MakeLRSpace(lr->LocallyRefined->Basis, 1).Value;
   const auto many = MakeLRSpace(lr->LocallyRefined->Basis, 4).Value;
@@ -607,7 +609,7 @@ TEST(LRSpace, ReplayHasTheReferencesFunctions_GoldenOracle)
   ASSERT_EQ(segments.size(), 1000u);
   const auto tensor =
     MakeTensorSpace<2>({ KnotVector::Uniform(3, 29), KnotVector::Uniform(3, 29) }).Value;
-  const auto space = InsertSegments(tensor, segments);
+  const auto space = InsertSegments(tensor, segments, 0);
   ASSERT_TRUE(space) << space.Status.Message();
   EXPECT_EQ(space.Value->NumFunctions, 3428);
   EXPECT_LE(UnityError(*space.Value), 1e-14);

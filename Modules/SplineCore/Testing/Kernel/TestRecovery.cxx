@@ -102,7 +102,7 @@ TYPED_TEST(RecoveryTest, TensorSplinesComeBack_PropertyOracle)
     const int components = random.Int(1, 4);
     const Spline<Dim> truth = RandomSpline<Dim>(random, space, components, seed % 2);
     const BezierForm<Dim> form = MakeBezierForm(truth);
-    ExpectRecovered(RecoverSpline(form), truth);
+    ExpectRecovered(RecoverSpline(form, 0), truth);
   }
 }
 
@@ -120,7 +120,7 @@ TYPED_TEST(RecoveryTest, AnyKnotsStayWithinTheStatedAmplification_PropertyOracle
       k = Dim == 3 ? random.Knots(2, random.Int(1, 4)) : random.Knots(5);
     }
     const Spline<Dim> truth = random.Spline<Dim>(knots, 2, false);
-    const RecoveryResult<Dim> result = RecoverSpline(MakeBezierForm(truth));
+    const RecoveryResult<Dim> result = RecoverSpline(MakeBezierForm(truth), 0);
     ASSERT_TRUE(result) << result.Status.Message();
     const double tolerance = Tolerance(result, Eps);
     EXPECT_LE((result.Value.ControlPoints - truth.ControlPoints).cwiseAbs().maxCoeff(), tolerance);
@@ -138,7 +138,7 @@ TYPED_TEST(RecoveryTest, HierarchicalSplinesComeBack_PropertyOracle)
     const auto space = RandomHierarchicalSpace<Dim>(random, Dim == 3 ? 2 : 4, 4, Dim == 3 ? 2 : 4);
     const Spline<Dim> truth = RandomSpline<Dim>(random, space, 3, seed % 2);
     const BezierForm<Dim> form = MakeBezierForm(truth);
-    ExpectRecovered(RecoverSpline(form), truth);
+    ExpectRecovered(RecoverSpline(form, 0), truth);
   }
 }
 
@@ -156,7 +156,7 @@ TYPED_TEST(RecoveryTest, CellFactorsAreUndone_PropertyOracle)
     BezierForm<Dim> form = MakeBezierForm(truth);
     const std::vector<double> factors = RandomFactors(random, space->NumElements());
     MultiplyCells(form, factors);
-    ExpectRecovered(RecoverSpline(form), truth, factors.front());
+    ExpectRecovered(RecoverSpline(form, 0), truth, factors.front());
   }
 }
 
@@ -185,7 +185,7 @@ TYPED_TEST(RecoveryTest, FieldsComeBack_PropertyOracle)
       }
       field = plain;
     }
-    const RecoveryResult<Dim> result = RecoverField(field, truth.Weights);
+    const RecoveryResult<Dim> result = RecoverField(field, truth.Weights, 0);
     ExpectRecovered(result, truth);
     EXPECT_EQ(result.Value.Weights, truth.Weights);
   }
@@ -206,7 +206,7 @@ TYPED_TEST(RecoveryTest, PointsOutsideTheSpaceLeaveTheirDistance_PropertyOracle)
   const double w = form.Rational ? planes(3, 0) : 1.0;
   planes(0, 0) += 0.006 * w;
   planes(1, 0) += 0.008 * w;
-  const RecoveryResult<Dim> result = RecoverSpline(form);
+  const RecoveryResult<Dim> result = RecoverSpline(form, 0);
   ASSERT_TRUE(result) << result.Status.Message();
   // The point is shared by 2^Dim elements: whatever coefficients are chosen, one of them is at
   // least half of the length away. And no coefficient moves by more than the amplification.
@@ -243,7 +243,7 @@ TYPED_TEST(RecoveryTest, SinglePrecisionPointsStayInTheirRounding_PropertyOracle
         }
       }
     }
-    const RecoveryResult<Dim> result = RecoverSpline(form);
+    const RecoveryResult<Dim> result = RecoverSpline(form, 0);
     ASSERT_TRUE(result) << result.Status.Message();
     const double tolerance = Tolerance(result, epsSingle);
     EXPECT_LE((result.Value.ControlPoints - truth.ControlPoints).cwiseAbs().maxCoeff(), tolerance);
@@ -262,7 +262,7 @@ TEST(Recovery, LongRowOfCellFactorsIsUndone_PropertyOracle)
   BezierForm<1> form = MakeBezierForm(truth);
   const std::vector<double> factors = RandomFactors(random, space->NumElements());
   MultiplyCells(form, factors);
-  const RecoveryResult<1> result = RecoverSpline(form);
+  const RecoveryResult<1> result = RecoverSpline(form, 0);
   ExpectRecovered(result, truth, factors.front());
 }
 
@@ -277,7 +277,7 @@ TEST(Recovery, DiscontinuousPiecesKeepTheirOwnScale_ExactOracle)
   truth.Weights << 1, 2, 40, 10, 5;
   BezierForm<1> form = MakeBezierForm(truth);
   MultiplyCells(form, { 1.0, 1.0, 4.0 }); // exact in binary arithmetic
-  const RecoveryResult<1> result = RecoverSpline(form);
+  const RecoveryResult<1> result = RecoverSpline(form, 0);
   ASSERT_TRUE(result) << result.Status.Message();
   EXPECT_EQ(result.Value.ControlPoints, truth.ControlPoints);
   EXPECT_EQ(result.Value.Weights, truth.Weights);
@@ -290,7 +290,7 @@ TEST(Recovery, GluedBezierCellsComeBackExactly_ExactOracle)
   const auto space = MakeBezierSpace<1>({ { 2 }, { 3 } }, { 0, 1, 2, 2, 3, 4, 5 }, 6).Value;
   Random random(11);
   const Spline<1> truth = RandomSpline<1>(random, space, 3, false);
-  const RecoveryResult<1> result = RecoverSpline(MakeBezierForm(truth));
+  const RecoveryResult<1> result = RecoverSpline(MakeBezierForm(truth), 0);
   ASSERT_TRUE(result) << result.Status.Message();
   EXPECT_EQ(result.Value.ControlPoints, truth.ControlPoints);
   EXPECT_EQ(result.Amplification, 1.0);
@@ -303,7 +303,7 @@ TEST(Recovery, FactorsOfGluedBezierCellsAreUndone_ExactOracle)
   const Spline<1> truth = RandomSpline<1>(random, space, 3, true);
   BezierForm<1> form = MakeBezierForm(truth);
   MultiplyCells(form, { 0.03, 70.0 });
-  ExpectRecovered(RecoverSpline(form), truth, 0.03);
+  ExpectRecovered(RecoverSpline(form, 0), truth, 0.03);
 }
 
 TEST(Recovery, CellsWithoutSharedPointsKeepTheirWeights_ExactOracle)
@@ -311,7 +311,7 @@ TEST(Recovery, CellsWithoutSharedPointsKeepTheirWeights_ExactOracle)
   const auto space = MakeBezierSpace<1>({ { 1 }, { 1 } }, { 0, 1, 2, 3 }, 4).Value;
   Random random(13);
   const Spline<1> truth = RandomSpline<1>(random, space, 3, true);
-  const RecoveryResult<1> result = RecoverSpline(MakeBezierForm(truth));
+  const RecoveryResult<1> result = RecoverSpline(MakeBezierForm(truth), 0);
   ASSERT_TRUE(result) << result.Status.Message();
   EXPECT_EQ(result.Value.Weights, truth.Weights);
 }
@@ -324,13 +324,13 @@ TEST(Recovery, LeastAmplificationIsTaken_GoldenOracle)
   // though on [0, 1] function 2 = 2 Q_2 - Q_1, with row sum 3.
   const auto space = MakeTensorSpace<1>({ KnotVector::Uniform(2, 2, 0.0, 2.0) }).Value;
   Random random(1);
-  const auto result = RecoverSpline(MakeBezierForm(RandomSpline<1>(random, space, 1, false)));
+  const auto result = RecoverSpline(MakeBezierForm(RandomSpline<1>(random, space, 1, false)), 0);
   EXPECT_EQ(result.Amplification, 1.0);
   // One more element between: function 2 of knots 0 0 0 1 2 3 3 3 lives on all three; on [1, 2] the
   // extraction is 1/2 0 0, 1/2 1 1/2, 0 0 1/2: its middle row is point 1. Unclamped, knots 0 ... 5
   // and the single element [2, 3]: function 0 = 2 Q_0 - Q_1, row sum 3.
   const auto open = MakeTensorSpace<1>({ KnotVector::Create(2, { 0, 1, 2, 3, 4, 5 }).Value }).Value;
-  const auto amplified = RecoverSpline(MakeBezierForm(RandomSpline<1>(random, open, 1, false)));
+  const auto amplified = RecoverSpline(MakeBezierForm(RandomSpline<1>(random, open, 1, false)), 0);
   EXPECT_NEAR(amplified.Amplification, 3.0, 64.0 * Eps);
 }
 
@@ -348,7 +348,7 @@ TEST(Recovery, MixedRowsAreSolvedByLeastSquares_ExactOracle)
   {
     Random random(5);
     const Spline<1> truth = RandomSpline<1>(random, space, 2, rational);
-    ExpectRecovered(RecoverSpline(MakeBezierForm(truth)), truth);
+    ExpectRecovered(RecoverSpline(MakeBezierForm(truth), 0), truth);
   }
 }
 
@@ -360,7 +360,7 @@ TEST(Recovery, RowsOfOneFunctionAreNotItsCoefficientUnlessOne_ExactOracle)
     0, 0, 1;
   Random random(6);
   const Spline<1> truth = RandomSpline<1>(random, MixedRowSpace(map, 1, 2), 2, false);
-  ExpectRecovered(RecoverSpline(MakeBezierForm(truth)), truth);
+  ExpectRecovered(RecoverSpline(MakeBezierForm(truth), 0), truth);
 }
 
 TEST(Recovery, EquationsWeighByTheirAmplification_GoldenOracle)
@@ -375,7 +375,7 @@ TEST(Recovery, EquationsWeighByTheirAmplification_GoldenOracle)
   space->FactorData = { 0.5, 0, 0, 0.5, 1, 0, 0, 0, 1 };
   space->Elements[1].Factor = { 0 };
   const BezierForm<1> form{ space, 1, false, { 0, 3, 6 }, { 1, 2, 10, 12.5, 6, 3 } };
-  const auto result = RecoverSpline(form);
+  const auto result = RecoverSpline(form, 0);
   ASSERT_TRUE(result) << result.Status.Message();
   EXPECT_NEAR(result.Value.ControlPoints(2, 0), 10.9, 64.0 * Eps * 3.0 * 12.5);
   EXPECT_NEAR(result.Value.ControlPoints(3, 0), 10.9, 64.0 * Eps * 3.0 * 12.5);
@@ -400,7 +400,7 @@ TEST(Recovery, LeastSquaresMinimizesTheDistance_CrossOracle)
     form.Block(0)[k] = values[k];
     form.Block(1)[k] = values[k + 2];
   }
-  const auto result = RecoverSpline(form);
+  const auto result = RecoverSpline(form, 0);
   ASSERT_TRUE(result) << result.Status.Message();
   const Eigen::Matrix<double, 5, 1> weights(1.0, 1.0, 2.0, 1.0, 1.0); // point 2 is seen twice
   const Eigen::VectorXd gradient =
@@ -419,7 +419,7 @@ TEST(Recovery, DependentFunctionsGetTheSolutionOfMinimumNorm_ExactOracle)
   const auto space = MixedRowSpace(map, 1, 2);
   Spline<1> truth{ space, PointMatrix(5, 1), {} };
   truth.ControlPoints << 3, 1, 7, 5, 9;
-  const auto result = RecoverSpline(MakeBezierForm(truth));
+  const auto result = RecoverSpline(MakeBezierForm(truth), 0);
   ASSERT_TRUE(result) << result.Status.Message();
   PointMatrix expected(5, 1);
   expected << 3, 4, 4, 5, 0;
@@ -428,7 +428,7 @@ TEST(Recovery, DependentFunctionsGetTheSolutionOfMinimumNorm_ExactOracle)
   // weights of dependent functions stay positive
   truth.Weights = Eigen::VectorXd::Constant(5, 3.0);
   truth.Weights[1] = 1.0;
-  const auto rational = RecoverSpline(MakeBezierForm(truth));
+  const auto rational = RecoverSpline(MakeBezierForm(truth), 0);
   ASSERT_TRUE(rational) << rational.Status.Message();
   EXPECT_TRUE(rational.Value.Check());
   EXPECT_LE(rational.Residual, 64.0 * Eps * 5.0);
@@ -439,12 +439,12 @@ TEST(Recovery, EveryFailureIsReachable)
   Random random(1);
   const auto space = MakeTensorSpace<1>({ KnotVector::Uniform(2, 3) }).Value;
   const BezierForm<1> good = MakeBezierForm(RandomSpline<1>(random, space, 2, true));
-  ASSERT_TRUE(RecoverSpline(good));
+  ASSERT_TRUE(RecoverSpline(good, 0));
   const auto expect = [&](ErrorCode code, const std::string& words, auto change)
   {
     BezierForm<1> bad = good;
     change(bad);
-    const auto result = RecoverSpline(bad);
+    const auto result = RecoverSpline(bad, 0);
     EXPECT_EQ(result.Status.Code, code) << result.Status.Message();
     EXPECT_NE(result.Status.Detail.find(words), std::string::npos) << result.Status.Message();
     EXPECT_FALSE(result);
@@ -463,12 +463,12 @@ TEST(Recovery, EveryFailureIsReachable)
   const auto open = MakeTensorSpace<1>({ KnotVector::Create(2, { 0, 1, 2, 3, 4, 5 }).Value }).Value;
   BezierForm<1> negative = MakeBezierForm(RandomSpline<1>(random, open, 2, true));
   Planes(negative, 0).row(2) << 1.0, 5.0, 1.0;
-  EXPECT_EQ(RecoverSpline(negative).Status.Code, ErrorCode::InvalidWeight);
+  EXPECT_EQ(RecoverSpline(negative, 0).Status.Code, ErrorCode::InvalidWeight);
 
   const BezierForm<1> field = MakeBezierForm(RandomSpline<1>(random, space, 2, false));
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(space->NumFunctions);
-  EXPECT_TRUE(RecoverField(field, ones));
-  EXPECT_EQ(RecoverField(good, ones).Status.Code, ErrorCode::SizeMismatch);
-  EXPECT_EQ(RecoverField(field, Eigen::VectorXd::Ones(2)).Status.Code, ErrorCode::SizeMismatch);
-  EXPECT_EQ(RecoverField(field, Eigen::VectorXd(-ones)).Status.Code, ErrorCode::InvalidWeight);
+  EXPECT_TRUE(RecoverField(field, ones, 0));
+  EXPECT_EQ(RecoverField(good, ones, 0).Status.Code, ErrorCode::SizeMismatch);
+  EXPECT_EQ(RecoverField(field, Eigen::VectorXd::Ones(2), 0).Status.Code, ErrorCode::SizeMismatch);
+  EXPECT_EQ(RecoverField(field, Eigen::VectorXd(-ones), 0).Status.Code, ErrorCode::InvalidWeight);
 }

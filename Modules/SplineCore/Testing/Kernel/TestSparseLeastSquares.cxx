@@ -48,7 +48,7 @@ Eigen::MatrixXd Dense(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
 SplineSpacePtr<2> AlongCircle(int elements, int levels, LRStrategy strategy)
 {
   const KnotVector knots = KnotVector::Uniform(3, elements);
-  auto space = InsertSegments(MakeTensorSpace<2>({ knots, knots }).Value, {}).Value;
+  auto space = InsertSegments(MakeTensorSpace<2>({ knots, knots }).Value, {}, 0).Value;
   for (int l = 0; l < levels; ++l)
   {
     std::vector<int> marked;
@@ -64,7 +64,7 @@ SplineSpacePtr<2> AlongCircle(int elements, int levels, LRStrategy strategy)
     }
     LRStrategyParams params;
     params.Strategy = strategy;
-    space = InsertSegments(space, SegmentsForElements(*space, marked, params).Value).Value;
+    space = InsertSegments(space, SegmentsForElements(*space, marked, params).Value, 0).Value;
   }
   return space;
 }
@@ -103,7 +103,7 @@ TEST(SparseLeastSquares, AnyRankAsByADenseDecomposition_CrossOracle)
       value = random.In(-1.0, 1.0);
     }
     const Eigen::MatrixXd expected = Dense(a, b);
-    const SparseSolution found = SolveSparseLeastSquares(a.sparseView(), b);
+    const SparseSolution found = SolveSparseLeastSquares(a.sparseView(), b, 0);
     // conditions below 1e4, of the normal equations below 1e8
     for (int c = 0; c < 2; ++c)
     {
@@ -119,11 +119,11 @@ TEST(SparseLeastSquares, ZerosStayZero_ExactOracle)
   a.insert(0, 0) = 2.0;
   a.insert(2, 2) = 0.0; // stored
   const Eigen::MatrixXd b = Eigen::Vector3d(6.0, 5.0, 4.0);
-  const Eigen::MatrixXd x = SolveSparseLeastSquares(a, b).Value;
+  const Eigen::MatrixXd x = SolveSparseLeastSquares(a, b, 0).Value;
   EXPECT_DOUBLE_EQ(x(0), 3.0);
   EXPECT_EQ(x(1), 0.0);
   EXPECT_EQ(x(2), 0.0);
-  EXPECT_EQ(SolveSparseLeastSquares(Matrix(2, 3), Eigen::MatrixXd::Ones(2, 1)).Value,
+  EXPECT_EQ(SolveSparseLeastSquares(Matrix(2, 3), Eigen::MatrixXd::Ones(2, 1), 0).Value,
     Eigen::MatrixXd::Zero(3, 1));
 }
 
@@ -136,7 +136,7 @@ TEST(SparseLeastSquares, WorkGrowsWithTheFunctions_PropertyOracle)
     const auto space = AlongCircle(i == 0 ? 16 : 32, 3, LRStrategy::FullSpan);
     const Matrix matrix = Extraction(*space);
     const Eigen::VectorXd ones = Eigen::VectorXd::Ones(matrix.cols());
-    const SparseSolution found = SolveSparseLeastSquares(matrix, matrix * ones);
+    const SparseSolution found = SolveSparseLeastSquares(matrix, matrix * ones, 0);
     EXPECT_LE((found.Value - ones).cwiseAbs().maxCoeff(), 1e-13); // rounding times a condition
     EXPECT_LE(found.Steps, 6);
     entries[i] = found.FactorEntries;
@@ -157,7 +157,7 @@ TEST(Recovery, FieldOfThousandsOfLocallyRefinedFunctions_ExactOracle)
     ASSERT_GT(space->NumFunctions, 1500);
     Random random(2);
     const Spline<2> truth = RandomSpline<2>(random, space, 3, false);
-    const auto result = RecoverField(MakeBezierForm(truth), {});
+    const auto result = RecoverField(MakeBezierForm(truth), {}, 0);
     ASSERT_TRUE(result) << result.Status.Message();
     EXPECT_LE(result.Residual, 64.0 * 2.3e-16 * result.Size);
     if (strategy != LRStrategy::MinimumSpan) // which may have dependent functions
@@ -170,12 +170,12 @@ TEST(Recovery, FieldOfThousandsOfLocallyRefinedFunctions_ExactOracle)
 TEST(Recovery, DependentLocallyRefinedFunctionsReproduceTheMap_ExactOracle)
 {
   const Spline<2> truth = DependentSurface();
-  const auto result = RecoverSpline(MakeBezierForm(truth));
+  const auto result = RecoverSpline(MakeBezierForm(truth), 0);
   ASSERT_TRUE(result) << result.Status.Message();
   EXPECT_LE(result.Residual, 64.0 * 2.3e-16 * result.Size);
   EXPECT_GT((result.Value.ControlPoints - truth.ControlPoints).cwiseAbs().maxCoeff(), 1e-3);
   // the least norm is one solution: what comes back comes back again
-  const auto again = RecoverSpline(MakeBezierForm(result.Value));
+  const auto again = RecoverSpline(MakeBezierForm(result.Value), 0);
   ASSERT_TRUE(again) << again.Status.Message();
   EXPECT_LE((again.Value.ControlPoints - result.Value.ControlPoints).cwiseAbs().maxCoeff(), 1e-11);
 }

@@ -44,7 +44,7 @@ std::vector<Spline<2>> Surfaces()
     if (seed % 3 != 0)
     {
       const auto segments = RandomSegments(random, surfaces.back().Space, 5);
-      surfaces.back() = InsertSegments(surfaces.back(), segments).Value;
+      surfaces.back() = InsertSegments(surfaces.back(), segments, 0).Value;
     }
   }
   return surfaces;
@@ -135,7 +135,7 @@ TEST(ExtractFromSurface, SameForAnyNumberOfThreads_PropertyOracle)
 {
   Random random(4);
   const Spline<2> tensor = RandomClampedSurface(random, 3, 6, 3, true);
-  const auto surface = InsertSegments(tensor, RandomSegments(random, tensor.Space, 20));
+  const auto surface = InsertSegments(tensor, RandomSegments(random, tensor.Space, 20), 0);
   ASSERT_TRUE(surface) << surface.Status.Message();
   const ParametricBox<2> domain = tensor.Space->Domain();
   ExtractionParams params;

@@ -77,7 +77,7 @@ inline vtkSmartPointer<vtkPartitionedDataSetCollection> Collect(
 /// The patches of a dataset; a failed decoding fails the test.
 inline SplineModel DecodePatches(vtkDataObject* data)
 {
-  auto model = DecodeSplineModel(data);
+  auto model = DecodeSplineModel(data, 0);
   EXPECT_TRUE(model) << model.Status.Message();
   return model.Value;
 }

@@ -222,7 +222,7 @@ vtkSmartPointer<vtkUnstructuredGrid> Encode(const SplineModel& model)
 
 SplineModel Decode(vtkDataObject* data)
 {
-  Result<SplineModel> model = DecodeSplineModel(data);
+  Result<SplineModel> model = DecodeSplineModel(data, 0);
   EXPECT_TRUE(model) << model.Status.Message();
   return model.Value;
 }

@@ -35,7 +35,7 @@ protected:
   {
     vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
     vtkDataObject* output = vtkDataObject::GetData(outputs);
-    Result<SplineModel> model = DecodeSplineModel(input);
+    Result<SplineModel> model = DecodeSplineModel(input, 0);
     if (!model)
     {
       return model.Status;

@@ -26,7 +26,7 @@ SplineModel Model(bool locallyRefined, bool rational)
   }
   if (locallyRefined)
   {
-    const auto refined = InsertSegments(all, { { 0, 0.75, 0.0, 0.75 }, { 1, 0.375, 0.0, 2.0 } });
+    const auto refined = InsertSegments(all, { { 0, 0.75, 0.0, 0.75 }, { 1, 0.375, 0.0, 2.0 } }, 0);
     EXPECT_TRUE(refined) << refined.Status.Message();
     all = refined.Value;
   }

@@ -251,7 +251,7 @@ TEST_P(SplineModelDamage, IsNamed)
 {
   const auto grid = Encode(DamagedModel());
   GetParam().Do(grid);
-  const Result<SplineModel> model = DecodeSplineModel(grid);
+  const Result<SplineModel> model = DecodeSplineModel(grid, 0);
   ASSERT_FALSE(model);
   EXPECT_EQ(model.Status.Code, GetParam().Code) << model.Status.Message();
   for (const std::string& word : GetParam().Words)
@@ -267,10 +267,10 @@ INSTANTIATE_TEST_SUITE_P(All, SplineModelDamage, ::testing::ValuesIn(AllDamages(
 
 TEST(SplineModelDamageOfData, WrongDatasetsAreNamed)
 {
-  const Result<SplineModel> poly = DecodeSplineModel(vtkNew<vtkPolyData>());
+  const Result<SplineModel> poly = DecodeSplineModel(vtkNew<vtkPolyData>(), 0);
   EXPECT_EQ(poly.Status.Code, ErrorCode::InvalidTopology);
   EXPECT_NE(poly.Status.Detail.find("vtkPolyData"), std::string::npos);
-  EXPECT_FALSE(DecodeSplineModel(nullptr));
+  EXPECT_FALSE(DecodeSplineModel(nullptr, 0));
   const Status status = EncodeSplineModel(DamagedModel(), nullptr, vtkNew<vtkPolyData>());
   EXPECT_EQ(status.Code, ErrorCode::InvalidParameter);
 }
@@ -289,7 +289,7 @@ TEST(SplineModelDamageOfData, OtherPatchesDoNotHideAMissingElement)
       continue;
     }
     KeepCells(grid, [&](vtkIdType c) { return c != last; });
-    const Result<SplineModel> model = DecodeSplineModel(grid);
+    const Result<SplineModel> model = DecodeSplineModel(grid, 0);
     ASSERT_FALSE(model);
     EXPECT_NE(
       model.Status.Detail.find("patch " + std::to_string(patch) + ": 1 of"), std::string::npos)
@@ -383,7 +383,7 @@ TEST(SplineModelDamageOfData, RandomFieldDataIsNeverMisread_PropertyOracle)
           set(2.0e9);
         }
     }
-    const Result<SplineModel> model = DecodeSplineModel(grid);
+    const Result<SplineModel> model = DecodeSplineModel(grid, 0);
     if (!model)
     {
       ++errors;

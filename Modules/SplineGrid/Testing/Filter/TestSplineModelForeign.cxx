@@ -109,7 +109,7 @@ TEST(SplineModelForeign, DegreesFromAttributeOrArrayOfThatName_GoldenOracle)
   }
   grid->SetPoints(points);
   grid->InsertNextCell(VTK_BEZIER_QUADRILATERAL, 8, ids);
-  const Result<SplineModel> unknown = DecodeSplineModel(grid);
+  const Result<SplineModel> unknown = DecodeSplineModel(grid, 0);
   EXPECT_EQ(unknown.Status.Code, ErrorCode::InvalidDegree);
   EXPECT_NE(unknown.Status.Detail.find("no array HigherOrderDegrees"), std::string::npos);
   for (bool attribute : { false, true })

@@ -36,7 +36,7 @@ SplineModel LRModel(bool rational)
     {
       segments.push_back({ 0, 0.3125, 0.0, 1.8 });
     }
-    const auto spline = InsertSegments(start, segments);
+    const auto spline = InsertSegments(start, segments, 0);
     EXPECT_TRUE(spline) << spline.Status.Message();
     SplinePatch patch;
     patch.Id = id;
@@ -120,8 +120,8 @@ TEST(SplineModelLR, DamageIsFound_ExactOracle)
     vtkDataArray* array = grid->GetFieldData()->GetArray(name);
     ASSERT_NE(array, nullptr) << name;
     array->SetComponent(3, 0, array->GetComponent(3, 0) + 1);
-    EXPECT_EQ(DecodeSplineModel(grid).Status.Code, ErrorCode::InvalidTopology) << name;
+    EXPECT_EQ(DecodeSplineModel(grid, 0).Status.Code, ErrorCode::InvalidTopology) << name;
     grid->GetFieldData()->RemoveArray(name);
-    EXPECT_EQ(DecodeSplineModel(grid).Status.Code, ErrorCode::InvalidTopology) << name;
+    EXPECT_EQ(DecodeSplineModel(grid, 0).Status.Code, ErrorCode::InvalidTopology) << name;
   }
 }

@@ -158,7 +158,7 @@ Spline<2> DependentSurface()
   surface.Space = MakeTensorSpace<2>({ u, v }).Value;
   surface.ControlPoints = PointMatrix::Random(surface.Space->NumFunctions, 3);
   const auto refined = InsertSegments(
-    surface, { { 1, 3, 3, 9 }, { 0, 7, 2, 6 }, { 0, 5, 2, 7 }, { 1, 5, 1, 7 }, { 0, 4, 1, 5 } });
+    surface, { { 1, 3, 3, 9 }, { 0, 7, 2, 6 }, { 0, 5, 2, 7 }, { 1, 5, 1, 7 }, { 0, 4, 1, 5 } }, 0);
   EXPECT_TRUE(refined) << refined.Status.Message();
   return refined.Value;
 }

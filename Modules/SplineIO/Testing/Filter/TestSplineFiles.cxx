@@ -173,7 +173,8 @@ TEST(SplineFile, HeightsOfLocallyRefinedFunctionsAreGraphs_ExactOracle)
                         .Value;
   const auto space = InsertSegments(tensor,
     { { 0, 1.25, -0.6, 0.6 }, { 1, 0.1, 0.5, 2.5 }, { 0, 1.375, -0.6, 0.6 },
-      { 1, -0.1, 0.5, 2.5 } });
+      { 1, -0.1, 0.5, 2.5 } },
+    0);
   ASSERT_TRUE(space) << space.Status.Message();
   std::vector<AnySpline> written;
   Spline<2> heights{ space.Value, PointMatrix::Random(space.Value->NumFunctions, 1), {} };

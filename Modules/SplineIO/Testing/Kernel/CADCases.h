@@ -42,7 +42,7 @@ inline PointMatrix Interpolate(
   {
     values.row(i) = function(at(i, 0)).transpose();
   }
-  const Eigen::SparseMatrix<double> matrix = CollocationMatrix<1>(space, at).Value;
+  const Eigen::SparseMatrix<double> matrix = CollocationMatrix<1>(space, at, 0).Value;
   const Eigen::SparseLU<Eigen::SparseMatrix<double>> solver(matrix);
   const Eigen::MatrixXd right = values;
   const Eigen::MatrixXd points = solver.solve(right);

@@ -74,7 +74,7 @@ TEST(GoToolsLR, HandWrittenSurface_GoldenOracle)
   same.Space = MakeTensorSpace<2>({ knots, knots }).Value;
   same.ControlPoints = PointMatrix(9, 1);
   same.ControlPoints << 0, 1, 2, 0, 1, 2, 0, 1, 2;
-  EXPECT_TRUE(Same(surface, InsertSegments(same, { { 0, 0.5, 0.0, 1.0 } }).Value));
+  EXPECT_TRUE(Same(surface, InsertSegments(same, { { 0, 0.5, 0.0, 1.0 } }, 0).Value));
 }
 
 TEST(GoToolsLR, RoundTripsAreExact_PropertyOracle)
@@ -85,7 +85,7 @@ TEST(GoToolsLR, RoundTripsAreExact_PropertyOracle)
     Random random(seed);
     const Spline<2> tensor = RandomClampedSurface(random, 4, 4, random.Int(1, 4), seed % 2 == 0);
     const auto segments = RandomSegments(random, tensor.Space, 8);
-    const Result<Spline<2>> surface = InsertSegments(tensor, segments);
+    const Result<Spline<2>> surface = InsertSegments(tensor, segments, 0);
     ASSERT_TRUE(surface) << surface.Status.Message();
     const Result<std::string> text = WriteG2({ surface.Value });
     ASSERT_TRUE(text) << text.Status.Message();
@@ -104,7 +104,7 @@ TEST(GoToolsLR, BadTextsAreRefused_ExactOracle)
   Spline<2> surface;
   surface.Space = MakeTensorSpace<2>({ knots, knots }).Value;
   surface.ControlPoints = PointMatrix::Ones(25, 1);
-  surface = InsertSegments(surface, { { 0, 0.5, 0.0, 2.0 } }).Value;
+  surface = InsertSegments(surface, { { 0, 0.5, 0.0, 2.0 } }, 0).Value;
   const std::string good = WriteG2({ surface }).Value;
   ASSERT_EQ(CodeOf(good), ErrorCode::Ok);
   const std::string knotLine = "5 0 0.5 1 2 3\n4 0 1 2 3\n";
@@ -161,7 +161,7 @@ TEST(GoToolsLR, ReferenceSurfaces_GoldenOracle)
     }
     EXPECT_GE(points, 50);
     const bool dependent = std::string(name) == "lr5_linearly_dependent";
-    const auto resolved = ResolveDependence(surface);
+    const auto resolved = ResolveDependence(surface, MaxResolvingSegments, 0);
     ASSERT_TRUE(resolved) << resolved.Status.Message();
     EXPECT_EQ(resolved->Segments.empty(), !dependent);
     EXPECT_EQ(DecideDependence(*resolved->Value.Space)->Verdict, LRVerdict::Independent);

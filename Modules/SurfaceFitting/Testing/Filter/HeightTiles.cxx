@@ -18,9 +18,9 @@ SplinePatch HeightTile(
   {
     knots[d] = KnotVector::Uniform(2, elements, box.Lower[d], box.Upper[d]);
   }
-  auto space = InsertSegments(MakeTensorSpace<2>(knots).Value, {}).Value;
+  auto space = InsertSegments(MakeTensorSpace<2>(knots).Value, {}, 0).Value;
   const auto segments = SegmentsForElements(*space, { 0, 1 });
-  space = InsertSegments(space, segments.Value).Value;
+  space = InsertSegments(space, segments.Value, 0).Value;
   EXPECT_NE(space, nullptr);
   const LRBasis& basis = space->LocallyRefined->Basis;
   Spline<2> surface;

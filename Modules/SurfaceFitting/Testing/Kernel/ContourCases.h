@@ -129,7 +129,7 @@ inline Spline<2> OverMesh(const Spline<2>& surface, MeshKind kind, unsigned seed
   if (kind == MeshKind::LocallyRefined)
   {
     const Spline<2> even = OverMesh(surface, MeshKind::Even);
-    result = InsertSegments(even, RandomSegments(random, even.Space, 12)).Value;
+    result = InsertSegments(even, RandomSegments(random, even.Space, 12), 0).Value;
   }
   if (kind == MeshKind::Bezier)
   {

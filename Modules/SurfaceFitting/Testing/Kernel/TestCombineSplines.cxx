@@ -43,7 +43,7 @@ Spline<2> RandomOn(Random& random, const ParametricBox<2>& box, const IntArray<2
   }
   if (kind == 2)
   {
-    space = InsertSegments(space, RandomSegments(random, space, 12)).Value;
+    space = InsertSegments(space, RandomSegments(random, space, 12), 0).Value;
   }
   return RandomSpline<2>(random, space, 2, false);
 }
@@ -107,7 +107,7 @@ TEST(CombineSplines, DifferenceFromARefinementOfItselfIsZero_ExactOracle)
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     const Spline<2> a = RandomOn(random, Box, { 2, 3 }, 2);
-    const Spline<2> finer = InsertSegments(a, RandomSegments(random, a.Space, 10)).Value;
+    const Spline<2> finer = InsertSegments(a, RandomSegments(random, a.Space, 10), 0).Value;
     const auto result = CombineSplines(a, finer, 1.0, -1.0);
     ASSERT_TRUE(result) << result.Status.Message();
     EXPECT_LE(result->Value.ControlPoints.cwiseAbs().maxCoeff(), 1e-12);

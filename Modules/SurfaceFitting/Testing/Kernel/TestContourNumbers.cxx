@@ -27,7 +27,7 @@ Spline<2> Cliff(Random& random, int degree, int elements, int steps)
     k = KnotVector::Create(degree, t).Value;
   }
   Spline<2> f;
-  f.Space = InsertSegments(MakeTensorSpace<2>(knots).Value, {}).Value;
+  f.Space = InsertSegments(MakeTensorSpace<2>(knots).Value, {}, 0).Value;
   f.ControlPoints = PointMatrix::Zero(f.Space->NumFunctions, 1);
   const auto line = [](double x) { return 0.4 + 0.1 * std::sin(6.0 * x); };
   for (int step = 0; step < steps; ++step)
@@ -71,13 +71,13 @@ Spline<2> Rugged(Random& random, int family)
     return RandomSpline<2>(random, RandomHierarchicalSpace<2>(random, 4, 4, 2), 1, rational);
   }
   SplineSpacePtr<2> space =
-    InsertSegments(RandomClampedSurface(random, 4, 4, 1, false).Space, {}).Value;
+    InsertSegments(RandomClampedSurface(random, 4, 4, 1, false).Space, {}, 0).Value;
   for (int i = 0; i < 8; ++i)
   {
     LRSegment segment = RandomSegment(random, *space);
     segment.Multiplicity = std::min(segment.Multiplicity,
       space->LocallyRefined->Basis.Degree[static_cast<std::size_t>(segment.Direction)]);
-    const auto next = InsertSegments(space, { segment });
+    const auto next = InsertSegments(space, { segment }, 0);
     space = next ? next.Value : space;
   }
   return RandomSpline<2>(random, space, 1, rational);

@@ -206,7 +206,7 @@ TEST(Contours, RandomSplinesHaveTheContoursOfADenseGrid_CrossOracle)
     {
       surface = RandomClampedSurface(random, 4, 4, 1, rational);
       surface = RandomSpline<2>(random,
-        InsertSegments(surface.Space, RandomSegments(random, surface.Space, 10)).Value, 1,
+        InsertSegments(surface.Space, RandomSegments(random, surface.Space, 10), 0).Value, 1,
         rational);
     }
     bool jumps = false;

@@ -35,7 +35,7 @@ Spline<2> RandomFunction(Random& random, unsigned family)
   }
   const Spline<2> clamped = RandomClampedSurface(random, 4, 4, 1, false);
   const SplineSpacePtr<2> space =
-    InsertSegments(clamped.Space, RandomSegments(random, clamped.Space, 8)).Value;
+    InsertSegments(clamped.Space, RandomSegments(random, clamped.Space, 8), 0).Value;
   return RandomSpline<2>(random, space, 1, rational);
 }
 
@@ -342,11 +342,11 @@ TEST(CriticalPoints, JoinsOfSimpleKnotsAreSmooth_PropertyOracle)
     else
     {
       std::vector<LRSegment> segments = RandomSegments(random, space, 10);
-      space = InsertSegments(space, {}).Value;
+      space = InsertSegments(space, {}, 0).Value;
       for (LRSegment& segment : segments)
       {
         segment.Multiplicity = 1;
-        const auto next = InsertSegments(space, { segment });
+        const auto next = InsertSegments(space, { segment }, 0);
         space = next ? next.Value : space; // some needed the multiplicity of others
       }
     }
@@ -372,7 +372,7 @@ TEST(CriticalPoints, LocalRefinementChangesNothing_PropertyOracle)
     RefineElements<2>(coarse.Space, { 5, 6 }, { 2, 0, 24 }).Value;
   const std::vector<LRSegment> segments = { { 0, 0.5, -2.0, 2.0, 1 }, { 1, 0.0, -2.0, 2.0, 2 } };
   for (const Spline<2>& f : { TransferToRefined<2>(coarse, hierarchical).Value,
-         InsertSegments(InsertSegments(coarse, {}).Value, segments).Value })
+         InsertSegments(InsertSegments(coarse, {}, 0).Value, segments, 0).Value })
   {
     ASSERT_GT(f.Space->NumElements(), 16);
     const CriticalPoints found = Find(f);

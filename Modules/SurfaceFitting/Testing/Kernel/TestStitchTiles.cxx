@@ -49,7 +49,7 @@ Spline<2> LocalTile(Random& random, const ParametricBox<2>& box, const IntArray<
 {
   const Spline<2> tensor = TensorTile(random, box, degree, 4, components);
   const auto space =
-    InsertSegments(tensor.Space, RandomSegments(random, tensor.Space, segments)).Value;
+    InsertSegments(tensor.Space, RandomSegments(random, tensor.Space, segments), 0).Value;
   return RandomSpline<2>(random, space, components, false);
 }
 
@@ -169,7 +169,7 @@ void ExpectUnchangedInside(
   const Spline<2>& tile, const Spline<2>& stitched, Random& random, int* points)
 {
   const LRBasis& basis = stitched.Space->LocallyRefined->Basis;
-  const auto unstitched = InsertSegments(tile, {}).Value;
+  const auto unstitched = InsertSegments(tile, {}, 0).Value;
   const PointMatrix at = RandomParameters(random, *tile.Space, 60);
   EvaluationBatch before;
   EvaluationBatch after;
@@ -293,7 +293,7 @@ TEST(StitchTiles, OutsideTheStripsNothingChanges_PropertyOracle)
         knots[d] = KnotVector::Uniform(2, 8 + random.Int(0, 3), box.Lower[d], box.Upper[d]);
       }
       const auto fine = MakeTensorSpace<2>(knots).Value;
-      const auto local = InsertSegments(fine, RandomSegments(random, fine, 10)).Value;
+      const auto local = InsertSegments(fine, RandomSegments(random, fine, 10), 0).Value;
       tiles.push_back(RandomSpline<2>(random, local, 2, false));
     }
     StitchParams params;
@@ -320,7 +320,7 @@ TEST(StitchTiles, PartsOfASmoothSurfaceStay_ExactOracle)
     for (const auto& box : { ParametricBox<2>{ { 0, 0 }, { cut, 4 } },
            ParametricBox<2>{ { cut, 0 }, { 4, 1.7 } }, ParametricBox<2>{ { cut, 1.7 }, { 4, 4 } } })
     {
-      tiles.push_back(RestrictToBox(whole, box).Value);
+      tiles.push_back(RestrictToBox(whole, box, 0).Value);
     }
     const auto result = StitchTiles(tiles, {});
     ASSERT_TRUE(result) << result.Status.Message();
@@ -411,8 +411,8 @@ TEST(StitchTiles, GeometryFindsTheSidesThatTheDomainFinds_CrossOracle)
   {
     for (const double y : { 0.0, 2.0 })
     {
-      parts.push_back(RestrictToBox(whole, { { x, y }, { x + 2, y + 2 } }).Value);
-      moved.push_back(ReverseParameter(parts.back(), static_cast<int>(x) / 2).Value);
+      parts.push_back(RestrictToBox(whole, { { x, y }, { x + 2, y + 2 } }, 0).Value);
+      moved.push_back(ReverseParameter(parts.back(), static_cast<int>(x) / 2, 0).Value);
     }
   }
   StitchParams params;
@@ -540,7 +540,7 @@ TEST(LocallyRefinedForm, IsTheSameMap_CrossOracle)
     Random random(seed);
     const auto space = RandomHierarchicalSpace<2>(random, 4, 5, static_cast<int>(seed % 4));
     const Spline<2> spline = RandomSpline<2>(random, space, 2, seed % 2 == 0);
-    const auto local = MakeLocallyRefined(spline);
+    const auto local = MakeLocallyRefined(spline, 0);
     ASSERT_TRUE(local) << local.Status.Message();
     EXPECT_EQ(local->Space->Kind, SpaceKind::LocallyRefined);
     PointMatrix at(80, 2);

@@ -32,7 +32,7 @@ Spline<2> Saddle(SpaceKind kind, double turn = 0.0)
   }
   if (kind == SpaceKind::LocallyRefined)
   {
-    surface = InsertSegments(surface, { { 0, 0.7, 0, 3, 1 } }).Value;
+    surface = InsertSegments(surface, { { 0, 0.7, 0, 3, 1 } }, 0).Value;
   }
   return kind == SpaceKind::Tensor ? surface : RefineMarkedElements(surface, { 0, 5 }).Value.Value;
 }
@@ -153,8 +153,8 @@ TEST(SurfaceDistance, SeveralSurfacesAndThreads_PropertyOracle)
   std::vector<double> offsets;
   const PointMatrix points = PointsAbove(random, 1000, offsets);
   const Spline<2> whole = Saddle(SpaceKind::LocallyRefined);
-  const std::vector<Spline<2>> halves{ RestrictToBox(whole, { { 0, 0 }, { 1.1, 3 } }).Value,
-    RestrictToBox(whole, { { 1.1, 0 }, { 2, 3 } }).Value };
+  const std::vector<Spline<2>> halves{ RestrictToBox(whole, { { 0, 0 }, { 1.1, 3 } }, 0).Value,
+    RestrictToBox(whole, { { 1.1, 0 }, { 2, 3 } }, 0).Value };
   SurfaceDistanceParams params;
   for (const DistanceKind kind : { DistanceKind::Vertical, DistanceKind::Closest })
   {

@@ -306,7 +306,7 @@ TEST(SurfaceFit, LeastSquaresSolveTheNormalEquations_CrossOracle)
       params.MaxIterations = 1;
       params.Smoothing = 0.0;
       const SurfaceFit fit = Fit(cloud, params);
-      const auto matrix = CollocationMatrix<2>(*fit.Surface.Space, cloud.Parameters);
+      const auto matrix = CollocationMatrix<2>(*fit.Surface.Space, cloud.Parameters, 0);
       ASSERT_TRUE(matrix);
       const Eigen::MatrixXd dense = matrix.Value;
       const Eigen::VectorXd residual =

@@ -40,7 +40,7 @@ Spline<2> Saddle()
   {
     surface.ControlPoints.row(i) << at(i, 0), at(i, 1), 0.5 * at(i, 0) * at(i, 1);
   }
-  return InsertSegments(surface, { { 0, 0.2, -1, 0.5, 1 } }).Value;
+  return InsertSegments(surface, { { 0, 0.2, -1, 0.5, 1 } }, 0).Value;
 }
 
 double AreaOf(const OutlinePart& part)

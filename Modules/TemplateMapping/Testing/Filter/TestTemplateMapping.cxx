@@ -165,7 +165,7 @@ TEST(TemplateMappingFilter, OutputsAreTheKernelsResult_CrossOracle)
   run.On(ToPolyData(skeleton), ToPolyData(target));
   ASSERT_TRUE(run.Errors.empty()) << run.Errors[0];
 
-  const auto model = DecodeSplineModel(run.Map());
+  const auto model = DecodeSplineModel(run.Map(), 0);
   ASSERT_TRUE(model) << model.Status.Message();
   ASSERT_EQ(model->Patches.size(), 1u);
   const auto& map = std::get<Spline<2>>(model->Patches[0].Geometry);
@@ -485,7 +485,7 @@ TEST(TemplateMappingFilter, EveryPropertyReachesTheKernel_CrossOracle)
       run.On(templateData, targetData);
       ASSERT_TRUE(run.Errors.empty()) << run.Errors[0];
       EXPECT_EQ(run.Table()->GetNumberOfRows(), static_cast<vtkIdType>(expected->History.size()));
-      const auto model = DecodeSplineModel(run.Map());
+      const auto model = DecodeSplineModel(run.Map(), 0);
       const auto& map = std::get<Spline<2>>(model->Patches[0].Geometry);
       EXPECT_EQ(PointMatrix(map.ControlPoints.leftCols(2)), expected->Map.ControlPoints);
       maps.push_back(expected->Map.ControlPoints);
@@ -748,7 +748,7 @@ TEST(TemplateMappingFilter, BadInputIsOneClearError)
   vtkUnstructuredGrid* map = mapping.On(good, goodTarget).Map();
   const auto damagedMap = [&](const std::function<void(SplineModel&)>& damage)
   {
-    SplineModel model = DecodeSplineModel(map).Value;
+    SplineModel model = DecodeSplineModel(map, 0).Value;
     damage(model);
     auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
     EXPECT_TRUE(EncodeSplineGrid(model, grid));

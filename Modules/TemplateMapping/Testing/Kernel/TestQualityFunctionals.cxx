@@ -32,7 +32,7 @@ PointMatrix Interpolate(const SplineSpace<Dim>& space, const Function& function)
     }
     values.row(i) = function(parameters.row(i));
   }
-  const Eigen::MatrixXd dense = CollocationMatrix(space, parameters).Value;
+  const Eigen::MatrixXd dense = CollocationMatrix(space, parameters, 0).Value;
   const Eigen::MatrixXd points = dense.householderQr().solve(Eigen::MatrixXd(values));
   return points;
 }
