@@ -118,7 +118,7 @@ Job MakeCropJob(CLI::App& app)
   KNOTWORK_OPTION(options, filter, CellSize,
     "side of the cells that tell where points are; 0: 2.5 times the mean spacing");
   KNOTWORK_OPTION(
-    options, filter, MaximumGap, "holes and bays that are narrower are closed; 0: two cells");
+    options, filter, MaximumGap, "holes and bays up to this width are closed; 0: two cells");
   KNOTWORK_OPTION(options, filter, MinimumCells, "separate parts with fewer cells are left out");
   KNOTWORK_OPTION(options, filter, Tolerance,
     "largest distance between outline and trimming curves; 0: a third of a cell");

@@ -37,8 +37,8 @@ public:
   vtkGetMacro(CellSize, double);
   ///@}
   ///@{
-  /** Holes and bays that are narrower are closed, unit of the parameters. Default 0 (two cells),
-   * valid range >= 0. */
+  /** Holes and bays up to this width are closed, unit of the parameters, in whole cells that fit
+   * into it. Default 0 (two cells), valid range >= 0. */
   vtkSetClampMacro(MaximumGap, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(MaximumGap, double);
   ///@}

@@ -19,13 +19,12 @@ std::size_t At(std::ptrdiff_t i)
   return static_cast<std::size_t>(i);
 }
 
-/// Cells of the points' box with a frame of empty ones around.
+/// Cells of the points' box with a frame of one empty cell around.
 struct CellGrid
 {
   RealArray<2> Lower{};
   double Size = 0.0;
   std::array<int, 2> Count{}; ///< with the frame
-  int Frame = 1;
   std::vector<char> Cells;
 
   char& Cell(int i, int j) { return this->Cells[At(i + std::ptrdiff_t{ this->Count[0] } * j)]; }
@@ -41,16 +40,15 @@ struct Box
   RealArray<2> Length{};
 };
 
-Result<CellGrid> Rasterize(const PointMatrixView& points, const Box& box, double size, int frame)
+Result<CellGrid> Rasterize(const PointMatrixView& points, const Box& box, double size)
 {
   CellGrid grid;
   grid.Lower = box.Lower;
   grid.Size = size;
-  grid.Frame = frame;
   double cells = 1.0;
   for (std::size_t d = 0; d < 2; ++d)
   {
-    const double count = std::max(1.0, std::ceil(box.Length[d] / size)) + 2.0 * frame;
+    const double count = std::max(1.0, std::ceil(box.Length[d] / size)) + 2.0;
     cells *= count;
     if (!(cells <= MaxCells))
     {
@@ -67,33 +65,58 @@ Result<CellGrid> Rasterize(const PointMatrixView& points, const Box& box, double
     for (std::size_t d = 0; d < 2; ++d)
     {
       const double at = (points(p, static_cast<Eigen::Index>(d)) - box.Lower[d]) / size;
-      cell[d] = std::min(static_cast<int>(at), grid.Count[d] - 2 * frame - 1) + frame;
+      cell[d] = std::min(static_cast<int>(at), grid.Count[d] - 3) + 1;
     }
     grid.Cell(cell[0], cell[1]) = 1;
   }
   return grid;
 }
 
-/// Cells get `value` that have it within so many cells in both directions.
-void Grow(CellGrid& grid, char value, int times)
+/// Cells get `value` that have it at most `reach` cells before (or behind) them along a direction.
+void Spread(CellGrid& grid, char value, std::size_t d, int reach, bool before)
 {
-  for (int step = 0; step < times; ++step)
+  const auto [columns, rows] = grid.Count;
+  std::vector<int> since(At(d == 0 ? rows : columns), reach + 1); // a cell with the value
+  for (int step = 0; step < rows; ++step)
   {
-    for (const int di : { 1, 0 }) // one direction after the other: a square
+    const int j = before ? step : rows - 1 - step;
+    for (int k = 0; k < columns; ++k)
     {
-      const CellGrid before = grid;
-      for (int j = 1; j + 1 < grid.Count[1]; ++j)
-      {
-        for (int i = 1; i + 1 < grid.Count[0]; ++i)
-        {
-          if (before.Cell(i - di, j - (1 - di)) == value ||
-            before.Cell(i + di, j + (1 - di)) == value)
-          {
-            grid.Cell(i, j) = value;
-          }
-        }
-      }
+      const int i = before ? k : columns - 1 - k;
+      char& cell = grid.Cell(i, j);
+      int& distance = since[At(d == 0 ? j : i)];
+      distance = cell == value ? 0 : std::min(distance, reach) + 1;
+      cell = distance <= reach ? value : cell;
     }
+  }
+}
+
+/// Fills cells that are in no square of empty cells with sides of gap + 1 cells, which may reach
+/// beyond the grid: dilation with such a square that ends at a cell, erosion with one that begins
+/// there.
+void CloseGaps(CellGrid& grid, double gap)
+{
+  CellGrid wide = grid;
+  std::array<int, 2> reach;
+  for (std::size_t d = 0; d < 2; ++d)
+  {
+    // a square as long as the grid is as long as any
+    reach[d] = static_cast<int>(std::min(gap, static_cast<double>(grid.Count[d])));
+    wide.Count[d] += reach[d];
+  }
+  wide.Cells.assign(At(std::ptrdiff_t{ wide.Count[0] } * wide.Count[1]), 0);
+  for (int j = 0; j < grid.Count[1]; ++j)
+  {
+    std::copy_n(&grid.Cell(0, j), grid.Count[0], &wide.Cell(0, j));
+  }
+  for (const char value : { char(1), char(0) })
+  {
+    Spread(wide, value, 0, reach[0], value == 1);
+    Spread(wide, value, 1, reach[1], value == 1);
+  }
+  for (int j = 0; j < grid.Count[1]; ++j)
+  {
+    std::copy_n(&wide.Cell(0, j), grid.Count[0], &grid.Cell(0, j));
   }
 }
 
@@ -245,7 +268,7 @@ OutlinePart MakePart(
     {
       id = static_cast<int>(points.size());
       RealArray<2> at;
-      const std::array<int, 2> index{ i - grid.Frame, j - grid.Frame };
+      const std::array<int, 2> index{ i - 1, j - 1 };
       for (std::size_t d = 0; d < 2; ++d)
       {
         const double x = std::max(0.0, std::min(index[d] * grid.Size, box.Length[d]));
@@ -318,7 +341,7 @@ double DefaultSize(const PointMatrixView& points, const Box& box)
   double size = PointsPerSide * std::sqrt(box.Length[0] * box.Length[1] / n);
   for (int pass = 0; pass < 2; ++pass)
   {
-    const auto grid = Rasterize(points, box, size, 1);
+    const auto grid = Rasterize(points, box, size);
     if (!grid)
     {
       break;
@@ -341,19 +364,12 @@ Result<CloudOutline> FindCloudOutline(
   CloudOutline outline;
   outline.CellSize = params.CellSize > 0.0 ? params.CellSize : DefaultSize(points, box);
   outline.MaxGap = params.MaxGap > 0.0 ? params.MaxGap : 2.0 * outline.CellSize;
-  const double reach = std::ceil(0.5 * outline.MaxGap / outline.CellSize - 1e-9);
-  if (reach > 1e4)
-  {
-    return { ErrorCode::InvalidParameter, "the gap is more than 20000 cells" };
-  }
-  const int times = static_cast<int>(reach);
-  auto grid = Rasterize(points, box, outline.CellSize, times + 1);
+  auto grid = Rasterize(points, box, outline.CellSize);
   if (!grid)
   {
     return grid.Status;
   }
-  Grow(grid.Value, 1, times);
-  Grow(grid.Value, 0, times);
+  CloseGaps(grid.Value, std::floor(outline.MaxGap / outline.CellSize * (1.0 + 1e-12)));
   JoinCorners(grid.Value);
   std::vector<int> sizes;
   const std::vector<int> numbers = FindParts(grid.Value, sizes);

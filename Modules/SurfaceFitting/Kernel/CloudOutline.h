@@ -13,7 +13,8 @@ struct CloudOutlineParams
   /// Side of the cells that tell where points are, unit of the parameters; 0: 2.5 times the mean
   /// spacing of the points.
   double CellSize = 0.0;
-  /// Holes and bays that are narrower are closed, unit of the parameters; 0: two cells.
+  /// Holes and bays up to this width are closed, unit of the parameters, in whole cells that fit
+  /// into it; 0: two cells.
   double MaxGap = 0.0;
   /// Separate parts with fewer cells are left out, >= 1.
   int MinCells = 4;
@@ -34,13 +35,13 @@ struct CloudOutline
 };
 
 /// The region of the plane that points cover: cells of a grid over their box that hold points,
-/// closed by half of the gap (dilation and erosion), without places where cells touch in a corner
-/// only. Steps of its boundary are smoothed (weights 1/4, 1/2, 1/4, twice, less where a triangle
-/// would turn over); points on the box stay.
+/// and all that are in no square of empty cells wider than the gap (morphological closing), without
+/// places where cells touch in a corner only. Steps of its boundary are smoothed (weights 1/4, 1/2,
+/// 1/4, twice, less where a triangle would turn over); points on the box stay.
 /// @param points  n x 2. @return EmptyInput for fewer than three points or too few cells,
 /// NonFiniteInput naming the point, InvalidParameter, SingularSystem for points on a line, TooLarge
 /// above 1e7 cells.
-/// @complexity O(points + cells * gap / size).
+/// @complexity O(points + cells), whatever the gap.
 Result<CloudOutline> FindCloudOutline(
   const PointMatrixView& points, const CloudOutlineParams& params = {});
 }
