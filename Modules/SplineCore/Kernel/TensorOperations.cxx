@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "TensorRestriction.h"
 #include "TensorSpace.h"
 
 #include <Eigen/SparseCore>
@@ -247,6 +248,55 @@ Result<Spline<Dim>> ElevateDegree(const Spline<Dim>& spline, int direction, int 
 }
 
 template <int Dim>
+Result<Spline<Dim>> RestrictTensor(const Spline<Dim>& spline, const ParametricBox<Dim>& box)
+{
+  if (Status status = CheckInput(spline, 0); !status)
+  {
+    return status;
+  }
+  Spline<Dim> result = spline;
+  for (std::size_t d = 0; d < Dim; ++d)
+  {
+    const KnotVector& knots = spline.Space->Knots[d];
+    const double tolerance = 1e-12 * (knots.End() - knots.Begin());
+    const auto snapped = [&](double end)
+    {
+      const std::vector<double>& breaks = knots.Breaks();
+      const auto near = std::min_element(breaks.begin(), breaks.end(),
+        [end](double a, double b) { return std::fabs(a - end) < std::fabs(b - end); });
+      return std::fabs(*near - end) <= tolerance ? *near : end;
+    };
+    const double low = snapped(box.Lower[d]);
+    const double high = snapped(box.Upper[d]);
+    if (!(knots.Begin() <= low && low < high && high <= knots.End()))
+    {
+      return { ErrorCode::OutsideDomain, "the box in direction " + std::to_string(d) };
+    }
+    const auto order = static_cast<std::size_t>(knots.Degree() + 1);
+    std::vector<double> inside(order, low);
+    std::copy_if(knots.Knots().begin(), knots.Knots().end(), std::back_inserter(inside),
+      [&](double t) { return low < t && t < high; });
+    inside.insert(inside.end(), order, high);
+    if (inside == knots.Knots())
+    {
+      continue;
+    }
+    const auto fine = KnotVector::Create(knots.Degree(), std::move(inside));
+    if (!fine)
+    {
+      return fine.Status;
+    }
+    auto part = ApplyAlong(result, d, fine.Value, InsertionOperator(knots, fine.Value));
+    if (!part)
+    {
+      return part.Status;
+    }
+    result = std::move(part.Value);
+  }
+  return result;
+}
+
+template <int Dim>
 PointMatrix GrevillePoints(const SplineSpace<Dim>& space)
 {
   PointMatrix points(space.NumFunctions, Dim);
@@ -267,6 +317,7 @@ PointMatrix GrevillePoints(const SplineSpace<Dim>& space)
   template Result<Spline<Dim>> InsertKnots<Dim>(                                                   \
     const Spline<Dim>&, int, const std::vector<double>&);                                          \
   template Result<Spline<Dim>> ElevateDegree<Dim>(const Spline<Dim>&, int, int);                   \
+  template Result<Spline<Dim>> RestrictTensor<Dim>(const Spline<Dim>&, const ParametricBox<Dim>&); \
   template PointMatrix GrevillePoints<Dim>(const SplineSpace<Dim>&);
 
 KNOTWORK_INSTANTIATE(1)

@@ -6,6 +6,7 @@
 #include "LROperations.h"
 #include "LocallyRefinedForm.h"
 #include "Numbers.h"
+#include "TensorRestriction.h"
 #include "TensorSpace.h"
 
 #include <algorithm>
@@ -16,6 +17,7 @@ namespace knotwork
 namespace
 {
 constexpr double SameDomain = 1e-9; // of a side
+constexpr double Rounding = 1e-12;  // of a side
 
 Status CheckSplines(const Spline<2>& a, const Spline<2>& b, const CombineParams& params)
 {
@@ -60,23 +62,21 @@ Status ShareDomain(Spline<2>& a, Spline<2>& b, const CombineParams& params)
   const ParametricBox<2> boxA = a.Space->Domain();
   const ParametricBox<2> boxB = b.Space->Domain();
   ParametricBox<2> common;
-  bool same = true;
-  bool exactly = true;
+  double difference = 0.0; // of a side
   for (std::size_t d = 0; d < 2; ++d)
   {
-    const double tolerance = SameDomain * (boxA.Upper[d] - boxA.Lower[d]);
+    const double side = boxA.Upper[d] - boxA.Lower[d];
     common.Lower[d] = std::max(boxA.Lower[d], boxB.Lower[d]);
     common.Upper[d] = std::min(boxA.Upper[d], boxB.Upper[d]);
     const double low = std::fabs(boxA.Lower[d] - boxB.Lower[d]);
     const double high = std::fabs(boxA.Upper[d] - boxB.Upper[d]);
-    same = same && low <= tolerance && high <= tolerance;
-    exactly = exactly && low == 0.0 && high == 0.0;
+    difference = std::max({ difference, low / side, high / side });
   }
-  if (exactly)
+  if (difference <= Rounding)
   {
-    return {};
+    return {}; // MakeCommon takes such knots for one
   }
-  if (!same && !params.CommonDomain)
+  if (!(difference <= SameDomain || params.CommonDomain))
   {
     const auto text = [](const ParametricBox<2>& box)
     {
@@ -91,10 +91,13 @@ Status ShareDomain(Spline<2>& a, Spline<2>& b, const CombineParams& params)
   {
     return { ErrorCode::InvalidTopology, "the domains have nothing in common" };
   }
+  const bool tensors = a.Space->Kind == SpaceKind::Tensor && b.Space->Kind == SpaceKind::Tensor;
   for (Spline<2>* spline : { &a, &b })
   {
-    auto local = MakeLocallyRefined(*spline, params.Threads);
-    auto part = local ? RestrictToBox(local.Value, common, params.Threads) : local;
+    auto local = tensors ? *spline : MakeLocallyRefined(*spline, params.Threads);
+    auto part = !local ? local
+      : tensors        ? RestrictTensor(local.Value, common)
+                       : RestrictToBox(local.Value, common, params.Threads);
     if (!part)
     {
       return part.Status;

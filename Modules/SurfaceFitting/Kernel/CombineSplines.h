@@ -27,8 +27,9 @@ struct CombinedSpline
 ///
 /// Both are brought into a common refinement, so the result is exact up to rounding: tensor-product
 /// splines take each other's knots (and stay of their kind; degrees are raised where they are
-/// lower), hierarchical ones of the same level-0 knots the union of their hierarchies; else both
-/// become LR splines and take each other's lines. Lines that cannot be inserted as they are become
+/// lower, and domains that differ are cut by knots), hierarchical ones of one domain and the same
+/// level-0 knots the union of their hierarchies; else both become LR splines and take each other's
+/// lines. Lines that cannot be inserted as they are become
 /// as long as the domain.
 /// @return Spline::Check's codes naming the spline; InvalidWeight for rational splines;
 /// SizeMismatch (components); InvalidDegree for degrees that differ unless both are tensor-product

@@ -60,10 +60,28 @@ Status ShareKnots(Spline<2>& a, Spline<2>& b)
   return {};
 }
 
+bool AreSameKnots(const KnotVector& a, const KnotVector& b)
+{
+  const double tolerance = SameKnot * (a.End() - a.Begin());
+  return a.Degree() == b.Degree() &&
+    std::equal(a.Knots().begin(), a.Knots().end(), b.Knots().begin(), b.Knots().end(),
+      [tolerance](double s, double t) { return std::fabs(s - t) <= tolerance; });
+}
+
+/// Both get the level-0 knots of the first. @pre those of the second are the same up to rounding.
 Status ShareHierarchy(Spline<2>& a, Spline<2>& b)
 {
   std::vector<HierarchyBox<2>> boxes = HierarchyBoxes(*a.Space);
   const std::vector<HierarchyBox<2>> others = HierarchyBoxes(*b.Space);
+  if (a.Space->Knots != b.Space->Knots)
+  {
+    auto moved = MakeHierarchicalSpace<2>(a.Space->Knots, others);
+    if (!moved)
+    {
+      return moved.Status;
+    }
+    b.Space = std::move(moved.Value);
+  }
   boxes.insert(boxes.end(), others.begin(), others.end());
   const auto space = MakeHierarchicalSpace<2>(a.Space->Knots, boxes);
   if (!space)
@@ -198,7 +216,8 @@ Status MakeCommon(Spline<2>& a, Spline<2>& b, int threads)
   {
     return ShareKnots(a, b);
   }
-  if (both(SpaceKind::Hierarchical) && a.Space->Knots == b.Space->Knots)
+  if (both(SpaceKind::Hierarchical) && AreSameKnots(a.Space->Knots[0], b.Space->Knots[0]) &&
+    AreSameKnots(a.Space->Knots[1], b.Space->Knots[1]))
   {
     return ShareHierarchy(a, b);
   }

@@ -157,6 +157,56 @@ TEST(CombineSplines, CommonDomain_CrossOracle)
     (ValuesAt(result->Value, at) - ValuesAt(a, at) + ValuesAt(b, at)).cwiseAbs().maxCoeff(), 1e-11);
 }
 
+TEST(CombineSplines, TensorProductsStayOnACommonDomain_CrossOracle)
+{
+  for (unsigned seed = 1; seed <= 10; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const IntArray<2> degree{ random.Int(1, 4), random.Int(1, 4) };
+    const Spline<2> a = RandomOn(random, Box, degree, 0);
+    const Spline<2> b = RandomOn(random, { { 0, 1 }, { 3, 3 } }, { 2, 3 }, 0);
+    CombineParams params;
+    params.CommonDomain = true;
+    const auto result = CombineSplines(a, b, 1, -1, params);
+    ASSERT_TRUE(result) << result.Status.Message();
+    EXPECT_EQ(result->Value.Space->Kind, SpaceKind::Tensor);
+    const ParametricBox<2> common{ { 0, 2 }, { 2, 3 } };
+    EXPECT_EQ(result->Value.Space->Domain().Lower, common.Lower);
+    EXPECT_EQ(result->Value.Space->Domain().Upper, common.Upper);
+    const PointMatrix at = PointsOf(random, common);
+    EXPECT_LE(
+      (ValuesAt(result->Value, at) - ValuesAt(a, at) + ValuesAt(b, at)).cwiseAbs().maxCoeff(),
+      1e-11); // as above
+  }
+}
+
+TEST(CombineSplines, EndsThatDifferByRoundingAreOne_CrossOracle)
+{
+  const auto scaled = [](double t) { return t * (1.0 + 2.0 * oracle::Epsilon); };
+  for (unsigned seed = 1; seed <= 12; ++seed)
+  {
+    for (const int kind : { 0, 1, 2 })
+    {
+      SCOPED_TRACE("seed " + std::to_string(seed) + " kind " + std::to_string(kind));
+      Random random(seed);
+      const IntArray<2> degree{ random.Int(1, 3), random.Int(1, 3) };
+      const ParametricBox<2> near{ { scaled(Box.Lower[0]), scaled(Box.Lower[1]) },
+        { scaled(Box.Upper[0]), scaled(Box.Upper[1]) } };
+      Random again = random;
+      const Spline<2> a = RandomOn(random, Box, degree, kind);
+      // hierarchical ones with the same level-0 knots up to rounding
+      const Spline<2> b = RandomOn(kind == 1 ? again : random, near, degree, kind);
+      const auto result = CombineSplines(a, b, 1, -1);
+      ASSERT_TRUE(result) << result.Status.Message();
+      EXPECT_EQ(result->Value.Space->Kind, a.Space->Kind);
+      PointMatrix at = PointsOf(random, Box);
+      const PointMatrix expected = ValuesAt(a, at) - ValuesAt(b, at);
+      EXPECT_LE((ValuesAt(result->Value, at) - expected).cwiseAbs().maxCoeff(), 1e-11);
+    }
+  }
+}
+
 TEST(CombineSplines, EveryFailureIsReachable_ExactOracle)
 {
   Random random(5);
@@ -185,7 +235,7 @@ TEST(CombineSplines, EveryFailureIsReachable_ExactOracle)
   bad.Space = MakeBezierSpace<2>({ { 2, 2 } }, { 0, 1, 2, 3, 4, 5, 6, 7, 8 }, 9).Value;
   bad.ControlPoints = PointMatrix::Zero(9, a.ControlPoints.cols());
   EXPECT_EQ(code(bad), ErrorCode::DimensionMismatch);
-  EXPECT_EQ(MakeLocallyRefined(bad).Status.Code, ErrorCode::DimensionMismatch);
+  EXPECT_EQ(MakeLocallyRefined(bad, 0).Status.Code, ErrorCode::DimensionMismatch);
   // two lines of one spline where the other has one, and no room to tell which it is
   std::array<Spline<2>, 2> near;
   for (std::size_t k = 0; k < 2; ++k)
