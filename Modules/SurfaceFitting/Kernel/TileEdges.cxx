@@ -2,6 +2,7 @@
 #include "TileEdges.h"
 
 #include "BezierForm.h"
+#include "HeightField.h"
 #include "LRSpace.h"
 #include "Numbers.h"
 
@@ -23,18 +24,25 @@ std::string SideName(int tile, int side)
   return "side " + std::to_string(side) + " of tile " + std::to_string(tile);
 }
 
-/// Moves the ends of a tile's knots in a direction; those between follow.
+/// Moves the ends of a tile's knots in a direction; those between follow, and so do the coordinates
+/// of a height field, which are its parameters.
 Status MoveEnds(Spline<2>& tile, std::size_t d, double low, double high, int threads)
 {
   LRBasis basis = tile.Space->LocallyRefined->Basis;
   std::vector<double>& knots = basis.Knots[d];
   const double begin = knots.front();
   const double end = knots.back();
-  for (double& knot : knots)
+  const auto moved = [=](double t)
   {
-    const double s = (knot - begin) / (end - begin);
-    knot = knot == begin ? low : knot == end ? high : (1.0 - s) * low + s * high;
+    const double s = (t - begin) / (end - begin);
+    return t == begin ? low : t == end ? high : (1.0 - s) * low + s * high;
+  };
+  if (IsHeightField(MakeBezierForm(tile, threads)))
+  {
+    auto coordinate = tile.ControlPoints.col(static_cast<Eigen::Index>(d));
+    std::transform(coordinate.begin(), coordinate.end(), coordinate.begin(), moved);
   }
+  std::transform(knots.begin(), knots.end(), knots.begin(), moved);
   auto space = MakeLRSpace(std::move(basis), threads);
   if (space)
   {

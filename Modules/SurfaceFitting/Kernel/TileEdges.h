@@ -46,7 +46,8 @@ struct TileEdge
 };
 
 /// Finds the edges that tiles share. Domain: boxes within the tolerance of each other are made to
-/// fit, by moving the tiles' knots. @param tiles  of kind LocallyRefined.
+/// fit, by moving the tiles' knots (and x and y of height fields with them). @param tiles  of kind
+/// LocallyRefined.
 /// @return InvalidParameter, InvalidTopology as StitchTiles says.
 Result<std::vector<TileEdge>> FindTileEdges(
   std::vector<Spline<2>>& tiles, const StitchParams& params);

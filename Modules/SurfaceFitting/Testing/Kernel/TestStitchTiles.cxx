@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BezierForm.h"
+#include "HeightField.h"
 #include "LRCases.h"
 #include "LROperations.h"
 #include "LocallyRefinedForm.h"
@@ -306,6 +307,42 @@ TEST(StitchTiles, OutsideTheStripsNothingChanges_PropertyOracle)
     }
   }
   EXPECT_GT(points, 300); // not vacuous
+}
+
+TEST(StitchTiles, HeightFieldsAcrossAGapStayHeightFields_PropertyOracle)
+{
+  Random random(3);
+  std::vector<Spline<2>> tiles;
+  for (const double left : { 0.0, 1.0 + 1e-4 })
+  {
+    Spline<2> tile;
+    tile.Space = MakeTensorSpace<2>(
+      { KnotVector::Uniform(2, 4, left, left + 1), KnotVector::Uniform(3, 3, 0, 1) })
+                   .Value;
+    tile.ControlPoints.resize(tile.Space->NumFunctions, 3);
+    tile.ControlPoints.leftCols(2) = GrevillePoints(*tile.Space);
+    for (double& z : tile.ControlPoints.col(2))
+    {
+      z = random.In(-1, 1);
+    }
+    tiles.push_back(tile);
+  }
+  StitchParams params;
+  params.Tolerance = 1e-3;
+  params.NumMeasured = 3;
+  const auto result = StitchTiles(tiles, params);
+  ASSERT_TRUE(result) << result.Status.Message();
+  ASSERT_EQ(result->Edges.size(), 1u);
+  EXPECT_LE(result->MaxJump, RoundingOf(result->Tiles)[0]);
+  for (const Spline<2>& tile : result->Tiles)
+  {
+    const BezierForm<2> form = MakeBezierForm(tile);
+    EXPECT_TRUE(IsHeightField(form));
+    const PointMatrix at = RandomParameters(random, *tile.Space, 50);
+    EvaluationBatch batch;
+    ASSERT_TRUE(EvaluateParameters(form, at, {}, batch));
+    EXPECT_LE((batch.Values.leftCols(2) - at).cwiseAbs().maxCoeff(), 1e-14);
+  }
 }
 
 TEST(StitchTiles, PartsOfASmoothSurfaceStay_ExactOracle)
