@@ -80,8 +80,12 @@ void EncodeNumbers(const knotwork::TrimmedToPoints& trimmed, vtkTable* table)
   knotwork::AddColumn(table, "Faces", static_cast<int>(trimmed.Model.Faces.size()));
   knotwork::AddColumn(table, "Loops", trimmed.NumLoops);
   knotwork::AddColumn(table, "Edges", trimmed.Model.NumEdges);
-  knotwork::AddColumn(table, "ControlPoints",
-    static_cast<int>(trimmed.Model.Faces.front().Surface.ControlPoints.rows()));
+  int controlPoints = 0;
+  for (const knotwork::TrimmedFace& face : trimmed.Model.Faces)
+  {
+    controlPoints += static_cast<int>(face.Surface.ControlPoints.rows());
+  }
+  knotwork::AddColumn(table, "ControlPoints", controlPoints);
   knotwork::AddColumn(table, "CellSize", trimmed.CellSize);
   knotwork::AddColumn(table, "MaximumGap", trimmed.MaxGap);
   knotwork::AddColumn(table, "Tolerance", trimmed.Tolerance);

@@ -2,9 +2,11 @@
 #include "TrimToPoints.h"
 
 #include "BezierForm.h"
+#include "BoxTree.h"
 #include "LROperations.h"
 #include "LocallyRefinedForm.h"
 #include "Parallel.h"
+#include "TensorRestriction.h"
 #include "TrimmedRegion.h"
 
 #include <Eigen/Geometry>
@@ -104,10 +106,41 @@ double MeanScale(const std::vector<ChartMesh>& charts)
   return std::sqrt(area / flat);
 }
 
+/// The surface around every chart, up to the next knots: trimming curves may be `margin` outside.
+Result<std::vector<Spline<2>>> CutToCharts(
+  const Spline<2>& surface, const std::vector<ChartMesh>& charts, double margin)
+{
+  std::vector<Spline<2>> parts;
+  for (const ChartMesh& chart : charts)
+  {
+    ParametricBox<2> box;
+    for (std::size_t d = 0; d < 2; ++d)
+    {
+      const auto uv = chart.UV.col(static_cast<Eigen::Index>(d));
+      const std::vector<double>& breaks = surface.Space->Knots[d].Breaks();
+      const auto low = std::upper_bound(breaks.begin(), breaks.end(), uv.minCoeff() - margin);
+      const auto high = std::lower_bound(breaks.begin(), breaks.end(), uv.maxCoeff() + margin);
+      box.Lower[d] = low == breaks.begin() ? breaks.front() : *(low - 1);
+      box.Upper[d] = high == breaks.end() ? breaks.back() : *high;
+    }
+    auto part = RestrictTensor(surface, box);
+    if (!part)
+    {
+      return part.Status;
+    }
+    parts.push_back(std::move(part.Value));
+  }
+  return parts;
+}
+
+/// Points in no face. Faces are looked up by the domains of their surfaces.
 Result<std::size_t> CountOutside(
   const TrimmedModel& model, const PointMatrixView& parameters, int threads)
 {
   std::vector<TrimmedRegion> regions;
+  const auto numFaces = static_cast<Eigen::Index>(model.Faces.size());
+  PointMatrix lower(numFaces, 2);
+  PointMatrix upper(numFaces, 2);
   for (const TrimmedFace& face : model.Faces)
   {
     auto region = TrimmedRegion::Create(face.Loops);
@@ -115,8 +148,13 @@ Result<std::size_t> CountOutside(
     {
       return region.Status;
     }
+    const ParametricBox<2> box = face.Surface.Space->Domain();
+    const auto row = static_cast<Eigen::Index>(regions.size());
+    lower.row(row) << box.Lower[0], box.Lower[1];
+    upper.row(row) << box.Upper[0], box.Upper[1];
     regions.push_back(std::move(region.Value));
   }
+  const BoxTree faces(lower, upper);
   const auto n = static_cast<std::size_t>(parameters.rows());
   std::vector<std::size_t> outside(n / ChunkSize + 1, 0);
   ParallelFor(n, ChunkSize, threads,
@@ -125,12 +163,14 @@ Result<std::size_t> CountOutside(
       for (std::size_t i = begin; i < end; ++i)
       {
         const auto row = static_cast<Eigen::Index>(i);
+        const RealArray<2> point{ parameters(row, 0), parameters(row, 1) };
         bool inside = false;
-        for (const TrimmedRegion& region : regions)
-        {
-          inside = inside ||
-            region.Contains({ parameters(row, 0), parameters(row, 1) }) != RegionPlace::Outside;
-        }
+        faces.ForNear(point.data(), point.data(),
+          [&](int face)
+          {
+            inside = inside ||
+              regions[static_cast<std::size_t>(face)].Contains(point) != RegionPlace::Outside;
+          });
         outside[begin / ChunkSize] += inside ? 0 : 1;
       }
     });
@@ -166,15 +206,21 @@ Result<TrimmedToPoints> TrimToPoints(
   TrimmedToPoints result;
   result.CellSize = outline->CellSize;
   result.MaxGap = outline->MaxGap;
-  result.Tolerance =
-    params.Tolerance > 0.0 ? params.Tolerance : MeanScale(charts.Value) * outline->CellSize / 3.0;
+  const double scale = MeanScale(charts.Value);
+  result.Tolerance = params.Tolerance > 0.0 ? params.Tolerance : scale * outline->CellSize / 3.0;
   LoopParams loopParams;
   loopParams.Tolerance = result.Tolerance;
   loopParams.CornerAngle = params.CornerAngle;
   loopParams.Threads = params.Threads;
   loopParams.Progress = params.Progress;
-  const std::vector<Spline<2>> surfaces(charts->size(), tensor.Value);
-  auto loops = FitLoops(charts.Value, surfaces, loopParams);
+  auto surfaces =
+    CutToCharts(tensor.Value, charts.Value, 2.0 * (outline->CellSize + result.Tolerance / scale));
+  if (!surfaces)
+  {
+    return surfaces.Status;
+  }
+  tensor.Value = {};
+  auto loops = FitLoops(charts.Value, surfaces.Value, loopParams);
   if (!loops)
   {
     return loops.Status;
@@ -188,7 +234,7 @@ Result<TrimmedToPoints> TrimToPoints(
   for (std::size_t c = 0; c < charts->size(); ++c)
   {
     TrimmedFace face;
-    face.Surface = tensor.Value;
+    face.Surface = std::move(surfaces.Value[c]);
     face.Loops = std::move(loops->Loops[c]);
     face.Body = static_cast<int>(c);
     result.NumLoops += static_cast<int>(face.Loops.size());

@@ -19,7 +19,7 @@ struct TrimToPointsParams
 
 struct TrimmedToPoints
 {
-  TrimmedModel Model; ///< a face a part of the outline, all with the same tensor-product surface
+  TrimmedModel Model; ///< a face a part of the outline, on the tensor-product surface around it
   std::vector<LoopVerdict> Loops;            ///< of the faces
   std::vector<FaceCertificate> Certificates; ///< of the faces
   double CellSize = 0.0;
@@ -33,7 +33,8 @@ struct TrimmedToPoints
 /// Trims a fitted surface to where its points are: the outline of their parameters
 /// (CloudOutline.h), fitted by trimming curves (TrimLoops.h), with the proofs of trimmed faces.
 /// @param surface  polynomial, 3 components or more, of which 3 count; LR and hierarchical ones are
-/// expanded to tensor products.
+/// expanded to tensor products, of which every face gets what is around its part, up to the next
+/// knots.
 /// @param parameters  n x 2. @return failures of FindCloudOutline, ExpandToTensor, FitLoops and
 /// CertifyFace; InvalidWeight; SizeMismatch; OutsideDomain naming the point; InvalidParameter.
 Result<TrimmedToPoints> TrimToPoints(const Spline<2>& surface, const PointMatrixView& parameters,

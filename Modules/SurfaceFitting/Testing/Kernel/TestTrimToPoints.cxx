@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "BezierForm.h"
 #include "LRCases.h"
 #include "TrimToPoints.h"
 #include "TrimmedRegion.h"
@@ -291,6 +292,51 @@ TEST(TrimToPoints, RingOnASaddle_PropertyOracle)
   // the hole is one: its middle is outside; a point between both circles inside
   EXPECT_EQ(region->Contains({ 0.0, 0.0 }), RegionPlace::Outside);
   EXPECT_EQ(region->Contains({ 0.7, 0.0 }), RegionPlace::Inside);
+}
+
+TEST(TrimToPoints, ManyPartsShareTheSurface_PropertyOracle)
+{
+  // 144 islands of 36 points each
+  std::vector<double> rows;
+  for (int island = 0; island < 144; ++island)
+  {
+    for (int i = 0; i < 36; ++i)
+    {
+      const double s = (island % 12 + 0.1 + 0.1 * (i % 6)) / 12.0;
+      const double t = (island / 12 + 0.1 + 0.1 * (i / 6)) / 12.0; // NOLINT: whole numbers
+      rows.insert(rows.end(), { 2.0 * s - 1.0, 2.0 * t - 1.0 });
+    }
+  }
+  const PointMatrix points =
+    Eigen::Map<const PointMatrix>(rows.data(), static_cast<Eigen::Index>(rows.size() / 2), 2);
+  Spline<2> surface;
+  surface.Space =
+    MakeTensorSpace<2>({ KnotVector::Uniform(2, 60, -1, 1), KnotVector::Uniform(2, 60, -1, 1) })
+      .Value;
+  const PointMatrix at = GrevillePoints(*surface.Space);
+  surface.ControlPoints.resize(at.rows(), 3);
+  surface.ControlPoints << at, at.col(0).cwiseProduct(at.col(1));
+  TrimToPointsParams params;
+  params.Outline.CellSize = 0.02; // points are 1/60 apart, islands 1/12
+  params.Outline.MaxGap = 0.04;
+  const auto trimmed = TrimToPoints(surface, points, params);
+  ASSERT_TRUE(trimmed) << trimmed.Status.Message();
+  ASSERT_EQ(trimmed->Model.Faces.size(), 144u);
+  EXPECT_TRUE(trimmed->Model.Check());
+  Eigen::Index controlPoints = 0;
+  for (const TrimmedFace& face : trimmed->Model.Faces)
+  {
+    controlPoints += face.Surface.ControlPoints.rows();
+    EvaluationBatch whole;
+    EvaluationBatch part;
+    const PointMatrix where = face.Loops[0].Curves[0].UV.topRows(1);
+    ASSERT_TRUE(EvaluateParameters(MakeBezierForm(surface), where, {}, whole));
+    ASSERT_TRUE(EvaluateParameters(MakeBezierForm(face.Surface), where, {}, part));
+    EXPECT_LE((whole.Values - part.Values).cwiseAbs().maxCoeff(), 1e-14);
+  }
+  // a part and its margin are less than twice as long as what belongs to it in the lattice
+  EXPECT_LE(controlPoints, 8 * surface.ControlPoints.rows());
+  EXPECT_LE(trimmed->NumPointsOutside, 4u * 144u); // corners are cut
 }
 
 TEST(TrimToPoints, TheSameForAnyNumberOfThreads_PropertyOracle)
