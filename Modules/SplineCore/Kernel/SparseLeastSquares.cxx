@@ -27,7 +27,8 @@ Columns NormalMatrix(const Rows& a, const Columns& columns, int threads)
   };
   const auto n = static_cast<std::size_t>(a.cols());
   std::vector<Column> found(n);
-  ParallelFor(n, 512, threads,
+  // a chunk fills as many sums as there are columns: 64 chunks at most
+  ParallelFor(n, std::max<std::size_t>(512, n / 64 + 1), threads,
     [&](std::size_t begin, std::size_t end)
     {
       std::vector<double> sums(n, 0.0);

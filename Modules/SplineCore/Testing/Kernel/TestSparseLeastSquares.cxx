@@ -5,6 +5,7 @@
 #include "SparseLeastSquares.h"
 
 #include <Eigen/QR>
+#include <ctime>
 
 using namespace knotwork;
 using namespace knotwork::testing;
@@ -146,6 +147,19 @@ TEST(SparseLeastSquares, WorkGrowsWithTheFunctions_PropertyOracle)
   const double growth = 1.0 * functions[1] / functions[0];
   ASSERT_GT(growth, 2.0);
   EXPECT_LE(1.0 * entries[1] / entries[0], 1.25 * growth);
+}
+
+TEST(SparseLeastSquares, IndependentFunctionsTakeLinearTime_PropertyOracle)
+{
+  // work that grows with the square of the functions takes 20 s and more of processor time
+  constexpr int functions = 1500000;
+  Matrix a(functions, functions);
+  a.setIdentity();
+  const std::clock_t start = std::clock();
+  const SparseSolution found = SolveSparseLeastSquares(a, Eigen::VectorXd::Ones(functions), 1);
+  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  EXPECT_TRUE(found.Value.isApproxToConstant(1.0));
+  EXPECT_LE(seconds, 6.0);
 }
 
 TEST(Recovery, FieldOfThousandsOfLocallyRefinedFunctions_ExactOracle)
