@@ -14,8 +14,10 @@ namespace knotwork
 {
 namespace
 {
-/// Distance in the plane, relative to the surface's size, up to which a point is above the surface.
+/// Distance in the plane up to which a point is above the surface: relative to the diagonal of the
+/// surfaces' box, and to the largest coordinate where that is rounding.
 constexpr double OnSurface = 1e-9;
+constexpr double Rounding = 64.0 * std::numeric_limits<double>::epsilon();
 constexpr Eigen::Index ChunkSize = 65536; // points between two reports of progress
 
 std::size_t At(int i)
@@ -82,6 +84,9 @@ public:
     {
       Spline<2> geometry = surface;
       geometry.ControlPoints = surface.ControlPoints.leftCols(3);
+      const auto plane = surface.ControlPoints.leftCols(2);
+      this->Low = this->Low.cwiseMin(plane.colwise().minCoeff());
+      this->High = this->High.cwiseMax(plane.colwise().maxCoeff());
       this->Forms.push_back(MakeBezierForm(geometry, params.Threads));
       this->AreHeights.push_back(IsHeightField(this->Forms.back()));
       heights = heights && this->AreHeights.back();
@@ -151,18 +156,13 @@ private:
   {
     const int components = vertical ? 2 : 3;
     std::vector<BezierForm<2>> patches = this->Forms;
-    double size = 0.0;
-    for (BezierForm<2>& form : patches)
+    if (vertical)
     {
-      if (vertical)
-      {
-        form = PlaneForm(form);
-      }
-      for (const double value : form.Data)
-      {
-        size = std::max(size, std::fabs(value));
-      }
+      std::transform(patches.begin(), patches.end(), patches.begin(), PlaneForm);
     }
+    const double diagonal = (this->High - this->Low).norm();
+    const double largest = this->Low.cwiseAbs().cwiseMax(this->High.cwiseAbs()).maxCoeff();
+    const double above = std::max(OnSurface * diagonal, Rounding * largest);
     ClosestPointParams params;
     params.Threads = this->Params.Threads;
     const auto search = ClosestPointSearch<2>::Create(std::move(patches), params);
@@ -187,7 +187,7 @@ private:
       for (Eigen::Index i = 0; i < count; ++i)
       {
         const auto to = static_cast<std::size_t>(begin + i);
-        if (vertical && !(found.Distances[i] <= OnSurface * size))
+        if (vertical && !(found.Distances[i] <= above))
         {
           continue;
         }
@@ -326,6 +326,9 @@ private:
   const SurfaceDistanceParams& Params;
   std::vector<BezierForm<2>> Forms;
   std::vector<bool> AreHeights;
+  /// Box around x and y of all control points.
+  Eigen::RowVector2d Low = Eigen::RowVector2d::Constant(HUGE_VAL);
+  Eigen::RowVector2d High = Eigen::RowVector2d::Constant(-HUGE_VAL);
 };
 }
 

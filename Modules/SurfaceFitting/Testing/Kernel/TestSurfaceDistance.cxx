@@ -51,6 +51,39 @@ PointMatrix PointsAbove(Random& random, int n, std::vector<double>& offsets)
 }
 }
 
+TEST(SurfaceDistance, FarFromTheOriginOutsideIsOutside_ExactOracle)
+{
+  // turned, so no height field; coordinates as of maps in metres
+  Spline<2> surface = Saddle(SpaceKind::Tensor, 0.3);
+  const Eigen::RowVector3d shift(5e6, 4e5, 0);
+  const auto place = [&](double x, double y) -> Eigen::RowVector3d
+  {
+    return Eigen::RowVector3d(
+             std::cos(0.3) * x - std::sin(0.3) * y, std::sin(0.3) * x + std::cos(0.3) * y, 1.0) +
+      shift;
+  };
+  surface.ControlPoints.rowwise() += shift;
+  PointMatrix points(3, 3);
+  points.row(0) = place(1.0, 1e-4);
+  points.row(1) = place(1.0, -1e-4);
+  points.row(2) = place(2.0 + 1e-3, 1.0);
+  SurfaceDistanceParams params;
+  params.Kind = DistanceKind::Vertical;
+  const auto found = MeasureSurfaceDistances(points, { surface }, params);
+  ASSERT_TRUE(found) << found.Status.Message();
+  EXPECT_EQ(found->Surfaces, (std::vector<int>{ 0, -1, -1 }));
+  EXPECT_NEAR(found->Distances[0], -1.0, 1e-3);
+  // a surface so small that its points differ by little more than rounding
+  Spline<2> small = surface;
+  small.ControlPoints.rowwise() -= shift;
+  small.ControlPoints *= 1e-6;
+  small.ControlPoints.rowwise() += shift;
+  points.row(0) = (place(1.0, 1.0) - shift) * 1e-6 + shift;
+  const auto near = MeasureSurfaceDistances(points.topRows(1), { small }, params);
+  ASSERT_TRUE(near) << near.Status.Message();
+  EXPECT_EQ(near->Surfaces, std::vector<int>{ 0 });
+}
+
 TEST(SurfaceDistance, VerticalOfEveryKind_ExactOracle)
 {
   for (const SpaceKind kind : Kinds)
