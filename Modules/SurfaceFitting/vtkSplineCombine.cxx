@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSplineCombine.h"
 
-#include "BezierForm.h"
 #include "CombineSplines.h"
-#include "HeightField.h"
 #include "NamedArray.h"
 #include "PatchFields.h"
 
@@ -12,7 +10,6 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
@@ -20,7 +17,9 @@
 #include <algorithm>
 #include <set>
 
+using knotwork::CombinedSurface;
 using knotwork::ErrorCode;
+using knotwork::Result;
 using knotwork::Spline;
 using knotwork::SplinePatch;
 using knotwork::Status;
@@ -80,10 +79,52 @@ void ShareFields(SplinePatch& a, SplinePatch& b, std::set<std::string>& dropped)
   keep(b, a);
 }
 
-bool IsHeight(const SplinePatch& patch, int threads)
+/// The first patch becomes both of them combined.
+Result<CombinedSurface> CombinePatches(
+  SplinePatch& a, const SplinePatch& b, const knotwork::SurfaceCombination& combination)
 {
-  return IsHeightField(MakeBezierForm(std::get<Spline<2>>(patch.Geometry), threads));
+  auto combined = CombineSurfaces(JoinFields(std::get<Spline<2>>(a.Geometry), a.Fields),
+    JoinFields(std::get<Spline<2>>(b.Geometry), b.Fields), combination);
+  if (!combined)
+  {
+    return { combined.Status.Code,
+      "patch " + std::to_string(a.Id) + ": " + combined.Status.Detail };
+  }
+  if (combined->HasDifference)
+  {
+    const auto rows = combined->Value.ControlPoints.rows();
+    a.Fields.insert(a.Fields.begin(), { "Difference", knotwork::PointMatrix(rows, 3) });
+  }
+  SeparateFields(combined->Value, a);
+  a.Block = 0;
+  a.Cells.clear();
+  return combined;
 }
+
+/// Rows of the table of patches.
+struct PatchTable
+{
+  vtkSmartPointer<vtkIntArray> Ids = knotwork::NamedArray<vtkIntArray>("PatchId");
+  vtkSmartPointer<vtkIntArray> Functions = knotwork::NamedArray<vtkIntArray>("Functions");
+  vtkSmartPointer<vtkDoubleArray> Lower = knotwork::NamedArray<vtkDoubleArray>("MinBound");
+  vtkSmartPointer<vtkDoubleArray> Upper = knotwork::NamedArray<vtkDoubleArray>("MaxBound");
+
+  void Add(int id, const CombinedSurface& combined)
+  {
+    this->Ids->InsertNextValue(id);
+    this->Functions->InsertNextValue(combined.Value.Space->NumFunctions);
+    this->Lower->InsertNextValue(combined.Lower);
+    this->Upper->InsertNextValue(combined.Upper);
+  }
+
+  void Encode(vtkTable* table)
+  {
+    table->AddColumn(this->Ids);
+    table->AddColumn(this->Functions);
+    table->AddColumn(this->Lower);
+    table->AddColumn(this->Upper);
+  }
+};
 }
 
 vtkSplineCombine::vtkSplineCombine()
@@ -150,67 +191,34 @@ Status vtkSplineCombine::Compute(vtkInformationVector** inputs, vtkInformationVe
     return status;
   }
 
-  const bool isDifference = this->Mode == DIFFERENCE;
-  const double weightA = this->Mode == WEIGHTED ? this->FirstWeight : isDifference ? 1.0 : 0.5;
-  const double weightB = this->Mode == WEIGHTED ? this->SecondWeight : isDifference ? -1.0 : 0.5;
+  knotwork::SurfaceCombination combination;
+  combination.Mode = static_cast<knotwork::CombineMode>(this->Mode);
+  combination.Weights = { this->FirstWeight, this->SecondWeight };
+  combination.CommonDomain = this->CommonDomain;
+  combination.Threads = threads;
   const knotwork::ProgressCallback progress = this->Progress();
   std::set<std::string> dropped;
-  const auto ids = knotwork::NamedArray<vtkIntArray>("PatchId");
-  const auto functions = knotwork::NamedArray<vtkIntArray>("Functions");
-  const auto lower = knotwork::NamedArray<vtkDoubleArray>("MinBound");
-  const auto upper = knotwork::NamedArray<vtkDoubleArray>("MaxBound");
+  PatchTable table;
   for (std::size_t p = 0; p < second.size(); ++p)
   {
     if (!progress(static_cast<double>(p) / static_cast<double>(second.size())))
     {
       return { ErrorCode::Aborted, "" };
     }
-    SplinePatch& a = model.Patches[p];
-    SplinePatch& b = second[p];
-    ShareFields(a, b, dropped);
-    const bool heights = IsHeight(a, threads) && IsHeight(b, threads);
-    if (isDifference && !heights)
-    {
-      for (SplinePatch* patch : { &a, &b })
-      {
-        patch->Fields.insert(patch->Fields.begin(),
-          { "Difference", std::get<Spline<2>>(patch->Geometry).ControlPoints });
-      }
-    }
-    knotwork::CombineParams params;
-    params.NumKept = heights ? 2 : isDifference ? 3 : 0;
-    params.CommonDomain = this->CommonDomain;
-    params.Threads = threads;
-    const auto combined = CombineSplines(JoinFields(std::get<Spline<2>>(a.Geometry), a.Fields),
-      JoinFields(std::get<Spline<2>>(b.Geometry), b.Fields), weightA, weightB, params);
+    SplinePatch& patch = model.Patches[p];
+    ShareFields(patch, second[p], dropped);
+    const auto combined = CombinePatches(patch, second[p], combination);
     if (!combined)
     {
-      return { combined.Status.Code,
-        "patch " + std::to_string(a.Id) + ": " + combined.Status.Detail };
+      return combined.Status;
     }
-    SeparateFields(combined->Value, a);
-    a.Block = 0;
-    a.Cells.clear();
-    const std::size_t first = heights ? 2 : isDifference ? 3 : 0;
-    const std::size_t last = heights || !isDifference ? 3 : 6;
-    const auto begin = static_cast<std::ptrdiff_t>(first);
-    const auto end = static_cast<std::ptrdiff_t>(last);
-    ids->InsertNextValue(a.Id);
-    functions->InsertNextValue(combined->Value.Space->NumFunctions);
-    lower->InsertNextValue(
-      *std::min_element(combined->Lower.begin() + begin, combined->Lower.begin() + end));
-    upper->InsertNextValue(
-      *std::max_element(combined->Upper.begin() + begin, combined->Upper.begin() + end));
+    table.Add(patch.Id, combined.Value);
   }
   for (const std::string& name : dropped)
   {
     warnings.push_back("the point array '" + name + "' is not in both inputs and does not pass");
   }
   this->ReportWarnings(warnings);
-  vtkTable* table = vtkTable::GetData(outputs, 1);
-  table->AddColumn(ids);
-  table->AddColumn(functions);
-  table->AddColumn(lower);
-  table->AddColumn(upper);
+  table.Encode(vtkTable::GetData(outputs, 1));
   return knotwork::EncodeSplineGrid(model, vtkUnstructuredGrid::GetData(outputs, 0));
 }

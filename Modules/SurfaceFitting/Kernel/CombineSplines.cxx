@@ -3,6 +3,7 @@
 
 #include "BezierForm.h"
 #include "CommonRefinement.h"
+#include "HeightField.h"
 #include "LROperations.h"
 #include "LocallyRefinedForm.h"
 #include "Numbers.h"
@@ -185,6 +186,59 @@ Result<CombinedSpline> CombineSplines(const Spline<2>& a, const Spline<2>& b, do
   result.Value.ControlPoints.rightCols(mixed) = weightA * first.ControlPoints.rightCols(mixed) +
     weightB * second.ControlPoints.rightCols(mixed);
   BoundComponents(result, params.Threads);
+  return result;
+}
+
+namespace
+{
+/// x, y, z once more behind themselves.
+Spline<2> WithPointsTwice(const Spline<2>& surface)
+{
+  Spline<2> twice = surface;
+  const PointMatrix& points = surface.ControlPoints;
+  twice.ControlPoints.resize(points.rows(), points.cols() + 3);
+  twice.ControlPoints << points.leftCols(3), points;
+  return twice;
+}
+}
+
+Result<CombinedSurface> CombineSurfaces(
+  const Spline<2>& a, const Spline<2>& b, const SurfaceCombination& combination)
+{
+  const Status status = CheckSplines(a, b, {});
+  if (!status)
+  {
+    return status;
+  }
+  if (a.NumComponents() < 3)
+  {
+    return { ErrorCode::SizeMismatch, "the surfaces have fewer than three components" };
+  }
+  const bool isDifference = combination.Mode == CombineMode::Difference;
+  const bool heights = IsHeightField(MakeBezierForm(a, combination.Threads)) &&
+    IsHeightField(MakeBezierForm(b, combination.Threads));
+  std::array<double, 2> weights{ 0.5, 0.5 };
+  if (combination.Mode != CombineMode::Average)
+  {
+    weights = isDifference ? std::array<double, 2>{ 1.0, -1.0 } : combination.Weights;
+  }
+  CombinedSurface result;
+  result.HasDifference = isDifference && !heights;
+  CombineParams params;
+  params.NumKept = heights ? 2 : result.HasDifference ? 3 : 0;
+  params.CommonDomain = combination.CommonDomain;
+  params.Threads = combination.Threads;
+  auto combined = CombineSplines(result.HasDifference ? WithPointsTwice(a) : a,
+    result.HasDifference ? WithPointsTwice(b) : b, weights[0], weights[1], params);
+  if (!combined)
+  {
+    return combined.Status;
+  }
+  const auto begin = static_cast<std::ptrdiff_t>(params.NumKept);
+  const std::ptrdiff_t end = result.HasDifference ? 6 : 3;
+  result.Lower = *std::min_element(combined->Lower.begin() + begin, combined->Lower.begin() + end);
+  result.Upper = *std::max_element(combined->Upper.begin() + begin, combined->Upper.begin() + end);
+  result.Value = std::move(combined->Value);
   return result;
 }
 }

@@ -39,4 +39,37 @@ struct CombinedSpline
 /// @complexity that of the insertions.
 Result<CombinedSpline> CombineSplines(const Spline<2>& a, const Spline<2>& b, double weightA,
   double weightB, const CombineParams& params = {});
+
+enum class CombineMode
+{
+  Difference, ///< first - second
+  Average,
+  Weighted ///< SurfaceCombination::Weights
+};
+
+struct SurfaceCombination
+{
+  CombineMode Mode = CombineMode::Difference;
+  std::array<double, 2> Weights{ 0.5, 0.5 };
+  bool CommonDomain = false; ///< see CombineParams
+  int Threads = 0;
+};
+
+struct CombinedSurface
+{
+  Spline<2> Value;
+  /// After x, y, z the value has three components more than the surfaces: their difference.
+  bool HasDifference = false;
+  /// z of height fields, or every component of the difference or of the sum, lies between these.
+  double Lower = 0.0;
+  double Upper = 0.0;
+};
+
+/// Two surfaces in space combined: of height fields (HeightField.h) z, x and y stay; else the sum
+/// of points, or for Difference the first surface with the difference of points beside it. Further
+/// components are combined with the same weights.
+/// @param a, b  x, y, z and further components. @return as CombineSplines; SizeMismatch below three
+/// components.
+Result<CombinedSurface> CombineSurfaces(
+  const Spline<2>& a, const Spline<2>& b, const SurfaceCombination& combination);
 }

@@ -132,15 +132,11 @@ Status AverageEdge(
   }
   return {};
 }
-}
 
-Result<StitchedTiles> StitchTiles(const std::vector<Spline<2>>& tiles, const StitchParams& params)
+/// The tiles as LR splines.
+Status TakeTiles(
+  const std::vector<Spline<2>>& tiles, const StitchParams& params, StitchedTiles& result)
 {
-  if (Status status = CheckParams(tiles, params); !status)
-  {
-    return status;
-  }
-  StitchedTiles result;
   for (std::size_t t = 0; t < tiles.size(); ++t)
   {
     auto tile = MakeLocallyRefined(tiles[t], params.Threads);
@@ -151,32 +147,48 @@ Result<StitchedTiles> StitchTiles(const std::vector<Spline<2>>& tiles, const Sti
     result.NumFunctionsAdded -= tile->Space->NumFunctions;
     result.Tiles.push_back(std::move(tile.Value));
   }
-  const auto edges = FindTileEdges(result.Tiles, params);
-  if (Status status = edges ? CheckPolynomial(result.Tiles, edges.Value) : edges.Status; !status)
+  return {};
+}
+
+void MeasureBefore(
+  const std::vector<TileEdge>& edges, int measured, int threads, StitchedTiles& result)
+{
+  const auto forms = MakeForms(result.Tiles, threads);
+  for (const TileEdge& edge : edges)
   {
-    return status;
+    const EdgeJump jump = MeasureJump(forms, edge, measured);
+    StitchedEdge stitched;
+    stitched.Pair = edge.Pair;
+    stitched.Start = edge.Low;
+    stitched.End = edge.High;
+    stitched.JumpBefore = jump.Value;
+    stitched.SlopeJumpBefore = jump.Slope;
+    result.Edges.push_back(stitched);
   }
-  const int measured = params.NumMeasured > 0 ? params.NumMeasured : tiles.front().NumComponents();
+}
+
+void MeasureAfter(
+  const std::vector<TileEdge>& edges, int measured, int threads, StitchedTiles& result)
+{
+  const auto forms = MakeForms(result.Tiles, threads);
+  for (std::size_t e = 0; e < edges.size(); ++e)
   {
-    const auto forms = MakeForms(result.Tiles, params.Threads);
-    for (const TileEdge& edge : edges.Value)
-    {
-      const EdgeJump jump = MeasureJump(forms, edge, measured);
-      StitchedEdge stitched;
-      stitched.Pair = edge.Pair;
-      stitched.Start = edge.Low;
-      stitched.End = edge.High;
-      stitched.JumpBefore = jump.Value;
-      stitched.SlopeJumpBefore = jump.Slope;
-      result.Edges.push_back(stitched);
-    }
+    StitchedEdge& edge = result.Edges[e];
+    const EdgeJump jump = MeasureJump(forms, edges[e], measured);
+    edge.Jump = jump.Value;
+    edge.SlopeJump = jump.Slope;
+    result.MaxJumpBefore = std::max(result.MaxJumpBefore, edge.JumpBefore);
+    result.MaxJump = std::max(result.MaxJump, edge.Jump);
+    result.MaxSlopeJumpBefore = std::max(result.MaxSlopeJumpBefore, edge.SlopeJumpBefore);
+    result.MaxSlopeJump = std::max(result.MaxSlopeJump, edge.SlopeJump);
   }
-  const auto rows = PrepareStrips(result.Tiles, edges.Value, params);
-  if (!rows)
-  {
-    return rows.Status;
-  }
-  auto corners = FindTileCorners(result.Tiles, rows.Value, edges.Value, params);
+}
+
+/// Averages edges, then corners. @pre the functions along the edges are the same on both sides.
+Status Average(const TileRows& rows, const std::vector<TileEdge>& edges, int measured,
+  const StitchParams& params, StitchedTiles& result)
+{
+  auto corners = FindTileCorners(result.Tiles, rows, edges, params);
   if (!corners)
   {
     return corners.Status;
@@ -184,12 +196,11 @@ Result<StitchedTiles> StitchTiles(const std::vector<Spline<2>>& tiles, const Sti
   std::vector<PointMatrix> before;
   for (const Spline<2>& tile : result.Tiles)
   {
-    result.NumFunctionsAdded += tile.Space->NumFunctions;
     before.push_back(tile.ControlPoints);
   }
-  for (const TileEdge& edge : edges.Value)
+  for (const TileEdge& edge : edges)
   {
-    if (Status status = AverageEdge(result.Tiles, rows.Value, edge, params.Continuity); !status)
+    if (Status status = AverageEdge(result.Tiles, rows, edge, params.Continuity); !status)
     {
       return status;
     }
@@ -204,18 +215,42 @@ Result<StitchedTiles> StitchTiles(const std::vector<Spline<2>>& tiles, const Sti
       (result.Tiles[t].ControlPoints - before[t]).leftCols(measured).rowwise().norm().maxCoeff();
     result.MaxChange = std::max(result.MaxChange, change);
   }
-  const auto forms = MakeForms(result.Tiles, params.Threads);
-  for (std::size_t e = 0; e < edges->size(); ++e)
+  return {};
+}
+}
+
+Result<StitchedTiles> StitchTiles(const std::vector<Spline<2>>& tiles, const StitchParams& params)
+{
+  StitchedTiles result;
+  Status status = CheckParams(tiles, params);
+  status = status ? TakeTiles(tiles, params, result) : status;
+  if (!status)
   {
-    StitchedEdge& edge = result.Edges[e];
-    const EdgeJump jump = MeasureJump(forms, edges.Value[e], measured);
-    edge.Jump = jump.Value;
-    edge.SlopeJump = jump.Slope;
-    result.MaxJumpBefore = std::max(result.MaxJumpBefore, edge.JumpBefore);
-    result.MaxJump = std::max(result.MaxJump, edge.Jump);
-    result.MaxSlopeJumpBefore = std::max(result.MaxSlopeJumpBefore, edge.SlopeJumpBefore);
-    result.MaxSlopeJump = std::max(result.MaxSlopeJump, edge.SlopeJump);
+    return status;
   }
+  const auto edges = FindTileEdges(result.Tiles, params);
+  status = edges ? CheckPolynomial(result.Tiles, edges.Value) : edges.Status;
+  if (!status)
+  {
+    return status;
+  }
+  const int measured = params.NumMeasured > 0 ? params.NumMeasured : tiles.front().NumComponents();
+  MeasureBefore(edges.Value, measured, params.Threads, result);
+  const auto rows = PrepareStrips(result.Tiles, edges.Value, params);
+  if (!rows)
+  {
+    return rows.Status;
+  }
+  for (const Spline<2>& tile : result.Tiles)
+  {
+    result.NumFunctionsAdded += tile.Space->NumFunctions;
+  }
+  status = Average(rows.Value, edges.Value, measured, params, result);
+  if (!status)
+  {
+    return status;
+  }
+  MeasureAfter(edges.Value, measured, params.Threads, result);
   if (params.Progress && !params.Progress(1.0))
   {
     return { ErrorCode::Aborted, "" };

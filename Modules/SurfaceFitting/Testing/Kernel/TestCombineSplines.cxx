@@ -2,6 +2,8 @@
 #include "BezierForm.h"
 #include "BezierSpace.h"
 #include "CombineSplines.h"
+#include "FunctionGraph.h"
+#include "HeightField.h"
 #include "LRCases.h"
 #include "LROperations.h"
 #include "LocallyRefinedForm.h"
@@ -205,6 +207,68 @@ TEST(CombineSplines, EndsThatDifferByRoundingAreOne_CrossOracle)
       EXPECT_LE((ValuesAt(result->Value, at) - expected).cwiseAbs().maxCoeff(), 1e-11);
     }
   }
+}
+
+TEST(CombineSurfaces, HeightFieldsKeepTheirPlace_CrossOracle)
+{
+  Random random(6);
+  const auto heights = [&](int kind)
+  {
+    const auto space = RandomOn(random, Box, { 2, 2 }, kind).Space;
+    return GraphOfFunction(RandomSpline<2>(random, space, 1, false), 0).Value;
+  };
+  const std::array<std::array<double, 2>, 3> weights{ { { 1, -1 }, { 0.5, 0.5 }, { 0.3, 2 } } };
+  for (const int mode : { 0, 1, 2 })
+  {
+    const Spline<2> a = heights(mode);
+    const Spline<2> b = heights(2);
+    SurfaceCombination combination;
+    combination.Mode = static_cast<CombineMode>(mode);
+    combination.Weights = weights[2];
+    const auto result = CombineSurfaces(a, b, combination);
+    ASSERT_TRUE(result) << result.Status.Message();
+    EXPECT_FALSE(result->HasDifference);
+    EXPECT_TRUE(IsHeightField(MakeBezierForm(result->Value)));
+    const PointMatrix at = PointsOf(random, Box);
+    const Eigen::VectorXd z =
+      weights[mode][0] * ValuesAt(a, at).col(2) + weights[mode][1] * ValuesAt(b, at).col(2);
+    EXPECT_LE((ValuesAt(result->Value, at).col(2) - z).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_LE(result->Lower, z.minCoeff());
+    EXPECT_GE(result->Upper, z.maxCoeff());
+  }
+}
+
+TEST(CombineSurfaces, TheDifferenceOfOthersIsBesideThem_CrossOracle)
+{
+  Random random(7);
+  const auto surface = [&](int kind) {
+    return RandomSpline<2>(random, RandomOn(random, Box, { 2, 2 }, kind).Space, 4, false);
+  };
+  const Spline<2> a = surface(0);
+  const Spline<2> b = surface(2);
+  const auto result = CombineSurfaces(a, b, {});
+  ASSERT_TRUE(result) << result.Status.Message();
+  EXPECT_TRUE(result->HasDifference);
+  ASSERT_EQ(result->Value.NumComponents(), 7);
+  const PointMatrix at = PointsOf(random, Box);
+  const PointMatrix difference = ValuesAt(a, at) - ValuesAt(b, at);
+  PointMatrix expected(at.rows(), 7);
+  expected << ValuesAt(a, at).leftCols(3), difference;
+  EXPECT_LE((ValuesAt(result->Value, at) - expected).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LE(result->Lower, difference.leftCols(3).minCoeff());
+  EXPECT_GE(result->Upper, difference.leftCols(3).maxCoeff());
+  // of a sum points are what counts
+  SurfaceCombination average;
+  average.Mode = CombineMode::Average;
+  const auto mean = CombineSurfaces(a, b, average);
+  ASSERT_TRUE(mean) << mean.Status.Message();
+  EXPECT_FALSE(mean->HasDifference);
+  EXPECT_EQ(mean->Value.NumComponents(), 4);
+
+  Spline<2> flat = a;
+  flat.ControlPoints = a.ControlPoints.leftCols(2).eval();
+  EXPECT_EQ(CombineSurfaces(flat, flat, {}).Status.Code, ErrorCode::SizeMismatch);
+  EXPECT_EQ(CombineSurfaces(a, flat, {}).Status.Code, ErrorCode::SizeMismatch);
 }
 
 TEST(CombineSplines, EveryFailureIsReachable_ExactOracle)
