@@ -35,7 +35,8 @@ struct CombinedSpline
 /// SizeMismatch (components); InvalidDegree for degrees that differ unless both are tensor-product
 /// splines; InvalidTopology for domains that differ (by more than 1e-9 of a side) or have nothing
 /// in common; DimensionMismatch for Bezier elements without a domain; NotInSpace for knots closer
-/// than can be told apart (1e-12 of a side); InvalidParameter; what MakeLocallyRefined and the insertion of segments return.
+/// than can be told apart (1e-12 of a side); InvalidParameter; what MakeLocallyRefined and the
+/// insertion of segments return.
 /// @complexity that of the insertions.
 Result<CombinedSpline> CombineSplines(const Spline<2>& a, const Spline<2>& b, double weightA,
   double weightB, const CombineParams& params = {});

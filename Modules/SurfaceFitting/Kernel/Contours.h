@@ -68,14 +68,14 @@ struct ContourSet
 /// proved to stay within the tolerance, and with the number of components and their ends as the
 /// surface has them.
 ///
-/// A contour is the border of {value >= level - d}; d is 2^-46 of the values around the level or, if
-/// that is more, four times the largest difference of values on both sides of elements' sides that
-/// is no jump (up to 1e-9 of the coefficients), and at most a quarter of the tolerance. What lies on
-/// the level belongs to the upper set. So saddles on the level join what is above, plateaus on the
-/// level are surrounded, an isolated maximum on the level is a tiny loop and an isolated minimum
-/// nothing. Components keep the upper set on their left in the parameter plane. They end on the
-/// boundary of the domain and at jumps of the value (lines of full multiplicity). Components that
-/// cross a seam repeat the point there with the parameters of both sides.
+/// A contour is the border of {value >= level - d}; d is 2^-46 of the values around the level or,
+/// if that is more, four times the largest difference of values on both sides of elements' sides
+/// that is no jump (up to 1e-9 of the coefficients), and at most a quarter of the tolerance. What
+/// lies on the level belongs to the upper set. So saddles on the level join what is above, plateaus
+/// on the level are surrounded, an isolated maximum on the level is a tiny loop and an isolated
+/// minimum nothing. Components keep the upper set on their left in the parameter plane. They end on
+/// the boundary of the domain and at jumps of the value (lines of full multiplicity). Components
+/// that cross a seam repeat the point there with the parameters of both sides.
 ///
 /// Elements are divided until every cell's Bernstein coefficients show that it has no point of the
 /// contour, or that the value rises or falls along one parameter all over the cell; cells where
