@@ -306,7 +306,8 @@ Result<std::vector<ContourCurve>> FitContourCurves(
   const int component = params.Component < 0 ? form.NumComponents - 1 : params.Component;
   if (component >= form.NumComponents || params.NumSpaceComponents > form.NumComponents)
   {
-    return { ErrorCode::DimensionMismatch, "components of the surface" };
+    return { ErrorCode::DimensionMismatch,
+      "the surface has " + std::to_string(form.NumComponents) + " components; choose fewer" };
   }
   const CurveFitter fitter(form, contours, params);
   std::vector<ContourCurve> curves(contours.Components.size());

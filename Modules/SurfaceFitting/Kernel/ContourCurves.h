@@ -21,7 +21,8 @@ struct ContourCurve
 /// at the contour's own points, at last straight. Tangents are continuous where the value is C^1
 /// and no piece is straight. With ChordTolerance > 0 the distance in space obeys it likewise
 /// wherever a halving is left.
-/// @param params  those of TraceContours. @return what TraceContours returns for bad options.
+/// @param params  those of TraceContours. @return DimensionMismatch for components that the surface
+/// has not. @complexity O(points of the contours (p + 1)^3), each at most a few times.
 Result<std::vector<ContourCurve>> FitContourCurves(
   const BezierForm<2>& form, const ContourSet& contours, const ContourParams& params);
 }

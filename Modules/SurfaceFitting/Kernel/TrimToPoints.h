@@ -37,6 +37,7 @@ struct TrimmedToPoints
 /// knots.
 /// @param parameters  n x 2. @return failures of FindCloudOutline, ExpandToTensor, FitLoops and
 /// CertifyFace; InvalidWeight; SizeMismatch; OutsideDomain naming the point; InvalidParameter.
+/// @complexity that of the outline, of the expansion, and of fits and proofs a boundary cell.
 Result<TrimmedToPoints> TrimToPoints(const Spline<2>& surface, const PointMatrixView& parameters,
   const TrimToPointsParams& params = {});
 }
