@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Functions whose critical points are known, as splines.
 #pragma once
+#include "CriticalPoints.h"
 #include "LRCases.h"
 
 #include <gtest/gtest.h>
+
+#include <sstream>
 
 namespace knotwork::testing
 {
@@ -79,5 +82,46 @@ inline Spline<2> PolynomialOn(
   }
   const KnotVector knots = BreakKnots(degree, breaks);
   return PolynomialSpline({ knots, knots }, terms);
+}
+
+inline CriticalPoints Find(const Spline<2>& f, const CriticalPointParams& params = {})
+{
+  Result<CriticalPoints> found = FindCriticalPoints(f, params);
+  EXPECT_TRUE(found) << found.Status.Message();
+  return found.Value;
+}
+
+inline std::string Summary(const CriticalPoints& found)
+{
+  std::ostringstream text;
+  text << found.NumMinima << " minima, " << found.NumMaxima << " maxima, " << found.NumSaddles
+       << " saddles, " << found.Clusters.size() << " clusters of " << found.Boxes.size()
+       << " boxes, index " << found.IndexSum << ", characteristic " << found.EulerCharacteristic
+       << ", " << found.NumTested << " tested";
+  return text.str();
+}
+
+/// The point of a kind next to parameters, or none.
+inline const CriticalPoint* At(const CriticalPoints& found, double u, double v, double tolerance)
+{
+  for (const CriticalPoint& point : found.Points)
+  {
+    if (std::abs(point.Parameters[0] - u) <= tolerance &&
+      std::abs(point.Parameters[1] - v) <= tolerance)
+    {
+      return &point;
+    }
+  }
+  return nullptr;
+}
+
+inline void ExpectPoint(const CriticalPoints& found, double u, double v, CriticalKind kind,
+  CriticalPlace place, int index, double tolerance = 1e-12)
+{
+  const CriticalPoint* point = At(found, u, v, tolerance);
+  ASSERT_NE(point, nullptr) << "(" << u << ", " << v << ")";
+  EXPECT_EQ(point->Kind, kind) << "(" << u << ", " << v << ")";
+  EXPECT_EQ(point->Place, place) << "(" << u << ", " << v << ")";
+  EXPECT_EQ(point->Index, index) << "(" << u << ", " << v << ")";
 }
 }

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CloudFits.h"
+
+namespace knotwork
+{
+TEST(SurfaceFit, EveryPointHasItsTolerance_PropertyOracle)
+{
+  const PointCloud cloud = clouds::HeightField(20000, 6, clouds::Peaks);
+  FitParams params = WithTolerance(0.02);
+  const int loose = Fit(cloud, params).Surface.Space->NumFunctions;
+
+  params.ToleranceBoxes = { { { { 0.5, 0.5 }, { 0.7, 0.7 } }, 0.002 },
+    { { { 0.55, 0.55 }, { 0.6, 0.6 } }, 0.001 } };
+  const SurfaceFit boxes = Fit(cloud, params);
+  ExpectWithin(cloud, boxes);
+  EXPECT_GT(boxes.Surface.Space->NumFunctions, loose);
+  for (Eigen::Index i = 0; i < cloud.Parameters.rows(); ++i)
+  {
+    const double x = cloud.Parameters(i, 0);
+    const double y = cloud.Parameters(i, 1);
+    const bool outer = x >= 0.5 && x <= 0.7 && y >= 0.5 && y <= 0.7;
+    const bool inner = x >= 0.55 && x <= 0.6 && y >= 0.55 && y <= 0.6;
+    ASSERT_EQ(
+      boxes.Tolerances[static_cast<std::size_t>(i)], inner ? 0.001 : (outer ? 0.002 : 0.02));
+  }
+
+  params.ToleranceBoxes.clear();
+  params.Tolerance = 0.001;
+  params.Distance = FitDistance::Point;
+  params.DistanceSlope = 0.05;
+  params.DistanceCentre = { 0.3, 0.8 };
+  const SurfaceFit distance = Fit(cloud, params);
+  ExpectWithin(cloud, distance);
+  EXPECT_NEAR(distance.Tolerances[7],
+    0.001 + 0.05 * std::hypot(cloud.Parameters(7, 0) - 0.3, cloud.Parameters(7, 1) - 0.8), 1e-15);
+
+  params.Distance = FitDistance::Value;
+  const SurfaceFit value = Fit(cloud, params);
+  ExpectWithin(cloud, value);
+  EXPECT_NEAR(value.Tolerances[7], 0.001 + 0.05 * std::fabs(cloud.Values(7, 0)), 1e-15);
+
+  PointCloud own = cloud;
+  own.Tolerances.setConstant(cloud.Values.rows(), 0.05);
+  own.Tolerances[12] = 0.0005;
+  const SurfaceFit points = Fit(own, WithTolerance(1.0));
+  ExpectWithin(own, points);
+  EXPECT_EQ(points.Tolerances[12], 0.0005);
+  EXPECT_EQ(points.Tolerances[13], 0.05);
+}
+
+TEST(SurfaceFit, OneSidedSurfacesStayOnTheirSide_PropertyOracle)
+{
+  const PointCloud cloud = clouds::HeightField(20000, 8, clouds::Peaks);
+  for (const FitSide side : { FitSide::Above, FitSide::Below })
+  {
+    const double sign = side == FitSide::Above ? 1.0 : -1.0;
+    FitParams params = WithTolerance(0.005);
+    params.Side = side;
+    const SurfaceFit fit = Fit(cloud, params);
+    ExpectWithin(cloud, fit);
+    for (const double d : Measure(cloud, fit.Surface, 1))
+    {
+      ASSERT_LE(sign * d, 1e-14);
+    }
+    params.MaxIterations = 1; // far from the tolerance
+    const SurfaceFit coarse = Fit(cloud, params);
+    EXPECT_FALSE(coarse.WithinTolerance);
+    for (const double d : Measure(cloud, coarse.Surface, 1))
+    {
+      ASSERT_LE(sign * d, -1e-15); // other evaluators round differently
+    }
+  }
+}
+
+TEST(SurfaceFit, OneSidedSurfacesWithTolerancesAtRandom_PropertyOracle)
+{
+  PointCloud cloud = clouds::HeightField(4000, 62, Wave);
+  clouds::Random random(63);
+  cloud.Tolerances.resize(cloud.Values.rows());
+  for (double& tolerance : cloud.Tolerances)
+  {
+    tolerance = std::pow(10.0, -1.0 - 3.0 * random.Uniform()); // 1e-4 to 0.1
+  }
+  for (const FitSide side : { FitSide::Above, FitSide::Below })
+  {
+    FitParams params;
+    params.Side = side;
+    const SurfaceFit fit = Fit(cloud, params);
+    ExpectWithin(cloud, fit);
+    EXPECT_LT(fit.Final.NumFunctions, 4000);
+    for (const double d : Measure(cloud, fit.Surface, 1))
+    {
+      ASSERT_LE(side == FitSide::Above ? d : -d, 0.0);
+    }
+  }
+}
+
+TEST(SurfaceFit, SignificantPointsAreMetBetter_PropertyOracle)
+{
+  PointCloud cloud = clouds::HeightField(5000, 9, Wave);
+  clouds::Random noise(10);
+  for (Eigen::Index i = 0; i < cloud.Values.rows(); ++i)
+  {
+    cloud.Values(i, 0) += 0.01 * noise.Normal();
+  }
+  FitParams params = WithTolerance(1e-6);
+  params.MaxIterations = 0;
+  params.SignificantWeight = 100.0;
+  const auto sum = [&](const SurfaceFit& fit)
+  {
+    double squares = 0.0;
+    for (std::size_t i = 0; i < 50; ++i)
+    {
+      squares += fit.Distances[i] * fit.Distances[i];
+    }
+    return squares;
+  };
+  const double before = sum(Fit(cloud, params));
+  cloud.Significant.assign(5000, 0);
+  std::fill_n(cloud.Significant.begin(), 50, std::uint8_t{ 1 });
+  EXPECT_LT(sum(Fit(cloud, params)), 0.8 * before);
+}
+
+TEST(SurfaceFit, PointsApartAreAllMet_CrossOracle)
+{
+  // heights at random: functions of degree 2 cannot do with as many as there are points
+  for (const int n : { 2, 6, 10, 500 })
+  {
+    PointCloud cloud = clouds::HeightField(n, 60, Wave);
+    clouds::Random heights(61);
+    for (Eigen::Index i = 0; i < n; ++i)
+    {
+      cloud.Values(i, 0) = heights.Normal();
+    }
+    for (const FitSpace space : { FitSpace::LocallyRefined, FitSpace::Hierarchical })
+    {
+      SCOPED_TRACE(n);
+      FitParams params = WithTolerance(0.001);
+      params.Space = space;
+      const SurfaceFit fit = Fit(cloud, params);
+      ExpectWithin(cloud, fit);
+      EXPECT_EQ(fit.End, FitEnd::Tolerance);
+    }
+  }
+}
+
+TEST(SurfaceFit, TolerancesFarApartAreMet_CrossOracle)
+{
+  // with a constant threshold, 30 iterations leave the cliff to the loose points for good
+  const PointCloud all = clouds::TerrainCloud();
+  PointCloud cloud;
+  cloud.Parameters = all.Parameters.topRows(10000);
+  cloud.Values = all.Values.topRows(10000);
+  cloud.Tolerances.setConstant(10000, 0.1);
+  for (Eigen::Index i = 0; i < 10000; i += 100)
+  {
+    cloud.Tolerances[i] = 1e-6;
+  }
+  const SurfaceFit fit = Fit(cloud, {});
+  ExpectWithin(cloud, fit);
+}
+
+TEST(SurfaceFit, PointsThatContradictEachOtherAreLeft_CrossOracle)
+{
+  // ten pairs in the same place, 0.1 apart: no surface is nearer than 0.05 to both of a pair
+  const PointCloud all = clouds::HeightField(20000, 38, Wave);
+  PointCloud cloud = all;
+  for (Eigen::Index i = 0; i < 10; ++i)
+  {
+    cloud.Parameters.row(i) = cloud.Parameters.row(10000 + i);
+    cloud.Values(i, 0) = cloud.Values(10000 + i, 0) + 0.1;
+  }
+  const SurfaceFit fit = Fit(cloud, WithTolerance(0.001));
+  EXPECT_FALSE(fit.WithinTolerance);
+  EXPECT_EQ(fit.End, FitEnd::Resolution);
+  EXPECT_LT(fit.Iterations.size(), 20U);
+  for (std::size_t i = 0; i < fit.Distances.size(); ++i)
+  {
+    if (i % 10000 >= 10)
+    {
+      ASSERT_LE(std::fabs(fit.Distances[i]), fit.Tolerances[i]) << "point " << i;
+    }
+  }
+  EXPECT_GE(fit.Final.NumOutside, 10U);
+  EXPECT_LE(fit.Final.NumOutside, 20U);
+}
+}
