@@ -147,15 +147,21 @@ void LRRefinement::State::Add(
   this->GrowTable();
 }
 
-void LRRefinement::State::Split(int f, int d, int knot, unsigned char pending)
+void LRRefinement::State::AddParts(const int* local, double gamma, const double* row, int d,
+  int knot, int times, unsigned char pending)
 {
   const int n = this->Order[At(d)];
-  const int* old = this->Knots(f, d);
+  const int offset = d == 0 ? 0 : this->Order[0];
+  const int* old = local + offset;
   const double z = this->Value(d, knot);
   const auto t = [&](int i) { return this->Value(d, old[i]); };
+  if (times == 0 || z <= t(0) || z >= t(n - 1))
+  {
+    this->Add(local, gamma, row, pending);
+    return;
+  }
   const double lower = z >= t(n - 2) ? 1.0 : (z - t(0)) / (t(n - 2) - t(0));
   const double upper = z <= t(1) ? 1.0 : (t(n - 1) - z) / (t(n - 1) - t(1));
-
   int merged[MaxDegree + 3];
   int count = 0;
   for (; count < n && t(count) <= z; ++count)
@@ -164,8 +170,19 @@ void LRRefinement::State::Split(int f, int d, int knot, unsigned char pending)
   }
   merged[count] = knot;
   std::copy(old + count, old + n, merged + count + 1);
+  int part[2 * MaxDegree + 4];
+  std::copy_n(local, this->Stride, part);
+  std::copy_n(merged, n, part + offset);
+  this->AddParts(part, lower * gamma, row, d, knot, times - 1, pending);
+  std::copy_n(merged + 1, n, part + offset);
+  this->AddParts(part, upper * gamma, row, d, knot, times - 1, pending);
+}
 
-  int parts[2][2 * MaxDegree + 4];
+void LRRefinement::State::Split(const Traverse& traverse, int d, unsigned char pending)
+{
+  const int f = traverse.Function;
+  int local[2 * MaxDegree + 4];
+  std::copy_n(this->Knots(f, 0), this->Stride, local);
   double row[64];
   std::vector<double> longRow;
   double* kept = row;
@@ -175,21 +192,15 @@ void LRRefinement::State::Split(int f, int d, int knot, unsigned char pending)
     kept = longRow.data();
   }
   std::copy_n(this->Rows.data() + std::ptrdiff_t{ f } * this->Columns, this->Columns, kept);
-  for (int part = 0; part < 2; ++part)
-  {
-    std::copy_n(this->Knots(f, 0), this->Stride, parts[part]);
-    std::copy_n(merged + part, n, parts[part] + (d == 0 ? 0 : this->Order[0]));
-  }
   const double gamma = this->Scaling[At(f)];
   this->Unlink(f);
   this->Pending[At(f)] = 0;
   this->Free.push_back(f);
   --this->Count;
-  this->Add(parts[0], lower * gamma, kept, pending);
-  this->Add(parts[1], upper * gamma, kept, pending);
+  this->AddParts(local, gamma, kept, d, traverse.Line, traverse.Times, pending);
 }
 
-int LRRefinement::State::Traversing(int f, int d) const
+LRRefinement::State::Traverse LRRefinement::State::Traversing(int f, int d) const
 {
   const int n = this->Order[At(d)];
   const int* local = this->Knots(f, d);
@@ -205,12 +216,16 @@ int LRRefinement::State::Traversing(int f, int d) const
       continue;
     }
     const int has = CountKnot(local, n, line.Line);
-    if (has<line.Most&& this->Multiplicity(d, this->Lines[At(d)][At(line.Line)], low, high)> has)
+    if (has < line.Most)
     {
-      return line.Line;
+      const int missing = this->Multiplicity(d, this->Lines[At(d)][At(line.Line)], low, high) - has;
+      if (missing > 0)
+      {
+        return { f, line.Line, missing };
+      }
     }
   }
-  return -1;
+  return { f, -1, 0 };
 }
 
 void LRRefinement::State::RestoreMinimalSupport()
@@ -225,11 +240,11 @@ void LRRefinement::State::RestoreMinimalSupport()
       {
         continue;
       }
-      const int line = this->Traversing(f, d);
-      if (line >= 0)
+      const Traverse found = this->Traversing(f, d);
+      if (found.Line >= 0)
       {
         // the parts are narrower: more lines of the other direction may traverse them
-        this->Split(f, d, line, static_cast<unsigned char>(pending | (2 >> d)));
+        this->Split(found, d, static_cast<unsigned char>(pending | (2 >> d)));
         break;
       }
       this->Pending[At(f)] &= static_cast<unsigned char>(~(1 << d));

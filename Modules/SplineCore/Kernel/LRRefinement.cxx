@@ -119,7 +119,7 @@ Status LRRefinement::State::CheckEnds(
 }
 
 /// Functions whose support the line now traverses more often than they know.
-std::vector<int> LRRefinement::State::FindTraversed(
+std::vector<LRRefinement::State::Traverse> LRRefinement::State::FindTraversed(
   const Request& request, const LRLine& after) const
 {
   const int d = request.Direction;
@@ -142,7 +142,7 @@ std::vector<int> LRRefinement::State::FindTraversed(
   const std::vector<LineSummary>& across = this->Sorted[At(e)];
   auto line = std::lower_bound(across.begin(), across.end(), low,
     [&](const LineSummary& summary, double v) { return this->Value(e, summary.Line) < v; });
-  std::vector<int> found;
+  std::vector<Traverse> found;
   for (; line != across.end() && this->Value(e, line->Line) < end; ++line)
   {
     const double from = this->Value(e, line->Line);
@@ -153,9 +153,10 @@ std::vector<int> LRRefinement::State::FindTraversed(
         const int has = request.Line < 0
           ? 0
           : CountKnot(this->Knots(stretch.Function, d), this->Order[At(d)], request.Line);
-        if (this->Multiplicity(d, after, from, stretch.End) > has)
+        const int missing = this->Multiplicity(d, after, from, stretch.End) - has;
+        if (missing > 0)
         {
-          found.push_back(stretch.Function);
+          found.push_back({ stretch.Function, request.Line, missing });
         }
       }
     }
@@ -182,7 +183,7 @@ Status LRRefinement::Insert(const LRSegment& segment)
   {
     return { status.Code, Describe(segment) + ": " + status.Detail };
   }
-  const std::vector<int> traversed = s.FindTraversed(request, after);
+  std::vector<State::Traverse> traversed = s.FindTraversed(request, after);
   if (traversed.empty())
   {
     return { ErrorCode::InvalidTopology,
@@ -194,10 +195,10 @@ Status LRRefinement::Insert(const LRSegment& segment)
   }
   s.Lines[At(d)][At(request.Line)] = after;
   s.Sorted[At(d)][At(s.Ranks[At(d)][At(request.Line)])] = s.Summary(d, request.Line);
-  const int own = request.Multiplicity > 1 ? 1 << d : 0;
-  for (const int f : traversed)
+  for (State::Traverse& traverse : traversed)
   {
-    s.Split(f, d, request.Line, static_cast<unsigned char>(own | (2 >> d)));
+    traverse.Line = request.Line; // it may be new
+    s.Split(traverse, d, static_cast<unsigned char>(2 >> d));
   }
   s.RestoreMinimalSupport();
   return {};

@@ -105,8 +105,21 @@ struct LRRefinement::State
   /// Adds gamma * row to the function with these local knots, which is made when there is none.
   void Add(const int* local, double gamma, const double* row, unsigned char pending);
 
-  /// Replaces a function by its two parts at a knot inside its support.
-  void Split(int f, int d, int knot, unsigned char pending);
+  /// A line that traverses the support of a function, and how often it is missing among its knots.
+  struct Traverse
+  {
+    int Function;
+    int Line;
+    int Times;
+  };
+
+  /// Replaces a function by its parts at a line of direction d inside its support.
+  void Split(const Traverse& traverse, int d, unsigned char pending);
+
+  /// Adds gamma * row to the parts of a function at a knot that comes in some times; a knot that is
+  /// not inside the support is not missing.
+  void AddParts(const int* local, double gamma, const double* row, int d, int knot, int times,
+    unsigned char pending);
 
   static int CountKnot(const int* local, int n, int knot)
   {
@@ -114,8 +127,8 @@ struct LRRefinement::State
   }
 
   /// A line of direction d that traverses the support of a function and is not among its knots
-  /// often enough; -1 when there is none.
-  int Traversing(int f, int d) const;
+  /// often enough; of line -1 when there is none.
+  Traverse Traversing(int f, int d) const;
 
   /// Splits what is in the queue until nothing is traversed.
   void RestoreMinimalSupport();
@@ -134,6 +147,6 @@ struct LRRefinement::State
   };
   Status Resolve(const LRSegment& segment, Request& request) const;
   Status CheckEnds(const Request& request, const LRLine& before, const LRLine& after) const;
-  std::vector<int> FindTraversed(const Request& request, const LRLine& after) const;
+  std::vector<Traverse> FindTraversed(const Request& request, const LRLine& after) const;
 };
 }
