@@ -2,6 +2,7 @@
 #pragma once
 #include "KnotVector.h"
 #include "Types.h"
+#include "UntouchedVector.h"
 
 #include <cstdint>
 #include <memory>
@@ -80,9 +81,9 @@ public:
 
   /// T in compressed rows; all empty when T is the identity (local function j is function j).
   int NumLocalFunctions = 0;
-  std::vector<std::size_t> RowStart; ///< NumLocalFunctions + 1
-  std::vector<int> RowFunction;      ///< ascending within a row
-  std::vector<double> RowCoefficient;
+  UntouchedVector<std::size_t> RowStart; ///< NumLocalFunctions + 1
+  UntouchedVector<int> RowFunction;      ///< ascending within a row
+  UntouchedVector<double> RowCoefficient;
 
   /// Level-0 knot vectors (Tensor and Hierarchical); those of the smallest tensor-product space
   /// that contains the space (LocallyRefined).
