@@ -215,8 +215,10 @@ void AddFitOptions(Options& options, vtkSplineSurfaceFit* filter)
   KNOTWORK_FREE_OPTION(options, filter, FindOutliers, "whether outliers are looked for");
   KNOTWORK_OPTION(options, filter, OutlierScale, "robust standard deviations that make an outlier");
   KNOTWORK_OPTION(options, filter, MaximumIterations, "refinements at most");
-  KNOTWORK_OPTION(options, filter, MaximumFunctions, "functions at most; 0: ten a point up to a million, then one a point");
-  KNOTWORK_OPTION(options, filter, MaximumSeconds, "no iteration begins, or would end, later; 0: no limit");
+  KNOTWORK_OPTION(options, filter, MaximumFunctions,
+    "functions at most; 0: ten a point up to a million, then one a point");
+  KNOTWORK_OPTION(
+    options, filter, MaximumSeconds, "no iteration begins, or would end, later; 0: no limit");
   choice("Criterion", { "tolerance", "aic", "bic" }, filter->GetCriterion(), &Fit::SetCriterion,
     "what ends the fit besides tolerance and limits");
   choice("Threshold", { "all", "largest-errors", "most-points" }, filter->GetThreshold(),

@@ -41,9 +41,9 @@ struct DecodedCloud
 };
 
 /// The points of a data set with parameters and values.
-/// @return EmptyInput; SizeMismatch and InvalidParameter for arrays; failures of PlaneParameters and
-/// FlattenMesh; NotInSpace for triangles that flip in the plane. Numbers that are not finite or too
-/// large are FitSurface's to refuse.
+/// @return EmptyInput; SizeMismatch and InvalidParameter for arrays; failures of PlaneParameters
+/// and FlattenMesh; NotInSpace for triangles that flip in the plane. Numbers that are not finite or
+/// too large are FitSurface's to refuse.
 Result<DecodedCloud> DecodeCloud(vtkPointSet* data, const CloudChoice& choice);
 
 /// The surface (x, y, z) with the arrays fitted along as fields on the same space.

@@ -6,8 +6,8 @@
 
 namespace knotwork
 {
-/// Disjoint sets of the numbers 0 to Size() - 1; the representative is the smallest member, whatever
-/// the order of the unions. Not for several threads at once: Find shortens paths.
+/// Disjoint sets of the numbers 0 to Size() - 1; the representative is the smallest member,
+/// whatever the order of the unions. Not for several threads at once: Find shortens paths.
 /// @complexity O(log n) a call, amortized.
 /// @source  Tarjan, van Leeuwen, J. ACM 31 (1984) 245-281 (path halving).
 class DisjointSets
