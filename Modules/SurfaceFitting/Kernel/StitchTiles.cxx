@@ -230,6 +230,7 @@ Result<StitchedTiles> StitchTiles(const std::vector<Spline<2>>& tiles, const Sti
   }
   const auto edges = FindTileEdges(result.Tiles, params);
   status = edges ? CheckPolynomial(result.Tiles, edges.Value) : edges.Status;
+  status = status ? CheckTileDegrees(result.Tiles, edges.Value, params) : status;
   if (!status)
   {
     return status;

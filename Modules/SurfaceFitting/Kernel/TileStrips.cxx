@@ -289,8 +289,9 @@ std::vector<LRSegment> MissingLines(
   }
   return segments;
 }
+}
 
-Status CheckDegrees(const std::vector<Spline<2>>& tiles, const std::vector<TileEdge>& edges,
+Status CheckTileDegrees(const std::vector<Spline<2>>& tiles, const std::vector<TileEdge>& edges,
   const StitchParams& params)
 {
   for (const TileEdge& edge : edges)
@@ -318,15 +319,10 @@ Status CheckDegrees(const std::vector<Spline<2>>& tiles, const std::vector<TileE
   }
   return {};
 }
-}
 
 Result<TileRows> PrepareStrips(
   std::vector<Spline<2>>& tiles, const std::vector<TileEdge>& edges, const StitchParams& params)
 {
-  if (Status status = CheckDegrees(tiles, edges, params); !status)
-  {
-    return status;
-  }
   const int numRows = params.Continuity + 1;
   std::vector<TileDemands> demands;
   bool changed = true;

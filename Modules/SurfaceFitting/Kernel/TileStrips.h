@@ -17,9 +17,14 @@ struct SideRows
 /// Rows[tile][side]; no functions where no edge is.
 using TileRows = std::vector<std::array<SideRows, 4>>;
 
+/// @return InvalidDegree naming the tiles: other degrees on the two sides of an edge, or for C1 a
+/// degree of 1. @pre the tiles are locally refined.
+Status CheckTileDegrees(const std::vector<Spline<2>>& tiles, const std::vector<TileEdge>& edges,
+  const StitchParams& params);
+
 /// Inserts knot lines until the functions along all edges are B-spline bases that have the same
 /// knots on both sides of an edge. The maps do not change.
-/// @return InvalidDegree, Aborted; what InsertSegments returns.
+/// @pre CheckTileDegrees is Ok. @return Aborted; what InsertSegments returns.
 Result<TileRows> PrepareStrips(
   std::vector<Spline<2>>& tiles, const std::vector<TileEdge>& edges, const StitchParams& params);
 }
