@@ -382,15 +382,12 @@ Status MapLoop<Dim>::Iterate(int iteration)
   {
     return this->Begin(true);
   }
-  if (!this->Params.Guard)
+  Result<double> share = NegativeJacobianShare(this->Form, GridPoints<Dim>, this->Params.Threads);
+  if (!share)
   {
-    Result<double> share = NegativeJacobianShare(this->Form, GridPoints<Dim>, this->Params.Threads);
-    if (!share)
-    {
-      return share.Status;
-    }
-    record.NegativeShare = share.Value;
+    return share.Status;
   }
+  record.NegativeShare = share.Value;
   const bool isTooIrregular = record.NegativeShare > this->Params.MaxIrregularShare;
   if (isTooIrregular && !this->Out.History.empty())
   {

@@ -320,6 +320,30 @@ TEST(JacobianValidator, AreaAndQualityThatVtkGetsWrong_ExactOracle)
   EXPECT_NEAR(AllCells(filter, "ScaledJacobianMean").ToDouble(), 1.0, 1e-12);
 }
 
+TEST(JacobianValidator, MeasuresAndSamplesAreChosen_ExactOracle)
+{
+  // a moved middle changes nothing at the corners of a square, and skews what lies between
+  vtkNew<vtkJacobianValidator> filter;
+  filter->SetInputData(BiquadraticSquare(0.6, 0.55));
+  filter->SetSamplesPerEdge(2);
+  filter->Update();
+  EXPECT_NEAR(CellValue(filter, "ScaledJacobianMin"), 1.0, 1e-14);
+  double before = 1.0;
+  for (const int samples : { 3, 5, 9 }) // each holds the samples of the one before
+  {
+    filter->SetSamplesPerEdge(samples);
+    filter->Update();
+    EXPECT_LE(CellValue(filter, "ScaledJacobianMin"), before);
+    EXPECT_LT(CellValue(filter, "ScaledJacobianMin"), 0.999);
+    before = CellValue(filter, "ScaledJacobianMin");
+  }
+  filter->MeasuresOff();
+  filter->Update();
+  EXPECT_EQ(Grid(filter)->GetCellData()->GetArray("ScaledJacobianMin"), nullptr);
+  EXPECT_EQ(Grid(filter)->GetCellData()->GetArray("CellMeasure"), nullptr);
+  EXPECT_EQ(filter->GetVerdict(), 1);
+}
+
 TEST(JacobianValidator, CollectionsKeepTheirStructure_PropertyOracle)
 {
   vtkNew<vtkPartitionedDataSetCollection> collection;

@@ -116,6 +116,29 @@ def test_cylinder_unrolls():
             assert abs(area - (2, -0.16)[loop]) < 2e-3, area
 
 
+def test_every_property_of_the_methods_changes_what_it_is_about():
+    kind = knotwork.vtkMeshParameterization
+    # a sheet that cannot be laid into the plane without stretch
+    flat, triangles = plate(20)
+    mesh = polydata(np.c_[flat, 0.3 * np.cos(3 * flat[:, 0]) * np.sin(2 * flat[:, 1])], triangles)
+
+    def said(**options):
+        result = flatten(mesh, **options)
+        assert result.GetErrorCode() == 0
+        table = result.GetOutputDataObject(2)
+        numbers = [table.GetValueByName(0, name).ToString() for name in ("MeanStretch", "DistanceError")]
+        return vtk_to_numpy(result.GetOutputDataObject(0).GetPointData().GetArray("UV")).tobytes(), numbers
+
+    for method, name, values in (
+            (kind.HLLE, "Neighbours", (10, 16)), (kind.HLLE, "MinimumParticipation", (0.02, 0.9)),
+            (kind.LAPLACIAN, "LaplacianWeights", (kind.COTANGENT, kind.GRAPH)),
+            (kind.ISOMAP, "Landmarks", (50, 20)), (kind.ISOMAP, "Geodesics", (kind.UNFOLDING, kind.EDGE_GRAPH)),
+            (kind.ARAP, "MaximumIterations", (100, 1))):
+        one, other = (said(Method=method, **{name: value}) for value in values)
+        assert one == said(Method=method), name  # the default
+        assert one[0] != other[0], name
+
+
 def test_flat_output_lies_in_the_plane():
     result = flatten(rolled(), FlatOutput=True)
     for port in range(2):

@@ -262,10 +262,24 @@ TEST(ControlNet, LinesOfAGrid_GoldenOracle)
     MakeTensorSpace<2>({ KnotVector::Uniform(2, 2), KnotVector::Uniform(3, 2) }).Value; // 4 x 5
   const auto edges = ControlNetEdges(*space);
   EXPECT_EQ(edges.size(), 3u * 5 + 4 * 4);
+  std::set<std::array<int, 3>> expected; // function i + 4 j to its right and its upper neighbour
+  for (int f = 0; f < 20; ++f)
+  {
+    if (f % 4 < 3)
+    {
+      expected.insert({ f, f + 1, 0 });
+    }
+    if (f / 4 < 4)
+    {
+      expected.insert({ f, f + 4, 1 });
+    }
+  }
+  std::set<std::array<int, 3>> found;
   for (const NetEdge& edge : edges)
   {
-    EXPECT_EQ(edge.End - edge.Begin, edge.Direction == 0 ? 1 : 4);
+    found.insert({ static_cast<int>(edge.Begin), static_cast<int>(edge.End), edge.Direction });
   }
+  EXPECT_EQ(found, expected);
 }
 
 TEST(ControlNet, BezierLinesAreFoundOnce_GoldenOracle)

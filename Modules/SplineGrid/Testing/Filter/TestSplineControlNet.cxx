@@ -65,6 +65,21 @@ TEST(vtkSplineControlNet, LinesOfAGrid_GoldenOracle)
   const auto net = NetOf(ShapeGrid(vtkSplineSource::SQUARE, 2, { 2, 3, 1 })); // 4 x 5 points
   EXPECT_EQ(net->GetNumberOfVerts(), 20);
   EXPECT_EQ(net->GetNumberOfLines(), 3 * 5 + 4 * 4);
+  // point i + 4 j is joined to its right and its upper neighbour
+  std::set<std::array<vtkIdType, 3>> expected; // first, last, direction
+  for (vtkIdType p = 0; p < 20; ++p)
+  {
+    if (p % 4 < 3)
+    {
+      expected.insert({ p, p + 1, 0 });
+    }
+    if (p / 4 < 4)
+    {
+      expected.insert({ p, p + 4, 1 });
+    }
+  }
+  std::set<std::array<vtkIdType, 3>> found;
+  std::set<vtkIdType> vertices;
   std::array<int, 3> count{};
   for (vtkIdType cell = 0; cell < net->GetNumberOfCells(); ++cell)
   {
@@ -76,10 +91,16 @@ TEST(vtkSplineControlNet, LinesOfAGrid_GoldenOracle)
     net->GetCellPoints(cell, n, ids);
     if (direction >= 0)
     {
-      EXPECT_EQ(ids[1] - ids[0], direction == 0 ? 1 : 4);
+      found.insert({ ids[0], ids[1], direction });
+    }
+    else
+    {
+      vertices.insert(ids[0]);
     }
   }
   EXPECT_EQ(count, (std::array<int, 3>{ 20, 15, 16 }));
+  EXPECT_EQ(found, expected);
+  EXPECT_EQ(vertices.size(), 20u);
 }
 
 TEST(vtkSplineControlNet, EveryLevelHasItsOwnNet_PropertyOracle)

@@ -96,6 +96,14 @@ TEST(vtkSplineExtract, PartsCurvesAndParametrizations_PropertyOracle)
     // control points of size 1, knots inserted in both directions
     EXPECT_LE(Distance(ValuesAt<2>(part, { 0.35, 0.8 }), ValuesAt<2>(patch, { 1.4, 0.35 })), 1e-13);
 
+    filter->ReverseSecondOff();
+    filter->ReverseFirstOn(); // the second one of the input
+    const SplinePatch other = Extracted(filter);
+    EXPECT_LE(
+      Distance(ValuesAt<2>(other, { 0.35, 0.8 }), ValuesAt<2>(patch, { 0.8, 0.45 })), 1e-13);
+    filter->ReverseFirstOff();
+    filter->ReverseSecondOn();
+
     filter->ExpandToTensorOn();
     const SplinePatch tensor = Extracted(filter);
     EXPECT_EQ(std::get<Spline<2>>(tensor.Geometry).Space->Kind, SpaceKind::Tensor);

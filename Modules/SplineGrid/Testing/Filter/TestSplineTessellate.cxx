@@ -10,9 +10,13 @@
 #include "vtkDoubleArray.h"
 #include "vtkFeatureEdges.h"
 #include "vtkFieldData.h"
+#include "vtkMassProperties.h"
+#include "vtkMath.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
+#include "vtkTetra.h"
+#include "vtkTriangleFilter.h"
 
 #include <cmath>
 #include <set>
@@ -42,6 +46,23 @@ vtkIdType OpenEdges(vtkPolyData* data)
   edges->ManifoldEdgesOff();
   edges->Update();
   return edges->GetOutput()->GetNumberOfCells();
+}
+
+/// Signed volume of a hexahedron with plane faces, as six tetrahedra around a diagonal.
+double PrismVolume(vtkPoints* corners)
+{
+  constexpr int around[7] = { 1, 2, 3, 7, 4, 5, 1 };
+  double x[4][3];
+  corners->GetPoint(0, x[0]);
+  corners->GetPoint(6, x[3]);
+  double volume = 0.0;
+  for (int k = 0; k < 6; ++k)
+  {
+    corners->GetPoint(around[k], x[1]);
+    corners->GetPoint(around[k + 1], x[2]);
+    volume += vtkTetra::ComputeVolume(x[0], x[1], x[2], x[3]);
+  }
+  return volume;
 }
 
 /// A field f = x + 2 y on a grid whose coordinates are in its own space: the Bezier values of a
@@ -187,18 +208,49 @@ TEST(SplineTessellate, SolidsBecomeSurfacesOrHexahedra_ExactOracle)
     const double* x = ball->GetPoint(i);
     EXPECT_NEAR(std::hypot(x[0], x[1], x[2]), 1.0, 1e-12) << "inner faces are not drawn";
   }
+  // chords at most 1e-2 below the sphere: of its volume at least (1 - 1e-2)^3 is inside
+  vtkNew<vtkTriangleFilter> triangles;
+  triangles->SetInputData(ball);
+  vtkNew<vtkMassProperties> enclosed;
+  enclosed->SetInputConnection(triangles->GetOutputPort());
+  enclosed->Update();
+  const double sphere = 4.0 / 3.0 * vtkMath::Pi();
+  EXPECT_LE(enclosed->GetVolume(), sphere);
+  EXPECT_GE(enclosed->GetVolume(), std::pow(1.0 - 1e-2, 3) * sphere);
   vtkNew<vtkSplineTessellate> filter;
-  filter->SetInputDataObject(ShapeGrid(vtkSplineSource::SOLID_CYLINDER));
+  auto cylinder = ShapeGrid(vtkSplineSource::SOLID_CYLINDER); // radius 1
+  double box[6];
+  cylinder->GetBounds(box);
+  filter->SetInputDataObject(cylinder);
   filter->SetCells(vtkSplineTessellate::VOLUME);
+  filter->SetRelativeTolerance(false);
+  filter->SetChordalTolerance(1e-2);
   filter->Update();
   auto* grid = vtkUnstructuredGrid::SafeDownCast(filter->GetOutputDataObject(0));
   ASSERT_TRUE(grid);
   EXPECT_TRUE(grid->IsHomogeneous());
   EXPECT_EQ(grid->GetCellType(0), VTK_HEXAHEDRON);
-  // Back to the surface, then to hexahedra again: the output changes its type.
+  // every hexahedron is upright, none overlap: prisms inscribed in the cylinder fill its polygon
+  double volume = 0.0;
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    const double one = PrismVolume(grid->GetCell(c)->GetPoints());
+    EXPECT_GT(one, 0.0);
+    volume += one;
+  }
+  const double whole = vtkMath::Pi() * (box[5] - box[4]);
+  EXPECT_LE(volume, whole);
+  EXPECT_GE(volume, std::pow(1.0 - 1e-2, 2) * whole);
+  // Back to the surface: the output changes its type, and encloses the same.
   filter->SetCells(vtkSplineTessellate::SURFACE);
   filter->Update();
-  EXPECT_TRUE(vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0)));
+  auto* surface = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0));
+  ASSERT_TRUE(surface);
+  EXPECT_EQ(OpenEdges(surface), 0);
+  triangles->SetInputData(surface);
+  enclosed->Update();
+  EXPECT_LE(enclosed->GetVolume(), whole);
+  EXPECT_GE(enclosed->GetVolume(), std::pow(1.0 - 1e-2, 2) * whole);
 }
 
 TEST(SplineTessellate, ToleranceIsRelativeToTheSize_PropertyOracle)

@@ -116,7 +116,19 @@ def test_groups_are_accepted():
     output = refined.GetClientSideObject().GetOutputDataObject(0)
     assert output.IsA("vtkPartitionedDataSetCollection"), output.GetClassName()
     assert output.GetNumberOfPartitionedDataSets() == 2
-    assert all(output.GetPartition(i, 0).GetNumberOfCells() > 0 for i in range(2))
+    for i, original in enumerate((first, second)):
+        before = servermanager.Fetch(original)
+        after = output.GetPartition(i, 0)
+        dimension = before.GetCell(0).GetCellDimension()
+        # every element is halved in all directions, and the map stays: elements' corners are points of the Bezier
+        # cells, so those of the input are among those of the output
+        assert after.GetNumberOfCells() == 2**dimension * before.GetNumberOfCells()
+        corners = {tuple(numpy.round(before.GetPoint(before.GetCell(c).GetPointId(k)), 12) + 0.0)
+                   for c in range(before.GetNumberOfCells()) for k in range(2**dimension)}
+        found = {tuple(numpy.round(after.GetPoint(j), 12) + 0.0) for j in range(after.GetNumberOfPoints())}
+        assert corners <= found, corners - found
+        assert set(dataset_adapter.WrapDataObject(after).CellData["PatchId"]) == set(
+            dataset_adapter.WrapDataObject(before).CellData["PatchId"])
 
 
 knotwork_testing.main(globals())

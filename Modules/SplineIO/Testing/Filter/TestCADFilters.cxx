@@ -98,6 +98,21 @@ TEST(CADFilters, TrimmedFacesGoThroughAFile_ExactOracle)
     EXPECT_EQ(colors->GetNumberOfComponents(), 3);
     EXPECT_EQ(colors->GetTypedComponent(0, 1), 102);
     EXPECT_EQ(names->GetValue(0), "sheet");
+
+    // a tolerance of lengths, far above and far below a thousandth of the size (about 1)
+    reader->RelativeToleranceOff();
+    reader->SetChordalTolerance(0.1);
+    Read(reader, file);
+    const vtkIdType coarse = Triangles(reader)->GetNumberOfCells();
+    reader->SetChordalTolerance(1e-4);
+    Read(reader, file);
+    const vtkIdType fine = Triangles(reader)->GetNumberOfCells();
+    EXPECT_LT(2 * coarse, fine);
+    EXPECT_NEAR(AreaOf(Triangles(reader)), summary->Area, 5e-4);
+    reader->TriangulationOff();
+    Read(reader, file);
+    EXPECT_EQ(Triangles(reader)->GetNumberOfCells(), 0);
+    EXPECT_GT(reader->GetOutputDataObject(0)->GetNumberOfElements(vtkDataObject::CELL), 0);
   }
 }
 

@@ -89,6 +89,38 @@ TEST(SplineContourFilter, TorusAtAHeightIsTwoCircles_ExactOracle)
   }
 }
 
+TEST(SplineContourFilter, RangeAndSeams_ExactOracle)
+{
+  // a coordinate across the seam of a closed cylinder: two straight lines, whatever the seam; its
+  // height: circles, which the seam cuts when they are not joined
+  vtkNew<vtkSplineSource> cylinder;
+  cylinder->SetShape(vtkSplineSource::CYLINDER_SURFACE);
+  cylinder->SetAngle(360.0);
+  cylinder->Update();
+  double box[6];
+  vtkUnstructuredGrid::SafeDownCast(cylinder->GetOutputDataObject(0))->GetBounds(box);
+  const double height = box[5] - box[4];
+  vtkNew<vtkSplineContour> filter;
+  filter->SetInputConnection(cylinder->GetOutputPort());
+  filter->SetRange(box[4] + 0.25 * height, box[4] + 0.75 * height);
+  filter->SetNumberOfLevels(3);
+  filter->Update();
+  ASSERT_EQ(filter->GetErrorCode(), 0u);
+  auto* table = vtkTable::SafeDownCast(filter->GetOutputDataObject(2));
+  ASSERT_EQ(table->GetNumberOfRows(), 3); // evenly, ends included
+  for (vtkIdType row = 0; row < 3; ++row)
+  {
+    EXPECT_NEAR(table->GetValueByName(row, "Level").ToDouble(),
+      box[4] + (0.25 + 0.25 * static_cast<double>(row)) * height, 1e-14);
+  }
+  EXPECT_EQ(Total(filter, "Closed"), 3);
+  EXPECT_EQ(Total(filter, "Components"), 3);
+  filter->JoinSeamsOff();
+  filter->Update();
+  EXPECT_EQ(Total(filter, "Closed"), 0);
+  EXPECT_GE(Total(filter, "Components"), 3);
+}
+
 TEST(SplineContourFilter, FieldsAndCollections_ExactOracle)
 {
   vtkNew<vtkSplineContour> filter;

@@ -136,11 +136,50 @@ TEST(SplineExtremaFilter, KindsAreChosen_PropertyOracle)
   const int onBoundary = Number(filter, "OnBoundary");
   filter->MaximaOn();
   filter->SaddlesOn();
+  filter->MinimaOff();
+  filter->Update();
+  EXPECT_EQ(Number(filter, "Minima"), all); // counted, not shown
+  EXPECT_EQ(
+    Output(filter, 0)->GetNumberOfPoints(), Number(filter, "Maxima") + Number(filter, "Saddles"));
+  filter->MinimaOn();
   filter->BoundaryOff();
   filter->Update();
   EXPECT_EQ(Number(filter, "OnBoundary"), 0);
   EXPECT_LT(Number(filter, "Minima"), all);
   EXPECT_GT(onBoundary, 0);
+}
+
+// A valley along a curve is one cluster of critical points; limits say how coarse its boxes are.
+TEST(SplineExtremaFilter, LimitsOfTheSearchReachTheKernel_CrossOracle)
+{
+  const auto patches = std::vector<SplinePatch>{ HeightTile(
+    0, { { 0.0, 0.0 }, { 1.0, 1.0 } }, 4, [](double u, double) { return (u - 0.7) * (u - 0.7); }) };
+  double widths[3];
+  const std::array<std::array<int, 2>, 3> limits{ { { 32, 64 }, { 32, 4 }, { 2, 64 } } };
+  for (std::size_t k = 0; k < limits.size(); ++k)
+  {
+    vtkNew<vtkSplineExtrema> filter;
+    filter->SetInputDataObject(GridOfPatches(patches));
+    filter->SetMaximumDepth(limits[k][0]);
+    filter->SetMaximumBoxes(limits[k][1]);
+    filter->Update();
+    CriticalPointParams params;
+    params.Component = 2;
+    params.MaxDepth = limits[k][0];
+    params.MaxBoxes = limits[k][1];
+    const auto kernel = FindCriticalPoints(std::get<Spline<2>>(patches[0].Geometry), params);
+    ASSERT_TRUE(kernel) << kernel.Status.Message();
+    EXPECT_EQ(Number(filter, "Clusters"), static_cast<int>(kernel->Clusters.size()));
+    EXPECT_GT(Number(filter, "Clusters"), 0);
+    widths[k] = 0.0; // area of all boxes
+    vtkDataArray* bounds = Output(filter, 1)->GetCellData()->GetArray("ParametricBounds");
+    for (vtkIdType c = 0; c < bounds->GetNumberOfTuples(); ++c)
+    {
+      widths[k] += (At(bounds, c, 1) - At(bounds, c, 0)) * (At(bounds, c, 3) - At(bounds, c, 2));
+    }
+  }
+  EXPECT_GT(widths[1], widths[0]);
+  EXPECT_GT(widths[2], widths[0]);
 }
 
 TEST(SplineExtremaFilter, AFieldOfOneComponent_CrossOracle)

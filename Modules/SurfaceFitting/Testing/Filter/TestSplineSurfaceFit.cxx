@@ -3,12 +3,15 @@
 #include "vtkSplineSurfaceFit.h"
 
 #include "FilterCases.h"
+#include "LRDependence.h"
+#include "SurfaceFit.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
+#include "vtkInformation.h"
 #include "vtkMath.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -252,6 +255,293 @@ TEST(SplineSurfaceFit, OutputsFollowTheInput_PropertyOracle)
   filter->SetInputData(MakeCloud<vtkPolyData>(Wave));
   filter->Update();
   EXPECT_TRUE(vtkPolyData::SafeDownCast(filter->GetOutputDataObject(1)));
+}
+
+// Each property of the filter gives what the kernel gives for its parameter, and another surface
+// than without it.
+TEST(SplineSurfaceFit, EveryPropertyReachesTheKernel_CrossOracle)
+{
+  using F = vtkSplineSurfaceFit;
+  struct Change
+  {
+    const char* Name;
+    std::function<void(F*)> Set;
+    std::function<void(FitParams&)> Expect;
+  };
+  // In groups: the first of each is what the others of it change.
+  const std::vector<std::vector<Change>> groups = {
+    {
+      { "nothing", [](F*) {}, [](FitParams&) {} },
+      { "Space", [](F* f) { f->SetSpace(F::THB); },
+        [](FitParams& p) { p.Space = FitSpace::Hierarchical; } },
+      { "Degree", [](F* f) { f->SetDegree(3); },
+        [](FitParams& p) {
+          p.Degree = { 3, 3 };
+        } },
+      { "SecondDegree", [](F* f) { f->SetSecondDegree(4); },
+        [](FitParams& p) {
+          p.Degree = { 2, 4 };
+        } },
+      { "InitialElementsU", [](F* f) { f->SetInitialElementsU(3); },
+        [](FitParams& p) {
+          p.NumInitialElements = { 3, 0 };
+        } },
+      { "InitialElementsV", [](F* f) { f->SetInitialElementsV(7); },
+        [](FitParams& p) {
+          p.NumInitialElements = { 0, 7 };
+        } },
+      { "Domain", [](F* f) { f->SetDomain(-0.5, 2.5, -0.25, 1.5); },
+        [](FitParams& p) {
+          p.Domain = { { -0.5, -0.25 }, { 2.5, 1.5 } };
+        } },
+      { "Method", [](F* f) { f->SetMethod(F::MBA); },
+        [](FitParams& p) { p.Method = FitMethod::MultilevelApproximation; } },
+      { "Smoothing", [](F* f) { f->SetSmoothing(1e-3); },
+        [](FitParams& p) { p.Smoothing = 1e-3; } },
+      { "Tolerance", [](F* f) { f->SetTolerance(0.05); },
+        [](FitParams& p) { p.Tolerance = 0.05; } },
+      { "ToleranceBox", [](F* f) { f->AddToleranceBox(0.0, 1.0, 0.25, 0.75, 1e-4); },
+        [](FitParams& p) {
+          p.ToleranceBoxes = { { { { 0.0, 0.25 }, { 1.0, 0.75 } }, 1e-4 } };
+        } },
+      { "DistanceMode",
+        [](F* f)
+        {
+          f->SetDistanceMode(F::VALUE_DISTANCE);
+          f->SetDistanceSlope(0.1);
+        },
+        [](FitParams& p)
+        {
+          p.Distance = FitDistance::Value;
+          p.DistanceSlope = 0.1;
+        } },
+      { "Side above", [](F* f) { f->SetSide(F::ABOVE); },
+        [](FitParams& p) { p.Side = FitSide::Above; } },
+      { "Side below", [](F* f) { f->SetSide(F::BELOW); },
+        [](FitParams& p) { p.Side = FitSide::Below; } },
+      { "MaximumIterations", [](F* f) { f->SetMaximumIterations(1); },
+        [](FitParams& p) { p.MaxIterations = 1; } },
+      { "MaximumFunctions", [](F* f) { f->SetMaximumFunctions(60); },
+        [](FitParams& p) { p.MaxFunctions = 60; } },
+      { "MaximumSeconds", [](F* f) { f->SetMaximumSeconds(1e-9); },
+        [](FitParams& p) { p.MaxSeconds = 1e-9; } },
+      { "Threshold all", [](F* f) { f->SetThreshold(F::ALL_ELEMENTS); },
+        [](FitParams& p) { p.Threshold = FitThreshold::All; } },
+      { "Threshold most points", [](F* f) { f->SetThreshold(F::MOST_POINTS); },
+        [](FitParams& p) { p.Threshold = FitThreshold::MostPoints; } },
+      { "ThresholdShare", [](F* f) { f->SetThresholdShare(0.7); },
+        [](FitParams& p) { p.ThresholdShare = 0.7; } },
+      { "Directions both", [](F* f) { f->SetDirections(F::BOTH_DIRECTIONS); },
+        [](FitParams& p) { p.Directions = FitDirections::Both; } },
+      { "Directions alternating", [](F* f) { f->SetDirections(F::ALTERNATING); },
+        [](FitParams& p) { p.Directions = FitDirections::Alternating; } },
+      { "Strategy minimum span", [](F* f) { f->SetStrategy(F::MINIMUM_SPAN); },
+        [](FitParams& p) { p.Strategy = LRStrategy::MinimumSpan; } },
+      { "Strategy structured mesh", [](F* f) { f->SetStrategy(F::STRUCTURED_MESH); },
+        [](FitParams& p) { p.Strategy = LRStrategy::StructuredMesh; } },
+      { "MinimumElementSize", [](F* f) { f->SetMinimumElementSize(0.2); },
+        [](FitParams& p) { p.MinElementSize = 0.2; } },
+      { "significant points",
+        [](F* f)
+        { f->SetInputArrayToProcess(2, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Near"); },
+        [](FitParams&) {} },
+    },
+    {
+      { "significant points",
+        [](F* f)
+        { f->SetInputArrayToProcess(2, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Near"); },
+        [](FitParams&) {} },
+      { "SignificantWeight",
+        [](F* f)
+        {
+          f->SetInputArrayToProcess(2, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Near");
+          f->SetSignificantWeight(500.0);
+        },
+        [](FitParams& p) { p.SignificantWeight = 500.0; } },
+    },
+    {
+      { "distance of points",
+        [](F* f)
+        {
+          f->SetDistanceMode(F::POINT_DISTANCE);
+          f->SetDistanceSlope(0.05);
+        },
+        [](FitParams& p)
+        {
+          p.Distance = FitDistance::Point;
+          p.DistanceSlope = 0.05;
+        } },
+      { "DistanceSlope",
+        [](F* f)
+        {
+          f->SetDistanceMode(F::POINT_DISTANCE);
+          f->SetDistanceSlope(0.2);
+        },
+        [](FitParams& p)
+        {
+          p.Distance = FitDistance::Point;
+          p.DistanceSlope = 0.2;
+        } },
+      { "DistanceCentre",
+        [](F* f)
+        {
+          f->SetDistanceMode(F::POINT_DISTANCE);
+          f->SetDistanceSlope(0.05);
+          f->SetDistanceCentre(2.0, 1.0);
+        },
+        [](FitParams& p)
+        {
+          p.Distance = FitDistance::Point;
+          p.DistanceSlope = 0.05;
+          p.DistanceCentre = { 2.0, 1.0 };
+        } },
+    },
+    {
+      { "combined", [](F* f) { f->SetMethod(F::COMBINED); },
+        [](FitParams& p) { p.Method = FitMethod::Combined; } },
+      { "SwitchIteration",
+        [](F* f)
+        {
+          f->SetMethod(F::COMBINED);
+          f->SetSwitchIteration(1);
+        },
+        [](FitParams& p)
+        {
+          p.Method = FitMethod::Combined;
+          p.SwitchIteration = 1;
+        } },
+    },
+    {
+      { "outliers", [](F* f) { f->FindOutliersOn(); },
+        [](FitParams& p) { p.FindOutliers = true; } },
+      { "FindOutliers", [](F*) {}, [](FitParams&) {} },
+      { "OutlierScale",
+        [](F* f)
+        {
+          f->FindOutliersOn();
+          f->SetOutlierScale(1000.0);
+        },
+        [](FitParams& p)
+        {
+          p.FindOutliers = true;
+          p.OutlierScale = 1000.0;
+        } },
+      { "Criterion AIC",
+        [](F* f)
+        {
+          f->SetTolerance(1e-5);
+          f->SetCriterion(F::AIC);
+        },
+        [](FitParams& p)
+        {
+          p.Tolerance = 1e-5;
+          p.Criterion = FitCriterion::AIC;
+        } },
+      { "Criterion BIC",
+        [](F* f)
+        {
+          f->SetTolerance(1e-5);
+          f->SetCriterion(F::BIC);
+        },
+        [](FitParams& p)
+        {
+          p.Tolerance = 1e-5;
+          p.Criterion = FitCriterion::BIC;
+        } },
+    },
+  };
+  // a wave with a ridge and a few points far above it
+  const Shape ridge = [](double u, double v) {
+    return std::array<double, 3>{ u, v, Wave(u, v)[2] + std::exp(-90.0 * std::fabs(u - v)) };
+  };
+  const auto data = MakeCloud<vtkPolyData>(ridge, 3000);
+  PointCloud cloud;
+  cloud.Parameters.resize(data->GetNumberOfPoints(), 2);
+  cloud.Values.resize(data->GetNumberOfPoints(), 1);
+  vtkNew<vtkDoubleArray> near;
+  near->SetName("Near");
+  std::vector<std::uint8_t> significant;
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  {
+    double x[3];
+    data->GetPoint(i, x);
+    x[2] += i % 300 == 7 ? 3.0 : 0.0;
+    data->GetPoints()->SetPoint(i, x);
+    cloud.Parameters.row(i) << x[0], x[1];
+    cloud.Values(i, 0) = x[2];
+    near->InsertNextValue(x[0] < 0.5 ? 1.0 : 0.0);
+    significant.push_back(x[0] < 0.5);
+  }
+  data->GetPointData()->AddArray(near);
+  for (const auto& group : groups)
+  {
+    PointMatrix base;
+    for (const Change& change : group)
+    {
+      SCOPED_TRACE(change.Name);
+      vtkNew<F> filter;
+      vtkNew<MessageRecorder> recorder; // of warnings about points outside
+      recorder->Watch(filter);
+      filter->SetInputData(data);
+      filter->SetTolerance(0.01);
+      filter->SetMaximumIterations(5);
+      change.Set(filter);
+      filter->Update();
+      ASSERT_EQ(filter->GetErrorCode(), 0U);
+      FitParams params;
+      params.Tolerance = 0.01;
+      params.MaxIterations = 5;
+      change.Expect(params);
+      vtkInformation* array = filter->GetInputArrayInformation(2);
+      const char* name = array->Get(vtkDataObject::FIELD_NAME());
+      cloud.Significant =
+        name && std::string(name) == "Near" ? significant : std::vector<std::uint8_t>{};
+      const auto kernel = FitSurface(cloud, params);
+      ASSERT_TRUE(kernel) << kernel.Status.Message();
+      const SplineModel model = DecodePatches(filter->GetOutputDataObject(0));
+      const PointMatrix found = std::get<Spline<2>>(model.Patches[0].Geometry).ControlPoints.col(2);
+      EXPECT_EQ(found, PointMatrix(kernel->Surface.ControlPoints));
+      const bool isSame = found.rows() == base.rows() && found == base;
+      EXPECT_FALSE(isSame) << "the property changes nothing";
+      if (base.size() == 0)
+      {
+        base = found;
+      }
+    }
+  }
+}
+
+// Cliffs across the elements: short lines cross near one another, and functions become dependent.
+TEST(SplineSurfaceFit, IndependentReachesTheKernel_CrossOracle)
+{
+  std::mt19937_64 random(3);
+  const auto unit = [&] { return static_cast<double>(random() >> 11) * 0x1.0p-53; };
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (int i = 0; i < 3000; ++i)
+  {
+    const double x = unit();
+    const double y = unit();
+    points->InsertNextPoint(
+      x, y, std::tanh((x - y) / 0.01) + std::tanh((x * x + y * y - 0.5) / 0.01));
+  }
+  vtkNew<vtkPolyData> cloud;
+  cloud->SetPoints(points);
+  vtkNew<vtkSplineSurfaceFit> filter;
+  filter->SetInputData(cloud);
+  filter->SetTolerance(0.05);
+  filter->SetDegree(3);
+  filter->SetDirections(vtkSplineSurfaceFit::BOTH_DIRECTIONS);
+  filter->SetStrategy(vtkSplineSurfaceFit::MINIMUM_SPAN);
+  for (const bool independent : { false, true })
+  {
+    filter->SetIndependent(independent);
+    filter->Update();
+    const SplineModel model = DecodePatches(filter->GetOutputDataObject(0));
+    const auto decided = DecideDependence(*std::get<Spline<2>>(model.Patches[0].Geometry).Space);
+    ASSERT_TRUE(decided) << decided.Status.Message();
+    EXPECT_EQ(decided->Verdict == LRVerdict::Independent, independent);
+  }
 }
 
 TEST(SplineSurfaceFit, FloatPointsAreTakenAsTheyAre_CrossOracle)

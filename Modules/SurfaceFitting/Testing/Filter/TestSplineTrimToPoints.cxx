@@ -87,6 +87,41 @@ TEST(SplineTrimToPointsFilter, ASquareWithAHoleIsItsOutline_CrossOracle)
   EXPECT_EQ(model->Faces[0].Loops.size(), 2u);
 }
 
+TEST(SplineTrimToPointsFilter, GapsAndSmallPartsAreChosen_PropertyOracle)
+{
+  // the lattice without its points beyond x = 1.5, but for a few far from the others
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  const auto lattice = LatticeWithHole();
+  for (vtkIdType i = 0; i < lattice->GetNumberOfPoints(); ++i)
+  {
+    const double* x = lattice->GetPoint(i);
+    if (x[0] < 1.5 || (x[0] > 1.87 && x[1] > 1.87))
+    {
+      points->InsertNextPoint(x);
+    }
+  }
+  vtkNew<vtkPolyData> cloud;
+  cloud->SetPoints(points);
+  vtkNew<vtkSplineTrimToPoints> filter;
+  filter->SetInputDataObject(0, FlatSurface());
+  filter->SetPointsData(cloud);
+  filter->Update();
+  ASSERT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
+  EXPECT_EQ(Number(filter, "Faces"), 2);
+  EXPECT_EQ(Number(filter, "Loops"), 3); // the hole of width 0.8 stays
+  // the smaller part alone is left out by a number between those of both
+  const double cells = std::pow(0.13 / Number(filter, "CellSize"), 2);
+  filter->SetMinimumCells(static_cast<int>(3 * cells) + 3);
+  filter->Update();
+  EXPECT_EQ(Number(filter, "Faces"), 1);
+  EXPECT_EQ(Number(filter, "Loops"), 2);
+  filter->SetMaximumGap(1.0);
+  filter->Update();
+  EXPECT_EQ(Number(filter, "Faces"), 1);
+  EXPECT_EQ(Number(filter, "Loops"), 1);
+}
+
 TEST(SplineTrimToPointsFilter, BadInput_ExactOracle)
 {
   vtkNew<vtkSplineTrimToPoints> filter;

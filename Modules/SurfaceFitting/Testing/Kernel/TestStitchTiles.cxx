@@ -361,8 +361,26 @@ TEST(StitchTiles, PartsOfASmoothSurfaceStay_ExactOracle)
     }
     const auto result = StitchTiles(tiles, {});
     ASSERT_TRUE(result) << result.Status.Message();
+    EXPECT_EQ(result->Edges.size(), 3u); // every two of them meet
     EXPECT_LE(result->MaxJumpBefore, 1e-11);
     EXPECT_LE(result->MaxChange, 1e-10);
+    const BezierForm<2> before = MakeBezierForm(whole);
+    for (std::size_t t = 0; t < tiles.size(); ++t)
+    {
+      const PointMatrix at = RandomParameters(random, *tiles[t].Space, 100);
+      EvaluationBatch expected;
+      EvaluationBatch found;
+      ASSERT_TRUE(EvaluateParameters(before, at, {}, expected));
+      ASSERT_TRUE(EvaluateParameters(MakeBezierForm(result->Tiles[t]), at, {}, found));
+      EXPECT_LE((found.Values - expected.Values).cwiseAbs().maxCoeff(), 1e-10);
+    }
+    // the same tiles, one of them lifted: it is noticed, and halved between both sides
+    tiles[0].ControlPoints.col(1).array() += 1e-3;
+    const auto lifted = StitchTiles(tiles, {});
+    ASSERT_TRUE(lifted) << lifted.Status.Message();
+    EXPECT_NEAR(lifted->MaxJumpBefore, 1e-3, 2e-6);
+    EXPECT_LE(lifted->MaxJump, 1e-11);
+    EXPECT_GE(lifted->MaxChange, 0.5e-3 - 1e-9);
   }
 }
 

@@ -199,12 +199,44 @@ TEST(SurfaceDistance, SeveralSurfacesAndThreads_PropertyOracle)
     const auto all = MeasureSurfaceDistances(points, { whole }, params);
     ASSERT_TRUE(one && three && all);
     EXPECT_EQ(one->Distances, three->Distances);
+    EXPECT_EQ(one->Surfaces, three->Surfaces);
     for (std::size_t i = 0; i < offsets.size(); ++i)
     {
       EXPECT_NEAR(one->Distances[i], all->Distances[i], 1e-9);
-      EXPECT_LE(std::fabs(one->Distances[i]), std::fabs(offsets[i]) + 1e-9);
+      const auto row = static_cast<Eigen::Index>(i);
+      const double x = points(row, 0);
+      if (kind == DistanceKind::Vertical)
+      {
+        EXPECT_NEAR(one->Distances[i], offsets[i], 1e-13);
+        EXPECT_EQ(one->Surfaces[i], x > 1.1 ? 1 : 0) << x;
+        continue;
+      }
+      // Over a grid of the surface's formula none is nearer, and one almost as near, on the side
+      // of the cut that is named.
+      constexpr int n = 300;
+      double nearest = HUGE_VAL;
+      double place = 0.0;
+      for (int k = 0; k < (n + 1) * (n + 1); ++k)
+      {
+        const double u = 2.0 * (k % (n + 1)) / n;
+        const double v = 3.0 * (k / (n + 1)) / n;
+        const Eigen::RowVector3d surface(u, v, 2 + 0.25 * u * v);
+        const double distance = (surface - points.row(row)).norm();
+        place = distance < nearest ? u : place;
+        nearest = std::min(nearest, distance);
+      }
+      const double found = std::fabs(one->Distances[i]);
+      EXPECT_LE(found, nearest + 1e-9);
+      // half a cell's diagonal away, measured across the distance
+      EXPECT_GE(found, std::sqrt(std::max(0.0, nearest * nearest - 2e-4)) - 1e-2);
+      EXPECT_EQ(std::signbit(one->Distances[i]), std::signbit(offsets[i]));
+      if (std::fabs(place - 1.1) > 0.02)
+      {
+        EXPECT_EQ(one->Surfaces[i], place > 1.1 ? 1 : 0) << place;
+      }
     }
-    EXPECT_EQ(std::count(one->Surfaces.begin(), one->Surfaces.end(), 1) > 300, true);
+    EXPECT_GT(std::count(one->Surfaces.begin(), one->Surfaces.end(), 1), 300);
+    EXPECT_GT(std::count(one->Surfaces.begin(), one->Surfaces.end(), 0), 300);
   }
 }
 

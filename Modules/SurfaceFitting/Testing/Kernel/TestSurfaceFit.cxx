@@ -115,6 +115,57 @@ TEST(SurfaceFit, OneMultilevelStepPassesThroughASinglePoint_GoldenOracle)
   }
 }
 
+// Lee, Wolberg, Shin 1997, equations (3) to (5), with hat functions written out: every point asks
+// for the smallest coefficients that pass through it, and a coefficient is the mean of what the
+// points around it ask for, weighted by the squares of its function.
+TEST(SurfaceFit, MultilevelStepsAverageOverManyPoints_CrossOracle)
+{
+  constexpr int nodes[2] = { 4, 3 }; // of hat functions on 3 x 2 elements of the unit square
+  const PointCloud cloud = clouds::HeightField(60, 21, Wave);
+  const auto hat = [&](int d, int k, double x)
+  { return std::max(0.0, 1.0 - std::fabs((nodes[d] - 1) * x - k)); };
+  Eigen::MatrixXd values(cloud.Values.rows(), nodes[0] * nodes[1]); // point x function
+  for (Eigen::Index i = 0; i < values.rows(); ++i)
+  {
+    for (int f = 0; f < nodes[0] * nodes[1]; ++f)
+    {
+      values(i, f) =
+        hat(0, f % nodes[0], cloud.Parameters(i, 0)) * hat(1, f / nodes[0], cloud.Parameters(i, 1));
+    }
+  }
+  Eigen::VectorXd expected = Eigen::VectorXd::Zero(values.cols());
+  for (int step = 0; step < 2; ++step) // an iteration makes two
+  {
+    const Eigen::VectorXd residual = cloud.Values.col(0) - values * expected;
+    for (Eigen::Index f = 0; f < values.cols(); ++f)
+    {
+      double sum = 0.0;
+      double weights = 0.0;
+      for (Eigen::Index i = 0; i < values.rows(); ++i)
+      {
+        const double w = values(i, f);
+        sum += w * w * (w * residual(i) / values.row(i).squaredNorm());
+        weights += w * w;
+      }
+      expected(f) += sum / weights;
+    }
+  }
+  FitParams params = WithTolerance(1e-6);
+  params.Method = FitMethod::MultilevelApproximation;
+  params.Smoothing = 0.0;
+  params.Degree = { 1, 1 };
+  params.NumInitialElements = { nodes[0] - 1, nodes[1] - 1 };
+  params.Domain = { { 0.0, 0.0 }, { 1.0, 1.0 } };
+  params.MaxIterations = 0;
+  const SurfaceFit fit = Fit(cloud, params);
+  const auto collocation = CollocationMatrix<2>(*fit.Surface.Space, cloud.Parameters, 0);
+  ASSERT_TRUE(collocation);
+  // compared as values at the points: functions may be numbered in another order
+  const Eigen::VectorXd found = collocation.Value * fit.Surface.ControlPoints.col(0);
+  EXPECT_LE((found - values * expected).cwiseAbs().maxCoeff(), 1e-13);
+  EXPECT_GT((found - cloud.Values.col(0)).cwiseAbs().maxCoeff(), 1e-3); // not an interpolation
+}
+
 TEST(SurfaceFit, PolynomialsAreReproduced_ExactOracle)
 {
   const auto quadric = [](double x, double y) { return 1.0 - 2.0 * x + 3.0 * x * y + y * y; };

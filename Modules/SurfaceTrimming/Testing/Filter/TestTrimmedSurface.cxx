@@ -332,6 +332,22 @@ TEST(TrimmedSurface, PropertiesReachTheKernel_PropertyOracle)
     << recorder->Warnings[0];
 }
 
+TEST(TrimmedSurface, SmoothingAndCentresReachTheKernel_PropertyOracle)
+{
+  vtkNew<vtkTrimmedSurface> filter;
+  filter->SetInputDataObject(MakePlate({}));
+  filter->SetElements(12);
+  filter->Update();
+  const double deviation = Number(filter, "MaxDeviation");
+  filter->SetSmoothing(1e-1); // stiff: away from the points
+  filter->Update();
+  EXPECT_GT(Number(filter, "MaxDeviation"), 2.0 * deviation);
+  filter->SetMethod(vtkTrimmedSurface::RBF);
+  filter->SetCentres(40);
+  filter->Update();
+  EXPECT_EQ(Number(filter, "Centres"), 40);
+}
+
 TEST(TrimmedSurface, EveryMethodMakesTheFace_PropertyOracle)
 {
   for (int method = vtkTrimmedSurface::NURBS; method <= vtkTrimmedSurface::PENALIZED; ++method)

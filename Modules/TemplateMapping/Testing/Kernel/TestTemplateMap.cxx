@@ -39,6 +39,8 @@ struct Published
   TemplateMapMethod Method;
   double SquaredError;
   double NegativePercent;
+  double GuardedError; ///< the page's numbers with the guard
+  double GuardedBound;
 };
 }
 
@@ -46,9 +48,10 @@ struct Published
 // of an independent implementation, rounded as given.
 TEST(TemplateMap, FiveLobes_GoldenOracle)
 {
-  for (const Published& expected : { Published{ TemplateMapMethod::Fixed, 3.530e-05, 1.59 },
-         Published{ TemplateMapMethod::Pdm, 1.985e-05, 0.483 },
-         Published{ TemplateMapMethod::Tdm, 8.715e-06, 0.000 } })
+  for (const Published& expected :
+    { Published{ TemplateMapMethod::Fixed, 3.530e-05, 1.59, 7.33e-05, 0.0012 },
+      Published{ TemplateMapMethod::Pdm, 1.985e-05, 0.483, 2.10e-07, 0.060 },
+      Published{ TemplateMapMethod::Tdm, 8.715e-06, 0.000, 8.715e-06, 0.362 } })
   {
     const auto result = MapTemplate(CircleTemplate(), LobedTarget(), With(expected.Method));
     ASSERT_TRUE(result) << result.Status.Message();
@@ -59,6 +62,17 @@ TEST(TemplateMap, FiveLobes_GoldenOracle)
     EXPECT_NEAR(
       100.0 * last.NegativeShare, expected.NegativePercent, 0.03 * expected.NegativePercent);
     RecordProperty("seconds", std::to_string(last.Seconds));
+
+    TemplateMapParams<2> params = With(expected.Method);
+    params.Guard = true;
+    const auto guarded = MapTemplate(CircleTemplate(), LobedTarget(), params);
+    ASSERT_TRUE(guarded) << guarded.Status.Message();
+    // Which elements are held follows from signs: rounding moves the result by more than a digit's
+    // half.
+    EXPECT_NEAR(
+      guarded->History.back().SquaredError, expected.GuardedError, 0.1 * expected.GuardedError);
+    EXPECT_NEAR(guarded->MinJacobianBound, expected.GuardedBound, 0.1 * expected.GuardedBound);
+    EXPECT_EQ(guarded->History.back().NegativeShare, 0.0);
   }
 }
 
