@@ -40,3 +40,11 @@ configure_release()
 {
   configure release "-DKNOTWORK_PARAVIEW_TREE=$paraview" "-DKNOTWORK_PARAVIEW_PREFIX=$prefix"
 }
+
+# build_plugin JOBS: the ParaView plugin, with the kernels of the release tree, which is built before.
+build_plugin()
+{
+  "$root/CMake/make-paraview-prefix.sh" "$prefix"
+  configure paraview "-DKNOTWORK_PARAVIEW_PREFIX=$prefix" "-DKNOTWORK_KERNELS_FROM=$release"
+  cmake --build "$paraview" -j "$1"
+}

@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: install-dependencies.sh
 # Installs the Debian 12 packages that Knotwork needs and that are missing, as root or through sudo. With nothing missing
-# it neither asks for rights nor touches the network. KNOTWORK_NO_INSTALL=1 leaves the system alone.
+# it neither asks for rights nor touches the network. Where apt would remove packages to make room (python3-vtk9 and
+# python3-paraview exclude each other), it says which and stops; KNOTWORK_ALLOW_REMOVALS=1 lets it go on.
+# KNOTWORK_NO_INSTALL=1 leaves the system alone.
 set -eu
 packages=(
   # build
@@ -16,7 +18,7 @@ packages=(
   # ParaView plugin
   paraview paraview-dev qtbase5-dev qttools5-dev libqt5svg5-dev python3-mpi4py
   # tests, benchmarks, pictures
-  libgtest-dev libbenchmark-dev clang clang-format libclang-rt-14-dev xvfb libgl1-mesa-dri python3-numpy
+  libgtest-dev libbenchmark-dev clang clang-format libclang-rt-14-dev xvfb libgl1-mesa-dri python3-numpy openmpi-bin
   # real data for examples and tests
   libcgal-demo gmsh-doc
 )
@@ -44,7 +46,22 @@ if [ "$(id -u)" != 0 ]; then
   fi
   sudo=(sudo)
 fi
-export DEBIAN_FRONTEND=noninteractive
+install=(install --no-install-recommends "${missing[@]}")
 "${sudo[@]}" apt-get -q update
-"${sudo[@]}" env DEBIAN_FRONTEND=noninteractive \
-  apt-get -q -y -o Dpkg::Use-Pty=0 install --no-install-recommends "${missing[@]}"
+if ! plan=$(LC_ALL=C apt-get -q -s "${install[@]}"); then
+  echo "install-dependencies.sh: apt cannot install: ${missing[*]}" >&2
+  exit 1
+fi
+removed=$(sed -n 's/^Remv \([^ ]*\).*/\1/p' <<< "$plan" | tr '\n' ' ')
+guard=(--no-remove)
+if [ -n "$removed" ]; then
+  if [ "${KNOTWORK_ALLOW_REMOVALS:-0}" != 1 ]; then
+    echo "install-dependencies.sh: nothing was installed, for apt would remove: ${removed% }" >&2
+    echo "To let it, set KNOTWORK_ALLOW_REMOVALS=1; else install by hand what can stay beside them" \
+      "and set KNOTWORK_NO_INSTALL=1. Wanted: ${missing[*]}" >&2
+    exit 1
+  fi
+  echo "Removing: ${removed% }"
+  guard=()
+fi
+"${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -y "${guard[@]}" -o Dpkg::Use-Pty=0 "${install[@]}"

@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: Examples/run.sh [-j JOBS]
-# Installs what is missing, builds, runs the examples on real data and says where their pictures are.
+# Installs what is missing, builds (the ParaView plugin too), runs the examples on real data and says where their
+# pictures are.
 set -eu
 source "$(dirname "$0")/../CMake/common.sh"
 jobs=$(default_jobs)
@@ -9,7 +10,7 @@ while [ $# -gt 0 ]; do
   case "$1" in
     -j) jobs=$2; shift ;;
     -j*) jobs=${1#-j} ;;
-    *) sed -n '3,4s/^# //p' "$0" >&2; exit 2 ;;
+    *) sed -n '3,5s/^# //p' "$0" >&2; exit 2 ;;
   esac
   shift
 done
@@ -18,8 +19,7 @@ done
 
 configure_release
 cmake --build "$release" -j "$jobs" --target products
-
-"$root/CMake/make-paraview-prefix.sh" "$prefix" # ParaView's Python, for the picture of faces in ParaView
+build_plugin "$jobs"
 export KNOTWORK_PARAVIEW_PREFIX="$prefix"
 
 output="$root/build/examples"

@@ -21,9 +21,7 @@ done
 configure_release
 cmake --build "$release" -j "$jobs"
 
-"$root/CMake/make-paraview-prefix.sh" "$prefix"
-configure paraview "-DKNOTWORK_PARAVIEW_PREFIX=$prefix" "-DKNOTWORK_KERNELS_FROM=$release"
-cmake --build "$paraview" -j "$jobs"
+build_plugin "$jobs"
 
 # Template-mapping cases as files, where they lie beside the project; their test skips itself without them.
 cases="$root/../shared/data/template"

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# usage: cmake -DBUILD=<build tree> -DWORK=<scratch folder> -DGENERATOR=<generator> [-DFLAGS=<compiler flags>]
+# usage: cmake -DBUILD=<build tree> -DSOURCE=<source tree> -DWORK=<scratch folder> -DGENERATOR=<generator>
+#              [-DFLAGS=<compiler flags>] [-DLAUNCHER=<compiler cache>] [-DKERNELS_ONLY=ON]
 #              [-DPYTHON=<interpreter> -DPYTHON_DIR=<folder below the prefix>] -P RunConsumer.cmake
 # Installs the build tree, then configures, builds and runs this folder's project against nothing but the install
 # tree, and imports the installed Python package.
@@ -19,17 +20,39 @@ execute_process(COMMAND "${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${pref
 if(NOT status EQUAL 0)
   message(FATAL_ERROR "cmake --install failed (${status})")
 endif()
+if(NOT EXISTS "${prefix}/share/doc/Knotwork/LICENSE")
+  message(FATAL_ERROR "the licence is not installed")
+endif()
+file(GLOB_RECURSE scripts "${prefix}/lib/cmake/*.cmake")
+foreach(script IN LISTS scripts)
+  file(READ "${script}" text)
+  foreach(tree IN ITEMS "${BUILD}" "${SOURCE}")
+    string(REPLACE "${prefix}" "" text "${text}")
+    string(FIND "${text}" "${tree}" place)
+    if(NOT place EQUAL -1)
+      message(FATAL_ERROR "${script} refers to ${tree}")
+    endif()
+  endforeach()
+endforeach()
+
 run("${CMAKE_COMMAND}" -G "${GENERATOR}" -S "${CMAKE_CURRENT_LIST_DIR}" -B "${WORK}/build"
   "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_CXX_FLAGS=${FLAGS}" -DCMAKE_BUILD_TYPE=Release
+  "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}" "-DKERNELS_ONLY=${KERNELS_ONLY}"
   -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF)
-run("${CMAKE_COMMAND}" --build "${WORK}/build")
-run("${WORK}/build/kernels")
-if(EXISTS "${WORK}/build/filters")
-  run("${WORK}/build/filters" "${WORK}/consumer.vtp")
-  if(NOT EXISTS "${WORK}/consumer.vtp")
-    message(FATAL_ERROR "the chain of filters wrote nothing")
+cmake_host_system_information(RESULT jobs QUERY NUMBER_OF_LOGICAL_CORES)
+run("${CMAKE_COMMAND}" --build "${WORK}/build" --parallel ${jobs})
+file(GLOB programs "${CMAKE_CURRENT_LIST_DIR}/Programs/*.cxx")
+foreach(program IN LISTS programs)
+  get_filename_component(component "${program}" NAME_WE)
+  if(component MATCHES "Kernel$" OR NOT KERNELS_ONLY)
+    message(STATUS "${component}")
+    if(component MATCHES "^SplineIO")
+      run("${WORK}/build/${component}/${component}" "${WORK}")
+    else()
+      run("${WORK}/build/${component}/${component}")
+    endif()
   endif()
-endif()
+endforeach()
 if(PYTHON)
   run("${CMAKE_COMMAND}" -E env "PYTHONPATH=${prefix}/${PYTHON_DIR}" "${PYTHON}" -c
     "import knotwork; assert knotwork.__file__.startswith('${prefix}'); print(knotwork.vtkSplineSource().GetClassName())")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The kernels alone, without VTK: cubic splines on eight elements have eleven functions.
+// Cubic splines on eight elements have eleven functions.
 #include <KnotVector.h>
 
 int main()

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A disc of five patches is proved valid.
+#include <vtkJacobianValidator.h>
+#include <vtkNew.h>
+#include <vtkSplineSource.h>
+#include <vtkTable.h>
+
+int main()
+{
+  vtkNew<vtkSplineSource> disc;
+  disc->SetShapeName("Disc");
+  vtkNew<vtkJacobianValidator> validator;
+  validator->SetInputConnection(disc->GetOutputPort());
+  validator->Update();
+  auto* summary = vtkTable::SafeDownCast(validator->GetOutputDataObject(2));
+  return summary && summary->GetNumberOfRows() == 6 && validator->GetErrorCode() == 0 ? 0 : 1;
+}
