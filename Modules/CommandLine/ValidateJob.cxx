@@ -14,6 +14,7 @@
 
 #include <iostream>
 #include <memory>
+#include <sstream>
 
 namespace knotwork
 {
@@ -39,6 +40,19 @@ int ExitStatus(const nlohmann::ordered_json& report)
 std::string Sentence(const nlohmann::ordered_json& report)
 {
   std::string text = report["verdict"];
+  if (text == "undecided")
+  {
+    std::ostringstream why;
+    why.precision(3);
+    why << ": " << report["undecided_reason"].get<std::string>() << " (cell "
+        << report["undecided_cell"].get<int>();
+    if (report["rounding"].get<double>() > 0.0)
+    {
+      why << ", det J down to " << report["min_jacobian_upper"].get<double>()
+          << "; coordinates exact to " << report["rounding"].get<double>() << " would decide";
+    }
+    text += why.str() + ")";
+  }
   const std::string injective = report.value("injective", "not_applicable");
   if (injective == "injective")
   {
@@ -106,6 +120,13 @@ struct ValidateJob
     report["undecided_cells"] = count("UndecidedCells");
     report["reversed_cells"] = count("ReversedCells");
     report["degenerate_cells"] = count("DegenerateCells");
+    report["undecided_reason"] = table->GetValueByName(all, "UndecidedReason").ToString();
+    report["undecided_cell"] = nullptr;
+    if (const int cell = table->GetValueByName(all, "UndecidedCell").ToInt(); cell >= 0)
+    {
+      report["undecided_cell"] = cell;
+    }
+    report["rounding"] = number("Rounding");
     report["min_jacobian_lower"] = number("JacobianMinLower");
     report["min_jacobian_upper"] = number("JacobianMinUpper");
     report["max_jacobian_lower"] = number("JacobianMaxLower");

@@ -91,11 +91,16 @@ private:
     this->Result.FirstPoint.push_back(this->Result.Points.size());
     cells.Errors.push_back(error);
     this->Rounding = 0.0;
-    return cells.Block(cells.Add(shape, degree));
+    double* block = cells.Block(cells.Add(shape, degree));
+    if (cells.Rational)
+    {
+      cells.Remainders.resize(cells.Data.size());
+    }
+    return block;
   }
 
-  /// Homogeneous coefficients are products that need not be doubles: Rounding grows to what the
-  /// largest of them is off by.
+  /// Homogeneous coefficients are products that need not be doubles: what each is off by is its
+  /// remainder, and Rounding grows to the largest.
   void Set(double* block, std::size_t n, std::size_t k, const double* x)
   {
     const bool rational = this->Result.Cells.Rational;
@@ -105,7 +110,13 @@ private:
       value = rational ? x[3] * x[c] : x[c];
       if (rational)
       {
-        this->Rounding = std::max(this->Rounding, std::abs(std::fma(x[3], x[c], -value)));
+        const double rest = std::fma(x[3], x[c], -value);
+        BernsteinCells& cells = this->Result.Cells;
+        cells.Remainders[static_cast<std::size_t>(&value - cells.Data.data())] = rest;
+        this->Rounding = std::max(this->Rounding, std::abs(rest));
+        // near the smallest doubles the remainder is rounded too, so it is not all
+        const bool exact = x[c] == 0.0 || std::abs(value) >= 0x1p-900;
+        this->Rounding = exact ? this->Rounding : 2.0 * this->Rounding + 0x1p-1000;
       }
     }
     if (rational)

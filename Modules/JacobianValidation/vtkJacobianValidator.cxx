@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkJacobianValidator.h"
 
-#include "BoundaryInjectivity.h"
+#include "CellMaps.h"
 #include "CellMeasures.h"
 #include "CellsFromGrid.h"
 #include "JacobianCertificate.h"
@@ -27,6 +27,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <map>
 
@@ -114,6 +115,8 @@ void AddCellArrays(const GridPair& grid, const std::vector<CellCertificate>& cel
     [](const Cell& cell) { return cell.Verdict == Verdict::Reversed ? 1 : 0; });
   AddCellArray<vtkIntArray>(grid, "JacobianDegenerate", cells,
     [](const Cell& cell) { return cell.Degenerate != 0 ? 1 : 0; });
+  AddCellArray<vtkIntArray>(
+    grid, "JacobianLimit", cells, [](const Cell& cell) { return static_cast<int>(cell.Limit); });
   AddCellArray<vtkDoubleArray>(
     grid, "JacobianMinLower", cells, [](const Cell& cell) { return cell.MinLower; });
   AddCellArray<vtkDoubleArray>(
@@ -147,57 +150,57 @@ double ParametricVolume(vtkUnstructuredGrid* grid, vtkIdType cell, int parameter
   return volume > 0.0 ? volume : 1.0;
 }
 
-/// The cells with so many parameters.
-struct Selection
-{
-  knotwork::BernsteinCells Cells;
-  std::vector<std::size_t> Origin;
-};
-Selection SelectCells(const knotwork::BernsteinCells& all, int parameters)
-{
-  Selection result;
-  result.Cells.NumComponents = all.NumComponents;
-  result.Cells.Rational = all.Rational;
-  for (std::size_t cell = 0; cell < all.Shapes.size(); ++cell)
-  {
-    if (NumParameters(all.Shapes[cell]) == parameters)
-    {
-      double* block = result.Cells.Block(result.Cells.Add(all.Shapes[cell], all.Degrees[cell]));
-      std::copy(all.Data.begin() + static_cast<std::ptrdiff_t>(all.Offsets[cell]),
-        all.Data.begin() + static_cast<std::ptrdiff_t>(all.Offsets[cell + 1]), block);
-      result.Origin.push_back(cell);
-    }
-  }
-  return result;
-}
-
-/// Measures of all cells, those of each dimension by themselves.
+/// Measures of all cells: those of every plane's map, of volumes, and of surfaces and curves in
+/// space by themselves.
 knotwork::Result<std::vector<knotwork::CellMeasure>> Measure(const knotwork::BernsteinCells& cells,
-  const std::vector<GridPair>& grids, knotwork::CellMeasuresParams params)
+  const knotwork::CellMaps& maps, const std::vector<GridPair>& grids,
+  knotwork::CellMeasuresParams params)
 {
   std::vector<knotwork::CellMeasure> measures(static_cast<std::size_t>(cells.NumCells()));
-  for (int dimension = 1; dimension <= 3; ++dimension)
+  const auto add = [&](const std::vector<int>& which, int components) -> Status
   {
-    const Selection selection = SelectCells(cells, dimension);
-    if (selection.Origin.empty())
+    if (which.empty())
     {
-      continue;
+      return {};
     }
     params.ParametricVolumes.clear();
-    for (const std::size_t cell : selection.Origin)
+    for (const int cell : which)
     {
-      const GridPair& owner = OwnerOf(grids, cell);
+      const GridPair& owner = OwnerOf(grids, static_cast<std::size_t>(cell));
       params.ParametricVolumes.push_back(
-        ParametricVolume(owner.Input, static_cast<vtkIdType>(cell - owner.FirstCell), dimension));
+        ParametricVolume(owner.Input, cell - static_cast<vtkIdType>(owner.FirstCell),
+          NumParameters(cells.Shapes[static_cast<std::size_t>(cell)])));
     }
-    const auto measured = MeasureCells(selection.Cells, params);
+    const auto measured = MeasureCells(SelectCells(cells, which, components), params);
     if (!measured)
     {
       return measured.Status;
     }
-    for (std::size_t i = 0; i < selection.Origin.size(); ++i)
+    for (std::size_t i = 0; i < which.size(); ++i)
     {
-      measures[selection.Origin[i]] = measured->Cells[i];
+      measures[static_cast<std::size_t>(which[i])] = measured->Cells[i];
+    }
+    return {};
+  };
+  std::vector<std::pair<std::vector<int>, int>> lists; // and how many components they need
+  for (const auto& plane : maps.Planes)
+  {
+    lists.emplace_back(plane, 2);
+  }
+  lists.emplace_back(maps.Volumes, 3);
+  for (const int parameters : { 1, 2 })
+  {
+    lists.emplace_back();
+    lists.back().second = 3;
+    std::copy_if(maps.Others.begin(), maps.Others.end(), std::back_inserter(lists.back().first),
+      [&](int cell)
+      { return NumParameters(cells.Shapes[static_cast<std::size_t>(cell)]) == parameters; });
+  }
+  for (const auto& [which, components] : lists)
+  {
+    if (Status status = add(which, components); !status)
+    {
+      return status;
     }
   }
   return measures;
@@ -265,13 +268,6 @@ knotwork::CellComplex ComplexOf(
     }
   }
   return complex;
-}
-
-/// Is the map one of the plane or of space onto itself, so that it can be injective?
-bool CanBeInjective(const knotwork::BernsteinCells& cells)
-{
-  return std::all_of(cells.Shapes.begin(), cells.Shapes.end(),
-    [&](knotwork::CellShape shape) { return NumParameters(shape) == cells.NumComponents; });
 }
 
 /// VTK's linear cell of a shape; its corners in the order of CornerParameters are those of VTK but
@@ -373,6 +369,9 @@ struct Summary
   std::map<Verdict, int> Count;
   int Cells = 0;
   int Degenerate = 0;
+  int Undecided = -1; ///< the first such cell, by its number in its grid
+  knotwork::JacobianLimit Limit = knotwork::JacobianLimit::None; ///< what stopped it
+  double Rounding = 0.0;
   double MinLower = std::numeric_limits<double>::infinity();
   double MinUpper = std::numeric_limits<double>::infinity();
   double MaxLower = -std::numeric_limits<double>::infinity();
@@ -395,11 +394,17 @@ struct Summary
     this->UniformityMin = std::min(this->UniformityMin, cell.UniformityMin);
     this->UniformityMax = std::max(this->UniformityMax, cell.UniformityMax);
   }
-  void Add(const CellCertificate& cell)
+  void Add(const CellCertificate& cell, vtkIdType number)
   {
     ++this->Cells;
     ++this->Count[cell.Verdict];
     this->Degenerate += cell.Degenerate != 0 ? 1 : 0;
+    if (cell.Verdict == Verdict::Undecided && this->Undecided < 0)
+    {
+      this->Undecided = static_cast<int>(number);
+      this->Limit = cell.Limit;
+    }
+    this->Rounding = std::max(this->Rounding, cell.Rounding);
     this->MinLower = std::min(this->MinLower, cell.MinLower);
     this->MinUpper = std::min(this->MinUpper, cell.MinUpper);
     this->MaxLower = std::max(this->MaxLower, cell.MaxLower);
@@ -457,6 +462,9 @@ void FillTable(std::map<int, Summary>& patches, Summary& all, bool measures, vtk
   counted("UndecidedCells", Verdict::Undecided);
   counted("ReversedCells", Verdict::Reversed);
   addColumn(Integers(), "DegenerateCells", [](int, Summary& s) { return s.Degenerate; });
+  addColumn(Texts(), "UndecidedReason", [](int, Summary& s) { return ToString(s.Limit); });
+  addColumn(Integers(), "UndecidedCell", [](int, Summary& s) { return s.Undecided; });
+  addColumn(Reals(), "Rounding", [](int, Summary& s) { return s.Rounding; });
   addColumn(Reals(), "JacobianMinLower", [](int, Summary& s) { return s.MinLower; });
   addColumn(Reals(), "JacobianMinUpper", [](int, Summary& s) { return s.MinUpper; });
   addColumn(Reals(), "JacobianMaxLower", [](int, Summary& s) { return s.MaxLower; });
@@ -572,21 +580,22 @@ Status vtkJacobianValidator::Compute(vtkInformationVector** inputs, vtkInformati
   params.ComputeMax = this->BoundMaximum;
   params.MaxBoxes = this->MaximumBoxes;
   params.Threads = this->KernelThreads();
-  const knotwork::BernsteinCells cells = PlanarCells(read->Cells);
-  const auto certificate = ValidateJacobian(cells, params, this->Progress());
+  const knotwork::BernsteinCells& cells = read->Cells;
+  const knotwork::CellComplex complex = ComplexOf(read.Value, grids);
+  const knotwork::CellMaps maps = FindCellMaps(cells, complex.Patches);
+  const auto certificate = ValidateMaps(cells, maps, params, this->Progress());
   if (!certificate)
   {
     return certificate.Status;
   }
-  const bool isMap = CanBeInjective(cells);
   knotwork::InjectivityCertificate injectivity;
-  if (this->Injectivity && isMap)
+  if (this->Injectivity && maps.HasMaps())
   {
     knotwork::InjectivityParams injectivityParams;
     injectivityParams.MaxBoxes = this->MaximumBoxes;
     injectivityParams.Threads = this->KernelThreads();
-    auto proved = ProveInjectivity(
-      cells, ComplexOf(read.Value, grids), certificate.Value, injectivityParams, this->Progress());
+    auto proved = ProveMapsInjective(
+      cells, maps, complex, certificate.Value, injectivityParams, this->Progress());
     if (!proved)
     {
       return proved.Status;
@@ -600,7 +609,7 @@ Status vtkJacobianValidator::Compute(vtkInformationVector** inputs, vtkInformati
     measuresParams.SamplesPerEdge = this->SamplesPerEdge;
     measuresParams.BoundBoxes = 0;
     measuresParams.Threads = this->KernelThreads();
-    auto measured = Measure(cells, grids, measuresParams);
+    auto measured = Measure(cells, maps, grids, measuresParams);
     if (!measured)
     {
       return measured.Status;
@@ -625,7 +634,7 @@ Status vtkJacobianValidator::Compute(vtkInformationVector** inputs, vtkInformati
       const std::size_t cell = grid.FirstCell + static_cast<std::size_t>(i);
       for (Summary* summary : { &patches[PatchOf(grid.Input, i)], &all })
       {
-        summary->Add(certificate->Cells[cell]);
+        summary->Add(certificate->Cells[cell], i);
         if (this->Measures)
         {
           summary->Add(measures[cell]);
@@ -637,10 +646,10 @@ Status vtkJacobianValidator::Compute(vtkInformationVector** inputs, vtkInformati
   FillTable(patches, all, this->Measures, table);
   if (this->Injectivity)
   {
-    FillInjectivity(injectivity, isMap, table);
+    FillInjectivity(injectivity, maps.HasMaps(), table);
   }
   ShowWitnesses(
-    read->Cells, certificate.Value, injectivity, grids, vtkUnstructuredGrid::GetData(outputs, 1));
+    cells, certificate.Value, injectivity, grids, vtkUnstructuredGrid::GetData(outputs, 1));
   this->Verdict = static_cast<int>(certificate->Verdict);
   return {};
 }

@@ -5,15 +5,19 @@
  *
  * Input 0 is a vtkUnstructuredGrid, or a vtkPartitionedDataSetCollection of such grids, of Bezier,
  * Lagrange, linear and quadratic curves, quadrilaterals, hexahedra, triangles, tetrahedra and
- * wedges. Cells of a plane z = constant are planar maps; quadrilaterals and triangles in space are
- * surfaces, of which |S_u x S_v| takes the place of det J, and curves are judged by |C_u|. All
- * derivatives are with respect to a cell's local parameters in [0, 1].
+ * wedges. Quadrilaterals and triangles that have an edge in common or belong to one patch are parts
+ * of one surface: when all of it lies in a plane z = constant it is a map of that plane, else a
+ * surface in space, of which |S_u x S_v| takes the place of det J. Curves are judged by |C_u|.
+ * Other cells of the grid do not matter. All derivatives are with respect to a cell's local
+ * parameters in [0, 1].
  *
  * Output 0 is the input with cell arrays: `JacobianVerdict` (1 valid, 0 undecided, -1 invalid or
  * reversed), `JacobianReversed` (1 where det J < 0 throughout), `JacobianDegenerate` (1 where det J
- * is zero at a vertex, edge or face of a valid cell and nowhere else), the proven bounds
- * `JacobianMinLower` <= min det J <= `JacobianMinUpper` and `JacobianMaxLower` <= max det J <=
- * `JacobianMaxUpper`; with Measures also `CellMeasure` (signed length, area or volume) and
+ * is zero at a vertex, edge or face of a valid cell and nowhere else), `JacobianLimit` (what
+ * stopped the proof of an undecided cell: 1 MaximumBoxes, 2 a zero that no subdivision separates, 3
+ * rounding of a conversion, 4 degenerate within the rounding of its coordinates; else 0), the
+ * proven bounds `JacobianMinLower` <= min det J <= `JacobianMinUpper` and `JacobianMaxLower` <= max
+ * det J <= `JacobianMaxUpper`; with Measures also `CellMeasure` (signed length, area or volume) and
  * `ScaledJacobianMin` (smallest sampled det J / (|f_u| |f_v| |f_w|)). `JacobianVerdict` is made the
  * active scalars, of cells and points, so that it is what is drawn. Output 1
  * (vtkUnstructuredGrid) has for every invalid cell a vertex at a point where det J <= 0 is proved
@@ -22,8 +26,9 @@
  * `LocalParameters`; an overlap of a map that is not injective is two vertices. Output 2 is a table
  * with a row a patch (column `PatchId`; one row when cells have no `PatchId`) and a last row, with
  * `PatchId` -1, for all together, which also has the verdict on global injectivity (`Injective`:
- * "injective", "injective_up_to_seam", "not_injective", "undecided", and "not_applicable" of
- * surfaces and curves in space; `InjectivityReason`) and on the interfaces of the patches
+ * "injective", "injective_up_to_seam", "not_injective", "undecided", and "not_applicable" when
+ * there are only surfaces and curves in space; `InjectivityReason`) and on the interfaces of the
+ * patches
  * (`Interfaces`, `InterfaceGaps`, `LargestGap`).
  *
  * @source Johnen, Remacle, Geuzaine (2013). The module's page has the method, limits and errors.
@@ -60,8 +65,8 @@ public:
   vtkBooleanMacro(BoundMaximum, bool);
   ///@}
   ///@{
-  /** Sub-boxes looked at, over all cells, before what is open stays undecided. Default 1000000,
-   * valid range [1, 1000000000]. */
+  /** Sub-boxes looked at, over all cells of a kind (planar or in space, polynomial or rational),
+   * before what is open stays undecided. Default 1000000, valid range [1, 1000000000]. */
   vtkSetClampMacro(MaximumBoxes, vtkIdType, 1, 1000000000);
   vtkGetMacro(MaximumBoxes, vtkIdType);
   ///@}

@@ -148,6 +148,43 @@ def test_limit_leaves_a_valley_undecided():
     assert report["verdict"] == "valid" and report["min_jacobian_lower"] > 0
 
 
+def straight_corners(name, angle, move=0.0):
+    """A square of four straight corners, where det J = 0, extruded and turned; one point moves down."""
+    net = [(0, -1), (1, -1 - move), (1, 0), (-1, -1), (0, 0), (1, 1), (-1, 0), (-1, 1), (0, 1)]
+    c, s = math.cos(angle), math.sin(angle)
+    rows = ["%r %r %r" % (c * x - s * y, s * x + c * y, 0.5 * k) for k in range(2) for x, y in net]
+    with open(path(name), "w") as stream:
+        stream.write("700 1 0 0\n3 0\n" + 2 * "3 3\n0 0 0 1 1 1\n" + "2 2\n0 0 1 1\n" + "\n".join(rows) + "\n")
+    return path(name)
+
+
+def test_degenerate_within_rounding_is_undecided_and_says_so():
+    report, _ = run(0, "validate", straight_corners("straight.g2", 0))
+    assert report["verdict"] == "valid" and report["degenerate_cells"] == 1 and report["rounding"] == 0
+    assert report["undecided_cell"] is None and report["undecided_reason"] == ""
+    # turned, its coordinates are rounded: now and then det J is negative by that along an edge
+    undecided = 0
+    for k in range(1, 21):
+        done = knotwork_testing.run_program("validate", straight_corners("turned.g2", 0.1 * k), "--report",
+                                            path("report.json"), "--output", path("turned.vtu"), "--quiet")
+        with open(path("report.json")) as stream:
+            report = json.load(stream)
+        assert (done.returncode, report["verdict"]) in ((0, "valid"), (4, "undecided")), k
+        if done.returncode == 4:
+            undecided += 1
+            assert report["undecided_reason"] == "degenerate within the rounding of its coordinates"
+            assert report["undecided_cell"] == 0 and 0 < report["rounding"] < 1e-15
+            assert -1e-15 < report["min_jacobian_upper"] < 0
+            assert read(path("turned.vtu")).GetCellData().GetArray("JacobianLimit").GetTuple1(0) == 4
+            assert said("turned.g2", 4).startswith(
+                "undecided: degenerate within the rounding of its coordinates (cell 0, det J down to -")
+    assert undecided > 2
+    # folded by more than that, as little as it is
+    for move in (1e-9, 1e-3):
+        report, _ = run(3, "validate", straight_corners("folded.g2", 0, move))
+        assert report["verdict"] == "invalid" and report["rounding"] == 0
+
+
 def test_unreadable_input_leaves_nothing():
     with open(path("broken.vtu"), "w") as stream:
         stream.write("<VTKFile")

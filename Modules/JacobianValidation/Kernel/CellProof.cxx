@@ -84,9 +84,14 @@ public:
     this->Layout = &cache.Get(this->Shape, this->Degree);
     this->Components = cells.NumComponents;
     this->Rational = cells.Rational;
-    this->Given = cells.Errors.empty() ? 0.0 : cells.Errors[c];
     const double* block = cells.Block(cell);
     this->Block.assign(block, block + cells.NumPlanes() * this->Layout->Size);
+    this->Given = cells.Uncertainty(cell);
+    if (!cells.Remainders.empty())
+    {
+      const double* rest = cells.Remainders.data() + cells.Offsets[c];
+      this->Remainders.assign(rest, rest + this->Block.size());
+    }
     this->DropConstantComponent();
     this->Norm = this->Components > NumParameters(this->Shape);
     this->MeasureNet();
@@ -94,7 +99,7 @@ public:
 
   CellCertificate Run(JacobianWitness& witness)
   {
-    if (!this->UseFloating() && !this->UseExact())
+    if (!this->HasWeights() || (!this->UseFloating() && !this->UseExact()))
     {
       this->Result.Limit = JacobianLimit::Precision;
       this->Result.MinLower = this->Result.MaxLower = -std::numeric_limits<double>::infinity();
@@ -115,6 +120,7 @@ public:
       this->Result.MinUpper = std::min(this->Result.MinUpper, witness.Upper);
       this->Result.MinLower = std::min(this->Result.MinLower, this->Result.MinUpper);
     }
+    this->ForgiveRounding();
     if (this->Flat && this->Result.Verdict == Verdict::Reversed)
     {
       // a surface in a coordinate plane has no side of its own
@@ -148,22 +154,62 @@ private:
     const int n = this->Size();
     for (int c = 0; c < 3; ++c)
     {
-      const double* p = this->Plane(c);
-      const bool constant =
-        std::all_of(p, p + n, [&](double x) { return this->Rational ? x == 0.0 : x == p[0]; });
-      if (constant)
+      if (this->IsConstant(c))
       {
-        this->Block.erase(this->Block.begin() + c * n, this->Block.begin() + (c + 1) * n);
-        if (c == 1)
+        for (std::vector<double>* values : { &this->Block, &this->Remainders })
         {
-          // (z, x), as in the normal's component y
-          std::swap_ranges(this->Block.begin(), this->Block.begin() + n, this->Block.begin() + n);
+          if (values->empty())
+          {
+            continue;
+          }
+          values->erase(values->begin() + c * n, values->begin() + (c + 1) * n);
+          if (c == 1)
+          {
+            // (z, x), as in the normal's component y
+            std::swap_ranges(values->begin(), values->begin() + n, values->begin() + n);
+          }
         }
         this->Components = 2;
         this->Flat = true;
         return;
       }
     }
+  }
+
+  /// The weights are positive whatever the errors are.
+  bool HasWeights() const
+  {
+    const double* w = this->Plane(this->Components);
+    return !this->Rational || *std::min_element(w, w + this->Size()) > this->Given;
+  }
+
+  double Remainder(int c, int i) const
+  {
+    return this->Remainders.empty()
+      ? 0.0
+      : this->Remainders[static_cast<std::size_t>(c * this->Size() + i)];
+  }
+
+  /// All control points have the same coordinate, exactly.
+  bool IsConstant(int c) const
+  {
+    const double* p = this->Plane(c);
+    const double* w = this->Plane(this->Components);
+    double first = 0.0;
+    for (int i = 0; i < this->Size(); ++i)
+    {
+      double x = p[i];
+      if (this->Rational && x != 0.0 && !Quotient(p[i], this->Remainder(c, i), w[i], x))
+      {
+        return false;
+      }
+      first = i == 0 ? x : first;
+      if (x != first)
+      {
+        return false;
+      }
+    }
+    return true;
   }
 
   /// Size of the control net, for what CollapseTolerance means here: moving control points by the
@@ -238,18 +284,18 @@ private:
       double* p = shifted.data() + c * n;
       pointers[static_cast<std::size_t>(c)] = p;
       double error = this->Given;
-      if (this->Rational && c < this->Components)
+      if (c < this->Components && (this->Rational || !this->Remainders.empty()))
       {
-        // to the cell's middle: two roundings a coefficient
-        const double centre = 0.5 * (p[0] / w[0] + p[n - 1] / w[n - 1]);
+        // to the cell's middle: two roundings a coefficient, of what is left
+        const double centre = this->Rational ? 0.5 * (p[0] / w[0] + p[n - 1] / w[n - 1]) : 0.0;
         double size = 0.0;
         for (int i = 0; i < n; ++i)
         {
-          p[i] -= centre * w[i];
-          size = std::max(size, std::fabs(p[i]));
+          const double rest = this->Rational ? std::fma(-centre, w[i], p[i]) : p[i];
+          p[i] = rest + this->Remainder(c, i);
+          size = std::max({ size, std::fabs(rest), std::fabs(p[i]) });
         }
-        error += std::fabs(centre) * this->Given +
-          2.0 * UnitRoundoff * (std::fabs(centre) * wLargest + size);
+        error += std::fabs(centre) * this->Given + 2.0 * UnitRoundoff * size;
       }
       absolute[static_cast<std::size_t>(c)] = error;
       for (int i = 0; i < n; ++i)
@@ -316,8 +362,27 @@ private:
       return false;
     }
     this->ExactWasTried = true;
-    const ExactCell cell = MakeExactCell(
-      *this->Layout, this->Components, this->Rational, this->Block.data(), this->PointTolerance);
+    this->TakeExact(this->MakeExactNumerator());
+    if (this->Given > 0.0)
+    {
+      if (this->Result.Degenerate == 0)
+      {
+        this->Exact = nullptr;
+        this->Result.Snapped = false;
+        this->UseFloating();
+        return false;
+      }
+      this->Result.Snapped = true;
+    }
+    return true;
+  }
+
+  /// The numerator with collapsed edges and zero corners made so.
+  std::shared_ptr<ExactForm> MakeExactNumerator()
+  {
+    const ExactCell cell =
+      MakeExactCell(*this->Layout, this->Components, this->Rational, this->Block.data(),
+        this->Remainders.empty() ? nullptr : this->Remainders.data(), this->PointTolerance);
     this->Result.Snapped = cell.Snapped;
     std::array<const ExactInteger*, 4> planes{};
     for (std::size_t c = 0; c < 4; ++c)
@@ -337,6 +402,12 @@ private:
       this->Rational ? NumParameters(this->Shape) + 1 : NumParameters(this->Shape);
     exact->Exponent = cell.Exponent * factors * (this->Norm ? 2 : 1);
     this->SnapCorners(*exact);
+    return exact;
+  }
+
+  /// The problem of the sign of a numerator, divided by the faces where it vanishes.
+  void TakeExact(const std::shared_ptr<ExactForm>& exact)
+  {
     int scale = 0;
     this->Values = exact->Coefficients(scale);
     this->ValuesLayout = exact->Layout;
@@ -349,7 +420,6 @@ private:
     this->Exact = exact;
     this->SetRange(scale);
 
-    // divide by the faces where it vanishes
     auto quotient = exact;
     this->Factored = 0;
     this->Result.Degenerate = 0;
@@ -377,18 +447,6 @@ private:
     {
       this->FindZeroFaces();
     }
-    if (this->Given > 0.0)
-    {
-      if (isZero || this->Result.Degenerate == 0)
-      {
-        this->Exact = nullptr;
-        this->Result.Snapped = false;
-        this->UseFloating();
-        return false;
-      }
-      this->Result.Snapped = true;
-    }
-    return true;
   }
 
   void MarkDegenerate(int dimension)
@@ -415,8 +473,7 @@ private:
       double v = std::fabs(form.ValueAt(at));
       if (this->Rational)
       {
-        const double w = this->Plane(this->Components)[this->Layout->Corners[c]];
-        v /= std::pow(w, this->Power);
+        v /= this->CornerScale(static_cast<int>(c));
       }
       if (this->Norm)
       {
@@ -430,6 +487,133 @@ private:
     }
   }
 
+  /// Of a rational cell: the numerator at a corner over the Jacobian of the map that has the same
+  /// control points and no weights (its square when the numerator is squared). det J is that times
+  /// the product of w_d / w, the weights of the corner's neighbours over its own.
+  double CornerScale(int corner) const
+  {
+    const double* w = this->Plane(this->Components);
+    const int at = this->Layout->Corners[static_cast<std::size_t>(corner)];
+    double ratio = 1.0;
+    int left = NumParameters(this->Shape);
+    for (const FormLayout::Edge& edge : this->Layout->Edges)
+    {
+      for (const FormLayout::Line& line : edge.Lines)
+      {
+        const int* indices = edge.LineIndices.data() + line.First;
+        for (const bool end : { false, true })
+        {
+          if (line.Size > 1 && left > 0 && indices[end ? line.Size - 1 : 0] == at)
+          {
+            ratio *= w[indices[end ? line.Size - 2 : 1]] / w[at];
+            --left;
+          }
+        }
+      }
+    }
+    return std::pow(w[at], this->Power) * (this->Norm ? ratio * ratio : ratio);
+  }
+
+  /// Sides and edges on which all coefficients are within what CollapseTolerance makes of zero
+  /// become zero. @return the largest of what they were, 0 when there is none.
+  double SnapFaces(ExactForm& form)
+  {
+    int scale = 0;
+    const std::vector<double> values = form.Coefficients(scale);
+    const FormLayout& layout = *form.Layout;
+    double largest = 0.0;
+    double weight = 1.0; // terms have products of weights for factors: none is smaller than that
+    if (this->Rational)
+    {
+      const double* w = this->Plane(this->Components);
+      weight = std::pow(*std::min_element(w, w + this->Size()), this->Power);
+    }
+    for (int mask = 1; mask < 1 << layout.NumSlots; ++mask)
+    {
+      if (!this->IsFace(layout, mask) ||
+        __builtin_popcount(static_cast<unsigned>(mask)) >= NumParameters(this->Shape))
+      {
+        continue;
+      }
+      double most = 0.0;
+      for (std::size_t k = 0; k < values.size(); ++k)
+      {
+        most = IsOnFace(layout.Exponents[k], mask) ? std::max(most, std::fabs(values[k])) : most;
+      }
+      most = std::ldexp(most, scale) / weight;
+      most = this->Norm ? std::sqrt(most) : most;
+      if (most > 0.0 && most <= this->ValueTolerance)
+      {
+        largest = std::max(largest, most);
+        for (std::size_t k = 0; k < form.C.size(); ++k)
+        {
+          form.C[k] = IsOnFace(layout.Exponents[k], mask) ? ExactInteger() : form.C[k];
+        }
+      }
+    }
+    return largest;
+  }
+
+  /// A set of slots that vanish on a face of the cell: not all of a group.
+  static bool IsFace(const FormLayout& layout, int mask)
+  {
+    for (int g = 0; g < layout.NumGroups; ++g)
+    {
+      const int group = layout.GroupMasks[static_cast<std::size_t>(g)];
+      if ((mask & group) == group)
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+  static bool IsOnFace(const SlotExponents& exponents, int mask)
+  {
+    for (int s = 0; mask >> s; ++s)
+    {
+      if ((mask >> s & 1) && exponents[static_cast<std::size_t>(s)] != 0)
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /// An invalid cell whose only fault is an edge or side where the Jacobian is zero within
+  /// CollapseTolerance, and that would be valid with zeros there, is neither: its coordinates do
+  /// not say.
+  void ForgiveRounding()
+  {
+    const bool open = this->Result.Verdict == Verdict::Invalid
+      ? static_cast<bool>(this->Exact)
+      : this->Result.Verdict == Verdict::Undecided &&
+        this->Result.Limit == JacobianLimit::Precision;
+    if (!open || !(this->ValueTolerance > 0.0) || this->Given > this->GivenTolerance)
+    {
+      return;
+    }
+    CellProof snapped(*this);
+    snapped.Result = CellCertificate();
+    snapped.ExactWasTried = true;
+    const auto form = snapped.MakeExactNumerator();
+    const double size = snapped.SnapFaces(*form);
+    if (size == 0.0)
+    {
+      return;
+    }
+    snapped.TakeExact(form);
+    JacobianWitness ignored;
+    const bool decided = snapped.Decide(ignored);
+    this->Result.Boxes += snapped.Result.Boxes;
+    if (decided &&
+      (snapped.Result.Verdict == Verdict::Valid || snapped.Result.Verdict == Verdict::Reversed))
+    {
+      this->Result.Verdict = Verdict::Undecided;
+      this->Result.Limit = JacobianLimit::Rounding;
+      this->Result.Rounding = this->PointTolerance * (size / this->ValueTolerance);
+    }
+  }
+
   /// Edges and vertices (faces of codimension two and more) where the quotient is zero.
   void FindZeroFaces()
   {
@@ -439,12 +623,8 @@ private:
     {
       for (int mask = 0; mask < 1 << layout.NumSlots; ++mask)
       {
-        bool proper = __builtin_popcount(static_cast<unsigned>(mask)) == size;
-        for (int g = 0; g < layout.NumGroups; ++g)
-        {
-          const int group = layout.GroupMasks[static_cast<std::size_t>(g)];
-          proper = proper && (mask & group) != group;
-        }
+        bool proper =
+          __builtin_popcount(static_cast<unsigned>(mask)) == size && IsFace(layout, mask);
         for (const std::uint8_t face : this->Problem.ZeroFaces)
         {
           proper = proper && (mask & face) != face; // part of one that is known
@@ -452,12 +632,7 @@ private:
         bool zero = proper;
         for (std::size_t k = 0; zero && k < exact.C.size(); ++k)
         {
-          bool on = true;
-          for (int s = 0; on && s < layout.NumSlots; ++s)
-          {
-            on = !(mask >> s & 1) || layout.Exponents[k][static_cast<std::size_t>(s)] == 0;
-          }
-          zero = !on || exact.C[k].Sign() == 0;
+          zero = !IsOnFace(layout.Exponents[k], mask) || exact.C[k].Sign() == 0;
         }
         if (zero)
         {
@@ -860,8 +1035,9 @@ private:
   const FormLayout* Layout = nullptr;
   int Components = 0;
   bool Rational = false;
-  double Given = 0.0;
+  double Given = 0.0; ///< what Block + Remainders may be off by
   std::vector<double> Block;
+  std::vector<double> Remainders; ///< empty: none
   bool Norm = false;
   bool Flat = false;
   double PointTolerance = 0.0;

@@ -2,6 +2,7 @@
 #include "ExactForm.h"
 
 #include <cfloat>
+#include <cmath>
 #include <limits>
 
 namespace knotwork
@@ -298,6 +299,14 @@ DyadicNumber Product(const DyadicNumber& a, const DyadicNumber& b)
   return { Number(a.M * b.M), a.E + b.E };
 }
 
+DyadicNumber Sum(const DyadicNumber& a, const DyadicNumber& b)
+{
+  const int e = a.M.is_zero() ? b.E : b.M.is_zero() ? a.E : std::min(a.E, b.E);
+  const auto at = [e](const DyadicNumber& x)
+  { return x.M.is_zero() ? Number(0) : Number(x.M << (x.E - e)); };
+  return { Number(at(a) + at(b)), e };
+}
+
 bool Equal(const DyadicNumber& a, const DyadicNumber& b)
 {
   if (a.M.sign() != b.M.sign())
@@ -313,8 +322,18 @@ bool Equal(const DyadicNumber& a, const DyadicNumber& b)
 }
 }
 
-ExactCell MakeExactCell(
-  const FormLayout& layout, int numComponents, bool rational, const double* block, double tolerance)
+bool Quotient(double hi, double lo, double w, double& x)
+{
+  x = hi / w;
+  x += (std::fma(-x, w, hi) + lo) / w;
+  const double product = x * w;
+  // below that the product's own remainder may be rounded
+  return product == hi && std::fma(x, w, -product) == lo &&
+    (x == 0.0 || std::fabs(product) >= 0x1p-900);
+}
+
+ExactCell MakeExactCell(const FormLayout& layout, int numComponents, bool rational,
+  const double* block, const double* remainders, double tolerance)
 {
   const int n = layout.Size;
   const int planes = numComponents + (rational ? 1 : 0);
@@ -323,7 +342,12 @@ ExactCell MakeExactCell(
   {
     for (int i = 0; i < n; ++i)
     {
-      values[static_cast<std::size_t>(c)].push_back(Dyadic(block[c * n + i]));
+      DyadicNumber x = Dyadic(block[c * n + i]);
+      if (remainders && remainders[c * n + i] != 0.0)
+      {
+        x = Sum(x, Dyadic(remainders[c * n + i]));
+      }
+      values[static_cast<std::size_t>(c)].push_back(std::move(x));
     }
   }
   ExactCell cell;
@@ -334,7 +358,8 @@ ExactCell MakeExactCell(
   {
     for (int i = 0; i < n; ++i)
     {
-      points[static_cast<std::size_t>(c * n + i)] /= weights[i];
+      Quotient(block[c * n + i], remainders ? remainders[c * n + i] : 0.0, weights[i],
+        points[static_cast<std::size_t>(c * n + i)]);
     }
   }
   const auto point = [&](int c, int i) -> double&

@@ -91,8 +91,13 @@ struct ExactCell
   bool Snapped = false; ///< boundary lines of control points were made to coincide
 };
 
+/// The Euclidean coordinate of a homogeneous one, hi + lo = x w.
+/// @return false when x is not a double; it is then the nearest one but for a rounding.
+bool Quotient(double hi, double lo, double w, double& x);
+
+/// @param remainders  added to the block; null: none.
 /// @param tolerance  lines of control points on the boundary that agree within it are collapsed to
 /// their first point; 0: none.
 ExactCell MakeExactCell(const FormLayout& layout, int numComponents, bool rational,
-  const double* block, double tolerance);
+  const double* block, const double* remainders, double tolerance);
 }

@@ -22,11 +22,17 @@ const char* ToString(Verdict verdict);
 enum class JacobianLimit : std::uint8_t
 {
   None,
-  Boxes,    ///< JacobianParams::MaxBoxes: more would go on
-  Depth,    ///< sub-boxes whose corners are multiples of 2^-51: a zero that no finite subdivision
-            ///< separates
-  Precision ///< the errors that BernsteinCells::Errors states hide the sign
+  Boxes,     ///< JacobianParams::MaxBoxes: more would go on
+  Depth,     ///< sub-boxes whose corners are multiples of 2^-51: a zero that no finite subdivision
+             ///< separates
+  Precision, ///< the errors that BernsteinCells::Errors states hide the sign
+  Rounding ///< degenerate within the rounding of its coordinates: on an edge or a side the Jacobian
+           ///< is as near to zero, on either side of it, as control points that move by
+           ///< CollapseTolerance make it, and with zeros there the cell would be valid
 };
+
+/// One plain sentence, without a full stop; empty for None.
+const char* ToString(JacobianLimit limit);
 
 /// Bits of CellCertificate::Degenerate: where det J is exactly zero although the cell is valid.
 enum DegeneratePlace : std::uint8_t
@@ -63,7 +69,9 @@ struct CellCertificate
   /// Surfaces and curves in space: proved that the normal (tangent) stays on one side of a plane.
   bool OneSided = false;
   std::int32_t Witness = -1; ///< into JacobianCertificate::Witnesses
-  std::int64_t Boxes = 0;    ///< sub-boxes looked at; 0: the cell's own coefficients decided
+  /// Limit Rounding: control points known to less than this length would decide. Else 0.
+  double Rounding = 0.0;
+  std::int64_t Boxes = 0; ///< sub-boxes looked at; 0: the cell's own coefficients decided
   /// Rounded outward: MinLower <= min det J <= MinUpper, MaxLower <= max det J <= MaxUpper.
   double MinLower = 0.0;
   double MinUpper = 0.0;
@@ -115,9 +123,8 @@ struct JacobianCertificate
 Result<JacobianCertificate> ValidateJacobian(const BernsteinCells& cells,
   const JacobianParams& params = {}, const ProgressCallback& progress = {});
 
-/// The cells with x and y alone when every z is the same number in each cell (as a plane map is
-/// stored in a VTK grid), else the cells unchanged. @pre cells.Check() is Ok.
-BernsteinCells PlanarCells(const BernsteinCells& cells);
+/// Fills in what the certificate says of all cells from what it says of each.
+void Summarize(JacobianCertificate& certificate);
 
 struct CertificateCheck
 {

@@ -2,6 +2,7 @@
 #include "BernsteinCells.h"
 #include "Bernstein.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <string>
@@ -130,14 +131,32 @@ int BernsteinCells::Add(CellShape shape, const CellDegree& degree)
   return this->NumCells() - 1;
 }
 
+double BernsteinCells::Uncertainty(int cell) const
+{
+  const std::size_t c = static_cast<std::size_t>(cell);
+  double rest = this->Errors.empty() ? 0.0 : this->Errors[c];
+  if (rest > 0.0 && !this->Remainders.empty())
+  {
+    double largest = 0.0;
+    for (std::size_t i = this->Offsets[c]; i < this->Offsets[c + 1]; ++i)
+    {
+      largest = std::max(largest, std::abs(this->Remainders[i]));
+    }
+    rest = std::max(0.0, rest - largest);
+  }
+  return rest;
+}
+
 Status BernsteinCells::CheckStructure() const
 {
   const std::size_t n = this->Shapes.size();
   if (this->Degrees.size() != n || this->Offsets.size() != n + 1 || this->Offsets.front() != 0 ||
     this->Offsets.back() != this->Data.size() ||
-    (!this->Errors.empty() && this->Errors.size() != n))
+    (!this->Errors.empty() && this->Errors.size() != n) ||
+    (!this->Remainders.empty() && this->Remainders.size() != this->Data.size()))
   {
-    return { ErrorCode::SizeMismatch, "shapes, degrees, offsets, data and errors do not fit" };
+    return { ErrorCode::SizeMismatch,
+      "shapes, degrees, offsets, data, errors and remainders do not fit" };
   }
   std::size_t size = 0;
   for (std::size_t c = 0; c < n; ++c)

@@ -58,6 +58,10 @@ struct BernsteinCells
   /// value may be off by so much (rounding of a conversion from another basis), and what is proved
   /// holds for every geometry within.
   std::vector<double> Errors;
+  /// Empty, or one number for each of Data, by which it is nearer: Data + Remainders is off by
+  /// Errors less the largest remainder of the cell, so by nothing where that is all (products w x
+  /// that are no doubles). Remainders of weights are 0.
+  std::vector<double> Remainders;
 
   int NumCells() const { return static_cast<int>(this->Shapes.size()); }
   int NumPlanes() const { return this->NumComponents + (this->Rational ? 1 : 0); }
@@ -69,6 +73,8 @@ struct BernsteinCells
   {
     return this->Data.data() + this->Offsets[static_cast<std::size_t>(cell)];
   }
+  /// What Data + Remainders of a cell may be off by.
+  double Uncertainty(int cell) const;
   /// Two cells are of one shape and degree.
   bool AreAlike(std::size_t a, std::size_t b) const
   {

@@ -195,6 +195,50 @@ TEST(JacobianValidator, SurfaceInSpace_ExactOracle)
   EXPECT_NEAR(CellValue(filter, "JacobianMaxUpper"), std::sqrt(3.0), 1e-5);
 }
 
+void Append(vtkUnstructuredGrid* grid, int type, const Points& coordinates)
+{
+  vtkNew<vtkIdList> ids;
+  for (const auto& x : coordinates)
+  {
+    ids->InsertNextId(grid->GetPoints()->InsertNextPoint(x.data()));
+  }
+  grid->InsertNextCell(type, ids);
+}
+
+TEST(JacobianValidator, PlanarCellsBesideOthersAreWhatTheyAreAlone_ExactOracle)
+{
+  // a clockwise square, a cube, a square turned up at a corner; then a square over half of the
+  // cube's place, which is another map
+  const auto grid = OneCell(VTK_QUAD, { { 5, 5, 0 }, { 5, 6, 0 }, { 6, 6, 0 }, { 6, 5, 0 } });
+  Append(grid, VTK_HEXAHEDRON,
+    { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 },
+      { 0, 1, 1 } });
+  Append(grid, VTK_QUAD, { { 3, 0, 0 }, { 3, 1, 0 }, { 4, 1, 0 }, { 4, 0, 1 } });
+  Append(grid, VTK_QUAD, { { 0, 0, 0.5 }, { 2, 0, 0.5 }, { 2, 1, 0.5 }, { 0, 1, 0.5 } });
+  vtkNew<vtkJacobianValidator> filter;
+  filter->SetInputData(grid);
+  filter->Update();
+  const double verdicts[] = { -1, 1, 1, 1 };
+  const double measures[] = { -1, 1, 0, 2 };
+  for (vtkIdType cell = 0; cell < 4; ++cell)
+  {
+    SCOPED_TRACE(cell);
+    EXPECT_EQ(CellValue(filter, "JacobianVerdict", cell), verdicts[cell]);
+    EXPECT_EQ(CellValue(filter, "JacobianReversed", cell), cell == 0 ? 1.0 : 0.0);
+    if (cell != 2)
+    {
+      EXPECT_NEAR(CellValue(filter, "CellMeasure", cell), measures[cell], 1e-14);
+    }
+  }
+  EXPECT_EQ(AllCells(filter, "Verdict").ToString(), "invalid"); // of both orientations
+  EXPECT_EQ(AllCells(filter, "Injective").ToString(), "injective");
+  Append(grid, VTK_QUAD, { { 1, 0, 0.5 }, { 3, 0, 0.5 }, { 3, 1, 0.5 }, { 1, 1, 0.5 } });
+  filter->SetInputData(grid);
+  filter->Modified();
+  filter->Update();
+  EXPECT_EQ(AllCells(filter, "Injective").ToString(), "not_injective");
+}
+
 TEST(JacobianValidator, ShapesOfTheSource_PropertyOracle)
 {
   // Every shape is valid; the poles and axes of some are degenerate and nothing else.

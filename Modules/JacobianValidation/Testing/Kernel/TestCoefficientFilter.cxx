@@ -77,8 +77,8 @@ TEST(CoefficientFilter, BoundsAreThoseOfTheExactForm_CrossOracle)
       {
         const int d = NumParameters(shape.Kind);
         const FormLayout& layout = cache.Get(shape.Kind, shape.Degree);
-        const ExactCell cell =
-          MakeExactCell(layout, d, shape.Rational, data[static_cast<std::size_t>(l)].data(), 0.0);
+        const ExactCell cell = MakeExactCell(
+          layout, d, shape.Rational, data[static_cast<std::size_t>(l)].data(), nullptr, 0.0);
         std::array<const ExactInteger*, 4> planes{};
         for (std::size_t c = 0; c < 4; ++c)
         {

@@ -351,17 +351,5 @@ TEST(ValidateJacobian, EveryFailureIsReachable)
   EXPECT_EQ(
     ValidateJacobian(good, {}, [](double) { return false; }).Status.Code, ErrorCode::Aborted);
 }
-
-TEST(PlanarCells, DropsAConstantHeight_ExactOracle)
-{
-  BernsteinCells cells;
-  cells.NumComponents = 3;
-  cells.Add(CellShape::Quadrilateral, { 1, 1, 0 });
-  cells.Data = { 0, 1, 0, 1, 0, 0, 1, 1, 2, 2, 2, 2 };
-  EXPECT_EQ(PlanarCells(cells).NumComponents, 2);
-  EXPECT_EQ(PlanarCells(cells).Data, Square().Data);
-  cells.Data.back() = 2.5;
-  EXPECT_EQ(PlanarCells(cells).NumComponents, 3);
-}
 }
 }

@@ -2,6 +2,7 @@
 // Thousands of cells whose verdict is known by construction (JacobianCorpus.h). No verdict may be
 // wrong; none may be undecided here. A sample goes through the second verifier, whose integers take
 // their time.
+#include "CellMaps.h"
 #include "HierarchicalSpace.h"
 #include "JacobianCorpus.h"
 #include "Shapes.h"
@@ -482,10 +483,10 @@ TEST(JacobianCorpus, ReadyMadeShapes_ExactOracle)
       int numDegenerate = 0;
       for (const AnySpline& patch : shape.Value)
       {
-        const BernsteinCells cells = std::visit([](const auto& spline)
-          { return PlanarCells(MakeBernsteinCells(MakeBezierForm(spline))); },
-          patch);
-        const auto result = ValidateJacobian(cells);
+        const BernsteinCells cells = std::visit(
+          [](const auto& spline) { return MakeBernsteinCells(MakeBezierForm(spline)); }, patch);
+        ASSERT_EQ(cells.NumComponents, 3);
+        const auto result = ValidateMaps(cells, FindCellMaps(cells, {}));
         ASSERT_TRUE(result) << result.Status.Message();
         EXPECT_EQ(result.Value.Verdict, Verdict::Valid)
           << ToString(params.Kind) << " at " << offset << ": " << result.Value.NumInvalid

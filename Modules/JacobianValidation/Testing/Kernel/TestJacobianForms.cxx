@@ -48,7 +48,7 @@ const ExactForm ExactDeterminant(
 {
   const FormLayout& layout = cache.Get(shape, degree);
   const ExactCell exact =
-    MakeExactCell(layout, cell.Components, cell.Rational, cell.Block.data(), 0.0);
+    MakeExactCell(layout, cell.Components, cell.Rational, cell.Block.data(), nullptr, 0.0);
   std::array<const ExactInteger*, 4> planes{};
   for (std::size_t c = 0; c < 4; ++c)
   {
