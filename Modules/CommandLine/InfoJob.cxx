@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Jobs.h"
 #include "LRDependence.h"
+#include "OneLine.h"
 #include "Session.h"
 #include "SplineModel.h"
 
@@ -110,7 +111,7 @@ struct InfoJob
     {
       const char* name = points->GetPointData()->GetArrayName(i);
       arrays.emplace_back(name ? name : "");
-      std::cout << ", array " << arrays.back();
+      std::cout << ", array " << OneLine(arrays.back());
     }
     std::cout << "\n";
     session.Report["input"] = this->Input;
@@ -163,7 +164,8 @@ struct InfoJob
                     << (spline.IsRational() ? "rational" : "polynomial");
           for (const SplineField& field : patch.Fields)
           {
-            std::cout << ", field " << field.Name << " (" << field.Coefficients.cols() << ")";
+            std::cout << ", field " << OneLine(field.Name) << " (" << field.Coefficients.cols()
+                      << ")";
           }
           const std::string dependence = Dependence(space);
           if (dependence != "independent")

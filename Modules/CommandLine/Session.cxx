@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Session.h"
 
-#include "Messages.h"
 #include "OffFile.h"
-#include "TrialRead.h"
-#include "XmlCheck.h"
 
 #include "CADExchange.h"
 #include "FileEnding.h"
+#include "ForeignFile.h"
+#include "Messages.h"
+#include "OneLine.h"
 #include "TrimmedGrids.h"
 #include "vtkCADReader.h"
 #include "vtkCADWriter.h"
@@ -25,20 +25,13 @@
 #include <vtkDelimitedTextWriter.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
-#include <vtkOBJReader.h>
-#include <vtkPLYReader.h>
 #include <vtkPartitionedDataSetCollection.h>
 #include <vtkPolyData.h>
-#include <vtkSTLReader.h>
 #include <vtkTable.h>
 #include <vtkUnstructuredGrid.h>
-#include <vtkUnstructuredGridReader.h>
 #include <vtkXMLImageDataWriter.h>
-#include <vtkXMLPartitionedDataSetCollectionReader.h>
 #include <vtkXMLPartitionedDataSetCollectionWriter.h>
-#include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
-#include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include <chrono>
@@ -105,22 +98,6 @@ bool HoldsPoints(const std::string& file)
 vtkSmartPointer<vtkDataObject> ReadByEnding(
   const std::string& file, const std::string& ending, vtkSmartPointer<vtkDataObject>& curves)
 {
-  if (ending == ".vtu")
-  {
-    return ReadWith<vtkXMLUnstructuredGridReader>(file);
-  }
-  if (ending == ".vtp")
-  {
-    return ReadWith<vtkXMLPolyDataReader>(file);
-  }
-  if (ending == ".vtpc")
-  {
-    return ReadWith<vtkXMLPartitionedDataSetCollectionReader>(file);
-  }
-  if (ending == ".vtk")
-  {
-    return ReadWith<vtkUnstructuredGridReader>(file);
-  }
   if (ending == ".xml")
   {
     return ReadWith<vtkGismoXMLReader>(file);
@@ -149,18 +126,6 @@ vtkSmartPointer<vtkDataObject> ReadByEnding(
   if (ending == ".json")
   {
     return ReadWith<vtkDomainBoundaryReader>(file);
-  }
-  if (ending == ".obj")
-  {
-    return ReadWith<vtkOBJReader>(file);
-  }
-  if (ending == ".ply")
-  {
-    return ReadWith<vtkPLYReader>(file);
-  }
-  if (ending == ".stl")
-  {
-    return ReadWith<vtkSTLReader>(file);
   }
   return nullptr;
 }
@@ -228,10 +193,7 @@ Session::~Session()
 
 Result<vtkSmartPointer<vtkDataObject>> Session::Read(const std::string& file)
 {
-  const std::string ending = LowerEnding(file);
-  const bool isForeign = ending == ".vtk" || ending == ".obj" || ending == ".ply" ||
-    ending == ".stl" || HasCADEnding(file);
-  return this->ReadWith(file, isForeign,
+  return this->ReadWith(file, HasVTKEnding(file),
     [&](const std::string& known) { return ReadByEnding(file, known, this->Curves); });
 }
 
@@ -274,34 +236,27 @@ Result<vtkSmartPointer<vtkDataObject>> Session::ReadWith(
     this->SecondsOfFiles += Now() - begin;
     return vtkSmartPointer<vtkDataObject>(mesh.Value);
   }
-  if (Status status = CheckXmlFile(file, ending); !status)
-  {
-    return status;
-  }
   MessageCapture messages;
   if (isForeign)
   {
-    const auto read = [&]
+    auto read = ReadVTKFile(file);
+    if (!read)
     {
-      reading(ending);
-      if (!HasCADEnding(file)) // those errors come again below, in our own words
-      {
-        std::cerr << messages.FirstError();
-      }
-    };
-    if (Status status = TrialRead(file, read); !status)
-    {
-      return status;
+      return read.Status;
     }
+    data = read.Value;
   }
-  try
+  else
   {
-    data = reading(ending);
-  }
-  catch (const std::exception& failure) // out of memory: sizes in the file are wrong
-  {
-    return { ErrorCode::TooLarge,
-      "'" + file + "' is damaged, or larger than the memory: " + failure.what() };
+    try
+    {
+      data = reading(ending);
+    }
+    catch (const std::exception& failure) // out of memory: sizes in the file are wrong
+    {
+      return { ErrorCode::TooLarge,
+        "'" + file + "' is damaged, or larger than the memory: " + failure.what() };
+    }
   }
   if (!data)
   {
@@ -312,14 +267,7 @@ Result<vtkSmartPointer<vtkDataObject>> Session::ReadWith(
   }
   if (messages.HasError())
   {
-    const bool isOwn = ending == ".xml" || ending == ".g2" || ending == ".json" ||
-      IsPointEnding(ending) || HasCADEnding(file) || (ending == ".ply" && !isForeign);
-    if (isOwn) // names the file
-    {
-      return { ErrorCode::InvalidFormat, messages.FirstError() };
-    }
-    return { ErrorCode::InvalidTopology,
-      "'" + file + "' is damaged or not what its ending says: " + messages.FirstError() };
+    return { ErrorCode::InvalidFormat, messages.FirstError() }; // names the file
   }
   if (IsEmpty(data))
   {
@@ -351,16 +299,15 @@ Status Session::Run(vtkAlgorithm* filter, const std::string& what, int port)
   }
   if (messages.HasError() || filter->GetErrorCode() != 0)
   {
-    return { ErrorCode::InvalidTopology, what + ": " + messages.FirstError() };
+    const std::string error = messages.FirstError();
+    const bool isNamed = error.find(what) != std::string::npos; // readers name their file
+    return { ErrorCode::InvalidTopology, isNamed ? error : what + ": " + error };
   }
   if (IsEmpty(filter->GetOutputDataObject(port)))
   {
     return { ErrorCode::EmptyInput, what + ": there are no cells to work on; check the input" };
   }
-  if (!this->Quiet)
-  {
-    std::cerr << messages.Warnings();
-  }
+  this->Warn(messages.Warnings());
   return {};
 }
 
@@ -368,7 +315,7 @@ void Session::Warn(const std::vector<std::string>& warnings) const
 {
   for (const std::string& warning : warnings)
   {
-    std::cerr << (this->Quiet ? "" : warning + "\n");
+    std::cerr << (this->Quiet ? "" : OneLine(warning) + "\n");
   }
 }
 
@@ -426,9 +373,7 @@ Status Session::Write(vtkDataObject* data, const std::string& file, const std::s
   if (asCAD)
   {
     written = WriteFile<vtkCADWriter>(data, staged.Value);
-    this->Warn(messages.HasError() || messages.Warnings().empty()
-        ? std::vector<std::string>()
-        : std::vector<std::string>{ messages.Warnings() });
+    this->Warn(messages.HasError() ? std::vector<std::string>() : messages.Warnings());
   }
   else if (asSplines)
   {
@@ -438,9 +383,7 @@ Status Session::Write(vtkDataObject* data, const std::string& file, const std::s
   else if (asPoints)
   {
     written = WriteFile<vtkPointCloudWriter>(data, staged.Value);
-    this->Warn(messages.HasError() || messages.Warnings().empty()
-        ? std::vector<std::string>()
-        : std::vector<std::string>{ messages.Warnings() });
+    this->Warn(messages.HasError() ? std::vector<std::string>() : messages.Warnings());
   }
   else if (grid)
   {
@@ -527,7 +470,8 @@ Status Session::Commit()
       return staged.Status;
     }
     std::ofstream stream(staged.Value);
-    stream << this->Report.dump(2) << "\n";
+    // names of files may be any bytes
+    stream << this->Report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
     if (!stream.flush())
     {
       return { ErrorCode::InvalidParameter, "'" + this->ReportFile + "' cannot be written" };

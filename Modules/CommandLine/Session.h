@@ -75,7 +75,7 @@ public:
 
 private:
   using Reading = std::function<vtkSmartPointer<vtkDataObject>(const std::string& ending)>;
-  /// @param isForeign  the reader may crash on damaged files: it is tried in a child process first.
+  /// @param isForeign  by VTK's readers, in a process of their own, and not by `reading`.
   Result<vtkSmartPointer<vtkDataObject>> ReadWith(
     const std::string& file, bool isForeign, const Reading& reading);
   Result<std::filesystem::path> Stage(const std::string& file);

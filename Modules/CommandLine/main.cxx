@@ -3,6 +3,7 @@
 /// Exit status: 0 done; 1 bad input or failure, one line on stderr; 2 wrong usage; of validate also
 /// 3 invalid, 4 undecided.
 #include "Jobs.h"
+#include "OneLine.h"
 #include "Session.h"
 #include "TruthValues.h"
 
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <exception>
 #include <iostream>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -60,14 +62,25 @@ constexpr Entry Jobs[] = {
 };
 
 /// One line, whatever the message holds.
-int Fail(const std::string& job, std::string message)
+int Fail(const std::string& job, const std::string& message)
 {
-  for (char& c : message)
-  {
-    c = c == '\n' || c == '\r' ? ' ' : c;
-  }
-  std::cerr << "knotwork " << job << ": " << message << "\n";
+  std::cerr << "knotwork " << job << ": " << knotwork::OneLine(message) << "\n";
   return Failure;
+}
+
+/// Help, version, or what is wrong with the usage: lines that show the words of the user.
+int Explain(const CLI::App& app, const CLI::ParseError& error)
+{
+  std::ostringstream help;
+  std::ostringstream wrong;
+  const int status = app.exit(error, help, wrong);
+  std::cout << help.str();
+  std::istringstream lines(wrong.str());
+  for (std::string line; std::getline(lines, line);)
+  {
+    std::cerr << knotwork::OneLine(line) << "\n";
+  }
+  return status == 0 ? 0 : WrongUsage;
 }
 }
 
@@ -104,7 +117,7 @@ int main(int argc, char* argv[])
   }
   catch (const CLI::ParseError& error)
   {
-    return app.exit(error) == 0 ? 0 : WrongUsage;
+    return Explain(app, error);
   }
 
   for (const auto& [job, run] : jobs)

@@ -2,6 +2,7 @@
 #include "vtkCADReader.h"
 
 #include "CADExchange.h"
+#include "ForeignFile.h"
 #include "TrimData.h"
 #include "TrimmedGrids.h"
 #include "TrimmedMesh.h"
@@ -85,6 +86,7 @@ void vtkCADReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Triangulation: " << this->Triangulation << "\n";
   os << indent << "ChordalTolerance: " << this->ChordalTolerance << "\n";
   os << indent << "RelativeTolerance: " << this->RelativeTolerance << "\n";
+  os << indent << "SeparateProcess: " << this->SeparateProcess << "\n";
 }
 
 int vtkCADReader::CanReadFile(const char* fileName)
@@ -113,7 +115,8 @@ Status vtkCADReader::Compute(vtkInformationVector**, vtkInformationVector* outpu
   CADReadParams params;
   params.Unit = static_cast<LengthUnit>(this->Unit);
   params.Tolerance = this->Tolerance;
-  const auto contents = ReadCAD(this->FileName, params);
+  const auto contents = this->SeparateProcess ? ReadCADInProcess(this->FileName, params)
+                                              : ReadCAD(this->FileName, params);
   if (!contents)
   {
     return contents.Status;

@@ -8,7 +8,7 @@
  * use of an edge, with the point array UV; 2 the trimmed faces as triangles (vtkPolyData) with
  * Normals, the cell arrays FaceId, PatchId, Name and Color (red, green, blue as bytes; white where
  * the file says nothing). Assemblies are resolved; what cannot be read is left out with a warning.
- * Errors: those of knotwork::ReadCAD and TriangulateFaces.
+ * Errors: those of knotwork::ReadCADInProcess and TriangulateFaces.
  */
 #ifndef vtkCADReader_h
 #define vtkCADReader_h
@@ -66,6 +66,13 @@ public:
   vtkGetMacro(RelativeTolerance, bool);
   vtkBooleanMacro(RelativeTolerance, bool);
   ///@}
+  ///@{
+  /** Whether OpenCASCADE reads in a process of its own, with limits of memory and time: it does not
+   * survive some damaged files. Default on. */
+  vtkSetMacro(SeparateProcess, bool);
+  vtkGetMacro(SeparateProcess, bool);
+  vtkBooleanMacro(SeparateProcess, bool);
+  ///@}
 
   /** 1 when the ending is one of STEP or IGES and the file exists, else 0. */
   int CanReadFile(const char* fileName);
@@ -84,6 +91,7 @@ protected:
   bool Triangulation = true;
   double ChordalTolerance = 1e-3;
   bool RelativeTolerance = true;
+  bool SeparateProcess = true;
 
 private:
   vtkCADReader(const vtkCADReader&) = delete;

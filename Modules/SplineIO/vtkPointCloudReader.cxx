@@ -3,20 +3,17 @@
 
 #include "FileEnding.h"
 #include "FileText.h"
+#include "ForeignFile.h"
 #include "GoToolsG2.h"
 #include "PlyPoints.h"
 #include "PointData.h"
 #include "PointText.h"
 
 #include "vtkDataObject.h"
-#include "vtkErrorCode.h"
-#include "vtkEventForwarderCommand.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
-#include "vtkXMLPolyDataReader.h"
 
 vtkStandardNewMacro(vtkPointCloudReader);
 
@@ -94,16 +91,16 @@ knotwork::Status vtkPointCloudReader::Compute(vtkInformationVector**, vtkInforma
   const std::string file = this->FileName ? this->FileName : "";
   if (LowerEnding(file) == ".vtp")
   {
-    vtkNew<vtkXMLPolyDataReader> reader;
-    vtkNew<vtkEventForwarderCommand> errors; // its messages are this reader's
-    errors->SetTarget(this);
-    reader->AddObserver(vtkCommand::ErrorEvent, errors);
-    reader->SetFileName(file.c_str());
-    reader->Update();
-    output->ShallowCopy(reader->GetOutput());
-    return reader->GetErrorCode() == vtkErrorCode::NoError && output->GetNumberOfPoints() > 0
+    const auto read = ReadVTKFile(file);
+    auto* points = vtkPolyData::SafeDownCast(read.Value);
+    if (!points)
+    {
+      return read ? Status(ErrorCode::EmptyInput, "'" + file + "' holds no points") : read.Status;
+    }
+    output->ShallowCopy(points);
+    return output->GetNumberOfPoints() > 0
       ? Status()
-      : Status(ErrorCode::EmptyInput, "'" + file + "' holds no points that can be read");
+      : Status(ErrorCode::EmptyInput, "'" + file + "' holds no points");
   }
   Result<std::string> text = TextOfFile(file);
   if (!text)

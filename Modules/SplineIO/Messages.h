@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "vtkKnotworkSplineIOModule.h" // for export macro
+
 #include <string>
+#include <vector>
 
 namespace knotwork
 {
 /// While it lives, errors and warnings of VTK objects and of the libraries below them are kept here
 /// and not printed.
-class MessageCapture
+class VTKKNOTWORKSPLINEIO_EXPORT MessageCapture
 {
 public:
   MessageCapture();
@@ -15,9 +18,9 @@ public:
   MessageCapture& operator=(const MessageCapture&) = delete;
 
   bool HasError() const;
-  /// First error, one line, without VTK's place in the source.
+  /// First error, one line, without VTK's place in the source, classes and addresses.
   std::string FirstError() const;
   /// Warnings, one line each.
-  std::string Warnings() const;
+  std::vector<std::string> Warnings() const;
 };
 }

@@ -7,6 +7,7 @@
 #include <vtkSmartPointer.h>
 
 #include <cctype>
+#include <regex>
 
 namespace knotwork
 {
@@ -15,10 +16,16 @@ namespace
 /// "ERROR: In file.cxx, line 1\nvtkClass (0x1): text\n\n" becomes "text" on one line.
 std::string PlainText(const std::string& message)
 {
-  std::size_t begin = message.find("): ");
-  begin = begin == std::string::npos ? 0 : begin + 3;
+  static const std::regex place(R"(^[A-Za-z ]*: In [^\n]*, line \d+\s*)");
+  static const std::regex object(R"(\bvtk\w+ ?\((0x[0-9a-fA-F]+|nil|\(nil\))\):? ?)");
+  static const std::regex pointer(R"( ?\(?0x[0-9a-fA-F]{6,}\)?)");
+  // expressions are for the beginning: a message is short, what it shows of a file may not be
+  constexpr std::size_t most = 4000;
+  std::string source = std::regex_replace(message.substr(0, most), place, "");
+  source = std::regex_replace(source, object, "");
+  source = std::regex_replace(source, pointer, "");
   std::string text;
-  for (char c : message.substr(begin))
+  for (char c : source)
   {
     if (std::isspace(static_cast<unsigned char>(c)))
     {
@@ -30,7 +37,7 @@ std::string PlainText(const std::string& message)
     }
     text += c;
   }
-  while (!text.empty() && text.back() == ' ')
+  while (!text.empty() && (text.back() == ' ' || text.back() == '.'))
   {
     text.pop_back();
   }
@@ -52,11 +59,11 @@ public:
       this->Error = PlainText(text);
     }
   }
-  void DisplayWarningText(const char* text) override { this->Warning += PlainText(text) + "\n"; }
+  void DisplayWarningText(const char* text) override { this->Warnings.push_back(PlainText(text)); }
   void DisplayGenericWarningText(const char* text) override { this->DisplayWarningText(text); }
 
   std::string Error;
-  std::string Warning;
+  std::vector<std::string> Warnings;
 };
 vtkStandardNewMacro(CaptureWindow);
 
@@ -88,8 +95,8 @@ std::string MessageCapture::FirstError() const
   return Current()->Error;
 }
 
-std::string MessageCapture::Warnings() const
+std::vector<std::string> MessageCapture::Warnings() const
 {
-  return Current()->Warning;
+  return Current()->Warnings;
 }
 }

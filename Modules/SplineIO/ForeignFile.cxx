@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ForeignFile.h"
+
+#include "CADParts.h"
+#include "DataParts.h"
+#include "FileEnding.h"
+#include "ReaderProcess.h"
+
+#include <vtkDataObject.h>
+
+namespace knotwork
+{
+bool HasVTKEnding(const std::string& file)
+{
+  const std::string ending = LowerEnding(file);
+  return ending == ".vtu" || ending == ".vtp" || ending == ".vtpc" || ending == ".vtk" ||
+    ending == ".obj" || ending == ".ply" || ending == ".stl";
+}
+
+Result<vtkSmartPointer<vtkDataObject>> ReadVTKFile(const std::string& file)
+{
+  auto parts = ReadInProcess("knotwork-read-vtk", file);
+  if (!parts)
+  {
+    return parts.Status;
+  }
+  std::size_t next = 0;
+  vtkSmartPointer<vtkDataObject> data = TakeData(parts.Value, next);
+  if (!data)
+  {
+    return { ErrorCode::InvalidTopology, "'" + file + "' holds no data set" };
+  }
+  return data;
+}
+
+Result<CADContents> ReadCADInProcess(const std::string& file, const CADReadParams& params)
+{
+  auto parts = ReadInProcess("knotwork-read-cad", file,
+    { std::to_string(static_cast<int>(params.Unit)), ExactText(params.Tolerance) });
+  return parts ? TakeCAD(parts.Value) : Result<CADContents>(parts.Status);
+}
+}

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "CADExchange.h"
+#include "vtkKnotworkSplineIOModule.h" // for export macro
+
+#include <vtkSmartPointer.h>
+
+#include <string>
+
+class vtkDataObject;
+
+namespace knotwork
+{
+/// Whether a file name ends in .vtu, .vtp, .vtpc or .vtk.
+VTKKNOTWORKSPLINEIO_EXPORT bool HasVTKEnding(const std::string& file);
+
+/// Reads such a file by VTK's readers, which crash or never end on some damaged files, in a process
+/// of its own with limits of memory and time.
+/// @return InvalidTopology: it is damaged; further as ReadInProcess. Messages name the file.
+VTKKNOTWORKSPLINEIO_EXPORT Result<vtkSmartPointer<vtkDataObject>> ReadVTKFile(
+  const std::string& file);
+
+/// ReadCAD in a process of its own likewise, as OpenCASCADE does not survive some damaged files.
+/// Edges and vertices are numbered in the order of their first use.
+/// @return failures of ReadCAD and ReadInProcess.
+VTKKNOTWORKSPLINEIO_EXPORT Result<CADContents> ReadCADInProcess(
+  const std::string& file, const CADReadParams& params = {});
+}

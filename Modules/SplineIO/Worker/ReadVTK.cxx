@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// usage: knotwork-read-vtk PARENT BYTES SECONDS FILE
+// Reads .vtu, .vtp, .vtpc and .vtk by VTK's readers for another process, see Worker.h.
+#include "DataParts.h"
+#include "FileEnding.h"
+#include "Messages.h"
+#include "Worker.h"
+#include "XmlCheck.h"
+
+#include <vtkDataObject.h>
+#include <vtkNew.h>
+#include <vtkOBJReader.h>
+#include <vtkPLYReader.h>
+#include <vtkSTLReader.h>
+#include <vtkUnstructuredGridReader.h>
+#include <vtkXMLPartitionedDataSetCollectionReader.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+#include <new>
+
+namespace
+{
+using namespace knotwork;
+
+template <typename Reader>
+vtkSmartPointer<vtkDataObject> ReadWith(const std::string& file)
+{
+  vtkNew<Reader> reader;
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  return reader->GetOutputDataObject(0);
+}
+
+vtkSmartPointer<vtkDataObject> ReadByEnding(const std::string& file, const std::string& ending)
+{
+  if (ending == ".vtu")
+  {
+    return ReadWith<vtkXMLUnstructuredGridReader>(file);
+  }
+  if (ending == ".vtp")
+  {
+    return ReadWith<vtkXMLPolyDataReader>(file);
+  }
+  if (ending == ".vtpc")
+  {
+    return ReadWith<vtkXMLPartitionedDataSetCollectionReader>(file);
+  }
+  if (ending == ".obj")
+  {
+    return ReadWith<vtkOBJReader>(file);
+  }
+  if (ending == ".ply")
+  {
+    return ReadWith<vtkPLYReader>(file);
+  }
+  if (ending == ".stl")
+  {
+    return ReadWith<vtkSTLReader>(file);
+  }
+  return ReadWith<vtkUnstructuredGridReader>(file);
+}
+
+Status Read(const std::string& file, const Parts&, Parts& found)
+{
+  const std::string ending = LowerEnding(file);
+  if (Status status = CheckXmlFile(file, ending); !status)
+  {
+    return status;
+  }
+  MessageCapture messages;
+  const vtkSmartPointer<vtkDataObject> data = ReadByEnding(file, ending);
+  if (messages.FirstError().find("Unable to allocate") != std::string::npos)
+  {
+    throw std::bad_alloc();
+  }
+  if (!data || messages.HasError())
+  {
+    return { ErrorCode::InvalidTopology,
+      "'" + file + "' is damaged or not what its ending says: " + messages.FirstError() };
+  }
+  AppendParts(data, found);
+  return {};
+}
+}
+
+int main(int argc, char* argv[])
+{
+  knotwork::RunWorker(argc, argv, Read);
+}
