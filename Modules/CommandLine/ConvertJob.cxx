@@ -78,7 +78,18 @@ struct ConvertJob
     return {};
   }
 
+  /// What cannot be written is the input's fault too.
   Status Run(Session& session)
+  {
+    Status status = this->Convert(session);
+    if (!status && status.Detail.find(this->Input) == std::string::npos)
+    {
+      status.Detail += " (of '" + this->Input + "')";
+    }
+    return status;
+  }
+
+  Status Convert(Session& session)
   {
     auto input = session.ReadPoints(this->Input);
     if (!input)

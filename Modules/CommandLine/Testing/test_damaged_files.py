@@ -66,7 +66,9 @@ def sound_files():
              (cloud, "cloud.xyz"), (cloud, "cloud.txt"), (cloud, "cloud.csv"), (cloud, "cloud.ply"), (cloud, "cloud.g2"), (mesh, "mesh.off"),
              (mesh, "mesh.obj"), (mesh, "mesh.ply"), (mesh, "bytes.ply"), (mesh, "mesh.stl"), (mesh, "bytes.stl"), (mesh, "mesh.vtp"),
              (curves, "template.vtp"), (boundary, "boundary.json")]
-    return [(path(name), jobs) for jobs, name in kinds]
+    # collections stay collections
+    parts = [[word.replace("out.vtu", "out.vtpc") if isinstance(word, str) and job[0] != "convert" else word for word in job] for job in spline]
+    return [(path(name), parts if name.endswith(".vtpc") else jobs) for jobs, name in kinds]
 
 
 def legacy_files(of):
