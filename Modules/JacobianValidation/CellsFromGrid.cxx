@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <string>
 #include <tuple>
@@ -18,6 +19,13 @@ namespace knotwork
 {
 namespace
 {
+/// What rounding left out of sums a + b, exactly.
+PointMatrix RestsOfSums(const PointMatrix& a, const PointMatrix& b, const PointMatrix& sums)
+{
+  const PointMatrix parts = sums - a; // of b
+  return (a - (sums - parts)) + (b - parts);
+}
+
 class Reader
 {
 public:
@@ -91,12 +99,17 @@ private:
     this->Result.FirstPoint.push_back(this->Result.Points.size());
     cells.Errors.push_back(error);
     this->Rounding = 0.0;
-    double* block = cells.Block(cells.Add(shape, degree));
-    if (cells.Rational)
+    return cells.Block(cells.Add(shape, degree));
+  }
+
+  void SetRemainder(const double* value, double rest)
+  {
+    BernsteinCells& cells = this->Result.Cells;
+    if (rest != 0.0)
     {
       cells.Remainders.resize(cells.Data.size());
+      cells.Remainders[static_cast<std::size_t>(value - cells.Data.data())] = rest;
     }
-    return block;
   }
 
   /// Homogeneous coefficients are products that need not be doubles: what each is off by is its
@@ -111,8 +124,7 @@ private:
       if (rational)
       {
         const double rest = std::fma(x[3], x[c], -value);
-        BernsteinCells& cells = this->Result.Cells;
-        cells.Remainders[static_cast<std::size_t>(&value - cells.Data.data())] = rest;
+        this->SetRemainder(&value, rest);
         this->Rounding = std::max(this->Rounding, std::abs(rest));
         // near the smallest doubles the remainder is rounded too, so it is not all
         const bool exact = x[c] == 0.0 || std::abs(value) >= 0x1p-900;
@@ -167,15 +179,35 @@ private:
       }
       points.row(i) << x[0], x[1], x[2];
     }
-    const double error = (conversion.Bound * points.cwiseAbs()).maxCoeff();
-    const PointMatrix converted = conversion.Matrix * points;
+    // Shape functions sum to one: what is converted is the offsets from the first point, so that
+    // rounding is of the cell's size and not of its distance from the origin.
+    const PointMatrix origin = points.row(0).replicate(count, 1);
+    const PointMatrix offsets = points - origin;
+    const PointMatrix rests = RestsOfSums(points, -origin, offsets);
+    const PointMatrix converted = conversion.Matrix * offsets;
     const auto n = static_cast<std::size_t>(converted.rows());
+    const PointMatrix start = origin.row(0).replicate(converted.rows(), 1);
+    const PointMatrix sums = start + converted;
+    const PointMatrix remainders = RestsOfSums(start, converted, sums);
+    const double bound = (conversion.Bound * offsets.cwiseAbs() +
+      2.0 * conversion.Matrix.cwiseAbs() * rests.cwiseAbs())
+                           .maxCoeff();
+    const double largest = remainders.cwiseAbs().maxCoeff();
+    double error = largest + bound;
+    while (error - largest < bound)
+    {
+      error = std::nextafter(error, std::numeric_limits<double>::infinity());
+    }
     double* block = this->NewBlock(shape, degree, error);
     for (std::size_t k = 0; k < n; ++k)
     {
-      const auto row = converted.row(static_cast<Eigen::Index>(k));
-      const double x[4] = { row(0), row(1), row(2), 1.0 };
+      const auto row = static_cast<Eigen::Index>(k);
+      const double x[4] = { sums(row, 0), sums(row, 1), sums(row, 2), 1.0 };
       this->Set(block, n, k, x); // weight 1: the products are exact
+      for (Eigen::Index c = 0; c < 3; ++c)
+      {
+        this->SetRemainder(block + static_cast<std::size_t>(c) * n + k, remainders(row, c));
+      }
     }
     this->Result.Points.insert(this->Result.Points.end(), n, -1);
     return {};
@@ -293,6 +325,10 @@ Result<GridCells> ReadGridCells(const std::vector<vtkUnstructuredGrid*>& grids)
       const std::string where = grids.size() > 1 ? "grid " + std::to_string(g) + ", " : "";
       return { status.Code, where + status.Detail };
     }
+  }
+  if (!result.Cells.Remainders.empty())
+  {
+    result.Cells.Remainders.resize(result.Cells.Data.size());
   }
   std::vector<double>& errors = result.Cells.Errors;
   if (std::all_of(errors.begin(), errors.end(), [](double e) { return e == 0.0; }))

@@ -166,6 +166,17 @@ bool Coordinates(const BernsteinCells& cells, int cell, std::vector<double>& val
   return w[0] == 1.0 || cells.Uncertainty(cell) == 0.0;
 }
 
+/// The least double e so that e - b is not below a.
+double Above(double a, double b)
+{
+  double sum = a + b;
+  while (sum - b < a)
+  {
+    sum = std::nextafter(sum, std::numeric_limits<double>::infinity());
+  }
+  return sum;
+}
+
 /// Cells of one kind with their numbers in the dataset.
 struct Kind
 {
@@ -397,31 +408,36 @@ BernsteinCells SelectCells(
       static_cast<std::size_t>(NumCellCoefficients(cells.Shapes[at], cells.Degrees[at]));
     const std::size_t coordinates = static_cast<std::size_t>(numComponents) * n;
     double* to = result.Block(result.Add(cells.Shapes[at], cells.Degrees[at]));
+    const double* block = cells.Block(cell);
+    const double* weights = block + static_cast<std::size_t>(cells.NumComponents) * n;
     double error = cells.Errors.empty() ? 0.0 : cells.Errors[at];
-    if (!result.Rational)
+    const bool divided = cells.Rational && !result.Rational && weights[0] != 1.0;
+    if (divided)
     {
       Coordinates(cells, cell, values);
       std::copy_n(values.begin(), coordinates, to);
-      error = cells.Rational ? cells.Uncertainty(cell) : error;
+      error = 0.0;
     }
     else
     {
-      const auto weights = static_cast<std::size_t>(cells.NumComponents) * n;
-      std::copy_n(cells.Block(cell), coordinates, to);
-      std::copy_n(cells.Block(cell) + weights, n, to + coordinates);
-      if (!cells.Remainders.empty())
+      std::copy_n(block, coordinates, to);
+      if (result.Rational)
       {
-        const auto rest = cells.Remainders.begin() + static_cast<std::ptrdiff_t>(cells.Offsets[at]);
-        result.Remainders.insert(
-          result.Remainders.end(), rest, rest + static_cast<std::ptrdiff_t>(coordinates));
-        result.Remainders.resize(result.Data.size());
-        double largest = 0.0; // of the components that are left
-        for (std::size_t i = result.Data.size() - coordinates - n; i < result.Data.size(); ++i)
-        {
-          largest = std::max(largest, std::fabs(result.Remainders[i]));
-        }
-        error = cells.Uncertainty(cell) + largest;
+        std::copy_n(weights, n, to + coordinates);
       }
+    }
+    if (!cells.Remainders.empty())
+    {
+      const std::size_t first = result.Remainders.size();
+      result.Remainders.resize(result.Data.size());
+      double largest = 0.0; // of the components that are left
+      for (std::size_t i = 0; !divided && i < coordinates; ++i)
+      {
+        const double rest = cells.Remainders[cells.Offsets[at] + i];
+        result.Remainders[first + i] = rest;
+        largest = std::max(largest, std::fabs(rest));
+      }
+      error = divided ? 0.0 : Above(cells.Uncertainty(cell), largest);
     }
     result.Errors.push_back(error);
   }

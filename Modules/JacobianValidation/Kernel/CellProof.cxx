@@ -90,7 +90,11 @@ public:
     if (!cells.Remainders.empty())
     {
       const double* rest = cells.Remainders.data() + cells.Offsets[c];
-      this->Remainders.assign(rest, rest + this->Block.size());
+      const double* end = rest + this->Block.size();
+      if (std::any_of(rest, end, [](double x) { return x != 0.0; }))
+      {
+        this->Remainders.assign(rest, end);
+      }
     }
     this->DropConstantComponent();
     this->Norm = this->Components > NumParameters(this->Shape);
@@ -286,16 +290,17 @@ private:
       double error = this->Given;
       if (c < this->Components && (this->Rational || !this->Remainders.empty()))
       {
-        // to the cell's middle: two roundings a coefficient, of what is left
-        const double centre = this->Rational ? 0.5 * (p[0] / w[0] + p[n - 1] / w[n - 1]) : 0.0;
+        // to the cell's middle, or to its first point: two roundings a coefficient, of what is left
+        const double centre = this->Rational ? 0.5 * (p[0] / w[0] + p[n - 1] / w[n - 1]) : p[0];
         double size = 0.0;
         for (int i = 0; i < n; ++i)
         {
-          const double rest = this->Rational ? std::fma(-centre, w[i], p[i]) : p[i];
+          const double rest = std::fma(-centre, this->Rational ? w[i] : 1.0, p[i]);
           p[i] = rest + this->Remainder(c, i);
           size = std::max({ size, std::fabs(rest), std::fabs(p[i]) });
         }
-        error += std::fabs(centre) * this->Given + 2.0 * UnitRoundoff * size;
+        error +=
+          (this->Rational ? std::fabs(centre) * this->Given : 0.0) + 2.0 * UnitRoundoff * size;
       }
       absolute[static_cast<std::size_t>(c)] = error;
       for (int i = 0; i < n; ++i)

@@ -187,6 +187,34 @@ TEST(CellsFromGrid, RoundingOfAConversionCoversIt_PropertyOracle)
   }
 }
 
+TEST(CellsFromGrid, RoundingOfAConversionIsOfTheCellsSize_ExactOracle)
+{
+  // Offsets of a serendipity cell that are whole numbers over 64: its coefficients are over 256,
+  // and known. With remainders nothing of the distance is left in the uncertainty.
+  auto grid = RandomCell({ VTK_QUADRATIC_QUAD, 8, {} }, 1);
+  std::mt19937_64 generator(9);
+  for (const double far : { 0.0, 1e6 + 0.1, -7.3e9 })
+  {
+    std::array<double, 8> offsets{};
+    double z = std::round(64.0 * far) / 64.0;
+    for (vtkIdType i = 0; i < 8; ++i)
+    {
+      offsets[static_cast<std::size_t>(i)] =
+        i == 0 ? 0.0 : static_cast<double>(generator() % 65) / 64.0;
+      grid->GetPoints()->SetPoint(i, z + offsets[static_cast<std::size_t>(i)], 0.0, 0.0);
+    }
+    const auto read = ReadGridCells({ grid });
+    ASSERT_TRUE(read);
+    const BernsteinCells& cells = read->Cells;
+    EXPECT_LT(cells.Uncertainty(0), 1e-14) << far;
+    // a side's middle is 2 m - (a + b) / 2: the first row, coefficients 0, 1, 2, of points 0, 4, 1
+    const double middle = 2.0 * offsets[4] - 0.5 * (offsets[0] + offsets[1]);
+    const double rest = cells.Remainders.empty() ? 0.0 : cells.Remainders[1];
+    EXPECT_NEAR((cells.Data[1] - z) + rest, middle, cells.Uncertainty(0)) << far;
+    EXPECT_LE(std::fabs(cells.Data[1] - z - middle), 1.01 * cells.Errors[0] + 1e-14) << far;
+  }
+}
+
 TEST(CellsFromGrid, HomogeneousCoefficientsSayTheirRounding_ExactOracle)
 {
   const auto grid = RandomCell({ VTK_BEZIER_QUADRILATERAL, 4, { 1, 1, 0 } }, 3);
@@ -203,7 +231,8 @@ TEST(CellsFromGrid, HomogeneousCoefficientsSayTheirRounding_ExactOracle)
   ASSERT_EQ(read->Cells.Errors.size(), 1u);
   EXPECT_GT(read->Cells.Errors[0], 0.0);
   EXPECT_LE(read->Cells.Errors[0], 3.0 * 0x1p-53);
-  weights->FillComponent(0, 2.0); // products with 2 are exact
+  EXPECT_EQ(read->Cells.Uncertainty(0), 0.0); // the remainders are all of it
+  weights->FillComponent(0, 2.0);             // products with 2 are exact
   EXPECT_TRUE(ReadGridCells({ grid })->Cells.Errors.empty());
   weights->FillComponent(0, 1.0);
   EXPECT_FALSE(ReadGridCells({ grid })->Cells.Rational);

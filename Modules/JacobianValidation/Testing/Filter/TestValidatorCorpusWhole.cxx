@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The corpus of grids: 14 groups of 20 grids of 60 cells.
+// The corpus of grids: 20 groups of 20 grids of 60 cells.
 #include "ValidatorCorpus.h"
 
 TEST(ValidatorCorpus, Whole_ExactOracle)
