@@ -4,5 +4,8 @@
 
 TEST(ValidatorCorpus, Sample_ExactOracle)
 {
-  corpus::RunCorpus(1, 5, 20, 5);
+  for (const corpus::Group& group : corpus::Groups())
+  {
+    corpus::RunCorpus(group, 1, 5, 12, 4);
+  }
 }
