@@ -47,9 +47,10 @@ Result<CADContents> TakeCAD(std::vector<std::string>& parts)
   std::size_t next = 0;
   const vtkSmartPointer<vtkDataObject> surfaces = TakeData(parts, next);
   const vtkSmartPointer<vtkDataObject> curves = TakeData(parts, next);
-  if (next + 2 > parts.size())
+  if (!surfaces || !curves || next + 2 > parts.size())
   {
-    return { ErrorCode::InvalidFormat, "its reader did not say all" };
+    return { ErrorCode::InvalidFormat,
+      "the file is damaged: its faces cannot be handed over; write it again" };
   }
   auto model = DecodeTrimmedModel(surfaces, curves);
   if (!model)

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DataParts.h"
 
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
 #include <vtkCompositeDataSet.h>
 #include <vtkDataAssembly.h>
 #include <vtkDataObject.h>
+#include <vtkExecutive.h>
 #include <vtkInformation.h>
 #include <vtkNew.h>
 #include <vtkPartitionedDataSet.h>
@@ -131,7 +134,14 @@ vtkSmartPointer<vtkDataObject> TakeData(std::vector<std::string>& parts, std::si
   }
   reader->ReadFromInputStringOn();
   reader->SetInputString(Take(parts, next));
+  bool failed = false;
+  vtkNew<vtkCallbackCommand> errors; // and nothing is printed
+  errors->SetClientData(&failed);
+  errors->SetCallback(
+    [](vtkObject*, unsigned long, void* found, void*) { *static_cast<bool*>(found) = true; });
+  reader->AddObserver(vtkCommand::ErrorEvent, errors);
+  reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, errors);
   reader->Update();
-  return reader->GetOutputDataObject(0);
+  return failed ? nullptr : vtkSmartPointer<vtkDataObject>(reader->GetOutputDataObject(0));
 }
 }

@@ -16,6 +16,6 @@ namespace knotwork
 void AppendParts(vtkDataObject* data, std::vector<std::string>& parts);
 
 /// Takes a data object from the parts at `next`, which goes on.
-/// @return null where the parts do not hold one.
+/// @return null where the parts do not hold one that VTK reads again.
 vtkSmartPointer<vtkDataObject> TakeData(std::vector<std::string>& parts, std::size_t& next);
 }

@@ -28,7 +28,8 @@ Result<vtkSmartPointer<vtkDataObject>> ReadVTKFile(const std::string& file)
   vtkSmartPointer<vtkDataObject> data = TakeData(parts.Value, next);
   if (!data)
   {
-    return { ErrorCode::InvalidTopology, "'" + file + "' holds no data set" };
+    return { ErrorCode::InvalidFormat,
+      "'" + file + "' is damaged: its data cannot be handed over; write it again" };
   }
   return data;
 }
@@ -37,6 +38,13 @@ Result<CADContents> ReadCADInProcess(const std::string& file, const CADReadParam
 {
   auto parts = ReadInProcess("knotwork-read-cad", file,
     { std::to_string(static_cast<int>(params.Unit)), ExactText(params.Tolerance) });
-  return parts ? TakeCAD(parts.Value) : Result<CADContents>(parts.Status);
+  if (!parts)
+  {
+    return parts.Status;
+  }
+  auto contents = TakeCAD(parts.Value);
+  return contents
+    ? std::move(contents)
+    : Result<CADContents>(contents.Status.Code, "'" + file + "': " + contents.Status.Detail);
 }
 }

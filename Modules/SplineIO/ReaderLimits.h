@@ -19,7 +19,7 @@ inline ReaderLimits LimitsOfReader(std::uint64_t bytes)
   ReaderLimits limits;
   limits.Memory = (std::uint64_t{ 1 } << 30U) + 64 * bytes;
   limits.CpuSeconds = 20 + 20 * megabytes;
-  limits.Seconds = 2 * limits.CpuSeconds;
+  limits.Seconds = 55 + 60 * megabytes; // others may want the processors too
   return limits;
 }
 }

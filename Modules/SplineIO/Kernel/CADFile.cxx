@@ -83,6 +83,35 @@ Status CheckText(const Ends& ends, CADFormat format)
   return {};
 }
 
+/// A message of OpenCASCADE without what it says to itself: after a colon, or nothing.
+std::string Reason(std::string text)
+{
+  const auto remove = [&text](const std::string& part, const std::string& instead)
+  {
+    if (const std::size_t at = text.find(part); at != std::string::npos)
+    {
+      text.replace(at, part.size(), instead);
+    }
+  };
+  remove("Undefined Parsing: ", "");
+  remove(" Process continues.", "");
+  remove("parameter %d", "a parameter");
+  if (text.find("Unknown message") != std::string::npos)
+  {
+    return {};
+  }
+  while (!text.empty() && (text.back() == '.' || text.back() == ' '))
+  {
+    text.pop_back();
+  }
+  return text.empty() ? text : ": " + text;
+}
+
+Status Damaged(const std::string& what)
+{
+  return { ErrorCode::InvalidFormat, "the file is damaged" + what + "; write it again" };
+}
+
 /// Failures of syntax and of geometry or topology: OpenCASCADE would go on with what is missing.
 Status CheckEntities(const XSControl_Reader& reader)
 {
@@ -99,7 +128,7 @@ Status CheckEntities(const XSControl_Reader& reader)
     {
       if (text.find("syntax") != std::string::npos)
       {
-        return { ErrorCode::InvalidFormat, "the file is damaged: " + text };
+        return Damaged(Reason(text));
       }
       continue;
     }
@@ -108,8 +137,7 @@ Status CheckEntities(const XSControl_Reader& reader)
     {
       if (type.rfind(prefix, 0) == 0)
       {
-        return { ErrorCode::InvalidFormat,
-          "the file is damaged: " + type.substr(type.find('_') + 1) + ": " + text };
+        return Damaged(": " + type.substr(type.find('_') + 1) + Reason(text));
       }
     }
   }
@@ -139,7 +167,7 @@ Status LoadCAD(XSControl_Reader& reader, CADFormat format, const std::string& fi
   }
   if (reader.ReadFile(file.c_str()) != IFSelect_RetDone)
   {
-    return { ErrorCode::InvalidFormat, place + ": OpenCASCADE cannot read it; it is damaged" };
+    return { ErrorCode::InvalidFormat, place + ": it is damaged; write it again" };
   }
   if (Status status = CheckEntities(reader); !status)
   {

@@ -61,6 +61,20 @@ vtkSmartPointer<vtkDataObject> ReadByEnding(const std::string& file, const std::
   return ReadWith<vtkUnstructuredGridReader>(file);
 }
 
+/// What VTK says, where a user can make something of it.
+std::string Reason(std::string text, const std::string& file)
+{
+  constexpr std::size_t most = 200;
+  const std::string place = " for file: " + file;
+  if (const std::size_t at = text.find(place); at != std::string::npos)
+  {
+    text.erase(at, place.size());
+  }
+  const bool isOfVTK = text.find("vtk") != std::string::npos ||
+    text.find("returned failure for request") != std::string::npos;
+  return text.empty() || isOfVTK ? std::string() : " (" + text.substr(0, most) + ")";
+}
+
 Status Read(const std::string& file, const Parts&, Parts& found)
 {
   const std::string ending = LowerEnding(file);
@@ -77,7 +91,8 @@ Status Read(const std::string& file, const Parts&, Parts& found)
   if (!data || messages.HasError())
   {
     return { ErrorCode::InvalidTopology,
-      "'" + file + "' is damaged or not what its ending says: " + messages.FirstError() };
+      "'" + file + "' is damaged or not what its ending says" +
+        Reason(messages.FirstError(), file) + "; write it again" };
   }
   AppendParts(data, found);
   return {};

@@ -10,6 +10,7 @@ namespace
 {
 constexpr const char* Blanks = " \t\r\n";
 constexpr std::size_t MostAttributes = 64;
+constexpr std::size_t MostShown = 40; ///< of a tag in a message
 
 bool IsName(const std::string& name)
 {
@@ -172,7 +173,7 @@ std::string XmlScanner::Scan(const std::string& root, const std::string& last, c
     XmlElement element;
     if (!Parse(tag, element))
     {
-      return "<" + tag + "> is no tag";
+      return "<" + tag.substr(0, MostShown) + (tag.size() > MostShown ? "..." : "") + "> is no tag";
     }
     if (ended || (open.empty() && element.Name != root))
     {

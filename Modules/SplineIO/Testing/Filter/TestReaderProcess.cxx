@@ -219,6 +219,11 @@ TEST(ReaderProcess, AnyEndOfItIsOneError)
     { "printf '\\001\\0\\0\\0\\0\\0\\0\\0009\\003\\0\\0\\0\\0\\0\\0\\000abc' >&3\n"
       "printf '\\377\\377\\377\\377\\377\\377\\377\\377' >&3",
       static_cast<ErrorCode>(9), "abc" },
+    // no error, and a grid that is none
+    { "printf '\\001\\0\\0\\0\\0\\0\\0\\0000\\0\\0\\0\\0\\0\\0\\0\\0' >&3\n"
+      "printf '\\001\\0\\0\\0\\0\\0\\0\\0004\\001\\0\\0\\0\\0\\0\\0\\000x' >&3\n"
+      "printf '\\377\\377\\377\\377\\377\\377\\377\\377' >&3",
+      ErrorCode::InvalidFormat, "cannot be handed over" },
   };
   const std::string file = FileOf("any.vtu");
   std::ofstream(file) << "anything";
