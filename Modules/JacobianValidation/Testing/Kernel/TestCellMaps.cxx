@@ -349,6 +349,43 @@ BernsteinCells StraightCorners(double move, double angle)
   return cells;
 }
 
+/// With any weights the corners stay straight: the products w x are rounded, their remainders say
+/// by what, and det J = 0 along the edges is known, with no tolerance.
+TEST(CellMaps, StraightCornersOfRationalCellsAreDegenerate_ExactOracle)
+{
+  oracle::Random random(5);
+  for (int seed = 0; seed < 20; ++seed)
+  {
+    BernsteinCells cells = StraightCorners(0.0, 0.0);
+    const std::vector<double> net = cells.Data;
+    cells.Rational = true;
+    cells.Data.assign(72, 0.0);
+    cells.Remainders.assign(72, 0.0);
+    cells.Errors.assign(1, 0.0);
+    cells.Offsets[1] = 72;
+    for (std::size_t i = 0; i < 18; ++i)
+    {
+      const double w = random.In(0.6, 1.4);
+      for (std::size_t d = 0; d < 3; ++d)
+      {
+        const double x = 0.05 * net[18 * d + i];
+        double& value = cells.Data[18 * d + i];
+        value = w * x;
+        cells.Remainders[18 * d + i] = std::fma(w, x, -value);
+        cells.Errors[0] = std::max(cells.Errors[0], std::fabs(cells.Remainders[18 * d + i]));
+      }
+      cells.Data[54 + i] = w;
+    }
+    JacobianParams strict;
+    strict.CollapseTolerance = 0.0;
+    const auto result = ValidateJacobian(cells, strict);
+    ASSERT_TRUE(result) << result.Status.Message();
+    EXPECT_EQ(result->Cells[0].Degenerate & DegenerateEdge, DegenerateEdge) << seed;
+    EXPECT_EQ(result->Cells[0].Verdict, Verdict::Valid) << seed;
+    EXPECT_FALSE(result->Cells[0].Snapped);
+  }
+}
+
 TEST(CellMaps, DegenerateWithinRoundingIsNeitherValidNorInvalid_ExactOracle)
 {
   // At the corner (0, -1) the derivatives are 2 (1, 0) and 2 (-1, 0): det J = 0 along the edge.
