@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CellMaps.h"
 
+#include "DisjointSets.h"
 #include "ExactForm.h"
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 
 namespace knotwork
 {
@@ -27,33 +27,6 @@ bool IsSame(double z, double other)
 {
   return std::fabs(z - other) <= HeightTolerance * std::max(std::fabs(z), std::fabs(other));
 }
-
-/// Sets of cells that are joined pair by pair.
-class Union
-{
-public:
-  explicit Union(std::size_t n) : Parents(n)
-  {
-    std::iota(this->Parents.begin(), this->Parents.end(), 0);
-  }
-  int Find(int i)
-  {
-    while (this->Parents[static_cast<std::size_t>(i)] != i)
-    {
-      int& parent = this->Parents[static_cast<std::size_t>(i)];
-      parent = this->Parents[static_cast<std::size_t>(parent)];
-      i = parent;
-    }
-    return i;
-  }
-  void Join(int a, int b)
-  {
-    this->Parents[static_cast<std::size_t>(this->Find(a))] = this->Find(b);
-  }
-
-private:
-  std::vector<int> Parents;
-};
 
 /// The straight line between the ends of an edge of a cell.
 struct Chord
@@ -124,7 +97,7 @@ bool Coincide(const Chord& a, const Chord& b)
   return same || turned;
 }
 
-void JoinAtEdges(std::vector<Chord>& chords, Union& surfaces)
+void JoinAtEdges(std::vector<Chord>& chords, DisjointSets& surfaces)
 {
   std::sort(
     chords.begin(), chords.end(), [](const Chord& a, const Chord& b) { return a.Place < b.Place; });
@@ -135,7 +108,7 @@ void JoinAtEdges(std::vector<Chord>& chords, Union& surfaces)
     {
       if (Coincide(chords[i], chords[k]))
       {
-        surfaces.Join(chords[i].Surface, chords[k].Surface);
+        surfaces.Unite(chords[i].Surface, chords[k].Surface);
       }
     }
   }
@@ -333,7 +306,7 @@ CellMaps FindCellMaps(const BernsteinCells& cells, const std::vector<int>& patch
   }
   if (!oneHeight)
   {
-    Union surfaces(pieces.size());
+    DisjointSets surfaces(static_cast<int>(pieces.size()));
     std::vector<Chord> chords;
     std::map<int, int> firstOfPatch;
     for (std::size_t i = 0; i < pieces.size(); ++i)
@@ -342,7 +315,7 @@ CellMaps FindCellMaps(const BernsteinCells& cells, const std::vector<int>& patch
       AddChords(cells, pieces[i].Cell, piece, chords);
       if (!patches.empty())
       {
-        surfaces.Join(piece,
+        surfaces.Unite(piece,
           firstOfPatch.emplace(patches[static_cast<std::size_t>(pieces[i].Cell)], piece)
             .first->second);
       }
