@@ -52,12 +52,12 @@ def joined(start, *pieces):
             "control_points": [x for x, _ in rows]}
 
 
-def bite(radius, middle, height):
+def bite(radius, middle, height, degree):
     """A rectangle of width 1 with a disc about (middle, 0) bitten out of its south side by two exact arcs."""
     left, right = middle - radius, middle + radius
     half = math.sqrt(0.5)
     return {"curves": [
-        segment((0, 0), (0, height), degree=3), segment((1, 0), (1, height)),
+        segment((0, 0), (0, height), degree), segment((1, 0), (1, height)),
         joined((0, 0), [([left / 2, 0], 1), ([left, 0], 1)], [([left, radius], half), ([middle, radius], 1)],
                [([right, radius], half), ([right, 0], 1)], [([(1 + right) / 2, 0], 1), ([1, 0], 1)]),
         segment((0, height), (1, height))]}
@@ -168,8 +168,9 @@ class Filled:
         return [self.verdict, f"{self.minimum:.4f}", f"{self.scaled:.4f}"]
 
 
-BITES = [(0.46, 0.5, 1.2), (0.46, 0.5, 2.5), (0.46, 0.5, 3), (0.46, 0.5, 4), (0.43, 0.48, 2.5), (0.43, 0.48, 3),
-         (0.43, 0.48, 4)]
+# radius and middle of the disc, height, degree from south to north
+BITES = [(0.46, 0.5, 1.2, 3), (0.46, 0.5, 3, 3), (0.49, 0.5, 4, 3), (0.49, 0.5, 4, 2), (0.49, 0.5, 6, 2), (0.49, 0.5, 8, 2),
+         (0.43, 0.48, 4, 3)]
 # half width and height of the bump, outer radius, degree across, place of the bump
 SECTORS = [(0.46, 0.4, 2, 2, 0.48), (0.46, 1.2, 4, 2, 0.48), (0.46, 0.4, 2, 3, 0.48), (0.46, 1.2, 2.92, 3, 0.48),
            (0.46, 2, 6, 3, 0.5), (0.38, 1.2, 4, 3, 0.5)]
@@ -178,7 +179,8 @@ LETTERS = [(0.4, 0), (0.6, 0.05), (0.6, 0.1), (0.65, 0.1)]  # width, skew
 
 def weights_table(folder):
     rows = [["domain", "fixed weights", "min det J / S", "scaled", "optimized weights", "min det J / S", "scaled"]]
-    domains = [(f"bite {r:g} at {x:g}, height {h:g}", f"bite_{i}", bite(r, x, h)) for i, (r, x, h) in enumerate(BITES)]
+    domains = [(f"bite {r:g} at {x:g}, height {h:g}, degree {p}", f"bite_{i}", bite(r, x, h, p))
+               for i, (r, x, h, p) in enumerate(BITES)]
     domains += [(f"sector to {R:g}, bump {w:g} x {h:g} at {x:g}, degree {p}", f"sector_{i}",
                  bumped_sector(w, h, R, p, x)) for i, (w, h, R, p, x) in enumerate(SECTORS)]
     modes = knotwork.vtkDomainParameterization

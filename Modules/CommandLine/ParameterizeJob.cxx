@@ -65,6 +65,7 @@ struct ParameterizeJob
     const auto text = [data](const char* name)
     { return vtkStringArray::SafeDownCast(data->GetAbstractArray(name))->GetValue(0); };
     report["verdict"] = text("Verdict");
+    report["injective"] = text("Injective");
     report["min_jacobian_lower"] = number("JacobianMinLower");
     report["min_jacobian_upper"] = number("JacobianMinUpper");
     report["area"] = number("Area");
@@ -76,11 +77,9 @@ struct ParameterizeJob
     report["iterations"] = static_cast<long long>(number("Iterations"));
     report["functions"] = static_cast<long long>(number("Functions"));
     report["patches"] = static_cast<long long>(number("Patches"));
-    if (!this->Layout.empty())
-    {
-      report["injective"] = text("Injective");
-    }
-    report["seconds_with_certificate"] = number("SecondsWithCertificate");
+    report["stopped"] = text("Stopped");
+    report["work"] = number("Work");
+    report["seconds_with_certificate"] = this->Filter->GetSecondsWithCertificate();
   }
 };
 }
@@ -115,6 +114,20 @@ Job MakeParameterizeJob(CLI::App& app)
     "Weights", { "automatic", "fixed", "optimized" }, filter->GetWeights(),
     [filter](int weights) { filter->SetWeights(weights); },
     "whether inner weights move too; automatic: when control points alone give no valid map");
+  options.AddChoice(
+    "Objective", { "winslow", "least-jacobian" }, filter->GetObjective(),
+    [filter](int objective) { filter->SetObjective(objective); },
+    "what is made best; least-jacobian: from Winslow's functional on, the largest least det J");
+  KNOTWORK_OPTION(options, filter, Effort,
+    "work at most, about as many seconds of one core, but counted; then the best map so far");
+  KNOTWORK_OPTION(
+    options, filter, TimeLimit, "seconds at most, then the best map so far; 0: no limit");
+  KNOTWORK_OPTION(
+    options, filter, FoldoverMargin, "det J over the area that foldover removal by ReLU aims at");
+  KNOTWORK_OPTION(
+    options, filter, WinslowEpsilon, "added to det J over the area in the functional");
+  KNOTWORK_OPTION(options, filter, AlternationTolerance,
+    "rounds of control points and weights end when they gain less");
   KNOTWORK_OPTION(options, filter, UniformityWeight, "weight of the variation of det J");
   KNOTWORK_OPTION(options, filter, MaximumIterations, "iterations of one minimization at most");
   KNOTWORK_OPTION(

@@ -42,6 +42,19 @@ const char* StageName(knotwork::DomainStage stage)
   }
 }
 
+const char* StopName(knotwork::DomainStop stop)
+{
+  switch (stop)
+  {
+    case knotwork::DomainStop::Effort:
+      return "effort";
+    case knotwork::DomainStop::Time:
+      return "time_limit";
+    default:
+      return "finished";
+  }
+}
+
 /// Output 2.
 void FillTable(const std::vector<knotwork::DomainIteration>& history, vtkTable* table)
 {
@@ -96,6 +109,7 @@ void AddNumber(vtkUnstructuredGrid* grid, const char* name, double value)
 void AddReport(const knotwork::DomainReport& result, vtkUnstructuredGrid* grid)
 {
   AddText(grid, "Verdict", ToString(result.Certificate.Verdict));
+  AddText(grid, "Injective", ToString(result.Injectivity.Verdict));
   const knotwork::DomainMetrics& metrics = result.Metrics;
   AddNumber(grid, "JacobianMinLower", result.MinDetLower);
   AddNumber(grid, "JacobianMinUpper", result.MinDetUpper);
@@ -106,7 +120,8 @@ void AddReport(const knotwork::DomainReport& result, vtkUnstructuredGrid* grid)
   AddNumber(grid, "MeanScaledJacobian", metrics.MeanScaledJacobian);
   AddNumber(grid, "MeanConditionNumber", metrics.MeanConditionNumber);
   AddNumber(grid, "Iterations", result.Iterations);
-  AddNumber(grid, "SecondsWithCertificate", result.SecondsOptimization + result.SecondsCertificate);
+  AddNumber(grid, "Work", result.Work);
+  AddText(grid, "Stopped", StopName(result.Stop));
 }
 }
 
@@ -123,6 +138,12 @@ void vtkDomainParameterization::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Optimizer: " << this->Optimizer << "\n";
   os << indent << "Foldover: " << this->Foldover << "\n";
   os << indent << "Weights: " << this->Weights << "\n";
+  os << indent << "Objective: " << this->Objective << "\n";
+  os << indent << "Effort: " << this->Effort << "\n";
+  os << indent << "TimeLimit: " << this->TimeLimit << "\n";
+  os << indent << "FoldoverMargin: " << this->FoldoverMargin << "\n";
+  os << indent << "WinslowEpsilon: " << this->WinslowEpsilon << "\n";
+  os << indent << "AlternationTolerance: " << this->AlternationTolerance << "\n";
   os << indent << "UniformityWeight: " << this->UniformityWeight << "\n";
   os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
   os << indent << "EnergyTolerance: " << this->EnergyTolerance << "\n";
@@ -135,6 +156,8 @@ void vtkDomainParameterization::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MinimumElements: " << this->MinimumElements << "\n";
   os << indent << "MoveInterfaces: " << this->MoveInterfaces << "\n";
   os << indent << "Verdict: " << this->Verdict << "\n";
+  os << indent << "Injectivity: " << this->Injectivity << "\n";
+  os << indent << "SecondsWithCertificate: " << this->SecondsWithCertificate << "\n";
 }
 
 int vtkDomainParameterization::FillInputPortInformation(int port, vtkInformation* info)
@@ -164,6 +187,8 @@ Status vtkDomainParameterization::Compute(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   this->Verdict = 0;
+  this->Injectivity = 0;
+  this->SecondsWithCertificate = 0.0;
   const auto model =
     knotwork::DecodeSplineModel(vtkDataObject::GetData(inputs[0], 0), this->KernelThreads());
   if (!model)
@@ -188,6 +213,12 @@ knotwork::DomainParams vtkDomainParameterization::KernelParams() const
   params.Optimizer = static_cast<knotwork::DomainOptimizer>(this->Optimizer);
   params.Foldover = static_cast<knotwork::FoldoverRemoval>(this->Foldover);
   params.Weights = static_cast<knotwork::WeightMode>(this->Weights);
+  params.Objective = static_cast<knotwork::DomainObjective>(this->Objective);
+  params.Effort = this->Effort;
+  params.TimeLimit = this->TimeLimit;
+  params.FoldoverMargin = this->FoldoverMargin;
+  params.WinslowEpsilon = this->WinslowEpsilon;
+  params.AlternationTolerance = this->AlternationTolerance;
   params.UniformityWeight = this->UniformityWeight;
   params.MaxIterations = this->MaximumIterations;
   params.EnergyTolerance = this->EnergyTolerance;
@@ -250,17 +281,9 @@ Status vtkDomainParameterization::Parameterize(
   {
     return result.Status;
   }
-  const knotwork::InjectivityCertificate& injectivity = result->Injectivity;
-  if (result->Certificate.Verdict == knotwork::Verdict::Valid &&
-    injectivity.Verdict != knotwork::InjectivityVerdict::Injective)
-  {
-    vtkWarningMacro(
-      "the patches are valid, but not proved injective together: " << ToString(injectivity.Reason));
-  }
   const Status status = this->Encode<Dim>(
     result.Value, result->Map.Patches, result->InitialMap.Patches, height, outputs);
   AddNumber(grid, "Functions", result->Map.NumFunctions());
-  AddText(grid, "Injective", ToString(injectivity.Verdict));
   return status;
 }
 
@@ -275,6 +298,8 @@ Status vtkDomainParameterization::Encode(const knotwork::DomainReport& report,
     vtkWarningMacro("" << message);
   }
   this->Verdict = static_cast<int>(report.Certificate.Verdict);
+  this->Injectivity = static_cast<int>(report.Injectivity.Verdict);
+  this->SecondsWithCertificate = report.SecondsOptimization + report.SecondsCertificate;
   vtkUnstructuredGrid* grid = vtkUnstructuredGrid::GetData(outputs, 0);
   FillTable(report.History, vtkTable::GetData(outputs, 2));
   Status status = EncodeMap<Dim>(map, height, grid);

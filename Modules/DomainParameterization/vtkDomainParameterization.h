@@ -14,13 +14,15 @@
  *
  * Output 0 is the map as a spline grid of one patch (one a cell of the layout, `PatchId` its number
  * among the quadrilaterals or hexahedra) with the field-data arrays `Verdict` ("valid",
- * "invalid", "undecided", "reversed": proved, not sampled), `JacobianMinLower` and
+ * "invalid", "undecided", "reversed": of det J, proved, not sampled), `Injective` ("injective",
+ * "injective_up_to_seam", "not_injective", "undecided": proved too), `JacobianMinLower` and
  * `JacobianMinUpper` (proved bounds of the smallest det J with respect to the parameters of the
  * unit square or cube) and, over 501 x 501 (51^3) samples, `MinDetOverArea`, `MaxDetOverArea`,
- * `MinScaledJacobian`, `MeanScaledJacobian`, `MeanConditionNumber`; `Area`, `Iterations` and
- * `Functions`. Output 1 is the first map, before the optimization. Output 2 is the convergence
- * table with a row an iteration: `Stage`, `Iteration`, `Energy`, `MinDetOverArea`, `GradientNorm`,
- * `Functions`. A map that is not proved valid is an output like any other, with a warning that says
+ * `MinScaledJacobian`, `MeanScaledJacobian`, `MeanConditionNumber`; `Area`, `Iterations`,
+ * `Functions`, `Patches`, `Work` and `Stopped` ("finished", "effort", "time_limit"). Output 1 is
+ * the first map, before the optimization. Output 2 is the convergence table with a row an
+ * iteration: `Stage`, `Iteration`, `Energy`, `MinDetOverArea`, `GradientNorm`, `Functions`. A map
+ * that is not proved regular and one-to-one is an output like any other, with a warning that says
  * where and why.
  *
  * @source Ji, Yu, Wang, Zhu (2021). The module's page has the method, limits and errors.
@@ -69,6 +71,11 @@ public:
     PENALTY,
     RELU
   };
+  enum Objectives
+  {
+    WINSLOW = 0,   ///< the Winslow functional and uniformity
+    LEAST_JACOBIAN ///< from there on, the largest least det J
+  };
   enum WeightModes
   {
     WEIGHTS_AUTOMATIC = 0, ///< optimized only when control points alone give no valid map
@@ -97,9 +104,45 @@ public:
   vtkGetMacro(Weights, int);
   ///@}
   ///@{
+  /** What the inner control points are to make best, one of Objectives. Default WINSLOW. */
+  vtkSetClampMacro(Objective, int, WINSLOW, LEAST_JACOBIAN);
+  vtkGetMacro(Objective, int);
+  ///@}
+  ///@{
+  /** Work at most, about as many seconds of one core, but counted: the same run ends at the same
+   * place on every machine, with the best map so far. Default 4, valid range [1e-6, 1e6]. */
+  vtkSetClampMacro(Effort, double, 1e-6, 1e6);
+  vtkGetMacro(Effort, double);
+  ///@}
+  ///@{
+  /** Seconds of the wall clock at most, then the best map so far is taken; 0: no limit. The result
+   * then depends on the machine's speed. Default 0, valid range [0, 1e9]. */
+  vtkSetClampMacro(TimeLimit, double, 0.0, 1e9);
+  vtkGetMacro(TimeLimit, double);
+  ///@}
+  ///@{
   /** Weight lambda of the uniformity int (det J / S - 1)^2. Default 1, valid range [0, 1e6]. */
   vtkSetClampMacro(UniformityWeight, double, 0.0, 1e6);
   vtkGetMacro(UniformityWeight, double);
+  ///@}
+  ///@{
+  /** delta / S of the ReLU functional that removes folds; a tenth of it in every further round.
+   * Default 0.05, valid range [1e-6, 0.999]. */
+  vtkSetClampMacro(FoldoverMargin, double, 1e-6, 0.999);
+  vtkGetMacro(FoldoverMargin, double);
+  ///@}
+  ///@{
+  /** Added to det J / S in the denominator of the functional. Default 1e-10, valid range [1e-16,
+   * 1].
+   */
+  vtkSetClampMacro(WinslowEpsilon, double, 1e-16, 1.0);
+  vtkGetMacro(WinslowEpsilon, double);
+  ///@}
+  ///@{
+  /** Rounds of control points and weights end when they lower the energy by less. Default 0.01,
+   * valid range [1e-12, 1e6]. */
+  vtkSetClampMacro(AlternationTolerance, double, 1e-12, 1e6);
+  vtkGetMacro(AlternationTolerance, double);
   ///@}
   ///@{
   /** Iterations of one minimization at most. Default 1000, valid range [1, 1000000]. */
@@ -162,8 +205,16 @@ public:
   ///@}
 
   ///@{
-  /** Of the last update: 1 valid, 0 undecided, -1 invalid, 2 reversed. */
+  /** Of the last update, of det J: 1 valid, 0 undecided, -1 invalid, 2 reversed. */
   vtkGetMacro(Verdict, int);
+  ///@}
+  ///@{
+  /** Of the last update: 1 one-to-one, 2 up to seams, 0 undecided, -1 not. */
+  vtkGetMacro(Injectivity, int);
+  ///@}
+  ///@{
+  /** Of the last update: wall time of the optimization and the proofs. */
+  vtkGetMacro(SecondsWithCertificate, double);
   ///@}
 
 protected:
@@ -193,6 +244,12 @@ private:
   int Optimizer = OPTIMIZER_AUTOMATIC;
   int Foldover = FOLDOVER_AUTOMATIC;
   int Weights = WEIGHTS_AUTOMATIC;
+  int Objective = WINSLOW;
+  double Effort = 4.0;
+  double TimeLimit = 0.0;
+  double FoldoverMargin = 0.05;
+  double WinslowEpsilon = 1e-10;
+  double AlternationTolerance = 0.01;
   double UniformityWeight = 1.0;
   int MaximumIterations = 1000;
   double EnergyTolerance = 1e-7;
@@ -205,5 +262,7 @@ private:
   int MinimumElements = 4;
   bool MoveInterfaces = true;
   int Verdict = 0;
+  int Injectivity = 0;
+  double SecondsWithCertificate = 0.0;
 };
 #endif

@@ -226,6 +226,58 @@ def test_parameterize_reports_a_certified_map():
     assert abs(again["measure"] - report["area"]) < 1e-12
 
 
+def test_parameterize_writes_the_same_bytes_every_time():
+    bite = {"degree": 2, "knots": [0, 0, 0, 1, 1, 1], "control_points": [[0, 0], [0.5, 0.7], [1, 0]]}
+    name = boundary("bite_again.json", [bite, line([0, 1], [1, 1]), line([0, 0], [0, 1]), line([1, 0], [1, 1])])
+    written = []
+    for i, threads in enumerate((1, 2, 2)):
+        files = [path(f"again_{i}.vtu"), path(f"again_first_{i}.vtu"), path(f"again_{i}.csv")]
+        run(0, "parameterize", name, "--output", files[0], "--first-map", files[1], "--table", files[2],
+            "--threads", threads)
+        written.append([open(file, "rb").read() for file in files])
+    assert written[0] == written[1] == written[2]
+    assert b"Seconds" not in written[0][0]  # measured times belong into reports
+
+
+def ring_of_degrees(name, degrees):
+    """Arcs about the radii 1 and 2, cubic, and the segments between their ends."""
+    knots = [0.0] * 4 + [i / 12 for i in range(1, 12)] + [1.0] * 4
+    at = [math.radians(degrees) * sum(knots[i + 1:i + 4]) / 3 for i in range(15)]
+    arcs = [[[r * math.cos(a), r * math.sin(a)] for a in at] for r in (1, 2)]
+    return boundary(name, [*({"degree": 3, "knots": knots, "control_points": arc} for arc in arcs),
+                           line(arcs[0][0], arcs[1][0]), line(arcs[0][-1], arcs[1][-1])])
+
+
+def test_parameterize_says_whether_the_map_is_one_to_one():
+    report, _ = run(0, "parameterize", ring_of_degrees("ring_270.json", 270), "--output", path("ring_270.vtu"))
+    assert report["verdict"] == "valid" and report["injective"] == "injective" and report["stopped"] == "finished"
+    name = ring_of_degrees("ring_504.json", 504)
+    done = knotwork_testing.run_program("parameterize", name, "--output", path("ring_504.vtu"), "--report",
+                                        path("ring_504_report.json"))
+    assert done.returncode == 0 and "regular, but not one-to-one" in done.stderr and " at (" in done.stderr, done.stderr
+    with open(path("ring_504_report.json")) as stream:
+        report = json.load(stream)
+    assert report["verdict"] == "valid" and report["injective"] == "not_injective"
+
+
+def test_parameterize_stops_at_its_limits():
+    dent = {"degree": 3, "knots": [0, 0, 0, 0, 0.25, 0.5, 0.75, 1, 1, 1, 1],
+            "control_points": [[0, 0], [0.7, 0.1], [0.1, 0.7], [0.5, 1.1], [0.9, 0.7], [0.3, 0.1], [1, 0]]}
+    west = {"degree": 3, "knots": [0, 0, 0, 0, 1, 1, 1, 1], "control_points": [[0, 0], [0, 0.4], [0, 0.8], [0, 1.2]]}
+    name = boundary("dent.json", [dent, line([0, 1.2], [1, 1.2]), west, line([1, 0], [1, 1.2])])
+    for option, value, stopped in (("--effort", 1e-5, "effort"), ("--time-limit", 1e-6, "time_limit")):
+        done = knotwork_testing.run_program("parameterize", name, "--output", path("limited.vtu"), option, str(value),
+                                            "--report", path("limited.json"))
+        assert done.returncode == 0, done.stderr
+        with open(path("limited.json")) as stream:
+            report = json.load(stream)
+        assert report["stopped"] == stopped and report["work"] < 1e-3, report
+    winslow, _ = run(0, "parameterize", name, "--output", path("dent.vtu"))
+    least, _ = run(0, "parameterize", name, "--output", path("dent.vtu"), "--objective", "least-jacobian")
+    assert winslow["stopped"] == least["stopped"] == "finished" and least["objective"] == "least-jacobian"
+    assert least["verdict"] == "valid" and least["min_det_over_area"] > winslow["min_det_over_area"]
+
+
 def quarter(radius, k):
     """A quarter of a circle about the origin, from 90 k degrees on."""
     at = [math.radians(90 * k + 45 * i) for i in range(3)]

@@ -8,6 +8,9 @@ namespace knotwork
 {
 namespace
 {
+/// Of the quality functional in Inverse: among maps of one least det J the better shaped one.
+constexpr double ShapeShare = 1e-3;
+
 inline void SquareRoot(const RowVector& x, RowVector& root)
 {
   for (int l = 0; l < RowLanes; ++l)
@@ -46,6 +49,21 @@ inline void Apply(const Density& density, const RowVector& f, const RowVector& d
     value = d < density.Delta ? density.Delta - d : zero;
     byF = zero;
     byD = d < density.Delta ? zero - 1.0 : zero;
+    return;
+  }
+  if constexpr (Kind == DensityKind::Inverse)
+  {
+    const RowVector positive = d > zero ? d : zero + 1.0;
+    Shrink<Dim>(positive, byF);
+    byF *= ShapeShare;
+    value = f * byF;
+    byD = -power * value / positive;
+    for (int l = 0; l < RowLanes; ++l)
+    {
+      const double p = std::pow(density.Delta / positive[l], density.Power);
+      value[l] += p;
+      byD[l] -= density.Power * p / positive[l];
+    }
     return;
   }
   const RowVector excess = d - 1.0;
@@ -203,7 +221,7 @@ public:
     value.MinDet = std::min(std::min(this->Smallest[0], this->Smallest[1]),
       std::min(this->Smallest[2], this->Smallest[3]));
     // a comparison with NaN is false: the sum tells
-    if (!(value.MinDet > 0.0) && Kind == DensityKind::Quality)
+    if (!(value.MinDet > 0.0) && (Kind == DensityKind::Quality || Kind == DensityKind::Inverse))
     {
       value.Energy = std::numeric_limits<double>::infinity();
     }
@@ -269,6 +287,10 @@ EnergyValue DomainEnergy<Dim>::Evaluate(const Density& density, const double* po
       break;
     case DensityKind::Penalty:
       value = Visit<Dim, DensityKind::Penalty>(
+        *this->Points, density, planes, planeGradients, weights != nullptr);
+      break;
+    case DensityKind::Inverse:
+      value = Visit<Dim, DensityKind::Inverse>(
         *this->Points, density, planes, planeGradients, weights != nullptr);
       break;
     case DensityKind::Relu:

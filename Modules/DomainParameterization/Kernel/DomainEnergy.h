@@ -11,7 +11,8 @@ enum class DensityKind
 {
   Quality, ///< |J|^2 / (det J + eps)^(2/d) + lambda (det J - 1)^2, infinite where det J <= 0
   Penalty, ///< the same with chi = (det J + sqrt(det J^2 + delta^2)) / 2 for the denominator
-  Relu     ///< max(0, delta - det J)
+  Relu,    ///< max(0, delta - det J)
+  Inverse  ///< (delta / det J)^power + 1e-3 |J|^2 / (det J)^(2/d), infinite where det J <= 0
 };
 
 struct Density
@@ -20,11 +21,12 @@ struct Density
   double Lambda = 1.0;
   double Epsilon = 1e-10;
   double Delta = 0.05;
+  double Power = 8.0;
 };
 
 struct EnergyValue
 {
-  double Energy = 0.0; ///< infinite for Quality when MinDet <= 0
+  double Energy = 0.0; ///< infinite for Quality and Inverse when MinDet <= 0
   double MinDet = 0.0; ///< at the quadrature points
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "BoundaryInjectivity.h"
 #include "DomainBoundary.h"
 #include "JacobianCertificate.h"
 
@@ -40,12 +41,20 @@ enum class WeightMode
   Optimized  ///< control points and weights in turn
 };
 
+/// What the inner control points are to make best, once the map has no folds.
+enum class DomainObjective
+{
+  Winslow,      ///< the functional of ParameterizeDomain
+  LeastJacobian ///< from there on, the largest least det J
+};
+
 struct DomainParams
 {
   InitialMapMethod InitialMap = InitialMapMethod::Automatic;
   DomainOptimizer Optimizer = DomainOptimizer::Automatic;
   FoldoverRemoval Foldover = FoldoverRemoval::Automatic;
   WeightMode Weights = WeightMode::Automatic;
+  DomainObjective Objective = DomainObjective::Winslow;
   double UniformityWeight = 1.0;      ///< lambda, >= 0
   double FoldoverMargin = 0.05;       ///< delta / S of the ReLU functional, (0, 1)
   double WinslowEpsilon = 1e-10;      ///< added to det J / S where that is cut off at 0, > 0
@@ -61,7 +70,11 @@ struct DomainParams
   double CertificateGap = 0.1;        ///< of the bounds of each element's min det J, (0, 1], see
                                       ///< JacobianParams::RelativeGap
   std::int64_t MaxBoxes = 1000000;    ///< of the certificate, see JacobianParams
-  int Threads = 0;                    ///< 0: all cores; the result does not depend on it
+  /// Work at most, (0, 1e6]: about as many seconds of one core, but counted, so that the same run
+  /// ends at the same place on every machine. The best map so far is then the result.
+  double Effort = 4.0;
+  double TimeLimit = 0.0; ///< seconds of the wall clock, >= 0; 0: none. The same
+  int Threads = 0;        ///< 0: all cores; the result does not depend on it
 };
 
 /// What a row of the convergence table belongs to.
@@ -81,6 +94,14 @@ struct DomainIteration
   double MinDet = 0.0;       ///< over S, at the quadrature points
   double GradientNorm = 0.0; ///< of the free unknowns, largest component
   int Functions = 0;         ///< of the map's space
+};
+
+/// Why a run ended.
+enum class DomainStop
+{
+  Finished, ///< by itself
+  Effort,   ///< DomainParams::Effort was used up
+  Time      ///< DomainParams::TimeLimit was reached
 };
 
 /// Measures at Samples^Dim equally spaced parameters, ends included. Det: of the map from the unit
@@ -112,10 +133,21 @@ struct BoundaryFold
   std::string Message; ///< one sentence with the place and the given sides' numbers
 };
 
+/// A place where two sides of the boundary, or one with itself, meet beside their common corners
+/// and edges: no map is one-to-one.
+struct BoundaryCrossing
+{
+  std::array<int, 2> Sides{ -1, -1 }; ///< as given
+  std::array<double, 3> Position{};
+  std::string Message; ///< one sentence
+};
+
 /// What a parameterization says of its result.
 struct DomainReport
 {
   JacobianCertificate Certificate; ///< of the map: verdict, bounds, witnesses
+  /// Whether the map (of all patches together) takes no value twice: proved, like the certificate.
+  InjectivityCertificate Injectivity;
   /// Proved bounds of the smallest and largest det J of the map from the unit square (cube); the
   /// certificate's own numbers are per element with respect to local parameters.
   double MinDetLower = 0.0;
@@ -131,13 +163,25 @@ struct DomainReport
   int Refinements = 0; ///< rounds of refinement that were made
   InitialMapMethod UsedInitialMap = InitialMapMethod::Coons;
   std::vector<BoundaryFold> Folds; ///< empty unless the boundary makes a valid map impossible
-  /// What a stage failed at, one sentence each, those of Folds first; empty when the map is valid.
+  std::vector<BoundaryCrossing> Crossings; ///< empty unless the boundary crosses itself, proved
+  DomainStop Stop = DomainStop::Finished;
+  double Work = 0.0; ///< in the unit of DomainParams::Effort
+  /// What a stage failed at, one sentence each, those of Folds and Crossings first; empty when the
+  /// map is regular and one-to-one and the run ended by itself.
   std::vector<std::string> Messages;
   double SecondsOptimization = 0.0; ///< of the wall clock: everything before the metrics and
                                     ///< without the certificate
   double SecondsCertificate = 0.0;
   double SecondsMetrics = 0.0;
-  bool IsImpossible() const { return !this->Folds.empty(); }
+  /// No map of this boundary is regular and one-to-one.
+  bool IsImpossible() const { return !this->Folds.empty() || !this->Crossings.empty(); }
+  /// Proved regular and one-to-one (up to seams, which are the boundary's own).
+  bool IsValid() const
+  {
+    return this->Certificate.Verdict == Verdict::Valid &&
+      (this->Injectivity.Verdict == InjectivityVerdict::Injective ||
+        this->Injectivity.Verdict == InjectivityVerdict::InjectiveUpToSeam);
+  }
 };
 
 template <int Dim>

@@ -2,6 +2,7 @@
 #include "DomainRun.h"
 
 #include "DomainSolver.h"
+#include "NumberText.h"
 #include "ParameterMetrics.h"
 
 #include <algorithm>
@@ -14,6 +15,14 @@ namespace
 {
 using Clock = std::chrono::steady_clock;
 
+/// Of the certificates on the way, which need the sign only.
+constexpr std::int64_t SignBoxes = 100000;
+/// Nanoseconds that a certificate takes a cell and a box, for WorkBudget.
+template <int Dim>
+constexpr double CellCost = Dim == 2 ? 5e2 : 3e3;
+template <int Dim>
+constexpr double BoxCost = Dim == 2 ? 2e3 : 1e4;
+
 double SecondsSince(Clock::time_point start)
 {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -24,93 +33,127 @@ template <int Dim>
 class Runner
 {
 public:
-  Runner(DomainSource<Dim>& source, double area, const DomainParams& params,
-    const ProgressCallback& progress, DomainRun<Dim>& out, DomainReport& report)
-    : Source(source), Area(area), Params(params), Progress(progress), Out(out), Report(report)
+  Runner(DomainSource<Dim>& source, double area, const DomainParams& params, WorkBudget& budget,
+    DomainRun<Dim>& out, DomainReport& report)
+    : Source(source), Area(area), Params(params), Budget(budget), Out(out), Report(report)
   {
   }
 
-  Status FirstMap(InitialMapMethod method)
-  {
-    method = method == InitialMapMethod::Automatic ? InitialMapMethod::Coons : method;
-    auto map = this->Source.FirstMap(method);
-    if (map)
-    {
-      this->Report.UsedInitialMap = method;
-      this->Out.InitialMap = map.Value;
-      this->Out.Map = std::move(map.Value);
-    }
-    return map.Status;
-  }
-
-  /// All stages; the map, its certificate and messages are in Out afterwards.
+  /// All stages; the map, its certificate and messages are in Out and Report afterwards.
   Status Optimize()
   {
-    this->MakeSolver();
-    this->Record();
-    bool unfolded = this->Solver->RemoveFolds();
-    if (!unfolded && this->Params.InitialMap == InitialMapMethod::Automatic &&
-      !this->Solver->Aborted)
+    Status status = this->FindFirstMap();
+    if (status && this->IsRegular())
     {
-      const double reached = this->Solver->MinDet();
-      const GluedMap<Dim> first = this->Out.InitialMap;
-      const GluedMap<Dim> best = this->Solver->Map();
-      if (this->FirstMap(InitialMapMethod::Harmonic))
-      {
-        this->Solver->SetMap(this->Out.Map);
-        this->Record();
-        unfolded = this->Solver->RemoveFolds();
-      }
-      if (!unfolded && !(this->Solver->MinDet() > reached))
-      {
-        this->Out.InitialMap = first;
-        this->Report.UsedInitialMap = InitialMapMethod::Coons;
-        this->Solver->SetMap(best);
-      }
+      status = this->Improve();
     }
-    if (unfolded)
+    // without hope of a valid map only the first, for what it shows
+    for (std::size_t k = 0; status && k < this->Starts.size() && !this->IsRegular() &&
+         this->Budget.MayGoOn() && (k == 0 || !this->Report.IsImpossible());
+         ++k)
     {
-      this->Solver->ImprovePoints();
-    }
-    if (const Status status = this->Certify(); !status)
-    {
-      return status;
-    }
-    this->Accept();
-    if (const Status status = this->Densify(unfolded); !status)
-    {
-      return status;
+      status = this->Unfold(this->Starts[k], k == 0);
     }
     const bool wanted = this->Params.Weights == WeightMode::Optimized ||
-      (this->Params.Weights == WeightMode::Automatic && !this->IsValid() && !this->IsImpossible());
-    if (wanted)
+      (this->Params.Weights == WeightMode::Automatic && this->MayTry());
+    if (status && wanted && this->Budget.MayGoOn())
     {
-      if (const Status status = this->Alternate(); !status)
-      {
-        return status;
-      }
+      status = this->Alternate();
     }
-    for (int round = 0; round < this->Params.MaxRefinements && !this->IsValid() &&
-         !this->IsImpossible() && !this->Solver->Aborted && this->Source.MayRefine(this->Out.Map);
+    for (int round = 0; status && round < this->Params.MaxRefinements && this->MayTry() &&
+         this->Source.MayRefine(this->Out.Map);
          ++round)
     {
-      if (const Status status = this->Refine(); !status)
+      status = this->Refine();
+    }
+    if (status && this->Params.Objective == DomainObjective::LeastJacobian)
+    {
+      status = this->RaiseLeastJacobian();
+    }
+    if (this->Budget.Aborted())
+    {
+      return { ErrorCode::Aborted, "by the caller" };
+    }
+    return status;
+  }
+
+  /// Bounds of the certificate as tight as they were asked for, and whether the map is one-to-one.
+  Status Prove()
+  {
+    const Clock::time_point start = Clock::now();
+    const BernsteinCells cells = GluedCells<Dim>(this->Out.Map, this->Params.Threads);
+    JacobianParams params;
+    params.RelativeGap = this->Params.CertificateGap;
+    params.ComputeMax = true;
+    params.MaxBoxes = this->Params.MaxBoxes;
+    params.Threads = this->Params.Threads;
+    auto sharp = ValidateJacobian(cells, params, this->Budget.AsProgress());
+    // a limit of boxes or time must not take away the sign that was proved before
+    if (sharp && (Holds(sharp.Value) || !this->IsRegular()))
+    {
+      this->Candidate = std::move(sharp.Value);
+      this->SetCertificate();
+    }
+    else if (!sharp && sharp.Status.Code != ErrorCode::Aborted)
+    {
+      return sharp.Status;
+    }
+    InjectivityParams injectivity;
+    injectivity.MaxBoxes = this->Params.MaxBoxes;
+    injectivity.Threads = this->Params.Threads;
+    // after a limit of time this is still proved: it takes milliseconds
+    auto proved = ProveInjectivity(cells, GluedComplex<Dim>(this->Out.Map),
+      this->Report.Certificate, injectivity, [this](double) { return !this->Aborts(); });
+    this->Report.SecondsCertificate += SecondsSince(start);
+    if (!proved)
+    {
+      return proved.Status;
+    }
+    this->Report.Injectivity = std::move(proved.Value);
+    return {};
+  }
+
+  /// What is to be said of the result.
+  void Conclude()
+  {
+    std::vector<std::string>& messages = this->Report.Messages;
+    this->Report.Stop = this->Budget.Stop();
+    this->Report.Work = this->Budget.Used();
+    const char* stopped = this->Report.Stop == DomainStop::Effort ? "the effort was used up"
+      : this->Report.Stop == DomainStop::Time                     ? "the time limit was reached"
+                                                                  : nullptr;
+    const char* remedy = this->Report.Stop == DomainStop::Effort
+      ? "raise Effort to let it go on"
+      : "raise TimeLimit to let it go on";
+    if (!this->IsRegular())
+    {
+      if (!this->Report.IsImpossible())
       {
-        return status;
+        messages.push_back("no valid map was found in a space of " +
+          std::to_string(this->Out.Map.NumFunctions()) + " functions; " +
+          std::to_string(this->Report.Certificate.NumInvalid) + " elements are invalid, " +
+          std::to_string(this->Report.Certificate.NumUndecided) + " undecided" +
+          (stopped ? std::string("; ") + stopped + ": " + remedy : std::string()));
       }
+      return;
     }
-    if (this->IsValid())
+    // what failed on the way to a regular map does not matter any more
+    messages.clear();
+    if (!this->Report.Crossings.empty())
     {
-      this->Report.Messages.clear(); // what failed on the way does not matter any more
+      messages.push_back(
+        "the map is regular, but not one-to-one: " + this->Report.Crossings.front().Message);
     }
-    else if (!this->IsImpossible())
+    else if (!this->Report.IsValid())
     {
-      this->Report.Messages.push_back("no valid map was found in a space of " +
-        std::to_string(this->Out.Map.NumFunctions()) + " functions; " +
-        std::to_string(this->Report.Certificate.NumInvalid) + " elements are invalid, " +
-        std::to_string(this->Report.Certificate.NumUndecided) + " undecided");
+      messages.push_back(this->OverlapMessage());
     }
-    return this->Solver->Aborted ? Status(ErrorCode::Aborted, "by the caller") : Status();
+    if (stopped)
+    {
+      messages.push_back(
+        std::string(this->Report.IsValid() ? "the map is valid" : "the map is regular") +
+        ", but its optimization was not finished: " + stopped + "; " + remedy);
+    }
   }
 
   void Measure()
@@ -118,11 +161,12 @@ public:
     const Clock::time_point start = Clock::now();
     const int samples =
       this->Params.MetricSamples > 0 ? this->Params.MetricSamples : (Dim == 2 ? 501 : 51);
-    this->Report.Metrics = MeasureMaps<Dim>(this->Out.Map.Patches, this->Area, samples);
+    const auto goOn = [this] { return !this->Aborts(); };
+    this->Report.Metrics = MeasureMaps<Dim>(this->Out.Map.Patches, this->Area, samples, goOn);
     if (this->Params.MeasureInitialMap)
     {
       this->Report.InitialMetrics =
-        MeasureMaps<Dim>(this->Out.InitialMap.Patches, this->Area, samples);
+        MeasureMaps<Dim>(this->Out.InitialMap.Patches, this->Area, samples, goOn);
     }
     this->Report.SecondsMetrics = SecondsSince(start);
   }
@@ -142,22 +186,101 @@ public:
   }
 
 private:
-  bool IsValid() const { return this->Report.Certificate.Verdict == Verdict::Valid; }
-  bool IsImpossible() const { return !this->Report.Folds.empty(); }
+  struct Start
+  {
+    InitialMapMethod Method = InitialMapMethod::Coons;
+    GluedMap<Dim> Map;
+  };
+
+  /// Proved regular.
+  static bool Holds(const JacobianCertificate& certificate)
+  {
+    return certificate.Verdict == Verdict::Valid;
+  }
+  bool IsRegular() const { return Holds(this->Report.Certificate); }
+  /// More may lead to a regular map.
+  bool MayTry() const
+  {
+    return !this->IsRegular() && !this->Report.IsImpossible() && this->Budget.MayGoOn();
+  }
+  bool Aborts()
+  {
+    this->Budget.Continue();
+    return this->Budget.Aborted();
+  }
+
+  /// Candidates for the first map, until one is proved valid; otherwise all of them are starts.
+  Status FindFirstMap()
+  {
+    std::vector<InitialMapMethod> methods{ this->Params.InitialMap };
+    const bool automatic = this->Params.InitialMap == InitialMapMethod::Automatic;
+    if (automatic)
+    {
+      methods = { InitialMapMethod::Coons, InitialMapMethod::Harmonic };
+    }
+    for (const InitialMapMethod method : methods)
+    {
+      for (int variant = 0; variant < (automatic ? this->Source.NumVariants(method) : 1); ++variant)
+      {
+        auto map = this->Source.FirstMap(method, variant);
+        if (!map && (this->Starts.empty() || map.Status.Code != ErrorCode::SingularSystem))
+        {
+          return map.Status;
+        }
+        if (!map)
+        {
+          continue;
+        }
+        this->Use({ method, std::move(map.Value) });
+        if (const Status status = this->Certify(); !status)
+        {
+          return status;
+        }
+        if (Holds(this->Candidate))
+        {
+          this->Accept();
+          this->Starts.clear();
+          return {};
+        }
+        this->Starts.push_back({ method, this->Out.Map });
+        if (!this->Budget.MayGoOn())
+        {
+          break;
+        }
+      }
+    }
+    // the first of them is the result when nothing better comes
+    this->Use(this->Starts.front());
+    if (const Status status = this->Certify(); !status)
+    {
+      return status;
+    }
+    this->Accept();
+    return {};
+  }
+
+  /// A first map becomes the result's and the solver's.
+  void Use(const Start& start)
+  {
+    this->Report.UsedInitialMap = start.Method;
+    this->Out.InitialMap = start.Map;
+    this->Out.Map = start.Map;
+    if (this->Solver)
+    {
+      this->Solver->SetMap(start.Map);
+    }
+    else
+    {
+      this->MakeSolver();
+    }
+    this->Record();
+  }
 
   void MakeSolver()
   {
     this->Absorb();
-    this->Solver = std::make_unique<DomainSolver<Dim>>(this->Out.Map, this->Area, this->Params);
-    if (this->Progress)
-    {
-      // iterations are not known beforehand: the share creeps towards 1
-      this->Solver->Continue = [this]
-      {
-        ++this->Steps;
-        return this->Progress(1.0 - 1.0 / (1.0 + this->Steps / 100.0));
-      };
-    }
+    this->Solver =
+      std::make_unique<DomainSolver<Dim>>(this->Out.Map, this->Area, this->Params, this->Budget);
     this->Extra.assign(static_cast<std::size_t>(this->Out.Map.NumElements()), 0);
   }
 
@@ -171,30 +294,48 @@ private:
     this->Solver->History.push_back(row);
   }
 
-  /// Certificate of the solver's map, into Candidate.
+  /// Certificate of the solver's map, into Candidate: the sign, bounds as they come.
   Status Certify()
   {
     const Clock::time_point start = Clock::now();
     JacobianParams params;
-    params.RelativeGap = this->Params.CertificateGap;
-    params.ComputeMax = true;
-    params.MaxBoxes = this->Params.MaxBoxes;
+    params.MaxBoxes = std::min(this->Params.MaxBoxes, SignBoxes);
     params.Threads = this->Params.Threads;
-    auto certificate =
-      ValidateJacobian(GluedCells<Dim>(this->Solver->Map(), this->Params.Threads), params);
+    const BernsteinCells cells = GluedCells<Dim>(this->Solver->Map(), this->Params.Threads);
+    auto certificate = ValidateJacobian(cells, params, [this](double) { return !this->Aborts(); });
     this->Report.SecondsCertificate += SecondsSince(start);
     if (!certificate)
     {
       return certificate.Status;
     }
     this->Candidate = std::move(certificate.Value);
+    this->Budget.Spend(
+      CellCost<Dim> * cells.NumCells() + BoxCost<Dim> * static_cast<double>(this->Candidate.Boxes));
     return {};
   }
 
-  /// The solver's map and its certificate become the result.
+  /// The only way into the result: a certificate is replaced by one.
+  /// @pre Candidate is the certificate of the solver's map.
+  bool Offer()
+  {
+    const bool better = Holds(this->Candidate) ||
+      (!this->IsRegular() && this->Candidate.NumValid >= this->Report.Certificate.NumValid);
+    if (better)
+    {
+      this->Accept();
+    }
+    return better;
+  }
+
   void Accept()
   {
     this->Out.Map = this->Solver->Map();
+    this->SetCertificate();
+  }
+
+  /// Candidate, and its bounds with respect to the parameters of the square or cube.
+  void SetCertificate()
+  {
     this->Report.Certificate = this->Candidate;
     double bounds[4] = { 0.0, 0.0, 0.0, 0.0 };
     const CellCertificate* cell = this->Candidate.Cells.data();
@@ -227,57 +368,167 @@ private:
     this->Report.MaxDetUpper = bounds[3];
   }
 
-  /// Elements without a certificate.
-  static std::vector<std::size_t> OpenElements(const JacobianCertificate& certificate)
+  /// More quadrature points in the elements that Candidate leaves open.
+  void LookCloser(int points)
   {
-    std::vector<std::size_t> open;
-    for (std::size_t e = 0; e < certificate.Cells.size(); ++e)
+    for (std::size_t e = 0; e < this->Candidate.Cells.size(); ++e)
     {
-      if (certificate.Cells[e].Verdict != Verdict::Valid)
+      if (this->Candidate.Cells[e].Verdict != Verdict::Valid)
       {
-        open.push_back(e);
+        this->Extra[e] += points;
       }
     }
-    return open;
+    this->Solver->SetQuadrature(this->Extra);
+  }
+  /// Points grow with the power of the dimension.
+  static int Closer(int round) { return Dim == 2 ? 2 << round : 1 + round; }
+  static constexpr int Rounds = Dim == 2 ? 4 : 3;
+
+  /// Minimizes from the result, which is regular. Where the functional leads out of the regular
+  /// maps between the quadrature points, as far towards that as the way is regular, and on from
+  /// there with more points.
+  Status Improve()
+  {
+    for (int round = 0; round <= Rounds && this->Budget.MayGoOn(); ++round)
+    {
+      this->Solver->SetMap(this->Out.Map);
+      this->Solver->ImprovePoints();
+      if (const Status status = this->Certify(); !status)
+      {
+        return status;
+      }
+      if (this->Offer())
+      {
+        return {};
+      }
+      const JacobianCertificate open = this->Candidate;
+      const GluedMap<Dim> goal = this->Solver->Map();
+      for (double share = 0.5; share > 0.05; share *= 0.5)
+      {
+        this->Solver->SetMap(Between(this->Out.Map, goal, share));
+        if (const Status status = this->Certify(); !status)
+        {
+          return status;
+        }
+        if (Holds(this->Candidate))
+        {
+          this->Accept();
+          break;
+        }
+      }
+      this->Candidate = open;
+      this->LookCloser(Closer(round));
+    }
+    return {};
   }
 
-  /// Where quadrature points did not see a fold, more of them, until the certificate is won.
-  Status Densify(bool& unfolded)
+  /// Control points a + share (b - a), for those that may move. @pre of one space and weights.
+  static GluedMap<Dim> Between(const GluedMap<Dim>& a, const GluedMap<Dim>& b, double share)
   {
-    for (int round = 0; round < (Dim == 2 ? 4 : 3) && unfolded && !this->IsValid() &&
-         !this->IsImpossible() && !this->Solver->Aborted;
-         ++round)
+    GluedMap<Dim> between = b;
+    for (std::size_t p = 0; p < a.Patches.size(); ++p)
     {
-      for (std::size_t e : OpenElements(this->Candidate))
+      PointMatrix& points = between.Patches[p].ControlPoints;
+      for (Eigen::Index i = 0; i < points.rows(); ++i)
       {
-        // points grow with the power of the dimension
-        this->Extra[e] += Dim == 2 ? 2 << round : 1 + round;
+        const int number = a.Functions[p][static_cast<std::size_t>(i)];
+        if (!a.Fixed[static_cast<std::size_t>(number)])
+        {
+          points.row(i) = (1.0 - share) * a.Patches[p].ControlPoints.row(i) + share * points.row(i);
+        }
       }
+    }
+    return between;
+  }
+
+  /// A first map with folds: they are removed, and the map is improved.
+  /// @param first  nothing was tried before.
+  Status Unfold(const Start& start, bool first)
+  {
+    const GluedMap<Dim> before = this->Out.Map;
+    const GluedMap<Dim> beforeFirst = this->Out.InitialMap;
+    const InitialMapMethod beforeMethod = this->Report.UsedInitialMap;
+    const JacobianCertificate certificate = this->Report.Certificate;
+    this->Solver->SetMap(start.Map);
+    if (!first)
+    {
+      this->Extra.assign(this->Extra.size(), 0);
       this->Solver->SetQuadrature(this->Extra);
+      this->Record();
+    }
+    this->Out.InitialMap = start.Map;
+    this->Report.UsedInitialMap = start.Method;
+    // what this start leads to, on its own
+    if (const Status status = this->RemoveFolds(true); !status)
+    {
+      return status;
+    }
+    if (!this->IsRegular() && !first && this->Report.Certificate.NumValid <= certificate.NumValid)
+    {
+      this->Out.Map = before;
+      this->Out.InitialMap = beforeFirst;
+      this->Report.UsedInitialMap = beforeMethod;
+      this->Candidate = certificate;
+      this->SetCertificate();
+      this->Solver->SetMap(before);
+    }
+    return {};
+  }
+
+  /// Folds are removed from the solver's map, which is then improved until the certificate is won:
+  /// where quadrature points did not see a fold, more of them.
+  /// @param fresh  the result so far is not to be compared with.
+  Status RemoveFolds(bool fresh)
+  {
+    bool unfolded = false;
+    for (int round = 0; round <= Rounds; ++round)
+    {
       unfolded = this->Solver->RemoveFolds();
       if (unfolded)
       {
+        // on the way to the best map there may be a regular one that the best map is not
+        if (const Status status = this->Certify(); !status)
+        {
+          return status;
+        }
+        if (Holds(this->Candidate))
+        {
+          this->Accept();
+          return this->Improve();
+        }
         this->Solver->ImprovePoints();
       }
       if (const Status status = this->Certify(); !status)
       {
         return status;
       }
-      if (this->Candidate.NumValid >= this->Report.Certificate.NumValid)
+      if (fresh && round == 0)
       {
         this->Accept();
       }
+      else
+      {
+        this->Offer();
+      }
+      if (!unfolded || this->IsRegular() || !this->Report.Folds.empty() || !this->Budget.MayGoOn())
+      {
+        break;
+      }
+      this->LookCloser(Closer(round));
     }
-    if (!unfolded && !this->IsImpossible())
+    const std::string text = "foldover removal in a space of " +
+      std::to_string(this->Out.Map.NumFunctions()) +
+      " functions ended with det J <= 0 at quadrature points";
+    std::vector<std::string>& messages = this->Report.Messages;
+    if (!unfolded && !this->Report.IsImpossible() && this->Budget.MayGoOn() &&
+      std::find(messages.begin(), messages.end(), text) == messages.end())
     {
-      this->Report.Messages.push_back("foldover removal in a space of " +
-        std::to_string(this->Out.Map.NumFunctions()) +
-        " functions ended with det J <= 0 at quadrature points");
+      messages.push_back(text);
     }
     return {};
   }
 
-  /// Control points and weights in turn. A certificate once won is never lost.
+  /// Control points and weights in turn.
   Status Alternate()
   {
     this->Solver->SetMap(this->Out.Map);
@@ -286,7 +537,7 @@ private:
       return {};
     }
     double energy = this->Solver->Energy();
-    for (int round = 0; round < this->Params.MaxAlternations && !this->Solver->Aborted; ++round)
+    for (int round = 0; round < this->Params.MaxAlternations && this->Budget.MayGoOn(); ++round)
     {
       this->Solver->ImproveWeights();
       this->Solver->ImprovePoints();
@@ -294,32 +545,31 @@ private:
       {
         return status;
       }
-      if (this->Candidate.Verdict != Verdict::Valid)
+      if (!Holds(this->Candidate))
       {
-        if (this->IsValid())
+        if (this->IsRegular())
         {
           this->Solver->SetMap(this->Out.Map);
           break;
         }
-        for (std::size_t e : OpenElements(this->Candidate))
-        {
-          this->Extra[e] += 2;
-        }
-        this->Solver->SetQuadrature(this->Extra);
+        this->LookCloser(2);
         if (!this->Solver->RemoveFolds())
         {
           break;
         }
+        if (const Status status = this->Certify(); !status)
+        {
+          return status;
+        }
       }
-      if (this->Candidate.NumValid >= this->Report.Certificate.NumValid)
+      if (this->Offer())
       {
-        this->Accept();
         this->Report.WeightsOptimized = true;
       }
       const double lowered = this->Solver->Energy();
       const bool done = energy - lowered < this->Params.AlternationTolerance;
       energy = lowered;
-      if (done && this->IsValid())
+      if (done && this->IsRegular())
       {
         break;
       }
@@ -338,29 +588,76 @@ private:
     ++this->Report.Refinements;
     this->Out.Map = std::move(refined.Value);
     this->MakeSolver();
-    bool unfolded = this->Solver->RemoveFolds();
-    if (unfolded)
+    return this->RemoveFolds(true);
+  }
+
+  /// Larger and larger powers of 1 / det J, as long as the least det J grows.
+  Status RaiseLeastJacobian()
+  {
+    constexpr int samples = Dim == 2 ? 201 : 31;
+    const auto least = [&](const GluedMap<Dim>& map)
+    { return MeasureMaps<Dim>(map.Patches, this->Area, samples).MinDetOverArea; };
+    double best = least(this->Out.Map);
+    this->Solver->SetMap(this->Out.Map);
+    for (int& extra : this->Extra)
     {
-      this->Solver->ImprovePoints();
+      extra += 2;
     }
-    if (const Status status = this->Certify(); !status)
+    this->Solver->SetQuadrature(this->Extra);
+    for (double power = 4.0; power <= 256.0 && this->IsRegular() && this->Budget.MayGoOn();
+         power *= 2.0)
     {
-      return status;
+      this->Solver->RaiseLeastJacobian(power);
+      if (const Status status = this->Certify(); !status)
+      {
+        return status;
+      }
+      const double reached = least(this->Solver->Map());
+      if (Holds(this->Candidate) && reached > best)
+      {
+        best = reached;
+        this->Accept();
+      }
+      else if (!Holds(this->Candidate))
+      {
+        this->LookCloser(2);
+        this->Solver->SetMap(this->Out.Map);
+      }
     }
-    this->Accept();
-    return this->Densify(unfolded);
+    return {};
+  }
+
+  /// A regular map that is not proved one-to-one.
+  std::string OverlapMessage() const
+  {
+    const InjectivityCertificate& injectivity = this->Report.Injectivity;
+    std::string text = injectivity.Verdict == InjectivityVerdict::NotInjective
+      ? "the map is regular, but not one-to-one: "
+      : "the map is regular, but not proved one-to-one: ";
+    text += ToString(injectivity.Reason);
+    if (injectivity.HasWitness)
+    {
+      const auto& position = injectivity.Witness.Places[0].Position;
+      text += ", near (";
+      for (std::size_t c = 0; c < Dim; ++c)
+      {
+        text += (c ? ", " : "") + NumberText(position[c]);
+      }
+      text += ")";
+    }
+    return text;
   }
 
   DomainSource<Dim>& Source;
   double Area;
   const DomainParams& Params;
-  const ProgressCallback& Progress;
+  WorkBudget& Budget;
   DomainRun<Dim>& Out;
   DomainReport& Report;
+  std::vector<Start> Starts; ///< first maps without a certificate
   std::unique_ptr<DomainSolver<Dim>> Solver;
   std::vector<int> Extra; ///< quadrature points a direction and element beyond degree + 1
   JacobianCertificate Candidate;
-  int Steps = 0;
 };
 }
 
@@ -411,6 +708,14 @@ Status CheckParams(const DomainParams& params)
   {
     return fail("the certificate needs at least one box");
   }
+  if (!(params.Effort > 0.0 && params.Effort <= 1e6))
+  {
+    return fail("the effort must lie in (0, 1000000]");
+  }
+  if (!(params.TimeLimit >= 0.0 && std::isfinite(params.TimeLimit)))
+  {
+    return fail("the time limit must be >= 0 seconds; 0: none");
+  }
   if (params.Threads < 0)
   {
     return fail("the number of threads must be >= 0");
@@ -443,29 +748,53 @@ BernsteinCells GluedCells(const GluedMap<Dim>& map, int threads)
 }
 
 template <int Dim>
+CellComplex GluedComplex(const GluedMap<Dim>& map)
+{
+  CellComplex complex;
+  for (std::size_t p = 0; p < map.Patches.size(); ++p)
+  {
+    for (const auto& element : map.Patches[p].Space->Elements)
+    {
+      ParametricBox<3> box{};
+      for (std::size_t d = 0; d < Dim; ++d)
+      {
+        box.Lower[d] = element.Box.Lower[d];
+        box.Upper[d] = element.Box.Upper[d];
+      }
+      complex.Patches.push_back(static_cast<int>(p));
+      complex.Boxes.push_back(box);
+    }
+  }
+  return complex;
+}
+
+template <int Dim>
 Status RunDomain(DomainSource<Dim>& source, double area, const DomainParams& params,
-  const ProgressCallback& progress, DomainRun<Dim>& run, DomainReport& report)
+  WorkBudget& budget, DomainRun<Dim>& run, DomainReport& report)
 {
   const Clock::time_point start = Clock::now();
-  Runner<Dim> runner(source, area, params, progress, run, report);
-  if (Status status = runner.FirstMap(params.InitialMap); !status)
-  {
-    return status;
-  }
+  Runner<Dim> runner(source, area, params, budget, run, report);
   if (Status status = runner.Optimize(); !status)
   {
     return status;
   }
   runner.Absorb();
   report.SecondsOptimization += SecondsSince(start) - report.SecondsCertificate;
+  if (Status status = runner.Prove(); !status)
+  {
+    return status;
+  }
+  runner.Conclude();
   runner.Measure();
-  return {};
+  return budget.Aborted() ? Status(ErrorCode::Aborted, "by the caller") : Status();
 }
 
-template BernsteinCells GluedCells<2>(const GluedMap<2>&, int);
-template BernsteinCells GluedCells<3>(const GluedMap<3>&, int);
-template Status RunDomain<2>(DomainSource<2>&, double, const DomainParams&, const ProgressCallback&,
-  DomainRun<2>&, DomainReport&);
-template Status RunDomain<3>(DomainSource<3>&, double, const DomainParams&, const ProgressCallback&,
-  DomainRun<3>&, DomainReport&);
+#define KNOTWORK_INSTANTIATE(Dim)                                                                  \
+  template BernsteinCells GluedCells<Dim>(const GluedMap<Dim>&, int);                              \
+  template CellComplex GluedComplex<Dim>(const GluedMap<Dim>&);                                    \
+  template Status RunDomain<Dim>(                                                                  \
+    DomainSource<Dim>&, double, const DomainParams&, WorkBudget&, DomainRun<Dim>&, DomainReport&);
+KNOTWORK_INSTANTIATE(2)
+KNOTWORK_INSTANTIATE(3)
+#undef KNOTWORK_INSTANTIATE
 }

@@ -14,13 +14,24 @@ namespace
 {
 /// Smallest det J over S from where the quality functional goes on by itself.
 constexpr double EnoughDet = 0.02;
+/// Nanoseconds of a quadrature point where sums are factorized, and of one of its functions where
+/// they are not: what WorkBudget counts.
+template <int Dim>
+constexpr double PointCost = Dim == 2 ? 10.0 : 40.0;
+constexpr double FunctionCost = 8.0;
+/// The same of a free number in a step of the optimizer, and of a multiplication in its
+/// preconditioner.
+constexpr double StepCost = 40.0;
+constexpr double ProductCost = 0.5;
 /// Weights stay within a factor of 100 of 1.
 constexpr double LargestLogarithm = 4.6;
 }
 
 template <int Dim>
-DomainSolver<Dim>::DomainSolver(const GluedMap<Dim>& map, double area, const DomainParams& params)
-  : Params(params), NumFunctions(map.NumFunctions()), Scale(std::pow(area, 1.0 / Dim))
+DomainSolver<Dim>::DomainSolver(
+  const GluedMap<Dim>& map, double area, const DomainParams& params, WorkBudget& budget)
+  : Params(params), Budget(budget), NumFunctions(map.NumFunctions()),
+    Scale(std::pow(area, 1.0 / Dim))
 {
   this->Center = GluedPoints<Dim>(map).colwise().mean();
   for (std::size_t i = 0; i < map.Fixed.size(); ++i)
@@ -77,6 +88,7 @@ template <int Dim>
 void DomainSolver<Dim>::SetQuadrature(const std::vector<int>& extra)
 {
   this->NumPoints.clear();
+  this->Cost = 0.0;
   std::vector<std::unique_ptr<JacobianField<Dim>>> fields;
   for (const Spline<Dim>& patch : this->Current.Patches)
   {
@@ -95,6 +107,12 @@ void DomainSolver<Dim>::SetQuadrature(const std::vector<int>& extra)
     {
       fields.push_back(MakeElementField<Dim>(space,
         { this->NumPoints.begin() + static_cast<std::ptrdiff_t>(first), this->NumPoints.end() }));
+      std::size_t alive = 0;
+      for (std::size_t e = 0; e < space.Elements.size(); ++e)
+      {
+        alive = std::max(alive, space.AliveFunctions(static_cast<int>(e)).size());
+      }
+      this->Cost += FunctionCost * static_cast<double>(alive) * fields.back()->NumPoints();
       continue;
     }
     std::array<LinePoints, Dim> lines;
@@ -112,11 +130,28 @@ void DomainSolver<Dim>::SetQuadrature(const std::vector<int>& extra)
       lines[d] = GaussLine(knots, counts);
     }
     fields.push_back(MakeTensorField<Dim>(space.Knots, lines));
+    this->Cost += PointCost<Dim> * fields.back()->NumPoints();
   }
   std::unique_ptr<JacobianField<Dim>> field = fields.size() == 1
     ? std::move(fields.front())
     : MakeGluedField<Dim>(std::move(fields), this->Current.Functions, this->NumFunctions);
   this->Functional = std::make_unique<DomainEnergy<Dim>>(std::move(field), this->NumFunctions);
+  double products = 0.0; // a number in the preconditioner
+  const SplineSpace<Dim>& space = *this->Current.Patches.front().Space;
+  if (this->Current.Patches.size() == 1 && space.Kind == SpaceKind::Tensor)
+  {
+    for (const KnotVector& knots : space.Knots)
+    {
+      products += knots.NumFunctions();
+    }
+  }
+  else
+  {
+    // entries of a column of a sparse factor, about
+    const double n = this->NumFunctions;
+    products = Dim == 2 ? 8.0 * std::log2(n + 1.0) : 2.0 * std::pow(n, 2.0 / 3.0);
+  }
+  this->Cost += Dim * this->NumFunctions * (StepCost + ProductCost * products);
 }
 
 template <int Dim>
@@ -124,6 +159,7 @@ EnergyValue DomainSolver<Dim>::Evaluate(
   const Density& density, double* gradient, double* weightGradient)
 {
   ++this->Evaluations;
+  this->Budget.Spend(this->Cost);
   return this->Functional->Evaluate(density, this->Planes.data(),
     this->Weights.empty() ? nullptr : this->Weights.data(), gradient, weightGradient);
 }
@@ -208,6 +244,10 @@ template <int Dim>
 void DomainSolver<Dim>::Minimize(
   DomainStage stage, const Density& density, const MinimizeParams& params, double stopAtMinDet)
 {
+  if (!this->Budget.MayGoOn())
+  {
+    return;
+  }
   const bool weights = stage == DomainStage::Weights;
   const std::size_t n = static_cast<std::size_t>(this->NumFunctions);
   const std::size_t count = this->Free.size();
@@ -219,8 +259,13 @@ void DomainSolver<Dim>::Minimize(
       free[k] = full[plane * n + static_cast<std::size_t>(this->Free[k])];
     }
   };
+  // when the budget is used up no step is better than none: the search ends at once
   const Objective ofPoints = [&](const Eigen::VectorXd& x, Eigen::VectorXd& gradient)
   {
+    if (!this->Budget.MayGoOn())
+    {
+      return std::numeric_limits<double>::infinity();
+    }
     this->Scatter(x);
     const EnergyValue value = this->Evaluate(density, this->PlaneGradients.data(), nullptr);
     lastMinDet = value.MinDet;
@@ -242,7 +287,7 @@ void DomainSolver<Dim>::Minimize(
   const Objective ofWeights = [&](const Eigen::VectorXd& x, Eigen::VectorXd& gradient)
   {
     gradient.resize(x.size());
-    if (!(x.cwiseAbs().maxCoeff() <= LargestLogarithm))
+    if (!(x.cwiseAbs().maxCoeff() <= LargestLogarithm) || !this->Budget.MayGoOn())
     {
       return std::numeric_limits<double>::infinity();
     }
@@ -263,8 +308,7 @@ void DomainSolver<Dim>::Minimize(
     row.GradientNorm = state.GradientNorm;
     row.Functions = this->NumFunctions;
     this->History.push_back(row);
-    this->Aborted = this->Aborted || (this->Continue && !this->Continue());
-    return !this->Aborted && !(lastMinDet >= stopAtMinDet);
+    return this->Budget.MayGoOn() && !(lastMinDet >= stopAtMinDet);
   };
   Eigen::VectorXd x;
   MinimizeResult result;
@@ -279,7 +323,8 @@ void DomainSolver<Dim>::Minimize(
   else
   {
     this->Gather(x);
-    if (this->Params.Optimizer == DomainOptimizer::Newton && density.Kind != DensityKind::Relu)
+    if (this->Params.Optimizer == DomainOptimizer::Newton &&
+      (density.Kind == DensityKind::Quality || density.Kind == DensityKind::Penalty))
     {
       NewtonSystem<Dim> system(this->Current, this->NumPoints, this->Free);
       const NewtonStep newton =
@@ -287,7 +332,9 @@ void DomainSolver<Dim>::Minimize(
       {
         this->Scatter(at);
         system.Assemble(density, this->Planes.data(), true);
-        return system.Solve(-gradient, step);
+        const bool solved = system.Solve(-gradient, step);
+        this->Budget.Spend(system.Work());
+        return solved;
       };
       result = MinimizeNewton(x, ofPoints, newton, params, hook);
     }
@@ -324,7 +371,7 @@ bool DomainSolver<Dim>::RemoveFolds()
     return true;
   }
   this->SetMap(start);
-  return !this->Aborted && this->UnfoldPenalty();
+  return this->Budget.MayGoOn() && this->UnfoldPenalty();
 }
 
 template <int Dim>
@@ -337,7 +384,8 @@ bool DomainSolver<Dim>::UnfoldRelu(int rounds, int iterations)
   minimize.MaxIterations = std::min(iterations, this->Params.MaxIterations);
   minimize.EnergyTolerance = 1e-6;
   double minDet = 0.0;
-  for (int k = 0; k < rounds && !(minDet > 0.0) && !this->Aborted; ++k, density.Delta *= 0.1)
+  for (int k = 0; k < rounds && !(minDet > 0.0) && this->Budget.MayGoOn();
+       ++k, density.Delta *= 0.1)
   {
     this->Minimize(DomainStage::Foldover, density, minimize, EnoughDet);
     minDet = this->MinDet();
@@ -355,7 +403,7 @@ bool DomainSolver<Dim>::UnfoldPenalty()
   minimize.MaxIterations = std::min(100, this->Params.MaxIterations);
   minimize.EnergyTolerance = 1e-4;
   double minDet = this->MinDet();
-  for (int k = 0; k < 40 && !(minDet > 0.0) && !this->Aborted; ++k)
+  for (int k = 0; k < 40 && !(minDet > 0.0) && this->Budget.MayGoOn(); ++k)
   {
     density.Delta = std::sqrt(1e-8 + 0.04 * minDet * minDet);
     minimize.EnergyTolerance = k < 5 ? 1e-4 : 1e-6;
@@ -371,6 +419,20 @@ void DomainSolver<Dim>::ImprovePoints()
   Density density;
   density.Lambda = this->Params.UniformityWeight;
   density.Epsilon = this->Params.WinslowEpsilon;
+  MinimizeParams minimize;
+  minimize.MaxIterations = this->Params.MaxIterations;
+  minimize.EnergyTolerance = this->Params.EnergyTolerance;
+  this->Minimize(DomainStage::Quality, density, minimize, std::numeric_limits<double>::infinity());
+}
+
+template <int Dim>
+void DomainSolver<Dim>::RaiseLeastJacobian(double power)
+{
+  Density density;
+  density.Kind = DensityKind::Inverse;
+  density.Delta = this->MinDet();
+  density.Power = power;
+  density.Lambda = this->Params.UniformityWeight;
   MinimizeParams minimize;
   minimize.MaxIterations = this->Params.MaxIterations;
   minimize.EnergyTolerance = this->Params.EnergyTolerance;
@@ -423,7 +485,7 @@ bool DomainSolver<Dim>::RemoveFoldsWithWeights()
   MinimizeParams minimize;
   minimize.MaxIterations = std::min(100, this->Params.MaxIterations);
   minimize.EnergyTolerance = 1e-4;
-  for (int k = 0; k < 40 && !(minDet > 0.0) && !this->Aborted; ++k)
+  for (int k = 0; k < 40 && !(minDet > 0.0) && this->Budget.MayGoOn(); ++k)
   {
     density.Delta = std::sqrt(1e-8 + 0.04 * minDet * minDet);
     minimize.EnergyTolerance = k < 8 ? 1e-4 : 1e-6;

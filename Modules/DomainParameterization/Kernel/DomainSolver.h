@@ -4,6 +4,7 @@
 #include "DomainParameterization.h"
 #include "GluedMap.h"
 #include "Minimize.h"
+#include "WorkBudget.h"
 
 namespace knotwork
 {
@@ -15,7 +16,9 @@ class DomainSolver
 public:
   /// @param map  polynomial or rational, the boundary set; its fixed functions are never changed.
   /// @param area  S > 0, a patch.
-  DomainSolver(const GluedMap<Dim>& map, double area, const DomainParams& params);
+  /// @param budget  what evaluations cost is taken from it; minimizations end when it is used up.
+  DomainSolver(
+    const GluedMap<Dim>& map, double area, const DomainParams& params, WorkBudget& budget);
 
   const GluedMap<Dim>& Map() const { return this->Current; }
   /// @pre the spaces and numbers are those of the first map.
@@ -37,13 +40,13 @@ public:
   void ImproveWeights();
   /// RemoveFolds in control points and weights, in turn.
   bool RemoveFoldsWithWeights();
+  /// Minimizes int (det J)^-power, which for large powers is the largest least det J, and a little
+  /// of the quality functional. @pre MinDet() > 0
+  void RaiseLeastJacobian(double power);
 
   std::vector<DomainIteration> History;
   int Iterations = 0;
   int Evaluations = 0;
-  bool Aborted = false;
-  /// Asked after every iteration; false aborts.
-  std::function<bool()> Continue;
 
 private:
   bool UnfoldRelu(int rounds, int iterations);
@@ -57,6 +60,8 @@ private:
   void MakeRational();
 
   const DomainParams& Params;
+  WorkBudget& Budget;
+  double Cost = 0.0; ///< of an evaluation, in the unit of WorkBudget::Spend
   GluedMap<Dim> Current;
   int NumFunctions;
   double Scale;

@@ -55,9 +55,28 @@ bool OnBoundary(const std::array<int, Dim>& index, const std::array<int, Dim>& c
   return false;
 }
 
+double Power(double x, int exponent)
+{
+  double product = x;
+  for (int i = 1; i < exponent; ++i)
+  {
+    product *= x;
+  }
+  return product;
+}
+
+template <int Dim>
+std::array<int, Dim> Linear()
+{
+  std::array<int, Dim> ones{};
+  ones.fill(1);
+  return ones;
+}
+
 /// The Boolean sum of one column of numbers.
 template <int Dim, typename Column>
-void CoonsColumn(const SplineSpace<Dim>& space, Column&& values)
+void CoonsColumn(
+  const SplineSpace<Dim>& space, Column&& values, const std::array<int, Dim>& steepness)
 {
   const auto counts = Counts(space);
   std::array<std::vector<double>, Dim> share; // Greville abscissae, on [0, 1]
@@ -89,7 +108,7 @@ void CoonsColumn(const SplineSpace<Dim>& space, Column&& values)
         {
           const double a = share[d][static_cast<std::size_t>(index[d])];
           const int digit = digits % 3;
-          factor *= digit == 0 ? 1.0 : digit == 1 ? -(1.0 - a) : -a;
+          factor *= digit == 0 ? 1.0 : -Power(digit == 1 ? 1.0 - a : a, steepness[d]);
           from += stride * (digit == 0 ? index[d] : digit == 1 ? 0 : counts[d] - 1);
           stride *= counts[d];
         }
@@ -105,7 +124,7 @@ void FillWeights(Spline<Dim>& map)
   if (map.IsRational())
   {
     Eigen::VectorXd logarithms = map.Weights.array().log();
-    CoonsColumn<Dim>(*map.Space, logarithms);
+    CoonsColumn<Dim>(*map.Space, logarithms, Linear<Dim>());
     const std::vector<bool> fixed = BoundaryFunctions<Dim>(*map.Space);
     for (Eigen::Index i = 0; i < map.Weights.size(); ++i)
     {
@@ -235,13 +254,19 @@ Spline<Dim> MapOfBoundary(const CompatibleBoundary<Dim>& boundary)
 }
 
 template <int Dim>
-void FillCoons(Spline<Dim>& map)
+void FillCoons(Spline<Dim>& map, const std::array<int, Dim>& steepness)
 {
   for (int c = 0; c < map.NumComponents(); ++c)
   {
-    CoonsColumn<Dim>(*map.Space, map.ControlPoints.col(c));
+    CoonsColumn<Dim>(*map.Space, map.ControlPoints.col(c), steepness);
   }
   FillWeights(map);
+}
+
+template <int Dim>
+void FillCoons(Spline<Dim>& map)
+{
+  FillCoons<Dim>(map, Linear<Dim>());
 }
 
 template <int Dim>
@@ -356,6 +381,7 @@ Status FillHarmonic(Spline<Dim>& map)
 #define KNOTWORK_INSTANTIATE(Dim)                                                                  \
   template std::vector<bool> BoundaryFunctions<Dim>(const SplineSpace<Dim>&);                      \
   template Spline<Dim> MapOfBoundary<Dim>(const CompatibleBoundary<Dim>&);                         \
+  template void FillCoons<Dim>(Spline<Dim>&, const std::array<int, Dim>&);                         \
   template void FillCoons<Dim>(Spline<Dim>&);                                                      \
   template Status FillSpring<Dim>(Spline<Dim>&);                                                   \
   template Status FillHarmonic<Dim>(Spline<Dim>&);

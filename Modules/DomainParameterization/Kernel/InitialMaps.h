@@ -18,6 +18,10 @@ std::vector<bool> BoundaryFunctions(const SplineSpace<Dim>& space);
 /// Boolean sum at the Greville abscissae, I - prod (I - L_k) with L_k the linear interpolation
 /// between opposite sides; weights alike by their logarithms. Reproduces multilinear maps. Also of
 /// curves (linear between the ends) and of surfaces in space.
+/// @param steepness  a direction, >= 1: L_k weighs its ends by (1 - a)^m and a^m, so that for a
+///                   large m an end acts near itself only. Good for bars: 1 across, more along.
+template <int Dim>
+void FillCoons(Spline<Dim>& map, const std::array<int, Dim>& steepness);
 template <int Dim>
 void FillCoons(Spline<Dim>& map);
 

@@ -219,6 +219,27 @@ void NewtonSystem<Dim>::Assemble(const Density& density, const double* points, b
 }
 
 template <int Dim>
+double NewtonSystem<Dim>::Work() const
+{
+  double multiplications = 0.0;
+  for (const Block& block : this->Blocks)
+  {
+    const double rows = static_cast<double>(block.Slopes.rows());
+    multiplications += rows * rows * static_cast<double>(block.Weights.size());
+  }
+  if (this->Analyzed && this->Solver.info() == Eigen::Success)
+  {
+    const auto& factor = this->Solver.matrixL().nestedExpression();
+    for (Eigen::Index column = 0; column < factor.outerSize(); ++column)
+    {
+      const double entries = factor.outerIndexPtr()[column + 1] - factor.outerIndexPtr()[column];
+      multiplications += entries * entries;
+    }
+  }
+  return multiplications;
+}
+
+template <int Dim>
 bool NewtonSystem<Dim>::Solve(const Eigen::VectorXd& right, Eigen::VectorXd& step)
 {
   if (!this->Analyzed)

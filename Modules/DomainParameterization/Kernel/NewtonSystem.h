@@ -29,6 +29,9 @@ public:
   /// Lower triangle of the last assembled matrix.
   const Eigen::SparseMatrix<double>& Matrix() const { return this->Lower; }
 
+  /// What the last Assemble and Solve cost, in about nanoseconds; counted, not measured.
+  double Work() const;
+
   /// Solves (matrix + shift) step = right; false when the factorization fails.
   bool Solve(const Eigen::VectorXd& right, Eigen::VectorXd& step);
 

@@ -3,9 +3,7 @@
 
 #include "BezierForm.h"
 #include "JacobianField.h"
-#include "NumberText.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -103,13 +101,21 @@ template <int Dim>
 class MetricBody final : public RowBody
 {
 public:
-  MetricBody(bool rational, Collector<Dim>& sums) : Rational(rational), Sums(sums) {}
+  MetricBody(bool rational, Collector<Dim>& sums, const std::function<bool()>& goOn)
+    : Rational(rational), Sums(sums), GoOn(goOn)
+  {
+  }
 
   void Row(
     int n, const double* fields, double*, const double*, double, const double* padding) override
   {
+    // a row is quick; a call of the caller's may not be
+    if (++this->Rows % 256 == 0 && this->GoOn)
+    {
+      this->Stopped = this->Stopped || !this->GoOn();
+    }
     const int numPlanes = Dim + (this->Rational ? 1 : 0);
-    for (int i = 0; i < n && padding[i] == 0.0; ++i)
+    for (int i = 0; i < n && !this->Stopped && padding[i] == 0.0; ++i)
     {
       const auto at = [&](int t, int c) { return fields[(t * numPlanes + c) * n + i]; };
       const double inverse = this->Rational ? 1.0 / at(0, Dim) : 1.0;
@@ -133,11 +139,15 @@ public:
 private:
   bool Rational;
   Collector<Dim>& Sums;
+  const std::function<bool()>& GoOn;
+  int Rows = 0;
+  bool Stopped = false;
 };
 
 /// All samples of one patch.
 template <int Dim>
-void CollectPatch(const Spline<Dim>& map, int samples, Collector<Dim>& sums)
+void CollectPatch(
+  const Spline<Dim>& map, int samples, Collector<Dim>& sums, const std::function<bool()>& goOn)
 {
   if (map.Space->Kind == SpaceKind::Tensor)
   {
@@ -148,7 +158,7 @@ void CollectPatch(const Spline<Dim>& map, int samples, Collector<Dim>& sums)
     }
     const PointMatrix rows = map.HomogeneousPoints();
     const Eigen::MatrixXd planes = rows; // by columns
-    MetricBody<Dim> body(map.IsRational(), sums);
+    MetricBody<Dim> body(map.IsRational(), sums, goOn);
     MakeTensorField<Dim>(map.Space->Knots, lines)
       ->Visit(planes.data(), nullptr, static_cast<int>(planes.cols()), map.IsRational(), body);
     return;
@@ -161,7 +171,7 @@ void CollectPatch(const Spline<Dim>& map, int samples, Collector<Dim>& sums)
   EvaluationBatch batch;
   PointMatrix line(samples, Dim);
   const int numLines = Dim == 2 ? samples : samples * samples;
-  for (int l = 0; l < numLines; ++l)
+  for (int l = 0; l < numLines && !(l % 64 == 0 && goOn && !goOn()); ++l)
   {
     for (int i = 0; i < samples; ++i)
     {
@@ -188,214 +198,22 @@ void CollectPatch(const Spline<Dim>& map, int samples, Collector<Dim>& sums)
     }
   }
 }
-
-/// First derivatives of a side at points; row: direction 0, direction 1.
-template <int D>
-PointMatrix Derivatives(const Spline<D>& side, const PointMatrix& parameters)
-{
-  EvaluationParams params;
-  params.Derivatives = 1;
-  params.Threads = 1;
-  EvaluationBatch batch;
-  EvaluateParameters<D>(MakeBezierForm<D>(side, 1), parameters, params, batch);
-  return batch.First;
-}
-
-/// Directions of the map's side 2 d + e.
-int PositionOf(int direction, int side)
-{
-  return direction > side / 2 ? direction - 1 : direction;
-}
-
-/// Keeps the worst fold of a corner or edge.
-template <int Dim>
-class FoldSearch
-{
-public:
-  explicit FoldSearch(const CompatibleBoundary<Dim>& boundary) : Boundary(boundary) {}
-
-  /// @param tangents  column k: derivative along direction k
-  void Try(const std::array<double, Dim>& u, const Eigen::Matrix<double, Dim, Dim>& tangents,
-    const Eigen::Matrix<double, 1, Dim>& position, const std::vector<int>& sides)
-  {
-    const double lengths = tangents.colwise().norm().prod();
-    const double det = tangents.determinant();
-    const double scaled = lengths > 0.0 ? det / lengths : 0.0;
-    if (scaled < -DegenerateScaled && scaled < this->Worst)
-    {
-      this->Worst = scaled;
-      this->Found.Det = det;
-      for (std::size_t d = 0; d < Dim; ++d)
-      {
-        this->Found.Parameters[d] = u[d];
-        this->Found.Position[d] = position[static_cast<Eigen::Index>(d)];
-      }
-      for (std::size_t s = 0; s < 3; ++s)
-      {
-        this->Found.Sides[s] = s < sides.size() ? sides[s] : -1;
-      }
-    }
-  }
-
-  /// Appends the worst one, if any, with its sentence.
-  void Close(std::vector<BoundaryFold>& folds)
-  {
-    if (this->Worst == 0.0)
-    {
-      return;
-    }
-    constexpr const char* names = "uvw";
-    bool corner = true;
-    std::string parameters;
-    std::string position;
-    for (std::size_t d = 0; d < Dim; ++d)
-    {
-      const double u = this->Found.Parameters[d];
-      corner = corner && (u == 0.0 || u == 1.0);
-      parameters += std::string(d ? ", " : "") + names[d] + " = " + NumberText(u);
-      position += (d ? ", " : "") + NumberText(this->Found.Position[d]);
-    }
-    std::string sides;
-    for (int s : this->Found.Sides)
-    {
-      if (s >= 0)
-      {
-        const int input = this->Boundary.Origins[static_cast<std::size_t>(s)].Input;
-        sides += (sides.empty() ? "" : " and ") +
-          (input >= 0 ? "side " + std::to_string(input) : "the straight side " + SideName<Dim>(s));
-      }
-    }
-    this->Found.Message = std::string("the boundary folds at the ") +
-      (corner ? "corner (" : "point (") + parameters + ") of the map, at (" + position +
-      "), where " + sides + " meet: their tangents there have a scaled Jacobian of " +
-      NumberText(this->Worst) + ", so no interior makes the map valid";
-    folds.push_back(this->Found);
-    this->Worst = 0.0;
-  }
-
-private:
-  const CompatibleBoundary<Dim>& Boundary;
-  BoundaryFold Found;
-  double Worst = 0.0;
-};
 }
 
 template <int Dim>
-DomainMetrics MeasureMaps(const std::vector<Spline<Dim>>& patches, double area, int samples)
+DomainMetrics MeasureMaps(const std::vector<Spline<Dim>>& patches, double area, int samples,
+  const std::function<bool()>& goOn)
 {
   Collector<Dim> sums;
   for (const Spline<Dim>& patch : patches)
   {
-    CollectPatch<Dim>(patch, samples, sums);
+    CollectPatch<Dim>(patch, samples, sums, goOn);
   }
   return sums.Result(area, samples);
 }
 
-template <>
-std::vector<BoundaryFold> FindBoundaryFolds<2>(
-  const CompatibleBoundary<2>& boundary, const std::array<bool, 4>& given)
-{
-  std::vector<BoundaryFold> folds;
-  FoldSearch<2> search(boundary);
-  PointMatrix ends(2, 1);
-  ends << 0.0, 1.0;
-  std::array<PointMatrix, 4> tangents;
-  for (std::size_t s = 0; s < 4; ++s)
-  {
-    tangents[s] = Derivatives<1>(boundary.Sides[s], ends);
-  }
-  for (int corner = 0; corner < 4; ++corner)
-  {
-    const int u = corner & 1;
-    const int v = corner >> 1;
-    if (!given[static_cast<std::size_t>(u)] || !given[static_cast<std::size_t>(2 + v)])
-    {
-      continue;
-    }
-    Eigen::Matrix2d j;
-    j.col(0) = tangents[static_cast<std::size_t>(2 + v)].row(u).transpose();
-    j.col(1) = tangents[static_cast<std::size_t>(u)].row(v).transpose();
-    const PointMatrix& points = boundary.Sides[static_cast<std::size_t>(u)].ControlPoints;
-    const Eigen::RowVector2d position = points.row(v ? points.rows() - 1 : 0);
-    search.Try({ double(u), double(v) }, j, position, { u, 2 + v });
-    search.Close(folds);
-  }
-  return folds;
-}
-
-template <>
-std::vector<BoundaryFold> FindBoundaryFolds<3>(
-  const CompatibleBoundary<3>& boundary, const std::array<bool, 6>& given)
-{
-  constexpr int perElement = 64;
-  std::vector<BoundaryFold> folds;
-  FoldSearch<3> search(boundary);
-  for (int along = 0; along < 3; ++along)
-  {
-    const int a = along == 0 ? 1 : 0; // the two directions across the edge
-    const int b = along == 2 ? 1 : 2;
-    const std::vector<double>& breaks = boundary.Knots[static_cast<std::size_t>(along)].Breaks();
-    std::vector<double> samples{ breaks.front() };
-    for (std::size_t e = 0; e + 1 < breaks.size(); ++e)
-    {
-      for (int i = 1; i <= perElement; ++i)
-      {
-        samples.push_back(i == perElement
-            ? breaks[e + 1]
-            : breaks[e] + (breaks[e + 1] - breaks[e]) * i / perElement);
-      }
-    }
-    for (int ends = 0; ends < 4; ++ends)
-    {
-      const int endA = ends & 1;
-      const int endB = ends >> 1;
-      const int sideA = 2 * a + endA; // holds the edge and direction b
-      const int sideB = 2 * b + endB;
-      if (!given[static_cast<std::size_t>(sideA)] || !given[static_cast<std::size_t>(sideB)])
-      {
-        continue;
-      }
-      PointMatrix onA(static_cast<Eigen::Index>(samples.size()), 2);
-      PointMatrix onB(onA.rows(), 2);
-      for (Eigen::Index i = 0; i < onA.rows(); ++i)
-      {
-        onA(i, PositionOf(along, sideA)) = onB(i, PositionOf(along, sideB)) =
-          samples[static_cast<std::size_t>(i)];
-        onA(i, PositionOf(b, sideA)) = endB;
-        onB(i, PositionOf(a, sideB)) = endA;
-      }
-      const Spline<2>& faceA = boundary.Sides[static_cast<std::size_t>(sideA)];
-      const Spline<2>& faceB = boundary.Sides[static_cast<std::size_t>(sideB)];
-      EvaluationParams params;
-      params.Derivatives = 1;
-      params.Threads = 1;
-      EvaluationBatch atA;
-      EvaluateParameters<2>(MakeBezierForm<2>(faceA, 1), onA, params, atA);
-      const PointMatrix firstB = Derivatives<2>(faceB, onB);
-      for (Eigen::Index i = 0; i < onA.rows(); ++i)
-      {
-        const bool corner = i == 0 || i + 1 == onA.rows();
-        Eigen::Matrix3d j;
-        j.col(along) = atA.First.row(i).segment<3>(3 * PositionOf(along, sideA)).transpose();
-        j.col(b) = atA.First.row(i).segment<3>(3 * PositionOf(b, sideA)).transpose();
-        j.col(a) = firstB.row(i).segment<3>(3 * PositionOf(a, sideB)).transpose();
-        std::array<double, 3> u{};
-        u[static_cast<std::size_t>(along)] = samples[static_cast<std::size_t>(i)];
-        u[static_cast<std::size_t>(a)] = endA;
-        u[static_cast<std::size_t>(b)] = endB;
-        std::vector<int> sides{ sideA, sideB };
-        if (corner)
-        {
-          sides.push_back(2 * along + (i == 0 ? 0 : 1));
-        }
-        search.Try(u, j, atA.Values.row(i), sides);
-      }
-      search.Close(folds);
-    }
-  }
-  return folds;
-}
-
-template DomainMetrics MeasureMaps<2>(const std::vector<Spline<2>>&, double, int);
-template DomainMetrics MeasureMaps<3>(const std::vector<Spline<3>>&, double, int);
+template DomainMetrics MeasureMaps<2>(
+  const std::vector<Spline<2>>&, double, int, const std::function<bool()>&);
+template DomainMetrics MeasureMaps<3>(
+  const std::vector<Spline<3>>&, double, int, const std::function<bool()>&);
 }

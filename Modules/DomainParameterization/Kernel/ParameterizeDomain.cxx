@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "BoundaryFaults.h"
 #include "DomainMeasure.h"
 #include "DomainRun.h"
 #include "InitialMaps.h"
-#include "ParameterMetrics.h"
 #include "Refinement.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ class PatchSource final : public DomainSource<Dim>
 public:
   explicit PatchSource(const CompatibleBoundary<Dim>& boundary) : Boundary(boundary) {}
 
-  Result<GluedMap<Dim>> FirstMap(InitialMapMethod method) override
+  Result<GluedMap<Dim>> FirstMap(InitialMapMethod method, int variant) override
   {
     Spline<Dim> map = MapOfBoundary<Dim>(this->Boundary);
     Status status;
@@ -32,13 +32,19 @@ public:
         status = FillSpring<Dim>(map);
         break;
       default:
-        FillCoons<Dim>(map);
+        FillCoons<Dim>(map, Steepness(variant));
     }
     if (!status)
     {
       return status;
     }
     return SingleMap<Dim>(map);
+  }
+
+  /// Coons: every choice of directions that are steep, but for all and none of them.
+  int NumVariants(InitialMapMethod method) const override
+  {
+    return method == InitialMapMethod::Coons ? (1 << Dim) - 1 : 1;
   }
 
   /// Elements without a certificate are split.
@@ -72,6 +78,18 @@ public:
   }
 
 private:
+  /// Bit d of the variant: direction d is steep.
+  static std::array<int, Dim> Steepness(int variant)
+  {
+    constexpr int steep = 6;
+    std::array<int, Dim> steepness{};
+    for (std::size_t d = 0; d < Dim; ++d)
+    {
+      steepness[d] = variant >> d & 1 ? steep : 1;
+    }
+    return steepness;
+  }
+
   static bool AtCorner(const ParametricBox<Dim>& box)
   {
     for (std::size_t d = 0; d < Dim; ++d)
@@ -97,6 +115,7 @@ Result<DomainParameterization<Dim>> ParameterizeDomain(
   {
     return status;
   }
+  WorkBudget budget(params.Effort, params.TimeLimit, progress);
   BoundaryParams boundaryParams;
   boundaryParams.GapTolerance = params.GapTolerance;
   auto compatible = MakeCompatible<Dim>(boundary, boundaryParams);
@@ -113,12 +132,22 @@ Result<DomainParameterization<Dim>> ParameterizeDomain(
   {
     out.Messages.push_back(fold.Message);
   }
+  auto crossings = FindBoundaryCrossings<Dim>(out.Boundary, params.Threads);
+  if (!crossings)
+  {
+    return crossings.Status;
+  }
+  out.Crossings = std::move(crossings.Value);
+  for (const BoundaryCrossing& crossing : out.Crossings)
+  {
+    out.Messages.push_back(crossing.Message);
+  }
   const double area = SignedMeasure<Dim>(out.Boundary.Sides);
   const std::chrono::duration<double> before = std::chrono::steady_clock::now() - start;
   out.SecondsOptimization = before.count();
   PatchSource<Dim> source(out.Boundary);
   DomainRun<Dim> run;
-  if (Status status = RunDomain<Dim>(source, area, params, progress, run, out); !status)
+  if (Status status = RunDomain<Dim>(source, area, params, budget, run, out); !status)
   {
     return status;
   }

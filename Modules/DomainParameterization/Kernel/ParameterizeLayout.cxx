@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ParameterizeLayout.h"
 
+#include "BoundaryFaults.h"
 #include "DomainRun.h"
 #include "FunctionMap.h"
 #include "GluedSystem.h"
 #include "InitialMaps.h"
-#include "ParameterMetrics.h"
 #include "Refinement.h"
 #include "TensorSpace.h"
 
@@ -227,7 +227,7 @@ class LayoutSource final : public DomainSource<Dim>
 public:
   explicit LayoutSource(const CompatibleLayout<Dim>& layout) : Layout(layout) {}
 
-  Result<GluedMap<Dim>> FirstMap(InitialMapMethod method) override
+  Result<GluedMap<Dim>> FirstMap(InitialMapMethod method, int) override
   {
     GluedMap<Dim> map = CoonsMap<Dim>(this->Layout);
     if (method != InitialMapMethod::Coons)
@@ -308,28 +308,6 @@ void FindFolds(const CompatibleLayout<Dim>& layout, const GluedMap<Dim>& map, Do
     }
   }
 }
-
-/// How the elements fit together.
-template <int Dim>
-CellComplex ComplexOf(const GluedMap<Dim>& map)
-{
-  CellComplex complex;
-  for (std::size_t p = 0; p < map.Patches.size(); ++p)
-  {
-    for (const auto& element : map.Patches[p].Space->Elements)
-    {
-      ParametricBox<3> box{};
-      for (std::size_t d = 0; d < Dim; ++d)
-      {
-        box.Lower[d] = element.Box.Lower[d];
-        box.Upper[d] = element.Box.Upper[d];
-      }
-      complex.Patches.push_back(static_cast<int>(p));
-      complex.Boxes.push_back(box);
-    }
-  }
-  return complex;
-}
 }
 
 template <int Dim>
@@ -342,6 +320,7 @@ Result<LayoutParameterization<Dim>> ParameterizeLayout(const PatchLayout<Dim>& l
   {
     return status;
   }
+  WorkBudget budget(params.Effort, params.TimeLimit, progress);
   auto compatible = MakeCompatible<Dim>(layout, layoutParams);
   if (!compatible)
   {
@@ -356,7 +335,7 @@ Result<LayoutParameterization<Dim>> ParameterizeLayout(const PatchLayout<Dim>& l
   LayoutSource<Dim> source(out.Layout);
   DomainRun<Dim> run;
   if (Status status =
-        RunDomain<Dim>(source, out.Layout.Area / numPatches, params, progress, run, out);
+        RunDomain<Dim>(source, out.Layout.Area / numPatches, params, budget, run, out);
       !status)
   {
     return status;
@@ -365,19 +344,6 @@ Result<LayoutParameterization<Dim>> ParameterizeLayout(const PatchLayout<Dim>& l
   out.InitialMap = std::move(run.InitialMap);
   out.Metrics.Area *= numPatches;
   out.InitialMetrics.Area *= numPatches;
-  const Clock::time_point proof = Clock::now();
-  InjectivityParams injectivity;
-  injectivity.MaxBoxes = params.MaxBoxes;
-  injectivity.Threads = params.Threads;
-  auto proved = ProveInjectivity(GluedCells<Dim>(out.Map, params.Threads), ComplexOf<Dim>(out.Map),
-    out.Certificate, injectivity, progress);
-  if (!proved)
-  {
-    return proved.Status;
-  }
-  out.Injectivity = std::move(proved.Value);
-  const std::chrono::duration<double> after = Clock::now() - proof;
-  out.SecondsCertificate += after.count();
   return out;
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "BoundaryInjectivity.h"
 #include "DomainParameterization.h"
 #include "PatchLayout.h"
 
@@ -14,8 +13,6 @@ struct LayoutParameterization : DomainReport
   GluedMap<Dim> Map; ///< patches as in Layout.Corners
   GluedMap<Dim> InitialMap;
   CompatibleLayout<Dim> Layout;
-  /// Whether the patches together take no value twice: proved, like the certificate.
-  InjectivityCertificate Injectivity;
 };
 
 /// Spline maps of all patches of a layout onto the domain that its sides enclose, together: what

@@ -33,7 +33,8 @@ Result<Spline<Dim>> RemoveFolds(const Spline<Dim>& map, int threads)
   {
     DomainParams params;
     params.Threads = threads;
-    DomainSolver<Dim> solver(SingleMap(map), mean, params);
+    WorkBudget budget(params.Effort, params.TimeLimit, {});
+    DomainSolver<Dim> solver(SingleMap(map), mean, params, budget);
     std::vector<int> extra(map.Space->Elements.size(), 0);
     for (int round = 0; round < Rounds && solver.RemoveFolds(); ++round)
     {

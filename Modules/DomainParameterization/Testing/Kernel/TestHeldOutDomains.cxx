@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A sample; TestManyHeldOutDomains has the rest.
+#include "HeldOutChecks.h"
+
+namespace knotwork
+{
+namespace
+{
+TEST(HeldOutDomains, PlanesWithAKnownMapEndValid_PropertyOracle)
+{
+  cases::HeldOutSums sums;
+  for (unsigned seed = 0; seed < 20; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    cases::ExpectFound<2>(cases::RandomPlane(seed), sums);
+  }
+  cases::Print("planes", sums);
+}
+
+TEST(HeldOutDomains, SolidsWithAKnownMapEndValid_PropertyOracle)
+{
+  cases::HeldOutSums sums;
+  for (unsigned seed = 0; seed < 18; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    cases::ExpectFound<3>(cases::RandomSolid(seed), sums);
+  }
+  cases::Print("solids", sums);
+}
+
+TEST(HeldOutDomains, ImpossibleOnesNameThePlace_PropertyOracle)
+{
+  cases::HeldOutSums sums;
+  for (unsigned seed = 0; seed < 6; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    cases::ExpectNamed<2>(cases::ImpossiblePlane(seed), sums);
+    cases::ExpectNamed<3>(cases::ImpossibleSolid(seed), sums);
+  }
+  cases::Print("impossible", sums);
+}
+
+TEST(HeldOutDomains, DentedCubesKeepTheirFirstMap_PropertyOracle)
+{
+  // the first map of a dented cube is the known one, exactly: linear from bottom to top
+  int dented = 0;
+  for (unsigned seed = 0; seed < 60; ++seed)
+  {
+    const cases::HeldOut<3> domain = cases::RandomSolid(seed);
+    if (domain.Kind != "dented cube")
+    {
+      continue;
+    }
+    ++dented;
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    DomainParams params;
+    params.Threads = 1;
+    // however little may be done, what was valid stays so
+    for (const double effort : { 1e-6, 1e-4, 1e-3, 4.0 })
+    {
+      params.Effort = effort;
+      const auto result = ParameterizeDomain<3>(domain.Boundary, params);
+      ASSERT_TRUE(result) << result.Status.Message();
+      EXPECT_EQ(result->Certificate.Verdict, Verdict::Valid) << "effort " << effort;
+      EXPECT_EQ(result->Refinements, 0);
+    }
+  }
+  EXPECT_GE(dented, 6);
+}
+}
+}
