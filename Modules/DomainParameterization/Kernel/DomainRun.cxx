@@ -89,7 +89,7 @@ public:
     params.Threads = this->Params.Threads;
     auto sharp = ValidateJacobian(cells, params, this->Budget.AsProgress());
     // a limit of boxes or time must not take away the sign that was proved before
-    if (sharp && (Holds(sharp.Value) || !this->IsRegular()))
+    if (sharp && Rank(sharp.Value) >= Rank(this->Report.Certificate))
     {
       this->Candidate = std::move(sharp.Value);
       this->SetCertificate();
@@ -139,7 +139,11 @@ public:
     }
     // what failed on the way to a regular map does not matter any more
     messages.clear();
-    if (!this->Report.Crossings.empty())
+    if (Rank(this->Report.Certificate) == 1)
+    {
+      messages.push_back(this->RoundingMessage());
+    }
+    else if (!this->Report.Crossings.empty())
     {
       messages.push_back(
         "the map is regular, but not one-to-one: " + this->Report.Crossings.front().Message);
@@ -192,10 +196,22 @@ private:
     GluedMap<Dim> Map;
   };
 
-  /// Proved regular.
-  static bool Holds(const JacobianCertificate& certificate)
+  /// 2: proved regular. 1: but for elements that are degenerate within the rounding of their
+  /// coordinates, which is the boundary's. 0: not so.
+  static int Rank(const JacobianCertificate& certificate)
   {
-    return certificate.Verdict == Verdict::Valid;
+    if (certificate.Verdict == Verdict::Valid)
+    {
+      return 2;
+    }
+    return std::none_of(certificate.Cells.begin(), certificate.Cells.end(), IsOpen) ? 1 : 0;
+  }
+  static bool Holds(const JacobianCertificate& certificate) { return Rank(certificate) > 0; }
+  /// Neither valid nor as near to it as rounding lets it be.
+  static bool IsOpen(const CellCertificate& cell)
+  {
+    return cell.Verdict != Verdict::Valid &&
+      !(cell.Verdict == Verdict::Undecided && cell.Limit == JacobianLimit::Rounding);
   }
   bool IsRegular() const { return Holds(this->Report.Certificate); }
   /// More may lead to a regular map.
@@ -318,8 +334,11 @@ private:
   /// @pre Candidate is the certificate of the solver's map.
   bool Offer()
   {
-    const bool better = Holds(this->Candidate) ||
-      (!this->IsRegular() && this->Candidate.NumValid >= this->Report.Certificate.NumValid);
+    const int rank = Rank(this->Candidate);
+    const int known = Rank(this->Report.Certificate);
+    const bool better = rank > known ||
+      (rank == known &&
+        (rank > 0 || this->Candidate.NumValid >= this->Report.Certificate.NumValid));
     if (better)
     {
       this->Accept();
@@ -373,7 +392,7 @@ private:
   {
     for (std::size_t e = 0; e < this->Candidate.Cells.size(); ++e)
     {
-      if (this->Candidate.Cells[e].Verdict != Verdict::Valid)
+      if (IsOpen(this->Candidate.Cells[e]))
       {
         this->Extra[e] += points;
       }
@@ -410,9 +429,8 @@ private:
         {
           return status;
         }
-        if (Holds(this->Candidate))
+        if (this->Offer())
         {
-          this->Accept();
           break;
         }
       }
@@ -613,10 +631,9 @@ private:
         return status;
       }
       const double reached = least(this->Solver->Map());
-      if (Holds(this->Candidate) && reached > best)
+      if (reached > best && this->Offer())
       {
         best = reached;
-        this->Accept();
       }
       else if (!Holds(this->Candidate))
       {
@@ -625,6 +642,15 @@ private:
       }
     }
     return {};
+  }
+
+  /// A map that is regular as far as the rounding of its boundary lets one say.
+  std::string RoundingMessage() const
+  {
+    return "the map is regular, but where its boundary is degenerate within the rounding of its "
+           "coordinates (" +
+      std::to_string(this->Report.Certificate.NumUndecided) +
+      " elements, undecided): make control points there coincide exactly, or move them apart";
   }
 
   /// A regular map that is not proved one-to-one.

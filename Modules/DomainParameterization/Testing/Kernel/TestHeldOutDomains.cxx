@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A sample; TestManyHeldOutDomains has the rest.
 #include "HeldOutChecks.h"
+#include "Refinement.h"
 
 namespace knotwork
 {
@@ -38,6 +39,43 @@ TEST(HeldOutDomains, ImpossibleOnesNameThePlace_PropertyOracle)
     cases::ExpectNamed<3>(cases::ImpossibleSolid(seed), sums);
   }
   cases::Print("impossible", sums);
+}
+
+TEST(HeldOutDomains, SharpTurnsStayRegularWhenRefined_PropertyOracle)
+{
+  // refined, the derivatives that were zero are what rounding leaves of them
+  int rounded = 0;
+  for (unsigned seed = 5; seed < 20; seed += 9)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const cases::HeldOut<3> domain = cases::RandomSolid(seed);
+    ASSERT_TRUE(domain.Possible());
+    Eigen::Matrix3d turn;
+    turn << std::cos(0.3), std::sin(0.3), 0.0, -std::sin(0.3), std::cos(0.3), 0.0, 0.0, 0.0, 1.0;
+    Spline<3> once = domain.Known;
+    once.ControlPoints = (once.ControlPoints * turn).eval();
+    once = InsertKnots<3>(once, 0, { 0.1, 0.3, 0.37, 0.66, 0.71, 0.9 }).Value;
+    once = RefineAllElements<3>(once)->Value;
+    DomainParams params;
+    params.Threads = 1;
+    const auto result = ParameterizeDomain<3>(cases::SidesOf<3>(once), params);
+    ASSERT_TRUE(result) << result.Status.Message();
+    EXPECT_FALSE(result->IsImpossible());
+    EXPECT_EQ(result->Certificate.NumInvalid, 0);
+    EXPECT_EQ(result->Refinements, 0);
+    if (result->Certificate.Verdict != Verdict::Valid)
+    {
+      ++rounded;
+      for (const CellCertificate& cell : result->Certificate.Cells)
+      {
+        EXPECT_TRUE(cell.Verdict == Verdict::Valid || cell.Limit == JacobianLimit::Rounding);
+      }
+      ASSERT_EQ(result->Messages.size(), 1u);
+      EXPECT_NE(
+        result->Messages[0].find("within the rounding of its coordinates"), std::string::npos);
+    }
+  }
+  EXPECT_GT(rounded, 0);
 }
 
 TEST(HeldOutDomains, DentedCubesKeepTheirFirstMap_PropertyOracle)
