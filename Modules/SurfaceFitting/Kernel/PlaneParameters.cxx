@@ -14,7 +14,8 @@ namespace
 constexpr Eigen::Index PointsOfCell = 16;
 constexpr Eigen::Index FewestPoints = 6; ///< of a cell that is judged: twice those of a plane
 constexpr double ShareOfLayers = 0.05;
-constexpr double Flat = 1e-12; ///< ratio of standard deviations below which points are on a line
+constexpr double Flat = 1e-10; ///< ratio of standard deviations below which points are on a line
+constexpr double Rounding = 4e-15; ///< of coordinates, relative to the largest
 
 /// RMS distance of heights over the plane from a plane of their own.
 double Roughness(const PointMatrix& local, const std::vector<Eigen::Index>& rows)
@@ -32,6 +33,19 @@ double Roughness(const PointMatrix& local, const std::vector<Eigen::Index>& rows
   a.col(2).array() -= a.col(2).mean();
   const Eigen::VectorXd residual = b - a * a.colPivHouseholderQr().solve(b);
   return std::sqrt(residual.squaredNorm() / static_cast<double>(n));
+}
+
+/// Direction of the largest variance around the origin, its largest entry positive; RMS distance
+/// along it.
+std::pair<Eigen::Vector3d, double> LongestDirection(const PointMatrix& local)
+{
+  const Eigen::Matrix3d covariance = local.transpose() * local / static_cast<double>(local.rows());
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+  Eigen::Vector3d axis = solver.eigenvectors().col(2); // eigenvalues ascend
+  Eigen::Index largest = 0;
+  axis.cwiseAbs().maxCoeff(&largest);
+  axis *= axis[largest] > 0.0 ? 1.0 : -1.0;
+  return { axis, std::sqrt(std::max(0.0, solver.eigenvalues()[2])) };
 }
 
 /// Share of the cells in which points lie in layers.
@@ -89,22 +103,19 @@ Result<PointMatrix> PlaneParameters(const PointMatrix& points)
   }
   const Eigen::RowVector3d middle = points.colwise().mean();
   PointMatrix local = points.rowwise() - middle;
-  const Eigen::Matrix3d covariance = local.transpose() * local / static_cast<double>(points.rows());
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
-  const Eigen::Vector3d variances = solver.eigenvalues(); // ascending
-  if (!(variances[1] > Flat * Flat * variances[2]) || !(variances[2] > 0.0))
+  // Two steps: the variances of one matrix are off by rounding of the largest, which hides the
+  // width of a strip.
+  const auto [along, length] = LongestDirection(local);
+  const PointMatrix rest = local - (local * along) * along.transpose();
+  const auto [across, width] = LongestDirection(rest);
+  if (!(width > Flat * length + Rounding * points.cwiseAbs().maxCoeff()))
   {
     return { ErrorCode::SingularSystem,
       "the points lie on a line; there is no plane to project them on" };
   }
   Eigen::Matrix3d axes;
-  for (int i = 0; i < 2; ++i)
-  {
-    const Eigen::Vector3d axis = solver.eigenvectors().col(2 - i);
-    Eigen::Index largest = 0;
-    axis.cwiseAbs().maxCoeff(&largest);
-    axes.col(i) = axis[largest] > 0.0 ? axis : Eigen::Vector3d(-axis);
-  }
+  axes.col(0) = along;
+  axes.col(1) = (across - along.dot(across) * along).normalized();
   axes.col(2) = axes.col(0).cross(axes.col(1));
   local *= axes;
   const double share = LayeredShare(local);

@@ -84,6 +84,41 @@ TEST(PlaneParameters, MovePointsAndFrameMoves_PropertyOracle)
   EXPECT_LE((first.Value - second.Value).cwiseAbs().maxCoeff(), 1e-11);
 }
 
+TEST(PlaneParameters, LinesAndStripsAreToldApart_ExactOracle)
+{
+  // Any direction, any place: a line is one up to the rounding of its coordinates (2^-53 of them),
+  // a strip 1e6 times as long as wide keeps its width.
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (const double offset : { 0.0, 1.0, 1e3, 1e6 })
+  {
+    for (int repeat = 0; repeat < 20; ++repeat)
+    {
+      SCOPED_TRACE("offset " + std::to_string(offset) + ", repeat " + std::to_string(repeat));
+      const Eigen::RowVector3d a = Eigen::RowVector3d(unit(random), unit(random), unit(random));
+      const Eigen::RowVector3d b = a.cross(Eigen::RowVector3d(unit(random), 1.0, unit(random)));
+      PointMatrix line(500, 3);
+      PointMatrix strip(500, 3);
+      Eigen::VectorXd sides(500);
+      for (Eigen::Index i = 0; i < 500; ++i)
+      {
+        sides[i] = i % 2 == 0 ? 1.0 : -1.0;
+        line.row(i) = offset * Eigen::RowVector3d(1.0, -0.7, 0.3) + unit(random) * a.normalized();
+        strip.row(i) = line.row(i) + 1e-6 * sides[i] * b.normalized();
+      }
+      EXPECT_EQ(PlaneParameters(line).Status.Code, ErrorCode::SingularSystem);
+      if (offset <= 1.0)
+      {
+        const auto uv = PlaneParameters(strip);
+        ASSERT_TRUE(uv) << uv.Status.Message();
+        const double sign = uv->coeff(0, 1) > 0.0 ? 1.0 : -1.0;
+        // the best plane turns by the correlation of side and place, some 0.1 of the width
+        EXPECT_LE((sign * uv->col(1) - 1e-6 * sides).cwiseAbs().maxCoeff(), 3e-7);
+      }
+    }
+  }
+}
+
 TEST(PlaneParameters, EveryFailureIsReachable_ExactOracle)
 {
   PointMatrix plane;
