@@ -318,6 +318,31 @@ TEST(TemplateMapOptions, LocalRefinementNeedsATenthOfTheFunctions_GoldenOracle)
   }
 }
 
+TEST(TemplateMapOptions, LocalRefinementNeedsLessForAHigherThreshold_GoldenOracle)
+{
+  // The page's numbers; which cells are refined hangs on thresholds, hence some slack.
+  const struct
+  {
+    double Threshold;
+    int Extension;
+    int Functions;
+    double SquaredError;
+  } rows[] = { { 5e-6, 1, 477, 4.37e-11 }, { 5e-6, 2, 871, 2.58e-11 }, { 1e-5, 1, 415, 3.88e-10 } };
+  for (const auto& row : rows)
+  {
+    const auto local = Map(CircleTemplate(), LobedTarget(),
+      [&](auto& p)
+      {
+        p.Refinement = TemplateRefinement::Local;
+        p.RefineThreshold = row.Threshold;
+        p.Extension = row.Extension;
+        p.Iterations = 8;
+      });
+    EXPECT_NEAR(local.History.back().Functions, row.Functions, 0.02 * row.Functions);
+    EXPECT_NEAR(local.History.back().SquaredError, row.SquaredError, 0.02 * row.SquaredError);
+  }
+}
+
 TEST(TemplateMapOptions, LocalRefinementIsSteered_PropertyOracle)
 {
   const auto run = [](const auto& change)
