@@ -31,11 +31,20 @@ if(KNOTWORK_NATIVE)
   # For everything: code built for two instruction sets may not exchange Eigen objects.
   add_compile_options(-march=native)
 endif()
+# Eigen peels a sum until an entry is aligned for its packets. With packets wider than what every allocation and the
+# stack are aligned to (16 bytes) the address of a buffer would decide how a sum is rounded: other bits for other
+# numbers of threads. So Eigen's packets stay at 16 bytes where flags allow wider ones; the compiler uses those.
+include(CheckCXXSourceCompiles)
+if(KNOTWORK_NATIVE)
+  set(CMAKE_REQUIRED_FLAGS -march=native)
+endif()
+check_cxx_source_compiles("#ifndef __AVX__\n#error\n#endif\nint main() { return 0; }" KNOTWORK_HAS_AVX)
+unset(CMAKE_REQUIRED_FLAGS)
+if(KNOTWORK_HAS_AVX)
+  add_compile_options(-U__AVX__ -U__AVX2__ -U__AVX512F__ -U__FMA__)
+endif()
 
 set(KNOTWORK_WARNINGS -Wall -Wextra -Wshadow)
-if(KNOTWORK_NATIVE)
-  list(APPEND KNOTWORK_WARNINGS -Wno-array-bounds) # false alarms of GCC 12 in Eigen's AVX code for Vector3d
-endif()
 if(KNOTWORK_WERROR)
   list(APPEND KNOTWORK_WARNINGS -Werror)
 endif()

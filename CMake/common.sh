@@ -25,9 +25,11 @@ default_jobs()
 }
 
 # configure PRESET [-D...]: only when the tree is new, or the presets or options have changed; Ninja sees the rest.
+# KNOTWORK_WERROR in the environment becomes the option of that name.
 configure()
 {
   local tree="$root/build/$1" options
+  set -- "$@" ${KNOTWORK_WERROR:+"-DKNOTWORK_WERROR=$KNOTWORK_WERROR"}
   options="$* $(cksum < "$root/CMakePresets.json")"
   if [ -e "$tree/build.ninja" ] && [ "$(cat "$tree/configured" 2> /dev/null)" = "$options" ]; then
     return 0

@@ -1,17 +1,19 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: Testing/run.sh [--all] [-j JOBS]
-# Installs what is missing, builds everything, runs every test. --all adds the slow ones.
+# Installs what is missing, builds everything, runs every test, and those of the kernels as other machines would.
+# --all adds the slow ones. KNOTWORK_WERROR=ON in the environment makes warnings errors.
 set -eu
 source "$(dirname "$0")/../CMake/common.sh"
 jobs=$(default_jobs)
 select=(-LE '^slow$')
+all=
 while [ $# -gt 0 ]; do
   case "$1" in
-    --all) select=() ;;
+    --all) select=(); all=--all ;;
     -j) jobs=$2; shift ;;
     -j*) jobs=${1#-j} ;;
-    *) sed -n '3,4s/^# //p' "$0" >&2; exit 2 ;;
+    *) sed -n '3,5s/^# //p' "$0" >&2; exit 2 ;;
   esac
   shift
 done
@@ -49,4 +51,7 @@ fi
 
 # One display for all tests that draw; they start their own where there is none.
 cd "$release"
-exec "$root/CMake/with-display.sh" ctest --no-tests=error --output-on-failure -j "$jobs" "${select[@]}"
+status=0
+"$root/CMake/with-display.sh" ctest --no-tests=error --output-on-failure -j "$jobs" "${select[@]}" || status=$?
+"$root/Testing/variants.sh" $all -j "$jobs" || status=$?
+exit $status

@@ -15,7 +15,7 @@ endfunction()
 set(flags "-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer")
 run("${CMAKE_COMMAND}" -G "${GENERATOR}" -S "${ROOT}" -B "${WORK}" "-DCMAKE_CXX_COMPILER=${CLANG}"
   -DCMAKE_BUILD_TYPE=RelWithDebInfo "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g" "-DCMAKE_CXX_FLAGS=${flags}"
-  -DKNOTWORK_FUZZ=ON -DKNOTWORK_FILTERS=OFF -DKNOTWORK_PYTHON=OFF -DKNOTWORK_WERROR=OFF)
+  -DKNOTWORK_FUZZ=ON -DKNOTWORK_FILTERS=OFF -DKNOTWORK_PYTHON=OFF)
 string(REPLACE "@" ";" fuzzers "${FUZZERS}")
 run("${CMAKE_COMMAND}" --build "${WORK}" --target ${fuzzers})
 foreach(fuzzer IN LISTS fuzzers)

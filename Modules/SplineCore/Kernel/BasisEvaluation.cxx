@@ -36,7 +36,7 @@ void ForEachLocalFunction(
       values[d][0][0] = 1.0;
     }
   }
-  double terms[NumDerivativeTerms(Dim, MaxOrder)];
+  double terms[NumDerivativeTerms(Dim, MaxOrder)] = {};
   int j = 0;
   for (int c = 0; c < size[2]; ++c)
   {
@@ -161,7 +161,7 @@ void EvaluateFunctions(const SplineSpace<Dim>& space, int element, const double*
   {
     const auto row = std::lower_bound(functions.begin(), functions.end(), function);
     double* out = result.Values.data() + (row - functions.begin()) * numTerms;
-    for (int k = 0; k < numTerms; ++k)
+    for (int k = 0; k < numTerms && k < NumDerivativeTerms(Dim, MaxOrder); ++k)
     {
       out[k] += factor * terms[k];
     }
