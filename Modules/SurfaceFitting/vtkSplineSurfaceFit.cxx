@@ -36,9 +36,12 @@ const char* DescribeEnd(knotwork::FitEnd end)
       return "the limit of time is reached; allow more";
     case knotwork::FitEnd::Criterion:
       return "the information criterion has ended the fit; without it the fit goes on";
+    case knotwork::FitEnd::Contradiction:
+      return "they contradict points in the same place; leave points out, find outliers, or choose "
+             "a larger tolerance";
     default:
-      return "they contradict points in the same place, or elements are not split any "
-             "smaller; leave points out, find outliers, or allow smaller elements";
+      return "elements are not split any smaller; allow smaller elements, or choose a larger "
+             "tolerance";
   }
 }
 

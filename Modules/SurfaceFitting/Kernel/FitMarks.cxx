@@ -26,6 +26,14 @@ std::size_t At(int i)
   return static_cast<std::size_t>(i);
 }
 
+/// Least size of an element in both directions.
+RealArray<2> LeastElement(const FitState& state, const FitParams& params)
+{
+  const ParametricBox<2> domain = state.Space->Domain();
+  return { params.MinElementSize * (domain.Upper[0] - domain.Lower[0]),
+    params.MinElementSize * (domain.Upper[1] - domain.Lower[1]) };
+}
+
 /// Directions in which an element may be split. A hierarchical space splits in both or not at all.
 /// @param least  size of an element.
 std::array<bool, 2> AllowedDirections(
@@ -143,9 +151,7 @@ std::vector<SplitMark> MarkElements(const FitState& state, const ElementFunction
   const FitPoints& points, const std::vector<ElementErrors>& errors, const FitParams& params,
   int iteration)
 {
-  const ParametricBox<2> domain = state.Space->Domain();
-  const RealArray<2> least{ params.MinElementSize * (domain.Upper[0] - domain.Lower[0]),
-    params.MinElementSize * (domain.Upper[1] - domain.Lower[1]) };
+  const RealArray<2> least = LeastElement(state, params);
   std::vector<std::array<bool, 2>> allowed(errors.size(), { false, false });
   ParallelFor(errors.size(), ElementChunk, params.Threads,
     [&](std::size_t begin, std::size_t end)
@@ -171,6 +177,20 @@ std::vector<SplitMark> MarkElements(const FitState& state, const ElementFunction
       }
     });
   return marks;
+}
+
+bool PointsContradict(const FitState& state, const FitPoints& points,
+  const std::vector<ElementErrors>& errors, const FitParams& params)
+{
+  const RealArray<2> least = LeastElement(state, params);
+  for (std::size_t e = 0; e < errors.size(); ++e)
+  {
+    if (errors[e].NumOutside > 0 && SplitHelps(least, points, params.NumMeasured, e))
+    {
+      return false;
+    }
+  }
+  return true;
 }
 
 std::vector<int> ReweightPoints(

@@ -10,6 +10,11 @@ std::vector<SplitMark> MarkElements(const FitState& state, const ElementFunction
   const FitPoints& points, const std::vector<ElementErrors>& errors, const FitParams& params,
   int iteration);
 
+/// Whether every point outside is nearer than the least element to another one whose values are so
+/// different that no surface meets both. Points given several times with equal values do not.
+bool PointsContradict(const FitState& state, const FitPoints& points,
+  const std::vector<ElementErrors>& errors, const FitParams& params);
+
 /// Gives points outside their tolerance more weight in least squares where that is likely to bring
 /// them inside without a split: they are few and not far outside. An iteratively reweighted fit
 /// goes from least squares towards the smallest largest distance.

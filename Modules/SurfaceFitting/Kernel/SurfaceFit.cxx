@@ -351,9 +351,12 @@ private:
   /// than are allowed, the worst elements are split, as many as fit.
   Result<FitState> RefineWithinLimit(const std::vector<SplitMark>& marks)
   {
-    this->Fit.End = marks.empty() ? FitEnd::Resolution : FitEnd::Functions;
+    this->Fit.End = FitEnd::Functions;
     if (marks.empty())
     {
+      const bool contradict =
+        PointsContradict(this->State, this->Points, this->Errors, this->Params);
+      this->Fit.End = contradict ? FitEnd::Contradiction : FitEnd::Resolution;
       return FitState{};
     }
     auto refined = RefineState(this->State, marks, this->Params);

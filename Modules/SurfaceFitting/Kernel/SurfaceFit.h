@@ -76,8 +76,9 @@ enum class FitEnd
   Iterations,
   Functions,
   Seconds,
-  Criterion, ///< the information criterion has risen
-  Resolution ///< what is outside lies where no element may be split, or contradicts its neighbours
+  Criterion,    ///< the information criterion has risen
+  Resolution,   ///< what is outside lies where no element may be split
+  Contradiction ///< every point outside is beside one in the same place that no surface meets too
 };
 
 /// What the tolerance grows with.

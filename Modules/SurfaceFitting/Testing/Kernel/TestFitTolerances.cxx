@@ -172,7 +172,7 @@ TEST(SurfaceFit, PointsThatContradictEachOtherAreLeft_CrossOracle)
   }
   const SurfaceFit fit = Fit(cloud, WithTolerance(0.001));
   EXPECT_FALSE(fit.WithinTolerance);
-  EXPECT_EQ(fit.End, FitEnd::Resolution);
+  EXPECT_EQ(fit.End, FitEnd::Contradiction);
   EXPECT_LT(fit.Iterations.size(), 20U);
   for (std::size_t i = 0; i < fit.Distances.size(); ++i)
   {
@@ -183,5 +183,61 @@ TEST(SurfaceFit, PointsThatContradictEachOtherAreLeft_CrossOracle)
   }
   EXPECT_GE(fit.Final.NumOutside, 10U);
   EXPECT_LE(fit.Final.NumOutside, 20U);
+}
+
+TEST(SurfaceFit, ElementsOfTheLeastSizeAreNoContradiction_ExactOracle)
+{
+  // heights at random, places mostly farther apart than the elements are large
+  PointCloud cloud = clouds::HeightField(200, 64, Wave);
+  clouds::Random heights(65);
+  for (Eigen::Index i = 0; i < cloud.Values.rows(); ++i)
+  {
+    cloud.Values(i, 0) = heights.Normal();
+  }
+  FitParams params = WithTolerance(0.001);
+  params.MinElementSize = 0.1;
+  const SurfaceFit fit = Fit(cloud, params);
+  EXPECT_FALSE(fit.WithinTolerance);
+  EXPECT_EQ(fit.End, FitEnd::Resolution);
+}
+
+TEST(SurfaceFit, PointsGivenSeveralTimesAreMet_PropertyOracle)
+{
+  // a cliff, and a tenth of the points again: bit for bit, or as near as rounding of a file leaves
+  // them, with equal heights
+  for (std::uint64_t seed = 71; seed < 74; ++seed)
+  {
+    for (const auto& [n, tolerance] : { std::pair{ 5000, 0.005 }, std::pair{ 50000, 0.0005 } })
+    {
+      const double steps = seed == 71 ? 0.2 : 2.0;
+      const PointCloud once = clouds::HeightField(static_cast<std::size_t>(n), seed,
+        [&](double x, double y) { return Wave(x, y) + (x < 0.5 ? 0.0 : steps); });
+      for (const int copies : { 1, 2 })
+      {
+        for (const double apart : { 0.0, 1e-12 })
+        {
+          SCOPED_TRACE("seed " + std::to_string(seed) + ", points " + std::to_string(n) +
+            ", copies " + std::to_string(copies) + ", apart " + std::to_string(apart > 0.0));
+          PointCloud cloud;
+          cloud.Parameters.resize(n + copies * (n / 10), 2);
+          cloud.Values.resize(cloud.Parameters.rows(), 1);
+          clouds::Random random(seed);
+          for (Eigen::Index i = 0; i < cloud.Values.rows(); ++i)
+          {
+            const Eigen::Index from = i < n ? i : (i - n) % (n / 10) * 10;
+            cloud.Parameters.row(i) = once.Parameters.row(from);
+            cloud.Values.row(i) = once.Values.row(from);
+            if (i >= n)
+            {
+              cloud.Parameters(i, 0) += apart * (random.Uniform() - 0.5);
+              cloud.Parameters(i, 1) += apart * (random.Uniform() - 0.5);
+            }
+          }
+          const SurfaceFit fit = Fit(cloud, WithTolerance(tolerance));
+          ExpectWithin(cloud, fit);
+        }
+      }
+    }
+  }
 }
 }
