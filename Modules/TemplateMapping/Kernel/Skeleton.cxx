@@ -86,6 +86,7 @@ Status CheckExtent(const std::string& name, const SkeletonPatch<3>& patch)
   }
   std::vector<bool> used(n, false);
   double area = 0.0;
+  double edges = 0.0;
   for (std::size_t t = 0; t < patch.Simplices.size(); ++t)
   {
     const MeshTriangle& corners = patch.Simplices[t];
@@ -105,6 +106,9 @@ Status CheckExtent(const std::string& name, const SkeletonPatch<3>& patch)
         name + ", triangle " + std::to_string(t) + " has a corner twice; remove it" };
     }
     area += 0.5 * AreaNormal(patch.Points, corners).norm();
+    const auto from = patch.Points.row(corners[0]);
+    edges +=
+      (patch.Points.row(corners[1]) - from).norm() + (patch.Points.row(corners[2]) - from).norm();
   }
   const auto unused = std::find(used.begin(), used.end(), false);
   if (unused != used.end())
@@ -113,10 +117,12 @@ Status CheckExtent(const std::string& name, const SkeletonPatch<3>& patch)
       name + ", point " + std::to_string(unused - used.begin()) +
         " belongs to no triangle; remove it" };
   }
-  // Triangles on a line have an area of rounding errors.
+  // Triangles on a line have an area of rounding errors: those of coordinates, times edges.
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  const double rounding = 4.0 * epsilon * patch.Points.cwiseAbs().maxCoeff() * edges;
   const double size =
     (patch.Points.colwise().maxCoeff() - patch.Points.colwise().minCoeff()).squaredNorm();
-  if (!(area > 1e-14 * size))
+  if (!(area > 1e-12 * size + rounding))
   {
     return { ErrorCode::InvalidTopology,
       name + " lies on a line or a point; remove it or give it an area" };

@@ -209,6 +209,18 @@ TEST(Skeleton, EveryFaultOfAMeshIsNamed)
         c.Target[0].Points.row(i) = Eigen::RowVector3d(0.1, 0.2, 0.3) * double(i);
       }
     });
+  for (const double offset : { 0.3, 100.0, 1e6 }) // coordinates are rounded by so much more
+  {
+    expect(ErrorCode::InvalidTopology, "target patch 0 lies on a line or a point",
+      [&](S& c)
+      {
+        for (Eigen::Index i = 0; i < 25; ++i)
+        {
+          c.Target[0].Points.row(i) = Eigen::RowVector3d(0.13, 0.29, 0.31) * double(i) +
+            Eigen::RowVector3d(offset, -0.7 * offset, 0.9 * offset);
+        }
+      });
+  }
   expect(ErrorCode::InvalidTopology, "target patch 0 lies on a line or a point",
     [](S& c) { c.Target[0].Points.setConstant(0.5); });
   expect(ErrorCode::InvalidParameter, "template patch 0, triangles 0 and 3: parameters fold",
