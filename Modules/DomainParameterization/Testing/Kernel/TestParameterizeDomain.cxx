@@ -531,6 +531,26 @@ TEST(ParameterizeDomain, ProgressAborts)
   EXPECT_EQ(calls, 4);
 }
 
+TEST(ParameterizeDomain, AbortIsHeededWhereverItComes_PropertyOracle)
+{
+  int total = 0;
+  const auto whole = ParameterizeDomain<2>(Bay(0.8), {},
+    [&](double)
+    {
+      ++total;
+      return true;
+    });
+  ASSERT_TRUE(whole) << whole.Status.Message();
+  ASSERT_GT(total, 50);
+  for (int last = 1; last <= total; last += 1 + total / 40)
+  {
+    int calls = 0;
+    const auto result = ParameterizeDomain<2>(Bay(0.8), {}, [&](double) { return ++calls < last; });
+    EXPECT_EQ(result.Status.Code, ErrorCode::Aborted) << last << " of " << total;
+    EXPECT_EQ(calls, last);
+  }
+}
+
 TEST(ParameterizeDomain, OptionsOutsideTheirRangeAreNamed)
 {
   const auto code = [](auto&& change)
