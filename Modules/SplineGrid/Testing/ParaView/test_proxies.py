@@ -4,7 +4,7 @@ import knotwork_testing
 
 knotwork_testing.load_plugin()
 from paraview.simple import (  # noqa: E402
-    GroupDatasets, IDSelectionSource, SplineControlNet, SplineParametricMesh, SplineRefine, SplineSource)
+    GroupDatasets, IDSelectionSource, KnotworkSplineSource, SplineControlNet, SplineParametricMesh, SplineRefine)
 
 
 def cells(proxy):
@@ -13,7 +13,7 @@ def cells(proxy):
 
 
 def disc():
-    source = SplineSource(Shape="Disc", Degree=2, Elements=[3, 3, 1])
+    source = KnotworkSplineSource(Shape="Disc", Degree=2, Elements=[3, 3, 1])
     assert cells(source) == 45
     return source
 
@@ -43,7 +43,7 @@ def test_refine_selected_cells():
 
 
 def test_net_and_mesh_of_a_group():
-    group = GroupDatasets(Input=[disc(), SplineSource(Shape="Cube")])
+    group = GroupDatasets(Input=[disc(), KnotworkSplineSource(Shape="Cube")])
     group.UpdatePipeline()
     assert cells(SplineParametricMesh(Input=group)) == 46
     # five nets of 5 x 5 points, and the cube's

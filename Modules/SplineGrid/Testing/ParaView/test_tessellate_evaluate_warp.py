@@ -8,7 +8,7 @@ knotwork_testing.load_plugin()
 from paraview import servermanager  # noqa: E402
 from paraview.simple import (  # noqa: E402
     Calculator, Clip, ColorBy, Contour, CreateRenderView, GetColorTransferFunction, GroupDatasets, IntegrateVariables,
-    Plane, Show, Slice, Sphere, SplineEvaluate, SplineRefine, SplineSource, SplineTessellate, SplineWarp, Transform)
+    KnotworkSplineSource, Plane, Show, Slice, Sphere, SplineEvaluate, SplineRefine, SplineTessellate, SplineWarp, Transform)
 from vtkmodules.numpy_interface import dataset_adapter  # noqa: E402
 
 import numpy  # noqa: E402
@@ -26,12 +26,12 @@ def total(proxy, name):
 
 def test_every_property_reaches_the_filter():
     # values other than the defaults, read from what the filters print
-    tessellate = SplineTessellate(Input=SplineSource(), ChordalTolerance=0.25, RelativeTolerance=0, MaximumSubdivision=3,
+    square = KnotworkSplineSource()
+    tessellate = SplineTessellate(Input=square, ChordalTolerance=0.25, RelativeTolerance=0, MaximumSubdivision=3,
                                   Cells="Volume", Normals=0, Splitting=1, Threads=1)
-    evaluate = SplineEvaluate(Input=SplineSource(), Points=Plane(), Mode="Probe", Derivatives=2, ParameterArray="UV",
+    evaluate = SplineEvaluate(Input=square, Points=Plane(), Mode="Probe", Derivatives=2, ParameterArray="UV",
                               PatchIdArray="Side", PatchId=4, Threads=1)
-    warp = SplineWarp(Input=SplineSource(), Map=SplineSource(), MapPatchId=2, Clamp=1, Tolerance=0.5, MaxLevel=2,
-                      Threads=1)
+    warp = SplineWarp(Input=square, Map=square, MapPatchId=2, Clamp=1, Tolerance=0.5, MaxLevel=2, Threads=1)
     for proxy, expected in (
             (tessellate, {"ChordalTolerance": "0.25", "RelativeTolerance": "0", "MaximumSubdivision": "3", "Cells": "1",
                           "Normals": "0", "Splitting": "1", "Threads": "1"}),
@@ -45,9 +45,9 @@ def test_every_property_reaches_the_filter():
 
 
 def test_tessellation_is_what_paraview_measures():
-    sphere = SplineTessellate(Input=SplineSource(Shape="Sphere Surface"), ChordalTolerance=1e-4)
+    sphere = SplineTessellate(Input=KnotworkSplineSource(Shape="Sphere Surface"), ChordalTolerance=1e-4)
     assert abs(total(sphere, "Area") / (4 * numpy.pi) - 1) < 1e-3
-    refined = SplineRefine(Input=SplineSource(Shape="Solid Tube", Elements=[2, 3, 2]), Mode="Cell Array",
+    refined = SplineRefine(Input=KnotworkSplineSource(Shape="Solid Tube", Elements=[2, 3, 2]), Mode="Cell Array",
                            Array=["CELLS", "ElementId"], LowerThreshold=0, UpperThreshold=0, NumberOfRefinements=2)
     solid = SplineTessellate(Input=refined, ChordalTolerance=1e-4, Cells="Volume")
     # a quarter of the tube between the radii 1/2 and 1, of height 1
@@ -60,7 +60,7 @@ def test_tessellation_is_what_paraview_measures():
 
 
 def test_paraview_filters_take_the_tessellation():
-    ball = SplineTessellate(Input=SplineSource(Shape="Ball"), ChordalTolerance=1e-3, Cells="Volume")
+    ball = SplineTessellate(Input=KnotworkSplineSource(Shape="Ball"), ChordalTolerance=1e-3, Cells="Volume")
     disc = Slice(Input=ball)
     disc.SliceType.Origin = [0, 0, 0]
     disc.SliceType.Normal = [0, 0, 1]
@@ -76,7 +76,7 @@ def test_paraview_filters_take_the_tessellation():
 
 def test_fields_of_paraviews_calculator_are_evaluated():
     # a field made by ParaView from the Bezier points is a field of the spline
-    annulus = Calculator(Input=SplineSource(Shape="Annulus Sector", Elements=[2, 2, 1]), ResultArrayName="Height",
+    annulus = Calculator(Input=KnotworkSplineSource(Shape="Annulus Sector", Elements=[2, 2, 1]), ResultArrayName="Height",
                          Function="coordsX + 3*coordsY")
     mesh = fetch(SplineTessellate(Input=annulus))
     assert abs(mesh.PointData["Height"] - mesh.Points @ numpy.array([1.0, 3.0, 0.0])).max() < 1e-13
@@ -91,17 +91,17 @@ def test_fields_of_paraviews_calculator_are_evaluated():
 
 def test_probe():
     cloud = Sphere(Radius=2.0, ThetaResolution=16, PhiResolution=16)
-    found = fetch(SplineEvaluate(Input=SplineSource(Shape="Sphere Surface"), Points=cloud, Mode="Probe"))
+    found = fetch(SplineEvaluate(Input=KnotworkSplineSource(Shape="Sphere Surface"), Points=cloud, Mode="Probe"))
     assert abs(found.PointData["Distance"] - 1).max() < 1e-6  # the cloud's points are float
     assert set(found.PointData["PatchId"]) == set(range(6))
 
 
 def test_warp_of_points_and_of_splines():
-    ring = SplineSource(Shape="Annulus Sector")
+    ring = KnotworkSplineSource(Shape="Annulus Sector")
     plane = Plane(Origin=[0, 0, 0], Point1=[1, 0, 0], Point2=[0, 1, 0], XResolution=200, YResolution=200)
     exact = numpy.pi / 4 * 0.75
     assert abs(total(SplineWarp(Input=plane, Map=ring), "Area") / exact - 1) < 1e-3
-    square = SplineSource(Shape="Square", Center=[0.5, 0.5, 0], Degree=3)
+    square = KnotworkSplineSource(Shape="Square", Center=[0.5, 0.5, 0], Degree=3)
     image = SplineWarp(Input=square, Map=ring, Tolerance=1e-5)
     assert fetch(image).CellData["Distance"].max() <= 1e-5
     assert abs(total(SplineTessellate(Input=image, ChordalTolerance=1e-5), "Area") / exact - 1) < 1e-3
@@ -110,10 +110,10 @@ def test_warp_of_points_and_of_splines():
 
 
 def test_groups():
-    group = GroupDatasets(Input=[SplineSource(Shape="Disc", Center=[0.5, 0.5, 0], OuterRadius=0.4, InnerRadius=0.2),
-                                 SplineSource(Shape="Arc", OuterRadius=0.9)],
+    group = GroupDatasets(Input=[KnotworkSplineSource(Shape="Disc", Center=[0.5, 0.5, 0], OuterRadius=0.4, InnerRadius=0.2),
+                                 KnotworkSplineSource(Shape="Arc", OuterRadius=0.9)],
                           OutputType="vtkPartitionedDataSetCollection")
-    image = SplineWarp(Input=group, Map=SplineSource(Shape="Annulus Sector"))
+    image = SplineWarp(Input=group, Map=KnotworkSplineSource(Shape="Annulus Sector"))
     mesh = SplineTessellate(Input=image)
     for proxy in (image, mesh):
         proxy.UpdatePipeline()
@@ -124,8 +124,8 @@ def test_groups():
 
 def test_picture():
     """The main chain: a disc through the map of an annulus, tessellated, coloured by patch."""
-    disc = SplineSource(Shape="Disc", Center=[0.5, 0.5, 0], OuterRadius=0.45, InnerRadius=0.2, Degree=3)
-    image = SplineWarp(Input=disc, Map=SplineSource(Shape="Annulus Sector"))
+    disc = KnotworkSplineSource(Shape="Disc", Center=[0.5, 0.5, 0], OuterRadius=0.45, InnerRadius=0.2, Degree=3)
+    image = SplineWarp(Input=disc, Map=KnotworkSplineSource(Shape="Annulus Sector"))
     mesh = SplineTessellate(Input=image, ChordalTolerance=3e-3)
     view = CreateRenderView()
     view.InteractionMode = "2D"

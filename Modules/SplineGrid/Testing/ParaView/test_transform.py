@@ -10,8 +10,8 @@ import knotwork_testing
 knotwork_testing.load_plugin()
 from paraview import servermanager  # noqa: E402
 from paraview.simple import (  # noqa: E402
-    AppendDatasets, GroupDatasets, SplineControlNet, SplineRefine, SplineSource, Threshold, Transform, XMLUnstructuredGridReader,
-    SaveData)
+    AppendDatasets, GroupDatasets, KnotworkSplineSource, SaveData, SplineControlNet, SplineRefine, Threshold, Transform,
+    XMLUnstructuredGridReader)
 from vtkmodules.numpy_interface import dataset_adapter  # noqa: E402
 
 import numpy  # noqa: E402
@@ -22,7 +22,7 @@ SHAPES = ["Arc", "Annulus Sector", "Disc", "Solid Tube", "Ball Sector"]
 
 def source(shape):
     """A spline grid of three elements a direction, one corner of it refined (THB)."""
-    made = SplineSource(Shape=shape, Elements=[3, 3, 3], Degree=3)
+    made = KnotworkSplineSource(Shape=shape, Elements=[3, 3, 3], Degree=3)
     return SplineRefine(Input=made, Mode="Cell Array", Array=["CELLS", "ElementId"], LowerThreshold=0,
                         UpperThreshold=0)
 

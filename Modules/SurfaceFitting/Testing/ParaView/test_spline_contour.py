@@ -3,11 +3,11 @@
 import knotwork_testing
 
 knotwork_testing.load_plugin()
-from paraview.simple import OutputPort, SplineContour, SplineSource  # noqa: E402
+from paraview.simple import KnotworkSplineSource, OutputPort, SplineContour  # noqa: E402
 
 
 def test_levels_of_a_coordinate():
-    square = SplineSource(Shape="Square", Degree=2, Elements=(4, 4, 1))
+    square = KnotworkSplineSource(Shape="Square", Degree=2, Elements=(4, 4, 1))
     contour = SplineContour(Input=square, Component=0, Curves=1)
     contour.Levels = [-0.25, 0.125]
     contour.UpdatePipeline()
@@ -22,7 +22,7 @@ def test_levels_of_a_coordinate():
 
 
 def test_a_torus_has_closed_contours():
-    contour = SplineContour(Input=SplineSource(Shape="Torus Surface", Angle=360), NumberOfLevels=4)
+    contour = SplineContour(Input=KnotworkSplineSource(Shape="Torus Surface", Angle=360), NumberOfLevels=4)
     contour.UpdatePipeline()
     table = contour.GetClientSideObject().GetOutputDataObject(2)
     assert [table.GetValueByName(i, "Closed").ToInt() for i in range(4)] == [2] * 4

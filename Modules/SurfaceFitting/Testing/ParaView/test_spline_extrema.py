@@ -3,11 +3,11 @@
 import knotwork_testing
 
 knotwork_testing.load_plugin()
-from paraview.simple import OutputPort, SplineExtrema, SplineSource  # noqa: E402
+from paraview.simple import KnotworkSplineSource, OutputPort, SplineExtrema  # noqa: E402
 
 
 def test_a_torus():
-    torus = SplineSource(Shape="Torus Surface", Angle=270)
+    torus = KnotworkSplineSource(Shape="Torus Surface", Angle=270)
     extrema = SplineExtrema(Input=torus, Component=0)
     extrema.UpdatePipeline()
     numbers = extrema.GetClientSideObject().GetOutputDataObject(2)

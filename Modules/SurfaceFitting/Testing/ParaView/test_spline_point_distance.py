@@ -5,7 +5,8 @@ import math
 import knotwork_testing
 
 knotwork_testing.load_plugin()
-from paraview.simple import OutputPort, Plane, Sphere, SplinePointDistance, SplineSource, SplineSurfaceFit, Transform  # noqa: E402
+from paraview.simple import (  # noqa: E402
+    KnotworkSplineSource, OutputPort, Plane, Sphere, SplinePointDistance, SplineSurfaceFit, Transform)
 
 
 def number(distance, column):
@@ -28,7 +29,7 @@ def test_points_above_a_height_field():
 
 
 def test_closest_points_of_a_torus():
-    torus = SplineSource(Shape="Torus Surface", Angle=360)
+    torus = KnotworkSplineSource(Shape="Torus Surface", Angle=360)
     distance = SplinePointDistance(Input=Sphere(Radius=1e-3), Surface=torus, Kind="Closest")
     assert number(distance, "Kind").ToString() == "closest"
     hole = abs(number(distance, "Mean").ToDouble())

@@ -3,11 +3,11 @@
 import knotwork_testing
 
 knotwork_testing.load_plugin()
-from paraview.simple import SplineSource, SplineStitch  # noqa: E402
+from paraview.simple import KnotworkSplineSource, SplineStitch  # noqa: E402
 
 
 def square(x):
-    return SplineSource(Shape="Square", Degree=2, Elements=(4, 4, 1), Center=(x, 0, 0))
+    return KnotworkSplineSource(Shape="Square", Degree=2, Elements=(4, 4, 1), Center=(x, 0, 0))
 
 
 def test_two_squares_as_two_inputs():
