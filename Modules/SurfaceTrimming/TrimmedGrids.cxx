@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TrimmedGrids.h"
 
+#include "AffineMap.h"
+#include "CarriedCurves.h"
 #include "JoinElements.h"
 #include "SplineBlocks.h"
 #include "SplineModel.h"
@@ -26,6 +28,10 @@ namespace knotwork
 namespace
 {
 constexpr const char* PlaneCurve = "UV";
+
+/// Of the size: what lies between points of single precision, after a filter that moved them.
+constexpr double MovedRounding =
+  1024.0 * static_cast<double>(std::numeric_limits<float>::epsilon());
 
 /// Equal for equal models; tells the faces and edges of several models apart.
 int ModelNumber(const TrimmedModel& model)
@@ -212,6 +218,8 @@ public:
     return {};
   }
 
+  const std::map<int, vtkSmartPointer<vtkUnstructuredGrid>>& Blocks() const { return this->Grids; }
+
   std::string What;
   Status Outcome;
   SplineModel Model;
@@ -273,6 +281,11 @@ private:
   Status ReadFace(const SplinePatch& patch);
   void ReadLook(const SplinePatch& patch, TrimmedFace& face) const;
   Status ReadUse(const PatchReader& curves, const SplinePatch& patch);
+  Status AddUse(
+    const std::string& place, int block, const UseNumbers& numbers, int copy, TrimmingCurve use);
+  Status ReadCarried(int block, const CarriedCurves& carried);
+  Result<AffineMap> MoveOf(int block, const CarriedCurves& carried) const;
+  Status Assemble();
   Status ShareEdge(const std::string& place, const Key& edge, TrimmingCurve& use);
   Status AssembleLoops(const std::string& place, const FaceUses& uses, TrimmedFace& face) const;
   void Warn(const std::vector<std::string>& texts)
@@ -358,11 +371,9 @@ Status ModelReader::ShareEdge(const std::string& place, const Key& edge, Trimmin
   const TrimmingCurve& first = found->second;
   const Spline<1>& a = first.Curve;
   const Spline<1>& b = use.Curve;
-  // recovered from points of single precision, after a filter that moved them
   const double size = a.ControlPoints.cwiseAbs().maxCoeff();
-  const double rounding = 1024.0 * static_cast<double>(std::numeric_limits<float>::epsilon());
   if (!(a.Space->Knots[0] == b.Space->Knots[0]) || a.IsRational() != b.IsRational() ||
-    !((a.ControlPoints - b.ControlPoints).cwiseAbs().maxCoeff() <= rounding * size) ||
+    !((a.ControlPoints - b.ControlPoints).cwiseAbs().maxCoeff() <= MovedRounding * size) ||
     first.Vertices != use.Vertices)
   {
     return { ErrorCode::InvalidTopology,
@@ -410,17 +421,109 @@ Status ModelReader::ReadUse(const PatchReader& curves, const SplinePatch& patch)
   use.Curve = *curve;
   use.UV = field->Coefficients;
   use.Reversed = n.Reversed != 0;
+  return this->AddUse(place, patch.Block, n, copy, std::move(use));
+}
+
+/// Edges and vertices get the numbers that they have here. @pre the face is there.
+Status ModelReader::AddUse(
+  const std::string& place, int block, const UseNumbers& n, int copy, TrimmingCurve use)
+{
   for (std::size_t end = 0; end < 2; ++end)
   {
-    const Key vertex{ patch.Block, n.Model, end == 0 ? n.Begin : n.End, copy };
+    const Key vertex{ block, n.Model, end == 0 ? n.Begin : n.End, copy };
     const int next = static_cast<int>(this->Vertices.size());
     use.Vertices[end] = this->Vertices.emplace(vertex, next).first->second;
   }
-  if (Status status = this->ShareEdge(place, { patch.Block, n.Model, n.Edge, copy }, use); !status)
+  if (Status status = this->ShareEdge(place, { block, n.Model, n.Edge, copy }, use); !status)
   {
     return status;
   }
-  face->second.Uses[{ n.Loop, n.Curve }] = std::move(use);
+  this->Faces.at({ block, n.Model, n.Face, copy }).Uses[{ n.Loop, n.Curve }] = std::move(use);
+  return {};
+}
+
+/// How the surfaces of a block were moved since their curves were stored.
+Result<AffineMap> ModelReader::MoveOf(int block, const CarriedCurves& carried) const
+{
+  std::vector<const PointMatrix*> before;
+  std::vector<const PointMatrix*> after;
+  Eigen::Index rows = 0;
+  bool moved = false;
+  for (const auto& [face, points] : carried.Surfaces)
+  {
+    const auto found = this->Faces.find({ block, carried.ModelId, face, 0 });
+    if (found == this->Faces.end()) // was not selected
+    {
+      continue;
+    }
+    const PointMatrix& now =
+      this->Model.Faces[static_cast<std::size_t>(found->second.Index)].Surface.ControlPoints;
+    if (now.rows() != points.rows())
+    {
+      return { ErrorCode::InvalidTopology,
+        "face " + std::to_string(face) +
+          " has other control points than when its trimming curves were made; give the curves" };
+    }
+    before.push_back(&points);
+    after.push_back(&now);
+    rows += now.rows();
+    moved = moved || now != points;
+  }
+  if (!moved)
+  {
+    return AffineMap();
+  }
+  PointMatrix from(rows, 3);
+  PointMatrix to(rows, 3);
+  Eigen::Index row = 0;
+  for (std::size_t f = 0; f < before.size(); row += before[f]->rows(), ++f)
+  {
+    from.middleRows(row, before[f]->rows()) = *before[f];
+    to.middleRows(row, after[f]->rows()) = *after[f];
+  }
+  auto map = FitAffineMap(from, to);
+  if (map && !(map->MaxResidual <= MovedRounding * to.cwiseAbs().maxCoeff()))
+  {
+    return { ErrorCode::InvalidTopology,
+      "the surfaces were bent after they were trimmed; give the trimming curves, bent alike" };
+  }
+  return map;
+}
+
+/// The curves that travel with the surfaces of a block.
+Status ModelReader::ReadCarried(int block, const CarriedCurves& carried)
+{
+  const auto map = this->MoveOf(block, carried);
+  if (!map)
+  {
+    return map.Status;
+  }
+  const bool moved = map->Linear != Eigen::Matrix3d::Identity() || !map->Shift.isZero(0.0);
+  for (const CarriedCurve& curve : carried.Curves)
+  {
+    UseNumbers n;
+    n.Model = carried.ModelId;
+    n.Face = curve.Face;
+    n.Loop = curve.Loop;
+    n.Curve = curve.Curve;
+    n.Edge = curve.Use.Edge;
+    n.Begin = curve.Use.Vertices[0];
+    n.End = curve.Use.Vertices[1];
+    if (this->Faces.count({ block, n.Model, n.Face, 0 }) == 0)
+    {
+      continue;
+    }
+    TrimmingCurve use = curve.Use;
+    if (moved)
+    {
+      use.Curve.ControlPoints = map->Apply(use.Curve.ControlPoints);
+    }
+    const std::string place = "the trimming curves of face " + std::to_string(n.Face);
+    if (Status status = this->AddUse(place, block, n, 0, std::move(use)); !status)
+    {
+      return status;
+    }
+  }
   return {};
 }
 
@@ -473,6 +576,22 @@ Result<TrimmedModel> ModelReader::Read(vtkDataObject* curves)
   }
   if (!curves)
   {
+    bool carries = false;
+    for (const auto& [block, grid] : this->Surfaces.Blocks())
+    {
+      const auto carried = LoadCurves(grid);
+      Status status = carried ? this->ReadCarried(block, carried.Value) : carried.Status;
+      if (!status)
+      {
+        return status;
+      }
+      carries = carries || !carried->Curves.empty();
+    }
+    if (carries)
+    {
+      Status status = this->Assemble();
+      return status ? Result<TrimmedModel>(this->Model) : Result<TrimmedModel>(status);
+    }
     const auto trimmed = [](const auto& face) { return face.second.Expected > 0; };
     if (std::any_of(this->Faces.begin(), this->Faces.end(), trimmed))
     {
@@ -493,6 +612,16 @@ Result<TrimmedModel> ModelReader::Read(vtkDataObject* curves)
       return status;
     }
   }
+  if (Status status = this->Assemble(); !status)
+  {
+    return status;
+  }
+  return this->Model;
+}
+
+/// Loops of the faces from the uses that were read.
+Status ModelReader::Assemble()
+{
   this->Model.NumVertices = static_cast<int>(this->Vertices.size());
   for (const auto& [key, uses] : this->Faces)
   {
@@ -503,11 +632,7 @@ Result<TrimmedModel> ModelReader::Read(vtkDataObject* curves)
       return status;
     }
   }
-  if (Status status = this->Model.Check(); !status)
-  {
-    return status;
-  }
-  return this->Model;
+  return this->Model.Check();
 }
 }
 
@@ -580,6 +705,7 @@ Status EncodeTrimmedModel(
   {
     AddNames(surfaces, model.Faces);
   }
+  StoreCurves(model, modelNumber, surfaces);
   return {};
 }
 

@@ -9,6 +9,7 @@
 #include "vtkAppendFilter.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPartitionedDataSet.h"
@@ -236,6 +237,149 @@ TEST(TrimmedGrids, ASelectedFaceKeepsItsLoops_ExactOracle)
   }
 }
 
+constexpr const char* CarriedArrays[] = { "CarriedCurveNumbers", "CarriedCurveValues",
+  "CarriedFaces", "CarriedFacePoints" };
+
+/// The model of the surfaces alone.
+TrimmedModel DecodeAlone(vtkDataObject* surfaces)
+{
+  std::vector<std::string> warnings;
+  auto model = DecodeTrimmedModel(surfaces, nullptr, &warnings);
+  EXPECT_TRUE(model) << model.Status.Message();
+  EXPECT_EQ(warnings, std::vector<std::string>());
+  return model.Value;
+}
+
+TEST(TrimmedGrids, SurfacesAloneAreTheModel_ExactOracle)
+{
+  for (unsigned seed = 1; seed <= 5; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const TrimmedModel model = Renumbered(TwoFaces(seed));
+    const Grids grids(model);
+    EXPECT_TRUE(Identical(DecodeAlone(grids.Surfaces), model));
+    // a face of them
+    for (int face : { 0, 1 })
+    {
+      TrimmedModel alone = model;
+      alone.Faces = { model.Faces[static_cast<std::size_t>(face)] };
+      EXPECT_TRUE(Identical(DecodeAlone(Selected(grids.Surfaces, face, face)), Renumbered(alone)));
+    }
+    // two models, in blocks of their own
+    vtkNew<vtkPartitionedDataSetCollection> both;
+    both->SetPartition(0, 0, grids.Surfaces);
+    both->SetPartition(1, 0, Grids(TwoFaces(seed + 10)).Surfaces);
+    EXPECT_TRUE(
+      Identical(DecodeAlone(both), Renumbered(Joined(model, Renumbered(TwoFaces(seed + 10))))));
+  }
+}
+
+TEST(TrimmedGrids, CarriedCurvesMoveWithTheSurfaces_CrossOracle)
+{
+  const Grids grids(TwoFaces());
+  vtkNew<vtkTransform> transform;
+  transform->Translate(3, -2, 1);
+  transform->RotateWXYZ(37, 1, 2, 3);
+  transform->Scale(2, 1, 0.5);
+  const GridPointer surfaces = Moved(grids.Surfaces, transform);
+  const TrimmedModel expected = Grids(surfaces, Moved(grids.Curves, transform)).Decode();
+  const TrimmedModel found = DecodeAlone(surfaces);
+  ASSERT_EQ(found.Faces.size(), expected.Faces.size());
+  // ten times the recovery's of MoveWithTheirPoints: least squares of a few points of that size
+  const double tolerance = 10 * 64 * 100 * 8 * std::numeric_limits<double>::epsilon();
+  for (std::size_t f = 0; f < expected.Faces.size(); ++f)
+  {
+    ASSERT_EQ(found.Faces[f].Loops.size(), expected.Faces[f].Loops.size());
+    for (std::size_t l = 0; l < expected.Faces[f].Loops.size(); ++l)
+    {
+      for (std::size_t c = 0; c < expected.Faces[f].Loops[l].Curves.size(); ++c)
+      {
+        const TrimmingCurve& a = expected.Faces[f].Loops[l].Curves[c];
+        const TrimmingCurve& b = found.Faces[f].Loops[l].Curves[c];
+        EXPECT_LE((a.Curve.ControlPoints - b.Curve.ControlPoints).cwiseAbs().maxCoeff(), tolerance);
+        EXPECT_LE((a.UV - b.UV).cwiseAbs().maxCoeff(), tolerance);
+        EXPECT_EQ(a.Edge, b.Edge);
+      }
+    }
+  }
+  // the curves have moved
+  const auto& before = grids.Decode().Faces[0].Loops[0].Curves[0].Curve.ControlPoints;
+  const auto& after = found.Faces[0].Loops[0].Curves[0].Curve.ControlPoints;
+  EXPECT_GT((before - after).cwiseAbs().maxCoeff(), 0.5);
+}
+
+TEST(TrimmedGrids, CarriedCurvesThatDoNotFitAreRefused)
+{
+  struct Damage
+  {
+    const char* Name;
+    std::function<void(vtkUnstructuredGrid*)> Do;
+    ErrorCode Code;
+    const char* Words;
+  };
+  const auto numbers = [](int column, int value)
+  {
+    return [column, value](vtkUnstructuredGrid* grid)
+    { grid->GetFieldData()->GetArray(CarriedArrays[0])->SetComponent(0, column, value); };
+  };
+  std::vector<Damage> damages = {
+    { "bent",
+      [](vtkUnstructuredGrid* grid)
+      {
+        for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+        {
+          double x[3];
+          grid->GetPoint(i, x);
+          grid->GetPoints()->SetPoint(i, x[0], x[1], x[2] + 0.1 * x[0] * x[0]);
+        }
+      },
+      ErrorCode::InvalidTopology, "were bent" },
+    { "degree", numbers(7, 12), ErrorCode::InvalidTopology, CarriedArrays[0] },
+    { "functions", numbers(8, 1000000000), ErrorCode::InvalidTopology, CarriedArrays[0] },
+    { "fewer functions", numbers(8, 2), ErrorCode::InvalidKnots, CarriedArrays[1] },
+    { "loop", numbers(1, 5), ErrorCode::InvalidTopology, "loop" },
+    { "vertex", numbers(4, 77), ErrorCode::InvalidTopology, "two different curves" },
+    { "knots",
+      [](vtkUnstructuredGrid* grid)
+      { grid->GetFieldData()->GetArray(CarriedArrays[1])->SetComponent(0, 0, 1e9); },
+      ErrorCode::InvalidKnots, CarriedArrays[1] },
+    { "values",
+      [](vtkUnstructuredGrid* grid)
+      { grid->GetFieldData()->GetArray(CarriedArrays[1])->InsertNextTuple1(1.0); },
+      ErrorCode::InvalidTopology, CarriedArrays[1] },
+    { "no number",
+      [](vtkUnstructuredGrid* grid)
+      {
+        vtkDataArray* values = grid->GetFieldData()->GetArray(CarriedArrays[1]);
+        values->SetComponent(values->GetNumberOfTuples() - 1, 0, std::nan(""));
+      },
+      ErrorCode::NonFiniteInput, "face 1" },
+    { "rows",
+      [](vtkUnstructuredGrid* grid)
+      { grid->GetFieldData()->GetArray(CarriedArrays[2])->SetComponent(0, 2, 1e9); },
+      ErrorCode::InvalidTopology, CarriedArrays[2] },
+    { "other surfaces",
+      [](vtkUnstructuredGrid* grid)
+      { grid->GetFieldData()->GetArray(CarriedArrays[2])->SetComponent(0, 2, 3); },
+      ErrorCode::InvalidTopology, "other control points" },
+  };
+  for (const char* name : { CarriedArrays[1], CarriedArrays[2], CarriedArrays[3] })
+  {
+    damages.push_back(
+      { name, [name](vtkUnstructuredGrid* grid) { grid->GetFieldData()->RemoveArray(name); },
+        ErrorCode::InvalidTopology, name });
+  }
+  for (const Damage& damage : damages)
+  {
+    SCOPED_TRACE(damage.Name);
+    const Grids grids(TwoFaces());
+    damage.Do(grids.Surfaces);
+    const auto found = DecodeTrimmedModel(grids.Surfaces, nullptr);
+    EXPECT_EQ(found.Status.Code, damage.Code) << found.Status.Message();
+    EXPECT_NE(found.Status.Detail.find(damage.Words), std::string::npos) << found.Status.Detail;
+  }
+}
+
 TEST(TrimmedGrids, SeveralModelsInOneGrid_ExactOracle)
 {
   const TrimmedModel first = TwoFaces(1);
@@ -339,6 +483,10 @@ TEST(TrimmedGrids, FacesWithoutCurves_PropertyOracle)
 {
   TrimmedModel whole = TwoFaces();
   const Grids trimmed(whole);
+  for (const char* name : CarriedArrays)
+  {
+    trimmed.Surfaces->GetFieldData()->RemoveArray(name);
+  }
   std::vector<std::string> warnings;
   auto found = DecodeTrimmedModel(trimmed.Surfaces, nullptr, &warnings);
   ASSERT_TRUE(found) << found.Status.Message();

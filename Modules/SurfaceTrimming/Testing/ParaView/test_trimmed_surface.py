@@ -3,7 +3,8 @@
 import knotwork_testing
 
 knotwork_testing.load_plugin()
-from paraview.simple import MeshParameterization, OutputPort, Sphere, Transform, TrimmedSurface  # noqa: E402
+from paraview.simple import (  # noqa: E402
+    IntegrateVariables, MeshParameterization, OpenDataFile, OutputPort, SaveData, Sphere, Transform, TrimmedSurface)
 
 
 def half_sphere():
@@ -42,6 +43,29 @@ def test_transform_moves_surfaces_and_curves():
         moved.UpdatePipeline()
         before, after = (source.GetDataInformation().GetBounds() for source in (OutputPort(trimmed, port), moved))
         assert abs(after[4] - before[4] - 5) < 1e-5, (before, after)
+
+
+def area(proxy):
+    integral = IntegrateVariables(Input=proxy)
+    integral.UpdatePipeline()
+    return integral.GetClientSideObject().GetOutputDataObject(0).GetCellData().GetArray("Area").GetValue(0)
+
+
+def test_saved_surfaces_keep_their_trims():
+    trimmed = TrimmedSurface(Input=OutputPort(half_sphere(), 0))
+    shrunk = Transform(Input=OutputPort(trimmed, 1))
+    shrunk.Transform.Scale = (0.5, 0.5, 0.5)
+    shrunk.Transform.Translate = (1, 2, 3)
+    for source, factor in ((OutputPort(trimmed, 1), 1), (shrunk, 0.25)):
+        for ending in ("step", "iges"):
+            file = knotwork_testing.output("saved_trims." + ending)
+            SaveData(file, proxy=source)
+            again = OpenDataFile(file)
+            again.UpdatePipeline()
+            assert OutputPort(again, 1).GetDataInformation().GetNumberOfCells() > 0
+            # within the trim's tolerance, and the reader's chordal one: the margin around it is larger
+            faces = area(OutputPort(trimmed, 0)) * factor
+            assert abs(area(OutputPort(again, 2)) / faces - 1) < 0.01, (ending, factor)
 
 
 knotwork_testing.main(globals())
