@@ -147,7 +147,7 @@ function(knotwork_add_filter_tests module)
     LABELS ${labels} LIBRARIES ${libraries})
 endfunction()
 
-# A test that runs a command with the scripts' environment.
+# A test that runs a command with the scripts' environment. Exit status 77: it is listed as skipped.
 # knotwork_add_command_test(NAME [DISPLAY] LABELS label... COMMAND command... [TIMEOUT s])
 function(knotwork_add_command_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "DISPLAY" "TIMEOUT" "LABELS;COMMAND;ENVIRONMENT")
@@ -162,7 +162,7 @@ function(knotwork_add_command_test name)
   foreach(dir IN ITEMS KNOTWORK_DATA_DIR KNOTWORK_BASELINE_DIR KNOTWORK_OUTPUT_DIR)
     list(APPEND arg_ENVIRONMENT "${dir}=${${dir}}")
   endforeach()
-  set_tests_properties(${name} PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${arg_LABELS}"
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${arg_LABELS}" SKIP_RETURN_CODE 77
     ENVIRONMENT "${arg_ENVIRONMENT}")
 endfunction()
 
@@ -197,13 +197,17 @@ function(knotwork_add_python_test module script)
     ENVIRONMENT "PYTHONPATH=${CMAKE_BINARY_DIR}/${KNOTWORK_PYTHON_DIR}:${CMAKE_SOURCE_DIR}/Testing/Harness")
 endfunction()
 
-# knotwork_add_paraview_test(MODULE script.py [SLOW] [ARGUMENTS ...])
-#   Runs the script in pvbatch with the plugin of the ParaView build tree loaded (KNOTWORK_PARAVIEW_TREE); the test is
-#   <MODULE>.ParaView.<script>. Without such a tree configured there are no ParaView tests.
+# knotwork_add_paraview_test(MODULE script.py [SLOW] [PROGRAM program] [ARGUMENTS ...])
+#   Runs the script in pvbatch (PROGRAM: in another one, that starts pvbatch itself) with the plugin of the ParaView build
+#   tree at hand (KNOTWORK_PARAVIEW_TREE); the test is <MODULE>.ParaView.<script>. Without such a tree configured there are no
+#   ParaView tests.
 function(knotwork_add_paraview_test module script)
-  cmake_parse_arguments(PARSE_ARGV 2 arg "SLOW" "" "LABELS;ARGUMENTS")
+  cmake_parse_arguments(PARSE_ARGV 2 arg "SLOW" "PROGRAM" "LABELS;ARGUMENTS")
   if(NOT KNOTWORK_PARAVIEW_TREE)
     return()
+  endif()
+  if(NOT arg_PROGRAM)
+    set(arg_PROGRAM pvbatch)
   endif()
   get_filename_component(path "${script}" ABSOLUTE)
   get_filename_component(stem "${script}" NAME_WE)
@@ -212,7 +216,7 @@ function(knotwork_add_paraview_test module script)
     list(APPEND labels slow)
   endif()
   knotwork_add_command_test(${module}.ParaView.${stem} DISPLAY LABELS ${labels}
-    COMMAND pvbatch "${path}" ${arg_ARGUMENTS}
+    COMMAND "${arg_PROGRAM}" "${path}" ${arg_ARGUMENTS}
     ENVIRONMENT
       "PYTHONPATH=${KNOTWORK_PARAVIEW_PREFIX}/usr/lib/python3/dist-packages:${CMAKE_SOURCE_DIR}/Testing/Harness"
       "KNOTWORK_PLUGIN=${KNOTWORK_PARAVIEW_TREE}/lib/knotwork-paraview/Knotwork/Knotwork.so")

@@ -4,6 +4,7 @@
 /// 3 invalid, 4 undecided.
 #include "Jobs.h"
 #include "OneLine.h"
+#include "ParallelStart.h"
 #include "Session.h"
 #include "TruthValues.h"
 
@@ -125,6 +126,14 @@ int main(int argc, char* argv[])
     if (!job->parsed())
     {
       continue;
+    }
+    if (const auto start = knotwork::FindParallelStart(); !start.Refusal.empty())
+    {
+      if (start.First)
+      {
+        Fail(job->get_name(), start.Refusal);
+      }
+      return WrongUsage;
     }
     try
     {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSplineAlgorithm.h"
 
+#include "DistributedInput.h"
+
 #include "vtkDataObject.h"
 #include "vtkDataObjectTypes.h"
 #include "vtkErrorCode.h"
@@ -82,9 +84,21 @@ int vtkSplineAlgorithm::RequestData(
 {
   this->SetErrorCode(vtkErrorCode::NoError);
   knotwork::Status status;
+  bool speaks = true;
   try
   {
-    status = this->Compute(inputs, outputs);
+    const int ports = this->GetNumberOfInputPorts();
+    // Sources run in the first of several processes alone.
+    if (ports > 0 && !this->WorksOnPieces())
+    {
+      status = knotwork::CheckWholeInput(inputs, ports, outputs, speaks);
+    }
+    const bool idle =
+      ports > 0 && knotwork::NumberOfPieces(outputs) > 1 && !knotwork::HasData(inputs, ports);
+    if (status && !idle)
+    {
+      status = this->Compute(inputs, outputs);
+    }
   }
   catch (const std::exception& error) // of a library below the kernel, out of memory
   {
@@ -106,8 +120,12 @@ int vtkSplineAlgorithm::RequestData(
   {
     return 1;
   }
-  vtkErrorMacro("" << status.Message());
-  return 0;
+  if (speaks)
+  {
+    vtkErrorMacro("" << status.Message());
+  }
+  // Of several processes all go on, with empty outputs: filters behind this one may wait for all.
+  return knotwork::NumberOfPieces(outputs) > 1 ? 1 : 0;
 }
 
 void vtkSplineAlgorithm::ReportWarnings(const std::vector<std::string>& warnings)

@@ -7,7 +7,10 @@
  * vtkPartitionedDataSetCollection of such grids; output 0 has the same type where the filter keeps
  * spline grids. Derived classes implement Compute(); this class turns kernel statuses and
  * exceptions of libraries into one VTK error, sets the error code (vtkErrorCode::UserError + code
- * of the kernel), clears the outputs on failure, and connects progress and abort.
+ * of the kernel), clears the outputs on failure, and connects progress and abort. In several
+ * processes (MPI) filters that need the whole of their inputs fail (InvalidTopology), in one
+ * message, when more than one process has data (see DistributedInput.h); the others give empty
+ * outputs.
  */
 #ifndef vtkSplineAlgorithm_h
 #define vtkSplineAlgorithm_h
@@ -38,6 +41,12 @@ protected:
   /** The three acts of the filter. A Status other than Ok becomes the filter's error. */
   virtual knotwork::Status Compute(
     vtkInformationVector** inputs, vtkInformationVector* outputs) = 0;
+
+  /**
+   * Whether the result for a piece of the inputs is that piece of the result for the whole. Those
+   * that return true are called with pieces, the others never.
+   */
+  virtual bool WorksOnPieces() const { return false; }
 
   /** Reports progress to the pipeline and stops the kernel when the filter is asked to abort. */
   knotwork::ProgressCallback Progress();

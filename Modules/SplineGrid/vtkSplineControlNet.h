@@ -43,6 +43,7 @@ protected:
   ~vtkSplineControlNet() override = default;
   int RequestDataObject(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  bool WorksOnPieces() const override { return true; }
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:

@@ -85,6 +85,8 @@ protected:
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestDataObject(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  /** At parameters; the nearest point may lie on another piece. */
+  bool WorksOnPieces() const override { return this->Mode == PARAMETERS; }
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:

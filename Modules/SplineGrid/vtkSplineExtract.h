@@ -90,6 +90,7 @@ public:
 protected:
   vtkSplineExtract();
   ~vtkSplineExtract() override = default;
+  bool WorksOnPieces() const override { return true; }
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:

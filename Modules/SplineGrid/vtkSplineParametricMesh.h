@@ -42,6 +42,7 @@ public:
 protected:
   vtkSplineParametricMesh();
   ~vtkSplineParametricMesh() override = default;
+  bool WorksOnPieces() const override { return true; }
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:

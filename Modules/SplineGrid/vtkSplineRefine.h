@@ -190,6 +190,7 @@ protected:
   vtkSplineRefine();
   ~vtkSplineRefine() override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  bool WorksOnPieces() const override { return true; }
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:

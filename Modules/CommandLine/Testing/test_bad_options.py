@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Skeletons, points and numbers that read well but cannot be worked with: refused in one line that names them."""
+import os
+import subprocess
+
 import numpy as np
 
 import damages
@@ -179,6 +182,20 @@ def test_points_outside_are_named():
                              (["evaluate", grid, points, "--parameter-array", "nothing"], ["nothing"])):
         refuse([*arguments, "--output", "out.vtp"], *words)
     refuse(["crop", surface, points, "--output", "out.step"], "outside.vtp", "point 1")
+
+
+def test_a_start_by_mpirun_is_refused_once():
+    output = path("twice.vtu")
+    for launcher in ("OMPI_COMM_WORLD", "PMI", "MV2_COMM_WORLD"):
+        for size, rank, lines in ((2, 0, 1), (2, 1, 0), (1, 0, 0)):
+            names = {launcher + "_SIZE": str(size), launcher + "_RANK": str(rank)}
+            done = subprocess.run([knotwork_testing.PROGRAM, "source", "--output", output], stderr=subprocess.PIPE, text=True,
+                                  env={**os.environ, **names})
+            assert done.returncode == (2 if size > 1 else 0), (names, done.stderr)
+            assert len(done.stderr.splitlines()) == lines, done.stderr
+            assert lines == 0 or (launcher + "_SIZE is 2" in done.stderr and "without mpirun" in done.stderr), done.stderr
+            assert os.path.exists(output) == (size == 1)
+        os.remove(output)
 
 
 knotwork_testing.main(globals())

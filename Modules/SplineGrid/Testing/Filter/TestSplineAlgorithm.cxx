@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The base class: types of outputs, errors, exceptions, abort.
+#include "DistributedInput.h"
 #include "RandomModels.h"
 #include "vtkSplineAlgorithm.h"
 
 #include "vtkCallbackCommand.h"
+#include "vtkDummyCommunicator.h"
+#include "vtkDummyController.h"
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -12,10 +15,12 @@
 #include "vtkPartitionedDataSet.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 
 using namespace knotwork;
@@ -181,5 +186,130 @@ TEST(SplineAlgorithm, AbortLeavesNothingAndIsNoError)
   EXPECT_TRUE(messages.Errors.empty());
   EXPECT_EQ(
     vtkUnstructuredGrid::SafeDownCast(filter->GetOutputDataObject(0))->GetNumberOfCells(), 0);
+}
+
+/// This process is one of two; of the other one it is known whether it has data.
+class TwoProcesses : public vtkDummyCommunicator
+{
+public:
+  static TwoProcesses* New();
+  vtkTypeMacro(TwoProcesses, vtkDummyCommunicator);
+  int OtherHasData = 0;
+  int Calls = 0;
+  void BecomeProcess(int number) { this->LocalProcessId = number; }
+
+  int AllGatherVoidArray(const void* mine, void* all, vtkIdType, int) override
+  {
+    ++this->Calls;
+    static_cast<int*>(all)[this->LocalProcessId] = *static_cast<const int*>(mine);
+    static_cast<int*>(all)[1 - this->LocalProcessId] = this->OtherHasData;
+    return 1;
+  }
+
+protected:
+  TwoProcesses() { this->MaximumNumberOfProcesses = this->NumberOfProcesses = 2; }
+};
+vtkStandardNewMacro(TwoProcesses);
+
+/// The global controller while it lives.
+struct Processes
+{
+  vtkNew<TwoProcesses> Communicator;
+  vtkNew<vtkDummyController> Controller;
+  vtkMultiProcessController* Before = vtkMultiProcessController::GetGlobalController();
+
+  Processes()
+  {
+    this->Controller->SetCommunicator(this->Communicator);
+    vtkMultiProcessController::SetGlobalController(this->Controller);
+  }
+  ~Processes() { vtkMultiProcessController::SetGlobalController(this->Before); }
+};
+
+class CopyPieces : public Copy
+{
+public:
+  static CopyPieces* New();
+  vtkTypeMacro(CopyPieces, Copy);
+
+protected:
+  bool WorksOnPieces() const override { return true; }
+};
+vtkStandardNewMacro(CopyPieces);
+
+vtkIdType Cells(vtkAlgorithm* filter)
+{
+  return vtkUnstructuredGrid::SafeDownCast(filter->GetOutputDataObject(0))->GetNumberOfCells();
+}
+
+TEST(SplineAlgorithm, TheWholeInputIsInOneOfTwoProcesses_ExactOracle)
+{
+  const auto grid = Encode(RandomModel({ 2, SpaceKind::Tensor, false, 1, 1 }));
+  const auto failed =
+    vtkErrorCode::UserError + static_cast<unsigned long>(ErrorCode::InvalidTopology);
+  for (int process : { 0, 1 })
+  {
+    for (bool here : { false, true })
+    {
+      for (bool there : { false, true })
+      {
+        SCOPED_TRACE(std::to_string(process) + " " + std::to_string(here) + std::to_string(there));
+        Processes processes;
+        processes.Communicator->BecomeProcess(process);
+        processes.Communicator->OtherHasData = there ? 1 : 0;
+        vtkNew<Copy> filter;
+        Messages messages(filter);
+        filter->SetInputDataObject(here ? grid : vtkSmartPointer<vtkUnstructuredGrid>::New());
+        const int done = filter->UpdatePiece(process, 2, 0);
+        EXPECT_EQ(done, 1); // what follows runs in both processes
+        EXPECT_EQ(processes.Communicator->Calls, 1);
+        EXPECT_EQ(Cells(filter) > 0, here && !there);
+        EXPECT_EQ(filter->GetErrorCode(), here && there ? failed : 0);
+        // the first one with data speaks
+        ASSERT_EQ(messages.Errors.size(), here && there && process == 0 ? 1U : 0U);
+        if (!messages.Errors.empty())
+        {
+          EXPECT_NE(messages.Errors[0].find("spread over 2 of 2 processes"), std::string::npos);
+          EXPECT_NE(messages.Errors[0].find("without mpirun"), std::string::npos);
+        }
+        vtkNew<CopyPieces> pieces;
+        pieces->SetInputDataObject(here ? grid : vtkSmartPointer<vtkUnstructuredGrid>::New());
+        pieces->UpdatePiece(process, 2, 0);
+        EXPECT_EQ(Cells(pieces) > 0, here);
+        EXPECT_EQ(processes.Communicator->Calls, 1);
+      }
+    }
+  }
+}
+
+TEST(SplineAlgorithm, APieceThatMayNotBeTheWholeIsRefused)
+{
+  const auto grid = Encode(RandomModel({ 2, SpaceKind::Tensor, false, 1, 1 }));
+  // one process that asks for a piece; one of several that asks for the whole
+  for (const bool several : { false, true })
+  {
+    std::unique_ptr<Processes> processes(several ? new Processes : nullptr);
+    const int pieces = several ? 1 : 3;
+    vtkNew<Copy> filter;
+    Messages messages(filter);
+    filter->SetInputDataObject(grid);
+    filter->UpdatePiece(0, pieces, 0);
+    EXPECT_EQ(Cells(filter), 0);
+    ASSERT_EQ(messages.Errors.size(), 1U);
+    EXPECT_NE(messages.Errors[0].find(several ? "one of 2 processes" : "one of 3 pieces"),
+      std::string::npos)
+      << messages.Errors[0];
+    filter->SetInputDataObject(vtkNew<vtkUnstructuredGrid>());
+    filter->UpdatePiece(0, pieces, 0);
+    EXPECT_EQ(messages.Errors.size(), 1U);
+    if (several)
+    {
+      EXPECT_EQ(processes->Communicator->Calls, 0); // nobody is waited for
+    }
+  }
+  vtkNew<Copy> filter;
+  filter->SetInputDataObject(grid);
+  filter->Update();
+  EXPECT_GT(Cells(filter), 0);
 }
 }

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "Status.h"
+#include "vtkKnotworkSplineGridModule.h" // for export macro
+
+class vtkInformationVector;
+
+namespace knotwork
+{
+/// Pieces that are asked for, or processes of the global controller, whichever are more.
+VTKKNOTWORKSPLINEGRID_EXPORT int NumberOfPieces(vtkInformationVector* outputs);
+
+/// Whether one of the inputs has points, cells or rows. Of several processes those without stay
+/// idle.
+VTKKNOTWORKSPLINEGRID_EXPORT bool HasData(vtkInformationVector** inputs, int numInputPorts);
+
+/// Whether an algorithm that needs the whole of its inputs has got it: always with one piece and
+/// one process. When every process is asked for its piece they tell each other whether they have
+/// data, and one may have it. Asked for one of several pieces by a single process, or for the whole
+/// in one of several processes, an input with data may be a part.
+/// @pre when the number of pieces is that of the processes, all of them call this.
+/// @param speaks  whether it is this process that should report the failure.
+/// @return Ok or InvalidTopology.
+VTKKNOTWORKSPLINEGRID_EXPORT Status CheckWholeInput(
+  vtkInformationVector** inputs, int numInputPorts, vtkInformationVector* outputs, bool& speaks);
+}
