@@ -25,25 +25,17 @@ cmake --build "$release" -j "$jobs"
 
 build_plugin "$jobs"
 
-# Template-mapping cases as files, where they lie beside the project; their test skips itself without them.
-cases="$root/../shared/data/template"
-if [ -z "${KNOTWORK_TEMPLATE_CASES:-}" ] && [ -d "$cases" ]; then
-  export KNOTWORK_TEMPLATE_CASES="$cases"
-fi
-
-# Domain boundaries as files, likewise.
+# Cases of other origin, where they lie beside the project: ctest lists as skipped what needs them and does not find them.
 domains="$root/../shared/data/domains"
 if [ -z "${KNOTWORK_DOMAIN_CASES:-}" ] && [ -d "$domains" ]; then
   export KNOTWORK_DOMAIN_CASES="$domains"
 fi
 
-# Meshes, likewise.
 meshes="$root/../shared/data/meshes"
 if [ -z "${KNOTWORK_MESH_CASES:-}" ] && [ -d "$meshes" ]; then
   export KNOTWORK_MESH_CASES="$meshes"
 fi
 
-# LR surfaces, likewise.
 surfaces="$root/../shared/data/lr"
 if [ -z "${KNOTWORK_LR_CASES:-}" ] && [ -d "$surfaces" ]; then
   export KNOTWORK_LR_CASES="$surfaces"

@@ -32,10 +32,16 @@ def output_folder():
     return folder
 
 
+def leave_out(reason):
+    """Ends the script with a status of its own: its pictures cannot be drawn here."""
+    print(reason, file=sys.stderr)
+    sys.exit(77)
+
+
 def read_off(name):
     """Vertices and triangles of an OFF mesh in CGAL's archive of data (Debian's libcgal-demo)."""
     if not os.path.exists(ARCHIVE):
-        sys.exit(f"{ARCHIVE} is missing; install the package libcgal-demo")
+        leave_out(f"{ARCHIVE} is missing; install the package libcgal-demo")
     with tarfile.open(ARCHIVE) as archive:
         text = archive.extractfile("data/meshes/" + name).read().decode()
     words = " ".join(line for line in text.splitlines() if not line.startswith("#")).split()

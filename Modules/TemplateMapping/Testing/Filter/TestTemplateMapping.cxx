@@ -24,11 +24,10 @@
 #include <vtkTable.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataReader.h>
+#include <vtkXMLPolyDataWriter.h>
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <fstream>
 #include <functional>
 
 using namespace knotwork;
@@ -877,21 +876,24 @@ TEST(TemplateMappingFilter, RunsAgainOnlyWhenSomethingChanged_PropertyOracle)
   EXPECT_GT(run.Map()->GetMTime(), first);
 }
 
-// The case as files, where the environment variable KNOTWORK_TEMPLATE_CASES names their folder.
+vtkSmartPointer<vtkPolyData> ThroughAFile(vtkPolyData* data, const std::string& name)
+{
+  const std::string file = std::string(KNOTWORK_OUTPUT_DIR) + "/" + name;
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetInputData(data);
+  writer->SetFileName(file.c_str());
+  EXPECT_EQ(writer->Write(), 1);
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  return reader->GetOutput();
+}
+
+// The published case, with its numbers of samples, as files.
 TEST(TemplateMappingFilter, FiveLobesFromFiles_GoldenOracle)
 {
-  const char* folder = std::getenv("KNOTWORK_TEMPLATE_CASES");
-  const std::string stem = std::string(folder ? folder : "") + "/flower5_";
-  if (!folder || !std::ifstream(stem + "template.vtp"))
-  {
-    GTEST_SKIP() << "KNOTWORK_TEMPLATE_CASES names no folder with flower5_template.vtp";
-  }
-  vtkNew<vtkXMLPolyDataReader> skeleton;
-  vtkNew<vtkXMLPolyDataReader> target;
-  skeleton->SetFileName((stem + "template.vtp").c_str());
-  target->SetFileName((stem + "target.vtp").c_str());
-  skeleton->Update();
-  target->Update();
+  const auto skeleton = ThroughAFile(ToPolyData(CircleTemplate(10001)), "flower5_template.vtp");
+  const auto target = ThroughAFile(ToPolyData(LobedTarget()), "flower5_target.vtp");
   const double expected[3][2] = { { 3.530e-05, 1.59 }, { 1.985e-05, 0.483 }, { 8.715e-06, 0.0 } };
   for (int method = vtkTemplateMapping::FIXED; method <= vtkTemplateMapping::TDM; ++method)
   {
@@ -901,7 +903,7 @@ TEST(TemplateMappingFilter, FiveLobesFromFiles_GoldenOracle)
       Mapping run;
       run.Filter->SetMethod(method);
       run.Filter->SetGuard(guard);
-      run.On(skeleton->GetOutput(), target->GetOutput());
+      run.On(skeleton, target);
       if (!guard || method == vtkTemplateMapping::TDM)
       {
         EXPECT_NEAR(run.Last("SquaredL2Error"), expected[method][0], 0.03 * expected[method][0]);
@@ -918,7 +920,7 @@ TEST(TemplateMappingFilter, FiveLobesFromFiles_GoldenOracle)
     run.Filter->SetRefineThreshold(5e-6);
     run.Filter->SetExtension(extension);
     run.Filter->SetIterations(8);
-    run.On(skeleton->GetOutput(), target->GetOutput());
+    run.On(skeleton, target);
     EXPECT_LE(run.Last("SquaredL2Error"), 7.3e-11); // of global refinement to 9801 functions
     EXPECT_LE(run.Last("Functions"), 980);
     EXPECT_EQ(run.Last("NegativeJacobianPercent"), 0.0);
