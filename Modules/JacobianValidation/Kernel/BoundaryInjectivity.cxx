@@ -3,6 +3,7 @@
 #include "Parallel.h"
 #include "PreimageProof.h"
 #include "SideSeparation.h"
+#include "StarShape.h"
 
 #include <Eigen/Dense>
 
@@ -14,9 +15,25 @@ namespace knotwork
 {
 namespace
 {
+/// A pair of sides gets so many boxes at first, and so many when there are many pairs.
 constexpr std::int64_t firstBoxes = 4096;
+constexpr std::int64_t leastBoxes = 256;
+/// Parts of MaxBoxes: a cell's, and that of few cells.
+constexpr std::int64_t partOfCell = 1500;
+constexpr std::int64_t partOfFew = 100;
 /// Sides with common corners are an interface when they are nearer than this part of their size.
 constexpr double slender = 0.05;
+/// Sides whose neighbours are looked up at a time, and pairs worked on before an overlap among them
+/// ends the proof: the first so many, then twice as many each time, up to the last.
+constexpr std::size_t sidesAtOnce = 256;
+constexpr std::size_t firstPairs = 32;
+constexpr std::size_t mostPairs = 8192;
+/// Of those worked on at a time, so many that cannot be separated are searched for an overlap, and
+/// so many of which nothing is known but that boxes were not enough.
+constexpr std::size_t mostSuspects = 16;
+constexpr std::size_t mostUnknown = 2;
+/// Sides of a component at which it is tried to count preimages.
+constexpr int placesOfComponent = 4;
 
 Status CheckInput(const BernsteinCells& cells, const CellComplex& complex,
   const JacobianCertificate& certificate, const InjectivityParams& params)
@@ -93,7 +110,10 @@ class Run
 public:
   Run(const BernsteinCells& cells, const CellComplex& complex,
     const JacobianCertificate& certificate, const InjectivityParams& params)
-    : Cells(cells), Complex(complex), Local(certificate), Params(params)
+    : Cells(cells), Complex(complex), Local(certificate), Params(params),
+      MaxBoxes(std::max<std::int64_t>(1,
+        std::min(params.MaxBoxes,
+          std::max(params.MaxBoxes / partOfFew, params.MaxBoxes / partOfCell * cells.NumCells()))))
   {
   }
 
@@ -101,12 +121,11 @@ public:
   bool Prove(const ProgressCallback& progress)
   {
     const auto report = [&](double part) { return !progress || progress(part); };
-    std::vector<int> signs;
     for (const CellCertificate& c : this->Local.Cells)
     {
-      signs.push_back(c.Verdict == Verdict::Reversed ? -1 : 1);
+      this->Signs.push_back(c.Verdict == Verdict::Reversed ? -1 : 1);
     }
-    this->Gluing = GlueCells(this->Cells, this->Complex, signs, this->Params);
+    this->Gluing = GlueCells(this->Cells, this->Complex, this->Signs, this->Params);
     this->Out.NumBoundarySides = static_cast<int>(this->Gluing.Boundary.size());
     this->Out.NumBoundaryComponents = this->Gluing.NumComponents;
     this->Out.NumInterfaces = this->Gluing.NumInterfaces;
@@ -118,18 +137,14 @@ public:
     {
       return false;
     }
-    this->MakeTables();
-    this->FindPairs();
-    if (!report(0.3))
-    {
-      return false;
-    }
     if (this->FindFolds())
     {
       return true;
     }
-    this->Separate();
-    if (!report(0.8))
+    this->MakeTables();
+    this->StarShaped = FindStarShaped(this->Gluing.Boundary, this->Gluing.NumComponents,
+      this->SideCells, this->Signs, this->Params.Threads);
+    if (!report(0.2) || !this->SeparateAll(report))
     {
       return false;
     }
@@ -234,29 +249,99 @@ private:
       });
   }
 
-  /// Pairs of sides whose boxes meet, without those that are gaps.
-  void FindPairs()
+  /// A pair of sides, and what is known of it.
+  struct PairState
   {
+    std::array<int, 2> Sides{};
+    /// Sides of two patches within reach of each other.
+    bool MayBeGap = false;
+    bool Meet = false; ///< their boxes
+    bool IsGap = false;
+    InterfaceGap Gap;
+    SeparationResult Separation;
+    bool HasOverlap = false;
+    Place First;
+    Place Second;
+    double Radius = 0.0;
+  };
+
+  /// Works through all pairs of sides that come near each other, in their order.
+  /// @return false when aborted.
+  template <typename Report>
+  bool SeparateAll(const Report& report)
+  {
+    const std::size_t n = static_cast<std::size_t>(this->SideCells.NumCells());
+    if (n == 0)
+    {
+      return true;
+    }
     PointMatrix lower;
     PointMatrix upper;
     MakeBoxes(this->SideCells, this->SideLattices, lower, upper, this->Params.Threads);
-    const int n = this->SideCells.NumCells();
-    if (n == 0)
-    {
-      return;
-    }
     const BoxTree tree(lower, upper);
     this->ModelSize =
       (upper.colwise().maxCoeff() - lower.colwise().minCoeff()).cwiseAbs().maxCoeff();
-    const double reach = this->Params.GapTolerance * this->ModelSize;
-    std::vector<std::vector<int>> near(static_cast<std::size_t>(n));
-    std::vector<std::vector<InterfaceGap>> gaps(static_cast<std::size_t>(n));
-    ParallelFor(static_cast<std::size_t>(n), 64, this->Params.Threads,
-      [&](std::size_t begin, std::size_t end)
+    this->FindLonely(lower, upper);
+    std::vector<PairState> open;
+    std::size_t batch = firstPairs;
+    for (std::size_t first = 0; first < n; first += sidesAtOnce)
+    {
+      const std::vector<PairState> pairs =
+        this->FindPairs(tree, lower, upper, first, std::min(n, first + sidesAtOnce));
+      for (std::size_t done = 0; done < pairs.size();)
       {
-        for (std::size_t i = begin; i < end; ++i)
+        const std::size_t end = std::min(pairs.size(), done + batch);
+        const std::int64_t share = (this->MaxBoxes - this->Out.Boxes) /
+          static_cast<std::int64_t>(std::max<std::size_t>(end - done, 1));
+        std::vector<PairState> now(pairs.begin() + static_cast<std::ptrdiff_t>(done),
+          pairs.begin() + static_cast<std::ptrdiff_t>(end));
+        this->Work(
+          now, std::min(std::clamp(share, leastBoxes, firstBoxes), this->Params.MaxBoxes), false);
+        if (this->FindFirstOverlap(now))
         {
-          const int a = static_cast<int>(i);
+          return true;
+        }
+        for (PairState& pair : now)
+        {
+          if (pair.IsGap)
+          {
+            this->Out.Gaps.push_back(pair.Gap);
+          }
+          else if (pair.Separation.State != SeparationState::Separate)
+          {
+            open.push_back(std::move(pair));
+          }
+        }
+        done = end;
+        batch = std::min(2 * batch, mostPairs);
+        if (this->Out.Boxes >= this->MaxBoxes && !open.empty())
+        {
+          this->WorkOnOpen(open);
+          return report(0.8);
+        }
+      }
+      if (!report(0.2 + 0.5 * static_cast<double>(first) / static_cast<double>(n)))
+      {
+        return false;
+      }
+    }
+    this->WorkOnOpen(open);
+    return report(0.8);
+  }
+
+  /// Pairs of the sides from first to end - 1 with those that follow, whose boxes meet or come
+  /// within reach of a gap, without those of star-shaped components.
+  std::vector<PairState> FindPairs(const BoxTree& tree, const PointMatrix& lower,
+    const PointMatrix& upper, std::size_t first, std::size_t end) const
+  {
+    const double reach = this->Params.GapTolerance * this->ModelSize;
+    std::vector<std::vector<PairState>> near(end - first);
+    ParallelFor(end - first, 64, this->Params.Threads,
+      [&](std::size_t from, std::size_t to)
+      {
+        for (std::size_t i = from; i < to; ++i)
+        {
+          const int a = static_cast<int>(first + i);
           double low[3];
           double high[3];
           for (int d = 0; d < this->Cells.NumComponents; ++d)
@@ -264,44 +349,154 @@ private:
             low[d] = lower(a, d) - reach;
             high[d] = upper(a, d) + reach;
           }
-          near[i].push_back(a);
+          const auto add = [&](int b, bool meet, bool close)
+          {
+            const int component = this->Side(a).Component;
+            const bool isSimple = component == this->Side(b).Component &&
+              this->StarShaped[static_cast<std::size_t>(component)];
+            PairState pair;
+            pair.Sides = { a, b };
+            pair.MayBeGap = close && this->Side(a).Patch != this->Side(b).Patch;
+            pair.Meet = meet && !isSimple;
+            if (pair.MayBeGap || pair.Meet)
+            {
+              near[i].push_back(std::move(pair));
+            }
+          };
+          add(a, true, false);
           tree.ForNear(low, high,
             [&](int b)
             {
-              if (b <= a)
+              if (b > a)
               {
-                return;
-              }
-              bool meet = true;
-              bool close = true;
-              for (int d = 0; d < this->Cells.NumComponents; ++d)
-              {
-                close = close && lower(b, d) <= high[d] && low[d] <= upper(b, d);
-                meet = meet && lower(b, d) <= upper(a, d) && lower(a, d) <= upper(b, d);
-              }
-              InterfaceGap gap;
-              if (close && this->Side(a).Patch != this->Side(b).Patch && this->IsGap(a, b, gap))
-              {
-                gaps[i].push_back(gap);
-              }
-              else if (meet)
-              {
-                near[i].push_back(b);
+                bool meet = true;
+                bool close = true;
+                for (int d = 0; d < this->Cells.NumComponents; ++d)
+                {
+                  close = close && lower(b, d) <= high[d] && low[d] <= upper(b, d);
+                  meet = meet && lower(b, d) <= upper(a, d) && lower(a, d) <= upper(b, d);
+                }
+                add(b, meet, close);
               }
             });
-          std::sort(near[i].begin(), near[i].end());
+          std::sort(near[i].begin(), near[i].end(),
+            [](const PairState& x, const PairState& y) { return x.Sides < y.Sides; });
         }
       });
-    for (std::size_t i = 0; i < near.size(); ++i)
+    std::vector<PairState> pairs;
+    for (auto& some : near)
     {
-      for (const int b : near[i])
+      std::move(some.begin(), some.end(), std::back_inserter(pairs));
+    }
+    return pairs;
+  }
+
+  /// @param last  no other attempt follows: overlaps are looked for where the limit was reached
+  /// too.
+  void Work(std::vector<PairState>& pairs, std::int64_t limit, bool last)
+  {
+    SeparationInput input;
+    input.Sides = &this->Gluing.Boundary;
+    input.Lattices = &this->SideLattices;
+    input.NumComponents = this->Cells.NumComponents;
+    input.Rational = this->Cells.Rational;
+    input.CollapseTolerance = this->Params.CollapseTolerance;
+    ParallelFor(pairs.size(), 4, this->Params.Threads,
+      [&](std::size_t begin, std::size_t end)
       {
-        this->Pairs.push_back({ static_cast<int>(i), b });
+        for (std::size_t k = begin; k < end; ++k)
+        {
+          PairState& pair = pairs[k];
+          pair.IsGap = pair.MayBeGap && this->IsGap(pair.Sides[0], pair.Sides[1], pair.Gap);
+          pair.MayBeGap = false;
+          if (pair.IsGap || !pair.Meet)
+          {
+            continue;
+          }
+          pair.Separation = SeparateSides(input, pair.Sides[0], pair.Sides[1], limit);
+        }
+      });
+    std::vector<PairState*> suspects;
+    const auto add = [&](SeparationState state, std::size_t most)
+    {
+      for (auto pair = pairs.begin(); pair != pairs.end() && most > 0; ++pair)
+      {
+        if (pair->Separation.State == state)
+        {
+          suspects.push_back(&*pair);
+          --most;
+        }
       }
-      std::sort(gaps[i].begin(), gaps[i].end(),
-        [](const InterfaceGap& x, const InterfaceGap& y)
-        { return std::tie(x.Cells, x.Sides) < std::tie(y.Cells, y.Sides); });
-      this->Out.Gaps.insert(this->Out.Gaps.end(), gaps[i].begin(), gaps[i].end());
+    };
+    add(SeparationState::Stuck, mostSuspects);
+    add(SeparationState::Boxes, last ? mostUnknown : 0);
+    ParallelFor(suspects.size(), 1, this->Params.Threads,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t k = begin; k < end; ++k)
+        {
+          this->FindOverlap(*suspects[k]);
+        }
+      });
+    for (const PairState& pair : pairs)
+    {
+      this->Out.Boxes += pair.Separation.Boxes;
+    }
+  }
+
+  bool FindFirstOverlap(const std::vector<PairState>& pairs)
+  {
+    for (const PairState& pair : pairs)
+    {
+      if (pair.HasOverlap)
+      {
+        this->Set(InjectivityVerdict::NotInjective, InjectivityReason::Overlap);
+        this->SetWitness(pair.First, pair.Second, pair.Radius);
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// What the first attempt left open shares the boxes that are left.
+  void WorkOnOpen(std::vector<PairState>& open)
+  {
+    std::vector<PairState> limited;
+    for (const PairState& pair : open)
+    {
+      if (pair.Separation.State == SeparationState::Boxes)
+      {
+        limited.push_back(pair);
+      }
+    }
+    const std::int64_t left = this->MaxBoxes - this->Out.Boxes;
+    if (left > static_cast<std::int64_t>(limited.size()) && !limited.empty())
+    {
+      this->Work(limited, left / static_cast<std::int64_t>(limited.size()), true);
+      if (this->FindFirstOverlap(limited))
+      {
+        return;
+      }
+      auto next = limited.begin();
+      for (PairState& pair : open)
+      {
+        if (pair.Separation.State == SeparationState::Boxes)
+        {
+          pair = *next++;
+        }
+      }
+    }
+    for (const PairState& pair : open)
+    {
+      const auto& separation = pair.Separation;
+      if (separation.State != SeparationState::Separate &&
+        (this->Obstacle == SeparationState::Separate ||
+          (this->Obstacle == SeparationState::Boxes && separation.State == SeparationState::Stuck)))
+      {
+        this->Obstacle = separation.State;
+        this->ObstaclePlaces = { this->SidePlace(pair.Sides[0], separation.At[0]),
+          this->SidePlace(pair.Sides[1], separation.At[1]) };
+      }
     }
   }
 
@@ -369,6 +564,58 @@ private:
     return distance;
   }
 
+  /// Whether too many samples of a side are proved too far from another for a gap: by distances
+  /// from planes on the other side of which the control points are.
+  bool IsFar(
+    int from, int to, const std::vector<std::array<double, 3>>& samples, bool haveSameCorners) const
+  {
+    const BoundarySide& side = this->Side(to);
+    const CellLattice& lattice =
+      this->SideLattices.at({ static_cast<int>(side.Frame.Shape), side.Degree });
+    const int components = this->Cells.NumComponents;
+    Eigen::Matrix3Xd hull = Eigen::Matrix3Xd::Zero(3, lattice.Size);
+    const double* data = this->SideCells.Block(to);
+    for (int i = 0; i < lattice.Size; ++i)
+    {
+      const double w = this->Cells.Rational ? data[components * lattice.Size + i] : 1.0;
+      for (int d = 0; d < components; ++d)
+      {
+        hull(d, i) = data[d * lattice.Size + i] / w;
+      }
+    }
+    const auto corner = [&](std::size_t c) { return hull.col(lattice.Corners[c]); };
+    Eigen::Matrix3Xd directions(3, 4);
+    directions.leftCols(3).setIdentity();
+    const Eigen::Vector3d along = corner(1) - corner(0);
+    directions.col(3) = components == 2 ? Eigen::Vector3d(-along[1], along[0], 0.0)
+                                        : along.cross(corner(2) - corner(0)).eval();
+    directions.col(3).normalize();
+    const Eigen::MatrixXd places = directions.transpose() * hull;
+    const Eigen::Vector4d least = places.rowwise().minCoeff();
+    const Eigen::Vector4d most = places.rowwise().maxCoeff();
+    const double tolerance = this->Params.GapTolerance * this->ModelSize;
+    std::size_t far = 0;
+    double farthest = 0.0;
+    Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+    Eigen::Vector3d high = -low;
+    for (const auto& s : samples)
+    {
+      const Eigen::Vector3d x(EvaluateCell(this->SideCells, from, s.data()).Position.data());
+      low = low.cwiseMin(x);
+      high = high.cwiseMax(x);
+      double distance = 0.0;
+      for (int k = 0; k < 4; ++k)
+      {
+        const double at = directions.col(k).dot(x);
+        distance = std::max({ distance, at - most[k], least[k] - at });
+      }
+      far += distance > tolerance ? 1 : 0;
+      farthest = std::max(farthest, distance);
+    }
+    return 2 * far >= samples.size() &&
+      !(haveSameCorners && farthest <= slender * (high - low).norm());
+  }
+
   /// Whether two sides of different patches should be one interface.
   bool IsGap(int a, int b, InterfaceGap& gap) const
   {
@@ -387,6 +634,10 @@ private:
       const int from = turn == 0 ? a : b;
       const int to = turn == 0 ? b : a;
       const auto samples = this->SideSamples(from, curve ? 12 : 5);
+      if (this->IsFar(from, to, samples, sameCorners))
+      {
+        continue;
+      }
       const auto targets = this->SideSamples(to, curve ? 32 : 8);
       std::vector<Eigen::Vector3d> points;
       for (const auto& s : targets)
@@ -473,97 +724,9 @@ private:
     return false;
   }
 
-  struct PairState
-  {
-    SeparationResult Separation;
-    bool HasOverlap = false;
-    Place First;
-    Place Second;
-    double Radius = 0.0;
-  };
-
-  void Separate()
-  {
-    SeparationInput input;
-    input.Sides = &this->Gluing.Boundary;
-    input.Lattices = &this->SideLattices;
-    input.NumComponents = this->Cells.NumComponents;
-    input.Rational = this->Cells.Rational;
-    input.CollapseTolerance = this->Params.CollapseTolerance;
-    std::vector<PairState> states(this->Pairs.size());
-    const auto work = [&](const std::vector<std::size_t>& which, std::int64_t limit, bool last)
-    {
-      ParallelFor(which.size(), 4, this->Params.Threads,
-        [&](std::size_t begin, std::size_t end)
-        {
-          for (std::size_t k = begin; k < end; ++k)
-          {
-            PairState& state = states[which[k]];
-            const auto& pair = this->Pairs[which[k]];
-            state.Separation = SeparateSides(input, pair[0], pair[1], limit);
-            if (state.Separation.State == SeparationState::Stuck ||
-              (last && state.Separation.State == SeparationState::Boxes))
-            {
-              this->FindOverlap(pair, state);
-            }
-          }
-        });
-      for (const std::size_t k : which)
-      {
-        this->Out.Boxes += states[k].Separation.Boxes;
-      }
-    };
-    std::vector<std::size_t> all(this->Pairs.size());
-    for (std::size_t k = 0; k < all.size(); ++k)
-    {
-      all[k] = k;
-    }
-    const std::int64_t share =
-      std::max<std::int64_t>(1, std::min<std::int64_t>(firstBoxes, this->Params.MaxBoxes));
-    work(all, share, false);
-    std::vector<std::size_t> open;
-    bool overlaps = false;
-    for (const std::size_t k : all)
-    {
-      overlaps = overlaps || states[k].HasOverlap;
-      if (states[k].Separation.State == SeparationState::Boxes)
-      {
-        open.push_back(k);
-      }
-    }
-    if (!open.empty() && !overlaps)
-    {
-      const std::int64_t left = this->Params.MaxBoxes - this->Out.Boxes;
-      const std::int64_t each = left / static_cast<std::int64_t>(open.size());
-      work(open, std::max(each, share), true);
-    }
-    for (std::size_t k = 0; k < states.size(); ++k)
-    {
-      const PairState& state = states[k];
-      if (state.HasOverlap)
-      {
-        this->Set(InjectivityVerdict::NotInjective, InjectivityReason::Overlap);
-        this->SetWitness(state.First, state.Second, state.Radius);
-        return;
-      }
-    }
-    for (std::size_t k = 0; k < states.size(); ++k)
-    {
-      const auto& separation = states[k].Separation;
-      if (separation.State != SeparationState::Separate &&
-        (this->Obstacle == SeparationState::Separate ||
-          (this->Obstacle == SeparationState::Boxes && separation.State == SeparationState::Stuck)))
-      {
-        this->Obstacle = separation.State;
-        this->ObstaclePlaces = { this->SidePlace(this->Pairs[k][0], separation.At[0]),
-          this->SidePlace(this->Pairs[k][1], separation.At[1]) };
-      }
-    }
-  }
-
   /// Where boundaries cross, the insides beside them overlap: points just inside one cell whose
   /// images another cell takes too.
-  void FindOverlap(const std::array<int, 2>& pair, PairState& state) const
+  void FindOverlap(PairState& pair) const
   {
     // from where the proof stopped along the side, and inside by as much or, where the boundaries
     // cross at an acute angle, by less
@@ -573,8 +736,7 @@ private:
       {
         const double along = std::ldexp(1.0, -halving);
         const double inside = std::ldexp(along, -less);
-        if (this->TryOverlap(pair, 0, along, inside, state) ||
-          this->TryOverlap(pair, 1, along, inside, state))
+        if (this->TryOverlap(0, along, inside, pair) || this->TryOverlap(1, along, inside, pair))
         {
           return;
         }
@@ -582,16 +744,15 @@ private:
     }
   }
 
-  bool TryOverlap(
-    const std::array<int, 2>& pair, int turn, double along, double inside, PairState& state) const
+  bool TryOverlap(int turn, double along, double inside, PairState& pair) const
   {
     const bool plane = this->Cells.NumComponents == 2;
     const std::size_t at = static_cast<std::size_t>(turn);
-    const BoundarySide& from = this->Side(pair[at]);
-    const BoundarySide& to = this->Side(pair[1 - at]);
+    const BoundarySide& from = this->Side(pair.Sides[at]);
+    const BoundarySide& to = this->Side(pair.Sides[1 - at]);
     const CellLattice& lattice = this->LatticeOf(to.Cell);
     const auto start =
-      SideToCell(this->Shape(to.Cell), to.Frame, state.Separation.At[1 - at].data());
+      SideToCell(this->Shape(to.Cell), to.Frame, pair.Separation.At[1 - at].data());
     const CellShape shape = this->Shape(from.Cell);
     std::array<double, 3> middle{};
     for (int c = 0; c < NumCorners(shape); ++c)
@@ -604,7 +765,7 @@ private:
     }
     for (int k = 0; k < (plane ? 3 : 9); ++k)
     {
-      auto s = state.Separation.At[at];
+      auto s = pair.Separation.At[at];
       s[0] = std::clamp(s[0] + (k % 3 - 1) * along, 0.0, 1.0);
       s[1] = plane ? 0.0 : std::clamp(s[1] + (k / 3 - 1) * along, 0.0, 1.0);
       if (from.Frame.Shape == CellShape::Triangle && s[0] + s[1] > 1.0)
@@ -629,10 +790,10 @@ private:
       }
       if (from.Cell != to.Cell || apart > 2.0 * preimage->Radius)
       {
-        state.HasOverlap = true;
-        state.First = this->MakePlace(from.Cell, -1, u);
-        state.Second = this->MakePlace(to.Cell, -1, preimage->Parameters);
-        state.Radius = preimage->Radius;
+        pair.HasOverlap = true;
+        pair.First = this->MakePlace(from.Cell, -1, u);
+        pair.Second = this->MakePlace(to.Cell, -1, preimage->Parameters);
+        pair.Radius = preimage->Radius;
         return true;
       }
     }
@@ -699,20 +860,65 @@ private:
     return false;
   }
 
-  /// The map covers a neighbourhood of one point of every component once. A single simple component
-  /// needs no look: the degree is 0 on one side of it and 1 on the other. Components that touch are
-  /// looked at side by side.
+  /// Components whose boxes meet no other's. The number of preimages is the sum of the components'
+  /// winding numbers: near such a component it is 0 on one side and 1 on the other.
+  void FindLonely(const PointMatrix& lower, const PointMatrix& upper)
+  {
+    const Eigen::Index n = this->Gluing.NumComponents;
+    const double infinity = std::numeric_limits<double>::infinity();
+    PointMatrix low = PointMatrix::Constant(n, lower.cols(), infinity);
+    PointMatrix high = PointMatrix::Constant(n, lower.cols(), -infinity);
+    for (std::size_t i = 0; i < this->Gluing.Boundary.size(); ++i)
+    {
+      const int component = this->Gluing.Boundary[i].Component;
+      const Eigen::Index at = static_cast<Eigen::Index>(i);
+      low.row(component) = low.row(component).cwiseMin(lower.row(at));
+      high.row(component) = high.row(component).cwiseMax(upper.row(at));
+    }
+    const BoxTree tree(low, high);
+    this->Lonely.assign(static_cast<std::size_t>(n), true);
+    for (Eigen::Index i = 0; i < n; ++i)
+    {
+      const Eigen::RowVectorXd from = low.row(i);
+      const Eigen::RowVectorXd to = high.row(i);
+      tree.ForNear(from.data(), to.data(),
+        [&](int other)
+        {
+          if (other != i && (low.row(other).array() <= to.array()).all() &&
+            (from.array() <= high.row(other).array()).all())
+          {
+            this->Lonely[static_cast<std::size_t>(i)] = false;
+          }
+        });
+    }
+  }
+
+  /// The map covers a neighbourhood of one point of every component once, where that is not known.
+  /// A single simple component needs no look: the degree is 0 on one side of it and 1 on the other.
+  /// Components that touch are looked at side by side.
   void CountAtComponents()
   {
-    std::vector<int> places;
-    std::vector<bool> seen(static_cast<std::size_t>(this->Gluing.NumComponents), false);
+    std::vector<std::vector<int>> places; // any of them is enough
+    std::vector<int> first(static_cast<std::size_t>(this->Gluing.NumComponents), -1);
     for (std::size_t i = 0; i < this->Gluing.Boundary.size(); ++i)
     {
       const std::size_t component = static_cast<std::size_t>(this->Gluing.Boundary[i].Component);
-      if (!seen[component] || this->Gluing.NumTouching > 0)
+      if (this->Gluing.NumTouching > 0)
       {
-        seen[component] = true;
-        places.push_back(static_cast<int>(i));
+        places.push_back({ static_cast<int>(i) });
+      }
+      else if (!this->Lonely[component])
+      {
+        if (first[component] < 0)
+        {
+          first[component] = static_cast<int>(places.size());
+          places.emplace_back();
+        }
+        std::vector<int>& some = places[static_cast<std::size_t>(first[component])];
+        if (some.size() < placesOfComponent)
+        {
+          some.push_back(static_cast<int>(i));
+        }
       }
     }
     if (places.size() > 1)
@@ -722,23 +928,33 @@ private:
       MakeBoxes(this->Cells, this->Lattices, lower, upper, this->Params.Threads);
       const BoxTree tree(lower, upper);
       std::vector<MultiplicityResult> results(places.size());
-      const std::int64_t each = std::max<std::int64_t>(firstBoxes,
-        (this->Params.MaxBoxes - this->Out.Boxes) / static_cast<std::int64_t>(places.size()));
+      const std::int64_t each = std::max<std::int64_t>(
+        firstBoxes, (this->MaxBoxes - this->Out.Boxes) / static_cast<std::int64_t>(places.size()));
       ParallelFor(places.size(), 4, this->Params.Threads,
         [&](std::size_t begin, std::size_t end)
         {
           for (std::size_t k = begin; k < end; ++k)
           {
-            const BoundarySide& side = this->Side(places[k]);
-            results[k] = CountPreimages(this->Cells, this->Lattices, tree, side.Cell,
-              this->SideMiddle(side.Cell, side.Number).Parameters, each);
+            for (const int place : places[k])
+            {
+              const BoundarySide& side = this->Side(place);
+              const std::int64_t before = results[k].Boxes;
+              results[k] = CountPreimages(this->Cells, this->Lattices, tree, side.Cell,
+                this->SideMiddle(side.Cell, side.Number).Parameters, each - before);
+              results[k].Boxes += before;
+              if (results[k].State != Multiplicity::Unknown || results[k].Boxes > each)
+              {
+                places[k] = { place };
+                break;
+              }
+            }
           }
         });
       for (std::size_t k = 0; k < results.size(); ++k)
       {
         const MultiplicityResult& result = results[k];
         this->Out.Boxes += result.Boxes;
-        const BoundarySide& side = this->Side(places[k]);
+        const BoundarySide& side = this->Side(places[k][0]);
         const Place place = this->SideMiddle(side.Cell, side.Number);
         if (result.State == Multiplicity::Several)
         {
@@ -778,12 +994,15 @@ private:
   const CellComplex& Complex;
   const JacobianCertificate& Local;
   const InjectivityParams& Params;
+  std::int64_t MaxBoxes; ///< of these cells
   CellGluing Gluing;
   CellLatticeTable Lattices;
   CellLatticeTable SideLattices;
   BernsteinCells SideCells;
   double ModelSize = 0.0;
-  std::vector<std::array<int, 2>> Pairs;
+  std::vector<int> Signs;       ///< of det J, one a cell
+  std::vector<char> StarShaped; ///< one a component of the boundary
+  std::vector<bool> Lonely;     ///< one a component of the boundary
   SeparationState Obstacle = SeparationState::Separate;
   std::array<Place, 2> ObstaclePlaces;
 };

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CellMeasures.h"
-#include "CellPieces.h"
+#include "CellGluing.h"
 #include "Parallel.h"
-#include "Quadrature.h"
+#include "PatchIntegrals.h"
 
 #include <Eigen/Dense>
 
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <queue>
 #include <string>
 
@@ -18,65 +19,12 @@ namespace
 {
 constexpr double unitRoundoff = 0x1p-53;
 constexpr std::size_t largestTable = std::size_t(1) << 20;
-constexpr int largestNumBoxes = 20000; ///< of one cell's adaptive integral
-
-/// Points in a cell with weights.
-struct Points
-{
-  std::vector<std::array<double, 3>> Local;
-  std::vector<double> Weights;
-};
-
-/// Gauss points of a box of the unit cube, carried to the shape: simplices are the cube's images
-/// under (s, t, r) -> (s, t (1 - s), r (1 - s)(1 - t)).
-Points RulePoints(
-  CellShape shape, int n, const std::array<double, 3>& lower, const std::array<double, 3>& upper)
-{
-  const int dim = NumParameters(shape);
-  const QuadratureRule rule = GaussLegendre(n);
-  Points points;
-  const int nj = dim > 1 ? n : 1;
-  const int nk = dim > 2 ? n : 1;
-  for (int k = 0; k < nk; ++k)
-  {
-    for (int j = 0; j < nj; ++j)
-    {
-      for (int i = 0; i < n; ++i)
-      {
-        const int index[3] = { i, j, k };
-        std::array<double, 3> u{};
-        double weight = 1.0;
-        for (int d = 0; d < dim; ++d)
-        {
-          const std::size_t at = static_cast<std::size_t>(d);
-          const double width = upper[at] - lower[at];
-          u[at] = lower[at] + width * rule.Nodes[static_cast<std::size_t>(index[d])];
-          weight *= width * rule.Weights[static_cast<std::size_t>(index[d])];
-        }
-        if (shape == CellShape::Triangle || shape == CellShape::Wedge ||
-          shape == CellShape::Tetrahedron)
-        {
-          if (shape == CellShape::Tetrahedron)
-          {
-            weight *= (1.0 - u[0]) * (1.0 - u[1]);
-            u[2] *= (1.0 - u[0]) * (1.0 - u[1]);
-          }
-          weight *= 1.0 - u[0];
-          u[1] *= 1.0 - u[0];
-        }
-        points.Local.push_back(u);
-        points.Weights.push_back(weight);
-      }
-    }
-  }
-  return points;
-}
 
 /// The uniform lattice with n points along every edge.
-Points LatticePoints(CellShape shape, int n)
+std::vector<std::array<double, 3>> LatticePoints(CellShape shape, int n)
 {
   const int dim = NumParameters(shape);
-  Points points;
+  std::vector<std::array<double, 3>> points;
   for (int k = 0; k < (dim > 2 ? n : 1); ++k)
   {
     for (int j = 0; j < (dim > 1 ? n : 1); ++j)
@@ -89,8 +37,7 @@ Points LatticePoints(CellShape shape, int n)
         if (sum < n)
         {
           const double h = 1.0 / (n - 1);
-          points.Local.push_back({ i * h, j * h, k * h });
-          points.Weights.push_back(1.0);
+          points.push_back({ i * h, j * h, k * h });
         }
       }
     }
@@ -101,8 +48,8 @@ Points LatticePoints(CellShape shape, int n)
 using Table = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Values and derivatives of all basis functions: 1 + dim rows a point.
-Table MakeTable(CellShape shape, const CellDegree& degree, const Points& points, std::size_t begin,
-  std::size_t end)
+Table MakeTable(CellShape shape, const CellDegree& degree,
+  const std::vector<std::array<double, 3>>& points, std::size_t begin, std::size_t end)
 {
   const int n = NumCellCoefficients(shape, degree);
   const int rows = 1 + NumParameters(shape);
@@ -110,16 +57,14 @@ Table MakeTable(CellShape shape, const CellDegree& degree, const Points& points,
   for (std::size_t i = begin; i < end; ++i)
   {
     double* row = table.data() + static_cast<std::ptrdiff_t>(i - begin) * rows * n;
-    EvaluateCellBasis(shape, degree, points.Local[i].data(), row, row + n);
+    EvaluateCellBasis(shape, degree, points[i].data(), row, row + n);
   }
   return table;
 }
 
-/// What a point contributes: its place relative to the cell's first control point and what its
-/// derivatives say.
+/// What the derivatives at a point say.
 struct Sample
 {
-  double Position[3] = {};
   double Det = 0.0;
   double Scaled = 0.0;
   double Condition = 0.0;
@@ -133,11 +78,11 @@ Sample MakeSample(const Table& values, Eigen::Index row, int dim, int components
   Eigen::Matrix<double, 3, 3> j = Eigen::Matrix<double, 3, 3>::Zero();
   for (int c = 0; c < components; ++c)
   {
-    s.Position[c] = values(row, c) / w;
+    const double x = values(row, c) / w;
     for (int d = 0; d < dim; ++d)
     {
       const double slope = rational ? values(row + 1 + d, components) : 0.0;
-      j(c, d) = (values(row + 1 + d, c) - s.Position[c] * slope) / w;
+      j(c, d) = (values(row + 1 + d, c) - x * slope) / w;
     }
   }
   double inverse = 0.0; // |J^-1|_F |det J|
@@ -169,14 +114,7 @@ Sample MakeSample(const Table& values, Eigen::Index row, int dim, int components
   return s;
 }
 
-struct Integrals
-{
-  double Measure = 0.0;
-  double Absolute = 0.0;
-  double Moment[3] = {};
-};
-
-/// Works on one cell at a time; keeps the tables of whole-cell rules it met.
+/// Works on one cell at a time; keeps the tables of lattices, sides and rules it met.
 class Worker
 {
 public:
@@ -189,28 +127,18 @@ public:
   {
     this->Start(cell);
     CellMeasure m;
-    const double nan = std::numeric_limits<double>::quiet_NaN();
-    m.Centroid.fill(nan);
-    Integrals sum;
-    double scale = 0.0;
-    if (!this->Cells.Rational && this->Dim == this->Components)
-    {
-      sum = this->Integrate(this->ExactPoints());
-      scale = sum.Absolute;
-      m.MeasureError = 0.0;
-    }
-    else
-    {
-      sum = this->Adaptive(m);
-      scale = sum.Absolute;
-    }
+    m.Centroid.fill(std::numeric_limits<double>::quiet_NaN());
+    const PatchIntegral sum =
+      this->Dim == 1 && this->Components == 1 ? this->SignedLength() : this->Integrate();
     m.Measure = sum.Measure;
-    m.MeasureError += 64.0 * unitRoundoff * scale;
+    m.MeasureError = sum.Error + 64.0 * unitRoundoff * sum.Absolute;
+    m.Converged = sum.Converged;
+    m.Points = sum.Points;
     if (sum.Measure != 0.0)
     {
-      for (int c = 0; c < this->Components; ++c)
+      for (std::size_t c = 0; c < static_cast<std::size_t>(this->Components); ++c)
       {
-        m.Centroid[static_cast<std::size_t>(c)] = this->Origin[c] + sum.Moment[c] / sum.Measure;
+        m.Centroid[c] = this->Origin[c] + sum.Moment[c] / sum.Measure;
       }
     }
     this->Quality(m);
@@ -229,195 +157,152 @@ private:
     const int n = NumCellCoefficients(this->Shape, this->Degree);
     const double* block = this->Cells.Block(cell);
     this->Block = Eigen::Map<const Eigen::MatrixXd>(block, n, this->Cells.NumPlanes());
-    // coordinates relative to the first control point: far from the origin nothing cancels
+    // coordinates relative to the middle of the control points: far from the origin nothing cancels
+    this->Size = 0.0;
     for (int c = 0; c < this->Components; ++c)
     {
-      const double w = this->Cells.Rational ? this->Block(0, this->Components) : 1.0;
-      this->Origin[c] = this->Block(0, c) / w;
+      double low = std::numeric_limits<double>::infinity();
+      double high = -low;
+      for (int i = 0; i < n; ++i)
+      {
+        const double w = this->Cells.Rational ? this->Block(i, this->Components) : 1.0;
+        low = std::min(low, this->Block(i, c) / w);
+        high = std::max(high, this->Block(i, c) / w);
+      }
+      double& origin = this->Origin[static_cast<std::size_t>(c)];
+      origin = low + 0.5 * (high - low);
+      this->Size = std::max(this->Size, 0.5 * (high - low));
       if (this->Cells.Rational)
       {
-        this->Block.col(c) -= this->Origin[c] * this->Block.col(this->Components);
+        this->Block.col(c) -= origin * this->Block.col(this->Components);
       }
       else
       {
-        this->Block.col(c).array() -= this->Origin[c];
+        this->Block.col(c).array() -= origin;
       }
     }
+    this->Size = this->Size > 0.0 ? this->Size : 1.0;
+  }
+
+  PatchIntegral SignedLength() const
+  {
+    const auto end = [&](int i)
+    { return this->Cells.Rational ? this->Block(i, 0) / this->Block(i, 1) : this->Block(i, 0); };
+    const double first = end(0);
+    const double last = end(static_cast<int>(this->Block.rows()) - 1);
+    PatchIntegral sum;
+    sum.Measure = last - first;
+    sum.Absolute = std::max(std::abs(first), std::abs(last));
+    sum.Moment[0] = 0.5 * (last - first) * (last + first);
+    return sum;
+  }
+
+  /// A side of the cells of one shape and degree; the cell itself when it has more components than
+  /// parameters.
+  struct SideTable
+  {
+    CellShape Shape = CellShape::Curve;
+    CellDegree Degree{};
+    std::vector<int> Coefficients;
+  };
+  const std::vector<SideTable>& Sides()
+  {
+    const auto [at, isNew] =
+      this->SideTables.try_emplace({ static_cast<int>(this->Shape), this->Degree });
+    if (isNew && this->Dim == this->Components)
+    {
+      for (int side = 0; side < NumSides(this->Shape); ++side)
+      {
+        const SideFrame& frame = GetSideFrame(this->Shape, side);
+        at->second.push_back({ frame.Shape, SideDegree(this->Shape, this->Degree, frame),
+          SideCoefficients(this->Shape, this->Degree, frame) });
+      }
+    }
+    else if (isNew)
+    {
+      std::vector<int> all(static_cast<std::size_t>(this->Block.rows()));
+      std::iota(all.begin(), all.end(), 0);
+      at->second.push_back({ this->Shape, this->Degree, std::move(all) });
+    }
+    return at->second;
+  }
+
+  /// Areas and volumes by the divergence theorem from the cell's sides: one dimension less, and an
+  /// integrand without roots whatever folds inside.
+  PatchIntegral Integrate()
+  {
+    PatchIntegralParams params;
+    params.Integrand = this->Dim == this->Components ? PatchIntegrand::Flux : PatchIntegrand::Size;
+    params.Rational = this->Cells.Rational;
+    params.Size = this->Size;
+    params.Tolerance = this->Params.Tolerance;
+    params.MaxDepth = this->Params.MaxDepth;
+    params.MaxPoints = this->Params.MaxPoints;
+    std::vector<PatchForm> patches;
+    for (const SideTable& side : this->Sides())
+    {
+      patches.push_back(MakePatchForm(
+        this->Cells, this->Cell, side.Shape, side.Degree, side.Coefficients, this->Origin));
+    }
+    return IntegratePatches(std::move(patches), params, this->Rules);
   }
 
   template <typename Use>
-  void ForSamples(const Points& points, const Table* table, Use&& use) const
+  void ForSamples(
+    const std::vector<std::array<double, 3>>& points, const Table* table, Use&& use) const
   {
     const std::size_t rows = static_cast<std::size_t>(1 + this->Dim);
     const std::size_t step = std::max<std::size_t>(
       1, largestTable / (rows * static_cast<std::size_t>(this->Block.rows())));
-    for (std::size_t begin = 0; begin < points.Local.size(); begin += step)
+    for (std::size_t begin = 0; begin < points.size(); begin += step)
     {
-      const std::size_t end = std::min(points.Local.size(), begin + step);
+      const std::size_t end = std::min(points.size(), begin + step);
       const Table values = table
         ? Table(*table * this->Block)
         : Table(MakeTable(this->Shape, this->Degree, points, begin, end) * this->Block);
       for (std::size_t i = begin; i < end; ++i)
       {
-        use(i,
-          MakeSample(values, static_cast<Eigen::Index>((i - begin) * rows), this->Dim,
-            this->Components, this->Cells.Rational));
+        use(MakeSample(values, static_cast<Eigen::Index>((i - begin) * rows), this->Dim,
+          this->Components, this->Cells.Rational));
       }
     }
   }
 
-  struct Rule
+  /// The lattice at which quality is sampled, with the basis at its points where it is not large.
+  struct Lattice
   {
-    knotwork::Points Points;
+    std::vector<std::array<double, 3>> Points;
     knotwork::Table Table;
     bool HasTable = false;
   };
-  /// A rule for whole cells: n Gauss points a direction, or for n < 0 the lattice of -n.
-  const Rule& WholeCell(int n)
+  const Lattice& SampleLattice()
   {
-    const auto key = std::make_tuple(static_cast<int>(this->Shape), this->Degree, n);
-    const auto found = this->Rules.find(key);
-    if (found != this->Rules.end())
+    const auto [at, isNew] =
+      this->Lattices.try_emplace({ static_cast<int>(this->Shape), this->Degree });
+    Lattice& lattice = at->second;
+    if (isNew)
     {
-      return found->second;
-    }
-    Rule rule;
-    rule.Points = n > 0 ? RulePoints(this->Shape, n, { 0.0, 0.0, 0.0 }, { 1.0, 1.0, 1.0 })
-                        : LatticePoints(this->Shape, -n);
-    const std::size_t size = rule.Points.Local.size();
-    rule.HasTable =
-      size * static_cast<std::size_t>((1 + this->Dim) * this->Block.rows()) <= largestTable;
-    if (rule.HasTable)
-    {
-      rule.Table = MakeTable(this->Shape, this->Degree, rule.Points, 0, size);
-    }
-    return this->Rules.emplace(key, std::move(rule)).first->second;
-  }
-
-  /// det J times a coordinate has degree (d + 1) p - 1 in every direction of the unit cube.
-  const Rule& ExactPoints()
-  {
-    const int p = *std::max_element(this->Degree.begin(), this->Degree.end());
-    return this->WholeCell(((this->Dim + 1) * p + 1) / 2);
-  }
-
-  Integrals Integrate(const Points& points, const Table* table) const
-  {
-    Integrals sum;
-    this->ForSamples(points, table,
-      [&](std::size_t i, const Sample& s)
+      lattice.Points = LatticePoints(this->Shape, this->Params.SamplesPerEdge);
+      const std::size_t size = lattice.Points.size();
+      lattice.HasTable =
+        size * static_cast<std::size_t>((1 + this->Dim) * this->Block.rows()) <= largestTable;
+      if (lattice.HasTable)
       {
-        const double x = points.Weights[i] * s.Det;
-        sum.Measure += x;
-        sum.Absolute += std::abs(x);
-        for (int c = 0; c < this->Components; ++c)
-        {
-          sum.Moment[c] += x * s.Position[c];
-        }
-      });
-    return sum;
-  }
-  Integrals Integrate(const Rule& rule) const
-  {
-    return this->Integrate(rule.Points, rule.HasTable ? &rule.Table : nullptr);
-  }
-
-  double Disagreement(const Integrals& a, const Integrals& b) const
-  {
-    double error = std::abs(a.Measure - b.Measure);
-    for (int c = 0; c < this->Components; ++c)
-    {
-      error = std::max(error, std::abs(a.Moment[c] - b.Moment[c]) / this->Size);
-    }
-    return error;
-  }
-
-  Integrals Adaptive(CellMeasure& m)
-  {
-    this->Size = 0.0;
-    for (int i = 0; i < this->Block.rows(); ++i)
-    {
-      const double w = this->Cells.Rational ? this->Block(i, this->Components) : 1.0;
-      this->Size =
-        std::max(this->Size, this->Block.row(i).head(this->Components).cwiseAbs().maxCoeff() / w);
-    }
-    this->Size = this->Size > 0.0 ? this->Size : 1.0;
-    const double tolerance = std::max(this->Params.Tolerance, 16.0 * unitRoundoff);
-    Integrals low = this->Integrate(this->WholeCell(6));
-    Integrals high = this->Integrate(this->WholeCell(8));
-    double error = this->Disagreement(low, high);
-    if (error > tolerance * high.Absolute)
-    {
-      low = this->Integrate(this->WholeCell(10));
-      high = this->Integrate(this->WholeCell(14));
-      error = this->Disagreement(low, high);
-    }
-    if (error <= tolerance * high.Absolute)
-    {
-      m.MeasureError = error;
-      return high;
-    }
-    struct Box
-    {
-      std::array<double, 3> Lower;
-      std::array<double, 3> Upper;
-      int Depth;
-    };
-    const double whole = high.Absolute;
-    std::vector<Box> open{ { { 0.0, 0.0, 0.0 }, { 1.0, 1.0, 1.0 }, 0 } };
-    Integrals sum;
-    int boxes = 0;
-    while (!open.empty())
-    {
-      const Box box = open.back();
-      open.pop_back();
-      ++boxes;
-      bool accept = false;
-      if (box.Depth > 0)
-      {
-        low = this->Integrate(RulePoints(this->Shape, 8, box.Lower, box.Upper), nullptr);
-        high = this->Integrate(RulePoints(this->Shape, 11, box.Lower, box.Upper), nullptr);
-        error = this->Disagreement(low, high);
-        accept = error <= tolerance * std::max(high.Absolute, std::ldexp(whole, -box.Depth));
+        lattice.Table = MakeTable(this->Shape, this->Degree, lattice.Points, 0, size);
       }
-      if (!accept && (box.Depth >= this->Params.MaxDepth || boxes > largestNumBoxes))
-      {
-        m.Converged = false;
-        accept = true;
-      }
-      if (accept)
-      {
-        m.MeasureError += error;
-        sum.Measure += high.Measure;
-        sum.Absolute += high.Absolute;
-        for (int c = 0; c < this->Components; ++c)
-        {
-          sum.Moment[c] += high.Moment[c];
-        }
-        continue;
-      }
-      const std::size_t d = static_cast<std::size_t>(box.Depth % this->Dim);
-      const double middle = 0.5 * (box.Lower[d] + box.Upper[d]);
-      Box half = box;
-      ++half.Depth;
-      half.Lower[d] = middle;
-      open.push_back(half);
-      half.Lower[d] = box.Lower[d];
-      half.Upper[d] = middle;
-      open.push_back(half);
     }
-    return sum;
+    return lattice;
   }
 
   void Quality(CellMeasure& m)
   {
-    const Rule& lattice = this->WholeCell(-this->Params.SamplesPerEdge);
+    const Lattice& lattice = this->SampleLattice();
     m.ScaledMin = std::numeric_limits<double>::infinity();
     m.ScaledMax = -m.ScaledMin;
     m.UniformityMin = m.ScaledMin;
     m.UniformityMax = m.ScaledMax;
     this->ForSamples(lattice.Points, lattice.HasTable ? &lattice.Table : nullptr,
-      [&](std::size_t, const Sample& s)
+      [&](const Sample& s)
       {
         m.ScaledMin = std::min(m.ScaledMin, s.Scaled);
         m.ScaledMax = std::max(m.ScaledMax, s.Scaled);
@@ -427,7 +312,7 @@ private:
         m.UniformityMin = std::min(m.UniformityMin, s.Det);
         m.UniformityMax = std::max(m.UniformityMax, s.Det);
       });
-    const double n = static_cast<double>(lattice.Points.Local.size());
+    const double n = static_cast<double>(lattice.Points.size());
     m.ScaledMean /= n;
     m.ConditionMean /= n;
     m.ScaledLower = this->ScaledBound(m.ScaledMin);
@@ -563,7 +448,7 @@ private:
       return -1.0;
     }
     const CellLattice& lattice =
-      this->Lattices
+      this->CoefficientLattices
         .try_emplace({ static_cast<int>(this->Shape), this->Degree }, this->Shape, this->Degree)
         .first->second;
     const int planes = this->Cells.NumPlanes();
@@ -605,10 +490,12 @@ private:
   int Dim = 1;
   int Components = 1;
   Eigen::MatrixXd Block;
-  double Origin[3] = {};
-  double Size = 1.0;
-  std::map<std::tuple<int, CellDegree, int>, Rule> Rules;
-  std::map<std::pair<int, CellDegree>, CellLattice> Lattices;
+  std::array<double, 3> Origin{};
+  double Size = 1.0; ///< largest distance of a control point from the origin, by a coordinate
+  std::map<std::pair<int, CellDegree>, Lattice> Lattices;
+  std::map<std::pair<int, CellDegree>, std::vector<SideTable>> SideTables;
+  CellLatticeTable CoefficientLattices;
+  PatchRules Rules;
 };
 
 Status CheckMeasures(const BernsteinCells& cells, const CellMeasuresParams& params)
@@ -646,6 +533,10 @@ Status CheckMeasures(const BernsteinCells& cells, const CellMeasuresParams& para
   if (params.MaxDepth < 0 || params.MaxDepth > 60)
   {
     return outside("MaxDepth", "[0, 60]");
+  }
+  if (params.MaxPoints < 1)
+  {
+    return outside("MaxPoints", "[1, ...)");
   }
   if (params.SamplesPerEdge < 2 || params.SamplesPerEdge > 64)
   {
@@ -697,6 +588,7 @@ void Summarize(
     const CellShape shape = cells.Shapes[c];
     total.Measure += m.Measure;
     total.MeasureError += m.MeasureError;
+    total.Points += m.Points;
     total.Converged = total.Converged && m.Converged;
     if (m.Measure != 0.0)
     {
@@ -705,7 +597,7 @@ void Summarize(
         moments[d] += m.Measure * m.Centroid[d];
       }
     }
-    const double n = static_cast<double>(LatticePoints(shape, params.SamplesPerEdge).Local.size());
+    const double n = static_cast<double>(LatticePoints(shape, params.SamplesPerEdge).size());
     samples += n;
     total.ScaledMin = std::min(total.ScaledMin, m.ScaledMin);
     total.ScaledMax = std::max(total.ScaledMax, m.ScaledMax);

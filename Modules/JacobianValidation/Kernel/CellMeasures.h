@@ -6,11 +6,15 @@ namespace knotwork
 {
 struct CellMeasuresParams
 {
-  /// Of rational cells and of curves and surfaces in a space of more components: subdivision goes
-  /// on until two Gauss rules agree within this part of the integral of |det J|. In [1e-15, 1].
+  /// Of rational cells and of curves and surfaces in a space of more components: pieces of their
+  /// sides, or of themselves, are halved until the estimated error is this part of the measure (or
+  /// rounding of the integral over the sides, if that is more). In [1e-15, 1].
   double Tolerance = 1e-12;
-  /// Halvings of a cell at most, in [0, 60]. Where that is not enough, Converged is false.
+  /// Halvings of a side at most, in [0, 60]; points at which a cell's integrand is evaluated before
+  /// no piece is halved any more, >= 1: the effort, about a millisecond a cell of low degree. Where
+  /// they are not enough, Converged is false and MeasureError says what was reached.
   int MaxDepth = 40;
+  std::int64_t MaxPoints = 40000;
   /// Quality is sampled at the points of a uniform lattice with so many points along every edge,
   /// edges and corners included, in [2, 64].
   int SamplesPerEdge = 5;
@@ -28,10 +32,12 @@ struct CellMeasuresParams
 struct CellMeasure
 {
   double Measure = 0.0; ///< signed length, area or volume
-  double MeasureError =
-    0.0; ///< estimate of its error: rounding of exact rules, agreement of others
+  /// Estimate of its error: what the rules leave, and rounding. Centroid times Measure errs by as
+  /// much, relative to the cell's size.
+  double MeasureError = 0.0;
   std::array<double, 3> Centroid{}; ///< of the signed measure; NaN when that is zero
   bool Converged = true;
+  std::int64_t Points = 0; ///< at which the integrand was evaluated: what the measure cost
   /// Scaled Jacobian det J / (|f_u| |f_v| (|f_w|)), in [-1, 1]; 0 where a derivative vanishes.
   double ScaledMin = 0.0;
   double ScaledMax = 0.0;
@@ -53,11 +59,14 @@ struct CellMeasures
   CellMeasure Total; ///< Measure: the sum; Centroid: of all; means over all samples
 };
 
-/// Exact measures and quality of cells. Polynomial cells of as many components as parameters are
-/// integrated by Gauss rules of their exact degree; the others adaptively.
+/// Measures and quality of cells. Of as many components as parameters, they are integrals over the
+/// cells' sides (divergence theorem): exact but for rounding for polynomial cells, by Gauss rules
+/// with an estimate of their error for rational ones. Curves and surfaces in a space of more
+/// components are integrated themselves.
 /// @return what BernsteinCells::Check says; EmptyInput; DimensionMismatch for cells of different
 /// dimension or fewer components than parameters or more than 3; InvalidParameter; SizeMismatch.
-/// @complexity (points of the rule) x (coefficients) a polynomial cell.
+/// @complexity (points of the rule) x (degree) a side of a polynomial cell, about MaxPoints x
+/// (degree) at most of others.
 Result<CellMeasures> MeasureCells(
   const BernsteinCells& cells, const CellMeasuresParams& params = {});
 }
