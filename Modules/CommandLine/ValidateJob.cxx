@@ -134,6 +134,7 @@ struct ValidateJob
     if (this->Filter->GetMeasures())
     {
       report["measure"] = number("Measure");
+      report["measure_error"] = number("MeasureError");
       report["min_scaled_jacobian"] = number("ScaledJacobianMin");
       report["mean_scaled_jacobian"] = number("ScaledJacobianMean");
       report["max_condition_number"] = number("ConditionNumberMax");

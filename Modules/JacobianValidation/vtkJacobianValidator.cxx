@@ -377,6 +377,7 @@ struct Summary
   double MaxLower = -std::numeric_limits<double>::infinity();
   double MaxUpper = -std::numeric_limits<double>::infinity();
   double Measure = 0.0;
+  double MeasureError = 0.0;
   double ScaledMin = std::numeric_limits<double>::infinity();
   double ScaledSum = 0.0;
   double ConditionMax = 0.0;
@@ -387,6 +388,7 @@ struct Summary
   void Add(const knotwork::CellMeasure& cell)
   {
     this->Measure += cell.Measure;
+    this->MeasureError += cell.MeasureError;
     this->ScaledMin = std::min(this->ScaledMin, cell.ScaledMin);
     this->ScaledSum += cell.ScaledMean;
     this->ConditionMax = std::max(this->ConditionMax, cell.ConditionMax);
@@ -472,6 +474,7 @@ void FillTable(std::map<int, Summary>& patches, Summary& all, bool measures, vtk
   if (measures)
   {
     addColumn(Reals(), "Measure", [](int, Summary& s) { return s.Measure; });
+    addColumn(Reals(), "MeasureError", [](int, Summary& s) { return s.MeasureError; });
     addColumn(Reals(), "ScaledJacobianMin", [](int, Summary& s) { return s.ScaledMin; });
     addColumn(Reals(), "ScaledJacobianMean", [](int, Summary& s) { return s.ScaledSum / s.Cells; });
     addColumn(Reals(), "ConditionNumberMax", [](int, Summary& s) { return s.ConditionMax; });
@@ -626,6 +629,8 @@ Status vtkJacobianValidator::Compute(vtkInformationVector** inputs, vtkInformati
       using Cell = knotwork::CellMeasure;
       AddCellArray<vtkDoubleArray>(
         grid, "CellMeasure", measures, [](const Cell& cell) { return cell.Measure; });
+      AddCellArray<vtkDoubleArray>(
+        grid, "CellMeasureError", measures, [](const Cell& cell) { return cell.MeasureError; });
       AddCellArray<vtkDoubleArray>(
         grid, "ScaledJacobianMin", measures, [](const Cell& cell) { return cell.ScaledMin; });
     }

@@ -17,7 +17,8 @@
  * stopped the proof of an undecided cell: 1 MaximumBoxes, 2 a zero that no subdivision separates, 3
  * rounding of a conversion, 4 degenerate within the rounding of its coordinates; else 0), the
  * proven bounds `JacobianMinLower` <= min det J <= `JacobianMinUpper` and `JacobianMaxLower` <= max
- * det J <= `JacobianMaxUpper`; with Measures also `CellMeasure` (signed length, area or volume) and
+ * det J <= `JacobianMaxUpper`; with Measures also `CellMeasure` (signed length, area or volume),
+ * `CellMeasureError` (an estimate of its error) and
  * `ScaledJacobianMin` (smallest sampled det J / (|f_u| |f_v| |f_w|)). `JacobianVerdict` is made the
  * active scalars, of cells and points, so that it is what is drawn. Output 1
  * (vtkUnstructuredGrid) has for every invalid cell a vertex at a point where det J <= 0 is proved

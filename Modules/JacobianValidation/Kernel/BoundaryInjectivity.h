@@ -82,8 +82,9 @@ struct InterfaceGap
 
 struct InjectivityParams
 {
-  /// Pairs of sub-sides and sub-cells looked at, over all, >= 1. Every pair of sides gets 4096
-  /// first; those still open share what is left.
+  /// Pairs of sub-sides and sub-cells looked at, over all, >= 1; of few cells a 1500th part of it a
+  /// cell, at least a 100th, so that the proof costs about as much as the cells are many. A pair of
+  /// sides gets up to 4096 first; those still open share what is left.
   std::int64_t MaxBoxes = 1000000;
   /// Sides of different patches that come nearer than this part of the model's size along more than
   /// half of one of them are a gap. In [0, 1]. 0: only sides whose corners all coincide.
@@ -107,7 +108,7 @@ struct InjectivityCertificate
   InjectivityReason Reason = InjectivityReason::None;
   bool HasWitness = false;
   InjectivityWitness Witness;
-  std::vector<InterfaceGap> Gaps;
+  std::vector<InterfaceGap> Gaps; ///< all, or those met before NotInjective was proved
   int NumBoundarySides = 0;
   int NumBoundaryComponents = 0;
   int NumInterfaces = 0;      ///< pairs of sides of different patches that are glued
@@ -127,7 +128,8 @@ struct InjectivityCertificate
 /// number of preimages of almost every point, and open maps can take no value twice then. Cells of
 /// det J < 0 count as mirrored.
 ///
-/// Boundary sides are bisected until convex hulls are separated by a plane; pieces that share a
+/// A surface that one point sees all of from inside is simple. Other boundary sides are bisected
+/// until convex hulls are separated by a plane; pieces that share a
 /// corner by a plane through it; pieces that share an edge, and single pieces, by a projection
 /// under which their common chart is monotone. All of it with bounds of the rounding. Overlaps are
 /// proved by a contraction argument for the second preimage.

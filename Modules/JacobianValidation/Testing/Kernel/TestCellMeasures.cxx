@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CellMeasures.h"
+#include "Quadrature.h"
 #include "TestCells.h"
+
+#include <Eigen/Geometry>
 
 #include <cmath>
 #include <limits>
@@ -319,6 +322,198 @@ TEST(CellMeasures, BoundOfScaledJacobianIsBelowDenseSamples_PropertyOracle)
   }
 }
 
+// A rational map of degree 1 of a simplex is a reparameterization of the simplex of its vertices.
+TEST(CellMeasures, LinearSimplicesOfAnyWeights_ExactOracle)
+{
+  std::mt19937 random(23);
+  for (const CellShape shape : { CellShape::Triangle, CellShape::Tetrahedron })
+  {
+    const int dim = NumParameters(shape);
+    BernsteinCells cells;
+    cells.NumComponents = dim;
+    cells.Rational = true;
+    for (int i = 0; i < 50; ++i)
+    {
+      AddRandomCell(cells, shape, 1, 0.3, 3.0, i, random);
+    }
+    const CellMeasures measures = Measured(cells);
+    for (int c = 0; c < cells.NumCells(); ++c)
+    {
+      SCOPED_TRACE("cell " + std::to_string(c) + " of " + std::to_string(dim) + " parameters");
+      const double* block = cells.Block(c);
+      const int n = dim + 1;
+      Eigen::MatrixXd vertices(dim, n);
+      for (int i = 0; i < n; ++i)
+      {
+        for (int d = 0; d < dim; ++d)
+        {
+          vertices(d, i) = block[d * n + i] / block[dim * n + i];
+        }
+      }
+      const double exact = (vertices.rightCols(dim).colwise() - vertices.col(0)).determinant() *
+        ReferenceMeasure(shape);
+      const CellMeasure& m = measures.Cells[static_cast<std::size_t>(c)];
+      // vertices as far from the origin as 50 are rounded by 1e-14
+      const double tolerance = relative * std::abs(exact) + 1e-13;
+      EXPECT_TRUE(m.Converged);
+      EXPECT_NEAR(m.Measure, exact, tolerance);
+      for (int d = 0; d < dim; ++d)
+      {
+        EXPECT_NEAR(
+          m.Centroid[static_cast<std::size_t>(d)], vertices.row(d).mean(), 3.0 * tolerance / exact);
+      }
+    }
+  }
+}
+
+// det J by rules of 40 points a direction over the whole cell, through the chain of EvaluateCell:
+// converged for weights from 1/3 to 3, and neither by sides nor by pieces.
+TEST(CellMeasures, RandomRationalCellsOfAllShapes_CrossOracle)
+{
+  std::mt19937 random(29);
+  const QuadratureRule rule = GaussLegendre(40);
+  for (const CellShape shape : AllCellShapes)
+  {
+    const int dim = NumParameters(shape);
+    for (const int components : { dim, 3 })
+    {
+      if (dim == 1 && components == 1)
+      {
+        continue; // the difference of its ends
+      }
+      for (int p = 1; p <= 2; ++p)
+      {
+        SCOPED_TRACE("shape " + std::to_string(static_cast<int>(shape)) + " degree " +
+          std::to_string(p) + " components " + std::to_string(components));
+        BernsteinCells cells;
+        cells.NumComponents = components;
+        cells.Rational = true;
+        // folds included
+        AddRandomCell(cells, shape, p, 0.1, 0.5, 0.0, random);
+        AddRandomCell(cells, shape, p, components == dim ? 0.6 : 0.1, 0.3, 0.0, random);
+        const CellMeasures measures = Measured(cells);
+        for (int c = 0; c < 2; ++c)
+        {
+          double sum = 0.0;
+          Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+          double absolute = 0.0;
+          const std::size_t n = rule.Nodes.size();
+          for (std::size_t at = 0; at < (dim == 1 ? n : dim == 2 ? n * n : n * n * n); ++at)
+          {
+            std::array<double, 3> u{ rule.Nodes[at % n], dim > 1 ? rule.Nodes[at / n % n] : 0.0,
+              dim > 2 ? rule.Nodes[at / n / n] : 0.0 };
+            double weight = rule.Weights[at % n] * (dim > 1 ? rule.Weights[at / n % n] : 1.0) *
+              (dim > 2 ? rule.Weights[at / n / n] : 1.0);
+            if (shape == CellShape::Tetrahedron)
+            {
+              weight *= (1.0 - u[0]) * (1.0 - u[0]) * (1.0 - u[1]);
+              u = { u[0], u[1] * (1.0 - u[0]), u[2] * (1.0 - u[0]) * (1.0 - u[1]) };
+            }
+            else if (shape == CellShape::Triangle || shape == CellShape::Wedge)
+            {
+              weight *= 1.0 - u[0];
+              u[1] *= 1.0 - u[0];
+            }
+            const CellPoint point = EvaluateCell(cells, c, u.data());
+            Eigen::Matrix3d j = Eigen::Matrix3d::Identity();
+            for (int d = 0; d < dim; ++d)
+            {
+              j.col(d) = Eigen::Vector3d(point.Derivative[static_cast<std::size_t>(d)].data());
+            }
+            const double det = dim == components ? j.topLeftCorner(dim, dim).determinant()
+              : dim == 2                         ? j.col(0).cross(j.col(1)).norm()
+                                                 : j.col(0).norm();
+            sum += weight * det;
+            absolute += weight * std::abs(det);
+            moment += weight * det * Eigen::Vector3d(point.Position.data());
+          }
+          const CellMeasure& m = measures.Cells[static_cast<std::size_t>(c)];
+          // what the reference itself leaves for such weights, and the roots of surfaces
+          const double tolerance = (dim == components ? 1e-11 : 1e-8) * absolute + m.MeasureError;
+          EXPECT_NEAR(m.Measure, sum, tolerance);
+          for (int d = 0; d < components; ++d)
+          {
+            EXPECT_NEAR(
+              m.Centroid[static_cast<std::size_t>(d)] * m.Measure, moment[d], 3.0 * tolerance);
+          }
+        }
+      }
+    }
+  }
+}
+
+// Whatever the weights, the effort is bounded, and what is said of the error is true of what
+// twenty times the effort finds.
+TEST(CellMeasures, EffortIsBoundedAndTheErrorKnown_PropertyOracle)
+{
+  std::mt19937 random(31);
+  for (const CellShape shape : AllCellShapes)
+  {
+    const int dim = NumParameters(shape);
+    for (const int components : { dim, 3 })
+    {
+      if (components < 2)
+      {
+        continue;
+      }
+      for (int p = 1; p <= 3; ++p)
+      {
+        BernsteinCells cells;
+        cells.NumComponents = components;
+        cells.Rational = true;
+        for (int i = 0; i < 4; ++i)
+        {
+          AddRandomCell(cells, shape, p, 0.2, i % 2 == 0 ? 3.0 : 1.0, 0.0, random);
+        }
+        CellMeasuresParams params;
+        params.BoundBoxes = 0;
+        const CellMeasures measures = Measured(cells, params);
+        CellMeasuresParams more = params;
+        more.MaxPoints = 20 * params.MaxPoints;
+        const CellMeasures reference = Measured(cells, more);
+        for (std::size_t c = 0; c < measures.Cells.size(); ++c)
+        {
+          SCOPED_TRACE("shape " + std::to_string(static_cast<int>(shape)) + " degree " +
+            std::to_string(p) + " components " + std::to_string(components) + " cell " +
+            std::to_string(c));
+          const CellMeasure& m = measures.Cells[c];
+          const CellMeasure& r = reference.Cells[c];
+          // the last halving makes two pieces of at most 32 x 32 points
+          EXPECT_LE(m.Points, params.MaxPoints + 2 * 32 * 32);
+          EXPECT_NEAR(m.Measure, r.Measure, m.MeasureError + r.MeasureError);
+          if (m.Converged)
+          {
+            EXPECT_LE(m.MeasureError,
+              1e-12 * std::abs(m.Measure) + 1e-13 * std::abs(reference.Total.Measure));
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(CellMeasures, LimitsOfTheEffortAreSaid_ExactOracle)
+{
+  std::mt19937 random(37);
+  BernsteinCells cells;
+  cells.NumComponents = 3;
+  cells.Rational = true;
+  AddRandomCell(cells, CellShape::Hexahedron, 2, 0.1, 1.0, 0.0, random);
+  CellMeasuresParams params;
+  params.MaxPoints = 2000;
+  const CellMeasure few = Measured(cells, params).Cells[0];
+  EXPECT_FALSE(few.Converged);
+  EXPECT_GT(few.MeasureError, 1e-12 * few.Measure);
+  params.MaxPoints = 1000000;
+  const CellMeasure many = Measured(cells, params).Cells[0];
+  EXPECT_TRUE(many.Converged);
+  EXPECT_NEAR(few.Measure, many.Measure, few.MeasureError);
+  params.MaxDepth = 0;
+  const CellMeasure whole = Measured(cells, params).Cells[0];
+  EXPECT_FALSE(whole.Converged);
+  EXPECT_EQ(whole.Points, 6 * 14 * 14); // one rule a side
+}
+
 TEST(CellMeasures, ThreadsGiveTheSameBits_PropertyOracle)
 {
   ShapeParams s;
@@ -365,6 +560,7 @@ TEST(CellMeasures, EveryFailureIsReachable)
   using P = CellMeasuresParams;
   EXPECT_EQ(with([](P& p) { p.Tolerance = 0.0; }), ErrorCode::InvalidParameter);
   EXPECT_EQ(with([](P& p) { p.MaxDepth = 61; }), ErrorCode::InvalidParameter);
+  EXPECT_EQ(with([](P& p) { p.MaxPoints = 0; }), ErrorCode::InvalidParameter);
   EXPECT_EQ(with([](P& p) { p.SamplesPerEdge = 1; }), ErrorCode::InvalidParameter);
   EXPECT_EQ(with([](P& p) { p.BoundBoxes = -1; }), ErrorCode::InvalidParameter);
   EXPECT_EQ(with([](P& p) { p.Threads = -1; }), ErrorCode::InvalidParameter);

@@ -7,7 +7,9 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
+#include <random>
 
 /// Cells that the tests of this module make.
 namespace knotwork::testing
@@ -82,6 +84,46 @@ inline int AddInterpolant(
     for (int i = 0; i < n; ++i)
     {
       cells.Block(cell)[c * n + i] = coefficients(i, c);
+    }
+  }
+  return cell;
+}
+
+/// A cell whose control points are the shape's lattice, each coordinate moved by up to `noise`, at
+/// an offset; rational with weights from 10^-decades to 10^decades where that is not 0.
+inline int AddRandomCell(BernsteinCells& cells, CellShape shape, int degree, double noise,
+  double decades, double offset, std::mt19937& random)
+{
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const CellDegree p = UniformDegree(shape, degree);
+  const int cell = cells.Add(shape, p);
+  const int n = NumCellCoefficients(shape, p);
+  double* block = cells.Block(cell);
+  const bool tetrahedron = shape == CellShape::Tetrahedron;
+  const bool triangle = shape == CellShape::Triangle || shape == CellShape::Wedge;
+  for (int k = 0; k <= p[2]; ++k)
+  {
+    for (int j = 0; j <= p[1]; ++j)
+    {
+      for (int i = 0; i <= p[0]; ++i)
+      {
+        if ((triangle && i + j > p[0]) || (tetrahedron && i + j + k > p[0]))
+        {
+          continue;
+        }
+        const int index[3] = { i, j, k };
+        const int at = CellCoefficient(shape, p, i, j, k);
+        const double w = cells.Rational ? std::pow(10.0, decades * uniform(random)) : 1.0;
+        for (int c = 0; c < cells.NumComponents; ++c)
+        {
+          block[c * n + at] =
+            w * (static_cast<double>(index[c]) / degree + noise * uniform(random) + offset);
+        }
+        if (cells.Rational)
+        {
+          block[cells.NumComponents * n + at] = w;
+        }
+      }
     }
   }
   return cell;
