@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Certificates of maps whose own coefficients decide (no subdivision), proof included. The counter
-// is the time a cell.
+// Certificates of maps whose own coefficients decide (no subdivision), proof included; and what
+// rational cells with weights over two decades cost: regularity, one-to-one-ness and measures. The
+// counter is the time a cell.
 #include "BenchmarkTools.h"
+#include "BoundaryInjectivity.h"
+#include "CellMeasures.h"
 #include "JacobianCertificate.h"
 
 namespace knotwork
@@ -120,5 +123,93 @@ BENCHMARK(JacobianCellsAllThreads)
   ->UseRealTime()
   ->ArgName("case")
   ->DenseRange(0, 8);
+
+/// 60 hexahedra or quadratic tetrahedra apart from each other, of random weights from 0.1 to 10.
+BernsteinCells WeightedCells(bool hexahedra)
+{
+  std::mt19937_64 generator(7);
+  const auto random = [&] { return static_cast<double>(generator() >> 11) * 0x1p-52 - 1.0; };
+  const CellDegree degree = hexahedra ? CellDegree{ 1, 1, 1 } : CellDegree{ 2, 2, 2 };
+  BernsteinCells cells;
+  cells.NumComponents = 3;
+  cells.Rational = true;
+  for (int c = 0; c < 60; ++c)
+  {
+    const CellShape shape = hexahedra ? CellShape::Hexahedron : CellShape::Tetrahedron;
+    double* block = cells.Block(cells.Add(shape, degree));
+    const int size = NumCellCoefficients(shape, degree);
+    for (int k = 0; k <= degree[2]; ++k)
+    {
+      for (int j = 0; j <= degree[1]; ++j)
+      {
+        for (int i = 0; i <= degree[0]; ++i)
+        {
+          if (!hexahedra && i + j + k > degree[0])
+          {
+            continue;
+          }
+          const int index[3] = { i, j, k };
+          const int at = CellCoefficient(shape, degree, i, j, k);
+          const double w = std::pow(10.0, random());
+          for (int d = 0; d < 3; ++d)
+          {
+            const double p = degree[static_cast<std::size_t>(d)];
+            block[d * size + at] = w * (index[d] / p + 0.1 * random() + 3.0 * c);
+          }
+          block[3 * size + at] = w;
+        }
+      }
+    }
+  }
+  return cells;
+}
+
+void WeightedValidation(benchmark::State& state, int threads)
+{
+  const BernsteinCells cells = WeightedCells(state.range(0) == 0);
+  const std::int64_t what = state.range(1);
+  JacobianParams params;
+  params.Threads = threads;
+  InjectivityParams injectivityParams;
+  injectivityParams.Threads = threads;
+  CellMeasuresParams measuresParams;
+  measuresParams.BoundBoxes = 0;
+  measuresParams.Threads = threads;
+  const auto certificate = ValidateJacobian(cells, params);
+  for (auto _ : state)
+  {
+    const bool done = what == 0 ? ValidateJacobian(cells, params).Value.Verdict == Verdict::Valid
+      : what == 1
+      ? ProveInjectivity(cells, {}, certificate.Value, injectivityParams).Value.Verdict ==
+        InjectivityVerdict::Injective
+      : MeasureCells(cells, measuresParams).Value.Total.MeasureError < 1e-9;
+    if (!done)
+    {
+      state.SkipWithError("not decided, or not measured");
+      return;
+    }
+  }
+  state.counters["cell"] = benchmark::Counter(
+    cells.NumCells(), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+void WeightedCellsOneThread(benchmark::State& state)
+{
+  WeightedValidation(state, 1);
+}
+BENCHMARK(WeightedCellsOneThread)
+  ->Apply(Repeat)
+  ->ArgNames({ "shape", "what" })
+  ->ArgsProduct({ { 0, 1 }, { 0, 1, 2 } });
+void WeightedCellsAllThreads(benchmark::State& state)
+{
+  WeightedValidation(state, 0);
+}
+BENCHMARK(WeightedCellsAllThreads)
+  ->Apply(Repeat)
+  ->MeasureProcessCPUTime()
+  ->UseRealTime()
+  ->ArgNames({ "shape", "what" })
+  ->ArgsProduct({ { 0, 1 }, { 0, 1, 2 } });
 }
 }
