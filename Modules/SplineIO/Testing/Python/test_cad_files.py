@@ -63,4 +63,16 @@ def test_damaged_files_are_errors_that_name_the_file():
             assert os.path.basename(bad) in done.stderr, (kind, ending, done.stderr)
 
 
+def test_python_survives_a_file_that_crashes_opencascade():
+    reader = knotwork.vtkCADReader()
+    assert reader.GetSeparateProcess()
+    reader.SetFileName(knotwork_testing.data("Hostile/crashes_opencascade.iges"))
+    with knotwork_testing.Errors(reader) as errors:
+        reader.Update()
+    assert reader.GetErrorCode() != 0 and "its reader crashed" in errors[0], errors
+    reader.SetFileName(knotwork_testing.data("Hostile/sound.step"))
+    reader.Update()
+    assert reader.GetErrorCode() == 0 and reader.GetOutputDataObject(2).GetNumberOfCells() > 0
+
+
 knotwork_testing.main(globals())
