@@ -85,6 +85,7 @@ def test_valid_grid():
     assert report["verdict"] == "valid" and report["cells"] == 16
     assert report["invalid_cells"] == report["undecided_cells"] == 0 and report["witness"] is None
     assert abs(report["measure"] - math.pi / 4 * 0.75) < 1e-12
+    assert 0 < report["measure_error"] < 1e-12
     assert 0 < report["min_jacobian_lower"] <= report["min_jacobian_upper"]
     assert abs(report["min_scaled_jacobian"] - 1) < 0.2 and report["seconds"] >= 0
     verdicts = vtk_to_numpy(read(path("annotated.vtu")).GetCellData().GetArray("JacobianVerdict"))

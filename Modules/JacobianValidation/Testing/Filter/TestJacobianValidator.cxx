@@ -358,6 +358,9 @@ TEST(JacobianValidator, AreaAndQualityThatVtkGetsWrong_ExactOracle)
   filter->SetInputConnection(source->GetOutputPort());
   filter->Update();
   EXPECT_NEAR(CellValue(filter, "CellMeasure"), exact, 1e-12 * exact);
+  EXPECT_GT(CellValue(filter, "CellMeasureError"), 0.0);
+  EXPECT_LE(CellValue(filter, "CellMeasureError"), 2e-12 * exact);
+  EXPECT_EQ(AllCells(filter, "MeasureError").ToDouble(), CellValue(filter, "CellMeasureError"));
   EXPECT_NEAR(AllCells(filter, "Measure").ToDouble(), exact, 1e-12 * exact);
   // radii and circles meet at right angles
   EXPECT_NEAR(CellValue(filter, "ScaledJacobianMin"), 1.0, 1e-12);
@@ -385,6 +388,7 @@ TEST(JacobianValidator, MeasuresAndSamplesAreChosen_ExactOracle)
   filter->Update();
   EXPECT_EQ(Grid(filter)->GetCellData()->GetArray("ScaledJacobianMin"), nullptr);
   EXPECT_EQ(Grid(filter)->GetCellData()->GetArray("CellMeasure"), nullptr);
+  EXPECT_EQ(Grid(filter)->GetCellData()->GetArray("CellMeasureError"), nullptr);
   EXPECT_EQ(filter->GetVerdict(), 1);
 }
 
