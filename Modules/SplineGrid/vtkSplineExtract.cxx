@@ -18,6 +18,7 @@ vtkSplineExtract::vtkSplineExtract() = default;
 void vtkSplineExtract::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "MaximumFunctions: " << this->MaximumFunctions << "\n";
   os << indent << "RestrictToBox: " << this->RestrictToBox << "\n";
   os << indent << "Box: " << this->Box[0] << ", " << this->Box[1] << ", " << this->Box[2] << ", "
      << this->Box[3] << "\n";
@@ -47,6 +48,7 @@ Status vtkSplineExtract::Compute(vtkInformationVector** inputs, vtkInformationVe
   params.ExpandToTensor = this->ExpandToTensor;
   params.IsoDirection = this->IsoCurve - FIRST;
   params.IsoValue = this->IsoValue;
+  params.MaxFunctions = this->MaximumFunctions;
   params.Threads = this->KernelThreads();
 
   const knotwork::ProgressCallback progress = this->Progress();

@@ -17,7 +17,7 @@
  *
  * Errors: patches that are no surfaces, hierarchical and Bezier surfaces (DimensionMismatch), a
  * box or value outside the domain of a patch (OutsideDomain), ends of a tensor product whose knots
- * have not full multiplicity (InvalidKnots), more than 5e7 control points of an expansion
+ * have not full multiplicity (InvalidKnots), more than MaximumFunctions of an expansion
  * (TooLarge), and those of decoding. See SurfaceExtraction.h.
  */
 #ifndef vtkSplineExtract_h
@@ -87,6 +87,13 @@ public:
   vtkGetMacro(IsoValue, double);
   ///@}
 
+  ///@{
+  /** Functions that a surface may have when it is expanded; more is an error before memory is
+   * taken. Default 1000000, valid range [1, 2147483647]. */
+  vtkSetClampMacro(MaximumFunctions, int, 1, VTK_INT_MAX);
+  vtkGetMacro(MaximumFunctions, int);
+  ///@}
+
 protected:
   vtkSplineExtract();
   ~vtkSplineExtract() override = default;
@@ -97,6 +104,7 @@ private:
   vtkSplineExtract(const vtkSplineExtract&) = delete;
   void operator=(const vtkSplineExtract&) = delete;
 
+  int MaximumFunctions = 1000000;
   bool RestrictToBox = false;
   double Box[4] = { 0.0, 1.0, 0.0, 1.0 };
   bool SwapParameters = false;

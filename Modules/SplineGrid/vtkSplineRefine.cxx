@@ -4,6 +4,7 @@
 #include "BezierForm.h"
 #include "PatchFields.h"
 #include "Refinement.h"
+#include "SizeLimit.h"
 #include "SplineBlocks.h"
 #include "SplineModel.h"
 
@@ -261,6 +262,7 @@ vtkSplineRefine::~vtkSplineRefine()
 void vtkSplineRefine::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "MaximumFunctions: " << this->MaximumFunctions << "\n";
   os << indent << "Mode: " << this->Mode << "\n";
   os << indent << "NumberOfRefinements: " << this->NumberOfRefinements << "\n";
   os << indent << "GlobalRefinement: " << this->GlobalRefinement << "\n";
@@ -349,6 +351,15 @@ public:
     return RefineMarkedElements(spline, marked, params);
   }
 
+  /// About the functions that a refinement of marked elements adds.
+  template <int Dim>
+  double Growth(const knotwork::Spline<Dim>& spline, std::size_t numMarked) const
+  {
+    const int elements =
+      this->Filter->GlobalRefinement ? spline.Space->NumElements() : static_cast<int>(numMarked);
+    return ((1 << Dim) - 1.0) * elements;
+  }
+
   /// A dependence that came in goes, also when nothing was refined.
   template <int Dim>
   Status Finish(knotwork::Spline<Dim>& spline, std::vector<vtkIdType>& cells) const
@@ -409,6 +420,25 @@ Status vtkSplineRefine::Compute(vtkInformationVector** inputs, vtkInformationVec
     return status;
   }
 
+  double total = 0.0;
+  double given = 0.0; // is not refused
+  for (const knotwork::SplinePatch& patch : model.Patches)
+  {
+    total += std::visit(
+      [this, &given](const auto& spline)
+      {
+        given += spline.Space->NumFunctions;
+        return FunctionsAfterRefinement(*spline.Space, this->DegreeElevation,
+          this->Mode == UNIFORM ? this->NumberOfRefinements : 0);
+      },
+      patch.Geometry);
+  }
+  const double limit = std::max(given, 1.0 * this->MaximumFunctions);
+  if (const Status status = knotwork::CheckSize(total, limit); !status)
+  {
+    return status;
+  }
+
   const Stepper stepper(this);
   const knotwork::ProgressCallback progress = this->Progress();
   std::map<int, std::vector<vtkIdType>> sources; // cells by block
@@ -450,12 +480,19 @@ Status vtkSplineRefine::Compute(vtkInformationVector** inputs, vtkInformationVec
         {
           break;
         }
+        const double more = this->Mode == UNIFORM ? 0.0 : stepper.Growth(spline, marked.size());
+        if (const Status status = knotwork::CheckSize(total + more, limit); !status)
+        {
+          return status;
+        }
+        const int before = spline.Space->NumFunctions;
         auto refined = stepper.Refine(spline, marked, round);
         if (!refined)
         {
           return refined.Status;
         }
         spline = std::move(refined->Value);
+        total += this->Mode == UNIFORM ? 0 : spline.Space->NumFunctions - before;
         PassToChildren(refined->Parents, cells);
         PassToChildren(refined->Parents, marks);
         if (!progress((static_cast<double>(p) + (round + 1.0) / this->NumberOfRefinements) /

@@ -36,8 +36,8 @@
  *
  * Errors: local refinement of Bezier patches and degree elevation of hierarchical patches
  * (DimensionMismatch), a dependence that 100 more lines do not resolve (NotConverged), degree above
- * 9 (InvalidDegree), no such array, function or selection (InvalidParameter), and those of
- * decoding.
+ * 9 (InvalidDegree), no such array, function or selection (InvalidParameter), more functions than
+ * MaximumFunctions (TooLarge), and those of decoding.
  */
 #ifndef vtkSplineRefine_h
 #define vtkSplineRefine_h
@@ -186,6 +186,13 @@ public:
 
   vtkMTimeType GetMTime() override;
 
+  ///@{
+  /** Functions that all patches may have together after the refinement; more is an error before
+   * memory is taken. Default 1000000, valid range [1, 2147483647]. */
+  vtkSetClampMacro(MaximumFunctions, int, 1, VTK_INT_MAX);
+  vtkGetMacro(MaximumFunctions, int);
+  ///@}
+
 protected:
   vtkSplineRefine();
   ~vtkSplineRefine() override;
@@ -199,6 +206,7 @@ private:
   class Marker;
   class Stepper;
 
+  int MaximumFunctions = 1000000;
   int Mode = UNIFORM;
   int NumberOfRefinements = 1;
   bool GlobalRefinement = false;

@@ -24,6 +24,7 @@ vtkSplineSource::vtkSplineSource()
 void vtkSplineSource::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "MaximumFunctions: " << this->MaximumFunctions << "\n";
   os << indent << "Shape: " << this->GetShapeName() << "\n";
   os << indent << "Degree: " << this->Degree << "\n";
   os << indent << "Elements: " << this->Elements[0] << " " << this->Elements[1] << " "
@@ -62,6 +63,7 @@ knotwork::Status vtkSplineSource::Compute(vtkInformationVector**, vtkInformation
 {
   knotwork::ShapeParams params;
   params.Kind = static_cast<knotwork::ShapeKind>(this->Shape);
+  params.MaxFunctions = this->MaximumFunctions;
   params.Degree = this->Degree;
   params.InnerRadius = this->InnerRadius;
   params.OuterRadius = this->OuterRadius;

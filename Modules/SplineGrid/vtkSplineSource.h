@@ -10,8 +10,8 @@
  * point, in parameters, degrees, knots and weights; they have no common points in the grid.
  *
  * Output: a vtkUnstructuredGrid, patches numbered by the cell array PatchId in the order that the
- * shape lists them. Errors: a property outside its range (InvalidParameter), more than 1e8 control
- * points in a patch (TooLarge).
+ * shape lists them. Errors: a property outside its range (InvalidParameter), more functions than
+ * MaximumFunctions (TooLarge).
  */
 #ifndef vtkSplineSource_h
 #define vtkSplineSource_h
@@ -127,6 +127,13 @@ public:
   vtkGetVector3Macro(Center, double);
   ///@}
 
+  ///@{
+  /** Functions that all patches may have together; more is an error before memory is taken. Default
+   * 1000000, valid range [1, 2147483647]. */
+  vtkSetClampMacro(MaximumFunctions, int, 1, VTK_INT_MAX);
+  vtkGetMacro(MaximumFunctions, int);
+  ///@}
+
 protected:
   vtkSplineSource();
   ~vtkSplineSource() override = default;
@@ -136,6 +143,7 @@ private:
   vtkSplineSource(const vtkSplineSource&) = delete;
   void operator=(const vtkSplineSource&) = delete;
 
+  int MaximumFunctions = 1000000;
   int Shape = SQUARE;
   int Degree = 0;
   int Elements[3] = { 1, 1, 1 };

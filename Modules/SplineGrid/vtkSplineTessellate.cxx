@@ -277,6 +277,7 @@ Status SetPointData(const BlockMesh& block, const std::vector<const SplinePatch*
 void vtkSplineTessellate::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "MaximumCells: " << this->MaximumCells << "\n";
   os << indent << "ChordalTolerance: " << this->ChordalTolerance << "\n";
   os << indent << "RelativeTolerance: " << this->RelativeTolerance << "\n";
   os << indent << "MaximumSubdivision: " << this->MaximumSubdivision << "\n";
@@ -333,6 +334,7 @@ Status vtkSplineTessellate::Compute(vtkInformationVector** inputs, vtkInformatio
                                             : knotwork::TessellationOutput::Surface;
       params.Normals = this->Normals;
       params.Splitting = this->Splitting;
+      params.MaxCells = this->MaximumCells;
       params.Threads = this->KernelThreads();
       params.Progress = this->Progress();
       BlockMesh block;

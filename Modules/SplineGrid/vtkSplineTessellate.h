@@ -19,7 +19,7 @@
  * share belongs to the first of them. Cell arrays: PatchId, ElementId, Level and those of the
  * input.
  *
- * Errors: those of decoding; TooLarge above 500 million polygons or 200 million hexahedra.
+ * Errors: those of decoding; TooLarge above MaximumCells.
  */
 #ifndef vtkSplineTessellate_h
 #define vtkSplineTessellate_h
@@ -76,6 +76,13 @@ public:
   vtkBooleanMacro(Splitting, bool);
   ///@}
 
+  ///@{
+  /** Polygons, hexahedra or points of curves that the patches may become; more is an error before
+   * memory is taken. Default 20000000, valid range [1, 2147483647]. */
+  vtkSetClampMacro(MaximumCells, int, 1, VTK_INT_MAX);
+  vtkGetMacro(MaximumCells, int);
+  ///@}
+
 protected:
   vtkSplineTessellate() = default;
   ~vtkSplineTessellate() override = default;
@@ -89,6 +96,7 @@ private:
   vtkSplineTessellate(const vtkSplineTessellate&) = delete;
   void operator=(const vtkSplineTessellate&) = delete;
 
+  int MaximumCells = 20000000;
   double ChordalTolerance = 1e-3;
   bool RelativeTolerance = true;
   int MaximumSubdivision = 8;

@@ -260,6 +260,7 @@ vtkSplineWarp::vtkSplineWarp()
 void vtkSplineWarp::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "MaximumFunctions: " << this->MaximumFunctions << "\n";
   os << indent << "MapPatchId: " << this->MapPatchId << "\n";
   os << indent << "Clamp: " << this->Clamp << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
@@ -321,6 +322,7 @@ Status vtkSplineWarp::Compute(vtkInformationVector** inputs, vtkInformationVecto
   knotwork::CompositionParams params;
   params.Tolerance = this->Tolerance;
   params.MaxLevel = this->MaxLevel;
+  params.MaxFunctions = this->MaximumFunctions;
   params.Threads = this->KernelThreads();
   params.Progress = this->Progress();
   std::map<std::pair<int, int>, double> distances;

@@ -61,6 +61,13 @@ public:
   vtkGetMacro(MaxLevel, int);
   ///@}
 
+  ///@{
+  /** Functions that a patch may have; a refinement to more is an error before memory is taken.
+   * Default 1000000, valid range [1, 2147483647]. */
+  vtkSetClampMacro(MaximumFunctions, int, 1, VTK_INT_MAX);
+  vtkGetMacro(MaximumFunctions, int);
+  ///@}
+
 protected:
   vtkSplineWarp();
   ~vtkSplineWarp() override = default;
@@ -75,6 +82,7 @@ private:
   vtkSplineWarp(const vtkSplineWarp&) = delete;
   void operator=(const vtkSplineWarp&) = delete;
 
+  int MaximumFunctions = 1000000;
   int MapPatchId = -1;
   bool Clamp = false;
   double Tolerance = 1e-3;

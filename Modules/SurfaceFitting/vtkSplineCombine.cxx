@@ -136,6 +136,7 @@ vtkSplineCombine::vtkSplineCombine()
 void vtkSplineCombine::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "MaximumFunctions: " << this->MaximumFunctions << "\n";
   os << indent << "Mode: " << this->Mode << "\n";
   os << indent << "FirstWeight: " << this->FirstWeight << "\n";
   os << indent << "SecondWeight: " << this->SecondWeight << "\n";
@@ -195,6 +196,7 @@ Status vtkSplineCombine::Compute(vtkInformationVector** inputs, vtkInformationVe
   combination.Mode = static_cast<knotwork::CombineMode>(this->Mode);
   combination.Weights = { this->FirstWeight, this->SecondWeight };
   combination.CommonDomain = this->CommonDomain;
+  combination.MaxFunctions = this->MaximumFunctions;
   combination.Threads = threads;
   const knotwork::ProgressCallback progress = this->Progress();
   std::set<std::string> dropped;

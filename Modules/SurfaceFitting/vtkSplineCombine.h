@@ -62,6 +62,13 @@ public:
   void SetSecondData(vtkDataObject* surface);
   ///@}
 
+  ///@{
+  /** Functions that a combined surface may have; more is an error before memory is taken. Default
+   * 1000000, valid range [1, 2147483647]. */
+  vtkSetClampMacro(MaximumFunctions, int, 1, VTK_INT_MAX);
+  vtkGetMacro(MaximumFunctions, int);
+  ///@}
+
 protected:
   vtkSplineCombine();
   ~vtkSplineCombine() override = default;
@@ -75,6 +82,7 @@ private:
   vtkSplineCombine(const vtkSplineCombine&) = delete;
   void operator=(const vtkSplineCombine&) = delete;
 
+  int MaximumFunctions = 1000000;
   int Mode = DIFFERENCE;
   double FirstWeight = 0.5;
   double SecondWeight = 0.5;

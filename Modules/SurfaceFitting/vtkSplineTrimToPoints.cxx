@@ -107,6 +107,7 @@ void vtkSplineTrimToPoints::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "CellSize: " << this->CellSize << "\n";
   os << indent << "MaximumGap: " << this->MaximumGap << "\n";
+  os << indent << "MaximumFunctions: " << this->MaximumFunctions << "\n";
   os << indent << "MinimumCells: " << this->MinimumCells << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "ChordalTolerance: " << this->ChordalTolerance << "\n";
@@ -176,6 +177,7 @@ Status vtkSplineTrimToPoints::Compute(vtkInformationVector** inputs, vtkInformat
   params.Outline.MaxGap = this->MaximumGap;
   params.Outline.MinCells = this->MinimumCells;
   params.Tolerance = this->Tolerance;
+  params.MaxFunctions = this->MaximumFunctions;
   params.Threads = this->KernelThreads();
   params.Progress = this->Progress();
   const auto trimmed = knotwork::TrimToPoints(*surface, parameters.Value, params);

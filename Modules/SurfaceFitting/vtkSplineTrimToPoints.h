@@ -71,6 +71,13 @@ public:
   void SetPointsData(vtkDataObject* points);
   ///@}
 
+  ///@{
+  /** Functions that the surface may have as a tensor product; more is an error before memory is
+   * taken. Default 1000000, valid range [1, 2147483647]. */
+  vtkSetClampMacro(MaximumFunctions, int, 1, VTK_INT_MAX);
+  vtkGetMacro(MaximumFunctions, int);
+  ///@}
+
 protected:
   vtkSplineTrimToPoints();
   ~vtkSplineTrimToPoints() override = default;
@@ -87,6 +94,7 @@ private:
   double CellSize = 0.0;
   double MaximumGap = 0.0;
   int MinimumCells = 4;
+  int MaximumFunctions = 1000000;
   double Tolerance = 0.0;
   double ChordalTolerance = 0.0;
   bool Triangulation = true;

@@ -42,8 +42,18 @@ std::vector<double> MissingKnots(const KnotVector& have, const KnotVector& other
   return missing;
 }
 
-Status ShareKnots(Spline<2>& a, Spline<2>& b)
+Status ShareKnots(Spline<2>& a, Spline<2>& b, int maxFunctions)
 {
+  double functions = 1.0;
+  for (std::size_t d = 0; d < 2; ++d)
+  {
+    functions *= a.Space->Knots[d].NumFunctions() +
+      static_cast<double>(MissingKnots(a.Space->Knots[d], b.Space->Knots[d]).size());
+  }
+  if (Status status = CheckSize(functions, maxFunctions); !status)
+  {
+    return status;
+  }
   for (std::size_t d = 0; d < 2; ++d)
   {
     const std::vector<double> forA = MissingKnots(a.Space->Knots[d], b.Space->Knots[d]);
@@ -69,7 +79,7 @@ bool AreSameKnots(const KnotVector& a, const KnotVector& b)
 }
 
 /// Both get the level-0 knots of the first. @pre those of the second are the same up to rounding.
-Status ShareHierarchy(Spline<2>& a, Spline<2>& b)
+Status ShareHierarchy(Spline<2>& a, Spline<2>& b, int maxFunctions)
 {
   std::vector<HierarchyBox<2>> boxes = HierarchyBoxes(*a.Space);
   const std::vector<HierarchyBox<2>> others = HierarchyBoxes(*b.Space);
@@ -87,6 +97,10 @@ Status ShareHierarchy(Spline<2>& a, Spline<2>& b)
   if (!space)
   {
     return space.Status;
+  }
+  if (Status status = CheckSize(space.Value->NumFunctions, maxFunctions); !status)
+  {
+    return status;
   }
   for (Spline<2>* spline : { &a, &b })
   {
@@ -142,7 +156,7 @@ std::vector<LRSegment> LinesOf(const LRBasis& basis)
 }
 
 /// Inserts the lines of another mesh of the same domain.
-Status InsertLines(Spline<2>& spline, const SplineSpace<2>& other, int threads)
+Status InsertLines(Spline<2>& spline, const SplineSpace<2>& other, int threads, int maxFunctions)
 {
   LRRefinement refinement(*spline.Space, spline.ControlPoints);
   const ParametricBox<2> domain = spline.Space->Domain();
@@ -156,6 +170,10 @@ Status InsertLines(Spline<2>& spline, const SplineSpace<2>& other, int threads)
       if (!refinement.Insert(segment))
       {
         refused.push_back(segment);
+      }
+      if (Status status = CheckSize(refinement.NumFunctions(), maxFunctions); !status)
+      {
+        return status;
       }
     }
     if (refused.size() == left.size())
@@ -180,12 +198,12 @@ Status InsertLines(Spline<2>& spline, const SplineSpace<2>& other, int threads)
   return space.Status;
 }
 
-Status ShareLines(Spline<2>& a, Spline<2>& b, int threads)
+Status ShareLines(Spline<2>& a, Spline<2>& b, int threads, int maxFunctions)
 {
   for (int exchange = 0; exchange < MaxExchanges; ++exchange)
   {
-    Status status = InsertLines(a, *b.Space, threads);
-    status = status ? InsertLines(b, *a.Space, threads) : status;
+    Status status = InsertLines(a, *b.Space, threads, maxFunctions);
+    status = status ? InsertLines(b, *a.Space, threads, maxFunctions) : status;
     if (!status)
     {
       return status;
@@ -198,28 +216,30 @@ Status ShareLines(Spline<2>& a, Spline<2>& b, int threads)
   // lines as long as the domain have one set of functions
   for (Spline<2>* spline : { &a, &b })
   {
-    auto tensor = ExpandToTensor(*spline, threads);
+    auto tensor = ExpandToTensor(*spline, threads, maxFunctions);
     if (!tensor)
     {
       return tensor.Status;
     }
     *spline = std::move(tensor.Value);
   }
-  return ShareKnots(a, b);
+  return ShareKnots(a, b, maxFunctions);
 }
 }
 
-Status MakeCommon(Spline<2>& a, Spline<2>& b, int threads)
+Status MakeCommon(Spline<2>& a, Spline<2>& b, int threads, int maxFunctions)
 {
+  // what came in is not refused
+  maxFunctions = std::max({ maxFunctions, a.Space->NumFunctions, b.Space->NumFunctions });
   const auto both = [&](SpaceKind kind) { return a.Space->Kind == kind && b.Space->Kind == kind; };
   if (both(SpaceKind::Tensor))
   {
-    return ShareKnots(a, b);
+    return ShareKnots(a, b, maxFunctions);
   }
   if (both(SpaceKind::Hierarchical) && AreSameKnots(a.Space->Knots[0], b.Space->Knots[0]) &&
     AreSameKnots(a.Space->Knots[1], b.Space->Knots[1]))
   {
-    return ShareHierarchy(a, b);
+    return ShareHierarchy(a, b, maxFunctions);
   }
   for (Spline<2>* spline : { &a, &b })
   {
@@ -230,6 +250,6 @@ Status MakeCommon(Spline<2>& a, Spline<2>& b, int threads)
     }
     *spline = std::move(local.Value);
   }
-  return ShareLines(a, b, threads);
+  return ShareLines(a, b, threads, maxFunctions);
 }
 }

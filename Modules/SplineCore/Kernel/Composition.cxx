@@ -717,6 +717,12 @@ private:
           params.Extension = std::max(params.Extension, knots.Degree() / 2);
         }
       }
+      const double functions =
+        this->Spaces[p]->NumFunctions + static_cast<double>(marked[p].size()) * ((1 << Dim) - 1);
+      if (Status status = CheckSize(functions, this->Params.MaxFunctions); !status)
+      {
+        return WithPatch(status, p);
+      }
       const Result<SplineSpacePtr<Dim>> finer =
         RefineElements<Dim>(this->Spaces[p], marked[p], params);
       if (!finer)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "BezierForm.h"
+#include "SizeLimit.h"
 
 #include <functional>
 #include <vector>
@@ -28,6 +29,7 @@ struct CompositionParams
   int MaxLevel = 5;       ///< hierarchy levels that may be added above level 0, [0, 20]
   int Extension = -1;     ///< cells added around marked ones, [0, 10]; -1: half the largest degree
   int Samples = 0;        ///< a direction and element, for the distance, [2, 64]; 0: degree + 3
+  int MaxFunctions = DefaultMaxFunctions; ///< of a patch, >= 1
   int Threads = 0;
   ProgressCallback Progress;
 };
@@ -54,7 +56,8 @@ struct CompositionResult
 /// projected as a whole and never refined or matched.
 /// @param inner  1 to 4 components each.
 /// @return EmptyInput; InvalidParameter; what the inner splines' Check or the outer map return,
-/// with the patch; Aborted. A tolerance that MaxLevel does not allow is no error: read Distances.
+/// with the patch; TooLarge when a refinement would have more than MaxFunctions; Aborted. A
+/// tolerance that MaxLevel does not allow is no error: read Distances.
 /// @complexity per round: (p + 2)^Dim evaluations of both maps an element.
 /// @source  Thomas et al., CMAME 284 (2015) 55-105 (projection, and on boundaries first).
 template <int Dim>

@@ -3,6 +3,7 @@
 
 #include "BezierForm.h"
 #include "Numbers.h"
+#include "SizeLimit.h"
 #include "TensorSpace.h"
 
 #include <algorithm>
@@ -13,8 +14,6 @@ namespace knotwork
 {
 namespace
 {
-constexpr double MaxExpanded = 5e7;
-
 std::size_t At(int i)
 {
   return static_cast<std::size_t>(i);
@@ -158,7 +157,7 @@ Crossing FindCrossing(const SplineSpace<2>& space, int direction, double value)
 }
 }
 
-Result<Spline<2>> ExpandToTensor(const Spline<2>& spline, int threads)
+Result<Spline<2>> ExpandToTensor(const Spline<2>& spline, int threads, int maxFunctions)
 {
   if (Status status = CheckLocallyRefined(spline); !status)
   {
@@ -166,9 +165,9 @@ Result<Spline<2>> ExpandToTensor(const Spline<2>& spline, int threads)
   }
   const SplineSpace<2>& space = *spline.Space;
   const double size = 1.0 * space.Knots[0].NumFunctions() * space.Knots[1].NumFunctions();
-  if (size > MaxExpanded)
+  if (Status status = CheckSize(size, std::max(maxFunctions, space.NumFunctions)); !status)
   {
-    return { ErrorCode::TooLarge, Digits(size) + " control points" };
+    return status;
   }
   std::vector<LRSegment> segments;
   for (int d = 0; d < 2; ++d)

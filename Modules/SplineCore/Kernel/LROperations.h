@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "LRRefinement.h"
+#include "SizeLimit.h"
 
 namespace knotwork
 {
@@ -8,8 +9,10 @@ namespace knotwork
 /// Spline::Check's codes. Threads: 0 = all cores; results are the same for any number.
 
 /// The same map as a tensor-product spline: every line becomes as long as the domain.
-/// @return TooLarge above 5e7 control points. @complexity that of the insertions.
-Result<Spline<2>> ExpandToTensor(const Spline<2>& spline, int threads);
+/// @param maxFunctions  @return TooLarge above them and those that the surface has already.
+/// @complexity that of the insertions.
+Result<Spline<2>> ExpandToTensor(
+  const Spline<2>& spline, int threads, int maxFunctions = DefaultMaxFunctions);
 
 /// The map with its parameters exchanged: S'(u, v) = S(v, u).
 Result<Spline<2>> SwapParameters(const Spline<2>& spline, int threads);

@@ -536,14 +536,11 @@ Status CheckParams(const ShapeParams& s)
   return {};
 }
 
-/// The net as a spline of the wanted degree and elements.
+/// That a net will have as a spline of the wanted degree and elements.
 template <int Dim>
-Result<Spline<Dim>> Finish(Net<Dim> net, const std::array<int, 3>& roles, const ShapeParams& params)
+double CountFunctions(
+  const Net<Dim>& net, const std::array<int, 3>& roles, const ShapeParams& params)
 {
-  for (Eigen::Index d = 0; d < 3; ++d)
-  {
-    net.Points.col(d) += params.Center[static_cast<std::size_t>(d)] * net.Points.col(3);
-  }
   double functions = 1.0;
   for (std::size_t d = 0; d < Dim; ++d)
   {
@@ -551,9 +548,16 @@ Result<Spline<Dim>> Finish(Net<Dim> net, const std::array<int, 3>& roles, const 
       1.0 * net.Knots[d].NumElements() * params.Elements[static_cast<std::size_t>(roles[d])] +
       std::max(params.Degree, net.Knots[d].Degree());
   }
-  if (functions > 1e8)
+  return functions;
+}
+
+/// The net as a spline of the wanted degree and elements.
+template <int Dim>
+Result<Spline<Dim>> Finish(Net<Dim> net, const std::array<int, 3>& roles, const ShapeParams& params)
+{
+  for (Eigen::Index d = 0; d < 3; ++d)
   {
-    return { ErrorCode::TooLarge, "a patch of a shape has at most 1e8 control points" };
+    net.Points.col(d) += params.Center[static_cast<std::size_t>(d)] * net.Points.col(3);
   }
   auto space = MakeTensorSpace<Dim>(net.Knots);
   if (!space)
@@ -661,8 +665,19 @@ Result<std::vector<AnySpline>> MakeShape(const ShapeParams& params)
   {
     return status;
   }
+  const auto patches = MakePatches(params);
+  double functions = 0.0;
+  for (const Patch& patch : patches)
+  {
+    functions += std::visit(
+      [&](const auto& net) { return CountFunctions(net, patch.Roles, params); }, patch.Shape);
+  }
+  if (Status status = CheckSize(functions, params.MaxFunctions); !status)
+  {
+    return status;
+  }
   std::vector<AnySpline> splines;
-  for (const Patch& patch : MakePatches(params))
+  for (const Patch& patch : patches)
   {
     const Status status = std::visit(
       [&](const auto& net)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "SizeLimit.h"
 #include "Spline.h"
 
 namespace knotwork
@@ -65,13 +66,14 @@ struct ShapeParams
   /// Every knot span of the shape is cut into so many equal elements, >= 1, with the highest
   /// continuity at the new knots.
   std::array<int, 3> Elements{ 1, 1, 1 };
+  int MaxFunctions = DefaultMaxFunctions; ///< of all patches, >= 1
 };
 
 /// Makes the patches of a shape: tensor-product spaces, three-component points, rational where the
 /// shape needs it. Patches that touch agree there point by point, in parameters, degrees, knots and
 /// weights.
-/// @return InvalidParameter naming the parameter; TooLarge for a patch of more than
-/// 1e8 control points.
+/// @return InvalidParameter naming the parameter; TooLarge for more than
+/// MaxFunctions.
 /// @source  The NURBS Book, chapters 7 and 8 (arcs, ruled surfaces, revolution); Cobb, Tiling the
 /// sphere with rational Bezier patches, University of Utah UUCS-88-009, 1988 (six patches).
 /// @complexity O(control points * degree).

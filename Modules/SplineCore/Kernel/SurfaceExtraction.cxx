@@ -41,7 +41,8 @@ Result<AnySpline> ExtractFromSurface(const Spline<2>& surface, const ExtractionP
   }
   if (toTensor)
   {
-    apply([&](const Spline<2>& spline) { return ExpandToTensor(spline, threads); });
+    apply([&](const Spline<2>& spline)
+      { return ExpandToTensor(spline, threads, params.MaxFunctions); });
   }
   return result ? Result<AnySpline>(AnySpline(std::move(result.Value))) : result.Status;
 }

@@ -15,7 +15,8 @@ struct ExtractionParams
   /// Parameter that is constant on a curve, -1 for a surface.
   int IsoDirection = -1;
   double IsoValue = 0.0;
-  int Threads = 0; ///< 0 = all cores; the result is the same for any number
+  int MaxFunctions = DefaultMaxFunctions; ///< of an expanded surface, >= 1
+  int Threads = 0;                        ///< 0 = all cores; the result is the same for any number
 };
 
 /// The surface or curve. A tensor-product surface stays a tensor product.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ChordalBound.h"
+#include "SizeLimit.h"
 #include "TessellationParts.h"
 
 #include <algorithm>
@@ -28,6 +29,11 @@ Status TessellateCurves(const std::vector<BezierForm<1>>& patches, const Tessell
         HalvingsForTolerance<1>(bound, params.Tolerance, params.MaximumSubdivision);
       mesh.Bound = std::max(mesh.Bound, ChordalBound<1>(bound, halvings));
       const std::int64_t n = std::int64_t{ 1 } << halvings[0];
+      const double count = static_cast<double>(soup.Uses.size()) + static_cast<double>(n);
+      if (Status status = CheckSize(count, params.MaxCells, "points", "MaximumCells"); !status)
+      {
+        return status;
+      }
       for (std::int64_t i = 0; i <= n; ++i)
       {
         VertexUse use;

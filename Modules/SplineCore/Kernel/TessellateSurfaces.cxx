@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ChordalBound.h"
 #include "Parallel.h"
+#include "SizeLimit.h"
 #include "TessellationParts.h"
 
 #include <algorithm>
@@ -454,10 +455,9 @@ Status TessellateSurfaces(const std::vector<BezierForm<Dim>>& patches,
     mesh.Bound = std::max(mesh.Bound, bounds[f]);
     count += std::ldexp(1.0, faces[f].Halvings[0] + faces[f].Halvings[1]);
   }
-  if (count > 5e8)
+  if (Status status = CheckSize(count, params.MaxCells, "polygons", "MaximumCells"); !status)
   {
-    return { ErrorCode::TooLarge,
-      "more than 500 million polygons; raise the tolerance or lower the maximum subdivision" };
+    return status;
   }
 
   // 2. Every side by the needs of all elements at it.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ChordalBound.h"
 #include "Parallel.h"
+#include "SizeLimit.h"
 #include "TessellationParts.h"
 
 #include <algorithm>
@@ -282,10 +283,10 @@ Status TessellateVolumes(const std::vector<BezierForm<3>>& patches,
 {
   VolumeCutter cutter(patches, params);
   mesh.Bound = cutter.ChooseLevels();
-  if (cutter.CountCells() > 2e8)
+  if (Status status = CheckSize(cutter.CountCells(), params.MaxCells, "hexahedra", "MaximumCells");
+      !status)
   {
-    return { ErrorCode::TooLarge,
-      "more than 200 million hexahedra; raise the tolerance or lower the maximum subdivision" };
+    return status;
   }
   if (params.Progress && !params.Progress(0.1))
   {

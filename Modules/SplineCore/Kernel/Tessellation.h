@@ -14,6 +14,8 @@ enum class TessellationOutput
   Volume   ///< hexahedra
 };
 
+inline constexpr int DefaultMaxTessellationCells = 20000000;
+
 struct TessellationParams
 {
   double Tolerance = 1e-3;    ///< largest chordal deviation, unit of the points, > 0
@@ -24,6 +26,8 @@ struct TessellationParams
   /// normal (creases) it is the mean of theirs. True: points are repeated, bit for bit, between
   /// patches and at creases, each copy with the exact normal of its side.
   bool Splitting = false;
+  /// Polygons or hexahedra at most, >= 1: 20 million polygons take some 4 GB.
+  int MaxCells = DefaultMaxTessellationCells;
   int Threads = 0;
   ProgressCallback Progress;
 };
@@ -72,7 +76,7 @@ struct TessellationMesh
 /// appear on the surface.
 /// @param patches  Bezier forms with the same number of components.
 /// @return EmptyInput without elements; InvalidParameter; NonFiniteInput, InvalidWeight with patch
-/// and element; SizeMismatch; TooLarge above 2^31 - 1 points; Aborted.
+/// and element; SizeMismatch; TooLarge above MaxCells; Aborted.
 /// @complexity linear in the output, sorting of the elements' rims apart.
 template <int Dim>
 Result<TessellationMesh> Tessellate(

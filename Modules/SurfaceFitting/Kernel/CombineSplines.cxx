@@ -170,7 +170,7 @@ Result<CombinedSpline> CombineSplines(const Spline<2>& a, const Spline<2>& b, do
   Spline<2> second = b;
   status = ShareDegree(first, second);
   status = status ? ShareDomain(first, second, params) : status;
-  status = status ? MakeCommon(first, second, params.Threads) : status;
+  status = status ? MakeCommon(first, second, params.Threads, params.MaxFunctions) : status;
   if (status && first.ControlPoints.rows() != second.ControlPoints.rows())
   {
     status = { ErrorCode::NotInSpace,
@@ -227,6 +227,7 @@ Result<CombinedSurface> CombineSurfaces(
   CombineParams params;
   params.NumKept = heights ? 2 : result.HasDifference ? 3 : 0;
   params.CommonDomain = combination.CommonDomain;
+  params.MaxFunctions = combination.MaxFunctions;
   params.Threads = combination.Threads;
   auto combined = CombineSplines(result.HasDifference ? WithPointsTwice(a) : a,
     result.HasDifference ? WithPointsTwice(b) : b, weights[0], weights[1], params);

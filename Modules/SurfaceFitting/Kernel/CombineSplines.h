@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "SizeLimit.h"
 #include "Spline.h"
 
 namespace knotwork
@@ -12,6 +13,7 @@ struct CombineParams
   /// Both splines are restricted to the box that their domains have in common; else domains that
   /// differ are an error.
   bool CommonDomain = false;
+  int MaxFunctions = DefaultMaxFunctions; ///< of the common refinement, >= 1
   int Threads = 0;
 };
 
@@ -36,7 +38,7 @@ struct CombinedSpline
 /// splines; InvalidTopology for domains that differ (by more than 1e-9 of a side) or have nothing
 /// in common; DimensionMismatch for Bezier elements without a domain; NotInSpace for knots closer
 /// than can be told apart (1e-12 of a side); InvalidParameter; what MakeLocallyRefined and the
-/// insertion of segments return.
+/// insertion of segments return; TooLarge above MaxFunctions.
 /// @complexity that of the insertions.
 Result<CombinedSpline> CombineSplines(const Spline<2>& a, const Spline<2>& b, double weightA,
   double weightB, const CombineParams& params = {});
@@ -52,7 +54,8 @@ struct SurfaceCombination
 {
   CombineMode Mode = CombineMode::Difference;
   std::array<double, 2> Weights{ 0.5, 0.5 };
-  bool CommonDomain = false; ///< see CombineParams
+  bool CommonDomain = false;              ///< see CombineParams
+  int MaxFunctions = DefaultMaxFunctions; ///< see CombineParams
   int Threads = 0;
 };
 

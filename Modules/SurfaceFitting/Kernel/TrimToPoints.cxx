@@ -43,7 +43,7 @@ Status CheckInside(const Spline<2>& surface, const PointMatrixView& parameters)
   return {};
 }
 
-Result<Spline<2>> TensorSurface(const Spline<2>& surface, int threads)
+Result<Spline<2>> TensorSurface(const Spline<2>& surface, int maxFunctions, int threads)
 {
   if (surface.IsRational())
   {
@@ -61,7 +61,7 @@ Result<Spline<2>> TensorSurface(const Spline<2>& surface, int threads)
     return geometry;
   }
   auto local = MakeLocallyRefined(geometry, threads);
-  return local ? ExpandToTensor(local.Value, threads) : local;
+  return local ? ExpandToTensor(local.Value, threads, maxFunctions) : local;
 }
 
 /// Parts of the outline on the surface.
@@ -191,7 +191,7 @@ Result<TrimmedToPoints> TrimToPoints(
     return { ErrorCode::InvalidParameter, "the tolerance must be 0 or more" };
   }
   const Status inside = CheckInside(surface, parameters);
-  auto tensor = inside ? TensorSurface(surface, params.Threads) : inside;
+  auto tensor = inside ? TensorSurface(surface, params.MaxFunctions, params.Threads) : inside;
   const auto outline = tensor ? FindCloudOutline(parameters, params.Outline) : tensor.Status;
   if (!outline)
   {

@@ -2,6 +2,7 @@
 #pragma once
 #include "CloudOutline.h"
 #include "FaceCertificate.h"
+#include "SizeLimit.h"
 #include "TrimLoops.h"
 
 namespace knotwork
@@ -12,7 +13,8 @@ struct TrimToPointsParams
   /// Largest distance, measured on the surface, between outline and trimming curves; 0: a third of
   /// a cell.
   double Tolerance = 0.0;
-  double CornerAngle = 70.0; ///< see LoopParams
+  double CornerAngle = 70.0;              ///< see LoopParams
+  int MaxFunctions = DefaultMaxFunctions; ///< of the surface as a tensor product, >= 1
   int Threads = 0;
   ProgressCallback Progress;
 };

@@ -7,6 +7,7 @@
 #include "HierarchicalSpace.h"
 #include "NegativeJacobian.h"
 #include "RegularityGuard.h"
+#include "SizeLimit.h"
 #include "TemplateProblem.h"
 #include "TensorSpace.h"
 
@@ -187,6 +188,16 @@ Result<Spline<Dim>> StartMap(const Skeleton<Dim>& skeleton, const TemplateMapPar
   }
   const ParametricBox<Dim> domain = params.Domain.value_or(box);
   if (Status status = CheckInside(box, domain); !status)
+  {
+    return status;
+  }
+  double functions = 1.0;
+  for (const int inner : params.InnerKnots)
+  {
+    functions *= 1.0 * inner + params.Degree + 1;
+  }
+  if (Status status = CheckSize(functions, params.MaxFunctions, "functions", "MaxFunctions");
+      !status)
   {
     return status;
   }

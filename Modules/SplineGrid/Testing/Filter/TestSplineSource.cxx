@@ -125,7 +125,7 @@ TEST(vtkSplineSource, BadPropertiesAreRefused)
   ExpectFailure(source, ErrorCode::InvalidParameter, "centre");
   source->SetCenter(0.0, 0.0, 0.0);
   source->SetElements(1, 1000000, 1);
-  ExpectFailure(source, ErrorCode::TooLarge, "control points");
+  ExpectFailure(source, ErrorCode::TooLarge, "MaximumFunctions");
   source->SetElements(1, 1, 1);
   source->Update();
   EXPECT_EQ(source->GetOutputDataObject(0)->GetNumberOfElements(vtkDataObject::CELL), 5);
