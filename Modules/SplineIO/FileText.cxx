@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FileText.h"
 
+#include "FileOutput.h"
+
 #include "vtkErrorCode.h"
 
-#include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -61,19 +62,10 @@ WriteOutcome WriteText(const std::string& file, const std::function<Status(std::
   {
     return { vtkErrorCode::UserError + static_cast<unsigned long>(status.Code), status.Message() };
   }
-  std::ofstream stream(file, std::ios::binary);
-  const bool opened = static_cast<bool>(stream);
-  stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-  stream.close();
-  if (stream)
-  {
-    return {};
-  }
-  if (opened)
-  {
-    std::remove(file.c_str()); // a part of a file is no file
-  }
-  return { opened ? vtkErrorCode::OutOfDiskSpaceError : vtkErrorCode::CannotOpenFileError,
-    "'" + file + "' cannot be written; check its folder, permissions and the free space" };
+  FileOutput output(file);
+  output.Stream().write(text.data(), static_cast<std::streamsize>(text.size()));
+  status = output.Finish();
+  const unsigned long code = status ? vtkErrorCode::NoError : vtkErrorCode::CannotOpenFileError;
+  return { code, status.Detail };
 }
 }

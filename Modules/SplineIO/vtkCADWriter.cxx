@@ -4,6 +4,7 @@
 #include "BoundaryFaces.h"
 #include "CADExchange.h"
 #include "SplineModel.h"
+#include "TensorForm.h"
 #include "TrimmedGrids.h"
 
 #include "vtkAlgorithmOutput.h"
@@ -35,7 +36,13 @@ Result<TrimmedModel> DecodeFaces(
   {
     if (const auto* volume = std::get_if<Spline<3>>(&patch.Geometry))
     {
-      volumes.push_back(*volume);
+      auto tensor = ToTensor(*volume, 1);
+      if (!tensor)
+      {
+        return { tensor.Status.Code,
+          "patch " + std::to_string(patch.Id) + ": " + tensor.Status.Detail };
+      }
+      volumes.push_back(std::move(tensor.Value));
     }
   }
   if (volumes.empty())

@@ -3,7 +3,8 @@
  * @class   vtkGismoXMLWriter
  * @brief   splines to G+Smo XML files
  *
- * Tensor-product and hierarchical patches, polynomial and rational; ids are the PatchId. A
+ * Tensor-product and hierarchical patches, polynomial and rational; LR patches become tensor
+ * products, with a warning; ids are the PatchId. A
  * MultiPatch of every parametric dimension with several patches names them with the interfaces and
  * boundaries of the field data PatchInterfaces and PatchBoundaries. What is written is read again
  * bit for bit. Errors: patches of kind Bezier (InvalidParameter).
@@ -22,6 +23,7 @@ public:
 protected:
   vtkGismoXMLWriter();
   ~vtkGismoXMLWriter() override = default;
+  bool Holds(knotwork::SpaceKind kind) const override;
   knotwork::Result<std::string> Format(const knotwork::SplineFile& file) override;
 
 private:

@@ -33,6 +33,11 @@ knotwork::Status vtkGoToolsG2Writer::AddMore(knotwork::SplineFile& file)
   return curves ? knotwork::DecodeBoundaries(curves, file) : knotwork::Status();
 }
 
+bool vtkGoToolsG2Writer::Holds(knotwork::SpaceKind kind) const
+{
+  return kind == knotwork::SpaceKind::Tensor || kind == knotwork::SpaceKind::LocallyRefined;
+}
+
 knotwork::Result<std::string> vtkGoToolsG2Writer::Format(const knotwork::SplineFile& file)
 {
   return knotwork::WriteG2File(file);

@@ -4,8 +4,9 @@
  * @brief   splines to GoTools g2 files
  *
  * Tensor-product curves, surfaces and volumes, polynomial and rational, and LR surfaces, in the
- * order of the patches; the format has no ids and no topology. What is written is read again bit
- * for bit. Errors: patches of kind Bezier and hierarchical patches (InvalidParameter).
+ * order of the patches; hierarchical patches become tensor products, with a warning; the format has
+ * no ids and no topology. What is written is read again bit for bit. Errors: patches of kind Bezier
+ * (InvalidParameter).
  */
 #ifndef vtkGoToolsG2Writer_h
 #define vtkGoToolsG2Writer_h
@@ -27,6 +28,7 @@ public:
 protected:
   vtkGoToolsG2Writer();
   ~vtkGoToolsG2Writer() override = default;
+  bool Holds(knotwork::SpaceKind kind) const override;
   knotwork::Result<std::string> Format(const knotwork::SplineFile& file) override;
   knotwork::Status AddMore(knotwork::SplineFile& file) override;
   int FillInputPortInformation(int port, vtkInformation* info) override;

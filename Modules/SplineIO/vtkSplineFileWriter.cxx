@@ -4,9 +4,46 @@
 #include "FileText.h"
 #include "PatchTopology.h"
 #include "SplineFileModel.h"
+#include "TensorForm.h"
 
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
+
+#include <functional>
+#include <string>
+#include <variant>
+
+namespace
+{
+using namespace knotwork;
+
+/// A patch as a tensor product, unless the format has its kind or words for the lack of it.
+Status ExpandPatch(
+  SplinePatch& patch, const std::function<bool(SpaceKind)>& holds, std::string& warning)
+{
+  return std::visit(
+    [&](auto& spline) -> Status
+    {
+      const SpaceKind kind = spline.Space->Kind;
+      if (kind == SpaceKind::Bezier || holds(kind))
+      {
+        return {};
+      }
+      const std::string where = "patch " + std::to_string(patch.Id);
+      auto tensor = ToTensor(spline, 1);
+      if (!tensor)
+      {
+        return { tensor.Status.Code, where + " as a tensor product: " + tensor.Status.Detail };
+      }
+      warning = where + " is written as a tensor product of " +
+        std::to_string(tensor.Value.Space->NumFunctions) + " functions instead of " +
+        std::to_string(spline.Space->NumFunctions) + ", as the format has no other kind";
+      spline = std::move(tensor.Value);
+      return {};
+    },
+    patch.Geometry);
+}
+}
 
 vtkSplineFileWriter::vtkSplineFileWriter() = default;
 
@@ -37,10 +74,23 @@ knotwork::Status vtkSplineFileWriter::MakeText(std::string& text)
   {
     return { ErrorCode::InvalidParameter, "there is no file name" };
   }
-  const Result<SplineModel> model = DecodeSplineModel(this->GetInput(), 1);
+  Result<SplineModel> model = DecodeSplineModel(this->GetInput(), 1);
   if (!model)
   {
     return model.Status;
+  }
+  for (SplinePatch& patch : model->Patches)
+  {
+    std::string warning;
+    const auto holds = [this](SpaceKind kind) { return this->Holds(kind); };
+    if (Status status = ExpandPatch(patch, holds, warning); !status)
+    {
+      return status;
+    }
+    if (!warning.empty())
+    {
+      vtkWarningMacro("" << warning);
+    }
   }
   Result<SplineFile> file = FileFromModel(model.Value, this->Coordinates);
   if (!file)

@@ -4,9 +4,10 @@
  * @brief   base of the writers of spline files
  *
  * Input: a spline grid (vtkUnstructuredGrid) or a vtkPartitionedDataSetCollection of such grids;
- * every patch becomes one geometry. Derived classes implement Format(). Nothing is written unless
- * everything can be. Point fields are left out with a warning. Errors: those of decoding, of the
- * formats, and a file that cannot be written.
+ * every patch becomes one geometry; kinds of splines that the format has not are written as tensor
+ * products, the same map, with a warning. Derived classes implement Format(). Nothing is written
+ * unless everything can be. Point fields are left out with a warning. Errors: those of decoding, of
+ * the formats, and a file that cannot be written.
  */
 #ifndef vtkSplineFileWriter_h
 #define vtkSplineFileWriter_h
@@ -39,6 +40,8 @@ protected:
   void WriteData() override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
 
+  /** Whether the format has splines of a kind; others are written as tensor products. */
+  virtual bool Holds(knotwork::SpaceKind kind) const = 0;
   /** Adds what further inputs say. */
   virtual knotwork::Status AddMore(knotwork::SplineFile&) { return {}; }
   /** The text of a file. */

@@ -7,6 +7,7 @@
 #include "SplineBlocks.h"
 #include "SplineModel.h"
 #include "SplineSchema.h"
+#include "TensorForm.h"
 
 #include "vtkCellData.h"
 #include "vtkIntArray.h"
@@ -308,13 +309,25 @@ private:
 Status ModelReader::ReadFace(const SplinePatch& patch)
 {
   const auto* surface = std::get_if<Spline<2>>(&patch.Geometry);
-  if (!surface || surface->Space->Kind != SpaceKind::Tensor)
+  if (!surface || surface->Space->Kind == SpaceKind::Bezier)
   {
     return { ErrorCode::DimensionMismatch,
       this->Surfaces.Place(patch) + " is no tensor-product surface" };
   }
+  auto tensor = ToTensor(*surface, 1);
+  if (!tensor)
+  {
+    return { tensor.Status.Code,
+      this->Surfaces.Place(patch) + " as a tensor product: " + tensor.Status.Detail };
+  }
+  if (surface->Space->Kind != SpaceKind::Tensor)
+  {
+    this->Warn({ this->Surfaces.Place(patch) + " becomes a tensor product of " +
+      std::to_string(tensor.Value.Space->NumFunctions) + " functions instead of " +
+      std::to_string(surface->Space->NumFunctions) });
+  }
   TrimmedFace face;
-  face.Surface = *surface;
+  face.Surface = std::move(tensor.Value);
   FaceUses uses;
   int model = 0;
   int id = 0;

@@ -51,8 +51,8 @@ bool HasCADEnding(const std::string& file);
 /// when everything could be written.
 /// @return failures of TrimmedModel::Check; InvalidParameter: ending, SewTolerance;
 /// InvalidKnots: a curve or surface that jumps; OutsideDomain: a pcurve that leaves its surface;
-/// InvalidTopology: uses of an edge that do not fit each other; InvalidFormat: OpenCASCADE refuses,
-/// or the file cannot be written.
+/// InvalidTopology: uses of an edge that do not fit each other; InvalidFormat: OpenCASCADE refuses;
+/// InvalidParameter: the file cannot be written, with the system's reason.
 Status WriteCAD(
   const TrimmedModel& model, const std::string& file, const CADWriteParams& params = {});
 

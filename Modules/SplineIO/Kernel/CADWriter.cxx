@@ -2,6 +2,7 @@
 #include "CADExchange.h"
 #include "CADSession.h"
 #include "CADShapes.h"
+#include "FileOutput.h"
 
 #include <APIHeaderSection_MakeHeader.hxx>
 #include <IGESCAFControl_Writer.hxx>
@@ -10,9 +11,6 @@
 #include <IGESData_Protocol.hxx>
 #include <IGESSelect_WorkLibrary.hxx>
 #include <Interface_FloatWriter.hxx>
-#include <OSD_File.hxx>
-#include <OSD_FileSystem.hxx>
-#include <OSD_Path.hxx>
 #include <Quantity_Color.hxx>
 #include <STEPCAFControl_Writer.hxx>
 #include <Standard_OStream.hxx>
@@ -34,6 +32,10 @@ namespace knotwork
 {
 namespace
 {
+/// Where the formats want the time of writing.
+constexpr const char* NoTime = "1970-01-01T00:00:00";
+constexpr const char* NoDate = "19700101.000000";
+
 TCollection_ExtendedString Unicode(const std::string& utf8)
 {
   return { utf8.c_str(), true };
@@ -76,40 +78,6 @@ Handle(TDocStd_Document)
   return document;
 }
 
-/// Writes beside the file that is asked for; takes its place when complete.
-class Replacement
-{
-public:
-  explicit Replacement(const std::string& file)
-    : Wanted(file), Name(file.substr(0, file.find_last_of('.')) + "-writing" +
-                      file.substr(file.find_last_of('.')))
-  {
-  }
-  ~Replacement()
-  {
-    OSD_File file{ OSD_Path(this->Name.c_str()) };
-    if (file.Exists())
-    {
-      file.Remove();
-    }
-  }
-  const char* File() const { return this->Name.c_str(); }
-  bool Finish()
-  {
-    OSD_File file{ OSD_Path(this->Name.c_str()) };
-    if (!file.Exists() || file.Size() == 0)
-    {
-      return false;
-    }
-    file.Move(OSD_Path(this->Wanted.c_str()));
-    return !file.Failed();
-  }
-
-private:
-  std::string Wanted;
-  std::string Name;
-};
-
 /// Seventeen digits, so that reading gives the same numbers; zeros at the end stay, as numbers of
 /// this length may not be shortened there.
 void SetFormat(Interface_FloatWriter& format)
@@ -119,24 +87,12 @@ void SetFormat(Interface_FloatWriter& format)
   format.SetFormatForRange("%#.17G", 0.0, 0.0);
 }
 
-bool Send(const std::function<bool(std::ostream&)>& print, const char* file)
-{
-  const auto stream = OSD_FileSystem::DefaultFileSystem()->OpenOStream(
-    file, std::ios::out | std::ios::trunc | std::ios::binary);
-  if (!stream || !*stream || !print(*stream))
-  {
-    return false;
-  }
-  stream->flush();
-  return static_cast<bool>(*stream);
-}
-
 Handle(TCollection_HAsciiString) Text(const char* text)
 {
   return new TCollection_HAsciiString(text);
 }
 
-bool WriteSTEP(const Handle(TDocStd_Document) & document, const char* file)
+bool WriteSTEP(const Handle(TDocStd_Document) & document, std::ostream& stream)
 {
   STEPCAFControl_Writer writer;
   if (!writer.Transfer(document))
@@ -146,22 +102,18 @@ bool WriteSTEP(const Handle(TDocStd_Document) & document, const char* file)
   const Handle(StepData_StepModel) steps = writer.ChangeWriter().Model();
   APIHeaderSection_MakeHeader header(steps);
   header.SetName(Text("Knotwork"));
+  header.SetTimeStamp(Text(NoTime)); // the same model is the same file
   header.SetAuthorValue(1, Text(""));
   header.SetOrganizationValue(1, Text(""));
   header.SetOriginatingSystem(Text("Knotwork"));
   header.SetDescriptionValue(1, Text("Trimmed spline surfaces"));
-  return Send(
-    [&](std::ostream& stream)
-    {
-      StepData_StepWriter text(steps);
-      SetFormat(text.FloatWriter());
-      text.SendModel(Handle(StepData_Protocol)::DownCast(writer.ChangeWriter().WS()->Protocol()));
-      return text.Print(stream);
-    },
-    file);
+  StepData_StepWriter text(steps);
+  SetFormat(text.FloatWriter());
+  text.SendModel(Handle(StepData_Protocol)::DownCast(writer.ChangeWriter().WS()->Protocol()));
+  return text.Print(stream);
 }
 
-bool WriteIGES(const Handle(TDocStd_Document) & document, const char* file)
+bool WriteIGES(const Handle(TDocStd_Document) & document, std::ostream& stream)
 {
   IGESCAFControl_Writer writer;
   if (!writer.Transfer(document))
@@ -171,20 +123,17 @@ bool WriteIGES(const Handle(TDocStd_Document) & document, const char* file)
   writer.ComputeModel();
   IGESData_GlobalSection header = writer.Model()->GlobalSection();
   header.SetSendName(Text("Knotwork"));
+  header.SetDate(Text(NoDate));
+  header.SetLastChangeDate(Text(NoDate));
   header.SetAuthorName(Text(""));
   header.SetCompanyName(Text(""));
   header.SetSystemId(Text("Knotwork"));
   header.SetFileName(Text("Knotwork.igs"));
   writer.Model()->SetGlobalSection(header);
-  return Send(
-    [&](std::ostream& stream)
-    {
-      IGESData_IGESWriter text(writer.Model());
-      SetFormat(text.FloatWriter());
-      text.SendModel(IGESSelect_WorkLibrary::DefineProtocol());
-      return text.Print(stream);
-    },
-    file);
+  IGESData_IGESWriter text(writer.Model());
+  SetFormat(text.FloatWriter());
+  text.SendModel(IGESSelect_WorkLibrary::DefineProtocol());
+  return text.Print(stream);
 }
 }
 
@@ -215,26 +164,26 @@ Status WriteCAD(const TrimmedModel& model, const std::string& file, const CADWri
       // readers keep a pcurve whose ends are that near to the curve
       session.Set("write.precision.val", std::max(2.0 * shapes->MaxGap, 1e-7));
       bool written = false;
-      Replacement target(file);
+      FileOutput output(file);
       if (format == CADFormat::STEP)
       {
         session.Set("write.step.schema", params.Schema == STEPSchema::AP242 ? 5 : 4);
         session.Set("write.step.unit", NameOfUnit(params.Unit));
         session.Set("write.stepcaf.subshapes.name", 1);
-        written = WriteSTEP(MakeDocument(model, shapes.Value, params), target.File());
+        written = WriteSTEP(MakeDocument(model, shapes.Value, params), output.Stream());
       }
       else
       {
         session.Set("write.iges.unit", NameOfUnit(params.Unit));
         session.Set("write.iges.brep.mode", 1); // solids, shells and faces with edges
-        written = WriteIGES(MakeDocument(model, shapes.Value, params), target.File());
+        written = WriteIGES(MakeDocument(model, shapes.Value, params), output.Stream());
       }
-      if (!written || !target.Finish())
+      const bool isStreamGood = static_cast<bool>(output.Stream());
+      if (!written && isStreamGood)
       {
-        return { ErrorCode::InvalidFormat,
-          place + " cannot be written; check its folder and permissions" };
+        return { ErrorCode::InvalidFormat, place + " cannot be written: OpenCASCADE made no text" };
       }
-      return {};
+      return output.Finish();
     });
 }
 }

@@ -329,8 +329,8 @@ TEST(CADWriter, FailuresSayWhatIsWrong_PropertyOracle)
   const std::string file = FileOf("wrong.step");
   std::remove(file.c_str());
   expect(good, FileOf("wrong.obj"), ErrorCode::InvalidParameter, ".step");
-  expect(good, FileOf("no/such/folder/a.step"), ErrorCode::InvalidFormat, "folder");
-  expect(good, FileOf("no/such/folder/a.igs"), ErrorCode::InvalidFormat, "folder");
+  expect(good, FileOf("no/such/folder/a.step"), ErrorCode::InvalidParameter, "No such file");
+  expect(good, FileOf("no/such/folder/a.igs"), ErrorCode::InvalidParameter, "No such file");
   expect({}, file, ErrorCode::EmptyInput, "faces");
 
   TrimmedModel model = good;
