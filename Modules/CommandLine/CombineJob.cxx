@@ -33,6 +33,11 @@ struct CombineJob
       {
         return input.Status;
       }
+      Status status = port == 0 ? session.CheckFormat(input.Value, this->Output) : Status();
+      if (!status)
+      {
+        return status;
+      }
       this->Filter->SetInputDataObject(port, input.Value);
     }
     session.Report["first"] = this->Inputs[0];
@@ -70,7 +75,7 @@ Job MakeCombineJob(CLI::App& app)
   app.add_option("first", job->Inputs[0], "spline surfaces (.vtu .vtpc .xml .g2 .step .iges)")
     ->required();
   app.add_option("second", job->Inputs[1], "spline surfaces over the same domains")->required();
-  app.add_option("--output", job->Output, "the combination (.vtu .g2)")->required();
+  AddOutput(app, "--output", job->Output, Endings::Splines, "the combination")->required();
   job->FilterOptions = std::make_unique<Options>(app);
   Options& options = *job->FilterOptions;
   vtkSplineCombine* filter = job->Filter;
@@ -81,6 +86,7 @@ Job MakeCombineJob(CLI::App& app)
   KNOTWORK_FREE_OPTION(options, filter, SecondWeight, "weight of the second surface, for weighted");
   KNOTWORK_FREE_OPTION(
     options, filter, CommonDomain, "whether surfaces are cut to what their domains have in common");
+  KNOTWORK_OPTION(options, filter, MaximumFunctions, "more functions are not made");
   return [job](Session& session) { return job->Run(session); };
 }
 }

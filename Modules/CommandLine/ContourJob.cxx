@@ -112,12 +112,12 @@ Job MakeContourJob(CLI::App& app)
 {
   auto job = std::make_shared<ContourJob>();
   app.add_option("input", job->Input, "surfaces (.vtu .vtpc .xml .g2)")->required();
-  app
-    .add_option("--output", job->Output,
-      "polylines (.vtp), or spline curves (.vtu .xml .g2 .step .iges) with the same bound")
+  AddOutput(app, "--output", job->Output, Endings::Contours,
+    "polylines, or spline curves with the same bound")
     ->required();
-  app.add_option("--table", job->TableFile, "table of the levels (.csv)");
-  app.add_option("--undecided", job->UndecidedFile, "what stayed undecided, if anything (.vtp)");
+  AddOutput(app, "--table", job->TableFile, Endings::Table, "table of the levels");
+  AddOutput(app, "--undecided", job->UndecidedFile, Endings::Polygons,
+    "what stayed undecided, if anything");
   app.add_option("--levels", job->GivenLevels, "values of the contours");
   job->FilterOptions = std::make_unique<Options>(app);
   Options& options = *job->FilterOptions;

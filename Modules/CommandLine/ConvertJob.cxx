@@ -91,6 +91,15 @@ struct ConvertJob
 
   Status Convert(Session& session)
   {
+    const bool writesCurves = HasCADEnding(this->Input) || LowerEnding(this->Input) == ".g2";
+    if (writesCurves && !this->Curves.empty())
+    {
+      Status status = session.Files.Plan("--curves", this->Curves, Endings::Splines);
+      if (!status)
+      {
+        return status;
+      }
+    }
     auto input = session.ReadPoints(this->Input);
     if (!input)
     {
@@ -156,9 +165,8 @@ Job MakeConvertJob(CLI::App& app)
     .add_option("input", job->Input,
       "spline grid, skeleton or points (.vtu .vtp .vtpc .vtk .xml .g2 .step .iges .xyz .txt .csv)")
     ->required();
-  app
-    .add_option("--output", job->Output,
-      "the same data (.vtu .vtp .vtpc .xml .g2 .step .iges, points .xyz .txt .csv .g2)")
+  AddOutput(app, "--output", job->Output, Endings::Anything,
+    "the same data (.vtu .vtp .vtpc .xml .g2 .step .iges, points .xyz .txt .csv .g2)")
     ->required();
   app.add_option("--curves", job->Curves,
     "trimming curves (.vtu): written when the input is STEP, IGES or g2, else read");

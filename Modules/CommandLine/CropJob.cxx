@@ -106,12 +106,11 @@ Job MakeCropJob(CLI::App& app)
       "the points it was fitted to (.xyz .txt .csv .ply .g2 .vtp .vtu); with the array UV unless "
       "the surface is a height field")
     ->required();
-  app
-    .add_option("--output", job->Output,
-      "the trimmed faces (.step .stp .iges .igs), or their surface alone (.vtu)")
+  AddOutput(
+    app, "--output", job->Output, Endings::Surfaces, "the trimmed faces, or their surface alone")
     ->required();
-  app.add_option("--triangles", job->TriangleFile, "the faces as triangles (.vtp)");
-  app.add_option("--curves", job->CurveFile, "the trimming curves as Bezier grid (.vtu)");
+  AddOutput(app, "--triangles", job->TriangleFile, Endings::Polygons, "the faces as triangles");
+  AddOutput(app, "--curves", job->CurveFile, Endings::Grid, "the trimming curves as Bezier grid");
   job->FilterOptions = std::make_unique<Options>(app);
   Options& options = *job->FilterOptions;
   vtkSplineTrimToPoints* filter = job->Filter;
@@ -124,6 +123,7 @@ Job MakeCropJob(CLI::App& app)
     "largest distance between outline and trimming curves; 0: a third of a cell");
   KNOTWORK_OPTION(options, filter, ChordalTolerance,
     "largest distance between triangles and faces; 0: a quarter of the tolerance");
+  KNOTWORK_OPTION(options, filter, MaximumFunctions, "larger tensor products are not made");
   return [job](Session& session) { return job->Run(session); };
 }
 }

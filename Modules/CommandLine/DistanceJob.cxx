@@ -40,6 +40,10 @@ struct DistanceJob
       return { ErrorCode::InvalidTopology,
         "'" + this->Points + "' is no single set of points; give one of its parts" };
     }
+    if (Status status = session.CheckFormat(points.Value, this->Output); !status)
+    {
+      return status;
+    }
     this->Filter->SetInputDataObject(0, points.Value);
     this->Filter->SetInputDataObject(1, surface.Value);
     session.Report["points"] = this->Points;
@@ -99,11 +103,10 @@ Job MakeDistanceJob(CLI::App& app)
     ->required();
   app.add_option("surface", job->Surface, "spline surfaces (.vtu .vtpc .xml .g2 .step .iges)")
     ->required();
-  app
-    .add_option("--output", job->Output,
-      "the points with their distances and classes (.vtp or .vtu, as they are)")
+  AddOutput(app, "--output", job->Output, Endings::Sampled,
+    "the points with their distances and classes (.vtp or .vtu, as they are)")
     ->required();
-  app.add_option("--class-table", job->ClassFile, "statistics of every class (.csv)");
+  AddOutput(app, "--class-table", job->ClassFile, Endings::Table, "statistics of every class");
   app.add_option("--tolerances", job->Tolerances, "limits of the classes, ascending");
   job->FilterOptions = std::make_unique<Options>(app);
   vtkSplinePointDistance* filter = job->Filter;

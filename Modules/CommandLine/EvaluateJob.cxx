@@ -34,6 +34,11 @@ struct EvaluateJob
       {
         return input.Status;
       }
+      Status status = port == 1 ? session.CheckFormat(input.Value, this->Output) : Status();
+      if (!status)
+      {
+        return status;
+      }
       this->Filter->SetInputDataObject(port, input.Value);
     }
     session.Report["input"] = this->Input;
@@ -63,7 +68,9 @@ Job MakeEvaluateJob(CLI::App& app)
   auto job = std::make_shared<EvaluateJob>();
   app.add_option("input", job->Input, "spline grid (.vtu .vtpc .xml .g2 .step .iges)")->required();
   app.add_option("points", job->Points, "points (.vtp .vtu)")->required();
-  app.add_option("--output", job->Output, "the points on the spline, with derivatives")->required();
+  AddOutput(
+    app, "--output", job->Output, Endings::Sampled, "the points on the spline, with derivatives")
+    ->required();
   job->FilterOptions = std::make_unique<Options>(app);
   Options& options = *job->FilterOptions;
   vtkSplineEvaluate* filter = job->Filter;

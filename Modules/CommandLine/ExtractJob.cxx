@@ -40,6 +40,11 @@ struct ExtractJob
     }
     this->FilterOptions->Apply(session.Report);
     this->Filter->SetThreads(session.Threads);
+    const bool asCurves = this->Filter->GetIsoCurve() != 0;
+    if (Status status = session.CheckFormat(input.Value, this->Output, asCurves); !status)
+    {
+      return status;
+    }
     if (Status status = session.Run(this->Filter, "'" + this->Input + "'"); !status)
     {
       return status;
@@ -56,7 +61,7 @@ Job MakeExtractJob(CLI::App& app)
   auto job = std::make_shared<ExtractJob>();
   app.add_option("input", job->Input, "spline surfaces (.vtu .vtpc .xml .g2 .step .iges)")
     ->required();
-  app.add_option("--output", job->Output, "the part or curve (.vtu .vtpc .xml .g2)")->required();
+  AddOutput(app, "--output", job->Output, Endings::Splines, "the part or curve")->required();
   app.add_option("--box", job->Box, "keep the part over u0 u1 v0 v1 only")->expected(4);
   job->FilterOptions = std::make_unique<Options>(app);
   Options& options = *job->FilterOptions;
@@ -71,6 +76,7 @@ Job MakeExtractJob(CLI::App& app)
     [filter](int direction) { filter->SetIsoCurve(direction); },
     "the parameter that is constant on a curve that is taken instead of the surface");
   KNOTWORK_FREE_OPTION(options, filter, IsoValue, "its value");
+  KNOTWORK_OPTION(options, filter, MaximumFunctions, "more functions are not made");
   return [job](Session& session) { return job->Run(session); };
 }
 }

@@ -69,9 +69,11 @@ Job MakeExtremaJob(CLI::App& app)
   auto job = std::make_shared<ExtremaJob>();
   app.add_option("input", job->Input, "spline surfaces (.vtu .vtpc .xml .g2 .step .iges)")
     ->required();
-  app.add_option("--output", job->Output, "critical points as vertices (.vtp)")->required();
-  app.add_option("--boxes", job->BoxFile, "boxes that hold one point, or a cluster (.vtp)");
-  app.add_option("--table", job->TableFile, "numbers of points and clusters (.csv)");
+  AddOutput(app, "--output", job->Output, Endings::Points, "critical points as vertices")
+    ->required();
+  AddOutput(
+    app, "--boxes", job->BoxFile, Endings::Polygons, "boxes that hold one point, or a cluster");
+  AddOutput(app, "--table", job->TableFile, Endings::Table, "numbers of points and clusters");
   job->FilterOptions = std::make_unique<Options>(app);
   Options& options = *job->FilterOptions;
   vtkSplineExtrema* filter = job->Filter;

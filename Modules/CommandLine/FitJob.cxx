@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "FileEnding.h"
 #include "Jobs.h"
 #include "Options.h"
 #include "Session.h"
@@ -111,12 +110,11 @@ struct FitJob
     report["aic"] = value("AIC").ToDouble();
     report["bic"] = value("BIC").ToDouble();
     report["within_tolerance"] = value("PointsOutside").ToLongLong() == 0;
-    report["seconds_of_fit"] = value("Seconds").ToDouble();
+    report["seconds_of_fit"] = this->Filter->GetSeconds();
   }
 
   Status Run(Session& session)
   {
-    const bool asG2 = LowerEnding(this->Output) == ".g2";
     auto input = session.ReadPoints(this->Input);
     if (!input)
     {
@@ -131,12 +129,6 @@ struct FitJob
     session.Report["output"] = this->Output;
     this->Filter->SetInputDataObject(input.Value);
     this->ApplyOptions(session);
-    if (asG2 && this->Filter->GetSpace() == vtkSplineSurfaceFit::THB)
-    {
-      return { ErrorCode::InvalidParameter,
-        "'" + this->Output +
-          "': a hierarchical spline cannot be written as g2; write .vtu or .xml" };
-    }
     if (Status status = session.Run(this->Filter, "'" + this->Input + "'"); !status)
     {
       return status;
@@ -241,11 +233,11 @@ Job MakeFitJob(CLI::App& app)
     .add_option(
       "points", job->Input, "points (.xyz .txt .csv .g2 .ply .vtp .vtu, meshes .stl .obj .off)")
     ->required();
-  app.add_option("--output", job->Output, "the surface (.vtu .g2 .xml)")->required();
-  app.add_option(
-    "--points", job->Points, "the points with distances, tolerances, outliers (.vtp .csv .xyz)");
-  app.add_option("--table", job->Table, "the iterations (.csv)");
-  app.add_option("--features", job->Features, "the feature grid (.vti)");
+  AddOutput(app, "--output", job->Output, Endings::Spline, "the surface")->required();
+  AddOutput(app, "--points", job->Points, Endings::Points,
+    "the points with distances, tolerances, outliers");
+  AddOutput(app, "--table", job->Table, Endings::Table, "the iterations");
+  AddOutput(app, "--features", job->Features, Endings::Image, "the feature grid");
   AddArrayOptions(app, *job);
   job->FilterOptions = std::make_unique<Options>(app);
   AddFitOptions(*job->FilterOptions, job->Filter);

@@ -49,9 +49,10 @@ Job MakeFlattenJob(CLI::App& app)
 {
   auto job = std::make_shared<FlattenJob>();
   app.add_option("mesh", job->Input, "triangle mesh (.off .obj .ply .stl .vtp .vtu)")->required();
-  app.add_option("--output", job->Output, "the mesh with plane coordinates UV (.vtp)")->required();
-  app.add_option("--loops", job->Loops, "its boundary loops, the outer one first (.vtp)");
-  app.add_option("--table", job->Table, "the summary of distortions (.csv)");
+  AddOutput(app, "--output", job->Output, Endings::Polygons, "the mesh with plane coordinates UV")
+    ->required();
+  AddOutput(app, "--loops", job->Loops, Endings::Points, "its boundary loops, the outer one first");
+  AddOutput(app, "--table", job->Table, Endings::Table, "the summary of distortions");
   job->FilterOptions = std::make_unique<Options>(app);
   Options& options = *job->FilterOptions;
   vtkMeshParameterization* filter = job->Filter;

@@ -56,6 +56,6 @@ void ReportFlattening(
   {
     report[Options::SnakeCase(name)] = value(name).ToDouble();
   }
-  report["seconds_of_method"] = value("Seconds").ToDouble();
+  report["seconds_of_method"] = filter->GetSeconds();
 }
 }

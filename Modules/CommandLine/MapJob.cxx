@@ -187,9 +187,9 @@ Job MakeMapJob(CLI::App& app)
   app.add_option("template", job->Template, "skeleton of the template (.vtp .vtu)")->required();
   app.add_option("target", job->Target, "target patches with the same PatchId (.vtp .vtu)")
     ->required();
-  app.add_option("--output", job->Output, "the map as Bezier grid (.vtu)")->required();
-  app.add_option("--mapped", job->Mapped, "the mapped skeleton with distances (.vtp)");
-  app.add_option("--table", job->Table, "the convergence table (.csv)");
+  AddOutput(app, "--output", job->Output, Endings::Spline, "the map as Bezier grid")->required();
+  AddOutput(app, "--mapped", job->Mapped, Endings::Points, "the mapped skeleton with distances");
+  AddOutput(app, "--table", job->Table, Endings::Table, "the convergence table");
   app.add_option(
     "--initial", job->Initial, "the map to start with: spline grid of one patch (.vtu)");
   app

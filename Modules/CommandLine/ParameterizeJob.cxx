@@ -91,12 +91,12 @@ Job MakeParameterizeJob(CLI::App& app)
     .add_option("boundary", job->Input,
       "four curves or six faces, one patch a side (.vtu .vtpc .xml .g2 .json)")
     ->required();
-  app.add_option("--output", job->Output, "the map as Bezier grid (.vtu)")->required();
+  AddOutput(app, "--output", job->Output, Endings::Spline, "the map as Bezier grid")->required();
   app.add_option("--layout", job->Layout,
     "a mesh of quadrilaterals or hexahedra, one a patch: the boundary then has a curve or face for "
     "every edge or face on its boundary (.vtu .vtp)");
-  app.add_option("--first-map", job->FirstMap, "the map before the optimization (.vtu)");
-  app.add_option("--table", job->Table, "the convergence table (.csv)");
+  AddOutput(app, "--first-map", job->FirstMap, Endings::Spline, "the map before the optimization");
+  AddOutput(app, "--table", job->Table, Endings::Table, "the convergence table");
   job->FilterOptions = std::make_unique<Options>(app);
   Options& options = *job->FilterOptions;
   vtkDomainParameterization* filter = job->Filter;

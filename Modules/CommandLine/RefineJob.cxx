@@ -35,6 +35,10 @@ struct RefineJob
     }
     session.Report["input"] = this->Input;
     session.Report["output"] = this->Output;
+    if (Status status = session.CheckFormat(input.Value, this->Output); !status)
+    {
+      return status;
+    }
     this->Filter->SetInputDataObject(input.Value);
     this->FilterOptions->Apply(session.Report);
     this->Filter->SetThreads(session.Threads);
@@ -84,7 +88,8 @@ Job MakeRefineJob(CLI::App& app)
 {
   auto job = std::make_shared<RefineJob>();
   app.add_option("input", job->Input, "spline grid (.vtu .vtpc .xml .g2 .step .iges)")->required();
-  app.add_option("--output", job->Output, "the refined grid, same type")->required();
+  AddOutput(app, "--output", job->Output, Endings::Splines, "the refined grid, same type")
+    ->required();
   auto* array =
     app.add_option("--array", job->Array, "refine cells by the value of this cell array");
   auto* sphere = app.add_option("--sphere", job->Sphere, "refine at a sphere: centre and radius")
@@ -129,6 +134,7 @@ Job MakeRefineJob(CLI::App& app)
     "the parameter that is constant on new lines of LR patches");
   KNOTWORK_FREE_OPTION(options, filter, KeepIndependent,
     "whether the functions of LR patches are made linearly independent, with no refinements too");
+  KNOTWORK_OPTION(options, filter, MaximumFunctions, "more functions are not made");
   return [job](Session& session) { return job->Run(session); };
 }
 }

@@ -2,12 +2,15 @@
 #include "Session.h"
 
 #include "OffFile.h"
+#include "PolygonText.h"
 
 #include "CADExchange.h"
 #include "FileEnding.h"
+#include "FileOutput.h"
 #include "ForeignFile.h"
 #include "Messages.h"
 #include "OneLine.h"
+#include "SplineModel.h"
 #include "TrimmedGrids.h"
 #include "vtkCADReader.h"
 #include "vtkCADWriter.h"
@@ -20,25 +23,32 @@
 #include "vtkPointCloudWriter.h"
 
 #include <vtkAlgorithm.h>
+#include <vtkBase64Utilities.h>
 #include <vtkCallbackCommand.h>
+#include <vtkDataAssembly.h>
 #include <vtkDataObject.h>
 #include <vtkDelimitedTextWriter.h>
 #include <vtkImageData.h>
+#include <vtkIndent.h>
+#include <vtkInformation.h>
 #include <vtkNew.h>
 #include <vtkPartitionedDataSetCollection.h>
 #include <vtkPolyData.h>
 #include <vtkTable.h>
 #include <vtkUnstructuredGrid.h>
+#include <vtkWriter.h>
 #include <vtkXMLImageDataWriter.h>
-#include <vtkXMLPartitionedDataSetCollectionWriter.h>
 #include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
+#include <array>
+#include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <ctime>
 #include <fstream>
 #include <iostream>
+#include <system_error>
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -130,12 +140,61 @@ vtkSmartPointer<vtkDataObject> ReadByEnding(
   return nullptr;
 }
 
+std::string EndingsFor(vtkDataObject* data)
+{
+  return vtkPolyData::SafeDownCast(data) ? ".vtp, as polygons .stl, .obj or .ply, its points as "
+                                           ".xyz, .txt, .csv or .g2"
+    : vtkUnstructuredGrid::SafeDownCast(data)             ? ".vtu, .xml, .g2, .step or .iges"
+    : vtkPartitionedDataSetCollection::SafeDownCast(data) ? ".vtpc, .xml, .g2, .step or .iges"
+    : vtkImageData::SafeDownCast(data)                    ? ".vti"
+                                                          : ".csv";
+}
+
+/// Whether a format takes the splines of a grid. Grids without splines are no concern of ours.
+Status CheckSplines(
+  vtkDataObject* data, const std::string& file, bool isCAD, bool asCurves, int threads)
+{
+  const auto refuse = [&file](const std::string& reason)
+  { return Status(ErrorCode::InvalidParameter, "'" + file + "': " + reason); };
+  if (isCAD && asCurves)
+  {
+    return refuse("curves alone are no CAD model; write .vtu, .xml or .g2");
+  }
+  const Result<SplineModel> model = DecodeSplineModel(data, threads);
+  if (!model)
+  {
+    return {}; // the job's own error
+  }
+  std::array<bool, 3> has{};
+  for (const SplinePatch& patch : model->Patches)
+  {
+    has[patch.Geometry.index()] = true;
+    const SpaceKind kind =
+      std::visit([](const auto& spline) { return spline.Space->Kind; }, patch.Geometry);
+    if (kind == SpaceKind::Bezier)
+    {
+      return refuse("patch " + std::to_string(patch.Id) +
+        " has no knots, and the format needs them; write .vtu or .vtpc");
+    }
+  }
+  if (isCAD && has[0])
+  {
+    return refuse("curves alone are no CAD model; write .vtu, .xml or .g2");
+  }
+  if (isCAD && has[1] && has[2])
+  {
+    return refuse("surfaces and volumes are written to CAD files of their own");
+  }
+  return {};
+}
+
+/// VTK's writers crash now and then when a disk is full, so they write to memory.
 template <typename Writer>
-bool WriteWith(vtkDataObject* data, const fs::path& file, const std::string& encoding)
+std::string XmlText(vtkDataObject* data, const std::string& encoding)
 {
   vtkNew<Writer> writer;
-  writer->SetFileName(file.c_str());
   writer->SetInputDataObject(data);
+  writer->WriteToOutputStringOn();
   if (encoding == "ascii")
   {
     writer->SetDataModeToAscii();
@@ -149,19 +208,133 @@ bool WriteWith(vtkDataObject* data, const fs::path& file, const std::string& enc
     writer->SetDataModeToAppended();
     writer->EncodeAppendedDataOff();
   }
-  return writer->Write() == 1;
+  return writer->Write() == 1 ? writer->GetOutputString() : std::string();
+}
+
+Status PutText(const std::string& text, const std::string& file)
+{
+  FileOutput output(file);
+  output.Stream().write(text.data(), static_cast<std::streamsize>(text.size()));
+  return output.Finish();
 }
 
 template <typename Writer>
-bool WriteFile(vtkDataObject* data, const fs::path& file)
+Status WriteXml(vtkDataObject* data, const std::string& file, const std::string& encoding)
+{
+  const std::string text = XmlText<Writer>(data, encoding);
+  return text.empty() ? Status(ErrorCode::InvalidParameter, "") : PutText(text, file);
+}
+
+/// A name as the value of an attribute.
+std::string Quoted(const std::string& name)
+{
+  std::string text;
+  for (const char c : name)
+  {
+    text += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '"' ? "&quot;" : std::string(1, c);
+  }
+  return '"' + text + '"';
+}
+
+/// The tree of names of a collection, as its format has it.
+std::string AssemblyText(vtkDataAssembly* assembly)
+{
+  const std::string xml = assembly->SerializeToXML(vtkIndent());
+  std::vector<unsigned char> encoded(2 * xml.size() + 4);
+  const auto length = vtkBase64Utilities::Encode(
+    reinterpret_cast<const unsigned char*>(xml.data()), xml.size(), encoded.data());
+  return "    <DataAssembly encoding=\"base64\">\n      " +
+    std::string(reinterpret_cast<const char*>(encoded.data()), length) + "\n    </DataAssembly>\n";
+}
+
+/// Every piece is a file in a folder of the collection's name.
+Status WriteCollection(
+  vtkPartitionedDataSetCollection* data, const fs::path& file, const std::string& encoding)
+{
+  const std::string stem = file.stem().string();
+  const fs::path folder = file.parent_path() / stem;
+  std::error_code failure;
+  if (!fs::create_directory(folder, failure))
+  {
+    return { ErrorCode::InvalidParameter, failure.message() };
+  }
+  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile "
+                     "type=\"vtkPartitionedDataSetCollection\" version=\"1.0\">\n"
+                     "  <vtkPartitionedDataSetCollection>\n";
+  for (unsigned int p = 0; p < data->GetNumberOfPartitionedDataSets(); ++p)
+  {
+    const char* name =
+      data->HasMetaData(p) ? data->GetMetaData(p)->Get(vtkCompositeDataSet::NAME()) : nullptr;
+    text += "    <Partitions index=\"" + std::to_string(p) + '"' +
+      (name ? " name=" + Quoted(name) : std::string()) + ">\n";
+    for (unsigned int i = 0; i < data->GetNumberOfPartitions(p); ++i)
+    {
+      vtkDataObject* piece = data->GetPartitionAsDataObject(p, i);
+      if (!piece)
+      {
+        continue;
+      }
+      const bool isPolyData = vtkPolyData::SafeDownCast(piece) != nullptr;
+      const std::string own =
+        stem + "_" + std::to_string(p) + "_" + std::to_string(i) + (isPolyData ? ".vtp" : ".vtu");
+      const std::string path = (folder / own).string();
+      const Status status = isPolyData
+        ? WriteXml<vtkXMLPolyDataWriter>(piece, path, encoding)
+        : WriteXml<vtkXMLUnstructuredGridWriter>(piece, path, encoding);
+      if (!status)
+      {
+        return { status.Code, status.Detail.substr(status.Detail.rfind(": ") + 2) };
+      }
+      text += "      <DataSet index=\"" + std::to_string(i) +
+        "\" file=" + Quoted(stem + "/" + own) + "/>\n";
+    }
+    text += "    </Partitions>\n";
+  }
+  vtkDataAssembly* assembly = data->GetDataAssembly();
+  text += assembly ? AssemblyText(assembly) : std::string();
+  text += "  </vtkPartitionedDataSetCollection>\n</VTKFile>\n";
+  return PutText(text, file.string());
+}
+
+/// A writer of ours tells why it has failed as an error of VTK.
+Status Outcome(vtkWriter* writer)
+{
+  return writer->Write() == 1 ? Status() : Status(ErrorCode::InvalidParameter, "");
+}
+
+template <typename Writer>
+Status WriteFile(vtkDataObject* data, const std::string& file)
 {
   vtkNew<Writer> writer;
   writer->SetFileName(file.c_str());
   writer->SetInputDataObject(data);
-  return writer->Write() == 1;
+  return Outcome(writer);
 }
 
-bool WriteG2(vtkDataObject* data, vtkDataObject* curves, const fs::path& file)
+std::string TextOfTable(vtkDataObject* table)
+{
+  vtkNew<vtkDelimitedTextWriter> writer;
+  writer->SetInputDataObject(table);
+  writer->WriteToOutputStringOn();
+  writer->Write();
+  const std::unique_ptr<char[]> text(writer->RegisterAndGetOutputString());
+  return text ? text.get() : "";
+}
+
+/// What is said of a staged file, said of the one that was asked for.
+Status AboutFile(Status status, const std::string& file, const std::string& staged)
+{
+  const std::string lead = "'" + staged + "' cannot be written: ";
+  const auto at = status.Detail.find(lead);
+  if (!status)
+  {
+    status.Detail = "'" + file + "' cannot be written: " +
+      (at == std::string::npos ? status.Detail : status.Detail.substr(at + lead.size()));
+  }
+  return status;
+}
+
+Status WriteG2(vtkDataObject* data, vtkDataObject* curves, const std::string& file)
 {
   vtkNew<vtkGoToolsG2Writer> writer;
   writer->SetFileName(file.c_str());
@@ -170,7 +343,7 @@ bool WriteG2(vtkDataObject* data, vtkDataObject* curves, const fs::path& file)
   {
     writer->SetCurvesData(curves);
   }
-  return writer->Write() == 1;
+  return Outcome(writer);
 }
 
 void PrintProgress(vtkObject* caller, unsigned long, void*, void*)
@@ -180,15 +353,6 @@ void PrintProgress(vtkObject* caller, unsigned long, void*, void*)
   std::fflush(stderr);
 }
 
-}
-
-Session::~Session()
-{
-  for (const StagedFile& staged : this->Staged)
-  {
-    std::error_code ignored;
-    fs::remove_all(staged.Folder, ignored);
-  }
 }
 
 Result<vtkSmartPointer<vtkDataObject>> Session::Read(const std::string& file)
@@ -219,6 +383,10 @@ Result<vtkSmartPointer<vtkDataObject>> Session::ReadWith(
   if (!std::ifstream(file))
   {
     return { ErrorCode::EmptyInput, "'" + file + "' cannot be read; check its permissions" };
+  }
+  if (Status status = this->Files.CheckInput(file); !status)
+  {
+    return status;
   }
   const std::string ending = LowerEnding(file);
   vtkSmartPointer<vtkDataObject> data;
@@ -319,102 +487,121 @@ void Session::Warn(const std::vector<std::string>& warnings) const
   }
 }
 
-Result<fs::path> Session::Stage(const std::string& file)
+Session::FileFormat Session::FormatFor(vtkDataObject* data, const std::string& ending)
 {
-  const fs::path target = fs::absolute(file);
-  const fs::path folder = target.parent_path();
-  std::error_code error;
-  if (target.filename().empty() || !fs::is_directory(folder, error))
+  const bool grid = vtkUnstructuredGrid::SafeDownCast(data) != nullptr;
+  const bool collection = vtkPartitionedDataSetCollection::SafeDownCast(data) != nullptr;
+  if (vtkPolyData::SafeDownCast(data))
   {
-    return { ErrorCode::InvalidParameter, "'" + file + "': there is no folder for it" };
+    return ending == ".vtp"                      ? FileFormat::PolyData
+      : IsPointEnding(ending) || ending == ".g2" ? FileFormat::Points
+      : IsPolygonEnding(ending)                  ? FileFormat::Polygons
+                                                 : FileFormat::None;
   }
-  std::string name = (folder / ".knotwork-XXXXXX").string();
-  if (!mkdtemp(name.data()))
+  if (grid || collection)
   {
-    return { ErrorCode::InvalidParameter, "'" + file + "': the folder cannot be written to" };
+    return ending == (grid ? ".vtu" : ".vtpc") ? (grid ? FileFormat::Grid : FileFormat::Collection)
+      : ending == ".xml" || ending == ".g2"    ? FileFormat::Splines
+      : HasCADEnding("file" + ending)          ? FileFormat::CAD
+      : collection && IsPolygonEnding(ending)  ? FileFormat::Polygons
+                                               : FileFormat::None;
   }
-  this->Staged.push_back({ name, folder });
-  return fs::path(name) / target.filename();
+  if (vtkImageData::SafeDownCast(data))
+  {
+    return ending == ".vti" ? FileFormat::Image : FileFormat::None;
+  }
+  return vtkTable::SafeDownCast(data) && ending == ".csv" ? FileFormat::Table : FileFormat::None;
+}
+
+Status Session::CheckFormat(vtkDataObject* like, const std::string& file, bool asCurves) const
+{
+  const std::string ending = LowerEnding(file);
+  const FileFormat format = FormatFor(like, ending);
+  if (file.empty())
+  {
+    return {};
+  }
+  if (format == FileFormat::None)
+  {
+    return { ErrorCode::InvalidParameter,
+      "'" + file + "': this output is written as " + EndingsFor(like) + "; change the ending" };
+  }
+  if (format != FileFormat::CAD && format != FileFormat::Splines)
+  {
+    return {};
+  }
+  return CheckSplines(like, file, format == FileFormat::CAD, asCurves, this->Threads);
 }
 
 Status Session::Write(vtkDataObject* data, const std::string& file, const std::string& encoding)
 {
   const double begin = Now();
-  const std::string ending = LowerEnding(file);
-  const auto grid = vtkUnstructuredGrid::SafeDownCast(data);
-  const auto polydata = vtkPolyData::SafeDownCast(data);
-  const auto collection = vtkPartitionedDataSetCollection::SafeDownCast(data);
-  const auto table = vtkTable::SafeDownCast(data);
-  const auto image = vtkImageData::SafeDownCast(data);
-  const char* expected = grid ? ".vtu"
-    : polydata                ? ".vtp"
-    : collection              ? ".vtpc"
-    : image                   ? ".vti"
-                              : ".csv";
-  const bool asSplines = grid && (ending == ".xml" || ending == ".g2");
-  const bool asCAD = (grid || collection) && HasCADEnding(file);
-  const bool asPoints = polydata && (IsPointEnding(ending) || ending == ".g2");
-  if (ending != expected && !asSplines && !asCAD && !asPoints)
+  const FileFormat format = FormatFor(data, LowerEnding(file));
+  if (format == FileFormat::None)
   {
-    return { ErrorCode::InvalidParameter,
-      "'" + file + "': this output is written as " + expected +
-        (grid          ? ", .xml, .g2, .step or .iges"
-            : polydata ? ", its points as .xyz, .txt, .csv or .g2"
-                       : "") +
-        "; change the ending" };
+    return this->CheckFormat(data, file);
   }
-  Result<fs::path> staged = this->Stage(file);
+  Result<fs::path> staged = this->Files.Stage(file);
   if (!staged)
   {
     return staged.Status;
   }
   MessageCapture messages;
-  bool written = true;
-  if (asCAD)
+  Status status = this->WriteAs(format, data, staged->string(), encoding);
+  if (status.Detail.empty() && (!status || messages.HasError()))
   {
-    written = WriteFile<vtkCADWriter>(data, staged.Value);
-    this->Warn(messages.HasError() ? std::vector<std::string>() : messages.Warnings());
+    status = { ErrorCode::InvalidParameter, messages.FirstError() };
   }
-  else if (asSplines)
+  const std::vector<std::string> warnings = messages.Warnings();
+  const bool isOfVTK = format == FileFormat::Grid || format == FileFormat::PolyData ||
+    format == FileFormat::Collection || format == FileFormat::Image;
+  if (status && !warnings.empty() && !isOfVTK)
   {
-    written = ending == ".xml" ? WriteFile<vtkGismoXMLWriter>(data, staged.Value)
-                               : WriteG2(data, this->BoundaryCurves, staged.Value);
-  }
-  else if (asPoints)
-  {
-    written = WriteFile<vtkPointCloudWriter>(data, staged.Value);
-    this->Warn(messages.HasError() ? std::vector<std::string>() : messages.Warnings());
-  }
-  else if (grid)
-  {
-    written = WriteWith<vtkXMLUnstructuredGridWriter>(data, staged.Value, encoding);
-  }
-  else if (polydata)
-  {
-    written = WriteWith<vtkXMLPolyDataWriter>(data, staged.Value, encoding);
-  }
-  else if (image)
-  {
-    written = WriteWith<vtkXMLImageDataWriter>(data, staged.Value, encoding);
-  }
-  else if (collection)
-  {
-    written = WriteWith<vtkXMLPartitionedDataSetCollectionWriter>(data, staged.Value, encoding);
-  }
-  else
-  {
-    vtkNew<vtkDelimitedTextWriter> writer;
-    writer->SetFileName(staged.Value.c_str());
-    writer->SetInputDataObject(table);
-    written = writer->Write() == 1;
-  }
-  if (!written || messages.HasError())
-  {
-    return { ErrorCode::InvalidParameter,
-      "'" + file + "' cannot be written: " + messages.FirstError() };
+    this->Warn(warnings);
   }
   this->SecondsOfFiles += Now() - begin;
-  return {};
+  return AboutFile(status, file, staged->string());
+}
+
+Status Session::WriteAs(
+  FileFormat format, vtkDataObject* data, const std::string& file, const std::string& encoding)
+{
+  const std::string ending = LowerEnding(file);
+  switch (format)
+  {
+    case FileFormat::CAD:
+      return WriteFile<vtkCADWriter>(data, file);
+    case FileFormat::Splines:
+      return ending == ".xml" ? WriteFile<vtkGismoXMLWriter>(data, file)
+                              : WriteG2(data, this->BoundaryCurves, file);
+    case FileFormat::Points:
+      return WriteFile<vtkPointCloudWriter>(data, file);
+    case FileFormat::Polygons:
+    {
+      const auto text = PolygonText(data, ending);
+      return text ? PutText(text.Value, file) : text.Status;
+    }
+    case FileFormat::Table:
+      return PutText(TextOfTable(data), file);
+    case FileFormat::Grid:
+      return WriteXml<vtkXMLUnstructuredGridWriter>(data, file, encoding);
+    case FileFormat::PolyData:
+      return WriteXml<vtkXMLPolyDataWriter>(data, file, encoding);
+    case FileFormat::Image:
+      return WriteXml<vtkXMLImageDataWriter>(data, file, encoding);
+    case FileFormat::Collection:
+      return WriteCollection(vtkPartitionedDataSetCollection::SafeDownCast(data), file, encoding);
+    case FileFormat::None:
+      break;
+  }
+  return { ErrorCode::InvalidParameter, "there is no such format" };
+}
+
+Status Session::WriteText(const std::string& text, const std::string& file)
+{
+  Result<fs::path> staged = this->Files.Stage(file);
+  return staged ? AboutFile(PutText(text, staged->string()), file, staged->string())
+                : staged.Status;
 }
 
 Status Session::WriteOutputs(vtkAlgorithm* filter, const std::vector<std::string>& files)
@@ -438,7 +625,7 @@ Status Session::WriteFaces(
   vtkDataObject* surfaces, vtkDataObject* curves, const std::string& file, CADSummary& found)
 {
   const double begin = Now();
-  Result<fs::path> staged = this->Stage(file);
+  Result<fs::path> staged = this->Files.Stage(file);
   if (!staged)
   {
     return staged.Status;
@@ -452,8 +639,7 @@ Status Session::WriteFaces(
     found = std::move(summary.Value);
   }
   this->SecondsOfFiles += Now() - begin;
-  return status ? status
-                : Status(status.Code, "'" + file + "' cannot be written: " + status.Detail);
+  return AboutFile(status, file, staged->string());
 }
 
 Status Session::Commit()
@@ -464,37 +650,14 @@ Status Session::Commit()
     this->Report["cpu_seconds"] = this->CpuSeconds;
     this->Report["seconds_io"] = this->SecondsOfFiles;
     this->Report["peak_bytes"] = PeakBytes();
-    Result<fs::path> staged = this->Stage(this->ReportFile);
-    if (!staged)
+    // not all text of a report need be sound: names of files are bytes
+    const auto replace = nlohmann::ordered_json::error_handler_t::replace;
+    const std::string text = this->Report.dump(2, ' ', false, replace) + "\n";
+    if (Status status = this->WriteText(text, this->ReportFile); !status)
     {
-      return staged.Status;
-    }
-    std::ofstream stream(staged.Value);
-    // names of files may be any bytes
-    stream << this->Report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
-    if (!stream.flush())
-    {
-      return { ErrorCode::InvalidParameter, "'" + this->ReportFile + "' cannot be written" };
+      return status;
     }
   }
-  for (const StagedFile& staged : this->Staged)
-  {
-    for (const fs::directory_entry& entry : fs::directory_iterator(staged.Folder))
-    {
-      const fs::path target = staged.Target / entry.path().filename();
-      std::error_code error;
-      if (entry.is_directory())
-      {
-        fs::remove_all(target, error); // the pieces of an older .vtpc
-      }
-      fs::rename(entry.path(), target, error);
-      if (error)
-      {
-        return { ErrorCode::InvalidParameter,
-          "'" + target.string() + "' cannot be written: " + error.message() };
-      }
-    }
-  }
-  return {};
+  return this->Files.Commit();
 }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "OutputFiles.h"
 #include "Status.h"
 
 #include <nlohmann/json.hpp>
@@ -23,13 +24,13 @@ class Session
 {
 public:
   Session() = default;
-  ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
   bool Quiet = false;
   int Threads = 0;
   std::string ReportFile;
+  OutputFiles Files; ///< that the job writes
   /// Trimming curves of the STEP, IGES or g2 file that was read last; null without any.
   vtkSmartPointer<vtkDataObject> Curves;
   /// Boundary curves of the surfaces that are written as .g2; null: they have none.
@@ -54,13 +55,21 @@ public:
   /// Prints warnings of a decoding on stderr, unless quiet.
   void Warn(const std::vector<std::string>& warnings) const;
 
+  /// Whether data of this class and kind can be written in the format that the ending says: asked
+  /// before the work, with what the output will be like.
+  /// @param asCurves  curves on the surfaces are written instead of them.
+  Status CheckFormat(vtkDataObject* like, const std::string& file, bool asCurves = false) const;
+
   /// Stages an output. XML files hold base64 within their elements: Debian's ParaView 5.11 with the
   /// present libexpat cannot read appended data. The ending of the name says the format: .vtu .vtp
   /// .vtpc for datasets, .xml and .g2 for spline grids, .step .stp .iges .igs for surfaces and
-  /// volumes, .xyz .txt .csv .g2 for the points of polydata, .csv for tables,
-  /// .vti for images.
+  /// volumes, .stl .obj .ply for polygons, .xyz .txt .csv .g2 for the points of polydata, .csv for
+  /// tables, .vti for images.
   Status Write(
     vtkDataObject* data, const std::string& file, const std::string& encoding = "binary");
+
+  /// Stages a text.
+  Status WriteText(const std::string& text, const std::string& file);
 
   /// Stages the output of every port whose file has a name.
   Status WriteOutputs(vtkAlgorithm* filter, const std::vector<std::string>& files);
@@ -74,18 +83,28 @@ public:
   Status Commit();
 
 private:
+  /// What data can be written as.
+  enum class FileFormat
+  {
+    None,
+    Grid,
+    PolyData,
+    Collection,
+    Image,
+    Table,
+    Splines,
+    CAD,
+    Points,
+    Polygons
+  };
+  static FileFormat FormatFor(vtkDataObject* data, const std::string& ending);
+  Status WriteAs(
+    FileFormat format, vtkDataObject* data, const std::string& file, const std::string& encoding);
+
   using Reading = std::function<vtkSmartPointer<vtkDataObject>(const std::string& ending)>;
   /// @param isForeign  by VTK's readers, in a process of their own, and not by `reading`.
   Result<vtkSmartPointer<vtkDataObject>> ReadWith(
     const std::string& file, bool isForeign, const Reading& reading);
-  Result<std::filesystem::path> Stage(const std::string& file);
-
-  struct StagedFile
-  {
-    std::filesystem::path Folder; ///< temporary folder beside the target; everything in it moves
-    std::filesystem::path Target; ///< folder of the target
-  };
-  std::vector<StagedFile> Staged;
   double SecondsOfFiles = 0.0;
   double Seconds = 0.0;
   double CpuSeconds = 0.0;

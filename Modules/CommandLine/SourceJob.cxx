@@ -38,7 +38,7 @@ struct SourceJob
 Job MakeSourceJob(CLI::App& app)
 {
   auto job = std::make_shared<SourceJob>();
-  app.add_option("--output", job->Output, "the shape as Bezier grid (.vtu)")->required();
+  AddOutput(app, "--output", job->Output, Endings::Spline, "the shape as Bezier grid")->required();
   job->FilterOptions = std::make_unique<Options>(app);
   Options& options = *job->FilterOptions;
   vtkSplineSource* filter = job->Filter;
@@ -61,6 +61,7 @@ Job MakeSourceJob(CLI::App& app)
   KNOTWORK_FREE_OPTION(options, filter, Twist, "turn of a twisted bar, degrees");
   KNOTWORK_VECTOR_OPTION(options, filter, Size, double, "side lengths");
   KNOTWORK_VECTOR_OPTION(options, filter, Center, double, "centre");
+  KNOTWORK_OPTION(options, filter, MaximumFunctions, "more functions are not made");
   return [job](Session& session) { return job->Run(session); };
 }
 }

@@ -85,6 +85,12 @@ struct StitchJob
       session.Report["matching"] = "pairs";
     }
     this->Filter->SetThreads(session.Threads);
+    this->Filter->UpdateDataObject();
+    vtkDataObject* like = this->Filter->GetOutputDataObject(0);
+    if (Status status = session.CheckFormat(like, this->Output); !status)
+    {
+      return status;
+    }
     if (Status status = session.Run(this->Filter, this->Names()); !status)
     {
       Status damage = this->FindDamage();
@@ -112,8 +118,8 @@ Job MakeStitchJob(CLI::App& app)
     .add_option(
       "tiles", job->Inputs, "surfaces, one or several a file (.vtu .vtpc .xml .g2 .step .iges)")
     ->required();
-  app.add_option("--output", job->Output, "the tiles as LR splines (.vtu .g2)")->required();
-  app.add_option("--edges", job->EdgeFile, "table of the edges and their jumps (.csv)");
+  AddOutput(app, "--output", job->Output, Endings::Splines, "the tiles as LR splines")->required();
+  AddOutput(app, "--edges", job->EdgeFile, Endings::Table, "table of the edges and their jumps");
   app.add_option("--pair", job->Pairs,
     "a pair of sides that are one curve: tile, side, tile, side, 1 if they run against each other "
     "else 0; may be repeated");

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CADExchange.h"
+#include "FileEnding.h"
 #include "Jobs.h"
 #include "Options.h"
+#include "PolygonText.h"
 #include "Session.h"
 
+#include "SplineBlocks.h"
 #include "vtkCADReader.h"
 #include "vtkSplineTessellate.h"
 
+#include <vtkCellType.h>
 #include <vtkDataObject.h>
 #include <vtkNew.h>
+#include <vtkUnstructuredGrid.h>
 
 #include <memory>
 
@@ -16,6 +21,21 @@ namespace knotwork
 {
 namespace
 {
+bool HasOnlyCurves(vtkDataObject* splines)
+{
+  for (const auto& [block, grid] : GridsByBlock(splines))
+  {
+    for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
+    {
+      if (grid->GetCellType(cell) != VTK_BEZIER_CURVE)
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
 struct TessellateJob
 {
   std::string Input;
@@ -23,9 +43,25 @@ struct TessellateJob
   vtkNew<vtkSplineTessellate> Filter;
   std::unique_ptr<Options> FilterOptions;
 
+  Status CheckFormat(Session& session, vtkDataObject* like, bool isLines) const
+  {
+    if (isLines && IsPolygonEnding(LowerEnding(this->Output)))
+    {
+      return { ErrorCode::InvalidParameter,
+        "'" + this->Output +
+          "': curves have no polygons, and the format has nothing else; write "
+          ".vtp" };
+    }
+    return session.CheckFormat(like, this->Output);
+  }
+
   /// Trimmed faces have a triangulation of their own.
   Status RunCAD(Session& session)
   {
+    if (Status status = session.Files.CheckInput(this->Input); !status)
+    {
+      return status;
+    }
     vtkNew<vtkCADReader> reader;
     reader->SetFileName(this->Input.c_str());
     reader->SetChordalTolerance(this->Filter->GetChordalTolerance());
@@ -34,6 +70,10 @@ struct TessellateJob
     session.Report["input"] = this->Input;
     session.Report["output"] = this->Output;
     this->FilterOptions->Apply(session.Report);
+    if (Status status = this->CheckFormat(session, reader->GetOutputDataObject(2), false); !status)
+    {
+      return status;
+    }
     if (Status status = session.Run(reader, "'" + this->Input + "'"); !status)
     {
       return status;
@@ -60,6 +100,12 @@ struct TessellateJob
     session.Report["output"] = this->Output;
     this->FilterOptions->Apply(session.Report);
     this->Filter->SetThreads(session.Threads);
+    this->Filter->UpdateDataObject();
+    vtkDataObject* like = this->Filter->GetOutputDataObject(0);
+    if (Status status = this->CheckFormat(session, like, HasOnlyCurves(input.Value)); !status)
+    {
+      return status;
+    }
     if (Status status = session.Run(this->Filter, "'" + this->Input + "'"); !status)
     {
       return status;
@@ -79,7 +125,9 @@ Job MakeTessellateJob(CLI::App& app)
     .add_option(
       "input", job->Input, "spline grid (.vtu .vtpc .xml .g2), or trimmed faces (.step .iges)")
     ->required();
-  app.add_option("--output", job->Output, "linear cells (surface .vtp, volume .vtu)")->required();
+  AddOutput(
+    app, "--output", job->Output, Endings::Cells, "linear cells (surface .vtp, volume .vtu)")
+    ->required();
   job->FilterOptions = std::make_unique<Options>(app);
   Options& options = *job->FilterOptions;
   vtkSplineTessellate* filter = job->Filter;
@@ -93,6 +141,7 @@ Job MakeTessellateJob(CLI::App& app)
   KNOTWORK_FREE_OPTION(options, filter, Normals, "exact normals of surfaces");
   KNOTWORK_FREE_OPTION(
     options, filter, Splitting, "points repeated at creases and between patches");
+  KNOTWORK_OPTION(options, filter, MaximumCells, "more polygons or hexahedra are not made");
   return [job](Session& session) { return job->Run(session); };
 }
 }

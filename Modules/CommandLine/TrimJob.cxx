@@ -5,7 +5,6 @@
 #include "Session.h"
 
 #include "CADExchange.h"
-#include "FileEnding.h"
 #include "vtkMeshParameterization.h"
 #include "vtkTrimmedSurface.h"
 
@@ -54,12 +53,6 @@ struct TrimJob
   Status Run(Session& session)
   {
     const bool asCAD = HasCADEnding(this->Output);
-    if (!asCAD && LowerEnding(this->Output) != ".vtu")
-    {
-      return { ErrorCode::InvalidParameter,
-        "'" + this->Output + "': faces are written as .step, .stp, .iges or .igs, their surfaces " +
-          "alone as .vtu; change the ending" };
-    }
     auto input = session.Read(this->Input);
     if (!input)
     {
@@ -174,7 +167,7 @@ struct TrimJob
     report["charts"] = value("Faces").ToInt();
     report["centres_used"] = value("Centres").ToInt();
     report["face_triangles"] = value("Triangles").ToInt();
-    report["seconds_of_trimming"] = value("Seconds").ToDouble();
+    report["seconds_of_trimming"] = this->Trim->GetSeconds();
   }
 };
 }
@@ -187,16 +180,17 @@ Job MakeTrimJob(CLI::App& app)
       "triangle mesh (.off .obj .ply .stl .vtp .vtu); with a point array UV it is used as it is, "
       "else it is laid into the plane first")
     ->required();
-  app
-    .add_option("--output", job->Output,
-      "the trimmed faces (.step .stp .iges .igs), or their surfaces alone (.vtu)")
+  AddOutput(
+    app, "--output", job->Output, Endings::Surfaces, "the trimmed faces, or their surfaces alone")
     ->required();
-  app.add_option("--surface", job->SurfaceFile, "the surfaces as Bezier grid (.vtu)");
-  app.add_option("--curves", job->CurveFile, "the trimming curves as Bezier grid (.vtu)");
-  app.add_option("--triangles", job->TriangleFile, "the faces as watertight triangles (.vtp)");
-  app.add_option("--deviation", job->DeviationFile, "the mesh with its deviation (.vtp)");
-  app.add_option("--flat", job->FlatFile, "the mesh with plane coordinates UV (.vtp)");
-  app.add_option("--table", job->TableFile, "the numbers (.csv)");
+  AddOutput(app, "--surface", job->SurfaceFile, Endings::Spline, "the surfaces as Bezier grid");
+  AddOutput(app, "--curves", job->CurveFile, Endings::Grid, "the trimming curves as Bezier grid");
+  AddOutput(
+    app, "--triangles", job->TriangleFile, Endings::Polygons, "the faces as watertight triangles");
+  AddOutput(
+    app, "--deviation", job->DeviationFile, Endings::Polygons, "the mesh with its deviation");
+  AddOutput(app, "--flat", job->FlatFile, Endings::Polygons, "the mesh with plane coordinates UV");
+  AddOutput(app, "--table", job->TableFile, Endings::Table, "the numbers");
   job->FilterOptions = std::make_unique<Options>(app);
   Options& options = *job->FilterOptions;
   vtkTrimmedSurface* filter = job->Trim;

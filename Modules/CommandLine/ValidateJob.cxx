@@ -86,6 +86,10 @@ struct ValidateJob
     }
     session.Report["input"] = this->Input;
     this->Filter->SetInputDataObject(input.Value);
+    if (Status status = session.CheckFormat(input.Value, this->Output); !status)
+    {
+      return status;
+    }
     this->FilterOptions->Apply(session.Report);
     this->Filter->SetThreads(session.Threads);
     if (Status status = session.Run(this->Filter, "'" + this->Input + "'"); !status)
@@ -171,9 +175,11 @@ Job MakeValidateJob(CLI::App& app)
     .add_option(
       "input", job->Input, "grid of Bezier, Lagrange, linear or quadratic cells (.vtu .vtpc .vtk)")
     ->required();
-  app.add_option("--output", job->Output, "the grid with verdicts and bounds as cell arrays");
-  app.add_option("--witnesses", job->Witnesses, "points and boxes where cells are invalid (.vtu)");
-  app.add_option("--table", job->Table, "the verdict of every patch and of all (.csv)");
+  AddOutput(app, "--output", job->Output, Endings::Splines,
+    "the grid with verdicts and bounds as cell arrays");
+  AddOutput(
+    app, "--witnesses", job->Witnesses, Endings::Grid, "points and boxes where cells are invalid");
+  AddOutput(app, "--table", job->Table, Endings::Table, "the verdict of every patch and of all");
   job->FilterOptions = std::make_unique<Options>(app);
   Options& options = *job->FilterOptions;
   vtkJacobianValidator* filter = job->Filter;

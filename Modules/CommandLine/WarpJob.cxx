@@ -34,6 +34,11 @@ struct WarpJob
       {
         return input.Status;
       }
+      Status status = port == 0 ? session.CheckFormat(input.Value, this->Output) : Status();
+      if (!status)
+      {
+        return status;
+      }
       this->Filter->SetInputDataObject(port, input.Value);
     }
     session.Report["input"] = this->Input;
@@ -68,7 +73,8 @@ Job MakeWarpJob(CLI::App& app)
       "input", job->Input, "points or splines to send (.vtu .vtp .vtpc .xml .g2 .step .iges)")
     ->required();
   app.add_option("map", job->Map, "the spline map (.vtu .xml .g2 .step .iges)")->required();
-  app.add_option("--output", job->Output, "the image, same type as the input")->required();
+  AddOutput(app, "--output", job->Output, Endings::Anything, "the image, same type as the input")
+    ->required();
   job->FilterOptions = std::make_unique<Options>(app);
   Options& options = *job->FilterOptions;
   vtkSplineWarp* filter = job->Filter;
@@ -78,6 +84,7 @@ Job MakeWarpJob(CLI::App& app)
   KNOTWORK_OPTION(
     options, filter, Tolerance, "wanted distance of projected splines; 0: no refinement");
   KNOTWORK_OPTION(options, filter, MaxLevel, "levels that refinement may add");
+  KNOTWORK_OPTION(options, filter, MaximumFunctions, "more functions are not made");
   return [job](Session& session) { return job->Run(session); };
 }
 }

@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// knotwork <job> [input...] --output FILE [--report FILE.json] [options]
 /// Exit status: 0 done; 1 bad input or failure, one line on stderr; 2 wrong usage; of validate also
-/// 3 invalid, 4 undecided.
+/// 3 invalid, 4 undecided; 128 + n ended by signal n.
 #include "Jobs.h"
 #include "OneLine.h"
 #include "ParallelStart.h"
 #include "Session.h"
+#include "Termination.h"
 #include "TruthValues.h"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cerrno>
+#include <csignal>
 #include <exception>
 #include <iostream>
 #include <sstream>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -65,6 +69,7 @@ constexpr Entry Jobs[] = {
 /// One line, whatever the message holds.
 int Fail(const std::string& job, const std::string& message)
 {
+  const auto lock = knotwork::Termination::Hold();
   std::cerr << "knotwork " << job << ": " << knotwork::OneLine(message) << "\n";
   return Failure;
 }
@@ -82,6 +87,35 @@ int Explain(const CLI::App& app, const CLI::ParseError& error)
     std::cerr << knotwork::OneLine(line) << "\n";
   }
   return status == 0 ? 0 : WrongUsage;
+}
+
+/// What has been printed on standard output has arrived there.
+knotwork::Status FlushOutput()
+{
+  errno = 0;
+  if (std::cout.flush())
+  {
+    return {};
+  }
+  return { knotwork::ErrorCode::InvalidParameter,
+    "standard output cannot be written: " + std::generic_category().message(errno) };
+}
+
+/// Plans the outputs, runs the job and puts the outputs into their places.
+knotwork::Status Run(const CLI::App& job, const knotwork::Job& run, knotwork::Session& session)
+{
+  knotwork::Status status = session.Files.Plan(job);
+  if (status)
+  {
+    session.Report["job"] = job.get_name();
+    session.Report["threads"] = session.Threads;
+    status = run(session);
+  }
+  if (status)
+  {
+    status = FlushOutput();
+  }
+  return status ? session.Commit() : status;
 }
 }
 
@@ -103,7 +137,9 @@ int main(int argc, char* argv[])
   for (const Entry& entry : Jobs)
   {
     CLI::App* job = app.add_subcommand(entry.Name, entry.Help);
-    job->add_option("--report", session.ReportFile, "JSON file for the numbers of the job");
+    knotwork::AddOutput(*job, "--report", session.ReportFile, knotwork::Endings::Any,
+      "JSON file for the numbers of the job");
+    job->add_flag("--force", session.Files.Force, "an output may take the place of an input");
     job->add_option("--threads", session.Threads, "threads, 0 = all cores")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
@@ -135,15 +171,13 @@ int main(int argc, char* argv[])
       }
       return WrongUsage;
     }
+    knotwork::Termination::Begin(job->get_name());
+    // a limit of the size of files, or a reader that has gone, is an error like a full disk
+    std::signal(SIGXFSZ, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN);
     try
     {
-      session.Report["job"] = job->get_name();
-      session.Report["threads"] = session.Threads;
-      knotwork::Status status = run(session);
-      if (status)
-      {
-        status = session.Commit();
-      }
+      const knotwork::Status status = Run(*job, run, session);
       return status ? session.ExitStatus : Fail(job->get_name(), status.Detail);
     }
     catch (const std::exception& error) // of a library, e.g. out of memory

@@ -304,6 +304,5 @@ void EncodeSummary(const ChartedMesh& charted, FlattenMethod asked, vtkTable* ou
   AddColumn(output, "IsometryError", measures.IsometryError);
   AddColumn(output, "DistanceError", measures.DistanceError);
   AddColumn(output, "RejectedEigenvectors", rejected);
-  AddColumn(output, "Seconds", charted.Seconds);
 }
 }

@@ -111,6 +111,7 @@ knotwork::Status vtkMeshParameterization::Compute(
   {
     return charted.Status;
   }
+  this->Seconds = charted->Seconds;
   this->ReportWarnings(Warnings(charted.Value));
   knotwork::EncodeMesh(
     decoded.Value, charted.Value, input, this->FlatOutput, vtkPolyData::GetData(outputs, 0));

@@ -140,6 +140,11 @@ public:
   vtkBooleanMacro(FlatOutput, bool);
   ///@}
 
+  /**
+   * Measured seconds of the last run. They are in no output: outputs are the same from run to run.
+   */
+  vtkGetMacro(Seconds, double);
+
 protected:
   vtkMeshParameterization();
   ~vtkMeshParameterization() override = default;
@@ -156,6 +161,7 @@ private:
   knotwork::Result<knotwork::ChartedMesh> Flatten(
     const knotwork::TriangleMesh& mesh, const knotwork::FlattenParams& params) const;
 
+  double Seconds = 0.0;
   int Method = HLLE;
   int LaplacianWeights = COTANGENT;
   int Geodesics = UNFOLDING;

@@ -316,7 +316,6 @@ void EncodeIterations(const SurfaceFit& fit, vtkTable* output)
   real("DegreesOfFreedom", [](Row r) { return r.DegreesOfFreedom; });
   real("AIC", [](Row r) { return r.AIC; });
   real("BIC", [](Row r) { return r.BIC; });
-  real("Seconds", [](Row r) { return r.Seconds; });
 }
 
 void EncodeFeatures(

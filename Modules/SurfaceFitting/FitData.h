@@ -55,7 +55,7 @@ void EncodeDistances(const DecodedCloud& cloud, const SurfaceFit& fit, vtkPointS
 
 /// A row an iteration, the last one that of the result: Iteration, Method, Functions, Elements,
 /// MaxError, MeanError, RmsError, PointsOutside, Outliers, LogLikelihood, DegreesOfFreedom, AIC,
-/// BIC, Seconds.
+/// BIC.
 void EncodeIterations(const SurfaceFit& fit, vtkTable* output);
 
 /// A cell a cell of the grid, with the cell arrays Height, Slope, Roughness, MaxError, ElementSize,

@@ -248,6 +248,7 @@ knotwork::Status vtkSplineSurfaceFit::Compute(
   {
     return fit.Status;
   }
+  this->Seconds = fit->Iterations.back().Seconds;
   if (!fit->WithinTolerance)
   {
     this->ReportWarnings({ DescribeMiss(fit.Value) });

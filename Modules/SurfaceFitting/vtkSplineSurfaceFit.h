@@ -262,6 +262,11 @@ public:
   vtkGetMacro(FeatureGridSize, int);
   ///@}
 
+  /**
+   * Measured seconds of the last run. They are in no output: outputs are the same from run to run.
+   */
+  vtkGetMacro(Seconds, double);
+
 protected:
   vtkSplineSurfaceFit();
   ~vtkSplineSurfaceFit() override = default;
@@ -286,6 +291,7 @@ private:
   int InitialElementsU = 0;
   int InitialElementsV = 0;
   double Domain[4] = { 0.0, 0.0, 0.0, 0.0 };
+  double Seconds = 0.0;
   int Method = LEAST_SQUARES;
   int SwitchIteration = 6;
   double Smoothing = 1e-9;

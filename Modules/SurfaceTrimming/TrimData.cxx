@@ -336,7 +336,7 @@ LoopVerdict WorstLoops(const TrimmedSurface& trimmed)
                           : *std::min_element(verdicts.begin(), verdicts.end());
 }
 
-void EncodeNumbers(const TrimmedSurface& trimmed, double seconds, vtkTable* output)
+void EncodeNumbers(const TrimmedSurface& trimmed, vtkTable* output)
 {
   double area = 0.0;
   double meshArea = 0.0;
@@ -384,6 +384,5 @@ void EncodeNumbers(const TrimmedSurface& trimmed, double seconds, vtkTable* outp
   AddColumn(output, "Passes", passes);
   AddColumn(output, "Triangles", static_cast<int>(trimmed.Mesh.Triangles.size()));
   AddColumn(output, "TriangleBound", trimmed.Mesh.Bound);
-  AddColumn(output, "Seconds", seconds);
 }
 }

@@ -42,7 +42,7 @@ void EncodeDeviation(
   const DecodedCharts& decoded, const TrimmedSurface& trimmed, vtkPointSet* output);
 
 /// One row with all numbers.
-void EncodeNumbers(const TrimmedSurface& trimmed, double seconds, vtkTable* output);
+void EncodeNumbers(const TrimmedSurface& trimmed, vtkTable* output);
 
 /// Of the faces: invalid when one is, else undecided when one is.
 Verdict WorstVerdict(const TrimmedSurface& trimmed);

@@ -134,7 +134,7 @@ knotwork::Status vtkTrimmedSurface::Compute(
   vtkPointSet* deviation = vtkPointSet::GetData(outputs, DeviationPort);
   deviation->ShallowCopy(input);
   knotwork::EncodeDeviation(decoded.Value, trimmed.Value, deviation);
-  const double seconds = vtkTimerLog::GetUniversalTime() - begin;
-  knotwork::EncodeNumbers(trimmed.Value, seconds, vtkTable::GetData(outputs, 4));
+  this->Seconds = vtkTimerLog::GetUniversalTime() - begin;
+  knotwork::EncodeNumbers(trimmed.Value, vtkTable::GetData(outputs, 4));
   return {};
 }

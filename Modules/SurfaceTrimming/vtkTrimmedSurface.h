@@ -104,6 +104,11 @@ public:
   vtkBooleanMacro(Triangulation, bool);
   ///@}
 
+  /**
+   * Measured seconds of the last run. They are in no output: outputs are the same from run to run.
+   */
+  vtkGetMacro(Seconds, double);
+
 protected:
   vtkTrimmedSurface();
   ~vtkTrimmedSurface() override = default;
@@ -117,6 +122,7 @@ private:
   vtkTrimmedSurface(const vtkTrimmedSurface&) = delete;
   void operator=(const vtkTrimmedSurface&) = delete;
 
+  double Seconds = 0.0;
   int Method = PENALIZED;
   double Tolerance = 0.0;
   double ChordalTolerance = 0.0;

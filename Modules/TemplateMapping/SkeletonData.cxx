@@ -467,7 +467,6 @@ void EncodeConvergence(const std::vector<TemplateMapIteration>& history, vtkTabl
   vtkNew<vtkDoubleArray> lengths;
   vtkNew<vtkIntArray> held;
   vtkNew<vtkIntArray> functions;
-  vtkNew<vtkDoubleArray> seconds;
   iterations->SetName("Iteration");
   squared->SetName("SquaredL2Error");
   largest->SetName("MaxError");
@@ -475,7 +474,6 @@ void EncodeConvergence(const std::vector<TemplateMapIteration>& history, vtkTabl
   lengths->SetName("StepLength");
   held->SetName("HeldElements");
   functions->SetName("Functions");
-  seconds->SetName("Seconds");
   for (const TemplateMapIteration& row : history)
   {
     iterations->InsertNextValue(row.Iteration);
@@ -485,10 +483,9 @@ void EncodeConvergence(const std::vector<TemplateMapIteration>& history, vtkTabl
     lengths->InsertNextValue(row.StepLength);
     held->InsertNextValue(row.HeldElements);
     functions->InsertNextValue(row.Functions);
-    seconds->InsertNextValue(row.Seconds);
   }
   for (vtkDataArray* column : std::initializer_list<vtkDataArray*>{
-         iterations, squared, largest, negative, lengths, held, functions, seconds })
+         iterations, squared, largest, negative, lengths, held, functions })
   {
     table->AddColumn(column);
   }

@@ -25,7 +25,7 @@
  * patches). Output 2 is the convergence table, one row an iteration: `Iteration`, `SquaredL2Error`
  * (sum over all target samples), `MaxError` (two-sided), `NegativeJacobianPercent` (of 10^6 points
  * of the domain: 1000 x 1000 or 100 x 100 x 100), `StepLength` (share of the step that was taken),
- * `HeldElements` (that the guard held back), `Functions`, `Seconds` (since the start).
+ * `HeldElements` (that the guard held back), `Functions`.
  *
  * Without points in both inputs the outputs are empty.
  *

@@ -2,6 +2,7 @@
 """Runs of the program that must fail well: exit status 1, one line, no output files, existing ones untouched."""
 import os
 import re
+import sys
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
 
@@ -11,7 +12,8 @@ KEPT = "kept as it is"
 
 
 def path(name):
-    return knotwork_testing.output("cli_bad/" + name)
+    """In a folder of the test's own: several may run at once."""
+    return knotwork_testing.output(os.path.join("cli_bad", os.path.splitext(os.path.basename(sys.argv[0]))[0], name))
 
 
 def write_text(name, text):

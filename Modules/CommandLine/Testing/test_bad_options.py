@@ -106,7 +106,7 @@ def test_numbers_that_no_option_takes_are_refused():
     grid = ["--output", "out.vtu"]
     cases = [(["source", *arguments, *grid], [word]) for arguments, word in (
         (["--size", "nan", 1, 1], "nan"), (["--size", 0, 1, 1], "size 0 is 0"), (["--size", 1e308, 1, 1], "1e+60"),
-        (["--elements", 0, 1, 1], "elements"), (["--elements", 10**9, 10**9, 1], "control points"),
+        (["--elements", 0, 1, 1], "elements"), (["--elements", 10**9, 10**9, 1], "MaximumFunctions"),
         (["--center", "inf", 0, 0], "centre"), (["--shape", "arc", "--angle", 1e308], "1e+308"),
         (["--shape", "twisted-bar", "--twist", "nan"], "twist"), (["--shape", "disc", "--outer-radius", 1e308], "1e+60"))]
     plain, (surface, points) = square(), fitted()

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Termination.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include <unistd.h>
+
+namespace fs = std::filesystem;
+
+namespace knotwork::Termination
+{
+namespace
+{
+struct State
+{
+  std::mutex Mutex;
+  std::vector<fs::path> Folders;
+  std::string Job;
+  bool Done = false;
+};
+
+/// Never destroyed: the waiting thread may look at it until the end.
+State& Shared()
+{
+  static State& state = *new State;
+  return state;
+}
+
+/// Those that are not ignored.
+sigset_t Awaited()
+{
+  sigset_t set;
+  sigemptyset(&set);
+  for (const int number : { SIGTERM, SIGINT, SIGHUP })
+  {
+    struct sigaction action
+    {
+    };
+    if (sigaction(number, nullptr, &action) == 0 && action.sa_handler != SIG_IGN)
+    {
+      sigaddset(&set, number);
+    }
+  }
+  return set;
+}
+
+sigset_t awaited;
+
+void Block()
+{
+  awaited = Awaited();
+  sigprocmask(SIG_BLOCK, &awaited, nullptr);
+}
+
+#ifdef __GLIBC__
+/// Comes before the constructors of shared libraries: OpenBLAS makes its threads in one.
+__attribute__((section(".preinit_array"), used)) void (*const blockFirst)() = Block;
+#endif
+
+const char* NameOf(int number)
+{
+  return number == SIGTERM ? "SIGTERM" : number == SIGINT ? "SIGINT" : "SIGHUP";
+}
+
+/// Other threads still write into it: it is tried until it is gone.
+void RemoveWhileInUse(const fs::path& folder)
+{
+  constexpr int MostTrials = 1000;
+  std::error_code failure;
+  for (int i = 0; i < MostTrials; ++i)
+  {
+    fs::remove_all(folder, failure);
+    if (!fs::exists(folder, failure))
+    {
+      return;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+[[noreturn]] void End(int number)
+{
+  for (const fs::path& folder : Shared().Folders)
+  {
+    RemoveWhileInUse(folder);
+  }
+  const std::string line = (isatty(STDERR_FILENO) == 1 ? "\r" : "") + std::string("knotwork ") +
+    Shared().Job + ": ended by " + NameOf(number) + "; no output is written\n";
+  static_cast<void>(!write(STDERR_FILENO, line.data(), line.size()));
+  constexpr int BySignal = 128; // as shells have it
+  _exit(BySignal + number);
+}
+
+void Wait()
+{
+  while (true)
+  {
+    int number = 0;
+    if (sigwait(&awaited, &number) != 0)
+    {
+      return;
+    }
+    const auto lock = Hold();
+    if (!Shared().Done)
+    {
+      End(number);
+    }
+  }
+}
+}
+
+void Begin(const std::string& job)
+{
+  Shared().Job = job;
+  Block(); // for systems that know nothing of the array above
+  std::thread(Wait).detach();
+}
+
+std::unique_lock<std::mutex> Hold()
+{
+  return std::unique_lock<std::mutex>(Shared().Mutex);
+}
+
+void SetDone()
+{
+  Shared().Done = true;
+}
+
+Result<fs::path> MakeFolder(const fs::path& pattern)
+{
+  const auto lock = Hold();
+  std::string name = pattern.string();
+  if (!mkdtemp(name.data()))
+  {
+    return { ErrorCode::InvalidParameter, std::generic_category().message(errno) };
+  }
+  Shared().Folders.emplace_back(name);
+  return fs::path(name);
+}
+
+void RemoveFolder(const fs::path& folder)
+{
+  const auto lock = Hold();
+  std::error_code ignored;
+  fs::remove_all(folder, ignored);
+  auto& folders = Shared().Folders;
+  folders.erase(std::remove(folders.begin(), folders.end(), folder), folders.end());
+}
+}
