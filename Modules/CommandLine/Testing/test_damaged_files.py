@@ -27,7 +27,7 @@ LONGEST = 60.0  # seconds
 LARGEST = 2 << 30  # bytes
 FINE = (0, 1, 3, 4, 5)
 # what only those who wrote VTK or OpenCASCADE can read
-INTERNALS = re.compile(r"0x[0-9a-f]{6,}|\bvtk[A-Z]\w* ?\((?:0x|nil|\(nil)|ERROR: In|\.cxx\b|, line \d+ of file|Standard_|\(null\)|std::|basic_string|\bvtk\w+::|Reference Count|Process continues|Unknown message|%[ds]\b")
+INTERNALS = re.compile(r"0x[0-9a-f]{6,}|\bvtk[A-Z]\w* ?\((?:0x|nil|\(nil)|ERROR: In|\.cxx\b|, line \d+ of file|Standard_|\(null\)|std::|basic_string|\bvtk\w+::|Reference Count|Process continues|Unknown message|parameter %d")
 
 
 def sound_files():

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // usage: knotwork-read-vtk PARENT BYTES SECONDS FILE
 // Reads .vtu, .vtp, .vtpc and .vtk by VTK's readers for another process, see Worker.h.
+#include "CellCheck.h"
 #include "DataParts.h"
 #include "FileEnding.h"
 #include "Messages.h"
@@ -93,6 +94,10 @@ Status Read(const std::string& file, const Parts&, Parts& found)
     return { ErrorCode::InvalidTopology,
       "'" + file + "' is damaged or not what its ending says" +
         Reason(messages.FirstError(), file) + "; write it again" };
+  }
+  if (Status status = CheckCells(data); !status)
+  {
+    return { status.Code, "'" + file + "' is damaged: " + status.Detail + "; write it again" };
   }
   AppendParts(data, found);
   return {};

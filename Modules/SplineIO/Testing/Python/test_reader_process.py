@@ -204,6 +204,38 @@ def test_hostile_xml_is_refused_with_its_place():
         assert usage.ru_maxrss < 100 << 10 and usage.ru_utime + usage.ru_stime < 5, (name, usage)
 
 
+def grid(ids, ends="4", kind=9, more=""):
+    """A .vtu of four points and one cell."""
+    points = "0 0 0  1 0 0  1 1 0  0 1 0"
+    return ('<VTKFile type="UnstructuredGrid" version="1.0" header_type="UInt64"><UnstructuredGrid><Piece NumberOfPoints="4" NumberOfCells="1">'
+            f'<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">{points}</DataArray></Points><Cells>'
+            f'<DataArray type="Int64" Name="connectivity" format="ascii">{ids}</DataArray>'
+            f'<DataArray type="Int64" Name="offsets" format="ascii">{ends}</DataArray>'
+            f'<DataArray type="UInt8" Name="types" format="ascii">{kind}</DataArray>{more}</Cells></Piece></UnstructuredGrid></VTKFile>')
+
+
+def faces(stream):
+    return ('<DataArray type="Int64" Name="faces" format="ascii">%s</DataArray><DataArray type="Int64" Name="faceoffsets" format="ascii">%d</DataArray>'
+            % (stream, len(stream.split())))
+
+
+def test_cells_have_points_that_are_there():
+    tetrahedron = "4 3 0 1 2 3 0 1 3 3 1 2 3 3 0 2 %d"
+    cases = {"sound": (grid("0 1 2 3"), None), "beyond": (grid("0 1 2 4294967295"), "point 4294967295 of 4"),
+             "negative": (grid("0 1 2 -1"), "point -1 of 4"), "polyhedron": (grid("0 1 2 3", kind=42, more=faces(tetrahedron % 3)), None),
+             "face": (grid("0 1 2 3", kind=42, more=faces(tetrahedron % 99)), "faces of cell 0"),
+             "lines": (grid("0 1 2 3").replace("UnstructuredGrid", "PolyData").replace("NumberOfCells", "NumberOfLines").replace("Cells>", "Lines>")
+                       .replace("0 1 2 3</", "0 1 2 7</"), "point 7 of 4")}
+    for name, (text, words) in cases.items():
+        file = path(name + (".vtp" if name == "lines" else ".vtu"))
+        with open(file, "w") as stream:
+            stream.write(text)
+        process, ours = start("knotwork-read-vtk", file)
+        found = parts(ours)
+        assert process.wait() == 0
+        assert (found[0] == b"0") == (words is None) and (words or "").encode() in found[1], (name, found)
+
+
 def test_refusals_are_one_line_of_the_program():
     for name in ("negative_index.vtpc", "huge_index.vtpc", "offset_is_no_count.vtu", "huge_compression_header.vtp", "huge_field.vtk",
                  "crashes_opencascade.iges"):
