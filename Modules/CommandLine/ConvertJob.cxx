@@ -100,7 +100,7 @@ struct ConvertJob
         return status;
       }
     }
-    auto input = session.ReadPoints(this->Input);
+    auto input = session.Read(this->Input);
     if (!input)
     {
       return input.Status;

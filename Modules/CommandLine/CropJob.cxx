@@ -40,7 +40,7 @@ struct CropJob
   Status Run(Session& session)
   {
     auto surface = session.Read(this->Surface);
-    auto points = surface ? session.ReadPoints(this->Points) : surface.Status;
+    auto points = surface ? session.Read(this->Points) : surface.Status;
     if (!points)
     {
       return points.Status;

@@ -29,7 +29,7 @@ struct DistanceJob
 
   Status Run(Session& session)
   {
-    auto points = session.ReadPoints(this->Points);
+    auto points = session.Read(this->Points);
     auto surface = points ? session.Read(this->Surface) : points.Status;
     if (!surface)
     {

@@ -115,7 +115,7 @@ struct FitJob
 
   Status Run(Session& session)
   {
-    auto input = session.ReadPoints(this->Input);
+    auto input = session.Read(this->Input);
     if (!input)
     {
       return input.Status;

@@ -124,7 +124,7 @@ struct InfoJob
 
   Status Run(Session& session)
   {
-    auto input = session.ReadPoints(this->Input);
+    auto input = session.Read(this->Input);
     if (!input)
     {
       return input.Status;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Session.h"
 
-#include "OffFile.h"
+#include "DataCheck.h"
 #include "PolygonText.h"
 
 #include "CADExchange.h"
@@ -21,6 +21,7 @@
 #include "vtkGoToolsG2Writer.h"
 #include "vtkPointCloudReader.h"
 #include "vtkPointCloudWriter.h"
+#include "vtkSplineAlgorithm.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkBase64Utilities.h>
@@ -78,11 +79,12 @@ long long PeakBytes()
 }
 
 template <typename Reader>
-vtkSmartPointer<vtkDataObject> ReadWith(const std::string& file)
+vtkSmartPointer<vtkDataObject> ReadWith(const std::string& file, Session& session)
 {
   vtkNew<Reader> reader;
   reader->SetFileName(file.c_str());
   reader->Update();
+  session.NoteLeftOut(reader, file);
   return reader->GetOutputDataObject(0);
 }
 
@@ -90,6 +92,11 @@ bool IsEmpty(vtkDataObject* data)
 {
   return data->GetNumberOfElements(vtkDataObject::POINT) == 0 &&
     data->GetNumberOfElements(vtkDataObject::ROW) == 0;
+}
+
+bool IsMeshEnding(const std::string& ending)
+{
+  return ending == ".off" || ending == ".obj" || ending == ".ply" || ending == ".stl";
 }
 
 /// Text of a point a line.
@@ -104,24 +111,26 @@ bool HoldsPoints(const std::string& file)
   return reader->CanReadFile(file.c_str()) != 0;
 }
 
-/// @param curves  set to the trimming curves of a STEP, IGES or g2 file.
+/// Sets the session's Curves to the trimming curves of a STEP, IGES or g2 file.
 vtkSmartPointer<vtkDataObject> ReadByEnding(
-  const std::string& file, const std::string& ending, vtkSmartPointer<vtkDataObject>& curves)
+  const std::string& file, const std::string& ending, Session& session)
 {
   if (ending == ".xml")
   {
-    return ReadWith<vtkGismoXMLReader>(file);
+    return ReadWith<vtkGismoXMLReader>(file, session);
   }
-  if (IsPointEnding(ending) || (ending == ".g2" && HoldsPoints(file)))
+  if (IsPointEnding(ending) || IsMeshEnding(ending) || (ending == ".g2" && HoldsPoints(file)))
   {
-    return ReadWith<vtkPointCloudReader>(file);
+    return ReadWith<vtkPointCloudReader>(file, session);
   }
   if (ending == ".g2")
   {
     vtkNew<vtkGoToolsG2Reader> reader;
     reader->SetFileName(file.c_str());
     reader->Update();
-    curves = IsEmpty(reader->GetOutputDataObject(1)) ? nullptr : reader->GetOutputDataObject(1);
+    session.NoteLeftOut(reader, file);
+    vtkDataObject* curves = reader->GetOutputDataObject(1);
+    session.Curves = IsEmpty(curves) ? nullptr : curves;
     return reader->GetOutputDataObject(0);
   }
   if (HasCADEnding(file))
@@ -130,12 +139,13 @@ vtkSmartPointer<vtkDataObject> ReadByEnding(
     reader->SetFileName(file.c_str());
     reader->TriangulationOff();
     reader->Update();
-    curves = reader->GetOutputDataObject(1);
+    session.NoteLeftOut(reader, file);
+    session.Curves = reader->GetOutputDataObject(1);
     return reader->GetOutputDataObject(0);
   }
   if (ending == ".json")
   {
-    return ReadWith<vtkDomainBoundaryReader>(file);
+    return ReadWith<vtkDomainBoundaryReader>(file, session);
   }
   return nullptr;
 }
@@ -358,17 +368,7 @@ void PrintProgress(vtkObject* caller, unsigned long, void*, void*)
 Result<vtkSmartPointer<vtkDataObject>> Session::Read(const std::string& file)
 {
   return this->ReadWith(file, HasVTKEnding(file),
-    [&](const std::string& known) { return ReadByEnding(file, known, this->Curves); });
-}
-
-Result<vtkSmartPointer<vtkDataObject>> Session::ReadPoints(const std::string& file)
-{
-  if (LowerEnding(file) != ".ply")
-  {
-    return this->Read(file);
-  }
-  return this->ReadWith(
-    file, false, [&](const std::string&) { return knotwork::ReadWith<vtkPointCloudReader>(file); });
+    [&](const std::string& known) { return ReadByEnding(file, known, *this); });
 }
 
 Result<vtkSmartPointer<vtkDataObject>> Session::ReadWith(
@@ -390,20 +390,6 @@ Result<vtkSmartPointer<vtkDataObject>> Session::ReadWith(
   }
   const std::string ending = LowerEnding(file);
   vtkSmartPointer<vtkDataObject> data;
-  if (ending == ".off")
-  {
-    auto mesh = ReadOffFile(file);
-    if (!mesh)
-    {
-      return mesh.Status;
-    }
-    if (IsEmpty(mesh.Value))
-    {
-      return { ErrorCode::EmptyInput, "'" + file + "' holds no points" };
-    }
-    this->SecondsOfFiles += Now() - begin;
-    return vtkSmartPointer<vtkDataObject>(mesh.Value);
-  }
   MessageCapture messages;
   if (isForeign)
   {
@@ -441,8 +427,22 @@ Result<vtkSmartPointer<vtkDataObject>> Session::ReadWith(
   {
     return { ErrorCode::EmptyInput, "'" + file + "' holds no points" };
   }
+  if (Status status = CheckData(data); !status)
+  {
+    return { status.Code, "'" + file + "': " + status.Detail };
+  }
+  this->Warn(messages.Warnings());
   this->SecondsOfFiles += Now() - begin;
   return data;
+}
+
+void Session::NoteLeftOut(vtkAlgorithm* reader, const std::string& file)
+{
+  auto* own = vtkSplineAlgorithm::SafeDownCast(reader);
+  for (int i = 0; own && i < own->GetNumberOfPartsLeftOut(); ++i)
+  {
+    this->LeftOut.push_back("'" + file + "': " + own->GetPartLeftOut(i));
+  }
 }
 
 Status Session::Run(vtkAlgorithm* filter, const std::string& what, int port)
@@ -644,6 +644,10 @@ Status Session::WriteFaces(
 
 Status Session::Commit()
 {
+  constexpr int PartLeftOut = 5;
+  this->ExitStatus =
+    this->ExitStatus == 0 && !this->LeftOut.empty() ? PartLeftOut : this->ExitStatus;
+  this->Report["left_out"] = this->LeftOut;
   if (!this->ReportFile.empty())
   {
     this->Report["seconds"] = this->Seconds;

@@ -36,21 +36,24 @@ public:
   /// Boundary curves of the surfaces that are written as .g2; null: they have none.
   vtkSmartPointer<vtkDataObject> BoundaryCurves;
   int ExitStatus = 0; ///< of the program when the job has succeeded
+  /// Parts of the inputs that readers left out, one sentence each: key left_out of the report, and
+  /// exit status 5 where the job has none of its own.
+  std::vector<std::string> LeftOut;
   /// Flat JSON object of the report; jobs add the numbers they are about.
   nlohmann::ordered_json Report = nlohmann::ordered_json::object();
 
   /// Reads a dataset by the ending of its name: .vtu .vtp .vtpc, and .vtk; splines .xml (G+Smo) .g2
   /// (GoTools); surfaces of .step .stp .iges .igs (their trimming is in Curves); meshes .off .obj
   /// .ply .stl; points .xyz .txt .csv, and .g2 that begins with points. An unreadable, truncated,
-  /// damaged or empty file is an error that names the file.
+  /// damaged or empty file is an error that names the file, and so are points that are not finite.
   Result<vtkSmartPointer<vtkDataObject>> Read(const std::string& file);
-
-  /// Reads points with what belongs to them: as Read, but .ply with all digits and properties.
-  Result<vtkSmartPointer<vtkDataObject>> ReadPoints(const std::string& file);
 
   /// Updates a filter with progress on a terminal; messages of VTK become the status. `what` names
   /// the inputs in the message. No points or rows in the output of `port` are an error.
   Status Run(vtkAlgorithm* filter, const std::string& what, int port = 0);
+
+  /// Adds what a reader left out of a file to LeftOut.
+  void NoteLeftOut(vtkAlgorithm* reader, const std::string& file);
 
   /// Prints warnings of a decoding on stderr, unless quiet.
   void Warn(const std::vector<std::string>& warnings) const;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// knotwork <job> [input...] --output FILE [--report FILE.json] [options]
-/// Exit status: 0 done; 1 bad input or failure, one line on stderr; 2 wrong usage; of validate also
-/// 3 invalid, 4 undecided; 128 + n ended by signal n.
+/// Exit status: 0 done; 1 bad input or failure, one line on stderr; 2 wrong usage; 5 done, but part
+/// of the input was left out (named on stderr and in the report); of validate also 3 invalid, 4
+/// undecided; 128 + n ended by signal n.
 #include "Jobs.h"
 #include "OneLine.h"
 #include "ParallelStart.h"
@@ -131,6 +132,8 @@ int main(int argc, char* argv[])
   CLI::App app("Spline geometry that is fitted, refined and proved valid.", "knotwork");
   app.require_subcommand(1);
   app.set_version_flag("--version", KNOTWORK_VERSION);
+  app.footer("Exit status: 0 done, 1 bad input or failure, 2 wrong usage, 5 done but part of the "
+             "input was left out, 128 + n ended by signal n; of validate also 3 invalid, 4 undecided.");
 
   knotwork::Session session;
   std::vector<std::pair<CLI::App*, knotwork::Job>> jobs;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LayoutData.h"
 
+#include "InputChecks.h"
+
 #include "vtkCell.h"
 #include "vtkDataSet.h"
 
@@ -12,6 +14,10 @@ template <int Dim>
 Result<PatchLayout<Dim>> DecodeLayout(vtkDataSet* data)
 {
   // VTK goes around a quadrilateral; pixels and voxels are in the order of the kernel
+  if (Status status = CheckCellSizes(data); !status)
+  {
+    return { status.Code, "layout: " + status.Detail };
+  }
   constexpr int round = Dim == 2 ? VTK_QUAD : VTK_HEXAHEDRON;
   constexpr int lattice = Dim == 2 ? VTK_PIXEL : VTK_VOXEL;
   constexpr int around[8] = { 0, 1, 3, 2, 4, 5, 7, 6 };

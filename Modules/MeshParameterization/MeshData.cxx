@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshData.h"
 
+#include "InputChecks.h"
 #include "TableRow.h"
 
 #include "vtkCell.h"
@@ -100,6 +101,10 @@ void CopyPointData(const std::vector<ChartPoint>& from, const std::vector<PointO
 
 Result<DecodedMesh> DecodeMesh(vtkPointSet* data)
 {
+  if (Status status = CheckCellSizes(data); !status)
+  {
+    return status;
+  }
   Result<DecodedMesh> result;
   TriangleMesh& mesh = result.Value.Mesh;
   const vtkIdType n = data->GetNumberOfPoints();

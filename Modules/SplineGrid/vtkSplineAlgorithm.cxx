@@ -20,6 +20,7 @@ void vtkSplineAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Threads: " << this->Threads << "\n";
+  os << indent << "Parts left out: " << this->LeftOut.size() << "\n";
 }
 
 int vtkSplineAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
@@ -83,6 +84,7 @@ int vtkSplineAlgorithm::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   this->SetErrorCode(vtkErrorCode::NoError);
+  this->LeftOut.clear();
   knotwork::Status status;
   bool speaks = true;
   try
@@ -134,6 +136,18 @@ void vtkSplineAlgorithm::ReportWarnings(const std::vector<std::string>& warnings
   {
     vtkWarningMacro("" << warning);
   }
+}
+
+void vtkSplineAlgorithm::ReportLeftOut(const std::vector<std::string>& parts)
+{
+  this->LeftOut = parts;
+  this->ReportWarnings(parts);
+}
+
+std::string vtkSplineAlgorithm::GetPartLeftOut(int i) const
+{
+  return i >= 0 && i < this->GetNumberOfPartsLeftOut() ? this->LeftOut[static_cast<std::size_t>(i)]
+                                                       : std::string();
 }
 
 knotwork::ProgressCallback vtkSplineAlgorithm::Progress()

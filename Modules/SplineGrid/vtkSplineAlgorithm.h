@@ -34,6 +34,13 @@ public:
   vtkGetMacro(Threads, int);
   ///@}
 
+  ///@{
+  /** Parts of its file that a reader could not take at the last update, one sentence each; a
+   * warning says the same. None from filters. */
+  int GetNumberOfPartsLeftOut() const { return static_cast<int>(this->LeftOut.size()); }
+  std::string GetPartLeftOut(int i) const;
+  ///@}
+
 protected:
   vtkSplineAlgorithm();
   ~vtkSplineAlgorithm() override = default;
@@ -52,6 +59,8 @@ protected:
   knotwork::ProgressCallback Progress();
   /** Shows what DecodeSplineModel found worth knowing, one VTK warning each. */
   void ReportWarnings(const std::vector<std::string>& warnings);
+  /** Shows what a reader left out, one VTK warning each, and keeps it for GetPartLeftOut. */
+  void ReportLeftOut(const std::vector<std::string>& parts);
   /** Threads to hand to kernels: the property, or one under MPI when it is 0. */
   int KernelThreads() const;
 
@@ -72,6 +81,7 @@ protected:
   int Threads = 0;
 
 private:
+  std::vector<std::string> LeftOut;
   vtkSplineAlgorithm(const vtkSplineAlgorithm&) = delete;
   void operator=(const vtkSplineAlgorithm&) = delete;
 };

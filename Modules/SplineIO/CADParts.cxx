@@ -8,6 +8,7 @@
 #include <vtkNew.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
 
@@ -37,6 +38,8 @@ Status AppendCAD(const CADContents& contents, std::vector<std::string>& parts)
     AppendParts(curves, parts);
     parts.push_back(ExactText(contents.MaxGap));
     parts.push_back(std::to_string(contents.NumRefitted));
+    parts.push_back(std::to_string(contents.LeftOut.size()));
+    parts.insert(parts.end(), contents.LeftOut.begin(), contents.LeftOut.end());
     parts.insert(parts.end(), contents.Warnings.begin(), contents.Warnings.end());
   }
   return status;
@@ -47,7 +50,7 @@ Result<CADContents> TakeCAD(std::vector<std::string>& parts)
   std::size_t next = 0;
   const vtkSmartPointer<vtkDataObject> surfaces = TakeData(parts, next);
   const vtkSmartPointer<vtkDataObject> curves = TakeData(parts, next);
-  if (!surfaces || !curves || next + 2 > parts.size())
+  if (!surfaces || !curves || next + 3 > parts.size())
   {
     return { ErrorCode::InvalidFormat,
       "the file is damaged: its faces cannot be handed over; write it again" };
@@ -61,7 +64,12 @@ Result<CADContents> TakeCAD(std::vector<std::string>& parts)
   contents.Model = std::move(model.Value);
   contents.MaxGap = ExactNumber(parts[next++]);
   contents.NumRefitted = std::atoi(parts[next++].c_str());
-  contents.Warnings.assign(parts.begin() + static_cast<std::ptrdiff_t>(next), parts.end());
+  const auto numLeftOut =
+    std::min(std::strtoull(parts[next].c_str(), nullptr, 10), 0ULL + parts.size() - next - 1);
+  const auto leftOut = parts.begin() + static_cast<std::ptrdiff_t>(next + 1);
+  const auto warnings = leftOut + static_cast<std::ptrdiff_t>(numLeftOut);
+  contents.LeftOut.assign(leftOut, warnings);
+  contents.Warnings.assign(warnings, parts.end());
   return contents;
 }
 }

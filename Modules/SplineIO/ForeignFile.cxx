@@ -13,8 +13,7 @@ namespace knotwork
 bool HasVTKEnding(const std::string& file)
 {
   const std::string ending = LowerEnding(file);
-  return ending == ".vtu" || ending == ".vtp" || ending == ".vtpc" || ending == ".vtk" ||
-    ending == ".obj" || ending == ".ply" || ending == ".stl";
+  return ending == ".vtu" || ending == ".vtp" || ending == ".vtpc" || ending == ".vtk";
 }
 
 Result<vtkSmartPointer<vtkDataObject>> ReadVTKFile(const std::string& file)

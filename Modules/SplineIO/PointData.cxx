@@ -9,6 +9,7 @@
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
@@ -106,6 +107,20 @@ void AddGroups(const PointFile& file, vtkPolyData* output)
   }
 }
 
+vtkSmartPointer<vtkCellArray> CellsOf(const std::vector<std::vector<int>>& corners)
+{
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  for (const std::vector<int>& cell : corners)
+  {
+    cells->InsertNextCell(static_cast<int>(cell.size()));
+    for (int corner : cell)
+    {
+      cells->InsertCellPoint(corner);
+    }
+  }
+  return cells;
+}
+
 /// Groups as EncodePoints wrote them; none when the arrays say something else.
 std::vector<PointGroup> FindGroups(vtkPointSet* data)
 {
@@ -152,30 +167,30 @@ void EncodePoints(const PointFile& file, vtkPolyData* output)
   vtkNew<vtkPoints> points;
   points->SetData(coordinates);
   output->SetPoints(points);
-  vtkNew<vtkCellArray> cells;
-  if (file.Polygons.empty())
+  if (file.Polygons.empty() && file.Lines.empty())
   {
-    cells->AllocateExact(n, n);
+    vtkNew<vtkCellArray> vertices;
+    vertices->AllocateExact(n, n);
     for (vtkIdType i = 0; i < n; ++i)
     {
-      cells->InsertNextCell(1, &i);
+      vertices->InsertNextCell(1, &i);
     }
-    output->SetVerts(cells);
+    output->SetVerts(vertices);
   }
-  else
+  if (!file.Polygons.empty())
   {
-    for (const std::vector<int>& polygon : file.Polygons)
-    {
-      cells->InsertNextCell(static_cast<int>(polygon.size()));
-      for (int corner : polygon)
-      {
-        cells->InsertCellPoint(corner);
-      }
-    }
-    output->SetPolys(cells);
+    output->SetPolys(CellsOf(file.Polygons));
+  }
+  if (!file.Lines.empty())
+  {
+    output->SetLines(CellsOf(file.Lines));
   }
   AddChannels(file, output);
   AddGroups(file, output);
+  if (output->GetPointData()->HasArray("TCoords"))
+  {
+    output->GetPointData()->SetActiveTCoords("TCoords");
+  }
 }
 
 PointFile DecodePoints(vtkPointSet* data)

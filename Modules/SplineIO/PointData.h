@@ -7,9 +7,9 @@ class vtkPolyData;
 
 namespace knotwork
 {
-/// Points with a vertex each (unless there are polygons), channels as point arrays; channels
-/// `a:0`, `a:1`, ... that follow each other are components of one array `a`. Several groups are
-/// told apart by the point array `CloudId`, colours are the point array `Color`.
+/// Points with a vertex each (unless there are polygons or lines), channels as point arrays;
+/// channels `a:0`, `a:1`, ... that follow each other are components of one array `a`. Several
+/// groups are told apart by the point array `CloudId`, colours are the point array `Color`.
 void EncodePoints(const PointFile& file, vtkPolyData* output);
 
 /// Points of a data set with all point arrays of numbers; `CloudId` and `Color` become groups where

@@ -121,6 +121,7 @@ Status vtkCADReader::Compute(vtkInformationVector**, vtkInformationVector* outpu
   {
     return contents.Status;
   }
+  this->ReportLeftOut(contents->LeftOut);
   this->ReportWarnings(contents->Warnings);
   const TrimmedModel& model = contents->Model;
   Status status = EncodeTrimmedModel(

@@ -5,6 +5,7 @@
 #include "FileText.h"
 #include "ForeignFile.h"
 #include "GoToolsG2.h"
+#include "MeshFiles.h"
 #include "PlyPoints.h"
 #include "PointData.h"
 #include "PointText.h"
@@ -40,8 +41,20 @@ Result<PointFile> Parse(const std::string& ending, const std::string& text, int 
   {
     return ReadPly(text);
   }
+  if (ending == ".off")
+  {
+    return ReadOff(text);
+  }
+  if (ending == ".obj")
+  {
+    return ReadObj(text);
+  }
+  if (ending == ".stl")
+  {
+    return ReadStl(text);
+  }
   return { ErrorCode::InvalidParameter,
-    "the ending '" + ending + "' is none of .xyz .txt .csv .g2 .ply .vtp" };
+    "the ending '" + ending + "' is none of .xyz .txt .csv .g2 .off .obj .ply .stl .vtp" };
 }
 }
 
@@ -68,7 +81,8 @@ int vtkPointCloudReader::CanReadFile(const char* fileName)
   return (IsTextEnding(ending) && LooksLikePointText(beginning)) ||
       (ending == ".g2" && BeginsWithG2Points(beginning)) ||
       (ending == ".ply" && beginning.compare(0, 3, "ply") == 0) ||
-      (ending == ".vtp" && !beginning.empty())
+      (ending == ".off" && beginning.find("OFF") != std::string::npos) ||
+      ((ending == ".obj" || ending == ".stl" || ending == ".vtp") && !beginning.empty())
     ? 1
     : 0;
 }
@@ -113,6 +127,7 @@ knotwork::Status vtkPointCloudReader::Compute(vtkInformationVector**, vtkInforma
   {
     return { points.Status.Code, "'" + file + "': " + points.Status.Detail };
   }
+  this->ReportLeftOut(points->LeftOut);
   this->ReportWarnings(points->Warnings);
   EncodePoints(points.Value, output);
   return {};

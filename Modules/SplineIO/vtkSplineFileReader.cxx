@@ -48,6 +48,7 @@ knotwork::Status vtkSplineFileReader::Compute(vtkInformationVector**, vtkInforma
   {
     return { model.Status.Code, name + ": " + model.Status.Detail };
   }
+  this->ReportLeftOut(file->LeftOut);
   this->ReportWarnings(model->Warnings);
   auto* grid = vtkUnstructuredGrid::GetData(outputs);
   const Status status = EncodeSplineGrid(model.Value, grid);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSplinePointDistance.h"
 
+#include "InputChecks.h"
 #include "SplineModel.h"
 #include "SurfaceDistance.h"
 #include "TableRow.h"
@@ -184,6 +185,10 @@ Status vtkSplinePointDistance::Compute(vtkInformationVector** inputs, vtkInforma
   {
     output->ShallowCopy(input);
     return {};
+  }
+  if (Status sampled = knotwork::CheckSampledPoints(input, "the first input"); !sampled)
+  {
+    return sampled;
   }
   auto decoded =
     knotwork::DecodeSplineModel(vtkDataObject::GetData(inputs[1], 0), this->KernelThreads());

@@ -2,6 +2,7 @@
 #include "vtkSplineSurfaceFit.h"
 
 #include "FitData.h"
+#include "InputChecks.h"
 
 #include "vtkDataObject.h"
 #include "vtkImageData.h"
@@ -186,6 +187,10 @@ knotwork::Status vtkSplineSurfaceFit::Compute(
 {
   using namespace knotwork;
   vtkPointSet* input = vtkPointSet::GetData(inputs[0], 0);
+  if (Status sampled = CheckSampledPoints(input, "the input"); !sampled)
+  {
+    return sampled;
+  }
   CloudChoice choice;
   choice.Parameters = static_cast<CloudParameters>(this->Parameterization);
   choice.Fields = this->FieldArrays;

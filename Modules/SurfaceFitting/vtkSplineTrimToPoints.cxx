@@ -3,6 +3,7 @@
 
 #include "BezierForm.h"
 #include "HeightField.h"
+#include "InputChecks.h"
 #include "SplineModel.h"
 #include "TableRow.h"
 #include "TrimData.h"
@@ -165,8 +166,13 @@ Status vtkSplineTrimToPoints::Compute(vtkInformationVector** inputs, vtkInformat
     return { ErrorCode::DimensionMismatch,
       "the first input must be one surface; select a patch of it" };
   }
-  const auto parameters = ParametersOf(vtkPointSet::GetData(inputs[1], 0),
-    IsHeightField(knotwork::MakeBezierForm(*surface, this->KernelThreads())));
+  auto* points = vtkPointSet::GetData(inputs[1], 0);
+  if (Status sampled = knotwork::CheckSampledPoints(points, "the second input"); !sampled)
+  {
+    return sampled;
+  }
+  const auto parameters =
+    ParametersOf(points, IsHeightField(knotwork::MakeBezierForm(*surface, this->KernelThreads())));
   if (!parameters)
   {
     return parameters.Status;

@@ -304,7 +304,7 @@ void BodyReader::Read()
     }
     if (!states[f])
     {
-      this->Contents.Warnings.push_back(this->PlaceOf(f) + " is left out: " + states[f].Detail);
+      this->Contents.LeftOut.push_back(this->PlaceOf(f) + " is left out: " + states[f].Detail);
     }
   }
 }

@@ -16,7 +16,7 @@ struct CADFace
 };
 
 /// Appends the faces of a body to a model: surfaces, loops, edges and vertices in common. A face
-/// that cannot be a spline face is left out with a warning. May throw OpenCASCADE's exceptions.
+/// that cannot be a spline face is named in LeftOut. May throw OpenCASCADE's exceptions.
 /// @param tolerance  of refitted edges, unit of the shapes.
 void AppendBody(
   const std::vector<CADFace>& faces, int body, double tolerance, CADContents& contents);

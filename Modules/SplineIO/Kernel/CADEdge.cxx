@@ -10,11 +10,14 @@
 #include <Eigen/SparseLU>
 #include <Geom2d_BSplineCurve.hxx>
 #include <GeomConvert.hxx>
+#include <Geom_Circle.hxx>
 #include <Geom_TrimmedCurve.hxx>
+#include <TColStd_Array1OfReal.hxx>
 #include <TopExp.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Vertex.hxx>
 
+#include <algorithm>
 #include <functional>
 #include <set>
 
@@ -75,7 +78,31 @@ double SizeOf(const Handle(Geom_BSplineCurve) & curve)
   return size;
 }
 
-Handle(Geom_BSplineCurve) PlainSpline(const Handle(Geom_Curve) & curve, double first, double last)
+/// Lets a periodic spline begin at the parameter of a point.
+void BeginAt(Geom_BSplineCurve& curve, const gp_Pnt& point, double guess)
+{
+  const double lower = curve.FirstParameter();
+  const double period = curve.LastParameter() - lower;
+  const double rounding = Same * period;
+  const Handle(Geom_Curve) whole(&curve);
+  double place = InvertCurve(whole, point, guess, -HUGE_VAL, HUGE_VAL);
+  place -= period * std::floor((place - lower + rounding) / period);
+  if (std::abs(place - lower) <= rounding)
+  {
+    return;
+  }
+  curve.InsertKnot(place, 1, rounding);
+  for (int k = 1; k <= curve.NbKnots(); ++k)
+  {
+    if (std::abs(curve.Knot(k) - place) <= rounding)
+    {
+      curve.SetOrigin(k);
+      return;
+    }
+  }
+}
+
+Handle(Geom_BSplineCurve) PlainSpline(Handle(Geom_Curve) curve, double first, double last)
 {
   const Handle(Geom_BSplineCurve) own = Handle(Geom_BSplineCurve)::DownCast(curve);
   const double rounding = Same * (last - first);
@@ -84,11 +111,32 @@ Handle(Geom_BSplineCurve) PlainSpline(const Handle(Geom_Curve) & curve, double f
   {
     return own;
   }
+  // The spline of a whole circle begins at its angle 0, and its knots are angles nowhere between:
+  // angles are counted from where the edge begins.
+  double shift = 0.0;
+  const Handle(Geom_Circle) circle = Handle(Geom_Circle)::DownCast(curve);
+  if (!circle.IsNull() && std::abs(last - first - circle->Period()) <= rounding)
+  {
+    shift = first;
+    curve = Handle(Geom_Curve)::DownCast(curve->Copy());
+    curve->Rotate(circle->Axis(), shift);
+  }
   const Handle(Geom_BSplineCurve) converted =
-    GeomConvert::CurveToBSplineCurve(new Geom_TrimmedCurve(curve, first, last));
+    GeomConvert::CurveToBSplineCurve(new Geom_TrimmedCurve(curve, first - shift, last - shift));
   if (converted->IsPeriodic())
   {
+    BeginAt(*converted, curve->Value(first - shift), first - shift);
     converted->SetNotPeriodic();
+  }
+  shift = first - converted->FirstParameter();
+  if (std::abs(shift) > rounding)
+  {
+    TColStd_Array1OfReal knots = converted->Knots();
+    for (double& knot : knots)
+    {
+      knot += shift;
+    }
+    converted->SetKnots(knots);
   }
   return converted;
 }
@@ -98,6 +146,51 @@ gp_XY ParametersAt(const CADPcurve& use, double share)
 {
   const double t = share == 1.0 ? use.Last : (1.0 - share) * use.First + share * use.Last;
   return use.Surface->Map(use.Curve->Value(t).XY());
+}
+
+/// Where a pcurve crosses lines of knots of its surface, the parameters may bend.
+void AddCrossings(
+  const CADPcurve& use, const std::function<gp_XY(double)>& parameters, std::vector<double>& breaks)
+{
+  constexpr int Samples = 64; // a piece
+  constexpr int Bisections = 60;
+  const Handle(Geom_BSplineSurface)& surface = use.Surface->Surface();
+  const std::vector<double> pieces = breaks;
+  const double rounding = Same * (pieces.back() - pieces.front());
+  for (int d = 1; d <= 2; ++d)
+  {
+    const TColStd_Array1OfReal& knots = d == 1 ? surface->UKnots() : surface->VKnots();
+    const auto at = [&](double s) { return parameters(s).Coord(d); };
+    for (std::size_t b = 0; knots.Length() > 2 && b + 1 < pieces.size(); ++b)
+    {
+      double begin = pieces[b];
+      double before = at(begin);
+      for (int i = 1; i <= Samples; ++i)
+      {
+        const double end = pieces[b] + i * (pieces[b + 1] - pieces[b]) / Samples;
+        const double after = at(end);
+        for (int k = knots.Lower() + 1; k < knots.Upper(); ++k)
+        {
+          double lower = begin;
+          double upper = end;
+          for (int j = 0; (before < knots(k)) != (after < knots(k)) && j < Bisections; ++j)
+          {
+            const double middle = 0.5 * (lower + upper);
+            ((at(middle) < knots(k)) == (before < knots(k)) ? lower : upper) = middle;
+          }
+          const bool known = std::any_of(breaks.begin(), breaks.end(),
+            [&](double other) { return std::abs(other - upper) <= rounding; });
+          if ((before < knots(k)) != (after < knots(k)) && !known)
+          {
+            breaks.push_back(upper);
+          }
+        }
+        begin = end;
+        before = after;
+      }
+    }
+  }
+  std::sort(breaks.begin(), breaks.end());
 }
 
 EdgeFunctions Describe(const TopoDS_Edge& edge, const std::vector<CADPcurve>& uses)
@@ -407,9 +500,12 @@ double DeviationOf(
   return worst;
 }
 
-Status Fit(
-  const EdgeFunctions& edge, std::vector<CADPcurve>& uses, double tolerance, CADEdge& result)
+Status Fit(EdgeFunctions& edge, std::vector<CADPcurve>& uses, double tolerance, CADEdge& result)
 {
+  for (std::size_t u = 0; u < uses.size(); ++u)
+  {
+    AddCrossings(uses[u], edge.Parameters[u], edge.Breaks);
+  }
   result.Refitted = true;
   result.Deviation = HUGE_VAL;
   std::vector<CADPcurve> trial = uses;
@@ -474,7 +570,7 @@ Status Fit(
 Result<CADEdge> UnifyEdge(const TopoDS_Edge& edge, std::vector<CADPcurve>& uses, double tolerance)
 {
   CADEdge result;
-  const EdgeFunctions functions = Describe(edge, uses);
+  EdgeFunctions functions = Describe(edge, uses);
   if (FindExact(functions, uses, result.Curve))
   {
     return result;

@@ -95,7 +95,8 @@ struct CADContents
   TrimmedModel Model;
   double MaxGap = 0.0; ///< largest distance found between a curve and the image of its pcurve
   int NumRefitted = 0; ///< edges that became cubic
-  std::vector<std::string> Warnings; ///< what was left out or is not as it should be, one line each
+  std::vector<std::string> Warnings; ///< what is not as it should be, one line each
+  std::vector<std::string> LeftOut;  ///< faces of the file that are not here and why, one line each
 };
 
 /// Faces of a STEP or IGES file. B-spline surfaces come as they are, others (planes, cylinders,

@@ -259,7 +259,7 @@ Result<CADContents> ReadCAD(const std::string& file, const CADReadParams& params
       {
         return { ErrorCode::EmptyInput,
           place + ": there is no face in it" +
-            (contents.Warnings.empty() ? std::string() : "; " + contents.Warnings.front()) };
+            (contents.LeftOut.empty() ? std::string() : "; " + contents.LeftOut.front()) };
       }
       return contents.Model.Check();
     });

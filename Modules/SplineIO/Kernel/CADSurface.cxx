@@ -7,7 +7,10 @@
 #include <BRep_Tool.hxx>
 #include <GeomConvert.hxx>
 #include <GeomConvert_ApproxSurface.hxx>
+#include <Geom_ElementarySurface.hxx>
 #include <Geom_RectangularTrimmedSurface.hxx>
+#include <Geom_SurfaceOfRevolution.hxx>
+#include <TColStd_Array1OfReal.hxx>
 #include <TopoDS.hxx>
 
 #include <algorithm>
@@ -44,6 +47,56 @@ void FitRange(Range& range, const Range& natural, bool periodic)
     range[0] = std::max(range[0], natural[0]);
     range[1] = std::min(range[1], natural[1]);
   }
+}
+
+double SizeOf(const Handle(Geom_BSplineSurface) & surface)
+{
+  double size = 0.0;
+  const gp_Pnt& first = surface->Pole(1, 1);
+  for (int i = 1; i <= surface->NbUPoles(); ++i)
+  {
+    for (int j = 1; j <= surface->NbVPoles(); ++j)
+    {
+      size = std::max(size, first.Distance(surface->Pole(i, j)));
+    }
+  }
+  return size;
+}
+
+/// Gauss-Newton on the distance to a point that lies on the surface, within ranges of parameters.
+/// @param size  of the surface.
+gp_XY NearestPlace(const Handle(Geom_BSplineSurface) & surface, double size, const gp_Pnt& target,
+  const gp_XY& guess, const Range& u, const Range& v)
+{
+  gp_XY best = guess;
+  double distance = HUGE_VAL;
+  gp_XY next = guess;
+  for (int i = 0; i < MaxIterations; ++i)
+  {
+    next.SetX(std::min(std::max(next.X(), u[0]), u[1]));
+    next.SetY(std::min(std::max(next.Y(), v[0]), v[1]));
+    gp_Pnt point;
+    gp_Vec du;
+    gp_Vec dv;
+    surface->D1(next.X(), next.Y(), point, du, dv);
+    const gp_Vec residual(point, target);
+    if (residual.Magnitude() >= distance)
+    {
+      break;
+    }
+    distance = residual.Magnitude();
+    best = next;
+    // a direction in which the surface stands still (a pole) is left alone
+    const double tiny = 1e-20 * size * size;
+    const double uu = du.Dot(du) + tiny;
+    const double vv = dv.Dot(dv) + tiny;
+    const double uv = du.Dot(dv);
+    const double determinant = uu * vv - uv * uv;
+    const double ru = residual.Dot(du);
+    const double rv = residual.Dot(dv);
+    next = best + gp_XY((ru * vv - rv * uv) / determinant, (rv * uu - ru * uv) / determinant);
+  }
+  return best;
 }
 
 /// Without periods, the domain beginning at (or a period from) the given parameters.
@@ -98,18 +151,65 @@ Handle(Geom_BSplineSurface)
   return open;
 }
 
-double SizeOf(const Handle(Geom_BSplineSurface) & surface)
+/// Without the bounds that a file gives a surface: a whole turn between bounds has a period too,
+/// and pcurves may lie in another one than the bounds do.
+Handle(Geom_Surface) Unbounded(Handle(Geom_Surface) surface)
 {
-  double size = 0.0;
-  const gp_Pnt& first = surface->Pole(1, 1);
-  for (int i = 1; i <= surface->NbUPoles(); ++i)
+  for (auto trimmed = Handle(Geom_RectangularTrimmedSurface)::DownCast(surface); !trimmed.IsNull();
+       trimmed = Handle(Geom_RectangularTrimmedSurface)::DownCast(surface))
   {
-    for (int j = 1; j <= surface->NbVPoles(); ++j)
-    {
-      size = std::max(size, first.Distance(surface->Pole(i, j)));
-    }
+    surface = trimmed->BasisSurface();
   }
-  return size;
+  return surface;
+}
+
+constexpr double WholeTurn = 6.28318530717958647692;
+
+/// Angles of a surface of revolution, counted from another meridian; null for others. The spline of
+/// a whole turn begins at its angle 0, and its knots are angles nowhere between.
+Handle(Geom_Surface) CountedFrom(const Handle(Geom_Surface) & surface, double angle)
+{
+  const auto elementary = Handle(Geom_ElementarySurface)::DownCast(surface);
+  const auto revolution = Handle(Geom_SurfaceOfRevolution)::DownCast(surface);
+  if (elementary.IsNull() && revolution.IsNull())
+  {
+    return {};
+  }
+  const auto turned = Handle(Geom_Surface)::DownCast(surface->Copy());
+  if (revolution.IsNull())
+  {
+    const gp_Ax3& position = elementary->Position();
+    turned->Rotate(position.Axis(), position.Direct() ? angle : -angle);
+  }
+  else
+  {
+    turned->Rotate(revolution->Axis(), angle);
+  }
+  return turned;
+}
+
+/// The spline of a part of a surface.
+Handle(Geom_BSplineSurface)
+  Converted(const Handle(Geom_Surface) & surface, const Range& u, const Range& v)
+{
+  const bool isWholeTurn = surface->IsUPeriodic() &&
+    std::abs(u[1] - u[0] - WholeTurn) <= Same * WholeTurn && std::abs(u[0]) > Same * WholeTurn;
+  const Handle(Geom_Surface) turned =
+    isWholeTurn ? CountedFrom(surface, u[0]) : Handle(Geom_Surface)();
+  if (turned.IsNull())
+  {
+    return GeomConvert::SurfaceToBSplineSurface(
+      new Geom_RectangularTrimmedSurface(surface, u[0], u[1], v[0], v[1]));
+  }
+  const auto spline = GeomConvert::SurfaceToBSplineSurface(
+    new Geom_RectangularTrimmedSurface(turned, 0.0, WholeTurn, v[0], v[1]));
+  TColStd_Array1OfReal knots = spline->UKnots();
+  for (double& knot : knots)
+  {
+    knot += u[0];
+  }
+  spline->SetUKnots(knots);
+  return spline;
 }
 
 /// Degrees that knot vectors can have.
@@ -125,7 +225,7 @@ Handle(Geom_BSplineSurface) WithLowDegree(const Handle(Geom_BSplineSurface) & su
 }
 }
 
-CADSurface::CADSurface(const TopoDS_Face& face) : From(BRep_Tool::Surface(face))
+CADSurface::CADSurface(const TopoDS_Face& face) : From(Unbounded(BRep_Tool::Surface(face)))
 {
   Range u{};
   Range v{};
@@ -135,13 +235,25 @@ CADSurface::CADSurface(const TopoDS_Face& face) : From(BRep_Tool::Surface(face))
   this->From->Bounds(naturalU[0], naturalU[1], naturalV[0], naturalV[1]);
   FitRange(u, naturalU, this->From->IsUPeriodic());
   FitRange(v, naturalV, this->From->IsVPeriodic());
+  gp_XY begin(u[0], v[0]);
   Handle(Geom_BSplineSurface) own = Handle(Geom_BSplineSurface)::DownCast(this->From);
   if (own.IsNull())
   {
-    own = GeomConvert::SurfaceToBSplineSurface(
-      new Geom_RectangularTrimmedSurface(this->From, u[0], u[1], v[0], v[1]));
+    own = Converted(this->From, u, v);
+    if (own->IsUPeriodic() || own->IsVPeriodic())
+    {
+      // parameters of the spline are not those of the surface: where does it begin?
+      const double size = SizeOf(own);
+      const Range all{ -HUGE_VAL, HUGE_VAL };
+      const gp_XY middle(0.5 * (u[0] + u[1]), 0.5 * (v[0] + v[1]));
+      begin = gp_XY(
+        NearestPlace(own, size, this->From->Value(u[0], middle.Y()), { u[0], middle.Y() }, all, all)
+          .X(),
+        NearestPlace(own, size, this->From->Value(middle.X(), v[0]), { middle.X(), v[0] }, all, all)
+          .Y());
+    }
   }
-  own = CutOpen(own, u[0], v[0]);
+  own = CutOpen(own, begin.X(), begin.Y());
   this->To = WithLowDegree(own);
   if (this->To.IsNull())
   {
@@ -159,7 +271,7 @@ CADSurface::CADSurface(const TopoDS_Face& face) : From(BRep_Tool::Surface(face))
   double best = HUGE_VAL;
   for (Transfer kind : { Transfer::Identity, Transfer::Separate, Transfer::General })
   {
-    const double residual = this->WorstResidual(kind);
+    const double residual = this->WorstResidual(kind, u, v);
     if (residual < best)
     {
       best = residual;
@@ -172,39 +284,10 @@ CADSurface::CADSurface(const TopoDS_Face& face) : From(BRep_Tool::Surface(face))
   }
 }
 
-/// Gauss-Newton on the distance to the point of the old surface, which lies on the new one.
 gp_XY CADSurface::Invert(const gp_XY& parameters, const gp_XY& guess) const
 {
-  const gp_Pnt target = this->From->Value(parameters.X(), parameters.Y());
-  gp_XY best = guess;
-  double distance = HUGE_VAL;
-  gp_XY next = guess;
-  for (int i = 0; i < MaxIterations; ++i)
-  {
-    next.SetX(std::min(std::max(next.X(), this->Lower[0]), this->Upper[0]));
-    next.SetY(std::min(std::max(next.Y(), this->Lower[1]), this->Upper[1]));
-    gp_Pnt point;
-    gp_Vec du;
-    gp_Vec dv;
-    this->To->D1(next.X(), next.Y(), point, du, dv);
-    const gp_Vec residual(point, target);
-    if (residual.Magnitude() >= distance)
-    {
-      break;
-    }
-    distance = residual.Magnitude();
-    best = next;
-    // a direction in which the surface stands still (a pole) is left alone
-    const double tiny = 1e-20 * this->Size * this->Size;
-    const double uu = du.Dot(du) + tiny;
-    const double vv = dv.Dot(dv) + tiny;
-    const double uv = du.Dot(dv);
-    const double determinant = uu * vv - uv * uv;
-    const double ru = residual.Dot(du);
-    const double rv = residual.Dot(dv);
-    next = best + gp_XY((ru * vv - rv * uv) / determinant, (rv * uu - ru * uv) / determinant);
-  }
-  return best;
+  return NearestPlace(this->To, this->Size, this->From->Value(parameters.X(), parameters.Y()),
+    guess, { this->Lower[0], this->Upper[0] }, { this->Lower[1], this->Upper[1] });
 }
 
 gp_XY CADSurface::MapAs(Transfer kind, const gp_XY& parameters) const
@@ -233,16 +316,17 @@ gp_XY CADSurface::Map(const gp_XY& parameters) const
   return this->MapAs(this->Kind, parameters + this->Shift);
 }
 
-double CADSurface::WorstResidual(Transfer kind) const
+double CADSurface::WorstResidual(
+  Transfer kind, const std::array<double, 2>& u, const std::array<double, 2>& v) const
 {
   double worst = 0.0;
   for (int i = 0; i < GridOfCheck; ++i)
   {
     for (int j = 0; j < GridOfCheck; ++j)
     {
-      const gp_XY old(this->Lower[0] + i * (this->Upper[0] - this->Lower[0]) / (GridOfCheck - 1),
-        this->Lower[1] + j * (this->Upper[1] - this->Lower[1]) / (GridOfCheck - 1));
-      const gp_XY mapped = this->MapAs(kind, old);
+      const gp_XY old(
+        u[0] + i * (u[1] - u[0]) / (GridOfCheck - 1), v[0] + j * (v[1] - v[0]) / (GridOfCheck - 1));
+      const gp_XY mapped = this->MapAs(kind, old + this->Shift);
       worst = std::max(worst,
         this->From->Value(old.X(), old.Y()).Distance(this->To->Value(mapped.X(), mapped.Y())));
     }

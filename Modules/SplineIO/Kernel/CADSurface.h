@@ -4,6 +4,8 @@
 #include <TopoDS_Face.hxx>
 #include <gp_XY.hxx>
 
+#include <array>
+
 namespace knotwork
 {
 /// The B-spline surface of a face and how parameters of the face's own surface go over to it. May
@@ -31,7 +33,9 @@ private:
   };
   gp_XY Invert(const gp_XY& parameters, const gp_XY& guess) const;
   gp_XY MapAs(Transfer kind, const gp_XY& parameters) const;
-  double WorstResidual(Transfer kind) const;
+  /// @param u, v  of From, the face's.
+  double WorstResidual(
+    Transfer kind, const std::array<double, 2>& u, const std::array<double, 2>& v) const;
 
   opencascade::handle<Geom_Surface> From;
   opencascade::handle<Geom_BSplineSurface> To;

@@ -7,6 +7,7 @@
 #include <pugixml.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <set>
@@ -47,6 +48,24 @@ constexpr GeometryType Types[] = {
   { "RationalTHBSpline3", 3, true, true },
 };
 
+/// A real number, or the quotient of two as in 1/3.
+Status ParseQuotient(std::string_view word, double& value)
+{
+  const std::size_t slash = word.find('/');
+  if (slash == std::string_view::npos)
+  {
+    return ParseReal(word, value);
+  }
+  double numerator = 0.0;
+  double denominator = 0.0;
+  const Status above = ParseReal(word.substr(0, slash), numerator);
+  const Status below = ParseReal(word.substr(slash + 1), denominator);
+  value = numerator / denominator;
+  return above && below && denominator != 0.0 && std::isfinite(value)
+    ? Status()
+    : Status(ErrorCode::InvalidFormat, Shown(word) + " is not a number or quotient of numbers");
+}
+
 /// Reads one text; the first failure stays in Outcome and every later step does nothing.
 class XmlParser
 {
@@ -55,12 +74,21 @@ public:
   Result<SplineFile> Read();
 
 private:
-  std::size_t LineAt(std::ptrdiff_t offset) const
+  /// Counts on from the place that was asked for last: most questions come in the text's order.
+  std::size_t LineAt(std::ptrdiff_t offset)
   {
-    const auto length = static_cast<std::ptrdiff_t>(this->Text.size());
-    return 1 +
-      static_cast<std::size_t>(std::count(this->Text.begin(),
-        this->Text.begin() + std::clamp<std::ptrdiff_t>(offset, 0, length), '\n'));
+    const auto to =
+      std::min(static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0)), this->Text.size());
+    if (to < this->CountedTo)
+    {
+      this->CountedTo = 0;
+      this->CountedLines = 0;
+    }
+    const auto begin = this->Text.begin();
+    this->CountedLines +=
+      static_cast<std::size_t>(std::count(begin + this->CountedTo, begin + to, '\n'));
+    this->CountedTo = to;
+    return this->CountedLines + 1;
   }
   void Fail(ErrorCode code, std::size_t line, const std::string& what)
   {
@@ -118,6 +146,7 @@ private:
   std::vector<double> Reals(pugi::xml_node node);
   std::vector<long long> Integers(pugi::xml_node node, long long lowest, long long highest);
 
+  void ReadElement(pugi::xml_node node, int depth, SplineFile& file);
   void ReadGeometry(pugi::xml_node node, SplineFile& file);
   template <int Dim>
   void ReadSpline(pugi::xml_node node, const GeometryType& type, SplineFile& file);
@@ -130,6 +159,8 @@ private:
   void ReadMultiPatch(pugi::xml_node node, SplineFile& file);
 
   std::string_view Text;
+  std::size_t CountedTo = 0; ///< see LineAt
+  std::size_t CountedLines = 0;
   Status Outcome;
   pugi::xml_document Document;
   std::vector<int> Ids; // of the splines as the file says, -1 for none
@@ -182,7 +213,7 @@ std::vector<double> XmlParser::Reals(pugi::xml_node node)
     [&](std::string_view word)
     {
       values.push_back(0.0);
-      return ParseReal(word, values.back());
+      return ParseQuotient(word, values.back());
     });
   return values;
 }
@@ -221,14 +252,14 @@ Result<SplineFile> XmlParser::Read()
         Name(root) + ", that of a G+Smo file is <xml>" };
   }
   SplineFile file;
-  for (pugi::xml_node node : root.children("Geometry"))
+  for (pugi::xml_node node : root.children())
   {
-    this->ReadGeometry(node, file);
+    this->ReadElement(node, 0, file);
   }
   if (this->Outcome && file.Splines.empty())
   {
     this->Outcome = { ErrorCode::EmptyInput,
-      file.Warnings.empty() ? "the file holds no <Geometry>" : file.Warnings.front() };
+      file.LeftOut.empty() ? "the file holds no <Geometry>" : file.LeftOut.front() };
   }
   this->NumberSplines(file);
   for (pugi::xml_node node : root.children("MultiPatch"))
@@ -242,6 +273,32 @@ Result<SplineFile> XmlParser::Read()
   return file;
 }
 
+/// Geometries, also those within the loops of a planar domain. Other elements that hold geometry
+/// are named, those that hold none (functions, matrices, options) are nothing that is read.
+void XmlParser::ReadElement(pugi::xml_node node, int depth, SplineFile& file)
+{
+  const std::string_view name = node.name();
+  if (name == "Geometry")
+  {
+    this->ReadGeometry(node, file);
+  }
+  else if ((name == "PlanarDomain" && depth == 0) || (name == "CurveLoop" && depth < 2))
+  {
+    for (pugi::xml_node part : node.children())
+    {
+      this->ReadElement(part, depth + 1, file);
+    }
+  }
+  else if (name == "Mesh" ||
+    node.find_node(
+      [](pugi::xml_node inner) { return std::string_view(inner.name()) == "Geometry"; }))
+  {
+    file.LeftOut.push_back("line " + std::to_string(this->LineAt(node.offset_debug())) + ", " +
+      Name(node) +
+      " is left out; geometries are read at the top of the file and in <PlanarDomain>");
+  }
+}
+
 void XmlParser::ReadGeometry(pugi::xml_node node, SplineFile& file)
 {
   if (!this->Outcome)
@@ -253,7 +310,7 @@ void XmlParser::ReadGeometry(pugi::xml_node node, SplineFile& file)
     [&](const GeometryType& known) { return name == known.Name; });
   if (type == std::end(Types))
   {
-    file.Warnings.push_back("line " + std::to_string(this->LineAt(node.offset_debug())) +
+    file.LeftOut.push_back("line " + std::to_string(this->LineAt(node.offset_debug())) +
       ", <Geometry> of type " + Shown(name) +
       " is left out; types that can be read: BSpline, Nurbs, TensorBSpline, TensorNurbs, "
       "THBSpline, "
@@ -440,9 +497,12 @@ void XmlParser::ReadSpline(pugi::xml_node node, const GeometryType& type, Spline
   file.Splines.emplace_back(std::move(spline));
 }
 
+/// An empty id is none. Ids within a planar domain count within it alone.
 void XmlParser::ReadId(pugi::xml_node node)
 {
-  const int id = node.attribute("id") ? this->IntegerAttribute(node, "id", 0, MaxInt) : -1;
+  const bool hasId =
+    *node.attribute("id").value() != '\0' && node.parent() == this->Document.document_element();
+  const int id = hasId ? this->IntegerAttribute(node, "id", 0, MaxInt) : -1;
   if (this->Outcome && id >= 0 &&
     !this->SplineOfId.emplace(id, static_cast<int>(this->Ids.size())).second)
   {

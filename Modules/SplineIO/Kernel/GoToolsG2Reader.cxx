@@ -74,7 +74,7 @@ public:
     }
     if (!coordinates.empty())
     {
-      file.Warnings.push_back(std::to_string(coordinates.size() / 3) +
+      file.LeftOut.push_back(std::to_string(coordinates.size() / 3) +
         " points of point clouds (400) are left out; they are read as a point cloud");
     }
     return file;
@@ -99,7 +99,7 @@ public:
     points.Groups = std::move(this->Groups);
     if (!file.Splines.empty())
     {
-      points.Warnings.push_back(std::to_string(file.Splines.size()) +
+      points.LeftOut.push_back(std::to_string(file.Splines.size()) +
         " splines are left out; a reader of splines takes them");
     }
     return points;

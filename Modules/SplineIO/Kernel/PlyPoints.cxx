@@ -94,6 +94,7 @@ public:
     if (this->Outcome)
     {
       this->CheckPolygons(file);
+      this->CheckEnd();
     }
     return this->Outcome ? Result<PointFile>(std::move(file)) : Result<PointFile>(this->Outcome);
   }
@@ -331,12 +332,18 @@ private:
       this->ReadVertices(element, file);
       return;
     }
+    const bool isFace = element.Name == "face";
+    if (!isFace && element.Count > 0)
+    {
+      file.LeftOut.push_back(std::to_string(element.Count) + " elements " + Shown(element.Name) +
+        " are left out; only vertices and faces are read");
+    }
     for (; this->Row < element.Count && this->Outcome; ++this->Row)
     {
       for (const Property& property : element.Properties)
       {
-        const bool corners = element.Name == "face" &&
-          (property.Name == "vertex_indices" || property.Name == "vertex_index");
+        const bool corners =
+          isFace && (property.Name == "vertex_indices" || property.Name == "vertex_index");
         this->ReadList(property, corners, file);
       }
     }
@@ -371,7 +378,12 @@ private:
         polygon.push_back(static_cast<int>(number));
       }
     }
-    if (polygon.size() > 2 && this->Outcome)
+    if (corners && this->Outcome && polygon.size() < 3)
+    {
+      this->FailRow("it has " + std::to_string(polygon.size()) +
+        " corners, a face has three or more; remove it");
+    }
+    else if (corners && this->Outcome)
     {
       file.Polygons.push_back(std::move(polygon));
     }
@@ -453,6 +465,26 @@ private:
               ", but there are " + std::to_string(file.Points.rows()) + " vertices");
         }
       }
+    }
+  }
+
+  /// Nothing stands behind the last element; bytes of 0 and line ends fill up binary files.
+  void CheckEnd()
+  {
+    if (this->Format == Encoding::Ascii && !this->Words.AtEnd())
+    {
+      const std::string word = Shown(this->Words.Next());
+      this->Fail(ErrorCode::InvalidFormat,
+        "line " + std::to_string(this->Words.Line()) + ": " + word +
+          " stands behind the last element; correct the counts of the header");
+    }
+    const std::string_view fill("\0\n\r", 3);
+    if (this->Format != Encoding::Ascii &&
+      this->Text.find_first_not_of(fill, this->Position) != std::string_view::npos)
+    {
+      this->Fail(ErrorCode::InvalidFormat,
+        std::to_string(this->Text.size() - this->Position) +
+          " bytes stand behind the last element; correct the counts of the header");
     }
   }
 

@@ -24,7 +24,9 @@ struct PointFile
   std::vector<std::string> Names;         ///< c, of the channels
   std::vector<PointGroup> Groups;         ///< empty: all points are one, without a colour
   std::vector<std::vector<int>> Polygons; ///< rows of Points, at least three each
-  std::vector<std::string> Warnings;      ///< what was left out in reading, one line each
+  std::vector<std::vector<int>> Lines;    ///< rows of Points, at least two each
+  std::vector<std::string> Warnings;      ///< what is not as it should be, one line each
+  std::vector<std::string> LeftOut;       ///< parts of the file that are not here, one line each
 };
 
 /// What writers of points ask of them. @return NonFiniteInput naming point and coordinate.

@@ -143,6 +143,15 @@ void FindPosition(Layout& layout)
   }
 }
 
+/// Whether a word is no number and does not begin like one.
+bool IsName(std::string_view word)
+{
+  double number = 0.0;
+  return ParseReal(word, number).Code == ErrorCode::InvalidFormat &&
+    (word.empty() ||
+      std::string_view("+-.0123456789").find(word.front()) == std::string_view::npos);
+}
+
 Result<Layout> FindLayout(std::string_view text)
 {
   Layout layout;
@@ -179,9 +188,8 @@ Result<Layout> FindLayout(std::string_view text)
         (layout.Columns == 1 ? " column (" : " columns (") + Shown(head.front()) +
         "); a line has x, y, z, separated by blanks, commas or semicolons" };
   }
-  double number = 0.0;
-  if (ParseReal(head.front(), number).Code == ErrorCode::InvalidFormat &&
-    Lower(std::string(head.front())).find_first_not_of("+-.0123456789e") != std::string::npos)
+  // a damaged number names no column: the line would be lost without a word
+  if (std::all_of(head.begin(), head.begin() + 3, IsName))
   {
     layout.Begin = at;
     for (std::string_view word : head)

@@ -8,7 +8,8 @@ namespace knotwork
 {
 /// Reads points as text, one a line: x y z and further numbers, the channels. Numbers are separated
 /// by white space, by commas or by semicolons, as the first line shows. Empty lines and those that
-/// begin with '#', '%' or '//' are left out. The first line may name the columns: x, y, z are those
+/// begin with '#', '%' or '//' are left out. The first line may name the columns (its first three
+/// words are no numbers and do not begin like one): x, y, z are those
 /// of that name (also X, Y, Z; Points:0, Points:1, Points:2), else the first three. A comment
 /// directly above the first line that begins with x y z and has a word a column names them too.
 /// Channels without a name are Column4, Column5, ... Coordinates are finite; channels may be nan or

@@ -66,6 +66,7 @@ struct SplineFile
   std::vector<int> Ids; ///< of the splines, distinct and >= 0; empty: 0, 1, 2, ...
   std::vector<MultiPatch> MultiPatches;
   std::vector<BoundedSurface> Bounded; ///< at most one a spline
-  std::vector<std::string> Warnings;   ///< what was left out in reading, one line each
+  std::vector<std::string> Warnings;   ///< what is not as it should be, one line each
+  std::vector<std::string> LeftOut;    ///< parts of the file that are not here, one line each
 };
 }

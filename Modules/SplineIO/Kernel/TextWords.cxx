@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TextWords.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -73,6 +74,24 @@ std::string_view WordScanner::Next()
   }
   ++this->Words;
   return this->Text.substr(begin, this->Position - begin);
+}
+
+bool LineScanner::Next()
+{
+  while (this->Position < this->Text.size())
+  {
+    const std::size_t end = std::min(this->Text.find('\n', this->Position), this->Text.size());
+    std::string_view line = this->Text.substr(this->Position, end - this->Position);
+    this->Position = end + 1;
+    ++this->CurrentLine;
+    line = line.substr(0, line.find(this->Comment));
+    this->CurrentWords = WordScanner(line, this->CurrentLine);
+    if (!this->CurrentWords.AtEnd())
+    {
+      return true;
+    }
+  }
+  return false;
 }
 
 std::string Shown(std::string_view word)

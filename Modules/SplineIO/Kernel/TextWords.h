@@ -34,6 +34,26 @@ private:
   std::size_t Words = 0;
 };
 
+/// The lines of a text that hold words, without comments, with their places.
+class LineScanner
+{
+public:
+  /// @param comment  from this character on a line is a comment.
+  LineScanner(std::string_view text, char comment) : Text(text), Comment(comment) {}
+  /// The next line with words, scanned by Words(). @return whether there is one.
+  bool Next();
+  WordScanner& Words() { return this->CurrentWords; }
+  /// Number (from 1) of the current line; after the last one that of the text's end.
+  std::size_t Line() const { return this->CurrentLine; }
+
+private:
+  std::string_view Text;
+  char Comment;
+  std::size_t Position = 0;
+  std::size_t CurrentLine = 0;
+  WordScanner CurrentWords{ {} };
+};
+
 /// A word as messages show it: in quotes, shortened, without control characters.
 std::string Shown(std::string_view word);
 

@@ -35,9 +35,12 @@ CADContents ReadBack(const TrimmedModel& model, const std::string& name)
   EXPECT_TRUE(written) << written.Message();
   auto contents = ReadCAD(FileOf(name));
   EXPECT_TRUE(contents) << contents.Status.Message();
-  for (const std::string& warning : contents->Warnings)
+  for (const auto* sentences : { &contents->Warnings, &contents->LeftOut })
   {
-    ADD_FAILURE() << warning;
+    for (const std::string& sentence : *sentences)
+    {
+      ADD_FAILURE() << sentence;
+    }
   }
   return std::move(contents.Value);
 }
@@ -240,6 +243,7 @@ TEST(CADReader, CurvesWithoutACommonFormAreRefitted_PropertyOracle)
     const auto read = ReadCAD(file, params);
     ASSERT_TRUE(read) << read.Status.Message();
     EXPECT_EQ(read->Warnings.size(), 0u);
+    EXPECT_EQ(read->LeftOut.size(), 0u);
     EXPECT_GT(read->NumRefitted, 0);
     // that of the refitting, and what the file itself leaves between curve and pcurve
     EXPECT_LE(read->MaxGap, 2.0 * tolerance + original->MaxEdgeTolerance);

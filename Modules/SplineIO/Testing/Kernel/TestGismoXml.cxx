@@ -189,16 +189,51 @@ TEST(GismoXml, BoxesWithinCoarserElementsAreRefused_ExactOracle)
   EXPECT_NE(file.Status.Detail.find("whole elements"), std::string::npos);
 }
 
-TEST(GismoXml, OtherTypesAreLeftOutWithAWarning_ExactOracle)
+TEST(GismoXml, OtherTypesAreNamedAsLeftOut_ExactOracle)
 {
   std::string text = HandWrittenXml;
   text.replace(text.find("<Geometry type=\"Nurbs\""), 22, "<Geometry type=\"Other\"");
   const Result<SplineFile> file = ReadGismoXml(text);
   ASSERT_TRUE(file) << file.Status.Message();
   EXPECT_EQ(file->Splines.size(), 3u);
-  ASSERT_EQ(file->Warnings.size(), 1u);
-  EXPECT_NE(file->Warnings[0].find("line 21"), std::string::npos) << file->Warnings[0];
-  EXPECT_NE(file->Warnings[0].find("'Other'"), std::string::npos);
+  ASSERT_EQ(file->LeftOut.size(), 1u);
+  EXPECT_NE(file->LeftOut[0].find("line 21"), std::string::npos) << file->LeftOut[0];
+  EXPECT_NE(file->LeftOut[0].find("'Other'"), std::string::npos);
+}
+
+TEST(GismoXml, CurvesOfAPlanarDomainAreRead_GoldenOracle)
+{
+  const std::string curve = "<Geometry type=\"BSpline\" id=\"0\"><Basis type=\"BSplineBasis\">"
+                            "<KnotVector degree=\"1\">0 0 1/3 2/4 1 1</KnotVector></Basis>"
+                            "<coefs geoDim=\"2\">0 0 1/8 0 -3/-4 1 1 1</coefs></Geometry>";
+  const std::string noId =
+    "<Geometry type=\"BSpline\" id=\"\"" + curve.substr(curve.find("><Basis"));
+  const auto file = ReadGismoXml("<xml>\n<PlanarDomain id=\"0\"><CurveLoop index=\"0\">" + curve +
+    "</CurveLoop><CurveLoop>" + curve + "</CurveLoop></PlanarDomain>\n<CurveLoop>" + curve +
+    "</CurveLoop>" + curve + noId + "<Matrix>1 2</Matrix>\n<TrimSurface>" + curve +
+    "</TrimSurface><Mesh/></xml>");
+  ASSERT_TRUE(file) << file.Status.Message();
+  ASSERT_EQ(file->Splines.size(), 5u);
+  // ids within a domain are not those of the file; an empty one is none
+  EXPECT_EQ(file->Ids, (std::vector<int>{ 1, 2, 3, 0, 4 }));
+  for (const AnySpline& spline : file->Splines)
+  {
+    const auto& read = std::get<Spline<1>>(spline);
+    EXPECT_EQ(read.Space->Knots[0].Breaks(), (std::vector<double>{ 0.0, 1.0 / 3.0, 0.5, 1.0 }));
+    EXPECT_EQ(read.ControlPoints(1, 0), 0.125);
+    EXPECT_EQ(read.ControlPoints(2, 0), 0.75);
+  }
+  ASSERT_EQ(file->LeftOut.size(), 2u);
+  EXPECT_NE(file->LeftOut[0].find("line 4, <TrimSurface>"), std::string::npos);
+  EXPECT_NE(file->LeftOut[1].find("<Mesh>"), std::string::npos);
+  for (const char* word : { "1/0", "1/", "/3", "1/2/3", "1/x", "1e300/1e-300" })
+  {
+    std::string text = "<xml>" + curve + "</xml>";
+    text.replace(text.find("1/3"), 3, word);
+    const auto damaged = ReadGismoXml(text);
+    EXPECT_EQ(damaged.Status.Code, ErrorCode::InvalidFormat) << word;
+    EXPECT_NE(damaged.Status.Detail.find("quotient"), std::string::npos) << damaged.Status.Detail;
+  }
 }
 
 TEST(GismoXml, WhatTheFormatHasNotIsRefused_ExactOracle)

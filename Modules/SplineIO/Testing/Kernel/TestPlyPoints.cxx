@@ -77,6 +77,8 @@ TEST(PlyPoints, EveryEncodingHoldsTheSame_GoldenOracle)
     EXPECT_EQ(file->Names, (std::vector<std::string>{ "quality" }));
     EXPECT_EQ(file->Channels(1, 0), 0.25);
     ASSERT_EQ(file->Polygons.size(), 1U);
+    ASSERT_EQ(file->LeftOut.size(), 1U);
+    EXPECT_NE(file->LeftOut[0].find("2 elements 'edge'"), std::string::npos);
     EXPECT_EQ(file->Polygons[0], (std::vector<int>{ 2, 1, 0 }));
   }
 }
@@ -111,6 +113,10 @@ TEST(PlyPoints, EveryDamageIsOneErrorWithItsPlace_ExactOracle)
     { With(Ascii, "1 0.25 2 4", "1 0.25 two 4"), ErrorCode::InvalidFormat, "vertex 1: 'two'" },
     { With(Ascii, "3 2 1 0", "3 2 1 3"), ErrorCode::InvalidTopology, "corner 3" },
     { With(Ascii, "3 2 1 0", "3 2 1 -1"), ErrorCode::InvalidFormat, "face 0" },
+    { With(Ascii, "3 2 1 0", "2 2 1"), ErrorCode::InvalidFormat, "face 0: it has 2 corners" },
+    { Ascii + "3 0 1 2\n", ErrorCode::InvalidFormat,
+      "line 21: '3' stands behind the last element" },
+    { Binary(false) + "x", ErrorCode::InvalidFormat, "1 bytes stand behind the last element" },
     { With(Ascii, "3 2 1 0", "-3 2 1 0"), ErrorCode::InvalidFormat, "face 0" },
     { "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\n"
       "property float z\nend_header\n",

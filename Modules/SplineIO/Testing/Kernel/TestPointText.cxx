@@ -213,11 +213,11 @@ TEST(PointText, ReadsCloudsOfG2_GoldenOracle)
   const auto both = ReadG2Points(curve + "400 1 0 0\n1\n1 2 3\n");
   ASSERT_TRUE(both);
   EXPECT_EQ(both->Points.rows(), 1);
-  EXPECT_EQ(both->Warnings.size(), 1u);
+  EXPECT_EQ(both->LeftOut.size(), 1u);
   const auto splines = ReadG2("400 1 0 0\n1\n1 2 3\n" + curve);
   ASSERT_TRUE(splines);
   EXPECT_EQ(splines->Splines.size(), 1u);
-  EXPECT_EQ(splines->Warnings.size(), 1u);
+  EXPECT_EQ(splines->LeftOut.size(), 1u);
   EXPECT_TRUE(BeginsWithG2Points("400 1 0 0\n1\n"));
   EXPECT_FALSE(BeginsWithG2Points(curve));
   EXPECT_FALSE(BeginsWithG2Points("400"));
@@ -251,6 +251,10 @@ TEST(PointText, EveryDamageHasItsLineAndRemedy_ExactOracle)
       "line 1, column 1: 'nan' is not a finite number; correct or remove the line" },
     { "1 2 3\n4 -inf 6\n", ErrorCode::NonFiniteInput,
       "line 2, column 2: '-inf' is not a finite number; correct or remove the line" },
+    { "1x 2 3\n4 5 6\n", ErrorCode::InvalidFormat,
+      "line 1, column 1: '1x' is not a number; correct or remove the line" },
+    { "x 2 3\n4 5 6\n", ErrorCode::InvalidFormat,
+      "line 1, column 1: 'x' is not a number; correct or remove the line" },
     { "1 2 3\n4 5 1e999\n", ErrorCode::InvalidFormat,
       "line 2, column 3: '1e999' is outside the range of double-precision numbers; correct or "
       "remove the line" },
