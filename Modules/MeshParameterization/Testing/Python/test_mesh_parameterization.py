@@ -151,6 +151,7 @@ def test_bad_meshes_are_refused():
     assert error_of(polydata(ROLLED, TRIANGLES)) == 0
     assert error_of(polydata(ROLLED, [(0, 1, 2, 3)])) > 0  # no triangle
     assert error_of(polydata(ROLLED, [(0, 0, 1)])) > 0
+    assert error_of(polydata(ROLLED, [*TRIANGLES, (0, 1)])) > 0  # VTK crashes on a face of two corners
     more = np.vstack([ROLLED, [[9, 9, 9]]])
     assert error_of(polydata(more, TRIANGLES)) > 0
     assert error_of(polydata(more, TRIANGLES), LargestComponent=True) == 0

@@ -157,6 +157,39 @@ TEST(PointClouds, PolygonsOfPlyAreCells_GoldenOracle)
   EXPECT_EQ(mesh->GetPoints()->GetDataType(), VTK_DOUBLE);
 }
 
+TEST(PointClouds, MeshesHaveFacesLinesAndTexture_GoldenOracle)
+{
+  const auto mesh = Read(WithText("mesh.obj",
+    "v 0 0 0\nv 1 0 0\nv 0 1 0.1\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\nl 1 2\nl 2 3 1\n"));
+  EXPECT_EQ(mesh->GetNumberOfPolys(), 1);
+  EXPECT_EQ(mesh->GetNumberOfLines(), 2);
+  EXPECT_EQ(mesh->GetNumberOfVerts(), 0);
+  ASSERT_NE(mesh->GetPointData()->GetTCoords(), nullptr);
+  EXPECT_EQ(mesh->GetPointData()->GetTCoords()->GetComponent(2, 1), 1.0);
+  EXPECT_EQ(mesh->GetPoint(2)[2], 0.1); // a double, not the nearest float
+  const auto off = Read(WithText("mesh.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 2 1 0\n"));
+  EXPECT_EQ(off->GetNumberOfPolys(), 1);
+  EXPECT_EQ(off->GetCellType(0), VTK_TRIANGLE);
+  EXPECT_EQ(Read(WithText("only.obj", "v 0 0 0\nv 1 0 0\n"))->GetNumberOfVerts(), 2);
+}
+
+TEST(PointClouds, WhatIsLeftOutIsToldUntilTheNextUpdate_ExactOracle)
+{
+  vtkNew<vtkPointCloudReader> reader;
+  vtkNew<MessageRecorder> recorder;
+  recorder->Watch(reader);
+  reader->SetFileName(WithText("tags.obj", "v 0 0 0\nt crease 1\n").c_str());
+  reader->Update();
+  ASSERT_EQ(reader->GetNumberOfPartsLeftOut(), 1);
+  EXPECT_EQ(reader->GetPartLeftOut(0).rfind("line 2: 1 curves, surfaces or tags", 0), 0U);
+  EXPECT_EQ(reader->GetPartLeftOut(1), "");
+  EXPECT_EQ(reader->GetPartLeftOut(-1), "");
+  EXPECT_EQ(recorder->Warnings.size(), 1U);
+  reader->SetFileName(WithText("none.obj", "v 0 0 0\n").c_str());
+  reader->Update();
+  EXPECT_EQ(reader->GetNumberOfPartsLeftOut(), 0);
+}
+
 TEST(PointClouds, EveryFailureIsOneErrorWithTheFile_ExactOracle)
 {
   const struct
@@ -171,6 +204,10 @@ TEST(PointClouds, EveryFailureIsOneErrorWithTheFile_ExactOracle)
     { WithText("nan.csv", "1,2,3\n4,5,nan\n"), ErrorCode::NonFiniteInput, "nan.csv': line 2" },
     { WithText("cut.g2", "400 1 0 0\n5\n1 2 3\n"), ErrorCode::InvalidFormat, "cut.g2" },
     { WithText("cut.ply", "ply\n"), ErrorCode::InvalidFormat, "cut.ply" },
+    { WithText("bad.off", "OFF\n1 0 0\n0 0 1e999\n"), ErrorCode::InvalidFormat,
+      "bad.off': line 3" },
+    { WithText("bad.obj", "v 0 0 nan\n"), ErrorCode::NonFiniteInput, "bad.obj': line 1" },
+    { WithText("bad.stl", "solid\n"), ErrorCode::InvalidFormat, "bad.stl': line 1" },
     { WithText("other.abc", "1 2 3\n"), ErrorCode::InvalidParameter, ".abc" },
     { WithText("empty.vtp", ""), ErrorCode::EmptyInput, "empty.vtp" },
   };

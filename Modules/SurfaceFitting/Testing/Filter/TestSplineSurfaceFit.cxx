@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Clouds whose surface is known.
+#include "vtkSplineSource.h"
 #include "vtkSplineSurfaceFit.h"
 
 #include "FilterCases.h"
@@ -585,6 +586,21 @@ TEST(SplineSurfaceFit, LimitsAreAWarning_PropertyOracle)
   EXPECT_NE(recorder->Warnings[0].find("farther away than their tolerance"), std::string::npos);
   EXPECT_GT(Number(filter, "PointsOutside"), 0);
   EXPECT_GT(filter->GetOutputDataObject(0)->GetNumberOfElements(vtkDataObject::CELL), 0);
+}
+
+TEST(SplineSurfaceFit, ControlPointsOfASplineAreNotFitted_ExactOracle)
+{
+  vtkNew<vtkSplineSource> source;
+  source->Update();
+  vtkNew<vtkSplineSurfaceFit> filter;
+  vtkNew<MessageRecorder> recorder;
+  recorder->Watch(filter);
+  filter->SetInputDataObject(source->GetOutputDataObject(0));
+  filter->Update();
+  EXPECT_EQ(filter->GetErrorCode(),
+    vtkErrorCode::UserError + static_cast<unsigned long>(ErrorCode::InvalidParameter));
+  ASSERT_FALSE(recorder->Errors.empty());
+  EXPECT_NE(recorder->Errors[0].find("control points"), std::string::npos);
 }
 
 TEST(SplineSurfaceFit, EveryFailureIsOneErrorWithItsPlace_ExactOracle)
