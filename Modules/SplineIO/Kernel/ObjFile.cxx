@@ -308,13 +308,16 @@ private:
     for (const Corner& corner : this->Corners)
     {
       int& texture = textureOf[static_cast<std::size_t>(corner.Point)];
+      if (corner.Texture == None)
+      {
+        continue;
+      }
       const auto pair = [&](int index) { return this->Texture.data() + 2 * std::size_t(index); };
-      if (corner.Texture == None ||
-        (texture != None && !std::equal(pair(texture), pair(texture) + 2, pair(corner.Texture))))
+      if (texture != None && !std::equal(pair(texture), pair(texture) + 2, pair(corner.Texture)))
       {
         file.Warnings.push_back("line " + std::to_string(corner.Line) + ": point " +
           std::to_string(corner.Point + 1LL) +
-          " has not one pair of texture coordinates; all are left out");
+          " has several pairs of texture coordinates; all are left out");
         return;
       }
       texture = corner.Texture;
@@ -322,7 +325,7 @@ private:
     if (std::find(textureOf.begin(), textureOf.end(), None) != textureOf.end())
     {
       file.Warnings.emplace_back(
-        "some points belong to no face and have no texture coordinates; all are left out");
+        "some points have no texture coordinates; those of the others are left out");
       return;
     }
     file.Names = { "TCoords:0", "TCoords:1" };

@@ -10,6 +10,9 @@
 
 #include <vtkDataObject.h>
 #include <vtkNew.h>
+#include <vtkOBJReader.h>
+#include <vtkPLYReader.h>
+#include <vtkSTLReader.h>
 #include <vtkUnstructuredGridReader.h>
 #include <vtkXMLPartitionedDataSetCollectionReader.h>
 #include <vtkXMLPolyDataReader.h>
@@ -43,6 +46,18 @@ vtkSmartPointer<vtkDataObject> ReadByEnding(const std::string& file, const std::
   if (ending == ".vtpc")
   {
     return ReadWith<vtkXMLPartitionedDataSetCollectionReader>(file);
+  }
+  if (ending == ".obj")
+  {
+    return ReadWith<vtkOBJReader>(file);
+  }
+  if (ending == ".ply")
+  {
+    return ReadWith<vtkPLYReader>(file);
+  }
+  if (ending == ".stl")
+  {
+    return ReadWith<vtkSTLReader>(file);
   }
   return ReadWith<vtkUnstructuredGridReader>(file);
 }
