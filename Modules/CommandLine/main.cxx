@@ -67,6 +67,26 @@ constexpr Entry Jobs[] = {
   { "warp", "send points or splines through a spline map", knotwork::MakeWarpJob },
 };
 
+/// The parser would take 010 for eight, as in C; whole numbers are decimal.
+void RefuseOctalNumbers(CLI::App& job)
+{
+  const auto check = [](const std::string& word)
+  {
+    const std::size_t first = word.find_first_not_of("+-");
+    return first != std::string::npos && first + 1 < word.size() && word[first] == '0'
+      ? "'" + word + "' begins with 0; write a decimal number"
+      : std::string();
+  };
+  for (CLI::Option* option : job.get_options())
+  {
+    const std::string type = option->get_type_name();
+    if (type.rfind("INT", 0) == 0 || type.rfind("UINT", 0) == 0)
+    {
+      option->check(check);
+    }
+  }
+}
+
 /// One line, whatever the message holds.
 int Fail(const std::string& job, const std::string& message)
 {
@@ -148,6 +168,7 @@ int main(int argc, char* argv[])
       ->capture_default_str();
     job->add_flag("--quiet", session.Quiet, "no progress and no warnings");
     jobs.emplace_back(job, entry.Make(*job));
+    RefuseOctalNumbers(*job);
   }
   try
   {

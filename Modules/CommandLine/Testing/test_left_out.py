@@ -89,6 +89,13 @@ def test_numbers_that_are_none_are_refused_with_their_line():
     refuse(["convert", write_bytes("binary.stl", content), "--output", "out.vtp"], "binary.stl", "facet 0")
 
 
+def test_whole_numbers_are_decimal():
+    for word in ("010", "0x10", "-01"):
+        done = knotwork_testing.run_program("source", "--elements", word, 4, 1, "--output", path("never.vtu"))
+        assert done.returncode == 2 and word in done.stderr, (word, done.returncode, done.stderr)
+    good("source", "--elements", 10, 4, 1, "--output", path("ten.vtu"))
+
+
 def polydata(points, polygons, name):
     """VTK's own writer crashes on a face of two corners."""
     def numbers(values, kind, label, components=1):

@@ -9,6 +9,7 @@
 #include "XmlCheck.h"
 
 #include <vtkDataObject.h>
+#include <vtkDataSet.h>
 #include <vtkNew.h>
 #include <vtkOBJReader.h>
 #include <vtkPLYReader.h>
