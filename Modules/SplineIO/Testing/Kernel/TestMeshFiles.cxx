@@ -244,7 +244,7 @@ TEST(MeshFiles, StlDamageIsNamedWithItsPlace_ExactOracle)
       { With(Stl, "endfacet", "end"), ErrorCode::InvalidFormat, "'endfacet' is expected" },
       { With(Stl, "endsolid", "solid"), ErrorCode::InvalidFormat, "'facet' or 'endsolid'" },
       { Stl + "\njunk", ErrorCode::InvalidFormat, "'junk' stands where 'solid'" },
-      { Stl.substr(0, Stl.size() - 40), ErrorCode::InvalidFormat, "truncated" } });
+      { Stl.substr(0, Stl.find("endsolid")), ErrorCode::InvalidFormat, "truncated" } });
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const std::string sound = BinaryStl({ { { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } } } }, "solid x");
   ExpectRefused(ReadStl,
