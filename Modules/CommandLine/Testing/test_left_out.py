@@ -115,7 +115,7 @@ def test_points_that_are_not_finite_and_faces_of_two_corners_are_refused():
     two = polydata(triangle, [[0, 1, 2], [0, 1]], "two.vtp")
     holed = polydata([[0, 0, 0], [1, np.nan, 0], [0, 1, 0]], [[0, 1, 2]], "holed.vtp")
     for arguments in (["flatten", "--output", "out.vtp"], ["trim", "--output", "out.step"], ["convert", "--output", "out.xyz"]):
-        refuse(arguments[:1] + [two] + arguments[1:], "two.vtp", "cell 1")
+        refuse(arguments[:1] + [two] + arguments[1:], "two.vtp", "cell 1 is a polygon of 2 corners")
         refuse(arguments[:1] + [holed] + arguments[1:], "holed.vtp", "point 1 has a coordinate y")
 
 

@@ -4,6 +4,7 @@
 #include "CellCheck.h"
 #include "DataParts.h"
 #include "FileEnding.h"
+#include "InputChecks.h"
 #include "Messages.h"
 #include "Worker.h"
 #include "XmlCheck.h"
@@ -99,6 +100,10 @@ Status Read(const std::string& file, const Parts&, Parts& found)
   if (Status status = CheckCells(data); !status)
   {
     return { status.Code, "'" + file + "' is damaged: " + status.Detail + "; write it again" };
+  }
+  if (Status status = CheckCellSizes(vtkDataSet::SafeDownCast(data)); !status)
+  {
+    return { status.Code, "'" + file + "': " + status.Detail };
   }
   AppendParts(data, found);
   return {};
