@@ -152,8 +152,9 @@ int main(int argc, char* argv[])
   CLI::App app("Spline geometry that is fitted, refined and proved valid.", "knotwork");
   app.require_subcommand(1);
   app.set_version_flag("--version", KNOTWORK_VERSION);
-  app.footer("Exit status: 0 done, 1 bad input or failure, 2 wrong usage, 5 done but part of the "
-             "input was left out, 128 + n ended by signal n; of validate also 3 invalid, 4 undecided.");
+  app.footer(
+    "Exit status: 0 done, 1 bad input or failure, 2 wrong usage, 5 done but part of the "
+    "input was left out, 128 + n ended by signal n; of validate also 3 invalid, 4 undecided.");
 
   knotwork::Session session;
   std::vector<std::pair<CLI::App*, knotwork::Job>> jobs;

@@ -15,7 +15,8 @@ Status CheckSize(double count, double limit, const char* what, const char* prope
   }
   return { ErrorCode::TooLarge,
     "the result would have " + Digits(std::round(count)) + " " + what + ", the limit is " +
-      Digits(limit) + "; ask for less, or raise " + property + " if the memory suffices" };
+      Digits(limit) + "; ask for less (fewer elements, a larger tolerance), or raise " + property +
+      " if the memory suffices" };
 }
 
 template <int Dim>
