@@ -207,7 +207,7 @@ TEST(PointClouds, EveryFailureIsOneErrorWithTheFile_ExactOracle)
     { WithText("bad.off", "OFF\n1 0 0\n0 0 1e999\n"), ErrorCode::InvalidFormat,
       "bad.off': line 3" },
     { WithText("bad.obj", "v 0 0 nan\n"), ErrorCode::NonFiniteInput, "bad.obj': line 1" },
-    { WithText("bad.stl", "solid\n"), ErrorCode::InvalidFormat, "bad.stl': line 1" },
+    { WithText("bad.stl", "solid\n"), ErrorCode::InvalidFormat, "bad.stl': line 2" },
     { WithText("other.abc", "1 2 3\n"), ErrorCode::InvalidParameter, ".abc" },
     { WithText("empty.vtp", ""), ErrorCode::EmptyInput, "empty.vtp" },
   };
