@@ -33,7 +33,7 @@ struct CombineJob
       {
         return input.Status;
       }
-      Status status = port == 0 ? session.CheckFormat(input.Value, this->Output) : Status();
+      Status status = port == 0 ? session.CheckGridFormat(input.Value, this->Output) : Status();
       if (!status)
       {
         return status;

@@ -41,7 +41,7 @@ struct ExtractJob
     this->FilterOptions->Apply(session.Report);
     this->Filter->SetThreads(session.Threads);
     const bool asCurves = this->Filter->GetIsoCurve() != 0;
-    if (Status status = session.CheckFormat(input.Value, this->Output, asCurves); !status)
+    if (Status status = session.CheckGridFormat(input.Value, this->Output, asCurves); !status)
     {
       return status;
     }

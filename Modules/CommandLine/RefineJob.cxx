@@ -35,7 +35,7 @@ struct RefineJob
     }
     session.Report["input"] = this->Input;
     session.Report["output"] = this->Output;
-    if (Status status = session.CheckFormat(input.Value, this->Output); !status)
+    if (Status status = session.CheckGridFormat(input.Value, this->Output); !status)
     {
       return status;
     }

@@ -513,6 +513,11 @@ Session::FileFormat Session::FormatFor(vtkDataObject* data, const std::string& e
   return vtkTable::SafeDownCast(data) && ending == ".csv" ? FileFormat::Table : FileFormat::None;
 }
 
+Status Session::CheckGridFormat(vtkDataObject* like, const std::string& file, bool asCurves) const
+{
+  return vtkPolyData::SafeDownCast(like) ? Status() : this->CheckFormat(like, file, asCurves);
+}
+
 Status Session::CheckFormat(vtkDataObject* like, const std::string& file, bool asCurves) const
 {
   const std::string ending = LowerEnding(file);

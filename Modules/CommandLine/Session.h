@@ -62,6 +62,9 @@ public:
   /// before the work, with what the output will be like.
   /// @param asCurves  curves on the surfaces are written instead of them.
   Status CheckFormat(vtkDataObject* like, const std::string& file, bool asCurves = false) const;
+  /// CheckFormat of jobs that take grids alone: polygons and points are left to the filter, whose
+  /// message names the input.
+  Status CheckGridFormat(vtkDataObject* like, const std::string& file, bool asCurves = false) const;
 
   /// Stages an output. XML files hold base64 within their elements: Debian's ParaView 5.11 with the
   /// present libexpat cannot read appended data. The ending of the name says the format: .vtu .vtp

@@ -86,7 +86,7 @@ struct ValidateJob
     }
     session.Report["input"] = this->Input;
     this->Filter->SetInputDataObject(input.Value);
-    if (Status status = session.CheckFormat(input.Value, this->Output); !status)
+    if (Status status = session.CheckGridFormat(input.Value, this->Output); !status)
     {
       return status;
     }

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs of the program on LR surfaces, and values of what they wrote."""
 import json
+import pathlib
+import sys
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -11,7 +13,8 @@ import skeletons
 
 
 def path(name):
-    return knotwork_testing.output("cli_lr/" + name)
+    """A file of the running script alone: scripts run side by side."""
+    return knotwork_testing.output(f"cli_lr/{pathlib.Path(sys.argv[0]).stem}/{name}")
 
 
 def text(name):

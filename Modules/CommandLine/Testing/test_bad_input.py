@@ -77,8 +77,8 @@ def test_every_input_refuses_what_it_does_not_take():
 def spline():
     """An annulus sector of biquadratic rational elements with a refined corner and a field."""
     good("source", "--shape", "annulus-sector", "--degree", 2, "--elements", 2, 2, 1, "--output", path("coarse.vtu"))
-    good("refine", path("coarse.vtu"), "--array", "ElementId", "--upper-threshold", 0, "--output", path("coarse.vtu"))
-    grid = damages.read(path("coarse.vtu"))
+    good("refine", path("coarse.vtu"), "--array", "ElementId", "--upper-threshold", 0, "--output", path("local.vtu"))
+    grid = damages.read(path("local.vtu"))
     damages.add_field(grid, "Temperature")
     damages.write(grid, path("field.vtu"))
     good("convert", path("field.vtu"), "--output", path("spline.vtu"))

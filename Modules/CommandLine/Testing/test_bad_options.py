@@ -70,7 +70,7 @@ def test_points_and_skeletons_with_bad_numbers_are_refused():
             name = word + "_points.vtp"
             points = skeleton(name, [np.array([(0.2, 0.3), (value, 0.5), (0.7, 0.1), (0.4, 0.9)])])
             yield ["evaluate", grid, points, *output], [name, "point 1"]
-            yield ["evaluate", grid, points, "--mode", "probe", *output], [name, "query 1"]
+            yield ["evaluate", grid, points, "--mode", "probe", *output], [name, "query 1" if word == "huge" else "point 1"]
             yield ["warp", points, grid, *output], [name, "point 1"]
             yield ["distance", points, surface, *output], [name, "point 1"]
             yield ["distance", points, surface, "--kind", "closest", *output], [name, "point 1"]
@@ -80,7 +80,8 @@ def test_points_and_skeletons_with_bad_numbers_are_refused():
                 lines = [line.copy() for line in curves[role]]
                 lines[4][7, 1] = value
                 broken = {**files, role: skeleton(f"{word}_{role}.vtp", lines)}
-                yield ["map", broken["template"], broken["target"], *MAPPED], [f"{word}_{role}.vtp", role + " patch 4"]
+                place = role + " patch 4" if word == "huge" else "coordinate y that is not finite"
+                yield ["map", broken["template"], broken["target"], *MAPPED], [f"{word}_{role}.vtp", place]
 
     refuse_all(cases())
 

@@ -125,7 +125,7 @@ def test_splines_are_not_fitted_by_their_control_points():
     good("convert", path("spline.vtu"), "--output", path("spline.step"))
     for name in ("spline.vtu", "spline.xml", "spline.step"):
         refuse(["fit", path(name), "--output", "out.vtu"], name, "control points", "tessellate")
-        refuse(["distance", path(name), path("spline.vtu"), "--output", "out.vtp"], name, "control points")
+        refuse(["distance", path(name), path("spline.vtu"), "--output", "out.vtu"], name, "control points")
     good("tessellate", path("spline.vtu"), "--output", path("points.vtp"))
     good("fit", path("points.vtp"), "--output", path("fitted.vtu"))
 

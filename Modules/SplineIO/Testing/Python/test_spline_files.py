@@ -85,11 +85,16 @@ def test_bad_files_are_one_line_and_leave_no_output():
             assert done.returncode == 1 and len(done.stderr.splitlines()) == 1, done.stderr
             assert os.path.basename(file) in done.stderr and word in done.stderr, done.stderr
             assert not os.path.exists(output)
-    output = path("fine.g2")  # hierarchical splines have no place in g2
+
+
+def test_kinds_that_g2_has_not_become_tensor_products():
+    output, report = path("fine.g2"), path("fine.json")
     run("source", "--shape", "square", "--degree", 2, "--elements", 4, 4, 1, "--output", path("square.vtu"))
     done = knotwork_testing.run_program("refine", path("square.vtu"), "--sphere", 0, 0, 0, 0.3, "--output", output)
-    assert done.returncode == 1 and "XML" in done.stderr and len(done.stderr.splitlines()) == 1, done.stderr
-    assert not os.path.exists(output)
+    assert done.returncode == 0 and "tensor product" in done.stderr and len(done.stderr.splitlines()) == 1, done.stderr
+    run("info", output, "--report", report)
+    with open(report) as stream:
+        assert json.load(stream)["kinds"] == ["tensor-product"]
 
 
 knotwork_testing.main(globals())
