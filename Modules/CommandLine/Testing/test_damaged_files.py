@@ -67,7 +67,8 @@ def sound_files():
              (mesh, "mesh.obj"), (mesh, "mesh.ply"), (mesh, "bytes.ply"), (mesh, "mesh.stl"), (mesh, "bytes.stl"), (mesh, "mesh.vtp"),
              (curves, "template.vtp"), (boundary, "boundary.json")]
     # collections stay collections
-    parts = [[word.replace("out.vtu", "out.vtpc") if isinstance(word, str) and job[0] != "convert" else word for word in job] for job in spline]
+    endings = {"convert": {}, "tessellate": {"out.vtp": "out.vtpc"}}
+    parts = [[endings.get(job[0], {"out.vtu": "out.vtpc"}).get(word, word) for word in job] for job in spline]
     return [(path(name), parts if name.endswith(".vtpc") else jobs) for jobs, name in kinds]
 
 
