@@ -58,6 +58,8 @@ def test_no_format_is_cut_off_in_silence():
             assert done.returncode == 0, (arguments, done.stderr)
             whole = max(size for file, size in sizes(folder).items() if os.path.splitext(file)[0][:1] == "o")
         seen.add(os.path.splitext(name)[1])
+        if name.endswith(".json"):
+            whole -= 200  # measured seconds have more or fewer digits
         # nothing at all, all but the last byte, and places between
         for size in {0, 1, whole - 1, whole // 2, draw.randrange(whole), draw.randrange(whole)}:
             with tempfile.TemporaryDirectory() as folder:
