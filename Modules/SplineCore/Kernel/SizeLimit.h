@@ -5,8 +5,7 @@
 
 namespace knotwork
 {
-/// What a filter makes at most, unless a user allows more: a million trivariate functions of degree
-/// 3 take some 4 GB on their way to a file.
+/// Functions that a filter makes at most, unless a user allows more.
 inline constexpr int DefaultMaxFunctions = 1000000;
 
 /// Refuses what would be larger than a limit, before memory is taken.

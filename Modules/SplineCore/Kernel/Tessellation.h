@@ -26,7 +26,7 @@ struct TessellationParams
   /// normal (creases) it is the mean of theirs. True: points are repeated, bit for bit, between
   /// patches and at creases, each copy with the exact normal of its side.
   bool Splitting = false;
-  /// Polygons or hexahedra at most, >= 1: 20 million polygons take some 4 GB.
+  /// Polygons or hexahedra at most, >= 1.
   int MaxCells = DefaultMaxTessellationCells;
   int Threads = 0;
   ProgressCallback Progress;
