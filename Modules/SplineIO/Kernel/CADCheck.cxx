@@ -302,7 +302,8 @@ Result<CADSummary> CheckCAD(const std::string& file, LengthUnit unit)
       IGESControl_Reader iges;
       XSControl_Reader& reader =
         format == CADFormat::IGES ? static_cast<XSControl_Reader&>(iges) : step;
-      if (Status loaded = LoadCAD(reader, format, file); !loaded)
+      int numMended = 0;
+      if (Status loaded = LoadCAD(reader, format, file, numMended); !loaded)
       {
         return loaded;
       }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CADFile.h"
 
+#include "IGESSplines.h"
+
 #include <Interface_Check.hxx>
 #include <Interface_CheckIterator.hxx>
 #include <Interface_InterfaceModel.hxx>
@@ -145,8 +147,9 @@ Status CheckEntities(const XSControl_Reader& reader)
 }
 }
 
-Status LoadCAD(XSControl_Reader& reader, CADFormat format, const std::string& file)
+Status LoadCAD(XSControl_Reader& reader, CADFormat format, const std::string& file, int& numMended)
 {
+  numMended = 0;
   const std::string place = "'" + file + "'";
   if (format == CADFormat::Unknown)
   {
@@ -169,7 +172,13 @@ Status LoadCAD(XSControl_Reader& reader, CADFormat format, const std::string& fi
   {
     return { ErrorCode::InvalidFormat, place + ": it is damaged; write it again" };
   }
-  if (Status status = CheckEntities(reader); !status)
+  const auto iges = Handle(IGESData_IGESModel)::DownCast(reader.Model());
+  Status status = iges.IsNull() ? Status() : MendIGESSplines(iges, numMended);
+  if (status)
+  {
+    status = CheckEntities(reader);
+  }
+  if (!status)
   {
     return { status.Code, place + ": " + status.Detail };
   }

@@ -232,7 +232,14 @@ Result<CADContents> ReadCAD(const std::string& file, const CADReadParams& params
       XCAFDoc_DocumentTool::Set(document->Main(), false);
       const auto read = [&](auto& cafReader, XSControl_Reader& reader, const EntityNames& names)
       {
-        Status loaded = LoadCAD(reader, format, file);
+        int numMended = 0;
+        Status loaded = LoadCAD(reader, format, file, numMended);
+        if (numMended > 0)
+        {
+          contents.Warnings.push_back("the knots of " + std::to_string(numMended) +
+            (numMended == 1 ? " curve" : " curves") +
+            " are damaged; found anew: pcurves from curves in space, or these from pcurves");
+        }
         if (loaded && cafReader.Transfer(document))
         {
           DocumentReader(document, names, params.Tolerance, contents).Read();

@@ -5,8 +5,10 @@
 #include "BezierForm.h"
 #include "Shapes.h"
 #include "TensorSpace.h"
+#include "TrimmedMesh.h"
 #include "TrimmedModel.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/SparseLU>
 #include <cmath>
 #include <functional>
@@ -129,5 +131,18 @@ inline TrimmedModel NaturalFaces(const ShapeParams& params)
     model.Faces.push_back(face);
   }
   return model;
+}
+
+inline double AreaOf(const TrimmedMesh& mesh)
+{
+  double area = 0.0;
+  for (const std::array<int, 3>& triangle : mesh.Triangles)
+  {
+    const Eigen::RowVector3d a = mesh.Points.row(triangle[0]);
+    const Eigen::RowVector3d ab = mesh.Points.row(triangle[1]) - a;
+    const Eigen::RowVector3d ac = mesh.Points.row(triangle[2]) - a;
+    area += 0.5 * ab.cross(ac).norm();
+  }
+  return area;
 }
 }

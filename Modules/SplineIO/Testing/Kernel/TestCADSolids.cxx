@@ -3,7 +3,6 @@
 // every face is read, the triangles of all faces are closed and have the solid's area.
 #include "CADCases.h"
 #include "CADExchange.h"
-#include "TrimmedMesh.h"
 
 #include <BRepAlgoAPI_Common.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
@@ -38,7 +37,6 @@
 #include <gp_Elips.hxx>
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <map>
 
 using namespace knotwork;
@@ -250,19 +248,6 @@ int NumOpenEdges(const TrimmedMesh& mesh)
   return open;
 }
 
-double AreaOf(const TrimmedMesh& mesh)
-{
-  double area = 0.0;
-  for (const std::array<int, 3>& triangle : mesh.Triangles)
-  {
-    const Eigen::RowVector3d a = mesh.Points.row(triangle[0]);
-    const Eigen::RowVector3d ab = mesh.Points.row(triangle[1]) - a;
-    const Eigen::RowVector3d ac = mesh.Points.row(triangle[2]) - a;
-    area += 0.5 * ab.cross(ac).norm();
-  }
-  return area;
-}
-
 void ExpectWhole(const std::string& file, std::size_t numFaces, double area, bool closed)
 {
   const auto read = ReadCAD(file);
@@ -278,7 +263,7 @@ void ExpectWhole(const std::string& file, std::size_t numFaces, double area, boo
   ASSERT_TRUE(mesh) << mesh.Status.Message();
   // triangles within the tolerance t of a surface of curvature 1/r miss about 2 t / r of the area;
   // no r here is below sqrt(area) / 60
-  EXPECT_NEAR(AreaOf(mesh.Value), area, 0.01 * area);
+  EXPECT_NEAR(knotwork::testing::AreaOf(mesh.Value), area, 0.01 * area);
   if (closed)
   {
     EXPECT_EQ(NumOpenEdges(mesh.Value), 0);
