@@ -67,9 +67,8 @@ struct CombineJob
     return session.Write(this->Filter->GetOutputDataObject(0), this->Output);
   }
 };
-}
 
-Job MakeCombineJob(CLI::App& app)
+Job Make(CLI::App& app)
 {
   auto job = std::make_shared<CombineJob>();
   app.add_option("first", job->Inputs[0], "spline surfaces (.vtu .vtpc .xml .g2 .step .iges)")
@@ -88,5 +87,9 @@ Job MakeCombineJob(CLI::App& app)
     options, filter, CommonDomain, "whether surfaces are cut to what their domains have in common");
   KNOTWORK_OPTION(options, filter, MaximumFunctions, "more functions are not made");
   return [job](Session& session) { return job->Run(session); };
+}
+
+const JobRegistration Registration{ "combine", "subtract or average two spline surfaces",
+  "new.vtu old.vtu --mode difference --output change.vtu --report change.json", Make };
 }
 }

@@ -106,9 +106,8 @@ struct ContourJob
     report["level_undecided"] = undecided;
   }
 };
-}
 
-Job MakeContourJob(CLI::App& app)
+Job Make(CLI::App& app)
 {
   auto job = std::make_shared<ContourJob>();
   app.add_option("input", job->Input, "surfaces (.vtu .vtpc .xml .g2)")->required();
@@ -126,7 +125,7 @@ Job MakeContourJob(CLI::App& app)
     .Add<int>(
       "Number", filter->GetNumberOfLevels(), [filter](int n) { filter->SetNumberOfLevels(n); },
       "levels that are chosen when none are given")
-    ->check(CLI::Range(filter->GetNumberOfLevelsMinValue(), filter->GetNumberOfLevelsMaxValue()));
+    ->check(InRange(filter->GetNumberOfLevelsMinValue(), filter->GetNumberOfLevelsMaxValue()));
   options
     .Add<std::vector<double>>(
       "Range", { filter->GetRange()[0], filter->GetRange()[1] },
@@ -146,5 +145,10 @@ Job MakeContourJob(CLI::App& app)
   KNOTWORK_FREE_OPTION(options, filter, ProjectToLevel, "whether z becomes the level");
   KNOTWORK_OPTION(options, filter, MaximumCells, "cells an element is divided into at most");
   return [job](Session& session) { return job->Run(session); };
+}
+
+const JobRegistration Registration{ "contour",
+  "iso-curves of a spline surface to a guaranteed tolerance",
+  "terrain.vtu --levels 0.05 0.1 --tolerance 1e-3 --output lines.vtp --report lines.json", Make };
 }
 }

@@ -156,9 +156,8 @@ struct ConvertJob
     return session.Write(data, this->Output, this->Encoding);
   }
 };
-}
 
-Job MakeConvertJob(CLI::App& app)
+Job Make(CLI::App& app)
 {
   auto job = std::make_shared<ConvertJob>();
   app
@@ -174,5 +173,9 @@ Job MakeConvertJob(CLI::App& app)
     ->check(CLI::IsMember({ "ascii", "binary", "appended" }))
     ->capture_default_str();
   return [job](Session& session) { return job->Run(session); };
+}
+
+const JobRegistration Registration{ "convert", "write a dataset in another format or encoding",
+  "plate.vtu --output plate.step", Make };
 }
 }

@@ -95,9 +95,8 @@ struct CropJob
       : status;
   }
 };
-}
 
-Job MakeCropJob(CLI::App& app)
+Job Make(CLI::App& app)
 {
   auto job = std::make_shared<CropJob>();
   app.add_option("surface", job->Surface, "a spline surface (.vtu .xml .g2)")->required();
@@ -125,5 +124,9 @@ Job MakeCropJob(CLI::App& app)
     "largest distance between triangles and faces; 0: a quarter of the tolerance");
   KNOTWORK_OPTION(options, filter, MaximumFunctions, "larger tensor products are not made");
   return [job](Session& session) { return job->Run(session); };
+}
+
+const JobRegistration Registration{ "crop", "trim a fitted surface to where its points are",
+  "terrain.vtu scan.xyz --output face.step --report crop.json", Make };
 }
 }

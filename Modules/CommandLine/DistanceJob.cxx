@@ -93,9 +93,8 @@ struct DistanceJob
     report["class_points"] = counts;
   }
 };
-}
 
-Job MakeDistanceJob(CLI::App& app)
+Job Make(CLI::App& app)
 {
   auto job = std::make_shared<DistanceJob>();
   app
@@ -115,5 +114,10 @@ Job MakeDistanceJob(CLI::App& app)
     [filter](int kind) { filter->SetKind(kind); },
     "vertical distances, those from closest points, or vertical ones of height fields");
   return [job](Session& session) { return job->Run(session); };
+}
+
+const JobRegistration Registration{ "distance", "measure how far points are from spline surfaces",
+  "scan.xyz terrain.vtu --tolerances 0.01 0.05 --output distances.vtp --report distances.json",
+  Make };
 }
 }

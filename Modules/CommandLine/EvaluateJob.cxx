@@ -61,9 +61,8 @@ struct EvaluateJob
     return session.Write(result, this->Output);
   }
 };
-}
 
-Job MakeEvaluateJob(CLI::App& app)
+Job Make(CLI::App& app)
 {
   auto job = std::make_shared<EvaluateJob>();
   app.add_option("input", job->Input, "spline grid (.vtu .vtpc .xml .g2 .step .iges)")->required();
@@ -84,5 +83,9 @@ Job MakeEvaluateJob(CLI::App& app)
   KNOTWORK_FREE_OPTION(options, filter, PatchIdArray, "point array with the patch of each point");
   KNOTWORK_FREE_OPTION(options, filter, PatchId, "patch of all points; -1: the only one");
   return [job](Session& session) { return job->Run(session); };
+}
+
+const JobRegistration Registration{ "evaluate", "evaluate a spline at points, with derivatives",
+  "terrain.vtu scan.xyz --mode probe --output values.vtp", Make };
 }
 }

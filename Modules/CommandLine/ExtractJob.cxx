@@ -54,9 +54,8 @@ struct ExtractJob
     return session.Write(this->Filter->GetOutputDataObject(0), this->Output);
   }
 };
-}
 
-Job MakeExtractJob(CLI::App& app)
+Job Make(CLI::App& app)
 {
   auto job = std::make_shared<ExtractJob>();
   app.add_option("input", job->Input, "spline surfaces (.vtu .vtpc .xml .g2 .step .iges)")
@@ -78,5 +77,10 @@ Job MakeExtractJob(CLI::App& app)
   KNOTWORK_FREE_OPTION(options, filter, IsoValue, "its value");
   KNOTWORK_OPTION(options, filter, MaximumFunctions, "more functions are not made");
   return [job](Session& session) { return job->Run(session); };
+}
+
+const JobRegistration Registration{ "extract",
+  "take a part or an iso-curve of surfaces, or exchange, reverse, expand",
+  "terrain.vtu --box 0.2 0.8 0.2 0.8 --output part.vtu", Make };
 }
 }

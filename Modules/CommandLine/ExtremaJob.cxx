@@ -62,9 +62,8 @@ struct ExtremaJob
     return session.WriteOutputs(this->Filter, { this->Output, this->BoxFile, this->TableFile });
   }
 };
-}
 
-Job MakeExtremaJob(CLI::App& app)
+Job Make(CLI::App& app)
 {
   auto job = std::make_shared<ExtremaJob>();
   app.add_option("input", job->Input, "spline surfaces (.vtu .vtpc .xml .g2 .step .iges)")
@@ -87,5 +86,10 @@ Job MakeExtremaJob(CLI::App& app)
   KNOTWORK_OPTION(options, filter, MaximumDepth, "halvings of an element at most");
   KNOTWORK_OPTION(options, filter, MaximumBoxes, "undecided boxes of an element at a time");
   return [job](Session& session) { return job->Run(session); };
+}
+
+const JobRegistration Registration{ "extrema",
+  "find all minima, maxima and saddles of a surface, proved",
+  "terrain.vtu --output points.vtp --report extrema.json", Make };
 }
 }

@@ -224,9 +224,8 @@ void AddFitOptions(Options& options, vtkSplineSurfaceFit* filter)
   KNOTWORK_OPTION(options, filter, MinimumElementSize, "share of the domain; not split below");
   KNOTWORK_OPTION(options, filter, FeatureGridSize, "cells of the feature grid in each direction");
 }
-}
 
-Job MakeFitJob(CLI::App& app)
+Job Make(CLI::App& app)
 {
   auto job = std::make_shared<FitJob>();
   app
@@ -242,5 +241,9 @@ Job MakeFitJob(CLI::App& app)
   job->FilterOptions = std::make_unique<Options>(app);
   AddFitOptions(*job->FilterOptions, job->Filter);
   return [job](Session& session) { return job->Run(session); };
+}
+
+const JobRegistration Registration{ "fit", "fit a spline surface to scattered points",
+  "scan.xyz --tolerance 0.01 --output terrain.vtu --report terrain.json", Make };
 }
 }

@@ -43,9 +43,8 @@ struct FlattenJob
     return session.WriteOutputs(this->Filter, { this->Output, this->Loops, this->Table });
   }
 };
-}
 
-Job MakeFlattenJob(CLI::App& app)
+Job Make(CLI::App& app)
 {
   auto job = std::make_shared<FlattenJob>();
   app.add_option("mesh", job->Input, "triangle mesh (.off .obj .ply .stl .vtp .vtu)")->required();
@@ -59,5 +58,9 @@ Job MakeFlattenJob(CLI::App& app)
   AddFlattenOptions(options, filter, "Method");
   KNOTWORK_FREE_OPTION(options, filter, FlatOutput, "points of the output are (u, v, 0)");
   return [job](Session& session) { return job->Run(session); };
+}
+
+const JobRegistration Registration{ "flatten", "lay a triangle mesh with holes into the plane",
+  "shell.off --method hlle --output flat.vtp --loops loops.vtp --report flat.json", Make };
 }
 }

@@ -207,9 +207,8 @@ struct InfoJob
     return {};
   }
 };
-}
 
-Job MakeInfoJob(CLI::App& app)
+Job Make(CLI::App& app)
 {
   auto job = std::make_shared<InfoJob>();
   app
@@ -217,5 +216,8 @@ Job MakeInfoJob(CLI::App& app)
       "spline grid or points (.vtu .vtpc .vtk .xml .g2 .step .iges .xyz .txt .csv .ply .vtp)")
     ->required();
   return [job](Session& session) { return job->Run(session); };
+}
+
+const JobRegistration Registration{ "info", "say what a spline file holds", "plate.vtu", Make };
 }
 }

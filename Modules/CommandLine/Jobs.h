@@ -3,6 +3,7 @@
 #include "Status.h"
 
 #include <functional>
+#include <vector>
 
 namespace CLI
 {
@@ -16,25 +17,22 @@ class Session;
 /// What a job does once its options are parsed.
 using Job = std::function<Status(Session&)>;
 
-/// Each adds the options of one job to its subcommand and returns the job.
-Job MakeCombineJob(CLI::App& app);
-Job MakeContourJob(CLI::App& app);
-Job MakeConvertJob(CLI::App& app);
-Job MakeCropJob(CLI::App& app);
-Job MakeDistanceJob(CLI::App& app);
-Job MakeEvaluateJob(CLI::App& app);
-Job MakeExtremaJob(CLI::App& app);
-Job MakeExtractJob(CLI::App& app);
-Job MakeFitJob(CLI::App& app);
-Job MakeFlattenJob(CLI::App& app);
-Job MakeInfoJob(CLI::App& app);
-Job MakeMapJob(CLI::App& app);
-Job MakeParameterizeJob(CLI::App& app);
-Job MakeRefineJob(CLI::App& app);
-Job MakeSourceJob(CLI::App& app);
-Job MakeStitchJob(CLI::App& app);
-Job MakeTessellateJob(CLI::App& app);
-Job MakeTrimJob(CLI::App& app);
-Job MakeValidateJob(CLI::App& app);
-Job MakeWarpJob(CLI::App& app);
+/// A verb of the program.
+struct JobEntry
+{
+  const char* Name;
+  const char* Help;
+  const char* Example;    ///< words behind the name, for --help
+  Job (*Make)(CLI::App&); ///< adds the options to the job's subcommand and returns the job
+};
+
+/// Makes a job known to the program: one constant in the job's own file.
+class JobRegistration
+{
+public:
+  JobRegistration(const char* name, const char* help, const char* example, Job (*make)(CLI::App&));
+};
+
+/// All jobs, by their names.
+std::vector<JobEntry> RegisteredJobs();
 }

@@ -179,9 +179,8 @@ void AddRefinementOptions(Options& options, vtkTemplateMapping* filter)
   KNOTWORK_OPTION(options, filter, MaxLevel, "cells of this level are not refined");
   KNOTWORK_OPTION(options, filter, MaxFunctions, "a refinement to more functions is not made");
 }
-}
 
-Job MakeMapJob(CLI::App& app)
+Job Make(CLI::App& app)
 {
   auto job = std::make_shared<MapJob>();
   app.add_option("template", job->Template, "skeleton of the template (.vtp .vtu)")->required();
@@ -201,5 +200,9 @@ Job MakeMapJob(CLI::App& app)
   AddFitOptions(*job->FilterOptions, job->Filter);
   AddRefinementOptions(*job->FilterOptions, job->Filter);
   return [job](Session& session) { return job->Run(session); };
+}
+
+const JobRegistration Registration{ "map", "carry a template skeleton onto target patches",
+  "template.vtp target.vtp --output map.vtu --report map.json", Make };
 }
 }

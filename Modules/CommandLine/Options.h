@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "Ranges.h"
+
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
@@ -21,7 +23,7 @@ public:
   explicit Options(CLI::App& job) : Job(job) {}
 
   /// A number, a list of them when T is a std::vector of the default's length, or a truth value,
-  /// which is on where the option stands without one (see TruthValues.h).
+  /// which is on where the option stands without one (see Words.h).
   template <typename T>
   CLI::Option* Add(const char* property, const T& initial, std::function<void(const T&)> set,
     const std::string& help)
@@ -78,7 +80,12 @@ public:
     }
   }
 
-  static std::string KebabCase(const std::string& property) { return Separate(property, '-'); }
+  /// Max and Maximum are one word on the command line.
+  static std::string KebabCase(const std::string& property)
+  {
+    const std::string name = Separate(property, '-');
+    return name.compare(0, 4, "max-") == 0 ? "maximum-" + name.substr(4) : name;
+  }
   static std::string SnakeCase(const std::string& property) { return Separate(property, '_'); }
 
 private:
@@ -108,7 +115,7 @@ private:
     .Add<decltype((filter)->Get##property())>(                                                     \
       #property, (filter)->Get##property(),                                                        \
       [filter](const auto& value) { (filter)->Set##property(value); }, help)                       \
-    ->check(CLI::Range((filter)->Get##property##MinValue(), (filter)->Get##property##MaxValue()))
+    ->check(InRange((filter)->Get##property##MinValue(), (filter)->Get##property##MaxValue()))
 
 /// A number or truth value without a range of its own.
 #define KNOTWORK_FREE_OPTION(options, filter, property, help)                                      \

@@ -108,7 +108,8 @@ CLI::Option* AddOutput(CLI::App& app, const std::string& name, std::string& file
   const char* endings, const std::string& help)
 {
   const std::string type = *endings == '\0' ? "FILE" : endings;
-  return app.add_option(name, file, help)->group(Group)->type_name(type);
+  const std::string names = name == "--output" ? "-o," + name : name;
+  return app.add_option(names, file, help)->group(Group)->type_name(type);
 }
 
 /// Renames that can be taken back.

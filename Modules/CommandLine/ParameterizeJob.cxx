@@ -82,9 +82,8 @@ struct ParameterizeJob
     report["seconds_with_certificate"] = this->Filter->GetSecondsWithCertificate();
   }
 };
-}
 
-Job MakeParameterizeJob(CLI::App& app)
+Job Make(CLI::App& app)
 {
   auto job = std::make_shared<ParameterizeJob>();
   app
@@ -146,5 +145,10 @@ Job MakeParameterizeJob(CLI::App& app)
   KNOTWORK_FREE_OPTION(
     options, filter, MoveInterfaces, "with a layout: whether sides between patches move");
   return [job](Session& session) { return job->Run(session); };
+}
+
+const JobRegistration Registration{ "parameterize",
+  "fill a boundary with a spline map that is proved valid",
+  "boundary.json --output map.vtu --report map.json", Make };
 }
 }

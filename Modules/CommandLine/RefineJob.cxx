@@ -82,9 +82,8 @@ struct RefineJob
     }
   }
 };
-}
 
-Job MakeRefineJob(CLI::App& app)
+Job Make(CLI::App& app)
 {
   auto job = std::make_shared<RefineJob>();
   app.add_option("input", job->Input, "spline grid (.vtu .vtpc .xml .g2 .step .iges)")->required();
@@ -136,5 +135,9 @@ Job MakeRefineJob(CLI::App& app)
     "whether the functions of LR patches are made linearly independent, with no refinements too");
   KNOTWORK_OPTION(options, filter, MaximumFunctions, "more functions are not made");
   return [job](Session& session) { return job->Run(session); };
+}
+
+const JobRegistration Registration{ "refine", "refine a spline, uniformly or locally",
+  "plate.vtu --sphere 1 0 0 0.3 --output fine.vtu", Make };
 }
 }

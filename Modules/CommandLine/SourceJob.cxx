@@ -33,9 +33,8 @@ struct SourceJob
     return session.Write(this->Filter->GetOutputDataObject(0), this->Output);
   }
 };
-}
 
-Job MakeSourceJob(CLI::App& app)
+Job Make(CLI::App& app)
 {
   auto job = std::make_shared<SourceJob>();
   AddOutput(app, "--output", job->Output, Endings::Spline, "the shape as Bezier grid")->required();
@@ -63,5 +62,9 @@ Job MakeSourceJob(CLI::App& app)
   KNOTWORK_VECTOR_OPTION(options, filter, Center, double, "centre");
   KNOTWORK_OPTION(options, filter, MaximumFunctions, "more functions are not made");
   return [job](Session& session) { return job->Run(session); };
+}
+
+const JobRegistration Registration{ "source", "make a spline of a standard shape",
+  "--shape annulus-sector --elements 4 4 1 --output plate.vtu", Make };
 }
 }

@@ -109,9 +109,8 @@ struct StitchJob
     return session.WriteOutputs(this->Filter, { this->Output, this->EdgeFile });
   }
 };
-}
 
-Job MakeStitchJob(CLI::App& app)
+Job Make(CLI::App& app)
 {
   auto job = std::make_shared<StitchJob>();
   app
@@ -133,5 +132,10 @@ Job MakeStitchJob(CLI::App& app)
     "neighbours: by the boxes of their parameters, by points of their sides, or as --pair says");
   KNOTWORK_OPTION(options, filter, Tolerance, "what counts as the same place, relative");
   return [job](Session& session) { return job->Run(session); };
+}
+
+const JobRegistration Registration{ "stitch",
+  "make tiles that were fitted apart meet, continuously or smoothly",
+  "west.vtu east.vtu --matching geometry --output both.vtu --report both.json", Make };
 }
 }

@@ -117,9 +117,8 @@ struct TessellateJob
     return session.Write(result, this->Output);
   }
 };
-}
 
-Job MakeTessellateJob(CLI::App& app)
+Job Make(CLI::App& app)
 {
   auto job = std::make_shared<TessellateJob>();
   app
@@ -144,5 +143,9 @@ Job MakeTessellateJob(CLI::App& app)
     options, filter, Splitting, "points repeated at creases and between patches");
   KNOTWORK_OPTION(options, filter, MaximumCells, "more polygons or hexahedra are not made");
   return [job](Session& session) { return job->Run(session); };
+}
+
+const JobRegistration Registration{ "tessellate", "turn a spline into polygons within a tolerance",
+  "plate.vtu --chordal-tolerance 1e-4 --output plate.vtp", Make };
 }
 }

@@ -170,9 +170,8 @@ struct TrimJob
     report["seconds_of_trimming"] = this->Trim->GetSeconds();
   }
 };
-}
 
-Job MakeTrimJob(CLI::App& app)
+Job Make(CLI::App& app)
 {
   auto job = std::make_shared<TrimJob>();
   app
@@ -215,5 +214,9 @@ Job MakeTrimJob(CLI::App& app)
   job->Flatten->SetMaximumStretch(ChartStretch);
   AddFlattenOptions(options, job->Flatten, "Flatten");
   return [job](Session& session) { return job->Run(session); };
+}
+
+const JobRegistration Registration{ "trim", "turn a triangle mesh into trimmed spline faces",
+  "shell.off --tolerance 0.01 --output shell.step --report shell.json", Make };
 }
 }

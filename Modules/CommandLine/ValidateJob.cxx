@@ -166,9 +166,8 @@ struct ValidateJob
     }
   }
 };
-}
 
-Job MakeValidateJob(CLI::App& app)
+Job Make(CLI::App& app)
 {
   auto job = std::make_shared<ValidateJob>();
   app
@@ -192,5 +191,9 @@ Job MakeValidateJob(CLI::App& app)
   KNOTWORK_OPTION(options, filter, SamplesPerEdge, "points along a cell's edges for the quality");
   KNOTWORK_OPTION(options, filter, MaximumBoxes, "boxes looked at before cells stay undecided");
   return [job](Session& session) { return job->Run(session); };
+}
+
+const JobRegistration Registration{ "validate", "prove a grid valid or show where it is not",
+  "plate.vtu --report valid.json", Make };
 }
 }

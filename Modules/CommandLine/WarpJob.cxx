@@ -63,9 +63,8 @@ struct WarpJob
     return session.Write(result, this->Output);
   }
 };
-}
 
-Job MakeWarpJob(CLI::App& app)
+Job Make(CLI::App& app)
 {
   auto job = std::make_shared<WarpJob>();
   app
@@ -86,5 +85,9 @@ Job MakeWarpJob(CLI::App& app)
   KNOTWORK_OPTION(options, filter, MaxLevel, "levels that refinement may add");
   KNOTWORK_OPTION(options, filter, MaximumFunctions, "more functions are not made");
   return [job](Session& session) { return job->Run(session); };
+}
+
+const JobRegistration Registration{ "warp", "send points or splines through a spline map",
+  "scan.xyz plate.vtu --output warped.vtp", Make };
 }
 }

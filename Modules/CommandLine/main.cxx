@@ -6,9 +6,10 @@
 #include "Jobs.h"
 #include "OneLine.h"
 #include "ParallelStart.h"
+#include "Ranges.h"
 #include "Session.h"
 #include "Termination.h"
-#include "TruthValues.h"
+#include "Words.h"
 
 #include <CLI/CLI.hpp>
 
@@ -17,7 +18,6 @@
 #include <csignal>
 #include <exception>
 #include <iostream>
-#include <sstream>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -32,40 +32,9 @@ namespace
 constexpr int Failure = 1;
 constexpr int WrongUsage = 2;
 
-struct Entry
-{
-  const char* Name;
-  const char* Help;
-  knotwork::Job (*Make)(CLI::App&);
-};
-
-constexpr Entry Jobs[] = {
-  { "combine", "subtract or average two spline surfaces", knotwork::MakeCombineJob },
-  { "contour", "iso-curves of a spline surface to a guaranteed tolerance",
-    knotwork::MakeContourJob },
-  { "convert", "write a dataset in another format or encoding", knotwork::MakeConvertJob },
-  { "crop", "trim a fitted surface to where its points are", knotwork::MakeCropJob },
-  { "distance", "measure how far points are from spline surfaces", knotwork::MakeDistanceJob },
-  { "evaluate", "evaluate a spline at points, with derivatives", knotwork::MakeEvaluateJob },
-  { "extrema", "find all minima, maxima and saddles of a surface, proved",
-    knotwork::MakeExtremaJob },
-  { "extract", "take a part or an iso-curve of surfaces, or exchange, reverse, expand",
-    knotwork::MakeExtractJob },
-  { "fit", "fit a spline surface to scattered points", knotwork::MakeFitJob },
-  { "flatten", "lay a triangle mesh with holes into the plane", knotwork::MakeFlattenJob },
-  { "info", "say what a spline file holds", knotwork::MakeInfoJob },
-  { "map", "carry a template skeleton onto target patches", knotwork::MakeMapJob },
-  { "parameterize", "fill a boundary with a spline map that is proved valid",
-    knotwork::MakeParameterizeJob },
-  { "refine", "refine a spline, uniformly or locally", knotwork::MakeRefineJob },
-  { "source", "make a spline of a standard shape", knotwork::MakeSourceJob },
-  { "stitch", "make tiles that were fitted apart meet, continuously or smoothly",
-    knotwork::MakeStitchJob },
-  { "tessellate", "turn a spline into polygons within a tolerance", knotwork::MakeTessellateJob },
-  { "trim", "turn a triangle mesh into trimmed spline faces", knotwork::MakeTrimJob },
-  { "validate", "prove a grid valid or show where it is not", knotwork::MakeValidateJob },
-  { "warp", "send points or splines through a spline map", knotwork::MakeWarpJob },
-};
+constexpr const char* ExitStatus =
+  "Exit status: 0 done, 1 bad input or failure, 2 wrong usage, 5 done but part of the input was "
+  "left out, 128 + n ended by signal n; of validate also 3 invalid, 4 undecided.";
 
 /// The parser would take 010 for eight, as in C; whole numbers are decimal.
 void RefuseOctalNumbers(CLI::App& job)
@@ -95,19 +64,16 @@ int Fail(const std::string& job, const std::string& message)
   return Failure;
 }
 
-/// Help, version, or what is wrong with the usage: lines that show the words of the user.
+/// Prints help or version, or what is wrong with the usage in one line that shows the words of the
+/// user.
 int Explain(const CLI::App& app, const CLI::ParseError& error)
 {
-  std::ostringstream help;
-  std::ostringstream wrong;
-  const int status = app.exit(error, help, wrong);
-  std::cout << help.str();
-  std::istringstream lines(wrong.str());
-  for (std::string line; std::getline(lines, line);)
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
   {
-    std::cerr << knotwork::OneLine(line) << "\n";
+    return app.exit(error, std::cout, std::cerr);
   }
-  return status == 0 ? 0 : WrongUsage;
+  std::cerr << knotwork::OneLine(knotwork::ExplainUsage(app, error)) << "\n";
+  return WrongUsage;
 }
 
 /// What has been printed on standard output has arrived there.
@@ -152,28 +118,29 @@ int main(int argc, char* argv[])
   CLI::App app("Spline geometry that is fitted, refined and proved valid.", "knotwork");
   app.require_subcommand(1);
   app.set_version_flag("--version", KNOTWORK_VERSION);
-  app.footer(
-    "Exit status: 0 done, 1 bad input or failure, 2 wrong usage, 5 done but part of the "
-    "input was left out, 128 + n ended by signal n; of validate also 3 invalid, 4 undecided.");
+  app.footer(ExitStatus);
 
   knotwork::Session session;
   std::vector<std::pair<CLI::App*, knotwork::Job>> jobs;
-  for (const Entry& entry : Jobs)
+  for (const knotwork::JobEntry& entry : knotwork::RegisteredJobs())
   {
     CLI::App* job = app.add_subcommand(entry.Name, entry.Help);
+    job->footer(
+      "Example: knotwork " + std::string(entry.Name) + " " + entry.Example + "\n\n" + ExitStatus);
     knotwork::AddOutput(*job, "--report", session.ReportFile, knotwork::Endings::Any,
       "JSON file for the numbers of the job");
     job->add_flag("--force", session.Files.Force, "an output may take the place of an input");
     job->add_option("--threads", session.Threads, "threads, 0 = all cores")
-      ->check(CLI::Range(0, 1024))
+      ->check(knotwork::InRange(0, 1024))
       ->capture_default_str();
     job->add_flag("--quiet", session.Quiet, "no progress and no warnings");
     jobs.emplace_back(job, entry.Make(*job));
     RefuseOctalNumbers(*job);
   }
+  const knotwork::PreparedWords prepared = knotwork::PrepareWords(argc, argv, app);
   try
   {
-    std::vector<std::string> words = knotwork::JoinTruthValues(argc, argv, app);
+    std::vector<std::string> words = prepared.Words;
     std::reverse(words.begin(), words.end()); // as the parser takes them
     app.parse(std::move(words));
   }
@@ -181,6 +148,7 @@ int main(int argc, char* argv[])
   {
     return Explain(app, error);
   }
+  session.Warn(prepared.Warnings);
 
   for (const auto& [job, run] : jobs)
   {

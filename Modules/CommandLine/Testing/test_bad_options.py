@@ -150,7 +150,7 @@ def test_map_refuses_bad_options():
     cases = [([f"--{name}-weight", "nan"], ["weight", "nan"]) for name in (
         "pdm", "tdm", "uniformity", "length", "orthogonality", "skewness", "eccentricity", "area", "self-intersection")]
     cases += [(["--refine", "local", f"--{name}", "nan"], ["nan"]) for name in (
-        "accuracy", "max-irregular-share", "stagnation-ratio", "refine-threshold", "refine-share")]
+        "accuracy", "maximum-irregular-share", "stagnation-ratio", "refine-threshold", "refine-share")]
     cases += [(["--method", "weighted", "--pdm-weight", 0, "--tdm-weight", 0], ["both 0"]),
               (["--inner-knots-per-direction", -2, 3, 3], ["inner knots"])]
     cases += [(["--domain", *numbers], [word]) for numbers, word in (
@@ -158,8 +158,8 @@ def test_map_refuses_bad_options():
         ((0, "inf", 0, 1), "empty"), ((0, 1, 0, 1, 0), "4 or 6"))]
     refuse_all((["map", file, file, *options, *MAPPED], words) for options, words in cases)
     for usage in (["--guard", "maybe"], ["--refine", "sometimes"], ["--extension", -1], ["--refine-share", 2],
-                  ["--method", "best"], ["--initial-map", "random"], ["--max-level", 25], ["--area-weight", -1],
-                  ["--domain", 0, 1], ["--refine-every", -1], ["--max-functions", 0], ["--accuracy", "much"]):
+                  ["--method", "best"], ["--initial-map", "random"], ["--maximum-level", 25], ["--area-weight", -1],
+                  ["--domain", 0, 1], ["--refine-every", -1], ["--maximum-functions", 0], ["--accuracy", "much"]):
         done = knotwork_testing.run_program("map", file, file, "--output", path("map.vtu"), *usage)
         assert done.returncode == 2, (usage, done.returncode, done.stderr)
 

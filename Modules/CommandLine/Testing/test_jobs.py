@@ -110,7 +110,7 @@ def test_local_refinement_takes_fewer_functions():
     assert functions("--extension", 3)[-1] > base[-1] > functions("--extension", 0)[-1]
     assert functions("--refine-threshold", 1e-3)[-1] < base[-1] < functions("--refine-threshold", 1e-7)[-1]
     assert functions("--refine-threshold", 0, "--refine-share", 0.01)[-1] < functions("--refine-threshold", 0)[-1]
-    assert functions("--max-functions", 230) == [225] * 4 == functions("--max-level", 0)
+    assert functions("--maximum-functions", 230) == [225] * 4 == functions("--maximum-level", 0)
     every = functions("--refine-every", 2)
     assert every[0] == every[1] < every[2] == every[3]
     assert functions("--refine-every", 0, "--stagnation-ratio", 0.999)[-1] > 225
@@ -136,7 +136,7 @@ def test_every_weight_and_end_of_map_has_its_effect():
     early = error("--accuracy", 1.01 * base["max_error"], iterations=1000)
     assert early["iterations"] <= 4 and early["max_error"] <= 1.01 * base["max_error"]
     folding = ("--method", "fixed", "--guard", "off")
-    assert error(*folding, "--max-irregular-share", 0, iterations=20)["iterations"] < 20
+    assert error(*folding, "--maximum-irregular-share", 0, iterations=20)["iterations"] < 20
     assert error(*folding, iterations=20)["negative_jacobian_percent"] > 0
     assert "injective" not in error("--injectivity", "off")
 
@@ -251,9 +251,9 @@ def test_options_are_those_of_the_filters():
     for option in ("method", "iterations", "degree", "inner-knots", "template-samples", "newton-steps",
                    "tikhonov-weight", "threads", "report", "mapped", "table", "pdm-weight", "tdm-weight",
                    "uniformity-weight", "length-weight", "orthogonality-weight", "skewness-weight", "eccentricity-weight",
-                   "area-weight", "self-intersection-weight", "guard", "accuracy", "max-irregular-share", "refine",
-                   "refine-every", "stagnation-ratio", "refine-threshold", "refine-share", "extension", "max-level",
-                   "max-functions", "initial-map", "initial", "domain", "inner-knots-per-direction", "injectivity"):
+                   "area-weight", "self-intersection-weight", "guard", "accuracy", "maximum-irregular-share", "refine",
+                   "refine-every", "stagnation-ratio", "refine-threshold", "refine-share", "extension", "maximum-level",
+                   "maximum-functions", "initial-map", "initial", "domain", "inner-knots-per-direction", "injectivity"):
         assert "--" + option in done.stdout, option
 
 

@@ -54,7 +54,7 @@ def cases(diagonal):
            "--output", "out.vtp"], "MaximumCells"
     yield ["tessellate", path("cube.vtu"), "--cells", "volume", "--chordal-tolerance", 1e-12, "--maximum-cells", 1, *out], None
     yield ["map", path("template.vtp"), path("target.vtp"), "--inner-knots", 4000, *out], "MaxFunctions"
-    yield ["warp", path("annulus.vtu"), path("annulus.vtu"), "--clamp", 1, "--tolerance", 1e-14, "--max-level", 20, "--maximum-functions",
+    yield ["warp", path("annulus.vtu"), path("annulus.vtu"), "--clamp", 1, "--tolerance", 1e-14, "--maximum-level", 20, "--maximum-functions",
            2000, *out], "MaximumFunctions"
 
 

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Words.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace knotwork
+{
+namespace
+{
+bool IsTruthWord(const std::string& word)
+{
+  constexpr std::array<const char*, 8> Words{ "0", "1", "true", "false", "on", "off", "yes", "no" };
+  return std::find(Words.begin(), Words.end(), CLI::detail::to_lower(word)) != Words.end();
+}
+
+bool BeginsWith(const std::string& word, const std::string& lead)
+{
+  return word.compare(0, lead.size(), lead) == 0;
+}
+
+/// The job that is asked for: the first word.
+const CLI::App* FindJob(const std::vector<std::string>& words, const CLI::App& app)
+{
+  const auto named = app.get_subcommands(
+    [&](const CLI::App* job) { return !words.empty() && job->get_name() == words.front(); });
+  return named.empty() ? nullptr : named.front();
+}
+
+/// The word, or the present spelling of an old one.
+std::string Renew(const std::string& word, const CLI::App& job, std::vector<std::string>& warnings)
+{
+  const std::string old = "--max-";
+  if (!BeginsWith(word, old))
+  {
+    return word;
+  }
+  const std::string renewed = "--maximum-" + word.substr(old.size());
+  const std::string name = renewed.substr(0, renewed.find('='));
+  if (!job.get_option_no_throw(name))
+  {
+    return word;
+  }
+  warnings.push_back(
+    "'" + word.substr(0, word.find('=')) + "' is an old spelling of '" + name + "'");
+  return renewed;
+}
+
+/// Letters changed, inserted, left out or exchanged with their neighbour between two words.
+std::size_t Difference(const std::string& a, const std::string& b)
+{
+  std::vector<std::vector<std::size_t>> steps(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i)
+  {
+    for (std::size_t j = 0; j <= b.size(); ++j)
+    {
+      if (i == 0 || j == 0)
+      {
+        steps[i][j] = i + j;
+        continue;
+      }
+      steps[i][j] = std::min({ steps[i - 1][j] + 1, steps[i][j - 1] + 1,
+        steps[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1) });
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+      {
+        steps[i][j] = std::min(steps[i][j], steps[i - 2][j - 2] + 1);
+      }
+    }
+  }
+  return steps[a.size()][b.size()];
+}
+
+/// Names of the jobs of the program, or of the options of a job.
+std::vector<std::string> KnownNames(const CLI::App& app)
+{
+  std::vector<std::string> names;
+  for (const CLI::App* job : app.get_subcommands([](const CLI::App*) { return true; }))
+  {
+    names.push_back(job->get_name());
+  }
+  for (const CLI::Option* option : app.get_options())
+  {
+    if (!option->get_positional())
+    {
+      names.push_back(option->get_name());
+    }
+  }
+  return names;
+}
+
+/// "there is no ...; did you mean ...?" of the first word that nothing knows; empty without one.
+std::string ExplainUnknown(const CLI::App& app, bool isJob)
+{
+  const std::vector<std::string> words = app.remaining();
+  const auto isOption = [](const std::string& word) { return BeginsWith(word, "-"); };
+  auto unknown = std::find_if(words.begin(), words.end(), isOption);
+  if (unknown == words.end())
+  {
+    unknown = words.begin();
+  }
+  if (unknown == words.end())
+  {
+    return {};
+  }
+  const std::string word = unknown->substr(0, unknown->find('='));
+  const std::string nearest = NearestName(word, KnownNames(app));
+  return (isOption(word) ? "there is no option '" + word + "'"
+             : isJob     ? "'" + word + "' is one word too many"
+                         : "there is no job '" + word + "'") +
+    (nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
+}
+}
+
+PreparedWords PrepareWords(int argc, const char* const* argv, const CLI::App& app)
+{
+  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  const CLI::App* job = FindJob(words, app);
+  PreparedWords prepared;
+  for (std::size_t i = 0; i < words.size(); ++i)
+  {
+    const std::string word = job ? Renew(words[i], *job, prepared.Warnings) : words[i];
+    prepared.Words.push_back(word);
+    const bool isName = word.size() > 2 && BeginsWith(word, "--");
+    const CLI::Option* option = job && isName ? job->get_option_no_throw(word) : nullptr;
+    if (option && option->get_items_expected_max() == 0 && i + 1 < words.size() &&
+      IsTruthWord(words[i + 1]))
+    {
+      prepared.Words.back() += "=" + words[++i];
+    }
+  }
+  return prepared;
+}
+
+std::string NearestName(const std::string& word, const std::vector<std::string>& names)
+{
+  std::string nearest;
+  std::size_t least = word.size() / 3 + 1; // more letters than that are another word
+  for (const std::string& name : names)
+  {
+    const std::size_t difference = Difference(word, name);
+    if (difference < least || (difference == least && nearest.empty()))
+    {
+      least = difference;
+      nearest = name;
+    }
+  }
+  return nearest;
+}
+
+std::string ExplainUsage(const CLI::App& app, const CLI::ParseError& error)
+{
+  const std::vector<CLI::App*> jobs = app.get_subcommands();
+  const CLI::App& asked = jobs.empty() ? app : *jobs.front();
+  const std::string program = jobs.empty() ? "knotwork" : "knotwork " + asked.get_name();
+  std::string wrong = ExplainUnknown(asked, !jobs.empty());
+  if (wrong.empty())
+  {
+    wrong = jobs.empty() ? "a job is required" : error.what();
+  }
+  return program + ": " + wrong + (wrong.back() == '?' ? " '" : "; '") + program +
+    " --help' lists " + (jobs.empty() ? "the jobs" : "its options");
+}
+}
