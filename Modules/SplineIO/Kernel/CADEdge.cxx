@@ -500,6 +500,25 @@ double DeviationOf(
   return worst;
 }
 
+/// Control points that interpolation puts beyond the surface's domain by rounding come back to it:
+/// a pcurve along a side of its surface does not leave it.
+void KeepWithinDomain(CADPcurve& use)
+{
+  constexpr double Slack = 1e-7; // of the domain
+  double lower[2];
+  double upper[2];
+  use.Surface->Surface()->Bounds(lower[0], upper[0], lower[1], upper[1]);
+  for (Eigen::Index i = 0; i < use.UV.rows(); ++i)
+  {
+    for (Eigen::Index d = 0; d < 2; ++d)
+    {
+      double& u = use.UV(i, d);
+      const double within = std::min(std::max(u, lower[d]), upper[d]);
+      u = std::abs(u - within) <= Slack * (upper[d] - lower[d]) ? within : u;
+    }
+  }
+}
+
 Status Fit(EdgeFunctions& edge, std::vector<CADPcurve>& uses, double tolerance, CADEdge& result)
 {
   for (std::size_t u = 0; u < uses.size(); ++u)
@@ -550,6 +569,7 @@ Status Fit(EdgeFunctions& edge, std::vector<CADPcurve>& uses, double tolerance, 
     for (std::size_t u = 0; u < trial.size(); ++u)
     {
       trial[u].UV = collocation.Solve(ParametersAtAll(edge.Parameters[u], collocation.Points));
+      KeepWithinDomain(trial[u]);
     }
     const double deviation = DeviationOf(curve, edge, trial);
     if (deviation < result.Deviation)

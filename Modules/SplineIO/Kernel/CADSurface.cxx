@@ -5,12 +5,17 @@
 
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
+#include <Geom2d_Curve.hxx>
 #include <GeomConvert.hxx>
 #include <GeomConvert_ApproxSurface.hxx>
 #include <Geom_ElementarySurface.hxx>
 #include <Geom_RectangularTrimmedSurface.hxx>
 #include <Geom_SurfaceOfRevolution.hxx>
+#include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
+#include <TColStd_Array2OfReal.hxx>
+#include <TColgp_Array2OfPnt.hxx>
+#include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 
 #include <algorithm>
@@ -27,8 +32,50 @@ constexpr int MaxIterations = 30;
 
 using Range = std::array<double, 2>;
 
+/// How many periods the pcurves of a face need in each direction: a helical strip is wound around
+/// its cylinder, and goes over itself in parameters alone. Not more than can be meant.
+/// @param ranges  of the face; where it needs several, they become those of the pcurves.
+std::array<int, 2> TurnsOf(
+  const TopoDS_Face& face, const std::array<double, 2>& periods, std::array<Range, 2>& ranges)
+{
+  constexpr int Samples = 64;
+  constexpr double Slack = 1e-6;   // of a period, which pcurves may go beyond it
+  constexpr double Between = 0.01; // of a period: what they may reach between samples
+  constexpr double MaxTurns = 1000.0;
+  std::array<Range, 2> reach{ Range{ HUGE_VAL, -HUGE_VAL }, Range{ HUGE_VAL, -HUGE_VAL } };
+  for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More(); edges.Next())
+  {
+    double first = 0.0;
+    double last = 0.0;
+    const Handle(Geom2d_Curve) pcurve =
+      BRep_Tool::CurveOnSurface(TopoDS::Edge(edges.Current()), face, first, last);
+    for (int i = 0; i <= Samples && !pcurve.IsNull(); ++i)
+    {
+      const double share = static_cast<double>(i) / Samples;
+      const gp_XY at = pcurve->Value((1.0 - share) * first + share * last).XY();
+      for (std::size_t d = 0; d < 2; ++d)
+      {
+        const double u = at.Coord(static_cast<int>(d) + 1);
+        reach[d] = { std::min(reach[d][0], u), std::max(reach[d][1], u) };
+      }
+    }
+  }
+  std::array<int, 2> turns{ 1, 1 };
+  for (std::size_t d = 0; d < 2; ++d)
+  {
+    const double needed = (reach[d][1] - reach[d][0]) / periods[d];
+    if (needed > 1.0 + Slack && needed <= MaxTurns)
+    {
+      ranges[d] = { reach[d][0] - Between * periods[d], reach[d][1] + Between * periods[d] };
+      turns[d] = static_cast<int>(std::ceil(needed + 2.0 * Between));
+    }
+  }
+  return turns;
+}
+
 /// The range of parameters of a face within the surface's own, where they differ by rounding.
-void FitRange(Range& range, const Range& natural, bool periodic)
+/// @param turns  periods at most.
+void FitRange(Range& range, const Range& natural, bool periodic, int turns)
 {
   const double rounding = Same * std::abs(range[1] - range[0]);
   for (double& end : range)
@@ -40,7 +87,7 @@ void FitRange(Range& range, const Range& natural, bool periodic)
   }
   if (periodic)
   {
-    range[1] = std::min(range[1], range[0] + (natural[1] - natural[0]));
+    range[1] = std::min(range[1], range[0] + turns * (natural[1] - natural[0]));
   }
   else
   {
@@ -212,6 +259,56 @@ Handle(Geom_BSplineSurface)
   return spline;
 }
 
+/// A closed spline repeated in a direction: it goes around several times.
+Handle(Geom_BSplineSurface) Repeated(Handle(Geom_BSplineSurface) surface, bool alongU, int turns)
+{
+  if (turns == 1)
+  {
+    return surface;
+  }
+  surface = Handle(Geom_BSplineSurface)::DownCast(surface->Copy());
+  if (!alongU)
+  {
+    surface->ExchangeUV();
+  }
+  Range u{};
+  Range v{};
+  surface->Bounds(u[0], u[1], v[0], v[1]);
+  surface->Segment(u[0], u[1], v[0], v[1]); // clamps it
+  const int n = surface->NbUPoles();
+  const int numAcross = surface->NbVPoles();
+  const int pieces = surface->NbUKnots() - 1;
+  const int degree = surface->UDegree();
+  TColgp_Array2OfPnt poles(1, turns * (n - 1) + 1, 1, numAcross);
+  TColStd_Array2OfReal weights(1, poles.ColLength(), 1, numAcross);
+  for (int i = 0; i < poles.ColLength(); ++i)
+  {
+    for (int j = 1; j <= numAcross; ++j)
+    {
+      poles.SetValue(i + 1, j, surface->Pole(i % (n - 1) + 1, j));
+      weights.SetValue(i + 1, j, surface->Weight(i % (n - 1) + 1, j));
+    }
+  }
+  const double period = surface->UKnot(pieces + 1) - surface->UKnot(1);
+  TColStd_Array1OfReal knots(1, turns * pieces + 1);
+  TColStd_Array1OfInteger multiplicities(1, knots.Length());
+  for (int k = 0; k < knots.Length(); ++k)
+  {
+    const bool isJoint = k % pieces == 0;
+    knots.SetValue(k + 1, surface->UKnot(k % pieces + 1) + k / pieces * period);
+    multiplicities.SetValue(k + 1, isJoint ? degree : surface->UMultiplicity(k % pieces + 1));
+  }
+  multiplicities.SetValue(1, degree + 1);
+  multiplicities.SetValue(knots.Length(), degree + 1);
+  Handle(Geom_BSplineSurface) repeated = new Geom_BSplineSurface(poles, weights, knots,
+    surface->VKnots(), multiplicities, surface->VMultiplicities(), degree, surface->VDegree());
+  if (!alongU)
+  {
+    repeated->ExchangeUV();
+  }
+  return repeated;
+}
+
 /// Degrees that knot vectors can have.
 Handle(Geom_BSplineSurface) WithLowDegree(const Handle(Geom_BSplineSurface) & surface)
 {
@@ -233,19 +330,29 @@ CADSurface::CADSurface(const TopoDS_Face& face) : From(Unbounded(BRep_Tool::Surf
   Range naturalU{};
   Range naturalV{};
   this->From->Bounds(naturalU[0], naturalU[1], naturalV[0], naturalV[1]);
-  FitRange(u, naturalU, this->From->IsUPeriodic());
-  FitRange(v, naturalV, this->From->IsVPeriodic());
+  const std::array<double, 2> lengths{ this->From->IsUPeriodic() ? naturalU[1] - naturalU[0]
+                                                                 : HUGE_VAL,
+    this->From->IsVPeriodic() ? naturalV[1] - naturalV[0] : HUGE_VAL };
+  std::array<Range, 2> ranges{ u, v };
+  const std::array<int, 2> turns =
+    TurnsOf(TopoDS::Face(face.Oriented(TopAbs_FORWARD)), lengths, ranges);
+  u = ranges[0];
+  v = ranges[1];
+  FitRange(u, naturalU, this->From->IsUPeriodic(), turns[0]);
+  FitRange(v, naturalV, this->From->IsVPeriodic(), turns[1]);
+  const Range onceU{ u[0], turns[0] > 1 ? u[0] + lengths[0] : u[1] };
+  const Range onceV{ v[0], turns[1] > 1 ? v[0] + lengths[1] : v[1] };
   gp_XY begin(u[0], v[0]);
   Handle(Geom_BSplineSurface) own = Handle(Geom_BSplineSurface)::DownCast(this->From);
   if (own.IsNull())
   {
-    own = Converted(this->From, u, v);
+    own = Converted(this->From, onceU, onceV);
     if (own->IsUPeriodic() || own->IsVPeriodic())
     {
       // parameters of the spline are not those of the surface: where does it begin?
       const double size = SizeOf(own);
       const Range all{ -HUGE_VAL, HUGE_VAL };
-      const gp_XY middle(0.5 * (u[0] + u[1]), 0.5 * (v[0] + v[1]));
+      const gp_XY middle(0.5 * (onceU[0] + onceU[1]), 0.5 * (onceV[0] + onceV[1]));
       begin = gp_XY(
         NearestPlace(own, size, this->From->Value(u[0], middle.Y()), { u[0], middle.Y() }, all, all)
           .X(),
@@ -254,6 +361,7 @@ CADSurface::CADSurface(const TopoDS_Face& face) : From(Unbounded(BRep_Tool::Surf
     }
   }
   own = CutOpen(own, begin.X(), begin.Y());
+  own = Repeated(Repeated(own, true, turns[0]), false, turns[1]);
   this->To = WithLowDegree(own);
   if (this->To.IsNull())
   {
