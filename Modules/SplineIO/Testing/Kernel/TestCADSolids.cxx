@@ -128,6 +128,9 @@ struct Solid
   const char* Name;
   TopoDS_Shape Shape;
   double Area = 0.0; ///< closed form; 0: what OpenCASCADE integrates
+  /// Whether OpenCASCADE reads what Knotwork writes: of a spline sphere with poles and a hole
+  /// across the seam it keeps the hole's inside, and calls that valid.
+  bool IsReadAgain = true;
 };
 
 std::vector<Solid> Solids()
@@ -189,7 +192,8 @@ std::vector<Solid> Solids()
   solids.push_back({ "sphere drilled aside",
     BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(origin, 2.0).Shape(),
       BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(-4, 0.3, 0.2), gp_Dir(1, 0, 0)), 0.5, 8.0).Shape())
-      .Shape() });
+      .Shape(),
+    0.0, false });
   solids.push_back({ "rounded cube", Filleted(BRepPrimAPI_MakeBox(10.0, 10.0, 10.0).Shape(), 2.0),
     6 * 36.0 + 12 * 6.0 * Pi + 16 * Pi });
   solids.push_back({ "rounded cylinder",
@@ -299,7 +303,8 @@ int NumOpenEdges(const TrimmedMesh& mesh)
   return open;
 }
 
-void ExpectWhole(const std::string& file, std::size_t numFaces, double area, bool closed)
+void ExpectWhole(
+  const std::string& file, std::size_t numFaces, double area, bool closed, bool isReadAgain = true)
 {
   const auto read = ReadCAD(file);
   ASSERT_TRUE(read) << read.Status.Message();
@@ -308,13 +313,23 @@ void ExpectWhole(const std::string& file, std::size_t numFaces, double area, boo
     ADD_FAILURE() << part;
   }
   EXPECT_EQ(read->Model.Faces.size(), numFaces);
+  // what was read, written again, has the area but for OpenCASCADE's integration and refitted edges
+  if (isReadAgain)
+  {
+    const std::string again = file.substr(0, file.rfind('.')) + "_again.step";
+    const Status written = WriteCAD(read->Model, again);
+    ASSERT_TRUE(written) << written.Message();
+    const auto found = CheckCAD(again);
+    ASSERT_TRUE(found) << found.Status.Message();
+    EXPECT_NEAR(found->Area, area, 1e-4 * area);
+  }
   TrimmedMeshParams params;
-  params.Tolerance = 2e-4 * std::sqrt(area);
+  params.Tolerance = 1e-3 * std::sqrt(area);
   const auto mesh = TriangulateFaces(read->Model, params);
   ASSERT_TRUE(mesh) << mesh.Status.Message();
   // triangles within the tolerance t of a surface of curvature 1/r miss about 2 t / r of the area;
-  // no r here is below sqrt(area) / 60
-  EXPECT_NEAR(knotwork::testing::AreaOf(mesh.Value), area, 0.01 * area);
+  // most of the area has an r above sqrt(area) / 40
+  EXPECT_NEAR(knotwork::testing::AreaOf(mesh.Value), area, 0.05 * area);
   if (closed)
   {
     EXPECT_EQ(NumOpenEdges(mesh.Value), 0);
@@ -349,7 +364,7 @@ TEST_P(CADSolids, EveryFaceIsRead_CrossOracle)
       if (found && found->Valid && std::abs(found->Area - area) <= 1e-4 * area)
       {
         ++numSound;
-        ExpectWhole(file, NumFacesOf(solid.Shape), area, found->Closed);
+        ExpectWhole(file, NumFacesOf(solid.Shape), area, found->Closed, solid.IsReadAgain);
       }
     }
   }
@@ -378,18 +393,15 @@ TEST(CADSolidsWound, PcurvesOfSeveralTurnsAreRead_CrossOracle)
     { "across both seams of a torus",
       Polygon(torus, { { 5.9, 5.9 }, { 6.9, 6.1 }, { 6.7, 6.9 }, { 5.8, 6.8 } }) },
     { "1.3 turns of a spindle", Strip(spindle, { 1.0, -1.4 }, { 2.6 * Pi, 1.0 }, 0.9) },
-    { "1.5 turns of a spline", Strip(spline, { 0.3, 0.0 }, { 3.0 * Pi, 3.0 }, 1.0), 0.0 },
+    { "2 turns of a spline", Strip(spline, { 0.3, 0.0 }, { 4.0 * Pi, 3.0 }, 1.0), 8 * Pi },
     { "thread", Thread(1.6) },
   };
   for (std::size_t i = 0; i < cases.size(); ++i)
   {
     const Solid& wound = cases[i];
     SCOPED_TRACE(wound.Name);
-    const double area = AreaOf(wound.Shape);
-    if (wound.Area > 0.0)
-    {
-      EXPECT_NEAR(area, wound.Area, 1e-6 * area);
-    }
+    // OpenCASCADE's quadrature does not know of knots beyond a period
+    const double area = wound.Area > 0.0 ? wound.Area : AreaOf(wound.Shape);
     for (const char* ending : { ".step", ".igs" })
     {
       SCOPED_TRACE(ending);
