@@ -2,6 +2,7 @@
 #include "SideSeparation.h"
 
 #include "Bernstein.h"
+#include "PlaneJacobian.h"
 
 #include <Eigen/Dense>
 
@@ -701,10 +702,24 @@ private:
     return false;
   }
 
+  /// A piece seen from one of its corners.
+  struct Cone
+  {
+    const CellLattice* Lattice;
+    const Node* Piece;
+    int Corner;
+  };
+
   bool HullsApart(const Node& a, const Node& b) const
   {
-    const int na = this->Lattice[0]->Size;
-    const int nb = this->Lattice[1]->Size;
+    return this->HullsApart({ this->Lattice[0], &a, 0 }, { this->Lattice[1], &b, 0 });
+  }
+  bool HullsApart(const Cone& first, const Cone& second) const
+  {
+    const Node& a = *first.Piece;
+    const Node& b = *second.Piece;
+    const int na = first.Lattice->Size;
+    const int nb = second.Lattice->Size;
     const double largest = std::max(a.Largest, b.Largest);
     const auto apart = [&](const Vector& d)
     {
@@ -725,7 +740,7 @@ private:
     // across flat pieces first, then whatever the search finds
     for (const Node* node : { &a, &b })
     {
-      const CellLattice& lattice = *this->Lattice[node == &a ? 0 : 1];
+      const CellLattice& lattice = *(node == &a ? first : second).Lattice;
       const auto corner = [&](std::size_t c) { return this->PointOf(*node, lattice.Corners[c]); };
       const Vector x = corner(1) - corner(0);
       const Vector normal = lattice.Corners.size() == 2 ? Vector(-x[1], x[0], 0.0)
@@ -776,14 +791,6 @@ private:
     return this->ConesApart(
       { { { this->Lattice[0], &a, relation.A }, { this->Lattice[1], &b, relation.B } } });
   }
-
-  /// A piece seen from one of its corners.
-  struct Cone
-  {
-    const CellLattice* Lattice;
-    const Node* Piece;
-    int Corner;
-  };
 
   /// A plane through the common corner with one piece on either side: the pieces meet there only.
   bool ConesApart(const std::array<Cone, 2>& cones) const
@@ -965,8 +972,7 @@ private:
     const CellShape shape = this->Lattice[0]->Shape;
     if (shape == CellShape::Curve)
     {
-      const Slopes s = this->MakeSlopes(0, a, 0, 1);
-      return this->RangeOf(s.Mean, s).Low > 0.0;
+      return this->IsMonotoneCurve(a);
     }
     const Slopes s = this->MakeSlopes(0, a, 0, 1);
     const Slopes t = this->MakeSlopes(0, a, 0, 2);
@@ -993,7 +999,42 @@ private:
         return this->HavePolarChart({ { this->Lattice[0], &a, ends[0], ends[1] } });
       }
     }
-    return false;
+    return this->HaveOutline({ { 0, &a, -1, {} } });
+  }
+
+  /// A curve whose control points, projected to its chord, follow each other: it is one-to-one. The
+  /// numerator of (f / w)' = (f' w - f w') / w^2 is a sum over i > k of non-negative Bernstein
+  /// polynomials times (i - k) w_i w_k (x_i - x_k), x the projected points. Neighbours that are one
+  /// point add nothing: the curve stands still at its end there, and goes on inside as long as some
+  /// follow each other.
+  bool IsMonotoneCurve(const Node& a) const
+  {
+    const int n = static_cast<int>(a.Hull.Points.size()) / a.Hull.NumComponents;
+    const Vector along = this->PointOf(a, n - 1) - this->PointOf(a, 0);
+    const double margin =
+      OneNorm(along) * (2.0 * a.Hull.Error + 8.0 * unitRoundoff * a.Largest) * (1.0 + 1e-9);
+    bool moves = false;
+    for (int i = 0; i + 1 < n; ++i)
+    {
+      if (this->IsOnePoint(a, i, i + 1))
+      {
+        continue;
+      }
+      if (!(along.dot(this->PointOf(a, i + 1) - this->PointOf(a, i)) > margin))
+      {
+        return false;
+      }
+      moves = true;
+    }
+    return moves;
+  }
+
+  /// Control points that rounding alone tells apart are one point.
+  bool IsOnePoint(const Node& node, int i, int j) const
+  {
+    return this->Input.CollapseTolerance > 0.0 &&
+      (this->PointOf(node, i) - this->PointOf(node, j)).cwiseAbs().maxCoeff() <=
+      std::min(node.Size * 1e-6, this->Input.CollapseTolerance * node.Largest);
   }
 
   /// A map g of the plane with derivatives in these ranges is one-to-one on convex sets: after
@@ -1071,11 +1112,9 @@ private:
       }
     }
     // Both may end in one point, where a collapsed edge meets the common one.
-    if (shapes[0] != CellShape::Quadrilateral || shapes[1] != CellShape::Quadrilateral)
-    {
-      return false;
-    }
-    for (int end = 0; end < 2; ++end)
+    const bool quadrilaterals =
+      shapes[0] == CellShape::Quadrilateral && shapes[1] == CellShape::Quadrilateral;
+    for (int end = 0; end < 2 && quadrilaterals; ++end)
     {
       int pole[2] = { -1, -1 };
       const Node* nodes[2] = { &a, &b };
@@ -1117,7 +1156,313 @@ private:
             { { { piece.Lattice, piece.Piece, piece.From }, { &rest.Lattice, &rest.Piece, 0 } } });
       }
     }
-    return false;
+    return this->HaveOutline({ { 0, &a, relation.A, ends[0] }, { 1, &b, relation.B, ends[1] } });
+  }
+
+  /// A piece of a disk that is projected to a plane.
+  struct Facet
+  {
+    int K; ///< its side
+    const Node* Piece;
+    int Edge;                ///< that it shares with the other one, or -1
+    std::array<int, 2> Ends; ///< corners of that edge, in an order that both have in common
+  };
+
+  /// One piece, or two with a common edge unfolded to one disk, are projected to a plane where
+  /// - the Jacobian is positive inside of the pieces (it may vanish on their edges), and
+  /// - the outline, the edges but the common one, is a simple closed curve.
+  /// The degree of such a map of a disk is 1 inside of the outline's image and 0 outside, so almost
+  /// every point has one preimage inside of the pieces at most. The map is open there, so no two
+  /// points inside have one image, nor one inside and one on the outline, which is a limit of
+  /// points inside; on the outline it is one-to-one. One piece is one-to-one so, and two meet in
+  /// their common edge only. What holds of the projection holds of the pieces.
+  bool HaveOutline(const std::vector<Facet>& facets) const
+  {
+    std::array<double, 2> orientation{ 1.0, 1.0 };
+    Vector normal = Vector::Zero();
+    for (std::size_t k = 0; k < facets.size(); ++k)
+    {
+      const Facet& facet = facets[k];
+      if (facet.Edge >= 0)
+      {
+        // one piece on the left of the common edge, the other one on its right
+        orientation[k] = (k == 0) == this->IsOnLeft(facet) ? 1.0 : -1.0;
+      }
+      const Vector n = this->NormalOf(facet);
+      const double length = n.norm();
+      if (!(length > 0.0))
+      {
+        return false;
+      }
+      normal += orientation[k] / length * n;
+    }
+    const double length = normal.norm();
+    if (!(length > 0x1p-20))
+    {
+      return false;
+    }
+    normal /= length;
+    Eigen::Index axis = 0;
+    normal.cwiseAbs().minCoeff(&axis);
+    const Vector alpha = normal.cross(Vector::Unit(axis)).normalized();
+    const Vector beta = normal.cross(alpha);
+    for (std::size_t k = 0; k < facets.size(); ++k)
+    {
+      if (!this->HasPositiveProjection(facets[k], alpha, beta, orientation[k]))
+      {
+        return false;
+      }
+    }
+    return this->IsOutlineSimple(facets, alpha, beta);
+  }
+
+  bool IsOnLeft(const Facet& facet) const
+  {
+    const CellShape shape = this->Lattice[facet.K]->Shape;
+    const auto from = CornerParameters(shape, facet.Ends[0]);
+    const auto to = CornerParameters(shape, facet.Ends[1]);
+    double sum = 0.0;
+    for (int c = 0; c < NumCorners(shape); ++c)
+    {
+      const auto at = CornerParameters(shape, c);
+      sum += (to[0] - from[0]) * (at[1] - from[1]) - (to[1] - from[1]) * (at[0] - from[0]);
+    }
+    return sum > 0.0;
+  }
+
+  Vector NormalOf(const Facet& facet) const
+  {
+    const CellLattice& lattice = *this->Lattice[facet.K];
+    const auto corner = [&](std::size_t c)
+    { return this->PointOf(*facet.Piece, lattice.Corners[c]); };
+    return lattice.Corners.size() == 3
+      ? Vector((corner(1) - corner(0)).cross(corner(2) - corner(0)))
+      : Vector((corner(3) - corner(0)).cross(corner(2) - corner(1)));
+  }
+
+  bool HasPositiveProjection(
+    const Facet& facet, const Vector& alpha, const Vector& beta, double orientation) const
+  {
+    const CellLattice& lattice = *this->Lattice[facet.K];
+    const Node& node = *facet.Piece;
+    const double* data = node.Piece.Data.data();
+    const int n = lattice.Size;
+    const std::size_t size = static_cast<std::size_t>(n);
+    // relative to the middle and of size one, by a power of two
+    const Vector centre = this->Centre(node);
+    const double scale = std::ldexp(1.0, -std::ilogb(std::max(node.Size, 1e-280)));
+    PlanePiece plane;
+    plane.Shape = lattice.Shape;
+    plane.Degree = lattice.Degree;
+    plane.X.resize(size);
+    plane.Y.resize(size);
+    double largestWeight = 1.0;
+    double largest = 0.0;
+    if (this->Input.Rational)
+    {
+      plane.W.assign(data + 3 * n, data + 4 * n);
+      plane.WeightError = node.Piece.Error;
+      largestWeight = *std::max_element(plane.W.begin(), plane.W.end());
+    }
+    for (int i = 0; i < n; ++i)
+    {
+      const double w = this->Input.Rational ? plane.W[static_cast<std::size_t>(i)] : 1.0;
+      Vector x;
+      for (int d = 0; d < 3; ++d)
+      {
+        x[d] = data[d * n + i] - centre[d] * w;
+        largest = std::max(largest, std::abs(data[d * n + i]));
+      }
+      plane.X[static_cast<std::size_t>(i)] = scale * alpha.dot(x);
+      plane.Y[static_cast<std::size_t>(i)] = scale * beta.dot(x);
+    }
+    const double far = centre.cwiseAbs().maxCoeff();
+    plane.Error = scale * std::max(OneNorm(alpha), OneNorm(beta)) *
+      (node.Piece.Error * (this->Input.Rational ? 1.0 + far : 1.0) +
+        8.0 * unitRoundoff * (largest + far * largestWeight)) *
+      (1.0 + 1e-9);
+    if (!this->Input.Rational)
+    {
+      plane.SameNextS.assign(size, false);
+      plane.SameNextT.assign(size, false);
+      this->ForEachStep(lattice,
+        [&](int i, int j, bool alongS)
+        {
+          auto& same = alongS ? plane.SameNextS : plane.SameNextT;
+          same[static_cast<std::size_t>(i)] = this->IsOnePoint(node, i, j);
+        });
+    }
+    return HasPositiveInside(plane, orientation);
+  }
+
+  /// Neighbours in the first and the second parameter of a surface.
+  template <typename Function>
+  static void ForEachStep(const CellLattice& lattice, const Function& function)
+  {
+    for (std::size_t d = 0; d < 2; ++d)
+    {
+      for (const auto& line : lattice.Directions[d].Lines)
+      {
+        for (std::size_t i = 0; i + 1 < line.size(); ++i)
+        {
+          function(line[i], line[i + 1], d == 0);
+        }
+      }
+    }
+  }
+
+  /// An edge of a facet in the plane.
+  struct OutlineEdge
+  {
+    CellLattice Lattice;
+    Node Curve; ///< third coordinate 0
+    std::array<int, 2> Corners{};
+  };
+
+  bool IsOutlineSimple(
+    const std::vector<Facet>& facets, const Vector& alpha, const Vector& beta) const
+  {
+    Projection plane{ alpha, beta, this->Centre(*facets[0].Piece), 0.0 };
+    for (const Facet& facet : facets)
+    {
+      plane.Largest = std::max(plane.Largest, facet.Piece->Largest);
+    }
+    std::vector<OutlineEdge> outline;
+    for (std::size_t k = 0; k < facets.size(); ++k)
+    {
+      const CellShape shape = this->Lattice[facets[k].K]->Shape;
+      for (int e = 0; e < NumSideEdges(shape); ++e)
+      {
+        if (e == facets[k].Edge)
+        {
+          continue;
+        }
+        OutlineEdge edge;
+        if (!this->ProjectEdge(facets[k], e, plane, edge) || !this->IsMonotoneCurve(edge.Curve))
+        {
+          return false;
+        }
+        for (std::size_t end = 0; end < 2; ++end)
+        {
+          const int corner = SideEdge(shape, e)[end];
+          // the second piece's corners on the common edge are the first one's
+          edge.Corners[end] = k == 0      ? corner
+            : corner == facets[1].Ends[0] ? facets[0].Ends[0]
+            : corner == facets[1].Ends[1] ? facets[0].Ends[1]
+                                          : 4 + corner;
+        }
+        outline.push_back(std::move(edge));
+      }
+    }
+    for (std::size_t i = 0; i < outline.size(); ++i)
+    {
+      for (std::size_t j = i + 1; j < outline.size(); ++j)
+      {
+        const OutlineEdge& a = outline[i];
+        const OutlineEdge& b = outline[j];
+        int shared = 0;
+        std::array<Cone, 2> cones{ { { &a.Lattice, &a.Curve, 0 }, { &b.Lattice, &b.Curve, 0 } } };
+        for (int p = 0; p < 2; ++p)
+        {
+          for (int q = 0; q < 2; ++q)
+          {
+            if (a.Corners[static_cast<std::size_t>(p)] == b.Corners[static_cast<std::size_t>(q)])
+            {
+              ++shared;
+              cones[0].Corner = p;
+              cones[1].Corner = q;
+            }
+          }
+        }
+        const bool apart = shared == 0
+          ? this->HullsApart({ &a.Lattice, &a.Curve, 0 }, { &b.Lattice, &b.Curve, 0 })
+          : shared == 1 && this->ConesApart(cones);
+        if (!apart)
+        {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  /// Coordinates in a plane, relative to a point beside the pieces, so that they are as small as
+  /// those.
+  struct Projection
+  {
+    Vector Alpha;
+    Vector Beta;
+    Vector Origin;
+    double Largest; ///< coordinate of the pieces
+  };
+
+  /// @return false when points that are apart become one in the plane.
+  bool ProjectEdge(const Facet& facet, int number, const Projection& plane, OutlineEdge& edge) const
+  {
+    const CellLattice& lattice = *this->Lattice[facet.K];
+    const Node& node = *facet.Piece;
+    const auto ends = SideEdge(lattice.Shape, number);
+    const int first = lattice.Corners[static_cast<std::size_t>(ends[0])];
+    const int last = lattice.Corners[static_cast<std::size_t>(ends[1])];
+    std::vector<int> line;
+    for (const auto& direction : lattice.Directions)
+    {
+      for (const auto& some : direction.Lines)
+      {
+        if (some.front() == first && some.back() == last)
+        {
+          line = some;
+        }
+        else if (some.front() == last && some.back() == first)
+        {
+          line.assign(some.rbegin(), some.rend());
+        }
+      }
+    }
+    if (line.empty())
+    {
+      return false;
+    }
+    const int degree = static_cast<int>(line.size()) - 1;
+    edge.Lattice = CellLattice(CellShape::Curve, { degree, 0, 0 });
+    PieceHull& hull = edge.Curve.Hull;
+    hull.NumComponents = 3;
+    hull.Error = std::max(OneNorm(plane.Alpha), OneNorm(plane.Beta)) *
+      (node.Hull.Error + 8.0 * unitRoundoff * plane.Largest) * (1.0 + 1e-9);
+    hull.Lower.fill(std::numeric_limits<double>::infinity());
+    hull.Upper.fill(-std::numeric_limits<double>::infinity());
+    for (const int i : line)
+    {
+      const Vector x = this->PointOf(node, i) - plane.Origin;
+      const Vector y(plane.Alpha.dot(x), plane.Beta.dot(x), 0.0);
+      for (std::size_t d = 0; d < 3; ++d)
+      {
+        const double value = y[static_cast<Eigen::Index>(d)];
+        hull.Points.push_back(value);
+        hull.Lower[d] = std::min(hull.Lower[d], value - hull.Error);
+        hull.Upper[d] = std::max(hull.Upper[d], value + hull.Error);
+      }
+    }
+    edge.Curve.Size = std::max(hull.Upper[0] - hull.Lower[0], hull.Upper[1] - hull.Lower[1]);
+    // tolerances are of the model's coordinates
+    edge.Curve.Largest = plane.Largest;
+    for (std::size_t i = 0; i < line.size(); ++i)
+    {
+      for (std::size_t j = i + 1; j < line.size(); ++j)
+      {
+        const int at[2] = { static_cast<int>(i), static_cast<int>(j) };
+        const double distance =
+          (this->PointOf(edge.Curve, at[0]) - this->PointOf(edge.Curve, at[1]))
+            .cwiseAbs()
+            .maxCoeff();
+        if (distance <= 4.0 * this->Input.CollapseTolerance * plane.Largest &&
+          !this->IsOnePoint(node, line[i], line[j]))
+        {
+          return false;
+        }
+      }
+    }
+    return true;
   }
 
   bool IsCollapsed(int k, const Node& node, int edge) const

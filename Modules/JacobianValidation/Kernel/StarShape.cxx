@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "StarShape.h"
 #include "Bernstein.h"
+#include "BernsteinProducts.h"
 #include "Parallel.h"
 #include "PatchForm.h"
 
@@ -17,39 +18,6 @@ namespace
 constexpr double unitRoundoff = 0x1p-53;
 constexpr int maxPieces = 64;
 constexpr int maxCornerSides = 4;
-
-/// A bivariate polynomial of degree (P, Q): coefficients times their binomials, so that products
-/// are sums of products.
-struct Polynomial
-{
-  int P = 0;
-  int Q = 0;
-  std::vector<double> C;
-
-  Polynomial(int p, int q) : P(p), Q(q), C(static_cast<std::size_t>((p + 1) * (q + 1)), 0.0) {}
-  double* Row(int j) { return this->C.data() + j * (this->P + 1); }
-  const double* Row(int j) const { return this->C.data() + j * (this->P + 1); }
-};
-
-/// to += sign a b.
-void AddProduct(Polynomial& to, double sign, const Polynomial& a, const Polynomial& b)
-{
-  for (int j = 0; j <= a.Q; ++j)
-  {
-    for (int l = 0; l <= b.Q; ++l)
-    {
-      double* row = to.Row(j + l);
-      for (int i = 0; i <= a.P; ++i)
-      {
-        const double x = sign * a.Row(j)[i];
-        for (int k = 0; k <= b.P; ++k)
-        {
-          row[i + k] += x * b.Row(l)[k];
-        }
-      }
-    }
-  }
-}
 
 /// A piece of a side, seen from the point.
 struct Piece
@@ -77,9 +45,9 @@ Sign FindSign(const Piece& piece, double orientation, double error, double reach
   const int n = form.Size();
   const double largestWeight =
     *std::max_element(form.Data.begin() + 3 * n, form.Data.begin() + 4 * n);
-  std::vector<Polynomial> x(3, Polynomial(p, q));
-  std::vector<Polynomial> s(3, Polynomial(p - 1, q));
-  std::vector<Polynomial> t(3, Polynomial(p, q - 1));
+  std::vector<ScaledPolynomial> x(3, ScaledPolynomial(p, q));
+  std::vector<ScaledPolynomial> s(3, ScaledPolynomial(p - 1, q));
+  std::vector<ScaledPolynomial> t(3, ScaledPolynomial(p, q - 1));
   double largestS = 0.0;
   double largestT = 0.0;
   for (std::size_t c = 0; c < 3; ++c)
@@ -106,10 +74,10 @@ Sign FindSign(const Piece& piece, double orientation, double error, double reach
       }
     }
   }
-  Polynomial det(3 * p - 1, 3 * q - 1);
+  ScaledPolynomial det(3 * p - 1, 3 * q - 1);
   for (std::size_t c = 0; c < 3; ++c)
   {
-    Polynomial normal(2 * p - 1, 2 * q - 1);
+    ScaledPolynomial normal(2 * p - 1, 2 * q - 1);
     AddProduct(normal, 1.0, s[(c + 1) % 3], t[(c + 2) % 3]);
     AddProduct(normal, -1.0, s[(c + 2) % 3], t[(c + 1) % 3]);
     AddProduct(det, orientation, x[c], normal);
@@ -256,13 +224,6 @@ std::vector<char> FindManifolds(
     {
       is[static_cast<std::size_t>(side.Component)] = false;
     }
-  }
-  if (getenv("STARDBG"))
-  {
-    int k = 0;
-    for (bool b : is)
-      k += b;
-    fprintf(stderr, "star %d of %zu\n", k, is.size());
   }
   return is;
 }
