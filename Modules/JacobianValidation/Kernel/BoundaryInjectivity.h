@@ -97,7 +97,8 @@ struct InjectivityParams
   /// weights likewise, are glued: what rounding leaves of equal sides that were computed on two
   /// ways. What was found is reported. In [0, 1e-6]. 0: only sides that agree bit by bit.
   double InterfaceTolerance = 0x1p-48;
-  /// As JacobianParams::CollapseTolerance, for sides. In [0, 1e-6].
+  /// As JacobianParams::CollapseTolerance, for sides; control points of a side that agree so are
+  /// one point: it stands still there. In [0, 1e-6].
   double CollapseTolerance = 0x1p-46;
   int Threads = 0; ///< 0 = all cores; the result does not depend on it
 };
@@ -131,7 +132,8 @@ struct InjectivityCertificate
 /// A surface that one point sees all of from inside is simple. Other boundary sides are bisected
 /// until convex hulls are separated by a plane; pieces that share a
 /// corner by a plane through it; pieces that share an edge, and single pieces, by a projection
-/// under which their common chart is monotone. All of it with bounds of the rounding. Overlaps are
+/// under which their common chart is monotone, or where the outline of the projection is simple and
+/// its Jacobian positive inside. All of it with bounds of the rounding. Overlaps are
 /// proved by a contraction argument for the second preimage.
 /// @param certificate  of the same cells.
 /// @return what BernsteinCells::Check says; EmptyInput; DimensionMismatch unless all cells have 2

@@ -43,6 +43,10 @@ struct Relation
   int A = -1;
   int B = -1;
   bool Reversed = false;
+  /// Mixed: both have a part of an edge in common that is longer in one of them (0 or 1), and that
+  /// edge of it. Cut to the common part, it is one edge.
+  int Longer = -1;
+  int LongerEdge = -1;
 };
 
 /// Range of a linear functional.
@@ -132,8 +136,9 @@ public:
       }
       const bool tooSmall = std::max(a.Size, b.Size) <=
         64.0 * (a.Hull.Error + b.Hull.Error) + 64.0 * unitRoundoff * std::max(a.Largest, b.Largest);
-      const bool splitA =
-        same || (a.Size > b.Size || (a.Size == b.Size && a.Piece.Depth <= b.Piece.Depth));
+      const bool splitA = same || relation.Longer == 0 ||
+        (relation.Longer < 0 &&
+          (a.Size > b.Size || (a.Size == b.Size && a.Piece.Depth <= b.Piece.Depth)));
       const Node& larger = splitA ? a : b;
       if (tooSmall || larger.Piece.Depth >= largestDepth)
       {
@@ -143,7 +148,7 @@ public:
       }
       if (same)
       {
-        const auto halves = this->Split(0, pair[0]);
+        const auto halves = this->Split(0, pair[0], -1, true);
         open.push_back({ halves[0], halves[1] });
         open.push_back({ halves[1], halves[1] });
         open.push_back({ halves[0], halves[0] });
@@ -151,7 +156,8 @@ public:
       else
       {
         const int k = splitA ? 0 : 1;
-        const auto halves = this->Split(k, pair[static_cast<std::size_t>(k)]);
+        const auto halves = this->Split(k, pair[static_cast<std::size_t>(k)], relation.LongerEdge,
+          relation.What == Relation::Edge);
         for (const int half : { halves[1], halves[0] })
         {
           auto next = pair;
@@ -188,15 +194,24 @@ private:
     }
   }
 
-  std::array<int, 2> Split(int k, int index)
+  /// Halves that are there already stay.
+  /// @param edge  of the piece that is cut through, or -1.
+  /// @param turns  it is the piece's normals that are in the way.
+  std::array<int, 2> Split(int k, int index, int edge, bool turns)
   {
     auto& pool = this->Pool[this->Which[k]];
     Node& node = *pool[static_cast<std::size_t>(index)];
     if (node.Children[0] < 0)
     {
       const CellLattice& lattice = *this->Lattice[k];
-      auto halves =
-        Bisect(lattice, this->NumPlanes(), node.Piece, LongestDirection(lattice, node.Hull));
+      int direction = edge >= 0 ? DirectionOf(lattice, edge)
+        : turns                 ? this->TurningDirection(lattice, node)
+                                : -1;
+      if (direction < 0)
+      {
+        direction = LongestDirection(lattice, node.Hull);
+      }
+      auto halves = Bisect(lattice, this->NumPlanes(), node.Piece, direction);
       for (int h = 0; h < 2; ++h)
       {
         node.Children[h] = static_cast<int>(pool.size());
@@ -204,6 +219,81 @@ private:
       }
     }
     return { node.Children[0], node.Children[1] };
+  }
+
+  /// The direction in which the normals at the corners turn most, or -1 where they are nearly one
+  /// (and for triangles, which are best kept equilateral). A face that turns in a narrow strip is
+  /// so cut along the strip, however long that is.
+  int TurningDirection(const CellLattice& lattice, const Node& node) const
+  {
+    if (lattice.Shape != CellShape::Quadrilateral)
+    {
+      return -1;
+    }
+    std::array<Vector, 4> normals;
+    for (int c = 0; c < NumCorners(lattice.Shape); ++c)
+    {
+      std::array<Vector, 2> slopes{ Vector::Zero(), Vector::Zero() };
+      int found = 0;
+      for (const auto& direction : lattice.Directions)
+      {
+        for (const auto& line : direction.Lines)
+        {
+          const int corner = lattice.Corners[static_cast<std::size_t>(c)];
+          const bool first = line.front() == corner;
+          if (found < 2 && (first || line.back() == corner))
+          {
+            const int next = first ? line[1] : line[line.size() - 2];
+            if (!this->IsOnePoint(node, next, corner))
+            {
+              slopes[static_cast<std::size_t>(found)] =
+                (first ? 1.0 : -1.0) * (this->PointOf(node, next) - this->PointOf(node, corner));
+            }
+            ++found;
+          }
+        }
+      }
+      normals[static_cast<std::size_t>(c)] = slopes[0].cross(slopes[1]).stableNormalized();
+    }
+    int best = -1;
+    double most = 0.1;
+    for (std::size_t d = 0; d < lattice.Directions.size(); ++d)
+    {
+      double turn = 0.0;
+      for (const auto& pair : lattice.Directions[d].CornerPairs)
+      {
+        const Vector& from = normals[static_cast<std::size_t>(pair[0])];
+        const Vector& to = normals[static_cast<std::size_t>(pair[1])];
+        // none at a pole, and where the piece stands still
+        if (!from.isZero() && !to.isZero())
+        {
+          turn = std::max(turn, (from - to).norm());
+        }
+      }
+      if (turn > most)
+      {
+        most = turn;
+        best = static_cast<int>(d);
+      }
+    }
+    return best;
+  }
+
+  static int DirectionOf(const CellLattice& lattice, int edge)
+  {
+    const auto ends = SideEdge(lattice.Shape, edge);
+    for (std::size_t d = 0; d < lattice.Directions.size(); ++d)
+    {
+      for (const auto& pair : lattice.Directions[d].CornerPairs)
+      {
+        if ((pair[0] == ends[0] && pair[1] == ends[1]) ||
+          (pair[0] == ends[1] && pair[1] == ends[0]))
+        {
+          return static_cast<int>(d);
+        }
+      }
+    }
+    return 0;
   }
 
   void SetPlace(SeparationResult& result, const std::array<int, 2>& pair) const
@@ -245,6 +335,7 @@ private:
     int A;
     int B;
     bool Reversed;
+    double Ratio = 1.0; ///< of the lengths of the edges that have a part in common
   };
 
   /// A piece on an edge of its side: the part of the edge, by the piece's corners.
@@ -384,8 +475,8 @@ private:
           {
             const bool equal =
               std::abs(p.Low - q.Low) <= edgeEpsilon && std::abs(p.High - q.High) <= edgeEpsilon;
-            shared.push_back(
-              { equal ? Relation::Edge : Relation::Mixed, p.Edge, q.Edge, p.Forward != q.Forward });
+            shared.push_back({ equal ? Relation::Edge : Relation::Mixed, p.Edge, q.Edge,
+              p.Forward != q.Forward, equal ? 1.0 : (p.High - p.Low) / (q.High - q.Low) });
           }
           else if (high - low >= -edgeEpsilon)
           {
@@ -480,8 +571,8 @@ private:
         {
           const bool forward = p0 == q0 && p1 == q1;
           const bool backward = p0 == q1 && p1 == q0;
-          shared.push_back(
-            { forward || backward ? Relation::Edge : Relation::Mixed, i, j, backward });
+          shared.push_back({ forward || backward ? Relation::Edge : Relation::Mixed, i, j, backward,
+            1.0 / std::abs(t1 - t0) });
         }
       }
     }
@@ -521,7 +612,10 @@ private:
     {
       if (s.What == Relation::Mixed)
       {
+        relation = {};
         relation.What = Relation::Mixed;
+        relation.Longer = s.Ratio > 1.5 ? 0 : s.Ratio < 0.75 ? 1 : -1;
+        relation.LongerEdge = relation.Longer == 1 ? s.B : s.A;
         return relation;
       }
       if (s.What == Relation::Edge)
@@ -531,7 +625,7 @@ private:
           relation.What = Relation::Mixed;
           return relation;
         }
-        relation = { Relation::Edge, s.A, s.B, s.Reversed };
+        relation = { Relation::Edge, s.A, s.B, s.Reversed, -1, -1 };
       }
     }
     if (relation.What == Relation::Edge)
@@ -561,7 +655,7 @@ private:
     {
       if (relation.What == Relation::None)
       {
-        relation = { Relation::Corner, s.A, s.B, false };
+        relation = { Relation::Corner, s.A, s.B, false, -1, -1 };
       }
       else if (relation.A != s.A || relation.B != s.B)
       {

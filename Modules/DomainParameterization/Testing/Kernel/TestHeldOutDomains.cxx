@@ -9,36 +9,17 @@ namespace
 {
 TEST(HeldOutDomains, PlanesWithAKnownMapEndValid_PropertyOracle)
 {
-  cases::HeldOutSums sums;
-  for (unsigned seed = 0; seed < 20; ++seed)
-  {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    cases::ExpectFound<2>(cases::RandomPlane(seed), sums);
-  }
-  cases::Print("planes", sums);
+  cases::ExpectPlanesFound(0, 20);
 }
 
 TEST(HeldOutDomains, SolidsWithAKnownMapEndValid_PropertyOracle)
 {
-  cases::HeldOutSums sums;
-  for (unsigned seed = 0; seed < 18; ++seed)
-  {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    cases::ExpectFound<3>(cases::RandomSolid(seed), sums);
-  }
-  cases::Print("solids", sums);
+  cases::ExpectSolidsFound(0, 18);
 }
 
 TEST(HeldOutDomains, ImpossibleOnesNameThePlace_PropertyOracle)
 {
-  cases::HeldOutSums sums;
-  for (unsigned seed = 0; seed < 6; ++seed)
-  {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    cases::ExpectNamed<2>(cases::ImpossiblePlane(seed), sums);
-    cases::ExpectNamed<3>(cases::ImpossibleSolid(seed), sums);
-  }
-  cases::Print("impossible", sums);
+  cases::ExpectAllNamed(0, 6);
 }
 
 TEST(HeldOutDomains, SharpTurnsStayRegularWhenRefined_PropertyOracle)

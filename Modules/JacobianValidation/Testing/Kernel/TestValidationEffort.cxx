@@ -105,3 +105,55 @@ INSTANTIATE_TEST_SUITE_P(, ValidationEffort,
     Case{ CellShape::Quadrilateral, 4, 0.1, 3.0, true },
     Case{ CellShape::Triangle, 3, 0.1, 1.0, false },
     Case{ CellShape::Triangle, 2, 0.1, 3.0, true }));
+
+// Regular cells by themselves, bent and weighted as far as about a tenth of them is not regular any
+// more: what is decided of them, and what it costs.
+TEST(RandomRationalCells, AreOneToOneOrNotButRarelyUndecided_PropertyOracle)
+{
+  const Case cases[] = { { CellShape::Quadrilateral, 1, 0.6, 0.0, true },
+    { CellShape::Quadrilateral, 2, 0.2, 0.0, true }, { CellShape::Triangle, 2, 0.2, 0.0, true },
+    { CellShape::Triangle, 3, 0.12, 0.0, true }, { CellShape::Hexahedron, 1, 0.4, 0.0, true },
+    { CellShape::Hexahedron, 2, 0.12, 0.0, true }, { CellShape::Tetrahedron, 1, 0.4, 0.0, true },
+    { CellShape::Tetrahedron, 2, 0.1, 0.0, true }, { CellShape::Tetrahedron, 2, 0.2, 0.0, true },
+    { CellShape::Tetrahedron, 3, 0.08, 0.0, true }, { CellShape::Wedge, 1, 0.4, 0.0, true },
+    { CellShape::Wedge, 2, 0.14, 0.0, true } };
+  for (const double decades : { 1.0, 3.0 })
+  {
+    int regular = 0;
+    int undecided = 0;
+    double seconds = 0.0;
+    double limit = 0.0;
+    for (const Case& c : cases)
+    {
+      std::mt19937 random(59);
+      for (int i = 0; i < numCells; ++i)
+      {
+        BernsteinCells cells;
+        cells.NumComponents = NumParameters(c.Shape);
+        cells.Rational = true;
+        AddRandomCell(cells, c.Shape, c.Degree, c.Noise, decades, 0.0, random);
+        JacobianParams jacobianParams;
+        jacobianParams.Threads = 1;
+        const double start = ProcessorSeconds();
+        const auto certificate = ValidateJacobian(cells, jacobianParams);
+        limit += patience * (10.0 * (ProcessorSeconds() - start) + 1e-3);
+        if (certificate->Verdict != Verdict::Valid)
+        {
+          continue;
+        }
+        InjectivityParams injectivityParams;
+        injectivityParams.Threads = 1;
+        const double before = ProcessorSeconds();
+        const auto proof = ProveInjectivity(cells, {}, certificate.Value, injectivityParams);
+        seconds += ProcessorSeconds() - before;
+        ++regular;
+        undecided += proof->Verdict == InjectivityVerdict::Undecided;
+      }
+    }
+    std::printf("weights 10^+-%g: %d regular cells, %d undecided, %.3f ms a cell\n", decades,
+      regular, undecided, 1e3 * seconds / regular);
+    EXPECT_GT(regular, 600);
+    EXPECT_LE(undecided, decades > 1.0 ? regular / 50 : 0);
+    EXPECT_LT(seconds, limit);
+  }
+}
