@@ -46,8 +46,8 @@ void ReportFlattening(
   report["requested_method"] = value("RequestedMethod").ToString();
   report["fallback"] = value("Fallback").ToInt() != 0;
   report["fallback_reason"] = value("FallbackReason").ToString();
-  for (const char* name :
-    { "Charts", "Points", "Triangles", "Loops", "TurnedTriangles", "FlippedTriangles" })
+  for (const char* name : { "Charts", "Points", "Triangles", "Loops", "TurnedTriangles",
+         "FlippedTriangles", "DividedFaces" })
   {
     report[Options::SnakeCase(name)] = value(name).ToInt();
   }

@@ -160,7 +160,8 @@ struct TrimJob
     {
       report[Options::SnakeCase(name)] = value(name).ToInt();
     }
-    for (const char* name : { "Verdict", "LoopVerdict", "Nets" })
+    report["work"] = value("Work").ToDouble();
+    for (const char* name : { "Stopped", "Verdict", "LoopVerdict", "Nets" })
     {
       report[Options::SnakeCase(name)] = value(name).ToString();
     }
@@ -211,6 +212,12 @@ Job Make(CLI::App& app)
   KNOTWORK_OPTION(options, filter, Centres, "radial basis functions at most");
   KNOTWORK_OPTION(options, filter, CornerAngle,
     "a boundary that turns by more degrees at a point has a corner there");
+  KNOTWORK_OPTION(options, filter, MaximumFunctions,
+    "functions that the net of a surface may have; 200000 take about 1.5e9 bytes");
+  KNOTWORK_OPTION(options, filter, Effort,
+    "work at most, about as many seconds of one core, but counted; then the best surfaces so far");
+  KNOTWORK_OPTION(
+    options, filter, TimeLimit, "seconds at most, then the best surfaces so far; 0: no limit");
   job->Flatten->SetMaximumStretch(ChartStretch);
   AddFlattenOptions(options, job->Flatten, "Flatten");
   return [job](Session& session) { return job->Run(session); };

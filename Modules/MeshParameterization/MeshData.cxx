@@ -15,10 +15,12 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
+#include "vtkPolygon.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 namespace knotwork
 {
@@ -97,6 +99,78 @@ void CopyPointData(const std::vector<ChartPoint>& from, const std::vector<PointO
     output->InterpolatePoint(input, to, ids, weights.data());
   }
 }
+
+/// Cells for a message, the first ones by their ids.
+struct CellList
+{
+  int Count = 0;
+  std::string Ids;
+
+  void Add(vtkIdType cell)
+  {
+    if (this->Count++ < 5)
+    {
+      this->Ids += (this->Ids.empty() ? "" : ", ") + std::to_string(cell);
+    }
+  }
+  std::string Text() const
+  {
+    return std::to_string(this->Count) + " cells (" + this->Ids +
+      (this->Count > 5 ? ", ...)" : ")");
+  }
+};
+
+bool IsFace(int type)
+{
+  return type == VTK_TRIANGLE || type == VTK_QUAD || type == VTK_PIXEL || type == VTK_POLYGON ||
+    type == VTK_TRIANGLE_STRIP;
+}
+
+/// Triangles between the corners of a face, in its orientation.
+bool DivideFace(
+  vtkPointSet* data, int type, vtkIdList* corners, std::vector<std::array<int, 3>>& triangles)
+{
+  const vtkIdType n = corners->GetNumberOfIds();
+  const auto add = [&](vtkIdType a, vtkIdType b, vtkIdType c)
+  {
+    triangles.push_back({ static_cast<int>(corners->GetId(a)), static_cast<int>(corners->GetId(b)),
+      static_cast<int>(corners->GetId(c)) });
+  };
+  if (n < 3)
+  {
+    return false;
+  }
+  if (type == VTK_TRIANGLE_STRIP || n == 3)
+  {
+    for (vtkIdType i = 0; i + 2 < n; ++i)
+    {
+      add(i, i + 1 + i % 2, i + 2 - i % 2);
+    }
+    return true;
+  }
+  if (type == VTK_PIXEL)
+  {
+    std::swap(*corners->GetPointer(2), *corners->GetPointer(3));
+  }
+  vtkNew<vtkPolygon> polygon;
+  polygon->PointIds->DeepCopy(corners);
+  polygon->Points->SetDataTypeToDouble();
+  polygon->Points->SetNumberOfPoints(n);
+  for (vtkIdType i = 0; i < n; ++i)
+  {
+    polygon->Points->SetPoint(i, data->GetPoint(corners->GetId(i)));
+  }
+  vtkNew<vtkIdList> local;
+  if (polygon->Triangulate(local) == 0 || local->GetNumberOfIds() != 3 * (n - 2))
+  {
+    return false;
+  }
+  for (vtkIdType i = 0; i < local->GetNumberOfIds(); i += 3)
+  {
+    add(local->GetId(i), local->GetId(i + 1), local->GetId(i + 2));
+  }
+  return true;
+}
 }
 
 Result<DecodedMesh> DecodeMesh(vtkPointSet* data)
@@ -113,9 +187,10 @@ Result<DecodedMesh> DecodeMesh(vtkPointSet* data)
   {
     data->GetPoint(i, mesh.Points.row(i).data());
   }
-  std::string others;
-  int count = 0;
+  CellList undivided;
+  CellList others;
   vtkNew<vtkIdList> corners;
+  std::vector<std::array<int, 3>> triangles;
   for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
   {
     const int type = data->GetCellType(cell);
@@ -125,22 +200,33 @@ Result<DecodedMesh> DecodeMesh(vtkPointSet* data)
       continue;
     }
     data->GetCellPoints(cell, corners);
-    if ((type == VTK_TRIANGLE || type == VTK_POLYGON) && corners->GetNumberOfIds() == 3)
+    triangles.clear();
+    if (!IsFace(type))
     {
-      mesh.Triangles.push_back({ static_cast<int>(corners->GetId(0)),
-        static_cast<int>(corners->GetId(1)), static_cast<int>(corners->GetId(2)) });
+      others.Add(cell);
+    }
+    else if (!DivideFace(data, type, corners, triangles))
+    {
+      undivided.Add(cell);
+    }
+    result.Value.Divided += triangles.size() > 1;
+    for (const auto& triangle : triangles)
+    {
+      mesh.Triangles.push_back(triangle);
       result.Value.Cells.push_back(static_cast<int>(cell));
     }
-    else if (count++ < 5)
-    {
-      others += (others.empty() ? "" : ", ") + std::to_string(cell);
-    }
   }
-  if (count > 0)
+  if (others.Count > 0)
   {
     return { ErrorCode::InvalidTopology,
-      std::to_string(count) + " cells that are no triangles (" + others +
-        (count > 5 ? ", ...)" : ")") + "; triangulate the mesh first, with vtkTriangleFilter" };
+      others.Text() + " are no faces of a mesh; take their surface first, with vtkGeometryFilter" };
+  }
+  if (undivided.Count > 0)
+  {
+    return { ErrorCode::InvalidTopology,
+      undivided.Text() +
+        " cannot be divided into triangles: they cross themselves, have no area, or fewer than "
+        "three corners; mend or remove them" };
   }
   return result;
 }
@@ -152,7 +238,7 @@ void EncodeMesh(const DecodedMesh& decoded, const ChartedMesh& charted, vtkPoint
   vtkNew<vtkCellArray> cells;
   vtkCellData* data = output->GetCellData();
   data->CopyAllOn();
-  data->SetCopyGlobalIds(charted.Triangles.size() <= decoded.Cells.size());
+  data->SetCopyGlobalIds(decoded.Divided == 0 && charted.Triangles.size() <= decoded.Cells.size());
   data->CopyAllocate(input->GetCellData(), static_cast<vtkIdType>(charted.Triangles.size()));
   vtkNew<vtkIntArray> number;
   number->SetName("ChartId");
@@ -276,7 +362,8 @@ std::string DescribeMethods(const ChartedMesh& charted)
   return methods;
 }
 
-void EncodeSummary(const ChartedMesh& charted, FlattenMethod asked, vtkTable* output)
+void EncodeSummary(
+  const DecodedMesh& decoded, const ChartedMesh& charted, FlattenMethod asked, vtkTable* output)
 {
   const FlattenMeasures measures = TotalMeasures(charted);
   const std::string reason = DescribeFallbacks(charted);
@@ -309,5 +396,6 @@ void EncodeSummary(const ChartedMesh& charted, FlattenMethod asked, vtkTable* ou
   AddColumn(output, "IsometryError", measures.IsometryError);
   AddColumn(output, "DistanceError", measures.DistanceError);
   AddColumn(output, "RejectedEigenvectors", rejected);
+  AddColumn(output, "DividedFaces", decoded.Divided);
 }
 }

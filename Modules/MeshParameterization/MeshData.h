@@ -14,10 +14,13 @@ struct DecodedMesh
 {
   TriangleMesh Mesh;
   std::vector<int> Cells; ///< of the data set, one a triangle
+  int Divided = 0;        ///< faces of more corners, which are several triangles
 };
 
-/// Triangles of a data set; vertices and lines are not looked at.
-/// @return InvalidTopology: other cells of two or three dimensions (ids).
+/// Triangles of a data set; quads, polygons and strips are divided into triangles between their
+/// corners. Vertices and lines are not looked at.
+/// @return InvalidTopology: polygons that cannot be divided, since they cross themselves or have no
+/// area, other cells of two or three dimensions (ids).
 VTKKNOTWORKMESHPARAMETERIZATION_EXPORT Result<DecodedMesh> DecodeMesh(vtkPointSet* data);
 
 /// The triangles of all charts with the point and cell data of their origin (linear where a cut
@@ -34,7 +37,8 @@ void EncodeMesh(const DecodedMesh& decoded, const ChartedMesh& charted, vtkPoint
 void EncodeLoops(const ChartedMesh& charted, bool flat, vtkPolyData* output);
 
 /// One row with all numbers of the report.
-void EncodeSummary(const ChartedMesh& charted, FlattenMethod asked, vtkTable* output);
+void EncodeSummary(
+  const DecodedMesh& decoded, const ChartedMesh& charted, FlattenMethod asked, vtkTable* output);
 
 /// Methods that were used, in the order of the first charts: "hlle, injective".
 std::string DescribeMethods(const ChartedMesh& charted);

@@ -116,7 +116,8 @@ knotwork::Status vtkMeshParameterization::Compute(
   knotwork::EncodeMesh(
     decoded.Value, charted.Value, input, this->FlatOutput, vtkPolyData::GetData(outputs, 0));
   knotwork::EncodeLoops(charted.Value, this->FlatOutput, vtkPolyData::GetData(outputs, 1));
-  knotwork::EncodeSummary(charted.Value, params.Method, vtkTable::GetData(outputs, 2));
+  knotwork::EncodeSummary(
+    decoded.Value, charted.Value, params.Method, vtkTable::GetData(outputs, 2));
   return {};
 }
 

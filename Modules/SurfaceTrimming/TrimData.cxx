@@ -310,7 +310,9 @@ void EncodeDeviation(
     }
     for (std::size_t t = 0; t < decoded.Cells[c].size(); ++t)
     {
-      bound->SetValue(decoded.Cells[c][t], chart.TriangleBound[static_cast<Eigen::Index>(t)]);
+      const vtkIdType cell = decoded.Cells[c][t]; // of several triangles when it was divided
+      bound->SetValue(
+        cell, std::max(bound->GetValue(cell), chart.TriangleBound[static_cast<Eigen::Index>(t)]));
     }
   }
   output->GetPointData()->AddArray(deviation);
@@ -382,6 +384,8 @@ void EncodeNumbers(const TrimmedSurface& trimmed, vtkTable* output)
   AddColumn(output, "ControlPoints", controlPoints);
   AddColumn(output, "Centres", centres);
   AddColumn(output, "Passes", passes);
+  AddColumn(output, "Stopped", std::string(ToString(trimmed.Stop)));
+  AddColumn(output, "Work", trimmed.Work);
   AddColumn(output, "Triangles", static_cast<int>(trimmed.Mesh.Triangles.size()));
   AddColumn(output, "TriangleBound", trimmed.Mesh.Bound);
 }

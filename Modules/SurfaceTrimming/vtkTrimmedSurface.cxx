@@ -24,6 +24,33 @@ constexpr int DeviationPort = 3;
 constexpr const char* OutputTypes[NumOutputs] = { "vtkPolyData", "vtkUnstructuredGrid",
   "vtkUnstructuredGrid", "vtkPointSet", "vtkTable" };
 
+/// Why the deviation is not smaller, with the remedy; empty when nothing stopped it.
+std::string WhyStopped(const knotwork::TrimmedSurface& trimmed)
+{
+  const std::string chart = trimmed.BackMaps.size() > 1
+    ? " (chart " + std::to_string(trimmed.StoppedChart) + ")"
+    : std::string();
+  switch (trimmed.Stop)
+  {
+    case knotwork::BackMapStop::Effort:
+      return ": the effort was used up" + chart + "; raise Effort or Tolerance";
+    case knotwork::BackMapStop::Time:
+      return ": the time limit was reached" + chart + "; raise TimeLimit or Tolerance";
+    case knotwork::BackMapStop::Elements:
+      return ": the net has all elements it may have" + chart +
+        "; raise MaximumElements or Tolerance";
+    case knotwork::BackMapStop::Functions:
+      return ": the net has all functions it may have" + chart +
+        "; raise MaximumFunctions, if the memory suffices, or Tolerance";
+    case knotwork::BackMapStop::Contradiction:
+      return ": " + trimmed.StopReason + chart +
+        "; flatten the mesh without overlaps, by INJECTIVE or in several charts";
+    case knotwork::BackMapStop::Finished:
+      break;
+  }
+  return {};
+}
+
 /// What a user should know about faces that are not as asked for.
 std::vector<std::string> Shortcomings(const knotwork::TrimmedSurface& trimmed)
 {
@@ -32,7 +59,7 @@ std::vector<std::string> Shortcomings(const knotwork::TrimmedSurface& trimmed)
   {
     std::ostringstream text;
     text << "the deviation is up to " << trimmed.MaxDeviation << ", above the tolerance "
-         << trimmed.Tolerance;
+         << trimmed.Tolerance << WhyStopped(trimmed);
     texts.push_back(text.str());
   }
   const knotwork::Verdict verdict = knotwork::WorstVerdict(trimmed);
@@ -68,6 +95,9 @@ void vtkTrimmedSurface::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Smoothing: " << this->Smoothing << "\n";
   os << indent << "Centres: " << this->Centres << "\n";
   os << indent << "CornerAngle: " << this->CornerAngle << "\n";
+  os << indent << "MaximumFunctions: " << this->MaximumFunctions << "\n";
+  os << indent << "Effort: " << this->Effort << "\n";
+  os << indent << "TimeLimit: " << this->TimeLimit << "\n";
   os << indent << "Triangulation: " << this->Triangulation << "\n";
 }
 
@@ -114,6 +144,9 @@ knotwork::Status vtkTrimmedSurface::Compute(
   params.CornerAngle = this->CornerAngle;
   params.Tolerance = this->Tolerance;
   params.ChordalTolerance = this->ChordalTolerance;
+  params.BackMap.MaxFunctions = this->MaximumFunctions;
+  params.Effort = this->Effort;
+  params.TimeLimit = this->TimeLimit;
   params.Triangulation = this->Triangulation;
   params.Threads = this->KernelThreads();
   params.Progress = this->Progress();

@@ -98,6 +98,26 @@ public:
   vtkGetMacro(CornerAngle, double);
   ///@}
   ///@{
+  /** Functions that the net of a surface may have: 200000 take about 1.5e9 bytes. A net by need
+   * ends before it, Elements that would make more are error 13. Default 200000, valid range [1,
+   * 2147483647]. */
+  vtkSetClampMacro(MaximumFunctions, int, 1, VTK_INT_MAX);
+  vtkGetMacro(MaximumFunctions, int);
+  ///@}
+  ///@{
+  /** Work of PENALIZED at most, about as many seconds of one core, but counted: the same run ends
+   * at the same place on every machine, with the best surfaces so far. Default 40, valid range
+   * [1e-6, 1e6]. */
+  vtkSetClampMacro(Effort, double, 1e-6, 1e6);
+  vtkGetMacro(Effort, double);
+  ///@}
+  ///@{
+  /** Seconds of the wall clock at most, then the best surfaces so far are taken; 0: no limit. The
+   * result then depends on the machine's speed. Default 0, valid range [0, 1e9]. */
+  vtkSetClampMacro(TimeLimit, double, 0.0, 1e9);
+  vtkGetMacro(TimeLimit, double);
+  ///@}
+  ///@{
   /** Whether output 0 is made. Default on. */
   vtkSetMacro(Triangulation, bool);
   vtkGetMacro(Triangulation, bool);
@@ -133,6 +153,9 @@ private:
   double Smoothing = 1e-7;
   int Centres = 2000;
   double CornerAngle = 20.0;
+  int MaximumFunctions = 200000;
+  double Effort = 40.0;
+  double TimeLimit = 0.0;
   bool Triangulation = true;
 };
 #endif

@@ -9,7 +9,6 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import time
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 
@@ -17,6 +16,7 @@ import damage_modes
 import damages
 import job_inputs
 import knotwork_testing
+from measured_runs import faults_of_message, run
 from refusals import good, path, write_bytes
 
 NUMBER = int(sys.argv[1]) if len(sys.argv) > 1 else 150
@@ -26,8 +26,6 @@ KEEP = sys.argv[3] if len(sys.argv) > 3 else None
 LONGEST = 60.0  # seconds
 LARGEST = 2 << 30  # bytes
 FINE = (0, 1, 3, 4, 5)
-# what only those who wrote VTK or OpenCASCADE can read
-INTERNALS = re.compile(r"0x[0-9a-f]{6,}|\bvtk[A-Z]\w* ?\((?:0x|nil|\(nil)|ERROR: In|\.cxx\b|, line \d+ of file|Standard_|\(null\)|std::|basic_string|\bvtk\w+::|Reference Count|Process continues|Unknown message|parameter %d")
 
 
 def sound_files():
@@ -94,25 +92,6 @@ def binary_meshes():
     shutil.copy(path("cloud.xyz"), path("cloud.txt"))
 
 
-def run(arguments, folder):
-    """Exit status (negative: a signal), seconds, largest memory of the program and its children, and stderr."""
-    with open(os.path.join(folder, "stderr"), "w+b") as errors:
-        begin = time.monotonic()
-        process = subprocess.Popen([knotwork_testing.PROGRAM, *map(str, arguments)], cwd=folder, stdin=subprocess.DEVNULL,
-                                   stdout=subprocess.DEVNULL, stderr=errors)
-        while True:  # wait4 tells the memory, but has no limit of time
-            done, status, usage = os.wait4(process.pid, os.WNOHANG)
-            seconds = time.monotonic() - begin
-            if done:
-                break
-            if seconds > 2 * LONGEST:
-                process.kill()
-            time.sleep(0.005)
-        process.returncode = os.waitstatus_to_exitcode(status)
-        errors.seek(0)
-        return process.returncode, seconds, 1024 * usage.ru_maxrss, errors.read()
-
-
 def complaints(name, status, seconds, memory, errors, left):
     """What is not as it should be."""
     if status not in FINE:
@@ -121,24 +100,9 @@ def complaints(name, status, seconds, memory, errors, left):
         yield f"took {seconds:.0f} s"
     if memory > LARGEST:
         yield f"took {memory >> 20} MB"
-    try:
-        text = errors.decode()
-    except UnicodeDecodeError:
-        yield "wrote what is no UTF-8"
-        return
-    if re.search(r"[^\n\x20-\x7e\u00a0-\U0010ffff]", text):
-        yield "wrote control characters"
-    if INTERNALS.search(text):
-        yield "wrote internals"
-    if status == 1:
-        if text.count("\n") != 1 or not text.endswith("\n"):
-            yield "did not write one line"
-        if name not in text:
-            yield "does not name the file"
-        if len(text) > 2500:
-            yield "wrote too much"
-        if left:
-            yield f"left {left}"
+    yield from faults_of_message(name, status, errors)
+    if status == 1 and left:
+        yield f"left {left}"
 
 
 def attempt(number, sound):
@@ -168,7 +132,7 @@ def attempt(number, sound):
         job = chance.choice(jobs)
         work = os.path.join(folder, "work")
         os.makedirs(work)
-        status, seconds, memory, errors = run([file if word == "IN" else word for word in job] + ["--quiet"], work)
+        status, seconds, _, memory, errors = run([file if word == "IN" else word for word in job] + ["--quiet"], work, 2 * LONGEST)
         left = [entry for entry in os.listdir(work) if entry != "stderr"]
         wrong = list(complaints(os.path.splitext(name)[0], status, seconds, memory, errors, left if status == 1 else []))
         if wrong and KEEP:
@@ -181,7 +145,7 @@ def attempt(number, sound):
 def test_damage_ends_in_a_result_or_one_clean_line():
     sound = sound_files()
     for file, jobs in sound:  # not what the jobs refuse anyway
-        outcomes = [run([file if word == "IN" else word for word in job] + ["--quiet"], tempfile.mkdtemp(dir=os.path.dirname(path("runs"))))[0]
+        outcomes = [run([file if word == "IN" else word for word in job] + ["--quiet"], tempfile.mkdtemp(dir=os.path.dirname(path("runs"))), 2 * LONGEST)[0]
                     for job in jobs[:1]]
         assert outcomes == [0], (file, outcomes)
     with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:

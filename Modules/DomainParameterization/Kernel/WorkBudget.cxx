@@ -2,6 +2,7 @@
 #include "WorkBudget.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace knotwork
 {
@@ -41,6 +42,16 @@ bool WorkBudget::Continue()
     this->Cancelled = !this->Progress(this->Share);
   }
   return this->MayGoOn();
+}
+
+double WorkBudget::SecondsLeft() const
+{
+  if (!this->HasDeadline)
+  {
+    return 0.0;
+  }
+  const double left = std::chrono::duration<double>(this->Deadline - Clock::now()).count();
+  return std::max(left, std::numeric_limits<double>::min());
 }
 
 ProgressCallback WorkBudget::AsProgress()

@@ -29,6 +29,8 @@ public:
   double Used() const { return 1e-9 * this->Spent; }
   /// Nanoseconds that are left.
   double Left() const { return this->Limit - this->Spent; }
+  /// Of the wall clock, above 0; 0: no limit.
+  double SecondsLeft() const;
 
 private:
   using Clock = std::chrono::steady_clock;

@@ -99,6 +99,52 @@ bool Conflict(
   return Cross(uv, p, q) ||
     (SegmentDistance(uv, p, q) < Near * size && SegmentDistance(mesh.Points, p, q) > Far * size);
 }
+
+/// Twice the area that a loop runs around counterclockwise.
+double TurnedArea(const PointMatrix& uv, const std::vector<int>& loop)
+{
+  double area = 0.0;
+  for (std::size_t i = 0; i < loop.size(); ++i)
+  {
+    const Eigen::RowVector2d a = uv.row(loop[i]) - uv.row(loop[0]);
+    const Eigen::RowVector2d b = uv.row(loop[(i + 1) % loop.size()]) - uv.row(loop[0]);
+    area += a[0] * b[1] - a[1] * b[0];
+  }
+  return area;
+}
+
+/// Edges on opposite sides of a hole whose loop runs counterclockwise, as only the outer one may:
+/// the surface is turned over its rim and covers the plane inside it twice.
+EdgeCrossing FindTurnedHole(
+  const DiscMesh& mesh, const PointMatrix& uv, const BoundaryEdges& boundary)
+{
+  std::vector<double> areas;
+  for (const auto& loop : mesh.Loops)
+  {
+    areas.push_back(TurnedArea(uv, loop));
+  }
+  const auto outer =
+    static_cast<std::size_t>(std::max_element(areas.begin(), areas.end()) - areas.begin());
+  EdgeCrossing crossing;
+  for (const BoundaryEdge& edge : boundary.Edges)
+  {
+    const bool turned = edge.Loop != outer && areas[edge.Loop] > 0.0;
+    if (turned && !crossing)
+    {
+      crossing.First = { edge.A, edge.B };
+      crossing.Second = crossing.First;
+    }
+    else if (crossing && turned && edge.Passed <= 0.5 * boundary.Lengths[edge.Loop])
+    {
+      crossing.Second = { edge.A, edge.B };
+    }
+    else if (crossing)
+    {
+      break;
+    }
+  }
+  return crossing;
+}
 }
 
 EdgeCrossing FindCrossing(const DiscMesh& mesh, const PointMatrix& uv)
@@ -132,6 +178,6 @@ EdgeCrossing FindCrossing(const DiscMesh& mesh, const PointMatrix& uv)
         }
       });
   }
-  return crossing;
+  return crossing ? crossing : FindTurnedHole(mesh, uv, boundary);
 }
 }

@@ -41,6 +41,18 @@ Status CheckParams(const BackMapParams& params)
   {
     return bad("the centres of a back-map lie in [10, 20000]");
   }
+  if (params.MaxFunctions < 1)
+  {
+    return bad("the most control points of a back-map are at least 1");
+  }
+  if (!(params.Effort > 0.0 && params.Effort <= 1e6))
+  {
+    return bad("the effort of a back-map lies in (0, 1e6]");
+  }
+  if (!(params.TimeLimit >= 0.0))
+  {
+    return bad("the time limit of a back-map is negative");
+  }
   if (params.Threads < 0)
   {
     return bad("a number of threads is negative");
@@ -63,6 +75,26 @@ const char* ToString(BackMapMethod method)
       break;
   }
   return "penalized";
+}
+
+const char* ToString(BackMapStop stop)
+{
+  switch (stop)
+  {
+    case BackMapStop::Effort:
+      return "effort";
+    case BackMapStop::Time:
+      return "time_limit";
+    case BackMapStop::Elements:
+      return "elements";
+    case BackMapStop::Functions:
+      return "functions";
+    case BackMapStop::Contradiction:
+      return "contradiction";
+    case BackMapStop::Finished:
+      break;
+  }
+  return "finished";
 }
 
 Result<BackMap> FitBackMap(const ChartMesh& chart, const BackMapParams& params)

@@ -3,6 +3,8 @@
 #include "ChartMesh.h"
 #include "Spline.h"
 
+#include <string>
+
 /// Surfaces S(u, v) over a rectangle W that contains a chart, with S(UV) = its points.
 namespace knotwork
 {
@@ -15,6 +17,19 @@ enum class BackMapMethod
 };
 /// Name as options and reports have it.
 const char* ToString(BackMapMethod method);
+
+/// Why a surface was not refined further.
+enum class BackMapStop
+{
+  Finished,     ///< within the tolerance, or on the net that was asked for
+  Effort,       ///< Effort was used up
+  Time,         ///< TimeLimit was reached
+  Elements,     ///< MaxElements in a direction
+  Functions,    ///< MaxFunctions
+  Contradiction ///< two triangles lie on each other in the plane, their places apart
+};
+/// Name as reports have it: finished, effort, time_limit, elements, functions, contradiction.
+const char* ToString(BackMapStop stop);
 
 struct BackMapParams
 {
@@ -33,7 +48,15 @@ struct BackMapParams
   double Smoothing = 1e-7;
   int Centres = 2000; ///< radial basis functions at most: all points up to so many, else the
                       ///< greedy choice of so many at most, [10, 20000]
-  int Threads = 0;    ///< 0: all cores; the result does not depend on it
+  /// Control points of a net at most, >= 1: a net of 2e5 takes about 1.5e9 bytes to solve for. A
+  /// net by need ends before it, one that is asked for is refused.
+  int MaxFunctions = 200000;
+  /// Work at most of Penalized, (0, 1e6]: about as many seconds of one core, but counted, so that
+  /// the same run ends at the same place on every machine. The best surface so far is then the
+  /// result; the first net is solved for in any case.
+  double Effort = 40.0;
+  double TimeLimit = 0.0; ///< seconds of the wall clock, >= 0; 0: none. The same
+  int Threads = 0;        ///< 0: all cores; the result does not depend on it
   ProgressCallback Progress;
 };
 
@@ -45,6 +68,9 @@ struct BackMap
   int Centres = 0;              ///< radial basis functions used
   int Passes = 0;               ///< nets solved for
   bool WithinTolerance = false; ///< as found, not proved: BoundDeviation does that
+  BackMapStop Stop = BackMapStop::Finished;
+  std::string StopReason; ///< place of a contradiction
+  double Work = 0.0;      ///< in the unit of BackMapParams::Effort
 };
 
 /// @return failures of ChartMesh::Check; InvalidParameter; SingularSystem; TooLarge; Aborted. A

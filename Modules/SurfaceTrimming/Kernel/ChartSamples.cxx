@@ -213,11 +213,11 @@ ChartSamples SampleChart(const ChartMesh& chart, const std::vector<std::array<in
     });
 
   ChartSamples samples;
-  std::vector<const Rows*> parts;
+  std::vector<Rows*> parts;
   Eigen::Index count = 0;
-  const auto append = [&](const std::vector<Rows>& group)
+  const auto append = [&](std::vector<Rows>& group)
   {
-    for (const Rows& rows : group)
+    for (Rows& rows : group)
     {
       parts.push_back(&rows);
       count += static_cast<Eigen::Index>(rows.Parameters.size() / 2);
@@ -233,11 +233,12 @@ ChartSamples SampleChart(const ChartMesh& chart, const std::vector<std::array<in
   double* parameters = samples.Parameters.data();
   double* points = samples.Points.data();
   double* weights = samples.Weights.data();
-  for (const Rows* rows : parts)
+  for (Rows* rows : parts)
   {
     parameters = std::copy(rows->Parameters.begin(), rows->Parameters.end(), parameters);
     points = std::copy(rows->Points.begin(), rows->Points.end(), points);
     weights = std::copy(rows->Weights.begin(), rows->Weights.end(), weights);
+    *rows = Rows(); // the samples of fine nets are most of a fit's memory
   }
   samples.Parameters.bottomRows(chart.UV.rows()) = chart.UV;
   samples.Points.bottomRows(chart.UV.rows()) = chart.Points;

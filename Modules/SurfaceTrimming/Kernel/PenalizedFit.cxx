@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PenalizedFit.h"
 #include "PenalizedSystem.h"
+#include "SizeLimit.h"
 #include "TensorSpace.h"
+#include "WorkBudget.h"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <sstream>
 
 namespace knotwork
 {
@@ -37,7 +40,16 @@ constexpr int MaxReweightings = 4;
 constexpr double LeastProgress = 0.9;
 constexpr double SampleShare = 0.05;
 constexpr double MostGain = 30.0;
-constexpr int MaxFunctions = 1500000;
+/// Of the unit of work, measured: rows that are made and looked at, rows that are summed up by
+/// pairs of functions, and the factorization.
+constexpr double RowNanoseconds = 130.0;
+constexpr double PairNanoseconds = 300.0 / 256.0;
+constexpr double FactorNanoseconds = 60.0 / 64.0;
+/// Rows of a net of as many functions as spans, a function.
+constexpr double RowsOfAFunction = 54.0;
+constexpr Eigen::Index RefinementBlock = 65536;
+/// Barycentric coordinates from which on a point counts as inside a triangle, not on its edge.
+constexpr double Inside = 1e-6;
 
 double LongestSide(const NetKnots& knots)
 {
@@ -97,34 +109,38 @@ NetKnots RefinedNet(const NetKnots& knots, const BezierForm<2>& surface,
       far.push_back(i);
     }
   }
-  PointMatrix parameters(static_cast<Eigen::Index>(far.size()), 2);
-  for (std::size_t k = 0; k < far.size(); ++k)
-  {
-    parameters.row(static_cast<Eigen::Index>(k)) = samples.Parameters.row(far[k]);
-  }
   EvaluationParams evaluation;
   evaluation.Derivatives = 2;
   evaluation.Threads = params.Threads;
   EvaluationBatch batch;
-  EvaluateParameters<2>(surface, parameters, evaluation, batch);
-
   std::array<std::vector<double>, 2> need;
   for (std::size_t d = 0; d < 2; ++d)
   {
     need[d].assign(static_cast<std::size_t>(knots[d].NumElements()), 0.0);
   }
+  PointMatrix parameters;
   for (std::size_t k = 0; k < far.size(); ++k)
   {
+    const auto row = static_cast<Eigen::Index>(k) % RefinementBlock;
+    if (row == 0) // blocks: derivatives of all would take more memory than the net
+    {
+      const auto left = static_cast<Eigen::Index>(far.size() - k);
+      parameters.resize(std::min(left, RefinementBlock), 2);
+      for (Eigen::Index i = 0; i < parameters.rows(); ++i)
+      {
+        parameters.row(i) = samples.Parameters.row(far[k + static_cast<std::size_t>(i)]);
+      }
+      EvaluateParameters<2>(surface, parameters, evaluation, batch);
+    }
     std::array<std::size_t, 2> element{};
     std::array<double, 2> span{};
     for (std::size_t d = 0; d < 2; ++d)
     {
-      const auto row = static_cast<Eigen::Index>(k);
       element[d] = static_cast<std::size_t>(
         knots[d].FindElement(parameters(row, static_cast<Eigen::Index>(d))));
       span[d] = knots[d].Breaks()[element[d] + 1] - knots[d].Breaks()[element[d]];
     }
-    const auto second = batch.Second.row(static_cast<Eigen::Index>(k));
+    const auto second = batch.Second.row(row);
     const std::array<double, 2> bending{ span[0] * span[0] * second.segment<3>(0).norm(),
       span[1] * span[1] * second.segment<3>(6).norm() };
     const double twist = span[0] * span[1] * second.segment<3>(3).norm();
@@ -199,16 +215,123 @@ void SetSurface(BackMap& map, const SplineSpacePtr<2>& space, PointMatrix contro
   map.RmsResidual = residuals.Rms;
 }
 
+double NumFunctions(const NetKnots& knots)
+{
+  return static_cast<double>(knots[0].NumFunctions()) * knots[1].NumFunctions();
+}
+
+/// Nanoseconds of a solution on a net.
+double SolutionWork(const NetKnots& knots, double weightedRows)
+{
+  const double order = knots[0].Degree() + 1.0;
+  return PairNanoseconds * std::pow(order, 4.0) * weightedRows +
+    FactorNanoseconds * std::pow(order, 3.0) * std::pow(NumFunctions(knots), 1.5);
+}
+
+/// Of all that is done on a net once, as is known before.
+double ExpectedWork(const NetKnots& knots, std::size_t triangles)
+{
+  double rows = RowsOfAFunction;
+  for (const KnotVector& k : knots)
+  {
+    rows *= k.NumFunctions();
+  }
+  rows += 4.0 * static_cast<double>(triangles);
+  return RowNanoseconds * rows + SolutionWork(knots, 0.5 * rows);
+}
+
+/// Two triangles that hold the sample that is farthest off, with places of it that no surface can
+/// meet both within the tolerance: a sentence, or nothing.
+std::string FindContradiction(const ChartMesh& chart, const ChartSamples& samples,
+  const BackMapResiduals& residuals, double tolerance)
+{
+  Eigen::Index worst = 0;
+  residuals.Distances.maxCoeff(&worst);
+  const Eigen::RowVector2d at = samples.Parameters.row(worst);
+  std::vector<std::size_t> found;
+  PointMatrix places(0, 3);
+  for (std::size_t t = 0; t < chart.Triangles.size(); ++t)
+  {
+    const auto& corners = chart.Triangles[t];
+    const Eigen::RowVector2d a = chart.UV.row(corners[1]) - chart.UV.row(corners[0]);
+    const Eigen::RowVector2d b = chart.UV.row(corners[2]) - chart.UV.row(corners[0]);
+    const Eigen::RowVector2d p = at - chart.UV.row(corners[0]);
+    const double area = a[0] * b[1] - a[1] * b[0];
+    const double s = (p[0] * b[1] - p[1] * b[0]) / area;
+    const double r = (a[0] * p[1] - a[1] * p[0]) / area;
+    if (!(s >= Inside && r >= Inside && s + r <= 1.0 - Inside))
+    {
+      continue;
+    }
+    const Eigen::RowVector3d place = (1.0 - s - r) * chart.Points.row(corners[0]) +
+      s * chart.Points.row(corners[1]) + r * chart.Points.row(corners[2]);
+    for (std::size_t k = 0; k < found.size(); ++k)
+    {
+      const double apart = (place - places.row(static_cast<Eigen::Index>(k))).norm();
+      if (apart > 2.0 * tolerance)
+      {
+        std::ostringstream text;
+        text << "triangles " << found[k] << " and " << t << " lie on each other in the plane, at ("
+             << at[0] << ", " << at[1] << "), and " << apart << " apart in space";
+        return text.str();
+      }
+    }
+    found.push_back(t);
+    places.conservativeResize(places.rows() + 1, 3);
+    places.bottomRows(1) = place;
+  }
+  return {};
+}
+
+/// What a fit may still do, and why it stopped.
+class Limits
+{
+public:
+  explicit Limits(const BackMapParams& params)
+    : Budget(params.Effort, params.TimeLimit, {}), MaxFunctions(params.MaxFunctions)
+  {
+  }
+  void Spend(double nanoseconds) { this->Budget.Spend(nanoseconds); }
+  /// Whether so much more may be done, and if not, why.
+  bool Allows(double nanoseconds)
+  {
+    this->Budget.Continue();
+    if (this->Stop == BackMapStop::Finished)
+    {
+      this->Stop = this->Budget.Stop() == DomainStop::Time ? BackMapStop::Time
+        : nanoseconds > this->Budget.Left()                ? BackMapStop::Effort
+                                                           : BackMapStop::Finished;
+    }
+    return this->Stop == BackMapStop::Finished;
+  }
+  bool Allows(const NetKnots& knots, std::size_t triangles)
+  {
+    if (NumFunctions(knots) > this->MaxFunctions)
+    {
+      this->Stop = BackMapStop::Functions;
+      return false;
+    }
+    return this->Allows(ExpectedWork(knots, triangles));
+  }
+  double Used() const { return this->Budget.Used(); }
+
+  BackMapStop Stop = BackMapStop::Finished;
+
+private:
+  WorkBudget Budget;
+  double MaxFunctions;
+};
+
 /// Least squares on a net.
 Status FitNet(const ChartMesh& chart, const std::vector<std::array<int, 2>>& boundary,
-  const NetKnots& knots, const BackMapParams& params, NetFit& net, BackMap& map,
+  const NetKnots& knots, const BackMapParams& params, Limits& limits, NetFit& net, BackMap& map,
   BackMapResiduals& residuals)
 {
-  if (static_cast<double>(knots[0].NumFunctions()) * knots[1].NumFunctions() > MaxFunctions)
+  if (Status status =
+        CheckSize(NumFunctions(knots), params.MaxFunctions, "control points of a net");
+      !status)
   {
-    return { ErrorCode::TooLarge,
-      "a net of " + std::to_string(knots[0].NumFunctions()) + " x " +
-        std::to_string(knots[1].NumFunctions()) + " control points; ask for fewer spans" };
+    return status;
   }
   const auto space = MakeTensorSpace<2>(knots);
   if (!space)
@@ -217,6 +340,8 @@ Status FitNet(const ChartMesh& chart, const std::vector<std::array<int, 2>>& bou
   }
   net.Space = space.Value;
   net.Samples = SampleChart(chart, boundary, knots, params.Threads);
+  limits.Spend(RowNanoseconds * static_cast<double>(net.Samples.Weights.size()) +
+    SolutionWork(knots, static_cast<double>(net.Samples.NumWeighted)));
   Result<PointMatrix> control = FirstSolution(net, params);
   if (!control)
   {
@@ -233,8 +358,11 @@ Status FitNet(const ChartMesh& chart, const std::vector<std::array<int, 2>>& bou
 
 /// Makes points that are far weigh more, until all are within the tolerance or it no longer helps:
 /// at sharp edges and tips least squares leave more than the space can do.
-void Reweight(NetFit& net, const BackMapParams& params, BackMap& map, BackMapResiduals& residuals)
+void Reweight(NetFit& net, const BackMapParams& params, Limits& limits, BackMap& map,
+  BackMapResiduals& residuals)
 {
+  const double work = 0.5 * RowNanoseconds * static_cast<double>(net.Samples.Weights.size()) +
+    SolutionWork(net.Space->Knots, static_cast<double>(net.Samples.NumWeighted));
   Eigen::VectorXd weights = net.Samples.Weights;
   BackMapResiduals last = residuals;
   for (int k = 0; k < MaxReweightings && residuals.Max > params.Tolerance; ++k)
@@ -249,6 +377,11 @@ void Reweight(NetFit& net, const BackMapParams& params, BackMap& map, BackMapRes
           std::min(ratio * ratio, MostGain);
       }
     }
+    if (!limits.Allows(work))
+    {
+      return;
+    }
+    limits.Spend(work);
     Result<PointMatrix> control = net.System->Solve(net.Samples, weights);
     if (!control)
     {
@@ -325,39 +458,67 @@ Result<BackMap> FitPenalized(const ChartMesh& chart, const BackMapParams& params
   aim.Tolerance *= ProofShare;
   NetKnots knots = UniformNet(BackMapRectangle(chart, params.Margin), params.Degree,
     byNeed ? std::min(FirstElements, params.MaxElements) : params.Elements);
-  BackMap map;
-  for (bool last = false; !last;)
+  Limits limits(params);
+  BackMap map; // of the net that is worked on
+  BackMap best;
+  for (;;)
   {
     NetFit net;
     BackMapResiduals residuals;
-    Status status = FitNet(chart, boundary, knots, aim, net, map, residuals);
+    Status status = FitNet(chart, boundary, knots, aim, limits, net, map, residuals);
     if (!status)
     {
       return status;
     }
-    last = !byNeed || residuals.Max <= aim.Tolerance || map.Passes == MaxPasses;
-    if (!last && residuals.Max <= ReweightReach * aim.Tolerance)
+    if (byNeed && residuals.Max > aim.Tolerance)
     {
-      Reweight(net, aim, map, residuals);
+      map.StopReason = FindContradiction(chart, net.Samples, residuals, params.Tolerance);
+    }
+    NetKnots finer = knots;
+    if (!map.StopReason.empty())
+    {
+      limits.Stop = BackMapStop::Contradiction;
+    }
+    else if (byNeed && map.Passes < MaxPasses)
+    {
+      if (residuals.Max > aim.Tolerance && residuals.Max <= ReweightReach * aim.Tolerance)
+      {
+        Reweight(net, aim, limits, map, residuals);
+      }
+      if (residuals.Max > aim.Tolerance)
+      {
+        finer = RefinedNet(
+          knots, MakeBezierForm(map.Surface, params.Threads), net.Samples, residuals, aim);
+        if (finer == knots && limits.Stop == BackMapStop::Finished)
+        {
+          if (residuals.Max > ReweightReach * aim.Tolerance)
+          {
+            Reweight(net, aim, limits, map, residuals); // as near as this net comes
+          }
+          limits.Stop = BackMapStop::Elements;
+        }
+      }
+    }
+    if (best.Passes == 0 || map.MaxResidual <= best.MaxResidual)
+    {
+      best = map;
     }
     if (params.Progress && !params.Progress(std::min(1.0, aim.Tolerance / residuals.Max)))
     {
       return { ErrorCode::Aborted, "the back-map was stopped" };
     }
-    if (last || residuals.Max <= aim.Tolerance)
+    if (finer == knots || limits.Stop != BackMapStop::Finished ||
+      !limits.Allows(finer, chart.Triangles.size()))
     {
       break;
     }
-    NetKnots finer =
-      RefinedNet(knots, MakeBezierForm(map.Surface, params.Threads), net.Samples, residuals, aim);
-    last = finer == knots;
-    if (last && residuals.Max > ReweightReach * aim.Tolerance)
-    {
-      Reweight(net, aim, map, residuals); // as near as this net comes
-    }
     knots = std::move(finer);
   }
-  map.WithinTolerance = map.MaxResidual <= params.Tolerance;
-  return map;
+  best.WithinTolerance = best.MaxResidual <= params.Tolerance;
+  best.Passes = map.Passes;
+  best.Stop = best.MaxResidual <= aim.Tolerance ? BackMapStop::Finished : limits.Stop;
+  best.StopReason = map.StopReason;
+  best.Work = limits.Used();
+  return best;
 }
 }

@@ -27,6 +27,8 @@ BackMapResiduals MeasureBackMap(
 /// Least squares to the triangles' plane pieces with the thin-plate energy, whose weight falls with
 /// the fourth power of the smallest span: so it stays as small against the data on every net, and
 /// rules alone where there is none. A net by need begins with few spans; spans that hold points
-/// farther than the tolerance are halved, in the direction in which the surface bends there.
+/// farther than the tolerance are halved, in the direction in which the surface bends there, until
+/// a limit of the parameters or a contradiction of the chart ends it; the best surface is the
+/// result.
 Result<BackMap> FitPenalized(const ChartMesh& chart, const BackMapParams& params);
 }

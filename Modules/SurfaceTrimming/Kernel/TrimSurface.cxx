@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TrimSurface.h"
+#include "BoundaryChains.h"
+#include "WorkBudget.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,6 +24,10 @@ constexpr double MaxAreaError = 2e-3;
 /// smoothing.
 constexpr int MaxAttempts = 4;
 constexpr double MoreSmoothing = 30.0;
+/// They may cost as much together as the first fits did, or so much.
+constexpr double LeastEffortOfAttempts = 2.0;
+/// Of a chart when nothing is left: that of its first net, which is made in any case.
+constexpr double LeastEffort = 1e-6;
 
 double Diagonal(const std::vector<ChartMesh>& charts)
 {
@@ -58,7 +64,16 @@ Status CheckInput(const std::vector<ChartMesh>& charts, const TrimParams& params
   {
     return bad("ChordalTolerance must be 0 or more");
   }
-  return {};
+  if (!(params.Effort > 0.0 && params.Effort <= 1e6))
+  {
+    return bad("Effort must lie in (0, 1e6]");
+  }
+  if (!(params.TimeLimit >= 0.0))
+  {
+    return bad("TimeLimit must be 0 or more");
+  }
+  // what does not fit together is refused before surfaces are made
+  return FindBoundaryChains(charts, params.CornerAngle).Status;
 }
 
 /// Share `part` of `count` of the progress between begin and end.
@@ -84,6 +99,7 @@ Result<ProvedBackMap> FitWithProof(
   const double goal = params.Tolerance;
   BackMapParams fit = params;
   Result<ProvedBackMap> best;
+  double work = 0.0;
   for (int pass = 0; pass < MaxFits; ++pass)
   {
     auto map = FitBackMap(chart, fit);
@@ -91,6 +107,8 @@ Result<ProvedBackMap> FitWithProof(
     {
       return map.Status;
     }
+    const double spent = map->Work;
+    work += spent;
     auto measured = BoundDeviation(chart, map->Surface, deviation);
     if (!measured)
     {
@@ -109,7 +127,17 @@ Result<ProvedBackMap> FitWithProof(
       break;
     }
     fit.Tolerance *= bound > goal ? 0.9 * goal / bound : 0.6;
+    fit.Effort = params.Effort - work;
+    if (fit.Effort <= spent) // a smaller tolerance costs more
+    {
+      if (bound > goal)
+      {
+        best->Map.Stop = BackMapStop::Effort;
+      }
+      break;
+    }
   }
+  best->Map.Work = work;
   return best;
 }
 
@@ -127,9 +155,12 @@ public:
     this->State.Certificates.resize(charts.size());
   }
 
-  Status FitSurface(std::size_t c, double begin, double end)
+  /// @param effort  for this chart. @param seconds  for it; 0: no limit.
+  Status FitSurface(std::size_t c, double effort, double seconds, double begin, double end)
   {
     BackMapParams backMap = this->Params.BackMap;
+    backMap.Effort = effort;
+    backMap.TimeLimit = seconds;
     backMap.Tolerance = SurfaceShare * this->State.Tolerance;
     backMap.Smoothing = this->Smoothing[c];
     backMap.Threads = this->Params.Threads;
@@ -138,13 +169,23 @@ public:
     deviation.Enough = 0.1 * this->State.Tolerance;
     deviation.Threads = this->Params.Threads;
     auto proved = FitWithProof(this->Charts[c], backMap, deviation);
-    if (proved)
+    if (!proved)
+    {
+      return proved.Status;
+    }
+    this->State.Work += proved->Map.Work;
+    // what was stopped takes the place of nothing better
+    const BackMapStop stop = proved->Map.Stop;
+    const bool worse = this->State.Model.Faces[c].Surface.Space &&
+      (stop == BackMapStop::Effort || stop == BackMapStop::Time) &&
+      proved->Deviation.MaxBound > this->State.Deviations[c].MaxBound;
+    if (!worse)
     {
       this->State.Model.Faces[c].Surface = std::move(proved->Map.Surface);
       this->State.BackMaps[c] = std::move(proved->Map);
       this->State.Deviations[c] = std::move(proved->Deviation);
     }
-    return proved.Status;
+    return {};
   }
 
   /// Loops of all charts, and what is proved of their faces.
@@ -226,6 +267,15 @@ void Summarize(TrimmedSurface& trimmed)
   trimmed.MaxDeviation += trimmed.Loops.MaxTrimDistance;
   trimmed.RmsDeviation = area > 0.0 ? std::sqrt(squares / area) : 0.0;
   trimmed.WithinTolerance = trimmed.MaxDeviation <= trimmed.Tolerance;
+  for (std::size_t c = trimmed.BackMaps.size(); c-- > 0;)
+  {
+    if (trimmed.BackMaps[c].Stop != BackMapStop::Finished)
+    {
+      trimmed.Stop = trimmed.BackMaps[c].Stop;
+      trimmed.StopReason = trimmed.BackMaps[c].StopReason;
+      trimmed.StoppedChart = static_cast<int>(c);
+    }
+  }
 }
 }
 
@@ -240,15 +290,25 @@ Result<TrimmedSurface> TrimSurface(const std::vector<ChartMesh>& charts, const T
   std::iota(pending.begin(), pending.end(), std::size_t{ 0 });
   TrimmedSurface best;
   std::size_t fewest = charts.size() + 1;
+  WorkBudget clock(params.Effort, params.TimeLimit, {}); // for what is left of TimeLimit
+  double effort = params.Effort;
   // Only the penalized fit has a smoothing that may help.
   const int attempts = params.BackMap.Method == BackMapMethod::Penalized ? MaxAttempts : 1;
   for (int attempt = 0; attempt < attempts && !pending.empty(); ++attempt)
   {
+    if (attempt == 1)
+    {
+      effort = std::min(
+        effort, trimming.State.Work + std::max(trimming.State.Work, LeastEffortOfAttempts));
+    }
     for (std::size_t i = 0; i < pending.size(); ++i)
     {
-      const double share = 0.6 / static_cast<double>(pending.size());
-      const double begin = share * static_cast<double>(i);
-      if (Status status = trimming.FitSurface(pending[i], begin, begin + share); !status)
+      const double part = 0.6 / static_cast<double>(pending.size());
+      const double begin = part * static_cast<double>(i);
+      const double left = (effort - trimming.State.Work) / static_cast<double>(pending.size() - i);
+      if (Status status = trimming.FitSurface(
+            pending[i], std::max(left, LeastEffort), clock.SecondsLeft(), begin, begin + part);
+          !status)
       {
         return status;
       }
@@ -263,7 +323,12 @@ Result<TrimmedSurface> TrimSurface(const std::vector<ChartMesh>& charts, const T
       fewest = pending.size();
       best = trimming.State;
     }
+    if (trimming.State.Work >= effort || !clock.Continue())
+    {
+      break;
+    }
   }
+  best.Work = trimming.State.Work;
   Summarize(best);
   if (params.Triangulation)
   {

@@ -9,7 +9,8 @@ namespace knotwork
 {
 struct TrimParams
 {
-  BackMapParams BackMap; ///< its Tolerance, Threads and Progress are set from those below
+  /// Its Tolerance, Effort, TimeLimit, Threads and Progress are set from those below.
+  BackMapParams BackMap;
   double CornerAngle = 20.0;
   /// Largest distance between mesh and face, unit of the points; 0: a thousandth of the diagonal of
   /// the points' box.
@@ -17,6 +18,10 @@ struct TrimParams
   /// Of the triangulation; 0: a quarter of Tolerance.
   double ChordalTolerance = 0.0;
   bool Triangulation = true; ///< whether Mesh is made
+  /// As in BackMapParams, of all surfaces of PENALIZED together: charts that are fitted later have
+  /// what the others leave, in equal shares. Loops, proofs and triangles are made in any case.
+  double Effort = 40.0;
+  double TimeLimit = 0.0;
   int Threads = 0;
   ProgressCallback Progress;
 };
@@ -35,6 +40,12 @@ struct TrimmedSurface
   double RmsDeviation = 0.0;
   double MinNormal = 0.0; ///< least of the certificates
   bool WithinTolerance = false;
+  /// Of the first chart whose surface was stopped above its tolerance, or of attempts to prove
+  /// faces regular; finished when there is none.
+  BackMapStop Stop = BackMapStop::Finished;
+  int StoppedChart = -1;
+  std::string StopReason; ///< place of a contradiction
+  double Work = 0.0;      ///< in the unit of TrimParams::Effort
 };
 
 /// Trimmed spline faces of charts: surface, loops, certificates, triangulation.

@@ -223,6 +223,33 @@ TEST(PlaneLoops, CrossingIsFoundAndOnlyThat_ExactOracle)
   EXPECT_GT(std::abs(x - y), 4.5);
 }
 
+/// The loop of the hole mirrored: it runs counterclockwise like the outer one, so that its disc is
+/// covered, though no edges cross.
+TEST(PlaneLoops, AHoleThatIsTurnedOverItsRimIsFound_ExactOracle)
+{
+  const auto inHole = [](double x, double y) { return std::hypot(x - 1.0, y - 1.0) < 0.5; };
+  const MeshCase plate =
+    FlatCase(0.0, 2.0, 0.0, 2.0, 0.1, [&](double x, double y) { return !inHole(x, y); });
+  const auto disc = CheckMesh(plate.Mesh);
+  ASSERT_TRUE(disc);
+  ASSERT_EQ(disc->Loops.size(), 2u);
+  EXPECT_FALSE(FindCrossing(disc.Value, plate.Flat));
+  PointMatrix uv = plate.Flat;
+  for (int v : disc->Loops[1])
+  {
+    uv(v, 0) = 2.0 - uv(v, 0);
+  }
+  const EdgeCrossing crossing = FindCrossing(disc.Value, uv);
+  ASSERT_TRUE(crossing);
+  const auto& hole = disc->Loops[1];
+  for (int end : { crossing.First[0], crossing.First[1], crossing.Second[0], crossing.Second[1] })
+  {
+    EXPECT_NE(std::find(hole.begin(), hole.end(), end), hole.end());
+  }
+  // on opposite sides: nearly a diameter apart
+  EXPECT_GT((uv.row(crossing.First[0]) - uv.row(crossing.Second[0])).norm(), 0.8);
+}
+
 TEST(HeatFlow, HarmonicFunctionOfARectangleIsLinear_ExactOracle)
 {
   const MeshCase plate = FlatCase(0.0, 2.0, 0.0, 1.0, 0.1, [](double, double) { return true; });

@@ -8,7 +8,8 @@ import knotwork_testing
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkCommonDataModel import (VTK_PIXEL, VTK_POLYGON, VTK_QUAD, VTK_TETRA, VTK_TRIANGLE, VTK_TRIANGLE_STRIP, vtkCellArray,
+                                           vtkPolyData, vtkUnstructuredGrid)
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
@@ -147,9 +148,40 @@ def test_flat_output_lies_in_the_plane():
         assert (points[:, :2] == vtk_to_numpy(data.GetPointData().GetArray("UV"))).all() and (points[:, 2] == 0).all()
 
 
+def test_faces_of_more_corners_are_divided_exact_oracle():
+    # six squares: a quad, a hexagon that is not convex, a strip, a pixel, two triangles
+    points = np.array([(x, y, 0.1 * x * y) for y in range(3) for x in range(4)], float)
+    points[5:7, 0] += 0.2, -0.1  # into the hexagon
+    grid = vtkUnstructuredGrid()
+    grid.SetPoints(polydata(points, []).GetPoints())
+    cells = ((VTK_QUAD, (0, 1, 5, 4)), (VTK_POLYGON, (1, 2, 6, 10, 9, 5)), (VTK_TRIANGLE_STRIP, (2, 3, 6, 7)),
+             (VTK_PIXEL, (4, 5, 8, 9)), (VTK_TRIANGLE, (6, 7, 11)), (VTK_TRIANGLE, (6, 11, 10)))
+    for kind, corners in cells:
+        grid.InsertNextCell(kind, len(corners), corners)
+    number = numpy_to_vtk(np.arange(len(cells)), deep=1)
+    number.SetName("Number")
+    grid.GetCellData().AddArray(number)
+    result = flatten(grid, Method=knotwork.vtkMeshParameterization.LSCM)
+    mesh = result.GetOutput()
+    assert mesh.GetNumberOfCells() == 12 and mesh.GetNumberOfPoints() == 12
+    assert sorted(vtk_to_numpy(mesh.GetCellData().GetArray("Number"))) == [0, 0, 1, 1, 1, 1, 2, 2, 3, 3, 4, 5]
+    assert vtk_to_numpy(mesh.GetCellData().GetArray("Flipped")).sum() == 0
+    # in the cells' orientation, as a plane they fill the rectangle once
+    xy = vtk_to_numpy(mesh.GetPoints().GetData())[:, :2]
+    corners = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    sides = xy[corners[:, 1:]] - xy[corners[:, :1]]
+    areas = 0.5 * np.linalg.det(sides)
+    assert areas.min() > 0 and abs(areas.sum() - 6) < 1e-12, areas
+    assert result.GetOutputDataObject(2).GetValueByName(0, "DividedFaces").ToInt() == 4
+    tetrahedron = vtkUnstructuredGrid()
+    tetrahedron.SetPoints(grid.GetPoints())
+    tetrahedron.InsertNextCell(VTK_TETRA, 4, (0, 1, 4, 6))
+    assert error_of(tetrahedron) > 0
+
+
 def test_bad_meshes_are_refused():
     assert error_of(polydata(ROLLED, TRIANGLES)) == 0
-    assert error_of(polydata(ROLLED, [(0, 1, 2, 3)])) > 0  # no triangle
+    assert error_of(polydata(ROLLED, [*TRIANGLES, (0, 1, 0, 1)])) > 0  # nothing to divide
     assert error_of(polydata(ROLLED, [(0, 0, 1)])) > 0
     assert error_of(polydata(ROLLED, [*TRIANGLES, (0, 1)])) > 0  # VTK crashes on a face of two corners
     more = np.vstack([ROLLED, [[9, 9, 9]]])

@@ -422,14 +422,14 @@ TEST(TrimmedSurface, BadInputIsRefused)
         uv->Fill(1.0);
       },
       ErrorCode::InvalidTopology, "flipped in the plane" },
-    { "quadrilaterals",
+    { "a quadrilateral without area",
       [](vtkPolyData* mesh)
       {
         vtkNew<vtkCellArray> cells;
-        cells->InsertNextCell({ 0, 1, 2, 3 });
+        cells->InsertNextCell({ 0, 1, 0, 1 });
         mesh->SetPolys(cells);
       },
-      ErrorCode::InvalidTopology, "vtkTriangleFilter" },
+      ErrorCode::InvalidTopology, "1 cells (0) cannot be divided into triangles" },
     { "no triangles", [](vtkPolyData* mesh) { mesh->SetPolys(vtkNew<vtkCellArray>()); },
       ErrorCode::EmptyInput, "without triangles" },
     { "an edge of three triangles",

@@ -547,6 +547,79 @@ TEST(RadialSurface, PointsOnALineAreRefused)
   EXPECT_EQ(RadialSurface::Interpolate(flat, flat).Status.Code, ErrorCode::SingularSystem);
 }
 
+TEST(BackMap, WorkIsCountedAndEndsItAtTheSamePlace_PropertyOracle)
+{
+  const ChartMesh chart = ChartOf(Roof(0.2));
+  BackMapParams params = Params(1e-7); // no net is as fine
+  params.Threads = 1;
+  double before = 1e300;
+  for (double effort : { 1e-6, 0.05, 0.5 })
+  {
+    SCOPED_TRACE(effort);
+    params.Effort = effort;
+    const BackMap map = Fit(chart, params);
+    EXPECT_EQ(map.Stop, BackMapStop::Effort);
+    EXPECT_FALSE(map.WithinTolerance);
+    EXPECT_LT(map.MaxResidual, before); // the best so far, and the further the better
+    before = map.MaxResidual;
+    if (effort == 1e-6)
+    {
+      EXPECT_EQ(map.Passes, 1); // the first net in any case
+    }
+    else
+    {
+      EXPECT_LE(map.Work, effort);
+      // what a pass costs grows about fourfold: a sixteenth is used at least
+      EXPECT_GE(map.Work, effort / 16.0);
+    }
+    BackMapParams parallel = params;
+    parallel.Threads = 3;
+    const BackMap again = Fit(chart, parallel);
+    EXPECT_EQ(again.Surface.ControlPoints, map.Surface.ControlPoints);
+    EXPECT_EQ(again.Work, map.Work);
+  }
+  params.TimeLimit = 1e-9;
+  EXPECT_EQ(Fit(chart, params).Stop, BackMapStop::Time);
+}
+
+TEST(BackMap, LimitsOfTheNetAreNamed_PropertyOracle)
+{
+  const ChartMesh chart = ChartOf(Roof(0.2));
+  BackMapParams params = Params(1e-6);
+  params.MaxElements = 20;
+  EXPECT_EQ(Fit(chart, params).Stop, BackMapStop::Elements);
+  params = Params(1e-6);
+  params.MaxFunctions = 500;
+  const BackMap map = Fit(chart, params);
+  EXPECT_EQ(map.Stop, BackMapStop::Functions);
+  EXPECT_LE(map.Surface.Space->NumFunctions, 500);
+  EXPECT_EQ(Fit(chart, Params(1e-2)).Stop, BackMapStop::Finished);
+}
+
+/// A ring of more than one turn, which rises like a ramp: what its ends share in the plane lies
+/// 0.5 apart in space.
+TEST(BackMap, AChartThatLiesOnItselfEndsAtOnce_ExactOracle)
+{
+  MeshCase ramp =
+    FlatCase(0.0, 7.0, 0.0, 1.0, 0.25, [](double, double) { return true; }); // 7 / 6.28 turns
+  for (Eigen::Index i = 0; i < ramp.Flat.rows(); ++i)
+  {
+    const double angle = -ramp.Flat(i, 0);
+    const double radius = 1.0 + ramp.Flat(i, 1);
+    ramp.Flat.row(i) << radius * std::cos(angle), radius * std::sin(angle);
+    ramp.Mesh.Points.row(i) << ramp.Flat(i, 0), ramp.Flat(i, 1),
+      0.5 * angle / (2.0 * std::acos(-1.0));
+  }
+  const ChartMesh chart = ChartOf(ramp);
+  ASSERT_TRUE(chart.Check()) << chart.Check().Message();
+  const BackMap map = Fit(chart, Params(1e-3));
+  EXPECT_EQ(map.Stop, BackMapStop::Contradiction);
+  EXPECT_NE(map.StopReason.find("lie on each other in the plane"), std::string::npos)
+    << map.StopReason;
+  EXPECT_LE(map.Surface.Space->NumFunctions, 1000);
+  EXPECT_GE(map.MaxResidual, 0.24); // half of 0.5, but for the facets of the ramp
+}
+
 TEST(BackMap, EveryFailureIsReached)
 {
   const ChartMesh chart = ChartOf(PlateWithHoles(0.2));
@@ -574,6 +647,12 @@ TEST(BackMap, EveryFailureIsReached)
     [](BackMapParams& p) { p.Centres = 9; },
     [](BackMapParams& p) { p.Centres = 20001; },
     [](BackMapParams& p) { p.Threads = -1; },
+    [](BackMapParams& p) { p.MaxFunctions = 0; },
+    [](BackMapParams& p) { p.Effort = 0.0; },
+    [](BackMapParams& p) { p.Effort = 1.1e6; },
+    [&](BackMapParams& p) { p.Effort = nan; },
+    [](BackMapParams& p) { p.TimeLimit = -1.0; },
+    [&](BackMapParams& p) { p.TimeLimit = nan; },
   };
   for (std::size_t i = 0; i < changes.size(); ++i)
   {
@@ -584,6 +663,13 @@ TEST(BackMap, EveryFailureIsReached)
               {
                 p.Elements = 2000;
                 p.Margin = 0.5;
+              }),
+    ErrorCode::TooLarge);
+  EXPECT_EQ(code(
+              [](BackMapParams& p)
+              {
+                p.Elements = 20;
+                p.MaxFunctions = 100;
               }),
     ErrorCode::TooLarge);
   EXPECT_EQ(

@@ -175,6 +175,38 @@ TEST(TrimSurface, ErrorsNameTheirPlace)
   EXPECT_EQ(TrimSurface({ ChartMesh{} }, {}).Status.Code, ErrorCode::EmptyInput);
 }
 
+/// Four triangles around a point whose corners are taken crosswise, as a damaged file has them:
+/// sharp folds that no smooth face has within a thousandth, and that more smoothing does not help.
+TEST(TrimSurface, EffortEndsWhatCannotBeReached_PropertyOracle)
+{
+  ChartMesh chart;
+  chart.Points.resize(5, 3);
+  chart.Points << 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0.5, 0.5, 0.1;
+  chart.UV.resize(5, 2);
+  chart.UV << -1, -1, 1, -1, 1, 1, -1, 1, 0, 0;
+  chart.Triangles = { { 0, 1, 4 }, { 1, 2, 4 }, { 2, 3, 4 }, { 3, 0, 4 } };
+  TrimParams params;
+  params.Triangulation = false;
+  params.Tolerance = 1e-5;
+  params.Effort = 0.5;
+  const auto trimmed = TrimSurface({ chart }, params);
+  ASSERT_TRUE(trimmed) << trimmed.Status.Message();
+  EXPECT_EQ(trimmed->Stop, BackMapStop::Effort);
+  EXPECT_EQ(trimmed->StoppedChart, 0);
+  EXPECT_LE(trimmed->Work, 1.1 * params.Effort); // and a first net
+  EXPECT_GE(trimmed->MaxDeviation, trimmed->Deviations[0].MaxFound);
+  EXPECT_FALSE(trimmed->WithinTolerance);
+
+  // attempts to prove it regular cost at most two, or as much as the first fit
+  params.Tolerance = 5e-3;
+  params.Effort = 40.0;
+  const auto reached = TrimSurface({ chart }, params);
+  ASSERT_TRUE(reached) << reached.Status.Message();
+  EXPECT_TRUE(reached->WithinTolerance); // not replaced by a worse one that more smoothing makes
+  EXPECT_EQ(reached->Stop, BackMapStop::Finished);
+  EXPECT_LE(reached->Work, 4.0);
+}
+
 TEST(TrimSurface, CanBeStopped_PropertyOracle)
 {
   TrimParams params;
