@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Jobs.h"
-#include "Options.h"
-#include "Session.h"
+#include "FilterJob.h"
 
 #include "vtkSplineSurfaceFit.h"
 
@@ -13,8 +11,6 @@
 #include <vtkPolyData.h>
 #include <vtkTable.h>
 #include <vtkVariant.h>
-
-#include <memory>
 
 namespace knotwork
 {
@@ -37,139 +33,6 @@ vtkSmartPointer<vtkPolyData> AsPolyData(vtkPointSet* data)
   }
   points->SetVerts(vertices);
   return points;
-}
-
-struct FitJob
-{
-  std::string Input;
-  std::string Output;
-  std::string Points;
-  std::string Table;
-  std::string Features;
-  std::vector<std::string> Fields;
-  std::array<std::string, 3> Arrays; ///< parameters, tolerances, significant points
-  std::vector<double> ToleranceBoxes;
-  std::vector<double> Domain{ 0.0, 0.0, 0.0, 0.0 };
-  std::vector<double> DistanceCentre{ 0.0, 0.0 };
-  vtkNew<vtkSplineSurfaceFit> Filter;
-  std::unique_ptr<Options> FilterOptions;
-
-  void ApplyOptions(Session& session)
-  {
-    vtkSplineSurfaceFit* filter = this->Filter;
-    this->FilterOptions->Apply(session.Report);
-    for (const std::string& name : this->Fields)
-    {
-      filter->AddFieldArray(name.c_str());
-    }
-    for (std::size_t i = 0; i < this->Arrays.size(); ++i)
-    {
-      if (!this->Arrays[i].empty())
-      {
-        filter->SetInputArrayToProcess(static_cast<int>(i), 0, 0,
-          vtkDataObject::FIELD_ASSOCIATION_POINTS, this->Arrays[i].c_str());
-      }
-    }
-    const std::vector<double>& boxes = this->ToleranceBoxes;
-    for (std::size_t i = 0; i + 4 < boxes.size(); i += 5)
-    {
-      filter->AddToleranceBox(boxes[i], boxes[i + 1], boxes[i + 2], boxes[i + 3], boxes[i + 4]);
-    }
-    filter->SetDomain(this->Domain.data());
-    filter->SetDistanceCentre(this->DistanceCentre.data());
-    filter->SetThreads(session.Threads);
-    session.Report["fields"] = this->Fields;
-    session.Report["parameter_array"] = this->Arrays[0];
-    session.Report["tolerance_array"] = this->Arrays[1];
-    session.Report["significant_array"] = this->Arrays[2];
-    session.Report["tolerance_boxes"] = this->ToleranceBoxes;
-    session.Report["domain"] = this->Domain;
-    session.Report["distance_centre"] = this->DistanceCentre;
-  }
-
-  void ReportFit(Session& session)
-  {
-    auto* points = vtkPointSet::SafeDownCast(this->Filter->GetOutputDataObject(1));
-    auto* table = vtkTable::SafeDownCast(this->Filter->GetOutputDataObject(2));
-    const vtkIdType last = table->GetNumberOfRows() - 1;
-    const auto value = [&](const char* name) { return table->GetValueByName(last, name); };
-    double tolerances[2] = { 0.0, 0.0 };
-    points->GetPointData()->GetArray("Tolerance")->GetRange(tolerances);
-    auto& report = session.Report;
-    report["points"] = points->GetNumberOfPoints();
-    report["smallest_tolerance"] = tolerances[0];
-    report["largest_tolerance"] = tolerances[1];
-    report["functions"] = value("Functions").ToLongLong();
-    report["elements"] = value("Elements").ToLongLong();
-    report["iterations"] = value("Iteration").ToLongLong();
-    report["max_error"] = value("MaxError").ToDouble();
-    report["mean_error"] = value("MeanError").ToDouble();
-    report["rms_error"] = value("RmsError").ToDouble();
-    report["points_outside"] = value("PointsOutside").ToLongLong();
-    report["outliers"] = value("Outliers").ToLongLong();
-    report["aic"] = value("AIC").ToDouble();
-    report["bic"] = value("BIC").ToDouble();
-    report["within_tolerance"] = value("PointsOutside").ToLongLong() == 0;
-    report["seconds_of_fit"] = this->Filter->GetSeconds();
-  }
-
-  Status Run(Session& session)
-  {
-    auto input = session.Read(this->Input);
-    if (!input)
-    {
-      return input.Status;
-    }
-    if (!vtkPointSet::SafeDownCast(input.Value))
-    {
-      return { ErrorCode::InvalidTopology,
-        "'" + this->Input + "' is no single set of points; give one of its parts" };
-    }
-    session.Report["input"] = this->Input;
-    session.Report["output"] = this->Output;
-    this->Filter->SetInputDataObject(input.Value);
-    this->ApplyOptions(session);
-    if (Status status = session.Run(this->Filter, "'" + this->Input + "'"); !status)
-    {
-      return status;
-    }
-    this->ReportFit(session);
-    Status status =
-      session.WriteOutputs(this->Filter, { this->Output, {}, this->Table, this->Features });
-    if (status && !this->Points.empty())
-    {
-      status = session.Write(
-        AsPolyData(vtkPointSet::SafeDownCast(this->Filter->GetOutputDataObject(1))), this->Points);
-    }
-    return status;
-  }
-};
-
-void AddArrayOptions(CLI::App& app, FitJob& job)
-{
-  app.add_option("--field", job.Fields, "point arrays that are fitted along")
-    ->expected(1)
-    ->take_all();
-  app.add_option("--parameter-array", job.Arrays[0],
-    "point array of given parameters; without one UV, then the texture coordinates");
-  app.add_option("--tolerance-array", job.Arrays[1], "point array of tolerances");
-  app.add_option(
-    "--significant-array", job.Arrays[2], "point array that is not 0 where a point is significant");
-  app
-    .add_option("--tolerance-box", job.ToleranceBoxes,
-      "u0 u1 v0 v1 tolerance of the points in a box of parameters; several boxes one after the "
-      "other")
-    ->type_size(5)
-    ->expected(1, 100000);
-  app
-    .add_option("--domain", job.Domain, "parameter domain u0 u1 v0 v1; 0 0 0 0: box of the points")
-    ->expected(4)
-    ->capture_default_str();
-  app
-    .add_option("--distance-centre", job.DistanceCentre,
-      "parameters from which the distance mode 'point' measures")
-    ->expected(2)
-    ->capture_default_str();
 }
 
 void AddFitOptions(Options& options, vtkSplineSurfaceFit* filter)
@@ -225,25 +88,139 @@ void AddFitOptions(Options& options, vtkSplineSurfaceFit* filter)
   KNOTWORK_OPTION(options, filter, FeatureGridSize, "cells of the feature grid in each direction");
 }
 
-Job Make(CLI::App& app)
+/// Of vtkSplineSurfaceFit.
+enum Port
 {
-  auto job = std::make_shared<FitJob>();
-  app
-    .add_option(
-      "points", job->Input, "points (.xyz .txt .csv .g2 .ply .vtp .vtu, meshes .stl .obj .off)")
-    ->required();
-  AddOutput(app, "--output", job->Output, Endings::Spline, "the surface")->required();
-  AddOutput(app, "--points", job->Points, Endings::Points,
-    "the points with distances, tolerances, outliers");
-  AddOutput(app, "--table", job->Table, Endings::Table, "the iterations");
-  AddOutput(app, "--features", job->Features, Endings::Image, "the feature grid");
-  AddArrayOptions(app, *job);
-  job->FilterOptions = std::make_unique<Options>(app);
-  AddFitOptions(*job->FilterOptions, job->Filter);
-  return [job](Session& session) { return job->Run(session); };
-}
+  Surface,
+  Points,
+  Iterations,
+  Features
+};
+
+class FitJob : public FilterJob<vtkSplineSurfaceFit>
+{
+public:
+  explicit FitJob(CLI::App& app) : FilterJob(app)
+  {
+    this->AddInput(0, "points", "points (.xyz .txt .csv .g2 .ply .vtp .vtu, meshes .stl .obj .off)",
+      "", "input");
+    this->AddOutput(Surface, "--output", Endings::Spline, "the surface");
+    this->AddOutput(
+      Points, "--points", Endings::Points, "the points with distances, tolerances, outliers");
+    this->AddOutput(Iterations, "--table", Endings::Table, "the iterations");
+    this->AddOutput(Features, "--features", Endings::Image, "the feature grid");
+    this->AddArrayOptions();
+    AddFitOptions(this->FilterOptions, this->Filter);
+  }
+
+protected:
+  Status Prepare(Session& session) override
+  {
+    for (const std::string& name : this->Fields)
+    {
+      this->Filter->AddFieldArray(name.c_str());
+    }
+    for (std::size_t i = 0; i < this->Arrays.size(); ++i)
+    {
+      if (!this->Arrays[i].empty())
+      {
+        this->Filter->SetInputArrayToProcess(static_cast<int>(i), 0, 0,
+          vtkDataObject::FIELD_ASSOCIATION_POINTS, this->Arrays[i].c_str());
+      }
+    }
+    const std::vector<double>& boxes = this->ToleranceBoxes;
+    for (std::size_t i = 0; i + 4 < boxes.size(); i += 5)
+    {
+      this->Filter->AddToleranceBox(
+        boxes[i], boxes[i + 1], boxes[i + 2], boxes[i + 3], boxes[i + 4]);
+    }
+    this->Filter->SetDomain(this->Domain.data());
+    this->Filter->SetDistanceCentre(this->DistanceCentre.data());
+    session.Report["fields"] = this->Fields;
+    session.Report["parameter_array"] = this->Arrays[0];
+    session.Report["tolerance_array"] = this->Arrays[1];
+    session.Report["significant_array"] = this->Arrays[2];
+    session.Report["tolerance_boxes"] = this->ToleranceBoxes;
+    session.Report["domain"] = this->Domain;
+    session.Report["distance_centre"] = this->DistanceCentre;
+    return this->RequirePointSet(0);
+  }
+
+  Status AddNumbers(Session& session) override
+  {
+    auto* points = vtkPointSet::SafeDownCast(this->Filter->GetOutputDataObject(Points));
+    vtkTable* table = this->Table(Iterations);
+    const vtkIdType last = table->GetNumberOfRows() - 1;
+    const auto value = [&](const char* name) { return table->GetValueByName(last, name); };
+    double tolerances[2] = { 0.0, 0.0 };
+    points->GetPointData()->GetArray("Tolerance")->GetRange(tolerances);
+    auto& report = session.Report;
+    report["points"] = points->GetNumberOfPoints();
+    report["smallest_tolerance"] = tolerances[0];
+    report["largest_tolerance"] = tolerances[1];
+    report["functions"] = value("Functions").ToLongLong();
+    report["elements"] = value("Elements").ToLongLong();
+    report["iterations"] = value("Iteration").ToLongLong();
+    report["max_error"] = value("MaxError").ToDouble();
+    report["mean_error"] = value("MeanError").ToDouble();
+    report["rms_error"] = value("RmsError").ToDouble();
+    report["points_outside"] = value("PointsOutside").ToLongLong();
+    report["outliers"] = value("Outliers").ToLongLong();
+    report["aic"] = value("AIC").ToDouble();
+    report["bic"] = value("BIC").ToDouble();
+    report["within_tolerance"] = value("PointsOutside").ToLongLong() == 0;
+    report["seconds_of_fit"] = this->Filter->GetSeconds();
+    return {};
+  }
+
+  Status Write(Session& session) override
+  {
+    const Status status = session.WriteOutputs(this->Filter,
+      { this->MainOutput(), {}, this->OutputFile(Iterations), this->OutputFile(Features) });
+    return status && !this->OutputFile(Points).empty()
+      ? session.Write(
+          AsPolyData(vtkPointSet::SafeDownCast(this->Filter->GetOutputDataObject(Points))),
+          this->OutputFile(Points))
+      : status;
+  }
+
+private:
+  void AddArrayOptions()
+  {
+    this->App.add_option("--field", this->Fields, "point arrays that are fitted along")
+      ->expected(1)
+      ->take_all();
+    this->App.add_option("--parameter-array", this->Arrays[0],
+      "point array of given parameters; without one UV, then the texture coordinates");
+    this->App.add_option("--tolerance-array", this->Arrays[1], "point array of tolerances");
+    this->App.add_option("--significant-array", this->Arrays[2],
+      "point array that is not 0 where a point is significant");
+    this->App
+      .add_option("--tolerance-box", this->ToleranceBoxes,
+        "u0 u1 v0 v1 tolerance of the points in a box of parameters; several boxes one after the "
+        "other")
+      ->type_size(5)
+      ->expected(1, 100000);
+    this->App
+      .add_option(
+        "--domain", this->Domain, "parameter domain u0 u1 v0 v1; 0 0 0 0: box of the points")
+      ->expected(4)
+      ->capture_default_str();
+    this->App
+      .add_option("--distance-centre", this->DistanceCentre,
+        "parameters from which the distance mode 'point' measures")
+      ->expected(2)
+      ->capture_default_str();
+  }
+
+  std::vector<std::string> Fields;
+  std::array<std::string, 3> Arrays; ///< parameters, tolerances, significant points
+  std::vector<double> ToleranceBoxes;
+  std::vector<double> Domain{ 0.0, 0.0, 0.0, 0.0 };
+  std::vector<double> DistanceCentre{ 0.0, 0.0 };
+};
 
 const JobRegistration Registration{ "fit", "fit a spline surface to scattered points",
-  "scan.xyz --tolerance 0.01 --output terrain.vtu --report terrain.json", Make };
+  "scan.xyz --tolerance 0.01 --output terrain.vtu --report terrain.json", MakeJob<FitJob> };
 }
 }

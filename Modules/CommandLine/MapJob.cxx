@@ -1,121 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Jobs.h"
-#include "Options.h"
-#include "Session.h"
+#include "FilterJob.h"
 
 #include "vtkTemplateMapping.h"
 
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
-#include <vtkNew.h>
 #include <vtkStringArray.h>
 #include <vtkTable.h>
 #include <vtkUnstructuredGrid.h>
-
-#include <memory>
 
 namespace knotwork
 {
 namespace
 {
-struct MapJob
-{
-  std::string Template;
-  std::string Target;
-  std::string Initial;
-  std::vector<double> Domain;
-  std::string Output;
-  std::string Mapped;
-  std::string Table;
-  vtkNew<vtkTemplateMapping> Filter;
-  std::unique_ptr<Options> FilterOptions;
-
-  Status Run(Session& session)
-  {
-    const std::string* files[] = { &this->Template, &this->Target, &this->Initial };
-    for (int port = 0; port < 3; ++port)
-    {
-      if (files[port]->empty())
-      {
-        continue;
-      }
-      auto input = session.Read(*files[port]);
-      if (!input)
-      {
-        return input.Status;
-      }
-      this->Filter->SetInputDataObject(port, input.Value);
-    }
-    if (this->Domain.size() == 5)
-    {
-      return { ErrorCode::InvalidParameter, "--domain takes 4 or 6 numbers, not 5" };
-    }
-    session.Report["template"] = this->Template;
-    session.Report["target"] = this->Target;
-    session.Report["output"] = this->Output;
-    if (!this->Initial.empty())
-    {
-      session.Report["initial"] = this->Initial;
-    }
-    if (!this->Domain.empty())
-    {
-      session.Report["domain"] = this->Domain;
-      this->Domain.resize(6, 0.0);
-      this->Filter->SetDomain(this->Domain.data());
-      this->Filter->UseDomainOn();
-    }
-    this->FilterOptions->Apply(session.Report);
-    this->Filter->SetThreads(session.Threads);
-    if (Status status = session.Run(this->Filter,
-          "'" + this->Template + "' onto '" + this->Target + "'" +
-            (this->Initial.empty() ? "" : " from '" + this->Initial + "'"));
-        !status)
-    {
-      return status;
-    }
-    this->AddNumbers(session.Report);
-    return session.WriteOutputs(this->Filter, { this->Output, this->Mapped, this->Table });
-  }
-
-  void AddNumbers(nlohmann::ordered_json& report)
-  {
-    auto* table = vtkTable::SafeDownCast(this->Filter->GetOutputDataObject(2));
-    const auto column = [table](const char* name)
-    {
-      std::vector<double> values;
-      auto* array = vtkDataArray::SafeDownCast(table->GetColumnByName(name));
-      for (vtkIdType i = 0; array && i < array->GetNumberOfTuples(); ++i)
-      {
-        values.push_back(array->GetTuple1(i));
-      }
-      return values;
-    };
-    const std::vector<double> errors = column("SquaredL2Error");
-    const std::vector<double> negative = column("NegativeJacobianPercent");
-    report["squared_l2_error"] = errors.back();
-    report["max_error"] = column("MaxError").back();
-    report["negative_jacobian_percent"] = negative.back();
-    report["functions"] = static_cast<long long>(column("Functions").back());
-    report["iterations"] = static_cast<long long>(column("Iteration").back());
-    report["squared_l2_errors"] = errors;
-    report["negative_jacobian_percents"] = negative;
-    const auto counts = [&](const char* name)
-    {
-      const std::vector<double> values = column(name);
-      return std::vector<long long>(values.begin(), values.end());
-    };
-    report["functions_per_iteration"] = counts("Functions");
-    report["held_elements"] = counts("HeldElements");
-    report["step_lengths"] = column("StepLength");
-    vtkFieldData* data = this->Filter->GetOutputDataObject(0)->GetFieldData();
-    report["min_jacobian_bound"] = data->GetArray("MinJacobianBound")->GetTuple1(0);
-    if (auto* injective = vtkStringArray::SafeDownCast(data->GetAbstractArray("Injective")))
-    {
-      report["injective"] = injective->GetValue(0);
-    }
-  }
-};
-
 /// The space, what is minimized, and when that ends.
 void AddFitOptions(Options& options, vtkTemplateMapping* filter)
 {
@@ -180,29 +77,89 @@ void AddRefinementOptions(Options& options, vtkTemplateMapping* filter)
   KNOTWORK_OPTION(options, filter, MaxFunctions, "a refinement to more functions is not made");
 }
 
-Job Make(CLI::App& app)
+class MapJob : public FilterJob<vtkTemplateMapping>
 {
-  auto job = std::make_shared<MapJob>();
-  app.add_option("template", job->Template, "skeleton of the template (.vtp .vtu)")->required();
-  app.add_option("target", job->Target, "target patches with the same PatchId (.vtp .vtu)")
-    ->required();
-  AddOutput(app, "--output", job->Output, Endings::Spline, "the map as Bezier grid")->required();
-  AddOutput(app, "--mapped", job->Mapped, Endings::Points, "the mapped skeleton with distances");
-  AddOutput(app, "--table", job->Table, Endings::Table, "the convergence table");
-  app.add_option(
-    "--initial", job->Initial, "the map to start with: spline grid of one patch (.vtu)");
-  app
-    .add_option("--domain", job->Domain,
-      "box of the map: xmin xmax ymin ymax [zmin zmax]; without it the template's")
-    ->expected(4, 6)
-    ->check(CLI::Number);
-  job->FilterOptions = std::make_unique<Options>(app);
-  AddFitOptions(*job->FilterOptions, job->Filter);
-  AddRefinementOptions(*job->FilterOptions, job->Filter);
-  return [job](Session& session) { return job->Run(session); };
-}
+public:
+  explicit MapJob(CLI::App& app) : FilterJob(app)
+  {
+    this->AddInput(0, "template", "skeleton of the template (.vtp .vtu)");
+    this->AddInput(1, "target", "target patches with the same PatchId (.vtp .vtu)", " onto ");
+    this->AddInput(
+      2, "--initial", "the map to start with: spline grid of one patch (.vtu)", " from ");
+    this->AddOutput(0, "--output", Endings::Spline, "the map as Bezier grid");
+    this->AddOutput(1, "--mapped", Endings::Points, "the mapped skeleton with distances");
+    this->AddOutput(2, "--table", Endings::Table, "the convergence table");
+    app
+      .add_option("--domain", this->Domain,
+        "box of the map: xmin xmax ymin ymax [zmin zmax]; without it the template's")
+      ->expected(4, 6)
+      ->check(CLI::Number);
+    AddFitOptions(this->FilterOptions, this->Filter);
+    AddRefinementOptions(this->FilterOptions, this->Filter);
+  }
+
+protected:
+  Status Prepare(Session& session) override
+  {
+    if (this->Domain.size() == 5)
+    {
+      return { ErrorCode::InvalidParameter, "--domain takes 4 or 6 numbers, not 5" };
+    }
+    if (!this->Domain.empty())
+    {
+      session.Report["domain"] = this->Domain;
+      this->Domain.resize(6, 0.0);
+      this->Filter->SetDomain(this->Domain.data());
+      this->Filter->UseDomainOn();
+    }
+    return {};
+  }
+
+  Status AddNumbers(Session& session) override
+  {
+    nlohmann::ordered_json& report = session.Report;
+    vtkTable* table = this->Table(2);
+    const auto column = [table](const char* name)
+    {
+      std::vector<double> values;
+      auto* array = vtkDataArray::SafeDownCast(table->GetColumnByName(name));
+      for (vtkIdType i = 0; array && i < array->GetNumberOfTuples(); ++i)
+      {
+        values.push_back(array->GetTuple1(i));
+      }
+      return values;
+    };
+    const std::vector<double> errors = column("SquaredL2Error");
+    const std::vector<double> negative = column("NegativeJacobianPercent");
+    report["squared_l2_error"] = errors.back();
+    report["max_error"] = column("MaxError").back();
+    report["negative_jacobian_percent"] = negative.back();
+    report["functions"] = static_cast<long long>(column("Functions").back());
+    report["iterations"] = static_cast<long long>(column("Iteration").back());
+    report["squared_l2_errors"] = errors;
+    report["negative_jacobian_percents"] = negative;
+    const auto counts = [&](const char* name)
+    {
+      const std::vector<double> values = column(name);
+      return std::vector<long long>(values.begin(), values.end());
+    };
+    report["functions_per_iteration"] = counts("Functions");
+    report["held_elements"] = counts("HeldElements");
+    report["step_lengths"] = column("StepLength");
+    vtkFieldData* data = this->Filter->GetOutputDataObject(0)->GetFieldData();
+    report["min_jacobian_bound"] = data->GetArray("MinJacobianBound")->GetTuple1(0);
+    if (auto* injective = vtkStringArray::SafeDownCast(data->GetAbstractArray("Injective")))
+    {
+      report["injective"] = injective->GetValue(0);
+    }
+    return {};
+  }
+
+private:
+  std::vector<double> Domain;
+};
 
 const JobRegistration Registration{ "map", "carry a template skeleton onto target patches",
-  "template.vtp target.vtp --output map.vtu --report map.json", Make };
+  "template.vtp target.vtp --output map.vtu --report map.json", MakeJob<MapJob> };
 }
 }

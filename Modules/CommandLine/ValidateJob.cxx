@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Jobs.h"
-#include "Options.h"
-#include "Session.h"
+#include "FilterJob.h"
 
 #include "vtkJacobianValidator.h"
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
-#include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkTable.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <iostream>
-#include <memory>
 #include <sstream>
 
 namespace knotwork
@@ -68,50 +64,45 @@ std::string Sentence(const nlohmann::ordered_json& report)
   return text;
 }
 
-struct ValidateJob
+class ValidateJob : public FilterJob<vtkJacobianValidator>
 {
-  std::string Input;
-  std::string Output;
-  std::string Witnesses;
-  std::string Table;
-  vtkNew<vtkJacobianValidator> Filter;
-  std::unique_ptr<Options> FilterOptions;
-
-  Status Run(Session& session)
+public:
+  explicit ValidateJob(CLI::App& app) : FilterJob(app)
   {
-    auto input = session.Read(this->Input);
-    if (!input)
-    {
-      return input.Status;
-    }
-    session.Report["input"] = this->Input;
-    this->Filter->SetInputDataObject(input.Value);
-    if (Status status = session.CheckGridFormat(input.Value, this->Output); !status)
-    {
-      return status;
-    }
-    this->FilterOptions->Apply(session.Report);
-    this->Filter->SetThreads(session.Threads);
-    if (Status status = session.Run(this->Filter, "'" + this->Input + "'"); !status)
-    {
-      return status;
-    }
-    if (input.Value->GetNumberOfElements(vtkDataObject::CELL) == 0)
-    {
-      return { ErrorCode::EmptyInput, "'" + this->Input + "' has no cells to validate" };
-    }
-    this->AddNumbers(session.Report);
-    session.ExitStatus = ExitStatus(session.Report);
-    if (!session.Quiet)
-    {
-      std::cout << Sentence(session.Report) << "\n";
-    }
-    return session.WriteOutputs(this->Filter, { this->Output, this->Witnesses, this->Table });
+    this->AddInput(
+      0, "input", "grid of Bezier, Lagrange, linear or quadratic cells (.vtu .vtpc .vtk)");
+    this
+      ->AddOutput(
+        0, "--output", Endings::Splines, "the grid with verdicts and bounds as cell arrays")
+      ->required(false);
+    this->AddOutput(1, "--witnesses", Endings::Grid, "points and boxes where cells are invalid");
+    this->AddOutput(2, "--table", Endings::Table, "the verdict of every patch and of all");
+    Options& options = this->FilterOptions;
+    vtkJacobianValidator* filter = this->Filter;
+    KNOTWORK_OPTION(options, filter, RelativeGap, "relative gap of the bounds; 1: the sign only");
+    KNOTWORK_FREE_OPTION(
+      options, filter, BoundMaximum, "whether the maximum is bounded as closely as the minimum");
+    KNOTWORK_FREE_OPTION(
+      options, filter, Injectivity, "whether the map as a whole is proved injective");
+    KNOTWORK_FREE_OPTION(options, filter, Measures, "whether cells are measured, quality sampled");
+    KNOTWORK_OPTION(options, filter, SamplesPerEdge, "points along a cell's edges for the quality");
+    KNOTWORK_OPTION(options, filter, MaximumBoxes, "boxes looked at before cells stay undecided");
   }
 
-  void AddNumbers(nlohmann::ordered_json& report)
+protected:
+  Status Prepare(Session& session) override
   {
-    auto* table = vtkTable::SafeDownCast(this->Filter->GetOutputDataObject(2));
+    return session.CheckGridFormat(this->Input(0), this->MainOutput());
+  }
+
+  Status AddNumbers(Session& session) override
+  {
+    if (this->Input(0)->GetNumberOfElements(vtkDataObject::CELL) == 0)
+    {
+      return { ErrorCode::EmptyInput, "'" + this->InputFile(0) + "' has no cells to validate" };
+    }
+    nlohmann::ordered_json& report = session.Report;
+    vtkTable* table = this->Table(2);
     const vtkIdType all = table->GetNumberOfRows() - 1;
     const auto number = [&](const char* column)
     { return table->GetValueByName(all, column).ToDouble(); };
@@ -164,36 +155,16 @@ struct ValidateJob
         static_cast<long long>(witnesses->GetCellData()->GetArray("CellId")->GetTuple1(0));
       report["witness_parameters"] = std::vector<double>{ u[0], u[1], u[2] };
     }
+    session.ExitStatus = ExitStatus(report);
+    if (!session.Quiet)
+    {
+      std::cout << Sentence(report) << "\n";
+    }
+    return {};
   }
 };
 
-Job Make(CLI::App& app)
-{
-  auto job = std::make_shared<ValidateJob>();
-  app
-    .add_option(
-      "input", job->Input, "grid of Bezier, Lagrange, linear or quadratic cells (.vtu .vtpc .vtk)")
-    ->required();
-  AddOutput(app, "--output", job->Output, Endings::Splines,
-    "the grid with verdicts and bounds as cell arrays");
-  AddOutput(
-    app, "--witnesses", job->Witnesses, Endings::Grid, "points and boxes where cells are invalid");
-  AddOutput(app, "--table", job->Table, Endings::Table, "the verdict of every patch and of all");
-  job->FilterOptions = std::make_unique<Options>(app);
-  Options& options = *job->FilterOptions;
-  vtkJacobianValidator* filter = job->Filter;
-  KNOTWORK_OPTION(options, filter, RelativeGap, "relative gap of the bounds; 1: the sign only");
-  KNOTWORK_FREE_OPTION(
-    options, filter, BoundMaximum, "whether the maximum is bounded as closely as the minimum");
-  KNOTWORK_FREE_OPTION(
-    options, filter, Injectivity, "whether the map as a whole is proved injective");
-  KNOTWORK_FREE_OPTION(options, filter, Measures, "whether cells are measured, quality sampled");
-  KNOTWORK_OPTION(options, filter, SamplesPerEdge, "points along a cell's edges for the quality");
-  KNOTWORK_OPTION(options, filter, MaximumBoxes, "boxes looked at before cells stay undecided");
-  return [job](Session& session) { return job->Run(session); };
-}
-
 const JobRegistration Registration{ "validate", "prove a grid valid or show where it is not",
-  "plate.vtu --report valid.json", Make };
+  "plate.vtu --report valid.json", MakeJob<ValidateJob> };
 }
 }

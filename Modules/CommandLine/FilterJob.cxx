@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FilterJob.h"
+
+#include "OutputFiles.h"
+#include "vtkSplineAlgorithm.h"
+
+#include <vtkDataObject.h>
+#include <vtkPointSet.h>
+#include <vtkVariant.h>
+
+#include <algorithm>
+
+namespace knotwork
+{
+namespace
+{
+const std::string NoFile;
+
+template <typename Files>
+const std::string& NameOf(const Files& files, int port)
+{
+  const auto file =
+    std::find_if(files.begin(), files.end(), [port](const auto& f) { return f.Port == port; });
+  return file == files.end() ? NoFile : file->Name;
+}
+
+/// As a key of the report: --first-map is first_map.
+std::string Key(std::string name)
+{
+  name.erase(0, name.find_first_not_of('-'));
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+}
+
+void FilterJobBase::AddInput(
+  int port, const char* name, const char* help, const char* joint, const char* key)
+{
+  this->Inputs.push_back({ port, *key == '\0' ? Key(name) : key, joint, {} });
+  this->App.add_option(name, this->Inputs.back().Name, help)->required(*name != '-');
+}
+
+CLI::Option* FilterJobBase::AddOutput(
+  int port, const char* name, const char* endings, const char* help)
+{
+  const bool isMain = this->Outputs.empty();
+  this->Outputs.push_back({ port, Key(name), "", {} });
+  return knotwork::AddOutput(this->App, name, this->Outputs.back().Name, endings, help)
+    ->required(isMain);
+}
+
+Status FilterJobBase::Run(Session& session)
+{
+  if (Status status = this->ReadInputs(session); !status)
+  {
+    return status;
+  }
+  for (const File& input : this->Inputs)
+  {
+    if (!input.Name.empty())
+    {
+      session.Report[input.Key] = input.Name;
+    }
+  }
+  if (!this->MainOutput().empty())
+  {
+    session.Report["output"] = this->MainOutput();
+  }
+  this->FilterOptions.Apply(session.Report);
+  this->Algorithm->SetThreads(session.Threads);
+  if (Status status = this->Prepare(session); !status)
+  {
+    return status;
+  }
+  const std::string names = this->InputNames();
+  if (Status status =
+        session.Run(this->Algorithm, names.empty() ? "shape" : names, this->DecisivePort);
+      !status)
+  {
+    return status;
+  }
+  const Status status = this->AddNumbers(session);
+  return status ? this->Write(session) : status;
+}
+
+Status FilterJobBase::ReadInputs(Session& session)
+{
+  for (const File& input : this->Inputs)
+  {
+    if (input.Name.empty())
+    {
+      continue;
+    }
+    auto data = session.Read(input.Name);
+    if (!data)
+    {
+      return data.Status;
+    }
+    this->Algorithm->SetInputDataObject(input.Port, data.Value);
+  }
+  return {};
+}
+
+std::string FilterJobBase::InputNames() const
+{
+  std::string names;
+  for (const File& input : this->Inputs)
+  {
+    names += input.Name.empty() ? "" : input.Joint + ("'" + input.Name + "'");
+  }
+  return names;
+}
+
+Status FilterJobBase::Write(Session& session)
+{
+  std::vector<std::string> files;
+  for (const File& output : this->Outputs)
+  {
+    const auto port = static_cast<std::size_t>(output.Port);
+    files.resize(std::max(files.size(), port + 1));
+    files[port] = output.Name;
+  }
+  return session.WriteOutputs(this->Algorithm, files);
+}
+
+vtkDataObject* FilterJobBase::Input(int port) const
+{
+  return this->Algorithm->GetInputDataObject(port, 0);
+}
+
+const std::string& FilterJobBase::InputFile(int port) const
+{
+  return NameOf(this->Inputs, port);
+}
+
+const std::string& FilterJobBase::OutputFile(int port) const
+{
+  return NameOf(this->Outputs, port);
+}
+
+vtkTable* FilterJobBase::Table(int port) const
+{
+  return vtkTable::SafeDownCast(this->Algorithm->GetOutputDataObject(port));
+}
+
+Status FilterJobBase::RequirePointSet(int port) const
+{
+  if (vtkPointSet::SafeDownCast(this->Input(port)))
+  {
+    return {};
+  }
+  return { ErrorCode::InvalidTopology,
+    "'" + this->InputFile(port) + "' is no single set of points; give one of its parts" };
+}
+
+void ReportRow(vtkTable* table, vtkIdType row, std::initializer_list<const char*> columns,
+  nlohmann::ordered_json& report)
+{
+  for (const char* column : columns)
+  {
+    const vtkVariant value = table->GetValueByName(row, column);
+    nlohmann::ordered_json& entry = report[Options::SnakeCase(column)];
+    if (value.IsString())
+    {
+      entry = value.ToString();
+    }
+    else if (value.IsDouble())
+    {
+      entry = value.ToDouble();
+    }
+    else
+    {
+      entry = value.ToLongLong();
+    }
+  }
+}
+
+void ReportTruths(vtkTable* table, vtkIdType row, std::initializer_list<const char*> columns,
+  nlohmann::ordered_json& report)
+{
+  for (const char* column : columns)
+  {
+    report[Options::SnakeCase(column)] = table->GetValueByName(row, column).ToInt() != 0;
+  }
+}
+}

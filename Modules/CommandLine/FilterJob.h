@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "Jobs.h"
+#include "Options.h"
+#include "Session.h"
+
+#include <vtkNew.h>
+#include <vtkTable.h>
+
+#include <initializer_list>
+#include <list>
+#include <memory>
+#include <string>
+
+class vtkSplineAlgorithm;
+
+namespace knotwork
+{
+/// A job that is one filter: files are read into its ports, its options are set, it runs, and its
+/// ports are written. What a job has of its own stands in its constructor (tables of inputs,
+/// outputs and options) and in the hooks.
+class FilterJobBase
+{
+public:
+  FilterJobBase(const FilterJobBase&) = delete;
+  FilterJobBase& operator=(const FilterJobBase&) = delete;
+  virtual ~FilterJobBase() = default;
+
+  Status Run(Session& session);
+
+protected:
+  explicit FilterJobBase(CLI::App& app) : App(app), FilterOptions(app) {}
+
+  /// A file that is read into a port and named in the report. Names that begin with `--` are
+  /// options and need not be given.
+  /// @param joint  stands before the name of the file in messages, as " onto " in 'a' onto 'b'.
+  /// @param key  of the report, where it is not the name.
+  void AddInput(
+    int port, const char* name, const char* help, const char* joint = "", const char* key = "");
+  /// A file that a port is written to. --output must be given, others need not.
+  CLI::Option* AddOutput(int port, const char* name, const char* endings, const char* help);
+  /// What --output names is written by another port.
+  void WriteMainFrom(int port) { this->Outputs.front().Port = port; }
+
+  /// Before the run, with inputs read and options set: checks formats, sets what no option does.
+  virtual Status Prepare(Session&) { return {}; }
+  /// After the run: the numbers of the report.
+  virtual Status AddNumbers(Session&) { return {}; }
+  /// Writes the ports that have files.
+  virtual Status Write(Session& session);
+
+  vtkDataObject* Input(int port) const;
+  /// Name of the file that a port is read from; empty: none.
+  const std::string& InputFile(int port) const;
+  /// What --output names.
+  const std::string& MainOutput() const { return this->Outputs.front().Name; }
+  /// Name of the file that a port is written to; empty: none.
+  const std::string& OutputFile(int port) const;
+  vtkTable* Table(int port) const;
+
+  /// An input is one set of points, not a collection of them.
+  Status RequirePointSet(int port) const;
+
+  CLI::App& App;
+  Options FilterOptions;
+  vtkSplineAlgorithm* Algorithm = nullptr;
+  int DecisivePort = 0; ///< no points or rows in this output are an error
+
+private:
+  struct File
+  {
+    int Port;
+    std::string Key; ///< in the report
+    const char* Joint;
+    std::string Name;
+  };
+  Status ReadInputs(Session& session);
+  std::string InputNames() const;
+
+  std::list<File> Inputs;  ///< nodes, to which the parser's options point
+  std::list<File> Outputs; ///< --output is the first
+};
+
+template <typename FilterType>
+class FilterJob : public FilterJobBase
+{
+protected:
+  explicit FilterJob(CLI::App& app) : FilterJobBase(app) { this->Algorithm = this->Filter; }
+
+  vtkNew<FilterType> Filter;
+};
+
+/// Values of a row as keys of a report in snake case, whole numbers as whole numbers.
+void ReportRow(vtkTable* table, vtkIdType row, std::initializer_list<const char*> columns,
+  nlohmann::ordered_json& report);
+/// The same of whole numbers that are truth values.
+void ReportTruths(vtkTable* table, vtkIdType row, std::initializer_list<const char*> columns,
+  nlohmann::ordered_json& report);
+
+/// What registers a job of a class.
+template <typename JobType>
+Job MakeJob(CLI::App& app)
+{
+  auto job = std::make_shared<JobType>(app);
+  return [job](Session& session) { return job->Run(session); };
+}
+}
