@@ -10,7 +10,7 @@ packages=(
   # build
   build-essential cmake ninja-build ccache git pkg-config
   # kernels
-  libeigen3-dev libtbb-dev libnanoflann-dev libpugixml-dev libboost-dev libsuitesparse-dev libopenblas0-serial
+  libeigen3-dev libtbb-dev libpugixml-dev libboost-dev libsuitesparse-dev libopenblas0-serial
   libocct-data-exchange-dev libocct-modeling-algorithms-dev libocct-ocaf-dev
   libcgal-dev
   # filters, command line, Python

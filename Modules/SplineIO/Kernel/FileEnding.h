@@ -4,7 +4,7 @@
 
 namespace knotwork
 {
-/// What follows the last point of a file's name, with the point, in small letters; empty without.
+/// The extension of a file name in lower case, with its dot; empty without one.
 /// Points of folders do not count.
 std::string LowerEnding(const std::string& file);
 }

@@ -52,7 +52,7 @@ struct SurfaceLoop
   double Tolerance = 0.0; ///< of the file: within which curves meet
 };
 
-/// A surface of which a part is meant: the loops bound it, the outer one first.
+/// A trimmed surface: the loops bound the part that is kept, the outer loop first.
 struct BoundedSurface
 {
   int Spline = 0; ///< index into SplineFile::Splines
