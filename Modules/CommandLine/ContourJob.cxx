@@ -60,6 +60,7 @@ public:
     KNOTWORK_FREE_OPTION(options, filter, JoinSeams, "whether contours go on over seams");
     KNOTWORK_FREE_OPTION(options, filter, ProjectToLevel, "whether z becomes the level");
     KNOTWORK_OPTION(options, filter, MaximumCells, "cells an element is divided into at most");
+    KNOTWORK_OPTION(options, filter, MaximumPoints, "contours of more points are not made");
   }
 
 protected:

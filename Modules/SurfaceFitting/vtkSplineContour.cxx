@@ -43,6 +43,7 @@ void vtkSplineContour::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ProjectToLevel: " << this->ProjectToLevel << "\n";
   os << indent << "Curves: " << this->Curves << "\n";
   os << indent << "MaximumCells: " << this->MaximumCells << "\n";
+  os << indent << "MaximumPoints: " << this->MaximumPoints << "\n";
 }
 
 void vtkSplineContour::AddLevel(double level)
@@ -93,6 +94,7 @@ knotwork::Status vtkSplineContour::Compute(
   choice.Params.ChordTolerance = this->ChordalTolerance;
   choice.Params.JoinSeams = this->JoinSeams;
   choice.Params.MaxCells = this->MaximumCells;
+  choice.Params.MaxPoints = this->MaximumPoints;
   choice.Params.Threads = this->KernelThreads();
   choice.Params.Progress = this->Progress();
   const auto patches = TracePatches(model.Value, choice);

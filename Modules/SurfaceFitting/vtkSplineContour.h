@@ -101,6 +101,12 @@ public:
   vtkSetClampMacro(MaximumCells, int, 16, 1048576);
   vtkGetMacro(MaximumCells, int);
   ///@}
+  ///@{
+  /** Points of the contours of a surface at most; more are error TooLarge. Default 5000000, valid
+   * range [1, 2147483647]. */
+  vtkSetClampMacro(MaximumPoints, int, 1, VTK_INT_MAX);
+  vtkGetMacro(MaximumPoints, int);
+  ///@}
 
 protected:
   vtkSplineContour();
@@ -125,5 +131,6 @@ private:
   bool ProjectToLevel = false;
   bool Curves = false;
   int MaximumCells = 65536;
+  int MaximumPoints = 5000000;
 };
 #endif

@@ -7,6 +7,7 @@
 #include "Parallel.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace knotwork
@@ -105,6 +106,10 @@ private:
     if (this->Params.MaxCells < 16 || this->Params.MaxCells > 1 << 20)
     {
       return bad("the number of cells must lie in [16, 1048576]");
+    }
+    if (this->Params.MaxPoints < 1)
+    {
+      return bad("the number of points must be at least 1");
     }
     return {};
   }
@@ -260,7 +265,12 @@ private:
     std::vector<double> MaxErrors; // a path
   };
 
-  void TraceElement(std::size_t e, ContourCells& cells, Traced& traced) const
+  bool HasTooManyPoints() const
+  {
+    return this->NumPoints > static_cast<std::size_t>(this->Params.MaxPoints);
+  }
+
+  void TraceElement(std::size_t e, ContourCells& cells, Traced& traced)
   {
     const std::size_t size = this->Size(e);
     const double* values = this->Values(e);
@@ -278,7 +288,7 @@ private:
     const double least = this->LeastWeights[e];
     double g[(MaxDegree + 1) * (MaxDegree + 1)];
     std::array<BorderSide, 4> border;
-    for (std::size_t l = 0; l < this->Shifted.size(); ++l)
+    for (std::size_t l = 0; l < this->Shifted.size() && !this->HasTooManyPoints(); ++l)
     {
       const ShiftedLevel& level = this->Shifted[l];
       // neighbours that cross the level on a common side are that near here
@@ -298,7 +308,9 @@ private:
         this->Roots.Collect(this->Sides, element.Element, s, element.Level, level.Value,
           border[static_cast<std::size_t>(s)]);
       }
+      const std::size_t before = traced.Pieces.Points.size();
       cells.Trace(element, g, border, traced.Pieces);
+      this->NumPoints += traced.Pieces.Points.size() - before;
       const double slope = Slope(element.Degree, g) / least;
       const double merge = std::min(NearestPoints, 1e-3 * this->Contours.Tolerance / slope);
       for (std::size_t p = traced.Merges.size(); p < traced.Pieces.Paths.size(); ++p)
@@ -325,6 +337,13 @@ private:
             this->TraceElement(e, cells, this->Chunks[e / Chunk]);
           }
         });
+      if (this->HasTooManyPoints())
+      {
+        return { ErrorCode::TooLarge,
+          "the contours would have more than " + std::to_string(this->Params.MaxPoints) +
+            " points; ask for fewer levels or a larger tolerance, or raise MaximumPoints if the "
+            "memory suffices" };
+      }
       if (!this->Report(0.3 + 0.6 * static_cast<double>(start) / static_cast<double>(n)))
       {
         return { ErrorCode::Aborted, "contours" };
@@ -380,6 +399,8 @@ private:
   ElementSides Sides;
   SideRoots Roots;
   std::vector<Traced> Chunks;
+  std::atomic<std::size_t> NumPoints{ 0 }; // of paths; whether they are too many is the same for
+                                           // every order of elements
   ContourSet Contours;
 };
 }

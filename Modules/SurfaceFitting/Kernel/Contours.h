@@ -4,6 +4,9 @@
 
 namespace knotwork
 {
+/// About a gigabyte and a half.
+inline constexpr int DefaultMaxContourPoints = 5000000;
+
 struct ContourParams
 {
   /// Values of the contours, any order; finite. Empty: NumLevels of them.
@@ -22,6 +25,7 @@ struct ContourParams
   /// Opposite sides of the domain that lie on each other (all components) are joined.
   bool JoinSeams = true;
   int MaxCells = 65536; ///< an element is divided into for a level, in [16, 2^20]
+  int MaxPoints = DefaultMaxContourPoints; ///< of all contours, >= 1
   int Threads = 0;
   ProgressCallback Progress;
 };
@@ -83,7 +87,7 @@ struct ContourSet
 /// perhaps. Bit-identical for every number of threads.
 ///
 /// @return EmptyInput; DimensionMismatch, InvalidParameter naming the option; NonFiniteInput
-/// naming the element; Aborted.
+/// naming the element; TooLarge above MaxPoints; Aborted.
 /// @complexity O(elements log elements) and what the contours cross.
 /// @source  isolation by variation diminishing and monotone cells as in Plantinga & Vegter,
 /// Visual Computer 23 (2007) 45-58; bounds of chords: blossoms.

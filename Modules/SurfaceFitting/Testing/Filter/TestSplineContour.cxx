@@ -219,6 +219,9 @@ TEST(SplineContourFilter, FailuresNamePlaceAndRemedy_ExactOracle)
   filter->SetTolerance(1e-17);
   ExpectFailure(filter, ErrorCode::InvalidParameter, "within rounding");
   filter->SetTolerance(0.0);
+  filter->SetMaximumPoints(10);
+  ExpectFailure(filter, ErrorCode::TooLarge, "raise MaximumPoints");
+  filter->SetMaximumPoints(5000000);
   filter->AddLevel(std::numeric_limits<double>::quiet_NaN());
   ExpectFailure(filter, ErrorCode::InvalidParameter, "finite");
   filter->ClearLevels();

@@ -489,6 +489,38 @@ TEST(Contours, AFlatMaximumOnTheLevelStaysUndecided_ExactOracle)
   EXPECT_TRUE(TraceContours(MakeBezierForm(surface), params)->Undecided.empty());
 }
 
+TEST(Contours, MorePointsThanTheLimitAreRefusedForAnyThreads_PropertyOracle)
+{
+  const BezierForm<2> form = MakeBezierForm(SquareSurface(Circle(0.0, 0.0, 0.5)));
+  ContourParams params;
+  params.Levels = { -0.2, -0.1, 0.0, 0.1, 0.2 };
+  params.Tolerance = 1e-7;
+  const auto all = TraceContours(form, params);
+  ASSERT_TRUE(all);
+  const auto count = static_cast<int>(all->Parameters.rows());
+  EXPECT_GE(count, 1000);
+  // ends of paths on sides of elements are counted twice
+  for (const int percent : { 1, 50, 95, 100, 105, 200 })
+  {
+    params.MaxPoints = count * percent / 100;
+    params.Threads = 1;
+    const Status one = TraceContours(form, params).Status;
+    for (const int threads : { 2, 4 })
+    {
+      params.Threads = threads;
+      EXPECT_EQ(TraceContours(form, params).Status.Message(), one.Message()) << percent;
+    }
+    EXPECT_EQ(one.Code, percent < 100 ? ErrorCode::TooLarge : one.Code) << percent;
+    EXPECT_TRUE(percent < 200 || one) << one.Message();
+  }
+  // what would take hours and all memory ends at once
+  params.Tolerance = 1e-12;
+  params.ChordTolerance = 1e-14;
+  params.Levels = ContourLevels({ -0.2, 0.3 }, 10000);
+  params.MaxPoints = 20000;
+  EXPECT_EQ(TraceContours(form, params).Status.Code, ErrorCode::TooLarge);
+}
+
 TEST(Contours, EveryFailureIsReachable_ExactOracle)
 {
   const Spline<2> surface = SquareSurface(Circle(0.0, 0.0, 0.5));
@@ -513,6 +545,8 @@ TEST(Contours, EveryFailureIsReachable_ExactOracle)
   EXPECT_EQ(with([](ContourParams& p) { p.Tolerance = 1e-15; }), ErrorCode::InvalidParameter);
   EXPECT_EQ(with([](ContourParams& p) { p.ChordTolerance = -1.0; }), ErrorCode::InvalidParameter);
   EXPECT_EQ(with([](ContourParams& p) { p.MaxCells = 1; }), ErrorCode::InvalidParameter);
+  EXPECT_EQ(with([](ContourParams& p) { p.MaxPoints = 0; }), ErrorCode::InvalidParameter);
+  EXPECT_EQ(with([](ContourParams& p) { p.MaxPoints = 1; }), ErrorCode::TooLarge);
   for (int stop = 0; stop < 5; ++stop)
   {
     int calls = 0;
