@@ -41,6 +41,12 @@ Status CheckParams(const BackMapParams& params)
   {
     return bad("the centres of a back-map lie in [10, 20000]");
   }
+  if (!params.FirstNet.empty() &&
+    (params.FirstNet.size() != 2 || params.FirstNet[0].Degree() != params.Degree ||
+      params.FirstNet[1].Degree() != params.Degree))
+  {
+    return bad("the first net of a back-map is two knot vectors of its degree");
+  }
   if (params.MaxFunctions < 1)
   {
     return bad("the most control points of a back-map are at least 1");

@@ -4,6 +4,7 @@
 #include "Spline.h"
 
 #include <string>
+#include <vector>
 
 /// Surfaces S(u, v) over a rectangle W that contains a chart, with S(UV) = its points.
 namespace knotwork
@@ -55,6 +56,8 @@ struct BackMapParams
   /// the same run ends at the same place on every machine. The best surface so far is then the
   /// result; the first net is solved for in any case.
   double Effort = 40.0;
+  /// A net by need begins with it: BackMap::NextNet of a fit that was stopped. Empty: few spans.
+  std::vector<KnotVector> FirstNet;
   double TimeLimit = 0.0; ///< seconds of the wall clock, >= 0; 0: none. The same
   int Threads = 0;        ///< 0: all cores; the result does not depend on it
   ProgressCallback Progress;
@@ -69,8 +72,10 @@ struct BackMap
   int Passes = 0;               ///< nets solved for
   bool WithinTolerance = false; ///< as found, not proved: BoundDeviation does that
   BackMapStop Stop = BackMapStop::Finished;
-  std::string StopReason; ///< place of a contradiction
-  double Work = 0.0;      ///< in the unit of BackMapParams::Effort
+  std::string StopReason;          ///< place of a contradiction
+  double Work = 0.0;               ///< in the unit of BackMapParams::Effort
+  std::vector<KnotVector> NextNet; ///< that the effort did not suffice for
+  double NextWork = 0.0;           ///< what it is expected to cost
 };
 
 /// @return failures of ChartMesh::Check; InvalidParameter; SingularSystem; TooLarge; Aborted. A

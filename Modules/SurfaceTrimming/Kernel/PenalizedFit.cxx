@@ -458,9 +458,14 @@ Result<BackMap> FitPenalized(const ChartMesh& chart, const BackMapParams& params
   aim.Tolerance *= ProofShare;
   NetKnots knots = UniformNet(BackMapRectangle(chart, params.Margin), params.Degree,
     byNeed ? std::min(FirstElements, params.MaxElements) : params.Elements);
+  if (byNeed && params.FirstNet.size() == knots.size())
+  {
+    std::copy(params.FirstNet.begin(), params.FirstNet.end(), knots.begin());
+  }
   Limits limits(params);
   BackMap map; // of the net that is worked on
   BackMap best;
+  NetKnots next;
   for (;;)
   {
     NetFit net;
@@ -507,6 +512,7 @@ Result<BackMap> FitPenalized(const ChartMesh& chart, const BackMapParams& params
     {
       return { ErrorCode::Aborted, "the back-map was stopped" };
     }
+    next = finer;
     if (finer == knots || limits.Stop != BackMapStop::Finished ||
       !limits.Allows(finer, chart.Triangles.size()))
     {
@@ -519,6 +525,11 @@ Result<BackMap> FitPenalized(const ChartMesh& chart, const BackMapParams& params
   best.Stop = best.MaxResidual <= aim.Tolerance ? BackMapStop::Finished : limits.Stop;
   best.StopReason = map.StopReason;
   best.Work = limits.Used();
+  if (best.Stop == BackMapStop::Effort)
+  {
+    best.NextNet.assign(next.begin(), next.end());
+    best.NextWork = 1e-9 * ExpectedWork(next, chart.Triangles.size());
+  }
   return best;
 }
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace knotwork
 {
@@ -155,14 +156,17 @@ public:
     this->State.Certificates.resize(charts.size());
   }
 
-  /// @param effort  for this chart. @param seconds  for it; 0: no limit.
-  Status FitSurface(std::size_t c, double effort, double seconds, double begin, double end)
+  /// @param effort  for this chart. @param seconds  for it; 0: no limit. @param firstNet  see
+  /// BackMapParams.
+  Status FitSurface(std::size_t c, double effort, double seconds, double begin, double end,
+    std::vector<KnotVector> firstNet = {})
   {
     BackMapParams backMap = this->Params.BackMap;
     backMap.Effort = effort;
     backMap.TimeLimit = seconds;
     backMap.Tolerance = SurfaceShare * this->State.Tolerance;
     backMap.Smoothing = this->Smoothing[c];
+    backMap.FirstNet = std::move(firstNet);
     backMap.Threads = this->Params.Threads;
     backMap.Progress = Within(this->Params.Progress, begin, end);
     DeviationParams deviation;
@@ -184,6 +188,31 @@ public:
       this->State.Model.Faces[c].Surface = std::move(proved->Map.Surface);
       this->State.BackMaps[c] = std::move(proved->Map);
       this->State.Deviations[c] = std::move(proved->Deviation);
+    }
+    return {};
+  }
+
+  /// Gives charts that were stopped what the others left, the cheapest ones first: each goes on
+  /// with the net that it was stopped at.
+  Status Resume(double effort, WorkBudget& clock)
+  {
+    const auto waits = [&](const BackMap& map)
+    { return !map.NextNet.empty() && map.NextWork <= effort - this->State.Work; };
+    std::vector<BackMap>& maps = this->State.BackMaps;
+    for (auto waiting = std::count_if(maps.begin(), maps.end(), waits);
+         waiting > 0 && clock.Continue(); waiting = std::count_if(maps.begin(), maps.end(), waits))
+    {
+      const auto next = std::min_element(maps.begin(), maps.end(),
+        [&](const BackMap& a, const BackMap& b)
+        { return waits(a) != waits(b) ? waits(a) : waits(a) && a.NextWork < b.NextWork; });
+      const double share = (effort - this->State.Work) / static_cast<double>(waiting);
+      const auto c = static_cast<std::size_t>(next - maps.begin());
+      if (Status status = this->FitSurface(c, std::max(share, next->NextWork), clock.SecondsLeft(),
+            0.6, 0.6, std::exchange(next->NextNet, {}));
+          !status)
+      {
+        return status;
+      }
     }
     return {};
   }
@@ -312,6 +341,10 @@ Result<TrimmedSurface> TrimSurface(const std::vector<ChartMesh>& charts, const T
       {
         return status;
       }
+    }
+    if (Status status = attempt == 0 ? trimming.Resume(effort, clock) : Status(); !status)
+    {
+      return status;
     }
     if (Status status = trimming.Trim(); !status)
     {

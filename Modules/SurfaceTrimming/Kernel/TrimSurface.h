@@ -18,8 +18,8 @@ struct TrimParams
   /// Of the triangulation; 0: a quarter of Tolerance.
   double ChordalTolerance = 0.0;
   bool Triangulation = true; ///< whether Mesh is made
-  /// As in BackMapParams, of all surfaces of PENALIZED together: charts that are fitted later have
-  /// what the others leave, in equal shares. Loops, proofs and triangles are made in any case.
+  /// As in BackMapParams, of all surfaces of Penalized together: charts have equal shares, and what
+  /// is left goes to those that were stopped. Loops, proofs and triangles are made in any case.
   double Effort = 40.0;
   double TimeLimit = 0.0;
   int Threads = 0;

@@ -578,6 +578,18 @@ TEST(BackMap, WorkIsCountedAndEndsItAtTheSamePlace_PropertyOracle)
     EXPECT_EQ(again.Surface.ControlPoints, map.Surface.ControlPoints);
     EXPECT_EQ(again.Work, map.Work);
   }
+  // what was stopped goes on where it was stopped, as if it had not been
+  params.Effort = 0.05;
+  const BackMap stopped = Fit(chart, params);
+  params.FirstNet = stopped.NextNet;
+  EXPECT_GT(stopped.Work + stopped.NextWork, 0.05);
+  params.Effort = 0.5 - stopped.Work;
+  const BackMap resumed = Fit(chart, params);
+  params.FirstNet.clear();
+  params.Effort = 0.5;
+  const BackMap whole = Fit(chart, params);
+  EXPECT_EQ(resumed.Surface.ControlPoints, whole.Surface.ControlPoints);
+  EXPECT_NEAR(stopped.Work + resumed.Work, whole.Work, 1e-9 * whole.Work);
   params.TimeLimit = 1e-9;
   EXPECT_EQ(Fit(chart, params).Stop, BackMapStop::Time);
 }
@@ -648,6 +660,8 @@ TEST(BackMap, EveryFailureIsReached)
     [](BackMapParams& p) { p.Centres = 20001; },
     [](BackMapParams& p) { p.Threads = -1; },
     [](BackMapParams& p) { p.MaxFunctions = 0; },
+    [](BackMapParams& p) { p.FirstNet.resize(1); },
+    [](BackMapParams& p) { p.FirstNet.assign(2, KnotVector::Uniform(2, 4, 0.0, 1.0)); },
     [](BackMapParams& p) { p.Effort = 0.0; },
     [](BackMapParams& p) { p.Effort = 1.1e6; },
     [&](BackMapParams& p) { p.Effort = nan; },

@@ -207,6 +207,33 @@ TEST(TrimSurface, EffortEndsWhatCannotBeReached_PropertyOracle)
   EXPECT_LE(reached->Work, 4.0);
 }
 
+/// Of two charts one is flat: what it leaves the other one has, and more than half of it.
+TEST(TrimSurface, ChartsShareTheEffort_PropertyOracle)
+{
+  const ChartMesh hard = SquareWithSquareHole(12, Book);
+  ChartMesh flat =
+    SquareWithSquareHole(3, [](double u, double v) { return Eigen::RowVector3d(u + 5.0, v, 0.0); });
+  flat.UV.col(0).array() += 5.0;
+  flat.PointIds.clear();
+  ChartMesh alone = hard;
+  alone.PointIds.clear();
+  TrimParams params;
+  params.Triangulation = false;
+  params.Tolerance = 1e-6;
+  params.Effort = 1.0;
+  const auto first = TrimSurface({ alone, flat }, params);
+  ASSERT_TRUE(first) << first.Status.Message();
+  const auto last = TrimSurface({ flat, alone }, params);
+  ASSERT_TRUE(last) << last.Status.Message();
+  EXPECT_EQ(first->Stop, BackMapStop::Effort);
+  EXPECT_EQ(first->StoppedChart, 0);
+  EXPECT_EQ(last->StoppedChart, 1);
+  // the order does not matter: what is left is given to the one that needs it
+  EXPECT_EQ(
+    first->Model.Faces[0].Surface.ControlPoints, last->Model.Faces[1].Surface.ControlPoints);
+  EXPECT_LE(first->Work, 1.1 * params.Effort);
+}
+
 TEST(TrimSurface, CanBeStopped_PropertyOracle)
 {
   TrimParams params;
