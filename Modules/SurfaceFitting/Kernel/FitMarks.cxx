@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace knotwork
 {
@@ -20,18 +21,19 @@ constexpr double ReweightGain = 4.0;
 constexpr std::size_t ElementChunk = 64;
 constexpr std::size_t MarkChunk = 4;
 constexpr std::size_t MostCompared = 32; // points of an element, with each other
+constexpr double SamePlace = 1e-12;      // of the domain: no elements are asked to be smaller
 
 std::size_t At(int i)
 {
   return static_cast<std::size_t>(i);
 }
 
-/// Least size of an element in both directions.
-RealArray<2> LeastElement(const FitState& state, const FitParams& params)
+/// A share of the domain in both directions.
+RealArray<2> ShareOfDomain(const FitState& state, double share)
 {
   const ParametricBox<2> domain = state.Space->Domain();
-  return { params.MinElementSize * (domain.Upper[0] - domain.Lower[0]),
-    params.MinElementSize * (domain.Upper[1] - domain.Lower[1]) };
+  return { share * (domain.Upper[0] - domain.Lower[0]),
+    share * (domain.Upper[1] - domain.Lower[1]) };
 }
 
 /// Directions in which an element may be split. A hierarchical space splits in both or not at all.
@@ -48,8 +50,28 @@ std::array<bool, 2> AllowedDirections(
   return space == FitSpace::Hierarchical ? std::array<bool, 2>{ both, both } : allowed;
 }
 
-/// False when all of the element's points outside are beside ones in the same place with values so
-/// different that no surface meets both.
+/// Whether two points are nearer to each other than a distance in both directions, with values so
+/// different that no surface meets both. Outliers contradict nothing.
+bool Contradict(const FitPoints& points, int numMeasured, const RealArray<2>& distance,
+  std::size_t i, std::size_t k)
+{
+  double squares = 0.0;
+  for (std::size_t c = 0; c < At(numMeasured); ++c)
+  {
+    const FitPoints::Column& values = points.Values[c];
+    squares += (values[i] - values[k]) * (values[i] - values[k]);
+  }
+  return points.Base[k] > 0.0 && std::fabs(points.U[i] - points.U[k]) < distance[0] &&
+    std::fabs(points.V[i] - points.V[k]) < distance[1] &&
+    std::sqrt(squares) > points.Tolerance[i] + points.Tolerance[k];
+}
+
+bool IsOutside(const FitPoints& points, std::size_t i)
+{
+  return points.Base[i] > 0.0 && std::fabs(points.Distance[i]) > points.Tolerance[i];
+}
+
+/// False when each of the element's points outside contradicts another one.
 /// @param least  size of an element.
 bool SplitHelps(const RealArray<2>& least, const FitPoints& points, int numMeasured, std::size_t e)
 {
@@ -58,24 +80,12 @@ bool SplitHelps(const RealArray<2>& least, const FitPoints& points, int numMeasu
   {
     return true; // its parts will tell
   }
-  const auto contradict = [&](std::size_t i, std::size_t k)
-  {
-    double squares = 0.0;
-    for (std::size_t c = 0; c < At(numMeasured); ++c)
-    {
-      const FitPoints::Column& values = points.Values[c];
-      squares += (values[i] - values[k]) * (values[i] - values[k]);
-    }
-    return points.Base[k] > 0.0 && std::fabs(points.U[i] - points.U[k]) < least[0] &&
-      std::fabs(points.V[i] - points.V[k]) < least[1] &&
-      std::sqrt(squares) > points.Tolerance[i] + points.Tolerance[k];
-  };
   for (std::size_t i = range.Begin; i < range.End; ++i)
   {
-    bool isHopeless = points.Base[i] == 0.0 || std::fabs(points.Distance[i]) <= points.Tolerance[i];
+    bool isHopeless = !IsOutside(points, i);
     for (std::size_t k = range.Begin; k < range.End && !isHopeless; ++k)
     {
-      isHopeless = contradict(i, k);
+      isHopeless = Contradict(points, numMeasured, least, i, k);
     }
     if (!isHopeless)
     {
@@ -83,6 +93,36 @@ bool SplitHelps(const RealArray<2>& least, const FitPoints& points, int numMeasu
     }
   }
   return false;
+}
+
+/// Whether each of the element's points outside contradicts another one in the same place.
+/// @param place  its size.
+bool AllContradict(
+  const RealArray<2>& place, const FitPoints& points, int numMeasured, std::size_t e)
+{
+  const FitPoints::Range range = points.Ranges[e];
+  std::vector<std::size_t> order(range.Count());
+  std::iota(order.begin(), order.end(), range.Begin);
+  std::sort(order.begin(), order.end(),
+    [&](std::size_t a, std::size_t b) { return points.U[a] < points.U[b]; });
+  auto low = order.begin(); // the first one that is not too far below
+  for (const std::size_t i : order)
+  {
+    while (points.U[*low] < points.U[i] && points.U[i] - points.U[*low] >= place[0])
+    {
+      ++low;
+    }
+    bool isFound = !IsOutside(points, i);
+    for (auto k = low; k != order.end() && points.U[*k] - points.U[i] < place[0] && !isFound; ++k)
+    {
+      isFound = Contradict(points, numMeasured, place, i, *k);
+    }
+    if (!isFound)
+    {
+      return false;
+    }
+  }
+  return true;
 }
 
 /// Directions in which an element is split, of the allowed ones.
@@ -151,7 +191,7 @@ std::vector<SplitMark> MarkElements(const FitState& state, const ElementFunction
   const FitPoints& points, const std::vector<ElementErrors>& errors, const FitParams& params,
   int iteration)
 {
-  const RealArray<2> least = LeastElement(state, params);
+  const RealArray<2> least = ShareOfDomain(state, params.MinElementSize);
   std::vector<std::array<bool, 2>> allowed(errors.size(), { false, false });
   ParallelFor(errors.size(), ElementChunk, params.Threads,
     [&](std::size_t begin, std::size_t end)
@@ -182,10 +222,10 @@ std::vector<SplitMark> MarkElements(const FitState& state, const ElementFunction
 bool PointsContradict(const FitState& state, const FitPoints& points,
   const std::vector<ElementErrors>& errors, const FitParams& params)
 {
-  const RealArray<2> least = LeastElement(state, params);
+  const RealArray<2> place = ShareOfDomain(state, std::min(SamePlace, params.MinElementSize));
   for (std::size_t e = 0; e < errors.size(); ++e)
   {
-    if (errors[e].NumOutside > 0 && SplitHelps(least, points, params.NumMeasured, e))
+    if (errors[e].NumOutside > 0 && !AllContradict(place, points, params.NumMeasured, e))
     {
       return false;
     }

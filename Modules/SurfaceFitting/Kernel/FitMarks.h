@@ -10,8 +10,9 @@ std::vector<SplitMark> MarkElements(const FitState& state, const ElementFunction
   const FitPoints& points, const std::vector<ElementErrors>& errors, const FitParams& params,
   int iteration);
 
-/// Whether every point outside is nearer than the least element to another one whose values are so
-/// different that no surface meets both. Points given several times with equal values do not.
+/// Whether every point outside is in the place of another one, up to rounding, whose values are so
+/// different that no surface meets both. Points given several times with equal values do not
+/// contradict, nor do those that only elements smaller than FitParams::MinElementSize would part.
 bool PointsContradict(const FitState& state, const FitPoints& points,
   const std::vector<ElementErrors>& errors, const FitParams& params);
 

@@ -77,8 +77,8 @@ enum class FitEnd
   Functions,
   Seconds,
   Criterion,    ///< the information criterion has risen
-  Resolution,   ///< what is outside lies where no element may be split
-  Contradiction ///< every point outside is beside one in the same place that no surface meets too
+  Resolution,   ///< what is outside lies where no element may be split, or no smaller one helps
+  Contradiction ///< every point outside is in the place of another one that no surface meets too
 };
 
 /// What the tolerance grows with.

@@ -121,6 +121,7 @@ TEST(SurfaceFit, InformationCriteriaStopBeforeTheNoiseIsFitted_PropertyOracle)
     params.Criterion = criterion;
     const SurfaceFit fit = Fit(cloud, params);
     EXPECT_FALSE(fit.WithinTolerance);
+    EXPECT_EQ(fit.End, FitEnd::Criterion);
     const auto value = [&](const FitIteration& row)
     { return criterion == FitCriterion::AIC ? row.AIC : row.BIC; };
     ASSERT_GE(fit.Iterations.size(), 3U);

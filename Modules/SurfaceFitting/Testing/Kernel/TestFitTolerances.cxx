@@ -201,6 +201,121 @@ TEST(SurfaceFit, ElementsOfTheLeastSizeAreNoContradiction_ExactOracle)
   EXPECT_EQ(fit.End, FitEnd::Resolution);
 }
 
+TEST(SurfaceFit, OnlyPointsInOnePlaceContradict_ExactOracle)
+{
+  // two points 1e-4 apart with heights 0.1 apart, and no others nearby: smaller elements part them,
+  // and all are met
+  PointCloud pair = clouds::HeightField(20000, 66, Wave);
+  for (Eigen::Index i = 0; i < pair.Values.rows(); ++i)
+  {
+    const double x = pair.Parameters(i, 0);
+    const double y = pair.Parameters(i, 1);
+    if (i < 2)
+    {
+      pair.Parameters.row(i) << 0.3 + 1e-4 * static_cast<double>(i), 0.3;
+      pair.Values(i, 0) = Wave(0.3, 0.3) + 0.1 * static_cast<double>(i);
+    }
+    else if (std::hypot(x - 0.3, y - 0.3) < 0.03)
+    {
+      pair.Parameters.row(i) << 1.0 - x, 1.0 - y;
+      pair.Values(i, 0) = Wave(1.0 - x, 1.0 - y);
+    }
+  }
+  for (const FitSpace space : { FitSpace::LocallyRefined, FitSpace::Hierarchical })
+  {
+    FitParams params = WithTolerance(0.001);
+    params.Space = space;
+    params.Domain = { { 0.0, 0.0 }, { 1.0, 1.0 } };
+    params.MinElementSize = 1e-3; // both in one element of 1/512
+    const SurfaceFit coarse = Fit(pair, params);
+    EXPECT_FALSE(coarse.WithinTolerance);
+    EXPECT_EQ(coarse.End, FitEnd::Resolution);
+    params.MinElementSize = 1e-7;
+    ExpectWithin(pair, Fit(pair, params));
+  }
+  // forty heights in each of two places: more points than are compared before a split
+  PointCloud crowd = clouds::HeightField(2000, 67, Wave);
+  for (Eigen::Index i = 0; i < 80; ++i)
+  {
+    crowd.Parameters.row(i) << (i < 40 ? 0.3 : 0.7), 0.4;
+    crowd.Values(i, 0) = 0.1 * static_cast<double>(i % 40);
+  }
+  const SurfaceFit fit = Fit(crowd, WithTolerance(0.001));
+  EXPECT_FALSE(fit.WithinTolerance);
+  EXPECT_EQ(fit.End, FitEnd::Contradiction);
+}
+
+/// Every k-th point again, or all of them with the weight of as many copies.
+PointCloud Repeated(const PointCloud& once, Eigen::Index every, bool isWeighted)
+{
+  const Eigen::Index n = once.Values.rows();
+  PointCloud cloud = once;
+  if (isWeighted)
+  {
+    cloud.Significant.assign(static_cast<std::size_t>(n), 0);
+    for (Eigen::Index i = 0; i < n; i += every)
+    {
+      cloud.Significant[static_cast<std::size_t>(i)] = 1;
+    }
+    return cloud;
+  }
+  const Eigen::Index copies = (n + every - 1) / every;
+  cloud.Parameters.conservativeResize(n + copies, Eigen::NoChange);
+  cloud.Values.conservativeResize(n + copies, Eigen::NoChange);
+  for (Eigen::Index i = 0; i < copies; ++i)
+  {
+    cloud.Parameters.row(n + i) = once.Parameters.row(i * every);
+    cloud.Values.row(n + i) = once.Values.row(i * every);
+  }
+  return cloud;
+}
+
+TEST(SurfaceFit, PointsGivenTwiceEndAsPointsThatCountTwice_PropertyOracle)
+{
+  const auto cliff = [](double x, double y) { return Wave(x, y) + (x > 0.5 ? 1.0 : 0.0); };
+  for (std::uint64_t seed = 81; seed < 84; ++seed)
+  {
+    PointCloud apart = clouds::HeightField(10000, seed, cliff);
+    for (Eigen::Index i = 0; i < 100; ++i)
+    {
+      apart.Parameters(i, 0) = 0.5; // on the edge of the cliff
+      apart.Values(i, 0) = cliff(0.5, apart.Parameters(i, 1));
+    }
+    PointCloud contradicting = apart;
+    for (Eigen::Index i = 0; i < 10; ++i)
+    {
+      contradicting.Parameters.row(i) = apart.Parameters.row(1000 + i);
+      contradicting.Values(i, 0) = apart.Values(1000 + i, 0) + 0.1;
+    }
+    struct Case
+    {
+      const PointCloud& Cloud;
+      double MinElementSize;
+      FitEnd End;
+    };
+    for (const Case& own :
+      { Case{ apart, 1e-7, FitEnd::Tolerance }, Case{ apart, 0.01, FitEnd::Resolution },
+        Case{ contradicting, 1e-7, FitEnd::Contradiction } })
+    {
+      for (const FitSpace space : { FitSpace::LocallyRefined, FitSpace::Hierarchical })
+      {
+        for (const bool isWeighted : { false, true })
+        {
+          SCOPED_TRACE("seed " + std::to_string(seed) + ", end " +
+            std::to_string(static_cast<int>(own.End)) + ", weighted " + std::to_string(isWeighted));
+          FitParams params = WithTolerance(0.0005);
+          params.Space = space;
+          params.SignificantWeight = 2.0;
+          params.MinElementSize = own.MinElementSize;
+          const SurfaceFit fit = Fit(Repeated(own.Cloud, 10, isWeighted), params);
+          EXPECT_EQ(fit.WithinTolerance, own.End == FitEnd::Tolerance);
+          EXPECT_EQ(fit.End, own.End) << fit.Final.NumOutside << " outside";
+        }
+      }
+    }
+  }
+}
+
 TEST(SurfaceFit, PointsGivenSeveralTimesAreMet_PropertyOracle)
 {
   // a cliff, and a tenth of the points again: bit for bit, or as near as rounding of a file leaves
