@@ -413,16 +413,23 @@ bool DomainSolver<Dim>::UnfoldPenalty()
   return minDet > 0.0;
 }
 
+/// To the end, as the parameters say.
+template <int Dim>
+void DomainSolver<Dim>::MinimizeQuality(DomainStage stage, const Density& density)
+{
+  MinimizeParams minimize;
+  minimize.MaxIterations = this->Params.MaxIterations;
+  minimize.EnergyTolerance = this->Params.EnergyTolerance;
+  this->Minimize(stage, density, minimize, std::numeric_limits<double>::infinity());
+}
+
 template <int Dim>
 void DomainSolver<Dim>::ImprovePoints()
 {
   Density density;
   density.Lambda = this->Params.UniformityWeight;
   density.Epsilon = this->Params.WinslowEpsilon;
-  MinimizeParams minimize;
-  minimize.MaxIterations = this->Params.MaxIterations;
-  minimize.EnergyTolerance = this->Params.EnergyTolerance;
-  this->Minimize(DomainStage::Quality, density, minimize, std::numeric_limits<double>::infinity());
+  this->MinimizeQuality(DomainStage::Quality, density);
 }
 
 template <int Dim>
@@ -433,10 +440,7 @@ void DomainSolver<Dim>::RaiseLeastJacobian(double power)
   density.Delta = this->MinDet();
   density.Power = power;
   density.Lambda = this->Params.UniformityWeight;
-  MinimizeParams minimize;
-  minimize.MaxIterations = this->Params.MaxIterations;
-  minimize.EnergyTolerance = this->Params.EnergyTolerance;
-  this->Minimize(DomainStage::Quality, density, minimize, std::numeric_limits<double>::infinity());
+  this->MinimizeQuality(DomainStage::Quality, density);
 }
 
 template <int Dim>
@@ -464,10 +468,7 @@ void DomainSolver<Dim>::ImproveWeights()
   Density density;
   density.Lambda = this->Params.UniformityWeight;
   density.Epsilon = this->Params.WinslowEpsilon;
-  MinimizeParams minimize;
-  minimize.MaxIterations = this->Params.MaxIterations;
-  minimize.EnergyTolerance = this->Params.EnergyTolerance;
-  this->Minimize(DomainStage::Weights, density, minimize, std::numeric_limits<double>::infinity());
+  this->MinimizeQuality(DomainStage::Weights, density);
 }
 
 template <int Dim>

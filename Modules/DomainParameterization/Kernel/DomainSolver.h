@@ -57,6 +57,7 @@ private:
   EnergyValue Evaluate(const Density& density, double* gradient, double* weightGradient);
   void Minimize(
     DomainStage stage, const Density& density, const MinimizeParams& params, double stopAtMinDet);
+  void MinimizeQuality(DomainStage stage, const Density& density);
   void MakeRational();
 
   const DomainParams& Params;

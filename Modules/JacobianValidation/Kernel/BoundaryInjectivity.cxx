@@ -564,10 +564,35 @@ private:
     return distance;
   }
 
+  /// Places of samples of a side.
+  std::vector<Eigen::Vector3d> SidePoints(
+    int side, const std::vector<std::array<double, 3>>& samples) const
+  {
+    std::vector<Eigen::Vector3d> points;
+    points.reserve(samples.size());
+    for (const auto& s : samples)
+    {
+      points.emplace_back(EvaluateCell(this->SideCells, side, s.data()).Position.data());
+    }
+    return points;
+  }
+
+  /// Length of the diagonal of the box around points.
+  static double Diagonal(const std::vector<Eigen::Vector3d>& points)
+  {
+    Eigen::Vector3d low = points.front();
+    Eigen::Vector3d high = points.front();
+    for (const Eigen::Vector3d& x : points)
+    {
+      low = low.cwiseMin(x);
+      high = high.cwiseMax(x);
+    }
+    return (high - low).norm();
+  }
+
   /// Whether too many samples of a side are proved too far from another for a gap: by distances
   /// from planes on the other side of which the control points are.
-  bool IsFar(
-    int from, int to, const std::vector<std::array<double, 3>>& samples, bool haveSameCorners) const
+  bool IsFar(int to, const std::vector<Eigen::Vector3d>& samples, bool haveSameCorners) const
   {
     const BoundarySide& side = this->Side(to);
     const CellLattice& lattice =
@@ -596,13 +621,8 @@ private:
     const double tolerance = this->Params.GapTolerance * this->ModelSize;
     std::size_t far = 0;
     double farthest = 0.0;
-    Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
-    Eigen::Vector3d high = -low;
-    for (const auto& s : samples)
+    for (const Eigen::Vector3d& x : samples)
     {
-      const Eigen::Vector3d x(EvaluateCell(this->SideCells, from, s.data()).Position.data());
-      low = low.cwiseMin(x);
-      high = high.cwiseMax(x);
       double distance = 0.0;
       for (int k = 0; k < 4; ++k)
       {
@@ -613,7 +633,7 @@ private:
       farthest = std::max(farthest, distance);
     }
     return 2 * far >= samples.size() &&
-      !(haveSameCorners && farthest <= slender * (high - low).norm());
+      !(haveSameCorners && farthest <= slender * Diagonal(samples));
   }
 
   /// Whether two sides of different patches should be one interface.
@@ -633,29 +653,19 @@ private:
     {
       const int from = turn == 0 ? a : b;
       const int to = turn == 0 ? b : a;
-      const auto samples = this->SideSamples(from, curve ? 12 : 5);
-      if (this->IsFar(from, to, samples, sameCorners))
+      const auto samples = this->SidePoints(from, this->SideSamples(from, curve ? 12 : 5));
+      if (this->IsFar(to, samples, sameCorners))
       {
         continue;
       }
       const auto targets = this->SideSamples(to, curve ? 32 : 8);
-      std::vector<Eigen::Vector3d> points;
-      for (const auto& s : targets)
-      {
-        points.push_back(
-          Eigen::Vector3d(EvaluateCell(this->SideCells, to, s.data()).Position.data()));
-      }
+      const auto points = this->SidePoints(to, targets);
       std::size_t close = 0;
       double largestClose = 0.0;
       double largest = 0.0;
       Eigen::Vector3d at = Eigen::Vector3d::Zero();
-      Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
-      Eigen::Vector3d high = -low;
-      for (const auto& s : samples)
+      for (const Eigen::Vector3d& x : samples)
       {
-        const Eigen::Vector3d x(EvaluateCell(this->SideCells, from, s.data()).Position.data());
-        low = low.cwiseMin(x);
-        high = high.cwiseMax(x);
         const double distance = this->SideDistance(to, targets, points, x);
         if (distance > largest)
         {
@@ -668,8 +678,7 @@ private:
           largestClose = std::max(largestClose, distance);
         }
       }
-      const double size = (high - low).norm();
-      const bool unequal = sameCorners && largest <= slender * size;
+      const bool unequal = sameCorners && largest <= slender * Diagonal(samples);
       if (unequal || 2 * close > samples.size())
       {
         isGap = true;

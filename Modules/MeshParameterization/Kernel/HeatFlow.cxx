@@ -55,14 +55,10 @@ Status FlowHeat(
       }
     }
   }
-  Eigen::SparseMatrix<double> matrix(unknowns, unknowns);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  SparseCholesky cholesky;
-  if (Status status = cholesky.Factorize(matrix); !status)
+  if (Status status = SolvePositive(entries, side); !status)
   {
     return status;
   }
-  cholesky.Solve(side);
   for (std::size_t v = 0; v < number.size(); ++v)
   {
     if (number[v] >= 0)

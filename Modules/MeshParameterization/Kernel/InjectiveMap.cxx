@@ -231,14 +231,10 @@ Result<FlatMesh> BarycentricMap(const DiscMesh& mesh)
   Result<FlatMesh> result;
   if (unknowns > 0)
   {
-    Eigen::SparseMatrix<double> matrix(unknowns, unknowns);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    SparseCholesky cholesky;
-    if (Status status = cholesky.Factorize(matrix); !status)
+    if (Status status = SolvePositive(entries, side); !status)
     {
       return status;
     }
-    cholesky.Solve(side);
     for (int i = 0; i < n; ++i)
     {
       if (const int p = number[static_cast<std::size_t>(i)]; p >= 0)

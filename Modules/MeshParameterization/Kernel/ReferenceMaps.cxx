@@ -77,14 +77,10 @@ Result<FlatMesh> LeastSquaresConformalMap(const DiscMesh& mesh)
       add(b, n + a, 0.5);
     }
   }
-  Eigen::SparseMatrix<double> matrix(unknowns, unknowns);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  SparseCholesky cholesky;
-  if (Status status = cholesky.Factorize(matrix); !status)
+  if (Status status = SolvePositive(entries, side); !status)
   {
     return status;
   }
-  cholesky.Solve(side);
   for (int i = 0; i < 2 * n; ++i)
   {
     if (number[static_cast<std::size_t>(i)] >= 0)

@@ -53,4 +53,17 @@ void SparseCholesky::Solve(Eigen::MatrixXd& sides) const
 {
   sides = this->Factor->Method.solve(sides).eval();
 }
+
+Status SolvePositive(const std::vector<Eigen::Triplet<double>>& lower, Eigen::MatrixXd& sides)
+{
+  Eigen::SparseMatrix<double> matrix(sides.rows(), sides.rows());
+  matrix.setFromTriplets(lower.begin(), lower.end());
+  SparseCholesky cholesky;
+  const Status status = cholesky.Factorize(matrix);
+  if (status)
+  {
+    cholesky.Solve(sides);
+  }
+  return status;
+}
 }

@@ -5,6 +5,7 @@
 #include <Eigen/SparseCore>
 
 #include <memory>
+#include <vector>
 
 namespace knotwork
 {
@@ -29,4 +30,8 @@ private:
   struct Solver;
   std::unique_ptr<Solver> Factor;
 };
+
+/// Solves one system of equations. @param lower  entries of the lower triangle; those of one place
+/// are summed. @param sides  right-hand sides, one a column; they become the solutions.
+Status SolvePositive(const std::vector<Eigen::Triplet<double>>& lower, Eigen::MatrixXd& sides);
 }

@@ -775,34 +775,30 @@ private:
   template <int Free>
   Status Mirror(const Entity<Dim>& owner, const Entity<Dim>& entity, bool& changed)
   {
-    const Orientation& o = entity.FromOwner;
     const auto knots = SideKnots<Dim>(*this->Spaces[At(entity.Patch)], entity.Side);
     std::vector<HierarchyBox<Free>> toEntity =
       TraceBoxes<Dim, Free>(*this->Spaces[At(owner.Patch)], owner.Side);
     std::vector<HierarchyBox<Free>> toOwner =
       TraceBoxes<Dim, Free>(*this->Spaces[At(entity.Patch)], entity.Side);
-    for (HierarchyBox<Free>& box : toEntity)
+    // the axes of what the boxes are turned to and those they come from, in the entity's order
+    const auto turn = [&](std::vector<HierarchyBox<Free>>& boxes, const auto& to, const auto& from)
     {
-      const HierarchyBox<Free> old = box;
-      for (std::size_t k = 0; k < Free; ++k)
+      for (HierarchyBox<Free>& box : boxes)
       {
-        const std::int64_t n = std::int64_t{ knots[k]->NumElements() } << box.Level;
-        const std::size_t from = At(o.Axis[k]);
-        box.Lower[k] = o.Reverse[k] ? n - old.Upper[from] : old.Lower[from];
-        box.Upper[k] = o.Reverse[k] ? n - old.Lower[from] : old.Upper[from];
+        const HierarchyBox<Free> old = box;
+        for (std::size_t k = 0; k < Free; ++k)
+        {
+          const std::int64_t n = std::int64_t{ knots[k]->NumElements() } << box.Level;
+          const bool reverse = entity.FromOwner.Reverse[k];
+          box.Lower[to(k)] = reverse ? n - old.Upper[from(k)] : old.Lower[from(k)];
+          box.Upper[to(k)] = reverse ? n - old.Lower[from(k)] : old.Upper[from(k)];
+        }
       }
-    }
-    for (HierarchyBox<Free>& box : toOwner)
-    {
-      const HierarchyBox<Free> old = box;
-      for (std::size_t k = 0; k < Free; ++k)
-      {
-        const std::int64_t n = std::int64_t{ knots[k]->NumElements() } << box.Level;
-        const std::size_t from = At(o.Axis[k]);
-        box.Lower[from] = o.Reverse[k] ? n - old.Upper[k] : old.Lower[k];
-        box.Upper[from] = o.Reverse[k] ? n - old.Lower[k] : old.Upper[k];
-      }
-    }
+    };
+    const auto own = [](std::size_t k) { return k; };
+    const auto owners = [&](std::size_t k) { return At(entity.FromOwner.Axis[k]); };
+    turn(toEntity, own, owners);
+    turn(toOwner, owners, own);
     const Status status = this->RefineAlong<Free>(owner, toOwner, changed);
     return status ? this->RefineAlong<Free>(entity, toEntity, changed) : status;
   }

@@ -19,6 +19,24 @@ bool IsSame(const LevelIndex<Dim>& a, const LevelIndex<Dim>& b)
   }
   return same;
 }
+
+/// Calls use(index) with the first index of every row of a block.
+template <int Dim, typename Use>
+void ForEachRow(const LevelIndex<Dim>& first, const IntArray<Dim>& shape, Use&& use)
+{
+  IntArray<Dim> rows = shape;
+  rows[0] = 1;
+  ForEachOffset<Dim>(rows,
+    [&](const IntArray<Dim>& offset)
+    {
+      LevelIndex<Dim> index = first;
+      for (std::size_t d = 1; d < Dim; ++d)
+      {
+        index[d] += offset[d];
+      }
+      use(index);
+    });
+}
 }
 
 template <int Dim>
@@ -79,16 +97,9 @@ template <int Dim>
 void FunctionMap<Dim>::CountBlock(
   const LevelIndex<Dim>& first, const IntArray<Dim>& shape, std::uint32_t value)
 {
-  IntArray<Dim> rows = shape;
-  rows[0] = 1;
-  ForEachOffset<Dim>(rows,
-    [&](const IntArray<Dim>& offset)
+  ForEachRow<Dim>(first, shape,
+    [&](LevelIndex<Dim> index)
     {
-      LevelIndex<Dim> index = first;
-      for (std::size_t d = 1; d < Dim; ++d)
-      {
-        index[d] += offset[d];
-      }
       if (this->Dense)
       {
         std::uint32_t* counters = this->Table.data() + this->Linear(index);
@@ -188,16 +199,9 @@ template <int Dim>
 void FunctionMap<Dim>::FindBlock(
   const LevelIndex<Dim>& first, const IntArray<Dim>& shape, int* numbers) const
 {
-  IntArray<Dim> rows = shape;
-  rows[0] = 1;
-  ForEachOffset<Dim>(rows,
-    [&](const IntArray<Dim>& offset)
+  ForEachRow<Dim>(first, shape,
+    [&](LevelIndex<Dim> index)
     {
-      LevelIndex<Dim> index = first;
-      for (std::size_t d = 1; d < Dim; ++d)
-      {
-        index[d] += offset[d];
-      }
       if (this->Dense)
       {
         const std::uint32_t* entries = this->Table.data() + this->Linear(index);

@@ -209,32 +209,34 @@ bool HasLargeFace(const TopoDS_Shape& shape)
   return false;
 }
 
-double AreaOf(const TopoDS_Shape& face)
+/// @param integrate  is given the content, and the tolerance unless a face is large.
+template <typename Integrate>
+double ContentOf(const TopoDS_Shape& shape, Integrate&& integrate)
 {
   GProp_GProps content;
-  if (HasLargeFace(face))
+  if (HasLargeFace(shape))
   {
-    BRepGProp::SurfaceProperties(face, content);
+    integrate(content);
   }
   else
   {
-    BRepGProp::SurfaceProperties(face, content, QuadratureTolerance);
+    integrate(content, QuadratureTolerance);
   }
   return content.Mass();
 }
 
+double AreaOf(const TopoDS_Shape& face)
+{
+  return ContentOf(face,
+    [&](GProp_GProps& content, auto... tolerance)
+    { BRepGProp::SurfaceProperties(face, content, tolerance...); });
+}
+
 double VolumeOf(const TopoDS_Shape& solid)
 {
-  GProp_GProps content;
-  if (HasLargeFace(solid))
-  {
-    BRepGProp::VolumeProperties(solid, content);
-  }
-  else
-  {
-    BRepGProp::VolumeProperties(solid, content, QuadratureTolerance);
-  }
-  return content.Mass();
+  return ContentOf(solid,
+    [&](GProp_GProps& content, auto... tolerance)
+    { BRepGProp::VolumeProperties(solid, content, tolerance...); });
 }
 
 CADSummary Summarize(const TopoDS_Shape& shape)

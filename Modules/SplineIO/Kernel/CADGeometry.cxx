@@ -53,6 +53,33 @@ Result<SplineSpacePtr<1>> CurveSpace(const Handle& curve)
   return knots ? MakeTensorSpace<1>({ knots.Value }) : Result<SplineSpacePtr<1>>(knots.Status);
 }
 
+/// @param dimension  of the curve's poles.
+template <class Handle>
+Result<Spline<1>> CurveFrom(const Handle& curve, int dimension)
+{
+  auto space = CurveSpace(curve);
+  if (!space)
+  {
+    return space.Status;
+  }
+  Spline<1> result;
+  result.Space = space.Value;
+  result.ControlPoints.resize(curve->NbPoles(), dimension);
+  result.Weights.resize(curve->IsRational() ? curve->NbPoles() : 0);
+  for (int i = 0; i < curve->NbPoles(); ++i)
+  {
+    for (int d = 0; d < dimension; ++d)
+    {
+      result.ControlPoints(i, d) = curve->Pole(i + 1).Coord(d + 1);
+    }
+    if (curve->IsRational())
+    {
+      result.Weights[i] = curve->Weight(i + 1);
+    }
+  }
+  return result;
+}
+
 gp_Pnt PointOfRow(const PointMatrix& points, Eigen::Index i)
 {
   return { points(i, 0), points(i, 1), points(i, 2) };
@@ -151,47 +178,11 @@ Result<Spline<2>> FromOpenCASCADE(const Handle(Geom_BSplineSurface) & surface)
 
 Result<Spline<1>> FromOpenCASCADE(const Handle(Geom_BSplineCurve) & curve)
 {
-  auto space = CurveSpace(curve);
-  if (!space)
-  {
-    return space.Status;
-  }
-  Spline<1> result;
-  result.Space = space.Value;
-  result.ControlPoints.resize(curve->NbPoles(), 3);
-  result.Weights.resize(curve->IsRational() ? curve->NbPoles() : 0);
-  for (int i = 0; i < curve->NbPoles(); ++i)
-  {
-    const gp_Pnt& pole = curve->Pole(i + 1);
-    result.ControlPoints.row(i) << pole.X(), pole.Y(), pole.Z();
-    if (curve->IsRational())
-    {
-      result.Weights[i] = curve->Weight(i + 1);
-    }
-  }
-  return result;
+  return CurveFrom(curve, 3);
 }
 
 Result<Spline<1>> FromOpenCASCADE(const Handle(Geom2d_BSplineCurve) & curve)
 {
-  auto space = CurveSpace(curve);
-  if (!space)
-  {
-    return space.Status;
-  }
-  Spline<1> result;
-  result.Space = space.Value;
-  result.ControlPoints.resize(curve->NbPoles(), 2);
-  result.Weights.resize(curve->IsRational() ? curve->NbPoles() : 0);
-  for (int i = 0; i < curve->NbPoles(); ++i)
-  {
-    const gp_Pnt2d& pole = curve->Pole(i + 1);
-    result.ControlPoints.row(i) << pole.X(), pole.Y();
-    if (curve->IsRational())
-    {
-      result.Weights[i] = curve->Weight(i + 1);
-    }
-  }
-  return result;
+  return CurveFrom(curve, 2);
 }
 }

@@ -1,32 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A bent sheet becomes a trimmed face.
-#include <vtkCellArray.h>
+#include "BentSheet.h"
+
 #include <vtkMeshParameterization.h>
 #include <vtkNew.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
 #include <vtkTrimmedSurface.h>
 
 int main()
 {
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> triangles;
-  constexpr int n = 6;
-  for (int j = 0; j <= n; ++j)
-  {
-    for (int i = 0; i <= n; ++i)
-    {
-      const vtkIdType a = points->InsertNextPoint(i, j, 0.1 * i * i);
-      if (i < n && j < n)
-      {
-        triangles->InsertNextCell({ a, a + 1, a + n + 2 });
-        triangles->InsertNextCell({ a, a + n + 2, a + n + 1 });
-      }
-    }
-  }
   vtkNew<vtkPolyData> mesh;
-  mesh->SetPoints(points);
-  mesh->SetPolys(triangles);
+  MakeBentSheet(mesh);
   vtkNew<vtkMeshParameterization> flatten;
   flatten->SetInputDataObject(mesh);
   vtkNew<vtkTrimmedSurface> trim;
