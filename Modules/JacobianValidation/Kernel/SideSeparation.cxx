@@ -136,9 +136,8 @@ public:
       }
       const bool tooSmall = std::max(a.Size, b.Size) <=
         64.0 * (a.Hull.Error + b.Hull.Error) + 64.0 * unitRoundoff * std::max(a.Largest, b.Largest);
-      const bool splitA = same || relation.Longer == 0 ||
-        (relation.Longer < 0 &&
-          (a.Size > b.Size || (a.Size == b.Size && a.Piece.Depth <= b.Piece.Depth)));
+      const bool splitA =
+        same || relation.Longer == 0 || (relation.Longer < 0 && this->IsFirstToCut(relation, a, b));
       const Node& larger = splitA ? a : b;
       if (tooSmall || larger.Piece.Depth >= largestDepth)
       {
@@ -194,6 +193,26 @@ private:
     }
   }
 
+  /// Of two pieces the one whose normals turn more, if that is what is in the way, else the larger.
+  bool IsFirstToCut(const Relation& relation, const Node& a, const Node& b) const
+  {
+    if (relation.What == Relation::Edge)
+    {
+      constexpr double muchLarger = 16.0;
+      const double turnA = this->FindTurn(*this->Lattice[0], a).Size;
+      const double turnB = this->FindTurn(*this->Lattice[1], b).Size;
+      if (turnA > 2.0 * turnB && b.Size < muchLarger * a.Size)
+      {
+        return true;
+      }
+      if (turnB > 2.0 * turnA && a.Size < muchLarger * b.Size)
+      {
+        return false;
+      }
+    }
+    return a.Size > b.Size || (a.Size == b.Size && a.Piece.Depth <= b.Piece.Depth);
+  }
+
   /// Halves that are there already stay.
   /// @param edge  of the piece that is cut through, or -1.
   /// @param turns  it is the piece's normals that are in the way.
@@ -204,8 +223,9 @@ private:
     if (node.Children[0] < 0)
     {
       const CellLattice& lattice = *this->Lattice[k];
+      // triangles are best kept equilateral
       int direction = edge >= 0 ? DirectionOf(lattice, edge)
-        : turns                 ? this->TurningDirection(lattice, node)
+        : turns                 ? this->FindTurn(lattice, node).Direction
                                 : -1;
       if (direction < 0)
       {
@@ -221,14 +241,19 @@ private:
     return { node.Children[0], node.Children[1] };
   }
 
-  /// The direction in which the normals at the corners turn most, or -1 where they are nearly one
-  /// (and for triangles, which are best kept equilateral). A face that turns in a narrow strip is
-  /// so cut along the strip, however long that is.
-  int TurningDirection(const CellLattice& lattice, const Node& node) const
+  struct Turn
+  {
+    int Direction = -1;
+    double Size = 0.1;
+  };
+  /// The direction in which the normals at the corners turn most, or -1 where they are nearly one.
+  /// A face that turns in a narrow strip is cut along the strip, however long that is. Triangles
+  /// are best kept equilateral.
+  Turn FindTurn(const CellLattice& lattice, const Node& node) const
   {
     if (lattice.Shape != CellShape::Quadrilateral)
     {
-      return -1;
+      return {};
     }
     std::array<Vector, 4> normals;
     for (int c = 0; c < NumCorners(lattice.Shape); ++c)
@@ -255,8 +280,7 @@ private:
       }
       normals[static_cast<std::size_t>(c)] = slopes[0].cross(slopes[1]).stableNormalized();
     }
-    int best = -1;
-    double most = 0.1;
+    Turn most;
     for (std::size_t d = 0; d < lattice.Directions.size(); ++d)
     {
       double turn = 0.0;
@@ -270,13 +294,12 @@ private:
           turn = std::max(turn, (from - to).norm());
         }
       }
-      if (turn > most)
+      if (turn > most.Size)
       {
-        most = turn;
-        best = static_cast<int>(d);
+        most = { static_cast<int>(d), turn };
       }
     }
-    return best;
+    return most;
   }
 
   static int DirectionOf(const CellLattice& lattice, int edge)
