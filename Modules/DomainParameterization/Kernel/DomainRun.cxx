@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DomainRun.h"
 
+#include "CellPieces.h"
 #include "DomainSolver.h"
 #include "NumberText.h"
 #include "ParameterMetrics.h"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 namespace knotwork
 {
@@ -644,13 +648,62 @@ private:
     return {};
   }
 
-  /// A map that is regular as far as the rounding of its boundary lets one say.
+  static std::string Near(const std::array<double, 3>& position)
+  {
+    std::string text = "near (";
+    for (std::size_t c = 0; c < Dim; ++c)
+    {
+      text += (c ? ", " : "") + NumberText(position[c]);
+    }
+    return text + ")";
+  }
+
+  /// A map that is regular as far as the rounding of its boundary lets one say: where it is not
+  /// known, and how exact the coordinates must be. Named is the corner with the smallest det J of
+  /// the first such element.
   std::string RoundingMessage() const
   {
+    const JacobianCertificate& certificate = this->Report.Certificate;
+    const BernsteinCells cells = GluedCells<Dim>(this->Out.Map, this->Params.Threads);
+    std::array<double, 3> place{};
+    double least = std::numeric_limits<double>::infinity();
+    double rounding = 0.0;
+    int first = -1;
+    for (std::size_t c = 0; c < certificate.Cells.size(); ++c)
+    {
+      if (certificate.Cells[c].Verdict != Verdict::Undecided)
+      {
+        continue;
+      }
+      first = first < 0 ? static_cast<int>(c) : first;
+      rounding = std::max(rounding, certificate.Cells[c].Rounding);
+    }
+    for (int corner = 0; first >= 0 && corner < NumCorners(cells.Shapes[0]); ++corner)
+    {
+      const auto u = CornerParameters(cells.Shapes[0], corner);
+      const CellPoint point = EvaluateCell(cells, first, u.data());
+      Eigen::Matrix<double, Dim, Dim> derivative;
+      for (std::size_t d = 0; d < Dim; ++d)
+      {
+        for (std::size_t k = 0; k < Dim; ++k)
+        {
+          derivative(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(d)) =
+            point.Derivative[d][k];
+        }
+      }
+      const double det = std::abs(derivative.determinant());
+      if (det < least)
+      {
+        least = det;
+        place = point.Position;
+      }
+    }
     return "the map is regular, but where its boundary is degenerate within the rounding of its "
            "coordinates (" +
-      std::to_string(this->Report.Certificate.NumUndecided) +
-      " elements, undecided): make control points there coincide exactly, or move them apart";
+      std::to_string(certificate.NumUndecided) + " elements, undecided, the first " + Near(place) +
+      "): make control points there coincide exactly, or give coordinates that are exact to less "
+      "than " +
+      NumberText(rounding);
   }
 
   /// A regular map that is not proved one-to-one.
@@ -663,13 +716,7 @@ private:
     text += ToString(injectivity.Reason);
     if (injectivity.HasWitness)
     {
-      const auto& position = injectivity.Witness.Places[0].Position;
-      text += ", near (";
-      for (std::size_t c = 0; c < Dim; ++c)
-      {
-        text += (c ? ", " : "") + NumberText(position[c]);
-      }
-      text += ")";
+      text += ", " + Near(injectivity.Witness.Places[0].Position);
     }
     return text;
   }

@@ -223,7 +223,6 @@ private:
     if (node.Children[0] < 0)
     {
       const CellLattice& lattice = *this->Lattice[k];
-      // triangles are best kept equilateral
       int direction = edge >= 0 ? DirectionOf(lattice, edge)
         : turns                 ? this->FindTurn(lattice, node).Direction
                                 : -1;
