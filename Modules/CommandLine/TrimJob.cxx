@@ -120,8 +120,10 @@ struct TrimJob
     if (!found.Valid)
     {
       return { ErrorCode::InvalidTopology,
-        "'" + this->Output + "' is not valid when it is read again: " +
-          (found.Defects.empty() ? "no reason given" : found.Defects.front()) };
+        "'" + this->Input + "': its faces are not valid when '" + this->Output +
+          "' is read again: " +
+          (found.Defects.empty() ? "no reason given" : found.Defects.front()) +
+          "; look for points far off or edges below the tolerance, and ask for a smaller one" };
     }
     std::vector<std::string> warnings;
     if (std::max(found.MaxEdgeTolerance, found.MaxVertexTolerance) > tolerance)

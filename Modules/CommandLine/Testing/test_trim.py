@@ -200,6 +200,9 @@ def test_meshes_that_cannot_be_trimmed_are_refused():
     refused([write_off("fin.off", [*square, (0.5, 0.5, 1)], [(0, 1, 2), (0, 2, 3), (0, 2, 4)])], "fin.off", "more than two")
     two = square + [(5, 0, 0), (6, 0, 0), (6, 1, 0)]
     refused([write_off("two.off", two, [(0, 1, 2), (0, 2, 3), (4, 5, 6)])], "two.off", "2 components")
+    # one point so far off that the tolerance is a thousand times the rest
+    far = [(0, 0, 0), (1, 0, 0), (0.5, 0.5, 0.1), (2147483648, 1, 0), (1, 1, 0), (0, 1, 0)]
+    refused([write_off("far.off", far, [(0, 1, 2), (1, 3, 2), (4, 5, 2), (5, 0, 2)]), "--quiet"], "far.off", "not valid", "smaller")
     refused([rolled(), "--tolerance", "nan"], "olerance")
     refused([rolled(), "--flatten", "sideways"], status=2)
     refused([rolled(), "--degree", 12], status=2)
