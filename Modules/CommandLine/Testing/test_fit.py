@@ -358,7 +358,7 @@ def test_limits_end_the_fit_with_a_warning():
     again = np.r_[points, points[:5] + (0, 0, 0.1)]  # in the same place, at another height
     done = knotwork_testing.run_program("fit", write_xyz("l.xyz", again), "--output", path("l.g2"), "--tolerance", 1e-3)
     assert done.returncode == 0 and "contradict" in done.stderr, done.stderr
-    noise = np.c_[points[:, :2], np.random.default_rng(9).random(len(points))]
+    noise = np.c_[points[:, :2], np.random.default_rng(10).random(len(points))]
     for arguments, reason in ((("--criterion", "bic"), "information criterion has ended"), (("--minimum-element-size", 0.1), "not split any smaller")):
         done = knotwork_testing.run_program("fit", write_xyz("l.xyz", noise), "--output", path("l.g2"), "--tolerance", 1e-2, *arguments)
         assert done.returncode == 0 and reason in done.stderr, done.stderr

@@ -3,6 +3,7 @@
 
 #include "CADEdge.h"
 #include "CADGeometry.h"
+#include "CADSession.h"
 #include "EdgeSamples.h"
 #include "Numbers.h"
 
@@ -285,10 +286,9 @@ void BodyReader::Read()
     {
       return body();
     }
-    catch (const Standard_Failure& failure)
+    catch (const Standard_Failure&)
     {
-      return { ErrorCode::InvalidFormat,
-        std::string("OpenCASCADE: ") + failure.DynamicType()->Name() };
+      return { ErrorCode::InvalidFormat, FailureOfOpenCASCADE };
     }
   };
   for (std::size_t f = 0; f < this->Faces.size(); ++f)

@@ -113,15 +113,9 @@ Status CADSession::Run(const std::string& place, const std::function<Status()>& 
   {
     return body();
   }
-  catch (const Standard_Failure& failure)
+  catch (const Standard_Failure&) // its text is of the library's inside
   {
-    const char* text = failure.GetMessageString();
-    std::string detail = place + ": OpenCASCADE: " + failure.DynamicType()->Name();
-    if (text && text[0] != '\0')
-    {
-      detail += std::string(", ") + text;
-    }
-    return { ErrorCode::InvalidFormat, detail };
+    return { ErrorCode::InvalidFormat, place + ": " + FailureOfOpenCASCADE };
   }
   catch (const std::bad_alloc&)
   {

@@ -19,6 +19,10 @@ enum class CADFormat
 /// By the ending of the file name, in any case.
 CADFormat FormatOfFile(const std::string& file);
 
+/// What is said where OpenCASCADE throws: its own text is about its inside.
+constexpr const char* FailureOfOpenCASCADE =
+  "OpenCASCADE fails on it; write it again from the program that made it";
+
 /// OpenCASCADE's name of a unit, and its length in millimetres.
 const char* NameOfUnit(LengthUnit unit);
 double Millimetres(LengthUnit unit);

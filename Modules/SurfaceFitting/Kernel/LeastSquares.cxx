@@ -16,6 +16,7 @@ constexpr std::size_t MostGroups = 64;     // each one needs an entry a function
 constexpr std::size_t ProductChunk = 512;  // a row's product is little work
 constexpr double LeastPoints = 1.0 / 30.0; // in the middle of a function, that it counts as more
 constexpr double LeastShare = 1.0 / 6.0;   // of what points spread evenly would weigh with it
+constexpr double LeastEnergy = 0.01;       // of an element without points, of the mean
 constexpr double Pi = 3.14159265358979323846;
 
 std::size_t At(int i)
@@ -66,9 +67,10 @@ LeastSquaresSystem::LeastSquaresSystem(const ElementFunctions& functions,
     this->ElementStart[At(e) + 1] =
       this->ElementStart[At(e)] + At(functions.Alive(e)) * At(functions.Alive(e));
   }
+  this->MeanWeight = weight / numElements;
   for (double& value : this->Energy)
   {
-    value *= params.Smoothing * weight / numElements;
+    value *= params.Smoothing;
   }
   this->ElementMatrices.resize(this->ElementStart.back());
   this->ElementRight.resize(functions.Functions.size() * At(numComponents));
@@ -90,9 +92,14 @@ void LeastSquaresSystem::MakeElement(int e)
   double gram[100 * 100];
   double product[100];
   this->Moments.Gram(e, gram);
+  // A step between two points bends the small elements between them by any number of tolerances:
+  // where points are few, the energy must not outweigh them. Damping holds what it lets go.
+  const double least = this->Params.IsDamped ? LeastEnergy : 1.0;
+  const double weight =
+    std::clamp(this->Weights[At(e)], least * this->MeanWeight, this->MeanWeight);
   for (int i = 0; i < n * n; ++i)
   {
-    gram[i] += this->Energy[At(i)];
+    gram[i] += weight * this->Energy[At(i)];
   }
   const int alive = this->Functions.Alive(e);
   const std::size_t first = this->Functions.First(e);

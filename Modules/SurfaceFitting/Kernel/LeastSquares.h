@@ -20,6 +20,8 @@ struct LeastSquaresParams
 /// The equations of the coefficients that minimize the weighted sum of squared distances plus a
 /// thin-plate energy: Smoothing times the mean weight of the points of an element times the energy
 /// of every element in its own parameters, so that it means the same on every level of refinement.
+/// With damping, elements whose points weigh less than the mean have less energy, down to a
+/// hundredth.
 /// All sums have a fixed order.
 /// @source  damping: Levenberg, Quart. Appl. Math. 2 (1944) 164-168, by functions.
 class LeastSquaresSystem
@@ -57,7 +59,8 @@ private:
   const ElementMoments& Moments;
   LeastSquaresParams Params;
   int Components;
-  std::vector<double> Energy;            ///< of an element, weighted
+  std::vector<double> Energy;            ///< of an element, times Smoothing
+  double MeanWeight = 0.0;               ///< of the points of an element
   std::vector<double> Weights;           ///< of the points of an element
   double PointDamping = 0.0;             ///< of every function
   double DampingShare = 0.0;             ///< of the weight in a function's support

@@ -316,6 +316,40 @@ TEST(SurfaceFit, PointsGivenTwiceEndAsPointsThatCountTwice_PropertyOracle)
   }
 }
 
+/// A million points of a smooth height field with a step of 400,000 tolerances, every hundredth of
+/// them on its edge, and a tenth of all again, bit for bit.
+TEST(SurfaceFit, StepsOfManyTolerancesAreMet_PropertyOracle)
+{
+  constexpr Eigen::Index Number = 1000000;
+  for (const std::uint64_t seed : { 1, 3 })
+  {
+    clouds::Random random(seed);
+    PointCloud cloud;
+    cloud.Parameters.resize(Number + Number / 10, 2);
+    cloud.Values.resize(Number + Number / 10, 1);
+    for (Eigen::Index i = 0; i < Number; ++i)
+    {
+      double x = random.Uniform();
+      const double y = random.Uniform();
+      x = i % 100 == 0 ? 0.5 : x;
+      cloud.Parameters.row(i) << x, y;
+      cloud.Values(i, 0) = std::sin(6.0 * x) * std::cos(5.0 * y) + (x > 0.5 ? 200.0 : 0.0);
+    }
+    for (Eigen::Index i = Number; i < cloud.Values.rows(); ++i)
+    {
+      const auto again = static_cast<Eigen::Index>(random.Uniform() * static_cast<double>(Number));
+      cloud.Parameters.row(i) = cloud.Parameters.row(again);
+      cloud.Values.row(i) = cloud.Values.row(again);
+    }
+    FitParams params = WithTolerance(0.0005);
+    params.Domain = { { 0.0, 0.0 }, { 1.0, 1.0 } };
+    const SurfaceFit fit = Fit(cloud, params);
+    EXPECT_EQ(fit.End, FitEnd::Tolerance) << "seed " << seed;
+    EXPECT_EQ(fit.Final.NumOutside, 0U) << "seed " << seed;
+    ExpectWithin(cloud, fit);
+  }
+}
+
 TEST(SurfaceFit, PointsGivenSeveralTimesAreMet_PropertyOracle)
 {
   // a cliff, and a tenth of the points again: bit for bit, or as near as rounding of a file leaves
