@@ -5,6 +5,7 @@
 #include "SparseLeastSquares.h"
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <ctime>
 
 using namespace knotwork;
@@ -151,20 +152,25 @@ TEST(SparseLeastSquares, WorkGrowsWithTheFunctions_PropertyOracle)
 
 TEST(SparseLeastSquares, IndependentFunctionsTakeLinearTime_PropertyOracle)
 {
-  // processor time of five times as many functions: work beside the factor that grew with their
-  // square took 18 times as long
+  // Processor time of five times as many functions: 5 to 8 times as much, as caches and the
+  // machine's other work have it; work beside the factor that grew with their square took 18 times
+  // as much. The least of three runs is the one that was disturbed least.
   const auto seconds = [](int functions)
   {
     Matrix a(functions, functions);
     a.setIdentity();
-    const std::clock_t start = std::clock();
-    const SparseSolution found = SolveSparseLeastSquares(a, Eigen::VectorXd::Ones(functions), 1);
-    const double taken = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-    EXPECT_TRUE(found.Value.isApproxToConstant(1.0));
-    return taken;
+    double least = 1e300;
+    for (int run = 0; run < 3; ++run)
+    {
+      const std::clock_t start = std::clock();
+      const SparseSolution found = SolveSparseLeastSquares(a, Eigen::VectorXd::Ones(functions), 1);
+      least = std::min(least, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+      EXPECT_TRUE(found.Value.isApproxToConstant(1.0));
+    }
+    return least;
   };
   const double few = seconds(400000);
-  EXPECT_LE(seconds(2000000), 8.0 * few);
+  EXPECT_LE(seconds(2000000), 12.0 * few);
 }
 
 TEST(Recovery, FieldOfThousandsOfLocallyRefinedFunctions_ExactOracle)
