@@ -22,9 +22,8 @@ public:
     this->AddOutput(0, "--output", Endings::Splines, "the combination");
     Options& options = this->FilterOptions;
     vtkSplineCombine* filter = this->Filter;
-    options.AddChoice(
-      "Mode", { "difference", "average", "weighted" }, filter->GetMode(),
-      [filter](int mode) { filter->SetMode(mode); }, "first - second, their mean, or any sum");
+    KNOTWORK_CHOICE(options, filter, Mode, "first - second, their mean, or any sum", "difference",
+      "average", "weighted");
     KNOTWORK_FREE_OPTION(options, filter, FirstWeight, "weight of the first surface, for weighted");
     KNOTWORK_FREE_OPTION(
       options, filter, SecondWeight, "weight of the second surface, for weighted");

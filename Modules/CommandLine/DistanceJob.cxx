@@ -22,10 +22,9 @@ public:
     app.add_option("--tolerances", this->Tolerances, "limits of the classes, ascending");
     Options& options = this->FilterOptions;
     vtkSplinePointDistance* filter = this->Filter;
-    options.AddChoice(
-      "Kind", { "automatic", "vertical", "closest" }, filter->GetKind(),
-      [filter](int kind) { filter->SetKind(kind); },
-      "vertical distances, those from closest points, or vertical ones of height fields");
+    KNOTWORK_CHOICE(options, filter, Kind,
+      "vertical distances, those from closest points, or vertical ones of height fields",
+      "automatic", "vertical", "closest");
   }
 
 protected:

@@ -21,10 +21,9 @@ public:
     this->AddOutput(0, "--output", Endings::Sampled, "the points on the spline, with derivatives");
     Options& options = this->FilterOptions;
     vtkSplineEvaluate* filter = this->Filter;
-    options.AddChoice(
-      "Mode", { "parameters", "probe" }, filter->GetMode(),
-      [filter](int mode) { filter->SetMode(mode); },
-      "points are parameters, or positions whose nearest point on the spline is wanted");
+    KNOTWORK_CHOICE(options, filter, Mode,
+      "points are parameters, or positions whose nearest point on the spline is wanted",
+      "parameters", "probe");
     KNOTWORK_OPTION(options, filter, Derivatives, "highest order of derivatives");
     KNOTWORK_FREE_OPTION(
       options, filter, ParameterArray, "point array of parameters; empty: the coordinates");

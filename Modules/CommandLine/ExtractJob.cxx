@@ -25,10 +25,9 @@ public:
       options, filter, ReverseSecond, "whether the second parameter is reversed");
     KNOTWORK_FREE_OPTION(
       options, filter, ExpandToTensor, "whether LR surfaces become tensor products");
-    options.AddChoice(
-      "IsoCurve", { "none", "first", "second" }, filter->GetIsoCurve(),
-      [filter](int direction) { filter->SetIsoCurve(direction); },
-      "the parameter that is constant on a curve that is taken instead of the surface");
+    KNOTWORK_CHOICE(options, filter, IsoCurve,
+      "the parameter that is constant on a curve that is taken instead of the surface", "none",
+      "first", "second");
     KNOTWORK_FREE_OPTION(options, filter, IsoValue, "its value");
     KNOTWORK_OPTION(options, filter, MaximumFunctions, "more functions are not made");
   }

@@ -15,13 +15,10 @@ void AddFlattenOptions(Options& options, vtkMeshParameterization* filter, const 
   options.AddChoice(
     methodName, { "hlle", "isomap", "laplacian", "lscm", "arap", "injective" }, filter->GetMethod(),
     [filter](int method) { filter->SetMethod(method); }, "how the mesh is laid into the plane");
-  options.AddChoice(
-    "LaplacianWeights", { "cotangent", "graph" }, filter->GetLaplacianWeights(),
-    [filter](int weights) { filter->SetLaplacianWeights(weights); }, "of Laplacian eigenmaps");
-  options.AddChoice(
-    "Geodesics", { "unfolding", "edge-graph" }, filter->GetGeodesics(),
-    [filter](int geodesics) { filter->SetGeodesics(geodesics); },
-    "distances of Isomap and of the distance error");
+  KNOTWORK_CHOICE(
+    options, filter, LaplacianWeights, "of Laplacian eigenmaps", "cotangent", "graph");
+  KNOTWORK_CHOICE(options, filter, Geodesics, "distances of Isomap and of the distance error",
+    "unfolding", "edge-graph");
   KNOTWORK_OPTION(options, filter, Neighbours, "geodesic neighbours of a vertex for HLLE");
   KNOTWORK_OPTION(options, filter, Landmarks, "points whose distances Isomap takes");
   KNOTWORK_OPTION(options, filter, MaximumIterations, "iterations of ARAP and Injective at most");

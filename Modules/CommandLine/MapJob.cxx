@@ -16,10 +16,9 @@ namespace
 /// The space, what is minimized, and when that ends.
 void AddFitOptions(Options& options, vtkTemplateMapping* filter)
 {
-  options.AddChoice(
-    "Method", { "fixed", "pdm", "tdm", "weighted" }, filter->GetMethod(),
-    [filter](int method) { filter->SetMethod(method); },
-    "fixed parameters, point or tangent distance minimization, or both weighted");
+  KNOTWORK_CHOICE(options, filter, Method,
+    "fixed parameters, point or tangent distance minimization, or both weighted", "fixed", "pdm",
+    "tdm", "weighted");
   KNOTWORK_OPTION(options, filter, Iterations, "number of iterations");
   KNOTWORK_OPTION(options, filter, Degree, "degree of the map");
   KNOTWORK_OPTION(options, filter, InnerKnots, "inner knots in each direction");
@@ -41,10 +40,9 @@ void AddFitOptions(Options& options, vtkTemplateMapping* filter)
   KNOTWORK_OPTION(options, filter, AreaWeight, "of the integral of (det J)^2");
   KNOTWORK_OPTION(
     options, filter, SelfIntersectionWeight, "of the integral of sum 1 / (|s_k|^2 + 1e-7)^2");
-  options.AddChoice(
-    "InitialMap", { "identity", "moved" }, filter->GetInitialMap(),
-    [filter](int map) { filter->SetInitialMap(map); },
-    "the first map: the identity, or that with control points moved by mean displacements");
+  KNOTWORK_CHOICE(options, filter, InitialMap,
+    "the first map: the identity, or that with control points moved by mean displacements",
+    "identity", "moved");
   options.AddChoice(
     "Guard", { "off", "on" }, filter->GetGuard() ? 1 : 0,
     [filter](int guard) { filter->SetGuard(guard == 1); },

@@ -123,6 +123,12 @@ private:
     #property, (filter)->Get##property(),                                                          \
     [filter](const auto& value) { (filter)->Set##property(value); }, help)
 
+/// One of the names behind the sentence, in the order of the property's values.
+#define KNOTWORK_CHOICE(options, filter, property, help, ...)                                      \
+  (options).AddChoice(                                                                             \
+    #property, { __VA_ARGS__ }, (filter)->Get##property(),                                         \
+    [filter](int value) { (filter)->Set##property(value); }, help)
+
 /// A text property.
 #define KNOTWORK_TEXT_OPTION(options, filter, property, help)                                      \
   (options).Add<std::string>(                                                                      \

@@ -27,24 +27,18 @@ public:
     this->AddOutput(2, "--table", Endings::Table, "the convergence table");
     Options& options = this->FilterOptions;
     vtkDomainParameterization* filter = this->Filter;
-    options.AddChoice(
-      "InitialMap", { "automatic", "coons", "spring", "harmonic" }, filter->GetInitialMap(),
-      [filter](int map) { filter->SetInitialMap(map); }, "the map the optimization begins with");
-    options.AddChoice(
-      "Optimizer", { "automatic", "lbfgs", "newton" }, filter->GetOptimizer(),
-      [filter](int optimizer) { filter->SetOptimizer(optimizer); }, "how it is minimized");
-    options.AddChoice(
-      "Foldover", { "automatic", "penalty", "relu" }, filter->GetFoldover(),
-      [filter](int foldover) { filter->SetFoldover(foldover); },
-      "how folds of the first map are removed");
-    options.AddChoice(
-      "Weights", { "automatic", "fixed", "optimized" }, filter->GetWeights(),
-      [filter](int weights) { filter->SetWeights(weights); },
-      "whether inner weights move too; automatic: when control points alone give no valid map");
-    options.AddChoice(
-      "Objective", { "winslow", "least-jacobian" }, filter->GetObjective(),
-      [filter](int objective) { filter->SetObjective(objective); },
-      "what is made best; least-jacobian: from Winslow's functional on, the largest least det J");
+    KNOTWORK_CHOICE(options, filter, InitialMap, "the map the optimization begins with",
+      "automatic", "coons", "spring", "harmonic");
+    KNOTWORK_CHOICE(
+      options, filter, Optimizer, "how it is minimized", "automatic", "lbfgs", "newton");
+    KNOTWORK_CHOICE(options, filter, Foldover, "how folds of the first map are removed",
+      "automatic", "penalty", "relu");
+    KNOTWORK_CHOICE(options, filter, Weights,
+      "whether inner weights move too; automatic: when control points alone give no valid map",
+      "automatic", "fixed", "optimized");
+    KNOTWORK_CHOICE(options, filter, Objective,
+      "what is made best; least-jacobian: from Winslow's functional on, the largest least det J",
+      "winslow", "least-jacobian");
     KNOTWORK_OPTION(options, filter, Effort,
       "work at most, about as many seconds of one core, but counted; then the best map so far");
     KNOTWORK_OPTION(

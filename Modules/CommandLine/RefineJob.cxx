@@ -37,20 +37,16 @@ public:
     KNOTWORK_OPTION(options, filter, DegreeElevation, "degrees added before elements are refined");
     KNOTWORK_FREE_OPTION(options, filter, LowerThreshold, "lowest value of a marked cell");
     KNOTWORK_FREE_OPTION(options, filter, UpperThreshold, "highest value of a marked cell");
-    options.AddChoice(
-      "ImplicitRegion", { "crossed", "crossed-or-inside" }, filter->GetImplicitRegion(),
-      [filter](int region) { filter->SetImplicitRegion(region); },
-      "which cells at the sphere or plane");
+    KNOTWORK_CHOICE(options, filter, ImplicitRegion, "which cells at the sphere or plane",
+      "crossed", "crossed-or-inside");
     KNOTWORK_OPTION(options, filter, Extension,
       "rings of new cells around marked ones that are split too; -1: as few as bring new "
       "functions");
     KNOTWORK_OPTION(options, filter, AdmissibleClass,
       "functions alive on an element belong to at most so many levels; 0: no limit");
     KNOTWORK_OPTION(options, filter, MaxLevel, "cells of this level are not split");
-    options.AddChoice(
-      "LocalSpace", { "thb", "lr" }, filter->GetLocalSpace(),
-      [filter](int space) { filter->SetLocalSpace(space); },
-      "what local refinement makes of tensor-product surfaces");
+    KNOTWORK_CHOICE(options, filter, LocalSpace,
+      "what local refinement makes of tensor-product surfaces", "thb", "lr");
     options.AddChoice(
       "LrStrategy", { "full-span", "minimum-span", "structured-mesh" }, filter->GetLRStrategy(),
       [filter](int strategy) { filter->SetLRStrategy(strategy); },

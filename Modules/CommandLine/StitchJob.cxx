@@ -126,10 +126,9 @@ Job Make(CLI::App& app)
   Options& options = *job->FilterOptions;
   vtkSplineStitch* filter = job->Filter;
   KNOTWORK_OPTION(options, filter, Continuity, "0: tiles meet; 1: their derivatives do, too");
-  options.AddChoice(
-    "Matching", { "domain", "geometry", "pairs" }, filter->GetMatching(),
-    [filter](int matching) { filter->SetMatching(matching); },
-    "neighbours: by the boxes of their parameters, by points of their sides, or as --pair says");
+  KNOTWORK_CHOICE(options, filter, Matching,
+    "neighbours: by the boxes of their parameters, by points of their sides, or as --pair says",
+    "domain", "geometry", "pairs");
   KNOTWORK_OPTION(options, filter, Tolerance, "what counts as the same place, relative");
   return [job](Session& session) { return job->Run(session); };
 }

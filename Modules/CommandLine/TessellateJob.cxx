@@ -135,9 +135,7 @@ Job Make(CLI::App& app)
   KNOTWORK_FREE_OPTION(options, filter, RelativeTolerance,
     "whether the tolerance is a share of the bounding box's diagonal");
   KNOTWORK_OPTION(options, filter, MaximumSubdivision, "halvings of an element at most");
-  options.AddChoice(
-    "Cells", { "surface", "volume" }, filter->GetCells(),
-    [filter](int cells) { filter->SetCells(cells); }, "cells that solids become");
+  KNOTWORK_CHOICE(options, filter, Cells, "cells that solids become", "surface", "volume");
   KNOTWORK_FREE_OPTION(options, filter, Normals, "exact normals of surfaces");
   KNOTWORK_FREE_OPTION(
     options, filter, Splitting, "points repeated at creases and between patches");

@@ -196,9 +196,8 @@ Job Make(CLI::App& app)
   job->FilterOptions = std::make_unique<Options>(app);
   Options& options = *job->FilterOptions;
   vtkTrimmedSurface* filter = job->Trim;
-  options.AddChoice(
-    "Method", { "nurbs", "rbf", "hybrid", "penalized" }, filter->GetMethod(),
-    [filter](int method) { filter->SetMethod(method); }, "how the surfaces are made");
+  KNOTWORK_CHOICE(
+    options, filter, Method, "how the surfaces are made", "nurbs", "rbf", "hybrid", "penalized");
   KNOTWORK_OPTION(options, filter, Tolerance,
     "largest distance between mesh and faces; 0: a thousandth of the diagonal");
   KNOTWORK_OPTION(options, filter, ChordalTolerance,
