@@ -639,7 +639,7 @@ Status Session::WriteFaces(
   Status status = model ? WriteCAD(model.Value, staged->string()) : model.Status;
   if (status)
   {
-    auto summary = CheckCAD(staged->string());
+    auto summary = CheckCAD(staged->string(), LengthUnit::Millimetre, false); // none reports it
     status = summary.Status;
     found = std::move(summary.Value);
   }

@@ -3,12 +3,54 @@
 
 #ifdef KNOTWORK_HAS_CHOLMOD
 #include <Eigen/CholmodSupport>
+#include <dlfcn.h>
 #else
 #include <Eigen/SparseCholesky>
 #endif
 
 namespace knotwork
 {
+#ifdef KNOTWORK_HAS_CHOLMOD
+namespace
+{
+/// While it lives, CHOLMOD's loops run in the calling thread alone. They ask OpenMP for four
+/// threads whatever the caller's number is, for work that is too little to share: waiting took a
+/// quarter of the processor's time. OpenMP is there when CHOLMOD brought it.
+class OneThread
+{
+public:
+  OneThread()
+  {
+    if (this->Levels && this->SetLevels)
+    {
+      this->Before = this->Levels();
+      this->SetLevels(0);
+    }
+  }
+  ~OneThread()
+  {
+    if (this->Levels && this->SetLevels)
+    {
+      this->SetLevels(this->Before);
+    }
+  }
+  OneThread(const OneThread&) = delete;
+  OneThread& operator=(const OneThread&) = delete;
+
+private:
+  template <typename Function>
+  static Function* Find(const char* name)
+  {
+    return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
+  }
+
+  int (*Levels)() = Find<int()>("omp_get_max_active_levels");
+  void (*SetLevels)(int) = Find<void(int)>("omp_set_max_active_levels");
+  int Before = 0;
+};
+}
+#endif
+
 struct SparseCholesky::Solver
 {
 #ifdef KNOTWORK_HAS_CHOLMOD
@@ -31,6 +73,9 @@ SparseCholesky::~SparseCholesky() = default;
 
 Status SparseCholesky::Factorize(const Eigen::SparseMatrix<double>& lower)
 {
+#ifdef KNOTWORK_HAS_CHOLMOD
+  const OneThread oneThread;
+#endif
   if (lower.rows() != this->Factor->Rows || lower.nonZeros() != this->Factor->NonZeros)
   {
     this->Factor->Method.analyzePattern(lower);
@@ -51,6 +96,9 @@ Status SparseCholesky::Factorize(const Eigen::SparseMatrix<double>& lower)
 
 void SparseCholesky::Solve(Eigen::MatrixXd& sides) const
 {
+#ifdef KNOTWORK_HAS_CHOLMOD
+  const OneThread oneThread;
+#endif
   sides = this->Factor->Method.solve(sides).eval();
 }
 

@@ -239,7 +239,7 @@ double VolumeOf(const TopoDS_Shape& solid)
     { BRepGProp::VolumeProperties(solid, content, tolerance...); });
 }
 
-CADSummary Summarize(const TopoDS_Shape& shape)
+CADSummary Summarize(const TopoDS_Shape& shape, bool volume)
 {
   CADSummary summary;
   const BRepCheck_Analyzer analyzer(shape);
@@ -273,7 +273,7 @@ CADSummary Summarize(const TopoDS_Shape& shape)
   {
     summary.Area += AreaOf(face.Current());
   }
-  for (TopExp_Explorer solid(shape, TopAbs_SOLID); solid.More(); solid.Next())
+  for (TopExp_Explorer solid(shape, TopAbs_SOLID); volume && solid.More(); solid.Next())
   {
     summary.Volume += VolumeOf(solid.Current());
   }
@@ -290,7 +290,7 @@ CADSummary Summarize(const TopoDS_Shape& shape)
 }
 }
 
-Result<CADSummary> CheckCAD(const std::string& file, LengthUnit unit)
+Result<CADSummary> CheckCAD(const std::string& file, LengthUnit unit, bool volume)
 {
   CADSummary summary;
   const std::string place = "'" + file + "'";
@@ -314,7 +314,7 @@ Result<CADSummary> CheckCAD(const std::string& file, LengthUnit unit)
       {
         return { ErrorCode::EmptyInput, place + ": there is no shape in it" };
       }
-      summary = Summarize(reader.OneShape());
+      summary = Summarize(reader.OneShape(), volume);
       return {};
     });
   return status ? Result<CADSummary>(summary) : Result<CADSummary>(status);

@@ -72,15 +72,17 @@ struct CADSummary
   double MaxVertexTolerance = 0.0;
   double Area = 0.0;
   bool Closed = false;              ///< no free edge
-  double Volume = 0.0;              ///< of the solids
+  double Volume = 0.0;              ///< of the solids; 0 when it was not asked for
   std::array<double, 3> BoxLower{}; ///< of the faces, found on their poles and curves:
   std::array<double, 3> BoxUpper{}; ///< it holds the shape
 };
 
 /// Reads a file again and checks it.
 /// @param unit  of lengths in the summary.
+/// @param volume  whether it is wanted: of faces with many spans it costs more than all checks.
 /// @return EmptyInput: no such file, or nothing in it; InvalidFormat: damaged.
-Result<CADSummary> CheckCAD(const std::string& file, LengthUnit unit = LengthUnit::Millimetre);
+Result<CADSummary> CheckCAD(
+  const std::string& file, LengthUnit unit = LengthUnit::Millimetre, bool volume = true);
 
 struct CADReadParams
 {

@@ -220,6 +220,10 @@ TEST(CADWriter, PatchesOfABoxMakeASolid_ExactOracle)
     EXPECT_TRUE(summary.Closed);
     EXPECT_NEAR(summary.Volume, 6.0, 1e-9);
     EXPECT_NEAR(summary.Area, 22.0, 1e-9);
+    const auto withoutVolume =
+      CheckCAD(FileOf(std::string("box") + ending), LengthUnit::Millimetre, false);
+    EXPECT_EQ(withoutVolume->Volume, 0.0);
+    EXPECT_EQ(withoutVolume->Area, summary.Area);
     for (std::size_t d = 0; d < 3; ++d)
     {
       EXPECT_NEAR(summary.BoxLower[d], 0.0, 1e-6);
