@@ -12,6 +12,8 @@
 #include <vtkTable.h>
 #include <vtkVariant.h>
 
+#include <filesystem>
+
 namespace knotwork
 {
 namespace
@@ -175,8 +177,10 @@ protected:
 
   Status Write(Session& session) override
   {
-    const Status status = session.WriteOutputs(this->Filter,
-      { this->MainOutput(), {}, this->OutputFile(Iterations), this->OutputFile(Features) });
+    Status status = this->WriteSurface(session);
+    status = status ? session.WriteOutputs(this->Filter,
+                        { {}, {}, this->OutputFile(Iterations), this->OutputFile(Features) })
+                    : status;
     return status && !this->OutputFile(Points).empty()
       ? session.Write(
           AsPolyData(vtkPointSet::SafeDownCast(this->Filter->GetOutputDataObject(Points))),
@@ -185,6 +189,23 @@ protected:
   }
 
 private:
+  /// A surface that is too large as the tensor product that its format needs is not lost.
+  Status WriteSurface(Session& session)
+  {
+    vtkDataObject* surface = this->Filter->GetOutputDataObject(Surface);
+    const std::string& file = this->MainOutput();
+    Status status = session.Write(surface, file);
+    const std::string instead = std::filesystem::path(file).replace_extension(".vtu").string();
+    if (status.Code != ErrorCode::TooLarge || std::filesystem::exists(instead))
+    {
+      return status;
+    }
+    session.Files.Drop(file);
+    session.LeftOut.push_back(status.Detail + "; the surface is in '" + instead + "'");
+    session.Warn({ session.LeftOut.back() });
+    return session.Write(surface, instead);
+  }
+
   void AddArrayOptions()
   {
     this->App.add_option("--field", this->Fields, "point arrays that are fitted along")

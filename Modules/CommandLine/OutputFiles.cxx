@@ -400,6 +400,18 @@ Result<fs::path> OutputFiles::Stage(const std::string& file)
     (output->Pieces.empty() ? fs::path(file).filename() : output->Target.filename());
 }
 
+void OutputFiles::Drop(const std::string& file)
+{
+  for (Output& output : this->Outputs)
+  {
+    if (output.Name == file && !output.Folder.empty())
+    {
+      Termination::RemoveFolder(output.Folder);
+      output.Folder.clear();
+    }
+  }
+}
+
 /// Copies what has been made into a device or pipe.
 Status OutputFiles::WriteStream(const Output& output)
 {

@@ -63,6 +63,9 @@ public:
   /// Where to write an output that is planned (one that is not is planned now).
   Result<std::filesystem::path> Stage(const std::string& file);
 
+  /// Forgets what was staged for a file.
+  void Drop(const std::string& file);
+
   /// All staged files take their places.
   Status Commit();
 

@@ -29,6 +29,7 @@
 #include <vtkDataAssembly.h>
 #include <vtkDataObject.h>
 #include <vtkDelimitedTextWriter.h>
+#include <vtkErrorCode.h>
 #include <vtkImageData.h>
 #include <vtkIndent.h>
 #include <vtkInformation.h>
@@ -309,7 +310,14 @@ Status WriteCollection(
 /// A writer of ours tells why it has failed as an error of VTK.
 Status Outcome(vtkWriter* writer)
 {
-  return writer->Write() == 1 ? Status() : Status(ErrorCode::InvalidParameter, "");
+  if (writer->Write() == 1)
+  {
+    return {};
+  }
+  const unsigned long code = writer->GetErrorCode();
+  return { code > vtkErrorCode::UserError ? static_cast<ErrorCode>(code - vtkErrorCode::UserError)
+                                          : ErrorCode::InvalidParameter,
+    "" };
 }
 
 template <typename Writer>
@@ -555,7 +563,7 @@ Status Session::Write(vtkDataObject* data, const std::string& file, const std::s
   Status status = this->WriteAs(format, data, staged->string(), encoding);
   if (status.Detail.empty() && (!status || messages.HasError()))
   {
-    status = { ErrorCode::InvalidParameter, messages.FirstError() };
+    status = { status ? ErrorCode::InvalidParameter : status.Code, messages.FirstError() };
   }
   const std::vector<std::string> warnings = messages.Warnings();
   const bool isOfVTK = format == FileFormat::Grid || format == FileFormat::PolyData ||

@@ -215,6 +215,31 @@ def test_both_spaces_are_written_in_every_format():
             assert np.allclose(found, distances[".vtu"], rtol=0, atol=1e-8), (space, ending, distances)
 
 
+def test_a_surface_too_large_for_its_format_is_not_lost():
+    """A cliff along the diagonal: the tensor product of its lines would have more than a million functions."""
+    random = np.random.default_rng(3)
+    along, across = random.random(20000), random.uniform(-0.004, 0.004, 20000)
+    x, y = along + across, along - across
+    file = write_xyz("diagonal.xyz", np.column_stack([x, y, np.tanh((x - y) * 400)]))
+    for ending in (".step", ".g2", ".iges"):
+        arguments = ["fit", file, "--space", "thb" if ending == ".g2" else "lr", "--tolerance", 1e-3, "--initial-elements-u", 16,
+                     "--initial-elements-v", 16, "--report", path("diagonal.json"), "--quiet", "--output", path("diagonal" + ending)]
+        for name in ("diagonal.vtu", "diagonal" + ending):
+            if os.path.exists(path(name)):
+                os.remove(path(name))
+        done = knotwork_testing.run_program(*arguments)
+        assert done.returncode == 5, (ending, done.returncode, done.stderr)
+        assert not os.path.exists(path("diagonal" + ending))
+        with open(path("diagonal.json")) as stream:
+            report = json.load(stream)
+        assert "as a tensor product" in report["left_out"][0] and path("diagonal.vtu") in report["left_out"][0], report["left_out"]
+        done = knotwork_testing.run_program("info", path("diagonal.vtu"))
+        assert done.returncode == 0 and "%d functions" % report["functions"] in done.stdout, (done.stdout, done.stderr)
+        # a file of that name is somebody's
+        done = knotwork_testing.run_program(*arguments)
+        assert done.returncode == 1 and "as a tensor product" in done.stderr, (done.returncode, done.stderr)
+
+
 def test_endings_are_those_of_the_file_in_small_letters():
     file = write_xyz("bump.txt", cloud(2, 200))
     os.makedirs(path("run.g2"), exist_ok=True)
