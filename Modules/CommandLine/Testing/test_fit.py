@@ -235,6 +235,13 @@ def test_a_surface_too_large_for_its_format_is_not_lost():
         assert "as a tensor product" in report["left_out"][0] and path("diagonal.vtu") in report["left_out"][0], report["left_out"]
         done = knotwork_testing.run_program("info", path("diagonal.vtu"))
         assert done.returncode == 0 and "%d functions" % report["functions"] in done.stdout, (done.stdout, done.stderr)
+        # distances have signs, errors have none
+        done = knotwork_testing.run_program("distance", file, path("diagonal.vtu"), "--kind", "vertical", "--output",
+                                            path("far.vtp"), "--report", path("far.json"), "--quiet")
+        assert done.returncode == 0, done.stderr
+        with open(path("far.json")) as stream:
+            far = json.load(stream)
+        assert abs(max(-far["min_distance"], far["max_distance"]) - report["max_error"]) < 1e-12, (far, report["max_error"])
         # a file of that name is somebody's
         done = knotwork_testing.run_program(*arguments)
         assert done.returncode == 1 and "as a tensor product" in done.stderr, (done.returncode, done.stderr)

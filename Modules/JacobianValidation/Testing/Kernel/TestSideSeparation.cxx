@@ -500,6 +500,64 @@ TEST(SideSeparation, PiecesWithACommonEdge_PropertyOracle)
   std::printf("%d of %d pairs that are apart are proved\n", proved, apart);
 }
 
+// Two pieces of the plane with a common edge from (0, 0) to (-0.47, 1) and positive Jacobians. Each
+// edge of the outline is a curve that runs along its chord, and neighbours have nothing but their
+// corner in common. The lower end of the left piece (a curve from (0.33, -0.62) past (0.75, -1.05))
+// lies over the inner edge of the right one, a line through (0, 0), which is not its neighbour, or
+// stays away from it.
+TEST(SideSeparation, OutlinesThatCrossFarFromCommonCorners_ExactOracle)
+{
+  using Plane = Eigen::Vector2d;
+  const Plane inner(0.0, 0.0);
+  const Plane outer(-0.47, 1.0);
+  const Plane left[3][3] = { { inner, 0.5 * (inner + outer), outer },
+    { { 0.0, -0.43 }, { -0.55, -1.07 }, { -0.49, -0.41 } },
+    { { 0.33, -0.62 }, { 1.39, -1.45 }, { -0.51, -1.82 } } };
+  for (const bool cross : { true, false })
+  {
+    SCOPED_TRACE(cross ? "crossing" : "apart");
+    const Plane right = cross ? Plane(1.04, -1.7) : Plane(2.5, -1.0);
+    // the end of the left piece at s = 0.35 is on the right of the line
+    const Plane at =
+      0.65 * 0.65 * left[2][0] + 2 * 0.65 * 0.35 * left[2][1] + 0.35 * 0.35 * left[2][2];
+    ASSERT_EQ(right[0] * at[1] - right[1] * at[0] > 0.0, cross);
+    Sides sides;
+    sides.NumComponents = 3;
+    sides.Add(CellShape::Quadrilateral, 2,
+      [&](const Point& u)
+      {
+        const auto factors = [](double x) {
+          return std::array<double, 3>{ (1 - x) * (1 - x), 2 * x * (1 - x), x * x };
+        };
+        const auto away = factors(u[0]);
+        const auto along = factors(u[1]);
+        Plane x = Plane::Zero();
+        for (std::size_t i = 0; i < 3; ++i)
+        {
+          for (std::size_t j = 0; j < 3; ++j)
+          {
+            x += away[i] * along[j] * left[i][j];
+          }
+        }
+        return Point{ x[0], x[1], 0.0 };
+      });
+    sides.Add(CellShape::Quadrilateral, 1,
+      [&](const Point& u)
+      {
+        const Plane x = (1 - u[0]) * ((1 - u[1]) * inner + u[1] * outer) +
+          u[0] * ((1 - u[1]) * right + u[1] * Plane(3.0, 0.5));
+        return Point{ x[0], x[1], 0.0 };
+      });
+    sides.List[1].Edges[3] = sides.List[0].Edges[3];
+    sides.List[1].Places[0] = sides.List[0].Places[0];
+    sides.List[1].Places[2] = sides.List[0].Places[2];
+    for (const auto& [a, b] : { std::pair{ 0, 1 }, std::pair{ 1, 0 } })
+    {
+      EXPECT_EQ(sides.Separate(a, b, 10000) == SeparationState::Separate, !cross);
+    }
+  }
+}
+
 TEST(SideSeparation, LimitOfBoxesIsKept_ExactOracle)
 {
   Sides curves;
