@@ -2,6 +2,7 @@
 #include "MeshData.h"
 
 #include "InputChecks.h"
+#include "PolygonTriangles.h"
 #include "TableRow.h"
 
 #include "vtkCell.h"
@@ -15,7 +16,6 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
-#include "vtkPolygon.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
@@ -152,24 +152,16 @@ bool DivideFace(
   {
     std::swap(*corners->GetPointer(2), *corners->GetPointer(3));
   }
-  vtkNew<vtkPolygon> polygon;
-  polygon->PointIds->DeepCopy(corners);
-  polygon->Points->SetDataTypeToDouble();
-  polygon->Points->SetNumberOfPoints(n);
+  PointMatrix points(n, 3);
   for (vtkIdType i = 0; i < n; ++i)
   {
-    polygon->Points->SetPoint(i, data->GetPoint(corners->GetId(i)));
+    data->GetPoint(corners->GetId(i), points.row(i).data());
   }
-  vtkNew<vtkIdList> local;
-  if (polygon->Triangulate(local) == 0 || local->GetNumberOfIds() != 3 * (n - 2))
+  for (const auto& [a, b, c] : DividePolygon(points))
   {
-    return false;
+    add(a, b, c);
   }
-  for (vtkIdType i = 0; i < local->GetNumberOfIds(); i += 3)
-  {
-    add(local->GetId(i), local->GetId(i + 1), local->GetId(i + 2));
-  }
-  return true;
+  return !triangles.empty();
 }
 }
 

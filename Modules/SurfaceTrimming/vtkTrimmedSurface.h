@@ -105,9 +105,9 @@ public:
   vtkGetMacro(MaximumFunctions, int);
   ///@}
   ///@{
-  /** Work of PENALIZED at most, about as many seconds of one core, but counted: the same run ends
-   * at the same place on every machine, with the best surfaces so far. Default 40, valid range
-   * [1e-6, 1e6]. */
+  /** Work of PENALIZED at most, with what its faces cost until a CAD file of them is checked: about
+   * as many seconds of one core, but counted, so that the same run ends at the same place on every
+   * machine, with the best surfaces so far. Default 50, valid range [1e-6, 1e6]. */
   vtkSetClampMacro(Effort, double, 1e-6, 1e6);
   vtkGetMacro(Effort, double);
   ///@}
@@ -154,7 +154,7 @@ private:
   int Centres = 2000;
   double CornerAngle = 20.0;
   int MaximumFunctions = 200000;
-  double Effort = 40.0;
+  double Effort = 50.0;
   double TimeLimit = 0.0;
   bool Triangulation = true;
 };

@@ -55,6 +55,10 @@ Status CheckParams(const BackMapParams& params)
   {
     return bad("the effort of a back-map lies in (0, 1e6]");
   }
+  if (!(params.LaterWork >= 0.0 && std::isfinite(params.LaterWork)))
+  {
+    return bad("the later work of a back-map is 0 or more");
+  }
   if (!(params.TimeLimit >= 0.0))
   {
     return bad("the time limit of a back-map is negative");

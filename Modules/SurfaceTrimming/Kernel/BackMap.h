@@ -55,7 +55,10 @@ struct BackMapParams
   /// Work at most of Penalized, (0, 1e6]: about as many seconds of one core, but counted, so that
   /// the same run ends at the same place on every machine. The best surface so far is then the
   /// result; the first net is solved for in any case.
-  double Effort = 40.0;
+  double Effort = 50.0;
+  /// What each control point of the result costs after the fit, in the same unit, >= 0: that much
+  /// is left for it.
+  double LaterWork = 0.0;
   /// A net by need begins with it: BackMap::NextNet of a fit that was stopped. Empty: few spans.
   std::vector<KnotVector> FirstNet;
   double TimeLimit = 0.0; ///< seconds of the wall clock, >= 0; 0: none. The same
@@ -73,9 +76,9 @@ struct BackMap
   bool WithinTolerance = false; ///< as found, not proved: BoundDeviation does that
   BackMapStop Stop = BackMapStop::Finished;
   std::string StopReason;          ///< place of a contradiction
-  double Work = 0.0;               ///< in the unit of BackMapParams::Effort
+  double Work = 0.0;               ///< in the unit of BackMapParams::Effort, without the later one
   std::vector<KnotVector> NextNet; ///< that the effort did not suffice for
-  double NextWork = 0.0;           ///< what it is expected to cost
+  double NextWork = 0.0;           ///< what it is expected to cost, with the later work
 };
 
 /// @return failures of ChartMesh::Check; InvalidParameter; SingularSystem; TooLarge; Aborted. A

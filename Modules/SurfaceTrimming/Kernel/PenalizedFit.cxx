@@ -288,13 +288,15 @@ class Limits
 {
 public:
   explicit Limits(const BackMapParams& params)
-    : Budget(params.Effort, params.TimeLimit, {}), MaxFunctions(params.MaxFunctions)
+    : Budget(params.Effort, params.TimeLimit, {}), Later(1e9 * params.LaterWork),
+      MaxFunctions(params.MaxFunctions)
   {
   }
   void Spend(double nanoseconds) { this->Budget.Spend(nanoseconds); }
-  /// Whether so much more may be done, and if not, why.
-  bool Allows(double nanoseconds)
+  /// Whether so much more may be done for a surface on a net, and if not, why.
+  bool Allows(const NetKnots& knots, double nanoseconds)
   {
+    nanoseconds += this->Later * NumFunctions(knots);
     this->Budget.Continue();
     if (this->Stop == BackMapStop::Finished)
     {
@@ -304,14 +306,19 @@ public:
     }
     return this->Stop == BackMapStop::Finished;
   }
-  bool Allows(const NetKnots& knots, std::size_t triangles)
+  bool AllowsNet(const NetKnots& knots, std::size_t triangles)
   {
     if (NumFunctions(knots) > this->MaxFunctions)
     {
       this->Stop = BackMapStop::Functions;
       return false;
     }
-    return this->Allows(ExpectedWork(knots, triangles));
+    return this->Allows(knots, ExpectedWork(knots, triangles));
+  }
+  /// What a net is expected to cost in all, in the unit of Effort.
+  double Price(const NetKnots& knots, std::size_t triangles) const
+  {
+    return 1e-9 * (ExpectedWork(knots, triangles) + this->Later * NumFunctions(knots));
   }
   double Used() const { return this->Budget.Used(); }
 
@@ -319,6 +326,7 @@ public:
 
 private:
   WorkBudget Budget;
+  double Later; ///< nanoseconds of a control point
   double MaxFunctions;
 };
 
@@ -377,7 +385,7 @@ void Reweight(NetFit& net, const BackMapParams& params, Limits& limits, BackMap&
           std::min(ratio * ratio, MostGain);
       }
     }
-    if (!limits.Allows(work))
+    if (!limits.Allows(net.Space->Knots, work))
     {
       return;
     }
@@ -514,7 +522,7 @@ Result<BackMap> FitPenalized(const ChartMesh& chart, const BackMapParams& params
     }
     next = finer;
     if (finer == knots || limits.Stop != BackMapStop::Finished ||
-      !limits.Allows(finer, chart.Triangles.size()))
+      !limits.AllowsNet(finer, chart.Triangles.size()))
     {
       break;
     }
@@ -528,7 +536,7 @@ Result<BackMap> FitPenalized(const ChartMesh& chart, const BackMapParams& params
   if (best.Stop == BackMapStop::Effort)
   {
     best.NextNet.assign(next.begin(), next.end());
-    best.NextWork = 1e-9 * ExpectedWork(next, chart.Triangles.size());
+    best.NextWork = limits.Price(next, chart.Triangles.size());
   }
   return best;
 }

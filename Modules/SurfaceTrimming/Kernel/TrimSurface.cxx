@@ -29,6 +29,17 @@ constexpr double MoreSmoothing = 30.0;
 constexpr double LeastEffortOfAttempts = 2.0;
 /// Of a chart when nothing is left: that of its first net, which is made in any case.
 constexpr double LeastEffort = 1e-6;
+/// Of the unit of work, measured, a control point: the bound of a surface's deviation (and of each
+/// triangle), loops with all certificates, a STEP file that is written, read again and checked.
+constexpr double BoundNanoseconds = 14000.0;
+constexpr double TriangleNanoseconds = 3000.0;
+constexpr double TrimNanoseconds = 18000.0;
+constexpr double FileNanoseconds = 42000.0;
+
+double NumPoints(const Spline<2>& surface)
+{
+  return static_cast<double>(surface.ControlPoints.rows());
+}
 
 double Diagonal(const std::vector<ChartMesh>& charts)
 {
@@ -108,7 +119,8 @@ Result<ProvedBackMap> FitWithProof(
     {
       return map.Status;
     }
-    const double spent = map->Work;
+    const double spent = map->Work + 1e-9 * BoundNanoseconds * NumPoints(map->Surface) +
+      1e-9 * TriangleNanoseconds * static_cast<double>(chart.Triangles.size());
     work += spent;
     auto measured = BoundDeviation(chart, map->Surface, deviation);
     if (!measured)
@@ -163,6 +175,7 @@ public:
   {
     BackMapParams backMap = this->Params.BackMap;
     backMap.Effort = effort;
+    backMap.LaterWork = 1e-9 * (BoundNanoseconds + TrimNanoseconds + FileNanoseconds);
     backMap.TimeLimit = seconds;
     backMap.Tolerance = SurfaceShare * this->State.Tolerance;
     backMap.Smoothing = this->Smoothing[c];
@@ -192,23 +205,40 @@ public:
     return {};
   }
 
+  /// What loops and certificates of all faces take once.
+  double TrimWork() const { return 1e-9 * TrimNanoseconds * this->NumPointsOfAll(); }
+
+  /// The same and a file of them.
+  double LaterWork() const
+  {
+    return this->TrimWork() + 1e-9 * FileNanoseconds * this->NumPointsOfAll();
+  }
+
+  /// What is left for charts whose surfaces are to be made or replaced.
+  double Left(double effort, const std::size_t* begin, const std::size_t* end) const
+  {
+    double left = effort - this->State.Work - this->LaterWork();
+    for (const std::size_t* c = begin; c != end; ++c)
+    {
+      left += 1e-9 * (TrimNanoseconds + FileNanoseconds) * PointsOf(this->State.Model.Faces[*c]);
+    }
+    return left;
+  }
+
   /// Gives charts that were stopped what the others left, the cheapest ones first: each goes on
   /// with the net that it was stopped at.
   Status Resume(double effort, WorkBudget& clock)
   {
-    const auto waits = [&](const BackMap& map)
-    { return !map.NextNet.empty() && map.NextWork <= effort - this->State.Work; };
     std::vector<BackMap>& maps = this->State.BackMaps;
-    for (auto waiting = std::count_if(maps.begin(), maps.end(), waits);
-         waiting > 0 && clock.Continue(); waiting = std::count_if(maps.begin(), maps.end(), waits))
+    for (std::vector<std::size_t> waiting = this->Waiting(effort);
+         !waiting.empty() && clock.Continue(); waiting = this->Waiting(effort))
     {
-      const auto next = std::min_element(maps.begin(), maps.end(),
-        [&](const BackMap& a, const BackMap& b)
-        { return waits(a) != waits(b) ? waits(a) : waits(a) && a.NextWork < b.NextWork; });
-      const double share = (effort - this->State.Work) / static_cast<double>(waiting);
-      const auto c = static_cast<std::size_t>(next - maps.begin());
-      if (Status status = this->FitSurface(c, std::max(share, next->NextWork), clock.SecondsLeft(),
-            0.6, 0.6, std::exchange(next->NextNet, {}));
+      const std::size_t c = *std::min_element(waiting.begin(), waiting.end(),
+        [&](std::size_t a, std::size_t b) { return maps[a].NextWork < maps[b].NextWork; });
+      const double all = this->Left(effort, waiting.data(), waiting.data() + waiting.size());
+      const double share = std::max(all / static_cast<double>(waiting.size()), maps[c].NextWork);
+      if (Status status = this->FitSurface(
+            c, share, clock.SecondsLeft(), 0.6, 0.6, std::exchange(maps[c].NextNet, {}));
           !status)
       {
         return status;
@@ -273,6 +303,36 @@ public:
   TrimmedSurface State;
 
 private:
+  static double PointsOf(const TrimmedFace& face)
+  {
+    return face.Surface.Space ? NumPoints(face.Surface) : 0.0;
+  }
+
+  double NumPointsOfAll() const
+  {
+    double points = 0.0;
+    for (const TrimmedFace& face : this->State.Model.Faces)
+    {
+      points += PointsOf(face);
+    }
+    return points;
+  }
+
+  /// Charts that were stopped and whose next net is within what is left.
+  std::vector<std::size_t> Waiting(double effort) const
+  {
+    std::vector<std::size_t> waiting;
+    for (std::size_t c = 0; c < this->Charts.size(); ++c)
+    {
+      const BackMap& map = this->State.BackMaps[c];
+      if (!map.NextNet.empty() && map.NextWork <= this->Left(effort, &c, &c + 1))
+      {
+        waiting.push_back(c);
+      }
+    }
+    return waiting;
+  }
+
   const std::vector<ChartMesh>& Charts;
   const TrimParams& Params;
   std::vector<double> Smoothing;
@@ -327,14 +387,17 @@ Result<TrimmedSurface> TrimSurface(const std::vector<ChartMesh>& charts, const T
   {
     if (attempt == 1)
     {
-      effort = std::min(
-        effort, trimming.State.Work + std::max(trimming.State.Work, LeastEffortOfAttempts));
+      const double first = trimming.State.Work;
+      effort =
+        std::min(effort, first + std::max(first, LeastEffortOfAttempts) + trimming.LaterWork());
     }
     for (std::size_t i = 0; i < pending.size(); ++i)
     {
       const double part = 0.6 / static_cast<double>(pending.size());
       const double begin = part * static_cast<double>(i);
-      const double left = (effort - trimming.State.Work) / static_cast<double>(pending.size() - i);
+      const double left =
+        trimming.Left(effort, pending.data() + i, pending.data() + pending.size()) /
+        static_cast<double>(pending.size() - i);
       if (Status status = trimming.FitSurface(
             pending[i], std::max(left, LeastEffort), clock.SecondsLeft(), begin, begin + part);
           !status)
@@ -356,12 +419,15 @@ Result<TrimmedSurface> TrimSurface(const std::vector<ChartMesh>& charts, const T
       fewest = pending.size();
       best = trimming.State;
     }
-    if (trimming.State.Work >= effort || !clock.Continue())
+    // an attempt needs loops and certificates of its own, and something to be better by
+    const double trim = trimming.TrimWork();
+    best.Work = trimming.State.Work + trimming.LaterWork();
+    if (best.Work + trim >= effort || !clock.Continue())
     {
       break;
     }
+    trimming.State.Work += trim;
   }
-  best.Work = trimming.State.Work;
   Summarize(best);
   if (params.Triangulation)
   {

@@ -19,8 +19,9 @@ struct TrimParams
   double ChordalTolerance = 0.0;
   bool Triangulation = true; ///< whether Mesh is made
   /// As in BackMapParams, of all surfaces of Penalized together: charts have equal shares, and what
-  /// is left goes to those that were stopped. Loops, proofs and triangles are made in any case.
-  double Effort = 40.0;
+  /// is left goes to those that were stopped. What loops, proofs and a CAD file will take is kept
+  /// back for them; they are made in any case, and so are triangles, which are not counted.
+  double Effort = 50.0;
   double TimeLimit = 0.0;
   int Threads = 0;
   ProgressCallback Progress;

@@ -179,9 +179,21 @@ def test_faces_of_more_corners_are_divided_exact_oracle():
     assert error_of(tetrahedron) > 0
 
 
+def test_polygons_that_are_not_quite_flat_are_divided_exact_oracle():
+    # an L whose corners are up to a ten thousandth off its plane, as coordinates of six digits leave them
+    corners = [(0, 0, 1e-4), (2, 0, 0), (2, 1, 1e-4), (2.03, 1, 0), (2.03, 2, 0), (0, 2, 1e-4)]
+    mesh = flatten(polydata(corners, [range(6)])).GetOutput()
+    assert mesh.GetNumberOfCells() == 4 and vtk_to_numpy(mesh.GetCellData().GetArray("Flipped")).sum() == 0
+    xy = vtk_to_numpy(mesh.GetPoints().GetData())[:, :2]
+    triangles = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    areas = 0.5 * np.linalg.det(xy[triangles[:, 1:]] - xy[triangles[:, :1]])
+    assert areas.min() > 0 and abs(areas.sum() - 4.03) < 1e-12, areas
+
+
 def test_bad_meshes_are_refused():
     assert error_of(polydata(ROLLED, TRIANGLES)) == 0
     assert error_of(polydata(ROLLED, [*TRIANGLES, (0, 1, 0, 1)])) > 0  # nothing to divide
+    assert error_of(polydata([(0, 0, 0), (2, 2, 0), (2, 0, 0), (0, 1, 0)], [range(4)])) > 0  # crosses itself
     assert error_of(polydata(ROLLED, [(0, 0, 1)])) > 0
     assert error_of(polydata(ROLLED, [*TRIANGLES, (0, 1)])) > 0  # VTK crashes on a face of two corners
     more = np.vstack([ROLLED, [[9, 9, 9]]])

@@ -594,6 +594,22 @@ TEST(BackMap, WorkIsCountedAndEndsItAtTheSamePlace_PropertyOracle)
   EXPECT_EQ(Fit(chart, params).Stop, BackMapStop::Time);
 }
 
+TEST(BackMap, LeavesWhatItsNetWillCostLater_PropertyOracle)
+{
+  const ChartMesh chart = ChartOf(Roof(0.2));
+  BackMapParams params = Params(1e-7); // no net is as fine
+  params.Effort = 0.5;
+  const BackMap whole = Fit(chart, params);
+  params.LaterWork = 0.5 / static_cast<double>(whole.Surface.ControlPoints.rows());
+  const BackMap map = Fit(chart, params);
+  EXPECT_EQ(map.Stop, BackMapStop::Effort);
+  EXPECT_LT(map.Surface.ControlPoints.rows(), whole.Surface.ControlPoints.rows());
+  const auto later = [&](double points) { return params.LaterWork * points; };
+  EXPECT_LE(map.Work + later(static_cast<double>(map.Surface.ControlPoints.rows())), params.Effort);
+  EXPECT_GT(map.Work + map.NextWork, params.Effort);
+  EXPECT_GE(map.NextWork, later(map.NextNet[0].NumFunctions() * map.NextNet[1].NumFunctions()));
+}
+
 TEST(BackMap, LimitsOfTheNetAreNamed_PropertyOracle)
 {
   const ChartMesh chart = ChartOf(Roof(0.2));
@@ -665,6 +681,8 @@ TEST(BackMap, EveryFailureIsReached)
     [](BackMapParams& p) { p.Effort = 0.0; },
     [](BackMapParams& p) { p.Effort = 1.1e6; },
     [&](BackMapParams& p) { p.Effort = nan; },
+    [](BackMapParams& p) { p.LaterWork = -1.0; },
+    [&](BackMapParams& p) { p.LaterWork = nan; },
     [](BackMapParams& p) { p.TimeLimit = -1.0; },
     [&](BackMapParams& p) { p.TimeLimit = nan; },
   };
