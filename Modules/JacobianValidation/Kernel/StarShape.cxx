@@ -5,6 +5,8 @@
 #include "Parallel.h"
 #include "PatchForm.h"
 
+#include <Eigen/Dense>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -18,6 +20,11 @@ namespace
 constexpr double unitRoundoff = 0x1p-53;
 constexpr int maxPieces = 64;
 constexpr int maxCornerSides = 4;
+/// A better point than the mean of the control points is looked for where few sides are in it, by
+/// tangent planes of pieces of this depth and of those that the last point did not see.
+constexpr std::size_t maxSearchedSides = 64;
+constexpr int firstDepth = 4;
+constexpr int maxSearches = 8;
 
 /// A piece of a side, seen from the point.
 struct Piece
@@ -110,9 +117,113 @@ Sign FindSign(const Piece& piece, double orientation, double error, double reach
   return positive ? Sign::Positive : Sign::Unknown;
 }
 
-/// Whether the point sees all of a side from inside.
-bool SeesSide(
-  const BernsteinCells& sides, int side, double orientation, const std::array<double, 3>& point)
+/// Points y with Normal (y - o) < Offset are inside of a tangent plane, as o then is.
+struct TangentPlane
+{
+  Eigen::Vector3d Normal; ///< of length one
+  double Offset = 0.0;
+};
+
+/// The tangent planes at the corners of a piece. Rounding is of no importance: what is found with
+/// them is proved.
+void AddTangentPlanes(const Piece& piece, double orientation, std::vector<TangentPlane>& planes)
+{
+  const PatchForm& form = piece.Form;
+  const int p = form.Degree[0];
+  const int q = form.Degree[1];
+  const int n = form.Size();
+  const auto point = [&](int i, int j)
+  {
+    const double* data = form.Data.data() + j * (p + 1) + i;
+    return Eigen::Vector3d(Eigen::Vector3d(data[0], data[n], data[2 * n]) / data[3 * n]);
+  };
+  for (int j = 0; j <= q; j += q)
+  {
+    for (int i = 0; i <= (piece.HasPole ? 0 : p); i += p)
+    {
+      const Eigen::Vector3d x = point(i, j);
+      const Eigen::Vector3d s = i == 0 ? (point(1, j) - x).eval() : (x - point(p - 1, j)).eval();
+      const Eigen::Vector3d t = j == 0 ? (point(i, 1) - x).eval() : (x - point(i, q - 1)).eval();
+      const Eigen::Vector3d normal = orientation * s.cross(t);
+      const double length = normal.norm();
+      if (length > 0.0 && std::isfinite(length))
+      {
+        planes.push_back({ normal / length, normal.dot(x) / length });
+      }
+    }
+  }
+}
+
+/// The point that is deepest inside of all planes, as far as it is in doubt: the largest least
+/// distance r, by Newton steps on its barrier t r + sum log(distance - r).
+/// @return false when no point is inside of all.
+bool FindDeepest(const std::vector<TangentPlane>& planes, Eigen::Vector3d& best)
+{
+  Eigen::Vector4d x = Eigen::Vector4d::Zero(); // the point and r
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0.0;
+  for (const TangentPlane& plane : planes)
+  {
+    least = std::min(least, plane.Offset);
+    most = std::max(most, std::abs(plane.Offset));
+  }
+  if (!(most > 0.0) || !std::isfinite(most))
+  {
+    return false;
+  }
+  x[3] = least - most;
+  const double count = static_cast<double>(planes.size());
+  for (double weight = 1.0; weight <= 1e3; weight *= 10.0)
+  {
+    for (int step = 0; step < 12; ++step)
+    {
+      Eigen::Vector4d gradient(0.0, 0.0, 0.0, weight * count / most);
+      Eigen::Matrix4d curvature = Eigen::Matrix4d::Zero();
+      for (const TangentPlane& plane : planes)
+      {
+        Eigen::Vector4d a;
+        a << plane.Normal, 1.0;
+        a /= plane.Offset - a.dot(x);
+        gradient -= a;
+        curvature += a * a.transpose();
+      }
+      const Eigen::Vector4d change = curvature.ldlt().solve(gradient);
+      const double decrease = gradient.dot(change);
+      if (!change.allFinite() || !(decrease > 1e-3))
+      {
+        break;
+      }
+      // as far as the planes allow, and as the barrier rises
+      double reach = 1.0;
+      for (const TangentPlane& plane : planes)
+      {
+        const double toward = plane.Normal.dot(change.head<3>()) + change[3];
+        const double room = plane.Offset - plane.Normal.dot(x.head<3>()) - x[3];
+        reach = reach * toward > 0.9 * room ? 0.9 * room / toward : reach;
+      }
+      const auto rise = [&](double length)
+      {
+        double sum = length * weight * count / most * change[3];
+        for (const TangentPlane& plane : planes)
+        {
+          const double toward = plane.Normal.dot(change.head<3>()) + change[3];
+          const double room = plane.Offset - plane.Normal.dot(x.head<3>()) - x[3];
+          sum += std::log1p(-length * toward / room);
+        }
+        return sum;
+      };
+      while (reach > 1e-6 && !(rise(reach) > 0.0))
+      {
+        reach *= 0.5;
+      }
+      x += reach * change;
+    }
+  }
+  best = x.head<3>();
+  return x[3] > 0.0 && best.allFinite();
+}
+
+Piece WholeSide(const BernsteinCells& sides, int side, const std::array<double, 3>& point)
 {
   const std::size_t at = static_cast<std::size_t>(side);
   std::vector<int> all(
@@ -121,6 +232,28 @@ bool SeesSide(
   Piece whole;
   whole.Form = MakePatchForm(sides, side, sides.Shapes[at], sides.Degrees[at], all, point);
   whole.HasPole = sides.Shapes[at] == CellShape::Triangle;
+  return whole;
+}
+
+/// Halves a piece, which keeps the second one.
+Piece CutOff(Piece& piece)
+{
+  const int direction = piece.Depth % 2;
+  ++piece.Depth;
+  Piece first;
+  first.Depth = piece.Depth;
+  first.HasPole = piece.HasPole && direction != 0;
+  first.Form = CutOffHalf(piece.Form, direction);
+  return first;
+}
+
+/// Whether the point sees all of a side from inside.
+/// @param planes  not null: tangent planes of what it does not see are added, relative to it.
+bool SeesSide(const BernsteinCells& sides, int side, double orientation,
+  const std::array<double, 3>& point, std::vector<TangentPlane>* planes)
+{
+  const std::size_t at = static_cast<std::size_t>(side);
+  Piece whole = WholeSide(sides, side, point);
   const int n = whole.Form.Size();
   const double* data = whole.Form.Data.data();
   double reach = 0.0;
@@ -161,17 +294,77 @@ bool SeesSide(
     pieces += 2;
     if (sign == Sign::NotPositive || pieces > maxPieces)
     {
+      if (planes)
+      {
+        AddTangentPlanes(piece, orientation, *planes);
+      }
       return false;
     }
-    const int direction = piece.Depth % 2;
-    ++piece.Depth;
-    Piece first = piece;
-    first.Form = CutOffHalf(piece.Form, direction);
-    first.HasPole = piece.HasPole && direction != 0;
-    open.push_back(std::move(first));
+    open.push_back(CutOff(piece));
     open.push_back(std::move(piece));
   }
   return true;
+}
+
+/// Whether the point, or another one, sees all of the given sides from inside.
+bool AreSeen(const BernsteinCells& sides, const std::vector<int>& members,
+  const std::vector<double>& orientations, const std::array<double, 3>& mean)
+{
+  const auto seesAll = [&](const std::array<double, 3>& point, std::vector<TangentPlane>* planes)
+  {
+    bool all = true;
+    for (std::size_t i = 0; i < members.size() && (all || planes); ++i)
+    {
+      all = SeesSide(sides, members[i], orientations[i], point, planes) && all;
+    }
+    return all;
+  };
+  if (seesAll(mean, nullptr))
+  {
+    return true;
+  }
+  if (members.size() > maxSearchedSides)
+  {
+    return false;
+  }
+  std::vector<TangentPlane> planes; // relative to the mean
+  for (std::size_t i = 0; i < members.size(); ++i)
+  {
+    std::vector<Piece> open;
+    open.push_back(WholeSide(sides, members[i], mean));
+    while (!open.empty())
+    {
+      Piece piece = std::move(open.back());
+      open.pop_back();
+      BalanceWeights(piece.Form);
+      if (piece.Depth == firstDepth)
+      {
+        AddTangentPlanes(piece, orientations[i], planes);
+        continue;
+      }
+      open.push_back(CutOff(piece));
+      open.push_back(std::move(piece));
+    }
+  }
+  for (int search = 0; search < maxSearches; ++search)
+  {
+    Eigen::Vector3d shift;
+    if (!FindDeepest(planes, shift))
+    {
+      return false;
+    }
+    const std::array<double, 3> point{ mean[0] + shift[0], mean[1] + shift[1], mean[2] + shift[2] };
+    const std::size_t known = planes.size();
+    if (seesAll(point, &planes))
+    {
+      return true;
+    }
+    for (std::size_t i = known; i < planes.size(); ++i)
+    {
+      planes[i].Offset += planes[i].Normal.dot(shift);
+    }
+  }
+  return false;
 }
 
 /// Whether each edge has two sides that run along it in opposite directions, and each corner few
@@ -269,12 +462,13 @@ std::vector<char> FindStarShaped(const std::vector<BoundarySide>& boundary, int 
         {
           continue;
         }
-        is[c] = std::all_of(members[c].begin(), members[c].end(),
-          [&](int i)
-          {
-            const int cell = boundary[static_cast<std::size_t>(i)].Cell;
-            return SeesSide(sides, i, signs[static_cast<std::size_t>(cell)], means[c]);
-          });
+        std::vector<double> orientations;
+        for (const int i : members[c])
+        {
+          const int cell = boundary[static_cast<std::size_t>(i)].Cell;
+          orientations.push_back(signs[static_cast<std::size_t>(cell)]);
+        }
+        is[c] = AreSeen(sides, members[c], orientations, means[c]);
       }
     });
   return is;

@@ -108,6 +108,38 @@ TEST(StarShape, BlocksAndBentBars_ExactOracle)
   EXPECT_EQ(StarShaped(MakeShapeCells(s).Cells), std::vector<char>{ 0 });
 }
 
+// The unit cube, triquadratic, with a control point in a face that is far away but weighs next to
+// nothing: it moves the face by less than 1e-3, and the mean of all control points out of the cube.
+TEST(StarShape, APointIsFoundWhereTheMeanIsOutside_ExactOracle)
+{
+  for (const double far : { 10.0, 50.0, 200.0 })
+  {
+    for (const double shift : { 0.0, 1e4 })
+    {
+      SCOPED_TRACE("at " + std::to_string(far) + " moved by " + std::to_string(shift));
+      BernsteinCells cells;
+      cells.NumComponents = 3;
+      cells.Rational = true;
+      double* block = cells.Block(cells.Add(CellShape::Hexahedron, { 2, 2, 2 }));
+      const int n = 27;
+      for (int i = 0; i < n; ++i)
+      {
+        const bool isFar = i == 2 + 3 + 9; // in the middle of x = 1
+        const double w = isFar ? 1e-6 : 1.0;
+        block[i] = w * (shift + (isFar ? n * far : 0.5 * (i % 3)));
+        block[n + i] = w * 0.5 * (i / 3 % 3);
+        block[2 * n + i] = w * 0.5 * (i / 9);
+        block[3 * n + i] = w;
+      }
+      EXPECT_EQ(StarShaped(cells), std::vector<char>{ 1 });
+      EXPECT_EQ(StarShaped(cells, -1), std::vector<char>{ 0 });
+      const InjectivityCertificate proof = Prove(cells);
+      EXPECT_EQ(proof.Verdict, InjectivityVerdict::Injective);
+      EXPECT_EQ(proof.Boxes, 0);
+    }
+  }
+}
+
 // A mirrored cell has det J < 0 and its sides the other way round.
 TEST(StarShape, MirroredCells_PropertyOracle)
 {
