@@ -203,6 +203,11 @@ Result<BackMap> FitExtrapolated(const ChartMesh& chart, const BackMapParams& par
   while (true)
   {
     const NetKnots knots = UniformNet(rectangle, params.Degree, elements);
+    if (Status size = CheckNet(knots, params); !size)
+    {
+      map.Stop = BackMapStop::Functions; // the nets before it are a result
+      return map.Passes > 0 ? Result<BackMap>(std::move(map)) : Result<BackMap>(size);
+    }
     Result<PointMatrix> grid = GridPoints(chart, knots);
     if (!grid && byNeed && map.Passes == 0 && elements < params.MaxElements)
     {

@@ -335,9 +335,7 @@ Status FitNet(const ChartMesh& chart, const std::vector<std::array<int, 2>>& bou
   const NetKnots& knots, const BackMapParams& params, Limits& limits, NetFit& net, BackMap& map,
   BackMapResiduals& residuals)
 {
-  if (Status status =
-        CheckSize(NumFunctions(knots), params.MaxFunctions, "control points of a net");
-      !status)
+  if (Status status = CheckNet(knots, params); !status)
   {
     return status;
   }
@@ -440,6 +438,11 @@ NetKnots UniformNet(const ParametricBox<2>& rectangle, int degree, int elements)
       rectangle.Lower[d], rectangle.Upper[d]);
   }
   return knots;
+}
+
+Status CheckNet(const NetKnots& knots, const BackMapParams& params)
+{
+  return CheckSize(NumFunctions(knots), params.MaxFunctions, "control points of a net");
 }
 
 BackMapResiduals MeasureBackMap(

@@ -12,6 +12,9 @@ ParametricBox<2> BackMapRectangle(const ChartMesh& chart, double margin);
 /// Equal spans, nearly square: so many in the longer direction.
 NetKnots UniformNet(const ParametricBox<2>& rectangle, int degree, int elements);
 
+/// @return TooLarge for a net of more control points than MaxFunctions.
+Status CheckNet(const NetKnots& knots, const BackMapParams& params);
+
 /// Residuals of a surface at the samples.
 struct BackMapResiduals
 {

@@ -44,6 +44,11 @@ Result<BackMap> FitRadial(const ChartMesh& chart, const BackMapParams& params)
   while (status)
   {
     const NetKnots knots = UniformNet(rectangle, params.Degree, elements);
+    if (Status size = CheckNet(knots, params); !size)
+    {
+      map.Stop = BackMapStop::Functions; // the nets before it are a result
+      return map.Passes > 0 ? Result<BackMap>(std::move(map)) : Result<BackMap>(size);
+    }
     auto surface = SplineOnNet(knots, {});
     if (!surface)
     {

@@ -616,11 +616,21 @@ TEST(BackMap, LimitsOfTheNetAreNamed_PropertyOracle)
   BackMapParams params = Params(1e-6);
   params.MaxElements = 20;
   EXPECT_EQ(Fit(chart, params).Stop, BackMapStop::Elements);
-  params = Params(1e-6);
-  params.MaxFunctions = 500;
-  const BackMap map = Fit(chart, params);
-  EXPECT_EQ(map.Stop, BackMapStop::Functions);
-  EXPECT_LE(map.Surface.Space->NumFunctions, 500);
+  for (const BackMapMethod method :
+    { BackMapMethod::Nurbs, BackMapMethod::Rbf, BackMapMethod::Hybrid, BackMapMethod::Penalized })
+  {
+    SCOPED_TRACE(ToString(method));
+    params = Params(1e-9, method);
+    params.MaxFunctions = 500;
+    const BackMap map = Fit(chart, params);
+    if (method != BackMapMethod::Rbf) // its spline follows the radial functions by then
+    {
+      EXPECT_EQ(map.Stop, BackMapStop::Functions);
+    }
+    EXPECT_LE(map.Surface.Space->NumFunctions, 500);
+    params.Elements = 30;
+    EXPECT_EQ(FitBackMap(chart, params).Status.Code, ErrorCode::TooLarge);
+  }
   EXPECT_EQ(Fit(chart, Params(1e-2)).Stop, BackMapStop::Finished);
 }
 
