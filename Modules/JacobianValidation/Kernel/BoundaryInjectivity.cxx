@@ -137,7 +137,7 @@ public:
     {
       return false;
     }
-    if (this->FindFolds())
+    if (this->FindFolds() || this->FindInnerCollapse())
     {
       return true;
     }
@@ -731,6 +731,116 @@ private:
       return true;
     }
     return false;
+  }
+
+  /// Edges are allowed to be points on the boundary. Inside of a patch all of the edge's points,
+  /// which are points of the map, have one image.
+  bool FindInnerCollapse()
+  {
+    for (int c = 0; c < this->Cells.NumCells(); ++c)
+    {
+      const std::size_t at = static_cast<std::size_t>(c);
+      const CellShape shape = this->Shape(c);
+      const bool isBox = shape == CellShape::Quadrilateral || shape == CellShape::Hexahedron;
+      if (!isBox || this->Complex.Boxes.empty() || this->Local.Cells[at].Degenerate == 0)
+      {
+        continue;
+      }
+      const int dim = NumParameters(shape);
+      for (int along = 0; along < dim; ++along)
+      {
+        for (int corner = 0; corner < (1 << dim); ++corner)
+        {
+          if ((corner >> along & 1) == 0 && this->IsOnePoint(c, corner, along) &&
+            this->IsInsidePatch(c, corner, along))
+          {
+            std::array<double, 3> u{};
+            for (int d = 0; d < dim; ++d)
+            {
+              u[static_cast<std::size_t>(d)] = corner >> d & 1;
+            }
+            std::array<double, 3> v = u;
+            v[static_cast<std::size_t>(along)] = 1.0;
+            this->Set(InjectivityVerdict::NotInjective, InjectivityReason::Overlap);
+            this->SetWitness(this->MakePlace(c, -1, u), this->MakePlace(c, -1, v), 0.0);
+            return true;
+          }
+        }
+      }
+    }
+    return false;
+  }
+
+  /// Whether the control points of an edge, from a corner along a direction, coincide.
+  bool IsOnePoint(int cell, int corner, int along) const
+  {
+    const std::size_t at = static_cast<std::size_t>(cell);
+    const CellDegree& degree = this->Cells.Degrees[at];
+    const int n = NumCellCoefficients(this->Shape(cell), degree);
+    const double* data = this->Cells.Block(cell);
+    const int components = this->Cells.NumComponents;
+    const auto value = [&](int i, int d)
+    { return data[d * n + i] / (this->Cells.Rational ? data[components * n + i] : 1.0); };
+    std::array<int, 3> place{};
+    for (std::size_t d = 0; d < 3; ++d)
+    {
+      place[d] = (corner >> d & 1) * degree[d];
+    }
+    double largest = 0.0;
+    for (int i = 0; i < n; ++i)
+    {
+      for (int d = 0; d < components; ++d)
+      {
+        largest = std::max(largest, std::abs(value(i, d)));
+      }
+    }
+    const auto coefficient = [&]
+    { return CellCoefficient(this->Shape(cell), degree, place[0], place[1], place[2]); };
+    const int first = coefficient();
+    for (int i = 1; i <= degree[static_cast<std::size_t>(along)]; ++i)
+    {
+      place[static_cast<std::size_t>(along)] = i;
+      for (int d = 0; d < components; ++d)
+      {
+        if (!(std::abs(value(coefficient(), d) - value(first, d)) <=
+              this->Params.CollapseTolerance * largest))
+        {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  /// Whether the boxes of a patch leave nothing out around the middle of an edge.
+  bool IsInsidePatch(int cell, int corner, int along) const
+  {
+    const std::size_t at = static_cast<std::size_t>(cell);
+    const std::size_t dim = static_cast<std::size_t>(NumParameters(this->Shape(cell)));
+    const ParametricBox<3>& own = this->Complex.Boxes[at];
+    std::array<double, 3> middle{};
+    for (std::size_t d = 0; d < dim; ++d)
+    {
+      middle[d] = static_cast<int>(d) == along ? 0.5 * (own.Lower[d] + own.Upper[d])
+        : (corner >> d & 1) != 0               ? own.Upper[d]
+                                               : own.Lower[d];
+    }
+    double covered = 0.0; // share of a small box around it
+    for (std::size_t c = 0; c < this->Complex.Boxes.size(); ++c)
+    {
+      const ParametricBox<3>& box = this->Complex.Boxes[c];
+      double share = this->Complex.Patches.empty()
+        ? (c == at ? 1.0 : 0.0)
+        : (this->Complex.Patches[c] == this->Complex.Patches[at] ? 1.0 : 0.0);
+      for (std::size_t d = 0; d < dim && share > 0.0; ++d)
+      {
+        const bool isIn = box.Lower[d] <= middle[d] && middle[d] <= box.Upper[d];
+        const bool isEnd = middle[d] == box.Lower[d] || middle[d] == box.Upper[d];
+        share *= !isIn || box.Lower[d] == box.Upper[d] ? 0.0 : isEnd ? 0.5 : 1.0;
+      }
+      covered += share;
+    }
+    return covered == 1.0;
   }
 
   /// Where boundaries cross, the insides beside them overlap: points just inside one cell whose
