@@ -63,6 +63,7 @@ public:
       options, filter, MetricSamples, "samples a direction of the metrics; 0: 501, in space 51");
     KNOTWORK_OPTION(
       options, filter, CertificateGap, "relative gap of the proved bounds of elements");
+    KNOTWORK_OPTION(options, filter, MaximumFunctions, "a larger map is refused");
     KNOTWORK_OPTION(options, filter, MinimumDegree, "with a layout: of directions of patches");
     KNOTWORK_OPTION(options, filter, MinimumElements, "with a layout: of directions of patches");
     KNOTWORK_FREE_OPTION(

@@ -152,6 +152,7 @@ void vtkDomainParameterization::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "GapTolerance: " << this->GapTolerance << "\n";
   os << indent << "MetricSamples: " << this->MetricSamples << "\n";
   os << indent << "CertificateGap: " << this->CertificateGap << "\n";
+  os << indent << "MaximumFunctions: " << this->MaximumFunctions << "\n";
   os << indent << "MinimumDegree: " << this->MinimumDegree << "\n";
   os << indent << "MinimumElements: " << this->MinimumElements << "\n";
   os << indent << "MoveInterfaces: " << this->MoveInterfaces << "\n";
@@ -227,6 +228,7 @@ knotwork::DomainParams vtkDomainParameterization::KernelParams() const
   params.GapTolerance = this->GapTolerance;
   params.MetricSamples = this->MetricSamples == 1 ? 2 : this->MetricSamples;
   params.CertificateGap = this->CertificateGap;
+  params.MaxFunctions = this->MaximumFunctions;
   params.Threads = this->KernelThreads();
   return params;
 }
@@ -272,6 +274,7 @@ Status vtkDomainParameterization::Parameterize(
   layout->Sides = std::move(sides);
   knotwork::LayoutParams layoutParams;
   layoutParams.GapTolerance = this->GapTolerance;
+  layoutParams.MaxFunctions = this->MaximumFunctions;
   layoutParams.MinDegree = this->MinimumDegree;
   layoutParams.MinElements = this->MinimumElements;
   layoutParams.MoveInterfaces = this->MoveInterfaces;

@@ -174,7 +174,7 @@ public:
   ///@}
   ///@{
   /** Samples a direction of the metrics, ends included; 0: 501 in the plane and 51 in space, 1: 2.
-   * The proved bounds do not depend on it. Default 0, valid range [0, 5001]. */
+   * The proved bounds do not depend on it. Default 0, valid range [0, 5001], in space to 301. */
   vtkSetClampMacro(MetricSamples, int, 0, 5001);
   vtkGetMacro(MetricSamples, int);
   ///@}
@@ -185,6 +185,12 @@ public:
   vtkGetMacro(CertificateGap, double);
   ///@}
 
+  ///@{
+  /** A map, or the patches of a layout together, with more functions is refused. Default 1000000,
+   * valid range [1, 2147483647]. */
+  vtkSetClampMacro(MaximumFunctions, int, 1, VTK_INT_MAX);
+  vtkGetMacro(MaximumFunctions, int);
+  ///@}
   ///@{
   /** With a layout: directions of patches have at least this degree. Default 2, valid range [1, 9].
    */
@@ -258,6 +264,7 @@ private:
   double GapTolerance = 1e-9;
   int MetricSamples = 0;
   double CertificateGap = 0.1;
+  int MaximumFunctions = 1000000;
   int MinimumDegree = 2;
   int MinimumElements = 4;
   bool MoveInterfaces = true;

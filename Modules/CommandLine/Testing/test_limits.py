@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Jobs that would take the machine's memory are refused before they take any; a limit that is raised is one that holds."""
+import json
 import os
 import subprocess
 import tempfile
@@ -35,7 +36,23 @@ def inputs():
         grid = finer
     for name, curves in (("template", skeletons.curves(0.0, 1, 101)), ("target", skeletons.curves(0.1, 5, 50))):
         skeletons.write(skeletons.polydata(curves), path(name + ".vtp"))
+    with open(path("curves.json"), "w") as stream:
+        json.dump({"curves": [straight([0, 0], [1, 0], 1009), straight([0, 1], [1, 1], 3), straight([0, 0], [0, 1], 3),
+                              straight([1, 0], [1, 1], 1013)]}, stream)
+    with open(path("long.json"), "w") as stream:
+        json.dump({"curves": [straight([0, 0], [1, 0], 20000), straight([0, 1], [1, 1], 3), straight([0, 0], [0, 1], 3),
+                              straight([1, 0], [1, 1], 3)]}, stream)
+    with open(path("sides.json"), "w") as stream:
+        json.dump({"curves": [straight([0, 0], [1, 0], 2), straight([0, 1], [1, 1], 2), straight([0, 0], [0, 1], 2),
+                              straight([1, 0], [1, 1], 2)]}, stream)
+    good("tessellate", path("square.vtu"), "--cells", "surface", "--chordal-tolerance", 1, "--output", path("quad.vtp"))
     return grid
+
+
+def straight(begin, end, count):
+    """A polyline of so many control points."""
+    share = [k / (count - 1) for k in range(count)]
+    return {"degree": 1, "knots": [0, *share, 1], "control_points": [[a + t * (b - a) for a, b in zip(begin, end)] for t in share]}
 
 
 def cases(diagonal):
@@ -56,6 +73,9 @@ def cases(diagonal):
     yield ["map", path("template.vtp"), path("target.vtp"), "--inner-knots", 4000, *out], "MaxFunctions"
     yield ["warp", path("annulus.vtu"), path("annulus.vtu"), "--clamp", 1, "--tolerance", 1e-14, "--maximum-level", 20, "--maximum-functions",
            2000, *out], "MaximumFunctions"
+    yield ["parameterize", path("curves.json"), *out], "MaximumFunctions"
+    yield ["parameterize", path("long.json"), *out], "functions in one direction"
+    yield ["parameterize", path("sides.json"), "--layout", path("quad.vtp"), "--minimum-elements", 1000, *out], "MaximumFunctions"
 
 
 def test_what_would_explode_is_refused_before_it_does():

@@ -342,6 +342,9 @@ std::string SideName<3>(int side)
   return side >= 0 && side < 6 ? names[side] : "no side";
 }
 
+/// Functions of a map in one direction at most.
+static constexpr int MostInADirection = 4096;
+
 template <int Dim>
 Result<CompatibleBoundary<Dim>> MakeCompatible(
   const DomainBoundary<Dim>& boundary, const BoundaryParams& params)
@@ -452,6 +455,23 @@ Result<CompatibleBoundary<Dim>> MakeCompatible(
     }
   }
   if (const Status status = MergeKnots<Dim>(result.Sides, result.Origins, result.Knots); !status)
+  {
+    return status;
+  }
+  double functions = 1.0;
+  for (const KnotVector& knots : result.Knots)
+  {
+    functions *= knots.NumFunctions();
+    // the Laplacian of a direction is diagonalized as a full matrix
+    if (knots.NumFunctions() > MostInADirection)
+    {
+      return { ErrorCode::TooLarge,
+        "the map would have " + std::to_string(knots.NumFunctions()) +
+          " functions in one direction, the limit is " + std::to_string(MostInADirection) +
+          "; give sides with fewer elements, or parts of the domain" };
+    }
+  }
+  if (Status status = CheckSize(functions, params.MaxFunctions); !status)
   {
     return status;
   }

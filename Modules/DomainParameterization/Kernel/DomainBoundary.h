@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "SizeLimit.h"
 #include "Spline.h"
 
 namespace knotwork
@@ -18,6 +19,8 @@ struct BoundaryParams
   /// Ends of sides that are at most this part of the boundary's size apart are one corner, in
   /// [0, 0.1]; the size is the diagonal of the control points' bounding box.
   double GapTolerance = 1e-9;
+  /// Functions of the map at most, >= 1.
+  int MaxFunctions = DefaultMaxFunctions;
 };
 
 /// Which given side a side of the map is, and how it lies there. Direction k of the map's side (its
@@ -56,7 +59,7 @@ struct CompatibleBoundary
 /// DimensionMismatch (components, kind, third components that differ); InvalidKnots (not clamped);
 /// InvalidTopology: the sides leave a gap at a corner or along an edge (named, with the distance),
 /// or enclose nothing; InvalidWeight (weights along an edge of faces that are not proportional);
-/// InvalidDegree (elevation beyond 9).
+/// InvalidDegree (elevation beyond 9); TooLarge.
 template <int Dim>
 Result<CompatibleBoundary<Dim>> MakeCompatible(
   const DomainBoundary<Dim>& boundary, const BoundaryParams& params = {});

@@ -67,9 +67,10 @@ struct DomainParams
   int MetricSamples = 0;              ///< a direction, [2, 5001]; 0: 501 in 2D, 51 in 3D
   bool MeasureInitialMap = false;     ///< also the metrics of the first map
   double GapTolerance = 1e-9;         ///< see BoundaryParams
-  double CertificateGap = 0.1;        ///< of the bounds of each element's min det J, (0, 1], see
-                                      ///< JacobianParams::RelativeGap
-  std::int64_t MaxBoxes = 1000000;    ///< of the certificate, see JacobianParams
+  int MaxFunctions = DefaultMaxFunctions; ///< see BoundaryParams; LayoutParams has its own, >= 1
+  double CertificateGap = 0.1;     ///< of the bounds of each element's min det J, (0, 1], see
+                                   ///< JacobianParams::RelativeGap
+  std::int64_t MaxBoxes = 1000000; ///< of the certificate, see JacobianParams
   /// Work at most, (0, 1e6]: about as many seconds of one core, but counted, so that the same run
   /// ends at the same place on every machine. The best map so far is then the result.
   double Effort = 4.0;

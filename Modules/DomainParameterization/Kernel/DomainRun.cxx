@@ -734,7 +734,7 @@ private:
 };
 }
 
-Status CheckParams(const DomainParams& params)
+Status CheckParams(const DomainParams& params, int dim)
 {
   const auto fail = [](const char* what) { return Status(ErrorCode::InvalidParameter, what); };
   if (!(params.UniformityWeight >= 0.0 && std::isfinite(params.UniformityWeight)))
@@ -772,6 +772,14 @@ Status CheckParams(const DomainParams& params)
   if (params.MetricSamples != 0 && (params.MetricSamples < 2 || params.MetricSamples > 5001))
   {
     return fail("the metric samples must be 0 or lie in [2, 5001]");
+  }
+  if (dim == 3 && params.MetricSamples > 301) // 2.7e7, as 5001 are in the plane
+  {
+    return fail("the metric samples a direction must lie in [2, 301] in space");
+  }
+  if (params.MaxFunctions < 1)
+  {
+    return fail("the largest number of functions must be >= 1");
   }
   if (!(params.CertificateGap > 0.0 && params.CertificateGap <= 1.0))
   {

@@ -32,7 +32,7 @@ struct DomainRun
 };
 
 /// The options that are numbers lie in their ranges.
-Status CheckParams(const DomainParams& params);
+Status CheckParams(const DomainParams& params, int dim);
 
 /// Elements of the patches, patch after patch.
 template <int Dim>

@@ -111,13 +111,14 @@ Result<DomainParameterization<Dim>> ParameterizeDomain(
   const DomainBoundary<Dim>& boundary, const DomainParams& params, const ProgressCallback& progress)
 {
   const auto start = std::chrono::steady_clock::now();
-  if (Status status = CheckParams(params); !status)
+  if (Status status = CheckParams(params, Dim); !status)
   {
     return status;
   }
   WorkBudget budget(params.Effort, params.TimeLimit, progress);
   BoundaryParams boundaryParams;
   boundaryParams.GapTolerance = params.GapTolerance;
+  boundaryParams.MaxFunctions = params.MaxFunctions;
   auto compatible = MakeCompatible<Dim>(boundary, boundaryParams);
   if (!compatible)
   {

@@ -316,7 +316,7 @@ Result<LayoutParameterization<Dim>> ParameterizeLayout(const PatchLayout<Dim>& l
 {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
-  if (Status status = CheckParams(params); !status)
+  if (Status status = CheckParams(params, Dim); !status)
   {
     return status;
   }

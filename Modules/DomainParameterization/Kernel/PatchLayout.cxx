@@ -141,6 +141,13 @@ public:
     {
       return { ErrorCode::InvalidParameter, "the number of elements must lie in [1, 1000]" };
     }
+    // so many at least: before faces have as many elements
+    const double least = static_cast<double>(layout.Patches.size()) *
+      std::pow(this->Params.MinDegree + this->Params.MinElements, Dim);
+    if (Status status = CheckSize(least, this->Params.MaxFunctions); !status)
+    {
+      return status;
+    }
     if (layout.Patches.empty())
     {
       return { ErrorCode::EmptyInput, "the layout has no patches" };
@@ -491,10 +498,12 @@ public:
     {
       rational = rational || (side.Input >= 0 && side.Shape.IsRational());
     }
-    std::vector<Spline<Dim>> patches;
+    std::vector<std::array<KnotVector, Dim>> all;
+    double functions = 0.0;
     for (std::size_t p = 0; p < this->Out.Corners.size(); ++p)
     {
       std::array<KnotVector, Dim> own;
+      double count = 1.0;
       for (int d = 0; d < Dim; ++d)
       {
         const std::size_t row = Row(static_cast<int>(p), d);
@@ -503,7 +512,18 @@ public:
           ? KnotVector::Uniform(this->Params.MinDegree, this->Params.MinElements)
           : this->Rows.IsFlipped(row) ? ReversedKnots(found->second)
                                       : found->second;
+        count *= own[static_cast<std::size_t>(d)].NumFunctions();
       }
+      all.push_back(std::move(own));
+      functions += count;
+    }
+    if (Status status = CheckSize(functions, this->Params.MaxFunctions); !status)
+    {
+      return status;
+    }
+    std::vector<Spline<Dim>> patches;
+    for (const auto& own : all)
+    {
       auto space = MakeTensorSpace<Dim>(own);
       if (!space)
       {

@@ -29,6 +29,8 @@ struct LayoutParams
   /// boundary needs, so that the interior can move.
   int MinDegree = 2;
   int MinElements = 4;
+  /// Functions of all patches together at most, those that they share counted in each, >= 1.
+  int MaxFunctions = DefaultMaxFunctions;
   /// False: sides between patches stay as they are given, straight those that are not.
   bool MoveInterfaces = true;
 };
@@ -67,7 +69,7 @@ struct CompatibleLayout
 /// does not fit: a vertex that does not exist or is twice in a patch, more than two patches at a
 /// side, patches that touch at a vertex (edge) alone, neighbours oriented differently, a side on
 /// the boundary without a curve, a curve that joins no side, the gap between a curve and its
-/// vertex, no area; of a curve: as MakeCompatible.
+/// vertex, no area; of a curve: as MakeCompatible; TooLarge.
 template <int Dim>
 Result<CompatibleLayout<Dim>> MakeCompatible(
   const PatchLayout<Dim>& layout, const LayoutParams& params = {});

@@ -202,6 +202,8 @@ std::vector<Property> Properties()
       [](P& p) { p.MetricSamples = 2; } },
     { "CertificateGap", Low, Nothing, [](Filter* f) { f->SetCertificateGap(1e-9); },
       [](P& p) { p.CertificateGap = 1e-9; } },
+    { "MaximumFunctions", Low, Nothing, [](Filter* f) { f->SetMaximumFunctions(3); },
+      [](P& p) { p.MaxFunctions = 3; } },
   };
 }
 

@@ -558,7 +558,7 @@ TEST(ParameterizeDomain, OptionsOutsideTheirRangeAreNamed)
     DomainParams params;
     change(params);
     const auto result = ParameterizeDomain<2>(cases::Square(), params);
-    EXPECT_FALSE(result.Status.Detail.empty());
+    EXPECT_EQ(result.Status.Detail.empty(), static_cast<bool>(result));
     return result.Status.Code;
   };
   using P = DomainParams;
@@ -570,11 +570,26 @@ TEST(ParameterizeDomain, OptionsOutsideTheirRangeAreNamed)
       [](P& p) { p.MaxRefinements = 11; }, [](P& p) { p.MetricSamples = 1; },
       [](P& p) { p.Effort = 0.0; }, [](P& p) { p.TimeLimit = -1.0; },
       [](P& p) { p.CertificateGap = 0.0; }, [](P& p) { p.MaxBoxes = 0; },
-      [](P& p) { p.Threads = -1; }, [](P& p) { p.GapTolerance = 0.2; } })
+      [](P& p) { p.Threads = -1; }, [](P& p) { p.GapTolerance = 0.2; },
+      [](P& p) { p.MaxFunctions = 0; } })
   {
     EXPECT_EQ(code(change), ErrorCode::InvalidParameter);
   }
   EXPECT_EQ(ParameterizeDomain<2>({}).Status.Code, ErrorCode::EmptyInput);
+  // as many as the map has are allowed, one less is not
+  const int functions = ParameterizeDomain<2>(cases::Square())->Map.Space->NumFunctions;
+  for (const int limit : { functions, functions - 1 })
+  {
+    const bool fits = limit == functions;
+    EXPECT_EQ(
+      code([limit](P& p) { p.MaxFunctions = limit; }), fits ? ErrorCode::Ok : ErrorCode::TooLarge);
+  }
+  DomainParams many; // in space every sample counts in three directions
+  many.MetricSamples = 302;
+  const KnotVector knots = KnotVector::Uniform(1, 1);
+  const DomainBoundary<3> cube = cases::SidesOf<3>(cases::GrevilleMap<3>(
+    { knots, knots, knots }, [](const std::array<double, 3>& u) { return u; }));
+  EXPECT_EQ(ParameterizeDomain<3>(cube, many).Status.Code, ErrorCode::InvalidParameter);
 }
 }
 }
