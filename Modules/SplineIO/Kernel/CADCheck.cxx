@@ -24,6 +24,8 @@
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Vertex.hxx>
 
+#include <sstream>
+
 namespace knotwork
 {
 namespace
@@ -271,7 +273,8 @@ CADSummary Summarize(const TopoDS_Shape& shape, bool volume)
   CountFreeLoops(shape, summary);
   for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next())
   {
-    summary.Area += AreaOf(face.Current());
+    summary.FaceAreas.push_back(AreaOf(face.Current()));
+    summary.Area += summary.FaceAreas.back();
   }
   for (TopExp_Explorer solid(shape, TopAbs_SOLID); volume && solid.More(); solid.Next())
   {
@@ -288,6 +291,22 @@ CADSummary Summarize(const TopoDS_Shape& shape, bool volume)
   }
   return summary;
 }
+}
+
+Status CheckSTEPText(const std::string& text, CADSummary& summary)
+{
+  std::istringstream stream(text);
+  STEPControl_Reader reader;
+  if (reader.ReadStream("Knotwork", stream) != IFSelect_RetDone)
+  {
+    return { ErrorCode::InvalidFormat, "OpenCASCADE does not read what it wrote" };
+  }
+  reader.TransferRoots();
+  if (reader.NbShapes() > 0)
+  {
+    summary = Summarize(reader.OneShape(), false);
+  }
+  return {};
 }
 
 Result<CADSummary> CheckCAD(const std::string& file, LengthUnit unit, bool volume)

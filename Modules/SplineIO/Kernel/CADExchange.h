@@ -49,10 +49,13 @@ bool HasCADEnding(const std::string& file);
 /// Tolerances of edges and vertices are the largest distance found between curve and image of the
 /// pcurve (16 samples a knot span) times 1.02, at least 1e-7. A file that exists is replaced only
 /// when everything could be written.
+///
+/// OpenCASCADE reads a spline surface with seam and poles rightly or not by where its loops begin
+/// in a STEP file: such files are read again and compared (CompareCAD) before they are there.
 /// @return failures of TrimmedModel::Check; InvalidParameter: ending, SewTolerance;
 /// InvalidKnots: a curve or surface that jumps; OutsideDomain: a pcurve that leaves its surface;
-/// InvalidTopology: uses of an edge that do not fit each other; InvalidFormat: OpenCASCADE refuses;
-/// InvalidParameter: the file cannot be written, with the system's reason.
+/// InvalidTopology: uses of an edge that do not fit each other; InvalidFormat: OpenCASCADE refuses
+/// or reads something else; InvalidParameter: the file cannot be written, with the system's reason.
 Status WriteCAD(
   const TrimmedModel& model, const std::string& file, const CADWriteParams& params = {});
 
@@ -71,6 +74,7 @@ struct CADSummary
   double MaxEdgeTolerance = 0.0;
   double MaxVertexTolerance = 0.0;
   double Area = 0.0;
+  std::vector<double> FaceAreas;    ///< in the file's order
   bool Closed = false;              ///< no free edge
   double Volume = 0.0;              ///< of the solids; 0 when it was not asked for
   std::array<double, 3> BoxLower{}; ///< of the faces, found on their poles and curves:
@@ -83,6 +87,15 @@ struct CADSummary
 /// @return EmptyInput: no such file, or nothing in it; InvalidFormat: damaged.
 Result<CADSummary> CheckCAD(
   const std::string& file, LengthUnit unit = LengthUnit::Millimetre, bool volume = true);
+
+/// Whether a file has the geometry of the model that was written: as many faces have the areas of
+/// the model's faces, one to one (others the same area together), and all of them lie in the box.
+/// The model's areas are bounded on the cells of surfaces inside of and across the loops; those
+/// that OpenCASCADE found may lie 0.5 % outside of the bounds, the faces a thousandth of the box's
+/// size outside of the box.
+/// @param summary  as CheckCAD gives it, in the model's unit.
+/// @return failures of TrimmedRegion; InvalidFormat: they differ, naming the face and the areas.
+Status CompareCAD(const TrimmedModel& model, const CADSummary& summary);
 
 struct CADReadParams
 {

@@ -16,6 +16,7 @@
 #include <TopoDS_Vertex.hxx>
 #include <TopoDS_Wire.hxx>
 
+#include <algorithm>
 #include <cmath>
 
 namespace knotwork
@@ -123,11 +124,36 @@ struct VertexState
   int NumCurves = 0;
 };
 
+/// The parameter at which a pole's side lies: the one that does not run.
+double PlaceOfPole(const BoundaryCurve& use)
+{
+  const PointMatrix& points = use.Parameters.ControlPoints;
+  const Eigen::RowVectorXd length = (points.row(points.rows() - 1) - points.row(0)).cwiseAbs();
+  return points(0, length[0] > length[1] ? 1 : 0);
+}
+
+/// The same loop from one of its poles on, if there are any.
+BoundaryLoop BeginAtPole(const BoundaryLoop& loop, LoopBegin begin)
+{
+  auto best = loop.end();
+  for (auto use = loop.begin(); use != loop.end(); ++use)
+  {
+    const bool isBetter = best == loop.end() ||
+      (begin == LoopBegin::LowerPole ? PlaceOfPole(*use) < PlaceOfPole(*best)
+                                     : PlaceOfPole(*use) > PlaceOfPole(*best));
+    best = use->Degenerate && isBetter ? use : best;
+  }
+  BoundaryLoop turned(best, loop.end());
+  turned.insert(turned.end(), loop.begin(), best);
+  return turned;
+}
+
 class ShapeMaker
 {
 public:
-  ShapeMaker(const TrimmedModel& model, const SewnBoundary& boundary)
-    : Model(model), Boundary(boundary), Edges(static_cast<std::size_t>(boundary.NumEdges)),
+  ShapeMaker(const TrimmedModel& model, const SewnBoundary& boundary, LoopBegin begin)
+    : Model(model), Boundary(boundary), Begin(begin),
+      Edges(static_cast<std::size_t>(boundary.NumEdges)),
       Vertices(static_cast<std::size_t>(boundary.NumVertices))
   {
   }
@@ -144,6 +170,7 @@ private:
 
   const TrimmedModel& Model;
   const SewnBoundary& Boundary;
+  LoopBegin Begin;
   BRep_Builder Builder;
   std::vector<EdgeState> Edges;
   std::vector<VertexState> Vertices;
@@ -290,7 +317,7 @@ Result<TopoDS_Face> ShapeMaker::MakeFace(std::size_t f)
   {
     TopoDS_Wire wire;
     this->Builder.MakeWire(wire);
-    for (const BoundaryCurve& use : loop)
+    for (const BoundaryCurve& use : BeginAtPole(loop, this->Begin))
     {
       EdgeState& edge = this->Edges[static_cast<std::size_t>(use.Edge)];
       const double tolerance = BRep_Tool::Tolerance(edge.Edge);
@@ -344,6 +371,7 @@ Result<CADShapes> ShapeMaker::Make()
     {
       for (const BoundaryCurve& use : loop)
       {
+        shapes.HasPoles = shapes.HasPoles || use.Degenerate;
         if (!use.Degenerate)
         {
           uses.push_back({ use.Edge, use.Reversed != this->Model.Faces[f].Reversed });
@@ -365,7 +393,7 @@ Result<CADShapes> ShapeMaker::Make()
 }
 }
 
-Result<CADShapes> MakeShapes(const TrimmedModel& model, double sewTolerance)
+Result<CADShapes> MakeShapes(const TrimmedModel& model, double sewTolerance, LoopBegin begin)
 {
   if (Status status = model.Check(); !status)
   {
@@ -378,6 +406,6 @@ Result<CADShapes> MakeShapes(const TrimmedModel& model, double sewTolerance)
   }
   const SewnBoundary boundary =
     SewBoundary(clamped.Value, sewTolerance * SizeOfModel(clamped.Value));
-  return ShapeMaker(clamped.Value, boundary).Make();
+  return ShapeMaker(clamped.Value, boundary, begin).Make();
 }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CADExchange.h"
+#include "CADFile.h"
 #include "CADSession.h"
 #include "CADShapes.h"
 #include "FileOutput.h"
@@ -27,6 +28,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <sstream>
 
 namespace knotwork
 {
@@ -135,6 +137,47 @@ bool WriteIGES(const Handle(TDocStd_Document) & document, std::ostream& stream)
   text.SendModel(IGESSelect_WorkLibrary::DefineProtocol());
   return text.Print(stream);
 }
+
+/// @return failures of MakeShapes; InvalidFormat: OpenCASCADE makes no text, or reads another
+/// geometry in it.
+Status TextOf(const TrimmedModel& model, const CADWriteParams& params, CADFormat format,
+  LoopBegin begin, CADSession& session, std::string& text)
+{
+  const auto shapes = MakeShapes(model, params.SewTolerance, begin);
+  if (!shapes)
+  {
+    return shapes.Status;
+  }
+  // readers keep a pcurve whose ends are that near to the curve
+  session.Set("write.precision.val", std::max(2.0 * shapes->MaxGap, 1e-7));
+  std::ostringstream stream;
+  bool written = false;
+  if (format == CADFormat::STEP)
+  {
+    session.Set("write.step.schema", params.Schema == STEPSchema::AP242 ? 5 : 4);
+    session.Set("write.step.unit", NameOfUnit(params.Unit));
+    session.Set("write.stepcaf.subshapes.name", 1);
+    written = WriteSTEP(MakeDocument(model, shapes.Value, params), stream);
+  }
+  else
+  {
+    session.Set("write.iges.unit", NameOfUnit(params.Unit));
+    session.Set("write.iges.brep.mode", 1); // solids, shells and faces with edges
+    written = WriteIGES(MakeDocument(model, shapes.Value, params), stream);
+  }
+  if (!written)
+  {
+    return { ErrorCode::InvalidFormat, "OpenCASCADE made no text" };
+  }
+  text = stream.str();
+  if (format != CADFormat::STEP || !shapes->HasPoles)
+  {
+    return {};
+  }
+  CADSummary summary;
+  const Status status = CheckSTEPText(text, summary);
+  return status ? CompareCAD(model, summary) : status;
+}
 }
 
 Status WriteCAD(const TrimmedModel& model, const std::string& file, const CADWriteParams& params)
@@ -151,38 +194,27 @@ Status WriteCAD(const TrimmedModel& model, const std::string& file, const CADWri
   }
   const std::string place = "'" + file + "'";
   CADSession session(params.Unit);
+  session.SetDefaultsOfReading();
+  session.Set("write.surfacecurve.mode", 1); // with pcurves
+  session.Set("write.precision.mode", 2);    // the stated uncertainty is the value
   return session.Run(place,
     [&]() -> Status
     {
-      const auto shapes = MakeShapes(model, params.SewTolerance);
-      if (!shapes)
+      std::string text;
+      Status status = TextOf(model, params, format, LoopBegin::LowerPole, session, text);
+      if (status.Code == ErrorCode::InvalidFormat)
       {
-        return shapes.Status;
+        const Status again = TextOf(model, params, format, LoopBegin::UpperPole, session, text);
+        status = again ? again : status;
       }
-      session.Set("write.surfacecurve.mode", 1); // with pcurves
-      session.Set("write.precision.mode", 2);    // the stated uncertainty is the value
-      // readers keep a pcurve whose ends are that near to the curve
-      session.Set("write.precision.val", std::max(2.0 * shapes->MaxGap, 1e-7));
-      bool written = false;
+      if (!status)
+      {
+        return { status.Code,
+          (status.Code == ErrorCode::InvalidFormat ? place + " cannot be written: " : "") +
+            status.Detail };
+      }
       FileOutput output(file);
-      if (format == CADFormat::STEP)
-      {
-        session.Set("write.step.schema", params.Schema == STEPSchema::AP242 ? 5 : 4);
-        session.Set("write.step.unit", NameOfUnit(params.Unit));
-        session.Set("write.stepcaf.subshapes.name", 1);
-        written = WriteSTEP(MakeDocument(model, shapes.Value, params), output.Stream());
-      }
-      else
-      {
-        session.Set("write.iges.unit", NameOfUnit(params.Unit));
-        session.Set("write.iges.brep.mode", 1); // solids, shells and faces with edges
-        written = WriteIGES(MakeDocument(model, shapes.Value, params), output.Stream());
-      }
-      const bool isStreamGood = static_cast<bool>(output.Stream());
-      if (!written && isStreamGood)
-      {
-        return { ErrorCode::InvalidFormat, place + " cannot be written: OpenCASCADE made no text" };
-      }
+      output.Stream() << text;
       return output.Finish();
     });
 }
