@@ -648,7 +648,7 @@ Status Session::WriteFaces(
   if (status)
   {
     auto summary = CheckCAD(staged->string(), LengthUnit::Millimetre, false); // none reports it
-    status = summary.Status;
+    status = summary ? CompareCAD(model.Value, summary.Value) : summary.Status;
     found = std::move(summary.Value);
   }
   this->SecondsOfFiles += Now() - begin;

@@ -42,19 +42,30 @@ int NumberOfPieces(vtkInformationVector* outputs)
   return std::max(NumberOfProcesses(), PiecesAskedFor(outputs));
 }
 
+namespace
+{
+bool HasElements(vtkDataObject* data)
+{
+  for (int type : { vtkDataObject::POINT, vtkDataObject::CELL, vtkDataObject::ROW })
+  {
+    if (data && data->GetNumberOfElements(type) > 0)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+}
+
 bool HasData(vtkInformationVector** inputs, int numInputPorts)
 {
   for (int port = 0; port < numInputPorts; ++port)
   {
     for (int i = 0; i < inputs[port]->GetNumberOfInformationObjects(); ++i)
     {
-      vtkDataObject* data = vtkDataObject::GetData(inputs[port], i);
-      for (int type : { vtkDataObject::POINT, vtkDataObject::CELL, vtkDataObject::ROW })
+      if (HasElements(vtkDataObject::GetData(inputs[port], i)))
       {
-        if (data && data->GetNumberOfElements(type) > 0)
-        {
-          return true;
-        }
+        return true;
       }
     }
   }
@@ -95,5 +106,16 @@ Status CheckWholeInput(
   return { ErrorCode::InvalidTopology,
     "the whole input is needed, and it is spread over " + std::to_string(withData) + " of " +
       std::to_string(processes) + " processes" + Remedy };
+}
+
+Status CheckOneWriter(vtkDataObject* data, bool& idle)
+{
+  const int processes = NumberOfProcesses();
+  idle = processes > 1 && !HasElements(data);
+  return processes <= 1 || idle ? Status()
+                                : Status(ErrorCode::InvalidTopology,
+                                    "this is one of " + std::to_string(processes) +
+                                      " processes, each of which would write the file" + Remedy +
+                                      "; VTK's own writers of .pvtu and .vtpc write in pieces");
 }
 }

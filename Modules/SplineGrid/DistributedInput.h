@@ -3,6 +3,7 @@
 #include "Status.h"
 #include "vtkKnotworkSplineGridModule.h" // for export macro
 
+class vtkDataObject;
 class vtkInformationVector;
 
 namespace knotwork
@@ -23,4 +24,10 @@ VTKKNOTWORKSPLINEGRID_EXPORT bool HasData(vtkInformationVector** inputs, int num
 /// @return Ok or InvalidTopology.
 VTKKNOTWORKSPLINEGRID_EXPORT Status CheckWholeInput(
   vtkInformationVector** inputs, int numInputPorts, vtkInformationVector* outputs, bool& speaks);
+
+/// Whether a writer of one file may write: not as one of several processes, each of which would
+/// write the file. Nothing is exchanged between them, so that none waits.
+/// @param idle  result: this process has no data and writes nothing, which is no failure.
+/// @return Ok or InvalidTopology.
+VTKKNOTWORKSPLINEGRID_EXPORT Status CheckOneWriter(vtkDataObject* data, bool& idle);
 }

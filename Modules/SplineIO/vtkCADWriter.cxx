@@ -3,6 +3,7 @@
 
 #include "BoundaryFaces.h"
 #include "CADExchange.h"
+#include "DistributedInput.h"
 #include "SplineModel.h"
 #include "TensorForm.h"
 #include "TrimmedGrids.h"
@@ -101,6 +102,11 @@ Status vtkCADWriter::WriteModel()
   if (!this->FileName || this->FileName[0] == '\0')
   {
     return { ErrorCode::InvalidParameter, "there is no file name" };
+  }
+  bool idle = false;
+  if (const Status one = CheckOneWriter(this->GetInput(), idle); idle || !one)
+  {
+    return one;
   }
   vtkDataObject* curves =
     this->GetNumberOfInputConnections(1) > 0 ? this->GetInputDataObject(1, 0) : nullptr;

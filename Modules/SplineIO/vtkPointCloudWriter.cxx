@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkPointCloudWriter.h"
 
+#include "DistributedInput.h"
 #include "FileEnding.h"
 #include "FileText.h"
 #include "GoToolsG2.h"
 #include "PointData.h"
 #include "PointText.h"
 
+#include "vtkErrorCode.h"
 #include "vtkInformation.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
@@ -59,6 +61,17 @@ knotwork::Status vtkPointCloudWriter::MakeText(std::string& text)
 
 void vtkPointCloudWriter::WriteData()
 {
+  bool idle = false;
+  if (const knotwork::Status one = knotwork::CheckOneWriter(this->GetInput(), idle); idle || !one)
+  {
+    this->SetErrorCode(vtkErrorCode::NoError);
+    if (!one)
+    {
+      this->SetErrorCode(vtkErrorCode::UserError + static_cast<unsigned long>(one.Code));
+      vtkErrorMacro("" << one.Message());
+    }
+    return;
+  }
   const knotwork::WriteOutcome outcome = knotwork::WriteText(this->FileName ? this->FileName : "",
     [this](std::string& text) { return this->MakeText(text); });
   this->SetErrorCode(outcome.Code);

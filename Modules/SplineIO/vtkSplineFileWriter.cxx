@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSplineFileWriter.h"
 
+#include "DistributedInput.h"
 #include "FileText.h"
 #include "PatchTopology.h"
 #include "SplineFileModel.h"
 #include "TensorForm.h"
 
 #include "vtkDataObject.h"
+#include "vtkErrorCode.h"
 #include "vtkInformation.h"
 
 #include <functional>
@@ -117,6 +119,17 @@ knotwork::Status vtkSplineFileWriter::MakeText(std::string& text)
 
 void vtkSplineFileWriter::WriteData()
 {
+  bool idle = false;
+  if (const knotwork::Status one = knotwork::CheckOneWriter(this->GetInput(), idle); idle || !one)
+  {
+    this->SetErrorCode(vtkErrorCode::NoError);
+    if (!one)
+    {
+      this->SetErrorCode(vtkErrorCode::UserError + static_cast<unsigned long>(one.Code));
+      vtkErrorMacro("" << one.Message());
+    }
+    return;
+  }
   const knotwork::WriteOutcome outcome = knotwork::WriteText(this->FileName ? this->FileName : "",
     [this](std::string& text) { return this->MakeText(text); });
   this->SetErrorCode(outcome.Code);

@@ -2,6 +2,7 @@
 #include "CADBody.h"
 #include "CADFile.h"
 #include "CADSession.h"
+#include "STEPLoops.h"
 
 #include <BRepBndLib.hxx>
 #include <Bnd_Box.hxx>
@@ -239,6 +240,10 @@ Result<CADContents> ReadCAD(const std::string& file, const CADReadParams& params
           contents.Warnings.push_back("the knots of " + std::to_string(numMended) +
             (numMended == 1 ? " curve" : " curves") +
             " are damaged; found anew: pcurves from curves in space, or these from pcurves");
+        }
+        if (loaded && format == CADFormat::STEP)
+        {
+          BeginLoopsAtPoles(reader.Model());
         }
         if (loaded && cafReader.Transfer(document))
         {

@@ -6,13 +6,21 @@
 #include "RandomModels.h"
 #include "TensorSpace.h"
 
+#include "vtkCADWriter.h"
 #include "vtkDataArray.h"
+#include "vtkDummyCommunicator.h"
+#include "vtkDummyController.h"
+#include "vtkErrorCode.h"
 #include "vtkFieldData.h"
 #include "vtkGismoXMLReader.h"
 #include "vtkGismoXMLWriter.h"
 #include "vtkGoToolsG2Reader.h"
 #include "vtkGoToolsG2Writer.h"
+#include "vtkObjectFactory.h"
 #include "vtkPointCloudReader.h"
+#include "vtkPointCloudWriter.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
 #include "vtkXMLUnstructuredGridWriter.h"
 
 #include <filesystem>
@@ -333,4 +341,77 @@ TEST(SplineFile, WriterErrorsKeepWhatWasThere_ExactOracle)
   writer->SetInputDataObject(ShapeGrid(vtkSplineSource::SQUARE));
   EXPECT_EQ(writer->Write(), 0);
   EXPECT_EQ(messages->Errors.size(), 2u);
+}
+
+namespace
+{
+/// This process is one of two.
+class TwoProcesses : public vtkDummyCommunicator
+{
+public:
+  static TwoProcesses* New();
+  vtkTypeMacro(TwoProcesses, vtkDummyCommunicator);
+  void BecomeProcess(int number) { this->LocalProcessId = number; }
+  int AllGatherVoidArray(const void*, void*, vtkIdType, int) override
+  {
+    ADD_FAILURE() << "writers wait for each other";
+    return 0;
+  }
+
+protected:
+  TwoProcesses() { this->MaximumNumberOfProcesses = this->NumberOfProcesses = 2; }
+};
+vtkStandardNewMacro(TwoProcesses);
+
+template <typename Writer>
+void ExpectNoFileOfTwoProcesses(vtkDataObject* data, vtkDataObject* none, const std::string& name)
+{
+  const std::string file = OutputFile(name);
+  fs::remove(file);
+  vtkMultiProcessController* before = vtkMultiProcessController::GetGlobalController();
+  vtkNew<TwoProcesses> communicator;
+  vtkNew<vtkDummyController> controller;
+  controller->SetCommunicator(communicator);
+  for (const int process : { 0, 1 })
+  {
+    for (vtkDataObject* input : { data, none })
+    {
+      communicator->BecomeProcess(process);
+      vtkMultiProcessController::SetGlobalController(controller);
+      vtkNew<Writer> writer;
+      vtkNew<MessageRecorder> messages;
+      messages->Watch(writer);
+      writer->SetInputDataObject(input);
+      writer->SetFileName(file.c_str());
+      writer->Write();
+      vtkMultiProcessController::SetGlobalController(before);
+      EXPECT_FALSE(fs::exists(file)) << name;
+      EXPECT_EQ(writer->GetErrorCode(),
+        input == none
+          ? static_cast<unsigned long>(vtkErrorCode::NoError)
+          : vtkErrorCode::UserError + static_cast<unsigned long>(ErrorCode::InvalidTopology));
+      ASSERT_EQ(messages->Errors.size(), input == none ? 0U : 1U) << name;
+      if (input != none)
+      {
+        EXPECT_NE(messages->Errors[0].find("one of 2 processes"), std::string::npos);
+        EXPECT_NE(messages->Errors[0].find("without mpirun"), std::string::npos);
+      }
+    }
+  }
+}
+}
+
+TEST(SplineFiles, OneOfSeveralProcessesWritesNothing_ExactOracle)
+{
+  const auto grid = Encode(RandomModel({ 2, SpaceKind::Tensor, false, 1, 1 }));
+  const vtkNew<vtkUnstructuredGrid> none;
+  ExpectNoFileOfTwoProcesses<vtkGismoXMLWriter>(grid, none, "two_processes.xml");
+  ExpectNoFileOfTwoProcesses<vtkGoToolsG2Writer>(grid, none, "two_processes.g2");
+  ExpectNoFileOfTwoProcesses<vtkCADWriter>(grid, none, "two_processes.step");
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(0.0, 0.0, 0.0);
+  vtkNew<vtkPolyData> cloud;
+  cloud->SetPoints(points);
+  const vtkNew<vtkPolyData> empty;
+  ExpectNoFileOfTwoProcesses<vtkPointCloudWriter>(cloud, empty, "two_processes.txt");
 }
