@@ -2,11 +2,11 @@
 # What the modules' CMakeLists.txt call. Each function names a module first and takes lists of files, so that adding a
 # class or a test is adding a file name.
 
-# knotwork_add_kernel(MODULE SOURCES file... HEADERS file... [DEPENDS MODULE...] [LIBRARIES target...] [STRICT_FLOAT file...])
-#   Static library Knotwork::<MODULE>Kernel, without VTK. DEPENDS names modules whose kernels it uses; LIBRARIES are
+# knotwork_add_kernel(MODULE SOURCES file... HEADERS file... [LIBRARIES target...] [STRICT_FLOAT file...])
+#   Static library Knotwork::<MODULE>Kernel, without VTK, which links the kernels that KnotworkModules.cmake states; LIBRARIES are
 #   further link targets; sources under STRICT_FLOAT are compiled without contraction to fused multiply-add.
 function(knotwork_add_kernel module)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;HEADERS;DEPENDS;LIBRARIES;STRICT_FLOAT")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;HEADERS;LIBRARIES;STRICT_FLOAT")
   if(NOT arg_SOURCES)
     return()
   endif()
@@ -24,7 +24,7 @@ function(knotwork_add_kernel module)
   target_include_directories(${target} PUBLIC
     "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}>" "$<INSTALL_INTERFACE:${KNOTWORK_INCLUDE_DIR}>")
   target_link_libraries(${target} PUBLIC Eigen3::Eigen TBB::tbb ${arg_LIBRARIES})
-  foreach(dependency IN LISTS arg_DEPENDS)
+  foreach(dependency IN LISTS KNOTWORK_KERNELS_OF_${module})
     target_link_libraries(${target} PUBLIC ${dependency}Kernel)
   endforeach()
   install(TARGETS ${target} EXPORT KnotworkKernels ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")

@@ -10,7 +10,7 @@ function(expect expected name)
   file(MAKE_DIRECTORY "${tree}")
   while(ARGN)
     list(POP_FRONT ARGN file text)
-    file(WRITE "${tree}/Modules/${file}" "${text}\n")
+    file(WRITE "${tree}/${file}" "${text}\n")
   endwhile()
   execute_process(COMMAND "${CMAKE_COMMAND}" "-DROOT=${tree}" -P "${CMAKE_CURRENT_LIST_DIR}/CheckLayering.cmake"
     RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
@@ -26,28 +26,34 @@ function(expect expected name)
   endif()
 endfunction()
 
-set(core SplineCore/Kernel/Knots.h "#include <vector>")
-expect(pass Clean ${core}
-  TemplateMapping/Kernel/Map.cxx "#include \"Knots.h\"" SplineGrid/vtkSplineSource.h "#include <vtkObject.h>")
-expect("no kernel file" Empty)
-expect("no kernel file" OnlyFilters SplineGrid/vtkSplineSource.h "#include <vtkObject.h>")
-expect("includes VTK" Vtk ${core} SplineCore/Kernel/Bad.cxx "#include <vtkPoints.h>")
-expect("includes VTK" QuotedVtk ${core} SplineCore/Kernel/Bad.cxx "  #  include \"vtkPoints.h\"")
-expect("includes VTK" VtkFolder ${core} SplineCore/Kernel/Bad.cxx "#include <vtk-9.1/vtkPoints.h>")
-expect("input and output" Stream ${core} SplineCore/Kernel/Bad.cxx "#include <iostream>")
-expect("uses SplineIO" SplineIO ${core} SplineCore/Kernel/Bad.cxx "#include \"SplineIO/Reader.h\"")
-expect("SplineCore may not use SplineIO" SplineIOByName ${core} SplineIO/Kernel/G2.h "" SplineCore/Kernel/Bad.cxx "#include \"G2.h\"")
-expect("SplineCore may not use TemplateMapping" Upward ${core}
-  TemplateMapping/Kernel/Map.h "" SplineCore/Kernel/Bad.cxx "#include \"Map.h\"")
-expect("may not use SurfaceFitting" Sideways ${core}
-  SurfaceFitting/Kernel/Fit.h "" MeshParameterization/Kernel/Bad.cxx "#include \"Fit.h\"")
-expect("may not depend on TemplateMapping" BuildFile ${core}
-  SplineCore/Kernel/CMakeLists.txt "knotwork_add_kernel(SplineCore DEPENDS TemplateMapping SOURCES a.cxx)")
-expect("may not depend on SplineIO" BuildFileIO ${core}
-  TemplateMapping/Kernel/CMakeLists.txt "knotwork_add_kernel(TemplateMapping\n  DEPENDS\n    SplineCore\n    SplineIO\n  SOURCES a.cxx)")
-expect("lists JacobianValidation and includes none" UnusedDepends ${core} JacobianValidation/Kernel/Proof.h ""
-  TemplateMapping/Kernel/Map.cxx "#include \"Knots.h\""
-  TemplateMapping/Kernel/CMakeLists.txt "knotwork_add_kernel(TemplateMapping DEPENDS SplineCore JacobianValidation SOURCES Map.cxx)")
-expect("defines Span too" SameType SplineCore/Kernel/Knots.h "struct Span\n{\n}\n"
-  TemplateMapping/Kernel/Map.h "struct Span\n{\n}\n")
-expect("has a header of this name" SameName ${core} TemplateMapping/Kernel/Knots.h "")
+# Low has a kernel, Middle and High have filters too.
+set(modules CMake/KnotworkModules.cmake "set(KNOTWORK_MODULES Low Middle High)
+set(KNOTWORK_KERNELS_OF_Middle Low)\nset(KNOTWORK_KERNELS_OF_High Low)\nset(KNOTWORK_FILTERS_OF_High Middle)")
+set(low Modules/Low/Kernel/Knots.h "#include <vector>")
+set(middle Modules/Middle/Kernel/Map.cxx "#include \"Knots.h\"" Modules/Middle/Kernel/Form.h "// empty"
+  Modules/Middle/vtk.module "NAME\n  Knotwork::Middle\nDEPENDS\n  VTK::CommonCore"
+  Modules/Middle/vtkMap.h "#include <vtkObject.h>" Modules/Middle/Grid.h "#include \"vtkMap.h\"")
+set(high Modules/High/Kernel/Plan.cxx "#include \"Knots.h\"" Modules/High/vtkPlan.cxx "#include \"vtkMap.h\"" Modules/High/Plan.h "// empty"
+  Modules/High/vtk.module "NAME\n  Knotwork::High\nDEPENDS\n  Knotwork::Middle\n  VTK::CommonCore")
+set(clean ${modules} ${low} ${middle} ${high})
+set(bad Modules/Low/Kernel/Bad.cxx)
+expect(pass Clean ${clean} Modules/CommandLine/main.cxx "#include \"Knots.h\"" Modules/Low/Testing/Kernel/Test.cxx "#include \"Plan.h\"")
+expect("no kernel file" Empty ${modules})
+expect("no kernel file" OnlyFilters ${modules} Modules/Low/vtkLow.h "#include <vtkObject.h>")
+expect("includes VTK" Vtk ${clean} ${bad} "#include <vtkPoints.h>")
+expect("includes VTK" QuotedVtk ${clean} ${bad} "  #  include \"vtkPoints.h\"")
+expect("includes VTK" VtkFolder ${clean} ${bad} "#include <vtk-9.1/vtkPoints.h>")
+expect("input and output" Stream ${clean} ${bad} "#include <iostream>")
+expect("a header of filters" FilterHeader ${clean} Modules/Middle/Kernel/Bad.cxx "#include \"Grid.h\"")
+expect("Low may not use Middle" Upward ${clean} ${bad} "#include \"Form.h\"")
+expect("Low may not use Middle" UpwardByPath ${clean} ${bad} "#include \"../../Middle/Kernel/Form.h\"")
+expect("Middle may not use High" UpwardFilter ${clean} Modules/Middle/vtkBad.cxx "#include \"Plan.h\"")
+expect("High may not use Middle" KernelOfFilters ${clean} Modules/High/Kernel/Bad.cxx "#include \"Form.h\"")
+expect("defines Span too" SameType ${clean} Modules/Low/Kernel/Span.h "struct Span\n{\n}\n" Modules/Middle/Kernel/Range.h "struct Span\n{\n}\n")
+expect("has a header of this name" SameName ${clean} Modules/Middle/Kernel/Knots.h "")
+expect("has no module Odd" UnknownModule ${clean} Modules/Odd/Kernel/Odd.cxx "")
+expect("KERNELS of High state Low, and include none" UnusedKernel ${clean} Modules/High/Kernel/Plan.cxx "")
+expect("FILTERS of High state Middle, and include none" UnusedFilter ${clean} Modules/High/vtkPlan.cxx "")
+expect("vtk.module: states ''" VtkModule ${clean} Modules/High/vtk.module "NAME\n  Knotwork::High\nDEPENDS\n  VTK::CommonCore")
+expect("Low stands before High" Order ${clean}
+  CMake/KnotworkModules.cmake "set(KNOTWORK_MODULES Low Middle High)\nset(KNOTWORK_KERNELS_OF_Low High)")

@@ -1,38 +1,22 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws the modules and the edges between them as the build files state them: Modules/modules.svg.
+"""Draws the modules and the edges between them as KnotworkModules.cmake states them: Modules/modules.svg.
 
-usage: draw_modules.py ROOT [--check]    (--check: exit status 1 when the drawn picture is not that of the build files)
-A module stands above all it uses; an edge that follows from others is left out."""
+usage: draw_modules.py ROOT [--check]    (--check: exit status 1 when the drawn picture is not that of the list)
+A module stands above all it uses, as high as it can; an edge that follows from others is left out."""
 import os
 import re
 import sys
 
-WIDTH, HEIGHT, ACROSS, UP = 190, 46, 230, 96
+WIDTH, HEIGHT, ACROSS, GAP, UP = 190, 46, 220, 40, 96
 PROGRAMS = ("CommandLine", "Python", "ParaViewPlugin")
 
 
-def words_after(text, keyword):
-    """The names after a keyword of a build file, up to the next keyword."""
-    found = re.search(r"\b%s((?:\s+Knotwork::\w+|\s+VTK::\w+|\s+[A-Z][A-Za-z]*[a-z][A-Za-z]*)+)" % keyword, text)
-    return [] if not found else found.group(1).split()
-
-
 def edges_of(root):
-    """Modules, each with those whose kernels or filters it uses. SplineGrid holds the filters of SplineCore."""
-    uses = {}
-    for module in sorted(os.listdir(os.path.join(root, "Modules"))):
-        names = set()
-        for file, keywords in (("Kernel/CMakeLists.txt", ("DEPENDS",)), ("vtk.module", ("DEPENDS", "PRIVATE_DEPENDS"))):
-            path = os.path.join(root, "Modules", module, file)
-            if os.path.exists(path):
-                with open(path) as stream:
-                    text = stream.read()
-                for keyword in keywords:
-                    names |= {name.replace("Knotwork::", "") for name in words_after(text, keyword) if "VTK::" not in name}
-                uses[module] = names
-    uses["SplineGrid"] = uses.get("SplineGrid", set()) | {"SplineCore"}
-    return {module: {name for name in names if name in uses and name != module} for module, names in uses.items()}
+    """Modules, each with those whose kernels or filters it uses."""
+    with open(os.path.join(root, "CMake", "KnotworkModules.cmake")) as stream:
+        stated = re.findall(r"^knotwork_module\((\w+)([^)]*)\)", stream.read(), re.M)
+    return {module: set(uses.split()) - {"KERNELS", "FILTERS"} for module, uses in stated}
 
 
 def reach(uses, module):
@@ -47,35 +31,55 @@ def reduced(uses):
             for module, names in uses.items()}
 
 
-def rank(uses, module):
-    return 1 + max((rank(uses, name) for name in uses[module]), default=-1)
+def rows_of(uses):
+    """Modules by how many arrows lead down to them at the most: what no module uses is in the first row."""
+    def depth(module):
+        return 1 + max((depth(user) for user, names in uses.items() if module in names), default=-1)
+    rows = {}
+    for module in sorted(uses):
+        rows.setdefault(depth(module), []).append(module)
+    return rows
 
 
 def draw(uses):
-    rows = {}
-    for module in sorted(uses):
-        rows.setdefault(rank(uses, module), []).append(module)
-    top = max(rows) + 1
-    rows[top] = list(PROGRAMS)
-    across = max(len(row) for row in rows.values())
-    shift = [0 if len(rows[level]) > 1 else (-1) ** level * ACROSS * 0.6 for level in range(top + 1)]  # edges pass beside boxes
-    place = {name: (20 + (across - len(row)) * ACROSS / 2 + i * ACROSS + shift[level], 20 + (top - level) * UP)
-             for level, row in rows.items() for i, name in enumerate(row)}
+    rows = {level + 1: row for level, row in rows_of(uses).items()}
+    rows[0] = list(PROGRAMS)
+    level_of = {name: level for level, row in rows.items() for name in row}
+    tops = set(uses) - {name for names in uses.values() for name in names}
+    ways = []  # of an arrow: its ends, and a place in every row that it crosses
+    for module, name in [(p, t) for p in PROGRAMS for t in sorted(tops)] + [(m, n) for m in sorted(uses) for n in sorted(uses[m])]:
+        between = [(module, name, level) for level in range(level_of[module] + 1, level_of[name])]
+        for place in between:
+            rows[place[2]].append(place)
+        ways.append([module] + between + [name])
+    above = {}
+    for way in ways:
+        for upper, lower in zip(way, way[1:]):
+            above.setdefault(lower, []).append(upper)
+    x = {}
+    for level in sorted(rows):  # a row in the order of the means of what points to it
+        if level > 1:
+            rows[level].sort(key=lambda item: sum(x[user] for user in above[item]) / len(above[item]))
+        widths = [ACROSS if item in level_of else GAP for item in rows[level]]
+        for i, item in enumerate(rows[level]):
+            x[item] = sum(widths[:i]) + widths[i] / 2 - sum(widths) / 2
+    left = min(x.values()) - ACROSS / 2
     lines = ['<svg xmlns="http://www.w3.org/2000/svg" width="%d" height="%d" font-family="sans-serif" font-size="14">' % (
-        across * ACROSS + 10, (top + 1) * UP),
+        max(x.values()) + ACROSS / 2 - left, len(rows) * UP),
         '<defs><marker id="tip" markerWidth="9" markerHeight="9" refX="8" refY="4" orient="auto">'
         '<path d="M0,0 L9,4 L0,8 z" fill="#557"/></marker></defs>', '<rect width="100%" height="100%" fill="white"/>']
-    tops = set(uses) - {name for names in uses.values() for name in names}
-    arrows = [(module, name) for module in sorted(uses) for name in sorted(uses[module])]
-    arrows += [(program, name) for program in PROGRAMS for name in sorted(tops)]
-    for module, name in arrows:
-        (x, y), (u, v) = place[module], place[name]
-        lines.append('<line x1="%g" y1="%g" x2="%g" y2="%g" stroke="#557" marker-end="url(#tip)"/>' % (
-            x + WIDTH / 2, y + HEIGHT, u + WIDTH / 2, v))
-    for name, (x, y) in place.items():
+    for way in ways:
+        y = 20 + level_of[way[0]] * UP + HEIGHT
+        points = ["%g,%g" % (x[way[0]] - left, y)]
+        for item in way[1:-1]:
+            points += ["%g,%g" % (x[item] - left, 20 + item[2] * UP), "%g,%g" % (x[item] - left, 20 + item[2] * UP + HEIGHT)]
+        points.append("%g,%g" % (x[way[-1]] - left, 20 + level_of[way[-1]] * UP))
+        lines.append('<polyline points="%s" fill="none" stroke="#557" marker-end="url(#tip)"/>' % " ".join(points))
+    for name, level in level_of.items():
         fill = "#f4e3c1" if name in PROGRAMS else "#d6e6f5"
-        lines.append('<rect x="%g" y="%g" width="%d" height="%d" rx="6" fill="%s" stroke="#335"/>' % (x, y, WIDTH, HEIGHT, fill))
-        lines.append('<text x="%g" y="%g" text-anchor="middle">%s</text>' % (x + WIDTH / 2, y + HEIGHT / 2 + 5, name))
+        u, v = x[name] - left, 20 + level * UP
+        lines.append('<rect x="%g" y="%g" width="%d" height="%d" rx="6" fill="%s" stroke="#335"/>' % (u - WIDTH / 2, v, WIDTH, HEIGHT, fill))
+        lines.append('<text x="%g" y="%g" text-anchor="middle">%s</text>' % (u, v + HEIGHT / 2 + 5, name))
     return "\n".join(lines) + "\n</svg>\n"
 
 
@@ -88,7 +92,7 @@ def main(root, check):
         return 0
     with open(file) as stream:
         same = stream.read() == text
-    print("the picture of the modules is %s" % ("that of the build files" if same else "old: run CMake/draw_modules.py ."))
+    print("the picture of the modules is %s" % ("that of the list" if same else "old: run CMake/draw_modules.py ."))
     return 0 if same else 1
 
 
