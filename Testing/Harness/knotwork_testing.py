@@ -103,7 +103,11 @@ def save_and_compare(view, name, size=300):
 
 
 def run_program(*arguments, timeout=120, folder=None):
-    """Runs the program `knotwork`, in the folder if one is given; the result has returncode, stdout and stderr."""
+    """Runs the program `knotwork`, in the folder if one is given; the result has returncode, stdout and stderr.
+
+    Programs with sanitizers take longer: the environment's KNOTWORK_PATIENCE times the timeout (seconds).
+    """
+    timeout *= float(os.environ.get("KNOTWORK_PATIENCE", "1"))
     return subprocess.run([PROGRAM, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                           errors="replace", timeout=timeout, cwd=folder)
 

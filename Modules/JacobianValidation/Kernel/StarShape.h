@@ -15,9 +15,9 @@ namespace knotwork
 /// connected is one-to-one.
 ///
 /// Asked for: every edge has one side on either side of it, in opposite directions, and every
-/// corner at most four sides. o is the mean of the control points or, of at most 64 sides, the point
-/// deepest inside of tangent planes, to which those of places that it did not see are added a few
-/// times. The determinants' Bernstein coefficients are computed with a bound of their rounding;
+/// corner at most four sides. o is the mean of the control points or, of at most 64 sides, the
+/// point deepest inside of tangent planes, to which those of places that it did not see are added a
+/// few times. The determinants' Bernstein coefficients are computed with a bound of their rounding;
 /// sides are halved, with balanced weights, up to 64 pieces each.
 /// @param sides  the boundary as cells, in its order.
 /// @param signs  of det J, one a cell.

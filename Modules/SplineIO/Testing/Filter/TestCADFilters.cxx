@@ -3,6 +3,7 @@
 #include "CADCases.h"
 #include "CADExchange.h"
 #include "FilterCases.h"
+#include "OutputFile.h"
 #include "TrimmedGrids.h"
 
 #include "vtkCADReader.h"
@@ -18,11 +19,6 @@ using namespace knotwork::testing;
 
 namespace
 {
-std::string FileOf(const std::string& name)
-{
-  return KNOTWORK_OUTPUT_DIR "/cad_filter_" + name;
-}
-
 struct Grids
 {
   vtkNew<vtkUnstructuredGrid> Surfaces;
@@ -68,7 +64,7 @@ TEST(CADFilters, TrimmedFacesGoThroughAFile_ExactOracle)
   Encode(model, grids);
   for (const char* ending : { ".step", ".igs" })
   {
-    const std::string file = FileOf(std::string("sheet") + ending);
+    const std::string file = OutputFile(std::string("sheet") + ending);
     vtkNew<vtkCADWriter> writer;
     writer->SetInputDataObject(0, grids.Surfaces);
     writer->SetInputDataObject(1, grids.Curves);
@@ -132,7 +128,7 @@ TEST(CADFilters, ShapesBecomeFacesAndSolids_ExactOracle)
   {
     vtkNew<vtkSplineSource> source;
     source->SetShape(c.Shape);
-    const std::string file = FileOf("shape.stp");
+    const std::string file = OutputFile("shape.stp");
     vtkNew<vtkCADWriter> writer;
     writer->SetInputConnection(source->GetOutputPort());
     writer->SetFileName(file.c_str());
@@ -172,18 +168,19 @@ TEST(CADFilters, FailuresAreErrorsOfTheFilter_PropertyOracle)
     EXPECT_EQ(writer->GetErrorCode(), vtkErrorCode::UserError + static_cast<unsigned long>(code));
   };
   vtkNew<vtkCADWriter> writer;
-  refused(writer, grids.Surfaces, FileOf("wrong.obj"), ErrorCode::InvalidParameter);
-  refused(writer, grids.Surfaces, FileOf("no/folder.step"), ErrorCode::InvalidParameter);
+  refused(writer, grids.Surfaces, OutputFile("wrong.obj"), ErrorCode::InvalidParameter);
+  refused(writer, grids.Surfaces, OutputFile("no/folder.step"), ErrorCode::InvalidParameter);
   vtkNew<vtkSplineSource> line;
   line->SetShape(static_cast<int>(ShapeKind::Line));
   line->Update();
-  refused(writer, line->GetOutputDataObject(0), FileOf("line.step"), ErrorCode::DimensionMismatch);
+  refused(
+    writer, line->GetOutputDataObject(0), OutputFile("line.step"), ErrorCode::DimensionMismatch);
 
   vtkNew<vtkCADReader> reader;
   vtkNew<MessageRecorder> messages;
   messages->Watch(reader);
-  EXPECT_EQ(reader->CanReadFile(FileOf("missing.step").c_str()), 0);
-  reader->SetFileName(FileOf("missing.step").c_str());
+  EXPECT_EQ(reader->CanReadFile(OutputFile("missing.step").c_str()), 0);
+  reader->SetFileName(OutputFile("missing.step").c_str());
   reader->Update();
   ASSERT_FALSE(messages->Errors.empty());
   EXPECT_NE(messages->Errors[0].find("missing.step"), std::string::npos);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Point clouds and boundary curves through readers and writers.
 #include "FilterCases.h"
+#include "OutputFile.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -25,12 +26,6 @@ namespace fs = std::filesystem;
 
 namespace
 {
-std::string OutputFile(const std::string& name)
-{
-  fs::create_directories(KNOTWORK_OUTPUT_DIR "/PointClouds");
-  return KNOTWORK_OUTPUT_DIR "/PointClouds/" + name;
-}
-
 std::string TextOf(const std::string& file)
 {
   std::ifstream stream(file, std::ios::binary);

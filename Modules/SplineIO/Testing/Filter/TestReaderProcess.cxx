@@ -4,6 +4,7 @@
 #include "CADCases.h"
 #include "FilterCases.h"
 #include "ForeignFile.h"
+#include "OutputFile.h"
 #include "RandomModels.h"
 #include "TrimmedGrids.h"
 
@@ -35,11 +36,6 @@ namespace fs = std::filesystem;
 
 namespace
 {
-std::string FileOf(const std::string& name)
-{
-  return KNOTWORK_OUTPUT_DIR "/reader_process_" + name;
-}
-
 /// All that VTK's XML says of a data set, numbers as text that gives them again.
 std::string TextOf(vtkDataObject* data)
 {
@@ -65,7 +61,7 @@ void WriteXML(vtkDataObject* data, const std::string& file)
 class OtherWorkers
 {
 public:
-  explicit OtherWorkers(const std::string& commands) : Folder(FileOf("workers"))
+  explicit OtherWorkers(const std::string& commands) : Folder(OutputFile("workers"))
   {
     fs::create_directories(this->Folder);
     for (const char* name : { "knotwork-read-vtk", "knotwork-read-cad" })
@@ -95,7 +91,7 @@ TEST(ReaderProcess, GridsComeBackBitForBit)
   {
     SCOPED_TRACE(model);
     const vtkSmartPointer<vtkUnstructuredGrid> grid = Encode(RandomModel(model));
-    const std::string file = FileOf("grid.vtu");
+    const std::string file = OutputFile("grid.vtu");
     WriteXML(grid, file);
     const auto read = ReadVTKFile(file);
     ASSERT_TRUE(read) << read.Status.Message();
@@ -125,7 +121,7 @@ TEST(ReaderProcess, PolydataComesBackWithAllItsArrays)
   names->InsertNextValue("<&>\"'");
   names->InsertNextValue("");
   data->GetFieldData()->AddArray(names);
-  const std::string file = FileOf("lines.vtp");
+  const std::string file = OutputFile("lines.vtp");
   WriteXML(data, file);
   const auto read = ReadVTKFile(file);
   ASSERT_TRUE(read) << read.Status.Message();
@@ -147,7 +143,7 @@ TEST(ReaderProcess, CollectionsComeBackWithTheirHoles)
   data->SetPartition(0, 0, grid);
   data->SetPartition(2, 0, grid);
   data->SetPartition(2, 1, grid);
-  const std::string file = FileOf("collection.vtpc");
+  const std::string file = OutputFile("collection.vtpc");
   vtkNew<vtkXMLPartitionedDataSetCollectionWriter> writer;
   writer->SetInputDataObject(data);
   writer->SetFileName(file.c_str());
@@ -178,7 +174,7 @@ TEST(ReaderProcess, FacesAreThoseOfTheReader)
     for (const char* ending : { "faces.step", "faces.igs" })
     {
       SCOPED_TRACE(ending);
-      const std::string file = FileOf(ending);
+      const std::string file = OutputFile(ending);
       ASSERT_TRUE(WriteCAD(model, file));
       vtkNew<vtkCADReader> apart;
       vtkNew<vtkCADReader> here;
@@ -225,7 +221,7 @@ TEST(ReaderProcess, AnyEndOfItIsOneError)
       "printf '\\377\\377\\377\\377\\377\\377\\377\\377' >&3",
       ErrorCode::InvalidFormat, "cannot be handed over" },
   };
-  const std::string file = FileOf("any.vtu");
+  const std::string file = OutputFile("any.vtu");
   std::ofstream(file) << "anything";
   for (const auto& c : cases)
   {
@@ -241,7 +237,7 @@ TEST(ReaderProcess, AnyEndOfItIsOneError)
 TEST(ReaderProcess, WithoutItsProgramNothingIsRead)
 {
   setenv("KNOTWORK_WORKERS", KNOTWORK_OUTPUT_DIR "/no_such_folder", 1);
-  const auto data = ReadVTKFile(FileOf("any.vtu"));
+  const auto data = ReadVTKFile(OutputFile("any.vtu"));
   unsetenv("KNOTWORK_WORKERS");
   EXPECT_EQ(data.Status.Code, ErrorCode::InvalidParameter);
   EXPECT_NE(data.Status.Detail.find("knotwork-read-vtk is missing"), std::string::npos);

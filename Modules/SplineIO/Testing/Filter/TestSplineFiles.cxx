@@ -3,6 +3,7 @@
 #include "FilterCases.h"
 #include "GoToolsG2.h"
 #include "LRRefinement.h"
+#include "OutputFile.h"
 #include "RandomModels.h"
 #include "TensorSpace.h"
 
@@ -36,12 +37,6 @@ namespace
 std::string DataFile(const std::string& name)
 {
   return KNOTWORK_DATA_DIR "/SplineIO/" + name;
-}
-
-std::string OutputFile(const std::string& name)
-{
-  fs::create_directories(KNOTWORK_OUTPUT_DIR "/SplineIO");
-  return KNOTWORK_OUTPUT_DIR "/SplineIO/" + name;
 }
 
 std::string TextOf(const std::string& file)

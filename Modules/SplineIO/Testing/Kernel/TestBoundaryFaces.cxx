@@ -3,6 +3,7 @@
 #include "BoundaryFaces.h"
 #include "CADCases.h"
 #include "CADExchange.h"
+#include "OutputFile.h"
 #include "RandomSplines.h"
 
 #include <Eigen/Geometry>
@@ -51,7 +52,7 @@ TEST(BoundaryFaces, ShapesAreSolidsOfTheirVolume_ExactOracle)
     const auto model = BoundaryFaces(Volumes(params));
     ASSERT_TRUE(model) << model.Status.Message();
     EXPECT_EQ(model->Faces.size(), c.Faces);
-    const std::string file = std::string(KNOTWORK_OUTPUT_DIR "/cad_solid_") + c.Name + ".step";
+    const std::string file = OutputFile(std::string(c.Name) + ".step");
     const Status written = WriteCAD(model.Value, file);
     ASSERT_TRUE(written) << written.Message();
     const auto summary = CheckCAD(file);

@@ -3,6 +3,7 @@
 #include "CADCases.h"
 #include "CADExchange.h"
 #include "FileCases.h"
+#include "OutputFile.h"
 
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepBuilderAPI_NurbsConvert.hxx>
@@ -22,18 +23,13 @@ using namespace knotwork::testing;
 
 namespace
 {
-std::string FileOf(const std::string& name)
-{
-  return KNOTWORK_OUTPUT_DIR "/cad_read_" + name;
-}
-
 const char* const Endings[] = { ".step", ".igs" };
 
 CADContents ReadBack(const TrimmedModel& model, const std::string& name)
 {
-  const Status written = WriteCAD(model, FileOf(name));
+  const Status written = WriteCAD(model, OutputFile(name));
   EXPECT_TRUE(written) << written.Message();
-  auto contents = ReadCAD(FileOf(name));
+  auto contents = ReadCAD(OutputFile(name));
   EXPECT_TRUE(contents) << contents.Status.Message();
   for (const auto* sentences : { &contents->Warnings, &contents->LeftOut })
   {
@@ -51,8 +47,8 @@ std::string FileWith(const TopoDS_Shape& shape, const std::string& name)
   Message::DefaultMessenger()->ChangePrinters().Clear();
   STEPControl_Writer writer;
   EXPECT_EQ(writer.Transfer(shape, STEPControl_AsIs), IFSelect_RetDone);
-  EXPECT_EQ(writer.Write(FileOf(name).c_str()), IFSelect_RetDone);
-  return FileOf(name);
+  EXPECT_EQ(writer.Write(OutputFile(name).c_str()), IFSelect_RetDone);
+  return OutputFile(name);
 }
 }
 
@@ -90,7 +86,7 @@ TEST(CADReader, SplinesComeBackBitForBit_ExactOracle)
       }
     }
     // OpenCASCADE takes fewer samples
-    const double tolerance = CheckCAD(FileOf(std::string("sheet") + ending))->MaxEdgeTolerance;
+    const double tolerance = CheckCAD(OutputFile(std::string("sheet") + ending))->MaxEdgeTolerance;
     EXPECT_LE(tolerance, 1.05 * read.MaxGap);
     EXPECT_GE(tolerance, 0.5 * read.MaxGap);
   }
@@ -152,9 +148,9 @@ TEST(CADReader, WritingWhatWasReadChangesNothing_PropertyOracle)
       params.Kind = c.Kind;
       params.Angle = c.Angle;
       const CADContents first = ReadBack(NaturalFaces(params), std::string(c.Name) + ending);
-      const auto once = CheckCAD(FileOf(std::string(c.Name) + ending));
+      const auto once = CheckCAD(OutputFile(std::string(c.Name) + ending));
       const CADContents second = ReadBack(first.Model, std::string("again_") + c.Name + ending);
-      const auto twice = CheckCAD(FileOf(std::string("again_") + c.Name + ending));
+      const auto twice = CheckCAD(OutputFile(std::string("again_") + c.Name + ending));
       ASSERT_TRUE(once && twice);
       EXPECT_TRUE(twice->Valid);
       EXPECT_EQ(twice->NumFaces, once->NumFaces);
@@ -213,7 +209,7 @@ TEST(CADReader, AnalyticSolidsHaveTheirAreaAndVolume_ExactOracle)
     EXPECT_EQ(read->Model.Faces.size(), c.Faces);
     EXPECT_LE(read->MaxGap, 1e-11);
     EXPECT_LE(read->NumRefitted, 2); // degenerate edges at poles: not linear in the parameter
-    const std::string again = FileOf(std::string("own_") + c.Name + ".step");
+    const std::string again = OutputFile(std::string("own_") + c.Name + ".step");
     const Status written = WriteCAD(read->Model, again);
     ASSERT_TRUE(written) << written.Message();
     const auto summary = CheckCAD(again);
@@ -249,7 +245,7 @@ TEST(CADReader, CurvesWithoutACommonFormAreRefitted_PropertyOracle)
     EXPECT_LE(read->MaxGap, 2.0 * tolerance + original->MaxEdgeTolerance);
     EXPECT_LE(read->MaxGap, last);
     last = read->MaxGap;
-    const std::string again = FileOf("own_cross.step");
+    const std::string again = OutputFile("own_cross.step");
     ASSERT_TRUE(WriteCAD(read->Model, again));
     const auto summary = CheckCAD(again);
     EXPECT_TRUE(summary->Valid) << (summary->Defects.empty() ? "" : summary->Defects[0]);
@@ -294,8 +290,8 @@ TEST(CADReader, DamagedFilesAreRefused_PropertyOracle)
 {
   for (const char* ending : Endings)
   {
-    const std::string good = FileOf(std::string("good") + ending);
-    const std::string bad = FileOf(std::string("bad") + ending);
+    const std::string good = OutputFile(std::string("good") + ending);
+    const std::string bad = OutputFile(std::string("bad") + ending);
     ASSERT_TRUE(WriteCAD(SheetWithHoles(2, 0.1, 1, 8), good));
     std::ifstream stream(good, std::ios::binary);
     const std::string text{ std::istreambuf_iterator<char>(stream), {} };
@@ -313,6 +309,6 @@ TEST(CADReader, DamagedFilesAreRefused_PropertyOracle)
   }
   CADReadParams params;
   params.Tolerance = -1.0;
-  EXPECT_EQ(ReadCAD(FileOf("good.step"), params).Status.Code, ErrorCode::InvalidParameter);
-  EXPECT_EQ(ReadCAD(FileOf("good.txt")).Status.Code, ErrorCode::InvalidParameter);
+  EXPECT_EQ(ReadCAD(OutputFile("good.step"), params).Status.Code, ErrorCode::InvalidParameter);
+  EXPECT_EQ(ReadCAD(OutputFile("good.txt")).Status.Code, ErrorCode::InvalidParameter);
 }

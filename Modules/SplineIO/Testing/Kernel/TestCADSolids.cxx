@@ -3,6 +3,7 @@
 // every face is read, the triangles of all faces are closed and have the solid's area.
 #include "CADCases.h"
 #include "CADExchange.h"
+#include "OutputFile.h"
 #include "TensorSpace.h"
 
 #include <BRepAlgoAPI_Common.hxx>
@@ -258,8 +259,7 @@ TopoDS_Shape Thread(double turns)
 std::string Write(const TopoDS_Shape& shape, int number, const std::string& ending, int mode)
 {
   Message::DefaultMessenger()->ChangePrinters().Clear();
-  const std::string file = KNOTWORK_OUTPUT_DIR "/cad_solid_" + std::to_string(number) + "_" +
-    std::to_string(mode) + ending;
+  const std::string file = OutputFile(std::to_string(number) + "_" + std::to_string(mode) + ending);
   if (ending == ".step")
   {
     STEPControl_Writer writer;
@@ -533,8 +533,7 @@ TEST_P(CADSpheres, HolesAndPolesAreKept_CrossOracle)
     {
       SCOPED_TRACE(code);
       const TrimmedModel model = Reparametrized(ReadCAD(file)->Model, code);
-      const std::string again =
-        KNOTWORK_OUTPUT_DIR "/cad_sphere_" + std::to_string(GetParam()) + ".step";
+      const std::string again = OutputFile("again.step");
       const Status written = WriteCAD(model, again);
       ASSERT_TRUE(written) << written.Message();
       const auto found = CheckCAD(again);

@@ -2,6 +2,7 @@
 // STEP and IGES files as OpenCASCADE reads them with its default settings.
 #include "CADCases.h"
 #include "CADExchange.h"
+#include "OutputFile.h"
 
 #include <gtest/gtest.h>
 
@@ -14,15 +15,10 @@ using namespace knotwork::testing;
 
 namespace
 {
-std::string FileOf(const std::string& name)
-{
-  return KNOTWORK_OUTPUT_DIR "/cad_" + name;
-}
-
 CADSummary Checked(
   const TrimmedModel& model, const std::string& name, const CADWriteParams& params = {})
 {
-  const std::string file = FileOf(name);
+  const std::string file = OutputFile(name);
   const Status written = WriteCAD(model, file, params);
   EXPECT_TRUE(written) << written.Message();
   const auto summary = CheckCAD(file, params.Unit);
@@ -221,7 +217,7 @@ TEST(CADWriter, PatchesOfABoxMakeASolid_ExactOracle)
     EXPECT_NEAR(summary.Volume, 6.0, 1e-9);
     EXPECT_NEAR(summary.Area, 22.0, 1e-9);
     const auto withoutVolume =
-      CheckCAD(FileOf(std::string("box") + ending), LengthUnit::Millimetre, false);
+      CheckCAD(OutputFile(std::string("box") + ending), LengthUnit::Millimetre, false);
     EXPECT_EQ(withoutVolume->Volume, 0.0);
     EXPECT_EQ(withoutVolume->Area, summary.Area);
     for (std::size_t d = 0; d < 3; ++d)
@@ -288,7 +284,7 @@ TEST(CADWriter, UnitsAreThoseOfTheFile_ExactOracle)
   params.Unit = LengthUnit::Inch;
   for (const char* ending : Endings)
   {
-    const std::string file = FileOf(std::string("inch") + ending);
+    const std::string file = OutputFile(std::string("inch") + ending);
     ASSERT_TRUE(WriteCAD(model, file, params));
     EXPECT_NEAR(CheckCAD(file, LengthUnit::Inch)->Area, 4.0, 1e-9);
     EXPECT_NEAR(CheckCAD(file)->Area, 4.0 * 25.4 * 25.4, 1e-6);
@@ -310,7 +306,7 @@ TEST(CADWriter, NamesAndColoursAreInTheFile_PropertyOracle)
     write.Schema = schema;
     write.Name = "a disc";
     Checked(model, "named.step", write);
-    std::ifstream stream(FileOf("named.step"));
+    std::ifstream stream(OutputFile("named.step"));
     const std::string text{ std::istreambuf_iterator<char>(stream), {} };
     EXPECT_NE(text.find("ADVANCED_FACE('core'"), std::string::npos);
     EXPECT_NE(text.find("COLOUR_RGB("), std::string::npos);
@@ -330,11 +326,11 @@ TEST(CADWriter, FailuresSayWhatIsWrong_PropertyOracle)
     EXPECT_EQ(status.Code, code) << status.Message();
     EXPECT_NE(status.Detail.find(words), std::string::npos) << status.Message();
   };
-  const std::string file = FileOf("wrong.step");
+  const std::string file = OutputFile("wrong.step");
   std::remove(file.c_str());
-  expect(good, FileOf("wrong.obj"), ErrorCode::InvalidParameter, ".step");
-  expect(good, FileOf("no/such/folder/a.step"), ErrorCode::InvalidParameter, "No such file");
-  expect(good, FileOf("no/such/folder/a.igs"), ErrorCode::InvalidParameter, "No such file");
+  expect(good, OutputFile("wrong.obj"), ErrorCode::InvalidParameter, ".step");
+  expect(good, OutputFile("no/such/folder/a.step"), ErrorCode::InvalidParameter, "No such file");
+  expect(good, OutputFile("no/such/folder/a.igs"), ErrorCode::InvalidParameter, "No such file");
   expect({}, file, ErrorCode::EmptyInput, "faces");
 
   TrimmedModel model = good;
@@ -355,12 +351,12 @@ TEST(CADWriter, FailuresSayWhatIsWrong_PropertyOracle)
   params.SewTolerance = 0.0;
   EXPECT_EQ(WriteCAD(good, file, params).Code, ErrorCode::InvalidParameter);
   EXPECT_FALSE(std::ifstream(file)); // nothing is left behind
-  EXPECT_FALSE(std::ifstream(FileOf("wrong-writing.step")));
+  EXPECT_FALSE(std::ifstream(OutputFile("wrong-writing.step")));
 }
 
 TEST(CADWriter, WhatExistsStaysWhenWritingFails_PropertyOracle)
 {
-  const std::string file = FileOf("kept.step");
+  const std::string file = OutputFile("kept.step");
   ASSERT_TRUE(WriteCAD(SheetWithHoles(2, 0.0, 1, 8), file));
   EXPECT_FALSE(WriteCAD({}, file));
   EXPECT_EQ(CheckCAD(file)->NumFreeLoops, 2);
@@ -372,8 +368,8 @@ TEST(CADCheck, DamagedFilesAreRefused_PropertyOracle)
 {
   for (const char* ending : Endings)
   {
-    const std::string good = FileOf(std::string("good") + ending);
-    const std::string bad = FileOf(std::string("bad") + ending);
+    const std::string good = OutputFile(std::string("good") + ending);
+    const std::string bad = OutputFile(std::string("bad") + ending);
     ASSERT_TRUE(WriteCAD(SheetWithHoles(2, 0.1, 1, 8), good));
     std::ifstream stream(good, std::ios::binary);
     const std::string text{ std::istreambuf_iterator<char>(stream), {} };
@@ -397,5 +393,5 @@ TEST(CADCheck, DamagedFilesAreRefused_PropertyOracle)
     EXPECT_EQ(CheckCAD(bad).Status.Code, ErrorCode::EmptyInput);
   }
   EXPECT_EQ(CheckCAD(KNOTWORK_OUTPUT_DIR).Status.Code, ErrorCode::InvalidParameter);
-  EXPECT_EQ(CheckCAD(FileOf("x.txt")).Status.Code, ErrorCode::InvalidParameter);
+  EXPECT_EQ(CheckCAD(OutputFile("x.txt")).Status.Code, ErrorCode::InvalidParameter);
 }

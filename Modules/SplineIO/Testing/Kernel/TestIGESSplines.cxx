@@ -3,6 +3,7 @@
 #include "CADCases.h"
 #include "CADExchange.h"
 #include "FileCases.h"
+#include "OutputFile.h"
 
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepBuilderAPI_NurbsConvert.hxx>
@@ -21,11 +22,6 @@ namespace
 {
 constexpr double Outer = 2.0;
 constexpr double Inner = 0.8;
-
-std::string FileOf(const std::string& name)
-{
-  return KNOTWORK_OUTPUT_DIR "/iges_splines_" + name + ".igs";
-}
 
 /// Lines of a file. @param mode  of OpenCASCADE's writer, 0: trimmed surfaces, 1: solids.
 std::vector<std::string> LinesOf(const TopoDS_Shape& shape, int mode)
@@ -172,7 +168,7 @@ std::array<int, 2> DamageKnots(const Body& body, int mode, int step)
     // the last one of the first knots, or the next one when that is no single digit
     const Field& first = record[(isCurve ? 7 : 10) + degree];
     Replace(damaged, first.Text.size() > 1 ? first : record[(isCurve ? 8 : 11) + degree], "99");
-    const std::string file = FileOf("damaged");
+    const std::string file = OutputFile("damaged.igs");
     Write(file, damaged);
     const auto read = ReadCAD(file);
     if (read)
@@ -218,7 +214,7 @@ TEST(IGESSplines, BlankFieldsAreZero_ExactOracle)
         }
       }
       EXPECT_GE(blanks, 30);
-      const std::string file = FileOf("blank");
+      const std::string file = OutputFile("blank.igs");
       Write(file, lines);
       ExpectWhole(file, body, mode == 1);
     }

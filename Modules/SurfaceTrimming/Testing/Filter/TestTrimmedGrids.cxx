@@ -303,7 +303,8 @@ TEST(TrimmedGrids, CarriedCurvesMoveWithTheSurfaces_CrossOracle)
     }
   }
   // the curves have moved
-  const auto& before = grids.Decode().Faces[0].Loops[0].Curves[0].Curve.ControlPoints;
+  const TrimmedModel decoded = grids.Decode();
+  const auto& before = decoded.Faces[0].Loops[0].Curves[0].Curve.ControlPoints;
   const auto& after = found.Faces[0].Loops[0].Curves[0].Curve.ControlPoints;
   EXPECT_GT((before - after).cwiseAbs().maxCoeff(), 0.5);
 }
