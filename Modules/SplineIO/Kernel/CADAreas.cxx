@@ -115,11 +115,13 @@ bool IsWithin(double area, const AreaBounds& bounds)
     area <= (1.0 + QuadratureSlack) * bounds.Upper;
 }
 
+constexpr const char* OtherFormats =
+  "write .igs in place of .step (or .step in place of .igs), or .vtu";
+
 std::string Difference(double found, const AreaBounds& bounds)
 {
   return "the area " + Digits(found) + " when OpenCASCADE reads it again, which lies between " +
-    Digits(bounds.Lower) + " and " + Digits(bounds.Upper) +
-    ": write .igs in place of .step (or .step in place of .igs), or .vtu";
+    Digits(bounds.Lower) + " and " + Digits(bounds.Upper) + ": " + OtherFormats;
 }
 
 /// One to one: faces in the order of their upper bounds take the least area left that they can.
@@ -239,10 +241,7 @@ Status CompareCAD(const TrimmedModel& model, const CADSummary& summary)
     if (own.diagonal().norm() > 0.0 && !found.contains(own))
     {
       return { ErrorCode::InvalidFormat,
-        PlaceOfFace(model, f) +
-          " lies outside of what OpenCASCADE reads again: write .igs in place of .step (or .step "
-          "in "
-          "place of .igs), or .vtu" };
+        PlaceOfFace(model, f) + " lies outside of what OpenCASCADE reads again: " + OtherFormats };
     }
     sum.Lower += area->Lower;
     sum.Upper += area->Upper;
@@ -251,6 +250,12 @@ Status CompareCAD(const TrimmedModel& model, const CADSummary& summary)
   if (bounds.size() == summary.FaceAreas.size())
   {
     return MatchFaces(model, bounds, summary.FaceAreas);
+  }
+  if (summary.FaceAreas.size() < bounds.size())
+  {
+    return { ErrorCode::InvalidFormat,
+      "OpenCASCADE reads " + std::to_string(summary.FaceAreas.size()) + " of its " +
+        std::to_string(bounds.size()) + " faces again: " + OtherFormats };
   }
   return IsWithin(summary.Area, sum)
     ? Status()

@@ -89,12 +89,13 @@ Result<CADSummary> CheckCAD(
   const std::string& file, LengthUnit unit = LengthUnit::Millimetre, bool volume = true);
 
 /// Whether a file has the geometry of the model that was written: as many faces have the areas of
-/// the model's faces, one to one (others the same area together), and all of them lie in the box.
+/// the model's faces, one to one (more faces the same area together), and all lie in the box.
 /// The model's areas are bounded on the cells of surfaces inside of and across the loops; those
 /// that OpenCASCADE found may lie 0.5 % outside of the bounds, the faces a thousandth of the box's
 /// size outside of the box.
 /// @param summary  as CheckCAD gives it, in the model's unit.
-/// @return failures of TrimmedRegion; InvalidFormat: they differ, naming the face and the areas.
+/// @return failures of TrimmedRegion; InvalidFormat: they differ, naming the face and the areas, or
+/// faces are missing.
 Status CompareCAD(const TrimmedModel& model, const CADSummary& summary);
 
 struct CADReadParams

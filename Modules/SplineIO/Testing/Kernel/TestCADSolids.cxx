@@ -574,13 +574,20 @@ TEST(CADComparison, AnotherGeometryIsNamed_ExactOracle)
     << inverted.Detail;
   EXPECT_NE(inverted.Detail.find("has the area 0."), std::string::npos) << inverted.Detail;
 
-  CADSummary joined = summary.Value; // faces divided or joined by the reader: sums count
-  joined.FaceAreas = { summary->Area };
-  EXPECT_TRUE(CompareCAD(read->Model, joined));
-  joined.Area *= 0.9;
-  const Status less = CompareCAD(read->Model, joined);
+  CADSummary divided = summary.Value; // faces divided by the reader: sums count
+  divided.FaceAreas.back() /= 2.0;
+  divided.FaceAreas.push_back(divided.FaceAreas.back());
+  EXPECT_TRUE(CompareCAD(read->Model, divided));
+  divided.Area *= 0.9;
+  const Status less = CompareCAD(read->Model, divided);
   EXPECT_EQ(less.Code, ErrorCode::InvalidFormat);
   EXPECT_NE(less.Detail.find("together"), std::string::npos) << less.Detail;
+
+  CADSummary lost = summary.Value;
+  lost.FaceAreas = { summary->Area };
+  const Status fewer = CompareCAD(read->Model, lost);
+  EXPECT_EQ(fewer.Code, ErrorCode::InvalidFormat);
+  EXPECT_NE(fewer.Detail.find("1 of its 3 faces"), std::string::npos) << fewer.Detail;
 
   CADSummary moved = summary.Value;
   moved.BoxUpper[0] -= 1.0;
