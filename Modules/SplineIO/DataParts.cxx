@@ -84,6 +84,24 @@ vtkSmartPointer<vtkDataObject> TakeCollection(std::vector<std::string>& parts, s
   }
   return data;
 }
+
+/// The text without the ranges of norms that VTK keeps with arrays: it writes infinite ones and
+/// cannot read them. They are computed again where they are asked for.
+std::string WithoutNorms(const std::string& xml)
+{
+  const std::string begin = "<InformationKey name=\"L2_NORM";
+  const std::string end = "</InformationKey>";
+  std::string text;
+  text.reserve(xml.size());
+  std::size_t from = 0;
+  for (std::size_t at = xml.find(begin); at != std::string::npos; at = xml.find(begin, from))
+  {
+    text.append(xml, from, at - from);
+    const std::size_t last = xml.find(end, at);
+    from = last == std::string::npos ? xml.size() : last + end.size();
+  }
+  return text.append(xml, from, std::string::npos);
+}
 }
 
 void AppendParts(vtkDataObject* data, std::vector<std::string>& parts)
@@ -106,15 +124,13 @@ void AppendParts(vtkDataObject* data, std::vector<std::string>& parts)
     return;
   }
   writer->SetInputDataObject(data);
-  writer->SetDataModeToAppended();
-  // base64: raw bytes are no XML, and VTK's parsers take some of them for it with expat's newer
-  // versions
-  writer->EncodeAppendedDataOn();
+  // no appended data: VTK's parsers take its beginning for XML with expat's newer versions
+  writer->SetDataModeToBinary();
   writer->SetHeaderTypeToUInt64();
   writer->SetCompressorTypeToNone();
   writer->WriteToOutputStringOn();
   writer->Write();
-  parts.push_back(writer->GetOutputString());
+  parts.push_back(WithoutNorms(writer->GetOutputString()));
 }
 
 vtkSmartPointer<vtkDataObject> TakeData(std::vector<std::string>& parts, std::size_t& next)
