@@ -26,7 +26,7 @@ constexpr const char* Backup = ".knotwork-before"; ///< in the temporary folder
 
 Status CannotWrite(const std::string& file, const std::string& reason)
 {
-  return { ErrorCode::InvalidParameter, "'" + file + "' cannot be written: " + reason };
+  return { ErrorCode::FileError, "'" + file + "' cannot be written: " + reason };
 }
 
 std::string SystemReason()
@@ -259,7 +259,7 @@ Status OutputFiles::Plan(
   if (name.empty() || name == "." || name == ".." || folder.empty() ||
     !fs::is_directory(folder, error))
   {
-    return { ErrorCode::InvalidParameter, "'" + file + "': there is no folder for it" };
+    return { ErrorCode::FileError, "'" + file + "': there is no folder for it" };
   }
   if (fs::is_symlink(output.Target, error))
   {

@@ -7,6 +7,7 @@
 #include "CADExchange.h"
 #include "FileEnding.h"
 #include "FileOutput.h"
+#include "FilterErrorCode.h"
 #include "ForeignFile.h"
 #include "Messages.h"
 #include "OneLine.h"
@@ -29,7 +30,6 @@
 #include <vtkDataAssembly.h>
 #include <vtkDataObject.h>
 #include <vtkDelimitedTextWriter.h>
-#include <vtkErrorCode.h>
 #include <vtkImageData.h>
 #include <vtkIndent.h>
 #include <vtkInformation.h>
@@ -85,7 +85,7 @@ vtkSmartPointer<vtkDataObject> ReadWith(const std::string& file, Session& sessio
   vtkNew<Reader> reader;
   reader->SetFileName(file.c_str());
   reader->Update();
-  session.NoteLeftOut(reader, file);
+  session.NoteReader(reader, file);
   return reader->GetOutputDataObject(0);
 }
 
@@ -129,7 +129,7 @@ vtkSmartPointer<vtkDataObject> ReadByEnding(
     vtkNew<vtkGoToolsG2Reader> reader;
     reader->SetFileName(file.c_str());
     reader->Update();
-    session.NoteLeftOut(reader, file);
+    session.NoteReader(reader, file);
     vtkDataObject* curves = reader->GetOutputDataObject(1);
     session.Curves = IsEmpty(curves) ? nullptr : curves;
     return reader->GetOutputDataObject(0);
@@ -140,7 +140,7 @@ vtkSmartPointer<vtkDataObject> ReadByEnding(
     reader->SetFileName(file.c_str());
     reader->TriangulationOff();
     reader->Update();
-    session.NoteLeftOut(reader, file);
+    session.NoteReader(reader, file);
     session.Curves = reader->GetOutputDataObject(1);
     return reader->GetOutputDataObject(0);
   }
@@ -233,7 +233,7 @@ template <typename Writer>
 Status WriteXml(vtkDataObject* data, const std::string& file, const std::string& encoding)
 {
   const std::string text = XmlText<Writer>(data, encoding);
-  return text.empty() ? Status(ErrorCode::InvalidParameter, "") : PutText(text, file);
+  return text.empty() ? Status(ErrorCode::LibraryError, "") : PutText(text, file);
 }
 
 /// A name as the value of an attribute.
@@ -267,7 +267,7 @@ Status WriteCollection(
   std::error_code failure;
   if (!fs::create_directory(folder, failure))
   {
-    return { ErrorCode::InvalidParameter, failure.message() };
+    return { ErrorCode::FileError, failure.message() };
   }
   std::string text = "<?xml version=\"1.0\"?>\n<VTKFile "
                      "type=\"vtkPartitionedDataSetCollection\" version=\"1.0\">\n"
@@ -310,14 +310,7 @@ Status WriteCollection(
 /// A writer of ours tells why it has failed as an error of VTK.
 Status Outcome(vtkWriter* writer)
 {
-  if (writer->Write() == 1)
-  {
-    return {};
-  }
-  const unsigned long code = writer->GetErrorCode();
-  return { code > vtkErrorCode::UserError ? static_cast<ErrorCode>(code - vtkErrorCode::UserError)
-                                          : ErrorCode::InvalidParameter,
-    "" };
+  return writer->Write() == 1 ? Status() : Status(CodeOfFilter(writer), "");
 }
 
 template <typename Writer>
@@ -386,11 +379,11 @@ Result<vtkSmartPointer<vtkDataObject>> Session::ReadWith(
   std::error_code error;
   if (!fs::is_regular_file(file, error))
   {
-    return { ErrorCode::EmptyInput, "'" + file + "' is not a file; check the name" };
+    return { ErrorCode::FileError, "'" + file + "' is not a file; check the name" };
   }
   if (!std::ifstream(file))
   {
-    return { ErrorCode::EmptyInput, "'" + file + "' cannot be read; check its permissions" };
+    return { ErrorCode::FileError, "'" + file + "' cannot be read; check its permissions" };
   }
   if (Status status = this->Files.CheckInput(file); !status)
   {
@@ -414,10 +407,11 @@ Result<vtkSmartPointer<vtkDataObject>> Session::ReadWith(
     {
       data = reading(ending);
     }
-    catch (const std::exception& failure) // out of memory: sizes in the file are wrong
+    catch (...) // out of memory: sizes in the file are wrong
     {
-      return { ErrorCode::TooLarge,
-        "'" + file + "' is damaged, or larger than the memory: " + failure.what() };
+      const Status failure = StatusOfException();
+      return { failure.Code,
+        "'" + file + "' is damaged, or larger than the memory: " + failure.Detail };
     }
   }
   if (!data)
@@ -429,7 +423,7 @@ Result<vtkSmartPointer<vtkDataObject>> Session::ReadWith(
   }
   if (messages.HasError())
   {
-    return { ErrorCode::InvalidFormat, messages.FirstError() }; // names the file
+    return { this->CodeOfReader, messages.FirstError() }; // names the file
   }
   if (IsEmpty(data))
   {
@@ -444,8 +438,9 @@ Result<vtkSmartPointer<vtkDataObject>> Session::ReadWith(
   return data;
 }
 
-void Session::NoteLeftOut(vtkAlgorithm* reader, const std::string& file)
+void Session::NoteReader(vtkAlgorithm* reader, const std::string& file)
 {
+  this->CodeOfReader = CodeOfFilter(reader);
   auto* own = vtkSplineAlgorithm::SafeDownCast(reader);
   for (int i = 0; own && i < own->GetNumberOfPartsLeftOut(); ++i)
   {
@@ -477,7 +472,7 @@ Status Session::Run(vtkAlgorithm* filter, const std::string& what, int port)
   {
     const std::string error = messages.FirstError();
     const bool isNamed = error.find(what) != std::string::npos; // readers name their file
-    return { ErrorCode::InvalidTopology, isNamed ? error : what + ": " + error };
+    return { CodeOfFilter(filter), isNamed ? error : what + ": " + error };
   }
   if (IsEmpty(filter->GetOutputDataObject(port)))
   {

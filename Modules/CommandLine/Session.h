@@ -52,8 +52,8 @@ public:
   /// the inputs in the message. No points or rows in the output of `port` are an error.
   Status Run(vtkAlgorithm* filter, const std::string& what, int port = 0);
 
-  /// Adds what a reader left out of a file to LeftOut.
-  void NoteLeftOut(vtkAlgorithm* reader, const std::string& file);
+  /// Adds what a reader left out of a file to LeftOut, and keeps the code that it failed with.
+  void NoteReader(vtkAlgorithm* reader, const std::string& file);
 
   /// Prints warnings of a decoding on stderr, unless quiet.
   void Warn(const std::vector<std::string>& warnings) const;
@@ -111,6 +111,7 @@ private:
   /// @param isForeign  by VTK's readers, in a process of their own, and not by `reading`.
   Result<vtkSmartPointer<vtkDataObject>> ReadWith(
     const std::string& file, bool isForeign, const Reading& reading);
+  ErrorCode CodeOfReader = ErrorCode::Ok;
   double SecondsOfFiles = 0.0;
   double Seconds = 0.0;
   double CpuSeconds = 0.0;

@@ -138,7 +138,7 @@ Result<fs::path> MakeFolder(const fs::path& pattern)
   std::string name = pattern.string();
   if (!mkdtemp(name.data()))
   {
-    return { ErrorCode::InvalidParameter, std::generic_category().message(errno) };
+    return { ErrorCode::FileError, std::generic_category().message(errno) };
   }
   Shared().Folders.emplace_back(name);
   return fs::path(name);

@@ -78,7 +78,7 @@ struct TessellateJob
     {
       return status;
     }
-    session.NoteLeftOut(reader, this->Input);
+    session.NoteReader(reader, this->Input);
     vtkDataObject* result = reader->GetOutputDataObject(2);
     session.Report["number_of_points"] = result->GetNumberOfElements(vtkDataObject::POINT);
     session.Report["number_of_cells"] = result->GetNumberOfElements(vtkDataObject::CELL);

@@ -84,7 +84,7 @@ knotwork::Status FlushOutput()
   {
     return {};
   }
-  return { knotwork::ErrorCode::InvalidParameter,
+  return { knotwork::ErrorCode::FileError,
     "standard output cannot be written: " + std::generic_category().message(errno) };
 }
 
@@ -173,9 +173,9 @@ int main(int argc, char* argv[])
       const knotwork::Status status = Run(*job, run, session);
       return status ? session.ExitStatus : Fail(job->get_name(), status.Detail);
     }
-    catch (const std::exception& error) // of a library, e.g. out of memory
+    catch (...) // of a library, e.g. out of memory
     {
-      return Fail(job->get_name(), error.what());
+      return Fail(job->get_name(), knotwork::StatusOfException().Detail);
     }
   }
   return WrongUsage;

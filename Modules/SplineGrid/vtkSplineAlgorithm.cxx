@@ -2,6 +2,7 @@
 #include "vtkSplineAlgorithm.h"
 
 #include "DistributedInput.h"
+#include "FilterErrorCode.h"
 
 #include "vtkDataObject.h"
 #include "vtkDataObjectTypes.h"
@@ -102,9 +103,9 @@ int vtkSplineAlgorithm::RequestData(
       status = this->Compute(inputs, outputs);
     }
   }
-  catch (const std::exception& error) // of a library below the kernel, out of memory
+  catch (...) // of a library below the kernel, out of memory
   {
-    status = { knotwork::ErrorCode::TooLarge, error.what() };
+    status = knotwork::StatusOfException();
   }
   if (status)
   {
@@ -117,7 +118,7 @@ int vtkSplineAlgorithm::RequestData(
       output->Initialize();
     }
   }
-  this->SetErrorCode(vtkErrorCode::UserError + static_cast<unsigned long>(status.Code));
+  this->SetErrorCode(knotwork::FilterErrorCode(status));
   if (status.Code == knotwork::ErrorCode::Aborted) // as asked for: no error
   {
     return 1;

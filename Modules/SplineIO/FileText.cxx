@@ -2,8 +2,7 @@
 #include "FileText.h"
 
 #include "FileOutput.h"
-
-#include "vtkErrorCode.h"
+#include "FilterErrorCode.h"
 
 #include <exception>
 #include <filesystem>
@@ -31,7 +30,7 @@ Result<std::string> TextOfFile(const std::string& file)
   }
   if (size < 0 || !stream)
   {
-    return { ErrorCode::EmptyInput,
+    return { ErrorCode::FileError,
       "'" + file + "' cannot be read; check its name and permissions" };
   }
   return text;
@@ -54,13 +53,13 @@ WriteOutcome WriteText(const std::string& file, const std::function<Status(std::
   {
     status = makeText(text);
   }
-  catch (const std::exception& error) // out of memory, or of a library below the kernel
+  catch (...) // out of memory, or of a library below the kernel
   {
-    status = { ErrorCode::TooLarge, error.what() };
+    status = StatusOfException();
   }
   if (!status)
   {
-    return { vtkErrorCode::UserError + static_cast<unsigned long>(status.Code), status.Message() };
+    return { FilterErrorCode(status), status.Message() };
   }
   FileOutput output(file);
   output.Stream().write(text.data(), static_cast<std::streamsize>(text.size()));

@@ -7,7 +7,7 @@
 
 namespace knotwork
 {
-/// All bytes of a file. @return EmptyInput with the name when it cannot be read.
+/// All bytes of a file. @return FileError with the name when it cannot be read.
 Result<std::string> TextOfFile(const std::string& file);
 
 /// The first 4096 bytes; none when the file cannot be read.

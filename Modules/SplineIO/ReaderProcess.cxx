@@ -257,7 +257,7 @@ Result<std::vector<std::string>> ReadInProcess(
   const std::string path = PathOfWorker(program);
   if (path.empty())
   {
-    return { ErrorCode::InvalidParameter,
+    return { ErrorCode::LibraryError,
       "'" + file + "' cannot be read: the program " + program +
         " is missing; install all of Knotwork, or set KNOTWORK_WORKERS to its folder" };
   }
@@ -269,7 +269,7 @@ Result<std::vector<std::string>> ReadInProcess(
   Child child(path, words);
   if (!child.IsRunning())
   {
-    return { ErrorCode::TooLarge,
+    return { ErrorCode::LibraryError,
       "'" + file + "' cannot be read: no process could be started for it; end other programs" };
   }
   std::vector<std::string> parts;

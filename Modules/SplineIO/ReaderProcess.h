@@ -12,9 +12,9 @@ namespace knotwork
 /// folder that the environment variable KNOTWORK_WORKERS names.
 /// @param program  one of them.
 /// @param options  more arguments for it.
-/// @return what it found, in parts; its own error; InvalidParameter: there is no such program;
-/// InvalidFormat: it crashed or did not end in time; TooLarge: it asked for too much memory.
-/// Messages name the file.
+/// @return what it found, in parts; its own error; LibraryError: there is no such program
+/// or no process; InvalidFormat: it crashed or did not end in time; TooLarge: it asked for too much
+/// memory. Messages name the file.
 /// @complexity that of the reader, and about 10 ms (STEP and IGES: 60 ms)
 Result<std::vector<std::string>> ReadInProcess(const std::string& program, const std::string& file,
   const std::vector<std::string>& options = {});

@@ -4,6 +4,7 @@
 #include "BoundaryFaces.h"
 #include "CADExchange.h"
 #include "DistributedInput.h"
+#include "FilterErrorCode.h"
 #include "SplineModel.h"
 #include "TensorForm.h"
 #include "TrimmedGrids.h"
@@ -139,13 +140,13 @@ void vtkCADWriter::WriteData()
   {
     status = this->WriteModel();
   }
-  catch (const std::exception& error) // of a library below the kernel, out of memory
+  catch (...) // of a library below the kernel, out of memory
   {
-    status = { ErrorCode::TooLarge, error.what() };
+    status = knotwork::StatusOfException();
   }
   if (!status)
   {
-    this->SetErrorCode(vtkErrorCode::UserError + static_cast<unsigned long>(status.Code));
+    this->SetErrorCode(knotwork::FilterErrorCode(status));
     vtkErrorMacro("" << status.Message());
   }
 }

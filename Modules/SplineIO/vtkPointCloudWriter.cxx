@@ -4,6 +4,7 @@
 #include "DistributedInput.h"
 #include "FileEnding.h"
 #include "FileText.h"
+#include "FilterErrorCode.h"
 #include "GoToolsG2.h"
 #include "PointData.h"
 #include "PointText.h"
@@ -67,7 +68,7 @@ void vtkPointCloudWriter::WriteData()
     this->SetErrorCode(vtkErrorCode::NoError);
     if (!one)
     {
-      this->SetErrorCode(vtkErrorCode::UserError + static_cast<unsigned long>(one.Code));
+      this->SetErrorCode(knotwork::FilterErrorCode(one));
       vtkErrorMacro("" << one.Message());
     }
     return;

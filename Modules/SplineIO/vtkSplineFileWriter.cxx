@@ -3,6 +3,7 @@
 
 #include "DistributedInput.h"
 #include "FileText.h"
+#include "FilterErrorCode.h"
 #include "PatchTopology.h"
 #include "SplineFileModel.h"
 #include "TensorForm.h"
@@ -125,7 +126,7 @@ void vtkSplineFileWriter::WriteData()
     this->SetErrorCode(vtkErrorCode::NoError);
     if (!one)
     {
-      this->SetErrorCode(vtkErrorCode::UserError + static_cast<unsigned long>(one.Code));
+      this->SetErrorCode(knotwork::FilterErrorCode(one));
       vtkErrorMacro("" << one.Message());
     }
     return;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Status.h"
 
+#include <exception>
+#include <new>
+#include <stdexcept>
+
 namespace knotwork
 {
 const char* ToString(ErrorCode code)
@@ -41,6 +45,10 @@ const char* ToString(ErrorCode code)
       return "aborted on request";
     case ErrorCode::InvalidFormat:
       return "the text does not follow its file format";
+    case ErrorCode::FileError:
+      return "a file is not accessible";
+    case ErrorCode::LibraryError:
+      return "a library has failed";
   }
   return "unknown error";
 }
@@ -49,5 +57,30 @@ std::string Status::Message() const
 {
   std::string text = ToString(this->Code);
   return this->Detail.empty() ? text : text + ": " + this->Detail;
+}
+
+Status StatusOfException()
+{
+  constexpr const char* noMemory = "out of memory; give less, or a coarser request";
+  try
+  {
+    throw;
+  }
+  catch (const std::bad_alloc&)
+  {
+    return { ErrorCode::TooLarge, noMemory };
+  }
+  catch (const std::length_error&) // as much as no memory has
+  {
+    return { ErrorCode::TooLarge, noMemory };
+  }
+  catch (const std::exception& error)
+  {
+    return { ErrorCode::LibraryError, error.what() };
+  }
+  catch (...)
+  {
+    return { ErrorCode::LibraryError, "it does not say why" };
+  }
 }
 }

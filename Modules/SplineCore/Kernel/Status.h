@@ -25,7 +25,9 @@ enum class ErrorCode
   TooLarge,          ///< a count that exceeds the documented limits
   NotConverged,      ///< an iteration stopped at its limit before its goal
   Aborted,           ///< the progress callback asked to stop
-  InvalidFormat      ///< text that does not follow its file format
+  InvalidFormat,     ///< text that does not follow its file format
+  FileError,         ///< a file that the system does not let read or write
+  LibraryError       ///< a library below, or a program of ours, that failed for reasons of its own
 };
 
 /// One plain sentence for a code, without a full stop.
@@ -43,6 +45,11 @@ struct Status
   /// "sentence of the code: detail", one line; "ok" when Ok.
   std::string Message() const;
 };
+
+/// What an exception of a library means, asked for where it is caught (inside `catch`): TooLarge
+/// when memory ran out, else LibraryError with the library's words. Kernels throw nothing
+/// themselves.
+Status StatusOfException();
 
 /// A value or the reason why there is none. The value is default-constructed unless Ok.
 template <typename T>

@@ -55,7 +55,7 @@ bool HasCADEnding(const std::string& file);
 /// @return failures of TrimmedModel::Check; InvalidParameter: ending, SewTolerance;
 /// InvalidKnots: a curve or surface that jumps; OutsideDomain: a pcurve that leaves its surface;
 /// InvalidTopology: uses of an edge that do not fit each other; InvalidFormat: OpenCASCADE refuses
-/// or reads something else; InvalidParameter: the file cannot be written, with the system's reason.
+/// or reads something else; FileError: the file cannot be written, with the system's reason.
 Status WriteCAD(
   const TrimmedModel& model, const std::string& file, const CADWriteParams& params = {});
 
@@ -84,7 +84,7 @@ struct CADSummary
 /// Reads a file again and checks it.
 /// @param unit  of lengths in the summary.
 /// @param volume  whether it is wanted: of faces with many spans it costs more than all checks.
-/// @return EmptyInput: no such file, or nothing in it; InvalidFormat: damaged.
+/// @return FileError: no such file; EmptyInput: nothing in it; InvalidFormat: damaged.
 Result<CADSummary> CheckCAD(
   const std::string& file, LengthUnit unit = LengthUnit::Millimetre, bool volume = true);
 

@@ -159,7 +159,7 @@ Status LoadCAD(XSControl_Reader& reader, CADFormat format, const std::string& fi
   const Ends ends = ReadEnds(file);
   if (!ends.Opened || ends.First.empty())
   {
-    return { ErrorCode::EmptyInput,
+    return { ends.Opened ? ErrorCode::EmptyInput : ErrorCode::FileError,
       place +
         (ends.Opened ? " is empty or a folder"
                      : " cannot be read; check its name and permissions") };

@@ -168,7 +168,7 @@ Status FileOutput::Finish()
   {
     return {};
   }
-  return { ErrorCode::InvalidParameter,
+  return { ErrorCode::FileError,
     "'" + this->File +
       "' cannot be written: " + std::generic_category().message(this->Bytes->Error) };
 }

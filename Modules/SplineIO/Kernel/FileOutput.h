@@ -25,7 +25,7 @@ public:
   std::ostream& Stream();
 
   /// Writes the rest, closes and names the file.
-  /// @return InvalidParameter with the file and the reason that the system gives, also of what
+  /// @return FileError with the file and the reason that the system gives, also of what
   /// went wrong before.
   Status Finish();
 

@@ -9,8 +9,11 @@
 
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <new>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <thread>
 
@@ -30,7 +33,7 @@ Spline<2> Surface()
 TEST(Status, EveryCodeHasASentenceOfItsOwn_PropertyOracle)
 {
   std::set<std::string> sentences;
-  const int count = static_cast<int>(ErrorCode::InvalidFormat) + 1;
+  const int count = static_cast<int>(ErrorCode::LibraryError) + 1;
   for (int code = 0; code < count; ++code)
   {
     const std::string sentence = ToString(static_cast<ErrorCode>(code));
@@ -40,6 +43,29 @@ TEST(Status, EveryCodeHasASentenceOfItsOwn_PropertyOracle)
   }
   EXPECT_EQ(sentences.size(), static_cast<std::size_t>(count));
   EXPECT_EQ(sentences.count("unknown error"), 0u);
+}
+
+TEST(Status, ExceptionsKeepTheirMeaning_ExactOracle)
+{
+  const auto outcome = [](const std::function<void()>& throwing)
+  {
+    try
+    {
+      throwing();
+    }
+    catch (...)
+    {
+      return StatusOfException();
+    }
+    return Status();
+  };
+  EXPECT_EQ(outcome([] { throw std::bad_alloc(); }).Code, ErrorCode::TooLarge);
+  EXPECT_EQ(outcome([] { throw std::length_error("vector"); }).Code, ErrorCode::TooLarge);
+  const Status library = outcome([] { throw std::runtime_error("no root found"); });
+  EXPECT_EQ(library.Code, ErrorCode::LibraryError);
+  EXPECT_EQ(library.Detail, "no root found");
+  EXPECT_EQ(outcome([] { throw 7; }).Code, ErrorCode::LibraryError);
+  EXPECT_EQ(outcome([] {}).Code, ErrorCode::Ok);
 }
 
 TEST(Status, Message_ExactOracle)

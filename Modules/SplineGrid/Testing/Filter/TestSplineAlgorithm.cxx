@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The base class: types of outputs, errors, exceptions, abort.
 #include "DistributedInput.h"
+#include "FilterErrorCode.h"
 #include "RandomModels.h"
 #include "vtkSplineAlgorithm.h"
 
@@ -169,6 +170,7 @@ TEST(SplineAlgorithm, ExceptionsBecomeErrors)
   filter->Update();
   ASSERT_EQ(messages.Errors.size(), 1U);
   EXPECT_NE(messages.Errors[0].find("out of patience"), std::string::npos);
+  EXPECT_EQ(CodeOfFilter(filter), ErrorCode::LibraryError);
   EXPECT_EQ(
     vtkUnstructuredGrid::SafeDownCast(filter->GetOutputDataObject(0))->GetNumberOfCells(), 0);
 }

@@ -169,7 +169,7 @@ TEST(CADFilters, FailuresAreErrorsOfTheFilter_PropertyOracle)
   };
   vtkNew<vtkCADWriter> writer;
   refused(writer, grids.Surfaces, OutputFile("wrong.obj"), ErrorCode::InvalidParameter);
-  refused(writer, grids.Surfaces, OutputFile("no/folder.step"), ErrorCode::InvalidParameter);
+  refused(writer, grids.Surfaces, OutputFile("no/folder.step"), ErrorCode::FileError);
   vtkNew<vtkSplineSource> line;
   line->SetShape(static_cast<int>(ShapeKind::Line));
   line->Update();
@@ -185,6 +185,6 @@ TEST(CADFilters, FailuresAreErrorsOfTheFilter_PropertyOracle)
   ASSERT_FALSE(messages->Errors.empty());
   EXPECT_NE(messages->Errors[0].find("missing.step"), std::string::npos);
   EXPECT_EQ(reader->GetErrorCode(),
-    vtkErrorCode::UserError + static_cast<unsigned long>(ErrorCode::EmptyInput));
+    vtkErrorCode::UserError + static_cast<unsigned long>(ErrorCode::FileError));
   EXPECT_EQ(reader->GetOutputDataObject(0)->GetNumberOfElements(vtkDataObject::CELL), 0);
 }

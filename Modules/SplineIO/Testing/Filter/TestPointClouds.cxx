@@ -194,7 +194,7 @@ TEST(PointClouds, EveryFailureIsOneErrorWithTheFile_ExactOracle)
     const char* Words;
   } cases[] = {
     { "", ErrorCode::EmptyInput, "no file name" },
-    { OutputFile("missing.xyz"), ErrorCode::EmptyInput, "missing.xyz" },
+    { OutputFile("missing.xyz"), ErrorCode::FileError, "missing.xyz" },
     { WithText("short.xyz", "1 2 3\n4 5\n"), ErrorCode::InvalidFormat, "short.xyz': line 2" },
     { WithText("nan.csv", "1,2,3\n4,5,nan\n"), ErrorCode::NonFiniteInput, "nan.csv': line 2" },
     { WithText("cut.g2", "400 1 0 0\n5\n1 2 3\n"), ErrorCode::InvalidFormat, "cut.g2" },

@@ -239,7 +239,7 @@ TEST(ReaderProcess, WithoutItsProgramNothingIsRead)
   setenv("KNOTWORK_WORKERS", KNOTWORK_OUTPUT_DIR "/no_such_folder", 1);
   const auto data = ReadVTKFile(OutputFile("any.vtu"));
   unsetenv("KNOTWORK_WORKERS");
-  EXPECT_EQ(data.Status.Code, ErrorCode::InvalidParameter);
+  EXPECT_EQ(data.Status.Code, ErrorCode::LibraryError);
   EXPECT_NE(data.Status.Detail.find("knotwork-read-vtk is missing"), std::string::npos);
 }
 

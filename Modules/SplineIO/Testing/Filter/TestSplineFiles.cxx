@@ -263,8 +263,8 @@ TEST(SplineFile, CollectionsAreWritten_CrossOracle)
 
 TEST(SplineFile, BadFilesAreErrors_ExactOracle)
 {
-  ExpectRefused<vtkGismoXMLReader>(OutputFile("missing.xml"), ErrorCode::EmptyInput, "missing.xml");
-  ExpectRefused<vtkGismoXMLReader>(KNOTWORK_OUTPUT_DIR, ErrorCode::EmptyInput, "cannot be read");
+  ExpectRefused<vtkGismoXMLReader>(OutputFile("missing.xml"), ErrorCode::FileError, "missing.xml");
+  ExpectRefused<vtkGismoXMLReader>(KNOTWORK_OUTPUT_DIR, ErrorCode::FileError, "cannot be read");
   ExpectRefused<vtkGismoXMLReader>("", ErrorCode::EmptyInput, "no file name");
   const std::string xml = TextOf(DataFile("by_hand.xml"));
   WriteText(OutputFile("truncated.xml"), xml.substr(0, xml.size() / 2));

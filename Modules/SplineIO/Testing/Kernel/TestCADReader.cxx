@@ -305,7 +305,7 @@ TEST(CADReader, DamagedFilesAreRefused_PropertyOracle)
     EXPECT_EQ(code("hello world\n"), ErrorCode::InvalidFormat);
     EXPECT_EQ(code(text.substr(0, text.size() / 3)), ErrorCode::InvalidFormat);
     std::remove(bad.c_str());
-    EXPECT_EQ(ReadCAD(bad).Status.Code, ErrorCode::EmptyInput);
+    EXPECT_EQ(ReadCAD(bad).Status.Code, ErrorCode::FileError);
   }
   CADReadParams params;
   params.Tolerance = -1.0;

@@ -329,8 +329,8 @@ TEST(CADWriter, FailuresSayWhatIsWrong_PropertyOracle)
   const std::string file = OutputFile("wrong.step");
   std::remove(file.c_str());
   expect(good, OutputFile("wrong.obj"), ErrorCode::InvalidParameter, ".step");
-  expect(good, OutputFile("no/such/folder/a.step"), ErrorCode::InvalidParameter, "No such file");
-  expect(good, OutputFile("no/such/folder/a.igs"), ErrorCode::InvalidParameter, "No such file");
+  expect(good, OutputFile("no/such/folder/a.step"), ErrorCode::FileError, "No such file");
+  expect(good, OutputFile("no/such/folder/a.igs"), ErrorCode::FileError, "No such file");
   expect({}, file, ErrorCode::EmptyInput, "faces");
 
   TrimmedModel model = good;

@@ -106,7 +106,7 @@ TEST(FileOutput, AFullDiskIsTheReasonThatIsGiven)
 {
   const std::string full = std::generic_category().message(ENOSPC);
   const Status device = Write("/dev/full", "text");
-  EXPECT_EQ(device.Code, ErrorCode::InvalidParameter);
+  EXPECT_EQ(device.Code, ErrorCode::FileError);
   EXPECT_EQ(device.Detail, "'/dev/full' cannot be written: " + full);
   EXPECT_TRUE(fs::exists("/dev/full"));
 
