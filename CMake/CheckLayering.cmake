@@ -2,8 +2,10 @@
 # usage: cmake -DROOT=<source tree> -P CheckLayering.cmake
 # The wall between the layers, and the order of the modules as KnotworkModules.cmake states it. Fails when
 #   - a file below some Modules/<X>/Kernel includes a header of VTK, of filters, or one for input and output,
+#   - a header of another module is not included as <knotwork/Module/Header.h>, or is none that its build file lists,
 #   - a file uses a module that the list does not state, or the list states one of which no file includes a header,
 #   - a vtk.module file states other modules than the list,
+#   - OpenCASCADE's headers are included anywhere but in CADModel,
 #   - two modules have a header of one name, or two kernels a type of one name (their programs would mix them up without
 #     a word),
 # and when there is no kernel file at all. Tests may use every module.
@@ -47,13 +49,30 @@ foreach(file IN LISTS files)
   endif()
 endforeach()
 
+# The headers that build files list for others.
+foreach(module IN LISTS KNOTWORK_MODULES)
+  foreach(list_file IN ITEMS "Modules/${module}/Kernel/CMakeLists.txt" "Modules/${module}/CMakeLists.txt")
+    if(EXISTS "${ROOT}/${list_file}")
+      file(READ "${ROOT}/${list_file}" text)
+      string(REGEX MATCH "[ \t\r\n]HEADERS([ \t\r\n]+[A-Za-z0-9/]+\\.h)+" headers "${text}")
+      string(REGEX MATCHALL "[A-Za-z0-9]+\\.h" headers "${headers}")
+      string(REGEX MATCH "[ \t\r\n]CLASSES([ \t\r\n]+vtk[A-Za-z0-9]+)+" classes "${text}")
+      string(REGEX MATCHALL "vtk[A-Za-z0-9]+" classes "${classes}")
+      list(TRANSFORM classes APPEND ".h")
+      foreach(name IN LISTS headers classes)
+        set("listed_${name}" ${module})
+      endforeach()
+    endif()
+  endforeach()
+endforeach()
+
 foreach(file IN LISTS files)
   string(REGEX MATCH "^Modules/([^/]+)/" match "${file}")
   set(module ${CMAKE_MATCH_1})
   set(layer FILTERS)
   set(allowed ${module} ${KNOTWORK_KERNELS_OF_${module}} ${KNOTWORK_FILTERS_OF_${module}})
   if(module IN_LIST programs)
-    set(allowed ${module} ${KNOTWORK_MODULES})
+    set(allowed ${KNOTWORK_MODULES})
   elseif(file IN_LIST kernel_files)
     set(layer KERNELS)
     set(allowed ${module} ${KNOTWORK_KERNELS_OF_${module}})
@@ -66,14 +85,20 @@ foreach(file IN LISTS files)
       list(APPEND problems "${file}: a kernel includes VTK: ${path}")
     elseif(layer STREQUAL KERNELS AND path MATCHES "^(iostream|ostream|istream|fstream|cstdio|stdio\\.h|filesystem|print)$")
       list(APPEND problems "${file}: a kernel includes input and output: ${path}")
-    elseif(DEFINED "owner_${name}")
-      set(other ${owner_${name}})
-      if(NOT other IN_LIST allowed)
+    elseif(path MATCHES "\\.hxx$" AND NOT module STREQUAL CADModel)
+      list(APPEND problems "${file}: OpenCASCADE's headers belong to CADModel: ${path}")
+    elseif(path MATCHES "^knotwork/([^/]+)/")
+      set(other ${CMAKE_MATCH_1})
+      if(NOT "${listed_${name}}" STREQUAL other)
+        list(APPEND problems "${file}: ${other} lists no header ${name}")
+      elseif(NOT other IN_LIST allowed)
         list(APPEND problems "${file}: ${module} may not use ${other}: ${path}")
       elseif(layer STREQUAL KERNELS AND NOT DEFINED "kernel_${name}")
         list(APPEND problems "${file}: a kernel includes a header of filters: ${path}")
       endif()
       set("uses_${module}_${layer}_${other}" TRUE)
+    elseif(DEFINED "owner_${name}" AND NOT "${owner_${name}}" STREQUAL module)
+      list(APPEND problems "${file}: not as <knotwork/${owner_${name}}/${name}>: ${path}")
     endif()
   endforeach()
 endforeach()

@@ -2,9 +2,25 @@
 # What the modules' CMakeLists.txt call. Each function names a module first and takes lists of files, so that adding a
 # class or a test is adding a file name.
 
+# knotwork_list_headers(MODULE TARGET file...): the headers that others include as <knotwork/MODULE/Header.h>, whatever
+# folder they are in: links in the build tree, the property KNOTWORK_HEADERS of the target.
+function(knotwork_list_headers module target)
+  set(headers "")
+  foreach(file IN LISTS ARGN)
+    get_filename_component(name "${file}" NAME)
+    list(APPEND headers "knotwork/${module}/${name}")
+    if(NOT IS_ABSOLUTE "${file}")
+      file(MAKE_DIRECTORY "${CMAKE_BINARY_DIR}/include/knotwork/${module}")
+      file(CREATE_LINK "${CMAKE_CURRENT_SOURCE_DIR}/${file}" "${CMAKE_BINARY_DIR}/include/knotwork/${module}/${name}" SYMBOLIC)
+    endif()
+  endforeach()
+  set_target_properties(${target} PROPERTIES KNOTWORK_HEADERS "${headers}" EXPORT_PROPERTIES KNOTWORK_HEADERS)
+endfunction()
+
 # knotwork_add_kernel(MODULE SOURCES file... HEADERS file... [LIBRARIES target...] [STRICT_FLOAT file...])
-#   Static library Knotwork::<MODULE>Kernel, without VTK, which links the kernels that KnotworkModules.cmake states; LIBRARIES are
-#   further link targets; sources under STRICT_FLOAT are compiled without contraction to fused multiply-add.
+#   Static library Knotwork::<MODULE>Kernel, without VTK, which links the kernels that KnotworkModules.cmake states. HEADERS are
+#   for other modules, the other ones stay among the SOURCES; LIBRARIES are further link targets; sources under STRICT_FLOAT
+#   are compiled without contraction to fused multiply-add.
 function(knotwork_add_kernel module)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;HEADERS;LIBRARIES;STRICT_FLOAT")
   if(NOT arg_SOURCES)
@@ -21,33 +37,49 @@ function(knotwork_add_kernel module)
   # Eigen's alignment is pinned, so that owning types may cross to callers built with other architecture flags
   target_compile_definitions(${target} PUBLIC EIGEN_MAX_ALIGN_BYTES=16)
   set_source_files_properties(${arg_STRICT_FLOAT} PROPERTIES COMPILE_OPTIONS -ffp-contract=off)
-  target_include_directories(${target} PUBLIC
-    "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}>" "$<INSTALL_INTERFACE:${KNOTWORK_INCLUDE_DIR}>")
+  set(folders "")
+  foreach(file IN LISTS arg_SOURCES arg_HEADERS)
+    get_filename_component(folder "${file}" DIRECTORY)
+    list(APPEND folders "${CMAKE_CURRENT_SOURCE_DIR}/${folder}")
+  endforeach()
+  list(REMOVE_DUPLICATES folders)
+  target_include_directories(${target} PRIVATE ${folders} PUBLIC
+    "$<BUILD_INTERFACE:${CMAKE_BINARY_DIR}/include>" "$<INSTALL_INTERFACE:${KNOTWORK_INCLUDE_DIR}>")
+  set_target_properties(${target} PROPERTIES KNOTWORK_FOLDERS "${folders}")
   target_link_libraries(${target} PUBLIC Eigen3::Eigen TBB::tbb ${arg_LIBRARIES})
   foreach(dependency IN LISTS KNOTWORK_KERNELS_OF_${module})
     target_link_libraries(${target} PUBLIC ${dependency}Kernel)
   endforeach()
   install(TARGETS ${target} EXPORT KnotworkKernels ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
-  install(FILES ${arg_HEADERS} DESTINATION "${KNOTWORK_INCLUDE_DIR}")
-  set_target_properties(${target} PROPERTIES KNOTWORK_HEADERS "${arg_HEADERS}" EXPORT_PROPERTIES KNOTWORK_HEADERS)
+  install(FILES ${arg_HEADERS} DESTINATION "${KNOTWORK_INCLUDE_DIR}/knotwork/${module}")
+  knotwork_list_headers(${module} ${target} ${arg_HEADERS})
   set_property(GLOBAL APPEND PROPERTY KNOTWORK_KERNELS ${target})
 endfunction()
 
-# knotwork_add_filters(MODULE CLASSES class... [HEADERS file...] [SOURCES file...] [PRIVATE_CLASSES class...]
-#                      [KERNELS MODULE...])
-#   The VTK module Knotwork::<MODULE> that Modules/<MODULE>/vtk.module describes.
+# knotwork_add_filters(MODULE CLASSES class... [HEADERS file...] [SOURCES file...] [PRIVATE_CLASSES class...])
+#   The VTK module Knotwork::<MODULE> that Modules/<MODULE>/vtk.module describes. Links its kernel, and the kernels of what
+#   KnotworkModules.cmake states under FILTERS.
 function(knotwork_add_filters module)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "CLASSES;HEADERS;SOURCES;PRIVATE_CLASSES;KERNELS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "CLASSES;HEADERS;SOURCES;PRIVATE_CLASSES")
   vtk_module_add_module(Knotwork::${module}
-    CLASSES ${arg_CLASSES} HEADERS ${arg_HEADERS} SOURCES ${arg_SOURCES} PRIVATE_CLASSES ${arg_PRIVATE_CLASSES})
+    CLASSES ${arg_CLASSES} NOWRAP_HEADERS ${arg_HEADERS} SOURCES ${arg_SOURCES} PRIVATE_CLASSES ${arg_PRIVATE_CLASSES}
+    HEADERS_SUBDIR "knotwork/${module}")
   vtk_module_compile_features(Knotwork::${module} PUBLIC cxx_std_17)
   list(TRANSFORM arg_CLASSES APPEND ".h")
   get_target_property(target Knotwork::${module} ALIASED_TARGET)
-  set(headers ${arg_CLASSES} ${arg_HEADERS} vtkKnotwork${module}Module.h)
-  set_target_properties(${target} PROPERTIES KNOTWORK_HEADERS "${headers}" EXPORT_PROPERTIES KNOTWORK_HEADERS)
+  knotwork_list_headers(${module} ${target} ${arg_CLASSES} ${arg_HEADERS} "${CMAKE_CURRENT_BINARY_DIR}/vtkKnotwork${module}Module.h")
+  # VTK's function does not heed the folder in what it tells of the install tree
+  get_target_property(installed ${target} INTERFACE_vtk_module_headers_install)
+  if(installed)
+    string(REGEX REPLACE "/([^/;]+\\.h)" "/knotwork/${module}/\\1" installed "${installed}")
+    set_target_properties(${target} PROPERTIES INTERFACE_vtk_module_headers_install "${installed}")
+  endif()
+  vtk_module_include(Knotwork::${module} PUBLIC "$<BUILD_INTERFACE:${CMAKE_BINARY_DIR}/include>")
   vtk_module_compile_options(Knotwork::${module} PRIVATE ${KNOTWORK_WARNINGS})
-  foreach(kernel IN LISTS arg_KERNELS)
-    vtk_module_link(Knotwork::${module} PUBLIC Knotwork::${kernel}Kernel)
+  foreach(kernel IN LISTS module KNOTWORK_FILTERS_OF_${module})
+    if(TARGET Knotwork::${kernel}Kernel)
+      vtk_module_link(Knotwork::${module} PUBLIC Knotwork::${kernel}Kernel)
+    endif()
   endforeach()
 endfunction()
 
@@ -124,6 +156,9 @@ function(knotwork_add_kernel_tests module)
   endif()
   knotwork_add_gtest(${target} ${module} SOURCES ${arg_SOURCES} LABELS ${labels}
     LIBRARIES Knotwork::${module}Kernel ${arg_LIBRARIES})
+  if(TARGET ${target} AND TARGET ${module}Kernel) # tests see the kernel's own headers too
+    target_include_directories(${target} PRIVATE "$<TARGET_PROPERTY:${module}Kernel,KNOTWORK_FOLDERS>")
+  endif()
 endfunction()
 
 # knotwork_add_filter_tests(MODULE [IMAGE] [SLOW] SOURCES Filter/Test*.cxx... [LIBRARIES target...])

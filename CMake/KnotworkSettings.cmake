@@ -13,7 +13,9 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_BINDIR}")
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}")
 set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}")
-set(KNOTWORK_INCLUDE_DIR "${CMAKE_INSTALL_INCLUDEDIR}/knotwork")
+# Headers that other modules may include are <knotwork/Module/Header.h> here as there: links in the build tree.
+set(KNOTWORK_INCLUDE_DIR "${CMAKE_INSTALL_INCLUDEDIR}")
+file(REMOVE_RECURSE "${CMAKE_BINARY_DIR}/include/knotwork")
 set(KNOTWORK_CMAKE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/Knotwork")
 
 # Programs and libraries in bin/ and lib/, Python modules three folders below lib/ (python3.x/site-packages/knotwork).

@@ -2,14 +2,14 @@
 // usage: refine_and_tessellate OUTPUT.vtp
 // An exact disc of five rational patches, refined around a point of its rim, as polygons that
 // deviate from it by no more than 1e-3 of its size.
+#include <knotwork/SplineGrid/vtkSplineRefine.h>
+#include <knotwork/SplineGrid/vtkSplineSource.h>
+#include <knotwork/SplineGrid/vtkSplineTessellate.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkSphere.h>
-#include <vtkSplineRefine.h>
-#include <vtkSplineSource.h>
-#include <vtkSplineTessellate.h>
 #include <vtkXMLPolyDataWriter.h>
 
 #include <cstdlib>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterJob.h"
 
-#include "vtkSplineCombine.h"
+#include <knotwork/SurfaceFitting/vtkSplineCombine.h>
 
 #include <vtkTable.h>
 #include <vtkVariant.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "FileEnding.h"
 #include "FilterJob.h"
+#include <knotwork/SplineCore/FileEnding.h>
 
-#include "vtkSplineContour.h"
+#include <knotwork/SurfaceFeatures/vtkSplineContour.h>
 
 #include <vtkTable.h>
 #include <vtkVariant.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CADExchange.h"
-#include "FileEnding.h"
 #include "Jobs.h"
-#include "PatchTopology.h"
 #include "Session.h"
-#include "SplineModel.h"
+#include <knotwork/CADModel/CADExchange.h>
+#include <knotwork/SplineCore/FileEnding.h>
+#include <knotwork/SplineGrid/SplineModel.h>
+#include <knotwork/SplineIO/PatchTopology.h>
 
 #include <CLI/CLI.hpp>
 #include <vtkNew.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterJob.h"
 
-#include "CADExchange.h"
-#include "vtkSplineTrimToPoints.h"
+#include <knotwork/CADModel/CADExchange.h>
+#include <knotwork/SurfaceTrimming/vtkSplineTrimToPoints.h>
 
 #include <vtkDataObject.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DataCheck.h"
 
-#include "InputChecks.h"
+#include <knotwork/SplineGrid/InputChecks.h>
 
 #include <vtkCompositeDataIterator.h>
 #include <vtkCompositeDataSet.h>

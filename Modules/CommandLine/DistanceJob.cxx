@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterJob.h"
 
-#include "vtkSplinePointDistance.h"
+#include <knotwork/SurfaceFitting/vtkSplinePointDistance.h>
 
 #include <vtkVariant.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterJob.h"
 
-#include "vtkSplineEvaluate.h"
+#include <knotwork/SplineGrid/vtkSplineEvaluate.h>
 
 #include <vtkDataArray.h>
 #include <vtkPointData.h>

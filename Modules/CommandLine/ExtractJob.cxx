@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterJob.h"
 
-#include "vtkSplineExtract.h"
+#include <knotwork/SplineGrid/vtkSplineExtract.h>
 
 #include <vtkDataObject.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterJob.h"
 
-#include "vtkSplineExtrema.h"
+#include <knotwork/SurfaceFeatures/vtkSplineExtrema.h>
 
 #include <vtkTable.h>
 #include <vtkVariant.h>

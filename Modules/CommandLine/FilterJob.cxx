@@ -2,7 +2,7 @@
 #include "FilterJob.h"
 
 #include "OutputFiles.h"
-#include "vtkSplineAlgorithm.h"
+#include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
 
 #include <vtkDataObject.h>
 #include <vtkPointSet.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterJob.h"
 
-#include "vtkSplineSurfaceFit.h"
+#include <knotwork/SurfaceFitting/vtkSplineSurfaceFit.h>
 
 #include <vtkCellArray.h>
 #include <vtkDataArray.h>

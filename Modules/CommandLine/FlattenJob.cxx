@@ -2,7 +2,7 @@
 #include "FilterJob.h"
 #include "FlattenOptions.h"
 
-#include "vtkMeshParameterization.h"
+#include <knotwork/MeshParameterization/vtkMeshParameterization.h>
 
 namespace knotwork
 {

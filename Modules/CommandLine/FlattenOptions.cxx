@@ -3,7 +3,7 @@
 
 #include "Options.h"
 
-#include "vtkMeshParameterization.h"
+#include <knotwork/MeshParameterization/vtkMeshParameterization.h>
 
 #include <vtkTable.h>
 #include <vtkVariant.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Jobs.h"
-#include "LRDependence.h"
-#include "OneLine.h"
 #include "Session.h"
-#include "SplineModel.h"
+#include <knotwork/SplineCore/LRDependence.h>
+#include <knotwork/SplineGrid/SplineModel.h>
+#include <knotwork/SplineIO/OneLine.h>
 
 #include <CLI/CLI.hpp>
 #include <vtkPointData.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterJob.h"
 
-#include "vtkTemplateMapping.h"
+#include <knotwork/TemplateMapping/vtkTemplateMapping.h>
 
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutputFiles.h"
 
-#include "FileEnding.h"
 #include "Termination.h"
+#include <knotwork/SplineCore/FileEnding.h>
 
 #include <CLI/CLI.hpp>
 #include <pugixml.hpp>

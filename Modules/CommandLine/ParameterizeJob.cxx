@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterJob.h"
 
-#include "vtkDomainParameterization.h"
+#include <knotwork/DomainParameterization/vtkDomainParameterization.h>
 
 #include <vtkFieldData.h>
 #include <vtkStringArray.h>

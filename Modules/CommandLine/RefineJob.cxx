@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterJob.h"
 
-#include "vtkSplineRefine.h"
+#include <knotwork/SplineGrid/vtkSplineRefine.h>
 
 #include <vtkDataObject.h>
 #include <vtkNew.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "OutputFiles.h"
-#include "Status.h"
+#include <knotwork/SplineCore/Status.h>
 
 #include <nlohmann/json.hpp>
 #include <vtkSmartPointer.h>

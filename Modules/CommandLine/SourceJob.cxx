@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterJob.h"
-#include "Shapes.h"
+#include <knotwork/SplineCore/Shapes.h>
 
-#include "vtkSplineSource.h"
+#include <knotwork/SplineGrid/vtkSplineSource.h>
 
 namespace knotwork
 {

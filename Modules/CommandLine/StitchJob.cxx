@@ -3,8 +3,8 @@
 #include "Options.h"
 #include "Session.h"
 
-#include "SplineModel.h"
-#include "vtkSplineStitch.h"
+#include <knotwork/SplineGrid/SplineModel.h>
+#include <knotwork/SurfaceFitting/vtkSplineStitch.h>
 
 #include <vtkDataObject.h>
 #include <vtkNew.h>

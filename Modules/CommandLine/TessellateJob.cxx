@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CADExchange.h"
-#include "FileEnding.h"
 #include "Jobs.h"
 #include "Options.h"
 #include "PolygonText.h"
 #include "Session.h"
+#include <knotwork/CADModel/CADExchange.h>
+#include <knotwork/SplineCore/FileEnding.h>
 
-#include "SplineBlocks.h"
-#include "vtkCADReader.h"
-#include "vtkSplineTessellate.h"
+#include <knotwork/SplineGrid/SplineBlocks.h>
+#include <knotwork/SplineGrid/vtkSplineTessellate.h>
+#include <knotwork/SplineIO/vtkCADReader.h>
 
 #include <vtkCellType.h>
 #include <vtkDataObject.h>

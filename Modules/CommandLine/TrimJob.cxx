@@ -4,9 +4,9 @@
 #include "Options.h"
 #include "Session.h"
 
-#include "CADExchange.h"
-#include "vtkMeshParameterization.h"
-#include "vtkTrimmedSurface.h"
+#include <knotwork/CADModel/CADExchange.h>
+#include <knotwork/MeshParameterization/vtkMeshParameterization.h>
+#include <knotwork/SurfaceTrimming/vtkTrimmedSurface.h>
 
 #include <vtkDataArray.h>
 #include <vtkNew.h>

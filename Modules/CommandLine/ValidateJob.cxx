@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterJob.h"
 
-#include "vtkJacobianValidator.h"
+#include <knotwork/JacobianValidation/vtkJacobianValidator.h>
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>

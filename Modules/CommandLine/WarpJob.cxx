@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterJob.h"
 
-#include "vtkSplineWarp.h"
+#include <knotwork/SplineGrid/vtkSplineWarp.h>
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>

@@ -4,12 +4,12 @@
 /// of the input was left out (named on stderr and in the report); of validate also 3 invalid, 4
 /// undecided; 128 + n ended by signal n.
 #include "Jobs.h"
-#include "OneLine.h"
 #include "ParallelStart.h"
 #include "Ranges.h"
 #include "Session.h"
 #include "Termination.h"
 #include "Words.h"
+#include <knotwork/SplineIO/OneLine.h>
 
 #include <CLI/CLI.hpp>
 

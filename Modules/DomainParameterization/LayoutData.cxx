@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LayoutData.h"
 
-#include "InputChecks.h"
+#include <knotwork/SplineGrid/InputChecks.h>
 
 #include "vtkCell.h"
 #include "vtkDataSet.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "PatchLayout.h"
+#include <knotwork/DomainParameterization/PatchLayout.h>
 
 class vtkDataSet;
 

@@ -2,9 +2,9 @@
 #include "vtkDomainParameterization.h"
 
 #include "LayoutData.h"
-#include "NamedArray.h"
-#include "ParameterizeLayout.h"
-#include "SplineModel.h"
+#include <knotwork/DomainParameterization/ParameterizeLayout.h>
+#include <knotwork/SplineGrid/NamedArray.h>
+#include <knotwork/SplineGrid/SplineModel.h>
 
 #include "vtkDataSet.h"
 #include "vtkDoubleArray.h"

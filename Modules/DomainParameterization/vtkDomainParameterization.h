@@ -30,7 +30,7 @@
 #ifndef vtkDomainParameterization_h
 #define vtkDomainParameterization_h
 #include "vtkKnotworkDomainParameterizationModule.h" // for export macro
-#include "vtkSplineAlgorithm.h"
+#include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
 
 #include <vector> // for patches
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "BernsteinCells.h"
+#include <knotwork/SplineCore/BernsteinCells.h>
 
 #include "vtkType.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CellsFromGrid.h"
 
-#include "BezierCells.h"
 #include "CellConversion.h"
+#include <knotwork/SplineGrid/BezierCells.h>
 
 #include "vtkCellType.h"
 #include "vtkCellTypes.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "BernsteinCells.h"
 #include "vtkKnotworkJacobianValidationModule.h" // for export macro
+#include <knotwork/SplineCore/BernsteinCells.h>
 
 #include "vtkType.h"
 

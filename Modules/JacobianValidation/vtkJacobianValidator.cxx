@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkJacobianValidator.h"
 
-#include "CellMaps.h"
-#include "CellMeasures.h"
 #include "CellsFromGrid.h"
-#include "JacobianCertificate.h"
-#include "NamedArray.h"
+#include <knotwork/JacobianValidation/CellMaps.h>
+#include <knotwork/JacobianValidation/CellMeasures.h>
+#include <knotwork/JacobianValidation/JacobianCertificate.h>
+#include <knotwork/SplineGrid/NamedArray.h>
 
 #include "vtkCellData.h"
 #include "vtkCellType.h"

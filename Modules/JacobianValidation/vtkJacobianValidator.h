@@ -39,7 +39,7 @@
 #ifndef vtkJacobianValidator_h
 #define vtkJacobianValidator_h
 #include "vtkKnotworkJacobianValidationModule.h" // for export macro
-#include "vtkSplineAlgorithm.h"
+#include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
 
 class VTKKNOTWORKJACOBIANVALIDATION_EXPORT vtkJacobianValidator : public vtkSplineAlgorithm
 {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshData.h"
 
-#include "InputChecks.h"
-#include "PolygonTriangles.h"
-#include "TableRow.h"
+#include <knotwork/MeshParameterization/PolygonTriangles.h>
+#include <knotwork/SplineGrid/InputChecks.h>
+#include <knotwork/SplineGrid/TableRow.h>
 
 #include "vtkCell.h"
 #include "vtkCellArray.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "FlattenCharts.h"
 #include "vtkKnotworkMeshParameterizationModule.h" // for export macro
+#include <knotwork/MeshParameterization/FlattenCharts.h>
 
 class vtkPointSet;
 class vtkPolyData;

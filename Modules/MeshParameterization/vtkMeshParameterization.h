@@ -28,7 +28,7 @@
 #ifndef vtkMeshParameterization_h
 #define vtkMeshParameterization_h
 #include "vtkKnotworkMeshParameterizationModule.h" // for export macro
-#include "vtkSplineAlgorithm.h"
+#include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
 
 namespace knotwork
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BezierCells.h"
 
-#include "Numbers.h"
 #include "SplineSchema.h"
+#include <knotwork/SplineCore/Numbers.h>
 
 #include "vtkCellData.h"
 #include "vtkCellType.h"

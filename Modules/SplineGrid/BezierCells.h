@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "Status.h"
-#include "Types.h"
 #include "vtkKnotworkSplineGridModule.h" // for export macro
+#include <knotwork/SplineCore/Status.h>
+#include <knotwork/SplineCore/Types.h>
 
 #include "vtkType.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BezierCells.h"
-#include "BezierSpace.h"
-#include "Numbers.h"
-#include "Recovery.h"
 #include "SplineSchema.h"
+#include <knotwork/SplineCore/BezierSpace.h>
+#include <knotwork/SplineCore/Numbers.h>
+#include <knotwork/SplineCore/Recovery.h>
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "Status.h"
 #include "vtkKnotworkSplineGridModule.h" // for export macro
+#include <knotwork/SplineCore/Status.h>
 
 class vtkDataObject;
 class vtkInformationVector;

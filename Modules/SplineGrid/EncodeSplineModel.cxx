@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BezierForm.h"
-#include "LRSpace.h"
 #include "SplineSchema.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/LRSpace.h>
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "SplineModel.h"
+#include <knotwork/SplineGrid/SplineModel.h>
 
 namespace knotwork
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Grids and collections of grids alike: what filters need besides decoding and encoding.
 #pragma once
-#include "SplineModel.h"
+#include <knotwork/SplineGrid/SplineModel.h>
 
 #include "vtkSmartPointer.h"
 #include "vtkUnstructuredGrid.h"

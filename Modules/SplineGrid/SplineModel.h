@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "Spline.h"
 #include "vtkKnotworkSplineGridModule.h" // for export macro
+#include <knotwork/SplineCore/Spline.h>
 
 #include "vtkType.h"
 

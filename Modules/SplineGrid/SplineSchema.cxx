@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SplineSchema.h"
 
-#include "BezierSpace.h"
-#include "HierarchicalSpace.h"
-#include "LRSpace.h"
-#include "TensorSpace.h"
+#include <knotwork/SplineCore/BezierSpace.h>
+#include <knotwork/SplineCore/HierarchicalSpace.h>
+#include <knotwork/SplineCore/LRSpace.h>
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"

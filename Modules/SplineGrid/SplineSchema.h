@@ -2,7 +2,7 @@
 // The field data of a spline grid: the definition of every patch's space and the caches of its
 // coefficients. The module's page describes the arrays.
 #pragma once
-#include "SplineModel.h"
+#include <knotwork/SplineGrid/SplineModel.h>
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tables of one row, as filters give their numbers.
 #pragma once
-#include "NamedArray.h"
+#include <knotwork/SplineGrid/NamedArray.h>
 
 #include "vtkDoubleArray.h"
 #include "vtkIntArray.h"

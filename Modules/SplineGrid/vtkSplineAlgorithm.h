@@ -14,10 +14,10 @@
  */
 #ifndef vtkSplineAlgorithm_h
 #define vtkSplineAlgorithm_h
-#include "Status.h" // for knotwork::Status
-#include "Types.h"  // for knotwork::ProgressCallback
 #include "vtkDataObjectAlgorithm.h"
 #include "vtkKnotworkSplineGridModule.h" // for export macro
+#include <knotwork/SplineCore/Status.h>  // for knotwork::Status
+#include <knotwork/SplineCore/Types.h>   // for knotwork::ProgressCallback
 
 #include <string> // for warnings
 #include <vector> // for warnings

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSplineControlNet.h"
 
-#include "ControlNet.h"
-#include "HierarchicalSpace.h"
 #include "NamedArray.h"
 #include "SplineBlocks.h"
 #include "SplineModel.h"
+#include <knotwork/SplineCore/ControlNet.h>
+#include <knotwork/SplineCore/HierarchicalSpace.h>
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

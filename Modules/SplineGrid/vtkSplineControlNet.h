@@ -16,7 +16,7 @@
 #ifndef vtkSplineControlNet_h
 #define vtkSplineControlNet_h
 #include "vtkKnotworkSplineGridModule.h" // for export macro
-#include "vtkSplineAlgorithm.h"
+#include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
 
 class VTKKNOTWORKSPLINEGRID_EXPORT vtkSplineControlNet : public vtkSplineAlgorithm
 {

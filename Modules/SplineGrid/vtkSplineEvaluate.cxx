@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSplineEvaluate.h"
 
-#include "ClosestPoint.h"
 #include "SplineModel.h"
+#include <knotwork/SplineCore/ClosestPoint.h>
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

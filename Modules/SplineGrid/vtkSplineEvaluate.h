@@ -30,7 +30,7 @@
  */
 #ifndef vtkSplineEvaluate_h
 #define vtkSplineEvaluate_h
-#include "vtkSplineAlgorithm.h"
+#include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
 
 #include <string> // for array names
 

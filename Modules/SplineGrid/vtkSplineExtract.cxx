@@ -3,7 +3,7 @@
 
 #include "PatchFields.h"
 #include "SplineModel.h"
-#include "SurfaceExtraction.h"
+#include <knotwork/SplineCore/SurfaceExtraction.h>
 
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"

@@ -23,7 +23,7 @@
 #ifndef vtkSplineExtract_h
 #define vtkSplineExtract_h
 #include "vtkKnotworkSplineGridModule.h" // for export macro
-#include "vtkSplineAlgorithm.h"
+#include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
 
 class VTKKNOTWORKSPLINEGRID_EXPORT vtkSplineExtract : public vtkSplineAlgorithm
 {

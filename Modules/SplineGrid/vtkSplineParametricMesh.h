@@ -17,7 +17,7 @@
 #ifndef vtkSplineParametricMesh_h
 #define vtkSplineParametricMesh_h
 #include "vtkKnotworkSplineGridModule.h" // for export macro
-#include "vtkSplineAlgorithm.h"
+#include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
 
 class VTKKNOTWORKSPLINEGRID_EXPORT vtkSplineParametricMesh : public vtkSplineAlgorithm
 {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSplineRefine.h"
 
-#include "BezierForm.h"
 #include "PatchFields.h"
-#include "Refinement.h"
-#include "SizeLimit.h"
 #include "SplineBlocks.h"
 #include "SplineModel.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/Refinement.h>
+#include <knotwork/SplineCore/SizeLimit.h>
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

@@ -42,7 +42,7 @@
 #ifndef vtkSplineRefine_h
 #define vtkSplineRefine_h
 #include "vtkKnotworkSplineGridModule.h" // for export macro
-#include "vtkSplineAlgorithm.h"
+#include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
 
 class vtkImplicitFunction;
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSplineSource.h"
 
-#include "Shapes.h"
 #include "SplineModel.h"
+#include <knotwork/SplineCore/Shapes.h>
 
 #include "vtkObjectFactory.h"
 #include "vtkUnstructuredGrid.h"

@@ -16,7 +16,7 @@
 #ifndef vtkSplineSource_h
 #define vtkSplineSource_h
 #include "vtkKnotworkSplineGridModule.h" // for export macro
-#include "vtkSplineAlgorithm.h"
+#include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
 
 class VTKKNOTWORKSPLINEGRID_EXPORT vtkSplineSource : public vtkSplineAlgorithm
 {

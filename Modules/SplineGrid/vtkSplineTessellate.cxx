@@ -3,7 +3,7 @@
 
 #include "SplineBlocks.h"
 #include "SplineModel.h"
-#include "Tessellation.h"
+#include <knotwork/SplineCore/Tessellation.h>
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

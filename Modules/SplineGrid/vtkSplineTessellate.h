@@ -24,7 +24,7 @@
 #ifndef vtkSplineTessellate_h
 #define vtkSplineTessellate_h
 #include "vtkKnotworkSplineGridModule.h" // for export macro
-#include "vtkSplineAlgorithm.h"
+#include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
 
 class VTKKNOTWORKSPLINEGRID_EXPORT vtkSplineTessellate : public vtkSplineAlgorithm
 {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSplineWarp.h"
 
-#include "BezierProjection.h"
-#include "Composition.h"
 #include "SplineBlocks.h"
 #include "SplineModel.h"
+#include <knotwork/SplineCore/BezierProjection.h>
+#include <knotwork/SplineCore/Composition.h>
 
 #include "vtkCellData.h"
 #include "vtkCellType.h"

@@ -24,7 +24,7 @@
  */
 #ifndef vtkSplineWarp_h
 #define vtkSplineWarp_h
-#include "vtkSplineAlgorithm.h"
+#include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
 
 class VTKKNOTWORKSPLINEGRID_EXPORT vtkSplineWarp : public vtkSplineAlgorithm
 {

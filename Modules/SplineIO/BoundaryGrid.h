@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "SplineFile.h"
-#include "SplineModel.h"
+#include <knotwork/SplineGrid/SplineModel.h>
+#include <knotwork/SplineIO/SplineFile.h>
 
 /// The boundary curves of surfaces (g2 class 210) as a spline grid: a patch a spline, in the order
 /// of the file, with the cell arrays `FaceId` (PatchId of the surface), `LoopId`, `CurveId` (place

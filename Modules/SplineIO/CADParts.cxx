@@ -2,7 +2,7 @@
 #include "CADParts.h"
 
 #include "DataParts.h"
-#include "TrimmedGrids.h"
+#include <knotwork/SurfaceTrimming/TrimmedGrids.h>
 
 #include <vtkDataObject.h>
 #include <vtkNew.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "CADExchange.h"
+#include <knotwork/CADModel/CADExchange.h>
 
 #include <string>
 #include <vector>

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FileText.h"
 
-#include "FileOutput.h"
-#include "FilterErrorCode.h"
+#include <knotwork/SplineCore/FileOutput.h>
+#include <knotwork/SplineGrid/FilterErrorCode.h>
+
+#include "vtkErrorCode.h"
 
 #include <exception>
 #include <filesystem>

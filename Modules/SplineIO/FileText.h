@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "Status.h"
+#include <knotwork/SplineCore/Status.h>
 
 #include <functional>
 #include <string>

@@ -3,8 +3,8 @@
 
 #include "CADParts.h"
 #include "DataParts.h"
-#include "FileEnding.h"
 #include "ReaderProcess.h"
+#include <knotwork/SplineCore/FileEnding.h>
 
 #include <vtkDataObject.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "CADExchange.h"
 #include "vtkKnotworkSplineIOModule.h" // for export macro
+#include <knotwork/CADModel/CADExchange.h>
 
 #include <vtkSmartPointer.h>
 

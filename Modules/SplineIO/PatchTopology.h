@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "SplineFile.h"
 #include "vtkKnotworkSplineIOModule.h" // for export macro
+#include <knotwork/SplineIO/SplineFile.h>
 
 class vtkDataObject;
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReaderProcess.h"
 
-#include "FileEnding.h"
 #include "ReaderLimits.h"
 #include "WorkerStatus.h"
+#include <knotwork/SplineCore/FileEnding.h>
 
 #include <array>
 #include <cerrno>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SplineFileModel.h"
 
-#include "FunctionGraph.h"
+#include <knotwork/SplineCore/FunctionGraph.h>
 
 #include <set>
 

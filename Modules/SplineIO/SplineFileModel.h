@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Between what a file of splines holds and the model of a spline grid.
 #pragma once
-#include "SplineFile.h"
-#include "SplineModel.h"
+#include <knotwork/SplineGrid/SplineModel.h>
+#include <knotwork/SplineIO/SplineFile.h>
 
 namespace knotwork
 {

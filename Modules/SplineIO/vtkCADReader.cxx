@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkCADReader.h"
 
-#include "CADExchange.h"
 #include "ForeignFile.h"
-#include "TrimData.h"
-#include "TrimmedGrids.h"
-#include "TrimmedMesh.h"
+#include <knotwork/CADModel/CADExchange.h>
+#include <knotwork/SurfaceTrimming/TrimData.h>
+#include <knotwork/SurfaceTrimming/TrimmedGrids.h>
+#include <knotwork/SurfaceTrimming/TrimmedMesh.h>
 
 #include "vtkCellData.h"
 #include "vtkInformation.h"

@@ -13,7 +13,7 @@
 #ifndef vtkCADReader_h
 #define vtkCADReader_h
 #include "vtkKnotworkSplineIOModule.h" // for export macro
-#include "vtkSplineAlgorithm.h"
+#include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
 
 class VTKKNOTWORKSPLINEIO_EXPORT vtkCADReader : public vtkSplineAlgorithm
 {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkCADWriter.h"
+#include <knotwork/SplineGrid/DistributedInput.h>
 
-#include "BoundaryFaces.h"
-#include "CADExchange.h"
-#include "DistributedInput.h"
-#include "FilterErrorCode.h"
-#include "SplineModel.h"
-#include "TensorForm.h"
-#include "TrimmedGrids.h"
+#include <knotwork/CADModel/BoundaryFaces.h>
+#include <knotwork/CADModel/CADExchange.h>
+#include <knotwork/SplineCore/TensorForm.h>
+#include <knotwork/SplineGrid/FilterErrorCode.h>
+#include <knotwork/SplineGrid/SplineModel.h>
+#include <knotwork/SurfaceTrimming/TrimmedGrids.h>
 
 #include "vtkAlgorithmOutput.h"
 #include "vtkDataObject.h"

@@ -12,9 +12,9 @@
  */
 #ifndef vtkCADWriter_h
 #define vtkCADWriter_h
-#include "Status.h"                    // for knotwork::Status
 #include "vtkKnotworkSplineIOModule.h" // for export macro
 #include "vtkWriter.h"
+#include <knotwork/SplineCore/Status.h> // for knotwork::Status
 
 class VTKKNOTWORKSPLINEIO_EXPORT vtkCADWriter : public vtkWriter
 {

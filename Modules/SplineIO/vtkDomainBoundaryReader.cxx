@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDomainBoundaryReader.h"
 
-#include "BoundaryJson.h"
+#include <knotwork/SplineIO/BoundaryJson.h>
 
 #include "vtkObjectFactory.h"
 

@@ -10,7 +10,7 @@
 #ifndef vtkDomainBoundaryReader_h
 #define vtkDomainBoundaryReader_h
 #include "vtkKnotworkSplineIOModule.h" // for export macro
-#include "vtkSplineFileReader.h"
+#include <knotwork/SplineIO/vtkSplineFileReader.h>
 
 class VTKKNOTWORKSPLINEIO_EXPORT vtkDomainBoundaryReader : public vtkSplineFileReader
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGismoXMLReader.h"
 
-#include "GismoXml.h"
+#include <knotwork/SplineIO/GismoXml.h>
 
 #include "vtkObjectFactory.h"
 

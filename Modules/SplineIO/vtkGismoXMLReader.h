@@ -12,7 +12,7 @@
 #ifndef vtkGismoXMLReader_h
 #define vtkGismoXMLReader_h
 #include "vtkKnotworkSplineIOModule.h" // for export macro
-#include "vtkSplineFileReader.h"
+#include <knotwork/SplineIO/vtkSplineFileReader.h>
 
 class VTKKNOTWORKSPLINEIO_EXPORT vtkGismoXMLReader : public vtkSplineFileReader
 {

@@ -12,7 +12,7 @@
 #ifndef vtkGismoXMLWriter_h
 #define vtkGismoXMLWriter_h
 #include "vtkKnotworkSplineIOModule.h" // for export macro
-#include "vtkSplineFileWriter.h"
+#include <knotwork/SplineIO/vtkSplineFileWriter.h>
 
 class VTKKNOTWORKSPLINEIO_EXPORT vtkGismoXMLWriter : public vtkSplineFileWriter
 {

@@ -2,7 +2,7 @@
 #include "vtkGoToolsG2Reader.h"
 
 #include "BoundaryGrid.h"
-#include "GoToolsG2.h"
+#include <knotwork/SplineIO/GoToolsG2.h>
 
 #include "vtkDataObject.h"
 #include "vtkInformation.h"

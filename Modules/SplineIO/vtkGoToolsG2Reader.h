@@ -13,7 +13,7 @@
 #ifndef vtkGoToolsG2Reader_h
 #define vtkGoToolsG2Reader_h
 #include "vtkKnotworkSplineIOModule.h" // for export macro
-#include "vtkSplineFileReader.h"
+#include <knotwork/SplineIO/vtkSplineFileReader.h>
 
 class VTKKNOTWORKSPLINEIO_EXPORT vtkGoToolsG2Reader : public vtkSplineFileReader
 {

@@ -2,7 +2,7 @@
 #include "vtkGoToolsG2Writer.h"
 
 #include "BoundaryGrid.h"
-#include "GoToolsG2.h"
+#include <knotwork/SplineIO/GoToolsG2.h>
 
 #include "vtkAlgorithm.h"
 #include "vtkExecutive.h"

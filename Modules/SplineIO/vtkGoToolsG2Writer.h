@@ -11,7 +11,7 @@
 #ifndef vtkGoToolsG2Writer_h
 #define vtkGoToolsG2Writer_h
 #include "vtkKnotworkSplineIOModule.h" // for export macro
-#include "vtkSplineFileWriter.h"
+#include <knotwork/SplineIO/vtkSplineFileWriter.h>
 
 class VTKKNOTWORKSPLINEIO_EXPORT vtkGoToolsG2Writer : public vtkSplineFileWriter
 {

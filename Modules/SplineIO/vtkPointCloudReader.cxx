@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkPointCloudReader.h"
 
-#include "FileEnding.h"
 #include "FileText.h"
 #include "ForeignFile.h"
-#include "GoToolsG2.h"
-#include "MeshFiles.h"
-#include "PlyPoints.h"
 #include "PointData.h"
-#include "PointText.h"
+#include <knotwork/SplineCore/FileEnding.h>
+#include <knotwork/SplineIO/GoToolsG2.h>
+#include <knotwork/SplineIO/MeshFiles.h>
+#include <knotwork/SplineIO/PlyPoints.h>
+#include <knotwork/SplineIO/PointText.h>
 
 #include "vtkDataObject.h"
 #include "vtkInformation.h"

@@ -14,7 +14,7 @@
 #ifndef vtkPointCloudReader_h
 #define vtkPointCloudReader_h
 #include "vtkKnotworkSplineIOModule.h" // for export macro
-#include "vtkSplineAlgorithm.h"
+#include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
 
 class VTKKNOTWORKSPLINEIO_EXPORT vtkPointCloudReader : public vtkSplineAlgorithm
 {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkPointCloudWriter.h"
+#include <knotwork/SplineGrid/DistributedInput.h>
 
-#include "DistributedInput.h"
-#include "FileEnding.h"
 #include "FileText.h"
-#include "FilterErrorCode.h"
-#include "GoToolsG2.h"
 #include "PointData.h"
-#include "PointText.h"
+#include <knotwork/SplineCore/FileEnding.h>
+#include <knotwork/SplineGrid/FilterErrorCode.h>
+#include <knotwork/SplineIO/GoToolsG2.h>
+#include <knotwork/SplineIO/PointText.h>
 
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"

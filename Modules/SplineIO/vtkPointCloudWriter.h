@@ -12,9 +12,9 @@
  */
 #ifndef vtkPointCloudWriter_h
 #define vtkPointCloudWriter_h
-#include "Status.h"                    // for knotwork::Status
 #include "vtkKnotworkSplineIOModule.h" // for export macro
 #include "vtkWriter.h"
+#include <knotwork/SplineCore/Status.h> // for knotwork::Status
 
 #include <string> // for texts
 

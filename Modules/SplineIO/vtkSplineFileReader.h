@@ -10,9 +10,9 @@
  */
 #ifndef vtkSplineFileReader_h
 #define vtkSplineFileReader_h
-#include "SplineFile.h"                // for knotwork::SplineFile
 #include "vtkKnotworkSplineIOModule.h" // for export macro
-#include "vtkSplineAlgorithm.h"
+#include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
+#include <knotwork/SplineIO/SplineFile.h> // for knotwork::SplineFile
 
 #include <string_view> // for texts
 

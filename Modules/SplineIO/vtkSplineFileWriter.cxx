@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSplineFileWriter.h"
 
-#include "DistributedInput.h"
 #include "FileText.h"
-#include "FilterErrorCode.h"
 #include "PatchTopology.h"
 #include "SplineFileModel.h"
-#include "TensorForm.h"
+#include <knotwork/SplineCore/TensorForm.h>
+#include <knotwork/SplineGrid/DistributedInput.h>
+#include <knotwork/SplineGrid/FilterErrorCode.h>
 
 #include "vtkDataObject.h"
 #include "vtkErrorCode.h"

@@ -11,9 +11,9 @@
  */
 #ifndef vtkSplineFileWriter_h
 #define vtkSplineFileWriter_h
-#include "SplineFile.h"                // for knotwork::SplineFile
 #include "vtkKnotworkSplineIOModule.h" // for export macro
 #include "vtkWriter.h"
+#include <knotwork/SplineIO/SplineFile.h> // for knotwork::SplineFile
 
 class VTKKNOTWORKSPLINEIO_EXPORT vtkSplineFileWriter : public vtkWriter
 {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FitData.h"
 
-#include "MeshData.h"
-#include "NamedArray.h"
-#include "Parallel.h"
-#include "PlaneParameters.h"
-#include "SplineModel.h"
+#include <knotwork/MeshParameterization/MeshData.h>
+#include <knotwork/SplineCore/Parallel.h>
+#include <knotwork/SplineGrid/NamedArray.h>
+#include <knotwork/SplineGrid/SplineModel.h>
+#include <knotwork/SurfaceFitting/PlaneParameters.h>
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "SurfaceFit.h"
+#include <knotwork/SurfaceFitting/SurfaceFit.h>
 
 #include <string>
 #include <vector>

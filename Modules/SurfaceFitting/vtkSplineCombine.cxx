@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSplineCombine.h"
 
-#include "CombineSplines.h"
-#include "NamedArray.h"
-#include "PatchFields.h"
+#include <knotwork/SplineGrid/NamedArray.h>
+#include <knotwork/SplineGrid/PatchFields.h>
+#include <knotwork/SurfaceFitting/CombineSplines.h>
 
 #include "vtkDataObject.h"
 #include "vtkDoubleArray.h"

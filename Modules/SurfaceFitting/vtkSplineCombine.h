@@ -18,7 +18,7 @@
 #ifndef vtkSplineCombine_h
 #define vtkSplineCombine_h
 #include "vtkKnotworkSurfaceFittingModule.h" // for export macro
-#include "vtkSplineAlgorithm.h"
+#include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
 
 class VTKKNOTWORKSURFACEFITTING_EXPORT vtkSplineCombine : public vtkSplineAlgorithm
 {

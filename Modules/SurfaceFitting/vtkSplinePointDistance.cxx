@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSplinePointDistance.h"
 
-#include "InputChecks.h"
-#include "SplineModel.h"
-#include "SurfaceDistance.h"
-#include "TableRow.h"
+#include <knotwork/SplineGrid/InputChecks.h>
+#include <knotwork/SplineGrid/SplineModel.h>
+#include <knotwork/SplineGrid/TableRow.h>
+#include <knotwork/SurfaceFitting/SurfaceDistance.h>
 
 #include "vtkDataObject.h"
 #include "vtkIdTypeArray.h"

@@ -22,7 +22,7 @@
 #ifndef vtkSplinePointDistance_h
 #define vtkSplinePointDistance_h
 #include "vtkKnotworkSurfaceFittingModule.h" // for export macro
-#include "vtkSplineAlgorithm.h"
+#include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
 
 #include <vector> // for tolerances
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSplineStitch.h"
 
-#include "PatchFields.h"
-#include "StitchTiles.h"
-#include "TableRow.h"
+#include <knotwork/SplineGrid/PatchFields.h>
+#include <knotwork/SplineGrid/TableRow.h>
+#include <knotwork/SurfaceFitting/StitchTiles.h>
 
 #include "vtkDataObject.h"
 #include "vtkInformation.h"

@@ -24,7 +24,7 @@
 #ifndef vtkSplineStitch_h
 #define vtkSplineStitch_h
 #include "vtkKnotworkSurfaceFittingModule.h" // for export macro
-#include "vtkSplineAlgorithm.h"
+#include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
 
 #include <array>  // for pairs
 #include <vector> // for pairs

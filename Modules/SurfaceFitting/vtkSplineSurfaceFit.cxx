@@ -2,7 +2,7 @@
 #include "vtkSplineSurfaceFit.h"
 
 #include "FitData.h"
-#include "InputChecks.h"
+#include <knotwork/SplineGrid/InputChecks.h>
 
 #include "vtkDataObject.h"
 #include "vtkImageData.h"

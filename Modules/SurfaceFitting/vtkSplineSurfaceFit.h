@@ -24,7 +24,7 @@
 #ifndef vtkSplineSurfaceFit_h
 #define vtkSplineSurfaceFit_h
 #include "vtkKnotworkSurfaceFittingModule.h" // for export macro
-#include "vtkSplineAlgorithm.h"
+#include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
 
 #include <array> // for tolerance boxes
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CarriedCurves.h"
 
-#include "TensorSpace.h"
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"

@@ -2,7 +2,7 @@
 // The trimming curves of a model as field data of its surfaces, for those who have the surfaces
 // alone (ParaView's Save Data). The module's page describes the arrays.
 #pragma once
-#include "TrimmedModel.h"
+#include <knotwork/SplineCore/TrimmedModel.h>
 
 #include <map>
 #include <vector>

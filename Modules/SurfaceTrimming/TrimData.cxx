@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TrimData.h"
 
-#include "MeshData.h"
-#include "TableRow.h"
+#include <knotwork/MeshParameterization/MeshData.h>
+#include <knotwork/SplineGrid/TableRow.h>
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

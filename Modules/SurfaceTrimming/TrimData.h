@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "TrimSurface.h"
 #include "vtkKnotworkSurfaceTrimmingModule.h" // for export macro
+#include <knotwork/SurfaceTrimming/TrimSurface.h>
 
 #include "vtkType.h"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TrimmedGrids.h"
 
-#include "AffineMap.h"
 #include "CarriedCurves.h"
-#include "JoinElements.h"
-#include "SplineBlocks.h"
-#include "SplineModel.h"
-#include "SplineSchema.h"
-#include "TensorForm.h"
+#include <knotwork/SplineCore/JoinElements.h>
+#include <knotwork/SplineCore/TensorForm.h>
+#include <knotwork/SplineGrid/SplineBlocks.h>
+#include <knotwork/SplineGrid/SplineModel.h>
+#include <knotwork/SplineGrid/SplineSchema.h>
+#include <knotwork/SurfaceTrimming/AffineMap.h>
 
 #include "vtkCellData.h"
 #include "vtkIntArray.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "TrimmedModel.h"
 #include "vtkKnotworkSurfaceTrimmingModule.h" // for export macro
+#include <knotwork/SplineCore/TrimmedModel.h>
 
 #include <vector>
 

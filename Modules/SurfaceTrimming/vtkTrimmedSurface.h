@@ -22,7 +22,7 @@
 #ifndef vtkTrimmedSurface_h
 #define vtkTrimmedSurface_h
 #include "vtkKnotworkSurfaceTrimmingModule.h" // for export macro
-#include "vtkSplineAlgorithm.h"
+#include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
 
 class VTKKNOTWORKSURFACETRIMMING_EXPORT vtkTrimmedSurface : public vtkSplineAlgorithm
 {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BezierSkeleton.h"
 
-#include "CellsFromGrid.h"
 #include "SkeletonCells.h"
-#include "SkeletonSampling.h"
-#include "SplineModel.h"
+#include <knotwork/JacobianValidation/CellsFromGrid.h>
+#include <knotwork/SplineGrid/SplineModel.h>
+#include <knotwork/TemplateMapping/SkeletonSampling.h>
 
 #include "vtkUnstructuredGrid.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "Skeleton.h"
+#include <knotwork/TemplateMapping/Skeleton.h>
 
 #include <string>
 #include <vector>

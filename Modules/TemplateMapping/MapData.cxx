@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MapData.h"
 
-#include "SplineModel.h"
+#include <knotwork/SplineGrid/SplineModel.h>
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"

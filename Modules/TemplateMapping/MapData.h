@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "TemplateMap.h"
+#include <knotwork/TemplateMapping/TemplateMap.h>
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "TemplateMap.h"
 #include "vtkKnotworkTemplateMappingModule.h" // for export macro
+#include <knotwork/TemplateMapping/TemplateMap.h>
 
 #include <string>
 #include <vector>

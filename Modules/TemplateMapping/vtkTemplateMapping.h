@@ -34,7 +34,7 @@
 #ifndef vtkTemplateMapping_h
 #define vtkTemplateMapping_h
 #include "vtkKnotworkTemplateMappingModule.h" // for export macro
-#include "vtkSplineAlgorithm.h"
+#include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
 
 namespace knotwork
 {

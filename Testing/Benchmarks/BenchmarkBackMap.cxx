@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Back-maps of charts: a sum of waves at many points, and the meshes of the folder that the
 // environment variable KNOTWORK_MESHES names, by all methods.
-#include "BackMap.h"
 #include "BenchmarkTools.h"
-#include "FlattenCharts.h"
 #include "RadialSurface.h"
 #include "SurfaceFairness.h"
+#include <knotwork/MeshParameterization/FlattenCharts.h>
+#include <knotwork/SurfaceTrimming/BackMap.h>
 
 #include <cmath>
 #include <cstdlib>

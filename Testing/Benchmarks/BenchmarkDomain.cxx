@@ -4,9 +4,9 @@
 #include "BenchmarkTools.h"
 #include "DomainCases.h"
 #include "DomainFiles.h"
-#include "DomainParameterization.h"
 #include "LayoutCases.h"
-#include "ParameterizeLayout.h"
+#include <knotwork/DomainParameterization/DomainParameterization.h>
+#include <knotwork/DomainParameterization/ParameterizeLayout.h>
 
 namespace knotwork
 {

@@ -2,7 +2,7 @@
 // Hierarchical splines: a bicubic surface refined along the diagonal to level 6 (8551 functions)
 // and a tricubic volume refined around a sphere to level 3 (40,295 functions).
 #include "BenchmarkTools.h"
-#include "HierarchicalSpace.h"
+#include <knotwork/SplineCore/HierarchicalSpace.h>
 
 #include <cmath>
 

@@ -3,9 +3,9 @@
 // rational cells with weights over two decades cost: regularity, one-to-one-ness and measures. The
 // counter is the time a cell.
 #include "BenchmarkTools.h"
-#include "BoundaryInjectivity.h"
-#include "CellMeasures.h"
-#include "JacobianCertificate.h"
+#include <knotwork/JacobianValidation/BoundaryInjectivity.h>
+#include <knotwork/JacobianValidation/CellMeasures.h>
+#include <knotwork/JacobianValidation/JacobianCertificate.h>
 
 namespace knotwork
 {

@@ -2,8 +2,8 @@
 // LR B-splines: random cells of levels 0 to 3 of a mesh of 29 x 29 elements are halved by segments
 // five or seven cells long; and a biquadratic height field refined around two peaks.
 #include "BenchmarkTools.h"
-#include "LRDependence.h"
-#include "LRStrategies.h"
+#include <knotwork/SplineCore/LRDependence.h>
+#include <knotwork/SplineCore/LRStrategies.h>
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "BezierForm.h"
-#include "TensorSpace.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include <benchmark/benchmark.h>
 

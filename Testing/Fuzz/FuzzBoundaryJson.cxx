@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BoundaryJson.h"
 #include "FuzzSplineFile.h"
-#include "GismoXml.h"
+#include <knotwork/SplineIO/BoundaryJson.h>
+#include <knotwork/SplineIO/GismoXml.h>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {

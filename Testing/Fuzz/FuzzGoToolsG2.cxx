@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FuzzPointFile.h"
 #include "FuzzSplineFile.h"
-#include "GoToolsG2.h"
+#include <knotwork/SplineIO/GoToolsG2.h>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FuzzPointFile.h"
-#include "MeshFiles.h"
-#include "PointText.h"
+#include <knotwork/SplineIO/MeshFiles.h>
+#include <knotwork/SplineIO/PointText.h>
 
 namespace
 {

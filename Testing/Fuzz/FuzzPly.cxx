@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FuzzPointFile.h"
-#include "PlyPoints.h"
-#include "PointText.h"
+#include <knotwork/SplineIO/PlyPoints.h>
+#include <knotwork/SplineIO/PointText.h>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "PointFile.h"
+#include <knotwork/SplineIO/PointFile.h>
 
 #include <cstdint>
 #include <cstdlib>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryFaults.h"
 
-#include "BezierForm.h"
-#include "JacobianCertificate.h"
 #include "NumberText.h"
-#include "PlaneCurves.h"
+#include <knotwork/JacobianValidation/JacobianCertificate.h>
+#include <knotwork/JacobianValidation/PlaneCurves.h>
+#include <knotwork/SplineCore/BezierForm.h>
 
 #include <Eigen/LU>
 #include <Eigen/SVD>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "SizeLimit.h"
-#include "Spline.h"
+#include <knotwork/SplineCore/SizeLimit.h>
+#include <knotwork/SplineCore/Spline.h>
 
 namespace knotwork
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "JacobianField.h"
+#include <knotwork/DomainParameterization/JacobianField.h>
 
 #include <memory>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DomainMeasure.h"
 
-#include "BezierForm.h"
-#include "Quadrature.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/Quadrature.h>
 
 #include <Eigen/Geometry>
 

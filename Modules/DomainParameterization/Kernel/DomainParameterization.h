@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "BoundaryInjectivity.h"
-#include "DomainBoundary.h"
-#include "JacobianCertificate.h"
+#include <knotwork/DomainParameterization/DomainBoundary.h>
+#include <knotwork/JacobianValidation/BoundaryInjectivity.h>
+#include <knotwork/JacobianValidation/JacobianCertificate.h>
 
 #include <string>
 #include <vector>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DomainRun.h"
 
-#include "CellPieces.h"
 #include "DomainSolver.h"
 #include "NumberText.h"
 #include "ParameterMetrics.h"
+#include <knotwork/JacobianValidation/CellPieces.h>
 
 #include <Eigen/LU>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "DomainEnergy.h"
-#include "DomainParameterization.h"
-#include "GluedMap.h"
-#include "Minimize.h"
-#include "WorkBudget.h"
+#include <knotwork/DomainParameterization/DomainEnergy.h>
+#include <knotwork/DomainParameterization/DomainParameterization.h>
+#include <knotwork/DomainParameterization/GluedMap.h>
+#include <knotwork/DomainParameterization/Minimize.h>
+#include <knotwork/DomainParameterization/WorkBudget.h>
 
 namespace knotwork
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BezierForm.h"
 #include "BoundaryFaults.h"
-#include "BoxTree.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/BoxTree.h>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "KnotVector.h"
+#include <knotwork/SplineCore/KnotVector.h>
 
 #include <Eigen/Core>
 

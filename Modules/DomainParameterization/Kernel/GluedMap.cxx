@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GluedMap.h"
 
-#include "HierarchicalSpace.h"
+#include <knotwork/SplineCore/HierarchicalSpace.h>
 
 #include <numeric>
 

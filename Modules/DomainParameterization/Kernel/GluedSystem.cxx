@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GluedSystem.h"
 
-#include "BasisEvaluation.h"
-#include "FunctionMap.h"
 #include "InitialMaps.h"
-#include "Quadrature.h"
+#include <knotwork/SplineCore/BasisEvaluation.h>
+#include <knotwork/SplineCore/FunctionMap.h>
+#include <knotwork/SplineCore/Quadrature.h>
 
 #include <algorithm>
 #include <cmath>

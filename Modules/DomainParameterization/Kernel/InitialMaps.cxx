@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "InitialMaps.h"
 
-#include "Quadrature.h"
-#include "TensorSpace.h"
+#include <knotwork/SplineCore/Quadrature.h>
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include <Eigen/SparseCholesky>
 #include <cmath>

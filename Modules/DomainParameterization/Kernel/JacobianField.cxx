@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "JacobianField.h"
 
-#include "BasisEvaluation.h"
-#include "Quadrature.h"
+#include <knotwork/SplineCore/BasisEvaluation.h>
+#include <knotwork/SplineCore/Quadrature.h>
 
 #include <algorithm>
 #include <cstring>

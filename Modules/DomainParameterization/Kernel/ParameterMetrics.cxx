@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ParameterMetrics.h"
 
-#include "BezierForm.h"
 #include "JacobianField.h"
+#include <knotwork/SplineCore/BezierForm.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "DomainMeasure.h"
 #include "DomainRun.h"
 #include "InitialMaps.h"
-#include "Refinement.h"
+#include <knotwork/SplineCore/Refinement.h>
 
 #include <algorithm>
 #include <chrono>

@@ -3,11 +3,11 @@
 
 #include "BoundaryFaults.h"
 #include "DomainRun.h"
-#include "FunctionMap.h"
 #include "GluedSystem.h"
 #include "InitialMaps.h"
-#include "Refinement.h"
-#include "TensorSpace.h"
+#include <knotwork/SplineCore/FunctionMap.h>
+#include <knotwork/SplineCore/Refinement.h>
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include <chrono>
 #include <cmath>

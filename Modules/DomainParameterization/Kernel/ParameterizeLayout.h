@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "DomainParameterization.h"
-#include "PatchLayout.h"
+#include <knotwork/DomainParameterization/DomainParameterization.h>
+#include <knotwork/DomainParameterization/PatchLayout.h>
 
 namespace knotwork
 {

@@ -2,10 +2,10 @@
 #include "PatchLayout.h"
 
 #include "DomainMeasure.h"
-#include "FunctionMap.h"
 #include "NumberText.h"
 #include "SideSplines.h"
-#include "TensorSpace.h"
+#include <knotwork/SplineCore/FunctionMap.h>
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "DomainBoundary.h"
-#include "GluedMap.h"
+#include <knotwork/DomainParameterization/DomainBoundary.h>
+#include <knotwork/DomainParameterization/GluedMap.h>
 
 namespace knotwork
 {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SideSplines.h"
 
-#include "Bernstein.h"
-#include "BezierForm.h"
-#include "Recovery.h"
-#include "TensorSpace.h"
+#include <knotwork/SplineCore/Bernstein.h>
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/Recovery.h>
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "DomainParameterization.h"
+#include <knotwork/DomainParameterization/DomainParameterization.h>
 
 #include <chrono>
 

@@ -3,7 +3,7 @@
 
 #include "GeodesicMarch.h"
 #include "MeshWeights.h"
-#include "Parallel.h"
+#include <knotwork/SplineCore/Parallel.h>
 
 #include <Eigen/QR>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "GeodesicMarch.h"
-#include "TriangleMesh.h"
+#include <knotwork/MeshParameterization/GeodesicMarch.h>
+#include <knotwork/MeshParameterization/TriangleMesh.h>
 
 #include <string>
 

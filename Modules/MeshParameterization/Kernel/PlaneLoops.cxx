@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PlaneLoops.h"
 
-#include "BoxTree.h"
+#include <knotwork/SplineCore/BoxTree.h>
 
 #include <algorithm>
 #include <cmath>

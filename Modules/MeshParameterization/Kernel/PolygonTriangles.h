@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "Types.h"
+#include <knotwork/SplineCore/Types.h>
 
 #include <array>
 #include <vector>

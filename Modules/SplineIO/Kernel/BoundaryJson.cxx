@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryJson.h"
 
-#include "TensorSpace.h"
 #include "TextWords.h"
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "SplineFile.h"
+#include <knotwork/SplineIO/SplineFile.h>
 
 #include <string_view>
 

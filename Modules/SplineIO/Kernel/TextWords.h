@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Words and numbers of text formats, independent of the locale.
 #pragma once
-#include "Status.h"
+#include <knotwork/SplineCore/Status.h>
 
 #include <cstddef>
 #include <string>

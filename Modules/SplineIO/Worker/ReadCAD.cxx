@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // usage: knotwork-read-cad PARENT BYTES SECONDS FILE UNIT TOLERANCE
 // Reads STEP and IGES files by OpenCASCADE for another process, see Worker.h.
-#include "CADExchange.h"
 #include "CADParts.h"
 #include "Worker.h"
+#include <knotwork/CADModel/CADExchange.h>
 
 namespace
 {

@@ -3,11 +3,11 @@
 // Reads .vtu, .vtp, .vtpc and .vtk by VTK's readers for another process, see Worker.h.
 #include "CellCheck.h"
 #include "DataParts.h"
-#include "FileEnding.h"
-#include "InputChecks.h"
 #include "Messages.h"
 #include "Worker.h"
 #include "XmlCheck.h"
+#include <knotwork/SplineCore/FileEnding.h>
+#include <knotwork/SplineGrid/InputChecks.h>
 
 #include <vtkDataObject.h>
 #include <vtkDataSet.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "XmlCheck.h"
 
-#include "FileEnding.h"
 #include "XmlScanner.h"
+#include <knotwork/SplineCore/FileEnding.h>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "ChartMesh.h"
-#include "Spline.h"
+#include <knotwork/SplineCore/Spline.h>
+#include <knotwork/SurfaceTrimming/ChartMesh.h>
 
 #include <string>
 #include <vector>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DeviationSearch.h"
 #include "FaceCertificate.h"
-#include "Parallel.h"
-#include "Quadrature.h"
+#include <knotwork/SplineCore/Parallel.h>
+#include <knotwork/SplineCore/Quadrature.h>
 
 #include <Eigen/Geometry>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FaceCertificate.h"
 
-#include "Bernstein.h"
-#include "Parallel.h"
-#include "TrimmedRegion.h"
+#include <knotwork/SplineCore/Bernstein.h>
+#include <knotwork/SplineCore/Parallel.h>
+#include <knotwork/SplineCore/TrimmedRegion.h>
 
 #include <cmath>
 #include <limits>

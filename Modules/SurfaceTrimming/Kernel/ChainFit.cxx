@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ChainFit.h"
 
-#include "BasisEvaluation.h"
-#include "Bernstein.h"
-#include "Quadrature.h"
-#include "TensorSpace.h"
+#include <knotwork/SplineCore/BasisEvaluation.h>
+#include <knotwork/SplineCore/Bernstein.h>
+#include <knotwork/SplineCore/Quadrature.h>
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include <Eigen/SparseCholesky>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "Status.h"
-#include "Types.h"
+#include <knotwork/SplineCore/Status.h>
+#include <knotwork/SplineCore/Types.h>
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "ChartMesh.h"
-#include "KnotVector.h"
+#include <knotwork/SplineCore/KnotVector.h>
 
 namespace knotwork
 {

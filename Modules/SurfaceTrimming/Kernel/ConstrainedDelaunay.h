@@ -2,7 +2,7 @@
 // Private to the triangulation of faces.
 #pragma once
 #include "PlanarRegion.h"
-#include "Status.h"
+#include <knotwork/SplineCore/Status.h>
 
 namespace knotwork
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DeviationSearch.h"
 
-#include "Bernstein.h"
+#include <knotwork/SplineCore/Bernstein.h>
 
 #include <algorithm>
 #include <cmath>

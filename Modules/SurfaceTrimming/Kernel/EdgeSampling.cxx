@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "EdgeSampling.h"
 
-#include "ChordalBound.h"
+#include <knotwork/SplineCore/ChordalBound.h>
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Private to the triangulation of faces.
 #pragma once
-#include "BezierForm.h"
 #include "SurfaceCells.h"
+#include <knotwork/SplineCore/BezierForm.h>
 
 #include <vector>
 

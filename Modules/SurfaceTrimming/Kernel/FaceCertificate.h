@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "ChartMesh.h"
-#include "JacobianCertificate.h"
-#include "TrimmedModel.h"
+#include <knotwork/JacobianValidation/JacobianCertificate.h>
+#include <knotwork/SplineCore/TrimmedModel.h>
+#include <knotwork/SurfaceTrimming/ChartMesh.h>
 
 namespace knotwork
 {

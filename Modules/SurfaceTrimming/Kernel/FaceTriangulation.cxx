@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FaceTriangulation.h"
 
-#include "BoxTree.h"
 #include "ConstrainedDelaunay.h"
-#include "Parallel.h"
+#include <knotwork/SplineCore/BoxTree.h>
+#include <knotwork/SplineCore/Parallel.h>
 
 #include <cmath>
 #include <tuple>

@@ -3,7 +3,7 @@
 #pragma once
 #include "EdgeSampling.h"
 #include "PlanarRegion.h"
-#include "TrimmedModel.h"
+#include <knotwork/SplineCore/TrimmedModel.h>
 
 namespace knotwork
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GrevilleGrid.h"
-#include "TensorSpace.h"
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include <Eigen/LU>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "ChartSamples.h"
-#include "Spline.h"
-#include "Status.h"
+#include <knotwork/SplineCore/Spline.h>
+#include <knotwork/SplineCore/Status.h>
 
 /// Splines by values at the Greville points of a net, first direction fastest.
 namespace knotwork

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Parallel.h"
-#include "PlaneCurves.h"
 #include "TrimLoops.h"
+#include <knotwork/JacobianValidation/PlaneCurves.h>
+#include <knotwork/SplineCore/Parallel.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PenalizedFit.h"
 #include "PenalizedSystem.h"
-#include "SizeLimit.h"
-#include "TensorSpace.h"
-#include "WorkBudget.h"
+#include <knotwork/DomainParameterization/WorkBudget.h>
+#include <knotwork/SplineCore/SizeLimit.h>
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "BackMap.h"
-#include "BezierForm.h"
 #include "ChartSamples.h"
+#include <knotwork/SplineCore/BezierForm.h>
 
 namespace knotwork
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "ChartSamples.h"
-#include "SparseCholesky.h"
-#include "SplineSpace.h"
+#include <knotwork/MeshParameterization/SparseCholesky.h>
+#include <knotwork/SplineCore/SplineSpace.h>
 
 namespace knotwork
 {

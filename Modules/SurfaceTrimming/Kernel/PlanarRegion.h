@@ -2,7 +2,7 @@
 // Polygons in the plane, private to the triangulation of faces. Coordinates are whole numbers, so
 // that the questions asked of them have exact answers.
 #pragma once
-#include "BoxTree.h"
+#include <knotwork/SplineCore/BoxTree.h>
 
 #include <array>
 #include <vector>

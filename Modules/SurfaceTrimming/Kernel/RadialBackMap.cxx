@@ -3,7 +3,7 @@
 #include "GrevilleGrid.h"
 #include "PenalizedFit.h"
 #include "RadialSurface.h"
-#include "TensorSpace.h"
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RadialSurface.h"
-#include "Parallel.h"
-#include "TriangleIndex.h"
+#include <knotwork/SplineCore/Parallel.h>
+#include <knotwork/SplineCore/TriangleIndex.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceBounds.h"
 
-#include "ChordalBound.h"
-#include "Parallel.h"
+#include <knotwork/SplineCore/ChordalBound.h>
+#include <knotwork/SplineCore/Parallel.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "BezierForm.h"
+#include <knotwork/SplineCore/BezierForm.h>
 
 /// Private to FitLoops: bounds of a surface's derivatives, to bound what curves on it do.
 namespace knotwork

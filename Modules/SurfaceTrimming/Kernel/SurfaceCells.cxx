@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceCells.h"
 
-#include "Bernstein.h"
-#include "ChordalBound.h"
-#include "Parallel.h"
+#include <knotwork/SplineCore/Bernstein.h>
+#include <knotwork/SplineCore/ChordalBound.h>
+#include <knotwork/SplineCore/Parallel.h>
 
 #include <algorithm>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Private to the triangulation of faces.
 #pragma once
-#include "BezierForm.h"
+#include <knotwork/SplineCore/BezierForm.h>
 
 #include <vector>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FaceTriangulation.h"
-#include "Parallel.h"
-#include "TensorSpace.h"
 #include "TrimmedMesh.h"
+#include <knotwork/SplineCore/Parallel.h>
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include <Eigen/Geometry>
 

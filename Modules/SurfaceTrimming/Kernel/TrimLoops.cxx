@@ -3,7 +3,7 @@
 
 #include "BoundaryChains.h"
 #include "ChainFit.h"
-#include "Parallel.h"
+#include <knotwork/SplineCore/Parallel.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "ChartMesh.h"
-#include "TrimmedModel.h"
+#include <knotwork/SplineCore/TrimmedModel.h>
+#include <knotwork/SurfaceTrimming/ChartMesh.h>
 
 namespace knotwork
 {

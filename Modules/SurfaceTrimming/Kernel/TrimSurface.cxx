@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TrimSurface.h"
 #include "BoundaryChains.h"
-#include "WorkBudget.h"
+#include <knotwork/DomainParameterization/WorkBudget.h>
 
 #include <algorithm>
 #include <cmath>

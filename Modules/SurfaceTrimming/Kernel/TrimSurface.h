@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "BackMap.h"
-#include "FaceCertificate.h"
-#include "TrimLoops.h"
-#include "TrimmedMesh.h"
+#include <knotwork/SurfaceTrimming/BackMap.h>
+#include <knotwork/SurfaceTrimming/FaceCertificate.h>
+#include <knotwork/SurfaceTrimming/TrimLoops.h>
+#include <knotwork/SurfaceTrimming/TrimmedMesh.h>
 
 namespace knotwork
 {

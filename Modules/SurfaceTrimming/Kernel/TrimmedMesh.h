@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "TrimmedModel.h"
+#include <knotwork/SplineCore/TrimmedModel.h>
 
 namespace knotwork
 {

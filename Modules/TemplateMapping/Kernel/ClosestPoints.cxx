@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ClosestPoints.h"
 
-#include "Parallel.h"
+#include <knotwork/SplineCore/Parallel.h>
 
 #include <algorithm>
 

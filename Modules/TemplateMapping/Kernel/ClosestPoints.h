@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "BezierForm.h"
-#include "PatchGeometry.h"
-#include "SampleIndex.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/SampleIndex.h>
+#include <knotwork/TemplateMapping/PatchGeometry.h>
 
 namespace knotwork
 {

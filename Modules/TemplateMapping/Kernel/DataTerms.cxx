@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DataTerms.h"
 
-#include "BasisEvaluation.h"
-#include "Parallel.h"
+#include <knotwork/SplineCore/BasisEvaluation.h>
+#include <knotwork/SplineCore/Parallel.h>
 
 #include <cmath>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DirectFit.h"
 
-#include "BasisEvaluation.h"
 #include "LocatedSamples.h"
-#include "Quadrature.h"
+#include <knotwork/SplineCore/BasisEvaluation.h>
+#include <knotwork/SplineCore/Quadrature.h>
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>

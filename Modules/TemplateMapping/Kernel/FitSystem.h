@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "QualityFunctionals.h"
-#include "Spline.h"
+#include <knotwork/SplineCore/QualityFunctionals.h>
+#include <knotwork/SplineCore/Spline.h>
 
 #include <memory>
 

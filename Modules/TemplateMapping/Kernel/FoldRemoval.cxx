@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FoldRemoval.h"
 
-#include "CellMeasures.h"
-#include "DomainSolver.h"
 #include "Regularity.h"
+#include <knotwork/DomainParameterization/DomainSolver.h>
+#include <knotwork/JacobianValidation/CellMeasures.h>
 
 namespace knotwork
 {

@@ -4,7 +4,7 @@
 #include "DataTerms.h"
 #include "IncompleteFactor.h"
 #include "MeasureTerms.h"
-#include "Parallel.h"
+#include <knotwork/SplineCore/Parallel.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>

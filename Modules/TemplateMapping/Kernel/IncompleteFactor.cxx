@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IncompleteFactor.h"
 
-#include "Parallel.h"
+#include <knotwork/SplineCore/Parallel.h>
 
 #include <algorithm>
 #include <cmath>

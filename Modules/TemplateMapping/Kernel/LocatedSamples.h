@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "Spline.h"
+#include <knotwork/SplineCore/Spline.h>
 
 namespace knotwork
 {

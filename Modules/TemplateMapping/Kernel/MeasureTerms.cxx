@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeasureTerms.h"
 
-#include "BasisEvaluation.h"
-#include "Parallel.h"
-#include "Quadrature.h"
+#include <knotwork/SplineCore/BasisEvaluation.h>
+#include <knotwork/SplineCore/Parallel.h>
+#include <knotwork/SplineCore/Quadrature.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "NegativeJacobian.h"
 
-#include "Bernstein.h"
-#include "JacobianCertificate.h"
-#include "Parallel.h"
+#include <knotwork/JacobianValidation/JacobianCertificate.h>
+#include <knotwork/SplineCore/Bernstein.h>
+#include <knotwork/SplineCore/Parallel.h>
 
 #include <Eigen/LU>
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "BezierForm.h"
+#include <knotwork/SplineCore/BezierForm.h>
 
 namespace knotwork
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "Skeleton.h"
-#include "TriangleIndex.h"
+#include <knotwork/SplineCore/TriangleIndex.h>
+#include <knotwork/TemplateMapping/Skeleton.h>
 
 #include <type_traits>
 

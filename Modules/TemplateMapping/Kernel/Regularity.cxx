@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Regularity.h"
 
-#include "BezierForm.h"
+#include <knotwork/SplineCore/BezierForm.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Skeleton.h"
-#include "Numbers.h"
-#include "TriangleIndex.h"
+#include <knotwork/SplineCore/Numbers.h>
+#include <knotwork/SplineCore/TriangleIndex.h>
 
 #include <Eigen/Geometry>
 

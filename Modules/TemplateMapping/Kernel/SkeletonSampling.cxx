@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SkeletonSampling.h"
 
-#include "BezierForm.h"
-#include "Numbers.h"
-#include "PointClusters.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/Numbers.h>
+#include <knotwork/SplineCore/PointClusters.h>
 
 #include <Eigen/Geometry>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "BernsteinCells.h"
-#include "Skeleton.h"
-#include "Spline.h"
+#include <knotwork/SplineCore/BernsteinCells.h>
+#include <knotwork/SplineCore/Spline.h>
+#include <knotwork/TemplateMapping/Skeleton.h>
 
 namespace knotwork
 {

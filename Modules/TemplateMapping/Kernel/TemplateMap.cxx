@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TemplateMap.h"
 
-#include "BasisEvaluation.h"
 #include "FinerSpace.h"
 #include "FoldRemoval.h"
-#include "HierarchicalSpace.h"
 #include "NegativeJacobian.h"
 #include "RegularityGuard.h"
-#include "SizeLimit.h"
 #include "TemplateProblem.h"
-#include "TensorSpace.h"
+#include <knotwork/SplineCore/BasisEvaluation.h>
+#include <knotwork/SplineCore/HierarchicalSpace.h>
+#include <knotwork/SplineCore/SizeLimit.h>
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include <chrono>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "BoundaryInjectivity.h"
-#include "Skeleton.h"
-#include "Spline.h"
+#include <knotwork/JacobianValidation/BoundaryInjectivity.h>
+#include <knotwork/SplineCore/Spline.h>
+#include <knotwork/TemplateMapping/Skeleton.h>
 
 #include <optional>
 

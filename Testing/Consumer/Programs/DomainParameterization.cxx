@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sides that are no boundary are refused with a message.
-#include <vtkDomainParameterization.h>
+#include <knotwork/DomainParameterization/vtkDomainParameterization.h>
+#include <knotwork/SplineGrid/vtkSplineSource.h>
 #include <vtkNew.h>
 #include <vtkObject.h>
-#include <vtkSplineSource.h>
 
 int main()
 {

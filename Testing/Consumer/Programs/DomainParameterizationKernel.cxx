@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Four straight sides enclose a valid map.
-#include <DomainParameterization.h>
-#include <TensorSpace.h>
+#include <knotwork/DomainParameterization/DomainParameterization.h>
+#include <knotwork/SplineCore/TensorSpace.h>
 
 namespace
 {

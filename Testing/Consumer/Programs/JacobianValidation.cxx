@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A disc of five patches is proved valid.
-#include <vtkJacobianValidator.h>
+#include <knotwork/JacobianValidation/vtkJacobianValidator.h>
+#include <knotwork/SplineGrid/vtkSplineSource.h>
 #include <vtkNew.h>
-#include <vtkSplineSource.h>
 #include <vtkTable.h>
 
 int main()

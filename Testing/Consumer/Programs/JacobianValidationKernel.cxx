@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A disc of five rational patches is proved valid.
-#include <JacobianCertificate.h>
-#include <Shapes.h>
+#include <knotwork/JacobianValidation/JacobianCertificate.h>
+#include <knotwork/SplineCore/Shapes.h>
 
 #include <iostream>
 

@@ -2,7 +2,7 @@
 // A bent sheet is laid into the plane.
 #include "BentSheet.h"
 
-#include <vtkMeshParameterization.h>
+#include <knotwork/MeshParameterization/vtkMeshParameterization.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 

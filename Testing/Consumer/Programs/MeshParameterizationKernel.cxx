@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A roof of two planes is laid into the plane without a flipped triangle.
-#include <MeshParameterization.h>
+#include <knotwork/MeshParameterization/MeshParameterization.h>
 
 #include <cmath>
 

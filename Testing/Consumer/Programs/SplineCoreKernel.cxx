@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cubic splines on eight elements have eleven functions.
-#include <KnotVector.h>
+#include <knotwork/SplineCore/KnotVector.h>
 
 int main()
 {

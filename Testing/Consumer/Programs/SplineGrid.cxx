@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A spline source, refined, drawn as triangles.
+#include <knotwork/SplineGrid/vtkSplineRefine.h>
+#include <knotwork/SplineGrid/vtkSplineSource.h>
+#include <knotwork/SplineGrid/vtkSplineTessellate.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
-#include <vtkSplineRefine.h>
-#include <vtkSplineSource.h>
-#include <vtkSplineTessellate.h>
 
 #include <iostream>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // usage: SplineIO FOLDER      a square goes to a STEP file and comes back
-#include <vtkCADReader.h>
-#include <vtkCADWriter.h>
+#include <knotwork/SplineGrid/vtkSplineSource.h>
+#include <knotwork/SplineIO/vtkCADReader.h>
+#include <knotwork/SplineIO/vtkCADWriter.h>
 #include <vtkDataSet.h>
 #include <vtkNew.h>
-#include <vtkSplineSource.h>
 
 #include <string>
 

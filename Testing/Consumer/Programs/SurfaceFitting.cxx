@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A surface through the points of a bent sheet.
+#include <knotwork/SurfaceFitting/vtkSplineSurfaceFit.h>
 #include <vtkDataSet.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkSplineSurfaceFit.h>
 
 int main()
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A saddle is within a small tolerance of the surface that is fitted to it.
-#include <SurfaceFit.h>
+#include <knotwork/SurfaceFitting/SurfaceFit.h>
 
 int main()
 {

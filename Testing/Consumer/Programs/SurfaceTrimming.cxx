@@ -2,9 +2,9 @@
 // A bent sheet becomes a trimmed face.
 #include "BentSheet.h"
 
-#include <vtkMeshParameterization.h>
+#include <knotwork/MeshParameterization/vtkMeshParameterization.h>
+#include <knotwork/SurfaceTrimming/vtkTrimmedSurface.h>
 #include <vtkNew.h>
-#include <vtkTrimmedSurface.h>
 
 int main()
 {

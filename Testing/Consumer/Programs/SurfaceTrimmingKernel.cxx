@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A flat square of triangles becomes one face with one loop.
-#include <TrimSurface.h>
+#include <knotwork/SurfaceTrimming/TrimSurface.h>
 
 int main()
 {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A circle of lines is mapped onto itself.
+#include <knotwork/SplineGrid/vtkSplineSource.h>
+#include <knotwork/TemplateMapping/vtkTemplateMapping.h>
 #include <vtkDataSet.h>
 #include <vtkNew.h>
-#include <vtkSplineSource.h>
-#include <vtkTemplateMapping.h>
 
 int main()
 {

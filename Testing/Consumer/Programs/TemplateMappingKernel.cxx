@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A square of lines is carried onto a bent one by a regular map.
-#include <TemplateMap.h>
+#include <knotwork/TemplateMapping/TemplateMap.h>
 
 namespace
 {

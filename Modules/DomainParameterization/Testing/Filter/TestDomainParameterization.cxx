@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkDomainBoundaryReader.h"
-#include "vtkDomainParameterization.h"
+#include <knotwork/DomainParameterization/vtkDomainParameterization.h>
+#include <knotwork/SplineIO/vtkDomainBoundaryReader.h>
 
 #include "vtkCellData.h"
 #include "vtkCommand.h"

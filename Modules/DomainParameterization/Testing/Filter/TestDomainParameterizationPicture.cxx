@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering.h"
-#include "vtkDomainBoundaryReader.h"
-#include "vtkDomainParameterization.h"
-#include "vtkSplineRefine.h"
-#include "vtkSplineTessellate.h"
+#include <knotwork/DomainParameterization/vtkDomainParameterization.h>
+#include <knotwork/SplineGrid/vtkSplineRefine.h>
+#include <knotwork/SplineGrid/vtkSplineTessellate.h>
+#include <knotwork/SplineIO/vtkDomainBoundaryReader.h>
 
 #include <vtkCellData.h>
 #include <vtkIntArray.h>

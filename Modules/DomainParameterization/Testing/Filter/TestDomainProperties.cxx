@@ -2,9 +2,9 @@
 // Every property of the filter reaches the kernel: the filter with the property set ends where the
 // kernel with its own option ends, number by number, and elsewhere than with the default.
 #include "DomainCases.h"
-#include "DomainParameterization.h"
-#include "vtkDomainBoundaryReader.h"
-#include "vtkDomainParameterization.h"
+#include <knotwork/DomainParameterization/DomainParameterization.h>
+#include <knotwork/DomainParameterization/vtkDomainParameterization.h>
+#include <knotwork/SplineIO/vtkDomainBoundaryReader.h>
 
 #include "vtkCallbackCommand.h"
 #include "vtkCommand.h"

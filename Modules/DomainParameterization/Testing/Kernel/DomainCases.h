@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Boundaries for domain parameterization, made from formulas.
 #pragma once
-#include "DomainBoundary.h"
 #include "SplineOracle.h"
-#include "TensorSpace.h"
+#include <knotwork/DomainParameterization/DomainBoundary.h>
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include <cmath>
 #include <functional>

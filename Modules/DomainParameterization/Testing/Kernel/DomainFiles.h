@@ -2,8 +2,8 @@
 // Boundaries as JSON files, where the environment variable KNOTWORK_DOMAIN_CASES names their
 // folder.
 #pragma once
-#include "DomainBoundary.h"
-#include "TensorSpace.h"
+#include <knotwork/DomainParameterization/DomainBoundary.h>
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include <cstdlib>
 #include <fstream>

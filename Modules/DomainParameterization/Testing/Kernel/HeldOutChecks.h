@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What must hold of a random domain.
 #pragma once
-#include "DomainParameterization.h"
 #include "HeldOutDomains.h"
+#include <knotwork/DomainParameterization/DomainParameterization.h>
 
 #include <ctime>
 #include <gtest/gtest.h>

@@ -2,9 +2,9 @@
 // Seeded random domains: boundaries of maps that are proved valid before they are given away, and
 // boundaries that no valid map has.
 #pragma once
-#include "BezierForm.h"
 #include "DomainCases.h"
-#include "JacobianCertificate.h"
+#include <knotwork/JacobianValidation/JacobianCertificate.h>
+#include <knotwork/SplineCore/BezierForm.h>
 
 #include <random>
 #include <string>

@@ -2,7 +2,7 @@
 // Layouts of several patches, made from formulas.
 #pragma once
 #include "DomainCases.h"
-#include "PatchLayout.h"
+#include <knotwork/DomainParameterization/PatchLayout.h>
 
 namespace knotwork::cases
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryFaults.h"
 #include "HeldOutDomains.h"
-#include "Refinement.h"
+#include <knotwork/SplineCore/Refinement.h>
 
 #include <algorithm>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BezierForm.h"
 #include "DomainCases.h"
 #include "DomainMeasure.h"
 #include "RandomSplines.h"
+#include <knotwork/SplineCore/BezierForm.h>
 
 #include <gtest/gtest.h>
 

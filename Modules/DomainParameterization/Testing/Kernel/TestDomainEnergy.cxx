@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BasisEvaluation.h"
 #include "DomainCases.h"
-#include "DomainEnergy.h"
 #include "NewtonSystem.h"
-#include "Quadrature.h"
 #include "RandomSplines.h"
+#include <knotwork/DomainParameterization/DomainEnergy.h>
+#include <knotwork/SplineCore/BasisEvaluation.h>
+#include <knotwork/SplineCore/Quadrature.h>
 
 #include <complex>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Boundaries as JSON files with the results of another program, where the environment variable
 // KNOTWORK_DOMAIN_CASES names their folder.
-#include "BezierForm.h"
 #include "DomainFiles.h"
-#include "DomainParameterization.h"
+#include <knotwork/DomainParameterization/DomainParameterization.h>
+#include <knotwork/SplineCore/BezierForm.h>
 
 #include <gtest/gtest.h>
 

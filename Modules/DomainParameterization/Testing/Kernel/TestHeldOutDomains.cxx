@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A sample; TestManyHeldOutDomains has the rest.
 #include "HeldOutChecks.h"
-#include "Refinement.h"
+#include <knotwork/SplineCore/Refinement.h>
 
 namespace knotwork
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DomainCases.h"
 #include "GluedSystem.h"
-#include "HierarchicalSpace.h"
 #include "InitialMaps.h"
+#include <knotwork/SplineCore/HierarchicalSpace.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Minimize.h"
+#include <knotwork/DomainParameterization/Minimize.h>
 
 #include <cmath>
 #include <gtest/gtest.h>

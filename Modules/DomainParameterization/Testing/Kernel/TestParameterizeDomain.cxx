@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BezierForm.h"
 #include "DomainCases.h"
 #include "DomainMeasure.h"
-#include "DomainParameterization.h"
 #include "ParameterMetrics.h"
+#include <knotwork/DomainParameterization/DomainParameterization.h>
+#include <knotwork/SplineCore/BezierForm.h>
 
 #include <gtest/gtest.h>
 

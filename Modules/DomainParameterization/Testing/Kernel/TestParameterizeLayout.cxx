@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BezierForm.h"
 #include "LayoutCases.h"
-#include "ParameterizeLayout.h"
+#include <knotwork/DomainParameterization/ParameterizeLayout.h>
+#include <knotwork/SplineCore/BezierForm.h>
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BezierForm.h"
-#include "DomainEnergy.h"
 #include "LayoutCases.h"
-#include "Quadrature.h"
+#include <knotwork/DomainParameterization/DomainEnergy.h>
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/Quadrature.h>
 
 #include <gtest/gtest.h>
 

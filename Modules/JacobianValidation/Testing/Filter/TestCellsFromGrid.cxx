@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // VTK cells in Bernstein form. Oracle: vtkCell::EvaluateLocation of the cells themselves.
-#include "CellsFromGrid.h"
+#include <knotwork/JacobianValidation/CellsFromGrid.h>
 
 #include "vtkCellData.h"
 #include "vtkCellType.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkJacobianValidator.h"
-#include "vtkSplineRefine.h"
-#include "vtkSplineSource.h"
+#include <knotwork/JacobianValidation/vtkJacobianValidator.h>
+#include <knotwork/SplineGrid/vtkSplineRefine.h>
+#include <knotwork/SplineGrid/vtkSplineSource.h>
 
 #include "vtkCellData.h"
 #include "vtkCellSizeFilter.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering.h"
-#include "vtkJacobianValidator.h"
-#include "vtkSplineSource.h"
-#include "vtkSplineTessellate.h"
+#include <knotwork/JacobianValidation/vtkJacobianValidator.h>
+#include <knotwork/SplineGrid/vtkSplineSource.h>
+#include <knotwork/SplineGrid/vtkSplineTessellate.h>
 
 #include <vtkCell.h>
 #include <vtkCellData.h>

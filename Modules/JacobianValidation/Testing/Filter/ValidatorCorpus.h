@@ -7,12 +7,12 @@
 #include "vtkGenericCell.h"
 #include "vtkIdList.h"
 #include "vtkIntArray.h"
-#include "vtkJacobianValidator.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkSmartPointer.h"
 #include "vtkUnstructuredGrid.h"
+#include <knotwork/JacobianValidation/vtkJacobianValidator.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "JacobianCertificate.h"
 #include "SplineOracle.h"
+#include <knotwork/JacobianValidation/JacobianCertificate.h>
 
 #include <cmath>
 #include <map>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BoundaryInjectivity.h"
-#include "HierarchicalSpace.h"
-#include "TensorSpace.h"
 #include "TestCells.h"
+#include <knotwork/JacobianValidation/BoundaryInjectivity.h>
+#include <knotwork/SplineCore/HierarchicalSpace.h>
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include <algorithm>
 #include <cmath>

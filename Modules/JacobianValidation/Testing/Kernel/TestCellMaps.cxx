@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What cells of a dataset are maps of, and that a certificate does not depend on what stands
 // beside.
-#include "CellMaps.h"
 #include "SplineOracle.h"
+#include <knotwork/JacobianValidation/CellMaps.h>
 
 #include <gtest/gtest.h>
 

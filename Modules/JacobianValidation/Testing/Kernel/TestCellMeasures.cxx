@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CellMeasures.h"
-#include "Quadrature.h"
 #include "TestCells.h"
+#include <knotwork/JacobianValidation/CellMeasures.h>
+#include <knotwork/SplineCore/Quadrature.h>
 
 #include <Eigen/Geometry>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "BernsteinCells.h"
-#include "CellPieces.h"
-#include "Shapes.h"
+#include <knotwork/JacobianValidation/CellPieces.h>
+#include <knotwork/SplineCore/BernsteinCells.h>
+#include <knotwork/SplineCore/Shapes.h>
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>

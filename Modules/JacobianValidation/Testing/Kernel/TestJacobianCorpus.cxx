@@ -2,11 +2,11 @@
 // Thousands of cells whose verdict is known by construction (JacobianCorpus.h). No verdict may be
 // wrong; none may be undecided here. A sample goes through the second verifier, whose integers take
 // their time.
-#include "CellMaps.h"
-#include "HierarchicalSpace.h"
 #include "JacobianCorpus.h"
-#include "Shapes.h"
-#include "TensorSpace.h"
+#include <knotwork/JacobianValidation/CellMaps.h>
+#include <knotwork/SplineCore/HierarchicalSpace.h>
+#include <knotwork/SplineCore/Shapes.h>
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include <gtest/gtest.h>
 

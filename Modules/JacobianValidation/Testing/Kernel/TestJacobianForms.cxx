@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bernstein.h"
 #include "ExactForm.h"
 #include "JacobianCorpus.h"
+#include <knotwork/SplineCore/Bernstein.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "PlaneCurves.h"
 #include "TestCells.h"
+#include <knotwork/JacobianValidation/PlaneCurves.h>
 
 #include <random>
 

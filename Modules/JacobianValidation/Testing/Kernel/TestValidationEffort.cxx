@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Measures and the proof of one-to-one-ness cost at most ten times the proof of regularity and a
 // millisecond a cell.
-#include "BoundaryInjectivity.h"
-#include "CellMeasures.h"
 #include "TestCells.h"
+#include <knotwork/JacobianValidation/BoundaryInjectivity.h>
+#include <knotwork/JacobianValidation/CellMeasures.h>
 
 #include <ctime>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "TriangleMesh.h"
+#include <knotwork/MeshParameterization/TriangleMesh.h>
 
 #include <cmath>
 #include <functional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "MeshParameterization.h"
+#include <knotwork/MeshParameterization/MeshParameterization.h>
 
 #include <Eigen/SVD>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "GeodesicMarch.h"
 #include "MeshCases.h"
+#include <knotwork/MeshParameterization/GeodesicMarch.h>
 
 #include <algorithm>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "PolygonTriangles.h"
+#include <knotwork/MeshParameterization/PolygonTriangles.h>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

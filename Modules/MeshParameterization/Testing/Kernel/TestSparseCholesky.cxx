@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SparseCholesky.h"
 #include "ThreadCases.h"
+#include <knotwork/MeshParameterization/SparseCholesky.h>
 
 #include <cmath>
 

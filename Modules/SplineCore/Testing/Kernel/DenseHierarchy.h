@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "HierarchicalSpace.h"
+#include <knotwork/SplineCore/HierarchicalSpace.h>
 
 #include <Eigen/QR>
 

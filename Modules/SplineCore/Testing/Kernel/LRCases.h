@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Random LR B-splines and their plain definition in extended precision.
 #pragma once
-#include "LRRefinement.h"
 #include "RandomSplines.h"
+#include <knotwork/SplineCore/LRRefinement.h>
 
 #include <gtest/gtest.h>
 

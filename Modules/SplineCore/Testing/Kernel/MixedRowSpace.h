@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "SplineSpace.h"
+#include <knotwork/SplineCore/SplineSpace.h>
 
 namespace knotwork::testing
 {

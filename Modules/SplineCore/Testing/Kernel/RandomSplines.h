@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "HierarchicalSpace.h"
 #include "SplineOracle.h"
+#include <knotwork/SplineCore/HierarchicalSpace.h>
 
 /// Random spaces and splines whose coefficients are well determined by their Bezier points, so that
 /// an error of a percent cannot hide in the tolerance of a bad condition.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "TensorSpace.h"
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include <algorithm>
 #include <random>

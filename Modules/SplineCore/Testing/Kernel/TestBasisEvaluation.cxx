@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BasisEvaluation.h"
-#include "BezierForm.h"
-#include "BezierSpace.h"
 #include "DerivativeOracle.h"
-#include "HierarchicalSpace.h"
+#include <knotwork/SplineCore/BasisEvaluation.h>
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/BezierSpace.h>
+#include <knotwork/SplineCore/HierarchicalSpace.h>
 
 #include <gtest/gtest.h>
 

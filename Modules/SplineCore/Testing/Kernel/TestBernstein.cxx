@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bernstein.h"
 #include "SplineOracle.h"
+#include <knotwork/SplineCore/Bernstein.h>
 
 #include <gtest/gtest.h>
 

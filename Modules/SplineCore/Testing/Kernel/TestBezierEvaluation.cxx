@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bernstein.h"
-#include "BezierForm.h"
-#include "BezierSpace.h"
 #include "DerivativeOracle.h"
-#include "HierarchicalSpace.h"
-#include "Shapes.h"
+#include <knotwork/SplineCore/Bernstein.h>
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/BezierSpace.h>
+#include <knotwork/SplineCore/HierarchicalSpace.h>
+#include <knotwork/SplineCore/Shapes.h>
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bernstein.h"
-#include "BezierForm.h"
-#include "BezierSpace.h"
 #include "DerivativeOracle.h"
+#include <knotwork/SplineCore/Bernstein.h>
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/BezierSpace.h>
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bernstein.h"
-#include "BezierForm.h"
-#include "BezierProjection.h"
-#include "BezierSpace.h"
 #include "MixedRowSpace.h"
-#include "Quadrature.h"
 #include "RandomSplines.h"
+#include <knotwork/SplineCore/Bernstein.h>
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/BezierProjection.h>
+#include <knotwork/SplineCore/BezierSpace.h>
+#include <knotwork/SplineCore/Quadrature.h>
 
 #include <gtest/gtest.h>
 

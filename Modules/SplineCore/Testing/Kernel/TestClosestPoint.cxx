@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ClosestPoint.h"
-#include "Shapes.h"
-#include "TensorSpace.h"
+#include <knotwork/SplineCore/ClosestPoint.h>
+#include <knotwork/SplineCore/Shapes.h>
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BezierSpace.h"
-#include "Composition.h"
-#include "HierarchicalSpace.h"
-#include "Shapes.h"
-#include "TensorSpace.h"
+#include <knotwork/SplineCore/BezierSpace.h>
+#include <knotwork/SplineCore/Composition.h>
+#include <knotwork/SplineCore/HierarchicalSpace.h>
+#include <knotwork/SplineCore/Shapes.h>
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

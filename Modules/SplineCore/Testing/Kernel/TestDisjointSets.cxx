@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "DisjointSets.h"
 #include "RandomSplines.h"
+#include <knotwork/SplineCore/DisjointSets.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BezierForm.h"
-#include "FunctionGraph.h"
 #include "LRCases.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/FunctionGraph.h>
 
 #include <limits>
 

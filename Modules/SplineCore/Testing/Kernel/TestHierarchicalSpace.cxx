@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bernstein.h"
 #include "DenseHierarchy.h"
-#include "HierarchicalSpace.h"
-#include "TensorSpace.h"
+#include <knotwork/SplineCore/Bernstein.h>
+#include <knotwork/SplineCore/HierarchicalSpace.h>
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include <gtest/gtest.h>
 

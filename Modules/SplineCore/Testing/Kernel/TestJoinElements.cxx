@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Splines whose knots are lost, put together again from their Bezier elements.
-#include "JoinElements.h"
+#include <knotwork/SplineCore/JoinElements.h>
 
-#include "BezierForm.h"
-#include "BezierSpace.h"
 #include "DerivativeOracle.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/BezierSpace.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bernstein.h"
-#include "KnotVector.h"
 #include "SplineOracle.h"
+#include <knotwork/SplineCore/Bernstein.h>
+#include <knotwork/SplineCore/KnotVector.h>
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BezierForm.h"
 #include "LRCases.h"
-#include "LRDependence.h"
 #include "PrimeField.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/LRDependence.h>
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is written once for all families, on LR B-splines.
-#include "ClosestPoint.h"
 #include "LRCases.h"
-#include "LRDependence.h"
-#include "Recovery.h"
-#include "Tessellation.h"
+#include <knotwork/SplineCore/ClosestPoint.h>
+#include <knotwork/SplineCore/LRDependence.h>
+#include <knotwork/SplineCore/Recovery.h>
+#include <knotwork/SplineCore/Tessellation.h>
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Steps of refinement by LR B-splines: what is halved, how far the lines reach.
-#include "BezierForm.h"
 #include "LRCases.h"
-#include "LRDependence.h"
-#include "Refinement.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/LRDependence.h>
+#include <knotwork/SplineCore/Refinement.h>
 
 #include <numeric>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BezierForm.h"
 #include "LRCases.h"
-#include "LROperations.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/LROperations.h>
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BasisEvaluation.h"
-#include "BezierForm.h"
-#include "ControlNet.h"
 #include "LRCases.h"
-#include "LRStrategies.h"
-#include "Refinement.h"
+#include <knotwork/SplineCore/BasisEvaluation.h>
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/ControlNet.h>
+#include <knotwork/SplineCore/LRStrategies.h>
+#include <knotwork/SplineCore/Refinement.h>
 
 #include <gtest/gtest.h>
 

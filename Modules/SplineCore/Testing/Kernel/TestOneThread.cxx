@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Each work in a process of its own (ThreadCases.h): its splines are made there, on one thread.
-#include "BasisEvaluation.h"
-#include "LRDependence.h"
-#include "LROperations.h"
-#include "Recovery.h"
-#include "TensorSpace.h"
 #include "ThreadCases.h"
+#include <knotwork/SplineCore/BasisEvaluation.h>
+#include <knotwork/SplineCore/LRDependence.h>
+#include <knotwork/SplineCore/LROperations.h>
+#include <knotwork/SplineCore/Recovery.h>
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include <gtest/gtest.h>
 

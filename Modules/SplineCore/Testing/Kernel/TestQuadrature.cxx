@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Quadrature.h"
 #include "SplineOracle.h"
+#include <knotwork/SplineCore/Quadrature.h>
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BezierSpace.h"
 #include "MixedRowSpace.h"
 #include "RandomSplines.h"
-#include "Recovery.h"
+#include <knotwork/SplineCore/BezierSpace.h>
+#include <knotwork/SplineCore/Recovery.h>
 
 #include <gtest/gtest.h>
 

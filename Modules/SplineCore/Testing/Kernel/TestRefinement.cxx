@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BezierForm.h"
-#include "BezierSpace.h"
-#include "ControlNet.h"
-#include "Refinement.h"
-#include "Shapes.h"
-#include "TensorSpace.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/BezierSpace.h>
+#include <knotwork/SplineCore/ControlNet.h>
+#include <knotwork/SplineCore/Refinement.h>
+#include <knotwork/SplineCore/Shapes.h>
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include <gtest/gtest.h>
 

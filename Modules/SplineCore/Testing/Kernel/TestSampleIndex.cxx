@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SampleIndex.h"
+#include <knotwork/SplineCore/SampleIndex.h>
 
 #include <gtest/gtest.h>
 

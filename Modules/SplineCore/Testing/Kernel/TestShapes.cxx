@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BezierForm.h"
-#include "Quadrature.h"
-#include "Shapes.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/Quadrature.h>
+#include <knotwork/SplineCore/Shapes.h>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>

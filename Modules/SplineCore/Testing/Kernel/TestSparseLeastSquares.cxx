@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LRCases.h"
-#include "LRStrategies.h"
-#include "Recovery.h"
-#include "SparseLeastSquares.h"
+#include <knotwork/SplineCore/LRStrategies.h>
+#include <knotwork/SplineCore/Recovery.h>
+#include <knotwork/SplineCore/SparseLeastSquares.h>
 
 #include <Eigen/QR>
 #include <algorithm>

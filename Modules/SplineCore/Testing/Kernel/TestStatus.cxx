@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BezierSpace.h"
-#include "Parallel.h"
 #include "SplineOracle.h"
-#include "Status.h"
-#include "TensorSpace.h"
+#include <knotwork/SplineCore/BezierSpace.h>
+#include <knotwork/SplineCore/Parallel.h>
+#include <knotwork/SplineCore/Status.h>
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BezierForm.h"
-#include "HierarchicalSpace.h"
 #include "LRCases.h"
-#include "SurfaceExtraction.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/HierarchicalSpace.h>
+#include <knotwork/SplineCore/SurfaceExtraction.h>
 
 using namespace knotwork;
 using namespace knotwork::testing;

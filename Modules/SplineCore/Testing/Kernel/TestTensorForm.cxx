@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "TensorForm.h"
+#include <knotwork/SplineCore/TensorForm.h>
 
-#include "BezierForm.h"
-#include "Refinement.h"
-#include "Shapes.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/Refinement.h>
+#include <knotwork/SplineCore/Shapes.h>
 
 #include <gtest/gtest.h>
 

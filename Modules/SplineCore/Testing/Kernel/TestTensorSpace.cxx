@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bernstein.h"
 #include "SplineOracle.h"
-#include "TensorSpace.h"
+#include <knotwork/SplineCore/Bernstein.h>
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include <gtest/gtest.h>
 

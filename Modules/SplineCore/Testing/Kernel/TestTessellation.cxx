@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "HierarchicalSpace.h"
-#include "Shapes.h"
-#include "TensorSpace.h"
-#include "Tessellation.h"
+#include <knotwork/SplineCore/HierarchicalSpace.h>
+#include <knotwork/SplineCore/Shapes.h>
+#include <knotwork/SplineCore/TensorSpace.h>
+#include <knotwork/SplineCore/Tessellation.h>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "Parallel.h"
+#include <knotwork/SplineCore/Parallel.h>
 
 #include <gtest/gtest.h>
 

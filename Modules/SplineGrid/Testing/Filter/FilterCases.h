@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What tests of filters share: recorded errors, sources, good and bad input.
 #pragma once
-#include "SplineModel.h"
-#include "vtkSplineAlgorithm.h"
-#include "vtkSplineSource.h"
+#include <knotwork/SplineGrid/SplineModel.h>
+#include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
+#include <knotwork/SplineGrid/vtkSplineSource.h>
 
 #include "vtkCallbackCommand.h"
 #include "vtkCommand.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RandomModels.h"
 
-#include "HierarchicalSpace.h"
-#include "TensorSpace.h"
+#include <knotwork/SplineCore/HierarchicalSpace.h>
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include <algorithm>
 #include <random>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Seeded models of every family, and how two models are compared.
 #pragma once
-#include "SplineModel.h"
+#include <knotwork/SplineGrid/SplineModel.h>
 
 #include "vtkSmartPointer.h"
 #include "vtkUnstructuredGrid.h"

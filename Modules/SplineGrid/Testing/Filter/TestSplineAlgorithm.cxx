@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The base class: types of outputs, errors, exceptions, abort.
-#include "DistributedInput.h"
-#include "FilterErrorCode.h"
 #include "RandomModels.h"
-#include "vtkSplineAlgorithm.h"
+#include <knotwork/SplineGrid/DistributedInput.h>
+#include <knotwork/SplineGrid/FilterErrorCode.h>
+#include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
 
 #include "vtkCallbackCommand.h"
 #include "vtkDummyCommunicator.h"

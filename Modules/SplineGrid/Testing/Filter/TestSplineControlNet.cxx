@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterCases.h"
-#include "TensorSpace.h"
-#include "vtkSplineControlNet.h"
-#include "vtkSplineRefine.h"
+#include <knotwork/SplineCore/TensorSpace.h>
+#include <knotwork/SplineGrid/vtkSplineControlNet.h>
+#include <knotwork/SplineGrid/vtkSplineRefine.h>
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BezierForm.h"
 #include "FilterCases.h"
-#include "vtkSplineEvaluate.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineGrid/vtkSplineEvaluate.h>
 
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"

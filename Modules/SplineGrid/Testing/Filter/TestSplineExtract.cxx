@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BezierForm.h"
 #include "FilterCases.h"
-#include "LRRefinement.h"
 #include "RandomModels.h"
-#include "TensorSpace.h"
-#include "vtkSplineExtract.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/LRRefinement.h>
+#include <knotwork/SplineCore/TensorSpace.h>
+#include <knotwork/SplineGrid/vtkSplineExtract.h>
 
 #include <cmath>
 

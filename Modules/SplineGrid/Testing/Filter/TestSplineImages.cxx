@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One picture of every filter that draws.
 #include "Rendering.h"
-#include "vtkSplineControlNet.h"
-#include "vtkSplineEvaluate.h"
-#include "vtkSplineExtract.h"
-#include "vtkSplineParametricMesh.h"
-#include "vtkSplineRefine.h"
-#include "vtkSplineSource.h"
-#include "vtkSplineTessellate.h"
-#include "vtkSplineWarp.h"
+#include <knotwork/SplineGrid/vtkSplineControlNet.h>
+#include <knotwork/SplineGrid/vtkSplineEvaluate.h>
+#include <knotwork/SplineGrid/vtkSplineExtract.h>
+#include <knotwork/SplineGrid/vtkSplineParametricMesh.h>
+#include <knotwork/SplineGrid/vtkSplineRefine.h>
+#include <knotwork/SplineGrid/vtkSplineSource.h>
+#include <knotwork/SplineGrid/vtkSplineTessellate.h>
+#include <knotwork/SplineGrid/vtkSplineWarp.h>
 
 #include "vtkActor.h"
 #include "vtkArrowSource.h"

@@ -2,7 +2,7 @@
 // Damage is found and named, never read as something else.
 #include "RandomModels.h"
 
-#include "BezierForm.h"
+#include <knotwork/SplineCore/BezierForm.h>
 
 #include "vtkAppendFilter.h"
 #include "vtkCellArray.h"

@@ -2,7 +2,7 @@
 // Filters of VTK that move points or join grids: the decoded splines are the moved ones.
 #include "RandomModels.h"
 
-#include "TensorSpace.h"
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include "vtkAppendFilter.h"
 #include "vtkCellData.h"

@@ -2,8 +2,8 @@
 // Bezier grids that other programs wrote.
 #include "RandomModels.h"
 
-#include "BezierForm.h"
-#include "BezierSpace.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/BezierSpace.h>
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // VTK draws an encoded grid as it is.
-#include "HierarchicalSpace.h"
 #include "RandomModels.h"
 #include "Rendering.h"
-#include "Shapes.h"
+#include <knotwork/SplineCore/HierarchicalSpace.h>
+#include <knotwork/SplineCore/Shapes.h>
 
 #include "vtkCellData.h"
 #include "vtkDataSetSurfaceFilter.h"

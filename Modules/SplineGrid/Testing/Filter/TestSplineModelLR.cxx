@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Locally refined patches travel as grids: written and read bit for bit, recovered from moved
 // points, damage found.
-#include "LRRefinement.h"
 #include "RandomModels.h"
-#include "TensorSpace.h"
+#include <knotwork/SplineCore/LRRefinement.h>
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"

@@ -2,9 +2,9 @@
 // Points are shared by topology, and the order of points is VTK's.
 #include "RandomModels.h"
 
-#include "BezierForm.h"
-#include "HierarchicalSpace.h"
-#include "TensorSpace.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/HierarchicalSpace.h>
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include "vtkBezierCurve.h"
 #include "vtkCell.h"

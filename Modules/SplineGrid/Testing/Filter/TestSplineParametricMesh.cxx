@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterCases.h"
-#include "vtkSplineParametricMesh.h"
-#include "vtkSplineRefine.h"
+#include <knotwork/SplineGrid/vtkSplineParametricMesh.h>
+#include <knotwork/SplineGrid/vtkSplineRefine.h>
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"

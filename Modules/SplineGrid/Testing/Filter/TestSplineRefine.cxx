@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BezierForm.h"
 #include "FilterCases.h"
-#include "HierarchicalSpace.h"
-#include "LRDependence.h"
 #include "RandomModels.h"
-#include "TensorSpace.h"
-#include "vtkSplineRefine.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/HierarchicalSpace.h>
+#include <knotwork/SplineCore/LRDependence.h>
+#include <knotwork/SplineCore/TensorSpace.h>
+#include <knotwork/SplineGrid/vtkSplineRefine.h>
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterCases.h"
-#include "Shapes.h"
+#include <knotwork/SplineCore/Shapes.h>
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

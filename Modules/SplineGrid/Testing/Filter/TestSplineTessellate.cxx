@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BezierForm.h"
 #include "FilterCases.h"
-#include "vtkSplineEvaluate.h"
-#include "vtkSplineRefine.h"
-#include "vtkSplineTessellate.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineGrid/vtkSplineEvaluate.h>
+#include <knotwork/SplineGrid/vtkSplineRefine.h>
+#include <knotwork/SplineGrid/vtkSplineTessellate.h>
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

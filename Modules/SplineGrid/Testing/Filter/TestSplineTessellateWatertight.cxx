@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // No cracks, by point ids alone: levels of a surface, the boundary of a solid, patches that touch.
 #include "FilterCases.h"
-#include "vtkSplineRefine.h"
-#include "vtkSplineTessellate.h"
+#include <knotwork/SplineGrid/vtkSplineRefine.h>
+#include <knotwork/SplineGrid/vtkSplineTessellate.h>
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

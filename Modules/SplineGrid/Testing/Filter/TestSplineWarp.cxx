@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BezierForm.h"
 #include "FilterCases.h"
-#include "vtkSplineTessellate.h"
-#include "vtkSplineWarp.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineGrid/vtkSplineTessellate.h>
+#include <knotwork/SplineGrid/vtkSplineWarp.h>
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // STEP and IGES files between filters.
 #include "CADCases.h"
-#include "CADExchange.h"
 #include "FilterCases.h"
 #include "OutputFile.h"
-#include "TrimmedGrids.h"
+#include <knotwork/CADModel/CADExchange.h>
+#include <knotwork/SurfaceTrimming/TrimmedGrids.h>
 
-#include "vtkCADReader.h"
-#include "vtkCADWriter.h"
 #include "vtkCellData.h"
 #include "vtkMassProperties.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
 #include "vtkUnsignedCharArray.h"
+#include <knotwork/SplineIO/vtkCADReader.h>
+#include <knotwork/SplineIO/vtkCADWriter.h>
 
 using namespace knotwork;
 using namespace knotwork::testing;

@@ -6,14 +6,14 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
-#include "vtkGoToolsG2Reader.h"
-#include "vtkGoToolsG2Writer.h"
-#include "vtkPointCloudReader.h"
-#include "vtkPointCloudWriter.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkXMLPolyDataWriter.h"
+#include <knotwork/SplineIO/vtkGoToolsG2Reader.h>
+#include <knotwork/SplineIO/vtkGoToolsG2Writer.h>
+#include <knotwork/SplineIO/vtkPointCloudReader.h>
+#include <knotwork/SplineIO/vtkPointCloudWriter.h>
 
 #include <algorithm>
 #include <filesystem>

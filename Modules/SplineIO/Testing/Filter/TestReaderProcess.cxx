@@ -3,19 +3,17 @@
 // happens to that process.
 #include "CADCases.h"
 #include "FilterCases.h"
-#include "ForeignFile.h"
 #include "OutputFile.h"
 #include "RandomModels.h"
-#include "TrimmedGrids.h"
+#include <knotwork/SplineIO/ForeignFile.h>
+#include <knotwork/SurfaceTrimming/TrimmedGrids.h>
 
-#include "vtkCADReader.h"
 #include "vtkCellArray.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkInformation.h"
 #include "vtkPartitionedDataSet.h"
 #include "vtkPartitionedDataSetCollection.h"
-#include "vtkPointCloudReader.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
@@ -23,6 +21,8 @@
 #include "vtkXMLDataObjectWriter.h"
 #include "vtkXMLPartitionedDataSetCollectionWriter.h"
 #include "vtkXMLWriter.h"
+#include <knotwork/SplineIO/vtkCADReader.h>
+#include <knotwork/SplineIO/vtkPointCloudReader.h>
 
 #include <cmath>
 #include <cstdlib>

@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BezierForm.h"
 #include "FilterCases.h"
-#include "GoToolsG2.h"
-#include "LRRefinement.h"
 #include "OutputFile.h"
 #include "RandomModels.h"
-#include "TensorSpace.h"
+#include "vtkObjectFactory.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/LRRefinement.h>
+#include <knotwork/SplineCore/TensorSpace.h>
+#include <knotwork/SplineIO/GoToolsG2.h>
+#include <knotwork/SplineIO/vtkPointCloudWriter.h>
 
-#include "vtkCADWriter.h"
 #include "vtkDataArray.h"
 #include "vtkDummyCommunicator.h"
 #include "vtkDummyController.h"
 #include "vtkErrorCode.h"
 #include "vtkFieldData.h"
-#include "vtkGismoXMLReader.h"
-#include "vtkGismoXMLWriter.h"
-#include "vtkGoToolsG2Reader.h"
-#include "vtkGoToolsG2Writer.h"
-#include "vtkObjectFactory.h"
-#include "vtkPointCloudReader.h"
-#include "vtkPointCloudWriter.h"
-#include "vtkPoints.h"
-#include "vtkPolyData.h"
 #include "vtkXMLUnstructuredGridWriter.h"
+#include <knotwork/SplineIO/vtkCADWriter.h>
+#include <knotwork/SplineIO/vtkGismoXMLReader.h>
+#include <knotwork/SplineIO/vtkGismoXMLWriter.h>
+#include <knotwork/SplineIO/vtkGoToolsG2Reader.h>
+#include <knotwork/SplineIO/vtkGoToolsG2Writer.h>
+#include <knotwork/SplineIO/vtkPointCloudReader.h>
 
 #include <filesystem>
 #include <fstream>

@@ -3,7 +3,8 @@
 // compared.
 #pragma once
 #include "RandomSplines.h"
-#include "SplineFile.h"
+#include "SameSpline.h"
+#include <knotwork/SplineIO/SplineFile.h>
 
 #include <gtest/gtest.h>
 
@@ -27,33 +28,6 @@ inline const std::string HandWrittenG2 = TextOfData("by_hand.g2");
 /// degree 1 on 2 x 1 elements, the left one refined: of the 3 x 2 functions of level 0 the four at
 /// u = 1 and u = 2 stay, and 2 x 3 of level 1 come in at u = 0 and u = 0.5.
 inline const std::string HandWrittenXml = TextOfData("by_hand.xml");
-
-template <int Dim>
-::testing::AssertionResult SameSpline(const Spline<Dim>& a, const Spline<Dim>& b)
-{
-  const auto fail = [](const char* what) { return ::testing::AssertionFailure() << what; };
-  if (!(a.Space->Knots == b.Space->Knots))
-  {
-    return fail("knots differ");
-  }
-  if (a.Space->NumFunctions != b.Space->NumFunctions ||
-    a.Space->RowFunction != b.Space->RowFunction ||
-    a.Space->RowCoefficient != b.Space->RowCoefficient ||
-    a.Space->LocalFunctionIds != b.Space->LocalFunctionIds)
-  {
-    return fail("spaces differ");
-  }
-  if (a.ControlPoints.rows() != b.ControlPoints.rows() ||
-    a.ControlPoints.cols() != b.ControlPoints.cols() || a.ControlPoints != b.ControlPoints)
-  {
-    return fail("control points differ");
-  }
-  if (a.Weights.size() != b.Weights.size() || a.Weights != b.Weights)
-  {
-    return fail("weights differ");
-  }
-  return ::testing::AssertionSuccess();
-}
 
 /// Bit for bit.
 inline ::testing::AssertionResult SameSplines(

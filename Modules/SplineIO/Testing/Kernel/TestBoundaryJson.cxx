@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BoundaryJson.h"
+#include <knotwork/SplineIO/BoundaryJson.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FileCases.h"
-#include "GoToolsG2.h"
+#include <knotwork/SplineIO/GoToolsG2.h>
 
 #include <filesystem>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BezierForm.h"
-#include "BezierSpace.h"
 #include "FileCases.h"
-#include "GismoXml.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/BezierSpace.h>
+#include <knotwork/SplineIO/GismoXml.h>
 
 using namespace knotwork;
 using namespace knotwork::testing;

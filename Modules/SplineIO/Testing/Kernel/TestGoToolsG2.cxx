@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FileCases.h"
-#include "GoToolsG2.h"
 #include "TextWords.h"
+#include <knotwork/SplineIO/GoToolsG2.h>
 
 #include <clocale>
 #include <limits>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BezierForm.h"
 #include "FileCases.h"
-#include "GoToolsG2.h"
 #include "LRCases.h"
-#include "LRDependence.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/LRDependence.h>
+#include <knotwork/SplineIO/GoToolsG2.h>
 
 #include <cstdlib>
 #include <fstream>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Text that is damaged or meant to do harm: one clear error, in bounded time and memory.
 #include "FileCases.h"
-#include "GismoXml.h"
-#include "GoToolsG2.h"
+#include <knotwork/SplineIO/GismoXml.h>
+#include <knotwork/SplineIO/GoToolsG2.h>
 
 #include <chrono>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "MeshFiles.h"
+#include <knotwork/SplineIO/MeshFiles.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "OneLine.h"
+#include <knotwork/SplineIO/OneLine.h>
 
 #include <nlohmann/json.hpp>
 

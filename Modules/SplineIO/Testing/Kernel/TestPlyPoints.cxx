@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "PlyPoints.h"
+#include <knotwork/SplineIO/PlyPoints.h>
 
 #include <gtest/gtest.h>
 

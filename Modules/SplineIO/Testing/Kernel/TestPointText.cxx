@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "GoToolsG2.h"
-#include "PointText.h"
+#include <knotwork/SplineIO/GoToolsG2.h>
+#include <knotwork/SplineIO/PointText.h>
 
 #include <gtest/gtest.h>
 

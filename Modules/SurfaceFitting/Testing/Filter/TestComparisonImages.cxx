@@ -2,9 +2,9 @@
 // Pictures of surfaces against each other and against points.
 #include "HeightTiles.h"
 #include "Rendering.h"
-#include "vtkSplineCombine.h"
-#include "vtkSplinePointDistance.h"
-#include "vtkSplineTessellate.h"
+#include <knotwork/SplineGrid/vtkSplineTessellate.h>
+#include <knotwork/SurfaceFitting/vtkSplineCombine.h>
+#include <knotwork/SurfaceFitting/vtkSplinePointDistance.h>
 
 #include "vtkActor.h"
 #include "vtkCamera.h"

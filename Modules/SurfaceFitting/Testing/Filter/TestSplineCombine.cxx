@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkSplineCombine.h"
+#include <knotwork/SurfaceFitting/vtkSplineCombine.h>
 
-#include "BezierForm.h"
 #include "FilterCases.h"
 #include "HeightTiles.h"
+#include <knotwork/SplineCore/BezierForm.h>
 
 #include "vtkPoints.h"
 #include "vtkTable.h"

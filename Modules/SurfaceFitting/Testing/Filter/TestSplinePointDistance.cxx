@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkSplinePointDistance.h"
+#include <knotwork/SurfaceFitting/vtkSplinePointDistance.h>
 
 #include "FilterCases.h"
 #include "HeightTiles.h"
-#include "SurfaceDistance.h"
+#include <knotwork/SurfaceFitting/SurfaceDistance.h>
 
 #include "vtkDataArray.h"
 #include "vtkPointData.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkSplineStitch.h"
+#include <knotwork/SurfaceFitting/vtkSplineStitch.h>
 
-#include "BezierForm.h"
 #include "FilterCases.h"
 #include "HeightTiles.h"
-#include "StitchTiles.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SurfaceFitting/StitchTiles.h>
 
 #include "vtkTable.h"
 #include "vtkVariant.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Clouds whose surface is known.
-#include "vtkSplineSource.h"
-#include "vtkSplineSurfaceFit.h"
+#include <knotwork/SplineGrid/vtkSplineSource.h>
+#include <knotwork/SurfaceFitting/vtkSplineSurfaceFit.h>
 
 #include "FilterCases.h"
-#include "LRDependence.h"
-#include "SurfaceFit.h"
+#include <knotwork/SplineCore/LRDependence.h>
+#include <knotwork/SurfaceFitting/SurfaceFit.h>
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -17,9 +17,9 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkSplineEvaluate.h"
 #include "vtkTable.h"
 #include "vtkVariant.h"
+#include <knotwork/SplineGrid/vtkSplineEvaluate.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What tests of fits share.
 #pragma once
-#include "BezierForm.h"
 #include "CloudCases.h"
+#include <knotwork/SplineCore/BezierForm.h>
 
 #include <gtest/gtest.h>
 

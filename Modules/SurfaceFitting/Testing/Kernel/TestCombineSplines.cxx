@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BezierForm.h"
-#include "BezierSpace.h"
-#include "CombineSplines.h"
-#include "FunctionGraph.h"
-#include "HeightField.h"
 #include "LRCases.h"
-#include "LROperations.h"
-#include "LocallyRefinedForm.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/BezierSpace.h>
+#include <knotwork/SplineCore/FunctionGraph.h>
+#include <knotwork/SplineCore/HeightField.h>
+#include <knotwork/SplineCore/LROperations.h>
+#include <knotwork/SplineCore/LocallyRefinedForm.h>
+#include <knotwork/SurfaceFitting/CombineSplines.h>
 
 #include <gtest/gtest.h>
 

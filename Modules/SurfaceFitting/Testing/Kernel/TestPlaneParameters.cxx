@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "PlaneParameters.h"
+#include <knotwork/SurfaceFitting/PlaneParameters.h>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BezierForm.h"
-#include "HeightField.h"
 #include "LRCases.h"
-#include "LROperations.h"
-#include "LocallyRefinedForm.h"
-#include "StitchTiles.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/HeightField.h>
+#include <knotwork/SplineCore/LROperations.h>
+#include <knotwork/SplineCore/LocallyRefinedForm.h>
+#include <knotwork/SurfaceFitting/StitchTiles.h>
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LRCases.h"
-#include "LROperations.h"
-#include "Refinement.h"
-#include "Shapes.h"
-#include "SurfaceDistance.h"
+#include <knotwork/SplineCore/LROperations.h>
+#include <knotwork/SplineCore/Refinement.h>
+#include <knotwork/SplineCore/Shapes.h>
+#include <knotwork/SurfaceFitting/SurfaceDistance.h>
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SurfaceFit.h"
+#include <knotwork/SurfaceFitting/SurfaceFit.h>
 
-#include "BasisEvaluation.h"
 #include "CloudFits.h"
-#include "LRDependence.h"
+#include <knotwork/SplineCore/BasisEvaluation.h>
+#include <knotwork/SplineCore/LRDependence.h>
 
 #include <limits>
 

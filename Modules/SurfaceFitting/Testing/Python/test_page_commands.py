@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Commands and Python of the module's page run as they are written, on small files of the names that they read."""
+"""Commands and Python of the pages on fitted surfaces run as they are written, on small files of the names that they read."""
 import os
 import re
 import shlex
@@ -13,9 +13,16 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
-PAGE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "README.md")
-with open(PAGE, encoding="utf-8") as stream:
-    TEXT = stream.read()
+MODULES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..")
+
+
+def page(module):
+    with open(os.path.join(MODULES, module, "README.md"), encoding="utf-8") as stream:
+        return stream.read()
+
+
+TEXT = page("SurfaceFitting") + page("SurfaceFeatures") + re.search(
+    "^## Surfaces as far as their points\n.*?^## ", page("SurfaceTrimming"), re.M | re.S).group(0)
 FOLDER = os.path.dirname(knotwork_testing.output("fitting_page/files"))
 
 

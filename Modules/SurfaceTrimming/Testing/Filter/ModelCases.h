@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Small trimmed models, and how two models are compared.
 #pragma once
-#include "TrimmedModel.h"
+#include <knotwork/SplineCore/TrimmedModel.h>
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Trimmed models in two grids: what they carry, what filters do to them, what damage is refused.
-#include "TrimmedGrids.h"
+#include <knotwork/SurfaceTrimming/TrimmedGrids.h>
 
-#include "BezierForm.h"
 #include "ModelCases.h"
-#include "SplineModel.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineGrid/SplineModel.h>
 
 #include "vtkAppendFilter.h"
 #include "vtkCellData.h"

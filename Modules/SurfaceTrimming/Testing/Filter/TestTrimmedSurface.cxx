@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A rolled plate with a hole, whose plane coordinates are known, as trimmed faces.
-#include "vtkTrimmedSurface.h"
+#include <knotwork/SurfaceTrimming/vtkTrimmedSurface.h>
 
 #include "FilterCases.h"
-#include "TrimmedGrids.h"
+#include <knotwork/SurfaceTrimming/TrimmedGrids.h>
 
 #include "vtkAppendFilter.h"
 #include "vtkCellArray.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "ChartMesh.h"
-#include "TensorSpace.h"
+#include <knotwork/SplineCore/TensorSpace.h>
+#include <knotwork/SurfaceTrimming/ChartMesh.h>
 
 #include <Eigen/LU>
 

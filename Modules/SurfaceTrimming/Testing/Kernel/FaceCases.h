@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "BezierForm.h"
-#include "Shapes.h"
-#include "TensorSpace.h"
-#include "TrimmedMesh.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/Shapes.h>
+#include <knotwork/SplineCore/TensorSpace.h>
+#include <knotwork/SurfaceTrimming/TrimmedMesh.h>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "BezierForm.h"
-#include "ChartMesh.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SurfaceTrimming/ChartMesh.h>
 
 #include <Eigen/Geometry>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "AffineMap.h"
+#include <knotwork/SurfaceTrimming/AffineMap.h>
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BackMap.h"
-#include "BezierForm.h"
 #include "ChartSamples.h"
 #include "MeshCases.h"
 #include "RadialSurface.h"
 #include "SurfaceFairness.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SurfaceTrimming/BackMap.h>
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BezierForm.h"
-#include "FaceCertificate.h"
 #include "TrimCases.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SurfaceTrimming/FaceCertificate.h>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BezierForm.h"
 #include "ChartCases.h"
-#include "TrimLoops.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SurfaceTrimming/TrimLoops.h>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

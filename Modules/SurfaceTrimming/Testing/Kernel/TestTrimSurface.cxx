@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The loop of all steps: mesh, surface, loops, certificates, triangles.
 #include "ChartCases.h"
-#include "TrimSurface.h"
+#include <knotwork/SurfaceTrimming/TrimSurface.h>
 
 #include <gtest/gtest.h>
 

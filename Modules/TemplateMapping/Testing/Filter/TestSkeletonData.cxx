@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "../Kernel/SurfaceCases.h"
-#include "ClosestPoints.h"
-#include "Shapes.h"
 #include "SkeletonData.h"
-#include "SkeletonSampling.h"
-#include "SplineModel.h"
+#include <knotwork/SplineCore/Shapes.h>
+#include <knotwork/SplineGrid/SplineModel.h>
+#include <knotwork/TemplateMapping/ClosestPoints.h>
+#include <knotwork/TemplateMapping/SkeletonSampling.h>
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>

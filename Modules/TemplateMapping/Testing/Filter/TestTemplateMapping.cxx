@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "../Kernel/SurfaceCases.h"
 #include "../Kernel/TemplateCases.h"
-#include "SplineModel.h"
-#include "TemplateMap.h"
-#include "vtkJacobianValidator.h"
-#include "vtkTemplateMapping.h"
+#include <knotwork/JacobianValidation/vtkJacobianValidator.h>
+#include <knotwork/SplineGrid/SplineModel.h>
+#include <knotwork/TemplateMapping/TemplateMap.h>
+#include <knotwork/TemplateMapping/vtkTemplateMapping.h>
 
 #include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>

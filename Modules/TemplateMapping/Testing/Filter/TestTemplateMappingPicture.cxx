@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "../Kernel/TemplateCases.h"
-#include "BezierForm.h"
 #include "Rendering.h"
-#include "TemplateMap.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/TemplateMapping/TemplateMap.h>
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>

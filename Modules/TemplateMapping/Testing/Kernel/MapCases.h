@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Maps of a box into space of as many dimensions.
 #pragma once
-#include "BezierForm.h"
-#include "TensorSpace.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include <Eigen/LU>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Triangle meshes for template mapping in space: plates, spheres, cubes.
 #pragma once
-#include "Skeleton.h"
+#include <knotwork/TemplateMapping/Skeleton.h>
 
 #include <map>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cases for template mapping: the unit square with a circle, and with a lobed curve.
 #pragma once
-#include "Skeleton.h"
+#include <knotwork/TemplateMapping/Skeleton.h>
 
 #include <cmath>
 

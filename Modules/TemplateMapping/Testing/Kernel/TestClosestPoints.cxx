@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ClosestPoints.h"
 #include "SurfaceCases.h"
 #include "TemplateCases.h"
-#include "TensorSpace.h"
+#include <knotwork/SplineCore/TensorSpace.h>
+#include <knotwork/TemplateMapping/ClosestPoints.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FoldRemoval.h"
 #include "MapCases.h"
-#include "Regularity.h"
+#include <knotwork/TemplateMapping/Regularity.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MapCases.h"
-#include "NegativeJacobian.h"
-#include "TensorSpace.h"
+#include <knotwork/SplineCore/TensorSpace.h>
+#include <knotwork/TemplateMapping/NegativeJacobian.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MapCases.h"
-#include "Regularity.h"
+#include <knotwork/TemplateMapping/Regularity.h>
 
 #include <gtest/gtest.h>
 

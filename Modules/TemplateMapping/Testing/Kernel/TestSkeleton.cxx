@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "PatchGeometry.h"
 #include "SurfaceCases.h"
 #include "TemplateCases.h"
+#include <knotwork/TemplateMapping/PatchGeometry.h>
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BezierSpace.h"
-#include "Shapes.h"
-#include "SkeletonSampling.h"
-#include "TensorSpace.h"
+#include <knotwork/SplineCore/BezierSpace.h>
+#include <knotwork/SplineCore/Shapes.h>
+#include <knotwork/SplineCore/TensorSpace.h>
+#include <knotwork/TemplateMapping/SkeletonSampling.h>
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BezierForm.h"
-#include "PatchGeometry.h"
 #include "TemplateCases.h"
-#include "TemplateMap.h"
-#include "TensorSpace.h"
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/TensorSpace.h>
+#include <knotwork/TemplateMapping/PatchGeometry.h>
+#include <knotwork/TemplateMapping/TemplateMap.h>
 
 #include <gtest/gtest.h>
 

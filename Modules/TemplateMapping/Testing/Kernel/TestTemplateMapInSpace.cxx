@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // MapTemplate for surfaces in space.
 #include "MapCases.h"
-#include "QualityFunctionals.h"
 #include "SurfaceCases.h"
-#include "TemplateMap.h"
+#include <knotwork/SplineCore/QualityFunctionals.h>
+#include <knotwork/TemplateMapping/TemplateMap.h>
 
 #include <gtest/gtest.h>
 

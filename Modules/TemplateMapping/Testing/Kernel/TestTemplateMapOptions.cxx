@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What each option of MapTemplate does.
 #include "MapCases.h"
-#include "QualityFunctionals.h"
-#include "Regularity.h"
 #include "TemplateCases.h"
-#include "TemplateMap.h"
+#include <knotwork/SplineCore/QualityFunctionals.h>
+#include <knotwork/TemplateMapping/Regularity.h>
+#include <knotwork/TemplateMapping/TemplateMap.h>
 
 #include <gtest/gtest.h>
 

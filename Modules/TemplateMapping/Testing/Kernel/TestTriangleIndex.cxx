@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceCases.h"
-#include "TriangleIndex.h"
+#include <knotwork/SplineCore/TriangleIndex.h>
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <knotwork/SplineCore/BezierForm.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace knotwork
+{
+/// What becomes of a patch with three parameters.
+enum class TessellationOutput
+{
+  Surface, ///< the outer boundary, as polygons
+  Volume   ///< hexahedra
+};
+
+inline constexpr int DefaultMaxTessellationCells = 20000000;
+
+struct TessellationParams
+{
+  double Tolerance = 1e-3;    ///< largest chordal deviation, unit of the points, > 0
+  int MaximumSubdivision = 8; ///< halvings of an element per direction, [0, 10]
+  TessellationOutput Output = TessellationOutput::Surface; ///< three parameters only
+  bool Normals = true; ///< of polygons, when the points have 2 or 3 components
+  /// False: points are shared wherever the model is connected; where elements disagree about the
+  /// normal (creases) it is the mean of theirs. True: points are repeated, bit for bit, between
+  /// patches and at creases, each copy with the exact normal of its side.
+  bool Splitting = false;
+  /// Polygons or hexahedra at most, >= 1.
+  int MaxCells = DefaultMaxTessellationCells;
+  int Threads = 0;
+  ProgressCallback Progress;
+};
+
+enum class TessellationShape : unsigned char
+{
+  Line,
+  Triangle,
+  Quadrilateral,
+  Hexahedron
+};
+
+/// Linear cells with their origin. Every point is the exact value at PointPatch, PointElement,
+/// PointLocal (rounding apart), evaluated once.
+struct TessellationMesh
+{
+  PointMatrix Points;            ///< n x c
+  PointMatrix Normals;           ///< n x 3 unit vectors, or empty
+  std::vector<int> PointPatch;   ///< index into the patches
+  std::vector<int> PointElement; ///< element of the patch
+  PointMatrix PointLocal;        ///< n x Dim in [0, 1]
+  std::vector<TessellationShape> Shapes;
+  std::vector<std::int64_t> Offsets; ///< cells + 1, into Connectivity
+  std::vector<std::int64_t> Connectivity;
+  std::vector<int> CellPatch;
+  std::vector<int> CellElement;
+  /// Proven upper bound of the chordal deviation; above the tolerance only where
+  /// MaximumSubdivision stopped the halving.
+  double Bound = 0.0;
+};
+
+/// Replaces patches by linear cells that deviate from them by at most the tolerance, in the sense
+/// of ChordalBound.h: |cell(lambda) - S(x)| <= Tolerance where x is the same convex combination of
+/// the corners' parameters. In particular both one-sided distances are at most the tolerance.
+///
+/// Each element is halved by its own bound, an edge by the largest need of the elements at it,
+/// T-junctions between levels included: vertices are keyed by integer positions on the dyadic grid
+/// of their patch and evaluated once, so the mesh is conforming by topology, never by closeness.
+/// Polygon cells with further vertices on their sides are split into triangles around a middle
+/// point. Hexahedra are cut on one uniform grid a patch (its finest element decides).
+///
+/// Sides of elements on the rim of patches are the same side when their homogeneous control points
+/// agree in either orientation but for rounding (PointClusters.h); a side whose control points
+/// coincide is one vertex. Patches whose elements do not match side by side are not connected there
+/// (the gap is at most twice the tolerance). Faces of solids that match are interior and do not
+/// appear on the surface.
+/// @param patches  Bezier forms with the same number of components.
+/// @return EmptyInput without elements; InvalidParameter; NonFiniteInput, InvalidWeight with patch
+/// and element; SizeMismatch; TooLarge above MaxCells; Aborted.
+/// @complexity linear in the output, sorting of the elements' rims apart.
+template <int Dim>
+Result<TessellationMesh> Tessellate(
+  const std::vector<BezierForm<Dim>>& patches, const TessellationParams& params = {});
+}

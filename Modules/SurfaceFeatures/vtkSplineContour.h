@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkSplineContour
+ * @brief   iso-curves of a spline surface to a guaranteed tolerance
+ *
+ * Contours of the height of a spline surface, or of a field of the spline grid. Everywhere on a
+ * contour, not at its points alone, the value is proved to be within the tolerance of the level
+ * (straight in the parameter plane between points), and contours have the components and the ends
+ * that the surface's have: loops smaller than an element are found, branches near a saddle do not
+ * touch. Contours are closed where the surface's are, also over seams of closed surfaces; they end
+ * on the boundary of patches and at jumps of the value. What lies on the level belongs to the upper
+ * set.
+ *
+ * Output 0 are polylines with the cell arrays Level, ComponentId, Closed, PatchId, MaxError and the
+ * point arrays Value, ElementId, UV. Output 1 are, with Curves on, the same as cubic spline curves
+ * (a spline grid, a patch a component) within the same tolerance. Output 2 is a table of the
+ * levels. Output 3 are the parts of the surface where a limit stopped the division of elements
+ * before the contour was decided; there is a warning then.
+ *
+ * The patches of a vtkPartitionedDataSetCollection are contoured together.
+ *
+ * The module's page has methods, conventions, limits, errors.
+ */
+#ifndef vtkSplineContour_h
+#define vtkSplineContour_h
+#include "vtkKnotworkSurfaceFeaturesModule.h" // for export macro
+#include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
+
+#include <string> // for FieldName
+#include <vector> // for Levels
+
+class VTKKNOTWORKSURFACEFEATURES_EXPORT vtkSplineContour : public vtkSplineAlgorithm
+{
+public:
+  static vtkSplineContour* New();
+  vtkTypeMacro(vtkSplineContour, vtkSplineAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /** Values of the contours; finite. Default none (NumberOfLevels of them are chosen). */
+  void AddLevel(double level);
+  void ClearLevels();
+  int GetNumberOfGivenLevels() { return static_cast<int>(this->Levels.size()); }
+  double GetLevel(int index) { return this->Levels.at(static_cast<std::size_t>(index)); }
+  ///@}
+  ///@{
+  /** How many levels are chosen when none are given: evenly in Range, its ends included, or inside
+   * the range of the values at the corners of elements. Default 10, valid range [1, 10000]. */
+  vtkSetClampMacro(NumberOfLevels, int, 1, 10000);
+  vtkGetMacro(NumberOfLevels, int);
+  ///@}
+  ///@{
+  /** Range of the levels that are chosen. Default 0, 0 (that of the values). */
+  vtkSetVector2Macro(Range, double);
+  vtkGetVector2Macro(Range, double);
+  ///@}
+  ///@{
+  /** Field whose contours are wanted. Default empty (the coordinates). */
+  vtkSetMacro(FieldName, std::string);
+  vtkGetMacro(FieldName, std::string);
+  ///@}
+  ///@{
+  /** Component of the field, or coordinate. Default -1 (the last: the height), valid range [-1,
+   * 1000]. */
+  vtkSetClampMacro(Component, int, -1, 1000);
+  vtkGetMacro(Component, int);
+  ///@}
+  ///@{
+  /** Largest difference between value and level anywhere on a contour. Default 0 (a
+   * ten-thousandth of the range of the values), valid range >= 0. */
+  vtkSetClampMacro(Tolerance, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(Tolerance, double);
+  ///@}
+  ///@{
+  /** Largest distance in space between straight pieces (spline curves) and the surface. Default 0
+   * (a thousandth of the diagonal of the box around the corners of elements), valid range >= 0. */
+  vtkSetClampMacro(ChordalTolerance, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(ChordalTolerance, double);
+  ///@}
+  ///@{
+  /** Whether contours go on over the seams of closed surfaces. Default on. */
+  vtkSetMacro(JoinSeams, bool);
+  vtkGetMacro(JoinSeams, bool);
+  vtkBooleanMacro(JoinSeams, bool);
+  ///@}
+  ///@{
+  /** Whether the third coordinate of points becomes the level. Default off. */
+  vtkSetMacro(ProjectToLevel, bool);
+  vtkGetMacro(ProjectToLevel, bool);
+  vtkBooleanMacro(ProjectToLevel, bool);
+  ///@}
+  ///@{
+  /** Whether output 1 is made. Default off. */
+  vtkSetMacro(Curves, bool);
+  vtkGetMacro(Curves, bool);
+  vtkBooleanMacro(Curves, bool);
+  ///@}
+  ///@{
+  /** Cells an element is divided into for a level at most. Default 65536, valid range [16,
+   * 1048576]. */
+  vtkSetClampMacro(MaximumCells, int, 16, 1048576);
+  vtkGetMacro(MaximumCells, int);
+  ///@}
+  ///@{
+  /** Points of the contours of a surface at most; more are error TooLarge. Default 5000000, valid
+   * range [1, 2147483647]. */
+  vtkSetClampMacro(MaximumPoints, int, 1, VTK_INT_MAX);
+  vtkGetMacro(MaximumPoints, int);
+  ///@}
+
+protected:
+  vtkSplineContour();
+  ~vtkSplineContour() override = default;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestDataObject(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkSplineContour(const vtkSplineContour&) = delete;
+  void operator=(const vtkSplineContour&) = delete;
+
+  std::vector<double> Levels;
+  int NumberOfLevels = 10;
+  double Range[2] = { 0.0, 0.0 };
+  std::string FieldName;
+  int Component = -1;
+  double Tolerance = 0.0;
+  double ChordalTolerance = 0.0;
+  bool JoinSeams = true;
+  bool ProjectToLevel = false;
+  bool Curves = false;
+  int MaximumCells = 65536;
+  int MaximumPoints = 5000000;
+};
+#endif

@@ -1,0 +1,495 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfaceFit.h"
+
+#include "FitChecks.h"
+#include "FitFeatures.h"
+#include "FitLikelihood.h"
+#include "FitMarks.h"
+#include "FitSides.h"
+#include "LeastSquares.h"
+#include "Multilevel.h"
+#include "OutlierSearch.h"
+#include <knotwork/SplineCore/Parallel.h>
+#include <knotwork/SplineCore/Refinement.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <numeric>
+
+namespace knotwork
+{
+namespace
+{
+constexpr std::size_t PointChunk = 16384;
+constexpr int MultilevelSteps = 2;             // an iteration
+constexpr int ReweightSteps = 3;               // an iteration
+constexpr int OutlierSteps = 3;                // an iteration
+constexpr double SolverAccuracy = 0.03;        // of the smallest tolerance
+constexpr double FirstSmoothing = 1e-3;        // of the surface that the first one starts from
+constexpr int FirstSteps = 3;                  // damped, to the first one
+constexpr double LeastProgress = 0.9;          // of the points outside may be left by an iteration
+constexpr std::size_t FunctionsPerPoint = 10;  // unless a limit is given
+constexpr std::size_t MostFunctions = 1000000; // of clouds with fewer points
+
+std::size_t At(int i)
+{
+  return static_cast<std::size_t>(i);
+}
+
+/// One fit while it runs.
+class Fitting
+{
+public:
+  Fitting(const PointCloud& cloud, const FitParams& params)
+    : Cloud(cloud), Params(params), Begin(std::chrono::steady_clock::now()),
+      Tolerances(FitTolerances(cloud, params)), Components(static_cast<int>(cloud.Values.cols())),
+      Moments(params.Degree, this->Components)
+  {
+  }
+
+  Result<SurfaceFit> Run()
+  {
+    if (Status status = this->Start(); !status)
+    {
+      return status;
+    }
+    for (int iteration = 0;; ++iteration)
+    {
+      this->Approximate(iteration);
+      this->Fit.Iterations.push_back(this->Summarize(iteration));
+      const FitIteration& row = this->Fit.Iterations.back();
+      this->IsBestEarlier = row.NumOutside > 0 && this->CriterionReached();
+      if (row.NumOutside == 0 || this->IsBestEarlier || this->LimitReached())
+      {
+        break;
+      }
+      if (this->Params.Progress && !this->Params.Progress(this->Share()))
+      {
+        return { ErrorCode::Aborted, "stopped in iteration " + std::to_string(iteration) };
+      }
+      if (this->IsSplit)
+      {
+        const std::vector<SplitMark> marks = MarkElements(
+          this->State, this->Functions, this->Points, this->Errors, this->Params, iteration);
+        auto refined = this->RefineWithinLimit(marks);
+        if (!refined)
+        {
+          return refined.Status;
+        }
+        this->IsSplit = refined.Value.Space != nullptr;
+        this->Stuck = this->Fit.End;
+        if (this->IsSplit)
+        {
+          this->Adopt(std::move(refined.Value));
+        }
+      }
+      else if (!this->IsNearer())
+      {
+        this->Fit.End = this->Stuck;
+        break;
+      }
+    }
+    this->Deliver();
+    return std::move(this->Fit);
+  }
+
+private:
+  Status Start()
+  {
+    const ParametricBox<2> domain = FitDomain(this->Cloud, this->Params);
+    auto first = MakeFirstState(this->Params, domain, this->Components, this->Tolerances.size());
+    if (!first)
+    {
+      return first.Status;
+    }
+    this->State = std::move(first.Value);
+    if (this->Params.Side != FitSide::Both)
+    {
+      this->Bands = EvenBands(this->Cloud.Parameters, domain, this->Tolerances);
+    }
+    this->Group();
+    this->Accuracy = SolverAccuracy *
+      *std::min_element(this->Points.Tolerance.begin(), this->Points.Tolerance.end());
+    this->Moments.Update(*this->State.Space, {}, {}, this->Points, this->Params.Threads);
+    if (this->Params.Smoothing > 0.0)
+    {
+      this->BeginWithMeans();
+    }
+    if (this->Params.FindOutliers)
+    {
+      this->Outliers.assign(this->Tolerances.size(), 0);
+      this->Weights.resize(this->Tolerances.size());
+      for (std::size_t i = 0; i < this->Points.Size(); ++i)
+      {
+        this->Weights[At(this->Points.Order[i])] = this->Points.Base[i];
+      }
+      this->Search = std::make_unique<OutlierSearch>(this->Cloud, domain, this->Params.NumMeasured);
+    }
+    return {};
+  }
+
+  /// Where there are no points an average of all is better than 0.
+  void BeginWithMeans()
+  {
+    for (int c = 0; c < this->Components; ++c)
+    {
+      double sum = 0.0;
+      double weight = 0.0;
+      for (int e = 0; e < this->State.Space->NumElements(); ++e)
+      {
+        const double* right = this->Moments.Right(e, c);
+        sum += std::accumulate(right, right + this->Moments.PerElement(), 0.0);
+        weight += this->Moments.Weight(e);
+      }
+      this->State.Coefficients.col(c).setConstant(sum / weight);
+    }
+  }
+
+  /// The points by the elements of the state's space.
+  void Group()
+  {
+    this->Points = GroupPoints(*this->State.Space, this->Cloud, this->Tolerances,
+      this->Params.SignificantWeight, this->Params.Threads);
+    for (std::size_t i = 0; !this->Outliers.empty() && i < this->Points.Size(); ++i)
+    {
+      if (this->Outliers[At(this->Points.Order[i])] != 0)
+      {
+        this->Points.Base[i] = 0.0;
+      }
+    }
+    if (this->Params.Side != FitSide::Both)
+    {
+      MoveToBands(this->Params.Side, this->Bands, this->Points);
+    }
+    this->Functions = FindElementFunctions(*this->State.Space, this->Params.Threads);
+  }
+
+  void Approximate(int iteration)
+  {
+    this->IsLeastSquares = this->Params.Method == FitMethod::LeastSquares ||
+      (this->Params.Method == FitMethod::Combined && iteration < this->Params.SwitchIteration);
+    std::unique_ptr<LeastSquaresSystem> system;
+    if (this->IsLeastSquares)
+    {
+      LeastSquaresParams params;
+      params.Smoothing = this->Params.Smoothing;
+      params.IsDamped = params.Smoothing > 0.0;
+      params.Accuracy = this->Accuracy;
+      params.Threads = this->Params.Threads;
+      system = std::make_unique<LeastSquaresSystem>(
+        this->Functions, this->Moments, this->Params.Degree, this->Components, params);
+      if (iteration == 0 && params.IsDamped)
+      {
+        this->SolveStiffly(params);
+        for (int k = 1; k < FirstSteps; ++k)
+        {
+          system->Solve(this->State.Coefficients);
+        }
+      }
+    }
+    this->Solve(system.get());
+    for (int k = 0; this->Search && k < OutlierSteps; ++k)
+    {
+      const std::vector<int> changed = this->Search->Update(this->Points, this->Weights,
+        this->Params.OutlierScale, this->Outliers, this->Params.Threads);
+      if (changed.empty())
+      {
+        break;
+      }
+      this->SolveAgain(changed, system.get());
+    }
+    for (int k = 0; system && k < ReweightSteps; ++k)
+    {
+      const std::vector<int> changed =
+        ReweightPoints(this->Errors, this->Functions.PerElement, this->Points);
+      if (changed.empty())
+      {
+        break;
+      }
+      this->SolveAgain(changed, system.get());
+    }
+  }
+
+  /// A surface that is sensible where there are no points, for the first one to start from.
+  void SolveStiffly(LeastSquaresParams params)
+  {
+    params.Smoothing = std::max(params.Smoothing, FirstSmoothing);
+    params.IsDamped = false;
+    LeastSquaresSystem(
+      this->Functions, this->Moments, this->Params.Degree, this->Components, params)
+      .Solve(this->State.Coefficients);
+  }
+
+  /// @param changed  elements with points whose weights have changed.
+  void SolveAgain(const std::vector<int>& changed, LeastSquaresSystem* system)
+  {
+    this->Moments.Recompute(*this->State.Space, changed, this->Points, this->Params.Threads);
+    if (system)
+    {
+      system->Update(changed);
+    }
+    this->Solve(system);
+  }
+
+  void Solve(const LeastSquaresSystem* system)
+  {
+    if (system)
+    {
+      system->Solve(this->State.Coefficients);
+    }
+    for (int k = 0; !system && k < MultilevelSteps; ++k)
+    {
+      MultilevelStep(*this->State.Space, this->Functions, this->Points, this->Params.Threads,
+        this->State.Coefficients);
+    }
+    this->Measure();
+  }
+
+  void Measure()
+  {
+    this->Errors = MeasureDistances(*this->State.Space, this->Functions, this->State.Coefficients,
+      this->Params.NumMeasured, this->Points, this->Params.Threads);
+  }
+
+  FitIteration Summarize(int iteration) const
+  {
+    FitIteration row;
+    row.Iteration = iteration;
+    row.LeastSquares = this->IsLeastSquares;
+    row.NumFunctions = this->State.Space->NumFunctions;
+    row.NumElements = this->State.Space->NumElements();
+    std::size_t count = 0;
+    double squares = 0.0;
+    for (const ElementErrors& own : this->Errors)
+    {
+      row.MaxError = std::max(row.MaxError, own.Max);
+      row.MeanError += own.Sum;
+      squares += own.Squares;
+      row.NumOutside += own.NumOutside;
+      count += own.Count;
+    }
+    const auto number = static_cast<double>(std::max<std::size_t>(count, 1));
+    row.MeanError /= number;
+    row.RmsError = std::sqrt(squares / number);
+    row.NumOutliers = this->Points.Size() - count;
+    const TDistribution t = FitTDistribution(this->Points, this->Params.Threads);
+    row.LogLikelihood = t.LogLikelihood;
+    row.DegreesOfFreedom = t.DegreesOfFreedom;
+    row.AIC = 2.0 * row.NumFunctions - 2.0 * t.LogLikelihood;
+    row.BIC = std::log(number) * row.NumFunctions - 2.0 * t.LogLikelihood;
+    row.Seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - this->Begin).count();
+    return row;
+  }
+
+  /// Part of the work done, by the logarithm of the number of points outside.
+  double Share()
+  {
+    const FitIteration& row = this->Fit.Iterations.back();
+    const double left = std::log1p(static_cast<double>(row.NumOutside)) /
+      std::log1p(static_cast<double>(this->Points.Size()));
+    const double limit = (row.Iteration + 1.0) / (this->Params.MaxIterations + 1.0);
+    this->Done = std::clamp(std::max(1.0 - left, limit), this->Done, 0.99);
+    return this->Done;
+  }
+
+  /// Keeps the state of the least value of the information criterion; true when it has risen twice.
+  bool CriterionReached()
+  {
+    if (this->Params.Criterion == FitCriterion::Tolerance)
+    {
+      return false;
+    }
+    const FitIteration& row = this->Fit.Iterations.back();
+    const double value = this->Params.Criterion == FitCriterion::AIC ? row.AIC : row.BIC;
+    this->Fit.End = FitEnd::Criterion;
+    if (row.Iteration == 0 || value < this->BestCriterion)
+    {
+      this->BestCriterion = value;
+      this->Best = this->State;
+      this->BestOutliers = this->Outliers;
+      this->NumRises = 0;
+      return false;
+    }
+    return ++this->NumRises == 2;
+  }
+
+  /// Whether the last iteration, in the space of the one before, has brought points inside.
+  bool IsNearer() const
+  {
+    const std::size_t before = this->Fit.Iterations[this->Fit.Iterations.size() - 2].NumOutside;
+    return static_cast<double>(this->Fit.Iterations.back().NumOutside) <=
+      LeastProgress * static_cast<double>(before);
+  }
+
+  /// Time is up, too, when another iteration like the last one would take longer.
+  bool LimitReached()
+  {
+    const std::vector<FitIteration>& rows = this->Fit.Iterations;
+    const double now = rows.back().Seconds;
+    const double last = rows.size() > 1 ? now - rows[rows.size() - 2].Seconds : 0.0;
+    if (this->Params.MaxSeconds > 0.0 && now + last >= this->Params.MaxSeconds)
+    {
+      this->Fit.End = FitEnd::Seconds;
+      return true;
+    }
+    this->Fit.End = FitEnd::Iterations;
+    return rows.back().Iteration >= this->Params.MaxIterations;
+  }
+
+  int FunctionLimit() const
+  {
+    const std::size_t n = this->Points.Size();
+    return this->Params.MaxFunctions > 0
+      ? this->Params.MaxFunctions
+      : static_cast<int>(std::max(n, std::min(FunctionsPerPoint * n, MostFunctions)));
+  }
+
+  /// The next state; without a space when nothing can be split. When all marks make more functions
+  /// than are allowed, the worst elements are split, as many as fit.
+  Result<FitState> RefineWithinLimit(const std::vector<SplitMark>& marks)
+  {
+    this->Fit.End = FitEnd::Functions;
+    if (marks.empty())
+    {
+      const bool contradict =
+        PointsContradict(this->State, this->Points, this->Errors, this->Params);
+      this->Fit.End = contradict ? FitEnd::Contradiction : FitEnd::Resolution;
+      return FitState{};
+    }
+    auto refined = RefineState(this->State, marks, this->Params);
+    const int limit = this->FunctionLimit();
+    if (!refined || refined.Value.Space->NumFunctions <= limit)
+    {
+      return refined;
+    }
+    std::vector<SplitMark> ranked = marks;
+    std::stable_sort(ranked.begin(), ranked.end(),
+      [&](const SplitMark& a, const SplitMark& b)
+      { return this->Errors[At(a.Element)].Ratio > this->Errors[At(b.Element)].Ratio; });
+    FitState best;
+    std::size_t low = 0; // marks that fit
+    std::size_t high = ranked.size();
+    while (high - low > std::max<std::size_t>(1, ranked.size() / 16))
+    {
+      const std::size_t middle = (low + high) / 2;
+      std::vector<SplitMark> some(
+        ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(middle));
+      std::sort(some.begin(), some.end(),
+        [](const SplitMark& a, const SplitMark& b) { return a.Element < b.Element; });
+      refined = RefineState(this->State, some, this->Params);
+      if (!refined)
+      {
+        return refined;
+      }
+      const bool fits = refined.Value.Space->NumFunctions <= limit;
+      (fits ? low : high) = middle;
+      if (fits)
+      {
+        best = std::move(refined.Value);
+      }
+    }
+    return best;
+  }
+
+  void Adopt(FitState refined)
+  {
+    const SplineSpace<2>& coarse = *this->State.Space;
+    const SplineSpace<2>& fine = *refined.Space;
+    const std::vector<int> parents = ParentElements(coarse, fine, this->Params.Threads);
+    std::vector<int> parts(At(coarse.NumElements()), 0);
+    for (const int parent : parents)
+    {
+      ++parts[At(parent)];
+    }
+    std::vector<bool> isSplit(parts.size());
+    std::transform(parts.begin(), parts.end(), isSplit.begin(), [](int n) { return n > 1; });
+    RegroupPoints(coarse, fine, parents, this->Points, this->Params.Threads);
+    this->Moments.Update(fine, parents, isSplit, this->Points, this->Params.Threads);
+    this->State = std::move(refined);
+    this->Functions = FindElementFunctions(*this->State.Space, this->Params.Threads);
+  }
+
+  void Deliver()
+  {
+    if (this->IsBestEarlier)
+    {
+      this->State = this->Best;
+      this->Outliers = this->BestOutliers;
+      this->Group();
+    }
+    if (this->Params.Side != FitSide::Both)
+    {
+      MoveFromBands(this->Cloud, this->Tolerances, this->Points);
+      this->Measure();
+      ShiftToSide(this->Params.Side, this->Functions, this->Points, this->State.Coefficients);
+    }
+    this->Fit.Final = this->Fit.Iterations.back();
+    if (this->IsBestEarlier || this->Params.Side != FitSide::Both)
+    {
+      this->Measure();
+      this->Fit.Final = this->Summarize(this->Fit.Iterations.back().Iteration);
+      this->Fit.Iterations.push_back(this->Fit.Final);
+    }
+    this->Fit.WithinTolerance = this->Fit.Final.NumOutside == 0;
+    this->Fit.End = this->Fit.WithinTolerance ? FitEnd::Tolerance : this->Fit.End;
+    this->Fit.Surface.Space = this->State.Space;
+    this->Fit.Surface.ControlPoints = std::move(this->State.Coefficients);
+    this->Fit.DomainPoints = std::move(this->State.DomainPoints);
+    this->Fit.Distances.resize(this->Points.Size());
+    ParallelFor(this->Points.Size(), PointChunk, this->Params.Threads,
+      [this](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          this->Fit.Distances[At(this->Points.Order[i])] = this->Points.Distance[i];
+        }
+      });
+    this->Fit.Tolerances = std::move(this->Tolerances);
+    this->Fit.Outliers = std::move(this->Outliers);
+    if (this->Params.FeatureGridSize > 0)
+    {
+      this->Fit.Features = ComputeFeatures(this->Cloud, this->Fit, this->Params.NumMeasured,
+        this->Params.FeatureGridSize, this->Params.Threads);
+    }
+  }
+
+  const PointCloud& Cloud;
+  const FitParams& Params;
+  std::chrono::steady_clock::time_point Begin;
+  std::vector<double> Tolerances;
+  std::vector<double> Bands; ///< one-sided fits: their widths
+  int Components;
+  double Accuracy = 0.0;
+  bool IsLeastSquares = true;
+  bool IsSplit = true;              ///< there has been something to split
+  FitEnd Stuck = FitEnd::Tolerance; ///< why not
+  FitState State;
+  FitPoints Points;
+  ElementFunctions Functions;
+  ElementMoments Moments;
+  std::vector<ElementErrors> Errors;
+  std::unique_ptr<OutlierSearch> Search;
+  std::vector<std::uint8_t> Outliers;
+  std::vector<double> Weights; // asked for, in the cloud's order
+  FitState Best;
+  std::vector<std::uint8_t> BestOutliers;
+  double BestCriterion = 0.0;
+  int NumRises = 0;
+  bool IsBestEarlier = false; ///< the criterion has ended the fit
+  double Done = 0.0;          // share that was reported
+  SurfaceFit Fit;
+};
+}
+
+Result<SurfaceFit> FitSurface(const PointCloud& cloud, const FitParams& params)
+{
+  if (Status status = CheckFit(cloud, params); !status)
+  {
+    return status;
+  }
+  return Fitting(cloud, params).Run();
+}
+}

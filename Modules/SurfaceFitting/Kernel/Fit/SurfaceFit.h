@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <knotwork/SplineCore/LRStrategies.h>
+
+#include <cstdint>
+
+namespace knotwork
+{
+/// Scattered points with parameters, n rows each.
+struct PointCloud
+{
+  PointMatrix Parameters; ///< n x 2, where on the surface a point belongs
+  /// n x c: the first FitParams::NumMeasured columns are what the tolerance is about (z of a height
+  /// field; x, y, z of a surface in space), the others are fitted along.
+  PointMatrix Values;
+  Eigen::VectorXd Tolerances; ///< n, > 0, a tolerance of each point; size 0: FitParams says
+  /// n, not 0 where a point counts FitParams::SignificantWeight times; size 0: nowhere.
+  std::vector<std::uint8_t> Significant;
+};
+
+/// Points of a parametric box have a tolerance of their own.
+struct ToleranceBox
+{
+  ParametricBox<2> Box;
+  double Tolerance = 0.0;
+};
+
+enum class FitSpace
+{
+  LocallyRefined,
+  Hierarchical ///< truncated hierarchical B-splines
+};
+
+enum class FitMethod
+{
+  LeastSquares,            ///< with smoothing, in every iteration
+  MultilevelApproximation, ///< MBA: averages of local solutions, no equations
+  Combined                 ///< least squares until FitParams::SwitchIteration, then MBA
+};
+
+enum class FitSide
+{
+  Both,
+  Above, ///< no point above the surface (by more than rounding)
+  Below  ///< no point below the surface
+};
+
+/// Which elements with points outside the tolerance an iteration splits; all of them when they are
+/// at most one in a hundred of all elements. After ten iterations ThresholdShare is halved in each.
+enum class FitThreshold
+{
+  All,           ///< all of them
+  LargestErrors, ///< those whose largest excess is at least ThresholdShare of the largest of all
+  MostPoints     ///< those whose number of points outside is at least ThresholdShare of the largest
+};
+
+enum class FitDirections
+{
+  Both,
+  Alternating,
+  ByError ///< the direction in which the distances vary more, an element
+};
+
+/// What ends the fit besides the tolerance and the limits.
+enum class FitCriterion
+{
+  Tolerance,
+  AIC, ///< the information criterion has risen twice: the fit before is the result
+  BIC
+};
+
+/// Why a fit ended.
+enum class FitEnd
+{
+  Tolerance, ///< all points are within
+  Iterations,
+  Functions,
+  Seconds,
+  Criterion,    ///< the information criterion has risen
+  Resolution,   ///< what is outside lies where no element may be split, or no smaller one helps
+  Contradiction ///< every point outside is in the place of another one that no surface meets too
+};
+
+/// What the tolerance grows with.
+enum class FitDistance
+{
+  None,
+  Value, ///< |value in the last measured column|: depth below a height of 0
+  Point  ///< distance of the parameters from DistanceCentre
+};
+
+/// One row of the table of iterations.
+struct FitIteration
+{
+  int Iteration = 0; ///< 0 is the initial space
+  bool LeastSquares = true;
+  int NumFunctions = 0;
+  int NumElements = 0;
+  double MaxError = 0.0;  ///< of points that are no outliers, as RmsError and MeanError
+  double MeanError = 0.0; ///< of absolute values
+  double RmsError = 0.0;
+  std::size_t NumOutside = 0; ///< points farther away than their tolerance, outliers left out
+  std::size_t NumOutliers = 0;
+  double LogLikelihood = 0.0; ///< of a t-distribution fitted to the distances
+  double DegreesOfFreedom = 0.0;
+  double AIC = 0.0;
+  double BIC = 0.0;
+  double Seconds = 0.0; ///< since the start
+};
+
+struct FitParams
+{
+  FitSpace Space = FitSpace::LocallyRefined;
+  IntArray<2> Degree{ 2, 2 };             ///< each in [1, 9]
+  IntArray<2> NumInitialElements{ 0, 0 }; ///< each >= 0; 0: chosen by the number of points
+  /// Parameter domain; without an area the box of the parameters.
+  ParametricBox<2> Domain;
+  int NumMeasured = 1; ///< in [1, columns of Values]
+
+  FitMethod Method = FitMethod::LeastSquares;
+  int SwitchIteration = 6; ///< >= 0
+  /// >= 0: weight of the thin-plate energy of an element in its own parameters, relative to the
+  /// mean weight of the points of an element, so it means the same on every level. Unless it is 0,
+  /// the first surface comes from a stiff one, and from then on control points change little where
+  /// there are few points or none. 0: nothing but the points decides, with spikes between sparse
+  /// ones.
+  double Smoothing = 1e-9;
+  double SignificantWeight = 10.0; ///< >= 1
+
+  double Tolerance = 0.0; ///< > 0, or 0: a thousandth of the range of the measured values
+  std::vector<ToleranceBox> ToleranceBoxes; ///< the smallest tolerance of those around a point
+  FitDistance Distance = FitDistance::None;
+  double DistanceSlope = 0.0; ///< tolerance = Tolerance + DistanceSlope * distance, >= 0
+  RealArray<2> DistanceCentre{};
+  FitSide Side = FitSide::Both;
+
+  bool FindOutliers = false;
+  double OutlierScale = 4.5; ///< robust standard deviations of the distances nearby, > 0
+
+  int MaxIterations = 30; ///< >= 0
+  /// 0: ten times the number of points but at most a million, or the number of points if that is
+  /// more.
+  int MaxFunctions = 0;
+  double MaxSeconds = 0.0; ///< 0: no limit
+  FitCriterion Criterion = FitCriterion::Tolerance;
+
+  FitThreshold Threshold = FitThreshold::LargestErrors;
+  double ThresholdShare = 0.1;                       ///< in [0, 1]
+  FitDirections Directions = FitDirections::ByError; ///< LR; THB elements are split in both
+  LRStrategy Strategy = LRStrategy::FullSpan;
+  bool Independent = false; ///< LR: no step leaves linearly dependent functions (slower)
+  /// Elements whose halves would be smaller than this share of the domain are not split; lines of
+  /// an LR space that come from beside them may still cross them. In (0, 1).
+  double MinElementSize = 1e-7;
+
+  int FeatureGridSize = 0; ///< n: an n x n grid of FitFeatures; 0: none
+  int Threads = 0;
+  ProgressCallback Progress;
+};
+
+/// Numbers of a regular grid over the domain, first parameter fastest, Size x Size cells.
+struct FitFeatures
+{
+  int Size = 0;
+  std::vector<double> Height;      ///< measured value in the middle of a cell (the last column)
+  std::vector<double> Slope;       ///< length of its gradient
+  std::vector<double> Roughness;   ///< standard deviation of the distances in a cell
+  std::vector<double> MaxError;    ///< largest distance in a cell
+  std::vector<double> ElementSize; ///< area of the element in the middle of a cell
+  std::vector<int> NumPoints;
+  std::vector<int> NumOutside;
+};
+
+struct SurfaceFit
+{
+  Spline<2> Surface; ///< columns of Values as components
+  /// The domain's own coordinates as control points of the space (u and v exactly): with Surface's
+  /// first column a height field is the surface (u, v, z).
+  PointMatrix DomainPoints;
+  std::vector<double> Distances;      ///< n; signed (value - surface) when NumMeasured is 1
+  std::vector<double> Tolerances;     ///< n, those that were used
+  std::vector<std::uint8_t> Outliers; ///< n, 1: an outlier; empty unless FindOutliers
+  /// The last row is Final. One-sided fits: errors before are distances from the middle of the band
+  /// between the points and their tolerances.
+  std::vector<FitIteration> Iterations;
+  FitFeatures Features;
+  FitIteration Final; ///< the numbers of the result, computed anew
+  bool WithinTolerance = false;
+  FitEnd End = FitEnd::Tolerance;
+};
+
+/// Fits a spline surface to points until all of them (outliers left out) are within tolerance:
+/// approximate, measure, split elements, again. Bit-identical for every number of threads.
+///
+/// @return EmptyInput; NonFiniteInput and TooLarge naming the point; SizeMismatch; InvalidDegree;
+/// InvalidParameter naming the option; OutsideDomain naming the point; Aborted. A fit that ends by
+/// a limit is a result with WithinTolerance false.
+/// @complexity an iteration O(points (p + 1)^2) and the solve.
+/// @source  Skytt, Barrowclough, Dokken, Computers & Graphics 49 (2015) 58-68 (LR least squares and
+/// MBA); Lee, Wolberg, Shin, IEEE TVCG 3 (1997) 228-244 (MBA).
+Result<SurfaceFit> FitSurface(const PointCloud& cloud, const FitParams& params);
+}
