@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PatchTopology.h"
 
+#include <knotwork/SplineCore/PatchDirections.h>
+
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkFieldData.h"
@@ -44,22 +46,6 @@ std::array<int, InterfaceColumns> Row(vtkDataArray* array, vtkIdType row)
   }
   return values;
 }
-
-bool IsOrientation(const PatchInterface& made, int dimension)
-{
-  std::array<int, 3> directions{ -1, -2, -3 };
-  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
-  {
-    directions[d] = made.DirectionMap[d];
-    if (directions[d] < 0 || directions[d] >= dimension || made.SameSense[d] < 0 ||
-      made.SameSense[d] > 1)
-    {
-      return false;
-    }
-  }
-  std::sort(directions.begin(), directions.end());
-  return std::adjacent_find(directions.begin(), directions.end()) == directions.end();
-}
 }
 
 void SetPatchTopology(const SplineFile& file, vtkDataObject* data)
@@ -70,19 +56,20 @@ void SetPatchTopology(const SplineFile& file, vtkDataObject* data)
   boundaries->SetName(BoundariesName);
   boundaries->SetNumberOfComponents(BoundaryColumns);
   const auto id = [&](const PatchSide& side)
-  { return file.Ids[static_cast<std::size_t>(side.Spline)]; };
-  for (const MultiPatch& patches : file.MultiPatches)
+  { return file.Ids[static_cast<std::size_t>(side.Patch)]; };
+  for (const StatedPatches& patches : file.MultiPatches)
   {
-    for (const PatchInterface& row : patches.Interfaces)
+    for (const PatchInterface& row : patches.Topology.Interfaces)
     {
-      const int values[] = { id(row.First), row.First.Side, id(row.Second), row.Second.Side,
-        row.DirectionMap[0], row.DirectionMap[1], row.DirectionMap[2], row.SameSense[0],
-        row.SameSense[1], row.SameSense[2] };
+      const PatchDirections along = DirectionsOf(row, patches.Dimension);
+      const int values[] = { id(row.Sides[0]), row.Sides[0].Side + 1, id(row.Sides[1]),
+        row.Sides[1].Side + 1, along.Direction[0], along.Direction[1], along.Direction[2],
+        along.Sense[0], along.Sense[1], along.Sense[2] };
       interfaces->InsertNextTypedTuple(values);
     }
-    for (const PatchSide& side : patches.Boundaries)
+    for (const PatchSide& side : patches.Topology.Boundary)
     {
-      const int values[] = { id(side), side.Side };
+      const int values[] = { id(side), side.Side + 1 };
       boundaries->InsertNextTypedTuple(values);
     }
   }
@@ -99,7 +86,7 @@ void SetPatchTopology(const SplineFile& file, vtkDataObject* data)
 std::string GetPatchTopology(vtkDataObject* data, SplineFile& file)
 {
   std::map<int, int> splineOfId;
-  std::array<MultiPatch, 4> made; // by dimension
+  std::array<StatedPatches, 4> made; // by dimension
   for (int i = 0; i < static_cast<int>(file.Splines.size()); ++i)
   {
     splineOfId[file.Ids[static_cast<std::size_t>(i)]] = i;
@@ -113,8 +100,8 @@ std::string GetPatchTopology(vtkDataObject* data, SplineFile& file)
     {
       return 0;
     }
-    side = { found->second, number };
-    const int dimension = SplineDimension(file, side.Spline);
+    side = { found->second, number - 1 };
+    const int dimension = SplineDimension(file, side.Patch);
     return number >= 1 && number <= 2 * dimension ? dimension : 0;
   };
   vtkIdType lost = 0;
@@ -123,13 +110,14 @@ std::string GetPatchTopology(vtkDataObject* data, SplineFile& file)
   {
     const auto row = Row(interfaces, i);
     PatchInterface next;
-    const int dimension = findSide(row[0], row[1], next.First);
-    const bool fits = dimension > 0 && findSide(row[2], row[3], next.Second) == dimension;
-    std::copy_n(row.begin() + 4, 3, next.DirectionMap.begin());
-    std::copy_n(row.begin() + 7, 3, next.SameSense.begin());
-    if (fits && IsOrientation(next, dimension))
+    const int dimension = findSide(row[0], row[1], next.Sides[0]);
+    const bool fits = dimension > 0 && findSide(row[2], row[3], next.Sides[1]) == dimension;
+    PatchDirections along;
+    std::copy_n(row.begin() + 4, dimension, along.Direction.begin());
+    std::copy_n(row.begin() + 7, dimension, along.Sense.begin());
+    if (fits && SetDirections(along, dimension, next))
     {
-      made[static_cast<std::size_t>(dimension)].Interfaces.push_back(next);
+      made[static_cast<std::size_t>(dimension)].Topology.Interfaces.push_back(next);
     }
     else
     {
@@ -144,7 +132,7 @@ std::string GetPatchTopology(vtkDataObject* data, SplineFile& file)
     const int dimension = findSide(row[0], row[1], side);
     if (dimension > 0)
     {
-      made[static_cast<std::size_t>(dimension)].Boundaries.push_back(side);
+      made[static_cast<std::size_t>(dimension)].Topology.Boundary.push_back(side);
     }
     else
     {
@@ -153,9 +141,10 @@ std::string GetPatchTopology(vtkDataObject* data, SplineFile& file)
   }
   for (int dimension = 1; dimension <= 3; ++dimension)
   {
-    MultiPatch& patches = made[static_cast<std::size_t>(dimension)];
+    StatedPatches& patches = made[static_cast<std::size_t>(dimension)];
     patches.Dimension = dimension;
-    if (patches.Splines.size() > 1 || !patches.Interfaces.empty() || !patches.Boundaries.empty())
+    if (patches.Splines.size() > 1 || !patches.Topology.Interfaces.empty() ||
+      !patches.Topology.Boundary.empty())
     {
       file.MultiPatches.push_back(std::move(patches));
     }

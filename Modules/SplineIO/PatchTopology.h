@@ -6,9 +6,8 @@
 class vtkDataObject;
 
 /// The multi-patch topology that a file states, as field data of its spline grid:
-///   PatchInterfaces  10 integers a row: PatchId and side, PatchId and side, three directions,
-///   three
-///                    senses, as in PatchInterface;
+///   PatchInterfaces  10 integers a row: PatchId and side, PatchId and side (from 1 on), three
+///                    directions, three senses, as in PatchDirections;
 ///   PatchBoundaries  2 integers a row: PatchId and side.
 namespace knotwork
 {

@@ -86,15 +86,16 @@ void EncodeEdges(const std::vector<knotwork::StitchedEdge>& edges, vtkTable* tab
   for (std::size_t i = 0; i < 2; ++i)
   {
     AddEdgeColumn<vtkIntArray>(
-      table, tiles[i], edges, [i](const Edge& e) { return e.Pair.Tiles[i]; });
+      table, tiles[i], edges, [i](const Edge& e) { return e.Interface.Sides[i].Patch; });
     AddEdgeColumn<vtkIntArray>(
-      table, sides[i], edges, [i](const Edge& e) { return e.Pair.Sides[i]; });
+      table, sides[i], edges, [i](const Edge& e) { return e.Interface.Sides[i].Side; });
     AddEdgeColumn<vtkDoubleArray>(
-      table, starts[i], edges, [i](const Edge& e) { return e.Start[i]; });
-    AddEdgeColumn<vtkDoubleArray>(table, ends[i], edges, [i](const Edge& e) { return e.End[i]; });
+      table, starts[i], edges, [i](const Edge& e) { return e.Interface.Parts[i].Lower[0]; });
+    AddEdgeColumn<vtkDoubleArray>(
+      table, ends[i], edges, [i](const Edge& e) { return e.Interface.Parts[i].Upper[0]; });
   }
-  AddEdgeColumn<vtkIntArray>(
-    table, "Reversed", edges, [](const Edge& e) { return e.Pair.Reversed ? 1 : 0; });
+  AddEdgeColumn<vtkIntArray>(table, "Reversed", edges,
+    [](const Edge& e) { return e.Interface.Orientation.Reversed[0] ? 1 : 0; });
   AddEdgeColumn<vtkDoubleArray>(
     table, "JumpBefore", edges, [](const Edge& e) { return e.JumpBefore; });
   AddEdgeColumn<vtkDoubleArray>(table, "Jump", edges, [](const Edge& e) { return e.Jump; });
@@ -207,7 +208,10 @@ Status vtkSplineStitch::Compute(vtkInformationVector** inputs, vtkInformationVec
   params.Matching = static_cast<knotwork::TileMatching>(this->Matching);
   for (const auto& [tileA, sideA, tileB, sideB, reversed] : this->Pairs)
   {
-    params.Pairs.push_back({ { tileA, tileB }, { sideA, sideB }, reversed != 0 });
+    params.Pairs.emplace_back();
+    params.Pairs.back().Sides = { knotwork::PatchSide{ tileA, sideA },
+      knotwork::PatchSide{ tileB, sideB } };
+    params.Pairs.back().Orientation = knotwork::SideOrientation::Make(reversed != 0 ? 1 : 0);
   }
   params.Tolerance = this->Tolerance;
   params.NumMeasured = 3;

@@ -2,6 +2,7 @@
 #include "SewnBoundary.h"
 
 #include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/MultiPatch.h>
 #include <knotwork/SplineCore/PointClusters.h>
 #include <knotwork/SplineCore/TensorSpace.h>
 
@@ -13,48 +14,22 @@ namespace
 {
 constexpr int SamplesOfSide = 17;
 
-/// A side of a surface with clamped knots as a curve along the free parameter.
-Spline<1> SideCurve(const Spline<2>& surface, std::size_t direction, bool upper)
-{
-  const auto& knots = surface.Space->Knots;
-  const std::size_t along = 1 - direction;
-  const int count[2] = { knots[0].NumFunctions(), knots[1].NumFunctions() };
-  const int stride[2] = { 1, count[0] };
-  const int first = upper ? (count[direction] - 1) * stride[direction] : 0;
-  Spline<1> curve;
-  curve.Space = MakeTensorSpace<1>({ knots[along] }).Value;
-  curve.ControlPoints.resize(count[along], surface.ControlPoints.cols());
-  curve.Weights.resize(surface.IsRational() ? count[along] : 0);
-  for (int i = 0; i < count[along]; ++i)
-  {
-    const int row = first + i * stride[along];
-    curve.ControlPoints.row(i) = surface.ControlPoints.row(row);
-    if (surface.IsRational())
-    {
-      curve.Weights[i] = surface.Weights[row];
-    }
-  }
-  return curve;
-}
-
 /// The straight pcurve of a side.
-Spline<1> SideParameters(const Spline<2>& surface, std::size_t direction, bool upper)
+Spline<1> SideParameters(const Spline<2>& surface, int side)
 {
-  const auto& knots = surface.Space->Knots;
-  const KnotVector& along = knots[1 - direction];
+  const KnotVector& along = surface.Space->Knots[SideDirections<2>(side)[0]];
   Spline<1> line;
   line.Space = MakeTensorSpace<1>({ KnotVector::Uniform(1, 1, along.Begin(), along.End()) }).Value;
-  const auto fixed = static_cast<Eigen::Index>(direction);
+  const Eigen::Index fixed = side / 2;
   line.ControlPoints.resize(2, 2);
-  line.ControlPoints.col(fixed).setConstant(
-    upper ? knots[direction].End() : knots[direction].Begin());
+  line.ControlPoints.col(fixed).setConstant(SideValue<2>(surface.Space->Domain(), side));
   line.ControlPoints(0, 1 - fixed) = along.Begin();
   line.ControlPoints(1, 1 - fixed) = along.End();
   return line;
 }
 
 /// Points at equal shares of the domain.
-PointMatrix SampleSide(const Spline<1>& curve)
+SideSamples SampleSide(const Spline<1>& curve)
 {
   const KnotVector& knots = curve.Space->Knots[0];
   PointMatrix parameters(SamplesOfSide, 1);
@@ -67,7 +42,10 @@ PointMatrix SampleSide(const Spline<1>& curve)
   params.Threads = 1;
   EvaluationBatch batch;
   EvaluateParameters<1>(MakeBezierForm<1>(curve, 1), parameters, params, batch);
-  return batch.Values;
+  SideSamples samples;
+  samples.Count[0] = SamplesOfSide;
+  samples.Points = std::move(batch.Values);
+  return samples;
 }
 
 bool IsPoint(const PointMatrix& points, double tolerance)
@@ -86,13 +64,13 @@ public:
 private:
   struct Side
   {
-    PointMatrix Samples;
+    SideSamples Samples;
     Spline<1> Curve;
     std::array<int, 2> Vertices{};
     int Edge = 0;
   };
   int VertexNumber(int body, const PointMatrix& samples, Eigen::Index row);
-  BoundaryCurve UseOfSide(const TrimmedFace& face, std::size_t direction, bool upper);
+  BoundaryCurve UseOfSide(const TrimmedFace& face, int number);
 
   double Tolerance;
   SewnBoundary& Result;
@@ -111,16 +89,16 @@ int SideSewing::VertexNumber(int body, const PointMatrix& samples, Eigen::Index 
   return found.first->second;
 }
 
-BoundaryCurve SideSewing::UseOfSide(const TrimmedFace& face, std::size_t direction, bool upper)
+BoundaryCurve SideSewing::UseOfSide(const TrimmedFace& face, int number)
 {
   BoundaryCurve use;
-  use.Curve = SideCurve(face.Surface, direction, upper);
-  use.Parameters = SideParameters(face.Surface, direction, upper);
+  use.Curve = SideSpline<2>(face.Surface, number).Value;
+  use.Parameters = SideParameters(face.Surface, number);
   use.Degenerate = IsPoint(use.Curve.ControlPoints, this->Tolerance);
   Side side;
   side.Samples = SampleSide(use.Curve);
-  use.Vertices = { this->VertexNumber(face.Body, side.Samples, 0),
-    this->VertexNumber(face.Body, side.Samples, SamplesOfSide - 1) };
+  use.Vertices = { this->VertexNumber(face.Body, side.Samples.Points, 0),
+    this->VertexNumber(face.Body, side.Samples.Points, SamplesOfSide - 1) };
   const std::array<int, 2> key{ std::min(use.Vertices[0], use.Vertices[1]),
     std::max(use.Vertices[0], use.Vertices[1]) };
   if (!use.Degenerate)
@@ -129,13 +107,12 @@ BoundaryCurve SideSewing::UseOfSide(const TrimmedFace& face, std::size_t directi
     for (auto it = range.first; it != range.second; ++it)
     {
       const Side& other = it->second;
-      const auto near = [&](const PointMatrix& samples)
-      { return (samples - other.Samples).rowwise().norm().maxCoeff() <= this->Tolerance; };
-      const bool same = near(side.Samples);
-      if (!same && !near(side.Samples.colwise().reverse()))
+      const auto fitting = FittingOrientations(side.Samples, other.Samples, this->Tolerance);
+      if (fitting.empty())
       {
         continue;
       }
+      const bool same = !fitting.front().Reversed[0];
       // this side's pcurve on the domain, and in the sense, of the edge
       use.Curve = other.Curve;
       const KnotVector& knots = use.Curve.Space->Knots[0];
@@ -162,10 +139,10 @@ BoundaryCurve SideSewing::UseOfSide(const TrimmedFace& face, std::size_t directi
 BoundaryLoop SideSewing::NaturalLoop(const TrimmedFace& face)
 {
   BoundaryLoop loop;
-  loop.push_back(this->UseOfSide(face, 1, false));
-  loop.push_back(this->UseOfSide(face, 0, true));
-  loop.push_back(this->UseOfSide(face, 1, true));
-  loop.push_back(this->UseOfSide(face, 0, false));
+  loop.push_back(this->UseOfSide(face, 2));
+  loop.push_back(this->UseOfSide(face, 1));
+  loop.push_back(this->UseOfSide(face, 3));
+  loop.push_back(this->UseOfSide(face, 0));
   for (std::size_t s = 2; s < 4; ++s) // counterclockwise: against the parameter
   {
     loop[s].Reversed = !loop[s].Reversed;

@@ -16,7 +16,7 @@ namespace
 template <int Dim>
 struct Arrangement
 {
-  std::array<SideOrigin<Dim>, 2 * Dim> Sides;
+  std::array<SideOrigin, 2 * Dim> Sides;
   double Gap = std::numeric_limits<double>::infinity();
 };
 
@@ -32,10 +32,9 @@ public:
   /// The arrangement with the smallest gap; among equals the first in the order of the sides.
   Arrangement<Dim> Find()
   {
-    this->All = Orientations<Dim>();
     this->Used.assign(this->Corners.size(), false);
     this->Known.fill(false);
-    SideOrigin<Dim> first = this->All.front();
+    SideOrigin first;
     first.Input = 0;
     this->Used[0] = true;
     const auto saved = this->Known;
@@ -54,15 +53,15 @@ private:
   }
 
   /// Gap that a side would leave to the corners known so far; its own corners become known.
-  double Place(int role, const SideOrigin<Dim>& origin)
+  double Place(int role, const SideOrigin& origin)
   {
     this->Current.Sides[static_cast<std::size_t>(role)] = origin;
     double gap = 0.0;
     for (int c = 0; c < (1 << (Dim - 1)); ++c)
     {
-      const std::size_t corner = static_cast<std::size_t>(MapCorner<Dim>(role, c));
+      const std::size_t corner = static_cast<std::size_t>(PatchCorner<Dim>(role, c));
       const Point& point = this->Corners[static_cast<std::size_t>(origin.Input)]
-                                        [static_cast<std::size_t>(GivenCorner<Dim>(origin, c))];
+                                        [static_cast<std::size_t>(origin.Corner(c))];
       if (this->Known[corner])
       {
         gap = std::max(gap, (point - this->Points[corner]).norm());
@@ -96,9 +95,9 @@ private:
         continue;
       }
       this->Used[input] = true;
-      for (SideOrigin<Dim> origin : this->All)
+      for (const SideOrientation& orientation : SideOrientations(Dim - 1))
       {
-        origin.Input = static_cast<int>(input);
+        const SideOrigin origin{ orientation, static_cast<int>(input) };
         const auto known = this->Known;
         const auto points = this->Points;
         const double grown = std::max(gap, this->Place(Role(step), origin));
@@ -113,7 +112,6 @@ private:
     }
   }
 
-  std::vector<SideOrigin<Dim>> All;
   std::vector<bool> Used;
   std::array<bool, (1 << Dim)> Known{};
   std::array<Point, (1 << Dim)> Points;
@@ -136,7 +134,7 @@ std::string CornerName(int corner)
 /// The largest distance between two sides at one corner, as an error.
 template <int Dim>
 Status GapError(const std::array<Spline<Dim - 1>, 2 * Dim>& sides,
-  const std::array<SideOrigin<Dim>, 2 * Dim>& origins, double tolerance)
+  const std::array<SideOrigin, 2 * Dim>& origins, double tolerance)
 {
   double worst = -1.0;
   std::string detail;
@@ -148,8 +146,8 @@ Status GapError(const std::array<Spline<Dim - 1>, 2 * Dim>& sides,
       {
         for (int j = 0; j < (1 << (Dim - 1)); ++j)
         {
-          const int corner = MapCorner<Dim>(a, i);
-          if (corner != MapCorner<Dim>(b, j))
+          const int corner = PatchCorner<Dim>(a, i);
+          if (corner != PatchCorner<Dim>(b, j))
           {
             continue;
           }
@@ -181,7 +179,7 @@ Status GapError(const std::array<Spline<Dim - 1>, 2 * Dim>& sides,
 /// Brings all sides to the same degree and knots in each direction of the map.
 template <int Dim>
 Status MergeKnots(std::array<Spline<Dim - 1>, 2 * Dim>& sides,
-  const std::array<SideOrigin<Dim>, 2 * Dim>& origins, std::array<KnotVector, Dim>& knots)
+  const std::array<SideOrigin, 2 * Dim>& origins, std::array<KnotVector, Dim>& knots)
 {
   constexpr int D = Dim - 1;
   for (int d = 0; d < Dim; ++d)
@@ -192,7 +190,7 @@ Status MergeKnots(std::array<Spline<Dim - 1>, 2 * Dim>& sides,
       const auto directions = SideDirections<Dim>(s);
       for (int k = 0; k < D; ++k)
       {
-        if (directions[static_cast<std::size_t>(k)] == d)
+        if (directions[static_cast<std::size_t>(k)] == static_cast<std::size_t>(d))
         {
           const std::size_t at = static_cast<std::size_t>(s);
           users.push_back({ &sides[at], k, origins[at].Input });
@@ -210,7 +208,7 @@ Status MergeKnots(std::array<Spline<Dim - 1>, 2 * Dim>& sides,
 }
 
 /// Weights of curves that meet become equal at the corners.
-Status MatchWeights(std::array<Spline<1>, 4>& sides, const std::array<SideOrigin<2>, 4>& origins)
+Status MatchWeights(std::array<Spline<1>, 4>& sides, const std::array<SideOrigin, 4>& origins)
 {
   for (Spline<1>& side : sides)
   {
@@ -235,7 +233,7 @@ Status MatchWeights(std::array<Spline<1>, 4>& sides, const std::array<SideOrigin
 }
 
 /// A constant factor a face makes the weights at the corners equal; edges are compared later.
-Status MatchWeights(std::array<Spline<2>, 6>& sides, const std::array<SideOrigin<3>, 6>&)
+Status MatchWeights(std::array<Spline<2>, 6>& sides, const std::array<SideOrigin, 6>&)
 {
   for (Spline<2>& side : sides)
   {
@@ -275,9 +273,8 @@ Status ShareRows(CompatibleBoundary<Dim>& boundary, double tolerance)
     for (Eigen::Index i = 0; i < side.ControlPoints.rows(); ++i)
     {
       Eigen::Index rest = i;
-      for (int k : directions)
+      for (const std::size_t d : directions)
       {
-        const std::size_t d = static_cast<std::size_t>(k);
         index[d] = static_cast<int>(rest % counts[d]);
         rest /= counts[d];
       }
@@ -291,10 +288,10 @@ Status ShareRows(CompatibleBoundary<Dim>& boundary, double tolerance)
         const Spline<D>& other = boundary.Sides[static_cast<std::size_t>(o)];
         Eigen::Index j = 0;
         Eigen::Index stride = 1;
-        for (int k : SideDirections<Dim>(o))
+        for (const std::size_t d : SideDirections<Dim>(o))
         {
-          j += stride * index[static_cast<std::size_t>(k)];
-          stride *= counts[static_cast<std::size_t>(k)];
+          j += stride * index[d];
+          stride *= counts[d];
         }
         const double gap = (side.ControlPoints.row(i) - other.ControlPoints.row(j)).norm();
         boundary.LargestGap = std::max(boundary.LargestGap, gap);
@@ -394,9 +391,8 @@ Result<CompatibleBoundary<Dim>> MakeCompatible(
   {
     for (std::size_t s = 0; s < NumSides; ++s)
     {
-      const SideOrigin<Dim>& origin = result.Origins[s];
-      result.Sides[s] =
-        Reoriented<D>(given[static_cast<std::size_t>(origin.Input)], origin.Axis, origin.Reversed);
+      const SideOrigin& origin = result.Origins[s];
+      result.Sides[s] = Reoriented<D>(given[static_cast<std::size_t>(origin.Input)], origin);
     }
   };
   arrange();
@@ -411,8 +407,8 @@ Result<CompatibleBoundary<Dim>> MakeCompatible(
         {
           for (int j = 0; j < (1 << D); ++j)
           {
-            if (MapCorner<Dim>(static_cast<int>(s), i) == a &&
-              MapCorner<Dim>(static_cast<int>(o), j) == a)
+            if (PatchCorner<Dim>(static_cast<int>(s), i) == a &&
+              PatchCorner<Dim>(static_cast<int>(o), j) == a)
             {
               const Spline<D>& side = result.Sides[s];
               const Spline<D>& other = result.Sides[o];

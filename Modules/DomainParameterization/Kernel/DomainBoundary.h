@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <knotwork/SplineCore/MultiPatch.h>
 #include <knotwork/SplineCore/SizeLimit.h>
 #include <knotwork/SplineCore/Spline.h>
 
@@ -23,25 +24,19 @@ struct BoundaryParams
   int MaxFunctions = DefaultMaxFunctions;
 };
 
-/// Which given side a side of the map is, and how it lies there. Direction k of the map's side (its
-/// directions are those of the map without the side's own, in increasing order) is direction
-/// Axis[k] of the given side, run backwards when Reversed[k].
-template <int Dim>
-struct SideOrigin
+/// Which given side a side of the map is, and how it lies there.
+struct SideOrigin : SideOrientation
 {
   int Input = -1;
-  std::array<int, Dim - 1> Axis{};
-  std::array<bool, Dim - 1> Reversed{};
 };
 
-/// The sides of a map on [0, 1]^Dim, made compatible. Side 2 d + e is where parameter d is e (in 2D
-/// west, east, south, north), with the map's remaining directions in increasing order.
+/// The sides of a map on [0, 1]^Dim, made compatible.
 template <int Dim>
 struct CompatibleBoundary
 {
   std::array<KnotVector, Dim> Knots;          ///< of the map, clamped on [0, 1]
   std::array<Spline<Dim - 1>, 2 * Dim> Sides; ///< Dim components, rational all or none
-  std::array<SideOrigin<Dim>, 2 * Dim> Origins;
+  std::array<SideOrigin, 2 * Dim> Origins;
   double LargestGap = 0.0; ///< that was closed at a corner or edge, unit of the points
   double Size = 0.0;       ///< diagonal of the control points' bounding box
 

@@ -249,7 +249,8 @@ public:
 
   Result<GluedMap<Dim>> Refine(const GluedMap<Dim>& map, const JacobianCertificate&) override
   {
-    std::vector<Spline<Dim>> patches;
+    MultiPatch<Dim> patches;
+    patches.Topology.Interfaces = this->Layout.Shared;
     for (const Spline<Dim>& patch : map.Patches)
     {
       auto refined = RefineAllElements<Dim>(patch);
@@ -257,16 +258,16 @@ public:
       {
         return refined.Status;
       }
-      patches.push_back(std::move(refined->Value));
+      patches.Patches.push_back(std::move(refined->Value));
     }
-    auto glued = Glue<Dim>(patches, this->Layout.Shared, this->Layout.Corners);
-    for (std::size_t p = 0; p < patches.size() && glued; ++p)
+    auto glued = Glue<Dim>(patches, this->Layout.Corners);
+    for (std::size_t p = 0; p < patches.Patches.size() && glued; ++p)
     {
       for (int s = 0; s < 2 * Dim; ++s)
       {
         if (this->Layout.Fixed[p][static_cast<std::size_t>(s)])
         {
-          for (int f : SideFunctions<Dim>(*patches[p].Space, s))
+          for (int f : SideFunctions<Dim>(*patches.Patches[p].Space, s))
           {
             glued
               ->Fixed[static_cast<std::size_t>(glued->Functions[p][static_cast<std::size_t>(f)])] =
@@ -292,12 +293,13 @@ void FindFolds(const CompatibleLayout<Dim>& layout, const GluedMap<Dim>& map, Do
     boundary.Knots = map.Patches[p].Space->Knots;
     for (int s = 0; s < 2 * Dim; ++s)
     {
+      auto side = SideSpline<Dim>(map.Patches[p], s);
+      if (!side)
+      {
+        return; // not finite: no place can be named
+      }
       const std::size_t at = static_cast<std::size_t>(s);
-      Part<Dim> part;
-      part.fill(2);
-      part[at / 2] = s % 2;
-      boundary.Sides[at] = Extract<Dim, Dim - 1>(
-        map.Patches[p], part, PartFunctions<Dim>(*map.Patches[p].Space, part));
+      boundary.Sides[at] = std::move(side.Value);
       boundary.Origins[at].Input = layout.Inputs[p][at];
     }
     for (BoundaryFold& fold : FindBoundaryFolds<Dim>(boundary, layout.Fixed[p]))

@@ -88,29 +88,6 @@ private:
   std::vector<bool> Flipped;
 };
 
-/// +1 when the side's directions, the outward normal first, are a right-handed frame.
-template <int Dim>
-int SideSign(int side)
-{
-  return (side % 2 == 1) == (side / 2 % 2 == 0) ? 1 : -1;
-}
-
-/// Sign of the change of directions.
-template <int Dim>
-int OriginSign(const SideOrigin<Dim>& origin)
-{
-  int sign = 1;
-  for (std::size_t k = 0; k < Dim - 1; ++k)
-  {
-    sign = origin.Reversed[k] ? -sign : sign;
-    for (std::size_t l = 0; l < k; ++l)
-    {
-      sign = origin.Axis[l] > origin.Axis[k] ? -sign : sign;
-    }
-  }
-  return sign;
-}
-
 template <int Dim>
 class Builder
 {
@@ -233,18 +210,15 @@ public:
             "more than two patches have the side between " + this->Names(side.Vertices) };
         }
         first.Shared = true;
-        SharedSide<Dim> shared;
-        shared.PatchA = first.Patch;
-        shared.SideA = first.Number;
-        shared.PatchB = p;
-        shared.SideB = s;
-        if (!Lies(side.Vertices, first.Vertices, shared.Origin))
+        PatchInterface shared;
+        shared.Sides = { PatchSide{ first.Patch, first.Number }, PatchSide{ p, s } };
+        if (!Lies(side.Vertices, first.Vertices, shared.Orientation))
         {
           return { ErrorCode::InvalidTopology,
             this->Pair(first.Patch, p) + " have the same vertices at a side (" +
               this->Names(side.Vertices) + ") but in different orders" };
         }
-        if (SideSign<Dim>(first.Number) * SideSign<Dim>(s) * OriginSign<Dim>(shared.Origin) != -1)
+        if (SideSign(first.Number) * SideSign(s) * shared.Orientation.Sign() != -1)
         {
           return { ErrorCode::InvalidTopology,
             this->Pair(first.Patch, p) + " are oriented differently at their side between " +
@@ -308,7 +282,7 @@ public:
       SideCorners key = ends;
       std::sort(key.begin(), key.end());
       const auto at = known.find(key);
-      SideOrigin<Dim> origin;
+      SideOrientation origin;
       if (at == known.end() || !Lies(this->Sides[at->second].Vertices, ends, origin))
       {
         return { ErrorCode::InvalidTopology,
@@ -341,18 +315,18 @@ public:
   Status OrientSides()
   {
     this->Rows = Classes(this->Out.Corners.size() * Dim);
-    for (const SharedSide<Dim>& shared : this->Out.Shared)
+    for (const PatchInterface& shared : this->Out.Shared)
     {
-      const auto a = SideDirections<Dim>(shared.SideA);
-      const auto b = SideDirections<Dim>(shared.SideB);
+      const auto a = SideDirections<Dim>(shared.Sides[0].Side);
+      const auto b = SideDirections<Dim>(shared.Sides[1].Side);
       for (std::size_t k = 0; k < D; ++k)
       {
-        const int along = a[static_cast<std::size_t>(shared.Origin.Axis[k])];
-        if (!this->Rows.Unite(
-              Row(shared.PatchA, along), Row(shared.PatchB, b[k]), shared.Origin.Reversed[k]))
+        const std::size_t along = a[static_cast<std::size_t>(shared.Orientation.Axis[k])];
+        if (!this->Rows.Unite(Row(shared.Sides[0].Patch, along), Row(shared.Sides[1].Patch, b[k]),
+              shared.Orientation.Reversed[k]))
         {
           return { ErrorCode::InvalidTopology,
-            "a row of patches comes back to patch " + std::to_string(shared.PatchB) +
+            "a row of patches comes back to patch " + std::to_string(shared.Sides[1].Patch) +
               " the other way round" };
         }
       }
@@ -363,15 +337,14 @@ public:
       {
         continue;
       }
-      SideOrigin<Dim> origin = side.Origin;
+      SideOrientation origin = side.Origin;
       const auto directions = SideDirections<Dim>(side.Number);
       for (std::size_t k = 0; k < D; ++k)
       {
         side.Backwards[k] = this->Rows.IsFlipped(Row(side.Patch, directions[k]));
         origin.Reversed[k] = origin.Reversed[k] != side.Backwards[k];
       }
-      side.Shape = Reoriented<D>(
-        this->Prepared[static_cast<std::size_t>(side.Input)], origin.Axis, origin.Reversed);
+      side.Shape = Reoriented<D>(this->Prepared[static_cast<std::size_t>(side.Input)], origin);
     }
     return {};
   }
@@ -380,10 +353,10 @@ public:
   Result<bool> Mirror()
   {
     Classes pieces(this->Out.Corners.size());
-    for (const SharedSide<Dim>& shared : this->Out.Shared)
+    for (const PatchInterface& shared : this->Out.Shared)
     {
-      pieces.Unite(
-        static_cast<std::size_t>(shared.PatchA), static_cast<std::size_t>(shared.PatchB), false);
+      pieces.Unite(static_cast<std::size_t>(shared.Sides[0].Patch),
+        static_cast<std::size_t>(shared.Sides[1].Patch), false);
     }
     std::map<std::size_t, double> areas;
     const Eigen::Matrix<double, 1, Dim> center = this->Prepared.front().ControlPoints.row(0);
@@ -506,7 +479,7 @@ public:
       double count = 1.0;
       for (int d = 0; d < Dim; ++d)
       {
-        const std::size_t row = Row(static_cast<int>(p), d);
+        const std::size_t row = Row(static_cast<int>(p), static_cast<std::size_t>(d));
         const auto found = knots.find(this->Rows.Find(row));
         own[static_cast<std::size_t>(d)] = found == knots.end()
           ? KnotVector::Uniform(this->Params.MinDegree, this->Params.MinElements)
@@ -521,7 +494,8 @@ public:
     {
       return status;
     }
-    std::vector<Spline<Dim>> patches;
+    MultiPatch<Dim> patches;
+    patches.Topology.Interfaces = this->Out.Shared;
     for (const auto& own : all)
     {
       auto space = MakeTensorSpace<Dim>(own);
@@ -533,9 +507,9 @@ public:
       patch.Space = space.Value;
       patch.ControlPoints = PointMatrix::Zero(patch.Space->NumFunctions, Dim);
       patch.Weights.setOnes(rational ? patch.Space->NumFunctions : 0);
-      patches.push_back(std::move(patch));
+      patches.Patches.push_back(std::move(patch));
     }
-    auto glued = Glue<Dim>(patches, this->Out.Shared, this->Out.Corners);
+    auto glued = Glue<Dim>(patches, this->Out.Corners);
     if (!glued)
     {
       return glued.Status;
@@ -571,10 +545,10 @@ public:
       {
         continue;
       }
-      std::array<int, D> axis{};
-      std::iota(axis.begin(), axis.end(), 0);
       // as the patch runs; knots do not matter any more
-      const Spline<D> own = Reoriented<D>(side.Shape, axis, side.Backwards);
+      SideOrientation turned;
+      std::copy(side.Backwards.begin(), side.Backwards.end(), turned.Reversed.begin());
+      const Spline<D> own = Reoriented<D>(side.Shape, turned);
       for (std::size_t k = 0; k < numbers.size(); ++k)
       {
         const std::size_t number = static_cast<std::size_t>(numbers[k]);
@@ -647,16 +621,16 @@ private:
     SideCorners Vertices{};
     bool Shared = false;
     int Input = -1;
-    SideOrigin<Dim> Origin;          ///< how the given side lies in the first patch's
+    SideOrientation Origin;          ///< how the given side lies in the first patch's
     Spline<D> Shape;                 ///< directions in the patch's order, running as their rows
     std::array<bool, D> Backwards{}; ///< rows that run against the patch
   };
 
   Status MatchWeights(Side& side);
 
-  static std::size_t Row(int patch, int direction)
+  static std::size_t Row(int patch, std::size_t direction)
   {
-    return static_cast<std::size_t>(patch) * Dim + static_cast<std::size_t>(direction);
+    return static_cast<std::size_t>(patch) * Dim + direction;
   }
 
   SideCorners VerticesOf(int patch, int side) const
@@ -665,22 +639,21 @@ private:
     for (int c = 0; c < NumSideCorners; ++c)
     {
       vertices[static_cast<std::size_t>(c)] = this->Out.Corners[static_cast<std::size_t>(
-        patch)][static_cast<std::size_t>(MapCorner<Dim>(side, c))];
+        patch)][static_cast<std::size_t>(PatchCorner<Dim>(side, c))];
     }
     return vertices;
   }
 
   /// How a given side lies on another with the same vertices.
-  static bool Lies(const SideCorners& own, const SideCorners& given, SideOrigin<Dim>& origin)
+  static bool Lies(const SideCorners& own, const SideCorners& given, SideOrientation& origin)
   {
-    for (const SideOrigin<Dim>& candidate : Orientations<Dim>())
+    for (const SideOrientation& candidate : SideOrientations(D))
     {
       bool fits = true;
       for (int c = 0; c < NumSideCorners; ++c)
       {
         fits = fits &&
-          own[static_cast<std::size_t>(c)] ==
-            given[static_cast<std::size_t>(GivenCorner<Dim>(candidate, c))];
+          own[static_cast<std::size_t>(c)] == given[static_cast<std::size_t>(candidate.Corner(c))];
       }
       if (fits)
       {
@@ -769,43 +742,10 @@ Status Builder<Dim>::MatchWeights(Side& side)
 }
 
 template <int Dim>
-std::vector<int> SideFunctions(const SplineSpace<Dim>& space, int side)
+Result<GluedMap<Dim>> Glue(
+  const MultiPatch<Dim>& layout, const std::vector<std::array<int, 1 << Dim>>& corners)
 {
-  std::array<int, Dim> strides{};
-  int stride = 1;
-  for (std::size_t d = 0; d < Dim; ++d)
-  {
-    strides[d] = stride;
-    stride *= space.Knots[d].NumFunctions();
-  }
-  const std::size_t across = static_cast<std::size_t>(side / 2);
-  const int first = side % 2 ? strides[across] * (space.Knots[across].NumFunctions() - 1) : 0;
-  IntArray<Dim - 1> counts{};
-  std::array<int, Dim - 1> along{};
-  std::size_t k = 0;
-  for (int d : SideDirections<Dim>(side))
-  {
-    counts[k] = space.Knots[static_cast<std::size_t>(d)].NumFunctions();
-    along[k++] = strides[static_cast<std::size_t>(d)];
-  }
-  std::vector<int> functions;
-  ForEachOffset<Dim - 1>(counts,
-    [&](const IntArray<Dim - 1>& index)
-    {
-      int f = first;
-      for (std::size_t d = 0; d < Dim - 1; ++d)
-      {
-        f += along[d] * index[d];
-      }
-      functions.push_back(f);
-    });
-  return functions;
-}
-
-template <int Dim>
-Result<GluedMap<Dim>> Glue(const std::vector<Spline<Dim>>& patches,
-  const std::vector<SharedSide<Dim>>& shared, const std::vector<std::array<int, 1 << Dim>>& corners)
-{
+  const std::vector<Spline<Dim>>& patches = layout.Patches;
   std::vector<std::size_t> first{ 0 };
   for (const Spline<Dim>& patch : patches)
   {
@@ -816,40 +756,30 @@ Result<GluedMap<Dim>> Glue(const std::vector<Spline<Dim>>& patches,
     return { ErrorCode::TooLarge, "the layout has more than 2^31 - 1 control points" };
   }
   Classes same(first.back());
-  for (const SharedSide<Dim>& side : shared)
+  for (const PatchInterface& shared : layout.Topology.Interfaces)
   {
-    const std::size_t a = static_cast<std::size_t>(side.PatchA);
-    const std::size_t b = static_cast<std::size_t>(side.PatchB);
-    const std::vector<int> alongA = SideFunctions<Dim>(*patches[a].Space, side.SideA);
-    const std::vector<int> alongB = SideFunctions<Dim>(*patches[b].Space, side.SideB);
-    IntArray<Dim - 1> counts{};
-    std::array<int, Dim - 1> strides{};
-    const auto directionsA = SideDirections<Dim>(side.SideA);
-    const auto directionsB = SideDirections<Dim>(side.SideB);
-    for (std::size_t k = 0; k < Dim - 1; ++k)
+    std::array<std::size_t, 2> patch{};
+    std::array<std::vector<int>, 2> along;
+    for (std::size_t i = 0; i < 2; ++i)
     {
-      counts[k] = patches[b].Space->Knots[static_cast<std::size_t>(directionsB[k])].NumFunctions();
-      strides[k] = 1;
-      for (int m = 0; m < side.Origin.Axis[k]; ++m)
-      {
-        strides[k] *=
-          patches[a]
-            .Space->Knots[static_cast<std::size_t>(directionsA[static_cast<std::size_t>(m)])]
-            .NumFunctions();
-      }
+      patch[i] = static_cast<std::size_t>(shared.Sides[i].Patch);
+      along[i] = SideFunctions<Dim>(*patches[patch[i]].Space, shared.Sides[i].Side);
     }
-    std::size_t j = 0;
-    ForEachOffset<Dim - 1>(counts,
-      [&](const IntArray<Dim - 1>& index)
-      {
-        int i = 0;
-        for (std::size_t k = 0; k < Dim - 1; ++k)
-        {
-          i += strides[k] * (side.Origin.Reversed[k] ? counts[k] - 1 - index[k] : index[k]);
-        }
-        same.Unite(first[a] + static_cast<std::size_t>(alongA[static_cast<std::size_t>(i)]),
-          first[b] + static_cast<std::size_t>(alongB[j++]), false);
-      });
+    std::array<std::int64_t, 2> count{ 1, 1 };
+    std::size_t k = 0;
+    for (const std::size_t d : SideDirections<Dim>(shared.Sides[1].Side))
+    {
+      count[k++] = patches[patch[1]].Space->Knots[d].NumFunctions();
+    }
+    const std::int64_t width = shared.Orientation.OtherCount(count)[0];
+    for (std::size_t j = 0; j < along[1].size(); ++j)
+    {
+      const std::int64_t own = static_cast<std::int64_t>(j);
+      const auto at = shared.Orientation.OtherPoint({ own % count[0], own / count[0] }, count);
+      same.Unite(first[patch[0]] +
+          static_cast<std::size_t>(along[0][static_cast<std::size_t>(at[0] + width * at[1])]),
+        first[patch[1]] + static_cast<std::size_t>(along[1][j]), false);
+    }
   }
   GluedMap<Dim> map;
   map.Patches = patches;
@@ -965,9 +895,8 @@ Result<CompatibleLayout<Dim>> MakeCompatible(
 }
 
 #define KNOTWORK_INSTANTIATE(Dim)                                                                  \
-  template std::vector<int> SideFunctions<Dim>(const SplineSpace<Dim>&, int);                      \
-  template Result<GluedMap<Dim>> Glue<Dim>(const std::vector<Spline<Dim>>&,                        \
-    const std::vector<SharedSide<Dim>>&, const std::vector<std::array<int, 1 << Dim>>&);           \
+  template Result<GluedMap<Dim>> Glue<Dim>(                                                        \
+    const MultiPatch<Dim>&, const std::vector<std::array<int, 1 << Dim>>&);                        \
   template Result<CompatibleLayout<Dim>> MakeCompatible<Dim>(                                      \
     const PatchLayout<Dim>&, const LayoutParams&);
 KNOTWORK_INSTANTIATE(2)

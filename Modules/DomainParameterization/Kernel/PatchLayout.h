@@ -35,15 +35,6 @@ struct LayoutParams
   bool MoveInterfaces = true;
 };
 
-/// Two patches that meet: side SideB of PatchB lies so on side SideA of PatchA.
-template <int Dim>
-struct SharedSide
-{
-  int PatchA = -1, SideA = -1;
-  int PatchB = -1, SideB = -1;
-  SideOrigin<Dim> Origin; ///< Input is not used
-};
-
 /// A layout whose patches have spaces that fit together, and the control points of given sides.
 template <int Dim>
 struct CompatibleLayout
@@ -56,8 +47,8 @@ struct CompatibleLayout
   std::vector<std::array<int, 1 << Dim>> Corners;
   std::vector<std::array<int, 2 * Dim>> Inputs; ///< per patch: given side, -1: none
   std::vector<std::array<bool, 2 * Dim>> Fixed; ///< per patch: sides that do not move
-  std::vector<SharedSide<Dim>> Shared;
-  double Area = 0.0; ///< enclosed (volume), > 0
+  std::vector<PatchInterface> Shared;           ///< sides of two patches that are one
+  double Area = 0.0;                            ///< enclosed (volume), > 0
   double Size = 0.0;
   double LargestGap = 0.0; ///< that was closed at a vertex or edge
 };
@@ -74,15 +65,9 @@ template <int Dim>
 Result<CompatibleLayout<Dim>> MakeCompatible(
   const PatchLayout<Dim>& layout, const LayoutParams& params = {});
 
-/// Numbers the functions of patches that meet as Shared says. Control points that are shared become
-/// those of the first patch; nothing is fixed. @return InvalidTopology: see MakeCompatible.
+/// Numbers the functions of patches that meet as the interfaces say. Control points that are shared
+/// become those of the first patch; nothing is fixed. @return InvalidTopology: see MakeCompatible.
 template <int Dim>
-Result<GluedMap<Dim>> Glue(const std::vector<Spline<Dim>>& patches,
-  const std::vector<SharedSide<Dim>>& shared,
-  const std::vector<std::array<int, 1 << Dim>>& corners);
-
-/// Functions of a patch along one side, the remaining directions in increasing order, the first
-/// fastest.
-template <int Dim>
-std::vector<int> SideFunctions(const SplineSpace<Dim>& space, int side);
+Result<GluedMap<Dim>> Glue(
+  const MultiPatch<Dim>& patches, const std::vector<std::array<int, 1 << Dim>>& corners);
 }

@@ -201,80 +201,6 @@ Status NamedSide(const Status& status, int input)
   return { status.Code, GivenSide(input) + ": " + status.Detail };
 }
 
-template <int Dim>
-std::array<int, Dim - 1> SideDirections(int side)
-{
-  std::array<int, Dim - 1> directions{};
-  int k = 0;
-  for (int d = 0; d < Dim; ++d)
-  {
-    if (d != side / 2)
-    {
-      directions[static_cast<std::size_t>(k++)] = d;
-    }
-  }
-  return directions;
-}
-
-template <int Dim>
-int GivenCorner(const SideOrigin<Dim>& origin, int corner)
-{
-  int given = 0;
-  for (std::size_t k = 0; k < Dim - 1; ++k)
-  {
-    const bool upper = (corner >> k & 1) != 0;
-    given |= static_cast<int>(upper != origin.Reversed[k]) << origin.Axis[k];
-  }
-  return given;
-}
-
-template <int Dim>
-int MapCorner(int side, int sideCorner)
-{
-  const auto directions = SideDirections<Dim>(side);
-  int corner = (side % 2) << (side / 2);
-  for (std::size_t k = 0; k < Dim - 1; ++k)
-  {
-    corner |= (sideCorner >> k & 1) << directions[k];
-  }
-  return corner;
-}
-
-template <int Dim>
-std::vector<SideOrigin<Dim>> Orientations()
-{
-  constexpr int D = Dim - 1;
-  std::vector<SideOrigin<Dim>> all;
-  for (int swap = 0; swap < D; ++swap)
-  {
-    for (int flips = 0; flips < (1 << D); ++flips)
-    {
-      SideOrigin<Dim> origin;
-      for (int k = 0; k < D; ++k)
-      {
-        origin.Axis[static_cast<std::size_t>(k)] = swap ? D - 1 - k : k;
-        origin.Reversed[static_cast<std::size_t>(k)] = (flips >> k & 1) != 0;
-      }
-      all.push_back(origin);
-    }
-  }
-  return all;
-}
-
-template <int D>
-int CornerFunction(const SplineSpace<D>& space, int corner)
-{
-  int function = 0;
-  int stride = 1;
-  for (int k = 0; k < D; ++k)
-  {
-    const int n = space.Knots[static_cast<std::size_t>(k)].NumFunctions();
-    function += (corner >> k & 1) ? stride * (n - 1) : 0;
-    stride *= n;
-  }
-  return function;
-}
-
 KnotVector ReversedKnots(const KnotVector& knots)
 {
   std::vector<double> turned(knots.Knots().rbegin(), knots.Knots().rend());
@@ -286,8 +212,7 @@ KnotVector ReversedKnots(const KnotVector& knots)
 }
 
 template <int D>
-Spline<D> Reoriented(
-  const Spline<D>& spline, const std::array<int, D>& axis, const std::array<bool, D>& reversed)
+Spline<D> Reoriented(const Spline<D>& spline, const SideOrientation& orientation)
 {
   std::array<KnotVector, D> knots;
   std::array<int, D> counts{};
@@ -302,12 +227,12 @@ Spline<D> Reoriented(
   int first = 0;
   for (std::size_t k = 0; k < D; ++k)
   {
-    const std::size_t a = static_cast<std::size_t>(axis[k]);
+    const std::size_t a = static_cast<std::size_t>(orientation.Axis[k]);
     const KnotVector& old = spline.Space->Knots[a];
     counts[k] = old.NumFunctions();
     strides[k] = oldStride[a];
     knots[k] = old;
-    if (reversed[k])
+    if (orientation.Reversed[k])
     {
       knots[k] = ReversedKnots(old);
       first += strides[k] * (counts[k] - 1);
@@ -506,19 +431,11 @@ Result<Spline<1>> TimesLinear(const Spline<1>& curve, double ratio)
 }
 
 #define KNOTWORK_INSTANTIATE(Dim)                                                                  \
-  template std::array<int, Dim - 1> SideDirections<Dim>(int);                                      \
-  template int MapCorner<Dim>(int, int);                                                           \
-  template std::vector<SideOrigin<Dim>> Orientations<Dim>();                                       \
-  template int GivenCorner<Dim>(const SideOrigin<Dim>&, int);                                      \
   template Result<SideList<Dim>> PreparedSides<Dim>(const std::vector<Spline<Dim - 1>>&);          \
-  template Spline<Dim - 1> Reoriented<Dim - 1>(                                                    \
-    const Spline<Dim - 1>&, const std::array<int, Dim - 1>&, const std::array<bool, Dim - 1>&);    \
+  template Spline<Dim - 1> Reoriented<Dim - 1>(const Spline<Dim - 1>&, const SideOrientation&);    \
   template Result<KnotVector> UniteKnots<Dim - 1>(                                                 \
     const std::vector<SideDirection<Dim - 1>>&, int, int);                                         \
   template void MakeRational<Dim - 1>(Spline<Dim - 1>&);
-template int CornerFunction<1>(const SplineSpace<1>&, int);
-template int CornerFunction<2>(const SplineSpace<2>&, int);
-template int CornerFunction<3>(const SplineSpace<3>&, int);
 KNOTWORK_INSTANTIATE(2)
 KNOTWORK_INSTANTIATE(3)
 #undef KNOTWORK_INSTANTIATE

@@ -13,22 +13,6 @@ std::string GivenSide(int input);
 /// A status that names the given side.
 Status NamedSide(const Status& status, int input);
 
-/// Directions of the map that side 2 d + e has: all but d, increasing.
-template <int Dim>
-std::array<int, Dim - 1> SideDirections(int side);
-/// Corner of the map (bit d: the end in direction d) of a corner of its side.
-template <int Dim>
-int MapCorner(int side, int sideCorner);
-/// All ways a side can lie: axis permutations and reversals, the given one first.
-template <int Dim>
-std::vector<SideOrigin<Dim>> Orientations();
-/// Corner of the given side that lies at corner `corner` of the map's side.
-template <int Dim>
-int GivenCorner(const SideOrigin<Dim>& origin, int corner);
-/// Control point of a corner; bit k of corner is the end in direction k.
-template <int D>
-int CornerFunction(const SplineSpace<D>& space, int corner);
-
 template <int Dim>
 struct SideList
 {
@@ -39,11 +23,10 @@ struct SideList
 /// nothing. Curves of three components lie in one plane of constant z.
 template <int Dim>
 Result<SideList<Dim>> PreparedSides(const std::vector<Spline<Dim - 1>>& given);
-/// The same side with other directions: new direction k is old direction axis[k], run backwards
-/// when reversed[k] (knots t become 1 - t).
+/// The same side with other directions, which lies so on the given one (knots t become 1 - t where
+/// a direction is reversed).
 template <int D>
-Spline<D> Reoriented(
-  const Spline<D>& spline, const std::array<int, D>& axis, const std::array<bool, D>& reversed);
+Spline<D> Reoriented(const Spline<D>& spline, const SideOrientation& orientation);
 /// As above for one knot vector on [0, 1].
 KnotVector ReversedKnots(const KnotVector& knots);
 

@@ -15,7 +15,7 @@ using oracle::Random;
 /// Parameters of the given side at parameters of the map's side.
 template <int Dim>
 std::array<double, Dim - 1> GivenParameters(
-  const SideOrigin<Dim>& origin, const Spline<Dim - 1>& given, const std::array<double, Dim - 1>& u)
+  const SideOrigin& origin, const Spline<Dim - 1>& given, const std::array<double, Dim - 1>& u)
 {
   std::array<double, Dim - 1> result{};
   for (int k = 0; k < Dim - 1; ++k)
@@ -35,7 +35,7 @@ double LargestChange(
   double largest = 0.0;
   for (std::size_t s = 0; s < 2 * Dim; ++s)
   {
-    const SideOrigin<Dim>& origin = compatible.Origins[s];
+    const SideOrigin& origin = compatible.Origins[s];
     const Spline<Dim - 1>& side = given.Sides[static_cast<std::size_t>(origin.Input)];
     for (int i = 0; i < 40; ++i)
     {

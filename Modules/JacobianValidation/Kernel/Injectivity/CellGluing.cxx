@@ -2,12 +2,13 @@
 #include "CellGluing.h"
 #include <knotwork/SplineCore/Bernstein.h>
 #include <knotwork/SplineCore/BoxTree.h>
+#include <knotwork/SplineCore/DisjointSets.h>
+#include <knotwork/SplineCore/PatchSides.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <map>
-#include <numeric>
 #include <unordered_map>
 
 namespace knotwork
@@ -51,52 +52,23 @@ const std::vector<SideFrame>& Frames(CellShape shape)
   return none;
 }
 
-/// Sets of numbers that are merged one pair at a time.
-class Union
-{
-public:
-  explicit Union(std::size_t n) : Parent(n)
-  {
-    std::iota(this->Parent.begin(), this->Parent.end(), 0);
-  }
-  int Find(int i)
-  {
-    while (this->Parent[static_cast<std::size_t>(i)] != i)
-    {
-      int& up = this->Parent[static_cast<std::size_t>(i)];
-      up = this->Parent[static_cast<std::size_t>(up)];
-      i = up;
-    }
-    return i;
-  }
-  void Join(int a, int b)
-  {
-    a = this->Find(a);
-    b = this->Find(b);
-    this->Parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-  }
-
-private:
-  std::vector<int> Parent;
-};
-
 /// Merges items with equal keys, in order.
 template <typename Key>
 class Merger
 {
 public:
-  explicit Merger(Union& sets) : Sets(sets) {}
+  explicit Merger(DisjointSets& sets) : Sets(sets) {}
   void Add(const Key& key, int item)
   {
     const auto [at, isNew] = this->First.try_emplace(key, item);
     if (!isNew)
     {
-      this->Sets.Join(at->second, item);
+      this->Sets.Unite(at->second, item);
     }
   }
 
 private:
-  Union& Sets;
+  DisjointSets& Sets;
   std::map<Key, int> First;
 };
 
@@ -184,8 +156,8 @@ class Gluer
 public:
   Gluer(const BernsteinCells& cells, const CellComplex& complex, const std::vector<int>& signs,
     const InjectivityParams& params)
-    : Cells(cells), Complex(complex), Signs(signs), Params(params),
-      Corners(cells.Shapes.size() * 8), Edges(cells.Shapes.size() * 12)
+    : Cells(cells), Complex(complex), Signs(signs), Params(params), Corners(cells.NumCells() * 8),
+      Edges(cells.NumCells() * 12)
   {
     for (int s = 0; s < NumCellShapes; ++s)
     {
@@ -532,44 +504,25 @@ private:
   std::vector<std::vector<double>> InnerSide(
     Side side, const ParametricBox<2>& part, const IntArray<2>& target)
   {
-    const int d = side.Number / 2;
     const CellDegree& degree = this->Degree(side.Cell);
     const auto& box = this->Complex.Boxes[static_cast<std::size_t>(side.Cell)];
-    int free[2] = { -1, -1 };
-    int count = 0;
-    for (int k = 0; k < this->Dim; ++k)
-    {
-      if (k != d)
-      {
-        free[count++] = k;
-      }
-    }
-    IntArray<2> sideDegree{ degree[static_cast<std::size_t>(free[0])],
-      free[1] < 0 ? 0 : degree[static_cast<std::size_t>(free[1])] };
+    IntArray<3> points{ degree[0] + 1, degree[1] + 1, this->Dim == 2 ? 1 : degree[2] + 1 };
+    const auto free = SideDirections<3>(side.Number);
+    const IntArray<2> sideDegree{ points[free[0]] - 1, points[free[1]] - 1 };
+    const std::vector<int> coefficients = SideIndices<3>(points, side.Number);
     const int n = NumCellCoefficients(this->Shape(side.Cell), degree);
     std::vector<std::vector<double>> planes;
     for (int plane = 0; plane < this->Cells.NumPlanes(); ++plane)
     {
       std::vector<double> values;
-      for (int j = 0; j <= sideDegree[1]; ++j)
+      for (const int i : coefficients)
       {
-        for (int i = 0; i <= sideDegree[0]; ++i)
-        {
-          int at[3] = { 0, 0, 0 };
-          at[d] = side.Number % 2 ? degree[static_cast<std::size_t>(d)] : 0;
-          at[free[0]] = i;
-          if (free[1] >= 0)
-          {
-            at[free[1]] = j;
-          }
-          values.push_back(this->Cells.Block(side.Cell)[plane * n +
-            CellCoefficient(this->Shape(side.Cell), degree, at[0], at[1], at[2])]);
-        }
+        values.push_back(this->Cells.Block(side.Cell)[plane * n + i]);
       }
-      for (int k = 0; k < count; ++k)
+      for (int k = 0; k + 1 < this->Dim; ++k)
       {
-        const std::size_t along = static_cast<std::size_t>(free[k]);
         const std::size_t at = static_cast<std::size_t>(k);
+        const std::size_t along = free[at];
         const double width = box.Upper[along] - box.Lower[along];
         const double low = (part.Lower[at] - box.Lower[along]) / width;
         const double high = (part.Upper[at] - box.Lower[along]) / width;
@@ -687,7 +640,7 @@ private:
           const std::size_t other = static_cast<std::size_t>(3 - step);
           this->JoinCorners(c, f[0], c, f[static_cast<std::size_t>(step)]);
           this->JoinCorners(c, f[other], c, f[3]);
-          this->Edges.Join(this->EdgeId(c, f[0], f[other]),
+          this->Edges.Unite(this->EdgeId(c, f[0], f[other]),
             this->EdgeId(c, f[static_cast<std::size_t>(step)], f[3]));
         }
       }
@@ -698,7 +651,7 @@ private:
 
   void JoinCorners(int a, int cornerA, int b, int cornerB)
   {
-    this->Corners.Join(this->CornerId(a, cornerA), this->CornerId(b, cornerB));
+    this->Corners.Unite(this->CornerId(a, cornerA), this->CornerId(b, cornerB));
   }
 
   /// Values of a side in a frame, with signed zeros made equal.
@@ -967,7 +920,7 @@ private:
       const auto ends = SideEdge(sa.Shape, e);
       const std::size_t i = static_cast<std::size_t>(ends[0]);
       const std::size_t j = static_cast<std::size_t>(ends[1]);
-      this->Edges.Join(this->EdgeId(a.Cell, ca[i], ca[j]), this->EdgeId(b.Cell, cb[i], cb[j]));
+      this->Edges.Unite(this->EdgeId(a.Cell, ca[i], ca[j]), this->EdgeId(b.Cell, cb[i], cb[j]));
     }
     if (this->Patch(a.Cell) != this->Patch(b.Cell))
     {
@@ -1085,8 +1038,8 @@ private:
 
   void NumberPointsAndEdges()
   {
-    Union places = this->Corners;
-    Union edgePlaces = this->Edges;
+    DisjointSets places = this->Corners;
+    DisjointSets edgePlaces = this->Edges;
     Merger<std::array<double, 3>> positions(places);
     Merger<std::vector<double>> polygons(edgePlaces);
     for (BoundarySide& b : this->Out.Boundary)
@@ -1167,7 +1120,7 @@ private:
   void FindComponents()
   {
     auto& boundary = this->Out.Boundary;
-    Union components(boundary.size());
+    DisjointSets components(static_cast<int>(boundary.size()));
     std::map<int, std::vector<std::pair<int, int>>> atPlace; // sides and their corners
     for (std::size_t i = 0; i < boundary.size(); ++i)
     {
@@ -1191,7 +1144,7 @@ private:
       {
         for (const auto& s : sides)
         {
-          components.Join(sides[0].first, s.first);
+          components.Unite(sides[0].first, s.first);
         }
         if (sides.size() % 2 != 0)
         {
@@ -1202,7 +1155,7 @@ private:
     }
     else
     {
-      Union fans(boundary.size() * 4);
+      DisjointSets fans(static_cast<int>(boundary.size()) * 4);
       std::map<int, std::vector<int>> byEdge;
       std::map<int, std::vector<int>> byLine;
       for (std::size_t i = 0; i < boundary.size(); ++i)
@@ -1214,7 +1167,7 @@ private:
           const auto ends = SideEdge(b.Frame.Shape, e);
           if (b.CollapsedEdges[at])
           {
-            fans.Join(static_cast<int>(i) * 4 + ends[0], static_cast<int>(i) * 4 + ends[1]);
+            fans.Unite(static_cast<int>(i) * 4 + ends[0], static_cast<int>(i) * 4 + ends[1]);
             continue;
           }
           byEdge[b.Edges[at]].push_back(static_cast<int>(i));
@@ -1254,7 +1207,7 @@ private:
               continue;
             }
             covered[static_cast<std::size_t>(contact.A)] += std::abs(contact.A1 - contact.A0);
-            components.Join(static_cast<int>(i), j);
+            components.Unite(static_cast<int>(i), j);
             const BoundarySide& other = boundary[static_cast<std::size_t>(j)];
             for (const int ka : SideEdge(b.Frame.Shape, contact.A))
             {
@@ -1263,7 +1216,7 @@ private:
                 if (b.Places[static_cast<std::size_t>(ka)] ==
                   other.Places[static_cast<std::size_t>(kb)])
                 {
-                  fans.Join(static_cast<int>(i) * 4 + ka, j * 4 + kb);
+                  fans.Unite(static_cast<int>(i) * 4 + ka, j * 4 + kb);
                 }
               }
             }
@@ -1306,8 +1259,8 @@ private:
   const CellComplex& Complex;
   const std::vector<int>& Signs;
   const InjectivityParams& Params;
-  Union Corners;
-  Union Edges;
+  DisjointSets Corners;
+  DisjointSets Edges;
   std::vector<std::array<int, 2>> EdgeCorners[NumCellShapes];
   std::map<std::pair<int, CellDegree>, std::vector<Reframe>> ReframeCache;
   CellLatticeTable Lattices;

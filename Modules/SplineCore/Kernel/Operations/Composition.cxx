@@ -5,12 +5,10 @@
 #include "HierarchicalSpace.h"
 #include "Numbers.h"
 #include "Parallel.h"
-#include "PointClusters.h"
-#include "TensorSpace.h"
+#include "PatchTraces.h"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <mutex>
 #include <string>
 
@@ -21,154 +19,6 @@ namespace
 std::size_t At(std::int64_t i)
 {
   return static_cast<std::size_t>(i);
-}
-
-/// A side, edge or corner of a patch: per direction free (-1) or fixed at the lower (0) or upper
-/// (1) end of the domain.
-template <int Dim>
-using SideOf = std::array<int, Dim>;
-
-/// Level and index in the level's tensor-product basis; the last entries are 0 when not needed.
-using FunctionKey = std::array<std::int64_t, 3>;
-
-template <int Dim>
-std::vector<int> FreeDirections(const SideOf<Dim>& side)
-{
-  std::vector<int> free;
-  for (int d = 0; d < Dim; ++d)
-  {
-    if (side[At(d)] < 0)
-    {
-      free.push_back(d);
-    }
-  }
-  return free;
-}
-
-/// Whether functions of the space are those of its sides: not known for locally refined spaces.
-template <int Dim>
-bool HasSideFunctions(const SplineSpace<Dim>& space)
-{
-  return space.HasDomain && space.Kind != SpaceKind::LocallyRefined;
-}
-
-bool IsClamped(const KnotVector& knots)
-{
-  return knots.Multiplicity(0) == knots.Degree() + 1 &&
-    knots.Multiplicity(knots.NumElements()) == knots.Degree() + 1;
-}
-
-/// Functions of level `level` of dyadic refinement: every halved element adds one.
-std::int64_t NumLevelFunctions(const KnotVector& knots, int level)
-{
-  return knots.NumFunctions() +
-    std::int64_t{ knots.NumElements() } * ((std::int64_t{ 1 } << level) - 1);
-}
-
-/// Functions that do not vanish on a side, by level and index along the free directions. With
-/// clamped ends these are exactly the functions of the trace space, truncation included: children
-/// of a function with end index in a fixed direction have the end index or vanish on the side.
-template <int Dim>
-std::map<FunctionKey, int> TraceFunctions(const SplineSpace<Dim>& space, const SideOf<Dim>& side)
-{
-  std::map<FunctionKey, int> functions;
-  const std::vector<FunctionInfo<Dim>> all = DescribeFunctions<Dim>(space);
-  for (std::size_t f = 0; f < all.size(); ++f)
-  {
-    FunctionKey key{ all[f].Level, 0, 0 };
-    std::size_t next = 1;
-    bool onSide = true;
-    for (std::size_t d = 0; d < Dim; ++d)
-    {
-      if (side[d] < 0)
-      {
-        key[next++] = all[f].Index[d];
-      }
-      else
-      {
-        const std::int64_t end =
-          side[d] == 0 ? 0 : NumLevelFunctions(space.Knots[d], all[f].Level) - 1;
-        onSide = onSide && all[f].Index[d] == end;
-      }
-    }
-    if (onSide)
-    {
-      functions.emplace(key, static_cast<int>(f));
-    }
-  }
-  return functions;
-}
-
-/// Hierarchy boxes of the trace.
-template <int Dim, int Free>
-std::vector<HierarchyBox<Free>> TraceBoxes(const SplineSpace<Dim>& space, const SideOf<Dim>& side)
-{
-  std::vector<HierarchyBox<Free>> boxes;
-  for (const HierarchyBox<Dim>& box : HierarchyBoxes<Dim>(space))
-  {
-    HierarchyBox<Free> trace;
-    trace.Level = box.Level;
-    std::size_t next = 0;
-    bool touches = true;
-    for (std::size_t d = 0; d < Dim; ++d)
-    {
-      if (side[d] < 0)
-      {
-        trace.Lower[next] = box.Lower[d];
-        trace.Upper[next] = box.Upper[d];
-        ++next;
-      }
-      else
-      {
-        touches = touches &&
-          (side[d] == 0
-              ? box.Lower[d] == 0
-              : box.Upper[d] == std::int64_t{ space.Knots[d].NumElements() } << box.Level);
-      }
-    }
-    if (touches)
-    {
-      boxes.push_back(trace);
-    }
-  }
-  return boxes;
-}
-
-template <int Dim, int Free>
-Result<SplineSpacePtr<Free>> TraceSpace(const SplineSpace<Dim>& space, const SideOf<Dim>& side)
-{
-  std::array<KnotVector, Free> knots;
-  const std::vector<int> free = FreeDirections<Dim>(side);
-  for (std::size_t k = 0; k < Free; ++k)
-  {
-    knots[k] = space.Knots[At(free[k])];
-  }
-  return space.Kind == SpaceKind::Hierarchical
-    ? MakeHierarchicalSpace<Free>(knots, TraceBoxes<Dim, Free>(space, side))
-    : MakeTensorSpace<Free>(knots);
-}
-
-/// Where function number i of a trace space is in the patch's space.
-template <int Free>
-std::vector<int> Renumber(
-  const SplineSpace<Free>& trace, const std::map<FunctionKey, int>& functions)
-{
-  std::vector<int> result;
-  for (const FunctionInfo<Free>& info : DescribeFunctions<Free>(trace))
-  {
-    FunctionKey key{ info.Level, 0, 0 };
-    for (std::size_t k = 0; k < Free; ++k)
-    {
-      key[1 + k] = info.Index[k];
-    }
-    const auto found = functions.find(key);
-    if (found == functions.end())
-    {
-      return {};
-    }
-    result.push_back(found->second);
-  }
-  return result;
 }
 
 /// outer o inner at parameters (or element + local parameters without a domain), first failure
@@ -243,88 +93,6 @@ Result<PointMatrix> Project(const Spline<Dim>& inner, const SplineSpacePtr<Dim>&
   return projected.Value.ControlPoints;
 }
 
-/// A symmetry of the free directions: new direction k runs along old direction Axis[k], reversed or
-/// not.
-struct Orientation
-{
-  std::array<int, 2> Axis{ 0, 1 };
-  std::array<bool, 2> Reverse{};
-};
-
-std::vector<Orientation> Orientations(int free)
-{
-  std::vector<Orientation> all;
-  for (int s = 0; s < (free == 0 ? 1 : free == 1 ? 2 : 8); ++s)
-  {
-    Orientation o;
-    o.Reverse = { (s & 1) != 0, (s & 2) != 0 };
-    if ((s & 4) != 0)
-    {
-      o.Axis = { 1, 0 };
-    }
-    all.push_back(o);
-  }
-  return all;
-}
-
-/// Knots of the free directions of a side.
-template <int Dim>
-std::vector<const KnotVector*> SideKnots(const SplineSpace<Dim>& space, const SideOf<Dim>& side)
-{
-  std::vector<const KnotVector*> knots;
-  for (const int d : FreeDirections<Dim>(side))
-  {
-    knots.push_back(&space.Knots[At(d)]);
-  }
-  return knots;
-}
-
-/// The same knots up to an affine change, optionally reversed.
-bool SameKnots(const KnotVector& a, const KnotVector& b, bool reverse)
-{
-  if (a.Degree() != b.Degree() || a.Knots().size() != b.Knots().size())
-  {
-    return false;
-  }
-  const std::size_t n = a.Knots().size();
-  for (std::size_t i = 0; i < n; ++i)
-  {
-    const double ta = (a.Knots()[i] - a.Begin()) / (a.End() - a.Begin());
-    const double tb = reverse ? (b.End() - b.Knots()[n - 1 - i]) / (b.End() - b.Begin())
-                              : (b.Knots()[i] - b.Begin()) / (b.End() - b.Begin());
-    if (std::abs(ta - tb) > 1e-9)
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
-/// Key in side b of a function of side a; counts are those of b's level bases.
-FunctionKey Oriented(
-  const FunctionKey& key, const Orientation& o, const std::vector<const KnotVector*>& knotsB)
-{
-  FunctionKey result{ key[0], 0, 0 };
-  for (std::size_t k = 0; k < knotsB.size(); ++k)
-  {
-    const std::int64_t index = key[1 + At(o.Axis[k])];
-    result[1 + k] =
-      o.Reverse[k] ? NumLevelFunctions(*knotsB[k], static_cast<int>(key[0])) - 1 - index : index;
-  }
-  return result;
-}
-
-/// One side of one patch.
-template <int Dim>
-struct Entity
-{
-  int Patch = 0;
-  SideOf<Dim> Side{};
-  int Free = 0;
-  int Owner = 0; ///< entity that is projected for this one (maybe itself)
-  Orientation FromOwner;
-};
-
 template <int Dim>
 class Composer
 {
@@ -342,7 +110,12 @@ public:
     {
       this->Spaces.push_back(spline.Space);
     }
-    this->FindEntities(result);
+    this->Entities = FindSharedTraces<Dim>(this->Inner);
+    for (std::size_t i = 0; i < this->Entities.size(); ++i)
+    {
+      const bool shared = this->Entities[i].Owner != static_cast<int>(i);
+      result.NumInterfaces += shared && this->Entities[i].Free == Dim - 1 ? 1 : 0;
+    }
     for (int round = 0;; ++round)
     {
       Status status = this->ProjectAll(result);
@@ -385,124 +158,6 @@ private:
     return { status.Code, "patch " + std::to_string(patch) + ": " + status.Detail };
   }
 
-  /// All sides, edges and corners, and which of them are the same.
-  void FindEntities(CompositionResult<Dim>& result)
-  {
-    this->NumberPoints();
-    std::map<std::vector<int>, std::vector<int>> buckets;
-    int numSides = 1;
-    for (int d = 0; d < Dim; ++d)
-    {
-      numSides *= 3;
-    }
-    for (std::size_t p = 0; p < this->Inner.size(); ++p)
-    {
-      const SplineSpace<Dim>& space = *this->Inner[p].Space;
-      for (int code = 0; code < numSides && HasSideFunctions(space); ++code)
-      {
-        Entity<Dim> entity;
-        entity.Patch = static_cast<int>(p);
-        bool clamped = true;
-        int rest = code;
-        for (std::size_t d = 0; d < Dim; ++d, rest /= 3)
-        {
-          entity.Side[d] = rest % 3 - 1;
-          entity.Free += entity.Side[d] < 0 ? 1 : 0;
-          clamped = clamped && (entity.Side[d] < 0 || IsClamped(space.Knots[d]));
-        }
-        if (entity.Free == Dim || !clamped)
-        {
-          continue;
-        }
-        const int index = static_cast<int>(this->Entities.size());
-        entity.Owner = index;
-        // The points of a side as an unordered set: equal sides have equal buckets.
-        std::vector<int> bucket;
-        for (const auto& [key, function] : TraceFunctions<Dim>(space, entity.Side))
-        {
-          bucket.push_back(this->NumberOf(entity.Patch, function));
-        }
-        std::sort(bucket.begin(), bucket.end());
-        bucket.push_back(entity.Free);
-        std::vector<int>& owners = buckets[bucket];
-        for (const int owner : owners)
-        {
-          if (this->MatchEntities(this->Entities[At(owner)], entity))
-          {
-            entity.Owner = owner;
-            result.NumInterfaces += entity.Free == Dim - 1 ? 1 : 0;
-            break;
-          }
-        }
-        if (entity.Owner == index)
-        {
-          owners.push_back(index);
-        }
-        this->Entities.push_back(entity);
-      }
-    }
-  }
-
-  /// Number of a control point among all patches, equal where points and weights agree.
-  void NumberPoints()
-  {
-    int columns = 0;
-    double largest = 1.0;
-    for (const Spline<Dim>& spline : this->Inner)
-    {
-      columns = std::max(columns, spline.NumComponents());
-      largest = std::max(largest, spline.ControlPoints.cwiseAbs().maxCoeff());
-      largest = std::max(largest, spline.IsRational() ? spline.Weights.maxCoeff() : 1.0);
-    }
-    PointClusters clusters(columns + 1, largest * PointClusters::RelativeTolerance);
-    for (const Spline<Dim>& spline : this->Inner)
-    {
-      std::vector<int> numbers;
-      std::vector<double> point(At(columns + 1), 0.0);
-      for (Eigen::Index i = 0; i < spline.ControlPoints.rows(); ++i)
-      {
-        for (Eigen::Index c = 0; c < spline.ControlPoints.cols(); ++c)
-        {
-          point[At(c)] = spline.ControlPoints(i, c);
-        }
-        point.back() = spline.IsRational() ? spline.Weights[i] : 1.0;
-        numbers.push_back(clusters.Number(point.data()));
-      }
-      this->Numbers.push_back(std::move(numbers));
-    }
-  }
-  int NumberOf(int patch, int function) const { return this->Numbers[At(patch)][At(function)]; }
-
-  bool MatchEntities(const Entity<Dim>& owner, Entity<Dim>& entity) const
-  {
-    const SplineSpace<Dim>& spaceA = *this->Inner[At(owner.Patch)].Space;
-    const SplineSpace<Dim>& spaceB = *this->Inner[At(entity.Patch)].Space;
-    const auto functionsA = TraceFunctions<Dim>(spaceA, owner.Side);
-    const auto functionsB = TraceFunctions<Dim>(spaceB, entity.Side);
-    const auto knotsA = SideKnots<Dim>(spaceA, owner.Side);
-    const auto knotsB = SideKnots<Dim>(spaceB, entity.Side);
-    for (const Orientation& o : Orientations(entity.Free))
-    {
-      bool same = functionsA.size() == functionsB.size();
-      for (std::size_t k = 0; same && k < knotsB.size(); ++k)
-      {
-        same = SameKnots(*knotsA[At(o.Axis[k])], *knotsB[k], o.Reverse[k]);
-      }
-      for (auto it = functionsA.begin(); same && it != functionsA.end(); ++it)
-      {
-        const auto found = functionsB.find(Oriented(it->first, o, knotsB));
-        same = found != functionsB.end() &&
-          this->NumberOf(owner.Patch, it->second) == this->NumberOf(entity.Patch, found->second);
-      }
-      if (same)
-      {
-        entity.FromOwner = o;
-        return true;
-      }
-    }
-    return false;
-  }
-
   /// Interiors first, then sides, edges, corners: each overwrites what came before.
   Status ProjectAll(CompositionResult<Dim>& result)
   {
@@ -535,7 +190,7 @@ private:
   {
     for (std::size_t i = 0; i < this->Entities.size(); ++i)
     {
-      const Entity<Dim>& entity = this->Entities[i];
+      const PatchTrace<Dim>& entity = this->Entities[i];
       if (entity.Free != Free)
       {
         continue;
@@ -543,46 +198,25 @@ private:
       const std::size_t p = At(entity.Patch);
       if (entity.Owner != static_cast<int>(i))
       {
-        this->CopyFromOwner(entity, result);
+        this->CopyOnOwner(entity, result);
         continue;
       }
-      const Spline<Dim>& inner = this->Inner[p];
-      const Result<SplineSpacePtr<Free>> source = TraceSpace<Dim, Free>(*inner.Space, entity.Side);
-      const Result<SplineSpacePtr<Free>> target =
-        TraceSpace<Dim, Free>(*this->Spaces[p], entity.Side);
-      if (!source || !target)
+      const auto from = MakeTrace<Dim, Free>(*this->Inner[p].Space, entity.Entity);
+      const auto to = MakeTrace<Dim, Free>(*this->Spaces[p], entity.Entity);
+      if (!from || !to)
       {
-        return WithPatch(source ? target.Status : source.Status, p);
-      }
-      const std::vector<int> from =
-        Renumber<Free>(*source.Value, TraceFunctions<Dim>(*inner.Space, entity.Side));
-      const std::vector<int> to =
-        Renumber<Free>(*target.Value, TraceFunctions<Dim>(*this->Spaces[p], entity.Side));
-      if (from.empty() || to.empty())
-      {
-        return WithPatch({ ErrorCode::InvalidTopology, "a side has no space of its own" }, p);
-      }
-      Spline<Free> trace;
-      trace.Space = source.Value;
-      trace.ControlPoints.resize(static_cast<Eigen::Index>(from.size()), inner.NumComponents());
-      trace.Weights.resize(inner.IsRational() ? trace.ControlPoints.rows() : 0);
-      for (std::size_t f = 0; f < from.size(); ++f)
-      {
-        trace.ControlPoints.row(static_cast<Eigen::Index>(f)) = inner.ControlPoints.row(from[f]);
-        if (inner.IsRational())
-        {
-          trace.Weights[static_cast<Eigen::Index>(f)] = inner.Weights[from[f]];
-        }
+        return WithPatch(from ? to.Status : from.Status, p);
       }
       const Result<PointMatrix> projected =
-        Project<Free>(trace, target.Value, this->NumComponents, this->Outer, this->Params.Threads);
+        Project<Free>(TraceOf<Dim, Free>(this->Inner[p], from.Value), to->Space,
+          this->NumComponents, this->Outer, this->Params.Threads);
       if (!projected)
       {
         return WithPatch(projected.Status, p);
       }
-      for (std::size_t f = 0; f < to.size(); ++f)
+      for (std::size_t f = 0; f < to->Functions.size(); ++f)
       {
-        result.Patches[p].ControlPoints.row(to[f]) =
+        result.Patches[p].ControlPoints.row(to->Functions[f]) =
           projected.Value.row(static_cast<Eigen::Index>(f));
       }
     }
@@ -593,14 +227,14 @@ private:
   {
     for (std::size_t i = 0; i < this->Entities.size(); ++i)
     {
-      const Entity<Dim>& entity = this->Entities[i];
+      const PatchTrace<Dim>& entity = this->Entities[i];
       if (entity.Free != 0)
       {
         continue;
       }
       const std::size_t p = At(entity.Patch);
-      const auto from = TraceFunctions<Dim>(*this->Inner[p].Space, entity.Side);
-      const auto to = TraceFunctions<Dim>(*this->Spaces[p], entity.Side);
+      const auto from = TraceFunctions<Dim>(*this->Inner[p].Space, entity.Entity);
+      const auto to = TraceFunctions<Dim>(*this->Spaces[p], entity.Entity);
       const PointMatrix corner = this->Inner[p].ControlPoints.row(from.begin()->second);
       PointMatrix value;
       const Status status = this->Outer(corner, value);
@@ -613,15 +247,15 @@ private:
     return {};
   }
 
-  void CopyFromOwner(const Entity<Dim>& entity, CompositionResult<Dim>& result) const
+  void CopyOnOwner(const PatchTrace<Dim>& entity, CompositionResult<Dim>& result) const
   {
-    const Entity<Dim>& owner = this->Entities[At(entity.Owner)];
-    const auto from = TraceFunctions<Dim>(*this->Spaces[At(owner.Patch)], owner.Side);
-    const auto to = TraceFunctions<Dim>(*this->Spaces[At(entity.Patch)], entity.Side);
-    const auto knots = SideKnots<Dim>(*this->Spaces[At(entity.Patch)], entity.Side);
+    const PatchTrace<Dim>& owner = this->Entities[At(entity.Owner)];
+    const auto from = TraceFunctions<Dim>(*this->Spaces[At(owner.Patch)], owner.Entity);
+    const auto to = TraceFunctions<Dim>(*this->Spaces[At(entity.Patch)], entity.Entity);
+    const auto knots = TraceKnots<Dim>(*this->Spaces[At(entity.Patch)], entity.Entity);
     for (const auto& [key, function] : from)
     {
-      const auto found = to.find(Oriented(key, entity.FromOwner, knots));
+      const auto found = to.find(OrientedKey(key, entity.OnOwner, knots));
       if (found != to.end()) // always: MirrorRefinement made the trace spaces equal
       {
         result.Patches[At(entity.Patch)].ControlPoints.row(found->second) =
@@ -740,9 +374,9 @@ private:
     for (bool changed = true; changed;)
     {
       changed = false;
-      for (const Entity<Dim>& entity : this->Entities)
+      for (const PatchTrace<Dim>& entity : this->Entities)
       {
-        const Entity<Dim>& owner = this->Entities[At(entity.Owner)];
+        const PatchTrace<Dim>& owner = this->Entities[At(entity.Owner)];
         if (&owner == &entity)
         {
           continue;
@@ -773,13 +407,13 @@ private:
 
   /// Refines both patches along a common side to the union of their traces' hierarchies.
   template <int Free>
-  Status Mirror(const Entity<Dim>& owner, const Entity<Dim>& entity, bool& changed)
+  Status Mirror(const PatchTrace<Dim>& owner, const PatchTrace<Dim>& entity, bool& changed)
   {
-    const auto knots = SideKnots<Dim>(*this->Spaces[At(entity.Patch)], entity.Side);
+    const auto knots = TraceKnots<Dim>(*this->Spaces[At(entity.Patch)], entity.Entity);
     std::vector<HierarchyBox<Free>> toEntity =
-      TraceBoxes<Dim, Free>(*this->Spaces[At(owner.Patch)], owner.Side);
+      TraceBoxes<Dim, Free>(*this->Spaces[At(owner.Patch)], owner.Entity);
     std::vector<HierarchyBox<Free>> toOwner =
-      TraceBoxes<Dim, Free>(*this->Spaces[At(entity.Patch)], entity.Side);
+      TraceBoxes<Dim, Free>(*this->Spaces[At(entity.Patch)], entity.Entity);
     // the axes of what the boxes are turned to and those they come from, in the entity's order
     const auto turn = [&](std::vector<HierarchyBox<Free>>& boxes, const auto& to, const auto& from)
     {
@@ -789,14 +423,14 @@ private:
         for (std::size_t k = 0; k < Free; ++k)
         {
           const std::int64_t n = std::int64_t{ knots[k]->NumElements() } << box.Level;
-          const bool reverse = entity.FromOwner.Reverse[k];
+          const bool reverse = entity.OnOwner.Reversed[k];
           box.Lower[to(k)] = reverse ? n - old.Upper[from(k)] : old.Lower[from(k)];
           box.Upper[to(k)] = reverse ? n - old.Lower[from(k)] : old.Upper[from(k)];
         }
       }
     };
     const auto own = [](std::size_t k) { return k; };
-    const auto owners = [&](std::size_t k) { return At(entity.FromOwner.Axis[k]); };
+    const auto owners = [&](std::size_t k) { return At(entity.OnOwner.Axis[k]); };
     turn(toEntity, own, owners);
     turn(toOwner, owners, own);
     const Status status = this->RefineAlong<Free>(owner, toOwner, changed);
@@ -805,7 +439,7 @@ private:
 
   template <int Free>
   Status RefineAlong(
-    const Entity<Dim>& entity, const std::vector<HierarchyBox<Free>>& traces, bool& changed)
+    const PatchTrace<Dim>& entity, const std::vector<HierarchyBox<Free>>& traces, bool& changed)
   {
     SplineSpacePtr<Dim>& space = this->Spaces[At(entity.Patch)];
     std::vector<HierarchyBox<Dim>> boxes;
@@ -817,9 +451,9 @@ private:
       for (std::size_t d = 0; d < Dim; ++d)
       {
         const std::int64_t n = std::int64_t{ space->Knots[d].NumElements() } << box.Level;
-        const bool free = entity.Side[d] < 0;
-        box.Lower[d] = free ? trace.Lower[next] : entity.Side[d] == 0 ? 0 : n - 2;
-        box.Upper[d] = free ? trace.Upper[next] : entity.Side[d] == 0 ? 2 : n;
+        const bool free = entity.Entity[d] < 0;
+        box.Lower[d] = free ? trace.Lower[next] : entity.Entity[d] == 0 ? 0 : n - 2;
+        box.Upper[d] = free ? trace.Upper[next] : entity.Entity[d] == 0 ? 2 : n;
         next += free ? 1 : 0;
       }
       boxes.push_back(box);
@@ -846,8 +480,7 @@ private:
   const PointMap& Outer;
   const CompositionParams& Params;
   std::vector<SplineSpacePtr<Dim>> Spaces;
-  std::vector<Entity<Dim>> Entities;
-  std::vector<std::vector<int>> Numbers; ///< a patch and control point
+  std::vector<PatchTrace<Dim>> Entities;
 };
 }
 

@@ -59,16 +59,16 @@ Status TessellateCurves(const std::vector<BezierForm<1>>& patches, const Tessell
           {
             x /= side.Points.back();
           }
-          matcher.Add(static_cast<int>(ends.size()), side.Count, side.Points);
+          matcher.Add({ static_cast<int>(ends.size()), end }, side.Count, side.Points);
           ends.push_back({ cell.Chart, { cell.Lower[0] + (end == 0 ? 0 : cell.Size[0]), 0, 0 } });
         }
       }
     }
   }
-  for (const SideMatch& match : matcher.Matches)
+  for (const PatchInterface& shared : matcher.Interfaces())
   {
-    vertices.Sets.Unite(vertices.At(ends[static_cast<std::size_t>(match.A)]),
-      vertices.At(ends[static_cast<std::size_t>(match.B)]));
+    vertices.Sets.Unite(vertices.At(ends[static_cast<std::size_t>(shared.Sides[0].Patch)]),
+      vertices.At(ends[static_cast<std::size_t>(shared.Sides[1].Patch)]));
   }
   return FinishTessellation<1>(patches, params, vertices, soup, mesh);
 }

@@ -173,7 +173,7 @@ std::vector<Face> MakeFaces(const std::vector<BezierForm<3>>& patches, int& numC
           const std::size_t v = At(side.Axes[1]);
           face.Rim = { cell.RimLow[v], cell.RimHigh[u], cell.RimHigh[v], cell.RimLow[u] };
           face.Points = std::move(side.Points);
-          matcher.Add(static_cast<int>(faces.size()), side.Count, face.Points);
+          matcher.Add({ static_cast<int>(faces.size()), 2 * d + end }, side.Count, face.Points);
           faces.push_back(std::move(face));
         }
       }
@@ -181,9 +181,9 @@ std::vector<Face> MakeFaces(const std::vector<BezierForm<3>>& patches, int& numC
   }
   numCharts *= 6;
   std::vector<char> isInner(faces.size(), 0);
-  for (const SideMatch& match : matcher.Matches)
+  for (const PatchInterface& shared : matcher.Interfaces())
   {
-    isInner[At(match.A)] = isInner[At(match.B)] = 1;
+    isInner[At(shared.Sides[0].Patch)] = isInner[At(shared.Sides[1].Patch)] = 1;
   }
   std::vector<Face> outer;
   for (std::size_t f = 0; f < faces.size(); ++f)
@@ -478,7 +478,7 @@ Status TessellateSurfaces(const std::vector<BezierForm<Dim>>& patches,
 
   const int planes = patches.front().NumComponents + 1;
   SideMatcher matcher(planes, LargestValue<Dim>(patches));
-  std::vector<int> collapsed;
+  std::vector<PatchSide> collapsed;
   for (std::size_t f = 0; f < faces.size(); ++f)
   {
     const Face& face = faces[f];
@@ -487,29 +487,30 @@ Status TessellateSurfaces(const std::vector<BezierForm<Dim>>& patches,
       if (face.Rim[At(side)])
       {
         const std::vector<double> points = SidePoints(face, side, planes);
-        const int id = static_cast<int>(4 * f) + side;
-        matcher.Add(id, { face.Degree[At(SideAxis(side))] + 1, 1 }, points);
+        matcher.Add(
+          { static_cast<int>(f), side }, { face.Degree[At(SideAxis(side))] + 1, 1 }, points);
         if (IsCollapsed(points, planes))
         {
-          collapsed.push_back(id);
+          collapsed.push_back({ static_cast<int>(f), side });
         }
       }
     }
   }
   do
   {
-    for (const SideMatch& match : matcher.Matches)
+    for (const PatchInterface& shared : matcher.Interfaces())
     {
-      const Face& a = faces[At(match.A / 4)];
-      const Face& b = faces[At(match.B / 4)];
-      const bool reversed = match.SymmetryA.Reverse[0] != match.SymmetryB.Reverse[0];
-      for (const std::int64_t position : lines.Along(a, match.A % 4))
+      const auto& [sideA, sideB] = shared.Sides;
+      const Face& a = faces[At(sideA.Patch)];
+      const Face& b = faces[At(sideB.Patch)];
+      const bool reversed = shared.Orientation.Reversed[0];
+      for (const std::int64_t position : lines.Along(a, sideA.Side))
       {
-        lines.Add(b, match.B % 4, Transfer(position, a, match.A % 4, b, match.B % 4, reversed));
+        lines.Add(b, sideB.Side, Transfer(position, a, sideA.Side, b, sideB.Side, reversed));
       }
-      for (const std::int64_t position : lines.Along(b, match.B % 4))
+      for (const std::int64_t position : lines.Along(b, sideB.Side))
       {
-        lines.Add(a, match.A % 4, Transfer(position, b, match.B % 4, a, match.A % 4, reversed));
+        lines.Add(a, sideA.Side, Transfer(position, b, sideB.Side, a, sideA.Side, reversed));
       }
     }
   } while (lines.Sort());
@@ -525,26 +526,27 @@ Status TessellateSurfaces(const std::vector<BezierForm<Dim>>& patches,
   {
     FaceCutter(face, lines, vertices, soup).Cut();
   }
-  for (const SideMatch& match : matcher.Matches)
+  for (const PatchInterface& shared : matcher.Interfaces())
   {
-    const Face& a = faces[At(match.A / 4)];
-    const Face& b = faces[At(match.B / 4)];
-    const bool reversed = match.SymmetryA.Reverse[0] != match.SymmetryB.Reverse[0];
-    for (const std::int64_t position : lines.Along(a, match.A % 4))
+    const auto& [sideA, sideB] = shared.Sides;
+    const Face& a = faces[At(sideA.Patch)];
+    const Face& b = faces[At(sideB.Patch)];
+    const bool reversed = shared.Orientation.Reversed[0];
+    for (const std::int64_t position : lines.Along(a, sideA.Side))
     {
-      const std::int64_t other = Transfer(position, a, match.A % 4, b, match.B % 4, reversed);
-      vertices.Sets.Unite(vertices.At(PointOnSide(a, match.A % 4, position)),
-        vertices.At(PointOnSide(b, match.B % 4, other)));
+      const std::int64_t other = Transfer(position, a, sideA.Side, b, sideB.Side, reversed);
+      vertices.Sets.Unite(vertices.At(PointOnSide(a, sideA.Side, position)),
+        vertices.At(PointOnSide(b, sideB.Side, other)));
     }
   }
-  for (const int id : collapsed)
+  for (const PatchSide& side : collapsed)
   {
-    const Face& face = faces[At(id / 4)];
-    const std::vector<std::int64_t> along = lines.Along(face, id % 4);
+    const Face& face = faces[At(side.Patch)];
+    const std::vector<std::int64_t> along = lines.Along(face, side.Side);
     for (const std::int64_t position : along)
     {
-      vertices.Sets.Unite(vertices.At(PointOnSide(face, id % 4, along.front())),
-        vertices.At(PointOnSide(face, id % 4, position)));
+      vertices.Sets.Unite(vertices.At(PointOnSide(face, side.Side, along.front())),
+        vertices.At(PointOnSide(face, side.Side, position)));
     }
   }
   return FinishTessellation<Dim>(patches, params, vertices, soup, mesh);

@@ -102,24 +102,22 @@ public:
         this->CutElement(static_cast<int>(p), static_cast<int>(e), vertices, soup);
       }
     }
-    for (const SideMatch& match : this->Matches)
+    for (const PatchInterface& shared : this->Interfaces)
     {
-      const RimFace& a = this->Faces[At(match.A)];
-      const RimFace& b = this->Faces[At(match.B)];
-      const auto countA = this->FaceCount(a);
-      const auto countB = this->FaceCount(b);
-      const auto size = match.SymmetryA.Count(countA);
-      if (size != match.SymmetryB.Count(countB))
+      const RimFace& a = this->Faces[At(shared.Sides[0].Patch)];
+      const RimFace& b = this->Faces[At(shared.Sides[1].Patch)];
+      const auto count = this->FaceCount(b);
+      if (shared.Orientation.OtherCount(count) != this->FaceCount(a))
       {
         continue; // grids that cannot agree: see MatchFaces
       }
-      for (std::int64_t j = 0; j < size[1]; ++j)
+      for (std::int64_t j = 0; j < count[1]; ++j)
       {
-        for (std::int64_t i = 0; i < size[0]; ++i)
+        for (std::int64_t i = 0; i < count[0]; ++i)
         {
           vertices.Sets.Unite(
-            vertices.At(this->FacePoint(a, match.SymmetryA.Original({ i, j }, countA))),
-            vertices.At(this->FacePoint(b, match.SymmetryB.Original({ i, j }, countB))));
+            vertices.At(this->FacePoint(a, shared.Orientation.OtherPoint({ i, j }, count))),
+            vertices.At(this->FacePoint(b, { i, j })));
         }
       }
     }
@@ -180,27 +178,27 @@ private:
           if (end == 0 ? cell.RimLow[At(d)] : cell.RimHigh[At(d)])
           {
             const BlockSide block = ExtractSide<3>(this->Patches[p], static_cast<int>(e), d, end);
-            matcher.Add(static_cast<int>(this->Faces.size()), block.Count, block.Points);
+            matcher.Add({ static_cast<int>(this->Faces.size()), side }, block.Count, block.Points);
             this->Faces.push_back({ static_cast<int>(p), static_cast<int>(e), d, end, block.Axes });
           }
         }
       }
     }
-    this->Matches = std::move(matcher.Matches);
+    this->Interfaces = matcher.Interfaces();
     bool changed = true;
     for (int sweep = 0; sweep < 1000 && changed; ++sweep)
     {
       changed = false;
-      for (const SideMatch& match : this->Matches)
+      for (const PatchInterface& shared : this->Interfaces)
       {
-        const RimFace& a = this->Faces[At(match.A)];
-        const RimFace& b = this->Faces[At(match.B)];
+        const RimFace& a = this->Faces[At(shared.Sides[0].Patch)];
+        const RimFace& b = this->Faces[At(shared.Sides[1].Patch)];
         const int levelA = this->Cell(a.Patch, a.Element).Level;
         const int levelB = this->Cell(b.Patch, b.Element).Level;
         for (std::size_t i = 0; i < 2; ++i)
         {
-          int& gridA = this->GridLevel(a, match.SymmetryA.Swap ? 1 - i : i);
-          int& gridB = this->GridLevel(b, match.SymmetryB.Swap ? 1 - i : i);
+          int& gridA = this->GridLevel(a, At(shared.Orientation.Axis[i]));
+          int& gridB = this->GridLevel(b, i);
           const int needed = std::max(gridA - levelA, gridB - levelB);
           if (needed <= 24 && (gridA - levelA != needed || gridB - levelB != needed))
           {
@@ -274,7 +272,7 @@ private:
   std::vector<std::vector<ChartCell<3>>> Cells;
   GridLevels Levels;
   std::vector<RimFace> Faces;
-  std::vector<SideMatch> Matches;
+  std::vector<PatchInterface> Interfaces;
 };
 }
 

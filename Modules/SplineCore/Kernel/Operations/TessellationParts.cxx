@@ -112,66 +112,15 @@ int VertexTable::At(const ChartPoint& point)
   return vertex;
 }
 
-std::array<std::int64_t, 2> GridSymmetry::Original(
-  const std::array<std::int64_t, 2>& canonical, const std::array<std::int64_t, 2>& count) const
-{
-  std::array<std::int64_t, 2> a = canonical;
-  if (this->Swap)
-  {
-    std::swap(a[0], a[1]);
-  }
-  for (std::size_t d = 0; d < 2; ++d)
-  {
-    if (this->Reverse[d])
-    {
-      a[d] = count[d] - 1 - a[d];
-    }
-  }
-  return a;
-}
-
-SideKey MakeSideKey(const std::array<std::int64_t, 2>& count, const std::vector<int>& numbers)
-{
-  SideKey best;
-  const int symmetries = count[1] == 1 ? 2 : 8;
-  for (int s = 0; s < symmetries; ++s)
-  {
-    GridSymmetry symmetry;
-    symmetry.Reverse = { (s & 1) != 0, (s & 2) != 0 };
-    symmetry.Swap = (s & 4) != 0;
-    const std::array<std::int64_t, 2> size = symmetry.Count(count);
-    std::vector<int> ordered{ static_cast<int>(size[0]), static_cast<int>(size[1]) };
-    for (std::int64_t j = 0; j < size[1]; ++j)
-    {
-      for (std::int64_t i = 0; i < size[0]; ++i)
-      {
-        const auto at = symmetry.Original({ i, j }, count);
-        ordered.push_back(numbers[At(at[0] + count[0] * at[1])]);
-      }
-    }
-    std::string bytes(reinterpret_cast<const char*>(ordered.data()), ordered.size() * sizeof(int));
-    if (s == 0 || bytes < best.Bytes)
-    {
-      best = { std::move(bytes), symmetry };
-    }
-  }
-  return best;
-}
-
-void SideMatcher::Add(
-  int side, const std::array<std::int64_t, 2>& count, const std::vector<double>& points)
+void SideMatcher::Add(const PatchSide& side, const std::array<std::int64_t, 2>& count,
+  const std::vector<double>& points)
 {
   std::vector<int> numbers;
   for (std::size_t i = 0; i < points.size(); i += At(this->Planes))
   {
     numbers.push_back(this->Clusters.Number(points.data() + i));
   }
-  SideKey key = MakeSideKey(count, numbers);
-  const auto [found, isNew] = this->Map.emplace(std::move(key.Bytes), First{ side, key.Symmetry });
-  if (!isNew && found->second.Side != side)
-  {
-    this->Matches.push_back({ found->second.Side, side, found->second.Symmetry, key.Symmetry });
-  }
+  this->Sides.Add(side, count, numbers);
 }
 
 template <int Dim>
@@ -202,35 +151,27 @@ BlockSide ExtractSide(const BezierForm<Dim>& form, int element, int direction, i
 {
   const IntArray<Dim>& degree = form.Space->Elements[At(element)].Degree;
   const int n = NumTensorFunctions<Dim>(degree);
+  const int number = 2 * direction + end;
   BlockSide side;
-  std::array<int, 3> stride{ 1, 1, 1 };
-  int axis = 0;
-  for (int d = 0, s = 1; d < Dim; ++d)
+  const auto directions = SideDirections<Dim>(number);
+  for (std::size_t k = 0; k + 1 < Dim; ++k)
   {
-    stride[At(d)] = s;
-    s *= degree[At(d)] + 1;
-    if (d != direction)
-    {
-      side.Axes[At(axis)] = d;
-      side.Count[At(axis)] = degree[At(d)] + 1;
-      ++axis;
-    }
+    side.Axes[k] = static_cast<int>(directions[k]);
+    side.Count[k] = degree[directions[k]] + 1;
   }
-  const int base = end == 0 ? 0 : stride[At(direction)] * degree[At(direction)];
-  const double* block = form.Block(element);
-  for (std::int64_t j = 0; j < side.Count[1]; ++j)
+  IntArray<Dim> count = degree;
+  for (int& points : count)
   {
-    for (std::int64_t i = 0; i < side.Count[0]; ++i)
+    ++points;
+  }
+  const double* block = form.Block(element);
+  for (const int at : SideIndices<Dim>(count, number))
+  {
+    for (int c = 0; c < form.NumComponents; ++c)
     {
-      std::int64_t at = base;
-      at += side.Axes[0] < 0 ? 0 : i * stride[At(side.Axes[0])];
-      at += side.Axes[1] < 0 ? 0 : j * stride[At(side.Axes[1])];
-      for (int c = 0; c < form.NumComponents; ++c)
-      {
-        side.Points.push_back(block[c * n + at]);
-      }
-      side.Points.push_back(form.Rational ? block[form.NumComponents * n + at] : 1.0);
+      side.Points.push_back(block[c * n + at]);
     }
+    side.Points.push_back(form.Rational ? block[form.NumComponents * n + at] : 1.0);
   }
   return side;
 }

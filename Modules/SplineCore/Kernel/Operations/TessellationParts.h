@@ -2,10 +2,10 @@
 // Parts of the tessellation, private to the kernel: dyadic charts, sides that match, vertices.
 #pragma once
 #include "DisjointSets.h"
+#include "MultiPatch.h"
 #include "PointClusters.h"
 #include "Tessellation.h"
 
-#include <string>
 #include <unordered_map>
 
 namespace knotwork
@@ -61,42 +61,7 @@ private:
   std::unordered_map<ChartPoint, int, Hash> Map;
 };
 
-/// One of the 8 symmetries of a rectangle of grid points (2 for a chain, where count[1] == 1).
-struct GridSymmetry
-{
-  bool Swap = false;
-  std::array<bool, 2> Reverse{};
-  /// Grid point of the original rectangle (count points a direction) for a canonical point.
-  std::array<std::int64_t, 2> Original(
-    const std::array<std::int64_t, 2>& canonical, const std::array<std::int64_t, 2>& count) const;
-  /// Points a direction of the canonical rectangle.
-  std::array<std::int64_t, 2> Count(const std::array<std::int64_t, 2>& count) const
-  {
-    return this->Swap ? std::array<std::int64_t, 2>{ count[1], count[0] } : count;
-  }
-};
-
-/// Canonical description of a side's control points and the symmetry that leads to it.
-struct SideKey
-{
-  std::string Bytes;
-  GridSymmetry Symmetry;
-};
-
-/// Key from numbers of control points: count[0] x count[1] of them, first direction fastest. Two
-/// sides have equal bytes exactly when a symmetry carries one onto the other.
-SideKey MakeSideKey(const std::array<std::int64_t, 2>& count, const std::vector<int>& numbers);
-
-/// Two sides that are one.
-struct SideMatch
-{
-  int A = 0;
-  int B = 0;
-  GridSymmetry SymmetryA;
-  GridSymmetry SymmetryB;
-};
-
-/// Collects sides and finds those that match.
+/// Finds sides with the same points up to rounding.
 class SideMatcher
 {
 public:
@@ -106,18 +71,14 @@ public:
   {
   }
   /// @param points  count points of `planes` values each, point by point.
-  void Add(int side, const std::array<std::int64_t, 2>& count, const std::vector<double>& points);
-  std::vector<SideMatch> Matches;
+  void Add(const PatchSide& side, const std::array<std::int64_t, 2>& count,
+    const std::vector<double>& points);
+  const std::vector<PatchInterface>& Interfaces() const { return this->Sides.Interfaces; }
 
 private:
-  struct First
-  {
-    int Side;
-    GridSymmetry Symmetry;
-  };
   int Planes;
   PointClusters Clusters;
-  std::unordered_map<std::string, First> Map;
+  SharedSides Sides;
 };
 
 /// Largest magnitude in the data of all patches.

@@ -2,6 +2,7 @@
 #include "GismoHierarchy.h"
 #include "GismoXml.h"
 #include "TextWords.h"
+#include <knotwork/SplineCore/PatchDirections.h>
 #include <knotwork/SplineCore/TensorSpace.h>
 
 #include <pugixml.hpp>
@@ -536,7 +537,7 @@ void XmlParser::ReadMultiPatch(pugi::xml_node node, SplineFile& file)
   {
     return;
   }
-  MultiPatch made;
+  StatedPatches made;
   made.Dimension = this->IntegerAttribute(node, "parDim", 1, MaxInt);
   const pugi::xml_node patches = this->Child(node, "patches");
   const std::string_view type = patches.attribute("type").value();
@@ -590,8 +591,8 @@ void XmlParser::ReadMultiPatch(pugi::xml_node node, SplineFile& file)
   const auto dimension = static_cast<std::size_t>(made.Dimension);
   const auto readSide = [&](const long long* pair, pugi::xml_node list)
   {
-    const PatchSide side{ member(pair[0]), static_cast<int>(pair[1]) };
-    if (side.Spline < 0 || side.Side < 1 || side.Side > 2 * made.Dimension)
+    const PatchSide side{ member(pair[0]), static_cast<int>(pair[1]) - 1 };
+    if (side.Patch < 0 || side.Side < 0 || side.Side >= 2 * made.Dimension)
     {
       this->Fail(ErrorCode::InvalidFormat, list,
         "there is no side " + std::to_string(pair[1]) + " of a patch with id " +
@@ -612,25 +613,24 @@ void XmlParser::ReadMultiPatch(pugi::xml_node node, SplineFile& file)
     for (std::size_t i = 0; i < rows.size() && this->Outcome; i += columns)
     {
       const long long* row = rows.data() + i;
-      PatchInterface made1;
-      made1.First = readSide(row, list);
-      made1.Second = readSide(row + 2, list);
-      std::set<long long> directions;
-      for (std::size_t d = 0; d < dimension && this->Outcome; ++d)
+      PatchInterface next;
+      next.Sides = { readSide(row, list), readSide(row + 2, list) };
+      if (!this->Outcome)
       {
-        const long long direction = row[4 + d];
-        const long long sense = row[4 + dimension + d];
-        if (direction >= made.Dimension || !directions.insert(direction).second || sense > 1)
-        {
-          this->Fail(ErrorCode::InvalidFormat, list,
-            "interface " + std::to_string(i / columns) +
-              ": directions are a permutation of 0, 1, ..., orientations are 0 or 1");
-          return;
-        }
-        made1.DirectionMap[d] = static_cast<int>(direction);
-        made1.SameSense[d] = static_cast<int>(sense);
+        return;
       }
-      made.Interfaces.push_back(made1);
+      PatchDirections directions;
+      std::copy_n(row + 4, dimension, directions.Direction.begin());
+      std::copy_n(row + 4 + dimension, dimension, directions.Sense.begin());
+      if (!SetDirections(directions, made.Dimension, next))
+      {
+        this->Fail(ErrorCode::InvalidFormat, list,
+          "interface " + std::to_string(i / columns) +
+            ": directions are a permutation of 0, 1, ... that sends the one across the first side "
+            "to that across the second, orientations are 0 or 1");
+        return;
+      }
+      made.Topology.Interfaces.push_back(next);
     }
   }
   for (pugi::xml_node list : node.children("boundary"))
@@ -643,7 +643,7 @@ void XmlParser::ReadMultiPatch(pugi::xml_node node, SplineFile& file)
     }
     for (std::size_t i = 0; i < rows.size() && this->Outcome; i += 2)
     {
-      made.Boundaries.push_back(readSide(rows.data() + i, list));
+      made.Topology.Boundary.push_back(readSide(rows.data() + i, list));
     }
   }
   if (this->Outcome)

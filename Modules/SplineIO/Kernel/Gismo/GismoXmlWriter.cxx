@@ -2,6 +2,7 @@
 #include "GismoXml.h"
 #include "TextWords.h"
 #include <knotwork/SplineCore/HierarchicalSpace.h>
+#include <knotwork/SplineCore/PatchDirections.h>
 
 #include <algorithm>
 #include <set>
@@ -106,45 +107,38 @@ void AppendSpline(std::string& text, const Spline<Dim>& spline, int id)
 }
 
 /// What the patches of a multi-patch refer to must be there.
-Status CheckMultiPatch(const SplineFile& file, const MultiPatch& patches)
+Status CheckMultiPatch(const SplineFile& file, const StatedPatches& patches)
 {
   const std::set<int> members(patches.Splines.begin(), patches.Splines.end());
+  const int count = static_cast<int>(file.Splines.size());
   bool fits =
     patches.Dimension >= 1 && patches.Dimension <= 3 && members.size() == patches.Splines.size();
   for (int i : patches.Splines)
   {
-    fits = fits && i >= 0 && i < static_cast<int>(file.Splines.size()) &&
+    fits = fits && i >= 0 && i < count &&
       static_cast<int>(file.Splines[static_cast<std::size_t>(i)].index()) + 1 == patches.Dimension;
   }
-  const auto isSide = [&](const PatchSide& side) {
-    return members.count(side.Spline) > 0 && side.Side >= 1 && side.Side <= 2 * patches.Dimension;
-  };
-  for (const PatchInterface& interface : patches.Interfaces)
+  const auto isMember = [&](const PatchSide& side) { return members.count(side.Patch) > 0; };
+  const PatchTopology& topology = patches.Topology;
+  for (const PatchInterface& interface : topology.Interfaces)
   {
-    fits = fits && isSide(interface.First) && isSide(interface.Second);
-    std::set<int> directions;
-    for (std::size_t d = 0; fits && d < static_cast<std::size_t>(patches.Dimension); ++d)
-    {
-      const int direction = interface.DirectionMap[d];
-      fits = direction >= 0 && direction < patches.Dimension &&
-        directions.insert(direction).second &&
-        (interface.SameSense[d] == 0 || interface.SameSense[d] == 1);
-    }
+    fits = fits && isMember(interface.Sides[0]) && isMember(interface.Sides[1]);
   }
-  fits = fits && std::all_of(patches.Boundaries.begin(), patches.Boundaries.end(), isSide);
+  fits = fits && std::all_of(topology.Boundary.begin(), topology.Boundary.end(), isMember);
   if (!fits)
   {
-    return { ErrorCode::InvalidTopology,
-      "a multi-patch refers to a spline, side or direction that is not there" };
+    return { ErrorCode::InvalidTopology, "a multi-patch refers to a spline that is not there" };
   }
-  return {};
+  return CheckTopology(topology, count, patches.Dimension);
 }
 
 void AppendMultiPatch(
-  std::string& text, const MultiPatch& patches, const std::vector<int>& ids, int id)
+  std::string& text, const StatedPatches& patches, const std::vector<int>& ids, int id)
 {
   const auto idOf = [&](int spline)
   { return std::to_string(ids[static_cast<std::size_t>(spline)]); };
+  const auto sideOf = [&](const PatchSide& side)
+  { return idOf(side.Patch) + " " + std::to_string(side.Side + 1); };
   text += "<MultiPatch parDim=\"" + std::to_string(patches.Dimension) + "\" id=\"" +
     std::to_string(id) + "\">\n<patches type=\"id_index\">";
   for (std::size_t i = 0; i < patches.Splines.size(); ++i)
@@ -152,14 +146,14 @@ void AppendMultiPatch(
     text += (i > 0 ? " " : "") + idOf(patches.Splines[i]);
   }
   text += "</patches>\n";
-  if (!patches.Interfaces.empty())
+  if (!patches.Topology.Interfaces.empty())
   {
     text += "<interfaces>\n";
-    for (const PatchInterface& interface : patches.Interfaces)
+    for (const PatchInterface& interface : patches.Topology.Interfaces)
     {
-      text += idOf(interface.First.Spline) + " " + std::to_string(interface.First.Side) + " " +
-        idOf(interface.Second.Spline) + " " + std::to_string(interface.Second.Side);
-      for (const auto* row : { &interface.DirectionMap, &interface.SameSense })
+      text += sideOf(interface.Sides[0]) + " " + sideOf(interface.Sides[1]);
+      const PatchDirections directions = DirectionsOf(interface, patches.Dimension);
+      for (const auto* row : { &directions.Direction, &directions.Sense })
       {
         for (int d = 0; d < patches.Dimension; ++d)
         {
@@ -170,12 +164,12 @@ void AppendMultiPatch(
     }
     text += "</interfaces>\n";
   }
-  if (!patches.Boundaries.empty())
+  if (!patches.Topology.Boundary.empty())
   {
     text += "<boundary>\n";
-    for (const PatchSide& side : patches.Boundaries)
+    for (const PatchSide& side : patches.Topology.Boundary)
     {
-      text += idOf(side.Spline) + " " + std::to_string(side.Side) + "\n";
+      text += sideOf(side) + "\n";
     }
     text += "</boundary>\n";
   }
@@ -230,7 +224,7 @@ Result<std::string> WriteGismoXml(const SplineFile& file)
   }
   // after all geometries, as the numbers go on where theirs end
   long long next = static_cast<long long>(*distinct.rbegin()) + 1;
-  for (const MultiPatch& patches : file.MultiPatches)
+  for (const StatedPatches& patches : file.MultiPatches)
   {
     if (Status status = CheckMultiPatch(file, patches); !status)
     {

@@ -4,6 +4,9 @@
 #include <knotwork/SplineCore/BezierSpace.h>
 #include <knotwork/SplineIO/GismoXml.h>
 
+#include <algorithm>
+#include <numeric>
+
 using namespace knotwork;
 using namespace knotwork::testing;
 
@@ -26,19 +29,16 @@ TEST(GismoXml, HandWrittenFile_GoldenOracle)
   EXPECT_EQ(curve.ControlPoints.row(1), Eigen::RowVector3d(1, 1, 0)); // not divided by the weight
 
   ASSERT_EQ(file->MultiPatches.size(), 1u);
-  const MultiPatch& patches = file->MultiPatches[0];
+  const StatedPatches& patches = file->MultiPatches[0];
   EXPECT_EQ(patches.Dimension, 2);
   EXPECT_EQ(patches.Splines, (std::vector<int>{ 0, 1 }));
-  ASSERT_EQ(patches.Interfaces.size(), 1u);
-  EXPECT_EQ(patches.Interfaces[0].First.Spline, 0);
-  EXPECT_EQ(patches.Interfaces[0].First.Side, 2);
-  EXPECT_EQ(patches.Interfaces[0].Second.Spline, 1);
-  EXPECT_EQ(patches.Interfaces[0].Second.Side, 1);
-  EXPECT_EQ(patches.Interfaces[0].DirectionMap, (std::array<int, 3>{ 0, 1, 0 }));
-  EXPECT_EQ(patches.Interfaces[0].SameSense, (std::array<int, 3>{ 1, 1, 0 }));
-  ASSERT_EQ(patches.Boundaries.size(), 6u);
-  EXPECT_EQ(patches.Boundaries[3].Spline, 1);
-  EXPECT_EQ(patches.Boundaries[3].Side, 2);
+  ASSERT_EQ(patches.Topology.Interfaces.size(), 1u);
+  const PatchInterface& interface = patches.Topology.Interfaces[0];
+  EXPECT_EQ(interface.Sides[0], (PatchSide{ 0, 1 }));
+  EXPECT_EQ(interface.Sides[1], (PatchSide{ 1, 0 }));
+  EXPECT_EQ(interface.Orientation.Number(), 0);
+  ASSERT_EQ(patches.Topology.Boundary.size(), 6u);
+  EXPECT_EQ(patches.Topology.Boundary[3], (PatchSide{ 1, 1 }));
 }
 
 TEST(GismoXml, OrderOfHierarchicalCoefficients_GoldenOracle)
@@ -88,7 +88,7 @@ TEST(GismoXml, WrittenFile_GoldenOracle)
   line.ControlPoints << 0.1, -2.5, 1e50, 3;
   SplineFile file;
   file.Splines = { line };
-  file.MultiPatches = { { 1, { 0 }, {}, { { 0, 1 }, { 0, 2 } } } };
+  file.MultiPatches = { { 1, { 0 }, { {}, { { 0, 0 }, { 0, 1 } } } } };
   const Result<std::string> text = WriteGismoXml(file);
   ASSERT_TRUE(text) << text.Status.Message();
   EXPECT_EQ(text.Value, expected);
@@ -138,7 +138,79 @@ TEST(GismoXml, MultiPatchesComeBack_PropertyOracle)
   EXPECT_EQ(WriteGismoXml(again.Value).Value, text);
   ASSERT_EQ(again->MultiPatches.size(), 1u);
   EXPECT_EQ(again->MultiPatches[0].Splines, file->MultiPatches[0].Splines);
-  EXPECT_EQ(again->MultiPatches[0].Boundaries.size(), 6u);
+  EXPECT_EQ(again->MultiPatches[0].Topology.Boundary.size(), 6u);
+}
+
+TEST(GismoXml, InterfacesInEveryOrientation_PropertyOracle)
+{
+  std::string squares;
+  std::string cubes;
+  const std::string knots = "\"><KnotVector degree=\"1\">0 0 1 1</KnotVector></Basis>";
+  for (int id = 0; id < 2; ++id)
+  {
+    for (const int dim : { 2, 3 })
+    {
+      std::string& text = dim == 2 ? squares : cubes;
+      const std::string number = std::to_string(dim);
+      text += "<Geometry type=\"TensorBSpline" + number + "\" id=\"" + std::to_string(id) +
+        "\"><Basis type=\"TensorBSplineBasis" + number + "\">";
+      for (int d = 0; d < dim; ++d)
+      {
+        text += "<Basis type=\"BSplineBasis\" index=\"" + std::to_string(d) + knots;
+      }
+      text += std::string("</Basis><coefs geoDim=\"1\">") +
+        (dim == 2 ? "1 2 3 4" : "1 2 3 4 5 6 7 8") + "</coefs></Geometry>\n";
+    }
+  }
+  int read = 0;
+  for (const int dim : { 2, 3 })
+  {
+    for (int a = 1; a <= 2 * dim; ++a)
+    {
+      for (int b = 1; b <= 2 * dim; ++b)
+      {
+        std::vector<int> directions(static_cast<std::size_t>(dim));
+        std::iota(directions.begin(), directions.end(), 0);
+        do
+        {
+          for (int senses = 0; senses < (1 << dim); ++senses)
+          {
+            // all rows; those that state another sense across the sides than they have are the same
+            std::string row = "0 " + std::to_string(a) + " 1 " + std::to_string(b);
+            std::string written = row;
+            for (const int d : directions)
+            {
+              row += " " + std::to_string(d);
+            }
+            written = row;
+            for (int d = 0; d < dim; ++d)
+            {
+              const int sense = senses >> d & 1;
+              row += " " + std::to_string(sense);
+              written += " " + std::to_string(d == (a - 1) / 2 ? (a + b) % 2 : sense);
+            }
+            const std::string patches = "<MultiPatch parDim=\"" + std::to_string(dim) +
+              "\" id=\"2\"><patches type=\"id_range\">0 1</patches><interfaces>" + row +
+              "</interfaces></MultiPatch></xml>";
+            const auto file = ReadGismoXml("<xml>" + (dim == 2 ? squares : cubes) + patches);
+            const bool fits = directions[static_cast<std::size_t>((a - 1) / 2)] == (b - 1) / 2;
+            ASSERT_EQ(static_cast<bool>(file), fits) << row;
+            if (!fits)
+            {
+              EXPECT_EQ(file.Status.Code, ErrorCode::InvalidFormat);
+              continue;
+            }
+            EXPECT_NE(
+              WriteGismoXml(file.Value)->find("<interfaces>\n" + written + "\n</interfaces>"),
+              std::string::npos)
+              << row;
+            ++read;
+          }
+        } while (std::next_permutation(directions.begin(), directions.end()));
+      }
+    }
+  }
+  EXPECT_EQ(read, 2 * 4 * 4 * 2 + 2 * 6 * 6 * 8);
 }
 
 namespace
@@ -244,8 +316,8 @@ TEST(GismoXml, WhatTheFormatHasNotIsRefused_ExactOracle)
   EXPECT_EQ(WriteGismoXml(file).Status.Code, ErrorCode::InvalidTopology);
   file.Ids.clear();
   EXPECT_TRUE(WriteGismoXml(file));
-  file.MultiPatches = { { 2, { 0 }, {}, {} } };
+  file.MultiPatches = { { 2, { 0 }, {} } };
   EXPECT_EQ(WriteGismoXml(file).Status.Code, ErrorCode::InvalidTopology);
-  file.MultiPatches = { { 1, { 0 }, {}, { { 0, 3 } } } };
+  file.MultiPatches = { { 1, { 0 }, { {}, { { 0, 2 } } } } };
   EXPECT_EQ(WriteGismoXml(file).Status.Code, ErrorCode::InvalidTopology);
 }

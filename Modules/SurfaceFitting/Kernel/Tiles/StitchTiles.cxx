@@ -61,7 +61,7 @@ Status CheckPolynomial(const std::vector<Spline<2>>& tiles, const std::vector<Ti
 {
   for (const TileEdge& edge : edges)
   {
-    for (const int tile : edge.Pair.Tiles)
+    for (const auto& [tile, side] : edge.Sides)
     {
       if (tiles[At(tile)].IsRational())
       {
@@ -94,23 +94,23 @@ Status AverageEdge(
   std::array<double, 2> factors; // from the difference of two rows to the derivative
   for (std::size_t i = 0; i < 2; ++i)
   {
-    const int tile = edge.Pair.Tiles[i];
-    const int side = edge.Pair.Sides[i];
+    const int tile = edge.Sides[i].Patch;
+    const int side = edge.Sides[i].Side;
     const IntArray<2>& degree = tiles[At(tile)].Space->LocallyRefined->Basis.Degree;
     sides[i] = &rows[At(tile)][At(side)];
     points[i] = &tiles[At(tile)].ControlPoints;
-    numbers[i] = EdgeFunctions(*sides[i], degree[AlongSide(side)], edge.Low[i], edge.High[i]);
+    numbers[i] = EdgeFunctions(*sides[i], degree[AlongSide(side)], edge.Low(i), edge.High(i));
     factors[i] = degree[AcrossSide(side)] / sides[i]->Span * (i == 1 ? edge.Ratio() : 1.0);
   }
-  if (edge.Pair.Reversed)
+  if (edge.IsReversed())
   {
     std::reverse(numbers[1].begin(), numbers[1].end());
   }
   if (numbers[0].size() != numbers[1].size())
   {
     return { ErrorCode::InvalidKnots,
-      "knots of tiles " + std::to_string(edge.Pair.Tiles[0]) + " and " +
-        std::to_string(edge.Pair.Tiles[1]) +
+      "knots of tiles " + std::to_string(edge.Sides[0].Patch) + " and " +
+        std::to_string(edge.Sides[1].Patch) +
         " are closer than can be told apart; fit one of them anew" };
   }
   const auto atEnds = static_cast<std::size_t>(continuity + 1);
@@ -158,9 +158,7 @@ void MeasureBefore(
   {
     const EdgeJump jump = MeasureJump(forms, edge, measured);
     StitchedEdge stitched;
-    stitched.Pair = edge.Pair;
-    stitched.Start = edge.Low;
-    stitched.End = edge.High;
+    stitched.Interface = edge;
     stitched.JumpBefore = jump.Value;
     stitched.SlopeJumpBefore = jump.Slope;
     result.Edges.push_back(stitched);

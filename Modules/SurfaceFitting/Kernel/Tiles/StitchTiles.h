@@ -1,18 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <knotwork/SplineCore/Spline.h>
+#include <knotwork/SplineCore/MultiPatch.h>
 
 namespace knotwork
 {
-/// Two sides of tiles that are one curve. Sides: 0 and 1 are the lower and the upper end of the
-/// first parameter, 2 and 3 those of the second.
-struct TilePair
-{
-  std::array<int, 2> Tiles{};
-  std::array<int, 2> Sides{};
-  bool Reversed = false; ///< the parameters along the sides run against each other
-};
-
 /// How tiles know their neighbours.
 enum class TileMatching
 {
@@ -25,7 +16,7 @@ struct StitchParams
 {
   int Continuity = 1; ///< 0 or 1
   TileMatching Matching = TileMatching::Domain;
-  std::vector<TilePair> Pairs;
+  std::vector<PatchInterface> Pairs;
   /// What counts as the same place, in (0, 0.1]: relative to the shortest side of a domain
   /// (Domain), to the longest edge of the box around all control points (Geometry).
   double Tolerance = 1e-6;
@@ -39,9 +30,7 @@ struct StitchParams
 /// A boundary that two tiles share, or the part that they share of it.
 struct StitchedEdge
 {
-  TilePair Pair;
-  std::array<double, 2> Start{}; ///< of the common part, in each tile's own parameter
-  std::array<double, 2> End{};   ///< larger than Start also when reversed
+  PatchInterface Interface; ///< with the common part of each side, also when it is the whole
   /// Upper bounds, over the whole edge, of the distance between both sides' points, and between
   /// both sides' derivatives across the edge (with the first tile's parameter). Rounding of the
   /// coefficients included; at most a thousandth above the largest distance.

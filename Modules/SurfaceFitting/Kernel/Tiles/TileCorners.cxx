@@ -75,14 +75,14 @@ public:
       std::array<int, 2> ids;
       for (std::size_t i = 0; i < 2; ++i)
       {
-        const bool isHigh = atHigh != (i == 1 && edge.Pair.Reversed);
+        const bool isHigh = atHigh != (i == 1 && edge.IsReversed());
         ids[i] = this->Corner(
-          edge.Pair.Tiles[i], edge.Pair.Sides[i], isHigh ? edge.High[i] : edge.Low[i], !isHigh);
+          edge.Sides[i].Patch, edge.Sides[i].Side, isHigh ? edge.High(i) : edge.Low(i), !isHigh);
       }
       const double ratio = edge.Ratio();
       this->Links.push_back({ ids[0], ids[1],
-        { static_cast<int>(AlongSide(edge.Pair.Sides[0])),
-          static_cast<int>(AlongSide(edge.Pair.Sides[1])) },
+        { static_cast<int>(AlongSide(edge.Sides[0].Side)),
+          static_cast<int>(AlongSide(edge.Sides[1].Side)) },
         1.0 / ratio, -1.0 / ratio });
     }
   }

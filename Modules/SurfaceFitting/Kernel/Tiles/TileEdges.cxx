@@ -19,9 +19,9 @@ std::size_t At(int i)
   return static_cast<std::size_t>(i);
 }
 
-std::string SideName(int tile, int side)
+std::string SideName(const PatchSide& side)
 {
-  return "side " + std::to_string(side) + " of tile " + std::to_string(tile);
+  return "side " + std::to_string(side.Side) + " of tile " + std::to_string(side.Patch);
 }
 
 /// Moves the ends of a tile's knots in a direction; those between follow, and so do the coordinates
@@ -100,23 +100,21 @@ Status FitBoxes(std::vector<Spline<2>>& tiles, const StitchParams& params)
 
 Result<std::vector<TileEdge>> EdgesOfBoxes(const std::vector<Spline<2>>& tiles)
 {
-  std::vector<TileEdge> edges;
-  const int n = static_cast<int>(tiles.size());
   std::vector<ParametricBox<2>> boxes;
   for (const Spline<2>& tile : tiles)
   {
     boxes.push_back(tile.Space->Domain());
   }
-  for (int a = 0; a < n; ++a)
+  for (std::size_t a = 0; a < boxes.size(); ++a)
   {
-    for (int b = a + 1; b < n; ++b)
+    for (std::size_t b = a + 1; b < boxes.size(); ++b)
     {
       std::array<double, 2> low;
       std::array<double, 2> high;
       for (std::size_t d = 0; d < 2; ++d)
       {
-        low[d] = std::max(boxes[At(a)].Lower[d], boxes[At(b)].Lower[d]);
-        high[d] = std::min(boxes[At(a)].Upper[d], boxes[At(b)].Upper[d]);
+        low[d] = std::max(boxes[a].Lower[d], boxes[b].Lower[d]);
+        high[d] = std::min(boxes[a].Upper[d], boxes[b].Upper[d]);
       }
       if (low[0] < high[0] && low[1] < high[1])
       {
@@ -126,129 +124,86 @@ Result<std::vector<TileEdge>> EdgesOfBoxes(const std::vector<Spline<2>>& tiles)
             ", " + Digits(high[1]) +
             "]; cut the tiles, or match them by geometry or pairs of sides" };
       }
-      for (std::size_t d = 0; d < 2; ++d)
-      {
-        if (low[d] == high[d] && low[1 - d] < high[1 - d])
-        {
-          const bool aIsLower = boxes[At(a)].Upper[d] == low[d];
-          const int side = static_cast<int>(2 * d);
-          TileEdge edge;
-          edge.Pair.Tiles = { a, b };
-          edge.Pair.Sides = { side + (aIsLower ? 1 : 0), side + (aIsLower ? 0 : 1) };
-          edge.Low.fill(low[1 - d]);
-          edge.High.fill(high[1 - d]);
-          edges.push_back(edge);
-        }
-      }
     }
+  }
+  std::vector<TileEdge> edges;
+  for (const PatchInterface& interface : FindInterfaces<2>(boxes))
+  {
+    edges.push_back({ interface });
   }
   return edges;
 }
 
-/// Points of a side at its lower end, its middle and its upper end.
-using SidePoints = std::array<Eigen::RowVectorXd, 3>;
-
-Result<std::array<SidePoints, 4>> PointsOfSides(const Spline<2>& tile, int components, int threads)
-{
-  const ParametricBox<2> box = tile.Space->Domain();
-  PointMatrix at(12, 2);
-  for (int side = 0; side < 4; ++side)
-  {
-    const std::size_t along = AlongSide(side);
-    for (int k = 0; k < 3; ++k)
-    {
-      const double low = box.Lower[along];
-      const double high = box.Upper[along];
-      at(3 * side + k, static_cast<Eigen::Index>(AcrossSide(side))) = SideValue(box, side);
-      at(3 * side + k, static_cast<Eigen::Index>(along)) = k == 0 ? low
-        : k == 1                                                  ? 0.5 * (low + high)
-                                                                  : high;
-    }
-  }
-  EvaluationBatch batch;
-  const Status status =
-    EvaluateParameters(MakeBezierForm(tile, threads), at, { 0, threads }, batch);
-  std::array<SidePoints, 4> points;
-  for (int i = 0; i < 12 && status; ++i)
-  {
-    points[At(i / 3)][At(i % 3)] = batch.Values.row(i).head(components);
-  }
-  return status ? Result<std::array<SidePoints, 4>>(points) : status;
-}
-
-Result<std::vector<TilePair>> PairsOfGeometry(
+Result<std::vector<PatchInterface>> PairsOfGeometry(
   const std::vector<Spline<2>>& tiles, const StitchParams& params)
 {
-  const int all = tiles.front().NumComponents();
-  const int components = params.NumMeasured == 0 ? all : params.NumMeasured;
-  std::vector<std::array<SidePoints, 4>> points;
+  const int components =
+    params.NumMeasured == 0 ? tiles.front().NumComponents() : params.NumMeasured;
+  Result<std::vector<SideSamples>> sides = SampleSides<2>(tiles, 3, params.Threads);
+  if (!sides)
+  {
+    return sides.Status;
+  }
+  for (SideSamples& side : sides.Value)
+  {
+    side.Points = PointMatrix(side.Points.leftCols(components));
+  }
   Eigen::RowVectorXd low = tiles.front().ControlPoints.row(0).head(components);
   Eigen::RowVectorXd high = low;
   for (const Spline<2>& tile : tiles)
   {
-    auto sides = PointsOfSides(tile, components, params.Threads);
-    if (!sides)
-    {
-      return sides.Status;
-    }
-    points.push_back(std::move(sides.Value));
     low = low.cwiseMin(tile.ControlPoints.leftCols(components).colwise().minCoeff());
     high = high.cwiseMax(tile.ControlPoints.leftCols(components).colwise().maxCoeff());
   }
   const double tolerance = params.Tolerance * (high - low).maxCoeff();
-  const auto same = [tolerance](const Eigen::RowVectorXd& a, const Eigen::RowVectorXd& b)
-  { return (a - b).norm() <= tolerance; };
-  std::vector<TilePair> pairs;
-  const int n = 4 * static_cast<int>(tiles.size());
-  for (int a = 0; a < n; ++a)
+  std::vector<PatchInterface> all = FindInterfaces(sides.Value, tolerance);
+  std::sort(all.begin(), all.end(),
+    [](const PatchInterface& a, const PatchInterface& b) { return a.Sides < b.Sides; });
+  std::vector<PatchInterface> pairs;
+  for (const PatchInterface& found : all)
   {
-    const SidePoints& x = points[At(a / 4)][At(a % 4)];
-    for (int b = a + 1; b < n; ++b)
+    const auto& [a, b] = found.Sides;
+    if (a == b)
     {
-      const SidePoints& y = points[At(b / 4)][At(b % 4)];
-      const bool forwards = same(x[0], y[0]) && same(x[2], y[2]);
-      const bool backwards = same(x[0], y[2]) && same(x[2], y[0]);
-      if ((forwards || backwards) && same(x[1], y[1]))
-      {
-        if (forwards && backwards)
-        {
-          return { ErrorCode::InvalidTopology,
-            SideName(a / 4, a % 4) + " and " + SideName(b / 4, b % 4) +
-              " are closed or points: name the pairs of sides" };
-        }
-        pairs.push_back({ { a / 4, b / 4 }, { a % 4, b % 4 }, backwards });
-      }
+      continue;
     }
+    const auto samplesOf = [&](const PatchSide& side) -> const SideSamples&
+    { return sides.Value[At(4 * side.Patch + side.Side)]; };
+    if (FittingOrientations(samplesOf(b), samplesOf(a), tolerance).size() > 1)
+    {
+      return { ErrorCode::InvalidTopology,
+        SideName(a) + " and " + SideName(b) + " are closed or points: name the pairs of sides" };
+    }
+    pairs.push_back(found);
   }
   return pairs;
 }
 
 Result<std::vector<TileEdge>> EdgesOfPairs(
-  const std::vector<Spline<2>>& tiles, const std::vector<TilePair>& pairs)
+  const std::vector<Spline<2>>& tiles, const std::vector<PatchInterface>& pairs)
 {
   std::vector<TileEdge> edges;
-  std::set<std::array<int, 2>> used;
-  for (const TilePair& pair : pairs)
+  std::set<PatchSide> used;
+  for (const PatchInterface& pair : pairs)
   {
-    TileEdge edge;
-    edge.Pair = pair;
+    TileEdge edge{ pair };
     for (std::size_t i = 0; i < 2; ++i)
     {
-      const int tile = pair.Tiles[i];
-      const int side = pair.Sides[i];
-      if (tile < 0 || tile >= static_cast<int>(tiles.size()) || side < 0 || side > 3)
+      const PatchSide& side = pair.Sides[i];
+      if (side.Patch < 0 || side.Patch >= static_cast<int>(tiles.size()) || side.Side < 0 ||
+        side.Side > 3)
       {
         return { ErrorCode::InvalidParameter,
-          "there is no " + SideName(tile, side) + ": tiles count from 0 to " +
+          "there is no " + SideName(side) + ": tiles count from 0 to " +
             std::to_string(tiles.size() - 1) + ", sides from 0 to 3" };
       }
-      if (!used.insert({ tile, side }).second)
+      if (!used.insert(side).second)
       {
-        return { ErrorCode::InvalidTopology, SideName(tile, side) + " is in more than one pair" };
+        return { ErrorCode::InvalidTopology, SideName(side) + " is in more than one pair" };
       }
-      const ParametricBox<2> box = tiles[At(tile)].Space->Domain();
-      edge.Low[i] = box.Lower[AlongSide(side)];
-      edge.High[i] = box.Upper[AlongSide(side)];
+      const ParametricBox<2> box = tiles[At(side.Patch)].Space->Domain();
+      edge.Parts[i].Lower[0] = box.Lower[AlongSide(side.Side)];
+      edge.Parts[i].Upper[0] = box.Upper[AlongSide(side.Side)];
     }
     edges.push_back(edge);
   }

@@ -7,41 +7,31 @@ namespace knotwork
 /// Knots so close (relative to the side) are one; above what the insertion takes for one.
 inline constexpr double SameKnot = 2e-12;
 
-/// Direction of the parameter that is constant on a side, and the one along it.
-inline std::size_t AcrossSide(int side)
-{
-  return static_cast<std::size_t>(side / 2);
-}
+/// Direction of the parameter along a side.
 inline std::size_t AlongSide(int side)
 {
-  return 1 - AcrossSide(side);
-}
-/// The constant parameter's value on a side.
-inline double SideValue(const ParametricBox<2>& domain, int side)
-{
-  return side % 2 == 0 ? domain.Lower[AcrossSide(side)] : domain.Upper[AcrossSide(side)];
+  return SideDirections<2>(side)[0];
 }
 
 /// The part of two sides that is one curve.
-struct TileEdge
+struct TileEdge : PatchInterface
 {
-  TilePair Pair;
-  std::array<double, 2> Low{};
-  std::array<double, 2> High{};
-
+  double Low(std::size_t i) const { return this->Parts[i].Lower[0]; }
+  double High(std::size_t i) const { return this->Parts[i].Upper[0]; }
+  bool IsReversed() const { return this->Orientation.Reversed[0]; }
   /// The second tile's length in parameters over the first one's.
-  double Ratio() const { return (this->High[1] - this->Low[1]) / (this->High[0] - this->Low[0]); }
+  double Ratio() const { return (this->High(1) - this->Low(1)) / (this->High(0) - this->Low(0)); }
   /// A parameter along side `from` of the pair as one along the other side.
   double Map(std::size_t from, double t) const
   {
     const std::size_t to = 1 - from;
-    if (!this->Pair.Reversed && this->Low[0] == this->Low[1] && this->High[0] == this->High[1])
+    if (!this->IsReversed() && this->Low(0) == this->Low(1) && this->High(0) == this->High(1))
     {
       return t;
     }
-    const double s = (t - this->Low[from]) / (this->High[from] - this->Low[from]);
-    const double r = this->Pair.Reversed ? 1.0 - s : s;
-    return (1.0 - r) * this->Low[to] + r * this->High[to];
+    const double s = (t - this->Low(from)) / (this->High(from) - this->Low(from));
+    const double r = this->IsReversed() ? 1.0 - s : s;
+    return (1.0 - r) * this->Low(to) + r * this->High(to);
   }
 };
 

@@ -41,7 +41,7 @@ Rows Restricted(const Rows& rows, double low, double high)
 std::vector<Piece> Pieces(
   const BezierForm<2>& form, const TileEdge& edge, std::size_t i, int components)
 {
-  const int side = edge.Pair.Sides[i];
+  const int side = edge.Sides[i].Side;
   const std::size_t across = AcrossSide(side);
   const std::size_t along = AlongSide(side);
   const bool isUpper = side % 2 == 1;
@@ -51,8 +51,8 @@ std::vector<Piece> Pieces(
   {
     const auto& element = form.Space->Elements[At(e)];
     const ParametricBox<2>& box = element.Box;
-    const double low = std::max(box.Lower[along], edge.Low[i]);
-    const double high = std::min(box.Upper[along], edge.High[i]);
+    const double low = std::max(box.Lower[along], edge.Low(i));
+    const double high = std::min(box.Upper[along], edge.High(i));
     if ((isUpper ? box.Upper : box.Lower)[across] != value || !(low < high))
     {
       continue;
@@ -87,7 +87,7 @@ std::vector<Piece> Pieces(
     if (i == 1)
     {
       piece.Slope *= edge.Ratio();
-      if (edge.Pair.Reversed)
+      if (edge.IsReversed())
       {
         std::swap(piece.Low, piece.High);
         piece.Value = piece.Value.colwise().reverse().eval();
@@ -128,9 +128,9 @@ double Rounding(const Rows& a, const Rows& b)
 
 EdgeJump MeasureJump(const std::vector<BezierForm<2>>& forms, const TileEdge& edge, int components)
 {
-  const std::array<std::vector<Piece>, 2> pieces{ Pieces(forms[At(edge.Pair.Tiles[0])], edge, 0,
+  const std::array<std::vector<Piece>, 2> pieces{ Pieces(forms[At(edge.Sides[0].Patch)], edge, 0,
                                                     components),
-    Pieces(forms[At(edge.Pair.Tiles[1])], edge, 1, components) };
+    Pieces(forms[At(edge.Sides[1].Patch)], edge, 1, components) };
   EdgeJump reached;
   EdgeJump bound;
   EdgeJump rounding;
@@ -146,7 +146,7 @@ EdgeJump MeasureJump(const std::vector<BezierForm<2>>& forms, const TileEdge& ed
       const Piece& b = pieces[1][j];
       const double low = std::max(a.Low, b.Low);
       const double high = std::min(a.High, b.High);
-      if (high - low > SameKnot * (edge.High[0] - edge.Low[0]))
+      if (high - low > SameKnot * (edge.High(0) - edge.Low(0)))
       {
         const auto on = [low, high](const Piece& piece, const Rows& rows)
         {

@@ -202,29 +202,29 @@ std::vector<TileDemands> Demands(const std::vector<Spline<2>>& tiles,
     int count = 0; // of functions on the edge
     for (std::size_t i = 0; i < 2; ++i)
     {
-      const SplineSpace<2>& space = *tiles[At(edge.Pair.Tiles[i])].Space;
-      const int sideId = edge.Pair.Sides[i];
+      const SplineSpace<2>& space = *tiles[At(edge.Sides[i].Patch)].Space;
+      const int sideId = edge.Sides[i].Side;
       const Side side(space, sideId);
-      const double tolerance = SameKnot * (edge.High[i] - edge.Low[i]);
+      const double tolerance = SameKnot * (edge.High(i) - edge.Low(i));
       for (const KnotCount& knot : side.Knots(side.Row(0)))
       {
-        if (knot.Value > edge.Low[i] + tolerance && knot.Value < edge.High[i] - tolerance)
+        if (knot.Value > edge.Low(i) + tolerance && knot.Value < edge.High(i) - tolerance)
         {
           inside[i].push_back(knot);
         }
       }
-      std::vector<KnotCount>& own = demands[At(edge.Pair.Tiles[i])][sideId];
+      std::vector<KnotCount>& own = demands[At(edge.Sides[i].Patch)][sideId];
       own.insert(own.end(), inside[i].begin(), inside[i].end());
       // where the edge ends within the side
       const ParametricBox<2> domain = space.Domain();
       const int least = std::max(side.Degree() - 1, 1);
-      if (edge.Low[i] != domain.Lower[AlongSide(sideId)])
+      if (edge.Low(i) != domain.Lower[AlongSide(sideId)])
       {
-        own.push_back({ edge.Low[i], least });
+        own.push_back({ edge.Low(i), least });
       }
-      if (edge.High[i] != domain.Upper[AlongSide(sideId)])
+      if (edge.High(i) != domain.Upper[AlongSide(sideId)])
       {
-        own.push_back({ edge.High[i], least });
+        own.push_back({ edge.High(i), least });
       }
       int total = side.Degree() + 1;
       for (const KnotCount& knot : inside[i])
@@ -235,15 +235,15 @@ std::vector<TileDemands> Demands(const std::vector<Spline<2>>& tiles,
     }
     for (std::size_t i = 0; i < 2; ++i)
     {
-      std::vector<KnotCount>& other = demands[At(edge.Pair.Tiles[1 - i])][edge.Pair.Sides[1 - i]];
+      std::vector<KnotCount>& other = demands[At(edge.Sides[1 - i].Patch)][edge.Sides[1 - i].Side];
       for (const KnotCount& knot : inside[i])
       {
         other.push_back({ edge.Map(i, knot.Value), knot.Count });
       }
       if (params.Continuity == 1 && count < 4) // two at each end
       {
-        const double middle = 0.5 * (edge.Low[i] + edge.High[i]);
-        demands[At(edge.Pair.Tiles[i])][edge.Pair.Sides[i]].push_back({ middle, 1 });
+        const double middle = 0.5 * (edge.Low(i) + edge.High(i));
+        demands[At(edge.Sides[i].Patch)][edge.Sides[i].Side].push_back({ middle, 1 });
       }
     }
   }
@@ -299,21 +299,21 @@ Status CheckTileDegrees(const std::vector<Spline<2>>& tiles, const std::vector<T
     std::array<IntArray<2>, 2> degrees;
     for (std::size_t i = 0; i < 2; ++i)
     {
-      degrees[i] = tiles[At(edge.Pair.Tiles[i])].Space->LocallyRefined->Basis.Degree;
+      degrees[i] = tiles[At(edge.Sides[i].Patch)].Space->LocallyRefined->Basis.Degree;
       if (params.Continuity == 1 && std::min(degrees[i][0], degrees[i][1]) < 2)
       {
         return { ErrorCode::InvalidDegree,
-          "tile " + std::to_string(edge.Pair.Tiles[i]) +
+          "tile " + std::to_string(edge.Sides[i].Patch) +
             " is of degree 1, but C1 needs 2 in both directions; choose C0 or fit it anew" };
       }
     }
-    const int a = degrees[0][AlongSide(edge.Pair.Sides[0])];
-    const int b = degrees[1][AlongSide(edge.Pair.Sides[1])];
+    const int a = degrees[0][AlongSide(edge.Sides[0].Side)];
+    const int b = degrees[1][AlongSide(edge.Sides[1].Side)];
     if (a != b)
     {
       return { ErrorCode::InvalidDegree,
-        "tiles " + std::to_string(edge.Pair.Tiles[0]) + " and " +
-          std::to_string(edge.Pair.Tiles[1]) + " have degrees " + std::to_string(a) + " and " +
+        "tiles " + std::to_string(edge.Sides[0].Patch) + " and " +
+          std::to_string(edge.Sides[1].Patch) + " have degrees " + std::to_string(a) + " and " +
           std::to_string(b) + " along their common edge; fit them with the same degree" };
     }
   }

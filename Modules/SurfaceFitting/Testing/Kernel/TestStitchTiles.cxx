@@ -98,27 +98,37 @@ EvaluationBatch AlongEdge(const Spline<2>& tile, int side, const std::vector<dou
   return batch;
 }
 
+PatchInterface Paired(const PatchSide& a, const PatchSide& b, bool reversed)
+{
+  PatchInterface pair;
+  pair.Sides = { a, b };
+  pair.Orientation = SideOrientation::Make(reversed ? 1 : 0);
+  return pair;
+}
+
 /// Largest differences of values and derivatives across at 401 points of an edge.
 std::array<double, 2> SampledJumps(const std::vector<Spline<2>>& tiles, const StitchedEdge& edge)
 {
+  const auto& parts = edge.Interface.Parts;
   std::array<std::vector<double>, 2> where;
   for (int k = 0; k <= 400; ++k)
   {
     const double s = (k + 0.31 * (k % 400 != 0)) / 400.0; // not on knots, where a side may jump
-    const double r = edge.Pair.Reversed ? 1.0 - s : s;
-    where[0].push_back((1 - s) * edge.Start[0] + s * edge.End[0]);
-    where[1].push_back((1 - r) * edge.Start[1] + r * edge.End[1]);
+    const double r = edge.Interface.Orientation.Reversed[0] ? 1.0 - s : s;
+    where[0].push_back((1 - s) * parts[0].Lower[0] + s * parts[0].Upper[0]);
+    where[1].push_back((1 - r) * parts[1].Lower[0] + r * parts[1].Upper[0]);
   }
-  const auto& tileA = tiles[edge.Pair.Tiles[0]];
-  const auto& tileB = tiles[edge.Pair.Tiles[1]];
-  const EvaluationBatch a = AlongEdge(tileA, edge.Pair.Sides[0], where[0]);
-  const EvaluationBatch b = AlongEdge(tileB, edge.Pair.Sides[1], where[1]);
+  const auto& tileA = tiles[edge.Interface.Sides[0].Patch];
+  const auto& tileB = tiles[edge.Interface.Sides[1].Patch];
+  const EvaluationBatch a = AlongEdge(tileA, edge.Interface.Sides[0].Side, where[0]);
+  const EvaluationBatch b = AlongEdge(tileB, edge.Interface.Sides[1].Side, where[1]);
   const int c = tileA.NumComponents();
-  const double ratio = (edge.End[1] - edge.Start[1]) / (edge.End[0] - edge.Start[0]);
+  const double ratio =
+    (parts[1].Upper[0] - parts[1].Lower[0]) / (parts[0].Upper[0] - parts[0].Lower[0]);
   const auto inwards = [&](const EvaluationBatch& batch, int side)
   { return PointMatrix(batch.First.middleCols(side / 2 * c, c) * (side % 2 == 0 ? 1.0 : -1.0)); };
   const PointMatrix slopes =
-    inwards(a, edge.Pair.Sides[0]) + ratio * inwards(b, edge.Pair.Sides[1]);
+    inwards(a, edge.Interface.Sides[0].Side) + ratio * inwards(b, edge.Interface.Sides[1].Side);
   return { (a.Values - b.Values).rowwise().norm().maxCoeff(), slopes.rowwise().norm().maxCoeff() };
 }
 
@@ -147,8 +157,8 @@ void ExpectStitched(
   const auto tolerance = RoundingOf(result.Tiles);
   for (const StitchedEdge& edge : result.Edges)
   {
-    SCOPED_TRACE(
-      "tiles " + std::to_string(edge.Pair.Tiles[0]) + " and " + std::to_string(edge.Pair.Tiles[1]));
+    SCOPED_TRACE("tiles " + std::to_string(edge.Interface.Sides[0].Patch) + " and " +
+      std::to_string(edge.Interface.Sides[1].Patch));
     const auto before = SampledJumps(tiles, edge);
     const auto after = SampledJumps(result.Tiles, edge);
     // bounds hold, and before stitching they are not far above what is there
@@ -423,7 +433,7 @@ TEST(StitchTiles, PairsInSpace_PropertyOracle)
     StitchParams params;
     params.Continuity = static_cast<int>(seed % 2);
     params.Matching = TileMatching::Pairs;
-    params.Pairs = { { { 0, 1 }, { 1, 2 }, false }, { { 0, 1 }, { 0, 3 }, true } };
+    params.Pairs = { Paired({ 0, 1 }, { 1, 2 }, false), Paired({ 0, 0 }, { 1, 3 }, true) };
     const auto result = StitchTiles(tiles, params);
     ASSERT_TRUE(result) << result.Status.Message();
     ExpectStitched(tiles, result.Value, params.Continuity);
@@ -436,7 +446,7 @@ TEST(StitchTiles, ATileIsItsOwnNeighbour_PropertyOracle)
   const std::vector<Spline<2>> tiles{ LocalTile(random, { { 0, 0 }, { 3, 1 } }, { 3, 3 }, 5, 3) };
   StitchParams params;
   params.Matching = TileMatching::Pairs;
-  params.Pairs = { { { 0, 0 }, { 0, 1 }, false } };
+  params.Pairs = { Paired({ 0, 0 }, { 0, 1 }, false) };
   const auto result = StitchTiles(tiles, params);
   ASSERT_TRUE(result) << result.Status.Message();
   ExpectStitched(tiles, result.Value, 1);
@@ -492,8 +502,8 @@ TEST(StitchTiles, ThreeTilesAroundACorner_PropertyOracle)
   }
   StitchParams params;
   params.Matching = TileMatching::Pairs;
-  params.Pairs = { { { 0, 1 }, { 0, 2 }, false }, { { 1, 2 }, { 0, 2 }, false },
-    { { 2, 0 }, { 0, 2 }, false } };
+  params.Pairs = { Paired({ 0, 0 }, { 1, 2 }, false), Paired({ 1, 0 }, { 2, 2 }, false),
+    Paired({ 2, 0 }, { 0, 2 }, false) };
   EXPECT_EQ(StitchTiles(tiles, params).Status.Code, ErrorCode::InvalidTopology);
   params.Continuity = 0;
   const auto result = StitchTiles(tiles, params);
@@ -559,11 +569,11 @@ TEST(StitchTiles, EveryFailureIsReachable_ExactOracle)
   EXPECT_EQ(code(good, params), ErrorCode::InvalidParameter);
   params = {};
   params.Matching = TileMatching::Pairs;
-  params.Pairs = { { { 0, 2 }, { 1, 0 }, false } };
+  params.Pairs = { Paired({ 0, 1 }, { 2, 0 }, false) };
   EXPECT_EQ(code(good, params), ErrorCode::InvalidParameter);
-  params.Pairs = { { { 0, 1 }, { 1, 4 }, false } };
+  params.Pairs = { Paired({ 0, 1 }, { 1, 4 }, false) };
   EXPECT_EQ(code(good, params), ErrorCode::InvalidParameter);
-  params.Pairs = { { { 0, 1 }, { 1, 0 }, false }, { { 0, 1 }, { 1, 1 }, false } };
+  params.Pairs = { Paired({ 0, 1 }, { 1, 0 }, false), Paired({ 0, 1 }, { 1, 1 }, false) };
   EXPECT_EQ(code(good, params), ErrorCode::InvalidTopology);
   params.Pairs = {};
   EXPECT_EQ(code(good, params), ErrorCode::InvalidTopology);
