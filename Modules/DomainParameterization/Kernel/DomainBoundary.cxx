@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DomainBoundary.h"
 
+#include "CoincidentPoints.h"
 #include "DomainMeasure.h"
 #include "NumberText.h"
 #include "SideSplines.h"
@@ -475,6 +476,7 @@ Result<CompatibleBoundary<Dim>> MakeCompatible(
   {
     return status;
   }
+  result.LargestGap = std::max(result.LargestGap, JoinCoincidentPoints<Dim>(result, tolerance));
   return result;
 }
 

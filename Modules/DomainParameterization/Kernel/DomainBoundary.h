@@ -37,8 +37,10 @@ struct CompatibleBoundary
   std::array<KnotVector, Dim> Knots;          ///< of the map, clamped on [0, 1]
   std::array<Spline<Dim - 1>, 2 * Dim> Sides; ///< Dim components, rational all or none
   std::array<SideOrigin, 2 * Dim> Origins;
-  double LargestGap = 0.0; ///< that was closed at a corner or edge, unit of the points
-  double Size = 0.0;       ///< diagonal of the control points' bounding box
+  /// That was closed at a corner or edge, or between neighbouring control points that agree within
+  /// rounding; unit of the points.
+  double LargestGap = 0.0;
+  double Size = 0.0; ///< diagonal of the control points' bounding box
 
   bool IsRational() const { return this->Sides[0].IsRational(); }
 };
@@ -49,7 +51,9 @@ struct CompatibleBoundary
 /// inserted (knots closer than 1e-12 of the domain are one), domains mapped to [0, 1] by an affine
 /// change. Weights of sides that meet are matched by a constant factor a side; where no constants
 /// fit (planar only) a side is multiplied, numerator and denominator, by one linear function, which
-/// raises its degree by one and changes neither its points nor its parameters.
+/// raises its degree by one and changes neither its points nor its parameters. Neighbouring control
+/// points that agree within the rounding of their coordinates, and within the gap tolerance, become
+/// one: derivatives that were zero before a refinement are zero again.
 /// @return EmptyInput; SizeMismatch (not 4 / 6 sides); what Spline::Check finds, with the side;
 /// DimensionMismatch (components, kind, third components that differ); InvalidKnots (not clamped);
 /// InvalidTopology: the sides leave a gap at a corner or along an edge (named, with the distance),

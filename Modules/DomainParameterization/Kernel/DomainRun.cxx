@@ -701,8 +701,7 @@ private:
     return "the map is regular, but where its boundary is degenerate within the rounding of its "
            "coordinates (" +
       std::to_string(certificate.NumUndecided) + " elements, undecided, the first " + Near(place) +
-      "): make control points there coincide exactly, or give coordinates that are exact to less "
-      "than " +
+      "): open the angle there, or give coordinates that are exact to less than " +
       NumberText(rounding);
   }
 

@@ -406,6 +406,14 @@ private:
     const int factors =
       this->Rational ? NumParameters(this->Shape) + 1 : NumParameters(this->Shape);
     exact->Exponent = cell.Exponent * factors * (this->Norm ? 2 : 1);
+    for (int s = 0; s < exact->Layout->NumSlots; ++s)
+    {
+      // a side that is a curve: rounding of its weights alone makes it more
+      if ((cell.CollapsedSides >> s & 1) && this->SnapFaces(*exact, 1 << s) > 0.0)
+      {
+        this->Result.Snapped = true;
+      }
+    }
     this->SnapCorners(*exact);
     return exact;
   }
@@ -520,8 +528,9 @@ private:
   }
 
   /// Sides and edges on which all coefficients are within what CollapseTolerance makes of zero
-  /// become zero. @return the largest of what they were, 0 when there is none.
-  double SnapFaces(ExactForm& form)
+  /// become zero. @param only  the side (set of slots) that may; 0: all.
+  /// @return the largest of what they were, 0 when there is none.
+  double SnapFaces(ExactForm& form, int only = 0)
   {
     int scale = 0;
     const std::vector<double> values = form.Coefficients(scale);
@@ -535,7 +544,7 @@ private:
     }
     for (int mask = 1; mask < 1 << layout.NumSlots; ++mask)
     {
-      if (!this->IsFace(layout, mask) ||
+      if ((only != 0 && mask != only) || !this->IsFace(layout, mask) ||
         __builtin_popcount(static_cast<unsigned>(mask)) >= NumParameters(this->Shape))
       {
         continue;

@@ -351,7 +351,8 @@ ExactCell MakeExactCell(const FormLayout& layout, int numComponents, bool ration
     }
   }
   ExactCell cell;
-  // Euclidean control points, rounded; lines that coincide within the tolerance take the first's.
+  // Euclidean control points, rounded; neighbours that coincide within the tolerance become
+  // one.
   std::vector<double> points(block, block + numComponents * n);
   const double* weights = rational ? block + numComponents * n : nullptr;
   for (int c = 0; weights && c < numComponents; ++c)
@@ -364,6 +365,28 @@ ExactCell MakeExactCell(const FormLayout& layout, int numComponents, bool ration
   }
   const auto point = [&](int c, int i) -> double&
   { return points[static_cast<std::size_t>(c * n + i)]; };
+  const auto move = [&](int i, int to)
+  {
+    for (const int k : { to, i })
+    {
+      for (int c = 0; c < numComponents; ++c)
+      {
+        DyadicNumber exact = Dyadic(point(c, to));
+        if (rational)
+        {
+          exact = Product(
+            exact, values[static_cast<std::size_t>(numComponents)][static_cast<std::size_t>(k)]);
+        }
+        DyadicNumber& value = values[static_cast<std::size_t>(c)][static_cast<std::size_t>(k)];
+        if (!Equal(value, exact))
+        {
+          value = exact;
+          cell.Snapped = true;
+        }
+        point(c, k) = point(c, to);
+      }
+    }
+  };
   for (int pass = 0; tolerance > 0.0 && pass < 3; ++pass)
   {
     for (const FormLayout::Edge& edge : layout.Edges)
@@ -378,35 +401,50 @@ ExactCell MakeExactCell(const FormLayout& layout, int numComponents, bool ration
             (s != edge.From && s != edge.To &&
               layout.Exponents[static_cast<std::size_t>(at[0])][static_cast<std::size_t>(s)] == 0);
         }
-        bool close = boundary && line.Size > 1;
-        for (int i = 1; close && i < line.Size; ++i)
+        // from either end on, as long as the points agree with it: all of a collapsed line, or the
+        // ends of one that stands still there
+        for (const bool last : { false, true })
         {
-          for (int c = 0; c < numComponents; ++c)
+          const int end = last ? at[line.Size - 1] : at[0];
+          for (int i = 1; boundary && i < line.Size; ++i)
           {
-            close = close && std::fabs(point(c, at[i]) - point(c, at[0])) <= tolerance;
-          }
-        }
-        for (int i = 0; close && i < line.Size; ++i)
-        {
-          for (int c = 0; c < numComponents; ++c)
-          {
-            DyadicNumber exact = Dyadic(point(c, at[0]));
-            if (rational)
+            const int next = last ? at[line.Size - 1 - i] : at[i];
+            bool close = true;
+            for (int c = 0; c < numComponents; ++c)
             {
-              exact = Product(exact,
-                values[static_cast<std::size_t>(numComponents)][static_cast<std::size_t>(at[i])]);
+              close = close && std::fabs(point(c, next) - point(c, end)) <= tolerance;
             }
-            DyadicNumber& value =
-              values[static_cast<std::size_t>(c)][static_cast<std::size_t>(at[i])];
-            if (!Equal(value, exact))
+            if (!close)
             {
-              value = exact;
-              cell.Snapped = true;
+              break;
             }
-            point(c, at[i]) = point(c, at[0]);
+            move(next, end);
           }
         }
       }
+    }
+  }
+
+  for (int s = 0; tolerance > 0.0 && s < layout.NumSlots; ++s)
+  {
+    for (const FormLayout::Edge& edge : layout.Edges)
+    {
+      bool collapsed = s != edge.From && s != edge.To;
+      for (std::size_t l = 0; collapsed && l < edge.Lines.size(); ++l)
+      {
+        const int* at = edge.LineIndices.data() + edge.Lines[l].First;
+        const bool onSide =
+          layout.Exponents[static_cast<std::size_t>(at[0])][static_cast<std::size_t>(s)] == 0;
+        for (int i = 1; onSide && i < edge.Lines[l].Size; ++i)
+        {
+          for (int c = 0; c < numComponents; ++c)
+          {
+            collapsed = collapsed && point(c, at[i]) == point(c, at[0]);
+          }
+        }
+      }
+      cell.CollapsedSides =
+        static_cast<std::uint8_t>(cell.CollapsedSides | (collapsed ? 1 << s : 0));
     }
   }
 

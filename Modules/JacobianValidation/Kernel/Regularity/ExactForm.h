@@ -88,7 +88,10 @@ struct ExactCell
 {
   std::array<std::vector<ExactInteger>, 4> Planes;
   int Exponent = 0;
-  bool Snapped = false; ///< boundary lines of control points were made to coincide
+  bool Snapped = false; ///< control points on the boundary were made to coincide
+  /// Bit s: all lines of control points in one direction of the side of slot s are points, so that
+  /// the side is a curve or a point; but for the rounding of its weights, which it bends by.
+  std::uint8_t CollapsedSides = 0;
 };
 
 /// The Euclidean coordinate of a homogeneous one, hi + lo = x w.
@@ -96,8 +99,9 @@ struct ExactCell
 bool Quotient(double hi, double lo, double w, double& x);
 
 /// @param remainders  added to the block; null: none.
-/// @param tolerance  lines of control points on the boundary that agree within it are collapsed to
-/// their first point; 0: none.
+/// @param tolerance  control points that follow the first or the last of a line on the boundary and
+/// agree with it within the tolerance become that point: collapsed lines, and lines that stand
+/// still at an end; 0: none.
 ExactCell MakeExactCell(const FormLayout& layout, int numComponents, bool rational,
   const double* block, const double* remainders, double tolerance);
 }

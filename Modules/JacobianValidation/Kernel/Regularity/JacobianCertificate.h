@@ -52,10 +52,10 @@ struct JacobianParams
   /// Boxes over all cells that needed subdivision, >= 1. Each such cell gets an equal share, at
   /// least 4096, and those still open share what the others left.
   std::int64_t MaxBoxes = 1000000;
-  /// Edges and faces of a cell whose control points agree within this part of its largest
-  /// coordinate are taken as collapsed exactly, and corner values of det J within this part of its
-  /// terms as zero: both are what rounding makes of a degenerate map. 0: the stored numbers and
-  /// nothing else. Cells where it was used say so (Snapped). In [0, 1e-6].
+  /// Control points on a cell's edges and faces that agree with the end of their line within this
+  /// part of its largest coordinate are taken as that point exactly, and corner values of det J
+  /// within this part of its terms as zero: both are what rounding makes of a degenerate map. 0:
+  /// the stored numbers and nothing else. Cells where it was used say so (Snapped). In [0, 1e-6].
   double CollapseTolerance = 0x1p-48;
   int Threads = 0; ///< 0 = all cores; the result does not depend on it
 };

@@ -263,6 +263,75 @@ TEST(JacobianCorpus, CollapsedEdgesWithRounding_ExactOracle)
   EXPECT_EQ(cases, 120);
 }
 
+/// Edges that stand still, with rounding in the point beside: the control points of a box, of which
+/// those of the edge u = 0, v = 0 have the next ones in u in the same place.
+TEST(JacobianCorpus, EdgesThatStandStillWithRounding_ExactOracle)
+{
+  oracle::Random random(23);
+  int forgiven = 0;
+  for (int seed = 0; seed < 60; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    const int degree = random.Int(2, 3);
+    const CellDegree degrees{ degree, random.Int(1, 2), random.Int(1, 2) };
+    const bool rational = seed % 3 == 0;
+    const double offset = random.In(-3, 3);
+    const auto cell = [&](double noise)
+    {
+      BernsteinCells cells;
+      cells.NumComponents = 3;
+      cells.Rational = rational;
+      cells.Add(CellShape::Hexahedron, degrees);
+      oracle::Random shake(static_cast<unsigned>(seed));
+      const std::size_t n = cells.Data.size() / (rational ? 4 : 3);
+      std::size_t at = 0;
+      for (int k = 0; k <= degrees[2]; ++k)
+      {
+        for (int j = 0; j <= degrees[1]; ++j)
+        {
+          for (int i = 0; i <= degrees[0]; ++i, ++at)
+          {
+            const bool still = i == 1 && j == 0;
+            // u^2 in the place of u there: whole numbers over powers of two, exact but for noise
+            const double x[3] = { still ? 0.0 : double(i), double(j), double(k) };
+            const double w = rational ? std::ldexp(1.0, (i + j + k) % 2) : 1.0;
+            for (std::size_t c = 0; c < 3; ++c)
+            {
+              const double moved = still ? noise * shake.In(-1, 1) : 0.0;
+              cells.Data[c * n + at] = w * (std::ldexp(std::round(offset * 64), -6) + x[c] + moved);
+            }
+            if (rational)
+            {
+              cells.Data[3 * n + at] = w;
+            }
+          }
+        }
+      }
+      return cells;
+    };
+    const auto prove = [&](double noise, double tolerance)
+    {
+      JacobianParams params;
+      params.CollapseTolerance = tolerance;
+      return ValidateJacobian(cell(noise), params).Value.Cells[0];
+    };
+    const CellCertificate exact = prove(0.0, 0.0);
+    EXPECT_EQ(exact.Verdict, Verdict::Valid);
+    EXPECT_EQ(exact.Degenerate & DegenerateEdge, DegenerateEdge);
+    const CellCertificate noise = prove(4e-16 * (1 + std::fabs(offset)), 0x1p-48);
+    EXPECT_EQ(noise.Verdict, Verdict::Valid);
+    EXPECT_EQ(noise.Degenerate & DegenerateEdge, DegenerateEdge);
+    const CellCertificate strict = prove(4e-16 * (1 + std::fabs(offset)), 0.0);
+    EXPECT_TRUE(strict.Verdict != Verdict::Valid || strict.Degenerate == 0 || noise.Snapped);
+    forgiven += strict.Verdict == Verdict::Invalid && noise.Snapped;
+    // more than rounding is judged as it is
+    const CellCertificate fold = prove(1e-9, 0x1p-48);
+    EXPECT_EQ(fold.Verdict, prove(1e-9, 0.0).Verdict);
+    EXPECT_FALSE(fold.Snapped);
+  }
+  EXPECT_GT(forgiven, 10);
+}
+
 /// Surfaces: graphs over planar maps (valid), cusps along a line (zero normal), flat ones.
 TEST(JacobianCorpus, Surfaces_ExactOracle)
 {
