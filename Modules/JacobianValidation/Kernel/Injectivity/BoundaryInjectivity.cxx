@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace knotwork
@@ -141,6 +142,7 @@ public:
     {
       return true;
     }
+    this->MoveToMiddle();
     this->MakeTables();
     this->StarShaped = FindStarShaped(this->Gluing.Boundary, this->Gluing.NumComponents,
       this->SideCells, this->Signs, this->Params.Threads);
@@ -199,6 +201,97 @@ private:
   {
     this->Out.HasWitness = true;
     this->Out.Witness = { { a, b }, radius };
+  }
+
+  /// x - o w, rounded once. @return whether that is exact: by Dekker's sums and products.
+  static bool Move(double o, double w, double& x)
+  {
+    const double moved = std::fma(-o, w, x);
+    const double product = o * w;
+    const double productRest = std::fma(o, w, -product);
+    const auto sum = [](double a, double b, double& rest)
+    {
+      const double s = a + b;
+      const double part = s - a;
+      rest = (a - (s - part)) + (b - part);
+      return s;
+    };
+    double rests[3];
+    const double difference = sum(x, -product, rests[0]);
+    const double second = sum(difference, -moved, rests[1]);
+    const double third = sum(second, rests[0], rests[2]);
+    x = moved;
+    return third == productRest && rests[1] == 0.0 && rests[2] == 0.0;
+  }
+
+  /// Sides far away from the origin move to it, so that the roundings of what follows are of their
+  /// size and not of their distance. Coefficients become x w - o w, from what the cell stores with
+  /// its remainder; equal ones stay equal. By multiples of a power of two larger than they are,
+  /// most move exactly: w o has few more digits than w.
+  void MoveToMiddle()
+  {
+    constexpr double far = 8.0;
+    const std::size_t components = static_cast<std::size_t>(this->Cells.NumComponents);
+    const std::size_t planes = static_cast<std::size_t>(this->Cells.NumPlanes());
+    std::array<double, 3> low;
+    std::array<double, 3> high;
+    low.fill(std::numeric_limits<double>::infinity());
+    high.fill(-std::numeric_limits<double>::infinity());
+    const auto weight = [&](const BoundarySide& b, std::size_t i)
+    { return this->Cells.Rational ? b.Data[components * (b.Data.size() / planes) + i] : 1.0; };
+    for (const BoundarySide& b : this->Gluing.Boundary)
+    {
+      const std::size_t n = b.Data.size() / planes;
+      for (std::size_t k = 0; k < components * n; ++k)
+      {
+        const double x = b.Data[k] / weight(b, k % n);
+        low[k / n] = std::min(low[k / n], x);
+        high[k / n] = std::max(high[k / n], x);
+      }
+    }
+    double size = 0.0;
+    double distance = 0.0;
+    for (std::size_t c = 0; c < components; ++c)
+    {
+      size = std::max(size, high[c] - low[c]);
+      distance = std::max(distance, std::abs(0.5 * (low[c] + high[c])));
+    }
+    if (!(size > 0.0 && distance > far * size && std::isfinite(distance)))
+    {
+      return;
+    }
+    this->Distance = distance;
+    const double step = 2.0 * std::exp2(std::ceil(std::log2(size)));
+    for (std::size_t c = 0; c < components; ++c)
+    {
+      this->Middle[c] = step * std::round(0.5 * (low[c] + high[c]) / step);
+    }
+    for (BoundarySide& b : this->Gluing.Boundary)
+    {
+      const std::size_t cell = static_cast<std::size_t>(b.Cell);
+      const CellShape shape = this->Shape(b.Cell);
+      const auto indices = SideCoefficients(shape, this->Cells.Degrees[cell], b.Frame);
+      const int all = NumCellCoefficients(shape, this->Cells.Degrees[cell]);
+      const double* rests = this->Cells.Remainders.empty()
+        ? nullptr
+        : this->Cells.Remainders.data() + this->Cells.Offsets[cell];
+      const std::size_t n = indices.size();
+      double rounded = 0.0; // the largest number that was
+      for (std::size_t k = 0; k < components * n; ++k)
+      {
+        double& x = b.Data[k];
+        rounded =
+          Move(this->Middle[k / n], weight(b, k % n), x) ? rounded : std::max(rounded, std::abs(x));
+        const double rest = rests ? rests[static_cast<int>(k / n) * all + indices[k % n]] : 0.0;
+        if (rest != 0.0)
+        {
+          x += rest;
+          rounded = std::max(rounded, std::abs(x));
+        }
+      }
+      // two roundings a number
+      b.Error = this->Cells.Uncertainty(b.Cell) + 0x1.01p-52 * rounded;
+    }
   }
 
   void MakeTables()
@@ -401,6 +494,7 @@ private:
     input.NumComponents = this->Cells.NumComponents;
     input.Rational = this->Cells.Rational;
     input.CollapseTolerance = this->Params.CollapseTolerance;
+    input.Distance = this->Distance;
     ParallelFor(pairs.size(), 4, this->Params.Threads,
       [&](std::size_t begin, std::size_t end)
       {
@@ -686,7 +780,8 @@ private:
         if (found >= gap.Size)
         {
           gap.Size = found;
-          gap.Position = { at[0], at[1], at[2] };
+          gap.Position = { at[0] + this->Middle[0], at[1] + this->Middle[1],
+            at[2] + this->Middle[2] };
         }
       }
     }
@@ -1119,9 +1214,11 @@ private:
   CellLatticeTable SideLattices;
   BernsteinCells SideCells;
   double ModelSize = 0.0;
-  std::vector<int> Signs;       ///< of det J, one a cell
-  std::vector<char> StarShaped; ///< one a component of the boundary
-  std::vector<bool> Lonely;     ///< one a component of the boundary
+  std::array<double, 3> Middle{}; ///< that the boundary's sides were moved by
+  double Distance = 0.0;          ///< largest coordinate of that
+  std::vector<int> Signs;         ///< of det J, one a cell
+  std::vector<char> StarShaped;   ///< one a component of the boundary
+  std::vector<bool> Lonely;       ///< one a component of the boundary
   SeparationState Obstacle = SeparationState::Separate;
   std::array<Place, 2> ObstaclePlaces;
 };

@@ -928,8 +928,7 @@ private:
         // points of a collapsed edge are the corner itself
         const bool collapsed = i == at ||
           (this->Input.CollapseTolerance > 0.0 &&
-            x.cwiseAbs().maxCoeff() <=
-              std::min(node.Size * 1e-6, this->Input.CollapseTolerance * largest));
+            x.cwiseAbs().maxCoeff() <= std::min(node.Size * 1e-6, this->CollapseDistance(largest)));
         if (!collapsed)
         {
           vectors.push_back(k == 0 ? Vector(-x) : x);
@@ -1145,12 +1144,18 @@ private:
     return moves;
   }
 
+  /// @param largest  coordinate, of the moved sides.
+  double CollapseDistance(double largest) const
+  {
+    return this->Input.CollapseTolerance * std::max(largest, this->Input.Distance);
+  }
+
   /// Control points that rounding alone tells apart are one point.
   bool IsOnePoint(const Node& node, int i, int j) const
   {
     return this->Input.CollapseTolerance > 0.0 &&
       (this->PointOf(node, i) - this->PointOf(node, j)).cwiseAbs().maxCoeff() <=
-      std::min(node.Size * 1e-6, this->Input.CollapseTolerance * node.Largest);
+      std::min(node.Size * 1e-6, this->CollapseDistance(node.Largest));
   }
 
   /// A map g of the plane with derivatives in these ranges is one-to-one on convex sets: after
@@ -1571,7 +1576,7 @@ private:
           (this->PointOf(edge.Curve, at[0]) - this->PointOf(edge.Curve, at[1]))
             .cwiseAbs()
             .maxCoeff();
-        if (distance <= 4.0 * this->Input.CollapseTolerance * plane.Largest &&
+        if (distance <= 4.0 * this->CollapseDistance(plane.Largest) &&
           !this->IsOnePoint(node, line[i], line[j]))
         {
           return false;
@@ -1585,8 +1590,7 @@ private:
   {
     const CellLattice& lattice = *this->Lattice[k];
     const auto ends = SideEdge(lattice.Shape, edge);
-    const double tolerance =
-      std::min(node.Size * 1e-6, this->Input.CollapseTolerance * node.Largest);
+    const double tolerance = std::min(node.Size * 1e-6, this->CollapseDistance(node.Largest));
     for (const auto& direction : lattice.Directions)
     {
       for (const auto& line : direction.Lines)

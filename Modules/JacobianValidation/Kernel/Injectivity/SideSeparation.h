@@ -28,6 +28,8 @@ struct SeparationInput
   int NumComponents = 2;
   bool Rational = false;
   double CollapseTolerance = 0.0;
+  /// Of the sides from the origin of the map, by a coordinate: the tolerance is relative to that.
+  double Distance = 0.0;
 };
 
 /// Sides a and b, a == b for one side with itself. Depth first, so a place that cannot be separated

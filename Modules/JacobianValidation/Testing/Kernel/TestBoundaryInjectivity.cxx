@@ -847,6 +847,44 @@ TEST(BoundaryInjectivity, LimitsAndOpenSidesAreNamed_ExactOracle)
   EXPECT_NEAR(c.Gaps[0].Size, 0.01, 1e-12);
 }
 
+TEST(BoundaryInjectivity, FarFromTheOriginItIsTheSame_PropertyOracle)
+{
+  // moved by a power of two, which the coordinates' digits end far above
+  const auto moved = [](ShapeCells shape, double by)
+  {
+    for (int c = 0; c < shape.Cells.NumCells(); ++c)
+    {
+      const std::size_t at = static_cast<std::size_t>(c);
+      const int n = NumCellCoefficients(shape.Cells.Shapes[at], shape.Cells.Degrees[at]);
+      for (int i = 0; i < 2 * n; ++i)
+      {
+        double& x = shape.Cells.Block(c)[i];
+        x = std::ldexp(std::round(std::ldexp(x, 24)), -24) + by;
+      }
+    }
+    return shape;
+  };
+  for (const double by : { 0.0, 0x1p10, -0x1p20, 0x1p22 })
+  {
+    SCOPED_TRACE(by);
+    EXPECT_VERDICT(Prove(moved(Spiral(0.5, 1.7), by)), Injective, None);
+    EXPECT_VERDICT(Prove(moved(Spiral(0.41, 1.7), by)), Injective, None);
+    const ShapeCells overlapping = moved(Spiral(0.25, 1.7), by);
+    const InjectivityCertificate c = Prove(overlapping);
+    EXPECT_VERDICT(c, NotInjective, Overlap);
+    // sides of two patches that nearly agree: the place is where they are
+    ShapeCells pair = Rectangle(0., 1., 0., 1.);
+    Join(pair, Rectangle(1. + 0x1p-23, 2., 0., 1.), 1);
+    const InjectivityCertificate gap = Prove(moved(pair, by));
+    EXPECT_VERDICT(gap, Undecided, Gap);
+    ASSERT_EQ(gap.Gaps.size(), 1u);
+    EXPECT_NEAR(gap.Gaps[0].Size, 0x1p-23, 1e-12);
+    EXPECT_NEAR(gap.Gaps[0].Position[0], by + 1.0, 1e-6);
+    EXPECT_GE(gap.Gaps[0].Position[1], by);
+    EXPECT_LE(gap.Gaps[0].Position[1], by + 1.0);
+  }
+}
+
 TEST(BoundaryInjectivity, ThreadsGiveTheSameCertificate_PropertyOracle)
 {
   for (const double pitch : { 0.41, 0.25 })

@@ -117,7 +117,9 @@ TEST(RandomRationalCells, AreOneToOneOrNotButRarelyUndecided_PropertyOracle)
     { CellShape::Tetrahedron, 2, 0.1, 0.0, true }, { CellShape::Tetrahedron, 2, 0.2, 0.0, true },
     { CellShape::Tetrahedron, 3, 0.08, 0.0, true }, { CellShape::Wedge, 1, 0.4, 0.0, true },
     { CellShape::Wedge, 2, 0.14, 0.0, true } };
-  for (const double decades : { 1.0, 3.0 })
+  const double far = 1e6; // and all cells are of size one
+  const std::array<double, 2> sets[] = { { 1.0, 0.0 }, { 3.0, 0.0 }, { 1.0, far }, { 3.0, far } };
+  for (const auto& [decades, offset] : sets)
   {
     int regular = 0;
     int undecided = 0;
@@ -131,7 +133,7 @@ TEST(RandomRationalCells, AreOneToOneOrNotButRarelyUndecided_PropertyOracle)
         BernsteinCells cells;
         cells.NumComponents = NumParameters(c.Shape);
         cells.Rational = true;
-        AddRandomCell(cells, c.Shape, c.Degree, c.Noise, decades, 0.0, random);
+        AddRandomCell(cells, c.Shape, c.Degree, c.Noise, decades, offset, random);
         JacobianParams jacobianParams;
         jacobianParams.Threads = 1;
         const double start = ProcessorSeconds();
@@ -150,8 +152,8 @@ TEST(RandomRationalCells, AreOneToOneOrNotButRarelyUndecided_PropertyOracle)
         undecided += proof->Verdict == InjectivityVerdict::Undecided;
       }
     }
-    std::printf("weights 10^+-%g: %d regular cells, %d undecided, %.3f ms a cell\n", decades,
-      regular, undecided, 1e3 * seconds / regular);
+    std::printf("weights 10^+-%g at %g: %d regular cells, %d undecided, %.3f ms a cell\n", decades,
+      offset, regular, undecided, 1e3 * seconds / regular);
     EXPECT_GT(regular, 600);
     EXPECT_LE(undecided, decades > 1.0 ? regular / 100 : 0);
     EXPECT_LT(seconds, limit);
