@@ -4,7 +4,6 @@
 #include <knotwork/CADModel/CADExchange.h>
 #include <knotwork/SplineCore/FileEnding.h>
 #include <knotwork/SplineGrid/SplineModel.h>
-#include <knotwork/SplineIO/PatchTopology.h>
 
 #include <CLI/CLI.hpp>
 #include <vtkNew.h>
@@ -150,7 +149,6 @@ struct ConvertJob
       {
         return { status.Code, "'" + this->Input + "': " + status.Message() };
       }
-      PassPatchTopology(data, output);
       data = output;
     }
     return session.Write(data, this->Output, this->Encoding);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BezierCells.h"
 #include "SplineSchema.h"
+#include "TopologyTable.h"
 #include <knotwork/SplineCore/BezierSpace.h>
 #include <knotwork/SplineCore/Numbers.h>
 #include <knotwork/SplineCore/Recovery.h>
@@ -123,6 +124,7 @@ private:
   Status GatherField(const std::string& where, vtkDataArray* array,
     const std::vector<vtkIdType>& points, PointMatrix& values) const;
   const PatchRecord* FindRecord(const CellGroup& group) const;
+  void ReadSides(const std::map<int, PatchPlace>& places);
   int TakeId(int wanted);
   void Warn(const std::string& text)
   {
@@ -339,14 +341,37 @@ Status GridReader::Read()
   {
     return status;
   }
+  std::map<int, PatchPlace> places;
   for (const CellGroup& group : groups)
   {
+    const std::size_t first = this->Model.Patches.size();
     if (Status status = this->ReadGroup(group); !status)
     {
       return status;
     }
+    if (first < this->Model.Patches.size()) // of copies with one number the first has the topology
+    {
+      places.try_emplace(group.Id,
+        PatchPlace{ static_cast<int>(first),
+          static_cast<int>(this->Model.Patches[first].Geometry.index()) + 1 });
+    }
   }
+  this->ReadSides(places);
   return {};
+}
+
+void GridReader::ReadSides(const std::map<int, PatchPlace>& places)
+{
+  int lost = 0;
+  const PatchTopology read = ReadTopology(this->Grid->GetFieldData(), places, lost);
+  PatchTopology& all = this->Model.Topology;
+  all.Interfaces.insert(all.Interfaces.end(), read.Interfaces.begin(), read.Interfaces.end());
+  all.Boundary.insert(all.Boundary.end(), read.Boundary.begin(), read.Boundary.end());
+  if (lost > 0)
+  {
+    this->Warn(std::to_string(lost) +
+      " interfaces or boundaries of patches that are not there are left out");
+  }
 }
 
 Status GridReader::ReadGroup(const CellGroup& group)

@@ -335,7 +335,7 @@ public:
   Status Check(const SplinePatch& patch);
   void Prepare(const std::vector<const SplinePatch*>& patches);
   void Add(const SplinePatch& patch, int id);
-  void Finish(vtkUnstructuredGrid* grid);
+  void Finish(const PatchTopology& topology, vtkUnstructuredGrid* grid);
 
 private:
   template <int Dim>
@@ -632,7 +632,7 @@ void GridWriter::AddSpline(const SplinePatch& patch, const Spline<Dim>& spline, 
   this->FirstPoint += numbering.Count;
 }
 
-void GridWriter::Finish(vtkUnstructuredGrid* grid)
+void GridWriter::Finish(const PatchTopology& topology, vtkUnstructuredGrid* grid)
 {
   vtkNew<vtkCellArray> cells;
   cells->SetData(this->Offsets, this->Connectivity);
@@ -662,11 +662,45 @@ void GridWriter::Finish(vtkUnstructuredGrid* grid)
   cellData->AddArray(this->Bases);
   cellData->SetHigherOrderDegrees(this->Degrees);
   cellData->AddArray(this->DegreesCopy);
+  this->Schema.Topology = topology;
   WriteSchema(this->Schema, grid->GetFieldData());
 }
 
-Status EncodePatches(const std::vector<const SplinePatch*>& patches, vtkUnstructuredGrid* grid)
+/// What concerns the patches with an id alone, with their ids.
+PatchTopology NumberedBy(const std::map<int, int>& ids, const PatchTopology& topology)
 {
+  PatchTopology numbered;
+  const auto number = [&](PatchSide& side)
+  {
+    const auto found = ids.find(side.Patch);
+    side.Patch = found == ids.end() ? -1 : found->second;
+    return found != ids.end();
+  };
+  for (PatchInterface interface : topology.Interfaces)
+  {
+    if (number(interface.Sides[0]) && number(interface.Sides[1]))
+    {
+      numbered.Interfaces.push_back(interface);
+    }
+  }
+  for (PatchSide side : topology.Boundary)
+  {
+    if (number(side))
+    {
+      numbered.Boundary.push_back(side);
+    }
+  }
+  return numbered;
+}
+
+Status EncodePatches(const SplineModel& model, const std::vector<const SplinePatch*>& patches,
+  vtkUnstructuredGrid* grid)
+{
+  if (Status status = CheckTopology(model.Topology, static_cast<int>(model.Patches.size()), 3);
+      !status)
+  {
+    return status;
+  }
   grid->Initialize();
   GridWriter writer;
   std::set<int> used;
@@ -680,6 +714,7 @@ Status EncodePatches(const std::vector<const SplinePatch*>& patches, vtkUnstruct
   }
   writer.Prepare(patches);
   std::set<int> taken;
+  std::map<int, int> ids; // of indices
   int next = 0;
   for (const SplinePatch* patch : patches)
   {
@@ -695,8 +730,9 @@ Status EncodePatches(const std::vector<const SplinePatch*>& patches, vtkUnstruct
       taken.insert(id);
     }
     writer.Add(*patch, id);
+    ids[static_cast<int>(patch - model.Patches.data())] = id;
   }
-  writer.Finish(grid);
+  writer.Finish(NumberedBy(ids, model.Topology), grid);
   return {};
 }
 }
@@ -708,7 +744,7 @@ Status EncodeSplineGrid(const SplineModel& model, vtkUnstructuredGrid* grid)
   {
     patches.push_back(&patch);
   }
-  return EncodePatches(patches, grid);
+  return EncodePatches(model, patches, grid);
 }
 
 Status EncodeSplineModel(const SplineModel& model, vtkDataObject* like, vtkDataObject* output)
@@ -773,7 +809,7 @@ Status EncodeSplineModel(const SplineModel& model, vtkDataObject* like, vtkDataO
     {
       vtkNew<vtkUnstructuredGrid> grid;
       const Status status = EncodePatches(
-        patches != blocks.end() ? patches->second : std::vector<const SplinePatch*>(), grid);
+        model, patches != blocks.end() ? patches->second : std::vector<const SplinePatch*>(), grid);
       if (!status)
       {
         return { status.Code, "block " + std::to_string(b) + ": " + status.Detail };

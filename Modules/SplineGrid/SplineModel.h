@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "vtkKnotworkSplineGridModule.h" // for export macro
-#include <knotwork/SplineCore/Spline.h>
+#include <knotwork/SplineCore/MultiPatch.h>
 
 #include "vtkType.h"
 
@@ -43,6 +43,8 @@ struct SplinePatch
 struct SplineModel
 {
   std::vector<SplinePatch> Patches;
+  /// What is stated of their sides, by index into Patches: whoever exchanges patches clears it.
+  PatchTopology Topology;
   std::vector<std::string> Warnings;
 };
 
@@ -57,12 +59,13 @@ VTKKNOTWORKSPLINEGRID_EXPORT Result<SplineModel> DecodeSplineModel(
 
 /// Encodes the patches (of all blocks) as one grid: Bezier cells, shared points, attributes, cell
 /// arrays PatchId, ElementId, Level, ParametricBounds, the field-data schema with control-point
-/// cache.
+/// cache and the topology.
 VTKKNOTWORKSPLINEGRID_EXPORT Status EncodeSplineGrid(
   const SplineModel& model, vtkUnstructuredGrid* grid);
 
 /// Encodes into output, which is a vtkUnstructuredGrid or, keeping the blocks of like (names, empty
-/// pieces and patches of other kinds), a vtkPartitionedDataSetCollection.
+/// pieces and patches of other kinds), a vtkPartitionedDataSetCollection; a block has the
+/// interfaces between its own patches.
 VTKKNOTWORKSPLINEGRID_EXPORT Status EncodeSplineModel(
   const SplineModel& model, vtkDataObject* like, vtkDataObject* output);
 

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SplineSchema.h"
 
+#include "FieldTables.h"
+#include "TopologyTable.h"
+
 #include <knotwork/SplineCore/BezierSpace.h>
 #include <knotwork/SplineCore/HierarchicalSpace.h>
 #include <knotwork/SplineCore/LRSpace.h>
 #include <knotwork/SplineCore/TensorSpace.h>
 
-#include "vtkDataArray.h"
-#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkStringArray.h"
-#include "vtkTypeInt64Array.h"
 
 #include <cmath>
 #include <cstring>
@@ -54,92 +54,6 @@ enum Column
 const char* const columnNames[NumColumns] = { "PatchId", "Kind", "Dimension", "Rational",
   "Elements", "Functions", "Degree0", "Degree1", "Degree2", "Knots0", "Knots1", "Knots2", "Boxes",
   "PatchBasis", "Checksum" };
-
-// An array of whole numbers of any integer type (readers choose their own), row by row.
-struct IntegerTable
-{
-  int Columns = 0;
-  std::vector<std::int64_t> Values;
-  std::size_t Rows() const
-  {
-    return this->Columns == 0 ? 0 : this->Values.size() / static_cast<std::size_t>(this->Columns);
-  }
-  std::int64_t At(std::size_t row, int column) const
-  {
-    return this
-      ->Values[row * static_cast<std::size_t>(this->Columns) + static_cast<std::size_t>(column)];
-  }
-};
-
-template <typename T>
-void CopyIntegers(const T* from, std::vector<std::int64_t>& to)
-{
-  for (std::int64_t& value : to)
-  {
-    value = static_cast<std::int64_t>(*from++);
-  }
-}
-
-bool ReadIntegers(vtkFieldData* fieldData, const char* arrayName, int columns, IntegerTable& table)
-{
-  vtkDataArray* array = fieldData->GetArray(arrayName);
-  if (!array || array->GetNumberOfComponents() != columns || array->GetDataType() == VTK_FLOAT ||
-    array->GetDataType() == VTK_DOUBLE)
-  {
-    return false;
-  }
-  table.Columns = columns;
-  table.Values.resize(static_cast<std::size_t>(array->GetNumberOfValues()));
-  switch (array->GetDataType())
-  {
-    vtkTemplateMacro(
-      CopyIntegers(static_cast<const VTK_TT*>(array->GetVoidPointer(0)), table.Values));
-    default:
-      return false;
-  }
-  return true;
-}
-
-bool ReadDoubles(vtkFieldData* fieldData, const char* arrayName, PointMatrix& rows)
-{
-  vtkDataArray* array = fieldData->GetArray(arrayName);
-  if (!array || array->GetDataType() != VTK_DOUBLE)
-  {
-    return false;
-  }
-  rows.resize(array->GetNumberOfTuples(), array->GetNumberOfComponents());
-  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
-  {
-    array->GetTuple(i, rows.row(i).data());
-  }
-  return true;
-}
-
-void WriteIntegers(vtkFieldData* fieldData, const std::string& arrayName, int columns,
-  const std::vector<std::int64_t>& values, const char* const* names = nullptr)
-{
-  vtkNew<vtkTypeInt64Array> array;
-  array->SetName(arrayName.c_str());
-  array->SetNumberOfComponents(columns);
-  for (int c = 0; names && c < columns; ++c)
-  {
-    array->SetComponentName(c, names[c]);
-  }
-  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()) / columns);
-  std::copy(values.begin(), values.end(), array->GetPointer(0));
-  fieldData->AddArray(array);
-}
-
-void WriteDoubles(vtkFieldData* fieldData, const std::string& arrayName, int columns,
-  const std::vector<double>& values)
-{
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(arrayName.c_str());
-  array->SetNumberOfComponents(columns);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()) / columns);
-  std::copy(values.begin(), values.end(), array->GetPointer(0));
-  fieldData->AddArray(array);
-}
 
 void Append(std::vector<double>& values, const PointMatrix& rows)
 {
@@ -514,9 +428,10 @@ void WriteSchema(const SplineSchema& schema, vtkFieldData* fieldData)
     }
   }
 
+  const bool hasTopology = WriteTopology(schema.Topology, fieldData);
   vtkNew<vtkIntArray> version;
   version->SetName(VersionArray);
-  version->InsertNextValue(SchemaVersion);
+  version->InsertNextValue(hasTopology ? SchemaVersion : 1);
   fieldData->AddArray(version);
   if (patches.empty())
   {
@@ -569,11 +484,11 @@ Result<SplineSchema> ReadSchema(vtkFieldData* fieldData)
   {
     return Damaged(std::string(VersionArray) + " is not one whole number");
   }
-  if (version.At(0, 0) != SchemaVersion)
+  if (version.At(0, 0) < 1 || version.At(0, 0) > SchemaVersion)
   {
     return { ErrorCode::InvalidTopology,
       "the spline grid has schema version " + std::to_string(version.At(0, 0)) +
-        "; this program reads version " + std::to_string(SchemaVersion) };
+        "; this program reads versions 1 to " + std::to_string(SchemaVersion) };
   }
   schema.Present = true;
   if (!fieldData->GetAbstractArray(PatchArray))

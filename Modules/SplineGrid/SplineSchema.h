@@ -107,9 +107,11 @@ struct SplineSchema
 {
   bool Present = false;
   std::vector<PatchRecord> Patches;
+  PatchTopology Topology; ///< by PatchId; written alone (TopologyTable.h reads it)
 };
 
-constexpr int SchemaVersion = 1;
+/// Of grids with a table of interfaces; others are of version 1.
+constexpr int SchemaVersion = 2;
 
 void WriteSchema(const SplineSchema& schema, vtkFieldData* fieldData);
 /// @return a schema that is not Present when there is none; InvalidTopology naming the array when

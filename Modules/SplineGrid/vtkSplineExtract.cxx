@@ -76,5 +76,6 @@ Status vtkSplineExtract::Compute(vtkInformationVector** inputs, vtkInformationVe
     std::visit([&patch](const auto& all) { SeparateFields(all, patch); }, extracted.Value);
     patch.Cells.clear();
   }
+  model->Topology = {}; // of the whole surfaces
   return EncodeSplineModel(model.Value, input, vtkDataObject::GetData(outputs));
 }

@@ -3,6 +3,7 @@
 
 #include <knotwork/SplineCore/FunctionGraph.h>
 
+#include <algorithm>
 #include <set>
 
 namespace knotwork
@@ -52,7 +53,62 @@ Result<SplineModel> ModelFromFile(const SplineFile& file)
     }
     model.Patches.push_back(std::move(patch));
   }
+  PatchTopology& all = model.Topology;
+  for (const auto& [dimension, splines, stated] : file.MultiPatches)
+  {
+    all.Interfaces.insert(all.Interfaces.end(), stated.Interfaces.begin(), stated.Interfaces.end());
+    all.Boundary.insert(all.Boundary.end(), stated.Boundary.begin(), stated.Boundary.end());
+  }
   return model;
+}
+
+namespace
+{
+/// One multi-patch of every parametric dimension that has several patches or topology.
+void AddMultiPatches(const SplineModel& model, SplineFile& file)
+{
+  const auto& all = model.Topology.Interfaces;
+  const auto partial = std::count_if(
+    all.begin(), all.end(), [](const PatchInterface& interface) { return interface.Partial; });
+  if (partial > 0)
+  {
+    file.Warnings.push_back(std::to_string(partial) +
+      " interfaces of sides that are one in part are left out: the format has whole ones only");
+  }
+  const auto dimensionOf = [&](const PatchSide& side)
+  { return static_cast<int>(file.Splines[static_cast<std::size_t>(side.Patch)].index()) + 1; };
+  for (int dimension = 1; dimension <= 3; ++dimension)
+  {
+    StatedPatches patches;
+    patches.Dimension = dimension;
+    for (int i = 0; i < static_cast<int>(file.Splines.size()); ++i)
+    {
+      if (dimensionOf({ i, 0 }) == dimension)
+      {
+        patches.Splines.push_back(i);
+      }
+    }
+    for (const PatchInterface& interface : all)
+    {
+      if (dimensionOf(interface.Sides[0]) == dimension && !interface.Partial)
+      {
+        patches.Topology.Interfaces.push_back(interface);
+      }
+    }
+    for (const PatchSide& side : model.Topology.Boundary)
+    {
+      if (dimensionOf(side) == dimension)
+      {
+        patches.Topology.Boundary.push_back(side);
+      }
+    }
+    if (patches.Splines.size() > 1 || !patches.Topology.Interfaces.empty() ||
+      !patches.Topology.Boundary.empty())
+    {
+      file.MultiPatches.push_back(std::move(patches));
+    }
+  }
+}
 }
 
 Result<SplineFile> FileFromModel(const SplineModel& model, int coordinates)
@@ -113,6 +169,7 @@ Result<SplineFile> FileFromModel(const SplineModel& model, int coordinates)
           std::to_string(columns) + " coordinates; write all three" };
     }
   }
+  AddMultiPatches(model, file);
   return file;
 }
 }

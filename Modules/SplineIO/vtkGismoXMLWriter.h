@@ -6,8 +6,9 @@
  * Tensor-product and hierarchical patches, polynomial and rational; LR patches become tensor
  * products, with a warning; ids are the PatchId. A
  * MultiPatch of every parametric dimension with several patches names them with the interfaces and
- * boundaries of the field data PatchInterfaces and PatchBoundaries. What is written is read again
- * bit for bit. Errors: patches of kind Bezier (InvalidParameter).
+ * boundaries that the grid states (field data KnotworkInterfaces, KnotworkBoundary; interfaces in
+ * part are left out with a warning). What is written is read again bit for bit. Errors: patches of
+ * kind Bezier (InvalidParameter).
  */
 #ifndef vtkGismoXMLWriter_h
 #define vtkGismoXMLWriter_h

@@ -2,7 +2,6 @@
 #include "vtkSplineFileReader.h"
 
 #include "FileText.h"
-#include "PatchTopology.h"
 #include "SplineFileModel.h"
 
 #include "vtkUnstructuredGrid.h"
@@ -52,9 +51,5 @@ knotwork::Status vtkSplineFileReader::Compute(vtkInformationVector**, vtkInforma
   this->ReportWarnings(model->Warnings);
   auto* grid = vtkUnstructuredGrid::GetData(outputs);
   const Status status = EncodeSplineGrid(model.Value, grid);
-  if (status)
-  {
-    SetPatchTopology(file.Value, grid);
-  }
   return status ? this->EncodeMore(file.Value, outputs) : status;
 }

@@ -4,9 +4,9 @@
  * @brief   base of the readers of spline files
  *
  * Output: a spline grid (vtkUnstructuredGrid) with a PatchId for every geometry of the file, and
- * the multi-patch topology that the file states as field data PatchInterfaces and PatchBoundaries.
- * Derived classes implement Parse() and Recognize(). Errors: a file that is missing or cannot be
- * read (EmptyInput), and those of the formats, with the place in the file.
+ * the multi-patch topology that the file states as field data (KnotworkInterfaces,
+ * KnotworkBoundary). Derived classes implement Parse() and Recognize(). Errors: a file that is
+ * missing or cannot be read (EmptyInput), and those of the formats, with the place in the file.
  */
 #ifndef vtkSplineFileReader_h
 #define vtkSplineFileReader_h

@@ -2,7 +2,6 @@
 #include "vtkSplineFileWriter.h"
 
 #include "FileText.h"
-#include "PatchTopology.h"
 #include "SplineFileModel.h"
 #include <knotwork/SplineCore/TensorForm.h>
 #include <knotwork/SplineGrid/DistributedInput.h>
@@ -99,11 +98,6 @@ knotwork::Status vtkSplineFileWriter::MakeText(std::string& text)
   if (!file)
   {
     return file.Status;
-  }
-  const std::string lost = GetPatchTopology(this->GetInput(), file.Value);
-  if (!lost.empty())
-  {
-    file->Warnings.push_back(lost);
   }
   if (Status status = this->AddMore(file.Value); !status)
   {

@@ -218,7 +218,7 @@ std::vector<Damage> AllDamages()
     { "NewerSchema",
       [](Grid* grid)
       { grid->GetFieldData()->GetArray("KnotworkSchemaVersion")->SetComponent(0, 0, 99); },
-      ErrorCode::InvalidTopology, { "version 99", "version 1" } },
+      ErrorCode::InvalidTopology, { "version 99", "versions 1 to 2" } },
     { "LostKnots", [](Grid* grid) { grid->GetFieldData()->RemoveArray("KnotworkKnots"); },
       ErrorCode::InvalidTopology, { "KnotworkKnots", "patch 3" } },
     { "EditedKnots",

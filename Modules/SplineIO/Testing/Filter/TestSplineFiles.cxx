@@ -16,7 +16,9 @@
 #include "vtkDummyController.h"
 #include "vtkErrorCode.h"
 #include "vtkFieldData.h"
+#include "vtkXMLUnstructuredGridReader.h"
 #include "vtkXMLUnstructuredGridWriter.h"
+#include <knotwork/SplineGrid/vtkSplineRefine.h>
 #include <knotwork/SplineIO/vtkCADWriter.h>
 #include <knotwork/SplineIO/vtkGismoXMLReader.h>
 #include <knotwork/SplineIO/vtkGismoXMLWriter.h>
@@ -173,16 +175,132 @@ TEST(SplineFile, HandWrittenXml_GoldenOracle)
   EXPECT_EQ(ControlPoints(PatchOf(model, 7)).row(1), Eigen::RowVector3d(2, 0, 0)); // z is 0
   EXPECT_EQ(Weights(PatchOf(model, 0))[2], 2.0);
   EXPECT_EQ(KindOf(PatchOf(model, 9)), SpaceKind::Hierarchical);
-  vtkDataArray* interfaces = grid->GetFieldData()->GetArray("PatchInterfaces");
-  vtkDataArray* boundaries = grid->GetFieldData()->GetArray("PatchBoundaries");
-  ASSERT_TRUE(interfaces && boundaries);
+  vtkDataArray* interfaces = grid->GetFieldData()->GetArray("KnotworkInterfaces");
+  vtkDataArray* boundary = grid->GetFieldData()->GetArray("KnotworkBoundary");
+  ASSERT_TRUE(interfaces && boundary);
   ASSERT_EQ(interfaces->GetNumberOfTuples(), 1);
-  const double expected[] = { 4, 2, 7, 1, 0, 1, 0, 1, 1, 0 };
-  for (int c = 0; c < 10; ++c)
+  const double expected[] = { 4, 1, 7, 0, 0, 0 };
+  for (int c = 0; c < 6; ++c)
   {
     EXPECT_EQ(interfaces->GetComponent(0, c), expected[c]) << c;
   }
-  EXPECT_EQ(boundaries->GetNumberOfTuples(), 6);
+  EXPECT_EQ(boundary->GetNumberOfTuples(), 6);
+}
+
+namespace
+{
+std::string XmlOf(vtkDataObject* grid)
+{
+  const std::string file = OutputFile("topology.xml");
+  WriteGrid<vtkGismoXMLWriter>(grid, file);
+  std::string text = TextOf(file);
+  fs::remove(file);
+  return text;
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> StoredGrid(const std::string& name)
+{
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  reader->SetFileName(DataFile(name).c_str());
+  reader->Update();
+  return reader->GetOutput();
+}
+}
+
+TEST(SplineFile, GridsOfBothSchemaVersions_GoldenOracle)
+{
+  // stored by the program when it wrote version 1, and when it wrote version 2
+  const std::string text = XmlOf(ReadGrid<vtkGismoXMLReader>(DataFile("turned.xml")));
+  EXPECT_NE(text.find("<interfaces>\n3 2 5 3 1 0 1 0\n</interfaces>"), std::string::npos);
+  EXPECT_NE(text.find("<interfaces>\n8 6 9 3 2 0 1 1 0 1\n</interfaces>"), std::string::npos);
+  for (const int version : { 1, 2 })
+  {
+    SCOPED_TRACE("version " + std::to_string(version));
+    const auto grid = StoredGrid("turned_schema_" + std::to_string(version) + ".vtu");
+    EXPECT_EQ(grid->GetFieldData()->GetArray("KnotworkSchemaVersion")->GetComponent(0, 0), version);
+    EXPECT_EQ(XmlOf(grid), text);
+    const SplineModel model = Decode(grid);
+    EXPECT_TRUE(model.Warnings.empty());
+    const auto& interfaces = model.Topology.Interfaces;
+    ASSERT_EQ(interfaces.size(), 2u);
+    EXPECT_EQ(model.Topology.Boundary.size(), 16u);
+    // the stated sides are those that are found
+    const std::vector<PatchInterface> squares =
+      FindInterfaces<2>({ std::get<Spline<2>>(model.Patches[0].Geometry),
+        std::get<Spline<2>>(model.Patches[1].Geometry) });
+    const std::vector<PatchInterface> cubes =
+      FindInterfaces<3>({ std::get<Spline<3>>(model.Patches[2].Geometry),
+        std::get<Spline<3>>(model.Patches[3].Geometry) });
+    ASSERT_EQ(squares.size(), 1u);
+    ASSERT_EQ(cubes.size(), 1u);
+    for (const std::size_t i : { 0, 1 })
+    {
+      const PatchInterface& found = i == 0 ? squares.front() : cubes.front();
+      const int first = i == 0 ? 0 : 2;
+      EXPECT_EQ(interfaces[i].Sides[0], (PatchSide{ first, found.Sides[0].Side }));
+      EXPECT_EQ(interfaces[i].Sides[1], (PatchSide{ first + 1, found.Sides[1].Side }));
+      EXPECT_EQ(interfaces[i].Orientation, found.Orientation);
+    }
+  }
+}
+
+TEST(SplineFile, WhatIsStatedOfSidesTravels_ExactOracle)
+{
+  const auto grid = ReadGrid<vtkGismoXMLReader>(DataFile("turned.xml"));
+  const std::string text = XmlOf(grid);
+  const auto topology = [](const std::string& xml) { return xml.substr(xml.find("<MultiPatch")); };
+  vtkNew<vtkSplineRefine> refine;
+  refine->SetInputData(grid);
+  refine->Update();
+  EXPECT_EQ(topology(XmlOf(refine->GetOutputDataObject(0))), topology(text));
+  // in part, and in a collection
+  SplineModel model = Decode(grid);
+  PatchInterface& first = model.Topology.Interfaces[0];
+  first.Partial = true;
+  first.Parts = { ParametricBox<2>{ { 0.25, 0.0 }, { 0.5, 0.0 } },
+    ParametricBox<2>{ { 0.5, 0.0 }, { 0.75, 0.0 } } };
+  vtkNew<vtkUnstructuredGrid> partial;
+  ASSERT_TRUE(EncodeSplineGrid(model, partial));
+  SplineModel again = Decode(Collect({ partial, grid }));
+  ASSERT_EQ(again.Topology.Interfaces.size(), 4u);
+  const PatchInterface& back = again.Topology.Interfaces[0];
+  EXPECT_TRUE(back.Partial);
+  for (std::size_t i = 0; i < 2; ++i)
+  {
+    EXPECT_EQ(back.Parts[i].Lower, first.Parts[i].Lower);
+    EXPECT_EQ(back.Parts[i].Upper, first.Parts[i].Upper);
+  }
+  EXPECT_EQ(again.Topology.Interfaces[3].Sides[1], (PatchSide{ 7, 2 })); // of the second block
+  // patches that are numbered anew in one grid keep theirs
+  vtkNew<vtkUnstructuredGrid> all;
+  ASSERT_TRUE(EncodeSplineGrid(again, all));
+  again = Decode(all);
+  ASSERT_EQ(again.Topology.Interfaces.size(), 4u);
+  EXPECT_EQ(again.Topology.Interfaces[3].Sides[1], (PatchSide{ 7, 2 }));
+}
+
+TEST(SplineFile, RowsAboutWhatIsNotThereAreLeftOut_PropertyOracle)
+{
+  const auto damaged = [](int row, int column, double value)
+  {
+    const auto grid = ReadGrid<vtkGismoXMLReader>(DataFile("turned.xml"));
+    grid->GetFieldData()->GetArray("KnotworkInterfaces")->SetComponent(row, column, value);
+    return Decode(grid);
+  };
+  const int columns[] = { 0, 1, 2, 3, 4, 5 };
+  const double values[] = { 77, 4, 8, -1, 2,
+    1 }; // another dimension in the third, no parts in the last
+  for (const int c : columns)
+  {
+    const SplineModel model = damaged(0, c, values[c]);
+    EXPECT_EQ(model.Topology.Interfaces.size(), 1u) << c;
+    ASSERT_EQ(model.Warnings.size(), 1u) << c;
+    EXPECT_EQ(model.Warnings[0].substr(0, 13), "1 interfaces ") << c;
+  }
+  SplineModel model = Decode(ReadGrid<vtkGismoXMLReader>(DataFile("turned.xml")));
+  model.Topology.Boundary.push_back({ 4, 0 });
+  vtkNew<vtkUnstructuredGrid> grid;
+  EXPECT_EQ(EncodeSplineGrid(model, grid).Code, ErrorCode::InvalidTopology);
 }
 
 TEST(SplineFile, TopologyComesBack_PropertyOracle)
