@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DomainBoundary.h"
 
+#include "ArrangedPatch.h"
 #include "CoincidentPoints.h"
 #include "DomainMeasure.h"
 #include "NumberText.h"
-#include "SideSplines.h"
 
 #include <algorithm>
 #include <cmath>
@@ -176,153 +176,6 @@ Status GapError(const std::array<Spline<Dim - 1>, 2 * Dim>& sides,
   }
   return { ErrorCode::InvalidTopology, detail };
 }
-
-/// Brings all sides to the same degree and knots in each direction of the map.
-template <int Dim>
-Status MergeKnots(std::array<Spline<Dim - 1>, 2 * Dim>& sides,
-  const std::array<SideOrigin, 2 * Dim>& origins, std::array<KnotVector, Dim>& knots)
-{
-  constexpr int D = Dim - 1;
-  for (int d = 0; d < Dim; ++d)
-  {
-    std::vector<SideDirection<D>> users;
-    for (int s = 0; s < 2 * Dim; ++s)
-    {
-      const auto directions = SideDirections<Dim>(s);
-      for (int k = 0; k < D; ++k)
-      {
-        if (directions[static_cast<std::size_t>(k)] == static_cast<std::size_t>(d))
-        {
-          const std::size_t at = static_cast<std::size_t>(s);
-          users.push_back({ &sides[at], k, origins[at].Input });
-        }
-      }
-    }
-    auto united = UniteKnots<D>(users, 1, 1);
-    if (!united)
-    {
-      return united.Status;
-    }
-    knots[static_cast<std::size_t>(d)] = std::move(united.Value);
-  }
-  return {};
-}
-
-/// Weights of curves that meet become equal at the corners.
-Status MatchWeights(std::array<Spline<1>, 4>& sides, const std::array<SideOrigin, 4>& origins)
-{
-  for (Spline<1>& side : sides)
-  {
-    MakeRational(side);
-  }
-  const auto begin = [&](std::size_t s) { return sides[s].Weights[0]; };
-  const auto end = [&](std::size_t s) { return sides[s].Weights[sides[s].Weights.size() - 1]; };
-  // a factor of exactly 1 leaves every bit as it is
-  sides[2].Weights *= begin(0) / begin(2);
-  sides[3].Weights *= end(0) / begin(3);
-  sides[1].Weights *= end(2) / begin(1);
-  if (!SameWeight(end(1), end(3)))
-  {
-    auto product = TimesLinear(sides[1], end(3) / end(1));
-    if (!product)
-    {
-      return NamedSide(product.Status, origins[1].Input);
-    }
-    sides[1] = std::move(product.Value);
-  }
-  return {};
-}
-
-/// A constant factor a face makes the weights at the corners equal; edges are compared later.
-Status MatchWeights(std::array<Spline<2>, 6>& sides, const std::array<SideOrigin, 6>&)
-{
-  for (Spline<2>& side : sides)
-  {
-    MakeRational(side);
-  }
-  const auto corner = [&](std::size_t s, int c)
-  { return sides[s].Weights[CornerFunction(*sides[s].Space, c)]; };
-  const double w000 = corner(0, 0);
-  const double w010 = corner(0, 1);
-  const double w001 = corner(0, 2);
-  sides[2].Weights *= w000 / corner(2, 0);
-  sides[3].Weights *= w010 / corner(3, 0);
-  sides[4].Weights *= w000 / corner(4, 0);
-  sides[5].Weights *= w001 / corner(5, 0);
-  sides[1].Weights *= corner(2, 1) / corner(1, 0);
-  return {};
-}
-
-/// Rows of control points that sides share become the same bits: those of the side with the lower
-/// number. @return the largest distance and relative weight difference that were closed.
-template <int Dim>
-Status ShareRows(CompatibleBoundary<Dim>& boundary, double tolerance)
-{
-  constexpr int D = Dim - 1;
-  std::array<int, Dim> counts{};
-  for (std::size_t d = 0; d < Dim; ++d)
-  {
-    counts[d] = boundary.Knots[d].NumFunctions();
-  }
-  for (int s = 1; s < 2 * Dim; ++s)
-  {
-    Spline<D>& side = boundary.Sides[static_cast<std::size_t>(s)];
-    const auto directions = SideDirections<Dim>(s);
-    std::array<int, Dim> index{};
-    index[static_cast<std::size_t>(s / 2)] =
-      s % 2 ? counts[static_cast<std::size_t>(s / 2)] - 1 : 0;
-    for (Eigen::Index i = 0; i < side.ControlPoints.rows(); ++i)
-    {
-      Eigen::Index rest = i;
-      for (const std::size_t d : directions)
-      {
-        index[d] = static_cast<int>(rest % counts[d]);
-        rest /= counts[d];
-      }
-      for (int o = 0; o < s; ++o)
-      {
-        const std::size_t across = static_cast<std::size_t>(o / 2);
-        if (o / 2 == s / 2 || index[across] != (o % 2 ? counts[across] - 1 : 0))
-        {
-          continue;
-        }
-        const Spline<D>& other = boundary.Sides[static_cast<std::size_t>(o)];
-        Eigen::Index j = 0;
-        Eigen::Index stride = 1;
-        for (const std::size_t d : SideDirections<Dim>(o))
-        {
-          j += stride * index[d];
-          stride *= counts[d];
-        }
-        const double gap = (side.ControlPoints.row(i) - other.ControlPoints.row(j)).norm();
-        boundary.LargestGap = std::max(boundary.LargestGap, gap);
-        const std::string where = "along the edge between " +
-          GivenSide(boundary.Origins[static_cast<std::size_t>(o)].Input) + " (" + SideName<Dim>(o) +
-          ") and " + GivenSide(boundary.Origins[static_cast<std::size_t>(s)].Input) + " (" +
-          SideName<Dim>(s) + ")";
-        if (!(gap <= tolerance))
-        {
-          return { ErrorCode::InvalidTopology,
-            "gap of " + NumberText(gap) + " (allowed " + NumberText(tolerance) +
-              ") between control points " + where };
-        }
-        if (side.IsRational() && !SameWeight(side.Weights[i], other.Weights[j]))
-        {
-          return { ErrorCode::InvalidWeight,
-            "weights " + NumberText(side.Weights[i]) + " and " + NumberText(other.Weights[j]) +
-              " " + where + " are not proportional" };
-        }
-        side.ControlPoints.row(i) = other.ControlPoints.row(j);
-        if (side.IsRational())
-        {
-          side.Weights[i] = other.Weights[j];
-        }
-        break;
-      }
-    }
-  }
-  return {};
-}
 }
 
 template <>
@@ -339,9 +192,6 @@ std::string SideName<3>(int side)
     "face w = 0", "face w = 1" };
   return side >= 0 && side < 6 ? names[side] : "no side";
 }
-
-/// Functions of a map in one direction at most.
-static constexpr int MostInADirection = 4096;
 
 template <int Dim>
 Result<CompatibleBoundary<Dim>> MakeCompatible(
@@ -370,8 +220,6 @@ Result<CompatibleBoundary<Dim>> MakeCompatible(
     return prepared.Status;
   }
   const std::vector<Spline<D>>& given = prepared->Sides;
-  const bool rational = std::any_of(
-    given.begin(), given.end(), [](const Spline<D>& side) { return side.IsRational(); });
   CompatibleBoundary<Dim> result;
   result.Size = prepared->Size;
   const double tolerance = params.GapTolerance * result.Size;
@@ -444,37 +292,22 @@ Result<CompatibleBoundary<Dim>> MakeCompatible(
     }
     arrange();
   }
-  if (rational)
+  const auto layout = MakeCompatible<Dim>(prepared.Value, result.Origins, params);
+  if (!layout)
   {
-    if (const Status status = MatchWeights(result.Sides, result.Origins); !status)
+    return layout.Status;
+  }
+  const Spline<Dim>& patch = layout->Map.Patches.front();
+  result.Knots = patch.Space->Knots;
+  result.LargestGap = std::max(result.LargestGap, layout->LargestGap);
+  for (std::size_t s = 0; s < NumSides; ++s)
+  {
+    auto side = SideSpline<Dim>(patch, static_cast<int>(s));
+    if (!side)
     {
-      return status;
+      return side.Status;
     }
-  }
-  if (const Status status = MergeKnots<Dim>(result.Sides, result.Origins, result.Knots); !status)
-  {
-    return status;
-  }
-  double functions = 1.0;
-  for (const KnotVector& knots : result.Knots)
-  {
-    functions *= knots.NumFunctions();
-    // the Laplacian of a direction is diagonalized as a full matrix
-    if (knots.NumFunctions() > MostInADirection)
-    {
-      return { ErrorCode::TooLarge,
-        "the map would have " + std::to_string(knots.NumFunctions()) +
-          " functions in one direction, the limit is " + std::to_string(MostInADirection) +
-          "; give sides with fewer elements, or parts of the domain" };
-    }
-  }
-  if (Status status = CheckSize(functions, params.MaxFunctions); !status)
-  {
-    return status;
-  }
-  if (const Status status = ShareRows<Dim>(result, tolerance); !status)
-  {
-    return status;
+    result.Sides[s] = std::move(side.Value);
   }
   result.LargestGap = std::max(result.LargestGap, JoinCoincidentPoints<Dim>(result, tolerance));
   return result;

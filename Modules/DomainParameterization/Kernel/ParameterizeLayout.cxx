@@ -5,7 +5,7 @@
 #include "DomainRun.h"
 #include "GluedSystem.h"
 #include "InitialMaps.h"
-#include <knotwork/SplineCore/FunctionMap.h>
+#include <knotwork/SplineCore/PatchTraces.h>
 #include <knotwork/SplineCore/Refinement.h>
 #include <knotwork/SplineCore/TensorSpace.h>
 
@@ -19,91 +19,25 @@ namespace
 /// Of refined spaces: hopeless boundaries end in a time that can be waited for.
 constexpr std::int64_t MostFunctions = 4000;
 
-/// Part of a patch's lattice of control points: 0 and 1 are the ends of a direction, 2 all of it.
 template <int Dim>
-using Part = std::array<int, Dim>;
-
-template <int Dim>
-std::vector<Part<Dim>> PartsOf(int numFree)
+std::vector<PatchEntity<Dim>> EntitiesOf(std::size_t numFree)
 {
-  std::vector<Part<Dim>> parts;
+  std::vector<PatchEntity<Dim>> entities;
   for (int code = 0; code < (Dim == 2 ? 9 : 27); ++code)
   {
-    Part<Dim> part{};
+    PatchEntity<Dim> entity{};
     int rest = code;
-    int free = 0;
-    for (int& digit : part)
+    for (int& end : entity)
     {
-      digit = rest % 3;
+      end = rest % 3 == 2 ? -1 : rest % 3;
       rest /= 3;
-      free += digit == 2;
     }
-    if (free == numFree)
+    if (FreeDirections<Dim>(entity).size() == numFree)
     {
-      parts.push_back(part);
-    }
-  }
-  return parts;
-}
-
-/// Control points of a part, first free direction fastest.
-template <int Dim>
-std::vector<int> PartFunctions(const SplineSpace<Dim>& space, const Part<Dim>& part)
-{
-  IntArray<Dim> counts{};
-  std::array<int, Dim> strides{};
-  int first = 0;
-  int stride = 1;
-  for (std::size_t d = 0; d < Dim; ++d)
-  {
-    const int n = space.Knots[d].NumFunctions();
-    counts[d] = part[d] == 2 ? n : 1;
-    strides[d] = stride;
-    first += part[d] == 1 ? stride * (n - 1) : 0;
-    stride *= n;
-  }
-  std::vector<int> functions;
-  ForEachOffset<Dim>(counts,
-    [&](const IntArray<Dim>& index)
-    {
-      int f = first;
-      for (std::size_t d = 0; d < Dim; ++d)
-      {
-        f += strides[d] * index[d];
-      }
-      functions.push_back(f);
-    });
-  return functions;
-}
-
-/// A part as a spline of its own. @pre it has K free directions.
-template <int Dim, int K>
-Spline<K> Extract(
-  const Spline<Dim>& patch, const Part<Dim>& part, const std::vector<int>& functions)
-{
-  std::array<KnotVector, K> knots;
-  std::size_t k = 0;
-  for (std::size_t d = 0; d < Dim; ++d)
-  {
-    if (part[d] == 2)
-    {
-      knots[k++] = patch.Space->Knots[d];
+      entities.push_back(entity);
     }
   }
-  Spline<K> spline;
-  spline.Space = MakeTensorSpace<K>(knots).Value;
-  spline.ControlPoints.resize(static_cast<Eigen::Index>(functions.size()), Dim);
-  spline.Weights.resize(patch.IsRational() ? spline.ControlPoints.rows() : 0);
-  for (std::size_t i = 0; i < functions.size(); ++i)
-  {
-    const Eigen::Index row = static_cast<Eigen::Index>(i);
-    spline.ControlPoints.row(row) = patch.ControlPoints.row(functions[i]);
-    if (patch.IsRational())
-    {
-      spline.Weights[row] = patch.Weights[functions[i]];
-    }
-  }
-  return spline;
+  return entities;
 }
 
 /// Control points and weights by their numbers, taken out of the patches and put back.
@@ -145,10 +79,11 @@ void FillParts(GluedMap<Dim>& map, Numbered<Dim>& all, std::vector<bool>& known)
   for (std::size_t p = 0; p < map.Patches.size(); ++p)
   {
     all.Into(map, p);
-    for (const Part<Dim>& part : PartsOf<Dim>(K))
+    for (const PatchEntity<Dim>& entity : EntitiesOf<Dim>(K))
     {
-      const std::vector<int> functions = PartFunctions<Dim>(*map.Patches[p].Space, part);
-      Spline<K> own = Extract<Dim, K>(map.Patches[p], part, functions);
+      const Trace<K> trace = MakeTrace<Dim, K>(*map.Patches[p].Space, entity).Value;
+      const std::vector<int>& functions = trace.Functions;
+      Spline<K> own = TraceOf<Dim, K>(map.Patches[p], trace);
       const std::vector<bool> ends = BoundaryFunctions<K>(*own.Space);
       FillCoons<K>(own);
       for (std::size_t i = 0; i < functions.size(); ++i)
@@ -177,16 +112,14 @@ GluedMap<Dim> CoonsMap(const CompatibleLayout<Dim>& layout)
   GluedMap<Dim> map = layout.Map;
   Numbered<Dim> all(map);
   std::vector<bool> known = layout.Given;
-  const std::vector<Part<Dim>> corners = PartsOf<Dim>(0);
   double sum = 0.0;
   int count = 0;
   std::vector<int> inner;
   for (std::size_t p = 0; p < map.Patches.size(); ++p)
   {
-    for (std::size_t c = 0; c < corners.size(); ++c)
+    for (std::size_t c = 0; c < layout.Corners[p].size(); ++c)
     {
-      // corners are listed first direction fastest, as the layout numbers them
-      const int function = PartFunctions<Dim>(*map.Patches[p].Space, corners[c]).front();
+      const int function = CornerFunction<Dim>(*map.Patches[p].Space, static_cast<int>(c));
       const int number = map.Functions[p][static_cast<std::size_t>(function)];
       if (layout.Given[static_cast<std::size_t>(number)])
       {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PatchLayout.h"
 
+#include "ArrangedPatch.h"
 #include "DomainMeasure.h"
 #include "NumberText.h"
-#include "SideSplines.h"
-#include <knotwork/SplineCore/FunctionMap.h>
+#include <knotwork/SplineCore/DisjointSets.h>
 #include <knotwork/SplineCore/TensorSpace.h>
 
 #include <algorithm>
@@ -38,6 +38,9 @@ std::string PointText(const Row& row)
   }
   return text + ")";
 }
+
+/// Functions of a map of one patch in one direction.
+constexpr int MostInADirection = 4096;
 
 /// Sets of numbers that are one, with a sign between each and its set's representative.
 class Classes
@@ -100,6 +103,29 @@ public:
   Builder(const PatchLayout<Dim>& layout, const LayoutParams& params)
     : Layout(layout), Params(params)
   {
+  }
+
+  /// One patch with the given sides, which lie so on its own.
+  void Arrange(const SideList<Dim>& sides, const std::array<SideOrigin, NumSides>& origins)
+  {
+    this->Arranged = true;
+    this->Prepared = sides.Sides;
+    this->Out.Size = sides.Size;
+    this->Out.Corners.resize(1);
+    std::iota(this->Out.Corners[0].begin(), this->Out.Corners[0].end(), 0);
+    this->SideOf.resize(1);
+    for (int s = 0; s < NumSides; ++s)
+    {
+      const std::size_t at = static_cast<std::size_t>(s);
+      Side side;
+      side.Patch = 0;
+      side.Number = s;
+      side.Vertices = this->VerticesOf(0, s);
+      side.Input = origins[at].Input;
+      side.Origin = origins[at];
+      this->SideOf[0][at] = this->Sides.size();
+      this->Sides.push_back(side);
+    }
   }
 
   Status CheckInput()
@@ -352,13 +378,12 @@ public:
   /// Mirrors what encloses a negative area; true when there was something.
   Result<bool> Mirror()
   {
-    Classes pieces(this->Out.Corners.size());
+    DisjointSets pieces(static_cast<int>(this->Out.Corners.size()));
     for (const PatchInterface& shared : this->Out.Shared)
     {
-      pieces.Unite(static_cast<std::size_t>(shared.Sides[0].Patch),
-        static_cast<std::size_t>(shared.Sides[1].Patch), false);
+      pieces.Unite(shared.Sides[0].Patch, shared.Sides[1].Patch);
     }
-    std::map<std::size_t, double> areas;
+    std::map<int, double> areas;
     const Eigen::Matrix<double, 1, Dim> center = this->Prepared.front().ControlPoints.row(0);
     for (const Side& side : this->Sides)
     {
@@ -370,7 +395,7 @@ public:
         {
           own = backwards ? -own : own;
         }
-        areas[pieces.Find(static_cast<std::size_t>(side.Patch))] += own;
+        areas[pieces.Find(side.Patch)] += own;
       }
     }
     this->Out.Area = 0.0;
@@ -386,7 +411,7 @@ public:
       for (std::size_t p = 0; area < 0.0 && p < this->Out.Corners.size(); ++p)
       {
         mirrored = true;
-        if (pieces.Find(p) == piece)
+        if (pieces.Find(static_cast<int>(p)) == piece)
         {
           auto& corners = this->Out.Corners[p];
           const auto half = corners.begin() + (1 << D);
@@ -444,7 +469,8 @@ public:
     return {};
   }
 
-  Status MakeSpaces()
+  /// Directions of one row get one degree and one knot vector.
+  Status UniteRows()
   {
     std::map<std::size_t, std::vector<SideDirection<D>>> users;
     for (Side& side : this->Sides)
@@ -466,17 +492,9 @@ public:
       }
       knots[row] = std::move(united.Value);
     }
-    bool rational = false;
-    for (const Side& side : this->Sides)
-    {
-      rational = rational || (side.Input >= 0 && side.Shape.IsRational());
-    }
-    std::vector<std::array<KnotVector, Dim>> all;
-    double functions = 0.0;
     for (std::size_t p = 0; p < this->Out.Corners.size(); ++p)
     {
       std::array<KnotVector, Dim> own;
-      double count = 1.0;
       for (int d = 0; d < Dim; ++d)
       {
         const std::size_t row = Row(static_cast<int>(p), static_cast<std::size_t>(d));
@@ -485,9 +503,43 @@ public:
           ? KnotVector::Uniform(this->Params.MinDegree, this->Params.MinElements)
           : this->Rows.IsFlipped(row) ? ReversedKnots(found->second)
                                       : found->second;
-        count *= own[static_cast<std::size_t>(d)].NumFunctions();
       }
-      all.push_back(std::move(own));
+      this->Knots.push_back(std::move(own));
+    }
+    return {};
+  }
+
+  Status CheckDirections()
+  {
+    for (const KnotVector& knots : this->Knots.front())
+    {
+      // the Laplacian of a direction is diagonalized as a full matrix
+      if (knots.NumFunctions() > MostInADirection)
+      {
+        return { ErrorCode::TooLarge,
+          "the map would have " + std::to_string(knots.NumFunctions()) +
+            " functions in one direction, the limit is " + std::to_string(MostInADirection) +
+            "; give sides with fewer elements, or parts of the domain" };
+      }
+    }
+    return {};
+  }
+
+  Status MakeSpaces()
+  {
+    bool rational = false;
+    for (const Side& side : this->Sides)
+    {
+      rational = rational || (side.Input >= 0 && side.Shape.IsRational());
+    }
+    double functions = 0.0;
+    for (const auto& own : this->Knots)
+    {
+      double count = 1.0;
+      for (const KnotVector& knots : own)
+      {
+        count *= knots.NumFunctions();
+      }
       functions += count;
     }
     if (Status status = CheckSize(functions, this->Params.MaxFunctions); !status)
@@ -496,7 +548,7 @@ public:
     }
     MultiPatch<Dim> patches;
     patches.Topology.Interfaces = this->Out.Shared;
-    for (const auto& own : all)
+    for (const auto& own : this->Knots)
     {
       auto space = MakeTensorSpace<Dim>(own);
       if (!space)
@@ -522,7 +574,9 @@ public:
   Status SetPoints()
   {
     GluedMap<Dim>& map = this->Out.Map;
-    const double tolerance = this->Params.GapTolerance * this->Out.Size;
+    // each may be as far from the vertex of a layout
+    const double tolerance =
+      (this->Arranged ? 1.0 : 2.0) * this->Params.GapTolerance * this->Out.Size;
     const std::size_t n = map.Fixed.size();
     std::vector<int> owner(n, -1); // side
     PointMatrix points = PointMatrix::Zero(static_cast<Eigen::Index>(n), Dim);
@@ -562,14 +616,15 @@ public:
           continue;
         }
         const Side& other = this->Sides[static_cast<std::size_t>(owner[number])];
-        const std::string where =
-          " where " + GivenSide(other.Input) + " and " + GivenSide(side.Input) + " meet";
+        const std::string where = this->Arranged
+          ? " along the edge between " + NamedSide(other) + " and " + NamedSide(side)
+          : " where " + GivenSide(other.Input) + " and " + GivenSide(side.Input) + " meet";
         const double gap = (own.ControlPoints.row(row) - points.row(at)).norm();
         this->Out.LargestGap = std::max(this->Out.LargestGap, gap);
-        if (!(gap <= 2.0 * tolerance)) // each may be this far from the vertex
+        if (!(gap <= tolerance))
         {
           return { ErrorCode::InvalidTopology,
-            "gap of " + NumberText(gap) + " (allowed " + NumberText(2.0 * tolerance) +
+            "gap of " + NumberText(gap) + " (allowed " + NumberText(tolerance) +
               ") between control points" + where };
         }
         if (own.IsRational() && !SameWeight(own.Weights[row], weights[at]))
@@ -677,6 +732,10 @@ private:
     }
     return Join(names);
   }
+  static std::string NamedSide(const Side& side)
+  {
+    return GivenSide(side.Input) + " (" + SideName<Dim>(side.Number) + ")";
+  }
   static std::string Pair(int a, int b)
   {
     return "patches " + std::to_string(a) + " and " + std::to_string(b);
@@ -689,6 +748,8 @@ private:
   std::vector<std::array<std::size_t, NumSides>> SideOf; ///< per patch
   Classes Rows{ 0 };
   std::map<int, double> VertexWeights;
+  std::vector<std::array<KnotVector, Dim>> Knots; ///< of the patches
+  bool Arranged = false;
 };
 
 template <int Dim>
@@ -727,7 +788,7 @@ Status Builder<Dim>::MatchWeights(Side& side)
         auto product = TimesLinear(side.Shape, known->second / weightAt(1));
         if (!product)
         {
-          return NamedSide(product.Status, side.Input);
+          return knotwork::NamedSide(product.Status, side.Input);
         }
         side.Shape = std::move(product.Value);
       }
@@ -746,16 +807,16 @@ Result<GluedMap<Dim>> Glue(
   const MultiPatch<Dim>& layout, const std::vector<std::array<int, 1 << Dim>>& corners)
 {
   const std::vector<Spline<Dim>>& patches = layout.Patches;
-  std::vector<std::size_t> first{ 0 };
+  std::vector<std::int64_t> first{ 0 };
   for (const Spline<Dim>& patch : patches)
   {
-    first.push_back(first.back() + static_cast<std::size_t>(patch.Space->NumFunctions));
+    first.push_back(first.back() + patch.Space->NumFunctions);
   }
-  if (first.back() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+  if (first.back() > std::numeric_limits<int>::max())
   {
     return { ErrorCode::TooLarge, "the layout has more than 2^31 - 1 control points" };
   }
-  Classes same(first.back());
+  DisjointSets same(static_cast<int>(first.back()));
   for (const PatchInterface& shared : layout.Topology.Interfaces)
   {
     std::array<std::size_t, 2> patch{};
@@ -776,30 +837,31 @@ Result<GluedMap<Dim>> Glue(
     {
       const std::int64_t own = static_cast<std::int64_t>(j);
       const auto at = shared.Orientation.OtherPoint({ own % count[0], own / count[0] }, count);
-      same.Unite(first[patch[0]] +
-          static_cast<std::size_t>(along[0][static_cast<std::size_t>(at[0] + width * at[1])]),
-        first[patch[1]] + static_cast<std::size_t>(along[1][j]), false);
+      const auto other = static_cast<std::size_t>(at[0] + width * at[1]);
+      same.Unite(static_cast<int>(first[patch[0]]) + along[0][other],
+        static_cast<int>(first[patch[1]]) + along[1][j]);
     }
   }
   GluedMap<Dim> map;
   map.Patches = patches;
-  std::vector<int> numbers(first.back(), -1);
+  std::vector<int> numbers(static_cast<std::size_t>(first.back()), -1);
   std::vector<std::size_t> source; // where a number comes from
   for (std::size_t p = 0; p < patches.size(); ++p)
   {
     map.Functions.emplace_back();
-    for (std::size_t i = first[p]; i < first[p + 1]; ++i)
+    for (Eigen::Index row = 0; row < patches[p].Space->NumFunctions; ++row)
     {
-      const std::size_t root = same.Find(i);
+      const int i = static_cast<int>(first[p] + row);
+      const int root = same.Find(i);
+      const std::size_t at = static_cast<std::size_t>(root);
       if (root == i)
       {
-        numbers[i] = static_cast<int>(source.size());
+        numbers[at] = static_cast<int>(source.size());
         source.push_back(p);
       }
-      map.Functions.back().push_back(numbers[root]);
-      const std::size_t from = source[static_cast<std::size_t>(numbers[root])];
-      const Eigen::Index row = static_cast<Eigen::Index>(i - first[p]);
-      const Eigen::Index fromRow = static_cast<Eigen::Index>(root - first[from]);
+      map.Functions.back().push_back(numbers[at]);
+      const std::size_t from = source[static_cast<std::size_t>(numbers[at])];
+      const Eigen::Index fromRow = root - first[from];
       map.Patches[p].ControlPoints.row(row) = patches[from].ControlPoints.row(fromRow);
       if (map.Patches[p].IsRational())
       {
@@ -882,8 +944,8 @@ Result<CompatibleLayout<Dim>> MakeCompatible(
       mirrored = found.Value;
     }
   }
-  for (const auto step :
-    { &Builder<Dim>::MatchAllWeights, &Builder<Dim>::MakeSpaces, &Builder<Dim>::SetPoints })
+  for (const auto step : { &Builder<Dim>::MatchAllWeights, &Builder<Dim>::UniteRows,
+         &Builder<Dim>::MakeSpaces, &Builder<Dim>::SetPoints })
   {
     status = status ? (builder.*step)() : status;
   }
@@ -894,9 +956,29 @@ Result<CompatibleLayout<Dim>> MakeCompatible(
   return std::move(builder.Out);
 }
 
+template <int Dim>
+Result<CompatibleLayout<Dim>> MakeCompatible(const SideList<Dim>& sides,
+  const std::array<SideOrigin, 2 * Dim>& origins, const BoundaryParams& params)
+{
+  const LayoutParams layoutParams{ params.GapTolerance, 1, 1, params.MaxFunctions };
+  const PatchLayout<Dim> none;
+  Builder<Dim> builder(none, layoutParams);
+  builder.Arrange(sides, origins);
+  Status status;
+  for (const auto step :
+    { &Builder<Dim>::OrientSides, &Builder<Dim>::MatchAllWeights, &Builder<Dim>::UniteRows,
+      &Builder<Dim>::CheckDirections, &Builder<Dim>::MakeSpaces, &Builder<Dim>::SetPoints })
+  {
+    status = status ? (builder.*step)() : status;
+  }
+  return status ? Result<CompatibleLayout<Dim>>(std::move(builder.Out)) : status;
+}
+
 #define KNOTWORK_INSTANTIATE(Dim)                                                                  \
   template Result<GluedMap<Dim>> Glue<Dim>(                                                        \
     const MultiPatch<Dim>&, const std::vector<std::array<int, 1 << Dim>>&);                        \
+  template Result<CompatibleLayout<Dim>> MakeCompatible<Dim>(                                      \
+    const SideList<Dim>&, const std::array<SideOrigin, 2 * Dim>&, const BoundaryParams&);          \
   template Result<CompatibleLayout<Dim>> MakeCompatible<Dim>(                                      \
     const PatchLayout<Dim>&, const LayoutParams&);
 KNOTWORK_INSTANTIATE(2)

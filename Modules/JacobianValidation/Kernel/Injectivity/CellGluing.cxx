@@ -509,7 +509,7 @@ private:
     IntArray<3> points{ degree[0] + 1, degree[1] + 1, this->Dim == 2 ? 1 : degree[2] + 1 };
     const auto free = SideDirections<3>(side.Number);
     const IntArray<2> sideDegree{ points[free[0]] - 1, points[free[1]] - 1 };
-    const std::vector<int> coefficients = SideIndices<3>(points, side.Number);
+    const std::vector<int> coefficients = EntityIndices<3>(points, EntityOfSide<3>(side.Number));
     const int n = NumCellCoefficients(this->Shape(side.Cell), degree);
     std::vector<std::vector<double>> planes;
     for (int plane = 0; plane < this->Cells.NumPlanes(); ++plane)

@@ -6,7 +6,6 @@
 #include "FunctionMap.h"
 #include "LROperations.h"
 #include "PatchTraces.h"
-#include "TensorSpace.h"
 
 #include <algorithm>
 
@@ -22,15 +21,6 @@ std::size_t At(std::int64_t i)
 std::string SideText(const PatchSide& side)
 {
   return "side " + std::to_string(side.Side) + " of patch " + std::to_string(side.Patch);
-}
-
-template <int Dim>
-PatchEntity<Dim> EntityOfSide(int side)
-{
-  PatchEntity<Dim> entity;
-  entity.fill(-1);
-  entity[AcrossSide(side)] = side % 2;
-  return entity;
 }
 }
 
@@ -352,7 +342,7 @@ std::vector<int> SideFunctions(const SplineSpace<Dim>& space, int side)
   {
     count[d] = space.Knots[d].NumFunctions();
   }
-  return SideIndices<Dim>(count, side);
+  return EntityIndices<Dim>(count, EntityOfSide<Dim>(side));
 }
 
 template <int Dim>
@@ -387,21 +377,7 @@ Result<Spline<Dim - 1>> SideSpline(const Spline<Dim>& patch, int side)
       "the knots across side " + std::to_string(side) +
         " are not clamped: it has no control points of its own" };
   }
-  Result<Trace<Dim - 1>> trace;
-  if (space.Kind == SpaceKind::Tensor)
-  {
-    std::array<KnotVector, Dim - 1> knots;
-    const auto directions = SideDirections<Dim>(side);
-    for (std::size_t k = 0; k + 1 < Dim; ++k)
-    {
-      knots[k] = space.Knots[directions[k]];
-    }
-    trace.Value = { MakeTensorSpace<Dim - 1>(knots).Value, SideFunctions<Dim>(space, side) };
-  }
-  else
-  {
-    trace = MakeTrace<Dim, Dim - 1>(space, entity);
-  }
+  const auto trace = MakeTrace<Dim, Dim - 1>(space, entity);
   return trace ? Result<Spline<Dim - 1>>(TraceOf<Dim, Dim - 1>(patch, trace.Value)) : trace.Status;
 }
 

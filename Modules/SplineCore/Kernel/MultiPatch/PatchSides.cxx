@@ -6,31 +6,41 @@
 namespace knotwork
 {
 template <int Dim>
-std::vector<int> SideIndices(const IntArray<Dim>& count, int side)
+std::vector<std::size_t> FreeDirections(const PatchEntity<Dim>& entity)
 {
+  std::vector<std::size_t> free;
+  for (std::size_t d = 0; d < Dim; ++d)
+  {
+    if (entity[d] < 0)
+    {
+      free.push_back(d);
+    }
+  }
+  return free;
+}
+
+template <int Dim>
+std::vector<int> EntityIndices(const IntArray<Dim>& count, const PatchEntity<Dim>& entity)
+{
+  IntArray<Dim> shape{};
   std::array<int, Dim> strides{};
+  int first = 0;
   int stride = 1;
   for (std::size_t d = 0; d < Dim; ++d)
   {
+    shape[d] = entity[d] < 0 ? count[d] : 1;
     strides[d] = stride;
+    first += entity[d] == 1 ? stride * (count[d] - 1) : 0;
     stride *= count[d];
   }
-  const std::size_t across = AcrossSide(side);
-  const int first = side % 2 ? strides[across] * (count[across] - 1) : 0;
-  const auto directions = SideDirections<Dim>(side);
-  IntArray<Dim - 1> shape{};
-  for (std::size_t k = 0; k + 1 < Dim; ++k)
-  {
-    shape[k] = count[directions[k]];
-  }
   std::vector<int> points;
-  ForEachOffset<Dim - 1>(shape,
-    [&](const IntArray<Dim - 1>& index)
+  ForEachOffset<Dim>(shape,
+    [&](const IntArray<Dim>& index)
     {
       int at = first;
-      for (std::size_t k = 0; k + 1 < Dim; ++k)
+      for (std::size_t d = 0; d < Dim; ++d)
       {
-        at += strides[directions[k]] * index[k];
+        at += strides[d] * index[d];
       }
       points.push_back(at);
     });
@@ -131,7 +141,11 @@ const std::vector<SideOrientation>& SideOrientations(int numDirections)
   return all[static_cast<std::size_t>(numDirections)];
 }
 
-template std::vector<int> SideIndices<1>(const IntArray<1>&, int);
-template std::vector<int> SideIndices<2>(const IntArray<2>&, int);
-template std::vector<int> SideIndices<3>(const IntArray<3>&, int);
+#define KNOTWORK_INSTANTIATE(Dim)                                                                  \
+  template std::vector<std::size_t> FreeDirections<Dim>(const PatchEntity<Dim>&);                  \
+  template std::vector<int> EntityIndices<Dim>(const IntArray<Dim>&, const PatchEntity<Dim>&);
+KNOTWORK_INSTANTIATE(1)
+KNOTWORK_INSTANTIATE(2)
+KNOTWORK_INSTANTIATE(3)
+#undef KNOTWORK_INSTANTIATE
 }

@@ -54,10 +54,27 @@ std::array<std::size_t, Dim - 1> SideDirections(int side)
   return directions;
 }
 
-/// Points on a side of a grid of so many points a direction, by number in the grid; first direction
-/// fastest in both.
+/// A side, edge or corner of a patch, or all of it: per direction free (-1) or fixed at the lower
+/// (0) or upper (1) end.
 template <int Dim>
-std::vector<int> SideIndices(const IntArray<Dim>& count, int side);
+using PatchEntity = std::array<int, Dim>;
+
+template <int Dim>
+PatchEntity<Dim> EntityOfSide(int side)
+{
+  PatchEntity<Dim> entity;
+  entity.fill(-1);
+  entity[AcrossSide(side)] = side % 2;
+  return entity;
+}
+
+template <int Dim>
+std::vector<std::size_t> FreeDirections(const PatchEntity<Dim>& entity);
+
+/// Points on an entity of a grid of so many points a direction, by number in the grid; first
+/// direction fastest in both.
+template <int Dim>
+std::vector<int> EntityIndices(const IntArray<Dim>& count, const PatchEntity<Dim>& entity);
 
 /// Corner of the patch at a corner of its side.
 template <int Dim>

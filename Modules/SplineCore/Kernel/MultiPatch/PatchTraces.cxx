@@ -181,20 +181,6 @@ private:
 }
 
 template <int Dim>
-std::vector<std::size_t> FreeDirections(const PatchEntity<Dim>& entity)
-{
-  std::vector<std::size_t> free;
-  for (std::size_t d = 0; d < Dim; ++d)
-  {
-    if (entity[d] < 0)
-    {
-      free.push_back(d);
-    }
-  }
-  return free;
-}
-
-template <int Dim>
 bool HasTrace(const SplineSpace<Dim>& space, const PatchEntity<Dim>& entity)
 {
   bool has = space.HasDomain && space.Kind != SpaceKind::LocallyRefined;
@@ -296,6 +282,16 @@ Result<Trace<Free>> MakeTrace(const SplineSpace<Dim>& space, const PatchEntity<D
   }
   Trace<Free> trace;
   trace.Space = std::move(made.Value);
+  if (space.Kind == SpaceKind::Tensor)
+  {
+    IntArray<Dim> count{};
+    for (std::size_t d = 0; d < Dim; ++d)
+    {
+      count[d] = space.Knots[d].NumFunctions();
+    }
+    trace.Functions = EntityIndices<Dim>(count, entity);
+    return trace;
+  }
   const auto functions = TraceFunctions<Dim>(space, entity);
   for (const FunctionInfo<Free>& info : DescribeFunctions<Free>(*trace.Space))
   {
@@ -362,7 +358,6 @@ std::vector<PatchTrace<Dim>> FindSharedTraces(const std::vector<Spline<Dim>>& pa
 }
 
 #define KNOTWORK_INSTANTIATE(Dim)                                                                  \
-  template std::vector<std::size_t> FreeDirections<Dim>(const PatchEntity<Dim>&);                  \
   template bool HasTrace<Dim>(const SplineSpace<Dim>&, const PatchEntity<Dim>&);                   \
   template std::map<FunctionKey, int> TraceFunctions<Dim>(                                         \
     const SplineSpace<Dim>&, const PatchEntity<Dim>&);                                             \
@@ -380,7 +375,9 @@ KNOTWORK_INSTANTIATE(3)
     const SplineSpace<Dim>&, const PatchEntity<Dim>&);                                             \
   template Spline<Free> TraceOf<Dim, Free>(const Spline<Dim>&, const Trace<Free>&);
 KNOTWORK_INSTANTIATE(2, 1)
+KNOTWORK_INSTANTIATE(2, 2)
 KNOTWORK_INSTANTIATE(3, 1)
 KNOTWORK_INSTANTIATE(3, 2)
+KNOTWORK_INSTANTIATE(3, 3)
 #undef KNOTWORK_INSTANTIATE
 }

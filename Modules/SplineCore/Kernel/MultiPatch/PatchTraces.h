@@ -1,23 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Traces of splines on the sides, edges and corners of their patches, private to the kernel.
+// Traces of splines on the sides, edges and corners of their patches.
 #pragma once
-#include "HierarchicalSpace.h"
-#include "PatchSides.h"
+#include <knotwork/SplineCore/HierarchicalSpace.h>
+#include <knotwork/SplineCore/PatchSides.h>
 
 #include <map>
 
 namespace knotwork
 {
-/// A side, edge or corner of a patch: per direction free (-1) or fixed at the lower (0) or upper
-/// (1) end of the domain.
-template <int Dim>
-using PatchEntity = std::array<int, Dim>;
-
 /// Level and index in the level's tensor-product basis; the last entries are 0 when not needed.
 using FunctionKey = std::array<std::int64_t, 3>;
-
-template <int Dim>
-std::vector<std::size_t> FreeDirections(const PatchEntity<Dim>& entity);
 
 /// Whether functions of the space are those of the entity: with p + 1 equal knots at the ends it
 /// fixes; not known for locally refined spaces.
@@ -46,7 +38,8 @@ struct Trace
   SplineSpacePtr<Free> Space;
   std::vector<int> Functions;
 };
-/// @pre HasTrace. @return InvalidTopology when the functions are not those of a space.
+/// @param entity  with so many free directions. @pre HasTrace.
+/// @return InvalidTopology when the functions are not those of a space.
 template <int Dim, int Free>
 Result<Trace<Free>> MakeTrace(const SplineSpace<Dim>& space, const PatchEntity<Dim>& entity);
 

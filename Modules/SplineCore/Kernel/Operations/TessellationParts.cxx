@@ -165,7 +165,7 @@ BlockSide ExtractSide(const BezierForm<Dim>& form, int element, int direction, i
     ++points;
   }
   const double* block = form.Block(element);
-  for (const int at : SideIndices<Dim>(count, number))
+  for (const int at : EntityIndices<Dim>(count, EntityOfSide<Dim>(number)))
   {
     for (int c = 0; c < form.NumComponents; ++c)
     {

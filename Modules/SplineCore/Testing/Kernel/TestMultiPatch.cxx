@@ -262,6 +262,38 @@ TEST(PatchSides, NumbersCornersAndSignsAreThoseOfCoordinates_ExactOracle)
   }
 }
 
+TEST(PatchSides, EntitiesOfGridsAreWhereCoordinatesAreFixed_ExactOracle)
+{
+  const IntArray<3> count{ 3, 2, 4 };
+  for (int code = 0; code < 27; ++code)
+  {
+    const PatchEntity<3> entity{ code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1 };
+    std::vector<int> expected;
+    int number = 0;
+    for (int k = 0; k < count[2]; ++k)
+    {
+      for (int j = 0; j < count[1]; ++j)
+      {
+        for (int i = 0; i < count[0]; ++i, ++number)
+        {
+          const std::array<int, 3> at{ i, j, k };
+          bool inside = true;
+          for (std::size_t d = 0; d < 3; ++d)
+          {
+            inside = inside && (entity[d] < 0 || at[d] == (entity[d] == 0 ? 0 : count[d] - 1));
+          }
+          if (inside)
+          {
+            expected.push_back(number);
+          }
+        }
+      }
+    }
+    EXPECT_EQ(EntityIndices<3>(count, entity), expected) << code;
+  }
+  EXPECT_EQ(EntityOfSide<3>(3), (PatchEntity<3>{ -1, 1, -1 }));
+}
+
 TEST(SideOrientation, IsTheSymmetryGroupOfTheSquare_PropertyOracle)
 {
   const std::array<std::int64_t, 2> count{ 4, 3 };
