@@ -29,7 +29,7 @@ PieceValues ValuesOn(const BezierForm<2>& form, int component, const SidePiece& 
   const int side = piece.Side[0];
   const IntArray<2> degree = form.Space->Elements[static_cast<std::size_t>(e)].Degree;
   const int size = NumTensorFunctions<2>(degree);
-  result.Degree = degree[side < 2 ? 1 : 0];
+  result.Degree = degree[SideDirections<2>(side)[0]];
   for (int k = 0; k <= result.Degree; ++k)
   {
     const int place = SideCoefficient(degree, side, k);
@@ -146,8 +146,7 @@ void SideRoots::Collect(const ElementSides& sides, int element, int side, int le
   BorderSide& border) const
 {
   border.Roots.clear();
-  const int low = side < 2 ? side : 2 * (side - 2); // the lower corner
-  const int vertex = sides.Corners[static_cast<std::size_t>(4 * element + low)];
+  const int vertex = sides.Corners[static_cast<std::size_t>(4 * element + PatchCorner<2>(side, 0))];
   border.Positive = this->VertexValues[static_cast<std::size_t>(vertex)] >= value;
   const std::size_t list = static_cast<std::size_t>(NumSides * element + side);
   double previous = 0.0;

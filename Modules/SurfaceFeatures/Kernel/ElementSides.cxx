@@ -98,7 +98,7 @@ private:
   {
     const IntArray<2> degree = this->Degree(e);
     const double* block = this->Form.Block(e) + plane * NumTensorFunctions<2>(degree);
-    const int p = degree[side < 2 ? 1 : 0];
+    const int p = degree[SideDirections<2>(side)[0]];
     for (int k = 0; k <= p; ++k)
     {
       values[k] = block[SideCoefficient(degree, side, k)];
@@ -379,9 +379,7 @@ private:
     {
       return this->FirstHanging[index] + n - 1;
     }
-    const int far = n == 0 ? 0 : 1;
-    const int corner = side < 2 ? side + 2 * far : far + 2 * (side - 2);
-    return 4 * element + corner;
+    return 4 * element + PatchCorner<2>(side, n == 0 ? 0 : 1);
   }
   int PieceNode(std::size_t p, std::size_t k, bool atEnd) const
   {

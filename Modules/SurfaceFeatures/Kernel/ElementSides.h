@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/PatchSides.h>
 
 /// Private to the contours: where the elements of a surface meet.
 namespace knotwork
 {
-/// Sides of an element: 0 and 1 are u = 0 and u = 1 (they run along v), 2 and 3 are v = 0 and v
-/// = 1. Corners: bit d is the end in direction d.
+/// Of an element, numbered as in PatchSides.h.
 inline constexpr int NumSides = 4;
 
 /// A piece of a side that has one neighbour all along: whole sides, or what a hanging corner of a

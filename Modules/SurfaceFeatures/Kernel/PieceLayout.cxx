@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PieceLayout.h"
 
+#include <knotwork/SplineCore/PatchSides.h>
+
 #include <algorithm>
 #include <map>
 #include <set>
@@ -16,13 +18,10 @@ Ids SideIds(const SplineSpace<2>& space, int e, int side)
 {
   const IntArray<2>& degree = space.Elements[static_cast<std::size_t>(e)].Degree;
   const int* ids = space.LocalFunctions(e);
-  const int row = degree[0] + 1;
-  const int along = side < 2 ? degree[1] : degree[0];
-  const int first = side == 1 ? degree[0] : side == 3 ? row * degree[1] : 0;
   Ids result;
-  for (int i = 0; i <= along; ++i)
+  for (const int i : EntityIndices<2>({ degree[0] + 1, degree[1] + 1 }, EntityOfSide<2>(side)))
   {
-    result.push_back(ids[first + i * (side < 2 ? row : 1)]);
+    result.push_back(ids[i]);
   }
   return result;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "UniquenessBox.h"
 
+#include <knotwork/SplineCore/PatchSides.h>
+
 namespace knotwork
 {
 namespace
@@ -30,7 +32,7 @@ int PieceAt(const ScalarPieces& pieces, int from, const RealArray<2>& z)
     {
       return at;
     }
-    const std::size_t along = side < 2 ? 1 : 0;
+    const std::size_t along = SideDirections<2>(side)[0];
     const double x = std::min(std::max(z[along], box[along].Lo), box[along].Hi);
     int next = -1;
     for (const PieceJoin* join = pieces.BeginJoins(at); join != pieces.EndJoins(at); ++join)

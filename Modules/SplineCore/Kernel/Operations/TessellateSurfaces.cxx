@@ -33,7 +33,7 @@ struct Face
   bool Flip = false;
   Pair Lower{};
   Pair Size{};
-  std::array<bool, 4> Rim{}; ///< sides v = 0, u = 1, v = 1, u = 0
+  std::array<bool, 4> Rim{}; ///< sides
   IntArray<2> Degree{};
   /// (p + 1)(q + 1) homogeneous points (w x, ..., w); of surfaces only on the rim of a chart.
   std::vector<double> Points;
@@ -43,29 +43,21 @@ struct Face
 /// Direction along a side, and the fixed chart coordinate of the side.
 int SideAxis(int side)
 {
-  return side % 2;
+  return 1 - side / 2;
 }
 std::int64_t SideFixed(const Face& face, int side)
 {
-  const std::size_t across = At(1 - SideAxis(side));
-  const bool high = side == 1 || side == 2;
-  return face.Lower[across] + (high ? face.Size[across] : 0);
+  const std::size_t across = AcrossSide(side);
+  return face.Lower[across] + (side % 2 == 0 ? 0 : face.Size[across]);
 }
 
 /// Points of a side in ascending parameter.
 std::vector<double> SidePoints(const Face& face, int side, int planes)
 {
-  const int n0 = face.Degree[0] + 1;
-  const int n1 = face.Degree[1] + 1;
-  const int n = SideAxis(side) == 0 ? n0 : n1;
   std::vector<double> points;
-  points.reserve(At(n * planes));
-  for (int i = 0; i < n; ++i)
+  for (const int at :
+    EntityIndices<2>({ face.Degree[0] + 1, face.Degree[1] + 1 }, EntityOfSide<2>(side)))
   {
-    const int at = side == 0 ? i
-      : side == 2            ? i + n0 * (n1 - 1)
-      : side == 3            ? n0 * i
-                             : n0 * i + n0 - 1;
     points.insert(points.end(), face.Points.begin() + std::int64_t{ at } * planes,
       face.Points.begin() + std::int64_t{ at + 1 } * planes);
   }
@@ -111,7 +103,7 @@ std::vector<Face> MakeFaces(const std::vector<BezierForm<2>>& patches, int& numC
       face.Chart = cell.Chart;
       face.Lower = cell.Lower;
       face.Size = cell.Size;
-      face.Rim = { cell.RimLow[1], cell.RimHigh[0], cell.RimHigh[1], cell.RimLow[0] };
+      face.Rim = { cell.RimLow[0], cell.RimHigh[0], cell.RimLow[1], cell.RimHigh[1] };
       face.Degree = form.Space->Elements[e].Degree;
       if (std::find(face.Rim.begin(), face.Rim.end(), true) != face.Rim.end())
       {
@@ -171,7 +163,7 @@ std::vector<Face> MakeFaces(const std::vector<BezierForm<3>>& patches, int& numC
           }
           const std::size_t u = At(side.Axes[0]);
           const std::size_t v = At(side.Axes[1]);
-          face.Rim = { cell.RimLow[v], cell.RimHigh[u], cell.RimHigh[v], cell.RimLow[u] };
+          face.Rim = { cell.RimLow[u], cell.RimHigh[u], cell.RimLow[v], cell.RimHigh[v] };
           face.Points = std::move(side.Points);
           matcher.Add({ static_cast<int>(faces.size()), 2 * d + end }, side.Count, face.Points);
           faces.push_back(std::move(face));
@@ -297,7 +289,7 @@ public:
       std::int64_t{ 1 } << this->F.Halvings[1] };
     this->Step = { this->F.Size[0] >> this->F.Halvings[0], this->F.Size[1] >> this->F.Halvings[1] };
     this->Grid.assign(At((this->N[0] + 1) * (this->N[1] + 1)), -1);
-    for (int side = 0; side < 4; ++side)
+    for (const int side : { 2, 1, 3, 0 }) // round the face
     {
       this->MakeSide(side);
     }
@@ -360,8 +352,8 @@ private:
         extra[At(cell)].push_back(this->MakeUse(x, true));
         continue;
       }
-      int& corner = axis == 0 ? this->At2(cell, side == 0 ? 0 : this->N[1])
-                              : this->At2(side == 3 ? 0 : this->N[0], cell);
+      const std::int64_t end = side % 2 == 0 ? 0 : this->N[AcrossSide(side)];
+      int& corner = axis == 0 ? this->At2(cell, end) : this->At2(end, cell);
       if (corner < 0)
       {
         corner = this->MakeUse(x, true);
@@ -389,13 +381,13 @@ private:
       }
     };
     loop.push_back(this->At2(i, j));
-    append(0, i, j == 0, false);
+    append(2, i, j == 0, false);
     loop.push_back(this->At2(i + 1, j));
     append(1, j, i + 1 == this->N[0], false);
     loop.push_back(this->At2(i + 1, j + 1));
-    append(2, i, j + 1 == this->N[1], true);
+    append(3, i, j + 1 == this->N[1], true);
     loop.push_back(this->At2(i, j + 1));
-    append(3, j, i == 0, true);
+    append(0, j, i == 0, true);
     if (this->F.Flip)
     {
       std::reverse(loop.begin(), loop.end());

@@ -150,10 +150,7 @@ private:
     if (atLow || atHigh)
     {
       // the four corners of a tile, whichever side they are reached by
-      const int lowBit = side % 2;
-      const int otherBit = atHigh ? 1 : 0;
-      const int corner = side < 2 ? lowBit + 2 * otherBit : otherBit + 2 * lowBit;
-      key = { tile, -1 - corner, 0.0, false };
+      key = { tile, -1 - PatchCorner<2>(side, atHigh ? 1 : 0), 0.0, false };
     }
     const auto [found, isNew] = this->Ids.emplace(key, static_cast<int>(this->Corners.size()));
     const int id = found->second;
