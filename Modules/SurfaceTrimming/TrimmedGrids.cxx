@@ -3,6 +3,7 @@
 
 #include "CarriedCurves.h"
 #include <knotwork/SplineCore/JoinElements.h>
+#include <knotwork/SplineCore/SharedEdges.h>
 #include <knotwork/SplineCore/TensorForm.h>
 #include <knotwork/SplineGrid/SplineBlocks.h>
 #include <knotwork/SplineGrid/SplineModel.h>
@@ -694,6 +695,7 @@ Status EncodeTrimmedModel(
     ofFace["Body"].push_back(face.Body);
     ofFace["TrimmingCurves"].push_back(static_cast<int>(uses.Patches.size() - before));
   }
+  faces.Topology = SharedEdges(model);
   Status status = EncodeSplineGrid(faces, surfaces);
   status = status ? EncodeSplineGrid(uses, curves) : status;
   if (!status)

@@ -3,6 +3,7 @@
 #include <knotwork/SplineCore/BezierForm.h>
 #include <knotwork/SplineCore/LROperations.h>
 #include <knotwork/SplineCore/MultiPatch.h>
+#include <knotwork/SplineCore/SharedEdges.h>
 #include <knotwork/SplineCore/TensorSpace.h>
 
 #include <Eigen/LU>
@@ -602,4 +603,49 @@ TEST(CheckTopology, NamesWhatIsNotThere)
   EXPECT_TRUE(CheckTopology(topology, 2, 3));
   topology.Boundary[0].Side = 6;
   EXPECT_EQ(CheckTopology(topology, 2, 3).Code, ErrorCode::InvalidTopology);
+}
+
+TEST(SharedEdges, EdgesAlongWholeSidesAtEqualSharesAreInterfaces_ExactOracle)
+{
+  TrimmedModel model;
+  const ParametricBox<2> domains[] = { { { 0, 0 }, { 2, 1 } }, { { 0, -1 }, { 1, 3 } } };
+  for (const ParametricBox<2>& domain : domains)
+  {
+    TrimmedFace face;
+    face.Surface.Space =
+      MakeTensorSpace<2>({ KnotVector::Uniform(1, 1, domain.Lower[0], domain.Upper[0]),
+                           KnotVector::Uniform(1, 1, domain.Lower[1], domain.Upper[1]) })
+        .Value;
+    face.Surface.ControlPoints = PointMatrix::Zero(4, 3);
+    model.Faces.push_back(face);
+  }
+  const auto addEdge = [&](const PointMatrix& first, const PointMatrix& second)
+  {
+    for (int f = 0; f < 2; ++f)
+    {
+      TrimmingCurve use;
+      use.Curve.Space = MakeTensorSpace<1>({ KnotVector::Uniform(2, 1) }).Value;
+      use.Curve.ControlPoints = PointMatrix::Zero(3, 3);
+      use.UV = f == 0 ? first : second;
+      use.Edge = model.NumEdges;
+      model.Faces[At(f)].Loops.push_back({ { use } });
+    }
+    ++model.NumEdges;
+  };
+  PointMatrix upper(3, 2), lower(3, 2), quick(3, 2), part(3, 2), inside(3, 2);
+  upper << 2, 0, 2, 0.25, 2, 1;    // u = 2, not at constant speed
+  lower << 1, -1, 0.75, -1, 0, -1; // v = -1, at the same shares the other way round
+  quick << 1, -1, 0.5, -1, 0, -1;  // at other shares
+  part << 1, -1, 0.75, -1, 0.5, -1;
+  inside << 1, 0, 0.75, 0, 0, 0;
+  addEdge(upper, lower);
+  addEdge(upper, quick);
+  addEdge(upper, part);
+  addEdge(upper, inside);
+  const PatchTopology topology = SharedEdges(model);
+  ASSERT_EQ(topology.Interfaces.size(), 1u);
+  EXPECT_EQ(topology.Interfaces[0].Sides[0], (PatchSide{ 0, 1 }));
+  EXPECT_EQ(topology.Interfaces[0].Sides[1], (PatchSide{ 1, 2 }));
+  EXPECT_EQ(topology.Interfaces[0].Orientation.Number(), 1);
+  EXPECT_FALSE(topology.Interfaces[0].Partial);
 }

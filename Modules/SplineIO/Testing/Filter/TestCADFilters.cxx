@@ -188,3 +188,46 @@ TEST(CADFilters, FailuresAreErrorsOfTheFilter_PropertyOracle)
     vtkErrorCode::UserError + static_cast<unsigned long>(ErrorCode::FileError));
   EXPECT_EQ(reader->GetOutputDataObject(0)->GetNumberOfElements(vtkDataObject::CELL), 0);
 }
+
+TEST(CADFilters, EdgesOfShellsAreInterfaces_CrossOracle)
+{
+  for (const int shape : { vtkSplineSource::CUBE, vtkSplineSource::TWISTED_BAR })
+  {
+    SCOPED_TRACE(shape);
+    const std::string file = OutputFile("shell.step");
+    vtkNew<vtkCADWriter> writer;
+    writer->SetInputDataObject(0, ShapeGrid(shape));
+    writer->SetFileName(file.c_str());
+    ASSERT_EQ(writer->Write(), 1);
+    vtkNew<vtkCADReader> reader;
+    Read(reader, file);
+    const Result<SplineModel> model = DecodeSplineModel(reader->GetOutputDataObject(0), 1);
+    ASSERT_TRUE(model) << model.Status.Message();
+    std::vector<Spline<2>> faces;
+    for (const SplinePatch& patch : model->Patches)
+    {
+      faces.push_back(std::get<Spline<2>>(patch.Geometry));
+    }
+    const auto sides = SampleSides<2>(faces, 9, 1);
+    ASSERT_TRUE(sides);
+    // sizes are about 1; what a STEP file keeps of its curves is far better
+    std::vector<PatchInterface> expected = FindInterfaces(sides.Value, 1e-6);
+    std::vector<PatchInterface> stated = model->Topology.Interfaces;
+    ASSERT_EQ(expected.size(), 12u);
+    ASSERT_EQ(stated.size(), 12u);
+    for (std::vector<PatchInterface>* list : { &expected, &stated })
+    {
+      for (PatchInterface& interface : *list)
+      {
+        std::sort(interface.Sides.begin(), interface.Sides.end());
+      }
+      std::sort(list->begin(), list->end(),
+        [](const PatchInterface& a, const PatchInterface& b) { return a.Sides < b.Sides; });
+    }
+    for (std::size_t i = 0; i < stated.size(); ++i)
+    {
+      EXPECT_EQ(stated[i].Sides, expected[i].Sides);
+      EXPECT_EQ(stated[i].Orientation, expected[i].Orientation);
+    }
+  }
+}
