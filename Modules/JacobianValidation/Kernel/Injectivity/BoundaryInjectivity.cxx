@@ -828,10 +828,18 @@ private:
     return false;
   }
 
-  /// Edges are allowed to be points on the boundary. Inside of a patch all of the edge's points,
-  /// which are points of the map, have one image.
+  /// Edges are allowed to be points on the boundary. Inside of a patch, or between patches that are
+  /// glued all around, all of the edge's points, which are points of the map, have one image.
   bool FindInnerCollapse()
   {
+    if (const auto& inner = this->Gluing.InnerPoint; inner[0] >= 0)
+    {
+      const CellShape shape = this->Shape(inner[0]);
+      this->Set(InjectivityVerdict::NotInjective, InjectivityReason::Overlap);
+      this->SetWitness(this->MakePlace(inner[0], -1, CornerParameters(shape, inner[1])),
+        this->MakePlace(inner[0], -1, CornerParameters(shape, inner[2])), 0.0);
+      return true;
+    }
     for (int c = 0; c < this->Cells.NumCells(); ++c)
     {
       const std::size_t at = static_cast<std::size_t>(c);

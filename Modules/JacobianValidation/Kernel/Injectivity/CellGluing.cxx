@@ -192,6 +192,7 @@ public:
     this->RemoveCollapsed();
     this->GlueEqual();
     this->GlueNear();
+    this->FindInnerPoint();
     this->AssembleBoundary();
     return std::move(this->Out);
   }
@@ -448,6 +449,8 @@ private:
             covered[static_cast<std::size_t>(a->Index)] += area;
             covered[static_cast<std::size_t>(b->Index)] += area;
             glue(*b, *a);
+            this->Uneven.push_back(this->Open[static_cast<std::size_t>(a->Index)]);
+            this->Uneven.push_back(this->Open[static_cast<std::size_t>(b->Index)]);
           }
         }
       }
@@ -646,7 +649,71 @@ private:
       }
     }
     this->Out.NumCollapsed = static_cast<int>(std::count(gone.begin(), gone.end(), true));
+    for (std::size_t k = 0; k < gone.size(); ++k)
+    {
+      if (gone[k])
+      {
+        this->Uneven.push_back(this->Open[k]);
+      }
+    }
     this->KeepUnglued(gone);
+  }
+
+  /// An edge with glued sides alone around it is inside of the solid; when it is a point, all of
+  /// its points have one image. Edges of sides that dropped out, or that finer sides cover, may lie
+  /// on the boundary: they are left alone.
+  void FindInnerPoint()
+  {
+    if (this->Dim != 3)
+    {
+      return;
+    }
+    std::vector<bool> isOuter(static_cast<std::size_t>(this->Cells.NumCells()) * 12, false);
+    for (const auto* sides : { &this->Open, &this->Uneven })
+    {
+      for (const Side side : *sides)
+      {
+        const SideFrame& frame = GetSideFrame(this->Shape(side.Cell), side.Number);
+        for (int e = 0; e < NumSideEdges(frame.Shape); ++e)
+        {
+          const auto ends = SideEdge(frame.Shape, e);
+          const int id = this->EdgeId(side.Cell, frame.Corners[static_cast<std::size_t>(ends[0])],
+            frame.Corners[static_cast<std::size_t>(ends[1])]);
+          isOuter[static_cast<std::size_t>(this->Edges.Find(id))] = true;
+        }
+      }
+    }
+    for (int c = 0; c < this->Cells.NumCells(); ++c)
+    {
+      const CellLattice& lattice = this->Lattice(this->Shape(c), this->Degree(c));
+      double tolerance = -1.0;
+      for (const auto& direction : lattice.Directions)
+      {
+        for (const auto& line : direction.Lines)
+        {
+          const auto first =
+            std::find(lattice.Corners.begin(), lattice.Corners.end(), line.front());
+          const auto last = std::find(lattice.Corners.begin(), lattice.Corners.end(), line.back());
+          if (first == lattice.Corners.end() || last == lattice.Corners.end())
+          {
+            continue;
+          }
+          const int a = static_cast<int>(first - lattice.Corners.begin());
+          const int b = static_cast<int>(last - lattice.Corners.begin());
+          if (isOuter[static_cast<std::size_t>(this->Edges.Find(this->EdgeId(c, a, b)))])
+          {
+            continue;
+          }
+          tolerance = tolerance < 0.0 ? this->Params.CollapseTolerance * this->LargestCoordinate(c)
+                                      : tolerance;
+          if (this->IsPoint(c, line, tolerance))
+          {
+            this->Out.InnerPoint = { c, a, b };
+            return;
+          }
+        }
+      }
+    }
   }
 
   void JoinCorners(int a, int cornerA, int b, int cornerB)
@@ -1265,6 +1332,7 @@ private:
   std::map<std::pair<int, CellDegree>, std::vector<Reframe>> ReframeCache;
   CellLatticeTable Lattices;
   std::vector<Side> Open;
+  std::vector<Side> Uneven; ///< sides that dropped out, and those that cover each other in parts
   int Dim = 2;
   CellGluing Out;
 };

@@ -75,6 +75,9 @@ struct CellGluing
   std::array<int, 2> Open{ -1, -1 };
   std::array<int, 4> Torn{ -1, -1, -1, -1 }; ///< inner sides that differ by more than allowed
   double TornSize = 0.0;
+  /// The first edge of a solid, if any, that is one point though all sides around it are glued:
+  /// cell and two of its corners.
+  std::array<int, 3> InnerPoint{ -1, -1, -1 };
 };
 
 /// @param signs  1 or -1 a cell: of det J.

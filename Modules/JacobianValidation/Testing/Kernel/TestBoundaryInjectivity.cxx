@@ -629,14 +629,16 @@ TEST(BoundaryInjectivity, TouchingCornersAreNamed_ExactOracle)
 
 // The square (cube) under y = v (2 u - 1)^2 (z = w ((2 u - 1)^2 + (2 v - 1)^2)): its top touches
 // its bottom where four (two) elements meet, and the edge between the two, inside of the map, is
-// one point. With an element less it is on the boundary.
+// one point. With an element less it is on the boundary. In space the same when every element is a
+// patch: what is glued around the edge says that it is inside.
 TEST(BoundaryInjectivity, AnEdgeInsideThatIsAPointIsNoMap_ExactOracle)
 {
-  for (const int dim : { 2, 3 })
+  for (const auto& [dim, patches] : { std::pair{ 2, 1 }, std::pair{ 3, 1 }, std::pair{ 3, 4 } })
   {
     for (const bool whole : { true, false })
     {
-      SCOPED_TRACE(std::to_string(dim) + (whole ? "D" : "D, an element less"));
+      SCOPED_TRACE(std::to_string(dim) + (whole ? "D, " : "D, an element less, ") +
+        std::to_string(patches) + " patches");
       ShapeCells touching;
       touching.Cells.NumComponents = dim;
       for (int e = whole ? 0 : 1; e < (dim == 2 ? 2 : 4); ++e)
@@ -645,18 +647,18 @@ TEST(BoundaryInjectivity, AnEdgeInsideThatIsAPointIsNoMap_ExactOracle)
         const auto square = [](double x) { return (2.0 * x - 1.0) * (2.0 * x - 1.0); };
         AddInterpolant(touching.Cells, dim == 2 ? CellShape::Quadrilateral : CellShape::Hexahedron,
           dim == 2 ? CellDegree{ 2, 1, 0 } : CellDegree{ 2, 2, 1 },
-          [&](const std::array<double, 3>& s)
+          [&, plane = dim == 2](const std::array<double, 3>& s)
           {
             const double u = begin[0] + 0.5 * s[0];
             const double v = begin[1] + 0.5 * s[1];
-            return dim == 2 ? std::array<double, 3>{ u, s[1] * square(u), 0.0 }
-                            : std::array<double, 3>{ u, v, s[2] * (square(u) + square(v)) };
+            return plane ? std::array<double, 3>{ u, s[1] * square(u), 0.0 }
+                         : std::array<double, 3>{ u, v, s[2] * (square(u) + square(v)) };
           });
         ParametricBox<3> box;
         box.Lower = { begin[0], dim == 2 ? 0.0 : begin[1], 0.0 };
         box.Upper = { begin[0] + 0.5, dim == 2 ? 1.0 : begin[1] + 0.5, 1.0 };
         touching.Boxes.push_back(box);
-        touching.Patches.push_back(0);
+        touching.Patches.push_back(e % patches);
       }
       const auto local = ValidateJacobian(touching.Cells);
       ASSERT_TRUE(local);
