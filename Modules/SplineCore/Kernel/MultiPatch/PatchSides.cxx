@@ -26,14 +26,17 @@ std::vector<int> EntityIndices(const IntArray<Dim>& count, const PatchEntity<Dim
   std::array<int, Dim> strides{};
   int first = 0;
   int stride = 1;
+  std::size_t size = 1;
   for (std::size_t d = 0; d < Dim; ++d)
   {
     shape[d] = entity[d] < 0 ? count[d] : 1;
+    size *= static_cast<std::size_t>(shape[d]);
     strides[d] = stride;
     first += entity[d] == 1 ? stride * (count[d] - 1) : 0;
     stride *= count[d];
   }
   std::vector<int> points;
+  points.reserve(size);
   ForEachOffset<Dim>(shape,
     [&](const IntArray<Dim>& index)
     {

@@ -54,9 +54,11 @@ std::int64_t SideFixed(const Face& face, int side)
 /// Points of a side in ascending parameter.
 std::vector<double> SidePoints(const Face& face, int side, int planes)
 {
+  const std::vector<int> places =
+    EntityIndices<2>({ face.Degree[0] + 1, face.Degree[1] + 1 }, EntityOfSide<2>(side));
   std::vector<double> points;
-  for (const int at :
-    EntityIndices<2>({ face.Degree[0] + 1, face.Degree[1] + 1 }, EntityOfSide<2>(side)))
+  points.reserve(places.size() * At(planes));
+  for (const int at : places)
   {
     points.insert(points.end(), face.Points.begin() + std::int64_t{ at } * planes,
       face.Points.begin() + std::int64_t{ at + 1 } * planes);

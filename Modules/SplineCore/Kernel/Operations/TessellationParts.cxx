@@ -165,7 +165,9 @@ BlockSide ExtractSide(const BezierForm<Dim>& form, int element, int direction, i
     ++points;
   }
   const double* block = form.Block(element);
-  for (const int at : EntityIndices<Dim>(count, EntityOfSide<Dim>(number)))
+  const std::vector<int> places = EntityIndices<Dim>(count, EntityOfSide<Dim>(number));
+  side.Points.reserve(places.size() * At(form.NumComponents + 1));
+  for (const int at : places)
   {
     for (int c = 0; c < form.NumComponents; ++c)
     {
