@@ -41,7 +41,7 @@ void FilterJobBase::AddInput(
 }
 
 CLI::Option* FilterJobBase::AddOutput(
-  int port, const char* name, const char* endings, const char* help)
+  int port, const char* name, const std::string& endings, const char* help)
 {
   const bool isMain = this->Outputs.empty();
   this->Outputs.push_back({ port, Key(name), "", {} });

@@ -38,7 +38,7 @@ protected:
   void AddInput(
     int port, const char* name, const char* help, const char* joint = "", const char* key = "");
   /// A file that a port is written to. --output must be given, others need not.
-  CLI::Option* AddOutput(int port, const char* name, const char* endings, const char* help);
+  CLI::Option* AddOutput(int port, const char* name, const std::string& endings, const char* help);
   /// What --output names is written by another port.
   void WriteMainFrom(int port) { this->Outputs.front().Port = port; }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutputFiles.h"
+#include "Words.h"
 
 #include "Termination.h"
 #include <knotwork/SplineCore/FileEnding.h>
@@ -105,9 +106,9 @@ std::vector<fs::path> PiecesOf(const fs::path& collection)
 }
 
 CLI::Option* AddOutput(CLI::App& app, const std::string& name, std::string& file,
-  const char* endings, const std::string& help)
+  const std::string& endings, const std::string& help)
 {
-  const std::string type = *endings == '\0' ? "FILE" : endings;
+  const std::string type = endings.empty() ? "FILE" : endings;
   const std::string names = name == "--output" ? "-o," + name : name;
   return app.add_option(names, file, help)->group(Group)->type_name(type);
 }
@@ -203,6 +204,12 @@ OutputFiles::~OutputFiles()
   }
 }
 
+std::string SuggestEnding(const std::string& ending, const std::vector<std::string>& known)
+{
+  const std::string nearest = FormatOfEnding(ending) ? "" : NearestName(ending, known);
+  return nearest.empty() ? "" : " (did you mean '" + nearest + "'?)";
+}
+
 Status OutputFiles::Plan(const CLI::App& job)
 {
   for (const CLI::Option* option :
@@ -226,13 +233,9 @@ Status OutputFiles::Plan(
   const std::vector<std::string> known = Split(endings);
   if (!known.empty() && std::find(known.begin(), known.end(), LowerEnding(file)) == known.end())
   {
-    std::string list;
-    for (const std::string& ending : known)
-    {
-      list += " " + ending;
-    }
     return { ErrorCode::InvalidParameter,
-      "'" + file + "': " + option + " is written as" + list + "; change the ending" };
+      "'" + file + "': " + option + " is written as " + JoinEndings(known) + "; change the ending" +
+        SuggestEnding(LowerEnding(file), known) };
   }
   Output output;
   output.Option = option;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <knotwork/SplineCore/Status.h>
+#include <knotwork/SplineIO/FileFormats.h>
 
 #include <filesystem>
 #include <string>
@@ -14,27 +15,36 @@ class Option;
 
 namespace knotwork
 {
-/// Endings of the files that outputs are written to, joined by '|'; empty: any.
+/// Endings of the files that outputs are written to, joined by '|', from the table of formats;
+/// empty: any.
 namespace Endings
 {
-constexpr const char* Any = "";
-constexpr const char* Anything = ".vtu|.vtp|.vtpc|.xml|.g2|.step|.stp|.iges|.igs|.xyz|.txt|.csv";
-constexpr const char* Cells = ".vtp|.vtu|.vtpc|.stl|.obj|.ply";
-constexpr const char* Contours = ".vtp|.vtu|.xml|.g2";
-constexpr const char* Grid = ".vtu";
-constexpr const char* Image = ".vti";
-constexpr const char* Points = ".vtp|.xyz|.txt|.csv|.g2";
-constexpr const char* Polygons = ".vtp|.stl|.obj|.ply|.xyz|.txt|.csv";
-constexpr const char* Sampled = ".vtp|.vtu|.vtpc|.xyz|.txt|.csv|.g2";
-constexpr const char* Spline = ".vtu|.xml|.g2|.step|.stp|.iges|.igs";
-constexpr const char* Splines = ".vtu|.vtpc|.xml|.g2|.step|.stp|.iges|.igs";
-constexpr const char* Surfaces = ".step|.stp|.iges|.igs|.vtu";
-constexpr const char* Table = ".csv";
+inline std::string Writing(unsigned contents)
+{
+  return JoinEndings(EndingsThatWrite(contents), "|");
 }
+inline const std::string Any;
+inline const std::string Anything =
+  Writing(SplineGridContent | SplineCollectionContent | PointContent);
+inline const std::string Cells = Writing(PolygonContent | PolygonCollectionContent | CellContent);
+inline const std::string Contours = Writing(PolylineContent | SplineCurveContent);
+inline const std::string Grid = JoinEndings(EndingsOf({ FormatFamily::VTKGrid }), "|");
+inline const std::string Image = Writing(ImageContent);
+inline const std::string Points = Writing(PointContent);
+inline const std::string Polygons = Writing(PolygonContent | PointValueContent);
+inline const std::string Sampled = Writing(PointContent | CellContent);
+inline const std::string Spline = Writing(SplineGridContent);
+inline const std::string Splines = Writing(SplineGridContent | SplineCollectionContent);
+inline const std::string Surfaces = Writing(TrimmedFaceContent);
+inline const std::string Table = Writing(TableContent);
+}
+
+/// " (did you mean '.step'?)" where an ending is no format's and a known one is near; else empty.
+std::string SuggestEnding(const std::string& ending, const std::vector<std::string>& known);
 
 /// Adds an option that names a file the job writes; main plans it before the job begins.
 CLI::Option* AddOutput(CLI::App& app, const std::string& name, std::string& file,
-  const char* endings, const std::string& help);
+  const std::string& endings, const std::string& help);
 
 /// The files that a job writes. What cannot be written is refused before the work; each is made in
 /// a temporary folder beside its place, and all take their places together or none does.

@@ -174,11 +174,6 @@ std::string StlText(const Polygons& polygons)
 }
 }
 
-bool IsPolygonEnding(const std::string& ending)
-{
-  return ending == ".stl" || ending == ".obj" || ending == ".ply";
-}
-
 Result<std::string> PolygonText(vtkDataObject* data, const std::string& ending)
 {
   std::vector<vtkPolyData*> parts;

@@ -8,9 +8,6 @@ class vtkDataObject;
 
 namespace knotwork
 {
-/// Whether polygons are written to files of this ending: .stl .obj .ply.
-bool IsPolygonEnding(const std::string& ending);
-
 /// Polygons of polydata, or of a collection of them, in the format of the ending: .obj with all
 /// digits and the normals of points, .ply (binary) in double precision, .stl (binary) as triangles
 /// in single precision, which is all the format has.

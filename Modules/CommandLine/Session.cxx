@@ -10,6 +10,7 @@
 #include <knotwork/SplineGrid/FilterErrorCode.h>
 #include <knotwork/SplineGrid/SplineModel.h>
 #include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
+#include <knotwork/SplineIO/FileFormats.h>
 #include <knotwork/SplineIO/ForeignFile.h>
 #include <knotwork/SplineIO/Messages.h>
 #include <knotwork/SplineIO/OneLine.h>
@@ -95,17 +96,6 @@ bool IsEmpty(vtkDataObject* data)
     data->GetNumberOfElements(vtkDataObject::ROW) == 0;
 }
 
-bool IsMeshEnding(const std::string& ending)
-{
-  return ending == ".off" || ending == ".obj" || ending == ".ply" || ending == ".stl";
-}
-
-/// Text of a point a line.
-bool IsPointEnding(const std::string& ending)
-{
-  return ending == ".xyz" || ending == ".txt" || ending == ".csv";
-}
-
 bool HoldsPoints(const std::string& file)
 {
   vtkNew<vtkPointCloudReader> reader;
@@ -113,52 +103,69 @@ bool HoldsPoints(const std::string& file)
 }
 
 /// Sets the session's Curves to the trimming curves of a STEP, IGES or g2 file.
-vtkSmartPointer<vtkDataObject> ReadByEnding(
-  const std::string& file, const std::string& ending, Session& session)
+vtkSmartPointer<vtkDataObject> ReadByFormat(
+  const std::string& file, FormatFamily family, Session& session)
 {
-  if (ending == ".xml")
+  switch (family)
   {
-    return ReadWith<vtkGismoXMLReader>(file, session);
-  }
-  if (IsPointEnding(ending) || IsMeshEnding(ending) || (ending == ".g2" && HoldsPoints(file)))
-  {
-    return ReadWith<vtkPointCloudReader>(file, session);
-  }
-  if (ending == ".g2")
-  {
-    vtkNew<vtkGoToolsG2Reader> reader;
-    reader->SetFileName(file.c_str());
-    reader->Update();
-    session.NoteReader(reader, file);
-    vtkDataObject* curves = reader->GetOutputDataObject(1);
-    session.Curves = IsEmpty(curves) ? nullptr : curves;
-    return reader->GetOutputDataObject(0);
-  }
-  if (HasCADEnding(file))
-  {
-    vtkNew<vtkCADReader> reader;
-    reader->SetFileName(file.c_str());
-    reader->TriangulationOff();
-    reader->Update();
-    session.NoteReader(reader, file);
-    session.Curves = reader->GetOutputDataObject(1);
-    return reader->GetOutputDataObject(0);
-  }
-  if (ending == ".json")
-  {
-    return ReadWith<vtkDomainBoundaryReader>(file, session);
+    case FormatFamily::GismoXML:
+      return ReadWith<vtkGismoXMLReader>(file, session);
+    case FormatFamily::PointText:
+    case FormatFamily::PolygonFile:
+      return ReadWith<vtkPointCloudReader>(file, session);
+    case FormatFamily::GoToolsG2:
+    {
+      if (HoldsPoints(file))
+      {
+        return ReadWith<vtkPointCloudReader>(file, session);
+      }
+      vtkNew<vtkGoToolsG2Reader> reader;
+      reader->SetFileName(file.c_str());
+      reader->Update();
+      session.NoteReader(reader, file);
+      vtkDataObject* curves = reader->GetOutputDataObject(1);
+      session.Curves = IsEmpty(curves) ? nullptr : curves;
+      return reader->GetOutputDataObject(0);
+    }
+    case FormatFamily::CAD:
+    {
+      vtkNew<vtkCADReader> reader;
+      reader->SetFileName(file.c_str());
+      reader->TriangulationOff();
+      reader->Update();
+      session.NoteReader(reader, file);
+      session.Curves = reader->GetOutputDataObject(1);
+      return reader->GetOutputDataObject(0);
+    }
+    case FormatFamily::BoundaryJSON:
+      return ReadWith<vtkDomainBoundaryReader>(file, session);
+    case FormatFamily::VTKPolyData: // in a process of their own
+    case FormatFamily::VTKGrid:
+    case FormatFamily::VTKCollection:
+    case FormatFamily::VTKLegacy:
+    case FormatFamily::VTKImage:
+      break;
   }
   return nullptr;
 }
 
-std::string EndingsFor(vtkDataObject* data)
+/// What data of this type are to a file.
+unsigned ContentsOf(vtkDataObject* data)
 {
-  return vtkPolyData::SafeDownCast(data) ? ".vtp, as polygons .stl, .obj or .ply, its points as "
-                                           ".xyz, .txt, .csv or .g2"
-    : vtkUnstructuredGrid::SafeDownCast(data)             ? ".vtu, .xml, .g2, .step or .iges"
-    : vtkPartitionedDataSetCollection::SafeDownCast(data) ? ".vtpc, .xml, .g2, .step or .iges"
-    : vtkImageData::SafeDownCast(data)                    ? ".vti"
-                                                          : ".csv";
+  return vtkPolyData::SafeDownCast(data)      ? PointContent | PolylineContent | PolygonContent
+    : vtkUnstructuredGrid::SafeDownCast(data) ? SplineGridContent
+    : vtkPartitionedDataSetCollection::SafeDownCast(data)
+    ? SplineCollectionContent | PolygonCollectionContent
+    : vtkImageData::SafeDownCast(data) ? ImageContent
+    : vtkTable::SafeDownCast(data)     ? TableContent
+                                       : 0U;
+}
+
+/// The format of an ending that data of this type can be written in; null: none.
+const FileFormat* FormatFor(vtkDataObject* data, const std::string& ending)
+{
+  const FileFormat* format = FormatOfEnding(ending);
+  return format && (format->Writes & ContentsOf(data)) != 0 ? format : nullptr;
 }
 
 /// Whether a format takes the splines of a grid. Grids without splines are no concern of ours.
@@ -368,8 +375,11 @@ void PrintProgress(vtkObject* caller, unsigned long, void*, void*)
 
 Result<vtkSmartPointer<vtkDataObject>> Session::Read(const std::string& file)
 {
-  return this->ReadWith(file, HasVTKEnding(file),
-    [&](const std::string& known) { return ReadByEnding(file, known, *this); });
+  const FileFormat* format = FormatOfEnding(LowerEnding(file));
+  const bool isRead = format && format->Reads != 0;
+  return this->ReadWith(file, isRead && IsOfVTK(format->Family),
+    [&](const std::string&)
+    { return isRead ? ReadByFormat(file, format->Family, *this) : nullptr; });
 }
 
 Result<vtkSmartPointer<vtkDataObject>> Session::ReadWith(
@@ -416,10 +426,10 @@ Result<vtkSmartPointer<vtkDataObject>> Session::ReadWith(
   }
   if (!data)
   {
+    const std::vector<std::string> known = EndingsThatRead(AnyContent);
     return { ErrorCode::InvalidParameter,
-      "'" + file + "' has the ending '" + ending +
-        "'; formats that can be read: .vtu .vtp .vtpc .vtk .xml .g2 .json .step .iges .off .obj "
-        ".ply .stl .xyz .txt .csv" };
+      "'" + file + "' has the ending '" + ending + "'" + SuggestEnding(ending, known) +
+        "; formats that can be read: " + JoinEndings(known) };
   }
   if (messages.HasError())
   {
@@ -490,32 +500,6 @@ void Session::Warn(const std::vector<std::string>& warnings) const
   }
 }
 
-Session::FileFormat Session::FormatFor(vtkDataObject* data, const std::string& ending)
-{
-  const bool grid = vtkUnstructuredGrid::SafeDownCast(data) != nullptr;
-  const bool collection = vtkPartitionedDataSetCollection::SafeDownCast(data) != nullptr;
-  if (vtkPolyData::SafeDownCast(data))
-  {
-    return ending == ".vtp"                      ? FileFormat::PolyData
-      : IsPointEnding(ending) || ending == ".g2" ? FileFormat::Points
-      : IsPolygonEnding(ending)                  ? FileFormat::Polygons
-                                                 : FileFormat::None;
-  }
-  if (grid || collection)
-  {
-    return ending == (grid ? ".vtu" : ".vtpc") ? (grid ? FileFormat::Grid : FileFormat::Collection)
-      : ending == ".xml" || ending == ".g2"    ? FileFormat::Splines
-      : HasCADEnding("file" + ending)          ? FileFormat::CAD
-      : collection && IsPolygonEnding(ending)  ? FileFormat::Polygons
-                                               : FileFormat::None;
-  }
-  if (vtkImageData::SafeDownCast(data))
-  {
-    return ending == ".vti" ? FileFormat::Image : FileFormat::None;
-  }
-  return vtkTable::SafeDownCast(data) && ending == ".csv" ? FileFormat::Table : FileFormat::None;
-}
-
 Status Session::CheckGridFormat(vtkDataObject* like, const std::string& file, bool asCurves) const
 {
   return vtkPolyData::SafeDownCast(like) ? Status() : this->CheckFormat(like, file, asCurves);
@@ -524,28 +508,33 @@ Status Session::CheckGridFormat(vtkDataObject* like, const std::string& file, bo
 Status Session::CheckFormat(vtkDataObject* like, const std::string& file, bool asCurves) const
 {
   const std::string ending = LowerEnding(file);
-  const FileFormat format = FormatFor(like, ending);
+  const FileFormat* format = FormatFor(like, ending);
   if (file.empty())
   {
     return {};
   }
-  if (format == FileFormat::None)
+  if (!format)
   {
+    const std::vector<std::string> known = EndingsThatWrite(ContentsOf(like));
     return { ErrorCode::InvalidParameter,
-      "'" + file + "': this output is written as " + EndingsFor(like) + "; change the ending" };
+      "'" + file + "': this output is written as " + JoinEndings(known) + "; change the ending" +
+        SuggestEnding(ending, known) };
   }
-  if (format != FileFormat::CAD && format != FileFormat::Splines)
+  const bool asCAD = format->Family == FormatFamily::CAD;
+  const bool asSplines =
+    format->Family == FormatFamily::GismoXML || format->Family == FormatFamily::GoToolsG2;
+  if (vtkPolyData::SafeDownCast(like) || (!asCAD && !asSplines))
   {
     return {};
   }
-  return CheckSplines(like, file, format == FileFormat::CAD, asCurves, this->Threads);
+  return CheckSplines(like, file, asCAD, asCurves, this->Threads);
 }
 
 Status Session::Write(vtkDataObject* data, const std::string& file, const std::string& encoding)
 {
   const double begin = Now();
-  const FileFormat format = FormatFor(data, LowerEnding(file));
-  if (format == FileFormat::None)
+  const FileFormat* format = FormatFor(data, LowerEnding(file));
+  if (!format)
   {
     return this->CheckFormat(data, file);
   }
@@ -555,15 +544,13 @@ Status Session::Write(vtkDataObject* data, const std::string& file, const std::s
     return staged.Status;
   }
   MessageCapture messages;
-  Status status = this->WriteAs(format, data, staged->string(), encoding);
+  Status status = WriteAs(format->Family, data, this->BoundaryCurves, staged->string(), encoding);
   if (status.Detail.empty() && (!status || messages.HasError()))
   {
     status = { status ? ErrorCode::InvalidParameter : status.Code, messages.FirstError() };
   }
   const std::vector<std::string> warnings = messages.Warnings();
-  const bool isOfVTK = format == FileFormat::Grid || format == FileFormat::PolyData ||
-    format == FileFormat::Collection || format == FileFormat::Image;
-  if (status && !warnings.empty() && !isOfVTK)
+  if (status && !warnings.empty() && !IsOfVTK(format->Family))
   {
     this->Warn(warnings);
   }
@@ -571,35 +558,36 @@ Status Session::Write(vtkDataObject* data, const std::string& file, const std::s
   return AboutFile(status, file, staged->string());
 }
 
-Status Session::WriteAs(
-  FileFormat format, vtkDataObject* data, const std::string& file, const std::string& encoding)
+Status Session::WriteAs(FormatFamily family, vtkDataObject* data, vtkDataObject* curves,
+  const std::string& file, const std::string& encoding)
 {
-  const std::string ending = LowerEnding(file);
-  switch (format)
+  switch (family)
   {
-    case FileFormat::CAD:
+    case FormatFamily::CAD:
       return WriteFile<vtkCADWriter>(data, file);
-    case FileFormat::Splines:
-      return ending == ".xml" ? WriteFile<vtkGismoXMLWriter>(data, file)
-                              : WriteG2(data, this->BoundaryCurves, file);
-    case FileFormat::Points:
-      return WriteFile<vtkPointCloudWriter>(data, file);
-    case FileFormat::Polygons:
+    case FormatFamily::GismoXML:
+      return WriteFile<vtkGismoXMLWriter>(data, file);
+    case FormatFamily::GoToolsG2:
+      return vtkPolyData::SafeDownCast(data) ? WriteFile<vtkPointCloudWriter>(data, file)
+                                             : WriteG2(data, curves, file);
+    case FormatFamily::PointText:
+      return vtkTable::SafeDownCast(data) ? PutText(TextOfTable(data), file)
+                                          : WriteFile<vtkPointCloudWriter>(data, file);
+    case FormatFamily::PolygonFile:
     {
-      const auto text = PolygonText(data, ending);
+      const auto text = PolygonText(data, LowerEnding(file));
       return text ? PutText(text.Value, file) : text.Status;
     }
-    case FileFormat::Table:
-      return PutText(TextOfTable(data), file);
-    case FileFormat::Grid:
+    case FormatFamily::VTKGrid:
       return WriteXml<vtkXMLUnstructuredGridWriter>(data, file, encoding);
-    case FileFormat::PolyData:
+    case FormatFamily::VTKPolyData:
       return WriteXml<vtkXMLPolyDataWriter>(data, file, encoding);
-    case FileFormat::Image:
+    case FormatFamily::VTKImage:
       return WriteXml<vtkXMLImageDataWriter>(data, file, encoding);
-    case FileFormat::Collection:
+    case FormatFamily::VTKCollection:
       return WriteCollection(vtkPartitionedDataSetCollection::SafeDownCast(data), file, encoding);
-    case FileFormat::None:
+    case FormatFamily::VTKLegacy:
+    case FormatFamily::BoundaryJSON:
       break;
   }
   return { ErrorCode::InvalidParameter, "there is no such format" };

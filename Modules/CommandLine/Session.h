@@ -89,23 +89,8 @@ public:
   Status Commit();
 
 private:
-  /// What data can be written as.
-  enum class FileFormat
-  {
-    None,
-    Grid,
-    PolyData,
-    Collection,
-    Image,
-    Table,
-    Splines,
-    CAD,
-    Points,
-    Polygons
-  };
-  static FileFormat FormatFor(vtkDataObject* data, const std::string& ending);
-  Status WriteAs(
-    FileFormat format, vtkDataObject* data, const std::string& file, const std::string& encoding);
+  static Status WriteAs(FormatFamily family, vtkDataObject* data, vtkDataObject* curves,
+    const std::string& file, const std::string& encoding);
 
   using Reading = std::function<vtkSmartPointer<vtkDataObject>(const std::string& ending)>;
   /// @param isForeign  by VTK's readers, in a process of their own, and not by `reading`.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Jobs.h"
 #include "Options.h"
-#include "PolygonText.h"
 #include "Session.h"
 #include <knotwork/CADModel/CADExchange.h>
 #include <knotwork/SplineCore/FileEnding.h>
@@ -45,7 +44,7 @@ struct TessellateJob
 
   Status CheckFormat(Session& session, vtkDataObject* like, bool isLines) const
   {
-    if (isLines && IsPolygonEnding(LowerEnding(this->Output)))
+    if (isLines && IsEndingOf(FormatFamily::PolygonFile, LowerEnding(this->Output)))
     {
       return { ErrorCode::InvalidParameter,
         "'" + this->Output +

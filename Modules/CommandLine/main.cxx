@@ -118,7 +118,10 @@ int main(int argc, char* argv[])
   CLI::App app("Spline geometry that is fitted, refined and proved valid.", "knotwork");
   app.require_subcommand(1);
   app.set_version_flag("--version", KNOTWORK_VERSION);
-  app.footer(ExitStatus);
+  app.footer("Files that are read: " +
+    knotwork::JoinEndings(knotwork::EndingsThatRead(knotwork::AnyContent)) +
+    "\nFiles that are written: " +
+    knotwork::JoinEndings(knotwork::EndingsThatWrite(knotwork::AnyContent)) + "\n\n" + ExitStatus);
 
   knotwork::Session session;
   std::vector<std::pair<CLI::App*, knotwork::Job>> jobs;

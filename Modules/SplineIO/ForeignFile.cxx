@@ -4,18 +4,11 @@
 #include "CADParts.h"
 #include "DataParts.h"
 #include "ReaderProcess.h"
-#include <knotwork/SplineCore/FileEnding.h>
 
 #include <vtkDataObject.h>
 
 namespace knotwork
 {
-bool HasVTKEnding(const std::string& file)
-{
-  const std::string ending = LowerEnding(file);
-  return ending == ".vtu" || ending == ".vtp" || ending == ".vtpc" || ending == ".vtk";
-}
-
 Result<vtkSmartPointer<vtkDataObject>> ReadVTKFile(const std::string& file)
 {
   auto parts = ReadInProcess("knotwork-read-vtk", file);

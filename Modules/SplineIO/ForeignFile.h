@@ -11,11 +11,8 @@ class vtkDataObject;
 
 namespace knotwork
 {
-/// Whether a file name ends in .vtu, .vtp, .vtpc or .vtk.
-VTKKNOTWORKSPLINEIO_EXPORT bool HasVTKEnding(const std::string& file);
-
-/// Reads such a file by VTK's readers, which crash or never end on some damaged files, in a process
-/// of its own with limits of memory and time.
+/// Reads a file of VTK's formats by VTK's readers, which crash or never end on some damaged files,
+/// in a process of its own with limits of memory and time.
 /// @return InvalidTopology: it is damaged; further as ReadInProcess. Messages name the file.
 VTKKNOTWORKSPLINEIO_EXPORT Result<vtkSmartPointer<vtkDataObject>> ReadVTKFile(
   const std::string& file);

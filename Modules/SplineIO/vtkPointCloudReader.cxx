@@ -5,6 +5,7 @@
 #include "ForeignFile.h"
 #include "PointData.h"
 #include <knotwork/SplineCore/FileEnding.h>
+#include <knotwork/SplineIO/FileFormats.h>
 #include <knotwork/SplineIO/GoToolsG2.h>
 #include <knotwork/SplineIO/MeshFiles.h>
 #include <knotwork/SplineIO/PlyPoints.h>
@@ -22,14 +23,9 @@ namespace
 {
 using namespace knotwork;
 
-bool IsTextEnding(const std::string& ending)
-{
-  return ending == ".xyz" || ending == ".txt" || ending == ".csv";
-}
-
 Result<PointFile> Parse(const std::string& ending, const std::string& text, int threads)
 {
-  if (IsTextEnding(ending))
+  if (IsEndingOf(FormatFamily::PointText, ending))
   {
     return ReadPointText(text, threads);
   }
@@ -54,7 +50,7 @@ Result<PointFile> Parse(const std::string& ending, const std::string& text, int 
     return ReadStl(text);
   }
   return { ErrorCode::InvalidParameter,
-    "the ending '" + ending + "' is none of .xyz .txt .csv .g2 .off .obj .ply .stl .vtp" };
+    "the ending '" + ending + "' is none of " + JoinEndings(EndingsThatRead(PointContent)) };
 }
 }
 
@@ -78,7 +74,7 @@ int vtkPointCloudReader::CanReadFile(const char* fileName)
 {
   const std::string ending = LowerEnding(fileName ? fileName : "");
   const std::string beginning = BeginningOfFile(fileName ? fileName : "");
-  return (IsTextEnding(ending) && LooksLikePointText(beginning)) ||
+  return (IsEndingOf(FormatFamily::PointText, ending) && LooksLikePointText(beginning)) ||
       (ending == ".g2" && BeginsWithG2Points(beginning)) ||
       (ending == ".ply" && beginning.compare(0, 3, "ply") == 0) ||
       (ending == ".off" && beginning.find("OFF") != std::string::npos) ||

@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the program says of itself: every example in --help runs as it stands, and wrong words are named before missing ones, with the
 name that is nearest."""
+import os
 import re
 import shutil
 import tempfile
+from xml.etree import ElementTree
 
 import knotwork_testing
 from job_inputs import make_files
 from refusals import good, path
 
+MODULES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 # names in the examples, and the files they stand for
 FILES = {"plate.vtu": "square.vtu", "west.vtu": "square.vtu", "east.vtu": "east.vtu", "terrain.vtu": "height.vtu",
          "new.vtu": "height.vtu", "old.vtu": "height.vtu", "scan.xyz": "cloud.xyz", "shell.off": "mesh.off",
@@ -58,6 +61,44 @@ def test_unknown_words_are_named_first():
     assert "'c' is one word too many" in wrong("refine", "a.vtu", "c", "--output", "b.vtu")
     assert "a job is required" in wrong()
     assert "--output is required" in wrong("refine", "a.vtu")
+
+
+def listed(text, sentence):
+    """Endings behind a sentence of --help."""
+    lines = re.findall("^" + sentence + ": ((?:.+\n)+?)(?=\n|Files)", text, re.MULTILINE)
+    assert len(lines) == 1, text
+    return set(lines[0].split())
+
+
+def test_formats_of_help_pages_and_paraview_are_one_list():
+    text = knotwork_testing.run_program("--help").stdout
+    read, written = listed(text, "Files that are read"), listed(text, "Files that are written")
+    assert {".vtu", ".json", ".off"} <= read and {".vtu", ".vti"} <= written and ".off" not in written, (read, written)
+    with open(os.path.join(MODULES, "CommandLine", "README.md"), encoding="utf-8") as stream:
+        page = stream.read()
+    rows = page[page.index("| data | endings |"):].split("\n\n")[0]
+    assert set(re.findall(r"\.[a-z][a-z0-9]+", rows)) == written, rows
+    dialogs = ElementTree.parse(os.path.join(MODULES, "SplineIO", "ParaView", "SplineIO.xml"))
+    for kind, known, own in (("ReaderFactory", read, {".vtu", ".vtp", ".vtpc", ".vtk", ".obj", ".stl"}),
+                             ("WriterFactory", written, {".vtu", ".vtp", ".vtpc", ".vti", ".csv", ".obj", ".stl", ".ply"})):
+        offered = ["." + ending for one in dialogs.iter(kind) for ending in one.get("extensions").split()]
+        assert set(offered) | own == known, (kind, set(offered) ^ known)  # the others are ParaView's own
+
+
+def test_unknown_endings_list_the_known_ones():
+    text = knotwork_testing.run_program("--help").stdout
+    read = listed(text, "Files that are read")
+    for ending, nearest in ((".vtuu", "'.vtu'"), (".setp", "'.step'"), (".jsn", "'.json'"), (".docx", ""), (".vti", "")):
+        file = path("misspelled" + ending)
+        good("source", "--output", path("sheet.vtu"))
+        shutil.copy(path("sheet.vtu"), file)
+        done = knotwork_testing.run_program("info", file)
+        assert done.returncode == 1 and read <= set(done.stderr.split()), done
+        assert ("did you mean " + nearest if nearest else "formats") in done.stderr and (nearest != "") == ("did you" in done.stderr), done
+        done = knotwork_testing.run_program("source", "--output", file)
+        assert done.returncode == 1 and "change the ending" in done.stderr, done
+    done = knotwork_testing.run_program("source", "--output", path("a.stpe"))
+    assert "did you mean '.st" in done.stderr, done
 
 
 def test_ranges_are_short():

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <knotwork/SplineCore/FileEnding.h>
+#include <knotwork/SplineIO/FileFormats.h>
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+using namespace knotwork;
+
+TEST(FileFormats, NoEndingStandsTwiceAndEachIsFound_Property)
+{
+  std::set<std::string> seen;
+  for (const FileFormat& format : FileFormats())
+  {
+    ASSERT_FALSE(format.Endings.empty()) << format.Name;
+    EXPECT_NE(format.Reads | format.Writes, 0U) << format.Name;
+    for (const std::string& ending : format.Endings)
+    {
+      EXPECT_TRUE(seen.insert(ending).second) << ending;
+      EXPECT_EQ(LowerEnding("file" + ending), ending) << format.Name;
+      EXPECT_EQ(FormatOfEnding(ending), &format) << ending;
+      for (int family = 0; family <= static_cast<int>(FormatFamily::PolygonFile); ++family)
+      {
+        EXPECT_EQ(IsEndingOf(static_cast<FormatFamily>(family), ending),
+          family == static_cast<int>(format.Family))
+          << ending;
+      }
+    }
+  }
+}
+
+TEST(FileFormats, WhatIsNoFormatIsNotFound_ExactOracle)
+{
+  for (const char* ending : { "", ".", "vtu", ".VTU", ".vt", ".docx", ".step ", ".vtuu" })
+  {
+    EXPECT_EQ(FormatOfEnding(ending), nullptr) << ending;
+    EXPECT_FALSE(IsEndingOf(FormatFamily::VTKGrid, ending)) << ending;
+  }
+}
+
+/// Which data a file takes are facts of the formats: STL has triangles alone, OFF and JSON have no
+/// writer, collections are not in one .vtp.
+TEST(FileFormats, EndingsFollowTheContent_ExactOracle)
+{
+  const auto writing = [](unsigned contents) { return JoinEndings(EndingsThatWrite(contents)); };
+  EXPECT_EQ(writing(SplineGridContent), ".vtu .xml .g2 .step .stp .iges .igs");
+  EXPECT_EQ(writing(SplineCollectionContent), ".vtpc .xml .g2 .step .stp .iges .igs");
+  EXPECT_EQ(writing(TrimmedFaceContent), ".vtu .step .stp .iges .igs");
+  EXPECT_EQ(writing(PolygonCollectionContent), ".vtpc .stl .obj .ply");
+  EXPECT_EQ(writing(PolygonContent), ".vtp .stl .obj .ply");
+  EXPECT_EQ(writing(PolylineContent | SplineCurveContent), ".vtp .vtu .xml .g2");
+  EXPECT_EQ(writing(PointContent), ".vtp .xyz .txt .csv .g2");
+  EXPECT_EQ(writing(ImageContent), ".vti");
+  EXPECT_EQ(writing(TableContent), ".csv");
+  EXPECT_EQ(writing(0), "");
+  EXPECT_EQ(JoinEndings(EndingsThatRead(AnyContent)),
+    ".vtp .vtu .vtpc .vtk .xml .xyz .txt .csv .g2 .step .stp .iges .igs .stl .obj .ply .off .json");
+  EXPECT_EQ(
+    JoinEndings(EndingsThatRead(PointContent)), ".vtp .xyz .txt .csv .g2 .stl .obj .ply .off");
+  EXPECT_EQ(JoinEndings(EndingsOf({ FormatFamily::CAD }), "|"), ".step|.stp|.iges|.igs");
+}
