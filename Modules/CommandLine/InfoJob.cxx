@@ -2,6 +2,7 @@
 #include "Jobs.h"
 #include "Session.h"
 #include <knotwork/SplineCore/LRDependence.h>
+#include <knotwork/SplineCore/SpaceFamily.h>
 #include <knotwork/SplineGrid/SplineModel.h>
 #include <knotwork/SplineIO/OneLine.h>
 
@@ -19,22 +20,6 @@ namespace knotwork
 {
 namespace
 {
-const char* Name(SpaceKind kind)
-{
-  switch (kind)
-  {
-    case SpaceKind::Bezier:
-      return "Bezier";
-    case SpaceKind::Tensor:
-      return "tensor-product";
-    case SpaceKind::Hierarchical:
-      return "THB";
-    case SpaceKind::LocallyRefined:
-      return "LR";
-  }
-  return "unknown";
-}
-
 /// "3 x 2"; "mixed" when elements differ.
 template <int Dim>
 std::string Degrees(const SplineSpace<Dim>& space)
@@ -158,7 +143,7 @@ struct InfoJob
         [&](const auto& spline)
         {
           const auto& space = *spline.Space;
-          std::cout << "patch " << patch.Id << ": " << Name(space.Kind) << ", degree "
+          std::cout << "patch " << patch.Id << ": " << FamilyOf(space).Name() << ", degree "
                     << Degrees(space) << ", " << space.NumFunctions << " functions, "
                     << space.NumElements() << " elements, " << NumLevels(space) << " level(s), "
                     << (spline.IsRational() ? "rational" : "polynomial");
@@ -183,7 +168,7 @@ struct InfoJob
           elements += space.NumElements();
           levels = std::max(levels, NumLevels(space));
           rational = rational || spline.IsRational();
-          kinds.emplace_back(Name(space.Kind));
+          kinds.emplace_back(FamilyOf(space).Name());
           degrees.push_back(Degrees(space));
         },
         patch.Geometry);

@@ -151,7 +151,7 @@ private:
   SplineSchema Schema;
   std::vector<int> PatchIds, ElementIds, Bases;
   std::vector<vtkDataArray*> Fields;
-  std::map<int, std::pair<BasisDefinition, AnySpace>> Spaces;
+  std::map<int, std::pair<SpaceDefinition, AnySpace>> Spaces;
 };
 
 Status GridReader::CheckCells()
@@ -281,7 +281,7 @@ const PatchRecord* GridReader::FindRecord(const CellGroup& group) const
   for (const PatchRecord& record : this->Schema.Patches)
   {
     const bool sameId = !this->PatchIds.empty() && record.Id == group.Id;
-    const bool sameBasis = this->Bases.empty() ? sameId : record.Basis.Hash() == group.Basis;
+    const bool sameBasis = this->Bases.empty() ? sameId : HashOf(record.Basis) == group.Basis;
     if (sameBasis && (sameId || !found))
     {
       found = &record;
@@ -581,13 +581,14 @@ Status GridReader::CheckBounds(const std::string& where, const SplineSpace<Dim>&
 template <int Dim>
 Result<SplineSpacePtr<Dim>> GridReader::Space(const PatchRecord& record)
 {
-  const int hash = record.Basis.Hash();
+  const int hash = HashOf(record.Basis);
   const auto known = this->Spaces.find(hash);
   if (known != this->Spaces.end() && known->second.first == record.Basis)
   {
     return std::get<SplineSpacePtr<Dim>>(known->second.second);
   }
-  Result<SplineSpacePtr<Dim>> made = BuildSpace<Dim>(record.Basis, this->Threads);
+  Result<SplineSpacePtr<Dim>> made =
+    FamilyOf<Dim>(record.Basis.Kind).Build(record.Basis, this->Threads);
   if (made &&
     (made.Value->NumElements() != record.NumElements ||
       made.Value->NumFunctions != record.NumFunctions))

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SplineSchema.h"
 #include <knotwork/SplineCore/BezierForm.h>
-#include <knotwork/SplineCore/LRSpace.h>
+#include <knotwork/SplineCore/SpaceFamily.h>
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -33,294 +33,6 @@ namespace
 constexpr unsigned char cellTypes[4] = { 0, VTK_BEZIER_CURVE, VTK_BEZIER_QUADRILATERAL,
   VTK_BEZIER_HEXAHEDRON };
 
-// Point numbers of all elements, first direction fastest within an element.
-struct Numbering
-{
-  std::vector<vtkIdType> Ids;
-  vtkIdType Count = 0;
-};
-
-// Integer position of an element in the grid of its level.
-template <int Dim>
-using CellIndex = std::array<std::int64_t, Dim>;
-
-// Elements of a space with a domain are the leaves of its refinement tree.
-template <int Dim>
-void IndexBelow(const SplineSpace<Dim>& space, int node, const CellIndex<Dim>& index,
-  std::vector<CellIndex<Dim>>& all)
-{
-  if (node >= 0)
-  {
-    all[static_cast<std::size_t>(node)] = index;
-    return;
-  }
-  const std::size_t block = static_cast<std::size_t>(-1 - node) << Dim;
-  for (std::size_t child = 0; child < (std::size_t{ 1 } << Dim); ++child)
-  {
-    CellIndex<Dim> below;
-    for (std::size_t d = 0; d < Dim; ++d)
-    {
-      below[d] = 2 * index[d] + static_cast<std::int64_t>((child >> d) & 1);
-    }
-    IndexBelow<Dim>(space, space.Tree[block + child], below, all);
-  }
-}
-
-template <int Dim>
-std::vector<CellIndex<Dim>> IndexElements(const SplineSpace<Dim>& space)
-{
-  std::vector<CellIndex<Dim>> all(space.Elements.size());
-  for (std::size_t root = 0; root < space.RootCells.size(); ++root)
-  {
-    CellIndex<Dim> index;
-    std::size_t rest = root;
-    for (std::size_t d = 0; d < Dim; ++d)
-    {
-      const auto n = static_cast<std::size_t>(space.Knots[d].NumElements());
-      index[d] = static_cast<std::int64_t>(rest % n);
-      rest /= n;
-    }
-    IndexBelow<Dim>(space, space.RootCells[root], index, all);
-  }
-  return all;
-}
-
-// One direction of the points of a level grid: neighbouring cells share the points of their
-// interface where the basis is continuous; a break of multiplicity p + 1 has two points.
-class PointLine
-{
-public:
-  explicit PointLine(const KnotVector& knots) : P(knots.Degree())
-  {
-    std::int64_t doubled = 0;
-    for (int b = 0; b < knots.NumElements(); ++b)
-    {
-      doubled += b > 0 && knots.Multiplicity(b) > this->P ? 1 : 0;
-      this->Doubled.push_back(doubled);
-    }
-  }
-  std::int64_t Position(int level, std::int64_t cell, int bernstein) const
-  {
-    return cell * this->P + bernstein + this->Doubled[static_cast<std::size_t>(cell >> level)];
-  }
-  std::int64_t Size() const
-  {
-    return static_cast<std::int64_t>(this->Doubled.size()) * this->P + 1 + this->Doubled.back();
-  }
-
-private:
-  int P;
-  std::vector<std::int64_t> Doubled; // breaks with two points up to each level-0 cell
-};
-
-template <int Dim>
-struct PointKey
-{
-  int Level;
-  CellIndex<Dim> Position;
-  bool operator==(const PointKey& other) const
-  {
-    return this->Level == other.Level && this->Position == other.Position;
-  }
-};
-
-template <typename Numbers>
-std::size_t HashNumbers(std::uint64_t h, const Numbers& numbers)
-{
-  for (const auto x : numbers)
-  {
-    h = (h ^ static_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15ULL;
-    h ^= h >> 29;
-  }
-  return static_cast<std::size_t>(h);
-}
-
-template <int Dim>
-struct PointKeyHash
-{
-  std::size_t operator()(const PointKey<Dim>& key) const
-  {
-    return HashNumbers(static_cast<std::uint64_t>(key.Level), key.Position);
-  }
-};
-
-// Calls body(i, lattice index) for the Bernstein points of a tensor-product element.
-template <int Dim, typename Body>
-void ForBernstein(const IntArray<Dim>& degree, const Body& body)
-{
-  IntArray<Dim> index{};
-  const int n = NumTensorFunctions<Dim>(degree);
-  for (int i = 0; i < n; ++i)
-  {
-    body(i, index);
-    for (std::size_t d = 0; d < Dim && ++index[d] > degree[d]; ++d)
-    {
-      index[d] = 0;
-    }
-  }
-}
-
-template <int Dim>
-Numbering NumberTensor(const SplineSpace<Dim>& space, const std::vector<CellIndex<Dim>>& cells)
-{
-  std::vector<PointLine> lines;
-  for (const KnotVector& knots : space.Knots)
-  {
-    lines.emplace_back(knots);
-  }
-  Numbering numbering;
-  numbering.Count = 1;
-  for (const PointLine& line : lines)
-  {
-    numbering.Count *= line.Size();
-  }
-  for (std::size_t e = 0; e < cells.size(); ++e)
-  {
-    ForBernstein<Dim>(space.Elements[e].Degree,
-      [&](int, const IntArray<Dim>& index)
-      {
-        std::int64_t id = 0;
-        for (std::size_t d = Dim; d-- > 0;)
-        {
-          id = id * lines[d].Size() + lines[d].Position(0, cells[e][d], index[d]);
-        }
-        numbering.Ids.push_back(static_cast<vtkIdType>(id));
-      });
-  }
-  return numbering;
-}
-
-template <int Dim>
-Numbering NumberHierarchical(
-  const SplineSpace<Dim>& space, const std::vector<CellIndex<Dim>>& cells)
-{
-  std::vector<PointLine> lines;
-  for (const KnotVector& knots : space.Knots)
-  {
-    lines.emplace_back(knots);
-  }
-  Numbering numbering;
-  std::unordered_map<PointKey<Dim>, vtkIdType, PointKeyHash<Dim>> shared;
-  for (std::size_t e = 0; e < cells.size(); ++e)
-  {
-    const auto& element = space.Elements[e];
-    ForBernstein<Dim>(element.Degree,
-      [&](int, const IntArray<Dim>& index)
-      {
-        bool boundary = false;
-        PointKey<Dim> key{ element.Level, {} };
-        for (std::size_t d = 0; d < Dim; ++d)
-        {
-          boundary = boundary || index[d] == 0 || index[d] == element.Degree[d];
-          key.Position[d] = lines[d].Position(element.Level, cells[e][d], index[d]);
-        }
-        vtkIdType id = numbering.Count;
-        if (boundary)
-        {
-          id = shared.emplace(key, id).first->second;
-        }
-        numbering.Count += id == numbering.Count ? 1 : 0;
-        numbering.Ids.push_back(id);
-      });
-  }
-  return numbering;
-}
-
-// Control points that no element uses get no point.
-template <int Dim>
-Numbering NumberBezier(const SplineSpace<Dim>& space)
-{
-  Numbering numbering;
-  std::vector<vtkIdType> point(static_cast<std::size_t>(space.NumFunctions), -1);
-  for (int function : space.LocalFunctionIds)
-  {
-    point[static_cast<std::size_t>(function)] = 0;
-  }
-  for (vtkIdType& id : point)
-  {
-    id = id < 0 ? -1 : numbering.Count++;
-  }
-  for (int function : space.LocalFunctionIds)
-  {
-    numbering.Ids.push_back(point[static_cast<std::size_t>(function)]);
-  }
-  return numbering;
-}
-
-// Points on a side that two elements have in common from end to end, and on corners, are one where
-// no line of full multiplicity is near.
-Numbering NumberLR(const LRData& data)
-{
-  using Key = std::array<int, 5>; // corner: -1, knots; side: direction, line, its ends, point
-  const LRBasis& basis = data.Basis;
-  const auto most = [&basis](std::size_t d, int line)
-  {
-    int m = 0;
-    for (const LRPiece& piece : basis.Lines[d][static_cast<std::size_t>(line)])
-    {
-      m = std::max(m, piece.Multiplicity);
-    }
-    return m;
-  };
-  std::array<std::vector<bool>, 2> torn; // lines that the map may jump across
-  for (std::size_t d = 0; d < 2; ++d)
-  {
-    const auto last = static_cast<int>(basis.Knots[d].size()) - 1;
-    for (int k = 0; k <= last; ++k)
-    {
-      torn[d].push_back(k > 0 && k < last && most(d, k) > basis.Degree[d]);
-    }
-  }
-  const auto hash = [](const Key& key) { return HashNumbers(0, key); };
-  Numbering numbering;
-  std::unordered_map<Key, vtkIdType, decltype(hash)> shared(8 * data.ElementKnots.size(), hash);
-  for (const auto& box : data.ElementKnots)
-  {
-    for (int j = 0; j <= basis.Degree[1]; ++j)
-    {
-      for (int i = 0; i <= basis.Degree[0]; ++i)
-      {
-        const std::array<int, 2> line{ i == 0 ? box[0]
-            : i == basis.Degree[0]            ? box[2]
-                                              : -1,
-          j == 0                   ? box[1]
-            : j == basis.Degree[1] ? box[3]
-                                   : -1 };
-        const bool jumps = (line[0] >= 0 && torn[0][static_cast<std::size_t>(line[0])]) ||
-          (line[1] >= 0 && torn[1][static_cast<std::size_t>(line[1])]);
-        if (jumps || (line[0] < 0 && line[1] < 0))
-        {
-          numbering.Ids.push_back(numbering.Count++);
-          continue;
-        }
-        const Key key = line[0] >= 0 && line[1] >= 0 ? Key{ -1, line[0], line[1], 0, 0 }
-          : line[0] >= 0                             ? Key{ 0, line[0], box[1], box[3], j }
-                                                     : Key{ 1, line[1], box[0], box[2], i };
-        const auto [place, isNew] = shared.try_emplace(key, numbering.Count);
-        numbering.Count += isNew ? 1 : 0;
-        numbering.Ids.push_back(place->second);
-      }
-    }
-  }
-  return numbering;
-}
-
-template <int Dim>
-Numbering NumberPoints(const SplineSpace<Dim>& space)
-{
-  switch (space.Kind)
-  {
-    case SpaceKind::Tensor:
-      return NumberTensor<Dim>(space, IndexElements(space));
-    case SpaceKind::Hierarchical:
-      return NumberHierarchical<Dim>(space, IndexElements(space));
-    case SpaceKind::LocallyRefined:
-      return NumberLR(*space.LocallyRefined);
-    default:
-      return NumberBezier<Dim>(space);
-  }
-}
-
 // A field of the grid; patches without it have zeros.
 struct GridField
 {
@@ -344,7 +56,7 @@ private:
   bool Rational = false;
   bool Domain = false;
   std::map<std::string, Eigen::Index> FieldComponents;
-  std::vector<Numbering> Numberings;
+  std::vector<ElementPoints> Numberings;
   std::size_t NextPatch = 0;
   vtkIdType FirstPoint = 0;
   vtkNew<vtkPoints> Points;
@@ -428,9 +140,9 @@ void GridWriter::Prepare(const std::vector<const SplinePatch*>& patches)
     std::visit(
       [&](const auto& spline)
       {
-        this->Numberings.push_back(NumberPoints(*spline.Space));
+        this->Numberings.push_back(FamilyOf(*spline.Space).NumberPoints(*spline.Space));
         this->Rational = this->Rational || spline.IsRational();
-        this->Domain = this->Domain || spline.Space->HasDomain;
+        this->Domain = this->Domain || spline.Space->HasDomain();
         numCells += spline.Space->NumElements();
       },
       patch->Geometry);
@@ -490,7 +202,7 @@ template <int Dim>
 void GridWriter::AddSpline(const SplinePatch& patch, const Spline<Dim>& spline, int id)
 {
   const SplineSpace<Dim>& space = *spline.Space;
-  const Numbering& numbering = this->Numberings[this->NextPatch++];
+  const ElementPoints& numbering = this->Numberings[this->NextPatch++];
 
   // Geometry and fields have the same space and weights: one pass makes all their Bezier points.
   Eigen::Index columns = 3;
@@ -510,11 +222,11 @@ void GridWriter::AddSpline(const SplinePatch& patch, const Spline<Dim>& spline, 
 
   PatchRecord record;
   record.Id = id;
-  record.Basis = DescribeBasis(space);
+  record.Basis = FamilyOf(space).Describe(space);
   record.Rational = spline.IsRational();
   record.NumElements = space.NumElements();
   record.NumFunctions = space.NumFunctions;
-  const int basisHash = record.Basis.Hash();
+  const int basisHash = HashOf(record.Basis);
 
   double* xyz = static_cast<double*>(this->Points->GetVoidPointer(0));
   std::vector<double*> fieldValues;
@@ -594,7 +306,7 @@ void GridWriter::AddSpline(const SplinePatch& patch, const Spline<Dim>& spline, 
     firstId += static_cast<std::size_t>(n);
   }
 
-  if (record.Basis.Kind != SpaceKind::Bezier) // there the points are the control points
+  if (basisHash != 0) // else the points are the control points
   {
     // The checksum is that of the grid's values: a shared point has one owner.
     PointMatrix blocks(static_cast<Eigen::Index>(numbering.Ids.size()), 4);

@@ -4,19 +4,16 @@
 #include "FieldTables.h"
 #include "TopologyTable.h"
 
-#include <knotwork/SplineCore/BezierSpace.h>
-#include <knotwork/SplineCore/HierarchicalSpace.h>
-#include <knotwork/SplineCore/LRSpace.h>
-#include <knotwork/SplineCore/TensorSpace.h>
-
 #include "vtkFieldData.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkStringArray.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 
 namespace knotwork
 {
@@ -25,17 +22,19 @@ namespace
 constexpr const char* VersionArray = "KnotworkSchemaVersion";
 constexpr const char* PatchArray = "KnotworkPatches";
 constexpr const char* KnotArray = "KnotworkKnots";
-constexpr const char* BoxArray = "KnotworkBoxes";
-constexpr const char* PieceArray = "KnotworkMeshLines";
-constexpr const char* LocalKnotArray = "KnotworkLocalKnots";
-constexpr const char* ScalingArray = "KnotworkScaling";
 constexpr const char* PointArray = "KnotworkControlPoints";
 constexpr const char* FieldNameArray = "KnotworkFieldNames";
 constexpr const char* FieldRowArray = "KnotworkFieldRows";
 constexpr const char* FieldChecksumArray = "KnotworkFieldChecksums";
 constexpr const char* FieldPrefix = "KnotworkField.";
 
-// Columns of KnotworkPatches. Boxes counts the rows of KnotworkMeshLines for kind 3.
+// The arrays of a family's tables are named after them.
+std::string TableArray(const DefinitionTableLayout& layout)
+{
+  return std::string("Knotwork") + layout.Name;
+}
+
+// Columns of KnotworkPatches. Boxes counts the rows of the family's first table.
 enum Column
 {
   Id,
@@ -102,20 +101,14 @@ Status ReadRecord(const IntegerTable& patches, std::size_t row, PatchRecord& rec
   {
     return Damaged(patch + " has dimension " + std::to_string(record.Basis.Dimension));
   }
-  switch (at(Kind))
+  const auto stored = [&](SpaceKind kind)
+  { return at(Kind) > 0 && FamilyOf<2>(kind).StoredNumber() == at(Kind); };
+  const auto kind = std::find_if(std::begin(AllSpaceKinds), std::end(AllSpaceKinds), stored);
+  if (kind == std::end(AllSpaceKinds))
   {
-    case 1:
-      record.Basis.Kind = SpaceKind::Tensor;
-      break;
-    case 2:
-      record.Basis.Kind = SpaceKind::Hierarchical;
-      break;
-    case 3:
-      record.Basis.Kind = SpaceKind::LocallyRefined;
-      break;
-    default:
-      return Damaged(patch + " is of the unknown kind " + std::to_string(at(Kind)));
+    return Damaged(patch + " is of the unknown kind " + std::to_string(at(Kind)));
   }
+  record.Basis.Kind = *kind;
   for (int d = 0; d < 3; ++d)
   {
     record.Basis.Degree[static_cast<std::size_t>(d)] = at(Degree0 + d);
@@ -125,249 +118,121 @@ Status ReadRecord(const IntegerTable& patches, std::size_t row, PatchRecord& rec
 }
 }
 
-int BasisDefinition::Hash() const
+int HashOf(const SpaceDefinition& basis)
 {
-  if (this->Kind == SpaceKind::Bezier)
+  if (FamilyOf<2>(basis.Kind).StoredNumber() == 0)
   {
     return 0;
   }
   Checksum sum;
-  sum.Add(static_cast<std::uint64_t>(this->Kind));
-  sum.Add(static_cast<std::uint64_t>(this->Dimension));
+  sum.Add(static_cast<std::uint64_t>(basis.Kind));
+  sum.Add(static_cast<std::uint64_t>(basis.Dimension));
   for (std::size_t d = 0; d < 3; ++d)
   {
-    sum.Add(static_cast<std::uint64_t>(this->Degree[d]));
-    for (double knot : this->Knots[d])
+    sum.Add(static_cast<std::uint64_t>(basis.Degree[d]));
+    for (double knot : basis.Knots[d])
     {
       sum.Add(knot + 0.0); // -0 and 0 are the same knot
     }
   }
-  for (const auto& box : this->Boxes)
+  for (const DefinitionTable& table : basis.Tables)
   {
-    for (std::int64_t value : box)
+    for (std::int64_t value : table.Whole)
     {
       sum.Add(static_cast<std::uint64_t>(value));
     }
-  }
-  for (const auto& piece : this->Pieces)
-  {
-    for (std::int64_t value : piece)
+    for (double value : table.Real)
     {
-      sum.Add(static_cast<std::uint64_t>(value));
+      sum.Add(value);
     }
-  }
-  for (std::int64_t knot : this->LocalKnots)
-  {
-    sum.Add(static_cast<std::uint64_t>(knot));
-  }
-  for (double gamma : this->Scaling)
-  {
-    sum.Add(gamma);
   }
   return 1 + static_cast<int>(sum.Value() % 0x7ffffffeU);
 }
 
 namespace
 {
-void DescribeLRBasis(const LRBasis& from, BasisDefinition& basis)
+/// A table of a family in the grid, the rows of one patch after those of another.
+struct StoredTable
 {
-  for (std::size_t d = 0; d < 2; ++d)
-  {
-    basis.Degree[d] = from.Degree[d];
-    basis.Knots[d] = from.Knots[d];
-    for (std::size_t k = 0; k < from.Lines[d].size(); ++k)
-    {
-      for (const LRPiece& piece : from.Lines[d][k])
-      {
-        basis.Pieces.push_back({ static_cast<std::int64_t>(d), static_cast<std::int64_t>(k),
-          piece.Knot, piece.Multiplicity });
-      }
-    }
-  }
-  basis.LocalKnots.assign(from.LocalKnots.begin(), from.LocalKnots.end());
-  basis.Scaling = from.Scaling;
-}
+  IntegerTable Whole;
+  PointMatrix Real;
+  std::size_t Next = 0;
 
-// MakeLRSpace checks the rest.
-Result<SplineSpacePtr<2>> BuildLRSpace(const BasisDefinition& basis, int threads)
-{
-  constexpr std::int64_t most = std::numeric_limits<int>::max();
-  const auto fits = [](std::int64_t value) { return value >= 0 && value <= most; };
-  LRBasis made;
-  for (std::size_t d = 0; d < 2; ++d)
+  /// Moves the next rows to a definition; false when there are not so many.
+  bool Take(const DefinitionTableLayout& layout, std::size_t rows, DefinitionTable& table)
   {
-    made.Degree[d] = basis.Degree[d];
-    made.Knots[d] = basis.Knots[d];
-    made.Lines[d].resize(basis.Knots[d].size());
-  }
-  for (const auto& piece : basis.Pieces)
-  {
-    const bool known = (piece[0] == 0 || piece[0] == 1) && fits(piece[1]) && fits(piece[2]) &&
-      fits(piece[3]) &&
-      static_cast<std::size_t>(piece[1]) < made.Lines[static_cast<std::size_t>(piece[0])].size();
-    if (!known)
+    const std::size_t all =
+      layout.IsWhole ? this->Whole.Rows() : static_cast<std::size_t>(this->Real.rows());
+    if (rows > all - this->Next)
     {
-      return { ErrorCode::InvalidTopology, "a piece of a mesh line is out of range" };
+      return false;
     }
-    made.Lines[static_cast<std::size_t>(piece[0])][static_cast<std::size_t>(piece[1])].push_back(
-      { static_cast<int>(piece[2]), static_cast<int>(piece[3]) });
-  }
-  for (const std::int64_t knot : basis.LocalKnots)
-  {
-    if (!fits(knot))
+    const std::size_t columns = layout.Columns.size();
+    const auto begin = static_cast<std::ptrdiff_t>(this->Next * columns);
+    const auto end = static_cast<std::ptrdiff_t>((this->Next + rows) * columns);
+    if (layout.IsWhole)
     {
-      return { ErrorCode::InvalidTopology, "a local knot is out of range" };
+      table.Whole.assign(this->Whole.Values.begin() + begin, this->Whole.Values.begin() + end);
     }
-    made.LocalKnots.push_back(static_cast<int>(knot));
+    else
+    {
+      table.Real.assign(this->Real.data() + begin, this->Real.data() + end);
+    }
+    this->Next += rows;
+    return true;
   }
-  made.Scaling = basis.Scaling;
-  return MakeLRSpace(std::move(made), threads);
-}
-}
+};
 
-template <int Dim>
-BasisDefinition DescribeBasis(const SplineSpace<Dim>& space)
-{
-  BasisDefinition basis;
-  basis.Dimension = Dim;
-  if (space.Kind == SpaceKind::Bezier)
-  {
-    return basis;
-  }
-  basis.Kind = space.Kind;
-  if (space.Kind == SpaceKind::LocallyRefined)
-  {
-    DescribeLRBasis(space.LocallyRefined->Basis, basis);
-    return basis;
-  }
-  for (std::size_t d = 0; d < Dim; ++d)
-  {
-    basis.Degree[d] = space.Knots[d].Degree();
-    basis.Knots[d] = space.Knots[d].Knots();
-  }
-  if (space.Kind == SpaceKind::Hierarchical)
-  {
-    for (const HierarchyBox<Dim>& box : HierarchyBoxes(space))
-    {
-      std::array<std::int64_t, 7> row{ box.Level };
-      std::copy(box.Lower.begin(), box.Lower.end(), row.begin() + 1);
-      std::copy(box.Upper.begin(), box.Upper.end(), row.begin() + 4);
-      basis.Boxes.push_back(row);
-    }
-  }
-  return basis;
-}
-
-template <int Dim>
-Result<SplineSpacePtr<Dim>> BuildSpace(const BasisDefinition& basis, [[maybe_unused]] int threads)
-{
-  if constexpr (Dim == 2)
-  {
-    if (basis.Kind == SpaceKind::LocallyRefined)
-    {
-      return BuildLRSpace(basis, threads);
-    }
-  }
-  std::array<KnotVector, Dim> knots;
-  for (std::size_t d = 0; d < Dim; ++d)
-  {
-    Result<KnotVector> made = KnotVector::Create(basis.Degree[d], basis.Knots[d]);
-    if (!made)
-    {
-      return made.Status;
-    }
-    knots[d] = std::move(made.Value);
-  }
-  if (basis.Kind == SpaceKind::Tensor)
-  {
-    return MakeTensorSpace<Dim>(knots);
-  }
-  if (basis.Kind != SpaceKind::Hierarchical)
-  {
-    return { ErrorCode::InvalidTopology, "a Bezier space is made from its cells" };
-  }
-  std::vector<HierarchyBox<Dim>> boxes(basis.Boxes.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-  {
-    const auto& row = basis.Boxes[i];
-    boxes[i].Level =
-      static_cast<int>(std::min<std::int64_t>(std::max<std::int64_t>(row[0], 0), 99));
-    std::copy_n(row.begin() + 1, Dim, boxes[i].Lower.begin());
-    std::copy_n(row.begin() + 4, Dim, boxes[i].Upper.begin());
-  }
-  return MakeHierarchicalSpace<Dim>(knots, boxes);
-}
-
-namespace
-{
-std::int64_t NumberOfKind(SpaceKind kind)
-{
-  return kind == SpaceKind::LocallyRefined ? 3 : kind == SpaceKind::Hierarchical ? 2 : 1;
-}
-
-// The definitions of locally refined spaces, patch after patch.
-class LRTables
+/// The tables of all families.
+class StoredTables
 {
 public:
-  explicit LRTables(vtkFieldData* fieldData)
+  /// @return a status with a detail for Damaged.
+  Status Take(vtkFieldData* fieldData, std::size_t firstRows, PatchRecord& record)
   {
-    ReadIntegers(fieldData, PieceArray, 4, this->Pieces);
-    ReadIntegers(fieldData, LocalKnotArray, 1, this->LocalKnots);
-    ReadDoubles(fieldData, ScalingArray, this->Scaling);
-  }
-
-  // The status has a detail for Damaged.
-  Status Take(std::int64_t numPieces, PatchRecord& record)
-  {
-    const auto fail = [](const char* arrayName)
-    { return Status(ErrorCode::InvalidTopology, std::string(arrayName) + " ends too early"); };
-    BasisDefinition& basis = record.Basis;
-    const auto stride =
-      static_cast<std::size_t>(basis.Degree[0]) + static_cast<std::size_t>(basis.Degree[1]) + 4;
-    const auto numFunctions = static_cast<std::size_t>(record.NumFunctions);
-    if (static_cast<std::size_t>(numPieces) > this->Pieces.Rows() - this->NextPiece)
+    const SpaceFamily<2>& family = FamilyOf<2>(record.Basis.Kind);
+    const std::vector<DefinitionTableLayout>& layouts = family.Tables();
+    record.Basis.Tables.resize(layouts.size());
+    for (std::size_t t = 0; t < layouts.size(); ++t)
     {
-      return fail(PieceArray);
+      const std::size_t rows =
+        t == 0 ? firstRows : family.NumRows(record.Basis, record.NumFunctions, t);
+      StoredTable& stored = this->Find(fieldData, layouts[t]);
+      if (!stored.Take(layouts[t], rows, record.Basis.Tables[t]))
+      {
+        return { ErrorCode::InvalidTopology, TableArray(layouts[t]) + " ends before the rows" };
+      }
     }
-    if (numFunctions > (this->LocalKnots.Rows() - this->NextKnot) / stride)
-    {
-      return fail(LocalKnotArray);
-    }
-    PointMatrix taken;
-    if (this->Scaling.cols() != 1 ||
-      !TakeRows(this->Scaling, this->NextScaling, record.NumFunctions, taken))
-    {
-      return fail(ScalingArray);
-    }
-    for (std::int64_t i = 0; i < numPieces; ++i, ++this->NextPiece)
-    {
-      basis.Pieces.push_back(
-        { this->Pieces.At(this->NextPiece, 0), this->Pieces.At(this->NextPiece, 1),
-          this->Pieces.At(this->NextPiece, 2), this->Pieces.At(this->NextPiece, 3) });
-    }
-    const auto first =
-      this->LocalKnots.Values.begin() + static_cast<std::ptrdiff_t>(this->NextKnot);
-    this->NextKnot += numFunctions * stride;
-    basis.LocalKnots.assign(
-      first, this->LocalKnots.Values.begin() + static_cast<std::ptrdiff_t>(this->NextKnot));
-    basis.Scaling.assign(taken.data(), taken.data() + taken.size());
     return {};
   }
 
 private:
-  IntegerTable Pieces;
-  IntegerTable LocalKnots;
-  PointMatrix Scaling;
-  std::size_t NextPiece = 0;
-  std::size_t NextKnot = 0;
-  Eigen::Index NextScaling = 0;
+  StoredTable& Find(vtkFieldData* fieldData, const DefinitionTableLayout& layout)
+  {
+    const auto [place, isNew] = this->Read.try_emplace(layout.Name);
+    StoredTable& table = place->second;
+    const auto columns = static_cast<int>(layout.Columns.size());
+    if (isNew && layout.IsWhole)
+    {
+      ReadIntegers(fieldData, TableArray(layout).c_str(), columns, table.Whole);
+    }
+    else if (isNew && ReadDoubles(fieldData, TableArray(layout).c_str(), table.Real) &&
+      table.Real.cols() != columns)
+    {
+      table.Real.resize(0, columns);
+    }
+    return table;
+  }
+
+  std::map<std::string, StoredTable> Read;
 };
 }
 
 void WriteSchema(const SplineSchema& schema, vtkFieldData* fieldData)
 {
-  std::vector<std::int64_t> patches, boxes, pieces, localKnots, fieldRows, fieldChecksums;
-  std::vector<double> knots, points, scaling;
+  std::vector<std::int64_t> patches, fieldRows, fieldChecksums;
+  std::vector<double> knots, points;
+  std::map<SpaceKind, std::vector<DefinitionTable>> tables;
   std::vector<std::string> names;
   std::vector<std::vector<double>> fields;
   std::vector<int> components;
@@ -385,45 +250,47 @@ void WriteSchema(const SplineSchema& schema, vtkFieldData* fieldData)
   fields.resize(names.size());
   for (const PatchRecord& record : schema.Patches)
   {
-    const BasisDefinition& basis = record.Basis;
-    std::array<std::int64_t, NumColumns> row{ record.Id, NumberOfKind(basis.Kind), basis.Dimension,
-      record.Rational, record.NumElements, record.NumFunctions };
+    const SpaceDefinition& basis = record.Basis;
+    std::array<std::int64_t, NumColumns> row{ record.Id, FamilyOf<2>(basis.Kind).StoredNumber(),
+      basis.Dimension, record.Rational, record.NumElements, record.NumFunctions };
     for (std::size_t d = 0; d < 3; ++d)
     {
       row[Degree0 + d] = basis.Degree[d];
       row[Knots0 + d] = static_cast<std::int64_t>(basis.Knots[d].size());
       knots.insert(knots.end(), basis.Knots[d].begin(), basis.Knots[d].end());
     }
-    const bool isLR = basis.Kind == SpaceKind::LocallyRefined;
-    row[Boxes] = static_cast<std::int64_t>(isLR ? basis.Pieces.size() : basis.Boxes.size());
-    row[BasisHash] = basis.Hash();
+    const std::vector<DefinitionTableLayout>& layouts = FamilyOf<2>(basis.Kind).Tables();
+    std::vector<DefinitionTable>& rows = tables[basis.Kind];
+    rows.resize(layouts.size());
+    for (std::size_t t = 0; t < layouts.size(); ++t)
+    {
+      const DefinitionTable& table = basis.Tables[t];
+      rows[t].Whole.insert(rows[t].Whole.end(), table.Whole.begin(), table.Whole.end());
+      rows[t].Real.insert(rows[t].Real.end(), table.Real.begin(), table.Real.end());
+      if (t == 0)
+      {
+        row[Boxes] = static_cast<std::int64_t>(
+          (table.Whole.size() + table.Real.size()) / layouts[t].Columns.size());
+      }
+    }
+    row[BasisHash] = HashOf(basis);
     row[GeometryCheck] = static_cast<std::int64_t>(record.ControlPoints.Stored);
     patches.insert(patches.end(), row.begin(), row.end());
-    for (const auto& box : basis.Boxes)
-    {
-      boxes.insert(boxes.end(), box.begin(), box.end());
-    }
-    for (const auto& piece : basis.Pieces)
-    {
-      pieces.insert(pieces.end(), piece.begin(), piece.end());
-    }
-    localKnots.insert(localKnots.end(), basis.LocalKnots.begin(), basis.LocalKnots.end());
-    scaling.insert(scaling.end(), basis.Scaling.begin(), basis.Scaling.end());
     Append(points, record.ControlPoints.Rows);
     for (std::size_t f = 0; f < names.size(); ++f)
     {
-      std::int64_t rows = 0;
+      std::int64_t fieldRow = 0;
       std::int64_t checksum = 0;
       for (const FieldRecord& field : record.Fields)
       {
         if (field.Name == names[f])
         {
-          rows = field.Cache.Rows.rows();
+          fieldRow = field.Cache.Rows.rows();
           checksum = static_cast<std::int64_t>(field.Cache.Stored);
           Append(fields[f], field.Cache.Rows);
         }
       }
-      fieldRows.push_back(rows);
+      fieldRows.push_back(fieldRow);
       fieldChecksums.push_back(checksum);
     }
   }
@@ -439,18 +306,22 @@ void WriteSchema(const SplineSchema& schema, vtkFieldData* fieldData)
   }
   WriteIntegers(fieldData, PatchArray, NumColumns, patches, columnNames);
   WriteDoubles(fieldData, KnotArray, 1, knots);
-  if (!boxes.empty())
+  for (const auto& [kind, rows] : tables)
   {
-    const char* const boxNames[] = { "Level", "Lower0", "Lower1", "Lower2", "Upper0", "Upper1",
-      "Upper2" };
-    WriteIntegers(fieldData, BoxArray, 7, boxes, boxNames);
-  }
-  if (!pieces.empty())
-  {
-    const char* const pieceNames[] = { "Direction", "Line", "Knot", "Multiplicity" };
-    WriteIntegers(fieldData, PieceArray, 4, pieces, pieceNames);
-    WriteIntegers(fieldData, LocalKnotArray, 1, localKnots);
-    WriteDoubles(fieldData, ScalingArray, 1, scaling);
+    const std::vector<DefinitionTableLayout>& layouts = FamilyOf<2>(kind).Tables();
+    for (std::size_t t = 0; t < layouts.size(); ++t)
+    {
+      const auto columns = static_cast<int>(layouts[t].Columns.size());
+      if (!rows[t].Whole.empty())
+      {
+        WriteIntegers(fieldData, TableArray(layouts[t]), columns, rows[t].Whole,
+          columns > 1 ? layouts[t].Columns.data() : nullptr);
+      }
+      if (!rows[t].Real.empty())
+      {
+        WriteDoubles(fieldData, TableArray(layouts[t]), columns, rows[t].Real);
+      }
+    }
   }
   WriteDoubles(fieldData, PointArray, 4, points);
   if (names.empty())
@@ -502,9 +373,7 @@ Result<SplineSchema> ReadSchema(vtkFieldData* fieldData)
       " whole numbers a row");
   }
   PointMatrix knots, points;
-  IntegerTable boxes;
   const bool haveKnots = ReadDoubles(fieldData, KnotArray, knots) && knots.cols() == 1;
-  ReadIntegers(fieldData, BoxArray, 7, boxes);
   bool havePoints = ReadDoubles(fieldData, PointArray, points) && points.cols() == 4;
   vtkStringArray* names = vtkStringArray::SafeDownCast(fieldData->GetAbstractArray(FieldNameArray));
   const int numFields = names ? static_cast<int>(names->GetNumberOfValues()) : 0;
@@ -521,10 +390,9 @@ Result<SplineSchema> ReadSchema(vtkFieldData* fieldData)
     ReadDoubles(fieldData, fieldName.c_str(), fieldTables[f]);
   }
 
-  LRTables lrBases(fieldData);
+  StoredTables tables;
   Eigen::Index nextKnot = 0;
   Eigen::Index nextPoint = 0;
-  std::size_t nextBox = 0;
   for (std::size_t row = 0; row < patches.Rows(); ++row)
   {
     PatchRecord record;
@@ -543,28 +411,13 @@ Result<SplineSchema> ReadSchema(vtkFieldData* fieldData)
       }
       record.Basis.Knots[d].assign(taken.data(), taken.data() + taken.size());
     }
-    if (record.Basis.Kind == SpaceKind::LocallyRefined)
+    const Status taken =
+      tables.Take(fieldData, static_cast<std::size_t>(patches.At(row, Boxes)), record);
+    if (!taken)
     {
-      if (const Status status = lrBases.Take(patches.At(row, Boxes), record); !status)
-      {
-        return Damaged(status.Detail + patch);
-      }
+      return Damaged(taken.Detail + patch);
     }
-    const bool hasBoxes = record.Basis.Kind != SpaceKind::LocallyRefined;
-    for (std::int64_t b = 0; hasBoxes && b < patches.At(row, Boxes); ++b, ++nextBox)
-    {
-      if (nextBox >= boxes.Rows())
-      {
-        return Damaged(std::string(BoxArray) + " ends before the boxes" + patch);
-      }
-      std::array<std::int64_t, 7> box;
-      for (int c = 0; c < 7; ++c)
-      {
-        box[static_cast<std::size_t>(c)] = boxes.At(nextBox, c);
-      }
-      record.Basis.Boxes.push_back(box);
-    }
-    if (record.Basis.Hash() != patches.At(row, BasisHash))
+    if (HashOf(record.Basis) != patches.At(row, BasisHash))
     {
       return Damaged("the basis" + patch + " does not match its PatchBasis");
     }
@@ -628,8 +481,6 @@ Checksum GeometryChecksum(const std::vector<IntArray<Dim>>& degrees, const Point
 }
 
 #define KNOTWORK_INSTANTIATE(Dim)                                                                  \
-  template BasisDefinition DescribeBasis<Dim>(const SplineSpace<Dim>&);                            \
-  template Result<SplineSpacePtr<Dim>> BuildSpace<Dim>(const BasisDefinition&, int);               \
   template Checksum GeometryChecksum<Dim>(const std::vector<IntArray<Dim>>&, const PointMatrix&);
 KNOTWORK_INSTANTIATE(1)
 KNOTWORK_INSTANTIATE(2)

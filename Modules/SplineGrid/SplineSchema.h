@@ -2,6 +2,7 @@
 // The field data of a spline grid: the definition of every patch's space and the caches of its
 // coefficients. The module's page describes the arrays.
 #pragma once
+#include <knotwork/SplineCore/SpaceFamily.h>
 #include <knotwork/SplineGrid/SplineModel.h>
 
 #include <array>
@@ -25,38 +26,9 @@ constexpr const char* Bounds = "ParametricBounds";
 constexpr const char* Basis = "PatchBasis";
 }
 
-/// Definition of a space whose dimension is known at run time.
-struct BasisDefinition
-{
-  SpaceKind Kind = SpaceKind::Bezier; ///< a Bezier space is defined by its cells alone
-  int Dimension = 0;
-  std::array<int, 3> Degree{};
-  std::array<std::vector<double>, 3> Knots;
-  std::vector<std::array<std::int64_t, 7>> Boxes; ///< level, lower corner, upper corner
-  /// Kind LocallyRefined, as in LRBasis (Knots are the distinct ones): direction, line, first knot
-  /// and multiplicity of every piece of a mesh line; local knots and scaling factors of the
-  /// functions.
-  std::vector<std::array<std::int64_t, 4>> Pieces;
-  std::vector<std::int64_t> LocalKnots;
-  std::vector<double> Scaling;
-
-  bool operator==(const BasisDefinition& other) const
-  {
-    return this->Kind == other.Kind && this->Dimension == other.Dimension &&
-      this->Degree == other.Degree && this->Knots == other.Knots && this->Boxes == other.Boxes &&
-      this->Pieces == other.Pieces && this->LocalKnots == other.LocalKnots &&
-      this->Scaling == other.Scaling;
-  }
-  /// Value of the cell array PatchBasis: 0 for kind Bezier, positive for all others. Equal
-  /// definitions have equal values.
-  int Hash() const;
-};
-
-template <int Dim>
-BasisDefinition DescribeBasis(const SplineSpace<Dim>& space);
-/// @return InvalidTopology for kind Bezier, the builder's errors.
-template <int Dim>
-Result<SplineSpacePtr<Dim>> BuildSpace(const BasisDefinition& basis, int threads);
+/// Value of the cell array PatchBasis: 0 for spaces that are not stored, positive for all others.
+/// Equal definitions have equal values.
+int HashOf(const SpaceDefinition& basis);
 
 /// Checksum over values and shapes; order matters.
 class VTKKNOTWORKSPLINEGRID_EXPORT Checksum
@@ -95,7 +67,7 @@ struct FieldRecord
 struct PatchRecord
 {
   int Id = 0;
-  BasisDefinition Basis;
+  SpaceDefinition Basis;
   bool Rational = false;
   int NumElements = 0;
   int NumFunctions = 0;

@@ -95,11 +95,8 @@ private:
   {
     const knotwork::SplineSpace<Dim>& space = *spline.Space;
     const vtkIdType first = this->Points->GetNumberOfPoints();
-    std::vector<knotwork::FunctionInfo<Dim>> infos(static_cast<std::size_t>(space.NumFunctions));
-    if (space.Kind != knotwork::SpaceKind::Bezier)
-    {
-      infos = DescribeFunctions(space);
-    }
+    std::vector<knotwork::FunctionInfo<Dim>> infos = DescribeFunctions(space);
+    infos.resize(static_cast<std::size_t>(space.NumFunctions)); // also where there is none
     for (int i = 0; i < space.NumFunctions; ++i)
     {
       const auto& info = infos[static_cast<std::size_t>(i)];

@@ -97,7 +97,7 @@ Status LocateParameters(const SplineModel& model, const PointMatrix& parameters,
       {
         const auto& space = *spline.Space;
         constexpr int dimension = std::tuple_size_v<decltype(space.Domain().Lower)>;
-        if (!space.HasDomain)
+        if (!space.HasDomain())
         {
           return { ErrorCode::DimensionMismatch,
             "patch " + std::to_string(model.Patches[static_cast<std::size_t>(patch)].Id) +

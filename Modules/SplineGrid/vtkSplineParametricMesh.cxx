@@ -42,7 +42,7 @@ std::array<double, 2> RangeOf(const knotwork::SplinePatch& patch)
   return std::visit(
     [](const auto& spline) -> std::array<double, 2>
     {
-      if (!spline.Space->HasDomain)
+      if (!spline.Space->HasDomain())
       {
         return { 0.0, static_cast<double>(RowLength(*spline.Space)) };
       }
@@ -76,10 +76,10 @@ public:
     for (int e = 0; e < space.NumElements(); ++e)
     {
       const auto& element = space.Elements[static_cast<std::size_t>(e)];
-      const std::array<double, 3> place = space.HasDomain
+      const std::array<double, 3> place = space.HasDomain()
         ? std::array<double, 3>{}
         : std::array<double, 3>{ static_cast<double>(e % row), static_cast<double>(e / row), 0.0 };
-      if (!space.HasDomain) // neighbours in the row need not be neighbours
+      if (!space.HasDomain()) // neighbours in the row need not be neighbours
       {
         ids.clear();
       }

@@ -89,7 +89,7 @@ struct Map
     std::visit(
       [this, clamp, threads](const auto& spline)
       {
-        if (!spline.Space->HasDomain)
+        if (!spline.Space->HasDomain())
         {
           this->Outcome = { ErrorCode::DimensionMismatch,
             "the map is a Bezier grid without a parameter domain" };
@@ -134,7 +134,7 @@ template <int Dim>
 std::vector<vtkIdType> OldCells(const SplinePatch& patch, const knotwork::SplineSpace<Dim>& old,
   const knotwork::SplineSpace<Dim>& space)
 {
-  if (!old.HasDomain)
+  if (!old.HasDomain())
   {
     return patch.Cells;
   }
@@ -167,7 +167,7 @@ knotwork::Result<Spline<Dim>> MoveField(Spline<Dim> old, const PointMatrix& coef
   const auto form = knotwork::MakeBezierForm(old, threads);
   knotwork::ProjectionParams params;
   params.Threads = threads;
-  const bool domain = space->HasDomain;
+  const bool domain = space->HasDomain();
   return knotwork::ProjectOntoSpace<Dim>(
     space, old.NumComponents(),
     [&form, domain](

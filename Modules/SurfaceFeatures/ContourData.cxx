@@ -264,7 +264,7 @@ Status EncodeCurves(
         geometry.ControlPoints.col(2).setConstant(levels.back());
       }
       encoded.Geometry = geometry;
-      if (patch.Form.Space->HasDomain)
+      if (patch.Form.Space->HasDomain())
       {
         encoded.Fields.push_back({ "UV", curve.Curve.ControlPoints.leftCols(2) });
       }

@@ -35,7 +35,7 @@ public:
   Places(const SplinePatch& patch, const ExtremaChoice& choice) : Lifted(choice.OnSurface)
   {
     const auto& surface = std::get<Spline<2>>(patch.Geometry);
-    this->HasDomain = surface.Space->HasDomain;
+    this->HasDomain = surface.Space->HasDomain();
     if (this->Lifted)
     {
       this->Form = MakeBezierForm(surface, choice.Threads);

@@ -130,7 +130,7 @@ private:
 
   bool AreNear(const ChainPoint& a, const ChainPoint& b, double merge) const
   {
-    if (!this->Space.HasDomain && a.Element != b.Element)
+    if (!this->Space.HasDomain() && a.Element != b.Element)
     {
       return false;
     }

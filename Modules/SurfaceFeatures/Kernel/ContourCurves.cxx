@@ -249,7 +249,7 @@ private:
       row.insert(row.end(), piece.Space[k].begin(), piece.Space[k].end());
       return row;
     };
-    const bool domain = this->Form.Space->HasDomain;
+    const bool domain = this->Form.Space->HasDomain();
     const ParametricBox<2> box = domain ? this->Form.Space->Domain() : ParametricBox<2>();
     for (std::size_t i = 0; i < pieces.size(); ++i)
     {

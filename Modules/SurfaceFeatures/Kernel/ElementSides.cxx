@@ -71,7 +71,7 @@ public:
 
   ElementSides Run()
   {
-    if (this->Space.HasDomain)
+    if (this->Space.HasDomain())
     {
       this->FindByBoxes();
     }

@@ -292,7 +292,7 @@ Result<ScalarPieces> MakeScalarPieces(const Spline<2>& spline, int component, in
   ScalarPieces pieces;
   Source source;
   pieces.Rational = spline.IsRational();
-  pieces.HasDomain = spline.Space->HasDomain;
+  pieces.HasDomain = spline.Space->HasDomain();
   if (!pieces.HasDomain)
   {
     Result<std::vector<PlacedElement>> placed = PlaceElements(*spline.Space);

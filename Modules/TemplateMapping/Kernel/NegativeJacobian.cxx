@@ -147,7 +147,7 @@ Result<double> NegativeJacobianShare(
   const BezierForm<Dim>& form, int pointsPerDirection, int threads)
 {
   constexpr int most = Dim == 2 ? 100000 : 2000;
-  if (!form.Space || !form.Space->HasDomain || form.NumComponents != Dim || form.Rational)
+  if (!form.Space || !form.Space->HasDomain() || form.NumComponents != Dim || form.Rational)
   {
     return { ErrorCode::DimensionMismatch,
       "the share of negative Jacobians needs a polynomial map of a parameter domain with as many "

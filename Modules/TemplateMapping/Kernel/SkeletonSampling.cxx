@@ -234,7 +234,7 @@ Result<SkeletonPatch<2>> SampleCurve(int id, const Spline<1>& curve, int samples
     }
   }
   const BezierForm<1> form = MakeBezierForm(curve, 1);
-  if (!curve.Space->HasDomain)
+  if (!curve.Space->HasDomain())
   {
     const int numElements = curve.Space->NumElements();
     const auto cuts = static_cast<int>((count.Value - 2) / numElements + 1);
@@ -270,7 +270,7 @@ Result<SkeletonPatch<3>> SampleSurface(int id, const Spline<2>& surface, int sam
     return count.Status;
   }
   const BezierForm<2> form = MakeBezierForm(surface, 1);
-  if (!surface.Space->HasDomain)
+  if (!surface.Space->HasDomain())
   {
     return SampleCells(id, MakeBernsteinCells(form), samples);
   }

@@ -171,7 +171,7 @@ Result<Spline<Dim>> StartMap(const Skeleton<Dim>& skeleton, const TemplateMapPar
   if (params.InitialMap)
   {
     const Spline<Dim>& map = *params.InitialMap;
-    if (!map.Space || !map.Space->HasDomain || map.NumComponents() != Dim || map.IsRational())
+    if (!map.Space || !map.Space->HasDomain() || map.NumComponents() != Dim || map.IsRational())
     {
       return { ErrorCode::DimensionMismatch,
         "the initial map must be polynomial, of as many components as parameters, with a domain" };

@@ -2,6 +2,7 @@
 #include "SizeLimit.h"
 
 #include "Numbers.h"
+#include "SpaceFamily.h"
 
 #include <cmath>
 
@@ -22,31 +23,7 @@ Status CheckSize(double count, double limit, const char* what, const char* prope
 template <int Dim>
 double FunctionsAfterRefinement(const SplineSpace<Dim>& space, int elevation, int refinements)
 {
-  const double pieces = std::ldexp(1.0, refinements); // of an element in a direction
-  double functions = 0.0;
-  if (space.Kind == SpaceKind::Tensor)
-  {
-    functions = 1.0;
-    for (const KnotVector& knots : space.Knots)
-    {
-      functions *= knots.NumFunctions() + (elevation + pieces - 1.0) * knots.NumElements();
-    }
-    return functions;
-  }
-  if (space.Kind != SpaceKind::Bezier)
-  {
-    return space.NumFunctions + space.NumElements() * (std::pow(pieces, Dim) - 1.0);
-  }
-  for (const auto& element : space.Elements)
-  {
-    double inside = 1.0;
-    for (const int degree : element.Degree)
-    {
-      inside *= (degree + elevation) * pieces;
-    }
-    functions += inside;
-  }
-  return functions;
+  return FamilyOf(space).FunctionsAfterRefinement(space, elevation, refinements);
 }
 
 template double FunctionsAfterRefinement<1>(const SplineSpace<1>&, int, int);

@@ -581,7 +581,7 @@ Status EvaluateParameters(const BezierForm<Dim>& form, const PointMatrixView& pa
     return status;
   }
   const SplineSpace<Dim>& space = *form.Space;
-  if (!space.HasDomain)
+  if (!space.HasDomain())
   {
     return { ErrorCode::DimensionMismatch,
       "the space has no parameter domain; give elements and local parameters" };

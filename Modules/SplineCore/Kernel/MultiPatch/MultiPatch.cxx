@@ -139,7 +139,7 @@ Result<std::vector<SideSamples>> SampleSides(
   {
     const Spline<Dim>& patch = patches[p];
     Status status = patch.Check();
-    if (status && !patch.Space->HasDomain)
+    if (status && !patch.Space->HasDomain())
     {
       status = { ErrorCode::DimensionMismatch, "a patch without a parameter domain" };
     }
@@ -359,7 +359,7 @@ Result<Spline<Dim - 1>> SideSpline(const Spline<Dim>& patch, int side)
         std::to_string(2 * Dim - 1) };
   }
   const SplineSpace<Dim>& space = *patch.Space;
-  if (!space.HasDomain)
+  if (!space.HasDomain())
   {
     return { ErrorCode::DimensionMismatch, "a patch without a parameter domain" };
   }

@@ -183,7 +183,7 @@ private:
 template <int Dim>
 bool HasTrace(const SplineSpace<Dim>& space, const PatchEntity<Dim>& entity)
 {
-  bool has = space.HasDomain && space.Kind != SpaceKind::LocallyRefined;
+  bool has = space.HasDomain() && space.Kind != SpaceKind::LocallyRefined;
   for (std::size_t d = 0; d < Dim; ++d)
   {
     has = has && (entity[d] < 0 || IsClamped(space.Knots[d]));

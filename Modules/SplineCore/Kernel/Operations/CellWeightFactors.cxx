@@ -148,7 +148,7 @@ std::vector<double> CellWeightFactors(
   const BezierForm<Dim>& form, const DualFunctionals<Dim>& duals, int threads)
 {
   const std::vector<Link> links =
-    form.Space->HasDomain ? FaceLinks(form, threads) : FunctionLinks(form, duals);
+    form.Space->HasDomain() ? FaceLinks(form, threads) : FunctionLinks(form, duals);
   const auto elements = static_cast<std::size_t>(form.Space->NumElements());
   std::vector<std::vector<std::pair<std::size_t, double>>> neighbours(elements);
   for (const Link& link : links)

@@ -215,7 +215,7 @@ void ClosestPointSearch<Dim>::Improve(
 
   // Derivatives come with respect to the domain: lengths of the element turn them local.
   Vector length = Vector::Ones();
-  if (form.Space->HasDomain)
+  if (form.Space->HasDomain())
   {
     const auto& box = form.Space->Elements[At(start.Element)].Box;
     for (int d = 0; d < Dim; ++d)

@@ -36,7 +36,7 @@ public:
     EvaluationParams params;
     params.Threads = 1;
     Status status;
-    if (this->Inner.Space->HasDomain)
+    if (this->Inner.Space->HasDomain())
     {
       status = EvaluateParameters<Dim>(this->Inner, parameters, params, batch);
     }
@@ -322,8 +322,8 @@ private:
         return composed.Explain({ ErrorCode::OutsideDomain, "element " + std::to_string(e) });
       }
       result.Distances[p] = std::max(result.Distances[p], distance[e]);
-      if (this->Params.Tolerance > 0.0 && distance[e] > this->Params.Tolerance && space.HasDomain &&
-        space.Elements[e].Level < this->Params.MaxLevel)
+      if (this->Params.Tolerance > 0.0 && distance[e] > this->Params.Tolerance &&
+        space.HasDomain() && space.Elements[e].Level < this->Params.MaxLevel)
       {
         marked.push_back(static_cast<int>(e));
       }
@@ -488,7 +488,7 @@ template <int Dim>
 Status MapPoints(const BezierForm<Dim>& map, const PointMatrixView& points, bool clamp, int threads,
   PointMatrix& values)
 {
-  if (!map.Space->HasDomain)
+  if (!map.Space->HasDomain())
   {
     return { ErrorCode::DimensionMismatch,
       "the map has no parameter domain (Bezier elements of foreign origin)" };

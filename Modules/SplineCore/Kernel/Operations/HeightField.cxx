@@ -12,7 +12,7 @@ constexpr double SameParameter = 1e-7;
 
 bool IsHeightField(const BezierForm<2>& form)
 {
-  if (!form.Space || !form.Space->HasDomain || form.Rational || form.NumComponents < 3)
+  if (!form.Space || !form.Space->HasDomain() || form.Rational || form.NumComponents < 3)
   {
     return false;
   }

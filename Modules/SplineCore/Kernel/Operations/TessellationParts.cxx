@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TessellationParts.h"
 
-#include "ChartLines.h"
-#include "LRSpace.h"
+#include "SpaceFamily.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,75 +15,17 @@ std::size_t At(std::int64_t i)
   return static_cast<std::size_t>(i);
 }
 
-void PlaceBoxes(const LRData& data, int chart, std::vector<ChartCell<2>>& cells)
-{
-  const std::array<std::vector<std::int64_t>, 2> lines{ ChartLines(data.Basis.Knots[0]),
-    ChartLines(data.Basis.Knots[1]) };
-  for (std::size_t e = 0; e < cells.size(); ++e)
-  {
-    ChartCell<2>& cell = cells[e];
-    cell.Chart = chart;
-    for (std::size_t d = 0; d < 2; ++d)
-    {
-      const int low = data.ElementKnots[e][d];
-      const int high = data.ElementKnots[e][d + 2];
-      cell.Lower[d] = lines[d][At(low)];
-      cell.Size[d] = lines[d][At(high)] - cell.Lower[d];
-      cell.RimLow[d] = low == 0;
-      cell.RimHigh[d] = At(high) + 1 == lines[d].size();
-    }
-  }
-}
 }
 
 template <int Dim>
 std::vector<std::vector<ChartCell<Dim>>> MakeCharts(
   const std::vector<BezierForm<Dim>>& patches, int& numCharts)
 {
-  std::vector<std::vector<ChartCell<Dim>>> cells(patches.size());
+  std::vector<std::vector<ChartCell<Dim>>> cells;
   numCharts = 0;
-  for (std::size_t p = 0; p < patches.size(); ++p)
+  for (const BezierForm<Dim>& form : patches)
   {
-    const SplineSpace<Dim>& space = *patches[p].Space;
-    cells[p].resize(space.Elements.size());
-    if constexpr (Dim == 2)
-    {
-      if (space.Kind == SpaceKind::LocallyRefined)
-      {
-        PlaceBoxes(*space.LocallyRefined, numCharts++, cells[p]);
-        continue;
-      }
-    }
-    for (std::size_t e = 0; e < space.Elements.size(); ++e)
-    {
-      ChartCell<Dim>& cell = cells[p][e];
-      const auto& element = space.Elements[e];
-      cell.Chart = numCharts;
-      if (!space.HasDomain)
-      {
-        ++numCharts;
-        cell.Size.fill(std::int64_t{ 1 } << ChartBits);
-        cell.RimLow.fill(true);
-        cell.RimHigh.fill(true);
-        continue;
-      }
-      cell.Level = element.Level;
-      for (std::size_t d = 0; d < Dim; ++d)
-      {
-        const KnotVector& knots = space.Knots[d];
-        const int root = knots.FindElement(0.5 * (element.Box.Lower[d] + element.Box.Upper[d]));
-        const double begin = knots.Breaks()[At(root)];
-        const double end = knots.Breaks()[At(root + 1)];
-        const auto index = static_cast<std::int64_t>(
-          std::llround(std::ldexp((element.Box.Lower[d] - begin) / (end - begin), element.Level)));
-        cell.Size[d] = std::int64_t{ 1 } << (ChartBits - element.Level);
-        cell.Lower[d] = (std::int64_t{ root } << ChartBits) + index * cell.Size[d];
-        cell.RimLow[d] = cell.Lower[d] == 0;
-        cell.RimHigh[d] =
-          cell.Lower[d] + cell.Size[d] == std::int64_t{ knots.NumElements() } << ChartBits;
-      }
-    }
-    numCharts += space.HasDomain ? 1 : 0;
+    cells.push_back(FamilyOf(*form.Space).Charts(*form.Space, numCharts));
   }
   return cells;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Parts of the tessellation, private to the kernel: dyadic charts, sides that match, vertices.
 #pragma once
+#include "ChartCell.h"
 #include "DisjointSets.h"
 #include "MultiPatch.h"
 #include "PointClusters.h"
@@ -10,23 +11,6 @@
 
 namespace knotwork
 {
-/// Chart coordinates: a level-0 cell is 2^ChartBits wide; 24 levels, 10 halvings and a middle point
-/// stay whole numbers.
-inline constexpr int ChartBits = 36;
-
-/// Position of an element on the dyadic grid of its chart. A chart is a patch with a parameter
-/// domain or a single element of a patch without.
-template <int Dim>
-struct ChartCell
-{
-  int Chart = 0;
-  int Level = 0;
-  std::array<std::int64_t, Dim> Lower{};
-  std::array<std::int64_t, Dim> Size{};
-  std::array<bool, Dim> RimLow{};
-  std::array<bool, Dim> RimHigh{};
-};
-
 /// Charts of all elements of all patches, patch after patch; numCharts receives their number.
 template <int Dim>
 std::vector<std::vector<ChartCell<Dim>>> MakeCharts(

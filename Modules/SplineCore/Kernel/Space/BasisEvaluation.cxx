@@ -197,7 +197,7 @@ Result<Eigen::SparseMatrix<double, Eigen::RowMajor>> CollocationMatrix(
       "points have " + std::to_string(parameters.cols()) + " parameters, the space has " +
         std::to_string(Dim) };
   }
-  if (!space.HasDomain)
+  if (!space.HasDomain())
   {
     return { ErrorCode::DimensionMismatch, "the space has no parameter domain" };
   }

@@ -2,8 +2,8 @@
 #include "SplineSpace.h"
 
 #include "FactorPool.h"
-#include "LRSpace.h"
 #include "Parallel.h"
+#include "SpaceFamily.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,136 +25,14 @@ ParametricBox<Dim> SplineSpace<Dim>::Domain() const
 
 namespace
 {
-constexpr std::size_t LocateBlockSize = 64;
 constexpr std::size_t RowChunk = 4096;
-
-/// Root cells and local parameters of up to LocateBlockSize points; cell -1 outside. One direction
-/// and one step of the arithmetic at a time, so that the compiler uses vectors.
-template <int Dim>
-void LocateRootCells(const std::array<KnotVector, Dim>& knots, const double* u,
-  std::ptrdiff_t stride, std::size_t n, int* cells, double* local)
-{
-  std::fill_n(cells, n, 0);
-  bool inside[LocateBlockSize];
-  std::fill_n(inside, n, true);
-  int numCells = 1;
-  for (std::size_t d = 0; d < Dim; ++d)
-  {
-    double x[LocateBlockSize] = {};
-    double lower[LocateBlockSize];
-    double upper[LocateBlockSize];
-    int elements[LocateBlockSize];
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      x[i] = u[static_cast<std::ptrdiff_t>(i) * stride + static_cast<std::ptrdiff_t>(d)];
-    }
-    knots[d].FindElements(x, n, elements);
-    const double* breaks = knots[d].Breaks().data();
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      lower[i] = breaks[elements[i]];
-      upper[i] = breaks[elements[i] + 1];
-      cells[i] += numCells * elements[i];
-    }
-    const double slack = 1e-12 * (knots[d].End() - knots[d].Begin());
-    const double begin = knots[d].Begin() - slack;
-    const double end = knots[d].End() + slack;
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      inside[i] = inside[i] && x[i] >= begin && x[i] <= end;
-    }
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      x[i] = std::clamp((x[i] - lower[i]) / (upper[i] - lower[i]), 0.0, 1.0);
-    }
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      local[i * Dim + d] = x[i];
-    }
-    numCells *= knots[d].NumElements();
-  }
-  for (std::size_t i = 0; i < n; ++i)
-  {
-    cells[i] = inside[i] ? cells[i] : -1;
-  }
-}
-
-void LocateInBoxes(const SplineSpace<2>& space, const double* u, std::ptrdiff_t stride,
-  std::size_t n, int* elements, double* local)
-{
-  const BoxLocator& locator = space.LocallyRefined->Locator;
-  const ParametricBox<2> domain = space.Domain();
-  RealArray<2> slack;
-  for (std::size_t d = 0; d < 2; ++d)
-  {
-    slack[d] = 1e-12 * (domain.Upper[d] - domain.Lower[d]);
-  }
-  for (std::size_t i = 0; i < n; ++i, u += stride, local += 2)
-  {
-    bool inside = true;
-    for (std::size_t d = 0; d < 2; ++d)
-    {
-      inside = inside && u[d] >= domain.Lower[d] - slack[d] && u[d] <= domain.Upper[d] + slack[d];
-    }
-    elements[i] = inside ? locator.Find(u[0], u[1]) : -1;
-    if (!inside)
-    {
-      continue;
-    }
-    const ParametricBox<2>& box = space.Elements[static_cast<std::size_t>(elements[i])].Box;
-    for (std::size_t d = 0; d < 2; ++d)
-    {
-      local[d] = std::clamp((u[d] - box.Lower[d]) / (box.Upper[d] - box.Lower[d]), 0.0, 1.0);
-    }
-  }
-}
 }
 
 template <int Dim>
 void SplineSpace<Dim>::Locate(
   const double* u, std::ptrdiff_t stride, std::size_t n, int* elements, double* local) const
 {
-  if (!this->HasDomain)
-  {
-    std::fill_n(elements, n, -1);
-    return;
-  }
-  if constexpr (Dim == 2)
-  {
-    if (this->Kind == SpaceKind::LocallyRefined)
-    {
-      LocateInBoxes(*this, u, stride, n, elements, local);
-      return;
-    }
-  }
-  for (std::size_t begin = 0; begin < n; begin += LocateBlockSize)
-  {
-    const std::size_t count = std::min(LocateBlockSize, n - begin);
-    double* t = local + begin * Dim;
-    LocateRootCells<Dim>(this->Knots, u + static_cast<std::ptrdiff_t>(begin) * stride, stride,
-      count, elements + begin, t);
-    for (std::size_t i = begin; i < begin + count; ++i, t += Dim)
-    {
-      if (elements[i] < 0)
-      {
-        continue;
-      }
-      int node = this->RootCells[static_cast<std::size_t>(elements[i])];
-      while (node < 0)
-      {
-        std::size_t child = 0;
-        for (std::size_t d = 0; d < Dim; ++d)
-        {
-          // doubling and subtracting one are exact, so no error builds up over the levels
-          const bool upper = t[d] >= 0.5;
-          t[d] = 2.0 * t[d] - (upper ? 1.0 : 0.0);
-          child |= static_cast<std::size_t>(upper) << d;
-        }
-        node = this->Tree[(static_cast<std::size_t>(-1 - node) << Dim) + child];
-      }
-      elements[i] = node;
-    }
-  }
+  FamilyOf(*this).Locate(*this, u, stride, n, elements, local);
 }
 
 template <int Dim>

@@ -10,7 +10,7 @@
 
 namespace knotwork
 {
-/// Families of spline spaces. A family is a builder of SplineSpace and its definition.
+/// Families of spline spaces.
 enum class SpaceKind
 {
   Bezier,        ///< independent or glued Bezier elements without a common parameter domain
@@ -18,6 +18,26 @@ enum class SpaceKind
   Hierarchical,  ///< truncated hierarchical B-splines (THB)
   LocallyRefined ///< LR B-splines, two parameters
 };
+
+inline constexpr SpaceKind AllSpaceKinds[] = { SpaceKind::Bezier, SpaceKind::Tensor,
+  SpaceKind::Hierarchical, SpaceKind::LocallyRefined };
+/// Whether elements of such spaces are boxes of one parameter domain.
+constexpr bool HasParameterDomain(SpaceKind kind)
+{
+  switch (kind)
+  {
+    case SpaceKind::Bezier:
+      return false;
+    case SpaceKind::Tensor:
+    case SpaceKind::Hierarchical:
+    case SpaceKind::LocallyRefined:
+      break;
+  }
+  return true;
+}
+/// What a family knows and does (SpaceFamily.h).
+template <int Dim>
+class SpaceFamily;
 
 /// Box of elements of a level grid: cells with index in [Lower, Upper) per direction belong to
 /// Omega^Level (they are refined at least to this level). Level >= 1.
@@ -71,8 +91,6 @@ public:
   SpaceKind Kind = SpaceKind::Tensor;
   std::vector<Element> Elements;
   int NumFunctions = 0;
-  /// True when Element::Box are boxes of one parameter domain and Locate works.
-  bool HasDomain = true;
 
   /// Local function ids (rows of T) of all elements, first direction fastest within an element.
   std::vector<int> LocalFunctionIds;
@@ -94,10 +112,12 @@ public:
   std::shared_ptr<const LRData> LocallyRefined;
   /// Element of a level-0 cell (>= 0), or -1 - block when the cell is refined: children of block k
   /// are Tree[k * 2^Dim ... ], bit d of the child number = upper half in direction d. First
-  /// direction fastest. Empty when !HasDomain and for LocallyRefined, which has its own locator.
+  /// direction fastest. Empty when !HasDomain() and for LocallyRefined, which has its own locator.
   std::vector<int> RootCells;
   std::vector<int> Tree;
 
+  /// True when Element::Box are boxes of one parameter domain and Locate works.
+  bool HasDomain() const { return HasParameterDomain(this->Kind); }
   int NumElements() const { return static_cast<int>(this->Elements.size()); }
   bool IsIdentityMap() const { return this->RowStart.empty(); }
   const int* LocalFunctions(int e) const
@@ -120,7 +140,7 @@ public:
     }
     return f;
   }
-  /// Parameter domain. @pre HasDomain.
+  /// Parameter domain. @pre HasDomain().
   ParametricBox<Dim> Domain() const;
 
   /// Element and local parameters in [0, 1]^Dim of a point of the domain. Points outside by at most

@@ -10,7 +10,6 @@ inline SplineSpacePtr<1> MixedRowSpace(const Eigen::MatrixXd& map, int elements,
 {
   auto space = std::make_shared<SplineSpace<1>>();
   space->Kind = SpaceKind::Bezier;
-  space->HasDomain = false;
   space->NumFunctions = static_cast<int>(map.cols());
   space->NumLocalFunctions = static_cast<int>(map.rows());
   space->RowStart.push_back(0);

@@ -298,7 +298,7 @@ TYPED_TEST(TensorSpace, CountsAndBoxes_FormulaOracle)
     ASSERT_EQ(space->Kind, SpaceKind::Tensor);
     ASSERT_EQ(space->NumFunctions, functions);
     ASSERT_EQ(space->NumElements(), elements);
-    ASSERT_TRUE(space->HasDomain);
+    ASSERT_TRUE(space->HasDomain());
     ASSERT_TRUE(space->IsIdentityMap());
     double sum = 0.0;
     for (const auto& element : space->Elements)

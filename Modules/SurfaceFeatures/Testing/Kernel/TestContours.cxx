@@ -23,7 +23,7 @@ ContourSet Trace(const Spline<2>& surface, const std::vector<double>& levels, do
   EXPECT_LE(contours.MaxError, tolerance);
   EXPECT_LE(SampledError(form, contours), contours.MaxError + 1e-15);
   EXPECT_LE(LargestBreak(form, contours), 1e-9); // points nearer than 1e-10 of an element are one
-  if (surface.Space->HasDomain)
+  if (surface.Space->HasDomain())
   {
     EXPECT_TRUE(EndsOnBorder(*surface.Space, contours));
   }

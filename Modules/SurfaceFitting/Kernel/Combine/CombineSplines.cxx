@@ -31,7 +31,7 @@ Status CheckSplines(const Spline<2>& a, const Spline<2>& b, const CombineParams&
     {
       return { status.Code, name + ": " + status.Detail };
     }
-    if (!spline.Space->HasDomain)
+    if (!spline.Space->HasDomain())
     {
       return { ErrorCode::DimensionMismatch,
         name + " is made of Bezier elements without a common parameter domain" };

@@ -9,7 +9,6 @@ Result<SplineSpacePtr<Dim>> MakeBezierSpace(
 {
   auto space = std::make_shared<SplineSpace<Dim>>();
   space->Kind = SpaceKind::Bezier;
-  space->HasDomain = false;
   space->NumFunctions = numFunctions;
   space->NumLocalFunctions = numFunctions;
   space->Elements.resize(degrees.size());

@@ -15,4 +15,8 @@ namespace knotwork
 template <int Dim>
 Result<SplineSpacePtr<Dim>> MakeBezierSpace(
   const std::vector<IntArray<Dim>>& degrees, const std::vector<int>& pointIds, int numFunctions);
+
+/// The family's entry in the table.
+template <int Dim>
+const SpaceFamily<Dim>& BezierFamily();
 }

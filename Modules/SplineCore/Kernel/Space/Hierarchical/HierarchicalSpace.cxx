@@ -339,87 +339,6 @@ Result<SplineSpacePtr<Dim>> RefineBoxes(const SplineSpacePtr<Dim>& space,
   return FinishRefinement(space, tree, params);
 }
 
-namespace
-{
-template <int Dim>
-std::vector<FunctionInfo<Dim>> DescribeLRFunctions(const LRBasis& basis)
-{
-  std::vector<FunctionInfo<Dim>> infos(static_cast<std::size_t>(basis.NumFunctions()));
-  for (std::size_t f = 0; f < infos.size(); ++f)
-  {
-    infos[f].Index[0] = static_cast<std::int64_t>(f);
-    for (std::size_t d = 0; d < std::min<std::size_t>(Dim, 2); ++d)
-    {
-      const int* local = basis.Local(static_cast<int>(f), static_cast<int>(d));
-      for (int i = 1; i <= basis.Degree[d]; ++i)
-      {
-        infos[f].Greville[d] +=
-          basis.Knots[d][static_cast<std::size_t>(local[i])] / basis.Degree[d];
-      }
-    }
-  }
-  return infos;
-}
-}
-
-template <int Dim>
-std::vector<FunctionInfo<Dim>> DescribeFunctions(const SplineSpace<Dim>& space)
-{
-  std::vector<FunctionInfo<Dim>> infos;
-  if (!space.HasDomain)
-  {
-    return infos;
-  }
-  infos.reserve(static_cast<std::size_t>(space.NumFunctions));
-  const std::vector<DyadicKnots> knots = MakeDyadicKnots<Dim>(space.Knots);
-  std::array<IndexMemo<double>, Dim> memo;
-  const auto describe = [&](int level, const LevelIndex<Dim>& index)
-  {
-    FunctionInfo<Dim> info;
-    info.Level = level;
-    info.Index = index;
-    for (std::size_t d = 0; d < Dim; ++d)
-    {
-      info.Greville[d] =
-        memo[d].Get(index[d], [&](std::int64_t i) { return knots[d].Greville(level, i); });
-    }
-    infos.push_back(info);
-  };
-  if (space.Kind == SpaceKind::LocallyRefined)
-  {
-    return DescribeLRFunctions<Dim>(space.LocallyRefined->Basis);
-  }
-  if (space.Kind == SpaceKind::Tensor)
-  {
-    IntArray<Dim> shape;
-    for (std::size_t d = 0; d < Dim; ++d)
-    {
-      shape[d] = space.Knots[d].NumFunctions();
-    }
-    ForEachOffset<Dim>(shape,
-      [&](const IntArray<Dim>& offset)
-      {
-        LevelIndex<Dim> index;
-        std::copy(offset.begin(), offset.end(), index.begin());
-        describe(0, index);
-      });
-    return infos;
-  }
-  for (std::size_t l = 0; l < space.Levels->Levels.size(); ++l)
-  {
-    memo = {};
-    const HierarchyLevel<Dim>& level = space.Levels->Levels[l];
-    for (std::size_t i = 0; i < level.Ids.size(); ++i)
-    {
-      if (level.Ids[i] >= 0)
-      {
-        describe(static_cast<int>(l), level.Functions.Index(i));
-      }
-    }
-  }
-  return infos;
-}
-
 #define KNOTWORK_INSTANTIATE(Dim)                                                                  \
   template Result<SplineSpacePtr<Dim>> MakeHierarchicalSpace<Dim>(                                 \
     const std::array<KnotVector, Dim>&, const std::vector<HierarchyBox<Dim>>&);                    \
@@ -427,8 +346,7 @@ std::vector<FunctionInfo<Dim>> DescribeFunctions(const SplineSpace<Dim>& space)
   template Result<SplineSpacePtr<Dim>> RefineElements<Dim>(                                        \
     const SplineSpacePtr<Dim>&, const std::vector<int>&, const RefinementParams&);                 \
   template Result<SplineSpacePtr<Dim>> RefineBoxes<Dim>(                                           \
-    const SplineSpacePtr<Dim>&, const std::vector<HierarchyBox<Dim>>&, const RefinementParams&);   \
-  template std::vector<FunctionInfo<Dim>> DescribeFunctions<Dim>(const SplineSpace<Dim>&);
+    const SplineSpacePtr<Dim>&, const std::vector<HierarchyBox<Dim>>&, const RefinementParams&);
 KNOTWORK_INSTANTIATE(1)
 KNOTWORK_INSTANTIATE(2)
 KNOTWORK_INSTANTIATE(3)

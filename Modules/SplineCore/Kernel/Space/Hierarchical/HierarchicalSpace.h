@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <knotwork/SplineCore/FunctionInfo.h>
 #include <knotwork/SplineCore/Spline.h>
 
 namespace knotwork
@@ -58,16 +59,7 @@ template <int Dim>
 Result<Spline<Dim>> TransferToRefined(
   const Spline<Dim>& spline, const SplineSpacePtr<Dim>& refined);
 
-/// Level and multi-index (in the level's tensor-product basis) of every function, and its anchor:
-/// the centre of its Greville abscissae. Works for Tensor and Hierarchical spaces; functions of a
-/// LocallyRefined space all have level 0 and the number of the function as their first index.
+/// The family's entry in the table.
 template <int Dim>
-struct FunctionInfo
-{
-  int Level = 0;
-  std::array<std::int64_t, Dim> Index{};
-  RealArray<Dim> Greville{};
-};
-template <int Dim>
-std::vector<FunctionInfo<Dim>> DescribeFunctions(const SplineSpace<Dim>& space);
+const SpaceFamily<Dim>& HierarchicalFamily();
 }

@@ -88,4 +88,8 @@ Result<LRBasis> LRBasisOfTensor(const SplineSpace<2>& space);
 /// Box partition of an LR mesh: every element as knot indices, lower corner, upper corner, ordered
 /// as in LRData. @return InvalidTopology naming the place where a line ends inside an element.
 Result<std::vector<std::array<int, 4>>> LRElements(const LRBasis& basis);
+
+/// The family's entry in the table; only the one for two parameters has spaces.
+template <int Dim>
+const SpaceFamily<Dim>& LRFamily();
 }

@@ -28,4 +28,8 @@ Result<Spline<Dim>> ElevateDegree(const Spline<Dim>& spline, int direction, int 
 /// Greville abscissae of all functions of a Tensor space, NumFunctions x Dim.
 template <int Dim>
 PointMatrix GrevillePoints(const SplineSpace<Dim>& space);
+
+/// The family's entry in the table.
+template <int Dim>
+const SpaceFamily<Dim>& TensorFamily();
 }
