@@ -56,13 +56,32 @@ function(knotwork_add_kernel module)
   set_property(GLOBAL APPEND PROPERTY KNOTWORK_KERNELS ${target})
 endfunction()
 
+# knotwork_generate(COMMAND OUTPUT file... ARGUMENTS argument... HEADERS header... [DEPENDS file...]): what properties.py makes of
+# the properties that headers declare, at build time.
+function(knotwork_generate command)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "OUTPUT;ARGUMENTS;HEADERS;DEPENDS")
+  set(script "${CMAKE_SOURCE_DIR}/CMake/properties.py")
+  add_custom_command(OUTPUT ${arg_OUTPUT}
+    COMMAND "${Python3_EXECUTABLE}" "${script}" ${command} ${arg_ARGUMENTS} ${arg_HEADERS}
+    DEPENDS "${script}" ${arg_HEADERS} ${arg_DEPENDS}
+    COMMENT "Properties: ${command}"
+    VERBATIM)
+endfunction()
+
 # knotwork_add_filters(MODULE CLASSES class... [HEADERS file...] [SOURCES file...] [PRIVATE_CLASSES class...])
-#   The VTK module Knotwork::<MODULE> that Modules/<MODULE>/vtk.module describes. Links its kernel, and the kernels of what
+#   The VTK module Knotwork::<MODULE> that Modules/<MODULE>/vtk.module describes; PrintSelf of its classes is generated. Links its kernel, and the kernels of what
 #   KnotworkModules.cmake states under FILTERS.
 function(knotwork_add_filters module)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "CLASSES;HEADERS;SOURCES;PRIVATE_CLASSES")
+  set(headers ${arg_CLASSES})
+  list(TRANSFORM headers PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/")
+  list(TRANSFORM headers APPEND ".h")
+  set(print_self "${CMAKE_CURRENT_BINARY_DIR}/PrintSelf.cxx")
+  set_property(GLOBAL APPEND PROPERTY KNOTWORK_FILTER_HEADERS ${headers})
+  knotwork_generate(print-self OUTPUT "${print_self}" ARGUMENTS "${print_self}" HEADERS ${headers})
   vtk_module_add_module(Knotwork::${module}
-    CLASSES ${arg_CLASSES} NOWRAP_HEADERS ${arg_HEADERS} SOURCES ${arg_SOURCES} PRIVATE_CLASSES ${arg_PRIVATE_CLASSES}
+    CLASSES ${arg_CLASSES} NOWRAP_HEADERS ${arg_HEADERS} SOURCES ${arg_SOURCES} "${print_self}"
+    PRIVATE_CLASSES ${arg_PRIVATE_CLASSES}
     HEADERS_SUBDIR "knotwork/${module}")
   vtk_module_compile_features(Knotwork::${module} PUBLIC cxx_std_17)
   list(TRANSFORM arg_CLASSES APPEND ".h")

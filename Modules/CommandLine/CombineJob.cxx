@@ -20,16 +20,7 @@ public:
     this->AddInput(0, "first", "spline surfaces (.vtu .vtpc .xml .g2 .step .iges)");
     this->AddInput(1, "second", "spline surfaces over the same domains", " and ");
     this->AddOutput(0, "--output", Endings::Splines, "the combination");
-    Options& options = this->FilterOptions;
-    vtkSplineCombine* filter = this->Filter;
-    KNOTWORK_CHOICE(options, filter, Mode, "first - second, their mean, or any sum", "difference",
-      "average", "weighted");
-    KNOTWORK_FREE_OPTION(options, filter, FirstWeight, "weight of the first surface, for weighted");
-    KNOTWORK_FREE_OPTION(
-      options, filter, SecondWeight, "weight of the second surface, for weighted");
-    KNOTWORK_FREE_OPTION(options, filter, CommonDomain,
-      "whether surfaces are cut to what their domains have in common");
-    KNOTWORK_OPTION(options, filter, MaximumFunctions, "more functions are not made");
+    this->AddProperties();
   }
 
 protected:

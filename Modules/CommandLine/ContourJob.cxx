@@ -35,32 +35,9 @@ public:
     this->AddOutput(
       Undecided, "--undecided", Endings::Polygons, "what stayed undecided, if anything");
     app.add_option("--levels", this->GivenLevels, "values of the contours");
-    Options& options = this->FilterOptions;
-    vtkSplineContour* filter = this->Filter;
-    options
-      .Add<int>(
-        "Number", filter->GetNumberOfLevels(), [filter](int n) { filter->SetNumberOfLevels(n); },
-        "levels that are chosen when none are given")
-      ->check(InRange(filter->GetNumberOfLevelsMinValue(), filter->GetNumberOfLevelsMaxValue()));
-    options
-      .Add<std::vector<double>>(
-        "Range", { filter->GetRange()[0], filter->GetRange()[1] },
-        [filter](const std::vector<double>& range) { filter->SetRange(range[0], range[1]); },
-        "range of the levels that are chosen; 0 0: that of the values")
-      ->expected(2);
-    options.Add<std::string>(
-      "Field", filter->GetFieldName(),
-      [filter](const std::string& name) { filter->SetFieldName(name); },
-      "field whose contours are wanted; empty: the coordinates");
-    KNOTWORK_OPTION(options, filter, Component, "component of the field; -1: the last, the height");
-    KNOTWORK_OPTION(options, filter, Tolerance,
-      "largest difference between value and level; 0: a ten-thousandth of the range of the values");
-    KNOTWORK_OPTION(options, filter, ChordalTolerance,
-      "largest distance in space between pieces and surface; 0: a thousandth of the size");
-    KNOTWORK_FREE_OPTION(options, filter, JoinSeams, "whether contours go on over seams");
-    KNOTWORK_FREE_OPTION(options, filter, ProjectToLevel, "whether z becomes the level");
-    KNOTWORK_OPTION(options, filter, MaximumCells, "cells an element is divided into at most");
-    KNOTWORK_OPTION(options, filter, MaximumPoints, "contours of more points are not made");
+    this->FilterOptions.Rename("NumberOfLevels", "Number");
+    this->FilterOptions.Rename("FieldName", "Field");
+    this->AddProperties({ "Curves" });
   }
 
 protected:

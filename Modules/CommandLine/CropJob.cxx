@@ -34,18 +34,7 @@ public:
       Surfaces, "--output", Endings::Surfaces, "the trimmed faces, or their surface alone");
     this->AddOutput(Triangles, "--triangles", Endings::Polygons, "the faces as triangles");
     this->AddOutput(Curves, "--curves", Endings::Grid, "the trimming curves as Bezier grid");
-    Options& options = this->FilterOptions;
-    vtkSplineTrimToPoints* filter = this->Filter;
-    KNOTWORK_OPTION(options, filter, CellSize,
-      "side of the cells that tell where points are; 0: 2.5 times the mean spacing");
-    KNOTWORK_OPTION(
-      options, filter, MaximumGap, "holes and bays up to this width are closed; 0: two cells");
-    KNOTWORK_OPTION(options, filter, MinimumCells, "separate parts with fewer cells are left out");
-    KNOTWORK_OPTION(options, filter, Tolerance,
-      "largest distance between outline and trimming curves; 0: a third of a cell");
-    KNOTWORK_OPTION(options, filter, ChordalTolerance,
-      "largest distance between triangles and faces; 0: a quarter of the tolerance");
-    KNOTWORK_OPTION(options, filter, MaximumFunctions, "larger tensor products are not made");
+    this->AddProperties({ "Triangulation" });
   }
 
 protected:

@@ -20,11 +20,7 @@ public:
       "the points with their distances and classes (.vtp or .vtu, as they are)");
     this->AddOutput(1, "--class-table", Endings::Table, "statistics of every class");
     app.add_option("--tolerances", this->Tolerances, "limits of the classes, ascending");
-    Options& options = this->FilterOptions;
-    vtkSplinePointDistance* filter = this->Filter;
-    KNOTWORK_CHOICE(options, filter, Kind,
-      "vertical distances, those from closest points, or vertical ones of height fields",
-      "automatic", "vertical", "closest");
+    this->AddProperties();
   }
 
 protected:

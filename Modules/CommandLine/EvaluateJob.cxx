@@ -19,16 +19,7 @@ public:
     this->AddInput(0, "input", "spline grid (.vtu .vtpc .xml .g2 .step .iges)");
     this->AddInput(1, "points", "points (.vtp .vtu)", " at ");
     this->AddOutput(0, "--output", Endings::Sampled, "the points on the spline, with derivatives");
-    Options& options = this->FilterOptions;
-    vtkSplineEvaluate* filter = this->Filter;
-    KNOTWORK_CHOICE(options, filter, Mode,
-      "points are parameters, or positions whose nearest point on the spline is wanted",
-      "parameters", "probe");
-    KNOTWORK_OPTION(options, filter, Derivatives, "highest order of derivatives");
-    KNOTWORK_FREE_OPTION(
-      options, filter, ParameterArray, "point array of parameters; empty: the coordinates");
-    KNOTWORK_FREE_OPTION(options, filter, PatchIdArray, "point array with the patch of each point");
-    KNOTWORK_FREE_OPTION(options, filter, PatchId, "patch of all points; -1: the only one");
+    this->AddProperties();
   }
 
 protected:

@@ -17,19 +17,7 @@ public:
     this->AddInput(0, "input", "spline surfaces (.vtu .vtpc .xml .g2 .step .iges)");
     this->AddOutput(0, "--output", Endings::Splines, "the part or curve");
     app.add_option("--box", this->Box, "keep the part over u0 u1 v0 v1 only")->expected(4);
-    Options& options = this->FilterOptions;
-    vtkSplineExtract* filter = this->Filter;
-    KNOTWORK_FREE_OPTION(options, filter, SwapParameters, "whether the parameters are exchanged");
-    KNOTWORK_FREE_OPTION(options, filter, ReverseFirst, "whether the first parameter is reversed");
-    KNOTWORK_FREE_OPTION(
-      options, filter, ReverseSecond, "whether the second parameter is reversed");
-    KNOTWORK_FREE_OPTION(
-      options, filter, ExpandToTensor, "whether LR surfaces become tensor products");
-    KNOTWORK_CHOICE(options, filter, IsoCurve,
-      "the parameter that is constant on a curve that is taken instead of the surface", "none",
-      "first", "second");
-    KNOTWORK_FREE_OPTION(options, filter, IsoValue, "its value");
-    KNOTWORK_OPTION(options, filter, MaximumFunctions, "more functions are not made");
+    this->AddProperties({ "RestrictToBox", "Box" });
   }
 
 protected:

@@ -22,17 +22,7 @@ public:
     this->AddOutput(0, "--output", Endings::Points, "critical points as vertices");
     this->AddOutput(1, "--boxes", Endings::Polygons, "boxes that hold one point, or a cluster");
     this->AddOutput(Numbers, "--table", Endings::Table, "numbers of points and clusters");
-    Options& options = this->FilterOptions;
-    vtkSplineExtrema* filter = this->Filter;
-    KNOTWORK_TEXT_OPTION(options, filter, FieldName, "field that is the function; else geometry");
-    KNOTWORK_OPTION(options, filter, Component, "of the geometry or the field; 2 is z");
-    KNOTWORK_FREE_OPTION(options, filter, Minima, "whether minima are written");
-    KNOTWORK_FREE_OPTION(options, filter, Maxima, "whether maxima are written");
-    KNOTWORK_FREE_OPTION(options, filter, Saddles, "whether saddles are written");
-    KNOTWORK_FREE_OPTION(options, filter, Boundary, "whether the boundary is searched");
-    KNOTWORK_FREE_OPTION(options, filter, OnSurface, "on the surface, else in the parameter plane");
-    KNOTWORK_OPTION(options, filter, MaximumDepth, "halvings of an element at most");
-    KNOTWORK_OPTION(options, filter, MaximumBoxes, "undecided boxes of an element at a time");
+    this->AddProperties();
   }
 
 protected:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "FilterProperties.h"
 #include "Jobs.h"
 #include "Options.h"
 #include "Session.h"
@@ -10,7 +11,9 @@
 #include <initializer_list>
 #include <list>
 #include <memory>
+#include <set>
 #include <string>
+#include <utility>
 
 class vtkSplineAlgorithm;
 
@@ -86,6 +89,13 @@ class FilterJob : public FilterJobBase
 {
 protected:
   explicit FilterJob(CLI::App& app) : FilterJobBase(app) { this->Algorithm = this->Filter; }
+
+  /// Properties of the filter become options, but for those that follow from other ones.
+  void AddProperties(std::set<std::string> leftOut = {})
+  {
+    this->FilterOptions.LeaveOut(std::move(leftOut));
+    knotwork::AddProperties(this->FilterOptions, this->Filter);
+  }
 
   vtkNew<FilterType> Filter;
 };

@@ -37,59 +37,6 @@ vtkSmartPointer<vtkPolyData> AsPolyData(vtkPointSet* data)
   return points;
 }
 
-void AddFitOptions(Options& options, vtkSplineSurfaceFit* filter)
-{
-  const auto choice = [&](const char* name, const std::vector<std::string>& names, int initial,
-                        void (vtkSplineSurfaceFit::*set)(int), const std::string& help)
-  {
-    options.AddChoice(
-      name, names, initial, [=](int value) { (filter->*set)(value); }, help);
-  };
-  using Fit = vtkSplineSurfaceFit;
-  choice("Space", { "lr", "thb" }, filter->GetSpace(), &Fit::SetSpace, "kind of the spline space");
-  KNOTWORK_OPTION(options, filter, Tolerance,
-    "largest distance of points; 0: a thousandth of the range of the values");
-  choice("Parameterization", { "height-field", "given", "computed" }, filter->GetParameterization(),
-    &Fit::SetParameterization, "where parameters come from: x and y, an array, or a projection");
-  KNOTWORK_FREE_OPTION(options, filter, AllFields, "fit all point arrays of numbers along");
-  KNOTWORK_OPTION(options, filter, Degree, "in the first parameter");
-  KNOTWORK_OPTION(options, filter, SecondDegree, "in the second parameter; 0: as the first");
-  KNOTWORK_OPTION(
-    options, filter, InitialElementsU, "of the initial space; 0: by the number of points");
-  KNOTWORK_OPTION(
-    options, filter, InitialElementsV, "of the initial space; 0: by the number of points");
-  choice("Method", { "least-squares", "mba", "combined" }, filter->GetMethod(), &Fit::SetMethod,
-    "how control points are found");
-  KNOTWORK_OPTION(
-    options, filter, SwitchIteration, "first iteration of MBA in the combined method");
-  KNOTWORK_OPTION(options, filter, Smoothing, "weight of the thin-plate energy in least squares");
-  KNOTWORK_OPTION(options, filter, SignificantWeight, "how many times a significant point counts");
-  choice("DistanceMode", { "none", "value", "point" }, filter->GetDistanceMode(),
-    &Fit::SetDistanceMode, "what the tolerance grows with");
-  KNOTWORK_OPTION(options, filter, DistanceSlope, "growth of the tolerance a unit of distance");
-  choice("Side", { "both", "above", "below" }, filter->GetSide(), &Fit::SetSide,
-    "above: no point above the surface; below: none below it");
-  KNOTWORK_FREE_OPTION(options, filter, FindOutliers, "whether outliers are looked for");
-  KNOTWORK_OPTION(options, filter, OutlierScale, "robust standard deviations that make an outlier");
-  KNOTWORK_OPTION(options, filter, MaximumIterations, "refinements at most");
-  KNOTWORK_OPTION(options, filter, MaximumFunctions,
-    "functions at most; 0: ten a point up to a million, then one a point");
-  KNOTWORK_OPTION(
-    options, filter, MaximumSeconds, "no iteration begins, or would end, later; 0: no limit");
-  choice("Criterion", { "tolerance", "aic", "bic" }, filter->GetCriterion(), &Fit::SetCriterion,
-    "what ends the fit besides tolerance and limits");
-  choice("Threshold", { "all", "largest-errors", "most-points" }, filter->GetThreshold(),
-    &Fit::SetThreshold, "which elements with points outside are split");
-  KNOTWORK_OPTION(options, filter, ThresholdShare, "of the largest error or number");
-  choice("Directions", { "both", "alternating", "by-error" }, filter->GetDirections(),
-    &Fit::SetDirections, "in which elements are split");
-  choice("Strategy", { "full-span", "minimum-span", "structured-mesh" }, filter->GetStrategy(),
-    &Fit::SetStrategy, "how far lines of an LR space reach");
-  KNOTWORK_FREE_OPTION(options, filter, Independent, "no step leaves dependent functions (slower)");
-  KNOTWORK_OPTION(options, filter, MinimumElementSize, "share of the domain; not split below");
-  KNOTWORK_OPTION(options, filter, FeatureGridSize, "cells of the feature grid in each direction");
-}
-
 /// Of vtkSplineSurfaceFit.
 enum Port
 {
@@ -112,7 +59,7 @@ public:
     this->AddOutput(Iterations, "--table", Endings::Table, "the iterations");
     this->AddOutput(Features, "--features", Endings::Image, "the feature grid");
     this->AddArrayOptions();
-    AddFitOptions(this->FilterOptions, this->Filter);
+    this->AddProperties();
   }
 
 protected:
@@ -136,15 +83,11 @@ protected:
       this->Filter->AddToleranceBox(
         boxes[i], boxes[i + 1], boxes[i + 2], boxes[i + 3], boxes[i + 4]);
     }
-    this->Filter->SetDomain(this->Domain.data());
-    this->Filter->SetDistanceCentre(this->DistanceCentre.data());
     session.Report["fields"] = this->Fields;
     session.Report["parameter_array"] = this->Arrays[0];
     session.Report["tolerance_array"] = this->Arrays[1];
     session.Report["significant_array"] = this->Arrays[2];
     session.Report["tolerance_boxes"] = this->ToleranceBoxes;
-    session.Report["domain"] = this->Domain;
-    session.Report["distance_centre"] = this->DistanceCentre;
     return this->RequirePointSet(0);
   }
 
@@ -222,23 +165,11 @@ private:
         "other")
       ->type_size(5)
       ->expected(1, 100000);
-    this->App
-      .add_option(
-        "--domain", this->Domain, "parameter domain u0 u1 v0 v1; 0 0 0 0: box of the points")
-      ->expected(4)
-      ->capture_default_str();
-    this->App
-      .add_option("--distance-centre", this->DistanceCentre,
-        "parameters from which the distance mode 'point' measures")
-      ->expected(2)
-      ->capture_default_str();
   }
 
   std::vector<std::string> Fields;
   std::array<std::string, 3> Arrays; ///< parameters, tolerances, significant points
   std::vector<double> ToleranceBoxes;
-  std::vector<double> Domain{ 0.0, 0.0, 0.0, 0.0 };
-  std::vector<double> DistanceCentre{ 0.0, 0.0 };
 };
 
 const JobRegistration Registration{ "fit", "fit a spline surface to scattered points",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterJob.h"
-#include "FlattenOptions.h"
+#include "FlattenReport.h"
 
 #include <knotwork/MeshParameterization/vtkMeshParameterization.h>
 
@@ -17,10 +17,7 @@ public:
     this->AddOutput(0, "--output", Endings::Polygons, "the mesh with plane coordinates UV");
     this->AddOutput(1, "--loops", Endings::Points, "its boundary loops, the outer one first");
     this->AddOutput(2, "--table", Endings::Table, "the summary of distortions");
-    Options& options = this->FilterOptions;
-    vtkMeshParameterization* filter = this->Filter;
-    AddFlattenOptions(options, filter, "Method");
-    KNOTWORK_FREE_OPTION(options, filter, FlatOutput, "points of the output are (u, v, 0)");
+    this->AddProperties();
   }
 
 protected:

@@ -13,68 +13,6 @@ namespace knotwork
 {
 namespace
 {
-/// The space, what is minimized, and when that ends.
-void AddFitOptions(Options& options, vtkTemplateMapping* filter)
-{
-  KNOTWORK_CHOICE(options, filter, Method,
-    "fixed parameters, point or tangent distance minimization, or both weighted", "fixed", "pdm",
-    "tdm", "weighted");
-  KNOTWORK_OPTION(options, filter, Iterations, "number of iterations");
-  KNOTWORK_OPTION(options, filter, Degree, "degree of the map");
-  KNOTWORK_OPTION(options, filter, InnerKnots, "inner knots in each direction");
-  KNOTWORK_VECTOR_OPTION(options, filter, InnerKnotsPerDirection, int,
-    "the same of the single directions; -1: the common number");
-  KNOTWORK_OPTION(options, filter, TemplateSamples,
-    "samples of each template patch for closest points; 0: the points as given");
-  KNOTWORK_OPTION(options, filter, NewtonSteps, "Newton steps after the closest sample");
-  KNOTWORK_OPTION(options, filter, PdmWeight, "of point distances, with --method weighted");
-  KNOTWORK_OPTION(options, filter, TdmWeight, "of tangent distances, with --method weighted");
-  KNOTWORK_OPTION(options, filter, TikhonovWeight, "weight of the distance to the last iterate");
-  KNOTWORK_OPTION(options, filter, UniformityWeight, "of the integral of sum |s_kl|^2");
-  KNOTWORK_OPTION(options, filter, LengthWeight, "of the integral of sum |s_k|^2");
-  KNOTWORK_OPTION(options, filter, OrthogonalityWeight, "of the integral of sum (s_k . s_l)^2");
-  KNOTWORK_OPTION(
-    options, filter, SkewnessWeight, "of the integral of sum cos^4 of the angles of s_k and s_l");
-  KNOTWORK_OPTION(
-    options, filter, EccentricityWeight, "of the integral of sum ((s_k . s_kk) / |s_k|^2)^2");
-  KNOTWORK_OPTION(options, filter, AreaWeight, "of the integral of (det J)^2");
-  KNOTWORK_OPTION(
-    options, filter, SelfIntersectionWeight, "of the integral of sum 1 / (|s_k|^2 + 1e-7)^2");
-  KNOTWORK_CHOICE(options, filter, InitialMap,
-    "the first map: the identity, or that with control points moved by mean displacements",
-    "identity", "moved");
-  options.AddChoice(
-    "Guard", { "off", "on" }, filter->GetGuard() ? 1 : 0,
-    [filter](int guard) { filter->SetGuard(guard == 1); },
-    "keep every iterate regular: det J > 0 is proved everywhere");
-  options.AddChoice(
-    "Injectivity", { "off", "on" }, filter->GetInjectivity() ? 1 : 0,
-    [filter](int prove) { filter->SetInjectivity(prove == 1); },
-    "whether the map as a whole is proved injective");
-  KNOTWORK_OPTION(options, filter, Accuracy, "end when the largest error is not above this");
-  KNOTWORK_OPTION(options, filter, MaxIrregularShare,
-    "end with the iterate before when det J < 0 at a larger share of a million points");
-}
-
-/// How the space grows.
-void AddRefinementOptions(Options& options, vtkTemplateMapping* filter)
-{
-  options.AddChoice(
-    "Refine", { "none", "local", "global" }, filter->GetRefinement(),
-    [filter](int refinement) { filter->SetRefinement(refinement); },
-    "smaller cells between iterations: where errors are large, or everywhere");
-  KNOTWORK_OPTION(
-    options, filter, RefineEvery, "after so many iterations; 0: when the error stagnates");
-  KNOTWORK_OPTION(options, filter, StagnationRatio,
-    "the error stagnates when it falls by a smaller part of itself in an iteration");
-  KNOTWORK_OPTION(options, filter, RefineThreshold, "local: errors from this on mark their cell");
-  KNOTWORK_OPTION(options, filter, RefineShare,
-    "local: the errors of this share of the samples mark their cell; 0: the threshold alone does");
-  KNOTWORK_OPTION(options, filter, Extension, "local: cells of the new level around a marked one");
-  KNOTWORK_OPTION(options, filter, MaxLevel, "cells of this level are not refined");
-  KNOTWORK_OPTION(options, filter, MaxFunctions, "a refinement to more functions is not made");
-}
-
 class MapJob : public FilterJob<vtkTemplateMapping>
 {
 public:
@@ -92,8 +30,18 @@ public:
         "box of the map: xmin xmax ymin ymax [zmin zmax]; without it the template's")
       ->expected(4, 6)
       ->check(CLI::Number);
-    AddFitOptions(this->FilterOptions, this->Filter);
-    AddRefinementOptions(this->FilterOptions, this->Filter);
+    Options& options = this->FilterOptions;
+    options.Rename("Refinement", "Refine");
+    vtkTemplateMapping* filter = this->Filter;
+    options.AddChoice(
+      "Guard", { "off", "on" }, filter->GetGuard() ? 1 : 0,
+      [filter](int guard) { filter->SetGuard(guard == 1); },
+      "keep every iterate regular: det J > 0 is proved everywhere");
+    options.AddChoice(
+      "Injectivity", { "off", "on" }, filter->GetInjectivity() ? 1 : 0,
+      [filter](int prove) { filter->SetInjectivity(prove == 1); },
+      "whether the map as a whole is proved injective");
+    this->AddProperties({ "Guard", "Injectivity", "UseDomain", "Domain" });
   }
 
 protected:

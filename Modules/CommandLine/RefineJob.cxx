@@ -29,38 +29,7 @@ public:
       ->expected(6)
       ->excludes(array)
       ->excludes(sphere);
-    Options& options = this->FilterOptions;
-    vtkSplineRefine* filter = this->Filter;
-    KNOTWORK_OPTION(options, filter, NumberOfRefinements, "how often");
-    KNOTWORK_FREE_OPTION(options, filter, GlobalRefinement,
-      "whether a patch with marked elements is refined everywhere");
-    KNOTWORK_OPTION(options, filter, DegreeElevation, "degrees added before elements are refined");
-    KNOTWORK_FREE_OPTION(options, filter, LowerThreshold, "lowest value of a marked cell");
-    KNOTWORK_FREE_OPTION(options, filter, UpperThreshold, "highest value of a marked cell");
-    KNOTWORK_CHOICE(options, filter, ImplicitRegion, "which cells at the sphere or plane",
-      "crossed", "crossed-or-inside");
-    KNOTWORK_OPTION(options, filter, Extension,
-      "rings of new cells around marked ones that are split too; -1: as few as bring new "
-      "functions");
-    KNOTWORK_OPTION(options, filter, AdmissibleClass,
-      "functions alive on an element belong to at most so many levels; 0: no limit");
-    KNOTWORK_OPTION(options, filter, MaxLevel, "cells of this level are not split");
-    KNOTWORK_CHOICE(options, filter, LocalSpace,
-      "what local refinement makes of tensor-product surfaces", "thb", "lr");
-    options.AddChoice(
-      "LrStrategy", { "full-span", "minimum-span", "structured-mesh" }, filter->GetLRStrategy(),
-      [filter](int strategy) { filter->SetLRStrategy(strategy); },
-      "how long lines of LR patches are");
-    options.AddChoice(
-      "LrTarget", { "elements", "functions" }, filter->GetLRTarget(),
-      [filter](int target) { filter->SetLRTarget(target); }, "what is halved in LR patches");
-    options.AddChoice(
-      "LrDirections", { "both", "alternating", "first", "second" }, filter->GetLRDirections(),
-      [filter](int directions) { filter->SetLRDirections(directions); },
-      "the parameter that is constant on new lines of LR patches");
-    KNOTWORK_FREE_OPTION(options, filter, KeepIndependent,
-      "whether the functions of LR patches are made linearly independent, with no refinements too");
-    KNOTWORK_OPTION(options, filter, MaximumFunctions, "more functions are not made");
+    this->AddProperties({ "Mode" });
   }
 
 protected:

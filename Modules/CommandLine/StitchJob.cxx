@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "FilterProperties.h"
 #include "Jobs.h"
 #include "Options.h"
 #include "Session.h"
@@ -123,13 +124,7 @@ Job Make(CLI::App& app)
     "a pair of sides that are one curve: tile, side, tile, side, 1 if they run against each other "
     "else 0; may be repeated");
   job->FilterOptions = std::make_unique<Options>(app);
-  Options& options = *job->FilterOptions;
-  vtkSplineStitch* filter = job->Filter;
-  KNOTWORK_OPTION(options, filter, Continuity, "0: tiles meet; 1: their derivatives do, too");
-  KNOTWORK_CHOICE(options, filter, Matching,
-    "neighbours: by the boxes of their parameters, by points of their sides, or as --pair says",
-    "domain", "geometry", "pairs");
-  KNOTWORK_OPTION(options, filter, Tolerance, "what counts as the same place, relative");
+  AddProperties(*job->FilterOptions, job->Filter);
   return [job](Session& session) { return job->Run(session); };
 }
 

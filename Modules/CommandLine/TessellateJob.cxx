@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "FilterProperties.h"
 #include "Jobs.h"
 #include "Options.h"
 #include "Session.h"
@@ -128,17 +129,7 @@ Job Make(CLI::App& app)
     app, "--output", job->Output, Endings::Cells, "linear cells (surface .vtp, volume .vtu)")
     ->required();
   job->FilterOptions = std::make_unique<Options>(app);
-  Options& options = *job->FilterOptions;
-  vtkSplineTessellate* filter = job->Filter;
-  KNOTWORK_OPTION(options, filter, ChordalTolerance, "largest deviation of a cell from the spline");
-  KNOTWORK_FREE_OPTION(options, filter, RelativeTolerance,
-    "whether the tolerance is a share of the bounding box's diagonal");
-  KNOTWORK_OPTION(options, filter, MaximumSubdivision, "halvings of an element at most");
-  KNOTWORK_CHOICE(options, filter, Cells, "cells that solids become", "surface", "volume");
-  KNOTWORK_FREE_OPTION(options, filter, Normals, "exact normals of surfaces");
-  KNOTWORK_FREE_OPTION(
-    options, filter, Splitting, "points repeated at creases and between patches");
-  KNOTWORK_OPTION(options, filter, MaximumCells, "more polygons or hexahedra are not made");
+  AddProperties(*job->FilterOptions, job->Filter);
   return [job](Session& session) { return job->Run(session); };
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "FlattenOptions.h"
+#include "FilterProperties.h"
+#include "FlattenReport.h"
 #include "Jobs.h"
 #include "Options.h"
 #include "Session.h"
@@ -195,32 +196,12 @@ Job Make(CLI::App& app)
   AddOutput(app, "--table", job->TableFile, Endings::Table, "the numbers");
   job->FilterOptions = std::make_unique<Options>(app);
   Options& options = *job->FilterOptions;
-  vtkTrimmedSurface* filter = job->Trim;
-  KNOTWORK_CHOICE(
-    options, filter, Method, "how the surfaces are made", "nurbs", "rbf", "hybrid", "penalized");
-  KNOTWORK_OPTION(options, filter, Tolerance,
-    "largest distance between mesh and faces; 0: a thousandth of the diagonal");
-  KNOTWORK_OPTION(options, filter, ChordalTolerance,
-    "largest distance between triangles and faces; 0: a quarter of the tolerance");
-  KNOTWORK_OPTION(options, filter, Elements,
-    "spans of a net in its longer direction; 0: as many as the tolerance asks for");
-  KNOTWORK_OPTION(options, filter, MaximumElements, "spans of a net in a direction at most");
-  KNOTWORK_OPTION(options, filter, Degree, "of the surfaces");
-  KNOTWORK_OPTION(
-    options, filter, Margin, "of the surfaces around their charts, part of the longest side");
-  KNOTWORK_OPTION(
-    options, filter, Smoothing, "weight of the thin-plate energy of the penalized method");
-  KNOTWORK_OPTION(options, filter, Centres, "radial basis functions at most");
-  KNOTWORK_OPTION(options, filter, CornerAngle,
-    "a boundary that turns by more degrees at a point has a corner there");
-  KNOTWORK_OPTION(options, filter, MaximumFunctions,
-    "functions that the net of a surface may have; 200000 take about 1.5e9 bytes");
-  KNOTWORK_OPTION(options, filter, Effort,
-    "work at most, about as many seconds of one core, but counted; then the best surfaces so far");
-  KNOTWORK_OPTION(
-    options, filter, TimeLimit, "seconds at most, then the best surfaces so far; 0: no limit");
+  options.LeaveOut({ "Triangulation" });
+  AddProperties(options, job->Trim);
   job->Flatten->SetMaximumStretch(ChartStretch);
-  AddFlattenOptions(options, job->Flatten, "Flatten");
+  options.LeaveOut({ "FlatOutput" });
+  options.Rename("Method", "Flatten");
+  AddProperties(options, job->Flatten);
   return [job](Session& session) { return job->Run(session); };
 }
 

@@ -77,16 +77,7 @@ public:
       ->required(false);
     this->AddOutput(1, "--witnesses", Endings::Grid, "points and boxes where cells are invalid");
     this->AddOutput(2, "--table", Endings::Table, "the verdict of every patch and of all");
-    Options& options = this->FilterOptions;
-    vtkJacobianValidator* filter = this->Filter;
-    KNOTWORK_OPTION(options, filter, RelativeGap, "relative gap of the bounds; 1: the sign only");
-    KNOTWORK_FREE_OPTION(
-      options, filter, BoundMaximum, "whether the maximum is bounded as closely as the minimum");
-    KNOTWORK_FREE_OPTION(
-      options, filter, Injectivity, "whether the map as a whole is proved injective");
-    KNOTWORK_FREE_OPTION(options, filter, Measures, "whether cells are measured, quality sampled");
-    KNOTWORK_OPTION(options, filter, SamplesPerEdge, "points along a cell's edges for the quality");
-    KNOTWORK_OPTION(options, filter, MaximumBoxes, "boxes looked at before cells stay undecided");
+    this->AddProperties();
   }
 
 protected:

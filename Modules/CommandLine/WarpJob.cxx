@@ -19,15 +19,7 @@ public:
     this->AddInput(0, "input", "points or splines to send (.vtu .vtp .vtpc .xml .g2 .step .iges)");
     this->AddInput(1, "map", "the spline map (.vtu .xml .g2 .step .iges)", " through ");
     this->AddOutput(0, "--output", Endings::Anything, "the image, same type as the input");
-    Options& options = this->FilterOptions;
-    vtkSplineWarp* filter = this->Filter;
-    KNOTWORK_FREE_OPTION(options, filter, MapPatchId, "patch of the map; -1: the only one");
-    KNOTWORK_FREE_OPTION(
-      options, filter, Clamp, "whether points outside the domain are moved to its border");
-    KNOTWORK_OPTION(
-      options, filter, Tolerance, "wanted distance of projected splines; 0: no refinement");
-    KNOTWORK_OPTION(options, filter, MaxLevel, "levels that refinement may add");
-    KNOTWORK_OPTION(options, filter, MaximumFunctions, "more functions are not made");
+    this->AddProperties();
   }
 
 protected:

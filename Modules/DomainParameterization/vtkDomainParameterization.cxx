@@ -131,36 +131,6 @@ vtkDomainParameterization::vtkDomainParameterization()
   this->SetNumberOfOutputPorts(3);
 }
 
-void vtkDomainParameterization::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "InitialMap: " << this->InitialMap << "\n";
-  os << indent << "Optimizer: " << this->Optimizer << "\n";
-  os << indent << "Foldover: " << this->Foldover << "\n";
-  os << indent << "Weights: " << this->Weights << "\n";
-  os << indent << "Objective: " << this->Objective << "\n";
-  os << indent << "Effort: " << this->Effort << "\n";
-  os << indent << "TimeLimit: " << this->TimeLimit << "\n";
-  os << indent << "FoldoverMargin: " << this->FoldoverMargin << "\n";
-  os << indent << "WinslowEpsilon: " << this->WinslowEpsilon << "\n";
-  os << indent << "AlternationTolerance: " << this->AlternationTolerance << "\n";
-  os << indent << "UniformityWeight: " << this->UniformityWeight << "\n";
-  os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
-  os << indent << "EnergyTolerance: " << this->EnergyTolerance << "\n";
-  os << indent << "MaximumAlternations: " << this->MaximumAlternations << "\n";
-  os << indent << "MaximumRefinements: " << this->MaximumRefinements << "\n";
-  os << indent << "GapTolerance: " << this->GapTolerance << "\n";
-  os << indent << "MetricSamples: " << this->MetricSamples << "\n";
-  os << indent << "CertificateGap: " << this->CertificateGap << "\n";
-  os << indent << "MaximumFunctions: " << this->MaximumFunctions << "\n";
-  os << indent << "MinimumDegree: " << this->MinimumDegree << "\n";
-  os << indent << "MinimumElements: " << this->MinimumElements << "\n";
-  os << indent << "MoveInterfaces: " << this->MoveInterfaces << "\n";
-  os << indent << "Verdict: " << this->Verdict << "\n";
-  os << indent << "Injectivity: " << this->Injectivity << "\n";
-  os << indent << "SecondsWithCertificate: " << this->SecondsWithCertificate << "\n";
-}
-
 int vtkDomainParameterization::FillInputPortInformation(int port, vtkInformation* info)
 {
   if (port == 0)

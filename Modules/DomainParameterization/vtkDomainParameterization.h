@@ -54,22 +54,23 @@ public:
 
   enum InitialMaps
   {
-    INITIAL_AUTOMATIC = 0, ///< Coons; harmonic when its folds cannot be removed
+    INITIAL_AUTOMATIC = 0, ///< "Automatic" Coons; harmonic when its folds cannot be removed
     COONS,
     SPRING,
     HARMONIC
   };
   enum Optimizers
   {
-    OPTIMIZER_AUTOMATIC = 0,
-    LBFGS,
+    OPTIMIZER_AUTOMATIC = 0, ///< "Automatic"
+    LBFGS,                   ///< "L-BFGS"
     NEWTON
   };
   enum Foldovers
   {
-    FOLDOVER_AUTOMATIC = 0, ///< a few rounds of ReLU, the penalty when that is not enough
+    FOLDOVER_AUTOMATIC =
+      0, ///< "Automatic" a few rounds of ReLU, the penalty when that is not enough
     PENALTY,
-    RELU
+    RELU ///< "ReLU"
   };
   enum Objectives
   {
@@ -78,122 +79,132 @@ public:
   };
   enum WeightModes
   {
-    WEIGHTS_AUTOMATIC = 0, ///< optimized only when control points alone give no valid map
-    WEIGHTS_FIXED,
-    WEIGHTS_OPTIMIZED
+    WEIGHTS_AUTOMATIC =
+      0,              ///< "Automatic" optimized only when control points alone give no valid map
+    WEIGHTS_FIXED,    ///< "Fixed"
+    WEIGHTS_OPTIMIZED ///< "Optimized"
   };
 
   ///@{
-  /** First map, one of InitialMaps. Default INITIAL_AUTOMATIC. */
+  /** The map the optimization begins with, one of InitialMaps. INITIAL_AUTOMATIC: COONS, and
+   * where that folds HARMONIC if it folds less. Default INITIAL_AUTOMATIC. */
   vtkSetClampMacro(InitialMap, int, INITIAL_AUTOMATIC, HARMONIC);
   vtkGetMacro(InitialMap, int);
   ///@}
   ///@{
-  /** One of Optimizers. Default OPTIMIZER_AUTOMATIC: the faster one. */
+  /** How the functional is minimized, one of Optimizers. OPTIMIZER_AUTOMATIC takes the faster
+   * one. Default OPTIMIZER_AUTOMATIC. Advanced. */
   vtkSetClampMacro(Optimizer, int, OPTIMIZER_AUTOMATIC, NEWTON);
   vtkGetMacro(Optimizer, int);
   ///@}
   ///@{
-  /** How folds of the first map are removed, one of Foldovers. Default FOLDOVER_AUTOMATIC. */
+  /** How folds of the first map are removed, one of Foldovers. FOLDOVER_AUTOMATIC: a few rounds
+   * of RELU, PENALTY when that is not enough. Default FOLDOVER_AUTOMATIC. Advanced. */
   vtkSetClampMacro(Foldover, int, FOLDOVER_AUTOMATIC, RELU);
   vtkGetMacro(Foldover, int);
   ///@}
   ///@{
-  /** Whether inner weights are optimized, one of WeightModes. Default WEIGHTS_AUTOMATIC. */
+  /** Whether inner weights move too, one of WeightModes. WEIGHTS_AUTOMATIC: only when control
+   * points alone give no valid map. Default WEIGHTS_AUTOMATIC. */
   vtkSetClampMacro(Weights, int, WEIGHTS_AUTOMATIC, WEIGHTS_OPTIMIZED);
   vtkGetMacro(Weights, int);
   ///@}
   ///@{
-  /** What the inner control points are to make best, one of Objectives. Default WINSLOW. */
+  /** What the inner control points are to make best, one of Objectives. WINSLOW: shape and
+   * uniformity together. LEAST_JACOBIAN: from there on, the largest least det J. Default
+   * WINSLOW. */
   vtkSetClampMacro(Objective, int, WINSLOW, LEAST_JACOBIAN);
   vtkGetMacro(Objective, int);
   ///@}
   ///@{
   /** Work at most, about as many seconds of one core, but counted: the same run ends at the same
-   * place on every machine, with the best map so far. Default 4, valid range [1e-6, 1e6]. */
+   * place on every machine, with the best map so far. Default 4, valid range [1e-6, 1000000]. */
   vtkSetClampMacro(Effort, double, 1e-6, 1e6);
   vtkGetMacro(Effort, double);
   ///@}
   ///@{
-  /** Seconds of the wall clock at most, then the best map so far is taken; 0: no limit. The result
-   * then depends on the machine's speed. Default 0, valid range [0, 1e9]. */
+  /** Seconds of the wall clock at most, then the best map so far is taken; 0: no limit. The
+   * result then depends on the machine's speed. Default 0, valid range [0, 1000000000].
+   * Advanced. */
   vtkSetClampMacro(TimeLimit, double, 0.0, 1e9);
   vtkGetMacro(TimeLimit, double);
   ///@}
   ///@{
-  /** Weight lambda of the uniformity int (det J / S - 1)^2. Default 1, valid range [0, 1e6]. */
+  /** Weight lambda of the uniformity int (det J / S - 1)^2 against the Winslow functional.
+   * Default 1, valid range [0, 1000000]. */
   vtkSetClampMacro(UniformityWeight, double, 0.0, 1e6);
   vtkGetMacro(UniformityWeight, double);
   ///@}
   ///@{
-  /** delta / S of the ReLU functional that removes folds; a tenth of it in every further round.
-   * Default 0.05, valid range [1e-6, 0.999]. */
+  /** delta / S of the RELU functional that removes folds; a tenth of it in every further round.
+   * Default 0.05, valid range [1e-6, 0.999]. Advanced. For Foldover not PENALTY. */
   vtkSetClampMacro(FoldoverMargin, double, 1e-6, 0.999);
   vtkGetMacro(FoldoverMargin, double);
   ///@}
   ///@{
   /** Added to det J / S in the denominator of the functional. Default 1e-10, valid range [1e-16,
-   * 1].
-   */
+   * 1]. Advanced. */
   vtkSetClampMacro(WinslowEpsilon, double, 1e-16, 1.0);
   vtkGetMacro(WinslowEpsilon, double);
   ///@}
   ///@{
   /** Rounds of control points and weights end when they lower the energy by less. Default 0.01,
-   * valid range [1e-12, 1e6]. */
+   * valid range [1e-12, 1000000]. Advanced. For Weights not WEIGHTS_FIXED. */
   vtkSetClampMacro(AlternationTolerance, double, 1e-12, 1e6);
   vtkGetMacro(AlternationTolerance, double);
   ///@}
   ///@{
-  /** Iterations of one minimization at most. Default 1000, valid range [1, 1000000]. */
+  /** Iterations of one minimization at most. Default 1000, valid range [1, 1000000]. Advanced. */
   vtkSetClampMacro(MaximumIterations, int, 1, 1000000);
   vtkGetMacro(MaximumIterations, int);
   ///@}
   ///@{
   /** A minimization ends after three iterations in a row that lower the energy by less than this
-   * part of it. Default 1e-7, valid range [1e-15, 0.5]. */
+   * part of it. Default 1e-7, valid range [1e-15, 0.5]. Advanced. */
   vtkSetClampMacro(EnergyTolerance, double, 1e-15, 0.5);
   vtkGetMacro(EnergyTolerance, double);
   ///@}
   ///@{
-  /** Rounds of control points and weights at most. Default 5, valid range [1, 100]. */
+  /** Rounds of control points and weights at most. Default 5, valid range [1, 100]. Advanced.
+   * For Weights not WEIGHTS_FIXED. */
   vtkSetClampMacro(MaximumAlternations, int, 1, 100);
   vtkGetMacro(MaximumAlternations, int);
   ///@}
   ///@{
-  /** Rounds of local (THB) refinement where the space is too poor for a valid map. Default 3, valid
-   * range [0, 10]. */
+  /** Rounds of local (THB) refinement where the space is too poor for a valid map. Default 3,
+   * valid range [0, 10]. */
   vtkSetClampMacro(MaximumRefinements, int, 0, 10);
   vtkGetMacro(MaximumRefinements, int);
   ///@}
   ///@{
   /** Ends of sides at most this part of the boundary's size apart are one corner. Default 1e-9,
-   * valid range [0, 0.1]. */
+   * valid range [0, 0.1]. Advanced. */
   vtkSetClampMacro(GapTolerance, double, 0.0, 0.1);
   vtkGetMacro(GapTolerance, double);
   ///@}
   ///@{
-  /** Samples a direction of the metrics, ends included; 0: 501 in the plane and 51 in space, 1: 2.
-   * The proved bounds do not depend on it. Default 0, valid range [0, 5001], in space to 301. */
+  /** Samples a direction of the metrics, ends included; 0: 501 in the plane and 51 in space, 1:
+   * 2; in space up to 301. The proved bounds do not depend on it. Default 0, valid range [0,
+   * 5001]. Advanced. */
   vtkSetClampMacro(MetricSamples, int, 0, 5001);
   vtkGetMacro(MetricSamples, int);
   ///@}
   ///@{
   /** How close the proved bounds of every element's smallest det J are brought: upper - lower <=
-   * CertificateGap * max(|lower|, |upper|). Default 0.1, valid range [1e-12, 1]. */
+   * CertificateGap * max(|lower|, |upper|). Default 0.1, valid range [1e-12, 1]. Advanced. */
   vtkSetClampMacro(CertificateGap, double, 1e-12, 1.0);
   vtkGetMacro(CertificateGap, double);
   ///@}
 
   ///@{
-  /** A map, or the patches of a layout together, with more functions is refused. Default 1000000,
-   * valid range [1, 2147483647]. */
+  /** A map, or the patches of a layout together, with more functions is refused. Default
+   * 1000000, valid range >= 1. Advanced. */
   vtkSetClampMacro(MaximumFunctions, int, 1, VTK_INT_MAX);
   vtkGetMacro(MaximumFunctions, int);
   ///@}
   ///@{
-  /** With a layout: directions of patches have at least this degree. Default 2, valid range [1, 9].
-   */
+  /** With a layout: directions of patches have at least this degree. Default 2, valid range [1,
+   * 9]. */
   vtkSetClampMacro(MinimumDegree, int, 1, 9);
   vtkGetMacro(MinimumDegree, int);
   ///@}

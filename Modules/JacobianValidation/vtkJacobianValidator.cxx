@@ -527,18 +527,6 @@ vtkJacobianValidator::vtkJacobianValidator()
   this->SetNumberOfOutputPorts(3);
 }
 
-void vtkJacobianValidator::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "RelativeGap: " << this->RelativeGap << "\n";
-  os << indent << "BoundMaximum: " << this->BoundMaximum << "\n";
-  os << indent << "MaximumBoxes: " << this->MaximumBoxes << "\n";
-  os << indent << "Injectivity: " << this->Injectivity << "\n";
-  os << indent << "Measures: " << this->Measures << "\n";
-  os << indent << "SamplesPerEdge: " << this->SamplesPerEdge << "\n";
-  os << indent << "Verdict: " << this->Verdict << "\n";
-}
-
 int vtkJacobianValidator::FillOutputPortInformation(int port, vtkInformation* info)
 {
   if (port == 0)

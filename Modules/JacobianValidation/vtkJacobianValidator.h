@@ -62,33 +62,35 @@ public:
   vtkGetMacro(RelativeGap, double);
   ///@}
   ///@{
-  /** Whether the bounds of max det J are brought as close. Default off. */
+  /** Whether the bounds of max det J are brought as close. Default off. Advanced. */
   vtkSetMacro(BoundMaximum, bool);
   vtkGetMacro(BoundMaximum, bool);
   vtkBooleanMacro(BoundMaximum, bool);
   ///@}
   ///@{
   /** Sub-boxes looked at, over all cells of a kind (planar or in space, polynomial or rational),
-   * before what is open stays undecided. Default 1000000, valid range [1, 1000000000]. */
+   * before what is open stays undecided. Default 1000000, valid range [1, 1000000000]. Advanced. */
   vtkSetClampMacro(MaximumBoxes, vtkIdType, 1, 1000000000);
   vtkGetMacro(MaximumBoxes, vtkIdType);
   ///@}
 
   ///@{
-  /** Whether the map as a whole is proved injective (planar maps and volumes). Default on. */
+  /** Whether the map as a whole is proved injective (planar maps and volumes), or an overlap is
+   * found. Default on. */
   vtkSetMacro(Injectivity, bool);
   vtkGetMacro(Injectivity, bool);
   vtkBooleanMacro(Injectivity, bool);
   ///@}
   ///@{
-  /** Whether cells are measured and their quality is sampled. Default on. */
+  /** Whether cells are measured (signed length, area or volume) and their quality is sampled.
+   * Default on. */
   vtkSetMacro(Measures, bool);
   vtkGetMacro(Measures, bool);
   vtkBooleanMacro(Measures, bool);
   ///@}
   ///@{
-  /** Points along every edge of a cell at which quality is sampled, ends included. Default 5, valid
-   * range [2, 64]. */
+  /** Points along every edge of a cell at which quality is sampled, ends included. Default 5,
+   * valid range [2, 64]. Advanced. For Measures on. */
   vtkSetClampMacro(SamplesPerEdge, int, 2, 64);
   vtkGetMacro(SamplesPerEdge, int);
   ///@}

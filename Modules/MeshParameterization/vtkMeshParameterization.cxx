@@ -48,24 +48,6 @@ vtkMeshParameterization::vtkMeshParameterization()
   this->SetNumberOfOutputPorts(3);
 }
 
-void vtkMeshParameterization::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "Method: " << this->Method << "\n";
-  os << indent << "LaplacianWeights: " << this->LaplacianWeights << "\n";
-  os << indent << "Geodesics: " << this->Geodesics << "\n";
-  os << indent << "Neighbours: " << this->Neighbours << "\n";
-  os << indent << "Landmarks: " << this->Landmarks << "\n";
-  os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
-  os << indent << "MinimumParticipation: " << this->MinimumParticipation << "\n";
-  os << indent << "MaximumStretch: " << this->MaximumStretch << "\n";
-  os << indent << "MaximumCharts: " << this->MaximumCharts << "\n";
-  os << indent << "CreaseAngle: " << this->CreaseAngle << "\n";
-  os << indent << "Fallback: " << this->Fallback << "\n";
-  os << indent << "LargestComponent: " << this->LargestComponent << "\n";
-  os << indent << "FlatOutput: " << this->FlatOutput << "\n";
-}
-
 int vtkMeshParameterization::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());

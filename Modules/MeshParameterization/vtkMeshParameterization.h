@@ -46,12 +46,12 @@ public:
 
   enum Methods
   {
-    HLLE = 0,
+    HLLE = 0, ///< "HLLE"
     ISOMAP,
-    LAPLACIAN,
-    LSCM,
-    ARAP,
-    INJECTIVE ///< as the fallback uses it: steps that flip no triangle
+    LAPLACIAN, ///< "Laplacian Eigenmaps"
+    LSCM,      ///< "LSCM"
+    ARAP,      ///< "ARAP"
+    INJECTIVE  ///< as the fallback uses it: steps that flip no triangle
   };
   enum LaplacianWeightings
   {
@@ -65,63 +65,69 @@ public:
   };
 
   ///@{
-  /** One of Methods. Default HLLE. */
+  /** How the mesh is laid into the plane, one of Methods: HLLE, Hessian eigenmaps; ISOMAP, wrong
+   * by nature where the plane domain is not convex, and LAPLACIAN, which distorts everywhere, to
+   * compare with; LSCM, conformal; ARAP, as rigid as possible; INJECTIVE, which never flips a
+   * triangle. Default HLLE. */
   vtkSetClampMacro(Method, int, HLLE, INJECTIVE);
   vtkGetMacro(Method, int);
   ///@}
   ///@{
-  /** Of LAPLACIAN, one of LaplacianWeightings. Default COTANGENT. */
+  /** Weights of LAPLACIAN, one of LaplacianWeightings. Default COTANGENT. Advanced. For Method
+   * LAPLACIAN. */
   vtkSetClampMacro(LaplacianWeights, int, COTANGENT, GRAPH);
   vtkGetMacro(LaplacianWeights, int);
   ///@}
   ///@{
-  /** Distances of ISOMAP and of the distance error, one of GeodesicEstimators. Default UNFOLDING.
-   */
+  /** Distances of ISOMAP and of the distance error, one of GeodesicEstimators. Shortest paths of
+   * edges are some percent too long however fine the mesh is. Default UNFOLDING. Advanced. */
   vtkSetClampMacro(Geodesics, int, UNFOLDING, EDGE_GRAPH);
   vtkGetMacro(Geodesics, int);
   ///@}
   ///@{
-  /** Geodesic neighbours of a vertex for HLLE. Default 10, valid range [6, 50]. */
+  /** Geodesic neighbours of a vertex for HLLE. More of them smooth more and fold curved surfaces
+   * more. Default 10, valid range [6, 50]. Advanced. For Method HLLE. */
   vtkSetClampMacro(Neighbours, int, 6, 50);
   vtkGetMacro(Neighbours, int);
   ///@}
   ///@{
-  /** Points whose distances ISOMAP takes. Default 50, valid range [3, 10000]. */
+  /** Points whose distances ISOMAP takes, the farthest ones. Default 50, valid range [3, 10000].
+   * Advanced. For Method ISOMAP. */
   vtkSetClampMacro(Landmarks, int, 3, 10000);
   vtkGetMacro(Landmarks, int);
   ///@}
   ///@{
-  /** Iterations of ARAP and INJECTIVE at most. Default 100, valid range [1, 10000]. */
+  /** Iterations of ARAP and INJECTIVE at most. Default 100, valid range [1, 10000]. Advanced. */
   vtkSetClampMacro(MaximumIterations, int, 1, 10000);
   vtkGetMacro(MaximumIterations, int);
   ///@}
   ///@{
-  /** HLLE rejects eigenvectors that live on a smaller part of the area. Default 0.02, valid range
-   * [0, 0.99]. */
+  /** HLLE rejects eigenvectors that live on a smaller part of the area. Default 0.02, valid
+   * range [0, 0.99]. Advanced. For Method HLLE. */
   vtkSetClampMacro(MinimumParticipation, double, 0.0, 0.99);
   vtkGetMacro(MinimumParticipation, double);
   ///@}
   ///@{
-  /** Stretch max(s1, 1/s2) that no chart exceeds, above 1; with 0 the mesh is one chart whatever
-   * its stretch. Default 0, valid range [0, 1000] without (0, 1]. */
+  /** Stretch max(s1, 1/s2), above 1, that no chart exceeds: the mesh, which may be closed then,
+   * is cut into charts. 0: one chart, whatever its stretch. Default 0, valid range [0, 1000]. */
   vtkSetClampMacro(MaximumStretch, double, 0.0, 1000.0);
   vtkGetMacro(MaximumStretch, double);
   ///@}
   ///@{
-  /** Charts at most; more stretch comes with a warning then. Default 500, valid range [1, 100000].
-   */
+  /** Charts at most; more stretch than MaximumStretch comes with a warning then. Default 500,
+   * valid range [1, 100000]. Advanced. */
   vtkSetClampMacro(MaximumCharts, int, 1, 100000);
   vtkGetMacro(MaximumCharts, int);
   ///@}
   ///@{
-  /** Angle between triangles, in degrees, above which cuts run along an edge where they can.
-   * Default 40, valid range [1, 179]. */
+  /** Cuts run along edges between triangles that meet at a larger angle, in degrees, where they
+   * can. Default 40, valid range [1, 179]. Advanced. */
   vtkSetClampMacro(CreaseAngle, double, 1.0, 179.0);
   vtkGetMacro(CreaseAngle, double);
   ///@}
   ///@{
-  /** Whether HLLE may be replaced when it folds or fails, and in charts any method that stretches
-   * too much. Default on. */
+  /** Whether HLLE is replaced, with a warning, when it folds or fails, and in charts any method
+   * that stretches too much. Default on. */
   vtkSetMacro(Fallback, bool);
   vtkGetMacro(Fallback, bool);
   vtkBooleanMacro(Fallback, bool);
@@ -134,7 +140,8 @@ public:
   vtkBooleanMacro(LargestComponent, bool);
   ///@}
   ///@{
-  /** Whether points of outputs 0 and 1 are (u, v, 0) instead of those of the input. Default off. */
+  /** Whether points of the mesh and its loops are (u, v, 0) instead of those of the input.
+   * Default off. */
   vtkSetMacro(FlatOutput, bool);
   vtkGetMacro(FlatOutput, bool);
   vtkBooleanMacro(FlatOutput, bool);

@@ -17,13 +17,6 @@
 
 vtkSplineAlgorithm::vtkSplineAlgorithm() = default;
 
-void vtkSplineAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "Threads: " << this->Threads << "\n";
-  os << indent << "Parts left out: " << this->LeftOut.size() << "\n";
-}
-
 int vtkSplineAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
 {
   if (port != 0)

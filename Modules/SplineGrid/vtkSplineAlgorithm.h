@@ -29,7 +29,8 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /** Threads of the kernels. Default 0 (all cores; one under MPI), valid range [0, 1024]. */
+  /** Threads of the kernel; 0: all cores, one under MPI. Results do not depend on it. Default 0,
+   * valid range [0, 1024]. Advanced. */
   vtkSetClampMacro(Threads, int, 0, 1024);
   vtkGetMacro(Threads, int);
   ///@}

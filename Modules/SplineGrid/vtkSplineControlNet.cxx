@@ -161,13 +161,6 @@ private:
 
 vtkSplineControlNet::vtkSplineControlNet() = default;
 
-void vtkSplineControlNet::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "Vertices: " << this->Vertices << "\n";
-  os << indent << "Lines: " << this->Lines << "\n";
-}
-
 int vtkSplineControlNet::RequestDataObject(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {

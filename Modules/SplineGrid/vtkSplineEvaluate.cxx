@@ -256,16 +256,6 @@ vtkSplineEvaluate::vtkSplineEvaluate()
   this->SetNumberOfInputPorts(2);
 }
 
-void vtkSplineEvaluate::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "Mode: " << this->Mode << "\n";
-  os << indent << "Derivatives: " << this->Derivatives << "\n";
-  os << indent << "ParameterArray: " << this->ParameterArray << "\n";
-  os << indent << "PatchIdArray: " << this->PatchIdArray << "\n";
-  os << indent << "PatchId: " << this->PatchId << "\n";
-}
-
 int vtkSplineEvaluate::FillInputPortInformation(int port, vtkInformation* info)
 {
   if (port == 1)

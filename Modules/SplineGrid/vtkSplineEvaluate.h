@@ -48,23 +48,25 @@ public:
   };
 
   ///@{
-  /** How points are given, one of Modes. Default PARAMETERS, valid range [PARAMETERS, PROBE]. */
+  /** Whether points are parameters of the spline (PARAMETERS), or positions whose nearest point
+   * on it is wanted (PROBE); one of Modes. Default PARAMETERS. */
   vtkSetClampMacro(Mode, int, PARAMETERS, PROBE);
   vtkGetMacro(Mode, int);
   ///@}
   ///@{
-  /** Highest order of derivatives. Default 0, valid range [0, 2]. */
+  /** Highest order of the derivatives that become point arrays. Default 0, valid range [0, 2]. */
   vtkSetClampMacro(Derivatives, int, 0, 2);
   vtkGetMacro(Derivatives, int);
   ///@}
   ///@{
-  /** Point array of input 1 with the parameters; empty: the coordinates. Default empty. */
+  /** Point array of the second input with the parameters; empty: its coordinates. Default empty.
+   * For Mode PARAMETERS. */
   vtkSetMacro(ParameterArray, std::string);
   vtkGetMacro(ParameterArray, std::string);
   ///@}
   ///@{
-  /** Point array of input 1 with the patch of each point. Default "PatchId"; ignored where input 1
-   * has no such array. */
+  /** Point array of the second input with the patch of each point, where it has such an array.
+   * Default PatchId. */
   vtkSetMacro(PatchIdArray, std::string);
   vtkGetMacro(PatchIdArray, std::string);
   ///@}

@@ -15,21 +15,6 @@ vtkStandardNewMacro(vtkSplineExtract);
 
 vtkSplineExtract::vtkSplineExtract() = default;
 
-void vtkSplineExtract::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "MaximumFunctions: " << this->MaximumFunctions << "\n";
-  os << indent << "RestrictToBox: " << this->RestrictToBox << "\n";
-  os << indent << "Box: " << this->Box[0] << ", " << this->Box[1] << ", " << this->Box[2] << ", "
-     << this->Box[3] << "\n";
-  os << indent << "SwapParameters: " << this->SwapParameters << "\n";
-  os << indent << "ReverseFirst: " << this->ReverseFirst << "\n";
-  os << indent << "ReverseSecond: " << this->ReverseSecond << "\n";
-  os << indent << "ExpandToTensor: " << this->ExpandToTensor << "\n";
-  os << indent << "IsoCurve: " << this->IsoCurve << "\n";
-  os << indent << "IsoValue: " << this->IsoValue << "\n";
-}
-
 Status vtkSplineExtract::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);

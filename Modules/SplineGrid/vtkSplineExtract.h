@@ -40,14 +40,14 @@ public:
   };
 
   ///@{
-  /** Whether the surfaces are restricted to Box. Default off. */
+  /** Whether only the part of the surfaces over the box is kept. Default off. */
   vtkSetMacro(RestrictToBox, bool);
   vtkGetMacro(RestrictToBox, bool);
   vtkBooleanMacro(RestrictToBox, bool);
   ///@}
   ///@{
-  /** The box of parameters, u from Box[0] to Box[1], v from Box[2] to Box[3]. Default 0, 1, 0, 1.
-   */
+  /** The box of parameters: u from Box[0] to Box[1], v from Box[2] to Box[3]. Default 0 1 0 1.
+   * For RestrictToBox on. Components u0, u1, v0, v1. */
   vtkSetVector4Macro(Box, double);
   vtkGetVector4Macro(Box, double);
   ///@}
@@ -70,26 +70,27 @@ public:
   vtkBooleanMacro(ReverseSecond, bool);
   ///@}
   ///@{
-  /** Whether LR surfaces become tensor products. Default off. */
+  /** Whether LR surfaces become tensor products: every mesh line becomes as long as the domain.
+   * Default off. */
   vtkSetMacro(ExpandToTensor, bool);
   vtkGetMacro(ExpandToTensor, bool);
   vtkBooleanMacro(ExpandToTensor, bool);
   ///@}
   ///@{
-  /** The parameter that is constant on the curve that is taken, one of IsoCurves. Default NONE: the
-   * surface. */
+  /** The parameter that is constant on a curve that is taken instead of the surface, one of
+   * IsoCurves. Default NONE. */
   vtkSetClampMacro(IsoCurve, int, NONE, SECOND);
   vtkGetMacro(IsoCurve, int);
   ///@}
   ///@{
-  /** Its value. Default 0.5. */
+  /** Value of the parameter that is constant on the curve. Default 0.5. For IsoCurve not NONE. */
   vtkSetMacro(IsoValue, double);
   vtkGetMacro(IsoValue, double);
   ///@}
 
   ///@{
-  /** Functions that a surface may have when it is expanded; more is an error before memory is
-   * taken. Default 1000000, valid range [1, 2147483647]. */
+  /** Functions that a surface may have as a tensor product; more is an error before memory is
+   * taken. Default 1000000, valid range >= 1. Advanced. */
   vtkSetClampMacro(MaximumFunctions, int, 1, VTK_INT_MAX);
   vtkGetMacro(MaximumFunctions, int);
   ///@}

@@ -139,13 +139,6 @@ private:
 
 vtkSplineParametricMesh::vtkSplineParametricMesh() = default;
 
-void vtkSplineParametricMesh::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "SideBySide: " << this->SideBySide << "\n";
-  os << indent << "Gap: " << this->Gap << "\n";
-}
-
 Status vtkSplineParametricMesh::Compute(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {

@@ -27,14 +27,15 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /** Whether patches are laid beside each other. Default on. */
+  /** Whether patches are laid beside each other along x; otherwise coordinates are parameters.
+   * Default on. */
   vtkSetMacro(SideBySide, bool);
   vtkGetMacro(SideBySide, bool);
   vtkBooleanMacro(SideBySide, bool);
   ///@}
   ///@{
   /** Space between patches beside each other, as a share of the widest patch. Default 0.1, valid
-   * range [0, 10]. */
+   * range [0, 10]. For SideBySide on. */
   vtkSetClampMacro(Gap, double, 0.0, 10.0);
   vtkGetMacro(Gap, double);
   ///@}

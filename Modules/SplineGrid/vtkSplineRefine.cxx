@@ -259,28 +259,6 @@ vtkSplineRefine::~vtkSplineRefine()
   this->SetImplicitFunction(nullptr);
 }
 
-void vtkSplineRefine::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "MaximumFunctions: " << this->MaximumFunctions << "\n";
-  os << indent << "Mode: " << this->Mode << "\n";
-  os << indent << "NumberOfRefinements: " << this->NumberOfRefinements << "\n";
-  os << indent << "GlobalRefinement: " << this->GlobalRefinement << "\n";
-  os << indent << "DegreeElevation: " << this->DegreeElevation << "\n";
-  os << indent << "LowerThreshold: " << this->LowerThreshold << "\n";
-  os << indent << "UpperThreshold: " << this->UpperThreshold << "\n";
-  os << indent << "ImplicitFunction: " << this->ImplicitFunction << "\n";
-  os << indent << "ImplicitRegion: " << this->ImplicitRegion << "\n";
-  os << indent << "Extension: " << this->Extension << "\n";
-  os << indent << "AdmissibleClass: " << this->AdmissibleClass << "\n";
-  os << indent << "MaxLevel: " << this->MaxLevel << "\n";
-  os << indent << "LocalSpace: " << this->LocalSpace << "\n";
-  os << indent << "LRStrategy: " << this->LRStrategy << "\n";
-  os << indent << "LRTarget: " << this->LRTarget << "\n";
-  os << indent << "LRDirections: " << this->LRDirections << "\n";
-  os << indent << "KeepIndependent: " << this->KeepIndependent << "\n";
-}
-
 vtkMTimeType vtkSplineRefine::GetMTime()
 {
   vtkMTimeType time = this->Superclass::GetMTime();

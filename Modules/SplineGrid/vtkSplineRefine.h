@@ -62,8 +62,8 @@ public:
   };
   enum LocalSpaces
   {
-    HIERARCHICAL = 0,
-    LOCALLY_REFINED
+    HIERARCHICAL = 0, ///< "Hierarchical (THB)"
+    LOCALLY_REFINED   ///< "Locally Refined (LR)"
   };
   enum LRStrategies
   {
@@ -90,35 +90,38 @@ public:
   };
 
   ///@{
-  /** Which elements are refined, one of Modes. Default UNIFORM, valid range [UNIFORM, SELECTION].
-   */
+  /** Which elements are refined: all, or those that a cell array, an implicit function or a
+   * selection marks; one of Modes. Default UNIFORM. */
   vtkSetClampMacro(Mode, int, UNIFORM, SELECTION);
   vtkGetMacro(Mode, int);
   ///@}
   ///@{
-  /** How often. Default 1, valid range [0, 10]. */
+  /** How often elements are halved. Default 1, valid range [0, 10]. */
   vtkSetClampMacro(NumberOfRefinements, int, 0, 10);
   vtkGetMacro(NumberOfRefinements, int);
   ///@}
   ///@{
-  /** Whether a patch with marked elements is refined everywhere. Default off. */
+  /** Whether a patch with marked elements is refined everywhere, so that it stays what it is,
+   * tensor-product or Bezier. Default off. For Mode not UNIFORM. */
   vtkSetMacro(GlobalRefinement, bool);
   vtkGetMacro(GlobalRefinement, bool);
   vtkBooleanMacro(GlobalRefinement, bool);
   ///@}
   ///@{
-  /** Degrees added in every direction before elements are refined. Default 0, valid range [0, 8].
-   */
+  /** Degrees added in every direction before elements are halved; not for hierarchical patches.
+   * Default 0, valid range [0, 8]. */
   vtkSetClampMacro(DegreeElevation, int, 0, 8);
   vtkGetMacro(DegreeElevation, int);
   ///@}
   ///@{
-  /** Lowest value of a marked element in mode CELL_ARRAY, inclusive. Default 0. */
+  /** Lowest value of a marked element of the cell array, inclusive. Default 0. For Mode
+   * CELL_ARRAY. */
   vtkSetMacro(LowerThreshold, double);
   vtkGetMacro(LowerThreshold, double);
   ///@}
   ///@{
-  /** Highest value of a marked element in mode CELL_ARRAY, inclusive. Default 1e299. */
+  /** Highest value of a marked element of the cell array, inclusive. Default 1e299. For Mode
+   * CELL_ARRAY. */
   vtkSetMacro(UpperThreshold, double);
   vtkGetMacro(UpperThreshold, double);
   ///@}
@@ -128,52 +131,59 @@ public:
   vtkGetObjectMacro(ImplicitFunction, vtkImplicitFunction);
   ///@}
   ///@{
-  /** Which side of the function, one of Regions. Default CROSSED_OR_INSIDE. */
+  /** Whether elements are marked that the function's surface crosses, or those inside as well,
+   * one of Regions. Corners, middles and the centre of elements are looked at. Default
+   * CROSSED_OR_INSIDE. For Mode IMPLICIT_FUNCTION. */
   vtkSetClampMacro(ImplicitRegion, int, CROSSED, CROSSED_OR_INSIDE);
   vtkGetMacro(ImplicitRegion, int);
   ///@}
   ///@{
-  /** Rings of new cells around marked elements that are split too (local refinement). -1 takes the
-   * smallest number that brings new functions, (degree - 1) / 2 rounded up. Default -1, valid range
-   * [-1, 16]. */
+  /** Rings of new cells around marked elements that are split too; -1: the smallest number that
+   * brings new functions, (degree - 1) / 2 rounded up. Default -1, valid range [-1, 16].
+   * Advanced. For Mode not UNIFORM. */
   vtkSetClampMacro(Extension, int, -1, 16);
   vtkGetMacro(Extension, int);
   ///@}
   ///@{
-  /** Functions alive on an element belong to at most so many successive levels; 0: no such limit, 1
-   * is not valid. Default 0, valid range [0, 24]. */
+  /** Functions alive on an element belong to at most so many successive levels; 0: no such
+   * limit, 1 is not valid. Default 0, valid range [0, 24]. Advanced. For Mode not UNIFORM. */
   vtkSetClampMacro(AdmissibleClass, int, 0, 24);
   vtkGetMacro(AdmissibleClass, int);
   ///@}
   ///@{
-  /** Elements of this level are not split (local refinement). Default 24, valid range [1, 24]. */
+  /** Elements of this level are not split locally. Default 24, valid range [1, 24]. Advanced.
+   * For Mode not UNIFORM. */
   vtkSetClampMacro(MaxLevel, int, 1, 24);
   vtkGetMacro(MaxLevel, int);
   ///@}
   ///@{
   /** What local refinement makes of tensor-product surfaces, one of LocalSpaces. Default
-   * HIERARCHICAL. */
+   * HIERARCHICAL. For Mode not UNIFORM. */
   vtkSetClampMacro(LocalSpace, int, HIERARCHICAL, LOCALLY_REFINED);
   vtkGetMacro(LocalSpace, int);
   ///@}
   ///@{
-  /** How long the new lines of LR patches are, one of LRStrategies. Default FULL_SPAN. */
+  /** How long the new lines of LR patches are: across all functions alive on an element, across
+   * the smallest, or all knot spans of a function halved; one of LRStrategies. Default
+   * FULL_SPAN. Advanced. */
   vtkSetClampMacro(LRStrategy, int, FULL_SPAN, STRUCTURED_MESH);
   vtkGetMacro(LRStrategy, int);
   ///@}
   ///@{
-  /** What is halved in LR patches, one of LRTargets. Default ELEMENTS. */
+  /** What is halved in LR patches: the marked elements, or the functions that have the most of
+   * their support marked; one of LRTargets. Default ELEMENTS. Advanced. */
   vtkSetClampMacro(LRTarget, int, ELEMENTS, FUNCTIONS);
   vtkGetMacro(LRTarget, int);
   ///@}
   ///@{
-  /** The parameter that is constant on new lines of LR patches, one of LRDirectionChoices; when
-   * ALTERNATING the first one to begin with. Default BOTH. */
+  /** The parameter that is constant on the new lines of LR patches, one of LRDirectionChoices;
+   * ALTERNATING begins with the first one. Default BOTH. Advanced. */
   vtkSetClampMacro(LRDirections, int, BOTH, SECOND);
   vtkGetMacro(LRDirections, int);
   ///@}
   ///@{
-  /** Whether the functions of LR patches are made linearly independent. Default off. */
+  /** Whether lines are added until the functions of LR patches are linearly independent, with no
+   * refinements too. Default off. Advanced. */
   vtkSetMacro(KeepIndependent, bool);
   vtkGetMacro(KeepIndependent, bool);
   vtkBooleanMacro(KeepIndependent, bool);
@@ -188,7 +198,7 @@ public:
 
   ///@{
   /** Functions that all patches may have together after the refinement; more is an error before
-   * memory is taken. Default 1000000, valid range [1, 2147483647]. */
+   * memory is taken. Default 1000000, valid range >= 1. Advanced. */
   vtkSetClampMacro(MaximumFunctions, int, 1, VTK_INT_MAX);
   vtkGetMacro(MaximumFunctions, int);
   ///@}

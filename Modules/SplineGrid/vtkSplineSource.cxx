@@ -21,26 +21,6 @@ vtkSplineSource::vtkSplineSource()
   this->SetNumberOfInputPorts(0);
 }
 
-void vtkSplineSource::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "MaximumFunctions: " << this->MaximumFunctions << "\n";
-  os << indent << "Shape: " << this->GetShapeName() << "\n";
-  os << indent << "Degree: " << this->Degree << "\n";
-  os << indent << "Elements: " << this->Elements[0] << " " << this->Elements[1] << " "
-     << this->Elements[2] << "\n";
-  os << indent << "InnerRadius: " << this->InnerRadius << "\n";
-  os << indent << "OuterRadius: " << this->OuterRadius << "\n";
-  os << indent << "Angle: " << this->Angle << "\n";
-  os << indent << "Sectors: " << this->Sectors << "\n";
-  os << indent << "PolarAngle: " << this->PolarAngle << "\n";
-  os << indent << "Height: " << this->Height << "\n";
-  os << indent << "Twist: " << this->Twist << "\n";
-  os << indent << "Size: " << this->Size[0] << " " << this->Size[1] << " " << this->Size[2] << "\n";
-  os << indent << "Center: " << this->Center[0] << " " << this->Center[1] << " " << this->Center[2]
-     << "\n";
-}
-
 void vtkSplineSource::SetShapeName(const char* name)
 {
   for (int shape = LINE; name && shape <= SOLID_TORUS; ++shape)

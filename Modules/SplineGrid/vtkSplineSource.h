@@ -54,7 +54,7 @@ public:
   };
 
   ///@{
-  /** The shape, one of Shapes. Default SQUARE, valid range [LINE, SOLID_TORUS]. */
+  /** The curve, surface or solid to make, one of Shapes. Default SQUARE. */
   vtkSetClampMacro(Shape, int, LINE, SOLID_TORUS);
   vtkGetMacro(Shape, int);
   ///@}
@@ -67,57 +67,62 @@ public:
   const char* GetShapeName();
   ///@}
   ///@{
-  /** Every direction is raised to this degree; 0 is the lowest degree that is exact. Default 0,
-   * valid range [0, 9]. */
+  /** Degree that every direction is raised to; 0: the lowest one that is exact. Default 0, valid
+   * range [0, 9]. */
   vtkSetClampMacro(Degree, int, 0, 9);
   vtkGetMacro(Degree, int);
   ///@}
   ///@{
-  /** Equal elements that every knot span is cut into, by direction; see Shapes. Default 1 1 1, each
-   * at least 1. */
+  /** Equal elements that every knot span of the shape is cut into: along x, y, z, or in radial,
+   * angular and axial direction, as far as the shape has them; see Shapes. Default 1 1 1, valid
+   * range >= 1. */
   vtkSetVector3Macro(Elements, int);
   vtkGetVector3Macro(Elements, int);
   ///@}
   ///@{
-  /** Inner radius, unit of length. Default 0.5, positive (ball sector: 0 is valid), less than
-   * OuterRadius; half a plate's smaller side bounds it for plates. */
+  /** Radius of the hole, of a torus' tube, or of the corners of the core of a disc or ball; less
+   * than the outer radius. Default 0.5, valid range >= 0. */
   vtkSetMacro(InnerRadius, double);
   vtkGetMacro(InnerRadius, double);
   ///@}
   ///@{
-  /** Outer radius, unit of length. Default 1, positive. */
+  /** Radius of the circle, cylinder or sphere, or of the circle that a torus follows; above 0.
+   * Default 1, valid range >= 0. */
   vtkSetMacro(OuterRadius, double);
   vtkGetMacro(OuterRadius, double);
   ///@}
   ///@{
-  /** Angle about z from +x in degrees. Default 90, valid range (0, 360]; at 360 a seam remains. */
+  /** Angle about z from +x in degrees that arcs, sectors and tori span; at 360 a seam remains.
+   * Default 90, valid range (0, 360]. */
   vtkSetMacro(Angle, double);
   vtkGetMacro(Angle, double);
   ///@}
   ///@{
-  /** Patches that share Angle equally (annulus sector, solid tube); with Angle 360 a closed ring.
-   * Default 1, valid range [1, 4096]. */
+  /** Patches that share the angle of an annulus sector or a solid tube equally; with 360 degrees
+   * they close to a ring. Default 1, valid range [1, 4096]. */
   vtkSetClampMacro(Sectors, int, 1, 4096);
   vtkGetMacro(Sectors, int);
   ///@}
   ///@{
-  /** Angle between the lowest and the highest latitude of a ball sector in degrees. Default 90,
-   * valid range (0, 180]. */
+  /** Angle in degrees between the lowest and the highest latitude of a ball sector; at 180 it is
+   * degenerate at the poles. Default 90, valid range (0, 180]. Advanced. */
   vtkSetMacro(PolarAngle, double);
   vtkGetMacro(PolarAngle, double);
   ///@}
   ///@{
-  /** Length along z of cylinders and tubes. Default 1, positive. */
+  /** Length along z of cylinders and tubes; above 0. Default 1, valid range >= 0. */
   vtkSetMacro(Height, double);
   vtkGetMacro(Height, double);
   ///@}
   ///@{
-  /** Turn of a twisted bar in degrees. Default 90, valid range [-3600, 3600]. */
+  /** Angle in degrees between the two ends of a twisted bar. Default 90, valid range [-3600,
+   * 3600]. */
   vtkSetMacro(Twist, double);
   vtkGetMacro(Twist, double);
   ///@}
   ///@{
-  /** Side lengths along x, y, z. Default 1 1 1, positive. */
+  /** Side lengths along x, y and z of lines, squares, plates, cubes and bars; above 0. Default 1
+   * 1 1, valid range >= 0. */
   vtkSetVector3Macro(Size, double);
   vtkGetVector3Macro(Size, double);
   ///@}
@@ -128,8 +133,8 @@ public:
   ///@}
 
   ///@{
-  /** Functions that all patches may have together; more is an error before memory is taken. Default
-   * 1000000, valid range [1, 2147483647]. */
+  /** Functions that all patches may have together; more is an error before memory is taken.
+   * Default 1000000, valid range >= 1. Advanced. */
   vtkSetClampMacro(MaximumFunctions, int, 1, VTK_INT_MAX);
   vtkGetMacro(MaximumFunctions, int);
   ///@}

@@ -274,18 +274,6 @@ Status SetPointData(const BlockMesh& block, const std::vector<const SplinePatch*
 }
 }
 
-void vtkSplineTessellate::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "MaximumCells: " << this->MaximumCells << "\n";
-  os << indent << "ChordalTolerance: " << this->ChordalTolerance << "\n";
-  os << indent << "RelativeTolerance: " << this->RelativeTolerance << "\n";
-  os << indent << "MaximumSubdivision: " << this->MaximumSubdivision << "\n";
-  os << indent << "Cells: " << this->Cells << "\n";
-  os << indent << "Normals: " << this->Normals << "\n";
-  os << indent << "Splitting: " << this->Splitting << "\n";
-}
-
 int vtkSplineTessellate::FillOutputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkDataObject");

@@ -40,45 +40,49 @@ public:
   };
 
   ///@{
-  /** Largest deviation, as RelativeTolerance says. Default 1e-3, valid range [1e-12, 1e12]. */
+  /** Largest distance of a linear cell from the spline. Default 0.001, valid range [1e-12,
+   * 1000000000000]. */
   vtkSetClampMacro(ChordalTolerance, double, 1e-12, 1e12);
   vtkGetMacro(ChordalTolerance, double);
   ///@}
   ///@{
-  /** Whether the tolerance is a share of the diagonal of the bounding box of the grid's (of each
-   * block's) points, else a length. Default on. */
+  /** Whether ChordalTolerance is a share of the diagonal of the bounding box of the grid's (of
+   * each block's) points, else a length. Default on. */
   vtkSetMacro(RelativeTolerance, bool);
   vtkGetMacro(RelativeTolerance, bool);
   vtkBooleanMacro(RelativeTolerance, bool);
   ///@}
   ///@{
-  /** How often an element is halved in a direction at most. Default 8, valid range [0, 10]. */
+  /** How often an element is halved in a direction at most; a warning tells when the tolerance
+   * needs more. Default 8, valid range [0, 10]. Advanced. */
   vtkSetClampMacro(MaximumSubdivision, int, 0, 10);
   vtkGetMacro(MaximumSubdivision, int);
   ///@}
   ///@{
-  /** What becomes of solids, one of CellTypes. Default SURFACE, valid range [SURFACE, VOLUME]. */
+  /** What becomes of solids, one of CellTypes: their outer surface as polygons, or hexahedra.
+   * Default SURFACE. */
   vtkSetClampMacro(Cells, int, SURFACE, VOLUME);
   vtkGetMacro(Cells, int);
   ///@}
   ///@{
-  /** Whether polygons get point normals (outward on solids with det J > 0). Default on. */
+  /** Whether polygons get the exact normals of the splines at their points (outward on solids
+   * with det J > 0). Default on. */
   vtkSetMacro(Normals, bool);
   vtkGetMacro(Normals, bool);
   vtkBooleanMacro(Normals, bool);
   ///@}
   ///@{
-  /** Off: points are shared wherever the grid is connected; the normal at a crease is the mean of
-   * its sides. On: points are repeated, bit for bit, between patches and at creases, so that
-   * normals and fields are exact on every side. Default off. */
+  /** Whether points are repeated, bit for bit, between patches and at creases, so that normals
+   * and fields are exact on every side; else points are shared wherever the grid is connected,
+   * and the normal at a crease is the mean of its sides. Default off. */
   vtkSetMacro(Splitting, bool);
   vtkGetMacro(Splitting, bool);
   vtkBooleanMacro(Splitting, bool);
   ///@}
 
   ///@{
-  /** Polygons, hexahedra or points of curves that the patches may become; more is an error before
-   * memory is taken. Default 20000000, valid range [1, 2147483647]. */
+  /** Polygons, hexahedra or points of curves that the patches may become; more is an error
+   * before memory is taken. Default 20000000, valid range >= 1. Advanced. */
   vtkSetClampMacro(MaximumCells, int, 1, VTK_INT_MAX);
   vtkGetMacro(MaximumCells, int);
   ///@}

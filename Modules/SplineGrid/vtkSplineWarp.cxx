@@ -257,16 +257,6 @@ vtkSplineWarp::vtkSplineWarp()
   this->SetNumberOfInputPorts(2);
 }
 
-void vtkSplineWarp::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "MaximumFunctions: " << this->MaximumFunctions << "\n";
-  os << indent << "MapPatchId: " << this->MapPatchId << "\n";
-  os << indent << "Clamp: " << this->Clamp << "\n";
-  os << indent << "Tolerance: " << this->Tolerance << "\n";
-  os << indent << "MaxLevel: " << this->MaxLevel << "\n";
-}
-
 int vtkSplineWarp::FillInputPortInformation(int port, vtkInformation* info)
 {
   if (port == 0)

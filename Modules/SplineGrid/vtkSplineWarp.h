@@ -43,27 +43,27 @@ public:
   vtkGetMacro(MapPatchId, int);
   ///@}
   ///@{
-  /** Whether points outside the domain are moved to its border instead of being an error. Default
-   * off. */
+  /** Whether points outside the domain of the map are moved to its border instead of being an
+   * error. Default off. */
   vtkSetMacro(Clamp, bool);
   vtkGetMacro(Clamp, bool);
   vtkBooleanMacro(Clamp, bool);
   ///@}
   ///@{
   /** Wanted distance between the composition and its projection, in units of the image; 0: the
-   * patches' own spaces, no refinement. Default 1e-3, not negative. */
+   * patches' own spaces, no refinement. Default 0.001, valid range >= 0. */
   vtkSetClampMacro(Tolerance, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Tolerance, double);
   ///@}
   ///@{
-  /** Levels that refinement may add. Default 5, valid range [0, 20]. */
+  /** Levels that refinement may add to reach the tolerance. Default 5, valid range [0, 20]. */
   vtkSetClampMacro(MaxLevel, int, 0, 20);
   vtkGetMacro(MaxLevel, int);
   ///@}
 
   ///@{
   /** Functions that a patch may have; a refinement to more is an error before memory is taken.
-   * Default 1000000, valid range [1, 2147483647]. */
+   * Default 1000000, valid range >= 1. Advanced. */
   vtkSetClampMacro(MaximumFunctions, int, 1, VTK_INT_MAX);
   vtkGetMacro(MaximumFunctions, int);
   ///@}

@@ -77,18 +77,6 @@ vtkCADReader::~vtkCADReader()
   this->SetFileName(nullptr);
 }
 
-void vtkCADReader::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
-  os << indent << "Unit: " << this->Unit << "\n";
-  os << indent << "Tolerance: " << this->Tolerance << "\n";
-  os << indent << "Triangulation: " << this->Triangulation << "\n";
-  os << indent << "ChordalTolerance: " << this->ChordalTolerance << "\n";
-  os << indent << "RelativeTolerance: " << this->RelativeTolerance << "\n";
-  os << indent << "SeparateProcess: " << this->SeparateProcess << "\n";
-}
-
 int vtkCADReader::CanReadFile(const char* fileName)
 {
   return fileName && HasCADEnding(fileName) && std::ifstream(fileName) ? 1 : 0;

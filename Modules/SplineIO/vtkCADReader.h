@@ -38,37 +38,38 @@ public:
   vtkGetFilePathMacro(FileName);
   ///@}
   ///@{
-  /** Unit of lengths in the outputs. Default Millimetre, valid range [0, 5]. */
+  /** Unit of lengths in the outputs, one of Units. Default Millimetre. */
   vtkSetClampMacro(Unit, int, Micrometre, Foot);
   vtkGetMacro(Unit, int);
   ///@}
   ///@{
-  /** Edges whose curve and pcurves have no exact common form become cubic within this distance. 0:
-   * a millionth of the model's size. Default 0, valid range [0, infinity). */
+  /** Distance within which edges become cubic whose curve and pcurves have no exact common form;
+   * 0: a millionth of the model's size. Default 0, valid range >= 0. Advanced. */
   vtkSetClampMacro(Tolerance, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Tolerance, double);
   ///@}
   ///@{
-  /** Whether output 2 is made. Default on. */
+  /** Whether triangles of the trimmed faces are made, output 2. Default on. */
   vtkSetMacro(Triangulation, bool);
   vtkGetMacro(Triangulation, bool);
   vtkBooleanMacro(Triangulation, bool);
   ///@}
   ///@{
   /** Largest distance between triangles and faces; a share of the size of the surfaces when
-   * RelativeTolerance is on. Default 1e-3, valid range [1e-12, infinity). */
+   * RelativeTolerance is on. Default 0.001, valid range >= 1e-12. For Triangulation on. */
   vtkSetClampMacro(ChordalTolerance, double, 1e-12, VTK_DOUBLE_MAX);
   vtkGetMacro(ChordalTolerance, double);
   ///@}
   ///@{
-  /** Whether ChordalTolerance is a share of the size. Default on. */
+  /** Whether ChordalTolerance is a share of the size of the surfaces. Default on. For
+   * Triangulation on. */
   vtkSetMacro(RelativeTolerance, bool);
   vtkGetMacro(RelativeTolerance, bool);
   vtkBooleanMacro(RelativeTolerance, bool);
   ///@}
   ///@{
-  /** Whether OpenCASCADE reads in a process of its own, with limits of memory and time: it does not
-   * survive some damaged files. Default on. */
+  /** Whether OpenCASCADE reads in a process of its own, with limits of memory and time: it does
+   * not survive some damaged files. Default on. Advanced. */
   vtkSetMacro(SeparateProcess, bool);
   vtkGetMacro(SeparateProcess, bool);
   vtkBooleanMacro(SeparateProcess, bool);

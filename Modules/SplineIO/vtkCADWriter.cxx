@@ -76,16 +76,6 @@ vtkCADWriter::~vtkCADWriter()
   this->SetProductName(nullptr);
 }
 
-void vtkCADWriter::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
-  os << indent << "Unit: " << this->Unit << "\n";
-  os << indent << "Schema: " << this->Schema << "\n";
-  os << indent << "SewTolerance: " << this->SewTolerance << "\n";
-  os << indent << "ProductName: " << (this->ProductName ? this->ProductName : "(none)") << "\n";
-}
-
 int vtkCADWriter::FillInputPortInformation(int port, vtkInformation* info)
 {
   info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());

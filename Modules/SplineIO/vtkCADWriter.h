@@ -28,25 +28,39 @@ public:
   vtkSetFilePathMacro(FileName);
   vtkGetFilePathMacro(FileName);
   ///@}
+  enum Units
+  {
+    Micrometre = 0,
+    Millimetre,
+    Centimetre,
+    Metre,
+    Inch,
+    Foot
+  };
+  enum Schemas
+  {
+    AP214 = 0, ///< "AP214"
+    AP242      ///< "AP242"
+  };
+
   ///@{
-  /** Unit of lengths: 0 micrometre, 1 millimetre, 2 centimetre, 3 metre, 4 inch, 5 foot. Default 1.
-   */
-  vtkSetClampMacro(Unit, int, 0, 5);
+  /** Unit of lengths, one of Units. Default Millimetre. */
+  vtkSetClampMacro(Unit, int, Micrometre, Foot);
   vtkGetMacro(Unit, int);
   ///@}
   ///@{
-  /** Application protocol of STEP files: 0 AP214, 1 AP242. Default 0. */
-  vtkSetClampMacro(Schema, int, 0, 1);
+  /** Application protocol of STEP files, one of Schemas. Default AP214. */
+  vtkSetClampMacro(Schema, int, AP214, AP242);
   vtkGetMacro(Schema, int);
   ///@}
   ///@{
-  /** Sides this near to each other, as share of the model's size, are one. Default 1e-6, valid
-   * range [1e-12, 0.1]. */
+  /** Sides this near to each other, as share of the model's size, are one edge. Default 1e-6,
+   * valid range [1e-12, 0.1]. */
   vtkSetClampMacro(SewTolerance, double, 1e-12, 0.1);
   vtkGetMacro(SewTolerance, double);
   ///@}
   ///@{
-  /** Name of the product in the file; none: "Knotwork". */
+  /** Name of the product in the file; empty: Knotwork. Default empty. Advanced. */
   vtkSetStringMacro(ProductName);
   vtkGetStringMacro(ProductName);
   ///@}
@@ -61,8 +75,8 @@ protected:
   void WriteData() override;
 
   char* FileName = nullptr;
-  int Unit = 1;
-  int Schema = 0;
+  int Unit = Millimetre;
+  int Schema = AP214;
   double SewTolerance = 1e-6;
   char* ProductName = nullptr;
 

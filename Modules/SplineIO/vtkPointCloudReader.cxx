@@ -64,12 +64,6 @@ vtkPointCloudReader::~vtkPointCloudReader()
   this->SetFileName(nullptr);
 }
 
-void vtkPointCloudReader::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
-}
-
 int vtkPointCloudReader::CanReadFile(const char* fileName)
 {
   const std::string ending = LowerEnding(fileName ? fileName : "");

@@ -24,12 +24,6 @@ vtkPointCloudWriter::~vtkPointCloudWriter()
   this->SetFileName(nullptr);
 }
 
-void vtkPointCloudWriter::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
-}
-
 int vtkPointCloudWriter::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");

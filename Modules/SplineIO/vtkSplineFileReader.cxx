@@ -16,12 +16,6 @@ vtkSplineFileReader::~vtkSplineFileReader()
   this->SetFileName(nullptr);
 }
 
-void vtkSplineFileReader::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
-}
-
 int vtkSplineFileReader::CanReadFile(const char* fileName)
 {
   const std::string beginning = knotwork::BeginningOfFile(fileName ? fileName : "");

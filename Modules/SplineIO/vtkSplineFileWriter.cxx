@@ -54,13 +54,6 @@ vtkSplineFileWriter::~vtkSplineFileWriter()
   this->SetFileName(nullptr);
 }
 
-void vtkSplineFileWriter::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
-  os << indent << "Coordinates: " << this->Coordinates << "\n";
-}
-
 int vtkSplineFileWriter::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());

@@ -25,27 +25,6 @@ vtkSplineContour::vtkSplineContour()
   this->SetNumberOfOutputPorts(NumOutputs);
 }
 
-void vtkSplineContour::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "Levels:";
-  for (double level : this->Levels)
-  {
-    os << " " << level;
-  }
-  os << "\n" << indent << "NumberOfLevels: " << this->NumberOfLevels << "\n";
-  os << indent << "Range: " << this->Range[0] << " " << this->Range[1] << "\n";
-  os << indent << "FieldName: " << this->FieldName << "\n";
-  os << indent << "Component: " << this->Component << "\n";
-  os << indent << "Tolerance: " << this->Tolerance << "\n";
-  os << indent << "ChordalTolerance: " << this->ChordalTolerance << "\n";
-  os << indent << "JoinSeams: " << this->JoinSeams << "\n";
-  os << indent << "ProjectToLevel: " << this->ProjectToLevel << "\n";
-  os << indent << "Curves: " << this->Curves << "\n";
-  os << indent << "MaximumCells: " << this->MaximumCells << "\n";
-  os << indent << "MaximumPoints: " << this->MaximumPoints << "\n";
-}
-
 void vtkSplineContour::AddLevel(double level)
 {
   this->Levels.push_back(level);

@@ -44,41 +44,45 @@ public:
   double GetLevel(int index) { return this->Levels.at(static_cast<std::size_t>(index)); }
   ///@}
   ///@{
-  /** How many levels are chosen when none are given: evenly in Range, its ends included, or inside
-   * the range of the values at the corners of elements. Default 10, valid range [1, 10000]. */
+  /** How many levels are chosen when none are given: evenly in Range, its ends included, or
+   * inside the range of the values at the corners of elements. Default 10, valid range [1,
+   * 10000]. */
   vtkSetClampMacro(NumberOfLevels, int, 1, 10000);
   vtkGetMacro(NumberOfLevels, int);
   ///@}
   ///@{
-  /** Range of the levels that are chosen. Default 0, 0 (that of the values). */
+  /** Range of the levels that are chosen, ends included; without a length the inside of the
+   * range of the values. Default 0 0. Advanced. Components from, to. */
   vtkSetVector2Macro(Range, double);
   vtkGetVector2Macro(Range, double);
   ///@}
   ///@{
-  /** Field whose contours are wanted. Default empty (the coordinates). */
+  /** Field of the spline grid whose contours are wanted; empty or `None`: the coordinates.
+   * Default empty. */
   vtkSetMacro(FieldName, std::string);
   vtkGetMacro(FieldName, std::string);
   ///@}
   ///@{
-  /** Component of the field, or coordinate. Default -1 (the last: the height), valid range [-1,
-   * 1000]. */
+  /** Component of the field, or coordinate; -1: the last one, of the coordinates the height.
+   * Default -1, valid range [-1, 1000]. */
   vtkSetClampMacro(Component, int, -1, 1000);
   vtkGetMacro(Component, int);
   ///@}
   ///@{
-  /** Largest difference between value and level anywhere on a contour. Default 0 (a
-   * ten-thousandth of the range of the values), valid range >= 0. */
+  /** Largest difference between value and level anywhere on a contour; 0: a ten-thousandth of
+   * the range of the values. Default 0, valid range >= 0. */
   vtkSetClampMacro(Tolerance, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Tolerance, double);
   ///@}
   ///@{
-  /** Largest distance in space between straight pieces (spline curves) and the surface. Default 0
-   * (a thousandth of the diagonal of the box around the corners of elements), valid range >= 0. */
+  /** Largest distance in space between straight pieces (spline curves) and the surface; 0: a
+   * thousandth of the diagonal of the box around the corners of elements. Default 0, valid range
+   * >= 0. Advanced. */
   vtkSetClampMacro(ChordalTolerance, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(ChordalTolerance, double);
   ///@}
   ///@{
-  /** Whether contours go on over the seams of closed surfaces. Default on. */
+  /** Whether contours go on over the seams of closed surfaces. Default on. Advanced. */
   vtkSetMacro(JoinSeams, bool);
   vtkGetMacro(JoinSeams, bool);
   vtkBooleanMacro(JoinSeams, bool);
@@ -90,20 +94,20 @@ public:
   vtkBooleanMacro(ProjectToLevel, bool);
   ///@}
   ///@{
-  /** Whether output 1 is made. Default off. */
+  /** Whether the contours are made as cubic spline curves, too: output 1. Default off. */
   vtkSetMacro(Curves, bool);
   vtkGetMacro(Curves, bool);
   vtkBooleanMacro(Curves, bool);
   ///@}
   ///@{
-  /** Cells an element is divided into for a level at most. Default 65536, valid range [16,
-   * 1048576]. */
+  /** Cells an element is divided into for a level at most, before it counts as undecided.
+   * Default 65536, valid range [16, 1048576]. Advanced. */
   vtkSetClampMacro(MaximumCells, int, 16, 1048576);
   vtkGetMacro(MaximumCells, int);
   ///@}
   ///@{
-  /** Points of the contours of a surface at most; more are error TooLarge. Default 5000000, valid
-   * range [1, 2147483647]. */
+  /** Points of the contours of a surface at most; more are an error. Default 5000000, valid
+   * range >= 1. Advanced. */
   vtkSetClampMacro(MaximumPoints, int, 1, VTK_INT_MAX);
   vtkGetMacro(MaximumPoints, int);
   ///@}

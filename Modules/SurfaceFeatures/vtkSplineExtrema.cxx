@@ -24,20 +24,6 @@ vtkSplineExtrema::~vtkSplineExtrema()
   this->SetFieldName(nullptr);
 }
 
-void vtkSplineExtrema::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "FieldName: " << (this->FieldName ? this->FieldName : "") << "\n";
-  os << indent << "Component: " << this->Component << "\n";
-  os << indent << "Minima: " << this->Minima << "\n";
-  os << indent << "Maxima: " << this->Maxima << "\n";
-  os << indent << "Saddles: " << this->Saddles << "\n";
-  os << indent << "Boundary: " << this->Boundary << "\n";
-  os << indent << "OnSurface: " << this->OnSurface << "\n";
-  os << indent << "MaximumDepth: " << this->MaximumDepth << "\n";
-  os << indent << "MaximumBoxes: " << this->MaximumBoxes << "\n";
-}
-
 int vtkSplineExtrema::FillOutputPortInformation(int port, vtkInformation* info)
 {
   info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 2 ? "vtkTable" : "vtkPolyData");

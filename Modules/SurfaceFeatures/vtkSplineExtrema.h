@@ -37,30 +37,31 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /** Name of the field that is the function; empty: the geometry. Default empty. */
+  /** Field of the spline grid that is the function; empty or `None`: the geometry. Default
+   * empty. */
   vtkSetStringMacro(FieldName);
   vtkGetStringMacro(FieldName);
   ///@}
   ///@{
-  /** Component of the geometry or of the field. Default 2, valid range [0, 1000]; the only
-   * component of a field whatever it says. */
+  /** Component of the geometry (2 is z) or of the field; the only component of a field whatever
+   * it says. Default 2, valid range [0, 1000]. */
   vtkSetClampMacro(Component, int, 0, 1000);
   vtkGetMacro(Component, int);
   ///@}
   ///@{
-  /** Whether minima are shown. Default on. */
+  /** Whether minima are in the outputs. Default on. */
   vtkSetMacro(Minima, bool);
   vtkGetMacro(Minima, bool);
   vtkBooleanMacro(Minima, bool);
   ///@}
   ///@{
-  /** Whether maxima are shown. Default on. */
+  /** Whether maxima are in the outputs. Default on. */
   vtkSetMacro(Maxima, bool);
   vtkGetMacro(Maxima, bool);
   vtkBooleanMacro(Maxima, bool);
   ///@}
   ///@{
-  /** Whether saddles are shown. Default on. */
+  /** Whether saddles are in the outputs. Default on. */
   vtkSetMacro(Saddles, bool);
   vtkGetMacro(Saddles, bool);
   vtkBooleanMacro(Saddles, bool);
@@ -72,20 +73,21 @@ public:
   vtkBooleanMacro(Boundary, bool);
   ///@}
   ///@{
-  /** Whether points and boxes lie on the surface; otherwise in the plane of the parameters. Default
-   * on. */
+  /** Whether points and boxes lie on the surface; otherwise in the plane of the parameters.
+   * Default on. */
   vtkSetMacro(OnSurface, bool);
   vtkGetMacro(OnSurface, bool);
   vtkBooleanMacro(OnSurface, bool);
   ///@}
   ///@{
-  /** Halvings of an element before what is left is a cluster. Default 32, valid range [1, 50]. */
+  /** Halvings of an element before what is left is a cluster. Default 32, valid range [1, 50].
+   * Advanced. */
   vtkSetClampMacro(MaximumDepth, int, 1, 50);
   vtkGetMacro(MaximumDepth, int);
   ///@}
   ///@{
-  /** Undecided boxes of an element at a time before they are a cluster: the fewer, the coarser are
-   * the boxes along curves of critical points. Default 64, valid range [4, 4096]. */
+  /** Undecided boxes of an element at a time before they are a cluster: the fewer, the coarser
+   * are the boxes along curves of critical points. Default 64, valid range [4, 4096]. Advanced. */
   vtkSetClampMacro(MaximumBoxes, int, 4, 4096);
   vtkGetMacro(MaximumBoxes, int);
   ///@}

@@ -133,16 +133,6 @@ vtkSplineCombine::vtkSplineCombine()
   this->SetNumberOfOutputPorts(2);
 }
 
-void vtkSplineCombine::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "MaximumFunctions: " << this->MaximumFunctions << "\n";
-  os << indent << "Mode: " << this->Mode << "\n";
-  os << indent << "FirstWeight: " << this->FirstWeight << "\n";
-  os << indent << "SecondWeight: " << this->SecondWeight << "\n";
-  os << indent << "CommonDomain: " << this->CommonDomain << "\n";
-}
-
 void vtkSplineCombine::SetSecondConnection(vtkAlgorithmOutput* output)
 {
   this->SetInputConnection(1, output);

@@ -35,23 +35,24 @@ public:
   };
 
   ///@{
-  /** What is computed, one of Modes. Default DIFFERENCE. */
+  /** What is computed, one of Modes: first minus second, weights of a half, or any weights.
+   * Default DIFFERENCE. */
   vtkSetClampMacro(Mode, int, DIFFERENCE, WEIGHTED);
   vtkGetMacro(Mode, int);
   ///@}
   ///@{
-  /** Weight of the first surface, for WEIGHTED. Default 0.5. */
+  /** Weight of the first surface. Default 0.5. For Mode WEIGHTED. */
   vtkSetMacro(FirstWeight, double);
   vtkGetMacro(FirstWeight, double);
   ///@}
   ///@{
-  /** Weight of the second surface, for WEIGHTED. Default 0.5. */
+  /** Weight of the second surface. Default 0.5. For Mode WEIGHTED. */
   vtkSetMacro(SecondWeight, double);
   vtkGetMacro(SecondWeight, double);
   ///@}
   ///@{
-  /** Whether surfaces are cut to what their domains have in common; else domains that differ are an
-   * error. Default off. */
+  /** Whether surfaces are cut to what their domains have in common; else domains that differ are
+   * an error. Default off. */
   vtkSetMacro(CommonDomain, bool);
   vtkGetMacro(CommonDomain, bool);
   vtkBooleanMacro(CommonDomain, bool);
@@ -63,8 +64,8 @@ public:
   ///@}
 
   ///@{
-  /** Functions that a combined surface may have; more is an error before memory is taken. Default
-   * 1000000, valid range [1, 2147483647]. */
+  /** Functions that a combined surface may have; more is an error before memory is taken.
+   * Default 1000000, valid range >= 1. Advanced. */
   vtkSetClampMacro(MaximumFunctions, int, 1, VTK_INT_MAX);
   vtkGetMacro(MaximumFunctions, int);
   ///@}

@@ -118,17 +118,6 @@ vtkSplinePointDistance::vtkSplinePointDistance()
   this->SetNumberOfOutputPorts(NumOutputs);
 }
 
-void vtkSplinePointDistance::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "Kind: " << this->Kind << "\n" << indent << "Tolerances:";
-  for (const double tolerance : this->Tolerances)
-  {
-    os << " " << tolerance;
-  }
-  os << "\n";
-}
-
 void vtkSplinePointDistance::AddTolerance(double tolerance)
 {
   this->Tolerances.push_back(tolerance);

@@ -41,7 +41,9 @@ public:
   };
 
   ///@{
-  /** What is measured, one of Kinds. Default AUTOMATIC. */
+  /** What is measured, one of Kinds: VERTICAL, z of a point minus z of the surface; CLOSEST, the
+   * distance from the closest point with the sign of the normal's side; AUTOMATIC, the first one
+   * when all surfaces are height fields. Default AUTOMATIC. */
   vtkSetClampMacro(Kind, int, AUTOMATIC, CLOSEST);
   vtkGetMacro(Kind, int);
   ///@}

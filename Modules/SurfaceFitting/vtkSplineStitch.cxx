@@ -129,15 +129,6 @@ vtkSplineStitch::vtkSplineStitch()
   this->SetNumberOfOutputPorts(NumOutputs);
 }
 
-void vtkSplineStitch::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "Continuity: " << this->Continuity << "\n";
-  os << indent << "Matching: " << this->Matching << "\n";
-  os << indent << "Tolerance: " << this->Tolerance << "\n";
-  os << indent << "Pairs: " << this->Pairs.size() << "\n";
-}
-
 void vtkSplineStitch::AddPair(int tileA, int sideA, int tileB, int sideB, int reversed)
 {
   this->Pairs.push_back({ tileA, sideA, tileB, sideB, reversed });

@@ -38,7 +38,7 @@ public:
 
   enum Matchings
   {
-    DOMAIN_BOXES = 0, ///< parameter boxes that share an edge or a part of one
+    DOMAIN_BOXES = 0, ///< "Domain" parameter boxes that share an edge or a part of one
     GEOMETRY,         ///< sides that begin, end and have their middle at the same points
     PAIRS             ///< AddPair
   };
@@ -49,14 +49,15 @@ public:
   vtkGetMacro(Continuity, int);
   ///@}
   ///@{
-  /** How neighbours are found, one of Matchings. Default DOMAIN_BOXES. */
+  /** How neighbours are found, one of Matchings: by the boxes of their parameters (height
+   * fields), by points of their sides, or as given pairs say. Default DOMAIN_BOXES. */
   vtkSetClampMacro(Matching, int, DOMAIN_BOXES, PAIRS);
   vtkGetMacro(Matching, int);
   ///@}
   ///@{
-  /** What counts as the same place, relative to the shortest side of a domain (DOMAIN_BOXES) or the
-   * longest edge of the box around all control points (GEOMETRY). Default 1e-6, valid range [1e-14,
-   * 0.1]. */
+  /** What counts as the same place, relative to the shortest side of a domain, or with GEOMETRY
+   * to the longest edge of the box around all control points. Default 1e-6, valid range [1e-14,
+   * 0.1]. Advanced. For Matching not PAIRS. */
   vtkSetClampMacro(Tolerance, double, 1e-14, 0.1);
   vtkGetMacro(Tolerance, double);
   ///@}

@@ -62,49 +62,6 @@ vtkSplineSurfaceFit::vtkSplineSurfaceFit()
   this->SetNumberOfOutputPorts(NumOutputs);
 }
 
-void vtkSplineSurfaceFit::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "Parameterization: " << this->Parameterization << "\n";
-  os << indent << "FieldArrays:";
-  for (const std::string& name : this->FieldArrays)
-  {
-    os << " " << name;
-  }
-  os << "\n" << indent << "AllFields: " << this->AllFields << "\n";
-  os << indent << "Space: " << this->Space << "\n";
-  os << indent << "Degree: " << this->Degree << "\n";
-  os << indent << "SecondDegree: " << this->SecondDegree << "\n";
-  os << indent << "InitialElementsU: " << this->InitialElementsU << "\n";
-  os << indent << "InitialElementsV: " << this->InitialElementsV << "\n";
-  os << indent << "Domain: " << this->Domain[0] << " " << this->Domain[1] << " " << this->Domain[2]
-     << " " << this->Domain[3] << "\n";
-  os << indent << "Method: " << this->Method << "\n";
-  os << indent << "SwitchIteration: " << this->SwitchIteration << "\n";
-  os << indent << "Smoothing: " << this->Smoothing << "\n";
-  os << indent << "SignificantWeight: " << this->SignificantWeight << "\n";
-  os << indent << "Tolerance: " << this->Tolerance << "\n";
-  os << indent << "ToleranceBoxes: " << this->ToleranceBoxes.size() << "\n";
-  os << indent << "DistanceMode: " << this->DistanceMode << "\n";
-  os << indent << "DistanceSlope: " << this->DistanceSlope << "\n";
-  os << indent << "DistanceCentre: " << this->DistanceCentre[0] << " " << this->DistanceCentre[1]
-     << "\n";
-  os << indent << "Side: " << this->Side << "\n";
-  os << indent << "FindOutliers: " << this->FindOutliers << "\n";
-  os << indent << "OutlierScale: " << this->OutlierScale << "\n";
-  os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
-  os << indent << "MaximumFunctions: " << this->MaximumFunctions << "\n";
-  os << indent << "MaximumSeconds: " << this->MaximumSeconds << "\n";
-  os << indent << "Criterion: " << this->Criterion << "\n";
-  os << indent << "Threshold: " << this->Threshold << "\n";
-  os << indent << "ThresholdShare: " << this->ThresholdShare << "\n";
-  os << indent << "Directions: " << this->Directions << "\n";
-  os << indent << "Strategy: " << this->Strategy << "\n";
-  os << indent << "Independent: " << this->Independent << "\n";
-  os << indent << "MinimumElementSize: " << this->MinimumElementSize << "\n";
-  os << indent << "FeatureGridSize: " << this->FeatureGridSize << "\n";
-}
-
 void vtkSplineSurfaceFit::AddFieldArray(const char* name)
 {
   if (name && name[0] != '\0')

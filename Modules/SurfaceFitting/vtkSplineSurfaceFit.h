@@ -45,42 +45,42 @@ public:
   };
   enum Spaces
   {
-    LR = 0,
-    THB
+    LR = 0, ///< "LR"
+    THB     ///< "THB"
   };
   enum Methods
   {
     LEAST_SQUARES = 0,
-    MBA,
+    MBA,     ///< "MBA"
     COMBINED ///< least squares until SwitchIteration, then MBA
   };
   enum Distances
   {
-    NO_DISTANCE = 0,
-    VALUE_DISTANCE, ///< tolerances grow with the height's absolute value
-    POINT_DISTANCE  ///< tolerances grow with the distance from DistanceCentre
+    NO_DISTANCE = 0, ///< "None"
+    VALUE_DISTANCE,  ///< "Value" tolerances grow with the height's absolute value
+    POINT_DISTANCE   ///< "Point" tolerances grow with the distance from DistanceCentre
   };
   enum Sides
   {
-    BOTH_SIDES = 0,
-    ABOVE, ///< no point above the surface
-    BELOW  ///< no point below the surface
+    BOTH_SIDES = 0, ///< "Both"
+    ABOVE,          ///< no point above the surface
+    BELOW           ///< no point below the surface
   };
   enum Criteria
   {
     TOLERANCE = 0,
-    AIC,
-    BIC
+    AIC, ///< "AIC"
+    BIC  ///< "BIC"
   };
   enum Thresholds
   {
-    ALL_ELEMENTS = 0,
+    ALL_ELEMENTS = 0, ///< "All"
     LARGEST_ERRORS,
     MOST_POINTS
   };
   enum DirectionChoices
   {
-    BOTH_DIRECTIONS = 0,
+    BOTH_DIRECTIONS = 0, ///< "Both"
     ALTERNATING,
     BY_ERROR
   };
@@ -92,7 +92,9 @@ public:
   };
 
   ///@{
-  /** Where the parameters come from, one of Parameterizations. Default HEIGHT_FIELD. */
+  /** Where the parameters of the points come from, one of Parameterizations. HEIGHT_FIELD: x and
+   * y, and z is fitted. GIVEN: an array of two components. COMPUTED: plane coordinates of the
+   * triangles, or without triangles of the plane of least squares. Default HEIGHT_FIELD. */
   vtkSetClampMacro(Parameterization, int, HEIGHT_FIELD, COMPUTED);
   vtkGetMacro(Parameterization, int);
   ///@}
@@ -108,7 +110,8 @@ public:
   vtkBooleanMacro(AllFields, bool);
   ///@}
   ///@{
-  /** Kind of the spline space, one of Spaces. Default LR. */
+  /** Kind of the spline space, one of Spaces: locally refined or truncated hierarchical
+   * B-splines. Default LR. */
   vtkSetClampMacro(Space, int, LR, THB);
   vtkGetMacro(Space, int);
   ///@}
@@ -118,48 +121,55 @@ public:
   vtkGetMacro(Degree, int);
   ///@}
   ///@{
-  /** Degree in the second parameter; 0: as the first. Default 0, valid range [0, 9]. */
+  /** Degree in the second parameter; 0: as the first. Default 0, valid range [0, 9]. Advanced. */
   vtkSetClampMacro(SecondDegree, int, 0, 9);
   vtkGetMacro(SecondDegree, int);
   ///@}
   ///@{
-  /** Elements of the initial space in the first and the second parameter; 0: chosen by the number
-   * of points. Default 0, valid range [0, 10000]. */
+  /** Elements of the initial space in the first parameter; 0: chosen by the number of points.
+   * Default 0, valid range [0, 10000]. Advanced. */
   vtkSetClampMacro(InitialElementsU, int, 0, 10000);
   vtkGetMacro(InitialElementsU, int);
+  ///@}
+  ///@{
+  /** Elements of the initial space in the second parameter; 0: chosen by the number of points.
+   * Default 0, valid range [0, 10000]. Advanced. */
   vtkSetClampMacro(InitialElementsV, int, 0, 10000);
   vtkGetMacro(InitialElementsV, int);
   ///@}
   ///@{
-  /** Parameter domain u0, u1, v0, v1; without an area the box of the parameters. Default 0 0 0 0.
-   */
+  /** Parameter domain u0, u1, v0, v1; without an area the box of the parameters. Default 0 0 0
+   * 0. Advanced. Components u0, u1, v0, v1. */
   vtkSetVector4Macro(Domain, double);
   vtkGetVector4Macro(Domain, double);
   ///@}
   ///@{
-  /** How control points are found, one of Methods. Default LEAST_SQUARES. */
+  /** How control points are found, one of Methods: least squares with smoothing, multilevel
+   * B-spline approximation (averages of local solutions), or the one and then the other. Default
+   * LEAST_SQUARES. */
   vtkSetClampMacro(Method, int, LEAST_SQUARES, COMBINED);
   vtkGetMacro(Method, int);
   ///@}
   ///@{
-  /** First iteration of MBA, of COMBINED. Default 6, valid range [0, 1000]. */
+  /** First iteration of multilevel B-spline approximation. Default 6, valid range [0, 1000].
+   * Advanced. For Method COMBINED. */
   vtkSetClampMacro(SwitchIteration, int, 0, 1000);
   vtkGetMacro(SwitchIteration, int);
   ///@}
   ///@{
   /** Weight of the thin-plate energy in least squares, relative to the data term. Default 1e-9,
-   * valid range [0, 1e3]. */
+   * valid range [0, 1000]. Advanced. For Method not MBA. */
   vtkSetClampMacro(Smoothing, double, 0.0, 1e3);
   vtkGetMacro(Smoothing, double);
   ///@}
   ///@{
-  /** How many times a significant point counts. Default 10, valid range [1, 1e6]. */
+  /** How many times a significant point counts. Default 10, valid range [1, 1000000]. Advanced. */
   vtkSetClampMacro(SignificantWeight, double, 1.0, 1e6);
   vtkGetMacro(SignificantWeight, double);
   ///@}
   ///@{
-  /** Largest distance of points from the surface, unit of the values; 0: a thousandth of the range
-   * of the values. Default 0, valid range >= 0. */
+  /** Largest distance of points from the surface, unit of the values; 0: a thousandth of the
+   * range of the values. Default 0, valid range >= 0. */
   vtkSetClampMacro(Tolerance, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Tolerance, double);
   ///@}
@@ -170,22 +180,26 @@ public:
   void ClearToleranceBoxes();
   ///@}
   ///@{
-  /** What the tolerance grows with, one of Distances. Default NO_DISTANCE. */
+  /** What the tolerance grows with, one of Distances: nothing, the absolute value of the height,
+   * or the distance from DistanceCentre. Default NO_DISTANCE. Advanced. */
   vtkSetClampMacro(DistanceMode, int, NO_DISTANCE, POINT_DISTANCE);
   vtkGetMacro(DistanceMode, int);
   ///@}
   ///@{
-  /** Growth of the tolerance a unit of distance. Default 0, valid range >= 0. */
+  /** Growth of the tolerance a unit of distance. Default 0, valid range >= 0. Advanced. For
+   * DistanceMode not NO_DISTANCE. */
   vtkSetClampMacro(DistanceSlope, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(DistanceSlope, double);
   ///@}
   ///@{
-  /** Parameters from which POINT_DISTANCE is measured. Default 0 0. */
+  /** Parameters from which distances are measured. Default 0 0. Advanced. For DistanceMode
+   * POINT_DISTANCE. Components u, v. */
   vtkSetVector2Macro(DistanceCentre, double);
   vtkGetVector2Macro(DistanceCentre, double);
   ///@}
   ///@{
-  /** On which side of the surface points may be, one of Sides. Default BOTH_SIDES. */
+  /** On which side of the surface points may be, one of Sides: both, no point above the surface,
+   * no point below it. Default BOTH_SIDES. */
   vtkSetClampMacro(Side, int, BOTH_SIDES, BELOW);
   vtkGetMacro(Side, int);
   ///@}
@@ -196,8 +210,8 @@ public:
   vtkBooleanMacro(FindOutliers, bool);
   ///@}
   ///@{
-  /** Robust standard deviations of the distances nearby beyond which a point is an outlier. Default
-   * 4.5, valid range [0.1, 1000]. */
+  /** Robust standard deviations of the distances nearby beyond which a point is an outlier.
+   * Default 4.5, valid range [0.1, 1000]. Advanced. For FindOutliers on. */
   vtkSetClampMacro(OutlierScale, double, 0.1, 1000.0);
   vtkGetMacro(OutlierScale, double);
   ///@}
@@ -207,57 +221,63 @@ public:
   vtkGetMacro(MaximumIterations, int);
   ///@}
   ///@{
-  /** Functions at most; 0: ten times the number of points but at most a million, or the number of
-   * points if that is more. Default 0, valid range [0, 1e9]. */
+  /** Functions at most; 0: ten times the number of points but at most a million, or the number
+   * of points if that is more. Default 0, valid range [0, 1000000000]. Advanced. */
   vtkSetClampMacro(MaximumFunctions, int, 0, 1000000000);
   vtkGetMacro(MaximumFunctions, int);
   ///@}
   ///@{
-  /** Seconds after which no iteration begins; 0: no limit. Default 0, valid range >= 0. */
+  /** Seconds after which no iteration begins, nor one that would probably end later; 0: no
+   * limit. Default 0, valid range >= 0. Advanced. */
   vtkSetClampMacro(MaximumSeconds, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(MaximumSeconds, double);
   ///@}
   ///@{
-  /** What ends the fit besides tolerance and limits, one of Criteria. Default TOLERANCE. */
+  /** What ends the fit besides tolerance and limits, one of Criteria: nothing, or an information
+   * criterion that has risen twice. Default TOLERANCE. Advanced. */
   vtkSetClampMacro(Criterion, int, TOLERANCE, BIC);
   vtkGetMacro(Criterion, int);
   ///@}
   ///@{
   /** Which elements with points outside their tolerance are split, one of Thresholds. Default
-   * LARGEST_ERRORS. */
+   * LARGEST_ERRORS. Advanced. */
   vtkSetClampMacro(Threshold, int, ALL_ELEMENTS, MOST_POINTS);
   vtkGetMacro(Threshold, int);
   ///@}
   ///@{
-  /** Share of the largest error or number from which on LARGEST_ERRORS and MOST_POINTS split.
-   * Default 0.1, valid range [0, 1]. */
+  /** Share of the largest error or number from which on elements are split. Default 0.1, valid
+   * range [0, 1]. Advanced. For Threshold LARGEST_ERRORS, MOST_POINTS. */
   vtkSetClampMacro(ThresholdShare, double, 0.0, 1.0);
   vtkGetMacro(ThresholdShare, double);
   ///@}
   ///@{
-  /** Directions in which elements are split, one of DirectionChoices. Default BY_ERROR. */
+  /** Directions in which elements are split, one of DirectionChoices. Default BY_ERROR.
+   * Advanced. For Space LR. */
   vtkSetClampMacro(Directions, int, BOTH_DIRECTIONS, BY_ERROR);
   vtkGetMacro(Directions, int);
   ///@}
   ///@{
-  /** How far the lines of an LR split reach, one of Strategies. Default FULL_SPAN. */
+  /** How far the lines that split an LR element reach, one of Strategies. Default FULL_SPAN.
+   * Advanced. For Space LR. */
   vtkSetClampMacro(Strategy, int, FULL_SPAN, STRUCTURED_MESH);
   vtkGetMacro(Strategy, int);
   ///@}
   ///@{
-  /** Whether no step of an LR space leaves linearly dependent functions (slower). Default off. */
+  /** Whether no step of an LR space leaves linearly dependent functions (slower). Default off.
+   * Advanced. For Space LR. */
   vtkSetMacro(Independent, bool);
   vtkGetMacro(Independent, bool);
   vtkBooleanMacro(Independent, bool);
   ///@}
   ///@{
   /** Elements whose halves would be a smaller share of the domain are not split. Default 1e-7,
-   * valid range [1e-12, 0.5]. */
+   * valid range [1e-12, 0.5]. Advanced. */
   vtkSetClampMacro(MinimumElementSize, double, 1e-12, 0.5);
   vtkGetMacro(MinimumElementSize, double);
   ///@}
   ///@{
-  /** Cells of the feature grid in each direction; 0: no grid. Default 0, valid range [0, 4096]. */
+  /** Cells of the feature grid in each direction; 0: no grid. Default 0, valid range [0, 4096].
+   * Advanced. */
   vtkSetClampMacro(FeatureGridSize, int, 0, 4096);
   vtkGetMacro(FeatureGridSize, int);
   ///@}

@@ -103,18 +103,6 @@ vtkSplineTrimToPoints::vtkSplineTrimToPoints()
   this->SetNumberOfOutputPorts(NumOutputs);
 }
 
-void vtkSplineTrimToPoints::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "CellSize: " << this->CellSize << "\n";
-  os << indent << "MaximumGap: " << this->MaximumGap << "\n";
-  os << indent << "MaximumFunctions: " << this->MaximumFunctions << "\n";
-  os << indent << "MinimumCells: " << this->MinimumCells << "\n";
-  os << indent << "Tolerance: " << this->Tolerance << "\n";
-  os << indent << "ChordalTolerance: " << this->ChordalTolerance << "\n";
-  os << indent << "Triangulation: " << this->Triangulation << "\n";
-}
-
 void vtkSplineTrimToPoints::SetPointsConnection(vtkAlgorithmOutput* output)
 {
   this->SetInputConnection(1, output);

@@ -31,36 +31,37 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /** Side of the cells that tell where points are, unit of the parameters. Default 0 (2.5 times the
-   * mean spacing), valid range >= 0. */
+  /** Side of the cells that tell where points are, unit of the parameters; 0: 2.5 times the mean
+   * spacing. Default 0, valid range >= 0. */
   vtkSetClampMacro(CellSize, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(CellSize, double);
   ///@}
   ///@{
   /** Holes and bays up to this width are closed, unit of the parameters, in whole cells that fit
-   * into it. Default 0 (two cells), valid range >= 0. */
+   * into it; 0: two cells. Default 0, valid range >= 0. */
   vtkSetClampMacro(MaximumGap, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(MaximumGap, double);
   ///@}
   ///@{
-  /** Separate parts with fewer cells are left out. Default 4, valid range [1, 10000000]. */
+  /** Separate parts with fewer cells are left out. Default 4, valid range [1, 10000000].
+   * Advanced. */
   vtkSetClampMacro(MinimumCells, int, 1, 10000000);
   vtkGetMacro(MinimumCells, int);
   ///@}
   ///@{
-  /** Largest distance, on the surface, between outline and trimming curves. Default 0 (a third of
-   * a cell), valid range >= 0. */
+  /** Largest distance, on the surface, between outline and trimming curves; 0: a third of a
+   * cell. Default 0, valid range >= 0. Advanced. */
   vtkSetClampMacro(Tolerance, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Tolerance, double);
   ///@}
   ///@{
-  /** Largest distance between triangulation and faces. Default 0 (a quarter of the tolerance),
-   * valid range >= 0. */
+  /** Largest distance between triangles and faces; 0: a quarter of the tolerance. Default 0,
+   * valid range >= 0. Advanced. For Triangulation on. */
   vtkSetClampMacro(ChordalTolerance, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(ChordalTolerance, double);
   ///@}
   ///@{
-  /** Whether output 0 is made. Default on. */
+  /** Whether the faces are triangulated, output 0. Default on. Advanced. */
   vtkSetMacro(Triangulation, bool);
   vtkGetMacro(Triangulation, bool);
   vtkBooleanMacro(Triangulation, bool);
@@ -73,7 +74,7 @@ public:
 
   ///@{
   /** Functions that the surface may have as a tensor product; more is an error before memory is
-   * taken. Default 1000000, valid range [1, 2147483647]. */
+   * taken. Default 1000000, valid range >= 1. Advanced. */
   vtkSetClampMacro(MaximumFunctions, int, 1, VTK_INT_MAX);
   vtkGetMacro(MaximumFunctions, int);
   ///@}

@@ -82,25 +82,6 @@ vtkTrimmedSurface::vtkTrimmedSurface()
   this->SetNumberOfOutputPorts(NumOutputs);
 }
 
-void vtkTrimmedSurface::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "Method: " << this->Method << "\n";
-  os << indent << "Tolerance: " << this->Tolerance << "\n";
-  os << indent << "ChordalTolerance: " << this->ChordalTolerance << "\n";
-  os << indent << "Elements: " << this->Elements << "\n";
-  os << indent << "MaximumElements: " << this->MaximumElements << "\n";
-  os << indent << "Degree: " << this->Degree << "\n";
-  os << indent << "Margin: " << this->Margin << "\n";
-  os << indent << "Smoothing: " << this->Smoothing << "\n";
-  os << indent << "Centres: " << this->Centres << "\n";
-  os << indent << "CornerAngle: " << this->CornerAngle << "\n";
-  os << indent << "MaximumFunctions: " << this->MaximumFunctions << "\n";
-  os << indent << "Effort: " << this->Effort << "\n";
-  os << indent << "TimeLimit: " << this->TimeLimit << "\n";
-  os << indent << "Triangulation: " << this->Triangulation << "\n";
-}
-
 int vtkTrimmedSurface::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());

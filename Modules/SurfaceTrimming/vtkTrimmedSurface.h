@@ -33,92 +33,97 @@ public:
 
   enum Methods
   {
-    NURBS = 0, ///< a grid of interpolated points, continued outwards by extrapolation
-    RBF,       ///< thin-plate radial basis functions, followed by a spline
+    NURBS = 0, ///< "NURBS" a grid of interpolated points, continued outwards by extrapolation
+    RBF,       ///< "RBF" thin-plate radial basis functions, followed by a spline
     HYBRID,    ///< control points are values of the radial basis functions
     PENALIZED  ///< least squares with thin-plate energy
   };
 
   ///@{
-  /** How the surfaces are made, one of Methods. Default PENALIZED. */
+  /** How the surfaces are made, one of Methods. PENALIZED: least squares with thin-plate energy,
+   * for meshes of any size. RBF: thin-plate radial basis functions; HYBRID: their values as
+   * control points. NURBS continues a grid outwards by extrapolation, which may fold beside the
+   * mesh, and is here to compare with. Default PENALIZED. */
   vtkSetClampMacro(Method, int, NURBS, PENALIZED);
   vtkGetMacro(Method, int);
   ///@}
   ///@{
-  /** Largest distance between mesh and faces, unit of the points. Default 0 (a thousandth of the
-   * diagonal of the mesh's box), valid range >= 0. */
+  /** Largest distance between mesh and faces, unit of the points; 0: a thousandth of the
+   * diagonal of the mesh's box. Default 0, valid range >= 0. */
   vtkSetClampMacro(Tolerance, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Tolerance, double);
   ///@}
   ///@{
-  /** Largest distance between triangulation and faces, unit of the points. Default 0 (a quarter of
-   * Tolerance), valid range >= 0. */
+  /** Largest distance between triangles and faces, unit of the points; 0: a quarter of the
+   * tolerance. Default 0, valid range >= 0. Advanced. For Triangulation on. */
   vtkSetClampMacro(ChordalTolerance, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(ChordalTolerance, double);
   ///@}
   ///@{
-  /** Spans of a net in its longer direction. Default 0 (as many as the tolerance asks for), valid
-   * range [0, 2000]. */
+  /** Spans of a net in its longer direction; 0: as many as the tolerance asks for. Default 0,
+   * valid range [0, 2000]. Advanced. */
   vtkSetClampMacro(Elements, int, 0, 2000);
   vtkGetMacro(Elements, int);
   ///@}
   ///@{
-  /** Spans of a net in a direction at most, when Elements is 0. Default 400, valid range [1, 2000].
-   */
+  /** Spans of a net in a direction at most, when their number follows the tolerance. Default
+   * 400, valid range [1, 2000]. Advanced. */
   vtkSetClampMacro(MaximumElements, int, 1, 2000);
   vtkGetMacro(MaximumElements, int);
   ///@}
   ///@{
-  /** Degree of the surfaces. Default 3, valid range [1, 9]. */
+  /** Degree of the surfaces. Default 3, valid range [1, 9]. Advanced. */
   vtkSetClampMacro(Degree, int, 1, 9);
   vtkGetMacro(Degree, int);
   ///@}
   ///@{
   /** Margin of the surfaces around their charts, part of the longest side. Default 0.02, valid
-   * range [0, 1]. */
+   * range [0, 1]. Advanced. */
   vtkSetClampMacro(Margin, double, 0.0, 1.0);
   vtkGetMacro(Margin, double);
   ///@}
   ///@{
   /** Weight of the thin-plate energy of PENALIZED, independent of units; less on finer nets.
-   * Default 1e-7, valid range [1e-15, 1e3]. */
+   * Default 1e-7, valid range [1e-15, 1000]. Advanced. For Method PENALIZED. */
   vtkSetClampMacro(Smoothing, double, 1e-15, 1e3);
   vtkGetMacro(Smoothing, double);
   ///@}
   ///@{
   /** Radial basis functions of RBF and HYBRID at most: all points up to so many, else the greedy
-   * choice of so many. Default 2000, valid range [10, 20000]. */
+   * choice of so many. Default 2000, valid range [10, 20000]. Advanced. For Method RBF, HYBRID. */
   vtkSetClampMacro(Centres, int, 10, 20000);
   vtkGetMacro(Centres, int);
   ///@}
   ///@{
-  /** A boundary that turns by more degrees at a point has a corner there. Default 40, valid range
-   * [1, 180]. */
+  /** A boundary that turns by more degrees at a point has a corner there. Default 20, valid
+   * range [1, 180]. */
   vtkSetClampMacro(CornerAngle, double, 1.0, 180.0);
   vtkGetMacro(CornerAngle, double);
   ///@}
   ///@{
   /** Functions that the net of a surface may have: 200000 take about 1.5e9 bytes. A net by need
-   * ends before it, Elements that would make more are error 13. Default 200000, valid range [1,
-   * 2147483647]. */
+   * ends before it, a given number of spans that would make more is an error. Default 200000,
+   * valid range >= 1. Advanced. */
   vtkSetClampMacro(MaximumFunctions, int, 1, VTK_INT_MAX);
   vtkGetMacro(MaximumFunctions, int);
   ///@}
   ///@{
-  /** Work of PENALIZED at most, with what its faces cost until a CAD file of them is checked: about
-   * as many seconds of one core, but counted, so that the same run ends at the same place on every
-   * machine, with the best surfaces so far. Default 50, valid range [1e-6, 1e6]. */
+  /** Work of PENALIZED at most, with what its faces cost until a CAD file of them is checked:
+   * about as many seconds of one core, but counted, so that the same run ends at the same place
+   * on every machine, with the best surfaces so far. Default 50, valid range [1e-6, 1000000]. */
   vtkSetClampMacro(Effort, double, 1e-6, 1e6);
   vtkGetMacro(Effort, double);
   ///@}
   ///@{
-  /** Seconds of the wall clock at most, then the best surfaces so far are taken; 0: no limit. The
-   * result then depends on the machine's speed. Default 0, valid range [0, 1e9]. */
+  /** Seconds of the wall clock at most, then the best surfaces so far are taken; 0: no limit.
+   * The result then depends on the machine's speed. Default 0, valid range [0, 1000000000].
+   * Advanced. */
   vtkSetClampMacro(TimeLimit, double, 0.0, 1e9);
   vtkGetMacro(TimeLimit, double);
   ///@}
   ///@{
-  /** Whether output 0 is made. Default on. */
+  /** Whether the faces are triangulated, output 0; off saves the time when only the faces are
+   * wanted. Default on. Advanced. */
   vtkSetMacro(Triangulation, bool);
   vtkGetMacro(Triangulation, bool);
   vtkBooleanMacro(Triangulation, bool);

@@ -28,53 +28,6 @@ vtkTemplateMapping::vtkTemplateMapping()
   this->SetNumberOfOutputPorts(3);
 }
 
-void vtkTemplateMapping::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "Method: " << this->Method << "\n";
-  os << indent << "Iterations: " << this->Iterations << "\n";
-  os << indent << "Degree: " << this->Degree << "\n";
-  os << indent << "InnerKnots: " << this->InnerKnots << "\n";
-  os << indent << "InnerKnotsPerDirection:";
-  for (const int number : this->InnerKnotsPerDirection)
-  {
-    os << " " << number;
-  }
-  os << "\n";
-  os << indent << "TemplateSamples: " << this->TemplateSamples << "\n";
-  os << indent << "NewtonSteps: " << this->NewtonSteps << "\n";
-  os << indent << "PdmWeight: " << this->PdmWeight << "\n";
-  os << indent << "TdmWeight: " << this->TdmWeight << "\n";
-  os << indent << "TikhonovWeight: " << this->TikhonovWeight << "\n";
-  os << indent << "UniformityWeight: " << this->UniformityWeight << "\n";
-  os << indent << "LengthWeight: " << this->LengthWeight << "\n";
-  os << indent << "OrthogonalityWeight: " << this->OrthogonalityWeight << "\n";
-  os << indent << "SkewnessWeight: " << this->SkewnessWeight << "\n";
-  os << indent << "EccentricityWeight: " << this->EccentricityWeight << "\n";
-  os << indent << "AreaWeight: " << this->AreaWeight << "\n";
-  os << indent << "SelfIntersectionWeight: " << this->SelfIntersectionWeight << "\n";
-  os << indent << "Guard: " << this->Guard << "\n";
-  os << indent << "Accuracy: " << this->Accuracy << "\n";
-  os << indent << "MaxIrregularShare: " << this->MaxIrregularShare << "\n";
-  os << indent << "Refinement: " << this->Refinement << "\n";
-  os << indent << "RefineEvery: " << this->RefineEvery << "\n";
-  os << indent << "StagnationRatio: " << this->StagnationRatio << "\n";
-  os << indent << "RefineThreshold: " << this->RefineThreshold << "\n";
-  os << indent << "RefineShare: " << this->RefineShare << "\n";
-  os << indent << "Extension: " << this->Extension << "\n";
-  os << indent << "MaxLevel: " << this->MaxLevel << "\n";
-  os << indent << "MaxFunctions: " << this->MaxFunctions << "\n";
-  os << indent << "InitialMap: " << this->InitialMap << "\n";
-  os << indent << "UseDomain: " << this->UseDomain << "\n";
-  os << indent << "Domain:";
-  for (const double number : this->Domain)
-  {
-    os << " " << number;
-  }
-  os << "\n";
-  os << indent << "Injectivity: " << this->Injectivity << "\n";
-}
-
 int vtkTemplateMapping::FillInputPortInformation(int port, vtkInformation* info)
 {
   const char* other = port == 2 ? "vtkPartitionedDataSetCollection" : "vtkPolyData";

@@ -52,10 +52,12 @@ public:
   /** What an iteration minimizes, over the samples p of the target. */
   enum Methods
   {
-    FIXED = 0,   ///< distance to the mapped point of the sample's own, fixed parameter
-    PDM = 1,     ///< distance to the closest mapped point
-    TDM = 2,     ///< distance of the closest mapped point to the tangent at p
-    WEIGHTED = 3 ///< PdmWeight times the second plus TdmWeight times the third
+    FIXED =
+      0, ///< "Fixed Parameters" distance to the mapped point of the sample's own, fixed parameter
+    PDM = 1, ///< "Point Distance (PDM)" distance to the closest mapped point
+    TDM = 2, ///< "Tangent Distance (TDM)" distance of the closest mapped point to the tangent at p
+    WEIGHTED =
+      3 ///< "Weighted PDM and TDM" PdmWeight times the second plus TdmWeight times the third
   };
 
   /** How the space grows between iterations. */
@@ -87,184 +89,205 @@ public:
   ///@}
 
   ///@{
-  /** FIXED, PDM, TDM or WEIGHTED. Default TDM. */
+  /** What an iteration minimizes over the samples p of the target, one of Methods: sum |s - p|^2
+   * at fixed parameters (FIXED) or at the closest points s (PDM), or sum ((s - p) . N)^2 with
+   * the normal N of the target (TDM), or both with their weights (WEIGHTED). Default TDM. Group
+   * "Method". */
   vtkSetClampMacro(Method, int, FIXED, WEIGHTED);
   vtkGetMacro(Method, int);
   ///@}
   ///@{
-  /** Iterations at most: one least-squares step and one update of the closest points each. Default
-   * 20, valid range [1, 100000]. */
+  /** Iterations at most: one least-squares step and one update of the closest points each.
+   * Default 20, valid range [1, 100000]. Group "Termination". */
   vtkSetClampMacro(Iterations, int, 1, 100000);
   vtkGetMacro(Iterations, int);
   ///@}
   ///@{
-  /** Polynomial degree of the map in every direction. Default 3, valid range [1, 9]. */
+  /** Polynomial degree of the map in every direction. Default 3, valid range [1, 9]. Group
+   * "Method". */
   vtkSetClampMacro(Degree, int, 1, 9);
   vtkGetMacro(Degree, int);
   ///@}
   ///@{
-  /** Equally spaced inner knots in each direction. Default 11, valid range [0, 4096]. */
+  /** Equally spaced inner knots in each direction: one less than the elements. Default 11, valid
+   * range [0, 4096]. Group "Method". */
   vtkSetClampMacro(InnerKnots, int, 0, 4096);
   vtkGetMacro(InnerKnots, int);
   ///@}
   ///@{
-  /** The same of single directions; -1 takes the common number. Default -1, valid range [-1, 4096].
-   */
+  /** Inner knots of single directions; -1: the common number. Default -1 -1 -1, valid range [-1,
+   * 4096]. Advanced. Group "Method". */
   vtkSetVector3Macro(InnerKnotsPerDirection, int);
   vtkGetVector3Macro(InnerKnotsPerDirection, int);
   ///@}
   ///@{
-  /** Dense samples of each template patch among which closest points are searched first: 0 takes
-   * the template's own points. Default 0, valid range 0 and [2, 1e7]. */
+  /** Dense samples of each template patch among which closest points are searched first; 0: the
+   * template's own points. A coarse template needs some thousands; 1 is not valid. Default 0,
+   * valid range [0, 10000000]. Group "Method". */
   vtkSetClampMacro(TemplateSamples, int, 0, 10000000);
   vtkGetMacro(TemplateSamples, int);
   ///@}
   ///@{
-  /** Newton steps from the nearest dense sample. Default 2, valid range [0, 100]. */
+  /** Newton steps from the nearest dense sample to the closest point. Default 2, valid range [0,
+   * 100]. Advanced. Group "Method". */
   vtkSetClampMacro(NewtonSteps, int, 0, 100);
   vtkGetMacro(NewtonSteps, int);
   ///@}
   ///@{
-  /** Weight of the squared point distances, WEIGHTED only. Default 1, not negative; not 0 together
-   * with TdmWeight. */
+  /** Weight of the squared point distances sum |s - p|^2; not 0 together with TdmWeight. Default
+   * 1, valid range >= 0. For Method WEIGHTED. Group "Method". */
   vtkSetClampMacro(PdmWeight, double, 0.0, 1e30);
   vtkGetMacro(PdmWeight, double);
   ///@}
   ///@{
-  /** Weight of the squared tangent distances, WEIGHTED only. Default 1, not negative. */
+  /** Weight of the squared tangent distances sum ((s - p) . N)^2. Default 1, valid range >= 0.
+   * For Method WEIGHTED. Group "Method". */
   vtkSetClampMacro(TdmWeight, double, 0.0, 1e30);
   vtkGetMacro(TdmWeight, double);
   ///@}
   ///@{
-  /** Weight of the squared change of the control points in an iteration. Default 0.02, not
-   * negative; 0 needs samples that determine every control point. */
+  /** Weight of the squared change of the control points in an iteration: larger is smoother and
+   * slower; 0 needs samples that determine every control point. Default 0.02, valid range >= 0.
+   * Group "Functionals". */
   vtkSetClampMacro(TikhonovWeight, double, 0.0, 1e30);
   vtkGetMacro(TikhonovWeight, double);
   ///@}
   ///@{
   /** Weight of the integral of sum |s_kl|^2 over the domain: parameter lines bend little and are
-   * evenly spaced. Default 0, not negative. */
+   * evenly spaced. Default 0, valid range >= 0. Group "Functionals". */
   vtkSetClampMacro(UniformityWeight, double, 0.0, 1e30);
   vtkGetMacro(UniformityWeight, double);
   ///@}
   ///@{
-  /** Weight of the integral of sum |s_k|^2: parameter lines are short. Default 0, not negative. */
+  /** Weight of the integral of sum |s_k|^2: parameter lines are short. Default 0, valid range >=
+   * 0. Group "Functionals". */
   vtkSetClampMacro(LengthWeight, double, 0.0, 1e30);
   vtkGetMacro(LengthWeight, double);
   ///@}
   ///@{
-  /** Weight of the integral of sum (s_k . s_l)^2: parameter lines meet at right angles. Default 0,
-   * not negative. */
+  /** Weight of the integral of sum (s_k . s_l)^2: parameter lines meet at right angles. Default
+   * 0, valid range >= 0. Advanced. Group "Functionals". */
   vtkSetClampMacro(OrthogonalityWeight, double, 0.0, 1e30);
   vtkGetMacro(OrthogonalityWeight, double);
   ///@}
   ///@{
-  /** Weight of the integral of sum cos^4 of the angles between parameter lines. Default 0, not
-   * negative. */
+  /** Weight of the integral of sum cos^4 of the angles between parameter lines. Default 0, valid
+   * range >= 0. Advanced. Group "Functionals". */
   vtkSetClampMacro(SkewnessWeight, double, 0.0, 1e30);
   vtkGetMacro(SkewnessWeight, double);
   ///@}
   ///@{
-  /** Weight of the integral of sum ((s_k . s_kk) / |s_k|^2)^2: speed along parameter lines changes
-   * little. Default 0, not negative. */
+  /** Weight of the integral of sum ((s_k . s_kk) / |s_k|^2)^2: speed along parameter lines
+   * changes little. Default 0, valid range >= 0. Advanced. Group "Functionals". */
   vtkSetClampMacro(EccentricityWeight, double, 0.0, 1e30);
   vtkGetMacro(EccentricityWeight, double);
   ///@}
   ///@{
-  /** Weight of the integral of (det J)^2: cells of equal area or volume. Default 0, not negative.
-   */
+  /** Weight of the integral of (det J)^2: cells of equal area or volume. Default 0, valid range
+   * >= 0. Advanced. Group "Functionals". */
   vtkSetClampMacro(AreaWeight, double, 0.0, 1e30);
   vtkGetMacro(AreaWeight, double);
   ///@}
   ///@{
-  /** Weight of the integral of sum 1 / (|s_k|^2 + 1e-7)^2: parameter lines nowhere stop. Default 0,
-   * not negative. */
+  /** Weight of the integral of sum 1 / (|s_k|^2 + 1e-7)^2: parameter lines nowhere stop. Default
+   * 0, valid range >= 0. Advanced. Group "Functionals". */
   vtkSetClampMacro(SelfIntersectionWeight, double, 0.0, 1e30);
   vtkGetMacro(SelfIntersectionWeight, double);
   ///@}
   ///@{
-  /** Keep every iterate regular: a step after which det J > 0 is not proved everywhere is changed.
-   * The certificate decides, not samples. Default on. */
+  /** Whether every iterate is kept regular: a step after which det J > 0 is not proved
+   * everywhere is held back where it folds, or shortened. Proved bounds decide, not samples.
+   * Default on. Group "Regularity". */
   vtkSetMacro(Guard, bool);
   vtkGetMacro(Guard, bool);
   vtkBooleanMacro(Guard, bool);
   ///@}
   ///@{
-  /** Iterations end when the largest error is not above this, unit of the points; 0: never. Default
-   * 0, not negative. */
+  /** Iterations end when the largest error, both ways between target and mapped template, is not
+   * above this, unit of the points; 0: never. Default 0, valid range >= 0. Group "Termination". */
   vtkSetClampMacro(Accuracy, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Accuracy, double);
   ///@}
   ///@{
   /** Iterations end, with the iterate before, when det J < 0 at a larger share of 10^6 points of
-   * the domain. Nothing to do while the guard is on. Default 1: never; valid range [0, 1]. */
+   * the domain; 1: never. Default 1, valid range [0, 1]. For Guard off. Group "Regularity". */
   vtkSetClampMacro(MaxIrregularShare, double, 0.0, 1.0);
   vtkGetMacro(MaxIrregularShare, double);
   ///@}
   ///@{
-  /** NONE, LOCAL or GLOBAL. Default NONE. */
+  /** Whether cells become smaller between iterations, one of Refinements: where errors are large
+   * (truncated hierarchical B-splines), or everywhere. Default NONE. Group "Refinement". */
   vtkSetClampMacro(Refinement, int, NONE, GLOBAL);
   vtkGetMacro(Refinement, int);
   ///@}
   ///@{
-  /** Refine after every so many iterations; 0: when the error stagnates. Default 1, valid range [0,
-   * 100000]. */
+  /** Refine after every so many iterations; 0: when the error stagnates. Default 1, valid range
+   * [0, 100000]. For Refinement not NONE. Group "Refinement". */
   vtkSetClampMacro(RefineEvery, int, 0, 100000);
   vtkGetMacro(RefineEvery, int);
   ///@}
   ///@{
   /** The squared error stagnates when it falls by less than this part of itself in an iteration.
-   * Default 0.05, valid range [1e-6, 0.999999]. */
+   * Default 0.05, valid range [1e-6, 0.999999]. For Refinement not NONE. For RefineEvery 0.
+   * Group "Refinement". */
   vtkSetClampMacro(StagnationRatio, double, 1e-6, 0.999999);
   vtkGetMacro(StagnationRatio, double);
   ///@}
   ///@{
-  /** LOCAL: cells with a target sample of at least this error are refined, unit of the points.
-   * Default 1e-5, not negative. */
+  /** Cells with a target sample of at least this error are refined, unit of the points. Default
+   * 1e-5, valid range >= 0. For Refinement LOCAL. Group "Refinement". */
   vtkSetClampMacro(RefineThreshold, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(RefineThreshold, double);
   ///@}
   ///@{
-  /** LOCAL: the error that this share of all samples reaches is the threshold, if it is larger than
-   * RefineThreshold; 0: that alone counts. Default 0, valid range [0, 1]. */
+  /** The error that this share of all samples reaches is the threshold, if it is larger than
+   * RefineThreshold; 0: that alone counts. Default 0, valid range [0, 1]. For Refinement LOCAL.
+   * Group "Refinement". */
   vtkSetClampMacro(RefineShare, double, 0.0, 1.0);
   vtkGetMacro(RefineShare, double);
   ///@}
   ///@{
-  /** LOCAL: cells of the new level around a marked one that are refined too. Default 1, valid range
-   * [0, 100]. */
+  /** Cells of the new level around a marked one that are refined too. Default 1, valid range [0,
+   * 100]. For Refinement LOCAL. Group "Refinement". */
   vtkSetClampMacro(Extension, int, 0, 100);
   vtkGetMacro(Extension, int);
   ///@}
   ///@{
-  /** Cells of this level are not refined. Default 10, valid range [0, 24]. */
+  /** Cells of this level are not refined. Default 10, valid range [0, 24]. Advanced. For
+   * Refinement not NONE. Group "Refinement". */
   vtkSetClampMacro(MaxLevel, int, 0, 24);
   vtkGetMacro(MaxLevel, int);
   ///@}
   ///@{
-  /** A refinement to more functions is not made. Default 200000, at least 1. */
+  /** A refinement to more functions is not made. Default 200000, valid range >= 1. Advanced. For
+   * Refinement not NONE. Group "Refinement". */
   vtkSetClampMacro(MaxFunctions, int, 1, VTK_INT_MAX);
   vtkGetMacro(MaxFunctions, int);
   ///@}
   ///@{
-  /** IDENTITY or MOVED; not read when input 2 has a map. Default IDENTITY. */
+  /** The map of the first iteration, unless one is given as input 2, one of InitialMaps: the
+   * identity, or the identity with each control point moved by the mean displacement of the
+   * samples around it, for targets far off. Default IDENTITY. Group "Initial Map". */
   vtkSetClampMacro(InitialMap, int, IDENTITY, MOVED);
   vtkGetMacro(InitialMap, int);
   ///@}
   ///@{
-  /** Make the map over Domain, not over the template's bounding box. Default off. */
+  /** Whether the map is made over the box below, not over the template's bounding box. Default
+   * off. Advanced. Group "Initial Map". */
   vtkSetMacro(UseDomain, bool);
   vtkGetMacro(UseDomain, bool);
   vtkBooleanMacro(UseDomain, bool);
   ///@}
   ///@{
-  /** Box around the template as xmin, xmax, ymin, ymax, zmin, zmax (z: in space only). Default the
-   * unit box. */
+  /** Box around the template: x, y and (in space) z, each from and to. Default 0 1 0 1 0 1.
+   * Advanced. For UseDomain on. Components xmin, xmax, ymin, ymax, zmin, zmax. Group "Initial
+   * Map". */
   vtkSetVector6Macro(Domain, double);
   vtkGetVector6Macro(Domain, double);
   ///@}
   ///@{
-  /** Prove that the map as a whole takes no value twice. Default on. */
+  /** Whether it is proved that the map as a whole takes no value twice: field data Injective.
+   * Default on. Advanced. Group "Regularity". */
   vtkSetMacro(Injectivity, bool);
   vtkGetMacro(Injectivity, bool);
   vtkBooleanMacro(Injectivity, bool);

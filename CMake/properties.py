@@ -1,0 +1,511 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a property of a filter is, is said once: in the filter's header. This script reads the headers and makes the rest.
+
+usage: properties.py print-self OUT.cxx HEADER...     PrintSelf of the classes
+       properties.py options OUT HEADER...            OUT.h, OUT.cxx: options of the command line for the classes
+       properties.py proxies OUT.xml IN.xml HEADER... ParaView's proxies: IN.xml with its short forms written out
+       properties.py choices OUT.py HEADER...         names of choices, for Python
+       properties.py pages [--check] PAGE... -- HEADER...
+                                                      the tables of the pages between marks, rewritten or compared
+
+A property is a setter macro of VTK under a comment:
+
+    /** Share of the largest error from which on elements are split. Default 0.1, valid range [0, 1]. Advanced. For
+     * Threshold LARGEST_ERRORS, MOST_POINTS. */
+    vtkSetClampMacro(ThresholdShare, double, 0.0, 1.0);
+
+First what it is, for every reader; then "Default ...", held against the initializer of the member, and "valid range [a, b]"
+or ">= a", held against the macro; then, where they apply,
+
+    Advanced.             ParaView shows it on demand
+    For NAME VALUE, ....  it counts with these values (or on, off) of another property: ParaView shows it with them only; "not" before
+                          the values: with the other ones. Several sentences: all must hold.
+    Components a, b, ...  what its numbers are called
+    Group "Name".         properties that ParaView frames together
+
+A property between two enumerators is a choice of that enumeration. A label in quotes that begins an enumerator's comment is
+what people see, else the enumerator's words are; on the command line it is the same in lower case, or what the label has in brackets.
+Enumerators and properties that a sentence names become what they are called where it is shown.
+
+IN.xml is XML of ParaView's server manager with short forms: <Properties/> in a proxy stands for all properties of its class that the proxy
+does not write itself (<Properties until="NAME"/>: those before that one), <Input name= types="..."> for an input, <Outputs names="..."/> for
+its output ports, <Array name= arrays="domain of the input"> for a choice of an array (index= of SetInputArrayToProcess, or command=), and the
+attribute components="..." of any other property labels its numbers. Without <Hints> a proxy stands in the menu, and its first output is shown."""
+import os
+import re
+import sys
+import xml.etree.ElementTree as ElementTree
+
+CLASS = re.compile(r"^class VTK\w+_EXPORT (\w+) : public (\w+)", re.M)
+SETTER = re.compile(r"vtkSet(Clamp|Vector\d|String|FilePath|)Macro\(([^;]*)\);")
+GETTER = re.compile(r"vtkGet(?:Vector\d|String|FilePath|Object|)Macro\((\w+)[^;]*\);")
+LIST = re.compile(r"^  std::vector<[^;]*> (\w+);", re.M)
+SENTENCES = re.compile(r"(?<=\.)\s+(?=Advanced\.|For \w+ |Components |Group \")")
+
+
+class Fault(Exception):
+    """What is wrong with a header or page, as one line."""
+
+
+def words_of(name):
+    """LRStrategy -> LR Strategy, as ParaView labels properties."""
+    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", " ", name)
+
+
+def option_name(name):
+    """As Options::KebabCase does."""
+    return re.sub(r"^max-", "maximum-", words_of(name).lower().replace(" ", "-"))
+
+
+def number(text):
+    """As short as it can be written; None: not a number, or one that stands for no bound."""
+    try:
+        value = float(text)
+    except ValueError:
+        return None
+    if abs(value) >= 1e29:
+        return None
+    return str(int(value)) if value == int(value) and abs(value) < 1e15 else repr(value).replace("e-0", "e-")
+
+
+class Choice:
+    def __init__(self, enumerator, comment):
+        label = re.match(r'"([^"]*)"', comment)
+        self.enumerator = enumerator
+        self.label = label[1] if label else words_of(enumerator) if enumerator[-1].islower() else \
+            enumerator.replace("_", " ").title()
+        bracket = re.search(r"\((\w+)\)", self.label)
+        squeezed = re.sub(r"\W", "", self.label).lower().startswith(enumerator.replace("_", "").lower())
+        self.option = (bracket[1] if bracket else enumerator if squeezed else self.label).lower().replace("_", "-")
+        self.option = re.sub(r"\s+", "-", self.option)
+
+
+class Property:
+    def __init__(self, name, macro, arguments, comment, header):
+        self.name = name
+        self.where = f"{header.file}: {name}"
+        self.type = "string" if macro in ("String", "FilePath") or "string" in arguments[0] else arguments[0]
+        self.is_characters = macro in ("String", "FilePath")
+        self.count = int(macro[-1]) if macro.startswith("Vector") else 1
+        self.macro_bounds = arguments[1:3] if macro == "Clamp" else None
+        self.choices = header.choices_between(*self.macro_bounds) if self.macro_bounds else []
+        if self.macro_bounds and not self.choices and not all(re.match(r"-?\d|VTK_", each) for each in self.macro_bounds):
+            raise Fault(f"{self.where}: {' and '.join(self.macro_bounds)} are no enumerators of one enumeration")
+        self.default = self.initial(header)
+        self.advanced, self.conditions, self.components, self.group = False, [], [], None
+        self.low = self.high = None
+        self.parse(" ".join(comment.split()))
+
+    def initial(self, header):
+        found = re.search(rf"^ +[\w:]+\*? {self.name}(?:\[\d\])?(?: = ([^;]*))?;", header.text, re.M)
+        if not found:
+            raise Fault(f"{self.where}: no member")
+        words = (found[1] or '""').strip("{ }").split(",")
+        return [word.strip().replace("nullptr", '""').strip('"') for word in words]
+
+    def default_words(self):
+        if self.type == "bool":
+            return "on" if self.default[0] == "true" else "off"
+        if self.type == "string":
+            return self.default[0] or "empty"
+        return " ".join(word if self.choices else number(word) or word for word in self.default)
+
+    def parse(self, comment):
+        found = re.fullmatch(r"(.*?)(?: Default (.+?)(?:, valid range (\[.*?\]|\(.*?\]|>= \S+?))?\.( .*)?)?", comment)
+        self.text, default, bounds, marks = found.groups()
+        if default is None:
+            if self.default_words() != "empty":
+                raise Fault(f"{self.where}: the comment says no default")
+        elif default != self.default_words():
+            raise Fault(f"{self.where}: default is {default} in the comment and {self.default_words()} in the member")
+        if bounds:
+            limits = re.findall(r"[^\[\](),>= ]+", bounds)
+            self.low, self.high = number(limits[0]), number(limits[1]) if len(limits) > 1 else None
+        if self.macro_bounds and not self.choices:
+            macro = [None if "VTK_" in limit else number(limit) for limit in self.macro_bounds]
+            if [self.low, self.high] != macro:
+                raise Fault(f"{self.where}: range is {bounds} in the comment and {macro} in the macro")
+        self.open_low = bool(bounds) and bounds.startswith("(")
+        for mark in SENTENCES.split((marks or "").strip()):
+            self.parse_mark(mark.rstrip("."))
+
+    def parse_mark(self, mark):
+        words = mark.replace(",", "").split()
+        if mark == "Advanced":
+            self.advanced = True
+        elif mark.startswith("For "):
+            inverse = words[2] == "not"
+            self.conditions.append((words[1], words[3 if inverse else 2:], inverse))
+        elif mark.startswith("Components "):
+            self.components = words[1:]
+            if len(self.components) != self.count:
+                raise Fault(f"{self.where}: {len(self.components)} names of {self.count} components")
+        elif mark.startswith("Group "):
+            self.group = mark[len("Group "):].strip('"')
+        elif mark:
+            raise Fault(f"{self.where}: what does '{mark}' behind the default mean?")
+
+    def range_words(self, choice=lambda choice: choice.enumerator):
+        if self.choices:
+            return ", ".join(map(choice, self.choices))
+        if self.low is None and self.high is None:
+            return ""
+        if self.high is None:
+            return f"at least {self.low}"
+        return f"{'above ' if self.open_low else ''}{self.low} to {self.high}"
+
+
+def without_enumeration(text):
+    return re.sub(r"[,;]? one of [A-Z]\w+", "", text)
+
+
+class Header:
+    """A class with its properties in the order of the header."""
+
+    def __init__(self, file):
+        with open(file, encoding="utf-8") as stream:
+            self.text = stream.read()
+        self.file = os.path.basename(file)
+        found = CLASS.search(self.text)
+        if not found:
+            raise Fault(f"{self.file}: no class")
+        self.name, self.base = found.groups()
+        self.enumerations = [self.enumerators(body) for body in re.findall(r"enum \w+\s*\{(.*?)\};", self.text, re.S)]
+        public = self.text.partition("\nprotected:")[0]
+        self.properties = []
+        for comment, code in re.findall(r"/\*\*(.*?)\*/\s*\n(.*?)(?=///@\}|\n\n|/\*\*|\Z)", public, re.S):
+            for macro, arguments in SETTER.findall(code):
+                name, *rest = [argument.strip() for argument in arguments.split(",")]
+                self.properties.append(Property(name, macro, rest or ["string"], re.sub(r"\n\s*\*", " ", comment), self))
+        for setter in SETTER.findall(public):
+            name = setter[1].split(",")[0].strip()
+            if name not in self.named():
+                raise Fault(f"{self.file}: {name} has no comment")
+
+    @staticmethod
+    def enumerators(body):
+        found = re.findall(r"^\s*(\w+)(?:\s*=\s*\d+)?,?[ \t]*(?:///<\s*(.*))?$", body, re.M)
+        return [Choice(*each) for each in found]
+
+    def choices_between(self, low, high):
+        for choices in self.enumerations:
+            names = [choice.enumerator for choice in choices]
+            if low in names and high in names:
+                return choices[names.index(low):names.index(high) + 1]
+        return []
+
+    def named(self):
+        return {each.name: each for each in self.properties}
+
+    def sentence(self, each, of_choice, of_property):
+        """The text of a property with choices and properties as they are called."""
+        names = {choice.enumerator: of_choice(choice) for choices in self.enumerations for choice in choices
+                 if len(choice.enumerator) > 3}
+        names.update({name: of_property(name) for name in self.named() if len(words_of(name).split()) > 1})
+        return re.sub(r"\b\w+\b", lambda found: names.get(found[0], found[0]), without_enumeration(each.text))
+
+
+def print_self(out, headers):
+    lines = ["// Generated from the headers by CMake/properties.py"]
+    lines += [f'#include "{header.name}.h"' for header in headers]
+    for header in headers:
+        if "void PrintSelf(" not in header.text:
+            continue
+        lines += ["", f"void {header.name}::PrintSelf(ostream& os, vtkIndent indent)", "{",
+                  "  this->Superclass::PrintSelf(os, indent);"]
+        shown = header.named()
+        for name in GETTER.findall(header.text):
+            each = shown.get(name)
+            values = [f"this->{name}"]
+            if each and each.is_characters:
+                values = [f'(this->{name} ? this->{name} : "(none)")']
+            elif each and each.count > 1:
+                values = [f"this->{name}[{i}]" for i in range(each.count)]
+            joined = ' << " " << '.join(values)
+            lines.append(f'  os << indent << "{name}: " << {joined} << "\\n";')
+        for name in LIST.findall(header.text):
+            lines.append(f'  os << indent << "{name}: " << this->{name}.size() << "\\n";')
+        lines.append("}")
+    write(out, lines)
+
+
+def literal(text):
+    return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
+
+
+def options(out, headers):
+    headers = [header for header in headers if header.base == "vtkSplineAlgorithm"
+               and any(each.name != "FileName" for each in header.properties)]
+    write(out + ".h", [
+        "// Generated from the headers of the filters by CMake/properties.py", "#pragma once", "",
+        *(f"class {header.name};" for header in headers), "", "namespace knotwork", "{", "class Options;",
+        "/// The properties of a filter as options.",
+        *(f"void AddProperties(Options& options, {header.name}* filter);" for header in headers), "}"])
+    lines = ["// Generated from the headers of the filters by CMake/properties.py",
+             f'#include "{os.path.basename(out)}.h"', '#include "Options.h"']
+    lines += [f"#include <knotwork/{header.module}/{header.name}.h>" for header in headers]
+    lines += ["namespace knotwork", "{"]
+    for header in headers:
+        lines += [f"void AddProperties(Options& options, {header.name}* filter)", "{"]
+        lines += [option_line(header, each) for each in header.properties if each.name != "FileName"]
+        lines.append("}")
+    write(out + ".cxx", lines + ["}"])
+
+
+def option_line(header, each):
+    text = header.sentence(each, lambda choice: choice.option, lambda name: "--" + option_name(name)).rstrip(".")
+    if len(text) > 1 and not text[1].isupper():
+        text = text[0].lower() + text[1:]
+    name, get, put = f'"{each.name}"', f"filter->Get{each.name}()", f"filter->Set{each.name}"
+    text = literal(text)
+    if each.choices:
+        names = ", ".join(f'"{choice.option}"' for choice in each.choices)
+        return f"  options.AddChoice({name}, {{ {names} }}, {get}, [filter](int v) {{ {put}(v); }}, {text});"
+    if each.type == "string" and each.is_characters:
+        return (f"  options.Add<std::string>({name}, {get} ? {get} : \"\", "
+                f"[filter](const std::string& v) {{ {put}(v.c_str()); }}, {text});")
+    if each.count > 1:
+        kind = f"std::vector<{each.type}>"
+        values = ", ".join(f"v[{i}]" for i in range(each.count))
+        return (f"  options.Add<{kind}>({name}, {kind}({get}, {get} + {each.count}), "
+                f"[filter](const {kind}& v) {{ {put}({values}); }}, {text});")
+    kind = "std::string" if each.type == "string" else each.type
+    bounds = f", InRange(filter->Get{each.name}MinValue(), filter->Get{each.name}MaxValue())" if each.macro_bounds else ""
+    return f"  options.Add<{kind}>({name}, {get}, [filter](const {kind}& v) {{ {put}(v); }}, {text}{bounds});"
+
+
+def element(tag, content=None, /, **attributes):
+    made = ElementTree.Element(tag, {key: str(value) for key, value in attributes.items() if value is not None})
+    made.text = content
+    return made
+
+
+def proxies(out, source, headers):
+    classes = {header.name: header for header in headers}
+    root = ElementTree.parse(source).getroot()
+    for proxy in [*root.iter("SourceProxy"), *root.iter("WriterProxy")]:
+        chain = []
+        name = proxy.get("class")
+        if name not in classes:
+            raise Fault(f"{os.path.basename(source)}: no header of {name}")
+        while name in classes:
+            chain.append(classes[name])
+            name = chain[-1].base
+        expand(proxy, chain)
+    ElementTree.indent(root)
+    write(out, ["<!-- Generated by CMake/properties.py -->", ElementTree.tostring(root, encoding="unicode")])
+
+
+def expand(proxy, chain):
+    """Writes the short forms of a proxy out. chain: its class and the bases."""
+    written = {child.get("name") for child in proxy}
+    left = [(header, each) for header in chain for each in header.properties if each.name not in written]
+    children, outputs = [], []
+    for child in list(proxy):
+        if child.tag == "Properties":
+            until = [each.name for _, each in left].index(child.get("until")) if child.get("until") else len(left)
+            children += framed([proxy_property(header, each) for header, each in left[:until]])
+            left = left[until:]
+        elif child.tag == "Input":
+            children.append(input_property(child))
+        elif child.tag == "Array":
+            children.append(array_property(child, chain))
+        elif child.tag == "Outputs":
+            outputs = child.get("names").split()
+            children += [element("OutputPort", name=name, index=i, id=f"port{i}") for i, name in enumerate(outputs)]
+        else:
+            label_components(child, child.attrib.pop("components", "").split())
+            children.append(child)
+    if proxy.find("Hints") is None:
+        children.append(element("Hints"))
+        children[-1].append(element("ShowInMenu", category="Knotwork"))
+        children[-1].extend(element("View", type="None", port=i) for i in range(1, len(outputs)))
+    proxy[:] = children
+
+
+def label_components(made, names):
+    """What the numbers of a property are called in the panel."""
+    if names:
+        if made.find("Hints") is None:
+            made.append(element("Hints"))
+        labels = element("ShowComponentLabels")
+        labels.extend(element("ComponentLabel", component=i, label=name) for i, name in enumerate(names))
+        made.find("Hints").append(labels)
+
+
+def array_property(short, chain):
+    """A choice among the arrays of the input: which one SetInputArrayToProcess takes, or a property of the class."""
+    given = dict(short.attrib)
+    domain = element("ArrayListDomain", name="array_list", attribute_type="Scalars", none_string=given.pop("none_string", None),
+                     input_domain_name=given.pop("arrays"))
+    domain.append(element("RequiredProperties"))
+    domain[0].append(element("Property", name="Input", function="Input"))
+    text = " ".join((short.text or "").split())
+    if "index" in given:
+        made = element("StringVectorProperty", command="SetInputArrayToProcess", number_of_elements=5, element_types="0 0 0 0 2",
+                       animateable=0, default_values=given.pop("index"), **given)
+    else:
+        made = element("StringVectorProperty", number_of_elements=1, default_values="None", **given)
+        text = text or chain[0].named()[given["name"]].text
+    made.extend([domain, element("Documentation", text), *short])
+    return made
+
+
+def framed(properties):
+    """The properties with frames of those of one group, each behind its first property's place."""
+    groups = {}
+    for each in properties:
+        groups.setdefault(each.attrib.pop("group", None), []).append(each.get("name"))
+    frames = []
+    for label, names in groups.items():
+        if label:
+            frame = element("PropertyGroup", label=label)
+            frame.extend(element("Property", name=name) for name in names)
+            frames.append(frame)
+    return properties + frames
+
+
+def input_property(short):
+    made = element("InputProperty", **{"command": "SetInputConnection", **short.attrib})
+    del made.attrib["types"]
+    groups = element("ProxyGroupDomain", name="groups")
+    groups.extend([element("Group", name="sources"), element("Group", name="filters")])
+    types = element("DataTypeDomain", name="input_type")
+    types.extend(element("DataType", value=value) for value in short.get("types").split())
+    made.extend([groups, types, *[child for child in short if child.tag != "Hints"],
+                 element("Documentation", " ".join(short.text.split()))])
+    made.extend(child for child in short if child.tag == "Hints")
+    return made
+
+
+def proxy_property(header, each):
+    label = lambda choice: choice.label  # noqa: E731
+    kind = {"int": "Int", "bool": "Int", "vtkIdType": "Int", "double": "Double", "string": "String"}[each.type]
+    default = {"true": "1", "false": "0"}
+    enumerators = [choice.enumerator for choices in header.enumerations for choice in choices]
+    words = [str(place_of(each.choices, word)) if word in enumerators else default.get(word, number(word) or word)
+             for word in each.default]
+    made = element(kind + "VectorProperty", name=each.name, command="Set" + each.name, number_of_elements=each.count,
+                   default_values=" ".join(words), panel_visibility="advanced" if each.advanced else None,
+                   group=each.group)
+    if each.type == "bool":
+        made.append(element("BooleanDomain", name="bool"))
+    elif each.choices:
+        domain = element("EnumerationDomain", name="enum")
+        domain.extend(element("Entry", value=place, text=choice.label) for place, choice in enumerate(each.choices))
+        made.append(domain)
+    elif each.type != "string":
+        made.append(element(kind + "RangeDomain", name="range", min=each.low, max=each.high))
+    made.append(element("Documentation", header.sentence(each, label, words_of)))
+    hints = decorators(header, each)
+    if hints:
+        made.append(element("Hints"))
+        made[-1].extend(hints)
+    label_components(made, each.components)
+    return made
+
+
+def place_of(choices, enumerator):
+    return [choice.enumerator for choice in choices].index(enumerator)
+
+
+def decorators(header, each):
+    """What hides a property while it does not count."""
+    parts = []
+    for name, values, inverse in each.conditions:
+        other = header.named().get(name)
+        if other is None:
+            raise Fault(f"{each.where}: for {name}: there is no such property")
+        try:
+            places = [{"on": 1, "off": 0}[value] if other.type == "bool" else place_of(other.choices, value)
+                      if other.choices else float(value) for value in values]
+        except (KeyError, ValueError):
+            raise Fault(f"{each.where}: for {name} {', '.join(values)}: it has no such value") from None
+        parts.append({"type": "GenericDecorator", "mode": "visibility", "property": name,
+                      "value" if len(places) == 1 else "values": " ".join(f"{place:g}" for place in places)})
+        if inverse:
+            parts[-1]["inverse"] = "1"
+    if len(parts) < 2:
+        return [element("PropertyWidgetDecorator", **part) for part in parts]
+    both = element("PropertyWidgetDecorator", type="CompositeDecorator")
+    both.append(element("Expression", type="and"))
+    both[0].extend(element("PropertyWidgetDecorator", **part) for part in parts)
+    return [both]
+
+
+def choices(out, headers):
+    lines = ["# Generated from the headers of the filters by CMake/properties.py", "CHOICES = {"]
+    for header in headers:
+        for each in header.properties:
+            if each.choices:
+                names = [choice.option for choice in each.choices]
+                lines.append(f'    ("{header.name}", "{each.name}"): {names},')
+    write(out, lines + ["}"])
+
+
+PAGE_TABLE = re.compile(r"(<!-- properties of (\w+) -->\n)(.*?)(<!-- end -->)", re.S)
+
+
+def table(header):
+    yield "| property | default | range | meaning |"
+    yield "| --- | --- | --- | --- |"
+    for each in header.properties:
+        text = without_enumeration(each.text).rstrip(".").replace("|", "\\|")
+        condition = "; ".join(f"with `{name}` {'not ' if inverse else ''}{', '.join(values)}"
+                              for name, values, inverse in each.conditions)
+        yield f"| `{each.name}` | {each.default_words()} | {each.range_words()} | {text}{' (' + condition + ')' if condition else ''} |"
+
+
+def pages(files, headers, check):
+    classes = {header.name: header for header in headers}
+    for file in files:
+        with open(file, encoding="utf-8") as stream:
+            text = stream.read()
+        for _, name, _, _ in PAGE_TABLE.findall(text):
+            if name not in classes:
+                raise Fault(f"{file}: no header of {name}")
+        new = PAGE_TABLE.sub(lambda found: found[1] + "\n".join(table(classes[found[2]])) + "\n" + found[4], text)
+        if new != text and check:
+            raise Fault(f"{file}: its tables of properties are not those of the headers; `cmake --build . --target pages`")
+        if new != text:
+            write(file, new.rstrip("\n").split("\n"))
+
+
+def write(file, lines):
+    with open(file, "w", encoding="utf-8") as stream:
+        stream.write("\n".join(lines) + "\n")
+
+
+def read(files):
+    headers = []
+    for file in files:
+        header = Header(file)
+        header.module = os.path.basename(os.path.dirname(os.path.abspath(file)))
+        headers.append(header)
+    return headers
+
+
+def main(command, *arguments):
+    try:
+        if command == "print-self":
+            print_self(arguments[0], read(arguments[1:]))
+        elif command == "options":
+            options(arguments[0], read(arguments[1:]))
+        elif command == "proxies":
+            proxies(arguments[0], arguments[1], read(arguments[2:]))
+        elif command == "choices":
+            choices(arguments[0], read(arguments[1:]))
+        elif command == "pages":
+            check = arguments[0] == "--check"
+            split = arguments.index("--")
+            pages(arguments[check:split], read(arguments[split + 1:]), check)
+        else:
+            raise Fault(f"no command {command}")
+    except (Fault, OSError) as fault:
+        return f"properties.py: {fault}"
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]) if len(sys.argv) > 1 else __doc__)

@@ -1,0 +1,183 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tests properties.py on a header of its own: what is generated is what the header says (worked by hand), and a header that contradicts
+itself in any one way is refused with the name of the property."""
+import os
+import sys
+import tempfile
+import xml.etree.ElementTree as ElementTree
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import properties  # noqa: E402
+
+HEADER = '''
+class VTKX_EXPORT vtkThing : public vtkSplineAlgorithm
+{
+public:
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+  enum Ways
+  {
+    SHORT_WAY = 0, ///< "Short" the first
+    LONG_WAY,
+    LBFGS =
+      2, ///< "L-BFGS"
+    OTHER ///< "Any other (xyz)"
+  };
+  ///@{
+  /** How, one of Ways: LONG_WAY, or by MaxSteps. Default LONG_WAY. */
+  vtkSetClampMacro(Way, int, SHORT_WAY, OTHER);
+  vtkGetMacro(Way, int);
+  ///@}
+  ///@{
+  /** Steps at most; 0: none. Default 7, valid range [0, 100]. Advanced. For Way LONG_WAY,
+   * LBFGS. For Loud on. Group "Limits". */
+  vtkSetClampMacro(MaxSteps, int, 0, 100);
+  vtkGetMacro(MaxSteps, int);
+  ///@}
+  ///@{
+  /** Length. Default 0.001, valid range >= 0. For Way not SHORT_WAY. */
+  vtkSetClampMacro(Length, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(Length, double);
+  ///@}
+  ///@{
+  /** Whether it is loud. Default off. */
+  vtkSetMacro(Loud, bool);
+  vtkGetMacro(Loud, bool);
+  ///@}
+  ///@{
+  /** The box. Default 0 1.5. Components from, to. */
+  vtkSetVector2Macro(Box, double);
+  vtkGetVector2Macro(Box, double);
+  ///@}
+  ///@{
+  /** Name of it. Default empty. */
+  vtkSetStringMacro(LRName);
+  vtkGetStringMacro(LRName);
+  ///@}
+
+protected:
+  int Way = LONG_WAY;
+  int MaxSteps = 7;
+  double Length = 1e-3;
+  bool Loud = false;
+  double Box[2] = { 0.0, 1.5 };
+  char* LRName = nullptr;
+  std::vector<double> Levels;
+};
+'''
+
+PROXY = '''<ServerManagerConfiguration><ProxyGroup name="filters"><SourceProxy name="Thing" class="vtkThing">
+  <Outputs names="Main Table"/>
+  <Input name="Input" types="vtkPolyData vtkTable">The input.</Input>
+  <DoubleVectorProperty name="Levels" components="a b"/>
+  <Array name="Which" index="1" arrays="some" none_string="None">An array.</Array>
+  <Properties until="Length"/>
+  <Array name="LRName" command="SetLRName" arrays="some" none_string="None"/>
+  <Properties/>
+</SourceProxy></ProxyGroup></ServerManagerConfiguration>'''
+
+FAULTS = (  # in the header: what stands there, what shall stand there, what the message names
+    ("Default 7", "Default 8", "MaxSteps: default is 8"),
+    ("MaxSteps = 7", "MaxSteps = 6", "MaxSteps: default is 7"),
+    ("[0, 100]", "[0, 10]", "MaxSteps: range"),
+    ("0, 100);", "1, 100);", "MaxSteps: range"),
+    (", valid range >= 0", "", "Length: range"),
+    ("Default LONG_WAY", "Default SHORT_WAY", "Way: default"),
+    ("SHORT_WAY, OTHER", "SHORT_WAY, ANOTHER", "Way: SHORT_WAY and ANOTHER"),
+    ("Default off", "Default on", "Loud: default"),
+    ("Default 0 1.5", "Default 0 1", "Box: default"),
+    ("Components from, to", "Components from", "Box: 1 names of 2"),
+    ("For Loud on", "For Laud on", "for Laud"),
+    ("For Loud on", "For Loud yes", "for Loud yes"),
+    ("For Way not SHORT_WAY", "For Way not SHORT", "for Way SHORT"),
+    ("Advanced.", "Anyhow.", "MaxSteps: what does"),
+    ("Default empty.", "", "unnoticed"),
+    ("Default off.", "", "Loud: the comment says no default"),
+    ("  /** Whether it is loud. Default off. */\n", "", "Loud has no comment"),
+    ("  bool Loud = false;\n", "", "Loud: no member"),
+)
+
+
+def generated(folder, header_text):
+    """All that is made of a header: text by name."""
+    header = os.path.join(folder, "vtkThing.h")
+    source = os.path.join(folder, "in.xml")
+    page = os.path.join(folder, "page.md")
+    for file, text in ((header, header_text), (source, PROXY), (page, "a\n<!-- properties of vtkThing -->\n<!-- end -->\nb\n")):
+        with open(file, "w", encoding="utf-8") as stream:
+            stream.write(text)
+    out = {name: os.path.join(folder, name) for name in ("print.cxx", "options", "out.xml", "choices.py")}
+    for arguments in (("print-self", out["print.cxx"], header), ("options", out["options"], header),
+                      ("proxies", out["out.xml"], source, header), ("choices", out["choices.py"], header),
+                      ("pages", page, "--", header)):
+        fault = properties.main(*arguments)
+        if fault:
+            raise ValueError(fault)
+    texts = {}
+    for name in ("print.cxx", "options.cxx", "options.h", "out.xml", "choices.py", "page.md"):
+        with open(os.path.join(folder, name), encoding="utf-8") as stream:
+            texts[name] = stream.read()
+    assert properties.main("pages", "--check", page, "--", header) == 0
+    with open(page, "w", encoding="utf-8") as stream:
+        stream.write(texts["page.md"].replace("Steps at most", "Steps"))
+    assert "not those of the headers" in properties.main("pages", "--check", page, "--", header)
+    return texts
+
+
+def test_outputs(texts):
+    printed = texts["print.cxx"]
+    for line in ('"MaxSteps: " << this->MaxSteps << "\\n"', '"Box: " << this->Box[0] << " " << this->Box[1] << "\\n"',
+                 '(this->LRName ? this->LRName : "(none)")', '"Levels: " << this->Levels.size()'):
+        assert line in printed, line
+    made = texts["options.cxx"]
+    for text in ('"how: long-way, or by --maximum-steps"', '{ "short", "long-way", "lbfgs", "xyz" }',
+                 "InRange(filter->GetLengthMinValue(), filter->GetLengthMaxValue())", "SetBox(v[0], v[1])", "v.c_str()"):
+        assert text in made, text
+    assert texts["options.h"].count("AddProperties(Options& options, vtkThing* filter);") == 1
+    assert '("vtkThing", "Way"): [\'short\', \'long-way\', \'lbfgs\', \'xyz\']' in texts["choices.py"]
+    row = "| `MaxSteps` | 7 | 0 to 100 | Steps at most; 0: none (with `Way` LONG_WAY, LBFGS; with `Loud` on) |"
+    assert row in texts["page.md"] and texts["page.md"].startswith("a\n") and texts["page.md"].endswith("b\n"), texts["page.md"]
+    check_proxy(ElementTree.fromstring(texts["out.xml"].partition("\n")[2]).find(".//SourceProxy"))
+
+
+def check_proxy(proxy):
+    names = [child.get("name") for child in proxy if child.tag not in ("PropertyGroup", "Hints")]
+    assert names == ["Main", "Table", "Input", "Levels", "Which", "Way", "MaxSteps", "LRName", "Length", "Loud", "Box"], names
+    found = {child.get("name"): child for child in proxy}
+    assert [entry.get("text") for entry in found["Way"].iter("Entry")] == ["Short", "Long Way", "L-BFGS", "Any other (xyz)"]
+    assert found["Way"].get("default_values") == "1" and found["Box"].get("default_values") == "0 1.5"
+    assert found["Way"].findtext("Documentation") == "How: Long Way, or by Max Steps."
+    steps = found["MaxSteps"]
+    assert steps.get("panel_visibility") == "advanced" and steps.find("IntRangeDomain").get("max") == "100"
+    decorators = [each.attrib for each in steps.iter("PropertyWidgetDecorator") if each.get("property")]
+    assert [(each["property"], each.get("values", each.get("value"))) for each in decorators] == [("Way", "1 2"), ("Loud", "1")]
+    length = found["Length"]
+    assert length.find("DoubleRangeDomain").get("min") == "0" and length.find("DoubleRangeDomain").get("max") is None
+    assert length.find(".//PropertyWidgetDecorator").get("inverse") == "1"
+    assert [each.get("label") for each in found["Box"].iter("ComponentLabel")] == ["from", "to"]
+    assert [value.get("value") for value in found["Input"].iter("DataType")] == ["vtkPolyData", "vtkTable"]
+    assert [each.get("label") for each in found["Levels"].iter("ComponentLabel")] == ["a", "b"]
+    assert (found["Which"].get("command"), found["Which"].get("default_values")) == ("SetInputArrayToProcess", "1")
+    array = found["LRName"]
+    assert (array.get("command"), array.get("default_values"), array.findtext("Documentation")) == ("SetLRName", "None", "Name of it.")
+    assert [(each.get("index"), each.get("id")) for each in proxy.iter("OutputPort")] == [("0", "port0"), ("1", "port1")]
+    assert [each.get("port") for each in proxy.find("Hints").iter("View")] == ["1"]
+    assert proxy.find("PropertyGroup").get("label") == "Limits"
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        test_outputs(generated(folder, HEADER))
+        for old, new, message in FAULTS:
+            assert old in HEADER, old
+            try:
+                generated(folder, HEADER.replace(old, new, 1))
+                fault = "unnoticed"
+            except ValueError as error:
+                fault = str(error)
+            assert message in fault, f"{old} -> {new}: {fault}"
+    print(f"{len(FAULTS)} faults planted")
+
+
+if __name__ == "__main__":
+    main()
