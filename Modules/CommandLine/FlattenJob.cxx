@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterJob.h"
-#include "FlattenReport.h"
+#include "FlattenNumbers.h"
 
 #include <knotwork/MeshParameterization/vtkMeshParameterization.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterProperties.h"
-#include "FlattenReport.h"
+#include "FlattenNumbers.h"
 #include "Jobs.h"
 #include "Options.h"
 #include "Session.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "FlattenReport.h"
+#include "FlattenNumbers.h"
 
 #include "Options.h"
 
