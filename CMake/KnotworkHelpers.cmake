@@ -68,6 +68,26 @@ function(knotwork_generate command)
     VERBATIM)
 endfunction()
 
+# knotwork_generate_proxies(OUT module...): Modules/<module>/ParaView/*.xml with their short forms written out, in the build tree;
+# OUT_<module> and OUT are lists of the files.
+function(knotwork_generate_proxies out)
+  file(GLOB headers CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/Modules/*/vtk*.h")
+  set(all "")
+  foreach(module IN LISTS ARGN)
+    set(made "")
+    file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/Modules/${module}/ParaView/*.xml")
+    foreach(source IN LISTS sources)
+      get_filename_component(name "${source}" NAME)
+      set(file "${CMAKE_CURRENT_BINARY_DIR}/${name}")
+      knotwork_generate(proxies OUTPUT "${file}" ARGUMENTS "${file}" "${source}" HEADERS ${headers} DEPENDS "${source}")
+      list(APPEND made "${file}")
+    endforeach()
+    set(${out}_${module} "${made}" PARENT_SCOPE)
+    list(APPEND all ${made})
+  endforeach()
+  set(${out} "${all}" PARENT_SCOPE)
+endfunction()
+
 # knotwork_add_filters(MODULE CLASSES class... [HEADERS file...] [SOURCES file...] [PRIVATE_CLASSES class...])
 #   The VTK module Knotwork::<MODULE> that Modules/<MODULE>/vtk.module describes; PrintSelf of its classes is generated. Links its kernel, and the kernels of what
 #   KnotworkModules.cmake states under FILTERS.

@@ -5,7 +5,7 @@
 usage: properties.py print-self OUT.cxx HEADER...     PrintSelf of the classes
        properties.py options OUT HEADER...            OUT.h, OUT.cxx: options of the command line for the classes
        properties.py proxies OUT.xml IN.xml HEADER... ParaView's proxies: IN.xml with its short forms written out
-       properties.py choices OUT.py HEADER...         names of choices, for Python
+       properties.py python OUT.py HEADER...          what Python checks: types, ranges, names of choices
        properties.py pages [--check] PAGE... -- HEADER...
                                                       the tables of the pages between marks, rewritten or compared
 
@@ -29,7 +29,7 @@ what people see, else the enumerator's words are; on the command line it is the 
 Enumerators and properties that a sentence names become what they are called where it is shown.
 
 IN.xml is XML of ParaView's server manager with short forms: <Properties/> in a proxy stands for all properties of its class that the proxy
-does not write itself (<Properties until="NAME"/>: those before that one), <Input name= types="..."> for an input, <Outputs names="..."/> for
+does not write itself (<Properties until="NAME"/>: those before that one), <Input name= types="..."> for an input (without types: splines), <Outputs names="..."/> for
 its output ports, <Array name= arrays="domain of the input"> for a choice of an array (index= of SetInputArrayToProcess, or command=), and the
 attribute components="..." of any other property labels its numbers. Without <Hints> a proxy stands in the menu, and its first output is shown."""
 import os
@@ -367,12 +367,14 @@ def framed(properties):
 
 
 def input_property(short):
-    made = element("InputProperty", **{"command": "SetInputConnection", **short.attrib})
-    del made.attrib["types"]
+    given = {"command": "SetInputConnection", **short.attrib}
+    accepted = given.pop("types", "vtkUnstructuredGrid vtkPartitionedDataSetCollection").split()
+    composite = given.pop("composite_data_supported", None)
+    made = element("InputProperty", **given)
     groups = element("ProxyGroupDomain", name="groups")
     groups.extend([element("Group", name="sources"), element("Group", name="filters")])
-    types = element("DataTypeDomain", name="input_type")
-    types.extend(element("DataType", value=value) for value in short.get("types").split())
+    types = element("DataTypeDomain", name="input_type", composite_data_supported=composite)
+    types.extend(element("DataType", value=value) for value in accepted)
     made.extend([groups, types, *[child for child in short if child.tag != "Hints"],
                  element("Documentation", " ".join(short.text.split()))])
     made.extend(child for child in short if child.tag == "Hints")
@@ -434,13 +436,16 @@ def decorators(header, each):
     return [both]
 
 
-def choices(out, headers):
-    lines = ["# Generated from the headers of the filters by CMake/properties.py", "CHOICES = {"]
+def python(out, headers):
+    lines = ["# Generated from the headers of the filters by CMake/properties.py",
+             "# class: property: type, how many, lowest and highest value, names of the values", "PROPERTIES = {"]
     for header in headers:
+        lines.append(f'    "{header.name}": {{')
         for each in header.properties:
-            if each.choices:
-                names = [choice.option for choice in each.choices]
-                lines.append(f'    ("{header.name}", "{each.name}"): {names},')
+            low, high = (each.low, each.high) if each.macro_bounds else (None, None)
+            names = [(choice.option, choice.enumerator) for choice in each.choices]
+            lines.append(f'        "{each.name}": ("{each.type}", {each.count}, {low}, {high}, {names}),')
+        lines.append("    },")
     write(out, lines + ["}"])
 
 
@@ -494,8 +499,8 @@ def main(command, *arguments):
             options(arguments[0], read(arguments[1:]))
         elif command == "proxies":
             proxies(arguments[0], arguments[1], read(arguments[2:]))
-        elif command == "choices":
-            choices(arguments[0], read(arguments[1:]))
+        elif command == "python":
+            python(arguments[0], read(arguments[1:]))
         elif command == "pages":
             check = arguments[0] == "--check"
             split = arguments.index("--")

@@ -106,15 +106,15 @@ def generated(folder, header_text):
     for file, text in ((header, header_text), (source, PROXY), (page, "a\n<!-- properties of vtkThing -->\n<!-- end -->\nb\n")):
         with open(file, "w", encoding="utf-8") as stream:
             stream.write(text)
-    out = {name: os.path.join(folder, name) for name in ("print.cxx", "options", "out.xml", "choices.py")}
+    out = {name: os.path.join(folder, name) for name in ("print.cxx", "options", "out.xml", "table.py")}
     for arguments in (("print-self", out["print.cxx"], header), ("options", out["options"], header),
-                      ("proxies", out["out.xml"], source, header), ("choices", out["choices.py"], header),
+                      ("proxies", out["out.xml"], source, header), ("python", out["table.py"], header),
                       ("pages", page, "--", header)):
         fault = properties.main(*arguments)
         if fault:
             raise ValueError(fault)
     texts = {}
-    for name in ("print.cxx", "options.cxx", "options.h", "out.xml", "choices.py", "page.md"):
+    for name in ("print.cxx", "options.cxx", "options.h", "out.xml", "table.py", "page.md"):
         with open(os.path.join(folder, name), encoding="utf-8") as stream:
             texts[name] = stream.read()
     assert properties.main("pages", "--check", page, "--", header) == 0
@@ -134,7 +134,11 @@ def test_outputs(texts):
                  "InRange(filter->GetLengthMinValue(), filter->GetLengthMaxValue())", "SetBox(v[0], v[1])", "v.c_str()"):
         assert text in made, text
     assert texts["options.h"].count("AddProperties(Options& options, vtkThing* filter);") == 1
-    assert '("vtkThing", "Way"): [\'short\', \'long-way\', \'lbfgs\', \'xyz\']' in texts["choices.py"]
+    table = {}
+    exec(texts["table.py"], table)
+    table = table["PROPERTIES"]["vtkThing"]
+    assert [names for names, _ in table["Way"][4]] == ["short", "long-way", "lbfgs", "xyz"] and table["Way"][4][0][1] == "SHORT_WAY"
+    assert table["MaxSteps"] == ("int", 1, 0, 100, []) and table["Length"][2:4] == (0, None) and table["Box"][:2] == ("double", 2)
     row = "| `MaxSteps` | 7 | 0 to 100 | Steps at most; 0: none (with `Way` LONG_WAY, LBFGS; with `Loud` on) |"
     assert row in texts["page.md"] and texts["page.md"].startswith("a\n") and texts["page.md"].endswith("b\n"), texts["page.md"]
     check_proxy(ElementTree.fromstring(texts["out.xml"].partition("\n")[2]).find(".//SourceProxy"))

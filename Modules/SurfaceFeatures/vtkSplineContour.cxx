@@ -63,7 +63,7 @@ knotwork::Status vtkSplineContour::Compute(
   }
   this->ReportWarnings(model->Warnings);
   ContourChoice choice;
-  choice.Field = this->FieldName;
+  choice.Field = this->FieldName == "None" ? "" : this->FieldName;
   choice.Component = this->Component;
   choice.Range = { this->Range[0], this->Range[1] };
   choice.Curves = this->Curves;

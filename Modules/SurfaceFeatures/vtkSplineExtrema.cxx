@@ -46,7 +46,8 @@ Status vtkSplineExtrema::Compute(vtkInformationVector** inputs, vtkInformationVe
     return model.Status;
   }
   this->ReportWarnings(model->Warnings);
-  const std::string field = this->FieldName ? this->FieldName : "";
+  const std::string name = this->FieldName ? this->FieldName : "";
+  const std::string field = name == "None" ? "" : name;
   const ProgressCallback progress = this->Progress();
   const auto count = static_cast<double>(model->Patches.size());
   std::vector<PatchPoints> patches;

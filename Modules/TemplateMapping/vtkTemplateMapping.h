@@ -97,12 +97,6 @@ public:
   vtkGetMacro(Method, int);
   ///@}
   ///@{
-  /** Iterations at most: one least-squares step and one update of the closest points each.
-   * Default 20, valid range [1, 100000]. Group "Termination". */
-  vtkSetClampMacro(Iterations, int, 1, 100000);
-  vtkGetMacro(Iterations, int);
-  ///@}
-  ///@{
   /** Polynomial degree of the map in every direction. Default 3, valid range [1, 9]. Group
    * "Method". */
   vtkSetClampMacro(Degree, int, 1, 9);
@@ -203,12 +197,6 @@ public:
   vtkBooleanMacro(Guard, bool);
   ///@}
   ///@{
-  /** Iterations end when the largest error, both ways between target and mapped template, is not
-   * above this, unit of the points; 0: never. Default 0, valid range >= 0. Group "Termination". */
-  vtkSetClampMacro(Accuracy, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(Accuracy, double);
-  ///@}
-  ///@{
   /** Iterations end, with the iterate before, when det J < 0 at a larger share of 10^6 points of
    * the domain; 1: never. Default 1, valid range [0, 1]. For Guard off. Group "Regularity". */
   vtkSetClampMacro(MaxIrregularShare, double, 0.0, 1.0);
@@ -263,6 +251,18 @@ public:
    * Refinement not NONE. Group "Refinement". */
   vtkSetClampMacro(MaxFunctions, int, 1, VTK_INT_MAX);
   vtkGetMacro(MaxFunctions, int);
+  ///@}
+  ///@{
+  /** Iterations at most: one least-squares step and one update of the closest points each.
+   * Default 20, valid range [1, 100000]. Group "Termination". */
+  vtkSetClampMacro(Iterations, int, 1, 100000);
+  vtkGetMacro(Iterations, int);
+  ///@}
+  ///@{
+  /** Iterations end when the largest error, both ways between target and mapped template, is not
+   * above this, unit of the points; 0: never. Default 0, valid range >= 0. Group "Termination". */
+  vtkSetClampMacro(Accuracy, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(Accuracy, double);
   ///@}
   ///@{
   /** The map of the first iteration, unless one is given as input 2, one of InitialMaps: the

@@ -2,7 +2,8 @@
 """usage: check_paraview_xml.py FILE.xml...
 
 Holds each proxy of ParaView's XML against the filter that it shows: the class and every command exist, defaults are those
-of a newly constructed filter, ranges are those that it clamps to, every choice of a list is accepted, every
+of a newly constructed filter, ranges are those that it clamps to and no longer than ten digits, every choice of a list is accepted, numbers of a
+list have labels, what hides a property is a property with that value, every
 proxy and property has help of its own, and the proxy is in the menu category Knotwork or a reader or writer. Then breaks a copy of each
 proxy in one place after the other and insists on noticing.
 """
@@ -40,7 +41,7 @@ def expected_defaults(element):
     if words is None:
         return None
     if element.tag == "StringVectorProperty":
-        return ["" if words == "none" else words]
+        return ["" if words in ("none", "None") else words]
     return [float(word) for word in words.split()]
 
 
@@ -55,9 +56,36 @@ def current_values(instance, command, element):
     return [float(value) for value in values]
 
 
+def list_problems(element, name):
+    count = element.get("number_of_elements_per_command" if element.get("repeat_command") == "1" else "number_of_elements", "1")
+    labels = element.findall("Hints/ShowComponentLabels/ComponentLabel")
+    if element.get("repeat_command") == "1" or labels:
+        if [label.get("component") for label in labels] != [str(i) for i in range(int(count))]:
+            yield f"{name}: {len(labels)} labels of {count} numbers"
+    for domain in element:
+        for bound in (domain.get("min"), domain.get("max")):
+            if bound and max(map(len, bound.split())) > 13:
+                yield f"{name}: a bound of many digits: {bound}"
+
+
+def decorator_problems(proxy):
+    choices = {each.get("name"): [entry.get("value") for entry in each.iter("Entry")] or (["0", "1"] if each.find("BooleanDomain") is not None else [])
+               for each in proxy if each.tag in VECTORS}
+    for decorator in proxy.iter("PropertyWidgetDecorator"):
+        other = decorator.get("property")
+        if other is None:
+            continue
+        values = (decorator.get("value") or decorator.get("values", "")).split()
+        if other not in choices:
+            yield f"{proxy.get('name')}: hides by {other}, which is no property"
+        elif not values or not (set(values) <= set(choices[other]) if choices[other] else all(map(str.isdecimal, values))):
+            yield f"{proxy.get('name')}: hides by {other} {values}, which it cannot be"
+
+
 def property_problems(element, instance, where):
     command = element.get("command")
     name = f"{where}.{element.get('name')}"
+    yield from list_problems(element, name)
     if element.get("information_only") == "1":
         if command and not hasattr(instance, command):
             yield f"{name}: {instance.GetClassName()} has no {command}"
@@ -138,6 +166,7 @@ def proxy_problems(proxy):
         return
     instance = factory()
     yield from help_problems(proxy, name)
+    yield from decorator_problems(proxy)
     menu = proxy.find("Hints/ShowInMenu")
     in_file_dialog = proxy.find("Hints/ReaderFactory") is not None or proxy.find("Hints/WriterFactory") is not None
     if not in_file_dialog and (menu is None or menu.get("category") != "Knotwork"):
@@ -178,6 +207,12 @@ def broken_copies(proxy):
     yield from change("command", lambda e: e.tag in PROPERTIES and e.get("command"),
                       lambda e: e.set("command", e.get("command") + "NoSuchMethod"))
     yield from change("class", lambda e: e.tag in ("SourceProxy", "WriterProxy"), lambda e: e.set("class", "vtkNoSuchClass"))
+    yield from change("label", lambda e: e.tag == "ShowComponentLabels", lambda e: e.remove(e[-1]))
+    yield from change("bound", lambda e: e.tag in ("IntRangeDomain", "DoubleRangeDomain") and e.get("min"),
+                      lambda e: e.set("max", "1" + 300 * "0"))
+    yield from change("condition", lambda e: e.tag == "PropertyWidgetDecorator" and e.get("property"),
+                      lambda e: e.set("property", "NoSuchProperty"))
+    yield from change("condition", lambda e: e.tag == "PropertyWidgetDecorator" and e.get("value"), lambda e: e.set("value", "-77"))
     yield from change("menu", lambda e: e.tag == "ShowInMenu", lambda e: e.set("category", "Other"))
 
 

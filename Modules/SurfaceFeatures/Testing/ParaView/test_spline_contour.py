@@ -3,7 +3,7 @@
 import knotwork_testing
 
 knotwork_testing.load_plugin()
-from paraview.simple import KnotworkSplineSource, OutputPort, SplineContour  # noqa: E402
+from paraview.simple import Calculator, KnotworkSplineSource, OutputPort, SplineContour, SplineExtrema  # noqa: E402
 
 
 def test_levels_of_a_coordinate():
@@ -26,6 +26,26 @@ def test_a_torus_has_closed_contours():
     contour.UpdatePipeline()
     table = contour.GetClientSideObject().GetOutputDataObject(2)
     assert [table.GetValueByName(i, "Closed").ToInt() for i in range(4)] == [2] * 4
+
+
+def test_fields_are_a_choice_of_the_arrays():
+    """Arrays of the input and None, which is chosen first, are offered; contours of a field that is x are those of x."""
+    square = KnotworkSplineSource(Shape="Square", Degree=2, Elements=(4, 4, 1))
+    with_field = Calculator(Input=square, ResultArrayName="Depth", Function="coordsX")
+    with_field.UpdatePipeline()
+    for made in (SplineContour(Input=with_field), SplineExtrema(Input=with_field)):
+        assert made.FieldName == "None", made.FieldName
+        offered = list(made.GetProperty("FieldName").GetAvailable())
+        assert {"None", "Depth"} <= set(offered), offered
+    lines = {}
+    for name, settings in {"field": {"FieldName": "Depth"}, "x": {"Component": 0}, "no field": {"FieldName": "", "Component": 0}}.items():
+        contour = SplineContour(Input=with_field, **settings)
+        contour.Levels = [0.125]
+        contour.UpdatePipeline()
+        made = contour.GetClientSideObject().GetOutputDataObject(0)
+        lines[name] = [made.GetPoint(i) for i in range(made.GetNumberOfPoints())]
+    assert lines["x"] and lines["x"] == lines["no field"]
+    assert all(abs(point[0] - 0.125) < 1e-6 for point in lines["field"]) and lines["field"]  # Calculator makes floats
 
 
 knotwork_testing.main(globals())
