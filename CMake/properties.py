@@ -6,8 +6,8 @@ usage: properties.py print-self OUT.cxx HEADER...     PrintSelf of the classes
        properties.py options OUT HEADER...            OUT.h, OUT.cxx: options of the command line for the classes
        properties.py proxies OUT.xml IN.xml HEADER... ParaView's proxies: IN.xml with its short forms written out
        properties.py python OUT.py HEADER...          what Python checks: types, ranges, names of choices
-       properties.py pages [--check] PAGE... -- HEADER...
-                                                      the tables of the pages between marks, rewritten or compared
+       properties.py pages [--check] ROOT             what stands between marks on the pages of the tree, <!-- properties of CLASS --> or
+                                                      <!-- jobs --> and <!-- end -->: rewritten or compared; and every class has its row in README.md
 
 A property is a setter macro of VTK under a comment:
 
@@ -32,6 +32,7 @@ IN.xml is XML of ParaView's server manager with short forms: <Properties/> in a 
 does not write itself (<Properties until="NAME"/>: those before that one), <Input name= types="..."> for an input (without types: splines), <Outputs names="..."/> for
 its output ports, <Array name= arrays="domain of the input"> for a choice of an array (index= of SetInputArrayToProcess, or command=), and the
 attribute components="..." of any other property labels its numbers. Without <Hints> a proxy stands in the menu, and its first output is shown."""
+import glob
 import os
 import re
 import sys
@@ -449,32 +450,72 @@ def python(out, headers):
     write(out, lines + ["}"])
 
 
-PAGE_TABLE = re.compile(r"(<!-- properties of (\w+) -->\n)(.*?)(<!-- end -->)", re.S)
+MADE = re.compile(r"(<!-- (properties of (\w+)|jobs) -->\n)(.*?)(<!-- end -->)", re.S)
+JOB = re.compile(r'JobRegistration Registration\{\s*"([^"]*)",\s*((?:"[^"]*"\s*)+),\s*((?:"[^"]*"\s*)+),')
 
 
-def table(header):
+def table(name, classes):
     yield "| property | default | range | meaning |"
     yield "| --- | --- | --- | --- |"
-    for each in header.properties:
-        text = without_enumeration(each.text).rstrip(".").replace("|", "\\|")
-        condition = "; ".join(f"with `{name}` {'not ' if inverse else ''}{', '.join(values)}"
-                              for name, values, inverse in each.conditions)
-        yield f"| `{each.name}` | {each.default_words()} | {each.range_words()} | {text}{' (' + condition + ')' if condition else ''} |"
+    while name in classes:
+        for each in classes[name].properties:
+            text = without_enumeration(each.text).rstrip(".").replace("|", "\\|")
+            conditions = [f"with `{other}` {'not ' if inverse else ''}{', '.join(values)}"
+                          for other, values, inverse in each.conditions]
+            text += f" ({'; '.join(conditions)})" if conditions else ""
+            yield f"| `{each.name}` | {each.default_words()} | {each.range_words()} | {text} |"
+        name = classes[name].base
 
 
-def pages(files, headers, check):
+def jobs(root):
+    """The table of the jobs of the command line, from their registrations."""
+    found = {}
+    for file in glob.glob(os.path.join(root, "Modules", "CommandLine", "*Job.cxx")):
+        with open(file, encoding="utf-8") as stream:
+            for name, *strings in JOB.findall(stream.read()):
+                found[name] = ["".join(re.findall(r'"([^"]*)"', each)) for each in strings]
+    yield "| job | what it does | example |"
+    yield "| --- | --- | --- |"
+    for name, (sentence, example) in sorted(found.items()):
+        yield f"| `{name}` | {sentence} | `knotwork {name} {example}` |"
+
+
+def made_table(found, root, classes):
+    if found[3] and found[3] not in classes:
+        raise Fault(f"no header of {found[3]}, whose properties a page wants")
+    lines = table(found[3], classes) if found[3] else jobs(root)
+    return found[1] + "\n".join(lines) + "\n" + found[5]
+
+
+def check_list(root, classes):
+    """Every class that can be made has its row in the README, and has its properties on a page if it has any."""
+    with open(os.path.join(root, "README.md"), encoding="utf-8") as stream:
+        rows = re.findall(r"`(vtk\w+)`", "".join(line for line in stream if line.startswith("|")))
+    bases = {header.base for header in classes.values()}
+    for name in classes.keys() - bases - set(rows):
+        raise Fault(f"README.md: its table has no {name}")
+    for name in set(rows) - classes.keys():
+        raise Fault(f"README.md: its table has {name}, which is no class")
+
+
+def pages(root, check):
+    headers = read(sorted(glob.glob(os.path.join(root, "Modules", "*", "vtk*.h"))))
     classes = {header.name: header for header in headers}
-    for file in files:
+    check_list(root, classes)
+    listed = ""
+    for file in glob.glob(os.path.join(root, "Modules", "*", "README.md")):
         with open(file, encoding="utf-8") as stream:
             text = stream.read()
-        for _, name, _, _ in PAGE_TABLE.findall(text):
-            if name not in classes:
-                raise Fault(f"{file}: no header of {name}")
-        new = PAGE_TABLE.sub(lambda found: found[1] + "\n".join(table(classes[found[2]])) + "\n" + found[4], text)
+        listed += text
+        new = MADE.sub(lambda found: made_table(found, root, classes), text)
         if new != text and check:
-            raise Fault(f"{file}: its tables of properties are not those of the headers; `cmake --build . --target pages`")
+            raise Fault(f"{file}: a table is not what headers and jobs say; `cmake --build . --target pages` rewrites it")
         if new != text:
             write(file, new.rstrip("\n").split("\n"))
+    for header in headers:
+        if any(each.name not in ("FileName", "Threads") for each in header.properties):
+            if f"<!-- properties of {header.name} -->" not in listed:
+                raise Fault(f"{header.file}: no page has '<!-- properties of {header.name} -->'")
 
 
 def write(file, lines):
@@ -502,9 +543,7 @@ def main(command, *arguments):
         elif command == "python":
             python(arguments[0], read(arguments[1:]))
         elif command == "pages":
-            check = arguments[0] == "--check"
-            split = arguments.index("--")
-            pages(arguments[check:split], read(arguments[split + 1:]), check)
+            pages(arguments[-1], arguments[0] == "--check")
         else:
             raise Fault(f"no command {command}")
     except (Fault, OSError) as fault:

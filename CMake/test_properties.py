@@ -98,29 +98,45 @@ FAULTS = (  # in the header: what stands there, what shall stand there, what the
 )
 
 
+JOB = '''const JobRegistration Registration{ "thing", "make a "
+  "thing", "--way short", MakeJob<ThingJob> };'''
+
+
+def put(folder, name, text):
+    file = os.path.join(folder, name)
+    os.makedirs(os.path.dirname(file), exist_ok=True)
+    with open(file, "w", encoding="utf-8") as stream:
+        stream.write(text)
+    return file
+
+
 def generated(folder, header_text):
     """All that is made of a header: text by name."""
-    header = os.path.join(folder, "vtkThing.h")
-    source = os.path.join(folder, "in.xml")
-    page = os.path.join(folder, "page.md")
-    for file, text in ((header, header_text), (source, PROXY), (page, "a\n<!-- properties of vtkThing -->\n<!-- end -->\nb\n")):
-        with open(file, "w", encoding="utf-8") as stream:
-            stream.write(text)
+    header = put(folder, "Modules/X/vtkThing.h", header_text)
+    source = put(folder, "in.xml", PROXY)
+    page = put(folder, "Modules/X/README.md", "a\n<!-- properties of vtkThing -->\n<!-- end -->\nb\n<!-- jobs -->\n<!-- end -->\n")
+    put(folder, "Modules/CommandLine/ThingJob.cxx", JOB)
+    readme = put(folder, "README.md", "| `vtkThing` | a thing |\n")
     out = {name: os.path.join(folder, name) for name in ("print.cxx", "options", "out.xml", "table.py")}
     for arguments in (("print-self", out["print.cxx"], header), ("options", out["options"], header),
-                      ("proxies", out["out.xml"], source, header), ("python", out["table.py"], header),
-                      ("pages", page, "--", header)):
+                      ("proxies", out["out.xml"], source, header), ("python", out["table.py"], header), ("pages", folder)):
         fault = properties.main(*arguments)
         if fault:
             raise ValueError(fault)
     texts = {}
-    for name in ("print.cxx", "options.cxx", "options.h", "out.xml", "table.py", "page.md"):
+    for name in ("print.cxx", "options.cxx", "options.h", "out.xml", "table.py", "Modules/X/README.md"):
         with open(os.path.join(folder, name), encoding="utf-8") as stream:
-            texts[name] = stream.read()
-    assert properties.main("pages", "--check", page, "--", header) == 0
-    with open(page, "w", encoding="utf-8") as stream:
-        stream.write(texts["page.md"].replace("Steps at most", "Steps"))
-    assert "not those of the headers" in properties.main("pages", "--check", page, "--", header)
+            texts[os.path.basename(name)] = stream.read()
+    check = ("pages", "--check", folder)
+    assert properties.main(*check) == 0
+    for file, text, message in ((page, texts["README.md"].replace("Steps at most", "Steps"), "not what headers"),
+                                (page, texts["README.md"].replace("make a thing", "make things"), "not what headers"),
+                                (page, "nothing", "no page has"), (readme, "| a | b |\n", "has no vtkThing"),
+                                (readme, "| `vtkThing`, `vtkNothing` | b |\n", "vtkNothing, which is no class")):
+        before = open(file, encoding="utf-8").read()
+        put(folder, os.path.relpath(file, folder), text)
+        assert message in str(properties.main(*check)), message
+        put(folder, os.path.relpath(file, folder), before)
     return texts
 
 
@@ -140,7 +156,9 @@ def test_outputs(texts):
     assert [names for names, _ in table["Way"][4]] == ["short", "long-way", "lbfgs", "xyz"] and table["Way"][4][0][1] == "SHORT_WAY"
     assert table["MaxSteps"] == ("int", 1, 0, 100, []) and table["Length"][2:4] == (0, None) and table["Box"][:2] == ("double", 2)
     row = "| `MaxSteps` | 7 | 0 to 100 | Steps at most; 0: none (with `Way` LONG_WAY, LBFGS; with `Loud` on) |"
-    assert row in texts["page.md"] and texts["page.md"].startswith("a\n") and texts["page.md"].endswith("b\n"), texts["page.md"]
+    page = texts["README.md"]
+    assert row in page and page.startswith("a\n") and page.endswith("<!-- end -->\n"), page
+    assert "| `thing` | make a thing | `knotwork thing --way short` |" in page
     check_proxy(ElementTree.fromstring(texts["out.xml"].partition("\n")[2]).find(".//SourceProxy"))
 
 

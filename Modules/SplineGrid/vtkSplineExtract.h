@@ -46,25 +46,26 @@ public:
   vtkBooleanMacro(RestrictToBox, bool);
   ///@}
   ///@{
-  /** The box of parameters: u from Box[0] to Box[1], v from Box[2] to Box[3]. Default 0 1 0 1.
-   * For RestrictToBox on. Components u0, u1, v0, v1. */
+  /** The box of parameters, in the domain of every patch: u from Box[0] to Box[1], v from Box[2]
+   * to Box[3]. Default 0 1 0 1. For RestrictToBox on. Components u0, u1, v0, v1. */
   vtkSetVector4Macro(Box, double);
   vtkGetVector4Macro(Box, double);
   ///@}
   ///@{
-  /** Whether the parameters are exchanged. Default off. */
+  /** Whether the parameters are exchanged: S'(u, v) = S(v, u). Default off. */
   vtkSetMacro(SwapParameters, bool);
   vtkGetMacro(SwapParameters, bool);
   vtkBooleanMacro(SwapParameters, bool);
   ///@}
   ///@{
-  /** Whether the first parameter is reversed. Default off. */
+  /** Whether the first parameter, as it is after the exchange, is reversed: t becomes begin +
+   * end - t. Default off. */
   vtkSetMacro(ReverseFirst, bool);
   vtkGetMacro(ReverseFirst, bool);
   vtkBooleanMacro(ReverseFirst, bool);
   ///@}
   ///@{
-  /** Whether the second parameter is reversed. Default off. */
+  /** Whether the second parameter, as it is after the exchange, is reversed. Default off. */
   vtkSetMacro(ReverseSecond, bool);
   vtkGetMacro(ReverseSecond, bool);
   vtkBooleanMacro(ReverseSecond, bool);
@@ -83,7 +84,8 @@ public:
   vtkGetMacro(IsoCurve, int);
   ///@}
   ///@{
-  /** Value of the parameter that is constant on the curve. Default 0.5. For IsoCurve not NONE. */
+  /** Value of the parameter that is constant on the curve, in the domain of every patch; on a
+   * line of full multiplicity the limit from above. Default 0.5. For IsoCurve not NONE. */
   vtkSetMacro(IsoValue, double);
   vtkGetMacro(IsoValue, double);
   ///@}

@@ -96,7 +96,8 @@ public:
   vtkGetMacro(Mode, int);
   ///@}
   ///@{
-  /** How often elements are halved. Default 1, valid range [0, 10]. */
+  /** How often elements are halved; children of marked elements are marked again, an implicit
+   * function looks at the new elements. Default 1, valid range [0, 10]. */
   vtkSetClampMacro(NumberOfRefinements, int, 0, 10);
   vtkGetMacro(NumberOfRefinements, int);
   ///@}
@@ -108,8 +109,8 @@ public:
   vtkBooleanMacro(GlobalRefinement, bool);
   ///@}
   ///@{
-  /** Degrees added in every direction before elements are halved; not for hierarchical patches.
-   * Default 0, valid range [0, 8]. */
+  /** Degrees added in every direction before elements are halved, continuity stays; not for
+   * hierarchical patches. Default 0, valid range [0, 8]. */
   vtkSetClampMacro(DegreeElevation, int, 0, 8);
   vtkGetMacro(DegreeElevation, int);
   ///@}
@@ -132,8 +133,8 @@ public:
   ///@}
   ///@{
   /** Whether elements are marked that the function's surface crosses, or those inside as well,
-   * one of Regions. Corners, middles and the centre of elements are looked at. Default
-   * CROSSED_OR_INSIDE. For Mode IMPLICIT_FUNCTION. */
+   * one of Regions. Corners, middles and the centre of elements are looked at; what lies between
+   * is not seen. Default CROSSED_OR_INSIDE. For Mode IMPLICIT_FUNCTION. */
   vtkSetClampMacro(ImplicitRegion, int, CROSSED, CROSSED_OR_INSIDE);
   vtkGetMacro(ImplicitRegion, int);
   ///@}

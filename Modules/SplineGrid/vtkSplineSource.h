@@ -73,15 +73,16 @@ public:
   vtkGetMacro(Degree, int);
   ///@}
   ///@{
-  /** Equal elements that every knot span of the shape is cut into: along x, y, z, or in radial,
-   * angular and axial direction, as far as the shape has them; see Shapes. Default 1 1 1, valid
-   * range >= 1. */
+  /** Equal elements that every knot span of the shape is cut into, with the highest continuity:
+   * along x, y, z, or in radial, angular and axial direction, as far as the shape has them; see
+   * Shapes. Default 1 1 1, valid range >= 1. */
   vtkSetVector3Macro(Elements, int);
   vtkGetVector3Macro(Elements, int);
   ///@}
   ///@{
   /** Radius of the hole, of a torus' tube, or of the corners of the core of a disc or ball; less
-   * than the outer radius. Default 0.5, valid range >= 0. */
+   * than OuterRadius, 0 for ball sectors only, of plates less than half a side. Default 0.5,
+   * valid range >= 0. */
   vtkSetMacro(InnerRadius, double);
   vtkGetMacro(InnerRadius, double);
   ///@}

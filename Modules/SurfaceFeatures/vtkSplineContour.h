@@ -106,8 +106,8 @@ public:
   vtkGetMacro(MaximumCells, int);
   ///@}
   ///@{
-  /** Points of the contours of a surface at most; more are an error. Default 5000000, valid
-   * range >= 1. Advanced. */
+  /** Points of the contours of a surface at most (5000000 take about 1.5 GB); more are an error.
+   * Default 5000000, valid range >= 1. Advanced. */
   vtkSetClampMacro(MaximumPoints, int, 1, VTK_INT_MAX);
   vtkGetMacro(MaximumPoints, int);
   ///@}

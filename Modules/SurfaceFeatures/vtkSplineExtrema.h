@@ -49,7 +49,7 @@ public:
   vtkGetMacro(Component, int);
   ///@}
   ///@{
-  /** Whether minima are in the outputs. Default on. */
+  /** Whether minima are in the outputs; the numbers count all kinds. Default on. */
   vtkSetMacro(Minima, bool);
   vtkGetMacro(Minima, bool);
   vtkBooleanMacro(Minima, bool);

@@ -245,14 +245,14 @@ public:
   vtkGetMacro(Threshold, int);
   ///@}
   ///@{
-  /** Share of the largest error or number from which on elements are split. Default 0.1, valid
-   * range [0, 1]. Advanced. For Threshold LARGEST_ERRORS, MOST_POINTS. */
+  /** Share of the largest error, or of the most points outside, from which on elements are
+   * split. Default 0.1, valid range [0, 1]. Advanced. For Threshold LARGEST_ERRORS, MOST_POINTS. */
   vtkSetClampMacro(ThresholdShare, double, 0.0, 1.0);
   vtkGetMacro(ThresholdShare, double);
   ///@}
   ///@{
-  /** Directions in which elements are split, one of DirectionChoices. Default BY_ERROR.
-   * Advanced. For Space LR. */
+  /** Directions in which elements of LR spaces are split, one of DirectionChoices; THB elements
+   * are split in both. Default BY_ERROR. Advanced. For Space LR. */
   vtkSetClampMacro(Directions, int, BOTH_DIRECTIONS, BY_ERROR);
   vtkGetMacro(Directions, int);
   ///@}

@@ -95,15 +95,15 @@ public:
   vtkGetMacro(Centres, int);
   ///@}
   ///@{
-  /** A boundary that turns by more degrees at a point has a corner there. Default 20, valid
-   * range [1, 180]. */
+  /** Angle in degrees by which a boundary turns at a point at least to have a corner there,
+   * where edges end. Default 20, valid range [1, 180]. */
   vtkSetClampMacro(CornerAngle, double, 1.0, 180.0);
   vtkGetMacro(CornerAngle, double);
   ///@}
   ///@{
   /** Functions that the net of a surface may have: 200000 take about 1.5e9 bytes. A net by need
-   * ends before it, a given number of spans that would make more is an error. Default 200000,
-   * valid range >= 1. Advanced. */
+   * ends before it; Elements that would make more are an error. Default 200000, valid range >=
+   * 1. Advanced. */
   vtkSetClampMacro(MaximumFunctions, int, 1, VTK_INT_MAX);
   vtkGetMacro(MaximumFunctions, int);
   ///@}

@@ -235,8 +235,8 @@ public:
   vtkGetMacro(RefineShare, double);
   ///@}
   ///@{
-  /** Cells of the new level around a marked one that are refined too. Default 1, valid range [0,
-   * 100]. For Refinement LOCAL. Group "Refinement". */
+  /** Cells of the new level around a marked one that are refined too; the box grows to whole
+   * parent cells. Default 1, valid range [0, 100]. For Refinement LOCAL. Group "Refinement". */
   vtkSetClampMacro(Extension, int, 0, 100);
   vtkGetMacro(Extension, int);
   ///@}
@@ -247,8 +247,8 @@ public:
   vtkGetMacro(MaxLevel, int);
   ///@}
   ///@{
-  /** A refinement to more functions is not made. Default 200000, valid range >= 1. Advanced. For
-   * Refinement not NONE. Group "Refinement". */
+  /** A refinement to more functions is not made; a first space of more is an error. Default
+   * 200000, valid range >= 1. Advanced. For Refinement not NONE. Group "Refinement". */
   vtkSetClampMacro(MaxFunctions, int, 1, VTK_INT_MAX);
   vtkGetMacro(MaxFunctions, int);
   ///@}
@@ -272,8 +272,8 @@ public:
   vtkGetMacro(InitialMap, int);
   ///@}
   ///@{
-  /** Whether the map is made over the box below, not over the template's bounding box. Default
-   * off. Advanced. Group "Initial Map". */
+  /** Whether the map is made over the box Domain, which must contain the template, not over the
+   * template's bounding box. Default off. Advanced. Group "Initial Map". */
   vtkSetMacro(UseDomain, bool);
   vtkGetMacro(UseDomain, bool);
   vtkBooleanMacro(UseDomain, bool);
