@@ -17,8 +17,8 @@ MOST_EDITS = 5
 # file: (text, the text that takes its place)
 EDITS = {
     "Space/SplineSpace.h": [
-        ("  LocallyRefined ///< LR B-splines, two parameters\n", "  LocallyRefined, ///< LR B-splines, two parameters\n  Constant\n"),
-        ("SpaceKind::LocallyRefined };", "SpaceKind::LocallyRefined, SpaceKind::Constant };"),
+        ("  Unstructured    ///<", "  Constant,\n  Unstructured    ///<"),
+        ("SpaceKind::Unstructured };", "SpaceKind::Unstructured, SpaceKind::Constant };"),
         ("    case SpaceKind::LocallyRefined:\n", "    case SpaceKind::LocallyRefined:\n    case SpaceKind::Constant:\n")],
     "Space/SpaceFamilies.cxx": [
         ('#include "BezierSpace.h"\n', '#include "BezierSpace.h"\n#include "ConstantSpace.h"\n'),

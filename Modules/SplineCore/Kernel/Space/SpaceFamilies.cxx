@@ -6,6 +6,7 @@
 #include "HierarchicalSpace.h"
 #include "LRSpace.h"
 #include "TensorSpace.h"
+#include "UnstructuredSpace.h"
 
 namespace knotwork
 {
@@ -18,6 +19,8 @@ const SpaceFamily<Dim>& FamilyOf(SpaceKind kind)
       return HierarchicalFamily<Dim>();
     case SpaceKind::LocallyRefined:
       return LRFamily<Dim>();
+    case SpaceKind::Unstructured:
+      return UnstructuredFamily<Dim>();
     case SpaceKind::Bezier:
       return BezierFamily<Dim>();
     case SpaceKind::Tensor:

@@ -13,20 +13,22 @@ namespace knotwork
 /// Families of spline spaces.
 enum class SpaceKind
 {
-  Bezier,        ///< independent or glued Bezier elements without a common parameter domain
-  Tensor,        ///< tensor-product B-splines
-  Hierarchical,  ///< truncated hierarchical B-splines (THB)
-  LocallyRefined ///< LR B-splines, two parameters
+  Bezier,         ///< independent or glued Bezier elements without a common parameter domain
+  Tensor,         ///< tensor-product B-splines
+  Hierarchical,   ///< truncated hierarchical B-splines (THB)
+  LocallyRefined, ///< LR B-splines, two parameters
+  Unstructured    ///< splines on a mesh of quadrilaterals or hexahedra with extraordinary ridges
 };
 
 inline constexpr SpaceKind AllSpaceKinds[] = { SpaceKind::Bezier, SpaceKind::Tensor,
-  SpaceKind::Hierarchical, SpaceKind::LocallyRefined };
+  SpaceKind::Hierarchical, SpaceKind::LocallyRefined, SpaceKind::Unstructured };
 /// Whether elements of such spaces are boxes of one parameter domain.
 constexpr bool HasParameterDomain(SpaceKind kind)
 {
   switch (kind)
   {
     case SpaceKind::Bezier:
+    case SpaceKind::Unstructured:
       return false;
     case SpaceKind::Tensor:
     case SpaceKind::Hierarchical:
@@ -54,6 +56,9 @@ template <int Dim>
 struct Hierarchy;
 /// Data private to the locally refined family (LRSpace.h).
 struct LRData;
+/// Data private to the unstructured family: the mesh and the continuities.
+template <int Dim>
+struct UnstructuredData;
 
 /// A spline space on Dim parameters in the form every algorithm takes: elements with Bezier
 /// extraction.
@@ -73,8 +78,7 @@ struct LRData;
 /// extraction).
 ///
 /// Spaces are made by the builders (TensorSpace.h, HierarchicalSpace.h, LRSpace.h,
-/// BezierSpace.h), never
-/// changed afterwards, and shared as SplineSpacePtr.
+/// BezierSpace.h, UnstructuredSpace.h), never changed afterwards, and shared as SplineSpacePtr.
 template <int Dim>
 class SplineSpace
 {
@@ -110,6 +114,8 @@ public:
   std::shared_ptr<const Hierarchy<Dim>> Levels;
   /// LocallyRefined only.
   std::shared_ptr<const LRData> LocallyRefined;
+  /// Unstructured only.
+  std::shared_ptr<const UnstructuredData<Dim>> Unstructured;
   /// Element of a level-0 cell (>= 0), or -1 - block when the cell is refined: children of block k
   /// are Tree[k * 2^Dim ... ], bit d of the child number = upper half in direction d. First
   /// direction fastest. Empty when !HasDomain() and for LocallyRefined, which has its own locator.

@@ -20,7 +20,7 @@ template <int Dim>
 constexpr int NumOrientations = Dim == 2 ? 2 : 8;
 
 template <int Dim>
-std::uint16_t CrossingNumber(int side, int other, int orientation)
+std::uint16_t NumberOf(int side, int other, int orientation)
 {
   return static_cast<std::uint16_t>((side * 2 * Dim + other) * NumOrientations<Dim> + orientation);
 }
@@ -328,9 +328,9 @@ Status MeshTopology<Dim>::LinkFacets(const CellMesh<Dim>& mesh)
       }
       // read from the other cell the orientation is the inverse one, which exchanges the turns
       const int inverse = orientation == 5 ? 6 : orientation == 6 ? 5 : orientation;
-      const std::uint16_t crossing = CrossingNumber<Dim>(side, otherSide, orientation);
+      const std::uint16_t crossing = NumberOf<Dim>(side, otherSide, orientation);
       this->Links[At(facet)] = { other, crossing };
-      this->Links[At(otherFacet)] = { own, CrossingNumber<Dim>(otherSide, side, inverse) };
+      this->Links[At(otherFacet)] = { own, NumberOf<Dim>(otherSide, side, inverse) };
       this->IsCoherent = this->IsCoherent && this->Table[crossing].Coherent;
       ++this->NumInteriorFacets;
       a = b + 1;

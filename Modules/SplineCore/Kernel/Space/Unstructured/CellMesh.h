@@ -72,6 +72,10 @@ public:
   {
     return this->Table[this->LinkOf(cell, side).Crossing];
   }
+  /// Number of the crossing among all there are, below NumCrossings. @pre !IsBoundary.
+  int CrossingNumber(int cell, int side) const { return this->LinkOf(cell, side).Crossing; }
+  static constexpr int NumCrossings = NumSides * NumSides * (Dim == 2 ? 2 : 8);
+  const FacetCrossing<Dim>& CrossingOfNumber(int number) const { return this->Table[number]; }
   /// Number of the ridge of a cell where two of its sides meet.
   static int RidgeOf(int side, int other);
   /// The two sides of a cell that meet at a ridge, the lower first.
