@@ -6,6 +6,7 @@ usage: properties.py print-self OUT.cxx HEADER...     PrintSelf of the classes
        properties.py options OUT HEADER...            OUT.h, OUT.cxx: options of the command line for the classes
        properties.py proxies OUT.xml IN.xml HEADER... ParaView's proxies: IN.xml with its short forms written out
        properties.py python OUT.py HEADER...          what Python checks: types, ranges, names of choices
+       properties.py defaults ROOT                    compares defaults of filters with those of the kernel fields they go to
        properties.py pages [--check] ROOT             what stands between marks on the pages of the tree, <!-- properties of CLASS --> or
                                                       <!-- jobs --> and <!-- end -->: rewritten or compared; and every class has its row in README.md
 
@@ -23,6 +24,7 @@ or ">= a", held against the macro; then, where they apply,
                           the values: with the other ones. Several sentences: all must hold.
     Components a, b, ...  what its numbers are called
     Group "Name".         properties that ParaView frames together
+    Kernel default 0.     the kernel's default, where it is another one
 
 A property between two enumerators is a choice of that enumeration. A label in quotes that begins an enumerator's comment is
 what people see, else the enumerator's words are; on the command line it is the same in lower case, or what the label has in brackets.
@@ -31,7 +33,7 @@ Enumerators and properties that a sentence names become what they are called whe
 IN.xml is XML of ParaView's server manager with short forms: <Properties/> in a proxy stands for all properties of its class that the proxy
 does not write itself (<Properties until="NAME"/>: those before that one), <Input name= types="..."> for an input (without types: splines), <Outputs names="..."/> for
 its output ports, <Array name= arrays="domain of the input"> for a choice of an array (index= of SetInputArrayToProcess, or command=), and the
-attribute components="..." of any other property labels its numbers. Without <Hints> a proxy stands in the menu, and its first output is shown."""
+attributes components="..." and for="NAME VALUE" of any other property label its numbers and hide it. Without <Hints> a proxy stands in the menu, and its first output is shown."""
 import glob
 import os
 import re
@@ -42,7 +44,7 @@ CLASS = re.compile(r"^class VTK\w+_EXPORT (\w+) : public (\w+)", re.M)
 SETTER = re.compile(r"vtkSet(Clamp|Vector\d|String|FilePath|)Macro\(([^;]*)\);")
 GETTER = re.compile(r"vtkGet(?:Vector\d|String|FilePath|Object|)Macro\((\w+)[^;]*\);")
 LIST = re.compile(r"^  std::vector<[^;]*> (\w+);", re.M)
-SENTENCES = re.compile(r"(?<=\.)\s+(?=Advanced\.|For \w+ |Components |Group \")")
+SENTENCES = re.compile(r"(?<=\.)\s+(?=Advanced\.|For \w+ |Components |Group \"|Kernel default )")
 
 
 class Fault(Exception):
@@ -70,6 +72,13 @@ def number(text):
     return str(int(value)) if value == int(value) and abs(value) < 1e15 else repr(value).replace("e-0", "e-")
 
 
+def parse_condition(text):
+    """NAME [not] VALUE, ...: name, values, whether it is the other values."""
+    name, *values = text.replace(",", "").split()
+    inverse = values[0] == "not"
+    return name, values[inverse:], inverse
+
+
 class Choice:
     def __init__(self, enumerator, comment):
         label = re.match(r'"([^"]*)"', comment)
@@ -94,7 +103,7 @@ class Property:
         if self.macro_bounds and not self.choices and not all(re.match(r"-?\d|VTK_", each) for each in self.macro_bounds):
             raise Fault(f"{self.where}: {' and '.join(self.macro_bounds)} are no enumerators of one enumeration")
         self.default = self.initial(header)
-        self.advanced, self.conditions, self.components, self.group = False, [], [], None
+        self.advanced, self.conditions, self.components, self.group, self.kernel = False, [], [], None, None
         self.low = self.high = None
         self.parse(" ".join(comment.split()))
 
@@ -136,14 +145,15 @@ class Property:
         if mark == "Advanced":
             self.advanced = True
         elif mark.startswith("For "):
-            inverse = words[2] == "not"
-            self.conditions.append((words[1], words[3 if inverse else 2:], inverse))
+            self.conditions.append(parse_condition(mark[len("For "):]))
         elif mark.startswith("Components "):
             self.components = words[1:]
             if len(self.components) != self.count:
                 raise Fault(f"{self.where}: {len(self.components)} names of {self.count} components")
         elif mark.startswith("Group "):
             self.group = mark[len("Group "):].strip('"')
+        elif mark.startswith("Kernel default "):
+            self.kernel = words[2]
         elif mark:
             raise Fault(f"{self.where}: what does '{mark}' behind the default mean?")
 
@@ -317,6 +327,7 @@ def expand(proxy, chain):
             children += [element("OutputPort", name=name, index=i, id=f"port{i}") for i, name in enumerate(outputs)]
         else:
             label_components(child, child.attrib.pop("components", "").split())
+            hide(child, chain[0], child.attrib.pop("for", ""))
             children.append(child)
     if proxy.find("Hints") is None:
         children.append(element("Hints"))
@@ -338,6 +349,7 @@ def label_components(made, names):
 def array_property(short, chain):
     """A choice among the arrays of the input: which one SetInputArrayToProcess takes, or a property of the class."""
     given = dict(short.attrib)
+    condition = given.pop("for", "")
     domain = element("ArrayListDomain", name="array_list", attribute_type="Scalars", none_string=given.pop("none_string", None),
                      input_domain_name=given.pop("arrays"))
     domain.append(element("RequiredProperties"))
@@ -350,7 +362,16 @@ def array_property(short, chain):
         made = element("StringVectorProperty", number_of_elements=1, default_values="None", **given)
         text = text or chain[0].named()[given["name"]].text
     made.extend([domain, element("Documentation", text), *short])
+    hide(made, chain[0], condition)
     return made
+
+
+def hide(made, header, condition):
+    """Hides a property that the proxy writes itself unless a condition as that of the mark "For" holds."""
+    if condition:
+        if made.find("Hints") is None:
+            made.append(element("Hints"))
+        made.find("Hints").extend(decorators(header, header.file, [parse_condition(condition)]))
 
 
 def framed(properties):
@@ -401,7 +422,7 @@ def proxy_property(header, each):
     elif each.type != "string":
         made.append(element(kind + "RangeDomain", name="range", min=each.low, max=each.high))
     made.append(element("Documentation", header.sentence(each, label, words_of)))
-    hints = decorators(header, each)
+    hints = decorators(header, each.where, each.conditions)
     if hints:
         made.append(element("Hints"))
         made[-1].extend(hints)
@@ -413,18 +434,18 @@ def place_of(choices, enumerator):
     return [choice.enumerator for choice in choices].index(enumerator)
 
 
-def decorators(header, each):
+def decorators(header, where, conditions):
     """What hides a property while it does not count."""
     parts = []
-    for name, values, inverse in each.conditions:
+    for name, values, inverse in conditions:
         other = header.named().get(name)
         if other is None:
-            raise Fault(f"{each.where}: for {name}: there is no such property")
+            raise Fault(f"{where}: for {name}: there is no such property")
         try:
             places = [{"on": 1, "off": 0}[value] if other.type == "bool" else place_of(other.choices, value)
                       if other.choices else float(value) for value in values]
         except (KeyError, ValueError):
-            raise Fault(f"{each.where}: for {name} {', '.join(values)}: it has no such value") from None
+            raise Fault(f"{where}: for {name} {', '.join(values)}: it has no such value") from None
         parts.append({"type": "GenericDecorator", "mode": "visibility", "property": name,
                       "value" if len(places) == 1 else "values": " ".join(f"{place:g}" for place in places)})
         if inverse:
@@ -518,6 +539,56 @@ def pages(root, check):
                 raise Fault(f"{header.file}: no page has '<!-- properties of {header.name} -->'")
 
 
+STRUCT = re.compile(r"^(?:template <[^>]*>\n)?struct (\w+Params)[^;{]*\{(.*?)^\};", re.M | re.S)
+FIELD = re.compile(r"^  [\w:<>]+(?: \w+)? (\w+) = ([^;]+);", re.M)
+CONSTANT = re.compile(r"^(?:inline )?constexpr \w+(?: \w+)? (\w+) = ([^;]+);", re.M)
+HANDED = re.compile(r"\.(\w+) = (?:static_cast<[^>]*>\()?this->(\w+)\)?;")
+
+
+def kernel_fields(root):
+    """Defaults of the fields of the kernels' structs: (field, struct) -> words; constants are looked up."""
+    fields, constants = {}, {}
+    for file in glob.glob(os.path.join(root, "Modules", "*", "Kernel", "**", "*.h"), recursive=True):
+        with open(file, encoding="utf-8") as stream:
+            text = stream.read()
+        constants.update(CONSTANT.findall(text))
+        for struct, body in STRUCT.findall(text):
+            fields.update({(field, struct): words for field, words in FIELD.findall(body)})
+    return {key: constants.get(words, words) for key, words in fields.items()}
+
+
+def says_default(each, words):
+    """Whether a kernel's words are a property's default; enumerators by their name, label or initials."""
+    if not each.choices:
+        return (number(words) or words) == (number(each.default[0]) or each.default[0])
+    name = words.split("::")[-1]
+    choice = each.choices[place_of(each.choices, each.default[0])]
+    wanted = {re.sub(r"\W|_", "", text).lower() for text in (choice.enumerator, choice.label, choice.option)}
+    return bool({name.lower(), re.sub("[a-z]", "", name).lower()} & wanted)
+
+
+def defaults(root):
+    """What filters hand to kernels as it is: parameters that the filter names have the same default, or what the mark "Kernel default" says."""
+    fields = kernel_fields(root)
+    compared = 0
+    for header in read(sorted(glob.glob(os.path.join(root, "Modules", "*", "vtk*.h")))):
+        source = os.path.join(root, "Modules", header.module, header.name + ".cxx")
+        if not os.path.exists(source):
+            continue
+        with open(source, encoding="utf-8") as stream:
+            text = stream.read() + header.text
+        for field, name in HANDED.findall(text):
+            each = header.named().get(name)
+            found = [words for (other, struct), words in fields.items()
+                     if other == field and re.search(rf"\b{struct[:-len('Params')]}(Params)?\b", text)]
+            if each is None or each.count > 1 or each.default == [""] or not found:
+                continue
+            compared += 1
+            if not any(number(words) == each.kernel if each.kernel else says_default(each, words) for words in found):
+                raise Fault(f"{each.where}: default is {each.default_words()}, of the kernel's {field} {' or '.join(found)}")
+    print(f"{compared} defaults compared")
+
+
 def write(file, lines):
     with open(file, "w", encoding="utf-8") as stream:
         stream.write("\n".join(lines) + "\n")
@@ -542,6 +613,8 @@ def main(command, *arguments):
             proxies(arguments[0], arguments[1], read(arguments[2:]))
         elif command == "python":
             python(arguments[0], read(arguments[1:]))
+        elif command == "defaults":
+            defaults(arguments[0])
         elif command == "pages":
             pages(arguments[-1], arguments[0] == "--check")
         else:

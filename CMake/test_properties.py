@@ -69,8 +69,8 @@ protected:
 PROXY = '''<ServerManagerConfiguration><ProxyGroup name="filters"><SourceProxy name="Thing" class="vtkThing">
   <Outputs names="Main Table"/>
   <Input name="Input" types="vtkPolyData vtkTable">The input.</Input>
-  <DoubleVectorProperty name="Levels" components="a b"/>
-  <Array name="Which" index="1" arrays="some" none_string="None">An array.</Array>
+  <DoubleVectorProperty name="Levels" components="a b" for="Way LONG_WAY"/>
+  <Array name="Which" for="Way not LONG_WAY" index="1" arrays="some" none_string="None">An array.</Array>
   <Properties until="Length"/>
   <Array name="LRName" command="SetLRName" arrays="some" none_string="None"/>
   <Properties/>
@@ -179,6 +179,8 @@ def check_proxy(proxy):
     assert [each.get("label") for each in found["Box"].iter("ComponentLabel")] == ["from", "to"]
     assert [value.get("value") for value in found["Input"].iter("DataType")] == ["vtkPolyData", "vtkTable"]
     assert [each.get("label") for each in found["Levels"].iter("ComponentLabel")] == ["a", "b"]
+    hidden = [found[name].find(".//PropertyWidgetDecorator").attrib for name in ("Levels", "Which")]
+    assert [(each["property"], each["value"], each.get("inverse")) for each in hidden] == [("Way", "1", None), ("Way", "1", "1")]
     assert (found["Which"].get("command"), found["Which"].get("default_values")) == ("SetInputArrayToProcess", "1")
     array = found["LRName"]
     assert (array.get("command"), array.get("default_values"), array.findtext("Documentation")) == ("SetLRName", "None", "Name of it.")
@@ -187,7 +189,37 @@ def check_proxy(proxy):
     assert proxy.find("PropertyGroup").get("label") == "Limits"
 
 
+KERNEL = '''constexpr double DefaultLength = 1e-3;
+struct ThingParams
+{
+  ThingWay Way = ThingWay::LongWay;
+  int Steps = 7; ///< at most
+  double Length = DefaultLength;
+};
+'''
+
+FILTER = '''ThingParams params;
+  params.Way = static_cast<ThingWay>(this->Way);
+  params.Steps = this->MaxSteps;
+  params.Length = this->Length;
+'''
+
+
+def test_defaults_of_the_kernel():
+    with tempfile.TemporaryDirectory() as folder:
+        put(folder, "Modules/X/vtkThing.h", HEADER)
+        put(folder, "Modules/X/vtkThing.cxx", FILTER)
+        for old, new, message in (("", "", "0"), ("Steps = 7", "Steps = 8", "MaxSteps: default is 7, of the kernel's Steps 8"),
+                                  ("1e-3", "1e-2", "of the kernel's Length 1e-2"), ("::LongWay", "::ShortWay", "Way: default is LONG_WAY")):
+            put(folder, "Modules/X/Kernel/Thing.h", KERNEL.replace(old, new, 1))
+            assert message in str(properties.main("defaults", folder)), message
+        put(folder, "Modules/X/Kernel/Thing.h", KERNEL.replace("Steps = 7", "Steps = 8"))
+        put(folder, "Modules/X/vtkThing.h", HEADER.replace('Group "Limits".', 'Group "Limits". Kernel default 8.'))
+        assert properties.main("defaults", folder) == 0
+
+
 def main():
+    test_defaults_of_the_kernel()
     with tempfile.TemporaryDirectory() as folder:
         test_outputs(generated(folder, HEADER))
         for old, new, message in FAULTS:

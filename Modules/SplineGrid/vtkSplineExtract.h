@@ -85,7 +85,8 @@ public:
   ///@}
   ///@{
   /** Value of the parameter that is constant on the curve, in the domain of every patch; on a
-   * line of full multiplicity the limit from above. Default 0.5. For IsoCurve not NONE. */
+   * line of full multiplicity the limit from above. Default 0.5. For IsoCurve not NONE. Kernel
+   * default 0. */
   vtkSetMacro(IsoValue, double);
   vtkGetMacro(IsoValue, double);
   ///@}

@@ -51,7 +51,8 @@ public:
   ///@}
   ///@{
   /** Wanted distance between the composition and its projection, in units of the image; 0: the
-   * patches' own spaces, no refinement. Not used for points. Default 0.001, valid range >= 0. */
+   * patches' own spaces, no refinement. Not used for points. Default 0.001, valid range >= 0.
+   * Kernel default 0. */
   vtkSetClampMacro(Tolerance, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Tolerance, double);
   ///@}

@@ -44,7 +44,7 @@ public:
   ///@}
   ///@{
   /** Component of the geometry (2 is z) or of the field; the only component of a field whatever
-   * it says. Default 2, valid range [0, 1000]. */
+   * it says. Default 2, valid range [0, 1000]. Kernel default 0. */
   vtkSetClampMacro(Component, int, 0, 1000);
   vtkGetMacro(Component, int);
   ///@}
