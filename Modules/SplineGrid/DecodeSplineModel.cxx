@@ -553,7 +553,7 @@ Status GridReader::CheckBounds(const std::string& where, const SplineSpace<Dim>&
   const std::vector<vtkIdType>& cells) const
 {
   vtkDataArray* bounds = this->Grid->GetCellData()->GetArray(name::Bounds);
-  if (!bounds || bounds->GetNumberOfComponents() != 6 ||
+  if (!space.HasDomain() || !bounds || bounds->GetNumberOfComponents() != 6 ||
     bounds->GetNumberOfTuples() != this->Grid->GetNumberOfCells())
   {
     return {};
