@@ -32,7 +32,8 @@ Enumerators and properties that a sentence names become what they are called whe
 
 IN.xml is XML of ParaView's server manager with short forms: <Properties/> in a proxy stands for all properties of its class that the proxy
 does not write itself (<Properties until="NAME"/>: those before that one), <Input name= types="..."> for an input (without types: splines), <Outputs names="..."/> for
-its output ports, <Array name= arrays="domain of the input"> for a choice of an array (index= of SetInputArrayToProcess, or command=), and the
+its output ports, <Array name= arrays="domain of the input"> for a choice of an array (index= of SetInputArrayToProcess, a property of the class, or a
+list of arrays: repeat_command="1"), and the
 attributes components="..." and for="NAME VALUE" of any other property label its numbers and hide it. Without <Hints> a proxy stands in the menu, and its first output is shown."""
 import glob
 import os
@@ -315,7 +316,10 @@ def expand(proxy, chain):
     children, outputs = [], []
     for child in list(proxy):
         if child.tag == "Properties":
-            until = [each.name for _, each in left].index(child.get("until")) if child.get("until") else len(left)
+            names = [each.name for _, each in left]
+            if child.get("until", names[0] if names else None) not in names + [None]:
+                raise Fault(f"{proxy.get('name')}: no property {child.get('until')} is left to be written out")
+            until = names.index(child.get("until")) if child.get("until") else len(left)
             children += framed([proxy_property(header, each) for header, each in left[:until]])
             left = left[until:]
         elif child.tag == "Input":
@@ -327,7 +331,8 @@ def expand(proxy, chain):
             children += [element("OutputPort", name=name, index=i, id=f"port{i}") for i, name in enumerate(outputs)]
         else:
             label_components(child, child.attrib.pop("components", "").split())
-            hide(child, chain[0], child.attrib.pop("for", ""))
+            condition = child.attrib.pop("for", "")
+            hide(child, chain[0], [parse_condition(condition)] if condition else [])
             children.append(child)
     if proxy.find("Hints") is None:
         children.append(element("Hints"))
@@ -347,31 +352,37 @@ def label_components(made, names):
 
 
 def array_property(short, chain):
-    """A choice among the arrays of the input: which one SetInputArrayToProcess takes, or a property of the class."""
+    """A choice among the arrays of an input: which one SetInputArrayToProcess takes, a property of the class, or a list of arrays."""
     given = dict(short.attrib)
-    condition = given.pop("for", "")
-    domain = element("ArrayListDomain", name="array_list", attribute_type="Scalars", none_string=given.pop("none_string", None),
-                     input_domain_name=given.pop("arrays"))
+    declared = None if "index" in given else chain[0].named().get(given["name"])
+    conditions = [parse_condition(given.pop("for"))] if "for" in given else declared.conditions if declared else []
+    domain = element("ArrayListDomain", name="array_list", none_string=given.pop("none_string", None),
+                     input_domain_name=given.pop("arrays"), attribute_type=None if "repeat_command" in given else "Scalars")
     domain.append(element("RequiredProperties"))
-    domain[0].append(element("Property", name="Input", function="Input"))
-    text = " ".join((short.text or "").split())
+    domain[0].append(element("Property", name=given.pop("input", "Input"), function="Input"))
     if "index" in given:
         made = element("StringVectorProperty", command="SetInputArrayToProcess", number_of_elements=5, element_types="0 0 0 0 2",
                        animateable=0, default_values=given.pop("index"), **given)
+    elif "repeat_command" in given:
+        made = element("StringVectorProperty", number_of_elements_per_command=1, **given)
     else:
-        made = element("StringVectorProperty", number_of_elements=1, default_values="None", **given)
-        text = text or chain[0].named()[given["name"]].text
+        made = element("StringVectorProperty", number_of_elements=1, default_values="None", command="Set" + given["name"],
+                       panel_visibility="advanced" if declared.advanced else None, **given)
+    text = " ".join((short.text or "").split()) or declared.text
     made.extend([domain, element("Documentation", text), *short])
-    hide(made, chain[0], condition)
+    if "repeat_command" in given:  # none is chosen first
+        made.append(element("Hints"))
+        made[-1].append(element("NoDefault"))
+    hide(made, chain[0], conditions)
     return made
 
 
-def hide(made, header, condition):
-    """Hides a property that the proxy writes itself unless a condition as that of the mark "For" holds."""
-    if condition:
+def hide(made, header, conditions):
+    """Hides a property that the proxy writes itself unless conditions as those of the mark "For" hold."""
+    if conditions:
         if made.find("Hints") is None:
             made.append(element("Hints"))
-        made.find("Hints").extend(decorators(header, header.file, [parse_condition(condition)]))
+        made.find("Hints").extend(decorators(header, header.file, conditions))
 
 
 def framed(properties):

@@ -72,7 +72,7 @@ PROXY = '''<ServerManagerConfiguration><ProxyGroup name="filters"><SourceProxy n
   <DoubleVectorProperty name="Levels" components="a b" for="Way LONG_WAY"/>
   <Array name="Which" for="Way not LONG_WAY" index="1" arrays="some" none_string="None">An array.</Array>
   <Properties until="Length"/>
-  <Array name="LRName" command="SetLRName" arrays="some" none_string="None"/>
+  <Array name="LRName" arrays="some" none_string="None"/>
   <Properties/>
 </SourceProxy></ProxyGroup></ServerManagerConfiguration>'''
 
@@ -95,6 +95,7 @@ FAULTS = (  # in the header: what stands there, what shall stand there, what the
     ("Default off.", "", "Loud: the comment says no default"),
     ("  /** Whether it is loud. Default off. */\n", "", "Loud has no comment"),
     ("  bool Loud = false;\n", "", "Loud: no member"),
+    ("(Length,", "(Longth,", "Longth: no member"),
 )
 
 

@@ -309,7 +309,7 @@ Status vtkSplineEvaluate::Compute(vtkInformationVector** inputs, vtkInformationV
   Status status;
   if (this->Mode == PARAMETERS)
   {
-    if (!this->ParameterArray.empty())
+    if (!this->ParameterArray.empty() && this->ParameterArray != "None")
     {
       vtkDataArray* array = points->GetPointData()->GetArray(this->ParameterArray.c_str());
       if (!array)

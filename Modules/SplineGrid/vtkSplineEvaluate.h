@@ -59,8 +59,8 @@ public:
   vtkGetMacro(Derivatives, int);
   ///@}
   ///@{
-  /** Point array of the second input with the parameters; empty: its coordinates. Default empty.
-   * For Mode PARAMETERS. */
+  /** Point array of the second input with the parameters; empty or `None`: its coordinates. Default
+   * empty. For Mode PARAMETERS. */
   vtkSetMacro(ParameterArray, std::string);
   vtkGetMacro(ParameterArray, std::string);
   ///@}

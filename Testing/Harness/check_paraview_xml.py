@@ -59,7 +59,7 @@ def current_values(instance, command, element):
 def list_problems(element, name):
     count = element.get("number_of_elements_per_command" if element.get("repeat_command") == "1" else "number_of_elements", "1")
     labels = element.findall("Hints/ShowComponentLabels/ComponentLabel")
-    if element.get("repeat_command") == "1" or labels:
+    if (element.get("repeat_command") == "1" and element.find("ArrayListDomain") is None) or labels:
         if [label.get("component") for label in labels] != [str(i) for i in range(int(count))]:
             yield f"{name}: {len(labels)} labels of {count} numbers"
     for domain in element:

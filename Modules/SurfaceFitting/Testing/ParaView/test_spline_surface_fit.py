@@ -26,6 +26,17 @@ def test_spaces_and_outputs():
         assert OutputPort(fit, 3).GetDataInformation().GetNumberOfCells() == 36
 
 
+def test_arrays_fitted_along_are_a_choice_and_none_is_chosen_first():
+    points = cap()
+    points.UpdatePipeline()
+    fit = SplineSurfaceFit(Input=points)
+    assert list(fit.FieldArrays) == []
+    offered = fit.GetProperty("FieldArrays").SMProperty.FindDomain("vtkSMArrayListDomain")
+    assert {"Normals", "Limit"} <= {offered.GetString(i) for i in range(offered.GetNumberOfStrings())}
+    fit.UpdatePipeline()
+    assert OutputPort(fit, 0).GetPointDataInformation().GetArray("Normals") is None
+
+
 def test_arrays_fields_and_boxes():
     fit = SplineSurfaceFit(Input=cap(), FieldArrays=["Normals"], ToleranceArray=["POINTS", "Limit"])
     assert number(fit, "PointsOutside") == 0
