@@ -197,16 +197,12 @@ private:
   std::vector<Condition> Conditions;
 };
 
-/// The functions are a basis of all splines with these conditions that is not negative, sums to
-/// one and is independent on every cell.
+/// The functions meet the conditions, are not negative, sum to one and are independent on every
+/// cell.
 template <int Dim>
-void ExpectBasis(const SplineSpace<Dim>& space, const std::vector<int>& lengths, Random& random)
+void ExpectFunctions(
+  const SplineSpace<Dim>& space, const SmoothnessConditions<Dim>& conditions, Random& random)
 {
-  const CellMesh<Dim>& mesh = knotwork::MeshOf(space);
-  const int p = space.Elements[0].Degree[0];
-  const SmoothnessConditions<Dim> conditions(mesh, p, knotwork::ContinuityOf(space), lengths);
-  ASSERT_EQ(space.NumFunctions, conditions.NullSpaceDimension());
-
   for (int e = 0; e < space.NumElements(); ++e)
   {
     const Eigen::MatrixXd rows = space.ExtractionOperator(e);
@@ -239,6 +235,16 @@ void ExpectBasis(const SplineSpace<Dim>& space, const std::vector<int>& lengths,
     // roundings of some dozen products of coefficients below 1
     ASSERT_LE(std::fabs(sum), 1e-12 * size);
   }
+}
+
+/// They are a basis of all splines with the continuities of the space.
+template <int Dim>
+void ExpectBasis(const SplineSpace<Dim>& space, const std::vector<int>& lengths, Random& random)
+{
+  const SmoothnessConditions<Dim> conditions(
+    knotwork::MeshOf(space), space.Elements[0].Degree[0], knotwork::ContinuityOf(space), lengths);
+  ASSERT_EQ(space.NumFunctions, conditions.NullSpaceDimension());
+  ExpectFunctions(space, conditions, random);
 }
 
 /// Random lengths from 1 to `most` for the sheets, and what they are on cells.

@@ -377,6 +377,38 @@ TEST(UnstructuredSpace, PeriodicStripsAndLargeValence_ExactOracle)
   EXPECT_EQ(Make<2>(Grid<2>({ 3, 5 }, { true, true }), 3, CreasePolicy::Full).Repairs, 5);
 }
 
+TEST(UnstructuredSpace, LargeMeshesInAnyOrder_ExactOracle)
+{
+  Random random(2);
+  const int n = 80;
+  const CellMesh<2> mesh = Shuffled(random, CubeSphere(n)); // more cells than a cache holds
+  EXPECT_FALSE(MeshTopology<2>::Make(mesh)->LocalOrder().empty());
+  EXPECT_TRUE(MeshTopology<2>::Make(CubeSphere(n))->LocalOrder().empty());
+  const std::vector<int> lengths(static_cast<std::size_t>(mesh.NumCells()) * 2, 1);
+  const auto made = Make<2>(mesh, 2, CreasePolicy::Minimal);
+  ASSERT_TRUE(made.Space);
+  EXPECT_EQ(made.Space->NumFunctions, 6 * n * n + 8);
+  const oracle::SmoothnessConditions<2> conditions(mesh, 2, ContinuityOf(*made.Space), lengths);
+  oracle::ExpectFunctions<2>(*made.Space, conditions, random);
+  // what is inadmissible is named by the numbers of the given mesh
+  const auto refused = MakeUnstructuredSpace<2>(
+    mesh, 2, std::vector<int>(static_cast<std::size_t>(mesh.NumCells()) * 4, 1));
+  ASSERT_EQ(refused.Status.Code, ErrorCode::NotInSpace);
+  const std::string words = refused.Status.Detail;
+  const auto topology = MeshTopology<2>::Make(mesh);
+  const int cell = std::stoi(words.substr(words.find("cell ") + 5));
+  bool isNear = false; // an extraordinary point is on it or on a neighbour
+  for (int side = 0; side < 4; ++side)
+  {
+    for (int corner = 0; corner < 4; ++corner)
+    {
+      isNear = isNear || topology.Value.IsExtraordinary(cell, corner) ||
+        topology.Value.IsExtraordinary(topology.Value.Neighbour(cell, side), corner);
+    }
+  }
+  EXPECT_TRUE(isNear) << words;
+}
+
 TEST(UnstructuredSpace, PolicyFollowsThePartThatFullCreases_ExactOracle)
 {
   // 3 spokes of n edges among 3 n (n + 1) + 3 n (n - 1) edges that are not on the boundary

@@ -5,6 +5,7 @@
 #include "PatchSides.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 
 namespace knotwork
@@ -617,6 +618,82 @@ typename MeshTopology<Dim>::EdgeSheets MeshTopology<Dim>::FindSheets() const
     sheets.Of[At(i)] = first == i ? sheets.Count++ : sheets.Of[At(first)];
   }
   return sheets;
+}
+
+template <int Dim>
+std::vector<int> MeshTopology<Dim>::LocalOrder() const
+{
+  // most neighbours are further away than the cells that a cache holds
+  constexpr int far = 1 << 13;
+  constexpr int samples = 1 << 10;
+  const int numCells = this->NumCells();
+  int numFar = 0;
+  for (int i = 0; i < samples && numCells > far; ++i)
+  {
+    const int c = static_cast<int>(std::int64_t{ numCells } * i / samples);
+    for (int side = 0; side < NumSides; ++side)
+    {
+      numFar += std::abs(this->Neighbour(c, side) - c) > far ? 1 : 0;
+    }
+  }
+  std::vector<int> order;
+  if (2 * numFar < samples * NumSides)
+  {
+    return order;
+  }
+  order.reserve(At(numCells));
+  std::vector<char> isSeen(At(numCells), 0);
+  for (int root = 0; root < numCells; ++root)
+  {
+    if (isSeen[At(root)] != 0)
+    {
+      continue;
+    }
+    isSeen[At(root)] = 1;
+    order.push_back(root);
+    for (std::size_t i = order.size() - 1; i < order.size(); ++i)
+    {
+      for (int side = 0; side < NumSides; ++side)
+      {
+        const int other = this->Neighbour(order[i], side);
+        if (other >= 0 && isSeen[At(other)] == 0)
+        {
+          isSeen[At(other)] = 1;
+          order.push_back(other);
+        }
+      }
+    }
+  }
+  return order;
+}
+
+template <int Dim>
+MeshTopology<Dim> MeshTopology<Dim>::Reordered(const std::vector<int>& order) const
+{
+  std::vector<int> newNumber(order.size());
+  for (std::size_t c = 0; c < order.size(); ++c)
+  {
+    newNumber[At(order[c])] = static_cast<int>(c);
+  }
+  MeshTopology made;
+  made.NumInteriorFacets = this->NumInteriorFacets;
+  made.NumBoundaryFacets = this->NumBoundaryFacets;
+  made.NumExtraordinaryRidges = this->NumExtraordinaryRidges;
+  made.IsOrientable = this->IsOrientable;
+  made.IsCoherent = this->IsCoherent;
+  made.Links.resize(this->Links.size());
+  made.RidgeBits.resize(this->RidgeBits.size());
+  for (std::size_t c = 0; c < order.size(); ++c)
+  {
+    made.RidgeBits[c] = this->RidgeBits[At(order[c])];
+    for (std::size_t side = 0; side < NumSides; ++side)
+    {
+      Link link = this->Links[At(order[c]) * NumSides + side];
+      link.Cell = link.Cell < 0 ? -1 : newNumber[At(link.Cell)];
+      made.Links[c * NumSides + side] = link;
+    }
+  }
+  return made;
 }
 
 template class MeshTopology<2>;

@@ -138,6 +138,12 @@ public:
   };
   EdgeSheets FindSheets() const;
 
+  /// An order in which cells come soon after their neighbours: breadth first. Empty where cells
+  /// follow their neighbours as they are numbered.
+  std::vector<int> LocalOrder() const;
+  /// The same cells in another order. @param order  old number of every new cell.
+  MeshTopology Reordered(const std::vector<int>& order) const;
+
   std::int64_t NumInteriorFacets = 0;
   std::int64_t NumBoundaryFacets = 0;
   std::int64_t NumExtraordinaryRidges = 0;

@@ -35,20 +35,16 @@ public:
   {
   }
 
-  UnstructuredBuild<Dim> Run()
+  /// @return none when something is inadmissible.
+  std::shared_ptr<SplineSpace<Dim>> Run()
   {
     this->WindowOf = FindWindows(*this->Data, this->Windows);
     this->UniteAcrossFacets();
     this->RelateAcrossFacets();
     this->Resolve();
-    UnstructuredBuild<Dim> result;
-    if (this->Places.empty())
-    {
-      result.Space = this->Finish();
-    }
-    result.Places = std::move(this->Places);
-    return result;
+    return this->Places.empty() ? this->Finish() : nullptr;
   }
+  const std::vector<Inadmissible>& Found() const { return this->Places; }
 
 private:
   using Topology = MeshTopology<Dim>;
@@ -457,7 +453,7 @@ private:
     }
   }
 
-  SplineSpacePtr<Dim> Finish()
+  std::shared_ptr<SplineSpace<Dim>> Finish()
   {
     auto space = std::make_shared<SplineSpace<Dim>>();
     space->Kind = SpaceKind::Unstructured;
@@ -519,7 +515,6 @@ private:
       }
     }
     space->LocalFunctionIds = std::move(this->Ids);
-    space->Unstructured = this->Data;
     return space;
   }
 
@@ -559,10 +554,79 @@ std::string Describe(const Inadmissible& place)
   return where + " the functions are not independent";
 }
 
+namespace
+{
+/// Topology, continuities and lengths in another order of the cells: what the builder takes.
+template <int Dim>
+std::shared_ptr<const UnstructuredData<Dim>> Reordered(
+  const UnstructuredData<Dim>& data, const std::vector<int>& order)
+{
+  auto made = std::make_shared<UnstructuredData<Dim>>();
+  made->Topology = data.Topology.Reordered(order);
+  made->Degree = data.Degree;
+  made->Lengths = data.Lengths;
+  made->Sheets.Count = data.Sheets.Count;
+  made->Sheets.Of.resize(data.Sheets.Of.size());
+  made->Continuity.resize(data.Continuity.size());
+  for (std::size_t c = 0; c < order.size(); ++c)
+  {
+    const std::size_t old = At(order[c]);
+    std::copy_n(data.Continuity.begin() + static_cast<std::ptrdiff_t>(old * 2 * Dim), 2 * Dim,
+      made->Continuity.begin() + static_cast<std::ptrdiff_t>(c * 2 * Dim));
+    for (std::size_t d = 0; !made->Sheets.Of.empty() && d < Dim; ++d)
+    {
+      made->Sheets.Of[c * Dim + d] = data.Sheets.Of[old * Dim + d];
+    }
+  }
+  return made;
+}
+
+/// Gives the cells of a space their old order.
+template <int Dim>
+void RestoreOrder(const std::vector<int>& order, SplineSpace<Dim>& space)
+{
+  const std::size_t numLocal = space.LocalFunctionIds.size() / order.size();
+  std::vector<typename SplineSpace<Dim>::Element> elements(order.size());
+  std::vector<int> ids(space.LocalFunctionIds.size());
+  for (std::size_t c = 0; c < order.size(); ++c)
+  {
+    const std::size_t old = At(order[c]);
+    elements[old] = space.Elements[c];
+    elements[old].FirstLocal = old * numLocal;
+    std::copy_n(space.LocalFunctionIds.begin() + static_cast<std::ptrdiff_t>(c * numLocal),
+      numLocal, ids.begin() + static_cast<std::ptrdiff_t>(old * numLocal));
+  }
+  space.Elements = std::move(elements);
+  space.LocalFunctionIds = std::move(ids);
+}
+}
+
 template <int Dim>
 UnstructuredBuild<Dim> BuildUnstructured(std::shared_ptr<const UnstructuredData<Dim>> data)
 {
-  return Builder<Dim>(std::move(data)).Run();
+  // cells whose neighbours are far away in memory are worth being sorted
+  const std::vector<int> order = data->Topology.LocalOrder();
+  Builder<Dim> builder(order.empty() ? data : Reordered(*data, order));
+  UnstructuredBuild<Dim> result;
+  const std::shared_ptr<SplineSpace<Dim>> space = builder.Run();
+  result.Places = builder.Found();
+  if (!order.empty())
+  {
+    for (Inadmissible& place : result.Places)
+    {
+      place.Cell = order[At(place.Cell)];
+    }
+    if (space)
+    {
+      RestoreOrder(order, *space);
+    }
+  }
+  if (space)
+  {
+    space->Unstructured = std::move(data);
+  }
+  result.Space = space;
+  return result;
 }
 
 template UnstructuredBuild<2> BuildUnstructured<2>(std::shared_ptr<const UnstructuredData<2>>);
