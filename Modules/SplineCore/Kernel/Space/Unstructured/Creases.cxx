@@ -17,6 +17,23 @@ std::size_t At(int i)
 constexpr double MostCreased = 0.4;
 }
 
+template <int Dim>
+Status CheckFeatures(const MeshTopology<Dim>& topology, const std::vector<CellSide>& features)
+{
+  for (const CellSide& feature : features)
+  {
+    const bool isThere = feature.Cell >= 0 && feature.Cell < topology.NumCells() &&
+      feature.Side >= 0 && feature.Side < 2 * Dim;
+    if (!isThere || topology.IsBoundary(feature.Cell, feature.Side))
+    {
+      return { ErrorCode::InvalidParameter,
+        "side " + std::to_string(feature.Side) + " of cell " + std::to_string(feature.Cell) +
+          " is no inner facet" };
+    }
+  }
+  return {};
+}
+
 /// Marks an inner facet from both cells. @return whether it was not.
 template <int Dim>
 bool Creases<Dim>::Mark(std::vector<char>& marks, int cell, int side) const
@@ -517,6 +534,8 @@ bool Creases<Dim>::Repair(const std::vector<Inadmissible>& places)
   return lowered > 0;
 }
 
+template Status CheckFeatures<2>(const MeshTopology<2>&, const std::vector<CellSide>&);
+template Status CheckFeatures<3>(const MeshTopology<3>&, const std::vector<CellSide>&);
 template class Creases<2>;
 template class Creases<3>;
 }

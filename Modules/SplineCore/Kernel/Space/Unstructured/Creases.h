@@ -6,6 +6,10 @@
 
 namespace knotwork
 {
+/// @return InvalidParameter for a feature that is no inner facet.
+template <int Dim>
+Status CheckFeatures(const MeshTopology<Dim>& topology, const std::vector<CellSide>& features);
+
 /// Sets the continuities of a space by a policy, and lowers them where they have no basis.
 template <int Dim>
 class Creases
@@ -18,6 +22,8 @@ public:
   /// Lowers continuities near the places. @return false when there is nothing left to lower.
   bool Repair(const std::vector<Inadmissible>& places);
   std::int64_t NumCreased() const;
+  /// C^0 across facets and all their opposites. @return how many were smoother.
+  std::int64_t CreaseFully(const std::vector<CellSide>& facets);
 
 private:
   using Topology = MeshTopology<Dim>;
@@ -35,7 +41,6 @@ private:
   void LayTracks();
   void Grade();
   std::int64_t CreaseStrip(int cell);
-  std::int64_t CreaseFully(const std::vector<CellSide>& facets);
   CellSide LowestOfStrip(int cell) const;
   template <class Accept>
   bool HasOpposite(int cell, int side, Accept&& accept) const;

@@ -81,14 +81,9 @@ Result<UnstructuredResult<Dim>> MakeUnstructuredSpace(
   }
   std::shared_ptr<UnstructuredData<Dim>> data = std::move(made.Value);
   const MeshTopology<Dim>& topology = data->Topology;
-  for (const CellSide& feature : params.Features)
+  if (const Status status = CheckFeatures(topology, params.Features); !status)
   {
-    const bool isThere = feature.Cell >= 0 && feature.Cell < topology.NumCells() &&
-      feature.Side >= 0 && feature.Side < 2 * Dim;
-    if (!isThere || topology.IsBoundary(feature.Cell, feature.Side))
-    {
-      return { ErrorCode::InvalidParameter, SideName(feature) + " is no inner facet" };
-    }
+    return status;
   }
   UnstructuredResult<Dim> result;
   result.InnerFacets = topology.NumInteriorFacets;
