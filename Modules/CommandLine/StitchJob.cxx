@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "FilterProperties.h"
-#include "Jobs.h"
-#include "Options.h"
-#include "Session.h"
+#include "FilterJob.h"
 
 #include <knotwork/SplineGrid/SplineModel.h>
 #include <knotwork/SurfaceFitting/vtkSplineStitch.h>
@@ -98,15 +95,10 @@ struct StitchJob
       return damage ? status : damage;
     }
     vtkTable* numbers = vtkTable::SafeDownCast(this->Filter->GetOutputDataObject(2));
-    for (const char* name : { "Tiles", "Edges", "Functions", "FunctionsAdded" })
-    {
-      session.Report[Options::SnakeCase(name)] = numbers->GetValueByName(0, name).ToInt();
-    }
-    for (const char* name :
-      { "MaxChange", "MaxJumpBefore", "MaxJump", "MaxSlopeJumpBefore", "MaxSlopeJump" })
-    {
-      session.Report[Options::SnakeCase(name)] = numbers->GetValueByName(0, name).ToDouble();
-    }
+    ReportRow(numbers, 0,
+      { "Tiles", "Edges", "Functions", "FunctionsAdded", "MaxChange", "MaxJumpBefore", "MaxJump",
+        "MaxSlopeJumpBefore", "MaxSlopeJump" },
+      session.Report);
     return session.WriteOutputs(this->Filter, { this->Output, this->EdgeFile });
   }
 };

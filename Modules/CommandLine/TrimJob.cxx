@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "FilterProperties.h"
+#include "FilterJob.h"
 #include "FlattenNumbers.h"
-#include "Jobs.h"
-#include "Options.h"
-#include "Session.h"
 
 #include <knotwork/CADModel/CADExchange.h>
 #include <knotwork/MeshParameterization/vtkMeshParameterization.h>
@@ -150,24 +147,12 @@ struct TrimJob
     const auto value = [table](const char* name) { return table->GetValueByName(0, name); };
     report["points"] = mesh->GetNumberOfElements(vtkDataObject::POINT);
     report["triangles"] = mesh->GetNumberOfElements(vtkDataObject::CELL);
-    for (const char* name : { "Tolerance", "MaxDeviation", "MaxDeviationFound", "RmsDeviation",
-           "MaxBoundaryDistance", "MaxEdgeGap", "MinNormalBound", "Area", "MeshArea" })
-    {
-      report[Options::SnakeCase(name)] = value(name).ToDouble();
-    }
-    for (const char* name : { "WithinTolerance", "LoopsProved" })
-    {
-      report[Options::SnakeCase(name)] = value(name).ToInt() != 0;
-    }
-    for (const char* name : { "Faces", "Loops", "Edges", "Vertices", "ControlPoints", "Passes" })
-    {
-      report[Options::SnakeCase(name)] = value(name).ToInt();
-    }
-    report["work"] = value("Work").ToDouble();
-    for (const char* name : { "Stopped", "Verdict", "LoopVerdict", "Nets" })
-    {
-      report[Options::SnakeCase(name)] = value(name).ToString();
-    }
+    ReportTruths(table, 0, { "WithinTolerance", "LoopsProved" }, report);
+    ReportRow(table, 0,
+      { "Tolerance", "MaxDeviation", "MaxDeviationFound", "RmsDeviation", "MaxBoundaryDistance",
+        "MaxEdgeGap", "MinNormalBound", "Area", "MeshArea", "Faces", "Loops", "Edges", "Vertices",
+        "ControlPoints", "Passes", "Work", "Stopped", "Verdict", "LoopVerdict", "Nets" },
+      report);
     report["charts"] = value("Faces").ToInt();
     report["centres_used"] = value("Centres").ToInt();
     report["face_triangles"] = value("Triangles").ToInt();
