@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MeshGeometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace knotwork
+{
+namespace
+{
+using Edge = std::array<int, 2>;
+
+std::size_t At(int i)
+{
+  return static_cast<std::size_t>(i);
+}
+
+template <int Dim>
+Status CheckPoints(const CellMesh<Dim>& mesh, const PointMatrixView& points)
+{
+  if (points.rows() != mesh.NumPoints || points.cols() < Dim || points.cols() > 3)
+  {
+    return { ErrorCode::SizeMismatch,
+      std::to_string(points.rows()) + " points of " + std::to_string(points.cols()) +
+        " coordinates for a mesh of " + std::to_string(mesh.NumPoints) };
+  }
+  for (Eigen::Index i = 0; i < points.rows(); ++i)
+  {
+    if (!points.row(i).allFinite())
+    {
+      return { ErrorCode::NonFiniteInput, "point " + std::to_string(i) };
+    }
+  }
+  return {};
+}
+
+/// Visits the edges of a cell along a direction, from the lower to the upper end.
+template <int Dim, class Visit>
+void ForEdges(const CellMesh<Dim>& mesh, int cell, int direction, Visit&& visit)
+{
+  const int* corners = mesh.Cell(cell);
+  for (int low = 0; low < (1 << Dim); ++low)
+  {
+    if ((low >> direction & 1) == 0)
+    {
+      visit(corners[low], corners[low | 1 << direction]);
+    }
+  }
+}
+
+/// The points that edges join with each point.
+class EdgeGraph
+{
+public:
+  template <int Dim>
+  explicit EdgeGraph(const CellMesh<Dim>& mesh) : First(At(mesh.NumPoints) + 1, 0)
+  {
+    std::vector<Edge> edges; // both ways
+    for (int c = 0; c < mesh.NumCells(); ++c)
+    {
+      for (int d = 0; d < Dim; ++d)
+      {
+        ForEdges(mesh, c, d,
+          [&](int a, int b)
+          {
+            edges.push_back({ a, b });
+            edges.push_back({ b, a });
+          });
+      }
+    }
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    for (const Edge& edge : edges)
+    {
+      ++this->First[At(edge[0]) + 1];
+      this->Ends.push_back(edge[1]);
+    }
+    for (std::size_t i = 1; i < this->First.size(); ++i)
+    {
+      this->First[i] += this->First[i - 1];
+    }
+  }
+  const int* Begin(int point) const { return this->Ends.data() + this->First[At(point)]; }
+  const int* End(int point) const { return this->Ends.data() + this->First[At(point) + 1]; }
+  bool Has(int a, int b) const { return std::binary_search(this->Begin(a), this->End(a), b); }
+
+private:
+  std::vector<int> First;
+  std::vector<int> Ends;
+};
+
+/// Straight within an angle of 1e-5.
+constexpr double Straight = 1.0 - 5e-11;
+/// Points of a chain to each side of one: edges that are cut into up to 8 pieces are found.
+constexpr std::size_t MostSteps = 4;
+
+/// Points that edges lead to from a point, straight away from another.
+std::vector<int> StraightAway(
+  const EdgeGraph& graph, const PointMatrixView& points, int from, int at)
+{
+  std::vector<int> chain;
+  while (chain.size() < MostSteps)
+  {
+    const auto step = (points.row(at) - points.row(from)).eval();
+    int next = -1;
+    for (const int* end = graph.Begin(at); end != graph.End(at) && next < 0; ++end)
+    {
+      const auto ahead = (points.row(*end) - points.row(at)).eval();
+      const double cosine = step.dot(ahead);
+      next = cosine > 0.0 && cosine >= Straight * step.norm() * ahead.norm() ? *end : -1;
+    }
+    if (next < 0)
+    {
+      break;
+    }
+    chain.push_back(next);
+    from = at;
+    at = next;
+  }
+  return chain;
+}
+
+template <int Dim>
+int CellOfEdge(const CellMesh<Dim>& mesh, int a, int b)
+{
+  for (int c = 0; c < mesh.NumCells(); ++c)
+  {
+    bool has = false;
+    for (int d = 0; d < Dim; ++d)
+    {
+      ForEdges(mesh, c, d,
+        [&](int low, int high)
+        { has = has || (low == a && high == b) || (low == b && high == a); });
+    }
+    if (has)
+    {
+      return c;
+    }
+  }
+  return -1;
+}
+}
+
+template <int Dim>
+Status CheckConforming(const CellMesh<Dim>& mesh, const PointMatrixView& points)
+{
+  if (const Status status = CheckPoints(mesh, points); !status)
+  {
+    return status;
+  }
+  const EdgeGraph graph(mesh);
+  for (int m = 0; m < mesh.NumPoints; ++m)
+  {
+    for (const int* end = graph.Begin(m); end != graph.End(m); ++end)
+    {
+      // the chain a ... m ... b, seen from m: one neighbour, and what lies behind m
+      const std::vector<int> behind = StraightAway(graph, points, *end, m);
+      if (behind.empty())
+      {
+        continue;
+      }
+      std::vector<int> before = StraightAway(graph, points, m, *end);
+      before.insert(before.begin(), *end);
+      for (const int a : before)
+      {
+        for (const int b : behind)
+        {
+          if (graph.Has(a, b))
+          {
+            return { ErrorCode::InvalidTopology,
+              "point " + std::to_string(m) + " of cell " +
+                std::to_string(CellOfEdge(mesh, m, *end)) + " lies on an edge of cell " +
+                std::to_string(CellOfEdge(mesh, a, b)) +
+                ": the mesh is not conforming; refine that cell, too" };
+          }
+        }
+      }
+    }
+  }
+  return {};
+}
+
+template <int Dim>
+Result<std::vector<double>> MeanSheetLengths(
+  const CellMesh<Dim>& mesh, const MeshTopology<Dim>& topology, const PointMatrixView& points)
+{
+  if (const Status status = CheckPoints(mesh, points); !status)
+  {
+    return status;
+  }
+  const auto sheets = topology.FindSheets();
+  std::vector<double> sums(At(sheets.Count), 0.0);
+  std::vector<double> counts(At(sheets.Count), 0.0);
+  double sum = 0.0;
+  double count = 0.0;
+  for (int c = 0; c < mesh.NumCells(); ++c)
+  {
+    for (int d = 0; d < Dim; ++d)
+    {
+      const std::size_t sheet = At(sheets.Of[At(c * Dim + d)]);
+      ForEdges(mesh, c, d,
+        [&](int a, int b)
+        {
+          const double length = (points.row(a) - points.row(b)).norm();
+          sums[sheet] += length;
+          counts[sheet] += 1.0;
+          sum += length;
+          count += 1.0;
+        });
+    }
+  }
+  for (std::size_t s = 0; s < sums.size(); ++s)
+  {
+    sums[s] = sums[s] / counts[s] / (sum / count);
+    if (!(sums[s] > 0.0) || !std::isfinite(sums[s]))
+    {
+      return { ErrorCode::InvalidParameter,
+        "the edges of sheet " + std::to_string(s) + " have no length" };
+    }
+  }
+  return sums;
+}
+
+#define KNOTWORK_INSTANTIATE(Dim)                                                                  \
+  template Status CheckConforming<Dim>(const CellMesh<Dim>&, const PointMatrixView&);              \
+  template Result<std::vector<double>> MeanSheetLengths<Dim>(                                      \
+    const CellMesh<Dim>&, const MeshTopology<Dim>&, const PointMatrixView&);
+KNOTWORK_INSTANTIATE(2)
+KNOTWORK_INSTANTIATE(3)
+#undef KNOTWORK_INSTANTIATE
+}
