@@ -377,6 +377,68 @@ TEST(UnstructuredSpace, PeriodicStripsAndLargeValence_ExactOracle)
   EXPECT_EQ(Make<2>(Grid<2>({ 3, 5 }, { true, true }), 3, CreasePolicy::Full).Repairs, 5);
 }
 
+namespace
+{
+/// Random continuities, the same along lines of facets or not: what is accepted is a basis.
+template <int Dim>
+void TryContinuities(unsigned seed, int mostDegree, int mostCells, std::map<std::string, int>& said)
+{
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  Random random(seed);
+  const CellMesh<Dim> mesh = RandomMesh<Dim>(random, mostCells);
+  const auto topology = MeshTopology<Dim>::Make(mesh);
+  UnstructuredParams params;
+  params.Degree = random.Int(2, mostDegree);
+  const std::vector<int> lengths =
+    oracle::RandomLengths(random, mesh, random.Unit() < 0.5 ? 1 : 3, params.Lengths);
+  const auto start = MakeUnstructuredSpace<Dim>(mesh, params);
+  ASSERT_TRUE(start) << start.Status.Message();
+  std::vector<int> continuity = ContinuityOf(*start->Space);
+  for (int changes = random.Int(1, 8); changes > 0; --changes)
+  {
+    const int c = random.Int(0, mesh.NumCells() - 1);
+    const int side = random.Int(0, 2 * Dim - 1);
+    if (!topology->IsBoundary(c, side))
+    {
+      const int r = random.Int(0, params.Degree - 1);
+      continuity[static_cast<std::size_t>(c * 2 * Dim + side)] = r;
+      continuity[static_cast<std::size_t>(
+        topology->Neighbour(c, side) * 2 * Dim + topology->Crossing(c, side).Side)] = r;
+    }
+  }
+  const auto made = MakeUnstructuredSpace<Dim>(mesh, params.Degree, continuity, params.Lengths);
+  if (made)
+  {
+    ++said["accepted"];
+    oracle::ExpectBasis<Dim>(*made.Value, lengths, random);
+    return;
+  }
+  ASSERT_EQ(made.Status.Code, ErrorCode::NotInSpace);
+  for (const char* words : { "averages", "circle", "more conditions", "not independent" })
+  {
+    said[words] += made.Status.Detail.find(words) != std::string::npos ? 1 : 0;
+  }
+}
+}
+
+TEST(UnstructuredSpace, WhatIsAcceptedIsABasis_ExactOracle)
+{
+  std::map<std::string, int> said;
+  for (unsigned seed = 1; seed <= 600; ++seed)
+  {
+    TryContinuities<2>(seed, 5, 50, said);
+  }
+  for (unsigned seed = 1; seed <= 150; ++seed)
+  {
+    TryContinuities<3>(seed, 3, 16, said);
+  }
+  for (const char* words :
+    { "accepted", "averages", "circle", "more conditions", "not independent" })
+  {
+    EXPECT_GE(said[words], 1) << words;
+  }
+}
+
 TEST(UnstructuredSpace, LargeMeshesInAnyOrder_ExactOracle)
 {
   Random random(2);
