@@ -102,6 +102,10 @@ std::string Reason(std::string text)
   {
     return {};
   }
+  if (const std::size_t at = text.find("** Exception Raised"); at != std::string::npos)
+  {
+    text.replace(at, std::string::npos, "its references cannot be followed");
+  }
   while (!text.empty() && (text.back() == '.' || text.back() == ' '))
   {
     text.pop_back();

@@ -312,3 +312,22 @@ TEST(CADReader, DamagedFilesAreRefused_PropertyOracle)
   EXPECT_EQ(ReadCAD(OutputFile("good.step"), params).Status.Code, ErrorCode::InvalidParameter);
   EXPECT_EQ(ReadCAD(OutputFile("good.txt")).Status.Code, ErrorCode::InvalidParameter);
 }
+
+TEST(CADReader, AStatementThatStandsTwiceIsNamedInOurWords_ExactOracle)
+{
+  const std::string file = OutputFile("twice.step");
+  ASSERT_TRUE(WriteCAD(SheetWithHoles(2, 0.1, 1, 8), file));
+  std::ifstream stream(file, std::ios::binary);
+  std::string text{ std::istreambuf_iterator<char>(stream), {} };
+  stream.close();
+  const std::size_t word = text.find("= ORIENTED_EDGE(");
+  ASSERT_NE(word, std::string::npos);
+  const std::size_t begin = text.rfind('#', word);
+  text.insert(begin, text.substr(begin, text.find(";\n", word) + 2 - begin));
+  std::ofstream(file, std::ios::binary) << text;
+  const Status status = ReadCAD(file).Status;
+  EXPECT_EQ(status.Code, ErrorCode::InvalidFormat);
+  EXPECT_NE(status.Detail.find("its references cannot be followed"), std::string::npos)
+    << status.Detail;
+  EXPECT_EQ(status.Detail.find("Exception"), std::string::npos) << status.Detail;
+}
