@@ -25,8 +25,9 @@ set(CMAKE_INSTALL_RPATH
 find_program(KNOTWORK_CCACHE ccache)
 mark_as_advanced(KNOTWORK_CCACHE)
 if(KNOTWORK_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  # what it must be told to keep what was compiled with precompiled headers
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros "${KNOTWORK_CCACHE}")
   set(CMAKE_C_COMPILER_LAUNCHER "${KNOTWORK_CCACHE}")
-  set(CMAKE_CXX_COMPILER_LAUNCHER "${KNOTWORK_CCACHE}")
 endif()
 
 if(KNOTWORK_NATIVE)
