@@ -93,7 +93,7 @@ struct ConvertJob
     const bool writesCurves = HasCADEnding(this->Input) || LowerEnding(this->Input) == ".g2";
     if (writesCurves && !this->Curves.empty())
     {
-      Status status = session.Files.Plan("--curves", this->Curves, Endings::Splines);
+      Status status = PlanOutput("--curves", this->Curves, Endings::Splines, session.Files);
       if (!status)
       {
         return status;

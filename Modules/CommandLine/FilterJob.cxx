@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterJob.h"
 
-#include "OutputFiles.h"
 #include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
 
 #include <vtkDataObject.h>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "OutputFiles.h"
+#include "OutputOptions.h"
 #include <knotwork/SplineCore/Status.h>
+#include <knotwork/SplineIO/OutputFiles.h>
 
 #include <nlohmann/json.hpp>
 #include <vtkSmartPointer.h>
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,7 +23,7 @@ struct CADSummary;
 class Session
 {
 public:
-  Session() = default;
+  Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
@@ -42,17 +42,14 @@ public:
   /// Flat JSON object of the report; jobs add the numbers they are about.
   nlohmann::ordered_json Report = nlohmann::ordered_json::object();
 
-  /// Reads a dataset by the ending of its name: .vtu .vtp .vtpc, and .vtk; splines .xml (G+Smo) .g2
-  /// (GoTools); surfaces of .step .stp .iges .igs (their trimming is in Curves); meshes .off .obj
-  /// .ply .stl; points .xyz .txt .csv, and .g2 that begins with points. An unreadable, truncated,
-  /// damaged or empty file is an error that names the file, and so are points that are not finite.
+  /// ReadDataFile of what is not an output; its curves are in Curves then.
   Result<vtkSmartPointer<vtkDataObject>> Read(const std::string& file);
 
   /// Updates a filter with progress on a terminal; messages of VTK become the status. `what` names
   /// the inputs in the message. No points or rows in the output of `port` are an error.
   Status Run(vtkAlgorithm* filter, const std::string& what, int port = 0);
 
-  /// Adds what a reader left out of a file to LeftOut, and keeps the code that it failed with.
+  /// Adds what a reader left out of a file to LeftOut.
   void NoteReader(vtkAlgorithm* reader, const std::string& file);
 
   /// Prints warnings of a decoding on stderr, unless quiet.
@@ -66,11 +63,7 @@ public:
   /// message names the input.
   Status CheckGridFormat(vtkDataObject* like, const std::string& file, bool asCurves = false) const;
 
-  /// Stages an output. XML files hold base64 within their elements: Debian's ParaView 5.11 with the
-  /// present libexpat cannot read appended data. The ending of the name says the format: .vtu .vtp
-  /// .vtpc for datasets, .xml and .g2 for spline grids, .step .stp .iges .igs for surfaces and
-  /// volumes, .stl .obj .ply for polygons, .xyz .txt .csv .g2 for the points of polydata, .csv for
-  /// tables, .vti for images.
+  /// WriteDataFile of a staged output.
   Status Write(
     vtkDataObject* data, const std::string& file, const std::string& encoding = "binary");
 
@@ -89,14 +82,6 @@ public:
   Status Commit();
 
 private:
-  static Status WriteAs(FormatFamily family, vtkDataObject* data, vtkDataObject* curves,
-    const std::string& file, const std::string& encoding);
-
-  using Reading = std::function<vtkSmartPointer<vtkDataObject>(const std::string& ending)>;
-  /// @param isForeign  by VTK's readers, in a process of their own, and not by `reading`.
-  Result<vtkSmartPointer<vtkDataObject>> ReadWith(
-    const std::string& file, bool isForeign, const Reading& reading);
-  ErrorCode CodeOfReader = ErrorCode::Ok;
   double SecondsOfFiles = 0.0;
   double Seconds = 0.0;
   double CpuSeconds = 0.0;

@@ -2,7 +2,6 @@
 #include "Termination.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <system_error>
@@ -127,29 +126,30 @@ std::unique_lock<std::mutex> Hold()
   return std::unique_lock<std::mutex>(Shared().Mutex);
 }
 
-void SetDone()
-{
-  Shared().Done = true;
-}
-
-Result<fs::path> MakeFolder(const fs::path& pattern)
+Result<fs::path> Folders::Make(const fs::path& pattern)
 {
   const auto lock = Hold();
-  std::string name = pattern.string();
-  if (!mkdtemp(name.data()))
+  auto made = TemporaryFolders::Make(pattern);
+  if (made)
   {
-    return { ErrorCode::FileError, std::generic_category().message(errno) };
+    Shared().Folders.push_back(made.Value);
   }
-  Shared().Folders.emplace_back(name);
-  return fs::path(name);
+  return made;
 }
 
-void RemoveFolder(const fs::path& folder)
+void Folders::Remove(const fs::path& folder)
 {
   const auto lock = Hold();
-  std::error_code ignored;
-  fs::remove_all(folder, ignored);
+  TemporaryFolders::Remove(folder);
   auto& folders = Shared().Folders;
   folders.erase(std::remove(folders.begin(), folders.end(), folder), folders.end());
+}
+
+Status Folders::Whole(const std::function<Status()>& work)
+{
+  const auto lock = Hold();
+  const Status status = work();
+  Shared().Done = static_cast<bool>(status);
+  return status;
 }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <knotwork/SplineCore/Status.h>
+#include <knotwork/SplineIO/OutputFiles.h>
 
 #include <filesystem>
 #include <mutex>
@@ -22,10 +23,12 @@ void Begin(const std::string& job);
 /// failure is printed under it, so that there are never two.
 std::unique_lock<std::mutex> Hold();
 
-/// The outputs are in their places: a signal is too late. @pre Hold() is held.
-void SetDone();
-
-/// Makes a folder of a name that ends in XXXXXX; it is removed when a signal comes.
-Result<std::filesystem::path> MakeFolder(const std::filesystem::path& pattern);
-void RemoveFolder(const std::filesystem::path& folder);
+/// Folders that are removed when a signal comes, before Whole has succeeded: then it is too late.
+class Folders : public TemporaryFolders
+{
+public:
+  Result<std::filesystem::path> Make(const std::filesystem::path& pattern) override;
+  void Remove(const std::filesystem::path& folder) override;
+  Status Whole(const std::function<Status()>& work) override;
+};
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Words.h"
+#include <knotwork/SplineIO/NearestName.h>
 
 #include <algorithm>
 #include <array>
@@ -45,30 +46,6 @@ std::string Renew(const std::string& word, const CLI::App& job, std::vector<std:
   warnings.push_back(
     "'" + word.substr(0, word.find('=')) + "' is an old spelling of '" + name + "'");
   return renewed;
-}
-
-/// Letters changed, inserted, left out or exchanged with their neighbour between two words.
-std::size_t Difference(const std::string& a, const std::string& b)
-{
-  std::vector<std::vector<std::size_t>> steps(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-  for (std::size_t i = 0; i <= a.size(); ++i)
-  {
-    for (std::size_t j = 0; j <= b.size(); ++j)
-    {
-      if (i == 0 || j == 0)
-      {
-        steps[i][j] = i + j;
-        continue;
-      }
-      steps[i][j] = std::min({ steps[i - 1][j] + 1, steps[i][j - 1] + 1,
-        steps[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1) });
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-      {
-        steps[i][j] = std::min(steps[i][j], steps[i - 2][j - 2] + 1);
-      }
-    }
-  }
-  return steps[a.size()][b.size()];
 }
 
 /// Names of the jobs of the program, or of the options of a job.
@@ -130,22 +107,6 @@ PreparedWords PrepareWords(int argc, const char* const* argv, const CLI::App& ap
     }
   }
   return prepared;
-}
-
-std::string NearestName(const std::string& word, const std::vector<std::string>& names)
-{
-  std::string nearest;
-  std::size_t least = word.size() / 3 + 1; // more letters than that are another word
-  for (const std::string& name : names)
-  {
-    const std::size_t difference = Difference(word, name);
-    if (difference < least || (difference == least && nearest.empty()))
-    {
-      least = difference;
-      nearest = name;
-    }
-  }
-  return nearest;
 }
 
 std::string ExplainUsage(const CLI::App& app, const CLI::ParseError& error)

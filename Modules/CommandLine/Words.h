@@ -23,10 +23,6 @@ struct PreparedWords
 /// @param app  has one subcommand a job.
 PreparedWords PrepareWords(int argc, const char* const* argv, const CLI::App& app);
 
-/// The name nearest to a word, by the fewest letters changed, inserted, left out or exchanged;
-/// empty where none is near.
-std::string NearestName(const std::string& word, const std::vector<std::string>& names);
-
 /// What is wrong with the usage, in one line with a remedy. A word that nothing knows is named
 /// before anything that is missing: most often it is why.
 ///

@@ -91,7 +91,7 @@ knotwork::Status FlushOutput()
 /// Plans the outputs, runs the job and puts the outputs into their places.
 knotwork::Status Run(const CLI::App& job, const knotwork::Job& run, knotwork::Session& session)
 {
-  knotwork::Status status = session.Files.Plan(job);
+  knotwork::Status status = knotwork::PlanOutputs(job, session.Files);
   if (status)
   {
     session.Report["job"] = job.get_name();

@@ -172,4 +172,11 @@ Status FileOutput::Finish()
     "'" + this->File +
       "' cannot be written: " + std::generic_category().message(this->Bytes->Error) };
 }
+
+Status PutText(const std::string& text, const std::string& file)
+{
+  FileOutput output(file);
+  output.Stream().write(text.data(), static_cast<std::streamsize>(text.size()));
+  return output.Finish();
+}
 }

@@ -37,4 +37,7 @@ private:
   std::string Target;    ///< links followed
   std::string Temporary; ///< beside it; empty: written directly
 };
+
+/// Writes a file whose text is at hand. @return that of FileOutput::Finish.
+Status PutText(const std::string& text, const std::string& file);
 }

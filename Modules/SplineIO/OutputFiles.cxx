@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutputFiles.h"
-#include "Words.h"
 
-#include "Termination.h"
 #include <knotwork/SplineCore/FileEnding.h>
+#include <knotwork/SplineIO/FileFormats.h>
+#include <knotwork/SplineIO/NearestName.h>
 
-#include <CLI/CLI.hpp>
 #include <pugixml.hpp>
 
 #include <algorithm>
@@ -22,7 +21,6 @@ namespace knotwork
 {
 namespace
 {
-constexpr const char* Group = "Outputs";
 constexpr const char* Backup = ".knotwork-before"; ///< in the temporary folder
 
 Status CannotWrite(const std::string& file, const std::string& reason)
@@ -81,11 +79,6 @@ bool IsStream(const std::string& file)
       name.rfind("/dev/fd/", 0) == 0 || name.rfind("/proc/", 0) == 0);
 }
 
-std::vector<std::string> Split(const std::string& endings)
-{
-  return endings.empty() ? std::vector<std::string>() : CLI::detail::split(endings, '|');
-}
-
 /// Files that a collection names.
 std::vector<fs::path> PiecesOf(const fs::path& collection)
 {
@@ -105,12 +98,32 @@ std::vector<fs::path> PiecesOf(const fs::path& collection)
 }
 }
 
-CLI::Option* AddOutput(CLI::App& app, const std::string& name, std::string& file,
-  const std::string& endings, const std::string& help)
+Status AboutFile(Status status, const std::string& file, const std::string& staged)
 {
-  const std::string type = endings.empty() ? "FILE" : endings;
-  const std::string names = name == "--output" ? "-o," + name : name;
-  return app.add_option(names, file, help)->group(Group)->type_name(type);
+  const std::string lead = "'" + staged + "' cannot be written: ";
+  const auto at = status.Detail.find(lead);
+  if (!status)
+  {
+    status.Detail = "'" + file + "' cannot be written: " +
+      (at == std::string::npos ? status.Detail : status.Detail.substr(at + lead.size()));
+  }
+  return status;
+}
+
+Result<fs::path> TemporaryFolders::Make(const fs::path& pattern)
+{
+  std::string name = pattern.string();
+  if (!mkdtemp(name.data()))
+  {
+    return { ErrorCode::FileError, SystemReason() };
+  }
+  return fs::path(name);
+}
+
+void TemporaryFolders::Remove(const fs::path& folder)
+{
+  std::error_code ignored;
+  fs::remove_all(folder, ignored);
 }
 
 /// Renames that can be taken back.
@@ -199,38 +212,19 @@ OutputFiles::~OutputFiles()
   {
     if (!output.Folder.empty())
     {
-      Termination::RemoveFolder(output.Folder);
+      this->Folders->Remove(output.Folder);
     }
   }
 }
 
-std::string SuggestEnding(const std::string& ending, const std::vector<std::string>& known)
+OutputFiles::OutputFiles(std::shared_ptr<TemporaryFolders> folders)
+  : Folders(folders ? std::move(folders) : std::make_shared<TemporaryFolders>())
 {
-  const std::string nearest = FormatOfEnding(ending) ? "" : NearestName(ending, known);
-  return nearest.empty() ? "" : " (did you mean '" + nearest + "'?)";
-}
-
-Status OutputFiles::Plan(const CLI::App& job)
-{
-  for (const CLI::Option* option :
-    job.get_options([](const CLI::Option* one) { return one->get_group() == Group; }))
-  {
-    for (const std::string& file : option->results())
-    {
-      const std::string endings = option->get_type_name() == "FILE" ? "" : option->get_type_name();
-      if (Status status = this->Plan(option->get_name(), file, endings); !status)
-      {
-        return status;
-      }
-    }
-  }
-  return {};
 }
 
 Status OutputFiles::Plan(
-  const std::string& option, const std::string& file, const std::string& endings)
+  const std::string& option, const std::string& file, const std::vector<std::string>& known)
 {
-  const std::vector<std::string> known = Split(endings);
   if (!known.empty() && std::find(known.begin(), known.end(), LowerEnding(file)) == known.end())
   {
     return { ErrorCode::InvalidParameter,
@@ -383,7 +377,7 @@ Result<fs::path> OutputFiles::Stage(const std::string& file)
   auto output = std::find_if(this->Outputs.begin(), this->Outputs.end(), isIt);
   if (output == this->Outputs.end())
   {
-    if (Status status = this->Plan("an output", file, Endings::Any); !status)
+    if (Status status = this->Plan("an output", file); !status)
     {
       return status;
     }
@@ -392,7 +386,7 @@ Result<fs::path> OutputFiles::Stage(const std::string& file)
   std::error_code error;
   const fs::path place =
     output->IsStream ? fs::temp_directory_path(error) : output->Target.parent_path();
-  auto folder = Termination::MakeFolder(place / ".knotwork-XXXXXX");
+  auto folder = this->Folders->Make(place / ".knotwork-XXXXXX");
   if (!folder)
   {
     return CannotWrite(file, "its folder: " + folder.Status.Detail);
@@ -409,7 +403,7 @@ void OutputFiles::Drop(const std::string& file)
   {
     if (output.Name == file && !output.Folder.empty())
     {
-      Termination::RemoveFolder(output.Folder);
+      this->Folders->Remove(output.Folder);
       output.Folder.clear();
     }
   }
@@ -496,7 +490,11 @@ Status OutputFiles::Commit()
       }
     }
   }
-  const auto lock = Termination::Hold();
+  return this->Folders->Whole([this] { return this->MoveAll(); });
+}
+
+Status OutputFiles::MoveAll() const
+{
   Moves moves{ {} };
   for (const Output& output : this->Outputs)
   {
@@ -517,7 +515,6 @@ Status OutputFiles::Commit()
     }
   }
   moves.Keep();
-  Termination::SetDone();
   return {};
 }
 }

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Files by the endings of their names."""
+import os
+import warnings
+
+from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
+
+from . import vtkDataFile
+
+
+def _outcome(exchange, good):
+    """Raises what went wrong, warns of the rest."""
+    if not good:
+        error = OSError if exchange.GetErrorIsOfFile() else ValueError
+        raise error(exchange.GetErrorText())
+    for number in range(exchange.GetNumberOfWarnings()):
+        warnings.warn(exchange.GetWarning(number), stacklevel=3)
+    for number in range(exchange.GetNumberOfPartsLeftOut()):
+        warnings.warn("left out: " + exchange.GetPartLeftOut(number), stacklevel=3)
+
+
+def read(file, with_curves=False):
+    """The data of a file: a spline grid (vtkUnstructuredGrid, or a vtkPartitionedDataSetCollection of them), or vtkPolyData of a
+    mesh or of points. The ending of its name says the format: .vtu .vtp .vtpc .vtk .xml .g2 .step .stp .iges .igs .off .obj .ply
+    .stl .xyz .txt .csv .json.
+
+    with_curves: a pair of the data and of the curves that trim (STEP, IGES) or bound (g2) its surfaces, None without any.
+
+    Raises OSError where the file cannot be read, ValueError where it is damaged, empty, or of an unknown format; warns of parts that
+    were left out."""
+    exchange = vtkDataFile()
+    data = exchange.Read(os.fspath(file))
+    _outcome(exchange, data is not None)
+    return (data, exchange.GetCurves()) if with_curves else data
+
+
+def write(data, file, curves=None, encoding="binary"):
+    """Writes data, or the first output of a filter, in the format that the ending of the name says; a file of that name is replaced
+    when all has been written.
+
+    curves: what trims the faces of STEP and IGES, or bounds the surfaces of g2; as read(..., with_curves=True) gives them.
+    encoding: of numbers in VTK's formats, "ascii", "binary" or "appended".
+
+    Raises OSError where the file cannot be written, ValueError where the format does not hold such data."""
+    if isinstance(data, vtkAlgorithm):
+        data.Update()
+        data = data.GetOutputDataObject(0)
+    exchange = vtkDataFile()
+    exchange.SetCurves(curves)
+    exchange.SetEncoding(encoding)
+    _outcome(exchange, exchange.Write(data, os.fspath(file)))

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DataFile.h"
+
+#include "DataCheck.h"
+#include "ForeignFile.h"
+#include "FormatHandlers.h"
+#include "Messages.h"
+#include <knotwork/SplineCore/FileEnding.h>
+#include <knotwork/SplineGrid/SplineModel.h>
+#include <knotwork/SplineIO/NearestName.h>
+
+#include "vtkDataObject.h"
+#include "vtkImageData.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkPolyData.h"
+#include "vtkTable.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+namespace knotwork
+{
+namespace
+{
+/// What data of this type are to a file.
+unsigned ContentsOf(vtkDataObject* data)
+{
+  return vtkPolyData::SafeDownCast(data)      ? PointContent | PolylineContent | PolygonContent
+    : vtkUnstructuredGrid::SafeDownCast(data) ? SplineGridContent
+    : vtkPartitionedDataSetCollection::SafeDownCast(data)
+    ? SplineCollectionContent | PolygonCollectionContent
+    : vtkImageData::SafeDownCast(data) ? ImageContent
+    : vtkTable::SafeDownCast(data)     ? TableContent
+                                       : 0U;
+}
+
+/// The format of an ending that data of this type can be written in; null: none.
+const FileFormat* FormatFor(vtkDataObject* data, const std::string& ending)
+{
+  const FileFormat* format = FormatOfEnding(ending);
+  return format && (format->Writes & ContentsOf(data)) != 0 ? format : nullptr;
+}
+
+/// Whether a format takes the splines of a grid. Grids without splines are no concern of ours.
+Status CheckSplines(
+  vtkDataObject* data, const std::string& file, bool isCAD, bool asCurves, int threads)
+{
+  const auto refuse = [&file](const std::string& reason)
+  { return Status(ErrorCode::InvalidParameter, "'" + file + "': " + reason); };
+  if (isCAD && asCurves)
+  {
+    return refuse("curves alone are no CAD model; write .vtu, .xml or .g2");
+  }
+  const Result<SplineModel> model = DecodeSplineModel(data, threads);
+  if (!model)
+  {
+    return {}; // the job's own error
+  }
+  std::array<bool, 3> has{};
+  for (const SplinePatch& patch : model->Patches)
+  {
+    has[patch.Geometry.index()] = true;
+    const SpaceKind kind =
+      std::visit([](const auto& spline) { return spline.Space->Kind; }, patch.Geometry);
+    if (kind == SpaceKind::Bezier)
+    {
+      return refuse("patch " + std::to_string(patch.Id) +
+        " has no knots, and the format needs them; write .vtu or .vtpc");
+    }
+  }
+  if (isCAD && has[0])
+  {
+    return refuse("curves alone are no CAD model; write .vtu, .xml or .g2");
+  }
+  if (isCAD && has[1] && has[2])
+  {
+    return refuse("surfaces and volumes are written to CAD files of their own");
+  }
+  return {};
+}
+
+/// Sets what a file of a known format holds.
+Status ReadFormat(const FileFormat& format, const std::string& file, DataFile& found)
+{
+  MessageCapture messages;
+  ErrorCode code = ErrorCode::LibraryError;
+  try
+  {
+    if (IsOfVTK(format.Family))
+    {
+      auto read = ReadVTKFile(file);
+      if (!read)
+      {
+        return read.Status;
+      }
+      found.Data = read.Value;
+    }
+    else
+    {
+      code = HandlerOf(format.Family).Read(file, found);
+    }
+  }
+  catch (...) // out of memory: sizes in the file are wrong
+  {
+    const Status failure = StatusOfException();
+    return { failure.Code,
+      "'" + file + "' is damaged, or larger than the memory: " + failure.Detail };
+  }
+  if (messages.HasError())
+  {
+    return { code, messages.FirstError() }; // names the file
+  }
+  found.Warnings = messages.Warnings();
+  return {};
+}
+}
+
+Result<DataFile> ReadDataFile(const std::string& file)
+{
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error))
+  {
+    return { ErrorCode::FileError, "'" + file + "' is not a file; check the name" };
+  }
+  if (!std::ifstream(file))
+  {
+    return { ErrorCode::FileError, "'" + file + "' cannot be read; check its permissions" };
+  }
+  const std::string ending = LowerEnding(file);
+  const FileFormat* format = FormatOfEnding(ending);
+  if (!format || format->Reads == 0)
+  {
+    const std::vector<std::string> known = EndingsThatRead(AnyContent);
+    return { ErrorCode::InvalidParameter,
+      "'" + file + "' has the ending '" + ending + "'" + SuggestEnding(ending, known) +
+        "; formats that can be read: " + JoinEndings(known) };
+  }
+  DataFile found;
+  if (Status status = ReadFormat(*format, file, found); !status)
+  {
+    return status;
+  }
+  if (found.Data->GetNumberOfElements(vtkDataObject::POINT) == 0 &&
+    found.Data->GetNumberOfElements(vtkDataObject::ROW) == 0)
+  {
+    return { ErrorCode::EmptyInput, "'" + file + "' holds no points" };
+  }
+  if (Status status = CheckData(found.Data); !status)
+  {
+    return { status.Code, "'" + file + "': " + status.Detail };
+  }
+  return found;
+}
+
+Status CheckDataEnding(vtkDataObject* like, const std::string& file)
+{
+  const std::string ending = LowerEnding(file);
+  if (FormatFor(like, ending))
+  {
+    return {};
+  }
+  const std::vector<std::string> known = EndingsThatWrite(ContentsOf(like));
+  return { ErrorCode::InvalidParameter,
+    "'" + file + "': this output is written as " + JoinEndings(known) + "; change the ending" +
+      SuggestEnding(ending, known) };
+}
+
+Status CheckDataFormat(vtkDataObject* like, const std::string& file, bool asCurves, int threads)
+{
+  if (Status status = CheckDataEnding(like, file); !status)
+  {
+    return status;
+  }
+  const FileFormat* format = FormatOfEnding(LowerEnding(file));
+  const bool asCAD = format->Family == FormatFamily::CAD;
+  const bool asSplines =
+    format->Family == FormatFamily::GismoXML || format->Family == FormatFamily::GoToolsG2;
+  if (vtkPolyData::SafeDownCast(like) || (!asCAD && !asSplines))
+  {
+    return {};
+  }
+  return CheckSplines(like, file, asCAD, asCurves, threads);
+}
+
+Result<std::vector<std::string>> WriteDataFile(
+  vtkDataObject* data, const std::string& file, const DataFileParams& params)
+{
+  if (Status status = CheckDataEnding(data, file); !status)
+  {
+    return status;
+  }
+  const FileFormat* format = FormatOfEnding(LowerEnding(file));
+  MessageCapture messages;
+  Status status = HandlerOf(format->Family).Write(data, file, params);
+  if (status.Detail.empty() && (!status || messages.HasError()))
+  {
+    status = { status ? ErrorCode::InvalidParameter : status.Code, messages.FirstError() };
+  }
+  if (!status)
+  {
+    return status;
+  }
+  return IsOfVTK(format->Family) ? std::vector<std::string>() : messages.Warnings();
+}
+}
