@@ -10,14 +10,6 @@
 
 vtkStandardNewMacro(vtkDataFile);
 
-void vtkDataFile::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "Curves: " << (this->Curves ? "given" : "(none)") << "\n";
-  os << indent << "Encoding: " << this->Encoding << "\n";
-  os << indent << "ErrorText: " << this->ErrorText << "\n";
-}
-
 void vtkDataFile::SetCurves(vtkDataObject* curves)
 {
   if (this->Curves != curves)
@@ -25,6 +17,11 @@ void vtkDataFile::SetCurves(vtkDataObject* curves)
     this->Curves = curves;
     this->Modified();
   }
+}
+
+vtkDataObject* vtkDataFile::GetCurves()
+{
+  return this->Curves;
 }
 
 void vtkDataFile::Begin()

@@ -42,7 +42,7 @@ public:
   /** Trimming curves of STEP and IGES, boundary curves of g2: of the file that was read, or to be
    * written. Default null (none). */
   void SetCurves(vtkDataObject* curves);
-  vtkDataObject* GetCurves() { return this->Curves; }
+  vtkDataObject* GetCurves();
   ///@}
   ///@{
   /** How numbers are written in VTK's formats: ascii, binary or appended. Default binary. */

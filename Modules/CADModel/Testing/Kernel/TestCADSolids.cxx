@@ -595,3 +595,30 @@ TEST(CADComparison, AnotherGeometryIsNamed_ExactOracle)
   EXPECT_EQ(outside.Code, ErrorCode::InvalidFormat);
   EXPECT_NE(outside.Detail.find("outside"), std::string::npos) << outside.Detail;
 }
+
+/// Where a loop cuts most spans of a surface, a quadrature without error control is far off.
+TEST(CADComparison, AreasOfTrimmedFacesWithManySpansAreRight_ExactOracle)
+{
+  for (const int elements : { 12, 20, 33 })
+  {
+    TrimmedModel model;
+    TrimmedFace face;
+    face.Surface = WavySheet(elements, 0.0, 1.0);
+    const double radius = 0.47;
+    TrimmedLoop loop;
+    loop.Curves.push_back(CurveOnSurface(face.Surface, Circle({ 0.5, 0.5 }, radius), 16, 0, 0, 0));
+    face.Loops.push_back(loop);
+    model.NumEdges = 1;
+    model.NumVertices = 1;
+    model.Faces.push_back(face);
+    const std::string file = OutputFile("many_spans.step");
+    const Status written = WriteCAD(model, file);
+    ASSERT_TRUE(written) << written.Message();
+    const auto found = CheckCAD(file);
+    ASSERT_TRUE(found) << found.Status.Message();
+    const double area = Pi * radius * radius;
+    EXPECT_NEAR(found->Area, area, 1e-3 * area); // the circle is a spline within 1e-4
+    const Status same = CompareCAD(model, found.Value);
+    EXPECT_TRUE(same) << same.Message();
+  }
+}
