@@ -105,10 +105,9 @@ Status BezierCells::ReadPoint(
   }
   if (!(coordinates[3] >= 1.0 / LargestWeight && coordinates[3] <= LargestWeight))
   {
-    std::ostringstream text;
-    text << place() << ": the weight is " << coordinates[3] << ", not in [" << 1.0 / LargestWeight
-         << ", " << LargestWeight << "]";
-    return { ErrorCode::InvalidWeight, text.str() };
+    return { ErrorCode::InvalidWeight,
+      place() + ": the weight is " + Digits(coordinates[3]) + ", not in [" +
+        Digits(1.0 / LargestWeight) + ", " + Digits(LargestWeight) + "]" };
   }
   return {};
 }

@@ -26,7 +26,6 @@
 #include <numeric>
 #include <optional>
 #include <set>
-#include <sstream>
 
 namespace knotwork
 {
@@ -60,10 +59,9 @@ Status ReadCellIntegers(vtkUnstructuredGrid* grid, const char* arrayName, std::v
     const double value = array->GetComponent(static_cast<vtkIdType>(i), 0);
     if (!(std::abs(value) <= std::numeric_limits<int>::max()) || value != std::floor(value))
     {
-      std::ostringstream text;
-      text << what << " is " << value << " at " << CellName(static_cast<vtkIdType>(i))
-           << ": not a whole number";
-      return { ErrorCode::InvalidTopology, text.str() };
+      return { ErrorCode::InvalidTopology,
+        what + (" is " + Digits(value)) + " at " + CellName(static_cast<vtkIdType>(i)) +
+          ": not a whole number" };
     }
     values[i] = static_cast<int>(value);
   }
@@ -709,10 +707,10 @@ Status GridReader::ReadStructured(const CellGroup& group, const PatchRecord& rec
       const double rounding = 64.0 * this->Epsilon() * recovered.Amplification;
       if (recovered.Residual > rounding * recovered.Size || recovered.WeightResidual > rounding)
       {
-        std::ostringstream text;
-        text << where << ": the points are not those of a spline of its space; they were "
-             << "projected, the largest distance is " << recovered.Residual;
-        this->Warn(text.str());
+        this->Warn(where +
+          ": the points are not those of a spline of its space; they were projected, the largest "
+          "distance is " +
+          Digits(recovered.Residual));
       }
     }
     const Status status =
@@ -778,11 +776,10 @@ Status GridReader::ReadFields(const std::string& where, const PatchRecord& recor
         : this->Epsilon();
       if (recovered.Residual > 64.0 * epsilon * recovered.Amplification * recovered.Size)
       {
-        std::ostringstream text;
-        text << where << ", field '" << field.Name << "': the values are not those of a spline of "
-             << "the patch's space; they were projected, the largest distance is "
-             << recovered.Residual;
-        this->Warn(text.str());
+        this->Warn(where + ", field '" + field.Name +
+          "': the values are not those of a spline of the patch's space; they were projected, the "
+          "largest distance is " +
+          Digits(recovered.Residual));
       }
     }
     patch.Fields.push_back(std::move(field));

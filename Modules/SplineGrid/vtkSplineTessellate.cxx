@@ -3,6 +3,7 @@
 
 #include "SplineBlocks.h"
 #include "SplineModel.h"
+#include <knotwork/SplineCore/Numbers.h>
 #include <knotwork/SplineCore/Tessellation.h>
 
 #include "vtkCellArray.h"
@@ -23,7 +24,6 @@
 
 #include <algorithm>
 #include <map>
-#include <sstream>
 
 using knotwork::PointMatrix;
 using knotwork::SplinePatch;
@@ -352,10 +352,9 @@ Status vtkSplineTessellate::Compute(vtkInformationVector** inputs, vtkInformatio
       output->GetFieldData()->AddArray(bound);
       if (block.Bound > params.Tolerance)
       {
-        std::ostringstream text;
-        text << "the deviation is below " << block.Bound << " only, not below " << params.Tolerance
-             << ": raise MaximumSubdivision";
-        this->ReportWarnings({ text.str() });
+        this->ReportWarnings(
+          { "the deviation is below " + knotwork::Digits(block.Bound) + " only, not below " +
+            knotwork::Digits(params.Tolerance) + ": raise MaximumSubdivision" });
       }
       return status;
     });

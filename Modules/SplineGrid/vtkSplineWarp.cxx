@@ -5,6 +5,7 @@
 #include "SplineModel.h"
 #include <knotwork/SplineCore/BezierProjection.h>
 #include <knotwork/SplineCore/Composition.h>
+#include <knotwork/SplineCore/Numbers.h>
 
 #include "vtkCellData.h"
 #include "vtkCellType.h"
@@ -21,7 +22,6 @@
 
 #include <algorithm>
 #include <map>
-#include <sstream>
 
 using knotwork::ErrorCode;
 using knotwork::PointMatrix;
@@ -331,10 +331,8 @@ Status vtkSplineWarp::Compute(vtkInformationVector** inputs, vtkInformationVecto
   }
   if (this->Tolerance > 0.0 && largest > this->Tolerance)
   {
-    std::ostringstream text;
-    text << "the distance to the composition is " << largest << ", above the tolerance "
-         << this->Tolerance << ": raise MaxLevel";
-    this->ReportWarnings({ text.str() });
+    this->ReportWarnings({ "the distance to the composition is " + knotwork::Digits(largest) +
+      ", above the tolerance " + knotwork::Digits(this->Tolerance) + ": raise MaxLevel" });
   }
   const auto sources = knotwork::GridsByBlock(input);
   const auto results = knotwork::GridsByBlock(output);

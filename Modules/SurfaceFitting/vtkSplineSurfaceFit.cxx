@@ -2,6 +2,7 @@
 #include "vtkSplineSurfaceFit.h"
 
 #include "FitData.h"
+#include <knotwork/SplineCore/Numbers.h>
 #include <knotwork/SplineGrid/InputChecks.h>
 
 #include "vtkDataObject.h"
@@ -15,7 +16,6 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <cstring>
-#include <sstream>
 
 vtkStandardNewMacro(vtkSplineSurfaceFit);
 
@@ -48,11 +48,9 @@ const char* DescribeEnd(knotwork::FitEnd end)
 
 std::string DescribeMiss(const knotwork::SurfaceFit& fit)
 {
-  std::ostringstream text;
-  text << fit.Final.NumOutside << " of " << fit.Distances.size()
-       << " points are farther away than their tolerance, by a largest distance of "
-       << fit.Final.MaxError << ": " << DescribeEnd(fit.End);
-  return text.str();
+  return std::to_string(fit.Final.NumOutside) + " of " + std::to_string(fit.Distances.size()) +
+    " points are farther away than their tolerance, by a largest distance of " +
+    knotwork::Digits(fit.Final.MaxError) + ": " + DescribeEnd(fit.End);
 }
 }
 

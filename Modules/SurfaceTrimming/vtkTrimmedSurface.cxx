@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTrimmedSurface.h"
+#include <knotwork/SplineCore/Numbers.h>
 
 #include "TrimData.h"
 #include "TrimmedGrids.h"
@@ -12,8 +13,6 @@
 #include "vtkTable.h"
 #include "vtkTimerLog.h"
 #include "vtkUnstructuredGrid.h"
-
-#include <sstream>
 
 vtkStandardNewMacro(vtkTrimmedSurface);
 
@@ -57,10 +56,8 @@ std::vector<std::string> Shortcomings(const knotwork::TrimmedSurface& trimmed)
   std::vector<std::string> texts;
   if (!trimmed.WithinTolerance)
   {
-    std::ostringstream text;
-    text << "the deviation is up to " << trimmed.MaxDeviation << ", above the tolerance "
-         << trimmed.Tolerance << WhyStopped(trimmed);
-    texts.push_back(text.str());
+    texts.push_back("the deviation is up to " + knotwork::Digits(trimmed.MaxDeviation) +
+      ", above the tolerance " + knotwork::Digits(trimmed.Tolerance) + WhyStopped(trimmed));
   }
   const knotwork::Verdict verdict = knotwork::WorstVerdict(trimmed);
   if (verdict != knotwork::Verdict::Valid)

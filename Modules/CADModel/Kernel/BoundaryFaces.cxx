@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryFaces.h"
 
-#include "ClampedSpline.h"
 #include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/ClampedSpline.h>
 #include <knotwork/SplineCore/DisjointSets.h>
 #include <knotwork/SplineCore/MultiPatch.h>
 

@@ -3,10 +3,10 @@
 
 #include "CADGeometry.h"
 #include "CADShells.h"
-#include "ClampedSpline.h"
 #include "EdgeSamples.h"
 #include "SewnBoundary.h"
 #include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/ClampedSpline.h>
 #include <knotwork/SplineCore/Numbers.h>
 
 #include <BRep_Builder.hxx>

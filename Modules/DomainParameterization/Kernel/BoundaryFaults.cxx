@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryFaults.h"
 
-#include "NumberText.h"
 #include <knotwork/JacobianValidation/JacobianCertificate.h>
 #include <knotwork/JacobianValidation/PlaneCurves.h>
 #include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/Numbers.h>
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
@@ -107,13 +107,11 @@ public:
     constexpr const char* names = "uvw";
     bool corner = true;
     std::string parameters;
-    std::string position;
     for (std::size_t d = 0; d < Dim; ++d)
     {
       const double u = this->Found.Parameters[d];
       corner = corner && (u == 0.0 || u == 1.0);
-      parameters += std::string(d ? ", " : "") + names[d] + " = " + NumberText(u);
-      position += (d ? ", " : "") + NumberText(this->Found.Position[d]);
+      parameters += std::string(d ? ", " : "") + names[d] + " = " + Digits(u);
     }
     std::string sides;
     for (int s : this->Found.Sides)
@@ -126,9 +124,10 @@ public:
       }
     }
     this->Found.Message = std::string("the boundary folds at the ") +
-      (corner ? "corner (" : "point (") + parameters + ") of the map, at (" + position +
-      "), where " + sides + " meet: their tangents there have a scaled Jacobian of " +
-      NumberText(this->Worst) + ", so no interior makes the map valid";
+      (corner ? "corner (" : "point (") + parameters + ") of the map, at " +
+      PointText(this->Found.Position.data(), Dim) + ", where " + sides +
+      " meet: their tangents there have a scaled Jacobian of " + Digits(this->Worst) +
+      ", so no interior makes the map valid";
     folds.push_back(this->Found);
     this->Worst = 0.0;
   }
@@ -146,17 +145,6 @@ std::string NameOf(const CompatibleBoundary<Dim>& boundary, int side)
 {
   const int input = boundary.Origins[static_cast<std::size_t>(side)].Input;
   return input >= 0 ? "side " + std::to_string(input) : "the straight side " + SideName<Dim>(side);
-}
-
-template <int Dim>
-std::string PointText(const double* x)
-{
-  std::string text = "(";
-  for (int c = 0; c < Dim; ++c)
-  {
-    text += (c ? ", " : "") + NumberText(x[c]);
-  }
-  return text + ")";
 }
 
 /// The face in the coordinates of its plane; nothing when it does not lie in one.
@@ -258,7 +246,7 @@ void FindFaceFold(const CompatibleBoundary<3>& boundary, int side, std::vector<B
   fold.Sides[0] = side;
   fold.Message = NameOf<3>(boundary, side) +
     " is a plane face that folds onto itself: it turns over at " +
-    PointText<3>(fold.Position.data()) + ", so no interior makes the map valid";
+    PointText(fold.Position.data(), 3) + ", so no interior makes the map valid";
   folds.push_back(std::move(fold));
 }
 }
@@ -381,7 +369,7 @@ std::string CrossingText(
 {
   return "the boundary crosses itself: " + NameOf<Dim>(boundary, sides[0]) +
     (sides[0] == sides[1] ? " meets itself" : " and " + NameOf<Dim>(boundary, sides[1]) + " meet") +
-    " at " + PointText<Dim>(position) +
+    " at " + PointText(position, Dim) +
     ", so no map onto what it encloses is regular and one-to-one";
 }
 template std::string CrossingText<2>(

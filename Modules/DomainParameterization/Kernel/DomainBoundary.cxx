@@ -4,7 +4,7 @@
 #include "ArrangedPatch.h"
 #include "CoincidentPoints.h"
 #include "DomainMeasure.h"
-#include "NumberText.h"
+#include <knotwork/SplineCore/Numbers.h>
 
 #include <algorithm>
 #include <cmath>
@@ -160,15 +160,11 @@ Status GapError(const std::array<Spline<Dim - 1>, 2 * Dim>& sides,
           if (distance > worst)
           {
             worst = distance;
-            detail = "gap of " + NumberText(distance) + " (allowed " + NumberText(tolerance) +
+            detail = "gap of " + Digits(distance) + " (allowed " + Digits(tolerance) +
               ") at the corner " + CornerName<Dim>(corner) + " between " +
               GivenSide(origins[static_cast<std::size_t>(a)].Input) + " and " +
-              GivenSide(origins[static_cast<std::size_t>(b)].Input) + ", near (";
-            for (int c = 0; c < Dim; ++c)
-            {
-              detail += (c ? ", " : "") + NumberText(pointA[c]);
-            }
-            detail += ")";
+              GivenSide(origins[static_cast<std::size_t>(b)].Input) + ", near " +
+              PointText(pointA.data(), Dim);
           }
         }
       }
@@ -202,7 +198,7 @@ Result<CompatibleBoundary<Dim>> MakeCompatible(
   if (!(params.GapTolerance >= 0.0 && params.GapTolerance <= 0.1))
   {
     return { ErrorCode::InvalidParameter,
-      "gap tolerance " + NumberText(params.GapTolerance) + " is outside [0, 0.1]" };
+      "gap tolerance " + Digits(params.GapTolerance) + " is outside [0, 0.1]" };
   }
   if (boundary.Sides.empty())
   {

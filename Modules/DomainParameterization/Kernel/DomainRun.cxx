@@ -2,9 +2,9 @@
 #include "DomainRun.h"
 
 #include "DomainSolver.h"
-#include "NumberText.h"
 #include "ParameterMetrics.h"
 #include <knotwork/JacobianValidation/CellPieces.h>
+#include <knotwork/SplineCore/Numbers.h>
 
 #include <Eigen/LU>
 
@@ -650,12 +650,7 @@ private:
 
   static std::string Near(const std::array<double, 3>& position)
   {
-    std::string text = "near (";
-    for (std::size_t c = 0; c < Dim; ++c)
-    {
-      text += (c ? ", " : "") + NumberText(position[c]);
-    }
-    return text + ")";
+    return "near " + PointText(position.data(), Dim);
   }
 
   /// A map that is regular as far as the rounding of its boundary lets one say: where it is not
@@ -702,7 +697,7 @@ private:
            "coordinates (" +
       std::to_string(certificate.NumUndecided) + " elements, undecided, the first " + Near(place) +
       "): open the angle there, or give coordinates that are exact to less than " +
-      NumberText(rounding);
+      Digits(rounding);
   }
 
   /// A regular map that is not proved one-to-one.

@@ -3,8 +3,8 @@
 
 #include "ArrangedPatch.h"
 #include "DomainMeasure.h"
-#include "NumberText.h"
 #include <knotwork/SplineCore/DisjointSets.h>
+#include <knotwork/SplineCore/Numbers.h>
 #include <knotwork/SplineCore/TensorSpace.h>
 
 #include <algorithm>
@@ -28,68 +28,8 @@ std::string Join(const std::vector<std::string>& words)
   return text;
 }
 
-template <typename Row>
-std::string PointText(const Row& row)
-{
-  std::string text = "(";
-  for (Eigen::Index c = 0; c < row.size(); ++c)
-  {
-    text += (c ? ", " : "") + NumberText(row[c]);
-  }
-  return text + ")";
-}
-
 /// Functions of a map of one patch in one direction.
 constexpr int MostInADirection = 4096;
-
-/// Sets of numbers that are one, with a sign between each and its set's representative.
-class Classes
-{
-public:
-  explicit Classes(std::size_t n) : Parent(n), Flipped(n, false)
-  {
-    std::iota(this->Parent.begin(), this->Parent.end(), std::size_t(0));
-  }
-  std::size_t Find(std::size_t i) const
-  {
-    while (this->Parent[i] != i)
-    {
-      i = this->Parent[i];
-    }
-    return i;
-  }
-  /// Whether i runs backwards in its set.
-  bool IsFlipped(std::size_t i) const
-  {
-    bool flipped = this->Flipped[i];
-    while (this->Parent[i] != i)
-    {
-      i = this->Parent[i];
-      flipped = flipped != this->Flipped[i];
-    }
-    return flipped;
-  }
-  /// @return false when they are one already, the other way round.
-  bool Unite(std::size_t a, std::size_t b, bool flipped)
-  {
-    const bool flip = (this->IsFlipped(a) != this->IsFlipped(b)) != flipped;
-    a = this->Find(a);
-    b = this->Find(b);
-    if (a == b)
-    {
-      return !flip;
-    }
-    // the larger number follows the smaller, so that representatives are the first
-    const auto [low, high] = std::minmax(a, b);
-    this->Parent[high] = low;
-    this->Flipped[high] = flip;
-    return true;
-  }
-
-private:
-  std::vector<std::size_t> Parent;
-  std::vector<bool> Flipped;
-};
 
 template <int Dim>
 class Builder
@@ -134,7 +74,7 @@ public:
     if (!(this->Params.GapTolerance >= 0.0 && this->Params.GapTolerance <= 0.1))
     {
       return { ErrorCode::InvalidParameter,
-        "gap tolerance " + NumberText(this->Params.GapTolerance) + " is outside [0, 0.1]" };
+        "gap tolerance " + Digits(this->Params.GapTolerance) + " is outside [0, 0.1]" };
     }
     if (this->Params.MinDegree < 1 || this->Params.MinDegree > 9)
     {
@@ -298,9 +238,10 @@ public:
         if (!(distance <= tolerance))
         {
           return { ErrorCode::InvalidTopology,
-            "gap of " + NumberText(distance) + " (allowed " + NumberText(tolerance) +
-              ") between the corner of " + GivenSide(input) + " at " + PointText(point) +
-              " and the nearest vertex of the layout, " + this->Name(nearest) };
+            "gap of " + Digits(distance) + " (allowed " + Digits(tolerance) +
+              ") between the corner of " + GivenSide(input) + " at " +
+              PointText(point.data(), Dim) + " and the nearest vertex of the layout, " +
+              this->Name(nearest) };
         }
         this->Out.LargestGap = std::max(this->Out.LargestGap, distance);
         ends[static_cast<std::size_t>(c)] = nearest;
@@ -340,7 +281,7 @@ public:
   /// in their patch's order of directions, all running as the first of their row.
   Status OrientSides()
   {
-    this->Rows = Classes(this->Out.Corners.size() * Dim);
+    this->Rows = SignedSets(static_cast<int>(this->Out.Corners.size()) * Dim);
     for (const PatchInterface& shared : this->Out.Shared)
     {
       const auto a = SideDirections<Dim>(shared.Sides[0].Side);
@@ -367,7 +308,7 @@ public:
       const auto directions = SideDirections<Dim>(side.Number);
       for (std::size_t k = 0; k < D; ++k)
       {
-        side.Backwards[k] = this->Rows.IsFlipped(Row(side.Patch, directions[k]));
+        side.Backwards[k] = this->Rows.IsTurned(Row(side.Patch, directions[k]));
         origin.Reversed[k] = origin.Reversed[k] != side.Backwards[k];
       }
       side.Shape = Reoriented<D>(this->Prepared[static_cast<std::size_t>(side.Input)], origin);
@@ -472,7 +413,7 @@ public:
   /// Directions of one row get one degree and one knot vector.
   Status UniteRows()
   {
-    std::map<std::size_t, std::vector<SideDirection<D>>> users;
+    std::map<int, std::vector<SideDirection<D>>> users;
     for (Side& side : this->Sides)
     {
       const auto directions = SideDirections<Dim>(side.Number);
@@ -482,7 +423,7 @@ public:
           { &side.Shape, static_cast<int>(k), side.Input });
       }
     }
-    std::map<std::size_t, KnotVector> knots;
+    std::map<int, KnotVector> knots;
     for (const auto& [row, sides] : users)
     {
       auto united = UniteKnots<D>(sides, this->Params.MinDegree, this->Params.MinElements);
@@ -497,12 +438,12 @@ public:
       std::array<KnotVector, Dim> own;
       for (int d = 0; d < Dim; ++d)
       {
-        const std::size_t row = Row(static_cast<int>(p), static_cast<std::size_t>(d));
+        const int row = Row(static_cast<int>(p), static_cast<std::size_t>(d));
         const auto found = knots.find(this->Rows.Find(row));
         own[static_cast<std::size_t>(d)] = found == knots.end()
           ? KnotVector::Uniform(this->Params.MinDegree, this->Params.MinElements)
-          : this->Rows.IsFlipped(row) ? ReversedKnots(found->second)
-                                      : found->second;
+          : this->Rows.IsTurned(row) ? ReversedKnots(found->second)
+                                     : found->second;
       }
       this->Knots.push_back(std::move(own));
     }
@@ -624,13 +565,13 @@ public:
         if (!(gap <= tolerance))
         {
           return { ErrorCode::InvalidTopology,
-            "gap of " + NumberText(gap) + " (allowed " + NumberText(tolerance) +
+            "gap of " + Digits(gap) + " (allowed " + Digits(tolerance) +
               ") between control points" + where };
         }
         if (own.IsRational() && !SameWeight(own.Weights[row], weights[at]))
         {
           return { ErrorCode::InvalidWeight,
-            "weights " + NumberText(weights[at]) + " and " + NumberText(own.Weights[row]) + where +
+            "weights " + Digits(weights[at]) + " and " + Digits(own.Weights[row]) + where +
               " are not proportional" };
         }
       }
@@ -683,9 +624,9 @@ private:
 
   Status MatchWeights(Side& side);
 
-  static std::size_t Row(int patch, std::size_t direction)
+  static int Row(int patch, std::size_t direction)
   {
-    return static_cast<std::size_t>(patch) * Dim + direction;
+    return patch * Dim + static_cast<int>(direction);
   }
 
   SideCorners VerticesOf(int patch, int side) const
@@ -721,7 +662,8 @@ private:
 
   std::string Name(int vertex) const
   {
-    return "vertex " + std::to_string(vertex) + " at " + PointText(this->Out.Vertices.row(vertex));
+    return "vertex " + std::to_string(vertex) + " at " +
+      PointText(this->Out.Vertices.row(vertex).data(), Dim);
   }
   std::string Names(const SideCorners& vertices) const
   {
@@ -746,7 +688,7 @@ private:
   std::vector<Spline<D>> Prepared;
   std::vector<Side> Sides;
   std::vector<std::array<std::size_t, NumSides>> SideOf; ///< per patch
-  Classes Rows{ 0 };
+  SignedSets Rows;
   std::map<int, double> VertexWeights;
   std::vector<std::array<KnotVector, Dim>> Knots; ///< of the patches
   bool Arranged = false;

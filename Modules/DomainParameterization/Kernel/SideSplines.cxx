@@ -3,6 +3,7 @@
 
 #include <knotwork/SplineCore/Bernstein.h>
 #include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/ClampedSpline.h>
 #include <knotwork/SplineCore/Recovery.h>
 #include <knotwork/SplineCore/TensorSpace.h>
 
@@ -18,70 +19,6 @@ namespace
 constexpr double KnotTolerance = 1e-12;
 /// Weights that agree to this relative difference are one.
 constexpr double WeightTolerance = 1e-10;
-
-/// Both ends of a direction interpolated: knots repeated up to p + 1 times, functions outside the
-/// domain dropped.
-template <int D>
-Result<Spline<D>> Clamped(Spline<D> spline, int direction)
-{
-  const std::size_t d = static_cast<std::size_t>(direction);
-  const KnotVector& knots = spline.Space->Knots[d];
-  const int p = knots.Degree();
-  const int last = knots.NumElements();
-  std::vector<double> missing(
-    static_cast<std::size_t>(std::max(0, p + 1 - knots.Multiplicity(0))), knots.Begin());
-  missing.insert(missing.end(),
-    static_cast<std::size_t>(std::max(0, p + 1 - knots.Multiplicity(last))), knots.End());
-  if (!missing.empty())
-  {
-    auto inserted = InsertKnots<D>(spline, direction, missing);
-    if (!inserted)
-    {
-      return inserted.Status;
-    }
-    spline = std::move(inserted.Value);
-  }
-  const KnotVector& full = spline.Space->Knots[d];
-  const int firstAlive = full.Span(0) - p;
-  const int numAlive = full.Span(full.NumElements() - 1) - firstAlive + 1;
-  if (numAlive == full.NumFunctions())
-  {
-    return spline;
-  }
-  const auto begin = full.Knots().begin() + firstAlive;
-  auto kept = KnotVector::Create(p, std::vector<double>(begin, begin + numAlive + p + 1));
-  if (!kept)
-  {
-    return kept.Status;
-  }
-  Spline<D> result;
-  std::array<KnotVector, D> newKnots = spline.Space->Knots;
-  newKnots[d] = kept.Value;
-  result.Space = MakeTensorSpace<D>(newKnots).Value;
-  result.ControlPoints.resize(result.Space->NumFunctions, spline.ControlPoints.cols());
-  result.Weights.resize(spline.IsRational() ? result.Space->NumFunctions : 0);
-  std::array<int, D> index{};
-  for (Eigen::Index i = 0; i < result.ControlPoints.rows(); ++i)
-  {
-    int from = 0;
-    int stride = 1;
-    for (std::size_t k = 0; k < D; ++k)
-    {
-      from += stride * (index[k] + (k == d ? firstAlive : 0));
-      stride *= spline.Space->Knots[k].NumFunctions();
-    }
-    result.ControlPoints.row(i) = spline.ControlPoints.row(from);
-    if (spline.IsRational())
-    {
-      result.Weights[i] = spline.Weights[from];
-    }
-    for (std::size_t k = 0; k < D && ++index[k] == newKnots[k].NumFunctions(); ++k)
-    {
-      index[k] = 0;
-    }
-  }
-  return result;
-}
 
 /// The side with other knots of the same number and multiplicities.
 template <int D>
@@ -166,14 +103,14 @@ Result<Spline<Dim - 1>> PreparedSide(const Spline<Dim - 1>& given)
   {
     side.Weights.resize(0);
   }
+  auto clamped = Clamped<D>(side);
+  if (!clamped)
+  {
+    return clamped.Status;
+  }
+  side = std::move(clamped.Value);
   for (int d = 0; d < D; ++d)
   {
-    auto clamped = Clamped<D>(std::move(side), d);
-    if (!clamped)
-    {
-      return clamped.Status;
-    }
-    side = std::move(clamped.Value);
     const KnotVector& knots = side.Space->Knots[static_cast<std::size_t>(d)];
     const double begin = knots.Begin();
     const double length = knots.End() - begin;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MapChart.h"
+#include <knotwork/SplineCore/Numbers.h>
 
 #include "FlattenMethods.h"
 #include "FlattenReport.h"
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace knotwork
 {
@@ -15,14 +15,6 @@ namespace
 {
 constexpr int TrialIterations = 10;    // after which a hopeless map is given up
 constexpr double LeastDecrease = 1e-4; // of the energy in an iteration: many maps are tried
-
-std::string Text(double value)
-{
-  std::ostringstream stream;
-  stream.precision(3);
-  stream << value;
-  return stream.str();
-}
 
 /// What a map is worth, without its UV.
 ChartMap Judge(const DiscMesh& mesh, double limit, FlattenMethod method, const PointMatrix& uv)
@@ -64,7 +56,7 @@ std::string Fault(const Result<FlatMesh>& flat, const DiscMesh& mesh, const Char
     return "flips " + std::to_string(CountFlips(mesh, flat->UV)) + " triangles";
   }
   return map.Crossing ? "lets parts of the boundary meet"
-                      : "stretches " + Text(map.Stretch) + " times";
+                      : "stretches " + Digits(map.Stretch, 3) + " times";
 }
 }
 

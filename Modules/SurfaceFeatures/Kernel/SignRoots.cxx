@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SignRoots.h"
 
-#include <knotwork/SplineCore/Types.h>
+#include <knotwork/SplineCore/Bernstein.h>
 
 #include <algorithm>
 #include <cmath>
@@ -45,14 +45,7 @@ void FindIn(int degree, const double* coefficients, double low, double length, i
   double lower[MaxDegree + 1];
   double upper[MaxDegree + 1];
   std::copy(coefficients, coefficients + degree + 1, upper);
-  for (int k = 0; k <= degree; ++k) // de Casteljau at 1/2
-  {
-    lower[k] = upper[0];
-    for (int i = 0; i < degree - k; ++i)
-    {
-      upper[i] = 0.5 * (upper[i] + upper[i + 1]);
-    }
-  }
+  HalveBernstein(degree, upper, lower);
   FindIn(degree, lower, low, 0.5 * length, depth + 1, roots);
   FindIn(degree, upper, low + 0.5 * length, 0.5 * length, depth + 1, roots);
 }

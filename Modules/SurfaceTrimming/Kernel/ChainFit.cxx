@@ -34,17 +34,13 @@ using PlaneCubic = Eigen::Matrix<double, degree + 1, 2, Eigen::RowMajor>;
 template <typename Matrix>
 std::array<Matrix, 2> Halve(const Matrix& whole)
 {
-  Matrix left = whole;
-  Matrix right = whole;
-  for (int r = 1; r <= degree; ++r)
+  std::array<Matrix, 2> halves{ whole, whole };
+  const int columns = static_cast<int>(whole.cols());
+  for (int c = 0; c < columns; ++c)
   {
-    for (int i = 0; i <= degree - r; ++i)
-    {
-      right.row(i) = 0.5 * (right.row(i) + right.row(i + 1)).eval();
-    }
-    left.row(r) = right.row(0);
+    HalveBernstein(degree, halves[1].data() + c, halves[0].data() + c, columns);
   }
-  return { left, right };
+  return halves;
 }
 
 /// A part of a knot span without a corner of the boundary inside.

@@ -2,13 +2,13 @@
 #include "PenalizedFit.h"
 #include "PenalizedSystem.h"
 #include <knotwork/DomainParameterization/WorkBudget.h>
+#include <knotwork/SplineCore/Numbers.h>
 #include <knotwork/SplineCore/SizeLimit.h>
 #include <knotwork/SplineCore/TensorSpace.h>
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <sstream>
 
 namespace knotwork
 {
@@ -270,10 +270,9 @@ std::string FindContradiction(const ChartMesh& chart, const ChartSamples& sample
       const double apart = (place - places.row(static_cast<Eigen::Index>(k))).norm();
       if (apart > 2.0 * tolerance)
       {
-        std::ostringstream text;
-        text << "triangles " << found[k] << " and " << t << " lie on each other in the plane, at ("
-             << at[0] << ", " << at[1] << "), and " << apart << " apart in space";
-        return text.str();
+        return "triangles " + std::to_string(found[k]) + " and " + std::to_string(t) +
+          " lie on each other in the plane, at " + PointText(at.data(), 2) + ", and " +
+          Digits(apart) + " apart in space";
       }
     }
     found.push_back(t);

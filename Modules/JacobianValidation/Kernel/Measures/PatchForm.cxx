@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PatchForm.h"
 
+#include <knotwork/SplineCore/Bernstein.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -135,16 +137,7 @@ PatchForm CutOffHalf(PatchForm& form, int direction)
   for (int line = 0; line < lines * numPlanes; ++line)
   {
     const int start = (line / lines) * n + (line % lines) * (direction == 0 ? p + 1 : 1);
-    double* a = first.Data.data() + start;
-    double* b = form.Data.data() + start;
-    for (int r = 1; r <= degree; ++r)
-    {
-      for (int i = 0; i <= degree - r; ++i)
-      {
-        b[i * step] = 0.5 * (b[i * step] + b[(i + 1) * step]);
-      }
-      a[r * step] = b[0];
-    }
+    HalveBernstein(degree, form.Data.data() + start, first.Data.data() + start, step);
   }
   return first;
 }

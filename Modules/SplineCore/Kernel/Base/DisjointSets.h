@@ -45,4 +45,37 @@ private:
   int& Up(int a) const { return this->Parent[static_cast<std::size_t>(a)]; }
   mutable std::vector<int> Parent;
 };
+
+/// Disjoint sets of numbers of which each runs as the smallest member of its set or the other way
+/// round: sets of the numbers and of as many turned around.
+class SignedSets
+{
+public:
+  /// Every number a set of its own.
+  explicit SignedSets(int size = 0) : Sets(2 * size) {}
+  /// @return the smallest member.
+  int Find(int a) const { return std::min(this->Sets.Find(a), this->Sets.Find(this->Turned(a))); }
+  /// Whether a runs the other way round than the smallest member.
+  bool IsTurned(int a) const { return this->Sets.Find(a) > this->Sets.Find(this->Turned(a)); }
+  /// Makes b run as a, or the other way round. @return false when they are one already and do not.
+  bool Unite(int a, int b, bool turned)
+  {
+    const int other = turned ? this->Turned(b) : b;
+    if (this->Sets.Find(a) == this->Sets.Find(this->Turned(other)))
+    {
+      return false;
+    }
+    this->Sets.Unite(a, other);
+    this->Sets.Unite(this->Turned(a), this->Turned(other));
+    return true;
+  }
+
+private:
+  int Turned(int a) const
+  {
+    const int half = this->Sets.Size() / 2;
+    return a < half ? a + half : a - half;
+  }
+  DisjointSets Sets;
+};
 }

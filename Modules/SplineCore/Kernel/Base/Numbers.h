@@ -2,7 +2,7 @@
 #pragma once
 #include <Eigen/Core>
 
-#include <sstream>
+#include <charconv>
 #include <string>
 
 namespace knotwork
@@ -20,12 +20,24 @@ bool AllWithinLimit(const Eigen::DenseBase<Derived>& values)
   return (values.derived().array().abs() <= LargestNumber).all();
 }
 
-/// A number for a message, six significant digits.
-inline std::string Digits(double value)
+/// A number for a message.
+inline std::string Digits(double value, int significant = 6)
 {
-  std::ostringstream text;
-  text << value;
-  return text.str();
+  char text[32];
+  const auto end =
+    std::to_chars(text, text + sizeof text, value, std::chars_format::general, significant).ptr;
+  return { text, end };
+}
+
+/// The first numbers of a point for a message: "(1, 2.5)".
+inline std::string PointText(const double* point, int count)
+{
+  std::string text = "(";
+  for (int i = 0; i < count; ++i)
+  {
+    text += (i > 0 ? ", " : "") + Digits(point[i]);
+  }
+  return text + ")";
 }
 
 /// What to say about a value beyond the limit.

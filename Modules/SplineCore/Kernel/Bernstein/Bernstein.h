@@ -51,6 +51,22 @@ std::vector<double> BernsteinRestrict(const IntArray<Dim>& degree, const std::ve
 /// @param degree  at most 56. @param matrix  (p+1) x (p+1) row-major.
 void BernsteinRestriction(int degree, double lower, double upper, double* matrix);
 
+/// De Casteljau's algorithm at 1/2: `upper` becomes the coefficients of the upper half, `lower`
+/// gets those of the lower one.
+/// @param degree  index of the last coefficient. @param step  between coefficients, of both.
+template <typename Number>
+void HalveBernstein(int degree, Number* upper, Number* lower, int step = 1)
+{
+  for (int r = 0; r <= degree; ++r)
+  {
+    lower[r * step] = upper[0];
+    for (int i = 0; i < degree - r; ++i)
+    {
+      upper[i * step] = 0.5 * (upper[i * step] + upper[(i + 1) * step]);
+    }
+  }
+}
+
 /// Inverse of the Gram matrix of the Bernstein polynomials of degree p on [0, 1], (p+1) x (p+1)
 /// row-major. @source  Juettler, Adv. Comput. Math. 8 (1998) 345-352.
 std::vector<double> BernsteinGramInverse(int degree);

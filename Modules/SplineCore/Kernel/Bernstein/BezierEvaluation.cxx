@@ -560,12 +560,8 @@ Status EvaluateBatch(const BezierForm<Dim>& form, const PointMatrixView& points,
   if (outside != batch.Elements.end())
   {
     const auto i = outside - batch.Elements.begin();
-    std::string detail = "point " + std::to_string(i) + " (";
-    for (int d = 0; d < Dim; ++d)
-    {
-      detail += (d > 0 ? ", " : "") + Digits(points(i, d));
-    }
-    return { ErrorCode::OutsideDomain, detail + ")" };
+    return { ErrorCode::OutsideDomain,
+      "point " + std::to_string(i) + " " + PointText(points.row(i).data(), Dim) };
   }
   return {};
 }

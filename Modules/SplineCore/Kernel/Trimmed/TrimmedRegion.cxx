@@ -59,16 +59,7 @@ struct TrimmedRegion::Part
     second = *this;
     for (int plane = 0; plane < this->Planes; ++plane)
     {
-      double* a = this->Data + plane * n;
-      double* b = second.Data + plane * n;
-      for (int r = 1; r < n; ++r)
-      {
-        for (int i = 0; i < n - r; ++i)
-        {
-          b[i] = 0.5 * (b[i] + b[i + 1]);
-        }
-        a[r] = b[0];
-      }
+      HalveBernstein(this->Degree, second.Data + plane * n, this->Data + plane * n);
     }
     this->Measure();
     second.Measure();
