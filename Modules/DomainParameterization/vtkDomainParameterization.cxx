@@ -128,7 +128,7 @@ void AddReport(const knotwork::DomainReport& result, vtkUnstructuredGrid* grid)
 vtkDomainParameterization::vtkDomainParameterization()
 {
   this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(3);
+  this->SetOutputTypes({ "vtkUnstructuredGrid", "vtkUnstructuredGrid", "vtkTable" });
 }
 
 int vtkDomainParameterization::FillInputPortInformation(int port, vtkInformation* info)
@@ -142,31 +142,17 @@ int vtkDomainParameterization::FillInputPortInformation(int port, vtkInformation
   return 1;
 }
 
-int vtkDomainParameterization::FillOutputPortInformation(int port, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 2 ? "vtkTable" : "vtkUnstructuredGrid");
-  return 1;
-}
-
-int vtkDomainParameterization::RequestDataObject(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
-{
-  return this->MakeDeclaredOutputs(outputs);
-}
-
 Status vtkDomainParameterization::Compute(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   this->Verdict = 0;
   this->Injectivity = 0;
   this->SecondsWithCertificate = 0.0;
-  const auto model =
-    knotwork::DecodeSplineModel(vtkDataObject::GetData(inputs[0], 0), this->KernelThreads());
+  const auto model = this->DecodeInput(vtkDataObject::GetData(inputs[0], 0));
   if (!model)
   {
     return model.Status;
   }
-  this->ReportWarnings(model->Warnings);
   if (model->Patches.empty())
   {
     return {};

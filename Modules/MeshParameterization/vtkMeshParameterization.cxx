@@ -45,7 +45,7 @@ std::vector<std::string> Warnings(const knotwork::ChartedMesh& charted)
 vtkMeshParameterization::vtkMeshParameterization()
 {
   this->SetNumberOfInputPorts(1);
-  this->SetNumberOfOutputPorts(3);
+  this->SetOutputTypes({ "vtkPolyData", "vtkPolyData", "vtkTable" });
 }
 
 int vtkMeshParameterization::FillInputPortInformation(int, vtkInformation* info)
@@ -54,18 +54,6 @@ int vtkMeshParameterization::FillInputPortInformation(int, vtkInformation* info)
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
   return 1;
-}
-
-int vtkMeshParameterization::FillOutputPortInformation(int port, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 2 ? "vtkTable" : "vtkPolyData");
-  return 1;
-}
-
-int vtkMeshParameterization::RequestDataObject(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
-{
-  return this->MakeDeclaredOutputs(outputs);
 }
 
 knotwork::Status vtkMeshParameterization::Compute(

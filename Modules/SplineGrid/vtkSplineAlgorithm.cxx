@@ -3,6 +3,7 @@
 
 #include "DistributedInput.h"
 #include "FilterErrorCode.h"
+#include "SplineModel.h"
 
 #include "vtkDataObject.h"
 #include "vtkDataObjectTypes.h"
@@ -26,6 +27,23 @@ int vtkSplineAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
   info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPartitionedDataSetCollection");
+  return 1;
+}
+
+void vtkSplineAlgorithm::SetOutputTypes(std::vector<std::string> types)
+{
+  this->OutputTypes = std::move(types);
+  this->SetNumberOfOutputPorts(static_cast<int>(this->OutputTypes.size()));
+}
+
+int vtkSplineAlgorithm::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  if (this->OutputTypes.empty())
+  {
+    return this->Superclass::FillOutputPortInformation(port, info);
+  }
+  info->Set(
+    vtkDataObject::DATA_TYPE_NAME(), this->OutputTypes[static_cast<std::size_t>(port)].c_str());
   return 1;
 }
 
@@ -65,6 +83,10 @@ int vtkSplineAlgorithm::MakeDeclaredOutputs(vtkInformationVector* outputs)
 int vtkSplineAlgorithm::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  if (!this->OutputTypes.empty())
+  {
+    return this->MakeDeclaredOutputs(outputs);
+  }
   const bool collection = this->GetNumberOfInputPorts() > 0 &&
     vtkPartitionedDataSetCollection::GetData(inputs[0], 0) != nullptr;
   if (outputs->GetInformationObject(0))
@@ -122,6 +144,13 @@ int vtkSplineAlgorithm::RequestData(
   }
   // Of several processes all go on, with empty outputs: filters behind this one may wait for all.
   return knotwork::NumberOfPieces(outputs) > 1 ? 1 : 0;
+}
+
+knotwork::Result<knotwork::SplineModel> vtkSplineAlgorithm::DecodeInput(vtkDataObject* input)
+{
+  auto model = knotwork::DecodeSplineModel(input, this->KernelThreads());
+  this->ReportWarnings(model->Warnings);
+  return model;
 }
 
 void vtkSplineAlgorithm::ReportWarnings(const std::vector<std::string>& warnings)

@@ -22,6 +22,11 @@
 #include <string> // for warnings
 #include <vector> // for warnings
 
+namespace knotwork
+{
+struct SplineModel;
+}
+
 class VTKKNOTWORKSPLINEGRID_EXPORT vtkSplineAlgorithm : public vtkDataObjectAlgorithm
 {
 public:
@@ -58,13 +63,17 @@ protected:
 
   /** Reports progress to the pipeline and stops the kernel when the filter is asked to abort. */
   knotwork::ProgressCallback Progress();
-  /** Shows what DecodeSplineModel found worth knowing, one VTK warning each. */
+  /** The spline grids of an input; shows what DecodeSplineModel found worth knowing. */
+  knotwork::Result<knotwork::SplineModel> DecodeInput(vtkDataObject* input);
+  /** Shows one VTK warning each. */
   void ReportWarnings(const std::vector<std::string>& warnings);
   /** Shows what a reader left out, one VTK warning each, and keeps it for GetPartLeftOut. */
   void ReportLeftOut(const std::vector<std::string>& parts);
   /** Threads to hand to kernels: the property, or one under MPI when it is 0. */
   int KernelThreads() const;
 
+  /** For the constructor: one output a type, always of that type. */
+  void SetOutputTypes(std::vector<std::string> types);
   /** Makes output `port` an empty object of a class, unless it is one. */
   static void MakeOutput(vtkInformationVector* outputs, int port, const char* type);
   /** The same of an input's class; nothing without an input. */
@@ -73,7 +82,8 @@ protected:
   int MakeDeclaredOutputs(vtkInformationVector* outputs);
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
-  /** Output 0 of the input's type; override for tables, polydata and further ports. */
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  /** Outputs of the types that were set, else output 0 of the input's type. */
   int RequestDataObject(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   int RequestData(
@@ -83,6 +93,7 @@ protected:
 
 private:
   std::vector<std::string> LeftOut;
+  std::vector<std::string> OutputTypes;
   vtkSplineAlgorithm(const vtkSplineAlgorithm&) = delete;
   void operator=(const vtkSplineAlgorithm&) = delete;
 };

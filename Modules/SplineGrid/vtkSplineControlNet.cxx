@@ -175,12 +175,11 @@ int vtkSplineControlNet::RequestDataObject(
 Status vtkSplineControlNet::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
-  auto model = knotwork::DecodeSplineModel(input, this->KernelThreads());
+  auto model = this->DecodeInput(input);
   if (!model)
   {
     return model.Status;
   }
-  this->ReportWarnings(model->Warnings);
   return knotwork::MakeByBlock(model.Value, input, vtkDataObject::GetData(outputs), VTK_POLY_DATA,
     [this](const std::vector<const knotwork::SplinePatch*>& patches, vtkUnstructuredGrid*,
       vtkDataSet* dataSet)

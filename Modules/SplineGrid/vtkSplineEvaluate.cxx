@@ -288,13 +288,11 @@ Status vtkSplineEvaluate::Compute(vtkInformationVector** inputs, vtkInformationV
   {
     return {};
   }
-  const Result<SplineModel> decoded =
-    knotwork::DecodeSplineModel(vtkDataObject::GetData(inputs[0]), this->KernelThreads());
+  const Result<SplineModel> decoded = this->DecodeInput(vtkDataObject::GetData(inputs[0]));
   if (!decoded)
   {
     return decoded.Status;
   }
-  this->ReportWarnings(decoded->Warnings);
   const SplineModel& model = decoded.Value;
   if (model.Patches.empty())
   {

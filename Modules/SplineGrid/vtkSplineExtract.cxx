@@ -18,12 +18,11 @@ vtkSplineExtract::vtkSplineExtract() = default;
 Status vtkSplineExtract::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
-  auto model = knotwork::DecodeSplineModel(input, this->KernelThreads());
+  auto model = this->DecodeInput(input);
   if (!model)
   {
     return model.Status;
   }
-  this->ReportWarnings(model->Warnings);
   knotwork::ExtractionParams params;
   params.Restrict = this->RestrictToBox;
   params.Box.Lower = { this->Box[0], this->Box[2] };

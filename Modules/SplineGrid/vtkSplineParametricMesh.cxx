@@ -143,12 +143,11 @@ Status vtkSplineParametricMesh::Compute(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
-  auto model = knotwork::DecodeSplineModel(input, this->KernelThreads());
+  auto model = this->DecodeInput(input);
   if (!model)
   {
     return model.Status;
   }
-  this->ReportWarnings(model->Warnings);
 
   std::map<const knotwork::SplinePatch*, double> shifts;
   double widest = 0.0;

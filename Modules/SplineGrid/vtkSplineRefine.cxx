@@ -381,13 +381,12 @@ Status vtkSplineRefine::Compute(vtkInformationVector** inputs, vtkInformationVec
 {
   vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
   vtkDataObject* output = vtkDataObject::GetData(outputs, 0);
-  auto decoded = knotwork::DecodeSplineModel(input, this->KernelThreads());
+  auto decoded = this->DecodeInput(input);
   if (!decoded)
   {
     return decoded.Status;
   }
   knotwork::SplineModel& model = decoded.Value;
-  this->ReportWarnings(model.Warnings);
   if (this->AdmissibleClass == 1)
   {
     return { ErrorCode::InvalidParameter, "the admissible class is 0 (none) or at least 2" };

@@ -11,7 +11,6 @@
 #include "vtkCellType.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
@@ -274,12 +273,6 @@ Status SetPointData(const BlockMesh& block, const std::vector<const SplinePatch*
 }
 }
 
-int vtkSplineTessellate::FillOutputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkDataObject");
-  return 1;
-}
-
 int vtkSplineTessellate::RequestDataObject(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
@@ -294,12 +287,11 @@ int vtkSplineTessellate::RequestDataObject(
 Status vtkSplineTessellate::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
-  auto model = knotwork::DecodeSplineModel(input, this->KernelThreads());
+  auto model = this->DecodeInput(input);
   if (!model)
   {
     return model.Status;
   }
-  this->ReportWarnings(model->Warnings);
   return knotwork::MakeByBlock(model.Value, input, vtkDataObject::GetData(outputs),
     this->Cells == VOLUME ? VTK_UNSTRUCTURED_GRID : VTK_POLY_DATA,
     [this](const std::vector<const SplinePatch*>& patches, vtkUnstructuredGrid* source,

@@ -92,7 +92,6 @@ protected:
   ~vtkSplineTessellate() override = default;
   int RequestDataObject(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   bool WorksOnPieces() const override { return true; }
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 

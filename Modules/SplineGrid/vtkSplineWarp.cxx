@@ -269,12 +269,6 @@ int vtkSplineWarp::FillInputPortInformation(int port, vtkInformation* info)
   return this->Superclass::FillInputPortInformation(0, info);
 }
 
-int vtkSplineWarp::FillOutputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkDataObject");
-  return 1;
-}
-
 int vtkSplineWarp::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
@@ -302,12 +296,11 @@ Status vtkSplineWarp::Compute(vtkInformationVector** inputs, vtkInformationVecto
     return WarpPoints(points, map, vtkPointSet::SafeDownCast(output));
   }
 
-  auto decoded = knotwork::DecodeSplineModel(input, this->KernelThreads());
+  auto decoded = this->DecodeInput(input);
   if (!decoded)
   {
     return decoded.Status;
   }
-  this->ReportWarnings(decoded->Warnings);
   SplineModel& model = decoded.Value;
   knotwork::CompositionParams params;
   params.Tolerance = this->Tolerance;

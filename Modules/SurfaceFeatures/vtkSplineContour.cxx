@@ -4,7 +4,6 @@
 #include "ContourData.h"
 
 #include "vtkDataObject.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
@@ -13,16 +12,9 @@
 
 vtkStandardNewMacro(vtkSplineContour);
 
-namespace
-{
-constexpr int NumOutputs = 4;
-constexpr const char* OutputTypes[NumOutputs] = { "vtkPolyData", "vtkUnstructuredGrid", "vtkTable",
-  "vtkPolyData" };
-}
-
 vtkSplineContour::vtkSplineContour()
 {
-  this->SetNumberOfOutputPorts(NumOutputs);
+  this->SetOutputTypes({ "vtkPolyData", "vtkUnstructuredGrid", "vtkTable", "vtkPolyData" });
 }
 
 void vtkSplineContour::AddLevel(double level)
@@ -40,28 +32,15 @@ void vtkSplineContour::ClearLevels()
   }
 }
 
-int vtkSplineContour::FillOutputPortInformation(int port, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), OutputTypes[port]);
-  return 1;
-}
-
-int vtkSplineContour::RequestDataObject(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
-{
-  return this->MakeDeclaredOutputs(outputs);
-}
-
 knotwork::Status vtkSplineContour::Compute(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   using namespace knotwork;
-  const auto model = DecodeSplineModel(vtkDataObject::GetData(inputs[0], 0), this->KernelThreads());
+  const auto model = this->DecodeInput(vtkDataObject::GetData(inputs[0], 0));
   if (!model)
   {
     return model.Status;
   }
-  this->ReportWarnings(model->Warnings);
   ContourChoice choice;
   choice.Field = this->FieldName == "None" ? "" : this->FieldName;
   choice.Component = this->Component;

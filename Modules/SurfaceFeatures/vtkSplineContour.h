@@ -115,9 +115,6 @@ public:
 protected:
   vtkSplineContour();
   ~vtkSplineContour() override = default;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestDataObject(
-    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:

@@ -3,7 +3,6 @@
 
 #include "ExtremaData.h"
 
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
@@ -16,7 +15,7 @@ vtkStandardNewMacro(vtkSplineExtrema);
 
 vtkSplineExtrema::vtkSplineExtrema()
 {
-  this->SetNumberOfOutputPorts(3);
+  this->SetOutputTypes({ "vtkPolyData", "vtkPolyData", "vtkTable" });
 }
 
 vtkSplineExtrema::~vtkSplineExtrema()
@@ -24,28 +23,14 @@ vtkSplineExtrema::~vtkSplineExtrema()
   this->SetFieldName(nullptr);
 }
 
-int vtkSplineExtrema::FillOutputPortInformation(int port, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 2 ? "vtkTable" : "vtkPolyData");
-  return 1;
-}
-
-int vtkSplineExtrema::RequestDataObject(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
-{
-  return this->MakeDeclaredOutputs(outputs);
-}
-
 Status vtkSplineExtrema::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   using namespace knotwork;
-  const Result<SplineModel> model =
-    DecodeSplineModel(vtkDataObject::GetData(inputs[0], 0), this->KernelThreads());
+  const Result<SplineModel> model = this->DecodeInput(vtkDataObject::GetData(inputs[0], 0));
   if (!model)
   {
     return model.Status;
   }
-  this->ReportWarnings(model->Warnings);
   const std::string name = this->FieldName ? this->FieldName : "";
   const std::string field = name == "None" ? "" : name;
   const ProgressCallback progress = this->Progress();

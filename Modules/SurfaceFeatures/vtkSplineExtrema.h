@@ -95,9 +95,6 @@ public:
 protected:
   vtkSplineExtrema();
   ~vtkSplineExtrema() override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestDataObject(
-    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:

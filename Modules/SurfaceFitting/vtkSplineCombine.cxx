@@ -130,7 +130,7 @@ struct PatchTable
 vtkSplineCombine::vtkSplineCombine()
 {
   this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(2);
+  this->SetOutputTypes({ "vtkUnstructuredGrid", "vtkTable" });
 }
 
 void vtkSplineCombine::SetSecondConnection(vtkAlgorithmOutput* output)
@@ -146,18 +146,6 @@ void vtkSplineCombine::SetSecondData(vtkDataObject* surface)
 int vtkSplineCombine::FillInputPortInformation(int, vtkInformation* info)
 {
   return this->Superclass::FillInputPortInformation(0, info);
-}
-
-int vtkSplineCombine::FillOutputPortInformation(int port, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkUnstructuredGrid" : "vtkTable");
-  return 1;
-}
-
-int vtkSplineCombine::RequestDataObject(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
-{
-  return this->MakeDeclaredOutputs(outputs);
 }
 
 Status vtkSplineCombine::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)

@@ -25,9 +25,6 @@ vtkStandardNewMacro(vtkSplinePointDistance);
 
 namespace
 {
-constexpr int NumOutputs = 3;
-constexpr const char* OutputTypes[NumOutputs] = { "vtkPointSet", "vtkTable", "vtkTable" };
-
 template <typename Array>
 void AddPointArray(vtkPointSet* output, const char* name, int components, vtkIdType points,
   const std::function<double(vtkIdType, int)>& value)
@@ -115,7 +112,7 @@ void EncodeClasses(
 vtkSplinePointDistance::vtkSplinePointDistance()
 {
   this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(NumOutputs);
+  this->SetOutputTypes({ "vtkPointSet", "vtkTable", "vtkTable" });
 }
 
 void vtkSplinePointDistance::AddTolerance(double tolerance)
@@ -153,12 +150,6 @@ int vtkSplinePointDistance::FillInputPortInformation(int port, vtkInformation* i
   return 1;
 }
 
-int vtkSplinePointDistance::FillOutputPortInformation(int port, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), OutputTypes[port]);
-  return 1;
-}
-
 int vtkSplinePointDistance::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
@@ -179,13 +170,11 @@ Status vtkSplinePointDistance::Compute(vtkInformationVector** inputs, vtkInforma
   {
     return sampled;
   }
-  auto decoded =
-    knotwork::DecodeSplineModel(vtkDataObject::GetData(inputs[1], 0), this->KernelThreads());
+  auto decoded = this->DecodeInput(vtkDataObject::GetData(inputs[1], 0));
   if (!decoded)
   {
     return decoded.Status;
   }
-  this->ReportWarnings(decoded->Warnings);
   std::vector<knotwork::Spline<2>> surfaces;
   std::vector<int> patchIds;
   for (const knotwork::SplinePatch& patch : decoded->Patches)

@@ -20,9 +20,6 @@ vtkStandardNewMacro(vtkSplineStitch);
 
 namespace
 {
-constexpr int NumOutputs = 3;
-constexpr const char* OutputTypes[NumOutputs] = { "vtkUnstructuredGrid", "vtkTable", "vtkTable" };
-
 /// Ids that differ stay, else patches are numbered.
 void NumberPatches(std::vector<knotwork::SplinePatch>& patches)
 {
@@ -126,7 +123,7 @@ void EncodeNumbers(const knotwork::StitchedTiles& stitched, vtkTable* table)
 
 vtkSplineStitch::vtkSplineStitch()
 {
-  this->SetNumberOfOutputPorts(NumOutputs);
+  this->SetOutputTypes({ "vtkUnstructuredGrid", "vtkTable", "vtkTable" });
 }
 
 void vtkSplineStitch::AddPair(int tileA, int sideA, int tileB, int sideB, int reversed)
@@ -150,30 +147,16 @@ int vtkSplineStitch::FillInputPortInformation(int port, vtkInformation* info)
   return this->Superclass::FillInputPortInformation(port, info);
 }
 
-int vtkSplineStitch::FillOutputPortInformation(int port, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), OutputTypes[port]);
-  return 1;
-}
-
-int vtkSplineStitch::RequestDataObject(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
-{
-  return this->MakeDeclaredOutputs(outputs);
-}
-
 Status vtkSplineStitch::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   knotwork::SplineModel model;
   for (int i = 0; i < inputs[0]->GetNumberOfInformationObjects(); ++i)
   {
-    auto decoded =
-      knotwork::DecodeSplineModel(vtkDataObject::GetData(inputs[0], i), this->KernelThreads());
+    auto decoded = this->DecodeInput(vtkDataObject::GetData(inputs[0], i));
     if (!decoded)
     {
       return decoded.Status;
     }
-    this->ReportWarnings(decoded->Warnings);
     for (knotwork::SplinePatch& patch : decoded->Patches)
     {
       model.Patches.push_back(std::move(patch));

@@ -21,10 +21,6 @@ vtkStandardNewMacro(vtkSplineSurfaceFit);
 
 namespace
 {
-constexpr int NumOutputs = 4;
-constexpr const char* OutputTypes[NumOutputs] = { "vtkUnstructuredGrid", "vtkPointSet", "vtkTable",
-  "vtkImageData" };
-
 const char* DescribeEnd(knotwork::FitEnd end)
 {
   switch (end)
@@ -57,7 +53,7 @@ std::string DescribeMiss(const knotwork::SurfaceFit& fit)
 vtkSplineSurfaceFit::vtkSplineSurfaceFit()
 {
   this->SetNumberOfInputPorts(1);
-  this->SetNumberOfOutputPorts(NumOutputs);
+  this->SetOutputTypes({ "vtkUnstructuredGrid", "vtkPointSet", "vtkTable", "vtkImageData" });
 }
 
 void vtkSplineSurfaceFit::AddFieldArray(const char* name)
@@ -97,12 +93,6 @@ void vtkSplineSurfaceFit::ClearToleranceBoxes()
 int vtkSplineSurfaceFit::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
-  return 1;
-}
-
-int vtkSplineSurfaceFit::FillOutputPortInformation(int port, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), OutputTypes[port]);
   return 1;
 }
 

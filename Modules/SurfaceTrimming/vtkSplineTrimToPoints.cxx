@@ -29,10 +29,6 @@ vtkStandardNewMacro(vtkSplineTrimToPoints);
 
 namespace
 {
-constexpr int NumOutputs = 4;
-constexpr const char* OutputTypes[NumOutputs] = { "vtkPolyData", "vtkUnstructuredGrid",
-  "vtkUnstructuredGrid", "vtkTable" };
-
 /// x and y of points over a height field, else their array UV.
 knotwork::Result<knotwork::PointMatrix> ParametersOf(vtkPointSet* points, bool isHeightField)
 {
@@ -100,7 +96,7 @@ void EncodeNumbers(const knotwork::TrimmedToPoints& trimmed, vtkTable* table)
 vtkSplineTrimToPoints::vtkSplineTrimToPoints()
 {
   this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(NumOutputs);
+  this->SetOutputTypes({ "vtkPolyData", "vtkUnstructuredGrid", "vtkUnstructuredGrid", "vtkTable" });
 }
 
 void vtkSplineTrimToPoints::SetPointsConnection(vtkAlgorithmOutput* output)
@@ -123,27 +119,13 @@ int vtkSplineTrimToPoints::FillInputPortInformation(int port, vtkInformation* in
   return this->Superclass::FillInputPortInformation(port, info);
 }
 
-int vtkSplineTrimToPoints::FillOutputPortInformation(int port, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), OutputTypes[port]);
-  return 1;
-}
-
-int vtkSplineTrimToPoints::RequestDataObject(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
-{
-  return this->MakeDeclaredOutputs(outputs);
-}
-
 Status vtkSplineTrimToPoints::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  auto decoded =
-    knotwork::DecodeSplineModel(vtkDataObject::GetData(inputs[0], 0), this->KernelThreads());
+  auto decoded = this->DecodeInput(vtkDataObject::GetData(inputs[0], 0));
   if (!decoded)
   {
     return decoded.Status;
   }
-  this->ReportWarnings(decoded->Warnings);
   if (decoded->Patches.empty())
   {
     return {};

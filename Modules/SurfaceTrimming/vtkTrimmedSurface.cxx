@@ -18,10 +18,7 @@ vtkStandardNewMacro(vtkTrimmedSurface);
 
 namespace
 {
-constexpr int NumOutputs = 5;
 constexpr int DeviationPort = 3;
-constexpr const char* OutputTypes[NumOutputs] = { "vtkPolyData", "vtkUnstructuredGrid",
-  "vtkUnstructuredGrid", "vtkPointSet", "vtkTable" };
 
 /// Why the deviation is not smaller, with the remedy; empty when nothing stopped it.
 std::string WhyStopped(const knotwork::TrimmedSurface& trimmed)
@@ -76,7 +73,8 @@ std::vector<std::string> Shortcomings(const knotwork::TrimmedSurface& trimmed)
 vtkTrimmedSurface::vtkTrimmedSurface()
 {
   this->SetNumberOfInputPorts(1);
-  this->SetNumberOfOutputPorts(NumOutputs);
+  this->SetOutputTypes(
+    { "vtkPolyData", "vtkUnstructuredGrid", "vtkUnstructuredGrid", "vtkPointSet", "vtkTable" });
 }
 
 int vtkTrimmedSurface::FillInputPortInformation(int, vtkInformation* info)
@@ -84,12 +82,6 @@ int vtkTrimmedSurface::FillInputPortInformation(int, vtkInformation* info)
   info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
-  return 1;
-}
-
-int vtkTrimmedSurface::FillOutputPortInformation(int port, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), OutputTypes[port]);
   return 1;
 }
 

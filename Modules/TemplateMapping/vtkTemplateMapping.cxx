@@ -17,15 +17,10 @@ using knotwork::TemplateMapParams;
 
 vtkStandardNewMacro(vtkTemplateMapping);
 
-namespace
-{
-constexpr const char* OutputTypes[] = { "vtkUnstructuredGrid", "vtkPolyData", "vtkTable" };
-}
-
 vtkTemplateMapping::vtkTemplateMapping()
 {
   this->SetNumberOfInputPorts(3);
-  this->SetNumberOfOutputPorts(3);
+  this->SetOutputTypes({ "vtkUnstructuredGrid", "vtkPolyData", "vtkTable" });
 }
 
 int vtkTemplateMapping::FillInputPortInformation(int port, vtkInformation* info)
@@ -36,18 +31,6 @@ int vtkTemplateMapping::FillInputPortInformation(int port, vtkInformation* info)
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
   info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port == 2 ? 1 : 0);
   return 1;
-}
-
-int vtkTemplateMapping::FillOutputPortInformation(int port, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), OutputTypes[port]);
-  return 1;
-}
-
-int vtkTemplateMapping::RequestDataObject(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
-{
-  return this->MakeDeclaredOutputs(outputs);
 }
 
 template <int Dim>

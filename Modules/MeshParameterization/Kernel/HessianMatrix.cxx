@@ -4,6 +4,7 @@
 #include "GeodesicMarch.h"
 #include "MeshWeights.h"
 #include <knotwork/SplineCore/Parallel.h>
+#include <knotwork/SplineCore/SparseLines.h>
 
 #include <Eigen/QR>
 
@@ -118,24 +119,14 @@ Eigen::SparseMatrix<double> HessianMatrix(const DiscMesh& mesh, int neighbours, 
       static_cast<int>(e);
   }
   // columns of the sum of H H', chunk by chunk
-  struct Part
-  {
-    std::vector<int> Sizes;
-    std::vector<int> Rows;
-    std::vector<double> Values;
-  };
   const std::size_t chunk = ChunkOf(n);
-  std::vector<Part> parts((n + chunk - 1) / chunk);
+  std::vector<SparseLines> parts((n + chunk - 1) / chunk);
   ParallelFor(n, ChunkOf(n), threads,
     [&](std::size_t begin, std::size_t end)
     {
-      Part& part = parts[begin / chunk];
-      std::vector<double> sum(n, 0.0);
-      std::vector<char> marked(n, 0);
-      std::vector<int> rows;
+      SparseLineSum sum(n);
       for (std::size_t v = begin; v < end; ++v)
       {
-        rows.clear();
         for (int at = start[v]; at < start[v + 1]; ++at)
         {
           const auto e = static_cast<std::size_t>(entries[static_cast<std::size_t>(at)]);
@@ -143,52 +134,19 @@ Eigen::SparseMatrix<double> HessianMatrix(const DiscMesh& mesh, int neighbours, 
           const double* own = all.Values.data() + 3 * e;
           for (std::size_t other = first; other < first + all.Size; ++other)
           {
-            const auto row = static_cast<std::size_t>(all.Vertices[other]);
-            if (row < v)
+            const int row = all.Vertices[other];
+            if (row < static_cast<int>(v))
             {
               continue;
             }
             const double* theirs = all.Values.data() + 3 * other;
-            sum[row] += own[0] * theirs[0] + own[1] * theirs[1] + own[2] * theirs[2];
-            if (!marked[row])
-            {
-              marked[row] = 1;
-              rows.push_back(static_cast<int>(row));
-            }
+            sum.Add(row, own[0] * theirs[0] + own[1] * theirs[1] + own[2] * theirs[2]);
           }
         }
-        std::sort(rows.begin(), rows.end());
-        part.Sizes.push_back(static_cast<int>(rows.size()));
-        for (int row : rows)
-        {
-          part.Rows.push_back(row);
-          part.Values.push_back(sum[static_cast<std::size_t>(row)]);
-          sum[static_cast<std::size_t>(row)] = 0.0;
-          marked[static_cast<std::size_t>(row)] = 0;
-        }
+        sum.MoveTo(parts[begin / chunk]);
       }
     });
-  std::size_t total = 0;
-  for (const Part& part : parts)
-  {
-    total += part.Rows.size();
-  }
-  Eigen::SparseMatrix<double> matrix(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
-  matrix.resizeNonZeros(static_cast<Eigen::Index>(total));
-  int column = 0;
-  int at = 0;
-  matrix.outerIndexPtr()[0] = 0;
-  for (Part& part : parts)
-  {
-    std::copy(part.Rows.begin(), part.Rows.end(), matrix.innerIndexPtr() + at);
-    std::copy(part.Values.begin(), part.Values.end(), matrix.valuePtr() + at);
-    for (int size : part.Sizes)
-    {
-      at += size;
-      matrix.outerIndexPtr()[++column] = at;
-    }
-    part = {};
-  }
-  return matrix;
+  return JoinLines<Eigen::ColMajor>(
+    parts, static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
 }
 }

@@ -4,6 +4,7 @@
 #include "BasisEvaluation.h"
 #include "Parallel.h"
 #include "Quadrature.h"
+#include "SparseLines.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -382,25 +383,15 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> QuadraticMatrix(const SplineSpace<D
     }
   }
 
-  struct Rows
-  {
-    std::vector<int> Sizes;
-    std::vector<int> Columns;
-    std::vector<double> Values;
-  };
   constexpr std::size_t chunk = 256;
-  std::vector<Rows> chunks((size + chunk - 1) / chunk);
+  std::vector<SparseLines> chunks((size + chunk - 1) / chunk);
   ParallelFor(size, chunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
-      Rows& rows = chunks[begin / chunk];
-      std::vector<double> sums(size, 0.0);
-      std::vector<char> isUsed(size, 0);
-      std::vector<int> columns;
+      SparseLineSum sum(size);
       std::vector<double> row;
       for (std::size_t j = begin; j < end; ++j)
       {
-        columns.clear();
         for (std::size_t k = first[j]; k < first[j + 1]; ++k)
         {
           const int e = places[k].Element;
@@ -417,49 +408,14 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> QuadraticMatrix(const SplineSpace<D
           const int* ids = space.LocalFunctions(e);
           for (int i = 0; i < n; ++i)
           {
-            const std::size_t id = static_cast<std::size_t>(ids[i]);
-            if (!isUsed[id])
-            {
-              isUsed[id] = 1;
-              columns.push_back(ids[i]);
-            }
-            sums[id] += row[static_cast<std::size_t>(i)];
+            sum.Add(ids[i], row[static_cast<std::size_t>(i)]);
           }
         }
-        std::sort(columns.begin(), columns.end());
-        rows.Sizes.push_back(static_cast<int>(columns.size()));
-        for (int id : columns)
-        {
-          rows.Columns.push_back(id);
-          rows.Values.push_back(sums[static_cast<std::size_t>(id)]);
-          sums[static_cast<std::size_t>(id)] = 0.0;
-          isUsed[static_cast<std::size_t>(id)] = 0;
-        }
+        sum.MoveTo(chunks[begin / chunk]);
       }
     });
-  std::size_t entries = 0;
-  for (const Rows& rows : chunks)
-  {
-    entries += rows.Columns.size();
-  }
-  Eigen::SparseMatrix<double, Eigen::RowMajor> matrix(
-    static_cast<Eigen::Index>(size), static_cast<Eigen::Index>(size));
-  matrix.resizeNonZeros(static_cast<Eigen::Index>(entries));
-  int* outer = matrix.outerIndexPtr();
-  int* inner = matrix.innerIndexPtr();
-  double* value = matrix.valuePtr();
-  *outer = 0;
-  for (const Rows& rows : chunks)
-  {
-    for (int n : rows.Sizes)
-    {
-      outer[1] = outer[0] + n;
-      ++outer;
-    }
-    inner = std::copy(rows.Columns.begin(), rows.Columns.end(), inner);
-    value = std::copy(rows.Values.begin(), rows.Values.end(), value);
-  }
-  return matrix;
+  return JoinLines<Eigen::RowMajor>(
+    chunks, static_cast<Eigen::Index>(size), static_cast<Eigen::Index>(size));
 }
 
 template <int Dim>

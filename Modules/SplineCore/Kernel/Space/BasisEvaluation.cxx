@@ -3,6 +3,7 @@
 #include "BernsteinBasis.h"
 #include "Parallel.h"
 #include "QuotientRule.h"
+#include "SparseLines.h"
 
 #include <algorithm>
 #include <limits>
@@ -201,20 +202,14 @@ Result<Eigen::SparseMatrix<double, Eigen::RowMajor>> CollocationMatrix(
   {
     return { ErrorCode::DimensionMismatch, "the space has no parameter domain" };
   }
-  struct Chunk
-  {
-    std::vector<int> RowSizes;
-    std::vector<int> Functions;
-    std::vector<double> Values;
-    Eigen::Index Outside = -1;
-  };
   constexpr std::size_t chunkSize = 1024;
   const std::size_t numPoints = static_cast<std::size_t>(parameters.rows());
-  std::vector<Chunk> chunks((numPoints + chunkSize - 1) / chunkSize);
+  std::vector<SparseLines> chunks((numPoints + chunkSize - 1) / chunkSize);
+  std::vector<Eigen::Index> outside(chunks.size(), -1);
   ParallelFor(numPoints, chunkSize, threads,
     [&](std::size_t begin, std::size_t end)
     {
-      Chunk& chunk = chunks[begin / chunkSize];
+      SparseLines& chunk = chunks[begin / chunkSize];
       FunctionValues functions;
       for (std::size_t i = begin; i < end; ++i)
       {
@@ -223,49 +218,33 @@ Result<Eigen::SparseMatrix<double, Eigen::RowMajor>> CollocationMatrix(
         const int e = space.Locate(parameters.data() + row * parameters.outerStride(), local);
         if (e < 0)
         {
-          chunk.Outside = row;
+          outside[begin / chunkSize] = row;
           return;
         }
         EvaluateFunctions<Dim>(space, e, local, 0, nullptr, functions);
-        chunk.RowSizes.push_back(static_cast<int>(functions.Functions.size()));
-        chunk.Functions.insert(
-          chunk.Functions.end(), functions.Functions.begin(), functions.Functions.end());
+        chunk.Sizes.push_back(static_cast<int>(functions.Functions.size()));
+        chunk.Indices.insert(
+          chunk.Indices.end(), functions.Functions.begin(), functions.Functions.end());
         chunk.Values.insert(chunk.Values.end(), functions.Values.data(),
           functions.Values.data() + functions.Values.size());
       }
     });
 
   std::size_t numEntries = 0;
-  for (const Chunk& chunk : chunks)
+  for (std::size_t c = 0; c < chunks.size(); ++c)
   {
-    if (chunk.Outside >= 0)
+    if (outside[c] >= 0)
     {
-      return { ErrorCode::OutsideDomain, "point " + std::to_string(chunk.Outside) };
+      return { ErrorCode::OutsideDomain, "point " + std::to_string(outside[c]) };
     }
-    numEntries += chunk.Functions.size();
+    numEntries += chunks[c].Indices.size();
   }
   if (numEntries > static_cast<std::size_t>(std::numeric_limits<int>::max()))
   {
     return { ErrorCode::TooLarge,
       std::to_string(numEntries) + " entries, at most 2^31 - 1 are possible" };
   }
-  Matrix matrix(parameters.rows(), space.NumFunctions);
-  matrix.resizeNonZeros(static_cast<Eigen::Index>(numEntries));
-  int* outer = matrix.outerIndexPtr();
-  int* inner = matrix.innerIndexPtr();
-  double* value = matrix.valuePtr();
-  *outer = 0;
-  for (const Chunk& chunk : chunks)
-  {
-    for (int size : chunk.RowSizes)
-    {
-      outer[1] = outer[0] + size;
-      ++outer;
-    }
-    inner = std::copy(chunk.Functions.begin(), chunk.Functions.end(), inner);
-    value = std::copy(chunk.Values.begin(), chunk.Values.end(), value);
-  }
-  return matrix;
+  return JoinLines<Eigen::RowMajor>(chunks, parameters.rows(), space.NumFunctions);
 }
 
 #define KNOTWORK_INSTANTIATE(Dim)                                                                  \

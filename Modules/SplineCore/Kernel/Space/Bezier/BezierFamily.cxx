@@ -2,10 +2,8 @@
 // Bezier elements without a common parameter domain as a family.
 #include "BezierRefinement.h"
 #include "BezierSpace.h"
-#include "ChartCell.h"
 #include "ControlNet.h"
-#include "FunctionInfo.h"
-#include "SpaceFamily.h"
+#include "FamilyWithoutDomain.h"
 
 #include <algorithm>
 #include <cmath>
@@ -68,7 +66,7 @@ ElementPoints NumberBezier(const SplineSpace<Dim>& space)
 }
 
 template <int Dim>
-class BezierElements final : public SpaceFamily<Dim>
+class BezierElements final : public FamilyWithoutDomain<Dim>
 {
 public:
   const char* Name() const override { return "Bezier"; }
@@ -90,30 +88,9 @@ public:
     return { ErrorCode::InvalidTopology, "a Bezier space is made from its cells" };
   }
 
-  void Locate(const SplineSpace<Dim>&, const double*, std::ptrdiff_t, std::size_t n, int* elements,
-    double*) const override
-  {
-    std::fill_n(elements, n, -1);
-  }
-  std::vector<FunctionInfo<Dim>> DescribeFunctions(const SplineSpace<Dim>&) const override
-  {
-    return {};
-  }
   std::vector<NetEdge> ControlNetEdges(const SplineSpace<Dim>& space) const override
   {
     return BezierEdges(space);
-  }
-  std::vector<ChartCell<Dim>> Charts(const SplineSpace<Dim>& space, int& numCharts) const override
-  {
-    std::vector<ChartCell<Dim>> cells(space.Elements.size());
-    for (ChartCell<Dim>& cell : cells)
-    {
-      cell.Chart = numCharts++;
-      cell.Size.fill(std::int64_t{ 1 } << ChartBits);
-      cell.RimLow.fill(true);
-      cell.RimHigh.fill(true);
-    }
-    return cells;
   }
   ElementPoints NumberPoints(const SplineSpace<Dim>& space) const override
   {

@@ -31,4 +31,28 @@ Result<std::array<KnotVector, Dim>> KnotsOfDefinition(const SpaceDefinition& def
 template <int Dim>
 Result<RefinedSpline<Dim>> RefineByLevels(
   const Spline<Dim>& spline, const std::vector<int>& marked, const RefinementParams& params);
+
+/// What families of such spaces share.
+template <int Dim>
+class FamilyOfTrees : public SpaceFamily<Dim>
+{
+public:
+  void Locate(const SplineSpace<Dim>& space, const double* u, std::ptrdiff_t stride, std::size_t n,
+    int* elements, double* local) const override
+  {
+    LocateInTree<Dim>(space, u, stride, n, elements, local);
+  }
+  std::vector<FunctionInfo<Dim>> DescribeFunctions(const SplineSpace<Dim>& space) const override
+  {
+    return FunctionsOfLevels<Dim>(space);
+  }
+  std::vector<NetEdge> ControlNetEdges(const SplineSpace<Dim>& space) const override
+  {
+    return EdgesOfLevels<Dim>(space);
+  }
+  std::vector<ChartCell<Dim>> Charts(const SplineSpace<Dim>& space, int& numCharts) const override
+  {
+    return ChartsOfTree<Dim>(space, numCharts);
+  }
+};
 }

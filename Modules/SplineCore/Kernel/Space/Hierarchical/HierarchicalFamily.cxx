@@ -96,7 +96,7 @@ Result<Spline<Dim>> FinestLevel(const Spline<Dim>& spline, int maxFunctions)
   return finest;
 }
 template <int Dim>
-class Truncated final : public SpaceFamily<Dim>
+class Truncated final : public FamilyOfTrees<Dim>
 {
 public:
   const char* Name() const override { return "THB"; }
@@ -142,23 +142,6 @@ public:
     return MakeHierarchicalSpace<Dim>(knots.Value, boxes);
   }
 
-  void Locate(const SplineSpace<Dim>& space, const double* u, std::ptrdiff_t stride, std::size_t n,
-    int* elements, double* local) const override
-  {
-    LocateInTree<Dim>(space, u, stride, n, elements, local);
-  }
-  std::vector<FunctionInfo<Dim>> DescribeFunctions(const SplineSpace<Dim>& space) const override
-  {
-    return FunctionsOfLevels<Dim>(space);
-  }
-  std::vector<NetEdge> ControlNetEdges(const SplineSpace<Dim>& space) const override
-  {
-    return EdgesOfLevels<Dim>(space);
-  }
-  std::vector<ChartCell<Dim>> Charts(const SplineSpace<Dim>& space, int& numCharts) const override
-  {
-    return ChartsOfTree<Dim>(space, numCharts);
-  }
   ElementPoints NumberPoints(const SplineSpace<Dim>& space) const override;
   double FunctionsAfterRefinement(
     const SplineSpace<Dim>& space, int, int refinements) const override

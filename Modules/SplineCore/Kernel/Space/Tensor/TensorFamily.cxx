@@ -13,7 +13,7 @@ namespace knotwork
 namespace
 {
 template <int Dim>
-class TensorProduct final : public SpaceFamily<Dim>
+class TensorProduct final : public FamilyOfTrees<Dim>
 {
 public:
   const char* Name() const override { return "tensor-product"; }
@@ -34,23 +34,6 @@ public:
     return knots ? MakeTensorSpace<Dim>(knots.Value) : knots.Status;
   }
 
-  void Locate(const SplineSpace<Dim>& space, const double* u, std::ptrdiff_t stride, std::size_t n,
-    int* elements, double* local) const override
-  {
-    LocateInTree<Dim>(space, u, stride, n, elements, local);
-  }
-  std::vector<FunctionInfo<Dim>> DescribeFunctions(const SplineSpace<Dim>& space) const override
-  {
-    return FunctionsOfLevels<Dim>(space);
-  }
-  std::vector<NetEdge> ControlNetEdges(const SplineSpace<Dim>& space) const override
-  {
-    return EdgesOfLevels<Dim>(space);
-  }
-  std::vector<ChartCell<Dim>> Charts(const SplineSpace<Dim>& space, int& numCharts) const override
-  {
-    return ChartsOfTree<Dim>(space, numCharts);
-  }
   ElementPoints NumberPoints(const SplineSpace<Dim>& space) const override;
   double FunctionsAfterRefinement(
     const SplineSpace<Dim>& space, int elevation, int refinements) const override

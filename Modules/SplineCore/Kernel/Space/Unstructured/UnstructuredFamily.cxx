@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Splines on unstructured meshes as a family.
-#include "ChartCell.h"
 #include "ControlNet.h"
-#include "FunctionInfo.h"
-#include "SpaceFamily.h"
+#include "FamilyWithoutDomain.h"
 #include "UnstructuredData.h"
 #include "UnstructuredRefinement.h"
 #include "UnstructuredSpace.h"
@@ -189,7 +187,7 @@ constexpr const char* NoCurves = "unstructured spaces have two or three paramete
 
 /// Curves have no such spaces, and no definition makes one.
 template <int Dim>
-class OnMesh final : public SpaceFamily<Dim>
+class OnMesh final : public FamilyWithoutDomain<Dim>
 {
 public:
   const char* Name() const override { return "unstructured"; }
@@ -262,30 +260,9 @@ public:
     return { ErrorCode::InvalidTopology, NoCurves };
   }
 
-  void Locate(const SplineSpace<Dim>&, const double*, std::ptrdiff_t, std::size_t n, int* elements,
-    double*) const override
-  {
-    std::fill_n(elements, n, -1);
-  }
-  std::vector<FunctionInfo<Dim>> DescribeFunctions(const SplineSpace<Dim>&) const override
-  {
-    return {};
-  }
   std::vector<NetEdge> ControlNetEdges(const SplineSpace<Dim>& space) const override
   {
     return NetOfCells(space);
-  }
-  std::vector<ChartCell<Dim>> Charts(const SplineSpace<Dim>& space, int& numCharts) const override
-  {
-    std::vector<ChartCell<Dim>> cells(space.Elements.size());
-    for (ChartCell<Dim>& cell : cells)
-    {
-      cell.Chart = numCharts++;
-      cell.Size.fill(std::int64_t{ 1 } << ChartBits);
-      cell.RimLow.fill(true);
-      cell.RimHigh.fill(true);
-    }
-    return cells;
   }
   ElementPoints NumberPoints([[maybe_unused]] const SplineSpace<Dim>& space) const override
   {
