@@ -34,11 +34,11 @@ double SecondsSince(Clock::time_point start)
 
 /// The stages on one space after the other.
 template <int Dim>
-class Runner
+class StageSequence
 {
 public:
-  Runner(DomainSource<Dim>& source, double area, const DomainParams& params, WorkBudget& budget,
-    DomainRun<Dim>& out, DomainReport& report)
+  StageSequence(DomainSource<Dim>& source, double area, const DomainParams& params,
+    WorkBudget& budget, DomainRun<Dim>& out, DomainReport& report)
     : Source(source), Area(area), Params(params), Budget(budget), Out(out), Report(report)
   {
   }
@@ -848,19 +848,19 @@ Status RunDomain(DomainSource<Dim>& source, double area, const DomainParams& par
   WorkBudget& budget, DomainRun<Dim>& run, DomainReport& report)
 {
   const Clock::time_point start = Clock::now();
-  Runner<Dim> runner(source, area, params, budget, run, report);
-  if (Status status = runner.Optimize(); !status)
+  StageSequence<Dim> stages(source, area, params, budget, run, report);
+  if (Status status = stages.Optimize(); !status)
   {
     return status;
   }
-  runner.Absorb();
+  stages.Absorb();
   report.SecondsOptimization += SecondsSince(start) - report.SecondsCertificate;
-  if (Status status = runner.Prove(); !status)
+  if (Status status = stages.Prove(); !status)
   {
     return status;
   }
-  runner.Conclude();
-  runner.Measure();
+  stages.Conclude();
+  stages.Measure();
   return budget.Aborted() ? Status(ErrorCode::Aborted, "by the caller") : Status();
 }
 

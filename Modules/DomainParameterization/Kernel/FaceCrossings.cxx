@@ -181,10 +181,10 @@ struct Candidate
   std::array<double, 2> OnB{};
 };
 
-class Search
+class FaceCrossingSearch
 {
 public:
-  explicit Search(const CompatibleBoundary<3>& boundary)
+  explicit FaceCrossingSearch(const CompatibleBoundary<3>& boundary)
   {
     for (const Spline<2>& side : boundary.Sides)
     {
@@ -386,7 +386,7 @@ Result<std::vector<BoundaryCrossing>> FindBoundaryCrossings<3>(
   std::vector<BoundaryCrossing> crossings;
   std::array<int, 2> sides{};
   Vector position;
-  if (Search(boundary).Find(sides, position))
+  if (FaceCrossingSearch(boundary).Find(sides, position))
   {
     BoundaryCrossing crossing;
     for (std::size_t k = 0; k < 2; ++k)

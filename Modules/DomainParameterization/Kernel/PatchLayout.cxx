@@ -32,7 +32,7 @@ std::string Join(const std::vector<std::string>& words)
 constexpr int MostInADirection = 4096;
 
 template <int Dim>
-class Builder
+class LayoutAssembly
 {
 public:
   static constexpr int D = Dim - 1;
@@ -40,7 +40,7 @@ public:
   static constexpr int NumSideCorners = 1 << D;
   using SideCorners = std::array<int, NumSideCorners>; ///< vertices
 
-  Builder(const PatchLayout<Dim>& layout, const LayoutParams& params)
+  LayoutAssembly(const PatchLayout<Dim>& layout, const LayoutParams& params)
     : Layout(layout), Params(params)
   {
   }
@@ -695,7 +695,7 @@ private:
 };
 
 template <int Dim>
-Status Builder<Dim>::MatchWeights(Side& side)
+Status LayoutAssembly<Dim>::MatchWeights(Side& side)
 {
   MakeRational<D>(side.Shape);
   // corners of the shape: backwards where the row runs against the patch
@@ -865,37 +865,37 @@ template <int Dim>
 Result<CompatibleLayout<Dim>> MakeCompatible(
   const PatchLayout<Dim>& layout, const LayoutParams& params)
 {
-  Builder<Dim> builder(layout, params);
-  Status status = builder.CheckInput();
+  LayoutAssembly<Dim> assembly(layout, params);
+  Status status = assembly.CheckInput();
   if (status)
   {
-    status = builder.PrepareSides();
+    status = assembly.PrepareSides();
   }
   bool mirrored = true;
   while (status && mirrored) // once more after something was mirrored
   {
-    for (const auto step :
-      { &Builder<Dim>::FindSides, &Builder<Dim>::MatchSides, &Builder<Dim>::OrientSides })
+    for (const auto step : { &LayoutAssembly<Dim>::FindSides, &LayoutAssembly<Dim>::MatchSides,
+           &LayoutAssembly<Dim>::OrientSides })
     {
-      status = status ? (builder.*step)() : status;
+      status = status ? (assembly.*step)() : status;
     }
     if (status)
     {
-      const auto found = builder.Mirror();
+      const auto found = assembly.Mirror();
       status = found.Status;
       mirrored = found.Value;
     }
   }
-  for (const auto step : { &Builder<Dim>::MatchAllWeights, &Builder<Dim>::UniteRows,
-         &Builder<Dim>::MakeSpaces, &Builder<Dim>::SetPoints })
+  for (const auto step : { &LayoutAssembly<Dim>::MatchAllWeights, &LayoutAssembly<Dim>::UniteRows,
+         &LayoutAssembly<Dim>::MakeSpaces, &LayoutAssembly<Dim>::SetPoints })
   {
-    status = status ? (builder.*step)() : status;
+    status = status ? (assembly.*step)() : status;
   }
   if (!status)
   {
     return status;
   }
-  return std::move(builder.Out);
+  return std::move(assembly.Out);
 }
 
 template <int Dim>
@@ -904,16 +904,16 @@ Result<CompatibleLayout<Dim>> MakeCompatible(const SideList<Dim>& sides,
 {
   const LayoutParams layoutParams{ params.GapTolerance, 1, 1, params.MaxFunctions };
   const PatchLayout<Dim> none;
-  Builder<Dim> builder(none, layoutParams);
-  builder.Arrange(sides, origins);
+  LayoutAssembly<Dim> assembly(none, layoutParams);
+  assembly.Arrange(sides, origins);
   Status status;
-  for (const auto step :
-    { &Builder<Dim>::OrientSides, &Builder<Dim>::MatchAllWeights, &Builder<Dim>::UniteRows,
-      &Builder<Dim>::CheckDirections, &Builder<Dim>::MakeSpaces, &Builder<Dim>::SetPoints })
+  for (const auto step : { &LayoutAssembly<Dim>::OrientSides, &LayoutAssembly<Dim>::MatchAllWeights,
+         &LayoutAssembly<Dim>::UniteRows, &LayoutAssembly<Dim>::CheckDirections,
+         &LayoutAssembly<Dim>::MakeSpaces, &LayoutAssembly<Dim>::SetPoints })
   {
-    status = status ? (builder.*step)() : status;
+    status = status ? (assembly.*step)() : status;
   }
-  return status ? Result<CompatibleLayout<Dim>>(std::move(builder.Out)) : status;
+  return status ? Result<CompatibleLayout<Dim>>(std::move(assembly.Out)) : status;
 }
 
 #define KNOTWORK_INSTANTIATE(Dim)                                                                  \

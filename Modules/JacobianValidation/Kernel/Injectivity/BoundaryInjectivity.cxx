@@ -106,10 +106,10 @@ Status CheckInput(const BernsteinCells& cells, const CellComplex& complex,
 }
 
 /// One run of the proof.
-class Run
+class BoundaryProof
 {
 public:
-  Run(const BernsteinCells& cells, const CellComplex& complex,
+  BoundaryProof(const BernsteinCells& cells, const CellComplex& complex,
     const JacobianCertificate& certificate, const InjectivityParams& params)
     : Cells(cells), Complex(complex), Local(certificate), Params(params),
       MaxBoxes(std::max<std::int64_t>(1,
@@ -1290,7 +1290,7 @@ Result<InjectivityCertificate> ProveInjectivity(const BernsteinCells& cells,
   {
     return status;
   }
-  Run run(cells, complex, certificate, params);
+  BoundaryProof run(cells, complex, certificate, params);
   if (!run.Prove(progress))
   {
     return Status(ErrorCode::Aborted, "the injectivity proof was stopped");

@@ -37,10 +37,10 @@ void AddProduct(Bounded& to, double sign, const Bounded& a, const Bounded& b)
   AddProduct(to.Reach, 1.0, a.Reach, b.Reach);
 }
 
-class Builder
+class PieceJacobian
 {
 public:
-  explicit Builder(const PlanePiece& piece)
+  explicit PieceJacobian(const PlanePiece& piece)
     : Piece(piece), Triangle(piece.Shape == CellShape::Triangle), P(piece.Degree[0]),
       Q(Triangle ? piece.Degree[0] : piece.Degree[1])
   {
@@ -114,7 +114,7 @@ private:
 
 bool HasPositiveInside(const PlanePiece& piece, double orientation)
 {
-  const Builder build(piece);
+  const PieceJacobian build(piece);
   const bool rational = !piece.W.empty();
   const std::vector<double>* planes[3] = { &piece.X, &piece.Y, &piece.W };
   const double errors[3] = { piece.Error, piece.Error, piece.WeightError };

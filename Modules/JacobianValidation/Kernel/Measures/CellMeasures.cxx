@@ -115,10 +115,10 @@ Sample MakeSample(const Table& values, Eigen::Index row, int dim, int components
 }
 
 /// Works on one cell at a time; keeps the tables of lattices, sides and rules it met.
-class Worker
+class CellMeasurer
 {
 public:
-  Worker(const BernsteinCells& cells, const CellMeasuresParams& params)
+  CellMeasurer(const BernsteinCells& cells, const CellMeasuresParams& params)
     : Cells(cells), Params(params)
   {
   }
@@ -646,10 +646,10 @@ Result<CellMeasures> MeasureCells(const BernsteinCells& cells, const CellMeasure
   ParallelFor(measures.Cells.size(), 64, params.Threads,
     [&](std::size_t begin, std::size_t end)
     {
-      Worker worker(cells, params);
+      CellMeasurer measurer(cells, params);
       for (std::size_t c = begin; c < end; ++c)
       {
-        measures.Cells[c] = worker.Measure(static_cast<int>(c));
+        measures.Cells[c] = measurer.Measure(static_cast<int>(c));
       }
     });
   Summarize(cells, params, measures);

@@ -58,10 +58,10 @@ std::array<std::array<double, 3>, MaxSlots> BoxVertices(
   return vertices;
 }
 
-class Search
+class BoxBisection
 {
 public:
-  Search(const BoxProblem& problem, const BoxSearchParams& params)
+  BoxBisection(const BoxProblem& problem, const BoxSearchParams& params)
     : P(problem), Params(params), L(*problem.Layout), Size(static_cast<std::size_t>(L.Size))
   {
   }
@@ -522,6 +522,6 @@ std::array<std::array<double, 3>, 8> BoxCorners(
 
 BoxSearchResult SearchMinimum(const BoxProblem& problem, const BoxSearchParams& params)
 {
-  return Search(problem, params).Run();
+  return BoxBisection(problem, params).Run();
 }
 }

@@ -108,7 +108,7 @@ inline void Transpose(const double* rows, int stride, Four* columns)
 
 /// The points start, start + 1, ... of a batch and where their results go.
 template <int Dim>
-struct Job
+struct PointRange
 {
   const BezierForm<Dim>& Form;
   const double* Local;
@@ -216,10 +216,10 @@ inline void ContractPlane(const double* functions, const double* q, double* sets
 /// Writes the terms of point i; those of its neighbours lie between them.
 /// @param terms  planes x NumDerivativeTerms(Dim, Order), lanes apart.
 template <int Dim, int Order>
-inline void WriteTerms(const Job<Dim>& job, std::size_t i, const double* terms, int lanes)
+inline void WriteTerms(const PointRange<Dim>& range, std::size_t i, const double* terms, int lanes)
 {
   constexpr int numTerms = NumDerivativeTerms(Dim, Order);
-  const int numComponents = job.Form.NumComponents;
+  const int numComponents = range.Form.NumComponents;
   const auto write = [&](double* rows, int first, int count)
   {
     double* row = rows + i * static_cast<std::size_t>(count * numComponents);
@@ -231,14 +231,14 @@ inline void WriteTerms(const Job<Dim>& job, std::size_t i, const double* terms, 
       }
     }
   };
-  write(job.Values, 0, 1);
+  write(range.Values, 0, 1);
   if constexpr (Order >= 1)
   {
-    write(job.First, 1, Dim);
+    write(range.First, 1, Dim);
   }
   if constexpr (Order >= 2)
   {
-    write(job.Second, 1 + Dim, Dim * (Dim + 1) / 2);
+    write(range.Second, 1 + Dim, Dim * (Dim + 1) / 2);
   }
 }
 
@@ -254,19 +254,19 @@ inline void DivideByWeight(int numComponents, Real* terms)
 }
 
 template <int Dim, int Order>
-void WriteNaN(const Job<Dim>& job, std::size_t i)
+void WriteNaN(const PointRange<Dim>& range, std::size_t i)
 {
-  const std::size_t c = static_cast<std::size_t>(job.Form.NumComponents);
+  const std::size_t c = static_cast<std::size_t>(range.Form.NumComponents);
   const auto fill = [&](double* rows, std::size_t width)
   { std::fill_n(rows + i * width, width, std::numeric_limits<double>::quiet_NaN()); };
-  fill(job.Values, c);
+  fill(range.Values, c);
   if constexpr (Order >= 1)
   {
-    fill(job.First, Dim * c);
+    fill(range.First, Dim * c);
   }
   if constexpr (Order >= 2)
   {
-    fill(job.Second, Dim * (Dim + 1) / 2 * c);
+    fill(range.Second, Dim * (Dim + 1) / 2 * c);
   }
 }
 
@@ -274,15 +274,15 @@ void WriteNaN(const Job<Dim>& job, std::size_t i)
 /// contraction with a point a lane, the contractions before with a row of an element's control
 /// points a register.
 template <int Dim, int P, int Order>
-void EvaluateFixed(const Job<Dim>& job, std::size_t begin, std::size_t end)
+void EvaluateFixed(const PointRange<Dim>& range, std::size_t begin, std::size_t end)
 {
   constexpr int n = P + 1;
   constexpr int block = Dim == 1 ? n : (Dim == 2 ? n * n : n * n * n);
   constexpr int numTerms = NumDerivativeTerms(Dim, Order);
   constexpr int numSets = NumRowSets(Dim, Order);
   constexpr int numBasis = (Order + 1) * n; // of one direction
-  const SplineSpace<Dim>& space = *job.Form.Space;
-  const int planes = job.Form.NumPlanes();
+  const SplineSpace<Dim>& space = *range.Form.Space;
+  const int planes = range.Form.NumPlanes();
   const std::size_t blockBytes = sizeof(double) * static_cast<std::size_t>(planes * block);
   std::vector<Four> terms(static_cast<std::size_t>(planes * numTerms));
   std::vector<double> sets(static_cast<std::size_t>(planes * NumLanes * numSets * n));
@@ -296,11 +296,11 @@ void EvaluateFixed(const Job<Dim>& job, std::size_t begin, std::size_t end)
     for (std::size_t l = 0; l < NumLanes; ++l)
     {
       const std::size_t point = i + std::min(l, count - 1);
-      elements[l] = std::max(job.Elements[point], 0);
+      elements[l] = std::max(range.Elements[point], 0);
       const auto& box = space.Elements[static_cast<std::size_t>(elements[l])].Box;
       for (std::size_t d = 0; d < Dim; ++d)
       {
-        local[d][l] = job.Local[point * Dim + d];
+        local[d][l] = range.Local[point * Dim + d];
         scale[d][l] = Order >= 1 ? box.Upper[d] - box.Lower[d] : 1.0;
       }
     }
@@ -315,8 +315,8 @@ void EvaluateFixed(const Job<Dim>& job, std::size_t begin, std::size_t end)
     {
       // in place: GCC drops calls of functions that only prefetch
       const std::size_t ahead = std::min(i + NumLanes + static_cast<std::size_t>(l), end - 1);
-      const int next = std::max(job.Elements[ahead], 0);
-      const auto* line = reinterpret_cast<const char*>(job.Form.Block(next));
+      const int next = std::max(range.Elements[ahead], 0);
+      const auto* line = reinterpret_cast<const char*>(range.Form.Block(next));
       for (std::size_t k = 0; k < blockBytes; k += 64)
       {
         __builtin_prefetch(line + k);
@@ -330,7 +330,7 @@ void EvaluateFixed(const Job<Dim>& job, std::size_t begin, std::size_t end)
       {
         functions[k] = basis[k][l];
       }
-      const double* q = job.Form.Block(elements[static_cast<std::size_t>(l)]);
+      const double* q = range.Form.Block(elements[static_cast<std::size_t>(l)]);
       for (int c = 0; c < planes; ++c)
       {
         ContractPlane<Dim, n, Order>(
@@ -351,20 +351,20 @@ void EvaluateFixed(const Job<Dim>& job, std::size_t begin, std::size_t end)
       };
       GatherTerms<Dim, Order>(dot, terms.data() + c * numTerms);
     }
-    if (job.Form.Rational)
+    if (range.Form.Rational)
     {
-      DivideByWeight<Dim, Order>(job.Form.NumComponents, terms.data());
+      DivideByWeight<Dim, Order>(range.Form.NumComponents, terms.data());
     }
     for (std::size_t l = 0; l < count; ++l)
     {
-      if (job.Elements[i + l] < 0)
+      if (range.Elements[i + l] < 0)
       {
-        WriteNaN<Dim, Order>(job, i + l);
+        WriteNaN<Dim, Order>(range, i + l);
       }
       else
       {
         WriteTerms<Dim, Order>(
-          job, i + l, reinterpret_cast<const double*>(terms.data()) + l, NumLanes);
+          range, i + l, reinterpret_cast<const double*>(terms.data()) + l, NumLanes);
       }
     }
   }
@@ -372,23 +372,23 @@ void EvaluateFixed(const Job<Dim>& job, std::size_t begin, std::size_t end)
 
 /// Points on elements of unequal degrees.
 template <int Dim, int Order>
-void EvaluateAny(const Job<Dim>& job, std::size_t begin, std::size_t end)
+void EvaluateAny(const PointRange<Dim>& range, std::size_t begin, std::size_t end)
 {
   constexpr int stride = MaxDegree + 1;
   constexpr int numTerms = NumDerivativeTerms(Dim, Order);
   constexpr int numSets = NumRowSets(Dim, Order);
-  const SplineSpace<Dim>& space = *job.Form.Space;
-  const int planes = job.Form.NumPlanes();
+  const SplineSpace<Dim>& space = *range.Form.Space;
+  const int planes = range.Form.NumPlanes();
   std::vector<double> terms(static_cast<std::size_t>(planes * numTerms));
   double basis[3][(Order + 1) * stride] = {};
   basis[1][0] = basis[2][0] = 1.0;
 
   for (std::size_t i = begin; i < end; ++i)
   {
-    const int e = job.Elements[i];
+    const int e = range.Elements[i];
     if (e < 0)
     {
-      WriteNaN<Dim, Order>(job, i);
+      WriteNaN<Dim, Order>(range, i);
       continue;
     }
     const auto& element = space.Elements[static_cast<std::size_t>(e)];
@@ -396,10 +396,10 @@ void EvaluateAny(const Job<Dim>& job, std::size_t begin, std::size_t end)
     for (std::size_t d = 0; d < Dim; ++d)
     {
       size[d] = element.Degree[d] + 1;
-      BernsteinBasis<Order>(element.Degree[d], job.Local[i * Dim + d],
+      BernsteinBasis<Order>(element.Degree[d], range.Local[i * Dim + d],
         1.0 / (element.Box.Upper[d] - element.Box.Lower[d]), basis[d], stride);
     }
-    const double* q = job.Form.Block(e);
+    const double* q = range.Form.Block(e);
     for (int c = 0; c < planes; ++c)
     {
       double sets[numSets][stride] = {};
@@ -422,16 +422,16 @@ void EvaluateAny(const Job<Dim>& job, std::size_t begin, std::size_t end)
       { sum = std::inner_product(sets[m], sets[m] + size[0], basis[0] + k * stride, 0.0); };
       GatherTerms<Dim, Order>(dot, terms.data() + c * numTerms);
     }
-    if (job.Form.Rational)
+    if (range.Form.Rational)
     {
-      DivideByWeight<Dim, Order>(job.Form.NumComponents, terms.data());
+      DivideByWeight<Dim, Order>(range.Form.NumComponents, terms.data());
     }
-    WriteTerms<Dim, Order>(job, i, terms.data(), 1);
+    WriteTerms<Dim, Order>(range, i, terms.data(), 1);
   }
 }
 
 template <int Dim>
-using RangeFunction = void (*)(const Job<Dim>&, std::size_t, std::size_t);
+using RangeFunction = void (*)(const PointRange<Dim>&, std::size_t, std::size_t);
 
 /// One function a degree; entry 0 is for elements of unequal degrees.
 template <int Dim>
@@ -479,12 +479,12 @@ int DegreeClass(const IntArray<Dim>& degree)
 
 /// Evaluates located points, run by run of one degree class; only a Bezier space has several.
 template <int Dim>
-void EvaluateChunk(const Job<Dim>& job, const Dispatch<Dim>& dispatch, std::size_t count)
+void EvaluateChunk(const PointRange<Dim>& range, const Dispatch<Dim>& dispatch, std::size_t count)
 {
-  const SplineSpace<Dim>& space = *job.Form.Space;
+  const SplineSpace<Dim>& space = *range.Form.Space;
   const auto degreeClass = [&](std::size_t i)
   {
-    const int e = job.Elements[i];
+    const int e = range.Elements[i];
     return DegreeClass<Dim>(space.Elements[static_cast<std::size_t>(std::max(e, 0))].Degree);
   };
   std::size_t begin = 0;
@@ -496,7 +496,7 @@ void EvaluateChunk(const Job<Dim>& job, const Dispatch<Dim>& dispatch, std::size
     {
       ++end;
     }
-    dispatch(runClass)(job, begin, end);
+    dispatch(runClass)(range, begin, end);
     begin = end;
   }
 }
@@ -550,10 +550,10 @@ Status EvaluateBatch(const BezierForm<Dim>& form, const PointMatrixView& points,
       double buffer[ChunkSize * Dim];
       const double* local = locate(begin, end, buffer);
       const auto row = static_cast<Eigen::Index>(begin);
-      const Job<Dim> job{ form, local, batch.Elements.data() + begin, batch.Values.data() + row * c,
-        batch.First.data() + row * batch.First.cols(),
+      const PointRange<Dim> range{ form, local, batch.Elements.data() + begin,
+        batch.Values.data() + row * c, batch.First.data() + row * batch.First.cols(),
         batch.Second.data() + row * batch.Second.cols() };
-      EvaluateChunk<Dim>(job, dispatch, end - begin);
+      EvaluateChunk<Dim>(range, dispatch, end - begin);
     });
 
   const auto outside = std::find(batch.Elements.begin(), batch.Elements.end(), -1);

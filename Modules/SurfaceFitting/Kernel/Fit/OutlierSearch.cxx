@@ -111,7 +111,7 @@ int OutlierSearch::CellOf(std::size_t direction, double x) const
   return std::clamp(static_cast<int>(share * this->Size[direction]), 0, this->Size[direction] - 1);
 }
 
-bool OutlierSearch::FindNeighbours(int row, Work& work) const
+bool OutlierSearch::FindNeighbours(int row, Workspace& work) const
 {
   const int x = this->CellOf(0, this->Cloud.Parameters(row, 0));
   const int y = this->CellOf(1, this->Cloud.Parameters(row, 1));
@@ -146,8 +146,8 @@ bool OutlierSearch::FindNeighbours(int row, Work& work) const
   return work.Near.size() >= LeastNeighbours;
 }
 
-int OutlierSearch::CountAlike(
-  int row, const std::vector<double>& distances, double tolerance, double scale, Work& work) const
+int OutlierSearch::CountAlike(int row, const std::vector<double>& distances, double tolerance,
+  double scale, Workspace& work) const
 {
   if (!this->FindNeighbours(row, work))
   {
@@ -173,7 +173,7 @@ int OutlierSearch::CountAlike(
       { return (distances[At(near.Row)] - median) / off >= FeatureLikeness; }));
 }
 
-bool OutlierSearch::IsCommon(int row, double tolerance, Work& work) const
+bool OutlierSearch::IsCommon(int row, double tolerance, Workspace& work) const
 {
   const auto eighth = work.Near.begin() + static_cast<std::ptrdiff_t>(NumNearest);
   std::nth_element(work.Near.begin(), eighth, work.Near.end());
@@ -187,7 +187,7 @@ bool OutlierSearch::IsCommon(int row, double tolerance, Work& work) const
   return common >= CommonSupport;
 }
 
-bool OutlierSearch::IsOnStep(int row, double tolerance, Work& work) const
+bool OutlierSearch::IsOnStep(int row, double tolerance, Workspace& work) const
 {
   if (work.Near.size() > StepPoints)
   {
@@ -253,7 +253,7 @@ std::vector<int> OutlierSearch::Update(FitPoints& points, const std::vector<doub
   ParallelFor(points.Size(), PointChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
-      Work work;
+      Workspace work;
       for (std::size_t i = begin; i < end; ++i)
       {
         if (std::fabs(points.Distance[i]) > points.Tolerance[i])
@@ -270,7 +270,7 @@ std::vector<int> OutlierSearch::Update(FitPoints& points, const std::vector<doub
   ParallelFor(points.Ranges.size(), ElementChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
-      Work work;
+      Workspace work;
       for (std::size_t e = begin; e < end; ++e)
       {
         for (std::size_t i = points.Ranges[e].Begin; i < points.Ranges[e].End; ++i)

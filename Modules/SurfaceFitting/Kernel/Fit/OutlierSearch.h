@@ -53,20 +53,20 @@ private:
     }
   };
   /// Memory that is kept between calls.
-  struct Work
+  struct Workspace
   {
     std::vector<Neighbour> Near;
     std::vector<double> Values;
     std::vector<double> Sides[2];
   };
   /// Fills work.Near; false when there are too few.
-  bool FindNeighbours(int row, Work& work) const;
+  bool FindNeighbours(int row, Workspace& work) const;
   /// How many of the nearest are off as the point is, of one that may be an outlier; else -1.
   int CountAlike(int row, const std::vector<double>& distances, double tolerance, double scale,
-    Work& work) const;
+    Workspace& work) const;
   /// @pre work.Near are the neighbours; their order changes, the farthest are left out.
-  bool IsCommon(int row, double tolerance, Work& work) const;
-  bool IsOnStep(int row, double tolerance, Work& work) const;
+  bool IsCommon(int row, double tolerance, Workspace& work) const;
+  bool IsOnStep(int row, double tolerance, Workspace& work) const;
 
   const PointCloud& Cloud;
   int NumMeasured;

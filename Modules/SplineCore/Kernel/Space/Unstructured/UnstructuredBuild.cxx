@@ -26,10 +26,10 @@ using Combination = std::vector<std::pair<int, double>>;
 constexpr double RowRounding = 1e-10;
 
 template <int Dim>
-class Builder
+class MeshSpaceAssembly
 {
 public:
-  explicit Builder(std::shared_ptr<const UnstructuredData<Dim>> data)
+  explicit MeshSpaceAssembly(std::shared_ptr<const UnstructuredData<Dim>> data)
     : Data(std::move(data)), P(this->Data->Degree), NumLocal(LocalFunctions(this->P)),
       Windows(this->P)
   {
@@ -606,10 +606,10 @@ UnstructuredBuild<Dim> BuildUnstructured(std::shared_ptr<const UnstructuredData<
 {
   // cells whose neighbours are far away in memory are worth being sorted
   const std::vector<int> order = data->Topology.LocalOrder();
-  Builder<Dim> builder(order.empty() ? data : Reordered(*data, order));
+  MeshSpaceAssembly<Dim> assembly(order.empty() ? data : Reordered(*data, order));
   UnstructuredBuild<Dim> result;
-  const std::shared_ptr<SplineSpace<Dim>> space = builder.Run();
-  result.Places = builder.Found();
+  const std::shared_ptr<SplineSpace<Dim>> space = assembly.Run();
+  result.Places = assembly.Found();
   if (!order.empty())
   {
     for (Inadmissible& place : result.Places)
