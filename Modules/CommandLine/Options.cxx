@@ -67,6 +67,8 @@ template void Options::Add<bool>(const std::string&, const bool&, std::function<
   const std::string&, CLI::Validator);
 template void Options::Add<int>(const std::string&, const int&, std::function<void(const int&)>,
   const std::string&, CLI::Validator);
+template void Options::Add<long long>(const std::string&, const long long&,
+  std::function<void(const long long&)>, const std::string&, CLI::Validator);
 template void Options::Add<double>(const std::string&, const double&,
   std::function<void(const double&)>, const std::string&, CLI::Validator);
 template void Options::Add<std::string>(const std::string&, const std::string&,

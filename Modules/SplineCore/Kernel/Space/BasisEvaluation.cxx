@@ -191,7 +191,6 @@ template <int Dim>
 Result<Eigen::SparseMatrix<double, Eigen::RowMajor>> CollocationMatrix(
   const SplineSpace<Dim>& space, const PointMatrixView& parameters, int threads)
 {
-  using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
   if (parameters.cols() != Dim)
   {
     return { ErrorCode::SizeMismatch,
