@@ -22,8 +22,8 @@ done
 
 configure_release
 cmake --build "$release" -j "$jobs"
-
 build_plugin "$jobs"
+built=$SECONDS
 
 # Cases of other origin, where they lie beside the project: ctest lists as skipped what needs them and does not find them.
 domains="$root/../shared/data/domains"
@@ -46,4 +46,6 @@ cd "$release"
 status=0
 "$root/CMake/with-display.sh" ctest --no-tests=error --output-on-failure -j "$jobs" "${select[@]}" || status=$?
 "$root/Testing/variants.sh" $all -j "$jobs" || status=$?
+minutes() { printf '%d:%02d' $(($1 / 60)) $(($1 % 60)); }
+echo "build $(minutes "$built") min, tests $(minutes $((SECONDS - built))) min with $jobs jobs"
 exit $status

@@ -28,7 +28,7 @@ inline const std::string Anything =
   Writing(SplineGridContent | SplineCollectionContent | PointContent);
 inline const std::string Cells = Writing(PolygonContent | PolygonCollectionContent | CellContent);
 inline const std::string Contours = Writing(PolylineContent | SplineCurveContent);
-inline const std::string Grid = JoinEndings(EndingsOf({ FormatFamily::VTKGrid }), "|");
+inline const std::string Grid = Writing(GridContent);
 inline const std::string Image = Writing(ImageContent);
 inline const std::string Points = Writing(PointContent);
 inline const std::string Polygons = Writing(PolygonContent | PointValueContent);

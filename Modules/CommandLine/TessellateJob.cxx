@@ -45,7 +45,9 @@ struct TessellateJob
 
   Status CheckFormat(Session& session, vtkDataObject* like, bool isLines) const
   {
-    if (isLines && IsEndingOf(FormatFamily::PolygonFile, LowerEnding(this->Output)))
+    const FileFormat* format = FormatOfEnding(LowerEnding(this->Output));
+    const unsigned contents = format ? format->Writes : 0U;
+    if (isLines && (contents & PolygonContent) != 0 && (contents & PolylineContent) == 0)
     {
       return { ErrorCode::InvalidParameter,
         "'" + this->Output +

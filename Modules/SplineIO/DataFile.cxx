@@ -2,12 +2,10 @@
 #include "DataFile.h"
 
 #include "DataCheck.h"
-#include "ForeignFile.h"
-#include "FormatHandlers.h"
+#include "FileFormats.h"
 #include "Messages.h"
 #include <knotwork/SplineCore/FileEnding.h>
 #include <knotwork/SplineGrid/SplineModel.h>
-#include <knotwork/SplineIO/NearestName.h>
 
 #include "vtkDataObject.h"
 #include "vtkImageData.h"
@@ -87,22 +85,10 @@ Status CheckSplines(
 Status ReadFormat(const FileFormat& format, const std::string& file, DataFile& found)
 {
   MessageCapture messages;
-  ErrorCode code = ErrorCode::LibraryError;
+  Status status;
   try
   {
-    if (IsOfVTK(format.Family))
-    {
-      auto read = ReadVTKFile(file);
-      if (!read)
-      {
-        return read.Status;
-      }
-      found.Data = read.Value;
-    }
-    else
-    {
-      code = HandlerOf(format.Family).Read(file, found);
-    }
+    status = format.Read(file, found);
   }
   catch (...) // out of memory: sizes in the file are wrong
   {
@@ -110,9 +96,15 @@ Status ReadFormat(const FileFormat& format, const std::string& file, DataFile& f
     return { failure.Code,
       "'" + file + "' is damaged, or larger than the memory: " + failure.Detail };
   }
-  if (messages.HasError())
+  if (status.Detail.empty()) // what our readers say are errors of VTK, and name the file
   {
-    return { code, messages.FirstError() }; // names the file
+    status = messages.HasError()
+      ? Status(status ? ErrorCode::LibraryError : status.Code, messages.FirstError())
+      : Status();
+  }
+  if (!status)
+  {
+    return status;
   }
   found.Warnings = messages.Warnings();
   return {};
@@ -176,14 +168,13 @@ Status CheckDataFormat(vtkDataObject* like, const std::string& file, bool asCurv
     return status;
   }
   const FileFormat* format = FormatOfEnding(LowerEnding(file));
-  const bool asCAD = format->Family == FormatFamily::CAD;
-  const bool asSplines =
-    format->Family == FormatFamily::GismoXML || format->Family == FormatFamily::GoToolsG2;
-  if (vtkPolyData::SafeDownCast(like) || (!asCAD && !asSplines))
+  constexpr unsigned splines = SplineGridContent | SplineCollectionContent;
+  if (vtkPolyData::SafeDownCast(like) || format->IsOfVTK || (format->Writes & splines) == 0)
   {
     return {};
   }
-  return CheckSplines(like, file, asCAD, asCurves, threads);
+  const bool isCAD = (format->Writes & SplineCurveContent) == 0;
+  return CheckSplines(like, file, isCAD, asCurves, threads);
 }
 
 Result<std::vector<std::string>> WriteDataFile(
@@ -195,7 +186,7 @@ Result<std::vector<std::string>> WriteDataFile(
   }
   const FileFormat* format = FormatOfEnding(LowerEnding(file));
   MessageCapture messages;
-  Status status = HandlerOf(format->Family).Write(data, file, params);
+  Status status = format->Write(data, file, params);
   if (status.Detail.empty() && (!status || messages.HasError()))
   {
     status = { status ? ErrorCode::InvalidParameter : status.Code, messages.FirstError() };
@@ -204,6 +195,6 @@ Result<std::vector<std::string>> WriteDataFile(
   {
     return status;
   }
-  return IsOfVTK(format->Family) ? std::vector<std::string>() : messages.Warnings();
+  return format->IsOfVTK ? std::vector<std::string>() : messages.Warnings();
 }
 }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutputFiles.h"
 
+#include "FileFormats.h"
 #include <knotwork/SplineCore/FileEnding.h>
-#include <knotwork/SplineIO/FileFormats.h>
-#include <knotwork/SplineIO/NearestName.h>
 
 #include <pugixml.hpp>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkPointCloudReader.h"
 
+#include "FileFormats.h"
 #include "FileText.h"
 #include "ForeignFile.h"
 #include "PointData.h"
 #include <knotwork/SplineCore/FileEnding.h>
-#include <knotwork/SplineIO/FileFormats.h>
 #include <knotwork/SplineIO/GoToolsG2.h>
 #include <knotwork/SplineIO/MeshFiles.h>
 #include <knotwork/SplineIO/PlyPoints.h>
@@ -17,40 +17,58 @@
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 
+#include <map>
+#include <string_view>
+
 vtkStandardNewMacro(vtkPointCloudReader);
 
 namespace
 {
 using namespace knotwork;
 
-Result<PointFile> Parse(const std::string& ending, const std::string& text, int threads)
+bool BeginsWithPly(std::string_view beginning)
 {
-  if (IsEndingOf(FormatFamily::PointText, ending))
-  {
-    return ReadPointText(text, threads);
-  }
-  if (ending == ".g2")
-  {
-    return ReadG2Points(text);
-  }
-  if (ending == ".ply")
-  {
-    return ReadPly(text);
-  }
-  if (ending == ".off")
-  {
-    return ReadOff(text);
-  }
-  if (ending == ".obj")
-  {
-    return ReadObj(text);
-  }
-  if (ending == ".stl")
-  {
-    return ReadStl(text);
-  }
-  return { ErrorCode::InvalidParameter,
-    "the ending '" + ending + "' is none of " + JoinEndings(EndingsThatRead(PointContent)) };
+  return beginning.substr(0, 3) == "ply";
+}
+
+bool BeginsWithOff(std::string_view beginning)
+{
+  return beginning.find("OFF") != std::string_view::npos;
+}
+
+bool IsThere(std::string_view beginning)
+{
+  return !beginning.empty();
+}
+
+/// How files of one ending are known and read.
+struct PointFormat
+{
+  bool (*BeginsLikeOne)(std::string_view beginning);
+  Result<PointFile> (*Read)(std::string_view text, int threads);
+};
+
+template <Result<PointFile> (*ReadText)(std::string_view)>
+Result<PointFile> OnOneThread(std::string_view text, int)
+{
+  return ReadText(text);
+}
+
+const PointFormat* FormatOf(const std::string& ending)
+{
+  static const PointFormat text{ LooksLikePointText, ReadPointText };
+  static const std::map<std::string, PointFormat> formats = {
+    { ".xyz", text },
+    { ".txt", text },
+    { ".csv", text },
+    { ".g2", { BeginsWithG2Points, OnOneThread<ReadG2Points> } },
+    { ".ply", { BeginsWithPly, OnOneThread<ReadPly> } },
+    { ".off", { BeginsWithOff, OnOneThread<ReadOff> } },
+    { ".obj", { IsThere, OnOneThread<ReadObj> } },
+    { ".stl", { IsThere, OnOneThread<ReadStl> } },
+  };
+  const auto found = formats.find(ending);
+  return found == formats.end() ? nullptr : &found->second;
 }
 }
 
@@ -68,13 +86,9 @@ int vtkPointCloudReader::CanReadFile(const char* fileName)
 {
   const std::string ending = LowerEnding(fileName ? fileName : "");
   const std::string beginning = BeginningOfFile(fileName ? fileName : "");
-  return (IsEndingOf(FormatFamily::PointText, ending) && LooksLikePointText(beginning)) ||
-      (ending == ".g2" && BeginsWithG2Points(beginning)) ||
-      (ending == ".ply" && beginning.compare(0, 3, "ply") == 0) ||
-      (ending == ".off" && beginning.find("OFF") != std::string::npos) ||
-      ((ending == ".obj" || ending == ".stl" || ending == ".vtp") && !beginning.empty())
-    ? 1
-    : 0;
+  const PointFormat* format = FormatOf(ending);
+  return (format ? format->BeginsLikeOne(beginning) : (ending == ".vtp" && IsThere(beginning))) ? 1
+                                                                                                : 0;
 }
 
 int vtkPointCloudReader::FillOutputPortInformation(int, vtkInformation* info)
@@ -106,12 +120,20 @@ knotwork::Status vtkPointCloudReader::Compute(vtkInformationVector**, vtkInforma
       ? Status()
       : Status(ErrorCode::EmptyInput, "'" + file + "' holds no points");
   }
+  const std::string ending = LowerEnding(file);
+  const PointFormat* format = FormatOf(ending);
+  if (!format)
+  {
+    return { ErrorCode::InvalidParameter,
+      "'" + file + "': the ending '" + ending + "' is none of " +
+        JoinEndings(EndingsThatRead(PointContent)) };
+  }
   Result<std::string> text = TextOfFile(file);
   if (!text)
   {
     return text.Status;
   }
-  Result<PointFile> points = Parse(LowerEnding(file), text.Value, this->KernelThreads());
+  Result<PointFile> points = format->Read(text.Value, this->KernelThreads());
   text.Value = {};
   if (!points)
   {

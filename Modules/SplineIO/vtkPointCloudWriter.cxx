@@ -2,11 +2,11 @@
 #include "vtkPointCloudWriter.h"
 #include <knotwork/SplineGrid/DistributedInput.h>
 
+#include "FileFormats.h"
 #include "FileText.h"
 #include "PointData.h"
 #include <knotwork/SplineCore/FileEnding.h>
 #include <knotwork/SplineGrid/FilterErrorCode.h>
-#include <knotwork/SplineIO/FileFormats.h>
 #include <knotwork/SplineIO/GoToolsG2.h>
 #include <knotwork/SplineIO/PointText.h>
 
@@ -38,12 +38,11 @@ knotwork::Status vtkPointCloudWriter::MakeText(std::string& text)
     return { ErrorCode::InvalidParameter, "there is no file name" };
   }
   const std::string ending = LowerEnding(this->FileName);
-  const bool asG2 = IsEndingOf(FormatFamily::GoToolsG2, ending);
-  if (!asG2 && !IsEndingOf(FormatFamily::PointText, ending))
+  const bool asG2 = ending == ".g2";
+  if (!asG2 && ending != ".csv" && ending != ".xyz" && ending != ".txt")
   {
     return { ErrorCode::InvalidParameter,
-      std::string("'") + this->FileName + "': points are written as " +
-        JoinEndings(EndingsOf({ FormatFamily::PointText, FormatFamily::GoToolsG2 })) };
+      std::string("'") + this->FileName + "': points are written as .xyz .txt .csv .g2" };
   }
   const PointFile file = DecodePoints(vtkPointSet::SafeDownCast(this->GetInput()));
   if (asG2 && !file.Names.empty())

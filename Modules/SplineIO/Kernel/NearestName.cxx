@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "NearestName.h"
-#include "FileFormats.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -48,11 +47,5 @@ std::string NearestName(const std::string& word, const std::vector<std::string>&
     }
   }
   return nearest;
-}
-
-std::string SuggestEnding(const std::string& ending, const std::vector<std::string>& known)
-{
-  const std::string nearest = FormatOfEnding(ending) ? "" : NearestName(ending, known);
-  return nearest.empty() ? "" : " (did you mean '" + nearest + "'?)";
 }
 }

@@ -8,7 +8,4 @@ namespace knotwork
 /// The name nearest to a word, by the fewest letters changed, inserted, left out or exchanged;
 /// empty where none is near.
 std::string NearestName(const std::string& word, const std::vector<std::string>& names);
-
-/// " (did you mean '.step'?)" where an ending is no format's and a known one is near; else empty.
-std::string SuggestEnding(const std::string& ending, const std::vector<std::string>& known);
 }

@@ -1,25 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "vtkKnotworkSplineIOModule.h" // for export macro
+#include <knotwork/SplineCore/Status.h>
+
 #include <string>
 #include <vector>
 
+class vtkDataObject;
+
 namespace knotwork
 {
-/// What reads and writes a format.
-enum class FormatFamily
-{
-  VTKPolyData,
-  VTKGrid,
-  VTKCollection,
-  VTKLegacy,
-  VTKImage,
-  GismoXML,
-  GoToolsG2,
-  CAD,
-  BoundaryJSON,
-  PointText,
-  PolygonFile
-};
+struct DataFile;
+struct DataFileParams;
 
 /// What a file may hold, as bits.
 enum FileContent : unsigned
@@ -35,41 +27,44 @@ enum FileContent : unsigned
   PolygonContent = 1U << 8,           ///< polygons of one dataset
   PolygonCollectionContent = 1U << 9, ///< polygons of a collection
   CellContent = 1U << 10,             ///< any cells
-  ImageContent = 1U << 11,            ///< values on a raster
-  TableContent = 1U << 12             ///< rows of numbers and text
+  GridContent = 1U << 11,             ///< any cells of one grid
+  ImageContent = 1U << 12,            ///< values on a raster
+  TableContent = 1U << 13             ///< rows of numbers and text
 };
 
 struct FileFormat
 {
   const char* Name;
-  FormatFamily Family;
   std::vector<std::string> Endings; ///< in lower case with their dot, the usual one first
   unsigned Reads;                   ///< bits of FileContent; 0: it is not read
   unsigned Writes;                  ///< bits of FileContent; 0: it is not written
+  bool IsOfVTK;                     ///< served by VTK's own readers and writers
+  /// Sets the data, the curves and what was left out. Without a text it has failed where there was
+  /// an error of VTK, and the code is that error's. Null: it is not read.
+  Status (*Read)(const std::string& file, DataFile& found);
+  /// A failure without a text is an error of VTK. Null: it is not written.
+  Status (*Write)(vtkDataObject* data, const std::string& file, const DataFileParams& params);
 };
 
 /// Every format that is read or written, no ending twice: what the program, readers, writers and
 /// messages know of endings, they know from here.
-const std::vector<FileFormat>& FileFormats();
+VTKKNOTWORKSPLINEIO_EXPORT const std::vector<FileFormat>& FileFormats();
 
 /// The format of an ending as LowerEnding gives it.
 /// @return null: there is none.
-const FileFormat* FormatOfEnding(const std::string& ending);
-
-/// Whether an ending is one of a family.
-bool IsEndingOf(FormatFamily family, const std::string& ending);
-
-/// Whether VTK's own readers and writers serve a family.
-bool IsOfVTK(FormatFamily family);
+VTKKNOTWORKSPLINEIO_EXPORT const FileFormat* FormatOfEnding(const std::string& ending);
 
 /// Endings of all formats that read, or write, any content of these, in the order of the table.
-std::vector<std::string> EndingsThatRead(unsigned contents);
-std::vector<std::string> EndingsThatWrite(unsigned contents);
-/// Endings of families, in the order of the table.
-std::vector<std::string> EndingsOf(const std::vector<FormatFamily>& families);
+VTKKNOTWORKSPLINEIO_EXPORT std::vector<std::string> EndingsThatRead(unsigned contents);
+VTKKNOTWORKSPLINEIO_EXPORT std::vector<std::string> EndingsThatWrite(unsigned contents);
 
 /// Endings of a list in one text.
-std::string JoinEndings(const std::vector<std::string>& endings, const std::string& between = " ");
+VTKKNOTWORKSPLINEIO_EXPORT std::string JoinEndings(
+  const std::vector<std::string>& endings, const std::string& between = " ");
+
+/// " (did you mean '.step'?)" where an ending is no format's and a known one is near; else empty.
+VTKKNOTWORKSPLINEIO_EXPORT std::string SuggestEnding(
+  const std::string& ending, const std::vector<std::string>& known);
 
 /// All contents.
 constexpr unsigned AnyContent = ~0U;
