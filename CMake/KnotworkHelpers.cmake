@@ -37,7 +37,7 @@ function(knotwork_precompile kind target)
     return()
   endif()
   if(kind STREQUAL "filters") # shared libraries differ in a macro for what they export: a target without it comes first
-    file(WRITE "${CMAKE_BINARY_DIR}/CMakeFiles/PrecompiledFilterHeaders.cxx" "")
+    file(GENERATE OUTPUT "${CMAKE_BINARY_DIR}/CMakeFiles/PrecompiledFilterHeaders.cxx" CONTENT "")
     add_library(PrecompiledFilterHeaders OBJECT "${CMAKE_BINARY_DIR}/CMakeFiles/PrecompiledFilterHeaders.cxx")
     target_link_libraries(PrecompiledFilterHeaders PRIVATE Knotwork::SplineCoreKernel VTK::CommonExecutionModel)
     target_compile_options(PrecompiledFilterHeaders PRIVATE ${KNOTWORK_WARNINGS})

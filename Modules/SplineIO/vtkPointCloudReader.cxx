@@ -120,6 +120,11 @@ knotwork::Status vtkPointCloudReader::Compute(vtkInformationVector**, vtkInforma
       ? Status()
       : Status(ErrorCode::EmptyInput, "'" + file + "' holds no points");
   }
+  Result<std::string> text = TextOfFile(file);
+  if (!text)
+  {
+    return text.Status;
+  }
   const std::string ending = LowerEnding(file);
   const PointFormat* format = FormatOf(ending);
   if (!format)
@@ -127,11 +132,6 @@ knotwork::Status vtkPointCloudReader::Compute(vtkInformationVector**, vtkInforma
     return { ErrorCode::InvalidParameter,
       "'" + file + "': the ending '" + ending + "' is none of " +
         JoinEndings(EndingsThatRead(PointContent)) };
-  }
-  Result<std::string> text = TextOfFile(file);
-  if (!text)
-  {
-    return text.Status;
   }
   Result<PointFile> points = format->Read(text.Value, this->KernelThreads());
   text.Value = {};

@@ -10,15 +10,9 @@ namespace knotwork
 {
 namespace
 {
-std::vector<double> LinearKnots(int size)
+KnotVector LinearKnots(int size)
 {
-  std::vector<double> knots{ 0.0 };
-  for (int i = 0; i < size; ++i)
-  {
-    knots.push_back(i);
-  }
-  knots.push_back(size - 1.0);
-  return knots;
+  return KnotVector::Uniform(1, size - 1, 0.0, size - 1.0);
 }
 }
 
@@ -36,7 +30,7 @@ Result<SplineFile> ReadLattice(std::string_view text)
   {
     return { ErrorCode::InvalidFormat, "no lattice; write the word and two numbers of points" };
   }
-  auto space = MakeTensorSpace<2>({ 1, 1 }, { LinearKnots(size[0]), LinearKnots(size[1]) });
+  auto space = MakeTensorSpace<2>({ LinearKnots(size[0]), LinearKnots(size[1]) });
   if (!space)
   {
     return space.Status;
@@ -60,14 +54,14 @@ Result<std::string> WriteLattice(const SplineFile& file)
 {
   const auto* surface =
     file.Splines.size() == 1 ? std::get_if<Spline<2>>(&file.Splines[0]) : nullptr;
-  if (!surface || surface->Space->Degree != IntArray<2>{ 1, 1 })
+  if (!surface || surface->Space->Knots[0].Degree() != 1 || surface->Space->Knots[1].Degree() != 1)
   {
     return { ErrorCode::InvalidParameter, "a lattice is one surface of degree 1" };
   }
   std::ostringstream stream;
   stream.precision(17);
-  stream << "lattice " << surface->Space->Knots[0].size() - 2 << ' '
-         << surface->Space->Knots[1].size() - 2 << '\n'
+  stream << "lattice " << surface->Space->Knots[0].NumFunctions() << ' '
+         << surface->Space->Knots[1].NumFunctions() << '\n'
          << surface->ControlPoints << '\n';
   return stream.str();
 }
