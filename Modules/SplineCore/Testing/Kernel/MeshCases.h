@@ -4,6 +4,7 @@
 #include <knotwork/SplineCore/CellMesh.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <map>
@@ -196,6 +197,29 @@ inline CellMesh<2> CubeSphere(int n)
     }
   }
   return maker.Done();
+}
+
+/// Points of the equiangular sphere of radius 1 on the boundary of a cube: `mesh` is CubeSphere(n).
+inline knotwork::PointMatrix CubeSpherePoints(const CellMesh<2>& mesh, int n)
+{
+  knotwork::PointMatrix points(mesh.NumPoints, 3);
+  for (int c = 0; c < mesh.NumCells(); ++c)
+  {
+    const int side = c / (n * n);
+    for (int corner = 0; corner < 4; ++corner)
+    {
+      const bool swap = (side % 2 == 0) == (side / 2 % 2 == 0);
+      Eigen::RowVector3d x = Eigen::RowVector3d::Constant(side % 2 == 0 ? -1.0 : 1.0);
+      const int a = side / 2 == 0 ? 1 : 0;
+      const int b = side / 2 == 2 ? 1 : 2;
+      const auto angle = [n](int i)
+      { return std::tan((2.0 * i / n - 1.0) * static_cast<double>(EIGEN_PI) / 4.0); };
+      x[a] = angle(c % n + (corner >> (swap ? 1 : 0) & 1));
+      x[b] = angle(c / n % n + (corner >> (swap ? 0 : 1) & 1));
+      points.row(mesh.Cell(c)[corner]) = x.normalized();
+    }
+  }
+  return points;
 }
 
 /// Layers of hexahedra over quadrilaterals, closed to a ring when periodic.

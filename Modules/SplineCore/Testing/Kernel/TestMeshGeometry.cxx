@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <set>
 
 using namespace knotwork;
 using namespace meshes;
@@ -120,6 +121,79 @@ TEST(MeshGeometry, LengthsAreMeansOfSheets_ExactOracle)
   EXPECT_EQ(lengths.Value, (std::vector<double>{ 1.0 / 3.0, 4.0 / 3.0, 1.0 }));
 }
 
+TEST(MeshGeometry, SharpEdgesOfACubeAreThoseOfTheCube_ExactOracle)
+{
+  const CellMesh<2> mesh = CubeSphere(3);
+  PointMatrix points = CubeSpherePoints(mesh, 3);
+  for (auto row : points.rowwise())
+  {
+    row /= row.cwiseAbs().maxCoeff(); // back onto the cube
+  }
+  const auto topology = MeshTopology<2>::Make(mesh);
+  const auto count = [&](double angle)
+  {
+    const auto sharp = SharpEdges(mesh, topology.Value, points, angle);
+    EXPECT_TRUE(sharp) << sharp.Status.Message();
+    return sharp->size();
+  };
+  EXPECT_EQ(count(89.999), 36U);
+  EXPECT_EQ(count(90.001), 0U);
+  EXPECT_EQ(count(1e-6), 36U);
+  // a sheet that cannot be oriented has no edges sharper than it is bent: 360 degrees in 12 cells
+  const CellMesh<2> strip = Twisted(12, 1, false);
+  PointMatrix ring(strip.NumPoints, 3);
+  for (int c = 0; c < 12; ++c)
+  {
+    const double angle = c * static_cast<double>(EIGEN_PI) / 6.0;
+    for (const int corner : { 0, 2 })
+    {
+      const double out = (corner - 1) * 0.1;
+      ring.row(strip.Cell(c)[corner]) << std::cos(angle) * (1.0 + out * std::cos(angle / 2)),
+        std::sin(angle) * (1.0 + out * std::cos(angle / 2)), out * std::sin(angle / 2);
+    }
+  }
+  const auto topologyOfStrip = MeshTopology<2>::Make(strip);
+  EXPECT_FALSE(topologyOfStrip->IsOrientable);
+  const auto sharp = SharpEdges(strip, topologyOfStrip.Value, ring, 40.0);
+  ASSERT_TRUE(sharp) << sharp.Status.Message();
+  EXPECT_TRUE(sharp->empty());
+}
+
+TEST(MeshGeometry, LabelsPartCells_ExactOracle)
+{
+  const auto topology = MeshTopology<2>::Make(Grid<2>({ 3, 2 }));
+  const auto between = FacetsBetween<2>(topology.Value, { 0, 0, 1, 0, 2, 1 });
+  ASSERT_TRUE(between) << between.Status.Message();
+  std::set<std::array<int, 2>> found;
+  for (const CellSide& facet : between.Value)
+  {
+    found.insert({ facet.Cell, facet.Side });
+  }
+  EXPECT_EQ(found, (std::set<std::array<int, 2>>{ { 1, 1 }, { 1, 3 }, { 3, 1 }, { 4, 1 } }));
+}
+
+TEST(MeshGeometry, PolygonsAreSplitAtTheirMiddles_ExactOracle)
+{
+  // a triangle and a quadrilateral with a common edge
+  const auto split = SplitAtMidpoints(5, { { 0, 1, 2 }, { 1, 3, 4, 2 } });
+  ASSERT_TRUE(split) << split.Status.Message();
+  EXPECT_EQ(split->Mesh.NumCells(), 7);
+  EXPECT_EQ(split->Mesh.NumPoints, 5 + 6 + 2);
+  EXPECT_EQ(split->Polygon, (std::vector<int>{ 0, 0, 0, 1, 1, 1, 1 }));
+  const auto topology = MeshTopology<2>::Make(split->Mesh);
+  ASSERT_TRUE(topology) << topology.Status.Message();
+  EXPECT_EQ(topology->NumInteriorFacets, 3 + 4 + 2);
+  EXPECT_EQ(topology->NumBoundaryFacets, 10);
+  std::size_t middles = 0;
+  for (const std::vector<int>& points : split->Means)
+  {
+    middles += points.size() == 2 ? 1 : 0;
+  }
+  EXPECT_EQ(middles, 6U);
+  EXPECT_EQ(split->Means[static_cast<std::size_t>(split->Mesh.Cell(0)[3] - 5)],
+    (std::vector<int>{ 0, 1, 2 }));
+}
+
 TEST(MeshGeometry, EveryFailureIsReachable_ExactOracle)
 {
   const CellMesh<2> grid = Grid<2>({ 1, 1 });
@@ -133,4 +207,17 @@ TEST(MeshGeometry, EveryFailureIsReachable_ExactOracle)
   EXPECT_EQ(CheckConforming<2>(grid, points).Code, ErrorCode::NonFiniteInput);
   EXPECT_EQ(
     MeanSheetLengths<2>(grid, topology.Value, points).Status.Code, ErrorCode::NonFiniteInput);
+  points(2, 1) = 0.0;
+  EXPECT_EQ(
+    SharpEdges(grid, topology.Value, points, 181.0).Status.Code, ErrorCode::InvalidParameter);
+  EXPECT_EQ(SharpEdges(grid, topology.Value, points.leftCols(2), 30.0).Status.Code,
+    ErrorCode::SizeMismatch);
+  EXPECT_EQ(
+    SharpEdges(grid, topology.Value, points.topRows(3), 30.0).Status.Code, ErrorCode::SizeMismatch);
+  EXPECT_EQ(FacetsBetween<2>(topology.Value, {}).Status.Code, ErrorCode::SizeMismatch);
+  EXPECT_EQ(SplitAtMidpoints(3, {}).Status.Code, ErrorCode::EmptyInput);
+  EXPECT_EQ(SplitAtMidpoints(3, { { 0, 1 } }).Status.Code, ErrorCode::InvalidTopology);
+  EXPECT_EQ(SplitAtMidpoints(3, { { 0, 1, 3 } }).Status.Code, ErrorCode::InvalidTopology);
+  EXPECT_EQ(SplitAtMidpoints(std::numeric_limits<int>::max(), { { 0, 1, 2 } }).Status.Code,
+    ErrorCode::TooLarge);
 }

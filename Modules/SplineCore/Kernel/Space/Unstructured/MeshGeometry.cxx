@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshGeometry.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 
 namespace knotwork
 {
@@ -221,10 +225,140 @@ Result<std::vector<double>> MeanSheetLengths(
   return sums;
 }
 
+Result<std::vector<CellSide>> SharpEdges(const CellMesh<2>& mesh, const MeshTopology<2>& topology,
+  const PointMatrixView& points, double degrees)
+{
+  if (const Status status = CheckPoints(mesh, points); !status)
+  {
+    return status;
+  }
+  if (points.cols() != 3)
+  {
+    return { ErrorCode::SizeMismatch, "points need 3 coordinates" };
+  }
+  if (!(degrees >= 0.0 && degrees <= 180.0))
+  {
+    return { ErrorCode::InvalidParameter, "the angle must lie in [0, 180] degrees" };
+  }
+  PointMatrix normals(mesh.NumCells(), 3);
+  for (int c = 0; c < mesh.NumCells(); ++c)
+  {
+    const int* corners = mesh.Cell(c);
+    const Eigen::Vector3d a = points.row(corners[3]) - points.row(corners[0]);
+    const Eigen::Vector3d b = points.row(corners[2]) - points.row(corners[1]);
+    normals.row(c) = a.cross(b).transpose();
+  }
+  const double most = degrees * static_cast<double>(EIGEN_PI) / 180.0;
+  std::vector<CellSide> sharp;
+  for (int c = 0; c < mesh.NumCells(); ++c)
+  {
+    for (int side = 0; side < 4; ++side)
+    {
+      const int other = topology.Neighbour(c, side);
+      if (other <= c)
+      {
+        continue;
+      }
+      const double sign = topology.Crossing(c, side).Coherent ? 1.0 : -1.0;
+      const Eigen::Vector3d a = normals.row(c);
+      const Eigen::Vector3d b = sign * normals.row(other);
+      if (std::atan2(a.cross(b).norm(), a.dot(b)) > most)
+      {
+        sharp.push_back({ c, side });
+      }
+    }
+  }
+  return sharp;
+}
+
+template <int Dim>
+Result<std::vector<CellSide>> FacetsBetween(
+  const MeshTopology<Dim>& topology, const std::vector<double>& labels)
+{
+  if (labels.size() != At(topology.NumCells()))
+  {
+    return { ErrorCode::SizeMismatch,
+      std::to_string(labels.size()) + " labels for " + std::to_string(topology.NumCells()) +
+        " cells" };
+  }
+  std::vector<CellSide> between;
+  for (int c = 0; c < topology.NumCells(); ++c)
+  {
+    for (int side = 0; side < 2 * Dim; ++side)
+    {
+      const int other = topology.Neighbour(c, side);
+      if (other > c && labels[At(other)] != labels[At(c)])
+      {
+        between.push_back({ c, side });
+      }
+    }
+  }
+  return between;
+}
+
+Result<MidpointMesh> SplitAtMidpoints(int numPoints, const std::vector<std::vector<int>>& polygons)
+{
+  if (polygons.empty())
+  {
+    return { ErrorCode::EmptyInput, "there are no polygons" };
+  }
+  std::size_t corners = 0;
+  for (std::size_t i = 0; i < polygons.size(); ++i)
+  {
+    const bool inRange = std::all_of(polygons[i].begin(), polygons[i].end(),
+      [&](int point) { return point >= 0 && point < numPoints; });
+    if (polygons[i].size() < 3 || !inRange)
+    {
+      return { ErrorCode::InvalidTopology,
+        "polygon " + std::to_string(i) + " has less than three corners, or one that is no point" };
+    }
+    corners += polygons[i].size();
+  }
+  if (At(numPoints) + corners + polygons.size() >
+    static_cast<std::size_t>(std::numeric_limits<int>::max()) / 4)
+  {
+    return { ErrorCode::TooLarge, std::to_string(corners) + " quadrilaterals" };
+  }
+  MidpointMesh split;
+  std::map<Edge, int> middles;
+  const auto addPoint = [&](std::vector<int> of)
+  {
+    split.Means.push_back(std::move(of));
+    return numPoints + static_cast<int>(split.Means.size()) - 1;
+  };
+  const auto middleOf = [&](int a, int b)
+  {
+    const auto [place, isNew] = middles.try_emplace({ std::min(a, b), std::max(a, b) }, 0);
+    if (isNew)
+    {
+      place->second = addPoint({ a, b });
+    }
+    return place->second;
+  };
+  for (std::size_t i = 0; i < polygons.size(); ++i)
+  {
+    const std::vector<int>& polygon = polygons[i];
+    const int centre = addPoint(polygon);
+    for (std::size_t k = 0; k < polygon.size(); ++k)
+    {
+      const int before = polygon[(k + polygon.size() - 1) % polygon.size()];
+      const int after = polygon[(k + 1) % polygon.size()];
+      const int next = middleOf(polygon[k], after);
+      const int last = middleOf(before, polygon[k]);
+      split.Mesh.Corners.insert(split.Mesh.Corners.end(), { polygon[k], next, last, centre });
+      split.Polygon.push_back(static_cast<int>(i));
+    }
+  }
+  split.Mesh.NumPoints = numPoints + static_cast<int>(split.Means.size());
+  return split;
+}
+
 #define KNOTWORK_INSTANTIATE(Dim)                                                                  \
   template Status CheckConforming<Dim>(const CellMesh<Dim>&, const PointMatrixView&);              \
   template Result<std::vector<double>> MeanSheetLengths<Dim>(                                      \
-    const CellMesh<Dim>&, const MeshTopology<Dim>&, const PointMatrixView&);
+    const CellMesh<Dim>&, const MeshTopology<Dim>&, const PointMatrixView&);                       \
+  template Result<std::vector<CellSide>> FacetsBetween<Dim>(                                       \
+    const MeshTopology<Dim>&, const std::vector<double>&);
 KNOTWORK_INSTANTIATE(2)
 KNOTWORK_INSTANTIATE(3)
 #undef KNOTWORK_INSTANTIATE

@@ -18,4 +18,29 @@ Status CheckConforming(const CellMesh<Dim>& mesh, const PointMatrixView& points)
 template <int Dim>
 Result<std::vector<double>> MeanSheetLengths(
   const CellMesh<Dim>& mesh, const MeshTopology<Dim>& topology, const PointMatrixView& points);
+
+/// Inner edges where the normals of two quadrilaterals (cross products of their diagonals) differ
+/// by more than an angle, each once.
+/// @param degrees  in [0, 180].
+/// @return SizeMismatch, NonFiniteInput, InvalidParameter; points have 3 coordinates.
+Result<std::vector<CellSide>> SharpEdges(const CellMesh<2>& mesh, const MeshTopology<2>& topology,
+  const PointMatrixView& points, double degrees);
+
+/// Inner facets between cells of different labels, each once.
+/// @param labels  one a cell. @return SizeMismatch.
+template <int Dim>
+Result<std::vector<CellSide>> FacetsBetween(
+  const MeshTopology<Dim>& topology, const std::vector<double>& labels);
+
+/// A mesh of polygons as quadrilaterals: n around the middle of every polygon of n corners.
+struct MidpointMesh
+{
+  CellMesh<2> Mesh;
+  /// Of the points behind the polygons': what they are the means of.
+  std::vector<std::vector<int>> Means;
+  std::vector<int> Polygon; ///< that every cell is part of
+};
+/// @param polygons  corners in order. @return EmptyInput; InvalidTopology for a polygon of less
+/// than three corners or with a corner that is no point; TooLarge.
+Result<MidpointMesh> SplitAtMidpoints(int numPoints, const std::vector<std::vector<int>>& polygons);
 }

@@ -133,7 +133,37 @@ private:
       }
       patch.Cells[at] = c;
     }
-    result.Patches.push_back(std::move(patch));
+    const CellSide slit = this->FindSlit(cells, result);
+    if (slit.Cell < 0)
+    {
+      result.Patches.push_back(std::move(patch));
+    }
+    return slit;
+  }
+
+  /// A cut between cells that lie side by side in a box: it ends inside.
+  CellSide FindSlit(const std::vector<int>& cells, const MeshPatches<Dim>& result) const
+  {
+    const MeshTopology<Dim>& topology = this->Data.Topology;
+    for (const int c : cells)
+    {
+      for (std::size_t d = 0; d < Dim; ++d)
+      {
+        const int ahead = result.AheadOf[At(c)][d];
+        if (this->Data.ContinuityOf(c, ahead) != 0)
+        {
+          continue;
+        }
+        const int other = topology.Neighbour(c, ahead);
+        IntArray<Dim> index = result.IndexOf[At(c)];
+        ++index[d];
+        if (result.PatchOf[At(other)] == result.PatchOf[At(c)] &&
+          result.IndexOf[At(other)] == index)
+        {
+          return { c, ahead };
+        }
+      }
+    }
     return {};
   }
 
@@ -205,6 +235,54 @@ void FindCuts(const UnstructuredData<Dim>& data, MeshPatches<Dim>& result)
     }
   }
 }
+
+/// C^0 across a facet and all its opposites.
+template <int Dim>
+void CutThrough(UnstructuredData<Dim>& data, const CellSide& facet)
+{
+  const auto slot = [](const CellSide& at) { return At(2 * Dim * at.Cell + at.Side); };
+  std::vector<char> seen(data.Continuity.size(), 0); // from either cell
+  std::vector<CellSide> open;
+  const auto visit = [&](const CellSide& at)
+  {
+    const CellSide other{ data.Topology.Neighbour(at.Cell, at.Side),
+      data.Topology.Crossing(at.Cell, at.Side).Side };
+    if (seen[slot(at)]++ == 0)
+    {
+      seen[slot(other)] = 1;
+      data.Lower(at.Cell, at.Side, 0);
+      open.push_back(at);
+    }
+  };
+  visit(facet);
+  while (!open.empty())
+  {
+    const CellSide at = open.back();
+    open.pop_back();
+    for (int across = 0; across < 2 * Dim; ++across)
+    {
+      if (across / 2 != at.Side / 2 &&
+        data.Topology.IsRegularInside(at.Cell, MeshTopology<Dim>::RidgeOf(at.Side, across)))
+      {
+        visit(data.Topology.Opposite(at.Cell, at.Side, across));
+      }
+    }
+  }
+}
+}
+
+template <int Dim>
+MeshPatches<Dim> FindSpacePatches(const SplineSpace<Dim>& space)
+{
+  UnstructuredData<Dim> data = *space.Unstructured;
+  MeshPatches<Dim> result;
+  Layout<Dim> layout(data);
+  for (CellSide cut = layout.Run(result); cut.Cell >= 0; cut = layout.Run(result))
+  {
+    CutThrough(data, cut);
+  }
+  FindCuts(data, result);
+  return result;
 }
 
 template <int Dim>
@@ -240,6 +318,8 @@ Result<MeshPatches<Dim>> FindMeshPatches(
   return result;
 }
 
+template MeshPatches<2> FindSpacePatches<2>(const SplineSpace<2>&);
+template MeshPatches<3> FindSpacePatches<3>(const SplineSpace<3>&);
 template Result<MeshPatches<2>> FindMeshPatches<2>(
   const CellMesh<2>&, CreasePolicy, const std::vector<CellSide>&);
 template Result<MeshPatches<3>> FindMeshPatches<3>(

@@ -38,4 +38,10 @@ struct MeshPatches
 template <int Dim>
 Result<MeshPatches<Dim>> FindMeshPatches(const CellMesh<Dim>& mesh,
   CreasePolicy policy = CreasePolicy::Full, const std::vector<CellSide>& features = {});
+
+/// The same of a space, which is C^1 or smoother inside of every patch: cuts where it is C^0, and
+/// where what is left is no box straight through its cells.
+/// @pre space.Kind == SpaceKind::Unstructured.
+template <int Dim>
+MeshPatches<Dim> FindSpacePatches(const SplineSpace<Dim>& space);
 }
