@@ -533,8 +533,7 @@ Status EncodeSplineModel(const SplineModel& model, vtkDataObject* like, vtkDataO
   return {};
 }
 
-void PassCellData(
-  vtkUnstructuredGrid* input, const std::vector<vtkIdType>& sourceCells, vtkDataSet* output)
+void PassCellData(vtkDataSet* input, const std::vector<vtkIdType>& sourceCells, vtkDataSet* output)
 {
   static const std::set<std::string> ours{ name::PatchId, name::ElementId, name::Level,
     name::Bounds, name::Basis, name::Degrees, name::DegreesCopy };

@@ -72,7 +72,7 @@ VTKKNOTWORKSPLINEGRID_EXPORT Status EncodeSplineModel(
 /// Copies cell arrays (other than ours) of input to output: sourceCells[i] is the input cell of
 /// output cell i, -1 for none.
 VTKKNOTWORKSPLINEGRID_EXPORT void PassCellData(
-  vtkUnstructuredGrid* input, const std::vector<vtkIdType>& sourceCells, vtkDataSet* output);
+  vtkDataSet* input, const std::vector<vtkIdType>& sourceCells, vtkDataSet* output);
 
 /// Index of a Bernstein coefficient (first direction fastest) for every VTK point of a Bezier
 /// curve, quadrilateral or hexahedron: result[vtkPoint] = i + (p + 1) (j + (q + 1) k).

@@ -6,6 +6,7 @@
 #include <knotwork/CADModel/CADExchange.h>
 #include <knotwork/SplineCore/TensorForm.h>
 #include <knotwork/SplineGrid/FilterErrorCode.h>
+#include <knotwork/SplineGrid/PatchSplit.h>
 #include <knotwork/SplineGrid/SplineModel.h>
 #include <knotwork/SurfaceTrimming/TrimmedGrids.h>
 
@@ -16,6 +17,7 @@
 #include "vtkInformation.h"
 #include "vtkObjectFactory.h"
 
+#include <algorithm>
 #include <exception>
 
 vtkStandardNewMacro(vtkCADWriter);
@@ -28,10 +30,20 @@ using namespace knotwork;
 Result<TrimmedModel> DecodeFaces(
   vtkDataObject* grid, vtkDataObject* curves, double tolerance, std::vector<std::string>& warnings)
 {
-  const Result<SplineModel> model = DecodeSplineModel(grid, 1);
+  Result<SplineModel> model = DecodeSplineModel(grid, 1);
   if (!model)
   {
     return model.Status;
+  }
+  const auto isVolume = [](const SplinePatch& patch)
+  { return std::holds_alternative<Spline<3>>(patch.Geometry); };
+  if (std::none_of(model->Patches.begin(), model->Patches.end(), isVolume))
+  {
+    return DecodeTrimmedModel(grid, curves, &warnings);
+  }
+  if (Status status = SplitUnstructuredPatches(model.Value, 1); !status)
+  {
+    return status;
   }
   std::vector<Spline<3>> volumes;
   for (const SplinePatch& patch : model->Patches)
@@ -46,10 +58,6 @@ Result<TrimmedModel> DecodeFaces(
       }
       volumes.push_back(std::move(tensor.Value));
     }
-  }
-  if (volumes.empty())
-  {
-    return DecodeTrimmedModel(grid, curves, &warnings);
   }
   if (volumes.size() != model->Patches.size())
   {

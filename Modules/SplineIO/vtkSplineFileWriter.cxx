@@ -6,6 +6,7 @@
 #include <knotwork/SplineCore/TensorForm.h>
 #include <knotwork/SplineGrid/DistributedInput.h>
 #include <knotwork/SplineGrid/FilterErrorCode.h>
+#include <knotwork/SplineGrid/PatchSplit.h>
 
 #include "vtkDataObject.h"
 #include "vtkErrorCode.h"
@@ -73,6 +74,10 @@ knotwork::Status vtkSplineFileWriter::MakeText(std::string& text)
   if (!model)
   {
     return model.Status;
+  }
+  if (Status status = SplitUnstructuredPatches(model.Value, 1); !status)
+  {
+    return status;
   }
   for (SplinePatch& patch : model->Patches)
   {

@@ -3,6 +3,7 @@
 
 #include "CarriedCurves.h"
 #include <knotwork/SplineCore/JoinElements.h>
+#include <knotwork/SplineCore/PatchFaces.h>
 #include <knotwork/SplineCore/SharedEdges.h>
 #include <knotwork/SplineCore/TensorForm.h>
 #include <knotwork/SplineGrid/SplineBlocks.h>
@@ -280,7 +281,10 @@ public:
   Result<TrimmedModel> Read(vtkDataObject* curves);
 
 private:
+  Result<TrimmedModel> ReadPatches(vtkDataObject* curves);
   Status ReadFace(const SplinePatch& patch);
+  Status ReadFacesOfMesh(const SplinePatch& patch, const Spline<2>& surface);
+  void AppendFacesOfMeshes();
   void ReadLook(const SplinePatch& patch, TrimmedFace& face) const;
   Status ReadUse(const PatchReader& curves, const SplinePatch& patch);
   Status AddUse(
@@ -301,15 +305,67 @@ private:
   PatchReader Surfaces;
   std::vector<std::string>* Warnings;
   TrimmedModel Model;
+  std::vector<TrimmedModel> OnMeshes; ///< of surfaces on unstructured meshes
   std::map<Key, FaceUses> Faces;
   std::map<std::array<int, 5>, int> Copies; // of a use: block, model, face, loop, curve
   std::map<Key, TrimmingCurve> Edges;       // the first use of each
   std::map<Key, int> Vertices;
 };
 
+/// A surface on a mesh is several faces with loops of their own.
+Status ModelReader::ReadFacesOfMesh(const SplinePatch& patch, const Spline<2>& surface)
+{
+  auto faces = FacesOfPatches(surface, 1);
+  if (!faces)
+  {
+    return { faces.Status.Code, this->Surfaces.Place(patch) + ": " + faces.Status.Detail };
+  }
+  this->Warn({ this->Surfaces.Place(patch) + " lies on an unstructured mesh and becomes " +
+    std::to_string(faces->Faces.size()) + " faces" });
+  for (TrimmedFace& face : faces->Faces)
+  {
+    this->ReadLook(patch, face);
+  }
+  this->OnMeshes.push_back(std::move(faces.Value));
+  return {};
+}
+
+/// Appends the faces of surfaces on meshes, as bodies of their own.
+void ModelReader::AppendFacesOfMeshes()
+{
+  for (TrimmedModel& faces : this->OnMeshes)
+  {
+    int body = 0;
+    for (const TrimmedFace& face : this->Model.Faces)
+    {
+      body = std::max(body, face.Body + 1);
+    }
+    for (TrimmedFace& face : faces.Faces)
+    {
+      face.Body += body;
+      for (TrimmedLoop& loop : face.Loops)
+      {
+        for (TrimmingCurve& use : loop.Curves)
+        {
+          use.Edge += this->Model.NumEdges;
+          use.Vertices[0] += this->Model.NumVertices;
+          use.Vertices[1] += this->Model.NumVertices;
+        }
+      }
+      this->Model.Faces.push_back(std::move(face));
+    }
+    this->Model.NumEdges += faces.NumEdges;
+    this->Model.NumVertices += faces.NumVertices;
+  }
+}
+
 Status ModelReader::ReadFace(const SplinePatch& patch)
 {
   const auto* surface = std::get_if<Spline<2>>(&patch.Geometry);
+  if (surface && surface->Space->Kind == SpaceKind::Unstructured)
+  {
+    return this->ReadFacesOfMesh(patch, *surface);
+  }
   if (!surface || surface->Space->Kind == SpaceKind::Bezier)
   {
     return { ErrorCode::DimensionMismatch,
@@ -571,6 +627,16 @@ Status ModelReader::AssembleLoops(
 }
 
 Result<TrimmedModel> ModelReader::Read(vtkDataObject* curves)
+{
+  const auto read = this->ReadPatches(curves);
+  if (read)
+  {
+    this->AppendFacesOfMeshes();
+  }
+  return read ? Result<TrimmedModel>(this->Model) : read;
+}
+
+Result<TrimmedModel> ModelReader::ReadPatches(vtkDataObject* curves)
 {
   if (!this->Surfaces.Outcome)
   {

@@ -11,7 +11,8 @@ FILE = "the file in question"  # its place in a run
 # endings of what an input takes, the one to begin with first
 ENDINGS = {"surface": (".vtu", ".xml", ".g2", ".step", ".iges"), "points": (".vtp", ".xyz", ".csv", ".ply", ".g2"),
            "cells": (".vtp",), "mesh": (".off", ".obj", ".ply", ".stl", ".vtp"), "curves": (".vtp",),
-           "boundary": (".json",), "map": (".vtu",), "trim": (".vtu",), "grid": (".vtu",), "layout": (".vtu",)}
+           "boundary": (".json",), "map": (".vtu",), "trim": (".vtu",), "grid": (".vtu",), "layout": (".vtu",),
+           "quads": (".off", ".obj", ".ply", ".vtu")}
 
 BOUNDARY = ('{"curves": [%s]}' % ", ".join(
     '{"degree": 1, "knots": [0, 0, 1, 1], "control_points": [%s]}' % ends
@@ -37,8 +38,23 @@ def triangles(ending):
     return "\n".join(lines) + "\n"
 
 
+def cube(ending):
+    """The surface of a cube as six quadrilaterals."""
+    points = [(i % 2, i // 2 % 2, i // 4) for i in range(8)]
+    corners = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+    if ending == ".off":
+        lines = ["OFF", "8 6 0", *("%d %d %d" % p for p in points), *("4 %d %d %d %d" % c for c in corners)]
+    elif ending == ".obj":
+        lines = [*("v %d %d %d" % p for p in points), *("f %d %d %d %d" % tuple(i + 1 for i in c) for c in corners)]
+    else:
+        lines = ["ply", "format ascii 1.0", "element vertex 8", "property float x", "property float y", "property float z",
+                 "element face 6", "property list uchar int vertex_indices", "end_header",
+                 *("%d %d %d" % p for p in points), *("4 %d %d %d %d" % c for c in corners)]
+    return "\n".join(lines) + "\n"
+
+
 SOUND = {"surface": "square", "points": "cloud", "cells": "cloud", "mesh": "mesh", "curves": "target", "boundary": "boundary",
-         "map": "map", "trim": "trim", "grid": "square", "layout": "quads"}
+         "map": "map", "trim": "trim", "grid": "square", "layout": "quads", "quads": "quads"}
 
 
 def sound(kind, ending):
@@ -65,6 +81,8 @@ def make_files():
         good("convert", path("square.vtu"), "--output", path("square" + ending))
     for ending in (".off", ".obj", ".ply", ".stl"):
         write_text("mesh" + ending, triangles(ending))
+    for ending in (".off", ".obj", ".ply"):
+        write_text("quads" + ending, cube(ending))
     good("flatten", path("mesh.off"), "--output", path("mesh.vtp"))
     skeletons.write(skeletons.polydata(skeletons.curves(0.0, 1, 101)), path("template.vtp"))
     skeletons.write(skeletons.polydata(skeletons.curves(0.1, 5, 50)), path("target.vtp"))
@@ -111,6 +129,7 @@ def runs():
             (["stitch", path("east.vtu"), FILE, *by_geometry, "--output", grid], "surface"),
             (["tessellate", FILE, "--output", polydata], "surface"),
             (["trim", FILE, "--triangles", polydata, "--output", "out.step"], "mesh"),
+            (["unstructured", FILE, "--table", "table.csv", "--output", grid], "quads"),
             (["validate", FILE, "--table", "table.csv", "--output", grid], "grid"),
             (["warp", FILE, surface, "--output", polydata], "points"),
             (["warp", surface, FILE, "--output", grid], "surface")):

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One picture of every filter that draws.
+#include "MeshCases.h"
 #include "Rendering.h"
 #include <knotwork/SplineGrid/vtkSplineControlNet.h>
 #include <knotwork/SplineGrid/vtkSplineEvaluate.h>
@@ -9,13 +10,16 @@
 #include <knotwork/SplineGrid/vtkSplineSource.h>
 #include <knotwork/SplineGrid/vtkSplineTessellate.h>
 #include <knotwork/SplineGrid/vtkSplineWarp.h>
+#include <knotwork/SplineGrid/vtkUnstructuredSpline.h>
 
 #include "vtkActor.h"
 #include "vtkArrowSource.h"
 #include "vtkCamera.h"
 #include "vtkCellArray.h"
+#include "vtkCellData.h"
 #include "vtkDataSetSurfaceFilter.h"
 #include "vtkGlyph3D.h"
+#include "vtkIntArray.h"
 #include "vtkLookupTable.h"
 #include "vtkNew.h"
 #include "vtkPlaneSource.h"
@@ -334,4 +338,48 @@ TEST(SplineImages, Warp_GoldenOracle)
   renderer->ResetCamera();
   renderer->GetActiveCamera()->Zoom(1.1);
   EXPECT_TRUE(RenderAndCompare(renderer, "SplineWarp", 400));
+}
+
+TEST(SplineImages, Unstructured_GoldenOracle)
+{
+  // The sphere of a cube's mesh of 3 x 3 quadrilaterals a side: 54 elements around eight points of
+  // three elements.
+  const CellMesh<2> mesh = meshes::CubeSphere(3);
+  const PointMatrix places = meshes::CubeSpherePoints(mesh, 3);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (Eigen::Index i = 0; i < places.rows(); ++i)
+  {
+    points->InsertNextPoint(places.row(i).data());
+  }
+  vtkNew<vtkCellArray> cells;
+  for (int c = 0; c < mesh.NumCells(); ++c)
+  {
+    const int* corners = mesh.Cell(c);
+    cells->InsertNextCell({ corners[0], corners[1], corners[3], corners[2] });
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetPolys(cells);
+  vtkNew<vtkUnstructuredSpline> spline;
+  spline->SetInputDataObject(data);
+  vtkNew<vtkSplineTessellate> fine;
+  fine->SetInputConnection(spline->GetOutputPort());
+  fine->Update();
+  auto* drawn = vtkPolyData::SafeDownCast(fine->GetOutputDataObject(0));
+  vtkDataArray* elements = drawn->GetCellData()->GetArray("ElementId");
+  vtkNew<vtkIntArray> colours;
+  colours->SetName("Colour");
+  for (vtkIdType i = 0; i < drawn->GetNumberOfCells(); ++i)
+  {
+    const int element = static_cast<int>(elements->GetTuple1(i));
+    colours->InsertNextValue(element / 9 % 2 * 2 + element % 2); // sides of the cube, and a board
+  }
+  drawn->GetCellData()->AddArray(colours);
+  RenderOptions options;
+  options.ColorBy = "Colour";
+  options.Edges = false;
+  options.From = { 1.0, 0.7, 0.5 };
+  options.Up = { 0.0, 0.0, 1.0 };
+  EXPECT_TRUE(RenderAndCompare(drawn, "UnstructuredSpline", options));
 }

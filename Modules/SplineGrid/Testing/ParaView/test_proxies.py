@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every way of refining, the control net and the parametric mesh through ParaView's proxies."""
+"""Every way of refining, the control net, the parametric mesh and the spline of a mesh through ParaView's proxies."""
 import knotwork_testing
 
 knotwork_testing.load_plugin()
 from paraview.simple import (  # noqa: E402
-    GroupDatasets, IDSelectionSource, KnotworkSplineSource, SplineControlNet, SplineParametricMesh, SplineRefine)
+    GroupDatasets, IDSelectionSource, KnotworkSplineSource, OutputPort, Plane, SplineControlNet, SplineParametricMesh,
+    SplineRefine, UnstructuredSpline)
 
 
 def cells(proxy):
@@ -49,6 +50,13 @@ def test_net_and_mesh_of_a_group():
     # five nets of 5 x 5 points, and the cube's
     points_and_lines = 5 * (25 + 2 * 5 * 4) + 8 + 12
     assert cells(SplineControlNet(Input=group)) == points_and_lines
+
+
+def test_spline_of_a_mesh():
+    plane = Plane(XResolution=4, YResolution=3)
+    spline = UnstructuredSpline(Input=plane, Degree=2, Policy="Minimal", Construction="Control Cage")
+    assert cells(spline) == 12
+    assert OutputPort(spline, 1).GetDataInformation().GetNumberOfRows() == 1
 
 
 knotwork_testing.main(globals())

@@ -10,7 +10,7 @@ import knotwork_testing
 MODULE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 KERNEL = os.path.join(MODULE, "..", "SplineCore", "Kernel")
 CLASSES = ["vtkSplineSource", "vtkSplineRefine", "vtkSplineExtract", "vtkSplineTessellate", "vtkSplineEvaluate",
-           "vtkSplineWarp", "vtkSplineControlNet", "vtkSplineParametricMesh"]
+           "vtkSplineWarp", "vtkSplineControlNet", "vtkSplineParametricMesh", "vtkUnstructuredSpline"]
 
 
 def read(*path):

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A ring of blocks as a mesh of quadrilaterals, the spline through its points, and the spline with the mesh as control cage
+(unstructured.png).
+
+usage: unstructured.py [--output DIR]
+"""
+import os
+import tempfile
+
+import _scene as scene
+import knotwork
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+
+
+def ring(n):
+    """The surface of eight blocks around a hole, n x n quadrilaterals on every square, rounded."""
+    def is_in(x, y, z):
+        return 0 <= x < 3 * n and 0 <= y < 3 * n and 0 <= z < n and not (n <= x < 2 * n and n <= y < 2 * n)
+
+    numbers, faces = {}, []
+    cells = [c for c in np.ndindex(3 * n, 3 * n, n) if is_in(*c)]
+    for cell in cells:
+        for axis in range(3):
+            for step in (-1, 1):
+                beside = list(cell)
+                beside[axis] += step
+                if is_in(*beside):
+                    continue
+                a, b = (axis + 1) % 3, (axis + 2) % 3
+                corners = [(0, 0), (1, 0), (1, 1), (0, 1)][::step]
+                face = []
+                for i, j in corners:
+                    key = list(cell)
+                    key[axis] += step > 0
+                    key[a] += i
+                    key[b] += j
+                    face.append(numbers.setdefault(tuple(key), len(numbers)))
+                faces.append(face)
+    points = np.array(list(numbers), float) / n - (1.5, 1.5, 0.5)
+    sides = np.array([(face[k], face[k - 1]) for face in faces for k in range(4)])
+    for _ in range(6):  # every point to the mean of its neighbours
+        sums = np.zeros_like(points)
+        np.add.at(sums, sides[:, 0], points[sides[:, 1]])
+        points = sums / np.bincount(sides[:, 0])[:, None]
+    return points, faces
+
+
+def mesh_of(points, faces):
+    mesh = vtkPolyData()
+    vertices = vtkPoints()
+    vertices.SetDataTypeToDouble()
+    vertices.SetData(numpy_to_vtk(np.ascontiguousarray(points), deep=1))
+    cells = vtkCellArray()
+    for face in faces:
+        cells.InsertNextCell(len(face), [int(i) for i in face])
+    mesh.SetPoints(vertices)
+    mesh.SetPolys(cells)
+    return mesh
+
+
+def spline(mesh, **properties):
+    made = knotwork.vtkUnstructuredSpline()
+    made.SetInputDataObject(mesh)
+    for name, value in properties.items():
+        getattr(made, "Set" + name)(value)
+    return scene.updated(made)
+
+
+def drawn(splines):
+    """Tessellated, with normals of the surface."""
+    made = knotwork.vtkSplineTessellate()
+    made.SetInputDataObject(splines)
+    made.SetChordalTolerance(1e-4)
+    made.NormalsOn()
+    made.SplittingOff()
+    return scene.updated(made).GetOutputDataObject(0)
+
+
+def patches_of(splines):
+    """Its tensor-product patches, which a file of patches has."""
+    with tempfile.TemporaryDirectory() as folder:
+        name = os.path.join(folder, "patches.xml")
+        knotwork.write(splines, name)
+        return knotwork.read(name)
+
+
+def panel(items, k, text):
+    shown = scene.renderer(items, (k / 3, 0, (k + 1) / 3, 1), 1.0, False)
+    camera = shown.GetActiveCamera()
+    camera.SetPosition(2.2, -3.4, 3.6)
+    camera.SetFocalPoint(0, 0, 0)
+    camera.SetViewUp(0, 0, 1)
+    shown.ResetCamera()
+    camera.Zoom(1.08)
+    shown.AddActor(scene.label(text, 0.04, 0.03, 14))
+    return shown
+
+
+def main():
+    folder = scene.output_folder()
+    mesh = mesh_of(*ring(3))
+    through = spline(mesh, Degree=3).GetOutputDataObject(0)
+    cage = spline(mesh, Degree=3, Construction="control-cage").GetOutputDataObject(0)
+    cells = scene.actor(mesh, (0.95, 0.93, 0.88), lighting=True)
+    cells.GetProperty().SetEdgeVisibility(1)
+    cells.GetProperty().SetEdgeColor(*scene.INK)
+    panels = [panel([cells], 0, f"{mesh.GetNumberOfCells()} quadrilaterals"),
+              panel([scene.patches(drawn(patches_of(through)), "PatchId", True)], 1, "through the points, patches in colours"),
+              panel([scene.actor(drawn(cage), scene.COLOURS[0], lighting=True)], 2, "the mesh as control cage")]
+    scene.save(panels, os.path.join(folder, "unstructured.png"), (1200, 420))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CellMeshData.h"
+
+#include "InputChecks.h"
+#include <knotwork/SplineCore/MeshGeometry.h>
+
+#include "vtkCellData.h"
+#include "vtkCellType.h"
+#include "vtkCellTypes.h"
+#include "vtkDataArray.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace knotwork
+{
+namespace
+{
+int DimensionOf(int type)
+{
+  switch (type)
+  {
+    case VTK_QUAD:
+    case VTK_PIXEL:
+    case VTK_POLYGON:
+    case VTK_TRIANGLE:
+      return 2;
+    case VTK_HEXAHEDRON:
+    case VTK_VOXEL:
+      return 3;
+    default:
+      return 0;
+  }
+}
+
+/// Corners in the order around a polygon, or of a hexahedron as CellMesh numbers them.
+void OrderCorners(int type, std::vector<int>& corners)
+{
+  if (type == VTK_PIXEL)
+  {
+    std::swap(corners[2], corners[3]);
+  }
+  else if (type == VTK_HEXAHEDRON)
+  {
+    std::swap(corners[2], corners[3]);
+    std::swap(corners[6], corners[7]);
+  }
+}
+
+std::string NameOfCell(vtkIdType cell, int type)
+{
+  return "cell " + std::to_string(cell) + " is a " + vtkCellTypes::GetClassNameFromTypeId(type);
+}
+
+/// Columns of coordinates and of the floating-point arrays, which are named.
+void TakePoints(vtkPointSet* data, DecodedMeshCells& decoded)
+{
+  std::vector<vtkDataArray*> arrays;
+  vtkPointData* pointData = data->GetPointData();
+  Eigen::Index columns = 3;
+  for (int a = 0; a < pointData->GetNumberOfArrays(); ++a)
+  {
+    vtkDataArray* array = pointData->GetArray(a);
+    if (array && array->GetName() &&
+      (array->GetDataType() == VTK_DOUBLE || array->GetDataType() == VTK_FLOAT))
+    {
+      arrays.push_back(array);
+      decoded.Fields.push_back(
+        { array->GetName(), PointMatrix(0, array->GetNumberOfComponents()) });
+      columns += array->GetNumberOfComponents();
+    }
+  }
+  decoded.Points.resize(data->GetNumberOfPoints(), columns);
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  {
+    double* row = decoded.Points.row(i).data();
+    data->GetPoint(i, row);
+    row += 3;
+    for (vtkDataArray* array : arrays)
+    {
+      array->GetTuple(i, row);
+      row += array->GetNumberOfComponents();
+    }
+  }
+}
+
+Status CheckPoints(const DecodedMeshCells& decoded)
+{
+  for (Eigen::Index i = 0; i < decoded.Points.rows(); ++i)
+  {
+    if (!decoded.Points.row(i).allFinite())
+    {
+      return { ErrorCode::NonFiniteInput,
+        "point " + std::to_string(i) +
+          " or a field there is not finite (NaN or infinity); correct or remove it" };
+    }
+  }
+  return {};
+}
+
+Status Split(const std::vector<std::vector<int>>& polygons, DecodedMeshCells& decoded)
+{
+  auto split = SplitAtMidpoints(static_cast<int>(decoded.Points.rows()), polygons);
+  if (!split)
+  {
+    return split.Status;
+  }
+  const Eigen::Index old = decoded.Points.rows();
+  decoded.Points.conservativeResize(split->Mesh.NumPoints, Eigen::NoChange);
+  for (std::size_t i = 0; i < split->Means.size(); ++i)
+  {
+    auto row = decoded.Points.row(old + static_cast<Eigen::Index>(i));
+    row.setZero();
+    for (const int point : split->Means[i])
+    {
+      row += decoded.Points.row(point) / static_cast<double>(split->Means[i].size());
+    }
+  }
+  decoded.Cells.assign(split->Polygon.begin(), split->Polygon.end());
+  decoded.NumSplit = static_cast<int>(std::count_if(
+    polygons.begin(), polygons.end(), [](const auto& polygon) { return polygon.size() != 4; }));
+  decoded.Mesh = std::move(split->Mesh);
+  return {};
+}
+
+/// Quadrilaterals by corners around them.
+void TakeQuadrilaterals(const std::vector<std::vector<int>>& polygons, DecodedMeshCells& decoded)
+{
+  CellMesh<2> mesh;
+  mesh.NumPoints = static_cast<int>(decoded.Points.rows());
+  for (const std::vector<int>& corners : polygons)
+  {
+    mesh.Corners.insert(mesh.Corners.end(), { corners[0], corners[1], corners[3], corners[2] });
+  }
+  decoded.Mesh = std::move(mesh);
+}
+}
+
+Result<DecodedMeshCells> DecodeMeshCells(vtkPointSet* data, bool split)
+{
+  const vtkIdType cells = data ? data->GetNumberOfCells() : 0;
+  if (cells == 0)
+  {
+    return { ErrorCode::EmptyInput, "the mesh has no cells" };
+  }
+  if (std::max(cells, data->GetNumberOfPoints()) > std::numeric_limits<int>::max() / 64)
+  {
+    return { ErrorCode::TooLarge,
+      std::to_string(cells) + " cells, " + std::to_string(data->GetNumberOfPoints()) + " points" };
+  }
+  Status status = CheckCellSizes(data);
+  status = status ? CheckSampledPoints(data, "the mesh") : status;
+  if (!status)
+  {
+    return status;
+  }
+  const int dimension = DimensionOf(data->GetCellType(0));
+  std::vector<std::vector<int>> polygons;
+  CellMesh<3> hexahedra;
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType cell = 0; cell < cells; ++cell)
+  {
+    const int type = data->GetCellType(cell);
+    data->GetCellPoints(cell, ids);
+    std::vector<int> corners(ids->begin(), ids->end());
+    const bool fits = DimensionOf(type) == 3 || corners.size() == 4 || split;
+    if (DimensionOf(type) == 0 || (DimensionOf(type) == dimension && !fits))
+    {
+      return { ErrorCode::InvalidTopology,
+        NameOfCell(cell, type) + " of " + std::to_string(corners.size()) +
+          " points, the mesh must be of linear quadrilaterals or of linear hexahedra alone; " +
+          (DimensionOf(type) == 2 ? "split polygons (SplitPolygons, --split-polygons)"
+                                  : "remove or convert it") };
+    }
+    if (DimensionOf(type) != dimension)
+    {
+      return { ErrorCode::InvalidTopology,
+        NameOfCell(cell, type) + ", but " + NameOfCell(0, data->GetCellType(0)) +
+          ": take either the surface or the volume" };
+    }
+    OrderCorners(type, corners);
+    if (dimension == 2)
+    {
+      polygons.push_back(std::move(corners));
+    }
+    else
+    {
+      hexahedra.Corners.insert(hexahedra.Corners.end(), corners.begin(), corners.end());
+    }
+  }
+  if (dimension == 3 && split)
+  {
+    return { ErrorCode::InvalidParameter, "polygons can be split, hexahedra cannot" };
+  }
+  Result<DecodedMeshCells> decoded;
+  TakePoints(data, decoded.Value);
+  if (Status finite = CheckPoints(decoded.Value); !finite)
+  {
+    return finite;
+  }
+  decoded->Cells.resize(static_cast<std::size_t>(cells));
+  std::iota(decoded->Cells.begin(), decoded->Cells.end(), vtkIdType{ 0 });
+  if (dimension == 3)
+  {
+    hexahedra.NumPoints = static_cast<int>(decoded->Points.rows());
+    decoded->Mesh = std::move(hexahedra);
+  }
+  else if (split)
+  {
+    decoded.Status = Split(polygons, decoded.Value);
+  }
+  else
+  {
+    TakeQuadrilaterals(polygons, decoded.Value);
+  }
+  return decoded;
+}
+
+Result<std::vector<double>> CellLabels(
+  vtkPointSet* data, const std::string& name, const DecodedMeshCells& mesh)
+{
+  vtkDataArray* array = data->GetCellData()->GetArray(name.c_str());
+  if (!array || array->GetNumberOfComponents() != 1)
+  {
+    return { ErrorCode::InvalidParameter,
+      "the mesh has no cell array '" + name + "' of one number a cell" };
+  }
+  std::vector<double> labels;
+  for (const vtkIdType cell : mesh.Cells)
+  {
+    labels.push_back(array->GetTuple1(cell));
+  }
+  return labels;
+}
+}

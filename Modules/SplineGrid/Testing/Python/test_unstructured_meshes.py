@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Splines on the meshes of a folder that the environment variable KNOTWORK_UNSTRUCTURED_MESHES names (.off, .vtk, .obj), to STEP for one."""
+import glob
+import os
+
+import knotwork
+import knotwork_testing
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
+
+
+def test_meshes_of_the_folder():
+    folder = os.environ.get("KNOTWORK_UNSTRUCTURED_MESHES")
+    files = sorted(sum((glob.glob(os.path.join(folder or "", "*" + ending)) for ending in (".off", ".vtk", ".obj")), []))
+    files = [file for file in files if "_target" not in file]  # triangles
+    if not folder or not files:
+        knotwork_testing.skip("KNOTWORK_UNSTRUCTURED_MESHES names no folder of meshes")
+    for file in files:
+        try:
+            mesh = knotwork.read(file)
+        except ValueError as refusal:  # faces refer to what is not in the file
+            assert "a corner " in str(refusal), (file, refusal)
+            continue
+        split = file.endswith(".obj")  # with triangles among quadrilaterals
+        cells = mesh.GetNumberOfCells()
+        for degree in (2, 3):
+            made = knotwork.vtkUnstructuredSpline()
+            made.SetInputDataObject(mesh)
+            made.SetDegree(degree)
+            made.SetSplitPolygons(split)
+            made.Update()
+            output = made.GetOutputDataObject(0)
+            assert made.GetErrorCode() == 0 and isinstance(output, vtkUnstructuredGrid), file
+            assert (output.GetNumberOfCells() > cells) == split, file
+            if file.endswith("bl_rod_764.off") and degree == 2:
+                assert made.GetOutputDataObject(1).GetValueByName(0, "Functions").ToInt() <= 1400
+                knotwork.write(output, knotwork_testing.output("rod.step"))
+                back = knotwork.read(knotwork_testing.output("rod.step"))
+                assert len(np.unique(vtk_to_numpy(back.GetCellData().GetArray("PatchId")))) <= 100
+
+
+knotwork_testing.main(globals())

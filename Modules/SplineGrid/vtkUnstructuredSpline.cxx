@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkUnstructuredSpline.h"
+
+#include "CellMeshData.h"
+#include "PatchFields.h"
+#include "TableRow.h"
+#include <knotwork/SplineCore/MeshGeometry.h>
+#include <knotwork/SplineCore/MeshSpline.h>
+
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointSet.h"
+#include "vtkUnstructuredGrid.h"
+
+using namespace knotwork;
+
+static_assert(vtkUnstructuredSpline::MINIMAL == static_cast<int>(CreasePolicy::Minimal) &&
+    vtkUnstructuredSpline::MOTORCYCLE == static_cast<int>(CreasePolicy::Motorcycle) &&
+    vtkUnstructuredSpline::FULL == static_cast<int>(CreasePolicy::Full),
+  "the policies are those of the kernel");
+
+vtkStandardNewMacro(vtkUnstructuredSpline);
+
+namespace
+{
+constexpr const char* PolicyNames[] = { "Automatic", "Full", "Motorcycle", "Minimal" };
+
+struct Choices
+{
+  UnstructuredParams Space;
+  bool IsCage = false;
+  bool HasMeanLengths = false;
+  double FeatureAngle = 180.0;
+  std::string FeatureArray;
+  int Threads = 0;
+  ProgressCallback Progress;
+};
+
+void Add(std::vector<CellSide>& features, const std::vector<CellSide>& more)
+{
+  features.insert(features.end(), more.begin(), more.end());
+}
+
+template <int Dim>
+Status AddFeatures(vtkPointSet* data, const DecodedMeshCells& decoded, const CellMesh<Dim>& mesh,
+  const MeshTopology<Dim>& topology, Choices& choices)
+{
+  if (choices.FeatureAngle < 180.0)
+  {
+    if constexpr (Dim == 3)
+    {
+      return { ErrorCode::InvalidParameter,
+        "FeatureAngle is for quadrilaterals; mark the sides of features of hexahedra by a cell "
+        "array (FeatureArray)" };
+    }
+    else
+    {
+      const auto sharp =
+        SharpEdges(mesh, topology, decoded.Points.leftCols(3), choices.FeatureAngle);
+      if (!sharp)
+      {
+        return sharp.Status;
+      }
+      Add(choices.Space.Features, sharp.Value);
+    }
+  }
+  if (choices.FeatureArray.empty() || choices.FeatureArray == "None")
+  {
+    return {};
+  }
+  const auto labels = CellLabels(data, choices.FeatureArray, decoded);
+  if (!labels)
+  {
+    return labels.Status;
+  }
+  const auto between = FacetsBetween<Dim>(topology, labels.Value);
+  Add(choices.Space.Features, between.Value);
+  return between.Status;
+}
+
+template <int Dim>
+void EncodeNumbers(const UnstructuredResult<Dim>& made, const Spline<Dim>& spline,
+  const DecodedMeshCells& decoded, const Choices& choices, vtkTable* table)
+{
+  double angle = -1.0;
+  if constexpr (Dim == 2)
+  {
+    angle = LargestCreaseAngle(spline, choices.Space.Features, choices.Threads);
+  }
+  Spline<Dim> geometry = spline;
+  geometry.ControlPoints = spline.ControlPoints.leftCols(3);
+  const VertexDistance distance =
+    DistanceFromVertices<Dim>(geometry, decoded.Points.leftCols(3), choices.Threads);
+  AddColumn(table, "Policy", std::string(PolicyNames[static_cast<int>(made.Policy)]));
+  AddColumn(table, "Functions", made.Space->NumFunctions);
+  AddColumn(table, "Elements", made.Space->NumElements());
+  AddColumn(table, "CreasedFacets", static_cast<int>(made.CreasedFacets));
+  AddColumn(table, "InnerFacets", static_cast<int>(made.InnerFacets));
+  AddColumn(table, "ExtraordinaryPoints", static_cast<int>(made.ExtraordinaryRidges));
+  AddColumn(table, "Repairs", static_cast<int>(made.Repairs));
+  AddColumn(table, "MaxNormalAngle", angle);
+  AddColumn(table, "MaxVertexDistance", distance.Largest);
+  AddColumn(table, "RmsVertexDistance", distance.RootMeanSquare);
+  AddColumn(table, "SplitPolygons", decoded.NumSplit);
+  AddColumn(table, "Orientable", made.IsOrientable ? 1 : 0);
+}
+
+template <int Dim>
+Status MakeSpline(vtkPointSet* data, const DecodedMeshCells& decoded, const CellMesh<Dim>& mesh,
+  Choices choices, vtkUnstructuredGrid* output, vtkTable* table)
+{
+  // first, as it says more than the topology does of points that hang on edges
+  Status status = CheckConforming<Dim>(mesh, decoded.Points.leftCols(3));
+  const auto topology = MeshTopology<Dim>::Make(mesh);
+  status = status ? topology.Status : status;
+  status = status ? AddFeatures<Dim>(data, decoded, mesh, topology.Value, choices) : status;
+  if (status && choices.HasMeanLengths)
+  {
+    auto lengths = MeanSheetLengths<Dim>(mesh, topology.Value, decoded.Points.leftCols(3));
+    status = lengths.Status;
+    choices.Space.Lengths = std::move(lengths.Value);
+  }
+  if (!status)
+  {
+    return status;
+  }
+  const auto made = MakeUnstructuredSpace<Dim>(mesh, choices.Space);
+  if (!made)
+  {
+    return made.Status;
+  }
+  const auto spline = choices.IsCage
+    ? SplineOfCage<Dim>(made->Space, decoded.Points)
+    : SplineThroughVertices<Dim>(made->Space, decoded.Points, choices.Threads, choices.Progress);
+  if (!spline)
+  {
+    return spline.Status;
+  }
+  SplineModel model;
+  model.Patches.emplace_back();
+  model.Patches.front().Fields = decoded.Fields;
+  SeparateFields<Dim>(spline.Value, model.Patches.front());
+  if (Status encoded = EncodeSplineGrid(model, output); !encoded)
+  {
+    return encoded;
+  }
+  PassCellData(data, decoded.Cells, output);
+  EncodeNumbers<Dim>(made.Value, spline.Value, decoded, choices, table);
+  return {};
+}
+}
+
+vtkUnstructuredSpline::vtkUnstructuredSpline()
+{
+  this->SetNumberOfInputPorts(1);
+  this->SetOutputTypes({ "vtkUnstructuredGrid", "vtkTable" });
+}
+
+vtkUnstructuredSpline::~vtkUnstructuredSpline()
+{
+  this->SetFeatureArray(nullptr);
+}
+
+int vtkUnstructuredSpline::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
+  return 1;
+}
+
+Status vtkUnstructuredSpline::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkPointSet* data = vtkPointSet::GetData(inputs[0], 0);
+  const auto decoded = DecodeMeshCells(data, this->SplitPolygons);
+  if (!decoded)
+  {
+    return decoded.Status;
+  }
+  Choices choices;
+  choices.Space.Degree = this->Degree;
+  choices.Space.Policy = static_cast<CreasePolicy>(this->Policy);
+  choices.IsCage = this->Construction == CONTROL_CAGE;
+  choices.HasMeanLengths = this->Lengths == MEAN;
+  choices.FeatureAngle = this->FeatureAngle;
+  choices.FeatureArray = this->FeatureArray ? this->FeatureArray : "";
+  choices.Threads = this->KernelThreads();
+  choices.Progress = this->Progress();
+  Status status = std::visit(
+    [&](const auto& mesh)
+    {
+      return MakeSpline(data, decoded.Value, mesh, choices,
+        vtkUnstructuredGrid::GetData(outputs, 0), vtkTable::GetData(outputs, 1));
+    },
+    decoded->Mesh);
+  if (!status && this->SplitPolygons)
+  {
+    status.Detail += " (numbers are those of the mesh of split polygons)";
+  }
+  return status;
+}
