@@ -30,9 +30,10 @@ protected:
     session.Report["policy_taken"] = table->GetValueByName(0, "Policy").ToString();
     ReportRow(table, 0,
       { "Functions", "Elements", "CreasedFacets", "InnerFacets", "ExtraordinaryPoints", "Repairs",
-        "MaxNormalAngle", "MaxVertexDistance", "RmsVertexDistance" },
+        "MaxNormalAngle", "MaxNormalAngleBefore", "MaxVertexDistance", "RmsVertexDistance" },
       session.Report);
-    // the option has the name of the number
+    // the options have the names of the numbers
+    session.Report["tangent_planes_made"] = table->GetValueByName(0, "TangentPlanes").ToInt();
     session.Report["polygons_split"] = table->GetValueByName(0, "SplitPolygons").ToInt();
     ReportTruths(table, 0, { "Orientable" }, session.Report);
     return {};

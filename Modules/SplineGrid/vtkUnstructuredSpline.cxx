@@ -6,6 +6,7 @@
 #include "TableRow.h"
 #include <knotwork/SplineCore/MeshGeometry.h>
 #include <knotwork/SplineCore/MeshSpline.h>
+#include <knotwork/SplineCore/TangentPlanes.h>
 
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
@@ -32,6 +33,7 @@ struct Choices
   UnstructuredParams Space;
   bool IsCage = false;
   bool HasMeanLengths = false;
+  bool HasTangentPlanes = false;
   double FeatureAngle = 180.0;
   std::string FeatureArray;
   int Threads = 0;
@@ -80,15 +82,37 @@ Status AddFeatures(vtkPointSet* data, const DecodedMeshCells& decoded, const Cel
   return between.Status;
 }
 
+/// Of a surface from both sides of creases that are no features; volumes have none.
+template <int Dim>
+double CreaseAngle(const Spline<Dim>& spline, const Choices& choices)
+{
+  if constexpr (Dim == 2)
+  {
+    return LargestCreaseAngle(spline, choices.Space.Features, choices.Threads);
+  }
+  return -1.0;
+}
+
+/// Points that get a tangent plane.
+template <int Dim>
+Result<int> FlattenStars(
+  Spline<Dim>& spline, const DecodedMeshCells& decoded, const Choices& choices)
+{
+  if constexpr (Dim == 2)
+  {
+    auto made = MakeTangentPlanes(
+      spline, choices.Space.Features, choices.IsCage ? PointMatrix() : decoded.Points);
+    spline = std::move(made->Value);
+    return made ? Result<int>(made->NumVertices) : Result<int>(made.Status);
+  }
+  return { ErrorCode::InvalidParameter,
+    "TangentPlanes is for quadrilaterals; hexahedra have none" };
+}
+
 template <int Dim>
 void EncodeNumbers(const UnstructuredResult<Dim>& made, const Spline<Dim>& spline,
   const DecodedMeshCells& decoded, const Choices& choices, vtkTable* table)
 {
-  double angle = -1.0;
-  if constexpr (Dim == 2)
-  {
-    angle = LargestCreaseAngle(spline, choices.Space.Features, choices.Threads);
-  }
   Spline<Dim> geometry = spline;
   geometry.ControlPoints = spline.ControlPoints.leftCols(3);
   const VertexDistance distance =
@@ -100,7 +124,7 @@ void EncodeNumbers(const UnstructuredResult<Dim>& made, const Spline<Dim>& splin
   AddColumn(table, "InnerFacets", static_cast<int>(made.InnerFacets));
   AddColumn(table, "ExtraordinaryPoints", static_cast<int>(made.ExtraordinaryRidges));
   AddColumn(table, "Repairs", static_cast<int>(made.Repairs));
-  AddColumn(table, "MaxNormalAngle", angle);
+  AddColumn(table, "MaxNormalAngle", CreaseAngle(spline, choices));
   AddColumn(table, "MaxVertexDistance", distance.Largest);
   AddColumn(table, "RmsVertexDistance", distance.RootMeanSquare);
   AddColumn(table, "SplitPolygons", decoded.NumSplit);
@@ -131,12 +155,19 @@ Status MakeSpline(vtkPointSet* data, const DecodedMeshCells& decoded, const Cell
   {
     return made.Status;
   }
-  const auto spline = choices.IsCage
+  auto spline = choices.IsCage
     ? SplineOfCage<Dim>(made->Space, decoded.Points)
     : SplineThroughVertices<Dim>(made->Space, decoded.Points, choices.Threads, choices.Progress);
   if (!spline)
   {
     return spline.Status;
+  }
+  const double before = CreaseAngle(spline.Value, choices);
+  const auto planes =
+    choices.HasTangentPlanes ? FlattenStars(spline.Value, decoded, choices) : Result<int>(0);
+  if (!planes)
+  {
+    return planes.Status;
   }
   SplineModel model;
   model.Patches.emplace_back();
@@ -148,6 +179,8 @@ Status MakeSpline(vtkPointSet* data, const DecodedMeshCells& decoded, const Cell
   }
   PassCellData(data, decoded.Cells, output);
   EncodeNumbers<Dim>(made.Value, spline.Value, decoded, choices, table);
+  AddColumn(table, "MaxNormalAngleBefore", before);
+  AddColumn(table, "TangentPlanes", planes.Value);
   return {};
 }
 }
@@ -184,6 +217,7 @@ Status vtkUnstructuredSpline::Compute(vtkInformationVector** inputs, vtkInformat
   choices.Space.Policy = static_cast<CreasePolicy>(this->Policy);
   choices.IsCage = this->Construction == CONTROL_CAGE;
   choices.HasMeanLengths = this->Lengths == MEAN;
+  choices.HasTangentPlanes = this->TangentPlanes;
   choices.FeatureAngle = this->FeatureAngle;
   choices.FeatureArray = this->FeatureArray ? this->FeatureArray : "";
   choices.Threads = this->KernelThreads();

@@ -15,6 +15,8 @@
  * `ExtraordinaryPoints` (of hexahedra: edges), `Repairs` (facets that are less smooth than the
  * policy says, as it has no basis there), `MaxNormalAngle` (in degrees, between normals of a
  * surface from both sides of facets that are C^0 and no features; -1 for volumes),
+ * `MaxNormalAngleBefore` (what it was before TangentPlanes), `TangentPlanes` (extraordinary points
+ * at which the tangent plane was made one),
  * `MaxVertexDistance` and `RmsVertexDistance` (of the mesh's points from the spline),
  * `SplitPolygons` (polygons that were no quadrilaterals), `Orientable` (0, 1).
  *
@@ -92,6 +94,14 @@ public:
   vtkGetStringMacro(FeatureArray);
   ///@}
   ///@{
+  /** Whether the tangent plane of a surface is made one at extraordinary points, but for features
+   * and folds, by moving the control points around them; the space stays. Not for volumes. Default
+   * off. */
+  vtkSetMacro(TangentPlanes, bool);
+  vtkGetMacro(TangentPlanes, bool);
+  vtkBooleanMacro(TangentPlanes, bool);
+  ///@}
+  ///@{
   /** Whether every polygon, quadrilaterals too, is split at its middle into quadrilaterals, as many
    * as it has corners; without it triangles are an error. Default off. */
   vtkSetMacro(SplitPolygons, bool);
@@ -115,6 +125,7 @@ private:
   int Lengths = UNIFORM;
   double FeatureAngle = 180.0;
   char* FeatureArray = nullptr;
+  bool TangentPlanes = false;
   bool SplitPolygons = false;
 };
 #endif

@@ -109,30 +109,6 @@ void ValueAt(const UnstructuredData<Dim>& data, const MeshPlace<Dim>& place,
   }
 }
 
-/// Interpolation in windows that grow by a vertex to both sides: to degree p in any case, on as
-/// long as that changes less and less, which it does on smooth data.
-template <int Dim>
-void InterpolateAround(const UnstructuredData<Dim>& data, int cell, const PointMatrix& local,
-  const PointMatrixView& vertices, PointMatrix& values)
-{
-  const int least = data.Degree + (data.Degree + 1) % 2;                    // odd
-  const Eigen::Index deciding = std::min<Eigen::Index>(3, vertices.cols()); // coordinates
-  VertexWindow<Dim>(data, cell, 1).Interpolate(local, vertices, values);
-  PointMatrix wider(values.rows(), values.cols());
-  double last = 0.0;
-  for (int width = 3; width <= least + 4; width += 2)
-  {
-    VertexWindow<Dim>(data, cell, width).Interpolate(local, vertices, wider);
-    const double change = (wider - values).leftCols(deciding).rowwise().squaredNorm().maxCoeff();
-    if (width > least && !(change <= last))
-    {
-      break;
-    }
-    last = change;
-    values.swap(wider);
-  }
-}
-
 /// Facets that are C^0 and not left out, each once.
 std::vector<CellSide> FindCreases(
   const UnstructuredData<2>& data, const std::vector<CellSide>& leftOut)

@@ -234,6 +234,32 @@ void VertexWindow<Dim>::Interpolate(
   }
 }
 
+template <int Dim>
+void InterpolateAround(const UnstructuredData<Dim>& data, int cell, const PointMatrix& local,
+  const PointMatrixView& vertices, PointMatrix& values)
+{
+  const int least = data.Degree + (data.Degree + 1) % 2;                    // odd
+  const Eigen::Index deciding = std::min<Eigen::Index>(3, vertices.cols()); // coordinates
+  VertexWindow<Dim>(data, cell, 1).Interpolate(local, vertices, values);
+  PointMatrix wider(values.rows(), values.cols());
+  double last = 0.0;
+  for (int width = 3; width <= least + 4; width += 2)
+  {
+    VertexWindow<Dim>(data, cell, width).Interpolate(local, vertices, wider);
+    const double change = (wider - values).leftCols(deciding).rowwise().squaredNorm().maxCoeff();
+    if (width > least && !(change <= last))
+    {
+      break;
+    }
+    last = change;
+    values.swap(wider);
+  }
+}
+
 template class VertexWindow<2>;
 template class VertexWindow<3>;
+template void InterpolateAround(
+  const UnstructuredData<2>&, int, const PointMatrix&, const PointMatrixView&, PointMatrix&);
+template void InterpolateAround(
+  const UnstructuredData<3>&, int, const PointMatrix&, const PointMatrixView&, PointMatrix&);
 }

@@ -42,4 +42,11 @@ private:
   std::array<std::vector<double>, Dim> Nodes; ///< parameters of the vertices
   std::vector<int> Points;                    ///< numbers of the vertices, first direction fastest
 };
+
+/// Interpolation in windows that grow by a vertex to both sides: to degree p in any case, on as
+/// long as that changes less and less, which it does on smooth data.
+/// @param local  in the cell's own parameters. @param values  a row a point, to set.
+template <int Dim>
+void InterpolateAround(const UnstructuredData<Dim>& data, int cell, const PointMatrix& local,
+  const PointMatrixView& vertices, PointMatrix& values);
 }

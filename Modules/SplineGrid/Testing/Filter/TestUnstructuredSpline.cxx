@@ -3,6 +3,7 @@
 #include "MeshCases.h"
 #include <knotwork/SplineCore/MeshGeometry.h>
 #include <knotwork/SplineCore/MeshSpline.h>
+#include <knotwork/SplineCore/TangentPlanes.h>
 #include <knotwork/SplineGrid/PatchSplit.h>
 #include <knotwork/SplineGrid/vtkUnstructuredSpline.h>
 
@@ -256,6 +257,31 @@ TEST(vtkUnstructuredSpline, FeaturesAreCreases_ExactOracle)
   }
 }
 
+TEST(vtkUnstructuredSpline, TangentPlanesAreThoseOfTheKernel_CrossOracle)
+{
+  const int n = 4;
+  const CellMesh<2> mesh = meshes::CubeSphere(n);
+  const PointMatrix points = meshes::CubeSpherePoints(mesh, n);
+  for (const bool cage : { false, true })
+  {
+    vtkNew<vtkUnstructuredSpline> filter;
+    filter->SetInputDataObject(Sphere(n));
+    filter->SetDegree(2);
+    filter->SetConstruction(
+      cage ? vtkUnstructuredSpline::CONTROL_CAGE : vtkUnstructuredSpline::INTERPOLATION);
+    const Spline<2> before = MadeSpline<2>(filter);
+    EXPECT_EQ(Number(filter, "TangentPlanes"), 0);
+    EXPECT_EQ(Number(filter, "MaxNormalAngle"), Number(filter, "MaxNormalAngleBefore"));
+    filter->TangentPlanesOn();
+    const Spline<2> after = MadeSpline<2>(filter);
+    EXPECT_EQ(Number(filter, "TangentPlanes"), 8);
+    EXPECT_EQ(Number(filter, "MaxNormalAngleBefore"), LargestCreaseAngle(before));
+    EXPECT_EQ(Number(filter, "MaxNormalAngle"), LargestCreaseAngle(after));
+    const auto expected = MakeTangentPlanes(before, {}, cage ? PointMatrix() : points);
+    EXPECT_EQ(after.ControlPoints, expected->Value.ControlPoints);
+  }
+}
+
 TEST(vtkUnstructuredSpline, LengthsAreMeansOfSheets_CrossOracle)
 {
   const std::array<int, 3> n{ 5, 3, 0 };
@@ -398,6 +424,9 @@ TEST(vtkUnstructuredSpline, EveryFailureIsReachable_ExactOracle)
   filter->SetFeatureAngle(30.0);
   expect(hexahedra, ErrorCode::InvalidParameter, "FeatureAngle is for quadrilaterals");
   filter->SetFeatureAngle(180.0);
+  filter->TangentPlanesOn();
+  expect(hexahedra, ErrorCode::InvalidParameter, "TangentPlanes is for quadrilaterals");
+  filter->TangentPlanesOff();
   filter->SplitPolygonsOn();
   expect(hexahedra, ErrorCode::InvalidParameter, "polygons can be split");
   expect(plane({ { 0, 1, 5 } }), ErrorCode::InvalidTopology, "mesh of split polygons");
