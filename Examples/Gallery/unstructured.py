@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A ring of blocks as a mesh of quadrilaterals, the spline through its points, and the spline with the mesh as control cage
-(unstructured.png).
+(unstructured.png); the mesh cut into grids of cells (mesh_patches.png).
 
 usage: unstructured.py [--output DIR]
 """
@@ -13,6 +13,8 @@ import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkGlyph3D, vtkTubeFilter
+from vtkmodules.vtkFiltersSources import vtkSphereSource
 
 
 def ring(n):
@@ -87,8 +89,8 @@ def patches_of(splines):
         return knotwork.read(name)
 
 
-def panel(items, k, text):
-    shown = scene.renderer(items, (k / 3, 0, (k + 1) / 3, 1), 1.0, False)
+def panel(items, k, text, count=3):
+    shown = scene.renderer(items, (k / count, 0, (k + 1) / count, 1), 1.0, False)
     camera = shown.GetActiveCamera()
     camera.SetPosition(2.2, -3.4, 3.6)
     camera.SetFocalPoint(0, 0, 0)
@@ -99,9 +101,44 @@ def panel(items, k, text):
     return shown
 
 
+def cut(mesh, layout, k):
+    """The patches of a mesh, the cuts as lines, T-joints as balls."""
+    made = knotwork.vtkMeshPatches()
+    made.SetInputDataObject(mesh)
+    made.SetLayout(layout)
+    scene.updated(made)
+    surface = vtkPolyData()
+    surface.ShallowCopy(mesh)
+    surface.GetCellData().ShallowCopy(made.GetOutputDataObject(0).GetCellData())
+    faces = scene.patches(surface, "PatchId", True)
+    faces.GetProperty().SetEdgeVisibility(1)
+    faces.GetProperty().SetEdgeColor(0.8, 0.8, 0.8)
+    cuts = made.GetOutputDataObject(1)
+    lines = vtkTubeFilter()
+    lines.SetInputDataObject(cuts)
+    lines.SetRadius(0.012)
+    lines.SetNumberOfSides(10)
+    items = [faces, scene.actor(scene.updated(lines).GetOutputDataObject(0), scene.INK, lighting=True)]
+    joints = vtkPolyData()
+    joints.SetPoints(vtkPoints())
+    for i in range(cuts.GetNumberOfVerts()):
+        joints.GetPoints().InsertNextPoint(cuts.GetCell(i).GetPoints().GetPoint(0))
+    if cuts.GetNumberOfVerts() > 0:
+        ball = vtkSphereSource()
+        ball.SetRadius(0.045)
+        glyphs = vtkGlyph3D()
+        glyphs.SetInputDataObject(joints)
+        glyphs.SetSourceConnection(ball.GetOutputPort())
+        glyphs.ScalingOff()
+        items.append(scene.actor(scene.updated(glyphs).GetOutputDataObject(0), (0.85, 0.1, 0.1), lighting=True))
+    count = made.GetOutputDataObject(2).GetNumberOfRows()
+    return panel(items, k, f"{count} patches along {'tracks' if k else 'the base complex'}", 2)
+
+
 def main():
     folder = scene.output_folder()
     mesh = mesh_of(*ring(3))
+    scene.save([cut(mesh, "base-complex", 0), cut(mesh, "motorcycle-graph", 1)], os.path.join(folder, "mesh_patches.png"), (900, 420))
     through = spline(mesh, Degree=3).GetOutputDataObject(0)
     cage = spline(mesh, Degree=3, Construction="control-cage").GetOutputDataObject(0)
     cells = scene.actor(mesh, (0.95, 0.93, 0.88), lighting=True)

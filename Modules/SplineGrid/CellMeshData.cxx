@@ -139,6 +139,24 @@ void TakeQuadrilaterals(const std::vector<std::vector<int>>& polygons, DecodedMe
   }
   decoded.Mesh = std::move(mesh);
 }
+
+/// A value a cell of the mesh.
+Result<std::vector<double>> CellLabels(
+  vtkPointSet* data, const std::string& name, const DecodedMeshCells& mesh)
+{
+  vtkDataArray* array = data->GetCellData()->GetArray(name.c_str());
+  if (!array || array->GetNumberOfComponents() != 1)
+  {
+    return { ErrorCode::InvalidParameter,
+      "the mesh has no cell array '" + name + "' of one number a cell" };
+  }
+  std::vector<double> labels;
+  for (const vtkIdType cell : mesh.Cells)
+  {
+    labels.push_back(array->GetTuple1(cell));
+  }
+  return labels;
+}
 }
 
 Result<DecodedMeshCells> DecodeMeshCells(vtkPointSet* data, bool split)
@@ -221,20 +239,57 @@ Result<DecodedMeshCells> DecodeMeshCells(vtkPointSet* data, bool split)
   return decoded;
 }
 
-Result<std::vector<double>> CellLabels(
-  vtkPointSet* data, const std::string& name, const DecodedMeshCells& mesh)
+template <int Dim>
+Result<MeshTopology<Dim>> MakeConforming(const CellMesh<Dim>& mesh, const DecodedMeshCells& decoded)
 {
-  vtkDataArray* array = data->GetCellData()->GetArray(name.c_str());
-  if (!array || array->GetNumberOfComponents() != 1)
-  {
-    return { ErrorCode::InvalidParameter,
-      "the mesh has no cell array '" + name + "' of one number a cell" };
-  }
-  std::vector<double> labels;
-  for (const vtkIdType cell : mesh.Cells)
-  {
-    labels.push_back(array->GetTuple1(cell));
-  }
-  return labels;
+  // first, as it says more than the topology does of points that hang on edges
+  const Status status = CheckConforming<Dim>(mesh, decoded.Points.leftCols(3));
+  return status ? MeshTopology<Dim>::Make(mesh) : Result<MeshTopology<Dim>>(status);
 }
+
+template <int Dim>
+Result<std::vector<CellSide>> FindFeatures(vtkPointSet* data, const DecodedMeshCells& decoded,
+  const CellMesh<Dim>& mesh, const MeshTopology<Dim>& topology, double angle,
+  const std::string& array)
+{
+  Result<std::vector<CellSide>> features;
+  if (angle < 180.0)
+  {
+    if constexpr (Dim == 3)
+    {
+      return { ErrorCode::InvalidParameter,
+        "FeatureAngle is for quadrilaterals; mark the sides of features of hexahedra by a cell "
+        "array (FeatureArray)" };
+    }
+    else
+    {
+      features = SharpEdges(mesh, topology, decoded.Points.leftCols(3), angle);
+      if (!features)
+      {
+        return features.Status;
+      }
+    }
+  }
+  if (array.empty() || array == "None")
+  {
+    return features;
+  }
+  const auto labels = CellLabels(data, array, decoded);
+  if (!labels)
+  {
+    return labels.Status;
+  }
+  const auto between = FacetsBetween<Dim>(topology, labels.Value);
+  features->insert(features->end(), between->begin(), between->end());
+  return between ? features : between;
+}
+
+#define KNOTWORK_INSTANTIATE(Dim)                                                                  \
+  template Result<MeshTopology<Dim>> MakeConforming<Dim>(                                          \
+    const CellMesh<Dim>&, const DecodedMeshCells&);                                                \
+  template Result<std::vector<CellSide>> FindFeatures<Dim>(vtkPointSet*, const DecodedMeshCells&,  \
+    const CellMesh<Dim>&, const MeshTopology<Dim>&, double, const std::string&);
+KNOTWORK_INSTANTIATE(2)
+KNOTWORK_INSTANTIATE(3)
+#undef KNOTWORK_INSTANTIATE
 }

@@ -30,8 +30,17 @@ struct DecodedMeshCells
 /// splines and for a volume that is to be split; NonFiniteInput; TooLarge.
 Result<DecodedMeshCells> DecodeMeshCells(vtkPointSet* data, bool split);
 
-/// A value a cell of the mesh. @return InvalidParameter for a cell array that is not there or has
+/// How the cells hang together. @return failures of CheckConforming and MeshTopology::Make.
+template <int Dim>
+Result<MeshTopology<Dim>> MakeConforming(
+  const CellMesh<Dim>& mesh, const DecodedMeshCells& decoded);
+
+/// Facets where quadrilaterals meet at more than an angle, and between cells of different values.
+/// @param angle  in degrees; 180: none. @param array  of cells; empty or "None": none.
+/// @return InvalidParameter for an angle of hexahedra, a cell array that is not there or has
 /// several components.
-Result<std::vector<double>> CellLabels(
-  vtkPointSet* data, const std::string& name, const DecodedMeshCells& mesh);
+template <int Dim>
+Result<std::vector<CellSide>> FindFeatures(vtkPointSet* data, const DecodedMeshCells& decoded,
+  const CellMesh<Dim>& mesh, const MeshTopology<Dim>& topology, double angle,
+  const std::string& array);
 }

@@ -40,48 +40,6 @@ struct Choices
   ProgressCallback Progress;
 };
 
-void Add(std::vector<CellSide>& features, const std::vector<CellSide>& more)
-{
-  features.insert(features.end(), more.begin(), more.end());
-}
-
-template <int Dim>
-Status AddFeatures(vtkPointSet* data, const DecodedMeshCells& decoded, const CellMesh<Dim>& mesh,
-  const MeshTopology<Dim>& topology, Choices& choices)
-{
-  if (choices.FeatureAngle < 180.0)
-  {
-    if constexpr (Dim == 3)
-    {
-      return { ErrorCode::InvalidParameter,
-        "FeatureAngle is for quadrilaterals; mark the sides of features of hexahedra by a cell "
-        "array (FeatureArray)" };
-    }
-    else
-    {
-      const auto sharp =
-        SharpEdges(mesh, topology, decoded.Points.leftCols(3), choices.FeatureAngle);
-      if (!sharp)
-      {
-        return sharp.Status;
-      }
-      Add(choices.Space.Features, sharp.Value);
-    }
-  }
-  if (choices.FeatureArray.empty() || choices.FeatureArray == "None")
-  {
-    return {};
-  }
-  const auto labels = CellLabels(data, choices.FeatureArray, decoded);
-  if (!labels)
-  {
-    return labels.Status;
-  }
-  const auto between = FacetsBetween<Dim>(topology, labels.Value);
-  Add(choices.Space.Features, between.Value);
-  return between.Status;
-}
-
 /// Of a surface from both sides of creases that are no features; volumes have none.
 template <int Dim>
 double CreaseAngle(const Spline<Dim>& spline, const Choices& choices)
@@ -135,11 +93,15 @@ template <int Dim>
 Status MakeSpline(vtkPointSet* data, const DecodedMeshCells& decoded, const CellMesh<Dim>& mesh,
   Choices choices, vtkUnstructuredGrid* output, vtkTable* table)
 {
-  // first, as it says more than the topology does of points that hang on edges
-  Status status = CheckConforming<Dim>(mesh, decoded.Points.leftCols(3));
-  const auto topology = MeshTopology<Dim>::Make(mesh);
-  status = status ? topology.Status : status;
-  status = status ? AddFeatures<Dim>(data, decoded, mesh, topology.Value, choices) : status;
+  const auto topology = MakeConforming<Dim>(mesh, decoded);
+  if (!topology)
+  {
+    return topology.Status;
+  }
+  auto features = FindFeatures<Dim>(
+    data, decoded, mesh, topology.Value, choices.FeatureAngle, choices.FeatureArray);
+  Status status = features.Status;
+  choices.Space.Features = std::move(features.Value);
   if (status && choices.HasMeanLengths)
   {
     auto lengths = MeanSheetLengths<Dim>(mesh, topology.Value, decoded.Points.leftCols(3));

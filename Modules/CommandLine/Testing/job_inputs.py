@@ -124,6 +124,7 @@ def runs():
             (["map", template, target, "--initial", FILE, "--output", grid], "map"),
             (["parameterize", FILE, "--first-map", "first.vtu", "--output", grid], "boundary"),
             (["parameterize", path("boundary.json"), "--layout", FILE, "--output", grid], "layout"),
+            (["patches", FILE, "--cuts", "cuts.vtp", "--table", "table.csv", "--output", grid], "quads"),
             (["refine", FILE, "--output", grid], "surface"),
             (["stitch", FILE, path("east.vtu"), *by_geometry, "--output", grid], "surface"),
             (["stitch", path("east.vtu"), FILE, *by_geometry, "--output", grid], "surface"),

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One picture of every filter that draws.
-#include "MeshCases.h"
+#include "MeshDatasets.h"
 #include "Rendering.h"
+#include <knotwork/SplineGrid/vtkMeshPatches.h>
 #include <knotwork/SplineGrid/vtkSplineControlNet.h>
 #include <knotwork/SplineGrid/vtkSplineEvaluate.h>
 #include <knotwork/SplineGrid/vtkSplineExtract.h>
@@ -344,23 +345,7 @@ TEST(SplineImages, Unstructured_GoldenOracle)
 {
   // The sphere of a cube's mesh of 3 x 3 quadrilaterals a side: 54 elements around eight points of
   // three elements.
-  const CellMesh<2> mesh = meshes::CubeSphere(3);
-  const PointMatrix places = meshes::CubeSpherePoints(mesh, 3);
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  for (Eigen::Index i = 0; i < places.rows(); ++i)
-  {
-    points->InsertNextPoint(places.row(i).data());
-  }
-  vtkNew<vtkCellArray> cells;
-  for (int c = 0; c < mesh.NumCells(); ++c)
-  {
-    const int* corners = mesh.Cell(c);
-    cells->InsertNextCell({ corners[0], corners[1], corners[3], corners[2] });
-  }
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->SetPolys(cells);
+  const auto data = Sphere(3);
   vtkNew<vtkUnstructuredSpline> spline;
   spline->SetInputDataObject(data);
   vtkNew<vtkSplineTessellate> fine;
@@ -382,4 +367,19 @@ TEST(SplineImages, Unstructured_GoldenOracle)
   options.From = { 1.0, 0.7, 0.5 };
   options.Up = { 0.0, 0.0, 1.0 };
   EXPECT_TRUE(RenderAndCompare(drawn, "UnstructuredSpline", options));
+}
+
+TEST(SplineImages, MeshPatches_GoldenOracle)
+{
+  // A cube's mesh on the sphere: a patch a side.
+  vtkNew<vtkMeshPatches> patches;
+  patches->SetInputDataObject(Sphere(3));
+  vtkNew<vtkDataSetSurfaceFilter> surface;
+  surface->SetInputConnection(patches->GetOutputPort());
+  surface->Update();
+  RenderOptions options;
+  options.ColorBy = "PatchId";
+  options.From = { 1.0, 0.7, 0.5 };
+  options.Up = { 0.0, 0.0, 1.0 };
+  EXPECT_TRUE(RenderAndCompare(surface->GetOutput(), "MeshPatches", options));
 }

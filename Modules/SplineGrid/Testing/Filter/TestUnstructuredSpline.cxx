@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterCases.h"
-#include "MeshCases.h"
+#include "MeshDatasets.h"
 #include <knotwork/SplineCore/MeshGeometry.h>
 #include <knotwork/SplineCore/MeshSpline.h>
 #include <knotwork/SplineCore/TangentPlanes.h>
@@ -24,67 +24,6 @@ using namespace knotwork;
 
 namespace
 {
-vtkSmartPointer<vtkPoints> MakePoints(const PointMatrix& points)
-{
-  auto made = vtkSmartPointer<vtkPoints>::New();
-  made->SetDataTypeToDouble();
-  for (Eigen::Index i = 0; i < points.rows(); ++i)
-  {
-    made->InsertNextPoint(points.row(i).data());
-  }
-  return made;
-}
-
-vtkSmartPointer<vtkPolyData> MakePolyData(const CellMesh<2>& mesh, const PointMatrix& points)
-{
-  auto data = vtkSmartPointer<vtkPolyData>::New();
-  data->SetPoints(MakePoints(points));
-  vtkNew<vtkCellArray> cells;
-  for (int c = 0; c < mesh.NumCells(); ++c)
-  {
-    const int* corners = mesh.Cell(c);
-    cells->InsertNextCell({ corners[0], corners[1], corners[3], corners[2] });
-  }
-  data->SetPolys(cells);
-  return data;
-}
-
-/// @param type  VTK_HEXAHEDRON or VTK_VOXEL.
-vtkSmartPointer<vtkUnstructuredGrid> MakeGrid(
-  const CellMesh<3>& mesh, const PointMatrix& points, int type)
-{
-  auto data = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  data->SetPoints(MakePoints(points));
-  for (int c = 0; c < mesh.NumCells(); ++c)
-  {
-    const int* k = mesh.Cell(c);
-    vtkIdType ids[8] = { k[0], k[1], k[2], k[3], k[4], k[5], k[6], k[7] };
-    if (type == VTK_HEXAHEDRON)
-    {
-      std::swap(ids[2], ids[3]);
-      std::swap(ids[6], ids[7]);
-    }
-    data->InsertNextCell(type, 8, ids);
-  }
-  return data;
-}
-
-PointMatrix GridPoints(const std::array<int, 3>& n)
-{
-  PointMatrix points((n[0] + 1) * (n[1] + 1) * (n[2] + 1), 3);
-  for (int i = 0; i < points.rows(); ++i)
-  {
-    points.row(i) << i % (n[0] + 1), i / (n[0] + 1) % (n[1] + 1), i / (n[0] + 1) / (n[1] + 1);
-  }
-  return points;
-}
-
-vtkSmartPointer<vtkPolyData> Sphere(int n)
-{
-  const CellMesh<2> mesh = meshes::CubeSphere(n);
-  return MakePolyData(mesh, meshes::CubeSpherePoints(mesh, n));
-}
-
 double Number(vtkUnstructuredSpline* filter, const char* column)
 {
   return vtkTable::SafeDownCast(filter->GetOutputDataObject(1))
@@ -100,17 +39,6 @@ Spline<Dim> MadeSpline(vtkUnstructuredSpline* filter)
   SplineModel model = DecodePatches(filter->GetOutputDataObject(0));
   EXPECT_EQ(model.Patches.size(), 1U);
   return model.Patches.empty() ? Spline<Dim>() : std::get<Spline<Dim>>(model.Patches[0].Geometry);
-}
-
-void AddCellNumbers(vtkDataSet* data)
-{
-  vtkNew<vtkIntArray> numbers;
-  numbers->SetName("Number");
-  for (vtkIdType c = 0; c < data->GetNumberOfCells(); ++c)
-  {
-    numbers->InsertNextValue(static_cast<int>(100 + c));
-  }
-  data->GetCellData()->AddArray(numbers);
 }
 }
 

@@ -4,7 +4,7 @@ import knotwork_testing
 
 knotwork_testing.load_plugin()
 from paraview.simple import (  # noqa: E402
-    GroupDatasets, IDSelectionSource, KnotworkSplineSource, OutputPort, Plane, SplineControlNet, SplineParametricMesh,
+    GroupDatasets, IDSelectionSource, KnotworkSplineSource, MeshPatches, OutputPort, Plane, SplineControlNet, SplineParametricMesh,
     SplineRefine, UnstructuredSpline)
 
 
@@ -57,6 +57,9 @@ def test_spline_of_a_mesh():
     spline = UnstructuredSpline(Input=plane, Degree=2, Policy="Minimal", Construction="Control Cage")
     assert cells(spline) == 12
     assert OutputPort(spline, 1).GetDataInformation().GetNumberOfRows() == 1
+    patches = MeshPatches(Input=plane, Layout="Motorcycle Graph")
+    assert cells(patches) == 12
+    assert OutputPort(patches, 2).GetDataInformation().GetNumberOfRows() == 1
 
 
 knotwork_testing.main(globals())

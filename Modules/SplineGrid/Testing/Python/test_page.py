@@ -10,7 +10,8 @@ import knotwork_testing
 MODULE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 KERNEL = os.path.join(MODULE, "..", "SplineCore", "Kernel")
 CLASSES = ["vtkSplineSource", "vtkSplineRefine", "vtkSplineExtract", "vtkSplineTessellate", "vtkSplineEvaluate",
-           "vtkSplineWarp", "vtkSplineControlNet", "vtkSplineParametricMesh", "vtkUnstructuredSpline"]
+           "vtkSplineWarp", "vtkSplineControlNet", "vtkSplineParametricMesh", "vtkUnstructuredSpline",
+           "vtkMeshPatches"]
 
 
 def read(*path):

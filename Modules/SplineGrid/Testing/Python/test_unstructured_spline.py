@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Splines on meshes of quadrilaterals: from files to files, refinement, values that are refused."""
+"""Splines on meshes of quadrilaterals: from files to files, refinement, values that are refused; patches of meshes."""
+import json
+
 import knotwork
 import knotwork_testing
 import numpy as np
@@ -106,6 +108,24 @@ def test_refinement_keeps_the_map():
 
     coarse, halved = measured(made.GetOutputDataObject(0), 1e-5), measured(fine, 1e-5)
     assert np.allclose(coarse, halved, rtol=1e-4), (coarse, halved)
+
+
+def test_patches_of_a_mesh_and_their_files():
+    with open(knotwork_testing.output("cube.off"), "w") as file:
+        file.write(cube_text(3, ".off"))
+    run = knotwork_testing.run_program(
+        "patches", knotwork_testing.output("cube.off"), "--output", knotwork_testing.output("patches.vtu"), "--cuts",
+        knotwork_testing.output("cuts.vtp"), "--report", knotwork_testing.output("patches.json"), "--force")
+    assert run.returncode == 0, run.stderr
+    with open(knotwork_testing.output("patches.json")) as file:
+        report = json.load(file)
+    assert [report[key] for key in ("patches", "cells", "cut_facets", "t_joints")] == [6, 54, 36, 0]
+    cells = knotwork.read(knotwork_testing.output("patches.vtu")).GetCellData()
+    places = np.c_[vtk_to_numpy(cells.GetArray("PatchId")), vtk_to_numpy(cells.GetArray("PatchIndex"))]
+    assert len(np.unique(places, axis=0)) == 54 and places.max(0).tolist() == [5, 2, 2, 0]
+    patches = knotwork.vtkMeshPatches()
+    patches.SetLayout("motorcycle-graph")
+    assert patches.GetLayout() == patches.MOTORCYCLE_GRAPH
 
 
 knotwork_testing.main(globals())
