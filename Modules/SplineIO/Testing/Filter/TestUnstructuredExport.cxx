@@ -8,6 +8,8 @@
 #include <knotwork/SplineCore/MeshSpline.h>
 #include <knotwork/SplineCore/Quadrature.h>
 #include <knotwork/SplineCore/SplitIntoPatches.h>
+#include <knotwork/SplineGrid/vtkUnstructuredSpline.h>
+#include <knotwork/SplineIO/DataFile.h>
 #include <knotwork/SplineIO/vtkCADWriter.h>
 #include <knotwork/SplineIO/vtkGismoXMLReader.h>
 #include <knotwork/SplineIO/vtkGismoXMLWriter.h>
@@ -219,6 +221,32 @@ TEST(UnstructuredExport, ClosedSurfacesAreSolidsInStep_CrossOracle)
       ExpectSolid(surface,
         "ring" + degree + "-" + std::to_string(static_cast<int>(policy)) + ".step",
         layout.Patches.size());
+    }
+  }
+}
+
+TEST(UnstructuredExport, ClosedMeshesOfFilesAreSolidsInStep_CrossOracle)
+{
+  const char* folder = std::getenv("KNOTWORK_UNSTRUCTURED_MESHES");
+  if (!folder)
+  {
+    GTEST_SKIP() << "KNOTWORK_UNSTRUCTURED_MESHES names no folder of meshes";
+  }
+  for (const char* name : { "bl_rod_764", "gs_bitorus" })
+  {
+    const auto file = ReadDataFile(std::string(folder) + "/" + name + ".off");
+    ASSERT_TRUE(file) << file.Status.Message();
+    for (const int degree : { 2, 3 })
+    {
+      vtkNew<vtkUnstructuredSpline> filter;
+      filter->SetInputDataObject(file->Data);
+      filter->SetDegree(degree);
+      filter->Update();
+      const SplineModel model = DecodePatches(filter->GetOutputDataObject(0));
+      const auto& surface = std::get<Spline<2>>(model.Patches[0].Geometry);
+      const std::size_t faces = FindSpacePatches(*surface.Space).Patches.size();
+      EXPECT_LE(faces, 100U);
+      ExpectSolid(surface, name + std::to_string(degree) + ".step", faces);
     }
   }
 }
