@@ -16,7 +16,7 @@ public:
   {
     this->AddInput(0, "mesh", "mesh of quadrilaterals or hexahedra (.off .obj .ply .vtk .vtp .vtu)",
       "", "input");
-    this->AddOutput(0, "--output", Endings::Splines, "the spline");
+    this->AddOutput(0, "--output", Endings::Spline, "the spline");
     this->AddOutput(1, "--table", Endings::Table, "its numbers");
     this->AddProperties();
   }

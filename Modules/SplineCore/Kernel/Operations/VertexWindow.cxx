@@ -119,8 +119,7 @@ bool VertexWindow<Dim>::AddLayer(std::size_t direction, bool upper)
     {
       Place beside;
       if (static_cast<int>(i) / inLayer % this->Size[k] + 1 < this->Size[k] &&
-        (!this->Cross(layer[i], k, true, beside) || beside.Cell != layer[i + At(inLayer)].Cell ||
-          beside.Ahead != layer[i + At(inLayer)].Ahead))
+        (!this->Cross(layer[i], k, true, beside) || beside.Cell != layer[i + At(inLayer)].Cell))
       {
         return false;
       }

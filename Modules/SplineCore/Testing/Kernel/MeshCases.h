@@ -222,6 +222,24 @@ inline knotwork::PointMatrix CubeSpherePoints(const CellMesh<2>& mesh, int n)
   return points;
 }
 
+/// Points of a strip around a circle that turns half round on its way: `mesh` is Twisted(n, 1,
+/// false).
+inline knotwork::PointMatrix MoebiusPoints(const CellMesh<2>& mesh, int n)
+{
+  knotwork::PointMatrix points(mesh.NumPoints, 3);
+  for (int c = 0; c < n; ++c)
+  {
+    const double angle = 2.0 * c * static_cast<double>(EIGEN_PI) / n;
+    for (const int corner : { 0, 2 })
+    {
+      const double out = (corner - 1) * 0.1;
+      points.row(mesh.Cell(c)[corner]) << std::cos(angle) * (1.0 + out * std::cos(angle / 2)),
+        std::sin(angle) * (1.0 + out * std::cos(angle / 2)), out * std::sin(angle / 2);
+    }
+  }
+  return points;
+}
+
 /// Layers of hexahedra over quadrilaterals, closed to a ring when periodic.
 inline CellMesh<3> Sweep(const CellMesh<2>& base, int layers, bool periodic = false)
 {

@@ -141,17 +141,7 @@ TEST(MeshGeometry, SharpEdgesOfACubeAreThoseOfTheCube_ExactOracle)
   EXPECT_EQ(count(1e-6), 36U);
   // a sheet that cannot be oriented has no edges sharper than it is bent: 360 degrees in 12 cells
   const CellMesh<2> strip = Twisted(12, 1, false);
-  PointMatrix ring(strip.NumPoints, 3);
-  for (int c = 0; c < 12; ++c)
-  {
-    const double angle = c * static_cast<double>(EIGEN_PI) / 6.0;
-    for (const int corner : { 0, 2 })
-    {
-      const double out = (corner - 1) * 0.1;
-      ring.row(strip.Cell(c)[corner]) << std::cos(angle) * (1.0 + out * std::cos(angle / 2)),
-        std::sin(angle) * (1.0 + out * std::cos(angle / 2)), out * std::sin(angle / 2);
-    }
-  }
+  const PointMatrix ring = MoebiusPoints(strip, 12);
   const auto topologyOfStrip = MeshTopology<2>::Make(strip);
   EXPECT_FALSE(topologyOfStrip->IsOrientable);
   const auto sharp = SharpEdges(strip, topologyOfStrip.Value, ring, 40.0);

@@ -339,6 +339,19 @@ TEST(MeshSpline, AnglesBetweenNormalsAreThoseOfBentSheets_ExactOracle)
   EXPECT_LE(DistanceFromVertices<2>(spline.Value, points).Largest, 1e-13);
 }
 
+TEST(MeshSpline, NormalsOfStripsThatCannotBeOrientedAreCompared_ExactOracle)
+{
+  // 48 flat cells turn by 7.5 degrees each around the circle and by half of that about it
+  const CellMesh<2> strip = Twisted(48, 1, false);
+  const auto made = Make<2>(strip, 1);
+  EXPECT_FALSE(made.IsOrientable);
+  const auto spline = SplineThroughVertices<2>(made.Space, MoebiusPoints(strip, 48));
+  ASSERT_TRUE(spline) << spline.Status.Message();
+  const double angle = LargestCreaseAngle(spline.Value);
+  EXPECT_GT(angle, 3.0);
+  EXPECT_LT(angle, 15.0);
+}
+
 TEST(MeshSpline, EveryFailureIsReachable_ExactOracle)
 {
   const CellMesh<2> mesh = Grid<2>({ 3, 2 });
