@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A ring of blocks as a mesh of quadrilaterals, the spline through its points, and the spline with the mesh as control cage
-(unstructured.png); the mesh cut into grids of cells (mesh_patches.png).
+(unstructured.png); the mesh cut into grids of cells (mesh_patches.png); reflection lines before and after the tangent planes at
+extraordinary points are made one (tangent_planes.png).
 
 usage: unstructured.py [--output DIR]
 """
@@ -10,11 +11,12 @@ import tempfile
 import _scene as scene
 import knotwork
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkGlyph3D, vtkTubeFilter
 from vtkmodules.vtkFiltersSources import vtkSphereSource
+from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
 
 def ring(n):
@@ -101,6 +103,49 @@ def panel(items, k, text, count=3):
     return shown
 
 
+def stripes(splines):
+    """Where the surface reflects black and white lines on a far wall above."""
+    made = knotwork.vtkSplineTessellate()
+    made.SetInputDataObject(splines)
+    made.SetChordalTolerance(2e-6)
+    made.SplittingOn()
+    surface = scene.updated(made).GetOutputDataObject(0)
+    normals = vtk_to_numpy(surface.GetPointData().GetNormals())
+    view = np.array((2.2, -3.4, 3.6)) / np.linalg.norm((2.2, -3.4, 3.6))
+    mirrored = 2 * (normals @ view)[:, None] * normals - view
+    shade = numpy_to_vtk(np.sin(36 * np.arctan2(mirrored[:, 0], abs(mirrored[:, 2]) + 0.3)), deep=1)
+    shade.SetName("Shade")
+    surface.GetPointData().SetScalars(shade)
+    table = vtkLookupTable()
+    table.SetNumberOfTableValues(2)
+    table.SetTableValue(0, *scene.INK, 1)
+    table.SetTableValue(1, 0.95, 0.95, 0.92, 1)
+    table.SetTableRange(-1, 1)
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputData(surface)
+    mapper.SetLookupTable(table)
+    mapper.UseLookupTableScalarRangeOn()
+    mapper.InterpolateScalarsBeforeMappingOn()
+    made = vtkActor()
+    made.SetMapper(mapper)
+    made.GetProperty().SetLighting(False)
+    return made
+
+
+def reflections(mesh, planes, k):
+    made = spline(mesh, Degree=2, TangentPlanes=planes)
+    angle = made.GetOutputDataObject(1).GetValueByName(0, "MaxNormalAngle").ToDouble()
+    shown = scene.renderer([stripes(made.GetOutputDataObject(0))], (k / 2, 0, (k + 1) / 2, 1), 1.0, False)
+    camera = shown.GetActiveCamera()  # an extraordinary point of five cells at the hole
+    camera.SetFocalPoint(-0.42, 0.42, 0.35)
+    camera.SetPosition(0.6, -1.5, 3.2)
+    camera.SetViewUp(0, 0, 1)
+    camera.SetViewAngle(20)
+    shown.ResetCameraClippingRange()
+    shown.AddActor(scene.label(f"up to {angle:.1f} degrees", 0.4, 0.07, 14))
+    return shown
+
+
 def cut(mesh, layout, k):
     """The patches of a mesh, the cuts as lines, T-joints as balls."""
     made = knotwork.vtkMeshPatches()
@@ -139,6 +184,7 @@ def main():
     folder = scene.output_folder()
     mesh = mesh_of(*ring(3))
     scene.save([cut(mesh, "base-complex", 0), cut(mesh, "motorcycle-graph", 1)], os.path.join(folder, "mesh_patches.png"), (900, 420))
+    scene.save([reflections(mesh, False, 0), reflections(mesh, True, 1)], os.path.join(folder, "tangent_planes.png"), (1000, 440))
     through = spline(mesh, Degree=3).GetOutputDataObject(0)
     cage = spline(mesh, Degree=3, Construction="control-cage").GetOutputDataObject(0)
     cells = scene.actor(mesh, (0.95, 0.93, 0.88), lighting=True)
