@@ -30,7 +30,7 @@ namespace knotwork
 {
 namespace
 {
-constexpr unsigned char cellTypes[4] = { 0, VTK_BEZIER_CURVE, VTK_BEZIER_QUADRILATERAL,
+constexpr unsigned char CellTypes[4] = { 0, VTK_BEZIER_CURVE, VTK_BEZIER_QUADRILATERAL,
   VTK_BEZIER_HEXAHEDRON };
 
 // A field of the grid; patches without it have zeros.
@@ -283,7 +283,7 @@ void GridWriter::AddSpline(const SplinePatch& patch, const Spline<Dim>& spline, 
         this->FirstPoint + numbering.Ids[firstId + lexicographic]);
     }
     this->Offsets->InsertNextValue(this->Connectivity->GetNumberOfValues());
-    this->Types->InsertNextValue(cellTypes[Dim]);
+    this->Types->InsertNextValue(CellTypes[Dim]);
     this->PatchIds->InsertNextValue(id);
     this->ElementIds->InsertNextValue(e);
     this->Levels->InsertNextValue(element.Level);

@@ -17,11 +17,11 @@ namespace
 using Vector = Eigen::RowVector3d;
 
 /// Samples a direction of an element.
-constexpr int perElement = 4;
+constexpr int PerElement = 4;
 /// Newton's method is tried at so many places that look like crossings.
-constexpr int mostCandidates = 400;
+constexpr int MostCandidates = 400;
 /// Half the size of the box in which a crossing is proved, of an element's interval.
-constexpr double proofRadius = 1e-7;
+constexpr double ProofRadius = 1e-7;
 
 /// Bounds of an element's derivatives with respect to its own parameters in [0, 1].
 struct SlopeBounds
@@ -42,9 +42,9 @@ public:
       this->Breaks[d] = breaks;
       for (std::size_t e = 0; e + 1 < breaks.size(); ++e)
       {
-        for (int i = 0; i < perElement; ++i)
+        for (int i = 0; i < PerElement; ++i)
         {
-          this->Lines[d].push_back(breaks[e] + (breaks[e + 1] - breaks[e]) * i / perElement);
+          this->Lines[d].push_back(breaks[e] + (breaks[e + 1] - breaks[e]) * i / PerElement);
         }
       }
       this->Lines[d].push_back(breaks.back());
@@ -96,7 +96,7 @@ public:
       }
       const double length = *above - *(above - 1);
       const double share = (u[d] - *(above - 1)) / length;
-      if (!(share > 4.0 * proofRadius && share < 1.0 - 4.0 * proofRadius))
+      if (!(share > 4.0 * ProofRadius && share < 1.0 - 4.0 * ProofRadius))
       {
         return -1;
       }
@@ -211,7 +211,7 @@ public:
             {
               return true;
             }
-            if (tries >= mostCandidates)
+            if (tries >= MostCandidates)
             {
               return false;
             }
@@ -281,7 +281,7 @@ private:
         const int onA[2] = { along == 0 ? i : j, along == 0 ? j : i };
         const bool beside =
           t.Face == a && std::abs(t.I - onA[0]) <= 2 && std::abs(t.J - onA[1]) <= 2;
-        if (found || beside || tries >= mostCandidates || !Passes(begin, end, this->Corners(t)))
+        if (found || beside || tries >= MostCandidates || !Passes(begin, end, this->Corners(t)))
         {
           return;
         }
@@ -363,13 +363,13 @@ private:
     const double curvature = a.Bounds(elementA).Second + b.Bounds(elementB).Second;
     const double slopes = 1e-10 * (a.Bounds(elementA).First + b.Bounds(elementB).First);
     const double moved =
-      norm * (residual + 3.0 * slopes * proofRadius + 4.5 * curvature * proofRadius * proofRadius);
+      norm * (residual + 3.0 * slopes * ProofRadius + 4.5 * curvature * ProofRadius * ProofRadius);
     position = 0.5 * (xa + xb);
     for (double& x : position)
     {
       x = std::abs(x) > evaluation ? x : 0.0; // what rounding leaves of a zero
     }
-    return moved < 0.5 * proofRadius;
+    return moved < 0.5 * ProofRadius;
   }
 
   std::vector<Face> Faces;

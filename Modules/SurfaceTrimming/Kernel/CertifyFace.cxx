@@ -13,18 +13,18 @@ namespace knotwork
 {
 namespace
 {
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double Infinity = std::numeric_limits<double>::infinity();
 /// Bounds of |S_u x S_v| that are so much smaller than a value on the region are brought nearer.
-constexpr double boundGap = 0.5;
+constexpr double BoundGap = 0.5;
 /// Halving for the sake of the bound ends with so many pieces.
-constexpr std::size_t maxPieces = std::size_t(1) << 20;
+constexpr std::size_t MaxPieces = std::size_t(1) << 20;
 /// Boxes of a proof: a piece that is halved when it fails gets few, one that has to be proved as it
 /// is the total of all.
-constexpr std::int64_t firstBoxes = 256;
-constexpr std::int64_t lastBoxes = 100000;
-constexpr std::size_t maxLast = 64;
-constexpr double inward = 1.0 - 0x1p-50; // covers the three roundings of a scaled bound
-constexpr double outward = 1.0 + 0x1p-50;
+constexpr std::int64_t FirstBoxes = 256;
+constexpr std::int64_t LastBoxes = 100000;
+constexpr std::size_t MaxLast = 64;
+constexpr double Inward = 1.0 - 0x1p-50; // covers the three roundings of a scaled bound
+constexpr double Outward = 1.0 + 0x1p-50;
 
 /// The part [k / 2^d, (k + 1) / 2^d] of an element in both directions, d = Depth.
 struct Piece
@@ -36,7 +36,7 @@ struct Piece
   bool Tight = false; ///< the bounds were brought to the gap
   /// Of the least |S_u x S_v| on the piece, by the surface's parameters.
   double Lower = 0.0;
-  double Upper = infinity;
+  double Upper = Infinity;
 };
 
 class FaceProof
@@ -78,7 +78,7 @@ public:
       return { ErrorCode::EmptyInput, "the loops enclose no part of the surface" };
     }
     this->Found.Verdict = Verdict::Valid;
-    this->Found.MinNormal = infinity;
+    this->Found.MinNormal = Infinity;
     for (const Piece& piece : this->Regular)
     {
       this->Found.MinNormal = std::min(this->Found.MinNormal, piece.Lower);
@@ -149,7 +149,7 @@ private:
       Piece quarter = piece;
       ++quarter.Depth;
       quarter.Tight = false;
-      quarter.Upper = infinity; // where the least value was may be outside
+      quarter.Upper = Infinity; // where the least value was may be outside
       quarter.Index = { 2 * piece.Index[0] + (k & 1), 2 * piece.Index[1] + (k >> 1) };
       quarters.push_back(quarter);
     }
@@ -245,9 +245,9 @@ private:
         const ParametricBox<2>& box = this->Element(pieces[k]).Box;
         const double area = std::ldexp(
           (box.Upper[0] - box.Lower[0]) * (box.Upper[1] - box.Lower[1]), -2 * pieces[k].Depth);
-        const double lower = (reversed ? -cell.MaxUpper : cell.MinLower) / area * inward;
+        const double lower = (reversed ? -cell.MaxUpper : cell.MinLower) / area * Inward;
         pieces[k].Lower = std::max(pieces[k].Lower, lower);
-        pieces[k].Upper = (reversed ? -cell.MaxLower : cell.MinUpper) / area * outward;
+        pieces[k].Upper = (reversed ? -cell.MaxLower : cell.MinUpper) / area * Outward;
       }
       pieces[k].Tight = gap < 1.0;
     }
@@ -267,7 +267,7 @@ private:
   {
     while (!pieces.empty() && this->Found.Verdict != Verdict::Invalid)
     {
-      if (const Status status = this->Prove(pieces, 1.0, firstBoxes); !status)
+      if (const Status status = this->Prove(pieces, 1.0, FirstBoxes); !status)
       {
         return status;
       }
@@ -279,7 +279,7 @@ private:
     }
     pieces.swap(this->Last);
     this->IsLast = true;
-    if (const Status status = this->Prove(pieces, 1.0, lastBoxes); !status)
+    if (const Status status = this->Prove(pieces, 1.0, LastBoxes); !status)
     {
       return status;
     }
@@ -312,7 +312,7 @@ private:
       {
         AddQuarters(piece, quarters);
       }
-      else if (!this->IsLast && cell.Limit == JacobianLimit::Boxes && this->Last.size() < maxLast)
+      else if (!this->IsLast && cell.Limit == JacobianLimit::Boxes && this->Last.size() < MaxLast)
       {
         this->Last.push_back(piece);
       }
@@ -387,7 +387,7 @@ private:
   {
     while (true)
     {
-      double upper = infinity;
+      double upper = Infinity;
       for (const Piece& piece : this->Regular)
       {
         if (piece.Place == RegionPlace::Inside)
@@ -400,8 +400,8 @@ private:
       for (const Piece& piece : this->Regular)
       {
         const bool split = piece.Tight && piece.Place == RegionPlace::Boundary &&
-          piece.Depth < this->Params.MaxDepth && this->Regular.size() < maxPieces;
-        if (piece.Lower >= boundGap * upper || (piece.Tight && !split))
+          piece.Depth < this->Params.MaxDepth && this->Regular.size() < MaxPieces;
+        if (piece.Lower >= BoundGap * upper || (piece.Tight && !split))
         {
           kept.push_back(piece);
         }
@@ -421,7 +421,7 @@ private:
       this->DropOutside(again);
       if (!again.empty())
       {
-        if (const Status status = this->Prove(again, boundGap, firstBoxes); !status)
+        if (const Status status = this->Prove(again, BoundGap, FirstBoxes); !status)
         {
           return status;
         }

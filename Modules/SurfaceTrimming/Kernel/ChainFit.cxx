@@ -16,20 +16,20 @@ namespace knotwork
 {
 namespace
 {
-constexpr int degree = 3;
-constexpr int maxRounds = 60;
+constexpr int Degree = 3;
+constexpr int MaxRounds = 60;
 /// From then on, and when there are many, knots become multiple where the tolerance does not hold.
-constexpr int patience = 40;
-constexpr int maxCurveRounds = 30;
-constexpr int maxDepth = 40;
+constexpr int Patience = 40;
+constexpr int MaxCurveRounds = 30;
+constexpr int MaxDepth = 40;
 /// Spans of a length that rounding does not spoil.
-constexpr double leastSpan = 1e-9;
+constexpr double LeastSpan = 1e-9;
 /// Corners that would have to be rounded within less stay corners.
-constexpr double leastRounding = 1e-7;
+constexpr double LeastRounding = 1e-7;
 
 /// A cubic in Bernstein form, a coefficient a row.
-using Cubic = Eigen::Matrix<double, degree + 1, Eigen::Dynamic, Eigen::RowMajor>;
-using PlaneCubic = Eigen::Matrix<double, degree + 1, 2, Eigen::RowMajor>;
+using Cubic = Eigen::Matrix<double, Degree + 1, Eigen::Dynamic, Eigen::RowMajor>;
+using PlaneCubic = Eigen::Matrix<double, Degree + 1, 2, Eigen::RowMajor>;
 
 template <typename Matrix>
 std::array<Matrix, 2> Halve(const Matrix& whole)
@@ -38,7 +38,7 @@ std::array<Matrix, 2> Halve(const Matrix& whole)
   const int columns = static_cast<int>(whole.cols());
   for (int c = 0; c < columns; ++c)
   {
-    HalveBernstein(degree, halves[1].data() + c, halves[0].data() + c, columns);
+    HalveBernstein(Degree, halves[1].data() + c, halves[0].data() + c, columns);
   }
   return halves;
 }
@@ -76,14 +76,14 @@ std::vector<CurvePiece> CutAtCorners(const Spline<1>& curve, const std::vector<d
       piece.Span = e;
       piece.Begin = at;
       piece.End = std::min(end, corners[static_cast<std::size_t>(segment) + 1]);
-      piece.Curve.resize(degree + 1, columns);
+      piece.Curve.resize(Degree + 1, columns);
       for (int c = 0; c < columns; ++c)
       {
-        const double* block = form.Block(e) + c * (degree + 1);
+        const double* block = form.Block(e) + c * (Degree + 1);
         const auto part =
-          BernsteinRestrict<1>({ degree }, std::vector<double>(block, block + degree + 1), 0,
+          BernsteinRestrict<1>({ Degree }, std::vector<double>(block, block + Degree + 1), 0,
             (piece.Begin - begin) / (end - begin), (piece.End - begin) / (end - begin));
-        for (int i = 0; i <= degree; ++i)
+        for (int i = 0; i <= Degree; ++i)
         {
           piece.Curve(i, c) = part[static_cast<std::size_t>(i)];
         }
@@ -111,9 +111,9 @@ Cubic Difference(
   Cubic difference = piece.Curve;
   const Eigen::RowVectorXd begin = PointAt(parameters, points, piece.Segment, piece.Begin);
   const Eigen::RowVectorXd end = PointAt(parameters, points, piece.Segment, piece.End);
-  for (int i = 0; i <= degree; ++i)
+  for (int i = 0; i <= Degree; ++i)
   {
-    const double s = static_cast<double>(i) / degree;
+    const double s = static_cast<double>(i) / Degree;
     difference.row(i) -= (1.0 - s) * begin + s * end;
   }
   return difference;
@@ -122,10 +122,10 @@ Cubic Difference(
 /// @param knots  inner ones, ascending.
 Result<SplineSpacePtr<1>> MakeSpace(const std::vector<double>& knots)
 {
-  std::vector<double> all(degree + 1, 0.0);
+  std::vector<double> all(Degree + 1, 0.0);
   all.insert(all.end(), knots.begin(), knots.end());
-  all.insert(all.end(), degree + 1, 1.0);
-  auto vector = KnotVector::Create(degree, std::move(all));
+  all.insert(all.end(), Degree + 1, 1.0);
+  auto vector = KnotVector::Create(Degree, std::move(all));
   if (!vector)
   {
     return vector.Status;
@@ -172,7 +172,7 @@ Result<PointMatrix> ProjectOnto(const SplineSpace<1>& space, const Samples& samp
 
 void AppendGauss(double begin, double end, std::vector<double>& t, std::vector<double>& weights)
 {
-  static const QuadratureRule rule = GaussLegendre(degree + 1);
+  static const QuadratureRule rule = GaussLegendre(Degree + 1);
   for (std::size_t q = 0; q < rule.Nodes.size(); ++q)
   {
     t.push_back(begin + (end - begin) * rule.Nodes[q]);
@@ -194,7 +194,7 @@ public:
   Result<Spline<1>> Run()
   {
     Result<Spline<1>> curve;
-    for (int round = 0; round < maxRounds; ++round)
+    for (int round = 0; round < MaxRounds; ++round)
     {
       curve = this->Fit();
       if (!curve)
@@ -216,7 +216,7 @@ public:
         return curve;
       }
       const std::size_t before = this->Knots.size();
-      const bool multiply = round >= patience || before > this->MaxKnots();
+      const bool multiply = round >= Patience || before > this->MaxKnots();
       const std::vector<double> breaks = curve->Space->Knots[0].Breaks();
       for (std::size_t e = 0; e < worst.size(); ++e)
       {
@@ -339,7 +339,7 @@ private:
     }
     // halves of a piece that is shorter than its distance lie in no smaller box
     DerivativeBounds here;
-    if (surface.Over(box, here) || depth >= maxDepth || length <= difference.cwiseAbs().maxCoeff())
+    if (surface.Over(box, here) || depth >= MaxDepth || length <= difference.cwiseAbs().maxCoeff())
     {
       return bound(here);
     }
@@ -384,7 +384,7 @@ private:
     this->Knots.clear();
     for (std::size_t v = 1; v + 1 < this->Chain.Parameters.size(); ++v)
     {
-      this->Knots.insert(this->Knots.end(), degree, this->Chain.Parameters[v]);
+      this->Knots.insert(this->Knots.end(), Degree, this->Chain.Parameters[v]);
     }
     return true;
   }
@@ -397,7 +397,7 @@ private:
       if (*vertex > 0.0 && *vertex < 1.0)
       {
         const auto count = std::count(this->Knots.begin(), this->Knots.end(), *vertex);
-        this->Knots.insert(this->Knots.end(), static_cast<std::size_t>(degree - count), *vertex);
+        this->Knots.insert(this->Knots.end(), static_cast<std::size_t>(Degree - count), *vertex);
       }
     }
   }
@@ -407,7 +407,7 @@ private:
     const auto& t = this->Chain.Parameters;
     const auto first = std::upper_bound(t.begin(), t.end(), begin);
     const auto last = std::lower_bound(t.begin(), t.end(), end);
-    if (multiply || end - begin < leastSpan)
+    if (multiply || end - begin < LeastSpan)
     {
       this->Multiply(first - 1, last);
       return;
@@ -460,7 +460,7 @@ private:
     }
     const auto& t = this->Chain.Parameters;
     const double h = 4.0 * this->Tolerance / std::max(this->Jump(vertex), 1e-300);
-    if (!(h > leastRounding))
+    if (!(h > LeastRounding))
     {
       const auto at = t.begin() + static_cast<std::ptrdiff_t>(vertex);
       this->Multiply(at, at);
@@ -522,7 +522,7 @@ public:
       {
         return status;
       }
-      if (knots.empty() || round >= maxCurveRounds)
+      if (knots.empty() || round >= MaxCurveRounds)
       {
         PointMatrix all(uv.ControlPoints.rows(), 3 + uv.ControlPoints.cols());
         all << curve->ControlPoints, uv.ControlPoints;
@@ -696,7 +696,7 @@ private:
     for (std::size_t e = 0; e < most.size(); ++e)
     {
       // samples miss a little of the largest distance
-      if (most[e] > 0.8 * this->Params.CurveTolerance && breaks[e + 1] - breaks[e] > leastSpan)
+      if (most[e] > 0.8 * this->Params.CurveTolerance && breaks[e + 1] - breaks[e] > LeastSpan)
       {
         knots.push_back(0.5 * (breaks[e] + breaks[e + 1]));
       }
@@ -725,15 +725,15 @@ private:
     {
       const int begin = d == 0 ? 0 : d + 2;
       const int count = d == 0 ? 3 : 1;
-      for (int i = 0; i < degree; ++i)
+      for (int i = 0; i < Degree; ++i)
       {
         first[d] =
-          std::max(first[d], degree * (rows(i + 1, begin, count) - rows(i, begin, count)).norm());
+          std::max(first[d], Degree * (rows(i + 1, begin, count) - rows(i, begin, count)).norm());
       }
-      for (int i = 0; i + 1 < degree; ++i)
+      for (int i = 0; i + 1 < Degree; ++i)
       {
         second[d] = std::max(second[d],
-          degree * (degree - 1) *
+          Degree * (Degree - 1) *
             (rows(i + 2, begin, count) - 2.0 * rows(i + 1, begin, count) + rows(i, begin, count))
               .norm());
       }
@@ -762,7 +762,7 @@ private:
     PointMatrix uv(static_cast<Eigen::Index>(pieces.size()), 2);
     for (std::size_t i = 0; i < pieces.size(); ++i)
     {
-      uv.row(static_cast<Eigen::Index>(i)) = pieces[i].Curve.row(degree).tail(2);
+      uv.row(static_cast<Eigen::Index>(i)) = pieces[i].Curve.row(Degree).tail(2);
     }
     PointMatrix points;
     Status status = Evaluate(surface, uv, points);
@@ -770,7 +770,7 @@ private:
     for (std::size_t i = 0; status && i < pieces.size(); ++i)
     {
       gaps.push_back(
-        (pieces[i].Curve.row(degree).head(3) - points.row(static_cast<Eigen::Index>(i))).norm());
+        (pieces[i].Curve.row(Degree).head(3) - points.row(static_cast<Eigen::Index>(i))).norm());
     }
     return status;
   }
@@ -782,14 +782,14 @@ private:
     for (const CurvePiece& span : CutAtCorners(curve, { 0.0, 1.0 }))
     {
       GapPiece piece;
-      piece.Curve.resize(degree + 1, 5);
+      piece.Curve.resize(Degree + 1, 5);
       piece.Curve << span.Curve.leftCols(3),
         span.Curve.middleCols(3 + 2 * static_cast<Eigen::Index>(use), 2);
       open.push_back(std::move(piece));
     }
     // halves of a point: its gap is that of the curve's begin
     GapPiece begin;
-    begin.Curve = open.front().Curve.row(0).replicate(degree + 1, 1);
+    begin.Curve = open.front().Curve.row(0).replicate(Degree + 1, 1);
     std::vector<double> gaps;
     if (Status status = MeasureEnds(surface, { begin }, gaps); !status)
     {
@@ -816,7 +816,7 @@ private:
         double bound = 0.0;
         const bool isLocal = BoundPiece(surface, piece, bound);
         if (bound <= std::max(0.1 * this->Params.CurveTolerance, 1.05 * found) ||
-          (isLocal && piece.Depth >= maxDepth))
+          (isLocal && piece.Depth >= MaxDepth))
         {
           largest = std::max(largest, bound);
           continue;

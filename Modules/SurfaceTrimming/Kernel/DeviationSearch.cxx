@@ -12,12 +12,12 @@ namespace knotwork
 namespace
 {
 /// Of the numbers that enter a value: some hundred roundings.
-constexpr double unitRounding = 0x1p-45;
+constexpr double UnitRounding = 0x1p-45;
 /// Halvings a triangle, and how many more a part that the elements make.
-constexpr int maxHalvings = 1000;
-constexpr int halvingsAPart = 4;
+constexpr int MaxHalvings = 1000;
+constexpr int HalvingsAPart = 4;
 /// Sides of a part relative to the triangle's box are not more unequal than this.
-constexpr double largestAspect = 4.0;
+constexpr double LargestAspect = 4.0;
 
 RealArray<2> Difference(const RealArray<2>& a, const RealArray<2>& b)
 {
@@ -140,7 +140,7 @@ TriangleDeviation DeviationSearch::Bound(const ChartTriangle& triangle, double f
       this->AddElement(i + j * knots[0].NumElements());
     }
   }
-  int halvings = maxHalvings + halvingsAPart * static_cast<int>(this->Open.size());
+  int halvings = MaxHalvings + HalvingsAPart * static_cast<int>(this->Open.size());
   const auto less = [](const Part& a, const Part& b) { return a.Upper < b.Upper; };
   std::make_heap(this->Open.begin(), this->Open.end(), less);
   while (!this->Open.empty() && this->Open.front().Upper > this->Goal() && halvings-- > 0)
@@ -193,8 +193,8 @@ void DeviationSearch::SetTriangle(const ChartTriangle& triangle)
   }
   // The affine map is off by the rounding of the triangle's area, relative to it.
   const double thinness = longest * longest / twice;
-  this->Rounding = unitRounding * (largest + side * thinness + slope * furthest);
-  this->EdgeSlack = unitRounding * (1.0 + furthest / longest);
+  this->Rounding = UnitRounding * (largest + side * thinness + slope * furthest);
+  this->EdgeSlack = UnitRounding * (1.0 + furthest / longest);
 }
 
 void DeviationSearch::AddElement(int element)
@@ -515,7 +515,7 @@ std::size_t DeviationSearch::HalvingDirection(const Part& part)
   const double sides[2] = { part.Size[0] / element.Extent[0], part.Size[1] / element.Extent[1] };
   for (std::size_t d = 0; d < 2; ++d)
   {
-    if (sides[d] > largestAspect * sides[1 - d])
+    if (sides[d] > LargestAspect * sides[1 - d])
     {
       return d;
     }

@@ -11,9 +11,9 @@ namespace knotwork
 namespace
 {
 /// Curves of a loop whose ends are so near, by their coordinates, end in one point.
-constexpr double sameEnd = 0x1p-40;
+constexpr double SameEnd = 0x1p-40;
 /// Roundings of a coefficient in Bernstein form, for each degree.
-constexpr double extractionRounding = 16.0 * 0x1p-53;
+constexpr double ExtractionRounding = 16.0 * 0x1p-53;
 
 /// The curves of all loops of a face as Bernstein cells.
 class LoopCells
@@ -137,7 +137,7 @@ private:
     {
       largest = std::max(largest, std::abs(block[i]));
     }
-    this->Cells.Errors.push_back(extractionRounding * degree * largest);
+    this->Cells.Errors.push_back(ExtractionRounding * degree * largest);
   }
 
   void MakeRational()
@@ -198,7 +198,7 @@ private:
       const auto a = this->End(step.Curve, !step.Reversed);
       const auto b = this->End(next.Curve, next.Reversed);
       const double gap = std::max(std::abs(a[0] - b[0]), std::abs(a[1] - b[1]));
-      this->IsClosed = this->IsClosed && gap <= sameEnd * size;
+      this->IsClosed = this->IsClosed && gap <= SameEnd * size;
       for (const int cell : { step.Curve, next.Curve })
       {
         double& error = this->Cells.Errors[static_cast<std::size_t>(cell)];

@@ -11,7 +11,7 @@ namespace knotwork
 {
 namespace
 {
-constexpr int maxElements = 16;
+constexpr int MaxElements = 16;
 
 /// Largest length of p times the differences of coefficients in a direction.
 double FirstDifference(const IntArray<2>& degree, const double* block, int direction)
@@ -105,7 +105,7 @@ bool SurfaceBounds::Over(const ParametricBox<2>& box, DerivativeBounds& bounds) 
       low[d] = std::max(0, low[d] - 1);
     }
   }
-  if ((high[0] - low[0] + 1) * (high[1] - low[1] + 1) > maxElements)
+  if ((high[0] - low[0] + 1) * (high[1] - low[1] + 1) > MaxElements)
   {
     bounds = this->Total;
     return false;

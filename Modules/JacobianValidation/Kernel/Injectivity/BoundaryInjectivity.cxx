@@ -17,24 +17,24 @@ namespace knotwork
 namespace
 {
 /// A pair of sides gets so many boxes at first, and so many when there are many pairs.
-constexpr std::int64_t firstBoxes = 4096;
-constexpr std::int64_t leastBoxes = 256;
+constexpr std::int64_t FirstBoxes = 4096;
+constexpr std::int64_t LeastBoxes = 256;
 /// Parts of MaxBoxes: a cell's, and that of few cells.
-constexpr std::int64_t partOfCell = 1500;
-constexpr std::int64_t partOfFew = 100;
+constexpr std::int64_t PartOfCell = 1500;
+constexpr std::int64_t PartOfFew = 100;
 /// Sides with common corners are an interface when they are nearer than this part of their size.
-constexpr double slender = 0.05;
+constexpr double Slender = 0.05;
 /// Sides whose neighbours are looked up at a time, and pairs worked on before an overlap among them
 /// ends the proof: the first so many, then twice as many each time, up to the last.
-constexpr std::size_t sidesAtOnce = 256;
-constexpr std::size_t firstPairs = 32;
-constexpr std::size_t mostPairs = 8192;
+constexpr std::size_t SidesAtOnce = 256;
+constexpr std::size_t FirstPairs = 32;
+constexpr std::size_t MostPairs = 8192;
 /// Of those worked on at a time, so many that cannot be separated are searched for an overlap, and
 /// so many of which nothing is known but that boxes were not enough.
-constexpr std::size_t mostSuspects = 16;
-constexpr std::size_t mostUnknown = 2;
+constexpr std::size_t MostSuspects = 16;
+constexpr std::size_t MostUnknown = 2;
 /// Sides of a component at which it is tried to count preimages.
-constexpr int placesOfComponent = 4;
+constexpr int PlacesOfComponent = 4;
 
 Status CheckInput(const BernsteinCells& cells, const CellComplex& complex,
   const JacobianCertificate& certificate, const InjectivityParams& params)
@@ -114,7 +114,7 @@ public:
     : Cells(cells), Complex(complex), Local(certificate), Params(params),
       MaxBoxes(std::max<std::int64_t>(1,
         std::min(params.MaxBoxes,
-          std::max(params.MaxBoxes / partOfFew, params.MaxBoxes / partOfCell * cells.NumCells()))))
+          std::max(params.MaxBoxes / PartOfFew, params.MaxBoxes / PartOfCell * cells.NumCells()))))
   {
   }
 
@@ -376,11 +376,11 @@ private:
       (upper.colwise().maxCoeff() - lower.colwise().minCoeff()).cwiseAbs().maxCoeff();
     this->FindLonely(lower, upper);
     std::vector<PairState> open;
-    std::size_t batch = firstPairs;
-    for (std::size_t first = 0; first < n; first += sidesAtOnce)
+    std::size_t batch = FirstPairs;
+    for (std::size_t first = 0; first < n; first += SidesAtOnce)
     {
       const std::vector<PairState> pairs =
-        this->FindPairs(tree, lower, upper, first, std::min(n, first + sidesAtOnce));
+        this->FindPairs(tree, lower, upper, first, std::min(n, first + SidesAtOnce));
       for (std::size_t done = 0; done < pairs.size();)
       {
         const std::size_t end = std::min(pairs.size(), done + batch);
@@ -389,7 +389,7 @@ private:
         std::vector<PairState> now(pairs.begin() + static_cast<std::ptrdiff_t>(done),
           pairs.begin() + static_cast<std::ptrdiff_t>(end));
         this->Work(
-          now, std::min(std::clamp(share, leastBoxes, firstBoxes), this->Params.MaxBoxes), false);
+          now, std::min(std::clamp(share, LeastBoxes, FirstBoxes), this->Params.MaxBoxes), false);
         if (this->FindFirstOverlap(now))
         {
           return true;
@@ -406,7 +406,7 @@ private:
           }
         }
         done = end;
-        batch = std::min(2 * batch, mostPairs);
+        batch = std::min(2 * batch, MostPairs);
         if (this->Out.Boxes >= this->MaxBoxes && !open.empty())
         {
           this->WorkOnOpen(open);
@@ -522,8 +522,8 @@ private:
         }
       }
     };
-    add(SeparationState::Stuck, mostSuspects);
-    add(SeparationState::Boxes, last ? mostUnknown : 0);
+    add(SeparationState::Stuck, MostSuspects);
+    add(SeparationState::Boxes, last ? MostUnknown : 0);
     ParallelFor(suspects.size(), 1, this->Params.Threads,
       [&](std::size_t begin, std::size_t end)
       {
@@ -727,7 +727,7 @@ private:
       farthest = std::max(farthest, distance);
     }
     return 2 * far >= samples.size() &&
-      !(haveSameCorners && farthest <= slender * Diagonal(samples));
+      !(haveSameCorners && farthest <= Slender * Diagonal(samples));
   }
 
   /// Whether two sides of different patches should be one interface.
@@ -772,7 +772,7 @@ private:
           largestClose = std::max(largestClose, distance);
         }
       }
-      const bool unequal = sameCorners && largest <= slender * Diagonal(samples);
+      const bool unequal = sameCorners && largest <= Slender * Diagonal(samples);
       if (unequal || 2 * close > samples.size())
       {
         isGap = true;
@@ -1137,7 +1137,7 @@ private:
           places.emplace_back();
         }
         std::vector<int>& some = places[static_cast<std::size_t>(first[component])];
-        if (some.size() < placesOfComponent)
+        if (some.size() < PlacesOfComponent)
         {
           some.push_back(static_cast<int>(i));
         }
@@ -1151,7 +1151,7 @@ private:
       const BoxTree tree(lower, upper);
       std::vector<MultiplicityResult> results(places.size());
       const std::int64_t each = std::max<std::int64_t>(
-        firstBoxes, (this->MaxBoxes - this->Out.Boxes) / static_cast<std::int64_t>(places.size()));
+        FirstBoxes, (this->MaxBoxes - this->Out.Boxes) / static_cast<std::int64_t>(places.size()));
       ParallelFor(places.size(), 4, this->Params.Threads,
         [&](std::size_t begin, std::size_t end)
         {

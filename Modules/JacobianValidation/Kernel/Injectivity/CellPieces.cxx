@@ -10,9 +10,9 @@ namespace knotwork
 {
 namespace
 {
-constexpr double unitRoundoff = 0x1p-53;
+constexpr double UnitRoundoff = 0x1p-53;
 /// Covers the rounding of the bounds' own few operations.
-constexpr double slack = 1.0 + 0x1p-40;
+constexpr double Slack = 1.0 + 0x1p-40;
 
 using Lattice3 = std::array<int, 3>;
 
@@ -239,7 +239,7 @@ std::array<CellPiece, 2> Bisect(
   }
   const double steps = static_cast<double>(along.Lines.front().size() - 1);
   CellPiece left = piece;
-  left.Error = (piece.Error + steps * (unitRoundoff * (largest + piece.Error) + DBL_MIN)) * slack;
+  left.Error = (piece.Error + steps * (UnitRoundoff * (largest + piece.Error) + DBL_MIN)) * Slack;
   left.Depth = piece.Depth + 1;
   CellPiece right = left;
   for (int plane = 0; plane < numPlanes; ++plane)
@@ -309,15 +309,15 @@ PieceHull MakeHull(
       // |N/W - n/w| <= (e + |n/w| e) / (w - e), and the division rounds
       const double least = weights[i] - piece.Error;
       const double error = least > 0.0
-        ? piece.Error * (1.0 + largest) / least + 2.0 * unitRoundoff * largest
+        ? piece.Error * (1.0 + largest) / least + 2.0 * UnitRoundoff * largest
         : std::numeric_limits<double>::infinity();
-      hull.Error = std::max(hull.Error, error * slack);
+      hull.Error = std::max(hull.Error, error * Slack);
     }
   }
   for (std::size_t d = 0; d < static_cast<std::size_t>(numComponents); ++d)
   {
     const double scale = std::max(std::abs(hull.Lower[d]), std::abs(hull.Upper[d]));
-    const double wide = hull.Error + unitRoundoff * 2.0 * (scale + hull.Error);
+    const double wide = hull.Error + UnitRoundoff * 2.0 * (scale + hull.Error);
     hull.Lower[d] -= wide;
     hull.Upper[d] += wide;
   }

@@ -17,10 +17,10 @@ namespace knotwork
 namespace
 {
 using Vector = Eigen::Vector2d;
-constexpr double unitRoundoff = 0x1p-53;
-constexpr std::int64_t firstBoxes = 4096;
-constexpr int maxDepth = 50;
-constexpr double slack = 1.0 + 1e-9;
+constexpr double UnitRoundoff = 0x1p-53;
+constexpr std::int64_t FirstBoxes = 4096;
+constexpr int MaxDepth = 50;
+constexpr double Slack = 1.0 + 1e-9;
 
 Vector Across(const Vector& d)
 {
@@ -156,7 +156,7 @@ private:
       }
     }
     // as many means of two numbers as the degree, at two parameters
-    piece.Error = (piece.Error + 16.0 * lattice.Degree[0] * unitRoundoff * largest) * slack;
+    piece.Error = (piece.Error + 16.0 * lattice.Degree[0] * UnitRoundoff * largest) * Slack;
     const PieceHull hull =
       MakeHull(lattice, this->Curves.NumComponents, this->Curves.Rational, piece);
     for (int i = 0; i < lattice.Size; ++i)
@@ -225,7 +225,7 @@ private:
       high = std::max(high, d.dot(x));
     }
     const double margin = (std::abs(d[0]) + std::abs(d[1])) *
-      (a.Error + b.Error + 8.0 * unitRoundoff * std::max(a.Largest, b.Largest)) * slack;
+      (a.Error + b.Error + 8.0 * UnitRoundoff * std::max(a.Largest, b.Largest)) * Slack;
     const double begin = d.dot(a.Begin);
     const double end = d.dot(a.End);
     return std::isfinite(margin) && std::min(begin, end) + margin < low &&
@@ -286,7 +286,7 @@ public:
     {
       all[k] = k;
     }
-    const std::int64_t share = std::min(firstBoxes, this->Params.MaxBoxes);
+    const std::int64_t share = std::min(FirstBoxes, this->Params.MaxBoxes);
     this->Separate(all, share, false);
     std::vector<std::size_t> open;
     bool crossing = false;
@@ -426,7 +426,7 @@ std::optional<double> Turn(const BernsteinCells& curves, const CellLattice& latt
   const Vector d = middle - point;
   const double margin = (std::abs(d[0]) + std::abs(d[1])) *
     (hull.Error + error +
-      8.0 * unitRoundoff * std::max(LargestCoordinate(hull), point.cwiseAbs().maxCoeff()));
+      8.0 * UnitRoundoff * std::max(LargestCoordinate(hull), point.cwiseAbs().maxCoeff()));
   // a million errors away: where two steps meet, angles are off by less than 1e-5
   bool isBeside = std::isfinite(margin);
   for (int i = 0; i < lattice.Size && isBeside; ++i)
@@ -440,7 +440,7 @@ std::optional<double> Turn(const BernsteinCells& curves, const CellLattice& latt
     const double turn = std::atan2(a[0] * b[1] - a[1] * b[0], a.dot(b));
     return turn / (2.0 * std::acos(-1.0));
   }
-  if (piece.Depth >= maxDepth)
+  if (piece.Depth >= MaxDepth)
   {
     return {};
   }
@@ -484,7 +484,7 @@ void MeasureArea(
       std::max(away, length > 0.0 ? std::abs(Across(chord).dot(x - a)) / length : (x - a).norm());
     polygon += i == 0 ? 0.0 : (HullPoint(hull, i) - HullPoint(hull, i - 1)).norm();
   }
-  const double error = 2.0 * hull.Error + 16.0 * unitRoundoff * LargestCoordinate(hull);
+  const double error = 2.0 * hull.Error + 16.0 * UnitRoundoff * LargestCoordinate(hull);
   piece.Area = piece.Sign * 0.5 * (a[0] * b[1] - a[1] * b[0]);
   piece.Doubt = ((away + 2.0 * error) * (polygon + 2.0 * lattice.Size * error) +
                   2.0 * error * (a.cwiseAbs().sum() + b.cwiseAbs().sum() + error)) *
@@ -577,8 +577,8 @@ std::optional<int> FindOrientation(const BernsteinCells& curves, const std::vect
       size += std::abs(piece.Area);
     }
     const double count = static_cast<double>(pieces.size());
-    const double rounding = 2.0 * count * unitRoundoff * (size + doubt);
-    if (std::abs(area) > (doubt + rounding) * slack)
+    const double rounding = 2.0 * count * UnitRoundoff * (size + doubt);
+    if (std::abs(area) > (doubt + rounding) * Slack)
     {
       return area > 0.0 ? 1 : -1;
     }

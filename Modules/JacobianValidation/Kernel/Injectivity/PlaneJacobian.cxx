@@ -11,7 +11,7 @@ namespace knotwork
 {
 namespace
 {
-constexpr double unitRoundoff = 0x1p-53;
+constexpr double UnitRoundoff = 0x1p-53;
 
 /// A polynomial with a bound of every coefficient's size, the error included, which is zero only
 /// where the coefficient is exactly zero.
@@ -78,7 +78,7 @@ public:
         if (same.empty() || !same[at])
         {
           const double value = x[this->At(i + ds, j + dt)] - x[at];
-          f.Set(i, j, value, 2.0 * error + unitRoundoff * std::abs(value), this->Scale(i, j, p, q));
+          f.Set(i, j, value, 2.0 * error + UnitRoundoff * std::abs(value), this->Scale(i, j, p, q));
         }
       });
     return f;
@@ -163,7 +163,7 @@ bool HasPositiveInside(const PlanePiece& piece, double orientation)
       {
         continue;
       }
-      const double bound = (reach - size + 4.0 * terms * unitRoundoff * reach) * (1.0 + 1e-9);
+      const double bound = (reach - size + 4.0 * terms * UnitRoundoff * reach) * (1.0 + 1e-9);
       if (!(value > bound))
       {
         return false;

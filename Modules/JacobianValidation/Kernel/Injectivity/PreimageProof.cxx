@@ -9,7 +9,7 @@ namespace knotwork
 {
 namespace
 {
-constexpr double unitRoundoff = 0x1p-53;
+constexpr double UnitRoundoff = 0x1p-53;
 
 /// F(x) = N(x) - y W(x) of one cell, as coefficients.
 struct Equations
@@ -43,7 +43,7 @@ Equations MakeEquations(
     }
   }
   const double stored = cells.Errors.empty() ? 0.0 : cells.Errors[static_cast<std::size_t>(cell)];
-  f.Rounding = (3.0 * unitRoundoff * f.Largest + image.Error * largestWeight +
+  f.Rounding = (3.0 * UnitRoundoff * f.Largest + image.Error * largestWeight +
                  stored * (1.0 + (cells.Rational ? largestPosition + image.Error : 0.0))) *
     (1.0 + 1e-9);
   return f;
@@ -151,7 +151,7 @@ Contraction Contract(const CellLattice& lattice, const Equations& f, const Linea
   const int degrees = lattice.Degree[0] + lattice.Degree[1] + lattice.Degree[2];
   // rounding of values and slopes of Bernstein sums
   const double value =
-    (f.Rounding + (16.0 + 8.0 * degrees + lattice.Size) * unitRoundoff * f.Largest);
+    (f.Rounding + (16.0 + 8.0 * degrees + lattice.Size) * UnitRoundoff * f.Largest);
   const double slope = 4.0 * degrees * value;
   const Eigen::Vector3d ones(1.0, f.Dim > 1 ? 1.0 : 0.0, f.Dim > 2 ? 1.0 : 0.0);
   const Eigen::Matrix3d rest = (Eigen::Matrix3d::Identity() - y * l.Slope).cwiseAbs();
@@ -204,7 +204,7 @@ ImagePoint EvaluateImage(const BernsteinCells& cells, int cell, const double* u)
     most = *std::max_element(w, w + n);
   }
   const double stored = cells.Errors.empty() ? 0.0 : cells.Errors[at];
-  const double relative = (16.0 + 8.0 * (degree[0] + degree[1] + degree[2]) + n) * unitRoundoff;
+  const double relative = (16.0 + 8.0 * (degree[0] + degree[1] + degree[2]) + n) * UnitRoundoff;
   // of N and W, both by at most the largest weight over the least
   image.Error = 2.0 * (largest / least) * (most / least) * relative +
     2.0 * stored * (1.0 + largest / least) / least;

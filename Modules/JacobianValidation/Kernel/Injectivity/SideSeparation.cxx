@@ -15,10 +15,10 @@ namespace knotwork
 namespace
 {
 using Vector = Eigen::Vector3d;
-constexpr double unitRoundoff = 0x1p-53;
+constexpr double UnitRoundoff = 0x1p-53;
 /// Halvings of a piece a direction at most.
-constexpr int depthPerDirection = 34;
-constexpr double edgeEpsilon = 0x1p-44;
+constexpr int DepthPerDirection = 34;
+constexpr double EdgeEpsilon = 0x1p-44;
 
 /// A piece of a side with what the tests need, and its halves once it was bisected.
 struct Node
@@ -98,7 +98,7 @@ public:
   {
     SeparationResult result;
     std::vector<std::array<int, 2>> open{ { 0, 0 } };
-    const int largestDepth = depthPerDirection * NumParameters(this->Lattice[0]->Shape);
+    const int largestDepth = DepthPerDirection * NumParameters(this->Lattice[0]->Shape);
     while (!open.empty())
     {
       const std::array<int, 2> pair = open.back();
@@ -135,7 +135,7 @@ public:
         continue;
       }
       const bool tooSmall = std::max(a.Size, b.Size) <=
-        64.0 * (a.Hull.Error + b.Hull.Error) + 64.0 * unitRoundoff * std::max(a.Largest, b.Largest);
+        64.0 * (a.Hull.Error + b.Hull.Error) + 64.0 * UnitRoundoff * std::max(a.Largest, b.Largest);
       const bool splitA =
         same || relation.Longer == 0 || (relation.Longer < 0 && this->IsFirstToCut(relation, a, b));
       const Node& larger = splitA ? a : b;
@@ -493,20 +493,20 @@ private:
           }
           const double low = std::max({ p.Low, q.Low, std::min(contact.A0, contact.A1) });
           const double high = std::min({ p.High, q.High, std::max(contact.A0, contact.A1) });
-          if (high - low > edgeEpsilon)
+          if (high - low > EdgeEpsilon)
           {
             const bool equal =
-              std::abs(p.Low - q.Low) <= edgeEpsilon && std::abs(p.High - q.High) <= edgeEpsilon;
+              std::abs(p.Low - q.Low) <= EdgeEpsilon && std::abs(p.High - q.High) <= EdgeEpsilon;
             shared.push_back({ equal ? Relation::Edge : Relation::Mixed, p.Edge, q.Edge,
               p.Forward != q.Forward, equal ? 1.0 : (p.High - p.Low) / (q.High - q.Low) });
           }
-          else if (high - low >= -edgeEpsilon)
+          else if (high - low >= -EdgeEpsilon)
           {
             const double at = 0.5 * (low + high);
             const auto cornerAt = [&](const OnEdge& on)
             {
-              return std::abs(on.Low - at) <= edgeEpsilon ? on.LowCorner
-                : std::abs(on.High - at) <= edgeEpsilon   ? on.HighCorner
+              return std::abs(on.Low - at) <= EdgeEpsilon ? on.LowCorner
+                : std::abs(on.High - at) <= EdgeEpsilon   ? on.HighCorner
                                                           : -1;
             };
             const int ca = cornerAt(p);
@@ -850,7 +850,7 @@ private:
         low = std::min(low, d.dot(this->PointOf(b, i)));
       }
       const double margin =
-        OneNorm(d) * (a.Hull.Error + b.Hull.Error + 8.0 * unitRoundoff * largest);
+        OneNorm(d) * (a.Hull.Error + b.Hull.Error + 8.0 * UnitRoundoff * largest);
       return low - high > margin * (1.0 + 1e-9);
     };
     // across flat pieces first, then whatever the search finds
@@ -914,7 +914,7 @@ private:
     const Node& a = *cones[0].Piece;
     const Node& b = *cones[1].Piece;
     const double largest = std::max(a.Largest, b.Largest);
-    const double error = 2.0 * std::max(a.Hull.Error, b.Hull.Error) + 4.0 * unitRoundoff * largest;
+    const double error = 2.0 * std::max(a.Hull.Error, b.Hull.Error) + 4.0 * UnitRoundoff * largest;
     std::vector<Vector> vectors;
     for (std::size_t k = 0; k < 2; ++k)
     {
@@ -1046,10 +1046,10 @@ private:
       }
       slopes.Rounding =
         (weights ? 2.0 * node.Piece.Error * (1.0 + node.Largest) : 2.0 * node.Piece.Error) +
-        8.0 * unitRoundoff * (largest + (weights ? node.Largest * slopes.WeightSlope : 0.0));
+        8.0 * UnitRoundoff * (largest + (weights ? node.Largest * slopes.WeightSlope : 0.0));
       if (weights)
       {
-        slopes.WeightSlope += 2.0 * node.Piece.Error + unitRoundoff * slopes.WeightSlope;
+        slopes.WeightSlope += 2.0 * node.Piece.Error + UnitRoundoff * slopes.WeightSlope;
       }
       slopes.Mean /= static_cast<double>(slopes.Differences.size());
       break;
@@ -1065,7 +1065,7 @@ private:
       range.Add(functional.dot(x));
       largest = std::max(largest, x.cwiseAbs().maxCoeff());
     }
-    double wide = OneNorm(functional) * (slopes.Rounding + 8.0 * unitRoundoff * largest);
+    double wide = OneNorm(functional) * (slopes.Rounding + 8.0 * UnitRoundoff * largest);
     if (slopes.WeightSlope > 0.0)
     {
       // S - c: half the box
@@ -1127,7 +1127,7 @@ private:
     const int n = static_cast<int>(a.Hull.Points.size()) / a.Hull.NumComponents;
     const Vector along = this->PointOf(a, n - 1) - this->PointOf(a, 0);
     const double margin =
-      OneNorm(along) * (2.0 * a.Hull.Error + 8.0 * unitRoundoff * a.Largest) * (1.0 + 1e-9);
+      OneNorm(along) * (2.0 * a.Hull.Error + 8.0 * UnitRoundoff * a.Largest) * (1.0 + 1e-9);
     bool moves = false;
     for (int i = 0; i + 1 < n; ++i)
     {
@@ -1400,7 +1400,7 @@ private:
     const double far = centre.cwiseAbs().maxCoeff();
     plane.Error = scale * std::max(OneNorm(alpha), OneNorm(beta)) *
       (node.Piece.Error * (this->Input.Rational ? 1.0 + far : 1.0) +
-        8.0 * unitRoundoff * (largest + far * largestWeight)) *
+        8.0 * UnitRoundoff * (largest + far * largestWeight)) *
       (1.0 + 1e-9);
     if (!this->Input.Rational)
     {
@@ -1549,7 +1549,7 @@ private:
     PieceHull& hull = edge.Curve.Hull;
     hull.NumComponents = 3;
     hull.Error = std::max(OneNorm(plane.Alpha), OneNorm(plane.Beta)) *
-      (node.Hull.Error + 8.0 * unitRoundoff * plane.Largest) * (1.0 + 1e-9);
+      (node.Hull.Error + 8.0 * UnitRoundoff * plane.Largest) * (1.0 + 1e-9);
     hull.Lower.fill(std::numeric_limits<double>::infinity());
     hull.Upper.fill(-std::numeric_limits<double>::infinity());
     for (const int i : line)
@@ -1681,7 +1681,7 @@ private:
     const double terms = (p + 1) * (q + 1) + 8;
     half.Piece.Piece.Error = 1.01 *
       (node.Piece.Error +
-        terms * (unitRoundoff * (largest + node.Piece.Error) + std::numeric_limits<double>::min()));
+        terms * (UnitRoundoff * (largest + node.Piece.Error) + std::numeric_limits<double>::min()));
     this->Complete(half.Lattice, half.Piece);
     return half;
   }
@@ -1740,7 +1740,7 @@ private:
       // the collapsed edge is the point P up to the tolerance it was found with
       b.Error = q *
         (2.0 * piece.Piece->Piece.Error * (1.0 + piece.Piece->Largest) +
-          2.0 * piece.Piece->Hull.Error + 8.0 * unitRoundoff * largest);
+          2.0 * piece.Piece->Hull.Error + 8.0 * UnitRoundoff * largest);
       Vector mean = Vector::Zero();
       Vector slope = Vector::Zero();
       for (int j = 0; j <= b.Q; ++j)
@@ -1802,14 +1802,14 @@ private:
             std::max({ largest, std::abs(value(alpha, i, j)), std::abs(value(beta, i, j)) });
         }
       }
-      ar.Widen(ea + 4.0 * unitRoundoff * largest);
+      ar.Widen(ea + 4.0 * UnitRoundoff * largest);
       if (!(ar.Low > 0.0))
       {
         return false;
       }
       // (b/a)' = (a b' - b a') / a^2: a convex combination of the products of all coefficients,
       // with the degrees as factors
-      const double error = 8.0 * (largest + ea + eb) * (ea + eb + 8.0 * unitRoundoff * largest);
+      const double error = 8.0 * (largest + ea + eb) * (ea + eb + 8.0 * UnitRoundoff * largest);
       Range crossS;
       Range crossT;
       crossT.Add(0.0);

@@ -17,14 +17,14 @@ namespace knotwork
 {
 namespace
 {
-constexpr double unitRoundoff = 0x1p-53;
-constexpr int maxPieces = 64;
-constexpr int maxCornerSides = 4;
+constexpr double UnitRoundoff = 0x1p-53;
+constexpr int MaxPieces = 64;
+constexpr int MaxCornerSides = 4;
 /// A better point than the mean of the control points is looked for where few sides are in it, by
 /// tangent planes of pieces of this depth and of those that the last point did not see.
-constexpr std::size_t maxSearchedSides = 64;
-constexpr int firstDepth = 4;
-constexpr int maxSearches = 8;
+constexpr std::size_t MaxSearchedSides = 64;
+constexpr int FirstDepth = 4;
+constexpr int MaxSearches = 8;
 
 /// A piece of a side, seen from the point.
 struct Piece
@@ -92,13 +92,13 @@ Sign FindSign(const Piece& piece, double orientation, double error, double reach
   // Each coefficient is six weighted means of products, of no more terms and roundings than these.
   const double largestX = largestWeight * reach;
   const double errorX = error * largestWeight;
-  const double errorS = 2.0 * errorX + unitRoundoff * largestS;
-  const double errorT = 2.0 * errorX + unitRoundoff * largestT;
+  const double errorS = 2.0 * errorX + UnitRoundoff * largestS;
+  const double errorT = 2.0 * errorX + UnitRoundoff * largestT;
   const double terms = 5.0 * (p + 1) * (q + 1) + 64.0;
   const double bound = 6.0 * 1.01 *
-    (terms * unitRoundoff * largestX * largestS * largestT +
+    (terms * UnitRoundoff * largestX * largestS * largestT +
       (largestX + errorX) * (largestS + errorS) * (largestT + errorT) -
-      largestX * largestS * largestT + 4.0 * unitRoundoff * largestX * largestS * largestT);
+      largestX * largestS * largestT + 4.0 * UnitRoundoff * largestX * largestS * largestT);
   bool positive = true;
   const int last = piece.HasPole ? det.P - 1 : det.P; // at the pole it is exactly zero
   for (int j = 0; j <= det.Q; ++j)
@@ -276,7 +276,7 @@ bool SeesSide(const BernsteinCells& sides, int side, double orientation,
   // of x w - o w, and of a triangle's means
   double error = 1.01 *
     (stored * (1.0 + far) / leastWeight +
-      (4.0 + 2.0 * degrees) * unitRoundoff * (reach + 2.0 * far));
+      (4.0 + 2.0 * degrees) * UnitRoundoff * (reach + 2.0 * far));
   reach = reach * (1.0 + 1e-9) + error;
   std::vector<Piece> open;
   open.push_back(std::move(whole));
@@ -285,14 +285,14 @@ bool SeesSide(const BernsteinCells& sides, int side, double orientation,
     Piece piece = std::move(open.back());
     open.pop_back();
     BalanceWeights(piece.Form);
-    const double rounding = error + piece.Depth * degrees * unitRoundoff * reach;
+    const double rounding = error + piece.Depth * degrees * UnitRoundoff * reach;
     const Sign sign = FindSign(piece, orientation, rounding, reach);
     if (sign == Sign::Positive)
     {
       continue;
     }
     pieces += 2;
-    if (sign == Sign::NotPositive || pieces > maxPieces)
+    if (sign == Sign::NotPositive || pieces > MaxPieces)
     {
       if (planes)
       {
@@ -323,7 +323,7 @@ bool AreSeen(const BernsteinCells& sides, const std::vector<int>& members,
   {
     return true;
   }
-  if (members.size() > maxSearchedSides)
+  if (members.size() > MaxSearchedSides)
   {
     return false;
   }
@@ -337,7 +337,7 @@ bool AreSeen(const BernsteinCells& sides, const std::vector<int>& members,
       Piece piece = std::move(open.back());
       open.pop_back();
       BalanceWeights(piece.Form);
-      if (piece.Depth == firstDepth)
+      if (piece.Depth == FirstDepth)
       {
         AddTangentPlanes(piece, orientations[i], planes);
         continue;
@@ -346,7 +346,7 @@ bool AreSeen(const BernsteinCells& sides, const std::vector<int>& members,
       open.push_back(std::move(piece));
     }
   }
-  for (int search = 0; search < maxSearches; ++search)
+  for (int search = 0; search < MaxSearches; ++search)
   {
     Eigen::Vector3d shift;
     if (!FindDeepest(planes, shift))
@@ -404,7 +404,7 @@ std::vector<char> FindManifolds(
     bool good = true;
     for (int k = 0; k < side.Frame.NumCorners; ++k)
     {
-      good = good && corners[side.Places[static_cast<std::size_t>(k)]] <= maxCornerSides;
+      good = good && corners[side.Places[static_cast<std::size_t>(k)]] <= MaxCornerSides;
     }
     for (int e = 0; e < NumSideEdges(side.Frame.Shape) && good; ++e)
     {

@@ -17,8 +17,8 @@ namespace knotwork
 {
 namespace
 {
-constexpr double unitRoundoff = 0x1p-53;
-constexpr std::size_t largestTable = std::size_t(1) << 20;
+constexpr double UnitRoundoff = 0x1p-53;
+constexpr std::size_t LargestTable = std::size_t(1) << 20;
 
 /// The uniform lattice with n points along every edge.
 std::vector<std::array<double, 3>> LatticePoints(CellShape shape, int n)
@@ -131,7 +131,7 @@ public:
     const PatchIntegral sum =
       this->Dim == 1 && this->Components == 1 ? this->SignedLength() : this->Integrate();
     m.Measure = sum.Measure;
-    m.MeasureError = sum.Error + 64.0 * unitRoundoff * sum.Absolute;
+    m.MeasureError = sum.Error + 64.0 * UnitRoundoff * sum.Absolute;
     m.Converged = sum.Converged;
     m.Points = sum.Points;
     if (sum.Measure != 0.0)
@@ -253,7 +253,7 @@ private:
   {
     const std::size_t rows = static_cast<std::size_t>(1 + this->Dim);
     const std::size_t step = std::max<std::size_t>(
-      1, largestTable / (rows * static_cast<std::size_t>(this->Block.rows())));
+      1, LargestTable / (rows * static_cast<std::size_t>(this->Block.rows())));
     for (std::size_t begin = 0; begin < points.size(); begin += step)
     {
       const std::size_t end = std::min(points.size(), begin + step);
@@ -285,7 +285,7 @@ private:
       lattice.Points = LatticePoints(this->Shape, this->Params.SamplesPerEdge);
       const std::size_t size = lattice.Points.size();
       lattice.HasTable =
-        size * static_cast<std::size_t>((1 + this->Dim) * this->Block.rows()) <= largestTable;
+        size * static_cast<std::size_t>((1 + this->Dim) * this->Block.rows()) <= LargestTable;
       if (lattice.HasTable)
       {
         lattice.Table = MakeTable(this->Shape, this->Degree, lattice.Points, 0, size);

@@ -11,7 +11,7 @@ namespace knotwork
 {
 namespace
 {
-constexpr int numPlanes = PatchForm::NumPlanes;
+constexpr int NumPlanes = PatchForm::NumPlanes;
 }
 
 PatchForm MakePatchForm(const BernsteinCells& cells, int cell, CellShape shape,
@@ -28,8 +28,8 @@ PatchForm MakePatchForm(const BernsteinCells& cells, int cell, CellShape shape,
     : shape == CellShape::Quadrilateral   ? std::array<int, 2>{ p, degree[1] }
                                           : std::array<int, 2>{ p, p };
   const int n = form.Size();
-  form.Data.assign(static_cast<std::size_t>(numPlanes * n), 0.0);
-  for (int plane = 0; plane < numPlanes; ++plane)
+  form.Data.assign(static_cast<std::size_t>(NumPlanes * n), 0.0);
+  for (int plane = 0; plane < NumPlanes; ++plane)
   {
     const auto value = [&](int index)
     {
@@ -116,7 +116,7 @@ int BalanceWeights(PatchForm& form)
     for (int i = 0; i <= p; ++i)
     {
       const double factor = std::ldexp(1.0, a * i + b * j - largest);
-      for (int plane = 0; plane < numPlanes; ++plane)
+      for (int plane = 0; plane < NumPlanes; ++plane)
       {
         form.Data[static_cast<std::size_t>(plane * n + j * (p + 1) + i)] *= factor;
       }
@@ -134,7 +134,7 @@ PatchForm CutOffHalf(PatchForm& form, int direction)
   const int degree = direction == 0 ? p : q;
   const int step = direction == 0 ? 1 : p + 1;
   const int lines = direction == 0 ? q + 1 : p + 1;
-  for (int line = 0; line < lines * numPlanes; ++line)
+  for (int line = 0; line < lines * NumPlanes; ++line)
   {
     const int start = (line / lines) * n + (line % lines) * (direction == 0 ? p + 1 : 1);
     HalveBernstein(degree, form.Data.data() + start, first.Data.data() + start, step);

@@ -12,17 +12,17 @@ namespace knotwork
 {
 namespace
 {
-constexpr double unitRoundoff = 0x1p-53;
+constexpr double UnitRoundoff = 0x1p-53;
 /// Points a direction of a rule at most, the exact ones of the highest degree included.
-constexpr int maxPoints = 32;
-constexpr int numPlanes = PatchForm::NumPlanes;
+constexpr int MaxPoints = 32;
+constexpr int NumPlanes = PatchForm::NumPlanes;
 /// Legendre coefficients by which an error is estimated: two groups of three.
-constexpr int numTails = 6;
+constexpr int NumTails = 6;
 /// Where the weights' exponents differ by more after they were balanced, a rule may have missed a
 /// layer: its own estimate is not believed, but what the control points allow.
-constexpr int largestSpread = 8;
+constexpr int LargestSpread = 8;
 /// Of the integrand: its measure and three moments.
-constexpr int numValues = 4;
+constexpr int NumValues = 4;
 
 /// A part of a patch and its integral.
 struct Piece
@@ -46,10 +46,10 @@ struct Piece
 /// What a row of points contributes, as arrays over the points.
 struct RowValues
 {
-  double X[numPlanes][maxPoints];
-  double S[numPlanes][maxPoints]; ///< derivatives
-  double T[numPlanes][maxPoints];
-  double F[numValues][maxPoints];
+  double X[NumPlanes][MaxPoints];
+  double S[NumPlanes][MaxPoints]; ///< derivatives
+  double T[NumPlanes][MaxPoints];
+  double F[NumValues][MaxPoints];
 };
 
 void MakeFlux(RowValues& row, bool isCurve, int count)
@@ -122,7 +122,7 @@ void EvaluateRow(const PatchForm& form, const PatchRules::Rule& u, int node,
   const int q = form.Degree[1];
   const int n = form.Size();
   const int count = v.Count;
-  for (int plane = 0; plane < numPlanes; ++plane)
+  for (int plane = 0; plane < NumPlanes; ++plane)
   {
     double* x = row.X[plane];
     double* s = row.S[plane];
@@ -161,14 +161,14 @@ double EstimateError(const PatchRules::Rule& rule, const double* values, bool is
     largest = std::max(largest, std::abs(values[i]));
   }
   double tails[2] = { 0.0, 0.0 };
-  for (int k = 0; k < numTails; ++k)
+  for (int k = 0; k < NumTails; ++k)
   {
     double sum = 0.0;
     for (int i = 0; i < rule.Count; ++i)
     {
       sum += rule.Tails[static_cast<std::size_t>(k * rule.Count + i)] * values[i];
     }
-    double& tail = tails[k < numTails / 2 ? 0 : 1];
+    double& tail = tails[k < NumTails / 2 ? 0 : 1];
     tail = std::max(tail, std::abs(sum));
   }
   if (!isRational || !(tails[0] > tails[1]))
@@ -196,8 +196,8 @@ public:
     const int spread = this->Params.Rational ? BalanceWeights(piece.Form) : 0;
     const PatchRules::Rule& u = this->GetRule(isCurve, piece.Form.Degree[0]);
     const PatchRules::Rule& v = this->GetRule(isCurve, piece.Form.Degree[1]);
-    double rows[numValues][maxPoints];
-    double columns[numValues][maxPoints] = {};
+    double rows[NumValues][MaxPoints];
+    double columns[NumValues][MaxPoints] = {};
     piece.Measure = 0.0;
     piece.Absolute = 0.0;
     piece.Moment = {};
@@ -214,7 +214,7 @@ public:
         MakeSize(row, isCurve, v.Count);
       }
       const double weight = u.Weights[static_cast<std::size_t>(i)];
-      for (int f = 0; f < numValues; ++f)
+      for (int f = 0; f < NumValues; ++f)
       {
         double sum = 0.0;
         double absolute = 0.0;
@@ -235,14 +235,14 @@ public:
     if (!this->IsExact())
     {
       double error[2] = { 0.0, 0.0 };
-      for (int f = 0; f < numValues; ++f)
+      for (int f = 0; f < NumValues; ++f)
       {
         const double scale = f == 0 ? 1.0 : 1.0 / this->Params.Size;
         error[0] = isCurve ? 0.0 : std::max(error[0], scale * EstimateError(u, rows[f], isFlux));
         error[1] = std::max(error[1], scale * EstimateError(v, columns[f], isFlux));
       }
       piece.Error = error[0] + error[1];
-      if (spread > largestSpread)
+      if (spread > LargestSpread)
       {
         piece.Error = std::max({ piece.Error, piece.Absolute, this->HullBound(piece.Form) });
       }
@@ -344,7 +344,7 @@ const PatchRules::Rule& PatchRules::Get(int degree, int count)
   rule.Weights = gauss.Weights;
   rule.Values.resize(static_cast<std::size_t>(degree + 1) * n);
   rule.Slopes.resize(rule.Values.size());
-  rule.Tails.resize(numTails * n);
+  rule.Tails.resize(NumTails * n);
   for (std::size_t m = 0; m < n; ++m)
   {
     double basis[2 * (MaxDegree + 1)] = { 1.0 };
@@ -359,9 +359,9 @@ const PatchRules::Rule& PatchRules::Get(int degree, int count)
     double before = 0.0;
     for (int k = 0; k < count; ++k)
     {
-      if (k >= count - numTails)
+      if (k >= count - NumTails)
       {
-        rule.Tails[static_cast<std::size_t>(k - (count - numTails)) * n + m] =
+        rule.Tails[static_cast<std::size_t>(k - (count - NumTails)) * n + m] =
           (2 * k + 1) * gauss.Weights[m] * legendre;
       }
       const double next = ((2 * k + 1) * x * legendre - k * before) / (k + 1);
@@ -387,7 +387,7 @@ PatchIntegral IntegratePatches(
   const auto isDone = [&](const PatchIntegral& sum)
   {
     return sum.Error <=
-      std::max(params.Tolerance * std::abs(sum.Measure), 16.0 * unitRoundoff * sum.Absolute);
+      std::max(params.Tolerance * std::abs(sum.Measure), 16.0 * UnitRoundoff * sum.Absolute);
   };
   PatchIntegral sum = SumOf(pieces);
   std::int64_t points = 0;

@@ -13,7 +13,7 @@ using namespace knotwork::testing;
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
+constexpr double Pi = 3.14159265358979323846;
 
 std::ostream& Describe(std::ostream& out, const InjectivityCertificate& c)
 {
@@ -157,7 +157,7 @@ ShapeCells Spiral(double pitch, double turns)
   return MapOfSquare(2, 24,
     [=](double u, double v)
     {
-      const double angle = 2.0 * pi * turns * v;
+      const double angle = 2.0 * Pi * turns * v;
       const double r = 1.0 + pitch * turns * v + 0.4 * u;
       return std::array<double, 2>{ r * std::cos(angle), r * std::sin(angle) };
     });
@@ -305,7 +305,7 @@ TEST(BoundaryInjectivity, FigureEightBandOverlaps_ExactOracle)
   const auto eight = MapOfSquare(1, 32,
     [](double u, double v)
     {
-      const double t = 2.0 * pi * (0.7 * v - 0.1); // through 0 and pi, where it crosses
+      const double t = 2.0 * Pi * (0.7 * v - 0.1); // through 0 and pi, where it crosses
       const double dx = std::cos(t);
       const double dy = 2.0 * std::cos(2.0 * t);
       const double n = std::hypot(dx, dy);
@@ -327,7 +327,7 @@ TEST(BoundaryInjectivity, CloseButDisjointBoundaries_ExactOracle)
     const auto ring = MapOfSquare(1, 12,
       [gap](double u, double v)
       {
-        const double angle = (2.0 * pi - gap) * v;
+        const double angle = (2.0 * Pi - gap) * v;
         const double r = 1.0 + u;
         return std::array<double, 2>{ r * std::cos(angle), r * std::sin(angle) };
       });
@@ -359,7 +359,7 @@ TEST(BoundaryInjectivity, SolidsThatOverlap_ExactOracle)
         [&](const std::array<double, 3>& u)
         {
           const double v = (k + u[2]) / n;
-          const double angle = 2.0 * pi * 1.3 * v;
+          const double angle = 2.0 * Pi * 1.3 * v;
           const double r = 1.0 + 0.4 * u[0];
           // a helix of square section
           return std::array<double, 3>{ r * std::cos(angle), r * std::sin(angle),
@@ -501,7 +501,7 @@ TEST(BoundaryInjectivity, DiscsAndBallsAnywhere_ExactOracle)
     const double radius = 0.2 + 0.8 * uniform(random);
     const double distance =
       seed % 5 == 0 ? 1.0 + radius + (seed % 2 ? 1e-6 : -1e-6) : (1.5 + radius) * uniform(random);
-    const double angle = 2.0 * pi * uniform(random);
+    const double angle = 2.0 * Pi * uniform(random);
     s.OuterRadius = radius;
     s.InnerRadius = 0.5 * radius;
     s.Center = { distance * std::cos(angle), distance * std::sin(angle), 0.0 };
@@ -771,7 +771,7 @@ TEST(BoundaryInjectivity, PointIdsTellASeamFromAnInnerSide_ExactOracle)
   ShapeCells ring = MapOfSquare(1, 6,
     [](double u, double v)
     {
-      const double angle = 2.0 * pi * v;
+      const double angle = 2.0 * Pi * v;
       return std::array<double, 2>{ (1.0 + u) * std::cos(angle), (1.0 + u) * std::sin(angle) };
     });
   // sides are made equal bit by bit, the last with the first too

@@ -14,9 +14,9 @@ using namespace knotwork::testing;
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
+constexpr double Pi = 3.14159265358979323846;
 /// What the measures promise; the oracles' own rounding is far below.
-constexpr double relative = 1e-12;
+constexpr double Relative = 1e-12;
 
 CellMeasures Measured(const BernsteinCells& cells, const CellMeasuresParams& params = {})
 {
@@ -50,34 +50,34 @@ TEST(CellMeasures, AreaAndVolumeOfShapes_ExactOracle)
   s.Twist = 60.0;
   s.Size = { 2.1, 1.5, 3.2 };
   s.Elements = { 2, 3, 1 };
-  const double angle = s.Angle * pi / 180.0;
+  const double angle = s.Angle * Pi / 180.0;
   const double r = s.InnerRadius;
   const double R = s.OuterRadius;
   const std::vector<std::tuple<ShapeKind, bool, double>> oracles = { { ShapeKind::Square, true,
                                                                        s.Size[0] * s.Size[1] },
     { ShapeKind::AnnulusSector, true, 0.5 * angle * (R * R - r * r) },
-    { ShapeKind::Disc, true, pi * R * R },
-    { ShapeKind::PlateWithHole, true, s.Size[0] * s.Size[1] - pi * r * r },
+    { ShapeKind::Disc, true, Pi * R * R },
+    { ShapeKind::PlateWithHole, true, s.Size[0] * s.Size[1] - Pi * r * r },
     { ShapeKind::Arc, true, R * angle }, { ShapeKind::Arc, false, R * angle },
     { ShapeKind::CylinderSurface, false, R * angle * s.Height },
-    { ShapeKind::SphereSurface, false, 4.0 * pi * R * R },
-    { ShapeKind::TorusSurface, false, angle * R * 2.0 * pi * r },
+    { ShapeKind::SphereSurface, false, 4.0 * Pi * R * R },
+    { ShapeKind::TorusSurface, false, angle * R * 2.0 * Pi * r },
     { ShapeKind::Cube, false, s.Size[0] * s.Size[1] * s.Size[2] },
     { ShapeKind::SolidTube, false, 0.5 * angle * (R * R - r * r) * s.Height },
-    { ShapeKind::SolidCylinder, false, pi * R * R * s.Height },
+    { ShapeKind::SolidCylinder, false, Pi * R * R * s.Height },
     { ShapeKind::BallSector, false,
-      2.0 / 3.0 * angle * std::sin(s.PolarAngle * pi / 360.0) * (R * R * R - r * r * r) },
-    { ShapeKind::Ball, false, 4.0 / 3.0 * pi * R * R * R },
-    { ShapeKind::SolidTorus, false, angle * R * pi * r * r } };
+      2.0 / 3.0 * angle * std::sin(s.PolarAngle * Pi / 360.0) * (R * R * R - r * r * r) },
+    { ShapeKind::Ball, false, 4.0 / 3.0 * Pi * R * R * R },
+    { ShapeKind::SolidTorus, false, angle * R * Pi * r * r } };
   for (const auto& [kind, planar, exact] : oracles)
   {
     SCOPED_TRACE(ToString(kind));
     ShapeParams params = s;
     params.Kind = kind;
     const CellMeasures measures = Measured(MakeShapeCells(params, planar).Cells);
-    EXPECT_NEAR(measures.Total.Measure, exact, relative * exact);
+    EXPECT_NEAR(measures.Total.Measure, exact, Relative * exact);
     EXPECT_TRUE(measures.Total.Converged);
-    EXPECT_LE(measures.Total.MeasureError, 2.0 * relative * exact);
+    EXPECT_LE(measures.Total.MeasureError, 2.0 * Relative * exact);
   }
 }
 
@@ -91,9 +91,9 @@ TEST(CellMeasures, CentroidOfHalfAnnulus_ExactOracle)
   const CellMeasures measures = Measured(MakeShapeCells(s, true).Cells);
   const double r = s.InnerRadius;
   const double R = s.OuterRadius;
-  const double y = 4.0 / (3.0 * pi) * (R * R * R - r * r * r) / (R * R - r * r);
-  EXPECT_NEAR(measures.Total.Centroid[0], 100.0, relative * 100.0);
-  EXPECT_NEAR(measures.Total.Centroid[1], -50.0 + y, relative * 100.0);
+  const double y = 4.0 / (3.0 * Pi) * (R * R * R - r * r * r) / (R * R - r * r);
+  EXPECT_NEAR(measures.Total.Centroid[0], 100.0, Relative * 100.0);
+  EXPECT_NEAR(measures.Total.Centroid[1], -50.0 + y, Relative * 100.0);
   EXPECT_TRUE(std::isnan(measures.Total.Centroid[2]));
 }
 
@@ -131,7 +131,7 @@ TEST(CellMeasures, VolumePreservingMapsOfAllShapes_ExactOracle)
         });
       const double exact = ReferenceMeasure(shape) * a.determinant();
       const CellMeasures measures = Measured(cells);
-      EXPECT_NEAR(measures.Cells[0].Measure, exact, relative * std::abs(exact));
+      EXPECT_NEAR(measures.Cells[0].Measure, exact, Relative * std::abs(exact));
       EXPECT_LE(std::abs(measures.Cells[0].Measure - exact),
         measures.Cells[0].MeasureError + 1e-13 * std::abs(exact));
       if (dim > 1)
@@ -219,9 +219,9 @@ TEST(CellMeasures, ExtremeWeightsOfTheSameAnnulus_ExactOracle)
         cells.Block(0)[plane * n + i] *= std::pow(c, power);
       }
     }
-    const double exact = pi / 4.0 * 0.75;
+    const double exact = Pi / 4.0 * 0.75;
     const CellMeasures measures = Measured(cells);
-    EXPECT_NEAR(measures.Total.Measure, exact, relative * exact);
+    EXPECT_NEAR(measures.Total.Measure, exact, Relative * exact);
     EXPECT_TRUE(measures.Total.Converged);
   }
 }
@@ -354,7 +354,7 @@ TEST(CellMeasures, LinearSimplicesOfAnyWeights_ExactOracle)
         ReferenceMeasure(shape);
       const CellMeasure& m = measures.Cells[static_cast<std::size_t>(c)];
       // vertices as far from the origin as 50 are rounded by 1e-14
-      const double tolerance = relative * std::abs(exact) + 1e-13;
+      const double tolerance = Relative * std::abs(exact) + 1e-13;
       EXPECT_TRUE(m.Converged);
       EXPECT_NEAR(m.Measure, exact, tolerance);
       for (int d = 0; d < dim; ++d)

@@ -12,11 +12,11 @@ using namespace knotwork::testing;
 
 namespace
 {
-constexpr int numCells = 60;
+constexpr int NumCells = 60;
 /// What slower and busier machines, unoptimized builds and sanitizers may take more; the fault that
 /// this guards against was a factor of 100 to 1000.
 #ifdef NDEBUG
-constexpr double patience = 10.0;
+constexpr double Patience = 10.0;
 #else
 constexpr double patience = 50.0;
 #endif
@@ -53,7 +53,7 @@ TEST_P(ValidationEffort, IsAFewTimesThatOfRegularity_PropertyOracle)
   BernsteinCells cells;
   cells.NumComponents = NumParameters(c.Shape);
   cells.Rational = c.Decades > 0.0;
-  for (int i = 0; i < numCells; ++i)
+  for (int i = 0; i < NumCells; ++i)
   {
     AddRandomCell(cells, c.Shape, c.Degree, c.Noise, c.Decades, c.AreApart ? 3.0 * i : 0.0, random);
   }
@@ -63,7 +63,7 @@ TEST_P(ValidationEffort, IsAFewTimesThatOfRegularity_PropertyOracle)
   const auto certificate = ValidateJacobian(cells, jacobianParams);
   const double regularity = ProcessorSeconds() - start;
   ASSERT_TRUE(certificate) << certificate.Status.Message();
-  const double limit = patience * (10.0 * regularity + 1e-3 * numCells);
+  const double limit = Patience * (10.0 * regularity + 1e-3 * NumCells);
 
   CellMeasuresParams measuresParams;
   measuresParams.Threads = 1;
@@ -72,7 +72,7 @@ TEST_P(ValidationEffort, IsAFewTimesThatOfRegularity_PropertyOracle)
   const auto measures = MeasureCells(cells, measuresParams);
   EXPECT_LT(ProcessorSeconds() - beforeMeasures, limit);
   ASSERT_TRUE(measures);
-  EXPECT_LE(measures->Total.Points, numCells * (measuresParams.MaxPoints + 2 * 32 * 32));
+  EXPECT_LE(measures->Total.Points, NumCells * (measuresParams.MaxPoints + 2 * 32 * 32));
 
   EXPECT_TRUE(
     measures->Total.Converged || (cells.NumComponents == 3 && c.Degree * c.Decades > 1.0));
@@ -84,7 +84,7 @@ TEST_P(ValidationEffort, IsAFewTimesThatOfRegularity_PropertyOracle)
   EXPECT_LT(ProcessorSeconds() - beforeProof, limit);
   ASSERT_TRUE(proof);
   // a 1500th of the boxes a cell; the last pairs may double it
-  EXPECT_LE(proof->Boxes, 2 * numCells * (injectivityParams.MaxBoxes / 1500));
+  EXPECT_LE(proof->Boxes, 2 * NumCells * (injectivityParams.MaxBoxes / 1500));
   if (!c.AreApart)
   {
     EXPECT_EQ(proof->Verdict, InjectivityVerdict::NotInjective);
@@ -128,7 +128,7 @@ TEST(RandomRationalCells, AreOneToOneOrNotButRarelyUndecided_PropertyOracle)
     for (const Case& c : cases)
     {
       std::mt19937 random(59);
-      for (int i = 0; i < numCells; ++i)
+      for (int i = 0; i < NumCells; ++i)
       {
         BernsteinCells cells;
         cells.NumComponents = NumParameters(c.Shape);
@@ -138,7 +138,7 @@ TEST(RandomRationalCells, AreOneToOneOrNotButRarelyUndecided_PropertyOracle)
         jacobianParams.Threads = 1;
         const double start = ProcessorSeconds();
         const auto certificate = ValidateJacobian(cells, jacobianParams);
-        limit += patience * (10.0 * (ProcessorSeconds() - start) + 1e-3);
+        limit += Patience * (10.0 * (ProcessorSeconds() - start) + 1e-3);
         if (certificate->Verdict != Verdict::Valid)
         {
           continue;

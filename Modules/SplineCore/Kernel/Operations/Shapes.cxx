@@ -13,7 +13,7 @@ namespace knotwork
 {
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
+constexpr double Pi = 3.14159265358979323846;
 
 /// Control net in homogeneous coordinates (wx, wy, wz, w), first direction fastest.
 template <int Dim>
@@ -38,8 +38,8 @@ std::array<double, 2> CosSin(double degrees)
 {
   const double rest = std::remainder(degrees, 90.0);
   const double quarter = std::remainder(std::round((degrees - rest) / 90.0), 4.0);
-  const double c = std::cos(rest * pi / 180.0);
-  const double s = std::sin(rest * pi / 180.0);
+  const double c = std::cos(rest * Pi / 180.0);
+  const double s = std::sin(rest * Pi / 180.0);
   switch (static_cast<int>(quarter))
   {
     case 0:
@@ -232,7 +232,7 @@ std::vector<Surface> DiscPatches(double inner, double outer)
 Surface SphereFace()
 {
   const double corner = 0.5 * (std::sqrt(3.0) - 1.0);
-  const double weight = std::cos(pi / 12.0);
+  const double weight = std::cos(Pi / 12.0);
   const double middle = std::sqrt(2.0) - weight; // times the weight
   std::vector<double> x(9), y(9), w(9);
   for (std::size_t i = 0; i < 9; ++i)

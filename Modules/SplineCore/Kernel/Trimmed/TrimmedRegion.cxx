@@ -69,9 +69,9 @@ struct TrimmedRegion::Part
 namespace
 {
 /// Of the largest coordinate: covers the rounding of 50 halvings of a curve of degree 9.
-constexpr double relativeSlack = 0x1p-43;
+constexpr double RelativeSlack = 0x1p-43;
 /// Parts are halved at most so often: then they are smaller than the slack.
-constexpr int maxDepth = 48;
+constexpr int MaxDepth = 48;
 
 /// Crossings of the ray from (.., height) to the right with a curve that lies to the right of its
 /// origin: +1 upwards, -1 downwards.
@@ -185,7 +185,7 @@ void TrimmedRegion::Index()
       largest = std::max({ largest, std::abs(lower(i, d)), std::abs(upper(i, d)) });
     }
   }
-  this->Slack = relativeSlack * largest;
+  this->Slack = RelativeSlack * largest;
   this->Tree =
     BoxTree((lower.array() - this->Slack).matrix(), (upper.array() + this->Slack).matrix());
 }
@@ -209,7 +209,7 @@ RegionPlace TrimmedRegion::Classify(const RealArray<2>& lower, const RealArray<2
     {
       return false;
     }
-    if (part.Size() <= enough || depth >= maxDepth || holds(part.Begin()) || holds(part.Finish()))
+    if (part.Size() <= enough || depth >= MaxDepth || holds(part.Begin()) || holds(part.Finish()))
     {
       return true;
     }
@@ -264,7 +264,7 @@ int TrimmedRegion::WindingNumber(const RealArray<2>& point, bool& onCurve) const
     {
       return Crossings(part.Begin()[1], part.Finish()[1], point[1]);
     }
-    if (part.Size() <= this->Slack || depth >= maxDepth)
+    if (part.Size() <= this->Slack || depth >= MaxDepth)
     {
       onCurve = true;
       return 0;

@@ -14,7 +14,7 @@ using namespace knotwork;
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
+constexpr double Pi = 3.14159265358979323846;
 
 ShapeParams Params(ShapeKind kind)
 {
@@ -50,10 +50,10 @@ std::vector<AnySpline> Make(const ShapeParams& params)
 /// Length, area or volume by its definition.
 double ExactMeasure(const ShapeParams& s)
 {
-  const double angle = s.Angle * pi / 180.0;
+  const double angle = s.Angle * Pi / 180.0;
   const double r = s.InnerRadius;
   const double R = s.OuterRadius;
-  const double disc = pi * R * R;
+  const double disc = Pi * R * R;
   switch (s.Kind)
   {
     case ShapeKind::Line:
@@ -67,9 +67,9 @@ double ExactMeasure(const ShapeParams& s)
     case ShapeKind::Disc:
       return disc;
     case ShapeKind::PlateWithHole:
-      return s.Size[0] * s.Size[1] - pi * r * r;
+      return s.Size[0] * s.Size[1] - Pi * r * r;
     case ShapeKind::QuarterPlateWithHole:
-      return (s.Size[0] * s.Size[1] - pi * r * r) / 4;
+      return (s.Size[0] * s.Size[1] - Pi * r * r) / 4;
     case ShapeKind::CylinderSurface:
       return R * angle * s.Height;
     case ShapeKind::SphereSurface:
@@ -77,7 +77,7 @@ double ExactMeasure(const ShapeParams& s)
     case ShapeKind::PolarSphereSurface:
       return 2 * angle * R * R;
     case ShapeKind::TorusSurface:
-      return angle * R * 2 * pi * r;
+      return angle * R * 2 * Pi * r;
     case ShapeKind::Cube:
     case ShapeKind::TwistedBar:
       return s.Size[0] * s.Size[1] * s.Size[2];
@@ -86,11 +86,11 @@ double ExactMeasure(const ShapeParams& s)
     case ShapeKind::SolidCylinder:
       return disc * s.Height;
     case ShapeKind::BallSector:
-      return angle * 2 * std::sin(s.PolarAngle * pi / 360.0) * (R * R * R - r * r * r) / 3;
+      return angle * 2 * std::sin(s.PolarAngle * Pi / 360.0) * (R * R * R - r * r * r) / 3;
     case ShapeKind::Ball:
       return 4 * disc * R / 3;
     case ShapeKind::SolidTorus:
-      return pi * r * r * R * angle;
+      return Pi * r * r * R * angle;
   }
   return std::numeric_limits<double>::quiet_NaN();
 }

@@ -14,7 +14,7 @@ using namespace knotwork::testing;
 
 namespace
 {
-constexpr double eps = 2.220446049250313e-16;
+constexpr double Eps = 2.220446049250313e-16;
 
 TrimmedModel MakeModel(const std::vector<Spline<2>>& surfaces, const TrimLoops& loops)
 {
@@ -184,7 +184,7 @@ void CheckFit(const std::vector<ChartMesh>& charts, const std::vector<Spline<2>>
   {
     EXPECT_TRUE(n == 1 || n == 2);
   }
-  const double rounding = 64.0 * eps * 10.0; // evaluation of points of size 10 at most
+  const double rounding = 64.0 * Eps * 10.0; // evaluation of points of size 10 at most
   EXPECT_LE(gap, loops.MaxEdgeGap + rounding);
   EXPECT_LE(loops.MaxEdgeGap, 1.1 * gap + 5e-3 * params.Tolerance);
 }
@@ -202,7 +202,7 @@ TEST(TrimLoops, SquareWithSquareHole_ExactOracle)
   EXPECT_EQ(loops->NumVertices, 8);
   EXPECT_EQ(loops->NumBoundaryLoops, 2);
   ASSERT_EQ(loops->Loops[0].size(), 2u);
-  const double tolerance = 64.0 * eps; // sums of numbers up to 1
+  const double tolerance = 64.0 * Eps; // sums of numbers up to 1
   EXPECT_LE(loops->MaxBoundaryDistance, tolerance);
   EXPECT_LE(loops->MaxTrimDistance, tolerance);
   EXPECT_LE(loops->MaxEdgeGap, tolerance);
@@ -287,7 +287,7 @@ TEST(TrimLoops, ReportedBoundaryDistanceHolds_CrossOracle)
   const double chord = 0.4 / (4.0 * 81.0);
   EXPECT_GE(loops->MaxBoundaryDistance, 0.99 * chord);
   EXPECT_LE(loops->MaxBoundaryDistance, 2.0 * chord);
-  EXPECT_LE(loops->MaxTrimDistance, 64.0 * eps * 2.0);
+  EXPECT_LE(loops->MaxTrimDistance, 64.0 * Eps * 2.0);
   EXPECT_LE(loops->MaxEdgeGap, 0.042 * params.Tolerance);
 }
 
@@ -356,7 +356,7 @@ TEST(TrimLoops, StubbornCornersBecomeMultipleKnots_ExactOracle)
   ASSERT_TRUE(loops) << loops.Status.Message();
   CheckFit({ chart }, surfaces, params, loops.Value);
   EXPECT_EQ(loops->NumEdges, 2);
-  EXPECT_LE(loops->MaxTrimDistance, 64.0 * eps);
+  EXPECT_LE(loops->MaxTrimDistance, 64.0 * Eps);
   const KnotVector& knots = loops->Loops[0][0].Curves[0].Curve.Space->Knots[0];
   int corners = 0;
   for (int b = 1; b < knots.NumElements(); ++b)
@@ -859,7 +859,7 @@ TEST(ProveLoops, OpenLoopsAreUndecided_ExactOracle)
   TrimmedLoop open = Circle(0, 0, 1, false);
   open.Curves[0].UV(8, 0) += 1e-6;
   EXPECT_EQ(Prove({ open }), LoopVerdict::Undecided);
-  open.Curves[0].UV(8, 0) = 1.0 + 2.0 * eps;
+  open.Curves[0].UV(8, 0) = 1.0 + 2.0 * Eps;
   EXPECT_EQ(Prove({ open }), LoopVerdict::SimpleNested);
 }
 
