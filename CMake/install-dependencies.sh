@@ -18,7 +18,7 @@ packages=(
   # ParaView plugin
   paraview paraview-dev qtbase5-dev qttools5-dev libqt5svg5-dev python3-mpi4py
   # tests, benchmarks, pictures
-  libgtest-dev libbenchmark-dev clang clang-format libclang-rt-14-dev xvfb libgl1-mesa-dri python3-numpy openmpi-bin
+  libgtest-dev libbenchmark-dev clang clang-format clang-tidy libclang-rt-14-dev xvfb libgl1-mesa-dri python3-numpy openmpi-bin
   # real data for examples and tests
   libcgal-demo gmsh-doc
 )

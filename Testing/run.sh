@@ -26,20 +26,13 @@ build_plugin "$jobs"
 built=$SECONDS
 
 # Cases of other origin, where they lie beside the project: ctest lists as skipped what needs them and does not find them.
-domains="$root/../shared/data/domains"
-if [ -z "${KNOTWORK_DOMAIN_CASES:-}" ] && [ -d "$domains" ]; then
-  export KNOTWORK_DOMAIN_CASES="$domains"
-fi
-
-meshes="$root/../shared/data/meshes"
-if [ -z "${KNOTWORK_MESH_CASES:-}" ] && [ -d "$meshes" ]; then
-  export KNOTWORK_MESH_CASES="$meshes"
-fi
-
-surfaces="$root/../shared/data/lr"
-if [ -z "${KNOTWORK_LR_CASES:-}" ] && [ -d "$surfaces" ]; then
-  export KNOTWORK_LR_CASES="$surfaces"
-fi
+for cases in DOMAIN_CASES:domains MESH_CASES:meshes LR_CASES:lr UNSTRUCTURED_MESHES:unstructured; do
+  name=KNOTWORK_${cases%%:*}
+  folder="$root/../shared/data/${cases#*:}"
+  if [ -z "${!name:-}" ] && [ -d "$folder" ]; then
+    export "$name=$folder"
+  fi
+done
 
 # One display for all tests that draw; they start their own where there is none.
 cd "$release"
