@@ -39,6 +39,12 @@ void FilterJobBase::AddInput(
   this->App.add_option(name, this->Inputs.back().Name, help)->required(*name != '-');
 }
 
+void FilterJobBase::AddTableInput(int port, const char* name, const char* help)
+{
+  this->AddInput(port, name, help, " by ");
+  this->Inputs.back().IsTable = true;
+}
+
 CLI::Option* FilterJobBase::AddOutput(
   int port, const char* name, const std::string& endings, const char* help)
 {
@@ -90,7 +96,7 @@ Status FilterJobBase::ReadInputs(Session& session)
     {
       continue;
     }
-    auto data = session.Read(input.Name);
+    auto data = session.Read(input.Name, input.IsTable);
     if (!data)
     {
       return data.Status;

@@ -40,6 +40,8 @@ protected:
   /// @param key  of the report, where it is not the name.
   void AddInput(
     int port, const char* name, const char* help, const char* joint = "", const char* key = "");
+  /// The same of a table, which may be text in columns.
+  void AddTableInput(int port, const char* name, const char* help);
   /// A file that a port is written to. --output must be given, others need not.
   CLI::Option* AddOutput(int port, const char* name, const std::string& endings, const char* help);
   /// What --output names is written by another port.
@@ -76,6 +78,7 @@ private:
     std::string Key; ///< in the report
     const char* Joint;
     std::string Name;
+    bool IsTable = false;
   };
   Status ReadInputs(Session& session);
   std::string InputNames() const;

@@ -29,6 +29,9 @@ public:
       ->expected(6)
       ->excludes(array)
       ->excludes(sphere);
+    this->AddTableInput(2, "--segments",
+      "insert these mesh lines: a table (.csv .txt) with the columns Direction, Value, Start, End, "
+      "Multiplicity, PatchId, or lines in the parameter plane (.vtp)");
     this->AddProperties({ "Mode" });
   }
 
@@ -47,7 +50,8 @@ protected:
   }
 
 private:
-  /// An array, a sphere or a plane says which elements are refined; none of them: all.
+  /// An array, a sphere or a plane says which elements are refined, segments where lines go; none
+  /// of them: all.
   void ChooseElements(Session& session)
   {
     if (!this->Array.empty())
@@ -65,6 +69,10 @@ private:
       sphere->SetRadius(this->Sphere[3]);
       this->Filter->SetMode(vtkSplineRefine::IMPLICIT_FUNCTION);
       this->Filter->SetImplicitFunction(sphere);
+    }
+    else if (!this->InputFile(2).empty())
+    {
+      this->Filter->SetMode(vtkSplineRefine::SEGMENTS);
     }
     else if (!this->Plane.empty())
     {

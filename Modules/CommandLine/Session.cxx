@@ -68,14 +68,14 @@ void PrintProgress(vtkObject* caller, unsigned long, void*, void*)
 
 Session::Session() : Files(std::make_shared<Termination::Folders>()) {}
 
-Result<vtkSmartPointer<vtkDataObject>> Session::Read(const std::string& file)
+Result<vtkSmartPointer<vtkDataObject>> Session::Read(const std::string& file, bool asTable)
 {
   const double begin = Now();
   if (Status status = this->Files.CheckInput(file); !status)
   {
     return status;
   }
-  auto found = ReadDataFile(file);
+  auto found = asTable ? ReadTableFile(file) : ReadDataFile(file);
   if (!found)
   {
     return found.Status;
@@ -209,8 +209,8 @@ Status Session::WriteFaces(
   Status status = model ? WriteCAD(model.Value, staged->string()) : model.Status;
   if (status)
   {
-    auto summary = CheckCAD(staged->string(), LengthUnit::Millimetre, false); // none reports it
-    status = summary ? CompareCAD(model.Value, summary.Value) : summary.Status;
+    auto summary = CheckWrittenCAD(model.Value, staged->string());
+    status = summary.Status;
     found = std::move(summary.Value);
   }
   this->SecondsOfFiles += Now() - begin;

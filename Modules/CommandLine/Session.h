@@ -43,7 +43,8 @@ public:
   nlohmann::ordered_json Report = nlohmann::ordered_json::object();
 
   /// ReadDataFile of what is not an output; its curves are in Curves then.
-  Result<vtkSmartPointer<vtkDataObject>> Read(const std::string& file);
+  /// @param asTable  text in columns is a table, not points.
+  Result<vtkSmartPointer<vtkDataObject>> Read(const std::string& file, bool asTable = false);
 
   /// Updates a filter with progress on a terminal; messages of VTK become the status. `what` names
   /// the inputs in the message. No points or rows in the output of `port` are an error.

@@ -2,6 +2,7 @@
 #include "vtkSplineRefine.h"
 
 #include "PatchFields.h"
+#include "SegmentTable.h"
 #include "SplineBlocks.h"
 #include "SplineModel.h"
 #include <knotwork/SplineCore/BezierForm.h>
@@ -251,7 +252,7 @@ int AutomaticExtension(const knotwork::SplineSpace<Dim>& space)
 
 vtkSplineRefine::vtkSplineRefine()
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfInputPorts(3);
 }
 
 vtkSplineRefine::~vtkSplineRefine()
@@ -279,8 +280,25 @@ void vtkSplineRefine::SetSelectionData(vtkDataObject* selection)
   this->SetInputDataObject(1, selection);
 }
 
+void vtkSplineRefine::SetSegmentsConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(2, output);
+}
+
+void vtkSplineRefine::SetSegmentsData(vtkDataObject* segments)
+{
+  this->SetInputDataObject(2, segments);
+}
+
 int vtkSplineRefine::FillInputPortInformation(int port, vtkInformation* info)
 {
+  if (port == 2)
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkTable");
+    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+    return 1;
+  }
   if (port == 1)
   {
     info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkSelection");
@@ -327,6 +345,19 @@ public:
     params.AdmissibleClass = this->Filter->AdmissibleClass;
     params.MaxLevel = this->Filter->MaxLevel;
     return RefineMarkedElements(spline, marked, params);
+  }
+
+  /// Inserts segments. @param most  functions that the patch may have.
+  template <int Dim>
+  knotwork::Result<knotwork::RefinedSpline<Dim>> Insert(const knotwork::Spline<Dim>& spline,
+    const std::vector<knotwork::LRSegment>& segments, double most) const
+  {
+    if constexpr (Dim == 2)
+    {
+      const double limit = std::min<double>(most, VTK_INT_MAX);
+      return RefineBySegments(spline, segments, static_cast<int>(limit), this->LRParams(0));
+    }
+    return Status(ErrorCode::DimensionMismatch, "only surfaces have segments of mesh lines");
   }
 
   /// About the functions that a refinement of marked elements adds.
@@ -397,6 +428,17 @@ Status vtkSplineRefine::Compute(vtkInformationVector** inputs, vtkInformationVec
     return status;
   }
 
+  knotwork::SegmentsByPatch segments;
+  if (this->Mode == SEGMENTS)
+  {
+    auto read = knotwork::ReadSegments(vtkDataObject::GetData(inputs[2], 0), model);
+    if (!read)
+    {
+      return read.Status;
+    }
+    segments = std::move(read.Value);
+  }
+
   double total = 0.0;
   double given = 0.0; // is not refused
   for (const knotwork::SplinePatch& patch : model.Patches)
@@ -435,8 +477,22 @@ Status vtkSplineRefine::Compute(vtkInformationVector** inputs, vtkInformationVec
         return elevated.Status;
       }
       auto spline = std::move(elevated.Value);
+      const auto lines = segments.find(patch.Id);
+      if (lines != segments.end())
+      {
+        const int before = spline.Space->NumFunctions;
+        auto refined = stepper.Insert(spline, lines->second, limit - total + before);
+        if (!refined)
+        {
+          return refined.Status;
+        }
+        spline = std::move(refined->Value);
+        total += spline.Space->NumFunctions - before;
+        PassToChildren(refined->Parents, cells);
+      }
       std::vector<char> marks = marker.MarkCells(patch);
-      for (int round = 0; round < this->NumberOfRefinements; ++round)
+      const int rounds = this->Mode == SEGMENTS ? 0 : this->NumberOfRefinements;
+      for (int round = 0; round < rounds; ++round)
       {
         if (this->Mode == IMPLICIT_FUNCTION)
         {
@@ -472,7 +528,7 @@ Status vtkSplineRefine::Compute(vtkInformationVector** inputs, vtkInformationVec
         total += this->Mode == UNIFORM ? 0 : spline.Space->NumFunctions - before;
         PassToChildren(refined->Parents, cells);
         PassToChildren(refined->Parents, marks);
-        if (!progress((static_cast<double>(p) + (round + 1.0) / this->NumberOfRefinements) /
+        if (!progress((static_cast<double>(p) + (round + 1.0) / rounds) /
               static_cast<double>(model.Patches.size())))
         {
           return Status(ErrorCode::Aborted, "");

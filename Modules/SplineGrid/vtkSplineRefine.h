@@ -14,6 +14,10 @@
  *   and a value >= 0 there; CROSSED_OR_INSIDE: it has a value <= 0. What lies between the samples
  * is not seen.
  * - SELECTION: cells that a vtkSelection on port 1 selects.
+ * - SEGMENTS: no elements: mesh lines of LR B-splines are inserted, exactly those that port 2
+ * gives, in any order: a table with the columns Direction, Value, Start, End, Multiplicity,
+ * PatchId, or lines in the plane of the parameters (SegmentTable.h). Patches without a segment stay
+ * as they are.
  *
  * Marked elements are refined locally. What a tensor-product surface becomes is LocalSpace's
  * choice: a truncated hierarchical (THB) spline or an LR spline; curves and volumes become
@@ -35,9 +39,11 @@
  * of the spline grid pass to the children.
  *
  * Errors: local refinement of Bezier patches and degree elevation of hierarchical patches
- * (DimensionMismatch), a dependence that 100 more lines do not resolve (NotConverged), degree above
- * 9 (InvalidDegree), no such array, function or selection (InvalidParameter), more functions than
- * MaximumFunctions (TooLarge), and those of decoding.
+ * (DimensionMismatch), segments that are no mesh lines (what LRRefinement::Insert returns) or of
+ * patches that are no surfaces (DimensionMismatch), a dependence that 100 more lines do not resolve
+ * (NotConverged), degree above 9 (InvalidDegree), no such array, function, selection, column or
+ * patch (InvalidParameter), no segment (EmptyInput), more functions than MaximumFunctions
+ * (TooLarge), and those of decoding.
  */
 #ifndef vtkSplineRefine_h
 #define vtkSplineRefine_h
@@ -58,7 +64,8 @@ public:
     UNIFORM = 0,
     CELL_ARRAY,
     IMPLICIT_FUNCTION,
-    SELECTION
+    SELECTION,
+    SEGMENTS
   };
   enum LocalSpaces
   {
@@ -91,19 +98,19 @@ public:
 
   ///@{
   /** Which elements are refined: all, or those that a cell array, an implicit function or a
-   * selection marks; one of Modes. Default UNIFORM. */
-  vtkSetClampMacro(Mode, int, UNIFORM, SELECTION);
+   * selection marks; or the mesh line segments that are inserted; one of Modes. Default UNIFORM. */
+  vtkSetClampMacro(Mode, int, UNIFORM, SEGMENTS);
   vtkGetMacro(Mode, int);
   ///@}
   ///@{
   /** How often elements are halved; children of marked elements are marked again, an implicit
-   * function looks at the new elements. Default 1, valid range [0, 10]. */
+   * function looks at the new elements. Default 1, valid range [0, 10]. For Mode not SEGMENTS. */
   vtkSetClampMacro(NumberOfRefinements, int, 0, 10);
   vtkGetMacro(NumberOfRefinements, int);
   ///@}
   ///@{
   /** Whether a patch with marked elements is refined everywhere, so that it stays what it is,
-   * tensor-product or Bezier. Default off. For Mode not UNIFORM. */
+   * tensor-product or Bezier. Default off. For Mode not UNIFORM, SEGMENTS. */
   vtkSetMacro(GlobalRefinement, bool);
   vtkGetMacro(GlobalRefinement, bool);
   vtkBooleanMacro(GlobalRefinement, bool);
@@ -141,25 +148,26 @@ public:
   ///@{
   /** Rings of new cells around marked elements that are split too; -1: the smallest number that
    * brings new functions, (degree - 1) / 2 rounded up. Default -1, valid range [-1, 16].
-   * Advanced. For Mode not UNIFORM. */
+   * Advanced. For Mode not UNIFORM, SEGMENTS. */
   vtkSetClampMacro(Extension, int, -1, 16);
   vtkGetMacro(Extension, int);
   ///@}
   ///@{
   /** Functions alive on an element belong to at most so many successive levels; 0: no such
-   * limit, 1 is not valid. Default 0, valid range [0, 24]. Advanced. For Mode not UNIFORM. */
+   * limit, 1 is not valid. Default 0, valid range [0, 24]. Advanced. For Mode not UNIFORM,
+   * SEGMENTS. */
   vtkSetClampMacro(AdmissibleClass, int, 0, 24);
   vtkGetMacro(AdmissibleClass, int);
   ///@}
   ///@{
   /** Elements of this level are not split locally. Default 24, valid range [1, 24]. Advanced.
-   * For Mode not UNIFORM. */
+   * For Mode not UNIFORM, SEGMENTS. */
   vtkSetClampMacro(MaxLevel, int, 1, 24);
   vtkGetMacro(MaxLevel, int);
   ///@}
   ///@{
   /** What local refinement makes of tensor-product surfaces, one of LocalSpaces. Default
-   * HIERARCHICAL. For Mode not UNIFORM. */
+   * HIERARCHICAL. For Mode not UNIFORM, SEGMENTS. */
   vtkSetClampMacro(LocalSpace, int, HIERARCHICAL, LOCALLY_REFINED);
   vtkGetMacro(LocalSpace, int);
   ///@}
@@ -194,6 +202,11 @@ public:
   void SetSelectionConnection(vtkAlgorithmOutput* output);
   void SetSelectionData(vtkDataObject* selection);
   ///@}
+  ///@{
+  /** The segments of mode SEGMENTS (input port 2, optional), vtkTable or vtkPolyData. */
+  void SetSegmentsConnection(vtkAlgorithmOutput* output);
+  void SetSegmentsData(vtkDataObject* segments);
+  ///@}
 
   vtkMTimeType GetMTime() override;
 
@@ -208,7 +221,7 @@ protected:
   vtkSplineRefine();
   ~vtkSplineRefine() override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
-  bool WorksOnPieces() const override { return true; }
+  bool WorksOnPieces() const override { return this->Mode != SEGMENTS; }
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:

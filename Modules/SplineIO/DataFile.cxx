@@ -3,11 +3,15 @@
 
 #include "DataCheck.h"
 #include "FileFormats.h"
+#include "FileText.h"
 #include "Messages.h"
 #include <knotwork/SplineCore/FileEnding.h>
+#include <knotwork/SplineGrid/NamedArray.h>
 #include <knotwork/SplineGrid/SplineModel.h>
+#include <knotwork/SplineIO/NumberTable.h>
 
 #include "vtkDataObject.h"
+#include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPolyData.h"
@@ -81,6 +85,18 @@ Status CheckSplines(
   return {};
 }
 
+Status CheckReadable(const std::string& file)
+{
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error))
+  {
+    return { ErrorCode::FileError, "'" + file + "' is not a file; check the name" };
+  }
+  return std::ifstream(file)
+    ? Status()
+    : Status(ErrorCode::FileError, "'" + file + "' cannot be read; check its permissions");
+}
+
 /// Sets what a file of a known format holds.
 Status ReadFormat(const FileFormat& format, const std::string& file, DataFile& found)
 {
@@ -111,16 +127,44 @@ Status ReadFormat(const FileFormat& format, const std::string& file, DataFile& f
 }
 }
 
+Result<DataFile> ReadTableFile(const std::string& file)
+{
+  const std::string ending = LowerEnding(file);
+  if (ending != ".csv" && ending != ".txt")
+  {
+    return ReadDataFile(file);
+  }
+  if (Status status = CheckReadable(file); !status)
+  {
+    return status;
+  }
+  const Result<std::string> text = TextOfFile(file);
+  const Result<NumberTable> read = text ? ReadNumberTable(text.Value) : text.Status;
+  if (!read)
+  {
+    return { read.Status.Code,
+      text ? "'" + file + "': " + read.Status.Detail : read.Status.Detail };
+  }
+  vtkNew<vtkTable> table;
+  for (std::size_t c = 0; c < read->Names.size(); ++c)
+  {
+    const auto column = NamedArray<vtkDoubleArray>(read->Names[c].c_str());
+    for (Eigen::Index row = 0; row < read->Numbers.rows(); ++row)
+    {
+      column->InsertNextValue(read->Numbers(row, static_cast<Eigen::Index>(c)));
+    }
+    table->AddColumn(column);
+  }
+  DataFile found;
+  found.Data = table;
+  return found;
+}
+
 Result<DataFile> ReadDataFile(const std::string& file)
 {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error))
+  if (Status status = CheckReadable(file); !status)
   {
-    return { ErrorCode::FileError, "'" + file + "' is not a file; check the name" };
-  }
-  if (!std::ifstream(file))
-  {
-    return { ErrorCode::FileError, "'" + file + "' cannot be read; check its permissions" };
+    return status;
   }
   const std::string ending = LowerEnding(file);
   const FileFormat* format = FormatOfEnding(ending);

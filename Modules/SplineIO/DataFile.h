@@ -29,6 +29,10 @@ struct DataFile
 /// CheckData; the file is named.
 VTKKNOTWORKSPLINEIO_EXPORT Result<DataFile> ReadDataFile(const std::string& file);
 
+/// Reads a file of rows as a vtkTable: .csv and .txt whose first line names the columns above the
+/// numbers. Other files as ReadDataFile.
+VTKKNOTWORKSPLINEIO_EXPORT Result<DataFile> ReadTableFile(const std::string& file);
+
 struct DataFileParams
 {
   /// What trims the faces of STEP and IGES, what bounds the surfaces of g2; null: nothing.

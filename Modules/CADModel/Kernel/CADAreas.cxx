@@ -19,7 +19,7 @@ namespace
 {
 constexpr std::size_t MaxBoundaryCells = 1024; ///< that are halved in both directions once more
 constexpr int MaxLevels = 12;
-constexpr double SmallShare = 1e-3; ///< of the parameter area, that may stay undecided
+constexpr double SmallShare = 1e-3; ///< of the parameters inside, that may stay undecided
 /// Relative: OpenCASCADE's quadrature of surfaces with poles is 4e-4 off, ours less.
 constexpr double QuadratureSlack = 5e-3;
 constexpr double BoxSlack = 1e-3; ///< of the size of the box
@@ -125,25 +125,28 @@ std::string Difference(double found, const AreaBounds& bounds)
 }
 
 /// One to one: faces in the order of their upper bounds take the least area left that they can.
-Status MatchFaces(
-  const TrimmedModel& model, const std::vector<AreaBounds>& bounds, std::vector<double> areas)
+/// @param left  numbers of the areas that are left.
+Status MatchFaces(const TrimmedModel& model, const std::vector<AreaBounds>& bounds,
+  const std::vector<double>& areas, std::vector<std::size_t>& left)
 {
   std::vector<std::size_t> order(bounds.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
+  left = order;
   std::stable_sort(order.begin(), order.end(),
     [&](std::size_t a, std::size_t b) { return bounds[a].Upper < bounds[b].Upper; });
-  std::sort(areas.begin(), areas.end());
+  std::stable_sort(
+    left.begin(), left.end(), [&](std::size_t a, std::size_t b) { return areas[a] < areas[b]; });
   std::vector<std::size_t> unmatched;
   for (const std::size_t f : order)
   {
     const auto found = std::find_if(
-      areas.begin(), areas.end(), [&](double area) { return IsWithin(area, bounds[f]); });
-    if (found == areas.end())
+      left.begin(), left.end(), [&](std::size_t a) { return IsWithin(areas[a], bounds[f]); });
+    if (found == left.end())
     {
       unmatched.push_back(f);
       continue;
     }
-    areas.erase(found);
+    left.erase(found);
   }
   if (unmatched.empty())
   {
@@ -151,7 +154,7 @@ Status MatchFaces(
   }
   return { ErrorCode::InvalidFormat,
     PlaceOfFace(model, unmatched.front()) + " has " +
-      Difference(areas.front(), bounds[unmatched.front()]) };
+      Difference(areas[left.front()], bounds[unmatched.front()]) };
 }
 }
 
@@ -166,13 +169,9 @@ Result<AreaBounds> BoundArea(const TrimmedFace& face)
   std::vector<Cell> cells = ElementsOf(*face.Surface.Space);
   // fewer points where cells are many or small
   int numPoints = cells.size() > 100 ? 4 : 8;
-  double share = 0.0;
+  double decided = 0.0;
   AreaBounds result;
   Eigen::AlignedBox3d box;
-  for (const Cell& cell : cells)
-  {
-    share += SmallShare * cell.Area();
-  }
   for (int level = 0; !cells.empty(); ++level)
   {
     std::vector<Cell> inside;
@@ -184,7 +183,7 @@ Result<AreaBounds> BoundArea(const TrimmedFace& face)
       if (place != RegionPlace::Outside)
       {
         (place == RegionPlace::Inside ? inside : boundary).push_back(cell);
-        undecided += place == RegionPlace::Inside ? 0.0 : cell.Area();
+        (place == RegionPlace::Inside ? decided : undecided) += cell.Area();
       }
     }
     const auto area = Integrate(form, inside, numPoints, box);
@@ -195,7 +194,7 @@ Result<AreaBounds> BoundArea(const TrimmedFace& face)
     result.Lower += area.Value;
     result.Upper += area.Value;
     cells.clear();
-    if (level == MaxLevels || boundary.size() > MaxBoundaryCells || undecided <= share)
+    if (level == MaxLevels || boundary.size() > MaxBoundaryCells || undecided <= SmallShare * decided)
     {
       Eigen::AlignedBox3d unused;
       const auto rest = Integrate(form, boundary, 3, unused);
@@ -220,7 +219,8 @@ Result<AreaBounds> BoundArea(const TrimmedFace& face)
   return result;
 }
 
-Status CompareCAD(const TrimmedModel& model, const CADSummary& summary)
+Status CompareCAD(
+  const TrimmedModel& model, const CADSummary& summary, std::vector<std::size_t>* others)
 {
   std::vector<AreaBounds> bounds;
   AreaBounds sum;
@@ -249,7 +249,13 @@ Status CompareCAD(const TrimmedModel& model, const CADSummary& summary)
   }
   if (bounds.size() == summary.FaceAreas.size())
   {
-    return MatchFaces(model, bounds, summary.FaceAreas);
+    std::vector<std::size_t> left;
+    const Status status = MatchFaces(model, bounds, summary.FaceAreas, left);
+    if (others)
+    {
+      *others = std::move(left);
+    }
+    return status;
   }
   if (summary.FaceAreas.size() < bounds.size())
   {

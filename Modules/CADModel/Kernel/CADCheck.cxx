@@ -4,11 +4,14 @@
 #include "CADSession.h"
 #include <knotwork/SplineCore/DisjointSets.h>
 
+#include <BRepAdaptor_Surface.hxx>
 #include <BRepBndLib.hxx>
 #include <BRepCheck.hxx>
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepCheck_ListOfStatus.hxx>
 #include <BRepGProp.hxx>
+#include <BRepTools.hxx>
+#include <BRepTopAdaptor_FClass2d.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
@@ -24,6 +27,7 @@
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Vertex.hxx>
 
+#include <algorithm>
 #include <sstream>
 
 namespace knotwork
@@ -301,14 +305,68 @@ Status CheckSTEPText(const std::string& text, CADSummary& summary)
   return {};
 }
 
-Result<CADSummary> CheckCAD(const std::string& file, LengthUnit unit, bool volume)
+namespace
 {
-  CADSummary summary;
+/// Area of a face by its surface at the points of a raster that lie in it.
+double AreaOnRaster(const TopoDS_Face& face)
+{
+  constexpr double nearness = 1e-9; ///< of the classifier, of the parameters' size
+  constexpr int enough = 20000;     ///< points in the face: its boundary is less than 0.3 % then
+  double u[2];
+  double v[2];
+  BRepTools::UVBounds(face, u[0], u[1], v[0], v[1]);
+  BRepTopAdaptor_FClass2d classifier(face, nearness * std::max(u[1] - u[0], v[1] - v[0]));
+  const BRepAdaptor_Surface surface(face, false);
+  double area = 0.0;
+  int numInside = 0;
+  for (int n = 256; n <= 1024 && numInside < enough; n *= 2)
+  {
+    area = 0.0;
+    numInside = 0;
+    const double du = (u[1] - u[0]) / n;
+    const double dv = (v[1] - v[0]) / n;
+    for (int i = 0; i < n * n; ++i)
+    {
+      const gp_Pnt2d at(u[0] + (i % n + 0.5) * du, v[0] + (i / n + 0.5) * dv);
+      if (classifier.Perform(at) != TopAbs_IN)
+      {
+        continue;
+      }
+      gp_Pnt point;
+      gp_Vec first[2];
+      surface.D1(at.X(), at.Y(), point, first[0], first[1]);
+      area += first[0].Crossed(first[1]).Magnitude() * du * dv;
+      ++numInside;
+    }
+  }
+  return area;
+}
+
+/// Areas of faces, measured again.
+void MeasureAgain(
+  const TopoDS_Shape& shape, const std::vector<std::size_t>& faces, CADSummary& summary)
+{
+  std::size_t number = 0;
+  for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next(), ++number)
+  {
+    if (std::find(faces.begin(), faces.end(), number) != faces.end())
+    {
+      const double area = AreaOnRaster(TopoDS::Face(face.Current()));
+      summary.Area += area - summary.FaceAreas[number];
+      summary.FaceAreas[number] = area;
+    }
+  }
+}
+
+/// @param use  Status of the shape that OpenCASCADE reads with its default settings.
+template <typename Use>
+Status ReadShape(const std::string& file, LengthUnit unit, const Use& use)
+{
   const std::string place = "'" + file + "'";
   const CADFormat format = FormatOfFile(file);
   CADSession session(unit);
   session.SetDefaultsOfReading();
-  const Status status = session.Run(place,
+  return session.Run(place,
     [&]() -> Status
     {
       STEPControl_Reader step;
@@ -325,8 +383,38 @@ Result<CADSummary> CheckCAD(const std::string& file, LengthUnit unit, bool volum
       {
         return { ErrorCode::EmptyInput, place + ": there is no shape in it" };
       }
-      summary = Summarize(reader.OneShape(), volume);
-      return {};
+      return use(reader.OneShape());
+    });
+}
+}
+
+Result<CADSummary> CheckCAD(const std::string& file, LengthUnit unit, bool volume)
+{
+  CADSummary summary;
+  const Status status = ReadShape(file, unit,
+    [&](const TopoDS_Shape& shape)
+    {
+      summary = Summarize(shape, volume);
+      return Status();
+    });
+  return status ? Result<CADSummary>(summary) : Result<CADSummary>(status);
+}
+
+Result<CADSummary> CheckWrittenCAD(const TrimmedModel& model, const std::string& file)
+{
+  CADSummary summary;
+  const Status status = ReadShape(file, LengthUnit::Millimetre,
+    [&](const TopoDS_Shape& shape)
+    {
+      summary = Summarize(shape, false);
+      std::vector<std::size_t> others;
+      Status compared = CompareCAD(model, summary, &others);
+      if (!others.empty())
+      {
+        MeasureAgain(shape, others, summary);
+        compared = CompareCAD(model, summary);
+      }
+      return compared;
     });
   return status ? Result<CADSummary>(summary) : Result<CADSummary>(status);
 }

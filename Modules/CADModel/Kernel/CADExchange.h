@@ -94,9 +94,17 @@ Result<CADSummary> CheckCAD(
 /// that OpenCASCADE found may lie 0.5 % outside of the bounds, the faces a thousandth of the box's
 /// size outside of the box.
 /// @param summary  as CheckCAD gives it, in the model's unit.
+/// @param others  when not null: those of the FaceAreas that no face of the model has.
 /// @return failures of TrimmedRegion; InvalidFormat: they differ, naming the face and the areas, or
 /// faces are missing.
-Status CompareCAD(const TrimmedModel& model, const CADSummary& summary);
+Status CompareCAD(
+  const TrimmedModel& model, const CADSummary& summary, std::vector<std::size_t>* others = nullptr);
+
+/// CheckCAD without volumes of a file that a model was written to in millimetres, and CompareCAD.
+/// Areas that no face of the model has are measured again on a fine raster of the face's
+/// parameters: OpenCASCADE's quadrature is some hundredths off where a face is small in a surface
+/// of many spans, whatever its tolerance.
+Result<CADSummary> CheckWrittenCAD(const TrimmedModel& model, const std::string& file);
 
 struct CADReadParams
 {

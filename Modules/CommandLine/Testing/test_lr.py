@@ -31,6 +31,29 @@ def test_local_spaces():
     assert counts["minimum-span", "functions"] < counts["structured-mesh", "functions"], counts
 
 
+def test_segments_are_mesh_lines():
+    """In any order the same file; what is no segment is one line and the surface stays."""
+    local_square()
+    rows = ["0,0.3,0,0.5,1", "1,0.25,0.3,1,1", "1,0.5,0,1,2"]
+    for name, lines in (("first", rows), ("second", rows[::-1] + rows)):
+        with open(path(name + ".csv"), "w", encoding="ascii") as file:
+            file.write("\n".join(["Direction,Value,Start,End,Multiplicity", *lines]) + "\n")
+        report = run("refine", path("square.vtu"), "--segments", path(name + ".csv"), "--output", path(name + ".vtu"))
+        assert report["segments"].endswith(name + ".csv")
+        assert np.abs(values(path(name + ".vtu"), uniform()) - values(path("square.vtu"), uniform())).max() <= 1e-14
+    with open(path("first.vtu"), "rb") as first, open(path("second.vtu"), "rb") as second:
+        assert first.read() == second.read()
+    assert run("info", path("first.vtu"))["kinds"] == ["LR"]
+    for lines, words in ((["Direction,Value,Start,End", "0,0.3,0,0.47"], "no mesh line for it to end at"),
+                         (["Direction,Value,Start", "0,0.3,0"], "no column End"), (["0,0.3,0,0.5"], "does not name the columns"),
+                         (["Direction,Value,Start,End", "0,x,0,1"], "line 2, column 2"), ([], "no numbers"),
+                         (["Direction,Value,Start,End", "0,0.3,0,0.5,1"], "5 columns")):
+        with open(path("bad.csv"), "w", encoding="ascii") as file:
+            file.write("\n".join(lines) + "\n")
+        done = knotwork_testing.run_program("refine", path("square.vtu"), "--segments", path("bad.csv"), "--output", path("no.vtu"))
+        assert done.returncode == 1 and done.stderr.count("\n") == 1 and words in done.stderr, done.stderr
+
+
 def test_parts_and_curves():
     surface = local_square()
     box = np.array([[0.2, 0.7], [0.1, 0.5]])

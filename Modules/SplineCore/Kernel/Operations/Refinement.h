@@ -54,6 +54,14 @@ struct LRRefinementParams
 Result<RefinedSpline<2>> RefineMarkedLR(
   const Spline<2>& spline, const std::vector<int>& marked, const LRRefinementParams& params = {});
 
+/// Inserts mesh line segments, in any order (InsertAllSegments), into a Tensor or LocallyRefined
+/// surface; the result is LocallyRefined.
+/// @param params  KeepIndependent and Threads. @param maxFunctions  more than that are TooLarge.
+/// @return DimensionMismatch for other kinds; what LRRefinement::Insert returns, naming the
+/// segment; InvalidKnots and NotConverged as RefineMarkedLR.
+Result<RefinedSpline<2>> RefineBySegments(const Spline<2>& spline,
+  const std::vector<LRSegment>& segments, int maxFunctions, const LRRefinementParams& params = {});
+
 /// Element of the coarser space that holds the centre of each element of the finer one.
 template <int Dim>
 std::vector<int> ParentElements(

@@ -17,6 +17,8 @@
 #include "vtkSelection.h"
 #include "vtkSelectionNode.h"
 #include "vtkSphere.h"
+#include "vtkStringArray.h"
+#include "vtkTable.h"
 
 #include <limits>
 #include <random>
@@ -582,6 +584,140 @@ TEST(vtkSplineRefine, LRPatchesStayLR_PropertyOracle)
       EXPECT_LE(WorstDifference(grid, GridOf(refine)), 1e-12);
     }
   }
+}
+
+namespace
+{
+template <typename Array, typename Value>
+void AddColumn(vtkTable* table, const char* name, const std::vector<Value>& values)
+{
+  vtkNew<Array> column;
+  column->SetName(name);
+  for (const Value& value : values)
+  {
+    column->InsertNextValue(value);
+  }
+  table->AddColumn(column);
+}
+
+/// Lines in the plane of the parameters, from and to (u, v).
+vtkSmartPointer<vtkPolyData> Lines(const std::vector<std::array<double, 4>>& ends)
+{
+  auto lines = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  lines->SetPoints(points);
+  lines->AllocateEstimate(2, 2);
+  for (const auto& end : ends)
+  {
+    const vtkIdType ids[2] = { points->InsertNextPoint(end[0], end[1], 0.0),
+      points->InsertNextPoint(end[2], end[3], 0.0) };
+    lines->InsertNextCell(VTK_LINE, 2, ids);
+  }
+  return lines;
+}
+
+/// u = 1/8 from v = 0 to 3/4, twice the line v = 1/2 from 0 to 1/2.
+vtkSmartPointer<vtkTable> TwoSegments()
+{
+  auto table = vtkSmartPointer<vtkTable>::New();
+  AddColumn<vtkIntArray>(table, "direction", std::vector<int>{ 1, 0 });
+  AddColumn<vtkDoubleArray>(table, "Value", std::vector<double>{ 0.5, 0.125 });
+  AddColumn<vtkStringArray>(table, "START", std::vector<vtkStdString>{ "0", "0" });
+  AddColumn<vtkDoubleArray>(table, "End", std::vector<double>{ 0.75, 0.75 });
+  AddColumn<vtkIntArray>(table, "Multiplicity", std::vector<int>{ 2, 1 });
+  return table;
+}
+}
+
+/// The functions are those of the kernel for the same segments; positions and fields stay.
+TEST(vtkSplineRefine, SegmentsBecomeMeshLines_CrossOracle)
+{
+  auto grid = ShapeGrid(vtkSplineSource::SQUARE, 2, { 4, 4, 1 });
+  const auto decoded = DecodeSplineModel(grid, 0);
+  const auto& square = std::get<Spline<2>>(decoded->Patches[0].Geometry);
+  const auto expected =
+    InsertSegments(square, { { 0, 0.125, 0.0, 0.75, 1 }, { 1, 0.5, 0.0, 0.75, 2 } }, 0);
+  ASSERT_TRUE(expected) << expected.Status.Message();
+  vtkNew<vtkSplineRefine> refine;
+  refine->SetInputData(grid);
+  refine->SetMode(vtkSplineRefine::SEGMENTS);
+  auto lines = Lines({ { 0.125, 0.75, 0.125, 0.0 }, { 0.0, 0.5, 0.75, 0.5 } });
+  vtkNew<vtkIntArray> multiplicity;
+  multiplicity->SetName("Multiplicity");
+  multiplicity->InsertNextValue(1);
+  multiplicity->InsertNextValue(2);
+  lines->GetCellData()->AddArray(multiplicity);
+  const std::vector<vtkSmartPointer<vtkDataObject>> inputs{ TwoSegments(), lines };
+  for (const auto& segments : inputs)
+  {
+    refine->SetSegmentsData(segments);
+    refine->Update();
+    const auto model = DecodeSplineModel(GridOf(refine), 0);
+    ASSERT_EQ(model->Patches.size(), 1u);
+    const auto& refined = std::get<Spline<2>>(model->Patches[0].Geometry);
+    EXPECT_TRUE(refined.Space->LocallyRefined->Basis == expected->Space->LocallyRefined->Basis);
+    EXPECT_LE((refined.ControlPoints.leftCols(2) - expected->ControlPoints.leftCols(2))
+                .cwiseAbs()
+                .maxCoeff(),
+      1e-14);
+  }
+}
+
+/// Two patches side by side: only the one that is named changes, and it must be named.
+TEST(vtkSplineRefine, SegmentsNameTheirPatch_GoldenOracle)
+{
+  auto grid = ShapeGrid(vtkSplineSource::QUARTER_PLATE_WITH_HOLE, 2, { 4, 4, 1 });
+  vtkNew<vtkSplineRefine> refine;
+  refine->SetInputData(grid);
+  refine->SetMode(vtkSplineRefine::SEGMENTS);
+  auto table = TwoSegments();
+  refine->SetSegmentsData(table);
+  ExpectFailure(refine, ErrorCode::InvalidParameter, "has 2 patches; say of which");
+  const int named = DecodeSplineModel(grid, 0)->Patches[1].Id;
+  AddColumn<vtkIntArray>(table, "PatchId", std::vector<int>{ named, named });
+  table->Modified();
+  refine->Update();
+  const auto model = DecodeSplineModel(GridOf(refine), 0);
+  ASSERT_EQ(model->Patches.size(), 2u);
+  EXPECT_EQ(std::get<Spline<2>>(model->Patches[0].Geometry).Space->Kind, SpaceKind::Tensor);
+  EXPECT_EQ(std::get<Spline<2>>(model->Patches[1].Geometry).Space->Kind, SpaceKind::LocallyRefined);
+  table->SetValueByName(0, "PatchId", 77);
+  table->Modified();
+  ExpectFailure(refine, ErrorCode::InvalidParameter, "no patch 77");
+}
+
+TEST(vtkSplineRefine, EveryFailureOfSegmentsIsReachable)
+{
+  auto grid = ShapeGrid(vtkSplineSource::SQUARE, 2, { 4, 4, 1 });
+  vtkNew<vtkSplineRefine> refine;
+  refine->SetInputData(grid);
+  refine->SetMode(vtkSplineRefine::SEGMENTS);
+  ExpectFailure(refine, ErrorCode::InvalidParameter, "set a table or lines");
+  const auto fail = [&](vtkDataObject* segments, ErrorCode code, const char* words)
+  {
+    refine->SetSegmentsData(segments);
+    ExpectFailure(refine, code, words);
+  };
+  fail(Lines({}), ErrorCode::EmptyInput, "holds none");
+  fail(Lines({ { 0.1, 0.0, 0.2, 1.0 } }), ErrorCode::InvalidParameter, "neither parameter");
+  fail(Lines({ { 0.1, 0.5, 0.1, 0.5 } }), ErrorCode::InvalidParameter, "no length");
+  fail(Lines({ { 0.1, 0.0, 0.1, 0.3 } }), ErrorCode::InvalidTopology, "no mesh line for it to end");
+  fail(Lines({ { 1.1, 0.0, 1.1, 1.0 } }), ErrorCode::OutsideDomain, "outside the domain");
+  auto table = TwoSegments();
+  table->RemoveColumnByName("End");
+  fail(table, ErrorCode::InvalidParameter, "no column End");
+  table = TwoSegments();
+  table->SetValueByName(1, "START", "far");
+  fail(table, ErrorCode::InvalidParameter, "row 1: Start is no number");
+  table = TwoSegments();
+  table->RemoveColumnByName("direction");
+  AddColumn<vtkDoubleArray>(table, "Direction", std::vector<double>{ 0.5, 0.0 });
+  fail(table, ErrorCode::InvalidParameter, "row 0: Direction is no whole number");
+  refine->SetMaximumFunctions(36);
+  fail(TwoSegments(), ErrorCode::TooLarge, "more than 36 functions");
+  refine->SetInputData(ShapeGrid(vtkSplineSource::CUBE, 2, { 2, 2, 2 }));
+  fail(TwoSegments(), ErrorCode::DimensionMismatch, "only surfaces");
 }
 
 TEST(vtkSplineRefine, DependenceIsResolvedWithoutRefinement_CrossOracle)

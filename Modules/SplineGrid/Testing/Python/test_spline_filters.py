@@ -4,7 +4,9 @@ import math
 
 import knotwork
 import knotwork_testing
+from vtkmodules.vtkCommonCore import vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkSphere, vtkTable, vtkUnstructuredGrid
+from vtkmodules.vtkFiltersSources import vtkLineSource
 
 
 def source(name, **properties):
@@ -72,6 +74,31 @@ def test_lr_and_extract():
     assert 36 < refine.GetOutputDataObject(0).GetNumberOfCells() < 144
     x = extract.GetOutputDataObject(0).GetBounds()  # the square of side 1 around the origin
     assert math.isclose(x[0], -0.25) and math.isclose(x[1], -0.25) and math.isclose(x[2], -0.5) and math.isclose(x[3], 0.5)
+
+
+def test_segments():
+    """Two half lines that are one, as a table of strings and as lines: a row of the square's 6 x 6 elements is halved across 4 of them."""
+    square = source("Square", Degree=2, Elements=(6, 6, 1))
+    refine = knotwork.vtkSplineRefine()
+    refine.SetInputConnection(square.GetOutputPort())
+    refine.SetMode(refine.SEGMENTS)
+    table = vtkTable()
+    for name, values in (("Direction", "00"), ("Value", ("0.25", "0.25")), ("Start", ("0.5", "0")), ("End", ("0.66666666666666663", "0.5"))):
+        column = vtkStringArray()
+        column.SetName(name)
+        for value in values:
+            column.InsertNextValue(value)
+        table.AddColumn(column)
+    refine.SetSegmentsData(table)
+    refine.Update()
+    assert refine.GetOutputDataObject(0).GetNumberOfCells() == 36 + 4
+    line = vtkLineSource()
+    line.SetOutputPointsPrecision(1)
+    line.SetPoint1(0.25, 0, 0)
+    line.SetPoint2(0.25, 1, 0)
+    refine.SetSegmentsConnection(line.GetOutputPort())
+    refine.Update()
+    assert refine.GetOutputDataObject(0).GetNumberOfCells() == 36 + 6
 
 
 def test_errors_are_one_line():

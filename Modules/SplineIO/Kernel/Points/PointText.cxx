@@ -1,112 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PointText.h"
 
+#include "NumberColumns.h"
 #include "TextWords.h"
 #include <knotwork/SplineCore/Parallel.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
 namespace knotwork
 {
 namespace
 {
-constexpr std::size_t ChunkSize = std::size_t(1) << 20;
-constexpr const char* Remedy = "; correct or remove the line";
-
-bool IsBlank(char c)
+/// Columns of a text, and which of them are x, y, z.
+struct Layout : NumberColumns
 {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
-}
-
-std::string_view Trimmed(std::string_view text)
-{
-  while (!text.empty() && IsBlank(text.front()))
-  {
-    text.remove_prefix(1);
-  }
-  while (!text.empty() && IsBlank(text.back()))
-  {
-    text.remove_suffix(1);
-  }
-  return text;
-}
-
-/// Of a trimmed line.
-bool IsComment(std::string_view line)
-{
-  return line.empty() || line.front() == '#' || line.front() == '%' || line.substr(0, 2) == "//";
-}
-
-/// The line that begins at a place; moves the place behind it.
-std::string_view NextLine(std::string_view text, std::size_t& at)
-{
-  const std::size_t end = std::min(text.find('\n', at), text.size());
-  const std::string_view line = text.substr(at, end - at);
-  at = std::min(end + 1, text.size());
-  return line;
-}
-
-/// Fields of a line, trimmed; one separator at the end is no field.
-std::vector<std::string_view> Fields(std::string_view line, char separator)
-{
-  std::vector<std::string_view> fields;
-  line = Trimmed(line);
-  if (separator == ' ')
-  {
-    WordScanner words(line);
-    while (!words.AtEnd())
-    {
-      fields.push_back(words.Next());
-    }
-    return fields;
-  }
-  while (true)
-  {
-    const std::size_t end = line.find(separator);
-    fields.push_back(Trimmed(line.substr(0, end)));
-    if (end == std::string_view::npos)
-    {
-      break;
-    }
-    line.remove_prefix(end + 1);
-  }
-  if (fields.size() > 1 && fields.back().empty())
-  {
-    fields.pop_back();
-  }
-  return fields;
-}
-
-std::string Unquoted(std::string_view word)
-{
-  if (word.size() > 1 && word.front() == '"' && word.back() == '"')
-  {
-    word = word.substr(1, word.size() - 2);
-  }
-  return std::string(word);
-}
-
-std::string Lower(std::string word)
-{
-  for (char& c : word)
-  {
-    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  }
-  return word;
-}
-
-/// Columns of a text.
-struct Layout
-{
-  std::size_t Begin = 0;    ///< of the first line of numbers
-  std::size_t HeadLine = 1; ///< number of the line that tells the columns
-  char Separator = ' ';
-  std::size_t Columns = 0;
-  std::array<std::size_t, 3> Position{ 0, 1, 2 }; ///< columns of x, y, z
-  std::vector<std::string> Names;                 ///< of all columns; empty: without names
+  std::array<std::size_t, 3> Position{ 0, 1, 2 };
 
   bool IsCoordinate(std::size_t column) const
   {
@@ -127,7 +37,7 @@ void FindPosition(Layout& layout)
     {
       for (std::size_t c = 0; c < layout.Names.size(); ++c)
       {
-        if (Lower(layout.Names[c]) == names[d])
+        if (LowerName(layout.Names[c]) == names[d])
         {
           found[d] = c;
           ++count;
@@ -143,205 +53,37 @@ void FindPosition(Layout& layout)
   }
 }
 
-/// Whether a word is no number and does not begin like one.
-bool IsName(std::string_view word)
-{
-  double number = 0.0;
-  return ParseReal(word, number).Code == ErrorCode::InvalidFormat &&
-    (word.empty() ||
-      std::string_view("+-.0123456789").find(word.front()) == std::string_view::npos);
-}
-
 Result<Layout> FindLayout(std::string_view text)
 {
+  auto found = FindColumns(text, 3, "x, y, z");
+  if (!found)
+  {
+    return { found.Status.Code,
+      found.Status.Code == ErrorCode::EmptyInput ? "the text holds no points"
+                                                 : found.Status.Detail };
+  }
   Layout layout;
-  std::size_t at = text.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0; // byte order mark
-  std::size_t lineNumber = 0;
-  std::string_view comment;
-  std::string_view line;
-  while (at < text.size())
+  static_cast<NumberColumns&>(layout) = std::move(found.Value);
+  if (!layout.Names.empty())
   {
-    layout.Begin = at;
-    ++lineNumber;
-    line = Trimmed(NextLine(text, at));
-    if (!IsComment(line))
-    {
-      break;
-    }
-    comment = line;
-    line = {};
-  }
-  if (line.empty())
-  {
-    return { ErrorCode::EmptyInput, "the text holds no points" };
-  }
-  layout.HeadLine = lineNumber;
-  layout.Separator = line.find(';') != std::string_view::npos ? ';'
-    : line.find(',') != std::string_view::npos                ? ','
-                                                              : ' ';
-  const std::vector<std::string_view> head = Fields(line, layout.Separator);
-  layout.Columns = head.size();
-  if (layout.Columns < 3)
-  {
-    return { ErrorCode::InvalidFormat,
-      "line " + std::to_string(lineNumber) + " has " + std::to_string(layout.Columns) +
-        (layout.Columns == 1 ? " column (" : " columns (") + Shown(head.front()) +
-        "); a line has x, y, z, separated by blanks, commas or semicolons" };
-  }
-  // a damaged number names no column: the line would be lost without a word
-  if (std::all_of(head.begin(), head.begin() + 3, IsName))
-  {
-    layout.Begin = at;
-    for (std::string_view word : head)
-    {
-      layout.Names.push_back(Unquoted(word));
-    }
     FindPosition(layout);
   }
-  else if (!comment.empty() && comment.front() == '#')
+  else if (!layout.Comment.empty() && layout.Comment.front() == '#')
   {
-    std::vector<std::string_view> words = Fields(comment.substr(1), ' ');
-    if (words.size() == layout.Columns && Lower(std::string(words[0])) == "x" &&
-      Lower(std::string(words[1])) == "y" && Lower(std::string(words[2])) == "z")
+    const std::vector<std::string_view> words = FieldsOf(layout.Comment.substr(1), ' ');
+    if (words.size() == layout.Count && LowerName(std::string(words[0])) == "x" &&
+      LowerName(std::string(words[1])) == "y" && LowerName(std::string(words[2])) == "z")
     {
       layout.Names.assign(words.begin(), words.end());
     }
   }
+  layout.IsFinite.assign(layout.Count, false);
+  for (const std::size_t column : layout.Position)
+  {
+    layout.IsFinite[column] = true;
+  }
   return layout;
 }
-
-/// What is wrong with a line.
-struct Damage
-{
-  std::size_t At = std::string_view::npos; ///< of the line
-  ErrorCode Code = ErrorCode::Ok;
-  std::string What;
-};
-
-/// Lines of a part of the text.
-struct Chunk
-{
-  std::vector<double> Numbers;
-  Damage First;
-};
-
-class LineReader
-{
-public:
-  LineReader(std::string_view text, const Layout& layout) : Text(text), Columns(layout) {}
-
-  void Read(std::size_t begin, std::size_t end, Chunk& chunk) const
-  {
-    const char* p = this->Text.data() + begin;
-    const char* const stop = this->Text.data() + end;
-    const std::size_t columns = this->Columns.Columns;
-    chunk.Numbers.reserve((end - begin) / 8);
-    while (p < stop)
-    {
-      const char* const line = p;
-      std::size_t count = 0;
-      while (count < columns && this->ReadNumber(p, stop, count, chunk.Numbers))
-      {
-        ++count;
-      }
-      while (p < stop && IsBlank(*p))
-      {
-        ++p;
-      }
-      if (count == columns && (p == stop || *p == '\n'))
-      {
-        p += p < stop ? 1 : 0;
-        continue;
-      }
-      // rare: comments, empty lines, one separator at the end, damage
-      std::size_t at = static_cast<std::size_t>(line - this->Text.data());
-      const std::size_t lineBegin = at;
-      const std::string_view whole = Trimmed(NextLine(this->Text, at));
-      if (count == columns && p < stop && *p == this->Columns.Separator &&
-        Fields(whole, this->Columns.Separator).size() == columns)
-      {
-        p = this->Text.data() + at;
-        continue;
-      }
-      chunk.Numbers.resize(chunk.Numbers.size() - count);
-      if (!IsComment(whole))
-      {
-        chunk.First = this->Describe(whole, lineBegin, at);
-        return;
-      }
-      p = this->Text.data() + at;
-    }
-  }
-
-private:
-  /// One number and the separator before it.
-  bool ReadNumber(
-    const char*& p, const char* stop, std::size_t column, std::vector<double>& numbers) const
-  {
-    while (p < stop && IsBlank(*p))
-    {
-      ++p;
-    }
-    if (column > 0 && this->Columns.Separator != ' ')
-    {
-      if (p == stop || *p != this->Columns.Separator)
-      {
-        return false;
-      }
-      ++p;
-      while (p < stop && IsBlank(*p))
-      {
-        ++p;
-      }
-    }
-    const char* first = p;
-    if (stop - first > 1 && *first == '+' && first[1] != '-')
-    {
-      ++first;
-    }
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(first, stop, value);
-    if (error != std::errc() || (!std::isfinite(value) && this->Columns.IsCoordinate(column)) ||
-      (end < stop && !IsBlank(*end) && *end != '\n' && *end != this->Columns.Separator))
-    {
-      return false;
-    }
-    numbers.push_back(value);
-    p = end;
-    return true;
-  }
-
-  Damage Describe(std::string_view line, std::size_t begin, std::size_t end) const
-  {
-    Damage damage{ begin, ErrorCode::InvalidFormat, {} };
-    const std::vector<std::string_view> fields = Fields(line, this->Columns.Separator);
-    for (std::size_t c = 0; c < std::min(fields.size(), this->Columns.Columns); ++c)
-    {
-      double value = 0.0;
-      const Status status = fields[c].empty()
-        ? Status(ErrorCode::InvalidFormat, "there is no number")
-        : ParseReal(fields[c], value);
-      if (!status && (status.Code != ErrorCode::NonFiniteInput || this->Columns.IsCoordinate(c)))
-      {
-        const bool decimals =
-          this->Columns.Separator != ',' && fields[c].find(',') != std::string_view::npos;
-        damage.Code = status.Code;
-        damage.What = ", column " + std::to_string(c + 1) + ": " + status.Detail +
-          (decimals ? "; decimals have a point, and all lines are separated alike" : Remedy);
-        return damage;
-      }
-    }
-    damage.What = " has " + std::to_string(fields.size()) + " columns, line " +
-      std::to_string(this->Columns.HeadLine) + " has " + std::to_string(this->Columns.Columns) +
-      (end == this->Text.size() && fields.size() < this->Columns.Columns
-          ? "; the file is truncated, or the line incomplete"
-          : Remedy);
-    return damage;
-  }
-
-  std::string_view Text;
-  const Layout& Columns;
-};
 
 void AppendName(const std::string& name, char separator, std::string& text)
 {
@@ -362,36 +104,15 @@ Result<PointFile> ReadPointText(std::string_view text, int threads)
     return found.Status;
   }
   const Layout& layout = found.Value;
-  std::vector<std::size_t> starts{ layout.Begin };
-  while (text.size() - starts.back() > ChunkSize)
+  auto chunks = ReadColumns(text, layout, threads);
+  if (!chunks)
   {
-    const std::size_t end = text.find('\n', starts.back() + ChunkSize);
-    if (end == std::string_view::npos)
-    {
-      break;
-    }
-    starts.push_back(end + 1);
+    return chunks.Status;
   }
-  starts.push_back(text.size());
-  std::vector<Chunk> chunks(starts.size() - 1);
-  const LineReader reader(text, layout);
-  ParallelFor(chunks.size(), 1, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        reader.Read(starts[i], starts[i + 1], chunks[i]);
-      }
-    });
   std::vector<Eigen::Index> rows{ 0 };
-  for (const Chunk& chunk : chunks)
+  for (const std::vector<double>& numbers : chunks.Value)
   {
-    if (chunk.First.Code != ErrorCode::Ok)
-    {
-      const auto lines = std::count(text.begin(), text.begin() + chunk.First.At, '\n') + 1;
-      return { chunk.First.Code, "line " + std::to_string(lines) + chunk.First.What };
-    }
-    rows.push_back(rows.back() + static_cast<Eigen::Index>(chunk.Numbers.size() / layout.Columns));
+    rows.push_back(rows.back() + static_cast<Eigen::Index>(numbers.size() / layout.Count));
   }
   if (rows.back() == 0)
   {
@@ -399,7 +120,7 @@ Result<PointFile> ReadPointText(std::string_view text, int threads)
   }
   PointFile file;
   std::vector<std::size_t> others;
-  for (std::size_t c = 0; c < layout.Columns; ++c)
+  for (std::size_t c = 0; c < layout.Count; ++c)
   {
     if (!layout.IsCoordinate(c))
     {
@@ -411,13 +132,13 @@ Result<PointFile> ReadPointText(std::string_view text, int threads)
   }
   file.Points.resize(rows.back(), 3);
   file.Channels.resize(rows.back(), static_cast<Eigen::Index>(others.size()));
-  ParallelFor(chunks.size(), 1, threads,
+  ParallelFor(chunks->size(), 1, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        const double* numbers = chunks[i].Numbers.data();
-        for (Eigen::Index row = rows[i]; row < rows[i + 1]; ++row, numbers += layout.Columns)
+        const double* numbers = chunks.Value[i].data();
+        for (Eigen::Index row = rows[i]; row < rows[i + 1]; ++row, numbers += layout.Count)
         {
           for (std::size_t d = 0; d < 3; ++d)
           {
@@ -428,7 +149,7 @@ Result<PointFile> ReadPointText(std::string_view text, int threads)
             file.Channels(row, static_cast<Eigen::Index>(c)) = numbers[others[c]];
           }
         }
-        chunks[i].Numbers = {};
+        chunks.Value[i] = {};
       }
     });
   return file;

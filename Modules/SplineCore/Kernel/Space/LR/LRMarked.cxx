@@ -94,32 +94,30 @@ Result<Spline<2>> Split(
     : SegmentsForElements(space, marked, params.Segments);
   return segments ? InsertSegments(start.Value, segments.Value, params.Threads) : segments.Status;
 }
-}
 
-Result<RefinedSpline<2>> RefineMarkedLR(
-  const Spline<2>& spline, const std::vector<int>& marked, const LRRefinementParams& params)
+Status CheckKind(const Spline<2>& spline)
 {
   if (Status status = spline.Check(); !status)
   {
     return status;
   }
   const SpaceKind kind = spline.Space->Kind;
-  if (kind != SpaceKind::Tensor && kind != SpaceKind::LocallyRefined)
+  return kind == SpaceKind::Tensor || kind == SpaceKind::LocallyRefined
+    ? Status()
+    : Status(ErrorCode::DimensionMismatch,
+        "only tensor-product and locally refined surfaces are refined by LR B-splines");
+}
+
+/// Without dependent functions, where that is wanted, and with the elements that it came from.
+Result<RefinedSpline<2>> Finished(
+  const Spline<2>& given, Result<Spline<2>> refined, const LRRefinementParams& params)
+{
+  if (!refined)
   {
-    return { ErrorCode::DimensionMismatch,
-      "only tensor-product and locally refined surfaces are refined by LR B-splines" };
+    return refined.Status;
   }
   RefinedSpline<2> result;
-  result.Value = spline;
-  if (!marked.empty())
-  {
-    Result<Spline<2>> split = Split(spline, marked, params);
-    if (!split)
-    {
-      return split.Status;
-    }
-    result.Value = std::move(split.Value);
-  }
+  result.Value = std::move(refined.Value);
   if (params.KeepIndependent && result.Value.Space->Kind == SpaceKind::LocallyRefined)
   {
     Result<LRResolution> resolution =
@@ -130,7 +128,25 @@ Result<RefinedSpline<2>> RefineMarkedLR(
     }
     result.Value = std::move(resolution->Value);
   }
-  result.Parents = ParentElements(*spline.Space, *result.Value.Space, 1);
+  result.Parents = ParentElements(*given.Space, *result.Value.Space, 1);
   return result;
+}
+}
+
+Result<RefinedSpline<2>> RefineMarkedLR(
+  const Spline<2>& spline, const std::vector<int>& marked, const LRRefinementParams& params)
+{
+  const Status status = CheckKind(spline);
+  return status ? Finished(spline, marked.empty() ? spline : Split(spline, marked, params), params)
+                : status;
+}
+
+Result<RefinedSpline<2>> RefineBySegments(const Spline<2>& spline,
+  const std::vector<LRSegment>& segments, int maxFunctions, const LRRefinementParams& params)
+{
+  const Status status = CheckKind(spline);
+  return status
+    ? Finished(spline, InsertAllSegments(spline, segments, maxFunctions, params.Threads), params)
+    : status;
 }
 }

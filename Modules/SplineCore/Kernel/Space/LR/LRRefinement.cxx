@@ -37,6 +37,10 @@ Status LRRefinement::State::Resolve(const LRSegment& segment, Request& request) 
   {
     return { ErrorCode::NonFiniteInput, Describe(segment) };
   }
+  if (segment.Start >= segment.End)
+  {
+    return { ErrorCode::InvalidParameter, Describe(segment) + ": it has no length" };
+  }
   const int most = this->Order[At(d)] - 1;
   if (segment.Multiplicity < 1 || segment.Multiplicity > most)
   {
@@ -162,6 +166,13 @@ std::vector<LRRefinement::State::Traverse> LRRefinement::State::FindTraversed(
     }
   }
   return found;
+}
+
+Status LRRefinement::Check(const LRSegment& segment) const
+{
+  State::Request request{};
+  Status status = this->S->Resolve(segment, request);
+  return status.Code == ErrorCode::InvalidTopology ? Status() : status;
 }
 
 Status LRRefinement::Insert(const LRSegment& segment)

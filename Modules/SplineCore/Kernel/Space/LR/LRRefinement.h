@@ -43,6 +43,8 @@ public:
   /// @post  the set of functions is the same for every order in which each insertion succeeds;
   /// scaling factors and (for linearly independent functions) coefficients up to rounding.
   Status Insert(const LRSegment& segment);
+  /// What of these errors no further line of the mesh can mend: all but InvalidTopology.
+  Status Check(const LRSegment& segment) const;
 
   int NumFunctions() const;
 
@@ -61,7 +63,16 @@ private:
 /// @param threads  0 = all cores.
 Result<Spline<2>> InsertSegments(
   const Spline<2>& spline, const std::vector<LRSegment>& segments, int threads);
-/// The same of a space.
+/// The same for segments as a user has them, in any order: parts of a line that meet or overlap are
+/// one segment, the part of a line that has a higher multiplicity is inserted after all of it, and
+/// a segment that is not legal yet waits for the others. The result is the same for every order, to
+/// the last bit.
+/// @param maxFunctions  more than that are TooLarge.
+/// @complexity that of InsertSegments when no segment waits; every round of waiting tries all that
+/// wait.
+Result<Spline<2>> InsertAllSegments(
+  const Spline<2>& spline, const std::vector<LRSegment>& segments, int maxFunctions, int threads);
+/// The same as InsertSegments of a space.
 Result<SplineSpacePtr<2>> InsertSegments(
   const SplineSpacePtr<2>& space, const std::vector<LRSegment>& segments, int threads);
 }
