@@ -17,7 +17,9 @@ public:
     this->AddInput(0, "input", "spline surfaces (.vtu .vtpc .xml .g2 .step .iges)");
     this->AddOutput(0, "--output", Endings::Splines, "the part or curve");
     app.add_option("--box", this->Box, "keep the part over u0 u1 v0 v1 only")->expected(4);
-    this->AddProperties({ "RestrictToBox", "Box" });
+    app.add_option("--domain", this->Domain, "make u0 u1 v0 v1 the domain of the parameters")
+      ->expected(4);
+    this->AddProperties({ "RestrictToBox", "Box", "MoveDomain", "Domain" });
   }
 
 protected:
@@ -28,6 +30,12 @@ protected:
       session.Report["box"] = this->Box;
       this->Filter->RestrictToBoxOn();
       this->Filter->SetBox(this->Box.data());
+    }
+    if (!this->Domain.empty())
+    {
+      session.Report["domain"] = this->Domain;
+      this->Filter->MoveDomainOn();
+      this->Filter->SetDomain(this->Domain.data());
     }
     const bool asCurves = this->Filter->GetIsoCurve() != 0;
     return session.CheckGridFormat(this->Input(0), this->MainOutput(), asCurves);
@@ -42,6 +50,7 @@ protected:
 
 private:
   std::vector<double> Box;
+  std::vector<double> Domain;
 };
 
 const JobRegistration Registration{ "extract",

@@ -29,6 +29,9 @@ Status vtkSplineExtract::Compute(vtkInformationVector** inputs, vtkInformationVe
   params.Box.Upper = { this->Box[1], this->Box[3] };
   params.Swap = this->SwapParameters;
   params.Reverse = { this->ReverseFirst, this->ReverseSecond };
+  params.MoveDomain = this->MoveDomain;
+  params.Domain.Lower = { this->Domain[0], this->Domain[2] };
+  params.Domain.Upper = { this->Domain[1], this->Domain[3] };
   params.ExpandToTensor = this->ExpandToTensor;
   params.IsoDirection = this->IsoCurve - FIRST;
   params.IsoValue = this->IsoValue;

@@ -8,6 +8,7 @@
  * - RestrictToBox: the part of the surface over Box becomes the patch.
  * - SwapParameters: S'(u, v) = S(v, u).
  * - ReverseFirst, ReverseSecond: a parameter t becomes begin + end - t of its domain.
+ * - MoveDomain: the parameters are scaled and shifted, so that Domain becomes the domain.
  * - ExpandToTensor: a locally refined (LR) surface becomes a tensor product, every mesh line as
  *   long as the domain.
  * - IsoCurve: the curve on which a parameter is IsoValue, over the domain of the other one.
@@ -16,8 +17,9 @@
  * along. Patch numbers stay; cell arrays other than those of the spline grid are dropped.
  *
  * Errors: patches that are no surfaces, hierarchical and Bezier surfaces (DimensionMismatch), a
- * box or value outside the domain of a patch (OutsideDomain), ends of a tensor product whose knots
- * have not full multiplicity (InvalidKnots), more than MaximumFunctions of an expansion
+ * box or value outside the domain of a patch (OutsideDomain), a new domain without length
+ * (InvalidParameter), ends of a tensor product whose knots have not full multiplicity or different
+ * knots that a new domain makes one (InvalidKnots), more than MaximumFunctions of an expansion
  * (TooLarge), and those of decoding. See SurfaceExtraction.h.
  */
 #ifndef vtkSplineExtract_h
@@ -71,6 +73,19 @@ public:
   vtkBooleanMacro(ReverseSecond, bool);
   ///@}
   ///@{
+  /** Whether the parameters are scaled and shifted, so that Domain becomes the domain of every
+   * patch. Default off. */
+  vtkSetMacro(MoveDomain, bool);
+  vtkGetMacro(MoveDomain, bool);
+  vtkBooleanMacro(MoveDomain, bool);
+  ///@}
+  ///@{
+  /** The new domain: u from Domain[0] to Domain[1], v from Domain[2] to Domain[3]. Default 0 1 0 1.
+   * For MoveDomain on. Components u0, u1, v0, v1. */
+  vtkSetVector4Macro(Domain, double);
+  vtkGetVector4Macro(Domain, double);
+  ///@}
+  ///@{
   /** Whether LR surfaces become tensor products: every mesh line becomes as long as the domain.
    * Default off. */
   vtkSetMacro(ExpandToTensor, bool);
@@ -84,8 +99,8 @@ public:
   vtkGetMacro(IsoCurve, int);
   ///@}
   ///@{
-  /** Value of the parameter that is constant on the curve, in the domain of every patch; on a
-   * line of full multiplicity the limit from above. Default 0.5. For IsoCurve not NONE. Kernel
+  /** Value of the parameter that is constant on the curve, in the domain that every patch has then;
+   * on a line of full multiplicity the limit from above. Default 0.5. For IsoCurve not NONE. Kernel
    * default 0. */
   vtkSetMacro(IsoValue, double);
   vtkGetMacro(IsoValue, double);
@@ -114,6 +129,8 @@ private:
   bool SwapParameters = false;
   bool ReverseFirst = false;
   bool ReverseSecond = false;
+  bool MoveDomain = false;
+  double Domain[4] = { 0.0, 1.0, 0.0, 1.0 };
   bool ExpandToTensor = false;
   int IsoCurve = NONE;
   double IsoValue = 0.5;

@@ -429,7 +429,7 @@ Status vtkSplineRefine::Compute(vtkInformationVector** inputs, vtkInformationVec
   }
 
   knotwork::SegmentsByPatch segments;
-  if (this->Mode == SEGMENTS)
+  if (this->Mode == SEGMENTS && !model.Patches.empty())
   {
     auto read = knotwork::ReadSegments(vtkDataObject::GetData(inputs[2], 0), model);
     if (!read)

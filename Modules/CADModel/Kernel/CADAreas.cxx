@@ -194,7 +194,8 @@ Result<AreaBounds> BoundArea(const TrimmedFace& face)
     result.Lower += area.Value;
     result.Upper += area.Value;
     cells.clear();
-    if (level == MaxLevels || boundary.size() > MaxBoundaryCells || undecided <= SmallShare * decided)
+    if (level == MaxLevels || boundary.size() > MaxBoundaryCells ||
+      undecided <= SmallShare * decided)
     {
       Eigen::AlignedBox3d unused;
       const auto rest = Integrate(form, boundary, 3, unused);

@@ -63,6 +63,9 @@ def test_parts_and_curves():
     run("extract", surface, "--swap-parameters", "true", "--reverse-first", "true", "--output", path("turned.vtu"))
     turned = np.column_stack([1.0 - uniform()[:, 1], uniform()[:, 0]])
     assert np.abs(values(path("turned.vtu"), turned) - values(surface, uniform())).max() <= 1e-14
+    run("extract", surface, "--domain", 0, 8, -1, 1, "--output", path("moved.g2"))
+    moved = np.column_stack([8 * uniform()[:, 0], 2 * uniform()[:, 1] - 1])
+    assert np.abs(values(path("moved.g2"), moved) - values(surface, uniform())).max() <= 1e-13
     run("extract", surface, "--expand-to-tensor", "true", "--output", path("tensor.g2"))
     assert run("info", path("tensor.g2"))["kinds"] == ["tensor-product"]
     assert np.abs(values(path("tensor.g2"), uniform()) - values(surface, uniform())).max() <= 1e-14
@@ -77,7 +80,7 @@ def test_parts_and_curves():
 def test_bad_requests_are_one_line():
     surface = local_square()
     for arguments, words in (
-            (["--box", 0.2, 0.2, 0, 1], "direction 0"), (["--box", "nan", 0.2, 0, 1], "direction 0"),
+            (["--domain", 1, 0, 0, 1], "direction 0"), (["--box", 0.2, 0.2, 0, 1], "direction 0"), (["--box", "nan", 0.2, 0, 1], "direction 0"),
             (["--iso-curve", "first", "--iso-value", 3], "outside"), (["--iso-curve", "first", "--iso-value", "nan"], "outside")):
         done = knotwork_testing.run_program("extract", surface, *arguments, "--output", path("no.vtu"))
         assert done.returncode == 1 and done.stderr.count("\n") == 1 and words in done.stderr, done.stderr

@@ -34,6 +34,10 @@ Result<AnySpline> ExtractFromSurface(const Spline<2>& surface, const ExtractionP
       apply([&](const Spline<2>& spline) { return ReverseParameter(spline, d, threads); });
     }
   }
+  if (params.MoveDomain)
+  {
+    apply([&](const Spline<2>& spline) { return MoveDomain(spline, params.Domain, threads); });
+  }
   if (result && params.IsoDirection >= 0)
   {
     Result<Spline<1>> curve = IsoCurve(result.Value, params.IsoDirection, params.IsoValue, threads);

@@ -11,6 +11,8 @@ struct ExtractionParams
   ParametricBox<2> Box;
   bool Swap = false;                               ///< exchange the parameters
   std::array<bool, 2> Reverse{ { false, false } }; ///< parameters, as they are then
+  bool MoveDomain = false;                         ///< to Domain, by scale and shift
+  ParametricBox<2> Domain;
   bool ExpandToTensor = false; ///< LR surfaces; others are tensor products anyway
   /// Parameter that is constant on a curve, -1 for a surface.
   int IsoDirection = -1;

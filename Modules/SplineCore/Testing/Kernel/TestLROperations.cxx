@@ -91,6 +91,41 @@ TEST(LROperations, SwapAndReversal_ExactOracle)
   }
 }
 
+/// The ends are exact, also of domains whose length is no multiple of that of the old one; the
+/// domain of its own changes no bit.
+TEST(LROperations, MovedDomainIsTheSameMap_ExactOracle)
+{
+  for (unsigned seed = 1; seed <= 30; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Spline<2> surface = RandomSurface(seed);
+    const ParametricBox<2> old = surface.Space->Domain();
+    Random random(seed);
+    ParametricBox<2> domain;
+    for (int d = 0; d < 2; ++d)
+    {
+      domain.Lower[d] = random.In(-50.0, 50.0);
+      domain.Upper[d] = domain.Lower[d] + random.In(0.01, 70.0);
+    }
+    const auto moved = MoveDomain(surface, domain, 0);
+    ASSERT_TRUE(moved) << moved.Status.Message();
+    EXPECT_EQ(moved->Space->Domain().Lower, domain.Lower);
+    EXPECT_EQ(moved->Space->Domain().Upper, domain.Upper);
+    EXPECT_EQ(moved->ControlPoints, surface.ControlPoints);
+    const PointMatrix points = InnerParameters(random, *surface.Space, 50);
+    PointMatrix there = points;
+    for (int d = 0; d < 2; ++d)
+    {
+      const double scale = (domain.Upper[d] - domain.Lower[d]) / (old.Upper[d] - old.Lower[d]);
+      there.col(d).array() = domain.Lower[d] + (points.col(d).array() - old.Lower[d]) * scale;
+    }
+    // parameters of size 100 in domains of length 0.01: 1e-12 of the length
+    EXPECT_LE(Distance(Values(moved.Value, there), Values(surface, points)), 1e-9);
+    const auto same = MoveDomain(surface, old, 0);
+    EXPECT_TRUE(same->Space->LocallyRefined->Basis == surface.Space->LocallyRefined->Basis);
+  }
+}
+
 TEST(LROperations, RestrictionIsTheSameMap_CrossOracle)
 {
   for (unsigned seed = 1; seed <= 30; ++seed)
@@ -159,6 +194,17 @@ TEST(LROperations, EveryFailureIsReachable_ExactOracle)
   EXPECT_EQ(RestrictToBox(surface, box, 0).Status.Code, ErrorCode::OutsideDomain);
   box.Upper[1] = domain.Upper[1] + 1.0;
   EXPECT_EQ(RestrictToBox(surface, box, 0).Status.Code, ErrorCode::OutsideDomain);
+  EXPECT_EQ(MoveDomain(tensor, domain, 0).Status.Code, ErrorCode::DimensionMismatch);
+  const auto moved = [&](double low, double high) {
+    return MoveDomain(surface, { { 0.0, low }, { 1.0, high } }, 0).Status;
+  };
+  for (const auto& [low, high] : { std::pair(1.0, 1.0), std::pair(1.0, 0.0),
+         std::pair(0.0, std::numeric_limits<double>::infinity()),
+         std::pair(std::numeric_limits<double>::quiet_NaN(), 1.0) })
+  {
+    EXPECT_EQ(moved(low, high).Code, ErrorCode::InvalidParameter) << low << " " << high;
+  }
+  EXPECT_EQ(moved(1e16, 1e16 + 2.0).Code, ErrorCode::InvalidKnots); // two doubles of length
   EXPECT_EQ(IsoCurve(surface, -1, domain.Lower[0], 0).Status.Code, ErrorCode::InvalidParameter);
   EXPECT_EQ(IsoCurve(surface, 0, domain.Upper[0] + 1.0, 0).Status.Code, ErrorCode::OutsideDomain);
 }

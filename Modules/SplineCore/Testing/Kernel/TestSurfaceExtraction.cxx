@@ -83,6 +83,25 @@ TEST(ExtractFromSurface, StepsInTheirOrder_PropertyOracle)
     EXPECT_EQ(std::get<Spline<2>>(tensor.Value).Space->Kind, SpaceKind::Tensor);
     EXPECT_LE(WorstDifference(surface, std::get<Spline<2>>(tensor.Value), parameters), 1e-12);
 
+    ExtractionParams moved = params;
+    moved.MoveDomain = true;
+    moved.Domain = { { 10.0, -3.0 }, { 10.5, 4.0 } };
+    const auto elsewhere = ExtractFromSurface(surface, moved);
+    ASSERT_TRUE(elsewhere) << elsewhere.Status.Message();
+    const auto back = [&](const double* t)
+    {
+      double old[2];
+      for (std::size_t d = 0; d < 2; ++d) // parameters are exchanged
+      {
+        const double share =
+          (t[d] - moved.Domain.Lower[d]) / (moved.Domain.Upper[d] - moved.Domain.Lower[d]);
+        old[d] =
+          params.Box.Lower[1 - d] + share * (params.Box.Upper[1 - d] - params.Box.Lower[1 - d]);
+      }
+      return parameters(old);
+    };
+    EXPECT_LE(WorstDifference(surface, std::get<Spline<2>>(elsewhere.Value), back), 1e-11);
+
     params.IsoDirection = 1;
     params.IsoValue = 0.4 * params.Box.Lower[0] + 0.6 * params.Box.Upper[0];
     const auto curve = ExtractFromSurface(surface, params);

@@ -103,6 +103,14 @@ TEST(vtkSplineExtract, PartsCurvesAndParametrizations_PropertyOracle)
       Distance(ValuesAt<2>(other, { 0.35, 0.8 }), ValuesAt<2>(patch, { 0.8, 0.45 })), 1e-13);
     filter->ReverseFirstOff();
     filter->ReverseSecondOn();
+    filter->MoveDomainOn();
+    filter->SetDomain(2.0, 2.6, -8.0, 8.0); // v goes from 0.3 to 1.9 otherwise
+    const SplinePatch moved = Extracted(filter);
+    EXPECT_EQ(
+      std::get<Spline<2>>(moved.Geometry).Space->Domain().Lower, (RealArray<2>{ 2.0, -8.0 }));
+    EXPECT_LE(
+      Distance(ValuesAt<2>(moved, { 2.25, -3.0 }), ValuesAt<2>(patch, { 1.4, 0.35 })), 1e-13);
+    filter->MoveDomainOff();
 
     filter->ExpandToTensorOn();
     const SplinePatch tensor = Extracted(filter);
@@ -159,6 +167,10 @@ TEST(vtkSplineExtract, BadInputIsRefused_ExactOracle)
   filter->SetBox(0.0, 2.0, 0.0, 1.0);
   ExpectFailure(filter, ErrorCode::OutsideDomain, "direction 0");
   filter->RestrictToBoxOff();
+  filter->MoveDomainOn();
+  filter->SetDomain(0.0, 1.0, 2.0, 2.0);
+  ExpectFailure(filter, ErrorCode::InvalidParameter, "direction 1");
+  filter->MoveDomainOff();
   filter->SetIsoCurve(vtkSplineExtract::SECOND);
   filter->SetIsoValue(-1.0);
   ExpectFailure(filter, ErrorCode::OutsideDomain, "patch 0");

@@ -250,6 +250,48 @@ Result<Spline<2>> ReverseParameter(const Spline<2>& spline, int direction, int t
   return Assemble(std::move(basis), spline, rows, threads);
 }
 
+Result<Spline<2>> MoveDomain(const Spline<2>& spline, const ParametricBox<2>& domain, int threads)
+{
+  if (Status status = CheckLocallyRefined(spline); !status)
+  {
+    return status;
+  }
+  LRBasis basis = spline.Space->LocallyRefined->Basis;
+  for (std::size_t d = 0; d < 2; ++d)
+  {
+    const double low = domain.Lower[d];
+    const double high = domain.Upper[d];
+    const std::string direction = " in direction " + std::to_string(d);
+    if (!(low < high) || !std::isfinite(high - low))
+    {
+      return { ErrorCode::InvalidParameter,
+        "the domain is [" + Digits(low) + ", " + Digits(high) + "]" + direction +
+          ", which has no finite length" };
+    }
+    std::vector<double>& knots = basis.Knots[d];
+    const double begin = knots.front();
+    const double end = knots.back();
+    for (double& knot : knots)
+    {
+      // ends are exact, and so is a domain that stays what it is
+      const double share = (knot - begin) / (end - begin);
+      knot = knot == end ? high : begin == low && end == high ? knot : low + share * (high - low);
+    }
+    const auto same =
+      std::adjacent_find(knots.begin(), knots.end(), [](double a, double b) { return !(a < b); });
+    if (same != knots.end())
+    {
+      return { ErrorCode::InvalidKnots,
+        "two knots become " + Digits(*same) + direction +
+          "; choose a domain nearer to zero, or a longer one" };
+    }
+  }
+  Spline<2> result = spline;
+  Result<SplineSpacePtr<2>> space = MakeLRSpace(std::move(basis), threads);
+  result.Space = space.Value;
+  return space ? Result<Spline<2>>(std::move(result)) : space.Status;
+}
+
 Result<Spline<2>> RestrictToBox(const Spline<2>& spline, const ParametricBox<2>& box, int threads)
 {
   if (Status status = CheckLocallyRefined(spline); !status)

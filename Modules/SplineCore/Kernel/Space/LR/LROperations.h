@@ -21,6 +21,11 @@ Result<Spline<2>> SwapParameters(const Spline<2>& spline, int threads);
 /// @param direction  0 or 1; InvalidParameter otherwise.
 Result<Spline<2>> ReverseParameter(const Spline<2>& spline, int direction, int threads);
 
+/// The map over another domain: parameters are scaled and shifted.
+/// @return InvalidParameter unless the domain is finite and has an area; InvalidKnots when it is so
+/// far from zero for its size that different knots become one.
+Result<Spline<2>> MoveDomain(const Spline<2>& spline, const ParametricBox<2>& domain, int threads);
+
 /// The map restricted to a box of its domain, which becomes the domain.
 /// @return OutsideDomain unless the box lies in the domain and has an area.
 Result<Spline<2>> RestrictToBox(const Spline<2>& spline, const ParametricBox<2>& box, int threads);
