@@ -563,6 +563,24 @@ CellMesh<Dim> RandomMesh(Random& random, int mostCells)
   }
 }
 
+/// Up to four inner facets, each seen from a cell.
+template <int Dim>
+std::vector<knotwork::CellSide> RandomFacets(Random& random, const CellMesh<Dim>& mesh)
+{
+  const auto topology = knotwork::MeshTopology<Dim>::Make(mesh);
+  std::vector<knotwork::CellSide> facets;
+  for (int i = random.Int(1, 4); i > 0; --i)
+  {
+    const knotwork::CellSide facet{ random.Int(0, mesh.NumCells() - 1),
+      random.Int(0, 2 * Dim - 1) };
+    if (!topology->IsBoundary(facet.Cell, facet.Side))
+    {
+      facets.push_back(facet);
+    }
+  }
+  return facets;
+}
+
 /// A mesh of a file (OFF with quadrilaterals, legacy VTK with hexahedra) in the folder that the
 /// environment variable KNOTWORK_UNSTRUCTURED_MESHES names; without cells when it is not there.
 template <int Dim>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshCases.h"
 #include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/Refinement.h>
 #include <knotwork/SplineCore/SplitIntoPatches.h>
 #include <knotwork/SplineCore/TensorSpace.h>
 
@@ -12,11 +13,16 @@ using namespace meshes;
 namespace
 {
 template <int Dim>
-Spline<Dim> RandomSpline(Random& random, const CellMesh<Dim>& mesh, int degree, CreasePolicy policy)
+Spline<Dim> RandomSpline(
+  Random& random, const CellMesh<Dim>& mesh, int degree, CreasePolicy policy, double features = 0.0)
 {
   UnstructuredParams params;
   params.Degree = degree;
   params.Policy = policy;
+  if (random.Unit() < features)
+  {
+    params.Features = RandomFacets<Dim>(random, mesh);
+  }
   if (random.Unit() < 0.5)
   {
     params.Lengths.resize(
@@ -180,7 +186,7 @@ void ExpectTopology(Random& random, const MultiPatch<Dim>& split, bool partial)
 template <int Dim>
 void ExpectSplit(Random& random, const CellMesh<Dim>& mesh, int degree, CreasePolicy policy)
 {
-  const Spline<Dim> spline = RandomSpline<Dim>(random, mesh, degree, policy);
+  const Spline<Dim> spline = RandomSpline<Dim>(random, mesh, degree, policy, 0.3);
   MeshPatches<Dim> layout;
   const auto split = SplitIntoPatches(spline, 1, &layout);
   ASSERT_TRUE(split) << split.Status.Message();
@@ -195,7 +201,7 @@ void ExpectSplit(Random& random, const CellMesh<Dim>& mesh, int degree, CreasePo
 
 TEST(SplitIntoPatches, RandomSplinesKeepTheirMap_PropertyOracle)
 {
-  for (unsigned seed = 1; seed <= 150; ++seed)
+  for (unsigned seed = 1; seed <= 300; ++seed)
   {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
@@ -222,6 +228,12 @@ TEST(SplitIntoPatches, KnownMeshes_ExactOracle)
   ASSERT_EQ(torus->Patches.size(), 1U);
   ASSERT_EQ(torus->Topology.Interfaces.size(), 2U);
   EXPECT_EQ(torus->Topology.Interfaces[0].Sides[1], (PatchSide{ 0, 1 }));
+  // refined or of a higher degree it has the same patches
+  const Spline<2> sphere = RandomSpline<2>(random, CubeSphere(3), 2, CreasePolicy::Full);
+  const auto fine = RefineAllElements(sphere);
+  const auto elevated = ElevateAllDegrees(sphere, 1);
+  EXPECT_EQ(SplitIntoPatches(fine->Value, 1)->Patches.size(), 6U);
+  EXPECT_EQ(SplitIntoPatches(elevated.Value, 1)->Patches.size(), 6U);
   // smooth across cuts at no extraordinary point: all of it is recovered
   EXPECT_EQ(
     SplitIntoPatches(RandomSpline<3>(random, Sweep(Star(5, 2), 3, true), 2, CreasePolicy::Full), 1)
