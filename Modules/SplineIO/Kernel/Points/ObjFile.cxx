@@ -286,7 +286,8 @@ private:
           "a corner is point " + std::to_string(corner.Point + 1LL) + ", but there are " +
             std::to_string(points));
       }
-      if (this->Outcome && corner.Texture >= textures)
+      // programs write corners with numbers of texture coordinates that they leave out altogether
+      if (this->Outcome && textures > 0 && corner.Texture >= textures)
       {
         this->Fail(ErrorCode::InvalidFormat, corner.Line,
           "a corner has the texture coordinates " + std::to_string(corner.Texture + 1LL) +
@@ -302,6 +303,12 @@ private:
       [](const Corner& corner) { return corner.Texture != None; });
     if (!used)
     {
+      return;
+    }
+    if (this->Texture.empty())
+    {
+      file.Warnings.emplace_back(
+        "corners have numbers of texture coordinates, and there are none; they are left out");
       return;
     }
     std::vector<int> textureOf(static_cast<std::size_t>(file.Points.rows()), None);

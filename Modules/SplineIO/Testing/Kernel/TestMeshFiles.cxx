@@ -195,12 +195,24 @@ TEST(MeshFiles, ObjDamageIsNamedWithItsLine_ExactOracle)
       { With(Obj, "f 1 2 5", "f 1 2 1e309"), ErrorCode::InvalidFormat, "line 9: '1e309'" },
       { With(Obj, "f 1 2 5", "f 1 2 4.9x"), ErrorCode::InvalidFormat, "line 9: '4.9x'" },
       { With(Obj, "f 1 2 5", "f 1 2"), ErrorCode::InvalidFormat, "line 9: a face of 2 corners" },
-      { With(Obj, "f 1 2 5", "f 1/1 2 5"), ErrorCode::InvalidFormat, "texture coordinates 1" },
+      { With(Obj, "f 1 2 5", "vt 0 0\nf 1/2 2 5"), ErrorCode::InvalidFormat,
+        "texture coordinates 2" },
       { With(Obj, "f 1 2 5", "f 1//x 2 5"), ErrorCode::InvalidFormat, "line 9: 'x'" },
       { With(Obj, "f 1 2 5", "f 1/1/1/1 2 5"), ErrorCode::InvalidFormat, "point/texture/normal" },
       { With(Obj, "f 1 2 5", "l 1"), ErrorCode::InvalidFormat, "line 9: a line of 1 corners" },
       { With(Obj, "s off", "vt 0"), ErrorCode::InvalidFormat, "line 8: a texture coordinate" },
       { With(Obj, "s off", "vt 0 nan"), ErrorCode::NonFiniteInput, "line 8: 'nan'" } });
+}
+
+/// As programs write it that leave texture coordinates out, but not their numbers.
+TEST(MeshFiles, ObjWithNumbersOfNoTexture_ExactOracle)
+{
+  const auto file = ReadObj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/4 2/5 3/6\n");
+  ASSERT_TRUE(file) << file.Status.Message();
+  EXPECT_EQ(file->Polygons, (std::vector<std::vector<int>>{ { 0, 1, 2 } }));
+  EXPECT_TRUE(file->Names.empty());
+  ASSERT_EQ(file->Warnings.size(), 1u);
+  EXPECT_NE(file->Warnings[0].find("texture"), std::string::npos);
 }
 
 TEST(MeshFiles, ObjKeepsLinesAndTexture_ExactOracle)
