@@ -84,7 +84,7 @@ public:
       }
     }
     Eigen::MatrixX3d lack = Eigen::MatrixX3d::Zero(static_cast<Eigen::Index>(functions.size()), 3);
-    PointMatrix target(rule.Local.rows(), 3);
+    PointMatrix target(rule.Local.rows(), vertices.cols());
     this->ForCells(functions,
       [&](int cell, const std::vector<int>& alive, const Eigen::MatrixXd& extraction, double area)
       {
@@ -255,8 +255,9 @@ public:
         this->Matrix(static_cast<Eigen::Index>(i), at - this->Functions.begin()) = coefficient;
       }
     }
-    this->Gram.compute(integrals.Gram(this->Functions));
-    const Eigen::MatrixXd back = this->Gram.solve(this->Matrix.transpose()); // shares of the moves
+    this->Gram = integrals.Gram(this->Functions);
+    const Eigen::MatrixXd back =
+      this->Gram.ldlt().solve(this->Matrix.transpose()); // shares of the moves
     this->Metric = (this->Matrix * back).completeOrthogonalDecomposition().pseudoInverse();
     this->Moves = back * this->Metric;
   }
@@ -266,7 +267,7 @@ public:
   void Approach(const Integrals& integrals, const PointMatrix& vertices, PointMatrix& points) const
   {
     const Eigen::MatrixX3d moves =
-      this->Gram.solve(integrals.Lack(this->Functions, points, vertices));
+      this->Gram.ldlt().solve(integrals.Lack(this->Functions, points, vertices));
     for (std::size_t f = 0; f < this->Functions.size(); ++f)
     {
       points.row(this->Functions[f]).head<3>() += 0.6 * moves.row(static_cast<Eigen::Index>(f));
@@ -322,10 +323,10 @@ private:
   std::vector<std::array<Eigen::Index, 3>> Corners;      ///< rows of every cell, in their turn
   std::vector<int> Cells;
   std::vector<int> Functions; ///< that are moved, ascending
-  Eigen::LDLT<Eigen::MatrixXd> Gram;
-  Eigen::MatrixXd Matrix; ///< coefficients from control points
-  Eigen::MatrixXd Metric; ///< mean square of the surface's moves by those of the coefficients
-  Eigen::MatrixXd Moves;  ///< control points' from those of the coefficients
+  Eigen::MatrixXd Gram;       ///< of the functions that are moved
+  Eigen::MatrixXd Matrix;     ///< coefficients from control points
+  Eigen::MatrixXd Metric;     ///< mean square of the surface's moves by those of the coefficients
+  Eigen::MatrixXd Moves;      ///< control points' from those of the coefficients
 };
 
 /// The stars of extraordinary points, not finished; points that are left out are counted.
