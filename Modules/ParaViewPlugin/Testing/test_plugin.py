@@ -74,7 +74,8 @@ def sources():
     square = simple.KnotworkSplineSource()
     group = simple.GroupDatasets(Input=[square])  # a partitioned dataset collection
     points = {"vtkPolyData": [simple.Line(), simple.Sphere()], "vtkUnstructuredGrid": [square],
-              "vtkPartitionedDataSetCollection": [group], "vtkSelection": [simple.IDSelectionSource()]}
+              "vtkPartitionedDataSetCollection": [group], "vtkSelection": [simple.IDSelectionSource()],
+              "vtkTable": [simple.ProgrammableSource(OutputDataSetType="vtkTable")]}
     points["vtkPointSet"] = points["vtkPolyData"] + points["vtkUnstructuredGrid"]
     points["vtkDataSet"] = points["vtkPointSet"]
     for proxy in {id(proxy): proxy for several in points.values() for proxy in several}.values():
