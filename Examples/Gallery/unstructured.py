@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A ring of blocks as a mesh of quadrilaterals, the spline through its points, and the spline with the mesh as control cage
 (unstructured.png); the mesh cut into grids of cells (mesh_patches.png); reflection lines before and after the tangent planes at
-extraordinary points are made one (tangent_planes.png).
+extraordinary points are made one (tangent_planes.png); a Klein bottle, which has one side only (klein_bottle.png).
 
 usage: unstructured.py [--output DIR]
 """
@@ -52,6 +52,21 @@ def ring(n):
     return points, faces
 
 
+def klein_bottle(n, m):
+    """n x m quadrilaterals; the last ring of them meets the first one turned over."""
+    u, v = np.meshgrid(np.pi * np.arange(n) / n, 2 * np.pi * np.arange(m) / m, indexing="ij")
+    c, s, w = np.cos(u), np.sin(u), np.cos(v)
+    x = -2 / 15 * c * (3 * w - 30 * s + 90 * c**4 * s - 60 * c**6 * s + 5 * c * w * s)
+    y = -1 / 15 * s * ((3 - 3 * c**2 - 48 * c**4 + 48 * c**6) * w - 60 * s + (5 * c - 5 * c**3 - 80 * c**5 + 80 * c**7) * w * s)
+    z = 2 / 15 * (3 + 5 * c * s) * np.sin(v)
+
+    def number(i, j):
+        return i * m + j % m if i < n else (m // 2 - j) % m
+
+    faces = [[number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)] for i in range(n) for j in range(m)]
+    return np.stack((x, y, z), -1).reshape(-1, 3), faces
+
+
 def mesh_of(points, faces):
     mesh = vtkPolyData()
     vertices = vtkPoints()
@@ -73,11 +88,11 @@ def spline(mesh, **properties):
     return scene.updated(made)
 
 
-def drawn(splines):
+def drawn(splines, tolerance=1e-4):
     """Tessellated, with normals of the surface."""
     made = knotwork.vtkSplineTessellate()
     made.SetInputDataObject(splines)
-    made.SetChordalTolerance(1e-4)
+    made.SetChordalTolerance(tolerance)
     made.NormalsOn()
     made.SplittingOff()
     return scene.updated(made).GetOutputDataObject(0)
@@ -103,17 +118,17 @@ def panel(items, k, text, count=3):
     return shown
 
 
-def stripes(splines):
-    """Where the surface reflects black and white lines on a far wall above."""
+def stripes(splines, view, across, count, tolerance):
+    """Where the surface reflects black and white lines on a far wall, `across` which they follow each other; view points to the eye."""
     made = knotwork.vtkSplineTessellate()
     made.SetInputDataObject(splines)
-    made.SetChordalTolerance(2e-6)
+    made.SetChordalTolerance(tolerance)
     made.SplittingOn()
     surface = scene.updated(made).GetOutputDataObject(0)
     normals = vtk_to_numpy(surface.GetPointData().GetNormals())
-    view = np.array((2.2, -3.4, 3.6)) / np.linalg.norm((2.2, -3.4, 3.6))
+    view = np.array(view) / np.linalg.norm(view)
     mirrored = 2 * (normals @ view)[:, None] * normals - view
-    shade = numpy_to_vtk(np.sin(36 * np.arctan2(mirrored[:, 0], abs(mirrored[:, 2]) + 0.3)), deep=1)
+    shade = numpy_to_vtk(np.sin(count * np.arcsin(np.clip(mirrored @ across, -1, 1))), deep=1)
     shade.SetName("Shade")
     surface.GetPointData().SetScalars(shade)
     table = vtkLookupTable()
@@ -135,7 +150,7 @@ def stripes(splines):
 def reflections(mesh, planes, k):
     made = spline(mesh, Degree=2, TangentPlanes=planes)
     angle = made.GetOutputDataObject(1).GetValueByName(0, "MaxNormalAngle").ToDouble()
-    shown = scene.renderer([stripes(made.GetOutputDataObject(0))], (k / 2, 0, (k + 1) / 2, 1), 1.0, False)
+    shown = scene.renderer([stripes(made.GetOutputDataObject(0), (2.2, -3.4, 3.6), (1, 0, 0), 36, 2e-6)], (k / 2, 0, (k + 1) / 2, 1), 1.0, False)
     camera = shown.GetActiveCamera()  # an extraordinary point of five cells at the hole
     camera.SetFocalPoint(-0.42, 0.42, 0.35)
     camera.SetPosition(0.6, -1.5, 3.2)
@@ -180,8 +195,33 @@ def cut(mesh, layout, k):
     return panel(items, k, f"{count} patches along {'tracks' if k else 'the base complex'}", 2)
 
 
+def bottle(folder):
+    mesh = mesh_of(*klein_bottle(36, 16))
+    made = spline(mesh, Degree=3)
+    functions = made.GetOutputDataObject(1).GetValueByName(0, "Functions").ToInt()
+    cells = scene.actor(mesh, (0.95, 0.93, 0.88), lighting=True)
+    cells.GetProperty().SetEdgeVisibility(1)
+    cells.GetProperty().SetEdgeColor(*scene.INK)
+    surface = drawn(made.GetOutputDataObject(0), 1e-5)
+    smooth = scene.actor(surface, scene.COLOURS[0], opacity=0.55, lighting=True)
+    smooth.GetProperty().SetSpecular(0.3)
+    smooth.GetProperty().SetSpecularPower(30)
+    shown = []
+    for k, (item, text) in enumerate(((cells, f"{mesh.GetNumberOfCells()} quadrilaterals"), (smooth, f"degree 3, {functions} functions"))):
+        shown.append(scene.renderer([item], (k / 2, 0, (k + 1) / 2, 1), 1.0, False))
+        camera = shown[-1].GetActiveCamera()
+        camera.SetFocalPoint(0, 2, 0)
+        camera.SetPosition(-7, 4.5, 12)
+        camera.SetViewUp(0, 1, 0)
+        shown[-1].ResetCamera()
+        camera.Zoom(1.3)
+        shown[-1].AddActor(scene.label(text, 0.04, 0.03, 14))
+    scene.save(shown, os.path.join(folder, "klein_bottle.png"), (900, 520))
+
+
 def main():
     folder = scene.output_folder()
+    bottle(folder)
     mesh = mesh_of(*ring(3))
     scene.save([cut(mesh, "base-complex", 0), cut(mesh, "motorcycle-graph", 1)], os.path.join(folder, "mesh_patches.png"), (900, 420))
     scene.save([reflections(mesh, False, 0), reflections(mesh, True, 1)], os.path.join(folder, "tangent_planes.png"), (1000, 440))
