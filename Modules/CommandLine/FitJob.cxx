@@ -53,6 +53,8 @@ public:
   {
     this->AddInput(0, "points", "points (.xyz .txt .csv .g2 .ply .vtp .vtu, meshes .stl .obj .off)",
       "", "input");
+    this->AddInput(1, "--start", "the spline surface that the fit starts from and updates",
+      " starting from ", "start");
     this->AddOutput(Surface, "--output", Endings::Spline, "the surface");
     this->AddOutput(
       Points, "--points", Endings::Points, "the points with distances, tolerances, outliers");

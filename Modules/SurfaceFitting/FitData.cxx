@@ -2,9 +2,11 @@
 #include "FitData.h"
 
 #include <knotwork/MeshParameterization/MeshData.h>
+#include <knotwork/SplineCore/HeightField.h>
 #include <knotwork/SplineCore/Parallel.h>
 #include <knotwork/SplineGrid/NamedArray.h>
 #include <knotwork/SplineGrid/SplineModel.h>
+#include <knotwork/SurfaceFitting/ClosestParameters.h>
 #include <knotwork/SurfaceFitting/PlaneParameters.h>
 
 #include "vtkCellData.h"
@@ -184,6 +186,11 @@ Result<PointMatrix> FindParameters(vtkPointSet* data, const CloudChoice& choice)
     }
     return CopyArray(choice.Given, 2, choice.Threads);
   }
+  if (choice.Start)
+  {
+    return ClosestParameters(
+      *choice.Start, CopyArray(points, 3, choice.Threads), choice.Threads, choice.Progress);
+  }
   auto decoded = DecodeMesh(data);
   if (!decoded)
   {
@@ -252,6 +259,77 @@ Result<DecodedCloud> DecodeCloud(vtkPointSet* data, const CloudChoice& choice)
     cloud.Significant.push_back(choice.Significant->GetComponent(i, 0) != 0.0 ? 1 : 0);
   }
   return decoded;
+}
+
+Result<const Spline<2>*> FindStart(const SplineModel& model)
+{
+  if (model.Patches.size() != 1)
+  {
+    return { model.Patches.empty() ? ErrorCode::EmptyInput : ErrorCode::DimensionMismatch,
+      "the start has " + std::to_string(model.Patches.size()) +
+        " patches; a fit starts from one surface" };
+  }
+  const auto* surface = std::get_if<Spline<2>>(&model.Patches[0].Geometry);
+  if (!surface)
+  {
+    return { ErrorCode::DimensionMismatch,
+      "the start is not a surface; give a spline grid of one surface" };
+  }
+  return surface;
+}
+
+Result<FitStart> MakeStart(const SplineModel& model, DecodedCloud& cloud, int threads)
+{
+  const SplinePatch& patch = model.Patches[0];
+  const auto& surface = std::get<Spline<2>>(patch.Geometry);
+  FitStart start;
+  start.Surface = surface;
+  start.DomainPoints = surface.ControlPoints.leftCols<2>();
+  if (cloud.NumMeasured == 1 && surface.Space->HasDomain() && !surface.IsRational() &&
+    !IsHeightField(MakeBezierForm<2>(surface, threads)))
+  {
+    return { ErrorCode::InvalidParameter,
+      "the start is no height field: its x and y are not its parameters; give the points "
+      "parameters, or have them computed" };
+  }
+  std::vector<const SplineField*> fields;
+  for (std::size_t i = 0; i < cloud.Names.size(); ++i)
+  {
+    const auto found = std::find_if(patch.Fields.begin(), patch.Fields.end(),
+      [&](const SplineField& field)
+      { return field.Name == cloud.Names[i] && field.Coefficients.cols() == cloud.Components[i]; });
+    if (found == patch.Fields.end())
+    {
+      return { ErrorCode::InvalidParameter,
+        "the start has no field '" + cloud.Names[i] + "' of " +
+          std::to_string(cloud.Components[i]) + " components; only its own fields can be fitted" };
+    }
+    fields.push_back(&*found);
+  }
+  for (const SplineField& field : patch.Fields)
+  {
+    if (std::find(fields.begin(), fields.end(), &field) == fields.end())
+    {
+      fields.push_back(&field);
+      cloud.Names.push_back(field.Name);
+      cloud.Components.push_back(static_cast<int>(field.Coefficients.cols()));
+    }
+  }
+  Eigen::Index columns = cloud.NumMeasured;
+  for (const SplineField* field : fields)
+  {
+    columns += field->Coefficients.cols();
+  }
+  PointMatrix& all = start.Surface.ControlPoints;
+  all.resize(surface.ControlPoints.rows(), columns);
+  all.leftCols(cloud.NumMeasured) = surface.ControlPoints.rightCols(cloud.NumMeasured);
+  columns = cloud.NumMeasured;
+  for (const SplineField* field : fields)
+  {
+    all.middleCols(columns, field->Coefficients.cols()) = field->Coefficients;
+    columns += field->Coefficients.cols();
+  }
+  return start;
 }
 
 Status EncodeFit(const DecodedCloud& cloud, const SurfaceFit& fit, vtkUnstructuredGrid* output)

@@ -4,6 +4,7 @@
 #include "FitData.h"
 #include <knotwork/SplineCore/Numbers.h>
 #include <knotwork/SplineGrid/InputChecks.h>
+#include <knotwork/SplineGrid/SplineModel.h>
 
 #include "vtkDataObject.h"
 #include "vtkImageData.h"
@@ -36,6 +37,9 @@ const char* DescribeEnd(knotwork::FitEnd end)
     case knotwork::FitEnd::Contradiction:
       return "they contradict points in the same place; leave points out, find outliers, or choose "
              "a larger tolerance";
+    case knotwork::FitEnd::HeldEdges:
+      return "they lie on edges of the start surface that are held; let these go, or leave points "
+             "out";
     default:
       return "elements are not split any smaller; allow smaller elements, or choose a larger "
              "tolerance";
@@ -52,8 +56,18 @@ std::string DescribeMiss(const knotwork::SurfaceFit& fit)
 
 vtkSplineSurfaceFit::vtkSplineSurfaceFit()
 {
-  this->SetNumberOfInputPorts(1);
+  this->SetNumberOfInputPorts(2);
   this->SetOutputTypes({ "vtkUnstructuredGrid", "vtkPointSet", "vtkTable", "vtkImageData" });
+}
+
+void vtkSplineSurfaceFit::SetStartConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(1, output);
+}
+
+void vtkSplineSurfaceFit::SetStartData(vtkDataObject* surface)
+{
+  this->SetInputDataObject(1, surface);
 }
 
 void vtkSplineSurfaceFit::AddFieldArray(const char* name)
@@ -90,8 +104,13 @@ void vtkSplineSurfaceFit::ClearToleranceBoxes()
   }
 }
 
-int vtkSplineSurfaceFit::FillInputPortInformation(int, vtkInformation* info)
+int vtkSplineSurfaceFit::FillInputPortInformation(int port, vtkInformation* info)
 {
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+    return this->Superclass::FillInputPortInformation(0, info);
+  }
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
   return 1;
 }
@@ -137,10 +156,33 @@ knotwork::Status vtkSplineSurfaceFit::Compute(
     return sampled;
   }
   CloudChoice choice;
+  SplineModel startModel;
+  if (vtkDataObject* data = vtkDataObject::GetData(inputs[1], 0))
+  {
+    auto model = this->DecodeInput(data);
+    if (!model)
+    {
+      return { model.Status.Code, "the start: " + model.Status.Detail };
+    }
+    startModel = std::move(model.Value);
+    const auto start = FindStart(startModel);
+    if (!start)
+    {
+      return start.Status;
+    }
+    choice.Start = start.Value;
+  }
+  else if (this->HoldEdges != NO_EDGES)
+  {
+    return { ErrorCode::InvalidParameter,
+      "there are no edges to hold: the edges of a start surface are held; give one as the second "
+      "input, or HoldEdges None" };
+  }
   choice.Parameters = static_cast<CloudParameters>(this->Parameterization);
   choice.Fields = this->FieldArrays;
   choice.AllFields = this->AllFields;
   choice.Threads = this->KernelThreads();
+  choice.Progress = this->Progress();
   Status status;
   if (choice.Parameters == CloudParameters::Given)
   {
@@ -154,12 +196,26 @@ knotwork::Status vtkSplineSurfaceFit::Compute(
   {
     return status;
   }
-  const Result<DecodedCloud> decoded = DecodeCloud(input, choice);
+  Result<DecodedCloud> decoded = DecodeCloud(input, choice);
   if (!decoded)
   {
     return decoded.Status;
   }
   FitParams params;
+  if (choice.Start)
+  {
+    auto start = MakeStart(startModel, decoded.Value, choice.Threads);
+    if (!start)
+    {
+      return start.Status;
+    }
+    for (std::size_t side = 0; side < 4; ++side)
+    {
+      start->Edges[side] =
+        this->HeldSides[side] != 0 ? static_cast<FitEdge>(this->HoldEdges) : FitEdge::Free;
+    }
+    params.Start = std::move(start.Value);
+  }
   params.Space = static_cast<FitSpace>(this->Space);
   params.Degree = { this->Degree, this->SecondDegree > 0 ? this->SecondDegree : this->Degree };
   params.NumInitialElements = { this->InitialElementsU, this->InitialElementsV };

@@ -7,6 +7,9 @@
  * space is fitted to points with parameters, which are given or computed. Point arrays are fitted
  * along. Elements are split where points are farther away than their tolerance, until none is.
  *
+ * Input 1 (optional) is a spline grid of one surface that the fit starts from and updates: it stays
+ * what it is where no function's support holds a point.
+ *
  * SetInputArrayToProcess: 0 the parameters (two components; without it the array `UV`, then the
  * texture coordinates), 1 tolerances of the points, 2 where a point is significant (not 0). The
  * name `None` stands for no array.
@@ -41,7 +44,8 @@ public:
   {
     HEIGHT_FIELD = 0, ///< parameters x, y; z is fitted
     GIVEN,            ///< parameters are an array; x, y, z are fitted
-    COMPUTED          ///< plane coordinates of triangles, else of the plane of least squares
+    COMPUTED ///< closest points of the start, plane coordinates of triangles, or of the plane
+             ///< of least squares
   };
   enum Spaces
   {
@@ -84,6 +88,12 @@ public:
     ALTERNATING,
     BY_ERROR
   };
+  enum EdgeHolds
+  {
+    NO_EDGES = 0, ///< "None"
+    VALUES,
+    DERIVATIVES ///< values and derivatives across the edge
+  };
   enum Strategies
   {
     FULL_SPAN = 0,
@@ -92,9 +102,15 @@ public:
   };
 
   ///@{
+  /** Input 1 (optional): the surface that the fit starts from. */
+  void SetStartConnection(vtkAlgorithmOutput* output);
+  void SetStartData(vtkDataObject* surface);
+  ///@}
+  ///@{
   /** Where the parameters of the points come from, one of Parameterizations. HEIGHT_FIELD: x and
-   * y, and z is fitted. GIVEN: an array of two components. COMPUTED: plane coordinates of the
-   * triangles, or without triangles of the plane of least squares. Default HEIGHT_FIELD. */
+   * y, and z is fitted. GIVEN: an array of two components. COMPUTED: closest points of the start
+   * surface, without one plane coordinates of the triangles, or without triangles of the plane of
+   * least squares. Default HEIGHT_FIELD. */
   vtkSetClampMacro(Parameterization, int, HEIGHT_FIELD, COMPUTED);
   vtkGetMacro(Parameterization, int);
   ///@}
@@ -111,7 +127,7 @@ public:
   ///@}
   ///@{
   /** Kind of the spline space, one of Spaces: locally refined or truncated hierarchical
-   * B-splines. Default LR. */
+   * B-splines. A start surface of one of these kinds keeps its own. Default LR. */
   vtkSetClampMacro(Space, int, LR, THB);
   vtkGetMacro(Space, int);
   ///@}
@@ -142,6 +158,20 @@ public:
    * 0. Advanced. Components u0, u1, v0, v1. */
   vtkSetVector4Macro(Domain, double);
   vtkGetVector4Macro(Domain, double);
+  ///@}
+  ///@{
+  /** What of the start surface stays on its HeldSides through all refinement, one of EdgeHolds:
+   * nothing, its edge curves, or these and the derivatives across them. Default NO_EDGES. Advanced.
+   */
+  vtkSetClampMacro(HoldEdges, int, NO_EDGES, DERIVATIVES);
+  vtkGetMacro(HoldEdges, int);
+  ///@}
+  ///@{
+  /** Which sides HoldEdges is about: not 0 for the lower and upper end of the first parameter,
+   * then of the second. Default 1 1 1 1. Advanced. For HoldEdges not NO_EDGES. Components u0, u1,
+   * v0, v1. */
+  vtkSetVector4Macro(HeldSides, int);
+  vtkGetVector4Macro(HeldSides, int);
   ///@}
   ///@{
   /** How control points are found, one of Methods: least squares with smoothing, multilevel
@@ -311,6 +341,8 @@ private:
   int InitialElementsV = 0;
   double Domain[4] = { 0.0, 0.0, 0.0, 0.0 };
   double Seconds = 0.0;
+  int HoldEdges = NO_EDGES;
+  int HeldSides[4] = { 1, 1, 1, 1 };
   int Method = LEAST_SQUARES;
   int SwitchIteration = 6;
   double Smoothing = 1e-9;

@@ -193,6 +193,36 @@ def test_spaces_and_formats_hold_the_same_surface_CrossOracle():
             assert stream.read() == first, threads
 
 
+def test_a_start_is_updated_where_the_points_are():
+    """The LR surfaces before and after as the g2 files say, evaluated here."""
+    whole = write_xyz("whole.xyz", cloud(31))
+    fit(whole, "start.g2", "--tolerance", 2e-3, "--domain", 0, 1, 0, 1)
+    random = np.random.default_rng(32)
+    corner = 0.2 * random.random((500, 2))
+    z = bump(*corner.T) + 0.05 * np.exp(-500 * ((corner - 0.08) ** 2).sum(1))
+    new = write_xyz("new.xyz", np.c_[corner, z])
+    report = fit(new, "update.g2", "--start", path("start.g2"), "--tolerance", 2e-3, "--hold-edges", "values",
+                 "--held-sides", 1, 0, 0, 0)
+    assert report["within_tolerance"] and report["start"] == path("start.g2") and report["hold_edges"] == "values", report
+    before, after = (read_lr(path(name)) for name in ("start.g2", "update.g2"))
+
+    def height(functions, x, y):
+        return sum(c[-1] * b_spline(u, x, 1.0) * b_spline(v, y, 1.0) for c, u, v in functions)
+
+    assert np.abs(height(after, *corner.T) - z).max() <= 2e-3
+    assert np.abs(height(before, *corner.T) - z).max() > 0.02
+    x, y = random.random((2, 500))
+    far = (x > 0.7) | (y > 0.7)
+    # files hold all digits; both sums have other terms
+    assert np.abs(height(after, x, y) - height(before, x, y))[far].max() < 1e-13
+    assert np.abs(height(after, 0 * y, y) - height(before, 0 * y, y)).max() < 1e-13
+    assert np.abs(height(after, x, 0 * x) - height(before, x, 0 * x)).max() > 1e-5
+    done = knotwork_testing.run_program("fit", new, "--start", whole, "--output", path("a.vtu"))
+    assert done.returncode == 1 and "whole.xyz" in done.stderr, done.stderr
+    done = knotwork_testing.run_program("fit", new, "--hold-edges", "values", "--output", path("a.vtu"))
+    assert done.returncode == 1 and "start surface" in done.stderr, done.stderr
+
+
 def test_both_spaces_are_written_in_every_format():
     """The same map as a tensor product where a format has no other kind: its distances from the points are those of the fit."""
     file = write_xyz("cliff.xyz", cloud(4, 1500))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FitChecks.h"
 
+#include "FitUpdate.h"
 #include <knotwork/SplineCore/Numbers.h>
 #include <knotwork/SplineCore/Parallel.h>
 
@@ -203,7 +204,8 @@ Status CheckPoint(const PointCloud& cloud, const FitParams& params, Eigen::Index
     {
       return { ErrorCode::OutsideDomain,
         "point " + std::to_string(i) +
-          " lies outside the domain; enlarge the domain or leave it out" };
+          (params.Start ? " lies outside the domain of the start surface; leave it out"
+                        : " lies outside the domain; enlarge the domain or leave it out") };
     }
   }
   return {};
@@ -246,9 +248,9 @@ Status CheckFit(const PointCloud& cloud, const FitParams& params)
   }
   if (status)
   {
-    status = CheckPoints(cloud, params);
+    status = CheckStart(cloud, params);
   }
-  return status;
+  return status ? CheckPoints(cloud, WithStart(params)) : status;
 }
 
 ParametricBox<2> FitDomain(const PointCloud& cloud, const FitParams& params)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FitMarks.h"
 
+#include "FitUpdate.h"
 #include <knotwork/SplineCore/Parallel.h>
 
 #include <algorithm>
@@ -71,11 +72,39 @@ bool IsOutside(const FitPoints& points, std::size_t i)
   return points.Base[i] > 0.0 && std::fabs(points.Distance[i]) > points.Tolerance[i];
 }
 
-/// False when each of the element's points outside contradicts another one.
+/// Whether all of the element's points outside lie on held edges of the start.
 /// @param least  size of an element.
-bool SplitHelps(const RealArray<2>& least, const FitPoints& points, int numMeasured, std::size_t e)
+bool AllHeld(const RealArray<2>& least, const FitState& state, const FitPoints& points,
+  const FitParams& params, std::size_t e)
+{
+  if (!params.Start)
+  {
+    return false;
+  }
+  const ParametricBox<2> domain = state.Space->Domain();
+  const FitPoints::Range range = points.Ranges[e];
+  for (std::size_t i = range.Begin; i < range.End; ++i)
+  {
+    if (IsOutside(points, i) &&
+      !IsOnHeldEdge(domain, params.Start->Edges, least, points.U[i], points.V[i]))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// False when each of the element's points outside contradicts another one, or all lie on held
+/// edges.
+/// @param least  size of an element.
+bool SplitHelps(const RealArray<2>& least, const FitState& state, const FitPoints& points,
+  const FitParams& params, std::size_t e)
 {
   const FitPoints::Range range = points.Ranges[e];
+  if (AllHeld(least, state, points, params, e))
+  {
+    return false;
+  }
   if (range.Count() > MostCompared)
   {
     return true; // its parts will tell
@@ -85,7 +114,7 @@ bool SplitHelps(const RealArray<2>& least, const FitPoints& points, int numMeasu
     bool isHopeless = !IsOutside(points, i);
     for (std::size_t k = range.Begin; k < range.End && !isHopeless; ++k)
     {
-      isHopeless = Contradict(points, numMeasured, least, i, k);
+      isHopeless = Contradict(points, params.NumMeasured, least, i, k);
     }
     if (!isHopeless)
     {
@@ -198,7 +227,7 @@ std::vector<SplitMark> MarkElements(const FitState& state, const ElementFunction
     {
       for (std::size_t e = begin; e < end; ++e)
       {
-        if (errors[e].NumOutside > 0 && SplitHelps(least, points, params.NumMeasured, e))
+        if (errors[e].NumOutside > 0 && SplitHelps(least, state, points, params, e))
         {
           allowed[e] = AllowedDirections(state.Space->Elements[e].Box, least, params.Space);
         }
@@ -226,6 +255,20 @@ bool PointsContradict(const FitState& state, const FitPoints& points,
   for (std::size_t e = 0; e < errors.size(); ++e)
   {
     if (errors[e].NumOutside > 0 && !AllContradict(place, points, params.NumMeasured, e))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool PointsAreHeld(const FitState& state, const FitPoints& points,
+  const std::vector<ElementErrors>& errors, const FitParams& params)
+{
+  const RealArray<2> least = ShareOfDomain(state, params.MinElementSize);
+  for (std::size_t e = 0; e < errors.size(); ++e)
+  {
+    if (errors[e].NumOutside > 0 && !AllHeld(least, state, points, params, e))
     {
       return false;
     }

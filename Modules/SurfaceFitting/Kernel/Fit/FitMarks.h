@@ -16,6 +16,10 @@ std::vector<SplitMark> MarkElements(const FitState& state, const ElementFunction
 bool PointsContradict(const FitState& state, const FitPoints& points,
   const std::vector<ElementErrors>& errors, const FitParams& params);
 
+/// Whether all points outside lie on held edges of the start, up to FitParams::MinElementSize.
+bool PointsAreHeld(const FitState& state, const FitPoints& points,
+  const std::vector<ElementErrors>& errors, const FitParams& params);
+
 /// Gives points outside their tolerance more weight in least squares where that is likely to bring
 /// them inside without a split: they are few and not far outside. An iteratively reweighted fit
 /// goes from least squares towards the smallest largest distance.

@@ -51,20 +51,31 @@ IntArray<2> InitialElements(
   return elements;
 }
 
-/// Side by side.
-PointMatrix Join(const PointMatrix& left, const PointMatrix& right)
+/// All columns side by side.
+PointMatrix Join(const FitState& state)
 {
-  PointMatrix both(left.rows(), left.cols() + right.cols());
-  both << left, right;
-  return both;
+  PointMatrix all(state.Coefficients.rows(),
+    state.Coefficients.cols() + state.DomainPoints.cols() + state.Start.cols());
+  all.leftCols(state.Coefficients.cols()) = state.Coefficients;
+  all.middleCols(state.Coefficients.cols(), 2) = state.DomainPoints;
+  if (state.Start.cols() > 0)
+  {
+    all.rightCols(state.Start.cols()) = state.Start;
+  }
+  return all;
 }
 
-FitState Part(SplineSpacePtr<2> space, const PointMatrix& both)
+/// Columns as Join has put those of a state together.
+FitState Part(SplineSpacePtr<2> space, const PointMatrix& all, const FitState& like)
 {
   FitState state;
   state.Space = std::move(space);
-  state.Coefficients = both.leftCols(both.cols() - 2);
-  state.DomainPoints = both.rightCols(2);
+  state.Coefficients = all.leftCols(like.Coefficients.cols());
+  state.DomainPoints = all.middleCols(like.Coefficients.cols(), 2);
+  if (like.Start.cols() > 0)
+  {
+    state.Start = all.rightCols(like.Start.cols());
+  }
   return state;
 }
 
@@ -85,13 +96,13 @@ Result<FitState> RefineHierarchical(const FitState& state, const std::vector<Spl
   }
   Spline<2> spline;
   spline.Space = state.Space;
-  spline.ControlPoints = Join(state.Coefficients, state.DomainPoints);
+  spline.ControlPoints = Join(state);
   auto refined = TransferToRefined<2>(spline, space.Value);
   if (!refined)
   {
     return refined.Status;
   }
-  return Part(space.Value, refined.Value.ControlPoints);
+  return Part(space.Value, refined.Value.ControlPoints, state);
 }
 
 Result<FitState> RefineLocally(
@@ -104,8 +115,8 @@ Result<FitState> RefineLocally(
       mark.Directions[0] && mark.Directions[1] ? 2 : (mark.Directions[0] ? 0 : 1);
     chosen[which].push_back(mark.Element);
   }
-  PointMatrix both = Join(state.Coefficients, state.DomainPoints);
-  LRRefinement refinement(*state.Space, both);
+  PointMatrix all = Join(state);
+  LRRefinement refinement(*state.Space, all);
   for (std::size_t which = 0; which < 3; ++which)
   {
     LRStrategyParams strategy;
@@ -124,24 +135,45 @@ Result<FitState> RefineLocally(
       }
     }
   }
-  auto space = refinement.Finish(&both, params.Threads);
+  auto space = refinement.Finish(&all, params.Threads);
   if (!space)
   {
     return space.Status;
   }
   if (!params.Independent)
   {
-    return Part(space.Value, both);
+    return Part(space.Value, all, state);
   }
   Spline<2> spline;
   spline.Space = space.Value;
-  spline.ControlPoints = both;
+  spline.ControlPoints = all;
   auto resolved = ResolveDependence(spline, MaxResolvingSegments, params.Threads);
   if (!resolved)
   {
     return resolved.Status;
   }
-  return Part(resolved.Value.Value.Space, resolved.Value.Value.ControlPoints);
+  return Part(resolved.Value.Value.Space, resolved.Value.Value.ControlPoints, state);
+}
+
+/// A tensor-product space becomes one that LR spaces are refined from where these are asked for;
+/// functions keep their numbers.
+Status TakeKind(const FitParams& params, SplineSpacePtr<2>& space)
+{
+  if (space->Kind != SpaceKind::Tensor || params.Space == FitSpace::Hierarchical)
+  {
+    return {};
+  }
+  auto basis = LRBasisOfTensor(*space);
+  if (!basis)
+  {
+    return basis.Status;
+  }
+  auto made = MakeLRSpace(std::move(basis.Value), params.Threads);
+  if (made)
+  {
+    space = made.Value;
+  }
+  return made.Status;
 }
 }
 
@@ -170,19 +202,23 @@ Result<FitState> MakeFirstState(
     state.DomainPoints(f, 0) = knots[0].Greville(f % n0);
     state.DomainPoints(f, 1) = knots[1].Greville(f / n0);
   }
-  if (params.Space == FitSpace::LocallyRefined)
+  if (Status status = TakeKind(params, state.Space); !status)
   {
-    auto basis = LRBasisOfTensor(*tensor);
-    if (!basis)
-    {
-      return basis.Status;
-    }
-    auto space = MakeLRSpace(std::move(basis.Value), params.Threads);
-    if (!space)
-    {
-      return space.Status;
-    }
-    state.Space = space.Value;
+    return status;
+  }
+  return state;
+}
+
+Result<FitState> MakeStartState(const FitParams& params, int numComponents)
+{
+  FitState state;
+  state.Space = params.Start->Surface.Space;
+  state.Start = params.Start->Surface.ControlPoints;
+  state.Coefficients = state.Start.leftCols(numComponents);
+  state.DomainPoints = params.Start->DomainPoints;
+  if (Status status = TakeKind(params, state.Space); !status)
+  {
+    return { status.Code, "the start surface: " + status.Detail };
   }
   return state;
 }

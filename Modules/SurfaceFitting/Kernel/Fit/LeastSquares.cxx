@@ -274,11 +274,10 @@ void LeastSquaresSystem::Multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) 
     });
 }
 
-void LeastSquaresSystem::SolveColumn(const Eigen::VectorXd& right, Eigen::VectorXd& x) const
+/// @param scale  of every unknown; 0 where it stays as it is.
+void LeastSquaresSystem::SolveColumn(
+  const Eigen::VectorXd& right, const Eigen::VectorXd& scale, Eigen::VectorXd& x) const
 {
-  const Eigen::VectorXd scale = (this->Diagonal + this->Damping)
-                                  .cwiseMax(1e-300 + 1e-14 * this->Diagonal.maxCoeff())
-                                  .cwiseInverse();
   Eigen::VectorXd product(x.size());
   this->Multiply(x, product);
   Eigen::VectorXd residual = right - product;
@@ -308,12 +307,20 @@ void LeastSquaresSystem::SolveColumn(const Eigen::VectorXd& right, Eigen::Vector
   }
 }
 
-void LeastSquaresSystem::Solve(PointMatrix& coefficients) const
+void LeastSquaresSystem::Solve(
+  PointMatrix& coefficients, const std::vector<std::uint8_t>& fixed) const
 {
+  Eigen::VectorXd scale = (this->Diagonal + this->Damping)
+                            .cwiseMax(1e-300 + 1e-14 * this->Diagonal.maxCoeff())
+                            .cwiseInverse();
+  for (std::size_t f = 0; f < fixed.size(); ++f)
+  {
+    scale[static_cast<Eigen::Index>(f)] *= fixed[f] == 0 ? 1.0 : 0.0;
+  }
   for (int c = 0; c < this->Components; ++c)
   {
     Eigen::VectorXd x = coefficients.col(c);
-    this->SolveColumn(this->Right.col(c), x);
+    this->SolveColumn(this->Right.col(c), scale, x);
     coefficients.col(c) = x;
   }
 }

@@ -37,8 +37,9 @@ public:
   /// Conjugate gradients from the given coefficients on, scaled by the diagonal; they end early
   /// where a direction without curvature or what is not finite is met, with what was reached
   /// before.
-  /// @param coefficients  NumFunctions x c.
-  void Solve(PointMatrix& coefficients) const;
+  /// @param coefficients  NumFunctions x c. @param fixed  not 0 where a function's coefficients
+  /// stay as they are; empty: nowhere.
+  void Solve(PointMatrix& coefficients, const std::vector<std::uint8_t>& fixed = {}) const;
 
 private:
   /// Consecutive rows of the matrix, made and used by themselves.
@@ -53,7 +54,8 @@ private:
   void FindColumns(std::size_t begin, std::size_t end);
   void FillRow(std::size_t function, std::vector<int>& places);
   void Multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
-  void SolveColumn(const Eigen::VectorXd& right, Eigen::VectorXd& x) const;
+  void SolveColumn(
+    const Eigen::VectorXd& right, const Eigen::VectorXd& scale, Eigen::VectorXd& x) const;
 
   const ElementFunctions& Functions;
   const ElementMoments& Moments;

@@ -129,7 +129,8 @@ private:
 }
 
 void MultilevelStep(const SplineSpace<2>& space, const ElementFunctions& functions,
-  const FitPoints& points, int threads, PointMatrix& coefficients)
+  const FitPoints& points, const std::vector<std::uint8_t>& fixed, int threads,
+  PointMatrix& coefficients)
 {
   const auto components = static_cast<int>(coefficients.cols());
   const std::size_t stride = At(components + 1);
@@ -159,7 +160,7 @@ void MultilevelStep(const SplineSpace<2>& space, const ElementFunctions& functio
             total[c] += from[c];
           }
         }
-        if (total[At(components)] > 0.0)
+        if (total[At(components)] > 0.0 && (fixed.empty() || fixed[f] == 0))
         {
           for (int c = 0; c < components; ++c)
           {

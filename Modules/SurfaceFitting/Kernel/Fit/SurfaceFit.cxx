@@ -6,6 +6,7 @@
 #include "FitLikelihood.h"
 #include "FitMarks.h"
 #include "FitSides.h"
+#include "FitUpdate.h"
 #include "LeastSquares.h"
 #include "Multilevel.h"
 #include "OutlierSearch.h"
@@ -43,9 +44,9 @@ class Fitting
 {
 public:
   Fitting(const PointCloud& cloud, const FitParams& params)
-    : Cloud(cloud), Params(params), Begin(std::chrono::steady_clock::now()),
+    : Cloud(cloud), Params(WithStart(params)), Begin(std::chrono::steady_clock::now()),
       Tolerances(FitTolerances(cloud, params)), Components(static_cast<int>(cloud.Values.cols())),
-      Moments(params.Degree, this->Components)
+      Moments(Params.Degree, this->Components)
   {
   }
 
@@ -57,7 +58,10 @@ public:
     }
     for (int iteration = 0;; ++iteration)
     {
-      this->Approximate(iteration);
+      if (iteration > 0 || !this->IsMetByStart())
+      {
+        this->Approximate(iteration);
+      }
       this->Fit.Iterations.push_back(this->Summarize(iteration));
       const FitIteration& row = this->Fit.Iterations.back();
       this->IsBestEarlier = row.NumOutside > 0 && this->CriterionReached();
@@ -99,7 +103,9 @@ private:
   Status Start()
   {
     const ParametricBox<2> domain = FitDomain(this->Cloud, this->Params);
-    auto first = MakeFirstState(this->Params, domain, this->Components, this->Tolerances.size());
+    auto first = this->Params.Start
+      ? MakeStartState(this->Params, this->Components)
+      : MakeFirstState(this->Params, domain, this->Components, this->Tolerances.size());
     if (!first)
     {
       return first.Status;
@@ -113,7 +119,7 @@ private:
     this->Accuracy = SolverAccuracy *
       *std::min_element(this->Points.Tolerance.begin(), this->Points.Tolerance.end());
     this->Moments.Update(*this->State.Space, {}, {}, this->Points, this->Params.Threads);
-    if (this->Params.Smoothing > 0.0)
+    if (this->Params.Smoothing > 0.0 && !this->Params.Start)
     {
       this->BeginWithMeans();
     }
@@ -166,6 +172,18 @@ private:
     this->Functions = FindElementFunctions(*this->State.Space, this->Params.Threads);
   }
 
+  /// Whether all points are within their tolerances of the start as it is.
+  bool IsMetByStart()
+  {
+    if (!this->Params.Start)
+    {
+      return false;
+    }
+    this->Measure();
+    return std::all_of(this->Errors.begin(), this->Errors.end(),
+      [](const ElementErrors& own) { return own.NumOutside == 0; });
+  }
+
   void Approximate(int iteration)
   {
     this->IsLeastSquares = this->Params.Method == FitMethod::LeastSquares ||
@@ -180,7 +198,7 @@ private:
       params.Threads = this->Params.Threads;
       system = std::make_unique<LeastSquaresSystem>(
         this->Functions, this->Moments, this->Params.Degree, this->Components, params);
-      if (iteration == 0 && params.IsDamped)
+      if (iteration == 0 && params.IsDamped && !this->Params.Start)
       {
         this->SolveStiffly(params);
         for (int k = 1; k < FirstSteps; ++k)
@@ -235,16 +253,39 @@ private:
 
   void Solve(const LeastSquaresSystem* system)
   {
+    const std::vector<std::uint8_t> fixed = this->TakeFromStart();
     if (system)
     {
-      system->Solve(this->State.Coefficients);
+      system->Solve(this->State.Coefficients, fixed);
     }
     for (int k = 0; !system && k < MultilevelSteps; ++k)
     {
-      MultilevelStep(*this->State.Space, this->Functions, this->Points, this->Params.Threads,
+      MultilevelStep(*this->State.Space, this->Functions, this->Points, fixed, this->Params.Threads,
         this->State.Coefficients);
     }
     this->Measure();
+  }
+
+  /// What refinement has left of the changes beyond the supports of the functions with points goes
+  /// back to the start. At the points this changes nothing, but on edges that are held.
+  /// @return the functions that stay; empty without a start.
+  std::vector<std::uint8_t> TakeFromStart()
+  {
+    if (!this->Params.Start)
+    {
+      return {};
+    }
+    std::vector<std::uint8_t> fixed = FindFixedFunctions(
+      *this->State.Space, this->Functions, this->Points, this->Params.Start->Edges);
+    for (std::size_t f = 0; f < fixed.size(); ++f)
+    {
+      if (fixed[f] != 0)
+      {
+        const auto row = static_cast<Eigen::Index>(f);
+        this->State.Coefficients.row(row) = this->State.Start.row(row).head(this->Components);
+      }
+    }
+    return fixed;
   }
 
   void Measure()
@@ -342,9 +383,11 @@ private:
   int FunctionLimit() const
   {
     const std::size_t n = this->Points.Size();
+    const std::size_t given =
+      this->Params.Start ? At(this->Params.Start->Surface.Space->NumFunctions) : 0;
     return this->Params.MaxFunctions > 0
       ? this->Params.MaxFunctions
-      : static_cast<int>(std::max(n, std::min(FunctionsPerPoint * n, MostFunctions)));
+      : static_cast<int>(given + std::max(n, std::min(FunctionsPerPoint * n, MostFunctions)));
   }
 
   /// The next state; without a space when nothing can be split. When all marks make more functions
@@ -357,6 +400,10 @@ private:
       const bool contradict =
         PointsContradict(this->State, this->Points, this->Errors, this->Params);
       this->Fit.End = contradict ? FitEnd::Contradiction : FitEnd::Resolution;
+      if (!contradict && PointsAreHeld(this->State, this->Points, this->Errors, this->Params))
+      {
+        this->Fit.End = FitEnd::HeldEdges;
+      }
       return FitState{};
     }
     auto refined = RefineState(this->State, marks, this->Params);
@@ -436,7 +483,15 @@ private:
     this->Fit.WithinTolerance = this->Fit.Final.NumOutside == 0;
     this->Fit.End = this->Fit.WithinTolerance ? FitEnd::Tolerance : this->Fit.End;
     this->Fit.Surface.Space = this->State.Space;
-    this->Fit.Surface.ControlPoints = std::move(this->State.Coefficients);
+    const Eigen::Index carried =
+      std::max<Eigen::Index>(0, this->State.Start.cols() - this->Components);
+    this->Fit.Surface.ControlPoints.resize(
+      this->State.Coefficients.rows(), this->Components + carried);
+    this->Fit.Surface.ControlPoints.leftCols(this->Components) = this->State.Coefficients;
+    if (carried > 0)
+    {
+      this->Fit.Surface.ControlPoints.rightCols(carried) = this->State.Start.rightCols(carried);
+    }
     this->Fit.DomainPoints = std::move(this->State.DomainPoints);
     this->Fit.Distances.resize(this->Points.Size());
     ParallelFor(this->Points.Size(), PointChunk, this->Params.Threads,
@@ -457,7 +512,7 @@ private:
   }
 
   const PointCloud& Cloud;
-  const FitParams& Params;
+  const FitParams Params;
   std::chrono::steady_clock::time_point Begin;
   std::vector<double> Tolerances;
   std::vector<double> Bands; ///< one-sided fits: their widths

@@ -3,6 +3,7 @@
 #include <knotwork/SplineCore/LRStrategies.h>
 
 #include <cstdint>
+#include <optional>
 
 namespace knotwork
 {
@@ -69,6 +70,25 @@ enum class FitCriterion
   BIC
 };
 
+/// What of a start surface stays along a side of the domain, through all refinement.
+enum class FitEdge
+{
+  Free,
+  Values,     ///< the curve of the surface over the side
+  Derivatives ///< and its derivatives across the side
+};
+
+/// A surface that a fit starts from and updates: polynomial, over a parameter domain (of kind
+/// Tensor, Hierarchical or LocallyRefined). The Surface and DomainPoints of a fit are one.
+struct FitStart
+{
+  /// Its first components are those of PointCloud::Values; further ones are carried along.
+  Spline<2> Surface;
+  PointMatrix DomainPoints; ///< NumFunctions x 2, as SurfaceFit::DomainPoints
+  /// By side: lower and upper end of the first parameter, then of the second.
+  std::array<FitEdge, 4> Edges{};
+};
+
 /// Why a fit ended.
 enum class FitEnd
 {
@@ -76,9 +96,10 @@ enum class FitEnd
   Iterations,
   Functions,
   Seconds,
-  Criterion,    ///< the information criterion has risen
-  Resolution,   ///< what is outside lies where no element may be split, or no smaller one helps
-  Contradiction ///< every point outside is in the place of another one that no surface meets too
+  Criterion,     ///< the information criterion has risen
+  Resolution,    ///< what is outside lies where no element may be split, or no smaller one helps
+  Contradiction, ///< every point outside is in the place of another one that no surface meets too
+  HeldEdges      ///< points outside lie on edges of the start that are held
 };
 
 /// What the tolerance grows with.
@@ -115,6 +136,11 @@ struct FitParams
   IntArray<2> NumInitialElements{ 0, 0 }; ///< each >= 0; 0: chosen by the number of points
   /// Parameter domain; without an area the box of the parameters.
   ParametricBox<2> Domain;
+  /// The surface that the fit updates: its degree and domain count instead of Degree,
+  /// NumInitialElements and Domain, and its kind instead of Space unless it is of kind Tensor.
+  /// Where no function's support holds a point that counts it stays as it is, to the last bit, and
+  /// it stays altogether when it meets all points.
+  std::optional<FitStart> Start;
   int NumMeasured = 1; ///< in [1, columns of Values]
 
   FitMethod Method = FitMethod::LeastSquares;
@@ -173,7 +199,7 @@ struct FitFeatures
 
 struct SurfaceFit
 {
-  Spline<2> Surface; ///< columns of Values as components
+  Spline<2> Surface; ///< columns of Values as components, then further ones of the start
   /// The domain's own coordinates as control points of the space (u and v exactly): with Surface's
   /// first column a height field is the surface (u, v, z).
   PointMatrix DomainPoints;
@@ -193,8 +219,9 @@ struct SurfaceFit
 /// approximate, measure, split elements, again. Bit-identical for every number of threads.
 ///
 /// @return EmptyInput; NonFiniteInput and TooLarge naming the point; SizeMismatch; InvalidDegree;
-/// InvalidParameter naming the option; OutsideDomain naming the point; Aborted. A fit that ends by
-/// a limit is a result with WithinTolerance false.
+/// InvalidParameter naming the option; OutsideDomain naming the point; of a start DimensionMismatch
+/// (no parameter domain), InvalidWeight (rational), SizeMismatch, NonFiniteInput, InvalidKnots;
+/// Aborted. A fit that ends by a limit is a result with WithinTolerance false.
 /// @complexity an iteration O(points (p + 1)^2) and the solve.
 /// @source  Skytt, Barrowclough, Dokken, Computers & Graphics 49 (2015) 58-68 (LR least squares and
 /// MBA); Lee, Wolberg, Shin, IEEE TVCG 3 (1997) 228-244 (MBA).

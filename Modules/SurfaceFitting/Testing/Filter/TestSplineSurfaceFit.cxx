@@ -643,6 +643,202 @@ TEST(SplineSurfaceFit, EveryEndIsSaidInAWarning_ExactOracle)
   }
 }
 
+TEST(SplineSurfaceFit, UpdatesASurfaceOnlyWhereThePointsAre_ExactOracle)
+{
+  const double corner = 0.2;
+  const auto shifted = [=](double u, double v) -> std::array<double, 3>
+  {
+    std::array<double, 3> point = Wave(corner * u, corner * v);
+    point[2] += 0.05 * u * (2.0 - u) * v * (1.0 - v);
+    return point;
+  };
+  for (const int space : { vtkSplineSurfaceFit::LR, vtkSplineSurfaceFit::THB })
+  {
+    vtkNew<vtkSplineSurfaceFit> first;
+    first->SetInputData(MakeCloud<vtkPolyData>(Wave, 20000));
+    first->SetSpace(space);
+    first->SetTolerance(2e-3);
+    first->SetDomain(0.0, 2.0, 0.0, 1.0);
+    first->AddFieldArray("TwoU");
+    first->Update();
+    vtkNew<vtkSplineSurfaceFit> update;
+    update->SetInputData(MakeCloud<vtkPolyData>(shifted, 2000, 7));
+    update->SetStartConnection(first->GetOutputPort(0));
+    update->SetTolerance(1e-3);
+    update->SetHoldEdges(vtkSplineSurfaceFit::VALUES);
+    update->SetHeldSides(1, 0, 1, 0);
+    update->Update();
+    ASSERT_EQ(update->GetErrorCode(), 0U);
+    EXPECT_EQ(Number(update, "PointsOutside"), 0);
+    // the field, which the new points do not have, is carried along; beyond the supports of the
+    // functions with points nothing has changed, nor have two edges
+    vtkNew<vtkDoubleArray> uv;
+    uv->SetNumberOfComponents(2);
+    for (int i = 0; i < 400; ++i)
+    {
+      uv->InsertNextTuple2(1.0 + (i % 20) / 20.0, 0.6 + 0.4 * (i / 20) / 20.0);
+      uv->InsertNextTuple2(0.0, i / 400.0);
+      uv->InsertNextTuple2(2.0 * i / 400.0, 0.0);
+    }
+    const auto before = Evaluate(first, uv);
+    const auto after = Evaluate(update, uv);
+    vtkDataArray* field = after->GetPointData()->GetArray("TwoU");
+    ASSERT_TRUE(field);
+    for (vtkIdType i = 0; i < before->GetNumberOfPoints(); ++i)
+    {
+      for (int c = 0; c < 3; ++c)
+      {
+        EXPECT_NEAR(before->GetPoint(i)[c], after->GetPoint(i)[c], 1e-14);
+      }
+      EXPECT_NEAR(field->GetComponent(i, 0), 2.0 * uv->GetComponent(i, 0), 5e-3);
+      EXPECT_NEAR(field->GetComponent(i, 0),
+        before->GetPointData()->GetArray("TwoU")->GetComponent(i, 0), 1e-13);
+    }
+  }
+}
+
+TEST(SplineSurfaceFit, ParametersAreThoseOfTheStartsClosestPoints_CrossOracle)
+{
+  // a quarter of a cylinder, and points 0.01 outside of a part of it: no plane gives parameters
+  const auto cylinder = [](double radius)
+  {
+    return [=](double u, double v) -> std::array<double, 3> {
+      return { radius * std::cos(1.5 * u), radius * std::sin(1.5 * u), v };
+    };
+  };
+  vtkNew<vtkSplineSurfaceFit> first;
+  first->SetInputData(MakeCloud<vtkPolyData>(cylinder(1.0), 5000));
+  first->SetParameterization(vtkSplineSurfaceFit::GIVEN);
+  first->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Uv");
+  first->SetTolerance(1e-4);
+  first->Update();
+  ASSERT_EQ(Number(first, "PointsOutside"), 0);
+  const auto cloud = MakeCloud<vtkPolyData>(cylinder(1.01), 2000, 5);
+  vtkNew<vtkSplineSurfaceFit> update;
+  update->SetInputData(cloud);
+  update->SetStartConnection(first->GetOutputPort(0));
+  update->SetParameterization(vtkSplineSurfaceFit::COMPUTED);
+  update->SetTolerance(1e-3);
+  update->Update();
+  ASSERT_EQ(update->GetErrorCode(), 0U);
+  EXPECT_EQ(Number(update, "PointsOutside"), 0);
+  vtkDataArray* found = PointsOf(update)->GetPointData()->GetArray("UV");
+  vtkDataArray* given = cloud->GetPointData()->GetArray("Uv");
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+  {
+    // the start is within 1e-4 of the cylinder, its tangents within some 1e-2
+    EXPECT_NEAR(found->GetComponent(i, 0), given->GetComponent(i, 0), 1e-3);
+    EXPECT_NEAR(found->GetComponent(i, 1), given->GetComponent(i, 1), 1e-3);
+  }
+}
+
+TEST(SplineSurfaceFit, StartsThatCannotBeTakenAreErrors_ExactOracle)
+{
+  using F = vtkSplineSurfaceFit;
+  const auto fitted = [](const Shape& shape, int parameterization)
+  {
+    vtkNew<F> fit;
+    fit->SetInputData(MakeCloud<vtkPolyData>(shape));
+    fit->SetTolerance(1.0);
+    fit->SetParameterization(parameterization);
+    fit->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Uv");
+    fit->Update();
+    return vtkSmartPointer<vtkDataObject>(fit->GetOutputDataObject(0));
+  };
+  const auto source = [](int shape)
+  {
+    vtkNew<vtkSplineSource> made;
+    made->SetShape(shape);
+    made->Update();
+    return vtkSmartPointer<vtkDataObject>(made->GetOutputDataObject(0));
+  };
+  const auto twisted = fitted(
+    [](double u, double v) -> std::array<double, 3> {
+      return { v, u, u * v };
+    },
+    F::GIVEN);
+  struct Case
+  {
+    const char* Name;
+    vtkSmartPointer<vtkDataObject> Start;
+    std::function<void(F*)> Set;
+    ErrorCode Code;
+    const char* Words;
+  };
+  const Case cases[] = {
+    { "empty", vtkSmartPointer<vtkUnstructuredGrid>::New(), [](F*) {}, ErrorCode::EmptyInput,
+      "0 patches" },
+    { "curve", source(vtkSplineSource::LINE), [](F*) {}, ErrorCode::DimensionMismatch,
+      "not a surface" },
+    { "rational", source(vtkSplineSource::ANNULUS_SECTOR), [](F*) {}, ErrorCode::InvalidWeight,
+      "rational" },
+    { "no height field", twisted, [](F*) {}, ErrorCode::InvalidParameter, "height field" },
+    { "no field", fitted(Wave, F::HEIGHT_FIELD), [](F* f) { f->AddFieldArray("TwoU"); },
+      ErrorCode::InvalidParameter, "'TwoU'" },
+    { "side", fitted(Wave, F::HEIGHT_FIELD),
+      [](F* f)
+      {
+        f->SetHoldEdges(F::VALUES);
+        f->SetSide(F::ABOVE);
+      },
+      ErrorCode::InvalidParameter, "one side" },
+    { "outside",
+      fitted(
+        [](double u, double v) -> std::array<double, 3> {
+          return { 0.5 * u, v, u };
+        },
+        F::HEIGHT_FIELD),
+      [](F*) {}, ErrorCode::OutsideDomain, "domain of the start" },
+    { "no start", nullptr, [](F* f) { f->SetHoldEdges(F::VALUES); }, ErrorCode::InvalidParameter,
+      "start surface" },
+  };
+  for (const Case& test : cases)
+  {
+    SCOPED_TRACE(test.Name);
+    vtkNew<F> filter;
+    vtkNew<MessageRecorder> recorder;
+    recorder->Watch(filter);
+    filter->SetInputData(MakeCloud<vtkPolyData>(Wave, 200));
+    if (test.Start)
+    {
+      filter->SetStartData(test.Start);
+    }
+    test.Set(filter);
+    filter->Update();
+    EXPECT_EQ(
+      filter->GetErrorCode(), vtkErrorCode::UserError + static_cast<unsigned long>(test.Code));
+    ASSERT_FALSE(recorder->Errors.empty());
+    EXPECT_NE(recorder->Errors[0].find(test.Words), std::string::npos) << recorder->Errors[0];
+    for (int port = 0; port < 4; ++port)
+    {
+      EXPECT_EQ(filter->GetOutputDataObject(port)->GetNumberOfElements(vtkDataObject::POINT), 0);
+    }
+  }
+}
+
+TEST(SplineSurfaceFit, PointsOnHeldEdgesAreSaidInAWarning_ExactOracle)
+{
+  vtkNew<vtkSplineSurfaceFit> first;
+  first->SetInputData(MakeCloud<vtkPolyData>(Wave));
+  first->SetTolerance(1e-2);
+  first->SetDomain(0.0, 2.0, 0.0, 1.0);
+  first->Update();
+  const auto cloud = MakeCloud<vtkPolyData>(Wave);
+  cloud->GetPoints()->SetPoint(17, 0.0, 0.5, 3.0);
+  vtkNew<vtkSplineSurfaceFit> update;
+  vtkNew<MessageRecorder> recorder;
+  recorder->Watch(update);
+  update->SetInputData(cloud);
+  update->SetStartConnection(first->GetOutputPort(0));
+  update->SetTolerance(1e-2);
+  update->SetHoldEdges(vtkSplineSurfaceFit::DERIVATIVES);
+  update->Update();
+  ASSERT_EQ(recorder->Warnings.size(), 1U);
+  EXPECT_NE(
+    recorder->Warnings[0].find("edges of the start surface that are held"), std::string::npos);
+  EXPECT_EQ(Number(update, "PointsOutside"), 1);
+}
+
 TEST(SplineSurfaceFit, ControlPointsOfASplineAreNotFitted_ExactOracle)
 {
   vtkNew<vtkSplineSource> source;

@@ -49,4 +49,11 @@ def test_arrays_fields_and_boxes():
     assert abs(ranges[0] - 0.001) < 1e-12 and abs(ranges[1] - 0.01) < 1e-12, ranges
 
 
+def test_a_start_is_updated():
+    first = SplineSurfaceFit(Input=cap(), Tolerance=0.01)
+    update = SplineSurfaceFit(Input=cap(), Start=first, Tolerance=0.001, HoldEdges="Values", HeldSides=[1, 1, 0, 0])
+    assert number(update, "MaxError") < number(first, "MaxError")
+    assert number(update, "Functions") > number(first, "Functions")
+
+
 knotwork_testing.main(globals())

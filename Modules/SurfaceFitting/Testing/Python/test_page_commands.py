@@ -68,6 +68,7 @@ def fitted(name, table):
 
 def prepare():
     write_text("scan.xyz", rows())
+    write_text("resurvey.xyz", rows(0.2)[rows()[:, 0] < 0.3])
     write_text("scan.csv", rows(), ",", "x,y,z\n")
     write_text("scan.ply", rows(), " ", "ply\nformat ascii 1.0\nelement vertex 961\nproperty double x\nproperty double y\n"
                "property double z\nend_header\n")

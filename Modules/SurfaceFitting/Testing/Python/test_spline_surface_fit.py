@@ -139,6 +139,22 @@ def heights(**properties):
     return renderer
 
 
+def test_a_start_is_updated_CrossOracle():
+    first = fitted(cloud(cliff), Tolerance=0.01, Space="THB", Domain=(0, 1, 0, 1))
+    uv = 0.25 * np.random.default_rng(5).random((1000, 2))
+    z = cliff(*uv.T) + 0.1 * np.exp(-400 * ((uv - 0.1) ** 2).sum(1))
+    update = knotwork.vtkSplineSurfaceFit()
+    update.SetInputDataObject(polydata(np.c_[uv, z]))
+    update.SetStartConnection(first.GetOutputPort(0))
+    update.SetTolerance(0.01)
+    update.Update()
+    assert update.GetErrorCode() == 0
+    assert np.abs(points_of(evaluated(update, uv))[:, 2] - z).max() <= 0.01
+    assert np.abs(points_of(evaluated(first, uv))[:, 2] - z).max() > 0.05
+    far = 0.65 + 0.35 * np.random.default_rng(6).random((500, 2))
+    assert np.abs(points_of(evaluated(update, far)) - points_of(evaluated(first, far))).max() < 1e-14
+
+
 def test_bands_of_height_follow_the_cliff():
     knotwork_testing.render_and_compare(heights(), "SplineSurfaceFit")
 
