@@ -113,6 +113,10 @@ protected:
     report["rms_error"] = value("RmsError").ToDouble();
     report["points_outside"] = value("PointsOutside").ToLongLong();
     report["outliers"] = value("Outliers").ToLongLong();
+    report["significant_points"] = value("SignificantPoints").ToLongLong();
+    report["max_significant_error"] = value("MaxSignificantError").ToDouble();
+    report["mean_significant_error"] = value("MeanSignificantError").ToDouble();
+    report["significant_outside"] = value("SignificantOutside").ToLongLong();
     report["aic"] = value("AIC").ToDouble();
     report["bic"] = value("BIC").ToDouble();
     report["within_tolerance"] = value("PointsOutside").ToLongLong() == 0;

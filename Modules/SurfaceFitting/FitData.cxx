@@ -390,6 +390,11 @@ void EncodeIterations(const SurfaceFit& fit, vtkTable* output)
   real("RmsError", [](Row r) { return r.RmsError; });
   whole("PointsOutside", [](Row r) { return static_cast<vtkIdType>(r.NumOutside); });
   whole("Outliers", [](Row r) { return static_cast<vtkIdType>(r.NumOutliers); });
+  whole("SignificantPoints", [](Row r) { return static_cast<vtkIdType>(r.NumSignificant); });
+  real("MaxSignificantError", [](Row r) { return r.MaxSignificantError; });
+  real("MeanSignificantError", [](Row r) { return r.MeanSignificantError; });
+  whole(
+    "SignificantOutside", [](Row r) { return static_cast<vtkIdType>(r.NumSignificantOutside); });
   real("LogLikelihood", [](Row r) { return r.LogLikelihood; });
   real("DegreesOfFreedom", [](Row r) { return r.DegreesOfFreedom; });
   real("AIC", [](Row r) { return r.AIC; });

@@ -70,8 +70,8 @@ Status EncodeFit(const DecodedCloud& cloud, const SurfaceFit& fit, vtkUnstructur
 void EncodeDistances(const DecodedCloud& cloud, const SurfaceFit& fit, vtkPointSet* output);
 
 /// A row an iteration, the last one that of the result: Iteration, Method, Functions, Elements,
-/// MaxError, MeanError, RmsError, PointsOutside, Outliers, LogLikelihood, DegreesOfFreedom, AIC,
-/// BIC.
+/// MaxError, MeanError, RmsError, PointsOutside, Outliers, SignificantPoints, MaxSignificantError,
+/// MeanSignificantError, SignificantOutside, LogLikelihood, DegreesOfFreedom, AIC, BIC.
 void EncodeIterations(const SurfaceFit& fit, vtkTable* output);
 
 /// A cell a cell of the grid, with the cell arrays Height, Slope, Roughness, MaxError, ElementSize,

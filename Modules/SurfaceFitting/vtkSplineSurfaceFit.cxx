@@ -226,6 +226,8 @@ knotwork::Status vtkSplineSurfaceFit::Compute(
   params.Smoothing = this->Smoothing;
   params.SignificantWeight = this->SignificantWeight;
   params.Tolerance = this->Tolerance;
+  params.ToleranceFactorAbove = this->ToleranceFactorAbove;
+  params.ToleranceFactorBelow = this->ToleranceFactorBelow;
   for (const auto& [u0, u1, v0, v1, tolerance] : this->ToleranceBoxes)
   {
     params.ToleranceBoxes.push_back({ { { u0, v0 }, { u1, v1 } }, tolerance });
@@ -236,6 +238,7 @@ knotwork::Status vtkSplineSurfaceFit::Compute(
   params.Side = static_cast<FitSide>(this->Side);
   params.FindOutliers = this->FindOutliers;
   params.OutlierScale = this->OutlierScale;
+  params.OutlierDeviation = static_cast<FitDeviation>(this->OutlierDeviation);
   params.MaxIterations = this->MaximumIterations;
   params.MaxFunctions = this->MaximumFunctions;
   params.MaxSeconds = this->MaximumSeconds;

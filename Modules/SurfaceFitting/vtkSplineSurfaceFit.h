@@ -70,6 +70,11 @@ public:
     ABOVE,          ///< no point above the surface
     BELOW           ///< no point below the surface
   };
+  enum Deviations
+  {
+    ROBUST = 0, ///< median absolute deviation
+    STANDARD    ///< standard deviation
+  };
   enum Criteria
   {
     TOLERANCE = 0,
@@ -204,6 +209,18 @@ public:
   vtkGetMacro(Tolerance, double);
   ///@}
   ///@{
+  /** Times the tolerance, for points above the surface. Default 1, valid range [1e-6, 1000000].
+   * Advanced. For Side BOTH_SIDES. */
+  vtkSetClampMacro(ToleranceFactorAbove, double, 1e-6, 1e6);
+  vtkGetMacro(ToleranceFactorAbove, double);
+  ///@}
+  ///@{
+  /** Times the tolerance, for points below the surface. Default 1, valid range [1e-6, 1000000].
+   * Advanced. For Side BOTH_SIDES. */
+  vtkSetClampMacro(ToleranceFactorBelow, double, 1e-6, 1e6);
+  vtkGetMacro(ToleranceFactorBelow, double);
+  ///@}
+  ///@{
   /** Points with parameters in [u0, u1] x [v0, v1] have a tolerance of their own; the smallest one
    * where boxes overlap. */
   void AddToleranceBox(double u0, double u1, double v0, double v1, double tolerance);
@@ -240,10 +257,17 @@ public:
   vtkBooleanMacro(FindOutliers, bool);
   ///@}
   ///@{
-  /** Robust standard deviations of the distances nearby beyond which a point is an outlier.
-   * Default 4.5, valid range [0.1, 1000]. Advanced. For FindOutliers on. */
+  /** Standard deviations of the distances nearby beyond which a point is an outlier. Default
+   * 4.5, valid range [0.1, 1000]. Advanced. For FindOutliers on. */
   vtkSetClampMacro(OutlierScale, double, 0.1, 1000.0);
   vtkGetMacro(OutlierScale, double);
+  ///@}
+  ///@{
+  /** What these are, one of Deviations: median absolute deviations times 1.4826 from the median, on
+   * which other outliers have hardly any influence, or standard deviations from the mean. Default
+   * ROBUST. Advanced. For FindOutliers on. */
+  vtkSetClampMacro(OutlierDeviation, int, ROBUST, STANDARD);
+  vtkGetMacro(OutlierDeviation, int);
   ///@}
   ///@{
   /** Refinements at most. Default 30, valid range [0, 1000]. */
@@ -348,6 +372,8 @@ private:
   double Smoothing = 1e-9;
   double SignificantWeight = 10.0;
   double Tolerance = 0.0;
+  double ToleranceFactorAbove = 1.0;
+  double ToleranceFactorBelow = 1.0;
   std::vector<std::array<double, 5>> ToleranceBoxes;
   int DistanceMode = NO_DISTANCE;
   double DistanceSlope = 0.0;
@@ -355,6 +381,7 @@ private:
   int Side = BOTH_SIDES;
   bool FindOutliers = false;
   double OutlierScale = 4.5;
+  int OutlierDeviation = ROBUST;
   int MaximumIterations = 30;
   int MaximumFunctions = 0;
   double MaximumSeconds = 0.0;

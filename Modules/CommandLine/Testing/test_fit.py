@@ -223,6 +223,26 @@ def test_a_start_is_updated_where_the_points_are():
     assert done.returncode == 1 and "start surface" in done.stderr, done.stderr
 
 
+def test_factors_and_significant_points_are_reported():
+    """Measured anew on the points that the job writes."""
+    points = cloud(33)
+    points[:, 2] += 0.004 * np.random.default_rng(34).random(len(points))
+    mark = points[:, 0] < 0.3
+    file = write_vtp("marked.vtp", points, Mark=mark.astype(float))
+    report = fit(file, "marked.vtu", "--tolerance", 2e-3, "--tolerance-factor-above", 1.5, "--tolerance-factor-below", 0.9,
+                 "--significant-array", "Mark", "--points", path("far.vtp"))
+    reader = vtkXMLPolyDataReader()
+    reader.SetFileName(path("far.vtp"))
+    reader.Update()
+    data = reader.GetOutput().GetPointData()
+    distance, tolerance = (vtk_to_numpy(data.GetArray(name)) for name in ("Distance", "Tolerance"))
+    assert np.allclose(tolerance, 2e-3 * np.where(distance > 0, 1.5, 0.9), rtol=1e-14)
+    assert report["within_tolerance"] and distance.max() > 2e-3 and distance.max() <= 3e-3 and distance.min() >= -1.8e-3
+    assert report["significant_points"] == mark.sum() and report["significant_outside"] == 0
+    sizes = np.abs(distance[mark])
+    assert np.allclose([report["max_significant_error"], report["mean_significant_error"]], [sizes.max(), sizes.mean()], rtol=1e-12)
+
+
 def test_both_spaces_are_written_in_every_format():
     """The same map as a tensor product where a format has no other kind: its distances from the points are those of the fit."""
     file = write_xyz("cliff.xyz", cloud(4, 1500))

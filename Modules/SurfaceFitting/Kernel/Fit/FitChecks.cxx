@@ -119,6 +119,18 @@ Status CheckTolerance(const FitParams& params)
     return Bad("Tolerance, DistanceSlope or DistanceCentre is not finite or beyond " +
       Digits(LargestNumber) + "; choose a smaller one");
   }
+  for (const double factor : { params.ToleranceFactorAbove, params.ToleranceFactorBelow })
+  {
+    if (!(factor > 0.0) || !(factor <= LargestNumber))
+    {
+      return Bad("a tolerance factor is " + Digits(factor) + ", choose more than 0");
+    }
+    if (factor != 1.0 && (params.NumMeasured != 1 || params.Side != FitSide::Both))
+    {
+      return Bad("a tolerance factor is not 1: only a height has an above and a below, and not "
+                 "when Side allows points on one side alone; choose 1");
+    }
+  }
   if (params.Side != FitSide::Both && params.NumMeasured != 1)
   {
     return Bad("Side needs NumMeasured 1: only a height has an above and a below");

@@ -62,14 +62,17 @@ bool Contradict(const FitPoints& points, int numMeasured, const RealArray<2>& di
     const FitPoints::Column& values = points.Values[c];
     squares += (values[i] - values[k]) * (values[i] - values[k]);
   }
+  // a surface between them has the higher one above and the lower one below
+  const bool isHigher = numMeasured > 1 || points.Values[0][i] > points.Values[0][k];
+  const double own = points.Tolerance[i] * (isHigher ? points.FactorAbove : points.FactorBelow);
+  const double other = points.Tolerance[k] * (isHigher ? points.FactorBelow : points.FactorAbove);
   return points.Base[k] > 0.0 && std::fabs(points.U[i] - points.U[k]) < distance[0] &&
-    std::fabs(points.V[i] - points.V[k]) < distance[1] &&
-    std::sqrt(squares) > points.Tolerance[i] + points.Tolerance[k];
+    std::fabs(points.V[i] - points.V[k]) < distance[1] && std::sqrt(squares) > own + other;
 }
 
 bool IsOutside(const FitPoints& points, std::size_t i)
 {
-  return points.Base[i] > 0.0 && std::fabs(points.Distance[i]) > points.Tolerance[i];
+  return points.Base[i] > 0.0 && std::fabs(points.Distance[i]) > points.Limit(i);
 }
 
 /// Whether all of the element's points outside lie on held edges of the start.
@@ -305,7 +308,7 @@ std::vector<int> ReweightPoints(
     const double unit = std::max(1.0, static_cast<double>(range.Count()) / perElement);
     for (std::size_t i = range.Begin; i < range.End; ++i)
     {
-      const double ratio = std::fabs(points.Distance[i]) / points.Tolerance[i];
+      const double ratio = std::fabs(points.Distance[i]) / points.Limit(i);
       if (ratio > ReweightFloor)
       {
         points.Boost[i] += ReweightGain * unit * (ratio - ReweightFloor) / ReweightFloor;

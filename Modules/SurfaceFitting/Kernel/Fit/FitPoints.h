@@ -20,6 +20,8 @@ struct FitPoints
   Column Boost;               ///< weight gained by being outside, >= 1
   Column Distance;            ///< signed with one measured component
   UntouchedVector<int> Order; ///< row in the cloud
+  double FactorAbove = 1.0;   ///< times the tolerance, for points above the surface
+  double FactorBelow = 1.0;
 
   /// Points [Begin, End) of an element.
   struct Range
@@ -31,6 +33,11 @@ struct FitPoints
   std::vector<Range> Ranges; ///< one an element
 
   std::size_t Size() const { return this->U.size(); }
+  /// Tolerance of a point where it is now: on its side of the surface.
+  double Limit(std::size_t i) const
+  {
+    return this->Tolerance[i] * (this->Distance[i] > 0.0 ? this->FactorAbove : this->FactorBelow);
+  }
   int NumComponents() const { return static_cast<int>(this->Values.size()); }
 };
 

@@ -53,6 +53,21 @@ double MedianDeviation(std::vector<double>& values, double median)
   return Median(values);
 }
 
+double Mean(const std::vector<double>& values)
+{
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double StandardDeviation(const std::vector<double>& values, double mean)
+{
+  double squares = 0.0;
+  for (const double value : values)
+  {
+    squares += (value - mean) * (value - mean);
+  }
+  return std::sqrt(squares / static_cast<double>(values.size()));
+}
+
 /// How many of the nearest must be off alike: so many that outliers strewn at random hardly ever
 /// are.
 /// @param share  of the points that are outliers.
@@ -76,8 +91,8 @@ int SupportOfFeature(double share)
 }
 
 OutlierSearch::OutlierSearch(
-  const PointCloud& cloud, const ParametricBox<2>& domain, int numMeasured)
-  : Cloud(cloud), NumMeasured(numMeasured), Domain(domain)
+  const PointCloud& cloud, const ParametricBox<2>& domain, int numMeasured, FitDeviation deviation)
+  : Cloud(cloud), NumMeasured(numMeasured), Deviation(deviation), Domain(domain)
 {
   const auto n = cloud.Parameters.rows();
   const double width = domain.Upper[0] - domain.Lower[0];
@@ -158,10 +173,13 @@ int OutlierSearch::CountAlike(int row, const std::vector<double>& distances, dou
   {
     work.Values.push_back(distances[At(near.Row)]);
   }
-  const double median = Median(work.Values);
-  const double off = distances[At(row)] - median;
+  const bool isRobust = this->Deviation == FitDeviation::Robust;
+  const double middle = isRobust ? Median(work.Values) : Mean(work.Values);
+  const double off = distances[At(row)] - middle;
   if (std::fabs(off) <= tolerance ||
-    std::fabs(off) <= scale * NormalDeviation * MedianDeviation(work.Values, median))
+    std::fabs(off) <= scale *
+        (isRobust ? NormalDeviation * MedianDeviation(work.Values, middle)
+                  : StandardDeviation(work.Values, middle)))
   {
     return Inside;
   }
@@ -170,7 +188,7 @@ int OutlierSearch::CountAlike(int row, const std::vector<double>& distances, dou
   return static_cast<int>(
     std::count_if(work.Near.begin(), work.Near.begin() + static_cast<std::ptrdiff_t>(NumNearest),
       [&](const Neighbour& near)
-      { return (distances[At(near.Row)] - median) / off >= FeatureLikeness; }));
+      { return (distances[At(near.Row)] - middle) / off >= FeatureLikeness; }));
 }
 
 bool OutlierSearch::IsCommon(int row, double tolerance, Workspace& work) const
@@ -256,10 +274,10 @@ std::vector<int> OutlierSearch::Update(FitPoints& points, const std::vector<doub
       Workspace work;
       for (std::size_t i = begin; i < end; ++i)
       {
-        if (std::fabs(points.Distance[i]) > points.Tolerance[i])
+        if (std::fabs(points.Distance[i]) > points.Limit(i))
         {
           alike[i] = static_cast<std::int8_t>(
-            this->CountAlike(points.Order[i], distances, points.Tolerance[i], scale, work));
+            this->CountAlike(points.Order[i], distances, points.Limit(i), scale, work));
         }
       }
     });
@@ -277,8 +295,8 @@ std::vector<int> OutlierSearch::Update(FitPoints& points, const std::vector<doub
         {
           const int row = points.Order[i];
           const std::uint8_t is = alike[i] != Inside && alike[i] < support &&
-              this->FindNeighbours(row, work) && !this->IsCommon(row, points.Tolerance[i], work) &&
-              !this->IsOnStep(row, points.Tolerance[i], work)
+              this->FindNeighbours(row, work) && !this->IsCommon(row, points.Limit(i), work) &&
+              !this->IsOnStep(row, points.Limit(i), work)
             ? 1
             : 0;
           if (is != outliers[At(row)])

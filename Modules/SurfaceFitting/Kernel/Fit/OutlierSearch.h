@@ -13,7 +13,8 @@ namespace knotwork
 /// points are alike, an outlier's is not like those of the points around it. A point is one when it
 /// is outside its tolerance, and differs from the median of its neighbours by more than its
 /// tolerance and more than a number of robust standard deviations (1.4826 times the median absolute
-/// deviation) of the neighbours, unless
+/// deviation) of the neighbours; with FitDeviation::Standard from their mean and by more than a
+/// number of their standard deviations; unless
 /// - as many of its eight nearest are off alike (to the same side and at least 0.3 times as far) as
 ///   outliers in this number, strewn at random, hardly ever are: two, or three or more where there
 ///   are many outliers. So the points of a ridge speak for each other.
@@ -30,7 +31,8 @@ namespace knotwork
 class OutlierSearch
 {
 public:
-  OutlierSearch(const PointCloud& cloud, const ParametricBox<2>& domain, int numMeasured);
+  OutlierSearch(const PointCloud& cloud, const ParametricBox<2>& domain, int numMeasured,
+    FitDeviation deviation);
 
   /// Decides anew about every point outside its tolerance and every outlier.
   /// @param outliers  n, in the cloud's order, updated. @param scale  FitParams::OutlierScale.
@@ -70,6 +72,7 @@ private:
 
   const PointCloud& Cloud;
   int NumMeasured;
+  FitDeviation Deviation;
   ParametricBox<2> Domain;
   std::array<int, 2> Size{};
   std::vector<int> Start; ///< of a cell's rows

@@ -73,10 +73,11 @@ ElementErrors MeasureElement(const DegreeU p, const DegreeV q, const ParametricB
         continue;
       }
       errors.Max = std::max(errors.Max, size);
-      errors.Ratio = std::max(errors.Ratio, size / points.Tolerance[k]);
+      const double limit = points.Limit(k);
+      errors.Ratio = std::max(errors.Ratio, size / limit);
       errors.Sum += size;
       errors.Squares += size * size;
-      errors.NumOutside += size > points.Tolerance[k] ? 1 : 0;
+      errors.NumOutside += size > limit ? 1 : 0;
       ++errors.Count;
     }
   }

@@ -117,6 +117,7 @@ private:
     }
     this->Group();
     this->Accuracy = SolverAccuracy *
+      std::min(this->Params.ToleranceFactorAbove, this->Params.ToleranceFactorBelow) *
       *std::min_element(this->Points.Tolerance.begin(), this->Points.Tolerance.end());
     this->Moments.Update(*this->State.Space, {}, {}, this->Points, this->Params.Threads);
     if (this->Params.Smoothing > 0.0 && !this->Params.Start)
@@ -131,7 +132,8 @@ private:
       {
         this->Weights[At(this->Points.Order[i])] = this->Points.Base[i];
       }
-      this->Search = std::make_unique<OutlierSearch>(this->Cloud, domain, this->Params.NumMeasured);
+      this->Search = std::make_unique<OutlierSearch>(
+        this->Cloud, domain, this->Params.NumMeasured, this->Params.OutlierDeviation);
     }
     return {};
   }
@@ -158,6 +160,8 @@ private:
   {
     this->Points = GroupPoints(*this->State.Space, this->Cloud, this->Tolerances,
       this->Params.SignificantWeight, this->Params.Threads);
+    this->Points.FactorAbove = this->Params.ToleranceFactorAbove;
+    this->Points.FactorBelow = this->Params.ToleranceFactorBelow;
     for (std::size_t i = 0; !this->Outliers.empty() && i < this->Points.Size(); ++i)
     {
       if (this->Outliers[At(this->Points.Order[i])] != 0)
@@ -315,6 +319,7 @@ private:
     row.MeanError /= number;
     row.RmsError = std::sqrt(squares / number);
     row.NumOutliers = this->Points.Size() - count;
+    this->SummarizeSignificant(row);
     const TDistribution t = FitTDistribution(this->Points, this->Params.Threads);
     row.LogLikelihood = t.LogLikelihood;
     row.DegreesOfFreedom = t.DegreesOfFreedom;
@@ -323,6 +328,22 @@ private:
     row.Seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - this->Begin).count();
     return row;
+  }
+
+  void SummarizeSignificant(FitIteration& row) const
+  {
+    for (std::size_t i = 0; !this->Cloud.Significant.empty() && i < this->Points.Size(); ++i)
+    {
+      if (this->Points.Base[i] > 0.0 && this->Cloud.Significant[At(this->Points.Order[i])] != 0)
+      {
+        const double size = std::fabs(this->Points.Distance[i]);
+        ++row.NumSignificant;
+        row.MaxSignificantError = std::max(row.MaxSignificantError, size);
+        row.MeanSignificantError += size;
+        row.NumSignificantOutside += size > this->Points.Limit(i) ? 1 : 0;
+      }
+    }
+    row.MeanSignificantError /= static_cast<double>(std::max<std::size_t>(row.NumSignificant, 1));
   }
 
   /// Part of the work done, by the logarithm of the number of points outside.
@@ -499,7 +520,9 @@ private:
       {
         for (std::size_t i = begin; i < end; ++i)
         {
-          this->Fit.Distances[At(this->Points.Order[i])] = this->Points.Distance[i];
+          const std::size_t row = At(this->Points.Order[i]);
+          this->Fit.Distances[row] = this->Points.Distance[i];
+          this->Tolerances[row] = this->Points.Limit(i);
         }
       });
     this->Fit.Tolerances = std::move(this->Tolerances);

@@ -46,6 +46,13 @@ enum class FitSide
   Below  ///< no point below the surface
 };
 
+/// How the distances around a point that may be an outlier are summed up.
+enum class FitDeviation
+{
+  Robust,  ///< median and median absolute deviation: other outliers nearby hardly matter
+  Standard ///< mean and standard deviation
+};
+
 /// Which elements with points outside the tolerance an iteration splits; all of them when they are
 /// at most one in a hundred of all elements. After ten iterations ThresholdShare is halved in each.
 enum class FitThreshold
@@ -122,6 +129,11 @@ struct FitIteration
   double RmsError = 0.0;
   std::size_t NumOutside = 0; ///< points farther away than their tolerance, outliers left out
   std::size_t NumOutliers = 0;
+  /// The same of significant points that are no outliers.
+  std::size_t NumSignificant = 0;
+  double MaxSignificantError = 0.0;
+  double MeanSignificantError = 0.0;
+  std::size_t NumSignificantOutside = 0;
   double LogLikelihood = 0.0; ///< of a t-distribution fitted to the distances
   double DegreesOfFreedom = 0.0;
   double AIC = 0.0;
@@ -155,13 +167,18 @@ struct FitParams
 
   double Tolerance = 0.0; ///< > 0, or 0: a thousandth of the range of the measured values
   std::vector<ToleranceBox> ToleranceBoxes; ///< the smallest tolerance of those around a point
+  /// Times the tolerance of a point that lies above or below the surface, > 0; 1 unless NumMeasured
+  /// is 1 and Side is Both.
+  double ToleranceFactorAbove = 1.0;
+  double ToleranceFactorBelow = 1.0;
   FitDistance Distance = FitDistance::None;
   double DistanceSlope = 0.0; ///< tolerance = Tolerance + DistanceSlope * distance, >= 0
   RealArray<2> DistanceCentre{};
   FitSide Side = FitSide::Both;
 
   bool FindOutliers = false;
-  double OutlierScale = 4.5; ///< robust standard deviations of the distances nearby, > 0
+  double OutlierScale = 4.5; ///< standard deviations of the distances nearby, > 0
+  FitDeviation OutlierDeviation = FitDeviation::Robust;
 
   int MaxIterations = 30; ///< >= 0
   /// 0: ten times the number of points but at most a million, or the number of points if that is
@@ -204,7 +221,7 @@ struct SurfaceFit
   /// first column a height field is the surface (u, v, z).
   PointMatrix DomainPoints;
   std::vector<double> Distances;      ///< n; signed (value - surface) when NumMeasured is 1
-  std::vector<double> Tolerances;     ///< n, those that were used
+  std::vector<double> Tolerances;     ///< n, those that were used, on the points' sides
   std::vector<std::uint8_t> Outliers; ///< n, 1: an outlier; empty unless FindOutliers
   /// The last row is Final. One-sided fits: errors before are distances from the middle of the band
   /// between the points and their tolerances.

@@ -317,6 +317,10 @@ TEST(SplineSurfaceFit, EveryPropertyReachesTheKernel_CrossOracle)
           p.Distance = FitDistance::Value;
           p.DistanceSlope = 0.1;
         } },
+      { "ToleranceFactorAbove", [](F* f) { f->SetToleranceFactorAbove(3.0); },
+        [](FitParams& p) { p.ToleranceFactorAbove = 3.0; } },
+      { "ToleranceFactorBelow", [](F* f) { f->SetToleranceFactorBelow(0.25); },
+        [](FitParams& p) { p.ToleranceFactorBelow = 0.25; } },
       { "Side above", [](F* f) { f->SetSide(F::ABOVE); },
         [](FitParams& p) { p.Side = FitSide::Above; } },
       { "Side below", [](F* f) { f->SetSide(F::BELOW); },
@@ -427,6 +431,17 @@ TEST(SplineSurfaceFit, EveryPropertyReachesTheKernel_CrossOracle)
         {
           p.FindOutliers = true;
           p.OutlierScale = 1000.0;
+        } },
+      { "OutlierDeviation",
+        [](F* f)
+        {
+          f->FindOutliersOn();
+          f->SetOutlierDeviation(F::STANDARD);
+        },
+        [](FitParams& p)
+        {
+          p.FindOutliers = true;
+          p.OutlierDeviation = FitDeviation::Standard;
         } },
       { "Criterion AIC",
         [](F* f)

@@ -54,6 +54,45 @@ TEST(SurfaceFit, OutliersAreFoundAndFeaturesAreNot_CrossOracle)
   EXPECT_LE(std::sqrt(squares / static_cast<double>(labels.size())), 5.9e-4);
 }
 
+// Three values in five are 0, the others +-1: their deviation is 0.63, that of the median 0. So
+// with three standard deviations the values of +-1 are none, with medians many are.
+TEST(SurfaceFit, OutliersByTheStandardDeviation_ExactOracle)
+{
+  clouds::Random random(65);
+  PointCloud cloud;
+  cloud.Parameters.resize(3600, 2);
+  cloud.Values.resize(3600, 1);
+  std::vector<std::uint8_t> planted(3600, 0);
+  for (int i = 0; i < 3600; ++i)
+  {
+    cloud.Parameters.row(i) << (i % 60) / 60.0, (i / 60) / 60.0;
+    const double which = random.Uniform();
+    cloud.Values(i, 0) = which < 0.6 ? 0.0 : (which < 0.8 ? 1.0 : -1.0);
+    if (i % 60 % 12 == 6 && i / 60 % 12 == 6)
+    {
+      planted[static_cast<std::size_t>(i)] = 1;
+      cloud.Values(i, 0) = i % 24 == 6 ? 10.0 : -10.0;
+    }
+  }
+  FitParams params = WithTolerance(0.5);
+  params.FindOutliers = true;
+  params.OutlierScale = 3.0;
+  params.NumInitialElements = { 1, 1 };
+  params.MaxIterations = 0;
+  params.OutlierDeviation = FitDeviation::Standard;
+  EXPECT_EQ(Fit(cloud, params).Outliers, planted);
+  params.OutlierDeviation = FitDeviation::Robust;
+  EXPECT_GT(Fit(cloud, params).Final.NumOutliers, 200U);
+  // four standard deviations of a normal distribution: hardly one in 15,000 is beyond
+  for (Eigen::Index i = 0; i < 3600; ++i)
+  {
+    cloud.Values(i, 0) = planted[static_cast<std::size_t>(i)] != 0 ? 10.0 : random.Normal();
+  }
+  params.OutlierDeviation = FitDeviation::Standard;
+  params.OutlierScale = 5.0;
+  EXPECT_EQ(Fit(cloud, params).Outliers, planted);
+}
+
 TEST(SurfaceFit, OutliersNearACliffAndManyOfThem_CrossOracle)
 {
   // the terrain has a cliff 0.001 wide, a fifth of the points' spacing

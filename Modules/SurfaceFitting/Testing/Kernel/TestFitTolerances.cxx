@@ -95,6 +95,99 @@ TEST(SurfaceFit, OneSidedSurfacesWithTolerancesAtRandom_PropertyOracle)
   }
 }
 
+TEST(SurfaceFit, PointsAboveAndBelowHaveTolerancesOfTheirOwn_CrossOracle)
+{
+  clouds::Random random(61);
+  PointCloud cloud = clouds::HeightField(20000, 62, clouds::Peaks);
+  for (Eigen::Index i = 0; i < cloud.Values.rows(); ++i)
+  {
+    // spikes upwards: within the tolerance above, not within the other one
+    cloud.Values(i, 0) += random.Uniform() < 0.05 ? 0.015 * random.Uniform() : 0.0;
+  }
+  for (const bool isUp : { true, false })
+  {
+    for (const FitMethod method : { FitMethod::LeastSquares, FitMethod::MultilevelApproximation })
+    {
+      FitParams params = WithTolerance(0.01);
+      params.Method = method;
+      params.ToleranceFactorAbove = isUp ? 2.0 : 0.5;
+      params.ToleranceFactorBelow = isUp ? 0.5 : 2.0;
+      PointCloud own = cloud;
+      own.Values *= isUp ? 1.0 : -1.0;
+      const SurfaceFit fit = Fit(own, params);
+      EXPECT_TRUE(fit.WithinTolerance);
+      double high = 0.0;
+      double low = 0.0;
+      for (const double d : Measure(own, fit.Surface, 1))
+      {
+        high = std::max(high, isUp ? d : -d);
+        low = std::max(low, isUp ? -d : d);
+      }
+      EXPECT_LE(high, 0.02 + 1e-13);
+      EXPECT_LE(low, 0.005 + 1e-13);
+      EXPECT_GT(high, 0.01); // what is allowed is used
+      // each side within the smaller tolerance takes more functions
+      FitParams narrow = WithTolerance(0.005);
+      narrow.Method = method;
+      EXPECT_GT(Fit(own, narrow).Final.NumFunctions, 2 * fit.Final.NumFunctions);
+    }
+  }
+}
+
+TEST(SurfaceFit, FactorsDecideWhatContradicts_ExactOracle)
+{
+  // two points in one place, 2.5 tolerances apart: a surface 1.5 to 2 tolerances below the one and
+  // 0.5 to 1 above the other meets both
+  PointCloud cloud = clouds::HeightField(1000, 63, [](double, double) { return 0.0; });
+  cloud.Parameters.row(1) = cloud.Parameters.row(0);
+  cloud.Values(1, 0) = 0.025;
+  FitParams params = WithTolerance(0.01);
+  EXPECT_EQ(Fit(cloud, params).End, FitEnd::Contradiction);
+  params.ToleranceFactorAbove = 2.0;
+  ExpectWithin(cloud, Fit(cloud, params));
+  params.ToleranceFactorAbove = 1.4;
+  EXPECT_EQ(Fit(cloud, params).End, FitEnd::Contradiction);
+}
+
+TEST(SurfaceFit, SignificantPointsHaveTheirOwnReport_CrossOracle)
+{
+  PointCloud cloud = clouds::HeightField(5000, 64, clouds::Peaks);
+  cloud.Significant.assign(5000, 0);
+  for (std::size_t i = 3; i < 5000; i += 7)
+  {
+    cloud.Significant[i] = 5;
+  }
+  for (const bool find : { false, true })
+  {
+    FitParams params = WithTolerance(0.001);
+    params.MaxIterations = 2;
+    params.FindOutliers = find;
+    const SurfaceFit fit = Fit(cloud, params);
+    const std::vector<double> distances = Measure(cloud, fit.Surface, 1);
+    std::size_t count = 0;
+    std::size_t outside = 0;
+    double sum = 0.0;
+    double most = 0.0;
+    for (std::size_t i = 3; i < 5000; i += 7)
+    {
+      if (!find || fit.Outliers[i] == 0)
+      {
+        const double size = std::fabs(distances[i]);
+        ++count;
+        outside += size > 0.001 ? 1 : 0;
+        sum += size;
+        most = std::max(most, size);
+      }
+    }
+    EXPECT_EQ(fit.Final.NumSignificant, count);
+    EXPECT_EQ(fit.Final.NumSignificantOutside, outside);
+    EXPECT_GT(outside, 0U);
+    EXPECT_LT(outside, fit.Final.NumOutside);
+    EXPECT_NEAR(fit.Final.MaxSignificantError, most, 1e-13);
+    EXPECT_NEAR(fit.Final.MeanSignificantError, sum / static_cast<double>(count), 1e-13);
+  }
+}
+
 TEST(SurfaceFit, SignificantPointsAreMetBetter_PropertyOracle)
 {
   PointCloud cloud = clouds::HeightField(5000, 9, Wave);

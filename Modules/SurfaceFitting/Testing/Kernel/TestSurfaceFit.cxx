@@ -371,6 +371,15 @@ TEST(SurfaceFit, EveryFailureIsReachable_ExactOracle)
   EXPECT_EQ(with([](FitParams& p) { p.SwitchIteration = -1; }), option);
   EXPECT_EQ(with([](FitParams& p) { p.Smoothing = -1.0; }), option);
   EXPECT_EQ(with([](FitParams& p) { p.SignificantWeight = 0.5; }), option);
+  EXPECT_EQ(with([](FitParams& p) { p.ToleranceFactorAbove = 0.0; }), option);
+  EXPECT_EQ(with([](FitParams& p) { p.ToleranceFactorBelow = -1.0; }), option);
+  EXPECT_EQ(with(
+              [](FitParams& p)
+              {
+                p.ToleranceFactorBelow = 2.0;
+                p.Side = FitSide::Above;
+              }),
+    option);
   EXPECT_EQ(with([](FitParams& p) { p.Tolerance = -1.0; }), option);
   EXPECT_EQ(with([](FitParams& p) { p.Tolerance = std::nan(""); }), option);
   EXPECT_EQ(with([](FitParams& p) { p.ToleranceBoxes = { {} }; }), option);
