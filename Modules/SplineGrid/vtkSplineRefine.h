@@ -27,8 +27,9 @@
  * (IMPLICIT_FUNCTION).
  *
  * An LR patch is refined by mesh lines, in UNIFORM mode too. LRStrategy says how long they are:
- * across all functions alive on an element (FULL_SPAN), across the smallest (MINIMUM_SPAN), or all
- * knot spans of a function halved (STRUCTURED_MESH). LRTarget says what is halved: the marked
+ * across all functions alive on an element (FULL_SPAN), across the smallest (MINIMUM_SPAN), all
+ * knot spans of a function halved (STRUCTURED_MESH), or those of them with marked elements that are
+ * longer than half the longest (RESTRICTED_MESH). LRTarget says what is halved: the marked
  * elements, or FUNCTIONS, namely those with at least half of their support marked and for every
  * marked element the one with the largest part marked. LRDirections restricts the lines to one
  * parameter, or to one after the other with every refinement. With KeepIndependent lines are added
@@ -76,7 +77,8 @@ public:
   {
     FULL_SPAN = 0,
     MINIMUM_SPAN,
-    STRUCTURED_MESH
+    STRUCTURED_MESH,
+    RESTRICTED_MESH
   };
   enum LRTargets
   {
@@ -173,9 +175,9 @@ public:
   ///@}
   ///@{
   /** How long the new lines of LR patches are: across all functions alive on an element, across
-   * the smallest, or all knot spans of a function halved; one of LRStrategies. Default
-   * FULL_SPAN. Advanced. */
-  vtkSetClampMacro(LRStrategy, int, FULL_SPAN, STRUCTURED_MESH);
+   * the smallest, all knot spans of a function halved, or those of them that hold marked elements
+   * and are longer than half the longest; one of LRStrategies. Default FULL_SPAN. Advanced. */
+  vtkSetClampMacro(LRStrategy, int, FULL_SPAN, RESTRICTED_MESH);
   vtkGetMacro(LRStrategy, int);
   ///@}
   ///@{

@@ -247,6 +247,8 @@ knotwork::Status vtkSplineSurfaceFit::Compute(
   params.ThresholdShare = this->ThresholdShare;
   params.Directions = static_cast<FitDirections>(this->Directions);
   params.Strategy = static_cast<LRStrategy>(this->Strategy);
+  params.StrategySwitch = this->StrategySwitch;
+  params.LaterStrategy = static_cast<LRStrategy>(this->LaterStrategy);
   params.Independent = this->Independent;
   params.MinElementSize = this->MinimumElementSize;
   params.FeatureGridSize = this->FeatureGridSize;

@@ -103,7 +103,8 @@ public:
   {
     FULL_SPAN = 0,
     MINIMUM_SPAN,
-    STRUCTURED_MESH
+    STRUCTURED_MESH,
+    RESTRICTED_MESH
   };
 
   ///@{
@@ -311,10 +312,24 @@ public:
   vtkGetMacro(Directions, int);
   ///@}
   ///@{
-  /** How far the lines that split an LR element reach, one of Strategies. Default FULL_SPAN.
-   * Advanced. For Space LR. */
-  vtkSetClampMacro(Strategy, int, FULL_SPAN, STRUCTURED_MESH);
+  /** How far the lines that split an LR element reach, one of Strategies: across all functions on
+   * it, across the smallest, all knot spans of the smallest halved, or those of them that hold
+   * elements to be split and are longer than half the longest. Default FULL_SPAN. Advanced. For
+   * Space LR. */
+  vtkSetClampMacro(Strategy, int, FULL_SPAN, RESTRICTED_MESH);
   vtkGetMacro(Strategy, int);
+  ///@}
+  ///@{
+  /** First iteration whose lines are those of LaterStrategy; 0: none. Default 0, valid range [0,
+   * 1000]. Advanced. For Space LR. */
+  vtkSetClampMacro(StrategySwitch, int, 0, 1000);
+  vtkGetMacro(StrategySwitch, int);
+  ///@}
+  ///@{
+  /** Strategy from the iteration StrategySwitch on, one of Strategies. Default FULL_SPAN. Advanced.
+   * For Space LR. */
+  vtkSetClampMacro(LaterStrategy, int, FULL_SPAN, RESTRICTED_MESH);
+  vtkGetMacro(LaterStrategy, int);
   ///@}
   ///@{
   /** Whether no step of an LR space leaves linearly dependent functions (slower). Default off.
@@ -390,6 +405,8 @@ private:
   double ThresholdShare = 0.1;
   int Directions = BY_ERROR;
   int Strategy = FULL_SPAN;
+  int StrategySwitch = 0;
+  int LaterStrategy = FULL_SPAN;
   bool Independent = false;
   double MinimumElementSize = 1e-7;
   int FeatureGridSize = 0;

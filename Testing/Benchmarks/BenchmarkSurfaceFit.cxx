@@ -135,6 +135,8 @@ const int Registered = []
     Register(cloud, "minimum", params);
     params.Strategy = LRStrategy::StructuredMesh;
     Register(cloud, "structured", params);
+    params.Strategy = LRStrategy::RestrictedMesh;
+    Register(cloud, "restricted", params);
   }
   return 0;
 }();

@@ -21,7 +21,7 @@ def test_local_spaces():
     assert lr["dependences"] == thb["dependences"] == ["independent"]
     assert np.abs(values(path("local.g2"), uniform()) - values(path("square.vtu"), uniform())).max() <= 1e-14
     counts = {}
-    for strategy in ("full-span", "minimum-span", "structured-mesh"):
+    for strategy in ("full-span", "minimum-span", "structured-mesh", "restricted-mesh"):
         for target in ("elements", "functions"):
             run("refine", path("square.vtu"), "--sphere", -0.4, 0, 0, 0.1, "--local-space", "lr", "--lr-strategy", strategy,
                 "--lr-target", target, "--lr-directions", "both", "--keep-independent", "true", "--output", path("fine.vtu"))
@@ -29,6 +29,7 @@ def test_local_spaces():
             assert np.abs(values(path("fine.vtu"), uniform()) - values(path("square.vtu"), uniform())).max() <= 1e-14
     assert counts["minimum-span", "elements"] < counts["full-span", "elements"], counts
     assert counts["minimum-span", "functions"] < counts["structured-mesh", "functions"], counts
+    assert counts["restricted-mesh", "elements"] < counts["structured-mesh", "elements"], counts
 
 
 def test_segments_are_mesh_lines():

@@ -68,6 +68,59 @@ TEST(RefineMarkedLR, LinesReachAsFarAsTheStrategySays_GoldenOracle)
   EXPECT_EQ(Counts(Params(LRStrategy::StructuredMesh))[0], elements + 27);
   EXPECT_EQ(Counts(Params(LRStrategy::StructuredMesh, { true, true }, true))[0], elements + 27);
   EXPECT_EQ(Counts(Params(LRStrategy::MinimumSpan, { true, true }, true))[0], elements + 7);
+  // of that function the one span that holds the element; all of equal length, by function
+  EXPECT_EQ(Counts(Params(LRStrategy::RestrictedMesh))[0], elements + 7);
+  EXPECT_EQ(Counts(Params(LRStrategy::RestrictedMesh, { true, false })),
+    (Pair{ elements + 3, functions + 1 }));
+  EXPECT_EQ(Counts(Params(LRStrategy::RestrictedMesh, { true, true }, true))[0], elements + 27);
+}
+
+// Knots written out: spans of one function, some with marked elements, some too short.
+TEST(LRStrategies, RestrictedMeshHalvesLongSpansWithMarkedElements_GoldenOracle)
+{
+  // one biquadratic function on [0, 3] x [0, 5], whose spans in v are 1, 3 and 1
+  const auto u = KnotVector::Create(2, { 0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 3.0, 3.0 });
+  const auto v = KnotVector::Create(2, { 0.0, 0.0, 0.0, 1.0, 4.0, 5.0, 5.0, 5.0 });
+  const auto tensor = MakeTensorSpace<2>({ u.Value, v.Value });
+  ASSERT_TRUE(tensor);
+  auto basis = LRBasisOfTensor(*tensor.Value);
+  ASSERT_TRUE(basis);
+  const auto space = MakeLRSpace(basis.Value, 1);
+  ASSERT_TRUE(space);
+  const auto values = [&](const std::vector<int>& elements, int d)
+  {
+    const auto found = SegmentsForElements(
+      *space.Value, elements, { LRStrategy::RestrictedMesh, { d == 0, d == 1 } });
+    EXPECT_TRUE(found);
+    std::vector<double> lines;
+    for (const LRSegment& segment : found.Value)
+    {
+      lines.push_back(segment.Value);
+    }
+    std::sort(lines.begin(), lines.end());
+    lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
+    return lines;
+  };
+  // elements 3 j + i; the smallest function on an element in a corner has its knots at that end
+  EXPECT_EQ(values({ 0 }, 1), std::vector<double>({ 0.5 }));
+  // in the middle the smallest functions have the span of length 3 in v; element 4 is in it alone
+  EXPECT_EQ(values({ 4 }, 1), std::vector<double>({ 2.5 }));
+  EXPECT_EQ(values({ 4 }, 0), std::vector<double>({ 1.5 }));
+  // element 1, at the lower end of v: its smallest function has spans 0, 0 and 1 there
+  EXPECT_EQ(values({ 1 }, 1), std::vector<double>({ 0.5 }));
+  // by function: of all spans those longer than half the longest; knots 0 1 4 5 of the function in
+  // the middle
+  const auto middle = SegmentsForFunctions(
+    *space.Value, { 2 * 5 + 2 }, { LRStrategy::RestrictedMesh, { false, true } });
+  ASSERT_TRUE(middle);
+  ASSERT_EQ(middle->size(), 1U);
+  EXPECT_EQ(middle.Value[0].Value, 2.5);
+  EXPECT_EQ(middle.Value[0].Start, 0.0);
+  EXPECT_EQ(middle.Value[0].End, 3.0);
+  const auto along = SegmentsForFunctions(
+    *space.Value, { 2 * 5 + 2 }, { LRStrategy::RestrictedMesh, { true, false } });
+  ASSERT_TRUE(along);
+  EXPECT_EQ(along->size(), 3U);
 }
 
 TEST(RefineMarkedLR, AllMarkedIsTheTensorProduct_CrossOracle)
@@ -77,7 +130,9 @@ TEST(RefineMarkedLR, AllMarkedIsTheTensorProduct_CrossOracle)
   std::iota(all.begin(), all.end(), 0);
   const auto tensor = RefineAllElements(surface);
   for (const auto& params : { Params(LRStrategy::FullSpan), Params(LRStrategy::MinimumSpan),
-         Params(LRStrategy::StructuredMesh), Params(LRStrategy::FullSpan, { true, true }, true),
+         Params(LRStrategy::StructuredMesh), Params(LRStrategy::RestrictedMesh),
+         Params(LRStrategy::RestrictedMesh, { true, true }, true),
+         Params(LRStrategy::FullSpan, { true, true }, true),
          Params(LRStrategy::StructuredMesh, { true, true }, true) })
   {
     const auto refined = RefineMarkedLR(surface, all, params);
@@ -95,8 +150,8 @@ TEST(RefineMarkedLR, MapStays_PropertyOracle)
   for (const bool rational : { false, true })
   {
     const Spline<2> surface = Surface(rational);
-    for (const LRStrategy strategy :
-      { LRStrategy::FullSpan, LRStrategy::MinimumSpan, LRStrategy::StructuredMesh })
+    for (const LRStrategy strategy : { LRStrategy::FullSpan, LRStrategy::MinimumSpan,
+           LRStrategy::StructuredMesh, LRStrategy::RestrictedMesh })
     {
       for (const bool byFunction : { false, true })
       {

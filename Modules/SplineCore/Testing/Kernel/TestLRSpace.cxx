@@ -430,7 +430,7 @@ TEST(LRSpace, StrategiesAreLegalInAnyOrder_PropertyOracle)
     for (int step = 0; step < 4; ++step)
     {
       LRStrategyParams params;
-      params.Strategy = static_cast<LRStrategy>(random.Int(0, 2));
+      params.Strategy = static_cast<LRStrategy>(random.Int(0, 3));
       const int directions = random.Int(1, 3);
       params.Directions = { (directions & 1) != 0, (directions & 2) != 0 };
       const bool byFunction = random.Unit() < 0.5;

@@ -546,6 +546,8 @@ TEST(vtkSplineRefine, LinesOfLRPatchesFollowTheOptions_GoldenOracle)
   EXPECT_EQ(CountsOfLR(refine)[0], 64 + 11); // two lines across 5 elements, crossing
   refine->SetLRStrategy(vtkSplineRefine::MINIMUM_SPAN);
   EXPECT_EQ(CountsOfLR(refine)[0], 64 + 7);
+  refine->SetLRStrategy(vtkSplineRefine::RESTRICTED_MESH);
+  EXPECT_EQ(CountsOfLR(refine)[0], 64 + 7); // of the function's 3 x 3 spans those of the element
   refine->SetLRStrategy(vtkSplineRefine::STRUCTURED_MESH);
   refine->SetLRTarget(vtkSplineRefine::FUNCTIONS);
   EXPECT_EQ(CountsOfLR(refine)[0], 64 + 27); // 3 x 3 elements into quarters

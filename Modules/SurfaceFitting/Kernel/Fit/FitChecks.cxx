@@ -156,6 +156,10 @@ Status CheckSteps(const FitParams& params)
   {
     return Bad("SwitchIteration is negative");
   }
+  if (params.StrategySwitch < 0)
+  {
+    return Bad("StrategySwitch is negative");
+  }
   if (params.MaxIterations < 0)
   {
     return Bad("MaxIterations is negative");

@@ -105,24 +105,23 @@ Result<FitState> RefineHierarchical(const FitState& state, const std::vector<Spl
   return Part(space.Value, refined.Value.ControlPoints, state);
 }
 
-Result<FitState> RefineLocally(
-  const FitState& state, const std::vector<SplitMark>& marks, const FitParams& params)
+Result<FitState> RefineLocally(const FitState& state, const std::vector<SplitMark>& marks,
+  LRStrategy strategy, const FitParams& params)
 {
-  std::array<std::vector<int>, 3> chosen; // along the first, the second, both directions
-  for (const SplitMark& mark : marks)
-  {
-    const std::size_t which =
-      mark.Directions[0] && mark.Directions[1] ? 2 : (mark.Directions[0] ? 0 : 1);
-    chosen[which].push_back(mark.Element);
-  }
   PointMatrix all = Join(state);
   LRRefinement refinement(*state.Space, all);
-  for (std::size_t which = 0; which < 3; ++which)
+  for (std::size_t d = 0; d < 2; ++d)
   {
-    LRStrategyParams strategy;
-    strategy.Strategy = params.Strategy;
-    strategy.Directions = { which != 1, which != 0 };
-    const auto segments = SegmentsForElements(*state.Space, chosen[which], strategy);
+    std::vector<int> chosen;
+    for (const SplitMark& mark : marks)
+    {
+      if (mark.Directions[d])
+      {
+        chosen.push_back(mark.Element);
+      }
+    }
+    const auto segments =
+      SegmentsForElements(*state.Space, chosen, { strategy, { d == 0, d == 1 } });
     if (!segments)
     {
       return segments.Status;
@@ -223,10 +222,12 @@ Result<FitState> MakeStartState(const FitParams& params, int numComponents)
   return state;
 }
 
-Result<FitState> RefineState(
-  const FitState& state, const std::vector<SplitMark>& marks, const FitParams& params)
+Result<FitState> RefineState(const FitState& state, const std::vector<SplitMark>& marks,
+  int iteration, const FitParams& params)
 {
-  return params.Space == FitSpace::Hierarchical ? RefineHierarchical(state, marks)
-                                                : RefineLocally(state, marks, params);
+  const bool isLater = params.StrategySwitch > 0 && iteration >= params.StrategySwitch;
+  return params.Space == FitSpace::Hierarchical
+    ? RefineHierarchical(state, marks)
+    : RefineLocally(state, marks, isLater ? params.LaterStrategy : params.Strategy, params);
 }
 }

@@ -29,7 +29,8 @@ Result<FitState> MakeFirstState(const FitParams& params, const ParametricBox<2>&
 Result<FitState> MakeStartState(const FitParams& params, int numComponents);
 
 /// The same surface in a space in which elements are split.
+/// @param iteration  that the space is for.
 /// @return failures of the refinement; of ResolveDependence with params.Independent.
-Result<FitState> RefineState(
-  const FitState& state, const std::vector<SplitMark>& marks, const FitParams& params);
+Result<FitState> RefineState(const FitState& state, const std::vector<SplitMark>& marks,
+  int iteration, const FitParams& params);
 }

@@ -427,7 +427,8 @@ private:
       }
       return FitState{};
     }
-    auto refined = RefineState(this->State, marks, this->Params);
+    const int iteration = this->Fit.Iterations.back().Iteration + 1;
+    auto refined = RefineState(this->State, marks, iteration, this->Params);
     const int limit = this->FunctionLimit();
     if (!refined || refined.Value.Space->NumFunctions <= limit)
     {
@@ -447,7 +448,7 @@ private:
         ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(middle));
       std::sort(some.begin(), some.end(),
         [](const SplitMark& a, const SplitMark& b) { return a.Element < b.Element; });
-      refined = RefineState(this->State, some, this->Params);
+      refined = RefineState(this->State, some, iteration, this->Params);
       if (!refined)
       {
         return refined;

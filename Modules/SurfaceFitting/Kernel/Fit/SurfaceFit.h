@@ -191,6 +191,8 @@ struct FitParams
   double ThresholdShare = 0.1;                       ///< in [0, 1]
   FitDirections Directions = FitDirections::ByError; ///< LR; THB elements are split in both
   LRStrategy Strategy = LRStrategy::FullSpan;
+  int StrategySwitch = 0; ///< >= 0: the first iteration whose space LaterStrategy makes; 0: none
+  LRStrategy LaterStrategy = LRStrategy::FullSpan;
   bool Independent = false; ///< LR: no step leaves linearly dependent functions (slower)
   /// Elements whose halves would be smaller than this share of the domain are not split; lines of
   /// an LR space that come from beside them may still cross them. In (0, 1).

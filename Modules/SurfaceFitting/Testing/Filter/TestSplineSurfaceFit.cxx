@@ -343,6 +343,30 @@ TEST(SplineSurfaceFit, EveryPropertyReachesTheKernel_CrossOracle)
         [](FitParams& p) { p.Directions = FitDirections::Alternating; } },
       { "Strategy minimum span", [](F* f) { f->SetStrategy(F::MINIMUM_SPAN); },
         [](FitParams& p) { p.Strategy = LRStrategy::MinimumSpan; } },
+      { "Strategy restricted mesh", [](F* f) { f->SetStrategy(F::RESTRICTED_MESH); },
+        [](FitParams& p) { p.Strategy = LRStrategy::RestrictedMesh; } },
+      { "LaterStrategy",
+        [](F* f)
+        {
+          f->SetStrategySwitch(1);
+          f->SetLaterStrategy(F::STRUCTURED_MESH);
+        },
+        [](FitParams& p)
+        {
+          p.StrategySwitch = 1;
+          p.LaterStrategy = LRStrategy::StructuredMesh;
+        } },
+      { "StrategySwitch",
+        [](F* f)
+        {
+          f->SetStrategySwitch(2);
+          f->SetLaterStrategy(F::STRUCTURED_MESH);
+        },
+        [](FitParams& p)
+        {
+          p.StrategySwitch = 2;
+          p.LaterStrategy = LRStrategy::StructuredMesh;
+        } },
       { "Strategy structured mesh", [](F* f) { f->SetStrategy(F::STRUCTURED_MESH); },
         [](FitParams& p) { p.Strategy = LRStrategy::StructuredMesh; } },
       { "MinimumElementSize", [](F* f) { f->SetMinimumElementSize(0.2); },

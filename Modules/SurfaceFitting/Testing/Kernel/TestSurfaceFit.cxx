@@ -166,6 +166,30 @@ TEST(SurfaceFit, MultilevelStepsAverageOverManyPoints_CrossOracle)
   EXPECT_GT((found - cloud.Values.col(0)).cwiseAbs().maxCoeff(), 1e-3); // not an interpolation
 }
 
+TEST(SurfaceFit, AnotherStrategyFromAnIterationOn_ExactOracle)
+{
+  const PointCloud cloud = clouds::HeightField(20000, 66, clouds::Peaks);
+  FitParams params = WithTolerance(0.002);
+  params.Strategy = LRStrategy::StructuredMesh;
+  const SurfaceFit first = Fit(cloud, params);
+  params.Strategy = LRStrategy::MinimumSpan;
+  const SurfaceFit later = Fit(cloud, params);
+  params.Strategy = LRStrategy::StructuredMesh;
+  params.LaterStrategy = LRStrategy::MinimumSpan;
+  EXPECT_EQ(Fit(cloud, params).Surface.ControlPoints, first.Surface.ControlPoints);
+  params.StrategySwitch = 1; // the first refinement
+  EXPECT_EQ(Fit(cloud, params).Surface.ControlPoints, later.Surface.ControlPoints);
+  params.StrategySwitch = 3;
+  const SurfaceFit both = Fit(cloud, params);
+  ExpectWithin(cloud, both);
+  ASSERT_GT(first.Iterations.size(), 4U);
+  for (std::size_t i = 0; i < 3; ++i) // spaces 0 to 2 are made by the first strategy
+  {
+    EXPECT_EQ(both.Iterations[i].NumFunctions, first.Iterations[i].NumFunctions);
+  }
+  EXPECT_LT(both.Iterations[3].NumFunctions, first.Iterations[3].NumFunctions);
+}
+
 TEST(SurfaceFit, PolynomialsAreReproduced_ExactOracle)
 {
   const auto quadric = [](double x, double y) { return 1.0 - 2.0 * x + 3.0 * x * y + y * y; };
@@ -246,8 +270,8 @@ TEST(SurfaceFit, DirectionsFollowTheError_PropertyOracle)
 TEST(SurfaceFit, StrategiesAndThresholdsReachTheTolerance_CrossOracle)
 {
   const PointCloud cloud = clouds::HeightField(20000, 14, clouds::Peaks);
-  for (const LRStrategy strategy :
-    { LRStrategy::FullSpan, LRStrategy::MinimumSpan, LRStrategy::StructuredMesh })
+  for (const LRStrategy strategy : { LRStrategy::FullSpan, LRStrategy::MinimumSpan,
+         LRStrategy::StructuredMesh, LRStrategy::RestrictedMesh })
   {
     for (const FitThreshold threshold :
       { FitThreshold::All, FitThreshold::LargestErrors, FitThreshold::MostPoints })
@@ -371,6 +395,7 @@ TEST(SurfaceFit, EveryFailureIsReachable_ExactOracle)
   EXPECT_EQ(with([](FitParams& p) { p.SwitchIteration = -1; }), option);
   EXPECT_EQ(with([](FitParams& p) { p.Smoothing = -1.0; }), option);
   EXPECT_EQ(with([](FitParams& p) { p.SignificantWeight = 0.5; }), option);
+  EXPECT_EQ(with([](FitParams& p) { p.StrategySwitch = -1; }), option);
   EXPECT_EQ(with([](FitParams& p) { p.ToleranceFactorAbove = 0.0; }), option);
   EXPECT_EQ(with([](FitParams& p) { p.ToleranceFactorBelow = -1.0; }), option);
   EXPECT_EQ(with(

@@ -7,6 +7,8 @@ namespace knotwork
 {
 namespace
 {
+constexpr double LeastShare = 0.5; // of the longest span of a function, that is still halved
+
 std::size_t At(int i)
 {
   return static_cast<std::size_t>(i);
@@ -46,17 +48,59 @@ private:
   const LRData& Data;
 };
 
-void HalveSpans(const View& view, int f, int d, bool all, std::vector<LRSegment>& segments)
+/// Bits of knot spans of every function, by direction.
+using SpanMasks = std::array<std::vector<unsigned>, 2>;
+constexpr unsigned AllSpans = ~0U;
+
+/// The spans that hold elements. An element lies in one span of every function on it.
+SpanMasks SpansWithElements(
+  const SplineSpace<2>& space, const View& view, const std::vector<int>& elements)
 {
-  int longest = 0;
-  const auto length = [&](int i) { return view.Knot(f, d, i + 1) - view.Knot(f, d, i); };
-  for (int i = 1; i <= view.Degree(d); ++i)
+  SpanMasks masks;
+  masks.fill(std::vector<unsigned>(At(space.NumFunctions), 0U));
+  for (const int e : elements)
   {
-    longest = length(i) > length(longest) ? i : longest;
+    const ParametricBox<2>& box = space.Elements[At(e)].Box;
+    for (int d = 0; d < 2; ++d)
+    {
+      const double middle = 0.5 * (box.Lower[At(d)] + box.Upper[At(d)]);
+      for (const int* f = view.AliveBegin(e); f != view.AliveEnd(e); ++f)
+      {
+        int i = 0;
+        while (i < view.Degree(d) && view.Knot(*f, d, i + 1) <= middle)
+        {
+          ++i;
+        }
+        masks[At(d)][At(*f)] |= 1U << i;
+      }
+    }
+  }
+  return masks;
+}
+
+/// Halves knot spans of a function.
+/// @param mask  of the spans that are considered, with RestrictedMesh.
+void HalveSpans(const View& view, int f, int d, LRStrategy strategy, unsigned mask,
+  std::vector<LRSegment>& segments)
+{
+  const auto length = [&](int i) { return view.Knot(f, d, i + 1) - view.Knot(f, d, i); };
+  const auto isConsidered = [&](int i)
+  { return strategy != LRStrategy::RestrictedMesh || (mask >> i & 1U) != 0; };
+  int longest = -1;
+  for (int i = 0; i <= view.Degree(d); ++i)
+  {
+    if (isConsidered(i) && (longest < 0 || length(i) > length(longest)))
+    {
+      longest = i;
+    }
   }
   for (int i = 0; i <= view.Degree(d); ++i)
   {
-    if (length(i) > 0.0 && (all || i == longest))
+    const bool isHalved = strategy == LRStrategy::StructuredMesh ? length(i) > 0.0
+      : strategy == LRStrategy::RestrictedMesh
+      ? isConsidered(i) && length(i) > LeastShare * length(longest)
+      : i == longest;
+    if (isHalved)
     {
       segments.push_back({ d, 0.5 * (view.Knot(f, d, i) + view.Knot(f, d, i + 1)),
         view.Low(f, 1 - d), view.High(f, 1 - d) });
@@ -64,17 +108,19 @@ void HalveSpans(const View& view, int f, int d, bool all, std::vector<LRSegment>
   }
 }
 
+/// @param masks  spans with marked elements, for RestrictedMesh.
 void HalveElement(const SplineSpace<2>& space, const View& view, int e, int d, LRStrategy strategy,
-  std::vector<LRSegment>& segments)
+  const SpanMasks& masks, std::vector<LRSegment>& segments)
 {
   const ParametricBox<2>& box = space.Elements[At(e)].Box;
   const int across = 1 - d;
   LRSegment segment{ d, 0.5 * (box.Lower[At(d)] + box.Upper[At(d)]), box.Lower[At(across)],
     box.Upper[At(across)] };
-  if (strategy == LRStrategy::StructuredMesh)
+  if (strategy == LRStrategy::StructuredMesh || strategy == LRStrategy::RestrictedMesh)
   {
     const int f = view.Least(e, [&](int i) { return view.Length(i, 0) * view.Length(i, 1); });
-    HalveSpans(view, f, d, true, segments);
+    const bool isStructured = strategy == LRStrategy::StructuredMesh;
+    HalveSpans(view, f, d, strategy, isStructured ? AllSpans : masks[At(d)][At(f)], segments);
     return;
   }
   if (strategy == LRStrategy::MinimumSpan)
@@ -122,6 +168,9 @@ Result<std::vector<LRSegment>> SegmentsForElements(
     return status;
   }
   const View view(space);
+  const SpanMasks masks = params.Strategy == LRStrategy::RestrictedMesh
+    ? SpansWithElements(space, view, elements)
+    : SpanMasks();
   std::vector<LRSegment> segments;
   for (const int e : elements)
   {
@@ -129,7 +178,7 @@ Result<std::vector<LRSegment>> SegmentsForElements(
     {
       if (params.Directions[At(d)])
       {
-        HalveElement(space, view, e, d, params.Strategy, segments);
+        HalveElement(space, view, e, d, params.Strategy, masks, segments);
       }
     }
   }
@@ -168,7 +217,7 @@ Result<std::vector<LRSegment>> SegmentsForFunctions(
     {
       if (params.Directions[At(d)])
       {
-        HalveSpans(view, f, d, params.Strategy == LRStrategy::StructuredMesh, segments);
+        HalveSpans(view, f, d, params.Strategy, AllSpans, segments);
       }
     }
   }
