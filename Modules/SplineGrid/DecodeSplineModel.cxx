@@ -110,7 +110,7 @@ private:
   Status ReadBezier(const CellGroup& group);
   template <int Dim>
   Status Gather(
-    const std::string& where, const IntArray<Dim>* expected, PatchCells<Dim>& cells) const;
+    const std::string& where, const SplineSpace<Dim>* space, PatchCells<Dim>& cells) const;
   template <int Dim>
   Status CheckBounds(const std::string& where, const SplineSpace<Dim>& space,
     const std::vector<vtkIdType>& cells) const;
@@ -493,12 +493,13 @@ Status GridReader::SplitCopies(
 
 template <int Dim>
 Status GridReader::Gather(
-  const std::string& where, const IntArray<Dim>* expected, PatchCells<Dim>& cells) const
+  const std::string& where, const SplineSpace<Dim>* space, PatchCells<Dim>& cells) const
 {
   std::vector<vtkIdType> points;
   for (vtkIdType cell : cells.Cells)
   {
     IntArray<Dim> degree{};
+    const IntArray<Dim>* expected = space ? &space->Elements[cells.Degrees.size()].Degree : nullptr;
     if (Status status = this->Bezier.Read<Dim>(where + ", ", cell, expected, degree, points);
         !status)
     {
@@ -651,13 +652,11 @@ Status GridReader::ReadStructured(const CellGroup& group, const PatchRecord& rec
     return { ErrorCode::InvalidWeight,
       where + " is rational, and its weights are missing (point array " + name::Weights + ")" };
   }
-  IntArray<Dim> degree;
-  std::copy_n(record.Basis.Degree.begin(), Dim, degree.begin());
   for (const std::vector<vtkIdType>& copy : copies)
   {
     PatchCells<Dim> cells;
     cells.Cells = copy;
-    if (Status status = this->Gather<Dim>(where, &degree, cells); !status)
+    if (Status status = this->Gather<Dim>(where, space.Value.get(), cells); !status)
     {
       return status;
     }

@@ -18,6 +18,7 @@
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -48,9 +49,11 @@ const FileFormat* FormatFor(vtkDataObject* data, const std::string& ending)
 }
 
 /// Whether a format takes the splines of a grid. Grids without splines are no concern of ours.
-Status CheckSplines(
-  vtkDataObject* data, const std::string& file, bool isCAD, bool asCurves, int threads)
+Status CheckSplines(vtkDataObject* data, const std::string& file, const FileFormat& format,
+  bool asCurves, int threads)
 {
+  const bool isCAD = (format.Writes & SplineCurveContent) == 0;
+  const bool takesElements = (format.Writes & SplineElementContent) != 0;
   const auto refuse = [&file](const std::string& reason)
   { return Status(ErrorCode::InvalidParameter, "'" + file + "': " + reason); };
   if (isCAD && asCurves)
@@ -68,10 +71,10 @@ Status CheckSplines(
     has[patch.Geometry.index()] = true;
     const SpaceKind kind =
       std::visit([](const auto& spline) { return spline.Space->Kind; }, patch.Geometry);
-    if (kind == SpaceKind::Bezier)
+    if (!takesElements && (kind == SpaceKind::Bezier || kind == SpaceKind::Explicit))
     {
       return refuse("patch " + std::to_string(patch.Id) +
-        " has no knots, and the format needs them; write .vtu or .vtpc");
+        " has no knots, and the format needs them; write .vtu, .vtpc or .bext");
     }
   }
   if (isCAD && has[0])
@@ -81,6 +84,10 @@ Status CheckSplines(
   if (isCAD && has[1] && has[2])
   {
     return refuse("surfaces and volumes are written to CAD files of their own");
+  }
+  if (takesElements && std::count(has.begin(), has.end(), true) > 1)
+  {
+    return refuse("curves, surfaces and volumes are written to BEXT files of their own");
   }
   return {};
 }
@@ -217,8 +224,7 @@ Status CheckDataFormat(vtkDataObject* like, const std::string& file, bool asCurv
   {
     return {};
   }
-  const bool isCAD = (format->Writes & SplineCurveContent) == 0;
-  return CheckSplines(like, file, isCAD, asCurves, threads);
+  return CheckSplines(like, file, *format, asCurves, threads);
 }
 
 Result<std::vector<std::string>> WriteDataFile(

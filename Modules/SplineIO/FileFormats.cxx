@@ -5,6 +5,8 @@
 #include "ForeignFile.h"
 #include "PolygonText.h"
 #include "VTKText.h"
+#include "vtkBEXTReader.h"
+#include "vtkBEXTWriter.h"
 #include "vtkCADReader.h"
 #include "vtkCADWriter.h"
 #include "vtkDomainBoundaryReader.h"
@@ -66,6 +68,13 @@ Status ReadG2(const std::string& file, DataFile& found)
   vtkDataObject* curves = reader->GetOutputDataObject(1);
   found.Curves = curves->GetNumberOfElements(vtkDataObject::POINT) > 0 ? curves : nullptr;
   return status;
+}
+
+Status ReadJson(const std::string& file, DataFile& found)
+{
+  vtkNew<vtkBEXTReader> operators;
+  return operators->CanReadFile(file.c_str()) != 0 ? Update(operators.Get(), file, found)
+                                                   : ReadWith<vtkDomainBoundaryReader>(file, found);
 }
 
 Status ReadFaces(const std::string& file, DataFile& found)
@@ -147,6 +156,7 @@ Status WriteOfVTK(vtkDataObject* data, const std::string& file, const DataFilePa
 
 constexpr unsigned Splines = SplineGridContent | SplineCollectionContent;
 constexpr unsigned SplinesAndCurves = Splines | SplineCurveContent;
+constexpr unsigned Elements = SplinesAndCurves | SplineElementContent;
 constexpr unsigned Faces = Splines | TrimmedFaceContent;
 constexpr unsigned Polygons = PolygonContent | PolygonCollectionContent;
 constexpr unsigned PointsAndValues = PointContent | PointValueContent;
@@ -174,7 +184,8 @@ const std::vector<FileFormat>& FileFormats()
     ReadWith<vtkPointCloudReader>; // takes PointContent of all that is read
   constexpr auto readGismo = ReadWith<vtkGismoXMLReader>;
   constexpr auto writeGismo = WriteWith<vtkGismoXMLWriter>;
-  constexpr auto readBoundary = ReadWith<vtkDomainBoundaryReader>;
+  constexpr auto readOperators = ReadWith<vtkBEXTReader>;
+  constexpr auto writeOperators = WriteWith<vtkBEXTWriter>;
   // name, endings, what is read, what is written, whether VTK serves it, reader, writer
   static const std::vector<FileFormat> formats = {
     { "VTK polygons", { ".vtp" }, Lines, Lines | CellContent, true, ReadOfVTK, WriteOfVTK },
@@ -199,7 +210,9 @@ const std::vector<FileFormat>& FileFormats()
     { "PLY", { ".ply" }, PointsAndValues | PolygonContent, Polygons, false, readPoints,
       WritePolygons },
     { "OFF", { ".off" }, PointContent | PolygonContent, 0, false, readPoints, nullptr },
-    { "boundary of a domain", { ".json" }, BoundaryContent, 0, false, readBoundary, nullptr },
+    { "BEXT", { ".bext" }, Elements, Elements, false, readOperators, writeOperators },
+    { "JSON of BEXT or of the boundary of a domain", { ".json" }, Elements | BoundaryContent,
+      Elements, false, ReadJson, writeOperators },
   };
   return formats;
 }

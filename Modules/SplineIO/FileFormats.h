@@ -29,7 +29,8 @@ enum FileContent : unsigned
   CellContent = 1U << 10,             ///< any cells
   GridContent = 1U << 11,             ///< any cells of one grid
   ImageContent = 1U << 12,            ///< values on a raster
-  TableContent = 1U << 13             ///< rows of numbers and text
+  TableContent = 1U << 13,            ///< rows of numbers and text
+  SplineElementContent = 1U << 14     ///< splines without knots: Bezier elements, operators
 };
 
 struct FileFormat

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDomainBoundaryReader.h"
 
+#include <knotwork/SplineIO/BextFile.h>
 #include <knotwork/SplineIO/BoundaryJson.h>
 
 #include "vtkObjectFactory.h"
@@ -16,5 +17,5 @@ knotwork::Result<knotwork::SplineFile> vtkDomainBoundaryReader::Parse(std::strin
 
 bool vtkDomainBoundaryReader::Recognize(std::string_view beginning)
 {
-  return knotwork::LooksLikeBoundaryJson(beginning);
+  return knotwork::LooksLikeBoundaryJson(beginning) && !knotwork::LooksLikeBextJson(beginning);
 }

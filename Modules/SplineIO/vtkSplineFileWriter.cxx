@@ -75,9 +75,12 @@ knotwork::Status vtkSplineFileWriter::MakeText(std::string& text)
   {
     return model.Status;
   }
-  if (Status status = SplitUnstructuredPatches(model.Value, 1); !status)
+  if (!this->Holds(SpaceKind::Unstructured))
   {
-    return status;
+    if (Status status = SplitUnstructuredPatches(model.Value, 1); !status)
+    {
+      return status;
+    }
   }
   for (SplinePatch& patch : model->Patches)
   {

@@ -17,8 +17,8 @@ MOST_EDITS = 5
 # file: (text, the text that takes its place)
 EDITS = {
     "Space/SplineSpace.h": [
-        ("  Unstructured    ///<", "  Constant,\n  Unstructured    ///<"),
-        ("SpaceKind::Unstructured };", "SpaceKind::Unstructured, SpaceKind::Constant };"),
+        ("  Explicit        ///<", "  Constant,\n  Explicit        ///<"),
+        ("SpaceKind::Explicit };", "SpaceKind::Explicit, SpaceKind::Constant };"),
         ("    case SpaceKind::LocallyRefined:\n", "    case SpaceKind::LocallyRefined:\n    case SpaceKind::Constant:\n")],
     "Space/SpaceFamilies.cxx": [
         ('#include "BezierSpace.h"\n', '#include "BezierSpace.h"\n#include "ConstantSpace.h"\n'),

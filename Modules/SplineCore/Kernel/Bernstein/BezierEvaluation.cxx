@@ -477,7 +477,13 @@ int DegreeClass(const IntArray<Dim>& degree)
   return equal ? degree[0] : 0;
 }
 
-/// Evaluates located points, run by run of one degree class; only a Bezier space has several.
+/// Whether elements of a space may have degrees of their own.
+bool MayDifferInDegree(SpaceKind kind)
+{
+  return kind == SpaceKind::Bezier || kind == SpaceKind::Explicit;
+}
+
+/// Evaluates located points, run by run of one degree class.
 template <int Dim>
 void EvaluateChunk(const PointRange<Dim>& range, const Dispatch<Dim>& dispatch, std::size_t count)
 {
@@ -491,7 +497,7 @@ void EvaluateChunk(const PointRange<Dim>& range, const Dispatch<Dim>& dispatch, 
   while (begin < count)
   {
     const int runClass = degreeClass(begin);
-    std::size_t end = space.Kind == SpaceKind::Bezier ? begin + 1 : count;
+    std::size_t end = MayDifferInDegree(space.Kind) ? begin + 1 : count;
     while (end < count && degreeClass(end) == runClass)
     {
       ++end;

@@ -3,6 +3,7 @@
 #include "SpaceFamily.h"
 
 #include "BezierSpace.h"
+#include "ExplicitSpace.h"
 #include "HierarchicalSpace.h"
 #include "LRSpace.h"
 #include "TensorSpace.h"
@@ -21,6 +22,8 @@ const SpaceFamily<Dim>& FamilyOf(SpaceKind kind)
       return LRFamily<Dim>();
     case SpaceKind::Unstructured:
       return UnstructuredFamily<Dim>();
+    case SpaceKind::Explicit:
+      return ExplicitFamily<Dim>();
     case SpaceKind::Bezier:
       return BezierFamily<Dim>();
     case SpaceKind::Tensor:

@@ -17,11 +17,13 @@ enum class SpaceKind
   Tensor,         ///< tensor-product B-splines
   Hierarchical,   ///< truncated hierarchical B-splines (THB)
   LocallyRefined, ///< LR B-splines, two parameters
-  Unstructured    ///< splines on a mesh of quadrilaterals or hexahedra with extraordinary ridges
+  Unstructured,   ///< splines on a mesh of quadrilaterals or hexahedra with extraordinary ridges
+  Explicit        ///< given by the extraction operators of their elements alone
 };
 
 inline constexpr SpaceKind AllSpaceKinds[] = { SpaceKind::Bezier, SpaceKind::Tensor,
-  SpaceKind::Hierarchical, SpaceKind::LocallyRefined, SpaceKind::Unstructured };
+  SpaceKind::Hierarchical, SpaceKind::LocallyRefined, SpaceKind::Unstructured,
+  SpaceKind::Explicit };
 /// Whether elements of such spaces are boxes of one parameter domain.
 constexpr bool HasParameterDomain(SpaceKind kind)
 {
@@ -29,6 +31,7 @@ constexpr bool HasParameterDomain(SpaceKind kind)
   {
     case SpaceKind::Bezier:
     case SpaceKind::Unstructured:
+    case SpaceKind::Explicit:
       return false;
     case SpaceKind::Tensor:
     case SpaceKind::Hierarchical:
@@ -59,6 +62,9 @@ struct LRData;
 /// Data private to the unstructured family: the mesh and the continuities.
 template <int Dim>
 struct UnstructuredData;
+/// Data private to the explicit family: the extraction operators (ExplicitSpace.h).
+template <int Dim>
+struct ExtractionTable;
 
 /// A spline space on Dim parameters in the form every algorithm takes: elements with Bezier
 /// extraction.
@@ -78,7 +84,8 @@ struct UnstructuredData;
 /// extraction).
 ///
 /// Spaces are made by the builders (TensorSpace.h, HierarchicalSpace.h, LRSpace.h,
-/// BezierSpace.h, UnstructuredSpace.h), never changed afterwards, and shared as SplineSpacePtr.
+/// BezierSpace.h, UnstructuredSpace.h, ExplicitSpace.h), never changed afterwards, and shared as
+/// SplineSpacePtr.
 template <int Dim>
 class SplineSpace
 {
@@ -116,6 +123,8 @@ public:
   std::shared_ptr<const LRData> LocallyRefined;
   /// Unstructured only.
   std::shared_ptr<const UnstructuredData<Dim>> Unstructured;
+  /// Explicit only.
+  std::shared_ptr<const ExtractionTable<Dim>> Extraction;
   /// Element of a level-0 cell (>= 0), or -1 - block when the cell is refined: children of block k
   /// are Tree[k * 2^Dim ... ], bit d of the child number = upper half in direction d. First
   /// direction fastest. Empty when !HasDomain() and for LocallyRefined, which has its own locator.

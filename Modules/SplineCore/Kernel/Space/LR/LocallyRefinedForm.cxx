@@ -233,6 +233,7 @@ Result<Spline<2>> MakeLocallyRefined(const Spline<2>& spline, int threads)
     case SpaceKind::Hierarchical:
       return FromHierarchical(spline, threads);
     case SpaceKind::Unstructured:
+    case SpaceKind::Explicit:
     case SpaceKind::Bezier:
       return { ErrorCode::DimensionMismatch,
         "Bezier elements without a common parameter domain have no locally refined form" };
