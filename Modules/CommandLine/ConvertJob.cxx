@@ -160,10 +160,11 @@ Job Make(CLI::App& app)
   auto job = std::make_shared<ConvertJob>();
   app
     .add_option("input", job->Input,
-      "spline grid, skeleton or points (.vtu .vtp .vtpc .vtk .xml .g2 .step .iges .xyz .txt .csv)")
+      "spline grid, skeleton or points (.vtu .vtp .vtpc .vtk .xml .g2 .bext .step .iges .xyz .txt "
+      ".csv)")
     ->required();
   AddOutput(app, "--output", job->Output, Endings::Anything,
-    "the same data (.vtu .vtp .vtpc .xml .g2 .step .iges, points .xyz .txt .csv .g2)")
+    "the same data (.vtu .vtp .vtpc .xml .g2 .bext .json .step .iges, points .xyz .txt .csv .g2)")
     ->required();
   app.add_option("--curves", job->Curves,
     "trimming curves (.vtu): written when the input is STEP, IGES or g2, else read");

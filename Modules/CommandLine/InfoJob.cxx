@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Jobs.h"
 #include "Session.h"
+#include <knotwork/SplineCore/ExplicitSpace.h>
 #include <knotwork/SplineCore/LRDependence.h>
 #include <knotwork/SplineCore/SpaceFamily.h>
 #include <knotwork/SplineGrid/SplineModel.h>
@@ -51,10 +52,15 @@ int NumLevels(const SplineSpace<Dim>& space)
   return level + 1;
 }
 
-/// Whether the functions are linearly independent; those of all kinds but LR always are.
+/// Whether the functions are linearly independent; those of all kinds but LR and given operators
+/// always are.
 template <int Dim>
 std::string Dependence(const SplineSpace<Dim>& space)
 {
+  if (space.Extraction && !AreLocallyIndependent<Dim>(*space.Extraction, space.NumFunctions))
+  {
+    return "undecided";
+  }
   if constexpr (Dim == 2)
   {
     if (space.Kind == SpaceKind::LocallyRefined)
@@ -198,7 +204,7 @@ Job Make(CLI::App& app)
   auto job = std::make_shared<InfoJob>();
   app
     .add_option("input", job->Input,
-      "spline grid or points (.vtu .vtpc .vtk .xml .g2 .step .iges .xyz .txt .csv .ply .vtp)")
+      "spline grid or points (.vtu .vtpc .vtk .xml .g2 .bext .step .iges .xyz .txt .csv .ply .vtp)")
     ->required();
   return [job](Session& session) { return job->Run(session); };
 }

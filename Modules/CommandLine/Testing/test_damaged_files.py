@@ -38,6 +38,9 @@ def sound_files():
     good("convert", path("thb.vtu"), "--output", path("thb.xml"))
     good("convert", height, "--output", path("lr.g2"))
     good("convert", path("square.vtu"), "--output", path("grids.vtpc"))
+    for name in ("thb.bext", "operators.json"):
+        good("convert", path("thb.vtu"), "--output", path(name))
+    good("convert", path("thb.bext"), "--output", path("explicit.vtu"))
     for ending in (".step", ".igs"):
         good("convert", path("torus.vtu"), "--output", path("torus" + ending))
     for name, of in (("ascii", "thb.vtu"), ("appended", "height.vtu"), ("appended", "cloud.vtp"), ("ascii", "cloud.vtp")):
@@ -59,7 +62,8 @@ def sound_files():
     curves = [["map", "IN", path("target.vtp"), "--iterations", 1, "--output", grid], ["info", "IN"]]
     boundary = [["parameterize", "IN", "--output", grid], ["info", "IN"]]
     kinds = [(spline, "square.vtu"), (spline, "ascii_thb.vtu"), (spline, "appended_height.vtu"), (spline, "grids.vtpc"), (spline, "height.vtk"),
-             (spline, "ascii.vtk"), (spline, "thb.xml"), (spline, "square.xml"), (spline, "square.g2"), (spline, "lr.g2"), (spline, "torus.step"),
+             (spline, "ascii.vtk"), (spline, "thb.xml"), (spline, "square.xml"), (spline, "square.g2"), (spline, "lr.g2"), (spline, "thb.bext"), (spline, "operators.json"), (spline, "explicit.vtu"),
+             (spline, "torus.step"),
              (spline, "torus.igs"), (spline, "square.step"), (spline, "square.iges"), (cloud, "appended_cloud.vtp"), (cloud, "ascii_cloud.vtp"),
              (cloud, "cloud.xyz"), (cloud, "cloud.txt"), (cloud, "cloud.csv"), (cloud, "cloud.ply"), (cloud, "cloud.g2"), (mesh, "mesh.off"),
              (mesh, "mesh.obj"), (mesh, "mesh.ply"), (mesh, "bytes.ply"), (mesh, "mesh.stl"), (mesh, "bytes.stl"), (mesh, "mesh.vtp"),

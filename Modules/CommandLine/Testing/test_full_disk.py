@@ -11,7 +11,7 @@ import knotwork_testing
 import job_inputs
 from refusals import good, path
 
-LIMITED = ".vtu .vtp .vtpc .vti .csv .json .xml .g2 .xyz .txt .step .iges .stl .obj .ply".split()
+LIMITED = ".vtu .vtp .vtpc .vti .csv .json .xml .g2 .bext .xyz .txt .step .iges .stl .obj .ply".split()
 
 
 def limited(size):
@@ -35,7 +35,7 @@ def sizes(folder):
 def cases():
     """A run a format, and the file that grows too large."""
     height, cloud, square = path("height.vtu"), path("cloud.csv"), path("square.vtu")
-    for name in ("o.vtu", "o.xml", "o.g2", "o.step", "o.iges", "o.vtpc"):
+    for name in ("o.vtu", "o.xml", "o.g2", "o.bext", "o.step", "o.iges", "o.vtpc"):
         yield ["convert", square if name == "o.xml" else height, "--output", name], name
     for encoding in ("ascii", "appended"):
         yield ["convert", height, "--encoding", encoding, "--output", "o.vtu"], "o.vtu"

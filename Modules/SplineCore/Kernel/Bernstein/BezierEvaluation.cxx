@@ -165,32 +165,32 @@ inline void GatherTerms(const DotFunction& dot, Real* terms)
   }
 }
 
-/// Contracts the plane q with the directions 1 .. Dim-1; the sets go to sets, n numbers each.
-/// @param functions  of all directions, (Order + 1) * n each, those of the a-th derivative from
-///                   a * n on.
-template <int Dim, int n, int Order>
+/// Contracts the plane q with the directions 1 .. Dim-1; the sets go to sets, N numbers each.
+/// @param functions  of all directions, (Order + 1) * N each, those of the a-th derivative from
+///                   a * N on.
+template <int Dim, int N, int Order>
 inline void ContractPlane(const double* functions, const double* q, double* sets)
 {
   if constexpr (Dim == 1)
   {
-    std::copy_n(q, n, sets);
+    std::copy_n(q, N, sets);
     return;
   }
-  const double* v = functions + (Order + 1) * n;
-  const double* w = functions + (Dim - 1) * (Order + 1) * n;
+  const double* v = functions + (Order + 1) * N;
+  const double* w = functions + (Dim - 1) * (Order + 1) * N;
   constexpr int numSets = NumRowSets(Dim, Order);
-  constexpr int numSlices = Dim == 3 ? n : 1;
-  std::array<Row<n>, numSets> sums;
+  constexpr int numSlices = Dim == 3 ? N : 1;
+  std::array<Row<N>, numSets> sums;
   for (int k = 0; k < numSlices; ++k)
   {
-    std::array<Row<n>, Order + 1> slice;
-    Row<n> row;
-    for (int j = 0; j < n; ++j, q += n)
+    std::array<Row<N>, Order + 1> slice;
+    Row<N> row;
+    for (int j = 0; j < N; ++j, q += N)
     {
       row.Load(q);
       for (int a = 0; a <= Order; ++a)
       {
-        slice[static_cast<std::size_t>(a)].Add(v[a * n + j], row);
+        slice[static_cast<std::size_t>(a)].Add(v[a * N + j], row);
       }
     }
     if constexpr (Dim == 2)
@@ -203,13 +203,13 @@ inline void ContractPlane(const double* functions, const double* q, double* sets
       {
         const int index = static_cast<int>(m);
         sums[m].Add(
-          w[SetOrderW<Dim>(index) * n + k], slice[static_cast<std::size_t>(SetOrderV<Dim>(index))]);
+          w[SetOrderW<Dim>(index) * N + k], slice[static_cast<std::size_t>(SetOrderV<Dim>(index))]);
       }
     }
   }
   for (int m = 0; m < numSets; ++m)
   {
-    sums[static_cast<std::size_t>(m)].Store(sets + m * n);
+    sums[static_cast<std::size_t>(m)].Store(sets + m * N);
   }
 }
 

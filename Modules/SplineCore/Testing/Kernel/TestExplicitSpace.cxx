@@ -173,8 +173,8 @@ TEST(ExplicitSpace, PointsAreSharedAsThoseOfTensorProducts_CrossOracle)
   }
 }
 
-/// Knot spans that differ by a factor of a million are no reason to refuse up to degree 4; of degree
-/// 5 the functions on an element shorter by 1e5 are dependent to rounding.
+/// Knot spans that differ by a factor of a million are no reason to refuse up to degree 4; of
+/// degree 5 the functions on an element shorter by 1e5 are dependent to rounding.
 TEST(ExplicitSpace, VeryShortElementsAreTaken_Property)
 {
   for (int p = 1; p <= 5; ++p)

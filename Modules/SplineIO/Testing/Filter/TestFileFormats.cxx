@@ -34,23 +34,24 @@ TEST(FileFormats, WhatIsNoFormatIsNotFound_ExactOracle)
   }
 }
 
-/// Which data a file takes are facts of the formats: STL has triangles alone, OFF and JSON have no
-/// writer, collections are not in one .vtp.
+/// Which data a file takes are facts of the formats: STL has triangles alone, OFF has no writer,
+/// collections are not in one .vtp.
 TEST(FileFormats, EndingsFollowTheContent_ExactOracle)
 {
   const auto writing = [](unsigned contents) { return JoinEndings(EndingsThatWrite(contents)); };
-  EXPECT_EQ(writing(SplineGridContent), ".vtu .xml .g2 .step .stp .iges .igs");
-  EXPECT_EQ(writing(SplineCollectionContent), ".vtpc .xml .g2 .step .stp .iges .igs");
+  EXPECT_EQ(writing(SplineGridContent), ".vtu .xml .g2 .step .stp .iges .igs .bext .json");
+  EXPECT_EQ(writing(SplineCollectionContent), ".vtpc .xml .g2 .step .stp .iges .igs .bext .json");
   EXPECT_EQ(writing(TrimmedFaceContent), ".vtu .step .stp .iges .igs");
   EXPECT_EQ(writing(PolygonCollectionContent), ".vtpc .stl .obj .ply");
   EXPECT_EQ(writing(PolygonContent), ".vtp .stl .obj .ply");
-  EXPECT_EQ(writing(PolylineContent | SplineCurveContent), ".vtp .vtu .xml .g2");
+  EXPECT_EQ(writing(PolylineContent | SplineCurveContent), ".vtp .vtu .xml .g2 .bext .json");
   EXPECT_EQ(writing(PointContent), ".vtp .xyz .txt .csv .g2");
   EXPECT_EQ(writing(ImageContent), ".vti");
   EXPECT_EQ(writing(TableContent), ".csv");
   EXPECT_EQ(writing(0), "");
   EXPECT_EQ(JoinEndings(EndingsThatRead(AnyContent)),
-    ".vtp .vtu .vtpc .vtk .xml .xyz .txt .csv .g2 .step .stp .iges .igs .stl .obj .ply .off .json");
+    ".vtp .vtu .vtpc .vtk .xml .xyz .txt .csv .g2 .step .stp .iges .igs .stl .obj .ply .off .bext "
+    ".json");
   EXPECT_EQ(
     JoinEndings(EndingsThatRead(PointContent)), ".vtp .xyz .txt .csv .g2 .stl .obj .ply .off");
   EXPECT_EQ(writing(GridContent), ".vtu");

@@ -367,11 +367,30 @@ ExtractionTable<Dim> ExtractionOf(const SplineSpace<Dim>& space)
   return table;
 }
 
+template <int Dim>
+bool AreLocallyIndependent(const ExtractionTable<Dim>& table, int numFunctions)
+{
+  std::vector<char> shown(At(numFunctions), 0);
+  for (std::size_t e = 0; e < table.NumElements(); ++e)
+  {
+    const std::size_t begin = table.FirstFunction[e];
+    const std::size_t end = table.FirstFunction[e + 1];
+    for (std::size_t k = begin;
+         k < end && end - begin == At(NumTensorFunctions<Dim>(table.Degrees[e])); ++k)
+    {
+      shown[At(table.Functions[k])] = 1;
+    }
+  }
+  return std::find(shown.begin(), shown.end(), char{ 0 }) == shown.end();
+}
+
+template Result<SplineSpacePtr<1>> MakeExplicitSpace<1>(const ExtractionTable<1>&, int, int);
+template Result<SplineSpacePtr<2>> MakeExplicitSpace<2>(const ExtractionTable<2>&, int, int);
+template Result<SplineSpacePtr<3>> MakeExplicitSpace<3>(const ExtractionTable<3>&, int, int);
 #define KNOTWORK_INSTANTIATE(Dim)                                                                  \
-  template Result<SplineSpacePtr<Dim>> MakeExplicitSpace<Dim>(                                     \
-    const ExtractionTable<Dim>&, int, int);                                                        \
   template ExtractionTable<Dim> WithVectorsOnce<Dim>(const ExtractionTable<Dim>&);                 \
-  template ExtractionTable<Dim> ExtractionOf<Dim>(const SplineSpace<Dim>&);
+  template ExtractionTable<Dim> ExtractionOf<Dim>(const SplineSpace<Dim>&);                        \
+  template bool AreLocallyIndependent<Dim>(const ExtractionTable<Dim>&, int);
 KNOTWORK_INSTANTIATE(1)
 KNOTWORK_INSTANTIATE(2)
 KNOTWORK_INSTANTIATE(3)

@@ -76,6 +76,11 @@ ExtractionTable<Dim> ExtractionOf(const SplineSpace<Dim>& space);
 template <int Dim>
 ExtractionTable<Dim> WithVectorsOnce(const ExtractionTable<Dim>& table);
 
+/// Whether every function is alive on an element that has no more functions than polynomials: then
+/// they are linearly independent. False decides nothing.
+template <int Dim>
+bool AreLocallyIndependent(const ExtractionTable<Dim>& table, int numFunctions);
+
 /// The family's entry in the table.
 template <int Dim>
 const SpaceFamily<Dim>& ExplicitFamily();
