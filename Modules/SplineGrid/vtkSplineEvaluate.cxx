@@ -3,6 +3,7 @@
 
 #include "SplineModel.h"
 #include <knotwork/SplineCore/ClosestPoint.h>
+#include <knotwork/SplineCore/OneSidedLocation.h>
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -17,6 +18,7 @@
 #include "vtkPoints.h"
 #include "vtkSmartPointer.h"
 
+#include <algorithm>
 #include <limits>
 #include <map>
 
@@ -58,7 +60,7 @@ PointMatrix Coordinates(vtkPointSet* points)
 
 /// Finds the patch and the element of points given by parameters.
 Status LocateParameters(const SplineModel& model, const PointMatrix& parameters,
-  vtkDataArray* patchIds, int patchId, Places& places)
+  vtkDataArray* patchIds, int patchId, const int* fromBelow, Places& places)
 {
   std::map<int, int> patchOfId;
   for (std::size_t k = 0; k < model.Patches.size(); ++k)
@@ -111,7 +113,11 @@ Status LocateParameters(const SplineModel& model, const PointMatrix& parameters,
               std::to_string(dimension) };
         }
         int& element = places.Elements[static_cast<std::size_t>(i)];
-        element = space.Locate(parameters.row(i).data(), places.Local.row(i).data());
+        std::array<bool, static_cast<std::size_t>(dimension)> sides;
+        std::transform(
+          fromBelow, fromBelow + dimension, sides.begin(), [](int side) { return side != 0; });
+        element = knotwork::LocateOneSided<static_cast<int>(dimension)>(
+          space, parameters.row(i).data(), sides, places.Local.row(i).data());
         if (element < 0)
         {
           return { ErrorCode::OutsideDomain, PointName(i) };
@@ -322,7 +328,7 @@ Status vtkSplineEvaluate::Compute(vtkInformationVector** inputs, vtkInformationV
       }
     }
     vtkDataArray* patchIds = points->GetPointData()->GetArray(this->PatchIdArray.c_str());
-    status = LocateParameters(model, given, patchIds, this->PatchId, places);
+    status = LocateParameters(model, given, patchIds, this->PatchId, this->FromBelow, places);
   }
   else
   {

@@ -9,7 +9,8 @@
  * In mode PARAMETERS the parameters are those in ParameterArray (as many components as the patch
  * has parameters, or more), or the point's coordinates when the name is empty. The patch is the
  * point's value in PatchIdArray when input 1 has that array, else PatchId; -1 takes the only patch.
- * A parameter outside the domain is an error that names the point.
+ * A parameter outside the domain is an error that names the point. On the border of elements, where
+ * derivatives may jump, FromBelow says a direction whose element is taken.
  *
  * In mode PROBE the point on the spline nearest to the point is found (over all patches): the
  * inverse of planar maps and of solids, the closest point of curves and surfaces. See
@@ -59,6 +60,12 @@ public:
   vtkGetMacro(Derivatives, int);
   ///@}
   ///@{
+  /** Which limit is taken at knots, where derivatives jump: 0 that from larger parameters, not 0
+   * that from smaller ones. Default 0 0 0. Advanced. For Mode PARAMETERS. Components u, v, w. */
+  vtkSetVector3Macro(FromBelow, int);
+  vtkGetVector3Macro(FromBelow, int);
+  ///@}
+  ///@{
   /** Point array of the second input with the parameters; empty or `None`: its coordinates. Default
    * empty. For Mode PARAMETERS. */
   vtkSetMacro(ParameterArray, std::string);
@@ -97,6 +104,7 @@ private:
 
   int Mode = PARAMETERS;
   int Derivatives = 0;
+  int FromBelow[3] = { 0, 0, 0 };
   std::string ParameterArray;
   std::string PatchIdArray = "PatchId";
   int PatchId = -1;

@@ -366,7 +366,7 @@ void EncodeDistances(const DecodedCloud& cloud, const SurfaceFit& fit, vtkPointS
   AddValues<vtkUnsignedCharArray>(data, "Outlier", outliers);
   if (cloud.NumMeasured == 3)
   {
-    const PointMatrix& uv = cloud.Cloud.Parameters;
+    const PointMatrix& uv = fit.Parameters.size() > 0 ? fit.Parameters : cloud.Cloud.Parameters;
     const auto array = NamedArray<vtkDoubleArray>("UV", 2, uv.rows());
     std::copy(uv.data(), uv.data() + uv.size(), array->GetPointer(0));
     data->AddArray(array);

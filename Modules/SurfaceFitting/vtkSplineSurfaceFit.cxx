@@ -221,6 +221,7 @@ knotwork::Status vtkSplineSurfaceFit::Compute(
   params.NumInitialElements = { this->InitialElementsU, this->InitialElementsV };
   params.Domain = { { this->Domain[0], this->Domain[2] }, { this->Domain[1], this->Domain[3] } };
   params.NumMeasured = decoded->NumMeasured;
+  params.CorrectParameters = this->CorrectParameters && this->Parameterization != HEIGHT_FIELD;
   params.Method = static_cast<FitMethod>(this->Method);
   params.SwitchIteration = this->SwitchIteration;
   params.Smoothing = this->Smoothing;

@@ -121,6 +121,13 @@ public:
   vtkGetMacro(Parameterization, int);
   ///@}
   ///@{
+  /** Whether the parameters of points in space become those of the closest points of every
+   * iteration's surface (slower). Default off. Advanced. For Parameterization not HEIGHT_FIELD. */
+  vtkSetMacro(CorrectParameters, bool);
+  vtkGetMacro(CorrectParameters, bool);
+  vtkBooleanMacro(CorrectParameters, bool);
+  ///@}
+  ///@{
   /** Point arrays that are fitted along, besides those of AllFields. */
   void AddFieldArray(const char* name);
   void ClearFieldArrays();
@@ -371,6 +378,7 @@ private:
     int index, const char* what, vtkInformationVector** inputs, vtkDataArray*& array);
 
   int Parameterization = HEIGHT_FIELD;
+  bool CorrectParameters = false;
   std::vector<std::string> FieldArrays;
   bool AllFields = false;
   int Space = LR;

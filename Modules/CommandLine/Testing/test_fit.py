@@ -341,6 +341,15 @@ def test_surfaces_in_space_with_fields_CrossOracle():
     assert errors.max() <= 1e-3 and abs(errors.max() - report["max_error"]) < 1e-12
     assert np.abs(arrays["Velocity"] - velocity).max() < 5e-3 and np.abs(arrays["Heat"] - np.cos(3 * u)).max() < 5e-3
     assert np.allclose(read_points("out.vtp")[1]["Distance"], errors, atol=1e-12)
+    # wrong parameters, corrected: distances are those at the parameters that are written
+    off = np.clip(np.c_[u, v] + 0.02 * np.random.default_rng(6).uniform(-1, 1, (4000, 2)), 0, 1)
+    wrong = write_vtp("wrong.vtp", shape, Uv=off)
+    report = fit(wrong, "wrong.vtu", "--parameterization", "given", "--parameter-array", "Uv", "--tolerance", 2e-3,
+                 "--correct-parameters", "--points", path("out.vtp"))
+    assert report["within_tolerance"] is True and report["functions"] < 1000, report
+    _, arrays = read_points("out.vtp")
+    values, _ = evaluate_grid("wrong.vtu", *arrays["UV"].T)
+    assert np.linalg.norm(values - shape, axis=1).max() <= 2e-3
     # without parameters: a projection on the plane of least squares, or a message that it folds
     tilted = np.c_[u, v, 0.2 * np.sin(3 * u) * v] @ np.linalg.qr(np.random.default_rng(5).normal(size=(3, 3)))[0]
     report = fit(write_xyz("tilted.xyz", tilted), "tilted.vtu", "--parameterization", "computed", "--tolerance", 1e-3,

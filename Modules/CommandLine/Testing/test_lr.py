@@ -3,8 +3,11 @@
 import os
 
 import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 import knotwork_testing
+import skeletons
 from lr_runs import local_square, path, run, there_and_back, uniform, values
 
 
@@ -30,6 +33,21 @@ def test_local_spaces():
     assert counts["minimum-span", "elements"] < counts["full-span", "elements"], counts
     assert counts["minimum-span", "functions"] < counts["structured-mesh", "functions"], counts
     assert counts["restricted-mesh", "elements"] < counts["structured-mesh", "elements"], counts
+
+
+def test_derivatives_from_below_and_above():
+    """z = |u - 1 / 3| on a square of 3 x 2 bilinear elements, as g2: -1 from below and 1 from above its fold."""
+    head = "200 1 0 0\n3 0\n4 2\n0 0 1 2 3 3\n3 2\n0 0 1 2 2\n"
+    with open(path("fold.g2"), "w", encoding="ascii") as file:
+        file.write(head + "".join(f"{i} {j} {abs(i - 1)}\n" for j in range(3) for i in range(4)))
+    at = skeletons.write(skeletons.polydata([np.array([[1.0, 0.5], [1.5, 0.5], [1.0, 1.0]])]), path("fold_at.vtp"))
+    for side, slopes in ((0, [1, 1, 1]), (1, [-1, 1, -1])):
+        run("evaluate", path("fold.g2"), at, "--derivatives", 1, "--from-below", side, 0, 0, "--patch-id-array", "none",
+            "--output", path("fold.vtp"))
+        reader = vtkXMLPolyDataReader()
+        reader.SetFileName(path("fold.vtp"))
+        reader.Update()
+        assert vtk_to_numpy(reader.GetOutput().GetPointData().GetArray("Derivative_u"))[:, 2].tolist() == slopes
 
 
 def test_segments_are_mesh_lines():

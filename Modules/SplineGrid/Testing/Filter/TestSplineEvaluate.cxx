@@ -160,6 +160,42 @@ TEST(SplineEvaluate, ProbeInvertsTheEvaluation_CrossOracle)
   }
 }
 
+TEST(SplineEvaluate, DerivativesFromBelowKnots_ExactOracle)
+{
+  // a unit square of two elements, its points moved: z = |2 u - 1|
+  vtkNew<vtkSplineSource> source;
+  source->SetShape(vtkSplineSource::SQUARE);
+  source->SetDegree(1);
+  source->SetElements(2, 1, 1);
+  source->Update();
+  auto* square = vtkUnstructuredGrid::SafeDownCast(source->GetOutputDataObject(0));
+  const double middle = square->GetCenter()[0];
+  for (vtkIdType i = 0; i < square->GetNumberOfPoints(); ++i)
+  {
+    double x[3];
+    square->GetPoint(i, x);
+    square->GetPoints()->SetPoint(i, x[0], x[1], std::fabs(2.0 * (x[0] - middle)));
+  }
+  vtkNew<vtkPoints> at;
+  at->InsertNextPoint(0.5, 0.25, 0.0);
+  vtkNew<vtkPolyData> points;
+  points->SetPoints(at);
+  for (const bool fromBelow : { false, true })
+  {
+    vtkNew<vtkSplineEvaluate> evaluate;
+    evaluate->SetInputData(square);
+    evaluate->SetPointsData(points);
+    evaluate->SetDerivatives(1);
+    evaluate->SetFromBelow(fromBelow ? 1 : 0, 0, 0);
+    evaluate->Update();
+    vtkPointData* data =
+      vtkPolyData::SafeDownCast(evaluate->GetOutputDataObject(0))->GetPointData();
+    EXPECT_EQ(data->GetArray("Derivative_u")->GetComponent(0, 2), fromBelow ? -2.0 : 2.0);
+    EXPECT_EQ(data->GetArray("LocalParameters")->GetComponent(0, 0), fromBelow ? 1.0 : 0.0);
+    EXPECT_EQ(data->GetArray("ElementId")->GetComponent(0, 0), fromBelow ? 0.0 : 1.0);
+  }
+}
+
 TEST(SplineEvaluate, EveryFailureIsReachable)
 {
   vtkNew<vtkSplineEvaluate> filter;

@@ -4,8 +4,8 @@ import math
 
 import knotwork
 import knotwork_testing
-from vtkmodules.vtkCommonCore import vtkStringArray
-from vtkmodules.vtkCommonDataModel import vtkSphere, vtkTable, vtkUnstructuredGrid
+from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
+from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkSphere, vtkTable, vtkUnstructuredGrid
 from vtkmodules.vtkFiltersSources import vtkLineSource
 
 
@@ -74,6 +74,27 @@ def test_lr_and_extract():
     assert 36 < refine.GetOutputDataObject(0).GetNumberOfCells() < 144
     x = extract.GetOutputDataObject(0).GetBounds()  # the square of side 1 around the origin
     assert math.isclose(x[0], -0.25) and math.isclose(x[1], -0.25) and math.isclose(x[2], -0.5) and math.isclose(x[3], 0.5)
+
+
+def test_derivatives_from_below():
+    square = source("Square", Degree=1, Elements=(2, 1, 1))
+    square.Update()
+    grid = square.GetOutputDataObject(0)
+    for i in range(grid.GetNumberOfPoints()):
+        x, y, _ = grid.GetPoint(i)
+        grid.GetPoints().SetPoint(i, x, y, abs(x))
+    at = vtkPoints()
+    at.InsertNextPoint(0.5, 0.5, 0)
+    points = vtkPolyData()
+    points.SetPoints(at)
+    for side, slope in ((0, 1), (1, -1)):
+        evaluate = knotwork.vtkSplineEvaluate()
+        evaluate.SetInputDataObject(grid)
+        evaluate.SetPointsData(points)
+        evaluate.SetDerivatives(1)
+        evaluate.SetFromBelow(side, 0, 0)
+        evaluate.Update()
+        assert evaluate.GetOutputDataObject(0).GetPointData().GetArray("Derivative_u").GetComponent(0, 2) == slope
 
 
 def test_segments():

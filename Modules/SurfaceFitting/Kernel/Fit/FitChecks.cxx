@@ -62,6 +62,11 @@ Status CheckSizes(const PointCloud& cloud, const FitParams& params)
     return Bad("NumMeasured is " + std::to_string(params.NumMeasured) + ", choose 1 to " +
       std::to_string(cloud.Values.cols()));
   }
+  if (params.CorrectParameters && (params.NumMeasured < 2 || params.NumMeasured > 4))
+  {
+    return Bad("CorrectParameters needs a surface in space, and NumMeasured is " +
+      std::to_string(params.NumMeasured) + ": heights are measured at their parameters");
+  }
   return {};
 }
 

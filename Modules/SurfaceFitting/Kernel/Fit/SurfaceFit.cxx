@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceFit.h"
 
+#include "ClosestParameters.h"
 #include "FitChecks.h"
 #include "FitFeatures.h"
 #include "FitLikelihood.h"
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numeric>
 
@@ -27,6 +29,8 @@ constexpr std::size_t PointChunk = 16384;
 constexpr int MultilevelSteps = 2;             // an iteration
 constexpr int ReweightSteps = 3;               // an iteration
 constexpr int OutlierSteps = 3;                // an iteration
+constexpr int CorrectionSteps = 8;             // an iteration
+constexpr double CorrectionProgress = 0.8;     // of the squared distances, that another one leaves
 constexpr double SolverAccuracy = 0.03;        // of the smallest tolerance
 constexpr double FirstSmoothing = 1e-3;        // of the surface that the first one starts from
 constexpr int FirstSteps = 3;                  // damped, to the first one
@@ -44,9 +48,10 @@ class Fitting
 {
 public:
   Fitting(const PointCloud& cloud, const FitParams& params)
-    : Cloud(cloud), Params(WithStart(params)), Begin(std::chrono::steady_clock::now()),
-      Tolerances(FitTolerances(cloud, params)), Components(static_cast<int>(cloud.Values.cols())),
-      Moments(Params.Degree, this->Components)
+    : Corrected(params.CorrectParameters ? cloud : PointCloud()),
+      Cloud(params.CorrectParameters ? this->Corrected : cloud), Params(WithStart(params)),
+      Begin(std::chrono::steady_clock::now()), Tolerances(FitTolerances(cloud, params)),
+      Components(static_cast<int>(cloud.Values.cols())), Moments(Params.Degree, this->Components)
   {
   }
 
@@ -60,7 +65,10 @@ public:
     {
       if (iteration > 0 || !this->IsMetByStart())
       {
-        this->Approximate(iteration);
+        if (Status status = this->ApproximateCorrected(iteration); !status)
+        {
+          return status;
+        }
       }
       this->Fit.Iterations.push_back(this->Summarize(iteration));
       const FitIteration& row = this->Fit.Iterations.back();
@@ -95,7 +103,10 @@ public:
         break;
       }
     }
-    this->Deliver();
+    if (Status status = this->Deliver(); !status)
+    {
+      return status;
+    }
     return std::move(this->Fit);
   }
 
@@ -132,8 +143,7 @@ private:
       {
         this->Weights[At(this->Points.Order[i])] = this->Points.Base[i];
       }
-      this->Search = std::make_unique<OutlierSearch>(
-        this->Cloud, domain, this->Params.NumMeasured, this->Params.OutlierDeviation);
+      this->SearchOutliers();
     }
     return {};
   }
@@ -174,6 +184,66 @@ private:
       MoveToBands(this->Params.Side, this->Bands, this->Points);
     }
     this->Functions = FindElementFunctions(*this->State.Space, this->Params.Threads);
+  }
+
+  /// Approximates and corrects parameters by turns while that makes the distances much smaller:
+  /// else elements would be split for the parameters' errors.
+  Status ApproximateCorrected(int iteration)
+  {
+    this->Approximate(iteration);
+    double before = std::numeric_limits<double>::infinity();
+    for (int k = 0; this->Params.CorrectParameters; ++k)
+    {
+      if (Status status = this->CorrectParameters(); !status)
+      {
+        return status;
+      }
+      double squares = 0.0;
+      std::size_t outside = 0;
+      for (const ElementErrors& own : this->Errors)
+      {
+        squares += own.Squares;
+        outside += own.NumOutside;
+      }
+      if (outside == 0 || squares > CorrectionProgress * before || k == CorrectionSteps)
+      {
+        break;
+      }
+      before = squares;
+      this->Approximate(iteration);
+    }
+    return {};
+  }
+
+  /// The points move along the surface to where it is closest to them.
+  Status CorrectParameters()
+  {
+    auto closest = ClosestParameters(
+      { this->State.Space, this->State.Coefficients.leftCols(this->Params.NumMeasured), {} },
+      this->Corrected.Values.leftCols(this->Params.NumMeasured).eval(), this->Params.Threads, {});
+    if (!closest)
+    {
+      return closest.Status;
+    }
+    this->Corrected.Parameters = std::move(closest.Value);
+    this->Group();
+    this->Moments.Update(*this->State.Space, {}, {}, this->Points, this->Params.Threads);
+    this->Measure();
+    if (this->Search)
+    {
+      this->SearchOutliers();
+      const std::vector<int> changed = this->Search->Update(this->Points, this->Weights,
+        this->Params.OutlierScale, this->Outliers, this->Params.Threads);
+      this->Moments.Recompute(*this->State.Space, changed, this->Points, this->Params.Threads);
+      this->Measure();
+    }
+    return {};
+  }
+
+  void SearchOutliers()
+  {
+    this->Search = std::make_unique<OutlierSearch>(this->Cloud, this->State.Space->Domain(),
+      this->Params.NumMeasured, this->Params.OutlierDeviation);
   }
 
   /// Whether all points are within their tolerances of the start as it is.
@@ -481,13 +551,18 @@ private:
     this->Functions = FindElementFunctions(*this->State.Space, this->Params.Threads);
   }
 
-  void Deliver()
+  Status Deliver()
   {
     if (this->IsBestEarlier)
     {
       this->State = this->Best;
       this->Outliers = this->BestOutliers;
       this->Group();
+      if (Status status = this->Params.CorrectParameters ? this->CorrectParameters() : Status();
+          !status)
+      {
+        return status;
+      }
     }
     if (this->Params.Side != FitSide::Both)
     {
@@ -533,8 +608,14 @@ private:
       this->Fit.Features = ComputeFeatures(this->Cloud, this->Fit, this->Params.NumMeasured,
         this->Params.FeatureGridSize, this->Params.Threads);
     }
+    if (this->Params.CorrectParameters)
+    {
+      this->Fit.Parameters = std::move(this->Corrected.Parameters);
+    }
+    return {};
   }
 
+  PointCloud Corrected; ///< a copy, when parameters are corrected
   const PointCloud& Cloud;
   const FitParams Params;
   std::chrono::steady_clock::time_point Begin;

@@ -154,6 +154,9 @@ struct FitParams
   /// it stays altogether when it meets all points.
   std::optional<FitStart> Start;
   int NumMeasured = 1; ///< in [1, columns of Values]
+  /// Parameters of the points become those of the closest points of every iteration's surface, so
+  /// distances are those from the surface. Surfaces in space: NumMeasured in [2, 4].
+  bool CorrectParameters = false;
 
   FitMethod Method = FitMethod::LeastSquares;
   int SwitchIteration = 6; ///< >= 0
@@ -222,6 +225,7 @@ struct SurfaceFit
   /// The domain's own coordinates as control points of the space (u and v exactly): with Surface's
   /// first column a height field is the surface (u, v, z).
   PointMatrix DomainPoints;
+  PointMatrix Parameters;             ///< n x 2, corrected ones; 0 x 0 unless CorrectParameters
   std::vector<double> Distances;      ///< n; signed (value - surface) when NumMeasured is 1
   std::vector<double> Tolerances;     ///< n, those that were used, on the points' sides
   std::vector<std::uint8_t> Outliers; ///< n, 1: an outlier; empty unless FindOutliers

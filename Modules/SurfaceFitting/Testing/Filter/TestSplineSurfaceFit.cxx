@@ -771,6 +771,43 @@ TEST(SplineSurfaceFit, ParametersAreThoseOfTheStartsClosestPoints_CrossOracle)
   }
 }
 
+TEST(SplineSurfaceFit, ParametersAreCorrected_CrossOracle)
+{
+  // a quarter of a cylinder with parameters that run at another pace and wave
+  const auto cloud = MakeCloud<vtkPolyData>(
+    [](double u, double v) -> std::array<double, 3>
+    {
+      const double angle = 0.7 * u + 0.02 * std::sin(40.0 * v);
+      return { std::cos(angle), std::sin(angle), v };
+    });
+  for (const bool isCorrected : { false, true })
+  {
+    vtkNew<vtkSplineSurfaceFit> fit;
+    fit->SetInputData(cloud);
+    fit->SetParameterization(vtkSplineSurfaceFit::GIVEN);
+    fit->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Uv");
+    fit->SetTolerance(2e-3);
+    fit->SetCorrectParameters(isCorrected);
+    fit->Update();
+    EXPECT_EQ(Number(fit, "PointsOutside"), 0);
+    // the array says the parameters that count
+    vtkDataArray* uv = PointsOf(fit)->GetPointData()->GetArray("UV");
+    vtkDataArray* distance = PointsOf(fit)->GetPointData()->GetArray("Distance");
+    const auto on = Evaluate(fit, uv);
+    double moved = 0.0;
+    for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+    {
+      EXPECT_NEAR(std::sqrt(vtkMath::Distance2BetweenPoints(on->GetPoint(i), cloud->GetPoint(i))),
+        distance->GetComponent(i, 0), 1e-13);
+      moved = std::max(moved,
+        std::fabs(
+          uv->GetComponent(i, 0) - cloud->GetPointData()->GetArray("Uv")->GetComponent(i, 0)));
+    }
+    EXPECT_EQ(moved > 1e-3, isCorrected);
+    EXPECT_EQ(Number(fit, "Functions") < 200, isCorrected) << Number(fit, "Functions");
+  }
+}
+
 TEST(SplineSurfaceFit, StartsThatCannotBeTakenAreErrors_ExactOracle)
 {
   using F = vtkSplineSurfaceFit;
