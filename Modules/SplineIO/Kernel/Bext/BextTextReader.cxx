@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BextContents.h"
+#include "BextFields.h"
 #include "BextFile.h"
 #include "TextWords.h"
 
@@ -10,127 +11,11 @@ namespace knotwork
 {
 namespace
 {
-constexpr std::size_t IntegerWidth = 8;
-constexpr std::size_t RealWidth = 24;
 constexpr long long MostNumbers = std::numeric_limits<int>::max() - 1;
 /// Of a vector: the Bernstein polynomials of three directions.
 constexpr long long MostCoefficients = (MaxDegree + 1) * (MaxDegree + 1) * (MaxDegree + 1);
 constexpr const char* Title = "B E X T";
 constexpr const char* OtherTitle = "BASIS TRANSFORM";
-
-/// Fields of lines. Those that fill their columns stand without a blank between them. The first
-/// failure stays in Outcome, and every later step does nothing.
-class Fields
-{
-public:
-  explicit Fields(std::string_view text) : Lines(text, '$') {}
-
-  void Fail(ErrorCode code, const std::string& what)
-  {
-    if (this->Outcome)
-    {
-      this->Outcome = { code, "line " + std::to_string(this->Lines.Line()) + ": " + what };
-    }
-  }
-  /// The next line with words; one that still has some is a failure.
-  bool NextLine(const std::string& meaning)
-  {
-    this->EndLine();
-    if (this->Outcome && !this->Lines.Next())
-    {
-      this->Fail(ErrorCode::InvalidFormat,
-        meaning + " is missing: the text ends; the file is truncated or its counts are too large");
-    }
-    return static_cast<bool>(this->Outcome);
-  }
-  bool HasField() { return !this->Rest.empty() || !this->Lines.Words().AtEnd(); }
-  /// Whether the next line begins with a number that is not whole.
-  bool NextLineIsReal() const
-  {
-    LineScanner next = this->Lines;
-    return next.Next() && next.Words().Next().find('.') != std::string_view::npos;
-  }
-  std::string_view Word() { return this->Lines.Words().Next(); }
-  void EndLine()
-  {
-    if (this->Outcome && this->HasField())
-    {
-      this->Fail(ErrorCode::InvalidFormat,
-        Shown(this->Field(RealWidth)) + " is one word more than belongs there");
-    }
-  }
-  long long Integer(const std::string& meaning, long long lowest, long long highest)
-  {
-    const std::string_view word = this->Next(meaning, IntegerWidth);
-    long long value = lowest;
-    if (this->Outcome)
-    {
-      this->Keep(meaning, ParseInteger(word, lowest, highest, value));
-    }
-    return this->Outcome ? value : lowest;
-  }
-  double Real(const std::string& meaning)
-  {
-    const std::string_view word = this->Next(meaning, RealWidth);
-    double value = 0.0;
-    if (this->Outcome)
-    {
-      this->Keep(meaning, ParseReal(word, value));
-    }
-    return value;
-  }
-  /// Goes on in the next line where a list does.
-  void ContinueList(const std::string& meaning)
-  {
-    if (this->Outcome && !this->HasField())
-    {
-      this->NextLine(meaning);
-    }
-  }
-  /// Whether any further line has words.
-  bool AtEnd() { return !this->Lines.Next(); }
-
-  Status Outcome;
-
-private:
-  std::string_view Next(const std::string& meaning, std::size_t width)
-  {
-    if (!this->Outcome)
-    {
-      return {};
-    }
-    if (!this->HasField())
-    {
-      this->Fail(ErrorCode::InvalidFormat, meaning + " is missing");
-      return {};
-    }
-    return this->Field(width);
-  }
-  /// A word, or of one that is too long its first field.
-  std::string_view Field(std::size_t width)
-  {
-    if (this->Rest.empty())
-    {
-      this->Rest = this->Lines.Words().Next();
-    }
-    const std::size_t size = this->Rest.size() <= width ? this->Rest.size()
-      : this->Rest.size() % width > 0                   ? this->Rest.size() % width
-                                                        : width;
-    const std::string_view field = this->Rest.substr(0, size);
-    this->Rest.remove_prefix(size);
-    return field;
-  }
-  void Keep(const std::string& meaning, const Status& status)
-  {
-    if (!status)
-    {
-      this->Fail(status.Code, meaning + ": " + status.Detail);
-    }
-  }
-
-  LineScanner Lines;
-  std::string_view Rest;
-};
 
 struct ElementBlock
 {
@@ -491,7 +376,7 @@ private:
   }
 
   std::size_t TextSize;
-  Fields Line;
+  BextFields Line;
   BextContents Contents;
   bool IsTransform = false; ///< of the titles 2.1
   long long NumNodes = 0;

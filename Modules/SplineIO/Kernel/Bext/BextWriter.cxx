@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BextContents.h"
+#include "BextFields.h"
 #include "BextFile.h"
 
 #include <knotwork/SplineCore/SpaceFamily.h>
@@ -17,8 +18,6 @@ namespace
 {
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t IntegerWidth = 8;
-constexpr std::size_t RealWidth = 24;
 constexpr long long LargestInteger = 99999999;
 constexpr std::size_t IntegersALine = 10;
 constexpr std::size_t RealsALine = 5;
@@ -27,7 +26,7 @@ constexpr std::size_t RealsALine = 5;
 class Columns
 {
 public:
-  void Integer(long long value) { this->Field(std::to_string(value), IntegerWidth); }
+  void Integer(long long value) { this->Field(std::to_string(value), BextIntegerWidth); }
   /// 17 digits, which give the same double again.
   void Real(double value)
   {
@@ -37,7 +36,7 @@ public:
                        .ptr;
     std::string word(buffer.data(), end);
     std::replace(word.begin(), word.end(), 'e', 'E');
-    this->Field(word, RealWidth);
+    this->Field(word, BextRealWidth);
   }
   void EndLine() { this->Text += '\n'; }
   template <typename Number, typename Append>

@@ -237,6 +237,10 @@ TEST(Bext, FullColumnsAreToldApart_ExactOracle)
   ASSERT_TRUE(file) << file.Status.Message();
   EXPECT_EQ(file->Ids, (std::vector<int>{ 12345678 }));
   EXPECT_EQ(std::get<Spline<1>>(file->Splines.front()).ControlPoints(1, 0), -0.5);
+  const Result<SplineFile> digits =
+    ReadBext(With(Sparse, ".5 0 0 1", "0.70710678118654752440084436210485 0 0 1"));
+  ASSERT_TRUE(digits) << digits.Status.Message();
+  EXPECT_EQ(std::get<Spline<1>>(digits->Splines.front()).ControlPoints(1, 0), std::sqrt(0.5));
 }
 
 TEST(Bext, RoundTripsOfEveryFamilyAreExact_CrossOracle)
