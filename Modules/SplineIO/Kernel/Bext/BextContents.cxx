@@ -28,13 +28,17 @@ Result<SplineFile> MakeFile(const BextContents& contents, int first)
   {
     return space.Status;
   }
-  for (Eigen::Index i = 0; contents.Rational && i < contents.Nodes.rows(); ++i)
+  for (Eigen::Index i = 0; i < contents.Nodes.rows(); ++i)
   {
-    if (!(contents.Nodes(i, 3) > 0.0))
+    const std::string name = "control point " + std::to_string(i + first);
+    if (!AllWithinLimit(contents.Nodes.row(i).head(3)))
+    {
+      return { ErrorCode::TooLarge, name + ": " + BeyondLimit() };
+    }
+    if (contents.Rational && !(contents.Nodes(i, 3) > 0.0))
     {
       return { ErrorCode::InvalidWeight,
-        "control point " + std::to_string(i + first) + " has the weight " +
-          Digits(contents.Nodes(i, 3)) + "; weights are positive" };
+        name + " has the weight " + Digits(contents.Nodes(i, 3)) + "; weights are positive" };
     }
   }
   SplineFile file;

@@ -441,6 +441,8 @@ TEST(Bext, EveryFailureOfTextIsReachable)
       { "element 1: its 3 functions do not span" } },
     { "ZeroWeight", With(With(good, "0 0 0 1\n", "0 0 0 0\n"), "2 6 0\n", "2 6 1\n"),
       ErrorCode::InvalidWeight, { "control point 1 has the weight 0" } },
+    { "Huge", With(good, ".5 0 0 1", ".5 -1e61 0 1"), ErrorCode::TooLarge,
+      { "control point 2: a value is larger" } },
   });
 }
 
