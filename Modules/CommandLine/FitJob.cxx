@@ -43,7 +43,8 @@ enum Port
   Surface,
   Points,
   Iterations,
-  Features
+  Features,
+  Elements
 };
 
 class FitJob : public FilterJob<vtkSplineSurfaceFit>
@@ -60,6 +61,7 @@ public:
       Points, "--points", Endings::Points, "the points with distances, tolerances, outliers");
     this->AddOutput(Iterations, "--table", Endings::Table, "the iterations");
     this->AddOutput(Features, "--features", Endings::Image, "the feature grid");
+    this->AddOutput(Elements, "--elements", Endings::Cells, "the elements with their features");
     this->AddArrayOptions();
     this->AddProperties();
   }
@@ -128,7 +130,8 @@ protected:
   {
     Status status = this->WriteSurface(session);
     status = status ? session.WriteOutputs(this->Filter,
-                        { {}, {}, this->OutputFile(Iterations), this->OutputFile(Features) })
+                        { {}, {}, this->OutputFile(Iterations), this->OutputFile(Features),
+                          this->OutputFile(Elements) })
                     : status;
     return status && !this->OutputFile(Points).empty()
       ? session.Write(

@@ -9,6 +9,7 @@
 #include <knotwork/SurfaceFitting/ClosestParameters.h>
 #include <knotwork/SurfaceFitting/PlaneParameters.h>
 
+#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
@@ -19,12 +20,14 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
+#include "vtkPolyData.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace knotwork
 {
@@ -207,6 +210,32 @@ void AddValues(vtkFieldData* data, const char* name, const std::vector<Value>& v
   std::copy(values.begin(), values.end(), array->GetPointer(0));
   data->AddArray(array);
 }
+
+/// Features of all parts, one set after the other, as cell arrays; numbers of things are integers.
+void AddFeatures(const std::vector<FitFeatures>& sets, vtkFieldData* data)
+{
+  std::vector<double> values;
+  for (int c = 0; c < NumFitFeatures; ++c)
+  {
+    values.clear();
+    for (const FitFeatures& features : sets)
+    {
+      for (Eigen::Index k = 0; k < features.Values.rows(); ++k)
+      {
+        values.push_back(features.Values(k, c));
+      }
+    }
+    const std::string name = FitFeatureNames[c];
+    if (name.rfind("Num", 0) == 0)
+    {
+      AddValues<vtkIntArray>(data, name.c_str(), values);
+    }
+    else
+    {
+      AddValues<vtkDoubleArray>(data, name.c_str(), values);
+    }
+  }
+}
 }
 
 Result<DecodedCloud> DecodeCloud(vtkPointSet* data, const CloudChoice& choice)
@@ -353,7 +382,12 @@ Status EncodeFit(const DecodedCloud& cloud, const SurfaceFit& fit, vtkUnstructur
   }
   SplineModel model;
   model.Patches.push_back(std::move(patch));
-  return EncodeSplineGrid(model, output);
+  Status status = EncodeSplineGrid(model, output);
+  if (status && !fit.ElementFeatures.empty())
+  {
+    AddFeatures({ fit.ElementFeatures.back() }, output->GetCellData()); // cells are elements
+  }
+  return status;
 }
 
 void EncodeDistances(const DecodedCloud& cloud, const SurfaceFit& fit, vtkPointSet* output)
@@ -401,25 +435,53 @@ void EncodeIterations(const SurfaceFit& fit, vtkTable* output)
   real("BIC", [](Row r) { return r.BIC; });
 }
 
-void EncodeFeatures(
-  const FitFeatures& features, const ParametricBox<2>& domain, vtkImageData* output)
+void EncodeGridFeatures(const SurfaceFit& fit, vtkImageData* output)
 {
-  const int n = features.Size;
-  if (n == 0)
+  if (fit.GridFeatures.empty())
   {
     return;
   }
-  output->SetDimensions(n + 1, n + 1, 1);
+  const ParametricBox<2> domain = fit.Surface.Space->Domain();
+  const auto layers = static_cast<int>(fit.GridFeatures.size());
+  const auto n = static_cast<int>(
+    std::lround(std::sqrt(static_cast<double>(fit.GridFeatures[0].Values.rows()))));
+  output->SetDimensions(n + 1, n + 1, layers > 1 ? layers + 1 : 1);
   output->SetOrigin(domain.Lower[0], domain.Lower[1], 0.0);
   output->SetSpacing(
     (domain.Upper[0] - domain.Lower[0]) / n, (domain.Upper[1] - domain.Lower[1]) / n, 1.0);
-  vtkCellData* data = output->GetCellData();
-  AddValues<vtkDoubleArray>(data, "Height", features.Height);
-  AddValues<vtkDoubleArray>(data, "Slope", features.Slope);
-  AddValues<vtkDoubleArray>(data, "Roughness", features.Roughness);
-  AddValues<vtkDoubleArray>(data, "MaxError", features.MaxError);
-  AddValues<vtkDoubleArray>(data, "ElementSize", features.ElementSize);
-  AddValues<vtkIntArray>(data, "NumPoints", features.NumPoints);
-  AddValues<vtkIntArray>(data, "NumOutside", features.NumOutside);
+  AddFeatures(fit.GridFeatures, output->GetCellData());
+}
+
+void EncodeElementFeatures(const SurfaceFit& fit, vtkPolyData* output)
+{
+  if (fit.ElementFeatures.empty())
+  {
+    return;
+  }
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> rectangles;
+  const auto iterations = NamedArray<vtkIntArray>("Iteration");
+  const auto elements = NamedArray<vtkIntArray>("ElementId");
+  const std::size_t first = fit.Iterations.size() - fit.ElementFeatures.size();
+  for (std::size_t k = 0; k < fit.ElementFeatures.size(); ++k)
+  {
+    int element = 0;
+    for (const ParametricBox<2>& box : fit.ElementFeatures[k].Boxes)
+    {
+      const vtkIdType corner = points->InsertNextPoint(box.Lower[0], box.Lower[1], 0.0);
+      points->InsertNextPoint(box.Upper[0], box.Lower[1], 0.0);
+      points->InsertNextPoint(box.Upper[0], box.Upper[1], 0.0);
+      points->InsertNextPoint(box.Lower[0], box.Upper[1], 0.0);
+      rectangles->InsertNextCell({ corner, corner + 1, corner + 2, corner + 3 });
+      iterations->InsertNextValue(fit.Iterations[first + k].Iteration);
+      elements->InsertNextValue(element++);
+    }
+  }
+  output->SetPoints(points);
+  output->SetPolys(rectangles);
+  output->GetCellData()->AddArray(iterations);
+  output->GetCellData()->AddArray(elements);
+  AddFeatures(fit.ElementFeatures, output->GetCellData());
 }
 }

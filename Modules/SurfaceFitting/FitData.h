@@ -8,6 +8,7 @@
 class vtkDataArray;
 class vtkImageData;
 class vtkPointSet;
+class vtkPolyData;
 class vtkTable;
 class vtkUnstructuredGrid;
 
@@ -62,7 +63,8 @@ Result<const Spline<2>*> FindStart(const SplineModel& model);
 /// @return InvalidParameter: it is no height field but the points are; it lacks a field.
 Result<FitStart> MakeStart(const SplineModel& model, DecodedCloud& cloud, int threads);
 
-/// The surface (x, y, z) with the arrays fitted along as fields on the same space.
+/// The surface (x, y, z) with the arrays fitted along as fields on the same space, features of its
+/// elements as cell arrays.
 Status EncodeFit(const DecodedCloud& cloud, const SurfaceFit& fit, vtkUnstructuredGrid* output);
 
 /// Adds the point arrays `Distance`, `Tolerance`, `Outlier`, and with other parameters than x, y
@@ -74,8 +76,11 @@ void EncodeDistances(const DecodedCloud& cloud, const SurfaceFit& fit, vtkPointS
 /// MeanSignificantError, SignificantOutside, LogLikelihood, DegreesOfFreedom, AIC, BIC.
 void EncodeIterations(const SurfaceFit& fit, vtkTable* output);
 
-/// A cell a cell of the grid, with the cell arrays Height, Slope, Roughness, MaxError, ElementSize,
-/// NumPoints, NumOutside.
-void EncodeFeatures(
-  const FitFeatures& features, const ParametricBox<2>& domain, vtkImageData* output);
+/// A cell a cell of the feature grid with FitFeatureNames as cell arrays; a layer an iteration, of
+/// height 1, when there are several.
+void EncodeGridFeatures(const SurfaceFit& fit, vtkImageData* output);
+
+/// A rectangle of the parameter plane an element, with FitFeatureNames, `ElementId` and `Iteration`
+/// as cell arrays.
+void EncodeElementFeatures(const SurfaceFit& fit, vtkPolyData* output);
 }

@@ -13,6 +13,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
+#include "vtkPolyData.h"
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -57,7 +58,8 @@ std::string DescribeMiss(const knotwork::SurfaceFit& fit)
 vtkSplineSurfaceFit::vtkSplineSurfaceFit()
 {
   this->SetNumberOfInputPorts(2);
-  this->SetOutputTypes({ "vtkUnstructuredGrid", "vtkPointSet", "vtkTable", "vtkImageData" });
+  this->SetOutputTypes(
+    { "vtkUnstructuredGrid", "vtkPointSet", "vtkTable", "vtkImageData", "vtkPolyData" });
 }
 
 void vtkSplineSurfaceFit::SetStartConnection(vtkAlgorithmOutput* output)
@@ -253,6 +255,8 @@ knotwork::Status vtkSplineSurfaceFit::Compute(
   params.Independent = this->Independent;
   params.MinElementSize = this->MinimumElementSize;
   params.FeatureGridSize = this->FeatureGridSize;
+  params.ElementFeatures = this->ElementFeatures;
+  params.FeatureIterations = this->FeatureIterations;
   params.Threads = this->KernelThreads();
   params.Progress = this->Progress();
   const Result<SurfaceFit> fit = FitSurface(decoded->Cloud, params);
@@ -269,6 +273,7 @@ knotwork::Status vtkSplineSurfaceFit::Compute(
   points->ShallowCopy(input);
   EncodeDistances(decoded.Value, fit.Value, points);
   EncodeIterations(fit.Value, vtkTable::GetData(outputs, 2));
-  EncodeFeatures(fit->Features, fit->Surface.Space->Domain(), vtkImageData::GetData(outputs, 3));
+  EncodeGridFeatures(fit.Value, vtkImageData::GetData(outputs, 3));
+  EncodeElementFeatures(fit.Value, vtkPolyData::GetData(outputs, 4));
   return EncodeFit(decoded.Value, fit.Value, vtkUnstructuredGrid::GetData(outputs));
 }

@@ -18,7 +18,9 @@
  * fields on the same space. Output 1 are the points with `Distance` (value minus surface; of
  * surfaces in space its length), `Tolerance` and `Outlier`, and with the parameters `UV` of a
  * surface in space. Output 2 is the table of iterations, whose last row is the result. Output 3 is
- * the feature grid (vtkImageData), empty when FeatureGridSize is 0.
+ * the feature grid (vtkImageData), empty when FeatureGridSize is 0; with FeatureIterations it has a
+ * layer a row of the table. Output 4 are the elements (vtkPolyData, rectangles of the parameter
+ * plane) with the same features and `Iteration`, empty unless ElementFeatures.
  *
  * A fit that ends by a limit is an output with a warning.
  *
@@ -357,6 +359,20 @@ public:
   vtkSetClampMacro(FeatureGridSize, int, 0, 4096);
   vtkGetMacro(FeatureGridSize, int);
   ///@}
+  ///@{
+  /** Whether the elements have features: cell arrays of the surface, and output 4. Default off.
+   * Advanced. */
+  vtkSetMacro(ElementFeatures, bool);
+  vtkGetMacro(ElementFeatures, bool);
+  vtkBooleanMacro(ElementFeatures, bool);
+  ///@}
+  ///@{
+  /** Whether the feature grid and output 4 have the features of every iteration, not of the result
+   * alone. Default off. Advanced. */
+  vtkSetMacro(FeatureIterations, bool);
+  vtkGetMacro(FeatureIterations, bool);
+  vtkBooleanMacro(FeatureIterations, bool);
+  ///@}
 
   /**
    * Measured seconds of the last run. They are in no output: outputs are the same from run to run.
@@ -418,5 +434,7 @@ private:
   bool Independent = false;
   double MinimumElementSize = 1e-7;
   int FeatureGridSize = 0;
+  bool ElementFeatures = false;
+  bool FeatureIterations = false;
 };
 #endif

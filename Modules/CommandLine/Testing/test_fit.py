@@ -464,6 +464,31 @@ def test_few_points_have_a_surface_too():
         assert np.abs(d).max() <= 1e-3 and report["within_tolerance"] is True, name
 
 
+def test_features_of_the_elements():
+    """The file of the elements of every iteration against the table: numbers, largest errors, areas that fill the domain."""
+    file = write_xyz("e.xyz", cloud(35))
+    fit(file, "e.vtu", "--tolerance", 2e-3, "--element-features", "--feature-iterations", "--elements", path("e.vtp"),
+        "--table", path("e.csv"), "--domain", 0, 1, 0, 1, "--feature-grid-size", 3, "--features", path("e.vti"))
+    reader = vtkXMLPolyDataReader()
+    reader.SetFileName(path("e.vtp"))
+    reader.Update()
+    data = reader.GetOutput().GetCellData()
+    arrays = {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)) for i in range(data.GetNumberOfArrays())}
+    with open(path("e.csv"), newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    assert len(rows) > 2
+    for row in rows:
+        own = arrays["Iteration"] == int(row["Iteration"])
+        assert own.sum() == int(row["Elements"]) and arrays["NumPoints"][own].sum() == 3000
+        assert arrays["NumOutside"][own].sum() == int(row["PointsOutside"])
+        assert np.isclose(arrays["MaxError"][own].max(), float(row["MaxError"]), rtol=1e-5, atol=0)  # a table has six digits
+        assert abs(arrays["ElementSize"][own].sum() - 1) < 1e-12
+    reader = vtkXMLImageDataReader()
+    reader.SetFileName(path("e.vti"))
+    reader.Update()
+    assert reader.GetOutput().GetNumberOfCells() == 9 * len(rows)
+
+
 def test_feature_grid():
     points = cloud(10)
     fit(write_xyz("f.xyz", points), "f.g2", "--tolerance", 1e-3, "--feature-grid-size", 10, "--features", path("f.vti"))

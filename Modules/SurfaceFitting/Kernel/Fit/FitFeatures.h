@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "SurfaceFit.h"
+#include "FitPoints.h"
+#include "FitSpaces.h"
 
 namespace knotwork
 {
-/// Numbers of a regular grid about a fit and its points. @pre size > 0.
-/// @complexity O(size^2 + points).
-FitFeatures ComputeFeatures(
-  const PointCloud& cloud, const SurfaceFit& fit, int numMeasured, int size, int threads);
+/// Features of every element of the state's space. @pre points.Distance is measured.
+/// @param height  the component that surface features are about.
+/// @complexity O(elements + points).
+FitFeatures ElementFeatures(
+  const FitState& state, const FitPoints& points, Eigen::Index height, int threads);
+
+/// The same of size x size equal cells of the domain, first parameter fastest. @pre size > 0.
+FitFeatures GridFeatures(
+  const FitState& state, const FitPoints& points, Eigen::Index height, int size, int threads);
 }

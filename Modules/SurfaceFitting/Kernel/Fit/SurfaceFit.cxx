@@ -70,7 +70,7 @@ public:
           return status;
         }
       }
-      this->Fit.Iterations.push_back(this->Summarize(iteration));
+      this->AddRow(iteration);
       const FitIteration& row = this->Fit.Iterations.back();
       this->IsBestEarlier = row.NumOutside > 0 && this->CriterionReached();
       if (row.NumOutside == 0 || this->IsBestEarlier || this->LimitReached())
@@ -400,6 +400,30 @@ private:
     return row;
   }
 
+  void AddRow(int iteration)
+  {
+    this->Fit.Iterations.push_back(this->Summarize(iteration));
+    if (this->Params.FeatureIterations)
+    {
+      this->AddFeatures();
+    }
+  }
+
+  void AddFeatures()
+  {
+    const Eigen::Index height = this->Params.NumMeasured - 1;
+    if (this->Params.FeatureGridSize > 0)
+    {
+      this->Fit.GridFeatures.push_back(GridFeatures(
+        this->State, this->Points, height, this->Params.FeatureGridSize, this->Params.Threads));
+    }
+    if (this->Params.ElementFeatures)
+    {
+      this->Fit.ElementFeatures.push_back(
+        ElementFeatures(this->State, this->Points, height, this->Params.Threads));
+    }
+  }
+
   void SummarizeSignificant(FitIteration& row) const
   {
     for (std::size_t i = 0; !this->Cloud.Significant.empty() && i < this->Points.Size(); ++i)
@@ -574,8 +598,12 @@ private:
     if (this->IsBestEarlier || this->Params.Side != FitSide::Both)
     {
       this->Measure();
-      this->Fit.Final = this->Summarize(this->Fit.Iterations.back().Iteration);
-      this->Fit.Iterations.push_back(this->Fit.Final);
+      this->AddRow(this->Fit.Iterations.back().Iteration);
+      this->Fit.Final = this->Fit.Iterations.back();
+    }
+    if (!this->Params.FeatureIterations)
+    {
+      this->AddFeatures();
     }
     this->Fit.WithinTolerance = this->Fit.Final.NumOutside == 0;
     this->Fit.End = this->Fit.WithinTolerance ? FitEnd::Tolerance : this->Fit.End;
@@ -603,11 +631,6 @@ private:
       });
     this->Fit.Tolerances = std::move(this->Tolerances);
     this->Fit.Outliers = std::move(this->Outliers);
-    if (this->Params.FeatureGridSize > 0)
-    {
-      this->Fit.Features = ComputeFeatures(this->Cloud, this->Fit, this->Params.NumMeasured,
-        this->Params.FeatureGridSize, this->Params.Threads);
-    }
     if (this->Params.CorrectParameters)
     {
       this->Fit.Parameters = std::move(this->Corrected.Parameters);

@@ -3,6 +3,7 @@
 #include <knotwork/SplineCore/LRStrategies.h>
 
 #include <cstdint>
+#include <iterator>
 #include <optional>
 
 namespace knotwork
@@ -201,22 +202,61 @@ struct FitParams
   /// an LR space that come from beside them may still cross them. In (0, 1).
   double MinElementSize = 1e-7;
 
-  int FeatureGridSize = 0; ///< n: an n x n grid of FitFeatures; 0: none
+  int FeatureGridSize = 0;        ///< n: features of n x n equal cells; 0: none
+  bool ElementFeatures = false;   ///< features of elements
+  bool FeatureIterations = false; ///< features of every iteration, not of the result alone
   int Threads = 0;
   ProgressCallback Progress;
 };
 
-/// Numbers of a regular grid over the domain, first parameter fastest, Size x Size cells.
+/// What is known of a part of the domain: an element, or a cell of a regular grid. Heights are
+/// those of the last measured column, of the surface at 3 x 3 places of the part; distances those
+/// of the points in it that are no outliers, sizes where they are above or below. 0 without points.
+enum class FitFeature
+{
+  Height,     ///< of the surface in the middle
+  MeanHeight, ///< of the places
+  HeightRange,
+  Slope, ///< length of the gradient in the middle
+  MeanSlope,
+  Laplacian,   ///< mean of the sum of the second derivatives
+  ElementSize, ///< area of the element in the middle
+  NumElements, ///< that meet it
+  NumPoints,
+  NumOutside,
+  NumAbove,
+  NumBelow, ///< or on the surface
+  NumOutsideAbove,
+  NumOutsideBelow,
+  MaxError,
+  MeanError,
+  Roughness,     ///< standard deviation of the distances
+  DistanceRange, ///< between the highest and the lowest point, over the surface
+  MaxAbove,
+  MeanAbove,
+  DeviationAbove,
+  MaxBelow,
+  MeanBelow,
+  DeviationBelow,
+  MeanPointHeight,
+  PointHeightRange,
+  PointHeightDeviation
+};
+
+inline constexpr const char* FitFeatureNames[] = { "Height", "MeanHeight", "HeightRange", "Slope",
+  "MeanSlope", "Laplacian", "ElementSize", "NumElements", "NumPoints", "NumOutside", "NumAbove",
+  "NumBelow", "NumOutsideAbove", "NumOutsideBelow", "MaxError", "MeanError", "Roughness",
+  "DistanceRange", "MaxAbove", "MeanAbove", "DeviationAbove", "MaxBelow", "MeanBelow",
+  "DeviationBelow", "MeanPointHeight", "PointHeightRange", "PointHeightDeviation" };
+inline constexpr int NumFitFeatures = static_cast<int>(std::size(FitFeatureNames));
+
+/// Features of all parts.
 struct FitFeatures
 {
-  int Size = 0;
-  std::vector<double> Height;      ///< measured value in the middle of a cell (the last column)
-  std::vector<double> Slope;       ///< length of its gradient
-  std::vector<double> Roughness;   ///< standard deviation of the distances in a cell
-  std::vector<double> MaxError;    ///< largest distance in a cell
-  std::vector<double> ElementSize; ///< area of the element in the middle of a cell
-  std::vector<int> NumPoints;
-  std::vector<int> NumOutside;
+  std::vector<ParametricBox<2>> Boxes; ///< of elements; empty for a grid
+  PointMatrix Values;                  ///< parts x NumFitFeatures
+
+  auto Of(FitFeature feature) const { return this->Values.col(static_cast<Eigen::Index>(feature)); }
 };
 
 struct SurfaceFit
@@ -232,7 +272,9 @@ struct SurfaceFit
   /// The last row is Final. One-sided fits: errors before are distances from the middle of the band
   /// between the points and their tolerances.
   std::vector<FitIteration> Iterations;
-  FitFeatures Features;
+  /// Of the result, or with FeatureIterations one a row of Iterations.
+  std::vector<FitFeatures> GridFeatures;
+  std::vector<FitFeatures> ElementFeatures;
   FitIteration Final; ///< the numbers of the result, computed anew
   bool WithinTolerance = false;
   FitEnd End = FitEnd::Tolerance;

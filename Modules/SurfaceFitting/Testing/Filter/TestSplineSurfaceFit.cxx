@@ -771,6 +771,76 @@ TEST(SplineSurfaceFit, ParametersAreThoseOfTheStartsClosestPoints_CrossOracle)
   }
 }
 
+TEST(SplineSurfaceFit, ElementsHaveFeatures_CrossOracle)
+{
+  vtkNew<vtkSplineSurfaceFit> fit;
+  fit->SetInputData(MakeCloud<vtkPolyData>(Wave));
+  fit->SetTolerance(1e-3);
+  fit->SetFeatureGridSize(4);
+  fit->Update();
+  auto* elements = vtkPolyData::SafeDownCast(fit->GetOutputDataObject(4));
+  ASSERT_TRUE(elements);
+  EXPECT_EQ(elements->GetNumberOfCells(), 0);
+  fit->ElementFeaturesOn();
+  fit->Update();
+  auto* surface = vtkUnstructuredGrid::SafeDownCast(fit->GetOutputDataObject(0));
+  elements = vtkPolyData::SafeDownCast(fit->GetOutputDataObject(4));
+  EXPECT_EQ(elements->GetNumberOfCells(), surface->GetNumberOfCells());
+  vtkCellData* own = surface->GetCellData();
+  for (vtkIdType c = 0; c < surface->GetNumberOfCells(); ++c)
+  {
+    // the cell's own box: z of its points lies about the feature, and its corners are the element's
+    const double* bounds = surface->GetCell(c)->GetBounds();
+    const double* box = elements->GetCell(c)->GetBounds();
+    for (int side = 0; side < 4; ++side)
+    {
+      EXPECT_NEAR(bounds[side], box[side], 1e-14);
+    }
+    EXPECT_EQ(own->GetArray("ElementId")->GetComponent(c, 0),
+      elements->GetCellData()->GetArray("ElementId")->GetComponent(c, 0));
+    EXPECT_GE(own->GetArray("Height")->GetComponent(c, 0), bounds[4] - 1e-14);
+    EXPECT_LE(own->GetArray("Height")->GetComponent(c, 0), bounds[5] + 1e-14);
+  }
+  for (const char* name : FitFeatureNames)
+  {
+    vtkDataArray* of = own->GetArray(name);
+    vtkDataArray* same = elements->GetCellData()->GetArray(name);
+    ASSERT_TRUE(of && same) << name;
+    EXPECT_EQ(of->GetDataType(), std::string(name).rfind("Num", 0) == 0 ? VTK_INT : VTK_DOUBLE);
+    for (vtkIdType c = 0; c < surface->GetNumberOfCells(); ++c)
+    {
+      EXPECT_EQ(of->GetComponent(c, 0), same->GetComponent(c, 0));
+    }
+    EXPECT_TRUE(
+      vtkImageData::SafeDownCast(fit->GetOutputDataObject(3))->GetCellData()->HasArray(name));
+  }
+  // a layer and a set of elements an iteration
+  fit->FeatureIterationsOn();
+  fit->Update();
+  auto* table = vtkTable::SafeDownCast(fit->GetOutputDataObject(2));
+  auto* image = vtkImageData::SafeDownCast(fit->GetOutputDataObject(3));
+  elements = vtkPolyData::SafeDownCast(fit->GetOutputDataObject(4));
+  const vtkIdType rows = table->GetNumberOfRows();
+  ASSERT_GT(rows, 2);
+  EXPECT_EQ(image->GetNumberOfCells(), 16 * rows);
+  vtkIdType cell = 0;
+  for (vtkIdType r = 0; r < rows; ++r)
+  {
+    double outside = 0.0;
+    for (vtkIdType c = 0; c < 16; ++c)
+    {
+      outside += image->GetCellData()->GetArray("NumOutside")->GetComponent(16 * r + c, 0);
+    }
+    EXPECT_EQ(outside, table->GetValueByName(r, "PointsOutside").ToDouble());
+    for (int e = 0; e < table->GetValueByName(r, "Elements").ToInt(); ++e, ++cell)
+    {
+      EXPECT_EQ(elements->GetCellData()->GetArray("Iteration")->GetComponent(cell, 0), r);
+      EXPECT_EQ(elements->GetCellData()->GetArray("ElementId")->GetComponent(cell, 0), e);
+    }
+  }
+  EXPECT_EQ(cell, elements->GetNumberOfCells());
+}
+
 TEST(SplineSurfaceFit, ParametersAreCorrected_CrossOracle)
 {
   // a quarter of a cylinder with parameters that run at another pace and wave

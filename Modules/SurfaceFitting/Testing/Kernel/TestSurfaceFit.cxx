@@ -314,39 +314,6 @@ TEST(SurfaceFit, IndependentFunctions_CrossOracle)
   EXPECT_EQ(numDependent, 1); // the option has had something to do
 }
 
-TEST(SurfaceFit, FeatureGridsCountThePoints_CrossOracle)
-{
-  const PointCloud cloud = clouds::HeightField(20000, 19, Wave);
-  FitParams params = WithTolerance(0.002);
-  params.FeatureGridSize = 7;
-  const SurfaceFit fit = Fit(cloud, params);
-  const FitFeatures& features = fit.Features;
-  ASSERT_EQ(features.Size, 7);
-  ASSERT_EQ(features.Height.size(), 49U);
-  int count = 0;
-  for (const int n : features.NumPoints)
-  {
-    count += n;
-  }
-  EXPECT_EQ(count, 20000);
-  EXPECT_EQ(
-    *std::max_element(features.MaxError.begin(), features.MaxError.end()), fit.Final.MaxError);
-  const ParametricBox<2> domain = fit.Surface.Space->Domain();
-  for (int k = 0; k < 49; ++k)
-  {
-    const auto at = static_cast<std::size_t>(k);
-    const double x = domain.Lower[0] + (k % 7 + 0.5) / 7.0 * (domain.Upper[0] - domain.Lower[0]);
-    const double y = domain.Lower[1] + (k / 7 + 0.5) / 7.0 * (domain.Upper[1] - domain.Lower[1]);
-    EXPECT_NEAR(features.Height[at], Wave(x, y), 0.002);
-    EXPECT_NEAR(features.Slope[at],
-      std::hypot(2.1 * std::cos(7.0 * x) * std::cos(5.0 * y) + 0.1,
-        -1.5 * std::sin(7.0 * x) * std::sin(5.0 * y)),
-      0.2);
-    EXPECT_GT(features.ElementSize[at], 0.0);
-    EXPECT_LE(features.Roughness[at], features.MaxError[at]);
-  }
-}
-
 TEST(SurfaceFit, EveryFailureIsReachable_ExactOracle)
 {
   const PointCloud good = clouds::HeightField(100, 20, Wave);

@@ -49,6 +49,14 @@ def test_arrays_fields_and_boxes():
     assert abs(ranges[0] - 0.001) < 1e-12 and abs(ranges[1] - 0.01) < 1e-12, ranges
 
 
+def test_elements_have_features():
+    fit = SplineSurfaceFit(Input=cap(), Tolerance=0.001, ElementFeatures=1, FeatureIterations=1)
+    number(fit, "MaxError")
+    assert OutputPort(fit, 0).GetCellDataInformation().GetArray("DeviationAbove") is not None
+    last = OutputPort(fit, 4).GetCellDataInformation().GetArray("Iteration").GetRange()
+    assert last == (0, number(fit, "Iteration")), last
+
+
 def test_a_start_is_updated():
     first = SplineSurfaceFit(Input=cap(), Tolerance=0.01)
     update = SplineSurfaceFit(Input=cap(), Start=first, Tolerance=0.001, HoldEdges="Values", HeldSides=[1, 1, 0, 0])

@@ -139,6 +139,22 @@ def heights(**properties):
     return renderer
 
 
+def test_elements_have_features_CrossOracle():
+    data = cloud(cliff, n=3000)
+    fit = fitted(data, Tolerance=0.02, ElementFeatures=True)
+    elements = fit.GetOutputDataObject(4)
+    distance = vtk_to_numpy(fit.GetOutputDataObject(1).GetPointData().GetArray("Distance"))
+    x, y = points_of(data)[:, 0], points_of(data)[:, 1]
+    for name, of in (("MaxAbove", lambda d: d[d > 0].max(initial=0)), ("NumPoints", len),
+                     ("Roughness", lambda d: d.std() if len(d) else 0)):
+        values = vtk_to_numpy(elements.GetCellData().GetArray(name))
+        for c in range(0, elements.GetNumberOfCells(), 17):
+            x0, x1, y0, y1 = elements.GetCell(c).GetBounds()[:4]
+            inside = (x >= x0) & (x < x1) & (y >= y0) & (y < y1)
+            if x1 < x.max() and y1 < y.max():
+                assert abs(values[c] - of(distance[inside])) < 1e-13, (name, c)
+
+
 def test_a_start_is_updated_CrossOracle():
     first = fitted(cloud(cliff), Tolerance=0.01, Space="THB", Domain=(0, 1, 0, 1))
     uv = 0.25 * np.random.default_rng(5).random((1000, 2))
