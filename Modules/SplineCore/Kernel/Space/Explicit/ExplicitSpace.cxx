@@ -73,6 +73,25 @@ private:
   std::unordered_multimap<std::uint64_t, int> Known;
 };
 
+/// Where the pivots of a decomposition fall to rounding at once. On a very short element they fall
+/// to it by and by: its functions may be independent, whatever doubles can tell.
+Eigen::Index RankOf(const Eigen::MatrixXd& matrix)
+{
+  constexpr double drop = 1e-10;
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> decomposition(matrix);
+  const Eigen::VectorXd pivots = decomposition.matrixQR().diagonal().cwiseAbs();
+  const double rounding =
+    std::numeric_limits<double>::epsilon() * static_cast<double>(pivots.size());
+  for (Eigen::Index k = 1; k < pivots.size(); ++k)
+  {
+    if (!(pivots[k] > rounding * pivots[0]) && !(pivots[k] > drop * pivots[k - 1]))
+    {
+      return k;
+    }
+  }
+  return pivots.size();
+}
+
 /// What is wrong with the functions on one element; each different operator is looked at once.
 template <int Dim>
 class ElementCheck
@@ -199,9 +218,7 @@ private:
       const double largest = operation.row(k).maxCoeff();
       operation.row(k) *= largest > 0.0 ? 1.0 / largest : 1.0;
     }
-    const Eigen::Index rank = operation.rows() < operation.cols()
-      ? operation.rows()
-      : Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(operation).rank();
+    const Eigen::Index rank = RankOf(operation);
     if (rank < operation.cols())
     {
       return { ErrorCode::NotInSpace,

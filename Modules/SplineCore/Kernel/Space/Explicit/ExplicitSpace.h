@@ -47,8 +47,8 @@ inline constexpr double ExtractionTolerance = 1e-11;
 /// Space that is given by its extraction operators alone, as a file of them gives it: no mesh, no
 /// parameter domain, and nothing that it could be refined by. Degrees may differ between elements
 /// and directions. On every element the functions are not negative, sum to one and span all
-/// polynomials of its degrees, numerically: of degree 5 and more not on an element that is shorter
-/// than others by 1e5, of degree 7 by 1e3. There may be more of them than that takes.
+/// polynomials of its degrees; there may be more of them than that takes. Functions that are nearly
+/// dependent because their element is very short are taken.
 ///
 /// Bernstein points on the sides of elements are one where their coefficients agree to 1e-12 in
 /// every function, for then every spline of the space has one value there.
