@@ -234,7 +234,7 @@ TEST(ExplicitSpace, EveryChangedCoefficientIsRefusedByItsElement_ExactOracle)
   const ExtractionTable<1> good = TwoParabolas();
   for (std::size_t i = 0; i < good.Coefficients.size(); ++i)
   {
-    for (const double change : { 1e-3, -1e-3, 1e-9 })
+    for (const double change : { 1e-3, -1e-3, 1e-9, 1e-11 })
     {
       ExtractionTable<1> bad = good;
       bad.Coefficients[i] += change;

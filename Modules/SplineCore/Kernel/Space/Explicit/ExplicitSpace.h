@@ -40,9 +40,9 @@ struct ExtractionTable
 
 /// How far the coefficients of all functions at a Bernstein polynomial may be from the sum 1, and
 /// a coefficient below 0. The operators of smooth splines are products of some ten factors and
-/// their coefficients sums of some hundred terms: rounding stays below 1e-13, also of numbers with
-/// 16 decimals.
-inline constexpr double ExtractionTolerance = 1e-11;
+/// their coefficients sums of some hundred terms: rounding stays near 1e-15 for degrees up to 9,
+/// and below 1e-14 where numbers have 16 decimals.
+inline constexpr double ExtractionTolerance = 1e-12;
 
 /// Space that is given by its extraction operators alone, as a file of them gives it: no mesh, no
 /// parameter domain, and nothing that it could be refined by. Degrees may differ between elements
