@@ -83,7 +83,7 @@ def rod(folder):
     for k, (item, text) in enumerate(items):
         shown.append(camera(scene.renderer([item], (k / 2, 0, (k + 1) / 2, 1)), mesh.GetCenter(), (0.25, -1, 0.8), (0, 0, 1), 11))
         shown[-1].AddActor(scene.label(text, 0.04, 0.03, 14))
-    scene.save(shown, os.path.join(folder, "rod.png"), (1400, 420))
+    scene.save(shown, os.path.join(folder, "rod.png"), (1100, 330))
 
 
 def hexahedra(folder):
@@ -115,7 +115,7 @@ def hexahedra(folder):
         faces.GetProperty().SetEdgeColor(0.8, 0.8, 0.8)
         shown.append(camera(scene.renderer([faces], (k / 2, 0, (k + 1) / 2, 1)), mesh.GetCenter() - np.array((0, 0, 6)), (0.8, -1, 0.7), (0, 0, 1), 195))
         shown[-1].AddActor(scene.label(text, 0.04, 0.03, 14))
-    scene.save(shown, os.path.join(folder, "hexahedra.png"), (1100, 560))
+    scene.save(shown, os.path.join(folder, "hexahedra.png"), (900, 460))
 
 
 def main():
