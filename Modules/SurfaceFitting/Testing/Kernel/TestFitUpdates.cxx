@@ -276,6 +276,35 @@ TEST(FitUpdates, HeldEdgesStay_ExactOracle)
   }
 }
 
+TEST(FitUpdates, HeldEdgesStayWithEveryMethodAndNumberOfThreads_ExactOracle)
+{
+  const FitStart start = MakeStarts()[SpaceKind::LocallyRefined];
+  PointCloud cloud = clouds::HeightField(20000, 60,
+    [](double x, double y) { return clouds::Peaks(x, y) + 0.2 * x * (1.0 - x) * y * (1.0 - y); });
+  for (const FitMethod method :
+    { FitMethod::LeastSquares, FitMethod::MultilevelApproximation, FitMethod::Combined })
+  {
+    FitParams params = WithTolerance(0.01);
+    params.Start = start;
+    params.Start->Edges.fill(FitEdge::Values);
+    params.Method = method;
+    params.SwitchIteration = 1;
+    params.Threads = 1;
+    const SurfaceFit one = Fit(cloud, params);
+    ExpectWithin(cloud, one);
+    for (const ParametricBox<2>& line :
+      { ParametricBox<2>{ { 0.0, 0.0 }, { 0.0, 1.0 } }, { { 1.0, 0.0 }, { 1.0, 1.0 } },
+        { { 0.0, 0.0 }, { 1.0, 0.0 } }, { { 0.0, 1.0 }, { 1.0, 1.0 } } })
+    {
+      EXPECT_LE(
+        (Sample(one.Surface, line, 61) - Sample(start.Surface, line, 61)).cwiseAbs().maxCoeff(),
+        1e-13);
+    }
+    params.Threads = 3;
+    EXPECT_EQ(Fit(cloud, params).Surface.ControlPoints, one.Surface.ControlPoints);
+  }
+}
+
 TEST(FitUpdates, PointsOnHeldEdgesEndTheFit_PropertyOracle)
 {
   PointCloud cloud = clouds::HeightField(2000, 56, clouds::Peaks);
