@@ -160,8 +160,8 @@ Job Make(CLI::App& app)
   auto job = std::make_shared<ConvertJob>();
   app
     .add_option("input", job->Input,
-      "spline grid, skeleton or points (.vtu .vtp .vtpc .vtk .xml .g2 .bext .step .iges .xyz .txt "
-      ".csv)")
+      "spline grid, skeleton or points (.vtu .vtp .vtpc .vtk .xml .g2 .bext .mesh .step .iges .xyz "
+      ".txt .csv)")
     ->required();
   AddOutput(app, "--output", job->Output, Endings::Anything,
     "the same data (.vtu .vtp .vtpc .xml .g2 .bext .json .step .iges, points .xyz .txt .csv .g2)")

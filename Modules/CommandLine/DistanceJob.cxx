@@ -16,7 +16,7 @@ public:
   {
     this->AddInput(0, "points", "points (.xyz .txt .csv .ply .g2 .vtp .vtu .off .obj .stl)");
     this->AddInput(
-      1, "surface", "spline surfaces (.vtu .vtpc .xml .g2 .bext .step .iges)", " from ");
+      1, "surface", "spline surfaces (.vtu .vtpc .xml .g2 .bext .mesh .step .iges)", " from ");
     this->AddOutput(0, "--output", Endings::Sampled,
       "the points with their distances and classes (.vtp or .vtu, as they are)");
     this->AddOutput(1, "--class-table", Endings::Table, "statistics of every class");

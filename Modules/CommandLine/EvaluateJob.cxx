@@ -16,7 +16,7 @@ class EvaluateJob : public FilterJob<vtkSplineEvaluate>
 public:
   explicit EvaluateJob(CLI::App& app) : FilterJob(app)
   {
-    this->AddInput(0, "input", "spline grid (.vtu .vtpc .xml .g2 .bext .step .iges)");
+    this->AddInput(0, "input", "spline grid (.vtu .vtpc .xml .g2 .bext .mesh .step .iges)");
     this->AddInput(1, "points", "points (.vtp .vtu)", " at ");
     this->AddOutput(0, "--output", Endings::Sampled, "the points on the spline, with derivatives");
     this->AddProperties();

@@ -14,8 +14,8 @@ class PatchesJob : public FilterJob<vtkMeshPatches>
 public:
   explicit PatchesJob(CLI::App& app) : FilterJob(app)
   {
-    this->AddInput(0, "mesh", "mesh of quadrilaterals or hexahedra (.off .obj .ply .vtk .vtp .vtu)",
-      "", "input");
+    this->AddInput(0, "mesh",
+      "mesh of quadrilaterals or hexahedra (.off .obj .ply .vtk .vtp .vtu .mesh)", "", "input");
     this->AddOutput(
       0, "--output", Endings::Grid, "the mesh with the patch and place of every cell");
     this->AddOutput(1, "--cuts", Endings::Polygons, "the cuts and T-joints");

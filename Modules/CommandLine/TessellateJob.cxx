@@ -125,7 +125,7 @@ Job Make(CLI::App& app)
   auto job = std::make_shared<TessellateJob>();
   app
     .add_option("input", job->Input,
-      "spline grid (.vtu .vtpc .xml .g2 .bext), or trimmed faces (.step .iges)")
+      "spline grid (.vtu .vtpc .xml .g2 .bext .mesh), or trimmed faces (.step .iges)")
     ->required();
   AddOutput(
     app, "--output", job->Output, Endings::Cells, "linear cells (surface .vtp, volume .vtu)")

@@ -14,8 +14,8 @@ class UnstructuredJob : public FilterJob<vtkUnstructuredSpline>
 public:
   explicit UnstructuredJob(CLI::App& app) : FilterJob(app)
   {
-    this->AddInput(0, "mesh", "mesh of quadrilaterals or hexahedra (.off .obj .ply .vtk .vtp .vtu)",
-      "", "input");
+    this->AddInput(0, "mesh",
+      "mesh of quadrilaterals or hexahedra (.off .obj .ply .vtk .vtp .vtu .mesh)", "", "input");
     this->AddOutput(0, "--output", Endings::Spline, "the spline");
     this->AddOutput(1, "--table", Endings::Table, "its numbers");
     this->AddProperties();

@@ -70,7 +70,7 @@ public:
   explicit ValidateJob(CLI::App& app) : FilterJob(app)
   {
     this->AddInput(
-      0, "input", "grid of Bezier, Lagrange, linear or quadratic cells (.vtu .vtpc .vtk)");
+      0, "input", "grid of Bezier, Lagrange, linear or quadratic cells (.vtu .vtpc .vtk .mesh)");
     this
       ->AddOutput(
         0, "--output", Endings::Splines, "the grid with verdicts and bounds as cell arrays")

@@ -17,7 +17,7 @@ public:
   explicit WarpJob(CLI::App& app) : FilterJob(app)
   {
     this->AddInput(
-      0, "input", "points or splines to send (.vtu .vtp .vtpc .xml .g2 .bext .step .iges)");
+      0, "input", "points or splines to send (.vtu .vtp .vtpc .xml .g2 .bext .mesh .step .iges)");
     this->AddInput(1, "map", "the spline map (.vtu .xml .g2 .step .iges)", " through ");
     this->AddOutput(0, "--output", Endings::Anything, "the image, same type as the input");
     this->AddProperties();

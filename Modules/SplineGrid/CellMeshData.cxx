@@ -2,7 +2,9 @@
 #include "CellMeshData.h"
 
 #include "InputChecks.h"
+#include "MeshVertices.h"
 #include <knotwork/SplineCore/MeshGeometry.h>
+#include <knotwork/SplineCore/Numbers.h>
 
 #include "vtkCellData.h"
 #include "vtkCellType.h"
@@ -14,7 +16,9 @@
 #include "vtkPointSet.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 
 namespace knotwork
@@ -57,6 +61,131 @@ std::string NameOfCell(vtkIdType cell, int type)
   return "cell " + std::to_string(cell) + " is a " + vtkCellTypes::GetClassNameFromTypeId(type);
 }
 
+/// Corners of Bezier cells that tell which vertices of a mesh they are.
+class CornerTable
+{
+public:
+  explicit CornerTable(vtkPointSet* data)
+    : Data(data), Vertices(data->GetCellData()->GetArray(name::MeshVertices))
+  {
+  }
+
+  /// The linear cell with the corners of a Bezier cell; other types stay.
+  int LinearType(int type) const
+  {
+    switch (this->Vertices ? type : VTK_EMPTY_CELL)
+    {
+      case VTK_BEZIER_TRIANGLE:
+        return VTK_TRIANGLE;
+      case VTK_BEZIER_QUADRILATERAL:
+        return VTK_QUAD;
+      case VTK_BEZIER_HEXAHEDRON:
+        return VTK_HEXAHEDRON;
+      case VTK_BEZIER_CURVE: // the others are refused by these names
+        return VTK_LINE;
+      case VTK_BEZIER_TETRAHEDRON:
+        return VTK_TETRA;
+      case VTK_BEZIER_WEDGE:
+        return VTK_WEDGE;
+      default:
+        return type;
+    }
+  }
+
+  bool IsMeant(vtkIdType cell) const
+  {
+    const int type = this->Data->GetCellType(cell);
+    return this->LinearType(type) != type;
+  }
+
+  /// Replaces the points of a Bezier cell by the vertices at its corners.
+  Status Take(vtkIdType cell, int type, std::vector<int>& points)
+  {
+    const std::size_t count = type == VTK_TRIANGLE ? 3 : type == VTK_QUAD ? 4 : 8;
+    if (points.size() < count || this->Vertices->GetNumberOfComponents() < static_cast<int>(count))
+    {
+      return { ErrorCode::InvalidTopology,
+        CellText(cell) + " has fewer than " + std::to_string(count) +
+          " corners; read the mesh again" };
+    }
+    points.resize(count);
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      const double vertex = this->Vertices->GetComponent(cell, static_cast<int>(k));
+      if (!(vertex >= 0.0 && vertex < std::numeric_limits<int>::max()))
+      {
+        return { ErrorCode::InvalidTopology,
+          CellText(cell) + " has no vertex at corner " + std::to_string(k) + " (cell array " +
+            name::MeshVertices + "); read the mesh again" };
+      }
+      const int number = static_cast<int>(vertex);
+      const vtkIdType point = points[k];
+      const auto [known, isNew] = this->Points.emplace(number, point);
+      if (!isNew && !this->AreNear(known->second, point))
+      {
+        return { ErrorCode::InvalidTopology,
+          CellText(cell) + " has vertex " + std::to_string(number) + " at " + this->Place(point) +
+            ", another cell has it at " + this->Place(known->second) +
+            ": a smooth spline needs one place a vertex, which a mesh that is periodic in the "
+            "plane does not have; cut it open, or bend it so that both places are one" };
+      }
+      points[k] = number;
+    }
+    return {};
+  }
+
+  /// Numbers the vertices that cells have from 0, in their order.
+  /// @return the point of each.
+  std::vector<vtkIdType> Renumber(
+    std::vector<std::vector<int>>& polygons, std::vector<int>& hexahedra) const
+  {
+    std::vector<vtkIdType> points;
+    std::map<int, int> numbers;
+    for (const auto& [vertex, point] : this->Points)
+    {
+      numbers.emplace_hint(numbers.end(), vertex, static_cast<int>(points.size()));
+      points.push_back(point);
+    }
+    const auto renumber = [&numbers](std::vector<int>& corners)
+    {
+      for (int& corner : corners)
+      {
+        corner = numbers.at(corner);
+      }
+    };
+    std::for_each(polygons.begin(), polygons.end(), renumber);
+    renumber(hexahedra);
+    return points;
+  }
+
+private:
+  static std::string CellText(vtkIdType cell) { return "cell " + std::to_string(cell); }
+
+  bool AreNear(vtkIdType one, vtkIdType other) const
+  {
+    constexpr double Rounded = 1e-6; // files have eight digits, of each of both
+    double a[3];
+    double b[3];
+    this->Data->GetPoint(one, a);
+    this->Data->GetPoint(other, b);
+    const double tolerance = Rounded * this->Data->GetLength();
+    return one == other ||
+      (std::abs(a[0] - b[0]) <= tolerance && std::abs(a[1] - b[1]) <= tolerance &&
+        std::abs(a[2] - b[2]) <= tolerance);
+  }
+
+  std::string Place(vtkIdType point) const
+  {
+    double at[3];
+    this->Data->GetPoint(point, at);
+    return PointText(at, 3);
+  }
+
+  vtkPointSet* Data;
+  vtkDataArray* Vertices;
+  std::map<int, vtkIdType> Points; ///< of every vertex
+};
+
 /// Columns of coordinates and of the floating-point arrays, which are named.
 void TakePoints(vtkPointSet* data, DecodedMeshCells& decoded)
 {
@@ -75,15 +204,19 @@ void TakePoints(vtkPointSet* data, DecodedMeshCells& decoded)
       columns += array->GetNumberOfComponents();
     }
   }
-  decoded.Points.resize(data->GetNumberOfPoints(), columns);
-  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  const bool isOwn = decoded.Vertices.empty();
+  const auto count =
+    isOwn ? data->GetNumberOfPoints() : static_cast<vtkIdType>(decoded.Vertices.size());
+  decoded.Points.resize(count, columns);
+  for (vtkIdType i = 0; i < count; ++i)
   {
+    const vtkIdType point = isOwn ? i : decoded.Vertices[static_cast<std::size_t>(i)];
     double* row = decoded.Points.row(i).data();
-    data->GetPoint(i, row);
+    data->GetPoint(point, row);
     row += 3;
     for (vtkDataArray* array : arrays)
     {
-      array->GetTuple(i, row);
+      array->GetTuple(point, row);
       row += array->GetNumberOfComponents();
     }
   }
@@ -172,43 +305,54 @@ Result<DecodedMeshCells> DecodeMeshCells(vtkPointSet* data, bool split)
       std::to_string(cells) + " cells, " + std::to_string(data->GetNumberOfPoints()) + " points" };
   }
   Status status = CheckCellSizes(data);
-  status = status ? CheckSampledPoints(data, "the mesh") : status;
+  CornerTable corners(data);
+  const bool isCurved = corners.IsMeant(0);
+  status = status && !isCurved ? CheckSampledPoints(data, "the mesh") : status;
   if (!status)
   {
     return status;
   }
-  const int dimension = DimensionOf(data->GetCellType(0));
+  const int dimension = DimensionOf(corners.LinearType(data->GetCellType(0)));
   std::vector<std::vector<int>> polygons;
   CellMesh<3> hexahedra;
   vtkNew<vtkIdList> ids;
   for (vtkIdType cell = 0; cell < cells; ++cell)
   {
-    const int type = data->GetCellType(cell);
+    const int type = corners.LinearType(data->GetCellType(cell));
     data->GetCellPoints(cell, ids);
-    std::vector<int> corners(ids->begin(), ids->end());
-    const bool fits = DimensionOf(type) == 3 || corners.size() == 4 || split;
-    if (DimensionOf(type) == 0 || (DimensionOf(type) == dimension && !fits))
+    std::vector<int> points(ids->begin(), ids->end());
+    const bool isStray = isCurved && !corners.IsMeant(cell);
+    const int taken = isStray ? 0 : DimensionOf(type);
+    if (isCurved && taken != 0)
+    {
+      if (Status told = corners.Take(cell, type, points); !told)
+      {
+        return told;
+      }
+    }
+    const bool fits = taken == 3 || points.size() == 4 || split;
+    if (taken == 0 || (taken == dimension && !fits))
     {
       return { ErrorCode::InvalidTopology,
-        NameOfCell(cell, type) + " of " + std::to_string(corners.size()) +
+        NameOfCell(cell, type) + " of " + std::to_string(points.size()) +
           " points, the mesh must be of linear quadrilaterals or of linear hexahedra alone; " +
-          (DimensionOf(type) == 2 ? "split polygons (SplitPolygons, --split-polygons)"
-                                  : "remove or convert it") };
+          (taken == 2 ? "split polygons (SplitPolygons, --split-polygons)"
+                      : "remove or convert it") };
     }
-    if (DimensionOf(type) != dimension)
+    if (taken != dimension)
     {
       return { ErrorCode::InvalidTopology,
         NameOfCell(cell, type) + ", but " + NameOfCell(0, data->GetCellType(0)) +
           ": take either the surface or the volume" };
     }
-    OrderCorners(type, corners);
+    OrderCorners(type, points);
     if (dimension == 2)
     {
-      polygons.push_back(std::move(corners));
+      polygons.push_back(std::move(points));
     }
     else
     {
-      hexahedra.Corners.insert(hexahedra.Corners.end(), corners.begin(), corners.end());
+      hexahedra.Corners.insert(hexahedra.Corners.end(), points.begin(), points.end());
     }
   }
   if (dimension == 3 && split)
@@ -216,6 +360,10 @@ Result<DecodedMeshCells> DecodeMeshCells(vtkPointSet* data, bool split)
     return { ErrorCode::InvalidParameter, "polygons can be split, hexahedra cannot" };
   }
   Result<DecodedMeshCells> decoded;
+  if (isCurved)
+  {
+    decoded->Vertices = corners.Renumber(polygons, hexahedra.Corners);
+  }
   TakePoints(data, decoded.Value);
   if (Status finite = CheckPoints(decoded.Value); !finite)
   {

@@ -14,7 +14,7 @@ class vtkPointSet;
 namespace knotwork
 {
 /// A mesh with what stands at its points: points and cells have the numbers of the dataset, unless
-/// polygons were split.
+/// polygons were split or Bezier cells tell their vertices (MeshVertices.h).
 struct DecodedMeshCells
 {
   std::variant<CellMesh<2>, CellMesh<3>> Mesh;
@@ -22,12 +22,16 @@ struct DecodedMeshCells
   std::vector<SplineField> Fields; ///< names and numbers of columns
   std::vector<vtkIdType> Cells;    ///< of the dataset
   int NumSplit = 0;                ///< polygons of other than four corners
+  /// Point of the dataset at every vertex that Bezier cells tell; empty: points are those of the
+  /// dataset.
+  std::vector<vtkIdType> Vertices;
 };
 
 /// @param split  polygons into quadrilaterals at their middles.
 /// @return EmptyInput without cells; InvalidTopology naming the first cell that is neither a linear
-/// quadrilateral nor a linear hexahedron, or not what the first one is; InvalidParameter for
-/// splines and for a volume that is to be split; NonFiniteInput; TooLarge.
+/// quadrilateral nor a linear hexahedron, or not what the first one is, and the vertex that Bezier
+/// cells have at two places; InvalidParameter for splines without vertices and for a volume that is
+/// to be split; NonFiniteInput; TooLarge.
 Result<DecodedMeshCells> DecodeMeshCells(vtkPointSet* data, bool split);
 
 /// How the cells hang together. @return failures of CheckConforming and MeshTopology::Make.

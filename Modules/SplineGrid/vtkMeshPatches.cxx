@@ -34,6 +34,22 @@ std::size_t At(int i)
   return static_cast<std::size_t>(i);
 }
 
+/// The points of the mesh, which has fewer than a dataset of Bezier cells.
+vtkSmartPointer<vtkPoints> PointsOf(vtkPointSet* data, const DecodedMeshCells& decoded)
+{
+  if (decoded.Vertices.empty())
+  {
+    return data->GetPoints();
+  }
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetDataType(data->GetPoints()->GetDataType());
+  for (const vtkIdType vertex : decoded.Vertices)
+  {
+    points->InsertNextPoint(data->GetPoint(vertex));
+  }
+  return points;
+}
+
 /// The cells of any dataset as a grid, with their data.
 void CopyCells(vtkPointSet* data, vtkUnstructuredGrid* output)
 {
@@ -172,8 +188,8 @@ Status vtkMeshPatches::Compute(vtkInformationVector** inputs, vtkInformationVect
       vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputs, 0);
       CopyCells(data, output);
       EncodePlaces<Dim>(patches.Value, output);
-      EncodeCuts<Dim>(
-        mesh, topology.Value, patches.Value, data->GetPoints(), vtkPolyData::GetData(outputs, 1));
+      EncodeCuts<Dim>(mesh, topology.Value, patches.Value, PointsOf(data, decoded.Value),
+        vtkPolyData::GetData(outputs, 1));
       EncodeTable<Dim>(patches.Value, vtkTable::GetData(outputs, 2));
       return {};
     },

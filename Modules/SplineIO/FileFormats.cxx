@@ -14,6 +14,7 @@
 #include "vtkGismoXMLWriter.h"
 #include "vtkGoToolsG2Reader.h"
 #include "vtkGoToolsG2Writer.h"
+#include "vtkMFEMReader.h"
 #include "vtkPointCloudReader.h"
 #include "vtkPointCloudWriter.h"
 #include <knotwork/SplineCore/FileEnding.h>
@@ -186,6 +187,7 @@ const std::vector<FileFormat>& FileFormats()
   constexpr auto writeGismo = WriteWith<vtkGismoXMLWriter>;
   constexpr auto readOperators = ReadWith<vtkBEXTReader>;
   constexpr auto writeOperators = WriteWith<vtkBEXTWriter>;
+  constexpr auto readMesh = ReadWith<vtkMFEMReader>;
   // name, endings, what is read, what is written, whether VTK serves it, reader, writer
   static const std::vector<FileFormat> formats = {
     { "VTK polygons", { ".vtp" }, Lines, Lines | CellContent, true, ReadOfVTK, WriteOfVTK },
@@ -213,6 +215,7 @@ const std::vector<FileFormat>& FileFormats()
     { "BEXT", { ".bext" }, Elements, Elements, false, readOperators, writeOperators },
     { "JSON of BEXT or of the boundary of a domain", { ".json" }, Elements | BoundaryContent,
       Elements, false, ReadJson, writeOperators },
+    { "MFEM mesh", { ".mesh" }, SplineCurveContent | Cells, 0, false, readMesh, nullptr },
   };
   return formats;
 }

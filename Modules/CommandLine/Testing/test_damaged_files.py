@@ -45,6 +45,8 @@ def sound_files():
         good("convert", path("torus.vtu"), "--output", path("torus" + ending))
     for name, of in (("ascii", "thb.vtu"), ("appended", "height.vtu"), ("appended", "cloud.vtp"), ("ascii", "cloud.vtp")):
         good("convert", path(of), "--encoding", name, "--output", path(name + "_" + of))
+    for name in ("curved.mesh", "linear.mesh", "nurbs.mesh"):
+        shutil.copy(knotwork_testing.data("SplineIO/" + name), path(name))
     legacy_files(height)
     binary_meshes()
     grid, polydata, table = "out.vtu", "out.vtp", "table.csv"
@@ -59,6 +61,8 @@ def sound_files():
     mesh = [["info", "IN"], ["convert", "IN", "--output", polydata], ["flatten", "IN", "--output", polydata],
             ["flatten", "IN", "--loops", "loops.vtp", "--output", polydata],
             ["trim", "IN", "--triangles", polydata, "--output", "out.step"], ["fit", "IN", "--output", grid]]
+    meshes = [["unstructured", "IN", "--output", grid], ["patches", "IN", "--output", grid], ["validate", "IN", "--table", table],
+              ["info", "IN"], ["convert", "IN", "--output", grid], ["tessellate", "IN", "--output", polydata]]
     curves = [["map", "IN", path("target.vtp"), "--iterations", 1, "--output", grid], ["info", "IN"]]
     boundary = [["parameterize", "IN", "--output", grid], ["info", "IN"]]
     kinds = [(spline, "square.vtu"), (spline, "ascii_thb.vtu"), (spline, "appended_height.vtu"), (spline, "grids.vtpc"), (spline, "height.vtk"),
@@ -67,7 +71,7 @@ def sound_files():
              (spline, "torus.igs"), (spline, "square.step"), (spline, "square.iges"), (cloud, "appended_cloud.vtp"), (cloud, "ascii_cloud.vtp"),
              (cloud, "cloud.xyz"), (cloud, "cloud.txt"), (cloud, "cloud.csv"), (cloud, "cloud.ply"), (cloud, "cloud.g2"), (mesh, "mesh.off"),
              (mesh, "mesh.obj"), (mesh, "mesh.ply"), (mesh, "bytes.ply"), (mesh, "mesh.stl"), (mesh, "bytes.stl"), (mesh, "mesh.vtp"),
-             (curves, "template.vtp"), (boundary, "boundary.json")]
+             (meshes, "curved.mesh"), (meshes, "linear.mesh"), (spline, "nurbs.mesh"), (curves, "template.vtp"), (boundary, "boundary.json")]
     # collections stay collections
     endings = {"convert": {}, "tessellate": {"out.vtp": "out.vtpc"}}
     parts = [[endings.get(job[0], {"out.vtu": "out.vtpc"}).get(word, word) for word in job] for job in spline]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Splines on the meshes of a folder that the environment variable KNOTWORK_UNSTRUCTURED_MESHES names (.off, .vtk, .obj), to STEP for one."""
+"""Splines on the meshes of a folder that the environment variable KNOTWORK_UNSTRUCTURED_MESHES names (.off, .vtk, .obj, .mesh), to STEP for one."""
 import glob
 import os
 
@@ -12,7 +12,7 @@ from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
 
 def test_meshes_of_the_folder():
     folder = os.environ.get("KNOTWORK_UNSTRUCTURED_MESHES")
-    files = sorted(sum((glob.glob(os.path.join(folder or "", "*" + ending)) for ending in (".off", ".vtk", ".obj")), []))
+    files = sorted(sum((glob.glob(os.path.join(folder or "", "*" + ending)) for ending in (".off", ".vtk", ".obj", ".mesh")), []))
     files = [file for file in files if "_target" not in file]  # triangles
     if not folder or not files:
         knotwork_testing.skip("KNOTWORK_UNSTRUCTURED_MESHES names no folder of meshes")
@@ -33,6 +33,13 @@ def test_meshes_of_the_folder():
             output = made.GetOutputDataObject(0)
             assert made.GetErrorCode() == 0 and isinstance(output, vtkUnstructuredGrid), file
             assert (output.GetNumberOfCells() > cells) == split, file
+            if file.endswith(".mesh"):  # what closes in the file closes here
+                table = made.GetOutputDataObject(1)
+                closed = {"klein-bottle": 128, "mobius-strip": 8 * (2 + degree), "toroid-hex": 6 * (1 + degree) ** 2}
+                name = os.path.basename(file)[len("mfem_"):-len(".mesh")]
+                functions = table.GetValueByName(0, "Functions").ToInt()
+                assert functions == closed.get(name, functions), (file, functions)
+                assert table.GetValueByName(0, "Orientable").ToInt() == (name in ("star", "toroid-hex")), file
             if file.endswith("bl_rod_764.off") and degree == 2:
                 assert made.GetOutputDataObject(1).GetValueByName(0, "Functions").ToInt() <= 1400
                 knotwork.write(output, knotwork_testing.output("rod.step"))

@@ -51,7 +51,7 @@ TEST(FileFormats, EndingsFollowTheContent_ExactOracle)
   EXPECT_EQ(writing(0), "");
   EXPECT_EQ(JoinEndings(EndingsThatRead(AnyContent)),
     ".vtp .vtu .vtpc .vtk .xml .xyz .txt .csv .g2 .step .stp .iges .igs .stl .obj .ply .off .bext "
-    ".json");
+    ".json .mesh");
   EXPECT_EQ(
     JoinEndings(EndingsThatRead(PointContent)), ".vtp .xyz .txt .csv .g2 .stl .obj .ply .off");
   EXPECT_EQ(writing(GridContent), ".vtu");
