@@ -10,7 +10,7 @@ a published number or the name of a benchmark of ours that does the same by plai
 cells: a text; or what was measured, `@BENCHMARK UNIT` where the unit is one of time, `1/s`, or a counter of the benchmark; or
 a ratio, `@BENCHMARK COUNTER BENCHMARK`. The table goes between two comment lines `benchmarks MODULE: begin` and `... end` on
 the page; the rows listed under "readme" go to the README alike. "needs" names an environment variable without which not all
-rows can be measured; "repetitions" is their number where it is not 20.
+rows can be measured; "repetitions" is their number where it is not 20; "statistic" is "median" where it is not "min".
 """
 import json
 import os
@@ -22,14 +22,14 @@ import sys
 SCALE = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
 
 
-def measure(program, only):
+def measure(program, only, statistic):
     """Seconds (a point or cell where the benchmark counts such) by benchmark, and its counters by (benchmark, counter);
-    of the fastest repetition."""
+    of the fastest or the median repetition."""
     done = subprocess.run([program, "--benchmark_format=json", f"--benchmark_filter={only}"], check=True,
                           capture_output=True, text=True)
     found = {}
     for run in json.loads(done.stdout)["benchmarks"]:
-        if run.get("aggregate_name") != "min":
+        if run.get("aggregate_name") != statistic:
             continue
         name = run["run_name"].replace("/real_time", "")
         name = "/".join(part for part in name.split("/") if not part.startswith(("iterations", "min_time", "repeats", "process_time")))
@@ -82,7 +82,7 @@ def main():
     if "needs" in spec and spec["needs"] not in os.environ:
         sys.exit(f"set {spec['needs']}: not all rows can be measured without it")
     load = os.getloadavg()[0]
-    found = measure(tree / "bin" / spec["program"], spec.get("filter", "."))
+    found = measure(tree / "bin" / spec["program"], spec.get("filter", "."), spec.get("statistic", "min"))
     rows = []
     if "columns" in spec:
         columns = spec["columns"]
@@ -95,7 +95,7 @@ def main():
             rows.append("| " + " | ".join(cells) + " |")
     lines = ["| " + " | ".join(columns) + " |", "|" + " --- |" * len(columns)]
     other, options = ("", "") if tree.name == "benchmark" else (f" build/{tree.name}", " -DKNOTWORK_BENCHMARKS=ON")
-    closing = ["", f"{processor()}, {os.cpu_count()} threads, load {load:.1f} at the start, fastest of "
+    closing = ["", f"{processor()}, {os.cpu_count()} threads, load {load:.1f} at the start, {spec.get('statistic', 'fastest').replace('min', 'fastest')} of "
                f"{spec.get('repetitions', 20)} repetitions; "
                "one thread: processor time. The command:", "",
                f"    cmake --preset {tree.name}{options} && cmake --build --preset {tree.name}",
