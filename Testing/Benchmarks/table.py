@@ -95,7 +95,8 @@ def main():
             rows.append("| " + " | ".join(cells) + " |")
     lines = ["| " + " | ".join(columns) + " |", "|" + " --- |" * len(columns)]
     other, options = ("", "") if tree.name == "benchmark" else (f" build/{tree.name}", " -DKNOTWORK_BENCHMARKS=ON")
-    closing = ["", f"{processor()}, {os.cpu_count()} threads, load {load:.1f} at the start, {spec.get('statistic', 'fastest').replace('min', 'fastest')} of "
+    closing = ["", f"{processor()}, {os.cpu_count()} threads, load {load:.1f} at the start, "
+               f"{'median' if spec.get('statistic') == 'median' else 'fastest'} of "
                f"{spec.get('repetitions', 20)} repetitions; "
                "one thread: processor time. The command:", "",
                f"    cmake --preset {tree.name}{options} && cmake --build --preset {tree.name}",

@@ -270,6 +270,42 @@ std::vector<int> RandomLengths(
   return lengths;
 }
 
+/// Random control points of three components.
+template <int Dim>
+knotwork::Spline<Dim> RandomMap(
+  Random& random, const knotwork::SplineSpacePtr<Dim>& space, bool rational)
+{
+  knotwork::Spline<Dim> spline;
+  spline.Space = space;
+  spline.ControlPoints.resize(space->NumFunctions, 3);
+  for (Eigen::Index i = 0; i < spline.ControlPoints.size(); ++i)
+  {
+    spline.ControlPoints.data()[i] = random.In(-1.0, 1.0);
+  }
+  spline.Weights.resize(rational ? space->NumFunctions : 0);
+  for (double& w : spline.Weights)
+  {
+    w = random.In(0.5, 2.0);
+  }
+  return spline;
+}
+
+/// On a random mesh, whose knot intervals are the lengths.
+template <int Dim>
+knotwork::Spline<Dim> RandomSpline(
+  Random& random, int mostDegree, int mostCells, std::vector<int>& lengths)
+{
+  const CellMesh<Dim> mesh = meshes::RandomMesh<Dim>(random, mostCells);
+  knotwork::UnstructuredParams params;
+  params.Degree = random.Int(1, mostDegree);
+  params.Policy =
+    random.Unit() < 0.5 ? knotwork::CreasePolicy::Automatic : knotwork::CreasePolicy::Minimal;
+  lengths = RandomLengths(random, mesh, random.Unit() < 0.5 ? 1 : 3, params.Lengths);
+  auto made = knotwork::MakeUnstructuredSpace<Dim>(mesh, params);
+  EXPECT_TRUE(made) << made.Status.Message();
+  return RandomMap<Dim>(random, made->Space, random.Unit() < 0.3);
+}
+
 template <int Dim>
 void ExpectRandomSpace(unsigned seed, int mostDegree, int mostCells)
 {

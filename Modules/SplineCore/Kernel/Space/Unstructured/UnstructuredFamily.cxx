@@ -283,15 +283,18 @@ public:
   {
     if constexpr (Dim > 1)
     {
-      return HalveUnstructured(spline);
+      return HalveAllSheets(spline);
     }
     return { ErrorCode::DimensionMismatch, NoCurves };
   }
-  Result<RefinedSpline<Dim>> RefineMarked(
-    const Spline<Dim>&, const std::vector<int>&, const RefinementParams&) const override
+  Result<RefinedSpline<Dim>> RefineMarked([[maybe_unused]] const Spline<Dim>& spline,
+    [[maybe_unused]] const std::vector<int>& marked, const RefinementParams&) const override
   {
-    return { ErrorCode::DimensionMismatch,
-      "splines on unstructured meshes can only be refined on all cells together" };
+    if constexpr (Dim > 1)
+    {
+      return HalveSheetsOfCells(spline, marked);
+    }
+    return { ErrorCode::DimensionMismatch, NoCurves };
   }
   Result<Spline<Dim>> ElevateDegrees(
     [[maybe_unused]] const Spline<Dim>& spline, [[maybe_unused]] int times) const override

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
+#include <string>
 
 namespace knotwork
 {
@@ -19,9 +21,34 @@ std::size_t At(int i)
   return static_cast<std::size_t>(i);
 }
 
-/// The mesh with every cell halved; new points are the middles of edges, faces and cells.
+/// A cell of the halved mesh: bit d of Child is the half along direction d, where that is halved.
+struct ChildCell
+{
+  int Parent;
+  int Child;
+};
+
+/// The cells of the mesh with cells halved in some directions, those of a cell together.
+/// @param halved  of every cell, bit d for direction d.
+std::vector<ChildCell> ChildrenOf(const std::vector<int>& halved)
+{
+  std::vector<ChildCell> children;
+  for (std::size_t c = 0; c < halved.size(); ++c)
+  {
+    for (int child = 0; child <= halved[c]; ++child)
+    {
+      if ((child & ~halved[c]) == 0)
+      {
+        children.push_back({ static_cast<int>(c), child });
+      }
+    }
+  }
+  return children;
+}
+
+/// The mesh with cells halved; new points are the middles of edges, faces and cells.
 template <int Dim>
-CellMesh<Dim> HalvedMesh(const CellMesh<Dim>& mesh)
+CellMesh<Dim> HalvedMesh(const CellMesh<Dim>& mesh, const std::vector<int>& halved)
 {
   constexpr int numCorners = 1 << Dim;
   CellMesh<Dim> fine;
@@ -43,7 +70,11 @@ CellMesh<Dim> HalvedMesh(const CellMesh<Dim>& mesh)
         low |= x[At(d)] == 2 ? 1 << d : 0;
         free |= x[At(d)] == 1 ? 1 << d : 0;
       }
-      if (free == 0)
+      if ((free & ~halved[At(c)]) != 0)
+      {
+        point = -1;
+      }
+      else if (free == 0)
       {
         point = mesh.Cell(c)[low];
       }
@@ -73,14 +104,15 @@ CellMesh<Dim> HalvedMesh(const CellMesh<Dim>& mesh)
         x[d] = 0;
       }
     }
-    for (int child = 0; child < numCorners; ++child)
+    for (int child = 0; child <= halved[At(c)]; ++child)
     {
-      for (int corner = 0; corner < numCorners; ++corner)
+      for (int corner = 0; (child & ~halved[At(c)]) == 0 && corner < numCorners; ++corner)
       {
         int at = 0;
         for (int d = Dim; d-- > 0;)
         {
-          at = 3 * at + (child >> d & 1) + (corner >> d & 1);
+          const bool isHalved = (halved[At(c)] >> d & 1) != 0;
+          at = 3 * at + (isHalved ? (child >> d & 1) + (corner >> d & 1) : 2 * (corner >> d & 1));
         }
         fine.Corners.push_back(points[at]);
       }
@@ -170,30 +202,30 @@ std::vector<double> Transposed(const std::vector<double>& matrix, std::size_t n)
   }
   return result;
 }
-}
 
+/// @param halved  of every cell, bit d for direction d; the same for a sheet.
 template <int Dim>
-Result<RefinedSpline<Dim>> HalveUnstructured(const Spline<Dim>& spline)
+Result<RefinedSpline<Dim>> HalveUnstructured(
+  const Spline<Dim>& spline, const std::vector<int>& halved)
 {
   const UnstructuredData<Dim>& old = *spline.Space->Unstructured;
-  const int numCells = old.Topology.NumCells();
-  constexpr int numChildren = 1 << Dim;
-  const CellMesh<Dim> mesh = HalvedMesh(old.Mesh);
+  const CellMesh<Dim> mesh = HalvedMesh(old.Mesh, halved);
+  const std::vector<ChildCell> cells = ChildrenOf(halved);
+  const auto isHalved = [&halved](int cell, int d) { return (halved[At(cell)] >> d & 1) != 0; };
   std::vector<int> continuity;
-  continuity.reserve(At(numCells) * numChildren * 2 * Dim);
-  for (int c = 0; c < numCells; ++c)
+  continuity.reserve(cells.size() * 2 * Dim);
+  for (const auto [parent, child] : cells)
   {
-    for (int child = 0; child < numChildren; ++child)
+    for (int side = 0; side < 2 * Dim; ++side)
     {
-      for (int side = 0; side < 2 * Dim; ++side)
-      {
-        const bool isOld = (child >> (side / 2) & 1) == side % 2;
-        continuity.push_back(isOld ? old.ContinuityOf(c, side) : old.Degree - 1);
-      }
+      const bool isOld = !isHalved(parent, side / 2) || (child >> (side / 2) & 1) == side % 2;
+      continuity.push_back(isOld ? old.ContinuityOf(parent, side) : old.Degree - 1);
     }
   }
   std::vector<double> lengths;
-  if (!old.Lengths.empty())
+  const auto isWhole = [](int directions) { return directions == (1 << Dim) - 1; };
+  // where all are halved, equal intervals stay equal
+  if (!old.Lengths.empty() || !std::all_of(halved.begin(), halved.end(), isWhole))
   {
     const auto topology = MeshTopology<Dim>::Make(mesh);
     if (!topology)
@@ -204,8 +236,9 @@ Result<RefinedSpline<Dim>> HalveUnstructured(const Spline<Dim>& spline)
     lengths.resize(At(sheets.Count));
     for (std::size_t i = 0; i < sheets.Of.size(); ++i)
     {
-      const int cell = static_cast<int>(i / Dim);
-      lengths[At(sheets.Of[i])] = 0.5 * old.Length(cell / numChildren, static_cast<int>(i % Dim));
+      const int parent = cells[i / Dim].Parent;
+      const int d = static_cast<int>(i % Dim);
+      lengths[At(sheets.Of[i])] = (isHalved(parent, d) ? 0.5 : 1.0) * old.Length(parent, d);
     }
   }
   auto space = MakeUnstructuredSpace<Dim>(mesh, old.Degree, continuity, lengths);
@@ -213,25 +246,31 @@ Result<RefinedSpline<Dim>> HalveUnstructured(const Spline<Dim>& spline)
   {
     return space.Status;
   }
-  // knots of a cell's halves are knots of the cell and middles: Oslo matrices
+  // knots of a cell and its halves are knots before and middles: Oslo matrices
   KnotWindows windows(old.Degree);
   const std::vector<int> windowOf = FindWindows(old, windows);
   KnotWindows fineWindows(old.Degree);
   const std::vector<int> fineWindowOf = FindWindows(*space.Value->Unstructured, fineWindows);
-  std::map<std::array<int, 3>, std::vector<double>> halves;
-  const auto matrixOf = [&](int window, int fine, int end) -> const double*
+  enum Part
   {
-    std::vector<double>& matrix = halves[{ window, fine, end }];
+    Lower,
+    Upper,
+    Whole
+  };
+  std::map<std::array<int, 3>, std::vector<double>> parts;
+  const auto matrixOf = [&](int window, int fine, Part part) -> const double*
+  {
+    std::vector<double>& matrix = parts[{ window, fine, part }];
     if (matrix.empty())
     {
       const std::vector<double> knots = windows.LocalKnots(window);
       std::vector<double> target = fineWindows.LocalKnots(fine);
       const auto p = At(old.Degree);
-      const double half = 0.5 * knots[p];
-      const double scale = half / target[p];
+      const double length = part == Whole ? knots[p] : 0.5 * knots[p];
+      const double scale = length / target[p];
       for (double& knot : target)
       {
-        knot = scale * knot + end * half;
+        knot = scale * knot + (part == Upper ? length : 0.0);
       }
       matrix = Transposed(ConvertLocalKnots(old.Degree, target, knots), p + 1);
     }
@@ -241,23 +280,88 @@ Result<RefinedSpline<Dim>> HalveUnstructured(const Spline<Dim>& spline)
   result.Value = ReadFunctions<Dim>(spline, space.Value,
     [&](int e, const PointMatrix& local, Eigen::Index column, std::vector<double>& values)
     {
-      const int parent = e / numChildren;
+      const auto [parent, child] = cells[At(e)];
       values = LocalColumn(*spline.Space, parent, local, column);
       std::array<const double*, Dim> factors;
       for (int d = 0; d < Dim; ++d)
       {
-        factors[At(d)] = matrixOf(
-          windowOf[At(parent * Dim + d)], fineWindowOf[At(e * Dim + d)], e % numChildren >> d & 1);
+        const Part half = (child >> d & 1) != 0 ? Upper : Lower;
+        factors[At(d)] = matrixOf(windowOf[At(parent * Dim + d)], fineWindowOf[At(e * Dim + d)],
+          isHalved(parent, d) ? half : Whole);
       }
       ApplyFactors<Dim>(
         spline.Space->Elements[At(parent)].Degree, factors, values.data(), values.data());
     });
-  result.Parents.resize(space.Value->Elements.size());
-  for (std::size_t e = 0; e < result.Parents.size(); ++e)
+  for (const ChildCell& cell : cells)
   {
-    result.Parents[e] = static_cast<int>(e / numChildren);
+    result.Parents.push_back(cell.Parent);
   }
   return result;
+}
+}
+
+template <int Dim>
+Result<RefinedSpline<Dim>> HalveAllSheets(const Spline<Dim>& spline)
+{
+  return HalveUnstructured(spline, std::vector<int>(spline.Space->Elements.size(), (1 << Dim) - 1));
+}
+
+template <int Dim>
+Result<RefinedSpline<Dim>> HalveSheets(const Spline<Dim>& spline, const std::vector<int>& sheets)
+{
+  if (!spline.Space || spline.Space->Kind != SpaceKind::Unstructured)
+  {
+    return { ErrorCode::DimensionMismatch, "only splines on unstructured meshes have sheets" };
+  }
+  if (Status status = spline.Check(); !status)
+  {
+    return status;
+  }
+  if (sheets.empty())
+  {
+    RefinedSpline<Dim> same;
+    same.Value = spline;
+    same.Parents.resize(spline.Space->Elements.size());
+    std::iota(same.Parents.begin(), same.Parents.end(), 0);
+    return same;
+  }
+  const auto all = spline.Space->Unstructured->Topology.FindSheets();
+  std::vector<char> isMarked(At(all.Count), 0);
+  for (const int sheet : sheets)
+  {
+    if (sheet < 0 || sheet >= all.Count)
+    {
+      return { ErrorCode::InvalidParameter,
+        "there is no sheet " + std::to_string(sheet) + ": there are " + std::to_string(all.Count) };
+    }
+    isMarked[At(sheet)] = 1;
+  }
+  std::vector<int> halved(spline.Space->Elements.size(), 0);
+  for (std::size_t i = 0; i < all.Of.size(); ++i)
+  {
+    halved[i / Dim] |= isMarked[At(all.Of[i])] != 0 ? 1 << i % Dim : 0;
+  }
+  return HalveUnstructured(spline, halved);
+}
+
+template <int Dim>
+Result<RefinedSpline<Dim>> HalveSheetsOfCells(
+  const Spline<Dim>& spline, const std::vector<int>& cells)
+{
+  const auto all = spline.Space->Unstructured->Topology.FindSheets();
+  std::vector<int> sheets;
+  for (const int cell : cells)
+  {
+    if (cell < 0 || cell >= spline.Space->NumElements())
+    {
+      return { ErrorCode::InvalidParameter, "there is no element " + std::to_string(cell) };
+    }
+    for (int d = 0; d < Dim; ++d)
+    {
+      sheets.push_back(all.Of[At(cell * Dim + d)]);
+    }
+  }
+  return HalveSheets(spline, sheets);
 }
 
 template <int Dim>
@@ -308,7 +412,10 @@ Result<Spline<Dim>> ElevateUnstructured(const Spline<Dim>& spline, int times)
 }
 
 #define KNOTWORK_INSTANTIATE(Dim)                                                                  \
-  template Result<RefinedSpline<Dim>> HalveUnstructured<Dim>(const Spline<Dim>&);                  \
+  template Result<RefinedSpline<Dim>> HalveAllSheets(const Spline<Dim>&);                          \
+  template Result<RefinedSpline<Dim>> HalveSheets(const Spline<Dim>&, const std::vector<int>&);    \
+  template Result<RefinedSpline<Dim>> HalveSheetsOfCells(                                          \
+    const Spline<Dim>&, const std::vector<int>&);                                                  \
   template Result<Spline<Dim>> ElevateUnstructured<Dim>(const Spline<Dim>&, int);
 KNOTWORK_INSTANTIATE(2)
 KNOTWORK_INSTANTIATE(3)
