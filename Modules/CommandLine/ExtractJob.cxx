@@ -14,7 +14,8 @@ class ExtractJob : public FilterJob<vtkSplineExtract>
 public:
   explicit ExtractJob(CLI::App& app) : FilterJob(app)
   {
-    this->AddInput(0, "input", "spline surfaces (.vtu .vtpc .xml .g2 .step .iges)");
+    this->AddInput(
+      0, "input", "spline surfaces, or volumes with --boundary (.vtu .vtpc .xml .g2 .step .iges)");
     this->AddOutput(0, "--output", Endings::Splines, "the part or curve");
     app.add_option("--box", this->Box, "keep the part over u0 u1 v0 v1 only")->expected(4);
     app.add_option("--domain", this->Domain, "make u0 u1 v0 v1 the domain of the parameters")
@@ -37,6 +38,10 @@ protected:
       this->Filter->MoveDomainOn();
       this->Filter->SetDomain(this->Domain.data());
     }
+    if (this->Filter->GetBoundary()) // what the input is says nothing of the output
+    {
+      return {};
+    }
     const bool asCurves = this->Filter->GetIsoCurve() != 0;
     return session.CheckGridFormat(this->Input(0), this->MainOutput(), asCurves);
   }
@@ -54,7 +59,7 @@ private:
 };
 
 const JobRegistration Registration{ "extract",
-  "take a part or an iso-curve of surfaces, or exchange, reverse, expand",
+  "take a part or an iso-curve of surfaces, or the boundary of volumes; exchange, reverse, expand",
   "terrain.vtu --box 0.2 0.8 0.2 0.8 --output part.vtu", MakeJob<ExtractJob> };
 }
 }

@@ -3,6 +3,7 @@
 
 #include "PatchFields.h"
 #include "SplineModel.h"
+#include <knotwork/SplineCore/MeshTraces.h>
 #include <knotwork/SplineCore/SurfaceExtraction.h>
 
 #include "vtkInformationVector.h"
@@ -14,6 +15,29 @@ using knotwork::Status;
 vtkStandardNewMacro(vtkSplineExtract);
 
 vtkSplineExtract::vtkSplineExtract() = default;
+
+namespace
+{
+/// The boundary of a volume on a mesh instead of it.
+Status TakeBoundary(knotwork::SplinePatch& patch)
+{
+  const auto* volume = std::get_if<knotwork::Spline<3>>(&patch.Geometry);
+  if (!volume || volume->Space->Kind != knotwork::SpaceKind::Unstructured)
+  {
+    return { ErrorCode::DimensionMismatch,
+      "only volumes on unstructured meshes have their boundary taken" };
+  }
+  const auto topology = knotwork::MeshTopology<3>::Make(MeshOf(*volume->Space));
+  const auto trace = TraceOnFacets(*volume->Space, BoundaryFacets(topology.Value));
+  if (!trace)
+  {
+    return trace.Status;
+  }
+  SeparateFields(knotwork::TraceOf<2>(JoinFields(*volume, patch.Fields), trace.Value), patch);
+  patch.Cells.clear();
+  return {};
+}
+}
 
 Status vtkSplineExtract::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
@@ -38,6 +62,9 @@ Status vtkSplineExtract::Compute(vtkInformationVector** inputs, vtkInformationVe
   params.MaxFunctions = this->MaximumFunctions;
   params.Threads = this->KernelThreads();
 
+  const bool isBoundaryAll = this->Boundary && !params.Restrict && !params.Swap &&
+    !params.Reverse[0] && !params.Reverse[1] && !params.MoveDomain && !params.ExpandToTensor &&
+    params.IsoDirection < 0;
   const knotwork::ProgressCallback progress = this->Progress();
   const std::size_t count = model->Patches.size();
   for (std::size_t p = 0; p < count; ++p)
@@ -48,6 +75,17 @@ Status vtkSplineExtract::Compute(vtkInformationVector** inputs, vtkInformationVe
     }
     knotwork::SplinePatch& patch = model->Patches[p];
     const std::string where = "patch " + std::to_string(patch.Id) + ": ";
+    if (this->Boundary)
+    {
+      if (const Status status = TakeBoundary(patch); !status)
+      {
+        return { status.Code, where + status.Detail };
+      }
+      if (isBoundaryAll)
+      {
+        continue;
+      }
+    }
     const auto* surface = std::get_if<knotwork::Spline<2>>(&patch.Geometry);
     if (!surface)
     {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkSplineExtract
- * @brief   parts, iso-curves and other parametrizations of spline surfaces
+ * @brief   parts, iso-curves and other parametrizations of spline surfaces, boundaries of volumes
  *
  * What is switched on is done in this order:
  *
+ * - Boundary: volumes on unstructured meshes become their whole boundary, one surface a patch on
+ *   the mesh of the boundary's quadrilaterals.
  * - RestrictToBox: the part of the surface over Box becomes the patch.
  * - SwapParameters: S'(u, v) = S(v, u).
  * - ReverseFirst, ReverseSecond: a parameter t becomes begin + end - t of its domain.
@@ -16,11 +18,13 @@
  * Tensor-product and LR surfaces stay what they are otherwise; weights and fields are carried
  * along. Patch numbers stay; cell arrays other than those of the spline grid are dropped.
  *
- * Errors: patches that are no surfaces, hierarchical and Bezier surfaces (DimensionMismatch), a
- * box or value outside the domain of a patch (OutsideDomain), a new domain without length
- * (InvalidParameter), ends of a tensor product whose knots have not full multiplicity or different
- * knots that a new domain makes one (InvalidKnots), more than MaximumFunctions of an expansion
- * (TooLarge), and those of decoding. See SurfaceExtraction.h.
+ * Errors: patches that are no surfaces, other volumes than those of Boundary, hierarchical and
+ * Bezier surfaces, parts and curves of surfaces on meshes (DimensionMismatch), a volume without a
+ * boundary (EmptyInput) or that touches itself along an edge (InvalidTopology), a box or value
+ * outside the domain of a patch (OutsideDomain), a new domain without length (InvalidParameter),
+ * ends of a tensor product whose knots have not full multiplicity or different knots that a new
+ * domain makes one (InvalidKnots), more than MaximumFunctions of an expansion (TooLarge), and those
+ * of decoding. See SurfaceExtraction.h.
  */
 #ifndef vtkSplineExtract_h
 #define vtkSplineExtract_h
@@ -41,6 +45,12 @@ public:
     SECOND
   };
 
+  ///@{
+  /** Whether volumes on unstructured meshes become their boundary, one surface. Default off. */
+  vtkSetMacro(Boundary, bool);
+  vtkGetMacro(Boundary, bool);
+  vtkBooleanMacro(Boundary, bool);
+  ///@}
   ///@{
   /** Whether only the part of the surfaces over the box is kept. Default off. */
   vtkSetMacro(RestrictToBox, bool);
@@ -124,6 +134,7 @@ private:
   void operator=(const vtkSplineExtract&) = delete;
 
   int MaximumFunctions = 1000000;
+  bool Boundary = false;
   bool RestrictToBox = false;
   double Box[4] = { 0.0, 1.0, 0.0, 1.0 };
   bool SwapParameters = false;

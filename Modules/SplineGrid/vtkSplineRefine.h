@@ -21,10 +21,11 @@
  *
  * Marked elements are refined locally. What a tensor-product surface becomes is LocalSpace's
  * choice: a truncated hierarchical (THB) spline or an LR spline; curves and volumes become
- * hierarchical. Patches that are hierarchical or LR stay it. With GlobalRefinement every patch that
- * has a marked element is refined as by UNIFORM. In repeated refinements the children of marked
- * elements are marked (CELL_ARRAY, SELECTION), or the new elements are sampled again
- * (IMPLICIT_FUNCTION).
+ * hierarchical. Patches that are hierarchical or LR stay it. Of patches on unstructured meshes all
+ * sheets of cells that run through the marked ones are halved along their parallel edges. With
+ * GlobalRefinement every patch that has a marked element is refined as by UNIFORM. In repeated
+ * refinements the children of marked elements are marked (CELL_ARRAY, SELECTION), or the new
+ * elements are sampled again (IMPLICIT_FUNCTION).
  *
  * An LR patch is refined by mesh lines, in UNIFORM mode too. LRStrategy says how long they are:
  * across all functions alive on an element (FULL_SPAN), across the smallest (MINIMUM_SPAN), all

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Splines on unstructured meshes travel as grids: written and read bit for bit, recovered from
 // moved points, damage found, refined and drawn by the filters for all families.
+#include "FilterCases.h"
 #include "MeshCases.h"
 #include "RandomModels.h"
-#include <knotwork/SplineCore/UnstructuredSpace.h>
+#include <knotwork/SplineCore/MeshTraces.h>
+#include <knotwork/SplineCore/SheetRefinement.h>
+#include <knotwork/SplineGrid/vtkSplineExtract.h>
 #include <knotwork/SplineGrid/vtkSplineRefine.h>
 #include <knotwork/SplineGrid/vtkSplineTessellate.h>
 
+#include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkFeatureEdges.h"
 #include "vtkFieldData.h"
+#include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -161,4 +166,70 @@ TEST(SplineModelUnstructured, IsRefinedAndDrawnWithoutGaps_ExactOracle)
   edges->Update();
   EXPECT_GT(edges->GetPolyDataInput(0)->GetNumberOfCells(), 216);
   EXPECT_EQ(edges->GetOutput()->GetNumberOfCells(), 0);
+}
+
+TEST(SplineModelUnstructured, SheetsThroughMarkedCellsAreHalved_CrossOracle)
+{
+  SplineModel model;
+  model.Patches.push_back(MakePatch<2>(meshes::Star(5, 3), CreasePolicy::Full, true, 4));
+  const auto grid = Encode(model);
+  vtkNew<vtkIntArray> mark;
+  mark->SetName("Mark");
+  mark->SetNumberOfValues(grid->GetNumberOfCells());
+  mark->FillValue(0);
+  mark->SetValue(7, 1);
+  grid->GetCellData()->AddArray(mark);
+  vtkNew<vtkSplineRefine> filter;
+  filter->SetInputData(grid);
+  filter->SetMode(vtkSplineRefine::CELL_ARRAY);
+  filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Mark");
+  filter->SetLowerThreshold(1.0);
+  filter->Update();
+  const SplineModel refined = DecodePatches(filter->GetOutputDataObject(0));
+  ASSERT_EQ(refined.Patches.size(), 1U);
+  const auto& spline = std::get<Spline<2>>(model.Patches[0].Geometry);
+  const auto sheets = MeshTopology<2>::Make(MeshOf(*spline.Space)).Value.FindSheets();
+  const auto expected = HalveSheets(spline, { sheets.Of[14], sheets.Of[15] });
+  ASSERT_TRUE(expected);
+  const auto& found = std::get<Spline<2>>(refined.Patches[0].Geometry);
+  EXPECT_EQ(found.Space->NumElements(), 45 + 12 + 1); // two sheets of six cells cross in one
+  EXPECT_EQ(MeshOf(*found.Space).Corners, MeshOf(*expected->Value.Space).Corners);
+  // grids hold points, not coefficients
+  EXPECT_LE((found.ControlPoints - expected->Value.ControlPoints).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_EQ(refined.Patches[0].Fields.size(), 1U);
+}
+
+TEST(SplineModelUnstructured, BoundaryOfAVolumeIsOneSurface_ExactOracle)
+{
+  SplineModel model;
+  model.Patches.push_back(
+    MakePatch<3>(meshes::Sweep(meshes::Star(3, 2), 3), CreasePolicy::Full, true, 7));
+  vtkNew<vtkSplineExtract> filter;
+  filter->SetInputData(Encode(model));
+  filter->BoundaryOn();
+  filter->Update();
+  const SplineModel taken = DecodePatches(filter->GetOutputDataObject(0));
+  ASSERT_EQ(taken.Patches.size(), 1U);
+  EXPECT_EQ(taken.Patches[0].Id, 7);
+  const auto& surface = std::get<Spline<2>>(taken.Patches[0].Geometry);
+  const auto& volume = std::get<Spline<3>>(model.Patches[0].Geometry);
+  const auto topology = MeshTopology<3>::Make(MeshOf(*volume.Space)).Value;
+  const auto trace = TraceOnFacets(*volume.Space, BoundaryFacets(topology));
+  ASSERT_TRUE(trace) << trace.Status.Message();
+  EXPECT_EQ(surface.Space->Kind, SpaceKind::Unstructured);
+  EXPECT_EQ(surface.Space->NumElements(), 2 * 12 + 3 * 12);
+  const Spline<2> expected = TraceOf<2>(volume, trace.Value);
+  EXPECT_LE((surface.ControlPoints - expected.ControlPoints).cwiseAbs().maxCoeff(), 1e-12);
+  ASSERT_EQ(taken.Patches[0].Fields.size(), 1U);
+  EXPECT_EQ(taken.Patches[0].Fields[0].Coefficients.rows(), surface.Space->NumFunctions);
+
+  filter->SetIsoCurve(vtkSplineExtract::FIRST);
+  ExpectFailure(filter, ErrorCode::DimensionMismatch, "patch 7");
+  filter->SetIsoCurve(vtkSplineExtract::NONE);
+  filter->SetInputData(Encode(UnstructuredModel(false))); // begins with a surface
+  ExpectFailure(filter, ErrorCode::DimensionMismatch, "patch 3: only volumes on unstructured");
+  model.Patches[0] =
+    MakePatch<3>(meshes::Sweep(meshes::CubeSphere(1), 3, true), CreasePolicy::Full, false, 7);
+  filter->SetInputData(Encode(model)); // closed
+  ExpectFailure(filter, ErrorCode::EmptyInput, "patch 7: no facets");
 }
