@@ -432,12 +432,10 @@ Result<std::vector<CellSide>> FindFeatures(vtkPointSet* data, const DecodedMeshC
   return between ? features : between;
 }
 
-#define KNOTWORK_INSTANTIATE(Dim)                                                                  \
-  template Result<MeshTopology<Dim>> MakeConforming<Dim>(                                          \
-    const CellMesh<Dim>&, const DecodedMeshCells&);                                                \
-  template Result<std::vector<CellSide>> FindFeatures<Dim>(vtkPointSet*, const DecodedMeshCells&,  \
-    const CellMesh<Dim>&, const MeshTopology<Dim>&, double, const std::string&);
-KNOTWORK_INSTANTIATE(2)
-KNOTWORK_INSTANTIATE(3)
-#undef KNOTWORK_INSTANTIATE
+template Result<MeshTopology<2>> MakeConforming<2>(const CellMesh<2>&, const DecodedMeshCells&);
+template Result<MeshTopology<3>> MakeConforming<3>(const CellMesh<3>&, const DecodedMeshCells&);
+template Result<std::vector<CellSide>> FindFeatures<2>(vtkPointSet*, const DecodedMeshCells&,
+  const CellMesh<2>&, const MeshTopology<2>&, double, const std::string&);
+template Result<std::vector<CellSide>> FindFeatures<3>(vtkPointSet*, const DecodedMeshCells&,
+  const CellMesh<3>&, const MeshTopology<3>&, double, const std::string&);
 }
