@@ -306,7 +306,7 @@ Result<DecodedMeshCells> DecodeMeshCells(vtkPointSet* data, bool split)
   }
   Status status = CheckCellSizes(data);
   CornerTable corners(data);
-  const bool isCurved = corners.IsMeant(0);
+  const bool isCurved = status && corners.IsMeant(0); // cells of other sizes crash VTK
   status = status && !isCurved ? CheckSampledPoints(data, "the mesh") : status;
   if (!status)
   {

@@ -120,6 +120,36 @@ def test_a_vertex_at_two_places():
     assert all(word in done.stderr for word in ("ring.mesh", "cell 2 has vertex 0 at (3, 0, 0)", "cut it open")), done.stderr
 
 
+def test_damaged_vertices_of_cells():
+    def message(change):
+        grid = knotwork.read(data("curved.mesh"))
+        change(grid.GetCellData().GetArray("MeshVertices"))
+        made = knotwork.vtkUnstructuredSpline()
+        made.SetInputDataObject(grid)
+        with knotwork_testing.Errors(made) as errors:
+            made.Update()
+        assert made.GetErrorCode() != 0, errors
+        return errors[0]
+
+    def narrow(array):
+        array.SetNumberOfComponents(3)
+        array.SetNumberOfTuples(48)
+
+    assert "cell 5 has no vertex at corner 2" in message(lambda array: array.SetComponent(5, 2, -1))
+    assert "cell 0 has fewer than 4 corners" in message(narrow)
+    assert "has vertex 7 at" in message(lambda array: array.SetComponent(40, 0, 7))
+
+
+def test_patches_of_a_curved_mesh():
+    """The Klein bottle has no extraordinary points: one patch that is cut where it meets itself, at points of the mesh."""
+    grid = knotwork.read(data("curved.mesh"))
+    made = knotwork.vtkMeshPatches()
+    made.SetInputDataObject(grid)
+    made.Update()
+    assert made.GetErrorCode() == 0 and made.GetOutputDataObject(0).GetNumberOfCells() == 48
+    assert made.GetOutputDataObject(1).GetNumberOfPoints() == 48  # the vertices, not all of the 192 control points
+
+
 def test_refusals():
     refused("medit.mesh", "MeshVersionFormatted 2\nDimension 2\nEnd\n", "line 1", "Medit")
     refused("cut.mesh", open(data("curved.mesh")).read()[:6000], "truncated")
