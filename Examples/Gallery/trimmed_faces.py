@@ -3,7 +3,7 @@
 (back_maps.png).
 
 A bust of Debian's libcgal-demo, whose eyes and mouth are cut out here, and a CAD patch: the mesh, the mesh in the plane with its loops,
-the surface over its rectangle with the trimmed part in orange, the face. Then an S on a cone that is made here: surfaces by NURBS extrapolation, by the
+the surface over its rectangle with the trimmed part in orange, the face. Then an S on a cone that is made here: surfaces by the published NURBS method, by the
 hybrid of radial basis functions and splines, and by penalized least squares; what is folded is red.
 """
 import os
@@ -170,7 +170,7 @@ def main():
 
     letter = s_on_cone()
     panels = []
-    for k, (method, name) in enumerate((("NURBS", "NURBS extrapolation"), ("HYBRID", "hybrid"), ("PENALIZED", "penalized"))):
+    for k, (method, name) in enumerate((("NURBS", "NURBS, as published"), ("HYBRID", "hybrid"), ("PENALIZED", "penalized"))):
         face = trimmed(letter, method, elements=40)
         actor, share = surface_actor(face)
         shown = scene.renderer([actor, scene.actor(face.GetOutputDataObject(0), ORANGE, lighting=True), curves(face)],

@@ -33,18 +33,20 @@ public:
 
   enum Methods
   {
-    NURBS = 0, ///< "NURBS" a grid of interpolated points, continued outwards by extrapolation
-    RBF,       ///< "RBF" thin-plate radial basis functions, followed by a spline
-    HYBRID,    ///< control points are values of the radial basis functions
-    PENALIZED  ///< least squares with thin-plate energy
+    NURBS = 0,      ///< "NURBS" a surface over the largest grid in the chart, continued by rings
+    RBF,            ///< "RBF" thin-plate radial basis functions, followed by a spline
+    HYBRID,         ///< control points are values of the radial basis functions
+    PENALIZED,      ///< least squares with thin-plate energy
+    CONTINUED_LINES ///< all grid points in the chart, rows and columns continued outwards
   };
 
   ///@{
   /** How the surfaces are made, one of Methods. PENALIZED: least squares with thin-plate energy,
    * for meshes of any size. RBF: thin-plate radial basis functions; HYBRID: their values as
-   * control points. NURBS continues a grid outwards by extrapolation, which may fold beside the
-   * mesh, and is here to compare with. Default PENALIZED. */
-  vtkSetClampMacro(Method, int, NURBS, PENALIZED);
+   * control points. NURBS and CONTINUED_LINES extrapolate, which may fold beside the mesh, and are
+   * here to compare with: NURBS, as it is published, a surface through the largest grid in the
+   * chart, ring by ring; CONTINUED_LINES rows and columns of grid points. Default PENALIZED. */
+  vtkSetClampMacro(Method, int, NURBS, CONTINUED_LINES);
   vtkGetMacro(Method, int);
   ///@}
   ///@{

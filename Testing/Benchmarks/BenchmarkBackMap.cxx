@@ -204,8 +204,8 @@ const bool registered = []
   for (const char* name : { "scone_2k", "beetle", "maskgen_3k", "half_glove_a" })
   {
     const Case data = folder ? ReadCase(std::string(folder) + "/" + name + ".off") : Case();
-    for (BackMapMethod method :
-      { BackMapMethod::Nurbs, BackMapMethod::Rbf, BackMapMethod::Hybrid, BackMapMethod::Penalized })
+    for (BackMapMethod method : { BackMapMethod::Nurbs, BackMapMethod::Rbf, BackMapMethod::Hybrid,
+           BackMapMethod::Penalized, BackMapMethod::ContinuedLines })
     {
       if (!data.Charts.empty())
       {

@@ -135,7 +135,7 @@ def test_given_plane_coordinates_are_used():
 
 
 def test_every_method_and_its_options():
-    for method in ("nurbs", "rbf", "hybrid", "penalized"):
+    for method in ("nurbs", "rbf", "hybrid", "penalized", "continued-lines"):
         report = trim(rolled(), "--output", path("method.step"), "--method", method, "--tolerance", 0.01)
         assert report["method"] == method and report["tolerance"] == 0.01
         assert report["within_tolerance"] is True and report["brep_valid"] is True

@@ -81,6 +81,8 @@ const char* ToString(BackMapMethod method)
       return "rbf";
     case BackMapMethod::Hybrid:
       return "hybrid";
+    case BackMapMethod::ContinuedLines:
+      return "continued-lines";
     case BackMapMethod::Penalized:
       break;
   }
@@ -121,6 +123,7 @@ Result<BackMap> FitBackMap(const ChartMesh& chart, const BackMapParams& params)
   switch (params.Method)
   {
     case BackMapMethod::Nurbs:
+    case BackMapMethod::ContinuedLines:
       return FitExtrapolated(chart, params);
     case BackMapMethod::Rbf:
     case BackMapMethod::Hybrid:

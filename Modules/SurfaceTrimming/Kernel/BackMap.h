@@ -11,10 +11,11 @@ namespace knotwork
 {
 enum class BackMapMethod
 {
-  Nurbs,    ///< grid points inside the chart by interpolation, others by extrapolation outwards
-  Rbf,      ///< thin-plate radial basis functions, then a spline that follows them
-  Hybrid,   ///< control points are values of the radial basis functions
-  Penalized ///< least squares with thin-plate energy
+  Nurbs,         ///< a surface over the largest grid in the chart, continued ring by ring
+  Rbf,           ///< thin-plate radial basis functions, then a spline that follows them
+  Hybrid,        ///< control points are values of the radial basis functions
+  Penalized,     ///< least squares with thin-plate energy
+  ContinuedLines ///< all grid points in the chart, rows and columns continued
 };
 /// Name as options and reports have it.
 const char* ToString(BackMapMethod method);

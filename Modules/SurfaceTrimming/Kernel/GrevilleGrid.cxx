@@ -2,30 +2,52 @@
 #include "GrevilleGrid.h"
 #include <knotwork/SplineCore/TensorSpace.h>
 
-#include <Eigen/LU>
+#include <Eigen/SparseLU>
 
 namespace knotwork
 {
 namespace
 {
-/// Values of all functions (columns) at all Greville points (rows).
-Eigen::MatrixXd GrevilleCollocation(const KnotVector& knots)
+/// Solves for the coefficients of the functions that take the values, a column a right-hand side.
+Eigen::MatrixXd SolveCollocation(
+  const KnotVector& knots, const std::vector<double>& lines, const Eigen::MatrixXd& values)
 {
   const int p = knots.Degree();
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(knots.NumFunctions(), knots.NumFunctions());
-  for (int i = 0; i < knots.NumFunctions(); ++i)
+  std::vector<Eigen::Triplet<double>> entries;
+  std::array<double, MaxDegree + 1> basis;
+  for (std::size_t i = 0; i < lines.size(); ++i)
   {
-    const double u = knots.Greville(i);
-    const int e = knots.FindElement(u);
-    Eigen::VectorXd values(p + 1);
-    knots.EvaluateFunctions(e, u, 0, values.data());
-    matrix.row(i).segment(knots.Span(e) - p, p + 1) = values.transpose();
+    const int e = knots.FindElement(lines[i]);
+    knots.EvaluateFunctions(e, lines[i], 0, basis.data());
+    for (int k = 0; k <= p; ++k)
+    {
+      entries.emplace_back(
+        static_cast<int>(i), knots.Span(e) - p + k, basis[static_cast<std::size_t>(k)]);
+    }
   }
-  return matrix;
+  Eigen::SparseMatrix<double> matrix(knots.NumFunctions(), knots.NumFunctions());
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  // banded and totally positive: the natural order has no fill but the band
+  Eigen::SparseLU<Eigen::SparseMatrix<double>, Eigen::NaturalOrdering<int>> solver(matrix);
+  return solver.solve(values);
 }
 }
 
-PointMatrix InterpolateAtGreville(const NetKnots& knots, const PointMatrix& values)
+std::array<std::vector<double>, 2> GrevilleLines(const NetKnots& knots)
+{
+  std::array<std::vector<double>, 2> lines;
+  for (std::size_t d = 0; d < 2; ++d)
+  {
+    for (int i = 0; i < knots[d].NumFunctions(); ++i)
+    {
+      lines[d].push_back(knots[d].Greville(i));
+    }
+  }
+  return lines;
+}
+
+PointMatrix InterpolateOnGrid(
+  const NetKnots& knots, const std::array<std::vector<double>, 2>& grid, const PointMatrix& values)
 {
   const Eigen::Index nu = knots[0].NumFunctions();
   const Eigen::Index nv = knots[1].NumFunctions();
@@ -35,7 +57,7 @@ PointMatrix InterpolateAtGreville(const NetKnots& knots, const PointMatrix& valu
   {
     lines.middleCols(j * c, c) = values.middleRows(j * nu, nu);
   }
-  lines = GrevilleCollocation(knots[0]).partialPivLu().solve(lines).eval();
+  lines = SolveCollocation(knots[0], grid[0], lines);
   Eigen::MatrixXd columns(nv, nu * c);
   for (Eigen::Index j = 0; j < nv; ++j)
   {
@@ -44,7 +66,7 @@ PointMatrix InterpolateAtGreville(const NetKnots& knots, const PointMatrix& valu
       columns.row(j).segment(i * c, c) = lines.row(i).segment(j * c, c);
     }
   }
-  columns = GrevilleCollocation(knots[1]).partialPivLu().solve(columns).eval();
+  columns = SolveCollocation(knots[1], grid[1], columns);
   PointMatrix control(nu * nv, c);
   for (Eigen::Index j = 0; j < nv; ++j)
   {

@@ -4,13 +4,18 @@
 #include <knotwork/SplineCore/Spline.h>
 #include <knotwork/SplineCore/Status.h>
 
-/// Splines by values at the Greville points of a net, first direction fastest.
+/// Splines by values at the crossings of lines, first direction fastest.
 namespace knotwork
 {
-/// Control points of the spline that takes the values at the Greville points.
-/// @complexity O(n^3) a direction with n functions in it.
+/// Greville abscissae of a net, by direction.
+std::array<std::vector<double>, 2> GrevilleLines(const NetKnots& knots);
+
+/// Control points of the spline that takes the values at the crossings.
+/// @param lines  one a function, rising, each in the support of its function.
+/// @complexity O(n m p^2) with n x m functions.
 /// @source  de Boor, A Practical Guide to Splines, chapter XVII (tensor products).
-PointMatrix InterpolateAtGreville(const NetKnots& knots, const PointMatrix& values);
+PointMatrix InterpolateOnGrid(const NetKnots& knots,
+  const std::array<std::vector<double>, 2>& lines, const PointMatrix& values);
 
 /// Centres of all elements, n x 2.
 PointMatrix ElementCentres(const NetKnots& knots);

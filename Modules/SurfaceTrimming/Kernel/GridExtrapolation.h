@@ -4,16 +4,9 @@
 
 namespace knotwork
 {
-/// BackMapMethod::Nurbs. @pre the chart and the parameters are checked.
+/// BackMapMethod::Nurbs and ContinuedLines. @pre the chart and the parameters are checked.
 ///
-/// Greville points of the net that lie in the chart get its points by linear interpolation in the
-/// triangles. From there the known part grows, layer by layer: a grid point beside known ones takes
-/// the polynomial through the last known ones of its row or column, the mean over the directions;
-/// points with polynomials of full degree come first. The spline interpolates the grid. A net by
-/// need is halved everywhere until the tolerance is kept; the best net is the result. What is
-/// continued from layer to layer grows without bound: it folds outside of the chart, and on fine
-/// nets spoils the surface inside along the boundary. That is in the method.
-/// @source  Ruiz, Mejia, Cadavid, Triangular mesh parameterization with trimmed surfaces, 2015.
-/// @return SingularSystem when no grid point lies in the chart, or when values overflow.
+/// A net by need is halved everywhere until the tolerance is kept; the best net is the result.
+/// @return failures of ContinueSurface and ContinueLines.
 Result<BackMap> FitExtrapolated(const ChartMesh& chart, const BackMapParams& params);
 }

@@ -58,7 +58,7 @@ Result<BackMap> FitRadial(const ChartMesh& chart, const BackMapParams& params)
       radial->Surface.Evaluate(GrevillePoints<2>(*surface->Space), params.Threads);
     if (params.Method == BackMapMethod::Rbf)
     {
-      values = InterpolateAtGreville(knots, values);
+      values = InterpolateOnGrid(knots, GrevilleLines(knots), values);
     }
     surface->ControlPoints = std::move(values);
     const BezierForm<2> form = MakeBezierForm(surface.Value, params.Threads);

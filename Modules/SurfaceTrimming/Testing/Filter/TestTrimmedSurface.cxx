@@ -350,7 +350,8 @@ TEST(TrimmedSurface, SmoothingAndCentresReachTheKernel_PropertyOracle)
 
 TEST(TrimmedSurface, EveryMethodMakesTheFace_PropertyOracle)
 {
-  for (int method = vtkTrimmedSurface::NURBS; method <= vtkTrimmedSurface::PENALIZED; ++method)
+  for (int method = vtkTrimmedSurface::NURBS; method <= vtkTrimmedSurface::CONTINUED_LINES;
+       ++method)
   {
     SCOPED_TRACE("method " + std::to_string(method));
     vtkNew<vtkTrimmedSurface> filter;
@@ -358,7 +359,8 @@ TEST(TrimmedSurface, EveryMethodMakesTheFace_PropertyOracle)
     filter->SetMethod(method);
     filter->Update();
     EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
-    EXPECT_EQ(Number(filter, "WithinTolerance"), 1);
+    // what the published method continues into the hole spoils the rings around it
+    EXPECT_EQ(Number(filter, "WithinTolerance"), method != vtkTrimmedSurface::NURBS);
     EXPECT_EQ(Number(filter, "Loops"), 2);
     EXPECT_EQ(Number(filter, "Centres") > 0,
       method == vtkTrimmedSurface::RBF || method == vtkTrimmedSurface::HYBRID);

@@ -292,8 +292,8 @@ TEST(BackMap, MostElementsAreKept_PropertyOracle)
   }
 }
 
-constexpr std::array<BackMapMethod, 4> AllMethods{ BackMapMethod::Nurbs, BackMapMethod::Rbf,
-  BackMapMethod::Hybrid, BackMapMethod::Penalized };
+constexpr std::array<BackMapMethod, 5> AllMethods{ BackMapMethod::Nurbs, BackMapMethod::Rbf,
+  BackMapMethod::Hybrid, BackMapMethod::Penalized, BackMapMethod::ContinuedLines };
 
 TEST(BackMap, AllMethodsContinueAPlane_ExactOracle)
 {
@@ -307,7 +307,7 @@ TEST(BackMap, AllMethodsContinueAPlane_ExactOracle)
     {
       BackMapParams params = Params(1e-3, method);
       params.Degree = degree;
-      params.Elements = 12;
+      params.Elements = 24; // with 5 x 5 points of the grid between the holes
       const BackMap map = Fit(ChartOf(plate), params);
       EXPECT_TRUE(map.WithinTolerance);
       const PointMatrix grid = GridOf(map.Surface, 20);
@@ -319,13 +319,19 @@ TEST(BackMap, AllMethodsContinueAPlane_ExactOracle)
   }
 }
 
-TEST(BackMap, AllMethodsAreWithinToleranceOfASmoothSurface_PropertyOracle)
+TEST(BackMap, AllMethodsButThePublishedAreWithinToleranceOfASmoothSurface_PropertyOracle)
 {
   // chords of the mesh: 0.03^2 / 8 / 0.5 = 2e-4
   const ChartMesh chart = ChartOf(CylinderWithHoles(0.03));
   for (BackMapMethod method : AllMethods)
   {
     const BackMap map = Fit(chart, Params(2e-3, method));
+    if (method == BackMapMethod::Nurbs) // what it continues into holes spoils the rings around them
+    {
+      EXPECT_FALSE(map.WithinTolerance);
+      EXPECT_GT(map.MaxResidual, 0.05);
+      continue;
+    }
     EXPECT_TRUE(map.WithinTolerance) << ToString(method) << " " << map.MaxResidual;
     EXPECT_LE(LargestDistance(chart, map.Surface), 2.1e-3) << ToString(method);
     const bool radial = method == BackMapMethod::Rbf || method == BackMapMethod::Hybrid;
@@ -357,9 +363,10 @@ TEST(BackMap, ExtrapolationFoldsOutsideAConcaveChartAndOthersDoNot_PropertyOracl
   for (BackMapMethod method : AllMethods)
   {
     const BackMap map = Fit(chart, Params(5e-3, method));
-    EXPECT_TRUE(map.WithinTolerance) << ToString(method) << " " << map.MaxResidual;
+    EXPECT_EQ(map.WithinTolerance, method != BackMapMethod::Nurbs)
+      << ToString(method) << " " << map.MaxResidual;
     const SurfaceFairness fairness = MeasureFairness(chart, map.Surface);
-    if (method == BackMapMethod::Nurbs)
+    if (method == BackMapMethod::Nurbs || method == BackMapMethod::ContinuedLines)
     {
       EXPECT_GT(fairness.FoldedShare, 0.0);
       EXPECT_LT(fairness.MinDot, -0.5);
@@ -616,8 +623,7 @@ TEST(BackMap, LimitsOfTheNetAreNamed_PropertyOracle)
   BackMapParams params = Params(1e-6);
   params.MaxElements = 20;
   EXPECT_EQ(Fit(chart, params).Stop, BackMapStop::Elements);
-  for (const BackMapMethod method :
-    { BackMapMethod::Nurbs, BackMapMethod::Rbf, BackMapMethod::Hybrid, BackMapMethod::Penalized })
+  for (const BackMapMethod method : AllMethods)
   {
     SCOPED_TRACE(ToString(method));
     params = Params(1e-9, method);
@@ -727,14 +733,17 @@ TEST(BackMap, EveryFailureIsReached)
       ErrorCode::Aborted);
   }
   // four corners of the rectangle are the whole grid, and lie in the margin
-  EXPECT_EQ(code(
-              [](BackMapParams& p)
-              {
-                p.Method = BackMapMethod::Nurbs;
-                p.Degree = 1;
-                p.Elements = 1;
-              }),
-    ErrorCode::SingularSystem);
+  for (const BackMapMethod method : { BackMapMethod::Nurbs, BackMapMethod::ContinuedLines })
+  {
+    EXPECT_EQ(code(
+                [&](BackMapParams& p)
+                {
+                  p.Method = method;
+                  p.Degree = 1;
+                  p.Elements = 1;
+                }),
+      ErrorCode::SingularSystem);
+  }
   EXPECT_EQ(FitBackMap({}, Params(1e-3)).Status.Code, ErrorCode::EmptyInput);
   ChartMesh broken = chart;
   broken.UV.conservativeResize(3, 2);

@@ -108,8 +108,8 @@ TEST(TrimSurface, ANetThatIsTooCoarseIsAResultThatSaysSo_PropertyOracle)
 TEST(TrimSurface, EveryMethodGivesAFaceWithItsDeviation_PropertyOracle)
 {
   const ChartMesh chart = SquareWithSquareHole(12, Roll);
-  for (const auto method :
-    { BackMapMethod::Nurbs, BackMapMethod::Rbf, BackMapMethod::Hybrid, BackMapMethod::Penalized })
+  for (const auto method : { BackMapMethod::Nurbs, BackMapMethod::Rbf, BackMapMethod::Hybrid,
+         BackMapMethod::Penalized, BackMapMethod::ContinuedLines })
   {
     SCOPED_TRACE(ToString(method));
     TrimParams params;

@@ -18,9 +18,9 @@ def number(trimmed, column):
 
 def test_methods():
     flat = half_sphere()
-    for method in ("NURBS", "RBF", "Hybrid", "Penalized"):
+    for method in ("NURBS", "RBF", "Hybrid", "Penalized", "Continued Lines"):
         trimmed = TrimmedSurface(Input=OutputPort(flat, 0), Method=method, Tolerance=0.01)
-        trimmed.Elements = 12 if method == "NURBS" else 0  # extrapolation on fine nets is wild
+        trimmed.Elements = 12 if method in ("NURBS", "Continued Lines") else 0  # extrapolation on fine nets is wild
         assert number(trimmed, "Faces") == 1 and number(trimmed, "Loops") == 1, method
         assert number(trimmed, "MaxDeviation") > 0, method
 
