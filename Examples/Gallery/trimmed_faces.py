@@ -170,15 +170,16 @@ def main():
 
     letter = s_on_cone()
     panels = []
-    for k, (method, name) in enumerate((("NURBS", "NURBS, as published"), ("HYBRID", "hybrid"), ("PENALIZED", "penalized"))):
+    for k, (method, name) in enumerate((("NURBS", "NURBS, as published"), ("CONTINUED_LINES", "continued lines"), ("HYBRID", "hybrid"),
+                                      ("PENALIZED", "penalized"))):
         face = trimmed(letter, method, elements=40)
         actor, share = surface_actor(face)
         shown = scene.renderer([actor, scene.actor(face.GetOutputDataObject(0), ORANGE, lighting=True), curves(face)],
-                               (k / 3, 0, (k + 1) / 3, 1), flat=False)
+                               (k / 4, 0, (k + 1) / 4, 1), flat=False)
         shown.AddActor(scene.label(f"{name}: {100 * share:.2g} % folded", 0.04, 0.03, 14))
-        aimed(shown, (6, 0, 2), (0, 0, 1)).ResetCamera(face.GetOutputDataObject(0).GetBounds())  # extrapolation goes far
+        aimed(shown, (6, 0, 2), (0, 0, 1)).ResetCamera(letter.GetBounds())  # extrapolation goes far
         panels.append(shown)
-    scene.save(panels, os.path.join(folder, "back_maps.png"), (1200, 420))
+    scene.save(panels, os.path.join(folder, "back_maps.png"), (1400, 380))
 
 
 if __name__ == "__main__":
