@@ -11,7 +11,8 @@ namespace knotwork
 std::array<std::vector<double>, 2> GrevilleLines(const NetKnots& knots);
 
 /// Control points of the spline that takes the values at the crossings.
-/// @param lines  one a function, rising, each in the support of its function.
+/// @param lines   one a function, rising, each inside the support of its function.
+/// @param values  a row a crossing, first direction fastest, of any number of columns.
 /// @complexity O(n m p^2) with n x m functions.
 /// @source  de Boor, A Practical Guide to Splines, chapter XVII (tensor products).
 PointMatrix InterpolateOnGrid(const NetKnots& knots,
