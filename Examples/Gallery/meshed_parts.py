@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Meshes of real parts as splines: reflection lines of a sheet-metal panel of 15,188 quadrilaterals around an extraordinary point, as
 it is and with one tangent plane there (panel.png); a rod of genus 2, a mesh made from a scan, read back from the STEP solid that it
-was written to (rod.png); hexahedra of a machine part, cut along their base complex (hexahedra.png).
+was written to (rod.png); a place of it where cells are folded, and the splines of the mesh as it is and untangled (untangled.png);
+hexahedra of a machine part, cut along their base complex (hexahedra.png).
 
 The folder of the meshes is named by KNOTWORK_UNSTRUCTURED_MESHES.
 
@@ -25,6 +26,11 @@ from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 POINT = np.array((3069.128662, -277.844818, -946.50061))
 NORMAL = np.array((0.068, 0.387, -0.92))
 ACROSS = np.array((-0.997, 0.0, -0.074))
+
+# A folded quadrilateral of the rod, and how it is seen.
+FOLDED = 368
+FOLDED_SEEN = np.array((0.118, -0.101, 0.988))
+FOLDED_UP = (-0.575, 0.202, 0.09)
 
 FOLDER = os.environ.get("KNOTWORK_UNSTRUCTURED_MESHES", "")
 
@@ -86,6 +92,23 @@ def rod(folder):
     scene.save(shown, os.path.join(folder, "rod.png"), (1100, 330))
 
 
+def untangled(folder):
+    mesh = read("bl_rod_764.off")
+    focus = np.mean([mesh.GetPoint(mesh.GetCell(FOLDED).GetPointId(k)) for k in range(4)], 0)
+    cells = scene.actor(mesh, (0.95, 0.93, 0.88), lighting=True)
+    cells.GetProperty().SetEdgeVisibility(1)
+    cells.GetProperty().SetEdgeColor(*scene.INK)
+    items = [(cells, "quadrilaterals, some of them folded")]
+    for untangle, text in (("off", "the spline of degree 3 through their points"), ("elements", "the spline of the untangled mesh")):
+        made = unstructured.spline(mesh, Degree=3, Untangle=untangle)
+        items.append((scene.patches(unstructured.drawn(made.GetOutputDataObject(0), 1e-5), "ElementId", True), text))
+    shown = []
+    for k, (item, text) in enumerate(items):
+        shown.append(camera(scene.renderer([item], (k / 3, 0, (k + 1) / 3, 1)), focus, FOLDED_SEEN, FOLDED_UP, 3.2))
+        shown[-1].AddActor(scene.label(text, 0.04, 0.03, 14))
+    scene.save(shown, os.path.join(folder, "untangled.png"), (1200, 400))
+
+
 def hexahedra(folder):
     mesh = read("cmu_hepta.vtk")
     made = knotwork.vtkMeshPatches()
@@ -122,6 +145,7 @@ def main():
     folder = scene.output_folder()
     panel(folder)
     rod(folder)
+    untangled(folder)
     hexahedra(folder)
 
 

@@ -30,7 +30,8 @@ protected:
     session.Report["policy_taken"] = table->GetValueByName(0, "Policy").ToString();
     ReportRow(table, 0,
       { "Functions", "Elements", "CreasedFacets", "InnerFacets", "ExtraordinaryPoints", "Repairs",
-        "MaxNormalAngle", "MaxNormalAngleBefore", "MaxVertexDistance", "RmsVertexDistance" },
+        "MaxNormalAngle", "MaxNormalAngleBefore", "MaxVertexDistance", "RmsVertexDistance",
+        "FoldedCells", "StillFolded", "FoldedElements", "MovedPoints", "LargestMove" },
       session.Report);
     // the options have the names of the numbers
     session.Report["tangent_planes_made"] = table->GetValueByName(0, "TangentPlanes").ToInt();

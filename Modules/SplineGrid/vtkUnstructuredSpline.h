@@ -17,7 +17,10 @@
  * surface from both sides of facets that are C^0 and no features; -1 for volumes),
  * `MaxNormalAngleBefore` (what it was before TangentPlanes), `TangentPlanes` (extraordinary points
  * at which the tangent plane was made one),
- * `MaxVertexDistance` and `RmsVertexDistance` (of the mesh's points from the spline),
+ * `MaxVertexDistance` and `RmsVertexDistance` (of the mesh's points, before any moved, from the
+ * spline), `FoldedCells` (of the mesh; -1 when Untangle is OFF), `StillFolded` (cells after
+ * untangling), `FoldedElements` (of the spline, when Untangle is ELEMENTS; else -1), `MovedPoints`
+ * and `LargestMove` (by untangling),
  * `SplitPolygons` (polygons that were no quadrilaterals), `Orientable` (0, 1).
  *
  * @source Thomas et al. (2015), (2022); Eppstein, Goodrich, Kim, Tamstorf (2008). The module's page
@@ -51,6 +54,12 @@ public:
   {
     UNIFORM = 0,
     MEAN
+  };
+  enum UntanglingScopes
+  {
+    OFF = 0,
+    CELLS,
+    ELEMENTS
   };
 
   ///@{
@@ -108,6 +117,21 @@ public:
   vtkGetMacro(SplitPolygons, bool);
   vtkBooleanMacro(SplitPolygons, bool);
   ///@}
+  ///@{
+  /** Where points of the mesh move first so that the spline can be valid, one of UntanglingScopes:
+   * OFF, nowhere; CELLS, around cells that are folded; ELEMENTS, and around elements of the spline
+   * that turn over. Points of surfaces slide on the surface that the mesh is, those of features,
+   * rims and edges sharper than 45 degrees along them. A warning says how many moved
+   * and how far. Default CELLS. */
+  vtkSetClampMacro(Untangle, int, OFF, ELEMENTS);
+  vtkGetMacro(Untangle, int);
+  ///@}
+  ///@{
+  /** Cells around folded ones, ring by ring, whose points may move; more where that is not enough.
+   * Default 2, valid range [0, 100]. */
+  vtkSetClampMacro(UntangleRings, int, 0, 100);
+  vtkGetMacro(UntangleRings, int);
+  ///@}
 
 protected:
   vtkUnstructuredSpline();
@@ -127,5 +151,7 @@ private:
   char* FeatureArray = nullptr;
   bool TangentPlanes = false;
   bool SplitPolygons = false;
+  int Untangle = CELLS;
+  int UntangleRings = 2;
 };
 #endif

@@ -18,7 +18,7 @@ constexpr int NumCells = 60;
 #ifdef NDEBUG
 constexpr double Patience = 10.0;
 #else
-constexpr double patience = 50.0;
+constexpr double Patience = 50.0;
 #endif
 
 double ProcessorSeconds()

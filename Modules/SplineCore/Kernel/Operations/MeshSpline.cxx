@@ -153,6 +153,44 @@ Eigen::Vector3d NormalOf(const EvaluationBatch& batch, Eigen::Index row, Eigen::
 
 /// Creases that are evaluated at once.
 constexpr std::size_t BatchSize = 4096;
+
+/// det J times a direction that tells its sign: of surfaces in space the normal.
+template <int Dim>
+Eigen::Vector3d Turn(const EvaluationBatch& batch, Eigen::Index row, Eigen::Index components)
+{
+  const auto derivative = [&](int d) -> Eigen::Vector3d
+  {
+    Eigen::Vector3d column = Eigen::Vector3d::Zero();
+    const Eigen::Index n = std::min<Eigen::Index>(components, 3);
+    column.head(n) = batch.First.row(row).segment(d * components, n);
+    return column;
+  };
+  const Eigen::Vector3d normal = derivative(0).cross(derivative(1));
+  return Dim == 2 ? normal : Eigen::Vector3d(0.0, 0.0, normal.dot(derivative(Dim - 1)));
+}
+
+template <int Dim>
+bool IsPlane(const Spline<Dim>& spline)
+{
+  const auto& points = spline.ControlPoints;
+  return points.cols() < 3 || (points.col(2).array() == points(0, 2)).all();
+}
+
+/// Local parameters of n points a direction, ends among them.
+template <int Dim>
+PointMatrix LocalGrid(int n)
+{
+  PointMatrix grid(static_cast<Eigen::Index>(std::pow(n, Dim)), Dim);
+  for (Eigen::Index i = 0; i < grid.rows(); ++i)
+  {
+    Eigen::Index rest = i;
+    for (int d = 0; d < Dim; ++d, rest /= n)
+    {
+      grid(i, d) = static_cast<double>(rest % n) / (n - 1);
+    }
+  }
+  return grid;
+}
 }
 
 template <int Dim>
@@ -254,6 +292,57 @@ VertexDistance DistanceFromVertices(
   return distance;
 }
 
+template <int Dim>
+std::vector<int> FoldedElements(const Spline<Dim>& spline, int threads)
+{
+  const BezierForm<Dim> form = MakeBezierForm(spline, threads);
+  const PointMatrix grid = LocalGrid<Dim>(spline.Space->Unstructured->Degree + 2);
+  const Eigen::Index samples = grid.rows();
+  const int count = spline.Space->NumElements();
+  const int atOnce = static_cast<int>(std::max<Eigen::Index>(1, 65536 / samples));
+  EvaluationParams params;
+  params.Derivatives = 1;
+  params.Threads = threads;
+  EvaluationBatch batch;
+  std::vector<Eigen::Vector3d> means(At(count), Eigen::Vector3d::Zero());
+  const auto forSamples = [&](auto&& visit)
+  {
+    for (int first = 0; first < count; first += atOnce)
+    {
+      const int last = std::min(count, first + atOnce);
+      std::vector<int> elements;
+      for (int e = first; e < last; ++e)
+      {
+        elements.insert(elements.end(), At(static_cast<int>(samples)), e);
+      }
+      if (EvaluateElements<Dim>(form, elements, grid.replicate(last - first, 1), params, batch))
+      {
+        for (std::size_t i = 0; i < elements.size(); ++i)
+        {
+          visit(elements[i], Turn<Dim>(batch, static_cast<Eigen::Index>(i), form.NumComponents));
+        }
+      }
+    }
+  };
+  forSamples([&](int e, const Eigen::Vector3d& turn) { means[At(e)] += turn; });
+  if (Dim == 3 || IsPlane(spline))
+  {
+    const auto isUp = [](const Eigen::Vector3d& mean) { return mean[2] > 0.0; };
+    const bool most = 2 * std::count_if(means.begin(), means.end(), isUp) >= count;
+    std::fill(means.begin(), means.end(), Eigen::Vector3d(0.0, 0.0, most ? 1.0 : -1.0));
+  }
+  std::vector<int> folded;
+  forSamples(
+    [&](int e, const Eigen::Vector3d& turn)
+    {
+      if (!(turn.dot(means[At(e)]) > 0.0) && (folded.empty() || folded.back() != e))
+      {
+        folded.push_back(e);
+      }
+    });
+  return folded;
+}
+
 double LargestCreaseAngle(
   const Spline<2>& surface, const std::vector<CellSide>& features, int threads)
 {
@@ -303,12 +392,14 @@ double LargestCreaseAngle(
   return largest * 180.0 / static_cast<double>(EIGEN_PI);
 }
 
-#define KNOTWORK_INSTANTIATE(Dim)                                                                  \
-  template Result<Spline<Dim>> SplineThroughVertices(                                              \
-    const SplineSpacePtr<Dim>&, const PointMatrixView&, int, const ProgressCallback&);             \
-  template Result<Spline<Dim>> SplineOfCage(const SplineSpacePtr<Dim>&, const PointMatrixView&);   \
-  template VertexDistance DistanceFromVertices(const Spline<Dim>&, const PointMatrixView&, int);
-KNOTWORK_INSTANTIATE(2)
-KNOTWORK_INSTANTIATE(3)
-#undef KNOTWORK_INSTANTIATE
+template Result<Spline<2>> SplineThroughVertices(
+  const SplineSpacePtr<2>&, const PointMatrixView&, int, const ProgressCallback&);
+template Result<Spline<3>> SplineThroughVertices(
+  const SplineSpacePtr<3>&, const PointMatrixView&, int, const ProgressCallback&);
+template Result<Spline<2>> SplineOfCage(const SplineSpacePtr<2>&, const PointMatrixView&);
+template Result<Spline<3>> SplineOfCage(const SplineSpacePtr<3>&, const PointMatrixView&);
+template VertexDistance DistanceFromVertices(const Spline<2>&, const PointMatrixView&, int);
+template VertexDistance DistanceFromVertices(const Spline<3>&, const PointMatrixView&, int);
+template std::vector<int> FoldedElements(const Spline<2>&, int);
+template std::vector<int> FoldedElements(const Spline<3>&, int);
 }

@@ -38,6 +38,13 @@ template <int Dim>
 VertexDistance DistanceFromVertices(
   const Spline<Dim>& spline, const PointMatrixView& vertices, int threads = 0);
 
+/// Elements where the map turns over, at p + 2 points a direction: det J <= 0 against the sign that
+/// most elements have in their middles; of surfaces in space, a normal away from the element's mean
+/// normal. What cells of bad shape cause; a sample, no proof.
+/// @pre  the spline is of an unstructured space; its first columns are the coordinates, 2 or 3.
+template <int Dim>
+std::vector<int> FoldedElements(const Spline<Dim>& spline, int threads = 0);
+
 /// Largest angle in degrees between normals of a surface from both sides of facets that are C^0, at
 /// 2 p + 1 points an edge and its ends. Places without a normal do not count.
 /// @param features  facets that are left out, each seen from either cell.

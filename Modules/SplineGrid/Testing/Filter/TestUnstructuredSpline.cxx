@@ -3,6 +3,7 @@
 #include "MeshDatasets.h"
 #include <knotwork/SplineCore/MeshGeometry.h>
 #include <knotwork/SplineCore/MeshSpline.h>
+#include <knotwork/SplineCore/MeshUntangling.h>
 #include <knotwork/SplineCore/TangentPlanes.h>
 #include <knotwork/SplineGrid/PatchSplit.h>
 #include <knotwork/SplineGrid/vtkUnstructuredSpline.h>
@@ -249,6 +250,62 @@ TEST(vtkUnstructuredSpline, PolygonsAreSplit_ExactOracle)
   auto* output = vtkUnstructuredGrid::SafeDownCast(filter->GetOutputDataObject(0));
   EXPECT_EQ(output->GetCellData()->GetArray("Number")->GetTuple1(4), 101.0);
   EXPECT_LE(Number(filter, "MaxVertexDistance"), 1e-14);
+}
+
+TEST(vtkUnstructuredSpline, FoldedCellsAreUntangledAndThatIsSaid_CrossOracle)
+{
+  const CellMesh<2> mesh = meshes::Grid<2>({ 6, 6 });
+  PointMatrix points = GridPoints({ 6, 6, 0 });
+  points(24, 0) += 1.6; // in the middle, past the next point
+  const auto data = MakePolyData(mesh, points);
+  const auto space = MakeUnstructuredSpace<2>(mesh, {});
+  vtkNew<vtkUnstructuredSpline> filter;
+  vtkNew<MessageRecorder> messages;
+  messages->Watch(filter);
+  filter->SetInputDataObject(data);
+  filter->SetUntangle(vtkUnstructuredSpline::OFF);
+  EXPECT_EQ(MadeSpline<2>(filter).ControlPoints,
+    SplineThroughVertices<2>(space->Space, points, 1)->ControlPoints);
+  EXPECT_EQ(Number(filter, "FoldedCells"), -1);
+  EXPECT_EQ(Number(filter, "MovedPoints"), 0);
+  EXPECT_TRUE(messages->Warnings.empty());
+
+  const auto topology = MeshTopology<2>::Make(mesh);
+  for (const int rings : { 1, 2 })
+  {
+    UntanglingParams params;
+    params.Rings = rings;
+    const auto untangled = UntangleMesh<2>(mesh, topology.Value, points, params);
+    messages->Warnings.clear();
+    filter->SetUntangle(vtkUnstructuredSpline::CELLS);
+    filter->SetUntangleRings(rings);
+    EXPECT_EQ(MadeSpline<2>(filter).ControlPoints,
+      SplineThroughVertices<2>(space->Space, untangled->Points, 1)->ControlPoints);
+    EXPECT_EQ(Number(filter, "FoldedCells"), 2);
+    EXPECT_EQ(Number(filter, "StillFolded"), 0);
+    EXPECT_EQ(Number(filter, "FoldedElements"), -1);
+    EXPECT_EQ(Number(filter, "MovedPoints"), untangled->NumMoved);
+    EXPECT_EQ(Number(filter, "LargestMove"), untangled->LargestMove);
+    EXPECT_GT(Number(filter, "MaxVertexDistance"), 1.0); // from where the point was
+    ASSERT_EQ(messages->Warnings.size(), 1U);
+    EXPECT_NE(
+      messages->Warnings[0].find("2 quadrilaterals of the mesh are folded: "), std::string::npos);
+  }
+  filter->SetUntangle(vtkUnstructuredSpline::ELEMENTS);
+  filter->Update();
+  EXPECT_EQ(Number(filter, "FoldedElements"), 0);
+
+  // where all points are fixed cells stay folded: corners alone
+  const CellMesh<2> one = meshes::Grid<2>({ 1, 1 });
+  PointMatrix corners = GridPoints({ 1, 1, 0 });
+  corners.row(3) = Eigen::RowVector3d(0.2, 0.2, 0.0);
+  filter->SetInputDataObject(MakePolyData(one, corners));
+  messages->Warnings.clear();
+  filter->Update();
+  EXPECT_EQ(Number(filter, "StillFolded"), 1);
+  ASSERT_EQ(messages->Warnings.size(), 1U);
+  EXPECT_NE(messages->Warnings[0].find("1 quadrilaterals stay folded, the first is cell 0"),
+    std::string::npos);
 }
 
 TEST(vtkUnstructuredSpline, PatchesOfTheSplineAreTheSameGeometry_PropertyOracle)

@@ -61,7 +61,8 @@ def test_defaults_and_refused_values():
     made = knotwork.vtkUnstructuredSpline()
     assert (made.GetDegree(), made.GetPolicy(), made.GetConstruction(), made.GetLengths()) == (3, 0, 0, 0)
     assert (made.GetFeatureAngle(), made.GetFeatureArray(), made.GetSplitPolygons(), made.GetTangentPlanes()) == (180, None, False, False)
-    for name, value in (("Degree", 10), ("Policy", "none"), ("FeatureAngle", -1)):
+    assert (made.GetUntangle(), made.GetUntangleRings()) == (made.CELLS, 2)
+    for name, value in (("Degree", 10), ("Untangle", 3), ("UntangleRings", -1), ("Policy", "none"), ("FeatureAngle", -1)):
         try:
             getattr(made, "Set" + name)(value)
         except ValueError:
