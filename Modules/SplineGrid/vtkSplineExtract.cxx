@@ -9,6 +9,9 @@
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 
+#include <algorithm>
+#include <type_traits>
+
 using knotwork::ErrorCode;
 using knotwork::Status;
 
@@ -18,23 +21,73 @@ vtkSplineExtract::vtkSplineExtract() = default;
 
 namespace
 {
-/// The boundary of a volume on a mesh instead of it.
-Status TakeBoundary(knotwork::SplinePatch& patch)
+template <int Dim>
+Status TakeBoundary(const knotwork::Spline<Dim>& whole, const knotwork::SplinePatch& patch,
+  std::vector<knotwork::SplinePatch>& taken)
 {
-  const auto* volume = std::get_if<knotwork::Spline<3>>(&patch.Geometry);
-  if (!volume || volume->Space->Kind != knotwork::SpaceKind::Unstructured)
+  const auto topology = knotwork::MeshTopology<Dim>::Make(MeshOf(*whole.Space));
+  const auto traces = TraceOnFacets(*whole.Space, BoundaryFacets(topology.Value));
+  if (!traces)
   {
-    return { ErrorCode::DimensionMismatch,
-      "only volumes on unstructured meshes have their boundary taken" };
+    return traces.Status;
   }
-  const auto topology = knotwork::MeshTopology<3>::Make(MeshOf(*volume->Space));
-  const auto trace = TraceOnFacets(*volume->Space, BoundaryFacets(topology.Value));
-  if (!trace)
+  const auto take = [&](const knotwork::MeshTrace<Dim - 1>& trace)
   {
-    return trace.Status;
+    taken.push_back(patch);
+    taken.back().Cells.clear();
+    SeparateFields(
+      knotwork::TraceOf<Dim - 1>(JoinFields(whole, patch.Fields), trace), taken.back());
+  };
+  if constexpr (Dim == 3)
+  {
+    take(traces.Value);
   }
-  SeparateFields(knotwork::TraceOf<2>(JoinFields(*volume, patch.Fields), trace.Value), patch);
-  patch.Cells.clear();
+  else
+  {
+    std::for_each(traces->begin(), traces->end(), take);
+  }
+  return {};
+}
+
+/// The boundaries of patches on meshes instead of them: one surface of a volume, curves of a
+/// surface, of which the first keeps the patch's number.
+Status TakeBoundaries(std::vector<knotwork::SplinePatch>& patches)
+{
+  int next = 0;
+  for (const knotwork::SplinePatch& patch : patches)
+  {
+    next = std::max(next, patch.Id + 1);
+  }
+  std::vector<knotwork::SplinePatch> all;
+  for (const knotwork::SplinePatch& patch : patches)
+  {
+    const Status status = std::visit(
+      [&](const auto& whole)
+      {
+        using Whole = std::decay_t<decltype(whole)>;
+        if constexpr (!std::is_same_v<Whole, knotwork::Spline<1>>)
+        {
+          if (whole.Space->Kind == knotwork::SpaceKind::Unstructured)
+          {
+            const std::size_t first = all.size();
+            const Status taken = TakeBoundary(whole, patch, all);
+            for (std::size_t i = first + 1; i < all.size(); ++i)
+            {
+              all[i].Id = next++;
+            }
+            return taken;
+          }
+        }
+        return Status{ ErrorCode::DimensionMismatch,
+          "only surfaces and volumes on unstructured meshes have their boundary taken" };
+      },
+      patch.Geometry);
+    if (!status)
+    {
+      return { status.Code, "patch " + std::to_string(patch.Id) + ": " + status.Detail };
+    }
+  }
+  patches = std::move(all);
   return {};
 }
 }
@@ -62,11 +115,18 @@ Status vtkSplineExtract::Compute(vtkInformationVector** inputs, vtkInformationVe
   params.MaxFunctions = this->MaximumFunctions;
   params.Threads = this->KernelThreads();
 
+  if (this->Boundary)
+  {
+    if (Status status = TakeBoundaries(model->Patches); !status)
+    {
+      return status;
+    }
+  }
   const bool isBoundaryAll = this->Boundary && !params.Restrict && !params.Swap &&
     !params.Reverse[0] && !params.Reverse[1] && !params.MoveDomain && !params.ExpandToTensor &&
     params.IsoDirection < 0;
   const knotwork::ProgressCallback progress = this->Progress();
-  const std::size_t count = model->Patches.size();
+  const std::size_t count = isBoundaryAll ? 0 : model->Patches.size();
   for (std::size_t p = 0; p < count; ++p)
   {
     if (!progress(static_cast<double>(p) / static_cast<double>(count)))
@@ -75,17 +135,6 @@ Status vtkSplineExtract::Compute(vtkInformationVector** inputs, vtkInformationVe
     }
     knotwork::SplinePatch& patch = model->Patches[p];
     const std::string where = "patch " + std::to_string(patch.Id) + ": ";
-    if (this->Boundary)
-    {
-      if (const Status status = TakeBoundary(patch); !status)
-      {
-        return { status.Code, where + status.Detail };
-      }
-      if (isBoundaryAll)
-      {
-        continue;
-      }
-    }
     const auto* surface = std::get_if<knotwork::Spline<2>>(&patch.Geometry);
     if (!surface)
     {

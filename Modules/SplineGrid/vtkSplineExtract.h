@@ -6,7 +6,8 @@
  * What is switched on is done in this order:
  *
  * - Boundary: volumes on unstructured meshes become their whole boundary, one surface a patch on
- *   the mesh of the boundary's quadrilaterals.
+ *   the mesh of the boundary's quadrilaterals; surfaces on such meshes become the curves of their
+ *   boundary, of which the first keeps the patch's number.
  * - RestrictToBox: the part of the surface over Box becomes the patch.
  * - SwapParameters: S'(u, v) = S(v, u).
  * - ReverseFirst, ReverseSecond: a parameter t becomes begin + end - t of its domain.
@@ -46,7 +47,8 @@ public:
   };
 
   ///@{
-  /** Whether volumes on unstructured meshes become their boundary, one surface. Default off. */
+  /** Whether volumes on unstructured meshes become their boundary, one surface, and surfaces on
+   * such meshes the curves of theirs. Default off. */
   vtkSetMacro(Boundary, bool);
   vtkGetMacro(Boundary, bool);
   vtkBooleanMacro(Boundary, bool);

@@ -199,6 +199,43 @@ TEST(SplineModelUnstructured, SheetsThroughMarkedCellsAreHalved_CrossOracle)
   EXPECT_EQ(refined.Patches[0].Fields.size(), 1U);
 }
 
+// The ends of the curves' elements are points of the surface, on its boundary.
+TEST(SplineModelUnstructured, BoundaryOfASurfaceIsCurves_ExactOracle)
+{
+  SplineModel model;
+  model.Patches.push_back(MakePatch<2>(meshes::Star(5, 2), CreasePolicy::Full, true, 7));
+  model.Patches.push_back(MakePatch<2>(meshes::Grid<2>({ 5, 3 }, { true, false }),
+    CreasePolicy::Full, true, 2)); // a ring: two closed curves
+  vtkNew<vtkSplineExtract> filter;
+  filter->SetInputData(Encode(model));
+  filter->BoundaryOn();
+  filter->Update();
+  const SplineModel taken = DecodePatches(filter->GetOutputDataObject(0));
+  std::size_t place = 0;
+  std::vector<int> ids;
+  for (const SplinePatch& patch : model.Patches)
+  {
+    const auto& surface = std::get<Spline<2>>(patch.Geometry);
+    const auto topology = MeshTopology<2>::Make(MeshOf(*surface.Space)).Value;
+    const auto traces = TraceOnFacets(*surface.Space, BoundaryFacets(topology));
+    ASSERT_TRUE(traces) << traces.Status.Message();
+    EXPECT_EQ(traces->size(), patch.Id == 7 ? 1U : 2U);
+    for (const MeshTrace<1>& trace : traces.Value)
+    {
+      ASSERT_LT(place, taken.Patches.size());
+      const SplinePatch& found = taken.Patches[place++];
+      ids.push_back(found.Id);
+      const auto& curve = std::get<Spline<1>>(found.Geometry);
+      const Spline<1> expected = TraceOf<1>(surface, trace);
+      EXPECT_EQ(curve.Space->NumElements(), expected.Space->NumElements());
+      EXPECT_LE((curve.ControlPoints - expected.ControlPoints).cwiseAbs().maxCoeff(), 1e-12);
+      EXPECT_EQ(found.Fields.size(), patch.Fields.size());
+    }
+  }
+  EXPECT_EQ(place, taken.Patches.size());
+  EXPECT_EQ(ids, (std::vector<int>{ 7, 2, 8 }));
+}
+
 TEST(SplineModelUnstructured, BoundaryOfAVolumeIsOneSurface_ExactOracle)
 {
   SplineModel model;
@@ -226,8 +263,10 @@ TEST(SplineModelUnstructured, BoundaryOfAVolumeIsOneSurface_ExactOracle)
   filter->SetIsoCurve(vtkSplineExtract::FIRST);
   ExpectFailure(filter, ErrorCode::DimensionMismatch, "patch 7");
   filter->SetIsoCurve(vtkSplineExtract::NONE);
-  filter->SetInputData(Encode(UnstructuredModel(false))); // begins with a surface
-  ExpectFailure(filter, ErrorCode::DimensionMismatch, "patch 3: only volumes on unstructured");
+  filter->SetInputData(Encode(UnstructuredModel(false))); // begins with a closed surface
+  ExpectFailure(filter, ErrorCode::EmptyInput, "patch 3: no facets");
+  filter->SetInputData(ShapeGrid(vtkSplineSource::SQUARE));
+  ExpectFailure(filter, ErrorCode::DimensionMismatch, "only surfaces and volumes on unstructured");
   model.Patches[0] =
     MakePatch<3>(meshes::Sweep(meshes::CubeSphere(1), 3, true), CreasePolicy::Full, false, 7);
   filter->SetInputData(Encode(model)); // closed
