@@ -59,7 +59,8 @@ private:
 };
 
 const JobRegistration Registration{ "extract",
-  "take a part or an iso-curve of surfaces, or the boundary of volumes and surfaces; exchange, reverse, expand",
+  "take a part or an iso-curve of surfaces, or the boundary of volumes and surfaces; exchange, "
+  "reverse, expand",
   "terrain.vtu --box 0.2 0.8 0.2 0.8 --output part.vtu", MakeJob<ExtractJob> };
 }
 }
