@@ -4,11 +4,11 @@ import knotwork
 import numpy as np
 import vtkmodules.vtkRenderingContextOpenGL2  # noqa: F401
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkChartsCore import vtkChart, vtkChartXY, vtkPlotLine
+from vtkmodules.vtkChartsCore import vtkChart, vtkChartLegend, vtkChartXY, vtkPlotLine
 from vtkmodules.vtkCommonCore import vtkFloatArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkRectf, vtkTable
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter
-from vtkmodules.vtkRenderingContext2D import vtkContextActor
+from vtkmodules.vtkRenderingContext2D import vtkContextActor, vtkPen
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
 import _scene as scene
@@ -134,13 +134,19 @@ def require(claim, text):
         raise RuntimeError(text)
 
 
-def chart(series, file, size, x_title, y_title, log_x=False):
-    """A plot with logarithmic ordinate; series are (name, x, y) with all x, y > 0."""
-    plot = vtkChartXY()
-    plot.SetShowLegend(True)
-    plot.SetAutoSize(False)
-    plot.SetSize(vtkRectf(10, 10, size[0] - 20, size[1] - 20))
-    for number, (name, x, y) in enumerate(series):
+def plot(series, pixels, viewport, titles, log_x=False, log_y=True, legend=True):
+    """A renderer with curves: series are (name, x, y) or (name, x, y, style), a style being (colour, dashed).
+
+    The legend is in the upper right corner (True), half way down ("middle"), or missing (False).
+    """
+    axes = vtkChartXY()
+    axes.SetShowLegend(bool(legend))
+    if legend == "middle":
+        axes.GetLegend().SetVerticalAlignment(vtkChartLegend.CENTER)
+    axes.SetAutoSize(False)
+    axes.SetSize(vtkRectf(10, 10, pixels[0] - 20, pixels[1] - 20))
+    for number, (name, x, y, *style) in enumerate(series):
+        colour, dashed = style[0] if style else (4 + number if number < 3 else number - 3, False)
         table = vtkTable()
         for title, values in (("x" + str(number), x), (name, y)):
             array = vtkFloatArray()
@@ -148,28 +154,37 @@ def chart(series, file, size, x_title, y_title, log_x=False):
             for value in values:
                 array.InsertNextValue(float(value))
             table.AddColumn(array)
-        line = plot.AddPlot(vtkChart.LINE)
+        line = axes.AddPlot(vtkChart.LINE)
         line.SetInputData(table, 0, 1)
-        red, green, blue = (int(255 * c) for c in scene.COLOURS[4 + number if number < 3 else number - 3])
+        red, green, blue = (int(255 * c) for c in scene.COLOURS[colour])
         line.SetColor(red, green, blue, 255)
         line.SetWidth(2.5)
         line.SetMarkerStyle(vtkPlotLine.CIRCLE if number % 2 == 0 else vtkPlotLine.SQUARE)
         line.SetMarkerSize(9)
-    for axis, title, logarithmic in ((1, x_title, log_x), (0, y_title, True)):
-        axis = plot.GetAxis(axis)
+        if dashed:
+            line.GetPen().SetLineType(vtkPen.DASH_LINE)
+            line.SetMarkerSize(6)
+    for axis, title, logarithmic in ((1, titles[0], log_x), (0, titles[1], log_y)):
+        axis = axes.GetAxis(axis)
         axis.SetTitle(title)
         axis.SetLogScale(logarithmic)
         axis.GetTitleProperties().SetFontSize(15)
         axis.GetTitleProperties().BoldOff()
         axis.GetLabelProperties().SetFontSize(14)
-    plot.GetLegend().GetLabelProperties().SetFontSize(14)
+    axes.GetLegend().GetLabelProperties().SetFontSize(14)
     actor = vtkContextActor()
-    actor.GetScene().AddItem(plot)
+    actor.GetScene().AddItem(axes)
     renderer = vtkRenderer()
     renderer.SetBackground(1, 1, 1)
+    renderer.SetViewport(*viewport)
     renderer.AddActor(actor)
     actor.GetScene().SetRenderer(renderer)
-    scene.save([renderer], file, size)
+    return renderer
+
+
+def chart(series, file, size, x_title, y_title, log_x=False):
+    """A picture of one plot with logarithmic ordinate: all x, y > 0."""
+    scene.save([plot(series, size, (0, 0, 1, 1), (x_title, y_title), log_x)], file, size)
 
 
 def sheet(across, along):

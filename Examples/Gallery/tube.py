@@ -5,7 +5,7 @@
    0.25 and a waist of 0.8 of it, with exact normals; the template: the hyperboloid of the same radii. Both have
    the six faces of the cube as patches that stay where they are;
 2. vtkTemplateMapping: tricubic, 15 inner knots a direction, two series of ten iterations of tangent distances and
-   one local refinement between them where the tube is;
+   one local refinement between them where the tube is; errors by iteration;
 3. the certificate of the whole volume, and a picture.
 
 usage: tube.py [--output DIR]
@@ -123,6 +123,9 @@ def main():
     verdict = cases.certificate(grid)
     print(f"{functions[0]:.0f} to {functions[-1]:.0f} functions, squared error {squared[9]:.3e} to {squared[-1]:.3e}, "
           f"largest distance {largest[-1]:.2e}, certificate {' '.join(verdict)}, {seconds:.1f} s")
+    steps = np.arange(1, len(squared) + 1)
+    cases.chart([("squared error", steps, squared), ("largest distance", steps, largest)],
+                os.path.join(folder, "tube_convergence.png"), (700, 450), "iteration", "error")
     cases.require(functions[0] == 6859 and functions[-1] <= 13600, "another number of functions than promised")
     cases.require(verdict == ("valid", "injective"), "the map is not proved valid and injective")
 

@@ -69,6 +69,7 @@ Result<TemplateMapParams<Dim>> vtkTemplateMapping::Parameters(vtkDataObject* ini
   params.MaxLevel = this->MaxLevel;
   params.MaxFunctions = this->MaxFunctions;
   params.Start = static_cast<knotwork::TemplateInitialMap>(this->InitialMap);
+  params.InitialUniformityWeight = this->InitialUniformityWeight;
   params.Injectivity = this->Injectivity;
   if (this->UseDomain)
   {

@@ -64,15 +64,18 @@ public:
   enum Refinements
   {
     NONE = 0,
-    LOCAL = 1, ///< cells with large errors, by truncated hierarchical B-splines
-    GLOBAL = 2 ///< every cell
+    LOCAL = 1,  ///< cells with large errors, by truncated hierarchical B-splines
+    GLOBAL = 2, ///< every cell
+    HELD = 3    ///< cells that the guard holds back, by truncated hierarchical B-splines
   };
 
   /** The map of the first iteration. */
   enum InitialMaps
   {
     IDENTITY = 0,
-    MOVED = 1 ///< the identity, control points moved by the mean displacement around them
+    MOVED = 1, ///< the identity, control points moved by the mean displacement around them
+    QUADRATIC =
+      2 ///< least squares of the samples' distances with the uniformity functional, one solve
   };
 
   ///@{
@@ -204,8 +207,9 @@ public:
   ///@}
   ///@{
   /** Whether cells become smaller between iterations, one of Refinements: where errors are large
-   * (truncated hierarchical B-splines), or everywhere. Default NONE. Group "Refinement". */
-  vtkSetClampMacro(Refinement, int, NONE, GLOBAL);
+   * (truncated hierarchical B-splines), everywhere, or where the guard holds elements back (needs
+   * Guard on). Default NONE. Group "Refinement". */
+  vtkSetClampMacro(Refinement, int, NONE, HELD);
   vtkGetMacro(Refinement, int);
   ///@}
   ///@{
@@ -236,7 +240,8 @@ public:
   ///@}
   ///@{
   /** Cells of the new level around a marked one that are refined too; the box grows to whole
-   * parent cells. Default 1, valid range [0, 100]. For Refinement LOCAL. Group "Refinement". */
+   * parent cells. Default 1, valid range [0, 100]. For Refinement LOCAL, HELD. Group
+   * "Refinement". */
   vtkSetClampMacro(Extension, int, 0, 100);
   vtkGetMacro(Extension, int);
   ///@}
@@ -267,9 +272,17 @@ public:
   ///@{
   /** The map of the first iteration, unless one is given as input 2, one of InitialMaps: the
    * identity, or the identity with each control point moved by the mean displacement of the
-   * samples around it, for targets far off. Default IDENTITY. Group "Initial Map". */
-  vtkSetClampMacro(InitialMap, int, IDENTITY, MOVED);
+   * samples around it (lumped), or the map of least sum |s - p|^2 at the first parameters plus
+   * InitialUniformityWeight times the integral of sum |s_kl|^2 (one quadratic solve); the last two
+   * for targets far off. Default IDENTITY. Group "Initial Map". */
+  vtkSetClampMacro(InitialMap, int, IDENTITY, QUADRATIC);
   vtkGetMacro(InitialMap, int);
+  ///@}
+  ///@{
+  /** Weight of the integral of sum |s_kl|^2 in the initial map: larger is smoother. Default 0.0001,
+   * valid range [1e-12, 1e30]. For InitialMap QUADRATIC. Group "Initial Map". */
+  vtkSetClampMacro(InitialUniformityWeight, double, 1e-12, 1e30);
+  vtkGetMacro(InitialUniformityWeight, double);
   ///@}
   ///@{
   /** Whether the map is made over the box Domain, which must contain the template, not over the
@@ -337,6 +350,7 @@ private:
   int MaxLevel = 10;
   int MaxFunctions = 200000;
   int InitialMap = IDENTITY;
+  double InitialUniformityWeight = 1e-4;
   bool UseDomain = false;
   double Domain[6] = { 0, 1, 0, 1, 0, 1 };
   bool Injectivity = true;

@@ -153,6 +153,9 @@ def test_map_begins_where_it_is_told():
     assert onward["functions"] == 14**2 and onward["initial"] == path("first.vtu")
     assert onward["squared_l2_error"] < base["squared_l2_error"]
     assert report("--initial-map", "moved")["squared_l2_error"] != base["squared_l2_error"]
+    smooth, rough = (report("--initial-map", "quadratic", "--initial-uniformity-weight", weight) for weight in (10, 1e-4))
+    assert smooth["squared_l2_errors"][0] > rough["squared_l2_errors"][0]
+    assert report("--refine", "held")["functions"] == base["functions"]  # the guard holds nothing back
     assert report("--inner-knots-per-direction", 3, -1, -1)["functions"] == 7 * 15
     wide = report("--domain", -1, 2, -0.5, 1.5)
     assert wide["domain"] == [-1, 2, -0.5, 1.5] and wide["squared_l2_error"] != base["squared_l2_error"]

@@ -75,6 +75,28 @@ Result<SplineSpacePtr<Dim>> RefineAround(
 }
 
 template <int Dim>
+Result<SplineSpacePtr<Dim>> RefineHeld(
+  const SplineSpacePtr<Dim>& space, const std::vector<int>& elements, int extension, int maxLevel)
+{
+  std::vector<int> marked;
+  for (const int e : elements)
+  {
+    if (space->Elements[static_cast<std::size_t>(e)].Level < maxLevel)
+    {
+      marked.push_back(e);
+    }
+  }
+  if (marked.empty())
+  {
+    return space;
+  }
+  RefinementParams params;
+  params.Extension = extension;
+  params.MaxLevel = maxLevel;
+  return RefineElements(space, marked, params);
+}
+
+template <int Dim>
 Result<SplineSpacePtr<Dim>> RefineEverywhere(const SplineSpacePtr<Dim>& space, int maxLevel)
 {
   std::vector<int> all(space->Elements.size());
@@ -88,6 +110,10 @@ template Result<SplineSpacePtr<2>> RefineAround(
   const SplineSpacePtr<2>&, const PointMatrix&, int, int);
 template Result<SplineSpacePtr<3>> RefineAround(
   const SplineSpacePtr<3>&, const PointMatrix&, int, int);
+template Result<SplineSpacePtr<2>> RefineHeld(
+  const SplineSpacePtr<2>&, const std::vector<int>&, int, int);
+template Result<SplineSpacePtr<3>> RefineHeld(
+  const SplineSpacePtr<3>&, const std::vector<int>&, int, int);
 template Result<SplineSpacePtr<2>> RefineEverywhere(const SplineSpacePtr<2>&, int);
 template Result<SplineSpacePtr<3>> RefineEverywhere(const SplineSpacePtr<3>&, int);
 }

@@ -14,6 +14,12 @@ template <int Dim>
 Result<SplineSpacePtr<Dim>> RefineAround(
   const SplineSpacePtr<Dim>& space, const PointMatrix& points, int extension, int maxLevel);
 
+/// The space with these elements halved in every direction, and so many cells of the new level
+/// around each of them; elements of level maxLevel are left.
+template <int Dim>
+Result<SplineSpacePtr<Dim>> RefineHeld(
+  const SplineSpacePtr<Dim>& space, const std::vector<int>& elements, int extension, int maxLevel);
+
 /// The space with every cell halved in every direction.
 template <int Dim>
 Result<SplineSpacePtr<Dim>> RefineEverywhere(const SplineSpacePtr<Dim>& space, int maxLevel);

@@ -34,6 +34,20 @@ Status RegularityGuard<Dim>::Begin(const BezierForm<Dim>& form)
 }
 
 template <int Dim>
+std::vector<int> RegularityGuard<Dim>::HeldElements() const
+{
+  std::vector<int> held;
+  for (std::size_t e = 0; e < this->Stiffness.size(); ++e)
+  {
+    if (this->Stiffness[e] > 0.0)
+    {
+      held.push_back(static_cast<int>(e));
+    }
+  }
+  return held;
+}
+
+template <int Dim>
 std::vector<std::size_t> RegularityGuard<Dim>::Endangered(const Regularity& trial) const
 {
   const std::vector<double>& before = this->Present.MinLower;

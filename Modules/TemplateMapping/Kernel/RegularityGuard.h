@@ -27,6 +27,8 @@ public:
   /// The map that steps start from.
   Status Begin(const BezierForm<Dim>& form);
   bool IsRegular() const { return this->Present.IsRegular(); }
+  /// Elements that the last step held back, increasing.
+  std::vector<int> HeldElements() const;
 
   /// Solves for a step and takes what is allowed of it.
   /// @param map   changed, and form with it.

@@ -30,6 +30,10 @@ constexpr int Halvings = 10; // of a step that does not lower what is minimized
 /// and the least part of the given weight.
 constexpr double Relaxation = 0.5;
 constexpr double LeastProximal = 1e-3;
+constexpr double LeastInitialUniformity = 1e-12;
+/// Of the initial map, against its uniformity: decides where samples in one plane (on one line)
+/// leave affine parts open, and changes no map visibly.
+constexpr double InitialProximal = 1e-9;
 
 Status OutOfRange(const char* option, const std::string& range, const std::string& value)
 {
@@ -104,6 +108,12 @@ Status CheckOptions(const TemplateMapParams<Dim>& params)
     {
       return OutOfRange(name, "[0, 1e30]", std::to_string(weight));
     }
+  }
+  if (!(params.InitialUniformityWeight >= LeastInitialUniformity &&
+        params.InitialUniformityWeight <= 1e30))
+  {
+    return OutOfRange("uniformity weight of the initial map", "[1e-12, 1e30]",
+      std::to_string(params.InitialUniformityWeight));
   }
   if (params.Method == TemplateMapMethod::Weighted && params.PdmWeight + params.TdmWeight == 0.0)
   {
@@ -289,7 +299,8 @@ private:
         return status;
       }
     }
-    const bool moves = this->Params.Start == TemplateInitialMap::Moved && !this->Params.InitialMap;
+    const bool moves =
+      this->Params.Start != TemplateInitialMap::Identity && !this->Params.InitialMap;
     for (int pass = moves ? 0 : 1; pass < 2; ++pass)
     {
       if (closest)
@@ -299,7 +310,7 @@ private:
       }
       if (pass == 0)
       {
-        if (Status status = this->MoveByRowSums(); !status)
+        if (Status status = this->MoveFirst(); !status)
         {
           return status;
         }
@@ -320,13 +331,19 @@ private:
     return this->Params.Guard ? this->Guard.Begin(this->Form) : Status{};
   }
 
-  Status MoveByRowSums();
+  /// The step of Moved, and that of Quadratic.
+  Result<PointMatrix> StepOfRowSums() const;
+  Result<PointMatrix> StepOfLeastBending();
+  /// From the identity to the initial map, as far as the guard lets it go.
+  Status MoveFirst();
   Status Iterate(int iteration);
   /// @param restart  set when the map has to begin anew.
   Status TakeStep(TemplateMapIteration& record, bool& restart);
   /// Share of a step at which the sum of all terms falls: 1 when all of them are quadratic.
   double FallingShare(const FitSamples<Dim>& samples, const PointMatrix& step) const;
   bool IsRefinementDue() const;
+  /// What a refinement that is due makes of the space: the same space when there is nothing to do.
+  Result<SplineSpacePtr<Dim>> FinerSpace() const;
   Status Refine();
   Result<TemplateMapResult<Dim>> Finish();
 
@@ -345,7 +362,7 @@ private:
 };
 
 template <int Dim>
-Status MapLoop<Dim>::MoveByRowSums()
+Result<PointMatrix> MapLoop<Dim>::StepOfRowSums() const
 {
   const FitSamples<Dim> samples = this->Problem.Samples();
   auto values = CollocationMatrix(*this->Map.Space, samples.Parameters, this->Params.Threads);
@@ -361,10 +378,34 @@ Status MapLoop<Dim>::MoveByRowSums()
   {
     step.row(f) = sums(f) > 0.0 ? Eigen::RowVectorXd(step.row(f) / sums(f)) : mean;
   }
+  return step;
+}
+
+template <int Dim>
+Result<PointMatrix> MapLoop<Dim>::StepOfLeastBending()
+{
+  FitWeights weights;
+  weights.Point = 1.0;
+  weights.Uniformity = this->Params.InitialUniformityWeight;
+  weights.Proximal = InitialProximal * weights.Uniformity;
+  FitSystem<Dim> system(this->Map.Space, false, FitSolver::Automatic, this->Params.Threads);
+  return system.Step(this->Problem.Samples(), weights, this->Map.ControlPoints);
+}
+
+template <int Dim>
+Status MapLoop<Dim>::MoveFirst()
+{
+  const Result<PointMatrix> step = this->Params.Start == TemplateInitialMap::Moved
+    ? this->StepOfRowSums()
+    : this->StepOfLeastBending();
+  if (!step)
+  {
+    return { step.Status.Code, "initial map: " + step.Status.Detail };
+  }
   const PointMatrix before = this->Map.ControlPoints;
   for (double length = 1.0; length > 1e-3; length *= 0.5)
   {
-    this->Map.ControlPoints = before + length * step;
+    this->Map.ControlPoints = before + length * step.Value;
     if (Status status = this->EnterSpace(); !status)
     {
       return status;
@@ -516,19 +557,35 @@ bool MapLoop<Dim>::IsRefinementDue() const
 }
 
 template <int Dim>
-Status MapLoop<Dim>::Refine()
+Result<SplineSpacePtr<Dim>> MapLoop<Dim>::FinerSpace() const
 {
   const SplineSpacePtr<Dim>& space = this->Map.Space;
-  Result<SplineSpacePtr<Dim>> finer = this->Params.Refinement == TemplateRefinement::Global
-    ? RefineEverywhere(space, this->Params.MaxLevel)
-    : RefineAround(space,
+  switch (this->Params.Refinement)
+  {
+    case TemplateRefinement::None:
+      break;
+    case TemplateRefinement::Local:
+      return RefineAround(space,
         this->Problem.FarSamples(this->Params.RefineThreshold, this->Params.RefineShare),
         this->Params.Extension, this->Params.MaxLevel);
+    case TemplateRefinement::Global:
+      return RefineEverywhere(space, this->Params.MaxLevel);
+    case TemplateRefinement::Held:
+      return RefineHeld(
+        space, this->Guard.HeldElements(), this->Params.Extension, this->Params.MaxLevel);
+  }
+  return space;
+}
+
+template <int Dim>
+Status MapLoop<Dim>::Refine()
+{
+  const Result<SplineSpacePtr<Dim>> finer = this->FinerSpace();
   if (!finer)
   {
     return finer.Status;
   }
-  if (finer.Value == space || finer.Value->NumFunctions > this->Params.MaxFunctions)
+  if (finer.Value == this->Map.Space || finer.Value->NumFunctions > this->Params.MaxFunctions)
   {
     return {};
   }

@@ -24,16 +24,20 @@ enum class TemplateInitialMap
   /// The identity, each control point moved by the mean of the displacements p_i - ghat(t_i) of the
   /// samples in the support of its function, weighted by the function's values there: one
   /// control-point iteration whose system is replaced by its row sums. Control points without
-  /// samples around them move by the mean of all. For maps that begin far off.
-  Moved
+  /// samples around them move by the mean of all ("lumped"). For maps that begin far off.
+  Moved,
+  /// The map of least sum |s(ghat(t_i)) - p_i|^2 + InitialUniformityWeight int sum |s_kl|^2: one
+  /// quadratic solve. Reproduces affine maps.
+  Quadratic
 };
 
 /// How the space grows between iterations.
 enum class TemplateRefinement
 {
   None,
-  Local, ///< cells with large errors, by truncated hierarchical B-splines
-  Global ///< every cell
+  Local,  ///< cells with large errors, by truncated hierarchical B-splines
+  Global, ///< every cell
+  Held    ///< cells that the guard holds back, by truncated hierarchical B-splines
 };
 
 template <int Dim>
@@ -79,7 +83,7 @@ struct TemplateMapParams
   /// Local: the threshold is the error that this share of the samples reaches, [0, 1]; 0: the
   /// absolute threshold counts. Of two given ones the larger threshold counts.
   double RefineShare = 0.0;
-  int Extension = 1;         ///< Local: cells of the new level around a marked one, [0, 100]
+  int Extension = 1;         ///< Local, Held: cells of the new level around a marked one, [0, 100]
   int MaxLevel = 10;         ///< cells of this level are not refined, [0, 24]
   int MaxFunctions = 200000; ///< a refinement that would have more is not made, >= 1
 
@@ -90,6 +94,7 @@ struct TemplateMapParams
   /// Domain of the map; the template's bounding box when empty. It must contain the template.
   std::optional<ParametricBox<Dim>> Domain;
   TemplateInitialMap Start = TemplateInitialMap::Identity;
+  double InitialUniformityWeight = 1e-4; ///< of Quadratic, [1e-12, 1e30]
   /// The map to start with, in place of Start. Polynomial, Dim components, over a domain that
   /// contains the template; it decides the space: Degree, InnerKnots and Domain are then not read.
   std::optional<Spline<Dim>> InitialMap;

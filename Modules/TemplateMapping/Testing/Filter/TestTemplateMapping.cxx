@@ -299,6 +299,19 @@ TEST(TemplateMappingFilter, EveryPropertyReachesTheKernel_CrossOracle)
       { "Accuracy", [](F* f) { f->SetAccuracy(0.02); }, [](P& p) { p.Accuracy = 0.02; } },
       { "InitialMap", [](F* f) { f->SetInitialMap(F::MOVED); },
         [](P& p) { p.Start = TemplateInitialMap::Moved; } },
+      { "InitialMap quadratic", [](F* f) { f->SetInitialMap(F::QUADRATIC); },
+        [](P& p) { p.Start = TemplateInitialMap::Quadratic; } },
+      { "InitialUniformityWeight",
+        [](F* f)
+        {
+          f->SetInitialMap(F::QUADRATIC);
+          f->SetInitialUniformityWeight(10.0);
+        },
+        [](P& p)
+        {
+          p.Start = TemplateInitialMap::Quadratic;
+          p.InitialUniformityWeight = 10.0;
+        } },
       { "Domain",
         [](F* f)
         {
@@ -351,6 +364,19 @@ TEST(TemplateMappingFilter, EveryPropertyReachesTheKernel_CrossOracle)
       { "without the guard", skewed, skewedParams },
       { "Guard", [](F* f) { f->SetMethod(F::FIXED); },
         [](P& p) { p.Method = TemplateMapMethod::Fixed; } },
+      { "Refinement held",
+        [](F* f)
+        {
+          f->SetMethod(F::FIXED);
+          f->SetRefinement(F::HELD);
+          f->SetMaxLevel(1);
+        },
+        [](P& p)
+        {
+          p.Method = TemplateMapMethod::Fixed;
+          p.Refinement = TemplateRefinement::Held;
+          p.MaxLevel = 1;
+        } },
       { "MaxIrregularShare",
         [&](F* f)
         {

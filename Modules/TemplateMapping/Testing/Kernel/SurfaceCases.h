@@ -3,7 +3,9 @@
 #pragma once
 #include <knotwork/TemplateMapping/Skeleton.h>
 
+#include <cmath>
 #include <map>
+#include <random>
 
 namespace knotwork::cases
 {
@@ -104,5 +106,31 @@ inline SkeletonPatch<3> Sphere(int levels)
   }
   sphere.Simplices = std::move(triangles);
   return sphere;
+}
+
+/// The points of a sphere of Sphere(): three to five lobes around the axis through its middle,
+/// twisted along it, leaning; many ask tangent distances for folds.
+inline Skeleton<3> TwistedLobes(const Skeleton<3>& sphere, unsigned seed)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> real(-1.0, 1.0);
+  const double amplitude = 0.3 + 0.1 * real(random);
+  const double twist = 3.0 * (0.8 + 0.4 * real(random));
+  const int lobes = 3 + static_cast<int>(random() % 3u);
+  const double lean = 0.1 * real(random);
+  const double phase = 3.0 * real(random);
+  Skeleton<3> target = sphere;
+  for (SkeletonPatch<3>& patch : target)
+  {
+    for (Eigen::Index i = 0; i < patch.Points.rows(); ++i)
+    {
+      const Eigen::RowVector3d out = (patch.Points.row(i).array() - 0.5) / 0.25;
+      const double reach = std::pow(std::hypot(out(0), out(1)), 3);
+      const double angle = lobes * std::atan2(out(1), out(0)) + twist * out(2) + phase;
+      const double factor = 1.0 + amplitude * reach * std::cos(angle) + lean * out(2);
+      patch.Points.row(i) = 0.25 * factor * out.array() + 0.5;
+    }
+  }
+  return target;
 }
 }

@@ -79,3 +79,23 @@ TEST(FinerSpace, EverywhereHalvesEveryCell_ExactOracle)
   EXPECT_EQ(RefineEverywhere<2>(space, 3).Value->NumFunctions, 99 * 99);
   EXPECT_EQ(RefineEverywhere<3>(cases::IdentityMap<3>(2, 2).Space, 24).Value->NumFunctions, 216);
 }
+
+// Elements of 1/4, 16 of them; cell (1, 2) of level 0 is element 9.
+TEST(FinerSpace, HeldElementsAreHalved_ExactOracle)
+{
+  const SplineSpacePtr<2> space = cases::IdentityMap<2>(2, 4).Space;
+  const PointMatrix inside = Point(0.3, 0.6);
+  double local[2];
+  const int e = space->Locate(inside.row(0).data(), local);
+  const int refined[] = { 1, 9, 9, 16 }; // whole cells around [2, 4) x [4, 6) of level 1
+  for (int extension = 0; extension < 4; ++extension)
+  {
+    const auto finer = RefineHeld<2>(space, { e }, extension, 24);
+    ASSERT_TRUE(finer);
+    EXPECT_EQ(LevelAt(*finer.Value, inside), 1);
+    EXPECT_EQ(static_cast<int>(finer.Value->Elements.size()), 16 + 3 * refined[extension])
+      << extension;
+  }
+  EXPECT_EQ(RefineHeld<2>(space, {}, 1, 24).Value, space);
+  EXPECT_EQ(RefineHeld<2>(space, { e }, 1, 0).Value, space);
+}

@@ -371,6 +371,10 @@ TEST(TemplateMap, EveryFailureIsReachable)
   expect(ErrorCode::InvalidParameter, "Newton steps", [](auto& p) { p.NewtonSteps = -1; });
   expect(ErrorCode::InvalidParameter, "Tikhonov", [](auto& p) { p.TikhonovWeight = -1e-9; });
   expect(ErrorCode::InvalidParameter, "Tikhonov", [&](auto& p) { p.TikhonovWeight = nan; });
+  expect(ErrorCode::InvalidParameter, "uniformity weight of the initial map",
+    [](auto& p) { p.InitialUniformityWeight = 0.0; });
+  expect(ErrorCode::InvalidParameter, "uniformity weight of the initial map",
+    [&](auto& p) { p.InitialUniformityWeight = nan; });
   expect(ErrorCode::InvalidDegree, "degree 10", [](auto& p) { p.Degree = 10; });
   expect(ErrorCode::InvalidParameter, "inner knots", [](auto& p) { p.InnerKnots = { 3, -1 }; });
   expect(ErrorCode::SingularSystem, "iteration 1", [](auto& p) { p.TikhonovWeight = 0.0; });

@@ -4,6 +4,7 @@ import math
 
 import knotwork
 import knotwork_testing
+import numpy as np
 from vtkmodules.numpy_interface import dataset_adapter
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkIntArray, vtkPoints
@@ -57,7 +58,27 @@ def test_defaults():
     assert (made.GetRefineThreshold(), made.GetRefineShare(), made.GetStagnationRatio()) == (1e-5, 0, 0.05)
     assert (made.GetAccuracy(), made.GetMaxIrregularShare(), made.GetMaxLevel()) == (0, 1, 10)
     assert made.GetMaxFunctions() == 200000 and made.GetInitialMap() == made.IDENTITY
+    assert made.GetInitialUniformityWeight() == 1e-4 and (made.MOVED, made.QUADRATIC, made.HELD) == (1, 2, 3)
     assert made.GetInnerKnotsPerDirection() == (-1, -1, -1)
+
+
+def test_quadratic_start_reproduces_affine_maps():
+    """Beyond all steps: what is left is the first map."""
+    made = knotwork.vtkTemplateMapping()
+    made.SetInputData(0, skeleton(501, 0.0))
+    target = skeleton(501, 0.0)
+    points = vtk_to_numpy(target.GetPoints().GetData())
+    points[:, :2] = points[:, :2] @ np.array([[1.2, 0.3], [-0.2, 0.8]]) + (4.0, -3.0)
+    made.SetTargetData(target)
+    made.SetMethod(made.FIXED)
+    made.SetIterations(1)
+    made.SetTikhonovWeight(1e20)
+    made.SetInitialMap(made.QUADRATIC)
+    made.Update()
+    assert vtk_to_numpy(made.GetOutputDataObject(2).GetColumnByName("MaxError"))[0] < 1e-6
+    made.SetInitialMap(made.MOVED)
+    made.Update()
+    assert vtk_to_numpy(made.GetOutputDataObject(2).GetColumnByName("MaxError"))[0] > 1e-3
 
 
 def test_target_is_reached():
