@@ -99,7 +99,8 @@ void Session::NoteReader(vtkAlgorithm* reader, const std::string& file)
   }
 }
 
-Status Session::Run(vtkAlgorithm* filter, const std::string& what, int port)
+Status Session::Run(
+  vtkAlgorithm* filter, const std::string& what, int port, std::vector<std::string>* warnings)
 {
   vtkNew<vtkCallbackCommand> progress;
   progress->SetCallback(PrintProgress);
@@ -129,7 +130,14 @@ Status Session::Run(vtkAlgorithm* filter, const std::string& what, int port)
   {
     return { ErrorCode::EmptyInput, what + ": there are no cells to work on; check the input" };
   }
-  this->Warn(messages.Warnings());
+  if (warnings)
+  {
+    *warnings = messages.Warnings();
+  }
+  else
+  {
+    this->Warn(messages.Warnings());
+  }
   return {};
 }
 

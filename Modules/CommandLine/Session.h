@@ -48,7 +48,9 @@ public:
 
   /// Updates a filter with progress on a terminal; messages of VTK become the status. `what` names
   /// the inputs in the message. No points or rows in the output of `port` are an error.
-  Status Run(vtkAlgorithm* filter, const std::string& what, int port = 0);
+  /// @param warnings  get the filter's, instead of printing: what is to be said if the rest works.
+  Status Run(vtkAlgorithm* filter, const std::string& what, int port = 0,
+    std::vector<std::string>* warnings = nullptr);
 
   /// Adds what a reader left out of a file to LeftOut.
   void NoteReader(vtkAlgorithm* reader, const std::string& file);

@@ -64,11 +64,12 @@ struct TrimJob
     session.Report["flatten_method"] = "given";
     session.Report["fallback"] = false;
     session.Report["flipped_triangles"] = 0;
+    std::vector<std::string> warnings; // of the chart; a face that fails says more of it
     if (!HasPlane(mesh))
     {
       this->Flatten->SetInputDataObject(mesh);
       this->Flatten->SetThreads(session.Threads);
-      if (Status status = session.Run(this->Flatten, what); !status)
+      if (Status status = session.Run(this->Flatten, what, 0, &warnings); !status)
       {
         return status;
       }
@@ -89,6 +90,7 @@ struct TrimJob
     {
       return status;
     }
+    session.Warn(warnings);
     this->AddNumbers(mesh, session.Report);
     Status status = asCAD ? this->WriteFaces(session)
                           : session.Write(this->Trim->GetOutputDataObject(Surfaces), this->Output);

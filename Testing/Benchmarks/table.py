@@ -8,7 +8,7 @@ Testing/Benchmarks/MODULE.json names the page, the program, of which only the be
 rows. Without "columns" a row is: what is done, the unit, the benchmark of one thread, that of all threads, and for each peer
 a published number or the name of a benchmark of ours that does the same by plain loops. With "columns" a row is a list of
 cells: a text; or what was measured, `@BENCHMARK UNIT` where the unit is one of time, `1/s`, or a counter of the benchmark; or
-a ratio, `@BENCHMARK COUNTER BENCHMARK`. The table goes between two comment lines `benchmarks MODULE: begin` and `... end` on
+a ratio, `@BENCHMARK COUNTER BENCHMARK`; `no result` where the benchmark says that it failed. The table goes between two comment lines `benchmarks MODULE: begin` and `... end` on
 the page; the rows listed under "readme" go to the README alike. "needs" names an environment variable without which not all
 rows can be measured; "repetitions" is their number where it is not 20; "statistic" is "median" where it is not "min".
 """
@@ -29,10 +29,12 @@ def measure(program, only, statistic):
                           capture_output=True, text=True)
     found = {}
     for run in json.loads(done.stdout)["benchmarks"]:
-        if run.get("aggregate_name") != statistic:
-            continue
         name = run["run_name"].replace("/real_time", "")
         name = "/".join(part for part in name.split("/") if not part.startswith(("iterations", "min_time", "repeats", "process_time")))
+        if run.get("error_occurred"):
+            found[name, "error"] = run["error_message"]
+        if run.get("aggregate_name") != statistic:
+            continue
         time = run["real_time" if "real_time" in run["run_name"] else "cpu_time"] * SCALE[run["time_unit"]]
         found[name] = run.get("point", run.get("cell", time))
         found.update(((name, key), value) for key, value in run.items() if isinstance(value, (int, float)))
@@ -49,6 +51,8 @@ def cell(text, found):
     if not text.startswith("@"):
         return text
     name, unit, *other = text[1:].split()
+    if (name, "error") in found:
+        return "no result"
     if other:
         return f"{found[name, unit] / found[other[0], unit]:.2f}"
     if unit == "1/s":

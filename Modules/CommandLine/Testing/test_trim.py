@@ -225,6 +225,28 @@ def test_meshes_that_cannot_be_trimmed_are_refused():
     assert done.returncode == 1 and len(done.stderr.splitlines()) == 1, done.stderr
 
 
+def test_charts_of_isomap_and_of_eigenmaps_are_taken_where_they_flip_none():
+    one_chart = ("--fallback", 0, "--maximum-stretch", 0)
+    # a shallow bowl over a disc: both lay it out; its area by a closed form
+    bowl = sheet("bowl.off", lambda u, v: np.c_[u, v, 0.3 * ((u - 0.5)**2 + (v - 0.5)**2)],
+                 lambda u, v: (u - 0.5)**2 + (v - 0.5)**2 < 0.2, 1.0, 1.0, 30)
+    for method in ("isomap", "laplacian", "hlle"):
+        report = trim(bowl, "--flatten", method, *one_chart, "--tolerance", 2e-3, "--output", path(method + ".step"))
+        assert report["flatten_method"] == method and report["fallback"] is False and report["charts"] == 1, report
+        assert report["within_tolerance"] and report["verdict"] == "valid" and report["loop_verdict"] == "simple_nested", report
+        assert abs(report["area"] / report["mesh_area"] - 1) < 0.01, report
+    # an S on a cone: distances around its bends are no distances in the plane
+    turn, v = (a.ravel() for a in np.meshgrid(np.linspace(-1, 1, 81), np.linspace(-0.25, 0.25, 9)))
+    angle = np.where(turn < 0, 1.5 * np.pi * turn, np.pi * (1 - 1.5 * turn))
+    radius = np.where(turn < 0, 1 + v, 1 - v)
+    x, y = radius * np.cos(angle) + np.where(turn < 0, -1, 1), radius * np.sin(angle)
+    a = (np.arange(8)[:, None] * 81 + np.arange(80)).ravel()
+    letter = write_off("letter.off", np.c_[x, y, 0.3 * np.hypot(x + 4, y)], np.vstack([np.c_[a, a + 1, a + 82], np.c_[a, a + 82, a + 81]]))
+    assert trim(letter, "--maximum-stretch", 0, "--output", path("letter.step"))["verdict"] == "valid"
+    for method in ("isomap", "laplacian"):
+        refused([letter, "--flatten", method, *one_chart], "triangles are flipped in the plane", "flatten the mesh with a method that flips none")
+
+
 def test_folded_plane_coordinates_are_refused():
     flat = path("flat.vtp")
     done = knotwork_testing.run_program("flatten", rolled(), "--output", flat)
