@@ -129,7 +129,7 @@ def write_grid(grid, name):
 class Filled:
     """A boundary's map, what is said of it, and what the validator proves."""
 
-    def __init__(self, folder, name, boundary, weights, refinements=0):
+    def __init__(self, folder, name, boundary, weights, refinements=0, **properties):
         file = os.path.join(folder, name + ".json")
         with open(file, "w") as stream:
             json.dump(boundary, stream)
@@ -139,6 +139,8 @@ class Filled:
         domain.SetInputConnection(reader.GetOutputPort())
         domain.SetWeights(weights)
         domain.SetMaximumRefinements(refinements)
+        for key, value in properties.items():
+            getattr(domain, "Set" + key)(value)
         domain.AddObserver("WarningEvent", lambda *ignored: None)  # invalid ones are expected, and checked below
         validator = knotwork.vtkJacobianValidator()
         validator.SetInputConnection(domain.GetOutputPort())
@@ -154,6 +156,7 @@ class Filled:
         self.minimum = field.GetArray("MinDetOverArea").GetTuple1(0)
         self.maximum = field.GetArray("MaxDetOverArea").GetTuple1(0)
         self.scaled = field.GetArray("MinScaledJacobian").GetTuple1(0)
+        self.condition = field.GetArray("MeanConditionNumber").GetTuple1(0)
         self.functions = int(field.GetArray("Functions").GetTuple1(0))
         suffix = {domain.WEIGHTS_FIXED: "fixed", domain.WEIGHTS_OPTIMIZED: "optimized"}.get(weights, "automatic")
         write_grid(validator.GetOutputDataObject(0), os.path.join(folder, f"{name}_{suffix}.vtu"))
@@ -198,6 +201,24 @@ def weights_table(folder):
     return rows
 
 
+def terms_table(folder):
+    """The published method - weights begin at 1, ReLU - with and without the uniformity term, fixed and optimized weights."""
+    modes = knotwork.vtkDomainParameterization
+    domains = [(f"bite {r:g} at {x:g}, height {h:g}, degree {p}", f"terms_bite_{i}", bite(r, x, h, p))
+               for i, (r, x, h, p) in enumerate([(0.4, 0.5, 1, 3), (0.43, 0.48, 4, 3)])]
+    domains += [(f"sector to {R:g}, bump {w:g} x {h:g} at {x:g}, degree {p}", f"terms_sector_{i}",
+                 bumped_sector(w, h, R, p, x)) for i, (w, h, R, p, x) in enumerate(SECTORS[2:])]
+    rows = [["domain", "lambda", "weights", "verdict", "min det J / S", "max det J / S", "scaled", "mean condition"]]
+    for title, name, boundary in domains:
+        for uniformity in (0, 1):
+            for word, weights in (("fixed", modes.WEIGHTS_FIXED), ("optimized", modes.WEIGHTS_OPTIMIZED)):
+                made = Filled(folder, f"{name}_{uniformity}", boundary, weights, InitialMap=modes.COONS,
+                              InitialWeights=modes.ONES, Foldover=modes.RELU, UniformityWeight=uniformity)
+                rows.append([title, str(uniformity), word, made.verdict, f"{made.minimum:.4f}", f"{made.maximum:.3f}",
+                             f"{made.scaled:.4f}", f"{made.condition:.3f}"])
+    return rows
+
+
 def volume_table(folder):
     rows = [["letter G", "functions", "verdict", "one-to-one", "min det J / S", "max det J / S", "scaled"]]
     for i, (width, skew) in enumerate(LETTERS):
@@ -231,7 +252,8 @@ def main():
     parser.add_argument("--check")
     arguments = parser.parse_args()
     os.makedirs(arguments.folder, exist_ok=True)
-    tables = {"weights": markdown(weights_table(arguments.folder)), "volumes": markdown(volume_table(arguments.folder))}
+    tables = {"weights": markdown(weights_table(arguments.folder)), "terms": markdown(terms_table(arguments.folder)),
+              "volumes": markdown(volume_table(arguments.folder))}
     with open(os.path.join(arguments.folder, "domains.md"), "w") as stream:
         stream.write("\n".join(tables.values()))
     print("\n".join(tables.values()), end="")

@@ -170,6 +170,7 @@ knotwork::DomainParams vtkDomainParameterization::KernelParams() const
   params.Optimizer = static_cast<knotwork::DomainOptimizer>(this->Optimizer);
   params.Foldover = static_cast<knotwork::FoldoverRemoval>(this->Foldover);
   params.Weights = static_cast<knotwork::WeightMode>(this->Weights);
+  params.FirstWeights = static_cast<knotwork::InitialWeights>(this->InitialWeights);
   params.Objective = static_cast<knotwork::DomainObjective>(this->Objective);
   params.Effort = this->Effort;
   params.TimeLimit = this->TimeLimit;

@@ -57,7 +57,8 @@ public:
     INITIAL_AUTOMATIC = 0, ///< "Automatic" Coons; harmonic when its folds cannot be removed
     COONS,
     SPRING,
-    HARMONIC
+    HARMONIC,
+    VARIATIONAL_HARMONIC ///< of one patch, degrees of at least 2
   };
   enum Optimizers
   {
@@ -77,18 +78,24 @@ public:
     WINSLOW = 0,   ///< the Winslow functional and uniformity
     LEAST_JACOBIAN ///< from there on, the largest least det J
   };
+  enum FirstWeights
+  {
+    BLENDED = 0, ///< Boolean sum of the logarithms of the boundary's weights
+    ONES
+  };
   enum WeightModes
   {
     WEIGHTS_AUTOMATIC =
       0,              ///< "Automatic" optimized only when control points alone give no valid map
     WEIGHTS_FIXED,    ///< "Fixed"
-    WEIGHTS_OPTIMIZED ///< "Optimized"
+    WEIGHTS_OPTIMIZED ///< "Optimized" control points and weights in turn, from the start
   };
 
   ///@{
   /** The map the optimization begins with, one of InitialMaps. INITIAL_AUTOMATIC: COONS, and
-   * where that folds HARMONIC if it folds less. Default INITIAL_AUTOMATIC. */
-  vtkSetClampMacro(InitialMap, int, INITIAL_AUTOMATIC, HARMONIC);
+   * where that folds HARMONIC if it folds less. VARIATIONAL_HARMONIC: the map whose inverse is
+   * harmonic. Default INITIAL_AUTOMATIC. */
+  vtkSetClampMacro(InitialMap, int, INITIAL_AUTOMATIC, VARIATIONAL_HARMONIC);
   vtkGetMacro(InitialMap, int);
   ///@}
   ///@{
@@ -105,9 +112,17 @@ public:
   ///@}
   ///@{
   /** Whether inner weights move too, one of WeightModes. WEIGHTS_AUTOMATIC: only when control
-   * points alone give no valid map. Default WEIGHTS_AUTOMATIC. */
+   * points alone give no valid map. WEIGHTS_OPTIMIZED: in turn with the control points, from the
+   * unfolded first map on. Default WEIGHTS_AUTOMATIC. */
   vtkSetClampMacro(Weights, int, WEIGHTS_AUTOMATIC, WEIGHTS_OPTIMIZED);
   vtkGetMacro(Weights, int);
+  ///@}
+  ///@{
+  /** Inner weights of the first map where the boundary is rational, one of FirstWeights: BLENDED
+   * from those of the boundary (Boolean sum of their logarithms), or ONES. Default BLENDED.
+   * Advanced. */
+  vtkSetClampMacro(InitialWeights, int, BLENDED, ONES);
+  vtkGetMacro(InitialWeights, int);
   ///@}
   ///@{
   /** What the inner control points are to make best, one of Objectives. WINSLOW: shape and
@@ -258,6 +273,7 @@ private:
   int Optimizer = OPTIMIZER_AUTOMATIC;
   int Foldover = FOLDOVER_AUTOMATIC;
   int Weights = WEIGHTS_AUTOMATIC;
+  int InitialWeights = BLENDED;
   int Objective = WINSLOW;
   double Effort = 4.0;
   double TimeLimit = 0.0;

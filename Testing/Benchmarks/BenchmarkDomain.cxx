@@ -4,7 +4,11 @@
 #include "BenchmarkTools.h"
 #include "DomainCases.h"
 #include "DomainFiles.h"
+#include "DomainMeasure.h"
+#include "HarmonicMaps.h"
+#include "InitialMaps.h"
 #include "LayoutCases.h"
+#include "ParameterMetrics.h"
 #include <knotwork/DomainParameterization/DomainParameterization.h>
 #include <knotwork/DomainParameterization/ParameterizeLayout.h>
 
@@ -47,6 +51,67 @@ void Register(const std::string& name, const DomainBoundary<Dim>& boundary, bool
   {
     Repeat(benchmark::RegisterBenchmark((name + "/Newton").c_str(),
       [boundary](benchmark::State& state) { Run<Dim>(state, boundary, DomainOptimizer::Newton); }));
+  }
+}
+
+/// A first map of the boundary, and what the optimization makes of it.
+void RunFirst(
+  benchmark::State& state, const DomainBoundary<2>& boundary, const InitialMapMethod method)
+{
+  const auto compatible = MakeCompatible<2>(boundary);
+  Spline<2> map;
+  Status status = compatible.Status;
+  for (auto _ : state)
+  {
+    map = MapOfBoundary<2>(compatible.Value);
+    FillWeights<2>(map);
+    switch (method)
+    {
+      case InitialMapMethod::Automatic:
+      case InitialMapMethod::Coons:
+        FillCoons<2>(map);
+        break;
+      case InitialMapMethod::Spring:
+        status = FillSpring<2>(map);
+        break;
+      case InitialMapMethod::Harmonic:
+        status = FillHarmonic<2>(map);
+        break;
+      case InitialMapMethod::VariationalHarmonic:
+        status = FillVariationalHarmonic<2>(map);
+        break;
+    }
+  }
+  DomainParams params;
+  params.InitialMap = method;
+  params.Threads = 1;
+  params.MaxRefinements = 0;
+  const auto result = ParameterizeDomain<2>(boundary, params);
+  if (!status || !result)
+  {
+    state.SkipWithError((status ? result.Status : status).Message().c_str());
+    return;
+  }
+  const int samples = 501;
+  const DomainMetrics first =
+    MeasureMaps<2>({ map }, SignedMeasure<2>(compatible->Sides), samples, [] { return true; });
+  state.counters["min_det"] = first.MinDetOverArea;
+  state.counters["max_det"] = first.MaxDetOverArea;
+  state.counters["folded"] = 100.0 * first.NonPositive / (samples * samples);
+  state.counters["scaled"] = first.MeanScaledJacobian;
+  state.counters["evaluations"] = result->Evaluations;
+  state.counters["best"] = result->Metrics.MinDetOverArea;
+}
+
+void RegisterFirst(const std::string& name, const DomainBoundary<2>& boundary)
+{
+  const std::pair<const char*, InitialMapMethod> methods[] = { { "Coons", InitialMapMethod::Coons },
+    { "Spring", InitialMapMethod::Spring }, { "Harmonic", InitialMapMethod::Harmonic },
+    { "VariationalHarmonic", InitialMapMethod::VariationalHarmonic } };
+  for (const auto& [word, method] : methods)
+  {
+    Repeat(benchmark::RegisterBenchmark(("First/" + name + "/" + word).c_str(),
+      [boundary, way = method](benchmark::State& state) { RunFirst(state, boundary, way); }));
   }
 }
 
@@ -110,6 +175,9 @@ void RegisterLayouts()
 const bool registered = []
 {
   RegisterLayouts();
+  RegisterFirst("Bite", cases::Bite(0.4, 0.5, 1.0, 3));
+  RegisterFirst("TallBite", cases::Bite(0.46, 0.5, 3.0, 3));
+  RegisterFirst("BumpedSector", cases::BumpedSector(0.9, 0.35, 12, 3));
   Register<2>("Bite", cases::Bite(0.4, 0.5, 1.0, 3), true);
   Register<2>("BumpedSector", cases::BumpedSector(0.9, 0.35, 12, 3), true);
   Register<3>("LetterG", cases::LetterG(20, 2, 2, 0.6, 0.05), true);
@@ -119,6 +187,7 @@ const bool registered = []
     if (!json.is_null())
     {
       Register<2>(name, cases::ReadBoundary<2>(json), true);
+      RegisterFirst(name, cases::ReadBoundary<2>(json));
     }
   }
   const auto json = cases::ReadJson("duck3d");

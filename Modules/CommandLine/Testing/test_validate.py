@@ -227,6 +227,29 @@ def test_parameterize_reports_a_certified_map():
     assert abs(again["measure"] - report["area"]) < 1e-12
 
 
+def test_parameterize_begins_where_it_is_told():
+    half = math.sqrt(0.5)
+    arcs = [{"degree": 2, "knots": [0, 0, 0, 1, 1, 1], "weights": [1, half, 1], "control_points": [[r, 0], [r, r], [0, r]]}
+            for r in (1, 2)]
+    raised = {"degree": 2, "knots": [0, 0, 0, 1, 1, 1], "control_points": [[1, 0], [1.5, 0.3], [2, 0]]}
+    name = boundary("sector.json", [*arcs, raised, line([0, 1], [0, 2])])
+    job = ["parameterize", name, "--output", path("sector.vtu"), "--table", path("sector.csv")]
+    rows = {}
+    for options in ([], ["--initial-weights", "ones"], ["--initial-map", "variational-harmonic"],
+                    ["--weights", "optimized", "--initial-weights", "ones", "--foldover", "relu"]):
+        report, _ = run(0, *job, *options)
+        assert report["verdict"] == "valid" and report["injective"] == "injective", options
+        with open(path("sector.csv")) as stream:
+            rows[" ".join(options)] = stream.read().splitlines()
+    firsts = {lines[1] for lines in rows.values()}
+    assert len(firsts) == 3, rows  # the first and the last but one differ from each other and from weights of 1
+    stages = [row.split(",")[0].strip('"') for row in rows["--weights optimized --initial-weights ones --foldover relu"][1:]]
+    assert "weights" in stages and stages.index("quality") < stages.index("weights")
+    name = boundary("linear.json", [line([0, 0], [0, 1]), line([1, 0], [1, 1]), line([0, 0], [1, 0]), line([0, 1], [1, 1])])
+    _, done = run(1, "parameterize", name, "--output", path("none.vtu"), "--initial-map", "variational-harmonic")
+    assert "degree 2 or more" in done.stderr
+
+
 def test_parameterize_writes_the_same_bytes_every_time():
     bite = {"degree": 2, "knots": [0, 0, 0, 1, 1, 1], "control_points": [[0, 0], [0.5, 0.7], [1, 0]]}
     name = boundary("bite_again.json", [bite, line([0, 1], [1, 1]), line([0, 0], [0, 1]), line([1, 0], [1, 1])])

@@ -15,7 +15,17 @@ enum class InitialMapMethod
   Automatic, ///< Coons; harmonic when the folds of that cannot be removed
   Coons,     ///< Boolean sum at the Greville abscissae
   Spring,    ///< every inner control point is the mean of its neighbours
-  Harmonic   ///< least squares of the Laplacian
+  Harmonic,  ///< least squares of the Laplacian
+  /// The map whose inverse is harmonic, by least squares of its equations. Of one patch, degrees of
+  /// at least 2.
+  VariationalHarmonic
+};
+
+/// Weights of inner control points of the first map, where the boundary is rational.
+enum class InitialWeights
+{
+  Blended, ///< Boolean sum of the logarithms of the boundary's weights
+  Ones
 };
 
 enum class DomainOptimizer
@@ -38,7 +48,7 @@ enum class WeightMode
 {
   Automatic, ///< optimized only when control points alone give no valid map
   Fixed,     ///< those of the first map
-  Optimized  ///< control points and weights in turn
+  Optimized  ///< control points and weights in turn, from the unfolded first map on
 };
 
 /// What the inner control points are to make best, once the map has no folds.
@@ -54,6 +64,7 @@ struct DomainParams
   DomainOptimizer Optimizer = DomainOptimizer::Automatic;
   FoldoverRemoval Foldover = FoldoverRemoval::Automatic;
   WeightMode Weights = WeightMode::Automatic;
+  InitialWeights FirstWeights = InitialWeights::Blended;
   DomainObjective Objective = DomainObjective::Winslow;
   double UniformityWeight = 1.0;      ///< lambda, >= 0
   double FoldoverMargin = 0.05;       ///< delta / S of the ReLU functional, (0, 1)

@@ -47,7 +47,14 @@ public:
   Status Optimize()
   {
     Status status = this->FindFirstMap();
-    if (status && this->IsRegular())
+    const bool fromStart =
+      this->Params.Weights == WeightMode::Optimized && !this->Report.IsImpossible();
+    if (status && fromStart && this->Budget.MayGoOn())
+    {
+      status = this->AlternateFromStart();
+    }
+    // control points alone, unless that led to a regular map
+    if (status && this->IsRegular() && !this->Report.WeightsOptimized)
     {
       status = this->Improve();
     }
@@ -58,11 +65,23 @@ public:
     {
       status = this->Unfold(this->Starts[k], k == 0);
     }
-    const bool wanted = this->Params.Weights == WeightMode::Optimized ||
+    const bool wanted =
+      (this->Params.Weights == WeightMode::Optimized && !this->Report.WeightsOptimized) ||
       (this->Params.Weights == WeightMode::Automatic && this->MayTry());
     if (status && wanted && this->Budget.MayGoOn())
     {
-      status = this->Alternate();
+      status = this->Alternate(this->Out.Map, false);
+    }
+    for (std::size_t k = 0; status && wanted && k < this->Starts.size() && this->MayTry(); ++k)
+    {
+      this->Extra.assign(this->Extra.size(), 0);
+      this->Solver->SetMap(this->Starts[k].Map);
+      this->Solver->SetQuadrature(this->Extra);
+      status = this->RemoveFolds(false);
+      if (status && this->MayTry())
+      {
+        status = this->Alternate(GluedMap<Dim>(this->Solver->Map()), false);
+      }
     }
     for (int round = 0; status && round < this->Params.MaxRefinements && this->MayTry() &&
          this->Source.MayRefine(this->Out.Map);
@@ -550,13 +569,37 @@ private:
     return {};
   }
 
-  /// Control points and weights in turn.
-  Status Alternate()
+  /// As the published method does it; without a regular map at the end nothing has happened.
+  Status AlternateFromStart()
   {
-    this->Solver->SetMap(this->Out.Map);
-    if (!this->Solver->RemoveFoldsWithWeights())
+    const GluedMap<Dim> before = this->Out.Map;
+    const JacobianCertificate certificate = this->Report.Certificate;
+    const Status status = this->Alternate(before, true);
+    if (status && !(this->IsRegular() && this->Report.WeightsOptimized))
+    {
+      this->Report.WeightsOptimized = false;
+      this->Extra.assign(this->Extra.size(), 0);
+      this->Solver->SetMap(before);
+      this->Solver->SetQuadrature(this->Extra);
+      this->Candidate = certificate;
+      this->Accept();
+    }
+    return status;
+  }
+
+  /// Control points and weights in turn; the result is replaced by what is better.
+  /// @param fromStart  `from` is a first map: its folds are removed as Foldover says, by weights
+  ///                   too where that does not suffice, and control points are the first to move.
+  Status Alternate(const GluedMap<Dim>& from, bool fromStart)
+  {
+    this->Solver->SetMap(from);
+    if (!(fromStart && this->Solver->RemoveFolds()) && !this->Solver->RemoveFoldsWithWeights())
     {
       return {};
+    }
+    if (fromStart)
+    {
+      this->Solver->ImprovePoints();
     }
     double energy = this->Solver->Energy();
     for (int round = 0; round < this->Params.MaxAlternations && this->Budget.MayGoOn(); ++round)
@@ -575,7 +618,7 @@ private:
           break;
         }
         this->LookCloser(2);
-        if (!this->Solver->RemoveFolds())
+        if (!this->Solver->RemoveFolds() && !this->Solver->RemoveFoldsWithWeights())
         {
           break;
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "InitialMaps.h"
 
+#include "HarmonicMaps.h"
 #include <knotwork/SplineCore/Quadrature.h>
 #include <knotwork/SplineCore/TensorSpace.h>
 
@@ -116,24 +117,6 @@ void CoonsColumn(
       }
       values[i] = sum;
     });
-}
-
-template <int Dim>
-void FillWeights(Spline<Dim>& map)
-{
-  if (map.IsRational())
-  {
-    Eigen::VectorXd logarithms = map.Weights.array().log();
-    CoonsColumn<Dim>(*map.Space, logarithms, Linear<Dim>());
-    const std::vector<bool> fixed = BoundaryFunctions<Dim>(*map.Space);
-    for (Eigen::Index i = 0; i < map.Weights.size(); ++i)
-    {
-      if (!fixed[static_cast<std::size_t>(i)])
-      {
-        map.Weights[i] = std::exp(logarithms[i]);
-      }
-    }
-  }
 }
 
 /// Solves for the inner control points: sum_j matrix(i, j) x_j = 0 for every inner i, where
@@ -254,13 +237,31 @@ Spline<Dim> MapOfBoundary(const CompatibleBoundary<Dim>& boundary)
 }
 
 template <int Dim>
+void FillWeights(Spline<Dim>& map, InitialWeights kind)
+{
+  if (!map.IsRational())
+  {
+    return;
+  }
+  Eigen::VectorXd logarithms = map.Weights.array().log();
+  CoonsColumn<Dim>(*map.Space, logarithms, Linear<Dim>());
+  const std::vector<bool> fixed = BoundaryFunctions<Dim>(*map.Space);
+  for (Eigen::Index i = 0; i < map.Weights.size(); ++i)
+  {
+    if (!fixed[static_cast<std::size_t>(i)])
+    {
+      map.Weights[i] = kind == InitialWeights::Ones ? 1.0 : std::exp(logarithms[i]);
+    }
+  }
+}
+
+template <int Dim>
 void FillCoons(Spline<Dim>& map, const std::array<int, Dim>& steepness)
 {
   for (int c = 0; c < map.NumComponents(); ++c)
   {
     CoonsColumn<Dim>(*map.Space, map.ControlPoints.col(c), steepness);
   }
-  FillWeights(map);
 }
 
 template <int Dim>
@@ -273,7 +274,6 @@ template <int Dim>
 Status FillSpring(Spline<Dim>& map)
 {
   const auto counts = Counts(*map.Space);
-  FillWeights(map);
   return SolveInner<Dim>(map,
     [&](int i, const std::array<int, Dim>&, const auto& put)
     {
@@ -319,8 +319,11 @@ LineIntegrals IntegrateLine(const KnotVector& knots)
 template <int Dim>
 Status FillHarmonic(Spline<Dim>& map)
 {
+  if (map.IsRational())
+  {
+    return FillRationalHarmonic<Dim>(map);
+  }
   const auto counts = Counts(*map.Space);
-  FillWeights(map);
   std::vector<LineIntegrals> lines;
   bool linear = false;
   for (const KnotVector& knots : map.Space->Knots)
@@ -381,11 +384,13 @@ Status FillHarmonic(Spline<Dim>& map)
 #define KNOTWORK_INSTANTIATE(Dim)                                                                  \
   template std::vector<bool> BoundaryFunctions<Dim>(const SplineSpace<Dim>&);                      \
   template Spline<Dim> MapOfBoundary<Dim>(const CompatibleBoundary<Dim>&);                         \
+  template void FillWeights<Dim>(Spline<Dim>&, InitialWeights);                                    \
   template void FillCoons<Dim>(Spline<Dim>&, const std::array<int, Dim>&);                         \
   template void FillCoons<Dim>(Spline<Dim>&);                                                      \
   template Status FillSpring<Dim>(Spline<Dim>&);                                                   \
   template Status FillHarmonic<Dim>(Spline<Dim>&);
 template std::vector<bool> BoundaryFunctions<1>(const SplineSpace<1>&);
+template void FillWeights<1>(Spline<1>&, InitialWeights);
 template void FillCoons<1>(Spline<1>&);
 KNOTWORK_INSTANTIATE(2)
 KNOTWORK_INSTANTIATE(3)

@@ -2,6 +2,7 @@
 #include "BoundaryFaults.h"
 #include "DomainMeasure.h"
 #include "DomainRun.h"
+#include "HarmonicMaps.h"
 #include "InitialMaps.h"
 #include <knotwork/SplineCore/Refinement.h>
 
@@ -17,11 +18,15 @@ template <int Dim>
 class PatchSource final : public DomainSource<Dim>
 {
 public:
-  explicit PatchSource(const CompatibleBoundary<Dim>& boundary) : Boundary(boundary) {}
+  PatchSource(const CompatibleBoundary<Dim>& boundary, InitialWeights weights)
+    : Boundary(boundary), Weights(weights)
+  {
+  }
 
   Result<GluedMap<Dim>> FirstMap(InitialMapMethod method, int variant) override
   {
     Spline<Dim> map = MapOfBoundary<Dim>(this->Boundary);
+    FillWeights<Dim>(map, this->Weights);
     Status status;
     switch (method)
     {
@@ -31,7 +36,11 @@ public:
       case InitialMapMethod::Spring:
         status = FillSpring<Dim>(map);
         break;
-      default:
+      case InitialMapMethod::VariationalHarmonic:
+        status = FillVariationalHarmonic<Dim>(map);
+        break;
+      case InitialMapMethod::Automatic:
+      case InitialMapMethod::Coons:
         FillCoons<Dim>(map, Steepness(variant));
     }
     if (!status)
@@ -103,6 +112,7 @@ private:
   }
 
   const CompatibleBoundary<Dim>& Boundary;
+  InitialWeights Weights;
 };
 }
 
@@ -146,7 +156,7 @@ Result<DomainParameterization<Dim>> ParameterizeDomain(
   const double area = SignedMeasure<Dim>(out.Boundary.Sides);
   const std::chrono::duration<double> before = std::chrono::steady_clock::now() - start;
   out.SecondsOptimization = before.count();
-  PatchSource<Dim> source(out.Boundary);
+  PatchSource<Dim> source(out.Boundary, params.FirstWeights);
   DomainRun<Dim> run;
   if (Status status = RunDomain<Dim>(source, area, params, budget, run, out); !status)
   {

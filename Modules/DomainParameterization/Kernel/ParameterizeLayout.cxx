@@ -85,6 +85,7 @@ void FillParts(GluedMap<Dim>& map, Numbered<Dim>& all, std::vector<bool>& known)
       const std::vector<int>& functions = trace.Functions;
       Spline<K> own = TraceOf<Dim, K>(map.Patches[p], trace);
       const std::vector<bool> ends = BoundaryFunctions<K>(*own.Space);
+      FillWeights<K>(own);
       FillCoons<K>(own);
       for (std::size_t i = 0; i < functions.size(); ++i)
       {
@@ -107,7 +108,7 @@ void FillParts(GluedMap<Dim>& map, Numbered<Dim>& all, std::vector<bool>& known)
 
 /// Inner vertices from the layout, sides without a given one straight, patches by Boolean sums.
 template <int Dim>
-GluedMap<Dim> CoonsMap(const CompatibleLayout<Dim>& layout)
+GluedMap<Dim> CoonsMap(const CompatibleLayout<Dim>& layout, InitialWeights weights)
 {
   GluedMap<Dim> map = layout.Map;
   Numbered<Dim> all(map);
@@ -147,6 +148,13 @@ GluedMap<Dim> CoonsMap(const CompatibleLayout<Dim>& layout)
   {
     FillParts<Dim, 3>(map, all, known);
   }
+  for (std::size_t i = 0; map.IsRational() && i < layout.Given.size(); ++i)
+  {
+    if (weights == InitialWeights::Ones && !layout.Given[i])
+    {
+      all.Weights[static_cast<Eigen::Index>(i)] = 1.0;
+    }
+  }
   for (std::size_t p = 0; p < map.Patches.size(); ++p)
   {
     all.Into(map, p);
@@ -158,11 +166,20 @@ template <int Dim>
 class LayoutSource final : public DomainSource<Dim>
 {
 public:
-  explicit LayoutSource(const CompatibleLayout<Dim>& layout) : Layout(layout) {}
+  LayoutSource(const CompatibleLayout<Dim>& layout, InitialWeights weights)
+    : Layout(layout), Weights(weights)
+  {
+  }
 
   Result<GluedMap<Dim>> FirstMap(InitialMapMethod method, int) override
   {
-    GluedMap<Dim> map = CoonsMap<Dim>(this->Layout);
+    if (method == InitialMapMethod::VariationalHarmonic)
+    {
+      return { ErrorCode::InvalidParameter,
+        "the variational harmonic map is one of a single patch; with a layout begin with the "
+        "harmonic map" };
+    }
+    GluedMap<Dim> map = CoonsMap<Dim>(this->Layout, this->Weights);
     if (method != InitialMapMethod::Coons)
     {
       const GluedSystem<Dim> system(
@@ -214,6 +231,7 @@ public:
 
 private:
   const CompatibleLayout<Dim>& Layout;
+  InitialWeights Weights;
 };
 
 /// Places where the fixed sides of one patch alone make det J <= 0.
@@ -263,11 +281,11 @@ Result<LayoutParameterization<Dim>> ParameterizeLayout(const PatchLayout<Dim>& l
   }
   LayoutParameterization<Dim> out;
   out.Layout = std::move(compatible.Value);
-  FindFolds<Dim>(out.Layout, CoonsMap<Dim>(out.Layout), out);
+  FindFolds<Dim>(out.Layout, CoonsMap<Dim>(out.Layout, params.FirstWeights), out);
   const double numPatches = static_cast<double>(out.Layout.Corners.size());
   const std::chrono::duration<double> before = Clock::now() - start;
   out.SecondsOptimization = before.count();
-  LayoutSource<Dim> source(out.Layout);
+  LayoutSource<Dim> source(out.Layout, params.FirstWeights);
   DomainRun<Dim> run;
   if (Status status =
         RunDomain<Dim>(source, out.Layout.Area / numPatches, params, budget, run, out);

@@ -49,6 +49,12 @@ DomainBoundary<2> Poor()
   return knotwork::cases::Bite(0.4, 0.5, 0.5, 1);
 }
 
+/// Arcs on the south side.
+DomainBoundary<2> Rational()
+{
+  return knotwork::cases::Bite(0.4, 0.5, 1.2, 3);
+}
+
 /// A square whose east side ends 1e-6 away from the corner.
 DomainBoundary<2> Open()
 {
@@ -168,6 +174,11 @@ std::vector<Property> Properties()
   return {
     { "InitialMap", Low, Nothing, [](Filter* f) { f->SetInitialMap(Filter::HARMONIC); },
       [](P& p) { p.InitialMap = knotwork::InitialMapMethod::Harmonic; } },
+    { "InitialMap variational", Low, Nothing,
+      [](Filter* f) { f->SetInitialMap(Filter::VARIATIONAL_HARMONIC); },
+      [](P& p) { p.InitialMap = knotwork::InitialMapMethod::VariationalHarmonic; } },
+    { "InitialWeights", Rational, Nothing, [](Filter* f) { f->SetInitialWeights(Filter::ONES); },
+      [](P& p) { p.FirstWeights = knotwork::InitialWeights::Ones; } },
     { "Optimizer", Low, Nothing, [](Filter* f) { f->SetOptimizer(Filter::NEWTON); },
       [](P& p) { p.Optimizer = knotwork::DomainOptimizer::Newton; } },
     { "Foldover", Low, Folding, [](Filter* f) { f->SetFoldover(Filter::PENALTY); },

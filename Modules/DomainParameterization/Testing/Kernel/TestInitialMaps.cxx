@@ -158,6 +158,7 @@ TEST(InitialMaps, CoonsOfAnAnnulusSectorIsTheAnnulusSector_ExactOracle)
   const auto boundary = MakeCompatible<2>(cases::AnnulusSector());
   ASSERT_TRUE(boundary) << boundary.Status.Message();
   Spline<2> map = MapOfBoundary<2>(boundary.Value);
+  FillWeights<2>(map);
   FillCoons<2>(map);
   oracle::Random random(3);
   for (int i = 0; i < 100; ++i)
@@ -172,6 +173,7 @@ TEST(InitialMaps, BoundaryRowsAreTheSidesBits_ExactOracle)
 {
   const auto boundary = MakeCompatible<2>(cases::AnnulusSector());
   Spline<2> map = MapOfBoundary<2>(boundary.Value);
+  FillWeights<2>(map);
   FillCoons<2>(map);
   const DomainBoundary<2> sides = cases::SidesOf<2>(map);
   for (std::size_t s = 0; s < 4; ++s)

@@ -322,6 +322,49 @@ TEST(ParameterizeDomain, WeightsLowerTheEnergy_PropertyOracle)
   }
 }
 
+// Points, weights, points, ...: whether the first map folds or not, weights have their turn after
+// the first minimization, not after other ways to a valid map.
+TEST(ParameterizeDomain, PointsAndWeightsAlternateFromTheStart_PropertyOracle)
+{
+  for (const auto removal :
+    { FoldoverRemoval::Automatic, FoldoverRemoval::Relu, FoldoverRemoval::Penalty })
+  {
+    for (const auto weights : { InitialWeights::Blended, InitialWeights::Ones })
+    {
+      for (const double height : { 0.6, 3.0 })
+      {
+        DomainParams params;
+        params.InitialMap = InitialMapMethod::Coons;
+        params.Weights = WeightMode::Optimized;
+        params.FirstWeights = weights;
+        params.Foldover = removal;
+        params.MaxRefinements = 0;
+        const auto result = ParameterizeDomain<2>(cases::Bite(0.46, 0.5, height, 3), params);
+        ASSERT_TRUE(result) << result.Status.Message();
+        EXPECT_TRUE(result->WeightsOptimized);
+        EXPECT_TRUE(result->IsValid());
+        std::vector<DomainStage> turns;
+        for (const DomainIteration& row : result->History)
+        {
+          if (turns.empty() || turns.back() != row.Stage || row.Iteration == 0)
+          {
+            turns.push_back(row.Stage);
+          }
+        }
+        turns.erase(std::remove_if(turns.begin(), turns.end(),
+                      [](DomainStage stage)
+                      { return stage == DomainStage::Initial || stage == DomainStage::Foldover; }),
+          turns.end());
+        ASSERT_GE(turns.size(), 3u);
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+          EXPECT_EQ(turns[k], k % 2 ? DomainStage::Weights : DomainStage::Quality) << k;
+        }
+      }
+    }
+  }
+}
+
 TEST(ParameterizeDomain, PoorSpacesAreRefinedLocally_PropertyOracle)
 {
   // bilinear across: no inner control points at all

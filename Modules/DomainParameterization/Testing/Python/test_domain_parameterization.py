@@ -6,7 +6,7 @@ import math
 import knotwork
 import knotwork_testing
 from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import VTK_QUAD, vtkUnstructuredGrid
+from vtkmodules.vtkCommonDataModel import VTK_QUAD, vtkPolyData, vtkUnstructuredGrid
 
 HALF = math.sqrt(0.5)
 boundary = {"curves": [
@@ -38,6 +38,40 @@ assert abs(field.GetArray("Area").GetTuple1(0) - exact) < 1e-12
 history = domain.GetOutputDataObject(2)
 assert history.GetNumberOfRows() > 1
 assert history.GetValueByName(0, "Stage").ToString() == "initial"
+
+# z^2 on a stretched rectangle has a harmonic inverse: the variational harmonic map is that map, the harmonic one another
+QUADRATIC = {"degree": 2, "knots": [0, 0, 0, 1, 1, 1]}
+A, B = 1.6, 0.7  # z = 1 + A u + i B v
+
+
+def squared(i, j):
+    """Bernstein coefficient of z^2 over the unit square."""
+    u, v, uu, vv = i / 2, j / 2, float(i == 2), float(j == 2)
+    return [1 + 2 * A * u + A * A * uu - B * B * vv, 2 * B * v + 2 * A * B * u * v]
+
+
+sides = ([[squared(i, j) for j in range(3)] for i in (0, 2)] + [[squared(i, j) for i in range(3)] for j in (0, 2)])
+name = knotwork_testing.output("square_of_z.json")
+with open(name, "w") as stream:
+    json.dump({"curves": [dict(QUADRATIC, control_points=side) for side in sides]}, stream)
+reader.SetFileName(name)
+middles = {}
+for initial in (domain.HARMONIC, domain.VARIATIONAL_HARMONIC):
+    domain.SetInitialMap(initial)
+    domain.Update()
+    evaluate = knotwork.vtkSplineEvaluate()
+    evaluate.SetInputConnection(0, domain.GetOutputPort(1))
+    at = vtkPoints()
+    at.InsertNextPoint(0.5, 0.5, 0)
+    place = vtkPolyData()
+    place.SetPoints(at)
+    evaluate.SetInputDataObject(1, place)
+    evaluate.Update()
+    middles[initial] = evaluate.GetOutput().GetPoint(0)
+middle = (1 + A / 2) ** 2 - (B / 2) ** 2, 2 * (1 + A / 2) * B / 2
+assert math.dist(middles[domain.VARIATIONAL_HARMONIC][:2], middle) < 1e-8
+assert math.dist(middles[domain.HARMONIC][:2], middle) > 1e-2
+domain.SetInitialMap(domain.INITIAL_AUTOMATIC)
 
 # a ring of four patches: a mesh of quadrilaterals is the layout, arcs are its boundary
 points = vtkPoints()
