@@ -61,7 +61,7 @@ std::string Dependence(const SplineSpace<Dim>& space)
   {
     return "undecided";
   }
-  if constexpr (Dim == 2)
+  if constexpr (Dim > 1)
   {
     if (space.Kind == SpaceKind::LocallyRefined)
     {

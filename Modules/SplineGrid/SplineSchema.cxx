@@ -50,7 +50,7 @@ enum Column
   GeometryCheck,
   NumColumns
 };
-const char* const columnNames[NumColumns] = { "PatchId", "Kind", "Dimension", "Rational",
+const char* const ColumnNames[NumColumns] = { "PatchId", "Kind", "Dimension", "Rational",
   "Elements", "Functions", "Degree0", "Degree1", "Degree2", "Knots0", "Knots1", "Knots2", "Boxes",
   "PatchBasis", "Checksum" };
 
@@ -88,7 +88,7 @@ Status ReadRecord(const IntegerTable& patches, std::size_t row, PatchRecord& rec
     if (patches.At(row, c) > most || (c != Id && patches.At(row, c) < 0) ||
       patches.At(row, c) < -most)
     {
-      return Damaged(patch + " has " + columnNames[c] + " " + std::to_string(patches.At(row, c)));
+      return Damaged(patch + " has " + ColumnNames[c] + " " + std::to_string(patches.At(row, c)));
     }
   }
   const auto at = [&](int c) { return static_cast<int>(patches.At(row, c)); };
@@ -183,6 +183,12 @@ struct StoredTable
   }
 };
 
+/// How the tables of a definition are stored.
+const std::vector<DefinitionTableLayout>& LayoutsOf(const SpaceDefinition& basis)
+{
+  return basis.Dimension == 3 ? FamilyOf<3>(basis.Kind).Tables() : FamilyOf<2>(basis.Kind).Tables();
+}
+
 /// The tables of all families.
 class StoredTables
 {
@@ -190,13 +196,14 @@ public:
   /// @return a status with a detail for Damaged.
   Status Take(vtkFieldData* fieldData, std::size_t firstRows, PatchRecord& record)
   {
-    const SpaceFamily<2>& family = FamilyOf<2>(record.Basis.Kind);
-    const std::vector<DefinitionTableLayout>& layouts = family.Tables();
+    const SpaceDefinition& basis = record.Basis;
+    const std::vector<DefinitionTableLayout>& layouts = LayoutsOf(basis);
     record.Basis.Tables.resize(layouts.size());
     for (std::size_t t = 0; t < layouts.size(); ++t)
     {
-      const std::size_t rows =
-        t == 0 ? firstRows : family.NumRows(record.Basis, record.NumFunctions, t);
+      const std::size_t rows = t == 0 ? firstRows
+        : basis.Dimension == 3 ? FamilyOf<3>(basis.Kind).NumRows(basis, record.NumFunctions, t)
+                               : FamilyOf<2>(basis.Kind).NumRows(basis, record.NumFunctions, t);
       StoredTable& stored = this->Find(fieldData, layouts[t]);
       if (!stored.Take(layouts[t], rows, record.Basis.Tables[t]))
       {
@@ -232,7 +239,7 @@ void WriteSchema(const SplineSchema& schema, vtkFieldData* fieldData)
 {
   std::vector<std::int64_t> patches, fieldRows, fieldChecksums;
   std::vector<double> knots, points;
-  std::map<SpaceKind, std::vector<DefinitionTable>> tables;
+  std::map<SpaceKind, std::vector<std::pair<const DefinitionTableLayout*, DefinitionTable>>> tables;
   std::vector<std::string> names;
   std::vector<std::vector<double>> fields;
   std::vector<int> components;
@@ -259,14 +266,20 @@ void WriteSchema(const SplineSchema& schema, vtkFieldData* fieldData)
       row[Knots0 + d] = static_cast<std::int64_t>(basis.Knots[d].size());
       knots.insert(knots.end(), basis.Knots[d].begin(), basis.Knots[d].end());
     }
-    const std::vector<DefinitionTableLayout>& layouts = FamilyOf<2>(basis.Kind).Tables();
-    std::vector<DefinitionTable>& rows = tables[basis.Kind];
-    rows.resize(layouts.size());
+    const std::vector<DefinitionTableLayout>& layouts = LayoutsOf(basis);
+    auto& stored = tables[basis.Kind];
     for (std::size_t t = 0; t < layouts.size(); ++t)
     {
       const DefinitionTable& table = basis.Tables[t];
-      rows[t].Whole.insert(rows[t].Whole.end(), table.Whole.begin(), table.Whole.end());
-      rows[t].Real.insert(rows[t].Real.end(), table.Real.begin(), table.Real.end());
+      auto place = std::find_if(stored.begin(), stored.end(),
+        [&](const auto& other) { return std::strcmp(other.first->Name, layouts[t].Name) == 0; });
+      if (place == stored.end())
+      {
+        place = stored.insert(stored.end(), { &layouts[t], DefinitionTable() });
+      }
+      DefinitionTable& rows = place->second;
+      rows.Whole.insert(rows.Whole.end(), table.Whole.begin(), table.Whole.end());
+      rows.Real.insert(rows.Real.end(), table.Real.begin(), table.Real.end());
       if (t == 0)
       {
         row[Boxes] = static_cast<std::int64_t>(
@@ -304,22 +317,21 @@ void WriteSchema(const SplineSchema& schema, vtkFieldData* fieldData)
   {
     return;
   }
-  WriteIntegers(fieldData, PatchArray, NumColumns, patches, columnNames);
+  WriteIntegers(fieldData, PatchArray, NumColumns, patches, ColumnNames);
   WriteDoubles(fieldData, KnotArray, 1, knots);
-  for (const auto& [kind, rows] : tables)
+  for (const auto& [kind, stored] : tables)
   {
-    const std::vector<DefinitionTableLayout>& layouts = FamilyOf<2>(kind).Tables();
-    for (std::size_t t = 0; t < layouts.size(); ++t)
+    for (const auto& [layout, rows] : stored)
     {
-      const auto columns = static_cast<int>(layouts[t].Columns.size());
-      if (!rows[t].Whole.empty())
+      const auto columns = static_cast<int>(layout->Columns.size());
+      if (!rows.Whole.empty())
       {
-        WriteIntegers(fieldData, TableArray(layouts[t]), columns, rows[t].Whole,
-          columns > 1 ? layouts[t].Columns.data() : nullptr);
+        WriteIntegers(fieldData, TableArray(*layout), columns, rows.Whole,
+          columns > 1 ? layout->Columns.data() : nullptr);
       }
-      if (!rows[t].Real.empty())
+      if (!rows.Real.empty())
       {
-        WriteDoubles(fieldData, TableArray(layouts[t]), columns, rows[t].Real);
+        WriteDoubles(fieldData, TableArray(*layout), columns, rows.Real);
       }
     }
   }
@@ -480,10 +492,7 @@ Checksum GeometryChecksum(const std::vector<IntArray<Dim>>& degrees, const Point
   return sum;
 }
 
-#define KNOTWORK_INSTANTIATE(Dim)                                                                  \
-  template Checksum GeometryChecksum<Dim>(const std::vector<IntArray<Dim>>&, const PointMatrix&);
-KNOTWORK_INSTANTIATE(1)
-KNOTWORK_INSTANTIATE(2)
-KNOTWORK_INSTANTIATE(3)
-#undef KNOTWORK_INSTANTIATE
+template Checksum GeometryChecksum<1>(const std::vector<IntArray<1>>&, const PointMatrix&);
+template Checksum GeometryChecksum<2>(const std::vector<IntArray<2>>&, const PointMatrix&);
+template Checksum GeometryChecksum<3>(const std::vector<IntArray<3>>&, const PointMatrix&);
 }

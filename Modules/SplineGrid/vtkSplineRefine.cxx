@@ -6,6 +6,7 @@
 #include "SplineBlocks.h"
 #include "SplineModel.h"
 #include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/LRVolume.h>
 #include <knotwork/SplineCore/Refinement.h>
 #include <knotwork/SplineCore/SizeLimit.h>
 
@@ -333,6 +334,18 @@ public:
           this->Filter->LocalSpace == LOCALLY_REFINED))
       {
         return RefineMarkedLR(spline, marked, this->LRParams(round));
+      }
+    }
+    if constexpr (Dim == 3)
+    {
+      if (!everywhere &&
+        (kind == knotwork::SpaceKind::LocallyRefined ||
+          (kind == knotwork::SpaceKind::Tensor && this->Filter->LocalSpace == LOCALLY_REFINED)))
+      {
+        knotwork::LRVolumeStrategyParams params;
+        params.Strategy = static_cast<knotwork::LRStrategy>(this->Filter->LRStrategy);
+        return RefineMarkedLRVolume(
+          spline, marked, params, knotwork::DefaultMaxFunctions, this->Filter->KernelThreads());
       }
     }
     if (everywhere)

@@ -19,8 +19,8 @@
  * PatchId, or lines in the plane of the parameters (SegmentTable.h). Patches without a segment stay
  * as they are.
  *
- * Marked elements are refined locally. What a tensor-product surface becomes is LocalSpace's
- * choice: a truncated hierarchical (THB) spline or an LR spline; curves and volumes become
+ * Marked elements are refined locally. What a tensor-product surface or volume becomes is
+ * LocalSpace's choice: a truncated hierarchical (THB) spline or an LR spline; curves become
  * hierarchical. Patches that are hierarchical or LR stay it. Of patches on unstructured meshes all
  * sheets of cells that run through the marked ones are halved along their parallel edges. With
  * GlobalRefinement every patch that has a marked element is refined as by UNIFORM. In repeated
@@ -169,8 +169,8 @@ public:
   vtkGetMacro(MaxLevel, int);
   ///@}
   ///@{
-  /** What local refinement makes of tensor-product surfaces, one of LocalSpaces. Default
-   * HIERARCHICAL. For Mode not UNIFORM, SEGMENTS. */
+  /** What local refinement makes of tensor-product surfaces and volumes, one of LocalSpaces.
+   * Default HIERARCHICAL. For Mode not UNIFORM, SEGMENTS. */
   vtkSetClampMacro(LocalSpace, int, HIERARCHICAL, LOCALLY_REFINED);
   vtkGetMacro(LocalSpace, int);
   ///@}

@@ -3,7 +3,7 @@
 #include "MeshCases.h"
 #include "RandomSplines.h"
 #include <knotwork/SplineCore/BezierSpace.h>
-#include <knotwork/SplineCore/LRRefinement.h>
+#include <knotwork/SplineCore/LRVolume.h>
 #include <knotwork/SplineCore/Refinement.h>
 #include <knotwork/SplineCore/UnstructuredSpace.h>
 
@@ -12,22 +12,30 @@
 /// Random spaces of every family that has some of a dimension.
 namespace knotwork::testing
 {
-/// A tensor-product space clamped at its ends, as LR spaces need it.
-inline SplineSpacePtr<2> RandomLRSpace(Random& random)
+/// A tensor-product space clamped at its ends, as LR spaces need it, refined.
+template <int Dim>
+SplineSpacePtr<Dim> RandomLRSpace(Random& random)
 {
-  std::array<KnotVector, 2> knots;
+  std::array<KnotVector, Dim> knots;
   for (KnotVector& k : knots)
   {
-    const int degree = random.Int(1, 3);
+    const int degree = random.Int(1, Dim == 3 ? 2 : 3);
     k = MildKnots(random, degree, random.Int(2, 4), 1);
   }
-  Spline<2> spline;
-  spline.Space = MakeTensorSpace<2>(knots).Value;
+  Spline<Dim> spline;
+  spline.Space = MakeTensorSpace<Dim>(knots).Value;
   spline.ControlPoints = PointMatrix::Zero(spline.Space->NumFunctions, 1);
   for (int step = 0; step < 2; ++step)
   {
     const std::vector<int> marked{ random.Int(0, spline.Space->NumElements() - 1) };
-    spline = RefineMarkedLR(spline, marked).Value.Value;
+    if constexpr (Dim == 3)
+    {
+      spline = RefineMarkedLRVolume(spline, marked).Value.Value;
+    }
+    else
+    {
+      spline = RefineMarkedLR(spline, marked).Value.Value;
+    }
   }
   return spline.Space;
 }
@@ -58,12 +66,9 @@ std::vector<SplineSpacePtr<Dim>> SpacesOfAllFamilies(Random& random)
 {
   std::vector<SplineSpacePtr<Dim>> spaces{ RandomTensorSpace<Dim>(random, 3, 4),
     RandomHierarchicalSpace<Dim>(random, Dim == 3 ? 2 : 3, 3, 2), TwoBezierElements<Dim>(random) };
-  if constexpr (Dim == 2)
-  {
-    spaces.push_back(RandomLRSpace(random));
-  }
   if constexpr (Dim > 1)
   {
+    spaces.push_back(RandomLRSpace<Dim>(random));
     UnstructuredParams params;
     params.Degree = Dim == 3 ? 2 : random.Int(1, 4);
     CellMesh<Dim> mesh;

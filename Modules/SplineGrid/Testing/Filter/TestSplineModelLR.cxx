@@ -2,7 +2,7 @@
 // Locally refined patches travel as grids: written and read bit for bit, recovered from moved
 // points, damage found.
 #include "RandomModels.h"
-#include <knotwork/SplineCore/LRRefinement.h>
+#include <knotwork/SplineCore/LRVolume.h>
 #include <knotwork/SplineCore/TensorSpace.h>
 
 #include "vtkDataArray.h"
@@ -123,5 +123,46 @@ TEST(SplineModelLR, DamageIsFound_ExactOracle)
     EXPECT_EQ(DecodeSplineModel(grid, 0).Status.Code, ErrorCode::InvalidTopology) << name;
     grid->GetFieldData()->RemoveArray(name);
     EXPECT_EQ(DecodeSplineModel(grid, 0).Status.Code, ErrorCode::InvalidTopology) << name;
+  }
+}
+
+/// Surfaces and volumes in one grid share the tables of functions; every patch gets its own rows.
+TEST(SplineModelLR, VolumesBesideSurfacesKeepEveryBit_ExactOracle)
+{
+  SplineModel model = LRModel(false);
+  const KnotVector knots = KnotVector::Uniform(2, 4);
+  Spline<3> volume;
+  volume.Space = MakeTensorSpace<3>({ knots, knots, KnotVector::Uniform(1, 3) }).Value;
+  volume.ControlPoints = PointMatrix::Random(volume.Space->NumFunctions, 3);
+  const auto refined = InsertRectangles(volume,
+    { { 0, 0.375, { 0.0, 0.0 }, { 0.75, 1.0 }, 2 }, { 2, 0.5, { 0.0, 0.25 }, { 0.75, 1.0 } } },
+    10000, 0);
+  ASSERT_TRUE(refined) << refined.Status.Message();
+  SplinePatch patch;
+  patch.Id = 3;
+  patch.Geometry = refined.Value;
+  patch.Fields.push_back(
+    { "Temperature", PointMatrix::Random(refined.Value.Space->NumFunctions, 1) });
+  model.Patches.insert(model.Patches.begin() + 1, patch);
+  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  writer->WriteToOutputStringOn();
+  writer->SetInputData(Encode(model));
+  ASSERT_EQ(writer->Write(), 1);
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  reader->ReadFromInputStringOn();
+  reader->SetInputString(writer->GetOutputString());
+  reader->Update();
+  const SplineModel read = Decode(reader->GetOutput());
+  ASSERT_EQ(read.Patches.size(), 3U);
+  const SplinePatch& found = PatchOf(read, 3);
+  const auto& other = std::get<Spline<3>>(found.Geometry);
+  ASSERT_EQ(other.Space->Kind, SpaceKind::LocallyRefined);
+  EXPECT_TRUE(LRVolumeOf(*other.Space).Basis == LRVolumeOf(*refined->Space).Basis);
+  EXPECT_EQ(other.ControlPoints, refined->ControlPoints);
+  EXPECT_EQ(found.Fields[0].Coefficients, patch.Fields[0].Coefficients);
+  for (const int id : { 2, 5 })
+  {
+    EXPECT_TRUE(std::get<Spline<2>>(PatchOf(read, id).Geometry).Space->LocallyRefined->Basis ==
+      std::get<Spline<2>>(PatchOf(model, id).Geometry).Space->LocallyRefined->Basis);
   }
 }

@@ -539,6 +539,39 @@ std::array<int, 2> CountsOfLR(vtkSplineRefine* refine)
 }
 }
 
+TEST(vtkSplineRefine, VolumesBecomeLRAndStayTheMap_CrossOracle)
+{
+  const auto grid = ShapeGrid(vtkSplineSource::CUBE, 2, { 4, 4, 4 });
+  std::vector<double> values(64, 0.0);
+  values[21] = 1.0; // the cell (1, 1, 1)
+  AddCellArray(grid, "Error", values);
+  vtkNew<vtkSplineRefine> refine;
+  refine->SetInputData(grid);
+  RefineByArray(refine, "Error");
+  refine->SetLowerThreshold(0.5);
+  refine->SetLocalSpace(vtkSplineRefine::LOCALLY_REFINED);
+  refine->Update();
+  // three rectangles across 4 x 4 elements of the 4 x 4 x 4, crossing
+  EXPECT_EQ(GridOf(refine)->GetNumberOfCells(), 125);
+  EXPECT_LE(WorstDifference(grid, GridOf(refine)), 1e-13);
+  refine->SetLRStrategy(vtkSplineRefine::MINIMUM_SPAN);
+  refine->Update();
+  // the smallest support is the corner's 2 x 2 x 2 elements: 1 becomes 8, 3 become 4, 3 become 2
+  EXPECT_EQ(GridOf(refine)->GetNumberOfCells(), 64 - 7 + 8 + 3 * 4 + 3 * 2);
+  const SplineModel model = DecodePatches(GridOf(refine));
+  const auto& volume = std::get<Spline<3>>(model.Patches[0].Geometry);
+  EXPECT_EQ(volume.Space->Kind, SpaceKind::LocallyRefined);
+  EXPECT_LE(WorstDifference(grid, GridOf(refine)), 1e-13);
+  // it stays LR, also when it is refined everywhere
+  vtkNew<vtkSplineRefine> again;
+  again->SetInputData(GridOf(refine));
+  again->Update();
+  const SplineModel finer = DecodePatches(GridOf(again));
+  EXPECT_EQ(std::get<Spline<3>>(finer.Patches[0].Geometry).Space->Kind, SpaceKind::LocallyRefined);
+  EXPECT_GE(GridOf(again)->GetNumberOfCells(), 8 * GridOf(refine)->GetNumberOfCells());
+  EXPECT_LE(WorstDifference(grid, GridOf(again)), 1e-13);
+}
+
 TEST(vtkSplineRefine, LinesOfLRPatchesFollowTheOptions_GoldenOracle)
 {
   using Pair = std::array<int, 2>;

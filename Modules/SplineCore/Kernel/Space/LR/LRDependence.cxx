@@ -2,6 +2,7 @@
 #include "LRDependence.h"
 
 #include "LRModular.h"
+#include "LRVolume.h"
 
 #include <Eigen/SVD>
 #include <cmath>
@@ -21,7 +22,8 @@ std::size_t At(int i)
   return static_cast<std::size_t>(i);
 }
 
-std::vector<std::vector<int>> ElementsOfFunctions(const LRData& data)
+template <typename Data>
+std::vector<std::vector<int>> ElementsOfFunctions(const Data& data)
 {
   std::vector<std::vector<int>> elements(At(data.Basis.NumFunctions()));
   for (std::size_t e = 0; e < data.ElementKnots.size(); ++e)
@@ -35,10 +37,11 @@ std::vector<std::vector<int>> ElementsOfFunctions(const LRData& data)
 }
 
 /// Functions that no element proves to be in no relation.
+template <typename Data>
 std::vector<int> Peel(
-  const LRData& data, const std::vector<std::vector<int>>& elements, LRModularRows& rows)
+  const Data& data, const std::vector<std::vector<int>>& elements, LRModularRows<Data>& rows)
 {
-  const auto perElement = At(NumTensorFunctions<2>(data.Basis.Degree));
+  const auto perElement = At(NumTensorFunctions<LRModularRows<Data>::Dim>(data.Basis.Degree));
   std::vector<bool> on(At(data.Basis.NumFunctions()), true);
   std::vector<int> queue;
   std::vector<bool> queued(data.ElementKnots.size(), true);
@@ -101,8 +104,9 @@ std::vector<int> Peel(
 }
 
 /// Parts of the unpeeled functions that share no element.
-std::vector<std::vector<int>> Parts(const LRData& data, const std::vector<int>& unpeeled,
-  const std::vector<std::vector<int>>& elements)
+template <typename Data>
+std::vector<std::vector<int>> Parts(
+  const Data& data, const std::vector<int>& unpeeled, const std::vector<std::vector<int>>& elements)
 {
   std::vector<int> part(At(data.Basis.NumFunctions()), -2);
   for (const int f : unpeeled)
@@ -142,12 +146,13 @@ std::vector<std::vector<int>> Parts(const LRData& data, const std::vector<int>& 
 
 /// The Bernstein coefficients of some functions on all elements that they meet: one row an element
 /// and polynomial, one column a function.
+template <typename Data>
 class PartMatrix
 {
 public:
-  PartMatrix(const LRData& data, const std::vector<int>& functions,
+  PartMatrix(const Data& data, const std::vector<int>& functions,
     const std::vector<std::vector<int>>& elements)
-    : Data(data), Functions(functions)
+    : Space(data), Functions(functions)
   {
     for (std::size_t c = 0; c < functions.size(); ++c)
     {
@@ -160,9 +165,10 @@ public:
 
   /// Calls use(row) until it says false.
   template <typename Use>
-  void ForEachRow(LRModularRows& rows, Use&& use) const
+  void ForEachRow(LRModularRows<Data>& rows, Use&& use) const
   {
-    const auto perElement = At(NumTensorFunctions<2>(this->Data.Basis.Degree));
+    const auto perElement =
+      At(NumTensorFunctions<LRModularRows<Data>::Dim>(this->Space.Basis.Degree));
     std::vector<ModularRow> columns;
     for (const auto& [e, ids] : this->Columns)
     {
@@ -186,7 +192,7 @@ public:
     }
   }
 
-  ModularEchelon Reduce(LRModularRows& rows) const
+  ModularEchelon Reduce(LRModularRows<Data>& rows) const
   {
     ModularEchelon echelon(rows.GetField());
     this->ForEachRow(rows,
@@ -204,11 +210,11 @@ public:
   double DenominatorBits(int function) const
   {
     double bits = 0.0;
-    for (std::size_t d = 0; d < 2; ++d)
+    for (std::size_t d = 0; d < LRModularRows<Data>::Dim; ++d)
     {
-      const std::vector<double>& values = this->Data.Basis.Knots[d];
-      const int* knots = this->Data.Basis.Local(function, static_cast<int>(d));
-      const int p = this->Data.Basis.Degree[d];
+      const std::vector<double>& values = this->Space.Basis.Knots[d];
+      const int* knots = this->Space.Basis.Local(function, static_cast<int>(d));
+      const int p = this->Space.Basis.Degree[d];
       const double length = values[At(knots[p + 1])] - values[At(knots[0])];
       double unit = length; // a power of two that divides all knots
       for (const double value : values)
@@ -247,7 +253,7 @@ private:
     return std::ldexp(1.0, exponent);
   }
 
-  const LRData& Data;
+  const Data& Space;
   const std::vector<int>& Functions;
   std::map<int, std::vector<std::size_t>> Columns; // of an element
 };
@@ -300,8 +306,9 @@ std::vector<std::int64_t> WholeNumbers(const ModularRow& residues, const PrimeFi
 }
 
 /// The relation holds modulo primes whose product exceeds what its sum, made whole, can be.
-bool IsExact(LRPrimes& primes, const PartMatrix& matrix, const std::vector<int>& functions,
-  const std::vector<std::int64_t>& numbers)
+template <typename Data>
+bool IsExact(LRPrimes<Data>& primes, const PartMatrix<Data>& matrix,
+  const std::vector<int>& functions, const std::vector<std::int64_t>& numbers)
 {
   double bits = 2.0;
   double size = 0.0;
@@ -311,7 +318,7 @@ bool IsExact(LRPrimes& primes, const PartMatrix& matrix, const std::vector<int>&
     size += std::fabs(static_cast<double>(numbers[k]));
   }
   return primes.Exceed(bits + std::log2(size + 1.0),
-    [&](LRModularRows& rows)
+    [&](LRModularRows<Data>& rows)
     {
       const PrimeField& field = rows.GetField();
       ModularRow residues;
@@ -338,10 +345,10 @@ bool IsExact(LRPrimes& primes, const PartMatrix& matrix, const std::vector<int>&
 }
 
 /// Coefficients of the relation of the columns before the free one and it, in double precision.
+template <int Dim>
 std::vector<double> RoundedRelation(
-  const SplineSpace<2>& space, const std::vector<int>& functions, const ModularRow& kernel)
+  const SplineSpace<Dim>& space, const std::vector<int>& functions, const ModularRow& kernel)
 {
-  const LRData& data = *space.LocallyRefined;
   std::vector<int> column(At(space.NumFunctions), -1);
   int numColumns = 0;
   for (std::size_t k = 0; k < functions.size(); ++k)
@@ -349,8 +356,7 @@ std::vector<double> RoundedRelation(
     column[At(functions[k])] = kernel[k] != 0 ? numColumns++ : -1;
   }
   std::vector<Eigen::VectorXd> rows;
-  const auto perElement = NumTensorFunctions<2>(data.Basis.Degree);
-  for (int row = 0; row < perElement * space.NumElements(); ++row)
+  for (int row = 0; row < space.NumLocalFunctions; ++row)
   {
     Eigen::VectorXd values = Eigen::VectorXd::Zero(numColumns);
     for (std::size_t k = space.RowStart[At(row)]; k < space.RowStart[At(row) + 1]; ++k)
@@ -385,11 +391,11 @@ std::vector<double> RoundedRelation(
 }
 
 /// Fills the relation from a vector of the kernel modulo the first prime.
-void Exhibit(const SplineSpace<2>& space, LRPrimes& primes, const PartMatrix& matrix,
-  const std::vector<int>& functions, const ModularRow& kernel, const PrimeField& field,
-  LRDependenceResult& result)
+template <int Dim, typename Data>
+void Exhibit(const SplineSpace<Dim>& space, const Data& data, LRPrimes<Data>& primes,
+  const PartMatrix<Data>& matrix, const std::vector<int>& functions, const ModularRow& kernel,
+  const PrimeField& field, LRDependenceResult& result)
 {
-  const LRData& data = *space.LocallyRefined;
   std::vector<std::int64_t> numbers = WholeNumbers(kernel, field);
   if (!numbers.empty() && !IsExact(primes, matrix, functions, numbers))
   {
@@ -426,21 +432,15 @@ void Exhibit(const SplineSpace<2>& space, LRPrimes& primes, const PartMatrix& ma
     }
   }
 }
-}
-
-Result<LRDependenceResult> DecideDependence(const SplineSpace<2>& space)
+template <int Dim, typename Data>
+LRDependenceResult Decide(const SplineSpace<Dim>& space, const Data& data)
 {
-  if (space.Kind != SpaceKind::LocallyRefined)
-  {
-    return { ErrorCode::DimensionMismatch, "the space is not locally refined" };
-  }
-  const LRData& data = *space.LocallyRefined;
   LRDependenceResult result;
   const auto elements = ElementsOfFunctions(data);
   // one prime that tells all knots apart does
-  LRPrimes primes(data);
+  LRPrimes<Data> primes(data);
   primes.Exceed(0.0,
-    [&](LRModularRows& rows)
+    [&](LRModularRows<Data>& rows)
     {
       result.Unpeeled = Peel(data, elements, rows);
       return true;
@@ -453,12 +453,12 @@ Result<LRDependenceResult> DecideDependence(const SplineSpace<2>& space)
       result.Verdict = LRVerdict::Undecided;
       continue;
     }
-    const PartMatrix matrix(data, part, elements);
+    const PartMatrix<Data> matrix(data, part, elements);
     int defect = 0;
     ModularRow kernel;
     PrimeField field;
     const bool isShort = primes.Exceed(matrix.MinorBits(),
-      [&](LRModularRows& rows)
+      [&](LRModularRows<Data>& rows)
       {
         const ModularEchelon echelon = matrix.Reduce(rows);
         if (echelon.Rank() == part.size())
@@ -480,10 +480,27 @@ Result<LRDependenceResult> DecideDependence(const SplineSpace<2>& space)
       result.Defect += defect;
       if (result.Functions.empty())
       {
-        Exhibit(space, primes, matrix, part, kernel, field, result);
+        Exhibit(space, data, primes, matrix, part, kernel, field, result);
       }
     }
   }
   return result;
+}
+
+constexpr const char* NotLocallyRefined = "the space is not locally refined";
+}
+
+Result<LRDependenceResult> DecideDependence(const SplineSpace<2>& space)
+{
+  return space.Kind == SpaceKind::LocallyRefined
+    ? Result<LRDependenceResult>(Decide(space, *space.LocallyRefined))
+    : Status(ErrorCode::DimensionMismatch, NotLocallyRefined);
+}
+
+Result<LRDependenceResult> DecideDependence(const SplineSpace<3>& space)
+{
+  return space.Kind == SpaceKind::LocallyRefined
+    ? Result<LRDependenceResult>(Decide(space, LRVolumeOf(space)))
+    : Status(ErrorCode::DimensionMismatch, NotLocallyRefined);
 }
 }

@@ -39,6 +39,7 @@ struct LRDependenceResult
 /// @source  Dokken, Lyche, Pettersen, CAGD 30 (2013), section 7 (peeling); Patrizi, Dokken, CAGD 77
 /// (2020) 101803.
 Result<LRDependenceResult> DecideDependence(const SplineSpace<2>& space);
+Result<LRDependenceResult> DecideDependence(const SplineSpace<3>& space);
 
 /// For callers without a limit of their own.
 inline constexpr int MaxResolvingSegments = 100;

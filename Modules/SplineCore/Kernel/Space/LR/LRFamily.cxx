@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// LR B-splines as a family: spaces of two parameters.
+// LR B-splines as a family: spaces of two parameters. LRVolumeFamily.cxx has those of three.
 #include "ChartCell.h"
 #include "ChartLines.h"
-#include "ControlNet.h"
-#include "FunctionInfo.h"
+#include "LRFunctionLists.h"
 #include "LROperations.h"
 #include "LRSpace.h"
+#include "LRVolumeParts.h"
 #include "LocalRefinement.h"
 #include "PointLine.h"
 #include "Refinement.h"
@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numeric>
 #include <unordered_map>
 
@@ -82,60 +81,6 @@ void PlaceBoxes(const LRData& data, int chart, std::vector<ChartCell<2>>& cells)
       cell.RimHigh[d] = At(high) + 1 == lines[d].size();
     }
   }
-}
-std::vector<NetEdge> LREdges(const LRBasis& basis)
-{
-  // the knots that two neighbours have in common: all but the first, all but the last
-  const auto shared = [&basis](int f, int direction, int skip)
-  {
-    std::vector<int> key{ direction };
-    for (int d = 0; d < 2; ++d)
-    {
-      const int* local = basis.Local(f, d);
-      const int n = basis.Degree[static_cast<std::size_t>(d)] + 2;
-      key.insert(key.end(), local + (d == direction ? skip : 0),
-        local + n - (d == direction ? 1 - skip : 0));
-    }
-    return key;
-  };
-  std::map<std::vector<int>, int> ids;
-  for (int f = 0; f < basis.NumFunctions(); ++f)
-  {
-    ids.emplace(shared(f, 0, 0), f);
-    ids.emplace(shared(f, 1, 0), f);
-  }
-  std::vector<NetEdge> edges;
-  for (int f = 0; f < basis.NumFunctions(); ++f)
-  {
-    for (int d = 0; d < 2; ++d)
-    {
-      const auto neighbour = ids.find(shared(f, d, 1));
-      if (neighbour != ids.end())
-      {
-        edges.push_back({ f, neighbour->second, d });
-      }
-    }
-  }
-  return edges;
-}
-template <int Dim>
-std::vector<FunctionInfo<Dim>> DescribeLRFunctions(const LRBasis& basis)
-{
-  std::vector<FunctionInfo<Dim>> infos(static_cast<std::size_t>(basis.NumFunctions()));
-  for (std::size_t f = 0; f < infos.size(); ++f)
-  {
-    infos[f].Index[0] = static_cast<std::int64_t>(f);
-    for (std::size_t d = 0; d < std::min<std::size_t>(Dim, 2); ++d)
-    {
-      const int* local = basis.Local(static_cast<int>(f), static_cast<int>(d));
-      for (int i = 1; i <= basis.Degree[d]; ++i)
-      {
-        infos[f].Greville[d] +=
-          basis.Knots[d][static_cast<std::size_t>(local[i])] / basis.Degree[d];
-      }
-    }
-  }
-  return infos;
 }
 // Points on a side that two elements have in common from end to end, and on corners, are one where
 // no line of full multiplicity is near.
@@ -258,9 +203,9 @@ Result<SplineSpacePtr<2>> BuildLR(const SpaceDefinition& definition, int threads
   return MakeLRSpace(std::move(made), threads);
 }
 
-constexpr const char* TwoParameters = "locally refined spaces have two parameters";
+constexpr const char* TwoOrThreeParameters = "locally refined spaces have two or three parameters";
 
-/// Other numbers of parameters have no spaces, and no definition makes one.
+/// Curves have no such spaces, and no definition makes one.
 template <int Dim>
 class LocallyRefined final : public SpaceFamily<Dim>
 {
@@ -292,7 +237,7 @@ public:
     {
       return BuildLR(definition, threads);
     }
-    return { ErrorCode::InvalidTopology, TwoParameters };
+    return { ErrorCode::InvalidTopology, TwoOrThreeParameters };
   }
 
   void Locate(const SplineSpace<Dim>& space, const double* u, std::ptrdiff_t stride, std::size_t n,
@@ -305,11 +250,15 @@ public:
   }
   std::vector<FunctionInfo<Dim>> DescribeFunctions(const SplineSpace<Dim>& space) const override
   {
-    return DescribeLRFunctions<Dim>(space.LocallyRefined->Basis);
+    if constexpr (Dim == 2)
+    {
+      return DescribeLRFunctions<2>(space.LocallyRefined->Basis);
+    }
+    return {};
   }
   std::vector<NetEdge> ControlNetEdges(const SplineSpace<Dim>& space) const override
   {
-    return LREdges(space.LocallyRefined->Basis);
+    return LREdges<2>(space.LocallyRefined->Basis);
   }
   std::vector<ChartCell<Dim>> Charts(const SplineSpace<Dim>& space, int& numCharts) const override
   {
@@ -343,7 +292,7 @@ public:
     {
       return RefineMarkedLR(spline, marked);
     }
-    return { ErrorCode::DimensionMismatch, TwoParameters };
+    return { ErrorCode::DimensionMismatch, TwoOrThreeParameters };
   }
   Result<Spline<Dim>> ElevateDegrees(const Spline<Dim>&, int) const override
   {
@@ -356,7 +305,7 @@ public:
     {
       return ExpandToTensor(spline, threads, maxFunctions);
     }
-    return { ErrorCode::DimensionMismatch, TwoParameters };
+    return { ErrorCode::DimensionMismatch, TwoOrThreeParameters };
   }
 };
 }
@@ -364,8 +313,15 @@ public:
 template <int Dim>
 const SpaceFamily<Dim>& LRFamily()
 {
-  static const LocallyRefined<Dim> family;
-  return family;
+  if constexpr (Dim == 3)
+  {
+    return LRVolumeFamily();
+  }
+  else
+  {
+    static const LocallyRefined<Dim> family;
+    return family;
+  }
 }
 
 template const SpaceFamily<1>& LRFamily<1>();

@@ -9,13 +9,14 @@ namespace knotwork
 {
 /// Bernstein coefficients of univariate B-splines on the intervals between mesh lines, in numbers
 /// of any kind; each is worked out once.
-template <typename Value>
+/// @tparam Basis  LRBasis or LRVolumeBasis.
+template <typename Value, typename Basis = LRBasis>
 class LRLineRows
 {
 public:
   /// The basis must outlive the object.
-  LRLineRows(const LRBasis& basis, int direction)
-    : Basis(basis), Direction(direction), Degree(basis.Degree[static_cast<std::size_t>(direction)])
+  LRLineRows(const Basis& basis, int direction)
+    : Space(basis), Direction(direction), Degree(basis.Degree[static_cast<std::size_t>(direction)])
   {
     // equal local knot vectors share their cells; a table by hash holds the first function of each
     const auto n = static_cast<std::size_t>(basis.NumFunctions());
@@ -52,7 +53,7 @@ public:
   /// Number of the row of a function between two knots inside one of its spans.
   int Number(int function, int low, int high)
   {
-    const int* knots = this->Basis.Local(function, this->Direction);
+    const int* knots = this->Space.Local(function, this->Direction);
     const std::size_t cell =
       this->Cells[static_cast<std::size_t>(function)] + static_cast<std::size_t>(low - knots[0]);
     int& head = this->Heads[cell];
@@ -80,7 +81,7 @@ public:
     for (int k = begin; k < end; ++k)
     {
       const Entry& entry = this->Entries[static_cast<std::size_t>(k)];
-      make(this->Basis.Local(entry.Function, this->Direction), entry.Low, entry.High,
+      make(this->Space.Local(entry.Function, this->Direction), entry.Low, entry.High,
         this->Rows.data() + std::ptrdiff_t{ k } * (this->Degree + 1));
     }
   }
@@ -130,7 +131,7 @@ private:
     int Next;
   };
 
-  const LRBasis& Basis;
+  const Basis& Space;
   int Direction;
   int Degree;
   std::vector<std::size_t> Cells; // cell of a function's first knot

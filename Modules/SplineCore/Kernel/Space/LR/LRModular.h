@@ -12,23 +12,30 @@ namespace knotwork
 using ModularRow = std::vector<PrimeField::Number>;
 
 /// Bernstein coefficients of the unscaled functions modulo a prime.
+/// @tparam Data  LRData or LRVolume.
+template <typename Data>
 class LRModularRows
 {
 public:
-  explicit LRModularRows(const LRData& data)
-    : Data(data), Lines{ LRLineRows<PrimeField::Number>(data.Basis, 0),
-        LRLineRows<PrimeField::Number>(data.Basis, 1) }
+  using Basis = decltype(Data::Basis);
+  static constexpr std::size_t Dim = std::tuple_size<decltype(Basis::Knots)>::value;
+
+  explicit LRModularRows(const Data& data) : Space(data)
   {
+    for (std::size_t d = 0; d < Dim; ++d)
+    {
+      this->Lines.emplace_back(data.Basis, static_cast<int>(d));
+    }
   }
 
   void SetPrime(PrimeField::Number prime)
   {
     this->Field = PrimeField(prime);
     this->Unlucky = false;
-    for (std::size_t d = 0; d < 2; ++d)
+    for (std::size_t d = 0; d < Dim; ++d)
     {
       this->Knots[d].clear();
-      for (const double knot : this->Data.Basis.Knots[d])
+      for (const double knot : this->Space.Basis.Knots[d])
       {
         this->Knots[d].push_back(this->Field.OfDouble(knot));
       }
@@ -41,20 +48,24 @@ public:
   /// Two knots are the same modulo the prime: its rows mean nothing.
   bool IsUnlucky() const { return this->Unlucky; }
 
-  /// (p + 1)(q + 1) coefficients of a function on an element.
+  /// The coefficients of a function on an element, first direction fastest.
   void Get(int function, int element, ModularRow& result)
   {
-    const std::array<int, 4>& box = this->Data.ElementKnots[static_cast<std::size_t>(element)];
-    const int u = this->Find(0, function, box[0], box[2]);
-    const int v = this->Find(1, function, box[1], box[3]);
-    const IntArray<2>& degree = this->Data.Basis.Degree;
-    result.clear();
-    for (int j = 0; j <= degree[1]; ++j)
+    const auto& box = this->Space.ElementKnots[static_cast<std::size_t>(element)];
+    result.assign(1, 1);
+    for (std::size_t d = Dim; d-- > 0;)
     {
-      for (int i = 0; i <= degree[0]; ++i)
+      const int number = this->Find(d, function, box[d], box[d + Dim]);
+      const auto n = static_cast<std::size_t>(this->Space.Basis.Degree[d]) + 1;
+      this->Product.clear();
+      for (const PrimeField::Number outer : result)
       {
-        result.push_back(this->Field.Multiply(this->Lines[0].Row(u)[i], this->Lines[1].Row(v)[j]));
+        for (std::size_t i = 0; i < n; ++i)
+        {
+          this->Product.push_back(this->Field.Multiply(this->Lines[d].Row(number)[i], outer));
+        }
       }
+      result.swap(this->Product);
     }
   }
 
@@ -70,7 +81,7 @@ private:
   {
     const std::vector<PrimeField::Number>& t = this->Knots[d];
     LRBlossomRow(
-      this->Data.Basis.Degree[d], knots, low, high,
+      this->Space.Basis.Degree[d], knots, low, high,
       [&](int u, int lower, int upper, PrimeField::Number a, PrimeField::Number b)
       {
         const PrimeField::Number left = this->Field.Multiply(
@@ -101,11 +112,12 @@ private:
     return place->second;
   }
 
-  const LRData& Data;
+  const Data& Space;
   PrimeField Field;
-  std::array<std::vector<PrimeField::Number>, 2> Knots;
-  std::array<LRLineRows<PrimeField::Number>, 2> Lines;
-  std::array<std::unordered_map<std::uint64_t, PrimeField::Number>, 2> Inverses;
+  std::array<std::vector<PrimeField::Number>, Dim> Knots;
+  std::vector<LRLineRows<PrimeField::Number, Basis>> Lines;
+  std::array<std::unordered_map<std::uint64_t, PrimeField::Number>, Dim> Inverses;
+  ModularRow Product;
   bool Unlucky = false;
 };
 
@@ -183,10 +195,11 @@ private:
 };
 
 /// Primes one after the other, those left out modulo which two knots are the same.
+template <typename Data>
 class LRPrimes
 {
 public:
-  explicit LRPrimes(const LRData& data) : Rows(data) {}
+  explicit LRPrimes(const Data& data) : Rows(data) {}
 
   /// Calls use(rows) with a new prime until their product exceeds 2^bits or use says false.
   /// @return whether all calls said true.
@@ -212,6 +225,6 @@ public:
   }
 
 private:
-  LRModularRows Rows;
+  LRModularRows<Data> Rows;
 };
 }
