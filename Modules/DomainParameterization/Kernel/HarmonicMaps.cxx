@@ -14,8 +14,8 @@ namespace knotwork
 {
 namespace
 {
-constexpr int Rounds = 100; // of the coefficients of the variational harmonic map
-constexpr double Still = 1e-11;
+constexpr int Rounds = 100;    // of the coefficients of the variational harmonic map
+constexpr double Still = 1e-9; // change of control points, of the domain's size
 /// Part of the new map in the next one: whole steps may swing.
 constexpr double Damping = 0.7;
 
