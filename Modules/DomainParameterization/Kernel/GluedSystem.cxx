@@ -87,9 +87,10 @@ void Compress(Eigen::Index size, Triplets& triplets)
 }
 
 /// The same on any space, element by element.
+/// @param weights  nullptr, or those of rational functions.
 template <int Dim>
-void AddElementLaplacian(const SplineSpace<Dim>& space, const std::vector<int>& numbers,
-  Eigen::Index size, Triplets& triplets)
+void AddElementLaplacian(const SplineSpace<Dim>& space, const Eigen::VectorXd* weights,
+  const std::vector<int>& numbers, Eigen::Index size, Triplets& triplets)
 {
   constexpr std::size_t enough = std::size_t(1) << 22; // a function is alive on many elements
   std::size_t limit = triplets.size() + enough;
@@ -102,13 +103,13 @@ void AddElementLaplacian(const SplineSpace<Dim>& space, const std::vector<int>& 
     double volume = 1.0;
     for (std::size_t d = 0; d < Dim; ++d)
     {
-      counts[d] = element.Degree[d] + 1; // exact
+      counts[d] = element.Degree[d] + (weights ? 3 : 1); // exact for polynomials
       volume *= element.Box.Upper[d] - element.Box.Lower[d];
     }
     const ElementQuadrature<Dim> rule = MakeElementQuadrature<Dim>(counts);
     for (Eigen::Index q = 0; q < rule.Local.rows(); ++q)
     {
-      EvaluateFunctions<Dim>(space, e, rule.Local.row(q).data(), 1, nullptr, basis);
+      EvaluateFunctions<Dim>(space, e, rule.Local.row(q).data(), 1, weights, basis);
       slopes.resize(basis.Values.rows(), Dim * rule.Local.rows());
       slopes.middleCols(Dim * q, Dim) =
         std::sqrt(volume * rule.Weights[q]) * basis.Values.middleCols(1, Dim);
@@ -171,11 +172,13 @@ GluedSystem<Dim>::GluedSystem(const GluedMap<Dim>& map, GluedOperator kind)
   for (std::size_t p = 0; p < map.Patches.size(); ++p)
   {
     const SplineSpace<Dim>& space = *map.Patches[p].Space;
-    if (kind == GluedOperator::Laplacian && space.Kind != SpaceKind::Tensor)
+    const bool rational = kind == GluedOperator::Rational && map.Patches[p].IsRational();
+    if (rational || (kind != GluedOperator::Spring && space.Kind != SpaceKind::Tensor))
     {
-      AddElementLaplacian<Dim>(space, map.Functions[p], map.NumFunctions(), all);
+      AddElementLaplacian<Dim>(space, rational ? &map.Patches[p].Weights : nullptr,
+        map.Functions[p], map.NumFunctions(), all);
     }
-    else if (kind == GluedOperator::Laplacian)
+    else if (kind != GluedOperator::Spring)
     {
       AddLaplacian<Dim>(space, map.Functions[p], all);
     }

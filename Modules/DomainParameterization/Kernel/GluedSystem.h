@@ -9,6 +9,7 @@ namespace knotwork
 enum class GluedOperator
 {
   Laplacian, ///< int grad . grad over the parameter domains of all patches
+  Rational,  ///< the same of the rational functions with the map's weights
   Spring     ///< neighbours in a control net are joined by springs of length zero, each pair once
 };
 
@@ -26,7 +27,7 @@ public:
   /// The inverse, by planes of as many numbers as there are free functions, in their order.
   void Apply(Eigen::VectorXd& planes) const;
 
-  /// Free control points become those of least energy for the fixed ones (weights not looked at).
+  /// Free control points become those of least energy for the fixed ones.
   /// @return SingularSystem when a patch hangs on nothing fixed.
   Status Fill(GluedMap<Dim>& map) const;
 

@@ -183,7 +183,7 @@ public:
     if (method != InitialMapMethod::Coons)
     {
       const GluedSystem<Dim> system(
-        map, method == InitialMapMethod::Spring ? GluedOperator::Spring : GluedOperator::Laplacian);
+        map, method == InitialMapMethod::Spring ? GluedOperator::Spring : GluedOperator::Rational);
       if (Status status = system.Fill(map); !status)
       {
         return status;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Harmonic first maps against maps that are known by formulas: those of complex functions.
 #include "DomainCases.h"
+#include "GluedSystem.h"
 #include "HarmonicMaps.h"
 #include "InitialMaps.h"
 #include <knotwork/DomainParameterization/DomainParameterization.h>
@@ -136,6 +137,29 @@ TEST(HarmonicMaps, HarmonicKnowsTheWeights_ExactOracle)
   EXPECT_GT(ErrorAfter<2>(polynomial, harmonic), 1e-3); // as if polynomial: another map
 }
 
+// Harmonic functions have the least int |grad|^2: of all rational maps with these weights, but for
+// the quadrature of rational functions.
+TEST(HarmonicMaps, LeastEnergyKnowsTheWeights_ExactOracle)
+{
+  const GluedMap<2> exact = SingleMap<2>(Moebius(Conformal));
+  const auto errorOf = [&](GluedOperator kind)
+  {
+    GluedMap<2> map = exact;
+    for (std::size_t i = 0; i < map.Fixed.size(); ++i)
+    {
+      if (!map.Fixed[i])
+      {
+        map.Patches[0].ControlPoints.row(static_cast<Eigen::Index>(i)).setConstant(7.0);
+      }
+    }
+    const GluedSystem<2> system(map, kind);
+    EXPECT_TRUE(system.Fill(map));
+    return (map.Patches[0].ControlPoints - exact.Patches[0].ControlPoints).cwiseAbs().maxCoeff();
+  };
+  EXPECT_LT(errorOf(GluedOperator::Rational), 1e-8);
+  EXPECT_GT(errorOf(GluedOperator::Laplacian), 1e-4);
+}
+
 TEST(HarmonicMaps, EqualWeightsAreNone_CrossOracle)
 {
   const auto boundary = MakeCompatible<2>(cases::Bite(0.4, 0.5, 2.0, 3));
@@ -203,6 +227,29 @@ TEST(HarmonicMaps, TheDomainBeginsThere_PropertyOracle)
     ASSERT_TRUE(FillVariationalHarmonic<2>(map));
     EXPECT_EQ(result->InitialMap.ControlPoints, map.ControlPoints);
   }
+}
+
+TEST(HarmonicMaps, LayoutsBeginWithTheirWeights_PropertyOracle)
+{
+  DomainParams params;
+  params.InitialMap = InitialMapMethod::Harmonic;
+  const auto result = ParameterizeLayout<2>(cases::Ring(), {}, params);
+  ASSERT_TRUE(result) << result.Status.Message();
+  ASSERT_TRUE(result->InitialMap.IsRational());
+  const auto changeBy = [&](GluedOperator kind)
+  {
+    GluedMap<2> map = result->InitialMap;
+    EXPECT_TRUE(GluedSystem<2>(map, kind).Fill(map));
+    double change = 0.0;
+    for (std::size_t p = 0; p < map.Patches.size(); ++p)
+    {
+      const PointMatrix& before = result->InitialMap.Patches[p].ControlPoints;
+      change = std::max(change, (map.Patches[p].ControlPoints - before).cwiseAbs().maxCoeff());
+    }
+    return change;
+  };
+  EXPECT_LT(changeBy(GluedOperator::Rational), 1e-12); // it is least already
+  EXPECT_GT(changeBy(GluedOperator::Laplacian), 1e-3);
 }
 
 TEST(HarmonicMaps, EveryFailureIsReachable)
