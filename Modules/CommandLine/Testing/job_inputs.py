@@ -69,6 +69,7 @@ def make_files():
     rows = [" ".join("%.17g" % value for value in point) for point in heights]
     write_text("cloud.csv", "x,y,z,Heat\n" + "".join(row.replace(" ", ",") + ",1\n" for row in rows))
     write_text("cloud.xyz", "\n".join(rows) + "\n")
+    write_text("samples.csv", "x,y,z,Temperature\n" + "".join("%.17g,%.17g,%.17g,%.17g\n" % (*point, point[0] - 2 * point[1]) for point in heights))
     write_text("cloud.ply", "ply\nformat ascii 1.0\nelement vertex 225\nproperty double x\nproperty double y\n"
                "property double z\nend_header\n" + "\n".join(rows) + "\n")
     for ending in (".g2", ".vtp"):

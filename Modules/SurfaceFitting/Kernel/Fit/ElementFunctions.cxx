@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ElementFunctions.h"
 
-#include <knotwork/SplineCore/LRSpace.h>
+#include <knotwork/SplineCore/LRVolume.h>
 #include <knotwork/SplineCore/Parallel.h>
 
 #include <algorithm>
@@ -19,7 +19,8 @@ std::size_t At(int i)
 }
 
 /// Functions with a part on an element, ascending.
-void CollectFunctions(const SplineSpace<2>& space, int e, int perElement, std::vector<int>& alive)
+template <int Dim>
+void CollectFunctions(const SplineSpace<Dim>& space, int e, int perElement, std::vector<int>& alive)
 {
   alive.clear();
   const int* locals = space.LocalFunctions(e);
@@ -39,15 +40,18 @@ void CollectFunctions(const SplineSpace<2>& space, int e, int perElement, std::v
   alive.erase(std::unique(alive.begin(), alive.end()), alive.end());
 }
 
-void WriteRows(const SplineSpace<2>& space, int e, const ElementFunctions& functions, double* rows)
+template <int Dim>
+void WriteRows(
+  const SplineSpace<Dim>& space, int e, const ElementFunctions& functions, double* rows)
 {
   const std::size_t first = functions.First(e);
   const int alive = functions.Alive(e);
   const int* ids = functions.Functions.data() + first;
   const int n = functions.PerElement;
-  const IntArray<2>& degree = space.Elements[At(e)].Degree;
-  const int n0 = degree[0] + 1;
-  const std::array<const double*, 2> factors = space.Factors(e);
+  const IntArray<Dim>& degree = space.Elements[At(e)].Degree;
+  const std::array<const double*, Dim> factors = space.Factors(e);
+  const bool isPlain =
+    std::all_of(factors.begin(), factors.end(), [](const double* f) { return f == nullptr; });
   std::fill_n(rows, std::ptrdiff_t{ alive } * n, 0.0);
   const int* locals = space.LocalFunctions(e);
   for (int j = 0; j < n; ++j)
@@ -55,21 +59,26 @@ void WriteRows(const SplineSpace<2>& space, int e, const ElementFunctions& funct
     const auto add = [&](int k, double coefficient)
     {
       double* row = rows + std::ptrdiff_t{ k } * n;
-      if (factors[0] == nullptr && factors[1] == nullptr)
+      if (isPlain)
       {
         row[j] += coefficient;
         return;
       }
-      const int j0 = j % n0;
-      const int j1 = j / n0;
       for (int b = 0; b < n; ++b)
       {
-        const int b0 = b % n0;
-        const int b1 = b / n0;
-        const double f0 = factors[0] ? factors[0][j0 * n0 + b0] : (j0 == b0 ? 1.0 : 0.0);
-        const double f1 =
-          factors[1] ? factors[1][j1 * (degree[1] + 1) + b1] : (j1 == b1 ? 1.0 : 0.0);
-        row[b] += coefficient * f0 * f1;
+        double value = coefficient;
+        int restOfJ = j;
+        int restOfB = b;
+        for (std::size_t d = 0; d < Dim; ++d)
+        {
+          const int size = degree[d] + 1;
+          const int own = restOfJ % size;
+          const int other = restOfB % size;
+          value *= factors[d] ? factors[d][own * size + other] : (own == other ? 1.0 : 0.0);
+          restOfJ /= size;
+          restOfB /= size;
+        }
+        row[b] += value;
       }
     };
     const auto find = [&](int function, int from)
@@ -115,16 +124,28 @@ void ElementFunctions::LocalCoefficients(
   }
 }
 
-ElementFunctions FindElementFunctions(const SplineSpace<2>& space, int threads)
+template <int Dim>
+ElementFunctions FindElementFunctions(const SplineSpace<Dim>& space, int threads)
 {
   ElementFunctions functions;
   const int numElements = space.NumElements();
   functions.NumFunctions = space.NumFunctions;
-  functions.PerElement = NumTensorFunctions<2>(space.Elements[0].Degree);
+  functions.PerElement = NumTensorFunctions<Dim>(space.Elements[0].Degree);
   if (space.LocallyRefined)
   {
-    functions.Start = space.LocallyRefined->AliveStart;
-    functions.Functions = space.LocallyRefined->AliveFunctions;
+    const auto take = [&functions](const auto& data)
+    {
+      functions.Start = data.AliveStart;
+      functions.Functions = data.AliveFunctions;
+    };
+    if constexpr (Dim == 3)
+    {
+      take(LRVolumeOf(space));
+    }
+    else
+    {
+      take(*space.LocallyRefined);
+    }
   }
   else
   {
@@ -174,4 +195,7 @@ ElementFunctions FindElementFunctions(const SplineSpace<2>& space, int threads)
   }
   return functions;
 }
+
+template ElementFunctions FindElementFunctions<2>(const SplineSpace<2>&, int);
+template ElementFunctions FindElementFunctions<3>(const SplineSpace<3>&, int);
 }

@@ -36,6 +36,7 @@ struct ElementFunctions
   void LocalCoefficients(int e, const PointMatrix& coefficients, double* local) const;
 };
 
-/// @complexity O(elements * alive * (p + 1)^2).
-ElementFunctions FindElementFunctions(const SplineSpace<2>& space, int threads);
+/// @complexity O(elements * alive * (p + 1)^Dim).
+template <int Dim>
+ElementFunctions FindElementFunctions(const SplineSpace<Dim>& space, int threads);
 }
