@@ -20,7 +20,7 @@ namespace
 constexpr std::int64_t FirstBoxes = 4096;
 constexpr std::int64_t LeastBoxes = 256;
 /// Parts of MaxBoxes: a cell's, and that of few cells.
-constexpr std::int64_t PartOfCell = 1500;
+constexpr std::int64_t PartOfCell = 6000;
 constexpr std::int64_t PartOfFew = 100;
 /// Sides with common corners are an interface when they are nearer than this part of their size.
 constexpr double Slender = 0.05;

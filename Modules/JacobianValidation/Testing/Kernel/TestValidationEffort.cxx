@@ -83,8 +83,8 @@ TEST_P(ValidationEffort, IsAFewTimesThatOfRegularity_PropertyOracle)
   const auto proof = ProveInjectivity(cells, {}, certificate.Value, injectivityParams);
   EXPECT_LT(ProcessorSeconds() - beforeProof, limit);
   ASSERT_TRUE(proof);
-  // a 1500th of the boxes a cell; the last pairs may double it
-  EXPECT_LE(proof->Boxes, 2 * NumCells * (injectivityParams.MaxBoxes / 1500));
+  // a 6000th of the boxes a cell; the last pairs may double it
+  EXPECT_LE(proof->Boxes, 2 * NumCells * (injectivityParams.MaxBoxes / 6000));
   if (!c.AreApart)
   {
     EXPECT_EQ(proof->Verdict, InjectivityVerdict::NotInjective);
