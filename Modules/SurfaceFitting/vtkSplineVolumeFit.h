@@ -52,7 +52,8 @@ public:
   vtkGetMacro(Tolerance, double);
   ///@}
   ///@{
-  /** LR or THB, one of Spaces. Default LR. */
+  /** Kind of the spline space, one of Spaces: locally refined or truncated hierarchical
+   * B-splines. Default LR. */
   vtkSetClampMacro(Space, int, LR, THB);
   vtkGetMacro(Space, int);
   ///@}

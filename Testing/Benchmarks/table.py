@@ -32,7 +32,7 @@ def measure(program, only, statistic):
         name = run["run_name"].replace("/real_time", "")
         name = "/".join(part for part in name.split("/") if not part.startswith(("iterations", "min_time", "repeats", "process_time")))
         if run.get("error_occurred"):
-            found[name, "error"] = run["error_message"]
+            found[name, "failed"] = run["error_message"]
         if run.get("aggregate_name") != statistic:
             continue
         time = run["real_time" if "real_time" in run["run_name"] else "cpu_time"] * SCALE[run["time_unit"]]
@@ -51,7 +51,7 @@ def cell(text, found):
     if not text.startswith("@"):
         return text
     name, unit, *other = text[1:].split()
-    if (name, "error") in found:
+    if (name, "failed") in found:
         return "no result"
     if other:
         return f"{found[name, unit] / found[other[0], unit]:.2f}"

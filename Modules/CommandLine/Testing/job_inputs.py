@@ -12,7 +12,7 @@ FILE = "the file in question"  # its place in a run
 ENDINGS = {"surface": (".vtu", ".xml", ".g2", ".step", ".iges"), "points": (".vtp", ".xyz", ".csv", ".ply", ".g2"),
            "cells": (".vtp",), "mesh": (".off", ".obj", ".ply", ".stl", ".vtp"), "curves": (".vtp",),
            "boundary": (".json",), "map": (".vtu",), "trim": (".vtu",), "grid": (".vtu",), "layout": (".vtu",),
-           "quads": (".off", ".obj", ".ply", ".vtu")}
+           "quads": (".off", ".obj", ".ply", ".vtu"), "values": (".vtp", ".csv")}
 
 BOUNDARY = ('{"curves": [%s]}' % ", ".join(
     '{"degree": 1, "knots": [0, 0, 1, 1], "control_points": [%s]}' % ends
@@ -54,7 +54,7 @@ def cube(ending):
 
 
 SOUND = {"surface": "square", "points": "cloud", "cells": "cloud", "mesh": "mesh", "curves": "target", "boundary": "boundary",
-         "map": "map", "trim": "trim", "grid": "square", "layout": "quads", "quads": "quads"}
+         "map": "map", "trim": "trim", "grid": "square", "layout": "quads", "quads": "quads", "values": "samples"}
 
 
 def sound(kind, ending):
@@ -74,6 +74,7 @@ def make_files():
                "property double z\nend_header\n" + "\n".join(rows) + "\n")
     for ending in (".g2", ".vtp"):
         good("convert", path("cloud.csv"), "--output", path("cloud" + ending))
+    good("convert", path("samples.csv"), "--output", path("samples.vtp"))
     good("fit", path("cloud.csv"), "--tolerance", 1e-3, "--field", "Heat", "--output", path("height.vtu"))
     for name, x in (("square", 0.5), ("east", 1.5)):
         good("source", "--degree", 2, "--elements", 2, 2, 1, "--center", x, 0.5, 0, "--output", path(name + ".vtu"))
@@ -134,7 +135,8 @@ def runs():
             (["unstructured", FILE, "--table", "table.csv", "--output", grid], "quads"),
             (["validate", FILE, "--table", "table.csv", "--output", grid], "grid"),
             (["warp", FILE, surface, "--output", polydata], "points"),
-            (["warp", surface, FILE, "--output", grid], "surface")):
+            (["warp", surface, FILE, "--output", grid], "surface"),
+            (["approximate", FILE, "--values", "Temperature", "--table", "table.csv", "--points", polydata, "--output", grid], "values")):
         yield arguments + report, kind
 
 

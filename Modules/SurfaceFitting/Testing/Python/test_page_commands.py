@@ -72,6 +72,7 @@ def prepare():
     write_text("scan.csv", rows(), ",", "x,y,z\n")
     write_text("scan.ply", rows(), " ", "ply\nformat ascii 1.0\nelement vertex 961\nproperty double x\nproperty double y\n"
                "property double z\nend_header\n")
+    write_text("samples.csv", np.c_[rows(), rows()[:, 0]], ",", "x,y,z,Temperature\n")
     write_part()
     for name, table in (("surface.vtu", rows()), ("terrain.vtu", rows() * (1, 1, 40) + (0, 0, 90)), ("west.vtu", rows()),
                         ("east.vtu", rows(0.01, 1.0)), ("old.vtu", rows()), ("new.vtu", rows(0.1))):
@@ -82,7 +83,7 @@ def test_commands():
     prepare()
     commands = re.findall(r"^    (knotwork .*)$", TEXT, re.M)
     assert {shlex.split(command)[1] for command in commands} == {
-        "fit", "contour", "extrema", "stitch", "distance", "combine", "crop"}
+        "fit", "approximate", "contour", "extrema", "stitch", "distance", "combine", "crop"}
     for command in commands:
         words = shlex.split(command)[1:]
         outputs = [words[i + 1] for i, word in enumerate(words) if word in ("--output", "--report", "--table", "--points")]
