@@ -20,8 +20,8 @@ namespace
 constexpr std::int64_t FirstBoxes = 4096;
 constexpr std::int64_t LeastBoxes = 256;
 /// Parts of MaxBoxes: a cell's, and that of few cells.
-constexpr std::int64_t PartOfCell = 6000;
-constexpr std::int64_t PartOfFew = 100;
+constexpr std::int64_t PartOfCell = 7500;
+constexpr std::int64_t PartOfFew = 125;
 /// Sides with common corners are an interface when they are nearer than this part of their size.
 constexpr double Slender = 0.05;
 /// Sides whose neighbours are looked up at a time, and pairs worked on before an overlap among them

@@ -82,8 +82,8 @@ struct InterfaceGap
 
 struct InjectivityParams
 {
-  /// Pairs of sub-sides and sub-cells looked at, over all, >= 1; of few cells a 6000th part of it a
-  /// cell, at least a 100th, so that the proof costs about as much as the cells are many. A pair of
+  /// Pairs of sub-sides and sub-cells looked at, over all, >= 1; of few cells a 7500th part of it a
+  /// cell, at least a 125th, so that the proof costs about as much as the cells are many. A pair of
   /// sides gets up to 4096 first; those still open share what is left.
   std::int64_t MaxBoxes = 1000000;
   /// Sides of different patches that come nearer than this part of the model's size along more than

@@ -83,8 +83,8 @@ TEST_P(ValidationEffort, IsAFewTimesThatOfRegularity_PropertyOracle)
   const auto proof = ProveInjectivity(cells, {}, certificate.Value, injectivityParams);
   EXPECT_LT(ProcessorSeconds() - beforeProof, limit);
   ASSERT_TRUE(proof);
-  // a 6000th of the boxes a cell; the last pairs may double it
-  EXPECT_LE(proof->Boxes, 2 * NumCells * (injectivityParams.MaxBoxes / 6000));
+  // a 7500th of the boxes a cell; the last pairs may double it
+  EXPECT_LE(proof->Boxes, 2 * NumCells * (injectivityParams.MaxBoxes / 7500));
   if (!c.AreApart)
   {
     EXPECT_EQ(proof->Verdict, InjectivityVerdict::NotInjective);
