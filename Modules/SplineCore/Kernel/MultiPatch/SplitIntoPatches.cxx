@@ -2,9 +2,8 @@
 #include "SplitIntoPatches.h"
 
 #include "BezierForm.h"
+#include "PatchSpaces.h"
 #include "Recovery.h"
-#include "TensorSpace.h"
-#include "UnstructuredData.h"
 
 #include <algorithm>
 
@@ -17,85 +16,11 @@ std::size_t At(int i)
   return static_cast<std::size_t>(i);
 }
 
-/// Knots of a direction of a patch: the intervals of its sheets, every layer of facets as smooth as
-/// the least smooth one of them.
-template <int Dim>
-Result<KnotVector> PatchKnots(const UnstructuredData<Dim>& data, const MeshPatches<Dim>& layout,
-  const MeshPatch<Dim>& patch, std::size_t direction)
-{
-  const int p = data.Degree;
-  const int layers = patch.Size[direction];
-  std::vector<double> intervals(At(layers));
-  std::vector<int> continuity(At(layers), p - 1); // at the upper ends
-  for (const int cell : patch.Cells)
-  {
-    const int ahead = layout.AheadOf[At(cell)][direction];
-    const std::size_t layer = At(layout.IndexOf[At(cell)][direction]);
-    intervals[layer] = data.Length(cell, ahead / 2);
-    continuity[layer] = std::min<int>(continuity[layer], data.ContinuityOf(cell, ahead));
-  }
-  std::vector<double> knots(At(p + 1), 0.0);
-  for (std::size_t layer = 0; layer < intervals.size(); ++layer)
-  {
-    const bool isEnd = layer + 1 == intervals.size();
-    const double end = knots.back() + intervals[layer];
-    knots.insert(knots.end(), At(isEnd ? p + 1 : p - continuity[layer]), end);
-  }
-  return KnotVector::Create(p, std::move(knots));
-}
-
-/// Bernstein coefficients of a cell in the directions of its patch.
-template <int Dim>
-void TurnBlock(int p, const IntArray<Dim>& ahead, int planes, const double* from, double* to)
-{
-  IntArray<Dim> stride;
-  IntArray<Dim> index{};
-  int first = 0; // of the cell's coefficients, at the lower corner of the patch's directions
-  int count = 1;
-  for (std::size_t d = 0; d < Dim; ++d)
-  {
-    int ownStride = 1;
-    for (int a = 0; a < ahead[d] / 2; ++a)
-    {
-      ownStride *= p + 1;
-    }
-    first += ahead[d] % 2 == 1 ? 0 : p * ownStride;
-    stride[d] = ahead[d] % 2 == 1 ? ownStride : -ownStride;
-    count *= p + 1;
-  }
-  for (int i = 0; i < count; ++i)
-  {
-    int own = first;
-    for (std::size_t d = 0; d < Dim; ++d)
-    {
-      own += index[d] * stride[d];
-    }
-    for (int plane = 0; plane < planes; ++plane)
-    {
-      to[plane * count + i] = from[plane * count + own];
-    }
-    for (std::size_t d = 0; d < Dim && ++index[d] > p; ++d)
-    {
-      index[d] = 0;
-    }
-  }
-}
-
 template <int Dim>
 Result<Spline<Dim>> PatchSpline(const BezierForm<Dim>& form, const UnstructuredData<Dim>& data,
   const MeshPatches<Dim>& layout, const MeshPatch<Dim>& patch, int threads)
 {
-  std::array<KnotVector, Dim> knots;
-  for (std::size_t d = 0; d < Dim; ++d)
-  {
-    auto made = PatchKnots(data, layout, patch, d);
-    if (!made)
-    {
-      return made.Status;
-    }
-    knots[d] = std::move(made.Value);
-  }
-  auto space = MakeTensorSpace<Dim>(knots);
+  auto space = MakePatchSpace(data, layout, patch);
   if (!space)
   {
     return space.Status;
@@ -109,8 +34,16 @@ Result<Spline<Dim>> PatchSpline(const BezierForm<Dim>& form, const UnstructuredD
   {
     const std::size_t size = form.Offsets[At(cell) + 1] - form.Offsets[At(cell)];
     part.Data.resize(part.Offsets.back() + size);
-    TurnBlock<Dim>(data.Degree, layout.AheadOf[At(cell)], form.NumPlanes(), form.Block(cell),
-      part.Data.data() + part.Offsets.back());
+    const std::vector<int> turned = TurnedEntries<Dim>(data.Degree + 1, layout.AheadOf[At(cell)]);
+    const double* from = form.Block(cell);
+    double* to = part.Data.data() + part.Offsets.back();
+    for (int plane = 0; plane < form.NumPlanes(); ++plane, from += turned.size())
+    {
+      for (const int own : turned)
+      {
+        *to++ = from[own];
+      }
+    }
     part.Offsets.push_back(part.Data.size());
   }
   RecoveryResult<Dim> recovered = RecoverSpline(part, threads);
@@ -323,12 +256,10 @@ Result<MultiPatch<Dim>> SplitIntoPatches(
   return result;
 }
 
-#define KNOTWORK_INSTANTIATE(Dim)                                                                  \
-  template std::vector<SideFacet> FacetsOfSide<Dim>(                                               \
-    const SplineSpace<Dim>&, const MeshPatches<Dim>&, const PatchSide&);                           \
-  template Result<MultiPatch<Dim>> SplitIntoPatches<Dim>(                                          \
-    const Spline<Dim>&, int, MeshPatches<Dim>*);
-KNOTWORK_INSTANTIATE(2)
-KNOTWORK_INSTANTIATE(3)
-#undef KNOTWORK_INSTANTIATE
+template std::vector<SideFacet> FacetsOfSide<2>(
+  const SplineSpace<2>&, const MeshPatches<2>&, const PatchSide&);
+template Result<MultiPatch<2>> SplitIntoPatches<2>(const Spline<2>&, int, MeshPatches<2>*);
+template std::vector<SideFacet> FacetsOfSide<3>(
+  const SplineSpace<3>&, const MeshPatches<3>&, const PatchSide&);
+template Result<MultiPatch<3>> SplitIntoPatches<3>(const Spline<3>&, int, MeshPatches<3>*);
 }

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BezierProjection.h"
 
-#include "Bernstein.h"
 #include "DualFunctionals.h"
 #include "Parallel.h"
 #include "Quadrature.h"
 #include "RowEquations.h"
-
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -132,22 +129,9 @@ public:
 private:
   using Key = std::pair<int, int>; ///< degree, offset of the factor
 
-  /// Least squares on p + 1 or more Gauss points is the L2 projection, as the rule is exact for
-  /// products of two polynomials of degree p; by QR it loses only the root of the condition of the
-  /// Gram matrix (9e4 for degree 9).
   PointMatrix MakeOperator(int degree, const double* inverse) const
   {
-    const QuadratureRule rule = GaussLegendre(degree + 1 + this->ExtraPoints);
-    const auto points = static_cast<Eigen::Index>(rule.Nodes.size());
-    const Eigen::VectorXd roots =
-      Eigen::Map<const Eigen::VectorXd>(rule.Weights.data(), points).cwiseSqrt();
-    PointMatrix basis(points, degree + 1);
-    for (Eigen::Index q = 0; q < points; ++q)
-    {
-      BernsteinValues(degree, rule.Nodes[static_cast<std::size_t>(q)], basis.row(q).data());
-    }
-    const Eigen::MatrixXd weighted = roots.asDiagonal() * basis;
-    PointMatrix toBernstein = weighted.householderQr().solve(Eigen::MatrixXd(roots.asDiagonal()));
+    PointMatrix toBernstein = GaussToBernstein(degree, degree + 1 + this->ExtraPoints);
     if (!inverse)
     {
       return toBernstein;

@@ -1,12 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DualFunctionals.h"
 
+#include "Bernstein.h"
+#include "Quadrature.h"
+
 #include <Eigen/LU>
+#include <Eigen/QR>
 
 #include <limits>
 
 namespace knotwork
 {
+/// Least squares on p + 1 or more Gauss points is the L2 projection, as the rule is exact for
+/// products of two polynomials of degree p; by QR it loses only the root of the condition of the
+/// Gram matrix (9e4 for degree 9).
+PointMatrix GaussToBernstein(int degree, int points)
+{
+  const QuadratureRule rule = GaussLegendre(points);
+  const Eigen::VectorXd roots =
+    Eigen::Map<const Eigen::VectorXd>(rule.Weights.data(), points).cwiseSqrt();
+  PointMatrix basis(points, degree + 1);
+  for (Eigen::Index q = 0; q < points; ++q)
+  {
+    BernsteinValues(degree, rule.Nodes[static_cast<std::size_t>(q)], basis.row(q).data());
+  }
+  const Eigen::MatrixXd weighted = roots.asDiagonal() * basis;
+  return weighted.householderQr().solve(Eigen::MatrixXd(roots.asDiagonal()));
+}
+
 template <int Dim>
 DualFunctionals<Dim>::DualFunctionals(const SplineSpace<Dim>& space)
   : Space(space), InverseData(space.FactorData.size(), 0.0), SumData(space.FactorData.size(), 0.0)

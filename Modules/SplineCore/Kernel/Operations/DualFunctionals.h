@@ -33,6 +33,10 @@ IntArray<Dim> TensorIndex(const IntArray<Dim>& degree, int local)
   return index;
 }
 
+/// Bernstein coefficients of the L2 projection on [0, 1] of values at Gauss points.
+/// @return  (degree + 1) x points. @pre points > degree.
+PointMatrix GaussToBernstein(int degree, int points);
+
 /// Dual functionals of the local functions of every element: the inverted extraction factors.
 /// Made in one inversion a distinct factor; the space must outlive it.
 template <int Dim>
