@@ -53,7 +53,7 @@ bool HasOwnKnots(const UnstructuredData<Dim>& data, const MeshPatches<Dim>& layo
     const int index = layout.IndexOf[At(cell)][d];
     for (int upper = 0; upper < 2; ++upper)
     {
-      const int continuity = data.ContinuityOf(cell, upper ? ahead : ahead ^ 1);
+      const auto continuity = data.ContinuityOf(cell, upper ? ahead : ahead ^ 1);
       const int layer = index + upper;
       const bool isEnd = layer == 0 || layer == patch.Size[d];
       if (isEnd ? continuity > 0
