@@ -9,6 +9,7 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <string>
 
@@ -70,18 +71,29 @@ private:
 template <int Components>
 void AddProducts(const PointMatrix& block, const double* values, int components, double* sums)
 {
-  const int n = Components > 0 ? Components : components;
-  for (Eigen::Index i = 0; i < block.rows(); ++i, sums += n)
+  if constexpr (Components > 0)
   {
-    const double* row = block.row(i).data();
-    const double* value = values;
-    for (Eigen::Index g = 0; g < block.cols(); ++g, value += n)
+    for (Eigen::Index i = 0; i < block.rows(); ++i, sums += Components)
     {
-      for (int k = 0; k < n; ++k)
+      const double* row = block.row(i).data();
+      std::array<double, Components> sum{}; // not in memory that the values might lie in
+      for (Eigen::Index g = 0; g < block.cols(); ++g)
       {
-        sums[k] += row[g] * value[k];
+        for (int k = 0; k < Components; ++k)
+        {
+          sum[At(k)] += row[g] * values[g * Components + k];
+        }
+      }
+      for (int k = 0; k < Components; ++k)
+      {
+        sums[k] += sum[At(k)];
       }
     }
+  }
+  else
+  {
+    Eigen::Map<PointMatrix>(sums, block.rows(), components) +=
+      block.lazyProduct(Eigen::Map<const PointMatrix>(values, block.cols(), components));
   }
 }
 
@@ -343,20 +355,14 @@ private:
     const double* from =
       work.Values.data() + piece.Outer * inner * At(line.Elements * line.Points) + piece.Inner;
     double* to = work.Reduced.data() + piece.Outer * inner * At(line.Functions) + piece.Inner;
-    for (int e = 0; e < line.Elements; ++e)
+    const auto columns = static_cast<Eigen::Index>(n);
+    const Eigen::OuterStride<> stride(static_cast<Eigen::Index>(inner));
+    for (int e = 0; e < line.Elements; ++e, from += inner * At(line.Points))
     {
-      for (int g = 0; g < line.Points; ++g, from += inner)
-      {
-        for (int i = 0; i < line.Alive; ++i)
-        {
-          const double share = line.Blocks[At(e)](i, g);
-          double* sum = to + At(line.First[At(e)] + i) * inner;
-          for (std::size_t k = 0; k < n; ++k)
-          {
-            sum[k] += share * from[k];
-          }
-        }
-      }
+      const Eigen::Map<const PointMatrix, 0, Eigen::OuterStride<>> values(
+        from, line.Points, columns, stride);
+      Eigen::Map<PointMatrix, 0, Eigen::OuterStride<>>(to + At(line.First[At(e)]) * inner,
+        line.Alive, columns, stride) += line.Blocks[At(e)].lazyProduct(values);
     }
   }
 
