@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes of quadrilaterals and hexahedra from datasets, private to the module.
+// Meshes of quadrilaterals and hexahedra from datasets.
 #pragma once
-#include "SplineModel.h"
 #include <knotwork/SplineCore/CellMesh.h>
+#include <knotwork/SplineGrid/SplineModel.h>
 
 #include <string>
 #include <variant>
@@ -32,11 +32,12 @@ struct DecodedMeshCells
 /// quadrilateral nor a linear hexahedron, or not what the first one is, and the vertex that Bezier
 /// cells have at two places; InvalidParameter for splines without vertices and for a volume that is
 /// to be split; NonFiniteInput; TooLarge.
-Result<DecodedMeshCells> DecodeMeshCells(vtkPointSet* data, bool split);
+VTKKNOTWORKSPLINEGRID_EXPORT Result<DecodedMeshCells> DecodeMeshCells(
+  vtkPointSet* data, bool split);
 
 /// How the cells hang together. @return failures of CheckConforming and MeshTopology::Make.
 template <int Dim>
-Result<MeshTopology<Dim>> MakeConforming(
+VTKKNOTWORKSPLINEGRID_EXPORT Result<MeshTopology<Dim>> MakeConforming(
   const CellMesh<Dim>& mesh, const DecodedMeshCells& decoded);
 
 /// Facets where quadrilaterals meet at more than an angle, and between cells of different values.
@@ -44,7 +45,7 @@ Result<MeshTopology<Dim>> MakeConforming(
 /// @return InvalidParameter for an angle of hexahedra, a cell array that is not there or has
 /// several components.
 template <int Dim>
-Result<std::vector<CellSide>> FindFeatures(vtkPointSet* data, const DecodedMeshCells& decoded,
-  const CellMesh<Dim>& mesh, const MeshTopology<Dim>& topology, double angle,
-  const std::string& array);
+VTKKNOTWORKSPLINEGRID_EXPORT Result<std::vector<CellSide>> FindFeatures(vtkPointSet* data,
+  const DecodedMeshCells& decoded, const CellMesh<Dim>& mesh, const MeshTopology<Dim>& topology,
+  double angle, const std::string& array);
 }

@@ -216,6 +216,18 @@ Result<Spline<Dim>> SplineThroughVertices(const SplineSpacePtr<Dim>& space,
 }
 
 template <int Dim>
+ElementFunction InterpolateVertices(const SplineSpacePtr<Dim>& space, const PointMatrix& vertices)
+{
+  const int width = space->Unstructured->Degree / 2 * 2 + 1;
+  return [space, &vertices, width = width > space->Unstructured->Degree ? width : width + 2](
+           int cell, const PointMatrix& local, const PointMatrix&, PointMatrix& values)
+  {
+    VertexWindow<Dim>(*space->Unstructured, cell, width).Interpolate(local, vertices, values);
+    return true;
+  };
+}
+
+template <int Dim>
 Result<Spline<Dim>> SplineOfCage(const SplineSpacePtr<Dim>& space, const PointMatrixView& vertices)
 {
   if (const Status status = CheckVertices<Dim>(space, vertices); !status)
@@ -396,6 +408,8 @@ template Result<Spline<2>> SplineThroughVertices(
   const SplineSpacePtr<2>&, const PointMatrixView&, int, const ProgressCallback&);
 template Result<Spline<3>> SplineThroughVertices(
   const SplineSpacePtr<3>&, const PointMatrixView&, int, const ProgressCallback&);
+template ElementFunction InterpolateVertices(const SplineSpacePtr<2>&, const PointMatrix&);
+template ElementFunction InterpolateVertices(const SplineSpacePtr<3>&, const PointMatrix&);
 template Result<Spline<2>> SplineOfCage(const SplineSpacePtr<2>&, const PointMatrixView&);
 template Result<Spline<3>> SplineOfCage(const SplineSpacePtr<3>&, const PointMatrixView&);
 template VertexDistance DistanceFromVertices(const Spline<2>&, const PointMatrixView&, int);

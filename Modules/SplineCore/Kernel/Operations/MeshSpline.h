@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <knotwork/SplineCore/BezierProjection.h>
 #include <knotwork/SplineCore/UnstructuredSpace.h>
 
 /// Splines of unstructured spaces from the vertices of their meshes.
@@ -17,6 +18,15 @@ namespace knotwork
 template <int Dim>
 Result<Spline<Dim>> SplineThroughVertices(const SplineSpacePtr<Dim>& space,
   const PointMatrixView& vertices, int threads = 0, const ProgressCallback& progress = {});
+
+/// The mesh map: on every element the polynomial through the vertices of a window of q cells a
+/// direction around it, q the smallest odd number above p, less where facets that are C^0 end it.
+/// It differs from a smooth surface through the vertices by O(h^(q+1)), a multilinear one by
+/// O(h^2).
+/// @param vertices  must outlive the function.
+/// @pre  the space is one on a mesh of as many points; it is kept.
+template <int Dim>
+ElementFunction InterpolateVertices(const SplineSpacePtr<Dim>& space, const PointMatrix& vertices);
 
 /// The spline whose control net is the mesh: the control point of every function is the value of
 /// the mesh's multilinear map at the function's Greville point, the means of p knots a direction.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "PointSlide.h"
 #include <knotwork/SplineCore/CellMesh.h>
 #include <knotwork/SplineCore/TriangleIndex.h>
 
@@ -16,7 +17,7 @@ struct SurfaceQuad
 
 /// How far the points of a mesh may move without a change of its shape: those of a surface slide
 /// on it, those of sharp edges and of rims along them, corners stay.
-class MeshSlide
+class MeshSlide final : public PointSlide
 {
 public:
   enum class Freedom : std::uint8_t
@@ -37,11 +38,10 @@ public:
     const std::vector<std::array<int, 2>>& marked);
 
   Freedom Of(int point) const { return this->Freedoms[static_cast<std::size_t>(point)]; }
-  /// Closest place that the point may be at.
-  Eigen::RowVector3d Nearest(int point, const Eigen::RowVector3d& at) const;
-  /// Directions that the point may move in from where it is, as orthonormal columns.
+  bool IsFixed(int point) const override { return this->Of(point) == Freedom::None; }
+  Eigen::RowVector3d Nearest(int point, const Eigen::RowVector3d& at) const override;
   Eigen::Matrix<double, 3, Eigen::Dynamic> Directions(
-    int point, const Eigen::RowVector3d& at) const;
+    int point, const Eigen::RowVector3d& at) const override;
 
 private:
   using Edge = std::array<int, 2>;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace knotwork
 {
@@ -263,7 +264,7 @@ class ShapeDescent
 {
 public:
   ShapeDescent(const CellMesh<Dim>& mesh, const MeshTopology<Dim>& topology, PointMatrix& points,
-    const MeshSlide& slide, const std::vector<char>& moving)
+    const PointSlide& slide, const std::vector<char>& moving)
     : Mesh(mesh), Points(points), Slide(slide), View(mesh, points), CornersOf(At(mesh.NumPoints))
   {
     for (int c = 0; c < mesh.NumCells(); ++c)
@@ -277,7 +278,7 @@ public:
     for (int i = 0; i < mesh.NumPoints; ++i)
     {
       const auto& corners = this->CornersOf[At(i)];
-      const bool isMoving = slide.Of(i) != MeshSlide::Freedom::None &&
+      const bool isMoving = !slide.IsFixed(i) &&
         std::any_of(corners.begin(), corners.end(),
           [&](const CellCorner& at) { return moving[At(at.Cell)] != 0; });
       if (isMoving)
@@ -502,7 +503,7 @@ private:
 
   const CellMesh<Dim>& Mesh;
   PointMatrix& Points;
-  const MeshSlide& Slide;
+  const PointSlide& Slide;
   const Orientation<Dim> View;
   std::vector<std::vector<CellCorner>> CornersOf; ///< of every point
   std::vector<int> Movable;
@@ -563,8 +564,13 @@ Result<UntangledMesh> UntangleMesh(const CellMesh<Dim>& mesh, const MeshTopology
   {
     // where nothing else helps edges give way, the sharpest last
     const double share = static_cast<double>(attempt) / (MostAttempts - 1);
-    const MeshSlide slide(SurfaceQuads<Dim>(mesh, topology, result.FoldedBefore), before,
-      params.FeatureAngle + share * (180.0 - params.FeatureAngle), marked);
+    std::optional<MeshSlide> own;
+    if (!params.Slide)
+    {
+      own.emplace(SurfaceQuads<Dim>(mesh, topology, result.FoldedBefore), before,
+        params.FeatureAngle + share * (180.0 - params.FeatureAngle), marked);
+    }
+    const PointSlide& slide = params.Slide ? *params.Slide : *own;
     ShapeDescent<Dim> descent(
       mesh, topology, moved, slide, Grow<Dim>(mesh, seeds, params.Rings + attempt));
     double move = 1.0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <knotwork/SplineCore/CellMesh.h>
+#include <knotwork/SplineCore/PointSlide.h>
 
 namespace knotwork
 {
@@ -15,6 +16,9 @@ struct UntanglingParams
   double FeatureAngle = 45.0;
   /// Edges of quadrilaterals that stay edges at any angle.
   std::vector<CellSide> Features;
+  /// Where points may move; null: the surface that the mesh was, its edges and rims. With one edges
+  /// do not give way, and the angle and marked edges have no say.
+  const PointSlide* Slide = nullptr;
   /// Passes over the points that may move, of each attempt; it ends when no point moves by more
   /// than a thousandth of its edges. >= 1.
   int MaxSweeps = 100;

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Targets from datasets, private to the module.
+#pragma once
+#include <knotwork/CADFitting/FitTarget.h>
+
+#include <string>
+
+class vtkDataObject;
+class vtkImplicitFunction;
+
+namespace knotwork
+{
+struct FitTargetOptions
+{
+  double SharpAngle = 40.0;
+  double WeakAngle = 20.0;
+  double CornerAngle = 60.0;
+  /// Faces of a model that count as one: numbers joined by commas, groups by semicolons.
+  std::string FaceGroups;
+};
+
+/// Triangles (polygons are divided), or a spline grid of one dimension: curves, surfaces, trimmed
+/// faces with the curves that they carry, volumes, whose boundary is the target.
+/// @return EmptyInput for a dataset without faces; InvalidParameter for groups that are no numbers
+/// of faces; the errors of the decoders and of the targets.
+Result<FitTargetPtr> DecodeFitTarget(
+  vtkDataObject* data, const FitTargetOptions& options, int threads);
+
+/// @param box  bounds as VTK orders them, in which the surface is sampled.
+Result<FitTargetPtr> AdaptImplicitFunction(vtkImplicitFunction* function, const double* box);
+}

@@ -1,0 +1,566 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CADFit.h"
+
+#include "ElementMending.h"
+#include "MeshTarget.h"
+#include "ProgressiveFit.h"
+#include "SampledDistances.h"
+#include "SurfaceLayer.h"
+#include "VertexFit.h"
+
+#include <knotwork/JacobianValidation/CellMeasures.h>
+#include <knotwork/SplineCore/MeshTraces.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace knotwork
+{
+namespace
+{
+/// Rounds in which points of the mesh move around elements without a certificate.
+constexpr int MostRounds = 3;
+/// Of the mean edge by which the points of the surface are shifted for a layer.
+constexpr double LayerShare = 0.3;
+
+std::size_t At(int i)
+{
+  return static_cast<std::size_t>(i);
+}
+
+template <int Dim>
+class CADFitting
+{
+public:
+  CADFitting(const CellMesh<Dim>& mesh, const PointMatrix& points, const FitTarget* target,
+    const CADFitParams& params)
+    : Given(mesh), GivenPoints(points), Target(target), Params(params)
+  {
+    this->Fit.Mesh = mesh;
+    this->Fit.Points = points;
+    this->Fit.CellOf.resize(At(mesh.NumCells()));
+    std::iota(this->Fit.CellOf.begin(), this->Fit.CellOf.end(), 0);
+  }
+
+  Result<CADFit<Dim>> Run()
+  {
+    Status status = this->Check();
+    status = status ? this->Link() : status;
+    this->GivenSurface = this->Surface;
+    if (status && !this->Target)
+    {
+      status = this->TakeMeshAsTarget();
+    }
+    status = status ? this->Classify() : status;
+    this->GivenParts = this->Parts;
+    if (status && this->IsFitted)
+    {
+      status = this->CheckNear();
+      status = status ? this->PlacePoints({}) : status;
+      status = status ? this->AddLayerIfNeeded() : status;
+    }
+    status = status ? this->MakeSpace() : status;
+    status = status ? this->Project() : status;
+    status = status ? this->Certify(this->Verdicts) : status;
+    if (status)
+    {
+      this->Fit.InvalidBefore = static_cast<int>(this->Candidates().size());
+      status = this->Mend();
+    }
+    status = status ? this->Measure() : status;
+    if (!status)
+    {
+      return status;
+    }
+    this->Fit.Certificate = std::move(this->Verdicts.Certificate);
+    this->Fit.Uncertified = std::move(this->Verdicts.Bad);
+    return std::move(this->Fit);
+  }
+
+private:
+  ProgressCallback Share(double begin, double end) const
+  {
+    const ProgressCallback& progress = this->Params.Progress;
+    return progress ? ProgressCallback([&progress, begin, end](double share)
+                        { return progress(begin + share * (end - begin)); })
+                    : ProgressCallback();
+  }
+
+  Status Check() const
+  {
+    if (this->Given.NumCells() == 0)
+    {
+      return { ErrorCode::EmptyInput, "the mesh has no cells" };
+    }
+    if (this->GivenPoints.rows() != this->Given.NumPoints || this->GivenPoints.cols() != 3)
+    {
+      return { ErrorCode::SizeMismatch,
+        std::to_string(this->GivenPoints.rows()) + " points of " +
+          std::to_string(this->GivenPoints.cols()) + " coordinates for a mesh of " +
+          std::to_string(this->Given.NumPoints) + " in space" };
+    }
+    for (Eigen::Index i = 0; i < this->GivenPoints.rows(); ++i)
+    {
+      if (!this->GivenPoints.row(i).allFinite())
+      {
+        return { ErrorCode::NonFiniteInput, "point " + std::to_string(i) };
+      }
+    }
+    if (this->Params.UntanglingRings < 0 || this->Params.SmoothingRings < 0 ||
+      this->Params.ExtraPoints < 0 || this->Params.ExtraPoints > 16 ||
+      this->Params.TargetSamples < 0 || this->Params.Projections < 1 ||
+      this->Params.Projections > 100 || !(this->Params.FarShare > 0.0))
+    {
+      return { ErrorCode::InvalidParameter,
+        "rings and target samples must be 0 or more, projections in [1, 100], extra points in "
+        "[0, 16], the far share above 0" };
+    }
+    return {};
+  }
+
+  Status Link()
+  {
+    auto topology = MeshTopology<Dim>::Make(this->Fit.Mesh);
+    if (topology)
+    {
+      this->Topology = std::move(topology.Value);
+      this->Surface = MakeSurfaceMesh<Dim>(this->Fit.Mesh, this->Topology);
+    }
+    return topology.Status;
+  }
+
+  Status TakeMeshAsTarget()
+  {
+    this->IsFitted = false;
+    TriangleMesh triangles;
+    triangles.Points = this->GivenPoints;
+    for (const auto& quad : this->Surface.Quads)
+    {
+      triangles.Triangles.push_back({ quad[0], quad[1], quad[2] });
+      triangles.Triangles.push_back({ quad[0], quad[2], quad[3] });
+    }
+    // a mesh that is no one surface is fitted all the same, and not measured
+    MeshFeatureParams features;
+    features.SharpAngle = 179.0;
+    if (auto own = MakeMeshTarget(triangles, features))
+    {
+      this->Own = std::move(own.Value);
+    }
+    this->Target = this->Own.get();
+    return {};
+  }
+
+  Status Classify()
+  {
+    this->Parts = {};
+    this->Parts.PointParts.resize(At(this->Fit.Mesh.NumPoints));
+    this->Parts.CurveOf.assign(this->Surface.Edges.size(), -1);
+    this->Parts.FaceOf.assign(this->Surface.Quads.size(), -1);
+    if (!this->IsFitted)
+    {
+      return {};
+    }
+    auto parts = ClassifyMesh(this->Surface, this->Fit.Points, *this->Target);
+    if (parts)
+    {
+      this->Parts = std::move(parts.Value);
+    }
+    return parts.Status;
+  }
+
+  /// Whether the mesh lies at the target, and which dimensions can be fitted.
+  Status CheckNear()
+  {
+    if (Dim == 3 && this->Target->HasSurface() && !this->Target->IsClosed() &&
+      this->Params.Surfaces)
+    {
+      return { ErrorCode::InvalidTopology,
+        "the target has a rim, and the surface of hexahedra has none: close the target, or fit "
+        "curves alone" };
+    }
+    this->HasSurfaces = this->Params.Surfaces && this->Target->HasSurface();
+    if (!this->Target->HasSurface())
+    {
+      return {};
+    }
+    PointMatrix points(static_cast<Eigen::Index>(this->Surface.Points.size()), 3);
+    for (std::size_t i = 0; i < this->Surface.Points.size(); ++i)
+    {
+      points.row(static_cast<Eigen::Index>(i)) = this->GivenPoints.row(this->Surface.Points[i]);
+    }
+    TargetPoints feet;
+    if (Status status = this->Target->Find({}, points, feet); !status)
+    {
+      return status;
+    }
+    const Eigen::VectorXd distances = (feet.Points - points).rowwise().norm();
+    const std::vector<double> lengths = EdgeLengthsAt(this->Surface, this->GivenPoints);
+    const double edge = std::accumulate(lengths.begin(), lengths.end(), 0.0) /
+      static_cast<double>(this->Surface.Points.size());
+    const bool isPlane =
+      Dim == 2 && (this->GivenPoints.col(2).array() == this->GivenPoints(0, 2)).all();
+    if (isPlane && distances.mean() > 0.5 * edge)
+    {
+      // the inside of a plane mesh does not lie on the target: its rim alone does
+      this->HasSurfaces = false;
+      return {};
+    }
+    const double size =
+      (feet.Points.colwise().maxCoeff() - feet.Points.colwise().minCoeff()).norm();
+    if (this->HasSurfaces && !(distances.mean() <= this->Params.FarShare * size))
+    {
+      return { ErrorCode::InvalidParameter,
+        "the mesh is " + std::to_string(distances.mean()) +
+          " from its target in the mean, whose closest points extend over " + std::to_string(size) +
+          ": give both in the same unit and place" };
+    }
+    return {};
+  }
+
+  Status PlacePoints(const std::vector<int>& poor)
+  {
+    VertexFitParams params;
+    params.Surfaces = this->HasSurfaces;
+    params.Untangle = this->Params.Untangle;
+    params.Rings = this->Params.UntanglingRings;
+    params.Poor = poor;
+    params.Progress = this->Share(0.0, 0.2);
+    auto placed = MoveOntoTarget<Dim>(this->Fit.Mesh, this->Topology, this->Surface, this->Parts,
+      this->Fit.Points, *this->Target, params);
+    if (!placed)
+    {
+      return placed.Status;
+    }
+    if (this->Fit.LayerCells == 0 && !this->IsPlaced)
+    {
+      this->Fit.FoldedCells = static_cast<int>(placed->FoldedBefore.size());
+    }
+    this->IsPlaced = true;
+    this->Fit.StillFolded = static_cast<int>(placed->Folded.size());
+    this->Fit.Points = std::move(placed->Points);
+    return {};
+  }
+
+  Status AddLayerIfNeeded()
+  {
+    if constexpr (Dim == 3)
+    {
+      const std::vector<int> edges = EdgesOfTwoFaces(this->Surface, this->Parts);
+      if (edges.empty() || !this->HasSurfaces)
+      {
+        return {};
+      }
+      if (!this->Params.Layer)
+      {
+        this->Fit.Warnings.push_back(std::to_string(edges.size()) +
+          " edges of hexahedra lie inside of a face of the target between two of their faces: no "
+          "map is valid there without a layer");
+        return {};
+      }
+      LayeredMesh layered = AddLayer(this->Fit.Mesh, this->Surface, this->Fit.Points, LayerShare);
+      this->Fit.LayerCells = layered.Mesh.NumCells() - this->Fit.Mesh.NumCells();
+      this->Fit.Mesh = std::move(layered.Mesh);
+      this->Fit.Points = std::move(layered.Points);
+      this->Fit.CellOf = std::move(layered.CellOf);
+      Status status = this->Link();
+      status = status ? this->Classify() : status;
+      if (!status)
+      {
+        return status;
+      }
+      // the layer, and what it left
+      std::vector<int> poor(At(this->Fit.LayerCells));
+      std::iota(poor.begin(), poor.end(), this->Fit.Mesh.NumCells() - this->Fit.LayerCells);
+      return this->PlacePoints(poor);
+    }
+    return {};
+  }
+
+  Status MakeSpace()
+  {
+    UnstructuredParams params = this->Params.Space;
+    const std::vector<CellSide> own =
+      FeatureFacets<Dim>(this->Fit.Mesh, this->Topology, this->Surface, this->Parts);
+    params.Features.insert(params.Features.end(), own.begin(), own.end());
+    auto made = MakeUnstructuredSpace<Dim>(this->Fit.Mesh, params);
+    if (made)
+    {
+      this->Space = std::move(made->Space);
+      this->Fit.Policy = made->Policy;
+    }
+    return made.Status;
+  }
+
+  Status Project()
+  {
+    ProgressiveFitParams params;
+    params.Surfaces = this->IsFitted && this->HasSurfaces;
+    params.Curves = this->IsFitted && this->Params.Curves;
+    params.Points = this->IsFitted && this->Params.Points;
+    params.Projections = this->IsFitted ? this->Params.Projections : 1;
+    params.ExtraPoints = this->Params.ExtraPoints;
+    params.Threads = this->Params.Threads;
+    params.Progress = this->Share(0.2, 0.6);
+    auto fit = FitProgressively<Dim>(
+      this->Space, this->Surface, this->Parts, this->Fit.Points, this->Target, params);
+    if (fit)
+    {
+      this->Fit.Value = std::move(fit->Value);
+      this->Before = std::move(fit->Before);
+      this->ProjectionWarnings = std::move(fit->Warnings);
+    }
+    return fit.Status;
+  }
+
+  Status Certify(ElementVerdicts& verdicts)
+  {
+    auto made = CertifyElements<Dim>(this->Fit.Value, this->Params.Threads, this->Share(0.6, 0.7));
+    if (made)
+    {
+      verdicts = std::move(made.Value);
+    }
+    return made.Status;
+  }
+
+  /// Elements that are mended.
+  std::vector<int> Candidates() const
+  {
+    return this->Params.Smoothing == FitSmoothing::Net
+      ? InvertedNets<Dim>(this->Fit.Value, this->Verdicts.IsReversed)
+      : this->Verdicts.Bad;
+  }
+
+  /// Functions of the surface, which stay.
+  std::vector<char> Held() const
+  {
+    std::vector<char> held(At(this->Space->NumFunctions), 0);
+    if constexpr (Dim == 3)
+    {
+      const auto trace = TraceOnFacets(*this->Space, this->Surface.Facets);
+      for (const int function : trace->Functions)
+      {
+        held[At(function)] = 1;
+      }
+    }
+    else
+    {
+      // rims, and where the surface lies on the target all
+      if (this->IsFitted && this->HasSurfaces)
+      {
+        held.assign(held.size(), 1);
+        return held;
+      }
+      const std::vector<CellSide> rims = BoundaryFacets<2>(this->Topology);
+      if (!rims.empty())
+      {
+        const auto traces = TraceOnFacets(*this->Space, rims);
+        for (const MeshTrace<1>& trace : traces.Value)
+        {
+          for (const int function : trace.Functions)
+          {
+            held[At(function)] = 1;
+          }
+        }
+      }
+    }
+    return held;
+  }
+
+  /// What a step leaves is kept where it has fewer elements without a certificate.
+  template <class Step>
+  Status Try(Step&& step)
+  {
+    const CADFit<Dim> fit = this->Fit;
+    const Spline<Dim> before = this->Before;
+    Result<int> changed = step();
+    ElementVerdicts verdicts;
+    Status status = changed.Status;
+    if (status && changed.Value > 0)
+    {
+      status = this->Certify(verdicts);
+    }
+    if (!status)
+    {
+      return status;
+    }
+    if (changed.Value > 0 && verdicts.Bad.size() < this->Verdicts.Bad.size())
+    {
+      this->Verdicts = std::move(verdicts);
+      this->Fit.Smoothed = std::max(this->Fit.Smoothed, changed.Value);
+    }
+    else
+    {
+      this->Fit = fit;
+      this->Before = before;
+    }
+    return {};
+  }
+
+  Status Mend()
+  {
+    if (this->Params.Smoothing == FitSmoothing::Off)
+    {
+      return {};
+    }
+    Status status;
+    if (this->IsFitted && this->Params.Untangle)
+    {
+      std::size_t last = this->Candidates().size() + 1;
+      for (int round = 0; status && round < MostRounds; ++round)
+      {
+        const std::vector<int> bad = this->Candidates();
+        if (bad.empty() || bad.size() >= last)
+        {
+          break;
+        }
+        last = bad.size();
+        status = this->Try(
+          [&]
+          {
+            Status moved = this->PlacePoints(bad);
+            moved = moved ? this->Project() : moved;
+            return moved ? Result<int>(static_cast<int>(bad.size())) : Result<int>(moved);
+          });
+      }
+    }
+    MendingParams params;
+    params.Threads = this->Params.Threads;
+    params.Progress = this->Share(0.7, 0.8);
+    const std::vector<char> held = this->Verdicts.Bad.empty() ? std::vector<char>() : this->Held();
+    if (status && !this->Candidates().empty())
+    {
+      params.Rings = this->Params.SmoothingRings;
+      status = this->Try(
+        [&]() -> Result<int>
+        {
+          const PointMatrix moves = this->Fit.Value.ControlPoints - this->Before.ControlPoints;
+          return ExtendMoves<Dim>(this->Fit.Value, this->Candidates(), moves, held, params);
+        });
+    }
+    for (int more = 0; status && more < 3 && !this->Candidates().empty(); ++more)
+    {
+      params.Rings = this->Params.SmoothingRings + more;
+      status = this->Try(
+        [&]
+        {
+          return MinimizeBarrier<Dim>(
+            this->Fit.Value, this->Candidates(), this->Verdicts.IsReversed, held, params);
+        });
+    }
+    return status;
+  }
+
+  /// Local parameters of the corners of every quadrilateral on the element of the surface.
+  std::vector<std::array<double, 8>> CornersOnElements(const MeshTrace<2>& trace) const
+  {
+    std::vector<std::array<double, 8>> corners;
+    for (std::size_t q = 0; q < this->Surface.Quads.size(); ++q)
+    {
+      std::array<double, 8>& own = corners.emplace_back();
+      if constexpr (Dim == 2)
+      {
+        own = { 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0 };
+      }
+      else
+      {
+        const int* cell = this->Fit.Mesh.Cell(this->Surface.Facets[q].Cell);
+        const TraceElement<2>& element = trace.Elements[q];
+        for (std::size_t k = 0; k < 4; ++k)
+        {
+          const int corner =
+            static_cast<int>(std::find(cell, cell + 8, this->Surface.Quads[q][k]) - cell);
+          for (std::size_t d = 0; d < 2; ++d)
+          {
+            own[2 * k + d] = (corner >> element.Direction[d] & 1) ^ (element.Reversed[d] ? 1 : 0);
+          }
+        }
+      }
+    }
+    return corners;
+  }
+
+  Status Measure()
+  {
+    this->Fit.Warnings.insert(
+      this->Fit.Warnings.end(), this->ProjectionWarnings.begin(), this->ProjectionWarnings.end());
+    for (const UnmatchedFeature& feature : this->GivenParts.Unmatched)
+    {
+      this->Fit.UnmatchedFeatures.push_back({ feature.Part, feature.Place });
+    }
+    const auto measures =
+      MeasureCells(MakeBernsteinCells(MakeBezierForm(this->Fit.Value, this->Params.Threads)));
+    if (measures)
+    {
+      this->Fit.Measure = std::abs(measures->Total.Measure);
+    }
+    this->Fit.SurfaceElements = this->Surface.Facets;
+    this->Fit.Path = "unstructured";
+    if (!this->Target)
+    {
+      return {};
+    }
+    SampledDistanceParams params;
+    params.TargetSamples = this->Params.TargetSamples;
+    params.Surfaces = this->HasSurfaces || !this->IsFitted;
+    params.Threads = this->Params.Threads;
+    params.Progress = this->Share(0.8, 1.0);
+    Spline<2> surface;
+    MeshTrace<2> trace;
+    if constexpr (Dim == 2)
+    {
+      surface = this->Fit.Value;
+    }
+    else
+    {
+      auto made = TraceOnFacets(*this->Space, this->Surface.Facets);
+      if (!made)
+      {
+        return made.Status;
+      }
+      trace = std::move(made.Value);
+      surface = TraceOf<2>(this->Fit.Value, trace);
+    }
+    PointMatrix points = this->Fit.Points;
+    points.topRows(this->GivenPoints.rows()) = this->GivenPoints;
+    auto distances = MeasureDistances(surface, this->Surface, this->CornersOnElements(trace),
+      this->Parts, points, *this->Target, params);
+    if (distances)
+    {
+      this->Fit.Distances = std::move(distances.Value);
+    }
+    return distances.Status;
+  }
+
+  const CellMesh<Dim>& Given;
+  const PointMatrix& GivenPoints;
+  const FitTarget* Target;
+  FitTargetPtr Own; ///< the mesh itself
+  const CADFitParams& Params;
+  bool IsFitted = true;
+  bool HasSurfaces = false;
+  bool IsPlaced = false;
+  MeshTopology<Dim> Topology;
+  SurfaceMesh GivenSurface;
+  SurfaceMesh Surface;
+  MeshClassification GivenParts;
+  MeshClassification Parts;
+  SplineSpacePtr<Dim> Space;
+  Spline<Dim> Before;
+  std::vector<std::string> ProjectionWarnings;
+  ElementVerdicts Verdicts;
+  CADFit<Dim> Fit;
+};
+}
+
+template <int Dim>
+Result<CADFit<Dim>> FitToTarget(const CellMesh<Dim>& mesh, const PointMatrix& points,
+  const FitTargetPtr& target, const CADFitParams& params)
+{
+  return CADFitting<Dim>(mesh, points, target.get(), params).Run();
+}
+
+template Result<CADFit<2>> FitToTarget(
+  const CellMesh<2>&, const PointMatrix&, const FitTargetPtr&, const CADFitParams&);
+template Result<CADFit<3>> FitToTarget(
+  const CellMesh<3>&, const PointMatrix&, const FitTargetPtr&, const CADFitParams&);
+}

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <knotwork/CADFitting/FitDistances.h>
+#include <knotwork/JacobianValidation/JacobianCertificate.h>
+#include <knotwork/SplineCore/UnstructuredSpace.h>
+
+#include <string>
+
+namespace knotwork
+{
+/// Which elements are mended after the fit.
+enum class FitSmoothing : std::uint8_t
+{
+  Off,
+  Net,        ///< those whose control nets are inverted: quick, and no proof
+  Certificate ///< those that are not proved valid
+};
+
+struct CADFitParams
+{
+  UnstructuredParams Space; ///< degree, policy, features, lengths
+  bool Surfaces = true;     ///< whether faces are fitted
+  bool Curves = true;       ///< whether sharp edges and rims are fitted
+  bool Points = true;       ///< whether corners are
+  bool Untangle = true;     ///< whether cells that fold, before or on the target, are untangled
+  int UntanglingRings = 2;  ///< >= 0
+  FitSmoothing Smoothing = FitSmoothing::Certificate;
+  int SmoothingRings = 2; ///< elements around those that are mended, ring by ring, >= 0
+  /// A layer of hexahedra is put under the whole surface where a hexahedron has two faces on one
+  /// face of the target: no map is valid along their common edge.
+  bool Layer = true;
+  /// Times that the surface is projected onto the target, from the second on from where it was
+  /// fitted to before, [1, 100].
+  int Projections = 1;
+  int ExtraPoints = 1;       ///< Gauss points a direction: p + 1 and so many more, in [0, 16]
+  int TargetSamples = 20000; ///< at which distances from the target are measured; 0: they are not
+  /// Mean distance of the mesh's surface from the target, as share of the target's diagonal, from
+  /// which on they are taken for two different shapes, > 0.
+  double FarShare = 0.1;
+  int Threads = 0; ///< 0 = all cores; the result does not depend on it
+  ProgressCallback Progress;
+};
+
+template <int Dim>
+struct CADFit
+{
+  Spline<Dim> Value;
+  CreasePolicy Policy = CreasePolicy::Full; ///< that was taken
+  CellMesh<Dim> Mesh;                       ///< that the space is on: with a layer, or as given
+  PointMatrix Points;                       ///< of the mesh, on the target
+  /// Cell of the given mesh that every element comes from: itself, or the one below the layer.
+  std::vector<int> CellOf;
+  int LayerCells = 0;
+  FitDistances Distances;
+  /// Element of the surface by cell and side (side -1: the quadrilateral itself), as
+  /// Distances.OfElements.
+  std::vector<CellSide> SurfaceElements;
+  JacobianCertificate Certificate; ///< of every element
+  int FoldedCells = 0;             ///< of the mesh as given
+  int StillFolded = 0;             ///< of the mesh on the target
+  int InvalidBefore = 0;           ///< elements without a certificate before they were mended
+  int Smoothed = 0;                ///< elements whose control points were moved to mend some
+  std::vector<int> Uncertified;    ///< elements that stay so
+  double Measure = 0.0;            ///< area, or volume
+  std::string Path;                ///< how the spline was made
+  struct Unmatched
+  {
+    TargetPart Part;
+    std::array<double, 3> Place{};
+  };
+  std::vector<Unmatched> UnmatchedFeatures; ///< curves and corners that the mesh has no edges for
+  std::vector<std::string> Warnings;
+};
+
+/// One smooth spline on a mesh of quadrilaterals or hexahedra that lies on a target.
+///
+/// The surface of the mesh is classified on the target, its points are moved there (points inside
+/// follow, folded cells are untangled), edges on the target's sharp edges become features; then the
+/// polynomials through the points around every cell are projected onto the space, the closest
+/// points of those on the target's faces, curves and corners after them. Elements that are not
+/// valid are mended.
+/// @param points  NumPoints x 3. @param target  null: the mesh itself, through whose points the
+/// spline goes.
+/// @return the errors of MakeUnstructuredSpace and the target; SizeMismatch, NonFiniteInput;
+/// InvalidParameter for options out of range and a mesh far from its target; InvalidTopology for
+/// hexahedra and a target with a rim; Aborted. What could not be mended is in the result.
+/// @complexity O(elements (p + 1)^Dim) and the closest points.
+/// @source  Thomas, Scott, Evans, Tew, Evans, CMAME 284 (2015) 55-105.
+template <int Dim>
+Result<CADFit<Dim>> FitToTarget(const CellMesh<Dim>& mesh, const PointMatrix& points,
+  const FitTargetPtr& target, const CADFitParams& params = {});
+}

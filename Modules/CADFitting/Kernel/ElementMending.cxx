@@ -1,0 +1,505 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ElementMending.h"
+
+#include <knotwork/DomainParameterization/DomainEnergy.h>
+#include <knotwork/DomainParameterization/Minimize.h>
+#include <knotwork/SplineCore/UnstructuredSpace.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/LU>
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace knotwork
+{
+namespace
+{
+std::size_t At(int i)
+{
+  return static_cast<std::size_t>(i);
+}
+
+template <int Dim>
+bool IsPlane(const Spline<Dim>& spline)
+{
+  return Dim == 2 && (spline.ControlPoints.col(2).array() == spline.ControlPoints(0, 2)).all();
+}
+
+/// Rings of elements by common points of the mesh.
+template <int Dim>
+std::vector<int> Rings(const CellMesh<Dim>& mesh, const std::vector<int>& elements, int rings)
+{
+  std::vector<char> inside(At(mesh.NumCells()), 0);
+  for (const int e : elements)
+  {
+    inside[At(e)] = 1;
+  }
+  for (int ring = 0; ring < rings; ++ring)
+  {
+    std::vector<char> touched(At(mesh.NumPoints), 0);
+    for (int e = 0; e < mesh.NumCells(); ++e)
+    {
+      for (int k = 0; inside[At(e)] != 0 && k < (1 << Dim); ++k)
+      {
+        touched[At(mesh.Cell(e)[k])] = 1;
+      }
+    }
+    for (int e = 0; e < mesh.NumCells(); ++e)
+    {
+      for (int k = 0; k < (1 << Dim); ++k)
+      {
+        inside[At(e)] |= touched[At(mesh.Cell(e)[k])];
+      }
+    }
+  }
+  std::vector<int> grown;
+  for (int e = 0; e < mesh.NumCells(); ++e)
+  {
+    if (inside[At(e)] != 0)
+    {
+      grown.push_back(e);
+    }
+  }
+  return grown;
+}
+
+/// Functions of some elements, and which of them have all their elements there and are not held.
+template <int Dim>
+struct PatchFunctions
+{
+  PatchFunctions(
+    const SplineSpace<Dim>& space, const std::vector<int>& patch, const std::vector<char>& isHeld)
+    : NumberOf(At(space.NumFunctions), -1)
+  {
+    std::vector<char> isIn(At(space.NumElements()), 0);
+    for (const int e : patch)
+    {
+      isIn[At(e)] = 1;
+    }
+    std::vector<char> isOut(At(space.NumFunctions), 0);
+    for (int e = 0; e < space.NumElements(); ++e)
+    {
+      for (const int f : space.AliveFunctions(e))
+      {
+        if (isIn[At(e)] == 0)
+        {
+          isOut[At(f)] = 1;
+        }
+        else if (this->NumberOf[At(f)] < 0)
+        {
+          this->NumberOf[At(f)] = static_cast<int>(this->Functions.size());
+          this->Functions.push_back(f);
+        }
+      }
+    }
+    for (const int f : this->Functions)
+    {
+      this->IsFree.push_back(isOut[At(f)] == 0 && isHeld[At(f)] == 0 ? 1 : 0);
+    }
+  }
+  std::vector<int> Functions;
+  std::vector<int> NumberOf; ///< among them
+  std::vector<char> IsFree;
+};
+
+/// The space on some of its elements, with functions numbered anew.
+template <int Dim>
+SplineSpace<Dim> Restrict(const SplineSpace<Dim>& space, const std::vector<int>& patch,
+  const PatchFunctions<Dim>& functions)
+{
+  SplineSpace<Dim> part;
+  part.Kind = SpaceKind::Bezier;
+  part.FactorData = space.FactorData;
+  part.NumFunctions = static_cast<int>(functions.Functions.size());
+  std::vector<int> rowOf(
+    static_cast<std::size_t>(
+      space.NumLocalFunctions > 0 ? space.NumLocalFunctions : space.NumFunctions),
+    -1);
+  std::vector<int> rows;
+  for (const int e : patch)
+  {
+    auto element = space.Elements[At(e)];
+    const int* locals = space.LocalFunctions(e);
+    element.FirstLocal = part.LocalFunctionIds.size();
+    for (int i = 0; i < NumTensorFunctions<Dim>(element.Degree); ++i)
+    {
+      int& row = rowOf[At(locals[i])];
+      if (row < 0)
+      {
+        row = static_cast<int>(rows.size());
+        rows.push_back(locals[i]);
+      }
+      part.LocalFunctionIds.push_back(row);
+    }
+    part.Elements.push_back(element);
+  }
+  part.NumLocalFunctions = static_cast<int>(rows.size());
+  part.RowStart.push_back(0);
+  for (const int row : rows)
+  {
+    if (space.IsIdentityMap())
+    {
+      part.RowFunction.push_back(functions.NumberOf[At(row)]);
+      part.RowCoefficient.push_back(1.0);
+    }
+    else
+    {
+      std::vector<std::pair<int, double>> entries;
+      for (std::size_t k = space.RowStart[At(row)]; k < space.RowStart[At(row) + 1]; ++k)
+      {
+        entries.emplace_back(functions.NumberOf[At(space.RowFunction[k])], space.RowCoefficient[k]);
+      }
+      std::sort(entries.begin(), entries.end());
+      for (const auto& [function, coefficient] : entries)
+      {
+        part.RowFunction.push_back(function);
+        part.RowCoefficient.push_back(coefficient);
+      }
+    }
+    part.RowStart.push_back(part.RowFunction.size());
+  }
+  return part;
+}
+
+/// Differences of neighbouring control points of an element's net at one of its points, towards
+/// inside.
+Eigen::Matrix3d NetEdges(
+  const double* block, const IntArray<3>& degree, const IntArray<3>& index, int count)
+{
+  Eigen::Matrix3d edges;
+  const int strides[] = { 1, degree[0] + 1, (degree[0] + 1) * (degree[1] + 1) };
+  const int at = index[0] + index[1] * strides[1] + index[2] * strides[2];
+  for (std::size_t d = 0; d < 3; ++d)
+  {
+    const bool isLast = index[d] == degree[d];
+    const int low = isLast ? at - strides[d] : at;
+    for (int c = 0; c < 3; ++c)
+    {
+      edges(c, static_cast<Eigen::Index>(d)) =
+        block[c * count + low + strides[d]] - block[c * count + low];
+    }
+  }
+  return edges;
+}
+/// The function that a local coefficient is, or has the largest share in it.
+template <int Dim>
+int MainFunction(const SplineSpace<Dim>& space, int row)
+{
+  if (space.IsIdentityMap())
+  {
+    return row;
+  }
+  std::size_t best = space.RowStart[At(row)];
+  for (std::size_t k = best; k < space.RowStart[At(row) + 1]; ++k)
+  {
+    best = space.RowCoefficient[k] > space.RowCoefficient[best] ? k : best;
+  }
+  return space.RowFunction[best];
+}
+
+/// Pairs of functions that are neighbours in the net of an element, both ways, as often as in
+/// elements.
+template <int Dim>
+std::vector<std::pair<int, int>> NetNeighbours(
+  const SplineSpace<Dim>& space, const std::vector<int>& elements)
+{
+  std::vector<std::pair<int, int>> pairs;
+  for (const int e : elements)
+  {
+    const auto& degree = space.Elements[At(e)].Degree;
+    const int* locals = space.LocalFunctions(e);
+    int stride = 1;
+    for (std::size_t d = 0; d < Dim; ++d)
+    {
+      for (int i = 0; i < NumTensorFunctions<Dim>(degree); ++i)
+      {
+        if (i / stride % (degree[d] + 1) < degree[d])
+        {
+          const int a = MainFunction(space, locals[i]);
+          const int b = MainFunction(space, locals[i + stride]);
+          if (a != b)
+          {
+            pairs.emplace_back(a, b);
+            pairs.emplace_back(b, a);
+          }
+        }
+      }
+      stride *= degree[d] + 1;
+    }
+  }
+  return pairs;
+}
+}
+
+template <int Dim>
+Result<ElementVerdicts> CertifyElements(
+  const Spline<Dim>& spline, int threads, const ProgressCallback& progress)
+{
+  Spline<Dim> geometry = spline;
+  if (IsPlane(spline))
+  {
+    geometry.ControlPoints = spline.ControlPoints.leftCols(2).eval();
+  }
+  JacobianParams params;
+  params.Threads = threads;
+  auto certificate =
+    ValidateJacobian(MakeBernsteinCells(MakeBezierForm(geometry, threads)), params, progress);
+  if (!certificate)
+  {
+    return certificate.Status;
+  }
+  Result<ElementVerdicts> result;
+  result->Certificate = std::move(certificate.Value);
+  result->IsReversed = result->Certificate.NumReversed > result->Certificate.NumValid;
+  const Verdict good = result->IsReversed ? Verdict::Reversed : Verdict::Valid;
+  for (std::size_t e = 0; e < result->Certificate.Cells.size(); ++e)
+  {
+    if (result->Certificate.Cells[e].Verdict != good)
+    {
+      result->Bad.push_back(static_cast<int>(e));
+    }
+  }
+  return result;
+}
+
+template <int Dim>
+std::vector<int> InvertedNets(const Spline<Dim>& spline, bool isReversed)
+{
+  const BezierForm<Dim> form = MakeBezierForm(spline, 1);
+  std::vector<int> inverted;
+  const double sign = isReversed ? -1.0 : 1.0;
+  for (int e = 0; e < spline.Space->NumElements(); ++e)
+  {
+    IntArray<3> degree{ 0, 0, 0 };
+    const auto& own = spline.Space->Elements[At(e)].Degree;
+    std::copy(own.begin(), own.end(), degree.begin());
+    const int count = NumTensorFunctions<Dim>(own);
+    bool isInverted = false;
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (const int pass : { 0, 1 })
+    {
+      for (int i = 0; i < count; ++i)
+      {
+        IntArray<3> index{ i % (degree[0] + 1), i / (degree[0] + 1) % (degree[1] + 1),
+          i / ((degree[0] + 1) * (degree[1] + 1)) };
+        Eigen::Matrix3d edges;
+        if constexpr (Dim == 3)
+        {
+          edges = NetEdges(form.Block(e), degree, index, count);
+          isInverted = isInverted || !(sign * edges.determinant() > 0.0);
+        }
+        else
+        {
+          const int at = index[0] + index[1] * (degree[0] + 1);
+          const int u = index[0] == degree[0] ? at - 1 : at;
+          const int v = index[1] == degree[1] ? at - degree[0] - 1 : at;
+          for (int c = 0; c < 3; ++c)
+          {
+            edges(c, 0) = form.Block(e)[c * count + u + 1] - form.Block(e)[c * count + u];
+            edges(c, 1) =
+              form.Block(e)[c * count + v + degree[0] + 1] - form.Block(e)[c * count + v];
+          }
+          const Eigen::Vector3d a = edges.col(0);
+          const Eigen::Vector3d normal = a.cross(Eigen::Vector3d(edges.col(1)));
+          if (pass == 0)
+          {
+            mean += normal;
+          }
+          else
+          {
+            const double turn = IsPlane(spline) ? sign * normal[2] : mean.dot(normal);
+            isInverted = isInverted || !(turn > 0.0);
+          }
+        }
+      }
+    }
+    if (isInverted)
+    {
+      inverted.push_back(e);
+    }
+  }
+  return inverted;
+}
+
+template <int Dim>
+int ExtendMoves(Spline<Dim>& spline, const std::vector<int>& elements, const PointMatrix& moves,
+  const std::vector<char>& isHeld, const MendingParams& params)
+{
+  const SplineSpace<Dim>& space = *spline.Space;
+  const std::vector<int> patch = Rings<Dim>(MeshOf(space), elements, params.Rings);
+  const PatchFunctions<Dim> functions(space, patch, isHeld);
+  Eigen::VectorXi unknown = Eigen::VectorXi::Constant(space.NumFunctions, -1);
+  int count = 0;
+  for (std::size_t i = 0; i < functions.Functions.size(); ++i)
+  {
+    if (functions.IsFree[i] != 0)
+    {
+      unknown[functions.Functions[i]] = count++;
+    }
+  }
+  if (count == 0)
+  {
+    return 0;
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(count, 3);
+  for (const auto& [own, other] : NetNeighbours(space, patch))
+  {
+    const int row = unknown[own];
+    const int column = unknown[other];
+    if (row < 0)
+    {
+      continue;
+    }
+    entries.emplace_back(row, row, 1.0);
+    if (column >= 0)
+    {
+      entries.emplace_back(row, column, -1.0);
+    }
+    else if (isHeld[At(other)] != 0)
+    {
+      right.row(row) += moves.row(other);
+    }
+  }
+  Eigen::SparseMatrix<double> matrix(count, count);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper> solver(matrix);
+  solver.setTolerance(1e-10);
+  const Eigen::MatrixXd solution = solver.solve(right);
+  if (!solution.allFinite())
+  {
+    return 0;
+  }
+  for (const int function : functions.Functions)
+  {
+    if (unknown[function] >= 0)
+    {
+      spline.ControlPoints.row(function) += solution.row(unknown[function]);
+    }
+  }
+  return static_cast<int>(patch.size());
+}
+
+template <int Dim>
+Result<int> MinimizeBarrier(Spline<Dim>& spline, const std::vector<int>& elements, bool isReversed,
+  const std::vector<char>& isHeld, const MendingParams& params)
+{
+  if (Dim == 2 && !IsPlane(spline))
+  {
+    return 0;
+  }
+  const SplineSpace<Dim>& space = *spline.Space;
+  const std::vector<int> patch = Rings<Dim>(MeshOf(space), elements, params.Rings);
+  const PatchFunctions<Dim> functions(space, patch, isHeld);
+  const SplineSpace<Dim> part = Restrict(space, patch, functions);
+  const auto count = static_cast<Eigen::Index>(functions.Functions.size());
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = 0; i < count; ++i)
+  {
+    if (functions.IsFree[static_cast<std::size_t>(i)] != 0)
+    {
+      free.push_back(i);
+    }
+  }
+  if (free.empty())
+  {
+    return 0;
+  }
+  // planes of coordinates, mirrored where most elements are reversed, in units of an element
+  Eigen::MatrixXd planes(count, Dim);
+  for (Eigen::Index i = 0; i < count; ++i)
+  {
+    planes.row(i) = spline.ControlPoints.row(functions.Functions[static_cast<std::size_t>(i)])
+                      .template head<Dim>();
+  }
+  const Eigen::RowVectorXd origin = planes.colwise().mean();
+  planes.rowwise() -= origin;
+  const double extent = (planes.colwise().maxCoeff() - planes.colwise().minCoeff()).norm();
+  const double scale = std::pow(static_cast<double>(patch.size()), 1.0 / Dim) / extent;
+  planes *= scale;
+  planes.col(0) *= isReversed ? -1.0 : 1.0;
+  const int degree = part.Elements.front().Degree[0];
+  DomainEnergy<Dim> energy(
+    MakeElementField<Dim>(part, std::vector<int>(part.Elements.size(), degree + 2)),
+    static_cast<int>(count));
+  Density density;
+  density.Lambda = 0.0;
+  density.Kind = DensityKind::Penalty;
+  bool isStopped = false;
+  for (const double delta : { 0.1, 0.02, 0.004 })
+  {
+    density.Delta = delta;
+    Eigen::MatrixXd gradient(count, Dim);
+    const auto objective = [&](const Eigen::VectorXd& x, Eigen::VectorXd& slope)
+    {
+      for (std::size_t k = 0; k < free.size(); ++k)
+      {
+        for (Eigen::Index d = 0; d < Dim; ++d)
+        {
+          planes(free[k], d) = x[static_cast<Eigen::Index>(k) * Dim + d];
+        }
+      }
+      const EnergyValue value =
+        energy.Evaluate(density, planes.data(), nullptr, gradient.data(), nullptr);
+      slope.resize(x.size());
+      for (std::size_t k = 0; k < free.size(); ++k)
+      {
+        for (Eigen::Index d = 0; d < Dim; ++d)
+        {
+          slope[static_cast<Eigen::Index>(k) * Dim + d] = gradient(free[k], d);
+        }
+      }
+      return value.Energy;
+    };
+    Eigen::VectorXd x(static_cast<Eigen::Index>(free.size()) * Dim);
+    for (std::size_t k = 0; k < free.size(); ++k)
+    {
+      for (Eigen::Index d = 0; d < Dim; ++d)
+      {
+        x[static_cast<Eigen::Index>(k) * Dim + d] = planes(free[k], d);
+      }
+    }
+    MinimizeParams minimize;
+    minimize.MaxIterations = 200;
+    minimize.EnergyTolerance = 1e-5;
+    MinimizeLbfgs(x, objective, minimize, {},
+      [&](const MinimizeState&)
+      {
+        isStopped = isStopped || (params.Progress && !params.Progress(0.0));
+        return !isStopped;
+      });
+    if (isStopped)
+    {
+      return { ErrorCode::Aborted, "mending elements stopped" };
+    }
+    Eigen::VectorXd unused;
+    objective(x, unused);
+  }
+  planes.col(0) *= isReversed ? -1.0 : 1.0;
+  planes /= scale;
+  planes.rowwise() += origin;
+  for (const Eigen::Index i : free)
+  {
+    spline.ControlPoints.row(functions.Functions[static_cast<std::size_t>(i)])
+      .template head<Dim>() = planes.row(i);
+  }
+  return static_cast<int>(patch.size());
+}
+
+template Result<ElementVerdicts> CertifyElements(const Spline<2>&, int, const ProgressCallback&);
+template Result<ElementVerdicts> CertifyElements(const Spline<3>&, int, const ProgressCallback&);
+template std::vector<int> InvertedNets(const Spline<2>&, bool);
+template std::vector<int> InvertedNets(const Spline<3>&, bool);
+template int ExtendMoves(Spline<2>&, const std::vector<int>&, const PointMatrix&,
+  const std::vector<char>&, const MendingParams&);
+template int ExtendMoves(Spline<3>&, const std::vector<int>&, const PointMatrix&,
+  const std::vector<char>&, const MendingParams&);
+template Result<int> MinimizeBarrier(
+  Spline<2>&, const std::vector<int>&, bool, const std::vector<char>&, const MendingParams&);
+template Result<int> MinimizeBarrier(
+  Spline<3>&, const std::vector<int>&, bool, const std::vector<char>&, const MendingParams&);
+}

@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MeshClassification.h"
+
+#include <knotwork/SplineCore/DisjointSets.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <queue>
+#include <set>
+#include <unordered_map>
+
+namespace knotwork
+{
+namespace
+{
+/// How much an edge counts more that is away from its curve by its own length.
+constexpr double DistancePenalty = 25.0;
+/// Share of a quadrilateral's component that must agree on a face.
+constexpr double AgreeingShare = 0.8;
+/// Pieces of a curve without a corner.
+constexpr int ClosedPieces = 3;
+
+std::size_t At(int i)
+{
+  return static_cast<std::size_t>(i);
+}
+
+class Classifier
+{
+public:
+  Classifier(const SurfaceMesh& surface, const PointMatrix& points, const FitTarget& target)
+    : Surface(surface), Points(points), Target(target), Lengths(EdgeLengthsAt(surface, points)),
+      IsTaken(static_cast<std::size_t>(points.rows()), 0)
+  {
+    this->Result.PointParts.resize(static_cast<std::size_t>(points.rows()));
+    this->Result.CurveOf.assign(surface.Edges.size(), -1);
+    this->Result.FaceOf.assign(surface.Quads.size(), -1);
+  }
+
+  knotwork::Result<MeshClassification> Run()
+  {
+    this->MatchCorners();
+    // short curves first: they leave the others their ways
+    std::vector<std::pair<double, int>> order;
+    for (std::size_t c = 0; c < this->Target.Curves().size(); ++c)
+    {
+      const TargetCurve& curve = this->Target.Curves()[c];
+      order.emplace_back(
+        PolylineFoot(curve.Points, curve.IsClosed()).Length(), static_cast<int>(c));
+    }
+    std::sort(order.begin(), order.end());
+    for (const auto& [length, curve] : order)
+    {
+      this->MatchCurve(curve);
+    }
+    Status status = this->Target.HasSurface() ? this->MatchFaces() : Status();
+    return status ? knotwork::Result<MeshClassification>(std::move(this->Result)) : status;
+  }
+
+private:
+  void MatchCorners()
+  {
+    const PointMatrix& corners = this->Target.Vertices();
+    this->PointOfCorner.assign(static_cast<std::size_t>(corners.rows()), -1);
+    std::vector<std::pair<double, std::pair<int, int>>> pairs; // distance, corner, point
+    for (int c = 0; c < corners.rows(); ++c)
+    {
+      for (const int point : this->Surface.Points)
+      {
+        const double distance = (this->Points.row(point) - corners.row(c)).norm();
+        if (distance <= this->Lengths[At(point)])
+        {
+          pairs.push_back({ distance, { c, point } });
+        }
+      }
+    }
+    std::sort(pairs.begin(), pairs.end());
+    for (const auto& [distance, pair] : pairs)
+    {
+      const auto [corner, point] = pair;
+      if (this->PointOfCorner[At(corner)] < 0 && this->IsTaken[At(point)] == 0)
+      {
+        this->PointOfCorner[At(corner)] = point;
+        this->IsTaken[At(point)] = 1;
+        this->Result.PointParts[At(point)] = { TargetEntity::Vertex, corner };
+      }
+    }
+    for (int c = 0; c < corners.rows(); ++c)
+    {
+      if (this->PointOfCorner[At(c)] < 0)
+      {
+        this->Result.Unmatched.push_back(
+          { { TargetEntity::Vertex, c }, { corners(c, 0), corners(c, 1), corners(c, 2) } });
+      }
+    }
+  }
+
+  /// Points of the surface near a line, with their distances.
+  std::unordered_map<int, PolylineFoot::Foot> Near(const PolylineFoot& line) const
+  {
+    std::unordered_map<int, PolylineFoot::Foot> near;
+    for (const int point : this->Surface.Points)
+    {
+      const PolylineFoot::Foot foot = line.Nearest(this->Points.row(point));
+      if (foot.Distance <= 2.0 * this->Lengths[At(point)])
+      {
+        near.emplace(point, foot);
+      }
+    }
+    return near;
+  }
+
+  void MatchCurve(int number)
+  {
+    const TargetCurve& curve = this->Target.Curves()[At(number)];
+    const PolylineFoot line(curve.Points, curve.IsClosed());
+    const auto near = this->Near(line);
+    std::vector<int> stops;
+    std::vector<double> lengths;
+    if (curve.IsClosed())
+    {
+      // from the point that is the nearest on
+      const auto first = std::min_element(near.begin(), near.end(),
+        [](const auto& a, const auto& b)
+        {
+          return std::make_pair(a.second.Distance, a.first) <
+            std::make_pair(b.second.Distance, b.first);
+        });
+      const double begin = first == near.end() ? 0.0 : first->second.Length;
+      for (int k = 0; k <= ClosedPieces; ++k)
+      {
+        lengths.push_back(begin + k * line.Length() / ClosedPieces);
+        stops.push_back(
+          k == ClosedPieces ? stops.front() : this->Closest(near, line.At(lengths.back())));
+      }
+    }
+    else
+    {
+      lengths = { 0.0, line.Length() };
+      stops = { this->PointOfCorner[At(curve.Ends[0])], this->PointOfCorner[At(curve.Ends[1])] };
+    }
+    std::vector<int> path;
+    bool isFound = std::find(stops.begin(), stops.end(), -1) == stops.end();
+    for (std::size_t k = 0; isFound && k + 1 < stops.size(); ++k)
+    {
+      const std::vector<int> piece =
+        this->FindPath(near, line, stops[k], stops[k + 1], { lengths[k], lengths[k + 1] });
+      isFound = !piece.empty();
+      path.insert(path.end(), piece.begin(), piece.end());
+    }
+    if (!isFound || !this->Follows(path, near, line))
+    {
+      const Eigen::RowVector3d place = line.At(0.5 * line.Length());
+      this->Result.Unmatched.push_back(
+        { { TargetEntity::Curve, number }, { place[0], place[1], place[2] } });
+      return;
+    }
+    for (const int edge : path)
+    {
+      this->Result.CurveOf[At(edge)] = number;
+      for (const int end : this->Surface.Edges[At(edge)])
+      {
+        this->IsTaken[At(end)] = 1;
+        TargetPart& part = this->Result.PointParts[At(end)];
+        if (part.Entity != TargetEntity::Vertex)
+        {
+          part = { TargetEntity::Curve, number };
+        }
+      }
+    }
+  }
+
+  int Closest(
+    const std::unordered_map<int, PolylineFoot::Foot>& near, const Eigen::RowVector3d& place) const
+  {
+    std::pair<double, int> best{ std::numeric_limits<double>::infinity(), -1 };
+    for (const auto& [point, foot] : near)
+    {
+      if (this->IsTaken[At(point)] == 0)
+      {
+        best = std::min(best, { (this->Points.row(point) - place).norm(), point });
+      }
+    }
+    return best.second;
+  }
+
+  /// Edges of the cheapest path within a part of the curve, empty when there is none.
+  std::vector<int> FindPath(const std::unordered_map<int, PolylineFoot::Foot>& near,
+    const PolylineFoot& line, int from, int to, const std::array<double, 2>& part) const
+  {
+    const double whole = line.Length();
+    const double margin = 0.5 * (part[1] - part[0]);
+    const auto isInPart = [&](double length)
+    {
+      if (!line.IsClosed())
+      {
+        return true;
+      }
+      const double middle = 0.5 * (part[0] + part[1]);
+      const double off = std::abs(std::remainder(length - middle, whole));
+      return off <= 0.5 * (part[1] - part[0]) + margin;
+    };
+    struct Entry
+    {
+      double Cost;
+      int Point;
+      int Edge;
+      bool operator>(const Entry& other) const
+      {
+        return std::make_pair(this->Cost, this->Edge) > std::make_pair(other.Cost, other.Edge);
+      }
+    };
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    std::unordered_map<int, int> cameBy;
+    queue.push({ 0.0, from, -1 });
+    while (!queue.empty())
+    {
+      const Entry entry = queue.top();
+      queue.pop();
+      if (!cameBy.emplace(entry.Point, entry.Edge).second)
+      {
+        continue;
+      }
+      if (entry.Point == to && entry.Edge >= 0)
+      {
+        break;
+      }
+      this->Surface.ForEdges(entry.Point,
+        [&](int edge)
+        {
+          const int next = this->Surface.Across(edge, entry.Point);
+          const auto foot = near.find(next);
+          if (foot == near.end() || cameBy.count(next) != 0 ||
+            (next != to && this->IsTaken[At(next)] != 0) || !isInPart(foot->second.Length) ||
+            this->Result.CurveOf[At(edge)] >= 0)
+          {
+            return;
+          }
+          const Eigen::RowVector3d a = this->Points.row(entry.Point);
+          const Eigen::RowVector3d b = this->Points.row(next);
+          const double length = (b - a).norm();
+          const double away = (line.Nearest(0.5 * (a + b)).Distance + foot->second.Distance) /
+            std::max(length, 1e-300);
+          queue.push({ entry.Cost + length * (1.0 + DistancePenalty * away * away), next, edge });
+        });
+    }
+    std::vector<int> path;
+    if (cameBy.count(to) == 0 || from == to)
+    {
+      return path;
+    }
+    for (int point = to; point != from;)
+    {
+      path.push_back(cameBy.at(point));
+      point = this->Surface.Across(path.back(), point);
+    }
+    std::reverse(path.begin(), path.end());
+    return path;
+  }
+
+  /// Whether the path stays near the curve, and passes all of it.
+  bool Follows(const std::vector<int>& path,
+    const std::unordered_map<int, PolylineFoot::Foot>& near, const PolylineFoot& line) const
+  {
+    double length = 0.0;
+    double longest = 0.0;
+    double farthest = 0.0;
+    std::set<int> points;
+    for (const int edge : path)
+    {
+      const auto [a, b] = this->Surface.Edges[At(edge)];
+      const double own = (this->Points.row(a) - this->Points.row(b)).norm();
+      length += own;
+      longest = std::max(longest, own);
+      points.insert({ a, b });
+      for (const int end : { a, b })
+      {
+        const auto foot = near.find(end);
+        const double distance =
+          foot == near.end() ? line.Nearest(this->Points.row(end)).Distance : foot->second.Distance;
+        farthest = std::max(farthest, distance / this->Lengths[At(end)]);
+      }
+    }
+    // no point twice, but for both ends of one that closes
+    const bool isSimple = points.size() == path.size() + (line.IsClosed() ? 0 : 1);
+    const bool isWhole =
+      length >= 0.6 * line.Length() - longest && length <= 1.8 * line.Length() + longest;
+    return isSimple && isWhole && farthest <= 1.0;
+  }
+
+  /// Components of quadrilaterals between classified edges.
+  Status MatchFaces()
+  {
+    PointMatrix middles(static_cast<Eigen::Index>(this->Surface.Quads.size()), 3);
+    Eigen::VectorXd areas(middles.rows());
+    for (Eigen::Index q = 0; q < middles.rows(); ++q)
+    {
+      const auto& quad = this->Surface.Quads[static_cast<std::size_t>(q)];
+      const auto point = [&](std::size_t k) -> Eigen::RowVector3d
+      { return this->Points.row(quad[k]); };
+      middles.row(q) = 0.25 * (point(0) + point(1) + point(2) + point(3));
+      areas[q] = (point(2) - point(0)).norm() * (point(3) - point(1)).norm();
+    }
+    TargetPoints feet;
+    if (Status status = this->Target.Find({}, middles, feet); !status)
+    {
+      return status;
+    }
+    DisjointSets sets(static_cast<int>(this->Surface.Quads.size()));
+    for (std::size_t e = 0; e < this->Surface.Edges.size(); ++e)
+    {
+      const auto [a, b] = this->Surface.QuadsOf[e];
+      if (b >= 0 && this->Result.CurveOf[e] < 0)
+      {
+        sets.Unite(a, b);
+      }
+    }
+    std::map<int, std::map<int, double>> votes;
+    for (Eigen::Index q = 0; q < middles.rows(); ++q)
+    {
+      votes[sets.Find(static_cast<int>(q))][feet.Faces[static_cast<std::size_t>(q)]] += areas[q];
+    }
+    std::map<int, int> faceOf;
+    for (const auto& [component, shares] : votes)
+    {
+      double sum = 0.0;
+      std::pair<double, int> best{ 0.0, -1 };
+      for (const auto& [face, share] : shares)
+      {
+        sum += share;
+        best = std::max(best, { share, face });
+      }
+      faceOf[component] = best.first >= AgreeingShare * sum ? best.second : -1;
+    }
+    for (std::size_t q = 0; q < this->Surface.Quads.size(); ++q)
+    {
+      const int face = faceOf[sets.Find(static_cast<int>(q))];
+      this->Result.FaceOf[q] = face;
+      for (const int point : this->Surface.Quads[q])
+      {
+        TargetPart& part = this->Result.PointParts[At(point)];
+        if (part.Entity == TargetEntity::Surface && face >= 0)
+        {
+          part = { TargetEntity::Face, face };
+        }
+      }
+    }
+    return {};
+  }
+
+  const SurfaceMesh& Surface;
+  const PointMatrix& Points;
+  const FitTarget& Target;
+  const std::vector<double> Lengths;
+  std::vector<char> IsTaken; ///< points of corners and curves
+  std::vector<int> PointOfCorner;
+  MeshClassification Result;
+};
+}
+
+Result<MeshClassification> ClassifyMesh(
+  const SurfaceMesh& surface, const PointMatrix& points, const FitTarget& target)
+{
+  return Classifier(surface, points, target).Run();
+}
+}

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MeshTarget.h"
+
+#include <knotwork/SplineCore/TriangleIndex.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace knotwork
+{
+namespace
+{
+std::size_t At(int i)
+{
+  return static_cast<std::size_t>(i);
+}
+
+class MeshTarget final : public FitTarget
+{
+public:
+  MeshTarget(const DiscMesh& surface, const MeshFeatures& features)
+    : Whole(surface.Points, surface.Triangles), Regions(features.Regions)
+  {
+    this->FaceCount = features.NumRegions;
+    this->Closed = surface.Loops.empty();
+    this->VertexList.resize(static_cast<Eigen::Index>(features.Corners.size()), 3);
+    std::vector<int> cornerOf(static_cast<std::size_t>(surface.NumPoints()), -1);
+    for (std::size_t i = 0; i < features.Corners.size(); ++i)
+    {
+      cornerOf[At(features.Corners[i])] = static_cast<int>(i);
+      this->VertexList.row(static_cast<Eigen::Index>(i)) = surface.Points.row(features.Corners[i]);
+    }
+    for (const FeatureChain& chain : features.Chains)
+    {
+      TargetCurve& curve = this->CurveList.emplace_back();
+      if (!chain.Closed)
+      {
+        curve.Ends = { cornerOf[At(chain.Points.front())], cornerOf[At(chain.Points.back())] };
+      }
+      curve.Points.resize(static_cast<Eigen::Index>(chain.Points.size()), 3);
+      for (std::size_t i = 0; i < chain.Points.size(); ++i)
+      {
+        curve.Points.row(static_cast<Eigen::Index>(i)) = surface.Points.row(chain.Points[i]);
+      }
+    }
+    this->IndexCurves();
+    this->MakeNormals();
+    this->DivideFaces();
+  }
+
+  Status Find(
+    const TargetPart& part, const PointMatrixView& queries, TargetPoints& result) const override
+  {
+    if (part.Entity == TargetEntity::Curve || part.Entity == TargetEntity::Vertex)
+    {
+      this->FindOnLines(part, queries, result);
+      return {};
+    }
+    result.Points.resize(queries.rows(), 3);
+    result.Normals.resize(queries.rows(), 3);
+    result.Faces.resize(static_cast<std::size_t>(queries.rows()));
+    const bool isWhole = part.Entity == TargetEntity::Surface || this->Parts.empty();
+    const TriangleIndex<3>& index = isWhole ? this->Whole : this->Parts[At(part.Id)];
+    Follow(index, queries, result.Points,
+      [&](Eigen::Index i, const TriangleFoot& foot)
+      {
+        const int triangle =
+          isWhole ? foot.Triangle : this->TrianglesOf[At(part.Id)][At(foot.Triangle)];
+        result.Normals.row(i) = this->Normals.row(triangle);
+        result.Faces[static_cast<std::size_t>(i)] = this->Regions[At(triangle)];
+      });
+    return {};
+  }
+
+  TargetSamples Samples(int atLeast) const override
+  {
+    // a square number of equal parts of every triangle, as its area asks for
+    const auto& triangles = this->Whole.Triangles();
+    std::vector<int> parts(triangles.size());
+    Eigen::Index count = 0;
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+    {
+      const double share = this->Areas[static_cast<Eigen::Index>(t)] / this->Areas.sum() * atLeast;
+      parts[t] = std::clamp(static_cast<int>(std::ceil(std::sqrt(share))), 1, 1000);
+      count += static_cast<Eigen::Index>(parts[t]) * parts[t];
+    }
+    TargetSamples samples;
+    samples.Points.resize(count, 3);
+    samples.Areas.resize(count);
+    Eigen::Index row = 0;
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+    {
+      const int n = parts[t];
+      for (int i = 0; i < n; ++i)
+      {
+        for (int j = 0; j < 2 * (n - i) - 1; ++j, ++row)
+        {
+          // upright parts and, between them, those upside down
+          const double b = (i + (j % 2 == 0 ? 1.0 : 2.0) / 3.0) / n;
+          const double c = (static_cast<double>(j / 2) + (j % 2 == 0 ? 1.0 : 2.0) / 3.0) / n;
+          samples.Points.row(row) = this->Whole.PointAt(static_cast<int>(t), b, c);
+          samples.Areas[row] = this->Areas[static_cast<Eigen::Index>(t)] / (n * n);
+          samples.Faces.push_back(this->Regions[t]);
+        }
+      }
+    }
+    return samples;
+  }
+
+private:
+  /// After CurveList is set.
+  void IndexCurves()
+  {
+    for (const TargetCurve& curve : this->CurveList)
+    {
+      std::vector<MeshTriangle> pieces;
+      const int count = static_cast<int>(curve.Points.rows());
+      for (int i = 0; i + 1 < count; ++i)
+      {
+        pieces.push_back({ i, i + 1, i + 1 });
+      }
+      if (curve.IsClosed())
+      {
+        pieces.push_back({ count - 1, 0, 0 });
+      }
+      this->CurveIndex.emplace_back(curve.Points, std::move(pieces));
+    }
+  }
+  void FindOnLines(
+    const TargetPart& part, const PointMatrixView& queries, TargetPoints& result) const
+  {
+    result.Points.resize(queries.rows(), 3);
+    result.Normals.setZero(queries.rows(), 3);
+    result.Faces.assign(static_cast<std::size_t>(queries.rows()), -1);
+    if (part.Entity == TargetEntity::Vertex)
+    {
+      result.Points.rowwise() = this->VertexList.row(part.Id);
+      return;
+    }
+    Follow(this->CurveIndex[At(part.Id)], queries, result.Points,
+      [](Eigen::Index, const TriangleFoot&) {});
+  }
+
+  /// The triangle of the query before bounds the distance of the next one.
+  template <class Visit>
+  static void Follow(const TriangleIndex<3>& index, const PointMatrixView& queries,
+    PointMatrix& points, Visit&& visit)
+  {
+    TriangleFoot foot;
+    for (Eigen::Index i = 0; i < queries.rows(); ++i)
+    {
+      const Eigen::RowVector3d query = queries.row(i);
+      const double bound = foot.Triangle < 0
+        ? std::numeric_limits<double>::infinity()
+        : index.Foot(foot.Triangle, query.data()).SquaredDistance;
+      foot = index.Nearest(query.data(), bound);
+      points.row(i) = index.PointAt(foot.Triangle, foot.Second, foot.Third);
+      visit(i, foot);
+    }
+  }
+
+  void MakeNormals()
+  {
+    const auto count = static_cast<Eigen::Index>(this->Whole.Triangles().size());
+    this->Normals.resize(count, 3);
+    this->Areas.resize(count);
+    for (Eigen::Index t = 0; t < count; ++t)
+    {
+      const auto corner = [&](int k)
+      { return Eigen::Map<const Eigen::Vector3d>(this->Whole.Corner(static_cast<int>(t), k)); };
+      const Eigen::Vector3d normal = (corner(1) - corner(0)).cross(corner(2) - corner(0));
+      this->Areas[t] = 0.5 * normal.norm();
+      this->Normals.row(t) = normal.normalized();
+    }
+  }
+
+  /// An index a face, with the points that it has; none of a single face.
+  void DivideFaces()
+  {
+    if (this->FaceCount < 2)
+    {
+      return;
+    }
+    this->TrianglesOf.resize(At(this->FaceCount));
+    for (std::size_t t = 0; t < this->Regions.size(); ++t)
+    {
+      this->TrianglesOf[At(this->Regions[t])].push_back(static_cast<int>(t));
+    }
+    std::vector<int> number(static_cast<std::size_t>(this->Whole.Points().rows()), -1);
+    for (const std::vector<int>& triangles : this->TrianglesOf)
+    {
+      std::vector<int> points;
+      std::vector<MeshTriangle> own;
+      for (const int t : triangles)
+      {
+        MeshTriangle& triangle = own.emplace_back(this->Whole.Triangles()[At(t)]);
+        for (int& corner : triangle)
+        {
+          if (number[At(corner)] < 0)
+          {
+            number[At(corner)] = static_cast<int>(points.size());
+            points.push_back(corner);
+          }
+          corner = number[At(corner)];
+        }
+      }
+      PointMatrix places(static_cast<Eigen::Index>(points.size()), 3);
+      for (std::size_t i = 0; i < points.size(); ++i)
+      {
+        places.row(static_cast<Eigen::Index>(i)) = this->Whole.Points().row(points[i]);
+        number[At(points[i])] = -1;
+      }
+      this->Parts.emplace_back(std::move(places), std::move(own));
+    }
+  }
+
+  std::vector<TriangleIndex<3>> CurveIndex; ///< of straight pieces, as triangles without area
+  TriangleIndex<3> Whole;
+  std::vector<int> Regions;                  ///< of every triangle
+  PointMatrix Normals;                       ///< of every triangle
+  Eigen::VectorXd Areas;                     ///< of every triangle
+  std::vector<TriangleIndex<3>> Parts;       ///< a face
+  std::vector<std::vector<int>> TrianglesOf; ///< a face: numbers of its triangles
+};
+}
+
+Result<FitTargetPtr> MakeMeshTarget(const TriangleMesh& mesh, const MeshFeatureParams& params)
+{
+  const Result<DiscMesh> surface = CheckSurface(mesh, true);
+  if (!surface)
+  {
+    return surface.Status;
+  }
+  const Result<MeshFeatures> features = FindMeshFeatures(surface.Value, params);
+  if (!features)
+  {
+    return features.Status;
+  }
+  return FitTargetPtr(std::make_shared<MeshTarget>(surface.Value, features.Value));
+}
+}

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bezier projection onto a target, dimension by dimension; private to the kernel.
+#pragma once
+#include "MeshClassification.h"
+
+#include <knotwork/SplineCore/UnstructuredSpace.h>
+
+#include <string>
+
+namespace knotwork
+{
+struct ProgressiveFitParams
+{
+  bool Surfaces = true;
+  bool Curves = true;
+  bool Points = true;
+  /// Times that the surface is projected onto the target, from the second on from where it was
+  /// fitted to before, >= 1.
+  int Projections = 1;
+  /// Gauss points a direction: p + 1 and so many more, in [0, 16].
+  int ExtraPoints = 1;
+  int Threads = 0; ///< 0 = all cores; the result does not depend on it
+  ProgressCallback Progress;
+};
+
+template <int Dim>
+struct ProgressiveFit
+{
+  Spline<Dim> Value;
+  Spline<Dim> Before;                ///< through the points, nothing else
+  std::vector<std::string> Warnings; ///< curves and corners that could not be fitted, and why
+};
+
+/// Facets inside of the mesh that must be C^0 for its surface to have an edge at every classified
+/// edge, and a corner at every corner where classified edges or rims go straight on in the mesh.
+template <int Dim>
+std::vector<CellSide> FeatureFacets(const CellMesh<Dim>& mesh, const MeshTopology<Dim>& topology,
+  const SurfaceMesh& surface, const MeshClassification& parts);
+
+/// The polynomials through the points around every cell, projected onto the space; then, on its
+/// surface, their closest points on the target's faces; on classified edges and rims those on
+/// curves; corners. Each overwrites the coefficients that it has.
+/// @param points  of the mesh, on the target. @param target  null: the points alone.
+/// @return the target's errors; Aborted.
+/// @source  Thomas, Scott, Evans, Tew, Evans, CMAME 284 (2015) 55-105.
+template <int Dim>
+Result<ProgressiveFit<Dim>> FitProgressively(const SplineSpacePtr<Dim>& space,
+  const SurfaceMesh& surface, const MeshClassification& parts, const PointMatrix& points,
+  const FitTarget* target, const ProgressiveFitParams& params);
+}

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Edges joined to the curves of a target, private to the kernel.
+#pragma once
+#include "FitTarget.h"
+
+namespace knotwork
+{
+struct SharpChains
+{
+  std::vector<TargetCurve> Curves;
+  PointMatrix Vertices;                  ///< n x 3: the corners
+  std::vector<std::vector<int>> Members; ///< a curve: the edges that it is made of, in order
+};
+
+/// Joins edges that meet: corners are where other than two ends come together, or where two turn.
+/// @param lines  points along every edge, two at least. @param tolerance  within which ends are
+/// one.
+/// @param cornerAngle  in degrees.
+SharpChains JoinChains(const std::vector<PointMatrix>& lines, double tolerance, double cornerAngle);
+}

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkCADFit
+ * @brief   one smooth spline on a mesh that lies on a CAD part, a scan or another shape
+ *
+ * Input 0 is a conforming mesh (vtkPolyData or vtkUnstructuredGrid) of linear quadrilaterals, in
+ * space or in the plane, or of linear hexahedra. Input 1, optional, is the target: triangles,
+ * closed or open; spline surfaces, trimmed faces of a CAD file (vtkCADReader) or volumes, whose
+ * boundary is meant; curves. Without it the mesh itself is the target, unless Target is
+ * IMPLICIT_FUNCTION.
+ *
+ * The surface of the mesh is classified on the target's faces, sharp edges and corners; its points
+ * are moved there, folded cells untangled, and edges on the target's sharp edges become features of
+ * a space on the mesh, on which the mesh and its closest points on the target are projected.
+ * Elements that are not proved valid are mended.
+ *
+ * Output 0 is a spline grid of one patch of kind unstructured with the cell arrays of the mesh,
+ * `Distance` (largest of the element's surface from the target; 0 inside), `Verdict` (1 valid, 2
+ * reversed, 0 undecided, -1 invalid) and `MinJacobianLower`. Output 1 is a table of one row,
+ * output 2 one of the target's entities with their distances, output 3 points on the target with
+ * their `Distance` from the spline and `Face`, output 4 points at curves and corners of the target
+ * that the mesh has no edges or points for.
+ *
+ * @source Thomas, Scott, Evans, Tew, Evans, CMAME 284 (2015) 55-105. The module's page has methods,
+ * limits and errors.
+ */
+#ifndef vtkCADFit_h
+#define vtkCADFit_h
+#include "vtkKnotworkCADFittingModule.h" // for export macro
+#include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
+
+class vtkImplicitFunction;
+
+class VTKKNOTWORKCADFITTING_EXPORT vtkCADFit : public vtkSplineAlgorithm
+{
+public:
+  static vtkCADFit* New();
+  vtkTypeMacro(vtkCADFit, vtkSplineAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum Targets
+  {
+    INPUT = 0,
+    IMPLICIT_FUNCTION
+  };
+  enum Policies
+  {
+    AUTOMATIC = 0,
+    FULL,
+    MOTORCYCLE,
+    MINIMAL
+  };
+  enum SheetLengths
+  {
+    UNIFORM = 0,
+    MEAN
+  };
+  enum SmoothingMethods
+  {
+    OFF = 0,
+    NET,
+    CERTIFICATE
+  };
+
+  ///@{
+  /** Degree of the spline in all directions. Default 3, valid range [1, 9]. */
+  vtkSetClampMacro(Degree, int, 1, 9);
+  vtkGetMacro(Degree, int);
+  ///@}
+  ///@{
+  /** What the spline is fitted to, one of Targets: INPUT, the target that is input, or without one
+   * the mesh itself; IMPLICIT_FUNCTION, where that function is zero. Default INPUT. */
+  vtkSetClampMacro(TargetType, int, INPUT, IMPLICIT_FUNCTION);
+  vtkGetMacro(TargetType, int);
+  ///@}
+  ///@{
+  /** The function of TargetType IMPLICIT_FUNCTION. Default none. */
+  virtual void SetImplicitFunction(vtkImplicitFunction* function);
+  vtkGetObjectMacro(ImplicitFunction, vtkImplicitFunction);
+  ///@}
+  ///@{
+  /** Where the spline is less smooth than C^(p-1), one of Policies: FULL, C^0 along the whole base
+   * complex of the extraordinary points, the most accurate; MOTORCYCLE, of quadrilaterals, C^0
+   * along tracks that end where they meet others; MINIMAL, C^0 next to extraordinary points, then
+   * C^1, C^2 and so on; AUTOMATIC, FULL where that creases at most 40 % of the inner edges or
+   * faces, else MOTORCYCLE or, of hexahedra, MINIMAL. Default AUTOMATIC. */
+  vtkSetClampMacro(Policy, int, AUTOMATIC, MINIMAL);
+  vtkGetMacro(Policy, int);
+  ///@}
+  ///@{
+  /** Knot intervals of the sheets of parallel edges, one of SheetLengths: UNIFORM, all 1; MEAN, as
+   * the mean lengths of their edges. Default UNIFORM. Advanced. */
+  vtkSetClampMacro(Lengths, int, UNIFORM, MEAN);
+  vtkGetMacro(Lengths, int);
+  ///@}
+  ///@{
+  /** Edges of a target of triangles between normals that differ by this angle in degrees are
+   * sharp. Default 40, valid range [1, 179]. */
+  vtkSetClampMacro(SharpAngle, double, 1.0, 179.0);
+  vtkGetMacro(SharpAngle, double);
+  ///@}
+  ///@{
+  /** The same of edges that continue sharp ones, and of edges between faces of a CAD model or
+   * spline surfaces; not above SharpAngle. Default 20, valid range [1, 179]. */
+  vtkSetClampMacro(WeakAngle, double, 1.0, 179.0);
+  vtkGetMacro(WeakAngle, double);
+  ///@}
+  ///@{
+  /** Turn in degrees of sharp edges and rims from which on they have a corner. Default 60, valid
+   * range [1, 180]. Advanced. */
+  vtkSetClampMacro(CornerAngle, double, 1.0, 180.0);
+  vtkGetMacro(CornerAngle, double);
+  ///@}
+  ///@{
+  /** Faces of a CAD model that count as one, by their numbers: `0,1,2;5,6` are two groups. Edges
+   * inside of a group are not sharp at any angle. Default empty. Advanced. */
+  vtkSetStringMacro(FaceGroups);
+  vtkGetStringMacro(FaceGroups);
+  ///@}
+  ///@{
+  /** Edges between quadrilaterals whose normals differ by more than this angle in degrees are
+   * features, C^0, whatever the target has there. 180: none is. Of quadrilaterals only. Default
+   * 180, valid range [0, 180]. Advanced. */
+  vtkSetClampMacro(FeatureAngle, double, 0.0, 180.0);
+  vtkGetMacro(FeatureAngle, double);
+  ///@}
+  ///@{
+  /** Cell array of the mesh; edges, or faces of hexahedra, between cells of different values are
+   * features. Empty or `None`: none is. Default empty. */
+  vtkSetStringMacro(FeatureArray);
+  vtkGetStringMacro(FeatureArray);
+  ///@}
+  ///@{
+  /** Whether every polygon is split at its middle into quadrilaterals. Default off. Advanced. */
+  vtkSetMacro(SplitPolygons, bool);
+  vtkGetMacro(SplitPolygons, bool);
+  vtkBooleanMacro(SplitPolygons, bool);
+  ///@}
+  ///@{
+  /** Whether the surface is fitted to the target's faces. Default on. */
+  vtkSetMacro(FitSurfaces, bool);
+  vtkGetMacro(FitSurfaces, bool);
+  vtkBooleanMacro(FitSurfaces, bool);
+  ///@}
+  ///@{
+  /** Whether edges on sharp edges and rims are fitted to these, after the surface. Default on. */
+  vtkSetMacro(FitCurves, bool);
+  vtkGetMacro(FitCurves, bool);
+  vtkBooleanMacro(FitCurves, bool);
+  ///@}
+  ///@{
+  /** Whether points at the target's corners are put there, at last. Default on. */
+  vtkSetMacro(FitPoints, bool);
+  vtkGetMacro(FitPoints, bool);
+  vtkBooleanMacro(FitPoints, bool);
+  ///@}
+  ///@{
+  /** Times that the surface is projected onto the target, from the second on from where it was
+   * fitted to before. Default 1, valid range [1, 100]. Advanced. */
+  vtkSetClampMacro(Projections, int, 1, 100);
+  vtkGetMacro(Projections, int);
+  ///@}
+  ///@{
+  /** Gauss points of an element a direction beyond Degree + 1, at which closest points are taken:
+   * more for a target with finer detail. Default 1, valid range [0, 16]. */
+  vtkSetClampMacro(ExtraPoints, int, 0, 16);
+  vtkGetMacro(ExtraPoints, int);
+  ///@}
+  ///@{
+  /** Whether cells that are folded, as they are given or on the target, are untangled: their points
+   * slide on the target. Default on. */
+  vtkSetMacro(Untangle, bool);
+  vtkGetMacro(Untangle, bool);
+  vtkBooleanMacro(Untangle, bool);
+  ///@}
+  ///@{
+  /** Cells around folded ones, ring by ring, whose points may move. Default 2, valid range
+   * [0, 100]. For Untangle on. Advanced. */
+  vtkSetClampMacro(UntangleRings, int, 0, 100);
+  vtkGetMacro(UntangleRings, int);
+  ///@}
+  ///@{
+  /** Whether a layer of hexahedra is put under the whole surface where a hexahedron has two faces
+   * on one face of the target: no map is valid along their common edge. Default on. */
+  vtkSetMacro(Layer, bool);
+  vtkGetMacro(Layer, bool);
+  vtkBooleanMacro(Layer, bool);
+  ///@}
+  ///@{
+  /** Which elements are mended after the fit, one of SmoothingMethods: OFF, none; NET, those whose
+   * control nets are inverted, which is no proof; CERTIFICATE, those that are not proved valid.
+   * Default CERTIFICATE. */
+  vtkSetClampMacro(Smoothing, int, OFF, CERTIFICATE);
+  vtkGetMacro(Smoothing, int);
+  ///@}
+  ///@{
+  /** Elements around those that are mended, ring by ring, whose control points may move. Default 2,
+   * valid range [0, 100]. Advanced. */
+  vtkSetClampMacro(SmoothingRings, int, 0, 100);
+  vtkGetMacro(SmoothingRings, int);
+  ///@}
+  ///@{
+  /** Points on the target at which its distance from the spline is measured, at least; 0: it is
+   * not. Default 20000, valid range [0, 100000000]. */
+  vtkSetClampMacro(TargetSamples, int, 0, 100000000);
+  vtkGetMacro(TargetSamples, int);
+  ///@}
+  ///@{
+  /** The target (input port 1). */
+  void SetTargetConnection(vtkAlgorithmOutput* output);
+  void SetTargetData(vtkDataObject* target);
+  ///@}
+
+  vtkMTimeType GetMTime() override;
+
+protected:
+  vtkCADFit();
+  ~vtkCADFit() override;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkCADFit(const vtkCADFit&) = delete;
+  void operator=(const vtkCADFit&) = delete;
+
+  int Degree = 3;
+  int TargetType = INPUT;
+  vtkImplicitFunction* ImplicitFunction = nullptr;
+  int Policy = AUTOMATIC;
+  int Lengths = UNIFORM;
+  double SharpAngle = 40.0;
+  double WeakAngle = 20.0;
+  double CornerAngle = 60.0;
+  char* FaceGroups = nullptr;
+  double FeatureAngle = 180.0;
+  char* FeatureArray = nullptr;
+  bool SplitPolygons = false;
+  bool FitSurfaces = true;
+  bool FitCurves = true;
+  bool FitPoints = true;
+  int Projections = 1;
+  int ExtraPoints = 1;
+  bool Untangle = true;
+  int UntangleRings = 2;
+  bool Layer = true;
+  int Smoothing = CERTIFICATE;
+  int SmoothingRings = 2;
+  int TargetSamples = 20000;
+};
+#endif
