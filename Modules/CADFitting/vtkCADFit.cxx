@@ -110,7 +110,8 @@ void EncodeNumbers(const CADFit<Dim>& fit, vtkTable* table)
   AddColumn(table, "FoldedCells", fit.FoldedCells);
   AddColumn(table, "StillFolded", fit.StillFolded);
   AddColumn(table, "UnmatchedFeatures", static_cast<int>(fit.UnmatchedFeatures.size()));
-  AddColumn(table, "Volume", fit.Measure);
+  AddColumn(table, "Area", fit.Area);
+  AddColumn(table, "Volume", fit.Volume);
   AddColumn(table, "Path", fit.Path);
 }
 

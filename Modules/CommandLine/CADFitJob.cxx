@@ -52,7 +52,7 @@ protected:
         "RmsDistanceBack", "MeshMaxDistance", "MeshRmsDistance", "MeshMaxDistanceBack",
         "MeshRmsDistanceBack", "MinJacobianLower", "UncertifiedElements", "InvalidElementsBefore",
         "SmoothedElements", "LayerElements", "FoldedCells", "StillFolded", "UnmatchedFeatures",
-        "Volume" },
+        "Area", "Volume" },
       session.Report);
     session.Report["verdict"] = table->GetValueByName(0, "Verdict").ToString();
     session.Report["path"] = table->GetValueByName(0, "Path").ToString();

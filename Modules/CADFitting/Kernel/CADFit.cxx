@@ -10,9 +10,14 @@
 
 #include <knotwork/JacobianValidation/CellMeasures.h>
 #include <knotwork/SplineCore/MeshTraces.h>
+#include <knotwork/SplineCore/Quadrature.h>
+
+#include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <set>
 
 namespace knotwork
 {
@@ -20,6 +25,12 @@ namespace
 {
 /// Rounds in which points of the mesh move around elements without a certificate.
 constexpr int MostRounds = 3;
+/// Rounds in which curves of the target are given up that fold cells, or that leave elements
+/// without a certificate.
+constexpr int MostFoldedRounds = 4;
+constexpr int MostAttempts = 3;
+constexpr int MostSweeps = 40;
+constexpr int LayerSweeps = 15;
 /// Of the mean edge by which the points of the surface are shifted for a layer.
 constexpr double LayerShare = 0.3;
 
@@ -28,39 +39,59 @@ std::size_t At(int i)
   return static_cast<std::size_t>(i);
 }
 
+/// What differs between attempts.
+struct Attempt
+{
+  std::set<int> LeftOut; ///< curves of the target
+  bool Layer = false;
+};
+
 template <int Dim>
 class CADFitting
 {
 public:
   CADFitting(const CellMesh<Dim>& mesh, const PointMatrix& points, const FitTarget* target,
-    const CADFitParams& params)
+    const CADFitParams& params, const Attempt& attempt)
     : Given(mesh), GivenPoints(points), Target(target), Params(params)
   {
+    this->Classification.LeftOut = attempt.LeftOut;
+    this->Layer = params.Layer && attempt.Layer;
     this->Fit.Mesh = mesh;
     this->Fit.Points = points;
     this->Fit.CellOf.resize(At(mesh.NumCells()));
     std::iota(this->Fit.CellOf.begin(), this->Fit.CellOf.end(), 0);
   }
 
+  /// Curves of the target that are matched and touch elements without a certificate.
+  std::set<int> CurvesAtUncertified() const { return this->CurvesAt(this->Fit.Uncertified); }
+  bool NeedsLayer() const { return this->IsLayerNeeded; }
+  const std::set<int>& LeftOut() const { return this->Classification.LeftOut; }
+
   Result<CADFit<Dim>> Run()
   {
     Status status = this->Check();
     status = status ? this->Link() : status;
-    this->GivenSurface = this->Surface;
     if (status && !this->Target)
     {
       status = this->TakeMeshAsTarget();
     }
+    status = status && this->IsFitted ? this->CheckNear() : status;
     status = status ? this->Classify() : status;
-    this->GivenParts = this->Parts;
     if (status && this->IsFitted)
     {
-      status = this->CheckNear();
-      status = status ? this->PlacePoints({}) : status;
+      status = this->PlacePoints({});
+      status = status ? this->GiveUpFolded() : status;
       status = status ? this->AddLayerIfNeeded() : status;
     }
     status = status ? this->MakeSpace() : status;
     status = status ? this->Project() : status;
+    if (status.Code == ErrorCode::NotInSpace)
+    {
+      // creases that end on the surface of a volume leave it without traces
+      this->AreFeaturesProlonged = true;
+      status = this->MakeSpace();
+      status = status ? this->Project() : status;
+    }
     status = status ? this->Certify(this->Verdicts) : status;
     if (status)
     {
@@ -74,7 +105,7 @@ public:
     }
     this->Fit.Certificate = std::move(this->Verdicts.Certificate);
     this->Fit.Uncertified = std::move(this->Verdicts.Bad);
-    return std::move(this->Fit);
+    return this->Fit;
   }
 
 private:
@@ -160,7 +191,8 @@ private:
     {
       return {};
     }
-    auto parts = ClassifyMesh(this->Surface, this->Fit.Points, *this->Target);
+    this->Classification.Faces = this->HasSurfaces;
+    auto parts = ClassifyMesh(this->Surface, this->Fit.Points, *this->Target, this->Classification);
     if (parts)
     {
       this->Parts = std::move(parts.Value);
@@ -189,16 +221,18 @@ private:
       points.row(static_cast<Eigen::Index>(i)) = this->GivenPoints.row(this->Surface.Points[i]);
     }
     TargetPoints feet;
+    const bool isPlane =
+      Dim == 2 && (this->GivenPoints.col(2).array() == this->GivenPoints(0, 2)).all();
     if (Status status = this->Target->Find({}, points, feet); !status)
     {
-      return status;
+      // the inside of a plane mesh need not be near a target that its rim lies on
+      this->HasSurfaces = this->HasSurfaces && !isPlane;
+      return isPlane ? Status() : status;
     }
     const Eigen::VectorXd distances = (feet.Points - points).rowwise().norm();
     const std::vector<double> lengths = EdgeLengthsAt(this->Surface, this->GivenPoints);
     const double edge = std::accumulate(lengths.begin(), lengths.end(), 0.0) /
       static_cast<double>(this->Surface.Points.size());
-    const bool isPlane =
-      Dim == 2 && (this->GivenPoints.col(2).array() == this->GivenPoints(0, 2)).all();
     if (isPlane && distances.mean() > 0.5 * edge)
     {
       // the inside of a plane mesh does not lie on the target: its rim alone does
@@ -217,13 +251,14 @@ private:
     return {};
   }
 
-  Status PlacePoints(const std::vector<int>& poor)
+  Status PlacePoints(const std::vector<int>& poor, int sweeps = MostSweeps)
   {
     VertexFitParams params;
     params.Surfaces = this->HasSurfaces;
     params.Untangle = this->Params.Untangle;
     params.Rings = this->Params.UntanglingRings;
     params.Poor = poor;
+    params.MaxSweeps = sweeps;
     params.Progress = this->Share(0.0, 0.2);
     auto placed = MoveOntoTarget<Dim>(this->Fit.Mesh, this->Topology, this->Surface, this->Parts,
       this->Fit.Points, *this->Target, params);
@@ -237,8 +272,48 @@ private:
     }
     this->IsPlaced = true;
     this->Fit.StillFolded = static_cast<int>(placed->Folded.size());
+    this->Folded = std::move(placed->Folded);
     this->Fit.Points = std::move(placed->Points);
     return {};
+  }
+
+  /// Curves at points of some cells.
+  std::set<int> CurvesAt(const std::vector<int>& cells) const
+  {
+    std::set<int> curves;
+    std::set<int> points;
+    for (const int cell : cells)
+    {
+      points.insert(this->Fit.Mesh.Cell(cell), this->Fit.Mesh.Cell(cell) + (1 << Dim));
+    }
+    for (std::size_t e = 0; e < this->Surface.Edges.size(); ++e)
+    {
+      const auto [a, b] = this->Surface.Edges[e];
+      if (this->Parts.CurveOf[e] >= 0 && (points.count(a) != 0 || points.count(b) != 0))
+      {
+        curves.insert(this->Parts.CurveOf[e]);
+      }
+    }
+    return curves;
+  }
+
+  /// A mesh that has no room for the edges of its target is better round there than folded.
+  Status GiveUpFolded()
+  {
+    Status status;
+    for (int round = 0; status && this->Params.Untangle && round < MostFoldedRounds; ++round)
+    {
+      const std::set<int> curves = this->CurvesAt(this->Folded);
+      if (curves.empty())
+      {
+        break;
+      }
+      this->Classification.LeftOut.insert(curves.begin(), curves.end());
+      this->Fit.Points = this->GivenPoints;
+      status = this->Classify();
+      status = status ? this->PlacePoints({}) : status;
+    }
+    return status;
   }
 
   Status AddLayerIfNeeded()
@@ -250,11 +325,9 @@ private:
       {
         return {};
       }
-      if (!this->Params.Layer)
+      this->IsLayerNeeded = true;
+      if (!this->Layer)
       {
-        this->Fit.Warnings.push_back(std::to_string(edges.size()) +
-          " edges of hexahedra lie inside of a face of the target between two of their faces: no "
-          "map is valid there without a layer");
         return {};
       }
       LayeredMesh layered = AddLayer(this->Fit.Mesh, this->Surface, this->Fit.Points, LayerShare);
@@ -271,7 +344,7 @@ private:
       // the layer, and what it left
       std::vector<int> poor(At(this->Fit.LayerCells));
       std::iota(poor.begin(), poor.end(), this->Fit.Mesh.NumCells() - this->Fit.LayerCells);
-      return this->PlacePoints(poor);
+      return this->PlacePoints(poor, LayerSweeps);
     }
     return {};
   }
@@ -282,6 +355,10 @@ private:
     const std::vector<CellSide> own =
       FeatureFacets<Dim>(this->Fit.Mesh, this->Topology, this->Surface, this->Parts);
     params.Features.insert(params.Features.end(), own.begin(), own.end());
+    if (this->AreFeaturesProlonged)
+    {
+      params.Features = Prolong<Dim>(this->Topology, params.Features);
+    }
     auto made = MakeUnstructuredSpace<Dim>(this->Fit.Mesh, params);
     if (made)
     {
@@ -437,9 +514,11 @@ private:
           return ExtendMoves<Dim>(this->Fit.Value, this->Candidates(), moves, held, params);
         });
     }
-    for (int more = 0; status && more < 3 && !this->Candidates().empty(); ++more)
+    // inside, in more and more rings; then the surface too, held less and less fast
+    for (int step = 0; status && step < 6 && !this->Candidates().empty(); ++step)
     {
-      params.Rings = this->Params.SmoothingRings + more;
+      params.Rings = step < 3 ? this->Params.SmoothingRings + step : this->Params.SmoothingRings;
+      params.Attraction = step < 3 ? 0.0 : 1000.0 * std::pow(0.1, step - 3);
       status = this->Try(
         [&]
         {
@@ -479,26 +558,64 @@ private:
     return corners;
   }
 
+  /// Area of a volume's surface; volume that a surface without a rim encloses, by the divergence
+  /// theorem: Gauss points enough for polynomials of its degrees.
+  void MeasureSurface(const Spline<2>& surface)
+  {
+    if constexpr (Dim == 3)
+    {
+      const auto measures =
+        MeasureCells(MakeBernsteinCells(MakeBezierForm(surface, this->Params.Threads)));
+      this->Fit.Area = measures ? measures->Total.Measure : 0.0;
+      return;
+    }
+    const bool isClosed = std::all_of(this->Surface.QuadsOf.begin(), this->Surface.QuadsOf.end(),
+      [](const std::array<int, 2>& quads) { return quads[1] >= 0; });
+    for (int side = 0; side < 2 * Dim * this->Topology.NumCells(); ++side)
+    {
+      const int cell = side / (2 * Dim);
+      if (!isClosed || !this->Topology.Crossing(cell, side % (2 * Dim)).Coherent)
+      {
+        return; // cells are oriented differently
+      }
+    }
+    const BezierForm<2> form = MakeBezierForm(surface, this->Params.Threads);
+    const int count = 3 * this->Params.Space.Degree / 2 + 1;
+    const ElementQuadrature<2> rule = MakeElementQuadrature<2>({ count, count });
+    EvaluationParams params;
+    params.Derivatives = 1;
+    params.Threads = this->Params.Threads;
+    EvaluationBatch batch;
+    double sum = 0.0;
+    for (int e = 0; e < surface.Space->NumElements(); ++e)
+    {
+      EvaluateElements<2>(form, std::vector<int>(At(static_cast<int>(rule.Local.rows())), e),
+        rule.Local, params, batch);
+      for (Eigen::Index i = 0; i < rule.Local.rows(); ++i)
+      {
+        const Eigen::RowVector3d u = batch.First.row(i).template head<3>();
+        const Eigen::RowVector3d v = batch.First.row(i).template tail<3>();
+        sum += rule.Weights[i] * u.cross(v).dot(batch.Values.row(i)) / 3.0;
+      }
+    }
+    this->Fit.Volume = std::abs(sum);
+  }
+
   Status Measure()
   {
     this->Fit.Warnings.insert(
       this->Fit.Warnings.end(), this->ProjectionWarnings.begin(), this->ProjectionWarnings.end());
-    for (const UnmatchedFeature& feature : this->GivenParts.Unmatched)
+    for (const UnmatchedFeature& feature : this->Parts.Unmatched)
     {
       this->Fit.UnmatchedFeatures.push_back({ feature.Part, feature.Place });
     }
-    const auto measures =
-      MeasureCells(MakeBernsteinCells(MakeBezierForm(this->Fit.Value, this->Params.Threads)));
-    if (measures)
+    const BezierForm<Dim> form = MakeBezierForm(this->Fit.Value, this->Params.Threads);
+    if (const auto measures = MeasureCells(MakeBernsteinCells(form)))
     {
-      this->Fit.Measure = std::abs(measures->Total.Measure);
+      (Dim == 2 ? this->Fit.Area : this->Fit.Volume) = std::abs(measures->Total.Measure);
     }
     this->Fit.SurfaceElements = this->Surface.Facets;
     this->Fit.Path = "unstructured";
-    if (!this->Target)
-    {
-      return {};
-    }
     SampledDistanceParams params;
     params.TargetSamples = this->Params.TargetSamples;
     params.Surfaces = this->HasSurfaces || !this->IsFitted;
@@ -520,6 +637,11 @@ private:
       trace = std::move(made.Value);
       surface = TraceOf<2>(this->Fit.Value, trace);
     }
+    this->MeasureSurface(surface);
+    if (!this->Target)
+    {
+      return {};
+    }
     PointMatrix points = this->Fit.Points;
     points.topRows(this->GivenPoints.rows()) = this->GivenPoints;
     auto distances = MeasureDistances(surface, this->Surface, this->CornersOnElements(trace),
@@ -539,10 +661,13 @@ private:
   bool IsFitted = true;
   bool HasSurfaces = false;
   bool IsPlaced = false;
+  bool IsLayerNeeded = false;
+  bool AreFeaturesProlonged = false;
   MeshTopology<Dim> Topology;
-  SurfaceMesh GivenSurface;
   SurfaceMesh Surface;
-  MeshClassification GivenParts;
+  ClassificationParams Classification;
+  bool Layer = true;
+  std::vector<int> Folded;
   MeshClassification Parts;
   SplineSpacePtr<Dim> Space;
   Spline<Dim> Before;
@@ -552,11 +677,57 @@ private:
 };
 }
 
+namespace
+{
+/// Whether a fit is to be preferred: fewer elements without a certificate, then nearer.
+template <int Dim>
+bool IsBetter(const CADFit<Dim>& fit, const CADFit<Dim>& than)
+{
+  return fit.Uncertified.size() != than.Uncertified.size()
+    ? fit.Uncertified.size() < than.Uncertified.size()
+    : fit.Distances.ToTarget.RootMeanSquare < than.Distances.ToTarget.RootMeanSquare;
+}
+}
+
 template <int Dim>
 Result<CADFit<Dim>> FitToTarget(const CellMesh<Dim>& mesh, const PointMatrix& points,
   const FitTargetPtr& target, const CADFitParams& params)
 {
-  return CADFitting<Dim>(mesh, points, target.get(), params).Run();
+  Attempt attempt;
+  Result<CADFit<Dim>> best;
+  for (int i = 0; i < MostAttempts; ++i)
+  {
+    CADFitting<Dim> fitting(mesh, points, target.get(), params, attempt);
+    auto fit = fitting.Run();
+    if (!fit)
+    {
+      return i == 0 || fit.Status.Code == ErrorCode::Aborted ? fit : best;
+    }
+    if (i == 0 || IsBetter(fit.Value, best.Value))
+    {
+      best = std::move(fit);
+    }
+    if (best->Uncertified.empty() || !target || params.Smoothing == FitSmoothing::Off)
+    {
+      break;
+    }
+    // with a layer, then without the curves where elements have no certificate
+    const std::set<int> curves = fitting.CurvesAtUncertified();
+    if (fitting.NeedsLayer() && params.Layer && !attempt.Layer)
+    {
+      attempt.Layer = true;
+    }
+    else if (!curves.empty())
+    {
+      attempt.LeftOut = fitting.LeftOut();
+      attempt.LeftOut.insert(curves.begin(), curves.end());
+    }
+    else
+    {
+      break;
+    }
+  }
+  return best;
 }
 
 template Result<CADFit<2>> FitToTarget(

@@ -61,7 +61,8 @@ struct CADFit
   int InvalidBefore = 0;           ///< elements without a certificate before they were mended
   int Smoothed = 0;                ///< elements whose control points were moved to mend some
   std::vector<int> Uncertified;    ///< elements that stay so
-  double Measure = 0.0;            ///< area, or volume
+  double Area = 0.0;               ///< of the surface
+  double Volume = 0.0;             ///< of hexahedra, or enclosed by a surface without a rim; else 0
   std::string Path;                ///< how the spline was made
   struct Unmatched
   {

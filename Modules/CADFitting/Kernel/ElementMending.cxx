@@ -394,7 +394,9 @@ Result<int> MinimizeBarrier(Spline<Dim>& spline, const std::vector<int>& element
   }
   const SplineSpace<Dim>& space = *spline.Space;
   const std::vector<int> patch = Rings<Dim>(MeshOf(space), elements, params.Rings);
-  const PatchFunctions<Dim> functions(space, patch, isHeld);
+  const bool isReleased = params.Attraction > 0.0;
+  const PatchFunctions<Dim> functions(
+    space, patch, isReleased ? std::vector<char>(isHeld.size(), 0) : isHeld);
   const SplineSpace<Dim> part = Restrict(space, patch, functions);
   const auto count = static_cast<Eigen::Index>(functions.Functions.size());
   std::vector<Eigen::Index> free;
@@ -422,6 +424,7 @@ Result<int> MinimizeBarrier(Spline<Dim>& spline, const std::vector<int>& element
   const double scale = std::pow(static_cast<double>(patch.size()), 1.0 / Dim) / extent;
   planes *= scale;
   planes.col(0) *= isReversed ? -1.0 : 1.0;
+  const Eigen::MatrixXd begin = planes;
   const int degree = part.Elements.front().Degree[0];
   DomainEnergy<Dim> energy(
     MakeElementField<Dim>(part, std::vector<int>(part.Elements.size(), degree + 2)),
@@ -446,14 +449,20 @@ Result<int> MinimizeBarrier(Spline<Dim>& spline, const std::vector<int>& element
       const EnergyValue value =
         energy.Evaluate(density, planes.data(), nullptr, gradient.data(), nullptr);
       slope.resize(x.size());
+      double sum = value.Energy;
       for (std::size_t k = 0; k < free.size(); ++k)
       {
+        const auto held = isHeld[At(functions.Functions[static_cast<std::size_t>(free[k])])];
+        const double attraction = held != 0 ? params.Attraction : 0.0;
         for (Eigen::Index d = 0; d < Dim; ++d)
         {
-          slope[static_cast<Eigen::Index>(k) * Dim + d] = gradient(free[k], d);
+          const double move = planes(free[k], d) - begin(free[k], d);
+          sum += attraction * move * move;
+          slope[static_cast<Eigen::Index>(k) * Dim + d] =
+            gradient(free[k], d) + 2.0 * attraction * move;
         }
       }
-      return value.Energy;
+      return sum;
     };
     Eigen::VectorXd x(static_cast<Eigen::Index>(free.size()) * Dim);
     for (std::size_t k = 0; k < free.size(); ++k)

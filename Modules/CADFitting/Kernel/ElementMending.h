@@ -29,6 +29,9 @@ std::vector<int> InvertedNets(const Spline<Dim>& spline, bool isReversed);
 struct MendingParams
 {
   int Rings = 2;
+  /// Of MinimizeBarrier: 0: control points that are held stay. Else they move too, and the squares
+  /// of their moves, in lengths of elements, count so much beside the functional of an element.
+  double Attraction = 0.0;
   int Threads = 0;
   ProgressCallback Progress;
 };
@@ -42,7 +45,8 @@ int ExtendMoves(Spline<Dim>& spline, const std::vector<int>& elements, const Poi
   const std::vector<char>& isHeld, const MendingParams& params);
 
 /// Minimizes the barrier functional |J|^2 / (det J)^(2 / Dim) in rings of elements around some, by
-/// their control points that are not held. Volumes, and surfaces in a plane z = const.
+/// their control points that are not held, or not held fast (Attraction). Volumes, and surfaces in
+/// a plane z = const.
 /// @return how many elements changed; Aborted.
 template <int Dim>
 Result<int> MinimizeBarrier(Spline<Dim>& spline, const std::vector<int>& elements, bool isReversed,

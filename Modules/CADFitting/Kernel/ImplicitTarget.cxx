@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace knotwork
 {
@@ -44,8 +45,6 @@ public:
     return {};
   }
 
-  /// Cells of a grid of the box that the function changes its sign in: their points go onto the
-  /// surface, and stand for the part of their tangent plane in the cell, on the average.
   TargetSamples Samples(int atLeast) const override
   {
     TargetSamples samples;
@@ -55,8 +54,19 @@ public:
     {
       return samples;
     }
-    // a surface meets some 2 n^2 of n^3 cells
-    const int n = std::clamp(static_cast<int>(std::sqrt(0.5 * atLeast)) + 1, 2, 400);
+    // lines through the box, more and more
+    for (int n = 16; n <= 1024 && samples.Points.rows() < atLeast; n *= 2)
+    {
+      samples = this->SamplesOnLines(lower, upper, n);
+    }
+    return samples;
+  }
+
+private:
+  TargetSamples SamplesOnLines(
+    const Eigen::Array3d& lower, const Eigen::Array3d& upper, int n) const
+  {
+    TargetSamples samples;
     const Eigen::Array3d step = (upper - lower) / n;
     std::vector<Eigen::RowVector3d> points;
     std::vector<double> areas;
@@ -104,7 +114,6 @@ public:
     return samples;
   }
 
-private:
   void AddCrossing(Eigen::Array3d at, int d, double low, double atLow, double cell,
     std::vector<Eigen::RowVector3d>& points, std::vector<double>& areas) const
   {
@@ -125,10 +134,10 @@ private:
     }
   }
 
-  bool Foot(const Eigen::Vector3d& query, Eigen::Vector3d& point, Eigen::Vector3d& normal) const
+  /// Along the gradient onto the surface.
+  bool MoveOnto(Eigen::Vector3d& point, Eigen::Vector3d& normal, double scale) const
   {
-    point = query;
-    const double scale = std::max(query.norm(), 1e-300);
+    double last = std::numeric_limits<double>::infinity();
     for (int i = 0; i < this->Params.MaxIterations; ++i)
     {
       Eigen::Vector3d gradient;
@@ -139,20 +148,64 @@ private:
         return false;
       }
       normal = gradient / std::sqrt(square);
-      // the query's foot in the tangent plane of the level set, moved to the level zero
-      const Eigen::Vector3d difference = query - point;
-      const Eigen::Vector3d tangential = difference - difference.dot(normal) * normal;
-      const Eigen::Vector3d step = tangential - value / square * gradient;
-      point += step;
-      if (!(step.norm() > this->Params.Tolerance * scale))
+      const double step = std::abs(value) / std::sqrt(square);
+      point -= value / square * gradient;
+      // at rounding steps do not become shorter
+      if (step <= this->Params.Tolerance * scale || (step <= 1e-9 * scale && step >= last))
       {
         return true;
       }
+      last = step;
     }
-    // a slow end near a centre of curvature still lies on the surface
-    Eigen::Vector3d gradient;
-    const double value = this->Function(point.data(), gradient.data());
-    return std::abs(value) <= 1e-9 * scale * gradient.norm();
+    return false;
+  }
+
+  /// On the surface along the query's difference in the tangent plane, as long as that comes
+  /// nearer.
+  bool Foot(const Eigen::Vector3d& query, Eigen::Vector3d& point, Eigen::Vector3d& normal) const
+  {
+    point = query;
+    const double scale = std::max(query.norm(), 1e-300);
+    if (!this->MoveOnto(point, normal, scale))
+    {
+      return false;
+    }
+    double share = 1.0;
+    for (int i = 0; i < this->Params.MaxIterations; ++i)
+    {
+      const Eigen::Vector3d difference = query - point;
+      const Eigen::Vector3d tangential = difference - difference.dot(normal) * normal;
+      if (!(tangential.norm() > this->Params.Tolerance * scale))
+      {
+        break;
+      }
+      Eigen::Vector3d next = point + share * tangential;
+      Eigen::Vector3d nextNormal = normal;
+      const bool isOn = this->MoveOnto(next, nextNormal, scale);
+      const Eigen::Vector3d ahead = query - next;
+      const Eigen::Vector3d left = ahead - ahead.dot(nextNormal) * nextNormal;
+      if (isOn && left.norm() < tangential.norm() &&
+        ahead.norm() <= difference.norm() + this->Params.Tolerance * scale)
+      {
+        point = next;
+        normal = nextNormal;
+        // as much of the step as was right
+        share = std::min(1.0, 2.0 * share);
+        if (left.norm() > 0.5 * tangential.norm())
+        {
+          share *= 0.5;
+        }
+      }
+      else if (share > 1e-12)
+      {
+        share *= 0.5;
+      }
+      else
+      {
+        break;
+      }
+    }
+    return true;
   }
 
   ImplicitFunction Function;

@@ -30,9 +30,10 @@ std::size_t At(int i)
 class Classifier
 {
 public:
-  Classifier(const SurfaceMesh& surface, const PointMatrix& points, const FitTarget& target)
-    : Surface(surface), Points(points), Target(target), Lengths(EdgeLengthsAt(surface, points)),
-      IsTaken(static_cast<std::size_t>(points.rows()), 0)
+  Classifier(const SurfaceMesh& surface, const PointMatrix& points, const FitTarget& target,
+    const ClassificationParams& params)
+    : Surface(surface), Points(points), Target(target), Params(params),
+      Lengths(EdgeLengthsAt(surface, points)), IsTaken(static_cast<std::size_t>(points.rows()), 0)
   {
     this->Result.PointParts.resize(static_cast<std::size_t>(points.rows()));
     this->Result.CurveOf.assign(surface.Edges.size(), -1);
@@ -55,7 +56,7 @@ public:
     {
       this->MatchCurve(curve);
     }
-    Status status = this->Target.HasSurface() ? this->MatchFaces() : Status();
+    Status status = this->Params.Faces && this->Target.HasSurface() ? this->MatchFaces() : Status();
     return status ? knotwork::Result<MeshClassification>(std::move(this->Result)) : status;
   }
 
@@ -70,7 +71,7 @@ private:
       for (const int point : this->Surface.Points)
       {
         const double distance = (this->Points.row(point) - corners.row(c)).norm();
-        if (distance <= this->Lengths[At(point)])
+        if (distance <= this->Params.MaxMove * this->Lengths[At(point)])
         {
           pairs.push_back({ distance, { c, point } });
         }
@@ -142,7 +143,8 @@ private:
       stops = { this->PointOfCorner[At(curve.Ends[0])], this->PointOfCorner[At(curve.Ends[1])] };
     }
     std::vector<int> path;
-    bool isFound = std::find(stops.begin(), stops.end(), -1) == stops.end();
+    bool isFound = this->Params.LeftOut.count(number) == 0 &&
+      std::find(stops.begin(), stops.end(), -1) == stops.end();
     for (std::size_t k = 0; isFound && k + 1 < stops.size(); ++k)
     {
       const std::vector<int> piece =
@@ -287,7 +289,7 @@ private:
     const bool isSimple = points.size() == path.size() + (line.IsClosed() ? 0 : 1);
     const bool isWhole =
       length >= 0.6 * line.Length() - longest && length <= 1.8 * line.Length() + longest;
-    return isSimple && isWhole && farthest <= 1.0;
+    return isSimple && isWhole && farthest <= this->Params.MaxMove;
   }
 
   /// Components of quadrilaterals between classified edges.
@@ -353,6 +355,7 @@ private:
   const SurfaceMesh& Surface;
   const PointMatrix& Points;
   const FitTarget& Target;
+  const ClassificationParams& Params;
   const std::vector<double> Lengths;
   std::vector<char> IsTaken; ///< points of corners and curves
   std::vector<int> PointOfCorner;
@@ -360,9 +363,9 @@ private:
 };
 }
 
-Result<MeshClassification> ClassifyMesh(
-  const SurfaceMesh& surface, const PointMatrix& points, const FitTarget& target)
+Result<MeshClassification> ClassifyMesh(const SurfaceMesh& surface, const PointMatrix& points,
+  const FitTarget& target, const ClassificationParams& params)
 {
-  return Classifier(surface, points, target).Run();
+  return Classifier(surface, points, target, params).Run();
 }
 }

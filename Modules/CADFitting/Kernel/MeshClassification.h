@@ -4,6 +4,8 @@
 #include "FitTarget.h"
 #include "SurfaceMesh.h"
 
+#include <set>
+
 namespace knotwork
 {
 /// A curve or corner of the target that the mesh has no edges or point for.
@@ -21,11 +23,19 @@ struct MeshClassification
   std::vector<UnmatchedFeature> Unmatched;
 };
 
+struct ClassificationParams
+{
+  /// Distance of a point of the mesh from its corner or curve at most, in mean edges at the point.
+  double MaxMove = 0.5;
+  bool Faces = true;     ///< whether quadrilaterals are matched with faces
+  std::set<int> LeftOut; ///< curves that are not looked for
+};
+
 /// Corners go to the nearest points of the mesh; curves to the paths of edges between them that are
 /// the shortest when edges that are far from the curve count more; what these enclose to the faces
-/// that most of it is next to. A corner farther away than its point's mean edge, a curve with a
-/// path that leaves it by as much or that passes only a part of it, is unmatched.
+/// that most of it is next to. A corner that is farther away than MaxMove, a curve with a path that
+/// leaves it by as much or that passes only a part of it, is unmatched.
 /// @complexity O(points log(points)) and, a curve, O(points near it log).
-Result<MeshClassification> ClassifyMesh(
-  const SurfaceMesh& surface, const PointMatrix& points, const FitTarget& target);
+Result<MeshClassification> ClassifyMesh(const SurfaceMesh& surface, const PointMatrix& points,
+  const FitTarget& target, const ClassificationParams& params = {});
 }

@@ -516,6 +516,40 @@ std::vector<CellSide> FeatureFacets(const CellMesh<Dim>& mesh, const MeshTopolog
 }
 
 template <int Dim>
+std::vector<CellSide> Prolong(
+  const MeshTopology<Dim>& topology, const std::vector<CellSide>& facets)
+{
+  std::vector<char> isIn(At(topology.NumCells()) * 2 * Dim, 0);
+  std::vector<CellSide> all;
+  const auto add = [&](const CellSide& facet)
+  {
+    char& own = isIn[At(facet.Cell) * 2 * Dim + At(facet.Side)];
+    if (own == 0)
+    {
+      const int other = topology.Neighbour(facet.Cell, facet.Side);
+      const int side = topology.Crossing(facet.Cell, facet.Side).Side;
+      own = 1;
+      isIn[At(other) * 2 * Dim + At(side)] = 1;
+      all.push_back(facet);
+    }
+  };
+  std::for_each(facets.begin(), facets.end(), add);
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    const CellSide facet = all[i];
+    for (int across = 0; across < 2 * Dim; ++across)
+    {
+      if (across / 2 != facet.Side / 2 &&
+        topology.IsRegularInside(facet.Cell, MeshTopology<Dim>::RidgeOf(facet.Side, across)))
+      {
+        add(topology.Opposite(facet.Cell, facet.Side, across));
+      }
+    }
+  }
+  return all;
+}
+
+template <int Dim>
 Result<ProgressiveFit<Dim>> FitProgressively(const SplineSpacePtr<Dim>& space,
   const SurfaceMesh& surface, const MeshClassification& parts, const PointMatrix& points,
   const FitTarget* target, const ProgressiveFitParams& params)
@@ -527,6 +561,8 @@ template std::vector<CellSide> FeatureFacets(
   const CellMesh<2>&, const MeshTopology<2>&, const SurfaceMesh&, const MeshClassification&);
 template std::vector<CellSide> FeatureFacets(
   const CellMesh<3>&, const MeshTopology<3>&, const SurfaceMesh&, const MeshClassification&);
+template std::vector<CellSide> Prolong(const MeshTopology<2>&, const std::vector<CellSide>&);
+template std::vector<CellSide> Prolong(const MeshTopology<3>&, const std::vector<CellSide>&);
 template Result<ProgressiveFit<2>> FitProgressively(const SplineSpacePtr<2>&, const SurfaceMesh&,
   const MeshClassification&, const PointMatrix&, const FitTarget*, const ProgressiveFitParams&);
 template Result<ProgressiveFit<3>> FitProgressively(const SplineSpacePtr<3>&, const SurfaceMesh&,

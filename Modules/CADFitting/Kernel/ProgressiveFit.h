@@ -37,6 +37,12 @@ template <int Dim>
 std::vector<CellSide> FeatureFacets(const CellMesh<Dim>& mesh, const MeshTopology<Dim>& topology,
   const SurfaceMesh& surface, const MeshClassification& parts);
 
+/// Facets with all that are opposite to them across regular ridges, as far as that goes: features
+/// that end nowhere inside of the mesh.
+template <int Dim>
+std::vector<CellSide> Prolong(
+  const MeshTopology<Dim>& topology, const std::vector<CellSide>& facets);
+
 /// The polynomials through the points around every cell, projected onto the space; then, on its
 /// surface, their closest points on the target's faces; on classified edges and rims those on
 /// curves; corners. Each overwrites the coefficients that it has.

@@ -393,6 +393,7 @@ Result<VertexFit> MoveOntoTarget(const CellMesh<Dim>& mesh, const MeshTopology<D
     untangling.Slide = &slide;
     untangling.Poor = params.Poor;
     untangling.Rings = params.Rings;
+    untangling.MaxSweeps = params.MaxSweeps;
     untangling.Progress = params.Progress;
     auto untangled = UntangleMesh<Dim>(mesh, topology, result->Points, untangling);
     if (!untangled)

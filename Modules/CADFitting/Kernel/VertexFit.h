@@ -16,6 +16,7 @@ struct VertexFitParams
   /// Cells that get a better shape though they are not folded.
   std::vector<int> Poor;
   int Rings = 2; ///< as UntanglingParams
+  int MaxSweeps = 100;
   ProgressCallback Progress;
 };
 

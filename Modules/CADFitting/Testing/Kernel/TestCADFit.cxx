@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Fits against shapes whose distances have formulas.
+#include "FitCases.h"
+
+#include <gtest/gtest.h>
+
+using namespace knotwork;
+using namespace fits;
+
+namespace
+{
+CADFitParams Params(int degree, CreasePolicy policy = CreasePolicy::Full)
+{
+  CADFitParams params;
+  params.Space.Degree = degree;
+  params.Space.Policy = policy;
+  params.TargetSamples = 0;
+  return params;
+}
+
+template <int Dim>
+CADFit<Dim> Fit(const PlacedMesh<Dim>& mesh, const FitTargetPtr& target, const CADFitParams& params)
+{
+  auto fit = FitToTarget<Dim>(mesh.Mesh, mesh.Points, target, params);
+  EXPECT_TRUE(fit) << fit.Status.Message();
+  return std::move(fit.Value);
+}
+
+double Rate(double coarse, double fine)
+{
+  return std::log2(coarse / fine);
+}
+
+Spline<2> BoundaryOf(const CADFit<3>& fit)
+{
+  const auto topology = MeshTopology<3>::Make(fit.Mesh);
+  const auto trace = TraceOnFacets(*fit.Value.Space, BoundaryFacets<3>(topology.Value));
+  EXPECT_TRUE(trace) << trace.Status.Message();
+  return TraceOf<2>(fit.Value, trace.Value);
+}
+}
+
+/// Equiangular cube-sphere: order p + 1 across extraordinary points. The distance is | |x| - 1 |,
+/// by quadrature of its own.
+TEST(CADFit, CubeSphereReachesTheOrder)
+{
+  const FitTargetPtr sphere = Ellipsoid(1.0, 1.0, 1.0);
+  const std::map<int, std::array<double, 3>> limits{ { 2, { 2.5e-4, 3.1e-5, 3.8e-6 } },
+    { 3, { 6e-5, 2.6e-6, 1.5e-7 } } };
+  for (const auto& [degree, most] : limits)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const auto fit = Fit<2>(Sphere(4 << k), sphere, Params(degree));
+      const double distance = MeanDistance(fit.Value, FromUnitSphere);
+      EXPECT_LE(distance, most[static_cast<std::size_t>(k)]) << degree << ' ' << k;
+      // the report samples fewer points
+      EXPECT_NEAR(fit.Distances.ToTarget.RootMeanSquare, distance, 0.02 * distance);
+      EXPECT_EQ(fit.Certificate.Verdict, Verdict::Valid);
+      EXPECT_NEAR(fit.Volume, 4.0 * EIGEN_PI / 3.0, 20.0 * distance);
+    }
+  }
+}
+
+TEST(CADFit, EllipsoidAndTorusReachTheOrder)
+{
+  for (const int degree : { 2, 3 })
+  {
+    double last = 0.0;
+    for (const int n : { 8, 16 })
+    {
+      PlacedMesh<2> mesh = Sphere(n);
+      mesh.Points.col(0) *= 1.3;
+      mesh.Points.col(1) *= 0.8;
+      const auto fit = Fit<2>(mesh, Ellipsoid(1.3, 0.8, 1.0), Params(degree));
+      const double distance = fit.Distances.ToTarget.RootMeanSquare;
+      EXPECT_TRUE(n == 8 || Rate(last, distance) >= degree + 0.8) << degree << ' ' << distance;
+      last = distance;
+    }
+    for (const int n : { 8, 16 })
+    {
+      const auto fit = Fit<2>(Torus(n), TorusTarget(), Params(degree));
+      const double distance = MeanDistance(fit.Value,
+        [](const Eigen::RowVector3d& x)
+        { return std::hypot(std::hypot(x[0], x[1]) - 1.0, x[2]) - 0.4; });
+      EXPECT_TRUE(n == 8 || Rate(last, distance) >= degree + 0.8) << degree << ' ' << distance;
+      last = distance;
+    }
+  }
+}
+
+/// The rim of a plane mesh goes onto a cylinder, the inside stays in the plane.
+TEST(CADFit, RimOfADiscIsACircle)
+{
+  for (const auto& [n, most] : { std::pair(8, 3e-6), std::pair(16, 2e-7) })
+  {
+    const auto fit = Fit<2>(Disc(n), Cylinder(), Params(3));
+    const auto topology = MeshTopology<2>::Make(fit.Mesh);
+    const auto rims = TraceOnFacets(*fit.Value.Space, BoundaryFacets<2>(topology.Value));
+    ASSERT_TRUE(rims) << rims.Status.Message();
+    ASSERT_EQ(rims->size(), 1u);
+    const Spline<1> rim = TraceOf<1>(fit.Value, rims->front());
+    PointMatrix local(50, 1);
+    double largest = 0.0;
+    for (int e = 0; e < rim.Space->NumElements(); ++e)
+    {
+      local.col(0).setLinSpaced(0.0, 1.0);
+      EvaluationBatch batch;
+      ASSERT_TRUE(
+        EvaluateElements<1>(MakeBezierForm(rim, 1), std::vector<int>(50, e), local, {}, batch));
+      largest = std::max(
+        largest, (batch.Values.leftCols(2).rowwise().norm().array() - 1.0).abs().maxCoeff());
+    }
+    EXPECT_LE(largest, most) << n;
+    EXPECT_EQ(fit.Certificate.Verdict, Verdict::Valid);
+    EXPECT_EQ(fit.Value.ControlPoints.col(2).cwiseAbs().maxCoeff(), 0.0);
+    EXPECT_NEAR(fit.Area, EIGEN_PI, 10.0 * most);
+  }
+}
+
+TEST(CADFit, BallOfSevenBlocks)
+{
+  const auto fit = Fit<3>(Ball(4), Ellipsoid(1.0, 1.0, 1.0), Params(3));
+  EXPECT_LE(MeanDistance(BoundaryOf(fit), FromUnitSphere), 6e-5);
+  EXPECT_EQ(fit.Certificate.Verdict, Verdict::Valid);
+  EXPECT_NEAR(fit.Volume, 4.0 * EIGEN_PI / 3.0, 1e-3);
+  EXPECT_NEAR(fit.Area, 4.0 * EIGEN_PI, 1e-3);
+  EXPECT_EQ(fit.LayerCells, 0);
+}
+
+/// Sharp edges stay sharp where points of the mesh have moved away from them.
+TEST(CADFit, BoxKeepsItsEdges)
+{
+  meshes::Random random(7);
+  PlacedMesh<3> mesh;
+  Placer<3> placer;
+  AddBlock<3>(
+    placer, { 4, 4, 4 }, [](const double* u) { return Eigen::RowVector3d(u[0], u[1], u[2]); });
+  mesh = placer.Done();
+  for (Eigen::Index i = 0; i < mesh.Points.rows(); ++i)
+  {
+    for (int d = 0; d < 3; ++d)
+    {
+      mesh.Points(i, d) += random.In(-0.02, 0.02);
+    }
+  }
+  const auto target = MakeMeshTarget(BoxTriangles(8));
+  ASSERT_TRUE(target) << target.Status.Message();
+  EXPECT_EQ(target.Value->NumFaces(), 6);
+  EXPECT_EQ(target.Value->Curves().size(), 12u);
+  CADFitParams params = Params(2, CreasePolicy::Automatic);
+  params.TargetSamples = 1000;
+  const auto fit = Fit<3>(mesh, target.Value, params);
+  EXPECT_TRUE(fit.UnmatchedFeatures.empty());
+  // a box is a polynomial of the space
+  EXPECT_LE(fit.Distances.ToTarget.Largest, 1e-9);
+  EXPECT_LE(fit.Distances.FromTarget.Largest, 1e-9);
+  EXPECT_NEAR(fit.Volume, 1.0, 1e-9);
+  EXPECT_EQ(fit.Certificate.Verdict, Verdict::Valid);
+  int curves = 0;
+  for (const EntityDistance& entity : fit.Distances.Entities)
+  {
+    curves += entity.Part.Entity == TargetEntity::Curve ? 1 : 0;
+    EXPECT_LE(entity.Distance.Largest, 1e-9);
+  }
+  EXPECT_EQ(curves, 12);
+}
+
+/// A mesh whose cells have two faces on a smooth surface has no valid map there without a layer.
+TEST(CADFit, LayerUnderASmoothSurface)
+{
+  Placer<3> placer;
+  AddBlock<3>(placer, { 4, 4, 4 },
+    [](const double* u)
+    {
+      // a cube pressed into the ball: its edges lie inside of the sphere
+      const Eigen::RowVector3d x(2.0 * u[0] - 1.0, 2.0 * u[1] - 1.0, 2.0 * u[2] - 1.0);
+      const double size = x.cwiseAbs().maxCoeff();
+      return Eigen::RowVector3d(size > 0.0 ? x * (size / x.norm()) : x);
+    });
+  const auto mesh = placer.Done();
+  CADFitParams params = Params(2);
+  const auto fit = Fit<3>(mesh, Ellipsoid(1.0, 1.0, 1.0), params);
+  EXPECT_GT(fit.InvalidBefore, 0);
+  EXPECT_EQ(fit.Certificate.Verdict, Verdict::Valid) << fit.Uncertified.size();
+  EXPECT_NEAR(fit.Volume, 4.0 * EIGEN_PI / 3.0, 0.02);
+}
+
+TEST(CADFit, EqualBitsForAnyNumberOfThreads)
+{
+  CADFitParams params = Params(2);
+  params.TargetSamples = 500;
+  params.Threads = 1;
+  const auto one = Fit<2>(Sphere(6), Ellipsoid(1.1, 1.0, 0.9), params);
+  params.Threads = 3;
+  const auto three = Fit<2>(Sphere(6), Ellipsoid(1.1, 1.0, 0.9), params);
+  EXPECT_EQ(one.Value.ControlPoints, three.Value.ControlPoints);
+  EXPECT_EQ(one.Distances.ToTarget.RootMeanSquare, three.Distances.ToTarget.RootMeanSquare);
+  EXPECT_EQ(one.Distances.FromTarget.Largest, three.Distances.FromTarget.Largest);
+}
+
+TEST(CADFit, WithoutATargetTheMeshIsTheTarget)
+{
+  const auto fit = Fit<2>(Sphere(8), nullptr, Params(3));
+  EXPECT_LE(MeanDistance(fit.Value, FromUnitSphere), 1e-4);
+  EXPECT_GT(fit.Distances.ToTarget.RootMeanSquare, 1e-3); // from its flat triangles
+}
+
+TEST(CADFit, Errors)
+{
+  const FitTargetPtr sphere = Ellipsoid(1.0, 1.0, 1.0);
+  PlacedMesh<2> mesh = Sphere(3);
+  const auto code = [](const auto& result) { return result.Status.Code; };
+  EXPECT_EQ(code(FitToTarget<2>({}, PointMatrix(0, 3), sphere)), ErrorCode::EmptyInput);
+  EXPECT_EQ(
+    code(FitToTarget<2>(mesh.Mesh, mesh.Points.leftCols(2), sphere)), ErrorCode::SizeMismatch);
+  PointMatrix broken = mesh.Points;
+  broken(5, 1) = std::nan("");
+  const auto notFinite = FitToTarget<2>(mesh.Mesh, broken, sphere);
+  EXPECT_EQ(code(notFinite), ErrorCode::NonFiniteInput);
+  EXPECT_NE(notFinite.Status.Detail.find("point 5"), std::string::npos);
+  // the same shape in another unit
+  const auto far = FitToTarget<2>(mesh.Mesh, 25.4 * mesh.Points, sphere);
+  EXPECT_EQ(code(far), ErrorCode::InvalidParameter);
+  EXPECT_NE(far.Status.Detail.find("same unit"), std::string::npos);
+  CADFitParams params;
+  params.ExtraPoints = 17;
+  EXPECT_EQ(
+    code(FitToTarget<2>(mesh.Mesh, mesh.Points, sphere, params)), ErrorCode::InvalidParameter);
+  params = {};
+  params.Progress = [](double) { return false; };
+  EXPECT_EQ(code(FitToTarget<2>(mesh.Mesh, mesh.Points, sphere, params)), ErrorCode::Aborted);
+  // an open surface and hexahedra
+  TriangleMesh open = BoxTriangles(2);
+  open.Triangles.pop_back();
+  const auto target = MakeMeshTarget(open);
+  ASSERT_TRUE(target);
+  Placer<3> placer;
+  AddBlock<3>(
+    placer, { 2, 2, 2 }, [](const double* u) { return Eigen::RowVector3d(u[0], u[1], u[2]); });
+  const auto box = placer.Done();
+  EXPECT_EQ(code(FitToTarget<3>(box.Mesh, box.Points, target.Value)), ErrorCode::InvalidTopology);
+}
