@@ -62,7 +62,7 @@ protected:
 
 const JobRegistration Registration{ "cadfit",
   "fit one smooth spline on a mesh to a CAD part, a scan or another shape",
-  "part.vtk --target part.step --degree 2 --output part.vtu --report part.json",
+  "part.off --target scan.off --degree 2 --output part.vtu --report part.json",
   MakeJob<CADFitJob> };
 }
 }

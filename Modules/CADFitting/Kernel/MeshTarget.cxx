@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshTarget.h"
 
+#include <knotwork/SplineCore/DisjointSets.h>
 #include <knotwork/SplineCore/TriangleIndex.h>
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace knotwork
 {
@@ -17,34 +19,39 @@ std::size_t At(int i)
   return static_cast<std::size_t>(i);
 }
 
+/// A connected part of a mesh.
+struct SurfacePart
+{
+  DiscMesh Surface;
+  MeshFeatures Features;
+};
+
 class MeshTarget final : public FitTarget
 {
 public:
-  MeshTarget(const DiscMesh& surface, const MeshFeatures& features)
-    : Whole(surface.Points, surface.Triangles), Regions(features.Regions)
+  explicit MeshTarget(std::vector<SurfacePart> parts)
   {
-    this->FaceCount = features.NumRegions;
-    this->Closed = surface.Loops.empty();
-    this->VertexList.resize(static_cast<Eigen::Index>(features.Corners.size()), 3);
-    std::vector<int> cornerOf(static_cast<std::size_t>(surface.NumPoints()), -1);
-    for (std::size_t i = 0; i < features.Corners.size(); ++i)
+    this->Closed = true;
+    PointMatrix points(0, 3);
+    std::vector<MeshTriangle> triangles;
+    for (const SurfacePart& part : parts)
     {
-      cornerOf[At(features.Corners[i])] = static_cast<int>(i);
-      this->VertexList.row(static_cast<Eigen::Index>(i)) = surface.Points.row(features.Corners[i]);
-    }
-    for (const FeatureChain& chain : features.Chains)
-    {
-      TargetCurve& curve = this->CurveList.emplace_back();
-      if (!chain.Closed)
+      const auto first = static_cast<int>(points.rows());
+      points.conservativeResize(first + part.Surface.Points.rows(), 3);
+      points.bottomRows(part.Surface.Points.rows()) = part.Surface.Points;
+      for (const MeshTriangle& triangle : part.Surface.Triangles)
       {
-        curve.Ends = { cornerOf[At(chain.Points.front())], cornerOf[At(chain.Points.back())] };
+        triangles.push_back({ first + triangle[0], first + triangle[1], first + triangle[2] });
       }
-      curve.Points.resize(static_cast<Eigen::Index>(chain.Points.size()), 3);
-      for (std::size_t i = 0; i < chain.Points.size(); ++i)
+      for (const int region : part.Features.Regions)
       {
-        curve.Points.row(static_cast<Eigen::Index>(i)) = surface.Points.row(chain.Points[i]);
+        this->Regions.push_back(this->FaceCount + region);
       }
+      this->FaceCount += part.Features.NumRegions;
+      this->Closed = this->Closed && part.Surface.Loops.empty();
+      this->AddCurves(part);
     }
+    this->Whole = TriangleIndex<3>(std::move(points), std::move(triangles));
     this->IndexCurves();
     this->MakeNormals();
     this->DivideFaces();
@@ -110,6 +117,31 @@ public:
   }
 
 private:
+  void AddCurves(const SurfacePart& part)
+  {
+    const PointMatrix& points = part.Surface.Points;
+    std::map<int, int> cornerOf;
+    for (const int corner : part.Features.Corners)
+    {
+      cornerOf[corner] = static_cast<int>(this->VertexList.rows());
+      this->VertexList.conservativeResize(this->VertexList.rows() + 1, 3);
+      this->VertexList.bottomRows<1>() = points.row(corner);
+    }
+    for (const FeatureChain& chain : part.Features.Chains)
+    {
+      TargetCurve& curve = this->CurveList.emplace_back();
+      if (!chain.Closed)
+      {
+        curve.Ends = { cornerOf.at(chain.Points.front()), cornerOf.at(chain.Points.back()) };
+      }
+      curve.Points.resize(static_cast<Eigen::Index>(chain.Points.size()), 3);
+      for (std::size_t i = 0; i < chain.Points.size(); ++i)
+      {
+        curve.Points.row(static_cast<Eigen::Index>(i)) = points.row(chain.Points[i]);
+      }
+    }
+  }
+
   /// After CurveList is set.
   void IndexCurves()
   {
@@ -224,20 +256,71 @@ private:
   std::vector<TriangleIndex<3>> Parts;       ///< a face
   std::vector<std::vector<int>> TrianglesOf; ///< a face: numbers of its triangles
 };
+
+/// Connected parts by common corners, each with all points.
+std::vector<TriangleMesh> Components(const TriangleMesh& mesh)
+{
+  DisjointSets sets(static_cast<int>(mesh.Points.rows()));
+  for (const MeshTriangle& triangle : mesh.Triangles)
+  {
+    for (const int corner : triangle)
+    {
+      if (corner < 0 || corner >= mesh.Points.rows())
+      {
+        return { mesh }; // refused as a whole
+      }
+    }
+    sets.Unite(triangle[0], triangle[1]);
+    sets.Unite(triangle[0], triangle[2]);
+  }
+  std::map<int, TriangleMesh> components;
+  for (const MeshTriangle& triangle : mesh.Triangles)
+  {
+    components[sets.Find(triangle[0])].Triangles.push_back(triangle);
+  }
+  std::vector<TriangleMesh> all;
+  for (auto& [first, component] : components)
+  {
+    component.Points = mesh.Points;
+    all.push_back(std::move(component));
+  }
+  return all;
+}
 }
 
 Result<FitTargetPtr> MakeMeshTarget(const TriangleMesh& mesh, const MeshFeatureParams& params)
 {
-  const Result<DiscMesh> surface = CheckSurface(mesh, true);
-  if (!surface)
+  if (mesh.Triangles.empty())
   {
-    return surface.Status;
+    return { ErrorCode::EmptyInput, "the target has no triangles" };
   }
-  const Result<MeshFeatures> features = FindMeshFeatures(surface.Value, params);
-  if (!features)
+  TriangleMesh joined = mesh;
+  if (mesh.Points.allFinite() && mesh.Points.cols() == 3)
   {
-    return features.Status;
+    // files of triangles have their corners each for itself
+    joined.Triangles = ReplaceCorners(mesh.Triangles, FirstOfEqualPoints(mesh.Points));
+    joined.Triangles.erase(
+      std::remove_if(joined.Triangles.begin(), joined.Triangles.end(),
+        [](const MeshTriangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }),
+      joined.Triangles.end());
   }
-  return FitTargetPtr(std::make_shared<MeshTarget>(surface.Value, features.Value));
+  std::vector<SurfacePart> parts;
+  for (TriangleMesh& component : Components(joined))
+  {
+    SurfacePart& part = parts.emplace_back();
+    auto surface = CheckSurface(component, true);
+    if (!surface)
+    {
+      return surface.Status;
+    }
+    part.Surface = std::move(surface.Value);
+    auto features = FindMeshFeatures(part.Surface, params);
+    if (!features)
+    {
+      return features.Status;
+    }
+    part.Features = std::move(features.Value);
+  }
+  return FitTargetPtr(std::make_shared<MeshTarget>(std::move(parts)));
 }
 }

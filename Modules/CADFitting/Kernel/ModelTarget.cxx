@@ -604,22 +604,24 @@ public:
   }
 
 private:
-  /// Largest angle in degrees between the normals of an edge's two uses.
+  /// Mean angle in degrees between the normals of an edge's two uses, but for its ends.
   double Angle(const ModelEdge& edge) const
   {
     const PointMatrix a = this->Faces[At(edge.Uses[0].Face)].NormalsAt(edge.Uses[0].Parameters);
     const PointMatrix b = this->Faces[At(edge.Uses[1].Face)].NormalsAt(edge.Uses[1].Parameters);
-    double largest = 0.0;
-    for (Eigen::Index i = 0; i < a.rows(); ++i)
+    double sum = 0.0;
+    int count = 0;
+    for (Eigen::Index i = 1; i + 1 < a.rows(); ++i)
     {
       if (!a.row(i).isZero() && !b.row(i).isZero())
       {
         const Eigen::RowVector3d u = a.row(i);
         const Eigen::RowVector3d v = b.row(i);
-        largest = std::max(largest, std::atan2(u.cross(v).norm(), u.dot(v)));
+        sum += std::atan2(u.cross(v).norm(), u.dot(v));
+        ++count;
       }
     }
-    return largest * 180.0 / static_cast<double>(EIGEN_PI);
+    return count > 0 ? sum / count * 180.0 / static_cast<double>(EIGEN_PI) : 0.0;
   }
   static bool IsGrouped(const ModelEdge& edge, const std::vector<int>& groups)
   {

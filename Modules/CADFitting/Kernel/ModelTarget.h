@@ -8,7 +8,7 @@ namespace knotwork
 /// Angles in degrees.
 struct ModelTargetParams
 {
-  /// Between the normals of faces, at the middle of a common edge, from which on it is sharp,
+  /// Between the normals of faces, in the mean along a common edge, from which on it is sharp,
   /// (0, 180).
   double SharpAngle = 20.0;
   double CornerAngle = 60.0; ///< turn of sharp edges from which on there is a corner, (0, 180]

@@ -136,7 +136,8 @@ def runs():
             (["validate", FILE, "--table", "table.csv", "--output", grid], "grid"),
             (["warp", FILE, surface, "--output", polydata], "points"),
             (["warp", surface, FILE, "--output", grid], "surface"),
-            (["approximate", FILE, "--values", "Temperature", "--table", "table.csv", "--points", polydata, "--output", grid], "values")):
+            (["approximate", FILE, "--values", "Temperature", "--table", "table.csv", "--points", polydata, "--output", grid], "values"),
+            (["cadfit", FILE, "--entities", "table.csv", "--output", grid], "quads")):
         yield arguments + report, kind
 
 
