@@ -23,8 +23,8 @@ namespace knotwork
 {
 namespace
 {
-/// Rounds in which points of the mesh move around elements without a certificate.
-constexpr int MostRounds = 3;
+/// Rounds in which elements without a certificate take the mesh map of their own corners alone.
+constexpr int MostRounds = 4;
 /// Rounds in which curves of the target are given up that fold cells, or that leave elements
 /// without a certificate.
 constexpr int MostFoldedRounds = 4;
@@ -377,6 +377,7 @@ private:
     params.Projections = this->IsFitted ? this->Params.Projections : 1;
     params.ExtraPoints = this->Params.ExtraPoints;
     params.Threads = this->Params.Threads;
+    params.LinearCells = this->LinearCells;
     params.Progress = this->Share(0.2, 0.6);
     auto fit = FitProgressively<Dim>(
       this->Space, this->Surface, this->Parts, this->Fit.Points, this->Target, params);
@@ -480,25 +481,38 @@ private:
       return {};
     }
     Status status;
-    if (this->IsFitted && this->Params.Untangle)
+    for (int round = 0; status && round < MostRounds && !this->Candidates().empty(); ++round)
     {
-      std::size_t last = this->Candidates().size() + 1;
-      for (int round = 0; status && round < MostRounds; ++round)
-      {
-        const std::vector<int> bad = this->Candidates();
-        if (bad.empty() || bad.size() >= last)
+      // wide windows swing on cells of bad shape
+      const std::vector<int> own =
+        Rings<Dim>(this->Fit.Mesh, this->Candidates(), round > 0 ? 1 : 0);
+      const std::vector<int> before = this->LinearCells;
+      std::set<int> all(before.begin(), before.end());
+      all.insert(own.begin(), own.end());
+      this->LinearCells.assign(all.begin(), all.end());
+      const std::size_t last = this->Verdicts.Bad.size();
+      status = this->Try(
+        [&]
         {
-          break;
-        }
-        last = bad.size();
-        status = this->Try(
-          [&]
-          {
-            Status moved = this->PlacePoints(bad);
-            moved = moved ? this->Project() : moved;
-            return moved ? Result<int>(static_cast<int>(bad.size())) : Result<int>(moved);
-          });
+          Status made = this->Project();
+          return made ? Result<int>(static_cast<int>(all.size())) : Result<int>(made);
+        });
+      if (this->Verdicts.Bad.size() >= last)
+      {
+        this->LinearCells = before;
+        break;
       }
+    }
+    if (status && this->IsFitted && this->Params.Untangle && !this->Candidates().empty())
+    {
+      const std::vector<int> bad = this->Candidates();
+      status = this->Try(
+        [&]
+        {
+          Status moved = this->PlacePoints(bad, LayerSweeps);
+          moved = moved ? this->Project() : moved;
+          return moved ? Result<int>(static_cast<int>(bad.size())) : Result<int>(moved);
+        });
     }
     MendingParams params;
     params.Threads = this->Params.Threads;
@@ -515,10 +529,10 @@ private:
         });
     }
     // inside, in more and more rings; then the surface too, held less and less fast
-    for (int step = 0; status && step < 6 && !this->Candidates().empty(); ++step)
+    for (int step = 0; status && step < 8 && !this->Candidates().empty(); ++step)
     {
-      params.Rings = step < 3 ? this->Params.SmoothingRings + step : this->Params.SmoothingRings;
-      params.Attraction = step < 3 ? 0.0 : 1000.0 * std::pow(0.1, step - 3);
+      params.Rings = step < 4 ? step : std::max(1, this->Params.SmoothingRings - 1);
+      params.Attraction = step < 4 ? 0.0 : 1000.0 * std::pow(0.1, step - 4);
       status = this->Try(
         [&]
         {
@@ -661,6 +675,7 @@ private:
   bool IsFitted = true;
   bool HasSurfaces = false;
   bool IsPlaced = false;
+  std::vector<int> LinearCells;
   bool IsLayerNeeded = false;
   bool AreFeaturesProlonged = false;
   MeshTopology<Dim> Topology;
@@ -679,10 +694,18 @@ private:
 
 namespace
 {
-/// Whether a fit is to be preferred: fewer elements without a certificate, then nearer.
+/// Whether a fit is to be preferred: with a certificate everywhere, then one that is no farther
+/// than twice as far, then fewer elements without a certificate, then nearer.
 template <int Dim>
 bool IsBetter(const CADFit<Dim>& fit, const CADFit<Dim>& than)
 {
+  const double own = fit.Distances.ToTarget.RootMeanSquare;
+  const double other = than.Distances.ToTarget.RootMeanSquare;
+  if (fit.Uncertified.empty() == than.Uncertified.empty() &&
+    std::max(own, other) > 2.0 * std::min(own, other))
+  {
+    return own < other;
+  }
   return fit.Uncertified.size() != than.Uncertified.size()
     ? fit.Uncertified.size() < than.Uncertified.size()
     : fit.Distances.ToTarget.RootMeanSquare < than.Distances.ToTarget.RootMeanSquare;

@@ -3,6 +3,8 @@
 
 #include <knotwork/DomainParameterization/DomainEnergy.h>
 #include <knotwork/DomainParameterization/Minimize.h>
+#include <knotwork/SplineCore/DisjointSets.h>
+#include <knotwork/SplineCore/Quadrature.h>
 #include <knotwork/SplineCore/UnstructuredSpace.h>
 
 #include <Eigen/Geometry>
@@ -12,7 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <map>
 
 namespace knotwork
 {
@@ -27,44 +29,6 @@ template <int Dim>
 bool IsPlane(const Spline<Dim>& spline)
 {
   return Dim == 2 && (spline.ControlPoints.col(2).array() == spline.ControlPoints(0, 2)).all();
-}
-
-/// Rings of elements by common points of the mesh.
-template <int Dim>
-std::vector<int> Rings(const CellMesh<Dim>& mesh, const std::vector<int>& elements, int rings)
-{
-  std::vector<char> inside(At(mesh.NumCells()), 0);
-  for (const int e : elements)
-  {
-    inside[At(e)] = 1;
-  }
-  for (int ring = 0; ring < rings; ++ring)
-  {
-    std::vector<char> touched(At(mesh.NumPoints), 0);
-    for (int e = 0; e < mesh.NumCells(); ++e)
-    {
-      for (int k = 0; inside[At(e)] != 0 && k < (1 << Dim); ++k)
-      {
-        touched[At(mesh.Cell(e)[k])] = 1;
-      }
-    }
-    for (int e = 0; e < mesh.NumCells(); ++e)
-    {
-      for (int k = 0; k < (1 << Dim); ++k)
-      {
-        inside[At(e)] |= touched[At(mesh.Cell(e)[k])];
-      }
-    }
-  }
-  std::vector<int> grown;
-  for (int e = 0; e < mesh.NumCells(); ++e)
-  {
-    if (inside[At(e)] != 0)
-    {
-      grown.push_back(e);
-    }
-  }
-  return grown;
 }
 
 /// Functions of some elements, and which of them have all their elements there and are not held.
@@ -165,6 +129,41 @@ SplineSpace<Dim> Restrict(const SplineSpace<Dim>& space, const std::vector<int>&
   return part;
 }
 
+/// Gives every element a box of its own size, so that det J is about one in each: elements of one
+/// patch may differ in size a thousand times.
+/// @param planes  NumFunctions x Dim.
+template <int Dim>
+void SetBoxes(SplineSpace<Dim>& space, const Eigen::MatrixXd& planes)
+{
+  Spline<Dim> geometry;
+  geometry.Space = std::make_shared<SplineSpace<Dim>>(space);
+  geometry.ControlPoints = planes;
+  const BezierForm<Dim> form = MakeBezierForm(geometry, 1);
+  const int count = space.Elements.front().Degree[0] + 1;
+  IntArray<Dim> counts;
+  counts.fill(count);
+  const PointMatrix local = MakeElementQuadrature<Dim>(counts).Local;
+  EvaluationParams params;
+  params.Derivatives = 1;
+  params.Threads = 1;
+  EvaluationBatch batch;
+  for (int e = 0; e < space.NumElements(); ++e)
+  {
+    EvaluateElements<Dim>(
+      form, std::vector<int>(At(static_cast<int>(local.rows())), e), local, params, batch);
+    double sum = 0.0;
+    for (Eigen::Index i = 0; i < local.rows(); ++i)
+    {
+      sum += std::abs(
+        Eigen::Map<const Eigen::Matrix<double, Dim, Dim>>(batch.First.row(i).data()).determinant());
+    }
+    const double size =
+      std::pow(std::max(sum / static_cast<double>(local.rows()), 1e-6), 1.0 / Dim);
+    space.Elements[At(e)].Box.Upper.fill(size);
+    space.Elements[At(e)].Box.Lower.fill(0.0);
+  }
+}
+
 /// Differences of neighbouring control points of an element's net at one of its points, towards
 /// inside.
 Eigen::Matrix3d NetEdges(
@@ -233,6 +232,43 @@ std::vector<std::pair<int, int>> NetNeighbours(
   }
   return pairs;
 }
+}
+
+template <int Dim>
+std::vector<int> Rings(const CellMesh<Dim>& mesh, const std::vector<int>& elements, int rings)
+{
+  std::vector<char> inside(At(mesh.NumCells()), 0);
+  for (const int e : elements)
+  {
+    inside[At(e)] = 1;
+  }
+  for (int ring = 0; ring < rings; ++ring)
+  {
+    std::vector<char> touched(At(mesh.NumPoints), 0);
+    for (int e = 0; e < mesh.NumCells(); ++e)
+    {
+      for (int k = 0; inside[At(e)] != 0 && k < (1 << Dim); ++k)
+      {
+        touched[At(mesh.Cell(e)[k])] = 1;
+      }
+    }
+    for (int e = 0; e < mesh.NumCells(); ++e)
+    {
+      for (int k = 0; k < (1 << Dim); ++k)
+      {
+        inside[At(e)] |= touched[At(mesh.Cell(e)[k])];
+      }
+    }
+  }
+  std::vector<int> grown;
+  for (int e = 0; e < mesh.NumCells(); ++e)
+  {
+    if (inside[At(e)] != 0)
+    {
+      grown.push_back(e);
+    }
+  }
+  return grown;
 }
 
 template <int Dim>
@@ -384,20 +420,59 @@ int ExtendMoves(Spline<Dim>& spline, const std::vector<int>& elements, const Poi
   return static_cast<int>(patch.size());
 }
 
+namespace
+{
+/// Connected parts of some elements, by common points of the mesh.
 template <int Dim>
-Result<int> MinimizeBarrier(Spline<Dim>& spline, const std::vector<int>& elements, bool isReversed,
+std::vector<std::vector<int>> ConnectedParts(
+  const CellMesh<Dim>& mesh, const std::vector<int>& elements)
+{
+  DisjointSets sets(mesh.NumPoints);
+  for (const int e : elements)
+  {
+    for (int k = 1; k < (1 << Dim); ++k)
+    {
+      sets.Unite(mesh.Cell(e)[0], mesh.Cell(e)[k]);
+    }
+  }
+  std::map<int, std::vector<int>> parts;
+  for (const int e : elements)
+  {
+    parts[sets.Find(mesh.Cell(e)[0])].push_back(e);
+  }
+  std::vector<std::vector<int>> all;
+  for (auto& [first, part] : parts)
+  {
+    all.push_back(std::move(part));
+  }
+  return all;
+}
+
+/// Elements without a certificate. @param planes  NumFunctions x Dim, not mirrored any more.
+template <int Dim>
+std::size_t CountBad(const SplineSpace<Dim>& space, const Eigen::MatrixXd& planes)
+{
+  Spline<Dim> geometry;
+  geometry.Space = std::make_shared<SplineSpace<Dim>>(space);
+  geometry.ControlPoints = planes;
+  JacobianParams params;
+  params.Threads = 1;
+  const auto certificate =
+    ValidateJacobian(MakeBernsteinCells(MakeBezierForm(geometry, 1)), params);
+  return certificate ? certificate->Cells.size() - static_cast<std::size_t>(certificate->NumValid)
+                     : space.Elements.size();
+}
+
+/// Minimizes in one patch; nothing changes unless it has fewer elements without a certificate then.
+template <int Dim>
+Result<int> MendPatch(Spline<Dim>& spline, const std::vector<int>& patch, bool isReversed,
   const std::vector<char>& isHeld, const MendingParams& params)
 {
-  if (Dim == 2 && !IsPlane(spline))
-  {
-    return 0;
-  }
   const SplineSpace<Dim>& space = *spline.Space;
-  const std::vector<int> patch = Rings<Dim>(MeshOf(space), elements, params.Rings);
   const bool isReleased = params.Attraction > 0.0;
   const PatchFunctions<Dim> functions(
     space, patch, isReleased ? std::vector<char>(isHeld.size(), 0) : isHeld);
-  const SplineSpace<Dim> part = Restrict(space, patch, functions);
+  SplineSpace<Dim> part = Restrict(space, patch, functions);
   const auto count = static_cast<Eigen::Index>(functions.Functions.size());
   std::vector<Eigen::Index> free;
   for (Eigen::Index i = 0; i < count; ++i)
@@ -424,6 +499,8 @@ Result<int> MinimizeBarrier(Spline<Dim>& spline, const std::vector<int>& element
   const double scale = std::pow(static_cast<double>(patch.size()), 1.0 / Dim) / extent;
   planes *= scale;
   planes.col(0) *= isReversed ? -1.0 : 1.0;
+  SetBoxes(part, planes);
+  const std::size_t before = CountBad(part, planes);
   const Eigen::MatrixXd begin = planes;
   const int degree = part.Elements.front().Degree[0];
   DomainEnergy<Dim> energy(
@@ -488,6 +565,10 @@ Result<int> MinimizeBarrier(Spline<Dim>& spline, const std::vector<int>& element
     Eigen::VectorXd unused;
     objective(x, unused);
   }
+  if (CountBad(part, planes) >= before)
+  {
+    return 0;
+  }
   planes.col(0) *= isReversed ? -1.0 : 1.0;
   planes /= scale;
   planes.rowwise() += origin;
@@ -497,6 +578,31 @@ Result<int> MinimizeBarrier(Spline<Dim>& spline, const std::vector<int>& element
       .template head<Dim>() = planes.row(i);
   }
   return static_cast<int>(patch.size());
+}
+
+}
+
+template <int Dim>
+Result<int> MinimizeBarrier(Spline<Dim>& spline, const std::vector<int>& elements, bool isReversed,
+  const std::vector<char>& isHeld, const MendingParams& params)
+{
+  if (Dim == 2 && !IsPlane(spline))
+  {
+    return 0;
+  }
+  const CellMesh<Dim>& mesh = MeshOf(*spline.Space);
+  Result<int> changed(0);
+  for (const std::vector<int>& patch :
+    ConnectedParts<Dim>(mesh, Rings<Dim>(mesh, elements, params.Rings)))
+  {
+    const auto mended = MendPatch<Dim>(spline, patch, isReversed, isHeld, params);
+    if (!mended)
+    {
+      return mended;
+    }
+    changed.Value += mended.Value;
+  }
+  return changed;
 }
 
 template Result<ElementVerdicts> CertifyElements(const Spline<2>&, int, const ProgressCallback&);
@@ -511,4 +617,6 @@ template Result<int> MinimizeBarrier(
   Spline<2>&, const std::vector<int>&, bool, const std::vector<char>&, const MendingParams&);
 template Result<int> MinimizeBarrier(
   Spline<3>&, const std::vector<int>&, bool, const std::vector<char>&, const MendingParams&);
+template std::vector<int> Rings(const CellMesh<2>&, const std::vector<int>&, int);
+template std::vector<int> Rings(const CellMesh<3>&, const std::vector<int>&, int);
 }

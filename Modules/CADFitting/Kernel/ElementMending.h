@@ -2,6 +2,7 @@
 // Control points that are moved until elements are valid, private to the kernel.
 #pragma once
 #include <knotwork/JacobianValidation/JacobianCertificate.h>
+#include <knotwork/SplineCore/CellMesh.h>
 #include <knotwork/SplineCore/Spline.h>
 
 namespace knotwork
@@ -25,6 +26,10 @@ Result<ElementVerdicts> CertifyElements(
 /// not positive (surfaces in space: seen along the mean normal of the net).
 template <int Dim>
 std::vector<int> InvertedNets(const Spline<Dim>& spline, bool isReversed);
+
+/// Elements within so many rings of some, by common points of the mesh; ascending.
+template <int Dim>
+std::vector<int> Rings(const CellMesh<Dim>& mesh, const std::vector<int>& elements, int rings);
 
 struct MendingParams
 {

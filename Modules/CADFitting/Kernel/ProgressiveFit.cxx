@@ -136,7 +136,7 @@ public:
     const MeshClassification& parts, const PointMatrix& points, const FitTarget* target,
     const ProgressiveFitParams& params)
     : Space(space), Surface(surface), Parts(parts), Target(target), Params(params),
-      Map(InterpolateVertices<Dim>(space, points))
+      Map(InterpolateVertices<Dim>(space, points, params.LinearCells))
   {
   }
 

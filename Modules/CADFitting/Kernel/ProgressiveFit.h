@@ -19,7 +19,8 @@ struct ProgressiveFitParams
   int Projections = 1;
   /// Gauss points a direction: p + 1 and so many more, in [0, 16].
   int ExtraPoints = 1;
-  int Threads = 0; ///< 0 = all cores; the result does not depend on it
+  int Threads = 0;              ///< 0 = all cores; the result does not depend on it
+  std::vector<int> LinearCells; ///< as InterpolateVertices
   ProgressCallback Progress;
 };
 

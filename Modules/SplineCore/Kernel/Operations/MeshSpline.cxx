@@ -216,13 +216,20 @@ Result<Spline<Dim>> SplineThroughVertices(const SplineSpacePtr<Dim>& space,
 }
 
 template <int Dim>
-ElementFunction InterpolateVertices(const SplineSpacePtr<Dim>& space, const PointMatrix& vertices)
+ElementFunction InterpolateVertices(
+  const SplineSpacePtr<Dim>& space, const PointMatrix& vertices, const std::vector<int>& linear)
 {
-  const int width = space->Unstructured->Degree / 2 * 2 + 1;
-  return [space, &vertices, width = width > space->Unstructured->Degree ? width : width + 2](
+  const int degree = space->Unstructured->Degree;
+  std::vector<char> widths(At(space->NumElements()), static_cast<char>(degree + 1 + degree % 2));
+  for (const int cell : linear)
+  {
+    widths[At(cell)] = 1;
+  }
+  return [space, &vertices, widths](
            int cell, const PointMatrix& local, const PointMatrix&, PointMatrix& values)
   {
-    VertexWindow<Dim>(*space->Unstructured, cell, width).Interpolate(local, vertices, values);
+    VertexWindow<Dim>(*space->Unstructured, cell, widths[At(cell)])
+      .Interpolate(local, vertices, values);
     return true;
   };
 }
@@ -408,8 +415,10 @@ template Result<Spline<2>> SplineThroughVertices(
   const SplineSpacePtr<2>&, const PointMatrixView&, int, const ProgressCallback&);
 template Result<Spline<3>> SplineThroughVertices(
   const SplineSpacePtr<3>&, const PointMatrixView&, int, const ProgressCallback&);
-template ElementFunction InterpolateVertices(const SplineSpacePtr<2>&, const PointMatrix&);
-template ElementFunction InterpolateVertices(const SplineSpacePtr<3>&, const PointMatrix&);
+template ElementFunction InterpolateVertices(
+  const SplineSpacePtr<2>&, const PointMatrix&, const std::vector<int>&);
+template ElementFunction InterpolateVertices(
+  const SplineSpacePtr<3>&, const PointMatrix&, const std::vector<int>&);
 template Result<Spline<2>> SplineOfCage(const SplineSpacePtr<2>&, const PointMatrixView&);
 template Result<Spline<3>> SplineOfCage(const SplineSpacePtr<3>&, const PointMatrixView&);
 template VertexDistance DistanceFromVertices(const Spline<2>&, const PointMatrixView&, int);

@@ -23,10 +23,12 @@ Result<Spline<Dim>> SplineThroughVertices(const SplineSpacePtr<Dim>& space,
 /// direction around it, q the smallest odd number above p, less where facets that are C^0 end it.
 /// It differs from a smooth surface through the vertices by O(h^(q+1)), a multilinear one by
 /// O(h^2).
-/// @param vertices  must outlive the function.
+/// @param vertices  must outlive the function. @param linear  cells of bad shape, whose own corners
+/// alone are interpolated: wider windows swing there.
 /// @pre  the space is one on a mesh of as many points; it is kept.
 template <int Dim>
-ElementFunction InterpolateVertices(const SplineSpacePtr<Dim>& space, const PointMatrix& vertices);
+ElementFunction InterpolateVertices(const SplineSpacePtr<Dim>& space, const PointMatrix& vertices,
+  const std::vector<int>& linear = {});
 
 /// The spline whose control net is the mesh: the control point of every function is the value of
 /// the mesh's multilinear map at the function's Greville point, the means of p knots a direction.
