@@ -529,10 +529,15 @@ private:
         });
     }
     // inside, in more and more rings; then the surface too, held less and less fast
-    for (int step = 0; status && step < 8 && !this->Candidates().empty(); ++step)
+    for (int step = 0; status && step < 10 && !this->Candidates().empty(); ++step)
     {
-      params.Rings = step < 4 ? step : std::max(1, this->Params.SmoothingRings - 1);
-      params.Attraction = step < 4 ? 0.0 : 1000.0 * std::pow(0.1, step - 4);
+      constexpr double attractions[] = { 1000.0, 100.0, 10.0, 1.0, 1.0, 0.1 };
+      params.Rings = std::max(0,
+        this->Params.SmoothingRings - 2 +
+          (step < 4      ? step
+              : step < 8 ? 1
+                         : 2));
+      params.Attraction = step < 4 ? 0.0 : attractions[step - 4];
       status = this->Try(
         [&]
         {

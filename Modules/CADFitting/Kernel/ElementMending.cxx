@@ -422,6 +422,9 @@ int ExtendMoves(Spline<Dim>& spline, const std::vector<int>& elements, const Poi
 
 namespace
 {
+/// Of a control point on the surface, in sizes of elements: farther it leaves the target for good.
+constexpr double MostMove = 0.5;
+
 /// Connected parts of some elements, by common points of the mesh.
 template <int Dim>
 std::vector<std::vector<int>> ConnectedParts(
@@ -461,6 +464,32 @@ std::size_t CountBad(const SplineSpace<Dim>& space, const Eigen::MatrixXd& plane
     ValidateJacobian(MakeBernsteinCells(MakeBezierForm(geometry, 1)), params);
   return certificate ? certificate->Cells.size() - static_cast<std::size_t>(certificate->NumValid)
                      : space.Elements.size();
+}
+
+template <int Dim>
+double MeanSize(const SplineSpace<Dim>& space)
+{
+  double sum = 0.0;
+  for (const auto& element : space.Elements)
+  {
+    sum += element.Box.Upper[0];
+  }
+  return sum / space.NumElements();
+}
+
+template <int Dim>
+double LargestHeldMove(const PatchFunctions<Dim>& functions, const std::vector<char>& isHeld,
+  const Eigen::MatrixXd& moves)
+{
+  double largest = 0.0;
+  for (std::size_t i = 0; i < functions.Functions.size(); ++i)
+  {
+    if (isHeld[At(functions.Functions[i])] != 0)
+    {
+      largest = std::max(largest, moves.row(static_cast<Eigen::Index>(i)).norm());
+    }
+  }
+  return largest;
 }
 
 /// Minimizes in one patch; nothing changes unless it has fewer elements without a certificate then.
@@ -565,7 +594,8 @@ Result<int> MendPatch(Spline<Dim>& spline, const std::vector<int>& patch, bool i
     Eigen::VectorXd unused;
     objective(x, unused);
   }
-  if (CountBad(part, planes) >= before)
+  if (LargestHeldMove(functions, isHeld, planes - begin) > MostMove * MeanSize(part) ||
+    CountBad(part, planes) >= before)
   {
     return 0;
   }
