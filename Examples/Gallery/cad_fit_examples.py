@@ -144,9 +144,9 @@ def bracket(folder):
     view, focus = (-3.2, -5.5, 4.6), (2, 2, 0.2)
     bends = scene.polylines(list(corners[1:-1]))
     scene.save([
-        seen([cad_fit.edged(mesh, PAPER)], 0, 2, f"{mesh.GetNumberOfCells()} quadrilaterals, {float(text_of(made, 'MeshMaxDistance')):.3f} off", view, focus, 1.25),
+        seen([cad_fit.edged(mesh, PAPER)], 0, 2, f"{mesh.GetNumberOfCells()} quadrilaterals, {float(text_of(made, 'MeshMaxDistance')):.3f} off", view, focus, 1.15),
         seen([scene.actor(cad_fit.drawn(spline), scene.COLOURS[0], lighting=True), lines_of(element_lines(spline), 1), tubes(bends, 0.015, RED)], 1, 2,
-             f"spline, {float(text_of(made, 'MaxDistance')):.0e} off: its creases are the bends (red)", view, focus, 1.25)],
+             f"spline, {float(text_of(made, 'MaxDistance')):.0e} off: its creases are the bends (red)", view, focus, 1.15)],
         os.path.join(folder, "cad_fit_bracket.png"), (1200, 450))
 
 

@@ -282,6 +282,12 @@ Result<ElementVerdicts> CertifyElements(
   }
   JacobianParams params;
   params.Threads = threads;
+  if (Dim < geometry.ControlPoints.cols())
+  {
+    // the normal of a folded element that is plane vanishes along a line: no number of boxes
+    // decides
+    params.MaxBoxes = 20000;
+  }
   auto certificate =
     ValidateJacobian(MakeBernsteinCells(MakeBezierForm(geometry, threads)), params, progress);
   if (!certificate)
