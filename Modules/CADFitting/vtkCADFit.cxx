@@ -32,6 +32,12 @@ static_assert(vtkCADFit::CERTIFICATE == static_cast<int>(FitSmoothing::Certifica
     vtkCADFit::NET == static_cast<int>(FitSmoothing::Net),
   "the methods are those of the kernel");
 
+static_assert(vtkCADFit::AFFINE == static_cast<int>(FitPath::Affine) &&
+    vtkCADFit::COMPOSITE == static_cast<int>(FitPath::Composite),
+  "the paths are those of the kernel");
+static_assert(vtkCADFit::PLAIN == static_cast<int>(RestrictionKind::Plain),
+  "the weights are those of the kernel");
+
 vtkStandardNewMacro(vtkCADFit);
 vtkCxxSetObjectMacro(vtkCADFit, ImplicitFunction, vtkImplicitFunction);
 
@@ -112,7 +118,10 @@ void EncodeNumbers(const CADFit<Dim>& fit, vtkTable* table)
   AddColumn(table, "UnmatchedFeatures", static_cast<int>(fit.UnmatchedFeatures.size()));
   AddColumn(table, "Area", fit.Area);
   AddColumn(table, "Volume", fit.Volume);
-  AddColumn(table, "Path", fit.Path);
+  AddColumn(table, "Path", std::string(ToString(fit.Path)));
+  AddColumn(table, "PathTried",
+    fit.PathNote.empty() ? std::string() : std::string(ToString(fit.PathTried)));
+  AddColumn(table, "PathNote", fit.PathNote);
 }
 
 void EncodeEntities(const FitDistances& distances, vtkTable* table)
@@ -199,6 +208,11 @@ std::vector<std::string> Warnings(const CADFit<Dim>& fit)
       std::to_string(first.Place[2]) +
       "): the spline is round there; refine the mesh, or take "
       "edges for smooth (SharpAngle, --sharp-angle)");
+  }
+  if (!fit.PathNote.empty())
+  {
+    warnings.push_back("the path " + std::string(ToString(fit.PathTried)) +
+      " is not taken but unstructured: " + fit.PathNote);
   }
   if (!fit.Uncertified.empty())
   {
@@ -320,6 +334,8 @@ Status vtkCADFit::Compute(vtkInformationVector** inputs, vtkInformationVector* o
   Choices choices;
   choices.Fit.Space.Degree = this->Degree;
   choices.Fit.Space.Policy = static_cast<CreasePolicy>(this->Policy);
+  choices.Fit.Path = static_cast<FitPath>(this->Path);
+  choices.Fit.CompositeWeights = static_cast<RestrictionKind>(this->CompositeWeights);
   choices.Fit.Surfaces = this->FitSurfaces;
   choices.Fit.Curves = this->FitCurves;
   choices.Fit.Points = this->FitPoints;

@@ -55,6 +55,20 @@ public:
     UNIFORM = 0,
     MEAN
   };
+  enum Paths
+  {
+    AUTOMATIC_PATH = 0, ///< "Automatic"
+    UNSTRUCTURED,
+    COMPOSITE,
+    COONS,
+    MULTILINEAR,
+    AFFINE
+  };
+  enum PatchWeights
+  {
+    WEIGHTED = 0,
+    PLAIN
+  };
   enum SmoothingMethods
   {
     OFF = 0,
@@ -92,6 +106,23 @@ public:
    * the mean lengths of their edges. Default UNIFORM. Advanced. */
   vtkSetClampMacro(Lengths, int, UNIFORM, MEAN);
   vtkGetMacro(Lengths, int);
+  ///@}
+  ///@{
+  /** How the spline is made, one of Paths: UNSTRUCTURED, element by element; COMPOSITE, by the
+   * tensor-product patches of the space; COONS, insides of patches from their boundaries, with
+   * policy FULL and not of surfaces on a target; MULTILINEAR, from the corners of patches, without
+   * a target; AFFINE, the same of elements that are images of one lattice; AUTOMATIC_PATH, AFFINE,
+   * MULTILINEAR, then COMPOSITE where these give what UNSTRUCTURED does. One that does not apply
+   * gives way to UNSTRUCTURED with a warning. Default AUTOMATIC_PATH. Advanced. */
+  vtkSetClampMacro(Path, int, AUTOMATIC_PATH, AFFINE);
+  vtkGetMacro(Path, int);
+  ///@}
+  ///@{
+  /** How coefficients of patches become those of the spline on Path COMPOSITE, one of PatchWeights:
+   * WEIGHTED, means by the shares of the function's integral; PLAIN, the shortest rows, which need
+   * not exist with policies other than FULL. Default WEIGHTED. Advanced. */
+  vtkSetClampMacro(CompositeWeights, int, WEIGHTED, PLAIN);
+  vtkGetMacro(CompositeWeights, int);
   ///@}
   ///@{
   /** Edges of a target of triangles between normals that differ by this angle in degrees are
@@ -228,6 +259,8 @@ private:
   vtkImplicitFunction* ImplicitFunction = nullptr;
   int Policy = AUTOMATIC;
   int Lengths = UNIFORM;
+  int Path = AUTOMATIC_PATH;
+  int CompositeWeights = WEIGHTED;
   double SharpAngle = 40.0;
   double WeakAngle = 20.0;
   double CornerAngle = 60.0;

@@ -56,6 +56,12 @@ protected:
       session.Report);
     session.Report["verdict"] = table->GetValueByName(0, "Verdict").ToString();
     session.Report["path"] = table->GetValueByName(0, "Path").ToString();
+    const std::string note = table->GetValueByName(0, "PathNote").ToString();
+    if (!note.empty())
+    {
+      session.Report["path_tried"] = table->GetValueByName(0, "PathTried").ToString();
+      session.Report["path_note"] = note;
+    }
     return {};
   }
 };

@@ -2,6 +2,7 @@
 #include "CADFit.h"
 
 #include "ElementMending.h"
+#include "FastPaths.h"
 #include "MeshTarget.h"
 #include "ProgressiveFit.h"
 #include "SampledDistances.h"
@@ -93,6 +94,10 @@ public:
       status = status ? this->Project() : status;
     }
     status = status ? this->Certify(this->Verdicts) : status;
+    if (status && this->Fast.Path == FitPath::Coons && !this->Verdicts.Bad.empty())
+    {
+      status = this->GiveUpFastPath();
+    }
     if (status)
     {
       this->Fit.InvalidBefore = static_cast<int>(this->Candidates().size());
@@ -368,8 +373,36 @@ private:
     return made.Status;
   }
 
+  /// Patches that are filled from their boundaries and are not valid are fitted inside.
+  Status GiveUpFastPath()
+  {
+    const std::size_t count = this->Verdicts.Bad.size();
+    FastPath<Dim> own;
+    own.Space = this->Space;
+    own.Tried = this->Fast.Path;
+    own.Note = std::to_string(count) + " elements had no certificate";
+    this->Fast = std::move(own);
+    Status status = this->Project();
+    return status ? this->Certify(this->Verdicts) : status;
+  }
+
+  void ChoosePath()
+  {
+    FastPathParams params;
+    params.Path = this->Params.Path;
+    params.Weights = this->Params.CompositeWeights;
+    params.IsFull = this->Fit.Policy == CreasePolicy::Full;
+    params.IsMeshTheTarget = !this->IsFitted;
+    params.IsInsideFitted = Dim == 2 && this->IsFitted && this->HasSurfaces;
+    this->Fast = ChooseFastPath<Dim>(this->Space, this->Fit.Points, params);
+  }
+
   Status Project()
   {
+    if (this->Fast.Space != this->Space)
+    {
+      this->ChoosePath();
+    }
     ProgressiveFitParams params;
     params.Surfaces = this->IsFitted && this->HasSurfaces;
     params.Curves = this->IsFitted && this->Params.Curves;
@@ -380,7 +413,7 @@ private:
     params.LinearCells = this->LinearCells;
     params.Progress = this->Share(0.2, 0.6);
     auto fit = FitProgressively<Dim>(
-      this->Space, this->Surface, this->Parts, this->Fit.Points, this->Target, params);
+      this->Fast, this->Surface, this->Parts, this->Fit.Points, this->Target, params);
     if (fit)
     {
       this->Fit.Value = std::move(fit->Value);
@@ -634,7 +667,9 @@ private:
       (Dim == 2 ? this->Fit.Area : this->Fit.Volume) = std::abs(measures->Total.Measure);
     }
     this->Fit.SurfaceElements = this->Surface.Facets;
-    this->Fit.Path = "unstructured";
+    this->Fit.Path = this->Fast.Path;
+    this->Fit.PathNote = this->Fast.Note;
+    this->Fit.PathTried = this->Fast.Note.empty() ? FitPath::Automatic : this->Fast.Tried;
     SampledDistanceParams params;
     params.TargetSamples = this->Params.TargetSamples;
     params.Surfaces = this->HasSurfaces || !this->IsFitted;
@@ -690,6 +725,7 @@ private:
   std::vector<int> Folded;
   MeshClassification Parts;
   SplineSpacePtr<Dim> Space;
+  FastPath<Dim> Fast;
   Spline<Dim> Before;
   std::vector<std::string> ProjectionWarnings;
   ElementVerdicts Verdicts;

@@ -2,6 +2,7 @@
 #pragma once
 #include <knotwork/CADFitting/FitDistances.h>
 #include <knotwork/JacobianValidation/JacobianCertificate.h>
+#include <knotwork/SplineCore/CompositeProjection.h>
 #include <knotwork/SplineCore/UnstructuredSpace.h>
 
 #include <string>
@@ -16,14 +17,34 @@ enum class FitSmoothing : std::uint8_t
   Certificate ///< those that are not proved valid
 };
 
+/// How the spline is made. One that does not apply gives way to Unstructured, and why is said.
+enum class FitPath : std::uint8_t
+{
+  /// The first of Affine, Multilinear and Composite whose result is that of Unstructured but for
+  /// rounding, else Unstructured: Composite with policy Full alone.
+  Automatic,
+  Unstructured, ///< element by element
+  Composite,    ///< by the tensor-product patches of the space, direction by direction
+             /// Boundaries of the patches, whose insides are their Boolean sums (policy Full; not
+             /// of a surface that lies on its target).
+  Coons,
+  /// Without a target: from the corners of the patches, whose points lie on multilinear maps.
+  Multilinear,
+  Affine ///< the same of elements that are all images of one lattice
+};
+/// As --path has them.
+const char* ToString(FitPath path);
+
 struct CADFitParams
 {
   UnstructuredParams Space; ///< degree, policy, features, lengths
-  bool Surfaces = true;     ///< whether faces are fitted
-  bool Curves = true;       ///< whether sharp edges and rims are fitted
-  bool Points = true;       ///< whether corners are
-  bool Untangle = true;     ///< whether cells that fold, before or on the target, are untangled
-  int UntanglingRings = 2;  ///< >= 0
+  FitPath Path = FitPath::Automatic;
+  RestrictionKind CompositeWeights = RestrictionKind::Weighted; ///< Composite: of its patches
+  bool Surfaces = true;                                         ///< whether faces are fitted
+  bool Curves = true;      ///< whether sharp edges and rims are fitted
+  bool Points = true;      ///< whether corners are
+  bool Untangle = true;    ///< whether cells that fold, before or on the target, are untangled
+  int UntanglingRings = 2; ///< >= 0
   FitSmoothing Smoothing = FitSmoothing::Certificate;
   int SmoothingRings = 2; ///< elements around those that are mended, ring by ring, >= 0
   /// A layer of hexahedra is put under the whole surface where a hexahedron has two faces on one
@@ -63,7 +84,10 @@ struct CADFit
   std::vector<int> Uncertified;    ///< elements that stay so
   double Area = 0.0;               ///< of the surface
   double Volume = 0.0;             ///< of hexahedra, or enclosed by a surface without a rim; else 0
-  std::string Path;                ///< how the spline was made
+  FitPath Path = FitPath::Unstructured; ///< how the spline was made
+  /// The one that was asked for where that gave way; else Automatic.
+  FitPath PathTried = FitPath::Automatic;
+  std::string PathNote; ///< why it gave way; empty: none did
   struct Unmatched
   {
     TargetPart Part;

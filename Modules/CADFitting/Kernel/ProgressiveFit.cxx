@@ -132,11 +132,10 @@ template <int Dim>
 class Steps
 {
 public:
-  Steps(const SplineSpacePtr<Dim>& space, const SurfaceMesh& surface,
-    const MeshClassification& parts, const PointMatrix& points, const FitTarget* target,
-    const ProgressiveFitParams& params)
-    : Space(space), Surface(surface), Parts(parts), Target(target), Params(params),
-      Map(InterpolateVertices<Dim>(space, points, params.LinearCells))
+  Steps(const FastPath<Dim>& path, const SurfaceMesh& surface, const MeshClassification& parts,
+    const PointMatrix& points, const FitTarget* target, const ProgressiveFitParams& params)
+    : Path(path), Space(path.Space), Surface(surface), Parts(parts), Target(target), Params(params),
+      Map(InterpolateVertices<Dim>(path.Space, points, params.LinearCells))
   {
   }
 
@@ -156,6 +155,7 @@ public:
       {
         this->FitCorners();
       }
+      status = status ? this->Path.Complete(this->Fit.Value) : status;
     }
     return status ? Result<ProgressiveFit<Dim>>(std::move(this->Fit)) : status;
   }
@@ -192,7 +192,7 @@ private:
   /// The map of the mesh; of quadrilaterals at once on the target.
   Status FitWhole()
   {
-    auto made = ProjectOntoSpace<Dim>(this->Space, 3, this->Map, this->Projection(0.0, 0.3));
+    auto made = this->Path.ProjectWhole(this->Map, this->Projection(0.0, 0.3));
     this->Fit.Before = std::move(made.Value);
     this->Fit.Value = this->Fit.Before;
     return made.Status;
@@ -219,10 +219,8 @@ private:
       }
       const std::vector<TargetPart> parts = this->FaceParts();
       const OntoTarget onto(*this->Target, parts);
-      auto made = ProjectOntoSpace<2>(
-        this->Space, 3,
-        [&](
-          int element, const PointMatrix& local, const PointMatrix& parameters, PointMatrix& values)
+      auto made = this->Path.Project([&](int element, const PointMatrix& local,
+                                       const PointMatrix& parameters, PointMatrix& values)
         { return this->Map(element, local, parameters, values) && onto.Move(element, values); },
         this->Projection(0.3, 0.9));
       if (made)
@@ -460,6 +458,7 @@ private:
     return isUnit ? space.RowFunction[begin] : -1;
   }
 
+  const FastPath<Dim>& Path;
   const SplineSpacePtr<Dim>& Space;
   const SurfaceMesh& Surface;
   const MeshClassification& Parts;
@@ -550,11 +549,11 @@ std::vector<CellSide> Prolong(
 }
 
 template <int Dim>
-Result<ProgressiveFit<Dim>> FitProgressively(const SplineSpacePtr<Dim>& space,
-  const SurfaceMesh& surface, const MeshClassification& parts, const PointMatrix& points,
-  const FitTarget* target, const ProgressiveFitParams& params)
+Result<ProgressiveFit<Dim>> FitProgressively(const FastPath<Dim>& path, const SurfaceMesh& surface,
+  const MeshClassification& parts, const PointMatrix& points, const FitTarget* target,
+  const ProgressiveFitParams& params)
 {
-  return Steps<Dim>(space, surface, parts, points, target, params).Run();
+  return Steps<Dim>(path, surface, parts, points, target, params).Run();
 }
 
 template std::vector<CellSide> FeatureFacets(
@@ -563,8 +562,8 @@ template std::vector<CellSide> FeatureFacets(
   const CellMesh<3>&, const MeshTopology<3>&, const SurfaceMesh&, const MeshClassification&);
 template std::vector<CellSide> Prolong(const MeshTopology<2>&, const std::vector<CellSide>&);
 template std::vector<CellSide> Prolong(const MeshTopology<3>&, const std::vector<CellSide>&);
-template Result<ProgressiveFit<2>> FitProgressively(const SplineSpacePtr<2>&, const SurfaceMesh&,
+template Result<ProgressiveFit<2>> FitProgressively(const FastPath<2>&, const SurfaceMesh&,
   const MeshClassification&, const PointMatrix&, const FitTarget*, const ProgressiveFitParams&);
-template Result<ProgressiveFit<3>> FitProgressively(const SplineSpacePtr<3>&, const SurfaceMesh&,
+template Result<ProgressiveFit<3>> FitProgressively(const FastPath<3>&, const SurfaceMesh&,
   const MeshClassification&, const PointMatrix&, const FitTarget*, const ProgressiveFitParams&);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bezier projection onto a target, dimension by dimension; private to the kernel.
 #pragma once
+#include "FastPaths.h"
 #include "MeshClassification.h"
 
 #include <knotwork/SplineCore/UnstructuredSpace.h>
@@ -47,11 +48,12 @@ std::vector<CellSide> Prolong(
 /// The polynomials through the points around every cell, projected onto the space; then, on its
 /// surface, their closest points on the target's faces; on classified edges and rims those on
 /// curves; corners. Each overwrites the coefficients that it has.
-/// @param points  of the mesh, on the target. @param target  null: the points alone.
+/// @param path  and the space. @param points  of the mesh, on the target. @param target  null: the
+/// points alone.
 /// @return the target's errors; Aborted.
 /// @source  Thomas, Scott, Evans, Tew, Evans, CMAME 284 (2015) 55-105.
 template <int Dim>
-Result<ProgressiveFit<Dim>> FitProgressively(const SplineSpacePtr<Dim>& space,
-  const SurfaceMesh& surface, const MeshClassification& parts, const PointMatrix& points,
-  const FitTarget* target, const ProgressiveFitParams& params);
+Result<ProgressiveFit<Dim>> FitProgressively(const FastPath<Dim>& path, const SurfaceMesh& surface,
+  const MeshClassification& parts, const PointMatrix& points, const FitTarget* target,
+  const ProgressiveFitParams& params);
 }

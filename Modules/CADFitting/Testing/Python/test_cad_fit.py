@@ -92,7 +92,7 @@ def test_scan_to_solid():
     write("quads.off", sphere_text(6))
     run("cadfit", "quads.off", "--target", "scan.vtp", "--output", "solid.step", "--entities", "entities.csv", "--report", "report.json")
     numbers = report()
-    assert numbers["verdict"] == "valid" and numbers["patches"] == 6 and numbers["path"] == "unstructured", numbers
+    assert numbers["verdict"] == "valid" and numbers["patches"] == 6 and numbers["path"] == "composite", numbers
     assert numbers["rms_distance"] < 0.25 * numbers["mesh_rms_distance"], numbers
     assert numbers["rms_distance_back"] < 0.25 * numbers["mesh_rms_distance_back"], numbers
     for key in ("functions", "elements", "max_distance", "max_distance_back", "min_jacobian_lower", "invalid_elements_before",
@@ -103,6 +103,19 @@ def test_scan_to_solid():
     again = report("again.json")
     assert again["rms_distance"] < 0.3 * again["mesh_rms_distance"] and again["unmatched_features"] == 0, again
     assert abs(again["volume"] - numbers["volume"]) < 1e-3 * numbers["volume"]
+
+
+def test_paths():
+    write_sphere_scan()
+    write("quads.off", sphere_text(6))
+    for path in ("automatic", "unstructured", "composite"):
+        run("cadfit", "quads.off", "--target", "scan.vtp", "--path", path, "--report", path + ".json")
+    automatic, cells, patches = (report(path + ".json") for path in ("automatic", "unstructured", "composite"))
+    assert (automatic["path"], cells["path"], patches["path"]) == ("composite", "unstructured", "composite")
+    assert abs(cells["volume"] - patches["volume"]) < 1e-12 and "path_note" not in patches
+    run("cadfit", "quads.off", "--target", "scan.vtp", "--path", "coons", "--composite-weights", "plain", "--report", "coons.json")
+    coons = report("coons.json")
+    assert (coons["path"], coons["path_tried"]) == ("unstructured", "coons") and "lie on the target" in coons["path_note"], coons
 
 
 def test_page():
