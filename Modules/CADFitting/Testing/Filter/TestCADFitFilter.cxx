@@ -135,6 +135,35 @@ TEST(vtkCADFit, SplineTargets_PropertyOracle)
   EXPECT_EQ(vtkTable::SafeDownCast(filter->GetOutputDataObject(2))->GetNumberOfRows(), 18);
 }
 
+/// The path that was taken, and why one that was asked for was not.
+TEST(vtkCADFit, Paths_PropertyOracle)
+{
+  vtkNew<vtkCADFit> filter;
+  filter->SetInputDataObject(BoxMesh());
+  filter->SetDegree(2);
+  const auto word = [&](const char* column)
+  {
+    filter->Update();
+    return vtkTable::SafeDownCast(filter->GetOutputDataObject(1))
+      ->GetValueByName(0, column)
+      .ToString();
+  };
+  EXPECT_EQ(word("Path"), "affine");
+  EXPECT_EQ(word("PathNote"), "");
+  for (const int path : { vtkCADFit::UNSTRUCTURED, vtkCADFit::COMPOSITE, vtkCADFit::COONS,
+         vtkCADFit::MULTILINEAR, vtkCADFit::AFFINE })
+  {
+    filter->SetPath(path);
+    EXPECT_EQ(word("Path"), ToString(static_cast<FitPath>(path)));
+    EXPECT_EQ(word("PathTried"), "");
+    EXPECT_NEAR(Number(filter, "Volume"), 1.0, 1e-12);
+  }
+  filter->SetTargetData(Triangles(fits::BoxTriangles(4)));
+  EXPECT_EQ(word("Path"), "unstructured");
+  EXPECT_EQ(word("PathTried"), "affine");
+  EXPECT_NE(word("PathNote").find("another shape"), std::string::npos);
+}
+
 TEST(vtkCADFit, Errors)
 {
   vtkNew<vtkCADFit> filter;
