@@ -172,6 +172,65 @@ void AddProlongation(const CompositeProjection<Dim>& composite, int patch,
   }
 }
 
+/// Integrals of the B-splines of a direction, elements as unit intervals.
+Eigen::VectorXd LineIntegrals(const KnotVector& knots)
+{
+  const int alive = knots.Degree() + 1;
+  Eigen::VectorXd integrals = Eigen::VectorXd::Zero(knots.NumFunctions());
+  PointMatrix factor(alive, alive);
+  for (int e = 0; e < knots.NumElements(); ++e)
+  {
+    knots.Extraction(e, factor.data());
+    integrals.segment(knots.Span(e) - knots.Degree(), alive) += factor.rowwise().sum() / alive;
+  }
+  return integrals;
+}
+
+/// Both matrices where every function of a patch is one of the space, by the functions alone.
+/// @return whether it is so.
+template <int Dim>
+bool MakeUnitMatrices(CompositeProjection<Dim>& composite)
+{
+  const int rows = composite.First.back();
+  std::vector<int> functionOf;
+  Eigen::VectorXd shares(rows);
+  for (int k = 0; k < static_cast<int>(composite.Patches.size()); ++k)
+  {
+    const SplineSpace<Dim>& patch = *composite.Patches[At(k)];
+    const auto own = FunctionsOfPatch(*composite.Space, composite.Layout, k, patch);
+    if (!own)
+    {
+      return false;
+    }
+    functionOf.insert(functionOf.end(), own->begin(), own->end());
+    Eigen::VectorXd integrals = LineIntegrals(patch.Knots[0]);
+    for (std::size_t d = 1; d < Dim; ++d)
+    {
+      const Eigen::MatrixXd product = integrals * LineIntegrals(patch.Knots[d]).transpose();
+      integrals = Eigen::Map<const Eigen::VectorXd>(product.data(), product.size());
+    }
+    shares.segment(composite.First[At(k)], patch.NumFunctions) = integrals;
+  }
+  Eigen::VectorXd totals = Eigen::VectorXd::Zero(composite.Space->NumFunctions);
+  for (int row = 0; row < rows; ++row)
+  {
+    totals[functionOf[At(row)]] += shares[row];
+  }
+  Triplets ones;
+  Triplets means;
+  for (int row = 0; row < rows; ++row)
+  {
+    const int function = functionOf[At(row)];
+    ones.emplace_back(row, function, 1.0);
+    means.emplace_back(function, row, shares[row] / totals[function]);
+  }
+  composite.Prolongation.resize(rows, composite.Space->NumFunctions);
+  composite.Prolongation.setFromTriplets(ones.begin(), ones.end());
+  composite.Restriction.resize(composite.Space->NumFunctions, rows);
+  composite.Restriction.setFromTriplets(means.begin(), means.end());
+  return true;
+}
+
 /// Rows of the Restriction by the inverses on the cells of the patches.
 template <int Dim>
 class WeightedRestriction
@@ -417,6 +476,10 @@ Result<CompositeProjection<Dim>> MakeCompositeProjection(
     }
     composite.First.push_back(composite.First.back() + made.Value->NumFunctions);
     composite.Patches.push_back(std::move(made.Value));
+  }
+  if (restriction == RestrictionKind::Weighted && MakeUnitMatrices(composite))
+  {
+    return result;
   }
   Triplets triplets;
   for (int k = 0; k < static_cast<int>(composite.Patches.size()); ++k)
