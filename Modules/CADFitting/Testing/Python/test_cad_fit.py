@@ -109,11 +109,12 @@ def test_paths():
     write_sphere_scan()
     write("quads.off", sphere_text(6))
     for path in ("automatic", "unstructured", "composite"):
-        run("cadfit", "quads.off", "--target", "scan.vtp", "--path", path, "--report", path + ".json")
+        run("cadfit", "quads.off", "--target", "scan.vtp", "--path", path, "--output", "path.vtu", "--report", path + ".json")
     automatic, cells, patches = (report(path + ".json") for path in ("automatic", "unstructured", "composite"))
     assert (automatic["path"], cells["path"], patches["path"]) == ("composite", "unstructured", "composite")
     assert abs(cells["volume"] - patches["volume"]) < 1e-12 and "path_note" not in patches
-    run("cadfit", "quads.off", "--target", "scan.vtp", "--path", "coons", "--composite-weights", "plain", "--report", "coons.json")
+    run("cadfit", "quads.off", "--target", "scan.vtp", "--path", "coons", "--composite-weights", "plain", "--output", "path.vtu",
+        "--report", "coons.json")
     coons = report("coons.json")
     assert (coons["path"], coons["path_tried"]) == ("unstructured", "coons") and "lie on the target" in coons["path_note"], coons
 
