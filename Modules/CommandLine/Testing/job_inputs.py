@@ -137,7 +137,8 @@ def runs():
             (["warp", FILE, surface, "--output", polydata], "points"),
             (["warp", surface, FILE, "--output", grid], "surface"),
             (["approximate", FILE, "--values", "Temperature", "--table", "table.csv", "--points", polydata, "--output", grid], "values"),
-            (["cadfit", FILE, "--entities", "table.csv", "--output", grid], "quads")):
+            (["cadfit", FILE, "--entities", "table.csv", "--output", grid], "quads"),
+            (["intersections", FILE, "--table", "table.csv", "--output", polydata], "surface")):
         yield arguments + report, kind
 
 

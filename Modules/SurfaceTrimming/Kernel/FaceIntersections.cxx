@@ -28,6 +28,7 @@ constexpr double OwnDistance = 1e-6;
 /// Distances from the points on edges are larger than those from edges by less than this factor.
 constexpr double EdgeFactor = 1.1;
 constexpr std::size_t PairsABatch = 32; ///< between questions for abort
+constexpr double ShareOfShapes = 0.2;   ///< of the progress, before pairs are looked at
 
 std::size_t At(int i)
 {
@@ -374,11 +375,17 @@ Result<FaceIntersections> FindFaceIntersections(
   search.Size = SizeOf(model);
   search.Tolerance = params.Tolerance > 0.0 ? params.Tolerance : DefaultShare * search.Size;
   search.MaxPairs = params.MaxPairs;
+  const auto isAborted = [&](double share) { return params.Progress && !params.Progress(share); };
+  const Status aborted{ ErrorCode::Aborted, "the search for intersections" };
   std::vector<FaceShape> shapes;
   PointMatrix lower(static_cast<Eigen::Index>(model.Faces.size()), 3);
   PointMatrix upper(lower.rows(), 3);
   for (std::size_t f = 0; f < model.Faces.size(); ++f)
   {
+    if (isAborted(ShareOfShapes * static_cast<double>(f) / static_cast<double>(model.Faces.size())))
+    {
+      return aborted;
+    }
     auto shape = FaceShape::Create(model.Faces[f], SpacingShare * search.Tolerance, params.Threads);
     if (!shape)
     {
@@ -418,10 +425,10 @@ Result<FaceIntersections> FindFaceIntersections(
   std::vector<std::int64_t> counts(pairs.size(), 0);
   for (std::size_t begin = 0; begin < pairs.size(); begin += PairsABatch)
   {
-    if (params.Progress &&
-      !params.Progress(static_cast<double>(begin) / static_cast<double>(pairs.size())))
+    if (isAborted(ShareOfShapes +
+          (1.0 - ShareOfShapes) * static_cast<double>(begin) / static_cast<double>(pairs.size())))
     {
-      return { ErrorCode::Aborted, "the search for intersections" };
+      return aborted;
     }
     ParallelFor(std::min(PairsABatch, pairs.size() - begin), 1, params.Threads,
       [&](std::size_t from, std::size_t to)

@@ -35,7 +35,9 @@ struct FaceMeeting
   /// Undecided: of the first place that is open.
   std::array<RealArray<2>, 2> Parameters{};
   std::array<double, 3> Position{};
-  int OpenPlaces = 0; ///< pairs of parts that were not told from each other
+  /// Pairs of parts that were not told from each other; the search ends with 64 of them, or with
+  /// one at its limit.
+  int OpenPlaces = 0;
 };
 
 struct FaceIntersections
