@@ -179,10 +179,10 @@ def bracket_mesh(n, seed=3):
     return points + 0.02 * np.random.default_rng(seed).uniform(-1, 1, points.shape), quads
 
 
-def divot_mesh(n, inner=0.55):
+def divot_mesh(n, inner=0.55, layer=None):
     """Two layers of n x n cells in every block of the brick's top: a square whose corners are `inner` from the middle of the divot, four
     blocks from there to the rim and four outside. The lower layer is plane; the points of the upper one are pressed down to the divot,
-    where little is left of it."""
+    where little is left of it. With a thickness, the upper layer has it everywhere."""
     cells, side = Cells(), inner / np.sqrt(2)
 
     def column(place):
@@ -190,7 +190,8 @@ def divot_mesh(n, inner=0.55):
             x = place(u, v)
             radius = np.linalg.norm(x)
             depth = np.sqrt(DIVOT_RADIUS**2 - radius**2) - (DIVOT_RADIUS - DIVOT_DEPTH) if radius < DIVOT_RIM else 0.0
-            return np.append(x, np.interp(w, (0, 0.5, 1), (-1, -0.5, -depth)))
+            middle = -0.5 if layer is None else -depth - layer
+            return np.append(x, np.interp(w, (0, 0.5, 1), (-1, middle, -depth)))
         return at
 
     cells.add((n, n, 2), column(lambda u, v: side * np.array((2 * u - 1, 2 * v - 1))))

@@ -32,6 +32,10 @@ constexpr int MostFoldedRounds = 4;
 constexpr int MostAttempts = 3;
 constexpr int MostSweeps = 40;
 constexpr int LayerSweeps = 15;
+/// By which the surface's distance from the target may grow, or what share of the mesh's own it may
+/// reach, when elements are mended.
+constexpr double MostGrowth = 2.0;
+constexpr double MostOfMesh = 0.25;
 /// Of the mean edge by which the points of the surface are shifted for a layer.
 constexpr double LayerShare = 0.3;
 
@@ -477,7 +481,8 @@ private:
     return held;
   }
 
-  /// What a step leaves is kept where it has fewer elements without a certificate.
+  /// What a step leaves is kept where it has fewer elements without a certificate, and stays at the
+  /// target.
   template <class Step>
   Status Try(Step&& step)
   {
@@ -490,11 +495,18 @@ private:
     {
       status = this->Certify(verdicts);
     }
+    bool isBetter = status && changed.Value > 0 && verdicts.Bad.size() < this->Verdicts.Bad.size();
+    if (isBetter)
+    {
+      const auto distance = this->DistanceNow();
+      status = distance.Status;
+      isBetter = distance.Value <= this->AllowedDistance;
+    }
     if (!status)
     {
       return status;
     }
-    if (changed.Value > 0 && verdicts.Bad.size() < this->Verdicts.Bad.size())
+    if (isBetter)
     {
       this->Verdicts = std::move(verdicts);
       this->Fit.Smoothed = std::max(this->Fit.Smoothed, changed.Value);
@@ -514,6 +526,10 @@ private:
       return {};
     }
     Status status;
+    if (!this->Candidates().empty())
+    {
+      status = this->DistanceNow(&this->AllowedDistance).Status;
+    }
     for (int round = 0; status && round < MostRounds && !this->Candidates().empty(); ++round)
     {
       // wide windows swing on cells of bad shape
@@ -653,6 +669,62 @@ private:
     this->Fit.Volume = std::abs(sum);
   }
 
+  /// The surface of the spline, a trace of volumes.
+  Status TraceSurface(Spline<2>& surface, MeshTrace<2>& trace) const
+  {
+    if constexpr (Dim == 2)
+    {
+      surface = this->Fit.Value;
+    }
+    else
+    {
+      auto made = TraceOnFacets(*this->Space, this->Surface.Facets);
+      if (!made)
+      {
+        return made.Status;
+      }
+      trace = std::move(made.Value);
+      surface = TraceOf<2>(this->Fit.Value, trace);
+    }
+    return {};
+  }
+
+  Result<FitDistances> MeasureFrom(
+    const Spline<2>& surface, const MeshTrace<2>& trace, SampledDistanceParams params) const
+  {
+    params.Surfaces = this->HasSurfaces || !this->IsFitted;
+    params.Threads = this->Params.Threads;
+    PointMatrix points = this->Fit.Points;
+    points.topRows(this->GivenPoints.rows()) = this->GivenPoints;
+    return MeasureDistances(surface, this->Surface, this->CornersOnElements(trace), this->Parts,
+      points, *this->Target, params);
+  }
+
+  /// Distance of the surface from the target that mending may end with: it may double, or reach a
+  /// share of what the mesh has itself. A valid spline far from its target is of no use.
+  Result<double> DistanceNow(double* allowed = nullptr) const
+  {
+    if (!this->Target)
+    {
+      return 0.0;
+    }
+    Spline<2> surface;
+    MeshTrace<2> trace;
+    if (Status status = this->TraceSurface(surface, trace); !status)
+    {
+      return status;
+    }
+    SampledDistanceParams params;
+    params.Samples = 2;
+    const auto distances = this->MeasureFrom(surface, trace, params);
+    if (distances && allowed)
+    {
+      *allowed = std::max(MostGrowth * distances->ToTarget.RootMeanSquare,
+        MostOfMesh * distances->MeshToTarget.RootMeanSquare);
+    }
+    return distances ? Result<double>(distances->ToTarget.RootMeanSquare) : distances.Status;
+  }
+
   Status Measure()
   {
     this->Fit.Warnings.insert(
@@ -670,36 +742,21 @@ private:
     this->Fit.Path = this->Fast.Path;
     this->Fit.PathNote = this->Fast.Note;
     this->Fit.PathTried = this->Fast.Note.empty() ? FitPath::Automatic : this->Fast.Tried;
-    SampledDistanceParams params;
-    params.TargetSamples = this->Params.TargetSamples;
-    params.Surfaces = this->HasSurfaces || !this->IsFitted;
-    params.Threads = this->Params.Threads;
-    params.Progress = this->Share(0.8, 1.0);
     Spline<2> surface;
     MeshTrace<2> trace;
-    if constexpr (Dim == 2)
+    if (Status status = this->TraceSurface(surface, trace); !status)
     {
-      surface = this->Fit.Value;
-    }
-    else
-    {
-      auto made = TraceOnFacets(*this->Space, this->Surface.Facets);
-      if (!made)
-      {
-        return made.Status;
-      }
-      trace = std::move(made.Value);
-      surface = TraceOf<2>(this->Fit.Value, trace);
+      return status;
     }
     this->MeasureSurface(surface);
     if (!this->Target)
     {
       return {};
     }
-    PointMatrix points = this->Fit.Points;
-    points.topRows(this->GivenPoints.rows()) = this->GivenPoints;
-    auto distances = MeasureDistances(surface, this->Surface, this->CornersOnElements(trace),
-      this->Parts, points, *this->Target, params);
+    SampledDistanceParams params;
+    params.TargetSamples = this->Params.TargetSamples;
+    params.Progress = this->Share(0.8, 1.0);
+    auto distances = this->MeasureFrom(surface, trace, params);
     if (distances)
     {
       this->Fit.Distances = std::move(distances.Value);
@@ -729,23 +786,30 @@ private:
   Spline<Dim> Before;
   std::vector<std::string> ProjectionWarnings;
   ElementVerdicts Verdicts;
+  double AllowedDistance = 0.0; ///< of the surface from the target, when elements are mended
   CADFit<Dim> Fit;
 };
 }
 
 namespace
 {
-/// Whether a fit is to be preferred: with a certificate everywhere, then one that is no farther
-/// than twice as far, then fewer elements without a certificate, then nearer.
+/// Whether a fit is much farther from the target than another, in the sense of mending.
+template <int Dim>
+bool IsFar(const CADFit<Dim>& fit, const CADFit<Dim>& from)
+{
+  return fit.Distances.ToTarget.RootMeanSquare >
+    std::max(MostGrowth * from.Distances.ToTarget.RootMeanSquare,
+      MostOfMesh * from.Distances.MeshToTarget.RootMeanSquare);
+}
+
+/// Whether a fit is to be preferred: one that is not far from the target, then with fewer elements
+/// without a certificate, then nearer.
 template <int Dim>
 bool IsBetter(const CADFit<Dim>& fit, const CADFit<Dim>& than)
 {
-  const double own = fit.Distances.ToTarget.RootMeanSquare;
-  const double other = than.Distances.ToTarget.RootMeanSquare;
-  if (fit.Uncertified.empty() == than.Uncertified.empty() &&
-    std::max(own, other) > 2.0 * std::min(own, other))
+  if (IsFar(fit, than) || IsFar(than, fit))
   {
-    return own < other;
+    return IsFar(than, fit);
   }
   return fit.Uncertified.size() != than.Uncertified.size()
     ? fit.Uncertified.size() < than.Uncertified.size()

@@ -151,6 +151,14 @@ def test_divot_in_a_brick():
     assert mended["invalid_elements_before"] == reports["off"]["uncertified_elements"], mended
 
 
+def test_mended_elements_stay_at_the_target():
+    """A layer so thin that no spline of so few elements is valid on the target: named, not made valid somewhere else."""
+    _, report = fit("thin_layer", examples.divot_part(), examples.divot_mesh(1, 0.8, 0.03), "--degree", 2)
+    print("thin layer", report["verdict"], "rms", report["rms_distance"], "of the mesh", report["mesh_rms_distance"], "volume", report["volume"])
+    assert report["rms_distance"] <= 0.25 * report["mesh_rms_distance"]
+    assert abs(report["volume"] / examples.DIVOT_VOLUME - 1) < 0.03
+
+
 def test_quarter_of_a_disc():
     """A point of three quadrilaterals inside. Functions: 3 patches of (n + 3)^2 less what they share; rim and area of the circle."""
     n, functions = 4, {}
