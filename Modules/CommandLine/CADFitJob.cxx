@@ -27,7 +27,7 @@ public:
     this->AddInput(0, "mesh",
       "mesh of quadrilaterals or hexahedra (.off .obj .ply .vtk .vtp .vtu .mesh)", "", "input");
     this->AddInput(1, "--target",
-      "what to fit to: a CAD part (.step .stp .iges .igs), triangles (.stl .off .obj .ply .vtp) or "
+      "what to fit to: a CAD part (.step .stp .iges .igs .brep), triangles (.stl .off .obj .ply .vtp) or "
       "a spline (.vtu .xml .g2); without it the mesh itself",
       " onto ");
     this->AddOutput(SplineGrid, "--output", Endings::Spline, "the spline");

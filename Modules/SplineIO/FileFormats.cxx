@@ -205,6 +205,7 @@ const std::vector<FileFormat>& FileFormats()
       ReadG2, WriteG2 },
     { "STEP", { ".step", ".stp" }, Faces, Faces, false, ReadFaces, WriteFaces },
     { "IGES", { ".iges", ".igs" }, Faces, Faces, false, ReadFaces, WriteFaces },
+    { "BREP", { ".brep" }, Faces, 0, false, ReadFaces, nullptr },
     { "STL", { ".stl" }, PointContent | PolygonContent, Polygons, false, readPoints,
       WritePolygons },
     { "Wavefront OBJ", { ".obj" }, PointContent | PolygonContent, Polygons, false, readPoints,

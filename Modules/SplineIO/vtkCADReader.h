@@ -33,7 +33,7 @@ public:
   };
 
   ///@{
-  /** The file to read: .step, .stp, .iges or .igs. */
+  /** The file to read: .step, .stp, .iges, .igs or .brep. */
   vtkSetFilePathMacro(FileName);
   vtkGetFilePathMacro(FileName);
   ///@}

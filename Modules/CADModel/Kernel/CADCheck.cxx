@@ -369,6 +369,12 @@ Status ReadShape(const std::string& file, LengthUnit unit, const Use& use)
   return session.Run(place,
     [&]() -> Status
     {
+      if (format == CADFormat::BREP)
+      {
+        TopoDS_Shape shape;
+        const Status loaded = LoadBREP(file, unit, shape);
+        return loaded ? use(shape) : loaded;
+      }
       STEPControl_Reader step;
       IGESControl_Reader iges;
       XSControl_Reader& reader =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// STEP and IGES files through OpenCASCADE. The format follows from the ending of the file name:
-// .step, .stp, .iges, .igs, in any case. OpenCASCADE keeps global settings: calls wait for each
+// STEP and IGES files through OpenCASCADE, and its own BREP files for reading. The format follows
+// from the ending of the file name: .step, .stp, .iges, .igs, .brep, in any case. OpenCASCADE keeps global settings: calls wait for each
 // other, and what they set is restored. Nothing is printed. OpenCASCADE's reader of IGES may crash
 // on damaged files (its reader of STEP is told of damage first).
 #pragma once
@@ -123,7 +123,8 @@ struct CADContents
   std::vector<std::string> LeftOut;  ///< faces of the file that are not here and why, one line each
 };
 
-/// Faces of a STEP or IGES file. B-spline surfaces come as they are, others (planes, cylinders,
+/// Faces of a STEP, IGES or BREP file (of a BREP file lengths are millimetres, and it has neither
+/// names nor colours). B-spline surfaces come as they are, others (planes, cylinders,
 /// spheres, ...) as the rational spline that is the same surface over the face's part of it;
 /// periodic ones are cut open. Loops of a face come with pcurves, also along seams, and with
 /// degenerate edges (a curve of equal points). Assemblies are resolved; a solid, a shell and a face

@@ -3,6 +3,9 @@
 
 #include "IGESSplines.h"
 
+#include <BRepBuilderAPI_Transform.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
 #include <Interface_Check.hxx>
 #include <Interface_CheckIterator.hxx>
 #include <Interface_InterfaceModel.hxx>
@@ -11,6 +14,7 @@
 #include <XSControl_WorkSession.hxx>
 
 #include <algorithm>
+#include <sstream>
 
 namespace knotwork
 {
@@ -54,6 +58,38 @@ Ends ReadEnds(const std::string& file)
   return ends;
 }
 
+/// The last line of a BREP file names the shape that it holds: its orientation and number, and its
+/// location.
+bool EndsWithShape(const std::string& text)
+{
+  const std::size_t end = text.find_last_not_of(" \r\n\t");
+  const std::size_t line = end == std::string::npos ? end : text.find_last_of("\r\n", end);
+  if (line == std::string::npos)
+  {
+    return false;
+  }
+  std::istringstream words(text.substr(line + 1, end - line));
+  char orientation = 0;
+  int shape = 0;
+  int location = -1;
+  return words >> orientation >> shape >> location &&
+    std::string("+-ie").find(orientation) != std::string::npos && shape > 0 && location >= 0;
+}
+
+Status CheckBREPText(const Ends& ends)
+{
+  if (ends.First.find("CASCADE Topology V") == std::string::npos)
+  {
+    return { ErrorCode::InvalidFormat,
+      "this is not a BREP file of text: no 'CASCADE Topology' at its begin" };
+  }
+  if (!EndsWithShape(ends.Last))
+  {
+    return { ErrorCode::InvalidFormat, "the file is truncated: no shape is named at its end" };
+  }
+  return {};
+}
+
 /// What OpenCASCADE would read as far as it goes without a word.
 Status CheckText(const Ends& ends, CADFormat format)
 {
@@ -68,6 +104,10 @@ Status CheckText(const Ends& ends, CADFormat format)
       return { ErrorCode::InvalidFormat, "the file is truncated: no END-ISO-10303-21 at its end" };
     }
     return {};
+  }
+  if (format == CADFormat::BREP)
+  {
+    return CheckBREPText(ends);
   }
   // lines of 80 characters, the section's letter in column 73
   constexpr std::size_t Column = 72;
@@ -149,16 +189,15 @@ Status CheckEntities(const XSControl_Reader& reader)
   }
   return {};
 }
-}
 
-Status LoadCAD(XSControl_Reader& reader, CADFormat format, const std::string& file, int& numMended)
+/// What the name and the first and last characters of a file tell.
+Status CheckEnds(const std::string& file, CADFormat format)
 {
-  numMended = 0;
   const std::string place = "'" + file + "'";
   if (format == CADFormat::Unknown)
   {
     return { ErrorCode::InvalidParameter,
-      place + ": the ending must be .step, .stp, .iges or .igs" };
+      place + ": the ending must be .step, .stp, .iges, .igs or .brep" };
   }
   const Ends ends = ReadEnds(file);
   if (!ends.Opened || ends.First.empty())
@@ -168,9 +207,18 @@ Status LoadCAD(XSControl_Reader& reader, CADFormat format, const std::string& fi
         (ends.Opened ? " is empty or a folder"
                      : " cannot be read; check its name and permissions") };
   }
-  if (Status status = CheckText(ends, format); !status)
+  const Status status = CheckText(ends, format);
+  return status ? status : Status(status.Code, place + ": " + status.Detail);
+}
+}
+
+Status LoadCAD(XSControl_Reader& reader, CADFormat format, const std::string& file, int& numMended)
+{
+  numMended = 0;
+  const std::string place = "'" + file + "'";
+  if (Status status = CheckEnds(file, format); !status)
   {
-    return { status.Code, place + ": " + status.Detail };
+    return status;
   }
   if (reader.ReadFile(file.c_str()) != IFSelect_RetDone)
   {
@@ -186,6 +234,29 @@ Status LoadCAD(XSControl_Reader& reader, CADFormat format, const std::string& fi
   {
     return { status.Code, place + ": " + status.Detail };
   }
+  return {};
+}
+
+Status LoadBREP(const std::string& file, LengthUnit unit, TopoDS_Shape& shape)
+{
+  if (Status status = CheckEnds(file, CADFormat::BREP); !status)
+  {
+    return status;
+  }
+  const auto stream =
+    OSD_FileSystem::DefaultFileSystem()->OpenIStream(file.c_str(), std::ios::in | std::ios::binary);
+  TopoDS_Shape read;
+  BRepTools::Read(read, *stream, BRep_Builder());
+  if (read.IsNull() || stream->fail())
+  {
+    const Status status = Damaged("");
+    return { status.Code, "'" + file + "': " + status.Detail };
+  }
+  gp_Trsf scale;
+  scale.SetScaleFactor(1.0 / Millimetres(unit));
+  shape = unit == LengthUnit::Millimetre
+    ? read
+    : BRepBuilderAPI_Transform(read, scale, true).Shape();
   return {};
 }
 }

@@ -2,6 +2,7 @@
 #pragma once
 #include "CADSession.h"
 
+#include <TopoDS_Shape.hxx>
 #include <XSControl_Reader.hxx>
 
 namespace knotwork
@@ -10,6 +11,11 @@ namespace knotwork
 /// @param numMended  result: damaged curves of an IGES file that are to be found anew.
 /// @return FileError: no such file; EmptyInput: nothing in it; InvalidFormat: damaged.
 Status LoadCAD(XSControl_Reader& reader, CADFormat format, const std::string& file, int& numMended);
+
+/// Reads the shape of a BREP file; its lengths are millimetres.
+/// @param unit  of lengths in the shape.
+/// @return as LoadCAD.
+Status LoadBREP(const std::string& file, LengthUnit unit, TopoDS_Shape& shape);
 
 /// As CheckCAD, of the text of a STEP file, with the settings of the session.
 Status CheckSTEPText(const std::string& text, CADSummary& summary);

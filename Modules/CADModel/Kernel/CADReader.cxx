@@ -252,7 +252,17 @@ Result<CADContents> ReadCAD(const std::string& file, const CADReadParams& params
         return loaded;
       };
       Status loaded;
-      if (format == CADFormat::IGES)
+      if (format == CADFormat::BREP)
+      {
+        TopoDS_Shape shape;
+        loaded = LoadBREP(file, params.Unit, shape);
+        if (loaded)
+        {
+          XCAFDoc_DocumentTool::ShapeTool(document->Main())->AddShape(shape, false);
+          DocumentReader(document, {}, params.Tolerance, contents).Read();
+        }
+      }
+      else if (format == CADFormat::IGES)
       {
         IGESCAFControl_Reader reader;
         reader.SetNameMode(false); // it stumbles over entities without a name

@@ -33,7 +33,11 @@ CADFormat FormatOfFile(const std::string& file)
   {
     return CADFormat::STEP;
   }
-  return ending == ".iges" || ending == ".igs" ? CADFormat::IGES : CADFormat::Unknown;
+  if (ending == ".iges" || ending == ".igs")
+  {
+    return CADFormat::IGES;
+  }
+  return ending == ".brep" ? CADFormat::BREP : CADFormat::Unknown;
 }
 
 bool HasCADEnding(const std::string& file)

@@ -13,7 +13,8 @@ enum class CADFormat
 {
   Unknown,
   STEP,
-  IGES
+  IGES,
+  BREP ///< OpenCASCADE's own text; read only
 };
 
 /// By the ending of the file name, in any case.

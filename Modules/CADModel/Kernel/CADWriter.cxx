@@ -183,7 +183,7 @@ Status TextOf(const TrimmedModel& model, const CADWriteParams& params, CADFormat
 Status WriteCAD(const TrimmedModel& model, const std::string& file, const CADWriteParams& params)
 {
   const CADFormat format = FormatOfFile(file);
-  if (format == CADFormat::Unknown)
+  if (format != CADFormat::STEP && format != CADFormat::IGES)
   {
     return { ErrorCode::InvalidParameter,
       "'" + file + "': the ending must be .step, .stp, .iges or .igs" };

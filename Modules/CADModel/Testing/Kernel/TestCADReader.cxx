@@ -12,6 +12,7 @@
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
+#include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
@@ -45,6 +46,11 @@ CADContents ReadBack(const TrimmedModel& model, const std::string& name)
 std::string FileWith(const TopoDS_Shape& shape, const std::string& name)
 {
   Message::DefaultMessenger()->ChangePrinters().Clear();
+  if (name.size() > 5 && name.substr(name.size() - 5) == ".brep")
+  {
+    EXPECT_TRUE(BRepTools::Write(shape, OutputFile(name).c_str()));
+    return OutputFile(name);
+  }
   STEPControl_Writer writer;
   EXPECT_EQ(writer.Transfer(shape, STEPControl_AsIs), IFSelect_RetDone);
   EXPECT_EQ(writer.Write(OutputFile(name).c_str()), IFSelect_RetDone);
@@ -197,10 +203,12 @@ TEST(CADReader, AnalyticSolidsHaveTheirAreaAndVolume_ExactOracle)
     { "nurbs", BRepBuilderAPI_NurbsConvert(BRepPrimAPI_MakeCylinder(1.0, 3.0).Shape()).Shape(),
       8 * Pi, 3 * Pi, 3 },
   };
-  for (const Case& c : cases)
+  for (std::size_t i = 0; i < 2 * std::size(cases); ++i)
   {
-    SCOPED_TRACE(c.Name);
-    const auto read = ReadCAD(FileWith(c.Shape, std::string(c.Name) + ".step"));
+    const Case& c = cases[i / 2];
+    const char* ending = i % 2 == 0 ? ".step" : ".brep";
+    SCOPED_TRACE(std::string(c.Name) + ending);
+    const auto read = ReadCAD(FileWith(c.Shape, c.Name + std::string(ending)));
     ASSERT_TRUE(read) << read.Status.Message();
     for (const std::string& warning : read->Warnings)
     {
@@ -311,6 +319,49 @@ TEST(CADReader, DamagedFilesAreRefused_PropertyOracle)
   params.Tolerance = -1.0;
   EXPECT_EQ(ReadCAD(OutputFile("good.step"), params).Status.Code, ErrorCode::InvalidParameter);
   EXPECT_EQ(ReadCAD(OutputFile("good.txt")).Status.Code, ErrorCode::InvalidParameter);
+}
+
+/// Lengths of a BREP file are millimetres; the area counts with the square of the unit.
+TEST(CADReader, BREPHasMillimetresAndIsNotWritten_ExactOracle)
+{
+  const std::string good = FileWith(BRepPrimAPI_MakeBox(1.0, 2.0, 3.0).Shape(), "box_mm.brep");
+  for (const auto& [unit, scale] : { std::pair(LengthUnit::Millimetre, 1.0),
+         std::pair(LengthUnit::Centimetre, 0.1), std::pair(LengthUnit::Micrometre, 1000.0) })
+  {
+    const auto summary = CheckCAD(good, unit);
+    ASSERT_TRUE(summary) << summary.Status.Message();
+    EXPECT_NEAR(summary->Area, 22.0 * scale * scale, 1e-9 * scale * scale);
+    EXPECT_TRUE(summary->Valid);
+    CADReadParams params;
+    params.Unit = unit;
+    const auto read = ReadCAD(good, params);
+    ASSERT_TRUE(read) << read.Status.Message();
+    double largest = 0.0;
+    for (const TrimmedFace& face : read->Model.Faces)
+    {
+      largest = std::max(largest, face.Surface.ControlPoints.cwiseAbs().maxCoeff());
+    }
+    EXPECT_NEAR(largest, 3.0 * scale, 1e-9 * scale);
+  }
+  const auto read = ReadCAD(good);
+  const Status written = WriteCAD(read->Model, OutputFile("own_box.brep"));
+  EXPECT_EQ(written.Code, ErrorCode::InvalidParameter);
+  EXPECT_NE(written.Detail.find(".step, .stp, .iges or .igs"), std::string::npos);
+
+  std::ifstream stream(good, std::ios::binary);
+  const std::string text{ std::istreambuf_iterator<char>(stream), {} };
+  const std::string bad = OutputFile("bad.brep");
+  const auto code = [&](const std::string& content)
+  {
+    std::ofstream(bad, std::ios::binary) << content;
+    return ReadCAD(bad).Status.Code;
+  };
+  EXPECT_EQ(code(""), ErrorCode::EmptyInput);
+  EXPECT_EQ(code("hello world\n"), ErrorCode::InvalidFormat);
+  EXPECT_EQ(code(text.substr(0, text.size() / 3)), ErrorCode::InvalidFormat);
+  EXPECT_EQ(code(text.substr(0, text.rfind("TShapes")) + "\n+1 0\n"), ErrorCode::InvalidFormat);
+  std::remove(bad.c_str());
+  EXPECT_EQ(ReadCAD(bad).Status.Code, ErrorCode::FileError);
 }
 
 TEST(CADReader, AStatementThatStandsTwiceIsNamedInOurWords_ExactOracle)
