@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 namespace knotwork
 {
@@ -498,15 +499,64 @@ double LargestHeldMove(const PatchFunctions<Dim>& functions, const std::vector<c
   return largest;
 }
 
+/// Rows are the directions that a patch is seen in: of a volume and of a plane surface the axes, of
+/// a surface in space two in its mean plane and the mean normal of its control nets.
+/// @return none where the normals of the nets have no common side.
+template <int Dim>
+std::optional<Eigen::Matrix3d> FrameOf(const Spline<Dim>& spline, const std::vector<int>& patch)
+{
+  if (Dim == 3 || IsPlane(spline))
+  {
+    return Eigen::Matrix3d::Identity();
+  }
+  /// Of the length of all normals that their sum must have: they turn by 120 degrees at most.
+  constexpr double LeastSum = 0.5;
+  const BezierForm<Dim> form = MakeBezierForm(spline, 1);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double length = 0.0;
+  for (const int e : patch)
+  {
+    const auto& degree = spline.Space->Elements[At(e)].Degree;
+    const int count = NumTensorFunctions<Dim>(degree);
+    const auto corner = [&](int u, int v)
+    {
+      const int at = u * degree[0] + v * degree[1] * (degree[0] + 1);
+      const double* block = form.Block(e) + at;
+      return Eigen::Vector3d(block[0], block[count], block[2 * count]);
+    };
+    const Eigen::Vector3d normal = (corner(1, 1) - corner(0, 0)).cross(corner(0, 1) - corner(1, 0));
+    sum += normal;
+    length += normal.norm();
+  }
+  if (!(sum.norm() > LeastSum * length))
+  {
+    return std::nullopt;
+  }
+  Eigen::Matrix3d frame;
+  frame.row(2) = sum.normalized();
+  frame.row(0) = frame.row(2).transpose().unitOrthogonal();
+  frame.row(1) = frame.row(2).cross(frame.row(0));
+  return frame;
+}
+
 /// Minimizes in one patch; nothing changes unless it has fewer elements without a certificate then.
 template <int Dim>
 Result<int> MendPatch(Spline<Dim>& spline, const std::vector<int>& patch, bool isReversed,
   const std::vector<char>& isHeld, const MendingParams& params)
 {
   const SplineSpace<Dim>& space = *spline.Space;
-  const bool isReleased = params.Attraction > 0.0;
-  const PatchFunctions<Dim> functions(
-    space, patch, isReleased ? std::vector<char>(isHeld.size(), 0) : isHeld);
+  const std::optional<Eigen::Matrix3d> frame = FrameOf(spline, patch);
+  if (!frame)
+  {
+    return 0;
+  }
+  std::vector<char> stays = isHeld;
+  if (params.Attraction > 0.0)
+  {
+    std::transform(stays.begin(), stays.end(), stays.begin(),
+      [](char held) { return static_cast<char>(held == HeldFast ? 1 : 0); });
+  }
+  const PatchFunctions<Dim> functions(space, patch, stays);
   SplineSpace<Dim> part = Restrict(space, patch, functions);
   const auto count = static_cast<Eigen::Index>(functions.Functions.size());
   std::vector<Eigen::Index> free;
@@ -523,10 +573,14 @@ Result<int> MendPatch(Spline<Dim>& spline, const std::vector<int>& patch, bool i
   }
   // planes of coordinates, mirrored where most elements are reversed, in units of an element
   Eigen::MatrixXd planes(count, Dim);
+  const auto seen = [&](Eigen::Index i) -> Eigen::RowVector3d
+  {
+    return spline.ControlPoints.row(functions.Functions[static_cast<std::size_t>(i)]) *
+      frame->transpose();
+  };
   for (Eigen::Index i = 0; i < count; ++i)
   {
-    planes.row(i) = spline.ControlPoints.row(functions.Functions[static_cast<std::size_t>(i)])
-                      .template head<Dim>();
+    planes.row(i) = seen(i).template head<Dim>();
   }
   const Eigen::RowVectorXd origin = planes.colwise().mean();
   planes.rowwise() -= origin;
@@ -610,8 +664,9 @@ Result<int> MendPatch(Spline<Dim>& spline, const std::vector<int>& patch, bool i
   planes.rowwise() += origin;
   for (const Eigen::Index i : free)
   {
-    spline.ControlPoints.row(functions.Functions[static_cast<std::size_t>(i)])
-      .template head<Dim>() = planes.row(i);
+    Eigen::RowVector3d moved = seen(i);
+    moved.template head<Dim>() = planes.row(i);
+    spline.ControlPoints.row(functions.Functions[static_cast<std::size_t>(i)]) = moved * *frame;
   }
   return static_cast<int>(patch.size());
 }
@@ -622,16 +677,13 @@ template <int Dim>
 Result<int> MinimizeBarrier(Spline<Dim>& spline, const std::vector<int>& elements, bool isReversed,
   const std::vector<char>& isHeld, const MendingParams& params)
 {
-  if (Dim == 2 && !IsPlane(spline))
-  {
-    return 0;
-  }
+  const bool isMirrored = isReversed && (Dim == 3 || IsPlane(spline)); // frames have a side
   const CellMesh<Dim>& mesh = MeshOf(*spline.Space);
   Result<int> changed(0);
   for (const std::vector<int>& patch :
     ConnectedParts<Dim>(mesh, Rings<Dim>(mesh, elements, params.Rings)))
   {
-    const auto mended = MendPatch<Dim>(spline, patch, isReversed, isHeld, params);
+    const auto mended = MendPatch<Dim>(spline, patch, isMirrored, isHeld, params);
     if (!mended)
     {
       return mended;

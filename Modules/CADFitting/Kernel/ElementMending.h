@@ -31,6 +31,9 @@ std::vector<int> InvertedNets(const Spline<Dim>& spline, bool isReversed);
 template <int Dim>
 std::vector<int> Rings(const CellMesh<Dim>& mesh, const std::vector<int>& elements, int rings);
 
+/// Of a control point that stays whatever Attraction is; 1: it is held while Attraction is 0.
+inline constexpr char HeldFast = 2;
+
 struct MendingParams
 {
   int Rings = 2;
@@ -50,8 +53,9 @@ int ExtendMoves(Spline<Dim>& spline, const std::vector<int>& elements, const Poi
   const std::vector<char>& isHeld, const MendingParams& params);
 
 /// Minimizes the barrier functional |J|^2 / (det J)^(2 / Dim) in rings of elements around some, by
-/// their control points that are not held, or not held fast (Attraction). Volumes, and surfaces in
-/// a plane z = const.
+/// their control points that are not held, or not held fast (Attraction). Of a surface in space what
+/// is seen along the mean normal of the patch moves across that normal; patches that bend too much
+/// for that stay.
 /// @return how many elements changed; Aborted.
 template <int Dim>
 Result<int> MinimizeBarrier(Spline<Dim>& spline, const std::vector<int>& elements, bool isReversed,

@@ -86,6 +86,8 @@ def test_meshes():
     for degree in (2, 3):
         surface, target, report = fit("bl_rod_764.off", "cmu_rod_target.off", "--degree", degree)
         assert max(report["rms_distance"], report["rms_distance_back"]) <= 0.02, report
+        # not all are proved valid: see the module's page; without the barrier functional and creases 3 and 7 are not
+        assert report["uncertified_elements"] <= (2 if degree == 2 else 5), report
         assert max(area_distance(surface, target), area_distance(target, surface)) <= 0.02
 
 
