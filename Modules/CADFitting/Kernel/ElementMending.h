@@ -53,9 +53,9 @@ int ExtendMoves(Spline<Dim>& spline, const std::vector<int>& elements, const Poi
   const std::vector<char>& isHeld, const MendingParams& params);
 
 /// Minimizes the barrier functional |J|^2 / (det J)^(2 / Dim) in rings of elements around some, by
-/// their control points that are not held, or not held fast (Attraction). Of a surface in space what
-/// is seen along the mean normal of the patch moves across that normal; patches that bend too much
-/// for that stay.
+/// their control points that are not held, or not held fast (Attraction). Of a surface in space
+/// what is seen along the mean normal of the patch moves across that normal; patches that bend too
+/// much for that stay.
 /// @return how many elements changed; Aborted.
 template <int Dim>
 Result<int> MinimizeBarrier(Spline<Dim>& spline, const std::vector<int>& elements, bool isReversed,

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // STEP and IGES files through OpenCASCADE, and its own BREP files for reading. The format follows
-// from the ending of the file name: .step, .stp, .iges, .igs, .brep, in any case. OpenCASCADE keeps global settings: calls wait for each
-// other, and what they set is restored. Nothing is printed. OpenCASCADE's reader of IGES may crash
-// on damaged files (its reader of STEP is told of damage first).
+// from the ending of the file name: .step, .stp, .iges, .igs, .brep, in any case. OpenCASCADE keeps
+// global settings: calls wait for each other, and what they set is restored. Nothing is printed.
+// OpenCASCADE's reader of IGES may crash on damaged files (its reader of STEP is told of damage
+// first).
 #pragma once
 #include <knotwork/SplineCore/TrimmedModel.h>
 

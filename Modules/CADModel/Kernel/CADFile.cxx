@@ -254,9 +254,8 @@ Status LoadBREP(const std::string& file, LengthUnit unit, TopoDS_Shape& shape)
   }
   gp_Trsf scale;
   scale.SetScaleFactor(1.0 / Millimetres(unit));
-  shape = unit == LengthUnit::Millimetre
-    ? read
-    : BRepBuilderAPI_Transform(read, scale, true).Shape();
+  shape =
+    unit == LengthUnit::Millimetre ? read : BRepBuilderAPI_Transform(read, scale, true).Shape();
   return {};
 }
 }
