@@ -112,7 +112,6 @@ void EncodeNumbers(const CADFit<Dim>& fit, vtkTable* table)
   AddColumn(table, "UncertifiedElements", static_cast<int>(fit.Uncertified.size()));
   AddColumn(table, "InvalidElementsBefore", fit.InvalidBefore);
   AddColumn(table, "SmoothedElements", fit.Smoothed);
-  AddColumn(table, "CreasedElements", fit.Creased);
   AddColumn(table, "LayerElements", fit.LayerCells);
   AddColumn(table, "FoldedCells", fit.FoldedCells);
   AddColumn(table, "StillFolded", fit.StillFolded);
@@ -214,11 +213,6 @@ std::vector<std::string> Warnings(const CADFit<Dim>& fit)
   {
     warnings.push_back("the path " + std::string(ToString(fit.PathTried)) +
       " is not taken but unstructured: " + fit.PathNote);
-  }
-  if (fit.Creased > 0)
-  {
-    warnings.push_back("the spline is not smooth at the sides of " + std::to_string(fit.Creased) +
-      " elements, so that these can be valid");
   }
   if (!fit.Uncertified.empty())
   {

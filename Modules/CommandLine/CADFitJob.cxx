@@ -27,9 +27,8 @@ public:
     this->AddInput(0, "mesh",
       "mesh of quadrilaterals or hexahedra (.off .obj .ply .vtk .vtp .vtu .mesh)", "", "input");
     this->AddInput(1, "--target",
-      "what to fit to: a CAD part (.step .stp .iges .igs .brep), triangles (.stl .off .obj .ply "
-      ".vtp) or "
-      "a spline (.vtu .xml .g2); without it the mesh itself",
+      "what to fit to: a CAD part (.step .stp .iges .igs .brep), triangles (.stl .off .obj "
+      ".ply .vtp) or a spline (.vtu .xml .g2); without it the mesh itself",
       " onto ");
     this->AddOutput(SplineGrid, "--output", Endings::Spline, "the spline");
     this->AddOutput(Numbers, "--table", Endings::Table, "its numbers");
@@ -52,8 +51,8 @@ protected:
       { "Functions", "Elements", "Patches", "MaxDistance", "RmsDistance", "MaxDistanceBack",
         "RmsDistanceBack", "MeshMaxDistance", "MeshRmsDistance", "MeshMaxDistanceBack",
         "MeshRmsDistanceBack", "MinJacobianLower", "UncertifiedElements", "InvalidElementsBefore",
-        "SmoothedElements", "CreasedElements", "LayerElements", "FoldedCells", "StillFolded",
-        "UnmatchedFeatures", "Area", "Volume" },
+        "SmoothedElements", "LayerElements", "FoldedCells", "StillFolded", "UnmatchedFeatures",
+        "Area", "Volume" },
       session.Report);
     session.Report["verdict"] = table->GetValueByName(0, "Verdict").ToString();
     session.Report["path"] = table->GetValueByName(0, "Path").ToString();

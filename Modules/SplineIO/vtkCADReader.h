@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkCADReader
- * @brief   trimmed faces from STEP and IGES files
+ * @brief   trimmed faces from STEP, IGES and BREP files
  *
  * Outputs: 0 the surfaces as spline grid (vtkUnstructuredGrid), a patch a face, with the cell
  * arrays FaceId, Body, FaceReversed, Name, Color; 1 the trimming curves as spline grid, a patch a

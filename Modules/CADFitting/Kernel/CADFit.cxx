@@ -30,8 +30,6 @@ constexpr int MostRounds = 4;
 /// without a certificate.
 constexpr int MostFoldedRounds = 4;
 constexpr int MostAttempts = 3;
-/// Rounds in which elements without a certificate get creases at all their sides.
-constexpr int MostCreaseRounds = 4;
 constexpr int MostSweeps = 40;
 constexpr int LayerSweeps = 15;
 /// By which the surface's distance from the target may grow, or what share of the mesh's own it may
@@ -51,7 +49,6 @@ struct Attempt
 {
   std::set<int> LeftOut; ///< curves of the target
   bool Layer = false;
-  bool Creases = false; ///< around elements without a certificate
 };
 
 template <int Dim>
@@ -64,7 +61,6 @@ public:
   {
     this->Classification.LeftOut = attempt.LeftOut;
     this->Layer = params.Layer && attempt.Layer;
-    this->MayCrease = attempt.Creases;
     this->Fit.Mesh = mesh;
     this->Fit.Points = points;
     this->Fit.CellOf.resize(At(mesh.NumCells()));
@@ -368,16 +364,6 @@ private:
     const std::vector<CellSide> own =
       FeatureFacets<Dim>(this->Fit.Mesh, this->Topology, this->Surface, this->Parts);
     params.Features.insert(params.Features.end(), own.begin(), own.end());
-    for (const int cell : this->CreasedCells)
-    {
-      for (int side = 0; side < 2 * Dim; ++side)
-      {
-        if (!this->Topology.IsBoundary(cell, side))
-        {
-          params.Features.push_back({ cell, side });
-        }
-      }
-    }
     if (this->AreFeaturesProlonged)
     {
       params.Features = Prolong<Dim>(this->Topology, params.Features);
@@ -437,6 +423,7 @@ private:
       this->Fit.Value = std::move(fit->Value);
       this->Before = std::move(fit->Before);
       this->ProjectionWarnings = std::move(fit->Warnings);
+      this->OnCurves = std::move(fit->OnCurves);
     }
     return fit.Status;
   }
@@ -473,11 +460,11 @@ private:
     }
     else
     {
-      // rims, and where the surface lies on the target all; its edges for good
+      // rims, and where the surface lies on the target all; what is on its curves for good
       if (this->IsFitted && this->HasSurfaces)
       {
         held.assign(held.size(), 1);
-        for (const int function : this->FunctionsOnEdges())
+        for (const int function : this->OnCurves)
         {
           held[At(function)] = HeldFast;
         }
@@ -499,44 +486,6 @@ private:
     return held;
   }
 
-  /// Functions of a surface that are not zero on rims or on edges matched with curves.
-  std::set<int> FunctionsOnEdges() const
-  {
-    std::set<int> functions;
-    for (std::size_t q = 0; q < this->Surface.Quads.size(); ++q)
-    {
-      const int cell = static_cast<int>(q);
-      const auto& degree = this->Space->Elements[q].Degree;
-      const int strides[] = { 1, degree[0] + 1 };
-      for (std::size_t k = 0; k < 4; ++k)
-      {
-        const auto edge = At(this->Surface.EdgesOf[q][k]);
-        if (this->Parts.CurveOf[edge] < 0 && this->Surface.QuadsOf[edge][1] >= 0)
-        {
-          continue;
-        }
-        // quadrilaterals are in cyclic order: the edge k lies at v = 0, u = 1, v = 1, u = 0
-        const std::size_t across = k % 2 == 0 ? 1 : 0;
-        const int first = k == 1 || k == 2 ? degree[across] * strides[across] : 0;
-        for (int i = 0; i <= degree[1 - across]; ++i)
-        {
-          const int row = this->Space->LocalFunctions(cell)[first + i * strides[1 - across]];
-          if (this->Space->IsIdentityMap())
-          {
-            functions.insert(row);
-            continue;
-          }
-          for (std::size_t r = this->Space->RowStart[At(row)];
-               r < this->Space->RowStart[At(row) + 1]; ++r)
-          {
-            functions.insert(this->Space->RowFunction[r]);
-          }
-        }
-      }
-    }
-    return functions;
-  }
-
   /// Control points of a surface that were moved across its normals keep their offsets from the
   /// target.
   Status FollowTarget(const PointMatrix& before)
@@ -554,15 +503,15 @@ private:
         moved.push_back(i);
       }
     }
-    TargetPoints from;
-    TargetPoints to;
-    const PointMatrix own = now(moved, Eigen::all);
-    Status status = this->Target->Find({}, PointMatrix(before(moved, Eigen::all)), from);
-    status = status ? this->Target->Find({}, own, to) : status;
-    for (std::size_t k = 0; status && k < moved.size(); ++k)
+    const PointMatrix from = before(moved, Eigen::all);
+    const PointMatrix to = now(moved, Eigen::all);
+    TargetPoints feetBefore;
+    TargetPoints feet;
+    Status status = this->Target->Find({}, from, feetBefore);
+    status = status ? this->Target->Find({}, to, feet) : status;
+    if (status)
     {
-      const auto row = static_cast<Eigen::Index>(k);
-      now.row(moved[k]) = to.Points.row(row) + before.row(moved[k]) - from.Points.row(row);
+      now(moved, Eigen::all) = feet.Points + from - feetBefore.Points;
     }
     return status;
   }
@@ -649,64 +598,6 @@ private:
           return moved ? Result<int>(static_cast<int>(bad.size())) : Result<int>(moved);
         });
     }
-    status = status ? this->MoveControlPoints() : status;
-    for (int round = 0;
-         status && this->MayCrease && round < MostCreaseRounds && !this->Candidates().empty();
-         ++round)
-    {
-      status = this->Crease(round == 0 ? 0 : 1);
-    }
-    return status;
-  }
-
-  /// The spline is only continuous at the sides of elements without a certificate, so that they are
-  /// the mesh map of their own corners, on the target; then control points are moved again.
-  /// @param rings  of elements around them that are taken with them.
-  Status Crease(int rings)
-  {
-    const SplineSpacePtr<Dim> space = this->Space;
-    const FastPath<Dim> fast = this->Fast;
-    const std::vector<std::string> warnings = this->ProjectionWarnings;
-    const std::vector<int> linear = this->LinearCells;
-    const std::vector<int> creased = this->CreasedCells;
-    const std::vector<int> own = Rings<Dim>(this->Fit.Mesh, this->Candidates(), rings);
-    const auto add = [&own](std::vector<int>& cells)
-    {
-      std::set<int> all(cells.begin(), cells.end());
-      all.insert(own.begin(), own.end());
-      cells.assign(all.begin(), all.end());
-    };
-    add(this->LinearCells);
-    add(this->CreasedCells);
-    const std::size_t before = this->Verdicts.Bad.size();
-    Status status = this->Try(
-      [&]() -> Result<int>
-      {
-        Status made = this->MakeSpace();
-        made = made ? this->Project() : made;
-        if (made.Code == ErrorCode::NotInSpace)
-        {
-          return 0; // no such space
-        }
-        return made ? Result<int>(static_cast<int>(own.size())) : Result<int>(made);
-      });
-    if (this->Verdicts.Bad.size() >= before)
-    {
-      this->Space = space;
-      this->Fast = fast;
-      this->ProjectionWarnings = warnings;
-      this->LinearCells = linear;
-      this->CreasedCells = creased;
-      return status;
-    }
-    this->Fit.Creased = static_cast<int>(this->CreasedCells.size());
-    return status ? this->MoveControlPoints() : status;
-  }
-
-  /// Laplace's solution for the moves of the surface, then the barrier functional.
-  Status MoveControlPoints()
-  {
-    Status status;
     MendingParams params;
     params.Threads = this->Params.Threads;
     params.Progress = this->Share(0.7, 0.8);
@@ -921,8 +812,6 @@ private:
   bool HasSurfaces = false;
   bool IsPlaced = false;
   std::vector<int> LinearCells;
-  std::vector<int> CreasedCells;
-  bool MayCrease = false;
   bool IsLayerNeeded = false;
   bool AreFeaturesProlonged = false;
   MeshTopology<Dim> Topology;
@@ -935,6 +824,7 @@ private:
   FastPath<Dim> Fast;
   Spline<Dim> Before;
   std::vector<std::string> ProjectionWarnings;
+  std::vector<int> OnCurves; ///< functions
   ElementVerdicts Verdicts;
   double AllowedDistance = 0.0; ///< of the surface from the target, when elements are mended
   CADFit<Dim> Fit;
@@ -972,7 +862,6 @@ Result<CADFit<Dim>> FitToTarget(const CellMesh<Dim>& mesh, const PointMatrix& po
   const FitTargetPtr& target, const CADFitParams& params)
 {
   Attempt attempt;
-  Attempt bestAttempt;
   Result<CADFit<Dim>> best;
   for (int i = 0; i < MostAttempts; ++i)
   {
@@ -985,7 +874,6 @@ Result<CADFit<Dim>> FitToTarget(const CellMesh<Dim>& mesh, const PointMatrix& po
     if (i == 0 || IsBetter(fit.Value, best.Value))
     {
       best = std::move(fit);
-      bestAttempt = attempt;
     }
     if (best->Uncertified.empty() || !target || params.Smoothing == FitSmoothing::Off)
     {
@@ -1005,15 +893,6 @@ Result<CADFit<Dim>> FitToTarget(const CellMesh<Dim>& mesh, const PointMatrix& po
     else
     {
       break;
-    }
-  }
-  if (!best->Uncertified.empty() && params.Smoothing == FitSmoothing::Certificate)
-  {
-    bestAttempt.Creases = true;
-    auto fit = CADFitting<Dim>(mesh, points, target.get(), params, bestAttempt).Run();
-    if (fit.Status.Code == ErrorCode::Aborted || (fit && IsBetter(fit.Value, best.Value)))
-    {
-      return fit;
     }
   }
   return best;

@@ -81,7 +81,6 @@ struct CADFit
   int StillFolded = 0;             ///< of the mesh on the target
   int InvalidBefore = 0;           ///< elements without a certificate before they were mended
   int Smoothed = 0;                ///< elements whose control points were moved to mend some
-  int Creased = 0;                 ///< elements whose sides were made C^0 to mend some
   std::vector<int> Uncertified;    ///< elements that stay so
   double Area = 0.0;               ///< of the surface
   double Volume = 0.0;             ///< of hexahedra, or enclosed by a surface without a rim; else 0

@@ -499,30 +499,23 @@ double LargestHeldMove(const PatchFunctions<Dim>& functions, const std::vector<c
   return largest;
 }
 
-/// Rows are the directions that a patch is seen in: of a volume and of a plane surface the axes, of
-/// a surface in space two in its mean plane and the mean normal of its control nets.
-/// @return none where the normals of the nets have no common side.
-template <int Dim>
-std::optional<Eigen::Matrix3d> FrameOf(const Spline<Dim>& spline, const std::vector<int>& patch)
+/// The directions that a part of a surface in space is seen in, a row each: two in its mean plane,
+/// then its mean normal, by the diagonals of elements.
+/// @return none where the sum of the normals is less than half as long as all of them.
+std::optional<Eigen::Matrix3d> FrameOf(const Spline<2>& part)
 {
-  if (Dim == 3 || IsPlane(spline))
-  {
-    return Eigen::Matrix3d::Identity();
-  }
-  /// Of the length of all normals that their sum must have: they turn by 120 degrees at most.
   constexpr double LeastSum = 0.5;
-  const BezierForm<Dim> form = MakeBezierForm(spline, 1);
+  const BezierForm<2> form = MakeBezierForm(part, 1);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double length = 0.0;
-  for (const int e : patch)
+  for (int e = 0; e < part.Space->NumElements(); ++e)
   {
-    const auto& degree = spline.Space->Elements[At(e)].Degree;
-    const int count = NumTensorFunctions<Dim>(degree);
+    const auto& degree = part.Space->Elements[At(e)].Degree;
+    const int count = NumTensorFunctions<2>(degree);
     const auto corner = [&](int u, int v)
     {
-      const int at = u * degree[0] + v * degree[1] * (degree[0] + 1);
-      const double* block = form.Block(e) + at;
-      return Eigen::Vector3d(block[0], block[count], block[2 * count]);
+      const double* point = form.Block(e) + u * degree[0] + v * degree[1] * (degree[0] + 1);
+      return Eigen::Vector3d(point[0], point[count], point[2 * count]);
     };
     const Eigen::Vector3d normal = (corner(1, 1) - corner(0, 0)).cross(corner(0, 1) - corner(1, 0));
     sum += normal;
@@ -542,14 +535,9 @@ std::optional<Eigen::Matrix3d> FrameOf(const Spline<Dim>& spline, const std::vec
 /// Minimizes in one patch; nothing changes unless it has fewer elements without a certificate then.
 template <int Dim>
 Result<int> MendPatch(Spline<Dim>& spline, const std::vector<int>& patch, bool isReversed,
-  const std::vector<char>& isHeld, const MendingParams& params)
+  bool isInSpace, const std::vector<char>& isHeld, const MendingParams& params)
 {
   const SplineSpace<Dim>& space = *spline.Space;
-  const std::optional<Eigen::Matrix3d> frame = FrameOf(spline, patch);
-  if (!frame)
-  {
-    return 0;
-  }
   std::vector<char> stays = isHeld;
   if (params.Attraction > 0.0)
   {
@@ -571,17 +559,24 @@ Result<int> MendPatch(Spline<Dim>& spline, const std::vector<int>& patch, bool i
   {
     return 0;
   }
-  // planes of coordinates, mirrored where most elements are reversed, in units of an element
-  Eigen::MatrixXd planes(count, Dim);
-  const auto seen = [&](Eigen::Index i) -> Eigen::RowVector3d
+  Spline<Dim> seen; // the part in the directions that it is seen in
+  seen.ControlPoints = spline.ControlPoints(functions.Functions, Eigen::all);
+  std::optional<Eigen::Matrix3d> frame = Eigen::Matrix3d::Identity();
+  if constexpr (Dim == 2)
   {
-    return spline.ControlPoints.row(functions.Functions[static_cast<std::size_t>(i)]) *
-      frame->transpose();
-  };
-  for (Eigen::Index i = 0; i < count; ++i)
-  {
-    planes.row(i) = seen(i).template head<Dim>();
+    if (isInSpace)
+    {
+      seen.Space = std::make_shared<SplineSpace<Dim>>(part);
+      frame = FrameOf(seen);
+    }
   }
+  if (!frame)
+  {
+    return 0;
+  }
+  seen.ControlPoints *= frame->transpose();
+  // planes of coordinates, mirrored where most elements are reversed, in units of an element
+  Eigen::MatrixXd planes = seen.ControlPoints.template leftCols<Dim>();
   const Eigen::RowVectorXd origin = planes.colwise().mean();
   planes.rowwise() -= origin;
   const double extent = (planes.colwise().maxCoeff() - planes.colwise().minCoeff()).norm();
@@ -664,7 +659,7 @@ Result<int> MendPatch(Spline<Dim>& spline, const std::vector<int>& patch, bool i
   planes.rowwise() += origin;
   for (const Eigen::Index i : free)
   {
-    Eigen::RowVector3d moved = seen(i);
+    Eigen::RowVector3d moved = seen.ControlPoints.row(i);
     moved.template head<Dim>() = planes.row(i);
     spline.ControlPoints.row(functions.Functions[static_cast<std::size_t>(i)]) = moved * *frame;
   }
@@ -677,13 +672,14 @@ template <int Dim>
 Result<int> MinimizeBarrier(Spline<Dim>& spline, const std::vector<int>& elements, bool isReversed,
   const std::vector<char>& isHeld, const MendingParams& params)
 {
-  const bool isMirrored = isReversed && (Dim == 3 || IsPlane(spline)); // frames have a side
+  const bool isInSpace = Dim == 2 && !IsPlane(spline);
   const CellMesh<Dim>& mesh = MeshOf(*spline.Space);
   Result<int> changed(0);
   for (const std::vector<int>& patch :
     ConnectedParts<Dim>(mesh, Rings<Dim>(mesh, elements, params.Rings)))
   {
-    const auto mended = MendPatch<Dim>(spline, patch, isMirrored, isHeld, params);
+    const auto mended =
+      MendPatch<Dim>(spline, patch, isReversed && !isInSpace, isInSpace, isHeld, params);
     if (!mended)
     {
       return mended;

@@ -148,6 +148,7 @@ public:
       {
         this->Map = EvaluateSpline(this->Fit.Value);
         this->Fit.Warnings.clear();
+        this->Fit.OnCurves.clear();
       }
       status = this->FitSurface();
       status = status && this->Target && this->Params.Curves ? this->FitCurves() : status;
@@ -392,6 +393,7 @@ private:
         }
       }
       this->SetRows(functions, made->ControlPoints);
+      this->Fit.OnCurves.insert(this->Fit.OnCurves.end(), functions.begin(), functions.end());
     }
     return {};
   }
@@ -416,6 +418,7 @@ private:
         if (function >= 0)
         {
           this->Fit.Value.ControlPoints.row(function) = this->Target->Vertices().row(part.Id);
+          this->Fit.OnCurves.push_back(function);
           done.insert(point);
         }
         smooth.insert(point);

@@ -30,6 +30,7 @@ struct ProgressiveFit
 {
   Spline<Dim> Value;
   Spline<Dim> Before;                ///< through the points, nothing else
+  std::vector<int> OnCurves;         ///< functions that were fitted to curves and corners
   std::vector<std::string> Warnings; ///< curves and corners that could not be fitted, and why
 };
 

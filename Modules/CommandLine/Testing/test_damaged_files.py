@@ -43,6 +43,7 @@ def sound_files():
     good("convert", path("thb.bext"), "--output", path("explicit.vtu"))
     for ending in (".step", ".igs"):
         good("convert", path("torus.vtu"), "--output", path("torus" + ending))
+    shutil.copy(knotwork_testing.data("Hostile/sound.brep"), path("drilled.brep"))
     for name, of in (("ascii", "thb.vtu"), ("appended", "height.vtu"), ("appended", "cloud.vtp"), ("ascii", "cloud.vtp")):
         good("convert", path(of), "--encoding", name, "--output", path(name + "_" + of))
     for name in ("curved.mesh", "linear.mesh", "nurbs.mesh"):
@@ -67,7 +68,7 @@ def sound_files():
     boundary = [["parameterize", "IN", "--output", grid], ["info", "IN"]]
     kinds = [(spline, "square.vtu"), (spline, "ascii_thb.vtu"), (spline, "appended_height.vtu"), (spline, "grids.vtpc"), (spline, "height.vtk"),
              (spline, "ascii.vtk"), (spline, "thb.xml"), (spline, "square.xml"), (spline, "square.g2"), (spline, "lr.g2"), (spline, "thb.bext"), (spline, "operators.json"), (spline, "explicit.vtu"),
-             (spline, "torus.step"),
+             (spline, "torus.step"), (spline, "drilled.brep"),
              (spline, "torus.igs"), (spline, "square.step"), (spline, "square.iges"), (cloud, "appended_cloud.vtp"), (cloud, "ascii_cloud.vtp"),
              (cloud, "cloud.xyz"), (cloud, "cloud.txt"), (cloud, "cloud.csv"), (cloud, "cloud.ply"), (cloud, "cloud.g2"), (mesh, "mesh.off"),
              (mesh, "mesh.obj"), (mesh, "mesh.ply"), (mesh, "bytes.ply"), (mesh, "mesh.stl"), (mesh, "bytes.stl"), (mesh, "mesh.vtp"),

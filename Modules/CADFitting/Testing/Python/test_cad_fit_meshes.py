@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Fits of the meshes of a folder that the environment variable KNOTWORK_UNSTRUCTURED_MESHES names to their triangles: of hepta and the
-rod, or of the joint, when that is the argument. Distances are the report's, and those that VTK's locators find."""
+rod, or of the joint or mount1, as they are and with inverted cells, when one is the argument. Distances are the report's, and those that VTK's locators find."""
 import json
 import os
 import sys
@@ -69,13 +69,15 @@ def area_distance(source, target):
 
 
 def test_meshes():
-    if "joint" in sys.argv:
-        _, _, report = fit("cmu_joint.vtk", "cmu_joint_target.off", "--degree", 2, timeout=1200)
-        # not all of 6,144 elements are proved valid: see the module's page
-        assert report["uncertified_elements"] <= 30 and report["invalid_elements_before"] > 100, report
-        assert report["rms_distance"] <= 0.5 * report["mesh_rms_distance"], report
-        assert report["rms_distance_back"] <= 0.5 * report["mesh_rms_distance_back"], report
-        return
+    # what stays without a certificate of 6,144 and 4,480 elements, and the share of the mesh's distances: see the module's page
+    for name, uncertified, share in (("joint", 30, 0.5), ("mount1", 3, 0.26)):
+        if name in sys.argv:
+            for mesh in (f"cmu_{name}.vtk", f"cmu_{name}_folded.vtk"):
+                _, _, report = fit(mesh, f"cmu_{name}_target.off", "--degree", 2, timeout=1200)
+                assert report["uncertified_elements"] <= uncertified and report["invalid_elements_before"] > 20, report
+                assert report["rms_distance"] <= share * report["mesh_rms_distance"], report
+                assert report["rms_distance_back"] <= share * report["mesh_rms_distance_back"], report
+            return
     surface, target, report = fit("cmu_hepta.vtk", "cmu_hepta_target.off", "--degree", 2)
     assert report["verdict"] == "valid", report
     assert report["rms_distance"] <= 0.25 * report["mesh_rms_distance"], report
@@ -86,8 +88,8 @@ def test_meshes():
     for degree in (2, 3):
         surface, target, report = fit("bl_rod_764.off", "cmu_rod_target.off", "--degree", degree)
         assert max(report["rms_distance"], report["rms_distance_back"]) <= 0.02, report
-        # not all are proved valid: see the module's page; without the barrier functional and creases 3 and 7 are not
-        assert report["uncertified_elements"] <= (2 if degree == 2 else 5), report
+        # not all are proved valid: see the module's page; without the barrier functional 3 and 7 are not
+        assert report["uncertified_elements"] <= (2 if degree == 2 else 7), report
         assert max(area_distance(surface, target), area_distance(target, surface)) <= 0.02
 
 

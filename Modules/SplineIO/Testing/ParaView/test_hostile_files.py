@@ -18,9 +18,9 @@ def test_a_file_that_crashes_opencascade_is_an_error():
 
 def test_a_sound_file_is_read():
     assert STEPIGESReader().SeparateProcess == 1
-    file = knotwork_testing.data("Hostile/sound.step")
-    surfaces, triangles = read(file)
-    assert surfaces >= 1 and triangles >= 2, (surfaces, triangles)
+    for name in ("sound.step", "sound.brep"):
+        surfaces, triangles = read(knotwork_testing.data("Hostile/" + name))
+        assert surfaces >= 1 and triangles >= 2, (name, surfaces, triangles)
 
 
 knotwork_testing.main(globals())
