@@ -344,6 +344,7 @@ Status vtkCADFit::Compute(vtkInformationVector** inputs, vtkInformationVector* o
   choices.Fit.Smoothing = static_cast<FitSmoothing>(this->Smoothing);
   choices.Fit.SmoothingRings = this->SmoothingRings;
   choices.Fit.Layer = this->Layer;
+  choices.Fit.Constrain = this->Constrain;
   choices.Fit.Projections = this->Projections;
   choices.Fit.ExtraPoints = this->ExtraPoints;
   choices.Fit.TargetSamples = this->TargetSamples;

@@ -186,6 +186,14 @@ public:
   vtkBooleanMacro(FitPoints, bool);
   ///@}
   ///@{
+  /** Whether the volume is fitted anew with the coefficients that its surface has, the surface with
+   * those of its curves and these with those of their corners, each as near to what it was before
+   * as that allows; off: all others stay as they are. Default off. Advanced. */
+  vtkSetMacro(Constrain, bool);
+  vtkGetMacro(Constrain, bool);
+  vtkBooleanMacro(Constrain, bool);
+  ///@}
+  ///@{
   /** Times that the surface is projected onto the target, from the second on from where it was
    * fitted to before. Default 1, valid range [1, 100]. Advanced. */
   vtkSetClampMacro(Projections, int, 1, 100);
@@ -271,6 +279,7 @@ private:
   bool FitSurfaces = true;
   bool FitCurves = true;
   bool FitPoints = true;
+  bool Constrain = false;
   int Projections = 1;
   int ExtraPoints = 1;
   bool Untangle = true;

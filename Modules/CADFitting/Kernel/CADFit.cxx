@@ -411,6 +411,7 @@ private:
     params.Surfaces = this->IsFitted && this->HasSurfaces;
     params.Curves = this->IsFitted && this->Params.Curves;
     params.Points = this->IsFitted && this->Params.Points;
+    params.Constrain = this->Params.Constrain;
     params.Projections = this->IsFitted ? this->Params.Projections : 1;
     params.ExtraPoints = this->Params.ExtraPoints;
     params.Threads = this->Params.Threads;

@@ -50,6 +50,9 @@ struct CADFitParams
   /// A layer of hexahedra is put under the whole surface where a hexahedron has two faces on one
   /// face of the target: no map is valid along their common edge.
   bool Layer = true;
+  /// Whether what comes before is fitted anew with the coefficients that faces, curves and corners
+  /// have, instead of keeping all others.
+  bool Constrain = false;
   /// Times that the surface is projected onto the target, from the second on from where it was
   /// fitted to before, [1, 100].
   int Projections = 1;

@@ -3,6 +3,7 @@
 
 #include <knotwork/SplineCore/BezierForm.h>
 #include <knotwork/SplineCore/BezierProjection.h>
+#include <knotwork/SplineCore/ConstrainedProjection.h>
 #include <knotwork/SplineCore/MeshSpline.h>
 #include <knotwork/SplineCore/MeshTraces.h>
 
@@ -148,14 +149,16 @@ public:
       {
         this->Map = EvaluateSpline(this->Fit.Value);
         this->Fit.Warnings.clear();
-        this->Fit.OnCurves.clear();
       }
       status = this->FitSurface();
+      this->CurveFits.clear();
+      this->CornerRows.clear();
       status = status && this->Target && this->Params.Curves ? this->FitCurves() : status;
       if (status && this->Target && this->Params.Points)
       {
         this->FitCorners();
       }
+      status = status ? this->TakeCurvesAndCorners() : status;
       status = status ? this->Path.Complete(this->Fit.Value) : status;
     }
     return status ? Result<ProgressiveFit<Dim>>(std::move(this->Fit)) : status;
@@ -254,20 +257,87 @@ private:
             onto.Move(element, values);
         },
         this->Projection(0.3, 0.9));
-      if (made)
-      {
-        this->SetRows(this->Trace.Functions, made->ControlPoints);
-      }
-      return onto.Explain(made.Status);
+      const Status status = onto.Explain(made.Status);
+      return status ? this->Take<Dim>(*this->Space, this->Trace.Functions, made->ControlPoints,
+                        this->Fit.Value.ControlPoints)
+                    : status;
     }
   }
 
-  void SetRows(const std::vector<int>& functions, const PointMatrix& rows)
+  /// Coefficients of some functions, and of those around them where that is asked for.
+  template <int D>
+  Status Take(const SplineSpace<D>& space, const std::vector<int>& functions,
+    const PointMatrix& rows, PointMatrix& coefficients) const
   {
-    for (std::size_t i = 0; i < functions.size(); ++i)
+    if (this->Params.Constrain && !functions.empty())
     {
-      this->Fit.Value.ControlPoints.row(functions[i]) = rows.row(static_cast<Eigen::Index>(i));
+      auto made = ConstrainCoefficients<D>(space, coefficients, functions, rows);
+      coefficients = std::move(made.Value);
+      return made.Status;
     }
+    coefficients(functions, Eigen::all) = rows;
+    return {};
+  }
+
+  /// Curves with the corners that they have, the surface with both, the volume with it.
+  Status TakeCurvesAndCorners()
+  {
+    std::map<int, Eigen::RowVector3d> rows; // of functions of the whole
+    for (CurveFit& curve : this->CurveFits)
+    {
+      std::vector<int> own;
+      PointMatrix corners(0, 3);
+      for (std::size_t i = 0; i < curve.Functions.size(); ++i)
+      {
+        if (const auto corner = this->CornerRows.find(curve.Functions[i]);
+            corner != this->CornerRows.end())
+        {
+          own.push_back(static_cast<int>(i));
+          corners.conservativeResize(corners.rows() + 1, 3);
+          corners.bottomRows<1>() = corner->second;
+        }
+      }
+      if (Status status = this->Take<1>(*curve.Space, own, corners, curve.Rows); !status)
+      {
+        return status;
+      }
+      for (std::size_t i = 0; i < curve.Functions.size(); ++i)
+      {
+        rows[curve.Functions[i]] = curve.Rows.row(static_cast<Eigen::Index>(i));
+      }
+    }
+    for (const auto& [function, row] : this->CornerRows)
+    {
+      rows[function] = row;
+    }
+    std::vector<int> functions;
+    PointMatrix values(static_cast<Eigen::Index>(rows.size()), 3);
+    for (const auto& [function, row] : rows)
+    {
+      values.row(static_cast<Eigen::Index>(functions.size())) = row;
+      functions.push_back(function);
+    }
+    this->Fit.OnCurves = functions;
+    PointMatrix& whole = this->Fit.Value.ControlPoints;
+    if constexpr (Dim == 3)
+    {
+      if (this->Params.Constrain && !functions.empty())
+      {
+        std::map<int, int> onTrace;
+        for (std::size_t i = 0; i < this->Trace.Functions.size(); ++i)
+        {
+          onTrace[this->Trace.Functions[i]] = static_cast<int>(i);
+        }
+        for (int& function : functions)
+        {
+          function = onTrace.at(function);
+        }
+        PointMatrix surface = whole(this->Trace.Functions, Eigen::all);
+        Status status = this->Take<2>(*this->Trace.Space, functions, values, surface);
+        return status ? this->Take<3>(*this->Space, this->Trace.Functions, surface, whole) : status;
+      }
+    }
+    return this->Take<Dim>(*this->Space, functions, values, whole);
   }
 
   /// The edge as a side of an element of the surface's space.
@@ -392,8 +462,7 @@ private:
           function = this->Trace.Functions[At(function)];
         }
       }
-      this->SetRows(functions, made->ControlPoints);
-      this->Fit.OnCurves.insert(this->Fit.OnCurves.end(), functions.begin(), functions.end());
+      this->CurveFits.push_back({ trace.Space, std::move(functions), made->ControlPoints });
     }
     return {};
   }
@@ -417,8 +486,7 @@ private:
         const int function = this->FunctionOfCorner(c, corner);
         if (function >= 0)
         {
-          this->Fit.Value.ControlPoints.row(function) = this->Target->Vertices().row(part.Id);
-          this->Fit.OnCurves.push_back(function);
+          this->CornerRows[function] = this->Target->Vertices().row(part.Id);
           done.insert(point);
         }
         smooth.insert(point);
@@ -461,6 +529,14 @@ private:
     return isUnit ? space.RowFunction[begin] : -1;
   }
 
+  /// A curve of the surface that was fitted to one of the target.
+  struct CurveFit
+  {
+    SplineSpacePtr<1> Space;
+    std::vector<int> Functions; ///< of the whole
+    PointMatrix Rows;           ///< their coefficients
+  };
+
   const FastPath<Dim>& Path;
   const SplineSpacePtr<Dim>& Space;
   const SurfaceMesh& Surface;
@@ -469,6 +545,8 @@ private:
   const ProgressiveFitParams& Params;
   ElementFunction Map; ///< of the whole: through the points, or the fit before
   MeshTrace<2> Trace;  ///< of volumes
+  std::vector<CurveFit> CurveFits;
+  std::map<int, Eigen::RowVector3d> CornerRows; ///< functions that are values at corners
   ProgressiveFit<Dim> Fit;
 };
 }

@@ -15,6 +15,9 @@ struct ProgressiveFitParams
   bool Surfaces = true;
   bool Curves = true;
   bool Points = true;
+  /// Whether what comes before is fitted anew with the coefficients that a step has, instead of
+  /// keeping all others.
+  bool Constrain = false;
   /// Times that the surface is projected onto the target, from the second on from where it was
   /// fitted to before, >= 1.
   int Projections = 1;
@@ -48,7 +51,7 @@ std::vector<CellSide> Prolong(
 
 /// The polynomials through the points around every cell, projected onto the space; then, on its
 /// surface, their closest points on the target's faces; on classified edges and rims those on
-/// curves; corners. Each overwrites the coefficients that it has.
+/// curves; corners. Each overwrites the coefficients that it has, or constrains what is around.
 /// @param path  and the space. @param points  of the mesh, on the target. @param target  null: the
 /// points alone.
 /// @return the target's errors; Aborted.

@@ -128,6 +128,41 @@ TEST(CADFit, BallOfSevenBlocks)
   EXPECT_EQ(fit.LayerCells, 0);
 }
 
+/// The surface is that of the plain fit, and the inside nearer to the map of the mesh: mean square
+/// distances at Gauss points.
+TEST(CADFit, ConstrainedVolumesStayNearerToTheMesh)
+{
+  const PlacedMesh<3> mesh = Ball(2);
+  CADFitParams params = Params(2);
+  const auto ball = Ellipsoid(1.0, 1.0, 1.0);
+  const auto plain = Fit<3>(mesh, ball, params);
+  params.Constrain = true;
+  const auto constrained = Fit<3>(mesh, ball, params);
+  const auto before = Fit<3>(mesh, nullptr, params);
+  EXPECT_EQ(constrained.Certificate.Verdict, Verdict::Valid);
+  const PointMatrix change = constrained.Value.ControlPoints - plain.Value.ControlPoints;
+  EXPECT_GT(change.cwiseAbs().maxCoeff(), 1e-4);
+  const std::vector<int> surface =
+    TraceOnFacets(*plain.Value.Space, plain.SurfaceElements)->Functions;
+  EXPECT_EQ(change(surface, Eigen::all).cwiseAbs().maxCoeff(), 0.0);
+  const auto distance = [&](const CADFit<3>& fit)
+  {
+    Spline<3> difference = fit.Value;
+    difference.ControlPoints -= before.Value.ControlPoints;
+    const auto rule = MakeElementQuadrature<3>({ 4, 4, 4 });
+    const BezierForm<3> form = MakeBezierForm(difference, 1);
+    double sum = 0.0;
+    for (int e = 0; e < difference.Space->NumElements(); ++e)
+    {
+      EvaluationBatch batch;
+      EvaluateElements<3>(form, std::vector<int>(rule.Local.rows(), e), rule.Local, {}, batch);
+      sum += rule.Weights.dot(batch.Values.rowwise().squaredNorm());
+    }
+    return std::sqrt(sum);
+  };
+  EXPECT_LT(distance(constrained), 0.9 * distance(plain));
+}
+
 /// Sharp edges stay sharp where points of the mesh have moved away from them.
 TEST(CADFit, BoxKeepsItsEdges)
 {
@@ -150,20 +185,24 @@ TEST(CADFit, BoxKeepsItsEdges)
   EXPECT_EQ(target.Value->Curves().size(), 12u);
   CADFitParams params = Params(2, CreasePolicy::Automatic);
   params.TargetSamples = 1000;
-  const auto fit = Fit<3>(mesh, target.Value, params);
-  EXPECT_TRUE(fit.UnmatchedFeatures.empty());
-  // a box is a polynomial of the space
-  EXPECT_LE(fit.Distances.ToTarget.Largest, 1e-9);
-  EXPECT_LE(fit.Distances.FromTarget.Largest, 1e-9);
-  EXPECT_NEAR(fit.Volume, 1.0, 1e-9);
-  EXPECT_EQ(fit.Certificate.Verdict, Verdict::Valid);
-  int curves = 0;
-  for (const EntityDistance& entity : fit.Distances.Entities)
+  for (const bool constrain : { false, true })
   {
-    curves += entity.Part.Entity == TargetEntity::Curve ? 1 : 0;
-    EXPECT_LE(entity.Distance.Largest, 1e-9);
+    params.Constrain = constrain;
+    const auto fit = Fit<3>(mesh, target.Value, params);
+    EXPECT_TRUE(fit.UnmatchedFeatures.empty());
+    // a box is a polynomial of the space
+    EXPECT_LE(fit.Distances.ToTarget.Largest, 1e-9);
+    EXPECT_LE(fit.Distances.FromTarget.Largest, 1e-9);
+    EXPECT_NEAR(fit.Volume, 1.0, 1e-9);
+    EXPECT_EQ(fit.Certificate.Verdict, Verdict::Valid);
+    int curves = 0;
+    for (const EntityDistance& entity : fit.Distances.Entities)
+    {
+      curves += entity.Part.Entity == TargetEntity::Curve ? 1 : 0;
+      EXPECT_LE(entity.Distance.Largest, 1e-9);
+    }
+    EXPECT_EQ(curves, 12);
   }
-  EXPECT_EQ(curves, 12);
 }
 
 /// A mesh whose cells have two faces on a smooth surface has no valid map there without a layer.

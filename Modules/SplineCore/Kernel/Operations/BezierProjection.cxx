@@ -73,7 +73,7 @@ public:
           this->Operators.emplace(
             key, this->MakeOperator(key.first, duals.Inverse(e, static_cast<int>(d))));
           this->Integrals.emplace(
-            key, MakeIntegrals(key.first, space.Factor(e, static_cast<int>(d))));
+            key, IntegralsOf(key.first, space.Factor(e, static_cast<int>(d))));
         }
       }
     }
@@ -137,17 +137,6 @@ private:
       return toBernstein;
     }
     return Eigen::Map<const PointMatrix>(inverse, degree + 1, degree + 1).transpose() * toBernstein;
-  }
-
-  /// Integrals over [0, 1] of the local functions: every Bernstein polynomial has 1 / (p + 1).
-  static Eigen::VectorXd MakeIntegrals(int degree, const double* factor)
-  {
-    if (!factor)
-    {
-      return Eigen::VectorXd::Constant(degree + 1, 1.0 / (degree + 1));
-    }
-    return Eigen::Map<const PointMatrix>(factor, degree + 1, degree + 1).rowwise().sum() /
-      (degree + 1);
   }
 
   const SplineSpace<Dim>& Space;

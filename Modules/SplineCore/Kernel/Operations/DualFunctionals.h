@@ -20,6 +20,18 @@ int OwnFunction(const SplineSpace<Dim>& space, int localFunction)
   return end == begin + 1 && space.RowCoefficient[begin] == 1.0 ? space.RowFunction[begin] : -1;
 }
 
+/// Integrals over [0, 1] of the p + 1 local functions of one direction: every Bernstein polynomial
+/// has 1 / (p + 1). @param factor  of the element, null: the identity.
+inline Eigen::VectorXd IntegralsOf(int degree, const double* factor)
+{
+  if (!factor)
+  {
+    return Eigen::VectorXd::Constant(degree + 1, 1.0 / (degree + 1));
+  }
+  return Eigen::Map<const PointMatrix>(factor, degree + 1, degree + 1).rowwise().sum() /
+    (degree + 1);
+}
+
 /// Multi-index of entry `local` of a tensor array of prod(p_d + 1) values, first direction fastest.
 template <int Dim>
 IntArray<Dim> TensorIndex(const IntArray<Dim>& degree, int local)
