@@ -3,13 +3,13 @@
 
 #include <knotwork/SplineCore/BezierForm.h>
 #include <knotwork/SplineCore/BezierProjection.h>
-#include <knotwork/SplineCore/ConstrainedProjection.h>
 #include <knotwork/SplineCore/MeshSpline.h>
 #include <knotwork/SplineCore/MeshTraces.h>
 
 #include <algorithm>
 #include <map>
 #include <mutex>
+#include <numeric>
 #include <set>
 
 namespace knotwork
@@ -150,21 +150,46 @@ public:
         this->Map = EvaluateSpline(this->Fit.Value);
         this->Fit.Warnings.clear();
       }
-      status = this->FitSurface();
-      this->CurveFits.clear();
-      this->CornerRows.clear();
-      status = status && this->Target && this->Params.Curves ? this->FitCurves() : status;
-      if (status && this->Target && this->Params.Points)
-      {
-        this->FitCorners();
-      }
-      status = status ? this->TakeCurvesAndCorners() : status;
+      status = this->Target ? this->FitToTarget() : Status();
       status = status ? this->Path.Complete(this->Fit.Value) : status;
     }
     return status ? Result<ProgressiveFit<Dim>>(std::move(this->Fit)) : status;
   }
 
 private:
+  /// From the surface to corners, each overwriting what is there; or from corners to the volume,
+  /// each with the coefficients that are there.
+  Status FitToTarget()
+  {
+    Status status = this->TraceSurface();
+    const bool isSurface = this->Params.Surfaces && this->Target->HasSurface();
+    if (status && isSurface && !this->Params.Constrain)
+    {
+      status = this->FitSurface();
+    }
+    this->Given.clear(); // curves and corners from here on
+    if (status && this->Params.Points && this->Params.Constrain)
+    {
+      this->FitCorners();
+    }
+    status = status && this->Params.Curves ? this->FitCurves() : status;
+    if (status && this->Params.Points && !this->Params.Constrain)
+    {
+      this->FitCorners();
+    }
+    this->Fit.OnCurves.clear();
+    for (const auto& [function, row] : this->Given)
+    {
+      this->Fit.OnCurves.push_back(function);
+    }
+    if (status && this->Params.Constrain)
+    {
+      status = isSurface ? this->FitSurface() : status;
+      status = status && (Dim == 3 || !isSurface) ? this->FitAround() : status;
+    }
+    return status;
+  }
+
   static ElementFunction EvaluateSpline(const Spline<Dim>& spline)
   {
     return [form = MakeBezierForm(spline, 1)](
@@ -212,43 +237,41 @@ private:
     return parts;
   }
 
+  Status TraceSurface()
+  {
+    if constexpr (Dim == 3)
+    {
+      auto trace = TraceOnFacets(*this->Space, this->Surface.Facets);
+      this->Trace = std::move(trace.Value);
+      return trace.Status;
+    }
+    return {};
+  }
+
   Status FitSurface()
   {
-    const bool isWanted = this->Target && this->Params.Surfaces && this->Target->HasSurface();
+    const std::vector<TargetPart> parts = this->FaceParts();
+    const OntoTarget onto(*this->Target, parts);
+    const ProjectionParams params = this->Projection(0.3, 0.9);
+    Status status;
     if constexpr (Dim == 2)
     {
-      if (!isWanted)
-      {
-        return {};
-      }
-      const std::vector<TargetPart> parts = this->FaceParts();
-      const OntoTarget onto(*this->Target, parts);
-      auto made = this->Path.Project([&](int element, const PointMatrix& local,
-                                       const PointMatrix& parameters, PointMatrix& values)
-        { return this->Map(element, local, parameters, values) && onto.Move(element, values); },
-        this->Projection(0.3, 0.9));
+      const auto map = [&](int element, const PointMatrix& local, const PointMatrix& parameters,
+                         PointMatrix& values)
+      { return this->Map(element, local, parameters, values) && onto.Move(element, values); };
+      auto made = this->Params.Constrain
+        ? this->ProjectAround<2>(this->Space, this->OwnFunctions(), map, params)
+        : this->Path.Project(map, params);
+      status = made.Status;
       if (made)
       {
         this->Fit.Value = std::move(made.Value);
       }
-      return onto.Explain(made.Status);
     }
     else
     {
-      auto trace = TraceOnFacets(*this->Space, this->Surface.Facets);
-      if (!trace)
-      {
-        return trace.Status;
-      }
-      this->Trace = std::move(trace.Value);
-      if (!isWanted)
-      {
-        return {};
-      }
-      const std::vector<TargetPart> parts = this->FaceParts();
-      const OntoTarget onto(*this->Target, parts);
-      auto made = ProjectOntoSpace<2>(
-        this->Trace.Space, 3,
+      const auto made = this->ProjectAround<2>(
+        this->Trace.Space, this->Trace.Functions,
         [&](
           int element, const PointMatrix& local, const PointMatrix& parameters, PointMatrix& values)
         {
@@ -256,88 +279,64 @@ private:
           return this->Map(at.Facet.Cell, Lift<2, 3>(at, local), parameters, values) &&
             onto.Move(element, values);
         },
-        this->Projection(0.3, 0.9));
-      const Status status = onto.Explain(made.Status);
-      return status ? this->Take<Dim>(*this->Space, this->Trace.Functions, made->ControlPoints,
-                        this->Fit.Value.ControlPoints)
-                    : status;
+        params);
+      status = made.Status;
+      if (made)
+      {
+        this->Put(this->Trace.Functions, made->ControlPoints);
+      }
     }
+    return onto.Explain(status);
   }
 
-  /// Coefficients of some functions, and of those around them where that is asked for.
+  /// The whole anew with the coefficients that its surface, or its curves, have.
+  Status FitAround()
+  {
+    auto made = this->ProjectAround<Dim>(
+      this->Space, this->OwnFunctions(), this->Map, this->Projection(0.9, 1.0));
+    if (made)
+    {
+      this->Fit.Value = std::move(made.Value);
+    }
+    return made.Status;
+  }
+
+  std::vector<int> OwnFunctions() const
+  {
+    std::vector<int> functions(At(this->Space->NumFunctions));
+    std::iota(functions.begin(), functions.end(), 0);
+    return functions;
+  }
+
+  /// With the coefficients that are given where these constrain.
+  /// @param functions  of the whole, of every function of the space.
   template <int D>
-  Status Take(const SplineSpace<D>& space, const std::vector<int>& functions,
-    const PointMatrix& rows, PointMatrix& coefficients) const
+  Result<Spline<D>> ProjectAround(const SplineSpacePtr<D>& space, const std::vector<int>& functions,
+    const ElementFunction& map, const ProjectionParams& params) const
   {
-    if (this->Params.Constrain && !functions.empty())
+    std::vector<int> own;
+    PointMatrix rows(static_cast<Eigen::Index>(this->Params.Constrain ? functions.size() : 0), 3);
+    for (std::size_t i = 0; this->Params.Constrain && i < functions.size(); ++i)
     {
-      auto made = ConstrainCoefficients<D>(space, coefficients, functions, rows);
-      coefficients = std::move(made.Value);
-      return made.Status;
+      if (const auto given = this->Given.find(functions[i]); given != this->Given.end())
+      {
+        rows.row(static_cast<Eigen::Index>(own.size())) = given->second;
+        own.push_back(static_cast<int>(i));
+      }
     }
-    coefficients(functions, Eigen::all) = rows;
-    return {};
+    return ProjectWithCoefficients<D>(
+      space, map, own, rows.topRows(static_cast<Eigen::Index>(own.size())), params);
   }
 
-  /// Curves with the corners that they have, the surface with both, the volume with it.
-  Status TakeCurvesAndCorners()
+  /// Coefficients of functions of the whole.
+  void Put(const std::vector<int>& functions, const PointMatrix& rows)
   {
-    std::map<int, Eigen::RowVector3d> rows; // of functions of the whole
-    for (CurveFit& curve : this->CurveFits)
+    for (std::size_t i = 0; i < functions.size(); ++i)
     {
-      std::vector<int> own;
-      PointMatrix corners(0, 3);
-      for (std::size_t i = 0; i < curve.Functions.size(); ++i)
-      {
-        if (const auto corner = this->CornerRows.find(curve.Functions[i]);
-            corner != this->CornerRows.end())
-        {
-          own.push_back(static_cast<int>(i));
-          corners.conservativeResize(corners.rows() + 1, 3);
-          corners.bottomRows<1>() = corner->second;
-        }
-      }
-      if (Status status = this->Take<1>(*curve.Space, own, corners, curve.Rows); !status)
-      {
-        return status;
-      }
-      for (std::size_t i = 0; i < curve.Functions.size(); ++i)
-      {
-        rows[curve.Functions[i]] = curve.Rows.row(static_cast<Eigen::Index>(i));
-      }
+      const Eigen::RowVector3d row = rows.row(static_cast<Eigen::Index>(i));
+      this->Fit.Value.ControlPoints.row(functions[i]) = row;
+      this->Given[functions[i]] = row;
     }
-    for (const auto& [function, row] : this->CornerRows)
-    {
-      rows[function] = row;
-    }
-    std::vector<int> functions;
-    PointMatrix values(static_cast<Eigen::Index>(rows.size()), 3);
-    for (const auto& [function, row] : rows)
-    {
-      values.row(static_cast<Eigen::Index>(functions.size())) = row;
-      functions.push_back(function);
-    }
-    this->Fit.OnCurves = functions;
-    PointMatrix& whole = this->Fit.Value.ControlPoints;
-    if constexpr (Dim == 3)
-    {
-      if (this->Params.Constrain && !functions.empty())
-      {
-        std::map<int, int> onTrace;
-        for (std::size_t i = 0; i < this->Trace.Functions.size(); ++i)
-        {
-          onTrace[this->Trace.Functions[i]] = static_cast<int>(i);
-        }
-        for (int& function : functions)
-        {
-          function = onTrace.at(function);
-        }
-        PointMatrix surface = whole(this->Trace.Functions, Eigen::all);
-        Status status = this->Take<2>(*this->Trace.Space, functions, values, surface);
-        return status ? this->Take<3>(*this->Space, this->Trace.Functions, surface, whole) : status;
-      }
-    }
-    return this->Take<Dim>(*this->Space, functions, values, whole);
   }
 
   /// The edge as a side of an element of the surface's space.
@@ -430,8 +429,16 @@ private:
     {
       const std::vector<TargetPart> parts(trace.Elements.size(), part);
       const OntoTarget onto(*this->Target, parts);
-      auto made = ProjectOntoSpace<1>(
-        trace.Space, 3,
+      std::vector<int> functions = trace.Functions;
+      if constexpr (Dim == 3)
+      {
+        for (int& function : functions)
+        {
+          function = this->Trace.Functions[At(function)];
+        }
+      }
+      const auto made = this->ProjectAround<1>(
+        trace.Space, functions,
         [&](
           int element, const PointMatrix& local, const PointMatrix& parameters, PointMatrix& values)
         {
@@ -454,15 +461,7 @@ private:
       {
         return onto.Explain(made.Status);
       }
-      std::vector<int> functions = trace.Functions;
-      if constexpr (Dim == 3)
-      {
-        for (int& function : functions)
-        {
-          function = this->Trace.Functions[At(function)];
-        }
-      }
-      this->CurveFits.push_back({ trace.Space, std::move(functions), made->ControlPoints });
+      this->Put(functions, made->ControlPoints);
     }
     return {};
   }
@@ -486,7 +485,7 @@ private:
         const int function = this->FunctionOfCorner(c, corner);
         if (function >= 0)
         {
-          this->CornerRows[function] = this->Target->Vertices().row(part.Id);
+          this->Put({ function }, this->Target->Vertices().row(part.Id));
           done.insert(point);
         }
         smooth.insert(point);
@@ -529,24 +528,15 @@ private:
     return isUnit ? space.RowFunction[begin] : -1;
   }
 
-  /// A curve of the surface that was fitted to one of the target.
-  struct CurveFit
-  {
-    SplineSpacePtr<1> Space;
-    std::vector<int> Functions; ///< of the whole
-    PointMatrix Rows;           ///< their coefficients
-  };
-
   const FastPath<Dim>& Path;
   const SplineSpacePtr<Dim>& Space;
   const SurfaceMesh& Surface;
   const MeshClassification& Parts;
   const FitTarget* Target; ///< null: none
   const ProgressiveFitParams& Params;
-  ElementFunction Map; ///< of the whole: through the points, or the fit before
-  MeshTrace<2> Trace;  ///< of volumes
-  std::vector<CurveFit> CurveFits;
-  std::map<int, Eigen::RowVector3d> CornerRows; ///< functions that are values at corners
+  ElementFunction Map;                     ///< of the whole: through the points, or the fit before
+  MeshTrace<2> Trace;                      ///< of volumes
+  std::map<int, Eigen::RowVector3d> Given; ///< coefficients that were fitted to the target
   ProgressiveFit<Dim> Fit;
 };
 }

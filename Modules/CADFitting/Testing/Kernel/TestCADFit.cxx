@@ -185,20 +185,24 @@ TEST(CADFit, BoxKeepsItsEdges)
   EXPECT_EQ(target.Value->Curves().size(), 12u);
   CADFitParams params = Params(2, CreasePolicy::Automatic);
   params.TargetSamples = 1000;
-  const auto fit = Fit<3>(mesh, target.Value, params);
-  EXPECT_TRUE(fit.UnmatchedFeatures.empty());
-  // a box is a polynomial of the space
-  EXPECT_LE(fit.Distances.ToTarget.Largest, 1e-9);
-  EXPECT_LE(fit.Distances.FromTarget.Largest, 1e-9);
-  EXPECT_NEAR(fit.Volume, 1.0, 1e-9);
-  EXPECT_EQ(fit.Certificate.Verdict, Verdict::Valid);
-  int curves = 0;
-  for (const EntityDistance& entity : fit.Distances.Entities)
+  for (const bool constrain : { false, true })
   {
-    curves += entity.Part.Entity == TargetEntity::Curve ? 1 : 0;
-    EXPECT_LE(entity.Distance.Largest, 1e-9);
+    params.Constrain = constrain;
+    const auto fit = Fit<3>(mesh, target.Value, params);
+    EXPECT_TRUE(fit.UnmatchedFeatures.empty());
+    // a box is a polynomial of the space
+    EXPECT_LE(fit.Distances.ToTarget.Largest, 1e-9);
+    EXPECT_LE(fit.Distances.FromTarget.Largest, 1e-9);
+    EXPECT_NEAR(fit.Volume, 1.0, 1e-9);
+    EXPECT_EQ(fit.Certificate.Verdict, Verdict::Valid);
+    int curves = 0;
+    for (const EntityDistance& entity : fit.Distances.Entities)
+    {
+      curves += entity.Part.Entity == TargetEntity::Curve ? 1 : 0;
+      EXPECT_LE(entity.Distance.Largest, 1e-9);
+    }
+    EXPECT_EQ(curves, 12);
   }
-  EXPECT_EQ(curves, 12);
 }
 
 /// A mesh whose cells have two faces on a smooth surface has no valid map there without a layer.

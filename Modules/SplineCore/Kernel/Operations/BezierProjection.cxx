@@ -2,6 +2,7 @@
 #include "BezierProjection.h"
 
 #include "DualFunctionals.h"
+#include "LocalConstraints.h"
 #include "Parallel.h"
 #include "Quadrature.h"
 #include "RowEquations.h"
@@ -246,25 +247,70 @@ private:
   PointMatrix Sums;
   Eigen::VectorXd Weights;
 };
-}
+
+/// Coefficients that are given, put into the projections on elements.
+template <int Dim>
+class Constraints
+{
+public:
+  Constraints(
+    const SplineSpace<Dim>& space, const std::vector<int>& functions, const PointMatrix& values)
+    : Space(space), Functions(functions), Values(values), Local(space),
+      RowOf(functions.empty() ? 0 : static_cast<std::size_t>(space.NumFunctions), -1)
+  {
+    for (std::size_t i = 0; i < functions.size(); ++i)
+    {
+      this->RowOf[static_cast<std::size_t>(functions[i])] = static_cast<int>(i);
+    }
+  }
+
+  void Apply(int e, PointMatrix& coefficients)
+  {
+    if (this->RowOf.empty())
+    {
+      return;
+    }
+    PointMatrix change = PointMatrix::Zero(coefficients.rows(), coefficients.cols());
+    std::vector<char> isGiven(static_cast<std::size_t>(coefficients.rows()), 0);
+    bool isAny = false;
+    for (Eigen::Index i = 0; i < coefficients.rows(); ++i)
+    {
+      const int function =
+        OwnFunction(this->Space, this->Space.LocalFunctions(e)[static_cast<int>(i)]);
+      const int row = function < 0 ? -1 : this->RowOf[static_cast<std::size_t>(function)];
+      if (row >= 0)
+      {
+        isGiven[static_cast<std::size_t>(i)] = 1;
+        change.row(i) = this->Values.row(row) - coefficients.row(i);
+        isAny = true;
+      }
+    }
+    if (isAny)
+    {
+      coefficients += this->Local.Spread(e, isGiven) * change;
+    }
+  }
+
+  void Finish(PointMatrix& coefficients) const
+  {
+    for (std::size_t i = 0; i < this->Functions.size(); ++i)
+    {
+      coefficients.row(this->Functions[i]) = this->Values.row(static_cast<Eigen::Index>(i));
+    }
+  }
+
+private:
+  const SplineSpace<Dim>& Space;
+  const std::vector<int>& Functions;
+  const PointMatrix& Values;
+  LocalConstraints<Dim> Local;
+  std::vector<int> RowOf; ///< of every function, -1: it is free
+};
 
 template <int Dim>
-Result<Spline<Dim>> ProjectOntoSpace(const SplineSpacePtr<Dim>& space, int numComponents,
-  const ElementFunction& function, const ProjectionParams& params)
+Result<Spline<Dim>> Project(const SplineSpacePtr<Dim>& space, int numComponents,
+  const ElementFunction& function, Constraints<Dim>& constraints, const ProjectionParams& params)
 {
-  if (!space || space->NumElements() == 0)
-  {
-    return { ErrorCode::EmptyInput, "no space to project onto" };
-  }
-  if (numComponents < 1 || !function)
-  {
-    return { ErrorCode::InvalidParameter, "a projection needs a function of at least 1 component" };
-  }
-  if (params.ExtraPoints < 0 || params.ExtraPoints > 16)
-  {
-    return { ErrorCode::InvalidParameter,
-      "ExtraPoints is " + std::to_string(params.ExtraPoints) + ", valid are 0 to 16" };
-  }
   const DualFunctionals<Dim> duals(*space);
   const LocalProjection<Dim> projection(*space, duals, params.ExtraPoints);
   Averages<Dim> averages(*space, duals, numComponents);
@@ -293,6 +339,7 @@ Result<Spline<Dim>> ProjectOntoSpace(const SplineSpacePtr<Dim>& space, int numCo
       {
         return statuses[static_cast<std::size_t>(k)];
       }
+      constraints.Apply(first + k, coefficients[static_cast<std::size_t>(k)]);
       averages.Add(first + k, projection, coefficients[static_cast<std::size_t>(k)]);
     }
   }
@@ -300,7 +347,65 @@ Result<Spline<Dim>> ProjectOntoSpace(const SplineSpacePtr<Dim>& space, int numCo
   {
     return { ErrorCode::Aborted, "projection stopped after the last element" };
   }
-  return Spline<Dim>{ space, averages.Finish(params.Threads), {} };
+  Spline<Dim> spline{ space, averages.Finish(params.Threads), {} };
+  constraints.Finish(spline.ControlPoints);
+  return spline;
+}
+
+template <int Dim>
+Status Check(const SplineSpacePtr<Dim>& space, int numComponents, const ElementFunction& function,
+  const ProjectionParams& params)
+{
+  if (!space || space->NumElements() == 0)
+  {
+    return { ErrorCode::EmptyInput, "no space to project onto" };
+  }
+  if (numComponents < 1 || !function)
+  {
+    return { ErrorCode::InvalidParameter, "a projection needs a function of at least 1 component" };
+  }
+  if (params.ExtraPoints < 0 || params.ExtraPoints > 16)
+  {
+    return { ErrorCode::InvalidParameter,
+      "ExtraPoints is " + std::to_string(params.ExtraPoints) + ", valid are 0 to 16" };
+  }
+  return {};
+}
+}
+
+template <int Dim>
+Result<Spline<Dim>> ProjectOntoSpace(const SplineSpacePtr<Dim>& space, int numComponents,
+  const ElementFunction& function, const ProjectionParams& params)
+{
+  return ProjectWithCoefficients<Dim>(
+    space, function, {}, PointMatrix(0, std::max(numComponents, 0)), params);
+}
+
+template <int Dim>
+Result<Spline<Dim>> ProjectWithCoefficients(const SplineSpacePtr<Dim>& space,
+  const ElementFunction& function, const std::vector<int>& functions, const PointMatrix& values,
+  const ProjectionParams& params)
+{
+  const int numComponents = static_cast<int>(values.cols());
+  if (Status status = Check<Dim>(space, numComponents, function, params); !status)
+  {
+    return status;
+  }
+  if (values.rows() != static_cast<Eigen::Index>(functions.size()))
+  {
+    return { ErrorCode::SizeMismatch,
+      std::to_string(values.rows()) + " coefficients of " + std::to_string(functions.size()) +
+        " functions" };
+  }
+  for (const int f : functions)
+  {
+    if (f < 0 || f >= space->NumFunctions)
+    {
+      return { ErrorCode::InvalidParameter, "there is no function " + std::to_string(f) };
+    }
+  }
+  Constraints<Dim> constraints(*space, functions, values);
+  return Project<Dim>(space, numComponents, function, constraints, params);
 }
 
 template Result<Spline<1>> ProjectOntoSpace(
@@ -309,4 +414,10 @@ template Result<Spline<2>> ProjectOntoSpace(
   const SplineSpacePtr<2>&, int, const ElementFunction&, const ProjectionParams&);
 template Result<Spline<3>> ProjectOntoSpace(
   const SplineSpacePtr<3>&, int, const ElementFunction&, const ProjectionParams&);
+template Result<Spline<1>> ProjectWithCoefficients(const SplineSpacePtr<1>&, const ElementFunction&,
+  const std::vector<int>&, const PointMatrix&, const ProjectionParams&);
+template Result<Spline<2>> ProjectWithCoefficients(const SplineSpacePtr<2>&, const ElementFunction&,
+  const std::vector<int>&, const PointMatrix&, const ProjectionParams&);
+template Result<Spline<3>> ProjectWithCoefficients(const SplineSpacePtr<3>&, const ElementFunction&,
+  const std::vector<int>&, const PointMatrix&, const ProjectionParams&);
 }

@@ -31,4 +31,15 @@ struct ProjectionParams
 template <int Dim>
 Result<Spline<Dim>> ProjectOntoSpace(const SplineSpacePtr<Dim>& space, int numComponents,
   const ElementFunction& function, const ProjectionParams& params = {});
+
+/// The same with given coefficients in some functions: on every element the polynomials nearest in
+/// L2 with these. What curves or surfaces have been fitted to goes on inside so.
+/// @param functions  of the space, each once. @param values  as many rows, a column a component.
+/// @return also InvalidParameter for a function that is not there, SizeMismatch.
+/// @post  a spline of the space that has the given coefficients is reproduced.
+/// @complexity that of the projection, and O((p + 1)^(3 Dim)) for every kind of element.
+template <int Dim>
+Result<Spline<Dim>> ProjectWithCoefficients(const SplineSpacePtr<Dim>& space,
+  const ElementFunction& function, const std::vector<int>& functions, const PointMatrix& values,
+  const ProjectionParams& params = {});
 }
