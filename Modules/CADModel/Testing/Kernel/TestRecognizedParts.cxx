@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parts that OpenCASCADE makes and tessellates. Oracle: its faces.
+#include <knotwork/SurfaceTrimming/SurfaceRecognition.h>
+
+#include <BRepAdaptor_Surface.hxx>
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepBndLib.hxx>
+#include <BRepFilletAPI_MakeChamfer.hxx>
+#include <BRepFilletAPI_MakeFillet.hxx>
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCone.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <Poly_Triangulation.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <gp_Ax2.hxx>
+#include <gp_Cone.hxx>
+#include <gp_Cylinder.hxx>
+#include <gp_Sphere.hxx>
+#include <gp_Torus.hxx>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+#include <map>
+#include <random>
+
+namespace knotwork
+{
+namespace
+{
+constexpr double Tolerance = 1e-3; // of the diagonal
+
+struct Part
+{
+  TriangleMesh Mesh;
+  std::vector<int> FaceOfTriangle;
+  std::vector<BRepAdaptor_Surface> Faces;
+  double Diagonal = 0.0;
+};
+
+class PartMaker
+{
+public:
+  explicit PartMaker(unsigned seed) : Random(seed) {}
+  TopoDS_Shape Make();
+
+private:
+  double Between(double a, double b)
+  {
+    return a + (b - a) * static_cast<double>(this->Random()) / 4294967296.0;
+  }
+  void AddFeature(TopoDS_Shape& shape, double x, double y, double top, double room);
+  std::mt19937 Random;
+};
+
+/// Something round at a place on top of a box.
+void PartMaker::AddFeature(TopoDS_Shape& shape, double x, double y, double top, double room)
+{
+  const double r = this->Between(0.4, 0.9) * room;
+  const gp_Ax2 up(gp_Pnt(x, y, top), gp_Dir(0, 0, 1));
+  const gp_Ax2 down(gp_Pnt(x, y, top), gp_Dir(0, 0, -1));
+  const gp_Ax2 below(gp_Pnt(x, y, -1), gp_Dir(0, 0, 1));
+  switch (static_cast<int>(this->Between(0, 6)))
+  {
+    case 0: // a hole
+      shape = BRepAlgoAPI_Cut(shape, BRepPrimAPI_MakeCylinder(below, r, top + 2).Shape()).Shape();
+      break;
+    case 1: // a countersink
+      shape =
+        BRepAlgoAPI_Cut(shape, BRepPrimAPI_MakeCone(down, r, 0.4 * r, 0.5 * top).Shape()).Shape();
+      break;
+    case 2: // a boss
+      shape = BRepAlgoAPI_Fuse(shape, BRepPrimAPI_MakeCylinder(up, r, this->Between(1, 4)).Shape())
+                .Shape();
+      break;
+    case 3: // a dimple
+      shape = BRepAlgoAPI_Cut(
+        shape, BRepPrimAPI_MakeSphere(gp_Pnt(x, y, top + this->Between(0.0, 0.3) * r), r).Shape())
+                .Shape();
+      break;
+    case 4: // a cone with a flat top
+      shape =
+        BRepAlgoAPI_Fuse(shape, BRepPrimAPI_MakeCone(up, r, this->Between(0.3, 0.6) * r, r).Shape())
+          .Shape();
+      break;
+    default: // a boss with a round edge: a torus
+    {
+      const TopoDS_Shape boss = BRepPrimAPI_MakeCylinder(up, r, this->Between(2, 4)).Shape();
+      BRepFilletAPI_MakeFillet fillet(boss);
+      TopExp_Explorer edges(boss, TopAbs_EDGE);
+      fillet.Add(this->Between(0.3, 0.45) * r, TopoDS::Edge(edges.Current()));
+      shape = BRepAlgoAPI_Fuse(shape, fillet.Shape()).Shape();
+    }
+  }
+}
+
+TopoDS_Shape PartMaker::Make()
+{
+  const double a = this->Between(16, 24);
+  const double b = this->Between(8, 12);
+  const double top = this->Between(4, 7);
+  TopoDS_Shape shape = BRepPrimAPI_MakeBox(a, b, top).Shape();
+  BRepFilletAPI_MakeFillet fillet(shape); // some upright edges are round
+  bool any = false;
+  for (TopExp_Explorer edges(shape, TopAbs_EDGE); edges.More(); edges.Next())
+  {
+    double first;
+    double last;
+    const TopoDS_Edge edge = TopoDS::Edge(edges.Current());
+    const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
+    const gp_Vec along(curve->Value(first), curve->Value(last));
+    if (std::abs(along.Z()) > 1.0 && this->Between(0, 1) < 0.25)
+    {
+      fillet.Add(this->Between(0.6, 1.5), edge);
+      any = true;
+    }
+  }
+  shape = any ? fillet.Shape() : shape;
+  this->AddFeature(shape, 0.25 * a, 0.5 * b, top, 0.3 * b);
+  this->AddFeature(shape, 0.7 * a, 0.5 * b, top, 0.3 * b);
+  return shape;
+}
+
+/// Tessellates at half the tolerance; points are rounded to float as in STL files.
+Part Tessellate(const TopoDS_Shape& shape, double noise, unsigned seed)
+{
+  Part part;
+  Bnd_Box box;
+  BRepBndLib::Add(shape, box);
+  part.Diagonal = box.CornerMin().Distance(box.CornerMax());
+  BRepMesh_IncrementalMesh(shape, 0.5 * Tolerance * part.Diagonal);
+  std::map<std::array<float, 3>, int> numbers;
+  for (TopExp_Explorer it(shape, TopAbs_FACE); it.More(); it.Next())
+  {
+    const TopoDS_Face face = TopoDS::Face(it.Current());
+    TopLoc_Location place;
+    const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, place);
+    for (int t = 1; !mesh.IsNull() && t <= mesh->NbTriangles(); ++t)
+    {
+      std::array<int, 3> corners{};
+      int ids[3];
+      mesh->Triangle(t).Get(ids[0], ids[1], ids[2]);
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        const gp_Pnt p = mesh->Node(ids[k]).Transformed(place);
+        const std::array<float, 3> key = { static_cast<float>(p.X()), static_cast<float>(p.Y()),
+          static_cast<float>(p.Z()) };
+        corners[k] = numbers.emplace(key, static_cast<int>(numbers.size())).first->second;
+      }
+      if (face.Orientation() == TopAbs_REVERSED)
+      {
+        std::swap(corners[0], corners[1]);
+      }
+      if (corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0])
+      {
+        part.Mesh.Triangles.push_back(corners);
+        part.FaceOfTriangle.push_back(static_cast<int>(part.Faces.size()));
+      }
+    }
+    part.Faces.emplace_back(face);
+  }
+  part.Mesh.Points.resize(static_cast<Eigen::Index>(numbers.size()), 3);
+  std::mt19937 random(seed);
+  for (const auto& [key, id] : numbers)
+  {
+    for (std::size_t d = 0; d < 3; ++d)
+    {
+      const double share = static_cast<double>(random()) / 2147483648.0 - 1.0;
+      part.Mesh.Points(id, static_cast<Eigen::Index>(d)) =
+        static_cast<double>(key[d]) + noise * Tolerance * part.Diagonal * share / std::sqrt(3.0);
+    }
+  }
+  return part;
+}
+
+SurfaceType TypeOf(const BRepAdaptor_Surface& face)
+{
+  switch (face.GetType())
+  {
+    case GeomAbs_Plane:
+      return SurfaceType::Plane;
+    case GeomAbs_Cylinder:
+      return SurfaceType::Cylinder;
+    case GeomAbs_Cone:
+      return SurfaceType::Cone;
+    case GeomAbs_Sphere:
+      return SurfaceType::Sphere;
+    case GeomAbs_Torus:
+      return SurfaceType::Torus;
+    default:
+      return SurfaceType::FreeForm;
+  }
+}
+
+/// Distance of the recognised axis from the true one, and of the radii.
+double ErrorOf(const BRepAdaptor_Surface& face, const AnalyticSurface& found)
+{
+  gp_Ax1 axis;
+  double error = 0.0;
+  if (found.Type == SurfaceType::Cylinder)
+  {
+    axis = face.Cylinder().Axis();
+    error = std::abs(face.Cylinder().Radius() - found.Radius);
+  }
+  else if (found.Type == SurfaceType::Torus)
+  {
+    axis = face.Torus().Axis();
+    error = std::max(std::abs(face.Torus().MajorRadius() - found.Radius),
+      std::abs(face.Torus().MinorRadius() - found.MinorRadius));
+  }
+  else if (found.Type == SurfaceType::Sphere)
+  {
+    const gp_Pnt centre = face.Sphere().Location();
+    return std::max(std::abs(face.Sphere().Radius() - found.Radius),
+      (found.Point - Eigen::Vector3d(centre.X(), centre.Y(), centre.Z())).norm());
+  }
+  else
+  {
+    return 0.0;
+  }
+  const Eigen::Vector3d origin(axis.Location().X(), axis.Location().Y(), axis.Location().Z());
+  const Eigen::Vector3d along(axis.Direction().X(), axis.Direction().Y(), axis.Direction().Z());
+  return std::max(error, (found.Point - origin).cross(along).norm());
+}
+
+struct Tally
+{
+  std::array<int, NumSurfaceTypes> Faces{};
+  std::array<int, NumSurfaceTypes> Right{};
+  double LargestError = 0.0; ///< of the diagonal
+  int AllFaces = 0;
+  int AllRight = 0;
+  double Share() const { return static_cast<double>(this->AllRight) / this->AllFaces; }
+};
+
+void Count(const Part& part, Tally& tally)
+{
+  const auto surface = CheckSurface(part.Mesh);
+  ASSERT_TRUE(surface) << surface.Status.Message();
+  RecognitionParams params;
+  params.Tolerance = Tolerance * part.Diagonal;
+  const auto result = RecognizeSurfaces(surface.Value, params);
+  ASSERT_TRUE(result) << result.Status.Message();
+  std::vector<std::map<int, int>> regionsOfFace(part.Faces.size());
+  std::vector<std::map<int, int>> facesOfRegion(result->Regions.size());
+  for (std::size_t t = 0; t < surface->Triangles.size(); ++t)
+  {
+    const int face = part.FaceOfTriangle[static_cast<std::size_t>(surface->TriangleIds[t])];
+    const int region = result->RegionOfTriangle[t];
+    ++regionsOfFace[static_cast<std::size_t>(face)][region];
+    ++facesOfRegion[static_cast<std::size_t>(region)][face];
+  }
+  for (std::size_t f = 0; f < part.Faces.size(); ++f)
+  {
+    const SurfaceType type = TypeOf(part.Faces[f]);
+    const auto at = static_cast<std::size_t>(type);
+    ++tally.Faces[at];
+    ++tally.AllFaces;
+    if (regionsOfFace[f].size() != 1)
+    {
+      continue;
+    }
+    const auto region = static_cast<std::size_t>(regionsOfFace[f].begin()->first);
+    const AnalyticSurface& found = result->Regions[region].Surface;
+    if (found.Type == type && facesOfRegion[region].size() == 1)
+    {
+      ++tally.Right[at];
+      ++tally.AllRight;
+      tally.LargestError =
+        std::max(tally.LargestError, ErrorOf(part.Faces[f], found) / part.Diagonal);
+    }
+  }
+}
+
+Tally CountFamily(double noise)
+{
+  Tally tally;
+  for (unsigned seed = 1; seed <= 200; ++seed)
+  {
+    Count(Tessellate(PartMaker(seed).Make(), noise, seed), tally);
+  }
+  for (int t = 0; t < NumSurfaceTypes; ++t)
+  {
+    const auto at = static_cast<std::size_t>(t);
+    std::cout << ToString(static_cast<SurfaceType>(t)) << ": " << tally.Right[at] << " of "
+              << tally.Faces[at] << '\n';
+  }
+  std::cout << "share " << tally.Share() << ", largest error " << tally.LargestError << '\n';
+  return tally;
+}
+
+TEST(RecognizedParts, FacesOfTessellatedPartsComeBack_IndependentOracle)
+{
+  const Tally tally = CountFamily(0.0);
+  EXPECT_GE(tally.Share(), 0.99);
+  EXPECT_LE(tally.LargestError, 1e-5);
+  for (int t = 0; t < static_cast<int>(SurfaceType::FreeForm); ++t)
+  {
+    EXPECT_GE(tally.Faces[static_cast<std::size_t>(t)], 50);
+  }
+}
+
+TEST(RecognizedParts, FacesOfNoisyParts_IndependentOracle)
+{
+  EXPECT_GE(CountFamily(0.25).Share(), 0.90);
+}
+}
+}

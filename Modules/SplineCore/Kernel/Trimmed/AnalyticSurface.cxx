@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "AnalyticSurface.h"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace knotwork
+{
+namespace
+{
+/// Cylindrical coordinates about an axis.
+struct AroundAxis
+{
+  AroundAxis(const AnalyticSurface& surface, const Eigen::Vector3d& point)
+  {
+    const Eigen::Vector3d offset = point - surface.Point;
+    this->Height = offset.dot(surface.Axis);
+    this->Outward = offset - this->Height * surface.Axis;
+    this->Radius = this->Outward.norm();
+    if (this->Radius > 0.0)
+    {
+      this->Outward /= this->Radius;
+    }
+  }
+  double Height;
+  double Radius;
+  Eigen::Vector3d Outward; ///< of length 1, or 0 on the axis
+};
+}
+
+const char* ToString(SurfaceType type)
+{
+  switch (type)
+  {
+    case SurfaceType::Plane:
+      return "plane";
+    case SurfaceType::Cylinder:
+      return "cylinder";
+    case SurfaceType::Sphere:
+      return "sphere";
+    case SurfaceType::Cone:
+      return "cone";
+    case SurfaceType::Torus:
+      return "torus";
+    case SurfaceType::FreeForm:
+      return "free form";
+  }
+  return "";
+}
+
+double AnalyticSurface::Distance(const Eigen::Vector3d& point) const
+{
+  const AroundAxis at(*this, point);
+  switch (this->Type)
+  {
+    case SurfaceType::Plane:
+      return at.Height;
+    case SurfaceType::Cylinder:
+      return at.Radius - this->Radius;
+    case SurfaceType::Sphere:
+      return (point - this->Point).norm() - this->Radius;
+    case SurfaceType::Cone:
+      return (at.Radius - this->Radius) * std::cos(this->Angle) - at.Height * std::sin(this->Angle);
+    case SurfaceType::Torus:
+      return std::hypot(at.Radius - this->Radius, at.Height) - this->MinorRadius;
+    case SurfaceType::FreeForm:
+      break;
+  }
+  return 0.0;
+}
+
+Eigen::Vector3d AnalyticSurface::Normal(const Eigen::Vector3d& point) const
+{
+  const AroundAxis at(*this, point);
+  switch (this->Type)
+  {
+    case SurfaceType::Plane:
+      return this->Axis;
+    case SurfaceType::Cylinder:
+      return at.Outward;
+    case SurfaceType::Sphere:
+      return (point - this->Point).normalized();
+    case SurfaceType::Cone:
+      return at.Radius > 0.0
+        ? Eigen::Vector3d(std::cos(this->Angle) * at.Outward - std::sin(this->Angle) * this->Axis)
+        : Eigen::Vector3d(Eigen::Vector3d::Zero());
+    case SurfaceType::Torus:
+      return ((at.Radius - this->Radius) * at.Outward + at.Height * this->Axis).normalized();
+    case SurfaceType::FreeForm:
+      break;
+  }
+  return Eigen::Vector3d::Zero();
+}
+}

@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfaceGrowth.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace knotwork
+{
+namespace
+{
+using Eigen::Vector3d;
+
+constexpr double LargestLean = 0.5235987755982988; // 30 degrees between facet and surface at points
+constexpr double LargestTurn = 1.0471975511965976; // 60 degrees between facets of a surface
+constexpr double HeightOfSliver = 4.0;             // noises: normals of flatter facets say nothing
+constexpr std::size_t MostNeighbours = 8;
+constexpr int MostFits = 12; ///< while a surface grows
+/// A surface of more parameters must cover more points than one of fewer, by so many and this
+/// share.
+constexpr int MorePoints = 2;
+constexpr double MoreShare = 0.1;
+/// One through as many points is taken when edges lie nearer to it by that factor at least.
+constexpr double LessSag = 1.2;
+
+std::vector<int> Unique(std::vector<int> values)
+{
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+}
+
+SurfaceGrowth::SurfaceGrowth(
+  const DiscMesh& surface, const FacetClusters& facets, double noise, double sag)
+  : Surface(surface), Facets(facets), Noise(noise), Sag(sag)
+{
+}
+
+std::vector<Vector3d> SurfaceGrowth::PointsOf(const std::vector<int>& clusters) const
+{
+  std::vector<int> ids;
+  for (int c : clusters)
+  {
+    const auto& more = this->Facets.Clusters[static_cast<std::size_t>(c)].Points;
+    ids.insert(ids.end(), more.begin(), more.end());
+  }
+  std::vector<Vector3d> points;
+  for (int id : Unique(std::move(ids)))
+  {
+    points.push_back(this->Surface.Point(id));
+  }
+  return points;
+}
+
+std::vector<FlatPiece> SurfaceGrowth::PiecesOf(const std::vector<int>& clusters) const
+{
+  std::vector<FlatPiece> pieces;
+  for (int c : clusters)
+  {
+    pieces.push_back(this->Facets.Clusters[static_cast<std::size_t>(c)].Piece);
+  }
+  return pieces;
+}
+
+bool SurfaceGrowth::Fits(int number, const AnalyticSurface& surface, bool reversed) const
+{
+  const FacetCluster& cluster = this->Facets.Clusters[static_cast<std::size_t>(number)];
+  for (int p : cluster.Points)
+  {
+    if (!(std::abs(surface.Distance(this->Surface.Point(p))) <= this->Noise))
+    {
+      return false;
+    }
+  }
+  const double lean = std::cos(LargestLean);
+  for (int t : cluster.Triangles)
+  {
+    const auto at = static_cast<std::size_t>(t);
+    const auto& corners = this->Surface.Triangles[at];
+    const bool sliver = this->Facets.Heights[at] < HeightOfSliver * this->Noise;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const Vector3d a = this->Surface.Point(corners[k]);
+      const Vector3d b = this->Surface.Point(corners[(k + 1) % 3]);
+      const Vector3d normal = surface.Normal(a);
+      const double cosine = (reversed ? -1.0 : 1.0) * normal.dot(this->Facets.Normals[at]);
+      const bool isApex = surface.Type == SurfaceType::Cone &&
+        (a - surface.Point).cross(surface.Axis).norm() < HeightOfSliver * this->Noise;
+      if ((!sliver && !isApex && cosine < lean) ||
+        !(std::abs(surface.Distance((a + b) / 2.0)) <= this->Sag + this->Noise))
+      {
+        return false;
+      }
+    }
+  }
+  return surface.Type == SurfaceType::Plane || cluster.Points.size() < 5 ||
+    std::abs(surface.Distance(cluster.Piece.Centre)) <= this->Sag;
+}
+
+bool SurfaceGrowth::Grow(const AnalyticSurface& guess, const Guess& from,
+  const std::vector<int>& regions, GrownRegion& region) const
+{
+  region.Surface = guess;
+  const FlatPiece& first = this->Facets.Clusters[static_cast<std::size_t>(from.front())].Piece;
+  region.Reversed = guess.Normal(first.Centre).dot(first.Normal) < 0.0;
+  std::size_t fitted = this->PointsOf(from).size();
+  std::vector<char> reached(this->Facets.Clusters.size(), 0);
+  for (int round = 0; round < MostFits; ++round)
+  {
+    for (int c : from)
+    {
+      if (!this->Fits(c, region.Surface, region.Reversed))
+      {
+        return false;
+      }
+    }
+    std::fill(reached.begin(), reached.end(), 0);
+    region.Clusters = { from.front() };
+    reached[static_cast<std::size_t>(from.front())] = 1;
+    for (std::size_t i = 0; i < region.Clusters.size(); ++i)
+    {
+      for (const ClusterSide& side :
+        this->Facets.Sides[static_cast<std::size_t>(region.Clusters[i])])
+      {
+        const auto other = static_cast<std::size_t>(side.Cluster);
+        if (!reached[other] && regions[other] < 0 && side.Angle < LargestTurn)
+        {
+          reached[other] = 1;
+          if (this->Fits(side.Cluster, region.Surface, region.Reversed))
+          {
+            region.Clusters.push_back(side.Cluster);
+          }
+        }
+      }
+    }
+    const std::vector<Vector3d> points = this->PointsOf(region.Clusters);
+    region.NumPoints = static_cast<int>(points.size());
+    if (points.size() <= fitted && round > 0)
+    {
+      break;
+    }
+    fitted = points.size();
+    AnalyticSurface better = region.Surface;
+    if (!FitSurface(points, better) || MaxDistance(points, better) > 2.0 * this->Noise)
+    {
+      break; // what is grown next drops points that are too far
+    }
+    region.Surface = better;
+  }
+  region.MeanSag = this->MeanSag(region);
+  return true;
+}
+
+std::vector<std::array<int, 2>> SurfaceGrowth::EdgesInside(const std::vector<int>& clusters) const
+{
+  std::vector<std::array<int, 2>> edges;
+  for (int c : clusters)
+  {
+    for (int t : this->Facets.Clusters[static_cast<std::size_t>(c)].Triangles)
+    {
+      const auto& corners = this->Surface.Triangles[static_cast<std::size_t>(t)];
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        const int a = corners[k];
+        const int b = corners[(k + 1) % 3];
+        edges.push_back({ std::min(a, b), std::max(a, b) });
+      }
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  std::vector<std::array<int, 2>> twice;
+  for (std::size_t i = 1; i < edges.size(); ++i)
+  {
+    if (edges[i] == edges[i - 1])
+    {
+      twice.push_back(edges[i]);
+    }
+  }
+  return twice;
+}
+
+double SurfaceGrowth::MeanSag(const GrownRegion& region) const
+{
+  const auto edges = this->EdgesInside(region.Clusters);
+  double sum = 0.0;
+  for (const auto& [a, b] : edges)
+  {
+    const double sag =
+      region.Surface.Distance((this->Surface.Point(a) + this->Surface.Point(b)) / 2.0);
+    sum += sag * sag;
+  }
+  return edges.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(edges.size()));
+}
+
+void SurfaceGrowth::Measure(const GrownRegion& region, double& distance, double& sag) const
+{
+  distance = MaxDistance(this->PointsOf(region.Clusters), region.Surface);
+  sag = 0.0;
+  for (int c : region.Clusters)
+  {
+    for (int t : this->Facets.Clusters[static_cast<std::size_t>(c)].Triangles)
+    {
+      const auto& corners = this->Surface.Triangles[static_cast<std::size_t>(t)];
+      Vector3d middle = Vector3d::Zero();
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        const Vector3d a = this->Surface.Point(corners[k]);
+        const Vector3d b = this->Surface.Point(corners[(k + 1) % 3]);
+        sag = std::max(sag, std::abs(region.Surface.Distance((a + b) / 2.0)));
+        middle += a / 3.0;
+      }
+      sag = std::max(sag, std::abs(region.Surface.Distance(middle)));
+    }
+  }
+}
+
+bool SurfaceGrowth::Try(SurfaceType type, const Guess& from, const std::vector<int>& regions,
+  std::vector<GrownRegion>& found) const
+{
+  for (const GrownRegion& other : found) // it is covered by that type already
+  {
+    if (other.Surface.Type == type &&
+      std::all_of(from.begin(), from.end(),
+        [&](int c) {
+          return std::find(other.Clusters.begin(), other.Clusters.end(), c) != other.Clusters.end();
+        }))
+    {
+      return true;
+    }
+  }
+  const std::vector<Vector3d> points = this->PointsOf(from);
+  AnalyticSurface surface;
+  GrownRegion region;
+  if (!GuessSurface(type, points, this->PiecesOf(from), surface) || !FitSurface(points, surface) ||
+    MaxDistance(points, surface) > this->Noise || !this->Grow(surface, from, regions, region))
+  {
+    return false;
+  }
+  found.push_back(std::move(region));
+  return true;
+}
+
+std::vector<int> SurfaceGrowth::NeighboursOf(int cluster, const std::vector<int>& regions) const
+{
+  std::vector<std::pair<double, int>> found;
+  for (const ClusterSide& side : this->Facets.Sides[static_cast<std::size_t>(cluster)])
+  {
+    const double length =
+      (this->Surface.Point(side.Edge[0]) - this->Surface.Point(side.Edge[1])).norm();
+    if (side.Angle < LargestTurn && regions[static_cast<std::size_t>(side.Cluster)] < 0)
+    {
+      found.emplace_back(-length, side.Cluster);
+    }
+  }
+  std::sort(found.begin(), found.end());
+  std::vector<int> neighbours;
+  for (const auto& [length, other] : found)
+  {
+    if (std::find(neighbours.begin(), neighbours.end(), other) == neighbours.end() &&
+      neighbours.size() < MostNeighbours)
+    {
+      neighbours.push_back(other);
+    }
+  }
+  return neighbours;
+}
+
+GrownRegion SurfaceGrowth::BestRegion(int seed, const std::vector<int>& regions) const
+{
+  std::vector<GrownRegion> found;
+  this->Try(SurfaceType::Plane, { seed }, regions, found);
+  const std::vector<int> neighbours = this->NeighboursOf(seed, regions);
+  Guess ring = { seed };
+  ring.insert(ring.end(), neighbours.begin(), neighbours.end());
+  Guess second = ring;
+  for (int g : neighbours)
+  {
+    for (int h : this->NeighboursOf(g, regions))
+    {
+      if (std::find(second.begin(), second.end(), h) == second.end())
+      {
+        second.push_back(h);
+      }
+    }
+    this->Try(SurfaceType::Cylinder, { seed, g }, regions, found);
+    this->Try(SurfaceType::Sphere, { seed, g }, regions, found);
+  }
+  for (std::size_t i = 0; i < neighbours.size(); ++i)
+  {
+    for (std::size_t j = i + 1; j < neighbours.size(); ++j)
+    {
+      const Guess three = { seed, neighbours[i], neighbours[j] };
+      this->Try(SurfaceType::Cone, three, regions, found);
+      this->Try(SurfaceType::Sphere, three, regions, found);
+      this->Try(SurfaceType::Cylinder, three, regions, found);
+    }
+  }
+  for (SurfaceType type :
+    { SurfaceType::Cylinder, SurfaceType::Cone, SurfaceType::Sphere, SurfaceType::Torus })
+  {
+    this->Try(type, ring, regions, found);
+    this->Try(type, second, regions, found);
+  }
+  // by parameters, and by how far the edges' middles lie from them where there are as many points
+  std::stable_sort(found.begin(), found.end(),
+    [](const GrownRegion& a, const GrownRegion& b)
+    { return NumSurfaceParameters(a.Surface.Type) < NumSurfaceParameters(b.Surface.Type); });
+  GrownRegion best;
+  best.Clusters = { seed };
+  best.Surface.Type = SurfaceType::FreeForm;
+  for (GrownRegion& region : found)
+  {
+    const int more =
+      NumSurfaceParameters(region.Surface.Type) - NumSurfaceParameters(best.Surface.Type) > 0
+      ? std::max(MorePoints, static_cast<int>(MoreShare * best.NumPoints))
+      : 0;
+    const bool covers = region.NumPoints > best.NumPoints + more;
+    const bool closer = region.NumPoints >= best.NumPoints &&
+      best.Surface.Type != SurfaceType::Plane &&
+      LessSag * region.MeanSag + this->Noise < best.MeanSag;
+    if (best.NumPoints == 0 || covers || closer)
+    {
+      best = std::move(region);
+    }
+  }
+  return best;
+}
+}

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "FacetClusters.h"
+
+namespace knotwork
+{
+/// Clusters of facets on one surface.
+struct GrownRegion
+{
+  AnalyticSurface Surface;
+  bool Reversed = false; ///< the facets' normals are opposite to the surface's
+  std::vector<int> Clusters;
+  int NumPoints = 0;
+  double MeanSag = 0.0; ///< root mean square distance of the middles of the edges inside
+};
+
+/// Guesses surfaces at facets, and grows them.
+class SurfaceGrowth
+{
+public:
+  /// @param noise  largest distance of points. @param sag  of the middles of edges.
+  /// What is given must outlive this.
+  SurfaceGrowth(const DiscMesh& surface, const FacetClusters& facets, double noise, double sag);
+
+  /// The simplest surface through a cluster that covers about as many points as any that was found.
+  /// @param regions  of the clusters; those below 0 are to be had.
+  GrownRegion BestRegion(int seed, const std::vector<int>& regions) const;
+
+  /// Largest distances of points, and of the middles of edges and triangles.
+  void Measure(const GrownRegion& region, double& distance, double& sag) const;
+
+private:
+  using Guess = std::vector<int>; ///< clusters
+  bool Fits(int cluster, const AnalyticSurface& surface, bool reversed) const;
+  bool Grow(const AnalyticSurface& guess, const Guess& from, const std::vector<int>& regions,
+    GrownRegion& region) const;
+  bool Try(SurfaceType type, const Guess& from, const std::vector<int>& regions,
+    std::vector<GrownRegion>& found) const;
+  /// Those of two facets.
+  std::vector<std::array<int, 2>> EdgesInside(const std::vector<int>& clusters) const;
+  double MeanSag(const GrownRegion& region) const;
+  std::vector<int> NeighboursOf(int cluster, const std::vector<int>& regions) const;
+  std::vector<Eigen::Vector3d> PointsOf(const std::vector<int>& clusters) const;
+  std::vector<FlatPiece> PiecesOf(const std::vector<int>& clusters) const;
+
+  const DiscMesh& Surface;
+  const FacetClusters& Facets;
+  double Noise;
+  double Sag;
+};
+}

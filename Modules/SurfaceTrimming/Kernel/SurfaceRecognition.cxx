@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfaceRecognition.h"
+
+#include "FacetClusters.h"
+#include "SurfaceGrowth.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace knotwork
+{
+namespace
+{
+/// Tolerances that are tried, in those of the user: of exact points, of rounded curves, of noise.
+constexpr std::array<double, 4> Levels = { 1.0 / 500.0, 1.0 / 50.0, 1.0 / 8.0, 1.0 };
+/// A coarser level is taken when it needs fewer regions than this share of the finer one's.
+constexpr double WorthIt = 0.85;
+/// Of a curved surface at least, for each of its parameters.
+constexpr int PointsOfParameter = 5;
+/// Between regions of one free form at most, radians.
+constexpr double SmoothAngle = 0.6981317007977318; // 40 degrees
+
+struct Division
+{
+  std::vector<GrownRegion> Regions;
+  std::vector<int> RegionOfCluster;
+};
+
+Division Divide(const SurfaceGrowth& growth, const FacetClusters& facets)
+{
+  Division division;
+  const std::size_t count = facets.Clusters.size();
+  division.RegionOfCluster.assign(count, -1);
+  std::vector<int> order(count);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+    [&](int a, int b)
+    {
+      return facets.Clusters[static_cast<std::size_t>(a)].Area >
+        facets.Clusters[static_cast<std::size_t>(b)].Area;
+    });
+  for (int seed : order)
+  {
+    if (division.RegionOfCluster[static_cast<std::size_t>(seed)] >= 0)
+    {
+      continue;
+    }
+    GrownRegion region = growth.BestRegion(seed, division.RegionOfCluster);
+    for (int cluster : region.Clusters)
+    {
+      division.RegionOfCluster[static_cast<std::size_t>(cluster)] =
+        static_cast<int>(division.Regions.size());
+    }
+    division.Regions.push_back(std::move(region));
+  }
+  return division;
+}
+
+/// Whether a region says little by itself. Near its tolerance a curved surface imitates patches of
+/// any shape: there it must have many points.
+bool IsWeak(const GrownRegion& region, bool coarse)
+{
+  const SurfaceType type = region.Surface.Type;
+  if (type == SurfaceType::FreeForm || type == SurfaceType::Plane)
+  {
+    return type == SurfaceType::FreeForm || region.NumPoints <= 4;
+  }
+  return coarse && region.NumPoints < PointsOfParameter * NumSurfaceParameters(type);
+}
+
+/// Weak regions that pass over into each other become regions of free form.
+void JoinFreeForm(bool coarse, const FacetClusters& facets, Division& division)
+{
+  std::vector<char> weak;
+  for (const GrownRegion& region : division.Regions)
+  {
+    weak.push_back(IsWeak(region, coarse) ? 1 : 0);
+  }
+  std::vector<char> done(division.Regions.size(), 0);
+  std::vector<GrownRegion> kept;
+  for (std::size_t r = 0; r < division.Regions.size(); ++r)
+  {
+    if (done[r])
+    {
+      continue;
+    }
+    GrownRegion region = division.Regions[r];
+    if (weak[r])
+    {
+      done[r] = 1;
+      for (std::size_t i = 0; i < region.Clusters.size(); ++i)
+      {
+        for (const ClusterSide& side : facets.Sides[static_cast<std::size_t>(region.Clusters[i])])
+        {
+          const auto other = static_cast<std::size_t>(
+            division.RegionOfCluster[static_cast<std::size_t>(side.Cluster)]);
+          if (!done[other] && side.Angle < SmoothAngle && weak[other])
+          {
+            done[other] = 1;
+            const auto& more = division.Regions[other].Clusters;
+            region.Clusters.insert(region.Clusters.end(), more.begin(), more.end());
+            region.Surface = AnalyticSurface();
+          }
+        }
+      }
+    }
+    kept.push_back(std::move(region));
+  }
+  division.Regions = std::move(kept);
+}
+
+double AreaOf(const FacetClusters& facets, const std::vector<int>& clusters)
+{
+  double area = 0.0;
+  for (int c : clusters)
+  {
+    area += facets.Clusters[static_cast<std::size_t>(c)].Area;
+  }
+  return area;
+}
+
+void Report(const SurfaceGrowth& growth, const FacetClusters& facets, const Division& division,
+  SurfaceRecognition& result)
+{
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t r = 0; r < division.Regions.size(); ++r)
+  {
+    order.emplace_back(-AreaOf(facets, division.Regions[r].Clusters), r);
+  }
+  std::sort(order.begin(), order.end());
+  for (const auto& [area, r] : order)
+  {
+    const GrownRegion& grown = division.Regions[r];
+    RecognizedRegion region;
+    region.Surface = grown.Surface;
+    region.Reversed = grown.Reversed;
+    for (int c : grown.Clusters)
+    {
+      const auto& triangles = facets.Clusters[static_cast<std::size_t>(c)].Triangles;
+      region.Triangles.insert(region.Triangles.end(), triangles.begin(), triangles.end());
+    }
+    std::sort(region.Triangles.begin(), region.Triangles.end());
+    for (int t : region.Triangles)
+    {
+      result.RegionOfTriangle[static_cast<std::size_t>(t)] =
+        static_cast<int>(result.Regions.size());
+    }
+    if (grown.Surface.Type != SurfaceType::FreeForm)
+    {
+      growth.Measure(grown, region.MaxDistance, region.MaxSag);
+    }
+    ++result.NumOfType[static_cast<std::size_t>(region.Surface.Type)];
+    result.Regions.push_back(std::move(region));
+  }
+}
+}
+
+Result<SurfaceRecognition> RecognizeSurfaces(
+  const DiscMesh& surface, const RecognitionParams& params)
+{
+  if (!(params.Tolerance >= 0.0) || !(params.MaximumSag >= 0.0 && params.MaximumSag <= 1000.0))
+  {
+    return { ErrorCode::InvalidParameter,
+      "Tolerance must not be negative, and MaximumSag must lie in [0, 1000]" };
+  }
+  SurfaceRecognition result;
+  const double diagonal =
+    (surface.Points.colwise().maxCoeff() - surface.Points.colwise().minCoeff()).norm();
+  result.Tolerance = params.Tolerance > 0.0 ? params.Tolerance : 1e-3 * diagonal;
+  const FacetClusters facets = FindFacetClusters(surface, Levels.front() * result.Tolerance);
+  Division best;
+  std::size_t fewest = 0;
+  for (std::size_t level = 0; level < Levels.size(); ++level)
+  {
+    if (params.Progress &&
+      !params.Progress(static_cast<double>(level) / static_cast<double>(Levels.size())))
+    {
+      return { ErrorCode::Aborted, "recognition was stopped" };
+    }
+    const double noise = Levels[level] * result.Tolerance;
+    const SurfaceGrowth growth(surface, facets, noise, params.MaximumSag * result.Tolerance);
+    Division division = Divide(growth, facets);
+    const std::size_t count = division.Regions.size();
+    if (level == 0 || static_cast<double>(count) < WorthIt * static_cast<double>(fewest))
+    {
+      fewest = count;
+      best = std::move(division);
+      result.Noise = noise;
+    }
+    if (fewest == 1)
+    {
+      break;
+    }
+  }
+  const SurfaceGrowth growth(surface, facets, result.Noise, params.MaximumSag * result.Tolerance);
+  JoinFreeForm(result.Noise > Levels[1] * result.Tolerance, facets, best);
+  result.RegionOfTriangle.resize(surface.Triangles.size());
+  Report(growth, facets, best, result);
+  return result;
+}
+}

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <knotwork/MeshParameterization/TriangleMesh.h>
+#include <knotwork/SplineCore/AnalyticSurface.h>
+
+#include <vector>
+
+namespace knotwork
+{
+struct RecognitionParams
+{
+  /// Largest distance of points from their region's surface, unit of the points; 0: a thousandth of
+  /// the diagonal of the points' box.
+  double Tolerance = 0.0;
+  /// Largest distance of edges and triangles from the surface that their corners lie on, in
+  /// tolerances, [0, 1000].
+  double MaximumSag = 5.0;
+  ProgressCallback Progress;
+};
+
+struct RecognizedRegion
+{
+  AnalyticSurface Surface;
+  std::vector<int> Triangles; ///< ascending
+  bool Reversed = false;      ///< the triangles' normals are opposite to the surface's
+  double MaxDistance = 0.0;   ///< of points
+  double MaxSag = 0.0;        ///< of the middles of edges and triangles
+};
+
+struct SurfaceRecognition
+{
+  std::vector<RecognizedRegion> Regions; ///< the largest area first
+  std::vector<int> RegionOfTriangle;
+  std::array<int, NumSurfaceTypes> NumOfType{};
+  double Tolerance = 0.0; ///< that was asked for
+  double Noise = 0.0;     ///< distance of points from surfaces with which regions were grown
+};
+
+/// Divides a mesh into regions of one surface each: plane, cylinder, sphere, cone, torus, the
+/// simplest one on which a region's points lie; what is none is of free form.
+///
+/// Surfaces are guessed from few neighbouring facets, grown over edges as far as points lie on them
+/// and facets do not lean away from them, and fitted to what they cover; the largest is taken.
+/// That is done with several tolerances up to the stated one, and the smallest one is kept
+/// that does not take many more regions than others.
+/// @param surface  of CheckSurface.
+/// @return InvalidParameter; Aborted.
+/// @complexity about O(n) where regions are large; O(n) guesses of free form.
+/// @source Schnabel, Wahl, Klein, Computer Graphics Forum 26 (2007) 214 (guess and score).
+Result<SurfaceRecognition> RecognizeSurfaces(
+  const DiscMesh& surface, const RecognitionParams& params = {});
+}

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Oracle: surfaces whose points are computed from their parameters.
+#include "FitAnalyticSurface.h"
+#include "SurfaceRecognition.h"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace knotwork
+{
+namespace
+{
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+constexpr double Pi = 3.14159265358979323846;
+
+/// A corner of a profile (radius, height) or an arc to it.
+struct ProfilePiece
+{
+  Vector2d End;
+  Vector2d Centre = Vector2d::Zero();
+  int Steps = 1; ///< more than one: an arc about Centre
+};
+
+/// A closed profile beside the axis, or one that begins and ends on it, turned about z, then moved.
+TriangleMesh Turned(
+  const Vector2d& begin, const std::vector<ProfilePiece>& pieces, int sides, double noise = 0.0)
+{
+  std::vector<Vector2d> profile = { begin };
+  for (const ProfilePiece& piece : pieces)
+  {
+    const Vector2d from = profile.back() - piece.Centre;
+    const Vector2d to = piece.End - piece.Centre;
+    const double turn = std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
+    for (int i = 1; i <= piece.Steps; ++i)
+    {
+      profile.push_back(i == piece.Steps
+          ? piece.End
+          : Vector2d(piece.Centre + Eigen::Rotation2Dd(turn * i / piece.Steps) * from));
+    }
+  }
+  std::mt19937 random(7);
+  std::normal_distribution<double> shift(0.0, 1.0);
+  const Eigen::AngleAxisd tilt(0.7, Vector3d(1, 2, -1).normalized());
+  TriangleMesh mesh;
+  std::vector<Vector3d> points;
+  std::vector<std::vector<int>> rings;
+  for (const Vector2d& p : profile)
+  {
+    std::vector<int>& ring = rings.emplace_back();
+    for (int i = 0; i < sides; ++i)
+    {
+      const double angle = 2.0 * Pi * i / sides;
+      if (i == 0 || p.x() > 0.0)
+      {
+        points.emplace_back(
+          tilt * Vector3d(p.x() * std::cos(angle), p.x() * std::sin(angle), p.y()) +
+          Vector3d(3, 1, 2));
+        for (int d = 0; d < 3; ++d)
+        {
+          points.back()[d] += noise > 0.0 ? noise * shift(random) : 0.0;
+        }
+      }
+      ring.push_back(static_cast<int>(points.size()) - 1);
+    }
+  }
+  if ((profile.front() - profile.back()).norm() == 0.0)
+  {
+    rings.back() = rings.front();
+    points.resize(points.size() - static_cast<std::size_t>(sides));
+  }
+  for (std::size_t r = 0; r + 1 < rings.size(); ++r)
+  {
+    for (int i = 0; i < sides; ++i)
+    {
+      const auto a = static_cast<std::size_t>(i);
+      const auto b = static_cast<std::size_t>((i + 1) % sides);
+      const std::array<int, 3> first = { rings[r][a], rings[r][b], rings[r + 1][b] };
+      const std::array<int, 3> second = { rings[r][a], rings[r + 1][b], rings[r + 1][a] };
+      for (const auto& t : { first, second })
+      {
+        if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0])
+        {
+          mesh.Triangles.push_back(t);
+        }
+      }
+    }
+  }
+  mesh.Points.resize(static_cast<Eigen::Index>(points.size()), 3);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    mesh.Points.row(static_cast<Eigen::Index>(i)) = points[i].transpose();
+  }
+  return mesh;
+}
+
+const Vector3d TiltedAxis =
+  Eigen::AngleAxisd(0.7, Vector3d(1, 2, -1).normalized()) * Vector3d::UnitZ();
+
+SurfaceRecognition Recognize(const TriangleMesh& mesh, double tolerance = 0.0)
+{
+  const auto surface = CheckSurface(mesh);
+  EXPECT_TRUE(surface) << surface.Status.Message();
+  RecognitionParams params;
+  params.Tolerance = tolerance;
+  auto result = RecognizeSurfaces(surface.Value, params);
+  EXPECT_TRUE(result) << result.Status.Message();
+  return result.Value;
+}
+
+/// Planes, cylinders, spheres, cones, tori, free form.
+using Counts = std::array<int, NumSurfaceTypes>;
+
+const RecognizedRegion* Find(const SurfaceRecognition& result, SurfaceType type)
+{
+  for (const RecognizedRegion& region : result.Regions)
+  {
+    if (region.Surface.Type == type)
+    {
+      return &region;
+    }
+  }
+  return nullptr;
+}
+
+TEST(SurfaceRecognition, PolyhedraArePlanes)
+{
+  TriangleMesh cube;
+  cube.Points.resize(8, 3);
+  cube.Points << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1;
+  cube.Triangles = { { 0, 2, 1 }, { 0, 3, 2 }, { 4, 5, 6 }, { 4, 6, 7 }, { 0, 1, 5 }, { 0, 5, 4 },
+    { 1, 2, 6 }, { 1, 6, 5 }, { 2, 3, 7 }, { 2, 7, 6 }, { 3, 0, 4 }, { 3, 4, 7 } };
+  EXPECT_EQ(Recognize(cube).NumOfType, (Counts{ 6, 0, 0, 0, 0, 0 }));
+  TriangleMesh tetrahedron;
+  tetrahedron.Points.resize(4, 3);
+  tetrahedron.Points << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
+  tetrahedron.Triangles = { { 0, 2, 1 }, { 0, 1, 3 }, { 1, 2, 3 }, { 2, 0, 3 } };
+  EXPECT_EQ(Recognize(tetrahedron).NumOfType, (Counts{ 4, 0, 0, 0, 0, 0 }));
+}
+
+TEST(SurfaceRecognition, StripsOfACylinderAreOneFace)
+{
+  const auto result = Recognize(Turned({ 0, 0 }, { { { 1, 0 } }, { { 1, 2 } }, { { 0, 2 } } }, 48));
+  EXPECT_EQ(result.NumOfType, (Counts{ 2, 1, 0, 0, 0, 0 }));
+  const RecognizedRegion* region = Find(result, SurfaceType::Cylinder);
+  ASSERT_NE(region, nullptr);
+  EXPECT_NEAR(region->Surface.Radius, 1.0, 1e-10);
+  EXPECT_NEAR(std::abs(region->Surface.Axis.dot(TiltedAxis)), 1.0, 1e-10);
+  EXPECT_LT((Vector3d(3, 1, 2) - region->Surface.Point).cross(TiltedAxis).norm(), 1e-10);
+  EXPECT_LT(region->MaxDistance, 1e-10);
+  EXPECT_NEAR(region->MaxSag, 1.0 - std::cos(Pi / 48), 1e-10);
+  EXPECT_FALSE(region->Reversed);
+}
+
+TEST(SurfaceRecognition, ShortCylinderIsNoSphere)
+{
+  // two circles lie on a sphere, too; the rulings tell
+  const auto result =
+    Recognize(Turned({ 0, 0 }, { { { 1, 0 } }, { { 1, 0.1 } }, { { 0, 0.1 } } }, 48));
+  EXPECT_EQ(result.NumOfType, (Counts{ 2, 1, 0, 0, 0, 0 }));
+}
+
+TEST(SurfaceRecognition, ConeWithTipAndFrustum)
+{
+  const auto result =
+    Recognize(Turned({ 0, 0 }, { { { 2, 0 } }, { { 1, 1 } }, { { 0, 1.5 } } }, 64));
+  EXPECT_EQ(result.NumOfType, (Counts{ 1, 0, 0, 2, 0, 0 }));
+  const RecognizedRegion* region = Find(result, SurfaceType::Cone);
+  ASSERT_NE(region, nullptr);
+  EXPECT_NEAR(region->Surface.Angle, Pi / 4, 1e-9);
+}
+
+TEST(SurfaceRecognition, SphereCapAndTangentFillet)
+{
+  const auto dome =
+    Recognize(Turned({ 0, 0 }, { { { 1, 0 } }, { { 1, 1 } }, { { 0, 2 }, { 0, 1 }, 12 } }, 48));
+  EXPECT_EQ(dome.NumOfType, (Counts{ 1, 1, 1, 0, 0, 0 }));
+  const auto fillet = Recognize(Turned(
+    { 0, 0 }, { { { 1, 0 } }, { { 1, 1 } }, { { 0.8, 1.2 }, { 0.8, 1 }, 5 }, { { 0, 1.2 } } }, 48));
+  EXPECT_EQ(fillet.NumOfType, (Counts{ 2, 1, 0, 0, 1, 0 }));
+  const RecognizedRegion* region = Find(fillet, SurfaceType::Torus);
+  ASSERT_NE(region, nullptr);
+  EXPECT_NEAR(region->Surface.Radius, 0.8, 1e-9);
+  EXPECT_NEAR(region->Surface.MinorRadius, 0.2, 1e-9);
+}
+
+TEST(SurfaceRecognition, RingIsATorus)
+{
+  const Vector2d centre(2, 0);
+  const auto result = Recognize(Turned({ 3, 0 },
+    { { { 2, 1 }, centre, 8 }, { { 1, 0 }, centre, 8 }, { { 2, -1 }, centre, 8 },
+      { { 3, 0 }, centre, 8 } },
+    64));
+  EXPECT_EQ(result.NumOfType, (Counts{ 0, 0, 0, 0, 1, 0 }));
+}
+
+TEST(SurfaceRecognition, NoiseOfAQuarterOfTheTolerance)
+{
+  const double tolerance = 3.5e-3; // about a thousandth of the diagonal
+  const auto result = Recognize(
+    Turned({ 0, 0 }, { { { 1, 0 } }, { { 1, 2 } }, { { 0, 2 } } }, 48, 0.25 * tolerance / 2.0),
+    tolerance);
+  EXPECT_EQ(result.NumOfType[static_cast<int>(SurfaceType::Cylinder)], 1);
+  EXPECT_EQ(result.NumOfType[static_cast<int>(SurfaceType::Plane)], 2);
+}
+
+TEST(SurfaceRecognition, OtherShapesAreOfFreeForm)
+{
+  TriangleMesh mesh; // a saddle with waves
+  constexpr int n = 20;
+  mesh.Points.resize(n * n, 3);
+  for (int j = 0; j < n; ++j)
+  {
+    for (int i = 0; i < n; ++i)
+    {
+      const double x = 2.0 * i / (n - 1) - 1.0;
+      const double y = 2.0 * j / (n - 1) - 1.0;
+      mesh.Points.row(j * n + i) << x, y,
+        0.3 * x * x * x - 0.4 * y * y + 0.2 * std::sin(3.0 * x * y);
+      if (i > 0 && j > 0)
+      {
+        const int d = j * n + i;
+        mesh.Triangles.push_back({ d - n - 1, d - n, d });
+        mesh.Triangles.push_back({ d - n - 1, d, d - 1 });
+      }
+    }
+  }
+  const auto result = Recognize(mesh);
+  ASSERT_FALSE(result.Regions.empty());
+  EXPECT_EQ(result.Regions.front().Surface.Type, SurfaceType::FreeForm);
+  EXPECT_GT(result.Regions.front().Triangles.size(), mesh.Triangles.size() / 2);
+}
+
+TEST(SurfaceRecognition, ParametersOutOfRange)
+{
+  RecognitionParams params;
+  const auto surface = CheckSurface(Turned({ 0, 0 }, { { { 1, 0 } }, { { 0, 2 } } }, 12));
+  ASSERT_TRUE(surface);
+  params.Tolerance = -1.0;
+  EXPECT_EQ(RecognizeSurfaces(surface.Value, params).Status.Code, ErrorCode::InvalidParameter);
+  params.Tolerance = 0.0;
+  params.MaximumSag = -1.0;
+  EXPECT_EQ(RecognizeSurfaces(surface.Value, params).Status.Code, ErrorCode::InvalidParameter);
+  params.MaximumSag = 5.0;
+  params.Progress = [](double) { return false; };
+  EXPECT_EQ(RecognizeSurfaces(surface.Value, params).Status.Code, ErrorCode::Aborted);
+}
+
+TEST(FitAnalyticSurface, DerivativesLeadToTheSurface)
+{
+  // far guesses of every type end on the surface that the points are of
+  AnalyticSurface torus;
+  torus.Type = SurfaceType::Torus;
+  torus.Radius = 2.0;
+  torus.MinorRadius = 0.5;
+  std::vector<Vector3d> points;
+  for (int i = 0; i < 40; ++i)
+  {
+    const double u = 0.04 * i;
+    const double v = 1.7 * i;
+    const double radius = 2.0 + 0.5 * std::cos(v);
+    points.emplace_back(radius * std::cos(u), radius * std::sin(u), 0.5 * std::sin(v));
+  }
+  EXPECT_LT(MaxDistance(points, torus), 1e-14);
+  AnalyticSurface guess = torus;
+  guess.Point = Vector3d(0.2, -0.1, 0.1);
+  guess.Axis = Vector3d(0.1, 0.1, 1.0).normalized();
+  guess.Radius = 2.3;
+  guess.MinorRadius = 0.4;
+  ASSERT_TRUE(FitSurface(points, guess));
+  EXPECT_LT(MaxDistance(points, guess), 1e-12);
+  EXPECT_NEAR(guess.Radius, 2.0, 1e-10);
+  EXPECT_NEAR(guess.MinorRadius, 0.5, 1e-10);
+}
+}
+}
