@@ -16,7 +16,8 @@ constexpr double LargestLean = 0.5235987755982988; // 30 degrees between facet a
 constexpr double LargestTurn = 1.0471975511965976; // 60 degrees between facets of a surface
 constexpr double HeightOfSliver = 4.0;             // noises: normals of flatter facets say nothing
 constexpr std::size_t MostNeighbours = 8;
-constexpr int MostFits = 12; ///< while a surface grows
+constexpr std::size_t PointsOfFlat = 5; ///< of facets in one plane from which on they are a face
+constexpr int MostFits = 12;            ///< while a surface grows
 /// A surface of more parameters must cover more points than one of fewer, by so many and this
 /// share.
 constexpr int MorePoints = 2;
@@ -95,8 +96,43 @@ bool SurfaceGrowth::Fits(int number, const AnalyticSurface& surface, bool revers
       }
     }
   }
-  return surface.Type == SurfaceType::Plane || cluster.Points.size() < 5 ||
-    std::abs(surface.Distance(cluster.Piece.Centre)) <= this->Sag;
+  if (surface.Type == SurfaceType::Plane || cluster.Points.size() < PointsOfFlat)
+  {
+    return true;
+  }
+  // a plane meets cylinders and cones in rulings, but a sphere or torus in a circle around it
+  const bool rulings = surface.Type == SurfaceType::Cylinder || surface.Type == SurfaceType::Cone;
+  return std::abs(surface.Distance(cluster.Piece.Centre)) <= (rulings ? this->Sag : this->Noise);
+}
+
+double SurfaceGrowth::Cost(int number, const AnalyticSurface& surface) const
+{
+  const FacetCluster& cluster = this->Facets.Clusters[static_cast<std::size_t>(number)];
+  double sum = 0.0;
+  for (int p : cluster.Points)
+  {
+    const double distance = surface.Distance(this->Surface.Point(p));
+    sum += distance * distance;
+  }
+  double height = 0.0;
+  for (int t : cluster.Triangles)
+  {
+    height = std::max(height, this->Facets.Heights[static_cast<std::size_t>(t)]);
+  }
+  const double lean =
+    height * surface.Normal(cluster.Piece.Centre).cross(cluster.Piece.Normal).norm() / 2.0;
+  return sum / static_cast<double>(cluster.Points.size()) + lean * lean;
+}
+
+void SurfaceGrowth::Refit(GrownRegion& region) const
+{
+  const std::vector<Vector3d> points = this->PointsOf(region.Clusters);
+  AnalyticSurface better = region.Surface;
+  region.NumPoints = static_cast<int>(points.size());
+  if (FitSurface(points, better))
+  {
+    region.Surface = better;
+  }
 }
 
 bool SurfaceGrowth::Grow(const AnalyticSurface& guess, const Guess& from,
@@ -244,12 +280,17 @@ bool SurfaceGrowth::Try(SurfaceType type, const Guess& from, const std::vector<i
 
 std::vector<int> SurfaceGrowth::NeighboursOf(int cluster, const std::vector<int>& regions) const
 {
+  // strips of a fillet are not guessed together with the flat face beside them
+  const bool large =
+    this->Facets.Clusters[static_cast<std::size_t>(cluster)].Points.size() >= PointsOfFlat;
   std::vector<std::pair<double, int>> found;
   for (const ClusterSide& side : this->Facets.Sides[static_cast<std::size_t>(cluster)])
   {
     const double length =
       (this->Surface.Point(side.Edge[0]) - this->Surface.Point(side.Edge[1])).norm();
-    if (side.Angle < LargestTurn && regions[static_cast<std::size_t>(side.Cluster)] < 0)
+    const auto other = static_cast<std::size_t>(side.Cluster);
+    const bool isFace = this->Facets.Clusters[other].Points.size() >= PointsOfFlat;
+    if (side.Angle < LargestTurn && regions[other] < 0 && (!isFace || large))
     {
       found.emplace_back(-length, side.Cluster);
     }

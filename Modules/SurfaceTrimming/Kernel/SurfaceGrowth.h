@@ -29,9 +29,15 @@ public:
   /// Largest distances of points, and of the middles of edges and triangles.
   void Measure(const GrownRegion& region, double& distance, double& sag) const;
 
+  /// Whether a cluster may lie on a surface.
+  bool Fits(int cluster, const AnalyticSurface& surface, bool reversed) const;
+  /// How badly it does: mean square distance of its points, and what its lean adds.
+  double Cost(int cluster, const AnalyticSurface& surface) const;
+  /// Fits the surface to the region's points again.
+  void Refit(GrownRegion& region) const;
+
 private:
   using Guess = std::vector<int>; ///< clusters
-  bool Fits(int cluster, const AnalyticSurface& surface, bool reversed) const;
   bool Grow(const AnalyticSurface& guess, const Guess& from, const std::vector<int>& regions,
     GrownRegion& region) const;
   bool Try(SurfaceType type, const Guess& from, const std::vector<int>& regions,

@@ -5,6 +5,7 @@
 #include "SurfaceGrowth.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 namespace knotwork
@@ -12,9 +13,13 @@ namespace knotwork
 namespace
 {
 /// Tolerances that are tried, in those of the user: of exact points, of rounded curves, of noise.
-constexpr std::array<double, 4> Levels = { 1.0 / 500.0, 1.0 / 50.0, 1.0 / 8.0, 1.0 };
+constexpr std::array<double, 5> Levels = { 1.0 / 500.0, 1.0 / 50.0, 1.0 / 8.0, 0.35, 1.0 };
 /// A coarser level is taken when it needs fewer regions than this share of the finer one's.
 constexpr double WorthIt = 0.85;
+/// Of the cost of a cluster where it is: less beside it, and it goes over.
+constexpr double BetterShare = 0.5;
+constexpr int BorderPasses = 6;
+constexpr double LargestTurn = 1.0471975511965976; // 60 degrees
 /// Of a curved surface at least, for each of its parameters.
 constexpr int PointsOfParameter = 5;
 /// Between regions of one free form at most, radians.
@@ -56,25 +61,124 @@ Division Divide(const SurfaceGrowth& growth, const FacetClusters& facets)
   return division;
 }
 
+/// Clusters beside another region go over to it where they lie on it much better: what was grown
+/// first has taken what lies within the noise, as the first strips of a fillet.
+/// @return whether any did; the surfaces are fitted again then.
+bool MoveClusters(const SurfaceGrowth& growth, const FacetClusters& facets, Division& division)
+{
+  std::vector<char> changed(division.Regions.size(), 0);
+  bool any = false;
+  for (std::size_t c = 0; c < facets.Clusters.size(); ++c)
+  {
+    const int cluster = static_cast<int>(c);
+    const int from = division.RegionOfCluster[c];
+    const auto& own = division.Regions[static_cast<std::size_t>(from)];
+    double least = BetterShare * growth.Cost(cluster, own.Surface);
+    int to = from;
+    for (const ClusterSide& side : facets.Sides[c])
+    {
+      const int other = division.RegionOfCluster[static_cast<std::size_t>(side.Cluster)];
+      const auto& region = division.Regions[static_cast<std::size_t>(other)];
+      const double cost = growth.Cost(cluster, region.Surface);
+      if (other != to && cost < least && side.Angle < LargestTurn &&
+        growth.Fits(cluster, region.Surface, region.Reversed))
+      {
+        least = cost;
+        to = other;
+      }
+    }
+    if (to != from)
+    {
+      division.RegionOfCluster[c] = to;
+      changed[static_cast<std::size_t>(from)] = 1;
+      changed[static_cast<std::size_t>(to)] = 1;
+      any = true;
+    }
+  }
+  for (GrownRegion& region : division.Regions)
+  {
+    region.Clusters.clear();
+  }
+  for (std::size_t c = 0; c < facets.Clusters.size(); ++c)
+  {
+    division.Regions[static_cast<std::size_t>(division.RegionOfCluster[c])].Clusters.push_back(
+      static_cast<int>(c));
+  }
+  for (std::size_t r = 0; r < division.Regions.size(); ++r)
+  {
+    if (changed[r] && !division.Regions[r].Clusters.empty())
+    {
+      growth.Refit(division.Regions[r]);
+    }
+  }
+  return any;
+}
+
+/// MoveClusters until nothing changes; regions that have lost all clusters are dropped.
+void MoveBorders(const SurfaceGrowth& growth, const FacetClusters& facets, Division& division)
+{
+  for (int pass = 0; pass < BorderPasses && MoveClusters(growth, facets, division); ++pass)
+  {
+  }
+  std::vector<GrownRegion> kept;
+  for (GrownRegion& region : division.Regions)
+  {
+    if (!region.Clusters.empty())
+    {
+      for (int c : region.Clusters)
+      {
+        division.RegionOfCluster[static_cast<std::size_t>(c)] = static_cast<int>(kept.size());
+      }
+      kept.push_back(std::move(region));
+    }
+  }
+  division.Regions = std::move(kept);
+}
+
+/// Points of regions that lie in no other one.
+std::vector<int> CountInside(const FacetClusters& facets, const Division& division)
+{
+  std::map<int, int> regionOfPoint; // -1: of several
+  for (std::size_t c = 0; c < facets.Clusters.size(); ++c)
+  {
+    for (int p : facets.Clusters[c].Points)
+    {
+      const auto [at, isNew] = regionOfPoint.emplace(p, division.RegionOfCluster[c]);
+      at->second = isNew || at->second == division.RegionOfCluster[c] ? at->second : -1;
+    }
+  }
+  std::vector<int> counts(division.Regions.size(), 0);
+  for (const auto& [point, region] : regionOfPoint)
+  {
+    if (region >= 0)
+    {
+      ++counts[static_cast<std::size_t>(region)];
+    }
+  }
+  return counts;
+}
+
 /// Whether a region says little by itself. Near its tolerance a curved surface imitates patches of
-/// any shape: there it must have many points.
-bool IsWeak(const GrownRegion& region, bool coarse)
+/// any shape, with points inside of them: there it must have many points.
+bool IsWeak(const GrownRegion& region, bool coarse, int numInside)
 {
   const SurfaceType type = region.Surface.Type;
   if (type == SurfaceType::FreeForm || type == SurfaceType::Plane)
   {
     return type == SurfaceType::FreeForm || region.NumPoints <= 4;
   }
-  return coarse && region.NumPoints < PointsOfParameter * NumSurfaceParameters(type);
+  return coarse && numInside > 0 &&
+    region.NumPoints < PointsOfParameter * NumSurfaceParameters(type);
 }
 
 /// Weak regions that pass over into each other become regions of free form.
 void JoinFreeForm(bool coarse, const FacetClusters& facets, Division& division)
 {
+  const std::vector<int> inside = CountInside(facets, division);
   std::vector<char> weak;
-  for (const GrownRegion& region : division.Regions)
+  for (std::size_t r = 0; r < division.Regions.size(); ++r)
   {
-    weak.push_back(IsWeak(region, coarse) ? 1 : 0);
+    weak.push_back(IsWeak(division.Regions[r], coarse, inside[r]) ? 1 : 0);
   }
   std::vector<char> done(division.Regions.size(), 0);
   std::vector<GrownRegion> kept;
@@ -180,6 +284,7 @@ Result<SurfaceRecognition> RecognizeSurfaces(
     const double noise = Levels[level] * result.Tolerance;
     const SurfaceGrowth growth(surface, facets, noise, params.MaximumSag * result.Tolerance);
     Division division = Divide(growth, facets);
+    MoveBorders(growth, facets, division);
     const std::size_t count = division.Regions.size();
     if (level == 0 || static_cast<double>(count) < WorthIt * static_cast<double>(fewest))
     {

@@ -97,8 +97,19 @@ void PartMaker::AddFeature(TopoDS_Shape& shape, double x, double y, double top, 
     {
       const TopoDS_Shape boss = BRepPrimAPI_MakeCylinder(up, r, this->Between(2, 4)).Shape();
       BRepFilletAPI_MakeFillet fillet(boss);
-      TopExp_Explorer edges(boss, TopAbs_EDGE);
-      fillet.Add(this->Between(0.3, 0.45) * r, TopoDS::Edge(edges.Current()));
+      const double round = this->Between(0.3, 0.45) * r;
+      for (TopExp_Explorer edges(boss, TopAbs_EDGE); edges.More(); edges.Next())
+      {
+        double first;
+        double last;
+        const TopoDS_Edge edge = TopoDS::Edge(edges.Current());
+        const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
+        if (std::min(curve->Value(first).Z(), curve->Value((first + last) / 2.0).Z()) > top + 1.0)
+        {
+          fillet.Add(round, edge);
+          break;
+        }
+      }
       shape = BRepAlgoAPI_Fuse(shape, fillet.Shape()).Shape();
     }
   }
@@ -268,10 +279,19 @@ void Count(const Part& part, Tally& tally)
     ++tally.AllFaces;
     if (regionsOfFace[f].size() != 1)
     {
+      if (getenv("DBG"))
+      {
+        std::cout << "split " << ToString(type) << ":";
+        for (auto& [r, n] : regionsOfFace[f])
+          std::cout << " " << ToString(result->Regions[std::size_t(r)].Surface.Type) << "(" << n << "/" << result->Regions[std::size_t(r)].Triangles.size() << ")";
+        std::cout << " noise " << result->Noise / result->Tolerance << "\n";
+      }
       continue;
     }
     const auto region = static_cast<std::size_t>(regionsOfFace[f].begin()->first);
     const AnalyticSurface& found = result->Regions[region].Surface;
+    if (getenv("DBG") && !(found.Type == type && facesOfRegion[region].size() == 1))
+      std::cout << "wrong " << ToString(type) << " is " << ToString(found.Type) << " of faces " << facesOfRegion[region].size() << " noise " << result->Noise / result->Tolerance << "\n";
     if (found.Type == type && facesOfRegion[region].size() == 1)
     {
       ++tally.Right[at];
