@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace knotwork
 {
@@ -16,6 +17,7 @@ constexpr double LargestLean = 0.5235987755982988; // 30 degrees between facet a
 constexpr double LargestTurn = 1.0471975511965976; // 60 degrees between facets of a surface
 constexpr double HeightOfSliver = 4.0;             // noises: normals of flatter facets say nothing
 constexpr std::size_t MostNeighbours = 8;
+constexpr std::size_t ClustersOfRow = 6;
 constexpr std::size_t PointsOfFlat = 5; ///< of facets in one plane from which on they are a face
 constexpr int MostFits = 12;            ///< while a surface grows
 /// A surface of more parameters must cover more points than one of fewer, by so many and this
@@ -24,6 +26,33 @@ constexpr int MorePoints = 2;
 constexpr double MoreShare = 0.1;
 /// One through as many points is taken when edges lie nearer to it by that factor at least.
 constexpr double LessSag = 1.2;
+
+/// The simplest region that has about as many points as any.
+GrownRegion Choose(std::vector<GrownRegion> found, int seed, double noise)
+{
+  // by parameters, and by how far the edges' middles lie from them where there are as many points
+  std::stable_sort(found.begin(), found.end(),
+    [](const GrownRegion& a, const GrownRegion& b)
+    { return NumSurfaceParameters(a.Surface.Type) < NumSurfaceParameters(b.Surface.Type); });
+  GrownRegion best;
+  best.Clusters = { seed };
+  best.Surface.Type = SurfaceType::FreeForm;
+  for (GrownRegion& region : found)
+  {
+    const int more =
+      NumSurfaceParameters(region.Surface.Type) - NumSurfaceParameters(best.Surface.Type) > 0
+      ? std::max(MorePoints, static_cast<int>(MoreShare * best.NumPoints))
+      : 0;
+    const bool covers = region.NumPoints > best.NumPoints + more;
+    const bool closer = region.NumPoints >= best.NumPoints &&
+      best.Surface.Type != SurfaceType::Plane && LessSag * region.MeanSag + noise < best.MeanSag;
+    if (best.NumPoints == 0 || covers || closer)
+    {
+      best = std::move(region);
+    }
+  }
+  return best;
+}
 
 std::vector<int> Unique(std::vector<int> values)
 {
@@ -99,6 +128,19 @@ bool SurfaceGrowth::Fits(int number, const AnalyticSurface& surface, bool revers
   if (surface.Type == SurfaceType::Plane || cluster.Points.size() < PointsOfFlat)
   {
     return true;
+  }
+  const Vector3d offset = cluster.Piece.Centre - surface.Point;
+  const double ofCentre = offset.cross(surface.Axis).norm();
+  if (surface.Type == SurfaceType::Cone)
+  {
+    for (int p : cluster.Points) // a disc about the axis is no strip
+    {
+      const Vector3d other = this->Surface.Point(p) - surface.Point;
+      if (ofCentre < 0.4 * other.cross(surface.Axis).norm())
+      {
+        return false;
+      }
+    }
   }
   // a plane meets cylinders and cones in rulings, but a sphere or torus in a circle around it
   const bool rulings = surface.Type == SurfaceType::Cylinder || surface.Type == SurfaceType::Cone;
@@ -308,6 +350,22 @@ std::vector<int> SurfaceGrowth::NeighboursOf(int cluster, const std::vector<int>
   return neighbours;
 }
 
+void SurfaceGrowth::AddNeighbours(const std::vector<int>& regions, Guess& clusters) const
+{
+  std::set<int> known(clusters.begin(), clusters.end());
+  const std::size_t count = clusters.size();
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    for (int other : this->NeighboursOf(clusters[i], regions))
+    {
+      if (known.insert(other).second)
+      {
+        clusters.push_back(other);
+      }
+    }
+  }
+}
+
 GrownRegion SurfaceGrowth::BestRegion(int seed, const std::vector<int>& regions) const
 {
   std::vector<GrownRegion> found;
@@ -316,15 +374,9 @@ GrownRegion SurfaceGrowth::BestRegion(int seed, const std::vector<int>& regions)
   Guess ring = { seed };
   ring.insert(ring.end(), neighbours.begin(), neighbours.end());
   Guess second = ring;
+  this->AddNeighbours(regions, second);
   for (int g : neighbours)
   {
-    for (int h : this->NeighboursOf(g, regions))
-    {
-      if (std::find(second.begin(), second.end(), h) == second.end())
-      {
-        second.push_back(h);
-      }
-    }
     this->Try(SurfaceType::Cylinder, { seed, g }, regions, found);
     this->Try(SurfaceType::Sphere, { seed, g }, regions, found);
   }
@@ -344,27 +396,18 @@ GrownRegion SurfaceGrowth::BestRegion(int seed, const std::vector<int>& regions)
     this->Try(type, ring, regions, found);
     this->Try(type, second, regions, found);
   }
-  // by parameters, and by how far the edges' middles lie from them where there are as many points
-  std::stable_sort(found.begin(), found.end(),
-    [](const GrownRegion& a, const GrownRegion& b)
-    { return NumSurfaceParameters(a.Surface.Type) < NumSurfaceParameters(b.Surface.Type); });
-  GrownRegion best;
-  best.Clusters = { seed };
-  best.Surface.Type = SurfaceType::FreeForm;
-  for (GrownRegion& region : found)
+  Guess third = second;
+  this->AddNeighbours(regions, third);
+  this->Try(SurfaceType::Torus, third, regions, found);
+  GrownRegion best = Choose(found, seed, this->Noise);
+  if (best.Surface.Type != SurfaceType::Plane && best.Clusters.size() >= ClustersOfRow)
   {
-    const int more =
-      NumSurfaceParameters(region.Surface.Type) - NumSurfaceParameters(best.Surface.Type) > 0
-      ? std::max(MorePoints, static_cast<int>(MoreShare * best.NumPoints))
-      : 0;
-    const bool covers = region.NumPoints > best.NumPoints + more;
-    const bool closer = region.NumPoints >= best.NumPoints &&
-      best.Surface.Type != SurfaceType::Plane &&
-      LessSag * region.MeanSag + this->Noise < best.MeanSag;
-    if (best.NumPoints == 0 || covers || closer)
-    {
-      best = std::move(region);
-    }
+    // a row of a torus lies on a sphere or cone, too: the rows beside it tell
+    Guess rows = best.Clusters;
+    this->AddNeighbours(regions, rows);
+    found = { best };
+    this->Try(SurfaceType::Torus, rows, regions, found);
+    best = Choose(found, seed, this->Noise);
   }
   return best;
 }

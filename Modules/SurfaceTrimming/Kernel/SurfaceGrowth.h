@@ -42,6 +42,7 @@ private:
     GrownRegion& region) const;
   bool Try(SurfaceType type, const Guess& from, const std::vector<int>& regions,
     std::vector<GrownRegion>& found) const;
+  void AddNeighbours(const std::vector<int>& regions, Guess& clusters) const;
   /// Those of two facets.
   std::vector<std::array<int, 2>> EdgesInside(const std::vector<int>& clusters) const;
   double MeanSag(const GrownRegion& region) const;
