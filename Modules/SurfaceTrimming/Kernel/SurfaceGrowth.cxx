@@ -366,6 +366,33 @@ void SurfaceGrowth::AddNeighbours(const std::vector<int>& regions, Guess& cluste
   }
 }
 
+void SurfaceGrowth::DropThroughPlane(std::vector<GrownRegion>& found) const
+{
+  if (found.empty() || found.front().Surface.Type != SurfaceType::Plane ||
+    found.front().NumPoints < static_cast<int>(PointsOfFlat))
+  {
+    return;
+  }
+  Vector3d centre = Vector3d::Zero();
+  double area = 0.0;
+  for (const int c : found.front().Clusters)
+  {
+    const FacetCluster& cluster = this->Facets.Clusters[static_cast<std::size_t>(c)];
+    centre += cluster.Area * cluster.Piece.Centre;
+    area += cluster.Area;
+  }
+  centre /= area;
+  found.erase(std::remove_if(found.begin() + 1, found.end(),
+                [&](const GrownRegion& region)
+                {
+                  const SurfaceType type = region.Surface.Type;
+                  const bool rulings = type == SurfaceType::Cylinder || type == SurfaceType::Cone;
+                  return std::abs(region.Surface.Distance(centre)) >
+                    (rulings ? this->Sag : 2.0 * this->Noise);
+                }),
+    found.end());
+}
+
 GrownRegion SurfaceGrowth::BestRegion(int seed, const std::vector<int>& regions) const
 {
   std::vector<GrownRegion> found;
@@ -399,6 +426,7 @@ GrownRegion SurfaceGrowth::BestRegion(int seed, const std::vector<int>& regions)
   Guess third = second;
   this->AddNeighbours(regions, third);
   this->Try(SurfaceType::Torus, third, regions, found);
+  this->DropThroughPlane(found);
   GrownRegion best = Choose(found, seed, this->Noise);
   if (best.Surface.Type != SurfaceType::Plane && best.Clusters.size() >= ClustersOfRow)
   {
