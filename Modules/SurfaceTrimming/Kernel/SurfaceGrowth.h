@@ -43,7 +43,8 @@ private:
   bool Try(SurfaceType type, const Guess& from, const std::vector<int>& regions,
     std::vector<GrownRegion>& found) const;
   /// A flat face and the first facets of a rounding beside it lie on a shallow sphere but for the
-  /// noise: surfaces that leave the plane in its middle are dropped. The plane is the first of them.
+  /// noise: surfaces that leave the plane in its middle are dropped. The plane is the first of
+  /// them.
   void DropThroughPlane(std::vector<GrownRegion>& found) const;
   void AddNeighbours(const std::vector<int>& regions, Guess& clusters) const;
   /// Those of two facets.

@@ -4,7 +4,10 @@
 #include "FacetClusters.h"
 #include "SurfaceGrowth.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 
@@ -22,6 +25,8 @@ constexpr int BorderPasses = 6;
 constexpr double LargestTurn = 1.0471975511965976; // 60 degrees
 /// Of a curved surface at least, for each of its parameters.
 constexpr int PointsOfParameter = 5;
+/// A torus has the curvatures of any surface at a point: its normals must turn by that, radians.
+constexpr double SpreadOfTorus = 0.5235987755982988; // 30 degrees from their mean
 /// Between regions of one free form at most, radians.
 constexpr double SmoothAngle = 0.6981317007977318; // 40 degrees
 
@@ -158,17 +163,39 @@ std::vector<int> CountInside(const FacetClusters& facets, const Division& divisi
   return counts;
 }
 
+/// Largest angle between the mean normal of a region and one of its clusters'.
+double NormalSpread(const FacetClusters& facets, const GrownRegion& region)
+{
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const int c : region.Clusters)
+  {
+    const FacetCluster& cluster = facets.Clusters[static_cast<std::size_t>(c)];
+    mean += cluster.Area * cluster.Piece.Normal;
+  }
+  double spread = 0.0;
+  for (const int c : region.Clusters)
+  {
+    const Eigen::Vector3d& normal = facets.Clusters[static_cast<std::size_t>(c)].Piece.Normal;
+    spread = std::max(spread, std::atan2(mean.cross(normal).norm(), mean.dot(normal)));
+  }
+  return spread;
+}
+
 /// Whether a region says little by itself. Near its tolerance a curved surface imitates patches of
 /// any shape, with points inside of them: there it must have many points.
-bool IsWeak(const GrownRegion& region, bool coarse, int numInside)
+bool IsWeak(const FacetClusters& facets, const GrownRegion& region, bool coarse, int numInside)
 {
   const SurfaceType type = region.Surface.Type;
   if (type == SurfaceType::FreeForm || type == SurfaceType::Plane)
   {
     return type == SurfaceType::FreeForm || region.NumPoints <= 4;
   }
-  return coarse && numInside > 0 &&
-    region.NumPoints < PointsOfParameter * NumSurfaceParameters(type);
+  if (!coarse || numInside == 0)
+  {
+    return false;
+  }
+  return region.NumPoints < PointsOfParameter * NumSurfaceParameters(type) ||
+    (type == SurfaceType::Torus && NormalSpread(facets, region) < SpreadOfTorus);
 }
 
 /// Weak regions that pass over into each other become regions of free form.
@@ -178,7 +205,7 @@ void JoinFreeForm(bool coarse, const FacetClusters& facets, Division& division)
   std::vector<char> weak;
   for (std::size_t r = 0; r < division.Regions.size(); ++r)
   {
-    weak.push_back(IsWeak(division.Regions[r], coarse, inside[r]) ? 1 : 0);
+    weak.push_back(IsWeak(facets, division.Regions[r], coarse, inside[r]) ? 1 : 0);
   }
   std::vector<char> done(division.Regions.size(), 0);
   std::vector<GrownRegion> kept;

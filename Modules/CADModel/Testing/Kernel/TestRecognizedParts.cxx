@@ -30,7 +30,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <iostream>
 #include <map>
 #include <random>
 
@@ -279,19 +278,10 @@ void Count(const Part& part, Tally& tally)
     ++tally.AllFaces;
     if (regionsOfFace[f].size() != 1)
     {
-      if (getenv("DBG"))
-      {
-        std::cout << "split " << ToString(type) << ":";
-        for (auto& [r, n] : regionsOfFace[f])
-          std::cout << " " << ToString(result->Regions[std::size_t(r)].Surface.Type) << "(" << n << "/" << result->Regions[std::size_t(r)].Triangles.size() << ")";
-        std::cout << " noise " << result->Noise / result->Tolerance << "\n";
-      }
       continue;
     }
     const auto region = static_cast<std::size_t>(regionsOfFace[f].begin()->first);
     const AnalyticSurface& found = result->Regions[region].Surface;
-    if (getenv("DBG") && !(found.Type == type && facesOfRegion[region].size() == 1))
-      std::cout << "wrong " << ToString(type) << " is " << ToString(found.Type) << " of faces " << facesOfRegion[region].size() << " noise " << result->Noise / result->Tolerance << "\n";
     if (found.Type == type && facesOfRegion[region].size() == 1)
     {
       ++tally.Right[at];
@@ -302,26 +292,28 @@ void Count(const Part& part, Tally& tally)
   }
 }
 
-Tally CountFamily(double noise)
+/// Counts of the types are properties of the test.
+Tally CountFamily(unsigned parts, double noise)
 {
   Tally tally;
-  for (unsigned seed = 1; seed <= 200; ++seed)
+  for (unsigned seed = 1; seed <= parts; ++seed)
   {
     Count(Tessellate(PartMaker(seed).Make(), noise, seed), tally);
   }
   for (int t = 0; t < NumSurfaceTypes; ++t)
   {
     const auto at = static_cast<std::size_t>(t);
-    std::cout << ToString(static_cast<SurfaceType>(t)) << ": " << tally.Right[at] << " of "
-              << tally.Faces[at] << '\n';
+    ::testing::Test::RecordProperty(ToString(static_cast<SurfaceType>(t)),
+      std::to_string(tally.Right[at]) + " of " + std::to_string(tally.Faces[at]));
   }
-  std::cout << "share " << tally.Share() << ", largest error " << tally.LargestError << '\n';
   return tally;
 }
+}
 
+/// Every type at least 50 times; errors of radii and axes in diagonals.
 TEST(RecognizedParts, FacesOfTessellatedPartsComeBack_IndependentOracle)
 {
-  const Tally tally = CountFamily(0.0);
+  const Tally tally = CountFamily(200, 0.0);
   EXPECT_GE(tally.Share(), 0.99);
   EXPECT_LE(tally.LargestError, 1e-5);
   for (int t = 0; t < static_cast<int>(SurfaceType::FreeForm); ++t)
@@ -330,9 +322,9 @@ TEST(RecognizedParts, FacesOfTessellatedPartsComeBack_IndependentOracle)
   }
 }
 
+/// Noise of a quarter of the tolerance.
 TEST(RecognizedParts, FacesOfNoisyParts_IndependentOracle)
 {
-  EXPECT_GE(CountFamily(0.25).Share(), 0.90);
-}
+  EXPECT_GE(CountFamily(60, 0.25).Share(), 0.90);
 }
 }
