@@ -148,7 +148,7 @@ Part Tessellate(const TopoDS_Shape& shape, double noise, unsigned seed)
   Bnd_Box box;
   BRepBndLib::Add(shape, box);
   part.Diagonal = box.CornerMin().Distance(box.CornerMax());
-  BRepMesh_IncrementalMesh(shape, 0.5 * Tolerance * part.Diagonal);
+  const BRepMesh_IncrementalMesh mesher(shape, 0.5 * Tolerance * part.Diagonal);
   std::map<std::array<float, 3>, int> numbers;
   for (TopExp_Explorer it(shape, TopAbs_FACE); it.More(); it.Next())
   {
