@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshTarget.h"
 
-#include <knotwork/SplineCore/DisjointSets.h>
 #include <knotwork/SplineCore/TriangleIndex.h>
 
 #include <Eigen/Geometry>
@@ -256,59 +255,20 @@ private:
   std::vector<TriangleIndex<3>> Parts;       ///< a face
   std::vector<std::vector<int>> TrianglesOf; ///< a face: numbers of its triangles
 };
-
-/// Connected parts by common corners, each with all points.
-std::vector<TriangleMesh> Components(const TriangleMesh& mesh)
-{
-  DisjointSets sets(static_cast<int>(mesh.Points.rows()));
-  for (const MeshTriangle& triangle : mesh.Triangles)
-  {
-    for (const int corner : triangle)
-    {
-      if (corner < 0 || corner >= mesh.Points.rows())
-      {
-        return { mesh }; // refused as a whole
-      }
-    }
-    sets.Unite(triangle[0], triangle[1]);
-    sets.Unite(triangle[0], triangle[2]);
-  }
-  std::map<int, TriangleMesh> components;
-  for (const MeshTriangle& triangle : mesh.Triangles)
-  {
-    components[sets.Find(triangle[0])].Triangles.push_back(triangle);
-  }
-  std::vector<TriangleMesh> all;
-  for (auto& [first, component] : components)
-  {
-    component.Points = mesh.Points;
-    all.push_back(std::move(component));
-  }
-  return all;
-}
 }
 
 Result<FitTargetPtr> MakeMeshTarget(const TriangleMesh& mesh, const MeshFeatureParams& params)
 {
-  if (mesh.Triangles.empty())
+  const std::vector<MeshComponent> components = ConnectedComponents(mesh);
+  if (components.empty())
   {
     return { ErrorCode::EmptyInput, "the target has no triangles" };
   }
-  TriangleMesh joined = mesh;
-  if (mesh.Points.allFinite() && mesh.Points.cols() == 3)
-  {
-    // files of triangles have their corners each for itself
-    joined.Triangles = ReplaceCorners(mesh.Triangles, FirstOfEqualPoints(mesh.Points));
-    joined.Triangles.erase(
-      std::remove_if(joined.Triangles.begin(), joined.Triangles.end(),
-        [](const MeshTriangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }),
-      joined.Triangles.end());
-  }
   std::vector<SurfacePart> parts;
-  for (TriangleMesh& component : Components(joined))
+  for (const MeshComponent& component : components)
   {
     SurfacePart& part = parts.emplace_back();
-    auto surface = CheckSurface(component, true);
+    auto surface = CheckSurface(component.Mesh, true);
     if (!surface)
     {
       return surface.Status;

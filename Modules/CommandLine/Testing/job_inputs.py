@@ -138,7 +138,8 @@ def runs():
             (["warp", surface, FILE, "--output", grid], "surface"),
             (["approximate", FILE, "--values", "Temperature", "--table", "table.csv", "--points", polydata, "--output", grid], "values"),
             (["cadfit", FILE, "--entities", "table.csv", "--output", grid], "quads"),
-            (["intersections", FILE, "--table", "table.csv", "--output", polydata], "surface")):
+            (["intersections", FILE, "--table", "table.csv", "--output", polydata], "surface"),
+            (["recognize", FILE, "--edges", "edges.vtp", "--regions", "table.csv", "--output", polydata], "mesh")):
         yield arguments + report, kind
 
 

@@ -3,10 +3,14 @@
 
 #include "TriangleAdjacency.h"
 
+#include <knotwork/SplineCore/DisjointSets.h>
+#include <knotwork/SplineCore/TriangleIndex.h>
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace knotwork
 {
@@ -421,5 +425,64 @@ Result<DiscMesh> CheckMesh(const TriangleMesh& mesh, bool largestComponent)
     result.Status = CheckDisc(result.Value);
   }
   return result;
+}
+
+std::vector<MeshComponent> ConnectedComponents(const TriangleMesh& mesh)
+{
+  std::vector<MeshComponent> all;
+  const bool areCornersThere = std::all_of(mesh.Triangles.begin(), mesh.Triangles.end(),
+    [&](const MeshTriangle& triangle)
+    {
+      return std::all_of(triangle.begin(), triangle.end(),
+        [&](int corner) { return corner >= 0 && corner < mesh.Points.rows(); });
+    });
+  if (!areCornersThere || mesh.Points.cols() != 3 || !mesh.Points.allFinite())
+  {
+    MeshComponent& whole = all.emplace_back();
+    whole.Mesh = mesh;
+    for (std::size_t t = 0; t < mesh.Triangles.size(); ++t)
+    {
+      whole.TriangleIds.push_back(static_cast<int>(t));
+    }
+    return all;
+  }
+  const std::vector<MeshTriangle> joined =
+    ReplaceCorners(mesh.Triangles, FirstOfEqualPoints(mesh.Points));
+  const auto isDegenerate = [](const MeshTriangle& triangle) {
+    return triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0];
+  };
+  DisjointSets sets(static_cast<int>(joined.size()));
+  std::map<std::array<int, 2>, int> firstOfEdge; // a triangle
+  for (std::size_t t = 0; t < joined.size(); ++t)
+  {
+    for (std::size_t k = 0; k < 3 && !isDegenerate(joined[t]); ++k)
+    {
+      const int a = joined[t][k];
+      const int b = joined[t][(k + 1) % 3];
+      const auto [first, isNew] = firstOfEdge.emplace(
+        std::array<int, 2>{ std::min(a, b), std::max(a, b) }, static_cast<int>(t));
+      if (!isNew)
+      {
+        sets.Unite(static_cast<int>(t), first->second);
+      }
+    }
+  }
+  std::map<int, std::size_t> componentOf; // by the first triangle
+  for (std::size_t t = 0; t < joined.size(); ++t)
+  {
+    if (isDegenerate(joined[t]))
+    {
+      continue;
+    }
+    const auto [found, isNew] = componentOf.emplace(sets.Find(static_cast<int>(t)), all.size());
+    if (isNew)
+    {
+      all.emplace_back().Mesh.Points = mesh.Points;
+    }
+    MeshComponent& own = all[found->second];
+    own.Mesh.Triangles.push_back(joined[t]);
+    own.TriangleIds.push_back(static_cast<int>(t));
+  }
+  return all;
 }
 }

@@ -15,6 +15,20 @@ struct TriangleMesh
   std::vector<std::array<int, 3>> Triangles; ///< rows of Points
 };
 
+/// A part of a mesh, with all points.
+struct MeshComponent
+{
+  TriangleMesh Mesh;
+  std::vector<int> TriangleIds; ///< of the whole
+};
+
+/// Parts that hang together by common edges; points that are equal are one, as in files that have
+/// the corners of every triangle for themselves. Triangles of two equal corners are in none. A mesh
+/// with points that are not finite, or corners that are no points, is one part: CheckSurface says
+/// what is wrong with it.
+/// @complexity O(n log n).
+std::vector<MeshComponent> ConnectedComponents(const TriangleMesh& mesh);
+
 /// A checked mesh: one component of an oriented manifold, and what its algorithms ask for; of
 /// CheckMesh a disc with holes. Points and triangles may be fewer than those of the input.
 struct DiscMesh

@@ -330,4 +330,60 @@ Result<SurfaceRecognition> RecognizeSurfaces(
   Report(growth, facets, best, result);
   return result;
 }
+
+Result<SurfaceRecognition> RecognizeSurfaces(
+  const TriangleMesh& mesh, const RecognitionParams& params)
+{
+  const std::vector<MeshComponent> components = ConnectedComponents(mesh);
+  if (components.empty())
+  {
+    return { ErrorCode::EmptyInput, "the mesh has no triangles" };
+  }
+  SurfaceRecognition all;
+  all.RegionOfTriangle.assign(mesh.Triangles.size(), -1);
+  RecognitionParams own = params;
+  for (std::size_t i = 0; i < components.size(); ++i)
+  {
+    const MeshComponent& component = components[i];
+    const auto surface = CheckSurface(component.Mesh, true);
+    if (!surface)
+    {
+      return surface.Status;
+    }
+    if (params.Tolerance == 0.0)
+    {
+      own.Tolerance =
+        1e-3 * (mesh.Points.colwise().maxCoeff() - mesh.Points.colwise().minCoeff()).norm();
+    }
+    if (params.Progress)
+    {
+      own.Progress = [&](double share)
+      {
+        return params.Progress(
+          (static_cast<double>(i) + share) / static_cast<double>(components.size()));
+      };
+    }
+    auto part = RecognizeSurfaces(surface.Value, own);
+    if (!part)
+    {
+      return part.Status;
+    }
+    for (RecognizedRegion& region : part->Regions)
+    {
+      for (int& triangle : region.Triangles)
+      {
+        triangle = component.TriangleIds[static_cast<std::size_t>(
+          surface->TriangleIds[static_cast<std::size_t>(triangle)])];
+        all.RegionOfTriangle[static_cast<std::size_t>(triangle)] =
+          static_cast<int>(all.Regions.size());
+      }
+      std::sort(region.Triangles.begin(), region.Triangles.end());
+      ++all.NumOfType[static_cast<std::size_t>(region.Surface.Type)];
+      all.Regions.push_back(std::move(region));
+    }
+    all.Tolerance = part->Tolerance;
+    all.Noise = std::max(all.Noise, part->Noise);
+  }
+  return all;
+}
 }

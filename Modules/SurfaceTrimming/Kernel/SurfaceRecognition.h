@@ -29,11 +29,11 @@ struct RecognizedRegion
 
 struct SurfaceRecognition
 {
-  std::vector<RecognizedRegion> Regions; ///< the largest area first
+  std::vector<RecognizedRegion> Regions; ///< part by part, the largest area first
   std::vector<int> RegionOfTriangle;
   std::array<int, NumSurfaceTypes> NumOfType{};
   double Tolerance = 0.0; ///< that was asked for
-  double Noise = 0.0;     ///< distance of points from surfaces with which regions were grown
+  double Noise = 0.0; ///< largest distance of points from surfaces with which regions were grown
 };
 
 /// Divides a mesh into regions of one surface each: plane, cylinder, sphere, cone, torus, the
@@ -49,4 +49,10 @@ struct SurfaceRecognition
 /// @source Schnabel, Wahl, Klein, Computer Graphics Forum 26 (2007) 214 (guess and score).
 Result<SurfaceRecognition> RecognizeSurfaces(
   const DiscMesh& surface, const RecognitionParams& params = {});
+
+/// The same of triangles as they are given, of several parts too: points that are equal are one.
+/// RegionOfTriangle is -1 of triangles of two equal corners.
+/// @return also EmptyInput and the failures of CheckSurface.
+Result<SurfaceRecognition> RecognizeSurfaces(
+  const TriangleMesh& mesh, const RecognitionParams& params = {});
 }

@@ -135,6 +135,26 @@ TEST(FitTarget, SixSplineFaces)
   EXPECT_EQ(MakeModelTarget({}).Status.Code, ErrorCode::EmptyInput);
 }
 
+TEST(FitTarget, PartsThatTouchInAPoint)
+{
+  TriangleMesh boxes = BoxTriangles(2);
+  const TriangleMesh one = boxes;
+  const auto count = one.Points.rows();
+  boxes.Points.conservativeResize(2 * count, Eigen::NoChange);
+  boxes.Points.bottomRows(count) = one.Points.rowwise() + Eigen::RowVector3d::Ones();
+  for (auto corners : one.Triangles)
+  {
+    for (int& corner : corners)
+    {
+      corner += static_cast<int>(count);
+    }
+    boxes.Triangles.push_back(corners);
+  }
+  const auto target = MakeMeshTarget(boxes);
+  ASSERT_TRUE(target) << target.Status.Message();
+  EXPECT_EQ(target.Value->NumFaces(), 12);
+}
+
 TEST(FitTarget, BadTriangles)
 {
   EXPECT_EQ(MakeMeshTarget({}).Status.Code, ErrorCode::EmptyInput);

@@ -135,6 +135,47 @@ TEST(TriangleMesh, PointsOfNoTriangleAndComponentsCanBeDropped_ExactOracle)
   EXPECT_EQ(disc->PointIds.back(), n - 1);
 }
 
+TEST(TriangleMesh, ComponentsHangTogetherByEdges_ExactOracle)
+{
+  // triangles 0, 2 share the edge between (1, 0, 0) and (0, 1, 0), whose points are there twice;
+  // triangle 4 touches triangle 2 in (1, 1, 0) alone; triangles 1, 3 have two equal corners
+  const TriangleMesh mesh = Mesh({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 1, 0, 0 }, { 1, 1, 0 },
+                                   { 0, 1, 0 }, { 2, 1, 0 }, { 2, 2, 0 } },
+    { { 0, 1, 2 }, { 1, 1, 2 }, { 3, 4, 5 }, { 0, 1, 3 }, { 4, 6, 7 } });
+  const auto components = ConnectedComponents(mesh);
+  ASSERT_EQ(components.size(), 2u);
+  EXPECT_EQ(components[0].TriangleIds, (std::vector<int>{ 0, 2 }));
+  EXPECT_EQ(components[1].TriangleIds, (std::vector<int>{ 4 }));
+  for (const MeshComponent& component : components)
+  {
+    EXPECT_EQ(component.Mesh.Points, mesh.Points);
+    ASSERT_EQ(component.Mesh.Triangles.size(), component.TriangleIds.size());
+    const auto surface = CheckSurface(component.Mesh, true);
+    ASSERT_TRUE(surface) << surface.Status.Message();
+    EXPECT_EQ(surface->Components, 1);
+    EXPECT_EQ(surface->Triangles.size(), component.TriangleIds.size());
+  }
+  const std::vector<std::array<int, 3>> joined = { { 0, 1, 2 }, { 1, 4, 2 } };
+  EXPECT_EQ(components[0].Mesh.Triangles, joined);
+  EXPECT_TRUE(ConnectedComponents(Mesh({ { 0, 0, 0 }, { 1, 0, 0 } }, { { 0, 1, 1 } })).empty());
+}
+
+TEST(TriangleMesh, ComponentsOfBadMeshesAreTheWhole_ExactOracle)
+{
+  TriangleMesh mesh = PlateWithHoles(0.2).Mesh;
+  mesh.Points(5, 1) = std::numeric_limits<double>::quiet_NaN();
+  auto components = ConnectedComponents(mesh);
+  ASSERT_EQ(components.size(), 1u);
+  EXPECT_EQ(components[0].Mesh.Triangles, mesh.Triangles);
+  EXPECT_EQ(components[0].TriangleIds.back() + 1, static_cast<int>(mesh.Triangles.size()));
+  EXPECT_EQ(CheckSurface(components[0].Mesh, true).Status.Code, ErrorCode::NonFiniteInput);
+  mesh.Points(5, 1) = 0.0;
+  mesh.Triangles[4][1] = -1;
+  components = ConnectedComponents(mesh);
+  ASSERT_EQ(components.size(), 1u);
+  EXPECT_EQ(CheckSurface(components[0].Mesh, true).Status.Code, ErrorCode::InvalidTopology);
+}
+
 TEST(TriangleMesh, ClosedSurfaceIsRefused_ExactOracle)
 {
   ExpectError(Mesh({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } },

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -134,6 +135,16 @@ TEST(SurfaceRecognition, PolyhedraArePlanes)
   cube.Triangles = { { 0, 2, 1 }, { 0, 3, 2 }, { 4, 5, 6 }, { 4, 6, 7 }, { 0, 1, 5 }, { 0, 5, 4 },
     { 1, 2, 6 }, { 1, 6, 5 }, { 2, 3, 7 }, { 2, 7, 6 }, { 3, 0, 4 }, { 3, 4, 7 } };
   EXPECT_EQ(Recognize(cube).NumOfType, (Counts{ 6, 0, 0, 0, 0, 0 }));
+  TriangleMesh touching = cube; // in a point
+  touching.Points.conservativeResize(16, Eigen::NoChange);
+  touching.Points.bottomRows(8) = cube.Points.rowwise() + Eigen::RowVector3d::Ones();
+  for (const auto& corners : cube.Triangles)
+  {
+    touching.Triangles.push_back({ corners[0] + 8, corners[1] + 8, corners[2] + 8 });
+  }
+  const auto both = RecognizeSurfaces(touching);
+  ASSERT_TRUE(both) << both.Status.Message();
+  EXPECT_EQ(both->NumOfType, (Counts{ 12, 0, 0, 0, 0, 0 }));
   TriangleMesh tetrahedron;
   tetrahedron.Points.resize(4, 3);
   tetrahedron.Points << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
@@ -232,6 +243,68 @@ TEST(SurfaceRecognition, OtherShapesAreOfFreeForm)
   ASSERT_FALSE(result.Regions.empty());
   EXPECT_EQ(result.Regions.front().Surface.Type, SurfaceType::FreeForm);
   EXPECT_GT(result.Regions.front().Triangles.size(), mesh.Triangles.size() / 2);
+}
+
+TEST(SurfaceRecognition, PartsAndTheirTrianglesKeepTheirNumbers)
+{
+  // a cylinder whose triangles have their corners for themselves, a cone, and between them a
+  // triangle of two equal corners
+  const TriangleMesh cylinder = Turned({ 0, 0 }, { { { 1, 0 } }, { { 1, 2 } }, { { 0, 2 } } }, 48);
+  const TriangleMesh cone = Turned({ 0, 0 }, { { { 2, 0 } }, { { 0, 2 } } }, 64);
+  const auto numOfCylinder = static_cast<Eigen::Index>(cylinder.Triangles.size());
+  TriangleMesh mesh;
+  mesh.Points.resize(3 * numOfCylinder + cone.Points.rows(), 3);
+  for (Eigen::Index t = 0; t < numOfCylinder; ++t)
+  {
+    const int first = static_cast<int>(3 * t);
+    for (int k = 0; k < 3; ++k)
+    {
+      const auto& corners = cylinder.Triangles[static_cast<std::size_t>(t)];
+      mesh.Points.row(first + k) = cylinder.Points.row(corners[static_cast<std::size_t>(k)]);
+    }
+    mesh.Triangles.push_back({ first, first + 1, first + 2 });
+  }
+  mesh.Triangles.push_back({ 0, 1, 1 });
+  mesh.Points.bottomRows(cone.Points.rows()) =
+    cone.Points.rowwise() + Eigen::RowVector3d(20.0, 0.0, 0.0);
+  for (const auto& corners : cone.Triangles)
+  {
+    const int first = static_cast<int>(3 * numOfCylinder);
+    mesh.Triangles.push_back({ corners[0] + first, corners[1] + first, corners[2] + first });
+  }
+  const auto result = RecognizeSurfaces(mesh);
+  ASSERT_TRUE(result) << result.Status.Message();
+  EXPECT_EQ(result->NumOfType, (Counts{ 3, 1, 0, 1, 0, 0 }));
+  ASSERT_EQ(result->RegionOfTriangle.size(), mesh.Triangles.size());
+  ASSERT_EQ(result->Regions.size(), 5u);
+  const auto none = static_cast<std::size_t>(numOfCylinder);
+  for (std::size_t t = 0; t < mesh.Triangles.size(); ++t)
+  {
+    const int region = result->RegionOfTriangle[t];
+    if (t == none)
+    {
+      EXPECT_EQ(region, -1);
+      continue;
+    }
+    ASSERT_GE(region, 0);
+    EXPECT_EQ(region < 3, t < none); // part by part
+    const auto& own = result->Regions[static_cast<std::size_t>(region)].Triangles;
+    EXPECT_TRUE(std::binary_search(own.begin(), own.end(), static_cast<int>(t)));
+  }
+  const double diagonal =
+    (mesh.Points.colwise().maxCoeff() - mesh.Points.colwise().minCoeff()).norm();
+  EXPECT_NEAR(result->Tolerance, 1e-3 * diagonal, 1e-12); // of the whole
+}
+
+TEST(SurfaceRecognition, MeshesThatAreNone)
+{
+  EXPECT_EQ(RecognizeSurfaces(TriangleMesh()).Status.Code, ErrorCode::EmptyInput);
+  TriangleMesh mesh = Turned({ 0, 0 }, { { { 1, 0 } }, { { 0, 2 } } }, 12);
+  mesh.Points(3, 1) = std::nan("");
+  EXPECT_EQ(RecognizeSurfaces(mesh).Status.Code, ErrorCode::NonFiniteInput);
+  mesh.Points(3, 1) = 0.0;
+  mesh.Triangles[2][0] = 100000;
+  EXPECT_EQ(RecognizeSurfaces(mesh).Status.Code, ErrorCode::InvalidTopology);
 }
 
 TEST(SurfaceRecognition, ParametersOutOfRange)

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkSurfaceRecognition
+ * @brief   divides a triangle mesh into planes, cylinders, spheres, cones, tori and free form
+ *
+ * The input is a mesh of triangles (quadrilaterals and polygons are divided), closed or open, of
+ * one or several parts; equal points are one, as in STL files. What lies on one surface is one
+ * region, also where its facets meet at an angle: the strips of a tessellated cylinder are one
+ * cylinder. Of surfaces on which the points lie within the noise that is found, Tolerance at most,
+ * the simplest is taken.
+ *
+ * Output 0 (vtkPolyData): the triangles with the cell arrays RegionId and SurfaceType (0 plane, 1
+ * cylinder, 2 sphere, 3 cone, 4 torus, 5 free form).
+ *
+ * Output 1 (vtkPolyData): the edges between regions as lines, with the cell array Regions (two).
+ *
+ * Output 2 (vtkTable): a row a region with Region, Type, Triangles, Area, Point, Axis, Radius (of a
+ * cone beside Point, of a torus of its circle of centres), MinorRadius, Angle (of a cone between
+ * axis and surface, degrees), Reversed (the triangles' normals are opposite to the surface's),
+ * MaxDistance (of points), MaxSag (of the middles of edges and triangles).
+ *
+ * Output 3 (vtkTable): one row with Regions, Planes, Cylinders, Spheres, Cones, Tori, FreeForms,
+ * MaxDistance, MaxSag, Noise, Tolerance.
+ *
+ * @source Guess and score: Schnabel, Wahl, Klein (2007). The module's page has limits and errors.
+ */
+#ifndef vtkSurfaceRecognition_h
+#define vtkSurfaceRecognition_h
+#include "vtkKnotworkSurfaceTrimmingModule.h" // for export macro
+#include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
+
+class VTKKNOTWORKSURFACETRIMMING_EXPORT vtkSurfaceRecognition : public vtkSplineAlgorithm
+{
+public:
+  static vtkSurfaceRecognition* New();
+  vtkTypeMacro(vtkSurfaceRecognition, vtkSplineAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /** Distance of points from the surface of their region at most, unit of the points; 0: a
+   * thousandth of the diagonal of the mesh's box. Default 0, valid range >= 0. */
+  vtkSetClampMacro(Tolerance, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(Tolerance, double);
+  ///@}
+  ///@{
+  /** Distance of edges and triangles from the surface that their corners lie on at most, in
+   * tolerances: more for coarse tessellations. Default 5, valid range [0, 1000]. */
+  vtkSetClampMacro(MaximumSag, double, 0.0, 1000.0);
+  vtkGetMacro(MaximumSag, double);
+  ///@}
+
+protected:
+  vtkSurfaceRecognition();
+  ~vtkSurfaceRecognition() override = default;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkSurfaceRecognition(const vtkSurfaceRecognition&) = delete;
+  void operator=(const vtkSurfaceRecognition&) = delete;
+
+  double Tolerance = 0.0;
+  double MaximumSag = 5.0;
+};
+#endif
