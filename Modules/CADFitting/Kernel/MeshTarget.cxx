@@ -268,7 +268,7 @@ Result<FitTargetPtr> MakeMeshTarget(const TriangleMesh& mesh, const MeshFeatureP
   for (const MeshComponent& component : components)
   {
     SurfacePart& part = parts.emplace_back();
-    auto surface = CheckSurface(component.Mesh, true);
+    auto surface = CheckComponent(mesh, component);
     if (!surface)
     {
       return surface.Status;

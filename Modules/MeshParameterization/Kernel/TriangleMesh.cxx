@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 namespace knotwork
 {
@@ -440,10 +441,10 @@ std::vector<MeshComponent> ConnectedComponents(const TriangleMesh& mesh)
   {
     MeshComponent& whole = all.emplace_back();
     whole.Mesh = mesh;
-    for (std::size_t t = 0; t < mesh.Triangles.size(); ++t)
-    {
-      whole.TriangleIds.push_back(static_cast<int>(t));
-    }
+    whole.PointIds.resize(static_cast<std::size_t>(mesh.Points.rows()));
+    std::iota(whole.PointIds.begin(), whole.PointIds.end(), 0);
+    whole.TriangleIds.resize(mesh.Triangles.size());
+    std::iota(whole.TriangleIds.begin(), whole.TriangleIds.end(), 0);
     return all;
   }
   const std::vector<MeshTriangle> joined =
@@ -470,19 +471,67 @@ std::vector<MeshComponent> ConnectedComponents(const TriangleMesh& mesh)
   std::map<int, std::size_t> componentOf; // by the first triangle
   for (std::size_t t = 0; t < joined.size(); ++t)
   {
-    if (isDegenerate(joined[t]))
+    if (!isDegenerate(joined[t]))
     {
-      continue;
+      const auto [found, isNew] = componentOf.emplace(sets.Find(static_cast<int>(t)), all.size());
+      MeshComponent& own = isNew ? all.emplace_back() : all[found->second];
+      own.TriangleIds.push_back(static_cast<int>(t));
     }
-    const auto [found, isNew] = componentOf.emplace(sets.Find(static_cast<int>(t)), all.size());
-    if (isNew)
+  }
+  std::vector<int> number(static_cast<std::size_t>(mesh.Points.rows()), -1);
+  for (MeshComponent& own : all)
+  {
+    for (const int t : own.TriangleIds)
     {
-      all.emplace_back().Mesh.Points = mesh.Points;
+      MeshTriangle corners = joined[static_cast<std::size_t>(t)];
+      for (int& corner : corners)
+      {
+        int& place = number[static_cast<std::size_t>(corner)];
+        if (place < 0)
+        {
+          place = static_cast<int>(own.PointIds.size());
+          own.PointIds.push_back(corner);
+        }
+        corner = place;
+      }
+      own.Mesh.Triangles.push_back(corners);
     }
-    MeshComponent& own = all[found->second];
-    own.Mesh.Triangles.push_back(joined[t]);
-    own.TriangleIds.push_back(static_cast<int>(t));
+    own.Mesh.Points.resize(static_cast<Eigen::Index>(own.PointIds.size()), 3);
+    for (std::size_t i = 0; i < own.PointIds.size(); ++i)
+    {
+      own.Mesh.Points.row(static_cast<Eigen::Index>(i)) = mesh.Points.row(own.PointIds[i]);
+      number[static_cast<std::size_t>(own.PointIds[i])] = -1; // parts may touch
+    }
   }
   return all;
+}
+
+Result<DiscMesh> CheckComponent(const TriangleMesh& mesh, const MeshComponent& component)
+{
+  auto surface = CheckSurface(component.Mesh, true);
+  if (!surface)
+  {
+    TriangleMesh whole; // once more, for the numbers of points in the message
+    whole.Points = mesh.Points;
+    for (MeshTriangle corners : component.Mesh.Triangles)
+    {
+      for (int& corner : corners)
+      {
+        const bool isThere = corner >= 0 && corner < static_cast<int>(component.PointIds.size());
+        corner = isThere ? component.PointIds[static_cast<std::size_t>(corner)] : corner;
+      }
+      whole.Triangles.push_back(corners);
+    }
+    return CheckSurface(whole, true).Status;
+  }
+  for (int& point : surface->PointIds)
+  {
+    point = component.PointIds[static_cast<std::size_t>(point)];
+  }
+  for (int& triangle : surface->TriangleIds)
+  {
+    triangle = component.TriangleIds[static_cast<std::size_t>(triangle)];
+  }
+  return surface;
 }
 }

@@ -15,16 +15,17 @@ struct TriangleMesh
   std::vector<std::array<int, 3>> Triangles; ///< rows of Points
 };
 
-/// A part of a mesh, with all points.
+/// A part of a mesh.
 struct MeshComponent
 {
   TriangleMesh Mesh;
+  std::vector<int> PointIds;    ///< of the whole
   std::vector<int> TriangleIds; ///< of the whole
 };
 
 /// Parts that hang together by common edges; points that are equal are one, as in files that have
 /// the corners of every triangle for themselves. Triangles of two equal corners are in none. A mesh
-/// with points that are not finite, or corners that are no points, is one part: CheckSurface says
+/// with points that are not finite, or corners that are no points, is one part: CheckComponent says
 /// what is wrong with it.
 /// @complexity O(n log n).
 std::vector<MeshComponent> ConnectedComponents(const TriangleMesh& mesh);
@@ -64,6 +65,10 @@ struct DiscMesh
 /// components. Details name up to five ids of the input.
 /// @complexity O(n log n).
 Result<DiscMesh> CheckSurface(const TriangleMesh& mesh, bool largestComponent = false);
+
+/// The same of a part of a mesh; points and triangles have their numbers in the whole, points also
+/// in messages.
+Result<DiscMesh> CheckComponent(const TriangleMesh& mesh, const MeshComponent& component);
 
 /// Whether a checked surface is a disc with holes.
 /// @return InvalidTopology: a closed surface, handles.

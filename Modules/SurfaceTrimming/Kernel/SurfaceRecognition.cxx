@@ -344,16 +344,16 @@ Result<SurfaceRecognition> RecognizeSurfaces(
   RecognitionParams own = params;
   for (std::size_t i = 0; i < components.size(); ++i)
   {
-    const MeshComponent& component = components[i];
-    const auto surface = CheckSurface(component.Mesh, true);
+    const auto surface = CheckComponent(mesh, components[i]);
     if (!surface)
     {
       return surface.Status;
     }
-    if (params.Tolerance == 0.0)
+    if (i == 0 && params.Tolerance == 0.0)
     {
-      own.Tolerance =
-        1e-3 * (mesh.Points.colwise().maxCoeff() - mesh.Points.colwise().minCoeff()).norm();
+      const Eigen::RowVector3d box =
+        mesh.Points.colwise().maxCoeff() - mesh.Points.colwise().minCoeff();
+      own.Tolerance = 1e-3 * box.norm();
     }
     if (params.Progress)
     {
@@ -372,8 +372,7 @@ Result<SurfaceRecognition> RecognizeSurfaces(
     {
       for (int& triangle : region.Triangles)
       {
-        triangle = component.TriangleIds[static_cast<std::size_t>(
-          surface->TriangleIds[static_cast<std::size_t>(triangle)])];
+        triangle = surface->TriangleIds[static_cast<std::size_t>(triangle)];
         all.RegionOfTriangle[static_cast<std::size_t>(triangle)] =
           static_cast<int>(all.Regions.size());
       }

@@ -52,7 +52,7 @@ Result<SurfaceRecognition> RecognizeSurfaces(
 
 /// The same of triangles as they are given, of several parts too: points that are equal are one.
 /// RegionOfTriangle is -1 of triangles of two equal corners.
-/// @return also EmptyInput and the failures of CheckSurface.
+/// @return also EmptyInput and the failures of CheckComponent.
 Result<SurfaceRecognition> RecognizeSurfaces(
   const TriangleMesh& mesh, const RecognitionParams& params = {});
 }

@@ -146,17 +146,18 @@ TEST(TriangleMesh, ComponentsHangTogetherByEdges_ExactOracle)
   ASSERT_EQ(components.size(), 2u);
   EXPECT_EQ(components[0].TriangleIds, (std::vector<int>{ 0, 2 }));
   EXPECT_EQ(components[1].TriangleIds, (std::vector<int>{ 4 }));
+  EXPECT_EQ(components[0].PointIds, (std::vector<int>{ 0, 1, 2, 4 }));
+  EXPECT_EQ(components[1].PointIds, (std::vector<int>{ 4, 6, 7 }));
+  const std::vector<std::array<int, 3>> joined = { { 0, 1, 2 }, { 1, 3, 2 } };
+  EXPECT_EQ(components[0].Mesh.Triangles, joined);
+  EXPECT_EQ(components[0].Mesh.Points.row(3), mesh.Points.row(4));
   for (const MeshComponent& component : components)
   {
-    EXPECT_EQ(component.Mesh.Points, mesh.Points);
-    ASSERT_EQ(component.Mesh.Triangles.size(), component.TriangleIds.size());
-    const auto surface = CheckSurface(component.Mesh, true);
+    const auto surface = CheckComponent(mesh, component);
     ASSERT_TRUE(surface) << surface.Status.Message();
-    EXPECT_EQ(surface->Components, 1);
-    EXPECT_EQ(surface->Triangles.size(), component.TriangleIds.size());
+    EXPECT_EQ(surface->PointIds, component.PointIds);
+    EXPECT_EQ(surface->TriangleIds, component.TriangleIds);
   }
-  const std::vector<std::array<int, 3>> joined = { { 0, 1, 2 }, { 1, 4, 2 } };
-  EXPECT_EQ(components[0].Mesh.Triangles, joined);
   EXPECT_TRUE(ConnectedComponents(Mesh({ { 0, 0, 0 }, { 1, 0, 0 } }, { { 0, 1, 1 } })).empty());
 }
 
@@ -168,12 +169,26 @@ TEST(TriangleMesh, ComponentsOfBadMeshesAreTheWhole_ExactOracle)
   ASSERT_EQ(components.size(), 1u);
   EXPECT_EQ(components[0].Mesh.Triangles, mesh.Triangles);
   EXPECT_EQ(components[0].TriangleIds.back() + 1, static_cast<int>(mesh.Triangles.size()));
-  EXPECT_EQ(CheckSurface(components[0].Mesh, true).Status.Code, ErrorCode::NonFiniteInput);
+  EXPECT_EQ(CheckComponent(mesh, components[0]).Status.Code, ErrorCode::NonFiniteInput);
   mesh.Points(5, 1) = 0.0;
   mesh.Triangles[4][1] = -1;
   components = ConnectedComponents(mesh);
   ASSERT_EQ(components.size(), 1u);
-  EXPECT_EQ(CheckSurface(components[0].Mesh, true).Status.Code, ErrorCode::InvalidTopology);
+  EXPECT_EQ(CheckComponent(mesh, components[0]).Status.Code, ErrorCode::InvalidTopology);
+}
+
+TEST(TriangleMesh, MessagesOfComponentsHaveTheNumbersOfTheWhole_ExactOracle)
+{
+  // a triangle, and three at the edge of points 3, 4
+  const TriangleMesh mesh = Mesh({ { 9, 9, 9 }, { 8, 9, 9 }, { 9, 8, 9 }, { 0, 0, 0 }, { 1, 0, 0 },
+                                   { 0, 1, 0 }, { 0, -1, 0 }, { 0, 0, 1 } },
+    { { 0, 1, 2 }, { 3, 4, 5 }, { 4, 3, 6 }, { 3, 4, 7 } });
+  const auto components = ConnectedComponents(mesh);
+  ASSERT_EQ(components.size(), 2u);
+  EXPECT_TRUE(CheckComponent(mesh, components[0]));
+  const auto bad = CheckComponent(mesh, components[1]);
+  EXPECT_EQ(bad.Status.Code, ErrorCode::InvalidTopology);
+  EXPECT_NE(bad.Status.Detail.find("(points 3-4)"), std::string::npos) << bad.Status.Message();
 }
 
 TEST(TriangleMesh, ClosedSurfaceIsRefused_ExactOracle)
