@@ -4,6 +4,7 @@
 
 #include <knotwork/CADModel/CADExchange.h>
 #include <knotwork/MeshParameterization/vtkMeshParameterization.h>
+#include <knotwork/SurfaceTrimming/vtkAnalyticModel.h>
 #include <knotwork/SurfaceTrimming/vtkTrimmedSurface.h>
 
 #include <vtkDataArray.h>
@@ -34,6 +35,9 @@ enum Port
   Numbers
 };
 
+/// Of vtkAnalyticModel.
+constexpr int NumbersOfModel = 3;
+
 struct TrimJob
 {
   std::string Input;
@@ -44,6 +48,8 @@ struct TrimJob
   std::string CurveFile;
   std::string DeviationFile;
   std::string TableFile;
+  bool Features = true;
+  vtkNew<vtkAnalyticModel> Model;
   vtkNew<vtkMeshParameterization> Flatten;
   vtkNew<vtkTrimmedSurface> Trim;
   std::unique_ptr<Options> FilterOptions;
@@ -61,6 +67,16 @@ struct TrimJob
     this->FilterOptions->Apply(session.Report);
     const std::string what = "'" + this->Input + "'";
     vtkDataObject* mesh = input.Value;
+    session.Report["analytic"] = false;
+    if (this->Features && !HasPlane(mesh) && this->FlatFile.empty() && this->DeviationFile.empty())
+    {
+      bool done = false;
+      Status status = this->RunModel(mesh, what, session, done);
+      if (!status || done)
+      {
+        return status;
+      }
+    }
     session.Report["flatten_method"] = "given";
     session.Report["fallback"] = false;
     session.Report["flipped_triangles"] = 0;
@@ -92,7 +108,7 @@ struct TrimJob
     }
     session.Warn(warnings);
     this->AddNumbers(mesh, session.Report);
-    Status status = asCAD ? this->WriteFaces(session)
+    Status status = asCAD ? this->WriteFaces(this->Trim, session)
                           : session.Write(this->Trim->GetOutputDataObject(Surfaces), this->Output);
     return status ? session.WriteOutputs(this->Trim,
                       { this->TriangleFile, this->SurfaceFile, this->CurveFile, this->DeviationFile,
@@ -100,12 +116,49 @@ struct TrimJob
                   : status;
   }
 
+  /// Planes, cylinders, ... when the mesh is made of such.
+  /// @param done  result: false when it is not, and spline faces are to be made.
+  Status RunModel(vtkDataObject* mesh, const std::string& what, Session& session, bool& done)
+  {
+    this->Model->SetInputDataObject(mesh);
+    this->Model->SetThreads(session.Threads);
+    this->Model->SetTolerance(this->Trim->GetTolerance());
+    this->Model->SetCornerAngle(this->Trim->GetCornerAngle());
+    this->Model->SetChordalTolerance(this->Trim->GetChordalTolerance());
+    std::vector<std::string> warnings;
+    const Status made = session.Run(this->Model, what, Surfaces, &warnings);
+    vtkTable* table = vtkTable::SafeDownCast(this->Model->GetOutputDataObject(NumbersOfModel));
+    done = made && warnings.empty();
+    if (!done)
+    {
+      // meshes that are no surface at all are refused there too, with more to say
+      session.Report["why_not_analytic"] = made ? warnings.front() : made.Detail;
+      return made.Code == ErrorCode::Aborted ? made : Status();
+    }
+    session.Report["analytic"] = true;
+    session.Report["points"] = mesh->GetNumberOfElements(vtkDataObject::POINT);
+    session.Report["triangles"] = mesh->GetNumberOfElements(vtkDataObject::CELL);
+    ReportTruths(table, 0, { "WithinTolerance", "LoopsProved" }, session.Report);
+    ReportRow(table, 0,
+      { "Tolerance", "MaxDeviation", "MaxSag", "MaxEdgeDistance", "MaxEdgeGap", "MinNormalBound",
+        "Area", "MeshArea", "Faces", "Planes", "Cylinders", "Spheres", "Cones", "Tori", "Loops",
+        "Edges", "Lines", "Circles", "Vertices", "ControlPoints", "Verdict", "LoopVerdict" },
+      session.Report);
+    Status status = HasCADEnding(this->Output)
+      ? this->WriteFaces(this->Model, session)
+      : session.Write(this->Model->GetOutputDataObject(Surfaces), this->Output);
+    return status ? session.WriteOutputs(this->Model,
+                      { this->TriangleFile, this->SurfaceFile, this->CurveFile, this->TableFile })
+                  : status;
+  }
+
   /// Writes the file, reads it again and reports what was found in it.
-  Status WriteFaces(Session& session)
+  /// @param filter  of the surfaces and curves.
+  Status WriteFaces(vtkAlgorithm* filter, Session& session)
   {
     CADSummary found;
-    Status status = session.WriteFaces(this->Trim->GetOutputDataObject(Surfaces),
-      this->Trim->GetOutputDataObject(Curves), this->Output, found);
+    Status status = session.WriteFaces(filter->GetOutputDataObject(Surfaces),
+      filter->GetOutputDataObject(Curves), this->Output, found);
     if (!status)
     {
       return status;
@@ -183,6 +236,10 @@ Job Make(CLI::App& app)
   AddOutput(app, "--table", job->TableFile, Endings::Table, "the numbers");
   job->FilterOptions = std::make_unique<Options>(app);
   Options& options = *job->FilterOptions;
+  options.Add<bool>(
+    "Features", true, [job = job.get()](const bool& on) { job->Features = on; },
+    "whether a mesh made of planes, cylinders, spheres, cones and tori becomes faces of these "
+    "instead of splines (not with --flat or --deviation)");
   options.LeaveOut({ "Triangulation" });
   AddProperties(options, job->Trim);
   job->Flatten->SetMaximumStretch(ChartStretch);

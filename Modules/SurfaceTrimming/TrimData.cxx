@@ -319,10 +319,10 @@ void EncodeDeviation(
   output->GetCellData()->AddArray(bound);
 }
 
-Verdict WorstVerdict(const TrimmedSurface& trimmed)
+Verdict WorstVerdict(const std::vector<FaceCertificate>& certificates)
 {
   Verdict worst = Verdict::Valid;
-  for (const FaceCertificate& certificate : trimmed.Certificates)
+  for (const FaceCertificate& certificate : certificates)
   {
     const bool worse = certificate.Verdict == Verdict::Invalid ||
       (certificate.Verdict == Verdict::Undecided && worst == Verdict::Valid);
@@ -331,11 +331,24 @@ Verdict WorstVerdict(const TrimmedSurface& trimmed)
   return worst;
 }
 
-LoopVerdict WorstLoops(const TrimmedSurface& trimmed)
+LoopVerdict WorstLoops(const std::vector<LoopVerdict>& verdicts)
 {
-  const auto& verdicts = trimmed.Loops.Verdicts;
   return verdicts.empty() ? LoopVerdict::Undecided
                           : *std::min_element(verdicts.begin(), verdicts.end());
+}
+
+std::vector<std::string> ShortcomingsOfFaces(Verdict regular, LoopVerdict loops)
+{
+  std::vector<std::string> texts;
+  if (regular != Verdict::Valid)
+  {
+    texts.push_back(std::string("regularity of the faces: ") + ToString(regular));
+  }
+  if (loops != LoopVerdict::SimpleNested)
+  {
+    texts.push_back(std::string("trimming loops: ") + ToString(loops));
+  }
+  return texts;
 }
 
 void EncodeNumbers(const TrimmedSurface& trimmed, vtkTable* output)
@@ -374,9 +387,10 @@ void EncodeNumbers(const TrimmedSurface& trimmed, vtkTable* output)
   AddColumn(output, "Loops", trimmed.Loops.NumBoundaryLoops);
   AddColumn(output, "Edges", trimmed.Model.NumEdges);
   AddColumn(output, "Vertices", trimmed.Model.NumVertices);
-  AddColumn(output, "LoopVerdict", std::string(ToString(WorstLoops(trimmed))));
-  AddColumn(output, "LoopsProved", WorstLoops(trimmed) == LoopVerdict::SimpleNested ? 1 : 0);
-  AddColumn(output, "Verdict", std::string(ToString(WorstVerdict(trimmed))));
+  AddColumn(output, "LoopVerdict", std::string(ToString(WorstLoops(trimmed.Loops.Verdicts))));
+  AddColumn(
+    output, "LoopsProved", WorstLoops(trimmed.Loops.Verdicts) == LoopVerdict::SimpleNested ? 1 : 0);
+  AddColumn(output, "Verdict", std::string(ToString(WorstVerdict(trimmed.Certificates))));
   AddColumn(output, "MinNormalBound", trimmed.MinNormal);
   AddColumn(output, "Area", area);
   AddColumn(output, "MeshArea", meshArea);

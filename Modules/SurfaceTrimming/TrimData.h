@@ -45,7 +45,9 @@ void EncodeDeviation(
 void EncodeNumbers(const TrimmedSurface& trimmed, vtkTable* output);
 
 /// Of the faces: invalid when one is, else undecided when one is.
-Verdict WorstVerdict(const TrimmedSurface& trimmed);
-/// Likewise of the loops.
-LoopVerdict WorstLoops(const TrimmedSurface& trimmed);
+Verdict WorstVerdict(const std::vector<FaceCertificate>& certificates);
+/// Likewise of the loops; undecided when there are none.
+LoopVerdict WorstLoops(const std::vector<LoopVerdict>& verdicts);
+/// Sentences about verdicts that are not the best.
+std::vector<std::string> ShortcomingsOfFaces(Verdict regular, LoopVerdict loops);
 }

@@ -389,9 +389,10 @@ Status ModelReader::ReadFace(const SplinePatch& patch)
   int model = 0;
   int id = 0;
   int reversed = 0;
+  int type = static_cast<int>(SurfaceType::FreeForm);
   const std::tuple<const char*, int, int*> numbers[] = { { "ModelId", 0, &model },
     { "FaceId", patch.Id, &id }, { "FaceReversed", 0, &reversed }, { "Body", 0, &face.Body },
-    { "TrimmingCurves", -1, &uses.Expected } };
+    { "TrimmingCurves", -1, &uses.Expected }, { "SurfaceType", type, &type } };
   for (const auto& [arrayName, otherwise, number] : numbers)
   {
     if (Status status = this->Surfaces.ReadNumber(patch, arrayName, otherwise, *number); !status)
@@ -400,6 +401,13 @@ Status ModelReader::ReadFace(const SplinePatch& patch)
     }
   }
   face.Reversed = reversed != 0;
+  if (type < 0 || type >= NumSurfaceTypes)
+  {
+    return { ErrorCode::InvalidTopology,
+      this->Surfaces.Place(patch) + ": cell array 'SurfaceType' is " + std::to_string(type) +
+        ", not a type from 0 to " + std::to_string(NumSurfaceTypes - 1) };
+  }
+  face.Type = static_cast<SurfaceType>(type);
   this->ReadLook(patch, face);
   uses.Index = static_cast<int>(this->Model.Faces.size());
   Key key{ patch.Block, model, id, 0 };
@@ -728,6 +736,10 @@ Status EncodeTrimmedModel(
   std::map<std::string, std::vector<int>> ofFace;
   std::map<std::string, std::vector<int>> ofUse;
   const int modelNumber = ModelNumber(model);
+  const auto any = [&](auto has)
+  { return std::any_of(model.Faces.begin(), model.Faces.end(), has); };
+  const bool isAnyAnalytic =
+    any([](const TrimmedFace& face) { return face.Type != SurfaceType::FreeForm; });
   for (const TrimmedFace& face : model.Faces)
   {
     const auto f = static_cast<int>(faces.Patches.size());
@@ -760,6 +772,10 @@ Status EncodeTrimmedModel(
     ofFace["FaceReversed"].push_back(face.Reversed ? 1 : 0);
     ofFace["Body"].push_back(face.Body);
     ofFace["TrimmingCurves"].push_back(static_cast<int>(uses.Patches.size() - before));
+    if (isAnyAnalytic)
+    {
+      ofFace["SurfaceType"].push_back(static_cast<int>(face.Type));
+    }
   }
   faces.Topology = SharedEdges(model);
   Status status = EncodeSplineGrid(faces, surfaces);
@@ -776,8 +792,6 @@ Status EncodeTrimmedModel(
   {
     AddNumbers(curves, arrayName.c_str(), numbers);
   }
-  const auto any = [&](auto has)
-  { return std::any_of(model.Faces.begin(), model.Faces.end(), has); };
   if (any([](const TrimmedFace& face) { return face.HasColor; }))
   {
     AddColors(surfaces, model.Faces);

@@ -14,7 +14,8 @@ namespace knotwork
 {
 /// Surfaces: a patch a face, `PatchId` = `FaceId` its number; cell arrays `FaceReversed`, `Body`,
 /// `TrimmingCurves` (their number), `ModelId`, and where a face has one `Color` (red, green, blue
-/// as bytes, the fourth is 0 for faces without one) and `Name`.
+/// as bytes, the fourth is 0 for faces without one) and `Name`; where one is analytic `SurfaceType`
+/// (the numbers of SurfaceType).
 /// Curves: a patch a use of an edge, its geometry the edge's curve in space, its image in the
 /// parameter plane the point array `UV` (coefficients in the same space); cell arrays `FaceId`,
 /// `LoopId` (0 is the outer one), `CurveId` (place in the loop), `EdgeId`, `BeginVertex`,

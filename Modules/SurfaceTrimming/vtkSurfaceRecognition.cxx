@@ -20,8 +20,6 @@
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <map>
 
@@ -108,11 +106,7 @@ double AreaOf(const TriangleMesh& mesh, const std::vector<int>& triangles)
   double area = 0.0;
   for (const int t : triangles)
   {
-    const auto& corners = mesh.Triangles[static_cast<std::size_t>(t)];
-    const Eigen::RowVector3d a = mesh.Points.row(corners[0]);
-    const Eigen::RowVector3d first = mesh.Points.row(corners[1]) - a;
-    const Eigen::RowVector3d second = mesh.Points.row(corners[2]) - a;
-    area += 0.5 * first.cross(second).norm();
+    area += TriangleArea(mesh.Points, mesh.Triangles[static_cast<std::size_t>(t)]);
   }
   return area;
 }

@@ -56,16 +56,9 @@ std::vector<std::string> Shortcomings(const knotwork::TrimmedSurface& trimmed)
     texts.push_back("the deviation is up to " + knotwork::Digits(trimmed.MaxDeviation) +
       ", above the tolerance " + knotwork::Digits(trimmed.Tolerance) + WhyStopped(trimmed));
   }
-  const knotwork::Verdict verdict = knotwork::WorstVerdict(trimmed);
-  if (verdict != knotwork::Verdict::Valid)
-  {
-    texts.push_back(std::string("regularity of the faces: ") + ToString(verdict));
-  }
-  const knotwork::LoopVerdict loops = knotwork::WorstLoops(trimmed);
-  if (loops != knotwork::LoopVerdict::SimpleNested)
-  {
-    texts.push_back(std::string("trimming loops: ") + ToString(loops));
-  }
+  const std::vector<std::string> ofFaces = knotwork::ShortcomingsOfFaces(
+    knotwork::WorstVerdict(trimmed.Certificates), knotwork::WorstLoops(trimmed.Loops.Verdicts));
+  texts.insert(texts.end(), ofFaces.begin(), ofFaces.end());
   return texts;
 }
 }

@@ -7,6 +7,7 @@
 #include "EdgeSamples.h"
 #include <knotwork/SplineCore/Numbers.h>
 
+#include <BRepAdaptor_Surface.hxx>
 #include <BRepTools_WireExplorer.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom2d_BSplineCurve.hxx>
@@ -73,6 +74,25 @@ Handle(Geom2d_Curve) CutOpen(const Handle(Geom2d_Curve) & curve, double first, d
   const auto open = Handle(Geom2d_BSplineCurve)::DownCast(spline->Copy());
   open->SetNotPeriodic();
   return open->FirstParameter() <= first && open->LastParameter() >= last ? open : curve;
+}
+
+SurfaceType TypeOf(const TopoDS_Face& face)
+{
+  switch (BRepAdaptor_Surface(face, false).GetType())
+  {
+    case GeomAbs_Plane:
+      return SurfaceType::Plane;
+    case GeomAbs_Cylinder:
+      return SurfaceType::Cylinder;
+    case GeomAbs_Sphere:
+      return SurfaceType::Sphere;
+    case GeomAbs_Cone:
+      return SurfaceType::Cone;
+    case GeomAbs_Torus:
+      return SurfaceType::Torus;
+    default:
+      return SurfaceType::FreeForm;
+  }
 }
 
 class BodyReader
@@ -213,6 +233,7 @@ Status BodyReader::MakeFace(const CADFace& source, const FaceInWork& work)
   }
   face.Surface = std::move(surface.Value);
   face.Reversed = source.Face.Orientation() == TopAbs_REVERSED;
+  face.Type = TypeOf(source.Face);
   face.Body = this->Body;
   face.Name = source.Name;
   face.HasColor = source.HasColor;

@@ -2,12 +2,10 @@
 #include "CADEdge.h"
 
 #include "CADGeometry.h"
-#include <knotwork/SplineCore/BasisEvaluation.h>
-#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/CurveInterpolation.h>
 #include <knotwork/SplineCore/TensorSpace.h>
 
 #include <BRep_Tool.hxx>
-#include <Eigen/SparseLU>
 #include <Geom2d_BSplineCurve.hxx>
 #include <GeomConvert.hxx>
 #include <Geom_Circle.hxx>
@@ -318,37 +316,6 @@ Result<Spline<1>> InsertKnotsOfPcurves(const Spline<1>& curve, const std::vector
   return result;
 }
 
-using Solver = Eigen::SparseLU<Eigen::SparseMatrix<double>>;
-
-/// Interpolation at the Greville points of a space.
-struct Collocation
-{
-  Collocation() = default;
-  Status Prepare(const SplineSpace<1>& space)
-  {
-    this->Points = GrevillePoints<1>(space);
-    auto matrix = CollocationMatrix<1>(space, this->Points, 1);
-    if (!matrix)
-    {
-      return matrix.Status;
-    }
-    this->Matrix = matrix.Value;
-    this->Inverse.compute(this->Matrix);
-    return this->Inverse.info() == Eigen::Success
-      ? Status()
-      : Status(ErrorCode::SingularSystem, "interpolation of an edge");
-  }
-  PointMatrix Solve(const PointMatrix& values) const
-  {
-    const Eigen::MatrixXd right = values;
-    const Eigen::MatrixXd points = this->Inverse.solve(right);
-    return points;
-  }
-  PointMatrix Points;
-  Eigen::SparseMatrix<double> Matrix;
-  Solver Inverse;
-};
-
 PointMatrix ParametersAtAll(const std::function<gp_XY(double)>& function, const PointMatrix& at)
 {
   PointMatrix values(at.rows(), 2);
@@ -360,52 +327,31 @@ PointMatrix ParametersAtAll(const std::function<gp_XY(double)>& function, const 
   return values;
 }
 
-PointMatrix SamplesOf(const KnotVector& knots)
-{
-  PointMatrix at(knots.NumElements() * SamplesOfSpan, 1);
-  for (Eigen::Index i = 0; i < at.rows(); ++i)
-  {
-    const auto e = static_cast<std::size_t>(i / SamplesOfSpan);
-    const double s = (static_cast<double>(i % SamplesOfSpan) + 0.5) / SamplesOfSpan;
-    at(i, 0) = (1.0 - s) * knots.Breaks()[e] + s * knots.Breaks()[e + 1];
-  }
-  return at;
-}
-
-PointMatrix ValuesOf(const Spline<1>& curve, const PointMatrix& at)
-{
-  EvaluationParams params;
-  params.Threads = 1;
-  EvaluationBatch batch;
-  EvaluateParameters<1>(MakeBezierForm<1>(curve, 1), at, params, batch);
-  return batch.Values;
-}
-
 /// The pcurves in the space, and with the weights, of a curve; false when one is not in it.
 bool ExactPcurves(const Spline<1>& curve, const EdgeFunctions& edge, std::vector<CADPcurve>& uses)
 {
-  Collocation collocation;
+  CurveInterpolation collocation;
   if (!collocation.Prepare(*curve.Space))
   {
     return false;
   }
   const bool rational = curve.IsRational();
-  Eigen::VectorXd weights = Eigen::VectorXd::Ones(collocation.Points.rows());
+  Eigen::VectorXd weights = Eigen::VectorXd::Ones(collocation.Points().rows());
   if (rational)
   {
-    weights = collocation.Matrix * curve.Weights;
+    weights = collocation.Matrix() * curve.Weights;
   }
-  const PointMatrix samples = SamplesOf(curve.Space->Knots[0]);
+  const PointMatrix samples = ParametersInSpans(curve.Space->Knots[0], SamplesOfSpan);
   for (std::size_t i = 0; i < uses.size(); ++i)
   {
-    PointMatrix values = ParametersAtAll(edge.Parameters[i], collocation.Points);
+    PointMatrix values = ParametersAtAll(edge.Parameters[i], collocation.Points());
     PointMatrix solved = collocation.Solve(weights.asDiagonal() * values);
     if (rational)
     {
       solved = curve.Weights.cwiseInverse().asDiagonal() * solved;
     }
     uses[i].UV = solved;
-    const PointMatrix found = ValuesOf({ curve.Space, solved, curve.Weights }, samples);
+    const PointMatrix found = CurvePoints({ curve.Space, solved, curve.Weights }, samples);
     const PointMatrix wanted = ParametersAtAll(edge.Parameters[i], samples);
     double bounds[4];
     uses[i].Surface->Surface()->Bounds(bounds[0], bounds[1], bounds[2], bounds[3]);
@@ -478,8 +424,8 @@ bool FindExact(const EdgeFunctions& edge, std::vector<CADPcurve>& uses, Spline<1
 double DeviationOf(
   const Spline<1>& curve, const EdgeFunctions& edge, const std::vector<CADPcurve>& uses)
 {
-  const PointMatrix samples = SamplesOf(curve.Space->Knots[0]);
-  const PointMatrix points = ValuesOf(curve, samples);
+  const PointMatrix samples = ParametersInSpans(curve.Space->Knots[0], SamplesOfSpan);
+  const PointMatrix points = CurvePoints(curve, samples);
   double worst = 0.0;
   for (Eigen::Index i = 0; i < samples.rows(); ++i)
   {
@@ -489,7 +435,7 @@ double DeviationOf(
   for (std::size_t u = 0; u < uses.size(); ++u)
   {
     const Handle(Geom_BSplineSurface)& surface = uses[u].Surface->Surface();
-    const PointMatrix found = ValuesOf({ curve.Space, uses[u].UV, {} }, samples);
+    const PointMatrix found = CurvePoints({ curve.Space, uses[u].UV, {} }, samples);
     for (Eigen::Index i = 0; i < samples.rows(); ++i)
     {
       const gp_XY wanted = edge.Parameters[u](samples(i, 0));
@@ -554,21 +500,21 @@ Status Fit(EdgeFunctions& edge, std::vector<CADPcurve>& uses, double tolerance, 
     }
     Spline<1> curve;
     curve.Space = MakeTensorSpace<1>({ vector.Value }).Value;
-    Collocation collocation;
+    CurveInterpolation collocation;
     if (Status status = collocation.Prepare(*curve.Space); !status)
     {
       return status;
     }
-    PointMatrix points(collocation.Points.rows(), 3);
+    PointMatrix points(collocation.Points().rows(), 3);
     for (Eigen::Index i = 0; i < points.rows(); ++i)
     {
-      const gp_Pnt point = edge.Point(collocation.Points(i, 0));
+      const gp_Pnt point = edge.Point(collocation.Points()(i, 0));
       points.row(i) << point.X(), point.Y(), point.Z();
     }
     curve.ControlPoints = collocation.Solve(points);
     for (std::size_t u = 0; u < trial.size(); ++u)
     {
-      trial[u].UV = collocation.Solve(ParametersAtAll(edge.Parameters[u], collocation.Points));
+      trial[u].UV = collocation.Solve(ParametersAtAll(edge.Parameters[u], collocation.Points()));
       KeepWithinDomain(trial[u]);
     }
     const double deviation = DeviationOf(curve, edge, trial);

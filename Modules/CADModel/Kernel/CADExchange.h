@@ -51,8 +51,14 @@ bool HasCADEnding(const std::string& file);
 /// pcurve (16 samples a knot span) times 1.02, at least 1e-7. A file that exists is replaced only
 /// when everything could be written.
 ///
-/// OpenCASCADE reads a spline surface with seam and poles rightly or not by where its loops begin
-/// in a STEP file: such files are read again and compared (CompareCAD) before they are there.
+/// Faces of a Type other than free form are written as that plane, cylinder, sphere, cone or torus,
+/// with lines and circles as edges where all faces along them are such, if the spline is that
+/// surface within a billionth of its size; tori on both sides of where their turning angle begins,
+/// and surfaces that are wound around more than once, stay splines.
+///
+/// OpenCASCADE reads a surface with seam and poles rightly or not by where its loops begin in a
+/// STEP file: files with those or with curved types are read again and compared (CompareCAD) before
+/// they are there; where they differ, spheres, cones and tori stay splines.
 /// @return failures of TrimmedModel::Check; InvalidParameter: ending, SewTolerance;
 /// InvalidKnots: a curve or surface that jumps; OutsideDomain: a pcurve that leaves its surface;
 /// InvalidTopology: uses of an edge that do not fit each other; InvalidFormat: OpenCASCADE refuses

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CADShapes.h"
 
+#include "AnalyticFace.h"
 #include "CADGeometry.h"
 #include "CADShells.h"
 #include "EdgeSamples.h"
@@ -24,6 +25,7 @@ namespace knotwork
 namespace
 {
 constexpr double ToleranceFactor = 1.02; ///< for what lies between the samples
+constexpr double SameCurve = 1e-7;       ///< of an edge's size: it is a line or circle
 
 std::string PlaceOfFace(std::size_t face)
 {
@@ -108,12 +110,14 @@ double SizeOfModel(const TrimmedModel& model)
 struct EdgeState
 {
   TopoDS_Edge Edge;
-  Spline<1> Curve; ///< of the first use: the edge's
+  Spline<1> Curve;     ///< of the first use: the edge's
+  AnalyticCurve Shape; ///< the same for OpenCASCADE
   std::array<int, 2> Vertices{};
   bool Degenerate = false;
+  bool IsAnalytic = true; ///< all its faces are
   double Gap = 0.0;
   int Face = -1; ///< that is being made, and the pcurves of its uses: forward, reversed
-  Handle(Geom2d_BSplineCurve) Parameters[2];
+  Handle(Geom2d_Curve) Parameters[2];
 };
 
 struct VertexState
@@ -156,6 +160,10 @@ public:
       Edges(static_cast<std::size_t>(boundary.NumEdges)),
       Vertices(static_cast<std::size_t>(boundary.NumVertices))
   {
+    for (const TrimmedFace& face : model.Faces)
+    {
+      this->Analytic.push_back(AnalyticFace::Find(face));
+    }
   }
   Result<CADShapes> Make();
 
@@ -164,13 +172,16 @@ private:
   Status MeasureUse(const BoundaryCurve& use, const EdgeState& edge, const BezierForm<2>& surface,
     const std::string& place, double& gap);
   Status CollectUses();
+  void ShapeEdges();
   void MakeVertices();
   void MakeEdges();
+  void AddParameterCurves(const TopoDS_Face& face, const EdgeState& edge);
   Result<TopoDS_Face> MakeFace(std::size_t f);
 
   const TrimmedModel& Model;
   const SewnBoundary& Boundary;
   LoopBegin Begin;
+  std::vector<std::optional<AnalyticFace>> Analytic; ///< faces that are
   BRep_Builder Builder;
   std::vector<EdgeState> Edges;
   std::vector<VertexState> Vertices;
@@ -236,10 +247,54 @@ Status ShapeMaker::CollectUses()
         {
           return status;
         }
+        EdgeState& edge = this->Edges[static_cast<std::size_t>(use.Edge)];
+        edge.IsAnalytic = edge.IsAnalytic && this->Analytic[f].has_value();
       }
     }
   }
   return {};
+}
+
+/// Edges of analytic faces alone are lines and circles where they can be.
+void ShapeMaker::ShapeEdges()
+{
+  for (EdgeState& edge : this->Edges)
+  {
+    if (!edge.Curve.Space)
+    {
+      continue;
+    }
+    const KnotVector& knots = edge.Curve.Space->Knots[0];
+    if (edge.Degenerate)
+    {
+      edge.Shape = { {}, knots.Begin(), knots.End() };
+      continue;
+    }
+    const double size = (edge.Curve.ControlPoints.colwise().maxCoeff() -
+      edge.Curve.ControlPoints.colwise().minCoeff())
+                          .norm();
+    std::optional<AnalyticCurve> found;
+    if (edge.IsAnalytic)
+    {
+      found = FindAnalyticCurve(edge.Curve, SameCurve * size);
+    }
+    edge.Shape =
+      found ? *found : AnalyticCurve{ ToOpenCASCADE(edge.Curve), knots.Begin(), knots.End() };
+  }
+  for (std::size_t f = 0; f < this->Boundary.Faces.size(); ++f)
+  {
+    for (const BoundaryLoop& loop : this->Boundary.Faces[f])
+    {
+      for (const BoundaryCurve& use : loop)
+      {
+        EdgeState& edge = this->Edges[static_cast<std::size_t>(use.Edge)];
+        if (this->Analytic[f] && !edge.Degenerate)
+        {
+          edge.Gap = std::max(edge.Gap, this->Analytic[f]->GapOf(edge.Shape));
+        }
+      }
+    }
+  }
 }
 
 void ShapeMaker::MakeVertices()
@@ -266,7 +321,6 @@ void ShapeMaker::MakeEdges()
   for (EdgeState& state : this->Edges)
   {
     const double tolerance = std::max(ToleranceFactor * state.Gap, Precision::Confusion());
-    const KnotVector& knots = state.Curve.Space->Knots[0];
     if (state.Degenerate)
     {
       this->Builder.MakeEdge(state.Edge);
@@ -275,7 +329,7 @@ void ShapeMaker::MakeEdges()
     }
     else
     {
-      this->Builder.MakeEdge(state.Edge, ToOpenCASCADE(state.Curve), tolerance);
+      this->Builder.MakeEdge(state.Edge, state.Shape.Curve, tolerance);
     }
     for (std::size_t end = 0; end < 2; ++end)
     {
@@ -283,15 +337,53 @@ void ShapeMaker::MakeEdges()
       this->Builder.UpdateVertex(vertex, tolerance); // never below the edge's
       this->Builder.Add(state.Edge, vertex.Oriented(end == 0 ? TopAbs_FORWARD : TopAbs_REVERSED));
     }
-    this->Builder.Range(state.Edge, knots.Begin(), knots.End());
+    this->Builder.Range(state.Edge, state.Shape.First, state.Shape.Last);
   }
+}
+
+void ShapeMaker::AddParameterCurves(const TopoDS_Face& face, const EdgeState& edge)
+{
+  const Handle(Geom2d_Curve)& forward = edge.Parameters[0];
+  const Handle(Geom2d_Curve)& backward = edge.Parameters[1];
+  const double tolerance = BRep_Tool::Tolerance(edge.Edge);
+  if (forward.IsNull() && backward.IsNull())
+  {
+    return; // a plane
+  }
+  if (!forward.IsNull() && !backward.IsNull())
+  {
+    this->Builder.UpdateEdge(edge.Edge, forward, backward, face, tolerance);
+  }
+  else
+  {
+    this->Builder.UpdateEdge(edge.Edge, forward.IsNull() ? backward : forward, face, tolerance);
+  }
+  this->Builder.Range(edge.Edge, face, edge.Shape.First, edge.Shape.Last);
 }
 
 Result<TopoDS_Face> ShapeMaker::MakeFace(std::size_t f)
 {
   TopoDS_Face face;
-  this->Builder.MakeFace(face, ToOpenCASCADE(this->Model.Faces[f].Surface), Precision::Confusion());
-  const std::vector<BoundaryLoop>& loops = this->Boundary.Faces[f];
+  const auto& analytic = this->Analytic[f];
+  const Handle(Geom_Surface) surface = analytic
+    ? analytic->Surface()
+    : Handle(Geom_Surface)(ToOpenCASCADE(this->Model.Faces[f].Surface));
+  this->Builder.MakeFace(face, surface, Precision::Confusion());
+  // a surface of the opposite normal has its parameters mirrored
+  const bool isTurned = analytic && analytic->IsTurned();
+  const bool isPlane = analytic && analytic->IsPlane(); // which needs no pcurves
+  std::vector<BoundaryLoop> loops = this->Boundary.Faces[f];
+  for (BoundaryLoop& loop : loops)
+  {
+    if (isTurned)
+    {
+      std::reverse(loop.begin(), loop.end());
+    }
+    for (BoundaryCurve& use : loop)
+    {
+      use.Reversed = use.Reversed != isTurned;
+    }
+  }
   for (const BoundaryLoop& loop : loops) // an edge may be in several loops, or twice in one
   {
     for (const BoundaryCurve& use : loop)
@@ -303,14 +395,18 @@ Result<TopoDS_Face> ShapeMaker::MakeFace(std::size_t f)
         edge.Parameters[0].Nullify();
         edge.Parameters[1].Nullify();
       }
-      Handle(Geom2d_BSplineCurve)& parameters = edge.Parameters[use.Reversed ? 1 : 0];
+      Handle(Geom2d_Curve)& parameters = edge.Parameters[use.Reversed ? 1 : 0];
       if (!parameters.IsNull())
       {
         return { ErrorCode::InvalidTopology,
           PlaceOfFace(f) + " uses edge " + std::to_string(use.Edge) +
             " twice in the same direction" };
       }
-      parameters = ToOpenCASCADEPlane(use.Parameters);
+      if (!isPlane)
+      {
+        parameters = analytic ? analytic->ParameterCurve(edge.Shape, use.Parameters)
+                              : Handle(Geom2d_Curve)(ToOpenCASCADEPlane(use.Parameters));
+      }
     }
   }
   for (const BoundaryLoop& loop : loops)
@@ -320,19 +416,7 @@ Result<TopoDS_Face> ShapeMaker::MakeFace(std::size_t f)
     for (const BoundaryCurve& use : BeginAtPole(loop, this->Begin))
     {
       EdgeState& edge = this->Edges[static_cast<std::size_t>(use.Edge)];
-      const double tolerance = BRep_Tool::Tolerance(edge.Edge);
-      const Handle(Geom2d_BSplineCurve)& forward = edge.Parameters[0];
-      const Handle(Geom2d_BSplineCurve)& backward = edge.Parameters[1];
-      if (!forward.IsNull() && !backward.IsNull())
-      {
-        this->Builder.UpdateEdge(edge.Edge, forward, backward, face, tolerance);
-      }
-      else
-      {
-        this->Builder.UpdateEdge(edge.Edge, forward.IsNull() ? backward : forward, face, tolerance);
-      }
-      const KnotVector& knots = edge.Curve.Space->Knots[0];
-      this->Builder.Range(edge.Edge, face, knots.Begin(), knots.End());
+      this->AddParameterCurves(face, edge);
       this->Builder.SameRange(edge.Edge, true);
       this->Builder.SameParameter(edge.Edge, true);
       this->Builder.Add(wire, edge.Edge.Oriented(use.Reversed ? TopAbs_REVERSED : TopAbs_FORWARD));
@@ -340,7 +424,7 @@ Result<TopoDS_Face> ShapeMaker::MakeFace(std::size_t f)
     wire.Closed(true);
     this->Builder.Add(face, wire);
   }
-  if (this->Model.Faces[f].Reversed)
+  if (this->Model.Faces[f].Reversed != isTurned)
   {
     face.Reverse();
   }
@@ -353,6 +437,7 @@ Result<CADShapes> ShapeMaker::Make()
   {
     return status;
   }
+  this->ShapeEdges();
   this->MakeVertices();
   this->MakeEdges();
   CADShapes shapes;
@@ -365,6 +450,9 @@ Result<CADShapes> ShapeMaker::Make()
       return face.Status;
     }
     input.Faces.push_back(face.Value);
+    const bool isPlane = this->Analytic[f] && this->Analytic[f]->IsPlane();
+    shapes.HasPlanesOnly = shapes.HasPlanesOnly && isPlane;
+    shapes.HasCurvedTypes = shapes.HasCurvedTypes || (this->Analytic[f] && !isPlane);
     input.Bodies.push_back(this->Model.Faces[f].Body);
     std::vector<EdgeUse>& uses = input.Uses.emplace_back();
     for (const BoundaryLoop& loop : this->Boundary.Faces[f])

@@ -12,6 +12,8 @@ struct CADShapes
   TopoDS_Shape Shape;             ///< a shell, a solid, or a compound of them
   std::vector<TopoDS_Face> Faces; ///< of the model's faces, as they lie in Shape
   bool HasPoles = false;          ///< a loop runs through a pole
+  bool HasPlanesOnly = true;      ///< whose edges need no pcurves
+  bool HasCurvedTypes = false;    ///< cylinders, spheres, cones or tori as such
   double MaxGap = 0.0; ///< largest distance of a curve or vertex to the image of a pcurve
 };
 

@@ -148,6 +148,7 @@ Status TextOf(const TrimmedModel& model, const CADWriteParams& params, CADFormat
   {
     return shapes.Status;
   }
+  session.Set("write.surfacecurve.mode", shapes->HasPlanesOnly ? 0 : 1); // pcurves
   // readers keep a pcurve whose ends are that near to the curve
   session.Set("write.precision.val", std::max(2.0 * shapes->MaxGap, 1e-7));
   std::ostringstream stream;
@@ -170,13 +171,53 @@ Status TextOf(const TrimmedModel& model, const CADWriteParams& params, CADFormat
     return { ErrorCode::InvalidFormat, "OpenCASCADE made no text" };
   }
   text = stream.str();
-  if (format != CADFormat::STEP || !shapes->HasPoles)
+  if (format != CADFormat::STEP || !(shapes->HasPoles || shapes->HasCurvedTypes))
   {
     return {};
   }
   CADSummary summary;
   const Status status = CheckSTEPText(text, summary);
   return status ? CompareCAD(model, summary) : status;
+}
+}
+
+namespace
+{
+/// The first text that OpenCASCADE reads rightly: loops that begin at either pole, then with
+/// spheres, cones and tori as splines. @return the failure of the first one.
+Status TextInAnyWay(const TrimmedModel& model, const CADWriteParams& params, CADFormat format,
+  CADSession& session, std::string& text)
+{
+  Status first;
+  TrimmedModel splines;
+  for (const TrimmedModel* way : { &model, static_cast<const TrimmedModel*>(&splines) })
+  {
+    if (way == &splines)
+    {
+      splines = model;
+      bool isOther = false;
+      for (TrimmedFace& face : splines.Faces)
+      {
+        const bool isKept = face.Type == SurfaceType::Plane || face.Type == SurfaceType::Cylinder;
+        isOther = isOther || (!isKept && face.Type != SurfaceType::FreeForm);
+        face.Type = isKept ? face.Type : SurfaceType::FreeForm;
+      }
+      if (!isOther)
+      {
+        break;
+      }
+    }
+    for (const LoopBegin begin : { LoopBegin::LowerPole, LoopBegin::UpperPole })
+    {
+      const Status status = TextOf(*way, params, format, begin, session, text);
+      if (status || status.Code != ErrorCode::InvalidFormat)
+      {
+        return status;
+      }
+      first = first ? status : first;
+    }
+  }
+  return first;
 }
 }
 
@@ -195,18 +236,12 @@ Status WriteCAD(const TrimmedModel& model, const std::string& file, const CADWri
   const std::string place = "'" + file + "'";
   CADSession session(params.Unit);
   session.SetDefaultsOfReading();
-  session.Set("write.surfacecurve.mode", 1); // with pcurves
-  session.Set("write.precision.mode", 2);    // the stated uncertainty is the value
+  session.Set("write.precision.mode", 2); // the stated uncertainty is the value
   return session.Run(place,
     [&]() -> Status
     {
       std::string text;
-      Status status = TextOf(model, params, format, LoopBegin::LowerPole, session, text);
-      if (status.Code == ErrorCode::InvalidFormat)
-      {
-        const Status again = TextOf(model, params, format, LoopBegin::UpperPole, session, text);
-        status = again ? again : status;
-      }
+      Status status = TextInAnyWay(model, params, format, session, text);
       if (!status)
       {
         return { status.Code,

@@ -48,10 +48,10 @@ def rolled():
     return sheet("rolled.off", roll, two_windows)
 
 
-def trim(*arguments, warns=False):
+def trim(*arguments, warns=False, features="off"):
     """Runs the job and returns its report; what it says on stderr is a warning, if one is due."""
     report = path("report.json")
-    done = knotwork_testing.run_program("trim", *arguments, "--report", report)
+    done = knotwork_testing.run_program("trim", *arguments, "--features", features, "--report", report)
     assert done.returncode == 0, done.stderr
     assert bool(done.stderr) == warns, done.stderr
     with open(report) as stream:
@@ -63,7 +63,7 @@ def refused(arguments, *words, status=1):
     output = path("never.step")
     if os.path.exists(output):  # of a test that failed before
         os.remove(output)
-    done = knotwork_testing.run_program("trim", *arguments, "--output", output)
+    done = knotwork_testing.run_program("trim", *arguments, "--features", "off", "--output", output)
     assert done.returncode == status, (arguments, done.returncode, done.stderr)
     if status == 1:
         assert len(done.stderr.splitlines()) == 1, done.stderr
@@ -122,6 +122,48 @@ def test_all_outputs_are_written():
     # the surface alone
     alone = trim(rolled(), "--output", path("surface.vtu"))
     assert "brep_valid" not in alone and alone["max_deviation"] == report["max_deviation"]
+
+
+def cube():
+    corners = [(x, y, z) for z in (0, 1) for y in (0, 2) for x in (0, 3)]
+    sides = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
+    return write_off("cube.off", corners, [t for a, b, c, d in sides for t in ((a, b, c), (a, c, d))])
+
+
+def test_machined_parts_are_planes_and_cylinders():
+    for ending in ("step", "iges"):
+        file = path("cube." + ending)
+        report = trim(cube(), "--output", file, features="on")
+        assert report["analytic"] is True and report["features"] is True
+        assert (report["planes"], report["lines"], report["edges"], report["vertices"]) == (6, 12, 12, 8)
+        assert report["faces"] == report["file_faces"] == 6 and report["control_points"] == 24
+        assert report["brep_valid"] and report["within_tolerance"] and report["loops_proved"] and report["verdict"] == "valid"
+        assert report["max_deviation"] < 1e-14 and abs(report["file_area"] - 22) < 1e-12
+        with open(file) as stream:
+            text = stream.read()
+        assert "B_SPLINE" not in text and len(text) < 60000, len(text)
+        if ending == "step":
+            assert text.count("=PLANE(") + text.count("= PLANE(") == 6 and len(text) < 20000
+    surface = path("surface.vtu")
+    triangles = path("triangles.vtp")
+    report = trim(rolled(), "--output", surface, "--triangles", triangles, features="on")
+    assert report["analytic"] and report["cylinders"] == 1 and report["loops"] == 3
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(surface)
+    reader.Update()
+    assert set(vtk_to_numpy(reader.GetOutput().GetCellData().GetArray("SurfaceType"))) == {1}
+    reader = vtkXMLPolyDataReader()
+    reader.SetFileName(triangles)
+    reader.Update()
+    radius = np.hypot(*vtk_to_numpy(reader.GetOutput().GetPoints().GetData())[:, :2].T)
+    assert abs(radius - 0.9).max() < 1e-6
+
+
+def test_free_shapes_are_splines_and_the_report_says_why():
+    wave = sheet("wave.off", lambda u, v: np.c_[u, v, 0.2 * np.sin(5 * u) * np.cos(4 * v)], two_windows)
+    report = trim(wave, "--output", path("wave.step"), features="on")
+    assert report["analytic"] is False and report["faces"] == 1 and report["flatten_method"]
+    assert "region" in report["why_not_analytic"], report["why_not_analytic"]
 
 
 def test_given_plane_coordinates_are_used():

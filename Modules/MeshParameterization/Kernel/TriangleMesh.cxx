@@ -428,6 +428,14 @@ Result<DiscMesh> CheckMesh(const TriangleMesh& mesh, bool largestComponent)
   return result;
 }
 
+double TriangleArea(const PointMatrix& points, const std::array<int, 3>& triangle)
+{
+  const Eigen::RowVector3d corner = points.row(triangle[0]);
+  const Eigen::RowVector3d first = points.row(triangle[1]) - corner;
+  const Eigen::RowVector3d second = points.row(triangle[2]) - corner;
+  return 0.5 * first.cross(second).norm();
+}
+
 std::vector<MeshComponent> ConnectedComponents(const TriangleMesh& mesh)
 {
   std::vector<MeshComponent> all;

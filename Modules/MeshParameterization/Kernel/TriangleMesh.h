@@ -15,6 +15,9 @@ struct TriangleMesh
   std::vector<std::array<int, 3>> Triangles; ///< rows of Points
 };
 
+/// @param triangle  rows of points, n x 3.
+double TriangleArea(const PointMatrix& points, const std::array<int, 3>& triangle);
+
 /// A part of a mesh.
 struct MeshComponent
 {

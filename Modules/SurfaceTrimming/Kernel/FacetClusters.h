@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "FitAnalyticSurface.h"
 #include <knotwork/MeshParameterization/TriangleMesh.h>
+#include <knotwork/SplineCore/FitAnalyticSurface.h>
 
 namespace knotwork
 {

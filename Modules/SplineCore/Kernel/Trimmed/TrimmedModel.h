@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <knotwork/SplineCore/AnalyticSurface.h>
 #include <knotwork/SplineCore/Spline.h>
 
 #include <string>
@@ -34,7 +35,9 @@ struct TrimmedFace
   /// whole surface.
   std::vector<TrimmedLoop> Loops;
   bool Reversed = false; ///< the face's normal is opposite to S_u x S_v
-  int Body = 0;          ///< faces of one body are sewn together along common edges
+  /// What the surface is: CAD files hold it as such where it is no free form.
+  SurfaceType Type = SurfaceType::FreeForm;
+  int Body = 0; ///< faces of one body are sewn together along common edges
   std::string Name;
   bool HasColor = false;
   std::array<double, 3> Color{}; ///< red, green, blue in [0, 1]

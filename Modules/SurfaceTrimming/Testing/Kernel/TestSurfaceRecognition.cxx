@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Oracle: surfaces whose points are computed from their parameters.
-#include "FitAnalyticSurface.h"
 #include "SurfaceRecognition.h"
+#include "TurnedMeshes.h"
+#include <knotwork/SplineCore/FitAnalyticSurface.h>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -17,86 +18,6 @@ namespace
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 constexpr double Pi = 3.14159265358979323846;
-
-/// A corner of a profile (radius, height) or an arc to it.
-struct ProfilePiece
-{
-  Vector2d End;
-  Vector2d Centre = Vector2d::Zero();
-  int Steps = 1; ///< more than one: an arc about Centre
-};
-
-/// A closed profile beside the axis, or one that begins and ends on it, turned about z, then moved.
-TriangleMesh Turned(
-  const Vector2d& begin, const std::vector<ProfilePiece>& pieces, int sides, double noise = 0.0)
-{
-  std::vector<Vector2d> profile = { begin };
-  for (const ProfilePiece& piece : pieces)
-  {
-    const Vector2d from = profile.back() - piece.Centre;
-    const Vector2d to = piece.End - piece.Centre;
-    const double turn = std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
-    for (int i = 1; i <= piece.Steps; ++i)
-    {
-      profile.push_back(i == piece.Steps
-          ? piece.End
-          : Vector2d(piece.Centre + Eigen::Rotation2Dd(turn * i / piece.Steps) * from));
-    }
-  }
-  std::mt19937 random(7);
-  std::normal_distribution<double> shift(0.0, 1.0);
-  const Eigen::AngleAxisd tilt(0.7, Vector3d(1, 2, -1).normalized());
-  TriangleMesh mesh;
-  std::vector<Vector3d> points;
-  std::vector<std::vector<int>> rings;
-  for (const Vector2d& p : profile)
-  {
-    std::vector<int>& ring = rings.emplace_back();
-    for (int i = 0; i < sides; ++i)
-    {
-      const double angle = 2.0 * Pi * i / sides;
-      if (i == 0 || p.x() > 0.0)
-      {
-        points.emplace_back(
-          tilt * Vector3d(p.x() * std::cos(angle), p.x() * std::sin(angle), p.y()) +
-          Vector3d(3, 1, 2));
-        for (int d = 0; d < 3; ++d)
-        {
-          points.back()[d] += noise > 0.0 ? noise * shift(random) : 0.0;
-        }
-      }
-      ring.push_back(static_cast<int>(points.size()) - 1);
-    }
-  }
-  if ((profile.front() - profile.back()).norm() == 0.0)
-  {
-    rings.back() = rings.front();
-    points.resize(points.size() - static_cast<std::size_t>(sides));
-  }
-  for (std::size_t r = 0; r + 1 < rings.size(); ++r)
-  {
-    for (int i = 0; i < sides; ++i)
-    {
-      const auto a = static_cast<std::size_t>(i);
-      const auto b = static_cast<std::size_t>((i + 1) % sides);
-      const std::array<int, 3> first = { rings[r][a], rings[r][b], rings[r + 1][b] };
-      const std::array<int, 3> second = { rings[r][a], rings[r + 1][b], rings[r + 1][a] };
-      for (const auto& t : { first, second })
-      {
-        if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0])
-        {
-          mesh.Triangles.push_back(t);
-        }
-      }
-    }
-  }
-  mesh.Points.resize(static_cast<Eigen::Index>(points.size()), 3);
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    mesh.Points.row(static_cast<Eigen::Index>(i)) = points[i].transpose();
-  }
-  return mesh;
-}
 
 const Vector3d TiltedAxis =
   Eigen::AngleAxisd(0.7, Vector3d(1, 2, -1).normalized()) * Vector3d::UnitZ();

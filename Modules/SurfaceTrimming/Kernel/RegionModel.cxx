@@ -1,0 +1,592 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RegionModel.h"
+#include "RegionLoops.h"
+#include "TriangleSag.h"
+
+#include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/TensorSpace.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace knotwork
+{
+namespace
+{
+constexpr double ExactShare = 1e-9; ///< of the diagonal
+constexpr int MaxAttempts = 3;      ///< to make loops that do not cross
+
+/// A curve of the model: of a chain, a seam or a pole.
+struct ModelCurve
+{
+  EdgeShape Shape;
+  std::array<int, 2> Vertices{ -1, -1 };
+  std::vector<EdgeOnPatch> Images; ///< one a use
+  EdgeSpline Spline;
+};
+
+/// Where a step of a loop is kept.
+struct StepUse
+{
+  std::size_t Curve = 0;
+  std::size_t Image = 0;
+  bool Reversed = false;
+};
+
+class RegionModeler
+{
+public:
+  RegionModeler(
+    const DiscMesh& surface, const SurfaceRecognition& recognition, const RegionModelParams& params)
+    : Surface(surface), Recognition(recognition), Params(params),
+      Size((surface.Points.colwise().maxCoeff() - surface.Points.colwise().minCoeff()).norm()),
+      Farthest(2.0 * recognition.Tolerance), Loops(recognition.Regions.size()),
+      Steps(recognition.Regions.size())
+  {
+    for (const RecognizedRegion& region : recognition.Regions)
+    {
+      this->Surfaces.push_back(region.Surface);
+    }
+  }
+
+  Result<RegionModel> Run()
+  {
+    for (const auto stage : { &RegionModeler::FindChains, &RegionModeler::OpenRegions })
+    {
+      if (Status status = (this->*stage)(); !status)
+      {
+        return status;
+      }
+    }
+    this->Follows.assign(this->Chains.Chains.size(), 0);
+    Status status;
+    for (int attempt = 0; attempt < MaxAttempts; ++attempt)
+    {
+      if (this->Params.Progress &&
+        !this->Params.Progress(static_cast<double>(attempt) / MaxAttempts))
+      {
+        return { ErrorCode::Aborted, "the model was stopped" };
+      }
+      this->Crossing.clear();
+      for (const auto stage : { &RegionModeler::ShapeChains, &RegionModeler::LayOut,
+             &RegionModeler::FitCurves, &RegionModeler::MakeFaces })
+      {
+        status = status.Code == ErrorCode::Ok || stage == &RegionModeler::ShapeChains
+          ? (this->*stage)()
+          : status;
+      }
+      if (!this->FollowAlongCrossing())
+      {
+        break;
+      }
+    }
+    if (!status)
+    {
+      return status;
+    }
+    this->Measure();
+    const Status certified = this->Certify();
+    return certified ? Result<RegionModel>(std::move(this->Made)) : Result<RegionModel>(certified);
+  }
+
+private:
+  /// Of regions that are there.
+  template <typename Regions>
+  std::vector<AnalyticSurface> SurfacesOf(const Regions& regions) const
+  {
+    std::vector<AnalyticSurface> surfaces;
+    for (const int region : regions)
+    {
+      if (region >= 0)
+      {
+        surfaces.push_back(this->Surfaces[static_cast<std::size_t>(region)]);
+      }
+    }
+    return surfaces;
+  }
+  Status FindChains();
+  Status OpenRegions();
+  Status ShapeChains();
+  Status LayOut();
+  Status FitCurves();
+  Status MakeFaces();
+  bool FollowAlongCrossing();
+  void Measure();
+  Status Certify();
+  StepUse AddImage(std::size_t region, const LoopStep& step);
+  void SetVerticesOfSeam(const std::vector<StepUse>& loop, std::size_t seam);
+  double BoundChain(const RegionChain& chain, const ModelCurve& curve) const;
+
+  const DiscMesh& Surface;
+  const SurfaceRecognition& Recognition;
+  const RegionModelParams& Params;
+  double Size;
+  double Farthest; ///< surfaces that hardly meet do so anywhere
+  std::vector<AnalyticSurface> Surfaces;
+  RegionChains Chains;
+  std::vector<RegionLoops> Loops;    ///< one a region
+  std::vector<std::size_t> Crossing; ///< regions whose loops do
+  std::vector<char>
+    Follows; ///< chains whose curves go along the mesh's edges wherever surfaces meet
+  std::vector<ModelCurve> Curves;                       ///< one a chain, then seams and poles
+  std::vector<std::vector<std::vector<StepUse>>> Steps; ///< of each region's loops
+  int NumVertices = 0;                                  ///< with poles
+  RegionModel Made;
+};
+
+/// Chains, and where surfaces meet next to them.
+Status RegionModeler::FindChains()
+{
+  for (std::size_t r = 0; r < this->Surfaces.size(); ++r)
+  {
+    if (this->Surfaces[r].Type == SurfaceType::FreeForm)
+    {
+      return { ErrorCode::NotInSpace, "region " + std::to_string(r) + " is of free form" };
+    }
+    this->Loops[r].Reversed = this->Recognition.Regions[r].Reversed;
+  }
+  this->Chains = FindRegionChains(this->Surface, this->Recognition.RegionOfTriangle,
+    static_cast<int>(this->Surfaces.size()), this->Params.CornerAngle);
+  const auto place = [&](const auto& regions, const Eigen::Vector3d& point)
+  { return MoveOnto(this->SurfacesOf(regions), point, this->Farthest); };
+  for (RegionVertex& vertex : this->Chains.Vertices)
+  {
+    vertex.Point = place(vertex.Regions, vertex.MeshPoint);
+  }
+  for (RegionChain& chain : this->Chains.Chains)
+  {
+    const std::size_t last = chain.Points.size() - 1;
+    for (std::size_t i = 0; i <= last; ++i)
+    {
+      const int vertex = i == 0 ? chain.Vertices[0] : i == last ? chain.Vertices[1] : -1;
+      chain.Points[i] = vertex >= 0 ? this->Chains.Vertices[static_cast<std::size_t>(vertex)].Point
+                                    : place(chain.Regions, chain.MeshPoints[i]);
+    }
+  }
+  return {};
+}
+
+/// Seams of faces that close around, and a vertex of every edge.
+Status RegionModeler::OpenRegions()
+{
+  for (std::size_t r = 0; r < this->Loops.size(); ++r)
+  {
+    if (Status status = OpenRegion(
+          this->Surfaces, static_cast<int>(r), this->Farthest, this->Chains, this->Loops[r]);
+        !status)
+    {
+      return status;
+    }
+  }
+  for (std::size_t c = 0; c < this->Chains.Chains.size(); ++c)
+  {
+    if (this->Chains.Chains[c].Vertices[0] < 0)
+    {
+      this->Chains.Split(static_cast<int>(c), 0);
+    }
+  }
+  return {};
+}
+
+Status RegionModeler::ShapeChains()
+{
+  EdgeShapeParams params;
+  params.Exact = ExactShare * this->Size;
+  this->Curves.clear();
+  this->Made = {};
+  for (std::size_t c = 0; c < this->Chains.Chains.size(); ++c)
+  {
+    const RegionChain& chain = this->Chains.Chains[c];
+    params.Farthest = this->Follows[c] ? 0.0 : this->Farthest;
+    params.Loose = params.Exact;
+    for (const int region : chain.Regions)
+    {
+      if (region >= 0)
+      {
+        params.Loose = std::max(params.Loose,
+          2.0 * this->Recognition.Regions[static_cast<std::size_t>(region)].MaxDistance);
+      }
+    }
+    ModelCurve& curve = this->Curves.emplace_back();
+    curve.Shape = FindEdgeShape(chain.Points, this->SurfacesOf(chain.Regions), params);
+    curve.Vertices = chain.Vertices;
+    this->Made.NumLines += curve.Shape.Kind == EdgeShapeKind::Line ? 1 : 0;
+    this->Made.NumCircles += curve.Shape.Kind == EdgeShapeKind::Circle ? 1 : 0;
+  }
+  this->Made.NumEdges = static_cast<int>(this->Curves.size());
+  this->NumVertices = static_cast<int>(this->Chains.Vertices.size());
+  this->Made.NumVertices = this->NumVertices;
+  return {};
+}
+
+StepUse RegionModeler::AddImage(std::size_t region, const LoopStep& step)
+{
+  const RegionLoops& loops = this->Loops[region];
+  StepUse use;
+  use.Reversed = step.Reversed;
+  if (step.Kind == LoopStepKind::Chain)
+  {
+    use.Curve = static_cast<std::size_t>(step.Chain);
+  }
+  else if (step.Kind == LoopStepKind::Pole)
+  {
+    use.Curve = this->Curves.size();
+    ModelCurve& pole = this->Curves.emplace_back();
+    pole.Shape.Ends = { loops.Patch.Point(step.Ends[0]), loops.Patch.Point(step.Ends[0]) };
+    pole.Vertices = { this->NumVertices, this->NumVertices };
+    ++this->NumVertices;
+  }
+  else if (!step.Reversed)
+  {
+    use.Curve = this->Curves.size();
+    this->Curves.emplace_back();
+  }
+  else // a seam is used first as it runs, and no other one is in between
+  {
+    use.Curve = this->Curves.size() - 1;
+    while (this->Curves[use.Curve].Images.empty() || this->Curves[use.Curve].Images[0].Fixed < 0)
+    {
+      --use.Curve;
+    }
+  }
+  ModelCurve& curve = this->Curves[use.Curve];
+  EdgeOnPatch image;
+  image.Patch = &loops.Patch;
+  image.Ends = step.Ends;
+  image.Fixed = step.Kind == LoopStepKind::Seam ? loops.Winding : -1;
+  use.Image = curve.Images.size();
+  curve.Images.push_back(image);
+  return use;
+}
+
+/// A seam begins and ends where its neighbours do.
+void RegionModeler::SetVerticesOfSeam(const std::vector<StepUse>& loop, std::size_t seam)
+{
+  ModelCurve& curve = this->Curves[loop[seam].Curve];
+  const StepUse& before = loop[seam - 1];
+  const StepUse& after = loop[seam + 1];
+  const ModelCurve& from = this->Curves[before.Curve];
+  const ModelCurve& to = this->Curves[after.Curve];
+  const std::size_t end = before.Reversed ? 0 : 1;
+  const std::size_t begin = after.Reversed ? 1 : 0;
+  curve.Vertices = { from.Vertices[end], to.Vertices[begin] };
+  const EdgeOnPatch& image = curve.Images.front();
+  curve.Shape = IsoparametricShape(*image.Patch, image.Ends, image.Fixed);
+  curve.Shape.Ends = { from.Shape.Ends[end], to.Shape.Ends[begin] };
+}
+
+Status RegionModeler::LayOut()
+{
+  std::vector<EdgeShape> shapes;
+  for (const ModelCurve& curve : this->Curves)
+  {
+    shapes.push_back(curve.Shape);
+  }
+  for (std::size_t r = 0; r < this->Loops.size(); ++r)
+  {
+    if (Status status = LayOutLoops(static_cast<int>(r), this->Chains, shapes, this->Loops[r]);
+        !status)
+    {
+      this->Crossing.push_back(r);
+      return status;
+    }
+    this->Steps[r].clear();
+    for (const std::vector<LoopStep>& loop : this->Loops[r].Steps)
+    {
+      std::vector<StepUse>& uses = this->Steps[r].emplace_back();
+      for (const LoopStep& step : loop)
+      {
+        uses.push_back(this->AddImage(r, step));
+      }
+      for (std::size_t i = 0; i < loop.size(); ++i)
+      {
+        if (loop[i].Kind == LoopStepKind::Seam && !loop[i].Reversed)
+        {
+          this->SetVerticesOfSeam(uses, i);
+        }
+      }
+    }
+  }
+  return {};
+}
+
+Status RegionModeler::FitCurves()
+{
+  for (ModelCurve& curve : this->Curves)
+  {
+    auto spline = MakeEdgeSpline(curve.Shape, curve.Images, ExactShare * this->Size);
+    if (!spline)
+    {
+      return spline.Status;
+    }
+    curve.Spline = std::move(spline.Value);
+    this->Made.MaxEdgeGap = std::max(this->Made.MaxEdgeGap, curve.Spline.Gap);
+  }
+  return {};
+}
+
+Status RegionModeler::MakeFaces()
+{
+  TrimmedModel& model = this->Made.Model;
+  model.NumEdges = static_cast<int>(this->Curves.size());
+  model.NumVertices = this->NumVertices;
+  for (std::size_t r = 0; r < this->Loops.size(); ++r)
+  {
+    TrimmedFace& face = model.Faces.emplace_back();
+    face.Surface = this->Loops[r].Patch.MakeSpline();
+    face.Type = this->Surfaces[r].Type;
+    face.Reversed = this->Loops[r].Reversed;
+    for (const std::vector<StepUse>& steps : this->Steps[r])
+    {
+      TrimmedLoop& loop = face.Loops.emplace_back();
+      for (const StepUse& step : steps)
+      {
+        const ModelCurve& curve = this->Curves[step.Curve];
+        TrimmingCurve& use = loop.Curves.emplace_back();
+        use.Curve = curve.Spline.Curve;
+        use.UV = curve.Spline.UV[step.Image];
+        use.Edge = static_cast<int>(step.Curve);
+        use.Vertices = curve.Vertices;
+        use.Reversed = step.Reversed;
+      }
+    }
+    const auto verdict = ProveLoops(face);
+    this->Made.Verdicts.push_back(verdict ? verdict.Value : LoopVerdict::Undecided);
+    if (this->Made.Verdicts.back() != LoopVerdict::SimpleNested)
+    {
+      this->Crossing.push_back(r);
+    }
+  }
+  return model.Check();
+}
+
+/// Where surfaces touch, the curves in which they meet may cross each other although the mesh's
+/// edges do not. @return whether there is something to try again.
+bool RegionModeler::FollowAlongCrossing()
+{
+  bool isNew = false;
+  for (const std::size_t r : this->Crossing)
+  {
+    for (const auto& loop : this->Chains.Loops[r])
+    {
+      for (const ChainUseOfRegion& use : loop)
+      {
+        char& follows = this->Follows[static_cast<std::size_t>(use.Chain)];
+        isNew = isNew || follows == 0;
+        follows = 1;
+      }
+    }
+  }
+  return isNew;
+}
+
+/// Of the curve from the chain's edges and back. The curve is cut next to the mesh's points; each
+/// part lies in the hull of its control points, and runs from one end of its edge to the other.
+double RegionModeler::BoundChain(const RegionChain& chain, const ModelCurve& curve) const
+{
+  const std::vector<double> cuts = curve.Shape.SharesOf(chain.Points);
+  const std::vector<double> inner(cuts.begin() + 1, cuts.end() - 1);
+  const auto cut = InsertKnots<1>(curve.Spline.Curve, 0, inner);
+  if (!cut)
+  {
+    return HUGE_VAL;
+  }
+  const BezierForm<1> form = MakeBezierForm<1>(cut.Value, 1);
+  double bound = 0.0;
+  std::size_t segment = 0;
+  for (int e = 0; e < form.Space->NumElements(); ++e)
+  {
+    const auto& element = form.Space->Elements[static_cast<std::size_t>(e)];
+    const double middle = 0.5 * (element.Box.Lower[0] + element.Box.Upper[0]);
+    while (cuts[segment + 1] < middle)
+    {
+      ++segment;
+    }
+    const Eigen::Vector3d& a = chain.MeshPoints[segment];
+    const Eigen::Vector3d along = chain.MeshPoints[segment + 1] - a;
+    const int count = form.Space->Knots[0].Degree() + 1;
+    for (int i = 0; i < count; ++i)
+    {
+      const double* block = form.Block(e) + i;
+      const Eigen::Vector3d offset = Eigen::Vector3d(block[0], block[count], block[2 * count]) - a;
+      const double share = std::min(std::max(offset.dot(along) / along.squaredNorm(), 0.0), 1.0);
+      bound = std::max(bound, (offset - share * along).norm());
+    }
+  }
+  return bound;
+}
+
+/// Surfaces of these types are regular but at poles, where their parameters are not: faces with a
+/// pole are taken for what they are.
+Status RegionModeler::Certify()
+{
+  FaceCertificateParams params;
+  params.Threads = this->Params.Threads;
+  for (std::size_t r = 0; r < this->Made.Model.Faces.size(); ++r)
+  {
+    const AnalyticPatch& patch = this->Loops[r].Patch;
+    const std::array<double, 2> poles = patch.Poles();
+    if (patch.Lower()[1] <= poles[0] || patch.Upper()[1] >= poles[1])
+    {
+      FaceCertificate known;
+      known.Verdict = Verdict::Valid;
+      this->Made.Certificates.push_back(known);
+      ++this->Made.NumPoleFaces;
+      continue;
+    }
+    const auto certificate = CertifyFace(this->Made.Model.Faces[r], params);
+    if (!certificate)
+    {
+      return certificate.Status;
+    }
+    this->Made.Certificates.push_back(certificate.Value);
+  }
+  return {};
+}
+
+void RegionModeler::Measure()
+{
+  this->Made.NumOfType = this->Recognition.NumOfType;
+  this->Made.Tolerance = this->Recognition.Tolerance;
+  this->Made.NumRims = static_cast<int>(this->Surface.Loops.size());
+  for (std::size_t t = 0; t < this->Surface.Triangles.size(); ++t)
+  {
+    const auto r = static_cast<std::size_t>(this->Recognition.RegionOfTriangle[t]);
+    const auto& triangle = this->Surface.Triangles[t];
+    const std::array<Eigen::Vector3d, 3> corners{ this->Surface.Point(triangle[0]),
+      this->Surface.Point(triangle[1]), this->Surface.Point(triangle[2]) };
+    for (const Eigen::Vector3d& corner : corners)
+    {
+      this->Made.MaxPointDistance =
+        std::max(this->Made.MaxPointDistance, std::abs(this->Surfaces[r].Distance(corner)));
+    }
+    this->Made.MaxDistance =
+      std::max(this->Made.MaxDistance, BoundDistance(this->Surfaces[r], corners));
+  }
+  for (std::size_t c = 0; c < this->Chains.Chains.size(); ++c)
+  {
+    const RegionChain& chain = this->Chains.Chains[c];
+    for (std::size_t i = 0; i + 1 < chain.MeshPoints.size(); ++i)
+    {
+      for (const AnalyticSurface& beside : this->SurfacesOf(chain.Regions))
+      {
+        this->Made.MaxDistance = std::max(this->Made.MaxDistance,
+          BoundDistance(
+            beside, { chain.MeshPoints[i], chain.MeshPoints[i + 1], chain.MeshPoints[i + 1] }));
+      }
+    }
+    this->Made.MaxEdgeDistance =
+      std::max(this->Made.MaxEdgeDistance, this->BoundChain(chain, this->Curves[c]));
+  }
+  for (const RegionVertex& vertex : this->Chains.Vertices)
+  {
+    this->Made.MaxVertexDistance =
+      std::max(this->Made.MaxVertexDistance, (vertex.Point - vertex.MeshPoint).norm());
+  }
+}
+}
+
+Result<RegionModel> ModelRegions(
+  const DiscMesh& surface, const SurfaceRecognition& recognition, const RegionModelParams& params)
+{
+  if (!(params.CornerAngle > 0.0 && params.CornerAngle <= 180.0))
+  {
+    return { ErrorCode::InvalidParameter, "CornerAngle must lie in (0, 180]" };
+  }
+  if (recognition.RegionOfTriangle.size() != surface.Triangles.size() ||
+    recognition.Regions.empty())
+  {
+    return { ErrorCode::SizeMismatch, "the regions are of another mesh" };
+  }
+  return RegionModeler(surface, recognition, params).Run();
+}
+
+namespace
+{
+constexpr std::size_t FewFaces = 100;
+constexpr std::size_t TrianglesOfFace = 6;
+
+/// The faces of another part beside those that are there.
+void Append(RegionModel&& part, RegionModel& all)
+{
+  for (TrimmedFace& face : part.Model.Faces)
+  {
+    for (TrimmedLoop& loop : face.Loops)
+    {
+      for (TrimmingCurve& use : loop.Curves)
+      {
+        use.Edge += all.Model.NumEdges;
+        use.Vertices[0] += all.Model.NumVertices;
+        use.Vertices[1] += all.Model.NumVertices;
+      }
+    }
+    all.Model.Faces.push_back(std::move(face));
+  }
+  all.Model.NumEdges += part.Model.NumEdges;
+  all.Model.NumVertices += part.Model.NumVertices;
+  all.Verdicts.insert(all.Verdicts.end(), part.Verdicts.begin(), part.Verdicts.end());
+  all.Certificates.insert(
+    all.Certificates.end(), part.Certificates.begin(), part.Certificates.end());
+  for (std::size_t t = 0; t < all.NumOfType.size(); ++t)
+  {
+    all.NumOfType[t] += part.NumOfType[t];
+  }
+  for (int RegionModel::*const count :
+    { &RegionModel::NumRims, &RegionModel::NumPoleFaces, &RegionModel::NumEdges,
+      &RegionModel::NumLines, &RegionModel::NumCircles, &RegionModel::NumVertices })
+  {
+    all.*count += part.*count;
+  }
+  for (double RegionModel::*const distance :
+    { &RegionModel::MaxPointDistance, &RegionModel::MaxDistance, &RegionModel::MaxEdgeDistance,
+      &RegionModel::MaxEdgeGap, &RegionModel::MaxVertexDistance, &RegionModel::Tolerance })
+  {
+    all.*distance = std::max(all.*distance, part.*distance);
+  }
+}
+}
+
+Result<RegionModel> ModelMesh(
+  const TriangleMesh& mesh, const RecognitionParams& recognition, const RegionModelParams& params)
+{
+  const std::vector<MeshComponent> components = ConnectedComponents(mesh);
+  if (components.empty())
+  {
+    return { ErrorCode::EmptyInput, "the mesh has no triangles" };
+  }
+  RegionModel all;
+  for (const MeshComponent& component : components)
+  {
+    const auto surface = CheckComponent(mesh, component);
+    if (!surface)
+    {
+      return surface.Status;
+    }
+    RecognitionParams own = recognition;
+    own.Tolerance = recognition.Tolerance > 0.0
+      ? recognition.Tolerance
+      : 1e-3 * (mesh.Points.colwise().maxCoeff() - mesh.Points.colwise().minCoeff()).norm();
+    const auto regions = RecognizeSurfaces(surface.Value, own);
+    if (!regions)
+    {
+      return regions.Status;
+    }
+    const std::size_t faces = regions->Regions.size();
+    if (faces > FewFaces && faces * TrianglesOfFace > surface->Triangles.size())
+    {
+      return { ErrorCode::NotInSpace,
+        std::to_string(faces) + " regions of " + std::to_string(surface->Triangles.size()) +
+          " triangles are facets of a free shape" };
+    }
+    auto part = ModelRegions(surface.Value, regions.Value, params);
+    if (!part)
+    {
+      return part.Status;
+    }
+    Append(std::move(part.Value), all);
+  }
+  return all;
+}
+}

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <knotwork/SplineCore/TrimmedModel.h>
+#include <knotwork/SurfaceTrimming/FaceCertificate.h>
+#include <knotwork/SurfaceTrimming/SurfaceRecognition.h>
+#include <knotwork/SurfaceTrimming/TrimLoops.h>
+
+namespace knotwork
+{
+struct RegionModelParams
+{
+  double CornerAngle = 20.0; ///< of rims: a turn by more degrees is a vertex, (0, 180]
+  int Threads = 0;           ///< of the certificates; 0: all cores
+  ProgressCallback Progress;
+};
+
+/// Faces, edges and vertices of analytic surfaces. Distances in the unit of the points.
+struct RegionModel
+{
+  TrimmedModel Model; ///< a face a region; TrimmedFace::Type says what the surface is
+  std::vector<LoopVerdict> Verdicts;         ///< of the faces' loops
+  std::vector<FaceCertificate> Certificates; ///< of the faces; MinNormal is 0 of those with a pole
+  std::array<int, NumSurfaceTypes> NumOfType{};
+  int NumRims = 0; ///< closed curves of edges of one face
+  int NumPoleFaces =
+    0;                ///< faces with a pole, which are regular by their type, but for a cone's tip
+  int NumEdges = 0;   ///< without seams and poles
+  int NumLines = 0;   ///< of them
+  int NumCircles = 0; ///< of them
+  int NumVertices = 0;
+  double MaxPointDistance = 0.0; ///< of the mesh's points from the surfaces of their regions
+  /// Bound of the distance of all points of triangles from the surface of their region, and of
+  /// edges between regions from both surfaces: with the sag of the triangles. What lies between
+  /// such an edge and its curve is as near to both surfaces as these two are, so that with
+  /// MaxEdgeGap it bounds the distance of mesh and model.
+  double MaxDistance = 0.0;
+  /// Of curves from the mesh's edges that they stand for, a bound both ways. Where surfaces touch,
+  /// the mesh may change from one to the other anywhere, and this says how far from the curve.
+  double MaxEdgeDistance = 0.0;
+  double MaxEdgeGap = 0.0;        ///< of curves from the images of their pcurves, at samples
+  double MaxVertexDistance = 0.0; ///< of vertices from their points of the mesh
+  double Tolerance = 0.0;         ///< of the recognition
+};
+
+/// Makes trimmed faces of a mesh whose regions are all planes, cylinders, spheres, cones or tori.
+/// Vertices are where surfaces meet, next to where regions do; edges are the curves in which
+/// surfaces meet, as lines and circles where they are; neighbours share them. Closed faces get a
+/// seam from vertex to vertex, spheres and cones degenerate edges at the poles that they contain.
+/// @param surface  of CheckSurface. @param recognition  of RecognizeSurfaces of it.
+/// @return InvalidParameter; SizeMismatch; NotInSpace: a region of free form, or one whose loops
+/// are none of the kinds above (naming it); failures of TrimmedModel::Check; Aborted.
+/// @complexity O(n log n), and the fit of some 50 points an edge.
+Result<RegionModel> ModelRegions(const DiscMesh& surface, const SurfaceRecognition& recognition,
+  const RegionModelParams& params = {});
+
+/// Recognizes the surfaces of triangles as they are given, of several parts too, and makes faces of
+/// them, in one body.
+/// @return failures of RecognizeSurfaces and ModelRegions; NotInSpace also where there are more
+/// than a hundred faces of fewer than six triangles each on average: facets of a free shape, not
+/// faces.
+Result<RegionModel> ModelMesh(const TriangleMesh& mesh, const RecognitionParams& recognition,
+  const RegionModelParams& params = {});
+}

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TriangleSag.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace knotwork
+{
+namespace
+{
+constexpr int Quarterings = 3;
+
+using Corners = std::array<Eigen::Vector3d, 3>;
+
+/// Of the second derivative of a torus' distance in the triangle; infinite when there is none.
+double CurvatureBound(const AnalyticSurface& torus, const Corners& corners)
+{
+  // no point of the triangle is farther from its corners than the longest edge
+  double reach = 0.0;
+  double nearest = HUGE_VAL; // to the circle of centres
+  double out = HUGE_VAL;     // to the axis
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    reach = std::max(reach, (corners[k] - corners[(k + 1) % 3]).norm());
+    nearest = std::min(nearest, torus.Distance(corners[k]) + torus.MinorRadius);
+    const Eigen::Vector3d offset = corners[k] - torus.Point;
+    out = std::min(out, (offset - offset.dot(torus.Axis) * torus.Axis).norm());
+  }
+  nearest -= reach;
+  out -= reach;
+  return nearest > 0.0 && out > 0.0 ? std::max(1.0 / nearest, 1.0 / out) : HUGE_VAL;
+}
+
+double Bound(const AnalyticSurface& surface, const Corners& corners, int left)
+{
+  std::array<double, 3> distances{};
+  double most = 0.0;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    distances[k] = surface.Distance(corners[k]);
+    most = std::max(most, std::abs(distances[k]));
+  }
+  if (surface.Type == SurfaceType::Plane || surface.Type == SurfaceType::FreeForm)
+  {
+    return most;
+  }
+  if (left > 0)
+  {
+    const Eigen::Vector3d ab = 0.5 * (corners[0] + corners[1]);
+    const Eigen::Vector3d bc = 0.5 * (corners[1] + corners[2]);
+    const Eigen::Vector3d ca = 0.5 * (corners[2] + corners[0]);
+    for (const Corners& part : { Corners{ corners[0], ab, ca }, Corners{ ab, corners[1], bc },
+           Corners{ ca, bc, corners[2] }, Corners{ ab, bc, ca } })
+    {
+      most = std::max(most, Bound(surface, part, left - 1));
+    }
+    return most;
+  }
+  if (surface.Type == SurfaceType::Torus)
+  {
+    double longest = 0.0;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      longest = std::max(longest, (corners[k] - corners[(k + 1) % 3]).squaredNorm());
+    }
+    // of a function of second derivatives up to c, from the linear one through the corners: half of
+    // c times the sum of l_i l_j e_ij^2 over pairs, and the l_i l_j sum up to a third at most
+    return most + CurvatureBound(surface, corners) * longest / 6.0;
+  }
+  const Eigen::Vector3d centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+  const Eigen::Vector3d gradient = surface.Normal(centre);
+  double least = HUGE_VAL;
+  for (const Eigen::Vector3d& corner : corners)
+  {
+    least = std::min(least, surface.Distance(centre) + gradient.dot(corner - centre));
+  }
+  return std::max(most, -least);
+}
+}
+
+double BoundDistance(const AnalyticSurface& surface, const Corners& corners)
+{
+  return Bound(surface, corners, Quarterings);
+}
+}

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <knotwork/SplineCore/AnalyticSurface.h>
+
+#include <array>
+
+namespace knotwork
+{
+/// A bound of the distance of a triangle's points from an analytic surface, proved: distances from
+/// planes, cylinders, spheres and cones are convex, so they are largest at corners and nowhere
+/// below a tangent plane; the second derivative of those from tori is bounded. Triangles are
+/// quartered three times. Infinite for a torus whose circle of centres, or axis, may be met.
+double BoundDistance(const AnalyticSurface& surface, const std::array<Eigen::Vector3d, 3>& corners);
+}
