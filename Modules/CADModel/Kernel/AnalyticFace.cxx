@@ -67,6 +67,18 @@ PointMatrix GridOf(const ParametricBox<2>& domain, int count)
   return grid;
 }
 
+/// Equally spaced places of a curve's domain, ends included.
+PointMatrix PlacesOn(const KnotVector& knots)
+{
+  PointMatrix at(Samples + 1, 1);
+  for (int i = 0; i <= Samples; ++i)
+  {
+    const double share = static_cast<double>(i) / Samples;
+    at(i, 0) = (1.0 - share) * knots.Begin() + share * knots.End();
+  }
+  return at;
+}
+
 EvaluationBatch EvaluateAt(const BezierForm<2>& form, const PointMatrix& at, int derivatives)
 {
   EvaluationParams params;
@@ -89,6 +101,35 @@ bool IsWithinPeriods(
   const double begin = first[1] - Turn * std::floor((first[1] + Rounding) / Turn);
   return length[0] <= Turn + Rounding &&
     (type != SurfaceType::Torus || begin + length[1] <= Turn + Rounding);
+}
+
+/// Places on the border of a face, which may be a part of its spline only.
+/// @param whole  those of the whole spline, for a face without loops.
+PointMatrix BorderOf(const TrimmedFace& face, const PointMatrix& whole)
+{
+  if (face.Loops.empty())
+  {
+    return whole;
+  }
+  std::vector<PointMatrix> pieces;
+  Eigen::Index rows = 0;
+  for (const TrimmedLoop& loop : face.Loops)
+  {
+    for (const TrimmingCurve& use : loop.Curves)
+    {
+      const Spline<1> curve = use.ParameterCurve();
+      pieces.push_back(CurvePoints(curve, PlacesOn(curve.Space->Knots[0])));
+      rows += pieces.back().rows();
+    }
+  }
+  PointMatrix border(rows, 2);
+  rows = 0;
+  for (const PointMatrix& piece : pieces)
+  {
+    border.middleRows(rows, piece.rows()) = piece;
+    rows += piece.rows();
+  }
+  return border;
 }
 
 /// The axis about which a spline of a sphere turns: parallels lie in planes across it.
@@ -123,14 +164,7 @@ bool FindAxis(const std::vector<Eigen::Vector3d>& points, int count, Eigen::Vect
 
 std::optional<AnalyticCurve> FindAnalyticCurve(const Spline<1>& curve, double tolerance)
 {
-  const KnotVector& knots = curve.Space->Knots[0];
-  PointMatrix at(Samples + 1, 1);
-  for (int i = 0; i <= Samples; ++i)
-  {
-    const double share = static_cast<double>(i) / Samples;
-    at(i, 0) = (1.0 - share) * knots.Begin() + share * knots.End();
-  }
-  const PointMatrix values = CurvePoints(curve, at);
+  const PointMatrix values = CurvePoints(curve, PlacesOn(curve.Space->Knots[0]));
   std::vector<Eigen::Vector3d> points;
   for (Eigen::Index i = 0; i < values.rows(); ++i)
   {
@@ -217,7 +251,7 @@ std::optional<AnalyticFace> AnalyticFace::Find(const TrimmedFace& face)
   found.StartPlace = found.Patch.Parameters(middle);
   if (surface.Type != SurfaceType::Plane)
   {
-    const PointMatrix lifted = found.Lift(grid);
+    const PointMatrix lifted = found.Lift(BorderOf(face, grid));
     const Eigen::RowVector2d first = lifted.colwise().minCoeff();
     const Eigen::RowVector2d last = lifted.colwise().maxCoeff();
     if (!IsWithinPeriods(surface.Type, first, last))
