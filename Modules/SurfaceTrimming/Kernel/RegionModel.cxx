@@ -203,7 +203,7 @@ Status RegionModeler::ShapeChains()
     params.Loose = params.Exact;
     for (const int region : chain.Regions)
     {
-      if (region >= 0)
+      if (region >= 0 && !this->Follows[c])
       {
         params.Loose = std::max(params.Loose,
           2.0 * this->Recognition.Regions[static_cast<std::size_t>(region)].MaxDistance);
@@ -505,6 +505,7 @@ Result<RegionModel> ModelRegions(
 
 namespace
 {
+constexpr int ManyFaces = 1000;
 constexpr std::size_t FewFaces = 100;
 constexpr std::size_t TrianglesOfFace = 6;
 
@@ -568,6 +569,7 @@ Result<RegionModel> ModelMesh(
     own.Tolerance = recognition.Tolerance > 0.0
       ? recognition.Tolerance
       : 1e-3 * (mesh.Points.colwise().maxCoeff() - mesh.Points.colwise().minCoeff()).norm();
+    own.MaxRegions = own.MaxRegions > 0 ? own.MaxRegions : ManyFaces;
     const auto regions = RecognizeSurfaces(surface.Value, own);
     if (!regions)
     {

@@ -55,6 +55,7 @@ Result<RegionModel> ModelRegions(const DiscMesh& surface, const SurfaceRecogniti
 
 /// Recognizes the surfaces of triangles as they are given, of several parts too, and makes faces of
 /// them, in one body.
+/// @param recognition  MaxRegions 0: a thousand of a part.
 /// @return failures of RecognizeSurfaces and ModelRegions; NotInSpace also where there are more
 /// than a hundred faces of fewer than six triangles each on average: facets of a free shape, not
 /// faces.

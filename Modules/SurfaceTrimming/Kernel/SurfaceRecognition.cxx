@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 
@@ -29,6 +30,10 @@ constexpr int PointsOfParameter = 5;
 constexpr double SpreadOfTorus = 0.5235987755982988; // 30 degrees from their mean
 /// Between regions of one free form at most, radians.
 constexpr double SmoothAngle = 0.6981317007977318; // 40 degrees
+/// Surfaces of parts of one are so far apart, in the noise of their points, where that is little:
+/// up to this level.
+constexpr double NearEnough = 3.0;
+constexpr std::size_t LastOfExact = 2;
 
 struct Division
 {
@@ -36,7 +41,8 @@ struct Division
   std::vector<int> RegionOfCluster;
 };
 
-Division Divide(const SurfaceGrowth& growth, const FacetClusters& facets)
+/// @param most  regions; with more it stops, and leaves clusters without one.
+Division Divide(const SurfaceGrowth& growth, const FacetClusters& facets, std::size_t most)
 {
   Division division;
   const std::size_t count = facets.Clusters.size();
@@ -54,6 +60,10 @@ Division Divide(const SurfaceGrowth& growth, const FacetClusters& facets)
     if (division.RegionOfCluster[static_cast<std::size_t>(seed)] >= 0)
     {
       continue;
+    }
+    if (division.Regions.size() > most)
+    {
+      break;
     }
     GrownRegion region = growth.BestRegion(seed, division.RegionOfCluster);
     for (int cluster : region.Clusters)
@@ -119,12 +129,112 @@ bool MoveClusters(const SurfaceGrowth& growth, const FacetClusters& facets, Divi
   return any;
 }
 
-/// MoveClusters until nothing changes; regions that have lost all clusters are dropped.
-void MoveBorders(const SurfaceGrowth& growth, const FacetClusters& facets, Division& division)
+/// Whether all points of a cluster lie on a surface, and it does not lean away from it.
+bool LiesOn(const DiscMesh& surface, const FacetCluster& cluster, const AnalyticSurface& on,
+  bool reversed, double noise)
 {
-  for (int pass = 0; pass < BorderPasses && MoveClusters(growth, facets, division); ++pass)
+  const Eigen::Vector3d normal = on.Normal(cluster.Piece.Centre) * (reversed ? -1.0 : 1.0);
+  return normal.dot(cluster.Piece.Normal) >= std::cos(LargestTurn) &&
+    std::all_of(cluster.Points.begin(), cluster.Points.end(),
+      [&](int point) { return std::abs(on.Distance(surface.Point(point))) <= noise; });
+}
+
+/// Triangles that are planes of their own for they sag too much, and whose corners lie on the
+/// surface of a neighbour, go over to it: wide triangles between the holes of a cylinder.
+void TakeWideTriangles(
+  const DiscMesh& surface, const FacetClusters& facets, double noise, Division& division)
+{
+  for (bool any = true; any;)
   {
+    any = false;
+    for (std::size_t c = 0; c < facets.Clusters.size(); ++c)
+    {
+      const FacetCluster& cluster = facets.Clusters[c];
+      GrownRegion& own = division.Regions[static_cast<std::size_t>(division.RegionOfCluster[c])];
+      if (cluster.Triangles.size() > 1 || own.Clusters.size() > 1)
+      {
+        continue;
+      }
+      for (const ClusterSide& side : facets.Sides[c])
+      {
+        const int other = division.RegionOfCluster[static_cast<std::size_t>(side.Cluster)];
+        GrownRegion& region = division.Regions[static_cast<std::size_t>(other)];
+        if (&region != &own && region.Clusters.size() > 1 &&
+          region.Surface.Type != SurfaceType::Plane &&
+          region.Surface.Type != SurfaceType::FreeForm &&
+          LiesOn(surface, cluster, region.Surface, region.Reversed, noise))
+        {
+          region.Clusters.push_back(static_cast<int>(c));
+          own.Clusters.clear();
+          division.RegionOfCluster[c] = other;
+          any = true;
+          break;
+        }
+      }
+    }
   }
+}
+
+/// What is left of a curved surface when all but one facet have gone over to others is flat.
+void FlattenSingles(const FacetClusters& facets, Division& division)
+{
+  for (GrownRegion& region : division.Regions)
+  {
+    if (region.Clusters.size() == 1 && region.Surface.Type != SurfaceType::FreeForm)
+    {
+      const FlatPiece& piece =
+        facets.Clusters[static_cast<std::size_t>(region.Clusters.front())].Piece;
+      region.Surface = AnalyticSurface();
+      region.Surface.Type = SurfaceType::Plane;
+      region.Surface.Point = piece.Centre;
+      region.Surface.Axis = piece.Normal;
+      region.Reversed = false;
+    }
+  }
+}
+
+/// Neighbours that are one surface become one region.
+void JoinEqual(const DiscMesh& surface, const FacetClusters& facets, double noise,
+  const SurfaceGrowth& growth, Division& division)
+{
+  for (std::size_t c = 0; c < facets.Clusters.size(); ++c)
+  {
+    for (const ClusterSide& side : facets.Sides[c])
+    {
+      const int to = division.RegionOfCluster[c];
+      const int from = division.RegionOfCluster[static_cast<std::size_t>(side.Cluster)];
+      GrownRegion& region = division.Regions[static_cast<std::size_t>(to)];
+      GrownRegion& other = division.Regions[static_cast<std::size_t>(from)];
+      if (to == from || region.Surface.Type != other.Surface.Type ||
+        region.Surface.Type == SurfaceType::Plane || region.Surface.Type == SurfaceType::FreeForm ||
+        region.NumPoints < other.NumPoints)
+      {
+        continue;
+      }
+      const bool isOne = std::all_of(other.Clusters.begin(), other.Clusters.end(),
+        [&](int cluster)
+        {
+          return LiesOn(surface, facets.Clusters[static_cast<std::size_t>(cluster)], region.Surface,
+            region.Reversed, noise);
+        });
+      if (isOne)
+      {
+        for (int cluster : other.Clusters)
+        {
+          division.RegionOfCluster[static_cast<std::size_t>(cluster)] = to;
+        }
+        region.Clusters.insert(region.Clusters.end(), other.Clusters.begin(), other.Clusters.end());
+        region.NumPoints += other.NumPoints;
+        other.Clusters.clear();
+        growth.Refit(region);
+      }
+    }
+  }
+}
+
+/// Regions that have lost all clusters are dropped.
+void DropEmpty(Division& division)
+{
   std::vector<GrownRegion> kept;
   for (GrownRegion& region : division.Regions)
   {
@@ -138,6 +248,15 @@ void MoveBorders(const SurfaceGrowth& growth, const FacetClusters& facets, Divis
     }
   }
   division.Regions = std::move(kept);
+}
+
+/// MoveClusters until nothing changes; regions that have lost all clusters are dropped.
+void MoveBorders(const SurfaceGrowth& growth, const FacetClusters& facets, Division& division)
+{
+  for (int pass = 0; pass < BorderPasses && MoveClusters(growth, facets, division); ++pass)
+  {
+  }
+  DropEmpty(division);
 }
 
 /// Points of regions that lie in no other one.
@@ -289,39 +408,71 @@ void Report(const SurfaceGrowth& growth, const FacetClusters& facets, const Divi
 Result<SurfaceRecognition> RecognizeSurfaces(
   const DiscMesh& surface, const RecognitionParams& params)
 {
-  if (!(params.Tolerance >= 0.0) || !(params.MaximumSag >= 0.0 && params.MaximumSag <= 1000.0))
+  if (!(params.Tolerance >= 0.0) || params.MaxRegions < 0 ||
+    !(params.MaximumSag >= 0.0 && params.MaximumSag <= 1000.0))
   {
     return { ErrorCode::InvalidParameter,
-      "Tolerance must not be negative, and MaximumSag must lie in [0, 1000]" };
+      "Tolerance and MaxRegions must not be negative, and MaximumSag must lie in [0, 1000]" };
   }
   SurfaceRecognition result;
   const double diagonal =
     (surface.Points.colwise().maxCoeff() - surface.Points.colwise().minCoeff()).norm();
   result.Tolerance = params.Tolerance > 0.0 ? params.Tolerance : 1e-3 * diagonal;
   const FacetClusters facets = FindFacetClusters(surface, Levels.front() * result.Tolerance);
+  // The coarsest level comes first: it says how many regions the others may have to be taken.
+  constexpr std::size_t coarsest = Levels.size() - 1;
+  constexpr double Unfinished = 2.0; // clusters that go over to others leave fewer regions
+  constexpr std::size_t Any = std::numeric_limits<std::size_t>::max() - 1;
+  const auto divide = [&](std::size_t level, std::size_t most, Division& division)
+  {
+    const double noise = Levels[level] * result.Tolerance;
+    const SurfaceGrowth growth(surface, facets, noise, params.MaximumSag * result.Tolerance);
+    division = Divide(growth, facets, most);
+    if (division.Regions.size() > most)
+    {
+      return false;
+    }
+    MoveBorders(growth, facets, division);
+    FlattenSingles(facets, division);
+    const double near = level <= LastOfExact ? NearEnough * noise : noise;
+    TakeWideTriangles(surface, facets, near, division);
+    JoinEqual(surface, facets, near, growth, division);
+    DropEmpty(division);
+    return true;
+  };
+  Division last;
+  if (!divide(
+        coarsest, params.MaxRegions > 0 ? static_cast<std::size_t>(params.MaxRegions) : Any, last))
+  {
+    return { ErrorCode::TooLarge,
+      "the mesh has more than " + std::to_string(params.MaxRegions) + " regions" };
+  }
   Division best;
-  std::size_t fewest = 0;
-  for (std::size_t level = 0; level < Levels.size(); ++level)
+  std::size_t fewest = Any;
+  for (std::size_t level = 0; level < Levels.size() && fewest > 1; ++level)
   {
     if (params.Progress &&
-      !params.Progress(static_cast<double>(level) / static_cast<double>(Levels.size())))
+      !params.Progress(static_cast<double>(level + 1) / static_cast<double>(Levels.size() + 1)))
     {
       return { ErrorCode::Aborted, "recognition was stopped" };
     }
-    const double noise = Levels[level] * result.Tolerance;
-    const SurfaceGrowth growth(surface, facets, noise, params.MaximumSag * result.Tolerance);
-    Division division = Divide(growth, facets);
-    MoveBorders(growth, facets, division);
+    const double most = Unfinished * static_cast<double>(last.Regions.size()) /
+      std::pow(WorthIt, static_cast<double>(coarsest - level));
+    Division division;
+    if (level == coarsest)
+    {
+      division = std::move(last);
+    }
+    else if (!divide(level, static_cast<std::size_t>(most), division))
+    {
+      continue;
+    }
     const std::size_t count = division.Regions.size();
-    if (level == 0 || static_cast<double>(count) < WorthIt * static_cast<double>(fewest))
+    if (fewest == Any || static_cast<double>(count) < WorthIt * static_cast<double>(fewest))
     {
       fewest = count;
       best = std::move(division);
-      result.Noise = noise;
-    }
-    if (fewest == 1)
-    {
-      break;
+      result.Noise = Levels[level] * result.Tolerance;
     }
   }
   const SurfaceGrowth growth(surface, facets, result.Noise, params.MaximumSag * result.Tolerance);

@@ -15,6 +15,7 @@ struct RecognitionParams
   /// Largest distance of edges and triangles from the surface that their corners lie on, in
   /// tolerances, [0, 1000].
   double MaximumSag = 5.0;
+  int MaxRegions = 0; ///< of a part at most: more are a failure; 0: any number
   ProgressCallback Progress;
 };
 
@@ -44,7 +45,7 @@ struct SurfaceRecognition
 /// That is done with several tolerances up to the stated one, and the smallest one is kept
 /// that does not take many more regions than others.
 /// @param surface  of CheckSurface.
-/// @return InvalidParameter; Aborted.
+/// @return InvalidParameter; TooLarge: more than MaxRegions; Aborted.
 /// @complexity about O(n) where regions are large; O(n) guesses of free form.
 /// @source Schnabel, Wahl, Klein, Computer Graphics Forum 26 (2007) 214 (guess and score).
 Result<SurfaceRecognition> RecognizeSurfaces(

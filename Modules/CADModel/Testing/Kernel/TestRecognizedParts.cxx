@@ -391,10 +391,10 @@ struct ModelledParts
   std::string Faults;
 };
 
-ModelledParts ModelFamily(unsigned parts, double noise, double volumeShare)
+ModelledParts ModelFamily(unsigned first, unsigned parts, double noise, double volumeShare)
 {
   ModelledParts tally;
-  for (unsigned seed = 1; seed <= parts; ++seed)
+  for (unsigned seed = first; seed < first + parts; ++seed)
   {
     const TopoDS_Shape shape = PartMaker(seed).Make();
     const std::string fault = FaultOf(shape, Tessellate(shape, noise, seed), volumeShare);
@@ -406,10 +406,11 @@ ModelledParts ModelFamily(unsigned parts, double noise, double volumeShare)
 }
 }
 
-/// Triangles -> faces -> STEP: valid solids of the part's volume. (Points are rounded to float.)
+/// Triangles -> faces -> STEP: valid solids of the part's volume. (Points are rounded to float.) In
+/// 1170 and 1216 a wide plane between two fillets is near to a cylinder through both.
 TEST(ModelledParts, SolidsOfTessellatedParts_IndependentOracle)
 {
-  const ModelledParts tally = ModelFamily(100, 0.0, 1e-5);
+  const ModelledParts tally = ModelFamily(1150, 100, 0.0, 1e-5);
   EXPECT_EQ(tally.Right, tally.Parts) << tally.Faults;
 }
 
@@ -417,7 +418,7 @@ TEST(ModelledParts, SolidsOfTessellatedParts_IndependentOracle)
 /// free form, which are refused.)
 TEST(ModelledParts, SolidsOfNoisyParts_IndependentOracle)
 {
-  const ModelledParts tally = ModelFamily(40, 0.25, 2e-2);
+  const ModelledParts tally = ModelFamily(1, 40, 0.25, 2e-2);
   EXPECT_GE(tally.Right, 0.6 * tally.Parts) << tally.Faults;
 }
 }

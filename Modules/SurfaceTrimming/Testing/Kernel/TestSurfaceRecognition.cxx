@@ -87,6 +87,65 @@ TEST(SurfaceRecognition, StripsOfACylinderAreOneFace)
   EXPECT_FALSE(region->Reversed);
 }
 
+/// A cylinder whose rims have a gap of a quarter turn, not above each other: two triangles beside
+/// them have their corners on it alone.
+TEST(SurfaceRecognition, WideTrianglesBelongToTheCylinder)
+{
+  constexpr int sides = 48;
+  const auto rim = [](int gap)
+  {
+    std::vector<int> steps;
+    for (int i = 0; i < sides; ++i)
+    {
+      if (i <= gap || i >= gap + sides / 4)
+      {
+        steps.push_back(i);
+      }
+    }
+    return steps;
+  };
+  const std::array<std::vector<int>, 2> rims{ rim(3), rim(9) };
+  const auto count = static_cast<int>(rims[0].size());
+  TriangleMesh mesh;
+  mesh.Points.resize(2 * count + 2, 3);
+  for (int i = 0; i < count; ++i)
+  {
+    for (int r = 0; r < 2; ++r)
+    {
+      const double angle =
+        2.0 * Pi * rims[static_cast<std::size_t>(r)][static_cast<std::size_t>(i)] / sides;
+      mesh.Points.row(r * count + i) << std::cos(angle), std::sin(angle), 2.0 * r;
+    }
+  }
+  mesh.Points.bottomRows(2) << 0, 0, 0, 0, 0, 2;
+  int a = 0;
+  int b = 0;
+  const auto step = [&](int r, int i)
+  {
+    return rims[static_cast<std::size_t>(r)][static_cast<std::size_t>(i % count)] +
+      (i < count ? 0 : sides);
+  };
+  while (a < count || b < count)
+  {
+    const bool isLower = b == count || (a < count && step(0, a + 1) <= step(1, b + 1));
+    const int next = isLower ? (a + 1) % count : count + (b + 1) % count;
+    mesh.Triangles.push_back({ a % count, next, count + b % count });
+    (isLower ? a : b) += 1;
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    mesh.Triangles.push_back({ 2 * count, (i + 1) % count, i });
+    mesh.Triangles.push_back({ 2 * count + 1, count + i, count + (i + 1) % count });
+  }
+  const auto result = Recognize(mesh);
+  EXPECT_EQ(result.NumOfType, (Counts{ 2, 1, 0, 0, 0, 0 }));
+  const RecognizedRegion* cylinder = Find(result, SurfaceType::Cylinder);
+  ASSERT_NE(cylinder, nullptr);
+  EXPECT_NEAR(cylinder->Surface.Radius, 1.0, 1e-9);
+  EXPECT_EQ(static_cast<int>(cylinder->Triangles.size()), 2 * count);
+  EXPECT_GT(cylinder->MaxSag, 0.05);
+}
+
 TEST(SurfaceRecognition, ShortCylinderIsNoSphere)
 {
   // two circles lie on a sphere, too; the rulings tell
@@ -231,7 +290,7 @@ TEST(SurfaceRecognition, MeshesThatAreNone)
 TEST(SurfaceRecognition, ParametersOutOfRange)
 {
   RecognitionParams params;
-  const auto surface = CheckSurface(Turned({ 0, 0 }, { { { 1, 0 } }, { { 0, 2 } } }, 12));
+  const auto surface = CheckSurface(Turned({ 0, 0 }, { { { 1, 0 } }, { { 0, 2 } } }, 48));
   ASSERT_TRUE(surface);
   params.Tolerance = -1.0;
   EXPECT_EQ(RecognizeSurfaces(surface.Value, params).Status.Code, ErrorCode::InvalidParameter);
@@ -239,6 +298,12 @@ TEST(SurfaceRecognition, ParametersOutOfRange)
   params.MaximumSag = -1.0;
   EXPECT_EQ(RecognizeSurfaces(surface.Value, params).Status.Code, ErrorCode::InvalidParameter);
   params.MaximumSag = 5.0;
+  params.MaxRegions = -1;
+  EXPECT_EQ(RecognizeSurfaces(surface.Value, params).Status.Code, ErrorCode::InvalidParameter);
+  params.MaxRegions = 1; // there are a cone and a plane
+  EXPECT_EQ(RecognizeSurfaces(surface.Value, params).Status.Code, ErrorCode::TooLarge);
+  params.MaxRegions = 2;
+  EXPECT_TRUE(RecognizeSurfaces(surface.Value, params));
   params.Progress = [](double) { return false; };
   EXPECT_EQ(RecognizeSurfaces(surface.Value, params).Status.Code, ErrorCode::Aborted);
 }
