@@ -41,10 +41,26 @@ struct Division
   std::vector<int> RegionOfCluster;
 };
 
-/// @param most  regions; with more it stops, and leaves clusters without one.
-Division Divide(const SurfaceGrowth& growth, const FacetClusters& facets, std::size_t most)
+/// When a division stops, and leaves clusters without a region.
+struct DivisionLimits
+{
+  std::size_t Most = std::numeric_limits<std::size_t>::max(); ///< regions
+  /// Whether the first regions, of the largest facets, must cover half of the area: those of
+  /// machined parts do, those of free shapes cover little each.
+  bool CoversSoon = false;
+};
+constexpr std::size_t FirstRegions = 200;
+
+Division Divide(
+  const SurfaceGrowth& growth, const FacetClusters& facets, const DivisionLimits& limits)
 {
   Division division;
+  double covered = 0.0;
+  double area = 0.0;
+  for (const FacetCluster& cluster : facets.Clusters)
+  {
+    area += cluster.Area;
+  }
   const std::size_t count = facets.Clusters.size();
   division.RegionOfCluster.assign(count, -1);
   std::vector<int> order(count);
@@ -61,7 +77,8 @@ Division Divide(const SurfaceGrowth& growth, const FacetClusters& facets, std::s
     {
       continue;
     }
-    if (division.Regions.size() > most)
+    if (division.Regions.size() >= limits.Most ||
+      (limits.CoversSoon && division.Regions.size() == FirstRegions && covered < 0.5 * area))
     {
       break;
     }
@@ -70,6 +87,7 @@ Division Divide(const SurfaceGrowth& growth, const FacetClusters& facets, std::s
     {
       division.RegionOfCluster[static_cast<std::size_t>(cluster)] =
         static_cast<int>(division.Regions.size());
+      covered += facets.Clusters[static_cast<std::size_t>(cluster)].Area;
     }
     division.Regions.push_back(std::move(region));
   }
@@ -422,13 +440,14 @@ Result<SurfaceRecognition> RecognizeSurfaces(
   // The coarsest level comes first: it says how many regions the others may have to be taken.
   constexpr std::size_t coarsest = Levels.size() - 1;
   constexpr double Unfinished = 2.0; // clusters that go over to others leave fewer regions
-  constexpr std::size_t Any = std::numeric_limits<std::size_t>::max() - 1;
-  const auto divide = [&](std::size_t level, std::size_t most, Division& division)
+  constexpr std::size_t Any = std::numeric_limits<std::size_t>::max();
+  const auto divide = [&](std::size_t level, const DivisionLimits& limits, Division& division)
   {
     const double noise = Levels[level] * result.Tolerance;
     const SurfaceGrowth growth(surface, facets, noise, params.MaximumSag * result.Tolerance);
-    division = Divide(growth, facets, most);
-    if (division.Regions.size() > most)
+    division = Divide(growth, facets, limits);
+    if (std::any_of(division.RegionOfCluster.begin(), division.RegionOfCluster.end(),
+          [](int region) { return region < 0; }))
     {
       return false;
     }
@@ -440,12 +459,15 @@ Result<SurfaceRecognition> RecognizeSurfaces(
     DropEmpty(division);
     return true;
   };
+  DivisionLimits limits;
+  limits.CoversSoon = params.MaxRegions > 0;
+  limits.Most = params.MaxRegions > 0 ? static_cast<std::size_t>(params.MaxRegions) : Any;
   Division last;
-  if (!divide(
-        coarsest, params.MaxRegions > 0 ? static_cast<std::size_t>(params.MaxRegions) : Any, last))
+  if (!divide(coarsest, limits, last))
   {
     return { ErrorCode::TooLarge,
-      "the mesh has more than " + std::to_string(params.MaxRegions) + " regions" };
+      "the mesh has more than " + std::to_string(params.MaxRegions) +
+        " regions, or the first 200 do not cover half of it" };
   }
   Division best;
   std::size_t fewest = Any;
@@ -463,7 +485,7 @@ Result<SurfaceRecognition> RecognizeSurfaces(
     {
       division = std::move(last);
     }
-    else if (!divide(level, static_cast<std::size_t>(most), division))
+    else if (limits = { static_cast<std::size_t>(most), false }; !divide(level, limits, division))
     {
       continue;
     }

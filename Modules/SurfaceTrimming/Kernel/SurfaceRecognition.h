@@ -15,7 +15,9 @@ struct RecognitionParams
   /// Largest distance of edges and triangles from the surface that their corners lie on, in
   /// tolerances, [0, 1000].
   double MaximumSag = 5.0;
-  int MaxRegions = 0; ///< of a part at most: more are a failure; 0: any number
+  /// Of a part at most: more are a failure, and so is a part whose first 200 regions cover less
+  /// than half of it, which is no machined one. 0: any number of any size.
+  int MaxRegions = 0;
   ProgressCallback Progress;
 };
 
