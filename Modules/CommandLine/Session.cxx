@@ -220,6 +220,8 @@ Status Session::WriteFaces(
     auto summary = CheckWrittenCAD(model.Value, staged->string());
     status = summary.Status;
     found = std::move(summary.Value);
+    std::error_code ignored;
+    this->Report["file_bytes"] = fs::file_size(staged.Value, ignored);
   }
   this->SecondsOfFiles += Now() - begin;
   return AboutFile(status, file, staged->string());

@@ -144,6 +144,7 @@ struct TrimJob
         "Area", "MeshArea", "Faces", "Planes", "Cylinders", "Spheres", "Cones", "Tori", "Loops",
         "Edges", "Lines", "Circles", "Vertices", "ControlPoints", "Verdict", "LoopVerdict" },
       session.Report);
+    session.Report["free_faces"] = 0;
     Status status = HasCADEnding(this->Output)
       ? this->WriteFaces(this->Model, session)
       : session.Write(this->Model->GetOutputDataObject(Surfaces), this->Output);
@@ -209,6 +210,11 @@ struct TrimJob
         "ControlPoints", "Passes", "Work", "Stopped", "Verdict", "LoopVerdict", "Nets" },
       report);
     report["charts"] = value("Faces").ToInt();
+    for (const char* type : { "planes", "cylinders", "spheres", "cones", "tori" })
+    {
+      report[type] = 0;
+    }
+    report["free_faces"] = value("Faces").ToInt();
     report["centres_used"] = value("Centres").ToInt();
     report["face_triangles"] = value("Triangles").ToInt();
     report["seconds_of_trimming"] = this->Trim->GetSeconds();

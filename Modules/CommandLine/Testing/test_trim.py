@@ -139,6 +139,7 @@ def test_machined_parts_are_planes_and_cylinders():
         assert report["faces"] == report["file_faces"] == 6 and report["control_points"] == 24
         assert report["brep_valid"] and report["within_tolerance"] and report["loops_proved"] and report["verdict"] == "valid"
         assert report["max_deviation"] < 1e-14 and abs(report["file_area"] - 22) < 1e-12
+        assert report["free_faces"] == 0 and report["file_bytes"] == os.path.getsize(file)
         with open(file) as stream:
             text = stream.read()
         assert "B_SPLINE" not in text and len(text) < 60000, len(text)
@@ -164,6 +165,7 @@ def test_free_shapes_are_splines_and_the_report_says_why():
     report = trim(wave, "--output", path("wave.step"), features="on")
     assert report["analytic"] is False and report["faces"] == 1 and report["flatten_method"]
     assert "region" in report["why_not_analytic"], report["why_not_analytic"]
+    assert report["free_faces"] == 1 and report["planes"] == 0
 
 
 def test_given_plane_coordinates_are_used():
