@@ -4,11 +4,12 @@
  * @brief   trimmed faces from STEP, IGES and BREP files
  *
  * Outputs: 0 the surfaces as spline grid (vtkUnstructuredGrid), a patch a face, with the cell
- * arrays FaceId, Body, FaceReversed, Name, Color; 1 the trimming curves as spline grid, a patch a
- * use of an edge, with the point array UV; 2 the trimmed faces as triangles (vtkPolyData) with
- * Normals, the cell arrays FaceId, PatchId, Name and Color (red, green, blue as bytes; white where
- * the file says nothing). Assemblies are resolved; what cannot be read is left out with a warning.
- * Errors: those of knotwork::ReadCADInProcess and TriangulateFaces.
+ * arrays FaceId, Body, FaceReversed, Name, Color, SurfaceType (0 plane, 1 cylinder, 2 sphere, 3
+ * cone, 4 torus, 5 others; not there where all are others); 1 the trimming curves as spline grid, a
+ * patch a use of an edge, with the point array UV; 2 the trimmed faces as triangles (vtkPolyData)
+ * with Normals, the cell arrays FaceId, PatchId, Name and Color (red, green, blue as bytes; white
+ * where the file says nothing). Assemblies are resolved; what cannot be read is left out with a
+ * warning. Errors: those of knotwork::ReadCADInProcess and TriangulateFaces.
  */
 #ifndef vtkCADReader_h
 #define vtkCADReader_h

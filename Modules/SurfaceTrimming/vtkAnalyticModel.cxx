@@ -5,11 +5,14 @@
 #include "TrimmedGrids.h"
 #include <knotwork/MeshParameterization/MeshData.h>
 #include <knotwork/SplineCore/Numbers.h>
+#include <knotwork/SplineGrid/NamedArray.h>
 #include <knotwork/SplineGrid/TableRow.h>
 #include <knotwork/SurfaceTrimming/RegionModel.h>
 
+#include "vtkCellData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkIntArray.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
@@ -33,6 +36,18 @@ double AreaOf(const PointMatrix& points, const std::vector<std::array<int, 3>>& 
     area += TriangleArea(points, triangle);
   }
   return area;
+}
+
+/// The type of every triangle's face.
+void EncodeTypes(const RegionModel& model, const TrimmedMesh& triangles, vtkPolyData* output)
+{
+  const auto types = NamedArray<vtkIntArray>("SurfaceType");
+  for (const int face : triangles.TriangleFace)
+  {
+    types->InsertNextValue(
+      static_cast<int>(model.Model.Faces[static_cast<std::size_t>(face)].Type));
+  }
+  output->GetCellData()->AddArray(types);
 }
 
 /// Of the mesh's points from the faces, and of the faces' edges from their surfaces.
@@ -84,6 +99,16 @@ void EncodeNumbers(
   AddColumn(table, "MeshArea", AreaOf(mesh.Points, mesh.Triangles));
 }
 
+/// A stage of the whole, which is run for every part of the mesh: progress never goes back.
+ProgressCallback Stage(const ProgressCallback& whole, double& done, double begin, double end)
+{
+  return [=, &done](double share)
+  {
+    done = std::max(done, begin + share * (end - begin));
+    return whole(done);
+  };
+}
+
 std::vector<std::string> Shortcomings(const RegionModel& model)
 {
   std::vector<std::string> texts =
@@ -118,14 +143,15 @@ knotwork::Status vtkAnalyticModel::Compute(
   {
     return decoded.Status;
   }
+  double done = 0.0;
   RecognitionParams recognition;
   recognition.Tolerance = this->Tolerance;
   recognition.MaximumSag = this->MaximumSag;
-  recognition.Progress = this->Progress();
+  recognition.Progress = Stage(this->Progress(), done, 0.0, 0.3);
   RegionModelParams params;
   params.CornerAngle = this->CornerAngle;
   params.Threads = this->KernelThreads();
-  params.Progress = this->Progress();
+  params.Progress = Stage(this->Progress(), done, 0.3, 0.7);
   const auto model = ModelMesh(decoded->Mesh, recognition, params);
   if (!model)
   {
@@ -135,6 +161,7 @@ knotwork::Status vtkAnalyticModel::Compute(
   fineness.Tolerance =
     this->ChordalTolerance > 0.0 ? this->ChordalTolerance : 0.25 * model->Tolerance;
   fineness.Threads = this->KernelThreads();
+  fineness.Progress = Stage(this->Progress(), done, 0.7, 1.0);
   const auto triangles = TriangulateFaces(model->Model, fineness);
   if (!triangles)
   {
@@ -142,6 +169,7 @@ knotwork::Status vtkAnalyticModel::Compute(
   }
   this->ReportWarnings(Shortcomings(model.Value));
   EncodeTriangles(triangles.Value, vtkPolyData::GetData(outputs, 0));
+  EncodeTypes(model.Value, triangles.Value, vtkPolyData::GetData(outputs, 0));
   EncodeNumbers(model.Value, decoded->Mesh, triangles.Value, vtkTable::GetData(outputs, 3));
   return EncodeTrimmedModel(model->Model, vtkUnstructuredGrid::GetData(outputs, 1),
     vtkUnstructuredGrid::GetData(outputs, 2));

@@ -107,8 +107,8 @@ TrimmedModel TwoFaces(unsigned seed, int spans)
     {
       color = std::max(color, std::abs(x.Color[c] - y.Color[c]));
     }
-    if (!Same(x.Surface, y.Surface) || x.Reversed != y.Reversed || x.Body != y.Body ||
-      x.Name != y.Name || x.HasColor != y.HasColor || color > 0.5 / 255.0 ||
+    if (!Same(x.Surface, y.Surface) || x.Reversed != y.Reversed || x.Type != y.Type ||
+      x.Body != y.Body || x.Name != y.Name || x.HasColor != y.HasColor || color > 0.5 / 255.0 ||
       x.Loops.size() != y.Loops.size())
     {
       return Differ(face);

@@ -154,6 +154,25 @@ TEST(TrimmedGrids, CarryTheWholeModel_ExactOracle)
   }
 }
 
+TEST(TrimmedGrids, CarryTheTypesOfSurfaces_ExactOracle)
+{
+  TrimmedModel model = Renumbered(TwoFaces());
+  EXPECT_FALSE(Grids(model).Surfaces->GetCellData()->HasArray("SurfaceType"));
+  for (int type = 0; type < static_cast<int>(SurfaceType::FreeForm); ++type)
+  {
+    model.Faces[1].Type = static_cast<SurfaceType>(type); // beside a free form
+    const Grids grids(model);
+    auto* array = grids.Surfaces->GetCellData()->GetArray("SurfaceType");
+    ASSERT_NE(array, nullptr);
+    EXPECT_EQ(array->GetTuple1(0), static_cast<int>(SurfaceType::FreeForm));
+    EXPECT_EQ(array->GetTuple1(6), type);
+    const TrimmedModel found = grids.Decode();
+    EXPECT_TRUE(Identical(found, model));
+    EXPECT_EQ(found.Faces[0].Type, SurfaceType::FreeForm);
+    EXPECT_EQ(found.Faces[1].Type, model.Faces[1].Type);
+  }
+}
+
 TEST(TrimmedGrids, AreBezierGridsThatVtkReadsAndWrites_ExactOracle)
 {
   const TrimmedModel model = Renumbered(TwoFaces());
@@ -538,6 +557,14 @@ TEST(TrimmedGrids, DamageIsRefused)
   };
   const auto without = [](const char* name)
   { return [name](Grids& grids) { grids.Curves->GetCellData()->RemoveArray(name); }; };
+  const auto setType = [](Grids& grids, int type)
+  {
+    vtkNew<vtkIntArray> types;
+    types->SetName("SurfaceType");
+    types->SetNumberOfTuples(grids.Surfaces->GetNumberOfCells());
+    types->Fill(type);
+    grids.Surfaces->GetCellData()->AddArray(types);
+  };
   std::vector<Damage> damages = {
     { "plane curves", [](Grids& grids) { grids.Curves->GetPointData()->RemoveArray("UV"); },
       ErrorCode::InvalidTopology, "'UV'" },
@@ -600,6 +627,10 @@ TEST(TrimmedGrids, DamageIsRefused)
         grids.Surfaces->GetCellData()->AddArray(body);
       },
       ErrorCode::InvalidTopology, "'Body' is not one number a cell" },
+    { "a type that is none", [=](Grids& grids) { setType(grids, NumSurfaceTypes); },
+      ErrorCode::InvalidTopology, "cell array 'SurfaceType' is 6" },
+    { "a type below none", [=](Grids& grids) { setType(grids, -1); }, ErrorCode::InvalidTopology,
+      "cell array 'SurfaceType' is -1" },
     { "curves in the place of surfaces",
       [](Grids& grids) { std::swap(grids.Surfaces, grids.Curves); }, ErrorCode::DimensionMismatch,
       "no tensor-product surface" },
