@@ -115,6 +115,19 @@ def test_files_hold_the_surfaces_and_no_splines():
         assert "MANIFOLD_SOLID_BREP" in text, name
 
 
+def test_every_fineness_has_triangles():
+    """At 1e-3 and 1.5e-3 polygons of the cheese's rims cross, so that its triangles are finer."""
+    profile, _, area = SOLIDS["cheese"]
+    for tolerance in (1e-3, 1.2e-3, 1.5e-3, 4e-3):
+        model = knotwork.vtkAnalyticModel()
+        model.SetInputDataObject(turned(profile))
+        model.SetMaximumSag(30)
+        model.SetChordalTolerance(tolerance)
+        model.Update()
+        assert model.GetErrorCode() == 0, tolerance
+        assert abs(number(model, "Area") / area - 1) < 5 * tolerance, tolerance
+
+
 def test_free_form_is_refused():
     plane = vtkPlaneSource()
     plane.SetResolution(20, 20)
