@@ -171,9 +171,47 @@ void SurfaceGrowth::Refit(GrownRegion& region) const
   const std::vector<Vector3d> points = this->PointsOf(region.Clusters);
   AnalyticSurface better = region.Surface;
   region.NumPoints = static_cast<int>(points.size());
-  if (FitSurface(points, better))
+  // least squares may leave a point farther away than it may be
+  if (FitSurface(points, better) &&
+    (MaxDistance(points, better) <= this->Noise ||
+      MaxDistance(points, better) <= MaxDistance(points, region.Surface)))
   {
     region.Surface = better;
+  }
+}
+
+void SurfaceGrowth::Reconsider(GrownRegion& region) const
+{
+  constexpr double MuchNearer = 0.5;
+  if (region.Surface.Type == SurfaceType::Plane || region.Surface.Type == SurfaceType::FreeForm ||
+    region.Clusters.size() < 2)
+  {
+    return;
+  }
+  const std::vector<Vector3d> points = this->PointsOf(region.Clusters);
+  const std::vector<FlatPiece> pieces = this->PiecesOf(region.Clusters);
+  region.MeanSag = this->MeanSag(region);
+  for (const SurfaceType type : { SurfaceType::Cylinder, SurfaceType::Sphere, SurfaceType::Cone })
+  {
+    GrownRegion other = region;
+    if (type == region.Surface.Type || !GuessSurface(type, points, pieces, other.Surface) ||
+      !FitSurface(points, other.Surface))
+    {
+      continue;
+    }
+    const FlatPiece& first = pieces.front();
+    other.Reversed = other.Surface.Normal(first.Centre).dot(first.Normal) < 0.0;
+    if (!std::all_of(region.Clusters.begin(), region.Clusters.end(),
+          [&](int cluster) { return this->Fits(cluster, other.Surface, other.Reversed); }))
+    {
+      continue;
+    }
+    other.MeanSag = this->MeanSag(other);
+    const double share = type < region.Surface.Type ? 1.0 : MuchNearer;
+    if (other.MeanSag <= share * region.MeanSag)
+    {
+      region = std::move(other);
+    }
   }
 }
 

@@ -229,22 +229,29 @@ void JoinEqual(const DiscMesh& surface, const FacetClusters& facets, double nois
       {
         continue;
       }
-      const bool isOne = std::all_of(other.Clusters.begin(), other.Clusters.end(),
-        [&](int cluster)
+      const auto liesOn = [&](const GrownRegion& on)
+      {
+        return [&](int cluster)
         {
-          return LiesOn(surface, facets.Clusters[static_cast<std::size_t>(cluster)], region.Surface,
-            region.Reversed, noise);
-        });
-      if (isOne)
+          return LiesOn(surface, facets.Clusters[static_cast<std::size_t>(cluster)], on.Surface,
+            on.Reversed, noise);
+        };
+      };
+      if (!std::all_of(other.Clusters.begin(), other.Clusters.end(), liesOn(region)))
+      {
+        continue;
+      }
+      GrownRegion joined = region;
+      joined.Clusters.insert(joined.Clusters.end(), other.Clusters.begin(), other.Clusters.end());
+      growth.Refit(joined);
+      if (std::all_of(joined.Clusters.begin(), joined.Clusters.end(), liesOn(joined)))
       {
         for (int cluster : other.Clusters)
         {
           division.RegionOfCluster[static_cast<std::size_t>(cluster)] = to;
         }
-        region.Clusters.insert(region.Clusters.end(), other.Clusters.begin(), other.Clusters.end());
-        region.NumPoints += other.NumPoints;
         other.Clusters.clear();
-        growth.Refit(region);
+        region = std::move(joined);
       }
     }
   }
@@ -453,6 +460,10 @@ Result<SurfaceRecognition> RecognizeSurfaces(
     }
     MoveBorders(growth, facets, division);
     FlattenSingles(facets, division);
+    for (GrownRegion& region : division.Regions)
+    {
+      growth.Reconsider(region);
+    }
     const double near = level <= LastOfExact ? NearEnough * noise : noise;
     TakeWideTriangles(surface, facets, near, division);
     JoinEqual(surface, facets, near, growth, division);

@@ -146,6 +146,16 @@ TEST(SurfaceRecognition, WideTrianglesBelongToTheCylinder)
   EXPECT_GT(cylinder->MaxSag, 0.05);
 }
 
+/// One strip of a cylinder above a hollow fillet: it lies on tori too.
+TEST(SurfaceRecognition, StripAboveAFilletIsACylinder)
+{
+  const auto result = Recognize(Turned({ 0, 0 },
+    { { { 3, 0 } }, { { 3, 1 } }, { { 2, 1 } }, { { 1, 2 }, { 2, 2 }, 12 }, { { 1, 3 } },
+      { { 0, 3 } } },
+    48));
+  EXPECT_EQ(result.NumOfType, (Counts{ 3, 2, 0, 0, 1, 0 }));
+}
+
 TEST(SurfaceRecognition, ShortCylinderIsNoSphere)
 {
   // two circles lie on a sphere, too; the rulings tell
