@@ -480,6 +480,7 @@ Result<SurfaceRecognition> RecognizeSurfaces(
       "the mesh has more than " + std::to_string(params.MaxRegions) +
         " regions, or the first 200 do not cover half of it" };
   }
+  const auto ofCoarsest = static_cast<double>(last.Regions.size());
   Division best;
   std::size_t fewest = Any;
   for (std::size_t level = 0; level < Levels.size() && fewest > 1; ++level)
@@ -489,12 +490,12 @@ Result<SurfaceRecognition> RecognizeSurfaces(
     {
       return { ErrorCode::Aborted, "recognition was stopped" };
     }
-    const double most = Unfinished * static_cast<double>(last.Regions.size()) /
-      std::pow(WorthIt, static_cast<double>(coarsest - level));
+    const double most =
+      Unfinished * ofCoarsest / std::pow(WorthIt, static_cast<double>(coarsest - level));
     Division division;
     if (level == coarsest)
     {
-      division = std::move(last);
+      std::swap(division, last);
     }
     else if (limits = { static_cast<std::size_t>(most), false }; !divide(level, limits, division))
     {
