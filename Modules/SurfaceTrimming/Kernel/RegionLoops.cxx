@@ -487,7 +487,7 @@ Status NoLayout(int region, const AnalyticSurface& surface)
 {
   return { ErrorCode::NotInSpace,
     "region " + std::to_string(region) + ", a " + ToString(surface.Type) +
-      ", is no disc with holes when it is cut open once" };
+      ", is no disc with holes when it is cut open once; divide it, or make spline faces" };
 }
 }
 

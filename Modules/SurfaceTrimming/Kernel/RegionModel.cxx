@@ -4,6 +4,7 @@
 #include "TriangleSag.h"
 
 #include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineCore/Numbers.h>
 #include <knotwork/SplineCore/TensorSpace.h>
 
 #include <Eigen/Geometry>
@@ -143,7 +144,12 @@ Status RegionModeler::FindChains()
   {
     if (this->Surfaces[r].Type == SurfaceType::FreeForm)
     {
-      return { ErrorCode::NotInSpace, "region " + std::to_string(r) + " is of free form" };
+      const int triangle = this->Recognition.Regions[r].Triangles.front();
+      const Eigen::Vector3d at =
+        this->Surface.Point(this->Surface.Triangles[static_cast<std::size_t>(triangle)].front());
+      return { ErrorCode::NotInSpace,
+        "region " + std::to_string(r) + " at (" + Digits(at.x()) + ", " + Digits(at.y()) + ", " +
+          Digits(at.z()) + ") is of free form; raise the tolerance, or make spline faces" };
     }
     this->Loops[r].Reversed = this->Recognition.Regions[r].Reversed;
   }

@@ -402,6 +402,8 @@ ModelledParts ModelFamily(unsigned first, unsigned parts, double noise, double v
     tally.Right += fault.empty() ? 1 : 0;
     tally.Faults += fault.empty() ? "" : "part " + std::to_string(seed) + ": " + fault + "\n";
   }
+  ::testing::Test::RecordProperty(
+    "solids", std::to_string(tally.Right) + " of " + std::to_string(tally.Parts));
   return tally;
 }
 }
