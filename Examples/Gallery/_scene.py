@@ -185,6 +185,21 @@ def edges_of_boxes(grid, bounds, patch, samples):
     return updated(evaluate).GetOutputDataObject(0)
 
 
+def coloured_cells(polydata, array, colours):
+    """Flat facets in the colours, each of three shares, that a cell array of whole numbers picks; they begin again after the last."""
+    numbers = vtk_to_numpy(polydata.GetCellData().GetArray(array)).astype(int) % len(colours)
+    table = (255 * np.asarray(colours)).round().astype(np.uint8)
+    polydata.GetCellData().SetScalars(numpy_to_vtk(table[numbers], deep=1))
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputData(polydata)
+    result = vtkActor()
+    result.SetMapper(mapper)
+    result.GetProperty().SetInterpolationToFlat()
+    result.GetProperty().SetAmbient(0.55)
+    result.GetProperty().SetDiffuse(0.5)
+    return result
+
+
 def label(text, x, y, size=22):
     """A line of text at a position of the renderer, in shares of its size."""
     result = vtkTextActor()

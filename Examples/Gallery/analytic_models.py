@@ -9,30 +9,15 @@ import os
 
 import knotwork
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkRenderingCore import vtkActor, vtkMapper, vtkPolyDataMapper
+from vtkmodules.vtkRenderingCore import vtkMapper
 
 import _scene as scene
 
 # a mesh, where it is looked at from, what is up, and how much it is enlarged
 PARTS = (("spool", (1.0, -0.8, 0.6), (0, 0, 1), 1.2), ("couplingdown", (-1.0, -0.6, -1.2), (0, 0, -1), 1.25),
          ("joint", (1.0, -0.8, 0.7), (0, 0, 1), 1.05))
-COLOURS = 255 * np.array([(0.72, 0.83, 0.92), (0.95, 0.73, 0.35), (0.36, 0.70, 0.55), (0.95, 0.90, 0.45), (0.86, 0.45, 0.30),
-                          (0.62, 0.60, 0.80), (0.80, 0.80, 0.78)])
-
-
-def smooth(triangles):
-    """The faces' triangles in colours that follow each other."""
-    faces = vtk_to_numpy(triangles.GetCellData().GetArray("FaceId")).astype(int)
-    triangles.GetCellData().SetScalars(numpy_to_vtk(COLOURS.round().astype(np.uint8)[faces % len(COLOURS)], deep=1))
-    mapper = vtkPolyDataMapper()
-    mapper.SetInputData(triangles)
-    result = vtkActor()
-    result.SetMapper(mapper)
-    result.GetProperty().SetInterpolationToFlat()
-    result.GetProperty().SetAmbient(0.5)
-    result.GetProperty().SetDiffuse(0.55)
-    return result
+COLOURS = ((0.72, 0.83, 0.92), (0.95, 0.73, 0.35), (0.36, 0.70, 0.55), (0.95, 0.90, 0.45), (0.86, 0.45, 0.30),
+           (0.62, 0.60, 0.80), (0.80, 0.80, 0.78))
 
 
 def view_of(actors, viewport, text, direction, up, zoom):
@@ -65,7 +50,7 @@ def panels(k, name, *camera):
     given.GetProperty().SetInterpolationToFlat()
     left, right = k / len(PARTS), (k + 1) / len(PARTS)
     return [view_of([given], (left, 0.5, right, 1), f"{mesh.GetNumberOfCells()} triangles", *camera),
-            view_of([smooth(triangles), edges], (left, 0, right, 0.5),
+            view_of([scene.coloured_cells(triangles, "FaceId", COLOURS), edges], (left, 0, right, 0.5),
                     f"{number['Faces']} faces, {number['Edges']} edges: {number['Lines']} lines, {number['Circles']} circles", *camera)]
 
 

@@ -9,9 +9,8 @@ import os
 
 import knotwork
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkFiltersSources import vtkPlaneSource
-from vtkmodules.vtkRenderingCore import vtkActor, vtkMapper, vtkPolyDataMapper
+from vtkmodules.vtkRenderingCore import vtkMapper
 
 import _scene as scene
 
@@ -21,21 +20,6 @@ PARTS = (("fandisk", (1.0, -0.8, 0.7), (0, 0, 1), 1.15), ("couplingdown", (-1.0,
 TYPES = (("plane", "Planes", (0.72, 0.83, 0.92)), ("cylinder", "Cylinders", (0.95, 0.73, 0.35)), ("sphere", "Spheres", (0.36, 0.70, 0.55)),
          ("cone", "Cones", (0.95, 0.90, 0.45)), ("torus", "Tori", (0.86, 0.45, 0.30)), ("free form", "FreeForms", (0.70, 0.70, 0.70)))
 LEGEND = 0.1  # share of the height
-
-
-def coloured(triangles):
-    """The triangles in the colours of their surfaces' types."""
-    types = vtk_to_numpy(triangles.GetCellData().GetArray("SurfaceType"))
-    table = (255 * np.array([colour for _, _, colour in TYPES])).round().astype(np.uint8)
-    triangles.GetCellData().SetScalars(numpy_to_vtk(table[types], deep=1))
-    mapper = vtkPolyDataMapper()
-    mapper.SetInputData(triangles)
-    result = vtkActor()
-    result.SetMapper(mapper)
-    result.GetProperty().SetInterpolationToFlat()
-    result.GetProperty().SetAmbient(0.55)
-    result.GetProperty().SetDiffuse(0.5)
-    return result
 
 
 def counted(word, count):
@@ -52,7 +36,7 @@ def panel(k, name, direction, up, zoom):
     counts = [(word, table.GetValueByName(0, column).ToInt()) for word, column, _ in TYPES]
     edges = scene.actor(recognition.GetOutputDataObject(1), scene.INK, line_width=2.5)
     edges.GetMapper().SetRelativeCoincidentTopologyLineOffsetParameters(0, -8)
-    view = scene.renderer([coloured(triangles), edges], (k / len(PARTS), LEGEND, (k + 1) / len(PARTS), 1))
+    view = scene.renderer([scene.coloured_cells(triangles, "SurfaceType", [colour for _, _, colour in TYPES]), edges], (k / len(PARTS), LEGEND, (k + 1) / len(PARTS), 1))
     camera = view.GetActiveCamera()
     camera.SetPosition(*(np.array(camera.GetFocalPoint()) + direction))
     camera.SetViewUp(*up)
