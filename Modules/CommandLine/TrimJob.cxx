@@ -140,11 +140,10 @@ struct TrimJob
     session.Report["triangles"] = mesh->GetNumberOfElements(vtkDataObject::CELL);
     ReportTruths(table, 0, { "WithinTolerance", "LoopsProved" }, session.Report);
     ReportRow(table, 0,
-      { "Tolerance", "MaxDeviation", "MaxSag", "MaxEdgeDistance", "MaxEdgeGap", "MinNormalBound",
-        "Area", "MeshArea", "Faces", "Planes", "Cylinders", "Spheres", "Cones", "Tori", "Loops",
-        "Edges", "Lines", "Circles", "Vertices", "ControlPoints", "Verdict", "LoopVerdict" },
+      { "Tolerance", "MaxDeviation", "MaxNormalAngle", "MaxSag", "MaxEdgeDistance", "MaxEdgeGap", "MinNormalBound",
+        "Area", "MeshArea", "Faces", "Planes", "Cylinders", "Spheres", "Cones", "Tori", "FreeFaces",
+        "Loops", "Edges", "Lines", "Circles", "Vertices", "ControlPoints", "Verdict", "LoopVerdict" },
       session.Report);
-    session.Report["free_faces"] = 0;
     Status status = HasCADEnding(this->Output)
       ? this->WriteFaces(this->Model, session)
       : session.Write(this->Model->GetOutputDataObject(Surfaces), this->Output);

@@ -69,10 +69,21 @@ Result<TrimmedMesh> Triangulate(const TrimmedModel& model, TrimmedMeshParams par
   return triangles;
 }
 
-/// Of the mesh's points from the faces, and of the faces' edges from their surfaces.
+/// Of the mesh's points from analytic faces, and of the mesh and spline faces from each other.
 double DeviationOf(const RegionModel& model)
 {
-  return std::max(model.MaxPointDistance, model.MaxEdgeGap);
+  return std::max(model.MaxPointDistance, model.FreeDeviation);
+}
+
+/// Surfaces that are both as near to common points as the tolerance are no farther from each other.
+double LargestGap(const RegionModel& model)
+{
+  return 2.0 * model.Tolerance;
+}
+
+bool IsWithinTolerance(const RegionModel& model)
+{
+  return DeviationOf(model) <= model.Tolerance && model.MaxEdgeGap <= LargestGap(model);
 }
 
 void EncodeNumbers(
@@ -86,14 +97,16 @@ void EncodeNumbers(
   AddColumn(table, "Spheres", count(SurfaceType::Sphere));
   AddColumn(table, "Cones", count(SurfaceType::Cone));
   AddColumn(table, "Tori", count(SurfaceType::Torus));
+  AddColumn(table, "FreeFaces", count(SurfaceType::FreeForm));
   AddColumn(table, "Edges", model.NumEdges);
   AddColumn(table, "Lines", model.NumLines);
   AddColumn(table, "Circles", model.NumCircles);
   AddColumn(table, "Vertices", model.NumVertices);
   AddColumn(table, "Loops", model.NumRims);
   AddColumn(table, "Tolerance", model.Tolerance);
-  AddColumn(table, "WithinTolerance", DeviationOf(model) <= model.Tolerance ? 1 : 0);
+  AddColumn(table, "WithinTolerance", IsWithinTolerance(model) ? 1 : 0);
   AddColumn(table, "MaxDeviation", DeviationOf(model));
+  AddColumn(table, "MaxNormalAngle", model.MaxNormalAngle);
   AddColumn(table, "MaxSag", model.MaxDistance);
   AddColumn(table, "MaxEdgeDistance", model.MaxEdgeDistance);
   AddColumn(table, "MaxEdgeGap", model.MaxEdgeGap);
@@ -136,6 +149,11 @@ std::vector<std::string> Shortcomings(const RegionModel& model)
   {
     texts.push_back("the deviation is up to " + Digits(DeviationOf(model)) +
       ", above the tolerance " + Digits(model.Tolerance));
+  }
+  if (model.MaxEdgeGap > LargestGap(model))
+  {
+    texts.push_back("surfaces are up to " + Digits(model.MaxEdgeGap) +
+      " apart from their common edge, more than twice the tolerance " + Digits(model.Tolerance));
   }
   return texts;
 }

@@ -56,9 +56,9 @@ public:
   {
   }
 
-  Status Run()
+  Status Run(const std::vector<LoopVertex>& vertices)
   {
-    if (Status status = this->NumberPoints(); !status)
+    if (Status status = this->NumberPoints(vertices); !status)
     {
       return status;
     }
@@ -91,7 +91,7 @@ private:
     return this->Numbers[static_cast<std::size_t>(chart)][static_cast<std::size_t>(point)];
   }
 
-  Status NumberPoints()
+  Status NumberPoints(const std::vector<LoopVertex>& vertices)
   {
     struct First
     {
@@ -122,6 +122,14 @@ private:
               std::to_string(first.Chart) + " and " + std::to_string(c) };
         }
         numbers.push_back(first.Number);
+      }
+    }
+    this->IsVertex.assign(static_cast<std::size_t>(this->NumPoints), false);
+    for (const LoopVertex& vertex : vertices)
+    {
+      if (const auto entry = known.find(vertex.PointId); entry != known.end())
+      {
+        this->IsVertex[static_cast<std::size_t>(entry->second.Number)] = true;
       }
     }
     return {};
@@ -315,9 +323,10 @@ private:
     {
       const HalfEdge& before = this->Halves[h];
       const HalfEdge& after = this->Half(before.Next);
-      const int touching =
-        this->Outgoing[static_cast<std::size_t>(this->PointOf(before.Chart, before.To))];
-      bool isEnd = (before.Twin < 0) != (after.Twin < 0) || this->IsCorner(before, after);
+      const auto point = static_cast<std::size_t>(this->PointOf(before.Chart, before.To));
+      const int touching = this->Outgoing[point];
+      bool isEnd = (before.Twin < 0) != (after.Twin < 0) || this->IsVertex[point] ||
+        this->IsCorner(before, after);
       if (before.Twin < 0 || after.Twin < 0)
       {
         isEnd = isEnd || touching != 1;
@@ -460,16 +469,18 @@ private:
   std::vector<HalfEdge> Halves;
   std::vector<std::vector<int>> Loops; ///< first half edge
   std::vector<EdgeKey> Inner;
-  std::vector<int> Outgoing; ///< half edges from a point of the surface
-  std::vector<bool> IsEnd;   ///< a chain ends with this half edge
+  std::vector<bool> IsVertex; ///< points of the surface that are to be one
+  std::vector<int> Outgoing;  ///< half edges from a point of the surface
+  std::vector<bool> IsEnd;    ///< a chain ends with this half edge
   std::unordered_map<int, int> Vertices;
 };
 }
 
-Result<BoundaryChains> FindBoundaryChains(const std::vector<ChartMesh>& charts, double cornerAngle)
+Result<BoundaryChains> FindBoundaryChains(
+  const std::vector<ChartMesh>& charts, double cornerAngle, const std::vector<LoopVertex>& vertices)
 {
   ChainFinder finder(charts, cornerAngle);
-  if (Status status = finder.Run(); !status)
+  if (Status status = finder.Run(vertices); !status)
   {
     return status;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "ChartMesh.h"
+#include "TrimLoops.h"
 
 /// Private to FitLoops: which boundary edges of charts become one edge of the model.
 namespace knotwork
@@ -37,11 +37,13 @@ struct BoundaryChains
 
 /// Chains end where the charts along the boundary change, at points where several boundaries
 /// touch, and where the boundary turns by more than cornerAngle degrees, in space or in UV of a
-/// chart. A closed curve without such points is one chain that begins at its first point.
+/// chart, and at `vertices`. A closed curve without such points is one chain that begins at its
+/// first point.
 /// @pre every ChartMesh::Check is Ok.
 /// @return InvalidTopology: an edge of three triangles (of charts), or of two that lie on the same
 /// side; triangles that touch in a point only; charts whose common points lie apart, charts that
 /// are not one disc with holes.
 /// @complexity O(n log n).
-Result<BoundaryChains> FindBoundaryChains(const std::vector<ChartMesh>& charts, double cornerAngle);
+Result<BoundaryChains> FindBoundaryChains(const std::vector<ChartMesh>& charts, double cornerAngle,
+  const std::vector<LoopVertex>& vertices = {});
 }

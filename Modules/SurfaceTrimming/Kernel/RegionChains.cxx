@@ -128,7 +128,7 @@ private:
       {
         this->VertexOf[At(point)] = static_cast<int>(this->Found.Vertices.size());
         this->Found.Vertices.push_back({ this->Surface.Point(point), this->Surface.Point(point),
-          std::vector<int>(meeting.Regions.begin(), meeting.Regions.end()) });
+          point, std::vector<int>(meeting.Regions.begin(), meeting.Regions.end()) });
       }
     }
   }
@@ -144,6 +144,7 @@ private:
     chain.Regions = { this->Region(first), this->RegionBeyond(first) };
     chain.Vertices[0] = this->VertexAt(this->Tail(first));
     chain.Points.push_back(this->Surface.Point(this->Tail(first)));
+    chain.PointIds.push_back(this->Tail(first));
     int side = first;
     while (true)
     {
@@ -153,6 +154,7 @@ private:
         this->ChainOf[At(twin)] = number;
       }
       chain.Points.push_back(this->Surface.Point(this->Head(side)));
+      chain.PointIds.push_back(this->Head(side));
       chain.Vertices[1] = this->VertexAt(this->Head(side));
       side = chain.Vertices[1] >= 0 ? side : this->Next(side);
       if (chain.Vertices[1] >= 0 || side == first)
@@ -207,7 +209,8 @@ private:
 namespace
 {
 /// A closed row that begins elsewhere.
-void Turn(std::vector<Eigen::Vector3d>& points, std::size_t first)
+template <typename Item>
+void Turn(std::vector<Item>& points, std::size_t first)
 {
   points.pop_back();
   std::rotate(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(first % points.size()),
@@ -216,10 +219,11 @@ void Turn(std::vector<Eigen::Vector3d>& points, std::size_t first)
 }
 
 /// What comes from a point on.
-std::vector<Eigen::Vector3d> CutOff(std::vector<Eigen::Vector3d>& points, std::size_t first)
+template <typename Item>
+std::vector<Item> CutOff(std::vector<Item>& points, std::size_t first)
 {
   const auto at = points.begin() + static_cast<std::ptrdiff_t>(first);
-  std::vector<Eigen::Vector3d> rest(at, points.end());
+  std::vector<Item> rest(at, points.end());
   points.erase(at + 1, points.end());
   return rest;
 }
@@ -232,6 +236,7 @@ int RegionChains::Split(int chain, std::size_t point)
   RegionVertex& made = this->Vertices.emplace_back();
   made.Point = first.Points[point];
   made.MeshPoint = first.MeshPoints[point];
+  made.PointId = first.PointIds[point];
   for (const int region : first.Regions)
   {
     if (region >= 0)
@@ -244,12 +249,14 @@ int RegionChains::Split(int chain, std::size_t point)
   {
     Turn(first.Points, point);
     Turn(first.MeshPoints, point);
+    Turn(first.PointIds, point);
     first.Vertices = { vertex, vertex };
     return vertex;
   }
   RegionChain second;
   second.Points = CutOff(first.Points, point);
   second.MeshPoints = CutOff(first.MeshPoints, point);
+  second.PointIds = CutOff(first.PointIds, point);
   second.Regions = first.Regions;
   second.Vertices = { vertex, first.Vertices[1] };
   first.Vertices[1] = vertex;
@@ -272,6 +279,26 @@ int RegionChains::Split(int chain, std::size_t point)
     }
   }
   return vertex;
+}
+
+void RegionChains::Reverse(int chain)
+{
+  RegionChain& own = this->Chains[static_cast<std::size_t>(chain)];
+  std::reverse(own.Points.begin(), own.Points.end());
+  std::reverse(own.MeshPoints.begin(), own.MeshPoints.end());
+  std::reverse(own.PointIds.begin(), own.PointIds.end());
+  std::swap(own.Regions[0], own.Regions[1]);
+  std::swap(own.Vertices[0], own.Vertices[1]);
+  for (auto& loops : this->Loops)
+  {
+    for (auto& loop : loops)
+    {
+      for (ChainUseOfRegion& use : loop)
+      {
+        use.Reversed = use.Chain == chain ? !use.Reversed : use.Reversed;
+      }
+    }
+  }
 }
 
 RegionChains FindRegionChains(

@@ -10,6 +10,7 @@ struct RegionChain
 {
   std::vector<Eigen::Vector3d> Points;     ///< of a closed chain the first one again at the end
   std::vector<Eigen::Vector3d> MeshPoints; ///< where the mesh has them
+  std::vector<int> PointIds;               ///< of the mesh; -1: of none
   std::array<int, 2> Regions{ -1, -1 };    ///< to the left and to the right; -1: none
   std::array<int, 2> Vertices{ -1, -1 };   ///< at both ends; -1: a closed chain without one
 };
@@ -24,6 +25,7 @@ struct RegionVertex
 {
   Eigen::Vector3d Point;
   Eigen::Vector3d MeshPoint;
+  int PointId = -1;         ///< of the mesh; -1: of none
   std::vector<int> Regions; ///< that meet there, ascending
 };
 
@@ -37,6 +39,9 @@ struct RegionChains
   /// Divides a chain at an inner point, which becomes a vertex; a closed chain without a vertex
   /// gets its first one there, and stays one. @return the vertex.
   int Split(int chain, std::size_t point);
+
+  /// Lets a chain run the other way.
+  void Reverse(int chain);
 };
 
 /// Chains end where other than two edges between regions, or edges of other regions, meet, and

@@ -570,4 +570,133 @@ Result<EdgeSpline> MakeEdgeSpline(
   }
   return best;
 }
+
+namespace
+{
+/// Inserts knots into a curve and its images.
+Status InsertInto(EdgeSpline& edge, const std::vector<double>& knots)
+{
+  const auto space = edge.Curve.Space;
+  auto curve = InsertKnots<1>(edge.Curve, 0, knots);
+  if (!curve)
+  {
+    return curve.Status;
+  }
+  for (PointMatrix& uv : edge.UV)
+  {
+    auto image = InsertKnots<1>({ space, uv, {} }, 0, knots);
+    if (!image)
+    {
+      return image.Status;
+    }
+    uv = std::move(image->ControlPoints);
+  }
+  edge.Curve = std::move(curve.Value);
+  return {};
+}
+}
+
+namespace
+{
+/// Halfway between the curve and the mean of its images; ends stay.
+Status MoveHalfway(const std::vector<EdgeOnPatch>& images, EdgeSpline& edge)
+{
+  CurveInterpolation interpolation;
+  if (Status status = interpolation.Prepare(*edge.Curve.Space); !status)
+  {
+    return status;
+  }
+  const PointMatrix& t = interpolation.Points();
+  PointMatrix moves = -CurvePoints(edge.Curve, t);
+  for (std::size_t i = 0; i < images.size(); ++i)
+  {
+    const PointMatrix uv = CurvePoints({ edge.Curve.Space, edge.UV[i], {} }, t);
+    for (Eigen::Index k = 0; k < t.rows(); ++k)
+    {
+      const Eigen::Vector2d at = images[i].Patch->SurfaceParameters(uv.row(k).transpose());
+      moves.row(k) += images[i].Patch->Point(at).transpose() / static_cast<double>(images.size());
+    }
+  }
+  moves *= 0.5;
+  moves.row(0).setZero();
+  moves.row(moves.rows() - 1).setZero();
+  const PointMatrix change = interpolation.Solve(moves);
+  edge.Curve.ControlPoints += change;
+  edge.Shift = change.rowwise().norm().maxCoeff();
+  edge.Gap = GapOfImages(edge, images);
+  return {};
+}
+}
+
+Result<EdgeSpline> FollowCurve(const Spline<1>& curve, const std::vector<EdgeOnPatch>& images,
+  const std::vector<PointMatrix>& given, double exact)
+{
+  constexpr int MaxHalvings = 7;
+  EdgeSpline followed;
+  followed.Curve = curve;
+  followed.UV = given;
+  if (images.empty())
+  {
+    return followed;
+  }
+  EdgeShape shape;
+  shape.Kind = EdgeShapeKind::Spline;
+  shape.Curve = curve;
+  const int degree = curve.Space->Knots[0].Degree();
+  std::vector<double> corners;
+  for (const double corner : Crossings(shape, images))
+  {
+    corners.insert(corners.end(), static_cast<std::size_t>(std::max(1, degree - 1)), corner);
+  }
+  if (Status status = InsertInto(followed, corners); !status)
+  {
+    return status;
+  }
+  EdgeSpline best;
+  best.Gap = HUGE_VAL;
+  for (int pass = 0; pass <= MaxHalvings; ++pass)
+  {
+    CurveInterpolation interpolation;
+    if (Status status = interpolation.Prepare(*followed.Curve.Space); !status)
+    {
+      return status;
+    }
+    const PointMatrix& t = interpolation.Points();
+    const PointMatrix points = CurvePoints(followed.Curve, t);
+    EdgeSpline edge;
+    edge.Curve = followed.Curve;
+    double own = 0.0; // of the curve from the surfaces
+    for (const EdgeOnPatch& image : images)
+    {
+      own = std::max(own, GapOf(points, { image.Patch->Surface() }));
+      PointMatrix uv = interpolation.Solve(OnSpline(image, ParametersAlong(image, t, points)));
+      for (Eigen::Index d = 0; d < 2; ++d)
+      {
+        uv.col(d) = uv.col(d).array().max(image.Patch->Lower()[d]).min(image.Patch->Upper()[d]);
+      }
+      uv.row(0) = image.Patch->SplineParameters(image.Ends[0]).transpose();
+      uv.row(uv.rows() - 1) = image.Patch->SplineParameters(image.Ends[1]).transpose();
+      edge.UV.push_back(std::move(uv));
+    }
+    edge.Gap = GapOfImages(edge, images);
+    edge.UV.insert(edge.UV.end(), followed.UV.begin(), followed.UV.end());
+    if (edge.Gap < best.Gap)
+    {
+      best = std::move(edge);
+    }
+    if (best.Gap <= own + exact || pass == MaxHalvings)
+    {
+      break;
+    }
+    const PointMatrix middles = ParametersInSpans(followed.Curve.Space->Knots[0], 1);
+    if (Status status = InsertInto(
+          followed, std::vector<double>(middles.data(), middles.data() + middles.size()));
+        !status)
+    {
+      return status;
+    }
+  }
+  const Status moved = MoveHalfway(images, best);
+  return moved ? Result<EdgeSpline>(std::move(best)) : Result<EdgeSpline>(moved);
+}
 }

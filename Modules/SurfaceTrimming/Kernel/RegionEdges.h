@@ -61,11 +61,13 @@ struct EdgeOnPatch
   int Fixed = -1; ///< the parameter that is that of the first end all along; -1: none
 };
 
+/// A curve with its images, over one space.
 struct EdgeSpline
 {
   Spline<1> Curve;
   std::vector<PointMatrix> UV; ///< pcurves in the space of the curve, one an image
   double Gap = 0.0;            ///< largest distance of curve and images at samples
+  double Shift = 0.0;          ///< of FollowCurve: most that the curve was moved
 };
 
 /// An edge with its pcurves over one space: linear where that is exact, else quintic with knots
@@ -74,4 +76,11 @@ struct EdgeSpline
 /// @return SingularSystem.
 Result<EdgeSpline> MakeEdgeSpline(
   const EdgeShape& shape, const std::vector<EdgeOnPatch>& images, double exact);
+
+/// The same of a curve that is given with images on splines: its knots are kept, and inserted
+/// between, until the images on patches are as near; then it is moved halfway to these.
+/// @param given  UV of images over the curve's space; they come after those on patches.
+/// @return SingularSystem.
+Result<EdgeSpline> FollowCurve(const Spline<1>& curve, const std::vector<EdgeOnPatch>& images,
+  const std::vector<PointMatrix>& given, double exact);
 }

@@ -447,11 +447,7 @@ int VertexAt(const UseLoop& loop, const std::vector<PathPoint>& path, const Anal
   const PathPoint& b = path[i + 1];
   const int number = loop[a.Use].Chain;
   RegionChain& chain = chains.Chains[static_cast<std::size_t>(number)];
-  std::vector<AnalyticSurface> all{ surfaces[static_cast<std::size_t>(chain.Regions[0])] };
-  if (chain.Regions[1] >= 0)
-  {
-    all.push_back(surfaces[static_cast<std::size_t>(chain.Regions[1])]);
-  }
+  std::vector<AnalyticSurface> all = SurfacesOf(chain.Regions, surfaces);
   all.push_back(SurfaceOfAngle(patch, direction, angle));
   const auto place = [&](const Eigen::Vector3d& point) { return MoveOnto(all, point, farthest); };
   const auto mayMove = [&](const PathPoint& point)
@@ -478,6 +474,7 @@ int VertexAt(const UseLoop& loop, const std::vector<PathPoint>& path, const Anal
   const auto between = [&](const std::vector<Eigen::Vector3d>& points) -> Eigen::Vector3d
   { return (1.0 - own) * points[before] + own * points[before + 1]; };
   const auto offset = static_cast<std::ptrdiff_t>(before) + 1;
+  chain.PointIds.insert(chain.PointIds.begin() + offset, -1);
   chain.MeshPoints.insert(chain.MeshPoints.begin() + offset, between(chain.MeshPoints));
   chain.Points.insert(chain.Points.begin() + offset, place(between(chain.Points)));
   return chains.Split(number, before + 1);

@@ -35,6 +35,22 @@ struct RegionLoops
   std::vector<std::vector<LoopStep>> Steps;
 };
 
+/// Of regions that are there and are not of free form.
+template <typename Regions>
+std::vector<AnalyticSurface> SurfacesOf(
+  const Regions& regions, const std::vector<AnalyticSurface>& surfaces)
+{
+  std::vector<AnalyticSurface> some;
+  for (const int region : regions)
+  {
+    if (region >= 0 && surfaces[static_cast<std::size_t>(region)].Type != SurfaceType::FreeForm)
+    {
+      some.push_back(surfaces[static_cast<std::size_t>(region)]);
+    }
+  }
+  return some;
+}
+
 /// Chooses the parameter plane of a region, and if the region closes around, where it is cut open:
 /// chains get vertices there.
 /// @param surfaces  of all regions. @param farthest  as of MoveOnto.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RegionModel.h"
+#include "FreeFaces.h"
 #include "RegionLoops.h"
 #include "TriangleSag.h"
 
@@ -16,15 +17,19 @@ namespace knotwork
 {
 namespace
 {
-constexpr double ExactShare = 1e-9; ///< of the diagonal
-constexpr int MaxAttempts = 3;      ///< to make loops that do not cross
+constexpr double ExactShare = 1e-9;  ///< of the diagonal
+constexpr double NearFree = 0.1;     ///< of the tolerance: way of points of free form
+constexpr double FollowShare = 0.02; ///< of the tolerance, along edges of free form
+constexpr int MaxAttempts = 3;       ///< to make loops that do not cross
 
 /// A curve of the model: of a chain, a seam or a pole.
 struct ModelCurve
 {
   EdgeShape Shape;
   std::array<int, 2> Vertices{ -1, -1 };
-  std::vector<EdgeOnPatch> Images; ///< one a use
+  std::vector<EdgeOnPatch> Images;  ///< one a use
+  bool IsGiven = false;             ///< the shape's curve is that of faces of free form
+  std::vector<PointMatrix> GivenUV; ///< their images, which come last in Spline
   EdgeSpline Spline;
 };
 
@@ -39,9 +44,10 @@ struct StepUse
 class RegionModeler
 {
 public:
-  RegionModeler(
-    const DiscMesh& surface, const SurfaceRecognition& recognition, const RegionModelParams& params)
-    : Surface(surface), Recognition(recognition), Params(params),
+  /// @param charts  of regions of free form; null: there are none.
+  RegionModeler(const DiscMesh& surface, const SurfaceRecognition& recognition,
+    ChartedRegions* charts, const RegionModelParams& params)
+    : Surface(surface), Recognition(recognition), Charts(charts), Params(params),
       Size((surface.Points.colwise().maxCoeff() - surface.Points.colwise().minCoeff()).norm()),
       Farthest(2.0 * recognition.Tolerance), Loops(recognition.Regions.size()),
       Steps(recognition.Regions.size())
@@ -52,9 +58,13 @@ public:
     }
   }
 
+  /// Of the first region that is no face as it is; -1: none.
+  int Failed() const { return this->FailedRegion; }
+
   Result<RegionModel> Run()
   {
-    for (const auto stage : { &RegionModeler::FindChains, &RegionModeler::OpenRegions })
+    for (const auto stage :
+      { &RegionModeler::FindChains, &RegionModeler::OpenRegions, &RegionModeler::FitFree })
     {
       if (Status status = (this->*stage)(); !status)
       {
@@ -83,6 +93,10 @@ public:
         break;
       }
     }
+    if (!this->Crossing.empty())
+    {
+      this->FailedRegion = static_cast<int>(this->Crossing.front());
+    }
     if (!status)
     {
       return status;
@@ -93,22 +107,19 @@ public:
   }
 
 private:
-  /// Of regions that are there.
   template <typename Regions>
   std::vector<AnalyticSurface> SurfacesOf(const Regions& regions) const
   {
-    std::vector<AnalyticSurface> surfaces;
-    for (const int region : regions)
-    {
-      if (region >= 0)
-      {
-        surfaces.push_back(this->Surfaces[static_cast<std::size_t>(region)]);
-      }
-    }
-    return surfaces;
+    return knotwork::SurfacesOf(regions, this->Surfaces);
+  }
+  bool IsFree(std::size_t region) const
+  {
+    return this->Surfaces[region].Type == SurfaceType::FreeForm;
   }
   Status FindChains();
   Status OpenRegions();
+  Status FitFree();
+  void AddFreeFace(std::size_t region, TrimmedModel& model) const;
   Status ShapeChains();
   Status LayOut();
   Status FitCurves();
@@ -122,11 +133,15 @@ private:
 
   const DiscMesh& Surface;
   const SurfaceRecognition& Recognition;
+  ChartedRegions* Charts;
   const RegionModelParams& Params;
   double Size;
   double Farthest; ///< surfaces that hardly meet do so anywhere
   std::vector<AnalyticSurface> Surfaces;
   RegionChains Chains;
+  FreeFaces Free;
+  int FailedRegion = -1;
+  std::vector<int> EdgeOfChain;      ///< of the free faces' edges; -1: of none
   std::vector<RegionLoops> Loops;    ///< one a region
   std::vector<std::size_t> Crossing; ///< regions whose loops do
   std::vector<char>
@@ -142,7 +157,7 @@ Status RegionModeler::FindChains()
 {
   for (std::size_t r = 0; r < this->Surfaces.size(); ++r)
   {
-    if (this->Surfaces[r].Type == SurfaceType::FreeForm)
+    if (this->IsFree(r) && !this->Charts)
     {
       const int triangle = this->Recognition.Regions[r].Triangles.front();
       const Eigen::Vector3d at =
@@ -155,8 +170,26 @@ Status RegionModeler::FindChains()
   }
   this->Chains = FindRegionChains(this->Surface, this->Recognition.RegionOfTriangle,
     static_cast<int>(this->Surfaces.size()), this->Params.CornerAngle);
-  const auto place = [&](const auto& regions, const Eigen::Vector3d& point)
-  { return MoveOnto(this->SurfacesOf(regions), point, this->Farthest); };
+  if (Status status = this->Charts
+        ? SplitAtChartCorners(this->Charts->Charts, this->Params.CornerAngle, this->Chains)
+        : Status();
+      !status)
+  {
+    return status;
+  }
+  const auto place = [&](const auto& regions, const Eigen::Vector3d& point) -> Eigen::Vector3d
+  {
+    const std::vector<AnalyticSurface> surfaces = this->SurfacesOf(regions);
+    if (surfaces.empty())
+    {
+      return point;
+    }
+    const Eigen::Vector3d move = MoveOnto(surfaces, point, this->Farthest) - point;
+    const bool touchesFree = std::any_of(regions.begin(), regions.end(),
+      [&](int region) { return region >= 0 && this->IsFree(static_cast<std::size_t>(region)); });
+    const double most = touchesFree ? NearFree * this->Recognition.Tolerance : HUGE_VAL;
+    return point + std::min(1.0, most / std::max(move.norm(), 1e-300)) * move;
+  };
   for (RegionVertex& vertex : this->Chains.Vertices)
   {
     vertex.Point = place(vertex.Regions, vertex.MeshPoint);
@@ -179,10 +212,12 @@ Status RegionModeler::OpenRegions()
 {
   for (std::size_t r = 0; r < this->Loops.size(); ++r)
   {
-    if (Status status = OpenRegion(
-          this->Surfaces, static_cast<int>(r), this->Farthest, this->Chains, this->Loops[r]);
-        !status)
+    Status status = this->IsFree(r) ? Status()
+                                    : OpenRegion(this->Surfaces, static_cast<int>(r),
+                                        this->Farthest, this->Chains, this->Loops[r]);
+    if (!status)
     {
+      this->FailedRegion = static_cast<int>(r);
       return status;
     }
   }
@@ -192,6 +227,33 @@ Status RegionModeler::OpenRegions()
     {
       this->Chains.Split(static_cast<int>(c), 0);
     }
+  }
+  return {};
+}
+
+/// Spline faces, and their edges, which analytic neighbours share.
+Status RegionModeler::FitFree()
+{
+  this->EdgeOfChain.assign(this->Chains.Chains.size(), -1);
+  if (!this->Charts)
+  {
+    return {};
+  }
+  TrimParams params = this->Params.Trim;
+  params.Tolerance = this->Recognition.Tolerance;
+  params.CornerAngle = this->Params.CornerAngle;
+  params.Triangulation = false;
+  params.Threads = this->Params.Threads;
+  params.Progress = this->Params.Progress;
+  auto fitted = FitFreeFaces(*this->Charts, this->Surfaces, this->Chains, params);
+  if (!fitted)
+  {
+    return fitted.Status;
+  }
+  this->Free = std::move(fitted.Value);
+  for (std::size_t e = 0; e < this->Free.ChainOfEdge.size(); ++e)
+  {
+    this->EdgeOfChain[static_cast<std::size_t>(this->Free.ChainOfEdge[e])] = static_cast<int>(e);
   }
   return {};
 }
@@ -216,10 +278,36 @@ Status RegionModeler::ShapeChains()
       }
     }
     ModelCurve& curve = this->Curves.emplace_back();
-    curve.Shape = FindEdgeShape(chain.Points, this->SurfacesOf(chain.Regions), params);
     curve.Vertices = chain.Vertices;
+    if (this->EdgeOfChain[c] >= 0)
+    {
+      curve.IsGiven = true;
+      continue;
+    }
+    curve.Shape = FindEdgeShape(chain.Points, this->SurfacesOf(chain.Regions), params);
     this->Made.NumLines += curve.Shape.Kind == EdgeShapeKind::Line ? 1 : 0;
     this->Made.NumCircles += curve.Shape.Kind == EdgeShapeKind::Circle ? 1 : 0;
+  }
+  for (const TrimmedFace& face : this->Free.Trimmed.Model.Faces)
+  {
+    for (const TrimmedLoop& loop : face.Loops)
+    {
+      for (const TrimmingCurve& use : loop.Curves)
+      {
+        const int c = this->Free.ChainOfEdge[static_cast<std::size_t>(use.Edge)];
+        ModelCurve& curve = this->Curves[static_cast<std::size_t>(c)];
+        curve.Shape.Kind = EdgeShapeKind::Spline;
+        curve.Shape.Curve = use.Curve;
+        const PointMatrix& points = use.Curve.ControlPoints;
+        curve.Shape.Ends = { points.row(0).transpose(), points.row(points.rows() - 1).transpose() };
+        curve.GivenUV.push_back(use.UV);
+        for (std::size_t e = 0; e < 2; ++e)
+        {
+          this->Chains.Vertices[static_cast<std::size_t>(curve.Vertices[e])].Point =
+            curve.Shape.Ends[e];
+        }
+      }
+    }
   }
   this->Made.NumEdges = static_cast<int>(this->Curves.size());
   this->NumVertices = static_cast<int>(this->Chains.Vertices.size());
@@ -292,13 +380,17 @@ Status RegionModeler::LayOut()
   }
   for (std::size_t r = 0; r < this->Loops.size(); ++r)
   {
+    this->Steps[r].clear();
+    if (this->IsFree(r))
+    {
+      continue;
+    }
     if (Status status = LayOutLoops(static_cast<int>(r), this->Chains, shapes, this->Loops[r]);
         !status)
     {
       this->Crossing.push_back(r);
       return status;
     }
-    this->Steps[r].clear();
     for (const std::vector<LoopStep>& loop : this->Loops[r].Steps)
     {
       std::vector<StepUse>& uses = this->Steps[r].emplace_back();
@@ -322,13 +414,19 @@ Status RegionModeler::FitCurves()
 {
   for (ModelCurve& curve : this->Curves)
   {
-    auto spline = MakeEdgeSpline(curve.Shape, curve.Images, ExactShare * this->Size);
+    auto spline = curve.IsGiven
+      ? FollowCurve(
+          curve.Shape.Curve, curve.Images, curve.GivenUV, FollowShare * this->Recognition.Tolerance)
+      : MakeEdgeSpline(curve.Shape, curve.Images, ExactShare * this->Size);
     if (!spline)
     {
       return spline.Status;
     }
     curve.Spline = std::move(spline.Value);
-    this->Made.MaxEdgeGap = std::max(this->Made.MaxEdgeGap, curve.Spline.Gap);
+    // of the spline faces' images it was bounded before the curve was moved
+    const double given = curve.IsGiven ? this->Free.Trimmed.Loops.MaxEdgeGap : 0.0;
+    this->Made.MaxEdgeGap =
+      std::max({ this->Made.MaxEdgeGap, curve.Spline.Gap, given + curve.Spline.Shift });
   }
   return {};
 }
@@ -340,6 +438,13 @@ Status RegionModeler::MakeFaces()
   model.NumVertices = this->NumVertices;
   for (std::size_t r = 0; r < this->Loops.size(); ++r)
   {
+    if (this->IsFree(r))
+    {
+      this->AddFreeFace(r, model);
+      this->Made.Verdicts.push_back(
+        this->Free.Trimmed.Loops.Verdicts[r - static_cast<std::size_t>(this->Charts->FirstChart)]);
+      continue;
+    }
     TrimmedFace& face = model.Faces.emplace_back();
     face.Surface = this->Loops[r].Patch.MakeSpline();
     face.Type = this->Surfaces[r].Type;
@@ -368,6 +473,29 @@ Status RegionModeler::MakeFaces()
   return model.Check();
 }
 
+/// With the knots that its neighbours inserted into its edges.
+void RegionModeler::AddFreeFace(std::size_t region, TrimmedModel& model) const
+{
+  const std::vector<TrimmedFace>& faces = this->Free.Trimmed.Model.Faces;
+  const std::size_t own = region - static_cast<std::size_t>(this->Charts->FirstChart);
+  TrimmedFace& face = model.Faces.emplace_back(faces[own]);
+  for (TrimmedLoop& loop : face.Loops)
+  {
+    for (TrimmingCurve& use : loop.Curves)
+    {
+      const int chain = this->Free.ChainOfEdge[static_cast<std::size_t>(use.Edge)];
+      const ModelCurve& curve = this->Curves[static_cast<std::size_t>(chain)];
+      // of two faces the first one's image came first
+      std::size_t image = curve.Images.size();
+      image += curve.GivenUV.front() == use.UV ? 0 : 1;
+      use.Curve = curve.Spline.Curve;
+      use.UV = curve.Spline.UV[image];
+      use.Edge = chain;
+      use.Vertices = curve.Vertices;
+    }
+  }
+}
+
 /// Where surfaces touch, the curves in which they meet may cross each other although the mesh's
 /// edges do not. @return whether there is something to try again.
 bool RegionModeler::FollowAlongCrossing()
@@ -379,6 +507,10 @@ bool RegionModeler::FollowAlongCrossing()
     {
       for (const ChainUseOfRegion& use : loop)
       {
+        if (this->EdgeOfChain[static_cast<std::size_t>(use.Chain)] >= 0)
+        {
+          continue;
+        }
         char& follows = this->Follows[static_cast<std::size_t>(use.Chain)];
         isNew = isNew || follows == 0;
         follows = 1;
@@ -432,6 +564,12 @@ Status RegionModeler::Certify()
   params.Threads = this->Params.Threads;
   for (std::size_t r = 0; r < this->Made.Model.Faces.size(); ++r)
   {
+    if (this->IsFree(r))
+    {
+      this->Made.Certificates.push_back(
+        this->Free.Trimmed.Certificates[r - static_cast<std::size_t>(this->Charts->FirstChart)]);
+      continue;
+    }
     const AnalyticPatch& patch = this->Loops[r].Patch;
     const std::array<double, 2> poles = patch.Poles();
     if (patch.Lower()[1] <= poles[0] || patch.Upper()[1] >= poles[1])
@@ -456,10 +594,19 @@ void RegionModeler::Measure()
 {
   this->Made.NumOfType = this->Recognition.NumOfType;
   this->Made.Tolerance = this->Recognition.Tolerance;
+  if (this->Charts)
+  {
+    this->Made.FreeDeviation = this->Free.Trimmed.MaxDeviation + this->Free.MaxMove;
+    this->Made.MaxNormalAngle = this->Free.MaxNormalAngle;
+  }
   this->Made.NumRims = static_cast<int>(this->Surface.Loops.size());
   for (std::size_t t = 0; t < this->Surface.Triangles.size(); ++t)
   {
     const auto r = static_cast<std::size_t>(this->Recognition.RegionOfTriangle[t]);
+    if (this->IsFree(r))
+    {
+      continue;
+    }
     const auto& triangle = this->Surface.Triangles[t];
     const std::array<Eigen::Vector3d, 3> corners{ this->Surface.Point(triangle[0]),
       this->Surface.Point(triangle[1]), this->Surface.Point(triangle[2]) };
@@ -506,7 +653,7 @@ Result<RegionModel> ModelRegions(
   {
     return { ErrorCode::SizeMismatch, "the regions are of another mesh" };
   }
-  return RegionModeler(surface, recognition, params).Run();
+  return RegionModeler(surface, recognition, nullptr, params).Run();
 }
 
 namespace
@@ -548,47 +695,152 @@ void Append(RegionModel&& part, RegionModel& all)
   }
   for (double RegionModel::*const distance :
     { &RegionModel::MaxPointDistance, &RegionModel::MaxDistance, &RegionModel::MaxEdgeDistance,
-      &RegionModel::MaxEdgeGap, &RegionModel::MaxVertexDistance, &RegionModel::Tolerance })
+      &RegionModel::MaxEdgeGap, &RegionModel::FreeDeviation, &RegionModel::MaxNormalAngle,
+      &RegionModel::MaxVertexDistance, &RegionModel::Tolerance })
   {
     all.*distance = std::max(all.*distance, part.*distance);
   }
 }
 }
 
-Result<RegionModel> ModelMesh(
-  const TriangleMesh& mesh, const RecognitionParams& recognition, const RegionModelParams& params)
+namespace
+{
+bool HasFreeForm(const SurfaceRecognition& recognition)
+{
+  return recognition.NumOfType[static_cast<std::size_t>(SurfaceType::FreeForm)] > 0;
+}
+
+/// Analytic faces and, beside them, charts with spline surfaces.
+/// @param failed  result: the analytic region that is no face; -1: none.
+Result<RegionModel> ModelMixed(const DiscMesh& surface, const SurfaceRecognition& recognition,
+  const RegionModelParams& params, int& failed)
+{
+  FreeRegionParams free;
+  free.Flatten = params.Flatten;
+  free.Flatten.Threads = params.Threads;
+  free.Charts = params.Charts;
+  failed = -1;
+  auto charted = ChartFreeRegions(surface, recognition, free);
+  if (!charted)
+  {
+    return charted.Status;
+  }
+  const std::vector<int> origins = charted->Origins;
+  RegionModeler modeler(charted->Surface, charted->Recognition, &charted.Value, params);
+  auto model = modeler.Run();
+  const auto region = static_cast<std::size_t>(modeler.Failed());
+  failed = region < origins.size() ? origins[region] : -1;
+  return model;
+}
+
+/// A model of one part. Regions that are no faces as they are become ones of free form.
+Result<RegionModel> ModelPart(
+  const DiscMesh& surface, SurfaceRecognition& recognition, const RegionModelParams& params)
+{
+  constexpr int MaxReleases = 8;
+  Result<RegionModel> model;
+  for (int release = 0; release <= MaxReleases; ++release)
+  {
+    int failed = -1;
+    if (!params.FreeForm || !HasFreeForm(recognition))
+    {
+      RegionModeler modeler(surface, recognition, nullptr, params);
+      model = modeler.Run();
+      failed = modeler.Failed();
+    }
+    else
+    {
+      model = ModelMixed(surface, recognition, params, failed);
+    }
+    if (!params.FreeForm || failed < 0)
+    {
+      break;
+    }
+    SurfaceType& type = recognition.Regions[static_cast<std::size_t>(failed)].Surface.Type;
+    --recognition.NumOfType[static_cast<std::size_t>(type)];
+    type = SurfaceType::FreeForm;
+    ++recognition.NumOfType[static_cast<std::size_t>(type)];
+  }
+  return model;
+}
+}
+
+namespace
+{
+struct RecognizedPart
+{
+  DiscMesh Surface;
+  SurfaceRecognition Recognition;
+};
+
+/// @param analytic  result: share of the area of surfaces that are not of free form.
+Result<std::vector<RecognizedPart>> RecognizeParts(const TriangleMesh& mesh,
+  const RecognitionParams& recognition, const RegionModelParams& params, double& analytic)
 {
   const std::vector<MeshComponent> components = ConnectedComponents(mesh);
   if (components.empty())
   {
     return { ErrorCode::EmptyInput, "the mesh has no triangles" };
   }
-  RegionModel all;
+  RecognitionParams own = recognition;
+  own.Tolerance = recognition.Tolerance > 0.0
+    ? recognition.Tolerance
+    : 1e-3 * (mesh.Points.colwise().maxCoeff() - mesh.Points.colwise().minCoeff()).norm();
+  own.MaxRegions = recognition.MaxRegions > 0 ? recognition.MaxRegions : ManyFaces;
+  std::vector<RecognizedPart> parts;
+  double area = 0.0;
+  double known = 0.0;
   for (const MeshComponent& component : components)
   {
-    const auto surface = CheckComponent(mesh, component);
+    auto surface = CheckComponent(mesh, component);
     if (!surface)
     {
       return surface.Status;
     }
-    RecognitionParams own = recognition;
-    own.Tolerance = recognition.Tolerance > 0.0
-      ? recognition.Tolerance
-      : 1e-3 * (mesh.Points.colwise().maxCoeff() - mesh.Points.colwise().minCoeff()).norm();
-    own.MaxRegions = own.MaxRegions > 0 ? own.MaxRegions : ManyFaces;
-    const auto regions = RecognizeSurfaces(surface.Value, own);
+    auto regions = RecognizeSurfaces(surface.Value, own);
     if (!regions)
     {
       return regions.Status;
     }
+    const bool isFree = HasFreeForm(regions.Value);
     const std::size_t faces = regions->Regions.size();
-    if (faces > FewFaces && faces * TrianglesOfFace > surface->Triangles.size())
+    if ((!isFree || !params.FreeForm) && faces > FewFaces &&
+      faces * TrianglesOfFace > surface->Triangles.size())
     {
       return { ErrorCode::NotInSpace,
         std::to_string(faces) + " regions of " + std::to_string(surface->Triangles.size()) +
           " triangles are facets of a free shape" };
     }
-    auto part = ModelRegions(surface.Value, regions.Value, params);
+    area += surface->Area;
+    known += surface->Area *
+      (isFree && params.FreeForm ? ReleaseDoubtfulRegions(surface.Value, regions.Value) : 1.0);
+    parts.push_back({ std::move(surface.Value), std::move(regions.Value) });
+  }
+  analytic = known / area;
+  return parts;
+}
+}
+
+Result<RegionModel> ModelMesh(
+  const TriangleMesh& mesh, const RecognitionParams& recognition, const RegionModelParams& params)
+{
+  double analytic = 0.0;
+  auto parts = RecognizeParts(mesh, recognition, params, analytic);
+  if (!parts)
+  {
+    return parts.Status;
+  }
+  if (analytic < params.LeastAnalytic)
+  {
+    return { ErrorCode::NotInSpace,
+      "planes, cylinders, spheres, cones and tori are only " + Digits(100.0 * analytic) +
+        " % of the area, less than " + Digits(100.0 * params.LeastAnalytic) +
+        " %; make spline faces of the whole" };
+  }
+  RegionModel all;
+  for (RecognizedPart& recognized : parts.Value)
+  {
+    auto part = ModelPart(recognized.Surface, recognized.Recognition, params);
     if (!part)
     {
       return part.Status;

@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <knotwork/SplineCore/TrimmedModel.h>
-#include <knotwork/SurfaceTrimming/FaceCertificate.h>
+#include <knotwork/MeshParameterization/FlattenCharts.h>
 #include <knotwork/SurfaceTrimming/SurfaceRecognition.h>
-#include <knotwork/SurfaceTrimming/TrimLoops.h>
+#include <knotwork/SurfaceTrimming/TrimSurface.h>
 
 namespace knotwork
 {
 struct RegionModelParams
 {
   double CornerAngle = 20.0; ///< of rims: a turn by more degrees is a vertex, (0, 180]
-  int Threads = 0;           ///< of the certificates; 0: all cores
+  /// Whether ModelMesh makes spline faces of what is of free form, as long as surfaces of other
+  /// types cover LeastAnalytic of the mesh's area; else that is refused.
+  bool FreeForm = true;
+  double LeastAnalytic = 0.1; ///< [0, 1]
+  /// Of spline faces. Tolerance, CornerAngle, Vertices, Triangulation, Threads and Progress are set
+  /// from the others.
+  TrimParams Trim;
+  FlattenParams Flatten;
+  ChartParams Charts;
+  int Threads = 0; ///< 0: all cores
   ProgressCallback Progress;
 };
 
@@ -37,7 +45,11 @@ struct RegionModel
   /// Of curves from the mesh's edges that they stand for, a bound both ways. Where surfaces touch,
   /// the mesh may change from one to the other anywhere, and this says how far from the curve.
   double MaxEdgeDistance = 0.0;
-  double MaxEdgeGap = 0.0;        ///< of curves from the images of their pcurves, at samples
+  double MaxEdgeGap = 0.0; ///< of curves from the images of their pcurves, at samples
+  /// Bound of the distance of faces of free form and the mesh, both ways; 0 without such.
+  double FreeDeviation = 0.0;
+  /// Degrees, at samples, between faces of free form along edges where the mesh is smooth.
+  double MaxNormalAngle = 0.0;
   double MaxVertexDistance = 0.0; ///< of vertices from their points of the mesh
   double Tolerance = 0.0;         ///< of the recognition
 };
@@ -54,11 +66,13 @@ Result<RegionModel> ModelRegions(const DiscMesh& surface, const SurfaceRecogniti
   const RegionModelParams& params = {});
 
 /// Recognizes the surfaces of triangles as they are given, of several parts too, and makes faces of
-/// them, in one body.
+/// them, in one body. Beside regions of free form, regions are analytic only whose points lie on
+/// their surface as exact or noisy ones do; the others become charts with spline surfaces, which
+/// share their edges with the analytic faces.
 /// @param recognition  MaxRegions 0: a thousand of a part.
-/// @return failures of RecognizeSurfaces and ModelRegions; NotInSpace also where there are more
-/// than a hundred faces of fewer than six triangles each on average: facets of a free shape, not
-/// faces.
+/// @return failures of RecognizeSurfaces, FlattenCharts, TrimSurface and ModelRegions; NotInSpace
+/// also where there are more than a hundred faces of fewer than six triangles each on average:
+/// facets of a free shape, not faces.
 Result<RegionModel> ModelMesh(const TriangleMesh& mesh, const RecognitionParams& recognition,
   const RegionModelParams& params = {});
 }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 namespace knotwork
 {
@@ -171,7 +172,33 @@ private:
     {
       this->Vertices.push_back(sums[v] / counts[v]);
     }
+    this->TakeGivenVertices();
     return {};
+  }
+
+  void TakeGivenVertices()
+  {
+    std::unordered_map<std::int64_t, Eigen::RowVector3d> given;
+    for (const LoopVertex& vertex : this->Params.Vertices)
+    {
+      if (vertex.Point)
+      {
+        given[vertex.PointId] = vertex.Point->transpose();
+      }
+    }
+    for (const BoundaryChain& chain : this->Topology.Chains)
+    {
+      const ChainUse& use = chain.Uses.front();
+      const std::vector<std::int64_t>& ids = this->Chart(use.Chart).PointIds;
+      for (std::size_t e = 0; e < 2 && !ids.empty(); ++e)
+      {
+        const int point = e == 0 ? use.Points.front() : use.Points.back();
+        if (const auto at = given.find(ids[static_cast<std::size_t>(point)]); at != given.end())
+        {
+          this->Vertices[static_cast<std::size_t>(chain.Vertices[e])] = at->second;
+        }
+      }
+    }
   }
 
   Result<FittedChain> Fit(std::size_t index) const
@@ -331,7 +358,7 @@ Result<TrimLoops> FitLoops(const std::vector<ChartMesh>& charts,
   {
     return status;
   }
-  auto topology = FindBoundaryChains(charts, params.CornerAngle);
+  auto topology = FindBoundaryChains(charts, params.CornerAngle, params.Vertices);
   if (!topology)
   {
     return topology.Status;

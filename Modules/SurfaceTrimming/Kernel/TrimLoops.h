@@ -3,6 +3,8 @@
 #include <knotwork/SplineCore/TrimmedModel.h>
 #include <knotwork/SurfaceTrimming/ChartMesh.h>
 
+#include <optional>
+
 namespace knotwork
 {
 enum class LoopVerdict : std::int8_t
@@ -22,6 +24,13 @@ const char* ToString(LoopVerdict verdict);
 /// @source see ProveSimpleCurves; windings by angles, orientation by area.
 Result<LoopVerdict> ProveLoops(const TrimmedFace& face, int threads = 0);
 
+/// A point of the mesh's boundary at which edges end.
+struct LoopVertex
+{
+  std::int64_t PointId = 0;             ///< as ChartMesh::PointIds
+  std::optional<Eigen::Vector3d> Point; ///< of the vertex; none: the mean of the surfaces' points
+};
+
 struct LoopParams
 {
   /// Largest distance in space, measured on the surface, between the mesh's boundary and the pcurve
@@ -30,6 +39,7 @@ struct LoopParams
   /// A boundary that turns by more than so many degrees at a point has a corner there: edges end.
   /// (0, 180].
   double CornerAngle = 20.0;
+  std::vector<LoopVertex> Vertices; ///< beside corners and places where charts change
   int Threads = 0;
   ProgressCallback Progress;
 };

@@ -85,7 +85,7 @@ Status CheckInput(const std::vector<ChartMesh>& charts, const TrimParams& params
     return bad("TimeLimit must be 0 or more");
   }
   // what does not fit together is refused before surfaces are made
-  return FindBoundaryChains(charts, params.CornerAngle).Status;
+  return FindBoundaryChains(charts, params.CornerAngle, params.Vertices).Status;
 }
 
 /// Share `part` of `count` of the progress between begin and end.
@@ -258,6 +258,7 @@ public:
     LoopParams params;
     params.Tolerance = BoundaryShare * this->State.Tolerance;
     params.CornerAngle = this->Params.CornerAngle;
+    params.Vertices = this->Params.Vertices;
     params.Threads = this->Params.Threads;
     params.Progress = Within(this->Params.Progress, 0.6, 0.7);
     auto loops = FitLoops(this->Charts, surfaces, params);

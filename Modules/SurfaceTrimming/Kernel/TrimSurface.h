@@ -17,7 +17,8 @@ struct TrimParams
   double Tolerance = 0.0;
   /// Of the triangulation; 0: a quarter of Tolerance.
   double ChordalTolerance = 0.0;
-  bool Triangulation = true; ///< whether Mesh is made
+  bool Triangulation = true;        ///< whether Mesh is made
+  std::vector<LoopVertex> Vertices; ///< as of LoopParams
   /// As in BackMapParams, of all surfaces of Penalized together: charts have equal shares, and what
   /// is left goes to those that were stopped. What loops, proofs and a CAD file will take is kept
   /// back for them; they are made in any case, and so are triangles, which are not counted.
