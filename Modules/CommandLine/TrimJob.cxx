@@ -125,6 +125,9 @@ struct TrimJob
     this->Model->SetTolerance(this->Trim->GetTolerance());
     this->Model->SetCornerAngle(this->Trim->GetCornerAngle());
     this->Model->SetChordalTolerance(this->Trim->GetChordalTolerance());
+    this->Model->SetEffort(this->Trim->GetEffort());
+    this->Model->SetTimeLimit(this->Trim->GetTimeLimit());
+    this->Model->SetMaximumStretch(this->Flatten->GetMaximumStretch());
     std::vector<std::string> warnings;
     const Status made = session.Run(this->Model, what, Surfaces, &warnings);
     vtkTable* table = vtkTable::SafeDownCast(this->Model->GetOutputDataObject(NumbersOfModel));
@@ -140,9 +143,10 @@ struct TrimJob
     session.Report["triangles"] = mesh->GetNumberOfElements(vtkDataObject::CELL);
     ReportTruths(table, 0, { "WithinTolerance", "LoopsProved" }, session.Report);
     ReportRow(table, 0,
-      { "Tolerance", "MaxDeviation", "MaxNormalAngle", "MaxSag", "MaxEdgeDistance", "MaxEdgeGap", "MinNormalBound",
-        "Area", "MeshArea", "Faces", "Planes", "Cylinders", "Spheres", "Cones", "Tori", "FreeFaces",
-        "Loops", "Edges", "Lines", "Circles", "Vertices", "ControlPoints", "Verdict", "LoopVerdict" },
+      { "Tolerance", "MaxDeviation", "MaxNormalAngle", "MaxSag", "MaxEdgeDistance", "MaxEdgeGap",
+        "MinNormalBound", "Area", "MeshArea", "Faces", "Planes", "Cylinders", "Spheres", "Cones",
+        "Tori", "FreeFaces", "Loops", "Edges", "Lines", "Circles", "Vertices", "ControlPoints",
+        "Verdict", "LoopVerdict" },
       session.Report);
     Status status = HasCADEnding(this->Output)
       ? this->WriteFaces(this->Model, session)
@@ -243,8 +247,8 @@ Job Make(CLI::App& app)
   Options& options = *job->FilterOptions;
   options.Add<bool>(
     "Features", true, [job = job.get()](const bool& on) { job->Features = on; },
-    "whether a mesh made of planes, cylinders, spheres, cones and tori becomes faces of these "
-    "instead of splines (not with --flat or --deviation)");
+    "whether planes, cylinders, spheres, cones and tori in a mesh become faces of these, with "
+    "splines beside them, instead of splines alone (not with --flat or --deviation)");
   options.LeaveOut({ "Triangulation" });
   AddProperties(options, job->Trim);
   job->Flatten->SetMaximumStretch(ChartStretch);

@@ -187,6 +187,11 @@ knotwork::Status vtkAnalyticModel::Compute(
   recognition.Progress = Stage(this->Progress(), done, 0.0, 0.3);
   RegionModelParams params;
   params.CornerAngle = this->CornerAngle;
+  params.FreeForm = this->FreeForm;
+  params.LeastAnalytic = this->MinimumAnalytic;
+  params.Charts.MaxStretch = this->MaximumStretch;
+  params.Trim.Effort = this->Effort;
+  params.Trim.TimeLimit = this->TimeLimit;
   params.Threads = this->KernelThreads();
   params.Progress = Stage(this->Progress(), done, 0.3, 0.7);
   const auto model = ModelMesh(decoded->Mesh, recognition, params);

@@ -1,24 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkAnalyticModel
- * @brief   makes a CAD model of planes, cylinders, spheres, cones and tori of a triangle mesh
+ * @brief   makes a CAD model of planes, cylinders, spheres, cones, tori and splines of a mesh
  *
  * The input is a mesh of triangles (quadrilaterals and polygons are divided), closed or open, of
- * one or several parts, all of whose surfaces vtkSurfaceRecognition finds: others, of free form,
- * are an error; vtkTrimmedSurface makes spline faces of them. Every surface becomes a trimmed face;
+ * one or several parts. Every surface that vtkSurfaceRecognition finds becomes a trimmed face; what
+ * is of free form is laid into the plane in charts, which never cross sharp edges, and becomes
+ * spline faces. A mesh that is mostly of free form is refused: vtkTrimmedSurface makes splines
+ * alone. Between surfaces that were found
  * edges are the curves in which neighbouring surfaces meet, lines and circles where they are, and
  * vertices are points of several surfaces.
  *
  * Output 0 are the faces as a watertight triangulation with normals and the cell arrays `FaceId`
- * and `SurfaceType` (0 plane, 1 cylinder, 2 sphere, 3 cone, 4 torus). Outputs 1 and 2 are the faces
+ * and `SurfaceType` (0 plane, 1 cylinder, 2 sphere, 3 cone, 4 torus, 5 free form). Outputs 1 and
+ * 2 are the faces
  * themselves, their surfaces and their trimming curves as spline grids (TrimmedGrids.h), whose cell
  * array `SurfaceType` makes vtkCADWriter write planes, cylinders, ... as such. Output 3 is a table
- * of one row: Faces, Planes, Cylinders, Spheres, Cones, Tori, Edges, Lines, Circles, Vertices,
- * Loops (rims of the mesh), Tolerance, MaxDeviation (of the mesh's points, and of edges from their
- * faces), MaxSag (bound of the distance of triangles from their surfaces), MaxEdgeDistance (bound
- * between edges and those of the mesh), MaxEdgeGap, WithinTolerance, MinNormalBound, Verdict
- * (whether faces are proved regular), LoopsProved, LoopVerdict, ControlPoints, Area (of output 0),
- * MeshArea.
+ * of one row: Faces, Planes, Cylinders, Spheres, Cones, Tori, FreeFaces, Edges, Lines, Circles,
+ * Vertices, Loops (rims of the mesh), Tolerance, MaxDeviation (of the mesh's points, and of edges
+ * from their faces), MaxSag (bound of the distance of triangles from their surfaces),
+ * MaxEdgeDistance (bound between edges and those of the mesh), MaxEdgeGap, WithinTolerance,
+ * MinNormalBound, Verdict (whether faces are proved regular), LoopsProved, LoopVerdict,
+ * ControlPoints, Area (of output 0), MeshArea.
  *
  * @source The module's page has methods, limits and errors.
  */
@@ -58,6 +61,36 @@ public:
   vtkSetClampMacro(ChordalTolerance, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(ChordalTolerance, double);
   ///@}
+  ///@{
+  /** Whether regions of free form become spline faces; else they are an error. Default on. */
+  vtkSetMacro(FreeForm, bool);
+  vtkGetMacro(FreeForm, bool);
+  vtkBooleanMacro(FreeForm, bool);
+  ///@}
+  ///@{
+  /** Share of the area that planes, cylinders, spheres, cones and tori have at least, else the mesh
+   * is refused. Default 0.1, valid range [0, 1]. Advanced. */
+  vtkSetClampMacro(MinimumAnalytic, double, 0.0, 1.0);
+  vtkGetMacro(MinimumAnalytic, double);
+  ///@}
+  ///@{
+  /** Stretch of a chart of free form at most; what is stretched more is cut. Default 3, valid range
+   * [1.01, 1000]. Advanced. */
+  vtkSetClampMacro(MaximumStretch, double, 1.01, 1000.0);
+  vtkGetMacro(MaximumStretch, double);
+  ///@}
+  ///@{
+  /** Work for spline surfaces at most, about seconds of one core. Default 50, valid range
+   * [1e-6, 1e6]. Advanced. */
+  vtkSetClampMacro(Effort, double, 1e-6, 1e6);
+  vtkGetMacro(Effort, double);
+  ///@}
+  ///@{
+  /** Seconds for spline surfaces at most; 0: no limit. Default 0, valid range [0, 1e9]. Advanced.
+   */
+  vtkSetClampMacro(TimeLimit, double, 0.0, 1e9);
+  vtkGetMacro(TimeLimit, double);
+  ///@}
 
 protected:
   vtkAnalyticModel();
@@ -73,5 +106,10 @@ private:
   double MaximumSag = 5.0;
   double CornerAngle = 20.0;
   double ChordalTolerance = 0.0;
+  bool FreeForm = true;
+  double MinimumAnalytic = 0.1;
+  double MaximumStretch = 3.0;
+  double Effort = 50.0;
+  double TimeLimit = 0.0;
 };
 #endif

@@ -287,6 +287,8 @@ TEST(vtkAnalyticModel, Errors)
   ExpectFailure(filter, ErrorCode::NonFiniteInput, "1 point (7)");
   filter->SetInputDataObject(
     Field(20, [](double x, double y) { return 0.2 * std::sin(5.0 * x) * std::cos(4.0 * y); }));
+  ExpectFailure(filter, ErrorCode::NotInSpace, "% of the area, less than 10 %");
+  filter->FreeFormOff();
   ExpectFailure(filter, ErrorCode::NotInSpace, "region");
   // strips that sag more than is allowed are of no surface
   filter->SetInputDataObject(Cylinder());

@@ -138,9 +138,11 @@ def test_free_form_is_refused():
     points[:, 2] = 0.2 * np.sin(5 * points[:, 0]) * np.cos(4 * points[:, 1])
     model = knotwork.vtkAnalyticModel()
     model.SetInputDataObject(wave)
-    with knotwork_testing.Errors(model) as errors:
-        model.Update()
-    assert model.GetErrorCode() != 0 and "region" in errors[0], errors
+    for free, words in ((True, "% of the area"), (False, "is of free form")):
+        model.SetFreeForm(free)
+        with knotwork_testing.Errors(model) as errors:
+            model.Update()
+        assert model.GetErrorCode() != 0 and words in errors[0], errors
     assert model.GetOutputDataObject(1).GetNumberOfCells() == 0
 
 
