@@ -119,12 +119,13 @@ private:
   std::vector<double> All;
 };
 
+constexpr double Exact = 0.02; ///< of the tolerance: distances that are none
+
 /// Whether distances from the surface are nothing, or those of noise, or the region ends mostly at
 /// sharp edges.
 bool IsOnItsSurface(
   const DiscMesh& surface, const RecognizedRegion& region, bool endsAtEdges, double tolerance)
 {
-  constexpr double Exact = 0.02;    // of the tolerance
   constexpr double Enough = 3.0;    // points a parameter
   constexpr double Many = 6.0;      // by which residuals of few points do not pass for noise
   constexpr double MaxNoise = 0.5;  // of the tolerance: what grew as far as it could goes up to it
@@ -673,6 +674,26 @@ double ReleaseDoubtfulRegions(const DiscMesh& surface, SurfaceRecognition& recog
     }
   }
   return analytic / surface.Area;
+}
+
+bool IsPatchwork(const DiscMesh& surface, const SurfaceRecognition& recognition)
+{
+  SurfaceRecognition left = recognition;
+  ReleaseDoubtfulRegions(surface, left);
+  double doubtful = 0.0;
+  for (std::size_t r = 0; r < left.Regions.size(); ++r)
+  {
+    const RecognizedRegion& region = left.Regions[r];
+    if (region.Surface.Type == SurfaceType::FreeForm &&
+      region.MaxDistance > Exact * recognition.Tolerance)
+    {
+      for (const int t : region.Triangles)
+      {
+        doubtful += TriangleArea(surface.Points, surface.Triangles[At(t)]);
+      }
+    }
+  }
+  return doubtful > 0.5 * surface.Area;
 }
 
 Result<ChartedRegions> ChartFreeRegions(

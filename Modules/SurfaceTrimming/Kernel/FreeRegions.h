@@ -14,6 +14,10 @@ namespace knotwork
 /// @return the share of the area that is still of analytic surfaces.
 double ReleaseDoubtfulRegions(const DiscMesh& surface, SurfaceRecognition& recognition);
 
+/// Whether more than half of a mesh is covered by surfaces on which its points lie neither exactly
+/// nor as points with noise do: pieces of a smooth shape.
+bool IsPatchwork(const DiscMesh& surface, const SurfaceRecognition& recognition);
+
 /// A mesh whose regions of free form are charts.
 struct ChartedRegions
 {

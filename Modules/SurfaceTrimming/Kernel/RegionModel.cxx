@@ -802,7 +802,8 @@ Result<std::vector<RecognizedPart>> RecognizeParts(const TriangleMesh& mesh,
     {
       return regions.Status;
     }
-    const bool isFree = HasFreeForm(regions.Value);
+    const bool isFree =
+      HasFreeForm(regions.Value) || (params.FreeForm && IsPatchwork(surface.Value, regions.Value));
     const std::size_t faces = regions->Regions.size();
     if ((!isFree || !params.FreeForm) && faces > FewFaces &&
       faces * TrianglesOfFace > surface->Triangles.size())

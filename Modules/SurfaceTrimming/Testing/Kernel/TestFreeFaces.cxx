@@ -266,6 +266,24 @@ TEST(FreeFaces, AreRefusedOnRequest)
   EXPECT_NE(refused.Detail.find("is of free form"), std::string::npos) << refused.Detail;
 }
 
+/// A sheet that is rolled up is covered by a few cylinders within the tolerance, and is none.
+TEST(FreeFaces, SmoothShapesInPiecesAreFree)
+{
+  TriangleMesh roll;
+  roll.Points.resize(0, 3);
+  AddGrid(
+    [](double u, double v)
+    {
+      const double angle = 3.0 * Pi * u;
+      const double r = 1.0 + 0.3 * angle;
+      return Eigen::Vector3d(r * std::cos(angle), r * std::sin(angle), 4.0 * v);
+    },
+    256, 16, roll);
+  const Status refused = ModelMesh(roll, {}).Status;
+  EXPECT_EQ(refused.Code, ErrorCode::NotInSpace);
+  EXPECT_NE(refused.Detail.find("% of the area"), std::string::npos) << refused.Detail;
+}
+
 /// Noise of a quarter of the tolerance on all points: the sides are still planes.
 TEST(FreeFaces, NoiseLeavesPlanesPlanes)
 {
