@@ -73,16 +73,20 @@ double TurnAt(const Network& network, int point, double reach)
   return Degrees * std::atan2(in.cross(out).norm(), in.dot(out)) + Slack;
 }
 
-/// Whether no point within the reach turns more, or as much and comes earlier.
+/// Whether within the reach no chains meet and no point turns more, or as much and comes earlier.
 bool TurnsMost(const Network& network, int point, double turn, const std::vector<double>& reach)
 {
   for (const int edge : network.Of(point))
   {
     for (const int other : Walk(network, point, edge, reach[static_cast<std::size_t>(point)]))
     {
-      if (other == point || network.Of(other).size() != 2)
+      if (other == point)
       {
         continue;
+      }
+      if (network.Of(other).size() != 2)
+      {
+        return false;
       }
       const double its = TurnAt(network, other, reach[static_cast<std::size_t>(other)]);
       if (its > turn || (its == turn && other < point))

@@ -223,8 +223,7 @@ private:
 void JoinOutliers(const SurfaceParts& parts, const NormalFitParams& params, const Barrier& barrier,
   const std::vector<Patch>& patches, std::vector<std::size_t>& chosen)
 {
-  const auto isKnown = [&](std::size_t t)
-  { return patches[chosen[t]].Deviation <= std::max(params.Precision, params.Bend / Sure); };
+  const auto isKnown = [&](std::size_t t) { return patches[chosen[t]].Deviation <= params.Known; };
   std::vector<std::size_t> open;
   for (std::size_t t = 0; t < chosen.size(); ++t)
   {

@@ -18,6 +18,7 @@ struct NormalFitParams
   double Noise = 0.0;     ///< standard deviation of the points, >= 0
   double Precision = 0.0; ///< of a normal, radians: patches grow until it is reached
   double Bend = 0.0;      ///< radians: what turns by more, noise apart, is another side
+  double Known = 0.0;     ///< radians: deviation from which on nothing is known of a normal
   int Threads = 0;        ///< 0: all cores
 };
 

@@ -5,22 +5,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace knotwork
 {
 namespace
 {
-constexpr double LowShare = 0.2;
-constexpr double LowQuantile = 0.2533; // of |x| of the normal distribution, for LowShare
+constexpr double CoreShare = 0.2;
+constexpr double CoreHalf = 0.2533; // half width of that share about 0 of the normal distribution
 constexpr double Window = 2.5;
 constexpr double WindowMedian = 0.6651; // of |x| below Window
 constexpr int Rounds = 20;
 constexpr std::size_t LeastCount = 12; // of values: fewer say nothing
 constexpr std::size_t QuadricPoints = 9;
 
-/// Standard deviation of values of which many, maybe not most, are of a normal distribution about 0
-/// and the others are larger.
+/// Standard deviation of values of which many, maybe not most, are of one normal distribution.
 double RobustDeviation(std::vector<double> values)
 {
   if (values.size() < LeastCount)
@@ -28,14 +28,34 @@ double RobustDeviation(std::vector<double> values)
     return std::numeric_limits<double>::infinity();
   }
   std::sort(values.begin(), values.end());
-  const auto at = [&](double share, std::size_t count)
-  { return values[static_cast<std::size_t>(share * static_cast<double>(count - 1))]; };
-  double deviation = at(LowShare, values.size()) / LowQuantile;
+  const auto core = static_cast<std::size_t>(CoreShare * static_cast<double>(values.size()));
+  double centre = 0.0;
+  double deviation = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i + core < values.size(); ++i) // the shortest interval of that share
+  {
+    const double width = values[i + core] - values[i];
+    if (0.5 * width / CoreHalf < deviation)
+    {
+      deviation = 0.5 * width / CoreHalf;
+      centre = values[i] + 0.5 * width;
+    }
+  }
+  std::vector<double> distances;
   for (int round = 0; round < Rounds; ++round)
   {
-    const auto within = static_cast<std::size_t>(
-      std::upper_bound(values.begin(), values.end(), Window * deviation) - values.begin());
-    const double next = within > 0 ? at(0.5, within) / WindowMedian : 0.0;
+    const auto first = std::lower_bound(values.begin(), values.end(), centre - Window * deviation);
+    const auto last = std::upper_bound(first, values.end(), centre + Window * deviation);
+    if (first == last)
+    {
+      return deviation;
+    }
+    centre = *(first + (last - first) / 2);
+    distances.clear();
+    std::transform(first, last, std::back_inserter(distances),
+      [&](double value) { return std::abs(value - centre); });
+    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+    std::nth_element(distances.begin(), middle, distances.end());
+    const double next = *middle / WindowMedian;
     if (std::abs(next - deviation) <= 1e-3 * deviation)
     {
       return next;
@@ -70,8 +90,7 @@ double DeviationOfEdges(const SurfaceParts& parts)
       const double ofA = (c - b).cross(d - b).dot(normal) / twice;
       const double ofB = (a - c).cross(d - c).dot(normal) / twice;
       const double ofC = 1.0 - ofA - ofB;
-      values.push_back(
-        std::abs((d - a).dot(normal)) / std::sqrt(1.0 + ofA * ofA + ofB * ofB + ofC * ofC));
+      values.push_back((d - a).dot(normal) / std::sqrt(1.0 + ofA * ofA + ofB * ofB + ofC * ofC));
     }
   }
   return RobustDeviation(std::move(values));
@@ -147,7 +166,7 @@ double DeviationOfPoints(const SurfaceParts& parts)
     const double share = (unit - system * qr.solve(unit))[own]; // of its own error in its residual
     if (share > 0.1)
     {
-      values.push_back(radius * std::abs(residuals[own]) / std::sqrt(share));
+      values.push_back(radius * residuals[own] / std::sqrt(share));
     }
   }
   return RobustDeviation(std::move(values));

@@ -21,7 +21,7 @@ namespace
 {
 constexpr double PrecisionShare = 1.0 / 16.0; // of SharpAngle: of fitted normals
 constexpr double SideShare = 0.5;             // of SharpAngle: what turns by more is another side
-constexpr double KnownShare = 1.0 / 6.0;      // of SharpAngle: worse normals are not known
+constexpr double KnownShare = 1.0 / 8.0;      // of SharpAngle: worse normals are not known
 constexpr double BluntShare = 0.5;            // of WeakAngle: bounds of bands, and gaps
 constexpr double PatchShare = 0.5; // of the patches of its normals, below which a region is none
 constexpr double Pi = 3.14159265358979323846;
@@ -113,6 +113,7 @@ public:
     fit.Noise = this->Params.Known.Only ? 0.0 : this->Limit.Noise;
     fit.Precision = this->Params.Angles.SharpAngle * PrecisionShare / Degrees;
     fit.Bend = this->Params.Angles.SharpAngle * SideShare / Degrees;
+    fit.Known = this->Params.Angles.SharpAngle * KnownShare / Degrees;
     fit.Threads = this->Params.Threads;
     this->Fitted =
       FitNormals(this->Parts, fit, [&](std::size_t t, std::size_t k) { return this->Known(t, k); });
@@ -222,7 +223,7 @@ private:
       for (const int corner : this->Parts.Mesh.Triangles[t])
       {
         double& own = reach[static_cast<std::size_t>(corner)];
-        own = std::max(own, 0.5 * this->Diameter(t));
+        own = std::max(own, this->Diameter(t));
       }
     }
     features.Found = TraceFeatures(this->Parts, edges, this->Params.Angles.CornerAngle, reach);
