@@ -12,6 +12,7 @@ namespace knotwork
 namespace
 {
 constexpr double LongerAlong = 3.0; // than a gap: what it closes of its own chain
+constexpr double Onward = 0.5;      // cosine of the angle between a chain and a way on at most
 
 using Side = std::pair<std::size_t, std::size_t>; // triangle and side
 
@@ -95,8 +96,14 @@ std::vector<Side> FindWay(const SurfaceParts& parts, const EdgeAngle& angle,
 {
   const Surroundings::Chain chain = around.Follow(end);
   const double limit = std::min(params.Length, chain.Length);
+  const Eigen::Vector3d here = parts.Mesh.Point(end);
   const Eigen::Vector3d onward =
-    parts.Mesh.Point(end) - parts.Mesh.Point(around.Beyond(chain.Edges.front(), end));
+    (here - parts.Mesh.Point(around.Beyond(chain.Edges.front(), end))).normalized();
+  const auto leadsOn = [&](int point)
+  {
+    const Eigen::Vector3d step = parts.Mesh.Point(point) - here;
+    return step.dot(onward) >= Onward * step.norm();
+  };
   std::map<int, double> reached{ { end, 0.0 } };
   std::map<int, Side> by;
   using Entry = std::pair<double, int>;
@@ -113,9 +120,9 @@ std::vector<Side> FindWay(const SurfaceParts& parts, const EdgeAngle& angle,
     if (point != end && (around.IsRim(point) || !around.Marked(point).empty()))
     {
       const auto own = chain.Along.find(point);
-      if (own != chain.Along.end() && own->second < LongerAlong * length)
+      if (!leadsOn(point) || (own != chain.Along.end() && own->second < LongerAlong * length))
       {
-        continue; // a loop of its own, in the mesh's width
+        continue; // aside, or a loop of its own no wider than a gap
       }
       std::vector<Side> way;
       for (int at = point; at != end; at = around.Beyond(way.back(), at))
@@ -129,8 +136,7 @@ std::vector<Side> FindWay(const SurfaceParts& parts, const EdgeAngle& angle,
       const int next = around.Beyond(side, point);
       const double further = length + parts.SideLength(side.first, side.second);
       if (marks(side.first, side.second) || further > limit ||
-        angle(side.first, side.second) < params.LeastAngle ||
-        (point == end && (parts.Mesh.Point(next) - parts.Mesh.Point(end)).dot(onward) < 0.0))
+        angle(side.first, side.second) < params.LeastAngle || (point == end && !leadsOn(next)))
       {
         continue;
       }

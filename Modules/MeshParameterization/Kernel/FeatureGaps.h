@@ -14,10 +14,10 @@ struct GapParams
   double LeastAngle = 0.0; ///< degrees that each edge of a gap has at least
 };
 
-/// Marks the ways that close gaps in chains: from a point where a chain ends within a region, in
-/// no more than a right angle to it, along edges of LeastAngle at least, to the nearest point of
-/// another chain, of a rim, or of its own chain where that is three times as far along the chain.
-/// The way is no longer than Length and the chain.
+/// Marks the ways that close gaps in chains: from a point where a chain ends within a region along
+/// edges of LeastAngle at least to the nearest point of another chain, of a rim, or of its own
+/// chain where that is three times as far along the chain. The way is no longer than Length and the
+/// chain; it begins and ends within 60 degrees of the chain's direction.
 /// @return number of gaps that were closed.
 int CloseGaps(
   const SurfaceParts& parts, const EdgeAngle& angle, const GapParams& params, EdgeMarks& marks);
