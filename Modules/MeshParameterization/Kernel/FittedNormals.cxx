@@ -18,7 +18,8 @@ constexpr double Sure = 3.0;     // standard deviations
 constexpr double Farthest = 5.0; // of a point that is on a plane all the same
 constexpr std::size_t MostTriangles = 400;
 constexpr std::size_t Chunk = 256;
-constexpr double Never = 10.0; // radians: nothing is known of a direction
+constexpr std::size_t Blocks = 16; // between reports of progress
+constexpr double Never = 10.0;     // radians: nothing is known of a direction
 
 using Barrier = std::function<bool(std::size_t, std::size_t)>;
 
@@ -280,7 +281,7 @@ void JoinOutliers(const SurfaceParts& parts, const NormalFitParams& params, cons
 }
 }
 
-FittedNormals FitNormals(
+Result<FittedNormals> FitNormals(
   const SurfaceParts& parts, const NormalFitParams& params, const Barrier& barrier)
 {
   const std::size_t count = parts.Mesh.Triangles.size();
@@ -294,14 +295,24 @@ FittedNormals FitNormals(
   }
   const Patches patches(parts, params, barrier);
   std::vector<Patch> of(count);
-  ParallelFor(count, Chunk, params.Threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t t = begin; t < end; ++t)
+  for (std::size_t block = 0; block < Blocks; ++block)
+  {
+    const std::size_t first = block * count / Blocks;
+    const std::size_t last = (block + 1) * count / Blocks;
+    ParallelFor(last - first, Chunk, params.Threads,
+      [&](std::size_t begin, std::size_t end)
       {
-        of[t] = patches.Grow(t);
-      }
-    });
+        for (std::size_t t = first + begin; t < first + end; ++t)
+        {
+          of[t] = patches.Grow(t);
+        }
+      });
+    if (params.Progress &&
+      !params.Progress(static_cast<double>(block + 1) / static_cast<double>(Blocks)))
+    {
+      return { ErrorCode::Aborted, "stopped while normals were fitted" };
+    }
+  }
   std::vector<double> least(count, std::numeric_limits<double>::infinity());
   std::vector<std::size_t> chosen(count);
   for (std::size_t s = 0; s < count; ++s)

@@ -20,6 +20,7 @@ struct NormalFitParams
   double Bend = 0.0;      ///< radians: what turns by more, noise apart, is another side
   double Known = 0.0;     ///< radians: deviation from which on nothing is known of a normal
   int Threads = 0;        ///< 0: all cores
+  ProgressCallback Progress;
 };
 
 /// Normals of planes through patches around the triangles, as large as the noise asks for. Without
@@ -31,7 +32,8 @@ struct NormalFitParams
 /// have a triangle, the nearest one gives its normal whose points lie on its plane as the noise
 /// says, else the one that is least off: at a sharp edge one that lies on the triangle's own side.
 /// @param barrier  whether patches must not grow over side k of triangle t.
+/// @return Aborted.
 /// @complexity O(n p log p) with p triangles in a patch.
-FittedNormals FitNormals(const SurfaceParts& parts, const NormalFitParams& params,
+Result<FittedNormals> FitNormals(const SurfaceParts& parts, const NormalFitParams& params,
   const std::function<bool(std::size_t t, std::size_t k)>& barrier);
 }

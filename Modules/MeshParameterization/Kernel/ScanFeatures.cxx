@@ -24,6 +24,7 @@ constexpr double SideShare = 0.5;             // of SharpAngle: what turns by mo
 constexpr double KnownShare = 1.0 / 8.0;      // of SharpAngle: worse normals are not known
 constexpr double BluntShare = 0.5;            // of WeakAngle: bounds of bands, and gaps
 constexpr double PatchShare = 0.5; // of the patches of its normals, below which a region is none
+constexpr double FitShare = 0.9;   // of the time of a part
 constexpr double Pi = 3.14159265358979323846;
 
 Status CheckAll(const TriangleMesh& mesh, const ScanFeatureParams& params)
@@ -107,7 +108,8 @@ public:
     this->Known.Set(part.Known);
   }
 
-  PartFeatures Find()
+  /// @return Aborted.
+  Result<PartFeatures> Find(const ProgressCallback& progress)
   {
     NormalFitParams fit;
     fit.Noise = this->Params.Known.Only ? 0.0 : this->Limit.Noise;
@@ -115,8 +117,14 @@ public:
     fit.Bend = this->Params.Angles.SharpAngle * SideShare / Degrees;
     fit.Known = this->Params.Angles.SharpAngle * KnownShare / Degrees;
     fit.Threads = this->Params.Threads;
-    this->Fitted =
+    fit.Progress = progress;
+    auto fitted =
       FitNormals(this->Parts, fit, [&](std::size_t t, std::size_t k) { return this->Known(t, k); });
+    if (!fitted)
+    {
+      return fitted.Status;
+    }
+    this->Fitted = std::move(fitted.Value);
     this->MarkKnown();
     PartFeatures features;
     if (!this->Params.Known.Only)
@@ -421,12 +429,22 @@ Result<ScanFeatures> FindScanFeatures(const TriangleMesh& mesh, const ScanFeatur
   all.RegionOfTriangle.assign(mesh.Triangles.size(), -1);
   for (std::size_t i = 0; i < parts.size(); ++i)
   {
-    if (params.Progress &&
-      !params.Progress(static_cast<double>(i + 1) / static_cast<double>(parts.size() + 1)))
+    const auto at = [&](double share)
+    {
+      return !params.Progress ||
+        params.Progress((static_cast<double>(i) + share) / static_cast<double>(parts.size()));
+    };
+    auto found =
+      PartFinder(parts[i], params, limits).Find([&](double share) { return at(FitShare * share); });
+    if (!found)
+    {
+      return found.Status;
+    }
+    if (!at(1.0))
     {
       return { ErrorCode::Aborted, "stopped in the search for features" };
     }
-    Append(parts[i].Surface, PartFinder(parts[i], params, limits).Find(), all);
+    Append(parts[i].Surface, std::move(found.Value), all);
   }
   return all;
 }
