@@ -142,7 +142,8 @@ struct TrimJob
     ReportRow(table, 0,
       { "Tolerance", "MaxDeviation", "MaxSag", "MaxEdgeDistance", "MaxEdgeGap", "MinNormalBound",
         "Area", "MeshArea", "Faces", "Planes", "Cylinders", "Spheres", "Cones", "Tori", "Loops",
-        "Edges", "Lines", "Circles", "Vertices", "ControlPoints", "Verdict", "LoopVerdict" },
+        "Edges", "Lines", "Circles", "SharpEdges", "Vertices", "ControlPoints", "Verdict",
+        "LoopVerdict" },
       session.Report);
     session.Report["free_faces"] = 0;
     Status status = HasCADEnding(this->Output)

@@ -13,12 +13,12 @@
  * and `SurfaceType` (0 plane, 1 cylinder, 2 sphere, 3 cone, 4 torus). Outputs 1 and 2 are the faces
  * themselves, their surfaces and their trimming curves as spline grids (TrimmedGrids.h), whose cell
  * array `SurfaceType` makes vtkCADWriter write planes, cylinders, ... as such. Output 3 is a table
- * of one row: Faces, Planes, Cylinders, Spheres, Cones, Tori, Edges, Lines, Circles, Vertices,
- * Loops (rims of the mesh), Tolerance, MaxDeviation (of the mesh's points, and of edges from their
- * faces), MaxSag (bound of the distance of triangles from their surfaces), MaxEdgeDistance (bound
- * between edges and those of the mesh), MaxEdgeGap, WithinTolerance, MinNormalBound, Verdict
- * (whether faces are proved regular), LoopsProved, LoopVerdict, ControlPoints, Area (of output 0),
- * MeshArea.
+ * of one row: Faces, Planes, Cylinders, Spheres, Cones, Tori, Edges, Lines, Circles, SharpEdges
+ * (where surfaces meet at 5 degrees or more), Vertices, Loops (rims of the mesh), Tolerance,
+ * MaxDeviation (of the mesh's points, and of edges from their faces), MaxSag (bound of the distance
+ * of triangles from their surfaces), MaxEdgeDistance (bound between edges and those of the mesh),
+ * MaxEdgeGap, WithinTolerance, MinNormalBound, Verdict (whether faces are proved regular),
+ * LoopsProved, LoopVerdict, ControlPoints, Area (of output 0), MeshArea.
  *
  * @source The module's page has methods, limits and errors.
  */

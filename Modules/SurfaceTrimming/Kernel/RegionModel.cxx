@@ -16,8 +16,9 @@ namespace knotwork
 {
 namespace
 {
-constexpr double ExactShare = 1e-9; ///< of the diagonal
-constexpr int MaxAttempts = 3;      ///< to make loops that do not cross
+constexpr double ExactShare = 1e-9;                      ///< of the diagonal
+constexpr int MaxAttempts = 3;                           ///< to make loops that do not cross
+constexpr double SharpEdge = 5.0 * 0.017453292519943295; ///< between normals
 
 /// A curve of the model: of a chain, a seam or a pole.
 struct ModelCurve
@@ -119,6 +120,7 @@ private:
   StepUse AddImage(std::size_t region, const LoopStep& step);
   void SetVerticesOfSeam(const std::vector<StepUse>& loop, std::size_t seam);
   double BoundChain(const RegionChain& chain, const ModelCurve& curve) const;
+  bool IsSharp(const RegionChain& chain) const;
 
   const DiscMesh& Surface;
   const SurfaceRecognition& Recognition;
@@ -452,6 +454,29 @@ Status RegionModeler::Certify()
   return {};
 }
 
+/// Whether the surfaces on both sides of a chain meet at an angle.
+bool RegionModeler::IsSharp(const RegionChain& chain) const
+{
+  const auto& [left, right] = chain.Regions;
+  if (left < 0 || right < 0 || left == right)
+  {
+    return false;
+  }
+  const auto normal = [&](int region, const Eigen::Vector3d& point)
+  {
+    const auto r = static_cast<std::size_t>(region);
+    const Eigen::Vector3d outward = this->Surfaces[r].Normal(point);
+    return Eigen::Vector3d(this->Recognition.Regions[r].Reversed ? -outward : outward);
+  };
+  return std::any_of(chain.Points.begin(), chain.Points.end(),
+    [&](const Eigen::Vector3d& point)
+    {
+      const Eigen::Vector3d a = normal(left, point);
+      const Eigen::Vector3d b = normal(right, point);
+      return std::atan2(a.cross(b).norm(), a.dot(b)) >= SharpEdge;
+    });
+}
+
 void RegionModeler::Measure()
 {
   this->Made.NumOfType = this->Recognition.NumOfType;
@@ -485,6 +510,7 @@ void RegionModeler::Measure()
     }
     this->Made.MaxEdgeDistance =
       std::max(this->Made.MaxEdgeDistance, this->BoundChain(chain, this->Curves[c]));
+    this->Made.NumSharpEdges += this->IsSharp(chain) ? 1 : 0;
   }
   for (const RegionVertex& vertex : this->Chains.Vertices)
   {
@@ -540,9 +566,9 @@ void Append(RegionModel&& part, RegionModel& all)
   {
     all.NumOfType[t] += part.NumOfType[t];
   }
-  for (int RegionModel::*const count :
-    { &RegionModel::NumRims, &RegionModel::NumPoleFaces, &RegionModel::NumEdges,
-      &RegionModel::NumLines, &RegionModel::NumCircles, &RegionModel::NumVertices })
+  for (int RegionModel::*const count : { &RegionModel::NumRims, &RegionModel::NumPoleFaces,
+         &RegionModel::NumEdges, &RegionModel::NumLines, &RegionModel::NumCircles,
+         &RegionModel::NumSharpEdges, &RegionModel::NumVertices })
   {
     all.*count += part.*count;
   }

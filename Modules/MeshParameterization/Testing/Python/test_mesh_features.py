@@ -2,30 +2,18 @@
 """A box with a step and a hole, noisy: its edges, corners and faces; and meshes of machined parts, where they are there."""
 import os
 import pathlib
+import sys
 
 import knotwork
 import knotwork_testing
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[4] / "Examples/Gallery"))
+import _scene as scene  # noqa: E402
 
 # edges, corners and regions as a plain segmentation by angle counts them on the clean meshes
 PARTS = {"joint": (22, 12, 10), "cross": (36, 24, 14), "fandisk": (54, 37, 19)}
-
-
-def mesh_of(points, triangles):
-    data = vtkPolyData()
-    places = vtkPoints()
-    places.SetDataTypeToDouble()
-    for point in points:
-        places.InsertNextPoint(*point)
-    cells = vtkCellArray()
-    for triangle in triangles:
-        cells.InsertNextCell(3, [int(corner) for corner in triangle])
-    data.SetPoints(places)
-    data.SetPolys(cells)
-    return data
 
 
 def prism(outline, n, height):
@@ -58,7 +46,7 @@ def test_l_shaped_prism_with_noise():
     points, triangles = prism([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)], 20, 1)
     for seed in range(3):
         noisy = points + np.random.default_rng(seed).normal(0, 0.005, points.shape)
-        filter, numbers = features(mesh_of(noisy, triangles))
+        filter, numbers = features(scene.triangle_mesh(noisy, triangles))
         assert numbers["Regions"] == 6, (seed, numbers)
         lines = filter.GetOutputDataObject(1)
         arrays = {name: vtk_to_numpy(lines.GetCellData().GetArray(name)) for name in ("Rim", "MeanAngle", "Length", "ChainId")}
@@ -72,21 +60,16 @@ def test_l_shaped_prism_with_noise():
 
 
 def test_parts_clean_and_noisy():
-    folder = pathlib.Path(os.environ.get("KNOTWORK_MESH_CASES", ""))
+    if not os.path.exists(scene.ARCHIVE):
+        print(f"{scene.ARCHIVE} (libcgal-demo) is missing: left out")
+        return
     for name, (lines, corners, regions) in PARTS.items():
-        file = folder / f"{name}.off"
-        if not file.exists():
-            print(f"KNOTWORK_MESH_CASES names no folder with {name}.off: left out")
-            continue
-        numbers = file.read_text().split()
-        count, faces = int(numbers[1]), int(numbers[2])
-        points = np.array(numbers[4:4 + 3 * count], float).reshape(-1, 3)
-        triangles = np.array(numbers[4 + 3 * count:4 + 3 * count + 4 * faces], int).reshape(-1, 4)[:, 1:]
-        found = features(mesh_of(points, triangles))[1]
+        points, triangles = scene.read_off(f"{name}.off")
+        found = features(scene.triangle_mesh(points, triangles))[1]
         assert (found["Chains"], found["Corners"], found["Regions"]) == (lines, corners, regions), (name, found)
         diagonal = np.linalg.norm(np.ptp(points, axis=0))
         noisy = points + np.random.default_rng(1).normal(0, 8e-5 * diagonal, points.shape)
-        found = features(mesh_of(noisy, triangles))[1]
+        found = features(scene.triangle_mesh(noisy, triangles))[1]
         print(name, found)
         assert found["Regions"] == regions, (name, found)
         assert 0.5 < found["NoiseLevel"] / (8e-5 * diagonal) < 2
