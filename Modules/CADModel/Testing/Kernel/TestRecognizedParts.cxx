@@ -434,9 +434,10 @@ std::string Describe(const EdgeTally& tally)
 void ExpectSharpEdges(double noise, double leastFound, double mostFalse, double mostFalseOfPlain)
 {
   const auto [fitted, plain] = CountSharpEdges(60, noise);
-  SCOPED_TRACE("noise of " + std::to_string(noise) + " tolerances");
-  ::testing::Test::RecordProperty("fitted", Describe(fitted));
-  ::testing::Test::RecordProperty("plain", Describe(plain));
+  const std::string name = "noise of " + std::to_string(noise) + " tolerances, ";
+  SCOPED_TRACE(name);
+  ::testing::Test::RecordProperty(name + "fitted", Describe(fitted));
+  ::testing::Test::RecordProperty(name + "plain", Describe(plain));
   EXPECT_EQ(fitted.WrongNoise, 0);
   EXPECT_GE(fitted.ShareFound(), leastFound) << Describe(fitted);
   EXPECT_LE(fitted.ShareFalse(), mostFalse) << Describe(fitted);
