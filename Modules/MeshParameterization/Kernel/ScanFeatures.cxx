@@ -112,7 +112,7 @@ public:
   Result<PartFeatures> Find(const ProgressCallback& progress)
   {
     NormalFitParams fit;
-    fit.Noise = this->Params.Known.Only ? 0.0 : this->Limit.Noise;
+    fit.Noise = this->Limit.Noise;
     fit.Precision = this->Params.Angles.SharpAngle * PrecisionShare / Degrees;
     fit.Bend = this->Params.Angles.SharpAngle * SideShare / Degrees;
     fit.Known = this->Params.Angles.SharpAngle * KnownShare / Degrees;
