@@ -101,6 +101,7 @@ void EncodeNumbers(
   AddColumn(table, "Edges", model.NumEdges);
   AddColumn(table, "Lines", model.NumLines);
   AddColumn(table, "Circles", model.NumCircles);
+  AddColumn(table, "SharpEdges", model.NumSharpEdges);
   AddColumn(table, "Vertices", model.NumVertices);
   AddColumn(table, "Loops", model.NumRims);
   AddColumn(table, "Tolerance", model.Tolerance);

@@ -17,7 +17,7 @@
  * themselves, their surfaces and their trimming curves as spline grids (TrimmedGrids.h), whose cell
  * array `SurfaceType` makes vtkCADWriter write planes, cylinders, ... as such. Output 3 is a table
  * of one row: Faces, Planes, Cylinders, Spheres, Cones, Tori, FreeFaces, Edges, Lines, Circles,
- * Vertices, Loops (rims of the mesh), Tolerance, MaxDeviation (of the mesh's points, and of edges
+ * SharpEdges (where surfaces meet at 5 degrees or more), Vertices, Loops (rims of the mesh), Tolerance, MaxDeviation (of the mesh's points, and of edges
  * from their faces), MaxSag (bound of the distance of triangles from their surfaces),
  * MaxEdgeDistance (bound between edges and those of the mesh), MaxEdgeGap, WithinTolerance,
  * MinNormalBound, Verdict (whether faces are proved regular), LoopsProved, LoopVerdict,

@@ -12,7 +12,7 @@ FILE = "the file in question"  # its place in a run
 ENDINGS = {"surface": (".vtu", ".xml", ".g2", ".step", ".iges"), "points": (".vtp", ".xyz", ".csv", ".ply", ".g2"),
            "cells": (".vtp",), "mesh": (".off", ".obj", ".ply", ".stl", ".vtp"), "curves": (".vtp",),
            "boundary": (".json",), "map": (".vtu",), "trim": (".vtu",), "grid": (".vtu",), "layout": (".vtu",),
-           "quads": (".off", ".obj", ".ply", ".vtu"), "values": (".vtp", ".csv")}
+           "quads": (".off", ".obj", ".ply", ".vtu"), "values": (".vtp", ".csv"), "edges": (".vtp",)}
 
 BOUNDARY = ('{"curves": [%s]}' % ", ".join(
     '{"degree": 1, "knots": [0, 0, 1, 1], "control_points": [%s]}' % ends
@@ -54,7 +54,7 @@ def cube(ending):
 
 
 SOUND = {"surface": "square", "points": "cloud", "cells": "cloud", "mesh": "mesh", "curves": "target", "boundary": "boundary",
-         "map": "map", "trim": "trim", "grid": "square", "layout": "quads", "quads": "quads", "values": "samples"}
+         "map": "map", "trim": "trim", "grid": "square", "layout": "quads", "quads": "quads", "values": "samples", "edges": "edges"}
 
 
 def sound(kind, ending):
@@ -86,6 +86,7 @@ def make_files():
     for ending in (".off", ".obj", ".ply"):
         write_text("quads" + ending, cube(ending))
     good("flatten", path("mesh.off"), "--output", path("mesh.vtp"))
+    good("features", path("mesh.off"), "--lines", path("edges.vtp"), "--output", path("regions.vtp"))
     skeletons.write(skeletons.polydata(skeletons.curves(0.0, 1, 101)), path("template.vtp"))
     skeletons.write(skeletons.polydata(skeletons.curves(0.1, 5, 50)), path("target.vtp"))
     write_text("boundary.json", BOUNDARY)
@@ -139,7 +140,9 @@ def runs():
             (["approximate", FILE, "--values", "Temperature", "--table", "table.csv", "--points", polydata, "--output", grid], "values"),
             (["cadfit", FILE, "--entities", "table.csv", "--output", grid], "quads"),
             (["intersections", FILE, "--table", "table.csv", "--output", polydata], "surface"),
-            (["recognize", FILE, "--edges", "edges.vtp", "--regions", "table.csv", "--output", polydata], "mesh")):
+            (["recognize", FILE, "--edges", "edges.vtp", "--regions", "table.csv", "--output", polydata], "mesh"),
+            (["features", FILE, "--lines", "lines.vtp", "--corners", "corners.vtp", "--output", polydata], "mesh"),
+            (["features", mesh, "--edges", FILE, "--output", polydata], "edges")):
         yield arguments + report, kind
 
 

@@ -61,7 +61,8 @@ def sound_files():
              ["distance", "IN", height, "--output", polydata], ["crop", height, "IN", "--output", grid]]
     mesh = [["info", "IN"], ["convert", "IN", "--output", polydata], ["flatten", "IN", "--output", polydata],
             ["flatten", "IN", "--loops", "loops.vtp", "--output", polydata],
-            ["trim", "IN", "--triangles", polydata, "--output", "out.step"], ["fit", "IN", "--output", grid]]
+            ["trim", "IN", "--triangles", polydata, "--output", "out.step"], ["fit", "IN", "--output", grid],
+            ["features", "IN", "--lines", "lines.vtp", "--output", polydata]]
     meshes = [["unstructured", "IN", "--output", grid], ["patches", "IN", "--output", grid], ["validate", "IN", "--table", table],
               ["info", "IN"], ["convert", "IN", "--output", grid], ["tessellate", "IN", "--output", polydata]]
     curves = [["map", "IN", path("target.vtp"), "--iterations", 1, "--output", grid], ["info", "IN"]]

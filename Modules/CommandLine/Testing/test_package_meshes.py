@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""All meshes (.off) of the Debian package libcgal-demo through `flatten` and `trim`: a result, or one clean line that names the file,
+"""All meshes (.off) of the Debian package libcgal-demo through `flatten`, `features` and `trim`: a result, or one clean line that names the file,
 within 120 seconds of processor time and two gigabytes. The environment variable KNOTWORK_PACKAGE_MESHES may name a folder that has
 them unpacked, or others. usage: test_package_meshes.py [PART [PARTS]]: every PARTS-th mesh from number PART on."""
 import hashlib
@@ -47,7 +47,7 @@ def meshes():
 def test_every_mesh_ends_in_a_result_or_one_clean_line():
     wrong = []
     for mesh in meshes():
-        for job, output in (("flatten", "flat.vtp"), ("trim", "face.step")):
+        for job, output in (("flatten", "flat.vtp"), ("features", "regions.vtp"), ("trim", "face.step")):
             with tempfile.TemporaryDirectory(dir=os.path.dirname(knotwork_testing.output("package_meshes"))) as folder:
                 status, seconds, cpu, memory, errors = run([job, mesh, "--output", output, "--threads", 1, "--quiet"], folder, 1200)
                 faults = list(faults_of_message(mesh.stem, status, errors))

@@ -136,7 +136,7 @@ def test_machined_parts_are_planes_and_cylinders():
         report = trim(cube(), "--output", file, features="on")
         assert report["analytic"] is True and report["features"] is True
         assert (report["planes"], report["lines"], report["edges"], report["vertices"]) == (6, 12, 12, 8)
-        assert report["faces"] == report["file_faces"] == 6 and report["control_points"] == 24
+        assert report["faces"] == report["file_faces"] == 6 and report["control_points"] == 24 and report["sharp_edges"] == 12
         assert report["brep_valid"] and report["within_tolerance"] and report["loops_proved"] and report["verdict"] == "valid"
         assert report["max_deviation"] < 1e-14 and abs(report["file_area"] - 22) < 1e-12
         assert report["free_faces"] == 0 and report["file_bytes"] == os.path.getsize(file)

@@ -12,6 +12,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 
 namespace knotwork
 {
@@ -21,6 +23,7 @@ constexpr double ExactShare = 1e-9;  ///< of the diagonal
 constexpr double NearFree = 0.1;     ///< of the tolerance: way of points of free form
 constexpr double FollowShare = 0.02; ///< of the tolerance, along edges of free form
 constexpr int MaxAttempts = 3;       ///< to make loops that do not cross
+constexpr double SharpEdge = 5.0 * 0.017453292519943295; ///< between normals
 
 /// A curve of the model: of a chain, a seam or a pole.
 struct ModelCurve
@@ -130,6 +133,8 @@ private:
   StepUse AddImage(std::size_t region, const LoopStep& step);
   void SetVerticesOfSeam(const std::vector<StepUse>& loop, std::size_t seam);
   double BoundChain(const RegionChain& chain, const ModelCurve& curve) const;
+  bool IsSharp(const RegionChain& chain) const;
+  bool IsSharpInMesh(const RegionChain& chain) const;
 
   const DiscMesh& Surface;
   const SurfaceRecognition& Recognition;
@@ -141,6 +146,7 @@ private:
   RegionChains Chains;
   FreeFaces Free;
   int FailedRegion = -1;
+  std::map<std::pair<int, int>, std::vector<int>> TrianglesBeside; ///< edges, where charts are
   std::vector<int> EdgeOfChain;      ///< of the free faces' edges; -1: of none
   std::vector<RegionLoops> Loops;    ///< one a region
   std::vector<std::size_t> Crossing; ///< regions whose loops do
@@ -590,6 +596,64 @@ Status RegionModeler::Certify()
   return {};
 }
 
+/// Whether triangles on both sides of a chain meet at an angle along most of it.
+bool RegionModeler::IsSharpInMesh(const RegionChain& chain) const
+{
+  constexpr double Sharp = 25.0 * 0.017453292519943295;
+  const auto normal = [&](int t) -> Eigen::Vector3d
+  {
+    const auto& [a, b, c] = this->Surface.Triangles[static_cast<std::size_t>(t)];
+    const Eigen::Vector3d from = this->Surface.Point(a);
+    return (this->Surface.Point(b) - from).cross(this->Surface.Point(c) - from);
+  };
+  double all = 0.0;
+  double sharp = 0.0;
+  std::vector<int> ids; // of the mesh: charts may have more on the way
+  std::copy_if(chain.PointIds.begin(), chain.PointIds.end(), std::back_inserter(ids),
+    [&](int id) { return id >= 0 && id < this->Surface.NumPoints(); });
+  for (std::size_t i = 0; i + 1 < ids.size(); ++i)
+  {
+    const auto beside = this->TrianglesBeside.find(std::minmax(ids[i], ids[i + 1]));
+    if (beside == this->TrianglesBeside.end() || beside->second.size() != 2)
+    {
+      continue;
+    }
+    const Eigen::Vector3d a = normal(beside->second[0]);
+    const Eigen::Vector3d b = normal(beside->second[1]);
+    const double length = (this->Surface.Point(ids[i]) - this->Surface.Point(ids[i + 1])).norm();
+    all += length;
+    sharp += std::atan2(a.cross(b).norm(), a.dot(b)) >= Sharp ? length : 0.0;
+  }
+  return sharp > 0.5 * all;
+}
+
+/// Whether the surfaces on both sides of a chain meet at an angle.
+bool RegionModeler::IsSharp(const RegionChain& chain) const
+{
+  const auto& [left, right] = chain.Regions;
+  if (left < 0 || right < 0 || left == right)
+  {
+    return false;
+  }
+  if (this->Charts && std::max(left, right) >= this->Charts->FirstChart)
+  {
+    return this->IsSharpInMesh(chain);
+  }
+  const auto normal = [&](int region, const Eigen::Vector3d& point)
+  {
+    const auto r = static_cast<std::size_t>(region);
+    const Eigen::Vector3d outward = this->Surfaces[r].Normal(point);
+    return Eigen::Vector3d(this->Recognition.Regions[r].Reversed ? -outward : outward);
+  };
+  return std::any_of(chain.Points.begin(), chain.Points.end(),
+    [&](const Eigen::Vector3d& point)
+    {
+      const Eigen::Vector3d a = normal(left, point);
+      const Eigen::Vector3d b = normal(right, point);
+      return std::atan2(a.cross(b).norm(), a.dot(b)) >= SharpEdge;
+    });
+}
+
 void RegionModeler::Measure()
 {
   this->Made.NumOfType = this->Recognition.NumOfType;
@@ -598,6 +662,14 @@ void RegionModeler::Measure()
   {
     this->Made.FreeDeviation = this->Free.Trimmed.MaxDeviation + this->Free.MaxMove;
     this->Made.MaxNormalAngle = this->Free.MaxNormalAngle;
+    for (std::size_t t = 0; t < this->Surface.Triangles.size(); ++t)
+    {
+      const auto& [a, b, c] = this->Surface.Triangles[t];
+      for (const auto& edge : { std::minmax(a, b), std::minmax(b, c), std::minmax(c, a) })
+      {
+        this->TrianglesBeside[edge].push_back(static_cast<int>(t));
+      }
+    }
   }
   this->Made.NumRims = static_cast<int>(this->Surface.Loops.size());
   for (std::size_t t = 0; t < this->Surface.Triangles.size(); ++t)
@@ -632,6 +704,7 @@ void RegionModeler::Measure()
     }
     this->Made.MaxEdgeDistance =
       std::max(this->Made.MaxEdgeDistance, this->BoundChain(chain, this->Curves[c]));
+    this->Made.NumSharpEdges += this->IsSharp(chain) ? 1 : 0;
   }
   for (const RegionVertex& vertex : this->Chains.Vertices)
   {
@@ -687,9 +760,9 @@ void Append(RegionModel&& part, RegionModel& all)
   {
     all.NumOfType[t] += part.NumOfType[t];
   }
-  for (int RegionModel::*const count :
-    { &RegionModel::NumRims, &RegionModel::NumPoleFaces, &RegionModel::NumEdges,
-      &RegionModel::NumLines, &RegionModel::NumCircles, &RegionModel::NumVertices })
+  for (int RegionModel::*const count : { &RegionModel::NumRims, &RegionModel::NumPoleFaces,
+         &RegionModel::NumEdges, &RegionModel::NumLines, &RegionModel::NumCircles,
+         &RegionModel::NumSharpEdges, &RegionModel::NumVertices })
   {
     all.*count += part.*count;
   }

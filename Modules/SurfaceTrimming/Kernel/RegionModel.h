@@ -35,6 +35,8 @@ struct RegionModel
   int NumEdges = 0;   ///< without seams and poles
   int NumLines = 0;   ///< of them
   int NumCircles = 0; ///< of them
+  int NumSharpEdges =
+    0; ///< of them: between surfaces whose normals differ by 5 degrees or more somewhere
   int NumVertices = 0;
   double MaxPointDistance = 0.0; ///< of the mesh's points from the surfaces of their regions
   /// Bound of the distance of all points of triangles from the surface of their region, and of

@@ -2,6 +2,7 @@
 // Parts that OpenCASCADE makes and tessellates. Oracle: its faces.
 #include "OutputFile.h"
 #include <knotwork/CADModel/CADExchange.h>
+#include <knotwork/MeshParameterization/ScanFeatures.h>
 #include <knotwork/SurfaceTrimming/RegionModel.h>
 #include <knotwork/SurfaceTrimming/SurfaceRecognition.h>
 
@@ -37,12 +38,14 @@
 #include <cmath>
 #include <map>
 #include <random>
+#include <set>
 
 namespace knotwork
 {
 namespace
 {
 constexpr double Tolerance = 1e-3; // of the diagonal
+constexpr double Pi = 3.14159265358979323846;
 
 struct Part
 {
@@ -331,6 +334,129 @@ TEST(RecognizedParts, FacesOfTessellatedPartsComeBack_IndependentOracle)
 TEST(RecognizedParts, FacesOfNoisyParts_IndependentOracle)
 {
   EXPECT_GE(CountFamily(60, 0.25).Share(), 0.90);
+}
+
+namespace
+{
+using Edge = std::array<int, 2>;
+
+Edge EdgeOf(int a, int b)
+{
+  return { std::min(a, b), std::max(a, b) };
+}
+
+/// Edges between triangles of two faces that do not meet smoothly.
+std::set<Edge> TrueEdges(const Part& exact)
+{
+  const auto normal = [&](std::size_t t)
+  {
+    const auto corner = [&](std::size_t k) -> Eigen::Vector3d
+    { return exact.Mesh.Points.row(exact.Mesh.Triangles[t][k]).transpose(); };
+    return Eigen::Vector3d((corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized());
+  };
+  std::set<Edge> edges;
+  std::map<Edge, std::size_t> first;
+  for (std::size_t t = 0; t < exact.Mesh.Triangles.size(); ++t)
+  {
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const auto& corners = exact.Mesh.Triangles[t];
+      const Edge edge = EdgeOf(corners[k], corners[(k + 1) % 3]);
+      const auto [other, isNew] = first.emplace(edge, t);
+      if (!isNew && exact.FaceOfTriangle[t] != exact.FaceOfTriangle[other->second] &&
+        normal(t).dot(normal(other->second)) < std::cos(40.0 * Pi / 180.0))
+      {
+        edges.insert(edge);
+      }
+    }
+  }
+  return edges;
+}
+
+struct EdgeTally
+{
+  int True = 0;
+  int Found = 0;
+  int False = 0;
+  int WrongNoise = 0; ///< parts
+  double ShareFound() const { return static_cast<double>(this->Found) / this->True; }
+  double ShareFalse() const { return static_cast<double>(this->False) / this->True; }
+};
+
+void Add(const FeatureChain& chain, const std::set<Edge>& trueEdges, EdgeTally& tally)
+{
+  const std::size_t count = chain.Points.size();
+  for (std::size_t i = 0; i + 1 < count + (chain.Closed ? 1 : 0); ++i)
+  {
+    const bool isTrue = trueEdges.count(EdgeOf(chain.Points[i], chain.Points[(i + 1) % count])) > 0;
+    ++(isTrue ? tally.Found : tally.False);
+  }
+}
+
+/// Of fitted normals, and of the triangles' own.
+std::array<EdgeTally, 2> CountSharpEdges(unsigned parts, double noise)
+{
+  std::array<EdgeTally, 2> tallies;
+  for (unsigned seed = 1; seed <= parts; ++seed)
+  {
+    const TopoDS_Shape shape = PartMaker(seed).Make();
+    const std::set<Edge> trueEdges = TrueEdges(Tessellate(shape, 0.0, seed));
+    const Part part = Tessellate(shape, noise, seed);
+    ScanFeatureParams params;
+    const auto fitted = FindScanFeatures(part.Mesh, params);
+    params.Noise = 0.0;
+    const auto plain = FindScanFeatures(part.Mesh, params);
+    EXPECT_TRUE(fitted && plain) << fitted.Status.Message();
+    // uniform in a cube of that half width
+    const double deviation = noise * Tolerance * part.Diagonal / 3.0;
+    const bool isRight =
+      fitted->Noise <= 1e-5 * part.Diagonal + 2.0 * deviation && fitted->Noise >= 0.5 * deviation;
+    tallies[0].WrongNoise += isRight ? 0 : 1;
+    for (std::size_t i = 0; i < 2; ++i)
+    {
+      tallies[i].True += static_cast<int>(trueEdges.size());
+      for (const FeatureLine& line : (i == 0 ? fitted : plain)->Lines)
+      {
+        Add(line.Chain, trueEdges, tallies[i]);
+      }
+    }
+  }
+  return tallies;
+}
+
+std::string Describe(const EdgeTally& tally)
+{
+  return std::to_string(tally.Found) + " of " + std::to_string(tally.True) + " found, " +
+    std::to_string(tally.False) + " false ones, the noise of " + std::to_string(tally.WrongNoise) +
+    " parts is wrong";
+}
+
+void ExpectSharpEdges(double noise, double leastFound, double mostFalse, double mostFalseOfPlain)
+{
+  const auto [fitted, plain] = CountSharpEdges(60, noise);
+  const std::string name = "noise of " + std::to_string(noise) + " tolerances, ";
+  SCOPED_TRACE(name);
+  ::testing::Test::RecordProperty(name + "fitted", Describe(fitted));
+  ::testing::Test::RecordProperty(name + "plain", Describe(plain));
+  EXPECT_EQ(fitted.WrongNoise, 0);
+  EXPECT_GE(fitted.ShareFound(), leastFound) << Describe(fitted);
+  EXPECT_LE(fitted.ShareFalse(), mostFalse) << Describe(fitted);
+  EXPECT_LE(fitted.False, mostFalseOfPlain * plain.False) << Describe(plain);
+}
+}
+
+/// All of them and no other, with noise of a quarter of the tolerance too.
+TEST(SharpEdges, EdgesOfTessellatedParts_IndependentOracle)
+{
+  ExpectSharpEdges(0.0, 1.0, 0.0, 1.0);
+  ExpectSharpEdges(0.25, 1.0, 0.0, 1.0);
+}
+
+/// Noise of the tolerance: then the normals of the triangles see many more that are none.
+TEST(SharpEdges, EdgesOfVeryNoisyParts_IndependentOracle)
+{
+  ExpectSharpEdges(0.5, 0.995, 0.005, 0.6);
+  ExpectSharpEdges(1.0, 0.975, 0.035, 0.25);
 }
 
 namespace

@@ -160,9 +160,9 @@ TEST(vtkAnalyticModel, CubeIsSixPlanesTwelveLinesEightVertices_Exact)
   ASSERT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
   ExpectNumbers(filter,
     { { "Faces", 6 }, { "Planes", 6 }, { "Cylinders", 0 }, { "Spheres", 0 }, { "Cones", 0 },
-      { "Tori", 0 }, { "Edges", 12 }, { "Lines", 12 }, { "Circles", 0 }, { "Vertices", 8 },
-      { "Loops", 0 }, { "WithinTolerance", 1 }, { "PoleFaces", 0 }, { "LoopsProved", 1 },
-      { "ControlPoints", 24 } });
+      { "Tori", 0 }, { "Edges", 12 }, { "Lines", 12 }, { "Circles", 0 }, { "SharpEdges", 12 },
+      { "Vertices", 8 }, { "Loops", 0 }, { "WithinTolerance", 1 }, { "PoleFaces", 0 },
+      { "LoopsProved", 1 }, { "ControlPoints", 24 } });
   EXPECT_EQ(Text(filter, "Verdict"), "valid");
   EXPECT_EQ(Text(filter, "LoopVerdict"), "simple_nested");
   EXPECT_NEAR(Number(filter, "Tolerance"), 1e-3 * std::sqrt(3.0), 1e-15);
@@ -206,7 +206,8 @@ TEST(vtkAnalyticModel, CylinderHasTwoCircles_Exact)
   ASSERT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
   ExpectNumbers(filter,
     { { "Faces", 3 }, { "Planes", 2 }, { "Cylinders", 1 }, { "Edges", 2 }, { "Circles", 2 },
-      { "Lines", 0 }, { "Vertices", 2 }, { "Loops", 0 }, { "WithinTolerance", 1 } });
+      { "SharpEdges", 2 }, { "Lines", 0 }, { "Vertices", 2 }, { "Loops", 0 },
+      { "WithinTolerance", 1 } });
   const double chord = 0.75 * (1.0 - std::cos(Pi / 40));
   for (const char* bound : { "MaxSag", "MaxEdgeDistance" })
   {
@@ -253,8 +254,8 @@ TEST(vtkAnalyticModel, OpenMeshesHaveLoops_Exact)
   filter->SetInputDataObject(Field(4, [](double, double) { return 1.0; }));
   filter->Update();
   ExpectNumbers(filter,
-    { { "Faces", 1 }, { "Planes", 1 }, { "Edges", 4 }, { "Lines", 4 }, { "Vertices", 4 },
-      { "Loops", 1 } });
+    { { "Faces", 1 }, { "Planes", 1 }, { "Edges", 4 }, { "Lines", 4 }, { "SharpEdges", 0 },
+      { "Vertices", 4 }, { "Loops", 1 } });
   filter->SetCornerAngle(100.0);
   filter->Update();
   EXPECT_EQ(Number(filter, "Loops"), 1.0);

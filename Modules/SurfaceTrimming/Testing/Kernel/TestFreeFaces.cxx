@@ -192,6 +192,7 @@ TEST(FreeFaces, BoxUnderACubic_Integral)
   EXPECT_EQ(model.NumEdges, 12);
   EXPECT_EQ(model.NumLines, 8);
   EXPECT_EQ(model.NumVertices, 8);
+  EXPECT_EQ(model.NumSharpEdges, 12);
   const double exact = 1.0 + 0.4 / 4.0 + 0.2 / 4.0 - 0.3 / 6.0;
   EXPECT_NEAR(VolumeOf(model), exact, 6.0 * 1.25 * model.Tolerance);
 }

@@ -154,6 +154,9 @@ TEST(RegionModel, SolidsOfRevolution_Exact)
     const RegionModel model = ModelOf(solid.Mesh);
     EXPECT_EQ(model.NumOfType, solid.Types);
     EXPECT_EQ(model.NumEdges, solid.Edges);
+    // but for the two of the torus
+    EXPECT_EQ(
+      model.NumSharpEdges, solid.Edges - (solid.Types[0] == 2 && solid.Types[4] == 1 ? 2 : 0));
     EXPECT_EQ(model.NumCircles, solid.Edges);
     EXPECT_EQ(model.NumRims, 0);
     const Measures found = MeasuresOf(model, 1e-3);
@@ -186,6 +189,7 @@ TEST(RegionModel, OpenMeshesAreShells)
   const RegionModel open = ModelOf(Box(1, 2, 3, { 1 }));
   EXPECT_EQ(open.Model.Faces.size(), 5u);
   EXPECT_EQ(open.NumLines, 12);
+  EXPECT_EQ(open.NumSharpEdges, 8); // without those of the rim
   EXPECT_EQ(open.NumRims, 1);
   EXPECT_EQ(ModelOf(Box(1, 2, 3, { 0, 1 })).NumRims, 2);
   // the side of a cylinder

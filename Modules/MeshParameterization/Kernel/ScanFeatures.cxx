@@ -1,0 +1,451 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ScanFeatures.h"
+
+#include "FeatureEdges.h"
+#include "FeatureGaps.h"
+#include "FeatureRegions.h"
+#include "FittedNormals.h"
+#include "MeshNoise.h"
+#include "NarrowBands.h"
+
+#include <knotwork/SplineCore/TriangleIndex.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace knotwork
+{
+namespace
+{
+constexpr double PrecisionShare = 1.0 / 16.0; // of SharpAngle: of fitted normals
+constexpr double SideShare = 0.5;             // of SharpAngle: what turns by more is another side
+constexpr double KnownShare = 1.0 / 8.0;      // of SharpAngle: worse normals are not known
+constexpr double BluntShare = 0.5;            // of WeakAngle: bounds of bands, and gaps
+constexpr double PatchShare = 0.5; // of the patches of its normals, below which a region is none
+constexpr double FitShare = 0.9;   // of the time of a part
+constexpr double Pi = 3.14159265358979323846;
+
+Status CheckAll(const TriangleMesh& mesh, const ScanFeatureParams& params)
+{
+  if (Status status = CheckParams(params.Angles); !status)
+  {
+    return status;
+  }
+  const auto isShare = [](double value) { return value >= 0.0 && value <= 1.0; };
+  if (!std::isfinite(params.Noise))
+  {
+    return { ErrorCode::InvalidParameter, "Noise must be finite; below 0 it is estimated" };
+  }
+  if (!(params.SmallestRegion >= 0.0 && params.SmallestRegion < 1.0))
+  {
+    return { ErrorCode::InvalidParameter,
+      "SmallestRegion must be at least 0 and below 1, a share of the area" };
+  }
+  if (!isShare(params.NarrowWidth) || !isShare(params.LargestGap))
+  {
+    return { ErrorCode::InvalidParameter,
+      std::string(isShare(params.NarrowWidth) ? "LargestGap" : "NarrowWidth") +
+        " must be between 0 and 1, a share of the diagonal of the mesh's box" };
+  }
+  const KnownFeatures& known = params.Known;
+  if (!known.Regions.empty() && known.Regions.size() != mesh.Triangles.size())
+  {
+    return { ErrorCode::SizeMismatch,
+      std::to_string(known.Regions.size()) + " known regions for " +
+        std::to_string(mesh.Triangles.size()) + " triangles; give one a triangle" };
+  }
+  for (std::size_t i = 0; i < known.Edges.size(); ++i)
+  {
+    for (const int end : known.Edges[i])
+    {
+      if (end < 0 || end >= mesh.Points.rows())
+      {
+        return { ErrorCode::OutsideDomain,
+          "known edge " + std::to_string(i) + " has the point " + std::to_string(end) +
+            "; the mesh has " + std::to_string(mesh.Points.rows()) + " points, from 0" };
+      }
+    }
+  }
+  return {};
+}
+
+/// A part of a mesh on its way.
+struct Part
+{
+  DiscMesh Surface;
+  std::vector<MeshEdge> Known; ///< ascending, of its own points
+};
+
+/// What holds for all parts, in the unit of the points.
+struct Limits
+{
+  double Noise = 0.0;
+  double Area = 0.0; ///< of the smallest region
+  double Width = 0.0;
+  double Gap = 0.0;
+};
+
+/// The features of a part, with its own numbers.
+struct PartFeatures
+{
+  MeshFeatures Found;
+  std::vector<FeatureLine> Lines;
+  int Joined = 0;
+  int ClosedGaps = 0;
+  int SharpEdges = 0;
+  int RimEdges = 0;
+};
+
+class PartFinder
+{
+public:
+  PartFinder(const Part& part, const ScanFeatureParams& params, const Limits& limits)
+    : Params(params), Limit(limits), Parts(part.Surface, NoHoles), Known(this->Parts),
+      Marks(this->Parts)
+  {
+    this->Known.Set(part.Known);
+  }
+
+  /// @return Aborted.
+  Result<PartFeatures> Find(const ProgressCallback& progress)
+  {
+    NormalFitParams fit;
+    fit.Noise = this->Limit.Noise;
+    fit.Precision = this->Params.Angles.SharpAngle * PrecisionShare / Degrees;
+    fit.Bend = this->Params.Angles.SharpAngle * SideShare / Degrees;
+    fit.Known = this->Params.Angles.SharpAngle * KnownShare / Degrees;
+    fit.Threads = this->Params.Threads;
+    fit.Progress = progress;
+    auto fitted =
+      FitNormals(this->Parts, fit, [&](std::size_t t, std::size_t k) { return this->Known(t, k); });
+    if (!fitted)
+    {
+      return fitted.Status;
+    }
+    this->Fitted = std::move(fitted.Value);
+    this->MarkKnown();
+    PartFeatures features;
+    if (!this->Params.Known.Only)
+    {
+      this->Marks.Set(SharpEdges(this->Parts, this->Params.Angles, this->Angle));
+      this->JoinBands(features);
+      this->JoinSmall(features);
+      features.ClosedGaps = CloseGaps(this->Parts, this->Angle,
+        { this->Limit.Gap, BluntShare * this->Params.Angles.WeakAngle }, this->Marks);
+      if (this->Limit.Noise > 0.0)
+      {
+        this->DropNoise(features);
+      }
+    }
+    this->Trace(features);
+    return features;
+  }
+
+private:
+  double Diameter(std::size_t t) const { return 2.0 * std::sqrt(this->Fitted.Areas[t] / Pi); }
+
+  void MarkKnown() { this->Marks.Set(this->Known.Edges()); }
+
+  void JoinBands(PartFeatures& features)
+  {
+    const NarrowBandParams params = { this->Limit.Width, this->Params.Angles.SharpAngle,
+      BluntShare * this->Params.Angles.WeakAngle };
+    NarrowBands bands =
+      FindNarrowBands(this->Parts, this->Fitted.Normals, this->Angle, params, this->Marks);
+    this->Turns = std::move(bands.Turns);
+    const RegionLabels labels = this->Label();
+    std::vector<char> isBand(static_cast<std::size_t>(labels.Count), 1);
+    bool any = false;
+    for (std::size_t t = 0; t < labels.Of.size(); ++t)
+    {
+      any = any || bands.InBand[t];
+      isBand[static_cast<std::size_t>(labels.Of[t])] &= bands.InBand[t];
+    }
+    if (any)
+    {
+      features.Joined += JoinRegions(
+        this->Parts, this->Angle, labels, isBand, [](double, bool allBands) { return allBands; },
+        this->Known, this->Marks);
+    }
+  }
+
+  /// Regions that are smaller than is asked for, or no more than noise.
+  void JoinSmall(PartFeatures& features)
+  {
+    const RegionLabels labels = this->Label();
+    const auto count = static_cast<std::size_t>(labels.Count);
+    std::vector<double> areas(count, 0.0);
+    std::vector<double> patches(count, 0.0);
+    std::vector<char> isSmall(count, 1); // as long as no normal of it is known
+    const double known = this->Params.Angles.SharpAngle * KnownShare / Degrees;
+    for (std::size_t t = 0; t < labels.Of.size(); ++t)
+    {
+      const auto r = static_cast<std::size_t>(labels.Of[t]);
+      areas[r] += this->Parts.Areas[t];
+      patches[r] += this->Parts.Areas[t] * this->Fitted.Areas[t];
+      if (this->Fitted.Deviations[t] <= known)
+      {
+        isSmall[r] = 0;
+      }
+    }
+    for (std::size_t r = 0; r < count; ++r)
+    {
+      isSmall[r] =
+        isSmall[r] || areas[r] < this->Limit.Area || areas[r] * areas[r] < PatchShare * patches[r];
+    }
+    features.Joined += JoinRegions(
+      this->Parts, this->Angle, labels, isSmall,
+      [&](double area, bool allSmall) { return allSmall && area < this->Limit.Area; }, this->Known,
+      this->Marks);
+  }
+
+  void DropNoise(PartFeatures&)
+  {
+    std::vector<double> sizes;
+    for (std::size_t t = 0; t < this->Fitted.Areas.size(); ++t)
+    {
+      sizes.push_back(this->Diameter(t));
+    }
+    DropSpurs(this->Parts, sizes, this->Known, this->Marks);
+  }
+
+  RegionLabels Label() const
+  {
+    return LabelRegions(
+      this->Parts, [&](std::size_t t, std::size_t k) { return this->Marks(t, k); });
+  }
+
+  void Trace(PartFeatures& features)
+  {
+    std::vector<MeshEdge> edges = this->Marks.Edges();
+    const std::vector<MeshEdge> rims = RimEdges(this->Parts);
+    features.SharpEdges = static_cast<int>(edges.size());
+    features.RimEdges = static_cast<int>(rims.size());
+    edges.insert(edges.end(), rims.begin(), rims.end());
+    std::sort(edges.begin(), edges.end());
+    std::vector<double> reach(static_cast<std::size_t>(this->Parts.Mesh.NumPoints()), 0.0);
+    for (std::size_t t = 0; t < this->Fitted.Areas.size(); ++t)
+    {
+      for (const int corner : this->Parts.Mesh.Triangles[t])
+      {
+        double& own = reach[static_cast<std::size_t>(corner)];
+        own = std::max(own, this->Diameter(t));
+      }
+    }
+    features.Found = TraceFeatures(this->Parts, edges, this->Params.Angles.CornerAngle, reach);
+    this->Measure(rims, features);
+  }
+
+  void Measure(const std::vector<MeshEdge>& rims, PartFeatures& features)
+  {
+    std::map<MeshEdge, double> angles;
+    VisitInnerEdges(this->Parts,
+      [&](std::size_t t, std::size_t k)
+      {
+        if (this->Marks(t, k))
+        {
+          const MeshEdge edge = EdgeOf(this->Parts, t, k);
+          const auto turn = this->Turns.find(edge);
+          angles[edge] = turn == this->Turns.end() ? this->Angle(t, k) : turn->second;
+        }
+      });
+    for (FeatureChain& chain : features.Found.Chains)
+    {
+      FeatureLine line;
+      const std::size_t count = chain.Points.size();
+      line.IsRim =
+        std::binary_search(rims.begin(), rims.end(), EdgeBetween(chain.Points[0], chain.Points[1]));
+      for (std::size_t i = 0; i + 1 < count + (chain.Closed ? 1 : 0); ++i)
+      {
+        const int a = chain.Points[i];
+        const int b = chain.Points[(i + 1) % count];
+        const double length = (this->Parts.Mesh.Point(b) - this->Parts.Mesh.Point(a)).norm();
+        const double angle = line.IsRim ? 0.0 : angles.at(EdgeBetween(a, b));
+        line.Length += length;
+        line.MeanAngle += length * angle;
+        line.MaxAngle = std::max(line.MaxAngle, angle);
+      }
+      line.MeanAngle /= line.Length;
+      line.Chain = std::move(chain);
+      features.Lines.push_back(std::move(line));
+    }
+  }
+
+  const ScanFeatureParams& Params;
+  const Limits& Limit;
+  const std::vector<int> NoHoles;
+  const SurfaceParts Parts;
+  EdgeMarks Known;
+  EdgeMarks Marks;
+  FittedNormals Fitted;
+  std::map<MeshEdge, double> Turns; ///< of edges that were bands
+  const EdgeAngle Angle = [this](std::size_t t, std::size_t k)
+  {
+    const Eigen::Vector3d& own = this->Fitted.Normals[t];
+    const Eigen::Vector3d& other =
+      this->Fitted.Normals[static_cast<std::size_t>(this->Parts.Adjacency.Triangle[t][k])];
+    return Degrees * std::atan2(own.cross(other).norm(), own.dot(other));
+  };
+};
+
+double NoiseOf(const DiscMesh& surface)
+{
+  const std::vector<int> noHoles;
+  return EstimateNoise(SurfaceParts(surface, noHoles));
+}
+
+/// Known edges as edges of the parts. @param first  of equal points, the first one.
+Status SetKnown(const TriangleMesh& mesh, const KnownFeatures& known, const std::vector<int>& first,
+  std::vector<Part>& parts)
+{
+  std::vector<std::array<int, 2>> place(static_cast<std::size_t>(mesh.Points.rows()), { -1, -1 });
+  for (std::size_t i = 0; i < parts.size(); ++i)
+  {
+    const DiscMesh& surface = parts[i].Surface;
+    for (std::size_t v = 0; v < surface.PointIds.size(); ++v)
+    {
+      // a point of two parts that touch there: that of the first part
+      auto& at = place[static_cast<std::size_t>(surface.PointIds[v])];
+      at = at[0] < 0 ? std::array<int, 2>{ static_cast<int>(i), static_cast<int>(v) } : at;
+    }
+  }
+  for (std::size_t i = 0; i < known.Edges.size(); ++i)
+  {
+    const auto& [a, b] = known.Edges[i];
+    const auto from = place[static_cast<std::size_t>(first[static_cast<std::size_t>(a)])];
+    const auto to = place[static_cast<std::size_t>(first[static_cast<std::size_t>(b)])];
+    if (from[0] < 0 || from[0] != to[0])
+    {
+      return { ErrorCode::InvalidTopology,
+        "known edge " + std::to_string(i) + " (points " + std::to_string(a) + " and " +
+          std::to_string(b) +
+          ") does not lie on one connected part of the mesh; draw it along the "
+          "surface" };
+    }
+    Part& part = parts[static_cast<std::size_t>(from[0])];
+    const std::vector<int> way = ShortestWay(part.Surface, from[1], to[1]);
+    for (std::size_t j = 0; j + 1 < way.size(); ++j)
+    {
+      part.Known.push_back(EdgeBetween(way[j], way[j + 1]));
+    }
+  }
+  for (Part& part : parts)
+  {
+    if (!known.Regions.empty())
+    {
+      const std::vector<int> noHoles;
+      const SurfaceParts surface(part.Surface, noHoles);
+      const auto region = [&](int t)
+      {
+        return known
+          .Regions[static_cast<std::size_t>(part.Surface.TriangleIds[static_cast<std::size_t>(t)])];
+      };
+      VisitInnerEdges(surface,
+        [&](std::size_t t, std::size_t k)
+        {
+          if (region(static_cast<int>(t)) != region(surface.Adjacency.Triangle[t][k]))
+          {
+            part.Known.push_back(EdgeOf(surface, t, k));
+          }
+        });
+    }
+    std::sort(part.Known.begin(), part.Known.end());
+    part.Known.erase(std::unique(part.Known.begin(), part.Known.end()), part.Known.end());
+  }
+  return {};
+}
+
+void Append(const DiscMesh& surface, PartFeatures&& part, ScanFeatures& all)
+{
+  const auto point = [&](int p) { return surface.PointIds[static_cast<std::size_t>(p)]; };
+  for (FeatureLine& line : part.Lines)
+  {
+    for (int& p : line.Chain.Points)
+    {
+      p = point(p);
+    }
+    all.Lines.push_back(std::move(line));
+  }
+  for (const int corner : part.Found.Corners)
+  {
+    all.Corners.push_back(point(corner));
+  }
+  for (std::size_t t = 0; t < part.Found.Regions.size(); ++t)
+  {
+    all.RegionOfTriangle[static_cast<std::size_t>(surface.TriangleIds[t])] =
+      all.NumRegions + part.Found.Regions[t];
+  }
+  all.NumRegions += part.Found.NumRegions;
+  all.NumSharpEdges += part.SharpEdges;
+  all.NumRimEdges += part.RimEdges;
+  all.NumJoined += part.Joined;
+  all.NumClosedGaps += part.ClosedGaps;
+}
+}
+
+Result<ScanFeatures> FindScanFeatures(const TriangleMesh& mesh, const ScanFeatureParams& params)
+{
+  if (Status status = CheckAll(mesh, params); !status)
+  {
+    return status;
+  }
+  const std::vector<MeshComponent> components = ConnectedComponents(mesh);
+  if (components.empty() || mesh.Triangles.empty())
+  {
+    return { ErrorCode::EmptyInput, "the mesh has no triangles" };
+  }
+  std::vector<Part> parts;
+  Limits limits;
+  std::size_t largest = 0;
+  double area = 0.0;
+  for (const MeshComponent& component : components)
+  {
+    auto surface = CheckComponent(mesh, component);
+    if (!surface)
+    {
+      return surface.Status;
+    }
+    area += surface->Area;
+    parts.push_back({ std::move(surface.Value), {} });
+    if (parts.back().Surface.Triangles.size() > parts[largest].Surface.Triangles.size())
+    {
+      largest = parts.size() - 1;
+    }
+  }
+  if (Status status = SetKnown(mesh, params.Known, FirstOfEqualPoints(mesh.Points), parts); !status)
+  {
+    return status;
+  }
+  const double diagonal =
+    (mesh.Points.colwise().maxCoeff() - mesh.Points.colwise().minCoeff()).norm();
+  limits.Noise = params.Noise < 0.0 ? NoiseOf(parts[largest].Surface) : params.Noise;
+  limits.Area = params.SmallestRegion * area;
+  limits.Width = params.NarrowWidth * diagonal;
+  limits.Gap = params.LargestGap * diagonal;
+  ScanFeatures all;
+  all.Noise = limits.Noise;
+  all.RegionOfTriangle.assign(mesh.Triangles.size(), -1);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+  {
+    const auto at = [&](double share)
+    {
+      return !params.Progress ||
+        params.Progress((static_cast<double>(i) + share) / static_cast<double>(parts.size()));
+    };
+    auto found =
+      PartFinder(parts[i], params, limits).Find([&](double share) { return at(FitShare * share); });
+    if (!found)
+    {
+      return found.Status;
+    }
+    if (!at(1.0))
+    {
+      return { ErrorCode::Aborted, "stopped in the search for features" };
+    }
+    Append(parts[i].Surface, std::move(found.Value), all);
+  }
+  return all;
+}
+}

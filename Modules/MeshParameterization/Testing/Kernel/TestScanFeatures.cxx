@@ -1,0 +1,501 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ScanFeatures.h"
+
+#include "FeatureCases.h"
+#include "MeshNoise.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+namespace knotwork
+{
+namespace
+{
+ScanFeatures Found(const TriangleMesh& mesh, const ScanFeatureParams& params = {})
+{
+  auto features = FindScanFeatures(mesh, params);
+  EXPECT_TRUE(features) << features.Status.Message();
+  return features.Value;
+}
+
+double Noise(const TriangleMesh& mesh)
+{
+  const auto surface = CheckSurface(mesh);
+  EXPECT_TRUE(surface) << surface.Status.Message();
+  const std::vector<int> noHoles;
+  return EstimateNoise(SurfaceParts(surface.Value, noHoles));
+}
+
+int ClosedLines(const ScanFeatures& features)
+{
+  return static_cast<int>(std::count_if(features.Lines.begin(), features.Lines.end(),
+    [](const FeatureLine& line) { return line.Chain.Closed; }));
+}
+
+/// A strip about the y axis, which bends there by an angle (degrees) of y in [0, 1]; points are
+/// (row of 21) * 5 + column, those of the bend in column 2.
+TriangleMesh Roof(const std::function<double(double)>& angle)
+{
+  TriangleMesh mesh;
+  mesh.Points.resize(105, 3);
+  for (int i = 0; i < 21; ++i)
+  {
+    const double y = 0.05 * i;
+    const double slope = 0.5 * angle(y) * Pi / 180.0;
+    for (int j = 0; j < 5; ++j)
+    {
+      const double x = 0.05 * (j - 2);
+      mesh.Points.row(5 * i + j) << x * std::cos(slope), y, -std::abs(x) * std::sin(slope);
+    }
+  }
+  for (int i = 0; i < 20; ++i)
+  {
+    for (int j = 0; j < 4; ++j)
+    {
+      const int a = 5 * i + j;
+      mesh.Triangles.push_back({ a, a + 1, a + 6 });
+      mesh.Triangles.push_back({ a, a + 6, a + 5 });
+    }
+  }
+  return mesh;
+}
+
+/// Lengths of the lines that are no rims, ascending.
+std::vector<double> Creases(const ScanFeatures& features)
+{
+  std::vector<double> lengths;
+  for (const FeatureLine& line : features.Lines)
+  {
+    if (!line.IsRim)
+    {
+      lengths.push_back(line.Length);
+    }
+  }
+  std::sort(lengths.begin(), lengths.end());
+  return lengths;
+}
+
+/// A plate with a pyramid on it, of which each side is a hundredth of the whole or less.
+TriangleMesh PlateWithPyramid()
+{
+  TriangleMesh mesh =
+    Faces(1, 10, 10, [](int, double u, double v) { return Eigen::Vector3d(u, v, 0); });
+  // the middle of four squares rises
+  for (Eigen::Index i = 0; i < mesh.Points.rows(); ++i)
+  {
+    if ((mesh.Points.row(i) - Eigen::RowVector3d(0.5, 0.5, 0.0)).norm() < 1e-6)
+    {
+      mesh.Points(i, 2) = 0.2;
+    }
+  }
+  return mesh;
+}
+
+void ExpectSameAsPlain(const TriangleMesh& mesh)
+{
+  const auto surface = CheckSurface(mesh);
+  ASSERT_TRUE(surface);
+  const auto plain = FindMeshFeatures(surface.Value);
+  ASSERT_TRUE(plain);
+  const ScanFeatures features = Found(mesh);
+  EXPECT_EQ(features.RegionOfTriangle, plain->Regions);
+  EXPECT_EQ(features.Corners, plain->Corners);
+  EXPECT_EQ(features.NumJoined, 0);
+  EXPECT_EQ(features.NumClosedGaps, 0);
+  std::multiset<std::pair<bool, std::set<int>>> own; // where chains begin is of no account
+  std::multiset<std::pair<bool, std::set<int>>> others;
+  for (const FeatureLine& line : features.Lines)
+  {
+    own.emplace(
+      line.Chain.Closed, std::set<int>(line.Chain.Points.begin(), line.Chain.Points.end()));
+  }
+  for (const FeatureChain& chain : plain->Chains)
+  {
+    others.emplace(chain.Closed, std::set<int>(chain.Points.begin(), chain.Points.end()));
+  }
+  EXPECT_EQ(own, others);
+}
+}
+
+TEST(MeshNoise, NoneOfCleanMeshes_ExactOracle)
+{
+  EXPECT_LT(Noise(DividedCube(1)), 1e-15);
+  EXPECT_LT(Noise(DividedCube(7)), 1e-15);
+  EXPECT_LT(Noise(Turned({ { 0, 0 }, { 1, 0 }, { 1, 2 }, { 0, 2 } }, 30)), 1e-15);
+  // a dome, all of which is curved
+  const TriangleMesh dome = Faces(1, 40, 40,
+    [](int, double u, double v)
+    { return Eigen::Vector3d(u, v, std::sqrt(2.0 - u * u - v * v + 0.1 * u * v)); });
+  EXPECT_LT(Noise(dome), 2e-6);
+}
+
+TEST(MeshNoise, IsThatWhichWasAdded_PropertyOracle)
+{
+  for (unsigned seed = 1; seed <= 5; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    for (const double deviation : { 1e-5, 1e-3, 4e-3 })
+    {
+      TriangleMesh cube = DividedCube(20);
+      AddNoise(deviation, seed, cube);
+      EXPECT_NEAR(Noise(cube), deviation, 0.1 * deviation);
+      TriangleMesh dome = Faces(1, 40, 40,
+        [](int, double u, double v) { return Eigen::Vector3d(u, v, 0.3 * std::cos(2.0 * u) * v); });
+      AddNoise(deviation, seed, dome);
+      EXPECT_NEAR(Noise(dome), deviation, 0.1 * deviation);
+    }
+  }
+}
+
+TEST(MeshNoise, TooFewTrianglesSayNothing_ExactOracle)
+{
+  TriangleMesh mesh;
+  mesh.Points.resize(4, 3);
+  mesh.Points << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
+  mesh.Triangles = { { 0, 2, 1 }, { 0, 1, 3 }, { 1, 2, 3 }, { 2, 0, 3 } };
+  EXPECT_EQ(Noise(mesh), 0.0);
+}
+
+/// Noise of 0.2 % of the diagonal: up to 40 degrees between normals of neighbours in one face.
+TEST(ScanFeatures, NoisyCubeHasTwelveEdgesEightCornersSixRegions_ExactOracle)
+{
+  for (const int n : { 1, 4, 10, 20, 40 })
+  {
+    for (unsigned seed = 1; seed <= 5; ++seed)
+    {
+      SCOPED_TRACE(std::to_string(n) + " parts, seed " + std::to_string(seed));
+      TriangleMesh cube = DividedCube(n);
+      const TriangleMesh exact = cube;
+      AddNoise(0.002 * std::sqrt(3.0), seed, cube);
+      const ScanFeatures features = Found(cube);
+      EXPECT_EQ(features.Lines.size(), 12u);
+      EXPECT_EQ(features.Corners.size(), 8u);
+      EXPECT_EQ(features.NumRegions, 6);
+      for (const int corner : features.Corners)
+      {
+        // corners of the cube, but for an edge of a triangle
+        for (const double x :
+          { exact.Points(corner, 0), exact.Points(corner, 1), exact.Points(corner, 2) })
+        {
+          EXPECT_LE(std::min(std::abs(x), std::abs(x - 1.0)), 1.5 / n);
+        }
+      }
+      for (const FeatureLine& line : features.Lines)
+      {
+        EXPECT_NEAR(line.MeanAngle, 90.0, 5.0);
+      }
+    }
+  }
+}
+
+TEST(ScanFeatures, NormalsOfTrianglesWouldFindThousands_Contrast)
+{
+  TriangleMesh cube = DividedCube(40);
+  AddNoise(0.002 * std::sqrt(3.0), 1, cube);
+  ScanFeatureParams params;
+  params.Noise = 0.0;
+  EXPECT_GT(Found(cube, params).Lines.size(), 5000u);
+}
+
+TEST(ScanFeatures, CleanMeshesAreAsByTheirTriangles_CrossOracle)
+{
+  ExpectSameAsPlain(DividedCube(1));
+  ExpectSameAsPlain(DividedCube(5));
+  ExpectSameAsPlain(Turned({ { 0, 0 }, { 1, 0 }, { 1, 2 }, { 0.5, 2.5 }, { 0, 2.5 } }, 30));
+  ExpectSameAsPlain(Roof([](double y) { return 70.0 - 65.0 * y; }));
+}
+
+TEST(ScanFeatures, NarrowChamferIsOneCurve_ExactOracle)
+{
+  // 0.2 % of the diagonal wide; 30 degrees to the side, 60 to the top
+  const double high = 0.004 * std::sin(Pi / 3.0);
+  const double wide = 0.004 * std::cos(Pi / 3.0);
+  for (const int sides : { 24, 60 })
+  {
+    SCOPED_TRACE(std::to_string(sides) + " sides");
+    const TriangleMesh mesh =
+      Turned({ { 0, 0 }, { 1, 0 }, { 1, 1.0 - high }, { 1.0 - wide, 1 }, { 0, 1 } }, sides);
+    ScanFeatures features = Found(mesh);
+    EXPECT_EQ(features.NumRegions, 3);
+    ASSERT_EQ(features.Lines.size(), 2u);
+    EXPECT_EQ(ClosedLines(features), 2);
+    for (const FeatureLine& line : features.Lines)
+    {
+      // the sharper rim, with the angle of the two sides
+      const double z = mesh.Points(line.Chain.Points.front(), 2);
+      EXPECT_TRUE(z == 0.0 || z == 1.0) << z;
+      EXPECT_NEAR(line.MeanAngle, 90.0, 1e-9);
+    }
+    ScanFeatureParams params;
+    params.NarrowWidth = 0.0005; // then only that rim is sharp, and the chamfer part of the side
+    features = Found(mesh, params);
+    EXPECT_EQ(features.NumRegions, 3);
+    EXPECT_NEAR(features.Lines.back().MeanAngle, 60.0, 1.0);
+  }
+}
+
+TEST(ScanFeatures, ChamferOfEqualRimsIsOneCurveOrTwo_ExactOracle)
+{
+  const TriangleMesh mesh =
+    Turned({ { 0, 0 }, { 1, 0 }, { 1, 0.996 }, { 0.996, 1 }, { 0, 1 } }, 60);
+  EXPECT_EQ(Found(mesh).Lines.size(), 2u);
+  ScanFeatureParams params;
+  params.NarrowWidth = 0.0;
+  EXPECT_EQ(Found(mesh, params).Lines.size(), 3u);
+}
+
+TEST(ScanFeatures, RowOfBluntRimsIsACurve_ExactOracle)
+{
+  // a roof of 60 degrees whose ridge is a row of triangles: 30 degrees on both sides
+  const double w = 0.004;
+  const auto profile = [&](double ridge)
+  {
+    const double c = std::cos(Pi / 6.0);
+    const double s = std::sin(Pi / 6.0);
+    return std::vector<std::array<double, 2>>{ { 1, 0 }, { 1, 1 },
+      { 1.0 - ridge * s, 1.0 + ridge * c },
+      { 1.0 - ridge * s - 0.8 * std::sin(Pi / 3.0), 1.0 + ridge * c + 0.8 * std::cos(Pi / 3.0) } };
+  };
+  ScanFeatures features = Found(Turned(profile(w), 60));
+  EXPECT_EQ(features.NumRegions, 2);
+  EXPECT_EQ(Creases(features).size(), 1u);
+  ScanFeatureParams params;
+  params.NarrowWidth = 0.0;
+  features = Found(Turned(profile(w), 60), params);
+  EXPECT_EQ(features.NumRegions, 1);
+  EXPECT_TRUE(Creases(features).empty());
+  // a wide one is a face between two blunt edges, as ever
+  EXPECT_EQ(Found(Turned(profile(0.1), 60)).NumRegions, 1);
+}
+
+TEST(ScanFeatures, RimOfAThinPlateIsNoRow_ExactOracle)
+{
+  TriangleMesh plate = DividedCube(10);
+  plate.Points.col(2) *= 0.003;
+  const ScanFeatures features = Found(plate);
+  EXPECT_EQ(features.NumRegions, 6);
+  EXPECT_EQ(features.Lines.size(), 12u);
+}
+
+TEST(ScanFeatures, GapsWithAWeakAngleAreClosed_ExactOracle)
+{
+  const auto roof = [](double least)
+  {
+    return Roof([=](double y)
+      { return least + (60.0 - least) * std::clamp(8.0 * std::abs(y - 0.5) - 0.8, 0.0, 1.0); });
+  };
+  ScanFeatureParams params;
+  params.LargestGap = 0.35;
+  ScanFeatures features = Found(roof(15.0), params);
+  EXPECT_EQ(features.NumClosedGaps, 1);
+  EXPECT_EQ(features.NumRegions, 2);
+  ASSERT_EQ(Creases(features).size(), 1u);
+  EXPECT_NEAR(Creases(features).front(), 1.0, 1e-12);
+  features = Found(roof(5.0), params); // too flat
+  EXPECT_EQ(features.NumClosedGaps, 0);
+  EXPECT_EQ(features.NumRegions, 1);
+  EXPECT_EQ(Creases(features).size(), 2u);
+  params.LargestGap = 0.02; // too short
+  features = Found(roof(15.0), params);
+  EXPECT_EQ(features.NumClosedGaps, 0);
+  EXPECT_EQ(features.NumRegions, 1);
+}
+
+TEST(ScanFeatures, SmallRegionsJoinNeighbours_ExactOracle)
+{
+  const TriangleMesh mesh = PlateWithPyramid();
+  EXPECT_GT(Found(mesh).NumRegions, 3);
+  ScanFeatureParams params;
+  params.SmallestRegion = 0.1;
+  const ScanFeatures features = Found(mesh, params);
+  EXPECT_EQ(features.NumRegions, 1);
+  EXPECT_GT(features.NumJoined, 2);
+  EXPECT_TRUE(Creases(features).empty());
+}
+
+TEST(ScanFeatures, SmallRegionJoinsAcrossTheBluntestEdge_ExactOracle)
+{
+  // a step of a face in the middle: 50 degrees on one side, 80 on the other
+  const double a = 50.0 * Pi / 180.0;
+  const double b = 130.0 * Pi / 180.0;
+  const TriangleMesh mesh = Faces(3, 4, 4,
+    [&](int face, double u, double v)
+    {
+      const Eigen::Vector2d start(1.0, 0.0);
+      const Eigen::Vector2d middle = start + 0.1 * Eigen::Vector2d(std::cos(a), std::sin(a));
+      const Eigen::Vector2d end = middle + Eigen::Vector2d(std::cos(b), std::sin(b));
+      const Eigen::Vector2d from = face == 0 ? Eigen::Vector2d(0, 0) : face == 1 ? start : middle;
+      const Eigen::Vector2d to = face == 0 ? start : face == 1 ? middle : end;
+      const Eigen::Vector2d p = (1.0 - u) * from + u * to;
+      return Eigen::Vector3d(p[0], v, p[1]);
+    });
+  ScanFeatureParams params;
+  EXPECT_EQ(Found(mesh, params).NumRegions, 3);
+  params.SmallestRegion = 0.1;
+  const ScanFeatures features = Found(mesh, params);
+  EXPECT_EQ(features.NumRegions, 2);
+  EXPECT_EQ(features.RegionOfTriangle[0], features.RegionOfTriangle[40]);
+  EXPECT_NE(features.RegionOfTriangle[0], features.RegionOfTriangle[70]);
+}
+
+TEST(ScanFeatures, KnownEdgesExtendOrReplace_ExactOracle)
+{
+  const TriangleMesh cube = DividedCube(4);
+  const auto at = [&](double x, double y, double z)
+  {
+    for (int i = 0; i < cube.Points.rows(); ++i)
+    {
+      if ((cube.Points.row(i) - Eigen::RowVector3d(x, y, z)).norm() < 1e-9)
+      {
+        return i;
+      }
+    }
+    return -1;
+  };
+  ScanFeatureParams params;
+  params.Known.Edges = { { at(0.5, 0, 1), at(0.5, 1, 1) } }; // across the top
+  ScanFeatures features = Found(cube, params);
+  EXPECT_EQ(features.NumRegions, 7);
+  EXPECT_EQ(features.NumSharpEdges, 12 * 4 + 4);
+  EXPECT_EQ(features.Corners.size(), 10u);
+  params.SmallestRegion = 0.1; // a half of the top is less, but may join the sides only
+  params.Known.Edges.push_back({ at(0, 0, 1), at(1, 0, 1) });
+  params.Known.Edges.push_back({ at(0, 1, 1), at(1, 1, 1) });
+  params.Known.Edges.push_back({ at(0, 0, 1), at(0, 1, 1) });
+  params.Known.Edges.push_back({ at(1, 0, 1), at(1, 1, 1) });
+  EXPECT_EQ(Found(cube, params).NumRegions, 7); // nowhere over known edges
+  params.Known.Only = true;
+  features = Found(cube, params);
+  EXPECT_EQ(features.NumRegions, 3);
+  EXPECT_EQ(features.NumSharpEdges, 4 * 4 + 4);
+}
+
+TEST(ScanFeatures, KnownRegionsExtendOrReplace_ExactOracle)
+{
+  const TriangleMesh cube = DividedCube(4);
+  ScanFeatureParams params;
+  for (std::size_t t = 0; t < cube.Triangles.size(); ++t)
+  {
+    params.Known.Regions.push_back(t < 16 ? 7 : 3); // half of the first face
+  }
+  ScanFeatures features = Found(cube, params);
+  EXPECT_EQ(features.NumRegions, 7);
+  EXPECT_NE(features.RegionOfTriangle[0], features.RegionOfTriangle[31]);
+  params.Known.Only = true;
+  features = Found(cube, params);
+  EXPECT_EQ(features.NumRegions, 2);
+  EXPECT_EQ(features.RegionOfTriangle[0], features.RegionOfTriangle[15]);
+  EXPECT_EQ(features.RegionOfTriangle[31], features.RegionOfTriangle[150]);
+}
+
+TEST(ScanFeatures, PartsAndCornersOfTheirOwn_ExactOracle)
+{
+  // two cubes, every triangle with points of its own, as in STL files
+  const TriangleMesh cube = DividedCube(3);
+  TriangleMesh mesh;
+  mesh.Points.resize(static_cast<Eigen::Index>(6 * cube.Triangles.size()), 3);
+  for (int copy = 0; copy < 2; ++copy)
+  {
+    for (const auto& triangle : cube.Triangles)
+    {
+      const int first = static_cast<int>(3 * mesh.Triangles.size());
+      for (int k = 0; k < 3; ++k)
+      {
+        mesh.Points.row(first + k) = cube.Points.row(triangle[static_cast<std::size_t>(k)]) +
+          Eigen::RowVector3d(2.0 * copy, 0.0, 0.0);
+      }
+      mesh.Triangles.push_back({ first, first + 1, first + 2 });
+    }
+  }
+  ScanFeatures features = Found(mesh);
+  EXPECT_EQ(features.NumRegions, 12);
+  EXPECT_EQ(features.Lines.size(), 24u);
+  EXPECT_EQ(features.Corners.size(), 16u);
+  EXPECT_EQ(features.RegionOfTriangle.back(), 11);
+  mesh.Triangles.push_back({ 0, 0, 1 });
+  EXPECT_EQ(Found(mesh).RegionOfTriangle.back(), -1);
+}
+
+TEST(ScanFeatures, ThreadsDoNotMatter_PropertyOracle)
+{
+  TriangleMesh cube = DividedCube(20);
+  AddNoise(0.004, 3, cube);
+  ScanFeatureParams params;
+  params.Threads = 1;
+  const ScanFeatures one = Found(cube, params);
+  params.Threads = 3;
+  const ScanFeatures three = Found(cube, params);
+  EXPECT_EQ(one.RegionOfTriangle, three.RegionOfTriangle);
+  EXPECT_EQ(one.Corners, three.Corners);
+}
+
+TEST(ScanFeatures, CommutesWithScale_PropertyOracle)
+{
+  TriangleMesh cube = DividedCube(20);
+  AddNoise(0.003, 4, cube);
+  const ScanFeatures own = Found(cube);
+  cube.Points = (1024.0 * cube.Points).eval();
+  const ScanFeatures scaled = Found(cube);
+  EXPECT_EQ(own.RegionOfTriangle, scaled.RegionOfTriangle);
+  EXPECT_NEAR(scaled.Noise, 1024.0 * own.Noise, 1e-9 * scaled.Noise);
+}
+
+TEST(ScanFeatures, EveryFailureIsReachable)
+{
+  const TriangleMesh cube = DividedCube(1);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto expect = [](const TriangleMesh& mesh, const ScanFeatureParams& params, ErrorCode code,
+                        const std::string& text)
+  {
+    const auto result = FindScanFeatures(mesh, params);
+    EXPECT_EQ(result.Status.Code, code) << result.Status.Message();
+    EXPECT_NE(result.Status.Detail.find(text), std::string::npos) << result.Status.Message();
+  };
+  expect({}, {}, ErrorCode::EmptyInput, "no triangles");
+  TriangleMesh broken = cube;
+  broken.Points(3, 1) = nan;
+  expect(broken, {}, ErrorCode::NonFiniteInput, "1 point (3)");
+  const auto with = [](const std::function<void(ScanFeatureParams&)>& change)
+  {
+    ScanFeatureParams params;
+    change(params);
+    return params;
+  };
+  const auto invalid = ErrorCode::InvalidParameter;
+  expect(cube, with([](auto& p) { p.Angles.SharpAngle = 0.0; }), invalid, "SharpAngle");
+  expect(cube, with([&](auto& p) { p.Noise = nan; }), invalid, "Noise");
+  expect(cube, with([](auto& p) { p.SmallestRegion = 1.0; }), invalid, "SmallestRegion");
+  expect(cube, with([](auto& p) { p.NarrowWidth = -0.1; }), invalid, "NarrowWidth");
+  expect(cube, with([](auto& p) { p.LargestGap = 1.1; }), invalid, "LargestGap");
+  expect(cube,
+    with(
+      [](auto& p) {
+        p.Known.Regions = { 1, 2 };
+      }),
+    ErrorCode::SizeMismatch, "2 known regions for 12 triangles");
+  expect(cube,
+    with(
+      [](auto& p) {
+        p.Known.Edges = { { 0, 8 } };
+      }),
+    ErrorCode::OutsideDomain, "known edge 0 has the point 8");
+  TriangleMesh two = cube;
+  two.Points.conservativeResize(16, 3);
+  two.Points.bottomRows(8) = cube.Points.array() + 3.0;
+  for (const auto& [a, b, c] : cube.Triangles)
+  {
+    two.Triangles.push_back({ a + 8, b + 8, c + 8 });
+  }
+  expect(two,
+    with(
+      [](auto& p) {
+        p.Known.Edges = { { 0, 9 } };
+      }),
+    ErrorCode::InvalidTopology, "known edge 0 (points 0 and 9)");
+  expect(cube, with([](auto& p) { p.Progress = [](double) { return false; }; }), ErrorCode::Aborted,
+    "stopped");
+}
+}
