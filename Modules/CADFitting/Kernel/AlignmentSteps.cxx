@@ -12,18 +12,24 @@ namespace knotwork
 {
 namespace
 {
-constexpr double TukeyConstant = 4.685;   ///< 95 % as good as least squares for normal noise
-constexpr double NormalConstant = 1.4826; ///< standard deviation of the median of absolute values
-constexpr double RankTolerance = 1e-8;    ///< of the largest eigenvalue
-constexpr double LargestTurn = 0.5;       ///< of a step, radians
-constexpr double LargestShift = 0.25;     ///< of a step, of the target's size
-constexpr double TangentCosine = 0.7; ///< below it a foot lies on an edge, and the distance counts
+constexpr double TukeyConstant = 4.685; ///< 95 % as good as least squares for normal noise
+// of normal noise so many absolute values lie within so many standard deviations; not the median,
+// which is 0 where half of a scan is exact
+constexpr double NoiseShare = 0.8;
+constexpr double NoiseDeviations = 1.2816;
+constexpr double NoiseWindow = 0.01;   ///< of the size: what is farther does not count as noise
+constexpr double RankTolerance = 1e-8; ///< of the largest eigenvalue
+constexpr double LargestTurn = 0.5;    ///< of a step, radians
+constexpr double LargestShift = 0.25;  ///< of a step, of the target's size
+constexpr double TangentCosine = 0.7;  ///< below it a foot lies on an edge, and the distance counts
 constexpr double Tiny = 1e-9;   ///< of the size: below it a direction from the foot says nothing
 constexpr double Settled = 0.1; ///< of the outlier distance: steps at which it may fall
 constexpr double FallOfDistance = 1.0 / 3.0;
 constexpr int StepsAtDistance = 8;
+constexpr int StepsAtNoise = 10;  ///< after which the outlier distance stays
 constexpr double OpenShare = 0.1; ///< of noise / sqrt(number of points)
 
+/// Standard deviation of the distances below a limit.
 double NoiseOf(const Eigen::VectorXd& distances, double limit)
 {
   Eigen::VectorXd inside(distances.size());
@@ -35,7 +41,7 @@ double NoiseOf(const Eigen::VectorXd& distances, double limit)
       inside[count++] = distances[i];
     }
   }
-  return count == 0 ? limit : NormalConstant * QuantileOf(inside.head(count), 0.5);
+  return count == 0 ? limit : QuantileOf(inside.head(count), NoiseShare) / NoiseDeviations;
 }
 
 Eigen::VectorXd TukeyWeights(const Eigen::VectorXd& distances, double limit)
@@ -138,7 +144,11 @@ Result<AlignmentSteps> StepToTarget(
   const bool isFixed = limit <= params.LeastOutlierDistance;
   const Eigen::Vector3d middle = scan.colwise().mean().transpose();
   const double radius = (scan.rowwise() - middle.transpose()).rowwise().norm().maxCoeff();
+  const double window = NoiseWindow * params.Size;
+  Eigen::Matrix<double, 6, 1> last = Eigen::Matrix<double, 6, 1>::Zero();
+  double damping = 1.0;
   int atLimit = 0;
+  int atNoise = 0;
   TargetPoints feet;
   while (steps.Iterations < params.MaxIterations)
   {
@@ -158,16 +168,16 @@ Result<AlignmentSteps> StepToTarget(
     switch (params.Outliers)
     {
       case OutlierRule::Tukey:
-        if (!isFixed)
+        if (!isFixed && atNoise < StepsAtNoise)
         {
-          // what the noise asks for; a limit that has come down to it may rise again
-          const double least =
-            std::max(TukeyConstant * NoiseOf(distances, limit), params.LeastOutlierDistance);
-          const bool isDown = limit <= 1.001 * least;
-          if (isDown)
+          // what the noise asks for; a limit that has come down to it may rise again, for a while
+          const double least = std::max(TukeyConstant * NoiseOf(distances, std::max(limit, window)),
+            params.LeastOutlierDistance);
+          if (limit <= 1.001 * least)
           {
             mayEnd = limit >= 0.999 * least;
             limit = least;
+            ++atNoise;
           }
           else
           {
@@ -213,6 +223,13 @@ Result<AlignmentSteps> StepToTarget(
     }
     values *= std::min({ 1.0, LargestTurn * equations.Radius / values.head<3>().norm(),
       LargestShift * params.Size / values.tail<3>().norm() });
+    // steps to and fro across a place where closest points jump get shorter
+    if (mayEnd && values.dot(last) < 0.0)
+    {
+      damping *= 0.5;
+    }
+    values *= damping;
+    last = values;
     const Eigen::Vector3d before = steps.Motion.Rotation * middle + steps.Motion.Translation;
     const RigidMotion step = equations.Step(values);
     steps.Motion = step * steps.Motion;
@@ -220,7 +237,8 @@ Result<AlignmentSteps> StepToTarget(
       (steps.Motion.Rotation * middle + steps.Motion.Translation - before).norm();
     // closest points near edges jump from face to face at every step: below what noise leaves open
     // the motion need not settle
-    const double open = OpenShare * NoiseOf(distances, limit) / std::sqrt(weights.sum());
+    const double open =
+      OpenShare * NoiseOf(distances, std::max(limit, window)) / std::sqrt(weights.sum());
     if (mayEnd && steps.LastStep <= std::max(params.Tolerance, open))
     {
       steps.Converged = true;
