@@ -70,6 +70,6 @@ protected:
 
 const JobRegistration Registration{ "align",
   "move a scan onto a CAD part, a spline or a mesh by a rigid motion",
-  "scan.ply --to part.step --output aligned.vtp --report aligned.json", MakeJob<AlignJob> };
+  "scan.xyz --to terrain.vtu --output aligned.vtp --report aligned.json", MakeJob<AlignJob> };
 }
 }

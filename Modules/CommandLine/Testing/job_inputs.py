@@ -139,7 +139,8 @@ def runs():
             (["approximate", FILE, "--values", "Temperature", "--table", "table.csv", "--points", polydata, "--output", grid], "values"),
             (["cadfit", FILE, "--entities", "table.csv", "--output", grid], "quads"),
             (["intersections", FILE, "--table", "table.csv", "--output", polydata], "surface"),
-            (["recognize", FILE, "--edges", "edges.vtp", "--regions", "table.csv", "--output", polydata], "mesh")):
+            (["recognize", FILE, "--edges", "edges.vtp", "--regions", "table.csv", "--output", polydata], "mesh"),
+            (["align", FILE, "--to", mesh, "--table", "table.csv", "--output", polydata], "points")):
         yield arguments + report, kind
 
 
