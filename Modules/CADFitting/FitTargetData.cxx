@@ -8,6 +8,7 @@
 #include <knotwork/MeshParameterization/MeshData.h>
 #include <knotwork/SplineCore/MeshTraces.h>
 #include <knotwork/SplineCore/PatchFaces.h>
+#include <knotwork/SplineCore/TensorForm.h>
 #include <knotwork/SplineGrid/SplineModel.h>
 #include <knotwork/SurfaceTrimming/TrimmedGrids.h>
 
@@ -185,8 +186,13 @@ Result<FitTargetPtr> FromSurfaces(vtkDataObject* data, const std::vector<SplineP
     else
     {
       isTrimmable = isTrimmable && surface.Space->Kind == SpaceKind::Tensor;
+      auto tensor = ToTensor(surface, threads);
+      if (!tensor)
+      {
+        return tensor.Status;
+      }
       model.Faces.emplace_back();
-      model.Faces.back().Surface = surface;
+      model.Faces.back().Surface = std::move(tensor.Value);
     }
   }
   if (isTrimmable)

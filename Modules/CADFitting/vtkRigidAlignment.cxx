@@ -24,14 +24,6 @@ vtkStandardNewMacro(vtkRigidAlignment);
 
 namespace
 {
-template <std::size_t N>
-void AddTuple(vtkTable* table, const char* name, const std::array<double, N>& values)
-{
-  const auto column = NamedArray<vtkDoubleArray>(name, static_cast<int>(N), 1);
-  column->SetTuple(0, values.data());
-  table->AddColumn(column);
-}
-
 void EncodeNumbers(const RigidAlignment& found, bool isSigned, vtkTable* table)
 {
   const DistanceProfile& profile = found.Profile;

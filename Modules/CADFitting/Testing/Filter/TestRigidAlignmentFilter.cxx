@@ -5,6 +5,7 @@
 #include "MeshDatasets.h"
 #include <knotwork/CADFitting/vtkRigidAlignment.h>
 #include <knotwork/SplineGrid/NamedArray.h>
+#include <knotwork/SplineGrid/vtkSplineRefine.h>
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -160,6 +161,45 @@ TEST(vtkRigidAlignment, VolumesAndOpenSurfacesAreTargets_ExactOracle)
     EXPECT_EQ(Number(filter, "EqualPoses"), 4.0);
     EXPECT_LE(Number(filter, "Rms"), 1e-9);
   }
+}
+
+/// A surface that is refined in a corner is the same target as before.
+TEST(vtkRigidAlignment, LocallyRefinedSurfacesAreTargets_CrossOracle)
+{
+  const auto plain = ShapeGrid(vtkSplineSource::SPHERE_SURFACE, 4, { 4, 4, 1 });
+  vtkNew<vtkPolyData> scan; // near a part of the sphere
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (int i = 0; i < 100; ++i)
+  {
+    const Eigen::Vector3d at(0.1 * (i % 10) - 0.4, 0.1 * (i / 10) - 0.5, 1.0);
+    points->InsertNextPoint((1.01 * at.normalized()).eval().data());
+  }
+  scan->SetPoints(points);
+  std::vector<double> rms;
+  for (const int space : { -1, 0, 1 }) // none, THB, LR
+  {
+    vtkNew<vtkSplineRefine> refine;
+    refine->SetInputDataObject(plain);
+    refine->SetMode(vtkSplineRefine::CELL_ARRAY);
+    refine->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "ElementId");
+    refine->SetNumberOfRefinements(space < 0 ? 0 : 1);
+    refine->SetLocalSpace(std::max(space, 0));
+    refine->SetLowerThreshold(0.0);
+    refine->SetUpperThreshold(3.0);
+    vtkNew<vtkRigidAlignment> filter;
+    vtkNew<MessageRecorder> recorder;
+    recorder->Watch(filter);
+    filter->SetInputDataObject(scan);
+    filter->SetCoarse(false);
+    filter->SetTargetConnection(refine->GetOutputPort());
+    filter->Update();
+    ASSERT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError) << space;
+    EXPECT_EQ(Number(filter, "Signed"), 1.0);
+    rms.push_back(Number(filter, "Rms"));
+  }
+  EXPECT_NEAR(rms[1], rms[0], 1e-9);
+  EXPECT_NEAR(rms[2], rms[0], 1e-9);
 }
 
 TEST(vtkRigidAlignment, AmbiguousAndUnsettledPosesWarn)
