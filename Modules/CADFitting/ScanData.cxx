@@ -5,10 +5,12 @@
 #include <knotwork/SplineGrid/InputChecks.h>
 #include <knotwork/SplineGrid/NamedArray.h>
 
+#include "vtkAlgorithm.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
+#include "vtkInformation.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -53,6 +55,21 @@ void TurnNormals(const RigidMotion& motion, vtkDataSetAttributes* attributes)
   }
   attributes->SetNormals(turned);
 }
+}
+
+void FillScanInformation(int port, vtkInformation* info)
+{
+  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
+  if (port == 0)
+  {
+    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+    return;
+  }
+  for (const char* type :
+    { "vtkPolyData", "vtkUnstructuredGrid", "vtkPartitionedDataSetCollection" })
+  {
+    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), type);
+  }
 }
 
 Result<TriangleMesh> DecodeScan(vtkPointSet* data)

@@ -3,10 +3,14 @@
 #pragma once
 #include <knotwork/CADFitting/RigidAlignment.h>
 
+class vtkInformation;
 class vtkPointSet;
 
 namespace knotwork
 {
+/// Of filters with a scan at port 0 and what it is compared with at port 1.
+void FillScanInformation(int port, vtkInformation* info);
+
 /// Points, and triangles where the dataset has faces (polygons are divided).
 /// @return failures of CheckSampledPoints and DecodeMesh.
 Result<TriangleMesh> DecodeScan(vtkPointSet* data);

@@ -92,17 +92,7 @@ void vtkRigidAlignment::SetTargetData(vtkDataObject* target)
 
 int vtkRigidAlignment::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  if (port == 0)
-  {
-    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
-    return 1;
-  }
-  for (const char* type :
-    { "vtkPolyData", "vtkUnstructuredGrid", "vtkPartitionedDataSetCollection" })
-  {
-    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), type);
-  }
+  FillScanInformation(port, info);
   return 1;
 }
 

@@ -2,6 +2,7 @@
 #include "RigidAlignment.h"
 
 #include "AlignmentSteps.h"
+#include "ScanCheck.h"
 #include "TriangleSamples.h"
 
 #include <knotwork/SplineCore/Numbers.h>
@@ -226,33 +227,9 @@ struct Pose
   double Score = std::numeric_limits<double>::infinity();
 };
 
-Status CheckScan(const TriangleMesh& scan)
+/// Whether the points determine a motion.
+Status CheckExtent(const PointMatrix& points)
 {
-  const PointMatrix& points = scan.Points;
-  if (points.rows() == 0)
-  {
-    return { ErrorCode::EmptyInput, "the scan has no points" };
-  }
-  for (Eigen::Index i = 0; i < points.rows(); ++i)
-  {
-    if (!AllWithinLimit(points.row(i)))
-    {
-      return { ErrorCode::NonFiniteInput,
-        "point " + std::to_string(i) + " of the scan is not finite, or beyond " +
-          Digits(LargestNumber) + ": leave it out" };
-    }
-  }
-  for (std::size_t t = 0; t < scan.Triangles.size(); ++t)
-  {
-    for (const int corner : scan.Triangles[t])
-    {
-      if (corner < 0 || corner >= points.rows())
-      {
-        return { ErrorCode::InvalidTopology,
-          "triangle " + std::to_string(t) + " of the scan has a corner that is no point" };
-      }
-    }
-  }
   const Moments moments(points, Eigen::VectorXd::Ones(points.rows()));
   if (!(moments.Radii[1] > 1e-6 * moments.Radii[0]))
   {
@@ -947,6 +924,7 @@ Result<RigidAlignment> AlignToTarget(
 {
   Status status = CheckParams(params);
   status = status ? CheckScan(scan) : status;
+  status = status ? CheckExtent(scan.Points) : status;
   return status ? Alignment(scan, target, params).Run() : Result<RigidAlignment>(status);
 }
 }
