@@ -24,6 +24,6 @@ knotwork_module(TemplateMapping KERNELS SplineCore JacobianValidation DomainPara
 knotwork_module(SurfaceFeatures KERNELS SplineCore FILTERS SplineGrid)
 knotwork_module(SurfaceTrimming KERNELS SplineCore JacobianValidation MeshParameterization DomainParameterization
   FILTERS SplineGrid MeshParameterization)
-knotwork_module(CADFitting KERNELS SplineCore JacobianValidation MeshParameterization DomainParameterization
+knotwork_module(CADFitting KERNELS SplineCore JacobianValidation MeshParameterization DomainParameterization SurfaceTrimming
   FILTERS SplineGrid CADModel MeshParameterization SurfaceTrimming)
 knotwork_module(SplineIO KERNELS SplineCore FILTERS SplineGrid CADModel SurfaceTrimming)

@@ -8,8 +8,10 @@
 #include <knotwork/MeshParameterization/MeshData.h>
 #include <knotwork/SplineCore/MeshTraces.h>
 #include <knotwork/SplineCore/PatchFaces.h>
+#include <knotwork/SplineCore/TensorForm.h>
 #include <knotwork/SplineGrid/SplineModel.h>
 #include <knotwork/SurfaceTrimming/TrimmedGrids.h>
+#include <knotwork/SurfaceTrimming/TrimmedMesh.h>
 
 #include "vtkCellType.h"
 #include "vtkImplicitFunction.h"
@@ -22,6 +24,8 @@ namespace knotwork
 {
 namespace
 {
+constexpr double ChordShare = 1e-3; ///< of the size, between faces and triangles
+
 bool HasLinearFaces(vtkDataObject* data)
 {
   auto* const grid = vtkUnstructuredGrid::SafeDownCast(data);
@@ -52,7 +56,12 @@ Result<FitTargetPtr> FromTriangles(vtkDataObject* data, const FitTargetOptions& 
   features.SharpAngle = options.SharpAngle;
   features.WeakAngle = std::min(options.WeakAngle, options.SharpAngle);
   features.CornerAngle = options.CornerAngle;
-  return MakeMeshTarget(decoded->Mesh, features);
+  auto target = MakeMeshTarget(decoded->Mesh, features);
+  if (options.Triangles)
+  {
+    *options.Triangles = std::move(decoded->Mesh);
+  }
+  return target;
 }
 
 /// "0,1,2;5,6" as the group of every face.
@@ -86,6 +95,22 @@ Result<std::vector<int>> ParseGroups(const std::string& text, std::size_t numFac
   return groups;
 }
 
+Result<TriangleMesh> TriangulateModel(const TrimmedModel& model)
+{
+  Eigen::RowVector3d lower = model.Faces.front().Surface.ControlPoints.row(0);
+  Eigen::RowVector3d upper = lower;
+  for (const TrimmedFace& face : model.Faces)
+  {
+    lower = lower.cwiseMin(face.Surface.ControlPoints.colwise().minCoeff());
+    upper = upper.cwiseMax(face.Surface.ControlPoints.colwise().maxCoeff());
+  }
+  TrimmedMeshParams params;
+  params.Tolerance = ChordShare * (upper - lower).norm();
+  auto mesh = TriangulateFaces(model, params);
+  return mesh ? Result<TriangleMesh>({ std::move(mesh->Points), std::move(mesh->Triangles) })
+              : Result<TriangleMesh>(mesh.Status);
+}
+
 Result<FitTargetPtr> FromModel(const TrimmedModel& model, const FitTargetOptions& options)
 {
   ModelTargetParams params;
@@ -97,7 +122,17 @@ Result<FitTargetPtr> FromModel(const TrimmedModel& model, const FitTargetOptions
     return groups.Status;
   }
   params.Groups = std::move(groups.Value);
-  return MakeModelTarget(model, params);
+  auto target = MakeModelTarget(model, params);
+  if (target && options.Triangles)
+  {
+    auto mesh = TriangulateModel(model);
+    if (!mesh)
+    {
+      return mesh.Status;
+    }
+    *options.Triangles = std::move(mesh.Value);
+  }
+  return target;
 }
 
 /// Appends the faces of another model.
@@ -185,8 +220,13 @@ Result<FitTargetPtr> FromSurfaces(vtkDataObject* data, const std::vector<SplineP
     else
     {
       isTrimmable = isTrimmable && surface.Space->Kind == SpaceKind::Tensor;
+      auto tensor = ToTensor(surface, threads);
+      if (!tensor)
+      {
+        return tensor.Status;
+      }
       model.Faces.emplace_back();
-      model.Faces.back().Surface = surface;
+      model.Faces.back().Surface = std::move(tensor.Value);
     }
   }
   if (isTrimmable)

@@ -2,6 +2,7 @@
 // Targets from datasets, private to the module.
 #pragma once
 #include <knotwork/CADFitting/FitTarget.h>
+#include <knotwork/MeshParameterization/TriangleMesh.h>
 
 #include <string>
 
@@ -17,6 +18,9 @@ struct FitTargetOptions
   double CornerAngle = 60.0;
   /// Faces of a model that count as one: numbers joined by commas, groups by semicolons.
   std::string FaceGroups;
+  /// When not null: gets triangles of the target, those of CAD faces within a thousandth of its
+  /// size; none of curves.
+  TriangleMesh* Triangles = nullptr;
 };
 
 /// Triangles (polygons are divided), or a spline grid of one dimension: curves, surfaces, trimmed

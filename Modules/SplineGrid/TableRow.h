@@ -8,6 +8,7 @@
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 
+#include <array>
 #include <string>
 
 namespace knotwork
@@ -33,5 +34,14 @@ inline void AddColumn(vtkTable* table, const char* name, int value)
 inline void AddColumn(vtkTable* table, const char* name, const std::string& value)
 {
   AddToRow<vtkStringArray>(table, name, value);
+}
+
+/// A column of several components.
+template <std::size_t N>
+void AddTuple(vtkTable* table, const char* name, const std::array<double, N>& values)
+{
+  const auto column = NamedArray<vtkDoubleArray>(name, static_cast<int>(N), 1);
+  column->SetTuple(0, values.data());
+  table->AddColumn(column);
 }
 }

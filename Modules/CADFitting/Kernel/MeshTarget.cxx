@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshTarget.h"
 
+#include "TriangleSamples.h"
+
 #include <knotwork/SplineCore/TriangleIndex.h>
 
 #include <Eigen/Geometry>
 
-#include <algorithm>
-#include <cmath>
+#include <limits>
 #include <map>
 
 namespace knotwork
@@ -82,35 +83,13 @@ public:
 
   TargetSamples Samples(int atLeast) const override
   {
-    // a square number of equal parts of every triangle, as its area asks for
-    const auto& triangles = this->Whole.Triangles();
-    std::vector<int> parts(triangles.size());
-    Eigen::Index count = 0;
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-    {
-      const double share = this->Areas[static_cast<Eigen::Index>(t)] / this->Areas.sum() * atLeast;
-      parts[t] = std::clamp(static_cast<int>(std::ceil(std::sqrt(share))), 1, 1000);
-      count += static_cast<Eigen::Index>(parts[t]) * parts[t];
-    }
+    TriangleSamples found = SampleTriangles(this->Whole.Points(), this->Whole.Triangles(), atLeast);
     TargetSamples samples;
-    samples.Points.resize(count, 3);
-    samples.Areas.resize(count);
-    Eigen::Index row = 0;
-    for (std::size_t t = 0; t < triangles.size(); ++t)
+    samples.Points = std::move(found.Points);
+    samples.Areas = std::move(found.Areas);
+    for (const int triangle : found.Triangles)
     {
-      const int n = parts[t];
-      for (int i = 0; i < n; ++i)
-      {
-        for (int j = 0; j < 2 * (n - i) - 1; ++j, ++row)
-        {
-          // upright parts and, between them, those upside down
-          const double b = (i + (j % 2 == 0 ? 1.0 : 2.0) / 3.0) / n;
-          const double c = (static_cast<double>(j / 2) + (j % 2 == 0 ? 1.0 : 2.0) / 3.0) / n;
-          samples.Points.row(row) = this->Whole.PointAt(static_cast<int>(t), b, c);
-          samples.Areas[row] = this->Areas[static_cast<Eigen::Index>(t)] / (n * n);
-          samples.Faces.push_back(this->Regions[t]);
-        }
-      }
+      samples.Faces.push_back(this->Regions[At(triangle)]);
     }
     return samples;
   }
@@ -196,13 +175,11 @@ private:
   {
     const auto count = static_cast<Eigen::Index>(this->Whole.Triangles().size());
     this->Normals.resize(count, 3);
-    this->Areas.resize(count);
     for (Eigen::Index t = 0; t < count; ++t)
     {
       const auto corner = [&](int k)
       { return Eigen::Map<const Eigen::Vector3d>(this->Whole.Corner(static_cast<int>(t), k)); };
       const Eigen::Vector3d normal = (corner(1) - corner(0)).cross(corner(2) - corner(0));
-      this->Areas[t] = 0.5 * normal.norm();
       this->Normals.row(t) = normal.normalized();
     }
   }
@@ -251,7 +228,6 @@ private:
   TriangleIndex<3> Whole;
   std::vector<int> Regions;                  ///< of every triangle
   PointMatrix Normals;                       ///< of every triangle
-  Eigen::VectorXd Areas;                     ///< of every triangle
   std::vector<TriangleIndex<3>> Parts;       ///< a face
   std::vector<std::vector<int>> TrianglesOf; ///< a face: numbers of its triangles
 };

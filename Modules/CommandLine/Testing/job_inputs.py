@@ -142,7 +142,8 @@ def runs():
             (["intersections", FILE, "--table", "table.csv", "--output", polydata], "surface"),
             (["recognize", FILE, "--edges", "edges.vtp", "--regions", "table.csv", "--output", polydata], "mesh"),
             (["features", FILE, "--lines", "lines.vtp", "--corners", "corners.vtp", "--output", polydata], "mesh"),
-            (["features", mesh, "--edges", FILE, "--output", polydata], "edges")):
+            (["features", mesh, "--edges", FILE, "--output", polydata], "edges"),
+            (["align", FILE, "--to", mesh, "--table", "table.csv", "--output", polydata], "points")):
         yield arguments + report, kind
 
 

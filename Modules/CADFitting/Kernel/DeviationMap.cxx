@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DeviationMap.h"
+
+#include "MeshTarget.h"
+#include "ScanCheck.h"
+
+#include <knotwork/SplineCore/Parallel.h>
+#include <knotwork/SplineCore/SampleIndex.h>
+#include <knotwork/SplineCore/TriangleIndex.h>
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace knotwork
+{
+namespace
+{
+constexpr double LongEdge = 1.4; ///< of the edges that are wanted: halves are not far below them
+constexpr int MaxRounds = 16;
+constexpr std::size_t ChunkSize = 256;
+
+/// Edges in the middle of which a point is put, common ones once.
+class EdgeMiddles
+{
+public:
+  EdgeMiddles(const PointMatrix& points, double longest)
+    : Points(points), Longest(longest), Next(static_cast<int>(points.rows()))
+  {
+  }
+  /// -1: the edge stays.
+  int Of(int a, int b)
+  {
+    if ((this->Points.row(a) - this->Points.row(b)).norm() <= this->Longest)
+    {
+      return -1;
+    }
+    const auto [entry, isNew] =
+      this->Middles.emplace(std::array<int, 2>{ std::min(a, b), std::max(a, b) }, this->Next);
+    this->Next += isNew ? 1 : 0;
+    return entry->second;
+  }
+  void AddTo(PointMatrix& points) const
+  {
+    points.conservativeResize(this->Next, 3);
+    for (const auto& [ends, middle] : this->Middles)
+    {
+      points.row(middle) = 0.5 * (points.row(ends[0]) + points.row(ends[1]));
+    }
+  }
+
+private:
+  const PointMatrix& Points;
+  double Longest;
+  int Next;
+  std::map<std::array<int, 2>, int> Middles;
+};
+
+/// Halves long edges, in all triangles along them, until there are none.
+void Divide(TriangleMesh& mesh, int samples)
+{
+  double area = 0.0;
+  for (const auto& triangle : mesh.Triangles)
+  {
+    area += TriangleArea(mesh.Points, triangle);
+  }
+  // of triangles with equal sides, two a point
+  const double longest = LongEdge * std::sqrt(2.0 * area / (std::sqrt(3.0) * samples));
+  for (int round = 0; round < MaxRounds && longest > 0.0; ++round)
+  {
+    EdgeMiddles middles(mesh.Points, longest);
+    std::vector<std::array<int, 3>> divided;
+    for (const auto& [a, b, c] : mesh.Triangles)
+    {
+      // turned so that the edges which stay come last
+      std::array<int, 3> corner{ a, b, c };
+      std::array<int, 3> middle{ middles.Of(a, b), middles.Of(b, c), middles.Of(c, a) };
+      for (int turn = 0; turn < 2 && (middle[0] < 0 || (middle[2] >= 0 && middle[1] < 0)); ++turn)
+      {
+        corner = { corner[1], corner[2], corner[0] };
+        middle = { middle[1], middle[2], middle[0] };
+      }
+      if (middle[0] < 0)
+      {
+        divided.push_back(corner);
+      }
+      else if (middle[1] < 0)
+      {
+        divided.push_back({ corner[0], middle[0], corner[2] });
+        divided.push_back({ middle[0], corner[1], corner[2] });
+      }
+      else if (middle[2] < 0)
+      {
+        divided.push_back({ middle[0], corner[1], middle[1] });
+        divided.push_back({ corner[0], middle[0], middle[1] });
+        divided.push_back({ corner[0], middle[1], corner[2] });
+      }
+      else
+      {
+        divided.push_back({ corner[0], middle[0], middle[2] });
+        divided.push_back({ middle[0], corner[1], middle[1] });
+        divided.push_back({ middle[2], middle[1], corner[2] });
+        divided.push_back(middle);
+      }
+    }
+    if (divided.size() == mesh.Triangles.size())
+    {
+      break;
+    }
+    middles.AddTo(mesh.Points);
+    mesh.Triangles = std::move(divided);
+  }
+}
+
+/// Points that triangles have, in their order.
+void DropUnused(TriangleMesh& mesh)
+{
+  std::vector<int> number(static_cast<std::size_t>(mesh.Points.rows()), -1);
+  PointMatrix points(mesh.Points.rows(), 3);
+  int count = 0;
+  for (auto& triangle : mesh.Triangles)
+  {
+    for (int& corner : triangle)
+    {
+      int& own = number[static_cast<std::size_t>(corner)];
+      if (own < 0)
+      {
+        points.row(count) = mesh.Points.row(corner);
+        own = count++;
+      }
+      corner = own;
+    }
+  }
+  mesh.Points = points.topRows(count);
+}
+
+/// A third of the area around every point.
+Eigen::VectorXd PointAreas(const TriangleMesh& mesh)
+{
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(mesh.Points.rows());
+  for (const auto& triangle : mesh.Triangles)
+  {
+    for (const int corner : triangle)
+    {
+      areas[corner] += TriangleArea(mesh.Points, triangle) / 3.0;
+    }
+  }
+  return areas;
+}
+
+/// What lies between model points and a scan, positive where the scan lies outside.
+struct ScanDistances
+{
+  Eigen::VectorXd Distances;
+  PointMatrix Nearest; ///< of the scan
+};
+
+/// Of a scan that is a surface: inside and outside are its own. Open ones are turned as most of
+/// the model's normals say.
+Result<ScanDistances> FromSurface(const FitTarget& scan, const PointMatrix& queries,
+  const PointMatrix& outward, const TargetDistanceParams& params)
+{
+  const auto sign = OutwardSign(scan, { params.Threads, {} });
+  if (!sign)
+  {
+    return sign.Status;
+  }
+  auto measured = MeasureTargetDistances(scan, queries, sign.Value, params);
+  if (!measured)
+  {
+    return measured.Status;
+  }
+  const bool isTurned =
+    !scan.IsClosed() && measured->Feet.Normals.cwiseProduct(outward).sum() < 0.0;
+  return ScanDistances{ measured->Distances * (isTurned ? 1.0 : -1.0),
+    std::move(measured->Feet.Points) };
+}
+
+/// Of points, and of triangles that are no surface: on the side that the model's normal says.
+ScanDistances FromParts(
+  const TriangleMesh& scan, const PointMatrix& queries, const PointMatrix& outward, int threads)
+{
+  ScanDistances found{ Eigen::VectorXd(queries.rows()), PointMatrix(queries.rows(), 3) };
+  const bool isMesh = !scan.Triangles.empty();
+  const TriangleIndex<3> triangles =
+    isMesh ? TriangleIndex<3>(scan.Points, scan.Triangles) : TriangleIndex<3>();
+  const SampleIndex points = isMesh ? SampleIndex() : SampleIndex(scan.Points);
+  ParallelFor(static_cast<std::size_t>(queries.rows()), ChunkSize, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (auto i = static_cast<Eigen::Index>(begin); i < static_cast<Eigen::Index>(end); ++i)
+      {
+        const double* const at = queries.row(i).data();
+        if (isMesh)
+        {
+          const TriangleFoot foot = triangles.Nearest(at);
+          found.Nearest.row(i) = triangles.PointAt(foot.Triangle, foot.Second, foot.Third);
+        }
+        else
+        {
+          found.Nearest.row(i) = scan.Points.row(points.Nearest(at).Item);
+        }
+        const Eigen::RowVector3d offset = found.Nearest.row(i) - queries.row(i);
+        found.Distances[i] = offset.dot(outward.row(i)) < 0.0 ? -offset.norm() : offset.norm();
+      }
+    });
+  return found;
+}
+
+Result<ScanDistances> DistancesFromScan(const TriangleMesh& scan, const PointMatrix& queries,
+  const PointMatrix& outward, const TargetDistanceParams& params)
+{
+  if (!scan.Triangles.empty())
+  {
+    const auto surface = MakeMeshTarget(scan);
+    if (surface)
+    {
+      return FromSurface(*surface.Value, queries, outward, params);
+    }
+  }
+  return FromParts(scan, queries, outward, params.Threads);
+}
+}
+
+Result<DeviationMap> MapDeviation(const TriangleMesh& scan, const FitTarget& target,
+  TriangleMesh triangles, const DeviationParams& params)
+{
+  if (params.Samples < 100 || !(params.MaximumDistance >= 0.0))
+  {
+    return { ErrorCode::InvalidParameter,
+      "at least 100 points of the model are needed, and the largest distance must be 0 or more" };
+  }
+  if (Status status = CheckScan(scan); !status)
+  {
+    return status;
+  }
+  if (!target.HasSurface() || triangles.Triangles.empty())
+  {
+    return { ErrorCode::EmptyInput,
+      "the model has no faces: give triangles, spline surfaces, a CAD file or a volume" };
+  }
+  const auto part = [&](double begin, double end) -> TargetDistanceParams
+  {
+    if (!params.Progress)
+    {
+      return { params.Threads, {} };
+    }
+    return { params.Threads, [&params, begin, end](double share) {
+              return params.Progress(begin + (end - begin) * share);
+            } };
+  };
+  DeviationMap map;
+  const auto sign = OutwardSign(target, part(0.0, 0.1));
+  if (!sign)
+  {
+    return sign.Status;
+  }
+  auto ofScan = MeasureTargetDistances(target, scan.Points, sign.Value, part(0.1, 0.6));
+  if (!ofScan)
+  {
+    return ofScan.Status;
+  }
+  map.OfScan = std::move(ofScan.Value);
+  map.ScanProfile = ProfileOf(map.OfScan.Distances);
+  Divide(triangles, params.Samples);
+  DropUnused(triangles);
+  TargetPoints feet;
+  if (Status status = FindOnTarget(target, triangles.Points, feet, part(0.6, 0.9)); !status)
+  {
+    return status;
+  }
+  map.Model = { feet.Points, std::move(triangles.Triangles) };
+  auto ofModel =
+    DistancesFromScan(scan, map.Model.Points, sign.Value * feet.Normals, part(0.9, 1.0));
+  if (!ofModel)
+  {
+    return ofModel.Status;
+  }
+  map.OfModel = std::move(ofModel->Distances);
+  map.ScanPoints = std::move(ofModel->Nearest);
+  const Eigen::VectorXd areas = PointAreas(map.Model);
+  Eigen::VectorXd kept(areas.size());
+  Eigen::VectorXd weights(areas.size());
+  Eigen::Index count = 0;
+  for (Eigen::Index i = 0; i < areas.size(); ++i)
+  {
+    if (params.MaximumDistance > 0.0 && std::abs(map.OfModel[i]) > params.MaximumDistance)
+    {
+      map.OfModel[i] = std::numeric_limits<double>::quiet_NaN();
+      ++map.NumWithout;
+      continue;
+    }
+    kept[count] = map.OfModel[i];
+    weights[count++] = areas[i];
+  }
+  map.ModelProfile = ProfileOf(kept.head(count), weights.head(count));
+  return map;
+}
+}

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Scans from datasets and back, private to the module.
+#pragma once
+#include <knotwork/CADFitting/RigidAlignment.h>
+
+class vtkInformation;
+class vtkPointSet;
+
+namespace knotwork
+{
+/// Of filters with a scan at port 0 and what it is compared with at port 1.
+void FillScanInformation(int port, vtkInformation* info);
+
+/// Points, and triangles where the dataset has faces (polygons are divided).
+/// @return failures of CheckSampledPoints and DecodeMesh.
+Result<TriangleMesh> DecodeScan(vtkPointSet* data);
+
+/// The dataset at another place: its points, the active normals of its points and cells; other
+/// arrays are as they were. Coordinates are doubles. The matrix is the field array `Motion`, 16
+/// numbers by rows.
+void EncodeMoved(vtkPointSet* input, const RigidMotion& motion, vtkPointSet* output);
+
+/// The point arrays `Distance` (the active scalars), `TargetPoint` and `TargetFace`.
+void EncodeDistances(const TargetDistances& distances, vtkPointSet* output);
+}
