@@ -56,20 +56,23 @@ struct BoundaryEdges
   }
 };
 
-constexpr double Near = 0.5; // of an edge in the plane
-constexpr double Far = 2.0;  // of an edge, in space
+constexpr double Near = 0.5;    // of an edge in the plane
+constexpr double Far = 2.0;     // of an edge, in space
+constexpr double Narrow = 0.25; // of the gap in space
+
+double PointDistance(const PointMatrix& points, int point, const BoundaryEdge& edge)
+{
+  const auto along = points.row(edge.B) - points.row(edge.A);
+  const auto to = points.row(point) - points.row(edge.A);
+  const double share = std::clamp(to.dot(along) / along.squaredNorm(), 0.0, 1.0);
+  return (to - share * along).norm();
+}
 
 /// Distance of two segments that do not cross: an end of one is nearest.
 double SegmentDistance(const PointMatrix& points, const BoundaryEdge& p, const BoundaryEdge& q)
 {
-  const auto distance = [&](int point, const BoundaryEdge& edge)
-  {
-    const auto along = points.row(edge.B) - points.row(edge.A);
-    const auto to = points.row(point) - points.row(edge.A);
-    const double share = std::clamp(to.dot(along) / along.squaredNorm(), 0.0, 1.0);
-    return (to - share * along).norm();
-  };
-  return std::min({ distance(p.A, q), distance(p.B, q), distance(q.A, p), distance(q.B, p) });
+  return std::min({ PointDistance(points, p.A, q), PointDistance(points, p.B, q),
+    PointDistance(points, q.A, p), PointDistance(points, q.B, p) });
 }
 
 /// Whether edges have a point in common; exact.
@@ -109,12 +112,25 @@ bool Cross(const PointMatrix& uv, const BoundaryEdge& p, const BoundaryEdge& q)
   return HaveCommonEnd(p, q) ? TurnsBack(uv, p, q) || TurnsBack(uv, q, p) : Meet(uv, p, q);
 }
 
+/// Whether the outside between p and q, which follows it, is narrow in the plane but not in space.
+bool IsSlit(
+  const DiscMesh& mesh, const PointMatrix& uv, const BoundaryEdge& p, const BoundaryEdge& q)
+{
+  if (p.B != q.A || Turn(uv, p.A, p.B, q.B) >= 0)
+  {
+    return false;
+  }
+  const auto gap = [&](const PointMatrix& points)
+  { return std::min(PointDistance(points, p.A, q), PointDistance(points, q.B, p)); };
+  return gap(uv) < Narrow * gap(mesh.Points);
+}
+
 bool Conflict(
   const DiscMesh& mesh, const PointMatrix& uv, const BoundaryEdge& p, const BoundaryEdge& q)
 {
   if (HaveCommonEnd(p, q))
   {
-    return Cross(uv, p, q);
+    return Cross(uv, p, q) || IsSlit(mesh, uv, p, q) || IsSlit(mesh, uv, q, p);
   }
   const double size = 0.5 * (p.Length + q.Length);
   return Cross(uv, p, q) ||

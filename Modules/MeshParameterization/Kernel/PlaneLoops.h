@@ -36,6 +36,7 @@ EdgeCrossing FindOverlap(const std::vector<std::vector<int>>& loops, const Point
 Status CheckInjective(const DiscMesh& mesh, const PointMatrix& uv);
 
 /// What FindOverlap finds, or boundary edges that come nearer to each other than half an edge in
-/// the plane, but not than two edges in space: what lies between such sheets could not be fitted.
+/// the plane, but not than two edges in space, or, from a common point on, than a quarter of their
+/// distance in space: what lies between such sheets could not be fitted.
 EdgeCrossing FindCrossing(const DiscMesh& mesh, const PointMatrix& uv);
 }

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 #include <random>
+#include <set>
 
 namespace knotwork
 {
@@ -198,6 +199,43 @@ TEST(PlaneLoops, ABoundaryThatTurnsBackIsFound_ExactOracle)
   EXPECT_EQ(CountOverlaps(mesh.Triangles, uv), 1);
   uv.row(2) << 0.0, -0.1;
   EXPECT_NE(CheckInjective(disc.Value, uv).Detail.find("counterclockwise"), std::string::npos);
+}
+
+TEST(PlaneLoops, ANarrowSlitIsACrossing_ExactOracle)
+{
+  // three quarters of a disc around point 0: the missing one becomes a slit in the plane
+  const double pi = std::acos(-1.0);
+  const int n = 12;
+  TriangleMesh mesh;
+  mesh.Points = PointMatrix::Zero(n + 2, 3);
+  for (int i = 0; i <= n; ++i)
+  {
+    const double angle = 1.5 * pi * i / n;
+    mesh.Points.row(i + 1) << std::cos(angle), std::sin(angle), 0.0;
+    if (i < n)
+    {
+      mesh.Triangles.push_back({ 0, i + 1, i + 2 });
+    }
+  }
+  const auto disc = CheckMesh(mesh);
+  ASSERT_TRUE(disc) << disc.Status.Message();
+  const auto closed = [&](double degrees)
+  {
+    PointMatrix uv = PointMatrix::Zero(n + 2, 2);
+    for (int i = 0; i <= n; ++i)
+    {
+      const double angle = (2.0 * pi - degrees * pi / 180.0) * i / n;
+      uv.row(i + 1) << std::cos(angle), std::sin(angle);
+    }
+    EXPECT_TRUE(CheckInjective(disc.Value, uv));
+    return FindCrossing(disc.Value, uv);
+  };
+  EXPECT_FALSE(closed(90.0));
+  EXPECT_FALSE(closed(16.0)); // the sine is above a quarter
+  const EdgeCrossing slit = closed(13.0);
+  ASSERT_TRUE(slit);
+  const std::set<int> ends{ slit.First[0], slit.First[1], slit.Second[0], slit.Second[1] };
+  EXPECT_EQ(ends, (std::set<int>{ 0, 1, n + 1 }));
 }
 
 TEST(PlaneLoops, ProofAndBruteForceAgree_CrossOracle)
