@@ -16,7 +16,7 @@ void ReportFlattening(
   vtkTable* table = vtkTable::SafeDownCast(filter->GetOutputDataObject(2));
   report[prefix + "method"] =
     table->GetValueByName(0, "Method").ToString(); // the one that was used
-  ReportTruths(table, 0, { "Fallback" }, report);
+  ReportTruths(table, 0, { "Fallback", "Injective" }, report);
   ReportRow(table, 0,
     { "RequestedMethod", "FallbackReason", "Charts", "Points", "Triangles", "Loops",
       "TurnedTriangles", "FlippedTriangles", "DividedFaces", "MeanStretch", "MaxStretch",

@@ -79,6 +79,7 @@ struct TrimJob
     }
     session.Report["flatten_method"] = "given";
     session.Report["fallback"] = false;
+    session.Report["injective"] = true; // else there is no result
     session.Report["flipped_triangles"] = 0;
     std::vector<std::string> warnings; // of the chart; a face that fails says more of it
     if (!HasPlane(mesh))

@@ -378,6 +378,9 @@ void EncodeSummary(
   AddColumn(output, "Loops", loops);
   AddColumn(output, "Components", charted.Components);
   AddColumn(output, "TurnedTriangles", charted.Reversed);
+  const bool injective = std::all_of(charted.Charts.begin(), charted.Charts.end(),
+    [](const MeshParameterization& chart) { return static_cast<bool>(chart.Injective); });
+  AddColumn(output, "Injective", injective ? 1 : 0);
   AddColumn(output, "FlippedTriangles", measures.FlippedTriangles);
   AddColumn(output, "MeanStretch", measures.MeanStretch);
   AddColumn(output, "MaxStretch", measures.MaxStretch);

@@ -10,6 +10,8 @@
 #include "vtkPolyData.h"
 #include "vtkTable.h"
 
+#include <algorithm>
+
 vtkStandardNewMacro(vtkMeshParameterization);
 
 namespace
@@ -32,6 +34,13 @@ std::vector<std::string> Warnings(const knotwork::ChartedMesh& charted)
   {
     warnings.push_back(
       std::to_string(flips) + " triangles are flipped in the plane (" + used + ")");
+  }
+  const auto overlapping = std::find_if(charted.Charts.begin(), charted.Charts.end(),
+    [](const knotwork::MeshParameterization& chart) { return !chart.Injective; });
+  if (charted.WithinLimit && flips == 0 && overlapping != charted.Charts.end())
+  {
+    warnings.push_back(overlapping->Injective.Detail + " (" + used +
+      "); MaximumStretch cuts the mesh into charts that do not");
   }
   if (!charted.WithinLimit)
   {

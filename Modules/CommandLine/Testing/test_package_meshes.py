@@ -3,6 +3,7 @@
 within 120 seconds of processor time and two gigabytes. The environment variable KNOTWORK_PACKAGE_MESHES may name a folder that has
 them unpacked, or others. usage: test_package_meshes.py [PART [PARTS]]: every PARTS-th mesh from number PART on."""
 import hashlib
+import json
 import os
 import pathlib
 import sys
@@ -47,14 +48,18 @@ def meshes():
 def test_every_mesh_ends_in_a_result_or_one_clean_line():
     wrong = []
     for mesh in meshes():
-        for job, output in (("flatten", "flat.vtp"), ("features", "regions.vtp"), ("trim", "face.step")):
+        for job, output, options in (("flatten", "flat.vtp", []), ("flatten", "charts.vtp", ["--maximum-stretch", 3]),
+                                     ("features", "regions.vtp", []), ("trim", "face.step", [])):
             with tempfile.TemporaryDirectory(dir=os.path.dirname(knotwork_testing.output("package_meshes"))) as folder:
-                status, seconds, cpu, memory, errors = run([job, mesh, "--output", output, "--threads", 1, "--quiet"], folder, 1200)
+                status, seconds, cpu, memory, errors = run([job, mesh, "--output", output, *options, "--report", "report.json", "--threads", 1, "--quiet"], folder,
+                                                             1200)
                 faults = list(faults_of_message(mesh.stem, status, errors))
                 if status not in FINE:
                     faults.append(f"ended with {status}")
                 if (status != 1) != os.path.exists(os.path.join(folder, output)):
                     faults.append("has an output in spite of an error, or none")
+                if options and status != 1 and not json.loads(pathlib.Path(folder, "report.json").read_text())["injective"]:
+                    faults.append("has a chart that lies over itself")
                 if cpu > LONGEST:
                     faults.append(f"took {cpu:.0f} s")
                 if memory > LARGEST:

@@ -6,6 +6,7 @@
 #include "FlattenMethods.h"
 #include "FlattenReport.h"
 #include "JoinCharts.h"
+#include "PlaneLoops.h"
 
 #include <algorithm>
 #include <chrono>
@@ -19,6 +20,7 @@ namespace
 {
 constexpr double Pi = 3.14159265358979323846;
 constexpr double Infinite = std::numeric_limits<double>::infinity();
+constexpr int MendingRounds = 5; // for maps that rounding has folded
 
 Status CheckChartParams(const ChartParams& params)
 {
@@ -38,10 +40,20 @@ Status CheckChartParams(const ChartParams& params)
   return {};
 }
 
-/// Charts with their loops and measures, from the places of triangles.
-Status CollectCharts(const CutMesh& mesh, const std::vector<ChartMap>& maps,
-  const FlattenParams& params, ChartedMesh& result)
+/// Charts with their loops side by side, from the places of triangles.
+/// @return NotConverged: charts without a map.
+Status CollectCharts(const CutMesh& mesh, const std::vector<ChartMap>& maps, FlattenMethod method,
+  std::vector<MeshParameterization>& charts)
 {
+  charts.clear();
+  const auto without =
+    std::count_if(maps.begin(), maps.end(), [](const ChartMap& map) { return !map.Exists; });
+  if (without > 0)
+  {
+    return { ErrorCode::NotConverged,
+      std::to_string(without) + " of " + std::to_string(maps.size()) +
+        " charts are no discs yet; allow more charts" };
+  }
   std::vector<std::vector<int>> triangles(maps.size());
   for (std::size_t t = 0; t < mesh.Charts.size(); ++t)
   {
@@ -68,13 +80,72 @@ Status CollectCharts(const CutMesh& mesh, const std::vector<ChartMap>& maps,
     chart.Mesh.PointIds = std::move(part.Value.Points);
     chart.Mesh.TriangleIds = triangles[c];
     SortLoopsByArea(chart.Mesh, chart.UV);
-    chart.Measures = MeasureMap(chart.Mesh, chart.UV, params.Geodesics);
     chart.Used = maps[c].Used;
-    chart.FallbackReason = chart.Used == params.Method ? std::string() : maps[c].Reason;
+    chart.FallbackReason = chart.Used == method ? std::string() : maps[c].Reason;
     chart.RejectedEigenvectors = maps[c].RejectedEigenvectors;
-    result.Charts.push_back(std::move(chart));
+    charts.push_back(std::move(chart));
+  }
+  PlaceSideBySide(charts);
+  for (MeshParameterization& chart : charts)
+  {
+    chart.Injective = CheckInjective(chart.Mesh, chart.UV);
   }
   return {};
+}
+
+/// Lays out the changed charts, and divides the worst ones until all are good or as many as may be.
+Status MapAndDivide(CutMesh& cut, const FlattenParams& params, const ChartParams& charts,
+  const std::vector<int>& holes, std::vector<int> changed, std::vector<ChartMap>& maps)
+{
+  const double crease = charts.CreaseAngle * Pi / 180.0;
+  for (;;)
+  {
+    for (int chart : changed)
+    {
+      const auto part = TakePart(cut, cut.TrianglesOf(chart));
+      if (!part)
+      {
+        return part.Status;
+      }
+      ChartMap& map = maps[static_cast<std::size_t>(chart)];
+      map = MapChart(part.Value.Mesh, params, charts.MaxStretch);
+      PlaceTriangles(part.Value, map, cut);
+    }
+    const auto worst = std::max_element(maps.begin(), maps.end(),
+      [](const ChartMap& a, const ChartMap& b)
+      { return (a.Good ? 0.0 : a.Stretch) < (b.Good ? 0.0 : b.Stretch); });
+    int numCharts = static_cast<int>(maps.size());
+    if (worst->Good || numCharts >= charts.MaxCharts)
+    {
+      return {};
+    }
+    const EdgeCrossing crossing =
+      worst->Stretch <= charts.MaxStretch ? worst->Crossing : EdgeCrossing{};
+    auto divided =
+      DivideChart(cut, static_cast<int>(worst - maps.begin()), crossing, holes, crease, numCharts);
+    if (!divided)
+    {
+      return divided.Status;
+    }
+    changed = std::move(divided.Value);
+    maps.resize(static_cast<std::size_t>(numCharts));
+  }
+}
+
+/// Charts that are good as long as places are exact, but lie over themselves as they are rounded in
+/// the end.
+std::vector<int> FoldedByRounding(
+  const std::vector<ChartMap>& maps, const std::vector<MeshParameterization>& charts)
+{
+  std::vector<int> folded;
+  for (std::size_t c = 0; c < maps.size(); ++c)
+  {
+    if (maps[c].Good && !charts[c].Injective)
+    {
+      folded.push_back(static_cast<int>(c));
+    }
+  }
+  return folded;
 }
 }
 
@@ -97,40 +168,10 @@ Result<ChartedMesh> FlattenCharts(
   }
   CutMesh cut(surface.Value);
   const std::vector<int> holes = FindSmallHoles(surface.Value);
-  const double crease = charts.CreaseAngle * Pi / 180.0;
   std::vector<ChartMap> maps(1);
-  int numCharts = 1;
-  std::vector<int> changed{ 0 };
-  for (;;)
+  if (Status status = MapAndDivide(cut, params, charts, holes, { 0 }, maps); !status)
   {
-    maps.resize(static_cast<std::size_t>(numCharts));
-    for (int chart : changed)
-    {
-      const auto part = TakePart(cut, cut.TrianglesOf(chart));
-      if (!part)
-      {
-        return part.Status;
-      }
-      ChartMap& map = maps[static_cast<std::size_t>(chart)];
-      map = MapChart(part.Value.Mesh, params, charts.MaxStretch);
-      PlaceTriangles(part.Value, map, cut);
-    }
-    const auto worst = std::max_element(maps.begin(), maps.end(),
-      [](const ChartMap& a, const ChartMap& b)
-      { return (a.Good ? 0.0 : a.Stretch) < (b.Good ? 0.0 : b.Stretch); });
-    if (worst->Good || numCharts >= charts.MaxCharts)
-    {
-      break;
-    }
-    const EdgeCrossing crossing =
-      worst->Stretch <= charts.MaxStretch ? worst->Crossing : EdgeCrossing{};
-    auto divided =
-      DivideChart(cut, static_cast<int>(worst - maps.begin()), crossing, holes, crease, numCharts);
-    if (!divided)
-    {
-      return divided.Status;
-    }
-    changed = std::move(divided.Value);
+    return status;
   }
   if (Status status = JoinCharts(cut, params, charts, maps); !status)
   {
@@ -138,26 +179,37 @@ Result<ChartedMesh> FlattenCharts(
   }
   Result<ChartedMesh> result;
   ChartedMesh& charted = result.Value;
-  int without = 0;
-  for (const ChartMap& map : maps)
-  {
-    without += map.Exists ? 0 : 1;
-    charted.WithinLimit = charted.WithinLimit && map.Good;
-  }
-  if (without > 0)
-  {
-    return { ErrorCode::NotConverged,
-      std::to_string(without) + " of " + std::to_string(maps.size()) +
-        " charts are no discs yet; allow more charts" };
-  }
-  charted.Seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  charted.Reversed = surface->Reversed;
-  charted.Components = surface->Components;
-  if (Status status = CollectCharts(cut, maps, params, charted); !status)
+  if (Status status = CollectCharts(cut, maps, params.Method, charted.Charts); !status)
   {
     return status;
   }
-  PlaceSideBySide(charted.Charts);
+  for (int round = 0; round < MendingRounds; ++round)
+  {
+    const std::vector<int> folded = FoldedByRounding(maps, charted.Charts);
+    if (folded.empty())
+    {
+      break;
+    }
+    if (Status status = MapAndDivide(cut, params, charts, holes, folded, maps); !status)
+    {
+      return status;
+    }
+    if (Status status = CollectCharts(cut, maps, params.Method, charted.Charts); !status)
+    {
+      return status;
+    }
+  }
+  for (std::size_t c = 0; c < maps.size(); ++c)
+  {
+    charted.WithinLimit = charted.WithinLimit && maps[c].Good && charted.Charts[c].Injective;
+  }
+  charted.Seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  for (MeshParameterization& chart : charted.Charts)
+  {
+    chart.Measures = MeasureMap(chart.Mesh, chart.UV, params.Geodesics);
+  }
+  charted.Reversed = surface->Reversed;
+  charted.Components = surface->Components;
   charted.Points.resize(static_cast<Eigen::Index>(cut.Points.size()), 3);
   for (std::size_t i = 0; i < cut.Points.size(); ++i)
   {

@@ -27,17 +27,17 @@ struct ChartedMesh
   std::vector<PointOrigin> Origins;          ///< one a point
   std::vector<std::array<int, 3>> Triangles; ///< rows of Points, oriented alike
   std::vector<int> TriangleIds;              ///< of the input's triangles that they are parts of
-  /// PointIds are rows of Points, TriangleIds those of Triangles. No map has crossing loops unless
+  /// PointIds are rows of Points, TriangleIds those of Triangles. All maps are Injective unless
   /// WithinLimit is false.
   std::vector<MeshParameterization> Charts;
-  bool WithinLimit = true; ///< no flips, no crossings, no stretch beyond MaxStretch
+  bool WithinLimit = true; ///< all Injective, no stretch beyond MaxStretch
   int Reversed = 0;        ///< triangles that were turned over
   int Components = 1;      ///< of the input
   double Seconds = 0.0;    ///< of the wall clock, measures not included
 };
 
 /// Lays any surface (closed, with handles) into the plane in charts: discs with holes, each with
-/// a map without flips whose boundary does not cross itself, stretched by MaxStretch at most.
+/// a map that is proved to be injective as a whole, stretched by MaxStretch at most.
 ///
 /// A surface that can be laid out as it is stays uncut. A chart that cannot is cut in two, between
 /// sides of different normals or, where it only lies over itself in the plane, between the places

@@ -2,6 +2,7 @@
 #include "FlattenMethods.h"
 #include "FlattenReport.h"
 #include "InjectiveMap.h"
+#include "PlaneLoops.h"
 #include "ReferenceMaps.h"
 #include "SpectralMaps.h"
 
@@ -154,6 +155,7 @@ Result<MeshParameterization> FlattenMesh(const TriangleMesh& mesh, const Flatten
   map.RejectedEigenvectors = flat->RejectedEigenvectors;
   NormalizeSimilarity(map.Mesh, map.UV);
   SortLoopsByArea(map.Mesh, map.UV);
+  map.Injective = CheckInjective(map.Mesh, map.UV);
   map.Seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   map.Measures = MeasureMap(map.Mesh, map.UV, params.Geodesics);
   return result;

@@ -21,6 +21,10 @@ ChartMap Judge(const DiscMesh& mesh, double limit, FlattenMethod method, const P
 {
   ChartMap map;
   map.Stretch = LargestStretch(mesh, uv);
+  if (std::isfinite(map.Stretch) && !IsCounterclockwise(mesh, uv))
+  {
+    map.Stretch = std::numeric_limits<double>::infinity();
+  }
   if (std::isfinite(map.Stretch))
   {
     map.Crossing = FindCrossing(mesh, uv);

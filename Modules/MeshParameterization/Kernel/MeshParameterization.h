@@ -70,6 +70,7 @@ struct MeshParameterization
   PointMatrix UV; ///< n x 2, centred, at the scale of the mesh; most
                   ///< triangles counterclockwise
   FlattenMeasures Measures;
+  Status Injective; ///< ok when it is proved that UV covers no point twice, else what is wrong
   FlattenMethod Used = FlattenMethod::Hlle;
   std::string FallbackReason; ///< one sentence; empty when the method asked for was used
   int RejectedEigenvectors = 0;

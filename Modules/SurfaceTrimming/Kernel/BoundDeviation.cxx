@@ -205,7 +205,7 @@ Result<ChartDeviation> BoundDeviation(
   const std::size_t n = chart.Triangles.size();
   const TriangleRule rule = MakeTriangleRule();
   result.TriangleBound.resize(static_cast<Eigen::Index>(n));
-  std::vector<double> found(n);
+  result.TriangleFound.resize(static_cast<Eigen::Index>(n));
   std::vector<TriangleIntegrals> integrals(n);
   // The progress callback belongs to this thread: between slices.
   constexpr std::size_t slice = std::size_t(1) << 15;
@@ -226,7 +226,7 @@ Result<ChartDeviation> BoundDeviation(
             std::max({ result.PointDeviation[corners[0]], result.PointDeviation[corners[1]],
               result.PointDeviation[corners[2]] }));
           result.TriangleBound[static_cast<Eigen::Index>(t)] = deviation.Bound;
-          found[t] = deviation.Found;
+          result.TriangleFound[static_cast<Eigen::Index>(t)] = deviation.Found;
           integrals[t] = quadrature.Integrate(triangle);
         }
       });
@@ -236,7 +236,7 @@ Result<ChartDeviation> BoundDeviation(
     }
   }
   result.MaxBound = result.TriangleBound.maxCoeff();
-  result.MaxFound = *std::max_element(found.begin(), found.end());
+  result.MaxFound = result.TriangleFound.maxCoeff();
   double square = 0.0;
   for (const TriangleIntegrals& t : integrals)
   {

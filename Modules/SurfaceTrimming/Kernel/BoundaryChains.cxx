@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryChains.h"
 
+#include <knotwork/MeshParameterization/PlaneLoops.h>
+
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -223,6 +225,19 @@ private:
           (loops.empty() || !(loops[0].Area > 0.0) ? "no" : "more than one") +
           " boundary loop that runs counterclockwise in the plane; a chart is one disc with holes"
       };
+    }
+    std::vector<std::vector<int>> points;
+    for (const Loop& loop : loops)
+    {
+      points.push_back(loop.Points);
+    }
+    if (const EdgeCrossing overlap = FindOverlap(points, uv))
+    {
+      return { ErrorCode::InvalidTopology,
+        "chart " + std::to_string(c) + " lies over itself in the plane: boundary edges " +
+          std::to_string(overlap.First[0]) + "-" + std::to_string(overlap.First[1]) + " and " +
+          std::to_string(overlap.Second[0]) + "-" + std::to_string(overlap.Second[1]) +
+          " meet; flatten the mesh with a largest stretch, which cuts it into charts that do not" };
     }
     // holes in the order of their first points
     std::sort(loops.begin() + 1, loops.end(),

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ChartMesh.h"
 
+#include <knotwork/MeshParameterization/PlaneLoops.h>
+
 #include <string>
 
 namespace knotwork
@@ -55,9 +57,7 @@ Status ChartMesh::Check() const
             ", which is no point" };
       }
     }
-    const Eigen::RowVector2d a = this->UV.row(corners[1]) - this->UV.row(corners[0]);
-    const Eigen::RowVector2d b = this->UV.row(corners[2]) - this->UV.row(corners[0]);
-    if (!(a[0] * b[1] - a[1] * b[0] > 0.0))
+    if (Turn(this->UV, corners[0], corners[1], corners[2]) <= 0)
     {
       first = flipped == 0 ? static_cast<int>(t) : first;
       ++flipped;

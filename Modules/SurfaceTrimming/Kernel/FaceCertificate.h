@@ -52,7 +52,7 @@ struct DeviationParams
 };
 
 /// |S(u) - X(u)| over a chart, X its points interpolated linearly in each triangle: a bound of the
-/// distance from mesh to surface and back.
+/// distance from mesh to surface and back. See also RefineDeviations.
 struct ChartDeviation
 {
   Eigen::VectorXd PointDeviation; ///< a chart point
@@ -60,8 +60,10 @@ struct ChartDeviation
   /// the coordinates; more for triangles that are thin in the plane). A triangle over very many
   /// elements may stop short of the gap.
   Eigen::VectorXd TriangleBound;
+  /// The largest value that is met there, or proved to be reached.
+  Eigen::VectorXd TriangleFound;
   double MaxBound = 0.0; ///< largest of TriangleBound
-  double MaxFound = 0.0; ///< largest value that is met, or proved to be reached
+  double MaxFound = 0.0; ///< largest of TriangleFound
   double Rms = 0.0;      ///< root mean square by area in space (quadrature)
   double Area = 0.0;     ///< of S over the chart's triangles (quadrature)
   double MeshArea = 0.0;

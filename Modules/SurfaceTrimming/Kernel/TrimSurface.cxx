@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TrimSurface.h"
 #include "BoundaryChains.h"
+#include "ClosestDeviation.h"
 #include <knotwork/DomainParameterization/WorkBudget.h>
 
 #include <algorithm>
@@ -428,6 +429,14 @@ Result<TrimmedSurface> TrimSurface(const std::vector<ChartMesh>& charts, const T
       break;
     }
     trimming.State.Work += trim;
+  }
+  ClosestDeviationParams closest;
+  closest.Enough = std::max(
+    (1.0 - 1e-9) * (best.Tolerance - best.Loops.MaxTrimDistance), SurfaceShare * best.Tolerance);
+  closest.Threads = params.Threads;
+  if (Status status = RefineDeviations(charts, best.Model.Faces, closest, best.Deviations); !status)
+  {
+    return status;
   }
   Summarize(best);
   if (params.Triangulation)

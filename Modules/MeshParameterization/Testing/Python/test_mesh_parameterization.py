@@ -309,6 +309,17 @@ def test_one_good_chart_is_the_mesh():
     assert vtk_to_numpy(result.GetCellData().GetArray("ChartId")).max() == 0
 
 
+def test_one_chart_that_lies_over_itself_is_said():
+    turn, radius = np.meshgrid(np.linspace(0, 4 * np.pi, 121), [0.7, 1.0, 1.3], indexing="ij")
+    points = np.stack([radius * np.cos(turn), radius * np.sin(turn), 0.02 * turn], -1).reshape(-1, 3)  # two turns of a ramp
+    corners = [(a, a + 1, a + 4) for i in range(120) for a in (3 * i, 3 * i + 1)]
+    ramp = polydata(points, corners + [(a, d, d - 1) for a, _, d in corners])
+    whole = flatten(ramp).GetOutputDataObject(2)
+    assert whole.GetValueByName(0, "FlippedTriangles").ToInt() == 0 and whole.GetValueByName(0, "Injective").ToInt() == 0
+    charts = flatten(ramp, MaximumStretch=2).GetOutputDataObject(2)
+    assert charts.GetValueByName(0, "Injective").ToInt() == 1 and charts.GetValueByName(0, "Charts").ToInt() > 1
+
+
 def test_job_makes_charts():
     name = knotwork_testing.output("sphere.vtp")
     writer = vtkXMLPolyDataWriter()
@@ -321,7 +332,7 @@ def test_job_makes_charts():
     assert done.returncode == 0, done.stderr
     with open(report) as stream:
         said = json.load(stream)
-    assert said["charts"] == 2 and said["loops"] == 2 and said["flipped_triangles"] == 0
+    assert said["charts"] == 2 and said["loops"] == 2 and said["flipped_triangles"] == 0 and said["injective"] is True
     assert said["max_stretch"] <= 2 and said["maximum_stretch"] == 2 and said["crease_angle"] == 40
     done = knotwork_testing.run_program("flatten", name, "--output", out)
     assert done.returncode == 1 and "closed" in done.stderr, done.stderr

@@ -762,6 +762,23 @@ TEST(TrimLoops, EveryFailureIsReachable)
   EXPECT_EQ(discs.Status.Code, ErrorCode::InvalidTopology);
   EXPECT_NE(discs.Status.Detail.find("more than one"), std::string::npos);
   EXPECT_TRUE(kept([](int i, int j) { return i != 1 || j != 1; }));
+  // a strip that runs around a circle more than once
+  grid.Columns = 30;
+  grid.Keep = [](int, int) { return true; };
+  const auto wound = [&](double turns)
+  {
+    grid.Plane = [=](int i, int j)
+    {
+      const double angle = -2.0 * std::acos(-1.0) * turns * i / 30.0;
+      const double radius = 3.0 + 0.5 * j;
+      return Eigen::RowVector2d(radius * std::cos(angle), radius * std::sin(angle));
+    };
+    const ChartMesh chart = grid.Make();
+    return FitLoops({ chart }, { InterpolatingSurface(Flat, 1, 1, BoxOf(chart)) }, params).Status;
+  };
+  EXPECT_TRUE(wound(0.9));
+  EXPECT_EQ(wound(1.1).Code, ErrorCode::InvalidTopology);
+  EXPECT_NE(wound(1.1).Detail.find("lies over itself"), std::string::npos);
 }
 
 // ---- proofs ----------------------------------------------------------------------------------
