@@ -136,7 +136,7 @@ public:
         { this->Limit.Gap, BluntShare * this->Params.Angles.WeakAngle }, this->Marks);
       if (this->Limit.Noise > 0.0)
       {
-        this->DropNoise(features);
+        this->DropNoise();
       }
     }
     this->Trace(features);
@@ -201,7 +201,7 @@ private:
       this->Marks);
   }
 
-  void DropNoise(PartFeatures&)
+  void DropNoise()
   {
     std::vector<double> sizes;
     for (std::size_t t = 0; t < this->Fitted.Areas.size(); ++t)
