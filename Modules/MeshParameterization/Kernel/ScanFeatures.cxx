@@ -163,12 +163,25 @@ private:
       any = any || bands.InBand[t];
       isBand[static_cast<std::size_t>(labels.Of[t])] &= bands.InBand[t];
     }
-    if (any)
+    if (!any)
     {
-      features.Joined += JoinRegions(
-        this->Parts, this->Angle, labels, isBand, [](double, bool allBands) { return allBands; },
-        this->Known, this->Marks);
+      return;
     }
+    features.Joined += JoinRegions(
+      this->Parts, this->Angle, labels, isBand, [](double, bool allBands) { return allBands; },
+      this->Known, this->Marks);
+    // chains that end within a band are none
+    const RegionLabels joined = this->Label();
+    VisitInnerEdges(this->Parts,
+      [&](std::size_t t, std::size_t k)
+      {
+        const auto other = static_cast<std::size_t>(this->Parts.Adjacency.Triangle[t][k]);
+        if (bands.InBand[t] && bands.InBand[other] && joined.Of[t] == joined.Of[other] &&
+          !this->Known(t, k))
+        {
+          this->Marks.Set(t, k, false);
+        }
+      });
   }
 
   /// Regions that are smaller than is asked for, or no more than noise.
