@@ -136,7 +136,7 @@ public:
         { this->Limit.Gap, BluntShare * this->Params.Angles.WeakAngle }, this->Marks);
       if (this->Limit.Noise > 0.0)
       {
-        this->DropNoise(features);
+        this->DropNoise();
       }
     }
     this->Trace(features);
@@ -163,12 +163,25 @@ private:
       any = any || bands.InBand[t];
       isBand[static_cast<std::size_t>(labels.Of[t])] &= bands.InBand[t];
     }
-    if (any)
+    if (!any)
     {
-      features.Joined += JoinRegions(
-        this->Parts, this->Angle, labels, isBand, [](double, bool allBands) { return allBands; },
-        this->Known, this->Marks);
+      return;
     }
+    features.Joined += JoinRegions(
+      this->Parts, this->Angle, labels, isBand, [](double, bool allBands) { return allBands; },
+      this->Known, this->Marks);
+    // chains that end within a band are none
+    const RegionLabels joined = this->Label();
+    VisitInnerEdges(this->Parts,
+      [&](std::size_t t, std::size_t k)
+      {
+        const auto other = static_cast<std::size_t>(this->Parts.Adjacency.Triangle[t][k]);
+        if (bands.InBand[t] && bands.InBand[other] && joined.Of[t] == joined.Of[other] &&
+          !this->Known(t, k))
+        {
+          this->Marks.Set(t, k, false);
+        }
+      });
   }
 
   /// Regions that are smaller than is asked for, or no more than noise.
@@ -201,7 +214,7 @@ private:
       this->Marks);
   }
 
-  void DropNoise(PartFeatures&)
+  void DropNoise()
   {
     std::vector<double> sizes;
     for (std::size_t t = 0; t < this->Fitted.Areas.size(); ++t)

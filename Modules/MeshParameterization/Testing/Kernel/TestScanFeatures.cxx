@@ -247,6 +247,37 @@ TEST(ScanFeatures, ChamferOfEqualRimsIsOneCurveOrTwo_ExactOracle)
   EXPECT_EQ(Found(mesh, params).Lines.size(), 3u);
 }
 
+TEST(ScanFeatures, NarrowChamferOfANoisyMeshIsOneCurve_ExactOracle)
+{
+  // 0.27 % of the diagonal wide, one row between many
+  std::vector<std::array<double, 2>> profile{ { 0, 0 } };
+  for (int i = 1; i <= 20; ++i)
+  {
+    profile.push_back({ 0.05 * i, 0 });
+  }
+  for (int i = 1; i <= 20; ++i)
+  {
+    profile.push_back({ 1, 0.992 * 0.05 * i });
+  }
+  for (int i = 0; i <= 20; ++i)
+  {
+    profile.push_back({ 0.992 * (1.0 - 0.05 * i), 1 });
+  }
+  for (const double noise : { 1e-4, 3e-4, 5e-4 })
+  {
+    for (unsigned seed = 1; seed <= 5; ++seed)
+    {
+      SCOPED_TRACE(std::to_string(noise) + " of the diagonal, seed " + std::to_string(seed));
+      TriangleMesh mesh = Turned(profile, 80);
+      AddNoise(3.0 * noise, seed, mesh);
+      const ScanFeatures features = Found(mesh);
+      EXPECT_EQ(features.Lines.size(), 2u);
+      EXPECT_EQ(ClosedLines(features), 2);
+      EXPECT_EQ(features.NumRegions, 3);
+    }
+  }
+}
+
 TEST(ScanFeatures, RowOfBluntRimsIsACurve_ExactOracle)
 {
   // a roof of 60 degrees whose ridge is a row of triangles: 30 degrees on both sides
