@@ -140,7 +140,8 @@ def runs():
             (["cadfit", FILE, "--entities", "table.csv", "--output", grid], "quads"),
             (["intersections", FILE, "--table", "table.csv", "--output", polydata], "surface"),
             (["recognize", FILE, "--edges", "edges.vtp", "--regions", "table.csv", "--output", polydata], "mesh"),
-            (["align", FILE, "--to", mesh, "--table", "table.csv", "--output", polydata], "points")):
+            (["align", FILE, "--to", mesh, "--table", "table.csv", "--output", polydata], "points"),
+            (["distance", FILE, mesh, "--both-ways", "--percentiles", "table.csv", "--model", "model.vtp", "--output", polydata], "points")):
         yield arguments + report, kind
 
 
