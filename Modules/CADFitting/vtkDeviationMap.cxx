@@ -129,7 +129,7 @@ Status vtkDeviationMap::Compute(vtkInformationVector** inputs, vtkInformationVec
     model.Status.Detail = "model: " + model.Status.Detail;
     return model.Status;
   }
-  DeviationParams params;
+  DeviationMapParams params;
   params.Samples = this->Samples;
   params.MaximumDistance = this->MaximumDistance;
   params.Threads = this->KernelThreads();

@@ -225,7 +225,7 @@ Result<ScanDistances> DistancesFromScan(const TriangleMesh& scan, const PointMat
 }
 
 Result<DeviationMap> MapDeviation(const TriangleMesh& scan, const FitTarget& target,
-  TriangleMesh triangles, const DeviationParams& params)
+  TriangleMesh triangles, const DeviationMapParams& params)
 {
   if (params.Samples < 100 || !(params.MaximumDistance >= 0.0))
   {

@@ -5,7 +5,7 @@
 
 namespace knotwork
 {
-struct DeviationParams
+struct DeviationMapParams
 {
   int Samples = 20000; ///< points of the model at least, [100, 100000000]
   /// Model points that are farther from the scan have no distance: nobody scanned them; 0: all have
@@ -36,5 +36,5 @@ struct DeviationMap
 /// @return EmptyInput: no points, no triangles; NonFiniteInput with the point; InvalidTopology: a
 /// corner that is no point; InvalidParameter; Aborted; the target's errors.
 Result<DeviationMap> MapDeviation(const TriangleMesh& scan, const FitTarget& target,
-  TriangleMesh triangles, const DeviationParams& params = {});
+  TriangleMesh triangles, const DeviationMapParams& params = {});
 }

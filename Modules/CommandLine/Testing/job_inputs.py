@@ -143,7 +143,8 @@ def runs():
             (["recognize", FILE, "--edges", "edges.vtp", "--regions", "table.csv", "--output", polydata], "mesh"),
             (["features", FILE, "--lines", "lines.vtp", "--corners", "corners.vtp", "--output", polydata], "mesh"),
             (["features", mesh, "--edges", FILE, "--output", polydata], "edges"),
-            (["align", FILE, "--to", mesh, "--table", "table.csv", "--output", polydata], "points")):
+            (["align", FILE, "--to", mesh, "--table", "table.csv", "--output", polydata], "points"),
+            (["distance", FILE, mesh, "--both-ways", "--percentiles", "table.csv", "--model", "model.vtp", "--output", polydata], "points")):
         yield arguments + report, kind
 
 

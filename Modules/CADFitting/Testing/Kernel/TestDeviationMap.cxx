@@ -14,7 +14,7 @@ using namespace alignment;
 namespace
 {
 DeviationMap Mapped(const TriangleMesh& scan, const TopoDS_Shape& model, double sag,
-  const DeviationParams& params = {})
+  const DeviationMapParams& params = {})
 {
   const auto map = MapDeviation(scan, *TargetOf(model), MeshOf(model, sag), params);
   EXPECT_TRUE(map) << map.Status.Message();
@@ -61,7 +61,7 @@ TEST(DeviationMap, Pocket_ExactOracle)
   const TopoDS_Shape scan = BRepAlgoAPI_Cut(
     block, BRepPrimAPI_MakeBox(gp_Pnt(1.0, 0.5, 0.9), gp_Pnt(2.0, 1.5, 2.0)).Shape())
                               .Shape();
-  DeviationParams params;
+  DeviationMapParams params;
   params.Samples = 40000;
   const DeviationMap map = Mapped(MeshOf(scan, 0.01), block, 0.01, params);
   EXPECT_NEAR(map.ScanProfile.Min, -0.1, 1e-9);
@@ -96,7 +96,7 @@ TEST(DeviationMap, WhatNobodyScannedHasNoDistance_ExactOracle)
       half.row(count++) = all.row(i);
     }
   }
-  DeviationParams params;
+  DeviationMapParams params;
   params.MaximumDistance = 0.05;
   const DeviationMap map = Mapped({ half.topRows(count), {} }, block, 0.01, params);
   EXPECT_NEAR(map.NumWithout, 0.5 * static_cast<double>(map.OfModel.size()),
@@ -133,7 +133,7 @@ TEST(DeviationMap, OpenScans_ExactOracle)
       top.Triangles.push_back(top.Triangles[0]); // an edge of three triangles
       top.Triangles.push_back(top.Triangles[0]);
     }
-    DeviationParams params;
+    DeviationMapParams params;
     params.MaximumDistance = 0.051;
     const DeviationMap map = Mapped(top, block, 0.01, params);
     EXPECT_NEAR(map.ScanProfile.Min, 0.05, 1e-12);
@@ -146,8 +146,8 @@ TEST(DeviationMap, EveryFailureIsReachable)
 {
   const TriangleMesh box = fits::BoxTriangles(3);
   const FitTargetPtr target = MakeMeshTarget(box).Value;
-  const auto code =
-    [&](const TriangleMesh& scan, const TriangleMesh& triangles, const DeviationParams& params = {})
+  const auto code = [&](const TriangleMesh& scan, const TriangleMesh& triangles,
+                      const DeviationMapParams& params = {})
   { return MapDeviation(scan, *target, triangles, params).Status.Code; };
   EXPECT_EQ(code({ PointMatrix(0, 3), {} }, box), ErrorCode::EmptyInput);
   EXPECT_EQ(code(box, {}), ErrorCode::EmptyInput);
@@ -157,7 +157,7 @@ TEST(DeviationMap, EveryFailureIsReachable)
   bad = box;
   bad.Triangles[0][0] = -1;
   EXPECT_EQ(code(bad, box), ErrorCode::InvalidTopology);
-  DeviationParams params;
+  DeviationMapParams params;
   params.Samples = 5;
   EXPECT_EQ(code(box, box, params), ErrorCode::InvalidParameter);
   params = {};
