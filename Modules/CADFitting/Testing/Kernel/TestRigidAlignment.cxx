@@ -53,6 +53,25 @@ TriangleMesh Moved(TriangleMesh mesh, const RigidMotion& motion)
   return mesh;
 }
 
+/// Faces without an area.
+class PointTarget : public FitTarget
+{
+public:
+  PointTarget() { this->FaceCount = 1; }
+  Status Find(
+    const TargetPart&, const PointMatrixView& queries, TargetPoints& result) const override
+  {
+    result.Points.setZero(queries.rows(), 3);
+    result.Normals.setZero(queries.rows(), 3);
+    result.Faces.assign(static_cast<std::size_t>(queries.rows()), 0);
+    return {};
+  }
+  TargetSamples Samples(int) const override
+  {
+    return { PointMatrix::Zero(10, 3), Eigen::VectorXd::Zero(10), std::vector<int>(10, 0) };
+  }
+};
+
 RigidAlignment Aligned(
   const TriangleMesh& scan, const FitTarget& target, const AlignmentParams& params = {})
 {
@@ -301,6 +320,9 @@ TEST(RigidAlignment, EveryFailureIsReachable)
   const auto curves = MakeCurveTarget({ curve(1.0) });
   ASSERT_TRUE(curves);
   EXPECT_EQ(AlignToTarget(box, *curves.Value).Status.Code, ErrorCode::EmptyInput);
+  const auto nothing = AlignToTarget(box, PointTarget());
+  EXPECT_EQ(nothing.Status.Code, ErrorCode::EmptyInput);
+  EXPECT_NE(nothing.Status.Detail.find("no extent"), std::string::npos);
 }
 
 TEST(TargetDistances, SignsAtFacesEdgesAndCornersOfABox_ExactOracle)
