@@ -126,6 +126,22 @@ TEST(RigidAlignment, NoiseAndOutliersAreBorne_StatisticalOracle)
   }
 }
 
+/// Points of the room behind the part.
+TEST(RigidAlignment, FarPointsAreBorne_ExactOracle)
+{
+  const FitTargetPtr target = TargetOf(Bracket());
+  Seeded random(11);
+  PointMatrix cloud = CloudOn(*target, 5000, 0.0, 0.0, random);
+  for (Eigen::Index i = 0; i < cloud.rows(); i += 20)
+  {
+    cloud.row(i) = 300.0 * Eigen::RowVector3d(1.0, random.In(-1.0, 1.0), random.In(-1.0, 1.0));
+  }
+  const RigidMotion motion = random.Motion(40.0);
+  const RigidAlignment found = Aligned({ motion.Move(cloud), {} }, *target);
+  EXPECT_LE(Error(found.Motion, motion, MeshOf(Bracket(), 0.1).Points), 1e-6 * BracketSize);
+  EXPECT_EQ(found.NumInliers, cloud.rows() - cloud.rows() / 20);
+}
+
 TEST(RigidAlignment, SymmetricPartsAreAmbiguous_ExactOracle)
 {
   const auto poses = [](const TopoDS_Shape& shape, unsigned seed)
