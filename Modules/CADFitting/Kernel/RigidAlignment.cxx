@@ -47,9 +47,10 @@ constexpr double LikeRadii = 0.95;  ///< of inertia: axes are ambiguous above
 constexpr double GoodScore = 0.5;   ///< of both ways together, in [0, 2]: axes did not fit above
 constexpr double ScoreMargin = 0.3; ///< beyond the best one's of poses that are looked at closer
 constexpr double PoseMargin = 0.05;
-constexpr double FreeRank = 1e-4;     ///< eigenvalue of a free motion, of the largest one
-constexpr double FreeShare = 0.95;    ///< of inliers that stay
-constexpr double LargestRatio = 20.0; ///< of the scan's size to the target's
+constexpr double FreeRank = 1e-4;    ///< eigenvalue of a free motion, of the largest one
+constexpr double FreeShare = 0.95;   ///< of inliers that stay
+constexpr double FarRadii = 6.0;     ///< of half of the points: what is farther is not the part
+constexpr double LargestRatio = 5.0; ///< of the scan's size to the target's
 constexpr double LeastRatio = 0.01;
 constexpr double UsefulShare = 0.1;
 constexpr double UsefulDistance = 0.05;
@@ -145,6 +146,19 @@ Eigen::VectorXd DensityWeights(const PointMatrix& points)
     weights[i] = static_cast<double>(std::min(count, median)) / count;
   }
   return weights;
+}
+
+/// Of every coordinate.
+Eigen::RowVector3d MedianOf(const PointMatrix& points)
+{
+  return { QuantileOf(points.col(0), 0.5), QuantileOf(points.col(1), 0.5),
+    QuantileOf(points.col(2), 0.5) };
+}
+
+/// Half of the points are nearer to their median.
+double RadiusOf(const PointMatrix& points)
+{
+  return QuantileOf((points.rowwise() - MedianOf(points)).rowwise().norm(), 0.5);
 }
 
 /// Middle, principal axes and radii of inertia of weighted points, the longest one first.
@@ -370,15 +384,16 @@ private:
       spread = SubsetOf(this->Scan.Points, SpreadSamples);
       weights = DensityWeights(spread);
     }
-    const Moments ofScan(spread, weights);
-    const Moments ofTarget(points, samples.Areas);
-    const double ratio = ofScan.Radii.norm() / ofTarget.Radii.norm();
+    const double targetRadius = RadiusOf(this->EvenSubset(points, samples.Areas));
+    const double ratio = this->DropFar(spread, weights) / targetRadius;
     if (ratio > LargestRatio || ratio < LeastRatio)
     {
       return { ErrorCode::InvalidParameter,
         "the scan is " + Digits(ratio, 3) +
           " times as large as the target: give both in the same unit" };
     }
+    const Moments ofScan(spread, weights);
+    const Moments ofTarget(points, samples.Areas);
     this->Spread = Ordered(this->IsMesh ? this->EvenSubset(spread, weights) : spread);
     this->Points = Ordered(SubsetOf(this->Scan.Points, this->Params.Samples));
     this->Rotations = this->Candidates(ofScan, ofTarget);
@@ -386,6 +401,26 @@ private:
     this->MiddleOfTarget = ofTarget.Middle;
     this->TargetSpread = Ordered(this->EvenSubset(points, samples.Areas));
     return {};
+  }
+
+  /// Leaves out points that are far from most; half of the others are nearer than the result.
+  double DropFar(PointMatrix& points, Eigen::VectorXd& weights) const
+  {
+    const PointMatrix even = this->IsMesh ? this->EvenSubset(points, weights) : points;
+    const double radius = RadiusOf(even);
+    const Eigen::RowVector3d middle = MedianOf(even);
+    Eigen::Index kept = 0;
+    for (Eigen::Index i = 0; i < points.rows(); ++i)
+    {
+      if ((points.row(i) - middle).norm() <= FarRadii * radius)
+      {
+        points.row(kept) = points.row(i);
+        weights[kept++] = weights[i];
+      }
+    }
+    points.conservativeResize(kept, 3);
+    weights.conservativeResize(kept);
+    return radius;
   }
 
   /// Points as dense as their weights say: every sum of weights that is a multiple of a step.

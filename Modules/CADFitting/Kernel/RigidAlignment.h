@@ -84,7 +84,7 @@ struct RigidAlignment
 /// @param scan  points, and triangles where it is a mesh: they tell what lies between the points.
 /// @return EmptyInput: no points, a target without surface or extent; NonFiniteInput;
 /// InvalidTopology: a corner that is no point; SingularSystem: all points on a line;
-/// InvalidParameter: an option, a scan 20 times as large as the target or 100 times smaller;
+/// InvalidParameter: an option, a scan 5 times as large as the target or 100 times smaller;
 /// NotConverged: fewer than a tenth of the points come near the target; Aborted; the target's
 /// errors.
 /// @complexity O(n log n), with some 1e5 closest points for the search.

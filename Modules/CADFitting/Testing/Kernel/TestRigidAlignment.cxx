@@ -53,6 +53,25 @@ TriangleMesh Moved(TriangleMesh mesh, const RigidMotion& motion)
   return mesh;
 }
 
+/// Faces without an area.
+class PointTarget : public FitTarget
+{
+public:
+  PointTarget() { this->FaceCount = 1; }
+  Status Find(
+    const TargetPart&, const PointMatrixView& queries, TargetPoints& result) const override
+  {
+    result.Points.setZero(queries.rows(), 3);
+    result.Normals.setZero(queries.rows(), 3);
+    result.Faces.assign(static_cast<std::size_t>(queries.rows()), 0);
+    return {};
+  }
+  TargetSamples Samples(int) const override
+  {
+    return { PointMatrix::Zero(10, 3), Eigen::VectorXd::Zero(10), std::vector<int>(10, 0) };
+  }
+};
+
 RigidAlignment Aligned(
   const TriangleMesh& scan, const FitTarget& target, const AlignmentParams& params = {})
 {
@@ -105,6 +124,22 @@ TEST(RigidAlignment, NoiseAndOutliersAreBorne_StatisticalOracle)
     EXPECT_NEAR(found.InlierRms, noise, 0.2 * noise);
     EXPECT_NEAR(found.NumInliers, 0.8 * count, 0.08 * count); // outliers may lie near the part
   }
+}
+
+/// Points of the room behind the part.
+TEST(RigidAlignment, FarPointsAreBorne_ExactOracle)
+{
+  const FitTargetPtr target = TargetOf(Bracket());
+  Seeded random(11);
+  PointMatrix cloud = CloudOn(*target, 5000, 0.0, 0.0, random);
+  for (Eigen::Index i = 0; i < cloud.rows(); i += 20)
+  {
+    cloud.row(i) = 300.0 * Eigen::RowVector3d(1.0, random.In(-1.0, 1.0), random.In(-1.0, 1.0));
+  }
+  const RigidMotion motion = random.Motion(40.0);
+  const RigidAlignment found = Aligned({ motion.Move(cloud), {} }, *target);
+  EXPECT_LE(Error(found.Motion, motion, MeshOf(Bracket(), 0.1).Points), 1e-6 * BracketSize);
+  EXPECT_EQ(found.NumInliers, cloud.rows() - cloud.rows() / 20);
 }
 
 TEST(RigidAlignment, SymmetricPartsAreAmbiguous_ExactOracle)
@@ -301,6 +336,9 @@ TEST(RigidAlignment, EveryFailureIsReachable)
   const auto curves = MakeCurveTarget({ curve(1.0) });
   ASSERT_TRUE(curves);
   EXPECT_EQ(AlignToTarget(box, *curves.Value).Status.Code, ErrorCode::EmptyInput);
+  const auto nothing = AlignToTarget(box, PointTarget());
+  EXPECT_EQ(nothing.Status.Code, ErrorCode::EmptyInput);
+  EXPECT_NE(nothing.Status.Detail.find("no extent"), std::string::npos);
 }
 
 TEST(TargetDistances, SignsAtFacesEdgesAndCornersOfABox_ExactOracle)
