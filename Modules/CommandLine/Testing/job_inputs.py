@@ -141,10 +141,10 @@ def runs():
             (["cadfit", FILE, "--entities", "table.csv", "--output", grid], "quads"),
             (["intersections", FILE, "--table", "table.csv", "--output", polydata], "surface"),
             (["recognize", FILE, "--edges", "edges.vtp", "--regions", "table.csv", "--output", polydata], "mesh"),
-            (["features", FILE, "--lines", "lines.vtp", "--corners", "corners.vtp", "--output", polydata], "mesh"),
-            (["features", mesh, "--edges", FILE, "--output", polydata], "edges"),
             (["align", FILE, "--to", mesh, "--table", "table.csv", "--output", polydata], "points"),
-            (["distance", FILE, mesh, "--both-ways", "--percentiles", "table.csv", "--model", "model.vtp", "--output", polydata], "points")):
+            (["distance", FILE, mesh, "--both-ways", "--percentiles", "table.csv", "--model", "model.vtp", "--output", polydata], "points"),
+            (["features", FILE, "--lines", "lines.vtp", "--corners", "corners.vtp", "--output", polydata], "mesh"),
+            (["features", mesh, "--edges", FILE, "--output", polydata], "edges")):
         yield arguments + report, kind
 
 
