@@ -8,6 +8,7 @@
 #include <knotwork/SplineGrid/SplineModel.h>
 #include <knotwork/SurfaceFitting/ClosestParameters.h>
 #include <knotwork/SurfaceFitting/PlaneParameters.h>
+#include <knotwork/SurfaceFitting/PointLayers.h>
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -164,6 +165,11 @@ Result<PointMatrix> MeshParameters(const TriangleMesh& mesh, int threads)
       std::to_string(flat->Measures.FlippedTriangles) +
         " triangles are flipped in the plane; cut the mesh into charts, or give parameters" };
   }
+  if (!flat->Injective)
+  {
+    return { ErrorCode::NotInSpace,
+      flat->Injective.Detail + "; cut the mesh into charts, or give parameters" };
+  }
   PointMatrix uv = PointMatrix::Zero(mesh.Points.rows(), 2);
   for (std::size_t i = 0; i < flat->Mesh.PointIds.size(); ++i)
   {
@@ -172,11 +178,13 @@ Result<PointMatrix> MeshParameters(const TriangleMesh& mesh, int threads)
   return uv;
 }
 
-Result<PointMatrix> FindParameters(vtkPointSet* data, const CloudChoice& choice)
+/// @param over  what points may lie over in layers; triangles have a map that is injective.
+Result<PointMatrix> FindParameters(vtkPointSet* data, const CloudChoice& choice, const char*& over)
 {
   vtkDataArray* points = data->GetPoints()->GetData();
   if (choice.Parameters == CloudParameters::HeightField)
   {
+    over = "x and y";
     return CopyArray(points, 2, choice.Threads);
   }
   if (choice.Parameters == CloudParameters::Given)
@@ -187,10 +195,12 @@ Result<PointMatrix> FindParameters(vtkPointSet* data, const CloudChoice& choice)
         "the parameters of the points are missing; name a point array of two components, or have "
         "them computed" };
     }
+    over = "the parameters that are given";
     return CopyArray(choice.Given, 2, choice.Threads);
   }
   if (choice.Start)
   {
+    over = "the surface that the fit starts from";
     return ClosestParameters(
       *choice.Start, CopyArray(points, 3, choice.Threads), choice.Threads, choice.Progress);
   }
@@ -199,8 +209,12 @@ Result<PointMatrix> FindParameters(vtkPointSet* data, const CloudChoice& choice)
   {
     return decoded.Status;
   }
-  return decoded->Mesh.Triangles.empty() ? PlaneParameters(CopyArray(points, 3, choice.Threads))
-                                         : MeshParameters(decoded->Mesh, choice.Threads);
+  if (!decoded->Mesh.Triangles.empty())
+  {
+    return MeshParameters(decoded->Mesh, choice.Threads);
+  }
+  over = "their plane of least squares";
+  return PlaneParameters(CopyArray(points, 3, choice.Threads));
 }
 
 template <typename Array, typename Value>
@@ -254,7 +268,8 @@ Result<DecodedCloud> DecodeCloud(vtkPointSet* data, const CloudChoice& choice)
   {
     return status;
   }
-  auto parameters = FindParameters(data, choice);
+  const char* over = nullptr;
+  auto parameters = FindParameters(data, choice, over);
   if (!parameters)
   {
     return parameters.Status;
@@ -278,6 +293,14 @@ Result<DecodedCloud> DecodeCloud(vtkPointSet* data, const CloudChoice& choice)
   {
     CopyArray(array, 0, array->GetNumberOfComponents(), cloud.Values, columns, choice.Threads);
     columns += array->GetNumberOfComponents();
+  }
+  if (over && choice.RefuseLayers)
+  {
+    const PointMatrix measured = cloud.Values.leftCols(decoded.NumMeasured);
+    if (Status layers = CheckLayers(cloud.Parameters, measured, over); !layers)
+    {
+      return layers;
+    }
   }
   if (choice.Tolerances)
   {

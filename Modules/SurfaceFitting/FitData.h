@@ -34,6 +34,7 @@ struct CloudChoice
   vtkDataArray* Significant = nullptr; ///< one component
   std::vector<std::string> Fields;     ///< point arrays to fit along
   bool AllFields = false;              ///< all other numeric point arrays
+  bool RefuseLayers = true;            ///< an envelope of points may have layers below it
   const Spline<2>* Start = nullptr;    ///< the surface that the fit starts from
   int Threads = 0;
   ProgressCallback Progress; ///< of the search for closest points
@@ -50,7 +51,8 @@ struct DecodedCloud
 
 /// The points of a data set with parameters and values.
 /// @return EmptyInput; SizeMismatch and InvalidParameter for arrays; failures of PlaneParameters,
-/// ClosestParameters and FlattenMesh; NotInSpace for triangles that flip in the plane. Numbers that
+/// ClosestParameters, CheckLayers and FlattenMesh; NotInSpace for triangles that flip in the plane
+/// or whose map lies over itself. Numbers that
 /// are not finite or too large are FitSurface's to refuse.
 Result<DecodedCloud> DecodeCloud(vtkPointSet* data, const CloudChoice& choice);
 

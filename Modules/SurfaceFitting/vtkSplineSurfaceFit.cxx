@@ -183,6 +183,7 @@ knotwork::Status vtkSplineSurfaceFit::Compute(
   choice.Parameters = static_cast<CloudParameters>(this->Parameterization);
   choice.Fields = this->FieldArrays;
   choice.AllFields = this->AllFields;
+  choice.RefuseLayers = this->Side == BOTH_SIDES;
   choice.Threads = this->KernelThreads();
   choice.Progress = this->Progress();
   Status status;

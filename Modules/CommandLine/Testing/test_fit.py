@@ -593,7 +593,15 @@ def test_arrays_and_options_that_do_not_fit_are_refused():
     refused([file, "--tolerance-box", 0, 1, 0, 1, -1], "a.vtp", "tolerance")
     sphere = np.random.default_rng(14).normal(size=(2000, 3))
     sphere /= np.linalg.norm(sphere, axis=1)[:, None]
-    refused([write_xyz("sphere.xyz", sphere), "--parameterization", "computed"], "sphere.xyz", "layers")
+    angles = np.c_[np.arctan2(sphere[:, 1], sphere[:, 0]), np.arcsin(sphere[:, 2])]
+    closed = write_vtp("sphere.vtp", sphere, XY=sphere[:, :2].copy(), Angles=angles)
+    for choice in (["height-field"], ["computed"], ["given", "--parameter-array", "XY"]):
+        refused([closed, "--parameterization", *choice], "sphere.vtp", "layers", "`trim`")
+    refused([write_xyz("sphere.xyz", sphere)], "sphere.xyz", "layers")
+    output = path("angles.vtu")
+    done = knotwork_testing.run_program("fit", closed, "--parameterization", "given", "--parameter-array", "Angles", "--tolerance", 0.1,
+                                        "--output", output, "--quiet")
+    assert done.returncode == 0, done.stderr
     for usage in (["--tolerance", -1], ["--degree", 0], ["--degree", 10], ["--space", "nurbs"], ["--side", "left"],
                   ["--outlier-scale", 0], ["--domain", 0, 1], ["--tolerance-box", 1, 2, 3], ["--smoothing", -1]):
         refused([file, *usage], status=2)

@@ -1000,6 +1000,50 @@ TEST(SplineSurfaceFit, ControlPointsOfASplineAreNotFitted_ExactOracle)
   EXPECT_NE(recorder->Errors[0].find("control points"), std::string::npos);
 }
 
+/// A sphere over [0, 2] x [0, 1]: longitude and latitude from parameters, x and y as another array.
+TEST(SplineSurfaceFit, LayersAreRefusedInEveryParameterization_ExactOracle)
+{
+  const double pi = std::acos(-1.0);
+  const auto sphere = MakeCloud<vtkPolyData>(
+    [pi](double u, double v) -> std::array<double, 3>
+    {
+      const double z = 2.0 * v - 1.0;
+      const double r = std::sqrt(1.0 - z * z);
+      return { r * std::cos(pi * u), r * std::sin(pi * u), z };
+    });
+  vtkNew<vtkDoubleArray> projected;
+  projected->SetName("XY");
+  projected->SetNumberOfComponents(2);
+  for (vtkIdType i = 0; i < sphere->GetNumberOfPoints(); ++i)
+  {
+    projected->InsertNextTuple2(sphere->GetPoint(i)[0], sphere->GetPoint(i)[1]);
+  }
+  sphere->GetPointData()->AddArray(projected);
+  const auto run = [&](int parameterization, const char* parameters, int side)
+  {
+    vtkNew<vtkSplineSurfaceFit> filter;
+    filter->SetInputData(sphere);
+    filter->SetParameterization(parameterization);
+    filter->SetSide(side);
+    filter->SetTolerance(0.1);
+    filter->SetMaximumIterations(1);
+    filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, parameters);
+    vtkNew<MessageRecorder> recorder;
+    recorder->Watch(filter);
+    filter->Update();
+    return recorder->Errors.empty() ? std::string() : recorder->Errors[0];
+  };
+  using Fit = vtkSplineSurfaceFit;
+  for (const int parameterization : { Fit::HEIGHT_FIELD, Fit::GIVEN, Fit::COMPUTED })
+  {
+    const std::string message = run(parameterization, "XY", Fit::BOTH_SIDES);
+    EXPECT_NE(message.find("layers"), std::string::npos) << message;
+    EXPECT_NE(message.find("`trim`"), std::string::npos) << message;
+  }
+  EXPECT_EQ(run(Fit::GIVEN, "Uv", Fit::BOTH_SIDES), "");
+  EXPECT_EQ(run(Fit::HEIGHT_FIELD, "XY", Fit::ABOVE), ""); // an envelope
+}
+
 TEST(SplineSurfaceFit, EveryFailureIsOneErrorWithItsPlace_ExactOracle)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
