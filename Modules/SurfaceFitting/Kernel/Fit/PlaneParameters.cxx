@@ -124,7 +124,8 @@ Result<PointMatrix> PlaneParameters(const PointMatrix& points)
     return { ErrorCode::NotInSpace,
       "the points lie in layers over their plane of least squares (in " +
         std::to_string(static_cast<int>(std::lround(100.0 * share))) +
-        " % of its cells), where a projection folds; mesh the scan and `trim` it, or give parameters" };
+        " % of its cells), where a projection folds; mesh the scan and `trim` it, or give "
+        "parameters" };
   }
   return PointMatrix(local.leftCols<2>());
 }
