@@ -16,9 +16,9 @@ namespace
 {
 /// Points of the Gauss rule a direction: integrands of degree 4 exactly, a rounded sixth digit for
 /// cubic surfaces over parts of an element's size.
-constexpr int rulePoints = 3;
+constexpr int RulePoints = 3;
 /// A triangle is cut into the square of so many for quadrature at most.
-constexpr int maxCuts = 64;
+constexpr int MaxCuts = 64;
 
 /// Rule on the triangle (0, 0), (1, 0), (0, 1): the square's, collapsed. Weights add up to 1.
 struct TriangleRule
@@ -28,7 +28,7 @@ struct TriangleRule
 };
 TriangleRule MakeTriangleRule()
 {
-  const QuadratureRule line = GaussLegendre(rulePoints);
+  const QuadratureRule line = GaussLegendre(RulePoints);
   TriangleRule rule;
   for (std::size_t j = 0; j < line.Nodes.size(); ++j)
   {
@@ -105,7 +105,7 @@ private:
       const int last = knots.FindElement(std::max({ uv[0][d], uv[1][d], uv[2][d] }));
       cuts = std::max(cuts, last - first + 1);
     }
-    return std::min(cuts, maxCuts);
+    return std::min(cuts, MaxCuts);
   }
 
   Eigen::Index AddCut(int i, int j, double sign, int cuts, Eigen::Index row)
