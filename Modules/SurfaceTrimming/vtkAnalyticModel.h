@@ -18,11 +18,11 @@
  * as such. Output 3 is a table of one row: Faces, Planes, Cylinders, Spheres, Cones, Tori,
  * FreeFaces, Edges, Lines, Circles, SharpEdges (where surfaces meet at 5 degrees or more),
  * Vertices, Loops (rims of the mesh), Tolerance, MaxDeviation (of the mesh's points from analytic
- * faces, and of the mesh and spline faces both ways), MaxNormalAngle (between spline faces where
- * the mesh is smooth), MaxSag (bound of the distance of triangles from their surfaces),
- * MaxEdgeDistance (bound between edges and those of the mesh), MaxEdgeGap, WithinTolerance,
- * MinNormalBound, Verdict (whether faces are proved regular), LoopsProved, LoopVerdict,
- * ControlPoints, Area (of output 0), MeshArea.
+ * faces, of the mesh and spline faces both ways, and of edges from their faces), MaxNormalAngle
+ * (between spline faces where the mesh is smooth), MaxSag (bound of the distance of triangles from
+ * their surfaces), MaxEdgeDistance (bound between edges and those of the mesh), MaxEdgeGap,
+ * WithinTolerance, MinNormalBound, Verdict (whether faces are proved regular), LoopsProved,
+ * LoopVerdict, ControlPoints, Area (of output 0), MeshArea.
  *
  * @source The module's page has methods, limits and errors.
  */

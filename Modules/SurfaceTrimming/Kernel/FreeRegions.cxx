@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FreeRegions.h"
 #include <knotwork/MeshParameterization/MeshFeatures.h>
-
-#include <Eigen/Geometry>
+#include <knotwork/MeshParameterization/TriangleAdjacency.h>
+#include <knotwork/SplineCore/DisjointSets.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <numeric>
 
 namespace knotwork
 {
@@ -18,192 +16,12 @@ std::size_t At(int i)
   return static_cast<std::size_t>(i);
 }
 
-double NumParameters(SurfaceType type)
-{
-  switch (type)
-  {
-    case SurfaceType::Plane:
-      return 3.0;
-    case SurfaceType::Sphere:
-      return 4.0;
-    case SurfaceType::Cylinder:
-      return 5.0;
-    case SurfaceType::Cone:
-      return 6.0;
-    case SurfaceType::Torus:
-      return 7.0;
-    case SurfaceType::FreeForm:
-      break;
-  }
-  return HUGE_VAL;
-}
-
-/// Undirected edges of triangles with those beside them.
-std::map<std::array<int, 2>, std::vector<int>> EdgesOf(
-  const std::vector<std::array<int, 3>>& triangles)
-{
-  std::map<std::array<int, 2>, std::vector<int>> edges;
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-  {
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      const auto [a, b] = std::minmax(triangles[t][k], triangles[t][(k + 1) % 3]);
-      edges[{ a, b }].push_back(static_cast<int>(t));
-    }
-  }
-  return edges;
-}
-
-/// Lengths of the borders of regions with others.
-class Borders
-{
-public:
-  Borders(const DiscMesh& surface, const SurfaceRecognition& recognition)
-    : Recognition(recognition), Sharp(recognition.Regions.size(), 0.0),
-      All(recognition.Regions.size(), 0.0)
-  {
-    const double least = std::cos(25.0 * 3.14159265358979323846 / 180.0);
-    const auto normal = [&](int t) -> Eigen::Vector3d
-    {
-      const auto& [a, b, c] = surface.Triangles[At(t)];
-      return (surface.Point(b) - surface.Point(a))
-        .cross(surface.Point(c) - surface.Point(a))
-        .normalized();
-    };
-    for (const auto& [edge, beside] : EdgesOf(surface.Triangles))
-    {
-      if (beside.size() != 2)
-      {
-        continue;
-      }
-      const int own = recognition.RegionOfTriangle[At(beside[0])];
-      const int other = recognition.RegionOfTriangle[At(beside[1])];
-      const double length = (surface.Point(edge[0]) - surface.Point(edge[1])).norm();
-      const bool isSharp = normal(beside[0]).dot(normal(beside[1])) < least;
-      for (const auto& [from, to] : { std::pair(own, other), std::pair(other, own) })
-      {
-        this->All[At(from)] += own != other ? length : 0.0;
-        this->Sharp[At(from)] += own != other && isSharp ? length : 0.0;
-        if (own != other && !isSharp)
-        {
-          this->Smooth[from][to] += length;
-        }
-      }
-    }
-  }
-
-  /// Whether the mesh is sharp along most of a region's border, and goes on smoothly into what is
-  /// of free form along little of it.
-  bool EndAtEdges(int region) const
-  {
-    constexpr double LeastSharp = 0.5;
-    constexpr double MostIntoFree = 0.25;
-    double intoFree = 0.0;
-    if (const auto smooth = this->Smooth.find(region); smooth != this->Smooth.end())
-    {
-      for (const auto& [other, length] : smooth->second)
-      {
-        const SurfaceType type = this->Recognition.Regions[At(other)].Surface.Type;
-        intoFree += type == SurfaceType::FreeForm ? length : 0.0;
-      }
-    }
-    const double all = this->All[At(region)];
-    return all > 0.0 && this->Sharp[At(region)] >= LeastSharp * all &&
-      intoFree <= MostIntoFree * all;
-  }
-
-private:
-  const SurfaceRecognition& Recognition;
-  std::map<int, std::map<int, double>> Smooth;
-  std::vector<double> Sharp;
-  std::vector<double> All;
-};
-
-constexpr double Exact = 0.02; ///< of the tolerance: distances that are none
-
-/// Whether distances from the surface are nothing, or those of noise, or the region ends mostly at
-/// sharp edges.
-bool IsOnItsSurface(
-  const DiscMesh& surface, const RecognizedRegion& region, bool endsAtEdges, double tolerance)
-{
-  constexpr double Enough = 3.0;    // points a parameter
-  constexpr double Many = 6.0;      // by which residuals of few points do not pass for noise
-  constexpr double MaxNoise = 0.5;  // of the tolerance: what grew as far as it could goes up to it
-  constexpr double MaxAlike = 0.25; // correlation of neighbours; that of noise is about 0
-  std::map<int, double> distances;
-  for (const int t : region.Triangles)
-  {
-    for (const int corner : surface.Triangles[At(t)])
-    {
-      distances[corner] = region.Surface.Distance(surface.Point(corner));
-    }
-  }
-  const double parameters = NumParameters(region.Surface.Type);
-  const auto count = static_cast<double>(distances.size());
-  // facets of any shape are planes, and their rows cylinders
-  const bool isFlat = region.Surface.Type == SurfaceType::Plane && endsAtEdges;
-  if (isFlat ? count < parameters + 2.0 : count < Enough * parameters)
-  {
-    return false;
-  }
-  double squares = 0.0;
-  double largest = 0.0;
-  for (const auto& [point, distance] : distances)
-  {
-    squares += distance * distance;
-    largest = std::max(largest, std::abs(distance));
-  }
-  if (largest <= Exact * tolerance || endsAtEdges)
-  {
-    return true;
-  }
-  if (largest > MaxNoise * tolerance || count < Many * parameters)
-  {
-    return false;
-  }
-  double products = 0.0;
-  double pairs = 0.0;
-  for (const int t : region.Triangles)
-  {
-    const auto& corners = surface.Triangles[At(t)];
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      products += distances[corners[k]] * distances[corners[(k + 1) % 3]];
-      ++pairs;
-    }
-  }
-  return products / pairs < MaxAlike * squares / count;
-}
-
-/// Sets that grow together.
-class Unions
-{
-public:
-  explicit Unions(std::size_t count) : Parents(count)
-  {
-    std::iota(this->Parents.begin(), this->Parents.end(), 0);
-  }
-  int Find(int i)
-  {
-    while (this->Parents[At(i)] != i)
-    {
-      this->Parents[At(i)] = this->Parents[At(this->Parents[At(i)])];
-      i = this->Parents[At(i)];
-    }
-    return i;
-  }
-  void Join(int a, int b) { this->Parents[At(this->Find(a))] = this->Find(b); }
-
-private:
-  std::vector<int> Parents;
-};
-
 /// Parts of what is of free form: apart from each other by sharp edges, but for small ones.
 class FreeParts
 {
 public:
   FreeParts(const DiscMesh& surface, const SurfaceRecognition& recognition)
-    : Surface(surface), Edges(EdgesOf(surface.Triangles)), Sets(surface.Triangles.size())
+    : Surface(surface), Sets(static_cast<int>(surface.Triangles.size()))
   {
     this->IsFree.resize(surface.Triangles.size());
     for (std::size_t t = 0; t < this->IsFree.size(); ++t)
@@ -211,13 +29,17 @@ public:
       const auto region = At(recognition.RegionOfTriangle[t]);
       this->IsFree[t] = recognition.Regions[region].Surface.Type == SurfaceType::FreeForm;
     }
+    if (auto adjacency = FindAdjacency(surface.Triangles))
+    {
+      this->Adjacency = std::move(adjacency.Value);
+    }
     const auto features = FindMeshFeatures(surface);
     this->ForFreePairs(
-      [&](int s, int t, const std::array<int, 2>&)
+      [&](int s, int t, double)
       {
         if (!features || features->Regions[At(s)] == features->Regions[At(t)])
         {
-          this->Sets.Join(s, t);
+          this->Sets.Unite(s, t);
         }
       });
     while (this->JoinSmall(recognition.Tolerance))
@@ -246,14 +68,21 @@ public:
   }
 
 private:
+  /// Calls with two free triangles and the length of their common edge.
   template <typename Visit>
   void ForFreePairs(const Visit& visit)
   {
-    for (const auto& [edge, triangles] : this->Edges)
+    for (std::size_t t = 0; t < this->Adjacency.Triangle.size(); ++t)
     {
-      if (triangles.size() == 2 && this->IsFree[At(triangles[0])] && this->IsFree[At(triangles[1])])
+      for (std::size_t k = 0; k < 3; ++k)
       {
-        visit(triangles[0], triangles[1], edge);
+        const int other = this->Adjacency.Triangle[t][k];
+        if (other > static_cast<int>(t) && this->IsFree[t] && this->IsFree[At(other)])
+        {
+          const auto& corners = this->Surface.Triangles[t];
+          visit(static_cast<int>(t), other,
+            (this->Surface.Point(corners[k]) - this->Surface.Point(corners[(k + 1) % 3])).norm());
+        }
       }
     }
   }
@@ -275,11 +104,10 @@ private:
     const auto isSmall = [&](int set) { return areas[set] < Wide * Wide * tolerance * tolerance; };
     std::map<std::pair<int, int>, double> borders;
     this->ForFreePairs(
-      [&](int s, int t, const std::array<int, 2>& edge)
+      [&](int s, int t, double length)
       {
         const int a = this->Sets.Find(s);
         const int b = this->Sets.Find(t);
-        const double length = (this->Surface.Point(edge[0]) - this->Surface.Point(edge[1])).norm();
         for (const auto& [own, other] : { std::pair(a, b), std::pair(b, a) })
         {
           if (a != b && isSmall(own))
@@ -296,14 +124,14 @@ private:
     }
     for (const auto& [own, best] : longest)
     {
-      this->Sets.Join(own, best.second);
+      this->Sets.Unite(own, best.second);
     }
     return !longest.empty();
   }
 
   const DiscMesh& Surface;
-  std::map<std::array<int, 2>, std::vector<int>> Edges;
-  Unions Sets;
+  TriangleAdjacency Adjacency;
+  DisjointSets Sets;
   std::vector<char> IsFree;
 };
 
@@ -333,15 +161,19 @@ class FanPoints
 {
 public:
   /// @param corners  of triangles.
-  explicit FanPoints(const std::vector<std::array<int, 3>>& corners) : Sets(3 * corners.size())
+  explicit FanPoints(const std::vector<std::array<int, 3>>& corners)
   {
-    for (const auto& [edge, beside] : EdgesOf(corners))
+    DisjointSets sets(3 * static_cast<int>(corners.size())); // of corners
+    const auto adjacency = FindAdjacency(corners);
+    for (std::size_t t = 0; adjacency && t < corners.size(); ++t)
     {
-      for (std::size_t i = 1; i < beside.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k)
       {
-        for (const int point : edge)
+        if (const int other = adjacency->Triangle[t][k]; other >= 0)
         {
-          this->Sets.Join(CornerOf(corners, beside[0], point), CornerOf(corners, beside[i], point));
+          const int side = adjacency->Side[t][k]; // which runs the other way
+          sets.Unite(static_cast<int>(3 * t + k), 3 * other + (side + 1) % 3);
+          sets.Unite(static_cast<int>(3 * t + (k + 1) % 3), 3 * other + side);
         }
       }
     }
@@ -351,7 +183,7 @@ public:
       auto& own = this->Triangles.emplace_back();
       for (std::size_t k = 0; k < 3; ++k)
       {
-        const int set = this->Sets.Find(static_cast<int>(3 * t + k));
+        const int set = sets.Find(static_cast<int>(3 * t + k));
         const auto [at, isNew] = numbers.try_emplace(set, static_cast<int>(this->Ids.size()));
         if (isNew)
         {
@@ -364,15 +196,6 @@ public:
 
   std::vector<std::array<int, 3>> Triangles; ///< rows of Ids
   std::vector<int> Ids;
-
-private:
-  static int CornerOf(const std::vector<std::array<int, 3>>& corners, int triangle, int point)
-  {
-    const auto& own = corners[At(triangle)];
-    return 3 * triangle + static_cast<int>(std::find(own.begin(), own.end(), point) - own.begin());
-  }
-
-  Unions Sets;
 };
 
 class RegionCharter
@@ -641,59 +464,6 @@ Result<ChartedRegions> RegionCharter::Assemble()
   }
   return std::move(this->Made);
 }
-}
-
-double ReleaseDoubtfulRegions(const DiscMesh& surface, SurfaceRecognition& recognition)
-{
-  const Borders borders(surface, recognition);
-  for (bool isNew = true; isNew;) // what is released is beside others
-  {
-    isNew = false;
-    for (std::size_t r = 0; r < recognition.Regions.size(); ++r)
-    {
-      RecognizedRegion& region = recognition.Regions[r];
-      if (region.Surface.Type != SurfaceType::FreeForm &&
-        !IsOnItsSurface(
-          surface, region, borders.EndAtEdges(static_cast<int>(r)), recognition.Tolerance))
-      {
-        region.Surface.Type = SurfaceType::FreeForm;
-        isNew = true;
-      }
-    }
-  }
-  double analytic = 0.0;
-  recognition.NumOfType = {};
-  for (const RecognizedRegion& region : recognition.Regions)
-  {
-    ++recognition.NumOfType[static_cast<std::size_t>(region.Surface.Type)];
-    for (const int t : region.Triangles)
-    {
-      analytic += region.Surface.Type == SurfaceType::FreeForm
-        ? 0.0
-        : TriangleArea(surface.Points, surface.Triangles[At(t)]);
-    }
-  }
-  return analytic / surface.Area;
-}
-
-bool IsPatchwork(const DiscMesh& surface, const SurfaceRecognition& recognition)
-{
-  SurfaceRecognition left = recognition;
-  ReleaseDoubtfulRegions(surface, left);
-  double doubtful = 0.0;
-  for (std::size_t r = 0; r < left.Regions.size(); ++r)
-  {
-    const RecognizedRegion& region = left.Regions[r];
-    if (region.Surface.Type == SurfaceType::FreeForm &&
-      region.MaxDistance > Exact * recognition.Tolerance)
-    {
-      for (const int t : region.Triangles)
-      {
-        doubtful += TriangleArea(surface.Points, surface.Triangles[At(t)]);
-      }
-    }
-  }
-  return doubtful > 0.5 * surface.Area;
 }
 
 Result<ChartedRegions> ChartFreeRegions(

@@ -7,17 +7,6 @@
 /// Private to ModelMesh: regions of free form beside analytic ones.
 namespace knotwork
 {
-/// Makes regions free whose points do not lie on their surface as points with noise do: distances
-/// of neighbours are alike (a smooth shape that leaves the surface) or go up to the tolerance, and
-/// the region does not end at sharp edges; or there are hardly more points than the surface has
-/// parameters.
-/// @return the share of the area that is still of analytic surfaces.
-double ReleaseDoubtfulRegions(const DiscMesh& surface, SurfaceRecognition& recognition);
-
-/// Whether more than half of a mesh is covered by surfaces on which its points lie neither exactly
-/// nor as points with noise do: pieces of a smooth shape.
-bool IsPatchwork(const DiscMesh& surface, const SurfaceRecognition& recognition);
-
 /// A mesh whose regions of free form are charts.
 struct ChartedRegions
 {

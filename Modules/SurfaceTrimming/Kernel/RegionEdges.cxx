@@ -622,7 +622,6 @@ Status MoveHalfway(const std::vector<EdgeOnPatch>& images, EdgeSpline& edge)
   moves.row(moves.rows() - 1).setZero();
   const PointMatrix change = interpolation.Solve(moves);
   edge.Curve.ControlPoints += change;
-  edge.Shift = change.rowwise().norm().maxCoeff();
   edge.Gap = GapOfImages(edge, images);
   return {};
 }

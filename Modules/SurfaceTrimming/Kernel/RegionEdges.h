@@ -67,7 +67,6 @@ struct EdgeSpline
   Spline<1> Curve;
   std::vector<PointMatrix> UV; ///< pcurves in the space of the curve, one an image
   double Gap = 0.0;            ///< largest distance of curve and images at samples
-  double Shift = 0.0;          ///< of FollowCurve: most that the curve was moved
 };
 
 /// An edge with its pcurves over one space: linear where that is exact, else quintic with knots

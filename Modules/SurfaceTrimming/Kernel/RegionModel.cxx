@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "RegionModel.h"
-#include "FreeFaces.h"
+#include "ChartedModel.h"
+#include "RegionEvidence.h"
 #include "RegionLoops.h"
 #include "TriangleSag.h"
 
@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
 
 namespace knotwork
 {
@@ -61,8 +60,8 @@ public:
     }
   }
 
-  /// Of the first region that is no face as it is; -1: none.
-  int Failed() const { return this->FailedRegion; }
+  /// Regions that are no faces as they are, or whose surfaces are too far from common edges.
+  const std::vector<int>& Failed() const { return this->FailedRegions; }
 
   Result<RegionModel> Run()
   {
@@ -96,14 +95,12 @@ public:
         break;
       }
     }
-    if (!this->Crossing.empty())
-    {
-      this->FailedRegion = static_cast<int>(this->Crossing.front());
-    }
+    this->FailedRegions.assign(this->Crossing.begin(), this->Crossing.end());
     if (!status)
     {
       return status;
     }
+    this->FindApart();
     this->Measure();
     const Status certified = this->Certify();
     return certified ? Result<RegionModel>(std::move(this->Made)) : Result<RegionModel>(certified);
@@ -128,6 +125,7 @@ private:
   Status FitCurves();
   Status MakeFaces();
   bool FollowAlongCrossing();
+  void FindApart();
   void Measure();
   Status Certify();
   StepUse AddImage(std::size_t region, const LoopStep& step);
@@ -145,8 +143,7 @@ private:
   std::vector<AnalyticSurface> Surfaces;
   RegionChains Chains;
   FreeFaces Free;
-  int FailedRegion = -1;
-  std::map<std::pair<int, int>, std::vector<int>> TrianglesBeside; ///< edges, where charts are
+  std::vector<int> FailedRegions;
   std::vector<int> EdgeOfChain;      ///< of the free faces' edges; -1: of none
   std::vector<RegionLoops> Loops;    ///< one a region
   std::vector<std::size_t> Crossing; ///< regions whose loops do
@@ -223,7 +220,7 @@ Status RegionModeler::OpenRegions()
                                         this->Farthest, this->Chains, this->Loops[r]);
     if (!status)
     {
-      this->FailedRegion = static_cast<int>(r);
+      this->FailedRegions = { static_cast<int>(r) };
       return status;
     }
   }
@@ -429,10 +426,7 @@ Status RegionModeler::FitCurves()
       return spline.Status;
     }
     curve.Spline = std::move(spline.Value);
-    // of the spline faces' images it was bounded before the curve was moved
-    const double given = curve.IsGiven ? this->Free.Trimmed.Loops.MaxEdgeGap : 0.0;
-    this->Made.MaxEdgeGap =
-      std::max({ this->Made.MaxEdgeGap, curve.Spline.Gap, given + curve.Spline.Shift });
+    this->Made.MaxEdgeGap = std::max(this->Made.MaxEdgeGap, curve.Spline.Gap);
   }
   return {};
 }
@@ -526,6 +520,31 @@ bool RegionModeler::FollowAlongCrossing()
   return isNew;
 }
 
+/// Where surfaces are farther than the tolerance from a common edge, the region with the smaller
+/// area is not on its surface there.
+void RegionModeler::FindApart()
+{
+  const auto area = [&](int region)
+  {
+    double sum = 0.0;
+    for (const int t : this->Recognition.Regions[static_cast<std::size_t>(region)].Triangles)
+    {
+      sum +=
+        TriangleArea(this->Surface.Points, this->Surface.Triangles[static_cast<std::size_t>(t)]);
+    }
+    return sum;
+  };
+  for (std::size_t c = 0; c < this->Chains.Chains.size(); ++c)
+  {
+    const auto& [left, right] = this->Chains.Chains[c].Regions;
+    const bool isApart = this->Curves[c].Spline.Gap > this->Recognition.Tolerance;
+    if (isApart && !this->Curves[c].IsGiven && left >= 0 && right >= 0 && left != right)
+    {
+      this->FailedRegions.push_back(area(left) < area(right) ? left : right);
+    }
+  }
+}
+
 /// Of the curve from the chain's edges and back. The curve is cut next to the mesh's points; each
 /// part lies in the hull of its control points, and runs from one end of its edge to the other.
 double RegionModeler::BoundChain(const RegionChain& chain, const ModelCurve& curve) const
@@ -599,30 +618,16 @@ Status RegionModeler::Certify()
 /// Whether triangles on both sides of a chain meet at an angle along most of it.
 bool RegionModeler::IsSharpInMesh(const RegionChain& chain) const
 {
-  constexpr double Sharp = 25.0 * 0.017453292519943295;
-  const auto normal = [&](int t) -> Eigen::Vector3d
-  {
-    const auto& [a, b, c] = this->Surface.Triangles[static_cast<std::size_t>(t)];
-    const Eigen::Vector3d from = this->Surface.Point(a);
-    return (this->Surface.Point(b) - from).cross(this->Surface.Point(c) - from);
-  };
-  double all = 0.0;
-  double sharp = 0.0;
   std::vector<int> ids; // of the mesh: charts may have more on the way
   std::copy_if(chain.PointIds.begin(), chain.PointIds.end(), std::back_inserter(ids),
-    [&](int id) { return id >= 0 && id < this->Surface.NumPoints(); });
+    [&](int id) { return id < this->Surface.NumPoints(); });
+  double all = 0.0;
+  double sharp = 0.0;
   for (std::size_t i = 0; i + 1 < ids.size(); ++i)
   {
-    const auto beside = this->TrianglesBeside.find(std::minmax(ids[i], ids[i + 1]));
-    if (beside == this->TrianglesBeside.end() || beside->second.size() != 2)
-    {
-      continue;
-    }
-    const Eigen::Vector3d a = normal(beside->second[0]);
-    const Eigen::Vector3d b = normal(beside->second[1]);
     const double length = (this->Surface.Point(ids[i]) - this->Surface.Point(ids[i + 1])).norm();
     all += length;
-    sharp += std::atan2(a.cross(b).norm(), a.dot(b)) >= Sharp ? length : 0.0;
+    sharp += AngleAlong(this->Surface, ids[i], ids[i + 1]) >= SharpDegrees ? length : 0.0;
   }
   return sharp > 0.5 * all;
 }
@@ -661,15 +666,9 @@ void RegionModeler::Measure()
   if (this->Charts)
   {
     this->Made.FreeDeviation = this->Free.Trimmed.MaxDeviation + this->Free.MaxMove;
-    this->Made.MaxNormalAngle = this->Free.MaxNormalAngle;
-    for (std::size_t t = 0; t < this->Surface.Triangles.size(); ++t)
-    {
-      const auto& [a, b, c] = this->Surface.Triangles[t];
-      for (const auto& edge : { std::minmax(a, b), std::minmax(b, c), std::minmax(c, a) })
-      {
-        this->TrianglesBeside[edge].push_back(static_cast<int>(t));
-      }
-    }
+    const FreeJoints joints = MeasureJoints(this->Made.Model, *this->Charts, this->Params.Threads);
+    this->Made.MaxNormalAngle = joints.MaxAngle;
+    this->Made.MaxEdgeGap = std::max(this->Made.MaxEdgeGap, joints.MaxGap);
   }
   this->Made.NumRims = static_cast<int>(this->Surface.Loops.size());
   for (std::size_t t = 0; t < this->Surface.Triangles.size(); ++t)
@@ -714,6 +713,15 @@ void RegionModeler::Measure()
 }
 }
 
+Result<RegionModel> ModelCharted(const DiscMesh& surface, const SurfaceRecognition& recognition,
+  ChartedRegions* charts, const RegionModelParams& params, std::vector<int>& failed)
+{
+  RegionModeler modeler(surface, recognition, charts, params);
+  auto model = modeler.Run();
+  failed = modeler.Failed();
+  return model;
+}
+
 Result<RegionModel> ModelRegions(
   const DiscMesh& surface, const SurfaceRecognition& recognition, const RegionModelParams& params)
 {
@@ -726,201 +734,7 @@ Result<RegionModel> ModelRegions(
   {
     return { ErrorCode::SizeMismatch, "the regions are of another mesh" };
   }
-  return RegionModeler(surface, recognition, nullptr, params).Run();
-}
-
-namespace
-{
-constexpr int ManyFaces = 1000;
-constexpr std::size_t FewFaces = 100;
-constexpr std::size_t TrianglesOfFace = 6;
-
-/// The faces of another part beside those that are there.
-void Append(RegionModel&& part, RegionModel& all)
-{
-  for (TrimmedFace& face : part.Model.Faces)
-  {
-    for (TrimmedLoop& loop : face.Loops)
-    {
-      for (TrimmingCurve& use : loop.Curves)
-      {
-        use.Edge += all.Model.NumEdges;
-        use.Vertices[0] += all.Model.NumVertices;
-        use.Vertices[1] += all.Model.NumVertices;
-      }
-    }
-    all.Model.Faces.push_back(std::move(face));
-  }
-  all.Model.NumEdges += part.Model.NumEdges;
-  all.Model.NumVertices += part.Model.NumVertices;
-  all.Verdicts.insert(all.Verdicts.end(), part.Verdicts.begin(), part.Verdicts.end());
-  all.Certificates.insert(
-    all.Certificates.end(), part.Certificates.begin(), part.Certificates.end());
-  for (std::size_t t = 0; t < all.NumOfType.size(); ++t)
-  {
-    all.NumOfType[t] += part.NumOfType[t];
-  }
-  for (int RegionModel::*const count : { &RegionModel::NumRims, &RegionModel::NumPoleFaces,
-         &RegionModel::NumEdges, &RegionModel::NumLines, &RegionModel::NumCircles,
-         &RegionModel::NumSharpEdges, &RegionModel::NumVertices })
-  {
-    all.*count += part.*count;
-  }
-  for (double RegionModel::*const distance :
-    { &RegionModel::MaxPointDistance, &RegionModel::MaxDistance, &RegionModel::MaxEdgeDistance,
-      &RegionModel::MaxEdgeGap, &RegionModel::FreeDeviation, &RegionModel::MaxNormalAngle,
-      &RegionModel::MaxVertexDistance, &RegionModel::Tolerance })
-  {
-    all.*distance = std::max(all.*distance, part.*distance);
-  }
-}
-}
-
-namespace
-{
-bool HasFreeForm(const SurfaceRecognition& recognition)
-{
-  return recognition.NumOfType[static_cast<std::size_t>(SurfaceType::FreeForm)] > 0;
-}
-
-/// Analytic faces and, beside them, charts with spline surfaces.
-/// @param failed  result: the analytic region that is no face; -1: none.
-Result<RegionModel> ModelMixed(const DiscMesh& surface, const SurfaceRecognition& recognition,
-  const RegionModelParams& params, int& failed)
-{
-  FreeRegionParams free;
-  free.Flatten = params.Flatten;
-  free.Flatten.Threads = params.Threads;
-  free.Charts = params.Charts;
-  failed = -1;
-  auto charted = ChartFreeRegions(surface, recognition, free);
-  if (!charted)
-  {
-    return charted.Status;
-  }
-  const std::vector<int> origins = charted->Origins;
-  RegionModeler modeler(charted->Surface, charted->Recognition, &charted.Value, params);
-  auto model = modeler.Run();
-  const auto region = static_cast<std::size_t>(modeler.Failed());
-  failed = region < origins.size() ? origins[region] : -1;
-  return model;
-}
-
-/// A model of one part. Regions that are no faces as they are become ones of free form.
-Result<RegionModel> ModelPart(
-  const DiscMesh& surface, SurfaceRecognition& recognition, const RegionModelParams& params)
-{
-  constexpr int MaxReleases = 8;
-  Result<RegionModel> model;
-  for (int release = 0; release <= MaxReleases; ++release)
-  {
-    int failed = -1;
-    if (!params.FreeForm || !HasFreeForm(recognition))
-    {
-      RegionModeler modeler(surface, recognition, nullptr, params);
-      model = modeler.Run();
-      failed = modeler.Failed();
-    }
-    else
-    {
-      model = ModelMixed(surface, recognition, params, failed);
-    }
-    if (!params.FreeForm || failed < 0)
-    {
-      break;
-    }
-    SurfaceType& type = recognition.Regions[static_cast<std::size_t>(failed)].Surface.Type;
-    --recognition.NumOfType[static_cast<std::size_t>(type)];
-    type = SurfaceType::FreeForm;
-    ++recognition.NumOfType[static_cast<std::size_t>(type)];
-  }
-  return model;
-}
-}
-
-namespace
-{
-struct RecognizedPart
-{
-  DiscMesh Surface;
-  SurfaceRecognition Recognition;
-};
-
-/// @param analytic  result: share of the area of surfaces that are not of free form.
-Result<std::vector<RecognizedPart>> RecognizeParts(const TriangleMesh& mesh,
-  const RecognitionParams& recognition, const RegionModelParams& params, double& analytic)
-{
-  const std::vector<MeshComponent> components = ConnectedComponents(mesh);
-  if (components.empty())
-  {
-    return { ErrorCode::EmptyInput, "the mesh has no triangles" };
-  }
-  RecognitionParams own = recognition;
-  own.Tolerance = recognition.Tolerance > 0.0
-    ? recognition.Tolerance
-    : 1e-3 * (mesh.Points.colwise().maxCoeff() - mesh.Points.colwise().minCoeff()).norm();
-  own.MaxRegions = recognition.MaxRegions > 0 ? recognition.MaxRegions : ManyFaces;
-  std::vector<RecognizedPart> parts;
-  double area = 0.0;
-  double known = 0.0;
-  for (const MeshComponent& component : components)
-  {
-    auto surface = CheckComponent(mesh, component);
-    if (!surface)
-    {
-      return surface.Status;
-    }
-    auto regions = RecognizeSurfaces(surface.Value, own);
-    if (!regions)
-    {
-      return regions.Status;
-    }
-    const bool isFree =
-      HasFreeForm(regions.Value) || (params.FreeForm && IsPatchwork(surface.Value, regions.Value));
-    const std::size_t faces = regions->Regions.size();
-    if ((!isFree || !params.FreeForm) && faces > FewFaces &&
-      faces * TrianglesOfFace > surface->Triangles.size())
-    {
-      return { ErrorCode::NotInSpace,
-        std::to_string(faces) + " regions of " + std::to_string(surface->Triangles.size()) +
-          " triangles are facets of a free shape" };
-    }
-    area += surface->Area;
-    known += surface->Area *
-      (isFree && params.FreeForm ? ReleaseDoubtfulRegions(surface.Value, regions.Value) : 1.0);
-    parts.push_back({ std::move(surface.Value), std::move(regions.Value) });
-  }
-  analytic = known / area;
-  return parts;
-}
-}
-
-Result<RegionModel> ModelMesh(
-  const TriangleMesh& mesh, const RecognitionParams& recognition, const RegionModelParams& params)
-{
-  double analytic = 0.0;
-  auto parts = RecognizeParts(mesh, recognition, params, analytic);
-  if (!parts)
-  {
-    return parts.Status;
-  }
-  if (analytic < params.LeastAnalytic)
-  {
-    return { ErrorCode::NotInSpace,
-      "planes, cylinders, spheres, cones and tori are only " + Digits(100.0 * analytic) +
-        " % of the area, less than " + Digits(100.0 * params.LeastAnalytic) +
-        " %; make spline faces of the whole" };
-  }
-  RegionModel all;
-  for (RecognizedPart& recognized : parts.Value)
-  {
-    auto part = ModelPart(recognized.Surface, recognized.Recognition, params);
-    if (!part)
-    {
-      return part.Status;
-    }
-    Append(std::move(part.Value), all);
-  }
-  return all;
+  std::vector<int> failed;
+  return ModelCharted(surface, recognition, nullptr, params, failed);
 }
 }

@@ -133,7 +133,7 @@ RegionModel ModelOf(const TriangleMesh& mesh, const RegionModelParams& params = 
   }
   EXPECT_LE(model->MaxPointDistance, model->Tolerance);
   EXPECT_LE(model->FreeDeviation, model->Tolerance);
-  EXPECT_LE(model->MaxEdgeGap, 2.0 * model->Tolerance);
+  EXPECT_LE(model->MaxEdgeGap, model->Tolerance);
   std::map<int, int> uses;
   for (const TrimmedFace& face : model->Model.Faces)
   {
