@@ -16,7 +16,7 @@
  * are the faces themselves, their surfaces and their trimming curves as spline grids
  * (TrimmedGrids.h), whose cell array `SurfaceType` makes vtkCADWriter write planes, cylinders, ...
  * as such. Output 3 is a table of one row: Faces, Planes, Cylinders, Spheres, Cones, Tori,
- * FreeFaces, Edges, Lines, Circles, SharpEdges (where surfaces meet at 5 degrees or more),
+ * FreeFaces, Edges, Lines, Circles, SharpEdges (of 5 degrees or more, of 25 beside free form),
  * Vertices, Loops (rims of the mesh), Tolerance, MaxDeviation (of the mesh's points from analytic
  * faces, of the mesh and spline faces both ways, and of edges from their faces), MaxNormalAngle
  * (between spline faces where the mesh is smooth), MaxSag (bound of the distance of triangles from

@@ -3,8 +3,6 @@
 #include "BoundaryChains.h"
 #include "RegionEdges.h"
 #include "RegionLoops.h"
-#include <knotwork/SplineCore/BezierForm.h>
-#include <knotwork/SplineCore/CurveInterpolation.h>
 
 #include <Eigen/Geometry>
 
@@ -338,57 +336,6 @@ Status SplitAtChartCorners(
     }
   }
   return {};
-}
-
-FreeJoints MeasureJoints(const TrimmedModel& model, const ChartedRegions& charted, int threads)
-{
-  constexpr int Samples = 5; // a span
-  constexpr double Degrees = 180.0 / 3.14159265358979323846;
-  struct Side
-  {
-    PointMatrix Normals;
-    int SmoothRegion = -1;
-  };
-  FreeJoints joints;
-  std::map<int, Side> sides; // of edges met once
-  EvaluationParams params;
-  params.Derivatives = 1;
-  params.Threads = threads;
-  for (std::size_t chart = 0; chart < charted.Charts.size(); ++chart)
-  {
-    const TrimmedFace& face = model.Faces[At(charted.FirstChart) + chart];
-    const BezierForm<2> form = MakeBezierForm<2>(face.Surface, threads);
-    for (const TrimmedLoop& loop : face.Loops)
-    {
-      for (const TrimmingCurve& use : loop.Curves)
-      {
-        const PointMatrix t = ParametersInSpans(use.Curve.Space->Knots[0], Samples);
-        EvaluationBatch batch;
-        EvaluateParameters<2>(form, CurvePoints({ use.Curve.Space, use.UV, {} }, t), params, batch);
-        joints.MaxGap = std::max(
-          joints.MaxGap, (batch.Values - CurvePoints(use.Curve, t)).rowwise().norm().maxCoeff());
-        Side own;
-        own.SmoothRegion = charted.SmoothRegion[chart];
-        own.Normals.resize(t.rows(), 3);
-        for (Eigen::Index i = 0; i < t.rows(); ++i)
-        {
-          const Eigen::Vector3d u = batch.First.row(i).head(3).transpose();
-          const Eigen::Vector3d v = batch.First.row(i).tail(3).transpose();
-          own.Normals.row(i) = u.cross(v).transpose();
-        }
-        const auto [other, isNew] = sides.try_emplace(use.Edge, own);
-        const bool isSmooth = !isNew && other->second.SmoothRegion == own.SmoothRegion;
-        for (Eigen::Index i = 0; isSmooth && i < t.rows(); ++i)
-        {
-          const Eigen::Vector3d a = own.Normals.row(i).transpose();
-          const Eigen::Vector3d b = other->second.Normals.row(i).transpose();
-          joints.MaxAngle =
-            std::max(joints.MaxAngle, Degrees * std::atan2(a.cross(b).norm(), a.dot(b)));
-        }
-      }
-    }
-  }
-  return joints;
 }
 
 Result<FreeFaces> FitFreeFaces(ChartedRegions& charted,

@@ -20,14 +20,6 @@ struct FreeFaces
   double MaxMove = 0.0;         ///< of the charts' points to analytic surfaces beside them
 };
 
-/// At samples of edges of spline faces.
-struct FreeJoints
-{
-  double MaxGap = 0.0;   ///< of curves from the images of their pcurves
-  double MaxAngle = 0.0; ///< degrees, between charts of one smooth region
-};
-FreeJoints MeasureJoints(const TrimmedModel& model, const ChartedRegions& charted, int threads);
-
 /// Fits surfaces and edges. Charts' points along analytic faces are moved onto these first; edges
 /// end at the vertices of chains.
 /// @param charted  its charts get the points that chains have between points of the mesh, and more

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ChartedModel.h"
+#include "EdgeMeasures.h"
 #include "RegionEvidence.h"
 #include "RegionLoops.h"
 #include "TriangleSag.h"
@@ -12,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace knotwork
 {
@@ -22,7 +22,6 @@ constexpr double ExactShare = 1e-9;  ///< of the diagonal
 constexpr double NearFree = 0.1;     ///< of the tolerance: way of points of free form
 constexpr double FollowShare = 0.02; ///< of the tolerance, along edges of free form
 constexpr int MaxAttempts = 3;       ///< to make loops that do not cross
-constexpr double SharpEdge = 5.0 * 0.017453292519943295; ///< between normals
 
 /// A curve of the model: of a chain, a seam or a pole.
 struct ModelCurve
@@ -102,6 +101,7 @@ public:
     }
     this->FindApart();
     this->Measure();
+    this->MeasureJoints();
     const Status certified = this->Certify();
     return certified ? Result<RegionModel>(std::move(this->Made)) : Result<RegionModel>(certified);
   }
@@ -131,8 +131,11 @@ private:
   StepUse AddImage(std::size_t region, const LoopStep& step);
   void SetVerticesOfSeam(const std::vector<StepUse>& loop, std::size_t seam);
   double BoundChain(const RegionChain& chain, const ModelCurve& curve) const;
-  bool IsSharp(const RegionChain& chain) const;
-  bool IsSharpInMesh(const RegionChain& chain) const;
+  void MeasureJoints();
+  int SmoothRegionOf(std::size_t region) const
+  {
+    return this->Charts->SmoothRegion[region - static_cast<std::size_t>(this->Charts->FirstChart)];
+  }
 
   const DiscMesh& Surface;
   const SurfaceRecognition& Recognition;
@@ -615,48 +618,30 @@ Status RegionModeler::Certify()
   return {};
 }
 
-/// Whether triangles on both sides of a chain meet at an angle along most of it.
-bool RegionModeler::IsSharpInMesh(const RegionChain& chain) const
+/// Edges between faces: gaps, and whether they are sharp.
+void RegionModeler::MeasureJoints()
 {
-  std::vector<int> ids; // of the mesh: charts may have more on the way
-  std::copy_if(chain.PointIds.begin(), chain.PointIds.end(), std::back_inserter(ids),
-    [&](int id) { return id < this->Surface.NumPoints(); });
-  double all = 0.0;
-  double sharp = 0.0;
-  for (std::size_t i = 0; i + 1 < ids.size(); ++i)
+  constexpr double Sharp = 5.0; // degrees
+  const std::vector<EdgeMeasure> edges = MeasureEdges(this->Made.Model, this->Params.Threads);
+  for (const EdgeMeasure& edge : edges)
   {
-    const double length = (this->Surface.Point(ids[i]) - this->Surface.Point(ids[i + 1])).norm();
-    all += length;
-    sharp += AngleAlong(this->Surface, ids[i], ids[i + 1]) >= SharpDegrees ? length : 0.0;
-  }
-  return sharp > 0.5 * all;
-}
-
-/// Whether the surfaces on both sides of a chain meet at an angle.
-bool RegionModeler::IsSharp(const RegionChain& chain) const
-{
-  const auto& [left, right] = chain.Regions;
-  if (left < 0 || right < 0 || left == right)
-  {
-    return false;
-  }
-  if (this->Charts && std::max(left, right) >= this->Charts->FirstChart)
-  {
-    return this->IsSharpInMesh(chain);
-  }
-  const auto normal = [&](int region, const Eigen::Vector3d& point)
-  {
-    const auto r = static_cast<std::size_t>(region);
-    const Eigen::Vector3d outward = this->Surfaces[r].Normal(point);
-    return Eigen::Vector3d(this->Recognition.Regions[r].Reversed ? -outward : outward);
-  };
-  return std::any_of(chain.Points.begin(), chain.Points.end(),
-    [&](const Eigen::Vector3d& point)
+    this->Made.MaxEdgeGap = std::max(this->Made.MaxEdgeGap, edge.Gap);
+    if (edge.Faces.size() != 2 || edge.Faces[0] == edge.Faces[1])
     {
-      const Eigen::Vector3d a = normal(left, point);
-      const Eigen::Vector3d b = normal(right, point);
-      return std::atan2(a.cross(b).norm(), a.dot(b)) >= SharpEdge;
-    });
+      continue;
+    }
+    const auto first = static_cast<std::size_t>(edge.Faces[0]);
+    const auto second = static_cast<std::size_t>(edge.Faces[1]);
+    const bool isFree = this->IsFree(first) || this->IsFree(second);
+    const bool isInside = this->IsFree(first) && this->IsFree(second) &&
+      this->SmoothRegionOf(first) == this->SmoothRegionOf(second);
+    if (isInside)
+    {
+      this->Made.MaxNormalAngle = std::max(this->Made.MaxNormalAngle, edge.MaxAngle);
+    }
+    // splines follow normals less well than points
+    this->Made.NumSharpEdges += edge.MedianAngle >= (isFree ? SharpDegrees : Sharp) ? 1 : 0;
+  }
 }
 
 void RegionModeler::Measure()
@@ -666,9 +651,6 @@ void RegionModeler::Measure()
   if (this->Charts)
   {
     this->Made.FreeDeviation = this->Free.Trimmed.MaxDeviation + this->Free.MaxMove;
-    const FreeJoints joints = MeasureJoints(this->Made.Model, *this->Charts, this->Params.Threads);
-    this->Made.MaxNormalAngle = joints.MaxAngle;
-    this->Made.MaxEdgeGap = std::max(this->Made.MaxEdgeGap, joints.MaxGap);
   }
   this->Made.NumRims = static_cast<int>(this->Surface.Loops.size());
   for (std::size_t t = 0; t < this->Surface.Triangles.size(); ++t)
@@ -703,7 +685,6 @@ void RegionModeler::Measure()
     }
     this->Made.MaxEdgeDistance =
       std::max(this->Made.MaxEdgeDistance, this->BoundChain(chain, this->Curves[c]));
-    this->Made.NumSharpEdges += this->IsSharp(chain) ? 1 : 0;
   }
   for (const RegionVertex& vertex : this->Chains.Vertices)
   {

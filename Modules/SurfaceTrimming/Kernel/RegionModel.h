@@ -35,8 +35,9 @@ struct RegionModel
   int NumEdges = 0;   ///< without seams and poles
   int NumLines = 0;   ///< of them
   int NumCircles = 0; ///< of them
-  int NumSharpEdges =
-    0; ///< of them: between surfaces whose normals differ by 5 degrees or more somewhere
+  /// Of them: where the normals of both faces differ, along half of the edge, by 5 degrees or more,
+  /// or by 25 beside a face of free form.
+  int NumSharpEdges = 0;
   int NumVertices = 0;
   double MaxPointDistance = 0.0; ///< of the mesh's points from the surfaces of their regions
   /// Bound of the distance of all points of triangles from the surface of their region, and of
@@ -48,7 +49,8 @@ struct RegionModel
   /// the mesh may change from one to the other anywhere, and this says how far from the curve.
   double MaxEdgeDistance = 0.0;
   double MaxEdgeGap = 0.0; ///< of curves from the images of their pcurves, at samples
-  /// Bound of the distance of faces of free form and the mesh, both ways; 0 without such.
+  /// Bound of the distance of faces of free form and the mesh, both ways, but for the sag of chords
+  /// beside curved faces, which is in MaxDistance; 0 without such.
   double FreeDeviation = 0.0;
   /// Degrees, at samples, between faces of free form along edges where the mesh is smooth.
   double MaxNormalAngle = 0.0;

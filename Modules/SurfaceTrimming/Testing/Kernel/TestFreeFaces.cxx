@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -256,6 +257,75 @@ TEST(FreeFaces, SeveralChartsShareEdgesWithAPlane)
   const Status few = ModelMesh(mesh, {}, params).Status;
   EXPECT_EQ(few.Code, ErrorCode::NotInSpace);
   EXPECT_NE(few.Detail.find("% of the area, less than 50 %"), std::string::npos) << few.Detail;
+}
+
+/// Both ends are curved, and the points of one rim lie between those of the other: the seam of the
+/// bar ends at a point of the mesh at one end only, the other chart gets one for it.
+TEST(FreeFaces, SeamsEndBetweenPointsOfTheMesh)
+{
+  constexpr int n = 48;
+  const auto at = [](double u, double r, double t)
+  {
+    const double angle = Angle(u) + (2.0 * Pi / n) * 0.37 * t;
+    const double x = r * std::cos(angle);
+    const double y = r * std::sin(angle);
+    return Eigen::Vector3d(x, y, (1.0 - t) * 0.2 * OverDisc(y, x) + t * (1.0 + OverDisc(x, y)));
+  };
+  TriangleMesh mesh;
+  mesh.Points.resize(0, 3);
+  AddGrid([&](double u, double v) { return at(u, 1.0 - v, 1.0); }, n, 12, mesh);
+  AddGrid([&](double u, double v) { return at(u, v, 0.0); }, n, 12, mesh);
+  AddGrid([&](double u, double v) { return at(u, 1.0, v); }, n, 3, mesh);
+  const RegionModel model = ModelOf(mesh);
+  EXPECT_EQ(Count(model, SurfaceType::Cylinder), 1);
+  EXPECT_EQ(Count(model, SurfaceType::FreeForm), 2);
+  EXPECT_EQ(model.NumSharpEdges, model.NumEdges);
+  EXPECT_NEAR(VolumeOf(model), 1.8 * Pi, 4.0 * Pi * 1.25 * model.Tolerance);
+}
+
+/// Two flat squares in the upper face touch at a corner, and free form lies all around: it touches
+/// itself there.
+TEST(FreeFaces, RegionsMayTouchThemselvesInAPoint)
+{
+  const auto squared = [](double x, double y, double a, double b)
+  {
+    const double dx = std::max({ 0.0, a - x, x - b });
+    const double dy = std::max({ 0.0, a - y, y - b });
+    return dx * dx + dy * dy;
+  };
+  const RegionModel model = ModelOf(BoxUnder(
+    [&](double x, double y)
+    {
+      const double first = squared(x, y, 0.25, 0.5);
+      const double second = squared(x, y, 0.5, 0.75);
+      return 1.0 + 8.0 * first * second / (first + second + 0.02);
+    }));
+  EXPECT_EQ(Count(model, SurfaceType::Plane), 5 + 2);
+  EXPECT_GE(Count(model, SurfaceType::FreeForm), 1);
+}
+
+/// Two deep domes on each other with a sharp rim that both share: charts of either are cut, some of
+/// the cuts end on the rim.
+TEST(FreeFaces, CutsOfBothSidesOfASharpEdge)
+{
+  const auto dome = [](double u, double t, double sign)
+  {
+    const double polar = 0.5 * Pi * t;
+    const double r = 1.0 + 0.15 * std::cos(3.0 * Angle(u)) * std::sin(polar);
+    return Eigen::Vector3d(r * std::sin(polar) * std::cos(Angle(u)),
+      r * std::sin(polar) * std::sin(Angle(u)),
+      t < 1.0 ? sign * 1.5 * std::pow(std::cos(polar), 0.75) : 0.0);
+  };
+  TriangleMesh mesh;
+  mesh.Points.resize(0, 3);
+  AddGrid([&](double u, double v) { return dome(u, 1.0 - v, 1.0); }, 64, 32, mesh);
+  AddGrid([&](double u, double v) { return dome(u, v, -0.6); }, 64, 32, mesh);
+  RegionModelParams params;
+  params.LeastAnalytic = 0.0;
+  params.Charts.MaxStretch = 1.4;
+  const RegionModel model = ModelOf(mesh, params);
+  EXPECT_GE(Count(model, SurfaceType::FreeForm), 3);
+  EXPECT_NEAR(VolumeOf(model), VolumeOf(mesh.Points, mesh.Triangles), 2e-2);
 }
 
 TEST(FreeFaces, AreRefusedOnRequest)
