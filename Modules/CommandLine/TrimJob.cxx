@@ -49,6 +49,7 @@ struct TrimJob
   std::string DeviationFile;
   std::string TableFile;
   bool Features = true;
+  CLI::App* App = nullptr;
   vtkNew<vtkAnalyticModel> Model;
   vtkNew<vtkMeshParameterization> Flatten;
   vtkNew<vtkTrimmedSurface> Trim;
@@ -140,6 +141,7 @@ struct TrimJob
       return made.Code == ErrorCode::Aborted ? made : Status();
     }
     session.Report["analytic"] = true;
+    this->WarnOfUnused(session);
     session.Report["points"] = mesh->GetNumberOfElements(vtkDataObject::POINT);
     session.Report["triangles"] = mesh->GetNumberOfElements(vtkDataObject::CELL);
     ReportTruths(table, 0, { "WithinTolerance", "LoopsProved" }, session.Report);
@@ -155,6 +157,29 @@ struct TrimJob
     return status ? session.WriteOutputs(this->Model,
                       { this->TriangleFile, this->SurfaceFile, this->CurveFile, this->TableFile })
                   : status;
+  }
+
+  /// Options that were given and count for charts and nets of splines alone.
+  void WarnOfUnused(Session& session) const
+  {
+    std::string unused;
+    for (const char* name :
+      { "--method", "--degree", "--elements", "--maximum-elements", "--margin", "--smoothing",
+        "--centres", "--maximum-functions", "--flatten", "--laplacian-weights", "--geodesics",
+        "--neighbours", "--landmarks", "--maximum-iterations", "--minimum-participation",
+        "--fallback", "--maximum-charts", "--crease-angle" })
+    {
+      if (this->App->get_option(name)->count() > 0)
+      {
+        unused += (unused.empty() ? "" : ", ") + std::string(name);
+      }
+    }
+    if (!unused.empty())
+    {
+      session.Warn({ unused +
+        " did not count: the mesh has planes, cylinders, spheres, cones or "
+        "tori; --features off makes splines alone" });
+    }
   }
 
   /// Writes the file, reads it again and reports what was found in it.
@@ -228,6 +253,7 @@ struct TrimJob
 Job Make(CLI::App& app)
 {
   auto job = std::make_shared<TrimJob>();
+  job->App = &app;
   app
     .add_option("mesh", job->Input,
       "triangle mesh (.off .obj .ply .stl .vtp .vtu); with a point array UV it is used as it is, "

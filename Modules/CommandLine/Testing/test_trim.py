@@ -160,6 +160,15 @@ def test_machined_parts_are_planes_and_cylinders():
     assert abs(radius - 0.9).max() < 1e-6
 
 
+def test_options_of_splines_alone_are_said_not_to_count():
+    square = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+    mesh = write_off("square.off", square, [(0, 1, 2), (0, 2, 3)])
+    done = knotwork_testing.run_program("trim", mesh, "--output", path("square.step"), "--degree", 5, "--maximum-charts", 9)
+    assert done.returncode == 0 and "--degree, --maximum-charts did not count" in done.stderr, done.stderr
+    done = knotwork_testing.run_program("trim", mesh, "--output", path("square.step"), "--effort", 5, "--tolerance", 0.01)
+    assert done.returncode == 0 and done.stderr == "", done.stderr
+
+
 def test_free_shapes_are_splines_and_the_report_says_why():
     wave = sheet("wave.off", lambda u, v: np.c_[u, v, 0.2 * np.sin(5 * u) * np.cos(4 * v)], two_windows)
     report = trim(wave, "--output", path("wave.step"), features="on")

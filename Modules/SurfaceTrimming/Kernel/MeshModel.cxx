@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ChartedModel.h"
 #include "RegionEvidence.h"
+#include <knotwork/DomainParameterization/WorkBudget.h>
 #include <knotwork/SplineCore/Numbers.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@ namespace knotwork
 namespace
 {
 constexpr int ManyFaces = 1000;
+constexpr double LeastEffort = 1e-6; ///< with which first nets are made
 constexpr std::size_t FewFaces = 100;
 constexpr std::size_t TrianglesOfFace = 6;
 
@@ -32,6 +34,7 @@ void Append(RegionModel&& part, RegionModel& all)
   }
   all.Model.NumEdges += part.Model.NumEdges;
   all.Model.NumVertices += part.Model.NumVertices;
+  all.Work += part.Work;
   all.Verdicts.insert(all.Verdicts.end(), part.Verdicts.begin(), part.Verdicts.end());
   all.Certificates.insert(
     all.Certificates.end(), part.Certificates.begin(), part.Certificates.end());
@@ -97,9 +100,11 @@ Result<RegionModel> ModelPart(
   for (int release = 0; release <= MaxReleases; ++release)
   {
     std::vector<int> failed;
+    const double before = model.Value.Work;
     model = params.FreeForm && HasFreeForm(recognition)
       ? ModelMixed(surface, recognition, params, failed)
       : ModelCharted(surface, recognition, nullptr, params, failed);
+    model.Value.Work += before;
     if (!params.FreeForm || failed.empty() || release == MaxReleases)
     {
       break;
@@ -187,9 +192,13 @@ Result<RegionModel> ModelMesh(
         " %; make spline faces of the whole" };
   }
   RegionModel all;
+  WorkBudget budget(params.Trim.Effort, params.Trim.TimeLimit, {});
+  RegionModelParams own = params;
   for (RecognizedPart& recognized : parts.Value)
   {
-    auto part = ModelPart(recognized.Surface, recognized.Recognition, params);
+    own.Trim.Effort = std::max(params.Trim.Effort - all.Work, LeastEffort);
+    own.Trim.TimeLimit = budget.SecondsLeft();
+    auto part = ModelPart(recognized.Surface, recognized.Recognition, own);
     if (!part)
     {
       return part.Status;

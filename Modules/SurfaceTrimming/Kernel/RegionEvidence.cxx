@@ -37,6 +37,29 @@ double NumParameters(SurfaceType type)
   return HUGE_VAL;
 }
 
+/// Degrees between the normals of the two triangles at an edge, 0 on a rim.
+double AngleAlong(const DiscMesh& surface, int from, int to)
+{
+  constexpr double Degrees = 180.0 / 3.14159265358979323846;
+  const int begin = surface.FanStart[At(from)];
+  const int end = surface.FanStart[At(from) + 1];
+  const auto fan = surface.Fan.begin();
+  const auto found = std::find(fan + begin, fan + end, to);
+  const auto at = static_cast<int>(found - fan);
+  const bool isOpen = surface.OnBoundary[At(from)] != 0;
+  if (at == end || (isOpen && (at == begin || at + 1 == end)))
+  {
+    return 0.0;
+  }
+  const Eigen::Vector3d origin = surface.Point(from);
+  const Eigen::Vector3d along = surface.Point(to) - origin;
+  const auto offset = [&](int i) -> Eigen::Vector3d
+  { return surface.Point(surface.Fan[At(i)]) - origin; };
+  const Eigen::Vector3d left = along.cross(offset(at + 1 == end ? begin : at + 1));
+  const Eigen::Vector3d right = offset(at == begin ? end - 1 : at - 1).cross(along);
+  return Degrees * std::atan2(left.cross(right).norm(), left.dot(right));
+}
+
 /// Lengths of the borders of regions with others.
 class Borders
 {
@@ -150,28 +173,6 @@ bool IsOnItsSurface(
   return products / pairs < MaxAlike * squares / count;
 }
 
-}
-
-double AngleAlong(const DiscMesh& surface, int from, int to)
-{
-  constexpr double Degrees = 180.0 / 3.14159265358979323846;
-  const int begin = surface.FanStart[At(from)];
-  const int end = surface.FanStart[At(from) + 1];
-  const auto fan = surface.Fan.begin();
-  const auto found = std::find(fan + begin, fan + end, to);
-  const auto at = static_cast<int>(found - fan);
-  const bool isOpen = surface.OnBoundary[At(from)] != 0;
-  if (at == end || (isOpen && (at == begin || at + 1 == end)))
-  {
-    return 0.0;
-  }
-  const Eigen::Vector3d origin = surface.Point(from);
-  const Eigen::Vector3d along = surface.Point(to) - origin;
-  const auto offset = [&](int i) -> Eigen::Vector3d
-  { return surface.Point(surface.Fan[At(i)]) - origin; };
-  const Eigen::Vector3d left = along.cross(offset(at + 1 == end ? begin : at + 1));
-  const Eigen::Vector3d right = offset(at == begin ? end - 1 : at - 1).cross(along);
-  return Degrees * std::atan2(left.cross(right).norm(), left.dot(right));
 }
 
 double ReleaseDoubtfulRegions(const DiscMesh& surface, SurfaceRecognition& recognition)

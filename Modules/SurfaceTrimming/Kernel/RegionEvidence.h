@@ -7,9 +7,6 @@ namespace knotwork
 {
 constexpr double SharpDegrees = 25.0; ///< between triangles, of a sharp edge
 
-/// Degrees between the normals of the two triangles at an edge, 0 on a rim.
-double AngleAlong(const DiscMesh& surface, int from, int to);
-
 /// Makes regions free whose points do not lie on their surface as points with noise do: distances
 /// of neighbours are alike (a smooth shape that leaves the surface) or go up to the tolerance, and
 /// the region does not end at sharp edges; or there are hardly more points than the surface has

@@ -652,6 +652,7 @@ void RegionModeler::Measure()
   {
     this->Made.FreeDeviation = this->Free.Trimmed.MaxDeviation + this->Free.MaxMove;
   }
+  this->Made.Work = this->Free.Trimmed.Work;
   this->Made.NumRims = static_cast<int>(this->Surface.Loops.size());
   for (std::size_t t = 0; t < this->Surface.Triangles.size(); ++t)
   {

@@ -13,8 +13,8 @@ struct RegionModelParams
   /// types cover LeastAnalytic of the mesh's area; else that is refused.
   bool FreeForm = true;
   double LeastAnalytic = 0.1; ///< [0, 1]
-  /// Of spline faces. Tolerance, CornerAngle, Vertices, Triangulation, Threads and Progress are set
-  /// from the others.
+  /// Of spline faces; Effort and TimeLimit are for all parts of a mesh together. Tolerance,
+  /// CornerAngle, Vertices, Triangulation, Threads and Progress are set from the others.
   TrimParams Trim;
   FlattenParams Flatten;
   ChartParams Charts;
@@ -56,6 +56,7 @@ struct RegionModel
   double MaxNormalAngle = 0.0;
   double MaxVertexDistance = 0.0; ///< of vertices from their points of the mesh
   double Tolerance = 0.0;         ///< of the recognition
+  double Work = 0.0;              ///< for faces of free form, in the unit of TrimParams::Effort
 };
 
 /// Makes trimmed faces of a mesh whose regions are all planes, cylinders, spheres, cones or tori.
