@@ -121,8 +121,10 @@ constexpr double Exact = 0.02; ///< of the tolerance: distances that are none
 
 /// Whether distances from the surface are nothing, or those of noise, or the region ends mostly at
 /// sharp edges.
-bool IsOnItsSurface(
-  const DiscMesh& surface, const RecognizedRegion& region, bool endsAtEdges, double tolerance)
+/// @param noise  with which regions were grown: where less than the tolerance did as well for the
+/// whole mesh, its regions do not end for want of a larger one.
+bool IsOnItsSurface(const DiscMesh& surface, const RecognizedRegion& region, bool endsAtEdges,
+  double tolerance, double noise)
 {
   constexpr double Enough = 3.0;    // points a parameter
   constexpr double Many = 6.0;      // by which residuals of few points do not pass for noise
@@ -139,6 +141,7 @@ bool IsOnItsSurface(
   const double parameters = NumParameters(region.Surface.Type);
   const auto count = static_cast<double>(distances.size());
   // facets of any shape are planes, and their rows cylinders
+  const bool isQuiet = noise <= MaxNoise * tolerance;
   const bool isFlat = region.Surface.Type == SurfaceType::Plane && endsAtEdges;
   if (isFlat ? count < parameters + 2.0 : count < Enough * parameters)
   {
@@ -155,9 +158,13 @@ bool IsOnItsSurface(
   {
     return true;
   }
-  if (largest > MaxNoise * tolerance || count < Many * parameters)
+  if (largest > MaxNoise * tolerance)
   {
     return false;
+  }
+  if (isQuiet || count < Many * parameters)
+  {
+    return isQuiet;
   }
   double products = 0.0;
   double pairs = 0.0;
@@ -185,8 +192,8 @@ double ReleaseDoubtfulRegions(const DiscMesh& surface, SurfaceRecognition& recog
     {
       RecognizedRegion& region = recognition.Regions[r];
       if (region.Surface.Type != SurfaceType::FreeForm &&
-        !IsOnItsSurface(
-          surface, region, borders.EndAtEdges(static_cast<int>(r)), recognition.Tolerance))
+        !IsOnItsSurface(surface, region, borders.EndAtEdges(static_cast<int>(r)),
+          recognition.Tolerance, recognition.Noise))
       {
         region.Surface.Type = SurfaceType::FreeForm;
         isNew = true;

@@ -35,6 +35,8 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <random>
@@ -461,8 +463,32 @@ TEST(SharpEdges, EdgesOfVeryNoisyParts_IndependentOracle)
 
 namespace
 {
+struct ModelledParts
+{
+  int Parts = 0;
+  int Right = 0;
+  int Faces = 0;     ///< of the parts
+  int SameTypes = 0; ///< of them: as many faces of the type are in the model
+  std::string Faults;
+};
+
+void CountTypes(const Part& part, const RegionModel& model, ModelledParts& tally)
+{
+  std::array<int, NumSurfaceTypes> counts{};
+  for (const BRepAdaptor_Surface& face : part.Faces)
+  {
+    ++counts[static_cast<std::size_t>(TypeOf(face))];
+    ++tally.Faces;
+  }
+  for (std::size_t type = 0; type < counts.size(); ++type)
+  {
+    tally.SameTypes += std::min(counts[type], model.NumOfType[type]);
+  }
+}
+
 /// What is wrong with the CAD file of a part that was modelled from its triangles; empty: nothing.
-std::string FaultOf(const TopoDS_Shape& shape, const Part& part, double volumeShare)
+std::string FaultOf(
+  const TopoDS_Shape& shape, const Part& part, double volumeShare, ModelledParts& tally)
 {
   RecognitionParams recognition;
   recognition.Tolerance = Tolerance * part.Diagonal;
@@ -471,6 +497,7 @@ std::string FaultOf(const TopoDS_Shape& shape, const Part& part, double volumeSh
   {
     return model.Status.Message();
   }
+  CountTypes(part, model.Value, tally);
   for (const LoopVerdict verdict : model->Verdicts)
   {
     if (verdict != LoopVerdict::SimpleNested)
@@ -510,24 +537,19 @@ std::string FaultOf(const TopoDS_Shape& shape, const Part& part, double volumeSh
   return summary->MaxEdgeTolerance > recognition.Tolerance ? "an edge tolerance" : "";
 }
 
-struct ModelledParts
-{
-  int Parts = 0;
-  int Right = 0;
-  std::string Faults;
-};
-
 ModelledParts ModelFamily(unsigned first, unsigned parts, double noise, double volumeShare)
 {
   ModelledParts tally;
   for (unsigned seed = first; seed < first + parts; ++seed)
   {
     const TopoDS_Shape shape = PartMaker(seed).Make();
-    const std::string fault = FaultOf(shape, Tessellate(shape, noise, seed), volumeShare);
+    const std::string fault = FaultOf(shape, Tessellate(shape, noise, seed), volumeShare, tally);
     ++tally.Parts;
     tally.Right += fault.empty() ? 1 : 0;
     tally.Faults += fault.empty() ? "" : "part " + std::to_string(seed) + ": " + fault + "\n";
   }
+  ::testing::Test::RecordProperty(
+    "types", std::to_string(tally.SameTypes) + " of " + std::to_string(tally.Faces));
   ::testing::Test::RecordProperty(
     "solids", std::to_string(tally.Right) + " of " + std::to_string(tally.Parts));
   return tally;
@@ -540,13 +562,14 @@ TEST(ModelledParts, SolidsOfTessellatedParts_IndependentOracle)
 {
   const ModelledParts tally = ModelFamily(1150, 100, 0.0, 1e-5);
   EXPECT_EQ(tally.Right, tally.Parts) << tally.Faults;
+  EXPECT_EQ(tally.SameTypes, tally.Faces);
 }
 
-/// Noise of a quarter of the tolerance: where every face is recognised. (The others have regions of
-/// free form, which are refused.)
+/// Noise of a quarter of the tolerance: faces that are not recognised become ones of free form.
 TEST(ModelledParts, SolidsOfNoisyParts_IndependentOracle)
 {
   const ModelledParts tally = ModelFamily(1, 40, 0.25, 2e-2);
-  EXPECT_GE(tally.Right, 0.6 * tally.Parts) << tally.Faults;
+  EXPECT_GE(tally.Right, 0.95 * tally.Parts) << tally.Faults;
+  EXPECT_GE(tally.SameTypes, 0.85 * tally.Faces);
 }
 }
