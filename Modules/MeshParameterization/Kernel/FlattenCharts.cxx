@@ -133,19 +133,32 @@ Status MapAndDivide(CutMesh& cut, const FlattenParams& params, const ChartParams
 }
 
 /// Charts that are good as long as places are exact, but lie over themselves as they are rounded in
-/// the end.
-std::vector<int> FoldedByRounding(
-  const std::vector<ChartMap>& maps, const std::vector<MeshParameterization>& charts)
+/// the end, become ones to divide between what lies over each other.
+/// @return whether there are some.
+bool MarkFolded(const std::vector<MeshParameterization>& charts, std::vector<ChartMap>& maps)
 {
-  std::vector<int> folded;
+  bool some = false;
   for (std::size_t c = 0; c < maps.size(); ++c)
   {
-    if (maps[c].Good && !charts[c].Injective)
+    const DiscMesh& mesh = charts[c].Mesh;
+    if (!maps[c].Good || charts[c].Injective || mesh.Triangles.size() < 2)
     {
-      folded.push_back(static_cast<int>(c));
+      continue;
+    }
+    some = true;
+    maps[c].Good = false;
+    maps[c].Crossing = {};
+    if (IsCounterclockwise(mesh, charts[c].UV))
+    {
+      const EdgeCrossing overlap = FindOverlap(mesh.Loops, charts[c].UV);
+      for (std::size_t k = 0; k < 2; ++k)
+      {
+        maps[c].Crossing.First[k] = mesh.PointIds[static_cast<std::size_t>(overlap.First[k])];
+        maps[c].Crossing.Second[k] = mesh.PointIds[static_cast<std::size_t>(overlap.Second[k])];
+      }
     }
   }
-  return folded;
+  return some;
 }
 }
 
@@ -183,21 +196,24 @@ Result<ChartedMesh> FlattenCharts(
   {
     return status;
   }
-  for (int round = 0; round < MendingRounds; ++round)
+  for (int round = 0; round < MendingRounds && MarkFolded(charted.Charts, maps); ++round)
   {
-    const std::vector<int> folded = FoldedByRounding(maps, charted.Charts);
-    if (folded.empty())
-    {
-      break;
-    }
-    if (Status status = MapAndDivide(cut, params, charts, holes, folded, maps); !status)
-    {
-      return status;
-    }
-    if (Status status = CollectCharts(cut, maps, params.Method, charted.Charts); !status)
+    CutMesh divided = cut;
+    std::vector<ChartMap> dividedMaps = maps;
+    std::vector<MeshParameterization> mended;
+    Status status = MapAndDivide(divided, params, charts, holes, {}, dividedMaps);
+    status = status ? CollectCharts(divided, dividedMaps, params.Method, mended) : status;
+    if (status.Code == ErrorCode::Aborted)
     {
       return status;
     }
+    if (!status)
+    {
+      break; // not to be mended: a result beyond the limit
+    }
+    cut = std::move(divided);
+    maps = std::move(dividedMaps);
+    charted.Charts = std::move(mended);
   }
   for (std::size_t c = 0; c < maps.size(); ++c)
   {

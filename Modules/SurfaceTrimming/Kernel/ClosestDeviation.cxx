@@ -145,7 +145,7 @@ private:
   /// A triangle near a piece, with what is nearest to the piece's corners.
   struct Partner
   {
-    int Triangle = 0;
+    int Triangle = -1;
     double Farthest = 0.0;
     std::array<TriangleFoot, 3> Feet;
   };
@@ -310,12 +310,15 @@ private:
       nearest[k] = Distance(onSurface[k], own.Points[k]);
       equal = std::max(equal, nearest[k]);
     }
-    if (equal < piece.Bound)
+    // corners of parts are rounded, which may turn a needle over: its bound stays
+    const bool hasPlace = Area(own.UV) > 0.0 && !IsFlat(own.UV);
+    if (hasPlace && equal < piece.Bound)
     {
       piece.Bound = std::min(piece.Bound, surface.Search->Bound(own, equal).Bound);
     }
     const Corners& from = piece.OfSurface ? onSurface : own.Points;
-    this->FindPartners(from, piece.OfSurface, piece.Bound, nearest);
+    this->FindPartners(from, piece.OfSurface, piece.Bound);
+    this->LookNearCorners(piece, own.Points, nearest);
     for (const Partner& partner : this->Partners)
     {
       ChartTriangle pair = own;
@@ -343,7 +346,7 @@ private:
         nearest[k] = std::min(nearest[k], distances[k]);
         farthest = std::max(farthest, distances[k]);
       }
-      if (farthest < piece.Bound && piece.Bound > this->Goal())
+      if ((hasPlace || !piece.OfSurface) && farthest < piece.Bound && piece.Bound > this->Goal())
       {
         piece.Bound = std::min(piece.Bound, this->BoundPair(piece, partner, pair, farthest));
       }
@@ -354,6 +357,30 @@ private:
     auto& metThere = this->Met[static_cast<std::size_t>(piece.Triangle)];
     metThere = std::max(metThere, met);
     this->KeepCorners(piece, nearest);
+  }
+
+  /// Lowers distances of corners to those from the partners that are nearest to each of them.
+  /// Images of plane triangles are not flat: the surface may be farther than they are.
+  void LookNearCorners(const Piece& piece, const Corners& points, RealArray<3>& nearest)
+  {
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const Partner& closest = this->Closest[k];
+      if (closest.Triangle < 0)
+      {
+        continue;
+      }
+      RealArray<3> distances{};
+      if (piece.OfSurface)
+      {
+        distances[k] = std::sqrt(closest.Feet[k].SquaredDistance);
+      }
+      else
+      {
+        this->Feet(closest, points, distances);
+      }
+      nearest[k] = std::min(nearest[k], distances[k]);
+    }
   }
 
   double BoundPair(const Piece& piece, const Partner& partner, ChartTriangle& pair, double farthest)
@@ -392,9 +419,8 @@ private:
     return this->SurfaceOf(of).Search->Bound(pair, farthest).Bound;
   }
 
-  /// The triangles of the other side near all corners, nearest first.
-  /// @param nearest  lowered to the distances of corners from any of them.
-  void FindPartners(const Corners& from, bool ofSurface, double radius, RealArray<3>& nearest)
+  /// The triangles of the other side near all corners, nearest first, and that nearest to each one.
+  void FindPartners(const Corners& from, bool ofSurface, double radius)
   {
     RealArray<3> lower;
     RealArray<3> upper;
@@ -404,6 +430,7 @@ private:
       upper[d] = std::max({ from[0][d], from[1][d], from[2][d] }) + radius;
     }
     this->Partners.clear();
+    this->Closest = {};
     this->Trees[ofSurface ? 0 : 1].ForNear(lower.data(), upper.data(),
       [&](int g)
       {
@@ -416,7 +443,15 @@ private:
             ClosestOnTriangle<3>(x[0].data(), x[1].data(), x[2].data(), from[k].data(), g);
           const double distance = std::sqrt(partner.Feet[k].SquaredDistance);
           partner.Farthest = std::max(partner.Farthest, distance);
-          nearest[k] = std::min(nearest[k], distance);
+        }
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+          Partner& closest = this->Closest[k];
+          if (closest.Triangle < 0 ||
+            partner.Feet[k].SquaredDistance < closest.Feet[k].SquaredDistance)
+          {
+            closest = partner;
+          }
         }
         this->Partners.push_back(partner);
       });
@@ -551,6 +586,7 @@ private:
   std::vector<char> Looked;               ///< how many of a triangle's two whole pieces
   double Found = 0.0;                     ///< on all triangles
   std::vector<Partner> Partners;          ///< of the piece that is looked at
+  std::array<Partner, 3> Closest;         ///< to its corners, if any
   PointMatrix Parameters;
   EvaluationBatch Batch;
 };

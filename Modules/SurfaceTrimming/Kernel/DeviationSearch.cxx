@@ -13,6 +13,7 @@ namespace
 {
 /// Of the numbers that enter a value: some hundred roundings.
 constexpr double UnitRounding = 0x1p-45;
+constexpr double LeastArea = 0x1p-51; // relative, below which an area is rounding alone
 /// Halvings a triangle, and how many more a part that the elements make.
 constexpr int MaxHalvings = 1000;
 constexpr int HalvingsAPart = 4;
@@ -178,7 +179,9 @@ void DeviationSearch::SetTriangle(const ChartTriangle& triangle)
   }
   const RealArray<2> a = Difference(uv[1], uv[0]);
   const RealArray<2> b = Difference(uv[2], uv[0]);
-  const double twice = Cross(a, b);
+  // A needle's computed area may be anything within its rounding, negative too: then X is known up
+  // to the needle's length only.
+  const double twice = std::max(std::abs(Cross(a, b)), LeastArea * longest * longest);
   double slope = this->Slope;
   for (std::size_t c = 0; c < 3; ++c)
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutlierSearch.h"
 
+#include <knotwork/SplineCore/Median.h>
 #include <knotwork/SplineCore/Parallel.h>
 
 #include <algorithm>
@@ -33,24 +34,6 @@ constexpr std::int8_t Inside = -1; // no outlier, whatever its neighbours
 std::size_t At(int i)
 {
   return static_cast<std::size_t>(i);
-}
-
-/// @return values[n / 2] of the sorted values; the order changes.
-double Median(std::vector<double>& values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-/// As Median; values become their absolute differences from it.
-double MedianDeviation(std::vector<double>& values, double median)
-{
-  for (double& value : values)
-  {
-    value = std::fabs(value - median);
-  }
-  return Median(values);
 }
 
 double Mean(const std::vector<double>& values)

@@ -9,12 +9,10 @@ namespace knotwork
 /// squares, from the centroid, in the unit of the points. The first axis is the direction of the
 /// largest variance; signs make the largest entry of the axes positive, and the frame right-handed.
 ///
-/// Whether a projection of points folds cannot be decided without a surface between them. What is
-/// looked for are layers: the plane is divided into cells of some 16 points, and in a cell whose
-/// points deviate from their own plane by more than the cell's side (RMS) they do not lie over it.
+/// Whether the projection folds is not looked at: CheckLayers does.
 /// @param points  n x 3, n >= 3.
 /// @return EmptyInput below three points; NonFiniteInput naming the point; SingularSystem for
-/// points on a line; NotInSpace: points lie in layers in more than a twentieth of the cells.
-/// @complexity O(n log n).
+/// points on a line.
+/// @complexity O(n).
 Result<PointMatrix> PlaneParameters(const PointMatrix& points);
 }

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PointLayers.h"
 
+#include <knotwork/SplineCore/Median.h>
+#include <knotwork/SplineCore/Numbers.h>
+
 #include <Eigen/Dense>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <random>
 #include <string>
 #include <vector>
@@ -16,13 +18,13 @@ namespace knotwork
 {
 namespace
 {
-constexpr std::size_t MostPoints = 32768;
+constexpr std::size_t MostPlaces = 2048;
 constexpr std::size_t PointsOfPlace = 24; // at most; half of them at least
 constexpr double ShareOfLayers = 0.15;    // of the places, above which a cloud is refused
 constexpr double LeastRest = 0.4;         // of the variance, that a quadratic leaves of layers
 constexpr double Rounding = 1e-6;         // of coordinates, single precision
-constexpr std::size_t FewLevels = 5;      // fewer heights in all are layers themselves
-constexpr double Steps = 4.0;             // of rounded heights
+constexpr std::size_t FewLevels = 5;      // of heights in all
+constexpr double LeastGap = 1.5;          // between groups of rounded heights, in steps
 
 /// Groups of heights: how much of the variance they leave at most, and the least share of points.
 struct Grouping
@@ -35,7 +37,8 @@ constexpr std::array<Grouping, 3> Groupings{ { { 2, 0.1, 0.25 }, { 3, 0.035, 0.1
   { 4, 0.015, 0.15 } } };
 
 /// Whether some numbers form groups, by the best division of the sorted ones.
-bool HaveGroups(Eigen::VectorXd heights)
+/// @param gap  that groups are apart at least.
+bool HaveGroups(Eigen::VectorXd heights, double gap)
 {
   std::sort(heights.data(), heights.data() + heights.size());
   heights.array() -= heights.mean();
@@ -58,6 +61,7 @@ bool HaveGroups(Eigen::VectorXd heights)
     const auto least = std::max<std::size_t>(
       2, static_cast<std::size_t>(std::ceil(grouping.Share * static_cast<double>(n))));
     std::vector<double> best(n + 1, std::numeric_limits<double>::infinity());
+    std::vector<std::vector<std::size_t>> begins; // of the last group of the first ones
     for (std::size_t end = least; end <= n; ++end)
     {
       best[end] = rest(0, end);
@@ -65,16 +69,29 @@ bool HaveGroups(Eigen::VectorXd heights)
     for (int group = 1; group < grouping.Groups; ++group)
     {
       std::vector<double> next(n + 1, std::numeric_limits<double>::infinity());
+      begins.emplace_back(n + 1, 0);
       for (std::size_t end = least; end <= n; ++end)
       {
         for (std::size_t begin = least; begin + least <= end; ++begin)
         {
-          next[end] = std::min(next[end], best[begin] + rest(begin, end));
+          const double whole = best[begin] + rest(begin, end);
+          if (whole < next[end])
+          {
+            next[end] = whole;
+            begins.back()[end] = begin;
+          }
         }
       }
       best = std::move(next);
     }
-    if (best[n] < grouping.Rest * squares[n])
+    bool apart = best[n] < grouping.Rest * squares[n];
+    for (std::size_t end = n; apart && !begins.empty(); begins.pop_back())
+    {
+      const auto begin = static_cast<Eigen::Index>(begins.back()[end]);
+      apart = heights[begin] - heights[begin - 1] > gap;
+      end = static_cast<std::size_t>(begin);
+    }
+    if (apart)
     {
       return true;
     }
@@ -88,83 +105,108 @@ Eigen::MatrixXd Residual(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& 
   return b - columns * columns.colPivHouseholderQr().solve(b);
 }
 
-/// Step of heights that are rounded; 0 when they are few, or of all sizes.
-double StepOfHeights(const PointMatrix& values)
+/// Step of numbers that are rounded; 0 when there are two, next to nothing when they are of all
+/// sizes.
+double StepOf(const Eigen::VectorXd& column)
 {
-  if (values.cols() != 1)
-  {
-    return 0.0;
-  }
-  std::vector<double> heights(values.data(), values.data() + values.rows());
-  std::sort(heights.begin(), heights.end());
+  std::vector<double> sorted(column.data(), column.data() + column.size());
+  std::sort(sorted.begin(), sorted.end());
   std::vector<double> steps;
-  for (std::size_t i = 1; i < heights.size(); ++i)
+  for (std::size_t i = 1; i < sorted.size(); ++i)
   {
-    const double step = heights[i] - heights[i - 1];
-    if (step > 1e-9 * (heights.back() - heights.front()))
+    const double step = sorted[i] - sorted[i - 1];
+    if (step > 1e-9 * (sorted.back() - sorted.front()))
     {
       steps.push_back(step);
     }
   }
-  if (steps.size() + 1 < FewLevels)
+  if (steps.size() < 2)
   {
     return 0.0;
   }
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return steps.size() + 1 < FewLevels ? *std::min_element(steps.begin(), steps.end())
+                                      : Median(steps);
 }
 
 class Places
 {
 public:
   Places(const PointMatrix& parameters, const PointMatrix& values)
-    : Parameters(parameters), Values(values), Step(StepOfHeights(values)),
-      Largest(values.cwiseAbs().maxCoeff()), Rows(static_cast<std::size_t>(parameters.rows()))
+    : Values(values), Steps(values.cols()), Largest(values.cwiseAbs().maxCoeff())
   {
-    std::iota(this->Rows.begin(), this->Rows.end(), Eigen::Index{ 0 });
-    this->Look(0, this->Rows.size());
+    for (Eigen::Index c = 0; c < values.cols(); ++c)
+    {
+      this->Steps[c] = StepOf(values.col(c));
+    }
+    this->Sites.resize(static_cast<std::size_t>(parameters.rows()));
+    for (std::size_t i = 0; i < this->Sites.size(); ++i)
+    {
+      const auto row = static_cast<Eigen::Index>(i);
+      this->Sites[i] = { { parameters(row, 0), parameters(row, 1) }, row };
+    }
+    this->Look(0, this->Sites.size(), MostPlaces);
   }
 
-  double Share() const
+  LayeredPlaces Found() const
   {
-    return this->Count == 0 ? 0.0 : static_cast<double>(this->Layered) / this->Count;
+    return { this->Count == 0 ? 0.0 : static_cast<double>(this->Layered) / this->Count,
+      this->First };
   }
 
 private:
-  void Look(std::size_t begin, std::size_t end)
+  struct Site
   {
-    Eigen::RowVector2d lower = this->Parameters.row(this->Rows[begin]);
-    Eigen::RowVector2d upper = lower;
+    RealArray<2> At;
+    Eigen::Index Row;
+  };
+
+  /// @param places  to look at: whole ones, as points that are drawn from all would make places as
+  /// wide as what is between ribs or blocks.
+  void Look(std::size_t begin, std::size_t end, std::size_t places)
+  {
+    RealArray<2> lower = this->Sites[begin].At;
+    RealArray<2> upper = lower;
     for (std::size_t i = begin; i < end; ++i)
     {
-      lower = lower.cwiseMin(this->Parameters.row(this->Rows[i]));
-      upper = upper.cwiseMax(this->Parameters.row(this->Rows[i]));
+      for (std::size_t d = 0; d < 2; ++d)
+      {
+        lower[d] = std::min(lower[d], this->Sites[i].At[d]);
+        upper[d] = std::max(upper[d], this->Sites[i].At[d]);
+      }
     }
-    const Eigen::RowVector2d size = upper - lower;
+    const RealArray<2> size{ upper[0] - lower[0], upper[1] - lower[1] };
     if (end - begin <= PointsOfPlace)
     {
       ++this->Count;
-      this->Layered += this->HasLayers(begin, end, lower, size) ? 1 : 0;
+      if (this->HasLayers(begin, end, lower, size))
+      {
+        ++this->Layered;
+        this->First = this->First < 0 ? this->Sites[begin + (end - begin) / 2].Row : this->First;
+      }
       return;
     }
-    const Eigen::Index direction = size[1] > size[0] ? 1 : 0;
+    const std::size_t direction = size[1] > size[0] ? 1 : 0;
     const std::size_t middle = begin + (end - begin) / 2;
     const auto at = [&](std::size_t i)
-    { return this->Rows.begin() + static_cast<std::ptrdiff_t>(i); };
+    { return this->Sites.begin() + static_cast<std::ptrdiff_t>(i); };
     std::nth_element(at(begin), at(middle), at(end),
-      [&](Eigen::Index a, Eigen::Index b)
-      {
-        const double first = this->Parameters(a, direction);
-        const double second = this->Parameters(b, direction);
-        return first != second ? first < second : a < b;
+      [direction](const Site& a, const Site& b) {
+        return a.At[direction] != b.At[direction] ? a.At[direction] < b.At[direction]
+                                                  : a.Row < b.Row;
       });
-    this->Look(begin, middle);
-    this->Look(middle, end);
+    const std::size_t odd = places % 2 == 0 ? 0 : this->Random() % 2;
+    if (places / 2 + odd > 0)
+    {
+      this->Look(begin, middle, places / 2 + odd);
+    }
+    if (places - places / 2 - odd > 0)
+    {
+      this->Look(middle, end, places - places / 2 - odd);
+    }
   }
 
-  bool HasLayers(std::size_t begin, std::size_t end, const Eigen::RowVector2d& lower,
-    const Eigen::RowVector2d& size) const
+  bool HasLayers(
+    std::size_t begin, std::size_t end, const RealArray<2>& lower, const RealArray<2>& size) const
   {
     const auto n = static_cast<Eigen::Index>(end - begin);
     if (2 * static_cast<std::size_t>(n) < PointsOfPlace)
@@ -175,78 +217,66 @@ private:
     Eigen::MatrixXd values(n, this->Values.cols());
     for (Eigen::Index i = 0; i < n; ++i)
     {
-      const Eigen::Index row = this->Rows[begin + static_cast<std::size_t>(i)];
-      const Eigen::RowVector2d from = this->Parameters.row(row) - lower;
-      const double u = size[0] > 0.0 ? from[0] / size[0] - 0.5 : 0.0;
-      const double v = size[1] > 0.0 ? from[1] / size[1] - 0.5 : 0.0;
+      const Site& site = this->Sites[begin + static_cast<std::size_t>(i)];
+      const double u = size[0] > 0.0 ? (site.At[0] - lower[0]) / size[0] - 0.5 : 0.0;
+      const double v = size[1] > 0.0 ? (site.At[1] - lower[1]) / size[1] - 0.5 : 0.0;
       columns.row(i) << 1.0, u, v, u * u, u * v, v * v;
-      values.row(i) = this->Values.row(row);
+      values.row(i) = this->Values.row(site.Row);
     }
     values.rowwise() -= Eigen::RowVectorXd(values.colwise().mean());
     Eigen::VectorXd heights = values.col(0);
+    double step = this->Steps[0];
     if (values.cols() > 1)
     {
       const Eigen::MatrixXd rough = Residual(columns.leftCols(3), values);
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(rough.transpose() * rough);
-      heights = values * solver.eigenvectors().rightCols(1);
+      const Eigen::VectorXd direction = solver.eigenvectors().rightCols(1);
+      heights = values * direction;
+      step = direction.cwiseAbs().dot(this->Steps);
     }
     const double deviation = std::sqrt(heights.squaredNorm() / static_cast<double>(n));
-    if (!(deviation > Rounding * this->Largest && deviation > Steps * this->Step))
+    if (!(deviation > Rounding * this->Largest))
     {
       return false;
     }
-    return HaveGroups(heights) &&
+    return HaveGroups(heights, LeastGap * step) &&
       Residual(columns, heights).squaredNorm() > LeastRest * heights.squaredNorm();
   }
 
-  const PointMatrix& Parameters;
   const PointMatrix& Values;
-  double Step;
+  Eigen::VectorXd Steps; ///< of each component
   double Largest;
-  std::vector<Eigen::Index> Rows;
+  std::vector<Site> Sites;
+  std::mt19937 Random{ 1 };
   int Count = 0;
   int Layered = 0;
+  Eigen::Index First = -1;
 };
 }
 
-double LayeredShare(const PointMatrix& parameters, const PointMatrix& values)
+LayeredPlaces FindLayers(const PointMatrix& parameters, const PointMatrix& values)
 {
-  const auto n = static_cast<std::size_t>(parameters.rows());
-  if (n == 0 || !parameters.allFinite() || !values.allFinite())
+  if (parameters.rows() == 0 || !parameters.allFinite() || !values.allFinite())
   {
-    return 0.0;
+    return {};
   }
-  if (n <= MostPoints)
-  {
-    return Places(parameters, values).Share();
-  }
-  // one of each of so many equal parts of the rows, at random: rows may be those of a grid
-  std::mt19937 random(1);
-  PointMatrix someParameters(MostPoints, parameters.cols());
-  PointMatrix someValues(MostPoints, values.cols());
-  for (std::size_t i = 0; i < MostPoints; ++i)
-  {
-    const std::size_t first = i * n / MostPoints;
-    const std::size_t last = (i + 1) * n / MostPoints;
-    const auto row = static_cast<Eigen::Index>(first + random() % (last - first));
-    someParameters.row(static_cast<Eigen::Index>(i)) = parameters.row(row);
-    someValues.row(static_cast<Eigen::Index>(i)) = values.row(row);
-  }
-  return Places(someParameters, someValues).Share();
+  return Places(parameters, values).Found();
 }
 
 Status CheckLayers(const PointMatrix& parameters, const PointMatrix& values, const char* over)
 {
-  const double share = LayeredShare(parameters, values);
-  if (share <= ShareOfLayers)
+  const LayeredPlaces places = FindLayers(parameters, values);
+  if (places.Share <= ShareOfLayers)
   {
     return {};
   }
+  const RealArray<2> at{ parameters(places.Point, 0), parameters(places.Point, 1) };
   return { ErrorCode::NotInSpace,
     "the points lie in layers over " + std::string(over) + " (at " +
-      std::to_string(static_cast<int>(std::lround(100.0 * share))) +
-      " % of the places), as those of a closed object do, and no one surface follows them; mesh "
-      "the "
-      "scan and `trim` it, or give parameters of other places" };
+      std::to_string(static_cast<int>(std::lround(100.0 * places.Share))) +
+      " % of the places, the first one around point " + std::to_string(places.Point) + " at " +
+      PointText(at.data(), 2) +
+      "), as those of a closed object do, and no one surface follows them; mesh the scan and "
+      "`trim` it, fit each layer alone, or give parameters over which the layers lie apart" };
 }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <knotwork/SurfaceFitting/PlaneParameters.h>
+#include <knotwork/SurfaceFitting/PointLayers.h>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -142,7 +143,9 @@ TEST(PlaneParameters, EveryFailureIsReachable_ExactOracle)
     sphere.row(i) << normal(random), normal(random), normal(random);
     sphere.row(i).normalize();
   }
-  const auto folded = PlaneParameters(sphere);
-  EXPECT_EQ(folded.Status.Code, ErrorCode::NotInSpace);
-  EXPECT_NE(folded.Status.Detail.find("layers"), std::string::npos);
+  const auto projected = PlaneParameters(sphere);
+  ASSERT_TRUE(projected) << projected.Status.Message();
+  const Status folded = CheckLayers(projected.Value, sphere, "their plane of least squares");
+  EXPECT_EQ(folded.Code, ErrorCode::NotInSpace);
+  EXPECT_NE(folded.Detail.find("layers over their plane"), std::string::npos);
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <knotwork/SplineCore/Numbers.h>
 #include <knotwork/SurfaceFitting/PlaneParameters.h>
 #include <knotwork/SurfaceFitting/PointLayers.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -91,7 +93,8 @@ void ExpectLayers(const char* name, const PointMatrix& points)
 {
   SCOPED_TRACE(name);
   const Status status = OverXY(points);
-  EXPECT_EQ(status.Code, ErrorCode::NotInSpace) << LayeredShare(points.leftCols(2), points.col(2));
+  EXPECT_EQ(status.Code, ErrorCode::NotInSpace)
+    << FindLayers(points.leftCols(2), points.col(2)).Share;
   EXPECT_NE(status.Detail.find("over x and y"), std::string::npos);
   EXPECT_NE(status.Detail.find("`trim`"), std::string::npos);
   // parameters by projection and all three coordinates as values
@@ -180,6 +183,72 @@ TEST(PointLayers, SurfacesWithNoiseAreNone_PropertyOracle)
   }
 }
 
+TEST(PointLayers, RoundedHeightsAreNone_PropertyOracle)
+{
+  for (unsigned seed = 1; seed <= 5; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    for (const double noise : { 0.35, 0.6, 1.0, 3.0 })
+    {
+      SCOPED_TRACE("noise " + std::to_string(noise));
+      ExpectNone("flat",
+        Cloud(seed, 10000,
+          [&](double, double, Numbers& numbers)
+          { return std::round(101.5 + noise * numbers.Normal()); }));
+      ExpectNone("gentle slope",
+        Cloud(seed, 10000,
+          [&](double x, double, Numbers& numbers)
+          { return 0.25 * std::round(4.0 * (10.0 + 0.9 * x) + noise * numbers.Normal()); }));
+      // two of them, some steps apart
+      ExpectLayers("rounded layers",
+        Cloud(seed, 10000,
+          [&](double, double, Numbers& numbers)
+          {
+            return std::round(noise * numbers.Normal()) +
+              std::round(8.0 * std::max(1.0, noise)) * (numbers.Chance(0.5) ? 1.0 : 0.0);
+          }));
+    }
+  }
+}
+
+/// Ribs that are well sampled, of many points: places are as wide as those of a small part of them.
+TEST(PointLayers, LargeCloudsAreJudgedAsTheirParts_PropertyOracle)
+{
+  Numbers numbers(3);
+  const double pi = std::acos(-1.0);
+  const auto phase = [](double x) { return std::fmod(1000.0 * x, 20.0) / 20.0; };
+  ExpectNone("square ribs",
+    Grid(500,
+      [&](double x, double) { return (phase(x) < 0.5 ? 1.0 : 0.0) + 0.01 * numbers.Normal(); }));
+  ExpectNone("trapezoid ribs",
+    Grid(500,
+      [&](double x, double)
+      {
+        return std::clamp(0.5 + 1.2 * std::sin(2.0 * pi * phase(x)), 0.0, 1.0) +
+          0.01 * numbers.Normal();
+      }));
+  ExpectLayers("ribs in both layers",
+    Grid(500,
+      [&](double x, double)
+      { return 0.1 * phase(x) + (numbers.Chance(0.5) ? 1.0 : 0.0) + 0.01 * numbers.Normal(); }));
+}
+
+TEST(PointLayers, APointOfTheFirstPlaceIsNamed_ExactOracle)
+{
+  const PointMatrix half = Cloud(5, 50000,
+    [](double x, double, Numbers& numbers) { return x > 0.6 && numbers.Chance(0.5) ? 1.0 : 0.0; });
+  const LayeredPlaces places = FindLayers(half.leftCols(2), half.col(2));
+  // the places over x > 0.6, but for those where one layer has hardly any points
+  EXPECT_GT(places.Share, 0.3);
+  EXPECT_LT(places.Share, 0.41);
+  ASSERT_GE(places.Point, 0);
+  EXPECT_GT(half(places.Point, 0), 0.59);
+  const std::string at = "around point " + std::to_string(places.Point) + " at " +
+    PointText(half.row(places.Point).data(), 2) + ")";
+  EXPECT_NE(OverXY(half).Detail.find(at), std::string::npos) << OverXY(half).Detail;
+  EXPECT_EQ(FindLayers(half.leftCols(2), half.leftCols(1)).Point, -1);
+}
+
 TEST(PointLayers, SteepSurfacesAreNone_PropertyOracle)
 {
   ExpectNone("cliff",
@@ -234,9 +303,9 @@ TEST(PointLayers, ThinObjectsAreRefusedOverTheirPlane_PropertyOracle)
 
 TEST(PointLayers, WhatCannotBeJudgedIsAccepted_ExactOracle)
 {
-  EXPECT_EQ(LayeredShare(PointMatrix(0, 2), PointMatrix(0, 1)), 0.0);
+  EXPECT_EQ(FindLayers(PointMatrix(0, 2), PointMatrix(0, 1)).Share, 0.0);
   PointMatrix sphere = Sphere(1, 1000, 0.0, { 1.0, 1.0, 1.0 });
-  EXPECT_EQ(LayeredShare(sphere.topRows(11).leftCols(2), sphere.topRows(11).col(2)), 0.0);
+  EXPECT_EQ(FindLayers(sphere.topRows(11).leftCols(2), sphere.topRows(11).col(2)).Share, 0.0);
   sphere(7, 2) = std::numeric_limits<double>::quiet_NaN(); // is refused by name later
   EXPECT_TRUE(OverXY(sphere));
   EXPECT_TRUE(OverXY(PointMatrix::Ones(100, 3)));
@@ -245,8 +314,8 @@ TEST(PointLayers, WhatCannotBeJudgedIsAccepted_ExactOracle)
 TEST(PointLayers, UnitsOfParametersAndHeightsDoNotMatter_PropertyOracle)
 {
   const PointMatrix sphere = Sphere(2, 3000, 0.02, { 1.0, 1.0, 1.0 });
-  const double share = LayeredShare(sphere.leftCols(2), sphere.col(2));
+  const double share = FindLayers(sphere.leftCols(2), sphere.col(2)).Share;
   EXPECT_GT(share, 0.4);
-  EXPECT_EQ(LayeredShare(1024.0 * sphere.leftCols(2), sphere.col(2)), share);
-  EXPECT_EQ(LayeredShare(sphere.leftCols(2), 1024.0 * sphere.col(2)), share);
+  EXPECT_EQ(FindLayers(1024.0 * sphere.leftCols(2), sphere.col(2)).Share, share);
+  EXPECT_EQ(FindLayers(sphere.leftCols(2), 1024.0 * sphere.col(2)).Share, share);
 }

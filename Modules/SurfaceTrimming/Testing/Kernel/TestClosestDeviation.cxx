@@ -115,14 +115,14 @@ Sampled Sample(const std::vector<ChartMesh>& charts, const std::vector<TrimmedFa
   return sampled;
 }
 
-double LargestDistance(const Sampled& from, const Sampled& to)
+/// Largest distance of rows from a triangulation.
+double LargestDistance(const PointMatrix& from, const TriangleIndex<3>& to)
 {
-  const TriangleIndex<3> index(to.Points, to.Triangles);
   double largest = 0.0;
-  for (Eigen::Index k = 0; k < from.Points.rows(); ++k)
+  for (Eigen::Index k = 0; k < from.rows(); ++k)
   {
-    const Eigen::RowVector3d point = from.Points.row(k);
-    largest = std::max(largest, index.Nearest(point.data()).SquaredDistance);
+    const Eigen::RowVector3d point = from.row(k);
+    largest = std::max(largest, to.Nearest(point.data()).SquaredDistance);
   }
   return std::sqrt(largest);
 }
@@ -133,7 +133,9 @@ double SampledDistance(
 {
   const Sampled mesh = Sample(charts, faces, parts, false);
   const Sampled surface = Sample(charts, faces, parts, true);
-  return std::max(LargestDistance(mesh, surface), LargestDistance(surface, mesh));
+  const TriangleIndex<3> toMesh(mesh.Points, mesh.Triangles);
+  const TriangleIndex<3> toSurface(surface.Points, surface.Triangles);
+  return std::max(LargestDistance(mesh.Points, toSurface), LargestDistance(surface.Points, toMesh));
 }
 
 /// Cells [first, last) x [0, n) of the unit square's n x n.
@@ -215,6 +217,108 @@ TEST(ClosestDeviation, BoundsAreWithinTwiceTheSampledDistance_CrossOracle)
       EXPECT_EQ(deviation.MaxBound, deviation.TriangleBound.maxCoeff());
     }
   }
+}
+
+/// Numbers of single points and triangles, not the largest ones alone.
+TEST(ClosestDeviation, NoNumberIsSmallerThanTheSampledDistance_CrossOracle)
+{
+  constexpr double Sag = 3e-5; // of triangles whose corners are the samples of the surface, at most
+  for (unsigned seed = 1; seed <= 6; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> number(0.0, 1.0);
+    const double slide = 0.03 + 0.05 * number(random);
+    const double height = 0.005 + 0.02 * number(random);
+    const double phase = 6.0 * number(random);
+    const Place3 wavy = [=](double u, double v)
+    {
+      Eigen::RowVector3d x = Saddle(u, v);
+      x[2] += height * std::sin(9.0 * u + phase) * std::cos(8.0 * v + phase);
+      return x;
+    };
+    Case data;
+    for (const auto& [first, last] : std::vector<std::array<int, 2>>{ { 0, 4 }, { 4, 8 } })
+    {
+      const ChartMesh chart = Columns(8, first, last, Saddle);
+      data.Add(chart, InterpolatingSurface(Slide(slide, wavy), 3, 14, BoxOf(chart)));
+    }
+    Refine(data, 1e-6);
+    const Sampled mesh = Sample(data.Charts, data.Faces, 1, false);
+    const Sampled surface = Sample(data.Charts, data.Faces, 24, true);
+    const TriangleIndex<3> toMesh(mesh.Points, mesh.Triangles);
+    const TriangleIndex<3> toSurface(surface.Points, surface.Triangles);
+    for (std::size_t c = 0; c < data.Charts.size(); ++c)
+    {
+      const ChartDeviation& deviation = data.Deviations[c];
+      for (Eigen::Index k = 0; k < data.Charts[c].Points.rows(); ++k)
+      {
+        EXPECT_GE(deviation.PointDeviation[k] + Sag,
+          LargestDistance(PointMatrix(data.Charts[c].Points.row(k)), toSurface));
+      }
+      for (std::size_t t = 0; t < data.Charts[c].Triangles.size(); ++t)
+      {
+        ChartMesh one = data.Charts[c];
+        one.Triangles = { data.Charts[c].Triangles[t] };
+        const std::vector<TrimmedFace> face{ data.Faces[c] };
+        const double bound = deviation.TriangleBound[static_cast<Eigen::Index>(t)];
+        EXPECT_GE(bound + Sag, LargestDistance(Sample({ one }, face, 12, false).Points, toSurface));
+        EXPECT_GE(bound, LargestDistance(Sample({ one }, face, 12, true).Points, toMesh));
+      }
+    }
+  }
+}
+
+/// A rectangle of the plane, one side of which has a point that lies beside it by next to nothing.
+ChartMesh WithNeedle(double height, double angle, const Eigen::RowVector2d& offset)
+{
+  Eigen::Matrix<double, 5, 2> places;
+  places << 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0, 0.37, height;
+  Eigen::Matrix2d turn;
+  turn << std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle);
+  ChartMesh chart;
+  chart.UV = (places * turn).rowwise() + offset;
+  chart.Points = PointMatrix::Zero(5, 3);
+  chart.Points.leftCols(2) = chart.UV;
+  chart.Triangles = { { 0, 1, 4 }, { 1, 2, 4 }, { 2, 3, 4 }, { 3, 0, 4 } };
+  return chart;
+}
+
+/// The mesh lies in one of two planes of surfaces, the other one is at a height and slides along
+/// itself: nothing of it is nearer, whatever way the rounding of corners turns a needle.
+TEST(ClosestDeviation, RoundingOfNeedlesLowersNoBound_ExactOracle)
+{
+  constexpr double Height = 0.02;
+  int tried = 0;
+  for (unsigned seed = 1; seed <= 80; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> number(0.0, 1.0);
+    const double least = std::pow(10.0, -17.0 + 3.0 * number(random));
+    const double far = seed % 4 == 0 ? 40.0 : 0.0;
+    const ChartMesh chart = WithNeedle(seed % 2 == 0 ? 1e-13 : least, 6.0 * number(random),
+      Eigen::RowVector2d(far * number(random), far * number(random)));
+    if (!chart.Check())
+    {
+      continue; // rounding has turned the needle over: no chart
+    }
+    ++tried;
+    const double slide = 0.05 + 0.1 * number(random);
+    const auto plane = [=](double u, double v)
+    {
+      return Eigen::RowVector3d(
+        u + slide * std::sin(5.0 * u), v + slide * std::cos(4.0 * v), Height);
+    };
+    Case data;
+    data.Add(chart, InterpolatingSurface(plane, 3, 4, BoxOf(chart)));
+    data.Add(chart, InterpolatingSurface(Flat, 1, 1, BoxOf(chart)));
+    EXPECT_GE(data.Deviations[0].TriangleBound.minCoeff(), Height);
+    Refine(data, 1e-3);
+    EXPECT_GE(data.Deviations[0].TriangleBound.minCoeff(), Height);
+    EXPECT_TRUE(std::isfinite(data.Bound()));
+  }
+  EXPECT_GE(tried, 40);
 }
 
 /// Each chart's bound holds for its own triangles: the surface of one has a bump that slides.
