@@ -24,7 +24,8 @@ constexpr double SideShare = 0.5;             // of SharpAngle: what turns by mo
 constexpr double KnownShare = 1.0 / 8.0;      // of SharpAngle: worse normals are not known
 constexpr double BluntShare = 0.5;            // of WeakAngle: bounds of bands, and gaps
 constexpr double PatchShare = 0.5; // of the patches of its normals, below which a region is none
-constexpr double FitShare = 0.9;   // of the time of a part
+constexpr double NoiseShare = 0.3; // of the time of a part
+constexpr double FitShare = 0.6;
 constexpr double Pi = 3.14159265358979323846;
 
 Status CheckAll(const TriangleMesh& mesh, const ScanFeatureParams& params)
@@ -78,7 +79,7 @@ struct Part
   std::vector<MeshEdge> Known; ///< ascending, of its own points
 };
 
-/// What holds for all parts, in the unit of the points.
+/// What holds for a part, in the unit of the points: but for the area nothing beside it counts.
 struct Limits
 {
   double Noise = 0.0;
@@ -96,28 +97,45 @@ struct PartFeatures
   int ClosedGaps = 0;
   int SharpEdges = 0;
   int RimEdges = 0;
+  double Noise = 0.0;
 };
 
 class PartFinder
 {
 public:
-  PartFinder(const Part& part, const ScanFeatureParams& params, const Limits& limits)
-    : Params(params), Limit(limits), Parts(part.Surface, NoHoles), Known(this->Parts),
-      Marks(this->Parts)
+  /// @param area  of the smallest region.
+  PartFinder(const Part& part, const ScanFeatureParams& params, double area)
+    : Params(params), Parts(part.Surface, NoHoles), Known(this->Parts), Marks(this->Parts)
   {
     this->Known.Set(part.Known);
+    const PointMatrix& points = part.Surface.Points;
+    const double diagonal = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+    this->Limit.Noise = params.Noise;
+    this->Limit.Area = area;
+    this->Limit.Width = params.NarrowWidth * diagonal;
+    this->Limit.Gap = params.LargestGap * diagonal;
   }
 
   /// @return Aborted.
   Result<PartFeatures> Find(const ProgressCallback& progress)
   {
+    if (this->Params.Noise < 0.0)
+    {
+      const auto noise = EstimateNoise(this->Parts, this->Params.Threads,
+        [&](double share) { return progress(NoiseShare * share); });
+      if (!noise)
+      {
+        return noise.Status;
+      }
+      this->Limit.Noise = noise.Value;
+    }
     NormalFitParams fit;
     fit.Noise = this->Limit.Noise;
     fit.Precision = this->Params.Angles.SharpAngle * PrecisionShare / Degrees;
     fit.Bend = this->Params.Angles.SharpAngle * SideShare / Degrees;
     fit.Known = this->Params.Angles.SharpAngle * KnownShare / Degrees;
     fit.Threads = this->Params.Threads;
-    fit.Progress = progress;
+    fit.Progress = [&](double share) { return progress(NoiseShare + FitShare * share); };
     auto fitted =
       FitNormals(this->Parts, fit, [&](std::size_t t, std::size_t k) { return this->Known(t, k); });
     if (!fitted)
@@ -127,6 +145,7 @@ public:
     this->Fitted = std::move(fitted.Value);
     this->MarkKnown();
     PartFeatures features;
+    features.Noise = this->Limit.Noise;
     if (!this->Params.Known.Only)
     {
       this->Marks.Set(SharpEdges(this->Parts, this->Params.Angles, this->Angle));
@@ -287,7 +306,7 @@ private:
   }
 
   const ScanFeatureParams& Params;
-  const Limits& Limit;
+  Limits Limit;
   const std::vector<int> NoHoles;
   const SurfaceParts Parts;
   EdgeMarks Known;
@@ -302,12 +321,6 @@ private:
     return Degrees * std::atan2(own.cross(other).norm(), own.dot(other));
   };
 };
-
-double NoiseOf(const DiscMesh& surface)
-{
-  const std::vector<int> noHoles;
-  return EstimateNoise(SurfaceParts(surface, noHoles));
-}
 
 /// Known edges as edges of the parts. @param first  of equal points, the first one.
 Status SetKnown(const TriangleMesh& mesh, const KnownFeatures& known, const std::vector<int>& first,
@@ -395,6 +408,7 @@ void Append(const DiscMesh& surface, PartFeatures&& part, ScanFeatures& all)
   all.NumRimEdges += part.RimEdges;
   all.NumJoined += part.Joined;
   all.NumClosedGaps += part.ClosedGaps;
+  all.Noise = std::max(all.Noise, part.Noise);
 }
 }
 
@@ -410,8 +424,6 @@ Result<ScanFeatures> FindScanFeatures(const TriangleMesh& mesh, const ScanFeatur
     return { ErrorCode::EmptyInput, "the mesh has no triangles" };
   }
   std::vector<Part> parts;
-  Limits limits;
-  std::size_t largest = 0;
   double area = 0.0;
   for (const MeshComponent& component : components)
   {
@@ -422,23 +434,12 @@ Result<ScanFeatures> FindScanFeatures(const TriangleMesh& mesh, const ScanFeatur
     }
     area += surface->Area;
     parts.push_back({ std::move(surface.Value), {} });
-    if (parts.back().Surface.Triangles.size() > parts[largest].Surface.Triangles.size())
-    {
-      largest = parts.size() - 1;
-    }
   }
   if (Status status = SetKnown(mesh, params.Known, FirstOfEqualPoints(mesh.Points), parts); !status)
   {
     return status;
   }
-  const double diagonal =
-    (mesh.Points.colwise().maxCoeff() - mesh.Points.colwise().minCoeff()).norm();
-  limits.Noise = params.Noise < 0.0 ? NoiseOf(parts[largest].Surface) : params.Noise;
-  limits.Area = params.SmallestRegion * area;
-  limits.Width = params.NarrowWidth * diagonal;
-  limits.Gap = params.LargestGap * diagonal;
   ScanFeatures all;
-  all.Noise = limits.Noise;
   all.RegionOfTriangle.assign(mesh.Triangles.size(), -1);
   for (std::size_t i = 0; i < parts.size(); ++i)
   {
@@ -447,8 +448,7 @@ Result<ScanFeatures> FindScanFeatures(const TriangleMesh& mesh, const ScanFeatur
       return !params.Progress ||
         params.Progress((static_cast<double>(i) + share) / static_cast<double>(parts.size()));
     };
-    auto found =
-      PartFinder(parts[i], params, limits).Find([&](double share) { return at(FitShare * share); });
+    auto found = PartFinder(parts[i], params, params.SmallestRegion * area).Find(at);
     if (!found)
     {
       return found.Status;

@@ -4,6 +4,8 @@
 #include "FeatureCases.h"
 #include "MeshNoise.h"
 
+#include <Eigen/Geometry>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +28,9 @@ double Noise(const TriangleMesh& mesh)
   const auto surface = CheckSurface(mesh);
   EXPECT_TRUE(surface) << surface.Status.Message();
   const std::vector<int> noHoles;
-  return EstimateNoise(SurfaceParts(surface.Value, noHoles));
+  const auto noise = EstimateNoise(SurfaceParts(surface.Value, noHoles));
+  EXPECT_TRUE(noise) << noise.Status.Message();
+  return noise.Value;
 }
 
 int ClosedLines(const ScanFeatures& features)
@@ -63,6 +67,40 @@ TriangleMesh Roof(const std::function<double(double)>& angle)
   return mesh;
 }
 
+/// Two sides that meet at 70 degrees in a chamfer 0.006 wide along the x axis, whose upper bound
+/// has 40 edges and whose lower one has one.
+TriangleMesh ChamferedRoof()
+{
+  const int count = 40;
+  const double first = 33.0 * Pi / 180.0;
+  const double both = 70.0 * Pi / 180.0;
+  const Eigen::Vector2d low(0.006 * std::cos(first), -0.006 * std::sin(first));
+  const Eigen::Vector2d foot = low + Eigen::Vector2d(std::cos(both), -std::sin(both));
+  TriangleMesh mesh;
+  mesh.Points.resize(count + 7, 3);
+  for (int i = 0; i <= count; ++i)
+  {
+    mesh.Points.row(i) << static_cast<double>(i) / count, 0.0, 0.0;
+  }
+  const int back = count + 1;
+  const int bottom = count + 3;
+  const int end = count + 5;
+  for (int i = 0; i < 2; ++i)
+  {
+    mesh.Points.row(back + i) << i, -1.0, 0.0;
+    mesh.Points.row(bottom + i) << i, low[0], low[1];
+    mesh.Points.row(end + i) << i, foot[0], foot[1];
+  }
+  mesh.Triangles = { { back, back + 1, count }, { bottom, bottom + 1, count },
+    { bottom, end + 1, bottom + 1 }, { bottom, end, end + 1 } };
+  for (int i = 0; i < count; ++i)
+  {
+    mesh.Triangles.push_back({ back, i + 1, i });
+    mesh.Triangles.push_back({ i, i + 1, bottom });
+  }
+  return mesh;
+}
+
 /// Lengths of the lines that are no rims, ascending.
 std::vector<double> Creases(const ScanFeatures& features)
 {
@@ -92,6 +130,66 @@ TriangleMesh PlateWithPyramid()
     }
   }
   return mesh;
+}
+
+/// Two meshes as one, the second one moved along x.
+TriangleMesh Together(const TriangleMesh& a, const TriangleMesh& b, double x)
+{
+  TriangleMesh both = a;
+  const auto first = static_cast<int>(a.Points.rows());
+  both.Points.conservativeResize(first + b.Points.rows(), 3);
+  both.Points.bottomRows(b.Points.rows()) = b.Points.rowwise() + Eigen::RowVector3d(x, 0.0, 0.0);
+  for (const auto& [i, j, k] : b.Triangles)
+  {
+    both.Triangles.push_back({ first + i, first + j, first + k });
+  }
+  return both;
+}
+
+void ExpectFeaturesOfBoth(const TriangleMesh& a, const TriangleMesh& b, double x)
+{
+  // the second one where it is in the whole: differences by rounding are none of this test
+  TriangleMesh moved = b;
+  moved.Points.col(0).array() += x;
+  const ScanFeatures own = Found(a);
+  const ScanFeatures other = Found(moved);
+  const ScanFeatures both = Found(Together(a, b, x));
+  EXPECT_EQ(both.Noise, std::max(own.Noise, other.Noise));
+  EXPECT_EQ(both.NumRegions, own.NumRegions + other.NumRegions);
+  EXPECT_EQ(both.NumSharpEdges, own.NumSharpEdges + other.NumSharpEdges);
+  EXPECT_EQ(both.NumJoined, own.NumJoined + other.NumJoined);
+  EXPECT_EQ(both.NumClosedGaps, own.NumClosedGaps + other.NumClosedGaps);
+  std::vector<int> corners = own.Corners;
+  std::vector<int> regions = own.RegionOfTriangle;
+  std::vector<std::vector<int>> lines;
+  for (const FeatureLine& line : own.Lines)
+  {
+    lines.push_back(line.Chain.Points);
+  }
+  const auto first = static_cast<int>(a.Points.rows());
+  for (const int corner : other.Corners)
+  {
+    corners.push_back(first + corner);
+  }
+  for (const int region : other.RegionOfTriangle)
+  {
+    regions.push_back(own.NumRegions + region);
+  }
+  for (const FeatureLine& line : other.Lines)
+  {
+    lines.push_back(line.Chain.Points);
+    for (int& point : lines.back())
+    {
+      point += first;
+    }
+  }
+  EXPECT_EQ(both.Corners, corners);
+  EXPECT_EQ(both.RegionOfTriangle, regions);
+  ASSERT_EQ(both.Lines.size(), lines.size());
+  for (std::size_t i = 0; i < lines.size(); ++i)
+  {
+    EXPECT_EQ(both.Lines[i].Chain.Points, lines[i]);
+  }
 }
 
 void ExpectSameAsPlain(const TriangleMesh& mesh)
@@ -148,6 +246,43 @@ TEST(MeshNoise, IsThatWhichWasAdded_PropertyOracle)
       EXPECT_NEAR(Noise(dome), deviation, 0.1 * deviation);
     }
   }
+}
+
+/// Two rings around each point of the rim would be 1e10 points: hours.
+TEST(MeshNoise, HubsOfManyEdgesCostNoMore_ExactOracle)
+{
+  const int sides = 100000;
+  EXPECT_LT(Noise(Turned({ { 0, 0 }, { 1, 0 }, { 1, 2 }, { 0, 2 } }, sides)), 1e-9);
+  // beside a hub of a cap that is divided, noise is measured as elsewhere
+  std::vector<std::array<double, 2>> profile{ { 0, 0 } };
+  for (int i = 1; i <= 20; ++i)
+  {
+    profile.push_back({ 0.05 * i, 0 });
+  }
+  TriangleMesh disc = Turned(profile, 60);
+  AddNoise(1e-3, 1, disc);
+  EXPECT_NEAR(Noise(disc), 1e-3, 1e-4);
+}
+
+TEST(MeshNoise, ThreadsDoNotMatterAndItStops_PropertyOracle)
+{
+  TriangleMesh cube = DividedCube(20);
+  AddNoise(1e-3, 2, cube);
+  const auto surface = CheckSurface(cube);
+  ASSERT_TRUE(surface);
+  const std::vector<int> noHoles;
+  const SurfaceParts parts(surface.Value, noHoles);
+  EXPECT_EQ(EstimateNoise(parts, 1).Value, EstimateNoise(parts, 3).Value);
+  double last = 0.0;
+  const auto stopped = EstimateNoise(parts, 1,
+    [&](double share)
+    {
+      EXPECT_GT(share, last);
+      last = share;
+      return share < 0.5;
+    });
+  EXPECT_EQ(stopped.Status.Code, ErrorCode::Aborted);
+  EXPECT_LT(last, 0.6);
 }
 
 TEST(MeshNoise, TooFewTrianglesSayNothing_ExactOracle)
@@ -302,6 +437,31 @@ TEST(ScanFeatures, RowOfBluntRimsIsACurve_ExactOracle)
   EXPECT_EQ(Found(Turned(profile(0.1), 60)).NumRegions, 1);
 }
 
+TEST(ScanFeatures, NarrowRowsAreFoundHoweverTheyLie_PropertyOracle)
+{
+  const TriangleMesh roof = ChamferedRoof();
+  std::mt19937 random(1);
+  for (int turn = 0; turn < 30; ++turn)
+  {
+    SCOPED_TRACE("turn " + std::to_string(turn));
+    TriangleMesh mesh = roof;
+    if (turn > 0) // the first one along x
+    {
+      Eigen::Vector4d parts;
+      for (double& part : parts)
+      {
+        part = static_cast<double>(random()) / 4294967296.0 - 0.5;
+      }
+      mesh.Points *= Eigen::Quaterniond(parts).normalized().toRotationMatrix();
+    }
+    const ScanFeatures features = Found(mesh);
+    EXPECT_EQ(features.NumRegions, 2);
+    EXPECT_EQ(features.NumSharpEdges, 1); // the long bound, which is sharper
+    ASSERT_EQ(Creases(features).size(), 1u);
+    EXPECT_NEAR(Creases(features).front(), 1.0, 1e-12);
+  }
+}
+
 TEST(ScanFeatures, RimOfAThinPlateIsNoRow_ExactOracle)
 {
   TriangleMesh plate = DividedCube(10);
@@ -448,6 +608,35 @@ TEST(ScanFeatures, PartsAndCornersOfTheirOwn_ExactOracle)
   EXPECT_EQ(features.RegionOfTriangle.back(), 11);
   mesh.Triangles.push_back({ 0, 0, 1 });
   EXPECT_EQ(Found(mesh).RegionOfTriangle.back(), -1);
+}
+
+TEST(ScanFeatures, WhatLiesBesideAPartDoesNotMatter_PropertyOracle)
+{
+  const auto expect = [](const TriangleMesh& a, const TriangleMesh& b, double x)
+  {
+    ExpectFeaturesOfBoth(a, b, x);
+    ExpectFeaturesOfBoth(b, a, x);
+  };
+  const auto noisy = [](int n, double noise)
+  {
+    TriangleMesh cube = DividedCube(n);
+    AddNoise(noise, 1, cube);
+    return cube;
+  };
+  expect(DividedCube(8), noisy(20, 0.004), 3.0);
+  expect(DividedCube(12), noisy(12, 0.004), 2.0); // as many triangles: the order decided
+  // all of it fine and curved, beside noise of more triangles
+  std::vector<std::array<double, 2>> profile;
+  for (int i = 0; i <= 20; ++i)
+  {
+    profile.push_back({ 1.0 + 0.1 * std::sin(0.3 * i), 0.05 * i });
+  }
+  expect(Turned(profile, 60), noisy(30, 0.003), 4.0);
+  // widths and gaps are shares of a part
+  const TriangleMesh chamfered =
+    Turned({ { 0, 0 }, { 1, 0 }, { 1, 0.98 }, { 0.98, 1 }, { 0, 1 } }, 40);
+  expect(chamfered, chamfered, 20.0);
+  expect(chamfered, DividedCube(1), 1000.0);
 }
 
 TEST(ScanFeatures, ThreadsDoNotMatter_PropertyOracle)
