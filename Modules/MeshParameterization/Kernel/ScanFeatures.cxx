@@ -133,7 +133,7 @@ public:
     fit.Noise = this->Limit.Noise;
     fit.Precision = this->Params.Angles.SharpAngle * PrecisionShare / Degrees;
     fit.Bend = this->Params.Angles.SharpAngle * SideShare / Degrees;
-    fit.Known = this->Params.Angles.SharpAngle * KnownShare / Degrees;
+    fit.Known = this->KnownDeviation;
     fit.Threads = this->Params.Threads;
     fit.Progress = [&](double share) { return progress(NoiseShare + FitShare * share); };
     auto fitted =
@@ -153,6 +153,10 @@ public:
       this->JoinSmall(features);
       features.ClosedGaps = CloseGaps(this->Parts, this->Angle,
         { this->Limit.Gap, BluntShare * this->Params.Angles.WeakAngle }, this->Marks);
+      if (features.ClosedGaps > 0)
+      {
+        this->JoinSmall(features); // what they have divided may be too small
+      }
       if (this->Limit.Noise > 0.0)
       {
         this->DropNoise();
@@ -174,21 +178,14 @@ private:
     NarrowBands bands =
       FindNarrowBands(this->Parts, this->Fitted.Normals, this->Angle, params, this->Marks);
     this->Turns = std::move(bands.Turns);
-    const RegionLabels labels = this->Label();
-    std::vector<char> isBand(static_cast<std::size_t>(labels.Count), 1);
-    bool any = false;
-    for (std::size_t t = 0; t < labels.Of.size(); ++t)
-    {
-      any = any || bands.InBand[t];
-      isBand[static_cast<std::size_t>(labels.Of[t])] &= bands.InBand[t];
-    }
-    if (!any)
+    if (std::find(bands.InBand.begin(), bands.InBand.end(), 1) == bands.InBand.end())
     {
       return;
     }
+    const RegionLabels labels = this->Label();
     features.Joined += JoinRegions(
-      this->Parts, this->Angle, labels, isBand, [](double, bool allBands) { return allBands; },
-      this->Known, this->Marks);
+      this->Parts, this->Angle, labels, this->Sums(labels, bands.InBand),
+      [](const RegionSums& sums) { return sums.AllBand; }, this->Known, this->Marks);
     // chains that end within a band are none
     const RegionLabels joined = this->Label();
     VisitInnerEdges(this->Parts,
@@ -207,30 +204,27 @@ private:
   void JoinSmall(PartFeatures& features)
   {
     const RegionLabels labels = this->Label();
-    const auto count = static_cast<std::size_t>(labels.Count);
-    std::vector<double> areas(count, 0.0);
-    std::vector<double> patches(count, 0.0);
-    std::vector<char> isSmall(count, 1); // as long as no normal of it is known
-    const double known = this->Params.Angles.SharpAngle * KnownShare / Degrees;
+    features.Joined += JoinRegions(
+      this->Parts, this->Angle, labels, this->Sums(labels, {}),
+      [&](const RegionSums& sums)
+      {
+        return !sums.HasKnown || sums.Area < this->Limit.Area ||
+          sums.Area * sums.Area < PatchShare * sums.Patches;
+      },
+      this->Known, this->Marks);
+  }
+
+  /// @param inBand  one a triangle, or empty: none is.
+  std::vector<RegionSums> Sums(const RegionLabels& labels, const std::vector<char>& inBand) const
+  {
+    std::vector<RegionSums> sums(static_cast<std::size_t>(labels.Count));
     for (std::size_t t = 0; t < labels.Of.size(); ++t)
     {
-      const auto r = static_cast<std::size_t>(labels.Of[t]);
-      areas[r] += this->Parts.Areas[t];
-      patches[r] += this->Parts.Areas[t] * this->Fitted.Areas[t];
-      if (this->Fitted.Deviations[t] <= known)
-      {
-        isSmall[r] = 0;
-      }
+      const double area = this->Parts.Areas[t];
+      sums[static_cast<std::size_t>(labels.Of[t])].Add({ area, area * this->Fitted.Areas[t],
+        this->Fitted.Deviations[t] <= this->KnownDeviation, !inBand.empty() && inBand[t] != 0 });
     }
-    for (std::size_t r = 0; r < count; ++r)
-    {
-      isSmall[r] =
-        isSmall[r] || areas[r] < this->Limit.Area || areas[r] * areas[r] < PatchShare * patches[r];
-    }
-    features.Joined += JoinRegions(
-      this->Parts, this->Angle, labels, isSmall,
-      [&](double area, bool allSmall) { return allSmall && area < this->Limit.Area; }, this->Known,
-      this->Marks);
+    return sums;
   }
 
   void DropNoise()
@@ -306,6 +300,7 @@ private:
   }
 
   const ScanFeatureParams& Params;
+  const double KnownDeviation = this->Params.Angles.SharpAngle * KnownShare / Degrees;
   Limits Limit;
   const std::vector<int> NoHoles;
   const SurfaceParts Parts;

@@ -2,6 +2,7 @@
 #include "ScanFeatures.h"
 
 #include "FeatureCases.h"
+#include "FittedNormals.h"
 #include "MeshNoise.h"
 
 #include <Eigen/Geometry>
@@ -530,6 +531,57 @@ TEST(ScanFeatures, SmallRegionJoinsAcrossTheBluntestEdge_ExactOracle)
   EXPECT_EQ(features.NumRegions, 2);
   EXPECT_EQ(features.RegionOfTriangle[0], features.RegionOfTriangle[40]);
   EXPECT_NE(features.RegionOfTriangle[0], features.RegionOfTriangle[70]);
+}
+
+TEST(ScanFeatures, NoRegionIsNoMoreThanNoise_PropertyOracle)
+{
+  const auto expect = [](const TriangleMesh& mesh, double given)
+  {
+    ScanFeatureParams params;
+    params.Noise = given;
+    const ScanFeatures features = Found(mesh, params);
+    // the rules of the page, from the same normals
+    const double sharp = params.Angles.SharpAngle * Pi / 180.0;
+    NormalFitParams fit;
+    fit.Noise = features.Noise;
+    fit.Precision = sharp / 16.0;
+    fit.Bend = sharp / 2.0;
+    fit.Known = sharp / 8.0;
+    const auto surface = CheckSurface(mesh);
+    ASSERT_TRUE(surface);
+    const std::vector<int> noHoles;
+    const SurfaceParts parts(surface.Value, noHoles);
+    const auto fitted = FitNormals(parts, fit, [](std::size_t, std::size_t) { return false; });
+    ASSERT_TRUE(fitted);
+    const auto count = static_cast<std::size_t>(features.NumRegions);
+    std::vector<double> areas(count, 0.0);
+    std::vector<double> patches(count, 0.0);
+    std::vector<char> isKnown(count, 0);
+    for (std::size_t t = 0; t < parts.Areas.size(); ++t)
+    {
+      const auto r = static_cast<std::size_t>(features.RegionOfTriangle[t]);
+      areas[r] += parts.Areas[t];
+      patches[r] += parts.Areas[t] * fitted->Areas[t];
+      isKnown[r] = isKnown[r] || fitted->Deviations[t] <= fit.Known;
+    }
+    for (std::size_t r = 0; count > 1 && r < count; ++r)
+    {
+      EXPECT_TRUE(isKnown[r]) << "region " << r << " of " << count;
+      EXPECT_GE(areas[r] * areas[r], 0.5 * patches[r]) << "region " << r << " of " << count;
+    }
+  };
+  for (const double noise : { 0.02, 0.03, 0.04, 0.05, 0.1 })
+  {
+    for (unsigned seed = 1; seed <= 3; ++seed)
+    {
+      SCOPED_TRACE(std::to_string(noise) + ", seed " + std::to_string(seed));
+      TriangleMesh cube = DividedCube(20);
+      AddNoise(noise, seed, cube);
+      expect(cube, -1.0);
+    }
+  }
+  expect(DividedCube(8), 10.0);
+  expect(DividedCube(20), 0.05);
 }
 
 TEST(ScanFeatures, KnownEdgesExtendOrReplace_ExactOracle)
