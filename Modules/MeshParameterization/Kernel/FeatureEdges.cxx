@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace knotwork
 {
@@ -141,20 +142,22 @@ FeatureChain Follow(const std::vector<MeshEdge>& edges, const Incidence& inciden
 
 Status CheckParams(const MeshFeatureParams& params)
 {
-  const auto error = [](const char* text) { return Status(ErrorCode::InvalidParameter, text); };
+  std::ostringstream text;
   if (!(params.SharpAngle > 0.0 && params.SharpAngle < 180.0))
   {
-    return error("SharpAngle must be above 0 and below 180 degrees");
+    text << "SharpAngle must be above 0 and below 180 degrees; it is " << params.SharpAngle;
   }
-  if (!(params.WeakAngle > 0.0 && params.WeakAngle <= params.SharpAngle))
+  else if (!(params.WeakAngle > 0.0 && params.WeakAngle <= params.SharpAngle))
   {
-    return error("WeakAngle must be above 0 and at most SharpAngle");
+    text << "WeakAngle must be above 0 and at most SharpAngle; it is " << params.WeakAngle
+         << " degrees and SharpAngle " << params.SharpAngle
+         << (params.WeakAngle > 0.0 ? ": lower it to that, or raise SharpAngle" : "");
   }
-  if (!(params.CornerAngle > 0.0 && params.CornerAngle <= 180.0))
+  else if (!(params.CornerAngle > 0.0 && params.CornerAngle <= 180.0))
   {
-    return error("CornerAngle must be above 0 and at most 180 degrees");
+    text << "CornerAngle must be above 0 and at most 180 degrees; it is " << params.CornerAngle;
   }
-  return {};
+  return text.str().empty() ? Status() : Status(ErrorCode::InvalidParameter, text.str());
 }
 
 std::vector<MeshEdge> SharpEdges(

@@ -14,6 +14,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 
 namespace knotwork
 {
@@ -51,6 +53,12 @@ Status CheckAll(const TriangleMesh& mesh, const ScanFeatureParams& params)
         " must be between 0 and 1, a share of the diagonal of the mesh's box" };
   }
   const KnownFeatures& known = params.Known;
+  if (known.Only && known.Edges.empty() && known.Regions.empty())
+  {
+    return { ErrorCode::InvalidParameter,
+      "known features replace what would be found (Mode REPLACE), and none are given; give edges "
+      "(input 1) or regions (RegionArray), or take Mode EXTEND" };
+  }
   if (!known.Regions.empty() && known.Regions.size() != mesh.Triangles.size())
   {
     return { ErrorCode::SizeMismatch,
@@ -317,27 +325,73 @@ private:
   };
 };
 
-/// Known edges as edges of the parts. @param first  of equal points, the first one.
-Status SetKnown(const TriangleMesh& mesh, const KnownFeatures& known, const std::vector<int>& first,
-  std::vector<Part>& parts)
+/// The way along edges between two points of a mesh.
+struct Way
 {
-  std::vector<std::array<int, 2>> place(static_cast<std::size_t>(mesh.Points.rows()), { -1, -1 });
-  for (std::size_t i = 0; i < parts.size(); ++i)
+  std::size_t Part = 0;
+  std::vector<int> Points; ///< of the part; empty: there is none
+  double Length = std::numeric_limits<double>::infinity();
+};
+
+/// Where points lie: part and number there, of points where parts touch all of them.
+using Places = std::map<int, std::vector<std::array<int, 2>>>;
+
+/// The shortest way on a part that has both points, of equal ones on the first.
+Way WayBetween(const std::vector<Part>& parts, const Places& places, int a, int b)
+{
+  Way shortest;
+  for (const auto& [part, from] : places.at(a))
   {
-    const DiscMesh& surface = parts[i].Surface;
-    for (std::size_t v = 0; v < surface.PointIds.size(); ++v)
+    for (const auto& [other, to] : places.at(b))
     {
-      // a point of two parts that touch there: that of the first part
-      auto& at = place[static_cast<std::size_t>(surface.PointIds[v])];
-      at = at[0] < 0 ? std::array<int, 2>{ static_cast<int>(i), static_cast<int>(v) } : at;
+      if (part != other)
+      {
+        continue;
+      }
+      Way way;
+      way.Part = static_cast<std::size_t>(part);
+      const DiscMesh& surface = parts[way.Part].Surface;
+      way.Points = ShortestWay(surface, from, to);
+      way.Length = 0.0;
+      for (std::size_t j = 0; j + 1 < way.Points.size(); ++j)
+      {
+        way.Length += (surface.Point(way.Points[j + 1]) - surface.Point(way.Points[j])).norm();
+      }
+      if (way.Length < shortest.Length)
+      {
+        shortest = std::move(way);
+      }
+    }
+  }
+  return shortest;
+}
+
+/// Known edges as edges of the parts. @param first  of equal points, the first one.
+Status SetKnown(const KnownFeatures& known, const std::vector<int>& first, std::vector<Part>& parts)
+{
+  const auto firstOf = [&](int point) { return first[static_cast<std::size_t>(point)]; };
+  Places places;
+  for (const auto& [a, b] : known.Edges)
+  {
+    places[firstOf(a)];
+    places[firstOf(b)];
+  }
+  for (std::size_t i = 0; i < parts.size() && !places.empty(); ++i)
+  {
+    const std::vector<int>& ids = parts[i].Surface.PointIds;
+    for (std::size_t v = 0; v < ids.size(); ++v)
+    {
+      if (const auto found = places.find(ids[v]); found != places.end())
+      {
+        found->second.push_back({ static_cast<int>(i), static_cast<int>(v) });
+      }
     }
   }
   for (std::size_t i = 0; i < known.Edges.size(); ++i)
   {
     const auto& [a, b] = known.Edges[i];
-    const auto from = place[static_cast<std::size_t>(first[static_cast<std::size_t>(a)])];
-    const auto to = place[static_cast<std::size_t>(first[static_cast<std::size_t>(b)])];
-    if (from[0] < 0 || from[0] != to[0])
+    const Way way = WayBetween(parts, places, firstOf(a), firstOf(b));
+    if (way.Points.empty())
     {
       return { ErrorCode::InvalidTopology,
         "known edge " + std::to_string(i) + " (points " + std::to_string(a) + " and " +
@@ -345,11 +399,9 @@ Status SetKnown(const TriangleMesh& mesh, const KnownFeatures& known, const std:
           ") does not lie on one connected part of the mesh; draw it along the "
           "surface" };
     }
-    Part& part = parts[static_cast<std::size_t>(from[0])];
-    const std::vector<int> way = ShortestWay(part.Surface, from[1], to[1]);
-    for (std::size_t j = 0; j + 1 < way.size(); ++j)
+    for (std::size_t j = 0; j + 1 < way.Points.size(); ++j)
     {
-      part.Known.push_back(EdgeBetween(way[j], way[j + 1]));
+      parts[way.Part].Known.push_back(EdgeBetween(way.Points[j], way.Points[j + 1]));
     }
   }
   for (Part& part : parts)
@@ -430,7 +482,7 @@ Result<ScanFeatures> FindScanFeatures(const TriangleMesh& mesh, const ScanFeatur
     area += surface->Area;
     parts.push_back({ std::move(surface.Value), {} });
   }
-  if (Status status = SetKnown(mesh, params.Known, FirstOfEqualPoints(mesh.Points), parts); !status)
+  if (Status status = SetKnown(params.Known, FirstOfEqualPoints(mesh.Points), parts); !status)
   {
     return status;
   }

@@ -65,8 +65,8 @@ struct ScanFeatures
 /// beside it does not matter. Without noise, narrow rows, gaps and small regions the result is that
 /// of FindMeshFeatures.
 /// @param mesh  of one or several parts; points that are equal are one.
-/// @return EmptyInput; InvalidParameter; InvalidTopology: a known edge of points of different
-/// parts;
+/// @return EmptyInput; InvalidParameter (also Known.Only and nothing known); InvalidTopology: a
+/// known edge of points of different parts;
 ///         SizeMismatch: known numbers of another count; OutsideDomain: known edges of points that
 ///         are none; the failures of CheckComponent; Aborted.
 /// @complexity O(n log n), times the triangles of a patch where there is noise.

@@ -133,6 +133,18 @@ TriangleMesh PlateWithPyramid()
   return mesh;
 }
 
+int PointAt(const TriangleMesh& mesh, double x, double y, double z)
+{
+  for (int i = 0; i < mesh.Points.rows(); ++i)
+  {
+    if ((mesh.Points.row(i) - Eigen::RowVector3d(x, y, z)).norm() < 1e-9)
+    {
+      return i;
+    }
+  }
+  return -1;
+}
+
 /// Two meshes as one, the second one moved along x.
 TriangleMesh Together(const TriangleMesh& a, const TriangleMesh& b, double x)
 {
@@ -587,17 +599,7 @@ TEST(ScanFeatures, NoRegionIsNoMoreThanNoise_PropertyOracle)
 TEST(ScanFeatures, KnownEdgesExtendOrReplace_ExactOracle)
 {
   const TriangleMesh cube = DividedCube(4);
-  const auto at = [&](double x, double y, double z)
-  {
-    for (int i = 0; i < cube.Points.rows(); ++i)
-    {
-      if ((cube.Points.row(i) - Eigen::RowVector3d(x, y, z)).norm() < 1e-9)
-      {
-        return i;
-      }
-    }
-    return -1;
-  };
+  const auto at = [&](double x, double y, double z) { return PointAt(cube, x, y, z); };
   ScanFeatureParams params;
   params.Known.Edges = { { at(0.5, 0, 1), at(0.5, 1, 1) } }; // across the top
   ScanFeatures features = Found(cube, params);
@@ -614,6 +616,43 @@ TEST(ScanFeatures, KnownEdgesExtendOrReplace_ExactOracle)
   features = Found(cube, params);
   EXPECT_EQ(features.NumRegions, 3);
   EXPECT_EQ(features.NumSharpEdges, 4 * 4 + 4);
+}
+
+TEST(ScanFeatures, KnownEdgesWherePartsTouch_ExactOracle)
+{
+  // two cubes that have a corner in common
+  const TriangleMesh cube = DividedCube(4);
+  TriangleMesh raised = cube;
+  raised.Points.rightCols(2).array() += 1.0;
+  ScanFeatureParams params;
+  params.Known.Only = true;
+  const auto expect = [&](const TriangleMesh& mesh)
+  {
+    const ScanFeatures features = Found(mesh, params);
+    EXPECT_EQ(features.NumSharpEdges, 8);
+    EXPECT_EQ(Creases(features), (std::vector<double>{ 1.0, 1.0 }));
+  };
+  for (const bool firstIsRaised : { false, true })
+  {
+    const TriangleMesh mesh =
+      firstIsRaised ? Together(raised, cube, -1.0) : Together(cube, raised, 1.0);
+    const double x = firstIsRaised ? 0.0 : 1.0;
+    const int common = PointAt(mesh, x, 1, 1);
+    params.Known.Edges = { { common, PointAt(mesh, x + 1.0, 1, 1) },
+      { PointAt(mesh, x - 1.0, 1, 1), common } };
+    expect(mesh);
+  }
+  // an arch that stands on two corners of a cube: the way along the cube is shorter
+  const TriangleMesh arch = Faces(1, 10, 2,
+    [](int, double u, double v)
+    { return Eigen::Vector3d(u, (v - 0.5) * u * (1.0 - u), 1.0 + 4.0 * u * (1.0 - u)); });
+  for (const TriangleMesh& mesh : { Together(arch, cube, 0.0), Together(cube, arch, 0.0) })
+  {
+    params.Known.Edges = { { PointAt(mesh, 0, 0, 1), PointAt(mesh, 1, 0, 1) } };
+    const ScanFeatures features = Found(mesh, params);
+    EXPECT_EQ(features.NumSharpEdges, 4);
+    EXPECT_EQ(Creases(features), std::vector<double>{ 1.0 });
+  }
 }
 
 TEST(ScanFeatures, KnownRegionsExtendOrReplace_ExactOracle)
@@ -738,6 +777,11 @@ TEST(ScanFeatures, EveryFailureIsReachable)
   };
   const auto invalid = ErrorCode::InvalidParameter;
   expect(cube, with([](auto& p) { p.Angles.SharpAngle = 0.0; }), invalid, "SharpAngle");
+  expect(cube, with([](auto& p) { p.Angles.SharpAngle = 10.0; }), invalid,
+    "it is 20 degrees and SharpAngle 10: lower it to that, or raise SharpAngle");
+  expect(cube, with([](auto& p) { p.Angles.WeakAngle = -1.0; }), invalid, "it is -1 degrees");
+  expect(cube, with([](auto& p) { p.Angles.CornerAngle = 200.0; }), invalid, "it is 200");
+  expect(cube, with([](auto& p) { p.Known.Only = true; }), invalid, "none are given");
   expect(cube, with([&](auto& p) { p.Noise = nan; }), invalid, "Noise");
   expect(cube, with([](auto& p) { p.SmallestRegion = 1.0; }), invalid, "SmallestRegion");
   expect(cube, with([](auto& p) { p.NarrowWidth = -0.1; }), invalid, "NarrowWidth");
