@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FeatureEdges.h"
 
+#include <knotwork/SplineCore/AngleBetween.h>
 #include <knotwork/SplineCore/DisjointSets.h>
+#include <knotwork/SplineCore/Numbers.h>
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace knotwork
 {
@@ -71,7 +72,7 @@ double TurnAt(const Network& network, int point, double reach)
   { return network.Surface.Point(Walk(network, point, network.Of(point)[i], reach).back()); };
   const Eigen::Vector3d in = here - end(0);
   const Eigen::Vector3d out = end(1) - here;
-  return Degrees * std::atan2(in.cross(out).norm(), in.dot(out)) + Slack;
+  return Degrees * AngleBetween(in, out) + Slack;
 }
 
 /// Whether within the reach no chains meet and no point turns more, or as much and comes earlier.
@@ -142,22 +143,25 @@ FeatureChain Follow(const std::vector<MeshEdge>& edges, const Incidence& inciden
 
 Status CheckParams(const MeshFeatureParams& params)
 {
-  std::ostringstream text;
+  const auto error = [](const std::string& text)
+  { return Status(ErrorCode::InvalidParameter, text); };
   if (!(params.SharpAngle > 0.0 && params.SharpAngle < 180.0))
   {
-    text << "SharpAngle must be above 0 and below 180 degrees; it is " << params.SharpAngle;
+    return error(
+      "SharpAngle must be above 0 and below 180 degrees; it is " + Digits(params.SharpAngle));
   }
-  else if (!(params.WeakAngle > 0.0 && params.WeakAngle <= params.SharpAngle))
+  if (!(params.WeakAngle > 0.0 && params.WeakAngle <= params.SharpAngle))
   {
-    text << "WeakAngle must be above 0 and at most SharpAngle; it is " << params.WeakAngle
-         << " degrees and SharpAngle " << params.SharpAngle
-         << (params.WeakAngle > 0.0 ? ": lower it to that, or raise SharpAngle" : "");
+    return error("WeakAngle must be above 0 and at most SharpAngle; it is " +
+      Digits(params.WeakAngle) + " degrees and SharpAngle " + Digits(params.SharpAngle) +
+      (params.WeakAngle > 0.0 ? ": lower it to that, or raise SharpAngle" : ""));
   }
-  else if (!(params.CornerAngle > 0.0 && params.CornerAngle <= 180.0))
+  if (!(params.CornerAngle > 0.0 && params.CornerAngle <= 180.0))
   {
-    text << "CornerAngle must be above 0 and at most 180 degrees; it is " << params.CornerAngle;
+    return error(
+      "CornerAngle must be above 0 and at most 180 degrees; it is " + Digits(params.CornerAngle));
   }
-  return text.str().empty() ? Status() : Status(ErrorCode::InvalidParameter, text.str());
+  return {};
 }
 
 std::vector<MeshEdge> SharpEdges(

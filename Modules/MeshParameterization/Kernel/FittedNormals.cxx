@@ -3,6 +3,7 @@
 
 #include "VisitBlocks.h"
 
+#include <knotwork/SplineCore/AngleBetween.h>
 #include <knotwork/SplineCore/Parallel.h>
 
 #include <Eigen/Eigenvalues>
@@ -161,11 +162,6 @@ struct Patch
   double Radius = 0.0;
   double Area = 0.0;
 };
-
-double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
-{
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 class Patches
 {

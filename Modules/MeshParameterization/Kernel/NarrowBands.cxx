@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "NarrowBands.h"
 
+#include <knotwork/SplineCore/AngleBetween.h>
 #include <knotwork/SplineCore/BoxTree.h>
 #include <knotwork/SplineCore/DisjointSets.h>
 
@@ -91,9 +92,7 @@ std::vector<double> TurnsOf(const std::vector<Bound>& bounds, double reach, doub
         {
           return;
         }
-        const double turn = Degrees *
-          std::atan2(bounds[i].Beyond.cross(bounds[j].Beyond).norm(),
-            bounds[i].Beyond.dot(bounds[j].Beyond));
+        const double turn = Degrees * AngleBetween(bounds[i].Beyond, bounds[j].Beyond);
         if (turn >= sharpAngle && turn < LargestTurn)
         {
           turns[i] = std::max(turns[i], turn);

@@ -8,6 +8,7 @@
 #include "MeshNoise.h"
 #include "NarrowBands.h"
 
+#include <knotwork/SplineCore/AngleBetween.h>
 #include <knotwork/SplineCore/TriangleIndex.h>
 
 #include <Eigen/Geometry>
@@ -321,7 +322,7 @@ private:
     const Eigen::Vector3d& own = this->Fitted.Normals[t];
     const Eigen::Vector3d& other =
       this->Fitted.Normals[static_cast<std::size_t>(this->Parts.Adjacency.Triangle[t][k])];
-    return Degrees * std::atan2(own.cross(other).norm(), own.dot(other));
+    return Degrees * AngleBetween(own, other);
   };
 };
 

@@ -6,6 +6,8 @@
 #include "MeshWeights.h"
 #include "SmallEigenpairs.h"
 
+#include <knotwork/SplineCore/AngleBetween.h>
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
@@ -175,8 +177,7 @@ double SurfaceParts::Dihedral(std::size_t t, std::size_t k) const
   {
     return 0.0;
   }
-  const Eigen::Vector3d& normal = this->Normals[static_cast<std::size_t>(other)];
-  return std::atan2(this->Normals[t].cross(normal).norm(), this->Normals[t].dot(normal));
+  return AngleBetween(this->Normals[t], this->Normals[static_cast<std::size_t>(other)]);
 }
 
 double SurfaceParts::SideLength(std::size_t t, std::size_t k) const
