@@ -12,6 +12,7 @@ namespace knotwork
 namespace
 {
 constexpr double LeastAngle = 1.0; // degrees: edges are no blunter than that
+constexpr double TieShare = 1e-9;  // of a joint: others are as good, and rounding decides nothing
 
 struct Region
 {
@@ -68,7 +69,7 @@ int JoinRegions(const SurfaceParts& parts, const EdgeAngle& angle, const RegionL
     double most = 0.0;
     for (const auto& [other, joint] : region.Joints)
     {
-      if (joint > most)
+      if (joint > (1.0 + TieShare) * most)
       {
         most = joint;
         to = other;
