@@ -86,8 +86,8 @@ public:
   vtkGetMacro(NarrowWidth, double);
   ///@}
   ///@{
-  /** Length of gaps in chains of edges that are closed, share of the diagonal of the box of its part
-   * of the mesh; 0: none are. Default 0.02, valid range [0, 1]. */
+  /** Length of gaps in chains of edges that are closed, share of the diagonal of the box of its
+   * part of the mesh; 0: none are. Default 0.02, valid range [0, 1]. */
   vtkSetClampMacro(LargestGap, double, 0.0, 1.0);
   vtkGetMacro(LargestGap, double);
   ///@}
