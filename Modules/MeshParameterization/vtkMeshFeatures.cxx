@@ -21,6 +21,7 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkTable.h"
+#include "vtkVariant.h"
 
 #include <algorithm>
 #include <cmath>
@@ -67,6 +68,13 @@ Result<std::vector<std::array<int, 2>>> DecodeEdges(const TriangleMesh& mesh, vt
   return EdgesOfLines(mesh, points, lines);
 }
 
+/// The number of a value: how many others came before it.
+template <class Value>
+int NumberOf(Value value, std::map<Value, int>& numbers)
+{
+  return numbers.emplace(value, static_cast<int>(numbers.size())).first->second;
+}
+
 /// A number for each value of a cell array, one a triangle.
 Result<std::vector<int>> DecodeRegions(
   const DecodedMesh& decoded, vtkPointSet* input, const std::string& name)
@@ -81,10 +89,17 @@ Result<std::vector<int>> DecodeRegions(
           : "there is no cell array '" + name + "' of numbers; name one of the mesh") +
         " (RegionArray)" };
   }
+  const bool isReal = array->GetDataType() == VTK_DOUBLE || array->GetDataType() == VTK_FLOAT;
   std::map<double, int> numbers;
+  std::map<vtkTypeInt64, int> integers; // doubles would make one of those beyond 2^53
   std::vector<int> regions;
   for (const int cell : decoded.Cells)
   {
+    if (!isReal)
+    {
+      regions.push_back(NumberOf(array->GetVariantValue(cell).ToTypeInt64(), integers));
+      continue;
+    }
     const double value = array->GetComponent(cell, 0);
     if (std::isnan(value))
     {
@@ -92,7 +107,7 @@ Result<std::vector<int>> DecodeRegions(
         "the cell array '" + name + "' has no number at cell " + std::to_string(cell) +
           " (RegionArray)" };
     }
-    regions.push_back(numbers.emplace(value, static_cast<int>(numbers.size())).first->second);
+    regions.push_back(NumberOf(value, numbers));
   }
   return regions;
 }

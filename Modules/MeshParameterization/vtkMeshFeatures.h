@@ -67,8 +67,8 @@ public:
   vtkGetMacro(CornerAngle, double);
   ///@}
   ///@{
-  /** Standard deviation of the points from the shape, unit of the points; negative: estimated.
-   * Default -1, valid range >= -1. */
+  /** Standard deviation of the points from the shape, unit of the points; negative: estimated for
+   * each part of the mesh. Default -1, valid range >= -1. */
   vtkSetClampMacro(NoiseLevel, double, -1.0, VTK_DOUBLE_MAX);
   vtkGetMacro(NoiseLevel, double);
   ///@}
@@ -80,14 +80,14 @@ public:
   ///@}
   ///@{
   /** Width of rows of triangles between two sides, chamfers and fillets, that are edges instead of
-   * regions, share of the diagonal of the mesh's box; 0: none are. Default 0.005, valid range [0,
-   * 1]. */
+   * regions, share of the diagonal of the box of its part of the mesh; 0: none are. Default 0.005,
+   * valid range [0, 1]. */
   vtkSetClampMacro(NarrowWidth, double, 0.0, 1.0);
   vtkGetMacro(NarrowWidth, double);
   ///@}
   ///@{
-  /** Length of gaps in chains of edges that are closed, share of the diagonal of the mesh's box; 0:
-   * none are. Default 0.02, valid range [0, 1]. */
+  /** Length of gaps in chains of edges that are closed, share of the diagonal of the box of its
+   * part of the mesh; 0: none are. Default 0.02, valid range [0, 1]. */
   vtkSetClampMacro(LargestGap, double, 0.0, 1.0);
   vtkGetMacro(LargestGap, double);
   ///@}

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measures and writes the tables of accuracy on the page of MeshParameterization.
+"""Measures and writes the tables of accuracy and charts on the page of MeshParameterization.
 
-usage: flatten.py PROGRAM MESHES [--write PAGE] [--repeat N]
+usage: flatten.py PROGRAM MESHES [--charts CLOSED] [--only TABLE] [--write PAGE] [--repeat N]
 
 Runs `knotwork flatten MESH --method METHOD --fallback 0 --threads 1 --report` on the meshes of a folder; a file .uv beside a
 mesh is its true flattening, one point a line. --write puts the tables between the comments `flatten accuracy: begin`, `...:
-end` and `flatten methods: begin`, `...: end` of the page. Needs the Python that has VTK's modules and NumPy.
+end` and `flatten methods: begin`, `...: end` of the page; with the folder CLOSED (libcgal-demo's meshes) also that of charts, of runs with
+`--maximum-stretch`. --only: accuracy, methods or charts. Needs the Python that has VTK's modules and NumPy.
 
 RMS is the distance from the true flattening after the best rigid motion over the diagonal of its box. Seconds are those of the
 processor for the whole run, reading, measures and writing included; of N runs the fastest. Memory is the largest resident set.
@@ -29,6 +30,10 @@ METHODS = [("HLLE", ["hlle"]), ("Isomap", ["isomap"]), ("Isomap, edge graph", ["
            ("Laplacian eigenmaps", ["laplacian"]), ("LSCM", ["lscm"]), ("ARAP", ["arap"]), ("Injective", ["injective"])]
 CASES = [("scone_2k", "S on a cone"), ("beetle", "beetle"), ("maskgen_3k", "face, 3109 points"),
          ("half_glove_a", "half of a glove")]
+CHARTS = [("plane_27holes.obj", "airplane with 27 windows", (3, 1.2)), ("elephant.off", "elephant (closed, 3 handles)", (3,)),
+          ("couplingdown.off", "coupling (closed, 9 handles)", (3, 1.5)), ("bear.off", "bear (closed)", (3, 1.5)),
+          ("femur.off", "femur (closed, 2 handles)", (3,)), ("half_glove_a.off", "half of a glove", (3,)),
+          ("maskgen_100k.off", "face, 100592 points", (3,))]
 
 
 def flatten(program, mesh, folder, *options):
@@ -106,6 +111,18 @@ def methods(program, meshes, folder, _):
     yield from rows
 
 
+def charts(program, meshes, closed, folder, repeat):
+    yield "| mesh | triangles with cuts | limit | charts | inner loops | methods | stretch | processor seconds |"
+    yield "| --- | --- | --- | --- | --- | --- | --- | --- |"
+    for name, words, limits in CHARTS:
+        mesh = meshes / name if (meshes / name).exists() else closed / name
+        for limit in limits:
+            runs = [flatten(program, mesh, folder, "hlle", "--maximum-stretch", str(limit)) for _ in range(repeat)]
+            said = runs[0]
+            yield (f"| {words} | {said['triangles']} | {limit} | {said['charts']} | {said['loops'] - said['charts']} | {said['method']} | "
+                   f"{said['max_stretch']:.2f} | {min(run['processor_seconds'] for run in runs):.1f} |")
+
+
 def insert(page, name, lines):
     begin, end = f"<!-- flatten {name}: begin -->", f"<!-- flatten {name}: end -->"
     before, rest = page.read_text().split(begin)
@@ -116,11 +133,18 @@ def main():
     parser = argparse.ArgumentParser(usage=__doc__)
     parser.add_argument("program")
     parser.add_argument("meshes", type=pathlib.Path)
+    parser.add_argument("--charts", type=pathlib.Path)
+    parser.add_argument("--only")
     parser.add_argument("--write", type=pathlib.Path)
     parser.add_argument("--repeat", type=int, default=3)
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
-        for name, table in (("accuracy", accuracy), ("methods", methods)):
+        tables = [("accuracy", accuracy), ("methods", methods)]
+        if arguments.charts:
+            tables.append(("charts", lambda program, meshes, *rest: charts(program, meshes, arguments.charts, *rest)))
+        for name, table in tables:
+            if arguments.only not in (None, name):
+                continue
             lines = list(table(arguments.program, arguments.meshes, folder, arguments.repeat))
             print("\n".join(lines), flush=True)
             if arguments.write:

@@ -97,7 +97,8 @@ def test_threads_do_not_matter():
 
 def test_refusals():
     mesh = box("exact.off")
-    for options, words in ((("--sharp-angle", 10), "WeakAngle must be above 0 and at most SharpAngle"), (("--region-array", "Parts"), "no cell array 'Parts'"),
+    for options, words in ((("--sharp-angle", 10), "WeakAngle must be above 0 and at most SharpAngle; it is 20 degrees and SharpAngle 10"),
+                           (("--mode", "replace"), "none are given; give edges"), (("--region-array", "Parts"), "no cell array 'Parts'"),
                            (("--edges", mesh), "no lines")):
         assert words in run(mesh, *options, "--output", path("none.vtp"), status=1), options
     with open(path("far.csv"), "w") as stream:

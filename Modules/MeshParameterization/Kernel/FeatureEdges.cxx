@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FeatureEdges.h"
 
+#include <knotwork/SplineCore/AngleBetween.h>
 #include <knotwork/SplineCore/DisjointSets.h>
+#include <knotwork/SplineCore/Numbers.h>
 
 #include <Eigen/Geometry>
 
@@ -70,7 +72,7 @@ double TurnAt(const Network& network, int point, double reach)
   { return network.Surface.Point(Walk(network, point, network.Of(point)[i], reach).back()); };
   const Eigen::Vector3d in = here - end(0);
   const Eigen::Vector3d out = end(1) - here;
-  return Degrees * std::atan2(in.cross(out).norm(), in.dot(out)) + Slack;
+  return Degrees * AngleBetween(in, out) + Slack;
 }
 
 /// Whether within the reach no chains meet and no point turns more, or as much and comes earlier.
@@ -141,18 +143,23 @@ FeatureChain Follow(const std::vector<MeshEdge>& edges, const Incidence& inciden
 
 Status CheckParams(const MeshFeatureParams& params)
 {
-  const auto error = [](const char* text) { return Status(ErrorCode::InvalidParameter, text); };
+  const auto error = [](const std::string& text)
+  { return Status(ErrorCode::InvalidParameter, text); };
   if (!(params.SharpAngle > 0.0 && params.SharpAngle < 180.0))
   {
-    return error("SharpAngle must be above 0 and below 180 degrees");
+    return error(
+      "SharpAngle must be above 0 and below 180 degrees; it is " + Digits(params.SharpAngle));
   }
   if (!(params.WeakAngle > 0.0 && params.WeakAngle <= params.SharpAngle))
   {
-    return error("WeakAngle must be above 0 and at most SharpAngle");
+    return error("WeakAngle must be above 0 and at most SharpAngle; it is " +
+      Digits(params.WeakAngle) + " degrees and SharpAngle " + Digits(params.SharpAngle) +
+      (params.WeakAngle > 0.0 ? ": lower it to that, or raise SharpAngle" : ""));
   }
   if (!(params.CornerAngle > 0.0 && params.CornerAngle <= 180.0))
   {
-    return error("CornerAngle must be above 0 and at most 180 degrees");
+    return error(
+      "CornerAngle must be above 0 and at most 180 degrees; it is " + Digits(params.CornerAngle));
   }
   return {};
 }

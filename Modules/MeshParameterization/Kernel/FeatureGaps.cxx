@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FeatureGaps.h"
 
+#include "NearestWay.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <map>
-#include <queue>
 
 namespace knotwork
 {
@@ -104,93 +105,67 @@ std::vector<Side> FindWay(const SurfaceParts& parts, const EdgeAngle& angle,
     const Eigen::Vector3d step = parts.Mesh.Point(point) - here;
     return step.dot(onward) >= Onward * step.norm();
   };
-  std::map<int, double> reached{ { end, 0.0 } };
-  std::map<int, Side> by;
-  using Entry = std::pair<double, int>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
-  queue.emplace(0.0, end);
-  while (!queue.empty())
+  const auto judge = [&](int point, double length)
   {
-    const auto [length, point] = queue.top();
-    queue.pop();
-    if (length > reached[point])
+    if (point == end || (!around.IsRim(point) && around.Marked(point).empty()))
     {
-      continue;
+      return WayPoint::LeadsOn;
     }
-    if (point != end && (around.IsRim(point) || !around.Marked(point).empty()))
-    {
-      const auto own = chain.Along.find(point);
-      if (!leadsOn(point) || (own != chain.Along.end() && own->second < LongerAlong * length))
-      {
-        continue; // aside, or a loop of its own no wider than a gap
-      }
-      std::vector<Side> way;
-      for (int at = point; at != end; at = around.Beyond(way.back(), at))
-      {
-        way.push_back(by.at(at));
-      }
-      return way;
-    }
+    const auto own = chain.Along.find(point);
+    // not aside, and no loop of its own no wider than a gap
+    return leadsOn(point) && (own == chain.Along.end() || own->second >= LongerAlong * length)
+      ? WayPoint::IsEnd
+      : WayPoint::LeadsNowhere;
+  };
+  const auto steps = [&](int point, double length, const auto& visit)
+  {
     for (const Side& side : around.Of(point))
     {
       const int next = around.Beyond(side, point);
-      const double further = length + parts.SideLength(side.first, side.second);
-      if (marks(side.first, side.second) || further > limit ||
-        angle(side.first, side.second) < params.LeastAngle || (point == end && !leadsOn(next)))
+      const double step = parts.SideLength(side.first, side.second);
+      if (!marks(side.first, side.second) && length + step <= limit &&
+        angle(side.first, side.second) >= params.LeastAngle && (point != end || leadsOn(next)))
       {
-        continue;
-      }
-      const auto [found, isNew] = reached.emplace(next, further);
-      if (isNew || further < found->second)
-      {
-        found->second = further;
-        by[next] = side;
-        queue.emplace(further, next);
+        visit(next, step, side);
       }
     }
+  };
+  std::vector<Side> way;
+  for (const WayStep<Side>& step : NearestWay<Side>(end, judge, steps))
+  {
+    way.push_back(step.By);
   }
-  return {};
+  return way;
 }
 }
 
 std::vector<int> ShortestWay(const DiscMesh& surface, int from, int to)
 {
-  std::map<int, std::pair<double, int>> reached{ { from, { 0.0, from } } }; // length, point before
-  using Entry = std::pair<double, int>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
-  queue.emplace(0.0, from);
-  while (!queue.empty())
+  struct NoEdge
   {
-    const auto [length, point] = queue.top();
-    queue.pop();
-    if (point == to)
-    {
-      std::vector<int> way{ to };
-      while (way.back() != from)
-      {
-        way.push_back(reached.at(way.back()).second);
-      }
-      std::reverse(way.begin(), way.end());
-      return way;
-    }
-    if (length > reached.at(point).first)
-    {
-      continue;
-    }
+  };
+  const auto judge = [&](int point, double)
+  { return point == to ? WayPoint::IsEnd : WayPoint::LeadsOn; };
+  const auto steps = [&](int point, double, const auto& visit)
+  {
     const auto v = static_cast<std::size_t>(point);
     for (int j = surface.FanStart[v]; j < surface.FanStart[v + 1]; ++j)
     {
-      const int next = surface.Fan[static_cast<std::size_t>(j)];
-      const double further = length + surface.Spokes[static_cast<std::size_t>(j)];
-      const auto [found, isNew] = reached.emplace(next, std::make_pair(further, point));
-      if (isNew || further < found->second.first)
-      {
-        found->second = { further, point };
-        queue.emplace(further, next);
-      }
+      visit(surface.Fan[static_cast<std::size_t>(j)], surface.Spokes[static_cast<std::size_t>(j)],
+        NoEdge());
     }
+  };
+  const auto way = NearestWay<NoEdge>(from, judge, steps);
+  std::vector<int> points;
+  if (from == to || !way.empty())
+  {
+    points.push_back(from);
   }
-  return {};
+  for (auto step = way.rbegin(); step != way.rend(); ++step)
+  {
+    points.push_back(step->Point);
+  }
+  return points;
 }
 
 int CloseGaps(

@@ -12,25 +12,29 @@ namespace knotwork
 namespace
 {
 constexpr double LeastAngle = 1.0; // degrees: edges are no blunter than that
+constexpr double TieShare = 1e-9;  // of a joint: others are as good, and rounding decides nothing
 
 struct Region
 {
-  double Area = 0.0;
+  RegionSums Sums;
   bool IsSmall = false;
-  bool AllSmall = true;
   std::map<int, double> Joints; ///< by the other region: sum of length over angle
 };
 }
 
+void RegionSums::Add(const RegionSums& other)
+{
+  this->Area += other.Area;
+  this->Patches += other.Patches;
+  this->HasKnown = this->HasKnown || other.HasKnown;
+  this->AllBand = this->AllBand && other.AllBand;
+}
+
 int JoinRegions(const SurfaceParts& parts, const EdgeAngle& angle, const RegionLabels& labels,
-  const std::vector<char>& isSmall, const std::function<bool(double, bool)>& stays,
+  const std::vector<RegionSums>& sums, const std::function<bool(const RegionSums&)>& isSmall,
   const EdgeMarks& kept, EdgeMarks& marks)
 {
   std::vector<Region> regions(static_cast<std::size_t>(labels.Count));
-  for (std::size_t t = 0; t < labels.Of.size(); ++t)
-  {
-    regions[static_cast<std::size_t>(labels.Of[t])].Area += parts.Areas[t];
-  }
   VisitInnerEdges(parts,
     [&](std::size_t t, std::size_t k)
     {
@@ -46,11 +50,11 @@ int JoinRegions(const SurfaceParts& parts, const EdgeAngle& angle, const RegionL
   std::set<std::pair<double, int>> small;
   for (std::size_t r = 0; r < regions.size(); ++r)
   {
-    regions[r].IsSmall = isSmall[r] != 0;
-    regions[r].AllSmall = regions[r].IsSmall;
+    regions[r].Sums = sums[r];
+    regions[r].IsSmall = isSmall(sums[r]);
     if (regions[r].IsSmall)
     {
-      small.emplace(regions[r].Area, static_cast<int>(r));
+      small.emplace(sums[r].Area, static_cast<int>(r));
     }
   }
   DisjointSets sets(labels.Count);
@@ -65,7 +69,7 @@ int JoinRegions(const SurfaceParts& parts, const EdgeAngle& angle, const RegionL
     double most = 0.0;
     for (const auto& [other, joint] : region.Joints)
     {
-      if (joint > most)
+      if (joint > (1.0 + TieShare) * most)
       {
         most = joint;
         to = other;
@@ -83,10 +87,9 @@ int JoinRegions(const SurfaceParts& parts, const EdgeAngle& angle, const RegionL
     Region& part = regions[static_cast<std::size_t>(gone)];
     if (regions[static_cast<std::size_t>(to)].IsSmall)
     {
-      small.erase({ regions[static_cast<std::size_t>(to)].Area, to });
+      small.erase({ regions[static_cast<std::size_t>(to)].Sums.Area, to });
     }
-    whole.Area += part.Area;
-    whole.AllSmall = whole.AllSmall && part.AllSmall;
+    whole.Sums.Add(part.Sums);
     whole.Joints.erase(gone);
     part.Joints.erase(all);
     for (const auto& [other, joint] : part.Joints)
@@ -98,10 +101,10 @@ int JoinRegions(const SurfaceParts& parts, const EdgeAngle& angle, const RegionL
     }
     part.Joints.clear();
     sets.Unite(all, gone);
-    whole.IsSmall = stays(whole.Area, whole.AllSmall);
+    whole.IsSmall = isSmall(whole.Sums);
     if (whole.IsSmall)
     {
-      small.emplace(whole.Area, all);
+      small.emplace(whole.Sums.Area, all);
     }
   }
   VisitInnerEdges(parts,

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FittedNormals.h"
 
+#include "VisitBlocks.h"
+
+#include <knotwork/SplineCore/AngleBetween.h>
 #include <knotwork/SplineCore/Parallel.h>
 
 #include <Eigen/Eigenvalues>
@@ -18,8 +21,7 @@ constexpr double Sure = 3.0;     // standard deviations
 constexpr double Farthest = 5.0; // of a point that is on a plane all the same
 constexpr std::size_t MostTriangles = 400;
 constexpr std::size_t Chunk = 256;
-constexpr std::size_t Blocks = 16; // between reports of progress
-constexpr double Never = 10.0;     // radians: nothing is known of a direction
+constexpr double Never = 10.0; // radians: nothing is known of a direction
 
 using Barrier = std::function<bool(std::size_t, std::size_t)>;
 
@@ -89,20 +91,77 @@ private:
   Eigen::Matrix3d Axes = Eigen::Matrix3d::Identity();
 };
 
+/// A set of numbers >= 0 that is filled and emptied again and again.
+class NumberSet
+{
+public:
+  void Clear()
+  {
+    ++this->Run;
+    this->Count = 0;
+  }
+  /// @return false: it was in there.
+  bool Insert(int number)
+  {
+    if (2 * (this->Count + 1) > this->Slots.size())
+    {
+      this->Grow();
+    }
+    Slot& slot = this->Slots[this->Find(number)];
+    const bool isNew = slot.Run != this->Run;
+    slot = { this->Run, number };
+    this->Count += isNew ? 1 : 0;
+    return isNew;
+  }
+  bool Has(int number) const
+  {
+    return !this->Slots.empty() && this->Slots[this->Find(number)].Run == this->Run;
+  }
+
+private:
+  struct Slot
+  {
+    unsigned Run = 0;
+    int Number = 0;
+  };
+  /// Its slot or the free one where it belongs.
+  std::size_t Find(int number) const
+  {
+    const std::size_t mask = this->Slots.size() - 1;
+    std::size_t at = (static_cast<std::size_t>(number) * 0x9E3779B1u >> 7) & mask;
+    while (this->Slots[at].Run == this->Run && this->Slots[at].Number != number)
+    {
+      at = (at + 1) & mask;
+    }
+    return at;
+  }
+  void Grow()
+  {
+    const std::vector<Slot> old = std::move(this->Slots);
+    this->Slots.assign(old.empty() ? 64 : 2 * old.size(), Slot());
+    for (const Slot& slot : old)
+    {
+      if (slot.Run == this->Run)
+      {
+        this->Slots[this->Find(slot.Number)] = slot;
+      }
+    }
+  }
+  std::vector<Slot> Slots; ///< a power of two of them, at least half of them free
+  std::size_t Count = 0;
+  unsigned Run = 1;
+};
+
 struct Patch
 {
-  std::vector<int> Triangles;
+  std::vector<int> Triangles; ///< as long as triangles choose among patches
+  bool IsAlone = false;       ///< one triangle
   Plane On = Plane(Eigen::Vector3d::Zero());
   double Deviation = Never;
   double Misfit = 1.0; ///< 1: as the noise says
   double Radius = 0.0;
   double Area = 0.0;
 };
-
-double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
-{
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 class Patches
 {
@@ -131,12 +190,22 @@ public:
   double OwnDeviation(std::size_t t) const { return this->Own[t]; }
   const Eigen::Vector3d& Centre(std::size_t t) const { return this->Centres[t]; }
 
-  Patch Grow(std::size_t start) const
+  /// What growing a patch needs again and again.
+  struct Scratch
+  {
+    NumberSet Points; ///< of the patch
+    NumberSet Seen;   ///< triangles
+  };
+
+  Patch Grow(std::size_t start, Scratch& scratch) const
   {
     Patch patch;
+    NumberSet& points = scratch.Points;
+    NumberSet& seen = scratch.Seen;
+    points.Clear();
+    seen.Clear();
     const DiscMesh& mesh = this->Parts.Mesh;
     Plane plane(this->Centres[start]);
-    std::vector<int> points; // few: looked through
     Eigen::Vector3d towards = Eigen::Vector3d::Zero();
     const auto take = [&](std::size_t t)
     {
@@ -145,15 +214,13 @@ public:
       patch.Area += this->Parts.Areas[t];
       for (const int corner : mesh.Triangles[t])
       {
-        if (std::find(points.begin(), points.end(), corner) == points.end())
+        if (points.Insert(corner))
         {
-          points.push_back(corner);
           plane.Add(mesh.Point(corner));
         }
       }
       plane.Fit(towards);
     };
-    std::vector<int> seen;
     using Entry = std::pair<double, int>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
     const auto reach = [&](std::size_t t)
@@ -161,16 +228,14 @@ public:
       for (std::size_t k = 0; k < 3; ++k)
       {
         const int other = this->Parts.Adjacency.Triangle[t][k];
-        if (other >= 0 && !this->IsBarrier(t, k) &&
-          std::find(seen.begin(), seen.end(), other) == seen.end())
+        if (other >= 0 && !this->IsBarrier(t, k) && seen.Insert(other))
         {
-          seen.push_back(other);
           queue.emplace(
             (this->Centres[static_cast<std::size_t>(other)] - this->Centres[start]).norm(), other);
         }
       }
     };
-    seen.push_back(static_cast<int>(start));
+    seen.Insert(static_cast<int>(start));
     take(start);
     reach(start);
     while (plane.DeviationOf(this->Params.Noise) > this->Params.Precision && !queue.empty() &&
@@ -186,6 +251,7 @@ public:
         reach(t);
       }
     }
+    patch.IsAlone = patch.Triangles.size() == 1;
     patch.On = plane;
     patch.Deviation = plane.DeviationOf(this->Params.Noise);
     patch.Misfit = std::max(1.0, plane.Misfit(this->Params.Noise) / plane.NoiseMisfit());
@@ -193,7 +259,7 @@ public:
   }
 
 private:
-  bool Belongs(std::size_t t, const Plane& plane, const std::vector<int>& points) const
+  bool Belongs(std::size_t t, const Plane& plane, const NumberSet& points) const
   {
     const double noise = this->Params.Noise;
     const double deviation = std::hypot(this->Own[t], plane.DeviationOf(noise));
@@ -203,8 +269,7 @@ private:
     }
     for (const int corner : this->Parts.Mesh.Triangles[t])
     {
-      if (std::find(points.begin(), points.end(), corner) == points.end() &&
-        plane.Offset(this->Parts.Mesh.Point(corner), noise) > Sure)
+      if (!points.Has(corner) && plane.Offset(this->Parts.Mesh.Point(corner), noise) > Sure)
       {
         return false;
       }
@@ -295,29 +360,11 @@ Result<FittedNormals> FitNormals(
   }
   const Patches patches(parts, params, barrier);
   std::vector<Patch> of(count);
-  for (std::size_t block = 0; block < Blocks; ++block)
-  {
-    const std::size_t first = block * count / Blocks;
-    const std::size_t last = (block + 1) * count / Blocks;
-    ParallelFor(last - first, Chunk, params.Threads,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t t = first + begin; t < first + end; ++t)
-        {
-          of[t] = patches.Grow(t);
-        }
-      });
-    if (params.Progress &&
-      !params.Progress(static_cast<double>(block + 1) / static_cast<double>(Blocks)))
-    {
-      return { ErrorCode::Aborted, "stopped while normals were fitted" };
-    }
-  }
   std::vector<double> least(count, std::numeric_limits<double>::infinity());
   std::vector<std::size_t> chosen(count);
-  for (std::size_t s = 0; s < count; ++s)
+  const auto choose = [&](std::size_t s)
   {
-    const Patch& patch = of[s];
+    Patch& patch = of[s];
     for (const int triangle : patch.Triangles)
     {
       const auto t = static_cast<std::size_t>(triangle);
@@ -330,13 +377,35 @@ Result<FittedNormals> FitNormals(
         chosen[t] = s;
       }
     }
+    patch.Triangles = std::vector<int>(); // without the memory
+  };
+  const bool isDone = VisitBlocks(count, params.Progress,
+    [&](std::size_t first, std::size_t last)
+    {
+      ParallelFor(last - first, Chunk, params.Threads,
+        [&](std::size_t begin, std::size_t end)
+        {
+          Patches::Scratch scratch;
+          for (std::size_t t = first + begin; t < first + end; ++t)
+          {
+            of[t] = patches.Grow(t, scratch);
+          }
+        });
+      for (std::size_t s = first; s < last; ++s) // in turn: of equal ones the first
+      {
+        choose(s);
+      }
+    });
+  if (!isDone)
+  {
+    return { ErrorCode::Aborted, "stopped while normals were fitted" };
   }
   JoinOutliers(parts, params, barrier, of, chosen);
   for (std::size_t t = 0; t < count; ++t)
   {
     const Patch& patch = of[chosen[t]];
     result.Deviations[t] = patch.Deviation;
-    if (patch.Triangles.size() > 1 || chosen[t] != t)
+    if (!patch.IsAlone || chosen[t] != t)
     {
       result.Normals[t] = patch.On.Normal();
       result.Areas[t] = patch.Area;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshNoise.h"
 
+#include "VisitBlocks.h"
+
+#include <knotwork/SplineCore/Parallel.h>
+
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -19,6 +23,8 @@ constexpr double WindowMedian = 0.6651; // of |x| below Window
 constexpr int Rounds = 20;
 constexpr std::size_t LeastCount = 12; // of values: fewer say nothing
 constexpr std::size_t QuadricPoints = 9;
+constexpr std::size_t MostSpokes = 30; // of a point that is no hub
+constexpr std::size_t Chunk = 256;
 
 /// Standard deviation of values of which many, maybe not most, are of one normal distribution.
 double RobustDeviation(std::vector<double> values)
@@ -96,43 +102,32 @@ double DeviationOfEdges(const SurfaceParts& parts)
   return RobustDeviation(std::move(values));
 }
 
-double DeviationOfPoints(const SurfaceParts& parts)
+/// Distance of a point from the quadric through those around it, over what noise of unit size makes
+/// of it; NaN: cannot be told.
+class PointOffsets
 {
-  const DiscMesh& mesh = parts.Mesh;
-  std::vector<Eigen::Vector3d> normals(
-    static_cast<std::size_t>(mesh.NumPoints()), Eigen::Vector3d::Zero());
-  for (std::size_t t = 0; t < mesh.Triangles.size(); ++t)
+public:
+  explicit PointOffsets(const SurfaceParts& parts)
+    : Mesh(parts.Mesh),
+      Normals(static_cast<std::size_t>(parts.Mesh.NumPoints()), Eigen::Vector3d::Zero())
   {
-    for (const int corner : mesh.Triangles[t])
+    for (std::size_t t = 0; t < parts.Mesh.Triangles.size(); ++t)
     {
-      normals[static_cast<std::size_t>(corner)] += parts.Areas[t] * parts.Normals[t];
+      for (const int corner : parts.Mesh.Triangles[t])
+      {
+        this->Normals[static_cast<std::size_t>(corner)] += parts.Areas[t] * parts.Normals[t];
+      }
     }
   }
-  std::vector<double> values;
-  std::vector<int> ring;
-  for (int v = 0; v < mesh.NumPoints(); ++v)
+
+  double At(int v) const
   {
-    ring.assign(1, v);
-    const auto addRing = [&](int of)
-    {
-      for (int j = mesh.FanStart[static_cast<std::size_t>(of)];
-           j < mesh.FanStart[static_cast<std::size_t>(of) + 1]; ++j)
-      {
-        ring.push_back(mesh.Fan[static_cast<std::size_t>(j)]);
-      }
-    };
-    addRing(v);
-    const std::size_t inner = ring.size();
-    for (std::size_t i = 1; i < inner; ++i)
-    {
-      addRing(ring[i]);
-    }
-    std::sort(ring.begin(), ring.end());
-    ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
-    const Eigen::Vector3d& normal = normals[static_cast<std::size_t>(v)];
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    const std::vector<int> ring = this->Around(v);
+    const Eigen::Vector3d& normal = this->Normals[static_cast<std::size_t>(v)];
     if (ring.size() < QuadricPoints || normal.norm() == 0.0)
     {
-      continue;
+      return none;
     }
     const Eigen::Vector3d up = normal.normalized();
     const Eigen::Vector3d along = up.unitOrthogonal();
@@ -140,7 +135,7 @@ double DeviationOfPoints(const SurfaceParts& parts)
     double radius = 0.0;
     for (const int p : ring)
     {
-      radius = std::max(radius, (mesh.Point(p) - mesh.Point(v)).norm());
+      radius = std::max(radius, (this->Mesh.Point(p) - this->Mesh.Point(v)).norm());
     }
     const auto rows = static_cast<Eigen::Index>(ring.size());
     Eigen::MatrixXd system(rows, 6);
@@ -150,7 +145,7 @@ double DeviationOfPoints(const SurfaceParts& parts)
     {
       const int p = ring[static_cast<std::size_t>(i)];
       own = p == v ? i : own;
-      const Eigen::Vector3d at = (mesh.Point(p) - mesh.Point(v)) / radius;
+      const Eigen::Vector3d at = (this->Mesh.Point(p) - this->Mesh.Point(v)) / radius;
       const double x = at.dot(along);
       const double y = at.dot(across);
       system.row(i) << 1.0, x, y, x * x, x * y, y * y;
@@ -159,23 +154,93 @@ double DeviationOfPoints(const SurfaceParts& parts)
     const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(system);
     if (qr.rank() < 6)
     {
-      continue;
+      return none;
     }
     const Eigen::VectorXd residuals = heights - system * qr.solve(heights);
     const Eigen::VectorXd unit = Eigen::VectorXd::Unit(rows, own);
     const double share = (unit - system * qr.solve(unit))[own]; // of its own error in its residual
-    if (share > 0.1)
-    {
-      values.push_back(radius * residuals[own] / std::sqrt(share));
-    }
+    return share > 0.1 ? radius * residuals[own] / std::sqrt(share) : none;
   }
+
+private:
+  std::size_t NumSpokes(int v) const
+  {
+    const auto i = static_cast<std::size_t>(v);
+    return static_cast<std::size_t>(this->Mesh.FanStart[i + 1] - this->Mesh.FanStart[i]);
+  }
+  void AddRing(int v, std::vector<int>& points) const
+  {
+    const auto i = static_cast<std::size_t>(v);
+    points.insert(points.end(), this->Mesh.Fan.begin() + this->Mesh.FanStart[i],
+      this->Mesh.Fan.begin() + this->Mesh.FanStart[i + 1]);
+  }
+  /// The point and two rings around it, ascending. Hubs of many spokes are left out, whose rings
+  /// reach far and would cost their square; around one of them a single ring is enough.
+  std::vector<int> Around(int v) const
+  {
+    std::vector<int> points{ v };
+    this->AddRing(v, points);
+    if (this->NumSpokes(v) <= MostSpokes)
+    {
+      const std::vector<int> inner(points.begin() + 1, points.end());
+      for (const int p : inner)
+      {
+        if (this->NumSpokes(p) <= MostSpokes)
+        {
+          this->AddRing(p, points);
+        }
+      }
+      points.erase(std::remove_if(points.begin(), points.end(),
+                     [&](int p) { return this->NumSpokes(p) > MostSpokes; }),
+        points.end());
+    }
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    return points;
+  }
+
+  const DiscMesh& Mesh;
+  std::vector<Eigen::Vector3d> Normals;
+};
+
+/// @return Aborted.
+Result<double> DeviationOfPoints(
+  const SurfaceParts& parts, int threads, const ProgressCallback& progress)
+{
+  const PointOffsets offsets(parts);
+  std::vector<double> values(static_cast<std::size_t>(parts.Mesh.NumPoints()));
+  const bool isDone = VisitBlocks(values.size(), progress,
+    [&](std::size_t first, std::size_t last)
+    {
+      ParallelFor(last - first, Chunk, threads,
+        [&](std::size_t begin, std::size_t end)
+        {
+          for (std::size_t v = first + begin; v < first + end; ++v)
+          {
+            values[v] = offsets.At(static_cast<int>(v));
+          }
+        });
+    });
+  if (!isDone)
+  {
+    return { ErrorCode::Aborted, "stopped while the noise was estimated" };
+  }
+  values.erase(
+    std::remove_if(values.begin(), values.end(), [](double value) { return std::isnan(value); }),
+    values.end());
   return RobustDeviation(std::move(values));
 }
 }
 
-double EstimateNoise(const SurfaceParts& parts)
+Result<double> EstimateNoise(
+  const SurfaceParts& parts, int threads, const ProgressCallback& progress)
 {
-  const double deviation = std::min(DeviationOfEdges(parts), DeviationOfPoints(parts));
+  const auto ofPoints = DeviationOfPoints(parts, threads, progress);
+  if (!ofPoints)
+  {
+    return ofPoints.Status;
+  }
+  const double deviation = std::min(DeviationOfEdges(parts), ofPoints.Value);
   return std::isfinite(deviation) ? deviation : 0.0;
 }
 }

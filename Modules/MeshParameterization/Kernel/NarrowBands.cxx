@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "NarrowBands.h"
 
+#include <knotwork/SplineCore/AngleBetween.h>
+#include <knotwork/SplineCore/BoxTree.h>
 #include <knotwork/SplineCore/DisjointSets.h>
 
 #include <Eigen/Geometry>
@@ -63,33 +65,40 @@ Widths Measure(const SurfaceParts& parts, const std::vector<int>& sets, int coun
 
 /// For each bound the angle between what is beyond it and beyond the bound across the band, of
 /// those between the limits the largest; 0: none.
-std::vector<double> TurnsOf(std::vector<Bound>& bounds, double reach, double sharpAngle)
+std::vector<double> TurnsOf(const std::vector<Bound>& bounds, double reach, double sharpAngle)
 {
-  std::sort(bounds.begin(), bounds.end(),
-    [](const Bound& a, const Bound& b) { return a.Middle[0] < b.Middle[0]; });
+  const auto count = static_cast<Eigen::Index>(bounds.size());
+  PointMatrix lower(count, 3);
+  PointMatrix upper(count, 3);
+  for (Eigen::Index i = 0; i < count; ++i)
+  {
+    const Bound& bound = bounds[static_cast<std::size_t>(i)];
+    lower.row(i) = bound.Middle.array() - 0.5 * bound.Length;
+    upper.row(i) = bound.Middle.array() + 0.5 * bound.Length;
+  }
+  const BoxTree tree(lower, upper);
   std::vector<double> turns(bounds.size(), 0.0);
   for (std::size_t i = 0; i < bounds.size(); ++i)
   {
-    for (std::size_t j = i + 1; j < bounds.size(); ++j)
-    {
-      const double far = reach + 0.5 * (bounds[i].Length + bounds[j].Length);
-      if (bounds[j].Middle[0] - bounds[i].Middle[0] > reach + bounds[i].Length + reach)
+    const Eigen::Vector3d low = bounds[i].Middle.array() - 0.5 * bounds[i].Length - reach;
+    const Eigen::Vector3d high = bounds[i].Middle.array() + 0.5 * bounds[i].Length + reach;
+    tree.ForNear(low.data(), high.data(),
+      [&](int item)
       {
-        break;
-      }
-      if ((bounds[j].Middle - bounds[i].Middle).norm() > far)
-      {
-        continue;
-      }
-      const double turn = Degrees *
-        std::atan2(
-          bounds[i].Beyond.cross(bounds[j].Beyond).norm(), bounds[i].Beyond.dot(bounds[j].Beyond));
-      if (turn >= sharpAngle && turn < LargestTurn)
-      {
-        turns[i] = std::max(turns[i], turn);
-        turns[j] = std::max(turns[j], turn);
-      }
-    }
+        const auto j = static_cast<std::size_t>(item);
+        if (j <= i || // the other one of a pair sees it
+          (bounds[j].Middle - bounds[i].Middle).norm() >
+            reach + 0.5 * (bounds[i].Length + bounds[j].Length))
+        {
+          return;
+        }
+        const double turn = Degrees * AngleBetween(bounds[i].Beyond, bounds[j].Beyond);
+        if (turn >= sharpAngle && turn < LargestTurn)
+        {
+          turns[i] = std::max(turns[i], turn);
+          turns[j] = std::max(turns[j], turn);
+        }
+      });
   }
   return turns;
 }
@@ -143,7 +152,7 @@ NarrowBands FindNarrowBands(const SurfaceParts& parts, const std::vector<Eigen::
     }
   }
   std::vector<char> isBand(static_cast<std::size_t>(labels.Count), 0);
-  for (auto& [set, bounds] : boundsOf)
+  for (const auto& [set, bounds] : boundsOf)
   {
     const std::vector<double> turns = TurnsOf(bounds, Reach * widths.Of(set), params.SharpAngle);
     double length = 0.0;

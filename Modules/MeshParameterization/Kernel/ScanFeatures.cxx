@@ -8,12 +8,15 @@
 #include "MeshNoise.h"
 #include "NarrowBands.h"
 
+#include <knotwork/SplineCore/AngleBetween.h>
 #include <knotwork/SplineCore/TriangleIndex.h>
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 
 namespace knotwork
 {
@@ -24,7 +27,8 @@ constexpr double SideShare = 0.5;             // of SharpAngle: what turns by mo
 constexpr double KnownShare = 1.0 / 8.0;      // of SharpAngle: worse normals are not known
 constexpr double BluntShare = 0.5;            // of WeakAngle: bounds of bands, and gaps
 constexpr double PatchShare = 0.5; // of the patches of its normals, below which a region is none
-constexpr double FitShare = 0.9;   // of the time of a part
+constexpr double NoiseShare = 0.3; // of the time of a part
+constexpr double FitShare = 0.6;
 constexpr double Pi = 3.14159265358979323846;
 
 Status CheckAll(const TriangleMesh& mesh, const ScanFeatureParams& params)
@@ -50,6 +54,12 @@ Status CheckAll(const TriangleMesh& mesh, const ScanFeatureParams& params)
         " must be between 0 and 1, a share of the diagonal of the mesh's box" };
   }
   const KnownFeatures& known = params.Known;
+  if (known.Only && known.Edges.empty() && known.Regions.empty())
+  {
+    return { ErrorCode::InvalidParameter,
+      "known features replace what would be found (Mode REPLACE), and none are given; give edges "
+      "(input 1) or regions (RegionArray), or take Mode EXTEND" };
+  }
   if (!known.Regions.empty() && known.Regions.size() != mesh.Triangles.size())
   {
     return { ErrorCode::SizeMismatch,
@@ -78,7 +88,7 @@ struct Part
   std::vector<MeshEdge> Known; ///< ascending, of its own points
 };
 
-/// What holds for all parts, in the unit of the points.
+/// What holds for a part, in the unit of the points: but for the area nothing beside it counts.
 struct Limits
 {
   double Noise = 0.0;
@@ -96,28 +106,45 @@ struct PartFeatures
   int ClosedGaps = 0;
   int SharpEdges = 0;
   int RimEdges = 0;
+  double Noise = 0.0;
 };
 
 class PartFinder
 {
 public:
-  PartFinder(const Part& part, const ScanFeatureParams& params, const Limits& limits)
-    : Params(params), Limit(limits), Parts(part.Surface, NoHoles), Known(this->Parts),
-      Marks(this->Parts)
+  /// @param area  of the smallest region.
+  PartFinder(const Part& part, const ScanFeatureParams& params, double area)
+    : Params(params), Parts(part.Surface, NoHoles), Known(this->Parts), Marks(this->Parts)
   {
     this->Known.Set(part.Known);
+    const PointMatrix& points = part.Surface.Points;
+    const double diagonal = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+    this->Limit.Noise = params.Noise;
+    this->Limit.Area = area;
+    this->Limit.Width = params.NarrowWidth * diagonal;
+    this->Limit.Gap = params.LargestGap * diagonal;
   }
 
   /// @return Aborted.
   Result<PartFeatures> Find(const ProgressCallback& progress)
   {
+    if (this->Params.Noise < 0.0)
+    {
+      const auto noise = EstimateNoise(this->Parts, this->Params.Threads,
+        [&](double share) { return progress(NoiseShare * share); });
+      if (!noise)
+      {
+        return noise.Status;
+      }
+      this->Limit.Noise = noise.Value;
+    }
     NormalFitParams fit;
     fit.Noise = this->Limit.Noise;
     fit.Precision = this->Params.Angles.SharpAngle * PrecisionShare / Degrees;
     fit.Bend = this->Params.Angles.SharpAngle * SideShare / Degrees;
-    fit.Known = this->Params.Angles.SharpAngle * KnownShare / Degrees;
+    fit.Known = this->KnownDeviation;
     fit.Threads = this->Params.Threads;
-    fit.Progress = progress;
+    fit.Progress = [&](double share) { return progress(NoiseShare + FitShare * share); };
     auto fitted =
       FitNormals(this->Parts, fit, [&](std::size_t t, std::size_t k) { return this->Known(t, k); });
     if (!fitted)
@@ -127,6 +154,7 @@ public:
     this->Fitted = std::move(fitted.Value);
     this->MarkKnown();
     PartFeatures features;
+    features.Noise = this->Limit.Noise;
     if (!this->Params.Known.Only)
     {
       this->Marks.Set(SharpEdges(this->Parts, this->Params.Angles, this->Angle));
@@ -134,6 +162,10 @@ public:
       this->JoinSmall(features);
       features.ClosedGaps = CloseGaps(this->Parts, this->Angle,
         { this->Limit.Gap, BluntShare * this->Params.Angles.WeakAngle }, this->Marks);
+      if (features.ClosedGaps > 0)
+      {
+        this->JoinSmall(features); // what they have divided may be too small
+      }
       if (this->Limit.Noise > 0.0)
       {
         this->DropNoise();
@@ -155,21 +187,14 @@ private:
     NarrowBands bands =
       FindNarrowBands(this->Parts, this->Fitted.Normals, this->Angle, params, this->Marks);
     this->Turns = std::move(bands.Turns);
-    const RegionLabels labels = this->Label();
-    std::vector<char> isBand(static_cast<std::size_t>(labels.Count), 1);
-    bool any = false;
-    for (std::size_t t = 0; t < labels.Of.size(); ++t)
-    {
-      any = any || bands.InBand[t];
-      isBand[static_cast<std::size_t>(labels.Of[t])] &= bands.InBand[t];
-    }
-    if (!any)
+    if (std::find(bands.InBand.begin(), bands.InBand.end(), 1) == bands.InBand.end())
     {
       return;
     }
+    const RegionLabels labels = this->Label();
     features.Joined += JoinRegions(
-      this->Parts, this->Angle, labels, isBand, [](double, bool allBands) { return allBands; },
-      this->Known, this->Marks);
+      this->Parts, this->Angle, labels, this->Sums(labels, bands.InBand),
+      [](const RegionSums& sums) { return sums.AllBand; }, this->Known, this->Marks);
     // chains that end within a band are none
     const RegionLabels joined = this->Label();
     VisitInnerEdges(this->Parts,
@@ -188,30 +213,27 @@ private:
   void JoinSmall(PartFeatures& features)
   {
     const RegionLabels labels = this->Label();
-    const auto count = static_cast<std::size_t>(labels.Count);
-    std::vector<double> areas(count, 0.0);
-    std::vector<double> patches(count, 0.0);
-    std::vector<char> isSmall(count, 1); // as long as no normal of it is known
-    const double known = this->Params.Angles.SharpAngle * KnownShare / Degrees;
+    features.Joined += JoinRegions(
+      this->Parts, this->Angle, labels, this->Sums(labels, {}),
+      [&](const RegionSums& sums)
+      {
+        return !sums.HasKnown || sums.Area < this->Limit.Area ||
+          sums.Area * sums.Area < PatchShare * sums.Patches;
+      },
+      this->Known, this->Marks);
+  }
+
+  /// @param inBand  one a triangle, or empty: none is.
+  std::vector<RegionSums> Sums(const RegionLabels& labels, const std::vector<char>& inBand) const
+  {
+    std::vector<RegionSums> sums(static_cast<std::size_t>(labels.Count));
     for (std::size_t t = 0; t < labels.Of.size(); ++t)
     {
-      const auto r = static_cast<std::size_t>(labels.Of[t]);
-      areas[r] += this->Parts.Areas[t];
-      patches[r] += this->Parts.Areas[t] * this->Fitted.Areas[t];
-      if (this->Fitted.Deviations[t] <= known)
-      {
-        isSmall[r] = 0;
-      }
+      const double area = this->Parts.Areas[t];
+      sums[static_cast<std::size_t>(labels.Of[t])].Add({ area, area * this->Fitted.Areas[t],
+        this->Fitted.Deviations[t] <= this->KnownDeviation, !inBand.empty() && inBand[t] != 0 });
     }
-    for (std::size_t r = 0; r < count; ++r)
-    {
-      isSmall[r] =
-        isSmall[r] || areas[r] < this->Limit.Area || areas[r] * areas[r] < PatchShare * patches[r];
-    }
-    features.Joined += JoinRegions(
-      this->Parts, this->Angle, labels, isSmall,
-      [&](double area, bool allSmall) { return allSmall && area < this->Limit.Area; }, this->Known,
-      this->Marks);
+    return sums;
   }
 
   void DropNoise()
@@ -287,7 +309,8 @@ private:
   }
 
   const ScanFeatureParams& Params;
-  const Limits& Limit;
+  const double KnownDeviation = this->Params.Angles.SharpAngle * KnownShare / Degrees;
+  Limits Limit;
   const std::vector<int> NoHoles;
   const SurfaceParts Parts;
   EdgeMarks Known;
@@ -299,37 +322,77 @@ private:
     const Eigen::Vector3d& own = this->Fitted.Normals[t];
     const Eigen::Vector3d& other =
       this->Fitted.Normals[static_cast<std::size_t>(this->Parts.Adjacency.Triangle[t][k])];
-    return Degrees * std::atan2(own.cross(other).norm(), own.dot(other));
+    return Degrees * AngleBetween(own, other);
   };
 };
 
-double NoiseOf(const DiscMesh& surface)
+/// The way along edges between two points of a mesh.
+struct Way
 {
-  const std::vector<int> noHoles;
-  return EstimateNoise(SurfaceParts(surface, noHoles));
+  std::size_t Part = 0;
+  std::vector<int> Points; ///< of the part; empty: there is none
+  double Length = std::numeric_limits<double>::infinity();
+};
+
+/// Where points lie: part and number there, of points where parts touch all of them.
+using Places = std::map<int, std::vector<std::array<int, 2>>>;
+
+/// The shortest way on a part that has both points, of equal ones on the first.
+Way WayBetween(const std::vector<Part>& parts, const Places& places, int a, int b)
+{
+  Way shortest;
+  for (const auto& [part, from] : places.at(a))
+  {
+    for (const auto& [other, to] : places.at(b))
+    {
+      if (part != other)
+      {
+        continue;
+      }
+      Way way;
+      way.Part = static_cast<std::size_t>(part);
+      const DiscMesh& surface = parts[way.Part].Surface;
+      way.Points = ShortestWay(surface, from, to);
+      way.Length = 0.0;
+      for (std::size_t j = 0; j + 1 < way.Points.size(); ++j)
+      {
+        way.Length += (surface.Point(way.Points[j + 1]) - surface.Point(way.Points[j])).norm();
+      }
+      if (way.Length < shortest.Length)
+      {
+        shortest = std::move(way);
+      }
+    }
+  }
+  return shortest;
 }
 
 /// Known edges as edges of the parts. @param first  of equal points, the first one.
-Status SetKnown(const TriangleMesh& mesh, const KnownFeatures& known, const std::vector<int>& first,
-  std::vector<Part>& parts)
+Status SetKnown(const KnownFeatures& known, const std::vector<int>& first, std::vector<Part>& parts)
 {
-  std::vector<std::array<int, 2>> place(static_cast<std::size_t>(mesh.Points.rows()), { -1, -1 });
-  for (std::size_t i = 0; i < parts.size(); ++i)
+  const auto firstOf = [&](int point) { return first[static_cast<std::size_t>(point)]; };
+  Places places;
+  for (const auto& [a, b] : known.Edges)
   {
-    const DiscMesh& surface = parts[i].Surface;
-    for (std::size_t v = 0; v < surface.PointIds.size(); ++v)
+    places[firstOf(a)];
+    places[firstOf(b)];
+  }
+  for (std::size_t i = 0; i < parts.size() && !places.empty(); ++i)
+  {
+    const std::vector<int>& ids = parts[i].Surface.PointIds;
+    for (std::size_t v = 0; v < ids.size(); ++v)
     {
-      // a point of two parts that touch there: that of the first part
-      auto& at = place[static_cast<std::size_t>(surface.PointIds[v])];
-      at = at[0] < 0 ? std::array<int, 2>{ static_cast<int>(i), static_cast<int>(v) } : at;
+      if (const auto found = places.find(ids[v]); found != places.end())
+      {
+        found->second.push_back({ static_cast<int>(i), static_cast<int>(v) });
+      }
     }
   }
   for (std::size_t i = 0; i < known.Edges.size(); ++i)
   {
     const auto& [a, b] = known.Edges[i];
-    const auto from = place[static_cast<std::size_t>(first[static_cast<std::size_t>(a)])];
-    const auto to = place[static_cast<std::size_t>(first[static_cast<std::size_t>(b)])];
-    if (from[0] < 0 || from[0] != to[0])
+    const Way way = WayBetween(parts, places, firstOf(a), firstOf(b));
+    if (way.Points.empty())
     {
       return { ErrorCode::InvalidTopology,
         "known edge " + std::to_string(i) + " (points " + std::to_string(a) + " and " +
@@ -337,11 +400,9 @@ Status SetKnown(const TriangleMesh& mesh, const KnownFeatures& known, const std:
           ") does not lie on one connected part of the mesh; draw it along the "
           "surface" };
     }
-    Part& part = parts[static_cast<std::size_t>(from[0])];
-    const std::vector<int> way = ShortestWay(part.Surface, from[1], to[1]);
-    for (std::size_t j = 0; j + 1 < way.size(); ++j)
+    for (std::size_t j = 0; j + 1 < way.Points.size(); ++j)
     {
-      part.Known.push_back(EdgeBetween(way[j], way[j + 1]));
+      parts[way.Part].Known.push_back(EdgeBetween(way.Points[j], way.Points[j + 1]));
     }
   }
   for (Part& part : parts)
@@ -395,6 +456,7 @@ void Append(const DiscMesh& surface, PartFeatures&& part, ScanFeatures& all)
   all.NumRimEdges += part.RimEdges;
   all.NumJoined += part.Joined;
   all.NumClosedGaps += part.ClosedGaps;
+  all.Noise = std::max(all.Noise, part.Noise);
 }
 }
 
@@ -410,8 +472,6 @@ Result<ScanFeatures> FindScanFeatures(const TriangleMesh& mesh, const ScanFeatur
     return { ErrorCode::EmptyInput, "the mesh has no triangles" };
   }
   std::vector<Part> parts;
-  Limits limits;
-  std::size_t largest = 0;
   double area = 0.0;
   for (const MeshComponent& component : components)
   {
@@ -422,23 +482,12 @@ Result<ScanFeatures> FindScanFeatures(const TriangleMesh& mesh, const ScanFeatur
     }
     area += surface->Area;
     parts.push_back({ std::move(surface.Value), {} });
-    if (parts.back().Surface.Triangles.size() > parts[largest].Surface.Triangles.size())
-    {
-      largest = parts.size() - 1;
-    }
   }
-  if (Status status = SetKnown(mesh, params.Known, FirstOfEqualPoints(mesh.Points), parts); !status)
+  if (Status status = SetKnown(params.Known, FirstOfEqualPoints(mesh.Points), parts); !status)
   {
     return status;
   }
-  const double diagonal =
-    (mesh.Points.colwise().maxCoeff() - mesh.Points.colwise().minCoeff()).norm();
-  limits.Noise = params.Noise < 0.0 ? NoiseOf(parts[largest].Surface) : params.Noise;
-  limits.Area = params.SmallestRegion * area;
-  limits.Width = params.NarrowWidth * diagonal;
-  limits.Gap = params.LargestGap * diagonal;
   ScanFeatures all;
-  all.Noise = limits.Noise;
   all.RegionOfTriangle.assign(mesh.Triangles.size(), -1);
   for (std::size_t i = 0; i < parts.size(); ++i)
   {
@@ -447,8 +496,7 @@ Result<ScanFeatures> FindScanFeatures(const TriangleMesh& mesh, const ScanFeatur
       return !params.Progress ||
         params.Progress((static_cast<double>(i) + share) / static_cast<double>(parts.size()));
     };
-    auto found =
-      PartFinder(parts[i], params, limits).Find([&](double share) { return at(FitShare * share); });
+    auto found = PartFinder(parts[i], params, params.SmallestRegion * area).Find(at);
     if (!found)
     {
       return found.Status;

@@ -17,12 +17,13 @@ struct KnownFeatures
 struct ScanFeatureParams
 {
   MeshFeatureParams Angles;
-  /// Standard deviation of the points across the surface, unit of the points; negative: estimated.
+  /// Standard deviation of the points across the surface, unit of the points; negative: estimated
+  /// for each part of the mesh.
   double Noise = -1.0;
   /// Share of the area of the mesh below which a region joins a neighbour, [0, 1).
   double SmallestRegion = 0.0;
   /// Width of a row of triangles between two sides that is no region but an edge, share of the
-  /// diagonal of the mesh's box, [0, 1].
+  /// diagonal of the box of its part, [0, 1].
   double NarrowWidth = 0.005;
   /// Length of gaps in chains that are closed, share of the diagonal, [0, 1].
   double LargestGap = 0.02;
@@ -50,7 +51,7 @@ struct ScanFeatures
   int NumRimEdges = 0;
   int NumJoined = 0; ///< regions that were joined with others
   int NumClosedGaps = 0;
-  double Noise = 0.0; ///< that was given or estimated
+  double Noise = 0.0; ///< that was given, or the largest estimate of a part
 };
 
 /// Sharp edges of a mesh that may be a noisy scan, as chains, corners and the regions between them.
@@ -60,11 +61,12 @@ struct ScanFeatures
 /// triangles between two sides are made edges: they join the side across their blunter bound, and
 /// the sharper one stays. Gaps are closed, regions joined that are smaller than SmallestRegion or
 /// than half of the patches that their normals come from, and ends of chains dropped that are
-/// shorter than patches. Without noise, narrow rows, gaps and small regions the result is that of
-/// FindMeshFeatures.
+/// shorter than patches. Each part has its own noise, width of rows and length of gaps: what lies
+/// beside it does not matter. Without noise, narrow rows, gaps and small regions the result is that
+/// of FindMeshFeatures.
 /// @param mesh  of one or several parts; points that are equal are one.
-/// @return EmptyInput; InvalidParameter; InvalidTopology: a known edge of points of different
-/// parts;
+/// @return EmptyInput; InvalidParameter (also Known.Only and nothing known); InvalidTopology: a
+/// known edge of points of different parts;
 ///         SizeMismatch: known numbers of another count; OutsideDomain: known edges of points that
 ///         are none; the failures of CheckComponent; Aborted.
 /// @complexity O(n log n), times the triangles of a patch where there is noise.

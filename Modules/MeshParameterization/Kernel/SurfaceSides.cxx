@@ -6,6 +6,8 @@
 #include "MeshWeights.h"
 #include "SmallEigenpairs.h"
 
+#include <knotwork/SplineCore/AngleBetween.h>
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
@@ -114,7 +116,7 @@ NormalCut ImproveSides(
     std::array<Eigen::Vector3d, 2> directions{ Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero() };
     for (std::size_t t = 0; t < sides.size(); ++t)
     {
-      directions[static_cast<std::size_t>(sides[t])] += parts.Areas[t] * parts.Normals[t];
+      directions[sides[t] != 0 ? 1 : 0] += parts.Areas[t] * parts.Normals[t];
     }
     std::vector<double> costs(count, 0.0);
     double energy = 0.0;
@@ -175,8 +177,7 @@ double SurfaceParts::Dihedral(std::size_t t, std::size_t k) const
   {
     return 0.0;
   }
-  const Eigen::Vector3d& normal = this->Normals[static_cast<std::size_t>(other)];
-  return std::atan2(this->Normals[t].cross(normal).norm(), this->Normals[t].dot(normal));
+  return AngleBetween(this->Normals[t], this->Normals[static_cast<std::size_t>(other)]);
 }
 
 double SurfaceParts::SideLength(std::size_t t, std::size_t k) const
@@ -345,14 +346,14 @@ void JoinIslands(
   std::array<double, 2> largest{ 0.0, 0.0 };
   for (std::size_t c = 0; c < sizes.size(); ++c)
   {
-    double& size = largest[static_cast<std::size_t>(sideOf[c])];
+    double& size = largest[sideOf[c] != 0 ? 1 : 0];
     size = std::max(size, sizes[c]);
   }
   const double least = share * std::accumulate(areas.begin(), areas.end(), 0.0);
   for (std::size_t t = 0; t < n; ++t)
   {
     const auto c = static_cast<std::size_t>(component[t]);
-    if (sizes[c] < least && sizes[c] < largest[static_cast<std::size_t>(sideOf[c])])
+    if (sizes[c] < least && sizes[c] < largest[sideOf[c] != 0 ? 1 : 0])
     {
       sides[t] = static_cast<char>(1 - sideOf[c]);
     }

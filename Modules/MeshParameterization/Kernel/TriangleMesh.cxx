@@ -176,15 +176,31 @@ Status BuildFans(DiscMesh& mesh)
   mesh.Fan.clear();
   mesh.OnBoundary.assign(n, 0);
   std::vector<int> pinched;
+  // of the last vertex that a point lies around: where sides that begin and end there are, so that
+  // a vertex costs its sides and not their square
+  std::vector<std::array<int, 2>> places(n, { -1, -1 });
   for (std::size_t v = 0; v < n; ++v)
   {
     const auto begin = sides.begin() + count[v];
     const auto end = sides.begin() + count[v + 1];
+    const auto place = [&](int point, std::size_t which)
+    {
+      const int at = places[static_cast<std::size_t>(point)][which];
+      return at < count[v] ? end : sides.begin() + at;
+    };
+    for (auto side = end; side != begin;) // of equal ones the first stays
+    {
+      --side;
+      for (std::size_t which = 0; which < 2; ++which)
+      {
+        places[static_cast<std::size_t>((*side)[which])][which] =
+          static_cast<int>(side - sides.begin());
+      }
+    }
     auto current = begin;
     for (auto side = begin; side != end; ++side) // an open fan begins where no side ends
     {
-      const bool starts = std::none_of(
-        begin, end, [&](const std::array<int, 2>& other) { return other[1] == (*side)[0]; });
+      const bool starts = place((*side)[0], 1) == end;
       if (starts)
       {
         current = side;
@@ -205,8 +221,7 @@ Status BuildFans(DiscMesh& mesh)
         break;
       }
       mesh.Fan.push_back(last);
-      current = std::find_if(
-        begin, end, [last](const std::array<int, 2>& side) { return side[0] == last; });
+      current = place(last, 0);
     }
     if (visited != end - begin)
     {

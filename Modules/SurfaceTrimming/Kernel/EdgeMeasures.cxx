@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "EdgeMeasures.h"
+#include <knotwork/SplineCore/AngleBetween.h>
 #include <knotwork/SplineCore/BezierForm.h>
 #include <knotwork/SplineCore/CurveInterpolation.h>
 
@@ -23,7 +24,7 @@ std::vector<double> AnglesBetween(const PointMatrix& first, const PointMatrix& s
     const Eigen::Vector3d b = second.row(i).transpose();
     if (a.norm() > 0.0 && b.norm() > 0.0)
     {
-      angles.push_back(Degrees * std::atan2(a.cross(b).norm(), a.dot(b)));
+      angles.push_back(Degrees * AngleBetween(a, b));
     }
   }
   std::sort(angles.begin(), angles.end());

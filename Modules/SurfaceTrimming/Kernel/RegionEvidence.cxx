@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RegionEvidence.h"
 #include <knotwork/MeshParameterization/TriangleAdjacency.h>
+#include <knotwork/SplineCore/AngleBetween.h>
 
 #include <Eigen/Geometry>
 
@@ -57,7 +58,7 @@ double AngleAlong(const DiscMesh& surface, int from, int to)
   { return surface.Point(surface.Fan[At(i)]) - origin; };
   const Eigen::Vector3d left = along.cross(offset(at + 1 == end ? begin : at + 1));
   const Eigen::Vector3d right = offset(at == begin ? end - 1 : at - 1).cross(along);
-  return Degrees * std::atan2(left.cross(right).norm(), left.dot(right));
+  return Degrees * AngleBetween(left, right);
 }
 
 /// Lengths of the borders of regions with others.

@@ -18,6 +18,8 @@
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 #include "vtkTable.h"
+#include "vtkTypeInt64Array.h"
+#include "vtkTypeUInt64Array.h"
 #include "vtkVariant.h"
 
 #include <cmath>
@@ -198,6 +200,33 @@ TEST(vtkMeshFeatures, EdgesAndRegionsExtendOrReplace_Exact)
   EXPECT_EQ(Number(filter, "Regions"), 6.0);
 }
 
+/// Beyond 2^53 doubles are the same for several integers.
+TEST(vtkMeshFeatures, LargeRegionNumbersStayApart_Exact)
+{
+  const auto mesh = Encode(DividedCube(4));
+  vtkNew<vtkTypeInt64Array> halves;
+  vtkNew<vtkTypeUInt64Array> unsignedHalves;
+  halves->SetName("Halves");
+  unsignedHalves->SetName("UnsignedHalves");
+  const vtkTypeInt64 large = vtkTypeInt64(1) << 53;
+  for (vtkIdType t = 0; t < mesh->GetNumberOfPolys(); ++t)
+  {
+    halves->InsertNextValue(t < 96 ? large : large + 1); // three faces and three
+    unsignedHalves->InsertNextValue(~vtkTypeUInt64(0) - (t < 96 ? 0 : 1));
+  }
+  mesh->GetCellData()->AddArray(halves);
+  mesh->GetCellData()->AddArray(unsignedHalves);
+  vtkNew<vtkMeshFeatures> filter;
+  filter->SetInputDataObject(mesh);
+  filter->SetMode(vtkMeshFeatures::REPLACE);
+  for (const char* name : { "Halves", "UnsignedHalves" })
+  {
+    filter->SetRegionArray(name);
+    filter->Update();
+    EXPECT_EQ(Number(filter, "Regions"), 2.0) << name;
+  }
+}
+
 TEST(vtkMeshFeatures, ItsOwnLinesGiveTheSameAgain_Property)
 {
   TriangleMesh cube = DividedCube(10);
@@ -253,6 +282,9 @@ TEST(vtkMeshFeatures, Errors)
   filter->SetRegionArray(nullptr);
   filter->SetSharpAngle(10.0);
   ExpectFailure(filter, ErrorCode::InvalidParameter, "WeakAngle");
+  filter->SetSharpAngle(40.0);
+  filter->SetMode(vtkMeshFeatures::REPLACE);
+  ExpectFailure(filter, ErrorCode::InvalidParameter, "none are given");
 }
 
 TEST(vtkMeshFeatures, ProgressAndAbort)

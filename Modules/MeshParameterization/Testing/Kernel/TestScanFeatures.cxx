@@ -2,7 +2,10 @@
 #include "ScanFeatures.h"
 
 #include "FeatureCases.h"
+#include "FittedNormals.h"
 #include "MeshNoise.h"
+
+#include <Eigen/Geometry>
 
 #include <gtest/gtest.h>
 
@@ -26,7 +29,9 @@ double Noise(const TriangleMesh& mesh)
   const auto surface = CheckSurface(mesh);
   EXPECT_TRUE(surface) << surface.Status.Message();
   const std::vector<int> noHoles;
-  return EstimateNoise(SurfaceParts(surface.Value, noHoles));
+  const auto noise = EstimateNoise(SurfaceParts(surface.Value, noHoles));
+  EXPECT_TRUE(noise) << noise.Status.Message();
+  return noise.Value;
 }
 
 int ClosedLines(const ScanFeatures& features)
@@ -63,6 +68,40 @@ TriangleMesh Roof(const std::function<double(double)>& angle)
   return mesh;
 }
 
+/// Two sides that meet at 70 degrees in a chamfer 0.006 wide along the x axis, whose upper bound
+/// has 40 edges and whose lower one has one.
+TriangleMesh ChamferedRoof(double upper)
+{
+  const int count = 40;
+  const double first = upper * Pi / 180.0;
+  const double both = 70.0 * Pi / 180.0;
+  const Eigen::Vector2d low(0.006 * std::cos(first), -0.006 * std::sin(first));
+  const Eigen::Vector2d foot = low + Eigen::Vector2d(std::cos(both), -std::sin(both));
+  TriangleMesh mesh;
+  mesh.Points.resize(count + 7, 3);
+  for (int i = 0; i <= count; ++i)
+  {
+    mesh.Points.row(i) << static_cast<double>(i) / count, 0.0, 0.0;
+  }
+  const int back = count + 1;
+  const int bottom = count + 3;
+  const int end = count + 5;
+  for (int i = 0; i < 2; ++i)
+  {
+    mesh.Points.row(back + i) << i, -1.0, 0.0;
+    mesh.Points.row(bottom + i) << i, low[0], low[1];
+    mesh.Points.row(end + i) << i, foot[0], foot[1];
+  }
+  mesh.Triangles = { { back, back + 1, count }, { bottom, bottom + 1, count },
+    { bottom, end + 1, bottom + 1 }, { bottom, end, end + 1 } };
+  for (int i = 0; i < count; ++i)
+  {
+    mesh.Triangles.push_back({ back, i + 1, i });
+    mesh.Triangles.push_back({ i, i + 1, bottom });
+  }
+  return mesh;
+}
+
 /// Lengths of the lines that are no rims, ascending.
 std::vector<double> Creases(const ScanFeatures& features)
 {
@@ -92,6 +131,78 @@ TriangleMesh PlateWithPyramid()
     }
   }
   return mesh;
+}
+
+int PointAt(const TriangleMesh& mesh, double x, double y, double z)
+{
+  for (int i = 0; i < mesh.Points.rows(); ++i)
+  {
+    if ((mesh.Points.row(i) - Eigen::RowVector3d(x, y, z)).norm() < 1e-9)
+    {
+      return i;
+    }
+  }
+  return -1;
+}
+
+/// Two meshes as one, the second one moved along x.
+TriangleMesh Together(const TriangleMesh& a, const TriangleMesh& b, double x)
+{
+  TriangleMesh both = a;
+  const auto first = static_cast<int>(a.Points.rows());
+  both.Points.conservativeResize(first + b.Points.rows(), 3);
+  both.Points.bottomRows(b.Points.rows()) = b.Points.rowwise() + Eigen::RowVector3d(x, 0.0, 0.0);
+  for (const auto& [i, j, k] : b.Triangles)
+  {
+    both.Triangles.push_back({ first + i, first + j, first + k });
+  }
+  return both;
+}
+
+void ExpectFeaturesOfBoth(const TriangleMesh& a, const TriangleMesh& b, double x)
+{
+  // the second one where it is in the whole: differences by rounding are none of this test
+  TriangleMesh moved = b;
+  moved.Points.col(0).array() += x;
+  const ScanFeatures own = Found(a);
+  const ScanFeatures other = Found(moved);
+  const ScanFeatures both = Found(Together(a, b, x));
+  EXPECT_EQ(both.Noise, std::max(own.Noise, other.Noise));
+  EXPECT_EQ(both.NumRegions, own.NumRegions + other.NumRegions);
+  EXPECT_EQ(both.NumSharpEdges, own.NumSharpEdges + other.NumSharpEdges);
+  EXPECT_EQ(both.NumJoined, own.NumJoined + other.NumJoined);
+  EXPECT_EQ(both.NumClosedGaps, own.NumClosedGaps + other.NumClosedGaps);
+  std::vector<int> corners = own.Corners;
+  std::vector<int> regions = own.RegionOfTriangle;
+  std::vector<std::vector<int>> lines;
+  for (const FeatureLine& line : own.Lines)
+  {
+    lines.push_back(line.Chain.Points);
+  }
+  const auto first = static_cast<int>(a.Points.rows());
+  for (const int corner : other.Corners)
+  {
+    corners.push_back(first + corner);
+  }
+  for (const int region : other.RegionOfTriangle)
+  {
+    regions.push_back(own.NumRegions + region);
+  }
+  for (const FeatureLine& line : other.Lines)
+  {
+    lines.push_back(line.Chain.Points);
+    for (int& point : lines.back())
+    {
+      point += first;
+    }
+  }
+  EXPECT_EQ(both.Corners, corners);
+  EXPECT_EQ(both.RegionOfTriangle, regions);
+  ASSERT_EQ(both.Lines.size(), lines.size());
+  for (std::size_t i = 0; i < lines.size(); ++i)
+  {
+    EXPECT_EQ(both.Lines[i].Chain.Points, lines[i]);
+  }
 }
 
 void ExpectSameAsPlain(const TriangleMesh& mesh)
@@ -148,6 +259,43 @@ TEST(MeshNoise, IsThatWhichWasAdded_PropertyOracle)
       EXPECT_NEAR(Noise(dome), deviation, 0.1 * deviation);
     }
   }
+}
+
+/// Two rings around each point of the rim would be 1e10 points: hours.
+TEST(MeshNoise, HubsOfManyEdgesCostNoMore_ExactOracle)
+{
+  const int sides = 100000;
+  EXPECT_LT(Noise(Turned({ { 0, 0 }, { 1, 0 }, { 1, 2 }, { 0, 2 } }, sides)), 1e-9);
+  // beside a hub of a cap that is divided, noise is measured as elsewhere
+  std::vector<std::array<double, 2>> profile{ { 0, 0 } };
+  for (int i = 1; i <= 20; ++i)
+  {
+    profile.push_back({ 0.05 * i, 0 });
+  }
+  TriangleMesh disc = Turned(profile, 60);
+  AddNoise(1e-3, 1, disc);
+  EXPECT_NEAR(Noise(disc), 1e-3, 1e-4);
+}
+
+TEST(MeshNoise, ThreadsDoNotMatterAndItStops_PropertyOracle)
+{
+  TriangleMesh cube = DividedCube(20);
+  AddNoise(1e-3, 2, cube);
+  const auto surface = CheckSurface(cube);
+  ASSERT_TRUE(surface);
+  const std::vector<int> noHoles;
+  const SurfaceParts parts(surface.Value, noHoles);
+  EXPECT_EQ(EstimateNoise(parts, 1).Value, EstimateNoise(parts, 3).Value);
+  double last = 0.0;
+  const auto stopped = EstimateNoise(parts, 1,
+    [&](double share)
+    {
+      EXPECT_GT(share, last);
+      last = share;
+      return share < 0.5;
+    });
+  EXPECT_EQ(stopped.Status.Code, ErrorCode::Aborted);
+  EXPECT_LT(last, 0.6);
 }
 
 TEST(MeshNoise, TooFewTrianglesSayNothing_ExactOracle)
@@ -302,6 +450,35 @@ TEST(ScanFeatures, RowOfBluntRimsIsACurve_ExactOracle)
   EXPECT_EQ(Found(Turned(profile(0.1), 60)).NumRegions, 1);
 }
 
+TEST(ScanFeatures, NarrowRowsAreFoundHoweverTheyLie_PropertyOracle)
+{
+  for (const auto& [upper, edges] : { std::pair(33.0, 1), std::pair(37.0, 40), std::pair(35.0, 1) })
+  {
+    // the sharper bound stays, of equal ones the same in every direction
+    const TriangleMesh roof = ChamferedRoof(upper);
+    std::mt19937 random(1);
+    for (int turn = 0; turn < 30; ++turn)
+    {
+      SCOPED_TRACE(std::to_string(upper) + " degrees, turn " + std::to_string(turn));
+      TriangleMesh mesh = roof;
+      if (turn > 0) // the first one along x
+      {
+        Eigen::Vector4d parts;
+        for (double& part : parts)
+        {
+          part = static_cast<double>(random()) / 4294967296.0 - 0.5;
+        }
+        mesh.Points *= Eigen::Quaterniond(parts).normalized().toRotationMatrix();
+      }
+      const ScanFeatures features = Found(mesh);
+      EXPECT_EQ(features.NumRegions, 2);
+      EXPECT_EQ(features.NumSharpEdges, edges);
+      ASSERT_EQ(Creases(features).size(), 1u);
+      EXPECT_NEAR(Creases(features).front(), 1.0, 1e-12);
+    }
+  }
+}
+
 TEST(ScanFeatures, RimOfAThinPlateIsNoRow_ExactOracle)
 {
   TriangleMesh plate = DividedCube(10);
@@ -372,20 +549,61 @@ TEST(ScanFeatures, SmallRegionJoinsAcrossTheBluntestEdge_ExactOracle)
   EXPECT_NE(features.RegionOfTriangle[0], features.RegionOfTriangle[70]);
 }
 
+TEST(ScanFeatures, NoRegionIsNoMoreThanNoise_PropertyOracle)
+{
+  const auto expect = [](const TriangleMesh& mesh, double given)
+  {
+    ScanFeatureParams params;
+    params.Noise = given;
+    const ScanFeatures features = Found(mesh, params);
+    // the rules of the page, from the same normals
+    const double sharp = params.Angles.SharpAngle * Pi / 180.0;
+    NormalFitParams fit;
+    fit.Noise = features.Noise;
+    fit.Precision = sharp / 16.0;
+    fit.Bend = sharp / 2.0;
+    fit.Known = sharp / 8.0;
+    const auto surface = CheckSurface(mesh);
+    ASSERT_TRUE(surface);
+    const std::vector<int> noHoles;
+    const SurfaceParts parts(surface.Value, noHoles);
+    const auto fitted = FitNormals(parts, fit, [](std::size_t, std::size_t) { return false; });
+    ASSERT_TRUE(fitted);
+    const auto count = static_cast<std::size_t>(features.NumRegions);
+    std::vector<double> areas(count, 0.0);
+    std::vector<double> patches(count, 0.0);
+    std::vector<char> isKnown(count, 0);
+    for (std::size_t t = 0; t < parts.Areas.size(); ++t)
+    {
+      const auto r = static_cast<std::size_t>(features.RegionOfTriangle[t]);
+      areas[r] += parts.Areas[t];
+      patches[r] += parts.Areas[t] * fitted->Areas[t];
+      isKnown[r] = isKnown[r] || fitted->Deviations[t] <= fit.Known;
+    }
+    for (std::size_t r = 0; count > 1 && r < count; ++r)
+    {
+      EXPECT_TRUE(isKnown[r]) << "region " << r << " of " << count;
+      EXPECT_GE(areas[r] * areas[r], 0.5 * patches[r]) << "region " << r << " of " << count;
+    }
+  };
+  for (const double noise : { 0.02, 0.03, 0.04, 0.05, 0.1 })
+  {
+    for (unsigned seed = 1; seed <= 3; ++seed)
+    {
+      SCOPED_TRACE(std::to_string(noise) + ", seed " + std::to_string(seed));
+      TriangleMesh cube = DividedCube(20);
+      AddNoise(noise, seed, cube);
+      expect(cube, -1.0);
+    }
+  }
+  expect(DividedCube(8), 10.0);
+  expect(DividedCube(20), 0.05);
+}
+
 TEST(ScanFeatures, KnownEdgesExtendOrReplace_ExactOracle)
 {
   const TriangleMesh cube = DividedCube(4);
-  const auto at = [&](double x, double y, double z)
-  {
-    for (int i = 0; i < cube.Points.rows(); ++i)
-    {
-      if ((cube.Points.row(i) - Eigen::RowVector3d(x, y, z)).norm() < 1e-9)
-      {
-        return i;
-      }
-    }
-    return -1;
-  };
+  const auto at = [&](double x, double y, double z) { return PointAt(cube, x, y, z); };
   ScanFeatureParams params;
   params.Known.Edges = { { at(0.5, 0, 1), at(0.5, 1, 1) } }; // across the top
   ScanFeatures features = Found(cube, params);
@@ -402,6 +620,43 @@ TEST(ScanFeatures, KnownEdgesExtendOrReplace_ExactOracle)
   features = Found(cube, params);
   EXPECT_EQ(features.NumRegions, 3);
   EXPECT_EQ(features.NumSharpEdges, 4 * 4 + 4);
+}
+
+TEST(ScanFeatures, KnownEdgesWherePartsTouch_ExactOracle)
+{
+  // two cubes that have a corner in common
+  const TriangleMesh cube = DividedCube(4);
+  TriangleMesh raised = cube;
+  raised.Points.rightCols(2).array() += 1.0;
+  ScanFeatureParams params;
+  params.Known.Only = true;
+  const auto expect = [&](const TriangleMesh& mesh)
+  {
+    const ScanFeatures features = Found(mesh, params);
+    EXPECT_EQ(features.NumSharpEdges, 8);
+    EXPECT_EQ(Creases(features), (std::vector<double>{ 1.0, 1.0 }));
+  };
+  for (const bool firstIsRaised : { false, true })
+  {
+    const TriangleMesh mesh =
+      firstIsRaised ? Together(raised, cube, -1.0) : Together(cube, raised, 1.0);
+    const double x = firstIsRaised ? 0.0 : 1.0;
+    const int common = PointAt(mesh, x, 1, 1);
+    params.Known.Edges = { { common, PointAt(mesh, x + 1.0, 1, 1) },
+      { PointAt(mesh, x - 1.0, 1, 1), common } };
+    expect(mesh);
+  }
+  // an arch that stands on two corners of a cube: the way along the cube is shorter
+  const TriangleMesh arch = Faces(1, 10, 2,
+    [](int, double u, double v)
+    { return Eigen::Vector3d(u, (v - 0.5) * u * (1.0 - u), 1.0 + 4.0 * u * (1.0 - u)); });
+  for (const TriangleMesh& mesh : { Together(arch, cube, 0.0), Together(cube, arch, 0.0) })
+  {
+    params.Known.Edges = { { PointAt(mesh, 0, 0, 1), PointAt(mesh, 1, 0, 1) } };
+    const ScanFeatures features = Found(mesh, params);
+    EXPECT_EQ(features.NumSharpEdges, 4);
+    EXPECT_EQ(Creases(features), std::vector<double>{ 1.0 });
+  }
 }
 
 TEST(ScanFeatures, KnownRegionsExtendOrReplace_ExactOracle)
@@ -448,6 +703,35 @@ TEST(ScanFeatures, PartsAndCornersOfTheirOwn_ExactOracle)
   EXPECT_EQ(features.RegionOfTriangle.back(), 11);
   mesh.Triangles.push_back({ 0, 0, 1 });
   EXPECT_EQ(Found(mesh).RegionOfTriangle.back(), -1);
+}
+
+TEST(ScanFeatures, WhatLiesBesideAPartDoesNotMatter_PropertyOracle)
+{
+  const auto expect = [](const TriangleMesh& a, const TriangleMesh& b, double x)
+  {
+    ExpectFeaturesOfBoth(a, b, x);
+    ExpectFeaturesOfBoth(b, a, x);
+  };
+  const auto noisy = [](int n, double noise)
+  {
+    TriangleMesh cube = DividedCube(n);
+    AddNoise(noise, 1, cube);
+    return cube;
+  };
+  expect(DividedCube(8), noisy(20, 0.004), 3.0);
+  expect(DividedCube(12), noisy(12, 0.004), 2.0); // as many triangles: the order decided
+  // all of it fine and curved, beside noise of more triangles
+  std::vector<std::array<double, 2>> profile;
+  for (int i = 0; i <= 20; ++i)
+  {
+    profile.push_back({ 1.0 + 0.1 * std::sin(0.3 * i), 0.05 * i });
+  }
+  expect(Turned(profile, 60), noisy(30, 0.003), 4.0);
+  // widths and gaps are shares of a part
+  const TriangleMesh chamfered =
+    Turned({ { 0, 0 }, { 1, 0 }, { 1, 0.98 }, { 0.98, 1 }, { 0, 1 } }, 40);
+  expect(chamfered, chamfered, 20.0);
+  expect(chamfered, DividedCube(1), 1000.0);
 }
 
 TEST(ScanFeatures, ThreadsDoNotMatter_PropertyOracle)
@@ -497,6 +781,11 @@ TEST(ScanFeatures, EveryFailureIsReachable)
   };
   const auto invalid = ErrorCode::InvalidParameter;
   expect(cube, with([](auto& p) { p.Angles.SharpAngle = 0.0; }), invalid, "SharpAngle");
+  expect(cube, with([](auto& p) { p.Angles.SharpAngle = 10.0; }), invalid,
+    "it is 20 degrees and SharpAngle 10: lower it to that, or raise SharpAngle");
+  expect(cube, with([](auto& p) { p.Angles.WeakAngle = -1.0; }), invalid, "it is -1 degrees");
+  expect(cube, with([](auto& p) { p.Angles.CornerAngle = 200.0; }), invalid, "it is 200");
+  expect(cube, with([](auto& p) { p.Known.Only = true; }), invalid, "none are given");
   expect(cube, with([&](auto& p) { p.Noise = nan; }), invalid, "Noise");
   expect(cube, with([](auto& p) { p.SmallestRegion = 1.0; }), invalid, "SmallestRegion");
   expect(cube, with([](auto& p) { p.NarrowWidth = -0.1; }), invalid, "NarrowWidth");

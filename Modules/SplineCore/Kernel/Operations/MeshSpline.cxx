@@ -6,6 +6,8 @@
 #include "DualFunctionals.h"
 #include "VertexWindow.h"
 
+#include <knotwork/SplineCore/AngleBetween.h>
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -405,7 +407,7 @@ double LargestCreaseAngle(
       const Eigen::Vector3d a = NormalOf(batch, i, form.NumComponents);
       const bool turn = turned[static_cast<std::size_t>(i / (2 * samples))];
       const Eigen::Vector3d b = (turn ? -1.0 : 1.0) * NormalOf(batch, i + 1, form.NumComponents);
-      largest = std::max(largest, std::atan2(a.cross(b).norm(), a.dot(b)));
+      largest = std::max(largest, AngleBetween(a, b));
     }
   }
   return largest * 180.0 / static_cast<double>(EIGEN_PI);

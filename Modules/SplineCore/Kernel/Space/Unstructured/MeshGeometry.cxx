@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshGeometry.h"
 
+#include <knotwork/SplineCore/AngleBetween.h>
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -262,7 +264,7 @@ Result<std::vector<CellSide>> SharpEdges(const CellMesh<2>& mesh, const MeshTopo
       const double sign = topology.Crossing(c, side).Coherent ? 1.0 : -1.0;
       const Eigen::Vector3d a = normals.row(c);
       const Eigen::Vector3d b = sign * normals.row(other);
-      if (std::atan2(a.cross(b).norm(), a.dot(b)) > most)
+      if (AngleBetween(a, b) > most)
       {
         sharp.push_back({ c, side });
       }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshSlide.h"
 
+#include <knotwork/SplineCore/AngleBetween.h>
 #include <knotwork/SplineCore/DisjointSets.h>
 
 #include <Eigen/Geometry>
@@ -25,9 +26,9 @@ Eigen::Vector3d AreaVector(const SurfaceQuad& surface, const PointMatrix& points
   return a.cross(b);
 }
 
-double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
+double DegreesBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
 {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) * 180.0 / static_cast<double>(EIGEN_PI);
+  return AngleBetween(a, b) * 180.0 / static_cast<double>(EIGEN_PI);
 }
 
 /// An edge of a quadrilateral, the lower point first.
@@ -128,7 +129,7 @@ std::vector<MeshSlide::Edge> MeshSlide::FindEdges(const std::vector<SurfaceQuad>
       const SurfaceQuad& other = quads[At(sides[i + 1].Quad)];
       const double turn = sides[i].IsForward == sides[i + 1].IsForward ? -1.0 : 1.0;
       const double between =
-        AngleBetween(AreaVector(one, points), turn * AreaVector(other, points));
+        DegreesBetween(AreaVector(one, points), turn * AreaVector(other, points));
       isSharp = between > angle && !(between > OppositeAngle && (one.IsFolded || other.IsFolded));
     }
     if (!isSharp)
@@ -181,7 +182,7 @@ void MeshSlide::FindCorners(
     }
     const auto at = static_cast<Eigen::Index>(i);
     const double turn = count == 2
-      ? AngleBetween(points.row(at) - points.row(before), points.row(after) - points.row(at))
+      ? DegreesBetween(points.row(at) - points.row(before), points.row(after) - points.row(at))
       : 180.0;
     const bool isStraight =
       count == 2 && (turn <= CornerAngle || (turn >= OppositeAngle && isFolded[i] != 0));
