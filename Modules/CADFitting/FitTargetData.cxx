@@ -77,41 +77,34 @@ Result<std::vector<int>> ParseGroups(const std::string& text, std::size_t numFac
   std::string list;
   for (int group = 0; std::getline(lists, list, ';'); ++group)
   {
-    std::istringstream numbers(list);
-    std::string word;
-    while (std::getline(numbers, word, ','))
+    const auto faces = ParseNumbers(list, static_cast<int>(numFaces),
+      "in the groups of faces is no number of a face, 0 to " + std::to_string(numFaces - 1));
+    if (!faces)
     {
-      std::istringstream read(word);
-      std::size_t face = numFaces;
-      if (!(read >> face) || !(read >> std::ws).eof() || face >= numFaces)
-      {
-        return { ErrorCode::InvalidParameter,
-          "'" + word + "' in the groups of faces is no number of a face, 0 to " +
-            std::to_string(numFaces - 1) };
-      }
-      groups[face] = group;
+      return faces.Status;
+    }
+    for (const int face : faces.Value)
+    {
+      groups[static_cast<std::size_t>(face)] = group;
     }
   }
   return groups;
 }
 
-Result<TriangleMesh> TriangulateModel(const TrimmedModel& model)
+Result<TriangleMesh> TriangulateModel(
+  const TrimmedModel& model, int threads, const ProgressCallback& progress)
 {
-  Eigen::RowVector3d lower = model.Faces.front().Surface.ControlPoints.row(0);
-  Eigen::RowVector3d upper = lower;
-  for (const TrimmedFace& face : model.Faces)
-  {
-    lower = lower.cwiseMin(face.Surface.ControlPoints.colwise().minCoeff());
-    upper = upper.cwiseMax(face.Surface.ControlPoints.colwise().maxCoeff());
-  }
   TrimmedMeshParams params;
-  params.Tolerance = ChordShare * (upper - lower).norm();
-  auto mesh = TriangulateFaces(model, params);
+  params.Tolerance = ChordShare * SizeOf(model);
+  params.Threads = threads;
+  params.Progress = progress;
+  auto mesh = TriangulateFacesFiner(model, params);
   return mesh ? Result<TriangleMesh>({ std::move(mesh->Points), std::move(mesh->Triangles) })
               : Result<TriangleMesh>(mesh.Status);
 }
 
-Result<FitTargetPtr> FromModel(const TrimmedModel& model, const FitTargetOptions& options)
+Result<FitTargetPtr> FromModel(
+  const TrimmedModel& model, const FitTargetOptions& options, int threads)
 {
   ModelTargetParams params;
   params.SharpAngle = std::min(options.WeakAngle, options.SharpAngle);
@@ -125,7 +118,7 @@ Result<FitTargetPtr> FromModel(const TrimmedModel& model, const FitTargetOptions
   auto target = MakeModelTarget(model, params);
   if (target && options.Triangles)
   {
-    auto mesh = TriangulateModel(model);
+    auto mesh = TriangulateModel(model, threads, options.Progress);
     if (!mesh)
     {
       return mesh.Status;
@@ -190,7 +183,7 @@ Result<FitTargetPtr> FromVolumes(
     }
     Append(model, std::move(faces.Value));
   }
-  return FromModel(model, options);
+  return FromModel(model, options, threads);
 }
 
 Result<FitTargetPtr> FromSurfaces(vtkDataObject* data, const std::vector<SplinePatch>& patches,
@@ -238,8 +231,26 @@ Result<FitTargetPtr> FromSurfaces(vtkDataObject* data, const std::vector<SplineP
     }
     model = std::move(trimmed.Value);
   }
-  return FromModel(model, options);
+  return FromModel(model, options, threads);
 }
+}
+
+Result<std::vector<int>> ParseNumbers(const std::string& text, int below, const std::string& remedy)
+{
+  std::vector<int> numbers;
+  std::istringstream words(text);
+  std::string word;
+  while (std::getline(words, word, ','))
+  {
+    std::istringstream read(word);
+    int number = -1;
+    if (!(read >> number) || !(read >> std::ws).eof() || number < 0 || number >= below)
+    {
+      return { ErrorCode::InvalidParameter, "'" + word + "' " + remedy };
+    }
+    numbers.push_back(number);
+  }
+  return numbers;
 }
 
 Result<FitTargetPtr> DecodeFitTarget(

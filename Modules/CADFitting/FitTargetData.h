@@ -5,6 +5,7 @@
 #include <knotwork/MeshParameterization/TriangleMesh.h>
 
 #include <string>
+#include <vector>
 
 class vtkDataObject;
 class vtkImplicitFunction;
@@ -21,12 +22,19 @@ struct FitTargetOptions
   /// When not null: gets triangles of the target, those of CAD faces within a thousandth of its
   /// size; none of curves.
   TriangleMesh* Triangles = nullptr;
+  ProgressCallback Progress; ///< of the triangulation
 };
+
+/// Whole numbers from 0 on, joined by commas.
+/// @param below  the largest is less. @param remedy  follows a word that is none, in the message.
+/// @return InvalidParameter.
+Result<std::vector<int>> ParseNumbers(
+  const std::string& text, int below, const std::string& remedy);
 
 /// Triangles (polygons are divided), or a spline grid of one dimension: curves, surfaces, trimmed
 /// faces with the curves that they carry, volumes, whose boundary is the target.
 /// @return EmptyInput for a dataset without faces; InvalidParameter for groups that are no numbers
-/// of faces; the errors of the decoders and of the targets.
+/// of faces; Aborted; the errors of the decoders and of the targets.
 Result<FitTargetPtr> DecodeFitTarget(
   vtkDataObject* data, const FitTargetOptions& options, int threads);
 

@@ -4,6 +4,7 @@
 #include <knotwork/MeshParameterization/MeshData.h>
 #include <knotwork/SplineGrid/InputChecks.h>
 #include <knotwork/SplineGrid/NamedArray.h>
+#include <knotwork/SplineGrid/TableRow.h>
 
 #include "vtkAlgorithm.h"
 #include "vtkCellData.h"
@@ -11,12 +12,14 @@
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
+#include "vtkInformationVector.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkTable.h"
 
 #include <algorithm>
 
@@ -92,6 +95,23 @@ Result<TriangleMesh> DecodeScan(vtkPointSet* data)
   return scan;
 }
 
+Result<ScanAndTarget> DecodeScanAndTarget(vtkInformationVector** inputs, const std::string& what,
+  const FitTargetOptions& options, int threads)
+{
+  auto scan = DecodeScan(vtkPointSet::GetData(inputs[0], 0));
+  if (!scan)
+  {
+    return scan.Status;
+  }
+  auto target = DecodeFitTarget(vtkDataObject::GetData(inputs[1], 0), options, threads);
+  if (!target)
+  {
+    target.Status.Detail = what + ": " + target.Status.Detail;
+    return target.Status;
+  }
+  return ScanAndTarget{ std::move(scan.Value), std::move(target.Value) };
+}
+
 void EncodeMoved(vtkPointSet* input, const RigidMotion& motion, vtkPointSet* output)
 {
   output->ShallowCopy(input);
@@ -128,5 +148,15 @@ void EncodeDistances(const TargetDistances& distances, vtkPointSet* output)
   output->GetPointData()->AddArray(foot);
   output->GetPointData()->AddArray(face);
   output->GetPointData()->SetActiveScalars("Distance");
+}
+
+void AddProfile(vtkTable* table, const std::string& prefix, const DistanceProfile& profile)
+{
+  AddColumn(table, (prefix + "Points").c_str(), profile.NumPoints);
+  AddColumn(table, (prefix + "Min").c_str(), profile.Min);
+  AddColumn(table, (prefix + "Max").c_str(), profile.Max);
+  AddColumn(table, (prefix + "Mean").c_str(), profile.Mean);
+  AddColumn(table, (prefix + "MeanAbsolute").c_str(), profile.MeanAbsolute);
+  AddColumn(table, (prefix + "Rms").c_str(), profile.Rms);
 }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDatumAlignment.h"
 
+#include "FitTargetData.h"
 #include "ScanData.h"
 #include <knotwork/CADFitting/DatumAlignment.h>
 #include <knotwork/MeshParameterization/MeshData.h>
@@ -12,7 +13,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
 
-#include <sstream>
+#include <limits>
 
 using namespace knotwork;
 
@@ -20,25 +21,6 @@ vtkStandardNewMacro(vtkDatumAlignment);
 
 namespace
 {
-Result<std::vector<int>> ParseRegions(const char* text)
-{
-  std::vector<int> regions;
-  std::istringstream words(text ? text : "");
-  std::string word;
-  while (std::getline(words, word, ','))
-  {
-    std::istringstream read(word);
-    int region = -1;
-    if (!(read >> region) || !(read >> std::ws).eof() || region < 0)
-    {
-      return { ErrorCode::InvalidParameter,
-        "'" + word + "' in the datum point is no number of a region: give some as 0,3,5" };
-    }
-    regions.push_back(region);
-  }
-  return regions;
-}
-
 /// Numbers that the input brings are those that are found.
 Status CheckRegionIds(
   vtkPointSet* input, const DecodedMesh& decoded, const std::vector<int>& regionOfTriangle)
@@ -88,7 +70,9 @@ int vtkDatumAlignment::RequestDataObject(
 Status vtkDatumAlignment::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   vtkPointSet* input = vtkPointSet::GetData(inputs[0], 0);
-  auto point = ParseRegions(this->DatumPoint);
+  auto point =
+    ParseNumbers(this->DatumPoint ? this->DatumPoint : "", std::numeric_limits<int>::max(),
+      "in the datum point is no number of a region: give some as 0,3,5");
   if (!point)
   {
     return point.Status;

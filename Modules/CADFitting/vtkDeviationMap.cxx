@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeviationMap.h"
 
-#include "FitTargetData.h"
 #include "ScanData.h"
 #include <knotwork/CADFitting/DeviationMap.h>
 #include <knotwork/SplineGrid/TableRow.h>
@@ -64,16 +63,6 @@ void EncodePercentiles(const DeviationMap& map, vtkTable* table)
   add("ScanToModel", map.ScanProfile.Percentiles);
   add("ModelToScan", map.ModelProfile.Percentiles);
 }
-
-void EncodeProfile(const DistanceProfile& profile, const std::string& of, vtkTable* table)
-{
-  AddColumn(table, (of + "Points").c_str(), profile.NumPoints);
-  AddColumn(table, (of + "Min").c_str(), profile.Min);
-  AddColumn(table, (of + "Max").c_str(), profile.Max);
-  AddColumn(table, (of + "Mean").c_str(), profile.Mean);
-  AddColumn(table, (of + "MeanAbsolute").c_str(), profile.MeanAbsolute);
-  AddColumn(table, (of + "Rms").c_str(), profile.Rms);
-}
 }
 
 vtkDeviationMap::vtkDeviationMap()
@@ -114,27 +103,23 @@ Status vtkDeviationMap::Compute(vtkInformationVector** inputs, vtkInformationVec
     output->ShallowCopy(input);
     return {};
   }
-  const auto scan = DecodeScan(input);
-  if (!scan)
-  {
-    return scan.Status;
-  }
+  const auto part = [progress = this->Progress()](double begin, double end) -> ProgressCallback
+  { return [=](double share) { return progress(begin + share * (end - begin)); }; };
   TriangleMesh triangles;
   FitTargetOptions options;
   options.Triangles = &triangles;
-  auto model =
-    DecodeFitTarget(vtkDataObject::GetData(inputs[1], 0), options, this->KernelThreads());
-  if (!model)
+  options.Progress = part(0.0, 0.2);
+  const auto decoded = DecodeScanAndTarget(inputs, "model", options, this->KernelThreads());
+  if (!decoded)
   {
-    model.Status.Detail = "model: " + model.Status.Detail;
-    return model.Status;
+    return decoded.Status;
   }
   DeviationMapParams params;
   params.Samples = this->Samples;
   params.MaximumDistance = this->MaximumDistance;
   params.Threads = this->KernelThreads();
-  params.Progress = this->Progress();
-  const auto map = MapDeviation(scan.Value, *model.Value, std::move(triangles), params);
+  params.Progress = part(0.2, 1.0);
+  const auto map = MapDeviation(decoded->Scan, *decoded->Target, std::move(triangles), params);
   if (!map)
   {
     return map.Status;
@@ -144,9 +129,9 @@ Status vtkDeviationMap::Compute(vtkInformationVector** inputs, vtkInformationVec
   EncodeModel(map.Value, vtkPolyData::GetData(outputs, 1));
   EncodePercentiles(map.Value, vtkTable::GetData(outputs, 2));
   vtkTable* numbers = vtkTable::GetData(outputs, 3);
-  EncodeProfile(map->ScanProfile, "Scan", numbers);
-  EncodeProfile(map->ModelProfile, "Model", numbers);
+  AddProfile(numbers, "Scan", map->ScanProfile);
+  AddProfile(numbers, "Model", map->ModelProfile);
   AddColumn(numbers, "PointsWithout", map->NumWithout);
-  AddColumn(numbers, "Signed", model.Value->IsClosed() ? 1 : 0);
+  AddColumn(numbers, "Signed", decoded->Target->IsClosed() ? 1 : 0);
   return {};
 }

@@ -30,8 +30,8 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /** Points of the model at least. Default 20000, valid range [100, 100000000]. */
-  vtkSetClampMacro(Samples, int, 100, 100000000);
+  /** Points of the model at least. Default 20000, valid range [100, 10000000]. */
+  vtkSetClampMacro(Samples, int, 100, 10000000);
   vtkGetMacro(Samples, int);
   ///@}
   ///@{

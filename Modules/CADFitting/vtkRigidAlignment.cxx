@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRigidAlignment.h"
 
-#include "FitTargetData.h"
 #include "ScanData.h"
 #include <knotwork/SplineCore/Numbers.h>
 #include <knotwork/SplineGrid/TableRow.h>
@@ -30,17 +29,12 @@ void EncodeNumbers(const RigidAlignment& found, bool isSigned, vtkTable* table)
   AddColumn(table, "Converged", found.Converged ? 1 : 0);
   AddColumn(table, "Iterations", found.Iterations);
   AddColumn(table, "LastStep", found.LastStep);
-  AddColumn(table, "Points", profile.NumPoints);
   AddColumn(table, "Inliers", found.NumInliers);
   AddColumn(table, "InlierFraction", static_cast<double>(found.NumInliers) / profile.NumPoints);
   AddColumn(table, "InlierRms", found.InlierRms);
   AddColumn(
     table, "OutlierDistance", std::isfinite(found.OutlierDistance) ? found.OutlierDistance : -1.0);
-  AddColumn(table, "Rms", profile.Rms);
-  AddColumn(table, "Min", profile.Min);
-  AddColumn(table, "Max", profile.Max);
-  AddColumn(table, "Mean", profile.Mean);
-  AddColumn(table, "MeanAbsolute", profile.MeanAbsolute);
+  AddProfile(table, "", profile);
   AddTuple(table, "Percentiles", profile.Percentiles);
   AddColumn(table, "Ambiguous", found.EqualPoses == 1 && found.FreeMotions == 0 ? 0 : 1);
   AddColumn(table, "EqualPoses", found.EqualPoses);
@@ -50,9 +44,16 @@ void EncodeNumbers(const RigidAlignment& found, bool isSigned, vtkTable* table)
   AddTuple(table, "Motion", found.Motion.Matrix());
 }
 
-std::vector<std::string> Warnings(const RigidAlignment& found)
+constexpr double SmallScan = 0.2; ///< of the target's size: another unit, or a small part
+
+std::vector<std::string> Warnings(const RigidAlignment& found, bool isSearched)
 {
   std::vector<std::string> warnings;
+  if (isSearched && found.SizeRatio < SmallScan)
+  {
+    warnings.push_back("the scan is " + Digits(found.SizeRatio, 2) +
+      " times as large as the target: it fits in many places; are both in the same unit?");
+  }
   if (!found.Converged)
   {
     warnings.push_back("the motion did not settle in " + std::to_string(found.Iterations) +
@@ -112,16 +113,10 @@ Status vtkRigidAlignment::Compute(vtkInformationVector** inputs, vtkInformationV
     output->ShallowCopy(input);
     return {};
   }
-  const auto scan = DecodeScan(input);
-  if (!scan)
+  const auto decoded = DecodeScanAndTarget(inputs, "target", {}, this->KernelThreads());
+  if (!decoded)
   {
-    return scan.Status;
-  }
-  auto target = DecodeFitTarget(vtkDataObject::GetData(inputs[1], 0), {}, this->KernelThreads());
-  if (!target)
-  {
-    target.Status.Detail = "target: " + target.Status.Detail;
-    return target.Status;
+    return decoded.Status;
   }
   AlignmentParams params;
   params.Coarse = this->Coarse;
@@ -132,14 +127,14 @@ Status vtkRigidAlignment::Compute(vtkInformationVector** inputs, vtkInformationV
   params.Tolerance = this->Tolerance;
   params.Threads = this->KernelThreads();
   params.Progress = this->Progress();
-  const auto found = AlignToTarget(scan.Value, *target.Value, params);
+  const auto found = AlignToTarget(decoded->Scan, *decoded->Target, params);
   if (!found)
   {
     return found.Status;
   }
   EncodeMoved(input, found->Motion, output);
   EncodeDistances(found->Deviation, output);
-  EncodeNumbers(found.Value, target.Value->IsClosed(), vtkTable::GetData(outputs, 1));
-  this->ReportWarnings(Warnings(found.Value));
+  EncodeNumbers(found.Value, decoded->Target->IsClosed(), vtkTable::GetData(outputs, 1));
+  this->ReportWarnings(Warnings(found.Value, this->Coarse));
   return {};
 }

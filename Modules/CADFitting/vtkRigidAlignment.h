@@ -16,10 +16,10 @@
  * TargetFace, and the field array Motion: 16 numbers, the matrix by rows. Active normals turn with
  * the points.
  *
- * Output 1 is a table of one row: Converged, Iterations, LastStep, Points, Inliers, InlierFraction,
- * InlierRms, OutlierDistance (-1: none), Rms, Min, Max, Mean, MeanAbsolute, Percentiles (of the
- * absolute distances: 50, 90, 95, 99, 99.9, 100 percent), Ambiguous, EqualPoses (poses at which the
- * scan lies as well; 0: a continuum), FreeMotions, TargetSize, Signed, Motion.
+ * Output 1 is a table of one row: Converged, Iterations, LastStep, Inliers, InlierFraction,
+ * InlierRms, OutlierDistance (-1: none), Points, Min, Max, Mean, MeanAbsolute, Rms, Percentiles (of
+ * the absolute distances: 50, 90, 95, 99, 99.9, 100 percent), Ambiguous, EqualPoses (poses at which
+ * the scan lies as well; 0: a continuum), FreeMotions, TargetSize, Signed, Motion.
  *
  * @source Besl, McKay (1992); Chen, Medioni (1992); Low (2004); Zhang (1994). The module's page has
  * limits and errors.

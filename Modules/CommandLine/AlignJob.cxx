@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterJob.h"
 
+#include <knotwork/CADFitting/TargetDistances.h>
 #include <knotwork/CADFitting/vtkDatumAlignment.h>
 #include <knotwork/CADFitting/vtkRigidAlignment.h>
 
@@ -12,6 +13,12 @@ namespace knotwork
 namespace
 {
 constexpr int Numbers = 1; ///< port of both filters
+
+enum Branches
+{
+  OntoTarget = 1,
+  ByDatums
+};
 
 std::vector<double> TupleOf(vtkTable* table, const char* column)
 {
@@ -35,17 +42,19 @@ public:
       " onto ");
     this->AddOutput(0, "--output", Endings::Sampled, "the scan at its place, with its distances");
     this->AddOutput(Numbers, "--table", Endings::Table, "the motion and its numbers");
+    this->FilterOptions.Begin(OntoTarget, "the alignment with a target (--to)");
     this->AddProperties();
+    this->FilterOptions.Begin(ByDatums, "the alignment by datums");
     this->FilterOptions.Rename("Tolerance", "RecognitionTolerance");
     knotwork::AddProperties(this->FilterOptions, this->Datums);
   }
 
 protected:
-  Status Prepare(Session& session) override
+  Result<int> Branch() override
   {
-    const char* const point = this->Datums->GetDatumPoint();
-    this->HasDatums = this->Datums->GetDatumPlane() >= 0 || this->Datums->GetDatumAxis() >= 0 ||
-      (point && *point != '\0');
+    const Options& options = this->FilterOptions;
+    this->HasDatums = options.IsGiven("DatumPlane") || options.IsGiven("DatumAxis") ||
+      options.IsGiven("DatumPoint");
     const bool hasTarget = !this->InputFile(1).empty();
     if (hasTarget == this->HasDatums)
     {
@@ -54,6 +63,11 @@ protected:
                   : "give what to move the scan onto (--to), or its datums (--datum-plane, "
                     "--datum-axis)" };
     }
+    return hasTarget ? OntoTarget : ByDatums;
+  }
+
+  Status Prepare(Session& session) override
+  {
     if (this->HasDatums)
     {
       this->Datums->SetInputDataObject(this->Input(0));
@@ -83,8 +97,7 @@ protected:
         session.Report[Options::SnakeCase(name) + "_distance"] =
           table->GetValueByName(0, name).ToDouble();
       }
-      session.Report["percentile_levels"] =
-        std::vector<double>{ 50.0, 90.0, 95.0, 99.0, 99.9, 100.0 };
+      session.Report["percentile_levels"] = PercentileLevels;
       session.Report["percentiles"] = TupleOf(table, "Percentiles");
     }
     session.Report["motion"] = TupleOf(table, "Motion");

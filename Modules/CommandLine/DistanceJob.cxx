@@ -4,6 +4,7 @@
 #include <knotwork/CADFitting/vtkDeviationMap.h>
 #include <knotwork/SurfaceFitting/vtkSplinePointDistance.h>
 
+#include <vtkPolyData.h>
 #include <vtkVariant.h>
 
 namespace knotwork
@@ -19,6 +20,12 @@ enum MapPort
 };
 /// Outputs of both filters are told apart by numbers of ports that the first one has not.
 constexpr int FirstMapPort = 10;
+
+enum Branches
+{
+  OneWay = 1,
+  BothWaysBranch
+};
 
 class DistanceJob : public FilterJob<vtkSplinePointDistance>
 {
@@ -39,23 +46,21 @@ public:
     this->AddOutput(FirstMapPort + PercentilePort, "--percentiles", Endings::Table,
       "with --both-ways: percentiles of the distances, each way");
     app.add_option("--tolerances", this->Tolerances, "limits of the classes, ascending");
+    this->FilterOptions.Begin(OneWay, "distances one way");
     this->AddProperties();
+    this->FilterOptions.Begin(0, "");
     this->FilterOptions.Add<bool>(
       "BothWays", false, [this](const bool& on) { this->BothWays = on; },
       "whether the points (of triangles, where there are such) and the surface (trimmed faces, "
       "triangles, boundaries of volumes too) are compared both ways; positive is where the points "
       "lie outside");
+    this->FilterOptions.Begin(BothWaysBranch, "distances both ways (--both-ways)");
     knotwork::AddProperties(this->FilterOptions, this->Map);
   }
 
 protected:
-  Status Prepare(Session& session) override
+  Result<int> Branch() override
   {
-    for (const double tolerance : this->Tolerances)
-    {
-      this->Filter->AddTolerance(tolerance);
-    }
-    session.Report["tolerances"] = this->Tolerances;
     const bool hasMapOutputs = !this->OutputFile(FirstMapPort + ModelPort).empty() ||
       !this->OutputFile(FirstMapPort + PercentilePort).empty();
     if (this->BothWays ? !this->Tolerances.empty() || !this->OutputFile(1).empty() : hasMapOutputs)
@@ -64,12 +69,34 @@ protected:
         this->BothWays ? "--both-ways has no classes: leave --tolerances and --class-table out"
                        : "--model and --percentiles need --both-ways" };
     }
+    return this->BothWays ? BothWaysBranch : OneWay;
+  }
+
+  Status Prepare(Session& session) override
+  {
     if (this->BothWays)
     {
       this->Map->SetInputDataObject(0, this->Input(0));
       this->Map->SetInputDataObject(1, this->Input(1));
       this->Map->SetThreads(session.Threads);
       this->Algorithm = this->Map;
+    }
+    else
+    {
+      for (const double tolerance : this->Tolerances)
+      {
+        this->Filter->AddTolerance(tolerance);
+      }
+      session.Report["tolerances"] = this->Tolerances;
+      auto* const triangles = vtkPolyData::SafeDownCast(this->Input(1));
+      if (triangles)
+      {
+        return { ErrorCode::InvalidTopology,
+          "'" + this->InputFile(1) + "' " +
+            (triangles->GetNumberOfPolys() > 0 ? "holds triangles: give --both-ways"
+                                               : "holds no surface: give a spline, or triangles "
+                                                 "and --both-ways") };
+      }
     }
     const Status status = this->RequirePointSet(0);
     return status ? session.CheckFormat(this->Input(0), this->MainOutput()) : status;

@@ -72,6 +72,19 @@ Status FilterJobBase::Run(Session& session)
     session.Report["output"] = this->MainOutput();
   }
   this->FilterOptions.Apply(session.Report);
+  const auto branch = this->Branch();
+  if (!branch)
+  {
+    return branch.Status;
+  }
+  if (branch.Value != 0)
+  {
+    if (Status status = this->FilterOptions.Check(branch.Value); !status)
+    {
+      return status;
+    }
+    this->FilterOptions.Apply(session.Report, branch.Value);
+  }
   this->Algorithm->SetThreads(session.Threads);
   if (Status status = this->Prepare(session); !status)
   {

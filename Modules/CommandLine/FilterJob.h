@@ -47,6 +47,9 @@ protected:
   /// What --output names is written by another port.
   void WriteMainFrom(int port) { this->Outputs.front().Port = port; }
 
+  /// Which branch of the options runs (Options::Begin), 0 where there are none; with those of all
+  /// branches set.
+  virtual Result<int> Branch() { return 0; }
   /// Before the run, with inputs read and options set: checks formats, sets what no option does.
   virtual Status Prepare(Session&) { return {}; }
   /// After the run: the numbers of the report.

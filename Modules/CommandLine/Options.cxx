@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Options.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cstddef>
 #include <memory>
@@ -54,7 +55,7 @@ void Options::Add(const std::string& property, const T& initial, std::function<v
   {
     option->expected(static_cast<int>(initial.size()));
   }
-  this->Bound.push_back({ SnakeCase(name),
+  this->Bound.push_back({ this->Branch, name, SnakeCase(name), option,
     [value, set = std::move(set)](nlohmann::ordered_json& json)
     {
       set(*value);
@@ -94,6 +95,26 @@ void Options::AddChoice(const std::string& property, const std::vector<std::stri
       }
     },
     help, CLI::IsMember(names, CLI::ignore_case));
+}
+
+bool Options::IsGiven(const std::string& property) const
+{
+  return std::any_of(this->Bound.begin(), this->Bound.end(),
+    [&](const Binding& bound) { return bound.Name == property && bound.Option->count() > 0; });
+}
+
+Status Options::Check(int branch) const
+{
+  for (const Binding& bound : this->Bound)
+  {
+    if (bound.Branch != 0 && bound.Branch != branch && bound.Option->count() > 0)
+    {
+      return { ErrorCode::InvalidParameter,
+        "--" + KebabCase(bound.Name) + " is of " + this->Branches.at(bound.Branch) +
+          " and means nothing for " + this->Branches.at(branch) + ": leave it out" };
+    }
+  }
+  return {};
 }
 
 std::string Options::KebabCase(const std::string& property)

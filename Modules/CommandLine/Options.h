@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "Ranges.h"
+#include <knotwork/SplineCore/Status.h>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -9,7 +10,6 @@
 #include <map>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace knotwork
@@ -31,6 +31,19 @@ public:
     this->Names[property] = name;
   }
 
+  /// Options that are added from here on belong to one of several things that the job does; 0: to
+  /// all of them.
+  /// @param what  that is, in messages: "a target (--to)".
+  void Begin(int branch, const std::string& what)
+  {
+    this->Branch = branch;
+    this->Branches[branch] = what;
+  }
+  /// Whether an option of a property stands on the command line.
+  bool IsGiven(const std::string& property) const;
+  /// @return InvalidParameter: an option of another branch stands on the command line.
+  Status Check(int branch) const;
+
   /// A number, a list of them as long as the default, a text, or a truth value, which is on where
   /// the option stands without one (see Words.h). T: bool, int, double, std::string, std::vector of
   /// int or double.
@@ -42,12 +55,15 @@ public:
   void AddChoice(const std::string& property, const std::vector<std::string>& names, int initial,
     std::function<void(int)> set, const std::string& help);
 
-  /// Sets all properties and writes the chosen values into the report.
-  void Apply(nlohmann::ordered_json& report) const
+  /// Sets the properties of a branch and writes the chosen values into the report.
+  void Apply(nlohmann::ordered_json& report, int branch = 0) const
   {
-    for (const auto& [name, apply] : this->Bound)
+    for (const Binding& bound : this->Bound)
     {
-      apply(report[name]);
+      if (bound.Branch == branch)
+      {
+        bound.Apply(report[bound.Key]);
+      }
     }
   }
 
@@ -56,9 +72,20 @@ public:
   static std::string SnakeCase(const std::string& property);
 
 private:
+  struct Binding
+  {
+    int Branch;
+    std::string Name; ///< of the property, or what it was renamed to
+    std::string Key;  ///< in the report
+    const CLI::Option* Option;
+    std::function<void(nlohmann::ordered_json&)> Apply;
+  };
+
   CLI::App& Job;
+  int Branch = 0;
+  std::map<int, std::string> Branches;
   std::set<std::string> LeftOut;
   std::map<std::string, std::string> Names;
-  std::vector<std::pair<std::string, std::function<void(nlohmann::ordered_json&)>>> Bound;
+  std::vector<Binding> Bound;
 };
 }

@@ -27,18 +27,6 @@ namespace
 {
 using namespace knotwork;
 
-double SizeOf(const TrimmedModel& model)
-{
-  Eigen::RowVector3d lower = model.Faces.front().Surface.ControlPoints.row(0);
-  Eigen::RowVector3d upper = lower;
-  for (const TrimmedFace& face : model.Faces)
-  {
-    lower = lower.cwiseMin(face.Surface.ControlPoints.colwise().minCoeff());
-    upper = upper.cwiseMax(face.Surface.ControlPoints.colwise().maxCoeff());
-  }
-  return (upper - lower).norm();
-}
-
 /// What the file says of the faces, on their triangles.
 void AddAttributes(const TrimmedModel& model, const TrimmedMesh& mesh, vtkPolyData* triangles)
 {

@@ -50,25 +50,6 @@ void EncodeTypes(const RegionModel& model, const TrimmedMesh& triangles, vtkPoly
   output->GetCellData()->AddArray(types);
 }
 
-/// Loops whose curves do not cross may have polygons that do, at one fineness and not at another: a
-/// finer one is good as well.
-Result<TrimmedMesh> Triangulate(const TrimmedModel& model, TrimmedMeshParams params)
-{
-  constexpr int Attempts = 4;
-  constexpr double Finer = 0.8;
-  Result<TrimmedMesh> triangles;
-  for (int attempt = 0; attempt < Attempts; ++attempt)
-  {
-    triangles = TriangulateFaces(model, params);
-    if (triangles || triangles.Status.Code != ErrorCode::InvalidTopology)
-    {
-      break;
-    }
-    params.Tolerance *= Finer;
-  }
-  return triangles;
-}
-
 /// Of the mesh's points from analytic faces, of the mesh and spline faces from each other, and of
 /// the faces' edges from their surfaces.
 double DeviationOf(const RegionModel& model)
@@ -190,7 +171,7 @@ knotwork::Status vtkAnalyticModel::Compute(
     this->ChordalTolerance > 0.0 ? this->ChordalTolerance : 0.25 * model->Tolerance;
   fineness.Threads = this->KernelThreads();
   fineness.Progress = Stage(this->Progress(), done, 0.7, 1.0);
-  const auto triangles = Triangulate(model->Model, fineness);
+  const auto triangles = TriangulateFacesFiner(model->Model, fineness);
   if (!triangles)
   {
     return triangles.Status;

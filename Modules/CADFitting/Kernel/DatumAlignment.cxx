@@ -18,7 +18,8 @@ class Origin
 public:
   explicit Origin(const Eigen::Vector3d& start) : Place(start) {}
 
-  void Add(const Eigen::Vector3d& direction, const Eigen::Vector3d& point)
+  /// @return whether it fixed anything.
+  bool Add(const Eigen::Vector3d& direction, const Eigen::Vector3d& point)
   {
     Eigen::Vector3d across = direction;
     for (const Eigen::Vector3d& fixed : this->Fixed)
@@ -27,14 +28,16 @@ public:
     }
     if (across.norm() < LeastSine || this->Fixed.size() == 3)
     {
-      return;
+      return false;
     }
     across.normalize();
     this->Place += across * (direction.dot(point - this->Place) / direction.dot(across));
     this->Fixed.push_back(across);
+    return true;
   }
-  void Add(const AnalyticSurface& surface)
+  bool Add(const AnalyticSurface& surface)
   {
+    const std::size_t before = this->Fixed.size();
     switch (surface.Type)
     {
       case SurfaceType::Plane:
@@ -58,6 +61,7 @@ public:
       case SurfaceType::FreeForm:
         break;
     }
+    return this->Fixed.size() > before;
   }
   int NumFree() const { return 3 - static_cast<int>(this->Fixed.size()); }
 
@@ -112,7 +116,13 @@ public:
     Origin origin(MiddleOf(this->Mesh));
     for (const int region : this->Params.Point)
     {
-      origin.Add(this->Find(region)->Surface);
+      if (!origin.Add(this->Find(region)->Surface))
+      {
+        return { ErrorCode::InvalidParameter,
+          "region " + std::to_string(region) +
+            " of the datum point fixes nothing that those before it leave free: leave it out, or "
+            "give one across them" };
+      }
     }
     if (plane)
     {

@@ -28,7 +28,8 @@ struct DatumAlignment
 /// axis of a cylinder or cone, planes; then, as far as it is free, on Plane, then on Axis; then it
 /// is the nearest to the scan's middle. Axes point to where their largest coordinate is positive.
 /// @return InvalidParameter naming the region: there is none of that number, it has another type,
-/// or its direction is that of Plane; neither Plane nor Axis.
+/// or its direction is that of Plane, or it is of Point and fixes nothing that those before it
+/// leave free; neither Plane nor Axis.
 Result<DatumAlignment> AlignToDatums(const TriangleMesh& mesh,
   const std::vector<RecognizedRegion>& regions, const DatumParams& params);
 }

@@ -2,25 +2,30 @@
 #include "DeviationMap.h"
 
 #include "MeshTarget.h"
+#include "QueryBlocks.h"
 #include "ScanCheck.h"
 
-#include <knotwork/SplineCore/Parallel.h>
+#include <knotwork/SplineCore/Numbers.h>
 #include <knotwork/SplineCore/SampleIndex.h>
 #include <knotwork/SplineCore/TriangleIndex.h>
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <string>
 
 namespace knotwork
 {
 namespace
 {
-constexpr double LongEdge = 1.4; ///< of the edges that are wanted: halves are not far below them
-constexpr int MaxRounds = 16;
-constexpr std::size_t ChunkSize = 256;
+constexpr double LongEdge = 1.4;  ///< of the edges that are wanted: halves are not far below them
+constexpr double NextEdge = 0.85; ///< of these, where that leaves too few points
+constexpr int MaxRounds = 64;
+constexpr int MaxModelPoints = 20000000;
+constexpr std::size_t TrianglesAtOnce = 65536;
 
 /// Edges in the middle of which a point is put, common ones once.
 class EdgeMiddles
@@ -42,6 +47,7 @@ public:
     this->Next += isNew ? 1 : 0;
     return entry->second;
   }
+  int NumPoints() const { return this->Next; }
   void AddTo(PointMatrix& points) const
   {
     points.conservativeResize(this->Next, 3);
@@ -58,60 +64,77 @@ private:
   std::map<std::array<int, 2>, int> Middles;
 };
 
-/// Halves long edges, in all triangles along them, until there are none.
-void Divide(TriangleMesh& mesh, int samples)
+/// Adds the parts of a triangle whose edges get middles where they are long.
+void DivideTriangle(const std::array<int, 3>& triangle, EdgeMiddles& middles,
+  std::vector<std::array<int, 3>>& divided)
 {
-  double area = 0.0;
-  for (const auto& triangle : mesh.Triangles)
+  // turned so that the edges which stay come last
+  const auto& [a, b, c] = triangle;
+  std::array<int, 3> corner = triangle;
+  std::array<int, 3> middle{ middles.Of(a, b), middles.Of(b, c), middles.Of(c, a) };
+  for (int turn = 0; turn < 2 && (middle[0] < 0 || (middle[2] >= 0 && middle[1] < 0)); ++turn)
   {
-    area += TriangleArea(mesh.Points, triangle);
+    corner = { corner[1], corner[2], corner[0] };
+    middle = { middle[1], middle[2], middle[0] };
   }
-  // of triangles with equal sides, two a point
-  const double longest = LongEdge * std::sqrt(2.0 * area / (std::sqrt(3.0) * samples));
-  for (int round = 0; round < MaxRounds && longest > 0.0; ++round)
+  if (middle[0] < 0)
   {
-    EdgeMiddles middles(mesh.Points, longest);
-    std::vector<std::array<int, 3>> divided;
-    for (const auto& [a, b, c] : mesh.Triangles)
+    divided.push_back(corner);
+  }
+  else if (middle[1] < 0)
+  {
+    divided.push_back({ corner[0], middle[0], corner[2] });
+    divided.push_back({ middle[0], corner[1], corner[2] });
+  }
+  else if (middle[2] < 0)
+  {
+    divided.push_back({ middle[0], corner[1], middle[1] });
+    divided.push_back({ corner[0], middle[0], middle[1] });
+    divided.push_back({ corner[0], middle[1], corner[2] });
+  }
+  else
+  {
+    divided.push_back({ corner[0], middle[0], middle[2] });
+    divided.push_back({ middle[0], corner[1], middle[1] });
+    divided.push_back({ middle[2], middle[1], corner[2] });
+    divided.push_back(middle);
+  }
+}
+
+Status TooMany(int samples)
+{
+  return { ErrorCode::TooLarge,
+    "for " + std::to_string(samples) + " samples the model would have more than " +
+      std::to_string(MaxModelPoints) + " points: lower their number" };
+}
+
+/// Halves the edges that are longer, once, in all triangles along them.
+/// @return whether there were such.
+Result<bool> DivideOnce(
+  TriangleMesh& mesh, double longest, int samples, const ProgressCallback& progress)
+{
+  EdgeMiddles middles(mesh.Points, longest);
+  std::vector<std::array<int, 3>> divided;
+  for (std::size_t t = 0; t < mesh.Triangles.size(); ++t)
+  {
+    const double share = static_cast<double>(t) / static_cast<double>(mesh.Triangles.size());
+    if (t % TrianglesAtOnce == 0 && progress && !progress(share))
     {
-      // turned so that the edges which stay come last
-      std::array<int, 3> corner{ a, b, c };
-      std::array<int, 3> middle{ middles.Of(a, b), middles.Of(b, c), middles.Of(c, a) };
-      for (int turn = 0; turn < 2 && (middle[0] < 0 || (middle[2] >= 0 && middle[1] < 0)); ++turn)
-      {
-        corner = { corner[1], corner[2], corner[0] };
-        middle = { middle[1], middle[2], middle[0] };
-      }
-      if (middle[0] < 0)
-      {
-        divided.push_back(corner);
-      }
-      else if (middle[1] < 0)
-      {
-        divided.push_back({ corner[0], middle[0], corner[2] });
-        divided.push_back({ middle[0], corner[1], corner[2] });
-      }
-      else if (middle[2] < 0)
-      {
-        divided.push_back({ middle[0], corner[1], middle[1] });
-        divided.push_back({ corner[0], middle[0], middle[1] });
-        divided.push_back({ corner[0], middle[1], corner[2] });
-      }
-      else
-      {
-        divided.push_back({ corner[0], middle[0], middle[2] });
-        divided.push_back({ middle[0], corner[1], middle[1] });
-        divided.push_back({ middle[2], middle[1], corner[2] });
-        divided.push_back(middle);
-      }
+      return { ErrorCode::Aborted, "the division of the model's triangles stopped" };
     }
-    if (divided.size() == mesh.Triangles.size())
+    DivideTriangle(mesh.Triangles[t], middles, divided);
+    if (middles.NumPoints() > std::max<Eigen::Index>(mesh.Points.rows(), MaxModelPoints))
     {
-      break;
+      return TooMany(samples);
     }
+  }
+  const bool isDivided = divided.size() > mesh.Triangles.size();
+  if (isDivided)
+  {
     middles.AddTo(mesh.Points);
     mesh.Triangles = std::move(divided);
   }
+  return isDivided;
 }
 
 /// Points that triangles have, in their order.
@@ -134,6 +157,37 @@ void DropUnused(TriangleMesh& mesh)
     }
   }
   mesh.Points = points.topRows(count);
+}
+
+/// Halves long edges until there are none, and points enough.
+Status Divide(TriangleMesh& mesh, int samples, const ProgressCallback& progress)
+{
+  DropUnused(mesh);
+  double area = 0.0;
+  for (const auto& triangle : mesh.Triangles)
+  {
+    area += TriangleArea(mesh.Points, triangle);
+  }
+  // of triangles with equal sides, two a point
+  double longest = LongEdge * std::sqrt(2.0 * area / (std::sqrt(3.0) * samples));
+  double done = 0.0;
+  for (int round = 0; round < MaxRounds && longest > 0.0; ++round)
+  {
+    const double next = done + 0.5 * (1.0 - done); // nobody knows how many rounds there are
+    const auto isDivided = DivideOnce(mesh, longest, samples, PartOf(progress, done, next));
+    if (!isDivided)
+    {
+      return isDivided.Status;
+    }
+    done = next;
+    if (!isDivided.Value && mesh.Points.rows() >= samples)
+    {
+      break;
+    }
+    longest *= isDivided.Value ? 1.0 : NextEdge;
+  }
+  DropUnused(mesh); // neighbours near each other: closest points are found faster so
+  return {};
 }
 
 /// A third of the area around every point.
@@ -162,12 +216,13 @@ struct ScanDistances
 Result<ScanDistances> FromSurface(const FitTarget& scan, const PointMatrix& queries,
   const PointMatrix& outward, const TargetDistanceParams& params)
 {
-  const auto sign = OutwardSign(scan, { params.Threads, {} });
-  if (!sign)
+  const auto sides = SidesOf(scan, { params.Threads, PartOf(params.Progress, 0.0, 0.2) });
+  if (!sides)
   {
-    return sign.Status;
+    return sides.Status;
   }
-  auto measured = MeasureTargetDistances(scan, queries, sign.Value, params);
+  auto measured = MeasureTargetDistances(
+    scan, queries, sides.Value, { params.Threads, PartOf(params.Progress, 0.2, 1.0) });
   if (!measured)
   {
     return measured.Status;
@@ -179,18 +234,19 @@ Result<ScanDistances> FromSurface(const FitTarget& scan, const PointMatrix& quer
 }
 
 /// Of points, and of triangles that are no surface: on the side that the model's normal says.
-ScanDistances FromParts(
-  const TriangleMesh& scan, const PointMatrix& queries, const PointMatrix& outward, int threads)
+Result<ScanDistances> FromParts(const TriangleMesh& scan, const PointMatrix& queries,
+  const PointMatrix& outward, const TargetDistanceParams& params)
 {
   ScanDistances found{ Eigen::VectorXd(queries.rows()), PointMatrix(queries.rows(), 3) };
   const bool isMesh = !scan.Triangles.empty();
   const TriangleIndex<3> triangles =
     isMesh ? TriangleIndex<3>(scan.Points, scan.Triangles) : TriangleIndex<3>();
   const SampleIndex points = isMesh ? SampleIndex() : SampleIndex(scan.Points);
-  ParallelFor(static_cast<std::size_t>(queries.rows()), ChunkSize, threads,
-    [&](std::size_t begin, std::size_t end)
+  const Status status = RunInBlocks(static_cast<std::size_t>(queries.rows()), params.Threads,
+    params.Progress, "the search for closest points",
+    [&](Eigen::Index begin, Eigen::Index end)
     {
-      for (auto i = static_cast<Eigen::Index>(begin); i < static_cast<Eigen::Index>(end); ++i)
+      for (Eigen::Index i = begin; i < end; ++i)
       {
         const double* const at = queries.row(i).data();
         if (isMesh)
@@ -205,8 +261,9 @@ ScanDistances FromParts(
         const Eigen::RowVector3d offset = found.Nearest.row(i) - queries.row(i);
         found.Distances[i] = offset.dot(outward.row(i)) < 0.0 ? -offset.norm() : offset.norm();
       }
+      return Status();
     });
-  return found;
+  return status ? Result<ScanDistances>(std::move(found)) : status;
 }
 
 Result<ScanDistances> DistancesFromScan(const TriangleMesh& scan, const PointMatrix& queries,
@@ -220,7 +277,35 @@ Result<ScanDistances> DistancesFromScan(const TriangleMesh& scan, const PointMat
       return FromSurface(*surface.Value, queries, outward, params);
     }
   }
-  return FromParts(scan, queries, outward, params.Threads);
+  return FromParts(scan, queries, outward, params);
+}
+
+/// The profile by area of the points that are near enough; others get no distance.
+Status ProfileModel(DeviationMap& map, double largest)
+{
+  const Eigen::VectorXd areas = PointAreas(map.Model);
+  Eigen::VectorXd kept(areas.size());
+  Eigen::VectorXd weights(areas.size());
+  Eigen::Index count = 0;
+  for (Eigen::Index i = 0; i < areas.size(); ++i)
+  {
+    if (largest > 0.0 && std::abs(map.OfModel[i]) > largest)
+    {
+      map.OfModel[i] = std::numeric_limits<double>::quiet_NaN();
+      ++map.NumWithout;
+      continue;
+    }
+    kept[count] = map.OfModel[i];
+    weights[count++] = areas[i];
+  }
+  if (count == 0)
+  {
+    return { ErrorCode::InvalidParameter,
+      "no point of the model is within " + Digits(largest) +
+        " of the scan: align it first, or raise the largest distance" };
+  }
+  map.ModelProfile = ProfileOf(kept.head(count), weights.head(count));
+  return {};
 }
 }
 
@@ -232,6 +317,10 @@ Result<DeviationMap> MapDeviation(const TriangleMesh& scan, const FitTarget& tar
     return { ErrorCode::InvalidParameter,
       "at least 100 points of the model are needed, and the largest distance must be 0 or more" };
   }
+  if (params.Samples > MaxModelPoints)
+  {
+    return TooMany(params.Samples);
+  }
   if (Status status = CheckScan(scan); !status)
   {
     return status;
@@ -241,61 +330,41 @@ Result<DeviationMap> MapDeviation(const TriangleMesh& scan, const FitTarget& tar
     return { ErrorCode::EmptyInput,
       "the model has no faces: give triangles, spline surfaces, a CAD file or a volume" };
   }
-  const auto part = [&](double begin, double end) -> TargetDistanceParams
-  {
-    if (!params.Progress)
-    {
-      return { params.Threads, {} };
-    }
-    return { params.Threads, [&params, begin, end](double share) {
-              return params.Progress(begin + (end - begin) * share);
-            } };
+  const auto part = [&](double begin, double end) -> TargetDistanceParams {
+    return { params.Threads, PartOf(params.Progress, begin, end) };
   };
   DeviationMap map;
-  const auto sign = OutwardSign(target, part(0.0, 0.1));
-  if (!sign)
+  const auto sides = SidesOf(target, part(0.0, 0.1));
+  if (!sides)
   {
-    return sign.Status;
+    return sides.Status;
   }
-  auto ofScan = MeasureTargetDistances(target, scan.Points, sign.Value, part(0.1, 0.6));
+  auto ofScan = MeasureTargetDistances(target, scan.Points, sides.Value, part(0.1, 0.5));
   if (!ofScan)
   {
     return ofScan.Status;
   }
   map.OfScan = std::move(ofScan.Value);
   map.ScanProfile = ProfileOf(map.OfScan.Distances);
-  Divide(triangles, params.Samples);
-  DropUnused(triangles);
+  if (Status status = Divide(triangles, params.Samples, PartOf(params.Progress, 0.5, 0.6)); !status)
+  {
+    return status;
+  }
   TargetPoints feet;
-  if (Status status = FindOnTarget(target, triangles.Points, feet, part(0.6, 0.9)); !status)
+  if (Status status = FindOnTarget(target, triangles.Points, feet, part(0.6, 0.8)); !status)
   {
     return status;
   }
   map.Model = { feet.Points, std::move(triangles.Triangles) };
   auto ofModel =
-    DistancesFromScan(scan, map.Model.Points, sign.Value * feet.Normals, part(0.9, 1.0));
+    DistancesFromScan(scan, map.Model.Points, sides->Outward * feet.Normals, part(0.8, 1.0));
   if (!ofModel)
   {
     return ofModel.Status;
   }
   map.OfModel = std::move(ofModel->Distances);
   map.ScanPoints = std::move(ofModel->Nearest);
-  const Eigen::VectorXd areas = PointAreas(map.Model);
-  Eigen::VectorXd kept(areas.size());
-  Eigen::VectorXd weights(areas.size());
-  Eigen::Index count = 0;
-  for (Eigen::Index i = 0; i < areas.size(); ++i)
-  {
-    if (params.MaximumDistance > 0.0 && std::abs(map.OfModel[i]) > params.MaximumDistance)
-    {
-      map.OfModel[i] = std::numeric_limits<double>::quiet_NaN();
-      ++map.NumWithout;
-      continue;
-    }
-    kept[count] = map.OfModel[i];
-    weights[count++] = areas[i];
-  }
-  map.ModelProfile = ProfileOf(kept.head(count), weights.head(count));
-  return map;
+  const Status status = ProfileModel(map, params.MaximumDistance);
+  return status ? Result<DeviationMap>(std::move(map)) : status;
 }
 }

@@ -7,7 +7,7 @@ namespace knotwork
 {
 struct DeviationMapParams
 {
-  int Samples = 20000; ///< points of the model at least, [100, 100000000]
+  int Samples = 20000; ///< points of the model at least, [100, 10000000]
   /// Model points that are farther from the scan have no distance: nobody scanned them; 0: all have
   /// one.
   double MaximumDistance = 0.0;
@@ -34,7 +34,9 @@ struct DeviationMap
 /// Compares a scan with a model both ways.
 /// @param triangles  of the target, close to it.
 /// @return EmptyInput: no points, no triangles; NonFiniteInput with the point; InvalidTopology: a
-/// corner that is no point; InvalidParameter; Aborted; the target's errors.
+/// corner that is no point; InvalidParameter: an option, no point of the model within
+/// MaximumDistance; TooLarge: the triangles make more than 20,000,000 points; Aborted; the target's
+/// errors.
 Result<DeviationMap> MapDeviation(const TriangleMesh& scan, const FitTarget& target,
   TriangleMesh triangles, const DeviationMapParams& params = {});
 }

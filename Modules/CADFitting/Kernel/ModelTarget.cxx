@@ -461,14 +461,7 @@ public:
       }
       this->Faces.push_back(std::move(face.Value));
     }
-    Eigen::RowVector3d lower = model.Faces.front().Surface.ControlPoints.colwise().minCoeff();
-    Eigen::RowVector3d upper = lower;
-    for (const TrimmedFace& face : model.Faces)
-    {
-      lower = lower.cwiseMin(face.Surface.ControlPoints.colwise().minCoeff());
-      upper = upper.cwiseMax(face.Surface.ControlPoints.colwise().maxCoeff());
-    }
-    const double tolerance = SewTolerance * (upper - lower).norm();
+    const double tolerance = SewTolerance * SizeOf(model);
     EdgeList edges;
     if (Status status = edges.Add(model, tolerance); !status)
     {

@@ -2,6 +2,7 @@
 #include "RigidAlignment.h"
 
 #include "AlignmentSteps.h"
+#include "QueryBlocks.h"
 #include "ScanCheck.h"
 #include "TriangleSamples.h"
 
@@ -319,12 +320,7 @@ private:
   /// Shares of the progress in the order of the stages.
   ProgressCallback Part(double begin, double end) const
   {
-    if (!this->Params.Progress)
-    {
-      return {};
-    }
-    return [this, begin, end](double share)
-    { return this->Params.Progress(begin + (end - begin) * share); };
+    return PartOf(this->Params.Progress, begin, end);
   }
   TargetDistanceParams Searching(ProgressCallback progress = {}) const
   {
@@ -392,6 +388,7 @@ private:
         "the scan is " + Digits(ratio, 3) +
           " times as large as the target: give both in the same unit" };
     }
+    this->Found.SizeRatio = ratio;
     const Moments ofScan(spread, weights);
     const Moments ofTarget(points, samples.Areas);
     this->Spread = Ordered(this->IsMesh ? this->EvenSubset(spread, weights) : spread);
@@ -882,13 +879,13 @@ private:
 
   Status Measure()
   {
-    const auto sign = OutwardSign(this->Target, this->Searching(this->Part(0.9, 0.92)));
-    if (!sign)
+    const auto sides = SidesOf(this->Target, this->Searching(this->Part(0.9, 0.92)));
+    if (!sides)
     {
-      return sign.Status;
+      return sides.Status;
     }
     auto measured = MeasureTargetDistances(this->Target, this->Found.Motion.Move(this->Scan.Points),
-      sign.Value, this->Searching(this->Part(0.92, 1.0)));
+      sides.Value, this->Searching(this->Part(0.92, 1.0)));
     if (!measured)
     {
       return measured.Status;

@@ -67,6 +67,9 @@ struct RigidAlignment
   int EqualPoses = 1;
   /// Independent motions at which the scan stays on the target: 1 of a turned part, 3 of a ball.
   int FreeMotions = 0;
+  /// Half of the scan's points are within a radius, as half of the target is: its share of that
+  /// one. Whole scans have about 1, those in another unit do not.
+  double SizeRatio = 1.0;
   double TargetSize = 0.0;   ///< diagonal of the box of its samples
   TargetDistances Deviation; ///< of all points of the scan, moved
   DistanceProfile Profile;   ///< of its distances

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TargetDistances.h"
 
-#include <knotwork/SplineCore/Parallel.h>
+#include "QueryBlocks.h"
 
 #include <Eigen/Geometry>
 
@@ -13,10 +13,8 @@ namespace knotwork
 {
 namespace
 {
-constexpr std::size_t ChunkSize = 64;
-constexpr std::size_t AtOnce = 8192;
 constexpr double AlongNormal = 0.99;   ///< cosine from which on a foot is inside of a face
-constexpr double ProbeDistance = 1e-5; ///< of the size of the queries, for the normals at an edge
+constexpr double ProbeDistance = 1e-5; ///< of the target's size, for the normals at an edge
 constexpr int OrientationSamples = 20000;
 
 /// Directions of the corners and faces of a cube.
@@ -67,51 +65,34 @@ Status FindOnTarget(const FitTarget& target, const PointMatrixView& queries, Tar
   result.Points.resize(queries.rows(), 3);
   result.Normals.resize(queries.rows(), 3);
   result.Faces.resize(count);
-  for (std::size_t first = 0; first < count; first += AtOnce)
-  {
-    if (params.Progress &&
-      !params.Progress(static_cast<double>(first) / static_cast<double>(count)))
+  return RunInBlocks(count, params.Threads, params.Progress, "the search for closest points",
+    [&](Eigen::Index begin, Eigen::Index end)
     {
-      return { ErrorCode::Aborted, "the search for closest points stopped" };
-    }
-    const std::size_t here = std::min(AtOnce, count - first);
-    std::vector<Status> statuses((here + ChunkSize - 1) / ChunkSize);
-    ParallelFor(here, ChunkSize, params.Threads,
-      [&](std::size_t begin, std::size_t end)
-      {
-        const auto row = static_cast<Eigen::Index>(first + begin);
-        const auto rows = static_cast<Eigen::Index>(end - begin);
-        TargetPoints own;
-        Status& status = statuses[begin / ChunkSize];
-        status = target.Find({}, queries.middleRows(row, rows), own);
-        if (status)
-        {
-          result.Points.middleRows(row, rows) = own.Points;
-          result.Normals.middleRows(row, rows) = own.Normals;
-          std::copy(own.Faces.begin(), own.Faces.end(), result.Faces.begin() + row);
-        }
-      });
-    for (const Status& status : statuses)
-    {
-      if (!status)
+      const Eigen::Index rows = end - begin;
+      TargetPoints own;
+      if (Status status = target.Find({}, queries.middleRows(begin, rows), own); !status)
       {
         return status;
       }
-    }
-  }
-  return {};
+      result.Points.middleRows(begin, rows) = own.Points;
+      result.Normals.middleRows(begin, rows) = own.Normals;
+      std::copy(own.Faces.begin(), own.Faces.end(), result.Faces.begin() + begin);
+      return Status();
+    });
 }
 
-Result<double> OutwardSign(const FitTarget& target, const TargetDistanceParams& params)
+Result<TargetSides> SidesOf(const FitTarget& target, const TargetDistanceParams& params)
 {
-  if (!target.IsClosed())
-  {
-    return 1.0;
-  }
+  TargetSides sides;
   const TargetSamples samples = target.Samples(OrientationSamples);
   if (samples.Points.rows() == 0)
   {
-    return 1.0;
+    return sides;
+  }
+  sides.Size = (samples.Points.colwise().maxCoeff() - samples.Points.colwise().minCoeff()).norm();
+  if (!target.IsClosed())
+  {
+    return sides;
   }
   TargetPoints feet;
   if (Status status = FindOnTarget(target, samples.Points, feet, params); !status)
@@ -124,51 +105,51 @@ Result<double> OutwardSign(const FitTarget& target, const TargetDistanceParams& 
   {
     volume += samples.Areas[i] * feet.Normals.row(i).dot(samples.Points.row(i) - middle);
   }
-  return volume < 0.0 ? -1.0 : 1.0;
+  sides.Outward = volume < 0.0 ? -1.0 : 1.0;
+  return sides;
 }
 
 Result<TargetDistances> MeasureTargetDistances(const FitTarget& target,
-  const PointMatrixView& queries, double sign, const TargetDistanceParams& params)
+  const PointMatrixView& queries, const TargetSides& sides, const TargetDistanceParams& params)
 {
   TargetDistances measured;
-  if (Status status = FindOnTarget(target, queries, measured.Feet, params); !status)
+  if (Status status = FindOnTarget(
+        target, queries, measured.Feet, { params.Threads, PartOf(params.Progress, 0.0, 0.5) });
+      !status)
   {
     return status;
   }
-  const auto count = static_cast<std::size_t>(queries.rows());
   measured.Distances.resize(queries.rows());
-  if (count == 0)
-  {
-    return measured;
-  }
-  const double size = (queries.colwise().maxCoeff() - queries.colwise().minCoeff()).norm();
-  std::vector<Status> statuses((count + ChunkSize - 1) / ChunkSize);
-  ParallelFor(count, ChunkSize, params.Threads,
-    [&](std::size_t begin, std::size_t end)
+  const double step = ProbeDistance * sides.Size;
+  const Status status = RunInBlocks(static_cast<std::size_t>(queries.rows()), params.Threads,
+    PartOf(params.Progress, 0.5, 1.0), "the measurement of distances",
+    [&](Eigen::Index begin, Eigen::Index end)
     {
-      for (auto i = static_cast<Eigen::Index>(begin); i < static_cast<Eigen::Index>(end); ++i)
+      for (Eigen::Index i = begin; i < end; ++i)
       {
         const Eigen::RowVector3d offset = queries.row(i) - measured.Feet.Points.row(i);
         const double distance = offset.norm();
-        Eigen::RowVector3d normal = measured.Feet.Normals.row(i);
-        if (distance > ProbeDistance * size &&
-          std::abs(offset.dot(normal)) < AlongNormal * distance)
+        measured.Distances[i] = distance;
+        if (target.IsClosed() && sides.Size > 0.0 && distance > sides.Size)
         {
-          Status status =
-            SumNormals(target, measured.Feet.Points.row(i), ProbeDistance * size, normal);
-          statuses[begin / ChunkSize] = status ? statuses[begin / ChunkSize] : status;
+          continue; // outside, wherever rounding puts the closest point
         }
-        measured.Distances[i] = offset.dot(normal) * sign < 0.0 ? -distance : distance;
+        Eigen::RowVector3d normal = measured.Feet.Normals.row(i);
+        if (distance > step && std::abs(offset.dot(normal)) < AlongNormal * distance)
+        {
+          if (Status found = SumNormals(target, measured.Feet.Points.row(i), step, normal); !found)
+          {
+            return found;
+          }
+        }
+        if (offset.dot(normal) * sides.Outward < 0.0)
+        {
+          measured.Distances[i] = -distance;
+        }
       }
+      return Status();
     });
-  for (const Status& status : statuses)
-  {
-    if (!status)
-    {
-      return status;
-    }
-  }
-  return measured;
+  return status ? Result<TargetDistances>(std::move(measured)) : status;
 }
 
 DistanceProfile ProfileOf(const Eigen::VectorXd& distances, const Eigen::VectorXd& weights)

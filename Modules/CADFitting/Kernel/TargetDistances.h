@@ -23,17 +23,27 @@ struct TargetDistances
   TargetPoints Feet;
 };
 
-/// 1, or -1 of a closed target whose normals point inward: distances times it are positive outside.
-/// @return the target's errors; Aborted.
-Result<double> OutwardSign(const FitTarget& target, const TargetDistanceParams& params = {});
+/// What signs of distances go by.
+struct TargetSides
+{
+  /// -1 of a closed target whose normals point inward, else 1: distances times it are positive
+  /// outside. It is one for the whole: several bodies must be turned alike.
+  double Outward = 1.0;
+  double Size = 0.0; ///< diagonal of the box of its samples
+};
 
-/// Signed distances. Of a closed target positive is outside; of an open one it is the side that the
-/// normals point to. At an edge or corner the sign is that of the sum of the normals there.
-/// @param sign  of OutwardSign.
+/// @return the target's errors; Aborted.
+Result<TargetSides> SidesOf(const FitTarget& target, const TargetDistanceParams& params = {});
+
+/// Signed distances, of every query by itself. Of a closed target positive is outside, if all of
+/// its bodies are turned alike; of an open one it is the side that the normals point to. At an edge
+/// or corner the sign is that of the sum of the normals there.
+/// @param sides  of the target.
 /// @return as FindOnTarget.
 /// @source  Baerentzen, Aanaes, IEEE TVCG 11 (2005) 243-253 (signs at edges), with equal weights.
 Result<TargetDistances> MeasureTargetDistances(const FitTarget& target,
-  const PointMatrixView& queries, double sign = 1.0, const TargetDistanceParams& params = {});
+  const PointMatrixView& queries, const TargetSides& sides,
+  const TargetDistanceParams& params = {});
 
 inline constexpr std::array<double, 6> PercentileLevels{ 50.0, 90.0, 95.0, 99.0, 99.9, 100.0 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TriangleSamples.h"
 
-#include <Eigen/Geometry>
+#include <knotwork/MeshParameterization/TriangleMesh.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,10 +14,7 @@ TriangleSamples SampleTriangles(
   Eigen::VectorXd areas(static_cast<Eigen::Index>(triangles.size()));
   for (std::size_t t = 0; t < triangles.size(); ++t)
   {
-    const Eigen::RowVector3d a = points.row(triangles[t][0]);
-    const Eigen::RowVector3d b = points.row(triangles[t][1]);
-    const Eigen::RowVector3d c = points.row(triangles[t][2]);
-    areas[static_cast<Eigen::Index>(t)] = 0.5 * (b - a).cross(c - a).norm();
+    areas[static_cast<Eigen::Index>(t)] = TriangleArea(points, triangles[t]);
   }
   const double all = areas.sum();
   std::vector<int> parts(triangles.size());

@@ -335,19 +335,6 @@ Status CheckInput(const TrimmedModel& model, const FaceIntersectionParams& param
   }
   return {};
 }
-
-/// Diagonal of the box of all control points.
-double SizeOf(const TrimmedModel& model)
-{
-  Eigen::RowVector3d lower = model.Faces.front().Surface.ControlPoints.row(0);
-  Eigen::RowVector3d upper = lower;
-  for (const TrimmedFace& face : model.Faces)
-  {
-    lower = lower.cwiseMin(face.Surface.ControlPoints.colwise().minCoeff());
-    upper = upper.cwiseMax(face.Surface.ControlPoints.colwise().maxCoeff());
-  }
-  return (upper - lower).norm();
-}
 }
 
 const char* ToString(IntersectionVerdict verdict)

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <string>
@@ -646,5 +647,32 @@ Result<TrimmedMesh> TriangulateFaces(const TrimmedModel& model, const TrimmedMes
     }
     tolerance *= 4.0;
   }
+}
+
+Result<TrimmedMesh> TriangulateFacesFiner(const TrimmedModel& model, TrimmedMeshParams params)
+{
+  constexpr int Attempts = 4;
+  constexpr double Finer = 0.8;
+  const ProgressCallback whole = params.Progress;
+  double done = 0.0; // an attempt tells again what the one before it did
+  if (whole)
+  {
+    params.Progress = [&](double share)
+    {
+      done = std::max(done, share);
+      return whole(done);
+    };
+  }
+  Result<TrimmedMesh> triangles;
+  for (int attempt = 0; attempt < Attempts; ++attempt)
+  {
+    triangles = TriangulateFaces(model, params);
+    if (triangles || triangles.Status.Code != ErrorCode::InvalidTopology)
+    {
+      break;
+    }
+    params.Tolerance *= Finer;
+  }
+  return triangles;
 }
 }

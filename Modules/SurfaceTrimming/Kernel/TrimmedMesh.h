@@ -37,4 +37,8 @@ struct TrimmedMesh
 /// @return failures of TrimmedModel::Check; InvalidParameter; InvalidTopology for loops that cross;
 /// TooLarge; Aborted.
 Result<TrimmedMesh> TriangulateFaces(const TrimmedModel& model, const TrimmedMeshParams& params);
+
+/// The same where the tolerance may be finer too: loops whose curves do not cross may have polygons
+/// that do, at one fineness and not at another; up to three times it is lowered by a fifth then.
+Result<TrimmedMesh> TriangulateFacesFiner(const TrimmedModel& model, TrimmedMeshParams params);
 }

@@ -189,6 +189,15 @@ TEST(vtkDeviationMap, Errors)
   filter->SetInputDataObject(bad);
   filter->SetModelData(Box());
   ExpectFailure(filter, ErrorCode::NonFiniteInput, "point 1");
+  vtkNew<vtkTransform> away;
+  away->Translate(10.0, 0.0, 0.0);
+  vtkNew<vtkTransformFilter> moved;
+  moved->SetTransform(away);
+  moved->SetInputData(Box());
+  filter->SetInputConnection(moved->GetOutputPort());
+  filter->SetMaximumDistance(0.5);
+  ExpectFailure(filter, ErrorCode::InvalidParameter, "within 0.5 of the scan");
+  filter->SetMaximumDistance(0.0);
   filter->SetInputDataObject(ShapeGrid(vtkSplineSource::SQUARE));
   ExpectFailure(filter, ErrorCode::InvalidParameter, "the scan");
 }
@@ -198,5 +207,8 @@ TEST(vtkDeviationMap, ProgressAndAbort)
   vtkNew<vtkDeviationMap> filter;
   filter->SetInputDataObject(Box(0.2));
   filter->SetModelData(Box());
+  ExpectProgressAndAbort(filter, 2);
+  // a model whose faces are made triangles first
+  filter->SetModelData(ShapeGrid(vtkSplineSource::CUBE));
   ExpectProgressAndAbort(filter, 2);
 }

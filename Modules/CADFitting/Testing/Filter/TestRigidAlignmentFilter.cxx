@@ -234,6 +234,26 @@ TEST(vtkRigidAlignment, AmbiguousAndUnsettledPosesWarn)
   EXPECT_NE(recorder->Warnings[0].find("did not settle"), std::string::npos);
 }
 
+TEST(vtkRigidAlignment, ScansOfAnotherUnitWarn)
+{
+  const auto inches = Block();
+  for (vtkIdType i = 0; i < inches->GetNumberOfPoints(); ++i)
+  {
+    double point[3];
+    inches->GetPoint(i, point);
+    inches->GetPoints()->SetPoint(i, point[0] / 25.4, point[1] / 25.4, point[2] / 25.4);
+  }
+  vtkNew<vtkRigidAlignment> filter;
+  filter->SetInputDataObject(Moved(inches));
+  filter->SetTargetData(Block());
+  vtkNew<MessageRecorder> recorder;
+  recorder->Watch(filter);
+  filter->Update();
+  ASSERT_FALSE(recorder->Warnings.empty());
+  EXPECT_NE(recorder->Warnings[0].find("0.04 times as large"), std::string::npos)
+    << recorder->Warnings[0];
+}
+
 TEST(vtkRigidAlignment, Errors)
 {
   vtkNew<vtkRigidAlignment> filter;

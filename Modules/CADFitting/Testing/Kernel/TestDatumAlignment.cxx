@@ -180,4 +180,12 @@ TEST(DatumAlignment, EveryFailureIsReachable)
   refused(params, "at most three");
   params.Point = { -2 };
   refused(params, "region -2");
+  // opposite sides, one and the same, what an axis has fixed
+  const int top = part.At(SurfaceType::Plane, 8.0, 11.0, 5.0);
+  params.Point = { part.Bottom(), top };
+  refused(params, ("region " + std::to_string(top) + " of the datum point fixes nothing").c_str());
+  params.Point = { part.Front(), part.Front() };
+  refused(params, "fixes nothing");
+  params.Point = { part.Hole(), part.Left() };
+  refused(params, "fixes nothing");
 }

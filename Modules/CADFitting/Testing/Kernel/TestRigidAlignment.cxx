@@ -222,6 +222,16 @@ TEST(RigidAlignment, MeshOntoMesh_ExactOracle)
   EXPECT_EQ(found.EqualPoses, 1);
 }
 
+/// A scan in inches lies well anywhere on a part in millimetres: its size tells.
+TEST(RigidAlignment, SizeOfTheScanIsTold_ExactOracle)
+{
+  const FitTargetPtr target = TargetOf(Bracket());
+  TriangleMesh mesh = MeshOf(Bracket(), 0.05);
+  EXPECT_NEAR(Aligned(mesh, *target).SizeRatio, 1.0, 0.05);
+  mesh.Points /= 25.4;
+  EXPECT_NEAR(Aligned(mesh, *target).SizeRatio * 25.4, 1.0, 0.05);
+}
+
 /// The scan's own place, a bit off, is found without a search, and by all rules.
 TEST(RigidAlignment, RulesOfOutliers_ExactOracle)
 {
@@ -355,15 +365,16 @@ TEST(TargetDistances, SignsAtFacesEdgesAndCornersOfABox_ExactOracle)
     }
     const auto target = MakeMeshTarget(box);
     ASSERT_TRUE(target);
-    const auto sign = OutwardSign(*target.Value);
-    ASSERT_TRUE(sign);
+    const auto sides = SidesOf(*target.Value);
+    ASSERT_TRUE(sides);
+    EXPECT_EQ(sides->Outward, isTurned ? -1.0 : 1.0);
     Seeded random(1);
     PointMatrix queries(2000, 3);
     for (Eigen::Index i = 0; i < queries.size(); ++i)
     {
       queries.data()[i] = random.In(-0.5, 1.5);
     }
-    const auto measured = MeasureTargetDistances(*target.Value, queries, sign.Value);
+    const auto measured = MeasureTargetDistances(*target.Value, queries, sides.Value);
     ASSERT_TRUE(measured);
     for (Eigen::Index i = 0; i < queries.rows(); ++i)
     {
@@ -375,7 +386,8 @@ TEST(TargetDistances, SignsAtFacesEdgesAndCornersOfABox_ExactOracle)
   }
 }
 
-/// A thin wedge: next to its edge normals of one side say the wrong thing.
+/// A thin wedge: next to its edge normals of one side say the wrong thing. Signs of a point are the
+/// same by itself, among others and beside a stray one.
 TEST(TargetDistances, SignsAtAnAcuteEdge_ExactOracle)
 {
   TriangleMesh wedge;
@@ -385,14 +397,91 @@ TEST(TargetDistances, SignsAtAnAcuteEdge_ExactOracle)
     { 2, 0, 3 }, { 2, 3, 5 } };
   const auto target = MakeMeshTarget(wedge);
   ASSERT_TRUE(target);
-  PointMatrix queries(3, 3);
-  queries << -0.5, 0.2, 0.5, -0.5, -0.2, 0.5, 1.0, 0.0, 0.5;
-  const auto measured =
-    MeasureTargetDistances(*target.Value, queries, OutwardSign(*target.Value).Value);
+  PointMatrix queries(5, 3);
+  queries << -0.5, 0.2, 0.5, -0.5, -0.2, 0.5, 1.0, 0.0, 0.5, -0.5, 0.2, 1.5, 1e6, 0.0, 0.0;
+  const TargetSides sides = SidesOf(*target.Value).Value;
+  EXPECT_NEAR(sides.Size, std::sqrt(2.0 * 2.0 + 0.4 * 0.4 + 1.0), 0.1);
+  const auto together = MeasureTargetDistances(*target.Value, queries, sides);
+  ASSERT_TRUE(together);
+  const Eigen::VectorXd& distances = together->Distances;
+  EXPECT_NEAR(distances[0], std::hypot(0.5, 0.2), 1e-12);
+  EXPECT_NEAR(distances[1], std::hypot(0.5, 0.2), 1e-12);
+  EXPECT_NEAR(distances[2], -0.1 * 2.0 / std::hypot(2.0, 0.2), 1e-12);
+  EXPECT_NEAR(distances[3], std::sqrt(0.25 + 0.04 + 0.25), 1e-12);
+  EXPECT_NEAR(distances[4], 1e6 - 2.0, 1e-6);
+  for (Eigen::Index i = 0; i < queries.rows(); ++i)
+  {
+    const auto alone = MeasureTargetDistances(*target.Value, queries.middleRows(i, 1), sides);
+    ASSERT_TRUE(alone);
+    EXPECT_EQ(alone->Distances[0], distances[i]) << i;
+    PointMatrix pair(2, 3);
+    pair << queries.row(i), queries.row(4);
+    EXPECT_EQ(MeasureTargetDistances(*target.Value, pair, sides)->Distances[0], distances[i]) << i;
+  }
+}
+
+/// An open roof whose slopes meet at an acute angle, too, has one sign a query.
+TEST(TargetDistances, SignsAtAnEdgeOfAnOpenTarget_ExactOracle)
+{
+  TriangleMesh roof;
+  roof.Points.resize(6, 3);
+  roof.Points << 0, 0, 0, 2, -0.2, 0, 2, 0.2, 0, 0, 0, 1, 2, -0.2, 1, 2, 0.2, 1;
+  roof.Triangles = { { 0, 1, 4 }, { 0, 4, 3 }, { 2, 0, 3 }, { 2, 3, 5 } };
+  const auto target = MakeMeshTarget(roof);
+  ASSERT_TRUE(target);
+  const TargetSides sides = SidesOf(*target.Value).Value;
+  EXPECT_EQ(sides.Outward, 1.0);
+  for (const double y : { 0.2, -0.2 })
+  {
+    const PointMatrix query = Eigen::RowVector3d(-0.5, y, 0.5);
+    const auto measured = MeasureTargetDistances(*target.Value, query, sides);
+    EXPECT_NEAR(measured->Distances[0], std::hypot(0.5, 0.2), 1e-12);
+  }
+}
+
+/// So far away that rounding leaves the closest point open.
+TEST(TargetDistances, FarPointsAreOutside_ExactOracle)
+{
+  const auto target = MakeMeshTarget(fits::BoxTriangles(3));
+  const TargetSides sides = SidesOf(*target.Value).Value;
+  PointMatrix queries(6, 3);
+  queries << 0, 0, 1e50, 0, 0, -1e50, 1e50, 0, 0, -1e50, 0, 0, 0.5, 0.5, 1e12, -1e18, 0.3, 0.2;
+  const auto measured = MeasureTargetDistances(*target.Value, queries, sides);
   ASSERT_TRUE(measured);
-  EXPECT_NEAR(measured->Distances[0], std::hypot(0.5, 0.2), 1e-12);
-  EXPECT_NEAR(measured->Distances[1], std::hypot(0.5, 0.2), 1e-12);
-  EXPECT_LT(measured->Distances[2], 0.0);
+  for (Eigen::Index i = 0; i < queries.rows(); ++i)
+  {
+    EXPECT_NEAR(measured->Distances[i] / queries.row(i).norm(), 1.0, 1e-9) << i;
+  }
+}
+
+TEST(TargetDistances, SameForAnyNumberOfThreads_ExactOracle)
+{
+  const FitTargetPtr target = TargetOf(Bracket());
+  Seeded random(12);
+  const PointMatrix cloud = CloudOn(*target, 3000, 0.5, 0.1, random);
+  TargetDistanceParams params;
+  params.Threads = 1;
+  const auto one = MeasureTargetDistances(*target, cloud, SidesOf(*target, params).Value, params);
+  params.Threads = 3;
+  const auto three = MeasureTargetDistances(*target, cloud, SidesOf(*target, params).Value, params);
+  ASSERT_TRUE(one && three);
+  EXPECT_EQ(one->Distances, three->Distances);
+  EXPECT_EQ(one->Feet.Points, three->Feet.Points);
+}
+
+/// Both loops can be stopped.
+TEST(TargetDistances, StopsWhereverItIsAsked)
+{
+  const auto target = MakeMeshTarget(fits::BoxTriangles(3));
+  const PointMatrix queries = PointMatrix::Constant(20000, 3, 0.4);
+  const TargetSides sides = SidesOf(*target.Value).Value;
+  for (const double last : { 0.0, 0.3, 0.5, 0.8 })
+  {
+    TargetDistanceParams params;
+    params.Progress = [last](double share) { return share <= last; };
+    const auto measured = MeasureTargetDistances(*target.Value, queries, sides, params);
+    EXPECT_EQ(measured.Status.Code, ErrorCode::Aborted) << last;
+  }
 }
 
 TEST(TargetDistances, Profile_ExactOracle)

@@ -72,6 +72,21 @@ def test_datums_by_the_numbers_of_recognize():
     matrix = np.reshape(found["motion"], (4, 4))
     before, after = (vtk_to_numpy(read(name).GetPoints().GetData()) for name in ("regions.vtp", "datums.vtp"))
     assert np.allclose(before @ matrix[:3, :3].T + matrix[:3, 3], after, atol=1e-12)
+    # options and keys are those of what runs
+    assert found["recognition_tolerance"] == 0 and found["maximum_sag"] == 5
+    assert not {"samples", "tolerance", "coarse", "outliers", "trimmed_share"} & set(found), found
+    datums = ("--datum-plane", 1, "--output", "x.vtp")
+    for words in (("--samples", 500), ("--tolerance", 1e-3), ("--coarse", 0), ("--outliers", "tukey"), ("--trimmed-share", 0.1)):
+        assert words[0] + " is of" in run("align", "moved.vtp", *datums, *words, status=1).stderr
+    for words in (("--inward", ), ("--maximum-sag", 3), ("--recognition-tolerance", 0.1)):
+        assert words[0] + " is of" in run("align", "moved.vtp", "--to", "moved.vtp", "--output", "x.vtp", *words, status=1).stderr
+    run("align", "moved.vtp", *datums, "--recognition-tolerance", 0.001, "--report", "report.json")
+    assert report()["recognition_tolerance"] == 0.001
+    run("align", "moved.vtp", "--to", "moved.vtp", "--output", "x.vtp", "--report", "report.json")
+    found = report()
+    assert found["samples"] == 10000 and not {"datum_plane", "inward", "recognition_tolerance"} & set(found), found
+    for point in ("0,1", "4,4,4"):  # opposite sides, one side again
+        assert "fixes nothing" in run("align", "moved.vtp", *datums, "--datum-point", point, status=1).stderr
     assert "region 17" in run("align", "moved.vtp", "--datum-plane", 17, "--output", "x.vtp", status=1).stderr
     assert "either" in run("align", "moved.vtp", "--datum-plane", 1, "--to", "moved.vtp", "--output", "x.vtp", status=1).stderr
     assert "--datum-plane" in run("align", "moved.vtp", "--output", "x.vtp", status=1).stderr
@@ -96,8 +111,44 @@ def test_both_ways_on_a_step_file():
     distance = vtk_to_numpy(model.GetPointData().GetArray("Distance"))
     top = vtk_to_numpy(model.GetPoints().GetData())[:, 2] > 0.5 - 1e-9
     assert len(distance) == found["model_points"] >= 20000 and np.allclose(distance[top][np.abs(distance[top]) > 1e-6].max(), 0.2)
-    for words, said in ((("--model", "m.vtp"), "--both-ways"), (("--both-ways", "--tolerances", 0.1), "--tolerances")):
+    assert found["samples"] == 20000 and not {"kind", "tolerances"} & set(found), found
+    for words, said in ((("--model", "m.vtp"), "--both-ways"), (("--both-ways", "--tolerances", 0.1), "--tolerances"),
+                        (("--both-ways", "--kind", "closest"), "--kind is of"), (("--samples", 500), "--samples is of"),
+                        (("--maximum-distance", 0.5), "--maximum-distance is of")):
         assert said in run("distance", "thick.vtp", "block.step", "--output", "x.vtp", *words, status=1).stderr
+    assert "10000000" in run("distance", "thick.vtp", "block.step", "--both-ways", "--samples", 100000000, "--output", "x.vtp", status=2).stderr
+    run("distance", "thick.vtp", "block.step", "--kind", "closest", "--output", "x.vtp", "--report", "report.json")
+    found = report()
+    assert found["kind"] == "closest" and not {"samples", "maximum_distance"} & set(found), found
+
+
+def test_what_cannot_be_compared():
+    write(box(3, 2, 1), "block.vtp")
+    knotwork.write(box(3, 2, 1), os.path.join(FOLDER, "block.obj"))
+    np.savetxt(os.path.join(FOLDER, "far.xyz"), [[10, 0, 0]])
+    np.savetxt(os.path.join(FOLDER, "near.xyz"), [[1.6, 0, 0]])
+    for model in ("block.obj", "block.vtp"):
+        done = run("distance", "near.xyz", model, "--output", "x.vtp", status=1)
+        assert f"'{model}' holds triangles: give --both-ways" in done.stderr and "vtk" not in done.stderr, done.stderr
+    assert "holds no surface" in run("distance", "near.xyz", "far.xyz", "--output", "x.vtp", status=1).stderr
+    # nothing of the model is near the scan
+    words = ("block.obj", "--both-ways", "--maximum-distance", 0.5, "--output", "x.vtp", "--report", "report.json")
+    assert "within 0.5 of the scan" in run("distance", "far.xyz", *words, status=1).stderr
+    run("distance", "near.xyz", *words)
+    found = report()
+    assert 0 < found["model_points"] and 0 < found["points_without"] and abs(found["scan_max"] - 0.1) < 1e-12, found
+
+
+def test_a_stray_point_leaves_other_signs_alone():
+    """Beside the acute edge of a wedge, at x = 0: outside, whatever else was scanned."""
+    corners = np.array([(0, 0, 0), (2, -0.2, 0), (2, 0.2, 0), (0, 0, 1), (2, -0.2, 1), (2, 0.2, 1)], float)
+    triangles = [(0, 2, 1), (3, 4, 5), (0, 1, 4), (0, 4, 3), (1, 2, 5), (1, 5, 4), (2, 0, 3), (2, 3, 5)]
+    with open(os.path.join(FOLDER, "wedge.off"), "w", encoding="utf-8") as file:
+        file.write("OFF\n6 8 0\n" + "".join("%g %g %g\n" % tuple(p) for p in corners) + "".join("3 %d %d %d\n" % t for t in triangles))
+    for others in ([], [[1e6, 0, 0]], [[0, 0, 1e50]]):
+        np.savetxt(os.path.join(FOLDER, "scan.xyz"), [[-0.5, 0.2, 0.5], *others], fmt="%.17g")
+        run("distance", "scan.xyz", "wedge.off", "--both-ways", "--output", "x.vtp", "--report", "report.json")
+        assert abs(report()["scan_min"] - np.hypot(0.5, 0.2)) < 1e-12, (others, report())
 
 
 def actor(polydata, limit):

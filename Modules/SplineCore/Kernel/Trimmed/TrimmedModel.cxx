@@ -95,4 +95,20 @@ Status TrimmedModel::Check() const
   }
   return {};
 }
+
+double SizeOf(const TrimmedModel& model)
+{
+  if (model.Faces.empty())
+  {
+    return 0.0;
+  }
+  Eigen::RowVector3d lower = model.Faces.front().Surface.ControlPoints.row(0);
+  Eigen::RowVector3d upper = lower;
+  for (const TrimmedFace& face : model.Faces)
+  {
+    lower = lower.cwiseMin(face.Surface.ControlPoints.colwise().minCoeff());
+    upper = upper.cwiseMax(face.Surface.ControlPoints.colwise().maxCoeff());
+  }
+  return (upper - lower).norm();
+}
 }

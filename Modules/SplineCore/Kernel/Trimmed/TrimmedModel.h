@@ -54,4 +54,7 @@ struct TrimmedModel
   /// vertices. Details name face, loop and curve.
   Status Check() const;
 };
+
+/// Diagonal of the box of all control points; 0 without faces.
+double SizeOf(const TrimmedModel& model);
 }
