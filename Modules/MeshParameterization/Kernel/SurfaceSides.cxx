@@ -25,6 +25,8 @@ constexpr double SharpPrice = 0.05; // of it across a sharp edge
 constexpr double SmoothAngle = 0.7; // radians where the price has fallen to 1/e
 constexpr double LeastShare = 0.01; // of the area on a side
 constexpr int LloydIterations = 8;
+constexpr int MostNodes = 20000;    // of a graph that is cut; above, nodes are groups of triangles
+constexpr double LeastJoined = 0.1; // of the nodes, in a round of joining
 
 /// Triangles at a hole are one node.
 struct Nodes
@@ -97,6 +99,84 @@ Sides ByPoints(const SurfaceParts& parts, const Eigen::VectorXd& values)
     means.push_back(values[corners[0]] + values[corners[1]] + values[corners[2]]);
   }
   return BySign(parts, means);
+}
+
+/// Sums up edges between the same nodes and drops those within one.
+void SumEdges(std::vector<GraphEdge>& edges)
+{
+  std::sort(edges.begin(), edges.end(),
+    [](const GraphEdge& p, const GraphEdge& q) {
+      return p.A != q.A ? p.A < q.A : p.B != q.B ? p.B < q.B : p.Weight < q.Weight;
+    });
+  std::size_t count = 0;
+  for (const GraphEdge& edge : edges)
+  {
+    if (count > 0 && edges[count - 1].A == edge.A && edges[count - 1].B == edge.B)
+    {
+      edges[count - 1].Weight += edge.Weight;
+    }
+    else if (edge.A != edge.B)
+    {
+      edges[count++] = edge;
+    }
+  }
+  edges.resize(count);
+}
+
+/// Joins neighbouring nodes in pairs, small ones with long smooth borders first, until there are
+/// not too many: the time of a cut grows faster than their number, and the line of the cut is
+/// smoothed afterwards over more than a group.
+void JoinNodes(const SurfaceParts& parts, Nodes& nodes, std::vector<GraphEdge>& edges)
+{
+  while (nodes.Count > MostNodes)
+  {
+    std::vector<double> areas(static_cast<std::size_t>(nodes.Count), 0.0);
+    for (std::size_t t = 0; t < parts.Areas.size(); ++t)
+    {
+      areas[static_cast<std::size_t>(nodes.OfTriangle[t])] += parts.Areas[t];
+    }
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < edges.size(); ++i)
+    {
+      const double area =
+        areas[static_cast<std::size_t>(edges[i].A)] + areas[static_cast<std::size_t>(edges[i].B)];
+      order.emplace_back(-edges[i].Weight / area, i);
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<int> number(static_cast<std::size_t>(nodes.Count), -1);
+    const int most = static_cast<int>((1.0 - LeastJoined) * nodes.Count);
+    int count = 0;
+    for (const auto& [score, i] : order)
+    {
+      int& a = number[static_cast<std::size_t>(edges[i].A)];
+      int& b = number[static_cast<std::size_t>(edges[i].B)];
+      if (a < 0 && b < 0)
+      {
+        a = b = count++;
+      }
+    }
+    for (int& node : number)
+    {
+      node = node < 0 ? count++ : node;
+    }
+    for (int& node : nodes.OfTriangle)
+    {
+      node = number[static_cast<std::size_t>(node)];
+    }
+    for (GraphEdge& edge : edges)
+    {
+      const int a = number[static_cast<std::size_t>(edge.A)];
+      const int b = number[static_cast<std::size_t>(edge.B)];
+      edge.A = std::min(a, b);
+      edge.B = std::max(a, b);
+    }
+    SumEdges(edges);
+    nodes.Count = count;
+    if (count > most)
+    {
+      break;
+    }
+  }
 }
 
 struct NormalCut
@@ -188,7 +268,7 @@ double SurfaceParts::SideLength(std::size_t t, std::size_t k) const
 
 Sides DivideByNormals(const SurfaceParts& parts)
 {
-  const Nodes nodes = FindNodes(parts);
+  Nodes nodes = FindNodes(parts);
   std::vector<GraphEdge> edges;
   const double price = CutPrice * std::sqrt(parts.Mesh.Area);
   for (std::size_t t = 0; t < parts.Areas.size(); ++t)
@@ -206,6 +286,7 @@ Sides DivideByNormals(const SurfaceParts& parts)
       }
     }
   }
+  JoinNodes(parts, nodes, edges);
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
   for (std::size_t t = 0; t < parts.Areas.size(); ++t)
