@@ -22,6 +22,10 @@ constexpr int MaxFits = 3;
 /// Surfaces that round sharp edges and wrinkles lose area: those that lose a larger share are
 /// fitted again with a smaller tolerance.
 constexpr double MaxAreaError = 2e-3;
+/// The lost area falls like the tolerance: it gets so much less than what should do, within these.
+constexpr double AreaReserve = 0.95;
+constexpr double LeastAreaStep = 0.6;
+constexpr double MostAreaStep = 0.9;
 /// Faces that are not proved regular are fitted again, so often at most, with so much more
 /// smoothing.
 constexpr int MaxAttempts = 4;
@@ -140,7 +144,14 @@ Result<ProvedBackMap> FitWithProof(
     {
       break;
     }
-    fit.Tolerance *= bound > goal ? 0.9 * goal / bound : 0.6;
+    fit.Tolerance *= bound > goal
+      ? 0.9 * goal / bound
+      : std::clamp(AreaReserve * MaxAreaError / areaError, LeastAreaStep, MostAreaStep);
+    if (best->Map.Surface.Space) // what was fine enough is where the next one begins
+    {
+      const auto& knots = best->Map.Surface.Space->Knots;
+      fit.FirstNet.assign(knots.begin(), knots.end());
+    }
     fit.Effort = params.Effort - work;
     if (fit.Effort <= spent) // a smaller tolerance costs more
     {
