@@ -25,7 +25,9 @@ constexpr double SharpPrice = 0.05; // of it across a sharp edge
 constexpr double SmoothAngle = 0.7; // radians where the price has fallen to 1/e
 constexpr double LeastShare = 0.01; // of the area on a side
 constexpr int LloydIterations = 8;
-constexpr int MostNodes = 20000;    // of a graph that is cut; above, nodes are groups of triangles
+constexpr int ManyNodes = 60000;    // of a graph: of more, nodes become groups of triangles
+constexpr int MostNodes = 20000;    // after that
+constexpr double LeastCosine = 0.9; // of normals of nodes that are joined
 constexpr double LeastJoined = 0.1; // of the nodes, in a round of joining
 
 /// Triangles at a hole are one node.
@@ -128,16 +130,26 @@ void SumEdges(std::vector<GraphEdge>& edges)
 /// smoothed afterwards over more than a group.
 void JoinNodes(const SurfaceParts& parts, Nodes& nodes, std::vector<GraphEdge>& edges)
 {
-  while (nodes.Count > MostNodes)
+  const bool tooMany = nodes.Count > ManyNodes;
+  while (tooMany && nodes.Count > MostNodes)
   {
     std::vector<double> areas(static_cast<std::size_t>(nodes.Count), 0.0);
+    std::vector<Eigen::Vector3d> normals(areas.size(), Eigen::Vector3d::Zero());
     for (std::size_t t = 0; t < parts.Areas.size(); ++t)
     {
-      areas[static_cast<std::size_t>(nodes.OfTriangle[t])] += parts.Areas[t];
+      const auto node = static_cast<std::size_t>(nodes.OfTriangle[t]);
+      areas[node] += parts.Areas[t];
+      normals[node] += parts.Areas[t] * parts.Normals[t];
     }
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t i = 0; i < edges.size(); ++i)
     {
+      const Eigen::Vector3d& n = normals[static_cast<std::size_t>(edges[i].A)];
+      const Eigen::Vector3d& m = normals[static_cast<std::size_t>(edges[i].B)];
+      if (n.dot(m) < LeastCosine * n.norm() * m.norm())
+      {
+        continue; // a group across a crease would not let the cut run along it
+      }
       const double area =
         areas[static_cast<std::size_t>(edges[i].A)] + areas[static_cast<std::size_t>(edges[i].B)];
       order.emplace_back(-edges[i].Weight / area, i);

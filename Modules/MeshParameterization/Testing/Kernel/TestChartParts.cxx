@@ -305,14 +305,14 @@ TEST(SurfaceSides, LongSurfaceIsHalved_PropertyOracle)
 TEST(SurfaceSides, FineRoofIsDividedAtItsRidge_ExactOracle)
 {
   // more triangles than a graph that is cut has nodes
-  auto roof = FlatCase(0.0, 2.0, 0.0, 1.0, 0.0125, [](double, double) { return true; }).Mesh;
+  auto roof = FlatCase(0.0, 2.0, 0.0, 1.0, 0.00625, [](double, double) { return true; }).Mesh;
   for (Eigen::Index i = 0; i < roof.Points.rows(); ++i)
   {
     roof.Points(i, 2) = -std::abs(roof.Points(i, 0) - 1.0);
   }
   const auto disc = CheckMesh(roof);
   ASSERT_TRUE(disc);
-  ASSERT_GT(disc->Triangles.size(), 20000U);
+  ASSERT_GT(disc->Triangles.size(), 60000U);
   const std::vector<int> holes(static_cast<std::size_t>(disc->NumPoints()), -1);
   const SurfaceParts parts(disc.Value, holes);
   const Sides sides = DivideByNormals(parts);
