@@ -147,6 +147,11 @@ bool MoveClusters(const SurfaceGrowth& growth, const FacetClusters& facets, Divi
   return any;
 }
 
+bool IsCurved(SurfaceType type)
+{
+  return type != SurfaceType::Plane && type != SurfaceType::FreeForm;
+}
+
 /// Whether all points of a cluster lie on a surface, and it does not lean away from it.
 bool LiesOn(const DiscMesh& surface, const FacetCluster& cluster, const AnalyticSurface& on,
   bool reversed, double noise)
@@ -177,9 +182,7 @@ void TakeWideTriangles(
       {
         const int other = division.RegionOfCluster[static_cast<std::size_t>(side.Cluster)];
         GrownRegion& region = division.Regions[static_cast<std::size_t>(other)];
-        if (&region != &own && region.Clusters.size() > 1 &&
-          region.Surface.Type != SurfaceType::Plane &&
-          region.Surface.Type != SurfaceType::FreeForm &&
+        if (&region != &own && region.Clusters.size() > 1 && IsCurved(region.Surface.Type) &&
           LiesOn(surface, cluster, region.Surface, region.Reversed, noise))
         {
           region.Clusters.push_back(static_cast<int>(c));
@@ -212,7 +215,8 @@ void FlattenSingles(const FacetClusters& facets, Division& division)
 }
 
 /// Neighbours that are one surface become one region.
-void JoinEqual(const DiscMesh& surface, const FacetClusters& facets, double noise,
+/// @param exact  whether points lie on surfaces but for rounding.
+void JoinEqual(const DiscMesh& surface, const FacetClusters& facets, double noise, bool exact,
   const SurfaceGrowth& growth, Division& division)
 {
   for (std::size_t c = 0; c < facets.Clusters.size(); ++c)
@@ -223,9 +227,16 @@ void JoinEqual(const DiscMesh& surface, const FacetClusters& facets, double nois
       const int from = division.RegionOfCluster[static_cast<std::size_t>(side.Cluster)];
       GrownRegion& region = division.Regions[static_cast<std::size_t>(to)];
       GrownRegion& other = division.Regions[static_cast<std::size_t>(from)];
-      if (to == from || region.Surface.Type != other.Surface.Type ||
-        region.Surface.Type == SurfaceType::Plane || region.Surface.Type == SurfaceType::FreeForm ||
-        region.NumPoints < other.NumPoints)
+      const bool isSameType = region.Surface.Type == other.Surface.Type;
+      if (to == from || region.NumPoints < other.NumPoints || (!isSameType && !exact) ||
+        !IsCurved(region.Surface.Type) || !IsCurved(other.Surface.Type))
+      {
+        continue;
+      }
+      // few rows of a surface lie on a simpler one, too
+      if (!isSameType &&
+        !std::all_of(other.Clusters.begin(), other.Clusters.end(),
+          [&](int cluster) { return growth.Fits(cluster, region.Surface, region.Reversed); }))
       {
         continue;
       }
@@ -464,9 +475,10 @@ Result<SurfaceRecognition> RecognizeSurfaces(
     {
       growth.Reconsider(region);
     }
-    const double near = level <= LastOfExact ? NearEnough * noise : noise;
+    const bool exact = level <= LastOfExact;
+    const double near = exact ? NearEnough * noise : noise;
     TakeWideTriangles(surface, facets, near, division);
-    JoinEqual(surface, facets, near, growth, division);
+    JoinEqual(surface, facets, near, exact, growth, division);
     DropEmpty(division);
     return true;
   };
