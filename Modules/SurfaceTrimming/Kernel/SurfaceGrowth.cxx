@@ -440,8 +440,19 @@ GrownRegion SurfaceGrowth::BestRegion(int seed, const std::vector<int>& regions)
   ring.insert(ring.end(), neighbours.begin(), neighbours.end());
   Guess second = ring;
   this->AddNeighbours(regions, second);
+  const auto isSmall = [&](int c)
+  { return this->Facets.Clusters[static_cast<std::size_t>(c)].Points.size() < PointsOfFlat; };
   for (int g : neighbours)
   {
+    if (isSmall(seed) && isSmall(g)) // the plane of one triangle is not that of two with noise
+    {
+      std::vector<GrownRegion> planes;
+      this->Try(SurfaceType::Plane, { seed, g }, regions, planes);
+      if (!planes.empty() && planes.front().NumPoints < static_cast<int>(PointsOfFlat))
+      {
+        found.push_back(std::move(planes.front())); // larger ones of free shapes are chance
+      }
+    }
     this->Try(SurfaceType::Cylinder, { seed, g }, regions, found);
     this->Try(SurfaceType::Sphere, { seed, g }, regions, found);
   }

@@ -26,6 +26,7 @@ constexpr int BorderPasses = 6;
 constexpr double LargestTurn = 1.0471975511965976; // 60 degrees
 /// Of a curved surface at least, for each of its parameters.
 constexpr int PointsOfParameter = 5;
+constexpr int PointsOfFacet = 4; ///< of a plane that says little
 /// A torus has the curvatures of any surface at a point: its normals must turn by that, radians.
 constexpr double SpreadOfTorus = 0.5235987755982988; // 30 degrees from their mean
 /// Between regions of one free form at most, radians.
@@ -196,6 +197,36 @@ void TakeWideTriangles(
   }
 }
 
+/// Planes of four points say nothing where these are as near to the surface beside them as its own:
+/// single strips that seemed flat.
+void TakeStrips(const FacetClusters& facets, const SurfaceGrowth& growth, Division& division)
+{
+  for (std::size_t c = 0; c < facets.Clusters.size(); ++c)
+  {
+    for (const ClusterSide& side : facets.Sides[c])
+    {
+      const int from = division.RegionOfCluster[c];
+      const int to = division.RegionOfCluster[static_cast<std::size_t>(side.Cluster)];
+      GrownRegion& own = division.Regions[static_cast<std::size_t>(from)];
+      GrownRegion& region = division.Regions[static_cast<std::size_t>(to)];
+      if (from != to && own.Surface.Type == SurfaceType::Plane && own.NumPoints <= PointsOfFacet &&
+        IsCurved(region.Surface.Type) &&
+        region.NumPoints > PointsOfParameter + NumSurfaceParameters(region.Surface.Type) &&
+        std::all_of(own.Clusters.begin(), own.Clusters.end(),
+          [&](int cluster) { return growth.Fits(cluster, region.Surface, region.Reversed); }))
+      {
+        for (const int cluster : own.Clusters)
+        {
+          division.RegionOfCluster[static_cast<std::size_t>(cluster)] = to;
+        }
+        region.Clusters.insert(region.Clusters.end(), own.Clusters.begin(), own.Clusters.end());
+        own.Clusters.clear();
+        growth.Refit(region);
+      }
+    }
+  }
+}
+
 /// What is left of a curved surface when all but one facet have gone over to others is flat.
 void FlattenSingles(const FacetClusters& facets, Division& division)
 {
@@ -343,7 +374,7 @@ bool IsWeak(const FacetClusters& facets, const GrownRegion& region, bool coarse,
   const SurfaceType type = region.Surface.Type;
   if (type == SurfaceType::FreeForm || type == SurfaceType::Plane)
   {
-    return type == SurfaceType::FreeForm || region.NumPoints <= 4;
+    return type == SurfaceType::FreeForm || region.NumPoints <= PointsOfFacet;
   }
   if (!coarse || numInside == 0)
   {
@@ -478,6 +509,10 @@ Result<SurfaceRecognition> RecognizeSurfaces(
     const bool exact = level <= LastOfExact;
     const double near = exact ? NearEnough * noise : noise;
     TakeWideTriangles(surface, facets, near, division);
+    if (!exact)
+    {
+      TakeStrips(facets, growth, division);
+    }
     JoinEqual(surface, facets, near, exact, growth, division);
     DropEmpty(division);
     return true;
