@@ -180,6 +180,25 @@ void SurfaceGrowth::Refit(GrownRegion& region) const
   }
 }
 
+void SurfaceGrowth::Flatten(GrownRegion& region) const
+{
+  const std::vector<Vector3d> points = this->PointsOf(region.Clusters);
+  GrownRegion flat = region;
+  flat.NumPoints = static_cast<int>(points.size());
+  if (GuessSurface(SurfaceType::Plane, points, this->PiecesOf(region.Clusters), flat.Surface) &&
+    FitSurface(points, flat.Surface))
+  {
+    const FlatPiece& first =
+      this->Facets.Clusters[static_cast<std::size_t>(region.Clusters.front())].Piece;
+    flat.Reversed = flat.Surface.Normal(first.Centre).dot(first.Normal) < 0.0;
+    if (std::all_of(region.Clusters.begin(), region.Clusters.end(),
+          [&](int cluster) { return this->Fits(cluster, flat.Surface, flat.Reversed); }))
+    {
+      region = std::move(flat);
+    }
+  }
+}
+
 void SurfaceGrowth::Reconsider(GrownRegion& region) const
 {
   constexpr double MuchNearer = 0.5;

@@ -384,8 +384,10 @@ bool IsWeak(const FacetClusters& facets, const GrownRegion& region, bool coarse,
     (type == SurfaceType::Torus && NormalSpread(facets, region) < SpreadOfTorus);
 }
 
-/// Weak regions that pass over into each other become regions of free form.
-void JoinFreeForm(bool coarse, const FacetClusters& facets, Division& division)
+/// Weak regions that pass over into each other become planes where they are flat, or regions of
+/// free form.
+void JoinFreeForm(
+  bool coarse, const FacetClusters& facets, const SurfaceGrowth& growth, Division& division)
 {
   const std::vector<int> inside = CountInside(facets, division);
   std::vector<char> weak;
@@ -419,6 +421,10 @@ void JoinFreeForm(bool coarse, const FacetClusters& facets, Division& division)
             region.Surface = AnalyticSurface();
           }
         }
+      }
+      if (region.Clusters.size() > division.Regions[r].Clusters.size())
+      {
+        growth.Flatten(region);
       }
     }
     kept.push_back(std::move(region));
@@ -557,7 +563,7 @@ Result<SurfaceRecognition> RecognizeSurfaces(
     }
   }
   const SurfaceGrowth growth(surface, facets, result.Noise, params.MaximumSag * result.Tolerance);
-  JoinFreeForm(result.Noise > Levels[1] * result.Tolerance, facets, best);
+  JoinFreeForm(result.Noise > Levels[1] * result.Tolerance, facets, growth, best);
   result.RegionOfTriangle.resize(surface.Triangles.size());
   Report(growth, facets, best, result);
   return result;
