@@ -555,7 +555,8 @@ Result<SurfaceRecognition> RecognizeSurfaces(
       continue;
     }
     const std::size_t count = division.Regions.size();
-    if (fewest == Any || static_cast<double>(count) < WorthIt * static_cast<double>(fewest))
+    const double worthIt = level < LastOfExact ? 1.0 : WorthIt; // rounding, no noise
+    if (fewest == Any || static_cast<double>(count) < worthIt * static_cast<double>(fewest))
     {
       fewest = count;
       best = std::move(division);
