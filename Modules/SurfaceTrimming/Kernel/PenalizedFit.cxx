@@ -24,6 +24,9 @@ constexpr double Goal = 0.7;
 constexpr double ReweightedGoal = 0.95;
 /// What is within this part of the tolerance can be proved to be within it cheaply.
 constexpr double ProofShare = 0.95;
+/// Nor for points that are nearer than this part of the farthest one: finer nets elsewhere bring
+/// them nearer, too, and each span crosses the whole net.
+constexpr double FarthestShare = 0.25;
 /// A direction is refined where the surface bends in it at least so much of the most.
 constexpr double BendingShare = 0.25;
 /// Least weight of the thin-plate energy, by the fourth power of the longest side: Cholesky's
@@ -94,13 +97,14 @@ KnotVector Halved(
   return KnotsOfBreaks(knots.Degree(), finer);
 }
 
-/// The net with spans halved that hold points beyond the goal; the same net when there are none, or
-/// none may be halved.
+/// The net with spans halved that hold the farthest points beyond the goal; the same net when there
+/// are none, or none may be halved.
 NetKnots RefinedNet(const NetKnots& knots, const BezierForm<2>& surface,
   const ChartSamples& samples, const BackMapResiduals& residuals, const BackMapParams& params)
 {
   const bool reweighted = residuals.Max <= ReweightReach * params.Tolerance;
-  const double goal = (reweighted ? ReweightedGoal : Goal) * params.Tolerance;
+  const double goal = std::max(
+    (reweighted ? ReweightedGoal : Goal) * params.Tolerance, FarthestShare * residuals.Max);
   std::vector<Eigen::Index> far;
   for (Eigen::Index i = 0; i < residuals.Distances.size(); ++i)
   {

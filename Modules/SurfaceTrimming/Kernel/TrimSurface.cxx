@@ -20,11 +20,13 @@ constexpr double BoundaryShare = 0.25;
 /// missing taken off their tolerance.
 constexpr int MaxFits = 3;
 /// Surfaces that round sharp edges and wrinkles lose area: those that lose a larger share are
-/// fitted again with a smaller tolerance.
-constexpr double MaxAreaError = 2e-3;
-/// The lost area falls like the tolerance: it gets so much less than what should do, within these.
+/// fitted again with a smaller tolerance. Half of it takes about four times the control points.
+constexpr double MaxAreaError = 4e-3;
+/// Measured: the lost area falls with this root of the tolerance, at least. It gets so much less
+/// than what should do, within these.
+constexpr double AreaOrder = 1.5;
 constexpr double AreaReserve = 0.95;
-constexpr double LeastAreaStep = 0.6;
+constexpr double LeastAreaStep = 0.4;
 constexpr double MostAreaStep = 0.9;
 /// Faces that are not proved regular are fitted again, so often at most, with so much more
 /// smoothing.
@@ -146,7 +148,8 @@ Result<ProvedBackMap> FitWithProof(
     }
     fit.Tolerance *= bound > goal
       ? 0.9 * goal / bound
-      : std::clamp(AreaReserve * MaxAreaError / areaError, LeastAreaStep, MostAreaStep);
+      : std::clamp(
+          std::pow(AreaReserve * MaxAreaError / areaError, AreaOrder), LeastAreaStep, MostAreaStep);
     if (best->Map.Surface.Space) // what was fine enough is where the next one begins
     {
       const auto& knots = best->Map.Surface.Space->Knots;
