@@ -224,7 +224,7 @@ TEST(TrimSurface, ChartsShareTheEffort_PropertyOracle)
   TrimParams params;
   params.Triangulation = false;
   params.Tolerance = 1e-6;
-  params.Effort = 1.0;
+  params.Effort = 0.5;
   const auto first = TrimSurface({ alone, flat }, params);
   ASSERT_TRUE(first) << first.Status.Message();
   const auto last = TrimSurface({ flat, alone }, params);
