@@ -342,6 +342,10 @@ Result<std::vector<CADStep>> ModifyCAD(const std::string& file, const std::strin
   {
     return { ErrorCode::EmptyInput, "there is no operation; give one or more" };
   }
+  if (!(params.VolumeTolerance >= 0.0 && params.VolumeTolerance <= 1.0))
+  {
+    return { ErrorCode::InvalidParameter, "VolumeTolerance must lie in [0, 1]" };
+  }
   const CADFormat format = FormatOfFile(output);
   if (FormatOfFile(file) != CADFormat::STEP)
   {
@@ -392,6 +396,15 @@ Result<std::vector<CADStep>> ModifyCAD(const std::string& file, const std::strin
         {
           return { done.Code,
             place + ", operation " + std::to_string(steps.size() + 1) + ": " + done.Detail };
+        }
+        if (!(step.VolumeChange <= params.VolumeTolerance))
+        {
+          std::ostringstream detail;
+          detail << place << ", operation " << steps.size() + 1 << ": the volume changes by "
+                 << step.VolumeChange << " of itself, more than " << params.VolumeTolerance
+                 << "; edges of the file lie off their faces, or the cut runs along a face: move "
+                    "it, heal the file or ask for a larger volume tolerance";
+          return { ErrorCode::InvalidTopology, detail.str() };
         }
         steps.push_back(std::move(step));
       }

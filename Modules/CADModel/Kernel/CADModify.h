@@ -46,13 +46,17 @@ struct CADStep
   CADOperationKind Kind = CADOperationKind::Imprint;
   CADCounts Before;
   CADCounts After;
-  double Overlap = 0.0; ///< volume that lay in two solids; it belongs to the first of them now
+  double VolumeChange = 0.0; ///< share of the volume that was lost or won
+  double Overlap = 0.0;      ///< volume that lay in two solids; it belongs to the first of them now
   std::vector<std::vector<int>> NewFaces; ///< ids after it of each face id before it
 };
 
 struct CADModifyParams
 {
   LengthUnit Unit = LengthUnit::Millimetre; ///< of lengths in operations and results
+  /// Largest change of the solids' volume by an operation, as a share of it, in [0, 1]. What lay in
+  /// two solids is counted once.
+  double VolumeTolerance = 1e-9;
 };
 
 /// Reads a STEP file, runs the operations in their order, checks the shapes after each
@@ -64,8 +68,8 @@ struct CADModifyParams
 /// outside of solids stay as they are.
 /// @return EmptyInput: no operations, no solid; InvalidParameter: options outside of their ranges,
 /// ids that are not there; NonFiniteInput; OutsideDomain: what meets nothing; InvalidTopology:
-/// shapes that are not valid before or after an operation; InvalidFormat, FileError: as ReadCAD and
-/// WriteCAD.
+/// shapes that are not valid before or after an operation, or volume that is not kept;
+/// InvalidFormat, FileError: as ReadCAD and WriteCAD.
 Result<std::vector<CADStep>> ModifyCAD(const std::string& file, const std::string& output,
   const std::vector<CADOperation>& operations, const CADModifyParams& params = {});
 }

@@ -671,6 +671,8 @@ Status RunOperation(const CADOperation& operation, double scale, ModelBodies& mo
   scaled.Point *= scale;
   scaled.Radius *= scale;
   const Status status = RunScaled(scaled, model, step);
+  const double kept = step.Before.Volume - step.Overlap;
+  step.VolumeChange = kept != 0.0 ? std::abs(step.After.Volume / kept - 1.0) : 0.0;
   const double cube = 1.0 / (scale * scale * scale);
   for (double* volume : { &step.Before.Volume, &step.After.Volume, &step.Overlap })
   {

@@ -196,6 +196,28 @@ TEST(CADModify, APistonBecomesCrownSkirtAndMore_ExactOracle)
   EXPECT_EQ(CheckCAD(OutputFile("pieces.step"))->NumSolids, 3);
 }
 
+TEST(CADModify, VolumeIsWatched_PropertyOracle)
+{
+  const std::string file = FileWith({ Piston() }, "watched.step");
+  CADModifyParams params;
+  const auto kept = ModifyCAD(file, OutputFile("kept.step"), { Plane(0, 0, 45, 0, 0, 1) }, params);
+  ASSERT_TRUE(kept) << kept.Status.Message();
+  EXPECT_EQ(kept->front().VolumeChange,
+    std::abs(kept->front().After.Volume / kept->front().Before.Volume - 1.0));
+  // below what quadrature and curves of intersection allow
+  const CADOperation oblique = Plane(0, 0, 30, 0.3, 0.2, 1);
+  const auto changed =
+    ModifyCAD(file, OutputFile("changed.step"), { oblique }, { params.Unit, 1.0 });
+  ASSERT_TRUE(changed) << changed.Status.Message();
+  const double change = changed->front().VolumeChange;
+  EXPECT_GT(change, 0.0);
+  EXPECT_LT(change, 1e-9);
+  const auto refused =
+    ModifyCAD(file, OutputFile("refused.step"), { oblique }, { params.Unit, 0.5 * change });
+  EXPECT_EQ(refused.Status.Code, ErrorCode::InvalidTopology);
+  EXPECT_FALSE(std::ifstream(OutputFile("refused.step")).good());
+}
+
 TEST(CADModify, AFaceExtendedCuts_ExactOracle)
 {
   // an L: the step's face cuts it into two boxes
@@ -351,6 +373,13 @@ TEST(CADModify, EveryFailureIsReachable)
     EXPECT_NE(status.Detail.find("operation 1"), std::string::npos) << status.Detail;
   }
   EXPECT_EQ(Failure(file, { Plane(1, 0, 0, 1, 0, 0) }).Code, ErrorCode::OutsideDomain); // a side
+  for (double tolerance : { -1.0, 2.0, nan })
+  {
+    EXPECT_EQ(ModifyCAD(file, OutputFile("never.step"), { Plane(0.5, 0, 0, 1, 0, 0) },
+                { LengthUnit::Millimetre, tolerance })
+                .Status.Code,
+      ErrorCode::InvalidParameter);
+  }
   CADOperation operation = Plane(0.5, 0.5, 0, 0, 0, 1);
   operation.Kind = CADOperationKind::CutByCylinder;
   for (double radius : { 0.0, -1.0, nan })
