@@ -52,10 +52,14 @@ def centres_and_areas(mesh):
 
 
 def shared(mesh):
-    """Cells of faces that are there twice: equal areas and centres."""
+    """Cells of faces that are there twice: equal areas and centres, up to their triangles."""
     centres, areas, faces = centres_and_areas(mesh)
-    twice = [np.sum((np.linalg.norm(centres - c, axis=1) < 1e-3) & (np.abs(areas - a) < 1e-3 * a)) > 1 for c, a in zip(centres, areas)]
+    twice = [np.sum((np.linalg.norm(centres - c, axis=1) < 0.5) & (np.abs(areas - a) < 0.03 * a)) > 1 for c, a in zip(centres, areas)]
     return np.array(twice)[faces]
+
+
+def twins(mesh):
+    return len(np.unique(vtk_to_numpy(mesh.GetCellData().GetArray("FaceId"))[shared(mesh)]))
 
 
 def apart(mesh):
@@ -113,7 +117,7 @@ def main():
     print({key: cut[key] for key in ("solids_before", "solids", "faces", "volume_before", "volume")})
 
     before, after, divided = triangles(part), triangles(whole), triangles(pieces)
-    print("shared triangles before", int(shared(before).sum()), "after", int(shared(after).sum()))
+    print("faces with a twin: before", twins(before), "after", twins(after))
     pair = ("Shared", (PALE, RED))
     views = [panel(0, 3, apart(tagged(before, "Shared", shared(before))), *pair, f"{imprinted['solids']} solids, {imprinted['faces_before']} faces"),
              panel(1, 3, apart(tagged(after, "Shared", shared(after))), *pair,
