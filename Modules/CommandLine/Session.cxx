@@ -90,6 +90,16 @@ Result<vtkSmartPointer<vtkDataObject>> Session::Read(const std::string& file, bo
   return found->Data;
 }
 
+Status Session::Measure(const std::function<Status()>& work)
+{
+  const double begin = Now();
+  const double cpuBegin = CpuNow();
+  Status status = work();
+  this->Seconds += Now() - begin;
+  this->CpuSeconds += CpuNow() - cpuBegin;
+  return status;
+}
+
 void Session::NoteReader(vtkAlgorithm* reader, const std::string& file)
 {
   auto* own = vtkSplineAlgorithm::SafeDownCast(reader);
@@ -109,12 +119,13 @@ Status Session::Run(
   {
     filter->AddObserver(vtkCommand::ProgressEvent, progress);
   }
-  const double begin = Now();
-  const double cpuBegin = CpuNow();
   MessageCapture messages;
-  filter->Update();
-  this->Seconds += Now() - begin;
-  this->CpuSeconds += CpuNow() - cpuBegin;
+  this->Measure(
+    [filter]
+    {
+      filter->Update();
+      return Status();
+    });
   if (show)
   {
     filter->RemoveObserver(progress);

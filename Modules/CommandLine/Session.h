@@ -8,6 +8,7 @@
 #include <vtkSmartPointer.h>
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,9 @@ public:
   /// @param warnings  get the filter's, instead of printing: what is to be said if the rest works.
   Status Run(vtkAlgorithm* filter, const std::string& what, int port = 0,
     std::vector<std::string>* warnings = nullptr);
+
+  /// Runs what is no filter; its time is the job's.
+  Status Measure(const std::function<Status()>& work);
 
   /// Adds what a reader left out of a file to LeftOut.
   void NoteReader(vtkAlgorithm* reader, const std::string& file);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CADBody.h"
+#include "CADDocument.h"
 #include "CADFile.h"
 #include "CADSession.h"
 #include "STEPLoops.h"
@@ -9,16 +10,12 @@
 #include <IGESCAFControl_Reader.hxx>
 #include <IGESData_IGESEntity.hxx>
 #include <NCollection_DataMap.hxx>
-#include <Quantity_Color.hxx>
 #include <STEPCAFControl_Reader.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TDF_LabelSequence.hxx>
-#include <TDataStd_Name.hxx>
-#include <TDocStd_Document.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_ShapeMapHasher.hxx>
 #include <TopoDS.hxx>
-#include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
 #include <XSControl_TransferReader.hxx>
@@ -42,20 +39,6 @@ struct Attributes
   std::string Name;
   knotwork::Color Color;
 };
-
-std::string NameOf(const TDF_Label& label)
-{
-  Handle(TDataStd_Name) name;
-  if (!label.FindAttribute(TDataStd_Name::GetID(), name))
-  {
-    return {};
-  }
-  const TCollection_ExtendedString& text = name->Get();
-  std::string utf8(static_cast<std::size_t>(text.LengthOfCString()) + 1, '\0');
-  Standard_PCharacter out = utf8.data();
-  utf8.resize(static_cast<std::size_t>(text.ToUTF8CString(out)));
-  return utf8;
-}
 
 /// Names that entities of a file have besides those of the document.
 using EntityNames = std::function<std::string(const TopoDS_Shape&)>;
@@ -88,7 +71,7 @@ public:
   void Read();
 
 private:
-  Color ColorOf(const TDF_Label& label) const;
+  Color ColorOf(const TDF_Label& label) const { return knotwork::ColorOf(this->Colors, label); }
   void ReadLabel(const TDF_Label& label, const TopLoc_Location& location, const Color& color);
   void ReadProduct(const TDF_Label& label, const TopLoc_Location& location, const Color& color);
 
@@ -99,19 +82,6 @@ private:
   CADContents& Contents;
   int NumBodies = 0;
 };
-
-Color DocumentReader::ColorOf(const TDF_Label& label) const
-{
-  Quantity_Color color;
-  if (this->Colors->GetColor(label, XCAFDoc_ColorSurf, color) ||
-    this->Colors->GetColor(label, XCAFDoc_ColorGen, color))
-  {
-    std::array<double, 3> rgb{};
-    color.Values(rgb[0], rgb[1], rgb[2], Quantity_TOC_sRGB);
-    return rgb;
-  }
-  return {};
-}
 
 void DocumentReader::ReadLabel(
   const TDF_Label& label, const TopLoc_Location& location, const Color& outer)
@@ -229,8 +199,7 @@ Result<CADContents> ReadCAD(const std::string& file, const CADReadParams& params
   const Status status = session.Run(place,
     [&]() -> Status
     {
-      Handle(TDocStd_Document) document = new TDocStd_Document("Knotwork");
-      XCAFDoc_DocumentTool::Set(document->Main(), false);
+      Handle(TDocStd_Document) document = NewDocument();
       const auto read = [&](auto& cafReader, XSControl_Reader& reader, const EntityNames& names)
       {
         int numMended = 0;

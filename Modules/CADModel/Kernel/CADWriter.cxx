@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "CADDocument.h"
 #include "CADExchange.h"
 #include "CADFile.h"
 #include "CADSession.h"
@@ -12,16 +13,12 @@
 #include <IGESData_Protocol.hxx>
 #include <IGESSelect_WorkLibrary.hxx>
 #include <Interface_FloatWriter.hxx>
-#include <Quantity_Color.hxx>
 #include <STEPCAFControl_Writer.hxx>
 #include <Standard_OStream.hxx>
 #include <StepData_Protocol.hxx>
 #include <StepData_StepModel.hxx>
 #include <StepData_StepWriter.hxx>
 #include <TCollection_HAsciiString.hxx>
-#include <TDataStd_Name.hxx>
-#include <TDocStd_Document.hxx>
-#include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
 #include <XSControl_WorkSession.hxx>
@@ -38,22 +35,16 @@ namespace
 constexpr const char* NoTime = "1970-01-01T00:00:00";
 constexpr const char* NoDate = "19700101.000000";
 
-TCollection_ExtendedString Unicode(const std::string& utf8)
-{
-  return { utf8.c_str(), true };
-}
-
 /// Shapes with the names and colours of faces.
 Handle(TDocStd_Document)
   MakeDocument(const TrimmedModel& model, const CADShapes& shapes, const CADWriteParams& params)
 {
-  Handle(TDocStd_Document) document = new TDocStd_Document("Knotwork");
-  XCAFDoc_DocumentTool::Set(document->Main(), false);
+  Handle(TDocStd_Document) document = NewDocument();
   XCAFDoc_DocumentTool::SetLengthUnit(document, Millimetres(params.Unit) / 1000.0);
   const Handle(XCAFDoc_ShapeTool) tool = XCAFDoc_DocumentTool::ShapeTool(document->Main());
   const Handle(XCAFDoc_ColorTool) colors = XCAFDoc_DocumentTool::ColorTool(document->Main());
   const TDF_Label root = tool->AddShape(shapes.Shape, false);
-  TDataStd_Name::Set(root, Unicode(params.Name));
+  SetName(root, params.Name);
   for (std::size_t f = 0; f < model.Faces.size(); ++f)
   {
     const TrimmedFace& face = model.Faces[f];
@@ -68,13 +59,11 @@ Handle(TDocStd_Document)
     }
     if (!face.Name.empty())
     {
-      TDataStd_Name::Set(label, Unicode(face.Name));
+      SetName(label, face.Name);
     }
     if (face.HasColor)
     {
-      const auto share = [&](std::size_t c) { return std::min(std::max(face.Color[c], 0.0), 1.0); };
-      colors->SetColor(
-        label, Quantity_Color(share(0), share(1), share(2), Quantity_TOC_sRGB), XCAFDoc_ColorSurf);
+      SetColor(colors, label, face.Color);
     }
   }
   return document;
@@ -92,27 +81,6 @@ void SetFormat(Interface_FloatWriter& format)
 Handle(TCollection_HAsciiString) Text(const char* text)
 {
   return new TCollection_HAsciiString(text);
-}
-
-bool WriteSTEP(const Handle(TDocStd_Document) & document, std::ostream& stream)
-{
-  STEPCAFControl_Writer writer;
-  if (!writer.Transfer(document))
-  {
-    return false;
-  }
-  const Handle(StepData_StepModel) steps = writer.ChangeWriter().Model();
-  APIHeaderSection_MakeHeader header(steps);
-  header.SetName(Text("Knotwork"));
-  header.SetTimeStamp(Text(NoTime)); // the same model is the same file
-  header.SetAuthorValue(1, Text(""));
-  header.SetOrganizationValue(1, Text(""));
-  header.SetOriginatingSystem(Text("Knotwork"));
-  header.SetDescriptionValue(1, Text("Trimmed spline surfaces"));
-  StepData_StepWriter text(steps);
-  SetFormat(text.FloatWriter());
-  text.SendModel(Handle(StepData_Protocol)::DownCast(writer.ChangeWriter().WS()->Protocol()));
-  return text.Print(stream);
 }
 
 bool WriteIGES(const Handle(TDocStd_Document) & document, std::ostream& stream)
@@ -158,7 +126,8 @@ Status TextOf(const TrimmedModel& model, const CADWriteParams& params, CADFormat
     session.Set("write.step.schema", params.Schema == STEPSchema::AP242 ? 5 : 4);
     session.Set("write.step.unit", NameOfUnit(params.Unit));
     session.Set("write.stepcaf.subshapes.name", 1);
-    written = WriteSTEP(MakeDocument(model, shapes.Value, params), stream);
+    written =
+      WriteSTEP(MakeDocument(model, shapes.Value, params), "Trimmed spline surfaces", stream);
   }
   else
   {
@@ -219,6 +188,28 @@ Status TextInAnyWay(const TrimmedModel& model, const CADWriteParams& params, CAD
   }
   return first;
 }
+}
+
+bool WriteSTEP(
+  const Handle(TDocStd_Document) & document, const char* description, std::ostream& stream)
+{
+  STEPCAFControl_Writer writer;
+  if (!writer.Transfer(document))
+  {
+    return false;
+  }
+  const Handle(StepData_StepModel) steps = writer.ChangeWriter().Model();
+  APIHeaderSection_MakeHeader header(steps);
+  header.SetName(Text("Knotwork"));
+  header.SetTimeStamp(Text(NoTime)); // the same model is the same file
+  header.SetAuthorValue(1, Text(""));
+  header.SetOrganizationValue(1, Text(""));
+  header.SetOriginatingSystem(Text("Knotwork"));
+  header.SetDescriptionValue(1, Text(description));
+  StepData_StepWriter text(steps);
+  SetFormat(text.FloatWriter());
+  text.SendModel(Handle(StepData_Protocol)::DownCast(writer.ChangeWriter().WS()->Protocol()));
+  return text.Print(stream);
 }
 
 Status WriteCAD(const TrimmedModel& model, const std::string& file, const CADWriteParams& params)

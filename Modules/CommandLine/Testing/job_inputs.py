@@ -4,6 +4,7 @@ import numpy as np
 
 import damages
 import skeletons
+import step_solids
 from refusals import good, path, write_text
 
 FILE = "the file in question"  # its place in a run
@@ -12,7 +13,7 @@ FILE = "the file in question"  # its place in a run
 ENDINGS = {"surface": (".vtu", ".xml", ".g2", ".step", ".iges"), "points": (".vtp", ".xyz", ".csv", ".ply", ".g2"),
            "cells": (".vtp",), "mesh": (".off", ".obj", ".ply", ".stl", ".vtp"), "curves": (".vtp",),
            "boundary": (".json",), "map": (".vtu",), "trim": (".vtu",), "grid": (".vtu",), "layout": (".vtu",),
-           "quads": (".off", ".obj", ".ply", ".vtu"), "values": (".vtp", ".csv"), "edges": (".vtp",)}
+           "quads": (".off", ".obj", ".ply", ".vtu"), "values": (".vtp", ".csv"), "edges": (".vtp",), "part": (".step",)}
 
 BOUNDARY = ('{"curves": [%s]}' % ", ".join(
     '{"degree": 1, "knots": [0, 0, 1, 1], "control_points": [%s]}' % ends
@@ -54,7 +55,7 @@ def cube(ending):
 
 
 SOUND = {"surface": "square", "points": "cloud", "cells": "cloud", "mesh": "mesh", "curves": "target", "boundary": "boundary",
-         "map": "map", "trim": "trim", "grid": "square", "layout": "quads", "quads": "quads", "values": "samples", "edges": "edges"}
+         "map": "map", "trim": "trim", "grid": "square", "layout": "quads", "quads": "quads", "values": "samples", "edges": "edges", "part": "solid"}
 
 
 def sound(kind, ending):
@@ -81,6 +82,9 @@ def make_files():
     good("source", "--shape", "cube", "--output", path("cube.vtu"))
     for ending in (".xml", ".g2", ".step", ".iges"):
         good("convert", path("square.vtu"), "--output", path("square" + ending))
+    solids = step_solids.Solids()
+    solids.box((0, 0, 0), (1, 1, 1))
+    solids.write(path("solid.step"))
     for ending in (".off", ".obj", ".ply", ".stl"):
         write_text("mesh" + ending, triangles(ending))
     for ending in (".off", ".obj", ".ply"):
@@ -138,6 +142,7 @@ def runs():
             (["warp", FILE, surface, "--output", polydata], "points"),
             (["warp", surface, FILE, "--output", grid], "surface"),
             (["approximate", FILE, "--values", "Temperature", "--table", "table.csv", "--points", polydata, "--output", grid], "values"),
+            (["cadmodify", FILE, "--cut-plane", 0.5, 0, 0, 1, 0, 0, "--suggest", "--table", "table.csv", "--output", "out.step"], "part"),
             (["cadfit", FILE, "--entities", "table.csv", "--output", grid], "quads"),
             (["intersections", FILE, "--table", "table.csv", "--output", polydata], "surface"),
             (["recognize", FILE, "--edges", "edges.vtp", "--regions", "table.csv", "--output", polydata], "mesh"),

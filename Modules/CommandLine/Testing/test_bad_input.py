@@ -63,7 +63,8 @@ def test_every_input_refuses_what_it_does_not_take():
              "curves": ["cloud.xyz", "square.vtu"], "boundary": ["square.vtu", "mesh.off"], "map": ["target.vtp", "cloud.xyz"],
              "trim": ["square.vtu", "mesh.off"], "grid": ["cloud.xyz", "target.vtp"], "layout": ["target.vtp", "cloud.xyz"],
              "quads": ["mesh.off", "cloud.xyz", "target.vtp", "square.vtu"], "values": ["mesh.off", "target.vtp", "square.vtu"],
-             "edges": ["mesh.off", "cloud.xyz", "square.vtu", "target.vtp"]}
+             "edges": ["mesh.off", "cloud.xyz", "square.vtu", "target.vtp"],
+             "part": ["square.step", "square.iges", "mesh.off", "cloud.xyz", "square.vtu"]}
     anything = ("convert", "info")  # of any kind
 
     def cases():

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Modification of a STEP file: solids share faces, become pieces, faces become parts.
+#pragma once
+#include "CADExchange.h"
+
+#include <Eigen/Core>
+
+namespace knotwork
+{
+enum class CADOperationKind
+{
+  Imprint,         ///< solids that touch share faces, edges and vertices (general fuse)
+  CutByPlane,      ///< solids become pieces along the plane of Point and Direction
+  CutByFace,       ///< along the extended surface of the face Tool
+  CutByCylinder,   ///< along the cylinder around the axis of Point and Direction, with Radius
+  SplitByPlane,    ///< Faces become parts along the plane of Point and Direction
+  SplitByParameter ///< Faces become parts along an iso-line of their surface
+};
+
+/// What is to be done. Face ids are those of ReadCAD, at the time of the operation.
+struct CADOperation
+{
+  CADOperationKind Kind = CADOperationKind::Imprint;
+  std::vector<int> Faces; ///< of a split, not empty
+  int Tool = -1;          ///< face of CutByFace: a plane, cylinder, sphere or torus
+  Eigen::Vector3d Point = Eigen::Vector3d::Zero();
+  Eigen::Vector3d Direction = Eigen::Vector3d::UnitZ(); ///< any length but 0
+  double Radius = 0.0;                                  ///< of CutByCylinder, > 0
+  int IsoDirection = 0; ///< of SplitByParameter: 0 u is constant, 1 v is
+  double Share = 0.5;   ///< where, of the face's range of that parameter, in (0, 1)
+};
+
+struct CADCounts
+{
+  int Solids = 0;
+  int Faces = 0; ///< shared ones once, as edges and vertices
+  int Edges = 0; ///< without degenerate ones
+  int Vertices = 0;
+  int FaceIds = 0; ///< faces of all bodies: shared ones twice
+  double Volume = 0.0;
+};
+
+/// What one operation did.
+struct CADStep
+{
+  CADOperationKind Kind = CADOperationKind::Imprint;
+  CADCounts Before;
+  CADCounts After;
+  double VolumeChange = 0.0; ///< share of the volume that was lost or won
+  double Overlap = 0.0;      ///< volume that lay in two solids; it belongs to the first of them now
+  std::vector<std::vector<int>> NewFaces; ///< ids after it of each face id before it
+};
+
+struct CADModifyParams
+{
+  LengthUnit Unit = LengthUnit::Millimetre; ///< of lengths in operations and results
+  /// Largest change of the solids' volume by an operation, as a share of it, in [0, 1]. What lay in
+  /// two solids is counted once.
+  double VolumeTolerance = 1e-9;
+};
+
+/// Reads a STEP file, runs the operations in their order, checks the shapes after each
+/// (BRepCheck_Analyzer) and writes a STEP file in the unit of the first one, or a BREP file, all or
+/// nothing. Names and colours of products, instances, solids and faces and the tree of assemblies
+/// are kept; an instance that was changed becomes a product of its own. OpenCASCADE writes each
+/// solid of a STEP file by itself: what solids share is there once for each, equal and at the same
+/// place. A BREP file keeps it shared, without names, colours and assembly. Shells and faces
+/// outside of solids stay as they are.
+/// @return EmptyInput: no operations, no solid; InvalidParameter: options outside of their ranges,
+/// ids that are not there; NonFiniteInput; OutsideDomain: what meets nothing; InvalidTopology:
+/// shapes that are not valid before or after an operation, or volume that is not kept;
+/// InvalidFormat, FileError: as ReadCAD and WriteCAD.
+Result<std::vector<CADStep>> ModifyCAD(const std::string& file, const std::string& output,
+  const std::vector<CADOperation>& operations, const CADModifyParams& params = {});
+}

@@ -1,0 +1,683 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ShapeOperations.h"
+
+#include <knotwork/SplineCore/DisjointSets.h>
+
+#include <BRepAdaptor_Surface.hxx>
+#include <BRepAlgoAPI_BuilderAlgo.hxx>
+#include <BRepAlgoAPI_Common.hxx>
+#include <BRepAlgoAPI_Section.hxx>
+#include <BRepAlgoAPI_Splitter.hxx>
+#include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepCheck_Analyzer.hxx>
+#include <BRepGProp.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <GProp_GProps.hxx>
+#include <Geom_Surface.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopTools_MapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <gp_Ax3.hxx>
+#include <gp_Cylinder.hxx>
+#include <gp_Pln.hxx>
+
+#include <cmath>
+#include <map>
+
+namespace knotwork
+{
+namespace
+{
+constexpr double Pi = 3.14159265358979323846;
+
+struct FacePlace
+{
+  std::size_t Body;
+  TopoDS_Face Face;
+};
+
+std::vector<FacePlace> FacesOf(const ModelBodies& model)
+{
+  std::vector<FacePlace> faces;
+  for (std::size_t b = 0; b < model.Bodies.size(); ++b)
+  {
+    for (TopExp_Explorer face(model.Bodies[b].Shape, TopAbs_FACE); face.More(); face.Next())
+    {
+      faces.push_back({ b, TopoDS::Face(face.Current()) });
+    }
+  }
+  return faces;
+}
+
+TopoDS_Compound Together(const std::vector<TopoDS_Shape>& shapes)
+{
+  BRep_Builder builder;
+  TopoDS_Compound compound;
+  builder.MakeCompound(compound);
+  for (const TopoDS_Shape& shape : shapes)
+  {
+    builder.Add(compound, shape);
+  }
+  return compound;
+}
+
+TopoDS_Compound Together(const ModelBodies& model)
+{
+  std::vector<TopoDS_Shape> shapes;
+  for (const ModelBody& body : model.Bodies)
+  {
+    shapes.push_back(body.Shape);
+  }
+  return Together(shapes);
+}
+
+bool IsSolid(const ModelBody& body)
+{
+  return body.Shape.ShapeType() == TopAbs_SOLID;
+}
+
+double VolumeOf(const TopoDS_Shape& shape)
+{
+  GProp_GProps properties;
+  BRepGProp::VolumeProperties(shape, properties, 1e-11, false, false);
+  return properties.Mass();
+}
+
+struct Ball
+{
+  gp_Pnt Centre;
+  double Radius = 0.0; ///< 0: nothing
+};
+
+Ball BallAround(const ModelBodies& model)
+{
+  Bnd_Box box;
+  for (const ModelBody& body : model.Bodies)
+  {
+    if (IsSolid(body))
+    {
+      BRepBndLib::Add(body.Shape, box, false);
+    }
+  }
+  if (box.IsVoid())
+  {
+    return {};
+  }
+  const gp_Pnt low = box.CornerMin();
+  const gp_Pnt high = box.CornerMax();
+  return { gp_Pnt(0.5 * (low.XYZ() + high.XYZ())), 0.5 * low.Distance(high) };
+}
+
+gp_Pnt ToPoint(const Eigen::Vector3d& p)
+{
+  return { p.x(), p.y(), p.z() };
+}
+
+std::string InText(const Eigen::Vector3d& p)
+{
+  std::string text = "(";
+  for (int i = 0; i < 3; ++i)
+  {
+    std::string number(32, '\0');
+    number.resize(
+      static_cast<std::size_t>(std::snprintf(number.data(), number.size(), "%g", p(i))));
+    text += (i > 0 ? ", " : "") + number;
+  }
+  return text + ")";
+}
+
+/// A plane's face that leaves the ball.
+TopoDS_Face Extended(const gp_Pln& plane, const Ball& ball)
+{
+  const gp_Ax3& frame = plane.Position();
+  const gp_Vec way(frame.Location(), ball.Centre);
+  const gp_Vec normal(frame.Direction());
+  gp_Ax3 centred = frame;
+  centred.SetLocation(ball.Centre.Translated(-way.Dot(normal) * normal));
+  const double half = 1.5 * ball.Radius;
+  return BRepBuilderAPI_MakeFace(gp_Pln(centred), -half, half, -half, half).Face();
+}
+
+TopoDS_Face Extended(const gp_Cylinder& cylinder, const Ball& ball)
+{
+  const gp_Vec way(cylinder.Location(), ball.Centre);
+  const double at = way.Dot(gp_Vec(cylinder.Position().Direction()));
+  const double half = 1.5 * ball.Radius;
+  return BRepBuilderAPI_MakeFace(cylinder, 0.0, 2.0 * Pi, at - half, at + half).Face();
+}
+
+Status CheckFrame(const CADOperation& operation)
+{
+  if (!operation.Point.allFinite() || !operation.Direction.allFinite())
+  {
+    return { ErrorCode::NonFiniteInput, "point and direction must be finite numbers" };
+  }
+  const double length = operation.Direction.stableNorm();
+  if (!(length > 0.0) || !std::isfinite(length))
+  {
+    return { ErrorCode::InvalidParameter,
+      "the direction has the length 0 or one that is no number; give three numbers such as 0 0 1" };
+  }
+  return {};
+}
+
+/// The plane or cylinder of an operation, through the ball.
+Result<TopoDS_Face> ToolFace(const CADOperation& operation, const Ball& ball)
+{
+  if (Status status = CheckFrame(operation); !status)
+  {
+    return status;
+  }
+  const bool isCylinder = operation.Kind == CADOperationKind::CutByCylinder;
+  if (isCylinder && !(operation.Radius > 0.0 && std::isfinite(operation.Radius)))
+  {
+    return { ErrorCode::InvalidParameter, "the radius of a cylinder must be a number above 0" };
+  }
+  const Eigen::Vector3d unit = operation.Direction.stableNormalized();
+  const Eigen::Vector3d centre(ball.Centre.X(), ball.Centre.Y(), ball.Centre.Z());
+  const Eigen::Vector3d way = centre - operation.Point;
+  const double along = way.dot(unit);
+  const double beside = (way - along * unit).stableNorm();
+  const double distance = isCylinder ? std::abs(beside - operation.Radius) : std::abs(along);
+  if (!(distance < ball.Radius))
+  {
+    return { ErrorCode::OutsideDomain,
+      std::string(isCylinder ? "the cylinder around " : "the plane through ") +
+        InText(operation.Point) + " misses the solids, which lie around " + InText(centre) +
+        " within " + std::to_string(ball.Radius) + "; move it there" };
+  }
+  const gp_Dir direction(unit.x(), unit.y(), unit.z());
+  // at the foot of the centre: what is far off costs digits
+  const gp_Pnt foot =
+    ToPoint(isCylinder ? (operation.Point + along * unit).eval() : operation.Point);
+  const gp_Ax3 frame(foot, direction);
+  return isCylinder ? Extended(gp_Cylinder(frame, operation.Radius), ball)
+                    : Extended(gp_Pln(frame), ball);
+}
+
+Status CheckId(int id, const std::vector<FacePlace>& faces)
+{
+  if (id < 0 || static_cast<std::size_t>(id) >= faces.size())
+  {
+    return { ErrorCode::InvalidParameter,
+      "there is no face " + std::to_string(id) + "; faces have the ids 0 to " +
+        std::to_string(faces.size() - 1) };
+  }
+  return {};
+}
+
+Result<TopoDS_Face> ToolOfFace(int id, const std::vector<FacePlace>& faces, const Ball& ball)
+{
+  if (Status status = CheckId(id, faces); !status)
+  {
+    return status;
+  }
+  const BRepAdaptor_Surface surface(faces[static_cast<std::size_t>(id)].Face);
+  switch (surface.GetType())
+  {
+    case GeomAbs_Plane:
+      return Extended(surface.Plane(), ball);
+    case GeomAbs_Cylinder:
+      return Extended(surface.Cylinder(), ball);
+    case GeomAbs_Sphere:
+      return BRepBuilderAPI_MakeFace(surface.Sphere()).Face();
+    case GeomAbs_Torus:
+      return BRepBuilderAPI_MakeFace(surface.Torus()).Face();
+    default:
+      return { ErrorCode::InvalidParameter,
+        "face " + std::to_string(id) +
+          " cannot be extended: it is no plane, cylinder, sphere or torus; cut by a plane or a "
+          "cylinder beside it" };
+  }
+}
+
+/// Solids that share edges or vertices are one group: they are cut together and stay conforming.
+/// Others do not see each other.
+std::vector<std::vector<std::size_t>> GroupsOf(const ModelBodies& model)
+{
+  DisjointSets sets(static_cast<int>(model.Bodies.size()));
+  NCollection_DataMap<TopoDS_Shape, int, TopTools_ShapeMapHasher> first;
+  for (std::size_t b = 0; b < model.Bodies.size(); ++b)
+  {
+    if (!IsSolid(model.Bodies[b]))
+    {
+      continue;
+    }
+    TopTools_IndexedMapOfShape vertices;
+    TopExp::MapShapes(model.Bodies[b].Shape, TopAbs_VERTEX, vertices);
+    for (int i = 1; i <= vertices.Extent(); ++i)
+    {
+      if (const int* other = first.Seek(vertices(i)))
+      {
+        sets.Unite(*other, static_cast<int>(b));
+      }
+      else
+      {
+        first.Bind(vertices(i), static_cast<int>(b));
+      }
+    }
+  }
+  std::map<int, std::vector<std::size_t>> groups;
+  for (std::size_t b = 0; b < model.Bodies.size(); ++b)
+  {
+    if (IsSolid(model.Bodies[b]))
+    {
+      groups[sets.Find(static_cast<int>(b))].push_back(b);
+    }
+  }
+  std::vector<std::vector<std::size_t>> result;
+  for (auto& group : groups)
+  {
+    result.push_back(std::move(group.second));
+  }
+  return result;
+}
+
+/// What became of bodies and faces.
+struct Images
+{
+  std::vector<std::vector<TopoDS_Shape>> OfBody; ///< empty: as it was
+  NCollection_DataMap<TopoDS_Shape, std::vector<TopoDS_Shape>, TopTools_ShapeMapHasher> OfFace;
+  double Overlap = 0.0;
+};
+
+/// Runs general fuse or splitter on a group of bodies.
+Status Fuse(const ModelBodies& model, const std::vector<std::size_t>& group,
+  const std::vector<TopoDS_Shape>& tools, Images& images)
+{
+  TopTools_ListOfShape arguments;
+  for (std::size_t b : group)
+  {
+    arguments.Append(model.Bodies[b].Shape);
+  }
+  BRepAlgoAPI_BuilderAlgo fuse;
+  BRepAlgoAPI_Splitter splitter;
+  BRepAlgoAPI_BuilderAlgo& algorithm = tools.empty() ? fuse : splitter;
+  algorithm.SetArguments(arguments);
+  algorithm.SetNonDestructive(true);
+  algorithm.SetRunParallel(false);
+  if (!tools.empty())
+  {
+    TopTools_ListOfShape list;
+    for (const TopoDS_Shape& tool : tools)
+    {
+      list.Append(tool);
+    }
+    splitter.SetTools(list);
+  }
+  algorithm.Build();
+  if (!algorithm.IsDone() || algorithm.HasErrors())
+  {
+    return {
+      ErrorCode::InvalidTopology,
+      "OpenCASCADE cannot intersect the solids; look for edges that nearly touch and move the cut"
+    };
+  }
+  TopTools_MapOfShape taken;
+  for (std::size_t b : group)
+  {
+    const TopoDS_Shape& old = model.Bodies[b].Shape;
+    std::vector<TopoDS_Shape>& pieces = images.OfBody[b];
+    const auto take = [&](const TopoDS_Shape& piece)
+    {
+      if (taken.Add(piece))
+      {
+        pieces.push_back(piece);
+      }
+      else
+      {
+        images.Overlap += VolumeOf(piece);
+      }
+    };
+    const TopTools_ListOfShape& modified = algorithm.Modified(old);
+    if (modified.IsEmpty())
+    {
+      take(old);
+    }
+    for (const TopoDS_Shape& piece : modified)
+    {
+      take(piece);
+    }
+    for (TopExp_Explorer face(old, TopAbs_FACE); face.More(); face.Next())
+    {
+      std::vector<TopoDS_Shape> parts;
+      for (const TopoDS_Shape& part : algorithm.Modified(face.Current()))
+      {
+        parts.push_back(part);
+      }
+      if (!parts.empty())
+      {
+        images.OfFace.Bind(face.Current(), parts);
+      }
+    }
+  }
+  return {};
+}
+
+/// Puts the images into the place of what they are images of.
+void Replace(const Images& images, ModelBodies& model, CADStep& step)
+{
+  const std::vector<FacePlace> before = FacesOf(model);
+  AttributesOfShapes attributes;
+  for (const FacePlace& place : before)
+  {
+    const ShapeAttributes* own = model.Faces.Seek(place.Face);
+    if (!own)
+    {
+      continue;
+    }
+    const auto keep = [&](const TopoDS_Shape& face)
+    {
+      if (!attributes.IsBound(face)) // of two faces that became one the first
+      {
+        attributes.Bind(face, *own);
+      }
+    };
+    if (const auto* parts = images.OfFace.Seek(place.Face))
+    {
+      for (const TopoDS_Shape& part : *parts)
+      {
+        keep(part);
+      }
+    }
+    else
+    {
+      keep(place.Face);
+    }
+  }
+  std::vector<ModelBody> bodies;
+  std::vector<std::size_t> origin;
+  for (std::size_t b = 0; b < model.Bodies.size(); ++b)
+  {
+    const ModelBody& old = model.Bodies[b];
+    const std::vector<TopoDS_Shape>& pieces = images.OfBody[b];
+    const bool isKept = !IsSolid(old) || (pieces.size() == 1 && pieces[0].IsSame(old.Shape));
+    if (isKept || pieces.empty())
+    {
+      // without pieces: all of it lay in others
+      if (isKept || images.Overlap == 0.0)
+      {
+        bodies.push_back(old);
+        origin.push_back(b);
+      }
+      continue;
+    }
+    for (const TopoDS_Shape& piece : pieces)
+    {
+      ModelBody body = old;
+      body.Shape = piece;
+      body.IsChanged = true;
+      bodies.push_back(body);
+      origin.push_back(b);
+    }
+  }
+  model.Bodies = std::move(bodies);
+  model.Faces = attributes;
+  // ids of the parts in the bodies that came from the face's body
+  NCollection_DataMap<TopoDS_Shape, std::vector<std::pair<std::size_t, int>>,
+    TopTools_ShapeMapHasher>
+    ids;
+  const std::vector<FacePlace> after = FacesOf(model);
+  for (std::size_t f = 0; f < after.size(); ++f)
+  {
+    if (!ids.IsBound(after[f].Face))
+    {
+      ids.Bind(after[f].Face, {});
+    }
+    ids.ChangeFind(after[f].Face).emplace_back(origin[after[f].Body], static_cast<int>(f));
+  }
+  step.NewFaces.assign(before.size(), {});
+  for (std::size_t f = 0; f < before.size(); ++f)
+  {
+    const auto add = [&](const TopoDS_Shape& face)
+    {
+      const auto* found = ids.Seek(face);
+      if (!found)
+      {
+        return;
+      }
+      for (const auto& [body, id] : *found)
+      {
+        if (body == before[f].Body)
+        {
+          step.NewFaces[f].push_back(id);
+        }
+      }
+    };
+    if (const auto* parts = images.OfFace.Seek(before[f].Face))
+    {
+      for (const TopoDS_Shape& part : *parts)
+      {
+        add(part);
+      }
+    }
+    else
+    {
+      add(before[f].Face);
+    }
+  }
+}
+
+/// Curves on chosen faces.
+Result<std::vector<TopoDS_Shape>> CurvesOn(
+  const CADOperation& operation, const std::vector<FacePlace>& faces, const Ball& ball)
+{
+  if (operation.Faces.empty())
+  {
+    return { ErrorCode::EmptyInput, "no face is chosen; give the ids of those to split" };
+  }
+  const bool isPlane = operation.Kind == CADOperationKind::SplitByPlane;
+  TopoDS_Face tool;
+  if (isPlane)
+  {
+    const auto made = ToolFace(operation, ball);
+    if (!made)
+    {
+      return made.Status;
+    }
+    tool = made.Value;
+  }
+  else if ((operation.IsoDirection != 0 && operation.IsoDirection != 1) ||
+    !(operation.Share > 0.0 && operation.Share < 1.0))
+  {
+    return { ErrorCode::InvalidParameter,
+      "the direction of an iso-line must be 0 or 1 and its share lie between 0 and 1" };
+  }
+  std::vector<TopoDS_Shape> curves;
+  for (int id : operation.Faces)
+  {
+    if (Status status = CheckId(id, faces); !status)
+    {
+      return status;
+    }
+    const TopoDS_Face& face = faces[static_cast<std::size_t>(id)].Face;
+    TopoDS_Shape lines;
+    if (isPlane)
+    {
+      BRepAlgoAPI_Section section(face, tool, false);
+      section.Build();
+      lines = section.Shape();
+    }
+    else
+    {
+      double range[2][2];
+      BRepTools::UVBounds(face, range[0][0], range[0][1], range[1][0], range[1][1]);
+      const int d = operation.IsoDirection;
+      const double at = range[d][0] + operation.Share * (range[d][1] - range[d][0]);
+      const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+      const TopoDS_Edge edge = BRepBuilderAPI_MakeEdge(
+        d == 0 ? surface->UIso(at) : surface->VIso(at), range[1 - d][0], range[1 - d][1]);
+      lines = BRepAlgoAPI_Common(edge, face).Shape();
+    }
+    bool found = false;
+    for (TopExp_Explorer edge(lines, TopAbs_EDGE); edge.More(); edge.Next())
+    {
+      curves.push_back(edge.Current());
+      found = true;
+    }
+    if (!found)
+    {
+      return { ErrorCode::OutsideDomain,
+        "the " + std::string(isPlane ? "plane" : "iso-line") + " does not cross face " +
+          std::to_string(id) + "; move it or choose another face" };
+    }
+  }
+  return curves;
+}
+}
+
+CADCounts CountBodies(const ModelBodies& model)
+{
+  CADCounts counts;
+  const TopoDS_Compound all = Together(model);
+  const auto count = [&all](TopAbs_ShapeEnum kind)
+  {
+    TopTools_IndexedMapOfShape shapes;
+    TopExp::MapShapes(all, kind, shapes);
+    int number = 0;
+    for (int i = 1; i <= shapes.Extent(); ++i)
+    {
+      number += kind == TopAbs_EDGE && BRep_Tool::Degenerated(TopoDS::Edge(shapes(i))) ? 0 : 1;
+    }
+    return number;
+  };
+  counts.Solids = count(TopAbs_SOLID);
+  counts.Faces = count(TopAbs_FACE);
+  counts.Edges = count(TopAbs_EDGE);
+  counts.Vertices = count(TopAbs_VERTEX);
+  counts.FaceIds = static_cast<int>(FacesOf(model).size());
+  for (const ModelBody& body : model.Bodies)
+  {
+    counts.Volume += IsSolid(body) ? VolumeOf(body.Shape) : 0.0;
+  }
+  return counts;
+}
+
+Status CheckBodies(const ModelBodies& model)
+{
+  for (std::size_t b = 0; b < model.Bodies.size(); ++b)
+  {
+    if (!BRepCheck_Analyzer(model.Bodies[b].Shape).IsValid())
+    {
+      return { ErrorCode::InvalidTopology,
+        "body " + std::to_string(b) + " is not valid for OpenCASCADE" };
+    }
+  }
+  return {};
+}
+
+namespace
+{
+Status RunScaled(const CADOperation& operation, ModelBodies& model, CADStep& step)
+{
+  step = {};
+  step.Kind = operation.Kind;
+  step.Before = CountBodies(model);
+  if (step.Before.Solids == 0)
+  {
+    return { ErrorCode::EmptyInput, "there is no solid; sew the faces to solids first" };
+  }
+  const Ball ball = BallAround(model);
+  const std::vector<FacePlace> faces = FacesOf(model);
+  Images images;
+  images.OfBody.resize(model.Bodies.size());
+  std::vector<TopoDS_Shape> tools;
+  std::vector<std::vector<std::size_t>> groups;
+  switch (operation.Kind)
+  {
+    case CADOperationKind::Imprint:
+      groups.emplace_back();
+      for (std::size_t b = 0; b < model.Bodies.size(); ++b)
+      {
+        if (IsSolid(model.Bodies[b]))
+        {
+          groups[0].push_back(b);
+        }
+      }
+      if (groups[0].size() < 2)
+      {
+        return { ErrorCode::InvalidParameter,
+          "there is one solid, which has no neighbour; imprint needs two or more" };
+      }
+      break;
+    case CADOperationKind::CutByPlane:
+    case CADOperationKind::CutByCylinder:
+    case CADOperationKind::CutByFace:
+    {
+      const auto tool = operation.Kind == CADOperationKind::CutByFace
+        ? ToolOfFace(operation.Tool, faces, ball)
+        : ToolFace(operation, ball);
+      if (!tool)
+      {
+        return tool.Status;
+      }
+      tools.push_back(tool.Value);
+      groups = GroupsOf(model);
+      break;
+    }
+    case CADOperationKind::SplitByPlane:
+    case CADOperationKind::SplitByParameter:
+    {
+      const auto curves = CurvesOn(operation, faces, ball);
+      if (!curves)
+      {
+        return curves.Status;
+      }
+      tools = curves.Value;
+      groups = GroupsOf(model);
+      break;
+    }
+  }
+  for (const std::vector<std::size_t>& group : groups)
+  {
+    if (Status status = Fuse(model, group, tools, images); !status)
+    {
+      return status;
+    }
+  }
+  step.Overlap = images.Overlap;
+  Replace(images, model, step);
+  step.After = CountBodies(model);
+  const bool isCut = operation.Kind == CADOperationKind::CutByPlane ||
+    operation.Kind == CADOperationKind::CutByFace ||
+    operation.Kind == CADOperationKind::CutByCylinder;
+  if (isCut && step.After.Solids == step.Before.Solids)
+  {
+    return { ErrorCode::OutsideDomain,
+      "the cut divides no solid; move it so that it leaves pieces on both sides" };
+  }
+  if (operation.Kind != CADOperationKind::Imprint && step.After.FaceIds == step.Before.FaceIds)
+  {
+    return { ErrorCode::OutsideDomain,
+      "no face is divided: the curve ends inside of the face or runs along its edges; move it" };
+  }
+  return CheckBodies(model);
+}
+}
+
+Status RunOperation(const CADOperation& operation, double scale, ModelBodies& model, CADStep& step)
+{
+  CADOperation scaled = operation;
+  scaled.Point *= scale;
+  scaled.Radius *= scale;
+  const Status status = RunScaled(scaled, model, step);
+  const double kept = step.Before.Volume - step.Overlap;
+  step.VolumeChange = kept != 0.0 ? std::abs(step.After.Volume / kept - 1.0) : 0.0;
+  const double cube = 1.0 / (scale * scale * scale);
+  for (double* volume : { &step.Before.Volume, &step.After.Volume, &step.Overlap })
+  {
+    *volume *= cube;
+  }
+  return status;
+}
+}

@@ -1,0 +1,213 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`knotwork cadmodify`: solids of known volumes imprinted, cut and split; files that are no such."""
+import json
+import math
+import re
+
+import knotwork_testing
+import step_solids
+from refusals import path, refuse_all, write_text
+
+EXACT = 1e-9  # share
+
+
+def modify(part, *arguments, output="out.step"):
+    """Runs the job and returns its report."""
+    report = path("modify.json")
+    done = knotwork_testing.run_program("cadmodify", part, *arguments, "--output", path(output), "--report", report)
+    assert done.returncode == 0 and done.stderr == "", done.stderr
+    with open(report) as stream:
+        return json.load(stream)
+
+
+def near(value, wanted, share=EXACT):
+    assert abs(value - wanted) <= share * abs(wanted), (value, wanted)
+
+
+def box(name="box.step", **looks):
+    """3 x 2 x 1."""
+    solids = step_solids.Solids()
+    solids.box((0, 0, 0), (3, 2, 1), **looks)
+    return solids.write(path(name))
+
+
+def stacked(name="stacked.step"):
+    """A cylinder of radius 3 on a cube of side 10 whose top is named and red."""
+    solids = step_solids.Solids()
+    solids.box((0, 0, 0), (10, 10, 10), "Cube", ("",) * 5 + ("Top",), (None,) * 5 + ((1.0, 0.0, 0.0),))
+    solids.cylinder((5, 5, 10), 3, 4, "Pin")
+    return solids.write(path(name), "Stack")
+
+
+def test_a_cylinder_on_a_cube_conforms_when_imprinted():
+    part = stacked()
+    volume = 1000 + 36 * math.pi
+    report = modify(part, "--imprint", output="shared.brep")
+    step, = report["operations"]
+    assert step["operation"] == "imprint" and report["solids_before"] == report["solids"] == 2
+    # not before: nothing is shared; after: the disc, with its circle and the vertex on it
+    before, after = ({key: step[when][key] for key in ("faces", "edges", "vertices", "face_ids")} for when in ("before", "after"))
+    assert before == {"faces": 9, "edges": 15, "vertices": 10, "face_ids": 9}, before
+    assert after == {"faces": 9, "edges": 15, "vertices": 10, "face_ids": 10}, after
+    assert report["shared_faces"] == 1 and report["file_faces"] == 9 and report["file_solids"] == 2 and report["brep_valid"]
+    assert sorted(map(len, step["new_faces"])) == [1] * 8 + [2], step["new_faces"]
+    near(report["volume"], volume)
+    near(report["file_volume"], volume)
+    assert step["overlap"] == 0 and step["volume_change"] <= EXACT
+    # the same as STEP, which has the disc once for each solid
+    report = modify(part, "--imprint")
+    assert report["shared_faces"] == 1 and report["file_faces"] == 10
+    near(report["file_volume"], volume)
+
+
+def test_names_and_colours_are_kept():
+    modify(stacked(), "--imprint", "--cut-plane", 5, 5, 0, 1, 0, 0)
+    with open(path("out.step")) as stream:
+        text = stream.read().replace("\n", "")
+    # the ring and the disc, each halved
+    assert len(re.findall(r"ADVANCED_FACE\('Top'", text)) == 4, re.findall(r"ADVANCED_FACE\('[^']+'", text)
+    faces = {number for number, name in re.findall(r"(#\d+) = ADVANCED_FACE\('([^']*)'", text) if name == "Top"}
+    styled = set(re.findall(r"STYLED_ITEM\('[^']*',\([^)]*\),(#\d+)\)", text))
+    assert faces <= styled and re.search(r"COLOUR_RGB\('',1\.?,0\.?,0\.?\)|DRAUGHTING_PRE_DEFINED_COLOUR\('red'\)", text), styled
+    for name in ("'Stack'", "'Cube'", "'Pin'", "SI_UNIT(.MILLI.,.METRE.)"):
+        assert name in text, name
+
+
+def test_planes_and_cylinders_cut_to_exact_volumes():
+    part = box()
+    # in the order of the command line, options repeated
+    report = modify(part, "--cut-plane", 1, 0, 0, 1, 0, 0, "--cut-cylinder", 2, 1, -5, 0, 0, 7, 0.5, "--cut-plane", 0, 0.5, 0, 0, -2, 0)
+    assert [step["operation"] for step in report["operations"]] == ["cut-plane", "cut-cylinder", "cut-plane"]
+    assert [step["after"]["solids"] for step in report["operations"]] == [2, 3, 5]
+    for step in report["operations"]:
+        near(step["after"]["volume"], 6)
+    near(report["file_volume"], 6)
+    assert report["file_solids"] == 5 and report["brep_valid"]
+    report = modify(part, "--cut-cylinder", 2, 1, 0, 0, 0, 1, 0.5, "--cut-plane", 0, 0, 0.25, 0, 0, 1, output="pieces.brep")
+    # the ring and the rod, twice: 10 sides each of the box and 2 of the hole, shared ones once
+    assert report["solids"] == 4 and report["shared_faces"] == 2 + 2
+    near(report["volume"], 6)
+    # lengths in other units
+    report = modify(part, "--unit", "centimetre", "--cut-plane", 0.1, 0, 0, 1, 0, 0)
+    near(report["volume"], 6e-3)
+    assert report["unit"] == "centimetre" and report["solids"] == 2
+
+
+def test_a_face_extended_cuts():
+    # the pin's side, behind the seven faces of the imprinted cube, goes on through the cube
+    report = modify(stacked(), "--imprint", "--cut-face", 7)
+    assert report["operations"][1]["after"]["solids"] == 3
+    near(report["file_volume"], 1000 + 36 * math.pi)
+
+
+def test_faces_are_split():
+    part = box()
+    for arguments in (["--split-plane", "1,3", 0, 1.5, 0, 0, 1, 0], ["--split-iso", "1,3", "u", 0.5], ["--split-iso", "1,3", "v", 0.25]):
+        report = modify(part, *arguments)
+        assert report["solids"] == 1 and report["faces"] == 8 and report["file_faces"] == 8, report
+        assert list(map(len, report["operations"][0]["new_faces"])) == [1, 2, 1, 2, 1, 1]
+        near(report["file_volume"], 6)
+
+
+def suggest(part, *arguments):
+    report = path("suggest.json")
+    done = knotwork_testing.run_program("cadmodify", part, "--suggest", *arguments, "--report", report)
+    assert done.returncode == 0 and done.stderr == "", done.stderr
+    with open(report) as stream:
+        report = json.load(stream)
+    assert len(done.stdout.splitlines()) == len(report["suggestions"]), done.stdout
+    return report
+
+
+def test_suggestions_of_parts_that_are_known():
+    # a box is swept in three ways, and nothing is to be done
+    report = suggest(box())
+    assert report["swept_solids"] == report["mapped_solids"] == 1 and report["concave_edges"] == 0 and report["suggestions"] == [], report
+    near(report["size"], 0.01 * math.sqrt(14), 1e-6)
+    # at another size its edges are tiny and its sides slivers: widths and lengths are exact
+    report = suggest(box(), "--size", 1.5, "--table", path("suggest.csv"))
+    slivers, tiny = ([one for one in report["suggestions"] if one["kind"] == kind] for kind in ("sliver", "tiny-edge"))
+    assert len(slivers) == 4 and len(tiny) == 4 and len(report["suggestions"]) == 8, report
+    for one in slivers:
+        near(one["width"], 1)
+    for one in tiny:
+        near(one["length"], 1)
+        assert len(one["faces"]) == 2
+    with open(path("suggest.csv")) as stream:
+        lines = stream.read().splitlines()
+    assert len(lines) == 9 and lines[0].startswith('"Kind","Faces","Size"'), lines[:2]
+    # a step of two boxes in one solid: either face at the concave edge leaves two bricks
+    solids = step_solids.Solids()
+    solids.prism([(0, 0), (4, 0), (4, 1), (2, 1), (2, 4), (0, 4)], 1)
+    part = solids.write(path("step_shape.step"))
+    report = suggest(part)
+    cuts = [one for one in report["suggestions"] if one["kind"] == "cut-face"]
+    assert report["concave_edges"] == 1 and report["swept_solids"] == 1 and report["mapped_solids"] == 0
+    assert len(cuts) == len(report["suggestions"]) == 2, report["suggestions"]
+    for one in cuts:
+        assert (one["solids"], one["swept_solids"], one["mapped_solids"], one["concave_edges"]) == (2, 2, 1, 0), one  # a side of one of them is two faces
+        near(modify(part, "--cut-face", one["faces"][0])["file_volume"], 10)
+    assert suggest(part, "--maximum-cuts", 1)["untried_cuts"] == 1
+    # a side in two pieces of one plane
+    solids = step_solids.Solids()
+    solids.prism([(0, 0), (2, 0), (4, 0), (4, 3), (0, 3)], 1)
+    chain, = suggest(solids.write(path("pieces_of_a_side.step")))["suggestions"]
+    assert chain["kind"] == "tangent-faces" and chain["faces"] == [0, 1] and chain["angle"] < 1e-6, chain
+    # lengths in other units
+    near(suggest(box(), "--unit", "centimetre")["size"], 0.001 * math.sqrt(14), 1e-6)
+
+
+def test_flags_may_be_off_and_repeated():
+    report = modify(stacked(), "--imprint", "--cut-plane", 0, 0, 5, 0, 0, 1, "--imprint")
+    assert [step["operation"] for step in report["operations"]] == ["imprint", "cut-plane", "imprint"]
+    report = modify(stacked(), "--imprint", 0, "--cut-plane", 0, 0, 5, 0, 0, 1)
+    assert [step["operation"] for step in report["operations"]] == ["cut-plane"]
+
+
+def test_failures_are_one_line():
+    part, two = box(), stacked()
+    output = ["--output", "out.step"]
+    plane = ["--cut-plane", 1, 0, 0, 1, 0, 0]
+    sheet = path("sheet.step")
+    done = knotwork_testing.run_program("source", "--output", sheet)
+    assert done.returncode == 0, done.stderr
+    refuse_all((["cadmodify", file, *arguments, *output], words) for file, arguments, words in (
+        (part, [], ["box.step", "no operation"]),
+        (part, ["--suggest"], ["box.step", "leave it out"]),
+        (part, [*plane, "--table", "table.csv"], ["--table", "--suggest"]),
+        (part, ["--imprint"], ["box.step", "operation 1", "one solid"]),
+        (part, ["--cut-plane", 9, 0, 0, 1, 0, 0], ["operation 1", "misses"]),
+        (part, ["--cut-plane", 3, 0, 0, 1, 0, 0], ["operation 1", "divides no solid"]),
+        (part, [*plane, "--cut-plane", "nan", 0, 0, 1, 0, 0], ["operation 2", "finite"]),
+        (part, ["--cut-plane", 1, 0, 0, 0, 0, 0], ["length 0"]),
+        (part, ["--cut-cylinder", 1, 1, 0, 0, 0, 1, 0], ["radius"]),
+        (part, ["--cut-cylinder", 1, 1, 0, 0, 0, 1, -2], ["radius"]),
+        (part, ["--cut-face", 6], ["no face 6", "0 to 5"]),
+        (part, ["--cut-face", -1], ["no face -1"]),
+        (part, ["--split-iso", "9", "u", 0.5], ["no face 9"]),
+        (part, ["--split-iso", "0,x", "u", 0.5], ["box.step", "'0,x'", "list of faces"]),
+        (part, ["--split-iso", "0,", "u", 0.5], ["list of faces"]),
+        (part, ["--split-iso", "0", "w", 0.5], ["'w'", "u or v"]),
+        (part, ["--split-iso", "0", "u", 1.5], ["share"]),
+        (part, ["--split-plane", "0", 9, 0, 0, 1, 0, 0], ["misses"]),
+        (part, ["--split-plane", "1", 1, 0, 0, 1, 0, 0], ["does not cross face 1"]),
+        (two, ["--cut-plane", 0.1, 0.2, 3, 0.3, 0.2, 1, "--volume-tolerance", 0], ["volume"]),
+        (sheet, plane, ["sheet.step", "no solid"]),
+        (path("missing.step"), plane, ["missing.step"]),
+        (write_text("empty.step", ""), plane, ["empty.step"]),
+        (write_text("damaged.step", "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\n#1="), plane, ["damaged.step"]),
+        (path("part.iges"), plane, ["part.iges", ".step"])))
+    refuse_all((["cadmodify", part, *plane, "--output", name], [name, ".brep"]) for name in ("out.iges", "out.vtu"))
+    refuse_all((["cadmodify", file, *arguments], words) for file, arguments, words in (
+        (part, plane, ["box.step", "--output"]), (sheet, ["--suggest"], ["sheet.step", "no solid"]),
+        (path("missing.step"), ["--suggest"], ["missing.step"]), (path("part.iges"), ["--suggest"], ["part.iges", ".step"]),
+        (part, ["--suggest", "--size", "nan"], ["box.step", "Size"])))
+    for usage in (["--tangent-angle", 50, *plane], ["--size", -1, *plane], ["--maximum-cuts", -1, *plane], ["--cut-plane", 1, 0, 0], ["--cut-plane", "a", 0, 0, 1, 0, 0], ["--cut-face", "x"], ["--unit", "mile", *plane],
+                  ["--volume-tolerance", 2, *plane], ["--cut-face", 1, 2]):
+        done = knotwork_testing.run_program("cadmodify", part, *usage, *["--output", path("never.step")])
+        assert done.returncode == 2 and len(done.stderr.splitlines()) == 1, (usage, done)
+    done = knotwork_testing.run_program("cadmodify", part, *plane, "--output", part)
+    assert done.returncode == 1 and "--force" in done.stderr, done.stderr
+
+
+knotwork_testing.main(globals())
