@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The table of whole runs on the page of surface trimming: `knotwork trim MESH --output FACE.step --threads 1` on meshes of
+"""The table of whole runs on the page of surface trimming: `knotwork trim MESH --output FACE.step --features off --threads 1` on meshes of
 Debian's libcgal-demo, and on a folder of scans when one is given.
 
 usage: trim_table.py PROGRAM [--scans FOLDER] [--write PAGE]
@@ -40,7 +40,8 @@ def diagonal(mesh):
 def measured(program, mesh, folder):
     """A row of the table, or what the program says."""
     report = os.path.join(folder, "report.json")
-    done = subprocess.run([program, "trim", mesh, "--output", os.path.join(folder, "face.step"), "--report", report, "--threads", "1"],
+    done = subprocess.run([program, "trim", mesh, "--output", os.path.join(folder, "face.step"), "--features", "off",
+                           "--report", report, "--threads", "1"],
                           stderr=subprocess.PIPE, text=True)
     name = os.path.splitext(os.path.basename(mesh))[0]
     if done.returncode != 0:

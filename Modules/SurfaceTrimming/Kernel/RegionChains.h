@@ -13,6 +13,8 @@ struct RegionChain
   std::vector<int> PointIds;               ///< of the mesh; -1: of none
   std::array<int, 2> Regions{ -1, -1 };    ///< to the left and to the right; -1: none
   std::array<int, 2> Vertices{ -1, -1 };   ///< at both ends; -1: a closed chain without one
+
+  bool IsRim() const { return this->Regions[0] < 0 || this->Regions[1] < 0; }
 };
 
 struct ChainUseOfRegion

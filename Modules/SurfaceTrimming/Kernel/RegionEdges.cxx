@@ -129,29 +129,51 @@ Spline<1> InterpolateOn(const std::vector<Eigen::Vector3d>& chain, int spans,
   return spline;
 }
 
+/// How far the points of the chain are from a shape, 0 where that is near enough; splines, which
+/// can, come nearer.
+double DistanceAlong(
+  const EdgeShape& shape, const std::vector<Eigen::Vector3d>& chain, const EdgeShapeParams& params)
+{
+  if (params.Along == HUGE_VAL)
+  {
+    return 0.0;
+  }
+  const double share = shape.Kind == EdgeShapeKind::Spline ? 0.25 : 1.0;
+  const double distance = shape.DistanceOf(chain);
+  return distance <= share * params.Along ? 0.0 : distance;
+}
+
 /// Interpolates points on the surfaces that are next to a guess, on ever more spans, each time next
-/// to the spline before; when that is near enough, its points on as few spans as suffice.
-Spline<1> FitSpline(const std::vector<Eigen::Vector3d>& dense,
-  const std::vector<AnalyticSurface>& surfaces, const EdgeShapeParams& params)
+/// to the spline before where surfaces say where the curve is; when that is near enough, its points
+/// on as few spans as suffice.
+Spline<1> FitSpline(const std::vector<Eigen::Vector3d>& chain,
+  const std::vector<Eigen::Vector3d>& dense, const std::vector<AnalyticSurface>& surfaces,
+  const EdgeShapeParams& params)
 {
   constexpr int FewSpans = 4;
   constexpr int MaxSpans = 512;
   constexpr int Samples = 5;
   const CubicThroughPoints first(dense, dense.front() == dense.back());
+  const bool isFree = params.Along < HUGE_VAL; // surfaces do not say where the curve is
   const auto gapOf = [&](const Spline<1>& spline)
   {
-    return GapOf(CurvePoints(spline, ParametersInSpans(spline.Space->Knots[0], Samples)), surfaces);
+    EdgeShape shape;
+    shape.Kind = EdgeShapeKind::Spline;
+    shape.Curve = spline;
+    return std::max(DistanceAlong(shape, chain, params),
+      GapOf(CurvePoints(spline, ParametersInSpans(spline.Space->Knots[0], Samples)), surfaces));
   };
   Spline<1> best;
   Spline<1> last;
   double gap = HUGE_VAL;
   const auto next = [&](const PointMatrix& t)
   {
-    PointMatrix values = last.Space ? CurvePoints(last, t) : PointMatrix(t.rows(), 3);
+    const bool isOnLast = last.Space && !isFree;
+    PointMatrix values = isOnLast ? CurvePoints(last, t) : PointMatrix(t.rows(), 3);
     for (Eigen::Index i = 0; i < t.rows(); ++i)
     {
       const Eigen::Vector3d along = first(t(i, 0));
-      const Eigen::Vector3d from = last.Space ? Eigen::Vector3d(values.row(i).transpose()) : along;
+      const Eigen::Vector3d from = isOnLast ? Eigen::Vector3d(values.row(i).transpose()) : along;
       // a coarse spline before may be farther away
       const double farthest = params.Farthest > 0.0 ? params.Farthest + (from - along).norm() : 0.0;
       values.row(i) = MoveOnto(surfaces, from, farthest).transpose();
@@ -172,7 +194,8 @@ Spline<1> FitSpline(const std::vector<Eigen::Vector3d>& dense,
       gap = found;
       best = last;
     }
-    if (gap <= params.Exact || (!isWorthIt && spans >= static_cast<int>(dense.size())))
+    if (gap <= params.Exact ||
+      (!isWorthIt && spans >= static_cast<int>((isFree ? 4 : 1) * dense.size())))
     {
       break;
     }
@@ -311,6 +334,20 @@ std::vector<double> EdgeShape::SharesOf(const std::vector<Eigen::Vector3d>& poin
   return shares;
 }
 
+double EdgeShape::DistanceOf(const std::vector<Eigen::Vector3d>& points) const
+{
+  const std::vector<double> shares = this->SharesOf(points);
+  const PointMatrix at = this->Points(
+    Eigen::Map<const Eigen::VectorXd>(shares.data(), static_cast<Eigen::Index>(shares.size())));
+  double distance = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    distance =
+      std::max(distance, (points[i] - at.row(static_cast<Eigen::Index>(i)).transpose()).norm());
+  }
+  return distance;
+}
+
 EdgeShape FindEdgeShape(const std::vector<Eigen::Vector3d>& points,
   const std::vector<AnalyticSurface>& surfaces, const EdgeShapeParams& params)
 {
@@ -320,7 +357,8 @@ EdgeShape FindEdgeShape(const std::vector<Eigen::Vector3d>& points,
   const bool closed = points.front() == points.back();
   const PointMatrix even = EvenParameters(Samples);
   const double gapOfLine = closed ? HUGE_VAL : GapOf(line.Points(even), surfaces);
-  if (gapOfLine <= params.Exact)
+  const bool isLineAlong = !closed && DistanceAlong(line, points, params) == 0.0;
+  if (gapOfLine <= params.Exact && isLineAlong)
   {
     return line;
   }
@@ -337,13 +375,13 @@ EdgeShape FindEdgeShape(const std::vector<Eigen::Vector3d>& points,
     }
   }
   const double limit = gapOfCircle <= params.Exact ? params.Exact : params.Loose;
-  if (gapOfLine <= limit || gapOfCircle <= limit)
+  if ((gapOfLine <= limit && isLineAlong) || gapOfCircle <= limit)
   {
-    return gapOfLine <= limit ? line : circle;
+    return gapOfLine <= limit && isLineAlong ? line : circle;
   }
   EdgeShape spline = line;
   spline.Kind = EdgeShapeKind::Spline;
-  spline.Curve = FitSpline(dense, surfaces, params);
+  spline.Curve = FitSpline(points, dense, surfaces, params);
   return spline.Curve.Space ? spline : line;
 }
 

@@ -34,6 +34,8 @@ struct EdgeShape
   PointMatrix Points(const PointMatrix& t) const;
   /// Where the shape is next to points along it; rising from 0 to 1, the ends are the ends.
   std::vector<double> SharesOf(const std::vector<Eigen::Vector3d>& points) const;
+  /// A bound of how far points along the shape are from it.
+  double DistanceOf(const std::vector<Eigen::Vector3d>& points) const;
 };
 
 struct EdgeShapeParams
@@ -41,6 +43,9 @@ struct EdgeShapeParams
   double Farthest = 0.0; ///< way of points to where surfaces meet
   double Exact = 0.0;    ///< distance from a surface that counts as none
   double Loose = 0.0;    ///< a line or circle that comes so near is taken rather than a spline
+  /// Largest distance of the chain's points from its curve, finite where surfaces alone do not say
+  /// where that is.
+  double Along = HUGE_VAL;
 };
 
 /// The curve along a chain of points on one surface, or between two: a line, a circle, or a quintic

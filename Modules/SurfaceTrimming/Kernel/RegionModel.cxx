@@ -275,6 +275,7 @@ Status RegionModeler::ShapeChains()
     const RegionChain& chain = this->Chains.Chains[c];
     params.Farthest = this->Follows[c] ? 0.0 : this->Farthest;
     params.Loose = params.Exact;
+    params.Along = chain.IsRim() ? this->Recognition.Tolerance : HUGE_VAL;
     for (const int region : chain.Regions)
     {
       if (region >= 0 && !this->Follows[c])
@@ -686,6 +687,11 @@ void RegionModeler::Measure()
     }
     this->Made.MaxEdgeDistance =
       std::max(this->Made.MaxEdgeDistance, this->BoundChain(chain, this->Curves[c]));
+    if (chain.IsRim() && !this->Curves[c].IsGiven)
+    {
+      this->Made.MaxPointDistance =
+        std::max(this->Made.MaxPointDistance, this->Curves[c].Shape.DistanceOf(chain.MeshPoints));
+    }
   }
   for (const RegionVertex& vertex : this->Chains.Vertices)
   {

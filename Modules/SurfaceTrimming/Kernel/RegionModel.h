@@ -39,7 +39,9 @@ struct RegionModel
   /// or by 25 beside a face of free form.
   int NumSharpEdges = 0;
   int NumVertices = 0;
-  double MaxPointDistance = 0.0; ///< of the mesh's points from the surfaces of their regions
+  /// Of the mesh's points from the surfaces of their regions, and of those on its boundary from the
+  /// edges there.
+  double MaxPointDistance = 0.0;
   /// Bound of the distance of all points of triangles from the surface of their region, and of
   /// edges between regions from both surfaces: with the sag of the triangles. What lies between
   /// such an edge and its curve is as near to both surfaces as these two are, so that with

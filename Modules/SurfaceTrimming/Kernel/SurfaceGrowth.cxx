@@ -180,6 +180,25 @@ void SurfaceGrowth::Refit(GrownRegion& region) const
   }
 }
 
+void SurfaceGrowth::Flatten(GrownRegion& region) const
+{
+  const std::vector<Vector3d> points = this->PointsOf(region.Clusters);
+  GrownRegion flat = region;
+  flat.NumPoints = static_cast<int>(points.size());
+  if (GuessSurface(SurfaceType::Plane, points, this->PiecesOf(region.Clusters), flat.Surface) &&
+    FitSurface(points, flat.Surface))
+  {
+    const FlatPiece& first =
+      this->Facets.Clusters[static_cast<std::size_t>(region.Clusters.front())].Piece;
+    flat.Reversed = flat.Surface.Normal(first.Centre).dot(first.Normal) < 0.0;
+    if (std::all_of(region.Clusters.begin(), region.Clusters.end(),
+          [&](int cluster) { return this->Fits(cluster, flat.Surface, flat.Reversed); }))
+    {
+      region = std::move(flat);
+    }
+  }
+}
+
 void SurfaceGrowth::Reconsider(GrownRegion& region) const
 {
   constexpr double MuchNearer = 0.5;
@@ -440,8 +459,19 @@ GrownRegion SurfaceGrowth::BestRegion(int seed, const std::vector<int>& regions)
   ring.insert(ring.end(), neighbours.begin(), neighbours.end());
   Guess second = ring;
   this->AddNeighbours(regions, second);
+  const auto isSmall = [&](int c)
+  { return this->Facets.Clusters[static_cast<std::size_t>(c)].Points.size() < PointsOfFlat; };
   for (int g : neighbours)
   {
+    if (isSmall(seed) && isSmall(g)) // the plane of one triangle is not that of two with noise
+    {
+      std::vector<GrownRegion> planes;
+      this->Try(SurfaceType::Plane, { seed, g }, regions, planes);
+      if (!planes.empty() && planes.front().NumPoints < static_cast<int>(PointsOfFlat))
+      {
+        found.push_back(std::move(planes.front())); // larger ones of free shapes are chance
+      }
+    }
     this->Try(SurfaceType::Cylinder, { seed, g }, regions, found);
     this->Try(SurfaceType::Sphere, { seed, g }, regions, found);
   }

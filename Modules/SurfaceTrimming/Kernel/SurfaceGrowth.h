@@ -35,6 +35,8 @@ public:
   double Cost(int cluster, const AnalyticSurface& surface) const;
   /// Fits the surface to the region's points again.
   void Refit(GrownRegion& region) const;
+  /// Takes the plane of a region that fits one.
+  void Flatten(GrownRegion& region) const;
   /// Takes a cylinder, sphere or cone that the region lies on as well, if it is simpler than its
   /// surface and the edges inside are no farther from it, or a cone to which they are much nearer:
   /// a strip between two circles lies on many surfaces, but is straight on one.

@@ -26,6 +26,7 @@ constexpr int BorderPasses = 6;
 constexpr double LargestTurn = 1.0471975511965976; // 60 degrees
 /// Of a curved surface at least, for each of its parameters.
 constexpr int PointsOfParameter = 5;
+constexpr int PointsOfFacet = 4; ///< of a plane that says little
 /// A torus has the curvatures of any surface at a point: its normals must turn by that, radians.
 constexpr double SpreadOfTorus = 0.5235987755982988; // 30 degrees from their mean
 /// Between regions of one free form at most, radians.
@@ -147,6 +148,11 @@ bool MoveClusters(const SurfaceGrowth& growth, const FacetClusters& facets, Divi
   return any;
 }
 
+bool IsCurved(SurfaceType type)
+{
+  return type != SurfaceType::Plane && type != SurfaceType::FreeForm;
+}
+
 /// Whether all points of a cluster lie on a surface, and it does not lean away from it.
 bool LiesOn(const DiscMesh& surface, const FacetCluster& cluster, const AnalyticSurface& on,
   bool reversed, double noise)
@@ -177,9 +183,7 @@ void TakeWideTriangles(
       {
         const int other = division.RegionOfCluster[static_cast<std::size_t>(side.Cluster)];
         GrownRegion& region = division.Regions[static_cast<std::size_t>(other)];
-        if (&region != &own && region.Clusters.size() > 1 &&
-          region.Surface.Type != SurfaceType::Plane &&
-          region.Surface.Type != SurfaceType::FreeForm &&
+        if (&region != &own && region.Clusters.size() > 1 && IsCurved(region.Surface.Type) &&
           LiesOn(surface, cluster, region.Surface, region.Reversed, noise))
         {
           region.Clusters.push_back(static_cast<int>(c));
@@ -188,6 +192,36 @@ void TakeWideTriangles(
           any = true;
           break;
         }
+      }
+    }
+  }
+}
+
+/// Planes of four points say nothing where these are as near to the surface beside them as its own:
+/// single strips that seemed flat.
+void TakeStrips(const FacetClusters& facets, const SurfaceGrowth& growth, Division& division)
+{
+  for (std::size_t c = 0; c < facets.Clusters.size(); ++c)
+  {
+    for (const ClusterSide& side : facets.Sides[c])
+    {
+      const int from = division.RegionOfCluster[c];
+      const int to = division.RegionOfCluster[static_cast<std::size_t>(side.Cluster)];
+      GrownRegion& own = division.Regions[static_cast<std::size_t>(from)];
+      GrownRegion& region = division.Regions[static_cast<std::size_t>(to)];
+      if (from != to && own.Surface.Type == SurfaceType::Plane && own.NumPoints <= PointsOfFacet &&
+        IsCurved(region.Surface.Type) &&
+        region.NumPoints > PointsOfParameter + NumSurfaceParameters(region.Surface.Type) &&
+        std::all_of(own.Clusters.begin(), own.Clusters.end(),
+          [&](int cluster) { return growth.Fits(cluster, region.Surface, region.Reversed); }))
+      {
+        for (const int cluster : own.Clusters)
+        {
+          division.RegionOfCluster[static_cast<std::size_t>(cluster)] = to;
+        }
+        region.Clusters.insert(region.Clusters.end(), own.Clusters.begin(), own.Clusters.end());
+        own.Clusters.clear();
+        growth.Refit(region);
       }
     }
   }
@@ -212,7 +246,8 @@ void FlattenSingles(const FacetClusters& facets, Division& division)
 }
 
 /// Neighbours that are one surface become one region.
-void JoinEqual(const DiscMesh& surface, const FacetClusters& facets, double noise,
+/// @param exact  whether points lie on surfaces but for rounding.
+void JoinEqual(const DiscMesh& surface, const FacetClusters& facets, double noise, bool exact,
   const SurfaceGrowth& growth, Division& division)
 {
   for (std::size_t c = 0; c < facets.Clusters.size(); ++c)
@@ -223,9 +258,16 @@ void JoinEqual(const DiscMesh& surface, const FacetClusters& facets, double nois
       const int from = division.RegionOfCluster[static_cast<std::size_t>(side.Cluster)];
       GrownRegion& region = division.Regions[static_cast<std::size_t>(to)];
       GrownRegion& other = division.Regions[static_cast<std::size_t>(from)];
-      if (to == from || region.Surface.Type != other.Surface.Type ||
-        region.Surface.Type == SurfaceType::Plane || region.Surface.Type == SurfaceType::FreeForm ||
-        region.NumPoints < other.NumPoints)
+      const bool isSameType = region.Surface.Type == other.Surface.Type;
+      if (to == from || region.NumPoints < other.NumPoints || (!isSameType && !exact) ||
+        !IsCurved(region.Surface.Type) || !IsCurved(other.Surface.Type))
+      {
+        continue;
+      }
+      // few rows of a surface lie on a simpler one, too
+      if (!isSameType &&
+        !std::all_of(other.Clusters.begin(), other.Clusters.end(),
+          [&](int cluster) { return growth.Fits(cluster, region.Surface, region.Reversed); }))
       {
         continue;
       }
@@ -332,7 +374,7 @@ bool IsWeak(const FacetClusters& facets, const GrownRegion& region, bool coarse,
   const SurfaceType type = region.Surface.Type;
   if (type == SurfaceType::FreeForm || type == SurfaceType::Plane)
   {
-    return type == SurfaceType::FreeForm || region.NumPoints <= 4;
+    return type == SurfaceType::FreeForm || region.NumPoints <= PointsOfFacet;
   }
   if (!coarse || numInside == 0)
   {
@@ -342,8 +384,10 @@ bool IsWeak(const FacetClusters& facets, const GrownRegion& region, bool coarse,
     (type == SurfaceType::Torus && NormalSpread(facets, region) < SpreadOfTorus);
 }
 
-/// Weak regions that pass over into each other become regions of free form.
-void JoinFreeForm(bool coarse, const FacetClusters& facets, Division& division)
+/// Weak regions that pass over into each other become planes where they are flat, or regions of
+/// free form.
+void JoinFreeForm(
+  bool coarse, const FacetClusters& facets, const SurfaceGrowth& growth, Division& division)
 {
   const std::vector<int> inside = CountInside(facets, division);
   std::vector<char> weak;
@@ -377,6 +421,10 @@ void JoinFreeForm(bool coarse, const FacetClusters& facets, Division& division)
             region.Surface = AnalyticSurface();
           }
         }
+      }
+      if (region.Clusters.size() > division.Regions[r].Clusters.size())
+      {
+        growth.Flatten(region);
       }
     }
     kept.push_back(std::move(region));
@@ -464,9 +512,14 @@ Result<SurfaceRecognition> RecognizeSurfaces(
     {
       growth.Reconsider(region);
     }
-    const double near = level <= LastOfExact ? NearEnough * noise : noise;
+    const bool exact = level <= LastOfExact;
+    const double near = exact ? NearEnough * noise : noise;
     TakeWideTriangles(surface, facets, near, division);
-    JoinEqual(surface, facets, near, growth, division);
+    if (!exact)
+    {
+      TakeStrips(facets, growth, division);
+    }
+    JoinEqual(surface, facets, near, exact, growth, division);
     DropEmpty(division);
     return true;
   };
@@ -502,7 +555,8 @@ Result<SurfaceRecognition> RecognizeSurfaces(
       continue;
     }
     const std::size_t count = division.Regions.size();
-    if (fewest == Any || static_cast<double>(count) < WorthIt * static_cast<double>(fewest))
+    const double worthIt = level < LastOfExact ? 1.0 : WorthIt; // rounding, no noise
+    if (fewest == Any || static_cast<double>(count) < worthIt * static_cast<double>(fewest))
     {
       fewest = count;
       best = std::move(division);
@@ -510,7 +564,7 @@ Result<SurfaceRecognition> RecognizeSurfaces(
     }
   }
   const SurfaceGrowth growth(surface, facets, result.Noise, params.MaximumSag * result.Tolerance);
-  JoinFreeForm(result.Noise > Levels[1] * result.Tolerance, facets, best);
+  JoinFreeForm(result.Noise > Levels[1] * result.Tolerance, facets, growth, best);
   result.RegionOfTriangle.resize(surface.Triangles.size());
   Report(growth, facets, best, result);
   return result;

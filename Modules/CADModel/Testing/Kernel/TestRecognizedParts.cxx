@@ -335,7 +335,7 @@ TEST(RecognizedParts, FacesOfTessellatedPartsComeBack_IndependentOracle)
 /// Noise of a quarter of the tolerance.
 TEST(RecognizedParts, FacesOfNoisyParts_IndependentOracle)
 {
-  EXPECT_GE(CountFamily(60, 0.25).Share(), 0.90);
+  EXPECT_GE(CountFamily(60, 0.25).Share(), 0.94);
 }
 
 namespace
@@ -570,6 +570,6 @@ TEST(ModelledParts, SolidsOfNoisyParts_IndependentOracle)
 {
   const ModelledParts tally = ModelFamily(1, 40, 0.25, 2e-2);
   EXPECT_GE(tally.Right, 0.95 * tally.Parts) << tally.Faults;
-  EXPECT_GE(tally.SameTypes, 0.85 * tally.Faces);
+  EXPECT_GE(tally.SameTypes, 0.93 * tally.Faces);
 }
 }

@@ -200,6 +200,60 @@ TEST(RegionModel, OpenMeshesAreShells)
   EXPECT_NEAR(MeasuresOf(tube, 1e-3).Area, 4.0 * Pi, 2e-2);
 }
 
+/// Nothing but the mesh says where a rim is.
+TEST(RegionModel, RimsFollowTheMesh_ExactOracle)
+{
+  // half a disc: the chord of its arc lies in its plane, too
+  TriangleMesh half;
+  constexpr int sides = 90;
+  half.Points = PointMatrix::Zero(sides + 2, 3);
+  for (int i = 0; i <= sides; ++i)
+  {
+    half.Points.row(i + 1) << std::cos(Pi * i / sides), std::sin(Pi * i / sides), 0.0;
+    if (i > 0)
+    {
+      half.Triangles.push_back({ 0, i, i + 1 });
+    }
+  }
+  const RegionModel disc = ModelOf(half);
+  EXPECT_EQ(disc.NumOfType[0], 1);
+  EXPECT_EQ(disc.NumLines, 1);
+  EXPECT_EQ(disc.NumCircles, 1);
+  EXPECT_NEAR(MeasuresOf(disc, 1e-4).Area, 0.5 * Pi, 1e-3);
+  // a cylinder whose rims swing: a curve of few spans lies on it as well
+  constexpr int around = 120;
+  constexpr double end = 3.0;
+  TriangleMesh wavy;
+  wavy.Points.resize(4 * (around + 1), 3);
+  for (int i = 0; i <= around; ++i)
+  {
+    const double angle = end * i / around;
+    for (int k = 0; k < 4; ++k)
+    {
+      const double height = (k - 1.5) * (1.0 + 0.2 * std::sin(4.0 * angle));
+      wavy.Points.row(4 * i + k) << std::cos(angle), std::sin(angle), height;
+      if (i > 0 && k > 0)
+      {
+        const int p = 4 * i + k;
+        wavy.Triangles.push_back({ p - 5, p - 1, p });
+        wavy.Triangles.push_back({ p - 5, p, p - 4 });
+      }
+    }
+  }
+  RecognitionParams recognition;
+  recognition.Tolerance = 1e-3;
+  const auto model = ModelMesh(wavy, recognition);
+  ASSERT_TRUE(model) << model.Status.Message();
+  EXPECT_EQ(model->NumOfType[1], 1);
+  EXPECT_EQ(model->Model.Faces.size(), 1u);
+  EXPECT_EQ(model->NumRims, 1);
+  EXPECT_LE(model->MaxPointDistance, 0.25e-3); // as rims are asked to be
+  EXPECT_LE(
+    model->MaxEdgeDistance, 1e-3); // and the sag of chords, (3 / 120)^2 times 1.5 * 0.2 * 16 / 8
+  const double area = 3.0 * (end + 0.05 * (1.0 - std::cos(4.0 * end)));
+  EXPECT_NEAR(MeasuresOf(model.Value, 1e-4).Area, area, 4.0 * end * 0.4e-3); // a chord's sag
+}
+
 TEST(RegionModel, PartsAreInOneModel)
 {
   TriangleMesh inner = Box(1, 1, 1);

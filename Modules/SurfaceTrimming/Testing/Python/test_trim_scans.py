@@ -12,7 +12,7 @@ import generated_meshes
 import knotwork_testing
 
 if sys.argv[1] == "generated":
-    MESHES = pathlib.Path(knotwork_testing.output("trim_scans/x")).parent
+    MESHES = pathlib.Path(knotwork_testing.output("trim_scans_generated/x")).parent
     generated_meshes.s_on_cone(MESHES / "s_on_cone.off")
     generated_meshes.roll_with_hole(MESHES / "roll_with_hole.off")
     generated_meshes.mask(MESHES / "mask.off")
@@ -26,8 +26,8 @@ else:
 
 def trim(name, loops):
     """The report of a run with what every scan must fulfil checked."""
-    report = knotwork_testing.output("trim_scans/report.json")
-    face = knotwork_testing.output("trim_scans/face.step")
+    report = knotwork_testing.output(f"trim_scans_{sys.argv[1]}/report.json")
+    face = knotwork_testing.output(f"trim_scans_{sys.argv[1]}/face.step")
     done = knotwork_testing.run_program("trim", str(MESHES / name), "--output", face, "--report", report)
     assert done.returncode == 0, done.stderr
     with open(report) as stream:
