@@ -269,26 +269,44 @@ std::vector<std::pair<int, int>> OverlappingParts(
   const std::vector<Part>& parts, const std::set<int>& overlapping, const ExactPoints& points)
 {
   std::vector<int> candidates;
-  std::vector<CGAL::Bbox_3> boxes;
+  PointMatrix lower(static_cast<Eigen::Index>(parts.size()), 3);
+  PointMatrix upper(static_cast<Eigen::Index>(parts.size()), 3);
   for (std::size_t i = 0; i < parts.size(); ++i)
   {
     if (overlapping.count(parts[i].Source) > 0)
     {
-      candidates.push_back(static_cast<int>(i));
       const MeshTriangle& corners = parts[i].Corners;
-      boxes.push_back(
-        points[corners[0]].bbox() + points[corners[1]].bbox() + points[corners[2]].bbox());
+      const CGAL::Bbox_3 box =
+        points[corners[0]].bbox() + points[corners[1]].bbox() + points[corners[2]].bbox();
+      const auto row = static_cast<Eigen::Index>(candidates.size());
+      lower.row(row) << box.xmin(), box.ymin(), box.zmin();
+      upper.row(row) << box.xmax(), box.ymax(), box.zmax();
+      candidates.push_back(static_cast<int>(i));
     }
   }
   std::vector<std::pair<int, int>> pairs;
+  if (candidates.empty())
+  {
+    return pairs;
+  }
+  lower.conservativeResize(static_cast<Eigen::Index>(candidates.size()), Eigen::NoChange);
+  upper.conservativeResize(static_cast<Eigen::Index>(candidates.size()), Eigen::NoChange);
+  const BoxTree tree(lower, upper);
   for (std::size_t i = 0; i < candidates.size(); ++i)
   {
-    for (std::size_t j = i + 1; j < candidates.size(); ++j)
-    {
-      if (!CGAL::do_overlap(boxes[i], boxes[j]))
+    const auto row = static_cast<Eigen::Index>(i);
+    std::vector<std::size_t> others;
+    tree.ForNear(lower.row(row).data(), upper.row(row).data(),
+      [&](int j)
       {
-        continue;
-      }
+        if (static_cast<std::size_t>(j) > i)
+        {
+          others.push_back(static_cast<std::size_t>(j));
+        }
+      });
+    std::sort(others.begin(), others.end());
+    for (const std::size_t j : others)
+    {
       MeshTriangle a = parts[static_cast<std::size_t>(candidates[i])].Corners;
       MeshTriangle b = parts[static_cast<std::size_t>(candidates[j])].Corners;
       std::sort(a.begin(), a.end());

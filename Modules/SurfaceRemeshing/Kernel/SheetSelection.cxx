@@ -197,21 +197,26 @@ SheetChoice ChooseSheets(const SheetMesh& sheets, const PointMatrix& points,
       return first != second ? first : members[a].size() > members[b].size();
     });
   choice.Kept.assign(count, 0);
-  TriangleIndex<3> kept;
+  std::vector<MeshTriangle> kept;
+  TriangleIndex<3> index; // of those kept, when it was needed last
   for (const std::size_t i : order)
   {
-    const bool isFirst = kept.Triangles().empty();
-    if (touches[i] && !isFirst && IsNear(sheets, members[i], kept, depth))
+    if (touches[i] && !kept.empty())
     {
-      continue;
+      if (index.Triangles().size() < kept.size())
+      {
+        index = TriangleIndex<3>(sheets.Points, kept);
+      }
+      if (IsNear(sheets, members[i], index, depth))
+      {
+        continue;
+      }
     }
     choice.Kept[i] = 1;
-    std::vector<MeshTriangle> both = kept.Triangles();
     for (const int t : members[i])
     {
-      both.push_back(sheets.Triangles[static_cast<std::size_t>(t)]);
+      kept.push_back(sheets.Triangles[static_cast<std::size_t>(t)]);
     }
-    kept = TriangleIndex<3>(sheets.Points, std::move(both));
   }
   return choice;
 }
@@ -274,9 +279,12 @@ namespace
 class Separation
 {
 public:
-  Separation(SheetMesh& sheets, const std::vector<int>& levels, double step, int threads)
-    : Sheets(sheets), Levels(levels), Step(step), Threads(threads)
+  Separation(SheetMesh& sheets, const std::vector<int>& levels, double step, int threads,
+    const std::function<bool()>& goesOn)
+    : Sheets(sheets), Levels(levels), Step(step), Threads(threads), GoesOn(goesOn)
   {
+    this->NextPlace =
+      sheets.Places.empty() ? 0 : 1 + *std::max_element(sheets.Places.begin(), sheets.Places.end());
     // the outermost sheet of a place stays, those inside move the farther the deeper they are
     this->Shares.assign(this->NumPoints(), 0.0);
     std::vector<int> rank(this->NumPoints(), 0);
@@ -306,24 +314,23 @@ public:
     }
   }
 
-  std::vector<std::pair<int, int>> Run()
+  void Run()
   {
     constexpr int MostCuts = 6;
-    std::vector<std::pair<int, int>> pairs;
     for (int round = 0;; ++round)
     {
       const PointMatrix start = this->Sheets.Points;
-      pairs = this->Move();
-      if (pairs.empty() || round == MostCuts)
+      const std::vector<std::pair<int, int>> pairs = this->Move();
+      if (pairs.empty() || round == MostCuts || !this->GoesOn())
       {
-        return pairs;
+        return;
       }
       const PointMatrix moved = this->Sheets.Points;
       this->Sheets.Points = start;
       if (!this->CutTips(pairs))
       {
         this->Sheets.Points = moved;
-        return pairs;
+        return;
       }
     }
   }
@@ -376,6 +383,16 @@ private:
         movable.push_back(i);
       }
     }
+    std::vector<char> moves; // triangles
+    for (const MeshTriangle& corners : this->Sheets.Triangles)
+    {
+      moves.push_back(std::any_of(corners.begin(), corners.end(),
+        [&](int corner) { return !normals[static_cast<std::size_t>(corner)].empty(); }));
+    }
+    if (movable.empty())
+    {
+      return {};
+    }
     const PointMatrix start = this->Sheets.Points;
     std::vector<std::pair<int, int>> pairs;
     constexpr int MostHalvings = 16;
@@ -389,13 +406,13 @@ private:
         const auto row = static_cast<Eigen::Index>(i);
         this->Sheets.Points.row(row) = start.row(row) + (room[i] * ways[i]).transpose();
       }
-      pairs = FindIntersections(this->Sheets.Points, this->Sheets.Triangles, this->Threads);
+      pairs = FindIntersections(this->Sheets.Points, this->Sheets.Triangles, this->Threads, moves);
       if (pairs.size() < fewest)
       {
         fewest = pairs.size();
         best = round;
       }
-      if (pairs.empty() || round == MostHalvings || round - best > MostInVain)
+      if (pairs.empty() || round == MostHalvings || round - best > MostInVain || !this->GoesOn())
       {
         break;
       }
@@ -433,6 +450,11 @@ private:
         }
       }
     }
+    this->Fans.assign(this->NumPoints(), {});
+    for (std::size_t t = 0; t < this->Sheets.Triangles.size(); ++t)
+    {
+      this->AddToFans(t);
+    }
     bool cut = false;
     for (std::size_t i = 0; i < stuck.size(); ++i)
     {
@@ -465,14 +487,14 @@ private:
   {
     std::map<int, std::pair<int, int>>
       next; // neighbour: triangle that begins there, next neighbour
-    for (std::size_t t = 0; t < this->Sheets.Triangles.size(); ++t)
+    for (const int t : this->Fans[static_cast<std::size_t>(point)])
     {
-      const MeshTriangle& corners = this->Sheets.Triangles[t];
+      const MeshTriangle& corners = this->Sheets.Triangles[static_cast<std::size_t>(t)];
       for (std::size_t k = 0; k < 3; ++k)
       {
         if (corners[k] == point)
         {
-          next[corners[(k + 1) % 3]] = { static_cast<int>(t), corners[(k + 2) % 3] };
+          next[corners[(k + 1) % 3]] = { t, corners[(k + 2) % 3] };
         }
       }
     }
@@ -516,12 +538,13 @@ private:
       this->Sheets.Points.row(number) = tip + radius * (neighbours[i] - tip).normalized();
     }
     this->Sheets.PointIds[static_cast<std::size_t>(point)] = -1;
-    this->Sheets.Places[static_cast<std::size_t>(point)] = this->NewPlace();
+    this->Sheets.Places[static_cast<std::size_t>(point)] = this->NextPlace++;
     for (std::size_t i = 0; i < ring.size(); ++i)
     {
       const std::size_t j = (i + 1) % ring.size();
       const auto t = static_cast<std::size_t>(triangles[i]);
       this->Sheets.Triangles[t] = { inner[i], ring[i], ring[j] };
+      this->AddToFans(t);
       this->AddTriangle({ inner[i], ring[j], inner[j] }, t);
     }
     for (const MeshTriangle& corners : cap)
@@ -533,16 +556,13 @@ private:
     }
     return true;
   }
-  int NewPlace() const
-  {
-    return 1 + *std::max_element(this->Sheets.Places.begin(), this->Sheets.Places.end());
-  }
   int AddPoint(int like)
   {
     const auto number = static_cast<int>(this->NumPoints());
     this->Sheets.Points.conservativeResize(number + 1, Eigen::NoChange);
     this->Sheets.PointIds.push_back(-1);
-    this->Sheets.Places.push_back(this->NewPlace());
+    this->Sheets.Places.push_back(this->NextPlace++);
+    this->Fans.emplace_back();
     this->Shares.push_back(this->Shares[static_cast<std::size_t>(like)]);
     return number;
   }
@@ -551,23 +571,33 @@ private:
     this->Sheets.Triangles.push_back(corners);
     this->Sheets.Sources.push_back(this->Sheets.Sources[like]);
     this->Sheets.Sheets.push_back(this->Sheets.Sheets[like]);
+    this->AddToFans(this->Sheets.Triangles.size() - 1);
+  }
+  void AddToFans(std::size_t triangle)
+  {
+    for (const int corner : this->Sheets.Triangles[triangle])
+    {
+      this->Fans[static_cast<std::size_t>(corner)].push_back(static_cast<int>(triangle));
+    }
   }
 
   SheetMesh& Sheets;
   const std::vector<int>& Levels;
   double Step;
   int Threads;
-  std::set<int> FromCut;      ///< points that cuts made
-  std::vector<double> Shares; ///< of the step that a point moves; 0: it stays
+  const std::function<bool()>& GoesOn;
+  int NextPlace = 0;
+  std::vector<std::vector<int>> Fans; ///< triangles of points, and some that were theirs
+  std::set<int> FromCut;              ///< points that cuts made
+  std::vector<double> Shares;         ///< of the step that a point moves; 0: it stays
 };
 }
 
-std::vector<std::pair<int, int>> SeparateSheets(SheetMesh& sheets, const std::vector<int>& levels,
-  double step, int threads, std::vector<Eigen::Vector3d>& cut)
+void SeparateSheets(SheetMesh& sheets, const std::vector<int>& levels, double step, int threads,
+  std::vector<Eigen::Vector3d>& cut, const std::function<bool()>& goesOn)
 {
-  Separation separation(sheets, levels, step, threads);
-  const std::vector<std::pair<int, int>> pairs = separation.Run();
+  Separation separation(sheets, levels, step, threads, goesOn);
+  separation.Run();
   cut.insert(cut.end(), separation.Cut.begin(), separation.Cut.end());
-  return pairs;
 }
 }

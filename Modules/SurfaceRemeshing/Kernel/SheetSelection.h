@@ -3,6 +3,8 @@
 #pragma once
 #include "SheetArrangement.h"
 
+#include <functional>
+
 namespace knotwork
 {
 struct SheetChoice
@@ -24,9 +26,9 @@ SheetMesh KeepSheets(const SheetMesh& sheets, SheetChoice& choice);
 /// Moves points that are in one place apart, into what their sheets bound, so that nothing meets.
 /// @param step  how far at first; halved where it is too far.
 /// @param cut  places where it was cut are added.
-/// @return pairs of triangles that still meet.
-std::vector<std::pair<int, int>> SeparateSheets(SheetMesh& sheets, const std::vector<int>& levels,
-  double step, int threads, std::vector<Eigen::Vector3d>& cut);
+/// @param goesOn  asked now and then; false: nothing more is done.
+void SeparateSheets(SheetMesh& sheets, const std::vector<int>& levels, double step, int threads,
+  std::vector<Eigen::Vector3d>& cut, const std::function<bool()>& goesOn);
 
 /// Winding number of closed triangles around a point.
 /// @param leftOut  a triangle that does not count.

@@ -357,13 +357,13 @@ private:
   Status JoinOpenEdges()
   {
     const SoupDefects before = this->Defects();
+    const std::vector<std::pair<int, int>> openBefore = SortedOpen(before);
     std::vector<char> isOpen(this->Work.Triangles.size(), 0);
     for (const EdgeSide& side : SortedSides(this->Work.Triangles))
     {
       const std::pair<int, int> edge = side.Forward ? std::make_pair(side.First, side.Second)
                                                     : std::make_pair(side.Second, side.First);
-      if (std::binary_search(
-            this->SortedOpen(before).begin(), this->SortedOpen(before).end(), edge))
+      if (std::binary_search(openBefore.begin(), openBefore.end(), edge))
       {
         isOpen[static_cast<std::size_t>(side.Triangle)] = 1;
       }
@@ -404,7 +404,7 @@ private:
       });
     this->DropDuplicates();
     const SoupDefects after = this->Defects();
-    const std::vector<std::pair<int, int>> open = this->SortedOpen(after);
+    const std::vector<std::pair<int, int>> open = SortedOpen(after);
     for (const auto& edge : before.OpenEdges)
     {
       if (!std::binary_search(open.begin(), open.end(), edge))
@@ -703,8 +703,8 @@ private:
     }
     SheetMesh kept = KeepSheets(arranged.Value, choice);
     std::vector<Eigen::Vector3d> cut;
-    SeparateSheets(
-      kept, choice.Levels, StepShare * this->Result.Diagonal, this->Params.Threads, cut);
+    SeparateSheets(kept, choice.Levels, StepShare * this->Result.Diagonal, this->Params.Threads,
+      cut, [&]() { return !this->Params.Progress || this->Params.Progress(this->Done); });
     for (const Eigen::Vector3d& place : cut)
     {
       this->Add(RepairKind::CutTip, place);

@@ -19,8 +19,10 @@ constexpr std::size_t ChunkSize = 256;
 class PairSearch
 {
 public:
-  PairSearch(const PointMatrix& points, const std::vector<MeshTriangle>& triangles, int threads)
-    : Points(points), Triangles(triangles), Degenerate(FindDegenerate(points, triangles, threads))
+  PairSearch(const PointMatrix& points, const std::vector<MeshTriangle>& triangles, int threads,
+    const std::vector<char>& of)
+    : Points(points), Triangles(triangles), Of(of),
+      Degenerate(FindDegenerate(points, triangles, threads))
   {
     const auto count = static_cast<Eigen::Index>(triangles.size());
     this->Lower.resize(count, 3);
@@ -37,10 +39,10 @@ public:
     this->Tree = BoxTree(this->Lower, this->Upper);
   }
 
-  /// Triangles of higher numbers that t meets.
+  /// Triangles that t meets and whose own turn does not find t.
   void Collect(int t, std::vector<std::pair<int, int>>& pairs) const
   {
-    if (this->Degenerate[static_cast<std::size_t>(t)])
+    if (this->Degenerate[static_cast<std::size_t>(t)] || !this->Searches(t))
     {
       return;
     }
@@ -48,16 +50,21 @@ public:
     this->Tree.ForNear(this->Lower.row(t).data(), this->Upper.row(t).data(),
       [&](int other)
       {
-        if (other > t && !this->Degenerate[static_cast<std::size_t>(other)] &&
-          this->BoxesMeet(t, other) && this->Meet(t, other))
+        if ((other > t || !this->Searches(other)) && other != t &&
+          !this->Degenerate[static_cast<std::size_t>(other)] && this->BoxesMeet(t, other) &&
+          this->Meet(t, other))
         {
-          pairs.emplace_back(t, other);
+          pairs.emplace_back(std::min(t, other), std::max(t, other));
         }
       });
     std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(first), pairs.end());
   }
 
 private:
+  bool Searches(int t) const
+  {
+    return this->Of.empty() || this->Of[static_cast<std::size_t>(t)] != 0;
+  }
   Point At(int point) const
   {
     return { this->Points(point, 0), this->Points(point, 1), this->Points(point, 2) };
@@ -104,6 +111,7 @@ private:
 
   const PointMatrix& Points;
   const std::vector<MeshTriangle>& Triangles;
+  const std::vector<char>& Of;
   std::vector<char> Degenerate;
   PointMatrix Lower;
   PointMatrix Upper;
@@ -128,14 +136,14 @@ std::vector<char> FindDegenerate(
   return degenerate;
 }
 
-std::vector<std::pair<int, int>> FindIntersections(
-  const PointMatrix& points, const std::vector<MeshTriangle>& triangles, int threads)
+std::vector<std::pair<int, int>> FindIntersections(const PointMatrix& points,
+  const std::vector<MeshTriangle>& triangles, int threads, const std::vector<char>& of)
 {
   if (triangles.empty())
   {
     return {};
   }
-  const PairSearch search(points, triangles, threads);
+  const PairSearch search(points, triangles, threads, of);
   std::vector<std::vector<std::pair<int, int>>> found(
     (triangles.size() + ChunkSize - 1) / ChunkSize);
   ParallelFor(triangles.size(), ChunkSize, threads,
@@ -151,6 +159,7 @@ std::vector<std::pair<int, int>> FindIntersections(
   {
     pairs.insert(pairs.end(), part.begin(), part.end());
   }
+  std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
 }

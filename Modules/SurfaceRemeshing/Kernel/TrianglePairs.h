@@ -14,6 +14,7 @@ std::vector<char> FindDegenerate(
 
 /// Pairs of triangles (the lower number first, ascending) that have more in common than the
 /// corners and edges that they share by number. Decided exactly; degenerate triangles are in none.
-std::vector<std::pair<int, int>> FindIntersections(
-  const PointMatrix& points, const std::vector<MeshTriangle>& triangles, int threads);
+/// @param of  one a triangle: only pairs of which one is set; empty: all.
+std::vector<std::pair<int, int>> FindIntersections(const PointMatrix& points,
+  const std::vector<MeshTriangle>& triangles, int threads, const std::vector<char>& of = {});
 }
