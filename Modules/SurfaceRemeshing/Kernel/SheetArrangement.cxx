@@ -6,6 +6,7 @@
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <Eigen/Geometry>
 
 #include <cmath>
 #include <map>
@@ -349,8 +350,167 @@ std::vector<Part> DivideAll(const std::vector<MeshTriangle>& triangles,
   return parts;
 }
 
+/// Takes short edges and flat triangles away that divisions made: rounding and moving would turn
+/// them over. Points are put on others, or edges led through points; what is closed stays closed.
+class Snapping
+{
+public:
+  Snapping(
+    std::vector<Part>& parts, std::vector<char> divided, const ExactPoints& points, double distance)
+    : Parts(parts), Divided(std::move(divided)), Points(points), Distance(distance)
+  {
+  }
+  void Run()
+  {
+    constexpr int MostRounds = 10;
+    for (int round = 0; round < MostRounds; ++round)
+    {
+      const bool any = this->JoinPoints();
+      if (!this->LeadEdges() && !any)
+      {
+        return;
+      }
+    }
+  }
+
+private:
+  bool MayGo(const Part& part) const
+  {
+    return this->Divided[static_cast<std::size_t>(part.Source)] != 0;
+  }
+  Eigen::Vector3d At(int point) const { return Rounded(this->Points[point]).transpose(); }
+
+  bool JoinPoints()
+  {
+    std::map<int, int> target;
+    const auto find = [&](int point)
+    {
+      for (auto found = target.find(point); found != target.end(); found = target.find(point))
+      {
+        point = found->second;
+      }
+      return point;
+    };
+    for (const Part& part : this->Parts)
+    {
+      if (!this->MayGo(part))
+      {
+        continue;
+      }
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        const int a = find(part.Corners[k]);
+        const int b = find(part.Corners[(k + 1) % 3]);
+        // points of the input have the lower numbers
+        if (a != b && std::max(a, b) >= this->Points.NumGiven &&
+          (this->At(a) - this->At(b)).norm() < this->Distance)
+        {
+          target[std::max(a, b)] = std::min(a, b);
+        }
+      }
+    }
+    if (target.empty())
+    {
+      return false;
+    }
+    for (Part& part : this->Parts)
+    {
+      for (int& corner : part.Corners)
+      {
+        corner = find(corner);
+      }
+    }
+    this->DropFolded();
+    return true;
+  }
+
+  /// The longest edge of a flat triangle is led through the point across.
+  bool LeadEdges()
+  {
+    std::map<std::pair<int, int>, int> led; // edges, and the points that they are led through
+    std::set<int> used;
+    for (const Part& part : this->Parts)
+    {
+      const auto [longest, height] = this->Flatness(part.Corners);
+      const int a = part.Corners[longest];
+      const int b = part.Corners[(longest + 1) % 3];
+      const int c = part.Corners[(longest + 2) % 3];
+      if (height < this->Distance && this->MayGo(part) && used.count(a) == 0 &&
+        used.count(b) == 0 && used.count(c) == 0)
+      {
+        led[{ std::min(a, b), std::max(a, b) }] = c;
+        used.insert({ a, b, c });
+      }
+    }
+    if (led.empty())
+    {
+      return false;
+    }
+    std::vector<Part> next;
+    for (const Part& part : this->Parts)
+    {
+      bool isLed = false;
+      for (std::size_t k = 0; k < 3 && !isLed; ++k)
+      {
+        const int a = part.Corners[k];
+        const int b = part.Corners[(k + 1) % 3];
+        const int c = part.Corners[(k + 2) % 3];
+        const auto found = led.find({ std::min(a, b), std::max(a, b) });
+        if (found != led.end())
+        {
+          isLed = true;
+          next.push_back({ { a, found->second, c }, part.Source });
+          next.push_back({ { found->second, b, c }, part.Source });
+        }
+      }
+      if (!isLed)
+      {
+        next.push_back(part);
+      }
+    }
+    this->Parts = std::move(next);
+    this->DropFolded();
+    return true;
+  }
+  std::pair<std::size_t, double> Flatness(const MeshTriangle& corners) const
+  {
+    std::size_t longest = 0;
+    double length = -1.0;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const double own = (this->At(corners[(k + 1) % 3]) - this->At(corners[k])).norm();
+      if (own > length)
+      {
+        length = own;
+        longest = k;
+      }
+    }
+    const Eigen::Vector3d a = this->At(corners[longest]);
+    const Eigen::Vector3d b = this->At(corners[(longest + 1) % 3]);
+    const Eigen::Vector3d c = this->At(corners[(longest + 2) % 3]);
+    return { longest, length > 0.0 ? (b - a).cross(c - a).norm() / length : 0.0 };
+  }
+  void DropFolded()
+  {
+    this->Parts.erase(std::remove_if(this->Parts.begin(), this->Parts.end(),
+                        [](const Part& part)
+                        {
+                          const auto& [a, b, c] = part.Corners;
+                          return a == b || b == c || c == a;
+                        }),
+      this->Parts.end());
+  }
+
+  std::vector<Part>& Parts;
+  std::vector<char> Divided; ///< triangles of the input
+  const ExactPoints& Points;
+  double Distance;
+};
+
 /// Triangles that lie on each other become as many as remain when opposite ones cancel.
-std::vector<Part> CancelParts(const std::vector<Part>& parts)
+/// @param cancelled  their middles are added.
+std::vector<Part> CancelParts(const std::vector<Part>& parts, const ExactPoints& points,
+  std::vector<Eigen::Vector3d>& cancelled)
 {
   struct Stack
   {
@@ -374,6 +534,15 @@ std::vector<Part> CancelParts(const std::vector<Part>& parts)
     stack.Sum += forward ? 1 : -1;
     int& first = forward ? stack.Forward : stack.Backward;
     first = first < 0 ? static_cast<int>(i) : first;
+  }
+  for (const auto& [key, stack] : stacks)
+  {
+    if (stack.Forward >= 0 && stack.Backward >= 0)
+    {
+      cancelled.push_back(
+        (Rounded(points[key[0]]) + Rounded(points[key[1]]) + Rounded(points[key[2]])).transpose() /
+        3.0);
+    }
   }
   std::vector<Part> result;
   for (std::size_t i = 0; i < parts.size(); ++i)
@@ -700,12 +869,26 @@ catch (...)
 }
 
 Result<SheetMesh> ArrangeSheets(const PointMatrix& points,
-  const std::vector<MeshTriangle>& triangles, const std::vector<std::pair<int, int>>& pairs)
+  const std::vector<MeshTriangle>& triangles, const std::vector<std::pair<int, int>>& pairs,
+  double snap)
 try
 {
   ExactPoints exact(points);
-  const std::vector<Part> parts = CancelParts(DivideAll(triangles, pairs, exact));
-  return SheetBuilder(parts, exact).Build(pairs.empty());
+  std::vector<Part> parts = DivideAll(triangles, pairs, exact);
+  if (!pairs.empty())
+  {
+    std::vector<char> divided(triangles.size(), 0);
+    for (const auto& [s, t] : pairs)
+    {
+      divided[static_cast<std::size_t>(s)] = divided[static_cast<std::size_t>(t)] = 1;
+    }
+    Snapping(parts, std::move(divided), exact, snap).Run();
+  }
+  std::vector<Eigen::Vector3d> cancelled;
+  parts = CancelParts(parts, exact, cancelled);
+  SheetMesh mesh = SheetBuilder(parts, exact).Build(pairs.empty());
+  mesh.Cancelled = std::move(cancelled);
+  return mesh;
 }
 catch (...)
 {

@@ -21,6 +21,7 @@ struct SheetMesh
   std::vector<int> PointIds; ///< of the input, -1: made where triangles meet; one a point
   std::vector<int> Places;   ///< equal for points that are one in space; one a point
   int NumSheets = 0;
+  std::vector<Eigen::Vector3d> Cancelled;    ///< triangles on top of each other that run oppositely
   std::vector<Eigen::Vector3d> OpenEdges;    ///< middles of edges of one triangle
   std::vector<Eigen::Vector3d> TwistedEdges; ///< whose triangles do not run both ways alike
   std::vector<Eigen::Vector3d> CrowdedEdges; ///< of more than two triangles
@@ -44,7 +45,9 @@ Result<DividedTriangles> DivideTriangles(const PointMatrix& points,
 /// touch, but do not cross. Triangles on top of each other that run oppositely cancel.
 /// @param triangles  none of them degenerate, points of equal place have one number.
 /// @param pairs  of FindIntersections.
+/// @param snap  edges and heights of divided triangles that are shorter than it go.
 /// @return with OpenEdges or TwistedEdges: nothing but these.
 Result<SheetMesh> ArrangeSheets(const PointMatrix& points,
-  const std::vector<MeshTriangle>& triangles, const std::vector<std::pair<int, int>>& pairs);
+  const std::vector<MeshTriangle>& triangles, const std::vector<std::pair<int, int>>& pairs,
+  double snap);
 }

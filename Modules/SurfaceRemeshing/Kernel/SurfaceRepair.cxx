@@ -22,6 +22,8 @@ namespace knotwork
 namespace
 {
 constexpr double StepShare = 1e-4; ///< of the diagonal: how far touching sheets are moved apart
+constexpr double SnapShare =
+  1e-7; ///< of the diagonal: shorter edges and heights of divided triangles go
 constexpr double ToleranceShare = 1e-4; ///< of the diagonal: of distances
 constexpr double LooseShare = 0.05;     ///< of the area: open pieces above are no loose ones
 constexpr int NamedPlaces = 5;          ///< in messages
@@ -578,6 +580,7 @@ private:
   Status Resolve()
   {
     constexpr int MostRounds = 6;
+    constexpr std::size_t MostNew = 100; // pairs of a round
     constexpr std::size_t MostGrowth = 3;
     constexpr std::size_t Small = 2000; // triangles
     const std::size_t most = MostGrowth * this->Work.Triangles.size() + Small;
@@ -603,10 +606,15 @@ private:
         std::any_of(degenerate.begin(), degenerate.end(), [](char is) { return is != 0; });
       this->Work.Filter([&](int t) { return !degenerate[static_cast<std::size_t>(t)]; });
       const SoupDefects defects = this->Defects();
+      const std::size_t before = pairs.size();
       pairs = this->Intersections();
       if (!anyDegenerate && defects.IsManifold() && pairs.empty())
       {
         return {};
+      }
+      if (round > 1 && pairs.size() > before + MostNew)
+      {
+        break; // it diverges
       }
       if (!this->Result.Closed)
       {
@@ -624,9 +632,17 @@ private:
     std::vector<Eigen::Vector3d> places = this->PlacesOf(pairs);
     if (places.empty())
     {
-      for (const auto& edge : this->Defects().CrowdedEdges)
+      const SoupDefects defects = this->Defects();
+      for (const auto* edges : { &defects.CrowdedEdges, &defects.TwistedEdges })
       {
-        places.push_back(this->Work.MiddleOf(edge));
+        for (const auto& edge : *edges)
+        {
+          places.push_back(this->Work.MiddleOf(edge));
+        }
+      }
+      for (const int point : defects.SplitPoints)
+      {
+        places.push_back(this->Work.Point(point));
       }
     }
     return { ErrorCode::NotConverged,
@@ -670,8 +686,8 @@ private:
 
   Status Rearrange(const std::vector<std::pair<int, int>>& pairs, const SoupDefects* first)
   {
-    knotwork::Result<SheetMesh> arranged =
-      ArrangeSheets(this->Work.Points, this->Work.Triangles, pairs);
+    knotwork::Result<SheetMesh> arranged = ArrangeSheets(
+      this->Work.Points, this->Work.Triangles, pairs, SnapShare * this->Result.Diagonal);
     if (!arranged)
     {
       return arranged.Status;
@@ -689,6 +705,10 @@ private:
     }
     SheetChoice choice = ChooseSheets(arranged.Value, this->Work.Points, this->Work.Triangles,
       this->Params.OverlapDepth * this->Result.Diagonal, this->Params.Threads);
+    for (const Eigen::Vector3d& place : arranged->Cancelled)
+    {
+      this->Add(RepairKind::DuplicateFace, place);
+    }
     this->AddSheets(arranged.Value, choice);
     if (first)
     {

@@ -214,6 +214,10 @@ TriangleMesh DamagedBall(unsigned seed)
   std::mt19937 random(seed);
   TriangleMesh ball = Ball();
   const auto any = [&](std::size_t count) { return random() % count; };
+  for (Eigen::Index i = 0; i < ball.Points.rows(); ++i) // nothing is in a plane by design
+  {
+    ball.Points.row(i) *= 1.0 + 1e-5 * static_cast<double>(any(1000));
+  }
   for (int i = 0; i < 3; ++i)
   {
     const std::size_t t = any(ball.Triangles.size());
@@ -234,7 +238,7 @@ TriangleMesh DamagedBall(unsigned seed)
         }
         break;
       case 3: // a tip that passes through the other side
-        ball.Points.row(point) *= -1.1;
+        ball.Points.row(point) = 1.1 * ball.Points.row(static_cast<Eigen::Index>(any(200)));
         break;
       case 4: // a neighbour's fan is folded over
       {
@@ -271,7 +275,7 @@ class DamagedBalls : public testing::TestWithParam<unsigned>
 
 TEST_P(DamagedBalls, AreRepaired_Property)
 {
-  for (unsigned seed = GetParam(); seed < 54; seed += 6)
+  for (unsigned seed = GetParam(); seed < (getenv("SEEDS") ? 300U : 54U); seed += 6)
   {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const TriangleMesh ball = DamagedBall(seed);
