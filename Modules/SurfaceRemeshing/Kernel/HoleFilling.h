@@ -5,8 +5,9 @@
 
 namespace knotwork
 {
-/// Triangles of numbers in the rim, of least area or angles; they run with the rim. Empty when
-/// there are none.
+/// Triangles of numbers in the rim, of least angles between them and with the surface beside it;
+/// they run with the rim. Empty when there are none.
+/// @param apexes  third corners of the surface's triangles at the edges that begin at the points.
 /// @source Liepa, SGP 2003; Zou, Ju, Carr, CGF 32 (2013) 157.
-std::vector<MeshTriangle> FillRim(const PointMatrix& rim);
+std::vector<MeshTriangle> FillRim(const PointMatrix& rim, const PointMatrix& apexes);
 }

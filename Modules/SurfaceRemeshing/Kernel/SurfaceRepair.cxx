@@ -187,7 +187,8 @@ public:
     this->Start();
     for (const auto step : { &Repair::Clean, &Repair::Close, &Repair::Resolve, &Repair::Finish })
     {
-      if (this->Params.Progress && !this->Params.Progress(this->Done))
+      this->Shown = this->Done;
+      if (!this->GoesOn())
       {
         return { ErrorCode::Aborted, "" };
       }
@@ -202,6 +203,7 @@ public:
   }
 
 private:
+  bool GoesOn() const { return !this->Params.Progress || this->Params.Progress(this->Shown); }
   void Add(RepairKind kind, const Eigen::Vector3d& place, double size = 0.0)
   {
     this->Result.Actions.push_back({ kind, place, size });
@@ -495,12 +497,14 @@ private:
     std::vector<Eigen::Vector3d> places;
     double largest = 0.0;
     std::size_t traced = 0;
+    const std::map<std::pair<int, int>, int> apexes = this->Apexes(defects);
     for (std::vector<int>& rim : TraceRims(this->Work.Triangles, defects))
     {
       traced += rim.size();
       const Eigen::Vector3d middle = MiddleOfRim(this->Work, rim);
       const double diameter = DiagonalOf(this->Work.Points, rim);
-      if (diameter > this->Params.LargestHole * this->Result.Diagonal || !this->FillHole(rim))
+      if (diameter > this->Params.LargestHole * this->Result.Diagonal ||
+        !this->FillHole(rim, apexes))
       {
         places.push_back(middle);
         largest = std::max(largest, diameter);
@@ -529,15 +533,36 @@ private:
         "; the largest one's diameter is " + Digits(largest / this->Result.Diagonal, 3) +
         " of the diagonal: raise LargestHole to close it, or set AllowOpen to leave it" };
   }
-  bool FillHole(std::vector<int> rim)
+  /// Third corners of triangles by their open edges, as they run.
+  std::map<std::pair<int, int>, int> Apexes(const SoupDefects& defects) const
+  {
+    const std::vector<std::pair<int, int>> open = SortedOpen(defects);
+    std::map<std::pair<int, int>, int> apexes;
+    for (const MeshTriangle& corners : this->Work.Triangles)
+    {
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        const std::pair<int, int> edge(corners[k], corners[(k + 1) % 3]);
+        if (std::binary_search(open.begin(), open.end(), edge))
+        {
+          apexes[edge] = corners[(k + 2) % 3];
+        }
+      }
+    }
+    return apexes;
+  }
+  bool FillHole(std::vector<int> rim, const std::map<std::pair<int, int>, int>& apexes)
   {
     std::reverse(rim.begin(), rim.end());
     PointMatrix points(static_cast<Eigen::Index>(rim.size()), 3);
+    PointMatrix beside(points.rows(), 3);
     for (std::size_t i = 0; i < rim.size(); ++i)
     {
-      points.row(static_cast<Eigen::Index>(i)) = this->Work.Points.row(rim[i]);
+      const auto row = static_cast<Eigen::Index>(i);
+      points.row(row) = this->Work.Points.row(rim[i]);
+      beside.row(row) = this->Work.Points.row(apexes.at({ rim[(i + 1) % rim.size()], rim[i] }));
     }
-    std::vector<MeshTriangle> triangles = FillRim(points);
+    std::vector<MeshTriangle> triangles = FillRim(points, beside);
     if (triangles.empty())
     {
       return false;
@@ -588,7 +613,8 @@ private:
     for (int round = 0; round < MostRounds && (round < 2 || this->Work.Triangles.size() < most);
          ++round)
     {
-      if (this->Params.Progress && !this->Params.Progress(this->Done + 0.25 * round / MostRounds))
+      this->Shown = this->Done + 0.25 * round / MostRounds;
+      if (!this->GoesOn())
       {
         return { ErrorCode::Aborted, "" };
       }
@@ -724,7 +750,7 @@ private:
     SheetMesh kept = KeepSheets(arranged.Value, choice);
     std::vector<Eigen::Vector3d> cut;
     SeparateSheets(kept, choice.Levels, StepShare * this->Result.Diagonal, this->Params.Threads,
-      cut, [&]() { return !this->Params.Progress || this->Params.Progress(this->Done); });
+      cut, [this]() { return this->GoesOn(); });
     for (const Eigen::Vector3d& place : cut)
     {
       this->Add(RepairKind::CutTip, place);
@@ -984,6 +1010,7 @@ private:
   Soup Work;
   SurfaceRepair Result;
   double Done = 0.0;
+  double Shown = 0.0; ///< of the progress
 };
 }
 

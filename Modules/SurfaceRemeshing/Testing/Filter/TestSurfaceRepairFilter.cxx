@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is repaired how is tested with the kernel; here: what the filter gives out.
 #include "FilterCases.h"
+#include "TwoBalls.h"
 #include <knotwork/SurfaceRemeshing/vtkSurfaceRepair.h>
 
 #include "vtkCellArray.h"
@@ -40,6 +41,21 @@ vtkSmartPointer<vtkPolyData> Cube(bool open)
   return cube;
 }
 
+vtkSmartPointer<vtkPolyData> OneCell(int type, double y)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->InsertNextPoint(0.0, 0.0, 0.0);
+  points->InsertNextPoint(1.0, 0.0, 0.0);
+  points->InsertNextPoint(2.0, y, 0.0);
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  data->AllocateExact(1, 3);
+  const vtkIdType corners[3] = { 0, 1, 2 };
+  data->InsertNextCell(type, 3, corners);
+  return data;
+}
+
 double Number(vtkSurfaceRepair* filter, const char* name)
 {
   return vtkTable::SafeDownCast(filter->GetOutputDataObject(2))->GetValueByName(0, name).ToDouble();
@@ -69,7 +85,7 @@ TEST(vtkSurfaceRepair, GivesTheDataOfTheInput_Exact)
   EXPECT_EQ(Number(filter, "Holes"), 1);
   EXPECT_EQ(Number(filter, "MergedPoints"), 12);
   EXPECT_EQ(Number(filter, "Closed"), 1);
-  EXPECT_EQ(Number(filter, "VolumeAfter"), 1);
+  EXPECT_NEAR(Number(filter, "VolumeAfter"), 1.0, 1e-14);
   EXPECT_EQ(Number(filter, "EulerAfter"), 2);
 }
 
@@ -78,10 +94,21 @@ TEST(vtkSurfaceRepair, ErrorsNameThePlace)
   vtkNew<vtkSurfaceRepair> filter;
   filter->SetInputDataObject(Cube(true));
   ExpectFailure(filter, ErrorCode::InvalidTopology, "1 hole stays, at (");
-  auto broken = Cube(false);
-  broken->GetPoints()->SetPoint(2, std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0);
-  filter->SetInputDataObject(broken);
+  filter->SetInputDataObject(OneCell(VTK_TRIANGLE, std::numeric_limits<double>::quiet_NaN()));
   ExpectFailure(filter, ErrorCode::NonFiniteInput, "point 2 is not finite");
+  filter->SetInputDataObject(OneCell(VTK_TRIANGLE, 1e300));
+  ExpectFailure(filter, ErrorCode::NonFiniteInput, "point 2");
+  filter->SetInputDataObject(OneCell(VTK_TRIANGLE, 0.0)); // on a line
+  ExpectFailure(filter, ErrorCode::EmptyInput, "no triangle of the mesh has an area");
+  filter->SetInputDataObject(OneCell(VTK_POLY_LINE, 1.0));
+  ExpectFailure(filter, ErrorCode::EmptyInput, "the mesh has no triangles");
+}
+
+TEST(vtkSurfaceRepair, ProgressRisesAndStops)
+{
+  vtkNew<vtkSurfaceRepair> filter;
+  filter->SetInputDataObject(TwoBalls());
+  ExpectProgressAndAbort(filter, 3);
 }
 
 TEST(vtkSurfaceRepair, NothingGivesNothing)
