@@ -14,8 +14,8 @@ from vtkmodules.vtkFiltersSources import vtkSphereSource
 
 import _scene as scene
 
-# a mesh, where it is looked at from, what is up
-PARTS = (("cow", (0.35, 0.25, 1.0), (0, 1, 0)), ("man", (0.3, 0.2, 1.0), (0, 1, 0)))
+# a mesh, where it is looked at from, what is up, how near
+PARTS = (("cow", (0.35, 0.25, 1.0), (0, 1, 0), 1.3), ("man", (0.3, -1.0, 0.2), (0, 0, 1), 0.9))
 RED, BLUE, GREY = (0.85, 0.15, 0.1), (0.15, 0.35, 0.8), (0.8, 0.8, 0.78)
 INTERSECTION = 6  # its RepairKind
 
@@ -51,7 +51,7 @@ def parts(surface):
 
 def main():
     views = []
-    for row, (name, direction, up) in enumerate(PARTS):
+    for row, (name, direction, up, zoom) in enumerate(PARTS):
         repair = knotwork.vtkSurfaceRepair()
         mesh = scene.triangle_mesh(*scene.read_off(name + ".off"))
         repair.SetInputDataObject(mesh)
@@ -72,7 +72,7 @@ def main():
             camera.SetPosition(*(np.array(camera.GetFocalPoint()) + direction))
             camera.SetViewUp(*up)
             view.ResetCamera()
-            camera.Zoom(1.3)
+            camera.Zoom(zoom)
             view.AddViewProp(scene.label(words[column], 0.05, 0.02, 18))
             views.append(view)
     scene.save(views, os.path.join(scene.output_folder(), "surface_repair.png"), (1200, 900))

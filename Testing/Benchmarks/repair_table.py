@@ -11,6 +11,7 @@ repaired once more: a second repair must leave it as it is. --write puts the tab
 import argparse
 import json
 import os
+import re
 import subprocess
 import sys
 import tarfile
@@ -26,6 +27,12 @@ ACTIONS = ["merged_points", "degenerate_faces", "duplicate_faces", "loose_faces"
            "divided_edges", "divided_points", "cut_tips", "overlaps", "inner_walls", "small_parts"]
 
 
+def shortened(error, mesh):
+    """An error line without paths, and with its first place only."""
+    error = error.strip().replace("\n", " ").replace(f"'{mesh}': ", "").replace("knotwork repair: ", "")
+    return re.sub(r"(?:some of them )?at (\([^)]*\))(?:, \([^)]*\))+", r"one at \1", error)
+
+
 class Run:
     """One run of the job."""
 
@@ -35,7 +42,7 @@ class Run:
         try:
             done = subprocess.run([program, "repair", mesh, *options, "--output", self.output, "--report", report, "--threads", "1", "--force"],
                                   stderr=subprocess.PIPE, text=True, timeout=LIMIT)
-            self.status, self.error = done.returncode, done.stderr.strip().replace("\n", " ")
+            self.status, self.error = done.returncode, shortened(done.stderr, mesh)
         except subprocess.TimeoutExpired:
             self.status, self.error = None, f"not done after {LIMIT} s"
         self.seconds = time.monotonic() - start
@@ -70,8 +77,7 @@ def runs(program, mesh, folder):
     for options in ([], ["--largest-hole", "1"], ["--allow-open"]):
         run = Run(program, mesh, stem, options)
         yield run
-        if run.status != 1 or ("stay, at" not in run.error and "stays, at" not in run.error and "stay, some" not in run.error
-                               and not options):
+        if run.status != 1 or (not re.search("holes? stays?,", run.error) and not options):
             break
     if run.status == 0 and run.report["changed"]:
         again = Run(program, run.output, stem + ".again", options[-1:] if options[-1:] == ["--allow-open"] else [])

@@ -2,7 +2,7 @@
 #include "SheetSelection.h"
 
 #include "FanTruncation.h"
-#include "SurfaceDistance.h"
+#include "FarthestDistance.h"
 #include "TrianglePairs.h"
 
 #include <knotwork/SplineCore/Parallel.h>

@@ -11,9 +11,9 @@
 
 namespace knotwork
 {
-std::vector<EdgeSide> SortedSides(const std::vector<MeshTriangle>& triangles)
+std::vector<SoupSide> SortedSides(const std::vector<MeshTriangle>& triangles)
 {
-  std::vector<EdgeSide> sides;
+  std::vector<SoupSide> sides;
   sides.reserve(3 * triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t)
   {
@@ -25,7 +25,7 @@ std::vector<EdgeSide> SortedSides(const std::vector<MeshTriangle>& triangles)
     }
   }
   std::sort(sides.begin(), sides.end(),
-    [](const EdgeSide& a, const EdgeSide& b)
+    [](const SoupSide& a, const SoupSide& b)
     {
       return std::tie(a.First, a.Second, a.Triangle, a.Forward) <
         std::tie(b.First, b.Second, b.Triangle, b.Forward);
@@ -43,11 +43,11 @@ SoupDefects FindDefects(const std::vector<MeshTriangle>& triangles, Eigen::Index
   };
   DisjointSets fans(3 * static_cast<int>(triangles.size()));
   ForEachEdge(SortedSides(triangles),
-    [&](const EdgeSide* begin, const EdgeSide* end)
+    [&](const SoupSide* begin, const SoupSide* end)
     {
       const auto count = end - begin;
       const auto forward =
-        std::count_if(begin, end, [](const EdgeSide& side) { return side.Forward; });
+        std::count_if(begin, end, [](const SoupSide& side) { return side.Forward; });
       const std::pair<int, int> edge(begin->First, begin->Second);
       if (count == 1)
       {
@@ -62,7 +62,7 @@ SoupDefects FindDefects(const std::vector<MeshTriangle>& triangles, Eigen::Index
       {
         defects.CrowdedEdges.push_back(edge);
       }
-      for (const EdgeSide* side = begin + 1; side < end; ++side)
+      for (const SoupSide* side = begin + 1; side < end; ++side)
       {
         for (const int point : { edge.first, edge.second })
         {
@@ -94,9 +94,9 @@ std::vector<int> NumberParts(
 {
   DisjointSets sets(static_cast<int>(triangles.size()));
   ForEachEdge(SortedSides(triangles),
-    [&](const EdgeSide* begin, const EdgeSide* end)
+    [&](const SoupSide* begin, const SoupSide* end)
     {
-      for (const EdgeSide* side = begin + 1; side < end && (throughCrowded || end - begin == 2);
+      for (const SoupSide* side = begin + 1; side < end && (throughCrowded || end - begin == 2);
            ++side)
       {
         sets.Unite(begin->Triangle, side->Triangle);
@@ -118,7 +118,7 @@ std::pair<int, int> OrientTriangles(std::vector<MeshTriangle>& triangles, std::v
   SignedSets sets(static_cast<int>(triangles.size()));
   std::pair<int, int> oneSided(-1, -1);
   ForEachEdge(SortedSides(triangles),
-    [&](const EdgeSide* begin, const EdgeSide* end)
+    [&](const SoupSide* begin, const SoupSide* end)
     {
       if (end - begin == 2 &&
         !sets.Unite(begin->Triangle, begin[1].Triangle, begin->Forward == begin[1].Forward))
@@ -231,7 +231,7 @@ int EulerNumber(const std::vector<MeshTriangle>& triangles)
     points.insert(corners.begin(), corners.end());
   }
   int edges = 0;
-  ForEachEdge(SortedSides(triangles), [&](const EdgeSide*, const EdgeSide*) { ++edges; });
+  ForEachEdge(SortedSides(triangles), [&](const SoupSide*, const SoupSide*) { ++edges; });
   return static_cast<int>(points.size()) - edges + static_cast<int>(triangles.size());
 }
 }

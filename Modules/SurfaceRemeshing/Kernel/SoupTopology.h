@@ -7,7 +7,7 @@
 namespace knotwork
 {
 /// A triangle at an edge.
-struct EdgeSide
+struct SoupSide
 {
   int First; ///< the lower point of the edge
   int Second;
@@ -16,11 +16,11 @@ struct EdgeSide
 };
 
 /// All sides, those of an edge behind each other, in the order of triangles.
-std::vector<EdgeSide> SortedSides(const std::vector<MeshTriangle>& triangles);
+std::vector<SoupSide> SortedSides(const std::vector<MeshTriangle>& triangles);
 
 /// Calls use(begin, end) with the sides of each edge.
 template <typename Use>
-void ForEachEdge(const std::vector<EdgeSide>& sides, Use&& use)
+void ForEachEdge(const std::vector<SoupSide>& sides, Use&& use)
 {
   for (std::size_t begin = 0; begin < sides.size();)
   {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceRepair.h"
 
+#include "FarthestDistance.h"
 #include "HoleFilling.h"
 #include "SheetSelection.h"
 #include "SoupTopology.h"
-#include "SurfaceDistance.h"
 #include "TrianglePairs.h"
 
 #include <knotwork/SplineCore/Numbers.h>
@@ -363,7 +363,7 @@ private:
     const SoupDefects before = this->Defects();
     const std::vector<std::pair<int, int>> openBefore = SortedOpen(before);
     std::vector<char> isOpen(this->Work.Triangles.size(), 0);
-    for (const EdgeSide& side : SortedSides(this->Work.Triangles))
+    for (const SoupSide& side : SortedSides(this->Work.Triangles))
     {
       const std::pair<int, int> edge = side.Forward ? std::make_pair(side.First, side.Second)
                                                     : std::make_pair(side.Second, side.First);
@@ -446,9 +446,9 @@ private:
       std::vector<char> isOpen(static_cast<std::size_t>(count), 0);
       std::vector<char> hangs(static_cast<std::size_t>(count), 0);
       ForEachEdge(SortedSides(this->Work.Triangles),
-        [&](const EdgeSide* begin, const EdgeSide* end)
+        [&](const SoupSide* begin, const SoupSide* end)
         {
-          for (const EdgeSide* side = begin; side < end; ++side)
+          for (const SoupSide* side = begin; side < end; ++side)
           {
             const auto part =
               static_cast<std::size_t>(parts[static_cast<std::size_t>(side->Triangle)]);

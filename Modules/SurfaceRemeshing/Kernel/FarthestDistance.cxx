@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SurfaceDistance.h"
+#include "FarthestDistance.h"
 
 #include <array>
 #include <cmath>
