@@ -26,4 +26,7 @@ knotwork_module(SurfaceTrimming KERNELS SplineCore JacobianValidation MeshParame
   FILTERS SplineGrid MeshParameterization)
 knotwork_module(CADFitting KERNELS SplineCore JacobianValidation MeshParameterization DomainParameterization SurfaceTrimming
   FILTERS SplineGrid CADModel MeshParameterization SurfaceTrimming)
+if(NOT KNOTWORK_PERMISSIVE) # CGAL is under the GPL
+  knotwork_module(SurfaceRemeshing KERNELS SplineCore MeshParameterization FILTERS SplineGrid MeshParameterization)
+endif()
 knotwork_module(SplineIO KERNELS SplineCore FILTERS SplineGrid CADModel SurfaceTrimming)

@@ -146,6 +146,7 @@ def runs():
             (["cadfit", FILE, "--entities", "table.csv", "--output", grid], "quads"),
             (["intersections", FILE, "--table", "table.csv", "--output", polydata], "surface"),
             (["recognize", FILE, "--edges", "edges.vtp", "--regions", "table.csv", "--output", polydata], "mesh"),
+            (["repair", FILE, "--allow-open", "--actions", "actions.vtp", "--output", polydata], "mesh"),
             (["align", FILE, "--to", mesh, "--table", "table.csv", "--output", polydata], "points"),
             (["distance", FILE, mesh, "--both-ways", "--percentiles", "table.csv", "--model", "model.vtp", "--output", polydata], "points"),
             (["features", FILE, "--lines", "lines.vtp", "--corners", "corners.vtp", "--output", polydata], "mesh"),
