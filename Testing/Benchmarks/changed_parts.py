@@ -21,6 +21,7 @@ import vtk
 from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 import features
+import page_tables
 
 PARTS = ("joint", "anchor", "rotor", "spool", "cross", "part", "couplingdown", "pinion", "fandisk")
 TYPES = ("planes", "cylinders", "spheres", "cones", "tori", "free_faces")
@@ -134,10 +135,7 @@ def main():
     table = "\n".join(lines)
     print(table)
     if arguments.write:
-        begin, end = "<!-- changed parts: begin -->", "<!-- changed parts: end -->"
-        text = arguments.write.read_text()
-        before, after = text.split(begin)[0], text.split(end)[1]
-        arguments.write.write_text(before + begin + "\n" + table + "\n" + end + after)
+        page_tables.write_table(arguments.write, "changed parts", table)
 
 
 if __name__ == "__main__":

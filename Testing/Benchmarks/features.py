@@ -17,6 +17,8 @@ import tempfile
 
 import numpy
 
+import page_tables
+
 CUBES = [(20, (0.002,)), (40, (0.0, 0.002))]
 MESHES = [(name, (0.0, 0.0001)) for name in
           ("cross", "joint", "anchor", "rotor", "spool", "part", "pinion", "fandisk", "couplingdown")]
@@ -98,9 +100,7 @@ def main():
         lines = list(rows(arguments.program, arguments.meshes, pathlib.Path(folder), arguments.repeat))
     print("\n".join(lines))
     if arguments.write:
-        begin, end = "<!-- features meshes: begin -->", "<!-- features meshes: end -->"
-        before, rest = arguments.write.read_text().split(begin)
-        arguments.write.write_text(before + begin + "\n" + "\n".join(lines) + "\n" + end + rest.split(end)[1])
+        page_tables.write_table(arguments.write, "features meshes", "\n".join(lines))
 
 
 if __name__ == "__main__":

@@ -23,6 +23,8 @@ import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
+import page_tables
+
 ACCURACY = [("scone_2k", "S on a cone"), ("scone_10k", "S on a cone"), ("swisshole_3k", "swiss roll with a hole"),
             ("tightroll_6k", "tight roll, layers 1.3 edges apart"), ("maskgen_3k", "face with eyes and mouth (4 loops)"),
             ("maskgen_100k", "the same"), ("beetle", "beetle (11 loops)"), ("half_glove_a", "half of a glove")]
@@ -123,12 +125,6 @@ def charts(program, meshes, closed, folder, repeat):
                    f"{said['max_stretch']:.2f} | {min(run['processor_seconds'] for run in runs):.1f} |")
 
 
-def insert(page, name, lines):
-    begin, end = f"<!-- flatten {name}: begin -->", f"<!-- flatten {name}: end -->"
-    before, rest = page.read_text().split(begin)
-    page.write_text(before + begin + "\n" + "\n".join(lines) + "\n" + end + rest.split(end)[1])
-
-
 def main():
     parser = argparse.ArgumentParser(usage=__doc__)
     parser.add_argument("program")
@@ -148,7 +144,7 @@ def main():
             lines = list(table(arguments.program, arguments.meshes, folder, arguments.repeat))
             print("\n".join(lines), flush=True)
             if arguments.write:
-                insert(arguments.write, name, lines)
+                page_tables.write_table(arguments.write, f"flatten {name}", "\n".join(lines))
 
 
 if __name__ == "__main__":

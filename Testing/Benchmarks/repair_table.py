@@ -18,6 +18,8 @@ import tarfile
 import tempfile
 import time
 
+import page_tables
+
 ARCHIVE = "/usr/share/doc/libcgal-dev/data.tar.gz"
 FOLDER = "data/meshes/"
 LIMIT = 120  # seconds a run
@@ -110,16 +112,11 @@ def main():
                 sound.append(name)
             else:
                 rows.append(row)
-    lines = ["| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in [HEAD, *rows]]
-    table = "\n".join([lines[0], "|" + " --- |" * len(HEAD), *lines[1:]]) + "\n"
+    table = page_tables.table_text(HEAD, rows)
     table += f"\n{len(sound)} closed meshes come back as they are: {', '.join(os.path.splitext(name)[0] for name in sound)}.\n"
     print(table, end="")
     if arguments.write:
-        begin, end = (f"<!-- the table of repairs: {word} -->\n" for word in ("begin", "end"))
-        with open(arguments.write, encoding="utf-8") as stream:
-            before, rest = stream.read().split(begin)
-        with open(arguments.write, "w", encoding="utf-8") as stream:
-            stream.write(before + begin + table + end + rest.split(end)[1])
+        page_tables.write_table(arguments.write, "the table of repairs", table)
 
 
 if __name__ == "__main__":

@@ -19,6 +19,8 @@ import platform
 import subprocess
 import sys
 
+import page_tables
+
 SCALE = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
 
 
@@ -72,12 +74,6 @@ def processor():
     return platform.machine()
 
 
-def insert(page, module, lines):
-    begin, end = f"<!-- benchmarks {module}: begin -->", f"<!-- benchmarks {module}: end -->"
-    before, rest = page.read_text().split(begin)
-    page.write_text(before + begin + "\n" + "\n".join(lines) + "\n" + end + rest.split(end)[1])
-
-
 def main():
     root = pathlib.Path(__file__).resolve().parents[2]
     module = sys.argv[1]
@@ -105,9 +101,9 @@ def main():
                "one thread: processor time. The command:", "",
                f"    cmake --preset {tree.name}{options} && cmake --build --preset {tree.name}",
                f"    {spec['needs'] + '=<folder> ' if 'needs' in spec else ''}Testing/Benchmarks/table.py {module}{other}"]
-    insert(root / spec["page"], module, lines + rows + closing)
+    page_tables.write_table(root / spec["page"], f"benchmarks {module}", "\n".join(lines + rows + closing))
     if "readme" in spec:
-        insert(root / "README.md", module, lines + [rows[i] for i in spec["readme"]])
+        page_tables.write_table(root / "README.md", f"benchmarks {module}", "\n".join(lines + [rows[i] for i in spec["readme"]]))
 
 
 if __name__ == "__main__":

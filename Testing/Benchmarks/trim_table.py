@@ -16,6 +16,8 @@ import sys
 import tarfile
 import tempfile
 
+import page_tables
+
 ARCHIVE = "/usr/share/doc/libcgal-dev/data.tar.gz"
 PATCHES = [f"patch-{k}.off" for k in ("01", "13", "20", "21", "23", "30")]
 SCANS = ["beetle.off", "maskgen_3k.off", "plane_27holes.obj", "half_glove_a.off", "scone_2k.off"]
@@ -83,15 +85,10 @@ def main():
         for mesh in present + meshes:
             rows.append(measured(arguments.program, mesh, folder))
             print(" | ".join(rows[-1]), file=sys.stderr)
-    lines = ["| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in rows]
-    table = "\n".join([lines[0], "|" + " --- |" * len(HEAD), *lines[1:]]) + "\n"
+    table = page_tables.table_text(rows[0], rows[1:])
     print(table, end="")
     if arguments.write:
-        begin, end = (f"<!-- the table of whole runs: {word} -->\n" for word in ("begin", "end"))
-        with open(arguments.write, encoding="utf-8") as stream:
-            before, rest = stream.read().split(begin)
-        with open(arguments.write, "w", encoding="utf-8") as stream:
-            stream.write(before + begin + table + end + rest.split(end)[1])
+        page_tables.write_table(arguments.write, "the table of whole runs", table)
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@ import generated_meshes
 import knotwork_testing
 
 SCRIPT = pathlib.Path(__file__).resolve().parents[4] / "Testing/Benchmarks/flatten.py"
+sys.path.insert(0, str(SCRIPT.parent))
 SPEC = importlib.util.spec_from_file_location("flatten", SCRIPT)
 tables = importlib.util.module_from_spec(SPEC)
 SPEC.loader.exec_module(tables)
