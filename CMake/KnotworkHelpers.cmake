@@ -88,6 +88,28 @@ function(knotwork_add_kernel module)
   set_property(GLOBAL APPEND PROPERTY KNOTWORK_KERNELS ${target})
 endfunction()
 
+# knotwork_add_worker(NAME SOURCES file... [LIBRARIES target...] [AUTOINIT VTK module...]): a program that works for another process,
+# see RunWorker. KNOTWORK_WORKER_DIR is the folder of such programs in the install tree, and in the build tree.
+function(knotwork_add_worker name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBRARIES;AUTOINIT")
+  set(common "${CMAKE_SOURCE_DIR}/Modules/SplineGrid/Worker")
+  add_executable(${name} ${arg_SOURCES} "${common}/WorkerMain.cxx" "${common}/WorkerMain.h")
+  target_include_directories(${name} PRIVATE "${common}"
+    "$<TARGET_PROPERTY:Knotwork::SplineCoreKernel,INTERFACE_INCLUDE_DIRECTORIES>")
+  target_compile_options(${name} PRIVATE ${KNOTWORK_WARNINGS})
+  target_link_libraries(${name} PRIVATE ${arg_LIBRARIES})
+  if(arg_AUTOINIT)
+    vtk_module_autoinit(TARGETS ${name} MODULES ${arg_AUTOINIT})
+  endif()
+  file(RELATIVE_PATH libraries "${CMAKE_INSTALL_PREFIX}/${KNOTWORK_WORKER_DIR}"
+    "${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR}")
+  set_target_properties(${name} PROPERTIES
+    RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${KNOTWORK_WORKER_DIR}"
+    INSTALL_RPATH "$ORIGIN;$ORIGIN/${libraries}")
+  install(TARGETS ${name} RUNTIME DESTINATION "${KNOTWORK_WORKER_DIR}")
+  set_property(GLOBAL APPEND PROPERTY KNOTWORK_PRODUCTS ${name})
+endfunction()
+
 # knotwork_generate(COMMAND OUTPUT file... ARGUMENTS argument... HEADERS header... [DEPENDS file...]): what properties.py makes of
 # the properties that headers declare, at build time.
 function(knotwork_generate command)

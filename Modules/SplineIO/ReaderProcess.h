@@ -7,10 +7,8 @@
 
 namespace knotwork
 {
-/// Reads a file in a process of its own, which may crash, hang or ask for gigabytes without harm:
-/// see Worker/. The programs of Worker/ lie beside this library, in ../libexec/knotwork, or in the
-/// folder that the environment variable KNOTWORK_WORKERS names.
-/// @param program  one of them.
+/// Reads a file in a process of its own, by a program of Worker/ (RunWorker runs it).
+/// @param program  its name.
 /// @param options  more arguments for it.
 /// @return what it found, in parts; its own error; LibraryError: there is no such program
 /// or no process; InvalidFormat: it crashed or did not end in time; TooLarge: it asked for too much

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // usage: knotwork-read-cad PARENT BYTES SECONDS FILE UNIT TOLERANCE
-// Reads STEP and IGES files by OpenCASCADE for another process, see Worker.h.
+// Reads STEP and IGES files by OpenCASCADE for another process, see WorkerMain.h.
 #include "CADParts.h"
-#include "Worker.h"
+#include "WorkerMain.h"
 #include <knotwork/CADModel/CADExchange.h>
 
 namespace
 {
 using namespace knotwork;
 
-Status Read(const std::string& file, const Parts& options, Parts& found)
+Status Read(const Parts& words, const Parts&, Parts& found)
 {
-  CADReadParams params;
-  if (options.size() != 2)
+  if (words.size() != 3)
   {
-    return { ErrorCode::InvalidParameter, "'" + file + "': unit and tolerance are missing" };
+    return { ErrorCode::InvalidParameter, "file, unit or tolerance is missing" };
   }
-  params.Unit = static_cast<LengthUnit>(std::stoi(options[0]));
-  params.Tolerance = ExactNumber(options[1]);
+  const std::string& file = words[0];
+  CADReadParams params;
+  params.Unit = static_cast<LengthUnit>(std::stoi(words[1]));
+  params.Tolerance = ExactNumber(words[2]);
   const auto contents = ReadCAD(file, params);
   return contents ? AppendCAD(contents.Value, found) : contents.Status;
 }
@@ -25,5 +26,5 @@ Status Read(const std::string& file, const Parts& options, Parts& found)
 
 int main(int argc, char* argv[])
 {
-  knotwork::RunWorker(argc, argv, Read);
+  knotwork::WorkerMain(argc, argv, Read);
 }

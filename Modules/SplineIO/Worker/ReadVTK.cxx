@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // usage: knotwork-read-vtk PARENT BYTES SECONDS FILE
-// Reads .vtu, .vtp, .vtpc and .vtk by VTK's readers for another process, see Worker.h.
+// Reads .vtu, .vtp, .vtpc and .vtk by VTK's readers for another process, see WorkerMain.h.
 #include "CellCheck.h"
 #include "DataParts.h"
 #include "Messages.h"
-#include "Worker.h"
+#include "WorkerMain.h"
 #include "XmlCheck.h"
 #include <knotwork/SplineCore/FileEnding.h>
 #include <knotwork/SplineGrid/InputChecks.h>
@@ -78,8 +78,13 @@ std::string Reason(std::string text, const std::string& file)
   return text.empty() || isOfVTK ? std::string() : " (" + text.substr(0, most) + ")";
 }
 
-Status Read(const std::string& file, const Parts&, Parts& found)
+Status Read(const Parts& words, const Parts&, Parts& found)
 {
+  if (words.size() != 1)
+  {
+    return { ErrorCode::InvalidParameter, "there is no file" };
+  }
+  const std::string& file = words[0];
   const std::string ending = LowerEnding(file);
   if (Status status = CheckXmlFile(file, ending); !status)
   {
@@ -112,5 +117,5 @@ Status Read(const std::string& file, const Parts&, Parts& found)
 
 int main(int argc, char* argv[])
 {
-  knotwork::RunWorker(argc, argv, Read);
+  knotwork::WorkerMain(argc, argv, Read);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Worker.h"
+#include "WorkerMain.h"
 
-#include "WorkerStatus.h"
+#include "../WorkerStatus.h"
 
 #include <cerrno>
 #include <cstdlib>
@@ -48,7 +48,9 @@ void DropCapabilities()
   syscall(SYS_capset, &header, data);
 }
 
-void Contain(pid_t parent, rlim_t memory, rlim_t cpuSeconds)
+}
+
+void ContainProcess(pid_t parent, rlim_t memory, rlim_t cpuSeconds, rlim_t written)
 {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) // it has ended before
@@ -60,14 +62,17 @@ void Contain(pid_t parent, rlim_t memory, rlim_t cpuSeconds)
   prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
   DropCapabilities();
   Limit(RLIMIT_CORE, 0);
-  Limit(RLIMIT_FSIZE, 0); // it writes no files
-  Limit(RLIMIT_CPU, cpuSeconds);
+  Limit(RLIMIT_FSIZE, written);
+  const rlimit cpu{ cpuSeconds, cpuSeconds + 1 }; // at the first it gets a signal that says why
+  setrlimit(RLIMIT_CPU, &cpu);
   if (!HasShadowMemory)
   {
     Limit(RLIMIT_DATA, memory);
   }
 }
 
+namespace
+{
 void WriteAll(const char* from, std::size_t bytes)
 {
   while (bytes > 0)
@@ -86,6 +91,40 @@ void WriteAll(const char* from, std::size_t bytes)
   }
 }
 
+void ReadAll(char* to, std::size_t bytes)
+{
+  while (bytes > 0)
+  {
+    const ssize_t count = read(WorkerDescriptor, to, bytes);
+    if (count < 0 && errno == EINTR)
+    {
+      continue;
+    }
+    if (count <= 0) // nobody waits any more
+    {
+      _exit(1);
+    }
+    to += count;
+    bytes -= static_cast<std::size_t>(count);
+  }
+}
+
+Parts ReadParts()
+{
+  Parts parts;
+  while (true)
+  {
+    std::uint64_t length = 0;
+    ReadAll(reinterpret_cast<char*>(&length), sizeof(length));
+    if (length == WorkerLastPart)
+    {
+      return parts;
+    }
+    std::string& part = parts.emplace_back(static_cast<std::size_t>(length), '\0');
+    ReadAll(part.data(), part.size());
+  }
+}
+
 void WritePart(const std::string& part)
 {
   const std::uint64_t length = part.size();
@@ -94,19 +133,19 @@ void WritePart(const std::string& part)
 }
 }
 
-void RunWorker(int argc, char* argv[],
-  const std::function<Status(const std::string& file, const Parts& options, Parts& found)>& read)
+void WorkerMain(int argc, char* argv[],
+  const std::function<Status(const Parts& words, const Parts& input, Parts& found)>& work)
 {
-  if (argc < 5)
+  if (argc < 4)
   {
     _exit(2);
   }
-  Contain(static_cast<pid_t>(std::atoi(argv[1])), std::strtoull(argv[2], nullptr, 10),
-    std::strtoull(argv[3], nullptr, 10));
+  ContainProcess(static_cast<pid_t>(std::atoi(argv[1])), std::strtoull(argv[2], nullptr, 10),
+    std::strtoull(argv[3], nullptr, 10), 0);
   try
   {
     Parts found;
-    const Status status = read(argv[4], Parts(argv + 5, argv + argc), found);
+    const Status status = work(Parts(argv + 4, argv + argc), ReadParts(), found);
     WritePart(std::to_string(static_cast<int>(status.Code)));
     WritePart(status.Detail);
     for (std::size_t i = 0; i < found.size() && status; ++i)
