@@ -31,8 +31,8 @@ protected:
   {
     vtkTable* table = this->Table(Numbers);
     ReportRow(table, 0,
-      { "Points", "Tetrahedra", "Regions", "BoundaryTriangles", "MinDihedralAngle",
-        "MaxDihedralAngle", "WorstRadiusEdgeRatio", "Volume", "SurfaceVolume" },
+      { "Points", "Tetrahedra", "Regions", "BoundaryTriangles", "SmallestDihedralAngle",
+        "LargestDihedralAngle", "WorstRadiusEdgeRatio", "Volume", "SurfaceVolume" },
       session.Report);
     ReportTruths(table, 0, { "Repaired" }, session.Report);
     ReportRow(table, 0,

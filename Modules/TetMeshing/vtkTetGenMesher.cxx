@@ -84,8 +84,8 @@ void EncodeNumbers(const SolidMesh& mesh, vtkTable* table)
   AddColumn(table, "Tetrahedra", static_cast<int>(mesh.Cells.size()));
   AddColumn(table, "Regions", mesh.NumRegions);
   AddColumn(table, "BoundaryTriangles", static_cast<int>(mesh.Boundary.size()));
-  AddColumn(table, "MinDihedralAngle", numbers.MinDihedral);
-  AddColumn(table, "MaxDihedralAngle", numbers.MaxDihedral);
+  AddColumn(table, "SmallestDihedralAngle", numbers.MinDihedral);
+  AddColumn(table, "LargestDihedralAngle", numbers.MaxDihedral);
   AddColumn(table, "WorstRadiusEdgeRatio", numbers.WorstRadiusEdgeRatio);
   AddColumn(table, "Volume", numbers.Volume);
   AddColumn(table, "SurfaceVolume", numbers.SurfaceVolume);

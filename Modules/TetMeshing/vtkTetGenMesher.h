@@ -51,7 +51,7 @@ public:
   vtkGetMacro(RadiusEdgeRatio, double);
   ///@}
   ///@{
-  /** Smallest angle between faces in degrees that is aimed at; 0: none. Default 0, valid range [0,
+  /** Smallest angle between faces in degrees that is aimed at; 0: none. Default 5, valid range [0,
    * 30]. */
   vtkSetClampMacro(MinDihedralAngle, double, 0.0, 30.0);
   vtkGetMacro(MinDihedralAngle, double);
@@ -132,7 +132,7 @@ private:
   void operator=(const vtkTetGenMesher&) = delete;
 
   double RadiusEdgeRatio = 2.0;
-  double MinDihedralAngle = 0.0;
+  double MinDihedralAngle = 5.0;
   double EdgeLength = 0.0;
   int MaxSteinerPoints = 1000000;
   bool KeepBoundary = true;

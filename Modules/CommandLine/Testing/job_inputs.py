@@ -147,6 +147,8 @@ def runs():
             (["intersections", FILE, "--table", "table.csv", "--output", polydata], "surface"),
             (["recognize", FILE, "--edges", "edges.vtp", "--regions", "table.csv", "--output", polydata], "mesh"),
             (["repair", FILE, "--allow-open", "--actions", "actions.vtp", "--output", polydata], "mesh"),
+            (["tetrahedralize", FILE, "--repair", "--boundary", "edges.vtp", "--output", grid], "mesh"),
+            (["boundary", FILE, "--output", polydata], "surface"),
             (["align", FILE, "--to", mesh, "--table", "table.csv", "--output", polydata], "points"),
             (["distance", FILE, mesh, "--both-ways", "--percentiles", "table.csv", "--model", "model.vtp", "--output", polydata], "points"),
             (["features", FILE, "--lines", "lines.vtp", "--corners", "corners.vtp", "--output", polydata], "mesh"),

@@ -11,7 +11,7 @@ struct TetrahedraParams
 {
   /// Radius of the circumsphere over the shortest edge at most, [1, 10]; 0: no bound.
   double RadiusEdgeRatio = 2.0;
-  double MinDihedralAngle = 0.0;  ///< degrees, [0, 30]; 0: no bound
+  double MinDihedralAngle = 5.0;  ///< degrees, [0, 30]; 0: no bound
   double MaxVolume = 0.0;         ///< of a tetrahedron, >= 0, cube of the points' unit; 0: no bound
   int MaxSteinerPoints = 1000000; ///< points that are added at most, >= 0
   bool KeepBoundary = true;       ///< triangles of the surface are not divided

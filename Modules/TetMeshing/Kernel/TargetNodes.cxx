@@ -18,7 +18,11 @@ namespace
 constexpr double SharpCosine = 0.94; ///< 20 degrees between normals: an edge that may be sharp
 constexpr double NearCurve = 0.25;   ///< of an edge's length: how far its curve may be
 constexpr double FarthestMove = 0.5; ///< of an edge's length
-constexpr int SamplesPerEdge = 4;    ///< intervals of the lattice of distances
+/// Barycentric coordinates at which distances are sampled: within, and at a quarter of each edge
+/// (of its other triangle at three).
+constexpr std::array<std::array<double, 3>, 7> SamplePlaces{ { { 1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0 },
+  { 0.5, 0.25, 0.25 }, { 0.25, 0.5, 0.25 }, { 0.25, 0.25, 0.5 }, { 0.75, 0.25, 0.0 },
+  { 0.0, 0.75, 0.25 }, { 0.25, 0.0, 0.75 } } };
 
 std::size_t At(int i)
 {
@@ -421,20 +425,15 @@ Result<double> FarthestFromTarget(const FitTarget& target,
   const std::vector<std::array<int, 3>>& boundary, const NodeLattice& lattice,
   const PointMatrix& points, int threads)
 {
-  constexpr int n = SamplesPerEdge;
-  constexpr int count = (n + 1) * (n + 2) / 2;
+  constexpr auto count = static_cast<Eigen::Index>(SamplePlaces.size());
   PointMatrix samples(static_cast<Eigen::Index>(boundary.size()) * count, 3);
   Eigen::Index row = 0;
   for (const auto& corners : boundary)
   {
     const CurvedTriangle triangle(lattice, points, corners);
-    for (int j = 0; j <= n; ++j)
+    for (const auto& place : SamplePlaces)
     {
-      for (int i = 0; i + j <= n; ++i)
-      {
-        samples.row(row++) = triangle({ static_cast<double>(n - i - j) / n,
-          static_cast<double>(i) / n, static_cast<double>(j) / n });
-      }
+      samples.row(row++) = triangle(place);
     }
   }
   TargetDistanceParams params;
