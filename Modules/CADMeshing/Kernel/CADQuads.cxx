@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
+#include <set>
 
 namespace knotwork
 {
@@ -76,6 +76,7 @@ private:
   Status FindRectangles();
   Status MeshFaces(const EdgeNodes& nodes, std::vector<int>& poor);
   Status MeshFace(int face, const EdgeNodes& nodes);
+  void Halve(int face, const EdgeNodes& nodes, std::vector<int>& wishes) const;
   CADQuads Join(const EdgeNodes& nodes) const;
   void Measure(CADQuads& made) const;
   Status Check(const CADQuads& made) const;
@@ -267,6 +268,43 @@ Status QuadMesher::MeshFaces(const EdgeNodes& nodes, std::vector<int>& poor)
     }
   }
   return {};
+}
+
+/// Wishes twice as many segments of the edges at a face's bad quadrilaterals, of all when it has
+/// none.
+void QuadMesher::Halve(int face, const EdgeNodes& nodes, std::vector<int>& wishes) const
+{
+  constexpr double Bad = 0.1;
+  const FaceQuads& quads = this->States[At(face)].Quads;
+  const std::vector<Eigen::Vector3d> normals = NormalsOf(this->Charts[At(face)], quads);
+  std::set<int> edges;
+  for (int q = 0; q < static_cast<int>(quads.Quads.size()); ++q)
+  {
+    if (ScaledJacobian(quads, normals, q) > Bad)
+    {
+      continue;
+    }
+    for (const int corner : quads.Quads[At(q)])
+    {
+      const int node = quads.Nodes[At(corner)];
+      if (node >= static_cast<int>(this->Model.Vertices.size()))
+      {
+        edges.insert(
+          static_cast<int>(std::upper_bound(nodes.First.begin(), nodes.First.end(), node) -
+            nodes.First.begin() - 1));
+      }
+    }
+  }
+  for (const auto& loop : this->Model.Faces[At(face)].Loops)
+  {
+    for (const CADTopologyUse& use : loop)
+    {
+      if (use.Edge >= 0 && (edges.empty() || edges.count(use.Edge) > 0))
+      {
+        wishes[At(use.Edge)] = 2 * nodes.Counts[At(use.Edge)];
+      }
+    }
+  }
 }
 
 CADQuads QuadMesher::Join(const EdgeNodes& nodes) const
@@ -521,20 +559,9 @@ Result<CADQuads> QuadMesher::Run()
       }
       return made;
     }
-    std::vector<bool> finer(this->Model.Edges.size(), false);
     for (const int face : poor)
     {
-      for (const auto& loop : this->Model.Faces[At(face)].Loops)
-      {
-        for (const CADTopologyUse& use : loop)
-        {
-          if (use.Edge >= 0 && !finer[At(use.Edge)])
-          {
-            finer[At(use.Edge)] = true;
-            wishes.Value[At(use.Edge)] = 2 * nodes.Counts[At(use.Edge)];
-          }
-        }
-      }
+      this->Halve(face, nodes, wishes.Value);
     }
   }
 }

@@ -33,28 +33,26 @@ public:
   {
     std::vector<int> polygon = std::move(loops.front());
     loops.erase(loops.begin());
+    std::vector<double> distances(loops.size(), std::numeric_limits<double>::infinity());
+    std::vector<int> joinedLast = polygon;
     while (!loops.empty())
     {
       std::size_t nearest = 0;
-      double least = std::numeric_limits<double>::infinity();
       for (std::size_t l = 0; l < loops.size(); ++l)
       {
-        for (const int a : polygon)
+        for (const int a : joinedLast)
         {
           for (const int b : loops[l])
           {
-            const double distance = this->Distance(a, b);
-            if (distance < least)
-            {
-              least = distance;
-              nearest = l;
-            }
+            distances[l] = std::min(distances[l], this->Distance(a, b));
           }
         }
+        nearest = distances[l] < distances[nearest] ? l : nearest;
       }
-      std::swap(loops[nearest], loops.back());
-      const std::vector<int> hole = std::move(loops.back());
-      loops.pop_back();
+      const std::vector<int> hole = std::move(loops[nearest]);
+      loops.erase(loops.begin() + static_cast<std::ptrdiff_t>(nearest));
+      distances.erase(distances.begin() + static_cast<std::ptrdiff_t>(nearest));
+      joinedLast = hole;
       const auto bridge = this->Find(polygon, hole, loops);
       if (!bridge)
       {
@@ -223,6 +221,10 @@ int Refinement::AddPoint(const Eigen::Vector2d& place, double size, bool fixed)
 
 double Refinement::LengthOf(int a, int b)
 {
+  if (this->Chart.IsPlane())
+  {
+    return (this->Points[At(a)] - this->Points[At(b)]).norm();
+  }
   const auto key = std::minmax(a, b);
   const auto [known, isNew] = this->Lengths.try_emplace(key, 0.0);
   if (isNew)
@@ -234,10 +236,13 @@ double Refinement::LengthOf(int a, int b)
 
 double Refinement::SizeAt(const Eigen::Vector2d& place, double size) const
 {
+  // towards the tip of a cone curvature grows without end
+  constexpr double Share = 0.25;
   size = std::min(size, this->Limits.Largest);
-  const double curvature = this->Chart.Curvature(place);
-  return curvature > 0.0 ? std::min(size, std::max(this->Limits.Curvature / curvature, 0.1 * size))
-                         : size;
+  const double curvature = this->Chart.IsPlane() ? 0.0 : this->Chart.Curvature(place);
+  const double limit = std::max(
+    curvature > 0.0 ? this->Limits.Curvature / curvature : size, Share * this->Limits.Largest);
+  return std::min(size, limit);
 }
 
 void Refinement::Connect()

@@ -55,12 +55,12 @@ Eigen::Vector3d FaceChart::Normal(const Eigen::Vector2d& place) const
 
 double FaceChart::Length(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const
 {
-  constexpr int Chords = 4;
+  const int chords = this->IsPlane() ? 1 : 4;
   double length = 0.0;
   Eigen::Vector3d before = this->Point(from);
-  for (int i = 1; i <= Chords; ++i)
+  for (int i = 1; i <= chords; ++i)
   {
-    const Eigen::Vector3d next = this->Point(from + (to - from) * i / Chords);
+    const Eigen::Vector3d next = this->Point(from + (to - from) * i / chords);
     length += (next - before).norm();
     before = next;
   }

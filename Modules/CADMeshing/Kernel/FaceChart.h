@@ -17,6 +17,7 @@ public:
   FaceChart(const CADTopology& model, int face);
 
   int Face() const { return this->Index; }
+  bool IsPlane() const { return this->Model->Faces[static_cast<std::size_t>(this->Index)].IsPlane; }
   Eigen::Vector2d FromParameters(const Eigen::Vector2d& parameters) const
   {
     return parameters.cwiseProduct(this->Scale);

@@ -261,17 +261,32 @@ void Halving::CollapsePoles(std::vector<std::array<int, 3>>& triangles)
   triangles = std::move(left);
 }
 
+/// Scaled Jacobian of the corners, with sides towards their middles, where loops bend.
 double Halving::Quality(const std::array<int, 4>& corners) const
 {
-  FaceQuads one;
-  std::vector<Eigen::Vector3d> normals;
-  for (const int corner : corners)
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  std::array<Eigen::Vector3d, 4> middles;
+  for (std::size_t i = 0; i < 4; ++i)
   {
-    one.Points.push_back(this->Mesh.Points[At(corner)]);
-    normals.push_back(this->Normals[At(corner)]);
+    const int a = corners[i];
+    const int b = corners[(i + 1) % 4];
+    const auto given = this->LoopMiddles.find(std::minmax(a, b));
+    middles[i] = given == this->LoopMiddles.end()
+      ? Eigen::Vector3d(0.5 * (this->Mesh.Points[At(a)] + this->Mesh.Points[At(b)]))
+      : this->Chart.Point(given->second.Place);
+    normal += this->Normals[At(a)];
   }
-  one.Quads = { { 0, 1, 2, 3 } };
-  return ScaledJacobian(one, normals, 0);
+  normal.normalize();
+  double least = 1.0;
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    const Eigen::Vector3d& here = this->Mesh.Points[At(corners[i])];
+    const Eigen::Vector3d next = middles[i] - here;
+    const Eigen::Vector3d before = middles[(i + 3) % 4] - here;
+    const double lengths = next.norm() * before.norm();
+    least = std::min(least, lengths > 0.0 ? next.cross(before).dot(normal) / lengths : -1.0);
+  }
+  return least;
 }
 
 /// The best pairs first.

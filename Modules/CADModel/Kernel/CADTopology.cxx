@@ -398,6 +398,7 @@ Status CADTopology::Shapes::AddFace(
   BRepBndLib::Add(face, box, false);
   shape.Size = box.IsVoid() ? 0.0 : std::sqrt(box.SquareExtent());
   shape.Adaptor = std::make_shared<GeomAdaptor_Surface>(shape.Surface);
+  made.IsPlane = shape.Adaptor->GetType() == GeomAbs_Plane;
   const int index = static_cast<int>(model.Faces.size());
   this->FacesOfEdges[edges].push_back(index);
   model.Bodies[static_cast<std::size_t>(body)].Sides.push_back({ index, false });

@@ -33,6 +33,7 @@ struct CADTopologyFace
   std::vector<int> Ids;    ///< of ReadCAD; two where two solids share the face
   std::vector<int> Bodies; ///< one an id
   bool Reversed = false;   ///< its normal, outward of the first body, is that of -du x dv
+  bool IsPlane = false;
   std::string Name;
 };
 
