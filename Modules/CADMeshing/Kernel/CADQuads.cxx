@@ -5,6 +5,8 @@
 #include "FaceQuads.h"
 #include <knotwork/SplineCore/SizeLimit.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -15,6 +17,7 @@ namespace knotwork
 namespace
 {
 constexpr double Pi = 3.14159265358979323846;
+constexpr int CoarseSegments = 8; ///< of the grid that tells what a mapped face needs
 
 std::size_t At(int i)
 {
@@ -74,6 +77,8 @@ public:
 private:
   Result<std::vector<int>> Wishes() const;
   Status FindRectangles();
+  FaceQuads CoarseGrid(int face) const;
+  void RaiseWishes(const RectangleFace& rectangle, std::vector<int>& wishes) const;
   Status MeshFaces(const EdgeNodes& nodes, std::vector<int>& poor);
   Status MeshFace(int face, const EdgeNodes& nodes);
   void Halve(int face, const EdgeNodes& nodes, std::vector<int>& wishes) const;
@@ -153,6 +158,84 @@ Status QuadMesher::FindRectangles()
     this->CornersOfFaces[At(face)] = corners;
   }
   return {};
+}
+
+/// A grid of CoarseSegments segments along every side of a rectangle.
+FaceQuads QuadMesher::CoarseGrid(int face) const
+{
+  const auto& uses = this->Model.Faces[At(face)].Loops.front();
+  const auto& corners = this->CornersOfFaces[At(face)];
+  const auto n = static_cast<int>(uses.size());
+  const FaceChart& chart = this->Charts[At(face)];
+  ChartLoop loop;
+  for (std::size_t side = 0; side < 4; ++side)
+  {
+    double length = 0.0;
+    std::vector<int> ofSide;
+    for (int use = corners[side]; use != corners[(side + 1) % 4]; use = (use + 1) % n)
+    {
+      ofSide.push_back(use);
+      length += this->Model.Edges[At(uses[At(use)].Edge)].Length;
+    }
+    double begin = 0.0;
+    std::size_t at = 0;
+    for (int i = 0; i < CoarseSegments; ++i)
+    {
+      const double here = length * i / CoarseSegments;
+      const auto lengthOf = [&] { return this->Model.Edges[At(uses[At(ofSide[at])].Edge)].Length; };
+      while (at + 1 < ofSide.size() && begin + lengthOf() <= here)
+      {
+        begin += lengthOf();
+        ++at;
+      }
+      ChartPoint point;
+      point.Place = chart.FromParameters(
+        this->Model.UseParameters(face, 0, ofSide[at], std::min(1.0, (here - begin) / lengthOf())));
+      loop.push_back(point);
+    }
+  }
+  return MapRectangle(chart, loop, { 0, CoarseSegments, 2 * CoarseSegments, 3 * CoarseSegments });
+}
+
+/// Lines of a grid may be longer and turn more than the sides that they run along.
+void QuadMesher::RaiseWishes(const RectangleFace& rectangle, std::vector<int>& wishes) const
+{
+  const FaceQuads grid = this->CoarseGrid(rectangle.Face);
+  const std::vector<Eigen::Vector3d> normals = NormalsOf(this->Charts[At(rectangle.Face)], grid);
+  for (std::size_t direction = 0; direction < 2; ++direction)
+  {
+    const int along = direction == 0 ? 1 : CoarseSegments + 1;
+    const int across = direction == 0 ? CoarseSegments + 1 : 1;
+    double need = 0.0;
+    for (int line = 0; line <= CoarseSegments; ++line)
+    {
+      double length = 0.0;
+      double turning = 0.0;
+      for (int i = 0; i < CoarseSegments; ++i)
+      {
+        const auto a = At(line * across + i * along);
+        const auto b = a + At(along);
+        length += (grid.Points[b] - grid.Points[a]).norm();
+        turning += std::atan2(normals[a].cross(normals[b]).norm(), normals[a].dot(normals[b]));
+      }
+      need = std::max({ need, length / this->EdgeLength - 0.5,
+        turning / (this->Params.Curvature / 180.0 * Pi) - 1e-6 });
+    }
+    for (const std::size_t side : { direction, direction + 2 })
+    {
+      double sum = 0.0;
+      for (const int edge : rectangle.Sides[side])
+      {
+        sum += wishes[At(edge)];
+      }
+      for (const int edge : rectangle.Sides[side])
+      {
+        const double raised = std::ceil(wishes[At(edge)] * need / sum - 1e-9);
+        wishes[At(edge)] = std::max(
+          wishes[At(edge)], static_cast<int>(std::min<double>(raised, this->Params.MaxQuads)));
+      }
+    }
+  }
 }
 
 Status QuadMesher::MeshFace(int face, const EdgeNodes& nodes)
@@ -342,6 +425,11 @@ CADQuads QuadMesher::Join(const EdgeNodes& nodes) const
       }
     }
     const bool turned = this->Model.Faces[At(face)].Reversed;
+    const std::vector<Eigen::Vector3d> normals = NormalsOf(this->Charts[At(face)], state.Quads);
+    for (int q = 0; q < static_cast<int>(state.Quads.Quads.size()); ++q)
+    {
+      made.ScaledJacobians.push_back(ScaledJacobian(state.Quads, normals, q));
+    }
     for (const auto& quad : state.Quads.Quads)
     {
       std::array<int, 4> corners{};
@@ -514,6 +602,10 @@ Result<CADQuads> QuadMesher::Run()
   if (Status found = this->FindRectangles(); !found)
   {
     return found;
+  }
+  for (const RectangleFace& rectangle : this->Rectangles)
+  {
+    this->RaiseWishes(rectangle, wishes.Value);
   }
   this->Failures.resize(this->Model.Faces.size());
   for (int round = 0;; ++round)

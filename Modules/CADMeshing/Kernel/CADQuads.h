@@ -36,8 +36,9 @@ struct CADFaceQuads
 struct CADQuads
 {
   CADMesh Mesh;
-  std::vector<int> Divisions;      ///< of edges
-  std::vector<CADFaceQuads> Faces; ///< one a face of the model
+  std::vector<double> ScaledJacobians; ///< of quadrilaterals: smallest sine of their angles
+  std::vector<int> Divisions;          ///< of edges
+  std::vector<CADFaceQuads> Faces;     ///< one a face of the model
   int EulerNumber = 0;
   bool Closed = false; ///< no edge of the mesh has one quadrilateral only
   int ExtraordinaryPoints =
