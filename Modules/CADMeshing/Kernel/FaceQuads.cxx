@@ -137,7 +137,8 @@ private:
   std::vector<std::vector<int>> Join(const std::vector<std::array<int, 3>>& triangles) const;
   int AddMiddle(const std::vector<int>& corners);
   int MiddleOf(int a, int b);
-  double Quality(const std::array<int, 4>& corners) const;
+  template <std::size_t N>
+  double Quality(const std::array<int, N>& corners) const;
 
   const FaceChart& Chart;
   std::vector<ChartLoop> HalfLoops;
@@ -262,14 +263,15 @@ void Halving::CollapsePoles(std::vector<std::array<int, 3>>& triangles)
 }
 
 /// Scaled Jacobian of the corners, with sides towards their middles, where loops bend.
-double Halving::Quality(const std::array<int, 4>& corners) const
+template <std::size_t N>
+double Halving::Quality(const std::array<int, N>& corners) const
 {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  std::array<Eigen::Vector3d, 4> middles;
-  for (std::size_t i = 0; i < 4; ++i)
+  std::array<Eigen::Vector3d, N> middles;
+  for (std::size_t i = 0; i < N; ++i)
   {
     const int a = corners[i];
-    const int b = corners[(i + 1) % 4];
+    const int b = corners[(i + 1) % N];
     const auto given = this->LoopMiddles.find(std::minmax(a, b));
     middles[i] = given == this->LoopMiddles.end()
       ? Eigen::Vector3d(0.5 * (this->Mesh.Points[At(a)] + this->Mesh.Points[At(b)]))
@@ -278,29 +280,35 @@ double Halving::Quality(const std::array<int, 4>& corners) const
   }
   normal.normalize();
   double least = 1.0;
-  for (std::size_t i = 0; i < 4; ++i)
+  for (std::size_t i = 0; i < N; ++i)
   {
     const Eigen::Vector3d& here = this->Mesh.Points[At(corners[i])];
     const Eigen::Vector3d next = middles[i] - here;
-    const Eigen::Vector3d before = middles[(i + 3) % 4] - here;
+    const Eigen::Vector3d before = middles[(i + N - 1) % N] - here;
     const double lengths = next.norm() * before.norm();
     least = std::min(least, lengths > 0.0 ? next.cross(before).dot(normal) / lengths : -1.0);
   }
   return least;
 }
 
-/// The best pairs first.
+/// The best pairs first, those before them whose triangles are bad by themselves.
 std::vector<std::vector<int>> Halving::Join(const std::vector<std::array<int, 3>>& triangles) const
 {
-  constexpr double Least = 0.35; ///< scaled Jacobian; worse ones stay triangles
+  constexpr double Least = 0.35; ///< scaled Jacobian; worse ones stay triangles that are better
+  constexpr double Good = 0.5;
   struct Pair
   {
-    double Quality;
+    double Gain;
     std::array<int, 2> Triangles;
     std::array<int, 4> Corners;
   };
   std::map<Side, std::pair<int, int>> open;
   std::vector<Pair> pairs;
+  std::vector<double> alone;
+  for (const auto& triangle : triangles)
+  {
+    alone.push_back(this->Quality(triangle));
+  }
   for (int t = 0; t < static_cast<int>(triangles.size()); ++t)
   {
     for (int i = 0; i < 3; ++i)
@@ -316,15 +324,17 @@ std::vector<std::vector<int>> Halving::Join(const std::vector<std::array<int, 3>
       }
       const std::array<int, 4> corners{ a, other->second.second, b, apex };
       const double quality = this->Quality(corners);
-      if (quality > Least)
+      const double apart = std::min(alone[At(t)], alone[At(other->second.first)]);
+      if (quality > std::min(Least, apart))
       {
-        pairs.push_back({ quality, { other->second.first, t }, corners });
+        pairs.push_back(
+          { quality + 2.0 * (Good - std::min(Good, apart)), { other->second.first, t }, corners });
       }
     }
   }
   std::sort(pairs.begin(), pairs.end(),
     [](const Pair& a, const Pair& b)
-    { return a.Quality != b.Quality ? a.Quality > b.Quality : a.Triangles < b.Triangles; });
+    { return a.Gain != b.Gain ? a.Gain > b.Gain : a.Triangles < b.Triangles; });
   std::vector<bool> taken(triangles.size(), false);
   std::vector<std::vector<int>> cells;
   for (const Pair& pair : pairs)
