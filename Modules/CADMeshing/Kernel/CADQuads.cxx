@@ -665,6 +665,10 @@ Result<CADQuads> MeshQuads(const CADTopology& model, const CADQuadsParams& param
   {
     return valid;
   }
+  if (model.Faces.empty())
+  {
+    return { ErrorCode::EmptyInput, "the model has no faces" };
+  }
   try
   {
     return QuadMesher(model, params).Run();

@@ -52,7 +52,7 @@ struct CADQuads
 /// triangulated, joined and divided to quadrilaterals. Inner points are moved on the surface until
 /// the corners are good. Edges of faces where that fails are divided into twice as many, at most
 /// three times.
-/// @return InvalidParameter; TooLarge; InvalidTopology: a face that is not mapped where all must
-/// be, or that cannot be meshed, naming it; Aborted.
+/// @return InvalidParameter; EmptyInput: no faces; TooLarge; InvalidTopology: a face that is not
+/// mapped where all must be, or that cannot be meshed, naming it; Aborted.
 Result<CADQuads> MeshQuads(const CADTopology& model, const CADQuadsParams& params = {});
 }

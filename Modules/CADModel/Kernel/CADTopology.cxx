@@ -19,7 +19,6 @@
 #include <GCPnts_AbscissaPoint.hxx>
 #include <GeomAPI_ProjectPointOnSurf.hxx>
 #include <GeomAdaptor_Surface.hxx>
-#include <GeomLProp_SLProps.hxx>
 #include <IGESCAFControl_Reader.hxx>
 #include <IntTools_Context.hxx>
 #include <STEPCAFControl_Reader.hxx>
@@ -508,11 +507,31 @@ Eigen::Vector3d CADTopology::FaceNormal(int face, const Eigen::Vector2d& paramet
 
 double CADTopology::FaceCurvature(int face, const Eigen::Vector2d& parameters) const
 {
-  GeomLProp_SLProps properties(this->Impl->Faces[static_cast<std::size_t>(face)].Surface,
-    parameters[0], parameters[1], 2, 1e-12);
-  return properties.IsCurvatureDefined()
-    ? std::max(std::abs(properties.MaxCurvature()), std::abs(properties.MinCurvature()))
-    : 0.0;
+  gp_Pnt point;
+  gp_Vec u;
+  gp_Vec v;
+  gp_Vec uu;
+  gp_Vec vv;
+  gp_Vec uv;
+  this->Impl->Faces[static_cast<std::size_t>(face)].Adaptor->D2(
+    parameters[0], parameters[1], point, u, v, uu, vv, uv);
+  const Eigen::Vector3d normal = ToEigen(u).cross(ToEigen(v));
+  const double e = u.Dot(u);
+  const double f = u.Dot(v);
+  const double g = v.Dot(v);
+  const double area = e * g - f * f;
+  if (!(area > 1e-12 * std::max(e, g) * std::max(e, g)))
+  {
+    return 0.0;
+  }
+  // coefficients of the second fundamental form
+  const Eigen::Vector3d unit = normal / normal.norm();
+  const double l = ToEigen(uu).dot(unit);
+  const double m = ToEigen(uv).dot(unit);
+  const double n = ToEigen(vv).dot(unit);
+  const double mean = (e * n - 2.0 * f * m + g * l) / (2.0 * area);
+  const double gauss = (l * n - m * m) / area;
+  return std::abs(mean) + std::sqrt(std::max(0.0, mean * mean - gauss));
 }
 
 CADPlace CADTopology::Project(
