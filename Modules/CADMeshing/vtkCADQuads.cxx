@@ -2,6 +2,7 @@
 #include "vtkCADQuads.h"
 
 #include <knotwork/CADMeshing/CADQuads.h>
+#include <knotwork/CADModel/CADTopology.h>
 #include <knotwork/SplineGrid/TableRow.h>
 
 #include "vtkCellArray.h"

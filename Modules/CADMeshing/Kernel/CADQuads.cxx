@@ -188,7 +188,7 @@ FaceQuads QuadMesher::CoarseGrid(int face) const
         begin += lengthOf();
         ++at;
       }
-      ChartPoint point;
+      LoopPoint point;
       point.Place = chart.FromParameters(
         this->Model.UseParameters(face, 0, ofSide[at], std::min(1.0, (here - begin) / lengthOf())));
       loop.push_back(point);
@@ -255,7 +255,7 @@ Status QuadMesher::MeshFace(int face, const EdgeNodes& nodes)
   std::vector<int> loopNodes;
   for (const ChartLoop& loop : loops)
   {
-    for (const ChartPoint& point : loop)
+    for (const LoopPoint& point : loop)
     {
       loopNodes.push_back(point.Node);
     }
@@ -286,7 +286,7 @@ Status QuadMesher::MeshFace(int face, const EdgeNodes& nodes)
       const ChartLoop& loop = loops.front();
       corners.push_back(
         static_cast<int>(std::find_if(loop.begin(), loop.end(),
-                           [&](const ChartPoint& point) { return point.Use == use; }) -
+                           [&](const LoopPoint& point) { return point.Use == use; }) -
           loop.begin()));
     }
     state.Quads = MapRectangle(chart, loops.front(), corners);

@@ -368,7 +368,7 @@ Status Refinement::Begin(const std::vector<ChartLoop>& loops)
   for (const ChartLoop& loop : loops)
   {
     ids.emplace_back();
-    for (const ChartPoint& point : loop)
+    for (const LoopPoint& point : loop)
     {
       ids.back().push_back(this->AddPoint(point.Place, 0.0, true));
     }

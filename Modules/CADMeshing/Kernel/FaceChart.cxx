@@ -108,7 +108,7 @@ std::vector<ChartLoop> ChartLoops(
       const int count = use.Edge < 0 ? 1 : nodes.Counts[static_cast<std::size_t>(use.Edge)];
       for (int i = 0; i < count; ++i)
       {
-        ChartPoint point;
+        LoopPoint point;
         point.Place = chart.FromParameters(model.UseParameters(
           chart.Face(), static_cast<int>(l), static_cast<int>(u), static_cast<double>(i) / count));
         point.Node =

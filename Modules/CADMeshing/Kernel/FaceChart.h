@@ -44,7 +44,7 @@ private:
 };
 
 /// A point of a face's boundary in its chart.
-struct ChartPoint
+struct LoopPoint
 {
   Eigen::Vector2d Place;
   int Node = 0;            ///< of the mesh
@@ -53,7 +53,7 @@ struct ChartPoint
   bool BeginsPole = false; ///< the next point is the same in space
 };
 
-using ChartLoop = std::vector<ChartPoint>;
+using ChartLoop = std::vector<LoopPoint>;
 
 /// Points of the model's edges: those of vertices come first, then those inside of edges.
 struct EdgeNodes

@@ -142,9 +142,9 @@ private:
 
   const FaceChart& Chart;
   std::vector<ChartLoop> HalfLoops;
-  std::map<Side, ChartPoint> LoopMiddles; ///< by ids of corners
-  std::map<Side, int> Poles;              ///< sides that are a point, and the parameter they run in
-  std::map<int, int> PoleDirections;      ///< of their ends
+  std::map<Side, LoopPoint> LoopMiddles; ///< by ids of corners
+  std::map<Side, int> Poles;             ///< sides that are a point, and the parameter they run in
+  std::map<int, int> PoleDirections;     ///< of their ends
   FaceQuads Mesh;
   std::vector<Eigen::Vector3d> Normals;
   std::map<Side, int> Middles; ///< points
@@ -157,7 +157,7 @@ Halving::Halving(const FaceChart& chart, const std::vector<ChartLoop>& loops) : 
   for (const ChartLoop& loop : loops)
   {
     ChartLoop half;
-    std::vector<ChartPoint> between; ///< behind each point of half
+    std::vector<LoopPoint> between; ///< behind each point of half
     std::size_t i = 0;
     while (i < loop.size())
     {
@@ -358,10 +358,10 @@ std::vector<std::vector<int>> Halving::Join(const std::vector<std::array<int, 3>
 
 FaceQuads Halving::Make(const ChartTriangles& given)
 {
-  std::vector<const ChartPoint*> loopPoints;
+  std::vector<const LoopPoint*> loopPoints;
   for (const ChartLoop& loop : this->HalfLoops)
   {
-    for (const ChartPoint& point : loop)
+    for (const LoopPoint& point : loop)
     {
       loopPoints.push_back(&point);
     }
