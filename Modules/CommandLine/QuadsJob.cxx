@@ -14,7 +14,7 @@ class QuadsJob : public FilterJob<vtkCADQuads>
 public:
   explicit QuadsJob(CLI::App& app) : FilterJob(app)
   {
-    app.add_option("part", this->Part, "CAD part (.step .stp .iges .igs .brep)")->required();
+    this->AddFile("part", "CAD part (.step .stp .iges .igs .brep)");
     this->AddOutput(0, "--output", Endings::Polygons, "the quadrilaterals");
     this->AddOutput(FaceTable, "--face-table", Endings::Table, "numbers of every face");
     this->AddProperties();
@@ -23,9 +23,8 @@ public:
 protected:
   Status Prepare(Session& session) override
   {
-    session.Report["input"] = this->Part;
-    this->Filter->SetFileName(this->Part.c_str());
-    return session.Files.CheckInput(this->Part);
+    this->Filter->SetFileName(this->FileToRead().c_str());
+    return session.Files.CheckInput(this->FileToRead());
   }
 
   Status AddNumbers(Session& session) override
@@ -55,7 +54,6 @@ protected:
 private:
   static constexpr int Numbers = 1;
   static constexpr int FaceTable = 2;
-  std::string Part;
 };
 
 const JobRegistration Registration{ "quads",
