@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace knotwork
 {
@@ -143,8 +144,8 @@ private:
   const FaceChart& Chart;
   std::vector<ChartLoop> HalfLoops;
   std::map<Side, LoopPoint> LoopMiddles; ///< by ids of corners
-  std::map<Side, int> Poles;             ///< sides that are a point, and the parameter they run in
-  std::map<int, int> PoleDirections;     ///< of their ends
+  std::set<Side> Poles;                  ///< sides that are a point
+  std::map<int, int> PoleDirections;     ///< of their ends: the parameter that the pole runs in
   FaceQuads Mesh;
   std::vector<Eigen::Vector3d> Normals;
   std::map<Side, int> Middles; ///< points
@@ -176,7 +177,7 @@ Halving::Halving(const FaceChart& chart, const std::vector<ChartLoop>& loops) : 
       }
       const Eigen::Vector2d way = (half[At((k + 1) % n)].Place - half[At(k)].Place).cwiseAbs();
       const int direction = way[0] > way[1] ? 0 : 1;
-      this->Poles[side] = direction;
+      this->Poles.insert(side);
       this->PoleDirections[side.first] = direction;
       this->PoleDirections[side.second] = direction;
     }
