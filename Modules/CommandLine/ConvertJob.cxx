@@ -160,7 +160,7 @@ Job Make(CLI::App& app)
   auto job = std::make_shared<ConvertJob>();
   app
     .add_option("input", job->Input,
-      "spline grid, skeleton or points (.vtu .vtp .vtpc .vtk .xml .g2 .bext .mesh .step .iges .xyz "
+      "spline grid, skeleton or points (.vtu .vtp .vtpc .vtk .xml .g2 .bext .mesh .msh .inp .step .iges .xyz "
       ".txt .csv)")
     ->required();
   AddOutput(app, "--output", job->Output, Endings::Anything,

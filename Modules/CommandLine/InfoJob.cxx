@@ -204,7 +204,7 @@ Job Make(CLI::App& app)
   auto job = std::make_shared<InfoJob>();
   app
     .add_option("input", job->Input,
-      "spline grid or points (.vtu .vtpc .vtk .xml .g2 .bext .mesh .step .iges .xyz .txt .csv .ply "
+      "spline grid or points (.vtu .vtpc .vtk .xml .g2 .bext .mesh .msh .inp .step .iges .xyz .txt .csv .ply "
       ".vtp)")
     ->required();
   return [job](Session& session) { return job->Run(session); };
