@@ -228,9 +228,10 @@ const std::vector<FileFormat>& FileFormats()
     { "BEXT", { ".bext" }, Elements, Elements, false, readOperators, writeOperators },
     { "JSON of BEXT or of the boundary of a domain", { ".json" }, Elements | BoundaryContent,
       Elements, false, ReadJson, writeOperators },
-    { "MFEM mesh", { ".mesh" }, SplineCurveContent | Cells, 0, false, readMesh, nullptr },
-    { "Gmsh mesh", { ".msh" }, CellContent | GridContent, CellContent | GridContent, false,
-      readElements, WriteMesh },
+    { "MFEM mesh", { ".mesh" }, SplineCurveContent | Cells, GridContent, false, readMesh,
+      WriteMesh },
+    { "Gmsh mesh", { ".msh" }, CellContent | GridContent, GridContent, false, readElements,
+      WriteMesh },
     { "Abaqus input", { ".inp" }, CellContent | GridContent, 0, false, readElements, nullptr },
   };
   return formats;

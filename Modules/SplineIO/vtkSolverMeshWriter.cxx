@@ -7,6 +7,7 @@
 #include <knotwork/SplineCore/FileEnding.h>
 #include <knotwork/SplineGrid/FilterErrorCode.h>
 #include <knotwork/SplineIO/GmshMesh.h>
+#include <knotwork/SplineIO/MfemWriter.h>
 
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"
@@ -35,16 +36,27 @@ knotwork::Status vtkSolverMeshWriter::MakeText(std::string& text)
   {
     return { ErrorCode::InvalidParameter, "there is no file name" };
   }
-  if (LowerEnding(this->FileName) != ".msh")
+  const std::string ending = LowerEnding(this->FileName);
+  if (ending != ".msh" && ending != ".mesh")
   {
     return { ErrorCode::InvalidParameter,
-      std::string("'") + this->FileName + "': meshes of Gmsh are written as .msh" };
+      std::string("'") + this->FileName + "': meshes are written as .msh .mesh" };
   }
   const Result<ElementMesh> mesh =
     DecodeElements(vtkUnstructuredGrid::SafeDownCast(this->GetInput()));
   if (!mesh)
   {
     return mesh.Status;
+  }
+  if (ending == ".mesh")
+  {
+    Result<MfemText> made = WriteMfemMesh(mesh.Value);
+    for (const std::string& part : made->LeftOut)
+    {
+      vtkWarningMacro("left out: " << part);
+    }
+    text = std::move(made->Text);
+    return made.Status;
   }
   Result<std::string> made = WriteGmshMesh(mesh.Value, this->Binary);
   text = std::move(made.Value);

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkSolverMeshWriter
- * @brief   cells to Gmsh MSH 4.1 files
+ * @brief   cells to meshes of Gmsh (MSH 4.1) and MFEM
  *
  * Input: a vtkUnstructuredGrid of linear, quadratic and Lagrange cells of one degree in all
  * directions, with the arrays that vtkSolverMeshReader gives them: numbers, groups with their names
  * and entities are written; without `PhysicalGroup` the cell array `Attribute` is taken. What is
- * written is read again bit for bit. Errors: no cells (EmptyInput), cells that Gmsh does not have
- * (InvalidTopology, InvalidParameter), a coordinate that is not finite (NonFiniteInput), another
- * ending (InvalidParameter), a file that cannot be written.
+ * written as .msh is read again bit for bit. A mesh of MFEM (MfemWriter.h) has groups as
+ * attributes, and elements that have nodes of their own. Errors: no cells (EmptyInput), cells that
+ * the format does not have (InvalidTopology, InvalidParameter), a coordinate that is not finite
+ * (NonFiniteInput), another ending (InvalidParameter), a file that cannot be written.
  */
 #ifndef vtkSolverMeshWriter_h
 #define vtkSolverMeshWriter_h
@@ -26,12 +27,12 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /** The file to write: .msh. */
+  /** The file to write: .msh (Gmsh) or .mesh (MFEM). */
   vtkSetFilePathMacro(FileName);
   vtkGetFilePathMacro(FileName);
   ///@}
   ///@{
-  /** Whether numbers are binary: smaller and faster to read. Default on. */
+  /** Whether numbers of Gmsh's files are binary: smaller and faster to read. Default on. */
   vtkSetMacro(Binary, bool);
   vtkGetMacro(Binary, bool);
   vtkBooleanMacro(Binary, bool);

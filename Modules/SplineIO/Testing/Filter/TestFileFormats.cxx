@@ -55,5 +55,5 @@ TEST(FileFormats, EndingsFollowTheContent_ExactOracle)
     ".json .mesh .msh .inp");
   EXPECT_EQ(
     JoinEndings(EndingsThatRead(PointContent)), ".vtp .xyz .txt .csv .g2 .stl .obj .ply .off");
-  EXPECT_EQ(writing(GridContent), ".vtu .msh");
+  EXPECT_EQ(writing(GridContent), ".vtu .mesh .msh");
 }
