@@ -176,7 +176,8 @@ Job Make(CLI::App& app)
       ".iges .xyz "
       ".txt .csv)")
     ->required();
-  AddOutput(app, "--output", job->Output, Endings::Anything,
+  AddOutput(app, "--output", job->Output,
+    Endings::Writing(SplineGridContent | SplineCollectionContent | PointContent | GridContent),
     "the same data (.vtu .vtp .vtpc .xml .g2 .bext .json .step .iges, points .xyz .txt .csv .g2, "
     "meshes .msh .mesh)")
     ->required();

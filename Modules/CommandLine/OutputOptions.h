@@ -25,7 +25,7 @@ inline std::string Writing(unsigned contents)
 }
 inline const std::string Any;
 inline const std::string Anything =
-  Writing(SplineGridContent | SplineCollectionContent | PointContent | GridContent);
+  Writing(SplineGridContent | SplineCollectionContent | PointContent);
 inline const std::string Cells = Writing(PolygonContent | PolygonCollectionContent | CellContent);
 inline const std::string Contours = Writing(PolylineContent | SplineCurveContent);
 inline const std::string Grid = Writing(GridContent);
