@@ -3,10 +3,8 @@
 
 #include <knotwork/SplineGrid/NamedArray.h>
 
-#include "vtkCell.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
-#include "vtkCellTypes.h"
 #include "vtkFieldData.h"
 #include "vtkGenericCell.h"
 #include "vtkIdTypeArray.h"
@@ -294,11 +292,9 @@ private:
       [type](const CellRow& one) { return one.Type == type; });
     if (row == std::end(CellRows))
     {
-      const char* name = vtkCellTypes::GetClassNameFromTypeId(type);
       return { ErrorCode::InvalidTopology,
-        "cell " + std::to_string(cell) + " is a " + (name ? name : "cell") + " (type " +
-          std::to_string(type) +
-          "), which meshes of solvers do not have; write linear, quadratic or Lagrange cells" };
+        "cell " + std::to_string(cell) + " has VTK's cell type " + std::to_string(type) +
+          ", which meshes of solvers do not have; write linear, quadratic or Lagrange cells" };
     }
     kind.Shape = row->Shape;
     kind.IsComplete = row->IsComplete;
