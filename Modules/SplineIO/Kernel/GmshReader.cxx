@@ -225,7 +225,7 @@ private:
     cursor.CheckRoom("nodes", count, 4);
     for (std::int64_t i = 0; i < count && cursor.Outcome; ++i)
     {
-      this->AddNode(cursor.Int("the number of a node"));
+      this->AddNode(cursor.Int("the number of a node", 0));
       this->AddCoordinates();
     }
   }
@@ -345,7 +345,7 @@ private:
     while (done < count && cursor.Outcome)
     {
       // text: number, type, tags; binary: type, how many, how many tags, then number and tags
-      std::int64_t number = this->IsBinary ? 0 : cursor.Int("the number of an element");
+      std::int64_t number = this->IsBinary ? 0 : cursor.Int("the number of an element", 0);
       const int type = cursor.Int("the type of an element");
       const std::int64_t size = this->IsBinary ? cursor.Int("the number of elements", 1) : 1;
       const int tags = cursor.Int("the number of tags", 0, 100000);
@@ -357,7 +357,7 @@ private:
       }
       for (std::int64_t i = 0; i < size && cursor.Outcome; ++i)
       {
-        number = this->IsBinary ? cursor.Int("the number of an element") : number;
+        number = this->IsBinary ? cursor.Int("the number of an element", 0) : number;
         int group = 0;
         int entity = 0;
         for (int t = 0; t < tags && cursor.Outcome; ++t)

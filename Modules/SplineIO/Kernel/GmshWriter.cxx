@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <set>
 
 namespace knotwork
 {
@@ -131,11 +132,12 @@ private:
     std::map<std::array<int, 3>, int> rows; // of dimension, entity, list of groups
     std::map<std::pair<int, int>, int> taken;
     std::array<int, 4> next{ 1, 1, 1, 1 };
+    std::array<std::set<int>, 4> all; // numbers that elements state
     const bool known = !this->Mesh.Entities.empty();
     for (std::size_t e = 0; known && e < this->Mesh.KindOf.size(); ++e)
     {
-      int& most = next[static_cast<std::size_t>(DimensionOf(this->Kind(e).Shape))];
-      most = std::max(most, std::min(this->Mesh.Entities[e], 2147483000) + 1);
+      all[static_cast<std::size_t>(DimensionOf(this->Kind(e).Shape))].insert(
+        this->Mesh.Entities[e]);
     }
     for (std::size_t e = 0; e < this->Mesh.KindOf.size(); ++e)
     {
@@ -150,6 +152,10 @@ private:
         Entity entity;
         const bool isFree =
           stated > 0 && taken.emplace(std::make_pair(dimension, stated), 0).second;
+        while (!isFree && all[d].count(next[d]) != 0)
+        {
+          ++next[d];
+        }
         entity.Number = isFree ? stated : next[d]++;
         entity.GroupList = list;
         entity.Lower.fill(std::numeric_limits<double>::max());

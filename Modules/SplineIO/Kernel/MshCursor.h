@@ -116,7 +116,7 @@ public:
   /// An 8 byte unsigned integer in binary data.
   std::int64_t Size(const char* meaning)
   {
-    constexpr std::int64_t most = 9223372036854775806;
+    constexpr std::int64_t most = std::int64_t{ 1 } << 62U;
     return this->IsBinary ? this->InRange(this->Raw<std::int64_t>(meaning), meaning, 0, most)
                           : this->TextInteger(meaning, 0, most);
   }
