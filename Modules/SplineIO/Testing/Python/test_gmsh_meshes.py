@@ -79,10 +79,10 @@ def test_verdicts_agree_with_gmsh():
     try:
         gmsh.option.setNumber("General.Terminal", 0)
         cases = [(shape, order) for shape in ("ball", "disc", "hexahedra", "quadrilaterals") for order in (1, 2, 3, 4)]
-        cases += [("wedges", 1), ("wedges", 2), ("hexahedra", 2), ("quadrilaterals", 2)]
+        cases += [("wedges", 1), ("wedges", 2), ("disc", 5), ("ball", 5)]
         folded = 0
         for number, (shape, order) in enumerate(cases):
-            dimension = meshed(shape, order, incomplete=number >= 16 and order == 2)
+            dimension = meshed(shape, order, incomplete=number == 17)  # Gmsh has no bounds for hexahedra of 20 nodes
             if number % 2 == 1:
                 fold(dimension, random)
             least = least_jacobians(dimension)
