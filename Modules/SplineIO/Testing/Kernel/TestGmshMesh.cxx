@@ -253,8 +253,52 @@ TEST(GmshMesh, ElementsOfOneEntityInOtherGroupsGetEntitiesOfTheirOwn)
   ASSERT_TRUE(text);
   const auto again = ReadGmshMesh(text.Value);
   ASSERT_TRUE(again) << again.Status.Message();
-  EXPECT_EQ(again->Entities, (std::vector<int>{ 2, 3, 4 }));
+  EXPECT_EQ(again->Entities, (std::vector<int>{ 2, 3, 1 }));
   EXPECT_EQ(
     again->GroupLists[static_cast<std::size_t>(again->GroupListOf[1])], std::vector<int>{ 5 });
   EXPECT_TRUE(again->GroupLists[static_cast<std::size_t>(again->GroupListOf[2])].empty());
+}
+
+TEST(GmshMesh, NodesOfEveryTypeFillItsLattice)
+{
+  // type, nodes of a complete element by Gmsh's manual, and three of its nodes with their places
+  struct Type
+  {
+    int Number;
+    std::size_t Nodes;
+    std::vector<std::pair<std::size_t, std::array<int, 3>>> Places;
+  };
+  const std::vector<Type> types = { { 1, 2, {} }, { 8, 3, { { 2, { 1, 0, 0 } } } }, { 26, 4, {} },
+    { 27, 5, {} }, { 28, 6, {} }, { 2, 3, {} }, { 9, 6, { { 5, { 0, 1, 0 } } } },
+    { 21, 10, { { 9, { 1, 1, 0 } } } }, { 23, 15, { { 12, { 1, 1, 0 } } } }, { 25, 21, {} },
+    { 3, 4, {} }, { 10, 9, { { 8, { 1, 1, 0 } } } }, { 36, 16, { { 14, { 2, 2, 0 } } } },
+    { 37, 25, {} }, { 38, 36, {} }, { 16, 8, { { 7, { 0, 1, 0 } } } }, { 4, 4, {} },
+    { 11, 10, { { 8, { 0, 1, 1 } }, { 9, { 1, 0, 1 } } } }, // Gmsh's last two are not VTK's
+    { 29, 20, { { 16, { 1, 1, 0 } }, { 19, { 1, 1, 1 } } } }, { 30, 35, { { 34, { 1, 1, 1 } } } },
+    { 31, 56, {} }, { 5, 8, {} }, { 12, 27, { { 26, { 1, 1, 1 } }, { 9, { 0, 1, 0 } } } },
+    { 92, 64, {} }, { 93, 125, {} }, { 94, 216, {} }, { 17, 20, { { 19, { 1, 2, 2 } } } },
+    { 6, 6, {} }, { 13, 18, { { 8, { 0, 0, 1 } } } }, { 18, 15, {} }, { 7, 5, {} },
+    { 19, 13, { { 7, { 0, 0, 1 } } } } };
+  for (const Type& type : types)
+  {
+    std::string text =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" + std::to_string(type.Nodes) + "\n";
+    std::string element = "1 " + std::to_string(type.Number) + " 2 0 1";
+    for (std::size_t i = 1; i <= type.Nodes; ++i)
+    {
+      text += std::to_string(i) + " 0 0 0\n";
+      element += " " + std::to_string(i);
+    }
+    const auto mesh =
+      ReadGmshMesh(text + "$EndNodes\n$Elements\n1\n" + element + "\n$EndElements\n");
+    ASSERT_TRUE(mesh) << type.Number << mesh.Status.Message();
+    auto places = mesh->Kinds[0].Places;
+    EXPECT_EQ(places.size(), type.Nodes) << type.Number;
+    for (const auto& [node, place] : type.Places)
+    {
+      EXPECT_EQ(places.at(node), place) << type.Number << ", node " << node;
+    }
+    std::sort(places.begin(), places.end());
+    EXPECT_EQ(std::unique(places.begin(), places.end()), places.end()) << type.Number;
+  }
 }
