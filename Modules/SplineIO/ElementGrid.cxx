@@ -202,9 +202,12 @@ Status AddSets(const ElementMesh& mesh, vtkUnstructuredGrid* grid)
 std::vector<std::int64_t> NumbersOf(vtkDataArray* array, vtkIdType count)
 {
   std::vector<std::int64_t> numbers;
+  auto* exact = vtkIdTypeArray::SafeDownCast(array); // components as doubles have 53 bits
+  exact = exact && exact->GetNumberOfComponents() == 1 ? exact : nullptr;
   for (vtkIdType i = 0; array && array->GetNumberOfTuples() == count && i < count; ++i)
   {
-    numbers.push_back(static_cast<std::int64_t>(array->GetComponent(i, 0)));
+    numbers.push_back(
+      exact ? exact->GetValue(i) : static_cast<std::int64_t>(array->GetComponent(i, 0)));
   }
   return numbers;
 }
