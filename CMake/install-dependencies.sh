@@ -12,7 +12,7 @@ packages=(
   # kernels
   libeigen3-dev libtbb-dev libpugixml-dev libboost-dev libsuitesparse-dev libopenblas0-serial
   libocct-data-exchange-dev libocct-modeling-algorithms-dev libocct-ocaf-dev
-  libcgal-dev
+  libcgal-dev libtet1.5-dev
   # filters, command line, Python
   libvtk9-dev python3-vtk9 python3-dev libcli11-dev nlohmann-json3-dev
   # ParaView plugin

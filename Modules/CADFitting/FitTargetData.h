@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Targets from datasets, private to the module.
+// Targets from datasets.
 #pragma once
+#include "vtkKnotworkCADFittingModule.h" // for export macro
 #include <knotwork/CADFitting/FitTarget.h>
 #include <knotwork/MeshParameterization/TriangleMesh.h>
 
@@ -35,7 +36,7 @@ Result<std::vector<int>> ParseNumbers(
 /// faces with the curves that they carry, volumes, whose boundary is the target.
 /// @return EmptyInput for a dataset without faces; InvalidParameter for groups that are no numbers
 /// of faces; Aborted; the errors of the decoders and of the targets.
-Result<FitTargetPtr> DecodeFitTarget(
+VTKKNOTWORKCADFITTING_EXPORT Result<FitTargetPtr> DecodeFitTarget(
   vtkDataObject* data, const FitTargetOptions& options, int threads);
 
 /// @param box  bounds as VTK orders them, in which the surface is sampled.

@@ -4,6 +4,7 @@
 #include <knotwork/CADModel/CADExchange.h>
 #include <knotwork/SplineCore/FileEnding.h>
 #include <knotwork/SplineGrid/SplineModel.h>
+#include <knotwork/SplineIO/FileFormats.h>
 
 #include <CLI/CLI.hpp>
 #include <vtkNew.h>
@@ -88,6 +89,17 @@ struct ConvertJob
     return status;
   }
 
+  /// From or to a solver's mesh, whose cells are no splines.
+  bool CarriesMesh() const
+  {
+    const FileFormat* from = FormatOfEnding(LowerEnding(this->Input));
+    const FileFormat* to = FormatOfEnding(LowerEnding(this->Output));
+    const auto isMesh = [](unsigned contents)
+    { return (contents & GridContent) != 0 && (contents & SplineGridContent) == 0; };
+    return from && to && (to->Writes & GridContent) != 0 &&
+      (isMesh(from->Reads) || isMesh(to->Writes));
+  }
+
   Status Convert(Session& session)
   {
     const bool writesCurves = HasCADEnding(this->Input) || LowerEnding(this->Input) == ".g2";
@@ -117,7 +129,7 @@ struct ConvertJob
     {
       return status;
     }
-    if (!vtkPolyData::SafeDownCast(data))
+    if (!vtkPolyData::SafeDownCast(data) && !this->CarriesMesh())
     {
       // a decoded model written again has its attributes tagged and its schema complete
       Result<SplineModel> model = DecodeSplineModel(data, session.Threads);
@@ -160,15 +172,18 @@ Job Make(CLI::App& app)
   auto job = std::make_shared<ConvertJob>();
   app
     .add_option("input", job->Input,
-      "spline grid, skeleton or points (.vtu .vtp .vtpc .vtk .xml .g2 .bext .mesh .step .iges .xyz "
+      "spline grid, skeleton or points (.vtu .vtp .vtpc .vtk .xml .g2 .bext .mesh .msh .inp .step "
+      ".iges .xyz "
       ".txt .csv)")
     ->required();
-  AddOutput(app, "--output", job->Output, Endings::Anything,
-    "the same data (.vtu .vtp .vtpc .xml .g2 .bext .json .step .iges, points .xyz .txt .csv .g2)")
+  AddOutput(app, "--output", job->Output,
+    Endings::Writing(SplineGridContent | SplineCollectionContent | PointContent | GridContent),
+    "the same data (.vtu .vtp .vtpc .xml .g2 .bext .json .step .iges, points .xyz .txt .csv .g2, "
+    "meshes .msh .mesh)")
     ->required();
   app.add_option("--curves", job->Curves,
     "trimming curves (.vtu): written when the input is STEP, IGES or g2, else read");
-  app.add_option("--encoding", job->Encoding, "how numbers are written in .vtu .vtp .vtpc")
+  app.add_option("--encoding", job->Encoding, "how numbers are written in .vtu .vtp .vtpc .msh")
     ->check(CLI::IsMember({ "ascii", "binary", "appended" }))
     ->capture_default_str();
   return [job](Session& session) { return job->Run(session); };

@@ -45,6 +45,11 @@ void FilterJobBase::AddTableInput(int port, const char* name, const char* help)
   this->Inputs.back().IsTable = true;
 }
 
+void FilterJobBase::AddFile(const char* name, const char* help)
+{
+  this->AddInput(NoPort, name, help, "", "input");
+}
+
 CLI::Option* FilterJobBase::AddOutput(
   int port, const char* name, const std::string& endings, const char* help)
 {
@@ -105,7 +110,7 @@ Status FilterJobBase::ReadInputs(Session& session)
 {
   for (const File& input : this->Inputs)
   {
-    if (input.Name.empty())
+    if (input.Name.empty() || input.Port == NoPort)
     {
       continue;
     }

@@ -42,6 +42,11 @@ protected:
     int port, const char* name, const char* help, const char* joint = "", const char* key = "");
   /// The same of a table, which may be text in columns.
   void AddTableInput(int port, const char* name, const char* help);
+  /// A file that the filter reads itself, and that must be given: it is named in the report and in
+  /// messages.
+  void AddFile(const char* name, const char* help);
+  /// What AddFile's option names.
+  const std::string& FileToRead() const { return this->InputFile(NoPort); }
   /// A file that a port is written to. --output must be given, others need not.
   CLI::Option* AddOutput(int port, const char* name, const std::string& endings, const char* help);
   /// What --output names is written by another port.
@@ -75,6 +80,7 @@ protected:
   int DecisivePort = 0; ///< no points or rows in this output are an error
 
 private:
+  static constexpr int NoPort = -1; ///< of files that the filter reads itself
   struct File
   {
     int Port;

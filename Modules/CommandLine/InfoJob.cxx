@@ -2,19 +2,25 @@
 #include "Jobs.h"
 #include "Session.h"
 #include <knotwork/SplineCore/ExplicitSpace.h>
+#include <knotwork/SplineCore/FileEnding.h>
 #include <knotwork/SplineCore/LRDependence.h>
 #include <knotwork/SplineCore/SpaceFamily.h>
 #include <knotwork/SplineGrid/SplineModel.h>
+#include <knotwork/SplineIO/FileFormats.h>
 #include <knotwork/SplineIO/OneLine.h>
 
 #include <CLI/CLI.hpp>
+#include <vtkFieldData.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkStringArray.h>
+#include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <iostream>
+#include <map>
 #include <memory>
 
 namespace knotwork
@@ -84,7 +90,7 @@ struct InfoJob
   std::string Input;
 
   /// Says how many points there are, where, and what they carry.
-  Status DescribePoints(Session& session, vtkPolyData* points)
+  Status DescribePoints(Session& session, vtkPointSet* points)
   {
     std::array<double, 6> box{};
     points->GetBounds(box.data());
@@ -113,6 +119,39 @@ struct InfoJob
     return {};
   }
 
+  /// Whether the file is a mesh of a solver, whose cells are no splines.
+  bool IsMesh() const
+  {
+    const FileFormat* format = FormatOfEnding(LowerEnding(this->Input));
+    return format && (format->Reads & GridContent) != 0 && (format->Reads & SplineGridContent) == 0;
+  }
+
+  Status DescribeMesh(Session& session, vtkUnstructuredGrid* mesh)
+  {
+    std::map<int, vtkIdType> types;
+    for (vtkIdType c = 0; c < mesh->GetNumberOfCells(); ++c)
+    {
+      ++types[mesh->GetCellType(c)];
+    }
+    std::cout << mesh->GetNumberOfCells() << " cells";
+    for (const auto& [type, count] : types)
+    {
+      std::cout << ", " << count << " of VTK's type " << type;
+    }
+    std::vector<std::string> groups;
+    auto* names =
+      vtkStringArray::SafeDownCast(mesh->GetFieldData()->GetAbstractArray("PhysicalGroupNames"));
+    for (vtkIdType i = 0; names && i < names->GetNumberOfValues(); ++i)
+    {
+      groups.push_back(names->GetValue(i));
+      std::cout << ", group " << OneLine(groups.back());
+    }
+    std::cout << "\n";
+    session.Report["cells"] = mesh->GetNumberOfCells();
+    session.Report["groups"] = groups;
+    return this->DescribePoints(session, mesh);
+  }
+
   Status Run(Session& session)
   {
     auto input = session.Read(this->Input);
@@ -123,6 +162,11 @@ struct InfoJob
     if (vtkPolyData* points = vtkPolyData::SafeDownCast(input.Value))
     {
       return this->DescribePoints(session, points);
+    }
+    auto* mesh = vtkUnstructuredGrid::SafeDownCast(input.Value);
+    if (mesh && this->IsMesh())
+    {
+      return this->DescribeMesh(session, mesh);
     }
     Result<SplineModel> model = DecodeSplineModel(input.Value, session.Threads);
     if (!model)
@@ -204,7 +248,8 @@ Job Make(CLI::App& app)
   auto job = std::make_shared<InfoJob>();
   app
     .add_option("input", job->Input,
-      "spline grid or points (.vtu .vtpc .vtk .xml .g2 .bext .mesh .step .iges .xyz .txt .csv .ply "
+      "spline grid, mesh or points (.vtu .vtpc .vtk .xml .g2 .bext .mesh .msh .inp .step .iges "
+      ".xyz .txt .csv .ply "
       ".vtp)")
     ->required();
   return [job](Session& session) { return job->Run(session); };

@@ -32,6 +32,42 @@ int ExitStatus(const nlohmann::ordered_json& report)
   return verdict == "undecided" ? UndecidedStatus : 0;
 }
 
+constexpr std::size_t MostNamed = 100;
+
+/// Numbers in their file of cells that are not valid: of the folded ones, or of all where all are
+/// reversed.
+std::vector<long long> ElementsNotValid(vtkUnstructuredGrid* grid, bool reversed)
+{
+  std::vector<long long> elements;
+  vtkDataArray* numbers = grid->GetCellData()->GetArray("ElementNumber");
+  vtkDataArray* verdicts = grid->GetCellData()->GetArray("JacobianVerdict");
+  vtkDataArray* turned = grid->GetCellData()->GetArray("JacobianReversed");
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells() && elements.size() < MostNamed; ++c)
+  {
+    if (verdicts->GetComponent(c, 0) < 0 && (turned->GetComponent(c, 0) != 0) == reversed)
+    {
+      elements.push_back(static_cast<long long>(numbers->GetComponent(c, 0)));
+    }
+  }
+  return elements;
+}
+
+/// ": element 17 is folded", as the file numbers them.
+std::string FoldedSentence(const nlohmann::ordered_json& report)
+{
+  constexpr std::size_t most = 5;
+  const auto& elements = report["folded_elements"];
+  std::string text;
+  for (std::size_t i = 0; i < elements.size() && i < most; ++i)
+  {
+    text += (i == 0 ? "" : ", ") + std::to_string(elements[i].get<long long>());
+  }
+  const auto count = report["invalid_cells"].get<std::size_t>();
+  return text.empty() ? ""
+    : count == 1      ? ": element " + text + " is folded"
+                      : ": elements " + text + (count > most ? ", ..." : "") + " are folded";
+}
+
 /// Both verdicts, and the reason where the second is neither yes nor without meaning.
 std::string Sentence(const nlohmann::ordered_json& report)
 {
@@ -42,12 +78,20 @@ std::string Sentence(const nlohmann::ordered_json& report)
     why.precision(3);
     why << ": " << report["undecided_reason"].get<std::string>() << " (cell "
         << report["undecided_cell"].get<int>();
+    if (report.contains("undecided_element"))
+    {
+      why << ", element " << report["undecided_element"].get<long long>();
+    }
     if (report["rounding"].get<double>() > 0.0)
     {
       why << ", det J down to " << report["min_jacobian_upper"].get<double>()
           << "; coordinates exact to " << report["rounding"].get<double>() << " would decide";
     }
     text += why.str() + ")";
+  }
+  if (text == "invalid" && report.contains("folded_elements"))
+  {
+    text += FoldedSentence(report);
   }
   const std::string injective = report.value("injective", "not_applicable");
   if (injective == "injective")
@@ -69,8 +113,8 @@ class ValidateJob : public FilterJob<vtkJacobianValidator>
 public:
   explicit ValidateJob(CLI::App& app) : FilterJob(app)
   {
-    this->AddInput(
-      0, "input", "grid of Bezier, Lagrange, linear or quadratic cells (.vtu .vtpc .vtk .mesh)");
+    this->AddInput(0, "input",
+      "grid of Bezier, Lagrange, linear or quadratic cells (.vtu .vtpc .vtk .mesh .msh .inp)");
     this
       ->AddOutput(
         0, "--output", Endings::Splines, "the grid with verdicts and bounds as cell arrays")
@@ -146,12 +190,36 @@ protected:
         static_cast<long long>(witnesses->GetCellData()->GetArray("CellId")->GetTuple1(0));
       report["witness_parameters"] = std::vector<double>{ u[0], u[1], u[2] };
     }
+    auto* grid = vtkUnstructuredGrid::SafeDownCast(this->Filter->GetOutputDataObject(0));
+    if (grid && grid->GetCellData()->GetArray("ElementNumber"))
+    {
+      this->NameElements(grid, report);
+    }
     session.ExitStatus = ExitStatus(report);
     if (!session.Quiet)
     {
       std::cout << Sentence(report) << "\n";
     }
     return {};
+  }
+
+private:
+  /// By their numbers in the file that they were read from.
+  static void NameElements(vtkUnstructuredGrid* grid, nlohmann::ordered_json& report)
+  {
+    vtkDataArray* numbers = grid->GetCellData()->GetArray("ElementNumber");
+    const auto name = [&](const char* cell, const char* element)
+    {
+      if (report.contains(cell) && !report[cell].is_null())
+      {
+        report[element] =
+          static_cast<long long>(numbers->GetComponent(report[cell].get<vtkIdType>(), 0));
+      }
+    };
+    name("undecided_cell", "undecided_element");
+    name("witness_cell", "witness_element");
+    report["folded_elements"] = ElementsNotValid(grid, false);
+    report["reversed_elements"] = ElementsNotValid(grid, true);
   }
 };
 

@@ -308,6 +308,9 @@ void ShowWitnesses(const knotwork::BernsteinCells& cells,
   kinds->SetName("Kind");
   output->Allocate(static_cast<vtkIdType>(2 * certificate.Witnesses.size() + 2));
 
+  vtkNew<vtkIdTypeArray> elements; // in the file, where cells know
+  elements->SetName("ElementNumber");
+  bool haveNumbers = false;
   const auto addPoint = [&](int cell, const std::array<double, 3>& at)
   {
     double x[3] = {};
@@ -326,6 +329,10 @@ void ShowWitnesses(const knotwork::BernsteinCells& cells,
     blocks->InsertNextValue(owner.Block);
     patches->InsertNextValue(PatchOf(owner.Input, local));
     uppers->InsertNextValue(upper);
+    vtkDataArray* numbers = owner.Input->GetCellData()->GetArray("ElementNumber");
+    haveNumbers = haveNumbers || numbers;
+    elements->InsertNextValue(
+      numbers ? static_cast<vtkIdType>(numbers->GetComponent(local, 0)) : -1);
   };
   for (const knotwork::JacobianWitness& witness : certificate.Witnesses)
   {
@@ -361,6 +368,10 @@ void ShowWitnesses(const knotwork::BernsteinCells& cells,
   output->GetCellData()->AddArray(blocks);
   output->GetCellData()->AddArray(patches);
   output->GetCellData()->AddArray(uppers);
+  if (haveNumbers)
+  {
+    output->GetCellData()->AddArray(elements);
+  }
 }
 
 /// What a row of the table says.

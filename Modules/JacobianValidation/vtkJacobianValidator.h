@@ -23,12 +23,12 @@
  * active scalars, of cells and points, so that it is what is drawn. Output 1
  * (vtkUnstructuredGrid) has for every invalid cell a vertex at a point where det J <= 0 is proved
  * and the sub-box of the cell around it, with the cell arrays `CellId` (of its grid), `Block`,
- * `PatchId`, `JacobianUpper` and `Kind` (one of WitnessKinds) and the point array
- * `LocalParameters`; an overlap of a map that is not injective is two vertices. Output 2 is a table
- * with a row a patch (column `PatchId`; one row when cells have no `PatchId`) and a last row, with
- * `PatchId` -1, for all together. `UndecidedCell` and `UndecidedReason` are of the first undecided
- * cell, `Rounding` is the length to which coordinates must be exact to decide cells of
- * JacobianLimit
+ * `PatchId`, `JacobianUpper` and `Kind` (one of WitnessKinds), `ElementNumber` where the input has
+ * it, and the point array `LocalParameters`; an overlap of a map that is not injective is two
+ * vertices. Output 2 is a table with a row a patch (column `PatchId`; one row when cells have no
+ * `PatchId`) and a last row, with `PatchId` -1, for all together. `UndecidedCell` and
+ * `UndecidedReason` are of the first undecided cell, `Rounding` is the length to which coordinates
+ * must be exact to decide cells of JacobianLimit
  * 4. The last row also has the verdict on global injectivity (`Injective`: "injective",
  * "injective_up_to_seam", "not_injective", "undecided", and "not_applicable" when there are only
  * surfaces and curves in space; `InjectivityReason`) and on the interfaces of the patches

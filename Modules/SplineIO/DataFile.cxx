@@ -33,7 +33,7 @@ namespace
 unsigned ContentsOf(vtkDataObject* data)
 {
   return vtkPolyData::SafeDownCast(data)      ? PointContent | PolylineContent | PolygonContent
-    : vtkUnstructuredGrid::SafeDownCast(data) ? SplineGridContent
+    : vtkUnstructuredGrid::SafeDownCast(data) ? SplineGridContent | GridContent
     : vtkPartitionedDataSetCollection::SafeDownCast(data)
     ? SplineCollectionContent | PolygonCollectionContent
     : vtkImageData::SafeDownCast(data) ? ImageContent
@@ -52,6 +52,10 @@ const FileFormat* FormatFor(vtkDataObject* data, const std::string& ending)
 Status CheckSplines(vtkDataObject* data, const std::string& file, const FileFormat& format,
   bool asCurves, int threads)
 {
+  if ((format.Writes & SplineGridContent) == 0)
+  {
+    return {}; // meshes: the writer knows its cells
+  }
   const bool isCAD = (format.Writes & SplineCurveContent) == 0;
   const bool takesElements = (format.Writes & SplineElementContent) != 0;
   const auto refuse = [&file](const std::string& reason)

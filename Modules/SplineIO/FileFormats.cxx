@@ -17,6 +17,8 @@
 #include "vtkMFEMReader.h"
 #include "vtkPointCloudReader.h"
 #include "vtkPointCloudWriter.h"
+#include "vtkSolverMeshReader.h"
+#include "vtkSolverMeshWriter.h"
 #include <knotwork/SplineCore/FileEnding.h>
 #include <knotwork/SplineCore/FileOutput.h>
 #include <knotwork/SplineGrid/FilterErrorCode.h>
@@ -136,6 +138,15 @@ Status WritePointText(vtkDataObject* data, const std::string& file, const DataFi
                                       : WriteWith<vtkPointCloudWriter>(data, file, params);
 }
 
+Status WriteMesh(vtkDataObject* data, const std::string& file, const DataFileParams& params)
+{
+  vtkNew<vtkSolverMeshWriter> writer;
+  writer->SetFileName(file.c_str());
+  writer->SetInputDataObject(data);
+  writer->SetBinary(params.Encoding != "ascii");
+  return Outcome(writer);
+}
+
 Status WritePolygons(vtkDataObject* data, const std::string& file, const DataFileParams&)
 {
   const auto text = PolygonText(data, LowerEnding(file));
@@ -188,6 +199,7 @@ const std::vector<FileFormat>& FileFormats()
   constexpr auto readOperators = ReadWith<vtkBEXTReader>;
   constexpr auto writeOperators = WriteWith<vtkBEXTWriter>;
   constexpr auto readMesh = ReadWith<vtkMFEMReader>;
+  constexpr auto readElements = ReadWith<vtkSolverMeshReader>;
   // name, endings, what is read, what is written, whether VTK serves it, reader, writer
   static const std::vector<FileFormat> formats = {
     { "VTK polygons", { ".vtp" }, Lines, Lines | CellContent, true, ReadOfVTK, WriteOfVTK },
@@ -216,7 +228,11 @@ const std::vector<FileFormat>& FileFormats()
     { "BEXT", { ".bext" }, Elements, Elements, false, readOperators, writeOperators },
     { "JSON of BEXT or of the boundary of a domain", { ".json" }, Elements | BoundaryContent,
       Elements, false, ReadJson, writeOperators },
-    { "MFEM mesh", { ".mesh" }, SplineCurveContent | Cells, 0, false, readMesh, nullptr },
+    { "MFEM mesh", { ".mesh" }, SplineCurveContent | Cells, GridContent, false, readMesh,
+      WriteMesh },
+    { "Gmsh mesh", { ".msh" }, CellContent | GridContent, GridContent, false, readElements,
+      WriteMesh },
+    { "Abaqus input", { ".inp" }, CellContent | GridContent, 0, false, readElements, nullptr },
   };
   return formats;
 }

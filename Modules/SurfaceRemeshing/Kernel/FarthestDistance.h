@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far triangles are from a surface at most, private to the kernel.
+// How far triangles are from a surface at most.
 #pragma once
 #include <knotwork/SplineCore/TriangleIndex.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Edges, fans and parts of triangles as they come, private to the kernel.
+// Edges, fans and parts of triangles as they come.
 #pragma once
 #include <knotwork/MeshParameterization/TriangleMesh.h>
 #include <knotwork/SplineCore/TriangleIndex.h>

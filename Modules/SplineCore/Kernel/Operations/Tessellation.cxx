@@ -288,6 +288,12 @@ Status FinishTessellation(const std::vector<BezierForm<Dim>>& patches,
     mesh.Shapes.push_back(shape);
     mesh.CellPatch.push_back(soup.CellPatch[c]);
     mesh.CellElement.push_back(soup.CellElement[c]);
+    if (Dim == 3 && polygons)
+    {
+      const VertexUse& use = soup.Uses[At(corners.front())];
+      const int fixed = 3 - use.Tangents[0] - use.Tangents[1];
+      mesh.CellSide.push_back(2 * fixed + (use.Local[At(fixed)] > 0.5 ? 1 : 0));
+    }
   }
   return {};
 }

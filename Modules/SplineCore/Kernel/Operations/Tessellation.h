@@ -54,6 +54,8 @@ struct TessellationMesh
   std::vector<std::int64_t> Connectivity;
   std::vector<int> CellPatch;
   std::vector<int> CellElement;
+  /// Of the surface of solids the side of the element, 2 direction + end; else empty.
+  std::vector<int> CellSide;
   /// Proven upper bound of the chordal deviation; above the tolerance only where
   /// MaximumSubdivision stopped the halving.
   double Bound = 0.0;

@@ -52,8 +52,8 @@ TEST(FileFormats, EndingsFollowTheContent_ExactOracle)
   EXPECT_EQ(JoinEndings(EndingsThatRead(AnyContent)),
     ".vtp .vtu .vtpc .vtk .xml .xyz .txt .csv .g2 .step .stp .iges .igs .brep .stl .obj .ply .off "
     ".bext "
-    ".json .mesh");
+    ".json .mesh .msh .inp");
   EXPECT_EQ(
     JoinEndings(EndingsThatRead(PointContent)), ".vtp .xyz .txt .csv .g2 .stl .obj .ply .off");
-  EXPECT_EQ(writing(GridContent), ".vtu");
+  EXPECT_EQ(writing(GridContent), ".vtu .mesh .msh");
 }

@@ -1,0 +1,581 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FaceQuads.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace knotwork
+{
+namespace
+{
+constexpr double Pi = 3.14159265358979323846;
+
+std::size_t At(int i)
+{
+  return static_cast<std::size_t>(i);
+}
+
+int AddPoint(FaceQuads& mesh, const Eigen::Vector2d& place, const Eigen::Vector3d& point, int node)
+{
+  mesh.Places.push_back(place);
+  mesh.Points.push_back(point);
+  mesh.Nodes.push_back(node);
+  return static_cast<int>(mesh.Points.size()) - 1;
+}
+
+/// Angle inside of a face where a use of its outer loop begins, on the surface.
+double InnerAngle(const CADTopology& model, const FaceChart& chart, int use)
+{
+  constexpr double Near = 1e-3; ///< share of an edge
+  const int face = chart.Face();
+  const auto n = static_cast<int>(model.Faces[At(face)].Loops.front().size());
+  const auto placeOf = [&](int of, double share)
+  { return chart.FromParameters(model.UseParameters(face, 0, of, share)); };
+  const Eigen::Vector3d here = chart.Point(placeOf(use, 0.0));
+  const Eigen::Vector3d next = chart.Point(placeOf(use, Near)) - here;
+  const Eigen::Vector3d before = chart.Point(placeOf((use + n - 1) % n, 1.0 - Near)) - here;
+  const Eigen::Vector3d normal = chart.Normal(placeOf(use, 0.0));
+  const double angle = std::atan2(next.cross(before).dot(normal), next.dot(before));
+  return angle < 0.0 ? angle + 2.0 * Pi : angle;
+}
+}
+
+std::vector<int> RectangleCorners(const CADTopology& model, const FaceChart& chart)
+{
+  // between these a corner of the rectangle, or a point of a side
+  constexpr double Least = 40.0 / 180.0 * Pi;
+  constexpr double Most = 140.0 / 180.0 * Pi;
+  constexpr double MostStraight = 220.0 / 180.0 * Pi;
+  const auto& loops = model.Faces[At(chart.Face())].Loops;
+  std::vector<int> corners;
+  if (loops.size() != 1)
+  {
+    return corners;
+  }
+  for (int use = 0; use < static_cast<int>(loops.front().size()); ++use)
+  {
+    const double angle = loops.front()[At(use)].Edge < 0 ? 0.0 : InnerAngle(model, chart, use);
+    if (angle < Least || angle > MostStraight)
+    {
+      return {};
+    }
+    if (angle < Most)
+    {
+      corners.push_back(use);
+    }
+  }
+  return corners.size() == 4 ? corners : std::vector<int>();
+}
+
+FaceQuads MapRectangle(
+  const FaceChart& chart, const ChartLoop& loop, const std::vector<int>& corners)
+{
+  const auto n = static_cast<int>(loop.size());
+  const int columns = corners[1] - corners[0];
+  const int rows = corners[2] - corners[1];
+  const auto pointOf = [&](int i, int j)
+  {
+    const int at = j == 0 ? i
+      : i == columns      ? columns + j
+      : j == rows         ? columns + rows + (columns - i)
+                          : 2 * columns + rows + (rows - j);
+    return loop[At((corners[0] + at) % n)];
+  };
+  const auto placeOf = [&](int i, int j) { return pointOf(i, j).Place; };
+  FaceQuads mesh;
+  for (int j = 0; j <= rows; ++j)
+  {
+    for (int i = 0; i <= columns; ++i)
+    {
+      const bool side = i == 0 || j == 0 || i == columns || j == rows;
+      Eigen::Vector2d place;
+      if (side)
+      {
+        place = placeOf(i, j);
+      }
+      else
+      {
+        const double s = static_cast<double>(i) / columns;
+        const double t = static_cast<double>(j) / rows;
+        place = (1.0 - t) * placeOf(i, 0) + t * placeOf(i, rows) + (1.0 - s) * placeOf(0, j) +
+          s * placeOf(columns, j) -
+          ((1.0 - s) * (1.0 - t) * placeOf(0, 0) + s * (1.0 - t) * placeOf(columns, 0) +
+            (1.0 - s) * t * placeOf(0, rows) + s * t * placeOf(columns, rows));
+      }
+      AddPoint(mesh, place, chart.Point(place), side ? pointOf(i, j).Node : -1);
+    }
+  }
+  for (int j = 0; j < rows; ++j)
+  {
+    for (int i = 0; i < columns; ++i)
+    {
+      const int a = j * (columns + 1) + i;
+      mesh.Quads.push_back({ a, a + 1, a + columns + 2, a + columns + 1 });
+    }
+  }
+  return mesh;
+}
+
+namespace
+{
+/// Triangles between every other point of a face's loops that become quadrilaterals.
+class Halving
+{
+public:
+  Halving(const FaceChart& chart, const std::vector<ChartLoop>& loops);
+
+  const std::vector<ChartLoop>& Corners() const { return this->HalfLoops; }
+  FaceQuads Make(const ChartTriangles& triangles);
+
+private:
+  using Side = std::pair<int, int>;
+
+  void CollapsePoles(std::vector<std::array<int, 3>>& triangles);
+  std::vector<std::vector<int>> Join(const std::vector<std::array<int, 3>>& triangles) const;
+  int AddMiddle(const std::vector<int>& corners);
+  int MiddleOf(int a, int b);
+  template <std::size_t N>
+  double Quality(const std::array<int, N>& corners) const;
+
+  const FaceChart& Chart;
+  std::vector<ChartLoop> HalfLoops;
+  std::map<Side, LoopPoint> LoopMiddles; ///< by ids of corners
+  std::set<Side> Poles;                  ///< sides that are a point
+  std::map<int, int> PoleDirections;     ///< of their ends: the parameter that the pole runs in
+  FaceQuads Mesh;
+  std::vector<Eigen::Vector3d> Normals;
+  std::map<Side, int> Middles; ///< points
+  std::map<Side, Side> Same;   ///< sides that are one where a triangle at a pole went
+};
+
+Halving::Halving(const FaceChart& chart, const std::vector<ChartLoop>& loops) : Chart(chart)
+{
+  int first = 0;
+  for (const ChartLoop& loop : loops)
+  {
+    ChartLoop half;
+    std::vector<LoopPoint> between; ///< behind each point of half
+    std::size_t i = 0;
+    while (i < loop.size())
+    {
+      half.push_back(loop[i]);
+      between.push_back(loop[std::min(i + 1, loop.size() - 1)]);
+      i += loop[i].BeginsPole ? 1 : 2;
+    }
+    const auto n = static_cast<int>(half.size());
+    for (int k = 0; k < n; ++k)
+    {
+      const Side side{ first + k, first + (k + 1) % n };
+      if (!half[At(k)].BeginsPole)
+      {
+        this->LoopMiddles[std::minmax(side.first, side.second)] = between[At(k)];
+        continue;
+      }
+      const Eigen::Vector2d way = (half[At((k + 1) % n)].Place - half[At(k)].Place).cwiseAbs();
+      const int direction = way[0] > way[1] ? 0 : 1;
+      this->Poles.insert(side);
+      this->PoleDirections[side.first] = direction;
+      this->PoleDirections[side.second] = direction;
+    }
+    first += n;
+    this->HalfLoops.push_back(std::move(half));
+  }
+}
+
+/// The point in the middle of corners, on the surface.
+int Halving::AddMiddle(const std::vector<int>& corners)
+{
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();
+  Eigen::Vector2d weights = Eigen::Vector2d::Zero();
+  for (const int corner : corners)
+  {
+    point += this->Mesh.Points[At(corner)] / static_cast<double>(corners.size());
+    Eigen::Vector2d weight = Eigen::Vector2d::Ones();
+    // one of the parameters says nothing at a pole
+    if (const auto pole = this->PoleDirections.find(corner); pole != this->PoleDirections.end())
+    {
+      weight[pole->second] = 1e-9;
+    }
+    place += weight.cwiseProduct(this->Mesh.Places[At(corner)]);
+    weights += weight;
+  }
+  place = place.cwiseQuotient(weights);
+  const Eigen::Vector3d found = this->Chart.Project(point, place);
+  return AddPoint(this->Mesh, place, found, -1);
+}
+
+int Halving::MiddleOf(int a, int b)
+{
+  Side side = std::minmax(a, b);
+  for (auto same = this->Same.find(side); same != this->Same.end(); same = this->Same.find(side))
+  {
+    side = same->second;
+  }
+  const auto known = this->Middles.find(side);
+  if (known != this->Middles.end())
+  {
+    return known->second;
+  }
+  const auto given = this->LoopMiddles.find(side);
+  const int middle = given == this->LoopMiddles.end()
+    ? this->AddMiddle({ side.first, side.second })
+    : AddPoint(this->Mesh, given->second.Place, this->Chart.Point(given->second.Place),
+        given->second.Node);
+  this->Middles[side] = middle;
+  return middle;
+}
+
+/// A triangle along a side that is a point in space has two sides that are one.
+void Halving::CollapsePoles(std::vector<std::array<int, 3>>& triangles)
+{
+  std::vector<std::array<int, 3>> left;
+  for (const auto& triangle : triangles)
+  {
+    bool collapsed = false;
+    for (int i = 0; i < 3 && !collapsed; ++i)
+    {
+      const int a = triangle[At(i)];
+      const int b = triangle[At((i + 1) % 3)];
+      const int apex = triangle[At((i + 2) % 3)];
+      if (this->Poles.count({ a, b }) == 0)
+      {
+        continue;
+      }
+      collapsed = true;
+      Side first = std::minmax(a, apex);
+      Side second = std::minmax(b, apex);
+      if (this->LoopMiddles.count(second) > 0)
+      {
+        std::swap(first, second);
+      }
+      this->Same[second] = first;
+    }
+    if (!collapsed)
+    {
+      left.push_back(triangle);
+    }
+  }
+  triangles = std::move(left);
+}
+
+/// Scaled Jacobian of the corners, with sides towards their middles, where loops bend.
+template <std::size_t N>
+double Halving::Quality(const std::array<int, N>& corners) const
+{
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  std::array<Eigen::Vector3d, N> middles;
+  for (std::size_t i = 0; i < N; ++i)
+  {
+    const int a = corners[i];
+    const int b = corners[(i + 1) % N];
+    const auto given = this->LoopMiddles.find(std::minmax(a, b));
+    middles[i] = given == this->LoopMiddles.end()
+      ? Eigen::Vector3d(0.5 * (this->Mesh.Points[At(a)] + this->Mesh.Points[At(b)]))
+      : this->Chart.Point(given->second.Place);
+    normal += this->Normals[At(a)];
+  }
+  normal.normalize();
+  double least = 1.0;
+  for (std::size_t i = 0; i < N; ++i)
+  {
+    const Eigen::Vector3d& here = this->Mesh.Points[At(corners[i])];
+    const Eigen::Vector3d next = middles[i] - here;
+    const Eigen::Vector3d before = middles[(i + N - 1) % N] - here;
+    const double lengths = next.norm() * before.norm();
+    least = std::min(least, lengths > 0.0 ? next.cross(before).dot(normal) / lengths : -1.0);
+  }
+  return least;
+}
+
+/// The best pairs first, those before them whose triangles are bad by themselves.
+std::vector<std::vector<int>> Halving::Join(const std::vector<std::array<int, 3>>& triangles) const
+{
+  constexpr double Least = 0.35; ///< scaled Jacobian; worse ones stay triangles that are better
+  constexpr double Good = 0.5;
+  struct Pair
+  {
+    double Gain;
+    std::array<int, 2> Triangles;
+    std::array<int, 4> Corners;
+  };
+  std::map<Side, std::pair<int, int>> open;
+  std::vector<Pair> pairs;
+  std::vector<double> alone;
+  for (const auto& triangle : triangles)
+  {
+    alone.push_back(this->Quality(triangle));
+  }
+  for (int t = 0; t < static_cast<int>(triangles.size()); ++t)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      const int a = triangles[At(t)][At(i)];
+      const int b = triangles[At(t)][At((i + 1) % 3)];
+      const int apex = triangles[At(t)][At((i + 2) % 3)];
+      const auto other = open.find({ b, a });
+      if (other == open.end())
+      {
+        open[{ a, b }] = { t, apex };
+        continue;
+      }
+      const std::array<int, 4> corners{ a, other->second.second, b, apex };
+      const double quality = this->Quality(corners);
+      const double apart = std::min(alone[At(t)], alone[At(other->second.first)]);
+      if (quality > std::min(Least, apart))
+      {
+        pairs.push_back(
+          { quality + 2.0 * (Good - std::min(Good, apart)), { other->second.first, t }, corners });
+      }
+    }
+  }
+  std::sort(pairs.begin(), pairs.end(),
+    [](const Pair& a, const Pair& b)
+    { return a.Gain != b.Gain ? a.Gain > b.Gain : a.Triangles < b.Triangles; });
+  std::vector<bool> taken(triangles.size(), false);
+  std::vector<std::vector<int>> cells;
+  for (const Pair& pair : pairs)
+  {
+    if (!taken[At(pair.Triangles[0])] && !taken[At(pair.Triangles[1])])
+    {
+      taken[At(pair.Triangles[0])] = true;
+      taken[At(pair.Triangles[1])] = true;
+      cells.emplace_back(pair.Corners.begin(), pair.Corners.end());
+    }
+  }
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+  {
+    if (!taken[t])
+    {
+      cells.emplace_back(triangles[t].begin(), triangles[t].end());
+    }
+  }
+  return cells;
+}
+
+FaceQuads Halving::Make(const ChartTriangles& given)
+{
+  std::vector<const LoopPoint*> loopPoints;
+  for (const ChartLoop& loop : this->HalfLoops)
+  {
+    for (const LoopPoint& point : loop)
+    {
+      loopPoints.push_back(&point);
+    }
+  }
+  for (Eigen::Index i = 0; i < given.Places.rows(); ++i)
+  {
+    const Eigen::Vector2d place = given.Places.row(i).transpose();
+    const auto at = static_cast<std::size_t>(i);
+    AddPoint(this->Mesh, place, this->Chart.Point(place),
+      at < loopPoints.size() ? loopPoints[at]->Node : -1);
+    this->Normals.push_back(this->Chart.Normal(place));
+  }
+  std::vector<std::array<int, 3>> triangles = given.Triangles;
+  this->CollapsePoles(triangles);
+  for (const std::vector<int>& cell : this->Join(triangles))
+  {
+    const int center = this->AddMiddle(cell);
+    const std::size_t n = cell.size();
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      this->Mesh.Quads.push_back({ cell[i], this->MiddleOf(cell[i], cell[(i + 1) % n]), center,
+        this->MiddleOf(cell[i], cell[(i + n - 1) % n]) });
+    }
+  }
+  return std::move(this->Mesh);
+}
+}
+
+Result<FaceQuads> PaveFace(const FaceChart& chart, const std::vector<ChartLoop>& loops,
+  const ChartSizes& sizes, int maxTriangles)
+{
+  Halving halving(chart, loops);
+  const auto triangles = TriangulateChart(chart, halving.Corners(), sizes, maxTriangles);
+  if (!triangles)
+  {
+    return triangles.Status;
+  }
+  return halving.Make(triangles.Value);
+}
+
+std::vector<Eigen::Vector3d> NormalsOf(const FaceChart& chart, const FaceQuads& mesh)
+{
+  std::vector<Eigen::Vector3d> normals;
+  for (const Eigen::Vector2d& place : mesh.Places)
+  {
+    normals.push_back(chart.Normal(place));
+  }
+  return normals;
+}
+
+double ScaledJacobian(const FaceQuads& mesh, const std::vector<Eigen::Vector3d>& normals, int quad)
+{
+  const auto& corners = mesh.Quads[At(quad)];
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (const int corner : corners)
+  {
+    normal += normals[At(corner)];
+  }
+  if (normal.norm() < 1e-3)
+  {
+    normal = (mesh.Points[At(corners[2])] - mesh.Points[At(corners[0])])
+               .cross(mesh.Points[At(corners[3])] - mesh.Points[At(corners[1])]);
+  }
+  normal.normalize();
+  double least = 1.0;
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    const Eigen::Vector3d& here = mesh.Points[At(corners[i])];
+    const Eigen::Vector3d next = mesh.Points[At(corners[(i + 1) % 4])] - here;
+    const Eigen::Vector3d before = mesh.Points[At(corners[(i + 3) % 4])] - here;
+    const double lengths = next.norm() * before.norm();
+    least = std::min(least, lengths > 0.0 ? next.cross(before).dot(normal) / lengths : -1.0);
+  }
+  return least;
+}
+
+namespace
+{
+/// Moves inner points of quadrilaterals.
+class QuadSmoothing
+{
+public:
+  QuadSmoothing(const FaceChart& chart, FaceQuads& mesh)
+    : Chart(chart), Mesh(mesh), Normals(NormalsOf(chart, mesh)), Around(mesh.Points.size()),
+      Neighbours(mesh.Points.size())
+  {
+    for (std::size_t q = 0; q < mesh.Quads.size(); ++q)
+    {
+      for (std::size_t i = 0; i < 4; ++i)
+      {
+        const int corner = mesh.Quads[q][i];
+        this->Around[At(corner)].push_back(static_cast<int>(q));
+        this->Neighbours[At(corner)].push_back(mesh.Quads[q][(i + 1) % 4]);
+        this->Neighbours[At(corner)].push_back(mesh.Quads[q][(i + 3) % 4]);
+      }
+    }
+  }
+
+  double Run()
+  {
+    constexpr int Passes = 12;
+    for (int pass = 0; pass < Passes; ++pass)
+    {
+      bool moved = false;
+      for (std::size_t p = 0; p < this->Mesh.Points.size(); ++p)
+      {
+        if (this->Mesh.Nodes[p] < 0 && !this->Around[p].empty())
+        {
+          moved = this->MovePoint(static_cast<int>(p)) || moved;
+        }
+      }
+      if (!moved)
+      {
+        break;
+      }
+    }
+    double least = 1.0;
+    for (std::size_t q = 0; q < this->Mesh.Quads.size(); ++q)
+    {
+      least = std::min(least, ScaledJacobian(this->Mesh, this->Normals, static_cast<int>(q)));
+    }
+    return least;
+  }
+
+private:
+  double Least(int point) const
+  {
+    double least = 1.0;
+    for (const int quad : this->Around[At(point)])
+    {
+      least = std::min(least, ScaledJacobian(this->Mesh, this->Normals, quad));
+    }
+    return least;
+  }
+
+  /// Keeps a move that leaves the quadrilaterals around better than a bound.
+  bool Try(int point, const Eigen::Vector3d& target, double bound)
+  {
+    const Eigen::Vector2d place = this->Mesh.Places[At(point)];
+    const Eigen::Vector3d before = this->Mesh.Points[At(point)];
+    const Eigen::Vector3d normal = this->Normals[At(point)];
+    this->Mesh.Points[At(point)] = this->Chart.Project(target, this->Mesh.Places[At(point)]);
+    this->Normals[At(point)] = this->Chart.Normal(this->Mesh.Places[At(point)]);
+    if (this->Least(point) > bound)
+    {
+      return true;
+    }
+    this->Mesh.Places[At(point)] = place;
+    this->Mesh.Points[At(point)] = before;
+    this->Normals[At(point)] = normal;
+    return false;
+  }
+
+  bool MovePoint(int point)
+  {
+    constexpr double Good = 0.7; ///< above it points go to the middle as they are
+    constexpr double Better = 1e-3;
+    constexpr double Still = 1e-3; ///< of the size around
+    const double least = this->Least(point);
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    double size = 0.0;
+    for (const int neighbour : this->Neighbours[At(point)])
+    {
+      middle += this->Mesh.Points[At(neighbour)];
+      size += (this->Mesh.Points[At(neighbour)] - this->Mesh.Points[At(point)]).norm();
+    }
+    const auto count = static_cast<double>(this->Neighbours[At(point)].size());
+    middle /= count;
+    size /= count;
+    const Eigen::Vector3d here = this->Mesh.Points[At(point)];
+    if ((middle - here).norm() > Still * size &&
+      this->Try(point, middle, std::min(least + Better, Good)))
+    {
+      return true;
+    }
+    if (least >= Good)
+    {
+      return false;
+    }
+    const Eigen::Vector3d normal = this->Normals[At(point)];
+    const Eigen::Vector3d first =
+      normal.norm() > 0.0 ? normal.unitOrthogonal() : Eigen::Vector3d::UnitX();
+    const Eigen::Vector3d second = normal.cross(first);
+    bool moved = false;
+    double reached = least;
+    for (const double step : { 0.3, 0.1, 0.03 })
+    {
+      for (int direction = 0; direction < 8; ++direction)
+      {
+        const double angle = direction * Pi / 4.0;
+        if (this->Try(point,
+              this->Mesh.Points[At(point)] +
+                step * size * (std::cos(angle) * first + std::sin(angle) * second),
+              reached + Better))
+        {
+          reached = this->Least(point);
+          moved = true;
+        }
+      }
+    }
+    return moved;
+  }
+
+  const FaceChart& Chart;
+  FaceQuads& Mesh;
+  std::vector<Eigen::Vector3d> Normals;
+  std::vector<std::vector<int>> Around;
+  std::vector<std::vector<int>> Neighbours;
+};
+}
+
+double SmoothFace(const FaceChart& chart, FaceQuads& mesh)
+{
+  return QuadSmoothing(chart, mesh).Run();
+}
+}

@@ -1,0 +1,582 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CADTopology.h"
+
+#include "CADDocument.h"
+#include "CADFile.h"
+#include "CADSession.h"
+#include "ModelDocument.h"
+#include "STEPLoops.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <BOPTools_AlgoTools3D.hxx>
+#include <BRepAdaptor_Curve.hxx>
+#include <BRepBndLib.hxx>
+#include <BRepTools_WireExplorer.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <GCPnts_AbscissaPoint.hxx>
+#include <GeomAPI_ProjectPointOnSurf.hxx>
+#include <GeomAdaptor_Surface.hxx>
+#include <IGESCAFControl_Reader.hxx>
+#include <IntTools_Context.hxx>
+#include <STEPCAFControl_Reader.hxx>
+#include <ShapeAnalysis.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Wire.hxx>
+#include <XCAFDoc_DocumentTool.hxx>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace knotwork
+{
+namespace
+{
+Eigen::Vector3d ToEigen(const gp_Pnt& point)
+{
+  return { point.X(), point.Y(), point.Z() };
+}
+
+Eigen::Vector3d ToEigen(const gp_Vec& vector)
+{
+  return { vector.X(), vector.Y(), vector.Z() };
+}
+
+/// An edge's curve with its length, asked for by share of it.
+class MeasuredCurve
+{
+public:
+  explicit MeasuredCurve(const TopoDS_Edge& edge)
+    : Curve(edge), First(Curve.FirstParameter()), Last(Curve.LastParameter()),
+      Length(GCPnts_AbscissaPoint::Length(Curve))
+  {
+  }
+
+  double ParameterAt(double share) const
+  {
+    if (share <= 0.0 || share >= 1.0)
+    {
+      return share <= 0.0 ? this->First : this->Last;
+    }
+    const double guess = this->First + share * (this->Last - this->First);
+    if (this->Curve.GetType() == GeomAbs_Line || this->Curve.GetType() == GeomAbs_Circle)
+    {
+      return guess;
+    }
+    const GCPnts_AbscissaPoint found(this->Curve, share * this->Length, this->First, guess);
+    return found.IsDone() ? std::clamp(found.Parameter(), this->First, this->Last) : guess;
+  }
+  Eigen::Vector3d PointAt(double share) const
+  {
+    return ToEigen(this->Curve.Value(this->ParameterAt(share)));
+  }
+  double Turning() const
+  {
+    constexpr int Places = 64;
+    double turning = 0.0;
+    Eigen::Vector3d before = Eigen::Vector3d::Zero();
+    for (int i = 0; i <= Places; ++i)
+    {
+      gp_Pnt point;
+      gp_Vec tangent;
+      this->Curve.D1(this->First + (this->Last - this->First) * i / Places, point, tangent);
+      const Eigen::Vector3d now = ToEigen(tangent);
+      if (i > 0 && now.norm() > 0.0 && before.norm() > 0.0)
+      {
+        turning += std::atan2(before.cross(now).norm(), before.dot(now));
+      }
+      before = now;
+    }
+    return turning;
+  }
+
+  BRepAdaptor_Curve Curve;
+  double First;
+  double Last;
+  double Length;
+};
+
+/// The use of an edge by a face in its own parameters.
+struct UseShape
+{
+  Handle(Geom2d_Curve) Curve;
+  double First = 0.0;
+  double Last = 1.0;
+  bool Backward = false;                  ///< the loop runs against the curve
+  std::shared_ptr<MeasuredCurve> Measure; ///< of the same edge; none at a pole
+};
+
+struct FaceShape
+{
+  TopoDS_Face Face;
+  Handle(Geom_Surface) Surface;
+  std::shared_ptr<GeomAdaptor_Surface> Adaptor;
+  std::vector<std::vector<UseShape>> Loops;
+  double Size = 0.0; ///< of its box
+};
+
+Status LoadBodies(
+  CADSession& session, const std::string& file, LengthUnit unit, ModelBodies& bodies)
+{
+  session.SetDefaultsOfReading();
+  session.Set("read.stepcaf.subshapes.name", 1);
+  const CADFormat format = FormatOfFile(file);
+  Handle(TDocStd_Document) document = NewDocument();
+  const auto read = [&](auto& cafReader, XSControl_Reader& reader) -> Status
+  {
+    int numMended = 0;
+    Status loaded = LoadCAD(reader, format, file, numMended);
+    if (loaded && format == CADFormat::STEP)
+    {
+      BeginLoopsAtPoles(reader.Model());
+    }
+    if (loaded && !cafReader.Transfer(document))
+    {
+      return { ErrorCode::InvalidFormat, "'" + file + "': " + FailureOfOpenCASCADE };
+    }
+    return loaded;
+  };
+  Status loaded;
+  if (format == CADFormat::BREP)
+  {
+    TopoDS_Shape shape;
+    loaded = LoadBREP(file, unit, shape);
+    if (loaded)
+    {
+      XCAFDoc_DocumentTool::ShapeTool(document->Main())->AddShape(shape, false);
+    }
+  }
+  else if (format == CADFormat::IGES)
+  {
+    IGESCAFControl_Reader reader;
+    reader.SetNameMode(false); // it stumbles over entities without a name
+    loaded = read(reader, reader);
+  }
+  else
+  {
+    STEPCAFControl_Reader reader;
+    loaded = read(reader, reader.ChangeReader());
+  }
+  if (loaded)
+  {
+    bodies = ModelDocument(document).Take();
+  }
+  return loaded;
+}
+}
+
+struct CADTopology::Shapes
+{
+  std::vector<std::shared_ptr<MeasuredCurve>> Edges;
+  std::vector<FaceShape> Faces;
+  // for merging
+  std::vector<std::vector<int>> BodiesOfEdges;
+  std::vector<double> VertexTolerances;
+  double Tolerance = 0.0;
+  NCollection_DataMap<TopoDS_Shape, int, TopTools_ShapeMapHasher> VertexIds;
+  NCollection_DataMap<TopoDS_Shape, std::pair<int, bool>, TopTools_ShapeMapHasher>
+    EdgeIds; ///< and whether the edge runs against the one that counts
+  std::map<std::vector<int>, std::vector<int>> FacesOfEdges;
+
+  int AddVertex(const TopoDS_Vertex& vertex, CADTopology& model);
+  std::pair<int, bool> AddEdge(const TopoDS_Edge& edge, int body, CADTopology& model);
+  std::pair<int, bool> FindEqual(
+    const MeasuredCurve& curve, const std::array<int, 2>& vertices, int body, CADTopology& model);
+  Status AddFace(
+    const TopoDS_Face& face, int id, int body, const std::string& name, CADTopology& model);
+  bool IsSameFace(const TopoDS_Face& face, const FaceShape& other) const;
+};
+
+CADTopology::CADTopology() = default;
+CADTopology::~CADTopology() = default;
+CADTopology::CADTopology(CADTopology&&) noexcept = default;
+CADTopology& CADTopology::operator=(CADTopology&&) noexcept = default;
+
+int CADTopology::Shapes::AddVertex(const TopoDS_Vertex& vertex, CADTopology& model)
+{
+  if (const int* known = this->VertexIds.Seek(vertex))
+  {
+    return *known;
+  }
+  const Eigen::Vector3d point = ToEigen(BRep_Tool::Pnt(vertex));
+  const double tolerance = std::max(BRep_Tool::Tolerance(vertex), this->Tolerance);
+  int id = 0;
+  const int count = static_cast<int>(model.Vertices.size());
+  while (id < count &&
+    (model.Vertices[static_cast<std::size_t>(id)] - point).norm() >
+      std::max(tolerance, this->VertexTolerances[static_cast<std::size_t>(id)]))
+  {
+    ++id;
+  }
+  if (id == count)
+  {
+    model.Vertices.push_back(point);
+    this->VertexTolerances.push_back(tolerance);
+  }
+  this->VertexIds.Bind(vertex, id);
+  return id;
+}
+
+/// An edge of other bodies along the same curve, -1: none.
+std::pair<int, bool> CADTopology::Shapes::FindEqual(
+  const MeasuredCurve& curve, const std::array<int, 2>& vertices, int body, CADTopology& model)
+{
+  for (std::size_t e = 0; e < model.Edges.size(); ++e)
+  {
+    const auto& other = model.Edges[e].Vertices;
+    const auto& bodies = this->BodiesOfEdges[e];
+    const bool same = other == vertices;
+    const bool opposite = other[0] == vertices[1] && other[1] == vertices[0];
+    if ((!same && !opposite) || std::find(bodies.begin(), bodies.end(), body) != bodies.end())
+    {
+      continue;
+    }
+    for (const bool backward : { false, true })
+    {
+      double gap = 0.0;
+      for (const double share : { 0.25, 0.5, 0.75 })
+      {
+        gap = std::max(gap,
+          (this->Edges[e]->PointAt(share) - curve.PointAt(backward ? 1.0 - share : share)).norm());
+      }
+      const double tolerance =
+        std::max({ this->Tolerance, this->VertexTolerances[static_cast<std::size_t>(vertices[0])],
+          this->VertexTolerances[static_cast<std::size_t>(vertices[1])] });
+      if ((backward ? opposite : same) && gap <= tolerance)
+      {
+        return { static_cast<int>(e), backward };
+      }
+    }
+  }
+  return { -1, false };
+}
+
+std::pair<int, bool> CADTopology::Shapes::AddEdge(
+  const TopoDS_Edge& edge, int body, CADTopology& model)
+{
+  std::pair<int, bool> id;
+  if (const auto* known = this->EdgeIds.Seek(edge))
+  {
+    id = *known;
+  }
+  else
+  {
+    const TopoDS_Edge forward = TopoDS::Edge(edge.Oriented(TopAbs_FORWARD));
+    const auto curve = std::make_shared<MeasuredCurve>(forward);
+    const std::array<int, 2> vertices{ this->AddVertex(TopExp::FirstVertex(forward), model),
+      this->AddVertex(TopExp::LastVertex(forward), model) };
+    id = this->FindEqual(*curve, vertices, body, model);
+    if (id.first < 0)
+    {
+      id = { static_cast<int>(model.Edges.size()), false };
+      this->Edges.push_back(curve);
+      this->BodiesOfEdges.emplace_back();
+      model.Edges.push_back({ vertices, curve->Length, curve->Turning() });
+    }
+    this->EdgeIds.Bind(edge, id);
+  }
+  auto& bodies = this->BodiesOfEdges[static_cast<std::size_t>(id.first)];
+  if (bodies.empty() || bodies.back() != body)
+  {
+    bodies.push_back(body);
+  }
+  return id;
+}
+
+/// Whether two faces with the same edges are the same surface between them.
+bool CADTopology::Shapes::IsSameFace(const TopoDS_Face& face, const FaceShape& other) const
+{
+  gp_Pnt inside;
+  gp_Pnt2d parameters;
+  const Handle(IntTools_Context) context = new IntTools_Context;
+  if (BOPTools_AlgoTools3D::PointInFace(face, inside, parameters, context) != 0)
+  {
+    return false;
+  }
+  const GeomAPI_ProjectPointOnSurf projection(inside, other.Surface);
+  return projection.NbPoints() > 0 &&
+    projection.LowerDistance() <= std::max(10.0 * this->Tolerance, BRep_Tool::Tolerance(face));
+}
+
+Status CADTopology::Shapes::AddFace(
+  const TopoDS_Face& given, int id, int body, const std::string& name, CADTopology& model)
+{
+  const std::string place = "face " + std::to_string(id);
+  const TopoDS_Face face = TopoDS::Face(given.Oriented(TopAbs_FORWARD));
+  CADTopologyFace made;
+  FaceShape shape;
+  shape.Face = face;
+  shape.Surface = BRep_Tool::Surface(face);
+  if (shape.Surface.IsNull())
+  {
+    return { ErrorCode::InvalidTopology, place + " has no surface; export the part as solids" };
+  }
+  made.Reversed = given.Orientation() == TopAbs_REVERSED;
+  made.Name = name;
+  std::vector<int> edges;
+  std::vector<TopoDS_Wire> wires;
+  for (TopExp_Explorer wire(face, TopAbs_WIRE); wire.More(); wire.Next())
+  {
+    wires.push_back(TopoDS::Wire(wire.Current()));
+  }
+  const TopoDS_Wire outer = ShapeAnalysis::OuterWire(face);
+  std::stable_partition(
+    wires.begin(), wires.end(), [&](const TopoDS_Wire& wire) { return wire.IsSame(outer); });
+  for (const TopoDS_Wire& wire : wires)
+  {
+    std::vector<CADTopologyUse> loop;
+    std::vector<UseShape> uses;
+    int numEdges = 0;
+    for (TopExp_Explorer edge(wire, TopAbs_EDGE); edge.More(); edge.Next())
+    {
+      const TopAbs_Orientation side = edge.Current().Orientation();
+      numEdges += side == TopAbs_FORWARD || side == TopAbs_REVERSED ? 1 : 0;
+    }
+    for (BRepTools_WireExplorer explorer(wire, face); explorer.More(); explorer.Next())
+    {
+      const TopoDS_Edge& edge = explorer.Current();
+      const bool backward = edge.Orientation() == TopAbs_REVERSED;
+      CADTopologyUse use;
+      UseShape useShape;
+      useShape.Curve = BRep_Tool::CurveOnSurface(edge, face, useShape.First, useShape.Last);
+      useShape.Backward = backward;
+      if (useShape.Curve.IsNull())
+      {
+        return { ErrorCode::InvalidTopology,
+          place + " has an edge without a curve in its parameters; heal the file first" };
+      }
+      use.Vertex =
+        this->AddVertex(backward ? TopExp::LastVertex(edge) : TopExp::FirstVertex(edge), model);
+      if (!BRep_Tool::Degenerated(edge))
+      {
+        const auto [found, turned] = this->AddEdge(edge, body, model);
+        use.Edge = found;
+        use.Reversed = turned != backward;
+        useShape.Measure =
+          std::make_shared<MeasuredCurve>(TopoDS::Edge(edge.Oriented(TopAbs_FORWARD)));
+        edges.push_back(found);
+      }
+      loop.push_back(use);
+      uses.push_back(std::move(useShape));
+    }
+    if (loop.empty() || static_cast<int>(loop.size()) != numEdges)
+    {
+      return { ErrorCode::InvalidTopology,
+        place + " has a loop whose edges do not follow each other; heal the file first" };
+    }
+    made.Loops.push_back(std::move(loop));
+    shape.Loops.push_back(std::move(uses));
+  }
+  if (made.Loops.empty())
+  {
+    return { ErrorCode::InvalidTopology,
+      place + " has no loop; write the file again with trimmed faces" };
+  }
+  std::sort(edges.begin(), edges.end());
+  for (const int other : this->FacesOfEdges[edges])
+  {
+    CADTopologyFace& known = model.Faces[static_cast<std::size_t>(other)];
+    if (known.Bodies.size() == 1 && known.Bodies[0] != body &&
+      this->IsSameFace(face, this->Faces[static_cast<std::size_t>(other)]))
+    {
+      known.Ids.push_back(id);
+      known.Bodies.push_back(body);
+      model.Bodies[static_cast<std::size_t>(body)].Sides.push_back({ other, true });
+      return {};
+    }
+  }
+  made.Ids = { id };
+  made.Bodies = { body };
+  Bnd_Box box;
+  BRepBndLib::Add(face, box, false);
+  shape.Size = box.IsVoid() ? 0.0 : std::sqrt(box.SquareExtent());
+  shape.Adaptor = std::make_shared<GeomAdaptor_Surface>(shape.Surface);
+  made.IsPlane = shape.Adaptor->GetType() == GeomAbs_Plane;
+  const int index = static_cast<int>(model.Faces.size());
+  this->FacesOfEdges[edges].push_back(index);
+  model.Bodies[static_cast<std::size_t>(body)].Sides.push_back({ index, false });
+  model.Faces.push_back(std::move(made));
+  this->Faces.push_back(std::move(shape));
+  return {};
+}
+
+Result<CADTopology> CADTopology::Read(const std::string& file, LengthUnit unit)
+{
+  constexpr double LeastTolerance = 1e-7; ///< of the diagonal
+  CADTopology model;
+  model.Impl = std::make_unique<Shapes>();
+  const std::string place = "'" + file + "'";
+  CADSession session(unit);
+  const Status status = session.Run(place,
+    [&]() -> Status
+    {
+      ModelBodies bodies;
+      if (Status loaded = LoadBodies(session, file, unit, bodies); !loaded)
+      {
+        return loaded;
+      }
+      Bnd_Box box;
+      for (const ModelBody& body : bodies.Bodies)
+      {
+        BRepBndLib::Add(body.Shape, box, false);
+      }
+      if (box.IsVoid())
+      {
+        return { ErrorCode::EmptyInput, place + ": there is no face in it" };
+      }
+      model.Diagonal = std::sqrt(box.SquareExtent());
+      model.Impl->Tolerance = LeastTolerance * model.Diagonal;
+      int id = 0;
+      for (const ModelBody& body : bodies.Bodies)
+      {
+        const int index = static_cast<int>(model.Bodies.size());
+        model.Bodies.emplace_back();
+        model.Bodies.back().IsSolid = body.Shape.ShapeType() == TopAbs_SOLID;
+        for (TopExp_Explorer face(body.Shape, TopAbs_FACE); face.More(); face.Next())
+        {
+          const ShapeAttributes* own = bodies.Faces.Seek(face.Current());
+          if (Status added = model.Impl->AddFace(
+                TopoDS::Face(face.Current()), id++, index, own ? own->Name : std::string(), model);
+              !added)
+          {
+            return { added.Code, place + ": " + added.Detail };
+          }
+        }
+      }
+      if (model.Faces.empty())
+      {
+        return { ErrorCode::EmptyInput, place + ": there is no face in it" };
+      }
+      return {};
+    });
+  return status ? Result<CADTopology>(std::move(model)) : Result<CADTopology>(status);
+}
+
+Eigen::Vector3d CADTopology::EdgePoint(int edge, double share) const
+{
+  return this->Impl->Edges[static_cast<std::size_t>(edge)]->PointAt(share);
+}
+
+Eigen::Vector2d CADTopology::UseParameters(int face, int loop, int use, double share) const
+{
+  const UseShape& shape = this->Impl->Faces[static_cast<std::size_t>(face)]
+                            .Loops[static_cast<std::size_t>(loop)][static_cast<std::size_t>(use)];
+  const double along = shape.Backward ? 1.0 - share : share;
+  double parameter = shape.First + along * (shape.Last - shape.First);
+  if (shape.Measure)
+  {
+    // pcurve and curve have the same parameter, but for files whose ranges differ
+    const double own = shape.Measure->ParameterAt(along);
+    parameter = shape.First +
+      (own - shape.Measure->First) / (shape.Measure->Last - shape.Measure->First) *
+        (shape.Last - shape.First);
+  }
+  const gp_Pnt2d place = shape.Curve->Value(parameter);
+  return { place.X(), place.Y() };
+}
+
+Eigen::Vector3d CADTopology::FacePoint(int face, const Eigen::Vector2d& parameters) const
+{
+  return ToEigen(
+    this->Impl->Faces[static_cast<std::size_t>(face)].Adaptor->Value(parameters[0], parameters[1]));
+}
+
+Eigen::Vector3d CADTopology::FaceNormal(int face, const Eigen::Vector2d& parameters) const
+{
+  gp_Pnt point;
+  gp_Vec u;
+  gp_Vec v;
+  this->Impl->Faces[static_cast<std::size_t>(face)].Adaptor->D1(
+    parameters[0], parameters[1], point, u, v);
+  const Eigen::Vector3d normal = ToEigen(u).cross(ToEigen(v));
+  const double length = normal.norm();
+  const double size = std::max(u.SquareMagnitude(), v.SquareMagnitude());
+  if (!(length > 1e-9 * size))
+  {
+    return Eigen::Vector3d::Zero();
+  }
+  return this->Faces[static_cast<std::size_t>(face)].Reversed ? Eigen::Vector3d(-normal / length)
+                                                              : Eigen::Vector3d(normal / length);
+}
+
+double CADTopology::FaceCurvature(int face, const Eigen::Vector2d& parameters) const
+{
+  gp_Pnt point;
+  gp_Vec u;
+  gp_Vec v;
+  gp_Vec uu;
+  gp_Vec vv;
+  gp_Vec uv;
+  this->Impl->Faces[static_cast<std::size_t>(face)].Adaptor->D2(
+    parameters[0], parameters[1], point, u, v, uu, vv, uv);
+  const Eigen::Vector3d normal = ToEigen(u).cross(ToEigen(v));
+  const double e = u.Dot(u);
+  const double f = u.Dot(v);
+  const double g = v.Dot(v);
+  const double area = e * g - f * f;
+  if (!(area > 1e-12 * std::max(e, g) * std::max(e, g)))
+  {
+    return 0.0;
+  }
+  // coefficients of the second fundamental form
+  const Eigen::Vector3d unit = normal / normal.norm();
+  const double l = ToEigen(uu).dot(unit);
+  const double m = ToEigen(uv).dot(unit);
+  const double n = ToEigen(vv).dot(unit);
+  const double mean = (e * n - 2.0 * f * m + g * l) / (2.0 * area);
+  const double gauss = (l * n - m * m) / area;
+  return std::abs(mean) + std::sqrt(std::max(0.0, mean * mean - gauss));
+}
+
+CADPlace CADTopology::Project(
+  int face, const Eigen::Vector3d& point, const Eigen::Vector2d& guess) const
+{
+  constexpr int MaxSteps = 30;
+  const FaceShape& shape = this->Impl->Faces[static_cast<std::size_t>(face)];
+  const GeomAdaptor_Surface& surface = *shape.Adaptor;
+  CADPlace place{ guess, {} };
+  // Gauss-Newton steps: they converge for points near the surface
+  gp_Pnt at;
+  gp_Vec du;
+  gp_Vec dv;
+  const auto limited = [](double value, double lower, double upper, bool periodic)
+  { return periodic ? value : std::clamp(value, lower, upper); };
+  for (int step = 0; step < MaxSteps; ++step)
+  {
+    surface.D1(place.Parameters[0], place.Parameters[1], at, du, dv);
+    Eigen::Matrix<double, 3, 2> tangents;
+    tangents << ToEigen(du), ToEigen(dv);
+    const Eigen::Vector2d lengths = tangents.colwise().norm().transpose().cwiseMax(1e-300);
+    const Eigen::Vector2d right = tangents.transpose() * (point - ToEigen(at));
+    const Eigen::Matrix2d matrix = tangents.transpose() * tangents;
+    const double determinant = matrix.determinant();
+    Eigen::Vector2d move = Eigen::Vector2d::Zero();
+    if (determinant > 1e-12 * std::pow(lengths[0] * lengths[1], 2))
+    {
+      move = matrix.inverse() * right;
+    }
+    else
+    {
+      const int strong = lengths[0] > lengths[1] ? 0 : 1;
+      move[strong] = right[strong] / (lengths[strong] * lengths[strong]);
+    }
+    const Eigen::Vector2d before = place.Parameters;
+    place.Parameters[0] = limited(before[0] + move[0], surface.FirstUParameter(),
+      surface.LastUParameter(), surface.IsUPeriodic());
+    place.Parameters[1] = limited(before[1] + move[1], surface.FirstVParameter(),
+      surface.LastVParameter(), surface.IsVPeriodic());
+    if ((place.Parameters - before).cwiseProduct(lengths).norm() <= 1e-13 * shape.Size)
+    {
+      break;
+    }
+  }
+  place.Point = this->FacePoint(face, place.Parameters);
+  return place;
+}
+}

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Faces, edges and vertices of a CAD file as a mesher sees them: who borders whom, and places on
+// them. What solids have in common is there once.
+#pragma once
+#include "CADExchange.h"
+
+#include <Eigen/Core>
+
+#include <memory>
+
+namespace knotwork
+{
+struct CADTopologyEdge
+{
+  std::array<int, 2> Vertices{}; ///< begin and end; equal ones: a closed edge
+  double Length = 0.0;
+  double Turning = 0.0; ///< sum of the tangent's turns along it, radians, found at 64 places
+};
+
+/// An edge in a loop.
+struct CADTopologyUse
+{
+  int Edge = -1;         ///< -1: a side of the parameters that is a point, a pole
+  bool Reversed = false; ///< the loop runs from the edge's end to its begin
+  int Vertex = 0;        ///< that it begins at
+};
+
+/// A face. Loops have it on their left in the parameters; a seam stands in a loop twice. The first
+/// loop is the outer one in the parameters.
+struct CADTopologyFace
+{
+  std::vector<std::vector<CADTopologyUse>> Loops;
+  std::vector<int> Ids;    ///< of ReadCAD; two where two solids share the face
+  std::vector<int> Bodies; ///< one an id
+  bool Reversed = false;   ///< its normal, outward of the first body, is that of -du x dv
+  bool IsPlane = false;
+  std::string Name;
+};
+
+/// A face of a body.
+struct CADTopologySide
+{
+  int Face = 0;
+  bool Reversed = false; ///< the body's outward normal is opposite to the face's
+};
+
+/// A solid, or a shell or face outside of solids, in ReadCAD's order.
+struct CADTopologyBody
+{
+  std::vector<CADTopologySide> Sides;
+  bool IsSolid = false;
+};
+
+/// Place on a face's surface.
+struct CADPlace
+{
+  Eigen::Vector2d Parameters = Eigen::Vector2d::Zero();
+  Eigen::Vector3d Point = Eigen::Vector3d::Zero();
+};
+
+/// The model of a file with OpenCASCADE behind it. Functions that take parameters extend surfaces
+/// as OpenCASCADE does, periodic ones forever. Not for several threads at once.
+class CADTopology
+{
+public:
+  /// Vertices, edges and faces of different bodies are one when they agree within the tolerances
+  /// of the file (at least 1e-7 of the diagonal).
+  /// @param file  STEP, IGES or BREP.
+  /// @return as of CheckCAD; EmptyInput: a file without faces; InvalidTopology: a loop that is not
+  /// closed, naming the face.
+  static Result<CADTopology> Read(
+    const std::string& file, LengthUnit unit = LengthUnit::Millimetre);
+
+  CADTopology();
+  ~CADTopology();
+  CADTopology(CADTopology&&) noexcept;
+  CADTopology& operator=(CADTopology&&) noexcept;
+
+  std::vector<Eigen::Vector3d> Vertices;
+  std::vector<CADTopologyEdge> Edges;
+  std::vector<CADTopologyFace> Faces;
+  std::vector<CADTopologyBody> Bodies;
+  double Diagonal = 0.0; ///< of the box of the faces
+
+  /// @param share  of the length, in [0, 1].
+  Eigen::Vector3d EdgePoint(int edge, double share) const;
+  /// The same place in the parameters of a face, by one of its uses; the share is that of the use:
+  /// 0 is where the loop enters it. Of a pole the share is that of the parameters.
+  Eigen::Vector2d UseParameters(int face, int loop, int use, double share) const;
+  Eigen::Vector3d FacePoint(int face, const Eigen::Vector2d& parameters) const;
+  /// Unit length, outward of the first body; zero where the surface has none (the tip of a cone).
+  Eigen::Vector3d FaceNormal(int face, const Eigen::Vector2d& parameters) const;
+  /// Larger absolute principal curvature; 0 where there is none.
+  double FaceCurvature(int face, const Eigen::Vector2d& parameters) const;
+  /// Closest point of the (untrimmed) surface near a guess.
+  CADPlace Project(int face, const Eigen::Vector3d& point, const Eigen::Vector2d& guess) const;
+
+private:
+  struct Shapes;
+  std::unique_ptr<Shapes> Impl;
+};
+}

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <knotwork/CADFitting/FitTarget.h>
+#include <knotwork/JacobianValidation/JacobianCertificate.h>
+#include <knotwork/MeshParameterization/TriangleMesh.h>
+
+namespace knotwork
+{
+/// What a mesher is asked for.
+struct TetrahedraParams
+{
+  /// Radius of the circumsphere over the shortest edge at most, [1, 10]; 0: no bound.
+  double RadiusEdgeRatio = 2.0;
+  double MinDihedralAngle = 5.0;  ///< degrees, [0, 30]; 0: no bound
+  double MaxVolume = 0.0;         ///< of a tetrahedron, >= 0, cube of the points' unit; 0: no bound
+  int MaxSteinerPoints = 1000000; ///< points that are added at most, >= 0
+  bool KeepBoundary = true;       ///< triangles of the surface are not divided
+};
+
+/// Straight tetrahedra that fill all that triangles enclose, as a mesher hands them over.
+struct Tetrahedra
+{
+  PointMatrix Points; ///< n x 3
+  std::vector<std::array<int, 4>> Cells;
+  std::vector<std::array<int, 3>> Triangles; ///< parts of the surface
+  std::vector<int> Sources;                  ///< one a triangle: number in the surface
+};
+
+/// The mesher, which works in a process of its own. Its triangles bound solids (CheckSolid).
+using TetrahedraMaker =
+  std::function<Result<Tetrahedra>(const TriangleMesh& surface, const TetrahedraParams& params)>;
+
+/// What becomes of the inside of parts that lie within a solid.
+enum class InnerParts
+{
+  Voids,  ///< solid and void in turn, from outside
+  Regions ///< all is filled
+};
+
+struct SolidMeshParams
+{
+  TetrahedraParams Tetrahedra;
+  InnerParts Inner = InnerParts::Voids;
+  bool Repair = false; ///< what bounds no solid is repaired first, with all its holes closed
+  int Order = 1;       ///< of the cells, 1, 2 or 3
+  int Threads = 0;     ///< 0: all cores
+  ProgressCallback Progress;
+};
+
+struct SolidMeshNumbers
+{
+  double MinDihedral = 0.0; ///< degrees, of the straight tetrahedra
+  double MaxDihedral = 0.0;
+  double WorstRadiusEdgeRatio = 0.0;
+  double Volume = 0.0;        ///< of the cells as they are
+  double SurfaceVolume = 0.0; ///< that the given triangles enclose
+  bool Repaired = false;
+  /// Both with what repairing has moved at most.
+  double DistanceToSurface = 0.0; ///< farthest that the straight boundary is from the surface
+  double DistanceFromSurface = 0.0;
+  double StraightToTarget =
+    0.0; ///< largest sampled distance of the straight boundary; 0: no target
+  double CurvedToTarget = 0.0;
+  double Diagonal = 0.0;    ///< of the surface's box
+  int BoundaryElements = 0; ///< with a face on the boundary
+  int RelaxedElements = 0;  ///< with nodes that were moved back, see MeshSolid
+};
+
+struct SolidMesh
+{
+  PointMatrix Points;
+  /// Points of the cells: corners, then order - 1 points an edge from its lower to its higher end
+  /// (edges 01 12 20 03 13 23, from the first corner on), then of order 3 one a face (opposite of
+  /// corners 2, 0, 1, 3).
+  std::vector<std::vector<int>> Cells;
+  std::vector<int> Regions; ///< one a cell: pieces between the triangles of the surface, from 0
+  int NumRegions = 0;
+  std::vector<std::array<int, 3>> Boundary; ///< corners, outward or towards the higher region
+  std::vector<int> BoundarySources;         ///< triangle of the given surface, -1: repair made it
+  JacobianCertificate Certificate;
+  SolidMeshNumbers Numbers;
+};
+
+/// Number of points of a cell: 4, 10, 20.
+int NumTetrahedronPoints(int order);
+
+/// Fills a closed surface with tetrahedra. Of order 2 and 3 the points of the boundary lie on the
+/// target: those of faces on the face that the triangle lies on, those of edges between faces on
+/// their curve, corners of the target stay corners. All cells are certified. Where one is not
+/// valid, its points are moved back towards the straight tetrahedron, by a quarter of the way at a
+/// time, until it and its neighbours are.
+/// @param target  null: the surface itself, nothing is curved.
+/// @return the errors of CheckSolid, the maker and the target; InvalidParameter; LibraryError for
+/// tetrahedra that do not fill the surface; NotConverged for straight cells that are not valid;
+/// Aborted.
+/// @complexity the maker's, and O(n log n); a certificate of every cell.
+Result<SolidMesh> MeshSolid(const TriangleMesh& surface, const FitTarget* target,
+  const TetrahedraMaker& maker, const SolidMeshParams& params = {});
+}

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTetGenMesher.h"
+
+#include "BoundaryData.h"
+#include "TetGenProcess.h"
+#include <knotwork/CADFitting/FitTargetData.h>
+#include <knotwork/MeshParameterization/MeshData.h>
+#include <knotwork/SplineGrid/SplineModel.h>
+#include <knotwork/SplineGrid/TableRow.h>
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCellType.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <cmath>
+
+using namespace knotwork;
+
+vtkStandardNewMacro(vtkTetGenMesher);
+
+namespace
+{
+vtkSmartPointer<vtkPoints> MakePoints(const PointMatrix& points, Eigen::Index count)
+{
+  auto result = vtkSmartPointer<vtkPoints>::New();
+  result->SetDataTypeToDouble();
+  for (Eigen::Index i = 0; i < count; ++i)
+  {
+    result->InsertNextPoint(points.row(i).data());
+  }
+  return result;
+}
+
+int CellTypeOf(int order)
+{
+  return order == 1 ? VTK_TETRA : order == 2 ? VTK_QUADRATIC_TETRA : VTK_LAGRANGE_TETRAHEDRON;
+}
+
+void EncodeCells(const SolidMesh& mesh, int order, vtkUnstructuredGrid* grid)
+{
+  grid->SetPoints(MakePoints(mesh.Points, mesh.Points.rows()));
+  vtkNew<vtkCellArray> cells;
+  for (const std::vector<int>& nodes : mesh.Cells)
+  {
+    const std::vector<vtkIdType> ids(nodes.begin(), nodes.end());
+    cells->InsertNextCell(static_cast<vtkIdType>(ids.size()), ids.data());
+  }
+  grid->SetCells(CellTypeOf(order), cells);
+  vtkCellData* data = grid->GetCellData();
+  data->AddArray(ArrayOf<vtkIntArray>("Region", mesh.Regions, [](int region) { return region; }));
+  data->AddArray(ArrayOf<vtkIntArray>("Verdict", mesh.Certificate.Cells,
+    [](const CellCertificate& cell) { return static_cast<int>(cell.Verdict); }));
+  data->AddArray(ArrayOf<vtkDoubleArray>("MinJacobianLower", mesh.Certificate.Cells,
+    [](const CellCertificate& cell) { return cell.MinLower; }));
+}
+
+void EncodeBoundary(const SolidMesh& mesh, const std::vector<int>& cellsOfTriangles,
+  vtkIdType numCorners, vtkPolyData* output)
+{
+  output->SetPoints(MakePoints(mesh.Points, numCorners));
+  vtkNew<vtkCellArray> cells;
+  for (const auto& corners : mesh.Boundary)
+  {
+    cells->InsertNextCell({ corners[0], corners[1], corners[2] });
+  }
+  output->SetPolys(cells);
+  output->GetCellData()->AddArray(ArrayOf<vtkIdTypeArray>("CellIds", mesh.BoundarySources,
+    [&](int source)
+    { return source < 0 ? -1 : cellsOfTriangles[static_cast<std::size_t>(source)]; }));
+}
+
+void EncodeNumbers(const SolidMesh& mesh, vtkTable* table)
+{
+  const SolidMeshNumbers& numbers = mesh.Numbers;
+  AddColumn(table, "Points", static_cast<int>(mesh.Points.rows()));
+  AddColumn(table, "Tetrahedra", static_cast<int>(mesh.Cells.size()));
+  AddColumn(table, "Regions", mesh.NumRegions);
+  AddColumn(table, "BoundaryTriangles", static_cast<int>(mesh.Boundary.size()));
+  AddColumn(table, "SmallestDihedralAngle", numbers.MinDihedral);
+  AddColumn(table, "LargestDihedralAngle", numbers.MaxDihedral);
+  AddColumn(table, "WorstRadiusEdgeRatio", numbers.WorstRadiusEdgeRatio);
+  AddColumn(table, "Volume", numbers.Volume);
+  AddColumn(table, "SurfaceVolume", numbers.SurfaceVolume);
+  AddColumn(table, "Repaired", numbers.Repaired ? 1 : 0);
+  AddColumn(table, "DistanceToSurface", numbers.DistanceToSurface);
+  AddColumn(table, "DistanceFromSurface", numbers.DistanceFromSurface);
+  AddColumn(table, "Verdict", std::string(ToString(mesh.Certificate.Verdict)));
+  AddColumn(table, "MinJacobianLower", mesh.Certificate.MinLower);
+  AddColumn(table, "BoundaryElements", numbers.BoundaryElements);
+  AddColumn(table, "RelaxedElements", numbers.RelaxedElements);
+  AddColumn(table, "StraightToTarget", numbers.StraightToTarget);
+  AddColumn(table, "CurvedToTarget", numbers.CurvedToTarget);
+  AddColumn(table, "Diagonal", numbers.Diagonal);
+}
+
+/// Corners come first.
+vtkIdType CountCorners(const SolidMesh& mesh)
+{
+  int last = -1;
+  for (const std::vector<int>& nodes : mesh.Cells)
+  {
+    last = std::max(last, *std::max_element(nodes.begin(), nodes.begin() + 4));
+  }
+  return last + 1;
+}
+}
+
+vtkTetGenMesher::vtkTetGenMesher()
+{
+  this->SetNumberOfInputPorts(2);
+  this->SetOutputTypes({ "vtkUnstructuredGrid", "vtkPolyData", "vtkTable" });
+}
+
+void vtkTetGenMesher::SetTargetConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(1, output);
+}
+
+void vtkTetGenMesher::SetTargetData(vtkDataObject* target)
+{
+  this->SetInputDataObject(1, target);
+}
+
+int vtkTetGenMesher::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port);
+  return 1;
+}
+
+Result<DecodedMesh> vtkTetGenMesher::BoundaryOf(vtkDataObject* spline)
+{
+  const auto model = this->DecodeInput(spline);
+  if (!model)
+  {
+    return model.Status;
+  }
+  BoundaryOptions options;
+  options.Tolerance = this->ChordalTolerance;
+  options.Threads = this->KernelThreads();
+  options.Progress = this->Progress();
+  auto boundary = TriangulateBoundary(spline, model.Value, options);
+  if (!boundary)
+  {
+    return boundary.Status;
+  }
+  DecodedMesh mesh;
+  mesh.Mesh = std::move(boundary->Mesh);
+  mesh.Cells = std::move(boundary->Patches);
+  return mesh;
+}
+
+Status vtkTetGenMesher::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkPointSet* input = vtkPointSet::GetData(inputs[0], 0);
+  if (input->GetNumberOfPoints() == 0)
+  {
+    return {};
+  }
+  const bool isSpline = HasSplineCells(input);
+  const auto decoded = isSpline ? this->BoundaryOf(input) : DecodeMesh(input);
+  if (!decoded)
+  {
+    return decoded.Status;
+  }
+  Result<FitTargetPtr> target;
+  vtkDataObject* shape = vtkDataObject::GetData(inputs[1], 0);
+  if (!shape && isSpline && this->Order > 1) // it stands for itself
+  {
+    shape = input;
+  }
+  if (shape)
+  {
+    FitTargetOptions options;
+    options.SharpAngle = this->SharpAngle;
+    target = DecodeFitTarget(shape, options, this->KernelThreads());
+  }
+  if (!target)
+  {
+    return target.Status;
+  }
+  SolidMeshParams params;
+  params.Tetrahedra.RadiusEdgeRatio = this->RadiusEdgeRatio;
+  params.Tetrahedra.MinDihedralAngle = this->MinDihedralAngle;
+  params.Tetrahedra.MaxVolume = std::pow(this->EdgeLength, 3) / (6.0 * std::sqrt(2.0));
+  params.Tetrahedra.MaxSteinerPoints = this->MaxSteinerPoints;
+  params.Tetrahedra.KeepBoundary = this->KeepBoundary;
+  params.Inner =
+    this->Inner == REGIONS ? knotwork::InnerParts::Regions : knotwork::InnerParts::Voids;
+  params.Repair = this->Repair;
+  params.Order = this->Order;
+  params.Threads = this->KernelThreads();
+  params.Progress = this->Progress();
+  WorkerLimits limits;
+  limits.Memory = static_cast<std::uint64_t>(this->MemoryLimit) << 20U;
+  limits.Seconds = this->TimeLimit;
+  limits.CpuSeconds = this->TimeLimit;
+  const auto maker = [&](const TriangleMesh& surface, const TetrahedraParams& asked)
+  {
+    return RunTetGen(
+      surface, asked, limits, [&] { return !params.Progress || params.Progress(0.2); });
+  };
+  const auto mesh = MeshSolid(decoded->Mesh, target.Value.get(), maker, params);
+  if (!mesh)
+  {
+    return mesh.Status;
+  }
+  EncodeCells(mesh.Value, this->Order, vtkUnstructuredGrid::GetData(outputs, 0));
+  EncodeBoundary(
+    mesh.Value, decoded->Cells, CountCorners(mesh.Value), vtkPolyData::GetData(outputs, 1));
+  EncodeNumbers(mesh.Value, vtkTable::GetData(outputs, 2));
+  return {};
+}

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A filter without a file does nothing yet.
+#include <knotwork/CADMeshing/vtkCADQuads.h>
+#include <vtkNew.h>
+
+int main()
+{
+  vtkNew<vtkCADQuads> quads;
+  quads->SetMethod(vtkCADQuads::MAPPED);
+  return quads->GetNumberOfOutputPorts() == 3 && quads->GetMethod() == vtkCADQuads::MAPPED ? 0 : 1;
+}
