@@ -17,6 +17,7 @@ namespace knotwork
 namespace
 {
 using Eigen::Vector3d;
+constexpr double Pi = 3.14159265358979323846;
 
 Status CheckSource(const CellMesh<2>& mesh, const PointMatrixView& points, int layers)
 {
@@ -46,11 +47,11 @@ Status CheckSource(const CellMesh<2>& mesh, const PointMatrixView& points, int l
           " of " + std::to_string(mesh.NumPoints) };
     }
   }
-  return CheckSize(
-    (static_cast<double>(layers) + 1.0) * static_cast<double>(points.rows()), "points of layers");
+  constexpr double most = 2147483647.0; // ids are int
+  return CheckSize((layers + 1.0) * static_cast<double>(points.rows()), most, "points", "Layers");
 }
 
-/// Volume of a prism of straight sides over a quadrilateral, six times.
+/// Sum of the Jacobians in the middles of cells, 64 times: its sign is that of most volume.
 double SignedVolume(const CellMesh<3>& mesh, const PointMatrix& points)
 {
   double volume = 0.0;
@@ -209,7 +210,7 @@ Status MakeFrames(const PathSweepParams& params, bool ring, std::vector<Frame>& 
   const double back = ring
     ? std::atan2(axes.back().cross(axes.front()).dot(tangents[0]), axes.back().dot(axes.front()))
     : 0.0;
-  const double twist = params.Twist * EIGEN_PI / 180.0 + back;
+  const double twist = params.Twist * Pi / 180.0 + back;
   for (std::size_t k = 0; k < points.size(); ++k)
   {
     const double share = static_cast<double>(k) / params.Layers;
@@ -297,6 +298,22 @@ private:
   bool Flat = false; ///< no plane: the points lie in a line
 };
 
+/// Edges by their ends, and how many cells have them.
+std::map<std::pair<int, int>, int> EdgesOf(const CellMesh<2>& mesh)
+{
+  std::map<std::pair<int, int>, int> edges;
+  for (int q = 0; q < mesh.NumCells(); ++q)
+  {
+    const int* c = mesh.Cell(q);
+    for (const auto& [a, b] : { std::pair(c[0], c[1]), std::pair(c[1], c[3]), std::pair(c[3], c[2]),
+           std::pair(c[2], c[0]) })
+    {
+      ++edges[{ std::min(a, b), std::max(a, b) }];
+    }
+  }
+  return edges;
+}
+
 /// Harmonic functions of the graph of a mesh's edges by their values at some points.
 class HarmonicExtension
 {
@@ -321,18 +338,8 @@ public:
         this->Free.push_back(v);
       }
     }
-    std::map<std::pair<int, int>, bool> edges;
-    for (int q = 0; q < mesh.NumCells(); ++q)
-    {
-      const int* c = mesh.Cell(q);
-      for (const auto& [a, b] : { std::pair(c[0], c[1]), std::pair(c[1], c[3]),
-             std::pair(c[3], c[2]), std::pair(c[2], c[0]) })
-      {
-        edges[{ std::min(a, b), std::max(a, b) }] = true;
-      }
-    }
     std::vector<Eigen::Triplet<double>> entries;
-    for (const auto& [edge, known] : edges)
+    for (const auto& [edge, cells] : EdgesOf(mesh))
     {
       this->Add(edge.first, edge.second, entries);
       this->Add(edge.second, edge.first, entries);
@@ -409,21 +416,11 @@ Status CheckRim(const CellMesh<2>& mesh, const std::vector<int>& rim)
     }
     given[static_cast<std::size_t>(v)] = true;
   }
-  std::map<std::pair<int, int>, int> edges;
-  for (int q = 0; q < mesh.NumCells(); ++q)
-  {
-    const int* c = mesh.Cell(q);
-    for (const auto& [a, b] : { std::pair(c[0], c[1]), std::pair(c[1], c[3]), std::pair(c[3], c[2]),
-           std::pair(c[2], c[0]) })
-    {
-      ++edges[{ std::min(a, b), std::max(a, b) }];
-    }
-  }
-  for (const auto& [edge, count] : edges)
+  for (const auto& [edge, cells] : EdgesOf(mesh))
   {
     for (const int v : { edge.first, edge.second })
     {
-      if (count == 1 && !given[static_cast<std::size_t>(v)])
+      if (cells == 1 && !given[static_cast<std::size_t>(v)])
       {
         return { ErrorCode::InvalidTopology,
           "point " + std::to_string(v) + " of the source's rim has no column" };
