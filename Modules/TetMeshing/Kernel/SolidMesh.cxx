@@ -2,6 +2,7 @@
 #include "SolidMesh.h"
 
 #include "CurvedTetrahedra.h"
+#include "SurfaceParts.h"
 #include "TargetNodes.h"
 #include "TetrahedronShapes.h"
 
@@ -312,14 +313,17 @@ private:
     {
       return {};
     }
-    const double tolerance = DistanceTolerance * this->Surface.Diagonal;
-    numbers.DistanceToSurface =
-      FarthestFrom(TriangleIndex<3>(this->Surface.Points, this->Surface.Triangles), this->Corners,
-        this->Mesh.Boundary, tolerance)
-        .Value;
-    numbers.DistanceFromSurface = FarthestFrom(TriangleIndex<3>(this->Corners, this->Mesh.Boundary),
-      this->Surface.Points, this->Surface.Triangles, tolerance)
-                                    .Value;
+    const PartsDistance parts = MeasureParts(this->Surface.Points, this->Surface.Triangles,
+      this->Corners, this->Mesh.Boundary, this->Mesh.BoundarySources);
+    numbers.DistanceToSurface = parts.OfParts;
+    numbers.DistanceFromSurface = parts.OfSurface;
+    if (!parts.Open.empty())
+    {
+      const LargestDistance open =
+        FarthestFrom(TriangleIndex<3>(this->Corners, this->Mesh.Boundary), this->Surface.Points,
+          parts.Open, DistanceTolerance * this->Surface.Diagonal);
+      numbers.DistanceFromSurface = std::max(numbers.DistanceFromSurface, open.Value);
+    }
     return {};
   }
 
