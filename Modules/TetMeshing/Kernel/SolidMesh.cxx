@@ -313,8 +313,9 @@ private:
     {
       return {};
     }
+    const double tolerance = DistanceTolerance * this->Surface.Diagonal;
     const PartsDistance parts = MeasureParts(this->Surface.Points, this->Surface.Triangles,
-      this->Corners, this->Mesh.Boundary, this->Mesh.BoundarySources);
+      this->Corners, this->Mesh.Boundary, this->Mesh.BoundarySources, tolerance);
     numbers.DistanceToSurface = parts.OfParts;
     numbers.DistanceFromSurface = parts.OfSurface;
     if (!parts.Open.empty())

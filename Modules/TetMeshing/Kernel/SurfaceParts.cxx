@@ -113,7 +113,7 @@ std::optional<double> FarthestOfLoop(const std::map<int, std::vector<int>>& neig
 
 PartsDistance MeasureParts(const PointMatrix& surface, const std::vector<MeshTriangle>& triangles,
   const PointMatrix& points, const std::vector<MeshTriangle>& parts,
-  const std::vector<int>& sources)
+  const std::vector<int>& sources, double tolerance)
 {
   const TriangleIndex<3> index(surface, triangles);
   std::vector<std::vector<int>> partsOf(triangles.size());
@@ -137,7 +137,7 @@ PartsDistance MeasureParts(const PointMatrix& surface, const std::vector<MeshTri
       corners[i] = surface.row(triangles[t][i]).transpose();
     }
     const auto farthest = FarthestOfLoop(OddEdges(parts, partsOf[t]), corners, points);
-    if (!farthest)
+    if (!farthest || *farthest > tolerance)
     {
       found.Open.push_back(triangles[t]);
       continue;

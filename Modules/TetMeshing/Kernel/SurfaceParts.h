@@ -17,8 +17,9 @@ struct PartsDistance
 /// cover it (their degree modulo 2 is 1 inside): its points are no farther from them than corners
 /// are from the triangle, and twice as far as those edges' ends are from its sides.
 /// @param sources  triangle of each part.
+/// @param tolerance  farther from a triangle's sides those edges do not count.
 /// @complexity O(n log n)
 PartsDistance MeasureParts(const PointMatrix& surface, const std::vector<MeshTriangle>& triangles,
   const PointMatrix& points, const std::vector<MeshTriangle>& parts,
-  const std::vector<int>& sources);
+  const std::vector<int>& sources, double tolerance);
 }

@@ -120,26 +120,26 @@ TEST(SurfaceParts, DividedTrianglesAreMeasuredBothWays)
   const std::vector<MeshTriangle> parts{ { 0, 6, 5 }, { 6, 1, 5 }, { 5, 1, 4 }, { 5, 4, 2 },
     { 0, 5, 2 }, { 2, 4, 3 }, { 4, 1, 3 } };
   const std::vector<int> sources{ 0, 0, 0, 0, 0, 1, 1 };
-  PartsDistance found = MeasureParts(surface, triangles, points, parts, sources);
+  PartsDistance found = MeasureParts(surface, triangles, points, parts, sources, 0.5);
   EXPECT_EQ(found.OfParts, 0.0);
   EXPECT_EQ(found.OfSurface, 0.0);
   EXPECT_TRUE(found.Open.empty());
 
   points(5, 2) = 0.25; // inside
-  found = MeasureParts(surface, triangles, points, parts, sources);
+  found = MeasureParts(surface, triangles, points, parts, sources, 0.5);
   EXPECT_EQ(found.OfParts, 0.25);
   EXPECT_EQ(found.OfSurface, 0.25);
 
   points(5, 2) = 0.0;
   points(6, 1) = -0.25; // on a side
-  found = MeasureParts(surface, triangles, points, parts, sources);
+  found = MeasureParts(surface, triangles, points, parts, sources, 0.5);
   EXPECT_EQ(found.OfParts, 0.25);
   EXPECT_EQ(found.OfSurface, 0.75);
 
   // a part that is missing, one that is there twice, and all of them twice
   points(6, 1) = 0.0;
-  const auto open = [&](std::vector<MeshTriangle> some, const std::vector<int>& of)
-  { return MeasureParts(surface, triangles, points, some, of).Open.size(); };
+  const auto open = [&](const std::vector<MeshTriangle>& some, const std::vector<int>& of)
+  { return MeasureParts(surface, triangles, points, some, of, 0.5).Open.size(); };
   EXPECT_EQ(open({ parts.begin() + 1, parts.end() }, { sources.begin() + 1, sources.end() }), 1u);
   std::vector<MeshTriangle> more = parts;
   more.push_back(parts[3]);
