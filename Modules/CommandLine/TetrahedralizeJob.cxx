@@ -53,6 +53,7 @@ private:
 
 const JobRegistration Registration{ "tetrahedralize",
   "fill a closed surface with straight or curved tetrahedra",
-  "part.stl --edge-length 2 --output part.vtu --report part.json", MakeJob<TetrahedralizeJob> };
+  "part.stl --edge-length 2 --keep-boundary 0 --output part.vtu --report part.json",
+  MakeJob<TetrahedralizeJob> };
 }
 }
