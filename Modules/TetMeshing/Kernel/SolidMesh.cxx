@@ -24,7 +24,7 @@ namespace knotwork
 {
 namespace
 {
-constexpr double DistanceTolerance = 1e-5; ///< of the diagonal
+constexpr double DistanceTolerance = 1e-4; ///< of the diagonal
 /// Corners of the face opposite of a corner, outward.
 constexpr std::array<std::array<int, 3>, 4> FaceCorners{ { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 },
   { 0, 2, 1 } } };
