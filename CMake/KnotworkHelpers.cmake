@@ -93,8 +93,8 @@ endfunction()
 function(knotwork_add_worker name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBRARIES;AUTOINIT")
   set(common "${CMAKE_SOURCE_DIR}/Modules/SplineGrid/Worker")
-  add_executable(${name} ${arg_SOURCES} "${common}/WorkerMain.cxx" "${common}/WorkerMain.h")
-  target_include_directories(${name} PRIVATE "${common}"
+  add_executable(${name} ${arg_SOURCES} "${common}/WorkerMain.cxx")
+  target_include_directories(${name} PRIVATE
     "$<TARGET_PROPERTY:Knotwork::SplineCoreKernel,INTERFACE_INCLUDE_DIRECTORIES>")
   target_compile_options(${name} PRIVATE ${KNOTWORK_WARNINGS})
   target_link_libraries(${name} PRIVATE ${arg_LIBRARIES})

@@ -30,7 +30,7 @@ knotwork_module(CADMeshing KERNELS SplineCore CADModel MeshParameterization FILT
 if(NOT KNOTWORK_PERMISSIVE) # CGAL is under the GPL, TetGen under the AGPL
   knotwork_module(SurfaceRemeshing KERNELS SplineCore MeshParameterization FILTERS SplineGrid MeshParameterization)
   knotwork_module(TetMeshing
-    KERNELS SplineCore JacobianValidation MeshParameterization SurfaceTrimming CADFitting SurfaceRemeshing
+    KERNELS SplineCore JacobianValidation MeshParameterization CADFitting SurfaceRemeshing
     FILTERS SplineGrid MeshParameterization SurfaceTrimming CADFitting)
 endif()
 knotwork_module(SplineIO KERNELS SplineCore FILTERS SplineGrid CADModel SurfaceTrimming)

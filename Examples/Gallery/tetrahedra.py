@@ -27,7 +27,7 @@ def half(grid):
     threshold = vtkThreshold()
     threshold.SetInputData(grid)
     threshold.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_CELLS, "Behind")
-    threshold.SetLowerThreshold(0.5)
+    threshold.SetUpperThreshold(0.5)
     threshold.SetThresholdFunction(vtkThreshold.THRESHOLD_UPPER)
     surface = vtkDataSetSurfaceFilter()
     surface.SetInputConnection(threshold.GetOutputPort())

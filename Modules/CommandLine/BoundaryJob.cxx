@@ -35,7 +35,7 @@ private:
 
 const JobRegistration Registration{ "boundary",
   "turn the boundary of a spline into a closed surface of triangles",
-  "solid.vtu --chordal-tolerance 1e-4 --output solid.vtp --report solid.json",
+  "solid.step --chordal-tolerance 1e-4 --output solid.vtp --report solid.json",
   MakeJob<BoundaryJob> };
 }
 }

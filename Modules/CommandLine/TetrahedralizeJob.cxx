@@ -53,6 +53,6 @@ private:
 
 const JobRegistration Registration{ "tetrahedralize",
   "fill a closed surface with straight or curved tetrahedra",
-  "part.stl --edge-length 2 --output part.vtu --report part.json", MakeJob<TetrahedralizeJob> };
+  "solid.step --order 2 --output part.vtu --report part.json", MakeJob<TetrahedralizeJob> };
 }
 }

@@ -68,8 +68,8 @@ public:
   vtkGetMacro(MaxSteinerPoints, int);
   ///@}
   ///@{
-  /** Whether the triangles of the surface stay as they are, else they may be divided. Default on.
-   */
+  /** Whether the triangles of the surface stay as they are, and cells beside large ones large; else
+   * they may be divided. Default on. */
   vtkSetMacro(KeepBoundary, bool);
   vtkGetMacro(KeepBoundary, bool);
   vtkBooleanMacro(KeepBoundary, bool);

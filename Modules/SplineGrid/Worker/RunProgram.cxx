@@ -3,7 +3,7 @@
 // Becomes a program of others in a folder, contained as a worker is; see RunForeignProgram. What it
 // prints goes to the process that waits.
 #include "../WorkerStatus.h"
-#include "WorkerMain.h"
+#include <knotwork/SplineGrid/WorkerMain.h>
 
 #include <cstdlib>
 

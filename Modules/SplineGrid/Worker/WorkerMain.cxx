@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "WorkerMain.h"
+#include <knotwork/SplineGrid/WorkerMain.h>
 
 #include "../WorkerStatus.h"
 

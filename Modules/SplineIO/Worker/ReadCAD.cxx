@@ -2,8 +2,8 @@
 // usage: knotwork-read-cad PARENT BYTES SECONDS FILE UNIT TOLERANCE
 // Reads STEP and IGES files by OpenCASCADE for another process, see WorkerMain.h.
 #include "CADParts.h"
-#include "WorkerMain.h"
 #include <knotwork/CADModel/CADExchange.h>
+#include <knotwork/SplineGrid/WorkerMain.h>
 
 namespace
 {

@@ -4,10 +4,10 @@
 #include "CellCheck.h"
 #include "DataParts.h"
 #include "Messages.h"
-#include "WorkerMain.h"
 #include "XmlCheck.h"
 #include <knotwork/SplineCore/FileEnding.h>
 #include <knotwork/SplineGrid/InputChecks.h>
+#include <knotwork/SplineGrid/WorkerMain.h>
 
 #include <vtkDataObject.h>
 #include <vtkDataSet.h>

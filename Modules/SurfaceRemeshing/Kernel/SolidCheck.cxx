@@ -139,8 +139,9 @@ private:
   Status CheckEdges()
   {
     const SoupDefects defects = FindDefects(this->Triangles, this->Mesh.Points.rows());
-    const auto middle = [this](const std::pair<int, int>& edge)
-    { return this->Middle({ edge.first, edge.second }); };
+    const auto middle = [this](const std::pair<int, int>& edge) {
+      return this->Middle({ edge.first, edge.second });
+    };
     if (!defects.OpenEdges.empty())
     {
       return this->Defect(Named("open edges", defects.OpenEdges, middle));

@@ -14,7 +14,7 @@ namespace
 constexpr std::array<std::array<int, 2>, 6> EdgeCorners{ { { 0, 1 }, { 1, 2 }, { 2, 0 }, { 0, 3 },
   { 1, 3 }, { 2, 3 } } };
 constexpr std::array<int, 4> OppositeCorners{ 2, 0, 1, 3 }; ///< of the faces' points
-constexpr double BackStep = 0.25;                           ///< of the way, a time
+constexpr double FirstStep = 1.0 / 32.0; ///< of the way back; twice as far each time
 
 std::size_t At(int i)
 {
@@ -290,7 +290,7 @@ bool CurvedNodes::MoveBack(const std::vector<int>& nodes)
       double& share = this->Shares[static_cast<std::size_t>(nodes[i])];
       if (this->IsPlaced(nodes[i]) && share > 0.0)
       {
-        share = std::max(0.0, share - BackStep);
+        share = share == 1.0 ? 1.0 - FirstStep : std::max(0.0, 2.0 * share - 1.0);
         moved = true;
       }
     }

@@ -2,6 +2,7 @@
 #include "SolidMesh.h"
 
 #include "CurvedTetrahedra.h"
+#include "SurfaceParts.h"
 #include "TargetNodes.h"
 #include "TetrahedronShapes.h"
 
@@ -23,7 +24,7 @@ namespace knotwork
 {
 namespace
 {
-constexpr double DistanceTolerance = 1e-5; ///< of the diagonal
+constexpr double DistanceTolerance = 1e-4; ///< of the diagonal
 /// Corners of the face opposite of a corner, outward.
 constexpr std::array<std::array<int, 3>, 4> FaceCorners{ { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 },
   { 0, 2, 1 } } };
@@ -313,13 +314,17 @@ private:
       return {};
     }
     const double tolerance = DistanceTolerance * this->Surface.Diagonal;
-    numbers.DistanceToSurface =
-      FarthestFrom(TriangleIndex<3>(this->Surface.Points, this->Surface.Triangles), this->Corners,
-        this->Mesh.Boundary, tolerance)
-        .Value;
-    numbers.DistanceFromSurface = FarthestFrom(TriangleIndex<3>(this->Corners, this->Mesh.Boundary),
-      this->Surface.Points, this->Surface.Triangles, tolerance)
-                                    .Value;
+    const PartsDistance parts = MeasureParts(this->Surface.Points, this->Surface.Triangles,
+      this->Corners, this->Mesh.Boundary, this->Mesh.BoundarySources, tolerance);
+    numbers.DistanceToSurface = parts.OfParts;
+    numbers.DistanceFromSurface = parts.OfSurface;
+    if (!parts.Open.empty())
+    {
+      const LargestDistance open =
+        FarthestFrom(TriangleIndex<3>(this->Corners, this->Mesh.Boundary), this->Surface.Points,
+          parts.Open, DistanceTolerance * this->Surface.Diagonal);
+      numbers.DistanceFromSurface = std::max(numbers.DistanceFromSurface, open.Value);
+    }
     return {};
   }
 

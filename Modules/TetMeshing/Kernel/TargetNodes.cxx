@@ -18,11 +18,12 @@ namespace
 constexpr double SharpCosine = 0.94; ///< 20 degrees between normals: an edge that may be sharp
 constexpr double NearCurve = 0.25;   ///< of an edge's length: how far its curve may be
 constexpr double FarthestMove = 0.5; ///< of an edge's length
-/// Barycentric coordinates at which distances are sampled: within, and at a quarter of each edge
-/// (of its other triangle at three).
-constexpr std::array<std::array<double, 3>, 7> SamplePlaces{ { { 1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0 },
+/// Barycentric coordinates at which distances are sampled: within, and at the middle and a quarter
+/// of each edge (of its other triangle at three).
+constexpr std::array<std::array<double, 3>, 10> SamplePlaces{ { { 1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0 },
   { 0.5, 0.25, 0.25 }, { 0.25, 0.5, 0.25 }, { 0.25, 0.25, 0.5 }, { 0.75, 0.25, 0.0 },
-  { 0.0, 0.75, 0.25 }, { 0.25, 0.0, 0.75 } } };
+  { 0.0, 0.75, 0.25 }, { 0.25, 0.0, 0.75 }, { 0.5, 0.5, 0.0 }, { 0.0, 0.5, 0.5 },
+  { 0.5, 0.0, 0.5 } } };
 
 std::size_t At(int i)
 {
@@ -67,7 +68,10 @@ private:
     int Node;
     TargetPart Part;
     double Length; ///< of the edge, which bounds the way
+    Eigen::RowVector3d From;
   };
+
+  Eigen::RowVector3d Placed(int node) const { return this->Nodes.Positions().row(node); }
 
   void CollectEdges()
   {
@@ -262,7 +266,7 @@ private:
     std::vector<Query> queries;
     for (const auto& [number, corner] : corners)
     {
-      Query query{ number, {}, corner.Shortest };
+      Query query{ number, {}, corner.Shortest, this->Placed(number) };
       const bool ends = !corner.Curves.empty() &&
         (corner.Curves.size() != 2 || corner.Curves[0] != corner.Curves[1]);
       const int vertex =
@@ -284,9 +288,11 @@ private:
     return this->PlaceQueries(queries);
   }
 
+  /// Points of order 3 start from the parabola through the foot of the edge's middle: so they come
+  /// to lie more evenly along the curve than from the straight edge.
   Status PlaceEdges()
   {
-    std::vector<Query> queries;
+    std::vector<Query> middles;
     for (const BoundaryEdge& edge : this->Edges)
     {
       TargetPart part;
@@ -299,9 +305,35 @@ private:
         part = { TargetEntity::Face, face };
       }
       const int number = this->Lattice.FindEdge(edge.Ends[0], edge.Ends[1]);
-      for (int k = 1; k < this->Lattice.Order; ++k)
+      const Eigen::RowVector3d middle =
+        0.5 * (this->Placed(edge.Ends[0]) + this->Placed(edge.Ends[1]));
+      middles.push_back({ this->Lattice.EdgeNode(number, 1), part, this->Length(edge), middle });
+    }
+    if (this->Lattice.Order == 2)
+    {
+      return this->PlaceQueries(middles);
+    }
+    std::vector<Eigen::RowVector3d> feet;
+    if (Status status = this->FindFeet(middles, feet); !status)
+    {
+      return status;
+    }
+    std::vector<Query> queries;
+    for (std::size_t e = 0; e < this->Edges.size(); ++e)
+    {
+      const Eigen::RowVector3d bulge = 4.0 * (feet[e] - middles[e].From);
+      for (int k = 1; k < 3; ++k)
       {
-        queries.push_back({ this->Lattice.EdgeNode(number, k), part, this->Length(edge) });
+        Query query = middles[e];
+        const double t = k / 3.0;
+        query.Node += k - 1;
+        query.From = (1.0 - t) * this->Placed(this->Edges[e].Ends[0]) +
+          t * this->Placed(this->Edges[e].Ends[1]);
+        if (bulge.norm() <= 4.0 * FarthestMove * query.Length)
+        {
+          query.From += t * (1.0 - t) * bulge;
+        }
+        queries.push_back(query);
       }
     }
     return this->PlaceQueries(queries);
@@ -315,39 +347,54 @@ private:
       const auto& corners = this->Boundary[t];
       const int face = this->Faces[t];
       const double length = (this->Corners.row(corners[0]) - this->Corners.row(corners[1])).norm();
-      queries.push_back({ this->Lattice.FaceNode(this->Lattice.FindFace(corners)),
-        face < 0 ? TargetPart() : TargetPart{ TargetEntity::Face, face }, length });
+      const int node = this->Lattice.FaceNode(this->Lattice.FindFace(corners));
+      queries.push_back({ node, face < 0 ? TargetPart() : TargetPart{ TargetEntity::Face, face },
+        length, this->Nodes.Base(node) });
     }
     return this->PlaceQueries(queries);
   }
 
-  Status PlaceQueries(const std::vector<Query>& queries)
+  /// Closest points, part by part.
+  Status FindFeet(const std::vector<Query>& queries, std::vector<Eigen::RowVector3d>& feet) const
   {
     std::map<std::pair<TargetEntity, int>, std::vector<std::size_t>> parts;
     for (std::size_t i = 0; i < queries.size(); ++i)
     {
       parts[{ queries[i].Part.Entity, queries[i].Part.Id }].push_back(i);
     }
+    feet.resize(queries.size());
     for (const auto& [part, members] : parts)
     {
       PointMatrix from(static_cast<Eigen::Index>(members.size()), 3);
       for (std::size_t i = 0; i < members.size(); ++i)
       {
-        from.row(static_cast<Eigen::Index>(i)) = this->Nodes.Base(queries[members[i]].Node);
+        from.row(static_cast<Eigen::Index>(i)) = queries[members[i]].From;
       }
-      PointMatrix feet;
-      if (Status status = this->Find({ part.first, part.second }, from, feet); !status)
+      PointMatrix found;
+      if (Status status = this->Find({ part.first, part.second }, from, found); !status)
       {
         return status;
       }
       for (std::size_t i = 0; i < members.size(); ++i)
       {
-        const Query& query = queries[members[i]];
-        const auto row = static_cast<Eigen::Index>(i);
-        if ((feet.row(row) - from.row(row)).norm() <= FarthestMove * query.Length)
-        {
-          this->Nodes.Place(query.Node, feet.row(row));
-        }
+        feet[members[i]] = found.row(static_cast<Eigen::Index>(i));
+      }
+    }
+    return {};
+  }
+
+  Status PlaceQueries(const std::vector<Query>& queries)
+  {
+    std::vector<Eigen::RowVector3d> feet;
+    if (Status status = this->FindFeet(queries, feet); !status)
+    {
+      return status;
+    }
+    for (std::size_t i = 0; i < queries.size(); ++i)
+    {
+      if ((feet[i] - queries[i].From).norm() <= FarthestMove * queries[i].Length)
+      {
+        this->Nodes.Place(queries[i].Node, feet[i]);
       }
     }
     return {};

@@ -14,7 +14,7 @@ namespace knotwork
 Status PlaceOnTarget(const FitTarget& target, const std::vector<std::array<int, 3>>& boundary,
   const NodeLattice& lattice, const PointMatrix& corners, int threads, CurvedNodes& nodes);
 
-/// Largest distance of points of a boundary from a target, at seven places of each triangle.
+/// Largest distance of points of a boundary from a target, at ten places of each triangle.
 /// @param lattice  of order 1 for straight triangles.
 /// @param points  of the lattice.
 Result<double> FarthestFromTarget(const FitTarget& target,

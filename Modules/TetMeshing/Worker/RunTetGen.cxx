@@ -3,7 +3,7 @@
 // Tetrahedra within triangles by TetGen for another process, see WorkerMain.h and TetGenParts.h.
 #include "TetGenEnd.h"
 #include "TetGenParts.h"
-#include "WorkerMain.h"
+#include <knotwork/SplineGrid/WorkerMain.h>
 
 #define TETLIBRARY
 #include <tetgen.h>

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tetrahedra of a mesher that is a table: a cube of six, whose measures are known.
 #include "CurvedTetrahedra.h"
+#include "SurfaceParts.h"
 #include "TetrahedronShapes.h"
 #include <knotwork/CADFitting/ImplicitTarget.h>
 #include <knotwork/SurfaceRemeshing/SolidCheck.h>
 #include <knotwork/TetMeshing/SolidMesh.h>
+
+#include <Eigen/LU>
 
 #include <gtest/gtest.h>
 
@@ -105,6 +108,45 @@ TEST(TetrahedronShapes, RegularTetrahedron)
   EXPECT_NEAR(shapes.MaxDihedral, shapes.MinDihedral, 1e-10);
   EXPECT_NEAR(shapes.WorstRadiusEdgeRatio, std::sqrt(6.0) / 4.0, 1e-12);
   EXPECT_NEAR(std::abs(shapes.Volume), 8.0 / 3.0, 1e-12);
+}
+
+// Oracle: parts of known places
+TEST(SurfaceParts, DividedTrianglesAreMeasuredBothWays)
+{
+  PointMatrix surface(4, 3);
+  surface << 0, 0, 0, 4, 0, 0, 0, 4, 0, 4, 4, 3;
+  const std::vector<MeshTriangle> triangles{ { 0, 1, 2 }, { 2, 1, 3 } };
+  PointMatrix points(7, 3);
+  points << surface, 2, 2, 0, 1, 1, 0, 2, 0, 0;
+  const std::vector<MeshTriangle> parts{ { 0, 6, 5 }, { 6, 1, 5 }, { 5, 1, 4 }, { 5, 4, 2 },
+    { 0, 5, 2 }, { 2, 4, 3 }, { 4, 1, 3 } };
+  const std::vector<int> sources{ 0, 0, 0, 0, 0, 1, 1 };
+  PartsDistance found = MeasureParts(surface, triangles, points, parts, sources, 0.5);
+  EXPECT_EQ(found.OfParts, 0.0);
+  EXPECT_EQ(found.OfSurface, 0.0);
+  EXPECT_TRUE(found.Open.empty());
+
+  points(5, 2) = 0.25; // inside
+  found = MeasureParts(surface, triangles, points, parts, sources, 0.5);
+  EXPECT_EQ(found.OfParts, 0.25);
+  EXPECT_EQ(found.OfSurface, 0.25);
+
+  points(5, 2) = 0.0;
+  points(6, 1) = -0.25; // on a side
+  found = MeasureParts(surface, triangles, points, parts, sources, 0.5);
+  EXPECT_EQ(found.OfParts, 0.25);
+  EXPECT_EQ(found.OfSurface, 0.75);
+
+  // a part that is missing, one that is there twice, and all of them twice
+  points(6, 1) = 0.0;
+  const auto open = [&](const std::vector<MeshTriangle>& some, const std::vector<int>& of)
+  { return MeasureParts(surface, triangles, points, some, of, 0.5).Open.size(); };
+  EXPECT_EQ(open({ parts.begin() + 1, parts.end() }, { sources.begin() + 1, sources.end() }), 1u);
+  std::vector<MeshTriangle> more = parts;
+  more.push_back(parts[3]);
+  EXPECT_EQ(open(more, { 0, 0, 0, 0, 0, 1, 1, 0 }), 1u);
+  more.insert(more.end(), { parts[0], parts[1], parts[2], parts[4] });
+  EXPECT_EQ(open(more, { 0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 0 }), 1u);
 }
 
 TEST(SolidMesh, CubeOfSix)
@@ -216,7 +258,7 @@ TEST(SolidMesh, ErrorsNameThePlace)
   bad.Triangles[0][1] = 99;
   EXPECT_EQ(error(bad).Code, ErrorCode::InvalidTopology);
   bad = good;
-  bad.Points.row(7) << -1.0, -1.0, -1.0; // a corner through the opposite one
+  bad.Points.row(7) << 0.5, 0.4, -0.5; // a corner through the opposite face
   const Status crossed = error(bad);
   EXPECT_NE(crossed.Detail.find("intersect, "), std::string::npos) << crossed.Detail;
   EXPECT_NE(crossed.Detail.find("(triangles "), std::string::npos);
