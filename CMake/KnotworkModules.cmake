@@ -26,7 +26,7 @@ knotwork_module(SurfaceTrimming KERNELS SplineCore JacobianValidation MeshParame
   FILTERS SplineGrid MeshParameterization)
 knotwork_module(CADFitting KERNELS SplineCore JacobianValidation MeshParameterization DomainParameterization SurfaceTrimming
   FILTERS SplineGrid CADModel MeshParameterization SurfaceTrimming)
-knotwork_module(CADMeshing KERNELS SplineCore CADModel MeshParameterization FILTERS SplineGrid CADModel)
+knotwork_module(CADMeshing KERNELS SplineCore JacobianValidation CADModel MeshParameterization FILTERS SplineGrid CADModel)
 if(NOT KNOTWORK_PERMISSIVE) # CGAL is under the GPL, TetGen under the AGPL
   knotwork_module(SurfaceRemeshing KERNELS SplineCore MeshParameterization FILTERS SplineGrid MeshParameterization)
   knotwork_module(TetMeshing

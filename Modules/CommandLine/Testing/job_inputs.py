@@ -144,6 +144,7 @@ def runs():
             (["approximate", FILE, "--values", "Temperature", "--table", "table.csv", "--points", polydata, "--output", grid], "values"),
             (["cadmodify", FILE, "--cut-plane", 0.5, 0, 0, 1, 0, 0, "--suggest", "--table", "table.csv", "--output", "out.step"], "part"),
             (["quads", FILE, "--face-table", "table.csv", "--output", polydata], "part"),
+            (["sweep", FILE, "--direction", 0, 0, 2, "--output", grid], "quads"),
             (["cadfit", FILE, "--entities", "table.csv", "--output", grid], "quads"),
             (["intersections", FILE, "--table", "table.csv", "--output", polydata], "surface"),
             (["recognize", FILE, "--edges", "edges.vtp", "--regions", "table.csv", "--output", polydata], "mesh"),

@@ -6,9 +6,11 @@
 
 class tetgenmesh;
 
+// NOLINTBEGIN(readability-identifier-naming): the library's name
 __attribute__((visibility("default"))) void terminatetetgen(tetgenmesh* mesh, int reason);
 
 void terminatetetgen(tetgenmesh*, int reason)
 {
   throw knotwork::TetGenEnd{ reason };
 }
+// NOLINTEND(readability-identifier-naming)
