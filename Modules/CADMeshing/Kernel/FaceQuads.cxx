@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace knotwork
@@ -389,12 +390,67 @@ FaceQuads Halving::Make(const ChartTriangles& given)
   }
   return std::move(this->Mesh);
 }
+
+/// Where another loop passes a loop's point: the same vertex at the same place, but for rounding.
+std::optional<std::pair<std::size_t, std::size_t>> FindTouch(
+  const ChartLoop& loop, const ChartLoop& other)
+{
+  Eigen::AlignedBox2d box;
+  for (const LoopPoint& point : loop)
+  {
+    box.extend(point.Place);
+  }
+  const double near = 1e-9 * box.diagonal().norm();
+  for (std::size_t a = 0; a < loop.size(); ++a)
+  {
+    for (std::size_t b = 0; b < other.size() && loop[a].IsCorner; ++b)
+    {
+      if (other[b].IsCorner && other[b].Node == loop[a].Node &&
+        (other[b].Place - loop[a].Place).norm() <= near)
+      {
+        return std::pair(a, b);
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+/// Loops that touch in vertices are one that passes these twice: the face ends there on both sides.
+std::vector<ChartLoop> JoinTouching(std::vector<ChartLoop> loops)
+{
+  std::vector<ChartLoop> joined;
+  while (!loops.empty())
+  {
+    ChartLoop loop = std::move(loops.front());
+    loops.erase(loops.begin());
+    for (std::size_t l = 0; l < loops.size();)
+    {
+      const auto touch = FindTouch(loop, loops[l]);
+      if (!touch)
+      {
+        ++l;
+        continue;
+      }
+      ChartLoop other = std::move(loops[l]);
+      loops.erase(loops.begin() + static_cast<std::ptrdiff_t>(l));
+      std::rotate(
+        other.begin(), other.begin() + static_cast<std::ptrdiff_t>(touch->second), other.end());
+      other.front().Place = loop[touch->first].Place;
+      // along this loop to the vertex, around the other one, and on from the vertex
+      loop.insert(
+        loop.begin() + static_cast<std::ptrdiff_t>(touch->first), other.begin(), other.end());
+      l = 0; // what touches the other one
+    }
+    joined.push_back(std::move(loop));
+  }
+  return joined;
+}
 }
 
 Result<FaceQuads> PaveFace(const FaceChart& chart, const std::vector<ChartLoop>& loops,
   const ChartSizes& sizes, int maxTriangles)
 {
-  Halving halving(chart, loops);
+  Halving halving(chart, JoinTouching(loops));
   const auto triangles = TriangulateChart(chart, halving.Corners(), sizes, maxTriangles);
   if (!triangles)
   {

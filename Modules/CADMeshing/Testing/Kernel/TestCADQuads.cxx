@@ -246,6 +246,45 @@ TEST(CADQuads, ImprintedSolidsConformAndOthersDoNot)
   EXPECT_EQ(Mesh(model).EulerNumber, 2 + 2);
 }
 
+TEST(CADQuads, LoopsMayTouch)
+{
+  // a cylinder on a box whose circle touches one edge, two edges, or another cylinder's circle
+  const std::vector<std::vector<gp_Pnt>> cases{ { gp_Pnt(3, 5, 10) }, { gp_Pnt(3, 3, 10) },
+    { gp_Pnt(3, 5, 10), gp_Pnt(7, 5, 10) } };
+  for (const std::vector<gp_Pnt>& places : cases)
+  {
+    SCOPED_TRACE(places.front().Y() + static_cast<double>(places.size()));
+    const double radius = places.size() == 1 ? 3.0 : 2.0;
+    BRep_Builder builder;
+    TopoDS_Compound compound;
+    builder.MakeCompound(compound);
+    builder.Add(compound, BoxAt(gp_Pnt(0, 0, 0), 10, 10, 10));
+    for (const gp_Pnt& place : places)
+    {
+      builder.Add(compound, CylinderAt(place, gp_Dir(0, 0, 1), radius, 4));
+    }
+    const std::string file = OutputFile("touching.brep");
+    ASSERT_TRUE(ModifyCAD(STEPFile(compound), file, { CADOperation() }));
+    const CADTopology model = TopologyOf(file);
+    const CADQuads made = Mesh(model);
+    ExpectClosedBodies(model, made);
+    EXPECT_EQ(made.EulerNumber, 2 + static_cast<int>(places.size()));
+    EXPECT_TRUE(made.Closed);
+    EXPECT_GT(made.LeastScaledJacobian, 0.0);
+    double top = 0.0; // of the box: what is not under a cylinder
+    for (std::size_t q = 0; q < made.Mesh.Quads.size(); ++q)
+    {
+      const auto& quad = made.Mesh.Quads[q];
+      const auto at = [&](int i) { return made.Mesh.Points[At(quad[At(i)])]; };
+      const Eigen::Vector3d normal = 0.5 * (at(2) - at(0)).cross(at(3) - at(1));
+      top += std::abs(at(0)[2] - 10.0) < 1e-9 && std::abs(normal[2]) > 0.5 * normal.norm()
+        ? std::abs(normal[2])
+        : 0.0;
+    }
+    EXPECT_NEAR(top, 100.0, 1e-9);
+  }
+}
+
 TEST(CADQuads, OneFaceIsOpen)
 {
   TopExp_Explorer face(BoxAt(gp_Pnt(0, 0, 0), 1, 1, 1), TopAbs_FACE);
