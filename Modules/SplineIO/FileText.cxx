@@ -2,6 +2,7 @@
 #include "FileText.h"
 
 #include <knotwork/SplineCore/FileOutput.h>
+#include <knotwork/SplineGrid/DistributedInput.h>
 #include <knotwork/SplineGrid/FilterErrorCode.h>
 
 #include "vtkErrorCode.h"
@@ -47,13 +48,23 @@ std::string BeginningOfFile(const std::string& file)
   return beginning;
 }
 
-WriteOutcome WriteText(const std::string& file, const std::function<Status(std::string&)>& makeText)
+WriteOutcome WriteText(
+  vtkDataObject* input, const char* file, const std::function<Status(std::string&)>& makeText)
 {
   std::string text;
-  Status status;
+  bool idle = false;
+  Status status = CheckOneWriter(input, idle);
+  if (idle)
+  {
+    return {};
+  }
+  if (status && (!file || file[0] == '\0'))
+  {
+    status = { ErrorCode::InvalidParameter, "there is no file name" };
+  }
   try
   {
-    status = makeText(text);
+    status = status ? makeText(text) : status;
   }
   catch (...) // out of memory, or of a library below the kernel
   {

@@ -5,6 +5,8 @@
 #include <functional>
 #include <string>
 
+class vtkDataObject;
+
 namespace knotwork
 {
 /// All bytes of a file. @return FileError with the name when it cannot be read.
@@ -20,8 +22,10 @@ struct WriteOutcome
   std::string Message; ///< empty when the file is written
 };
 
-/// Makes a text and writes it. Nothing is written unless all of it could be made; memory that does
-/// not suffice, or an exception of a library, is an outcome too.
+/// What a writer does with its input: makes a text and writes it. Nothing is written unless all of
+/// it could be made; a missing name, memory that does not suffice, or an exception of a library is
+/// an outcome too. A rank that has no part of distributed data writes nothing (CheckOneWriter).
+/// @param file  its name; null: none.
 WriteOutcome WriteText(
-  const std::string& file, const std::function<Status(std::string&)>& makeText);
+  vtkDataObject* input, const char* file, const std::function<Status(std::string&)>& makeText);
 }

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkPointCloudWriter.h"
-#include <knotwork/SplineGrid/DistributedInput.h>
 
 #include "FileFormats.h"
 #include "FileText.h"
 #include "PointData.h"
 #include <knotwork/SplineCore/FileEnding.h>
-#include <knotwork/SplineGrid/FilterErrorCode.h>
 #include <knotwork/SplineIO/GoToolsG2.h>
 #include <knotwork/SplineIO/PointText.h>
 
-#include "vtkErrorCode.h"
 #include "vtkInformation.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
@@ -33,10 +30,6 @@ int vtkPointCloudWriter::FillInputPortInformation(int, vtkInformation* info)
 knotwork::Status vtkPointCloudWriter::MakeText(std::string& text)
 {
   using namespace knotwork;
-  if (!this->FileName || this->FileName[0] == '\0')
-  {
-    return { ErrorCode::InvalidParameter, "there is no file name" };
-  }
   const std::string ending = LowerEnding(this->FileName);
   const bool asG2 = ending == ".g2";
   if (!asG2 && ending != ".csv" && ending != ".xyz" && ending != ".txt")
@@ -57,19 +50,8 @@ knotwork::Status vtkPointCloudWriter::MakeText(std::string& text)
 
 void vtkPointCloudWriter::WriteData()
 {
-  bool idle = false;
-  if (const knotwork::Status one = knotwork::CheckOneWriter(this->GetInput(), idle); idle || !one)
-  {
-    this->SetErrorCode(vtkErrorCode::NoError);
-    if (!one)
-    {
-      this->SetErrorCode(knotwork::FilterErrorCode(one));
-      vtkErrorMacro("" << one.Message());
-    }
-    return;
-  }
-  const knotwork::WriteOutcome outcome = knotwork::WriteText(this->FileName ? this->FileName : "",
-    [this](std::string& text) { return this->MakeText(text); });
+  const knotwork::WriteOutcome outcome = knotwork::WriteText(
+    this->GetInput(), this->FileName, [this](std::string& text) { return this->MakeText(text); });
   this->SetErrorCode(outcome.Code);
   if (!outcome.Message.empty())
   {

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSolverMeshWriter.h"
-#include <knotwork/SplineGrid/DistributedInput.h>
 
 #include "ElementGrid.h"
 #include "FileText.h"
 #include <knotwork/SplineCore/FileEnding.h>
-#include <knotwork/SplineGrid/FilterErrorCode.h>
 #include <knotwork/SplineIO/GmshMesh.h>
 #include <knotwork/SplineIO/MfemWriter.h>
 
-#include "vtkErrorCode.h"
 #include "vtkInformation.h"
 #include "vtkObjectFactory.h"
 #include "vtkUnstructuredGrid.h"
@@ -32,10 +29,6 @@ int vtkSolverMeshWriter::FillInputPortInformation(int, vtkInformation* info)
 knotwork::Status vtkSolverMeshWriter::MakeText(std::string& text)
 {
   using namespace knotwork;
-  if (!this->FileName || this->FileName[0] == '\0')
-  {
-    return { ErrorCode::InvalidParameter, "there is no file name" };
-  }
   const std::string ending = LowerEnding(this->FileName);
   if (ending != ".msh" && ending != ".mesh")
   {
@@ -65,19 +58,8 @@ knotwork::Status vtkSolverMeshWriter::MakeText(std::string& text)
 
 void vtkSolverMeshWriter::WriteData()
 {
-  bool idle = false;
-  if (const knotwork::Status one = knotwork::CheckOneWriter(this->GetInput(), idle); idle || !one)
-  {
-    this->SetErrorCode(vtkErrorCode::NoError);
-    if (!one)
-    {
-      this->SetErrorCode(knotwork::FilterErrorCode(one));
-      vtkErrorMacro("" << one.Message());
-    }
-    return;
-  }
-  const knotwork::WriteOutcome outcome = knotwork::WriteText(this->FileName ? this->FileName : "",
-    [this](std::string& text) { return this->MakeText(text); });
+  const knotwork::WriteOutcome outcome = knotwork::WriteText(
+    this->GetInput(), this->FileName, [this](std::string& text) { return this->MakeText(text); });
   this->SetErrorCode(outcome.Code);
   if (!outcome.Message.empty())
   {

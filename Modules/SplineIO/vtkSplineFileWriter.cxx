@@ -4,12 +4,9 @@
 #include "FileText.h"
 #include "SplineFileModel.h"
 #include <knotwork/SplineCore/TensorForm.h>
-#include <knotwork/SplineGrid/DistributedInput.h>
-#include <knotwork/SplineGrid/FilterErrorCode.h>
 #include <knotwork/SplineGrid/PatchSplit.h>
 
 #include "vtkDataObject.h"
-#include "vtkErrorCode.h"
 #include "vtkInformation.h"
 
 #include <functional>
@@ -66,10 +63,6 @@ int vtkSplineFileWriter::FillInputPortInformation(int, vtkInformation* info)
 knotwork::Status vtkSplineFileWriter::MakeText(std::string& text)
 {
   using namespace knotwork;
-  if (!this->FileName || this->FileName[0] == '\0')
-  {
-    return { ErrorCode::InvalidParameter, "there is no file name" };
-  }
   Result<SplineModel> model = DecodeSplineModel(this->GetInput(), 1);
   if (!model)
   {
@@ -115,19 +108,8 @@ knotwork::Status vtkSplineFileWriter::MakeText(std::string& text)
 
 void vtkSplineFileWriter::WriteData()
 {
-  bool idle = false;
-  if (const knotwork::Status one = knotwork::CheckOneWriter(this->GetInput(), idle); idle || !one)
-  {
-    this->SetErrorCode(vtkErrorCode::NoError);
-    if (!one)
-    {
-      this->SetErrorCode(knotwork::FilterErrorCode(one));
-      vtkErrorMacro("" << one.Message());
-    }
-    return;
-  }
-  const knotwork::WriteOutcome outcome = knotwork::WriteText(this->FileName ? this->FileName : "",
-    [this](std::string& text) { return this->MakeText(text); });
+  const knotwork::WriteOutcome outcome = knotwork::WriteText(
+    this->GetInput(), this->FileName, [this](std::string& text) { return this->MakeText(text); });
   this->SetErrorCode(outcome.Code);
   if (!outcome.Message.empty())
   {

@@ -1,28 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CADBody.h"
 #include "CADDocument.h"
-#include "CADFile.h"
 #include "CADSession.h"
-#include "STEPLoops.h"
+#include "LoadedDocument.h"
 
 #include <BRepBndLib.hxx>
 #include <Bnd_Box.hxx>
-#include <IGESCAFControl_Reader.hxx>
-#include <IGESData_IGESEntity.hxx>
 #include <NCollection_DataMap.hxx>
-#include <STEPCAFControl_Reader.hxx>
-#include <TCollection_HAsciiString.hxx>
 #include <TDF_LabelSequence.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_ShapeMapHasher.hxx>
 #include <TopoDS.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
-#include <XSControl_TransferReader.hxx>
-#include <XSControl_WorkSession.hxx>
 
 #include <cmath>
-#include <functional>
 #include <optional>
 
 namespace knotwork
@@ -39,23 +31,6 @@ struct Attributes
   std::string Name;
   knotwork::Color Color;
 };
-
-/// Names that entities of a file have besides those of the document.
-using EntityNames = std::function<std::string(const TopoDS_Shape&)>;
-
-EntityNames NamesOfIGES(const XSControl_Reader& reader)
-{
-  const Handle(XSControl_TransferReader) transfer = reader.WS()->TransferReader();
-  return [transfer](const TopoDS_Shape& shape)
-  {
-    const auto entity =
-      Handle(IGESData_IGESEntity)::DownCast(transfer->EntityFromShapeResult(shape, -1));
-    const Handle(TCollection_HAsciiString) name =
-      entity.IsNull() ? Handle(TCollection_HAsciiString)() : entity->NameValue();
-    std::string text = name.IsNull() ? "" : name->ToCString();
-    return text.erase(0, text.find_first_not_of(' '));
-  };
-}
 
 /// Walks through the products of a document.
 class DocumentReader
@@ -192,60 +167,22 @@ Result<CADContents> ReadCAD(const std::string& file, const CADReadParams& params
   }
   CADContents contents;
   const std::string place = "'" + file + "'";
-  const CADFormat format = FormatOfFile(file);
   CADSession session(params.Unit);
-  session.SetDefaultsOfReading();
-  session.Set("read.stepcaf.subshapes.name", 1);
   const Status status = session.Run(place,
     [&]() -> Status
     {
-      Handle(TDocStd_Document) document = NewDocument();
-      const auto read = [&](auto& cafReader, XSControl_Reader& reader, const EntityNames& names)
+      LoadedDocument loaded;
+      if (Status read = LoadDocument(session, file, params.Unit, loaded); !read)
       {
-        int numMended = 0;
-        Status loaded = LoadCAD(reader, format, file, numMended);
-        if (numMended > 0)
-        {
-          contents.Warnings.push_back("the knots of " + std::to_string(numMended) +
-            (numMended == 1 ? " curve" : " curves") +
-            " are damaged; found anew: pcurves from curves in space, or these from pcurves");
-        }
-        if (loaded && format == CADFormat::STEP)
-        {
-          BeginLoopsAtPoles(reader.Model());
-        }
-        if (loaded && cafReader.Transfer(document))
-        {
-          DocumentReader(document, names, params.Tolerance, contents).Read();
-        }
-        return loaded;
-      };
-      Status loaded;
-      if (format == CADFormat::BREP)
-      {
-        TopoDS_Shape shape;
-        loaded = LoadBREP(file, params.Unit, shape);
-        if (loaded)
-        {
-          XCAFDoc_DocumentTool::ShapeTool(document->Main())->AddShape(shape, false);
-          DocumentReader(document, {}, params.Tolerance, contents).Read();
-        }
+        return read;
       }
-      else if (format == CADFormat::IGES)
+      if (loaded.NumMended > 0)
       {
-        IGESCAFControl_Reader reader;
-        reader.SetNameMode(false); // it stumbles over entities without a name
-        loaded = read(reader, reader, NamesOfIGES(reader));
+        contents.Warnings.push_back("the knots of " + std::to_string(loaded.NumMended) +
+          (loaded.NumMended == 1 ? " curve" : " curves") +
+          " are damaged; found anew: pcurves from curves in space, or these from pcurves");
       }
-      else
-      {
-        STEPCAFControl_Reader reader;
-        loaded = read(reader, reader.ChangeReader(), {});
-      }
-      if (!loaded)
-      {
-        return loaded;
-      }
+      DocumentReader(loaded.Document, loaded.Names, params.Tolerance, contents).Read();
       if (contents.Model.Faces.empty())
       {
         return { ErrorCode::EmptyInput,

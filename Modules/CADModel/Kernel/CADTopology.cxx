@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CADTopology.h"
 
-#include "CADDocument.h"
-#include "CADFile.h"
 #include "CADSession.h"
+#include "LoadedDocument.h"
 #include "ModelDocument.h"
-#include "STEPLoops.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -19,16 +17,13 @@
 #include <GCPnts_AbscissaPoint.hxx>
 #include <GeomAPI_ProjectPointOnSurf.hxx>
 #include <GeomAdaptor_Surface.hxx>
-#include <IGESCAFControl_Reader.hxx>
 #include <IntTools_Context.hxx>
-#include <STEPCAFControl_Reader.hxx>
 #include <ShapeAnalysis.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Wire.hxx>
-#include <XCAFDoc_DocumentTool.hxx>
 
 #include <algorithm>
 #include <cmath>
@@ -120,55 +115,6 @@ struct FaceShape
   std::vector<std::vector<UseShape>> Loops;
   double Size = 0.0; ///< of its box
 };
-
-Status LoadBodies(
-  CADSession& session, const std::string& file, LengthUnit unit, ModelBodies& bodies)
-{
-  session.SetDefaultsOfReading();
-  session.Set("read.stepcaf.subshapes.name", 1);
-  const CADFormat format = FormatOfFile(file);
-  Handle(TDocStd_Document) document = NewDocument();
-  const auto read = [&](auto& cafReader, XSControl_Reader& reader) -> Status
-  {
-    int numMended = 0;
-    Status loaded = LoadCAD(reader, format, file, numMended);
-    if (loaded && format == CADFormat::STEP)
-    {
-      BeginLoopsAtPoles(reader.Model());
-    }
-    if (loaded && !cafReader.Transfer(document))
-    {
-      return { ErrorCode::InvalidFormat, "'" + file + "': " + FailureOfOpenCASCADE };
-    }
-    return loaded;
-  };
-  Status loaded;
-  if (format == CADFormat::BREP)
-  {
-    TopoDS_Shape shape;
-    loaded = LoadBREP(file, unit, shape);
-    if (loaded)
-    {
-      XCAFDoc_DocumentTool::ShapeTool(document->Main())->AddShape(shape, false);
-    }
-  }
-  else if (format == CADFormat::IGES)
-  {
-    IGESCAFControl_Reader reader;
-    reader.SetNameMode(false); // it stumbles over entities without a name
-    loaded = read(reader, reader);
-  }
-  else
-  {
-    STEPCAFControl_Reader reader;
-    loaded = read(reader, reader.ChangeReader());
-  }
-  if (loaded)
-  {
-    bodies = ModelDocument(document).Take();
-  }
-  return loaded;
-}
 }
 
 struct CADTopology::Shapes
@@ -416,11 +362,12 @@ Result<CADTopology> CADTopology::Read(const std::string& file, LengthUnit unit)
   const Status status = session.Run(place,
     [&]() -> Status
     {
-      ModelBodies bodies;
-      if (Status loaded = LoadBodies(session, file, unit, bodies); !loaded)
+      LoadedDocument loaded;
+      if (Status read = LoadDocument(session, file, unit, loaded); !read)
       {
-        return loaded;
+        return read;
       }
+      const ModelBodies bodies = ModelDocument(loaded.Document).Take();
       Bnd_Box box;
       for (const ModelBody& body : bodies.Bodies)
       {

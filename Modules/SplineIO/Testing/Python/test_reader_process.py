@@ -3,6 +3,7 @@
 import os
 import re
 import signal
+import socket
 import struct
 import subprocess
 import sys
@@ -12,6 +13,7 @@ import knotwork_testing
 
 WORKERS = os.path.join(os.path.dirname(knotwork_testing.BIN_DIR), "libexec", "knotwork")
 BYTES, SECONDS = 1 << 30, 20
+LAST_PART = struct.pack("<Q", 2**64 - 1)
 
 
 def path(name):
@@ -32,8 +34,8 @@ def options(program):
 
 
 def start(program, file, parent=None, limits=(BYTES, SECONDS), more=()):
-    """A reader and the end of the pipe that it writes to."""
-    ours, its = os.pipe()
+    """A reader that has been told all, and the end of the socket on which it answers."""
+    ours, its = (end.detach() for end in socket.socketpair())
     words = [str(parent or os.getpid()), *map(str, limits), file, *options(program)]
 
     def descriptors():
@@ -42,6 +44,7 @@ def start(program, file, parent=None, limits=(BYTES, SECONDS), more=()):
     process = subprocess.Popen([os.path.join(WORKERS, program), *words], preexec_fn=descriptors, pass_fds=(3, *more),
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     os.close(its)
+    os.write(ours, LAST_PART)
     return process, ours
 
 
@@ -76,7 +79,7 @@ def test_it_may_read_and_nothing_else():
                 assert int(table[kind], 16) & ~reading == 0, (kind, table[kind])
             assert limits["Max core file size"][:2] == ["0", "0"], limits
             assert limits["Max file size"][:2] == ["0", "0"], limits
-            assert limits["Max cpu time"][:2] == [str(SECONDS)] * 2, limits
+            assert limits["Max cpu time"][:2] == [str(SECONDS), str(SECONDS + 1)], limits  # a signal that says so, then the end
             assert limits["Max data size"][:2] == [str(BYTES)] * 2, limits
         finally:
             process.kill()
@@ -118,8 +121,11 @@ def is_alive(process):
 
 
 def test_it_ends_with_its_parent():
-    script = ("import os, subprocess, sys, time\n"
-              "p = subprocess.Popen([sys.argv[1], str(os.getpid()), *sys.argv[2:]], stdout=subprocess.DEVNULL)\n"
+    script = ("import os, socket, struct, subprocess, sys, time\n"
+              "ours, its = socket.socketpair()\n"
+              "p = subprocess.Popen([sys.argv[1], str(os.getpid()), *sys.argv[2:]], preexec_fn=lambda: os.dup2(its.fileno(), 3),\n"
+              "                     pass_fds=(3,), stdout=subprocess.DEVNULL)\n"
+              "ours.sendall(struct.pack('<Q', 2**64 - 1))\n"
               "print(p.pid, flush=True)\ntime.sleep(60)\n")
     for program, name in each():
         file = waiting_file(name)
