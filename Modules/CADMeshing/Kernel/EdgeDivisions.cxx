@@ -19,20 +19,17 @@ class Intervals
 {
 public:
   Intervals(const CADTopology& model, const std::vector<int>& wishes,
-    const std::vector<RectangleFace>& rectangles)
+    const std::vector<EqualChains>& required, const std::vector<RectangleFace>& rectangles)
     : Model(model), Sets(static_cast<int>(wishes.size()))
   {
+    for (const EqualChains& chains : required)
+    {
+      this->Unite(chains.One, chains.Other);
+    }
     for (const RectangleFace& rectangle : rectangles)
     {
-      for (std::size_t side = 0; side < 2; ++side)
-      {
-        const auto& one = rectangle.Sides[side];
-        const auto& other = rectangle.Sides[side + 2];
-        if (one.size() == 1 && other.size() == 1)
-        {
-          this->Sets.Unite(one[0], other[0]);
-        }
-      }
+      this->Unite(rectangle.Sides[0], rectangle.Sides[2]);
+      this->Unite(rectangle.Sides[1], rectangle.Sides[3]);
     }
     this->Counts.assign(wishes.size(), 2);
     for (std::size_t e = 0; e < wishes.size(); ++e)
@@ -54,13 +51,14 @@ public:
     return sum;
   }
 
-  /// @return false when the sides cannot be made equal.
-  bool Balance(const std::vector<int>& one, const std::vector<int>& other)
+  /// @param most  times of the wish that an edge may get. @return false when the sides cannot be
+  /// made equal.
+  bool Balance(const std::vector<int>& one, const std::vector<int>& other, int most)
   {
     const int difference = this->Sum(other) - this->Sum(one);
     if (difference < 0)
     {
-      return this->Balance(other, one);
+      return this->Balance(other, one, most);
     }
     // one segment pair after the other, to the edge whose segments are the longest
     for (int left = difference; left > 0; left -= 2)
@@ -71,7 +69,7 @@ public:
       {
         const int set = this->Sets.Find(edge);
         const double length = this->Model.Edges[At(edge)].Length / this->Counts[At(set)];
-        if (length > longest && this->Counts[At(set)] + 2 <= 3 * this->Wishes[At(set)] &&
+        if (length > longest && this->Counts[At(set)] + 2 <= most * this->Wishes[At(set)] &&
           this->Uses(one, set) == 1 && this->Uses(other, set) == 0)
         {
           longest = length;
@@ -88,6 +86,14 @@ public:
   }
 
 private:
+  void Unite(const std::vector<int>& one, const std::vector<int>& other)
+  {
+    if (one.size() == 1 && other.size() == 1)
+    {
+      this->Sets.Unite(one[0], other[0]);
+    }
+  }
+
   long Uses(const std::vector<int>& side, int set) const
   {
     return std::count_if(
@@ -101,27 +107,42 @@ private:
 };
 }
 
-std::vector<int> DivideEdges(
-  const CADTopology& model, const std::vector<int>& wishes, std::vector<RectangleFace>& rectangles)
+Result<std::vector<int>> DivideEdges(const CADTopology& model, const std::vector<int>& wishes,
+  const std::vector<EqualChains>& required, std::vector<RectangleFace>& rectangles)
 {
-  Intervals intervals(model, wishes, rectangles);
+  constexpr int MostOfRectangles = 3;
+  constexpr int MostOfRequired = 100;
+  Intervals intervals(model, wishes, required, rectangles);
+  const auto balance =
+    [&](const std::vector<int>& one, const std::vector<int>& other, int most, bool& changed)
+  {
+    if (intervals.Sum(one) == intervals.Sum(other))
+    {
+      return true;
+    }
+    changed = true;
+    return intervals.Balance(one, other, most);
+  };
   bool changed = true;
   while (changed)
   {
     changed = false;
+    for (const EqualChains& chains : required)
+    {
+      if (!balance(chains.One, chains.Other, MostOfRequired, changed))
+      {
+        return { ErrorCode::InvalidTopology,
+          "edge " + std::to_string(chains.One.front()) + " and those beside it, and edge " +
+            std::to_string(chains.Other.front()) +
+            " and those beside it, cannot have as many "
+            "segments" };
+      }
+    }
     for (std::size_t r = 0; r < rectangles.size();)
     {
       const auto& sides = rectangles[r].Sides;
-      bool holds = true;
-      for (std::size_t side = 0; side < 2 && holds; ++side)
-      {
-        if (intervals.Sum(sides[side]) != intervals.Sum(sides[side + 2]))
-        {
-          holds = intervals.Balance(sides[side], sides[side + 2]);
-          changed = true;
-        }
-      }
-      if (holds)
+      if (balance(sides[0], sides[2], MostOfRectangles, changed) &&
+        balance(sides[1], sides[3], MostOfRectangles, changed))
       {
         ++r;
       }
