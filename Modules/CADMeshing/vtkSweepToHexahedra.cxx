@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSweepToHexahedra.h"
 
-#include <knotwork/CADMeshing/HexahedronQuality.h>
+#include "HexahedronData.h"
 #include <knotwork/CADMeshing/Sweep.h>
 #include <knotwork/SplineGrid/CellMeshData.h>
 #include <knotwork/SplineGrid/TableRow.h>
@@ -74,20 +74,7 @@ void CopyData(vtkDataSetAttributes* from, const std::vector<vtkIdType>& ids, int
 void EncodeMesh(const SweptMesh& swept, const DecodedMeshCells& source,
   const HexahedronQuality& quality, vtkPointSet* input, vtkUnstructuredGrid* output)
 {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  for (Eigen::Index i = 0; i < swept.Points.rows(); ++i)
-  {
-    points->InsertNextPoint(swept.Points.row(i).data());
-  }
-  output->SetPoints(points);
-  output->AllocateExact(swept.Mesh.NumCells(), 8);
-  for (int c = 0; c < swept.Mesh.NumCells(); ++c)
-  {
-    const int* at = swept.Mesh.Cell(c);
-    const vtkIdType ids[8] = { at[0], at[1], at[3], at[2], at[4], at[5], at[7], at[6] };
-    output->InsertNextCell(VTK_HEXAHEDRON, 8, ids);
-  }
+  EncodeHexahedra(swept.Mesh, swept.Points, quality, output);
   std::vector<vtkIdType> pointIds = source.Vertices;
   if (pointIds.empty())
   {
@@ -100,27 +87,15 @@ void EncodeMesh(const SweptMesh& swept, const DecodedMeshCells& source,
     "SourcePointId", output->GetPointData());
   CopyData(input->GetCellData(), source.Cells, swept.Layers, "Layer", "SourceCellId",
     output->GetCellData());
-  output->GetCellData()->AddArray(ArrayOf<vtkDoubleArray>(
-    "ScaledJacobian", quality.ScaledJacobians, [](double value) { return value; }));
-  output->GetCellData()->AddArray(ArrayOf<vtkIntArray>("Verdict", quality.Certificate.Cells,
-    [](const CellCertificate& cell) { return static_cast<int>(cell.Verdict); }));
 }
 
 void EncodeNumbers(const SweptMesh& swept, const HexahedronQuality& quality, vtkTable* table)
 {
-  const JacobianCertificate& certificate = quality.Certificate;
   AddColumn(table, "Hexahedra", swept.Mesh.NumCells());
   AddColumn(table, "Points", static_cast<int>(swept.Points.rows()));
   AddColumn(table, "Layers", swept.Layers);
   AddColumn(table, "Ring", swept.IsRing ? 1 : 0);
-  AddColumn(table, "Verdict", ToString(certificate.Verdict));
-  AddColumn(table, "ValidCells", certificate.NumValid);
-  AddColumn(table, "ReversedCells", certificate.NumReversed);
-  AddColumn(table, "InvalidCells", certificate.NumInvalid);
-  AddColumn(table, "UndecidedCells", certificate.NumUndecided);
-  AddColumn(table, "MinJacobianLower", certificate.MinLower);
-  AddColumn(table, "LeastScaledJacobian", quality.LeastScaledJacobian);
-  AddColumn(table, "Volume", quality.Volume);
+  AddHexahedronColumns(quality, table);
 }
 }
 

@@ -17,27 +17,6 @@ std::size_t At(int i)
   return static_cast<std::size_t>(i);
 }
 
-Status CheckParams(const CADQuadsParams& params)
-{
-  if (!(params.EdgeLength >= 0.0 && std::isfinite(params.EdgeLength)))
-  {
-    return { ErrorCode::InvalidParameter, "EdgeLength must be 0 or a length" };
-  }
-  if (!(params.Curvature > 0.0 && params.Curvature <= 90.0))
-  {
-    return { ErrorCode::InvalidParameter, "Curvature must lie in (0, 90] degrees" };
-  }
-  if (params.MinDivisions < 1 || params.MinDivisions > 100000)
-  {
-    return { ErrorCode::InvalidParameter, "MinDivisions must lie in [1, 100000]" };
-  }
-  if (params.MaxQuads < 1)
-  {
-    return { ErrorCode::InvalidParameter, "MaxQuads must be positive" };
-  }
-  return {};
-}
-
 class QuadMesher
 {
 public:

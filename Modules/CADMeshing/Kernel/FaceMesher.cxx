@@ -23,6 +23,27 @@ std::size_t At(int i)
 }
 }
 
+Status CheckParams(const CADQuadsParams& params)
+{
+  if (!(params.EdgeLength >= 0.0 && std::isfinite(params.EdgeLength)))
+  {
+    return { ErrorCode::InvalidParameter, "EdgeLength must be 0 or a length" };
+  }
+  if (!(params.Curvature > 0.0 && params.Curvature <= 90.0))
+  {
+    return { ErrorCode::InvalidParameter, "Curvature must lie in (0, 90] degrees" };
+  }
+  if (params.MinDivisions < 1 || params.MinDivisions > 100000)
+  {
+    return { ErrorCode::InvalidParameter, "MinDivisions must lie in [1, 100000]" };
+  }
+  if (params.MaxQuads < 1)
+  {
+    return { ErrorCode::InvalidParameter, "MaxQuads must be positive" };
+  }
+  return {};
+}
+
 std::string FaceName(const CADTopology& model, int face)
 {
   const CADTopologyFace& one = model.Faces[At(face)];
@@ -311,7 +332,7 @@ CADQuads FaceMesher::Begin(const EdgeNodes& nodes) const
   return made;
 }
 
-void FaceMesher::Append(int face, CADQuads& made) const
+std::vector<int> FaceMesher::Append(int face, CADQuads& made) const
 {
   CADMesh& mesh = made.Mesh;
   const FaceMesh& state = this->Meshes[At(face)];
@@ -370,5 +391,6 @@ void FaceMesher::Append(int face, CADQuads& made) const
   made.LeastScaledJacobian = std::min(made.LeastScaledJacobian, numbers.LeastScaledJacobian);
   made.Distance = std::max(made.Distance, numbers.Distance);
   made.Faces.push_back(numbers);
+  return ids;
 }
 }

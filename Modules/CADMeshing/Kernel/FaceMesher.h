@@ -6,6 +6,9 @@
 
 namespace knotwork
 {
+/// @return InvalidParameter.
+Status CheckParams(const CADQuadsParams& params);
+
 /// "face 3 ('name')", as files number and name it.
 std::string FaceName(const CADTopology& model, int face);
 
@@ -58,8 +61,9 @@ public:
   const FaceMesh& Of(int face) const { return this->Meshes[static_cast<std::size_t>(face)]; }
   /// The points of vertices and edges.
   CADQuads Begin(const EdgeNodes& nodes) const;
-  /// Adds the quadrilaterals of a face, with their numbers.
-  void Append(int face, CADQuads& made) const;
+  /// Adds the quadrilaterals of a face, with their numbers. @return the mesh's points for those of
+  /// the face.
+  std::vector<int> Append(int face, CADQuads& made) const;
 
 private:
   FaceQuads CoarseGrid(int face) const;

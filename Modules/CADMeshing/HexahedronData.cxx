@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "HexahedronData.h"
+
+#include <knotwork/SplineGrid/TableRow.h>
+
+#include "vtkCellData.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkTable.h"
+#include "vtkUnstructuredGrid.h"
+
+namespace knotwork
+{
+void EncodeHexahedra(const CellMesh<3>& mesh, const PointMatrix& points,
+  const HexahedronQuality& quality, vtkUnstructuredGrid* output)
+{
+  vtkNew<vtkPoints> ofOutput;
+  ofOutput->SetDataTypeToDouble();
+  for (Eigen::Index i = 0; i < points.rows(); ++i)
+  {
+    ofOutput->InsertNextPoint(points.row(i).data());
+  }
+  output->SetPoints(ofOutput);
+  output->AllocateExact(mesh.NumCells(), 8);
+  for (int c = 0; c < mesh.NumCells(); ++c)
+  {
+    const int* at = mesh.Cell(c);
+    const vtkIdType ids[8] = { at[0], at[1], at[3], at[2], at[4], at[5], at[7], at[6] };
+    output->InsertNextCell(VTK_HEXAHEDRON, 8, ids);
+  }
+  output->GetCellData()->AddArray(ArrayOf<vtkDoubleArray>(
+    "ScaledJacobian", quality.ScaledJacobians, [](double value) { return value; }));
+  output->GetCellData()->AddArray(ArrayOf<vtkIntArray>("Verdict", quality.Certificate.Cells,
+    [](const CellCertificate& cell) { return static_cast<int>(cell.Verdict); }));
+}
+
+void AddHexahedronColumns(const HexahedronQuality& quality, vtkTable* table)
+{
+  const JacobianCertificate& certificate = quality.Certificate;
+  AddColumn(table, "Verdict", ToString(certificate.Verdict));
+  AddColumn(table, "ValidCells", certificate.NumValid);
+  AddColumn(table, "ReversedCells", certificate.NumReversed);
+  AddColumn(table, "InvalidCells", certificate.NumInvalid);
+  AddColumn(table, "UndecidedCells", certificate.NumUndecided);
+  AddColumn(table, "MinJacobianLower", certificate.MinLower);
+  AddColumn(table, "LeastScaledJacobian", quality.LeastScaledJacobian);
+  AddColumn(table, "Volume", quality.Volume);
+}
+}

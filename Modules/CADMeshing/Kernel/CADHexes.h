@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "CADQuads.h"
+#include "HexahedronQuality.h"
+
+namespace knotwork
+{
+struct CADHexesParams
+{
+  /// Of faces; Method does not count.
+  CADQuadsParams Faces;
+  int MaxHexahedra = 1000000;
+  int Threads = 0;
+};
+
+/// How a solid was swept.
+struct CADSolidHexes
+{
+  int Body = 0;
+  std::vector<int> Source; ///< faces
+  std::vector<int> Target;
+  std::vector<int> Linking;
+  int Layers = 0;
+  int Hexahedra = 0;
+  double LeastScaledJacobian = 1.0;
+};
+
+struct CADHexes
+{
+  CellMesh<3> Mesh; ///< right-handed
+  PointMatrix Points;
+  std::vector<int> HexBody;        ///< CADTopology::Bodies
+  std::vector<int> HexLayer;       ///< from the source of its body, 0 first
+  std::vector<int> PointDimension; ///< 0 on a vertex, 1 on an edge, 2 on a face, 3 inside
+  std::vector<int> PointEntity;    ///< which, of CADTopology's Vertices, Edges, Faces or Bodies
+  std::vector<CADSolidHexes> Solids;
+  HexahedronQuality Quality;
+};
+
+/// Conforming hexahedra in all solids of a model, each swept from faces to others. Faces that
+/// solids share have one mesh.
+/// @return InvalidParameter; EmptyInput: no solids; TooLarge; InvalidTopology: a solid that cannot
+/// be swept, with the faces that prevent it, or whose mesh does not suit that of its neighbours;
+/// failures of MeasureHexahedra; Aborted. Hexahedra may be folded: Quality says so.
+/// @complexity of sweeps: SweepBetween's; of faces: MeshQuads'.
+Result<CADHexes> MeshHexes(const CADTopology& model, const CADHexesParams& params = {});
+}

@@ -1,0 +1,779 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SolidSweeps.h"
+
+#include "RimMap.h"
+#include <knotwork/SplineCore/DisjointSets.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace knotwork
+{
+namespace
+{
+using Eigen::Vector3d;
+constexpr int Samples = 8; ///< segments of an edge between places that are followed
+
+std::size_t At(int i)
+{
+  return static_cast<std::size_t>(i);
+}
+
+/// An edge of a solid, and the uses of it by the solid's faces.
+struct SolidEdge
+{
+  struct Use
+  {
+    int Face;
+    int Loop;
+    int Index;
+  };
+  std::vector<Use> Uses;
+  bool IsFlat = false; ///< the solid's normals on both sides are nearly the same
+};
+
+/// Places on the rim of the source that come to places of an edge: as many as Samples and one, at
+/// equal shares of the edge.
+using Followed = std::vector<Vector3d>;
+
+/// What is known of a solid for all of its sweeps.
+class SolidShape
+{
+public:
+  SolidShape(const CADTopology& model, const FaceMesher& mesher, int body);
+
+  std::vector<std::vector<int>> Sources() const;
+  /// @param blockers  result: faces that prevent the sweep.
+  bool Sweep(const std::vector<int>& source, SolidSweep& sweep, std::set<int>& blockers) const;
+
+private:
+  struct Progress;
+
+  std::vector<std::vector<CADTopologyUse>> SidesOf(int face) const;
+  std::map<int, int> UsesWithin(const std::set<int>& faces) const;
+  bool Advance(int face, std::size_t side, Progress& progress) const;
+  void Link(const std::set<int>& source, Progress& progress) const;
+  bool AddLayers(const std::set<int>& source, const Progress& progress, SolidSweep& sweep) const;
+  bool MatchImprints(SolidSweep& sweep) const;
+  bool HasSameCorners(const SolidSweep& sweep, const Progress& progress) const;
+  std::vector<int> ChainUp(int vertex, const Progress& progress, int& end) const;
+  double Score(const SolidSweep& sweep) const;
+
+  const CADTopology& Model;
+  const FaceMesher& Mesher;
+  int Body;
+  std::set<int> Faces;
+  std::map<int, bool> IsReversed; ///< faces
+  std::map<int, SolidEdge> Edges;
+};
+
+struct SolidShape::Progress
+{
+  std::map<int, Followed> Front;      ///< edges
+  std::map<int, std::vector<int>> Up; ///< from a vertex along a linking face: edges
+  std::map<int, int> Above;           ///< the vertex that they lead to
+  std::set<int> Linking;
+};
+
+SolidShape::SolidShape(const CADTopology& model, const FaceMesher& mesher, int body)
+  : Model(model), Mesher(mesher), Body(body)
+{
+  constexpr double MostTurn = 0.7071; // cosine of 45 degrees
+  for (const CADTopologySide& side : model.Bodies[At(body)].Sides)
+  {
+    this->Faces.insert(side.Face);
+    this->IsReversed[side.Face] = side.Reversed;
+    const auto& loops = model.Faces[At(side.Face)].Loops;
+    for (std::size_t l = 0; l < loops.size(); ++l)
+    {
+      for (std::size_t u = 0; u < loops[l].size(); ++u)
+      {
+        if (loops[l][u].Edge >= 0)
+        {
+          this->Edges[loops[l][u].Edge].Uses.push_back(
+            { side.Face, static_cast<int>(l), static_cast<int>(u) });
+        }
+      }
+    }
+  }
+  for (auto& [id, edge] : this->Edges)
+  {
+    if (edge.Uses.size() != 2)
+    {
+      continue;
+    }
+    std::array<Vector3d, 2> normals;
+    for (std::size_t i = 0; i < 2; ++i)
+    {
+      const SolidEdge::Use& use = edge.Uses[i];
+      normals[i] =
+        model.FaceNormal(use.Face, model.UseParameters(use.Face, use.Loop, use.Index, 0.5));
+      normals[i] *= this->IsReversed.at(use.Face) ? -1.0 : 1.0;
+    }
+    edge.IsFlat = normals[0].dot(normals[1]) > MostTurn;
+  }
+}
+
+/// Every face, and what is joined to it by flat edges.
+std::vector<std::vector<int>> SolidShape::Sources() const
+{
+  std::vector<std::vector<int>> sources;
+  DisjointSets sets(static_cast<int>(this->Model.Faces.size()));
+  for (const auto& [id, edge] : this->Edges)
+  {
+    if (edge.IsFlat)
+    {
+      sets.Unite(edge.Uses[0].Face, edge.Uses[1].Face);
+    }
+  }
+  std::map<int, std::vector<int>> groups;
+  for (const int face : this->Faces)
+  {
+    sources.push_back({ face });
+    groups[sets.Find(face)].push_back(face);
+  }
+  for (auto& [root, group] : groups)
+  {
+    if (group.size() > 1 && group.size() < this->Faces.size())
+    {
+      sources.push_back(std::move(group));
+    }
+  }
+  return sources;
+}
+
+/// The four sides of a rectangle.
+std::vector<std::vector<CADTopologyUse>> SolidShape::SidesOf(int face) const
+{
+  std::vector<std::vector<CADTopologyUse>> sides;
+  const std::vector<int>& corners = this->Mesher.Corners(face);
+  for (std::size_t side = 0; side < corners.size(); ++side)
+  {
+    const auto& loop = this->Model.Faces[At(face)].Loops.front();
+    sides.emplace_back();
+    for (int use = corners[side]; use != corners[(side + 1) % 4];
+         use = (use + 1) % static_cast<int>(loop.size()))
+    {
+      sides.back().push_back(loop[At(use)]);
+    }
+  }
+  return sides;
+}
+
+/// How often faces use their edges.
+std::map<int, int> SolidShape::UsesWithin(const std::set<int>& faces) const
+{
+  std::map<int, int> uses;
+  for (const int face : faces)
+  {
+    for (const auto& loop : this->Model.Faces[At(face)].Loops)
+    {
+      for (const CADTopologyUse& use : loop)
+      {
+        if (use.Edge >= 0)
+        {
+          ++uses[use.Edge];
+        }
+      }
+    }
+  }
+  return uses;
+}
+
+/// Moves the front over a rectangle that has all of one side in it, and none of the other ones.
+bool SolidShape::Advance(int face, std::size_t side, Progress& progress) const
+{
+  const auto sides = this->SidesOf(face);
+  for (std::size_t s = 0; s < 4; ++s)
+  {
+    for (const CADTopologyUse& use : sides[s])
+    {
+      if ((progress.Front.count(use.Edge) > 0) != (s == side))
+      {
+        return false;
+      }
+    }
+  }
+  const auto lengthOf = [&](const std::vector<CADTopologyUse>& uses)
+  {
+    double length = 0.0;
+    for (const CADTopologyUse& use : uses)
+    {
+      length += this->Model.Edges[At(use.Edge)].Length;
+    }
+    return length;
+  };
+  // where a share of the side comes from
+  const auto& near = sides[side];
+  const double nearLength = lengthOf(near);
+  const auto originAt = [&](double share) -> Vector3d
+  {
+    double left = share * nearLength;
+    std::size_t at = 0;
+    const auto length = [&] { return this->Model.Edges[At(near[at].Edge)].Length; };
+    while (at + 1 < near.size() && left > length())
+    {
+      left -= length();
+      ++at;
+    }
+    const double along = std::clamp(left / length(), 0.0, 1.0);
+    const double place = Samples * (near[at].Reversed ? 1.0 - along : along);
+    const Followed& origins = progress.Front.at(near[at].Edge);
+    const int begin = std::min(static_cast<int>(place), Samples - 1);
+    return origins[At(begin)] + (place - begin) * (origins[At(begin + 1)] - origins[At(begin)]);
+  };
+  const auto& far = sides[(side + 2) % 4];
+  const double farLength = lengthOf(far);
+  std::map<int, Followed> next;
+  double before = 0.0;
+  for (const CADTopologyUse& use : far) // runs the other way than the near side
+  {
+    const double length = this->Model.Edges[At(use.Edge)].Length;
+    Followed& origins = next[use.Edge];
+    for (int i = 0; i <= Samples; ++i)
+    {
+      const double along = static_cast<double>(use.Reversed ? Samples - i : i) / Samples;
+      origins.push_back(originAt(1.0 - (before + along * length) / farLength));
+    }
+    before += length;
+  }
+  const auto climb = [&](const std::vector<CADTopologyUse>& uses, int from, int to)
+  {
+    std::vector<int>& up = progress.Up[from];
+    up.clear();
+    for (const CADTopologyUse& use : uses)
+    {
+      up.push_back(use.Edge);
+    }
+    progress.Above[from] = to;
+  };
+  const auto beginOf = [&](std::size_t s) { return sides[s % 4].front().Vertex; };
+  climb(sides[(side + 1) % 4], beginOf(side + 1), beginOf(side + 2));
+  climb(sides[(side + 3) % 4], beginOf(side), beginOf(side + 3));
+  for (const CADTopologyUse& use : near)
+  {
+    progress.Front.erase(use.Edge);
+  }
+  for (auto& [edge, origins] : next)
+  {
+    progress.Front[edge] = std::move(origins);
+  }
+  progress.Linking.insert(face);
+  return true;
+}
+
+/// Faces beside the source link, and those that go on flatly behind linking ones.
+void SolidShape::Link(const std::set<int>& source, Progress& progress) const
+{
+  std::set<int> rim;
+  for (const auto& [edge, origins] : progress.Front)
+  {
+    rim.insert(edge);
+  }
+  bool changed = true;
+  while (changed)
+  {
+    changed = false;
+    for (const int face : this->Faces)
+    {
+      if (source.count(face) > 0 || progress.Linking.count(face) > 0)
+      {
+        continue;
+      }
+      const auto sides = this->SidesOf(face);
+      for (std::size_t side = 0; side < sides.size(); ++side)
+      {
+        const bool goesOn = std::all_of(sides[side].begin(), sides[side].end(),
+          [&](const CADTopologyUse& use)
+          { return rim.count(use.Edge) > 0 || this->Edges.at(use.Edge).IsFlat; });
+        if (goesOn && this->Advance(face, side, progress))
+        {
+          changed = true;
+          break;
+        }
+      }
+    }
+  }
+}
+
+std::vector<int> SolidShape::ChainUp(int vertex, const Progress& progress, int& end) const
+{
+  std::vector<int> chain;
+  std::set<int> seen;
+  end = vertex;
+  for (auto up = progress.Up.find(end); up != progress.Up.end() && seen.insert(end).second;
+       up = progress.Up.find(end))
+  {
+    chain.insert(chain.end(), up->second.begin(), up->second.end());
+    end = progress.Above.at(end);
+  }
+  return chain;
+}
+
+/// As many layers everywhere: chains of edges from the rim of the source to that of the target.
+bool SolidShape::AddLayers(
+  const std::set<int>& source, const Progress& progress, SolidSweep& sweep) const
+{
+  const std::map<int, int> uses = this->UsesWithin(source);
+  std::vector<int> first;
+  for (const int face : source)
+  {
+    for (const auto& loop : this->Model.Faces[At(face)].Loops)
+    {
+      for (const CADTopologyUse& use : loop)
+      {
+        int end = 0;
+        const std::vector<int> chain = use.Edge >= 0 && uses.at(use.Edge) == 1
+          ? this->ChainUp(use.Vertex, progress, end)
+          : std::vector<int>();
+        if (!chain.empty() && first.empty())
+        {
+          first = chain;
+        }
+        else if (!chain.empty() && chain != first)
+        {
+          sweep.Equal.push_back({ first, chain });
+        }
+      }
+    }
+  }
+  return !first.empty();
+}
+
+/// Edges inside of the target are images of edges inside of the source; a seam is none.
+bool SolidShape::MatchImprints(SolidSweep& sweep) const
+{
+  constexpr double Near = 0.1; ///< of an edge's length, or of its radius
+  const RimMap back(sweep.Arrival, sweep.Origin);
+  const auto inner = [&](const std::vector<int>& faces)
+  {
+    std::vector<int> edges;
+    for (const auto& [edge, count] : this->UsesWithin({ faces.begin(), faces.end() }))
+    {
+      const auto& uses = this->Edges.at(edge).Uses;
+      if (count == 2 && uses[0].Face != uses[1].Face)
+      {
+        edges.push_back(edge);
+      }
+    }
+    return edges;
+  };
+  const auto isClosed = [&](int edge)
+  {
+    const auto& vertices = this->Model.Edges[At(edge)].Vertices;
+    return vertices[0] == vertices[1];
+  };
+  /// How far apart two edges are; closed ones may begin anywhere.
+  const auto gapOf = [&](int target, int source)
+  {
+    std::array<std::vector<Vector3d>, 2> places;
+    for (int i = 0; i <= Samples; ++i)
+    {
+      const double share = static_cast<double>(i) / Samples;
+      places[0].push_back(back(this->Model.EdgePoint(target, share).transpose()).transpose());
+      places[1].push_back(this->Model.EdgePoint(source, share));
+    }
+    if (isClosed(target))
+    {
+      std::array<Vector3d, 2> middles;
+      std::array<double, 2> radii{};
+      for (std::size_t k = 0; k < 2; ++k)
+      {
+        middles[k] = Vector3d::Zero();
+        for (int i = 0; i < Samples; ++i)
+        {
+          middles[k] += places[k][At(i)] / Samples;
+        }
+        for (int i = 0; i < Samples; ++i)
+        {
+          radii[k] += (places[k][At(i)] - middles[k]).norm() / Samples;
+        }
+      }
+      return ((middles[0] - middles[1]).norm() + std::abs(radii[0] - radii[1])) /
+        std::max(radii[0], radii[1]);
+    }
+    std::array<double, 2> gaps{};
+    for (int i = 0; i <= Samples; ++i)
+    {
+      gaps[0] = std::max(gaps[0], (places[0][At(i)] - places[1][At(i)]).norm());
+      gaps[1] = std::max(gaps[1], (places[0][At(i)] - places[1][At(Samples - i)]).norm());
+    }
+    return std::min(gaps[0], gaps[1]) / this->Model.Edges[At(source)].Length;
+  };
+  std::vector<int> ofSource = inner(sweep.Source);
+  for (const int target : inner(sweep.Target))
+  {
+    int best = -1;
+    double least = Near;
+    for (const int source : ofSource)
+    {
+      const double gap = isClosed(source) == isClosed(target) ? gapOf(target, source) : Near;
+      if (gap < least)
+      {
+        least = gap;
+        best = source;
+      }
+    }
+    if (best < 0)
+    {
+      return false;
+    }
+    ofSource.erase(std::find(ofSource.begin(), ofSource.end(), best));
+    sweep.Imprints.push_back({ best, target });
+    sweep.Equal.push_back({ { best }, { target } });
+  }
+  sweep.BothWays = ofSource.empty();
+  return true;
+}
+
+bool SolidShape::HasSameCorners(const SolidSweep& sweep, const Progress& progress) const
+{
+  if (sweep.Source.size() != 1 || sweep.Target.size() != 1 ||
+    this->Mesher.Corners(sweep.Source[0]).empty() || this->Mesher.Corners(sweep.Target[0]).empty())
+  {
+    return false;
+  }
+  std::set<int> images;
+  for (const auto& side : this->SidesOf(sweep.Source[0]))
+  {
+    int end = 0;
+    if (this->ChainUp(side.front().Vertex, progress, end).empty())
+    {
+      return false;
+    }
+    images.insert(end);
+  }
+  std::set<int> corners;
+  for (const auto& side : this->SidesOf(sweep.Target[0]))
+  {
+    corners.insert(side.front().Vertex);
+  }
+  return images == corners;
+}
+
+/// How far the rims are from an affine map, in shares of their size; and a little for faces that
+/// are not flat.
+double SolidShape::Score(const SolidSweep& sweep) const
+{
+  const RimMap map(sweep.Origin, sweep.Arrival);
+  if (map.IsFlat())
+  {
+    return 1e9;
+  }
+  double sum = 0.0;
+  double size = 0.0;
+  const Eigen::RowVector3d middle = sweep.Arrival.colwise().mean();
+  for (Eigen::Index i = 0; i < sweep.Origin.rows(); ++i)
+  {
+    sum += (map(sweep.Origin.row(i)) - sweep.Arrival.row(i)).squaredNorm();
+    size += (sweep.Arrival.row(i) - middle).squaredNorm();
+  }
+  double score = std::sqrt(sum / size);
+  for (const auto* faces : { &sweep.Source, &sweep.Target })
+  {
+    for (const int face : *faces)
+    {
+      score += this->Model.Faces[At(face)].IsPlane ? 0.0 : 0.1;
+    }
+  }
+  return score + 0.01 * static_cast<double>(sweep.Source.size() + sweep.Target.size());
+}
+
+bool SolidShape::Sweep(
+  const std::vector<int>& given, SolidSweep& sweep, std::set<int>& blockers) const
+{
+  const std::set<int> source(given.begin(), given.end());
+  Progress progress;
+  std::set<int> beside;
+  for (const auto& [edge, count] : this->UsesWithin(source))
+  {
+    const auto& uses = this->Edges.at(edge).Uses;
+    if (uses.size() != 2)
+    {
+      return false; // the solid meets itself there
+    }
+    if (count == 1)
+    {
+      Followed& origins = progress.Front[edge];
+      for (int i = 0; i <= Samples; ++i)
+      {
+        origins.push_back(this->Model.EdgePoint(edge, static_cast<double>(i) / Samples));
+      }
+      beside.insert(source.count(uses[0].Face) > 0 ? uses[1].Face : uses[0].Face);
+    }
+  }
+  if (progress.Front.empty())
+  {
+    return false;
+  }
+  this->Link(source, progress);
+  for (const int face : beside)
+  {
+    if (progress.Linking.count(face) == 0)
+    {
+      blockers.insert(face);
+    }
+  }
+  if (!blockers.empty())
+  {
+    return false;
+  }
+  std::set<int> target;
+  for (const int face : this->Faces)
+  {
+    if (source.count(face) == 0 && progress.Linking.count(face) == 0)
+    {
+      target.insert(face);
+    }
+  }
+  std::size_t numRim = 0;
+  for (const auto& [edge, count] : this->UsesWithin(target))
+  {
+    if (count == 1)
+    {
+      ++numRim;
+      if (progress.Front.count(edge) == 0)
+      {
+        const auto& uses = this->Edges.at(edge).Uses;
+        blockers.insert(target.count(uses[0].Face) > 0 ? uses[0].Face : uses[1].Face);
+      }
+    }
+  }
+  if (target.empty() || !blockers.empty() || numRim != progress.Front.size())
+  {
+    return false;
+  }
+  sweep.Body = this->Body;
+  sweep.Source = given;
+  sweep.Target.assign(target.begin(), target.end());
+  sweep.Linking.assign(progress.Linking.begin(), progress.Linking.end());
+  const auto rows = static_cast<Eigen::Index>(progress.Front.size() * (Samples + 1));
+  sweep.Origin.resize(rows, 3);
+  sweep.Arrival.resize(rows, 3);
+  Eigen::Index row = 0;
+  for (const auto& [edge, origins] : progress.Front)
+  {
+    for (int i = 0; i <= Samples; ++i)
+    {
+      sweep.Origin.row(row) = origins[At(i)].transpose();
+      sweep.Arrival.row(row++) =
+        this->Model.EdgePoint(edge, static_cast<double>(i) / Samples).transpose();
+    }
+  }
+  for (const int face : sweep.Linking)
+  {
+    const auto sides = this->SidesOf(face);
+    for (std::size_t s = 0; s < 2; ++s)
+    {
+      EqualChains chains;
+      for (const CADTopologyUse& use : sides[s])
+      {
+        chains.One.push_back(use.Edge);
+      }
+      for (const CADTopologyUse& use : sides[s + 2])
+      {
+        chains.Other.push_back(use.Edge);
+      }
+      sweep.Equal.push_back(std::move(chains));
+    }
+  }
+  sweep.Score = this->Score(sweep);
+  if (!this->AddLayers(source, progress, sweep) || !this->MatchImprints(sweep))
+  {
+    return false;
+  }
+  sweep.IsBlock = this->HasSameCorners(sweep, progress);
+  return true;
+}
+
+/// The sweeps of all bodies that suit each other.
+class SweepChoice
+{
+public:
+  SweepChoice(int numFaces, std::vector<std::vector<SolidSweep>> sweeps)
+    : NumFaces(numFaces), Sweeps(std::move(sweeps))
+  {
+  }
+
+  /// @return whether there are some; Deepest is the first body that could not be reached else.
+  bool Find(std::vector<SolidSweep>& chosen)
+  {
+    if (!this->Try())
+    {
+      return false;
+    }
+    for (std::size_t body = 0; body < this->Chosen.size(); ++body)
+    {
+      chosen.push_back(this->Sweeps[body][this->Chosen[body]]);
+    }
+    return true;
+  }
+
+  std::size_t Deepest = 0;
+
+private:
+  bool Try()
+  {
+    constexpr int MostSteps = 100000;
+    const std::size_t body = this->Chosen.size();
+    if (body == this->Sweeps.size())
+    {
+      return true;
+    }
+    for (std::size_t s = 0; s < this->Sweeps[body].size() && this->Steps < MostSteps; ++s)
+    {
+      ++this->Steps;
+      this->Chosen.push_back(s);
+      if (this->Suits())
+      {
+        this->Deepest = std::max(this->Deepest, this->Chosen.size());
+        if (this->Try())
+        {
+          return true;
+        }
+      }
+      this->Chosen.pop_back();
+    }
+    return false;
+  }
+
+  /// Faces that sweeps join have the same mesh. One that links is a grid: blocks can all be grids;
+  /// else the others of its end suit it, and all other ends are copies of that one.
+  bool Suits() const
+  {
+    DisjointSets ends(this->NumFaces);
+    DisjointSets joined(this->NumFaces);
+    std::set<int> links;
+    const auto unite = [](DisjointSets& sets, const std::vector<int>& faces)
+    {
+      for (const int face : faces)
+      {
+        sets.Unite(faces.front(), face);
+      }
+    };
+    for (std::size_t body = 0; body < this->Chosen.size(); ++body)
+    {
+      const SolidSweep& sweep = this->Sweeps[body][this->Chosen[body]];
+      for (const auto* faces : { &sweep.Source, &sweep.Target })
+      {
+        unite(ends, *faces);
+        unite(joined, *faces);
+      }
+      joined.Unite(sweep.Source.front(), sweep.Target.front());
+      links.insert(sweep.Linking.begin(), sweep.Linking.end());
+    }
+    std::map<int, std::set<int>> fixedEnds; ///< of what is joined
+    for (const int face : links)
+    {
+      fixedEnds[joined.Find(face)].insert(ends.Find(face));
+    }
+    for (std::size_t body = 0; body < this->Chosen.size(); ++body)
+    {
+      const SolidSweep& sweep = this->Sweeps[body][this->Chosen[body]];
+      const auto fixed = fixedEnds.find(joined.Find(sweep.Source.front()));
+      if (sweep.IsBlock || fixed == fixedEnds.end())
+      {
+        continue;
+      }
+      const bool atTarget = *fixed->second.begin() == ends.Find(sweep.Target.front());
+      if (fixed->second.size() > 1 || (atTarget && !sweep.BothWays))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  int NumFaces;
+  std::vector<std::vector<SolidSweep>> Sweeps;
+  std::vector<std::size_t> Chosen;
+  int Steps = 0;
+};
+
+std::string BodyName(int body)
+{
+  return "solid " + std::to_string(body);
+}
+
+std::string FaceList(const CADTopology& model, const std::set<int>& faces)
+{
+  std::string list;
+  for (const int face : faces)
+  {
+    list += (list.empty() ? "" : ", ") + FaceName(model, face);
+  }
+  return list;
+}
+}
+
+SolidSweep Reversed(const SolidSweep& sweep)
+{
+  SolidSweep reversed = sweep;
+  std::swap(reversed.Source, reversed.Target);
+  std::swap(reversed.Origin, reversed.Arrival);
+  for (EdgePair& pair : reversed.Imprints)
+  {
+    std::swap(pair.Source, pair.Target);
+  }
+  return reversed;
+}
+
+Result<std::vector<SolidSweep>> ChooseSweeps(const CADTopology& model, const FaceMesher& faces)
+{
+  std::vector<std::vector<SolidSweep>> sweeps;
+  for (int body = 0; body < static_cast<int>(model.Bodies.size()); ++body)
+  {
+    if (!model.Bodies[At(body)].IsSolid)
+    {
+      return { ErrorCode::InvalidTopology,
+        "body " + std::to_string(body) + " is no solid; close it, or take it out of the file" };
+    }
+    const SolidShape shape(model, faces, body);
+    std::vector<SolidSweep> found;
+    std::set<int> blockers;
+    std::vector<int> from;
+    for (const std::vector<int>& source : shape.Sources())
+    {
+      SolidSweep sweep;
+      std::set<int> ofSource;
+      if (shape.Sweep(source, sweep, ofSource))
+      {
+        found.push_back(std::move(sweep));
+      }
+      else if (!ofSource.empty() && (from.empty() || ofSource.size() < blockers.size()))
+      {
+        from = source;
+        blockers = std::move(ofSource);
+      }
+    }
+    if (found.empty())
+    {
+      return { ErrorCode::InvalidTopology,
+        BodyName(body) + " is neither mapped nor swept: " +
+          (from.empty()
+              ? std::string("no face of it is a source with others around it")
+              : "from " + FaceList(model, { from.begin(), from.end() }) + "; what prevents it is " +
+                FaceList(model, blockers) + ", no rectangle between source and target") +
+          "; cut it (cadmodify, which has --suggest)" };
+    }
+    std::stable_sort(found.begin(), found.end(),
+      [](const SolidSweep& a, const SolidSweep& b) { return a.Score < b.Score; });
+    sweeps.push_back(std::move(found));
+  }
+  const auto numFaces = static_cast<int>(model.Faces.size());
+  SweepChoice choice(numFaces, std::move(sweeps));
+  std::vector<SolidSweep> chosen;
+  if (!choice.Find(chosen))
+  {
+    return { ErrorCode::InvalidTopology,
+      BodyName(static_cast<int>(choice.Deepest)) +
+        " cannot be swept such that its faces suit those of its neighbours; cut it (cadmodify), or "
+        "mesh it alone" };
+  }
+  return chosen;
+}
+}

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkCADHexahedra.h"
+
+#include "HexahedronData.h"
+#include <knotwork/CADMeshing/CADHexes.h>
+#include <knotwork/CADModel/CADTopology.h>
+#include <knotwork/SplineGrid/TableRow.h>
+
+#include "vtkCellData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkTable.h"
+#include "vtkUnstructuredGrid.h"
+
+using namespace knotwork;
+
+vtkStandardNewMacro(vtkCADHexahedra);
+
+namespace
+{
+void EncodeMesh(const CADTopology& model, const CADHexes& made, vtkUnstructuredGrid* output)
+{
+  EncodeHexahedra(made.Mesh, made.Points, made.Quality, output);
+  const auto same = [](int value) { return value; };
+  output->GetCellData()->AddArray(ArrayOf<vtkIntArray>("SolidId", made.HexBody, same));
+  output->GetCellData()->AddArray(ArrayOf<vtkIntArray>("Layer", made.HexLayer, same));
+  output->GetPointData()->AddArray(
+    ArrayOf<vtkIntArray>("CADEntityDimension", made.PointDimension, same));
+  const auto entities = NamedArray<vtkIntArray>("CADEntityId");
+  for (std::size_t i = 0; i < made.PointEntity.size(); ++i)
+  {
+    const auto entity = static_cast<std::size_t>(made.PointEntity[i]);
+    entities->InsertNextValue(
+      made.PointDimension[i] == 2 ? model.Faces[entity].Ids.front() : made.PointEntity[i]);
+  }
+  output->GetPointData()->AddArray(entities);
+}
+
+void EncodeNumbers(const CADTopology& model, const CADHexes& made, vtkTable* table)
+{
+  AddColumn(table, "Hexahedra", made.Mesh.NumCells());
+  AddColumn(table, "Points", made.Mesh.NumPoints);
+  AddColumn(table, "Solids", static_cast<int>(made.Solids.size()));
+  AddHexahedronColumns(made.Quality, table);
+  AddColumn(table, "Diagonal", model.Diagonal);
+}
+
+void EncodeSolids(const CADTopology& model, const CADHexes& made, vtkTable* table)
+{
+  using Row = const CADSolidHexes&;
+  const auto add = [&](const char* name, const auto& value)
+  { table->AddColumn(ArrayOf<vtkIntArray>(name, made.Solids, value)); };
+  const auto addFaces = [&](const char* name, std::vector<int> CADSolidHexes::*faces)
+  {
+    table->AddColumn(ArrayOf<vtkStringArray>(name, made.Solids,
+      [&](Row row)
+      {
+        std::string ids;
+        for (const int face : row.*faces)
+        {
+          ids += (ids.empty() ? "" : " ") +
+            std::to_string(model.Faces[static_cast<std::size_t>(face)].Ids.front());
+        }
+        return ids;
+      }));
+  };
+  add("SolidId", [](Row row) { return row.Body; });
+  addFaces("SourceFaces", &CADSolidHexes::Source);
+  addFaces("TargetFaces", &CADSolidHexes::Target);
+  addFaces("LinkingFaces", &CADSolidHexes::Linking);
+  add("Layers", [](Row row) { return row.Layers; });
+  add("Hexahedra", [](Row row) { return row.Hexahedra; });
+  table->AddColumn(ArrayOf<vtkDoubleArray>(
+    "LeastScaledJacobian", made.Solids, [](Row row) { return row.LeastScaledJacobian; }));
+}
+}
+
+vtkCADHexahedra::vtkCADHexahedra()
+{
+  this->SetNumberOfInputPorts(0);
+  this->SetOutputTypes({ "vtkUnstructuredGrid", "vtkTable", "vtkTable" });
+}
+
+vtkCADHexahedra::~vtkCADHexahedra()
+{
+  this->SetFileName(nullptr);
+}
+
+Status vtkCADHexahedra::Compute(vtkInformationVector**, vtkInformationVector* outputs)
+{
+  if (!this->FileName || this->FileName[0] == '\0')
+  {
+    return { ErrorCode::EmptyInput, "there is no file name" };
+  }
+  const auto model = CADTopology::Read(this->FileName, static_cast<LengthUnit>(this->Unit));
+  if (!model)
+  {
+    return model.Status;
+  }
+  CADHexesParams params;
+  params.Faces.EdgeLength = this->EdgeLength;
+  params.Faces.Curvature = this->Curvature;
+  params.Faces.MinDivisions = this->MinimumDivisions;
+  params.Faces.MaxQuads = this->MaximumHexahedra;
+  params.Faces.Progress = this->Progress();
+  params.MaxHexahedra = this->MaximumHexahedra;
+  params.Threads = this->KernelThreads();
+  const auto made = MeshHexes(model.Value, params);
+  if (!made)
+  {
+    return made.Status;
+  }
+  EncodeMesh(model.Value, made.Value, vtkUnstructuredGrid::GetData(outputs, 0));
+  EncodeNumbers(model.Value, made.Value, vtkTable::GetData(outputs, 1));
+  EncodeSolids(model.Value, made.Value, vtkTable::GetData(outputs, 2));
+  return {};
+}
