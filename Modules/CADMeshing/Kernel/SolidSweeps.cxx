@@ -47,7 +47,8 @@ public:
   SolidShape(const CADTopology& model, const FaceMesher& mesher, int body);
 
   std::vector<std::vector<int>> Sources() const;
-  /// @param blockers  result: faces that prevent the sweep.
+  /// @param sweep     result; where edges inside of the target alone prevent it, with its target.
+  /// @param blockers  result: faces that prevent it.
   bool Sweep(const std::vector<int>& source, SolidSweep& sweep, std::set<int>& blockers) const;
 
 private:
@@ -59,6 +60,9 @@ private:
   void Link(const std::set<int>& source, Progress& progress) const;
   bool AddLayers(const std::set<int>& source, const Progress& progress, SolidSweep& sweep) const;
   bool MatchImprints(SolidSweep& sweep) const;
+  Vector3d AreaVector(int face) const;
+  std::set<int> BentFaces(const std::vector<int>& end) const;
+  bool IsConnected(const std::set<int>& faces) const;
   bool HasSameCorners(const SolidSweep& sweep, const Progress& progress) const;
   std::vector<int> ChainUp(int vertex, const Progress& progress, int& end) const;
   double Score(const SolidSweep& sweep) const;
@@ -483,6 +487,75 @@ double SolidShape::Score(const SolidSweep& sweep) const
   return score + 0.01 * static_cast<double>(sweep.Source.size() + sweep.Target.size());
 }
 
+/// The integral of a face's normal, outward of the solid, by chords of its boundary; of one that
+/// goes all the way around zero.
+Vector3d SolidShape::AreaVector(int face) const
+{
+  const CADTopologyFace& loops = this->Model.Faces[At(face)];
+  Vector3d sum = Vector3d::Zero();
+  double all = 0.0;
+  for (const auto& loop : loops.Loops)
+  {
+    std::vector<Vector3d> points;
+    for (const CADTopologyUse& use : loop)
+    {
+      for (int i = 0; use.Edge >= 0 && i < Samples; ++i)
+      {
+        const double share = static_cast<double>(i) / Samples;
+        points.push_back(this->Model.EdgePoint(use.Edge, use.Reversed ? 1.0 - share : share));
+      }
+    }
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      const Vector3d piece =
+        0.5 * (points[i] - points[0]).cross(points[(i + 1) % points.size()] - points[0]);
+      sum += piece;
+      all += piece.norm();
+    }
+  }
+  if (sum.norm() <= 1e-9 * all)
+  {
+    return Vector3d::Zero();
+  }
+  return loops.Reversed != this->IsReversed.at(face) ? Vector3d(-sum) : sum;
+}
+
+/// Faces of an end that look another way than all of it together: what is swept from there folds.
+std::set<int> SolidShape::BentFaces(const std::vector<int>& end) const
+{
+  constexpr double Least = 0.1; ///< cosine
+  Vector3d sum = Vector3d::Zero();
+  for (const int face : end)
+  {
+    sum += this->AreaVector(face);
+  }
+  std::set<int> bent;
+  for (const int face : end)
+  {
+    const Vector3d area = this->AreaVector(face);
+    if (!(area.dot(sum) > Least * area.norm() * sum.norm()))
+    {
+      bent.insert(face);
+    }
+  }
+  return bent;
+}
+
+bool SolidShape::IsConnected(const std::set<int>& faces) const
+{
+  DisjointSets sets(static_cast<int>(this->Model.Faces.size()));
+  for (const auto& [id, edge] : this->Edges)
+  {
+    if (edge.Uses.size() == 2 && faces.count(edge.Uses[0].Face) > 0 &&
+      faces.count(edge.Uses[1].Face) > 0)
+    {
+      sets.Unite(edge.Uses[0].Face, edge.Uses[1].Face);
+    }
+  }
+  return std::all_of(faces.begin(), faces.end(),
+    [&](int face) { return sets.Find(face) == sets.Find(*faces.begin()); });
+}
+
 bool SolidShape::Sweep(
   const std::vector<int>& given, SolidSweep& sweep, std::set<int>& blockers) const
 {
@@ -543,13 +616,23 @@ bool SolidShape::Sweep(
       }
     }
   }
-  if (target.empty() || !blockers.empty() || numRim != progress.Front.size())
+  if (target.empty() || !blockers.empty() || numRim != progress.Front.size() ||
+    !this->IsConnected(target))
   {
     return false;
   }
   sweep.Body = this->Body;
   sweep.Source = given;
   sweep.Target.assign(target.begin(), target.end());
+  for (const auto& end : { sweep.Source, sweep.Target })
+  {
+    const std::set<int> bent = this->BentFaces(end);
+    blockers.insert(bent.begin(), bent.end());
+  }
+  if (!blockers.empty())
+  {
+    return false;
+  }
   sweep.Linking.assign(progress.Linking.begin(), progress.Linking.end());
   const auto rows = static_cast<Eigen::Index>(progress.Front.size() * (Samples + 1));
   sweep.Origin.resize(rows, 3);
@@ -736,8 +819,10 @@ Result<std::vector<SolidSweep>> ChooseSweeps(const CADTopology& model, const Fac
     std::vector<SolidSweep> found;
     std::set<int> blockers;
     std::vector<int> from;
-    for (const std::vector<int>& source : shape.Sources())
+    std::vector<std::vector<int>> sources = shape.Sources();
+    for (std::size_t i = 0; i < sources.size(); ++i)
     {
+      const std::vector<int> source = sources[i];
       SolidSweep sweep;
       std::set<int> ofSource;
       if (shape.Sweep(source, sweep, ofSource))
@@ -749,15 +834,20 @@ Result<std::vector<SolidSweep>> ChooseSweeps(const CADTopology& model, const Fac
         from = source;
         blockers = std::move(ofSource);
       }
+      else if (std::find(sources.begin(), sources.end(), sweep.Target) == sources.end() &&
+        !sweep.Target.empty())
+      {
+        sources.push_back(sweep.Target); // the other way round
+      }
     }
     if (found.empty())
     {
       return { ErrorCode::InvalidTopology,
         BodyName(body) + " is neither mapped nor swept: " +
-          (from.empty()
-              ? std::string("no face of it is a source with others around it")
-              : "from " + FaceList(model, { from.begin(), from.end() }) + "; what prevents it is " +
-                FaceList(model, blockers) + ", no rectangle between source and target") +
+          (from.empty() ? std::string("no face of it is a source with others around it")
+                        : "from " + FaceList(model, { from.begin(), from.end() }) +
+                "; what prevents it is " + FaceList(model, blockers) +
+                ", no rectangles that lead from source to target, or bent away") +
           "; cut it (cadmodify, which has --suggest)" };
     }
     std::stable_sort(found.begin(), found.end(),

@@ -155,7 +155,7 @@ std::vector<Solid> Solids()
     { "plate", PlateWithHoles(), 60 - 6 * 0.36 * Pi, 0.01, 0.4 }, { "angle", angle, 5, 1e-9, 0.4 },
     { "cone", BRepPrimAPI_MakeCone(2, 1, 3).Shape(), 7 * Pi, 0.05, 0.3 },
     { "half torus", BRepPrimAPI_MakeTorus(3, 1, Pi).Shape(), 3 * Pi * Pi, 0.08, 0.3 },
-    { "dome", dome, Pi * std::sqrt(8.0) + Pi * cap * cap * (9.0 - cap) / 3, 0.05, 0.3 } };
+    { "dome", dome, Pi * std::sqrt(8.0) + Pi * cap * cap * (9.0 - cap) / 3, 0.06, 0.3 } };
 }
 }
 
