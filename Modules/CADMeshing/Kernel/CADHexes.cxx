@@ -130,12 +130,13 @@ public:
 
 private:
   void FindGrids();
+  void FollowSpacing();
   Status MeshFace(int face, FaceMethod method);
   std::vector<int> AppendFace(int face);
   Status MeshFaces();
   Status MeshRoot(const std::vector<SolidSweep>& pending);
   Status MeshEnds(const SolidSweep& sweep);
-  QuadSides QuadsOf(const std::vector<int>& faces) const;
+  QuadSides QuadsOf(int body, const std::vector<int>& faces) const;
   bool IsMeshed(const std::vector<int>& faces) const;
   Status Columns(const SolidSweep& sweep, const QuadSides& source,
     std::map<int, std::vector<int>>& columns) const;
@@ -170,14 +171,23 @@ bool HexMesher::IsMeshed(const std::vector<int>& faces) const
     faces.begin(), faces.end(), [&](int face) { return !this->QuadsOfFaces[At(face)].empty(); });
 }
 
-QuadSides HexMesher::QuadsOf(const std::vector<int>& faces) const
+/// Counterclockwise about the normal that leads out of a body of theirs.
+QuadSides HexMesher::QuadsOf(int body, const std::vector<int>& faces) const
 {
   QuadSides quads;
+  const auto& sides = this->Model.Bodies[At(body)].Sides;
   for (const int face : faces)
   {
-    for (const int quad : this->QuadsOfFaces[At(face)])
+    const auto side = std::find_if(
+      sides.begin(), sides.end(), [&](const CADTopologySide& one) { return one.Face == face; });
+    for (const int id : this->QuadsOfFaces[At(face)])
     {
-      quads.Add(this->Surface.Mesh.Quads[At(quad)]);
+      Quad quad = this->Surface.Mesh.Quads[At(id)];
+      if (side->Reversed)
+      {
+        std::swap(quad[1], quad[3]);
+      }
+      quads.Add(quad);
     }
   }
   return quads;
@@ -187,7 +197,7 @@ QuadSides HexMesher::QuadsOf(const std::vector<int>& faces) const
 Status HexMesher::Columns(
   const SolidSweep& sweep, const QuadSides& source, std::map<int, std::vector<int>>& columns) const
 {
-  const QuadSides links = this->QuadsOf(sweep.Linking);
+  const QuadSides links = this->QuadsOf(sweep.Body, sweep.Linking);
   const Status failure{ ErrorCode::InvalidTopology,
     SolidName(sweep.Body) + " has sides with different numbers of layers; lower EdgeLength" };
   std::size_t layers = 0;
@@ -226,7 +236,7 @@ Status HexMesher::Columns(
 Status HexMesher::Match(const SolidSweep& sweep, const QuadSides& source,
   const std::map<int, std::vector<int>>& columns, std::map<int, int>& images) const
 {
-  const QuadSides target = this->QuadsOf(sweep.Target);
+  const QuadSides target = this->QuadsOf(sweep.Body, sweep.Target);
   const Status failure{ ErrorCode::InvalidTopology,
     SolidName(sweep.Body) + ": the meshes of " + FaceName(this->Model, sweep.Source.front()) +
       " and " + FaceName(this->Model, sweep.Target.front()) +
@@ -292,7 +302,7 @@ Status HexMesher::MatchImprints(const SolidSweep& sweep, std::map<int, int>& ima
     const auto& ends = this->Model.Edges[At(pair.Source)].Vertices;
     const bool closed = ends[0] == ends[1];
     const auto placeOf = [&](int edge, int i)
-    { return this->Model.EdgePoint(edge, static_cast<double>(i) / count); };
+    { return this->Model.EdgePoint(edge, this->Nodes->ShareOf(edge, i)); };
     const auto shifted = [&](int i, int shift, bool backward)
     {
       const int at = backward ? count - i : i;
@@ -599,6 +609,64 @@ void HexMesher::FindGrids()
   }
 }
 
+/// An edge of a grid whose opposite side has several edges gets that side's spacing, and hands it
+/// on.
+void HexMesher::FollowSpacing()
+{
+  // places of the nodes of a side, along its loop
+  const auto placesOf = [&](const std::vector<CADTopologyUse>& side)
+  {
+    std::vector<double> places{ 0.0 };
+    double before = 0.0;
+    for (const CADTopologyUse& use : side)
+    {
+      const double length = this->Model.Edges[At(use.Edge)].Length;
+      const int count = this->Nodes->Counts[At(use.Edge)];
+      for (int i = 1; i <= count; ++i)
+      {
+        const double share = use.Reversed ? 1.0 - this->Nodes->ShareOf(use.Edge, count - i)
+                                          : this->Nodes->ShareOf(use.Edge, i);
+        places.push_back(before + share * length);
+      }
+      before += length;
+    }
+    for (double& place : places)
+    {
+      place /= before;
+    }
+    return places;
+  };
+  bool changed = true;
+  while (changed)
+  {
+    changed = false;
+    for (const RectangleFace& rectangle : this->Faces.Rectangles())
+    {
+      const auto sides = this->Faces.Sides(rectangle.Face);
+      for (std::size_t side = 0; this->IsGrid[At(rectangle.Face)] && side < 4; ++side)
+      {
+        const auto& from = sides[(side + 2) % 4];
+        const CADTopologyUse& to = sides[side].front();
+        std::vector<double>& shares = this->Nodes->Shares[At(to.Edge)];
+        if (sides[side].size() > 1 || !shares.empty() ||
+          (from.size() == 1 && this->Nodes->Shares[At(from[0].Edge)].empty()))
+        {
+          continue;
+        }
+        // the opposite side runs the other way
+        shares = placesOf(from);
+        if (!to.Reversed)
+        {
+          std::reverse(shares.begin(), shares.end());
+          std::transform(
+            shares.begin(), shares.end(), shares.begin(), [](double share) { return 1.0 - share; });
+        }
+        changed = true;
+      }
+    }
+  }
+}
+
 std::vector<int> HexMesher::AppendFace(int face)
 {
   const auto first = static_cast<int>(this->Surface.Mesh.Quads.size());
@@ -679,7 +747,7 @@ Status HexMesher::MeshEnds(const SolidSweep& sweep)
 {
   SolidFaces solid;
   solid.Sweep = sweep;
-  solid.Source = this->QuadsOf(sweep.Source);
+  solid.Source = this->QuadsOf(sweep.Body, sweep.Source);
   if (Status found = this->Columns(sweep, solid.Source, solid.Columns); !found)
   {
     return found;
@@ -909,6 +977,7 @@ Result<CADHexes> HexMesher::Run()
       return divided.Status;
     }
     this->Nodes.emplace(this->Model, std::move(divided.Value));
+    this->FollowSpacing();
     const Status meshed = this->MeshFaces();
     if (this->Poor.empty() || round + 1 == Rounds || meshed.Code == ErrorCode::TooLarge ||
       meshed.Code == ErrorCode::Aborted)

@@ -75,7 +75,8 @@ Eigen::Vector3d FaceChart::Project(const Eigen::Vector3d& point, Eigen::Vector2d
 }
 
 EdgeNodes::EdgeNodes(const CADTopology& model, std::vector<int> counts)
-  : Counts(std::move(counts)), NumNodes(static_cast<int>(model.Vertices.size()))
+  : Counts(std::move(counts)), Shares(Counts.size()),
+    NumNodes(static_cast<int>(model.Vertices.size()))
 {
   for (const int count : this->Counts)
   {
@@ -94,6 +95,13 @@ int EdgeNodes::NodeOf(const CADTopology& model, int edge, int i) const
   return this->First[e] + i - 1;
 }
 
+double EdgeNodes::ShareOf(int edge, int i) const
+{
+  const auto e = static_cast<std::size_t>(edge);
+  return this->Shares[e].empty() ? static_cast<double>(i) / this->Counts[e]
+                                 : this->Shares[e][static_cast<std::size_t>(i)];
+}
+
 std::vector<ChartLoop> ChartLoops(
   const CADTopology& model, const FaceChart& chart, const EdgeNodes& nodes)
 {
@@ -109,8 +117,11 @@ std::vector<ChartLoop> ChartLoops(
       for (int i = 0; i < count; ++i)
       {
         LoopPoint point;
-        point.Place = chart.FromParameters(model.UseParameters(
-          chart.Face(), static_cast<int>(l), static_cast<int>(u), static_cast<double>(i) / count));
+        const double share = use.Edge < 0 ? static_cast<double>(i) / count
+          : use.Reversed                  ? 1.0 - nodes.ShareOf(use.Edge, count - i)
+                                          : nodes.ShareOf(use.Edge, i);
+        point.Place = chart.FromParameters(
+          model.UseParameters(chart.Face(), static_cast<int>(l), static_cast<int>(u), share));
         point.Node =
           use.Edge < 0 ? use.Vertex : nodes.NodeOf(model, use.Edge, use.Reversed ? count - i : i);
         point.Use = static_cast<int>(u);

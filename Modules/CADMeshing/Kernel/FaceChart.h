@@ -60,9 +60,12 @@ struct EdgeNodes
 {
   std::vector<int> Counts; ///< of segments, one an edge
   std::vector<int> First;  ///< node behind the begin of an edge
+  /// Where the nodes of an edge are, Counts and one, as shares of its length; empty: equally far.
+  std::vector<std::vector<double>> Shares;
 
   EdgeNodes(const CADTopology& model, std::vector<int> counts);
   int NodeOf(const CADTopology& model, int edge, int i) const;
+  double ShareOf(int edge, int i) const;
   int NumNodes = 0;
 };
 

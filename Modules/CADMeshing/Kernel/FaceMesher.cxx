@@ -92,21 +92,35 @@ void FaceMesher::FindRectangles()
     {
       continue;
     }
+    this->CornersOfFaces[At(face)] = corners;
     RectangleFace rectangle;
     rectangle.Face = face;
-    const auto& loop = this->Model.Faces[At(face)].Loops.front();
+    const auto sides = this->Sides(face);
     for (std::size_t side = 0; side < 4; ++side)
     {
-      const auto n = static_cast<int>(loop.size());
-      const int end = corners[(side + 1) % 4];
-      for (int use = corners[side]; use != end; use = (use + 1) % n)
+      for (const CADTopologyUse& use : sides[side])
       {
-        rectangle.Sides[side].push_back(loop[At(use)].Edge);
+        rectangle.Sides[side].push_back(use.Edge);
       }
     }
     this->AllRectangles.push_back(std::move(rectangle));
-    this->CornersOfFaces[At(face)] = corners;
   }
+}
+
+std::array<std::vector<CADTopologyUse>, 4> FaceMesher::Sides(int face) const
+{
+  std::array<std::vector<CADTopologyUse>, 4> sides;
+  const std::vector<int>& corners = this->CornersOfFaces[At(face)];
+  const auto& loop = this->Model.Faces[At(face)].Loops.front();
+  for (std::size_t side = 0; side < corners.size(); ++side)
+  {
+    for (int use = corners[side]; use != corners[(side + 1) % 4];
+         use = (use + 1) % static_cast<int>(loop.size()))
+    {
+      sides[side].push_back(loop[At(use)]);
+    }
+  }
+  return sides;
 }
 
 /// A grid of CoarseSegments segments along every side of a rectangle.
@@ -201,14 +215,16 @@ const Status& FaceMesher::Mesh(int face, const EdgeNodes& nodes, FaceMethod meth
   }
   const std::vector<ChartLoop> loops = ChartLoops(this->Model, chart, nodes);
   std::vector<int> loopNodes;
+  std::vector<Eigen::Vector2d> loopPlaces;
   for (const ChartLoop& loop : loops)
   {
     for (const LoopPoint& point : loop)
     {
       loopNodes.push_back(point.Node);
+      loopPlaces.push_back(point.Place);
     }
   }
-  if (state.Counts == counts)
+  if (state.Counts == counts && state.LoopPlaces == loopPlaces)
   {
     std::map<int, int> renumbered;
     for (std::size_t i = 0; i < loopNodes.size(); ++i)
@@ -225,6 +241,7 @@ const Status& FaceMesher::Mesh(int face, const EdgeNodes& nodes, FaceMethod meth
   state = {};
   state.Counts = counts;
   state.LoopNodes = std::move(loopNodes);
+  state.LoopPlaces = std::move(loopPlaces);
   if (method != FaceMethod::Paved)
   {
     std::vector<int> corners;
@@ -324,7 +341,7 @@ CADQuads FaceMesher::Begin(const EdgeNodes& nodes) const
   {
     for (int i = 1; i < nodes.Counts[At(e)]; ++i)
     {
-      mesh.Points.push_back(this->Model.EdgePoint(e, static_cast<double>(i) / nodes.Counts[At(e)]));
+      mesh.Points.push_back(this->Model.EdgePoint(e, nodes.ShareOf(e, i)));
       mesh.PointDimension.push_back(1);
       mesh.PointEntity.push_back(e);
     }

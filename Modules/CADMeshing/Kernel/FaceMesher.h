@@ -27,6 +27,7 @@ struct FaceMesh
   double Least = 0.0; ///< scaled Jacobian
   FaceQuads Quads;
   std::vector<int> LoopNodes; ///< that Quads.Nodes are of
+  std::vector<Eigen::Vector2d> LoopPlaces;
   Status Failure;
 };
 
@@ -46,6 +47,8 @@ public:
   {
     return this->CornersOfFaces[static_cast<std::size_t>(face)];
   }
+  /// The sides of a rectangle, in the order of its loop; empty ones: it is none.
+  std::array<std::vector<CADTopologyUse>, 4> Sides(int face) const;
   const FaceChart& Chart(int face) const { return this->Charts[static_cast<std::size_t>(face)]; }
   /// Lines of a grid may be longer and turn more than the sides that they run along.
   void RaiseWishes(const RectangleFace& rectangle, std::vector<int>& wishes) const;

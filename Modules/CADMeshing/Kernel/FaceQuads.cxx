@@ -519,6 +519,24 @@ public:
 
   double Run()
   {
+    double least = this->Improve();
+    if (least <= 0.0)
+    {
+      const FaceQuads folded = this->Mesh;
+      this->Relax();
+      const double relaxed = this->Improve();
+      if (relaxed <= least)
+      {
+        this->Mesh = folded;
+      }
+      least = std::max(least, relaxed);
+    }
+    return least;
+  }
+
+private:
+  double Improve()
+  {
     constexpr int Passes = 12;
     for (int pass = 0; pass < Passes; ++pass)
     {
@@ -543,7 +561,31 @@ public:
     return least;
   }
 
-private:
+  /// Every inner point to the middle of its neighbours, whatever becomes of the corners: folds
+  /// open.
+  void Relax()
+  {
+    constexpr int Passes = 100;
+    for (int pass = 0; pass < Passes; ++pass)
+    {
+      for (std::size_t p = 0; p < this->Mesh.Points.size(); ++p)
+      {
+        if (this->Mesh.Nodes[p] >= 0 || this->Around[p].empty())
+        {
+          continue;
+        }
+        Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+        for (const int neighbour : this->Neighbours[p])
+        {
+          middle += this->Mesh.Points[At(neighbour)];
+        }
+        middle /= static_cast<double>(this->Neighbours[p].size());
+        this->Mesh.Points[p] = this->Chart.Project(middle, this->Mesh.Places[p]);
+        this->Normals[p] = this->Chart.Normal(this->Mesh.Places[p]);
+      }
+    }
+  }
+
   double Least(int point) const
   {
     double least = 1.0;

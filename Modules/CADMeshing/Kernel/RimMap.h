@@ -9,8 +9,8 @@
 
 namespace knotwork
 {
-/// The affine map that brings points of a rim nearest to others: in the plane of the rim by least
-/// squares, along its normal by the same scale, so that flat rims do as well.
+/// The affine map that brings points of a rim nearest to others, by least squares; of nearly flat
+/// rims in their plane, and along its normal by the same scale.
 class RimMap
 {
 public:
@@ -32,7 +32,13 @@ public:
     const Eigen::Vector3d image = images.col(0).cross(images.col(1));
     const double area = image.norm();
     this->Linear = images * plane.transpose();
-    if (area > 0.0)
+    constexpr double LeastDepth = 0.1; ///< of the width, of a rim that is not nearly flat
+    if (axes.eigenvalues()[0] > LeastDepth * LeastDepth * sizes[0])
+    {
+      this->Linear = product * axes.eigenvectors() *
+        axes.eigenvalues().cwiseInverse().asDiagonal() * axes.eigenvectors().transpose();
+    }
+    else if (area > 0.0)
     {
       this->Linear += image / std::sqrt(area) * normal.transpose();
     }

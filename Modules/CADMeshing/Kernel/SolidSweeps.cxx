@@ -54,7 +54,6 @@ public:
 private:
   struct Progress;
 
-  std::vector<std::vector<CADTopologyUse>> SidesOf(int face) const;
   std::map<int, int> UsesWithin(const std::set<int>& faces) const;
   bool Advance(int face, std::size_t side, Progress& progress) const;
   void Link(const std::set<int>& source, Progress& progress) const;
@@ -150,24 +149,6 @@ std::vector<std::vector<int>> SolidShape::Sources() const
   return sources;
 }
 
-/// The four sides of a rectangle.
-std::vector<std::vector<CADTopologyUse>> SolidShape::SidesOf(int face) const
-{
-  std::vector<std::vector<CADTopologyUse>> sides;
-  const std::vector<int>& corners = this->Mesher.Corners(face);
-  for (std::size_t side = 0; side < corners.size(); ++side)
-  {
-    const auto& loop = this->Model.Faces[At(face)].Loops.front();
-    sides.emplace_back();
-    for (int use = corners[side]; use != corners[(side + 1) % 4];
-         use = (use + 1) % static_cast<int>(loop.size()))
-    {
-      sides.back().push_back(loop[At(use)]);
-    }
-  }
-  return sides;
-}
-
 /// How often faces use their edges.
 std::map<int, int> SolidShape::UsesWithin(const std::set<int>& faces) const
 {
@@ -191,7 +172,7 @@ std::map<int, int> SolidShape::UsesWithin(const std::set<int>& faces) const
 /// Moves the front over a rectangle that has all of one side in it, and none of the other ones.
 bool SolidShape::Advance(int face, std::size_t side, Progress& progress) const
 {
-  const auto sides = this->SidesOf(face);
+  const auto sides = this->Mesher.Sides(face);
   for (std::size_t s = 0; s < 4; ++s)
   {
     for (const CADTopologyUse& use : sides[s])
@@ -284,11 +265,12 @@ void SolidShape::Link(const std::set<int>& source, Progress& progress) const
     changed = false;
     for (const int face : this->Faces)
     {
-      if (source.count(face) > 0 || progress.Linking.count(face) > 0)
+      if (source.count(face) > 0 || progress.Linking.count(face) > 0 ||
+        this->Mesher.Corners(face).empty())
       {
         continue;
       }
-      const auto sides = this->SidesOf(face);
+      const auto sides = this->Mesher.Sides(face);
       for (std::size_t side = 0; side < sides.size(); ++side)
       {
         const bool goesOn = std::all_of(sides[side].begin(), sides[side].end(),
@@ -351,7 +333,7 @@ bool SolidShape::AddLayers(
 /// Edges inside of the target are images of edges inside of the source; a seam is none.
 bool SolidShape::MatchImprints(SolidSweep& sweep) const
 {
-  constexpr double Near = 0.1; ///< of an edge's length, or of its radius
+  constexpr double Near = 0.25; ///< of an edge's length, or of its radius
   const RimMap back(sweep.Arrival, sweep.Origin);
   const auto inner = [&](const std::vector<int>& faces)
   {
@@ -442,7 +424,7 @@ bool SolidShape::HasSameCorners(const SolidSweep& sweep, const Progress& progres
     return false;
   }
   std::set<int> images;
-  for (const auto& side : this->SidesOf(sweep.Source[0]))
+  for (const auto& side : this->Mesher.Sides(sweep.Source[0]))
   {
     int end = 0;
     if (this->ChainUp(side.front().Vertex, progress, end).empty())
@@ -452,7 +434,7 @@ bool SolidShape::HasSameCorners(const SolidSweep& sweep, const Progress& progres
     images.insert(end);
   }
   std::set<int> corners;
-  for (const auto& side : this->SidesOf(sweep.Target[0]))
+  for (const auto& side : this->Mesher.Sides(sweep.Target[0]))
   {
     corners.insert(side.front().Vertex);
   }
@@ -649,7 +631,7 @@ bool SolidShape::Sweep(
   }
   for (const int face : sweep.Linking)
   {
-    const auto sides = this->SidesOf(face);
+    const auto sides = this->Mesher.Sides(face);
     for (std::size_t s = 0; s < 2; ++s)
     {
       EqualChains chains;
