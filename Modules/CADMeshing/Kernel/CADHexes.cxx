@@ -941,7 +941,7 @@ Status HexMesher::Finish()
 Result<CADHexes> HexMesher::Run()
 {
   constexpr int Rounds = 4;
-  auto wishes = this->Faces.Wishes();
+  auto wishes = this->Faces.Wishes("MaximumHexahedra");
   if (!wishes)
   {
     return wishes.Status;

@@ -213,7 +213,7 @@ Status QuadMesher::Check(const CADQuads& made) const
 Result<CADQuads> QuadMesher::Run()
 {
   constexpr int Rounds = 4;
-  auto wishes = this->Faces.Wishes();
+  auto wishes = this->Faces.Wishes("MaximumQuads");
   if (!wishes)
   {
     return wishes.Status;

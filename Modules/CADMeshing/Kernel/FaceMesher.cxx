@@ -58,7 +58,7 @@ FaceMesher::FaceMesher(const CADTopology& model, const CADQuadsParams& params)
 {
 }
 
-Result<std::vector<int>> FaceMesher::Wishes() const
+Result<std::vector<int>> FaceMesher::Wishes(const char* option) const
 {
   constexpr int LeastOfClosed = 8;
   std::vector<int> wishes;
@@ -71,8 +71,7 @@ Result<std::vector<int>> FaceMesher::Wishes() const
       static_cast<double>(this->Params.MinDivisions),
       edge.Vertices[0] == edge.Vertices[1] ? static_cast<double>(LeastOfClosed) : 1.0 });
     sum += wish;
-    if (Status small = CheckSize(sum, this->Params.MaxQuads, "segments of edges", "MaximumQuads");
-        !small)
+    if (Status small = CheckSize(sum, this->Params.MaxQuads, "segments of edges", option); !small)
     {
       return small;
     }

@@ -37,8 +37,9 @@ class FaceMesher
 public:
   FaceMesher(const CADTopology& model, const CADQuadsParams& params);
 
-  /// Segments of edges by their own length and turning. @return TooLarge.
-  Result<std::vector<int>> Wishes() const;
+  /// Segments of edges by their own length and turning.
+  /// @return TooLarge, with the option that says so.
+  Result<std::vector<int>> Wishes(const char* option) const;
   /// Finds the faces that are logical rectangles.
   void FindRectangles();
   const std::vector<RectangleFace>& Rectangles() const { return this->AllRectangles; }

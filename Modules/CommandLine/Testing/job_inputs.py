@@ -143,6 +143,7 @@ def runs():
             (["warp", surface, FILE, "--output", grid], "surface"),
             (["approximate", FILE, "--values", "Temperature", "--table", "table.csv", "--points", polydata, "--output", grid], "values"),
             (["cadmodify", FILE, "--cut-plane", 0.5, 0, 0, 1, 0, 0, "--suggest", "--table", "table.csv", "--output", "out.step"], "part"),
+            (["hexes", FILE, "--solid-table", "table.csv", "--output", grid], "part"),
             (["quads", FILE, "--face-table", "table.csv", "--output", polydata], "part"),
             (["sweep", FILE, "--direction", 0, 0, 2, "--output", grid], "quads"),
             (["cadfit", FILE, "--entities", "table.csv", "--output", grid], "quads"),

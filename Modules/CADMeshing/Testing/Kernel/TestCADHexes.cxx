@@ -282,3 +282,31 @@ TEST(CADHexes, OptionsOutsideTheirRangesAreErrors)
   EXPECT_EQ(code(params), ErrorCode::Aborted);
   EXPECT_EQ(MeshHexes(CADTopology()).Status.Code, ErrorCode::EmptyInput);
 }
+
+TEST(CADHexes, APistonIsFourSweptSolids)
+{
+  CADOperation crown;
+  crown.Kind = CADOperationKind::CutByPlane;
+  crown.Point = { 0.0, 0.0, 46.0 };
+  CADOperation halves = crown;
+  halves.Direction = Eigen::Vector3d::UnitX();
+  const std::string file = OutputFile("piston.brep");
+  ASSERT_TRUE(
+    ModifyCAD(std::string(KNOTWORK_DATA_DIR) + "/Parts/piston.step", file, { crown, halves }));
+  const CADTopology model = TopologyOf(file);
+  for (const double length : { 0.0, 4.0, 12.0 })
+  {
+    CADHexesParams params;
+    params.Faces.EdgeLength = length;
+    const CADHexes made = Mesh(model, params);
+    ASSERT_EQ(made.Solids.size(), 4u);
+    int bent = 0; // halves of the skirt, swept from its outer to its inner side or back
+    for (const CADSolidHexes& solid : made.Solids)
+    {
+      bent += model.Faces[static_cast<std::size_t>(solid.Source[0])].IsPlane ? 0 : 1;
+    }
+    EXPECT_EQ(bent, 2);
+    EXPECT_NEAR(made.Quality.Volume, 131458.91, 0.02 * 131458.91);
+    EXPECT_GT(made.Quality.LeastScaledJacobian, 0.5);
+  }
+}

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Solids from files to files: cut, meshed with hexahedra that conform, fitted to one spline volume."""
+import glob
+import json
+import os
+
+import knotwork_testing
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+
+FOLDER = os.path.dirname(knotwork_testing.output("cad_hexahedra/files"))
+PISTON = knotwork_testing.data(os.path.join("Parts", "piston.step"))
+VOLUME = 131458.91  # its own, of OpenCASCADE
+FACETS = ((0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
+
+
+def run(job, *arguments, report=None):
+    words = [*map(str, arguments), "--force", *(["--report", report] if report else [])]
+    done = knotwork_testing.run_program(job, *words, folder=FOLDER, timeout=600)
+    assert done.returncode == 0, (job, arguments, done.stderr)
+    if report:
+        with open(os.path.join(FOLDER, report), encoding="utf-8") as file:
+            return json.load(file)
+    return None
+
+
+def meshed(part, *options):
+    report = run("hexes", part, *options, "--output", "hexes.vtu", report="hexes.json")
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(os.path.join(FOLDER, "hexes.vtu"))
+    reader.Update()
+    return report, reader.GetOutput()
+
+
+def check_conforming(report, mesh):
+    """Counted here, from the file: every side lies between two hexahedra or on the boundary, which is closed."""
+    cells = vtk_to_numpy(mesh.GetCells().GetConnectivityArray()).reshape(-1, 8)
+    assert len(cells) == report["hexahedra"] == report["valid_cells"] and report["verdict"] == "valid", report
+    assert len(np.unique(cells)) == mesh.GetNumberOfPoints() == report["points"]
+    sides = np.sort(np.vstack([cells[:, facet] for facet in FACETS]), 1)
+    facets, counts = np.unique(sides, axis=0, return_counts=True)
+    assert counts.max() <= 2
+    dimension = vtk_to_numpy(mesh.GetPointData().GetArray("CADEntityDimension"))
+    assert (dimension[facets[counts == 1]] < 3).all(), "the boundary lies on the part"
+    assert sum(solid["hexahedra"] for solid in report["solid_table"]) == len(cells)
+
+
+def test_a_piston_becomes_one_valid_spline_volume():
+    cut = run("cadmodify", PISTON, "--cut-plane", 0, 0, 46, 0, 0, 1, "--cut-plane", 0, 0, 0, 1, 0, 0, "--output", "piston.brep", report="cut.json")
+    assert cut["solids"] == 4
+    report, mesh = meshed("piston.brep", "--edge-length", 10)
+    check_conforming(report, mesh)
+    fitted = run("cadfit", "hexes.vtu", "--target", PISTON, "--degree", 2, "--output", "piston.vtu", report="fit.json")
+    assert fitted["verdict"] == "valid" and fitted["uncertified_elements"] == 0
+    assert abs(fitted["volume"] - VOLUME) < 5e-4 * VOLUME, fitted["volume"]
+    assert fitted["max_distance"] < 5e-3 * report["diagonal"], fitted["max_distance"]
+
+
+def test_the_piston_in_one_piece_names_its_faces():
+    done = knotwork_testing.run_program("hexes", PISTON, "--output", "no.vtu", folder=FOLDER)
+    assert done.returncode == 1 and "solid 0 is neither mapped nor swept" in done.stderr and "cadmodify" in done.stderr, done.stderr
+    assert not os.path.exists(os.path.join(FOLDER, "no.vtu"))
+
+
+def test_solids_of_the_folder():
+    """Those of KNOTWORK_UNSTRUCTURED_MESHES that are swept behind one cut at most."""
+    cuts = {"hexme_n12o_limit_cycle_genus0.stp": None, "hexme_s11o_cube_cyl.stp": (0, 0, 15, 0, 0, 1), "hexme_i01o_m1.step": (0, 0, 20, 0, 0, 1),
+            "hexme_s16o_torus.stp": (0, 0, 0, 1, 0, 0)}
+    folder = os.environ.get("KNOTWORK_UNSTRUCTURED_MESHES", "")
+    if not (folder and glob.glob(os.path.join(folder, "hexme_*.st*p"))):
+        knotwork_testing.skip("KNOTWORK_UNSTRUCTURED_MESHES names no folder with hexme_*.step")
+    for name, plane in cuts.items():
+        part = os.path.join(folder, name)
+        if plane:
+            run("cadmodify", part, "--cut-plane", *plane, "--output", "cut.brep")
+            part = "cut.brep"
+        report, mesh = meshed(part)
+        check_conforming(report, mesh)
+        assert report["least_scaled_jacobian"] > 0.3, (name, report["least_scaled_jacobian"])
+
+
+knotwork_testing.main(globals())
