@@ -53,6 +53,8 @@ const char* NameOf(CADOperationKind kind)
       return "split-plane";
     case CADOperationKind::SplitByParameter:
       return "split-iso";
+    case CADOperationKind::Heal:
+      return "heal";
   }
   return "";
 }
@@ -194,6 +196,15 @@ nlohmann::ordered_json InReport(const CADCounts& counts)
     { "vertices", counts.Vertices }, { "face_ids", counts.FaceIds }, { "volume", counts.Volume } };
 }
 
+nlohmann::ordered_json InReport(const CADHealing& healing)
+{
+  return { { "turned_faces", healing.TurnedFaces }, { "turned_solids", healing.TurnedSolids },
+    { "sewn_edges", healing.SewnEdges }, { "new_solids", healing.NewSolids },
+    { "removed_edges", healing.RemovedEdges }, { "removed_faces", healing.RemovedFaces },
+    { "closed_gaps", healing.ClosedGaps }, { "messages", healing.Messages },
+    { "unmended", healing.Unmended } };
+}
+
 class CADModifyJob
 {
 public:
@@ -215,6 +226,8 @@ public:
       "split faces by the plane through a point with a normal");
     this->AddRepeated("--split-iso", this->SplitIsos, "FACE[,FACE...] u|v SHARE",
       "split faces where u (or v) of their surface is constant, at a share of the face's range");
+    this->AddRepeated("--heal", this->Heals, "TOLERANCE",
+      "mend gaps, small edges and wrong orientation within a length; faces become solids");
     app.add_flag("--suggest", this->Suggest,
       "list slivers, tiny edges, chains of tangent faces and cuts that leave simpler solids, of "
       "the "
@@ -343,6 +356,10 @@ private:
       return this->Named(status, staged->string());
     }
     this->AddSteps(steps, session.Report);
+    for (const CADStep& step : steps)
+    {
+      session.Warn(step.Healing.Unmended);
+    }
     return this->Named(
       this->AddFound(staged->string(), steps.back().After, session), staged->string());
   }
@@ -471,6 +488,11 @@ private:
       operation.Share = share;
       faces = ParseFaces(name, ids);
     }
+    else if (name == "--heal")
+    {
+      operation.Kind = CADOperationKind::Heal;
+      operation.Tolerance = this->Heals[i];
+    }
     operation.Faces = faces.Value;
     return faces ? Result<CADOperation>(operation) : Result<CADOperation>(faces.Status);
   }
@@ -485,6 +507,10 @@ private:
       list.push_back({ { "operation", NameOf(step.Kind) }, { "before", InReport(step.Before) },
         { "after", InReport(step.After) }, { "volume_change", step.VolumeChange },
         { "overlap", step.Overlap }, { "new_faces", step.NewFaces } });
+      if (step.Kind == CADOperationKind::Heal)
+      {
+        list.back()["healing"] = InReport(step.Healing);
+      }
     }
     const CADCounts& before = steps.front().Before;
     const CADCounts& after = steps.back().After;
@@ -535,6 +561,7 @@ private:
   std::vector<int> CutFaces;
   std::vector<SplitPlaneWords> SplitPlanes;
   std::vector<SplitIsoWords> SplitIsos;
+  std::vector<double> Heals;
   CADModifyParams Params;
   CADSuggestParams SuggestParams;
 };
@@ -546,7 +573,7 @@ Job Make(CLI::App& app)
 }
 
 const JobRegistration Registration{ "cadmodify",
-  "cut the solids of a CAD part, split its faces, make solids that touch share faces",
+  "mend a CAD part, cut its solids, split its faces, make solids that touch share faces",
   "solid.step --cut-plane 0.5 0 0 1 0 0 --output pieces.step --report pieces.json", Make };
 }
 }

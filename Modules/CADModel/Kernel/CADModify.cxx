@@ -69,17 +69,20 @@ Result<std::vector<CADStep>> ModifyCAD(const std::string& file, const std::strin
   const Status status = session.Run(place,
     [&]() -> Status
     {
+      const bool healsFirst = operations.front().Kind == CADOperationKind::Heal;
+      session.SetMending(!healsFirst); // what is mended on the way is counted nowhere
       Handle(TDocStd_Document) document;
       LengthUnit unit = LengthUnit::Millimetre;
       if (Status loaded = LoadModel(session, file, document, unit); !loaded)
       {
         return loaded;
       }
+      session.SetMending(true);
       session.Set("write.step.unit", NameOfUnit(unit));
       const double scale = Millimetres(params.Unit) / Millimetres(unit);
       ModelDocument tree(document);
       ModelBodies model = tree.Take();
-      if (Status valid = CheckBodies(model); !valid)
+      if (Status valid = healsFirst ? Status() : CheckBodies(model); !valid)
       {
         return { valid.Code, place + ": " + valid.Detail + "; heal it first" };
       }
@@ -91,13 +94,14 @@ Result<std::vector<CADStep>> ModifyCAD(const std::string& file, const std::strin
           return { done.Code,
             place + ", operation " + std::to_string(steps.size() + 1) + ": " + done.Detail };
         }
-        if (!(step.VolumeChange <= params.VolumeTolerance))
+        const bool keepsVolume = operation.Kind != CADOperationKind::Heal;
+        if (keepsVolume && !(step.VolumeChange <= params.VolumeTolerance))
         {
           std::ostringstream detail;
           detail << place << ", operation " << steps.size() + 1 << ": the volume changes by "
                  << step.VolumeChange << " of itself, more than " << params.VolumeTolerance
                  << "; edges of the file lie off their faces, or the cut runs along a face: move "
-                    "it, heal the file or ask for a larger volume tolerance";
+                    "it, heal the part or ask for a larger volume tolerance";
           return { ErrorCode::InvalidTopology, detail.str() };
         }
         steps.push_back(std::move(step));

@@ -5,16 +5,19 @@
 
 #include <Eigen/Core>
 
+#include <map>
+
 namespace knotwork
 {
 enum class CADOperationKind
 {
-  Imprint,         ///< solids that touch share faces, edges and vertices (general fuse)
-  CutByPlane,      ///< solids become pieces along the plane of Point and Direction
-  CutByFace,       ///< along the extended surface of the face Tool
-  CutByCylinder,   ///< along the cylinder around the axis of Point and Direction, with Radius
-  SplitByPlane,    ///< Faces become parts along the plane of Point and Direction
-  SplitByParameter ///< Faces become parts along an iso-line of their surface
+  Imprint,          ///< solids that touch share faces, edges and vertices (general fuse)
+  CutByPlane,       ///< solids become pieces along the plane of Point and Direction
+  CutByFace,        ///< along the extended surface of the face Tool
+  CutByCylinder,    ///< along the cylinder around the axis of Point and Direction, with Radius
+  SplitByPlane,     ///< Faces become parts along the plane of Point and Direction
+  SplitByParameter, ///< Faces become parts along an iso-line of their surface
+  Heal              ///< all bodies, also those outside of solids, are mended within Tolerance
 };
 
 /// What is to be done. Face ids are those of ReadCAD, at the time of the operation.
@@ -26,8 +29,23 @@ struct CADOperation
   Eigen::Vector3d Point = Eigen::Vector3d::Zero();
   Eigen::Vector3d Direction = Eigen::Vector3d::UnitZ(); ///< any length but 0
   double Radius = 0.0;                                  ///< of CutByCylinder, > 0
-  int IsoDirection = 0; ///< of SplitByParameter: 0 u is constant, 1 v is
-  double Share = 0.5;   ///< where, of the face's range of that parameter, in (0, 1)
+  int IsoDirection = 0;   ///< of SplitByParameter: 0 u is constant, 1 v is
+  double Share = 0.5;     ///< where, of the face's range of that parameter, in (0, 1)
+  double Tolerance = 0.0; ///< of Heal: what lies nearer is one place; finite, > 0
+};
+
+/// What an operation Heal did.
+struct CADHealing
+{
+  int TurnedFaces = 0;  ///< their orientation is another one in their body
+  int TurnedSolids = 0; ///< all faces of a solid
+  int SewnEdges = 0;    ///< fewer edges border one face only
+  int NewSolids = 0;    ///< closed shells that were no solids
+  int RemovedEdges = 0; ///< fewer edges are shorter than the tolerance
+  int RemovedFaces = 0; ///< narrower than the tolerance
+  int ClosedGaps = 0;   ///< fewer joints of loops where the edges' curves do not meet
+  std::map<std::string, int> Messages; ///< of OpenCASCADE's ShapeFix, each with its number
+  std::vector<std::string> Unmended;   ///< what is left, one sentence each; bodies as after it
 };
 
 struct CADCounts
@@ -49,6 +67,7 @@ struct CADStep
   double VolumeChange = 0.0; ///< share of the volume that was lost or won
   double Overlap = 0.0;      ///< volume that lay in two solids; it belongs to the first of them now
   std::vector<std::vector<int>> NewFaces; ///< ids after it of each face id before it
+  CADHealing Healing;
 };
 
 struct CADModifyParams

@@ -11,6 +11,8 @@
 #include <STEPCAFControl_Controller.hxx>
 #include <Standard_Failure.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
+#include <XSAlgo.hxx>
+#include <XSAlgo_AlgoContainer.hxx>
 
 #include <algorithm>
 #include <new>
@@ -24,6 +26,17 @@ std::mutex& GlobalState()
   static std::mutex mutex;
   return mutex;
 }
+
+/// What OpenCASCADE calls on every shape that it has read.
+class Untouched : public XSAlgo_AlgoContainer
+{
+public:
+  TopoDS_Shape ProcessShape(const TopoDS_Shape& shape, double, double, const char*, const char*,
+    Handle(Standard_Transient) &, const Message_ProgressRange&, bool) const override
+  {
+    return shape;
+  }
+};
 }
 
 CADFormat FormatOfFile(const std::string& file)
@@ -109,6 +122,14 @@ void CADSession::SetDefaultsOfReading()
   this->Set("read.maxprecision.val", 1.0);
   this->Set("read.stdsameparameter.mode", 0);
   this->Set("read.surfacecurve.mode", 0);
+}
+
+void CADSession::SetMending(bool mends)
+{
+  const Handle(XSAlgo_AlgoContainer) old = XSAlgo::AlgoContainer();
+  this->Restore.emplace_back([old] { XSAlgo::SetAlgoContainer(old); });
+  XSAlgo::SetAlgoContainer(
+    mends ? new XSAlgo_AlgoContainer : Handle(XSAlgo_AlgoContainer)(new Untouched));
 }
 
 Status CADSession::Run(const std::string& place, const std::function<Status()>& body)

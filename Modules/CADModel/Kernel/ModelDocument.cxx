@@ -186,6 +186,10 @@ TDF_Label ModelDocument::PutProduct(const TDF_Label& label, int instance, const 
       isChanged = isChanged || body.IsChanged;
     }
   }
+  if (bodies.empty() && TopExp_Explorer(XCAFDoc_ShapeTool::GetShape(label), TopAbs_FACE).More())
+  {
+    return {}; // others hold what it was
+  }
   if (const TDF_Label* known = isChanged ? nullptr : this->Unchanged.Seek(label))
   {
     return *known;
@@ -251,8 +255,11 @@ TDF_Label ModelDocument::PutLabel(const TDF_Label& label, const ModelBodies& mod
     if (XCAFDoc_ShapeTool::GetReferredShape(component, product))
     {
       const TDF_Label made = this->PutLabel(product, model);
-      this->Copy(component,
-        this->NewShapes->AddComponent(assembly, made, XCAFDoc_ShapeTool::GetLocation(component)));
+      if (!made.IsNull())
+      {
+        this->Copy(component,
+          this->NewShapes->AddComponent(assembly, made, XCAFDoc_ShapeTool::GetLocation(component)));
+      }
     }
   }
   return assembly;

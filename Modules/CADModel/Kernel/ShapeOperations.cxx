@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ShapeOperations.h"
 
+#include "ShapeHealing.h"
+
 #include <knotwork/SplineCore/DisjointSets.h>
 
 #include <BRepAdaptor_Surface.hxx>
@@ -39,59 +41,6 @@ namespace knotwork
 namespace
 {
 constexpr double Pi = 3.14159265358979323846;
-
-struct FacePlace
-{
-  std::size_t Body;
-  TopoDS_Face Face;
-};
-
-std::vector<FacePlace> FacesOf(const ModelBodies& model)
-{
-  std::vector<FacePlace> faces;
-  for (std::size_t b = 0; b < model.Bodies.size(); ++b)
-  {
-    for (TopExp_Explorer face(model.Bodies[b].Shape, TopAbs_FACE); face.More(); face.Next())
-    {
-      faces.push_back({ b, TopoDS::Face(face.Current()) });
-    }
-  }
-  return faces;
-}
-
-TopoDS_Compound Together(const std::vector<TopoDS_Shape>& shapes)
-{
-  BRep_Builder builder;
-  TopoDS_Compound compound;
-  builder.MakeCompound(compound);
-  for (const TopoDS_Shape& shape : shapes)
-  {
-    builder.Add(compound, shape);
-  }
-  return compound;
-}
-
-TopoDS_Compound Together(const ModelBodies& model)
-{
-  std::vector<TopoDS_Shape> shapes;
-  for (const ModelBody& body : model.Bodies)
-  {
-    shapes.push_back(body.Shape);
-  }
-  return Together(shapes);
-}
-
-bool IsSolid(const ModelBody& body)
-{
-  return body.Shape.ShapeType() == TopAbs_SOLID;
-}
-
-double VolumeOf(const TopoDS_Shape& shape)
-{
-  GProp_GProps properties;
-  BRepGProp::VolumeProperties(shape, properties, 1e-11, false, false);
-  return properties.Mass();
-}
 
 struct Ball
 {
@@ -205,17 +154,6 @@ Result<TopoDS_Face> ToolFace(const CADOperation& operation, const Ball& ball)
                     : Extended(gp_Pln(frame), ball);
 }
 
-Status CheckId(int id, const std::vector<FacePlace>& faces)
-{
-  if (id < 0 || static_cast<std::size_t>(id) >= faces.size())
-  {
-    return { ErrorCode::InvalidParameter,
-      "there is no face " + std::to_string(id) + "; faces have the ids 0 to " +
-        std::to_string(faces.size() - 1) };
-  }
-  return {};
-}
-
 Result<TopoDS_Face> ToolOfFace(int id, const std::vector<FacePlace>& faces, const Ball& ball)
 {
   if (Status status = CheckId(id, faces); !status)
@@ -282,14 +220,6 @@ std::vector<std::vector<std::size_t>> GroupsOf(const ModelBodies& model)
   }
   return result;
 }
-
-/// What became of bodies and faces.
-struct Images
-{
-  std::vector<std::vector<TopoDS_Shape>> OfBody; ///< empty: as it was
-  NCollection_DataMap<TopoDS_Shape, std::vector<TopoDS_Shape>, TopTools_ShapeMapHasher> OfFace;
-  double Overlap = 0.0;
-};
 
 /// Runs general fuse or splitter on a group of bodies.
 Status Fuse(const ModelBodies& model, const std::vector<std::size_t>& group,
@@ -362,110 +292,6 @@ Status Fuse(const ModelBodies& model, const std::vector<std::size_t>& group,
     }
   }
   return {};
-}
-
-/// Puts the images into the place of what they are images of.
-void Replace(const Images& images, ModelBodies& model, CADStep& step)
-{
-  const std::vector<FacePlace> before = FacesOf(model);
-  AttributesOfShapes attributes;
-  for (const FacePlace& place : before)
-  {
-    const ShapeAttributes* own = model.Faces.Seek(place.Face);
-    if (!own)
-    {
-      continue;
-    }
-    const auto keep = [&](const TopoDS_Shape& face)
-    {
-      if (!attributes.IsBound(face)) // of two faces that became one the first
-      {
-        attributes.Bind(face, *own);
-      }
-    };
-    if (const auto* parts = images.OfFace.Seek(place.Face))
-    {
-      for (const TopoDS_Shape& part : *parts)
-      {
-        keep(part);
-      }
-    }
-    else
-    {
-      keep(place.Face);
-    }
-  }
-  std::vector<ModelBody> bodies;
-  std::vector<std::size_t> origin;
-  for (std::size_t b = 0; b < model.Bodies.size(); ++b)
-  {
-    const ModelBody& old = model.Bodies[b];
-    const std::vector<TopoDS_Shape>& pieces = images.OfBody[b];
-    const bool isKept = !IsSolid(old) || (pieces.size() == 1 && pieces[0].IsSame(old.Shape));
-    if (isKept || pieces.empty())
-    {
-      // without pieces: all of it lay in others
-      if (isKept || images.Overlap == 0.0)
-      {
-        bodies.push_back(old);
-        origin.push_back(b);
-      }
-      continue;
-    }
-    for (const TopoDS_Shape& piece : pieces)
-    {
-      ModelBody body = old;
-      body.Shape = piece;
-      body.IsChanged = true;
-      bodies.push_back(body);
-      origin.push_back(b);
-    }
-  }
-  model.Bodies = std::move(bodies);
-  model.Faces = attributes;
-  // ids of the parts in the bodies that came from the face's body
-  NCollection_DataMap<TopoDS_Shape, std::vector<std::pair<std::size_t, int>>,
-    TopTools_ShapeMapHasher>
-    ids;
-  const std::vector<FacePlace> after = FacesOf(model);
-  for (std::size_t f = 0; f < after.size(); ++f)
-  {
-    if (!ids.IsBound(after[f].Face))
-    {
-      ids.Bind(after[f].Face, {});
-    }
-    ids.ChangeFind(after[f].Face).emplace_back(origin[after[f].Body], static_cast<int>(f));
-  }
-  step.NewFaces.assign(before.size(), {});
-  for (std::size_t f = 0; f < before.size(); ++f)
-  {
-    const auto add = [&](const TopoDS_Shape& face)
-    {
-      const auto* found = ids.Seek(face);
-      if (!found)
-      {
-        return;
-      }
-      for (const auto& [body, id] : *found)
-      {
-        if (body == before[f].Body)
-        {
-          step.NewFaces[f].push_back(id);
-        }
-      }
-    };
-    if (const auto* parts = images.OfFace.Seek(before[f].Face))
-    {
-      for (const TopoDS_Shape& part : *parts)
-      {
-        add(part);
-      }
-    }
-    else
-    {
-      add(before[f].Face);
-    }
-  }
 }
 
 /// Curves on chosen faces.
@@ -578,19 +404,46 @@ Status CheckBodies(const ModelBodies& model)
 
 namespace
 {
-Status RunScaled(const CADOperation& operation, ModelBodies& model, CADStep& step)
+/// What OpenCASCADE calls valid can be written and worked on; else what is left says why not.
+Status CheckHealed(const ModelBodies& model, const CADStep& step)
+{
+  const Status valid = CheckBodies(model);
+  if (valid)
+  {
+    return valid;
+  }
+  std::string text = valid.Detail + " after healing";
+  for (const std::string& one : step.Healing.Unmended)
+  {
+    text += "; " + one;
+  }
+  return { valid.Code, text + "; try another tolerance" };
+}
+
+Status RunScaled(const CADOperation& operation, double scale, ModelBodies& model, CADStep& step)
 {
   step = {};
   step.Kind = operation.Kind;
   step.Before = CountBodies(model);
+  if (operation.Kind == CADOperationKind::Heal)
+  {
+    if (!(operation.Tolerance > 0.0 && std::isfinite(operation.Tolerance)))
+    {
+      return { ErrorCode::InvalidParameter,
+        "the tolerance of healing must be a number above 0; give the width of gaps to close" };
+    }
+    Heal(operation.Tolerance, scale, model, step);
+    step.After = CountBodies(model);
+    return CheckHealed(model, step);
+  }
   if (step.Before.Solids == 0)
   {
-    return { ErrorCode::EmptyInput, "there is no solid; sew the faces to solids first" };
+    return { ErrorCode::EmptyInput,
+      "there is no solid; heal the part, so that its faces become solids" };
   }
   const Ball ball = BallAround(model);
   const std::vector<FacePlace> faces = FacesOf(model);
-  Images images;
-  images.OfBody.resize(model.Bodies.size());
+  Images images(model);
   std::vector<TopoDS_Shape> tools;
   std::vector<std::vector<std::size_t>> groups;
   switch (operation.Kind)
@@ -625,6 +478,8 @@ Status RunScaled(const CADOperation& operation, ModelBodies& model, CADStep& ste
       groups = GroupsOf(model);
       break;
     }
+    case CADOperationKind::Heal: // done
+      break;
     case CADOperationKind::SplitByPlane:
     case CADOperationKind::SplitByParameter:
     {
@@ -670,7 +525,8 @@ Status RunOperation(const CADOperation& operation, double scale, ModelBodies& mo
   CADOperation scaled = operation;
   scaled.Point *= scale;
   scaled.Radius *= scale;
-  const Status status = RunScaled(scaled, model, step);
+  scaled.Tolerance *= scale;
+  const Status status = RunScaled(scaled, scale, model, step);
   const double kept = step.Before.Volume - step.Overlap;
   step.VolumeChange = kept != 0.0 ? std::abs(step.After.Volume / kept - 1.0) : 0.0;
   const double cube = 1.0 / (scale * scale * scale);

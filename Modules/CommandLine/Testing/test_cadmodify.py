@@ -109,6 +109,68 @@ def test_faces_are_split():
         near(report["file_volume"], 6)
 
 
+def loose_box(name, lift):
+    """A cube of side 2 whose six faces have no edge in common; the top lies higher."""
+    solids = step_solids.Solids()
+    faces = []
+    for axis in range(3):
+        for side in (0, 1):
+            normal, along = [0.0] * 3, [0.0] * 3
+            normal[axis], along[(axis + 1) % 3] = 2 * side - 1, 1.0
+            corners = []
+            for a, b in ((0, 0), (1, 0), (1, 1), (0, 1)) if side else ((0, 0), (0, 1), (1, 1), (1, 0)):
+                corner = [0.0] * 3
+                corner[axis], corner[(axis + 1) % 3], corner[(axis + 2) % 3] = 2.0 * side, 2.0 * a, 2.0 * b
+                corner[2] += lift if axis == 2 and side else 0.0
+                corners.append(corner)
+            vertices = [solids.vertex(corner) for corner in corners]
+            edges = [(solids.line(corners[i], corners[(i + 1) % 4], (vertices[i], vertices[(i + 1) % 4])), "T") for i in range(4)]
+            faces.append(solids.face("Side%d" % len(faces), solids.place("PLANE('',%s)", corners[0], normal, along), [edges]))
+    solids.close("", faces)
+    return solids.write(path(name))
+
+
+def test_defects_are_mended_and_counted():
+    # nothing to do, also where the file has no curves in the parameters of its faces
+    report = modify(stacked(), "--heal", 0.01)
+    healing = report["operations"][0]["healing"]
+    assert not any(healing.values()), healing
+    assert report["operations"][0]["new_faces"] == [[id] for id in range(9)]
+    # a face turned
+    with open(box()) as stream:
+        text = stream.read()
+    bound, = re.search(r"ADVANCED_FACE\('',\((#\d+)\)", text).groups()
+    text = re.sub(r"(ADVANCED_FACE\('',\(%s\),#\d+,)\.T\." % bound, r"\1.F.", text)
+    text = re.sub(r"(%s=FACE_BOUND\('',#\d+,)\.T\." % bound, r"\1.F.", text)
+    report = modify(write_text("turned.step", text), "--heal", 1e-3)
+    healing = report["operations"][0]["healing"]
+    assert healing["turned_faces"] == 1 and healing["sewn_edges"] == healing["removed_edges"] == 0 and not healing["unmended"], healing
+    near(report["file_volume"], 6)
+    # faces that are not sewn, in one unit and another; their names stay
+    for unit in ("millimetre", "centimetre"):
+        report = modify(loose_box("loose.step", 0.01), "--unit", unit, "--heal", 0.1 if unit == "millimetre" else 0.01)
+        healing = report["operations"][0]["healing"]
+        assert healing["sewn_edges"] == 24 and healing["new_solids"] == 1 and healing["turned_faces"] == 0 and not healing["unmended"], healing
+        assert report["solids"] == report["file_solids"] == 1 and report["edges"] == 12 and report["brep_valid"]
+        near(report["volume"] * (1 if unit == "millimetre" else 1000), 8.02, 0.003)
+    with open(path("out.step")) as stream:
+        assert sorted(re.findall(r"ADVANCED_FACE\('(Side\d)'", stream.read())) == ["Side%d" % i for i in range(6)]
+    # a gap above the tolerance is named, on stderr and in the report
+    done = knotwork_testing.run_program("cadmodify", loose_box("apart.step", 0.25), "--heal", 0.01, "--output", path("apart_out.step"), "--report", path("apart.json"))
+    assert done.returncode == 0 and "4 edges of one face only" in done.stderr and "0.25 from the next" in done.stderr, done
+    with open(path("apart.json")) as stream:
+        report = json.load(stream)
+    assert report["solids"] == 0 and len(report["operations"][0]["healing"]["unmended"]) == 2
+    # a tiny edge that makes a sliver
+    solids = step_solids.Solids()
+    solids.prism([(0, 0), (10, 0), (10, 10), (9.999, 10), (0, 10)], 10)
+    report = modify(solids.write(path("sliver.step")), "--heal", 0.01, "--cut-plane", 5, 0, 0, 1, 0, 0)
+    healing = report["operations"][0]["healing"]
+    assert healing["removed_faces"] == 1 and healing["removed_edges"] == 2 and not healing["unmended"], healing
+    assert report["operations"][0]["after"]["faces"] == 6 and report["operations"][0]["after"]["edges"] == 12
+    assert report["solids"] == 2 and [len(ids) for ids in report["operations"][0]["new_faces"]].count(0) == 1
+
+
 def suggest(part, *arguments):
     report = path("suggest.json")
     done = knotwork_testing.run_program("cadmodify", part, "--suggest", *arguments, "--report", report)
@@ -182,6 +244,8 @@ def test_failures_are_one_line():
         (part, ["--cut-plane", 1, 0, 0, 0, 0, 0], ["length 0"]),
         (part, ["--cut-cylinder", 1, 1, 0, 0, 0, 1, 0], ["radius"]),
         (part, ["--cut-cylinder", 1, 1, 0, 0, 0, 1, -2], ["radius"]),
+        (part, ["--heal", 0], ["operation 1", "above 0"]),
+        (part, ["--heal", "nan"], ["operation 1", "above 0"]),
         (part, ["--cut-face", 6], ["no face 6", "0 to 5"]),
         (part, ["--cut-face", -1], ["no face -1"]),
         (part, ["--split-iso", "9", "u", 0.5], ["no face 9"]),
