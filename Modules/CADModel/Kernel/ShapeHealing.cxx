@@ -271,6 +271,7 @@ TopoDS_Shape Fix(double tolerance, double fine, const TopoDS_Shape& shape,
   prepare(wireframe, tolerance);
   wireframe->ModeDropSmallEdges() = true;
   wireframe->FixSmallEdges();
+  wireframe->SetPrecision(fine); // wider gaps are closed, up to the tolerance
   wireframe->FixWireGaps();
   const Handle(ShapeFix_FixSmallFace) small = new ShapeFix_FixSmallFace;
   prepare(small, tolerance);

@@ -161,6 +161,14 @@ def test_defects_are_mended_and_counted():
     with open(path("apart.json")) as stream:
         report = json.load(stream)
     assert report["solids"] == 0 and len(report["operations"][0]["healing"]["unmended"]) == 2
+    # the line of an edge that passes its ends at a distance of 0.005
+    with open(box()) as stream:
+        text = stream.read()
+    point = re.search(r"LINE\('',(#\d+)", text).group(1)
+    begin, count = re.subn(r"\n%s=CARTESIAN_POINT\('',\([^)]*\)\)" % point, "\n%s=CARTESIAN_POINT('',(0.,0.003,-0.004))" % point, text)
+    report = modify(write_text("beside.step", begin), "--heal", 0.01)
+    assert count == 1 and report["operations"][0]["healing"]["closed_gaps"] == 4, report
+    near(report["file_volume"], 6, 1e-3)
     # a tiny edge that makes a sliver
     solids = step_solids.Solids()
     solids.prism([(0, 0), (10, 0), (10, 10), (9.999, 10), (0, 10)], 10)
