@@ -2,6 +2,7 @@
 #include "vtkCADReader.h"
 
 #include "ForeignFile.h"
+#include <knotwork/CADModel/CADComposite.h>
 #include <knotwork/CADModel/CADExchange.h>
 #include <knotwork/SurfaceTrimming/TrimData.h>
 #include <knotwork/SurfaceTrimming/TrimmedGrids.h>
@@ -18,6 +19,7 @@
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -26,6 +28,29 @@ vtkStandardNewMacro(vtkCADReader);
 namespace
 {
 using namespace knotwork;
+
+/// The composites of faces, on cells that have a FaceId; nothing where there are none.
+void AddComposites(const TrimmedModel& model, vtkDataSet* cells)
+{
+  std::vector<std::string> names;
+  for (const TrimmedFace& face : model.Faces)
+  {
+    names.push_back(face.Name);
+  }
+  const std::vector<int> ids = CompositeIds(names);
+  vtkDataArray* faces = cells->GetCellData()->GetArray("FaceId");
+  if (!faces || std::all_of(ids.begin(), ids.end(), [](int id) { return id < 0; }))
+  {
+    return;
+  }
+  vtkNew<vtkIntArray> composites;
+  composites->SetName("CompositeId");
+  for (vtkIdType c = 0; c < faces->GetNumberOfTuples(); ++c)
+  {
+    composites->InsertNextValue(ids[static_cast<std::size_t>(faces->GetTuple1(c))]);
+  }
+  cells->GetCellData()->AddArray(composites);
+}
 
 /// What the file says of the faces, on their triangles.
 void AddAttributes(const TrimmedModel& model, const TrimmedMesh& mesh, vtkPolyData* triangles)
@@ -48,6 +73,7 @@ void AddAttributes(const TrimmedModel& model, const TrimmedMesh& mesh, vtkPolyDa
         static_cast<unsigned char>(face.HasColor ? std::lround(255.0 * share) : 255));
     }
   }
+  AddComposites(model, triangles);
   triangles->GetCellData()->AddArray(patches);
   triangles->GetCellData()->AddArray(names);
   triangles->GetCellData()->AddArray(colors);
@@ -102,6 +128,10 @@ Status vtkCADReader::Compute(vtkInformationVector**, vtkInformationVector* outpu
   const TrimmedModel& model = contents->Model;
   Status status = EncodeTrimmedModel(
     model, vtkUnstructuredGrid::GetData(outputs, 0), vtkUnstructuredGrid::GetData(outputs, 1));
+  if (status)
+  {
+    AddComposites(model, vtkUnstructuredGrid::GetData(outputs, 0));
+  }
   if (!status || !this->Triangulation)
   {
     return status;

@@ -5,6 +5,7 @@
 #include "CADFile.h"
 #include "CADSession.h"
 #include "ModelDocument.h"
+#include "ShapeComposite.h"
 #include <knotwork/SplineCore/FileOutput.h>
 
 #include <BRepBuilderAPI_Transform.hxx>
@@ -109,6 +110,13 @@ Result<std::vector<CADStep>> ModifyCAD(const std::string& file, const std::strin
       std::ostringstream text;
       if (format == CADFormat::BREP)
       {
+        const std::string group = FirstComposite(model);
+        if (!group.empty())
+        {
+          return { ErrorCode::InvalidParameter,
+            "'" + output + "': composite " + group +
+              " travels in the names of its faces, which BREP files have not; write .step" };
+        }
         WriteBREP(model, Millimetres(unit), text);
         return PutText(text.str(), output);
       }

@@ -2,6 +2,7 @@
 // Modification of a STEP file: solids share faces, become pieces, faces become parts.
 #pragma once
 #include "CADExchange.h"
+#include <knotwork/SplineCore/Spline.h>
 
 #include <Eigen/Core>
 
@@ -17,6 +18,8 @@ enum class CADOperationKind
   CutByCylinder,    ///< along the cylinder around the axis of Point and Direction, with Radius
   SplitByPlane,     ///< Faces become parts along the plane of Point and Direction
   SplitByParameter, ///< Faces become parts along an iso-line of their surface
+  Composite,        ///< Faces count as one: joined where they lie on one surface, else a group
+  SplitByCurve,     ///< Faces become parts along Curves, which are projected to them
   Heal              ///< all bodies, also those outside of solids, are mended within Tolerance
 };
 
@@ -24,14 +27,15 @@ enum class CADOperationKind
 struct CADOperation
 {
   CADOperationKind Kind = CADOperationKind::Imprint;
-  std::vector<int> Faces; ///< of a split, not empty
+  std::vector<int> Faces; ///< of a split, not empty; of a composite, neighbours of one body
   int Tool = -1;          ///< face of CutByFace: a plane, cylinder, sphere or torus
   Eigen::Vector3d Point = Eigen::Vector3d::Zero();
   Eigen::Vector3d Direction = Eigen::Vector3d::UnitZ(); ///< any length but 0
   double Radius = 0.0;                                  ///< of CutByCylinder, > 0
-  int IsoDirection = 0;   ///< of SplitByParameter: 0 u is constant, 1 v is
-  double Share = 0.5;     ///< where, of the face's range of that parameter, in (0, 1)
-  double Tolerance = 0.0; ///< of Heal: what lies nearer is one place; finite, > 0
+  int IsoDirection = 0;          ///< of SplitByParameter: 0 u is constant, 1 v is
+  double Share = 0.5;            ///< where, of the face's range of that parameter, in (0, 1)
+  std::vector<Spline<1>> Curves; ///< of SplitByCurve, in space, not empty
+  double Tolerance = 0.0;        ///< of Heal: what lies nearer is one place; finite, > 0
 };
 
 /// What an operation Heal did.
@@ -58,6 +62,13 @@ struct CADCounts
   double Volume = 0.0;
 };
 
+/// What an operation Composite made.
+struct CADComposite
+{
+  std::string Name;       ///< of the group; empty: there is one face, which needs none
+  std::vector<int> Faces; ///< ids after the operation
+};
+
 /// What one operation did.
 struct CADStep
 {
@@ -68,6 +79,7 @@ struct CADStep
   double Overlap = 0.0;      ///< volume that lay in two solids; it belongs to the first of them now
   std::vector<std::vector<int>> NewFaces; ///< ids after it of each face id before it
   CADHealing Healing;
+  CADComposite Composite;
 };
 
 struct CADModifyParams
@@ -84,7 +96,8 @@ struct CADModifyParams
 /// are kept; an instance that was changed becomes a product of its own. OpenCASCADE writes each
 /// solid of a STEP file by itself: what solids share is there once for each, equal and at the same
 /// place. A BREP file keeps it shared, without names, colours and assembly. Shells and faces
-/// outside of solids stay as they are.
+/// outside of solids stay as they are but for Heal. Composites travel in the names of their faces
+/// (CADComposite.h).
 /// @return EmptyInput: no operations, no solid; InvalidParameter: options outside of their ranges,
 /// ids that are not there; NonFiniteInput; OutsideDomain: what meets nothing; InvalidTopology:
 /// shapes that are not valid before or after an operation, or volume that is not kept;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ShapeOperations.h"
 
+#include "CADGeometry.h"
+#include "ShapeComposite.h"
 #include "ShapeHealing.h"
 
 #include <knotwork/SplineCore/DisjointSets.h>
@@ -15,12 +17,14 @@
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepGProp.hxx>
+#include <BRepOffsetAPI_NormalProjection.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
 #include <Geom_Surface.hxx>
+#include <Precision.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
@@ -294,19 +298,122 @@ Status Fuse(const ModelBodies& model, const std::vector<std::size_t>& group,
   return {};
 }
 
+/// Where a plane meets a face.
+TopoDS_Shape LinesOfPlane(const TopoDS_Face& face, const TopoDS_Face& plane)
+{
+  BRepAlgoAPI_Section section(face, plane, false);
+  section.Build();
+  return section.Shape();
+}
+
+/// The iso-line of an operation, within the face.
+TopoDS_Shape LinesOfParameter(const TopoDS_Face& face, const CADOperation& operation)
+{
+  double range[2][2];
+  BRepTools::UVBounds(face, range[0][0], range[0][1], range[1][0], range[1][1]);
+  const int d = operation.IsoDirection;
+  const double at = range[d][0] + operation.Share * (range[d][1] - range[d][0]);
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+  const TopoDS_Edge edge = BRepBuilderAPI_MakeEdge(
+    d == 0 ? surface->UIso(at) : surface->VIso(at), range[1 - d][0], range[1 - d][1]);
+  return BRepAlgoAPI_Common(edge, face).Shape();
+}
+
+/// A curve between the knots where it may have corners.
+std::vector<Handle(Geom_BSplineCurve)> SmoothPieces(const Handle(Geom_BSplineCurve) & curve)
+{
+  std::vector<Handle(Geom_BSplineCurve)> pieces;
+  int first = curve->FirstUKnotIndex();
+  const int end = curve->LastUKnotIndex();
+  for (int k = first + 1; k <= end; ++k)
+  {
+    if (k == end || curve->Multiplicity(k) >= curve->Degree())
+    {
+      const Handle(Geom_BSplineCurve) piece = Handle(Geom_BSplineCurve)::DownCast(curve->Copy());
+      piece->Segment(curve->Knot(first), curve->Knot(k));
+      pieces.push_back(piece);
+      first = k;
+    }
+  }
+  return pieces;
+}
+
+/// Curves as smooth edges, in the unit of the model.
+Result<TopoDS_Shape> EdgesOf(const std::vector<Spline<1>>& curves, double scale)
+{
+  std::vector<TopoDS_Shape> edges;
+  for (const Spline<1>& curve : curves)
+  {
+    Status status = curve.Check();
+    if (status && (curve.ControlPoints.cols() != 3))
+    {
+      status = { ErrorCode::DimensionMismatch, "control points must have three coordinates" };
+    }
+    if (!status)
+    {
+      return { status.Code, "a curve: " + status.Detail };
+    }
+    Spline<1> scaled = curve;
+    scaled.ControlPoints *= scale;
+    for (const Handle(Geom_BSplineCurve) & piece : SmoothPieces(ToOpenCASCADE(scaled)))
+    {
+      const bool isLine = piece->Degree() == 1;
+      if (isLine && piece->StartPoint().IsEqual(piece->EndPoint(), Precision::Confusion()))
+      {
+        continue; // points that are there twice
+      }
+      edges.push_back(isLine ? BRepBuilderAPI_MakeEdge(piece->StartPoint(), piece->EndPoint())
+                             : BRepBuilderAPI_MakeEdge(piece));
+    }
+  }
+  return TopoDS_Shape(Together(edges));
+}
+
+/// Normal projections of curves, within the face.
+TopoDS_Shape LinesOfCurves(const TopoDS_Face& face, const TopoDS_Shape& curves)
+{
+  std::vector<TopoDS_Shape> lines;
+  for (TopExp_Explorer curve(curves, TopAbs_EDGE); curve.More(); curve.Next())
+  {
+    BRepOffsetAPI_NormalProjection projection(face);
+    projection.Add(curve.Current());
+    projection.SetParams(1e-6, 1e-6, GeomAbs_C1, 14, 64);
+    projection.Build();
+    if (projection.IsDone() && !projection.Projection().IsNull())
+    {
+      lines.push_back(projection.Projection());
+    }
+  }
+  return Together(lines);
+}
+
 /// Curves on chosen faces.
-Result<std::vector<TopoDS_Shape>> CurvesOn(
-  const CADOperation& operation, const std::vector<FacePlace>& faces, const Ball& ball)
+Result<std::vector<TopoDS_Shape>> CurvesOn(const CADOperation& operation, double scale,
+  const std::vector<FacePlace>& faces, const Ball& ball)
 {
   if (operation.Faces.empty())
   {
     return { ErrorCode::EmptyInput, "no face is chosen; give the ids of those to split" };
   }
   const bool isPlane = operation.Kind == CADOperationKind::SplitByPlane;
-  TopoDS_Face tool;
+  const bool isCurve = operation.Kind == CADOperationKind::SplitByCurve;
+  TopoDS_Shape tool;
   if (isPlane)
   {
     const auto made = ToolFace(operation, ball);
+    if (!made)
+    {
+      return made.Status;
+    }
+    tool = made.Value;
+  }
+  else if (isCurve)
+  {
+    if (operation.Curves.empty())
+    {
+      return { ErrorCode::EmptyInput, "there is no curve to split by; give one or more" };
+    }
+    const auto made = EdgesOf(operation.Curves, scale);
     if (!made)
     {
       return made.Status;
@@ -327,24 +434,9 @@ Result<std::vector<TopoDS_Shape>> CurvesOn(
       return status;
     }
     const TopoDS_Face& face = faces[static_cast<std::size_t>(id)].Face;
-    TopoDS_Shape lines;
-    if (isPlane)
-    {
-      BRepAlgoAPI_Section section(face, tool, false);
-      section.Build();
-      lines = section.Shape();
-    }
-    else
-    {
-      double range[2][2];
-      BRepTools::UVBounds(face, range[0][0], range[0][1], range[1][0], range[1][1]);
-      const int d = operation.IsoDirection;
-      const double at = range[d][0] + operation.Share * (range[d][1] - range[d][0]);
-      const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
-      const TopoDS_Edge edge = BRepBuilderAPI_MakeEdge(
-        d == 0 ? surface->UIso(at) : surface->VIso(at), range[1 - d][0], range[1 - d][1]);
-      lines = BRepAlgoAPI_Common(edge, face).Shape();
-    }
+    const TopoDS_Shape lines = isPlane ? LinesOfPlane(face, TopoDS::Face(tool))
+      : isCurve                        ? LinesOfCurves(face, tool)
+                                       : LinesOfParameter(face, operation);
     bool found = false;
     for (TopExp_Explorer edge(lines, TopAbs_EDGE); edge.More(); edge.Next())
     {
@@ -354,8 +446,11 @@ Result<std::vector<TopoDS_Shape>> CurvesOn(
     if (!found)
     {
       return { ErrorCode::OutsideDomain,
-        "the " + std::string(isPlane ? "plane" : "iso-line") + " does not cross face " +
-          std::to_string(id) + "; move it or choose another face" };
+        "the " +
+          std::string(isPlane ? "plane"
+              : isCurve       ? "curve"
+                              : "iso-line") +
+          " does not cross face " + std::to_string(id) + "; move it or choose another face" };
     }
   }
   return curves;
@@ -441,6 +536,15 @@ Status RunScaled(const CADOperation& operation, double scale, ModelBodies& model
     return { ErrorCode::EmptyInput,
       "there is no solid; heal the part, so that its faces become solids" };
   }
+  if (operation.Kind == CADOperationKind::Composite)
+  {
+    if (Status status = Compose(operation.Faces, model, step); !status)
+    {
+      return status;
+    }
+    step.After = CountBodies(model);
+    return CheckBodies(model);
+  }
   const Ball ball = BallAround(model);
   const std::vector<FacePlace> faces = FacesOf(model);
   Images images(model);
@@ -479,11 +583,13 @@ Status RunScaled(const CADOperation& operation, double scale, ModelBodies& model
       break;
     }
     case CADOperationKind::Heal: // done
+    case CADOperationKind::Composite:
       break;
     case CADOperationKind::SplitByPlane:
     case CADOperationKind::SplitByParameter:
+    case CADOperationKind::SplitByCurve:
     {
-      const auto curves = CurvesOn(operation, faces, ball);
+      const auto curves = CurvesOn(operation, scale, faces, ball);
       if (!curves)
       {
         return curves.Status;

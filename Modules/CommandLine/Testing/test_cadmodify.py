@@ -6,6 +6,9 @@ import re
 
 import knotwork_testing
 import step_solids
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkFiltersSources import vtkLineSource
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter, vtkXMLUnstructuredGridReader
 from refusals import path, refuse_all, write_text
 
 EXACT = 1e-9  # share
@@ -179,6 +182,62 @@ def test_defects_are_mended_and_counted():
     assert report["solids"] == 2 and [len(ids) for ids in report["operations"][0]["new_faces"]].count(0) == 1
 
 
+def composites(reader_class, name):
+    reader = reader_class()
+    reader.SetFileName(path(name))
+    reader.Update()
+    return reader.GetOutput().GetCellData().GetArray("CompositeId")
+
+
+def test_composites_travel():
+    # two sides and the top of a box, which keep their names; a part of a side is one again
+    part = box(names=("", "East", "", "", "", "Top"))
+    report = modify(part, "--composite", "1,2,5", "--split-iso", "0", "u", 0.5, "--composite", "0,1")
+    first, _, third = report["operations"]
+    assert first["composite"] == {"name": "1", "faces": [1, 2, 5]} and first["after"] == first["before"], first
+    assert third["operation"] == "composite" and third["composite"]["name"] == "" and third["after"]["faces"] == 6, third
+    with open(path("out.step")) as stream:
+        names = re.findall(r"ADVANCED_FACE\('([^']*)'", stream.read())
+    assert sorted(name for name in names if name) == ["composite:1", "composite:1/East", "composite:1/Top"], names
+    # in the grid and in the mesh; a second group in the next run
+    report = modify(path("out.step"), "--composite", "%d,%d" % tuple(id for id in range(6) if not names[id])[:2], output="two.step")
+    assert report["operations"][0]["composite"]["name"] == "2", report["operations"]
+    done = knotwork_testing.run_program("convert", path("two.step"), "--output", path("two.vtu"))
+    assert done.returncode == 0, done.stderr
+    ids = composites(vtkXMLUnstructuredGridReader, "two.vtu")
+    assert sorted(ids.GetValue(i) for i in range(ids.GetNumberOfTuples())) in ([-1, 0, 0, 1, 1, 1], [-1, 0, 0, 0, 1, 1])
+    done = knotwork_testing.run_program("quads", path("two.step"), "--output", path("two.vtp"), "--report", path("quads.json"))
+    assert done.returncode == 0, done.stderr
+    with open(path("quads.json")) as stream:
+        table = json.load(stream)["face_table"]
+    assert sorted(face["composite"] for face in table) == ["", "1", "1", "1", "2", "2"], table
+    assert composites(vtkXMLPolyDataReader, "two.vtp").GetRange() == (-1.0, 1.0)
+
+
+def test_faces_are_split_by_curves():
+    # a polyline over the top, and a line of a spline file: projected straight down
+    source = vtkLineSource()
+    points = vtkPoints()
+    for point in ((1, -1, 5), (1, 1.25, 5), (-1, 1.25, 5)):
+        points.InsertNextPoint(point)
+    source.SetPoints(points)
+    writer = vtkXMLPolyDataWriter()
+    writer.SetInputConnection(source.GetOutputPort())
+    lines = path("lines.vtp")
+    writer.SetFileName(lines)
+    writer.Write()
+    spline = write_text("curve.g2", "100 1 0 0\n3 0\n2 2\n0 0 1 1\n1 -1 7\n1 3 9\n")
+    for file, areas, more in ((lines, (1.25, 4.75), 4), (spline, (2, 4), 3)):
+        report = modify(box(), "--split-curve", "5", file)
+        step, = report["operations"]
+        assert step["operation"] == "split-curve" and step["after"]["faces"] == 7 and step["after"]["edges"] == 12 + more, step
+        assert list(map(len, step["new_faces"])) == [1] * 5 + [2]
+        near(report["file_volume"], 6)
+    # two faces by one curve
+    report = modify(box(), "--split-curve", "4,5", spline)
+    assert report["faces"] == 8 and report["solids"] == 1
+
+
 def suggest(part, *arguments):
     report = path("suggest.json")
     done = knotwork_testing.run_program("cadmodify", part, "--suggest", *arguments, "--report", report)
@@ -241,6 +300,7 @@ def test_failures_are_one_line():
     sheet = path("sheet.step")
     done = knotwork_testing.run_program("source", "--output", sheet)
     assert done.returncode == 0, done.stderr
+    curve = write_text("far.g2", "100 1 0 0\n3 0\n2 2\n0 0 1 1\n11 -1 7\n11 3 9\n")
     refuse_all((["cadmodify", file, *arguments, *output], words) for file, arguments, words in (
         (part, [], ["box.step", "no operation"]),
         (part, ["--suggest"], ["box.step", "leave it out"]),
@@ -252,6 +312,16 @@ def test_failures_are_one_line():
         (part, ["--cut-plane", 1, 0, 0, 0, 0, 0], ["length 0"]),
         (part, ["--cut-cylinder", 1, 1, 0, 0, 0, 1, 0], ["radius"]),
         (part, ["--cut-cylinder", 1, 1, 0, 0, 0, 1, -2], ["radius"]),
+        (part, ["--composite", "1"], ["operation 1", "two or more"]),
+        (part, ["--composite", "1,9"], ["no face 9"]),
+        (part, ["--composite", "1,3"], ["face 1 to face 3", "add the faces between"]),
+        (part, ["--composite", "1,x"], ["'1,x'", "list of faces"]),
+        (two, ["--composite", "1,8"], ["two bodies"]),
+        (part, ["--composite", "1,2", "--composite", "2,3"], ["operation 2", "face 2", "composite 1"]),
+        (part, ["--split-curve", "1", path("missing.vtp")], ["missing.vtp"]),
+        (part, ["--split-curve", "1", sheet], ["sheet.step", "no line"]),
+        (part, ["--split-curve", "9", curve], ["no face 9"]),
+        (part, ["--split-curve", "5", curve], ["does not cross face 5"]),
         (part, ["--heal", 0], ["operation 1", "above 0"]),
         (part, ["--heal", "nan"], ["operation 1", "above 0"]),
         (part, ["--cut-face", 6], ["no face 6", "0 to 5"]),
@@ -269,6 +339,7 @@ def test_failures_are_one_line():
         (write_text("empty.step", ""), plane, ["empty.step"]),
         (write_text("damaged.step", "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\n#1="), plane, ["damaged.step"]),
         (path("part.iges"), plane, ["part.iges", ".step"])))
+    refuse_all([(["cadmodify", part, "--composite", "1,2", "--output", "group.brep"], ["group.brep", "composite 1", ".step"])])
     refuse_all((["cadmodify", part, *plane, "--output", name], [name, ".brep"]) for name in ("out.iges", "out.vtu"))
     refuse_all((["cadmodify", file, *arguments], words) for file, arguments, words in (
         (part, plane, ["box.step", "--output"]), (sheet, ["--suggest"], ["sheet.step", "no solid"]),
