@@ -9,6 +9,7 @@
 #include <knotwork/CADModel/CADSuggest.h>
 #include <knotwork/SplineCore/Numbers.h>
 #include <knotwork/SplineIO/CurvesInSpace.h>
+#include <knotwork/SplineIO/ModifyProcess.h>
 
 #include <CLI/CLI.hpp>
 #include <vtkDoubleArray.h>
@@ -317,7 +318,7 @@ private:
     const Status status = session.Measure(
       [&]
       {
-        auto made = ModifyCAD(this->Input, staged->string(), operations, this->Params);
+        auto made = ModifyCADInProcess(this->Input, staged->string(), operations, this->Params);
         steps = std::move(made.Value);
         return made.Status;
       });

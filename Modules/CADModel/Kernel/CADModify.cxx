@@ -38,7 +38,7 @@ void WriteBREP(const ModelBodies& model, double millimetres, std::ostream& strea
 }
 }
 
-Result<std::vector<CADStep>> ModifyCAD(const std::string& file, const std::string& output,
+Result<ModifiedCAD> ModifyCADText(const std::string& file, const std::string& output,
   const std::vector<CADOperation>& operations, const CADModifyParams& params)
 {
   const std::string place = "'" + file + "'";
@@ -60,7 +60,8 @@ Result<std::vector<CADStep>> ModifyCAD(const std::string& file, const std::strin
     return { ErrorCode::InvalidParameter,
       "'" + output + "': the ending must be .step, .stp or .brep" };
   }
-  std::vector<CADStep> steps;
+  ModifiedCAD made;
+  std::vector<CADStep>& steps = made.Steps;
   CADSession session(params.Unit);
   session.SetDefaultsOfReading();
   session.Set("read.stepcaf.subshapes.name", 1);
@@ -118,7 +119,8 @@ Result<std::vector<CADStep>> ModifyCAD(const std::string& file, const std::strin
               " travels in the names of its faces, which BREP files have not; write .step" };
         }
         WriteBREP(model, Millimetres(unit), text);
-        return PutText(text.str(), output);
+        made.Text = text.str();
+        return {};
       }
       if (!WriteSTEP(tree.Put(model), "Modified", text))
       {
@@ -130,16 +132,24 @@ Result<std::vector<CADStep>> ModifyCAD(const std::string& file, const std::strin
       {
         return read;
       }
-      const CADCounts& made = steps.back().After;
-      if (!summary.Valid || summary.NumSolids != made.Solids)
+      if (!summary.Valid || summary.NumSolids != steps.back().After.Solids)
       {
         return { ErrorCode::InvalidFormat,
           "'" + output +
             "' is not written: OpenCASCADE reads something else in it; move the last cut" };
       }
-      return PutText(text.str(), output);
+      made.Text = text.str();
+      return {};
     });
-  return status ? Result<std::vector<CADStep>>(std::move(steps))
+  return status ? Result<ModifiedCAD>(std::move(made)) : Result<ModifiedCAD>(status);
+}
+
+Result<std::vector<CADStep>> ModifyCAD(const std::string& file, const std::string& output,
+  const std::vector<CADOperation>& operations, const CADModifyParams& params)
+{
+  auto made = ModifyCADText(file, output, operations, params);
+  const Status status = made ? PutText(made->Text, output) : made.Status;
+  return status ? Result<std::vector<CADStep>>(std::move(made->Steps))
                 : Result<std::vector<CADStep>>(status);
 }
 }

@@ -90,18 +90,32 @@ struct CADModifyParams
   double VolumeTolerance = 1e-9;
 };
 
-/// Reads a STEP file, runs the operations in their order, checks the shapes after each
-/// (BRepCheck_Analyzer) and writes a STEP file in the unit of the first one, or a BREP file, all or
-/// nothing. Names and colours of products, instances, solids and faces and the tree of assemblies
-/// are kept; an instance that was changed becomes a product of its own. OpenCASCADE writes each
-/// solid of a STEP file by itself: what solids share is there once for each, equal and at the same
-/// place. A BREP file keeps it shared, without names, colours and assembly. Shells and faces
-/// outside of solids stay as they are but for Heal. Composites travel in the names of their faces
-/// (CADComposite.h).
+/// What became of a file.
+struct ModifiedCAD
+{
+  std::vector<CADStep> Steps; ///< one an operation
+  std::string Text;           ///< of the new file
+};
+
+/// Reads a STEP file, runs the operations in their order and checks the shapes after each
+/// (BRepCheck_Analyzer). The text is a STEP file in the unit of the first one, read again and
+/// compared, or a BREP file. Names and colours of products, instances, solids and faces and the
+/// tree of assemblies are kept; an instance that was changed becomes a product of its own.
+/// OpenCASCADE writes each solid of a STEP file by itself: what solids share is there once for
+/// each, equal and at the same place. A BREP file keeps it shared, without names, colours and
+/// assembly. Shells and faces outside of solids stay as they are but for Heal. Composites travel in
+/// the names of their faces (CADComposite.h).
+/// @param output  says the format by its ending, and is named in messages; it is not written.
 /// @return EmptyInput: no operations, no solid; InvalidParameter: options outside of their ranges,
 /// ids that are not there; NonFiniteInput; OutsideDomain: what meets nothing; InvalidTopology:
 /// shapes that are not valid before or after an operation, or volume that is not kept;
-/// InvalidFormat, FileError: as ReadCAD and WriteCAD.
+/// DimensionMismatch, SizeMismatch, InvalidWeight, InvalidKnots: curves; InvalidFormat, FileError:
+/// as ReadCAD.
+Result<ModifiedCAD> ModifyCADText(const std::string& file, const std::string& output,
+  const std::vector<CADOperation>& operations, const CADModifyParams& params = {});
+
+/// ModifyCADText, and writes the file, all or nothing.
+/// @return further FileError: it cannot be written.
 Result<std::vector<CADStep>> ModifyCAD(const std::string& file, const std::string& output,
   const std::vector<CADOperation>& operations, const CADModifyParams& params = {});
 }

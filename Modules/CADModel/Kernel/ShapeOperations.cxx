@@ -5,6 +5,7 @@
 #include "ShapeComposite.h"
 #include "ShapeHealing.h"
 
+#include <knotwork/SplineCore/ClampedSpline.h>
 #include <knotwork/SplineCore/DisjointSets.h>
 
 #include <BRepAdaptor_Surface.hxx>
@@ -338,24 +339,38 @@ std::vector<Handle(Geom_BSplineCurve)> SmoothPieces(const Handle(Geom_BSplineCur
   return pieces;
 }
 
+/// A curve with clamped knots in space.
+Result<Spline<1>> ReadyCurve(const Spline<1>& curve)
+{
+  if (!curve.Space || curve.Space->Kind != SpaceKind::Tensor)
+  {
+    return { ErrorCode::InvalidParameter, "it is no B-spline; give B-splines or polylines" };
+  }
+  if (Status status = curve.Check(); !status)
+  {
+    return status;
+  }
+  if (curve.ControlPoints.cols() != 3)
+  {
+    return { ErrorCode::DimensionMismatch, "its control points must have three coordinates" };
+  }
+  const Status status = CheckContinuity(curve, "its knots");
+  return status ? Clamped(curve) : Result<Spline<1>>(status);
+}
+
 /// Curves as smooth edges, in the unit of the model.
 Result<TopoDS_Shape> EdgesOf(const std::vector<Spline<1>>& curves, double scale)
 {
   std::vector<TopoDS_Shape> edges;
   for (const Spline<1>& curve : curves)
   {
-    Status status = curve.Check();
-    if (status && (curve.ControlPoints.cols() != 3))
+    auto ready = ReadyCurve(curve);
+    if (!ready)
     {
-      status = { ErrorCode::DimensionMismatch, "control points must have three coordinates" };
+      return { ready.Status.Code, "a curve: " + ready.Status.Detail };
     }
-    if (!status)
-    {
-      return { status.Code, "a curve: " + status.Detail };
-    }
-    Spline<1> scaled = curve;
-    scaled.ControlPoints *= scale;
-    for (const Handle(Geom_BSplineCurve) & piece : SmoothPieces(ToOpenCASCADE(scaled)))
+    ready->ControlPoints *= scale;
+    for (const Handle(Geom_BSplineCurve) & piece : SmoothPieces(ToOpenCASCADE(ready.Value)))
     {
       const bool isLine = piece->Degree() == 1;
       if (isLine && piece->StartPoint().IsEqual(piece->EndPoint(), Precision::Confusion()))

@@ -2,6 +2,7 @@
 """`knotwork cadmodify`: solids of known volumes imprinted, cut and split; files that are no such."""
 import json
 import math
+import os
 import re
 
 import knotwork_testing
@@ -236,6 +237,26 @@ def test_faces_are_split_by_curves():
     # two faces by one curve
     report = modify(box(), "--split-curve", "4,5", spline)
     assert report["faces"] == 8 and report["solids"] == 1
+
+
+def test_crashes_of_the_worker_are_one_error():
+    part, folder = box(), path("workers")
+    os.makedirs(folder, exist_ok=True)
+    program = os.path.join(folder, "knotwork-modify-cad")
+    for script, word in ((None, "is missing"), ("kill -SEGV $$", "OpenCASCADE crashes on it"), ("exit 0", "OpenCASCADE crashes on it")):
+        if script:
+            with open(program, "w") as stream:
+                stream.write("#!/bin/sh\n%s\n" % script)
+            os.chmod(program, 0o755)
+        elif os.path.exists(program):
+            os.remove(program)
+        os.environ["KNOTWORK_WORKERS"] = folder
+        try:
+            done = knotwork_testing.run_program("cadmodify", part, "--heal", 0.1, "--output", path("crash.step"))
+        finally:
+            del os.environ["KNOTWORK_WORKERS"]
+        assert done.returncode == 1 and len(done.stderr.splitlines()) == 1 and word in done.stderr and "box.step" in done.stderr, done
+        assert not os.path.exists(path("crash.step"))
 
 
 def suggest(part, *arguments):
