@@ -6,6 +6,11 @@
 #include <knotwork/CADModel/CADOperationText.h>
 #include <knotwork/SplineCore/TensorSpace.h>
 
+#include <BRep_Builder.hxx>
+#include <TopLoc_Location.hxx>
+#include <TopoDS_Compound.hxx>
+#include <gp_Trsf.hxx>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -151,6 +156,23 @@ TEST(CADComposite, OtherFacesAreAGroupThatTravels_ExactOracle)
       EXPECT_EQ(ParseCompositeName(cut[static_cast<std::size_t>(id)]).Group, group);
     }
   }
+}
+
+TEST(CADComposite, GroupsAreOfOneInstance_ExactOracle)
+{
+  // the same box at two places of an assembly: OpenCASCADE writes one product
+  const TopoDS_Shape box = BoxAt({ 0, 0, 0 }, 3, 2, 1);
+  TopoDS_Compound both;
+  const BRep_Builder builder;
+  builder.MakeCompound(both);
+  builder.Add(both, box);
+  gp_Trsf move;
+  move.SetRotation(gp_Ax1({ 1, 2, 3 }, { 0, 0, 1 }), 0.5);
+  move.SetTranslationPart({ 9, 0, 0 });
+  builder.Add(both, box.Moved(TopLoc_Location(move)));
+  Modified(STEPFile(both), Operations({ "composite 6,8" }), "second.step");
+  const auto ids = CompositeIds(Names("second.step"));
+  EXPECT_EQ(ids, (std::vector<int>{ -1, -1, -1, -1, -1, -1, 0, -1, 0, -1, -1, -1 }));
 }
 
 TEST(CADComposite, CurvesSplitPlanesAndCylinders_ExactOracle)
