@@ -2,6 +2,7 @@
 #include "vtkCADQuads.h"
 
 #include <knotwork/CADMeshing/CADQuads.h>
+#include <knotwork/CADModel/CADComposite.h>
 #include <knotwork/CADModel/CADTopology.h>
 #include <knotwork/SplineGrid/TableRow.h>
 
@@ -53,6 +54,17 @@ void EncodeMesh(const CADTopology& model, const CADQuads& made, vtkPolyData* out
     "SolidId", mesh.QuadFace, [&](int face) { return faceOf(face).Bodies.front(); }));
   ofCells->AddArray(ArrayOf<vtkIntArray>(
     "SecondSolidId", mesh.QuadFace, [&](int face) { return SecondOf(faceOf(face).Bodies); }));
+  std::vector<std::string> names;
+  for (const CADTopologyFace& face : model.Faces)
+  {
+    names.push_back(face.Name);
+  }
+  const std::vector<int> composites = CompositeIds(names);
+  if (std::any_of(composites.begin(), composites.end(), [](int id) { return id >= 0; }))
+  {
+    ofCells->AddArray(ArrayOf<vtkIntArray>("CompositeId", mesh.QuadFace,
+      [&](int face) { return composites[static_cast<std::size_t>(face)]; }));
+  }
   ofCells->AddArray(ArrayOf<vtkDoubleArray>(
     "ScaledJacobian", made.ScaledJacobians, [](double value) { return value; }));
   vtkPointData* ofPoints = output->GetPointData();
@@ -102,6 +114,8 @@ void EncodeFaces(const CADTopology& model, const CADQuads& made, vtkTable* table
   add("SecondSolidId", [&](Row row) { return SecondOf(faceOf(row).Bodies); });
   table->AddColumn(
     ArrayOf<vtkStringArray>("Name", made.Faces, [&](Row row) { return faceOf(row).Name; }));
+  table->AddColumn(ArrayOf<vtkStringArray>(
+    "Composite", made.Faces, [&](Row row) { return ParseCompositeName(faceOf(row).Name).Group; }));
   add("Mapped", [](Row row) { return row.Mapped ? 1 : 0; });
   add("Quads", [](Row row) { return row.Quads; });
   add("ExtraordinaryPoints", [](Row row) { return row.ExtraordinaryPoints; });

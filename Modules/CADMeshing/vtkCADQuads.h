@@ -10,15 +10,16 @@
  *
  * Output 0 (vtkPolyData): the quadrilaterals, counterclockwise about the normal that leads out of
  * their solid (the first of two), with the cell arrays CADFaceId (FaceId of vtkCADReader, the
- * smaller of two), SolidId (Body of vtkCADReader), SecondSolidId (-1: none) and ScaledJacobian, and
- * the point arrays CADEntityDimension (0 on a vertex, 1 on an edge, 2 on a face) and CADEntityId
- * (number of the vertex or edge, FaceId of the face).
+ * smaller of two), SolidId (Body of vtkCADReader), SecondSolidId (-1: none), ScaledJacobian and,
+ * where faces are in composites (CADComposite.h), CompositeId (from 0, -1 in none), and the point
+ * arrays CADEntityDimension (0 on a vertex, 1 on an edge, 2 on a face) and CADEntityId (number of
+ * the vertex or edge, FaceId of the face).
  *
  * Output 1 (vtkTable): one row with Quads, Points, Faces, MappedFaces, UnstructuredFaces, Edges,
  * Solids, LeastScaledJacobian, ExtraordinaryPoints, EulerNumber, Closed, Distance and Diagonal.
  *
  * Output 2 (vtkTable): a row a face with FaceId, SecondFaceId (of the same face in the other
- * solid, -1: none), SolidId, SecondSolidId, Name, Mapped, Quads, ExtraordinaryPoints,
+ * solid, -1: none), SolidId, SecondSolidId, Name, Composite, Mapped, Quads, ExtraordinaryPoints,
  * LeastScaledJacobian and Distance.
  *
  * Errors: those of knotwork::CADTopology::Read and MeshQuads.

@@ -5,7 +5,11 @@
 
 #include <knotwork/CADModel/CADExchange.h>
 #include <knotwork/CADModel/CADModify.h>
+#include <knotwork/CADModel/CADOperationText.h>
 #include <knotwork/CADModel/CADSuggest.h>
+#include <knotwork/SplineCore/Numbers.h>
+#include <knotwork/SplineIO/CurvesInSpace.h>
+#include <knotwork/SplineIO/ModifyProcess.h>
 
 #include <CLI/CLI.hpp>
 #include <vtkDoubleArray.h>
@@ -17,7 +21,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -36,45 +39,7 @@ using PlaneWords = std::array<double, 6>;
 using CylinderWords = std::array<double, 7>;
 using SplitPlaneWords = std::tuple<std::string, double, double, double, double, double, double>;
 using SplitIsoWords = std::tuple<std::string, std::string, double>;
-
-const char* NameOf(CADOperationKind kind)
-{
-  switch (kind)
-  {
-    case CADOperationKind::Imprint:
-      return "imprint";
-    case CADOperationKind::CutByPlane:
-      return "cut-plane";
-    case CADOperationKind::CutByFace:
-      return "cut-face";
-    case CADOperationKind::CutByCylinder:
-      return "cut-cylinder";
-    case CADOperationKind::SplitByPlane:
-      return "split-plane";
-    case CADOperationKind::SplitByParameter:
-      return "split-iso";
-  }
-  return "";
-}
-
-/// Numbers with commas between them.
-Result<std::vector<int>> ParseFaces(const std::string& option, const std::string& word)
-{
-  std::vector<int> faces;
-  std::istringstream stream(word + ",");
-  for (std::string part; std::getline(stream, part, ',');)
-  {
-    int id = 0;
-    if (part.empty() || std::isdigit(static_cast<unsigned char>(part[0])) == 0 ||
-      !CLI::detail::lexical_cast(part, id))
-    {
-      return { ErrorCode::InvalidParameter,
-        option + ": '" + word + "' is no list of faces; give ids such as 3 or 3,5,8" };
-    }
-    faces.push_back(id);
-  }
-  return faces;
-}
+using SplitCurveWords = std::tuple<std::string, std::string>;
 
 const char* NameOf(CADSuggestionKind kind)
 {
@@ -194,6 +159,15 @@ nlohmann::ordered_json InReport(const CADCounts& counts)
     { "vertices", counts.Vertices }, { "face_ids", counts.FaceIds }, { "volume", counts.Volume } };
 }
 
+nlohmann::ordered_json InReport(const CADHealing& healing)
+{
+  return { { "turned_faces", healing.TurnedFaces }, { "turned_solids", healing.TurnedSolids },
+    { "sewn_edges", healing.SewnEdges }, { "new_solids", healing.NewSolids },
+    { "removed_edges", healing.RemovedEdges }, { "removed_faces", healing.RemovedFaces },
+    { "closed_gaps", healing.ClosedGaps }, { "messages", healing.Messages },
+    { "unmended", healing.Unmended } };
+}
+
 class CADModifyJob
 {
 public:
@@ -215,6 +189,12 @@ public:
       "split faces by the plane through a point with a normal");
     this->AddRepeated("--split-iso", this->SplitIsos, "FACE[,FACE...] u|v SHARE",
       "split faces where u (or v) of their surface is constant, at a share of the face's range");
+    this->AddRepeated("--split-curve", this->SplitCurves, "FACE[,FACE...] FILE",
+      "split faces along the projections of curves: lines of a .vtp, splines of a .g2 or .vtu");
+    this->AddRepeated("--composite", this->Composites, "FACE,FACE[,FACE...]",
+      "let neighbours count as one face: joined where they lie on one surface, else a group");
+    this->AddRepeated("--heal", this->Heals, "TOLERANCE",
+      "mend gaps, small edges and wrong orientation within a length; faces become solids");
     app.add_flag("--suggest", this->Suggest,
       "list slivers, tiny edges, chains of tangent faces and cuts that leave simpler solids, of "
       "the "
@@ -247,7 +227,7 @@ public:
 
   Status Run(Session& session)
   {
-    const auto operations = this->Operations();
+    auto operations = this->Operations();
     if (!operations)
     {
       return { operations.Status.Code, "'" + this->Input + "': " + operations.Status.Detail };
@@ -273,6 +253,10 @@ public:
     session.Report["unit"] = units[static_cast<std::size_t>(this->Params.Unit)];
     if (!operations->empty())
     {
+      if (Status status = this->ReadCurves(operations.Value, session); !status)
+      {
+        return status;
+      }
       if (Status status = this->Modify(operations.Value, session); !status)
       {
         return status;
@@ -334,7 +318,7 @@ private:
     const Status status = session.Measure(
       [&]
       {
-        auto made = ModifyCAD(this->Input, staged->string(), operations, this->Params);
+        auto made = ModifyCADInProcess(this->Input, staged->string(), operations, this->Params);
         steps = std::move(made.Value);
         return made.Status;
       });
@@ -343,6 +327,10 @@ private:
       return this->Named(status, staged->string());
     }
     this->AddSteps(steps, session.Report);
+    for (const CADStep& step : steps)
+    {
+      session.Warn(step.Healing.Unmended);
+    }
     return this->Named(
       this->AddFound(staged->string(), steps.back().After, session), staged->string());
   }
@@ -391,12 +379,6 @@ private:
     this->Add(name, option);
   }
 
-  static void SetFrame(const double* numbers, CADOperation& operation)
-  {
-    operation.Point = { numbers[0], numbers[1], numbers[2] };
-    operation.Direction = { numbers[3], numbers[4], numbers[5] };
-  }
-
   /// What the options say, in their order on the command line.
   Result<std::vector<CADOperation>> Operations() const
   {
@@ -430,49 +412,95 @@ private:
     return operations;
   }
 
+  /// Words of an operation.
+  class Text
+  {
+  public:
+    explicit Text(std::string name) : Words(std::move(name)) {}
+    Text& Add(const std::string& word)
+    {
+      this->Words += " " + word;
+      return *this;
+    }
+    Text& Add(double number) { return this->Add(Digits(number, 17)); }
+    template <std::size_t N>
+    Text& Add(const std::array<double, N>& numbers)
+    {
+      for (double number : numbers)
+      {
+        this->Add(number);
+      }
+      return *this;
+    }
+
+    std::string Words;
+  };
+
   /// @param i  counts how often the option stands on the command line.
   Result<CADOperation> OperationOf(const std::string& name, std::size_t i) const
   {
-    CADOperation operation;
-    Result<std::vector<int>> faces;
+    Text text(name.substr(2));
     if (name == "--cut-plane")
     {
-      operation.Kind = CADOperationKind::CutByPlane;
-      SetFrame(this->CutPlanes[i].data(), operation);
+      text.Add(this->CutPlanes[i]);
     }
     else if (name == "--cut-cylinder")
     {
-      operation.Kind = CADOperationKind::CutByCylinder;
-      SetFrame(this->CutCylinders[i].data(), operation);
-      operation.Radius = this->CutCylinders[i].back();
+      text.Add(this->CutCylinders[i]);
     }
     else if (name == "--cut-face")
     {
-      operation.Kind = CADOperationKind::CutByFace;
-      operation.Tool = this->CutFaces[i];
+      text.Add(std::to_string(this->CutFaces[i]));
     }
     else if (name == "--split-plane")
     {
-      operation.Kind = CADOperationKind::SplitByPlane;
       const auto& [ids, x, y, z, nx, ny, nz] = this->SplitPlanes[i];
-      SetFrame(PlaneWords{ x, y, z, nx, ny, nz }.data(), operation);
-      faces = ParseFaces(name, ids);
+      text.Add(ids).Add(PlaneWords{ x, y, z, nx, ny, nz });
     }
     else if (name == "--split-iso")
     {
-      operation.Kind = CADOperationKind::SplitByParameter;
       const auto& [ids, direction, share] = this->SplitIsos[i];
-      if (direction != "u" && direction != "v")
-      {
-        return { ErrorCode::InvalidParameter,
-          "--split-iso: '" + direction + "' is no direction; give u or v behind the faces" };
-      }
-      operation.IsoDirection = direction == "u" ? 0 : 1;
-      operation.Share = share;
-      faces = ParseFaces(name, ids);
+      text.Add(ids).Add(direction).Add(share);
     }
-    operation.Faces = faces.Value;
-    return faces ? Result<CADOperation>(operation) : Result<CADOperation>(faces.Status);
+    else if (name == "--split-curve")
+    {
+      text.Add(std::get<0>(this->SplitCurves[i]));
+    }
+    else if (name == "--composite")
+    {
+      text.Add(this->Composites[i]);
+    }
+    else if (name == "--heal")
+    {
+      text.Add(this->Heals[i]);
+    }
+    return ParseCADOperation(text.Words);
+  }
+
+  /// Reads the curves of operations that have some.
+  Status ReadCurves(std::vector<CADOperation>& operations, Session& session) const
+  {
+    std::size_t next = 0;
+    for (CADOperation& operation : operations)
+    {
+      if (operation.Kind != CADOperationKind::SplitByCurve)
+      {
+        continue;
+      }
+      const std::string& file = std::get<1>(this->SplitCurves[next++]);
+      const auto data = session.Read(file);
+      if (!data)
+      {
+        return data.Status;
+      }
+      auto curves = CurvesInSpace(data.Value);
+      if (!curves)
+      {
+        return { curves.Status.Code, "'" + file + "': " + curves.Status.Detail };
+      }
+      operation.Curves = std::move(curves.Value);
+    }
+    return {};
   }
 
   static void AddSteps(const std::vector<CADStep>& steps, nlohmann::ordered_json& report)
@@ -485,6 +513,15 @@ private:
       list.push_back({ { "operation", NameOf(step.Kind) }, { "before", InReport(step.Before) },
         { "after", InReport(step.After) }, { "volume_change", step.VolumeChange },
         { "overlap", step.Overlap }, { "new_faces", step.NewFaces } });
+      if (step.Kind == CADOperationKind::Composite)
+      {
+        list.back()["composite"] = { { "name", step.Composite.Name },
+          { "faces", step.Composite.Faces } };
+      }
+      if (step.Kind == CADOperationKind::Heal)
+      {
+        list.back()["healing"] = InReport(step.Healing);
+      }
     }
     const CADCounts& before = steps.front().Before;
     const CADCounts& after = steps.back().After;
@@ -535,6 +572,9 @@ private:
   std::vector<int> CutFaces;
   std::vector<SplitPlaneWords> SplitPlanes;
   std::vector<SplitIsoWords> SplitIsos;
+  std::vector<SplitCurveWords> SplitCurves;
+  std::vector<std::string> Composites;
+  std::vector<double> Heals;
   CADModifyParams Params;
   CADSuggestParams SuggestParams;
 };
@@ -546,7 +586,7 @@ Job Make(CLI::App& app)
 }
 
 const JobRegistration Registration{ "cadmodify",
-  "cut the solids of a CAD part, split its faces, make solids that touch share faces",
+  "mend a CAD part, cut its solids, split its faces, make solids that touch share faces",
   "solid.step --cut-plane 0.5 0 0 1 0 0 --output pieces.step --report pieces.json", Make };
 }
 }

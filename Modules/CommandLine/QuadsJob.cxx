@@ -45,6 +45,7 @@ protected:
           "LeastScaledJacobian", "Distance" },
         entry);
       ReportTruths(faces, row, { "Mapped" }, entry);
+      entry["composite"] = faces->GetValueByName(row, "Composite").ToString();
       list.push_back(std::move(entry));
     }
     session.Report["face_table"] = std::move(list);

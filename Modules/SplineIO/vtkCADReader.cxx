@@ -1,58 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkCADReader.h"
 
+#include "CADGrids.h"
 #include "ForeignFile.h"
 #include <knotwork/CADModel/CADExchange.h>
-#include <knotwork/SurfaceTrimming/TrimData.h>
-#include <knotwork/SurfaceTrimming/TrimmedGrids.h>
-#include <knotwork/SurfaceTrimming/TrimmedMesh.h>
 
-#include "vtkCellData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkIntArray.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
-#include "vtkStringArray.h"
-#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
-#include <cmath>
 #include <fstream>
 
 vtkStandardNewMacro(vtkCADReader);
 
-namespace
-{
 using namespace knotwork;
-
-/// What the file says of the faces, on their triangles.
-void AddAttributes(const TrimmedModel& model, const TrimmedMesh& mesh, vtkPolyData* triangles)
-{
-  vtkNew<vtkIntArray> patches;
-  patches->SetName("PatchId");
-  vtkNew<vtkStringArray> names;
-  names->SetName("Name");
-  vtkNew<vtkUnsignedCharArray> colors;
-  colors->SetName("Color");
-  colors->SetNumberOfComponents(3);
-  for (int f : mesh.TriangleFace)
-  {
-    const TrimmedFace& face = model.Faces[static_cast<std::size_t>(f)];
-    patches->InsertNextValue(f);
-    names->InsertNextValue(face.Name);
-    for (double share : face.Color)
-    {
-      colors->InsertNextValue(
-        static_cast<unsigned char>(face.HasColor ? std::lround(255.0 * share) : 255));
-    }
-  }
-  triangles->GetCellData()->AddArray(patches);
-  triangles->GetCellData()->AddArray(names);
-  triangles->GetCellData()->AddArray(colors);
-}
-}
 
 vtkCADReader::vtkCADReader()
 {
@@ -99,24 +62,12 @@ Status vtkCADReader::Compute(vtkInformationVector**, vtkInformationVector* outpu
   }
   this->ReportLeftOut(contents->LeftOut);
   this->ReportWarnings(contents->Warnings);
-  const TrimmedModel& model = contents->Model;
-  Status status = EncodeTrimmedModel(
-    model, vtkUnstructuredGrid::GetData(outputs, 0), vtkUnstructuredGrid::GetData(outputs, 1));
-  if (!status || !this->Triangulation)
-  {
-    return status;
-  }
   TrimmedMeshParams meshing;
-  meshing.Tolerance = this->ChordalTolerance * (this->RelativeTolerance ? SizeOf(model) : 1.0);
+  meshing.Tolerance =
+    this->ChordalTolerance * (this->RelativeTolerance ? SizeOf(contents->Model) : 1.0);
   meshing.Threads = this->KernelThreads();
   meshing.Progress = this->Progress();
-  const auto mesh = TriangulateFaces(model, meshing);
-  if (!mesh)
-  {
-    return { mesh.Status.Code, "the triangles of output 2: " + mesh.Status.Detail };
-  }
-  vtkPolyData* triangles = vtkPolyData::GetData(outputs, 2);
-  EncodeTriangles(mesh.Value, triangles);
-  AddAttributes(model, mesh.Value, triangles);
-  return {};
+  return EncodeCAD(contents->Model, this->Triangulation ? &meshing : nullptr,
+    vtkUnstructuredGrid::GetData(outputs, 0), vtkUnstructuredGrid::GetData(outputs, 1),
+    vtkPolyData::GetData(outputs, 2));
 }

@@ -8,8 +8,9 @@
  * cone, 4 torus, 5 others; not there where all are others); 1 the trimming curves as spline grid, a
  * patch a use of an edge, with the point array UV; 2 the trimmed faces as triangles (vtkPolyData)
  * with Normals, the cell arrays FaceId, PatchId, Name and Color (red, green, blue as bytes; white
- * where the file says nothing). Assemblies are resolved; what cannot be read is left out with a
- * warning. Errors: those of knotwork::ReadCADInProcess and TriangulateFaces.
+ * where the file says nothing). Where faces are in composites (CADComposite.h), outputs 0 and 2
+ * have the cell array CompositeId, from 0, -1 in none. Assemblies are resolved; what cannot be read
+ * is left out with a warning. Errors: those of knotwork::ReadCADInProcess and TriangulateFaces.
  */
 #ifndef vtkCADReader_h
 #define vtkCADReader_h

@@ -289,6 +289,12 @@ CADSummary Summarize(const TopoDS_Shape& shape, bool volume)
 }
 }
 
+std::vector<std::string> DefectsOf(const TopoDS_Shape& shape)
+{
+  const BRepCheck_Analyzer analyzer(shape);
+  return analyzer.IsValid() ? std::vector<std::string>() : FindDefects(shape, analyzer);
+}
+
 Status CheckSTEPText(const std::string& text, CADSummary& summary)
 {
   std::istringstream stream(text);

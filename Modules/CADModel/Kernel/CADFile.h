@@ -17,6 +17,9 @@ Status LoadCAD(XSControl_Reader& reader, CADFormat format, const std::string& fi
 /// @return as LoadCAD.
 Status LoadBREP(const std::string& file, LengthUnit unit, TopoDS_Shape& shape);
 
+/// Defects of a shape as CADSummary names them; none: it is valid.
+std::vector<std::string> DefectsOf(const TopoDS_Shape& shape);
+
 /// As CheckCAD, of the text of a STEP file, with the settings of the session.
 Status CheckSTEPText(const std::string& text, CADSummary& summary);
 }

@@ -5,6 +5,7 @@
 #include "CADFile.h"
 #include "CADSession.h"
 #include "ModelDocument.h"
+#include "ShapeComposite.h"
 #include <knotwork/SplineCore/FileOutput.h>
 
 #include <BRepBuilderAPI_Transform.hxx>
@@ -37,7 +38,7 @@ void WriteBREP(const ModelBodies& model, double millimetres, std::ostream& strea
 }
 }
 
-Result<std::vector<CADStep>> ModifyCAD(const std::string& file, const std::string& output,
+Result<ModifiedCAD> ModifyCADText(const std::string& file, const std::string& output,
   const std::vector<CADOperation>& operations, const CADModifyParams& params)
 {
   const std::string place = "'" + file + "'";
@@ -59,7 +60,8 @@ Result<std::vector<CADStep>> ModifyCAD(const std::string& file, const std::strin
     return { ErrorCode::InvalidParameter,
       "'" + output + "': the ending must be .step, .stp or .brep" };
   }
-  std::vector<CADStep> steps;
+  ModifiedCAD made;
+  std::vector<CADStep>& steps = made.Steps;
   CADSession session(params.Unit);
   session.SetDefaultsOfReading();
   session.Set("read.stepcaf.subshapes.name", 1);
@@ -69,17 +71,20 @@ Result<std::vector<CADStep>> ModifyCAD(const std::string& file, const std::strin
   const Status status = session.Run(place,
     [&]() -> Status
     {
+      const bool healsFirst = operations.front().Kind == CADOperationKind::Heal;
+      session.SetMending(!healsFirst); // what is mended on the way is counted nowhere
       Handle(TDocStd_Document) document;
       LengthUnit unit = LengthUnit::Millimetre;
       if (Status loaded = LoadModel(session, file, document, unit); !loaded)
       {
         return loaded;
       }
+      session.SetMending(true);
       session.Set("write.step.unit", NameOfUnit(unit));
       const double scale = Millimetres(params.Unit) / Millimetres(unit);
       ModelDocument tree(document);
       ModelBodies model = tree.Take();
-      if (Status valid = CheckBodies(model); !valid)
+      if (Status valid = healsFirst ? Status() : CheckBodies(model); !valid)
       {
         return { valid.Code, place + ": " + valid.Detail + "; heal it first" };
       }
@@ -91,13 +96,14 @@ Result<std::vector<CADStep>> ModifyCAD(const std::string& file, const std::strin
           return { done.Code,
             place + ", operation " + std::to_string(steps.size() + 1) + ": " + done.Detail };
         }
-        if (!(step.VolumeChange <= params.VolumeTolerance))
+        const bool keepsVolume = operation.Kind != CADOperationKind::Heal;
+        if (keepsVolume && !(step.VolumeChange <= params.VolumeTolerance))
         {
           std::ostringstream detail;
           detail << place << ", operation " << steps.size() + 1 << ": the volume changes by "
                  << step.VolumeChange << " of itself, more than " << params.VolumeTolerance
                  << "; edges of the file lie off their faces, or the cut runs along a face: move "
-                    "it, heal the file or ask for a larger volume tolerance";
+                    "it, heal the part or ask for a larger volume tolerance";
           return { ErrorCode::InvalidTopology, detail.str() };
         }
         steps.push_back(std::move(step));
@@ -105,8 +111,16 @@ Result<std::vector<CADStep>> ModifyCAD(const std::string& file, const std::strin
       std::ostringstream text;
       if (format == CADFormat::BREP)
       {
+        const std::string group = FirstComposite(model);
+        if (!group.empty())
+        {
+          return { ErrorCode::InvalidParameter,
+            "'" + output + "': composite " + group +
+              " travels in the names of its faces, which BREP files have not; write .step" };
+        }
         WriteBREP(model, Millimetres(unit), text);
-        return PutText(text.str(), output);
+        made.Text = text.str();
+        return {};
       }
       if (!WriteSTEP(tree.Put(model), "Modified", text))
       {
@@ -118,16 +132,24 @@ Result<std::vector<CADStep>> ModifyCAD(const std::string& file, const std::strin
       {
         return read;
       }
-      const CADCounts& made = steps.back().After;
-      if (!summary.Valid || summary.NumSolids != made.Solids)
+      if (!summary.Valid || summary.NumSolids != steps.back().After.Solids)
       {
         return { ErrorCode::InvalidFormat,
           "'" + output +
             "' is not written: OpenCASCADE reads something else in it; move the last cut" };
       }
-      return PutText(text.str(), output);
+      made.Text = text.str();
+      return {};
     });
-  return status ? Result<std::vector<CADStep>>(std::move(steps))
+  return status ? Result<ModifiedCAD>(std::move(made)) : Result<ModifiedCAD>(status);
+}
+
+Result<std::vector<CADStep>> ModifyCAD(const std::string& file, const std::string& output,
+  const std::vector<CADOperation>& operations, const CADModifyParams& params)
+{
+  auto made = ModifyCADText(file, output, operations, params);
+  const Status status = made ? PutText(made->Text, output) : made.Status;
+  return status ? Result<std::vector<CADStep>>(std::move(made->Steps))
                 : Result<std::vector<CADStep>>(status);
 }
 }

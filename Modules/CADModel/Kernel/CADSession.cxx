@@ -9,8 +9,14 @@
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <STEPCAFControl_Controller.hxx>
+#include <ShapeFix_Shape.hxx>
+#include <ShapeFix_Shell.hxx>
+#include <ShapeFix_Solid.hxx>
+#include <ShapeProcess_ShapeContext.hxx>
 #include <Standard_Failure.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
+#include <XSAlgo.hxx>
+#include <XSAlgo_AlgoContainer.hxx>
 
 #include <algorithm>
 #include <new>
@@ -24,6 +30,28 @@ std::mutex& GlobalState()
   static std::mutex mutex;
   return mutex;
 }
+
+/// What OpenCASCADE calls on every shape that it has read: completes faces, with curves in their
+/// parameters, seams and edges at poles, and leaves their orientation as it is written.
+class CompletedFaces : public XSAlgo_AlgoContainer
+{
+public:
+  TopoDS_Shape ProcessShape(const TopoDS_Shape& shape, double precision, double maxTolerance,
+    const char*, const char*, Handle(Standard_Transient) & info, const Message_ProgressRange& range,
+    bool) const override
+  {
+    const Handle(ShapeFix_Shape) fix = new ShapeFix_Shape(shape);
+    fix->SetPrecision(precision);
+    fix->SetMaxTolerance(maxTolerance);
+    fix->FixSolidTool()->FixShellOrientationMode() = 0;
+    fix->FixShellTool()->FixOrientationMode() = 0;
+    fix->Perform(range);
+    const Handle(ShapeProcess_ShapeContext) changes = new ShapeProcess_ShapeContext(shape, "");
+    changes->RecordModification(fix->Context());
+    info = changes; // names and colours follow
+    return fix->Shape();
+  }
+};
 }
 
 CADFormat FormatOfFile(const std::string& file)
@@ -109,6 +137,14 @@ void CADSession::SetDefaultsOfReading()
   this->Set("read.maxprecision.val", 1.0);
   this->Set("read.stdsameparameter.mode", 0);
   this->Set("read.surfacecurve.mode", 0);
+}
+
+void CADSession::SetMending(bool mends)
+{
+  const Handle(XSAlgo_AlgoContainer) old = XSAlgo::AlgoContainer();
+  this->Restore.emplace_back([old] { XSAlgo::SetAlgoContainer(old); });
+  XSAlgo::SetAlgoContainer(
+    mends ? new XSAlgo_AlgoContainer : Handle(XSAlgo_AlgoContainer)(new CompletedFaces));
 }
 
 Status CADSession::Run(const std::string& place, const std::function<Status()>& body)

@@ -44,6 +44,9 @@ public:
   void Set(const char* name, const char* value);
   /// Reading as OpenCASCADE does when nothing is set.
   void SetDefaultsOfReading();
+  /// Whether OpenCASCADE mends shells and solids of STEP and IGES files as it reads them, as it
+  /// does by itself.
+  void SetMending(bool mends);
 
   /// Runs what may throw exceptions of OpenCASCADE or of memory; they become InvalidFormat and
   /// TooLarge with the place before the text.

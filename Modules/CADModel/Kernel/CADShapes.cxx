@@ -32,24 +32,6 @@ std::string PlaceOfFace(std::size_t face)
   return "face " + std::to_string(face);
 }
 
-template <int Dim>
-Status CheckContinuity(const Spline<Dim>& spline, const std::string& place)
-{
-  for (const KnotVector& knots : spline.Space->Knots)
-  {
-    for (int b = 1; b < knots.NumElements(); ++b)
-    {
-      if (knots.Multiplicity(b) > knots.Degree())
-      {
-        return { ErrorCode::InvalidKnots,
-          place + ": it jumps at the knot " + Digits(knots.Breaks()[static_cast<std::size_t>(b)]) +
-            "; split it there" };
-      }
-    }
-  }
-  return {};
-}
-
 /// The model with clamped knots throughout.
 Result<TrimmedModel> ClampedModel(const TrimmedModel& model)
 {

@@ -5,14 +5,19 @@
 #include "CADFile.h"
 #include "STEPLoops.h"
 
+#include <BRepBuilderAPI_Copy.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRep_Builder.hxx>
 #include <STEPCAFControl_Reader.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
 #include <TDF_LabelSequence.hxx>
+#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS_Compound.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
+
+#include <algorithm>
 
 namespace knotwork
 {
@@ -161,7 +166,7 @@ void ModelDocument::Set(const ShapeAttributes& attributes, const TDF_Label& labe
 void ModelDocument::SetPart(
   const TDF_Label& product, const TopoDS_Shape& part, const ShapeAttributes& attributes)
 {
-  if (IsEmpty(attributes))
+  if (IsEmpty(attributes) || part.IsNull())
   {
     return;
   }
@@ -186,6 +191,10 @@ TDF_Label ModelDocument::PutProduct(const TDF_Label& label, int instance, const 
       isChanged = isChanged || body.IsChanged;
     }
   }
+  if (bodies.empty() && TopExp_Explorer(XCAFDoc_ShapeTool::GetShape(label), TopAbs_FACE).More())
+  {
+    return {}; // others hold what it was
+  }
   if (const TDF_Label* known = isChanged ? nullptr : this->Unchanged.Seek(label))
   {
     return *known;
@@ -202,22 +211,38 @@ TDF_Label ModelDocument::PutProduct(const TDF_Label& label, int instance, const 
     this->Unchanged.Bind(label, product);
     return product;
   }
-  // shapes of products have no place of their own, else they become components
+  // shapes of products have no place of their own, else they become components: what still lies
+  // where the instance does is moved back, other bodies are made anew
+  const bool areAtHome = std::all_of(bodies.begin(), bodies.end(),
+    [&](const ModelBody* body) { return body->Shape.Moved(back).Location().IsIdentity(); });
   BRep_Builder builder;
   TopoDS_Compound compound;
   builder.MakeCompound(compound);
   for (const ModelBody* body : bodies)
   {
-    builder.Add(compound, body->Shape);
+    builder.Add(compound, areAtHome ? body->Shape.Moved(back) : body->Shape);
   }
-  BRepBuilderAPI_Transform moved(compound, back.Transformation(), true);
-  const TDF_Label product = this->NewShapes->AddShape(
-    bodies.size() == 1 ? moved.ModifiedShape(bodies[0]->Shape) : moved.Shape(), false);
+  // a copy: what other instances keep has no part in the names
+  const TopoDS_Shape moved = areAtHome
+    ? BRepBuilderAPI_Copy(compound).Shape()
+    : BRepBuilderAPI_Transform(compound, back.Transformation(), true).Shape();
+  // both have their parts in the same order; the transformation finds none that lies elsewhere
+  TopTools_IndexedMapOfShape olds;
+  TopTools_IndexedMapOfShape news;
+  TopExp::MapShapes(compound, olds);
+  TopExp::MapShapes(moved, news);
+  const auto place = [&](const TopoDS_Shape& shape)
+  {
+    const int index = olds.FindIndex(areAtHome ? shape.Moved(back) : shape);
+    return index > 0 && index <= news.Extent() ? news(index) : TopoDS_Shape();
+  };
+  const TopoDS_Shape single = bodies.size() == 1 ? place(bodies[0]->Shape) : TopoDS_Shape();
+  const bool isSingle = !single.IsNull() && single.Location().IsIdentity();
+  const TDF_Label product = this->NewShapes->AddShape(isSingle ? single : moved, false);
   this->Copy(label, product);
   for (const ModelBody* body : bodies)
   {
-    this->SetParts(product, *body, model.Faces,
-      [&moved](const TopoDS_Shape& shape) { return moved.ModifiedShape(shape); });
+    this->SetParts(product, *body, model.Faces, place);
   }
   return product;
 }
@@ -251,8 +276,11 @@ TDF_Label ModelDocument::PutLabel(const TDF_Label& label, const ModelBodies& mod
     if (XCAFDoc_ShapeTool::GetReferredShape(component, product))
     {
       const TDF_Label made = this->PutLabel(product, model);
-      this->Copy(component,
-        this->NewShapes->AddComponent(assembly, made, XCAFDoc_ShapeTool::GetLocation(component)));
+      if (!made.IsNull())
+      {
+        this->Copy(component,
+          this->NewShapes->AddComponent(assembly, made, XCAFDoc_ShapeTool::GetLocation(component)));
+      }
     }
   }
   return assembly;

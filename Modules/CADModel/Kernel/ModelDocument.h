@@ -33,6 +33,7 @@ private:
 
   void TakeLabel(const TDF_Label& label, const TopLoc_Location& location, ModelBodies& model);
   void TakeProduct(const Instance& instance, ModelBodies& model);
+  // null: nothing of it is left
   TDF_Label PutLabel(const TDF_Label& label, const ModelBodies& model);
   TDF_Label PutProduct(const TDF_Label& label, int instance, const ModelBodies& model);
   void Copy(const TDF_Label& from, const TDF_Label& to);

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ShapeOperations.h"
 
+#include "CADGeometry.h"
+#include "ShapeComposite.h"
+#include "ShapeHealing.h"
+
+#include <knotwork/SplineCore/ClampedSpline.h>
 #include <knotwork/SplineCore/DisjointSets.h>
 
 #include <BRepAdaptor_Surface.hxx>
@@ -13,12 +18,14 @@
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepGProp.hxx>
+#include <BRepOffsetAPI_NormalProjection.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
 #include <Geom_Surface.hxx>
+#include <Precision.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
@@ -39,59 +46,6 @@ namespace knotwork
 namespace
 {
 constexpr double Pi = 3.14159265358979323846;
-
-struct FacePlace
-{
-  std::size_t Body;
-  TopoDS_Face Face;
-};
-
-std::vector<FacePlace> FacesOf(const ModelBodies& model)
-{
-  std::vector<FacePlace> faces;
-  for (std::size_t b = 0; b < model.Bodies.size(); ++b)
-  {
-    for (TopExp_Explorer face(model.Bodies[b].Shape, TopAbs_FACE); face.More(); face.Next())
-    {
-      faces.push_back({ b, TopoDS::Face(face.Current()) });
-    }
-  }
-  return faces;
-}
-
-TopoDS_Compound Together(const std::vector<TopoDS_Shape>& shapes)
-{
-  BRep_Builder builder;
-  TopoDS_Compound compound;
-  builder.MakeCompound(compound);
-  for (const TopoDS_Shape& shape : shapes)
-  {
-    builder.Add(compound, shape);
-  }
-  return compound;
-}
-
-TopoDS_Compound Together(const ModelBodies& model)
-{
-  std::vector<TopoDS_Shape> shapes;
-  for (const ModelBody& body : model.Bodies)
-  {
-    shapes.push_back(body.Shape);
-  }
-  return Together(shapes);
-}
-
-bool IsSolid(const ModelBody& body)
-{
-  return body.Shape.ShapeType() == TopAbs_SOLID;
-}
-
-double VolumeOf(const TopoDS_Shape& shape)
-{
-  GProp_GProps properties;
-  BRepGProp::VolumeProperties(shape, properties, 1e-11, false, false);
-  return properties.Mass();
-}
 
 struct Ball
 {
@@ -205,17 +159,6 @@ Result<TopoDS_Face> ToolFace(const CADOperation& operation, const Ball& ball)
                     : Extended(gp_Pln(frame), ball);
 }
 
-Status CheckId(int id, const std::vector<FacePlace>& faces)
-{
-  if (id < 0 || static_cast<std::size_t>(id) >= faces.size())
-  {
-    return { ErrorCode::InvalidParameter,
-      "there is no face " + std::to_string(id) + "; faces have the ids 0 to " +
-        std::to_string(faces.size() - 1) };
-  }
-  return {};
-}
-
 Result<TopoDS_Face> ToolOfFace(int id, const std::vector<FacePlace>& faces, const Ball& ball)
 {
   if (Status status = CheckId(id, faces); !status)
@@ -282,14 +225,6 @@ std::vector<std::vector<std::size_t>> GroupsOf(const ModelBodies& model)
   }
   return result;
 }
-
-/// What became of bodies and faces.
-struct Images
-{
-  std::vector<std::vector<TopoDS_Shape>> OfBody; ///< empty: as it was
-  NCollection_DataMap<TopoDS_Shape, std::vector<TopoDS_Shape>, TopTools_ShapeMapHasher> OfFace;
-  double Overlap = 0.0;
-};
 
 /// Runs general fuse or splitter on a group of bodies.
 Status Fuse(const ModelBodies& model, const std::vector<std::size_t>& group,
@@ -364,123 +299,136 @@ Status Fuse(const ModelBodies& model, const std::vector<std::size_t>& group,
   return {};
 }
 
-/// Puts the images into the place of what they are images of.
-void Replace(const Images& images, ModelBodies& model, CADStep& step)
+/// Where a plane meets a face.
+TopoDS_Shape LinesOfPlane(const TopoDS_Face& face, const TopoDS_Face& plane)
 {
-  const std::vector<FacePlace> before = FacesOf(model);
-  AttributesOfShapes attributes;
-  for (const FacePlace& place : before)
+  BRepAlgoAPI_Section section(face, plane, false);
+  section.Build();
+  return section.Shape();
+}
+
+/// The iso-line of an operation, within the face.
+TopoDS_Shape LinesOfParameter(const TopoDS_Face& face, const CADOperation& operation)
+{
+  double range[2][2];
+  BRepTools::UVBounds(face, range[0][0], range[0][1], range[1][0], range[1][1]);
+  const int d = operation.IsoDirection;
+  const double at = range[d][0] + operation.Share * (range[d][1] - range[d][0]);
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+  const TopoDS_Edge edge = BRepBuilderAPI_MakeEdge(
+    d == 0 ? surface->UIso(at) : surface->VIso(at), range[1 - d][0], range[1 - d][1]);
+  return BRepAlgoAPI_Common(edge, face).Shape();
+}
+
+/// A curve between the knots where it may have corners.
+std::vector<Handle(Geom_BSplineCurve)> SmoothPieces(const Handle(Geom_BSplineCurve) & curve)
+{
+  std::vector<Handle(Geom_BSplineCurve)> pieces;
+  int first = curve->FirstUKnotIndex();
+  const int end = curve->LastUKnotIndex();
+  for (int k = first + 1; k <= end; ++k)
   {
-    const ShapeAttributes* own = model.Faces.Seek(place.Face);
-    if (!own)
+    if (k == end || curve->Multiplicity(k) >= curve->Degree())
     {
-      continue;
-    }
-    const auto keep = [&](const TopoDS_Shape& face)
-    {
-      if (!attributes.IsBound(face)) // of two faces that became one the first
-      {
-        attributes.Bind(face, *own);
-      }
-    };
-    if (const auto* parts = images.OfFace.Seek(place.Face))
-    {
-      for (const TopoDS_Shape& part : *parts)
-      {
-        keep(part);
-      }
-    }
-    else
-    {
-      keep(place.Face);
+      const Handle(Geom_BSplineCurve) piece = Handle(Geom_BSplineCurve)::DownCast(curve->Copy());
+      piece->Segment(curve->Knot(first), curve->Knot(k));
+      pieces.push_back(piece);
+      first = k;
     }
   }
-  std::vector<ModelBody> bodies;
-  std::vector<std::size_t> origin;
-  for (std::size_t b = 0; b < model.Bodies.size(); ++b)
+  return pieces;
+}
+
+/// A curve with clamped knots in space.
+Result<Spline<1>> ReadyCurve(const Spline<1>& curve)
+{
+  if (!curve.Space || curve.Space->Kind != SpaceKind::Tensor)
   {
-    const ModelBody& old = model.Bodies[b];
-    const std::vector<TopoDS_Shape>& pieces = images.OfBody[b];
-    const bool isKept = !IsSolid(old) || (pieces.size() == 1 && pieces[0].IsSame(old.Shape));
-    if (isKept || pieces.empty())
+    return { ErrorCode::InvalidParameter, "it is no B-spline; give B-splines or polylines" };
+  }
+  if (Status status = curve.Check(); !status)
+  {
+    return status;
+  }
+  if (curve.ControlPoints.cols() != 3)
+  {
+    return { ErrorCode::DimensionMismatch, "its control points must have three coordinates" };
+  }
+  const Status status = CheckContinuity(curve, "its knots");
+  return status ? Clamped(curve) : Result<Spline<1>>(status);
+}
+
+/// Curves as smooth edges, in the unit of the model.
+Result<TopoDS_Shape> EdgesOf(const std::vector<Spline<1>>& curves, double scale)
+{
+  std::vector<TopoDS_Shape> edges;
+  for (const Spline<1>& curve : curves)
+  {
+    auto ready = ReadyCurve(curve);
+    if (!ready)
     {
-      // without pieces: all of it lay in others
-      if (isKept || images.Overlap == 0.0)
-      {
-        bodies.push_back(old);
-        origin.push_back(b);
-      }
-      continue;
+      return { ready.Status.Code, "a curve: " + ready.Status.Detail };
     }
-    for (const TopoDS_Shape& piece : pieces)
+    ready->ControlPoints *= scale;
+    for (const Handle(Geom_BSplineCurve) & piece : SmoothPieces(ToOpenCASCADE(ready.Value)))
     {
-      ModelBody body = old;
-      body.Shape = piece;
-      body.IsChanged = true;
-      bodies.push_back(body);
-      origin.push_back(b);
+      const bool isLine = piece->Degree() == 1;
+      if (isLine && piece->StartPoint().IsEqual(piece->EndPoint(), Precision::Confusion()))
+      {
+        continue; // points that are there twice
+      }
+      edges.push_back(isLine ? BRepBuilderAPI_MakeEdge(piece->StartPoint(), piece->EndPoint())
+                             : BRepBuilderAPI_MakeEdge(piece));
     }
   }
-  model.Bodies = std::move(bodies);
-  model.Faces = attributes;
-  // ids of the parts in the bodies that came from the face's body
-  NCollection_DataMap<TopoDS_Shape, std::vector<std::pair<std::size_t, int>>,
-    TopTools_ShapeMapHasher>
-    ids;
-  const std::vector<FacePlace> after = FacesOf(model);
-  for (std::size_t f = 0; f < after.size(); ++f)
+  return TopoDS_Shape(Together(edges));
+}
+
+/// Normal projections of curves, within the face.
+TopoDS_Shape LinesOfCurves(const TopoDS_Face& face, const TopoDS_Shape& curves)
+{
+  std::vector<TopoDS_Shape> lines;
+  for (TopExp_Explorer curve(curves, TopAbs_EDGE); curve.More(); curve.Next())
   {
-    if (!ids.IsBound(after[f].Face))
+    BRepOffsetAPI_NormalProjection projection(face);
+    projection.Add(curve.Current());
+    projection.SetParams(1e-6, 1e-6, GeomAbs_C1, 14, 64);
+    projection.Build();
+    if (projection.IsDone() && !projection.Projection().IsNull())
     {
-      ids.Bind(after[f].Face, {});
-    }
-    ids.ChangeFind(after[f].Face).emplace_back(origin[after[f].Body], static_cast<int>(f));
-  }
-  step.NewFaces.assign(before.size(), {});
-  for (std::size_t f = 0; f < before.size(); ++f)
-  {
-    const auto add = [&](const TopoDS_Shape& face)
-    {
-      const auto* found = ids.Seek(face);
-      if (!found)
-      {
-        return;
-      }
-      for (const auto& [body, id] : *found)
-      {
-        if (body == before[f].Body)
-        {
-          step.NewFaces[f].push_back(id);
-        }
-      }
-    };
-    if (const auto* parts = images.OfFace.Seek(before[f].Face))
-    {
-      for (const TopoDS_Shape& part : *parts)
-      {
-        add(part);
-      }
-    }
-    else
-    {
-      add(before[f].Face);
+      lines.push_back(projection.Projection());
     }
   }
+  return Together(lines);
 }
 
 /// Curves on chosen faces.
-Result<std::vector<TopoDS_Shape>> CurvesOn(
-  const CADOperation& operation, const std::vector<FacePlace>& faces, const Ball& ball)
+Result<std::vector<TopoDS_Shape>> CurvesOn(const CADOperation& operation, double scale,
+  const std::vector<FacePlace>& faces, const Ball& ball)
 {
   if (operation.Faces.empty())
   {
     return { ErrorCode::EmptyInput, "no face is chosen; give the ids of those to split" };
   }
   const bool isPlane = operation.Kind == CADOperationKind::SplitByPlane;
-  TopoDS_Face tool;
+  const bool isCurve = operation.Kind == CADOperationKind::SplitByCurve;
+  TopoDS_Shape tool;
   if (isPlane)
   {
     const auto made = ToolFace(operation, ball);
+    if (!made)
+    {
+      return made.Status;
+    }
+    tool = made.Value;
+  }
+  else if (isCurve)
+  {
+    if (operation.Curves.empty())
+    {
+      return { ErrorCode::EmptyInput, "there is no curve to split by; give one or more" };
+    }
+    const auto made = EdgesOf(operation.Curves, scale);
     if (!made)
     {
       return made.Status;
@@ -501,24 +449,9 @@ Result<std::vector<TopoDS_Shape>> CurvesOn(
       return status;
     }
     const TopoDS_Face& face = faces[static_cast<std::size_t>(id)].Face;
-    TopoDS_Shape lines;
-    if (isPlane)
-    {
-      BRepAlgoAPI_Section section(face, tool, false);
-      section.Build();
-      lines = section.Shape();
-    }
-    else
-    {
-      double range[2][2];
-      BRepTools::UVBounds(face, range[0][0], range[0][1], range[1][0], range[1][1]);
-      const int d = operation.IsoDirection;
-      const double at = range[d][0] + operation.Share * (range[d][1] - range[d][0]);
-      const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
-      const TopoDS_Edge edge = BRepBuilderAPI_MakeEdge(
-        d == 0 ? surface->UIso(at) : surface->VIso(at), range[1 - d][0], range[1 - d][1]);
-      lines = BRepAlgoAPI_Common(edge, face).Shape();
-    }
+    const TopoDS_Shape lines = isPlane ? LinesOfPlane(face, TopoDS::Face(tool))
+      : isCurve                        ? LinesOfCurves(face, tool)
+                                       : LinesOfParameter(face, operation);
     bool found = false;
     for (TopExp_Explorer edge(lines, TopAbs_EDGE); edge.More(); edge.Next())
     {
@@ -528,8 +461,11 @@ Result<std::vector<TopoDS_Shape>> CurvesOn(
     if (!found)
     {
       return { ErrorCode::OutsideDomain,
-        "the " + std::string(isPlane ? "plane" : "iso-line") + " does not cross face " +
-          std::to_string(id) + "; move it or choose another face" };
+        "the " +
+          std::string(isPlane ? "plane"
+              : isCurve       ? "curve"
+                              : "iso-line") +
+          " does not cross face " + std::to_string(id) + "; move it or choose another face" };
     }
   }
   return curves;
@@ -578,19 +514,55 @@ Status CheckBodies(const ModelBodies& model)
 
 namespace
 {
-Status RunScaled(const CADOperation& operation, ModelBodies& model, CADStep& step)
+/// What OpenCASCADE calls valid can be written and worked on; else what is left says why not.
+Status CheckHealed(const ModelBodies& model, const CADStep& step)
+{
+  const Status valid = CheckBodies(model);
+  if (valid)
+  {
+    return valid;
+  }
+  std::string text = valid.Detail + " after healing";
+  for (const std::string& one : step.Healing.Unmended)
+  {
+    text += "; " + one;
+  }
+  return { valid.Code, text + "; try another tolerance" };
+}
+
+Status RunScaled(const CADOperation& operation, double scale, ModelBodies& model, CADStep& step)
 {
   step = {};
   step.Kind = operation.Kind;
   step.Before = CountBodies(model);
+  if (operation.Kind == CADOperationKind::Heal)
+  {
+    if (!(operation.Tolerance > 0.0 && std::isfinite(operation.Tolerance)))
+    {
+      return { ErrorCode::InvalidParameter,
+        "the tolerance of healing must be a number above 0; give the width of gaps to close" };
+    }
+    Heal(operation.Tolerance, scale, model, step);
+    step.After = CountBodies(model);
+    return CheckHealed(model, step);
+  }
   if (step.Before.Solids == 0)
   {
-    return { ErrorCode::EmptyInput, "there is no solid; sew the faces to solids first" };
+    return { ErrorCode::EmptyInput,
+      "there is no solid; heal the part, so that its faces become solids" };
+  }
+  if (operation.Kind == CADOperationKind::Composite)
+  {
+    if (Status status = Compose(operation.Faces, model, step); !status)
+    {
+      return status;
+    }
+    step.After = CountBodies(model);
+    return CheckBodies(model);
   }
   const Ball ball = BallAround(model);
   const std::vector<FacePlace> faces = FacesOf(model);
-  Images images;
-  images.OfBody.resize(model.Bodies.size());
+  Images images(model);
   std::vector<TopoDS_Shape> tools;
   std::vector<std::vector<std::size_t>> groups;
   switch (operation.Kind)
@@ -625,10 +597,14 @@ Status RunScaled(const CADOperation& operation, ModelBodies& model, CADStep& ste
       groups = GroupsOf(model);
       break;
     }
+    case CADOperationKind::Heal: // done
+    case CADOperationKind::Composite:
+      break;
     case CADOperationKind::SplitByPlane:
     case CADOperationKind::SplitByParameter:
+    case CADOperationKind::SplitByCurve:
     {
-      const auto curves = CurvesOn(operation, faces, ball);
+      const auto curves = CurvesOn(operation, scale, faces, ball);
       if (!curves)
       {
         return curves.Status;
@@ -670,7 +646,8 @@ Status RunOperation(const CADOperation& operation, double scale, ModelBodies& mo
   CADOperation scaled = operation;
   scaled.Point *= scale;
   scaled.Radius *= scale;
-  const Status status = RunScaled(scaled, model, step);
+  scaled.Tolerance *= scale;
+  const Status status = RunScaled(scaled, scale, model, step);
   const double kept = step.Before.Volume - step.Overlap;
   step.VolumeChange = kept != 0.0 ? std::abs(step.After.Volume / kept - 1.0) : 0.0;
   const double cube = 1.0 / (scale * scale * scale);
