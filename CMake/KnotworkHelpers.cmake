@@ -110,6 +110,13 @@ function(knotwork_add_worker name)
   set_property(GLOBAL APPEND PROPERTY KNOTWORK_PRODUCTS ${name})
 endfunction()
 
+# knotwork_add_worker_script(FILE): a script for a program of others, beside the programs of knotwork_add_worker; see
+# PathOfWorkerScript.
+function(knotwork_add_worker_script file)
+  configure_file("${file}" "${CMAKE_BINARY_DIR}/${KNOTWORK_WORKER_DIR}/${file}" COPYONLY)
+  install(FILES "${file}" DESTINATION "${KNOTWORK_WORKER_DIR}")
+endfunction()
+
 # knotwork_generate(COMMAND OUTPUT file... ARGUMENTS argument... HEADERS header... [DEPENDS file...]): what properties.py makes of
 # the properties that headers declare, at build time.
 function(knotwork_generate command)

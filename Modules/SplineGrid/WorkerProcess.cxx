@@ -30,14 +30,16 @@ namespace
 {
 using Clock = std::chrono::steady_clock;
 
-/// Full path of a program in one of the folders; empty without one.
-std::string PathOfProgram(const std::vector<fs::path>& folders, const std::string& program)
+/// Full path of a file in one of the folders; empty without one.
+/// @param mode  what this process may do with it, as of access().
+std::string PathOfFile(
+  const std::vector<fs::path>& folders, const std::string& name, int mode = X_OK)
 {
   for (const fs::path& folder : folders)
   {
-    const std::string path = (folder / program).string();
+    const std::string path = (folder / name).string();
     std::error_code error;
-    if (fs::is_regular_file(path, error) && access(path.c_str(), X_OK) == 0)
+    if (fs::is_regular_file(path, error) && access(path.c_str(), mode) == 0)
     {
       return path;
     }
@@ -45,11 +47,11 @@ std::string PathOfProgram(const std::vector<fs::path>& folders, const std::strin
   return {};
 }
 
-std::string PathOfWorker(const std::string& program)
+std::string PathOfWorker(const std::string& name, int mode = X_OK)
 {
   if (const char* folder = std::getenv("KNOTWORK_WORKERS"); folder && *folder)
   {
-    return PathOfProgram({ folder }, program);
+    return PathOfFile({ folder }, name, mode);
   }
   Dl_info library{};
   if (dladdr(reinterpret_cast<const void*>(&PathOfWorker), &library) == 0 || !library.dli_fname)
@@ -58,8 +60,8 @@ std::string PathOfWorker(const std::string& program)
   }
   std::error_code ignored;
   const fs::path beside = fs::absolute(library.dli_fname, ignored).parent_path();
-  return PathOfProgram(
-    { beside, beside / KNOTWORK_WORKER_FOLDER, beside / "../libexec/knotwork" }, program);
+  return PathOfFile(
+    { beside, beside / KNOTWORK_WORKER_FOLDER, beside / "../libexec/knotwork" }, name, mode);
 }
 
 std::string PathOfForeignProgram(const std::string& program)
@@ -76,7 +78,7 @@ std::string PathOfForeignProgram(const std::string& program)
     }
     at = end + 1;
   }
-  return PathOfProgram(folders, program);
+  return PathOfFile(folders, program);
 }
 
 enum class Outcome
@@ -416,6 +418,11 @@ ProgramAnswer RunForeignProgram(const std::string& program, const std::vector<st
     : answer.ExitStatus == WorkerNotStarted                   ? WorkerEnd::NotStarted
                                                               : WorkerEnd::Done;
   return answer;
+}
+
+std::string PathOfWorkerScript(const std::string& name)
+{
+  return PathOfWorker(name, R_OK);
 }
 
 TemporaryFolder::TemporaryFolder()

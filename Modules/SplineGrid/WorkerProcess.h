@@ -61,6 +61,10 @@ VTKKNOTWORKSPLINEGRID_EXPORT ProgramAnswer RunForeignProgram(const std::string& 
   const std::vector<std::string>& words, const std::string& folder, const WorkerLimits& limits,
   const std::function<bool()>& goOn = {});
 
+/// Full path of a script that such a program is to run, installed where the programs of RunWorker
+/// are (knotwork_add_worker_script); empty where there is none.
+VTKKNOTWORKSPLINEGRID_EXPORT std::string PathOfWorkerScript(const std::string& name);
+
 /// A folder for files of such programs, removed at the end of its life.
 class VTKKNOTWORKSPLINEGRID_EXPORT TemporaryFolder
 {

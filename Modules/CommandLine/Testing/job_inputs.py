@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Every input of every job of the program: what it takes, and a run in which everything else is in order."""
+import os
+
 import numpy as np
 
 import damages
@@ -13,7 +15,7 @@ FILE = "the file in question"  # its place in a run
 ENDINGS = {"surface": (".vtu", ".xml", ".g2", ".step", ".iges"), "points": (".vtp", ".xyz", ".csv", ".ply", ".g2"),
            "cells": (".vtp",), "mesh": (".off", ".obj", ".ply", ".stl", ".vtp"), "curves": (".vtp",),
            "boundary": (".json",), "map": (".vtu",), "trim": (".vtu",), "grid": (".vtu",), "layout": (".vtu",),
-           "quads": (".off", ".obj", ".ply", ".vtu"), "values": (".vtp", ".csv"), "edges": (".vtp",), "part": (".step",)}
+           "quads": (".off", ".obj", ".ply", ".vtu"), "values": (".vtp", ".csv"), "edges": (".vtp",), "part": (".step",), "box": (".off", ".obj", ".ply")}
 
 BOUNDARY = ('{"curves": [%s]}' % ", ".join(
     '{"degree": 1, "knots": [0, 0, 1, 1], "control_points": [%s]}' % ends
@@ -55,7 +57,42 @@ def cube(ending):
 
 
 SOUND = {"surface": "square", "points": "cloud", "cells": "cloud", "mesh": "mesh", "curves": "target", "boundary": "boundary",
-         "map": "map", "trim": "trim", "grid": "square", "layout": "quads", "quads": "quads", "values": "samples", "edges": "edges", "part": "solid"}
+         "map": "map", "trim": "trim", "grid": "square", "layout": "quads", "quads": "quads", "values": "samples", "edges": "edges", "part": "solid",
+         "box": "quads"}
+
+
+# What `quadremesh` finds as blender: every triangle becomes three quadrilaterals.
+BLENDER = """#!/bin/sh
+while [ "$1" != -- ]; do shift; done
+awk 'NR == 2 { n = $1; m = $2 }
+NR > 2 && NR <= 2 + n { for (k = 1; k <= 3; ++k) x[NR - 3, k] = $k }
+NR > 2 + n { t = NR - 3 - n; for (k = 0; k < 3; ++k) c[t, k] = $(k + 2) }
+function middle(a, b, key) {
+  key = a < b ? a " " b : b " " a
+  if (!(key in edge)) { edge[key] = n; for (k = 1; k <= 3; ++k) x[n, k] = (x[a, k] + x[b, k]) / 2; ++n }
+  return edge[key]
+}
+END {
+  for (t = 0; t < m; ++t) {
+    for (i = 0; i < 3; ++i) e[i] = middle(c[t, i], c[t, (i + 1) % 3])
+    for (k = 1; k <= 3; ++k) x[n, k] = (x[c[t, 0], k] + x[c[t, 1], k] + x[c[t, 2], k]) / 3
+    for (i = 0; i < 3; ++i) faces = faces "4 " c[t, i] " " e[i] " " n " " e[(i + 2) % 3] "\\n"
+    ++n
+  }
+  printf "OFF\\n%d %d 0\\n", n, 3 * m
+  for (i = 0; i < n; ++i) printf "%.9g %.9g %.9g\\n", x[i, 1], x[i, 2], x[i, 3]
+  printf "%s", faces
+}' "$2" > "$3"
+"""
+
+
+def add_blender():
+    """The stand-in becomes the first on PATH."""
+    os.makedirs(path("programs"), exist_ok=True)
+    with open(path("programs/blender"), "w", encoding="utf-8") as stream:
+        stream.write(BLENDER)
+    os.chmod(path("programs/blender"), 0o755)
+    os.environ["PATH"] = path("programs") + os.pathsep + os.environ["PATH"]
 
 
 def sound(kind, ending):
@@ -65,6 +102,7 @@ def sound(kind, ending):
 
 def make_files():
     """Writes all of them, small ones."""
+    add_blender()
     x, y = np.meshgrid(np.linspace(0, 1, 15), np.linspace(0, 1, 15))
     heights = np.c_[x.ravel(), y.ravel(), (0.2 * np.sin(5 * x) * y).ravel()]
     rows = [" ".join("%.17g" % value for value in point) for point in heights]
@@ -150,6 +188,7 @@ def runs():
             (["intersections", FILE, "--table", "table.csv", "--output", polydata], "surface"),
             (["recognize", FILE, "--edges", "edges.vtp", "--regions", "table.csv", "--output", polydata], "mesh"),
             (["repair", FILE, "--allow-open", "--actions", "actions.vtp", "--output", polydata], "mesh"),
+            (["quadremesh", FILE, "--tries", "table.csv", "--output", polydata], "box"),
             (["tetrahedralize", FILE, "--repair", "--boundary", "edges.vtp", "--output", grid], "mesh"),
             (["boundary", FILE, "--output", polydata], "surface"),
             (["align", FILE, "--to", mesh, "--table", "table.csv", "--output", polydata], "points"),

@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The table of solids on the page of surface remeshing: `knotwork quadremesh` and `knotwork cadfit` on the closed meshes of Debian's
+libcgal-demo with at least 100 faces, with Debian's blender installed.
+
+usage: quadriflow_table.py PROGRAM [--only NAME ...] [--keep FOLDER] [--write PAGE] [--limit SECONDS] [--rest SECONDS]
+
+A mesh is closed where every edge has two faces that run it oppositely. Of each mesh the quadrilaterals are fitted with degree 2, with the
+scan as target, as it is and, where that is not proved valid, with all of its edges taken for smooth (then with more elements that may move,
+then with the policy FULL); the same once more with twice as many quadrilaterals that need not keep sharp edges. What quadremesh does not take
+as it is, is repaired first. A solid is valid when cadfit proves every element, and when OpenCASCADE reads as many solids in the STEP file as
+the scan has parts, of the volume that cadfit says.
+
+--keep: results of meshes are kept there and not made again. --limit: seconds of a mesh from which on nothing else is tried; --rest: seconds
+from which on meshes are not begun. --write puts the table between the comments `the table of solids: begin` and `end` of a page.
+"""
+import argparse
+import collections
+import json
+import os
+import subprocess
+import sys
+import tarfile
+import tempfile
+import time
+
+import page_tables
+from repair_table import ARCHIVE, FOLDER, shortened
+
+HEAD = ["mesh", "faces", "Euler number", "quadrilaterals", "tries", "scaled Jacobian", "options", "outcome", "spline from the scan",
+        "scan from the spline", "volume", "s"]
+SMOOTH = ["--sharp-angle", "179", "--weak-angle", "179"]
+# in the order in which they are tried, with what the table calls them
+OPTIONS = (("", []), ("smooth", SMOOTH), ("smooth, rings", SMOOTH + ["--untangle-rings", "5", "--smoothing-rings", "4"]),
+           ("smooth, full, rings", SMOOTH + ["--untangle-rings", "5", "--policy", "full"]))
+SIZES = (["--faces", "2000"], ["--faces", "4000", "--keep-sharp", "0"])
+FEWEST = 100
+PATIENT = ["--time-limit", "120"]  # seconds a try
+PATIENCE = 600  # seconds a run
+PART_LEFT_OUT = 5
+
+
+def faces_of(file):
+    """Corners of the faces of an OFF file, also of one with colours; None where it is none."""
+    with open(file, encoding="ascii", errors="replace") as stream:
+        words = [word for line in stream for word in line.split("#")[0].split()]
+    if not words or words[0] not in ("OFF", "COFF"):
+        return None
+    width = 3 if words[0] == "OFF" else 7
+    num_points, num_faces = int(words[1]), int(words[2])
+    try:
+        float(words[4 + num_points * width - 1])
+        for width in (width, 6):  # colours have three or four numbers
+            at, faces = 4 + num_points * width, []
+            for _ in range(num_faces):
+                count = int(words[at])
+                faces.append([int(word) for word in words[at + 1:at + 1 + count]])
+                at += count + 1
+            if at == len(words):
+                return faces
+    except (ValueError, IndexError):
+        pass
+    return None
+
+
+def is_closed(faces):
+    sides = collections.Counter((a, b) for face in faces for a, b in zip(face, face[1:] + face[:1]))
+    return all(count == 1 and sides[b, a] == 1 for (a, b), count in list(sides.items()))
+
+
+class Mesh:
+    """All that is tried with one mesh."""
+
+    def __init__(self, program, file, faces, limit):
+        self.program, self.file, self.stem, self.limit = program, file, os.path.splitext(file)[0], limit
+        self.said = {"name": os.path.basename(self.stem), "faces": faces, "outcome": "", "options": ""}
+
+    def run(self, job, given, made, *options):
+        """The report of a job, None when it failed."""
+        report = self.stem + "." + job + ".json"
+        try:
+            done = subprocess.run([self.program, job, given, *made, "--report", report, "--quiet", "--force", *options], stderr=subprocess.PIPE,
+                                  text=True, timeout=PATIENCE)
+        except subprocess.TimeoutExpired:
+            self.said["outcome"] = f"{job} was not done after {PATIENCE} s"
+            return None
+        if done.returncode not in (0, PART_LEFT_OUT):
+            error = done.stderr.strip() if done.returncode == 1 else f"**ended with status {done.returncode}** {done.stderr.strip()}"
+            self.said["outcome"] = shortened(error, given).replace(f"knotwork {job}: ", "").replace(f"'{given}': ", "")
+            return None
+        with open(report, encoding="utf-8") as stream:
+            return json.load(stream)
+
+    def fits(self, scan, quads):
+        """Fits of the quadrilaterals until one is valid."""
+        for called, options in OPTIONS:
+            if time.monotonic() - self.begun > self.limit:
+                self.said["outcome"] = self.said["outcome"] or f"not fitted within {self.limit:.0f} s"
+                return False
+            step = self.stem + ".step"
+            fit = self.run("cadfit", self.stem + ".vtp", ["--output", step], "--target", scan, "--degree", "2", *options)
+            if not fit:
+                continue
+            self.said.update(options=called, quads=quads["quads"], tries=quads["tries"], jacobian=quads["least_scaled_jacobian"], euler=quads["euler_number"],
+                             there=fit["max_distance"] / quads["diagonal"], back=fit["max_distance_back"] / quads["diagonal"],
+                             volume=fit["volume"] / quads["input_volume"])
+            if fit["verdict"] != "valid":
+                self.said["outcome"] = f"{fit['uncertified_elements']} of {fit['elements']} elements without a certificate"
+                continue
+            part = self.run("cadmodify", step, ["--suggest"])
+            if not part:
+                continue
+            found = part["part"]
+            if found["solids"] == quads["parts"] and abs(found["volume"] - fit["volume"]) <= 1e-5 * abs(fit["volume"]):
+                self.said["outcome"] = "valid"
+                return True
+            self.said["outcome"] = f"OpenCASCADE finds {found['solids']} solids of volume {found['volume']:.6g} in the file instead of {fit['volume']:.6g}"
+        return False
+
+    def try_all(self):
+        self.begun = time.monotonic()
+        scan = self.file
+        for size in SIZES:
+            quads = self.run("quadremesh", scan, ["--output", self.stem + ".vtp"], *size, *PATIENT)
+            if not quads and "repair the mesh first" in self.said["outcome"]:
+                scan = self.stem + ".repaired.vtp"
+                if not self.run("repair", self.file, ["--output", scan]):
+                    break
+                self.said["repaired"] = True
+                quads = self.run("quadremesh", scan, ["--output", self.stem + ".vtp"], *size, *PATIENT)
+            if quads and self.fits(scan, quads) or time.monotonic() - self.begun > self.limit:
+                break
+        self.said["seconds"] = time.monotonic() - self.begun
+        return self.said
+
+
+def row(said):
+    name = said["name"] + (" (repaired)" if said.get("repaired") else "")
+    seconds = f"{said['seconds']:.0f}"
+    if "quads" not in said:
+        return [name, str(said["faces"]), "", "", "", "", "", said["outcome"], "", "", "", seconds]
+    return [name, str(said["faces"]), str(said["euler"]), str(said["quads"]), str(said["tries"]), f"{said['jacobian']:.2f}", said["options"],
+            said["outcome"], f"{said['there']:.1e}", f"{said['back']:.1e}", f"{abs(said['volume']):.4f}", seconds]
+
+
+def main():
+    parser = argparse.ArgumentParser(usage=__doc__)
+    parser.add_argument("program")
+    parser.add_argument("--only", nargs="*")
+    parser.add_argument("--keep")
+    parser.add_argument("--write")
+    parser.add_argument("--limit", type=float, default=120)
+    parser.add_argument("--rest", type=float, default=float("inf"))
+    arguments = parser.parse_args()
+    if not os.path.exists(ARCHIVE):
+        sys.exit(f"{ARCHIVE} is missing; install the package libcgal-demo")
+    begun, rows, valid, left_out = time.monotonic(), [], 0, 0
+    with tempfile.TemporaryDirectory() as folder, tarfile.open(ARCHIVE) as archive:
+        folder = arguments.keep or folder
+        for name in sorted(member.name[len(FOLDER):] for member in archive if member.isfile() and member.name.startswith(FOLDER)):
+            stem, ending = os.path.splitext(name)
+            if ending != ".off" or (arguments.only and stem not in arguments.only):
+                continue
+            mesh, kept = os.path.join(folder, name), os.path.join(folder, stem + ".kept.json")
+            with open(mesh, "wb") as stream:
+                stream.write(archive.extractfile(FOLDER + name).read())
+            faces = faces_of(mesh)
+            if not faces or len(faces) < FEWEST or not is_closed(faces):
+                continue
+            if os.path.exists(kept):
+                with open(kept, encoding="utf-8") as stream:
+                    said = json.load(stream)
+            elif time.monotonic() - begun > arguments.rest:
+                left_out += 1
+                continue
+            else:
+                said = Mesh(arguments.program, mesh, len(faces), arguments.limit).try_all()
+                with open(kept, "w", encoding="utf-8") as stream:
+                    json.dump(said, stream)
+            valid += said["outcome"] == "valid"
+            rows.append(row(said))
+            print(" | ".join(rows[-1]), file=sys.stderr, flush=True)
+    text = page_tables.table_text(HEAD, rows) + f"\n{valid} of {len(rows)} meshes become valid solids.\n"
+    if left_out:
+        text += f"\n{left_out} meshes were not tried.\n"
+    print(text, end="")
+    if arguments.write:
+        page_tables.write_table(arguments.write, "the table of solids", text)
+
+
+if __name__ == "__main__":
+    main()
