@@ -126,9 +126,13 @@ void TakeCorners(vtkPointSet* data, StraightElements& elements)
     numbers[static_cast<std::size_t>(corner)] = 0;
   }
   int count = 0;
-  for (int& number : numbers)
+  for (std::size_t i = 0; i < numbers.size(); ++i)
   {
-    number = number < 0 ? -1 : count++;
+    if (numbers[i] >= 0)
+    {
+      numbers[i] = count++;
+      elements.PointNumbers.push_back(static_cast<int>(i));
+    }
   }
   elements.Points.resize(count, 3);
   for (std::size_t i = 0; i < numbers.size(); ++i)
@@ -201,6 +205,7 @@ Result<DecodedElements> DecodeStraightElements(vtkPointSet* data)
     std::vector<int> corners(ids->begin(), ids->begin() + NumCorners(of.Shape));
     OrderCorners(type, of.Shape, corners);
     decoded->Elements.Add(of.Shape, corners);
+    decoded->Elements.ElementNumbers.push_back(static_cast<int>(cell));
     decoded->Cells.push_back(cell);
   }
   TakeCorners(data, decoded->Elements);

@@ -126,6 +126,10 @@ int vtkElementCurving::FillInputPortInformation(int port, vtkInformation* info)
 Status vtkElementCurving::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   vtkPointSet* data = vtkPointSet::GetData(inputs[0], 0);
+  if (data->GetNumberOfCells() == 0)
+  {
+    return {}; // as VTK's filters: nothing of nothing
+  }
   const auto decoded = DecodeStraightElements(data);
   if (!decoded)
   {

@@ -19,11 +19,6 @@ std::size_t At(int i)
   return static_cast<std::size_t>(i);
 }
 
-std::string NameOf(int element)
-{
-  return "element " + std::to_string(element);
-}
-
 Status CheckElement(const StraightElements& elements, int e)
 {
   const CellShape shape = elements.Shapes[At(e)];
@@ -33,7 +28,7 @@ Status CheckElement(const StraightElements& elements, int e)
     NumParameters(shape) < 2 || NumParameters(shape) != NumParameters(elements.Shapes.front()))
   {
     return { ErrorCode::InvalidTopology,
-      NameOf(e) +
+      elements.ElementName(e) +
         " is none of a surface, or none of a volume, as the first one is; give elements "
         "of one dimension" };
   }
@@ -42,12 +37,14 @@ Status CheckElement(const StraightElements& elements, int e)
   std::sort(corners.begin(), corners.end());
   if (corners.front() < 0 || corners.back() >= static_cast<int>(elements.Points.rows()))
   {
-    return { ErrorCode::InvalidTopology, NameOf(e) + " has a corner that is no point" };
+    return { ErrorCode::InvalidTopology,
+      elements.ElementName(e) + " has a corner that is no point" };
   }
   if (std::adjacent_find(corners.begin(), corners.end()) != corners.end())
   {
     return { ErrorCode::InvalidTopology,
-      NameOf(e) + " has one point at two corners; give it as an element of fewer corners" };
+      elements.ElementName(e) +
+        " has one point at two corners; give it as an element of fewer corners" };
   }
   return {};
 }
@@ -69,7 +66,8 @@ Status CheckInput(const StraightElements& elements, const CurvedElementsParams& 
     if (!elements.Points.row(i).allFinite())
     {
       return { ErrorCode::NonFiniteInput,
-        "point " + std::to_string(i) + " has a coordinate that is not finite; correct it" };
+        elements.PointName(static_cast<int>(i)) +
+          " has a coordinate that is not finite; correct it" };
     }
   }
   if (!params.Regions.empty() && params.Regions.size() != elements.Shapes.size())
@@ -162,7 +160,7 @@ public:
       return { ErrorCode::Aborted, "" };
     }
     auto certificate =
-      nodes.Relax(this->Params.Threads, this->Params.Progress, this->Found.Relaxed);
+      nodes.Relax(this->Elements, this->Params.Threads, this->Params.Progress, this->Found.Relaxed);
     if (!certificate)
     {
       return certificate.Status;
@@ -222,7 +220,8 @@ private:
       {
         const int corner = this->Elements.Corners[this->Elements.Begin[At(e)]];
         return { ErrorCode::NotConverged,
-          NameOf(e) + " at " + PointText(this->Elements.Points.row(corner).data(), 3) +
+          this->Elements.ElementName(e) + " at " +
+            PointText(this->Elements.Points.row(corner).data(), 3) +
             " is not valid though it is straight, so no curved one is: mend its corners, or leave "
             "it out" };
       }
@@ -236,8 +235,9 @@ private:
         found.Point >= 0)
     {
       return { ErrorCode::InvalidTopology,
-        "point " + std::to_string(found.Point) + " lies on the edge from point " +
-          std::to_string(found.Edge[0]) + " to point " + std::to_string(found.Edge[1]) +
+        this->Elements.PointName(found.Point) + " lies on the edge from " +
+          this->Elements.PointName(found.Edge[0]) + " to " +
+          this->Elements.PointName(found.Edge[1]) +
           ": the mesh is not conforming; divide the elements of that edge, too" };
     }
     for (const FaceCorners& face : lattice.Faces)
@@ -249,8 +249,9 @@ private:
         if (lattice.FindFace(triangle) >= 0)
         {
           return { ErrorCode::InvalidTopology,
-            "a quadrilateral is met by triangles at points " + std::to_string(triangle[0]) + ", " +
-              std::to_string(triangle[1]) + " and " + std::to_string(triangle[2]) +
+            "a quadrilateral is met by triangles at " + this->Elements.PointName(triangle[0]) +
+              ", " + this->Elements.PointName(triangle[1]) + " and " +
+              this->Elements.PointName(triangle[2]) +
               ": the mesh is not conforming; divide the element of the quadrilateral, too" };
         }
       }
@@ -266,12 +267,11 @@ private:
     {
       if (elements[f].size() > most)
       {
-        const FaceCorners& corners = lattice.Faces[f];
         return { ErrorCode::InvalidTopology,
-          std::to_string(elements[f].size()) + " elements, " + std::to_string(elements[f][0]) +
-            " and " + std::to_string(elements[f][most]) + " among them, have the face of points " +
-            std::to_string(corners[0]) + ", " + std::to_string(corners[1]) + ", " +
-            std::to_string(corners[2]) + "; leave out what is there twice" };
+          std::to_string(elements[f].size()) + " elements, " +
+            this->Elements.ElementName(elements[f][0]) + " and " +
+            this->Elements.ElementName(elements[f][most]) +
+            " among them, have one face: leave out what is there twice" };
       }
       const auto& regions = this->Params.Regions;
       const bool isWall = elements[f].size() == 1 ||
@@ -413,6 +413,18 @@ void StraightElements::Add(CellShape shape, const std::vector<int>& corners)
   this->Shapes.push_back(shape);
   this->Corners.insert(this->Corners.end(), corners.begin(), corners.end());
   this->Begin.push_back(this->Corners.size());
+}
+
+std::string StraightElements::ElementName(int element) const
+{
+  return "element " +
+    std::to_string(this->ElementNumbers.empty() ? element : this->ElementNumbers[At(element)]);
+}
+
+std::string StraightElements::PointName(int point) const
+{
+  return "point " +
+    std::to_string(this->PointNumbers.empty() ? point : this->PointNumbers[At(point)]);
 }
 
 Result<CurvedElements> CurveElements(

@@ -3,6 +3,8 @@
 #include <knotwork/CADFitting/FitDistances.h>
 #include <knotwork/JacobianValidation/JacobianCertificate.h>
 
+#include <string>
+
 namespace knotwork
 {
 /// Straight elements by their corners: triangles and quadrilaterals in space, or tetrahedra, wedges
@@ -14,8 +16,14 @@ struct StraightElements
   std::vector<int> Corners;            ///< in the order of CornerParameters, element by element
   std::vector<std::size_t> Begin{ 0 }; ///< of every element in Corners, and the end
 
+  /// By which messages name elements and points; empty: as they stand here.
+  std::vector<int> ElementNumbers;
+  std::vector<int> PointNumbers;
+
   int NumElements() const { return static_cast<int>(this->Shapes.size()); }
   void Add(CellShape shape, const std::vector<int>& corners);
+  std::string ElementName(int element) const; ///< "element 12"
+  std::string PointName(int point) const;     ///< "point 12"
 };
 
 struct CurvedElementsParams

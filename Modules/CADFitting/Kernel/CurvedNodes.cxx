@@ -358,8 +358,8 @@ Status CurvedNodes::LetInsideFollow(int threads, std::vector<int>& folded, Jacob
   return {};
 }
 
-Result<JacobianCertificate> CurvedNodes::Relax(
-  int threads, const ProgressCallback& progress, std::vector<char>& relaxed)
+Result<JacobianCertificate> CurvedNodes::Relax(const StraightElements& elements, int threads,
+  const ProgressCallback& progress, std::vector<char>& relaxed)
 {
   const NodeLattice& lattice = this->Lattice;
   std::vector<int> which(lattice.Shapes.size());
@@ -390,7 +390,7 @@ Result<JacobianCertificate> CurvedNodes::Relax(
       {
         const Eigen::RowVector3d place = this->At.row(lattice.Nodes[lattice.Begin[Index(element)]]);
         return { ErrorCode::NotConverged,
-          "element " + std::to_string(element) + " at " + PointText(place.data(), 3) +
+          elements.ElementName(element) + " at " + PointText(place.data(), 3) +
             " is not valid though it is straight: it is as good as flat there; give it a better "
             "shape" };
       }

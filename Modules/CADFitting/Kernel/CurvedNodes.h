@@ -35,11 +35,12 @@ public:
 
   /// Certifies all elements. Where some are not valid, points inside around them follow those that
   /// were placed, if that leaves fewer of them; then points of these move back until all are valid.
-  /// @param relaxed  one an element: whether one of its points is not where it was placed.
+  /// @param elements  of the lattice. @param relaxed  one an element: whether one of its points is
+  /// not where it was placed.
   /// @return NotConverged with a straight element that is not valid; the errors of
   /// ValidateJacobian; Aborted.
-  Result<JacobianCertificate> Relax(
-    int threads, const ProgressCallback& progress, std::vector<char>& relaxed);
+  Result<JacobianCertificate> Relax(const StraightElements& elements, int threads,
+    const ProgressCallback& progress, std::vector<char>& relaxed);
 
   BernsteinCells MakeCells(const std::vector<int>& which) const;
   /// Points inside that follow.

@@ -18,7 +18,8 @@ namespace knotwork
 namespace
 {
 constexpr double SharpCosine = 0.94; ///< 20 degrees between normals: an edge that may be sharp
-constexpr double NearCurve = 0.3;    ///< of an edge's length: how far its curve may be (arcs to 120 degrees)
+constexpr double NearCurve =
+  0.3; ///< of an edge's length: how far its curve may be (arcs to 120 degrees)
 constexpr double FarthestMove = 0.5; ///< of an edge's length
 /// Along edges, between points of the orders 2 to 4, and the middle: where distances are sampled.
 constexpr std::array<double, 5> SampleShares{ 0.1, 0.37, 0.5, 0.63, 0.9 };
