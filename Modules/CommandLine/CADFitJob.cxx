@@ -45,7 +45,7 @@ public:
       "what to fit to: a CAD part (.step .stp .iges .igs .brep), triangles (.stl .off .obj "
       ".ply .vtp) or a spline (.vtu .xml .g2); without it the mesh itself",
       " onto ");
-    this->AddOutput(SplineGrid, "--output", Endings::Writing(SplineGridContent | CellContent),
+    this->AddOutput(SplineGrid, "--output", Endings::Writing(SplineGridContent | GridContent),
       "the spline, or the elements");
     this->AddOutput(Numbers, "--table", Endings::Table, "its numbers");
     this->AddOutput(
@@ -129,7 +129,7 @@ private:
   /// Not every format has both, and none but VTK's has Bezier elements.
   Status CheckEnding() const
   {
-    const auto endings = EndingsThatWrite(this->ElementsOnly ? CellContent : SplineGridContent);
+    const auto endings = EndingsThatWrite(this->ElementsOnly ? GridContent : SplineGridContent);
     const std::string ending = LowerEnding(this->MainOutput());
     const bool isVtk = ending == ".vtu" || ending == ".vtk";
     if (std::find(endings.begin(), endings.end(), ending) != endings.end() &&
