@@ -39,6 +39,22 @@ void Options::Add(const std::string& property, const T& initial, std::function<v
   }
   const auto renamed = this->Names.find(property);
   const std::string& name = renamed == this->Names.end() ? property : renamed->second;
+  const auto bind = [&](const CLI::Option* option, const std::shared_ptr<T>& value)
+  {
+    this->Bound.push_back({ this->Branch, name, SnakeCase(name), option, value,
+      [value, set](nlohmann::ordered_json& json)
+      {
+        set(*value);
+        json = *value;
+      } });
+  };
+  const auto known = std::find_if(this->Bound.begin(), this->Bound.end(),
+    [&](const Binding& bound) { return bound.Name == name && bound.Branch != this->Branch; });
+  if (known != this->Bound.end())
+  {
+    bind(known->Option, std::static_pointer_cast<T>(known->Value));
+    return;
+  }
   auto value = std::make_shared<T>(initial);
   CLI::Option* option = nullptr;
   if constexpr (std::is_same_v<T, bool>)
@@ -55,12 +71,7 @@ void Options::Add(const std::string& property, const T& initial, std::function<v
   {
     option->expected(static_cast<int>(initial.size()));
   }
-  this->Bound.push_back({ this->Branch, name, SnakeCase(name), option,
-    [value, set = std::move(set)](nlohmann::ordered_json& json)
-    {
-      set(*value);
-      json = *value;
-    } });
+  bind(option, value);
 }
 
 // here alone: the parser's templates take longer to compile than all else of a job
@@ -103,11 +114,18 @@ bool Options::IsGiven(const std::string& property) const
     [&](const Binding& bound) { return bound.Name == property && bound.Option->count() > 0; });
 }
 
+bool Options::IsOf(int branch, const CLI::Option* option) const
+{
+  return std::any_of(this->Bound.begin(), this->Bound.end(),
+    [&](const Binding& bound)
+    { return bound.Option == option && (bound.Branch == branch || bound.Branch == 0); });
+}
+
 Status Options::Check(int branch) const
 {
   for (const Binding& bound : this->Bound)
   {
-    if (bound.Branch != 0 && bound.Branch != branch && bound.Option->count() > 0)
+    if (!this->IsOf(branch, bound.Option) && bound.Option->count() > 0)
     {
       return { ErrorCode::InvalidParameter,
         "--" + KebabCase(bound.Name) + " is of " + this->Branches.at(bound.Branch) +

@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -32,7 +33,8 @@ public:
   }
 
   /// Options that are added from here on belong to one of several things that the job does; 0: to
-  /// all of them.
+  /// all of them. One name in several of them is one option, with the default and help of the
+  /// first.
   /// @param what  that is, in messages: "a target (--to)".
   void Begin(int branch, const std::string& what)
   {
@@ -41,7 +43,7 @@ public:
   }
   /// Whether an option of a property stands on the command line.
   bool IsGiven(const std::string& property) const;
-  /// @return InvalidParameter: an option of another branch stands on the command line.
+  /// @return InvalidParameter: an option of other branches alone stands on the command line.
   Status Check(int branch) const;
 
   /// A number, a list of them as long as the default, a text, or a truth value, which is on where
@@ -72,12 +74,15 @@ public:
   static std::string SnakeCase(const std::string& property);
 
 private:
+  bool IsOf(int branch, const CLI::Option* option) const;
+
   struct Binding
   {
     int Branch;
     std::string Name; ///< of the property, or what it was renamed to
     std::string Key;  ///< in the report
     const CLI::Option* Option;
+    std::shared_ptr<void> Value; ///< that the option sets
     std::function<void(nlohmann::ordered_json&)> Apply;
   };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MfemGrid.h"
 
+#include <knotwork/SplineGrid/HigherOrderCells.h>
 #include <knotwork/SplineGrid/MeshVertices.h>
 #include <knotwork/SplineGrid/NamedArray.h>
 #include <knotwork/SplineGrid/SplineModel.h>
@@ -8,9 +9,6 @@
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDoubleArray.h"
-#include "vtkHigherOrderTetra.h"
-#include "vtkHigherOrderTriangle.h"
-#include "vtkHigherOrderWedge.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPoints.h"
@@ -57,53 +55,26 @@ CellKind KindOf(MfemShape shape)
   return { VTK_VERTEX, VTK_EMPTY_CELL, 0, 1 };
 }
 
-/// Number of a simplex' or wedge's point at exponents.
-vtkIdType VtkIndex(MfemShape shape, int p, int i, int j, int k)
-{
-  if (shape == MfemShape::Wedge)
-  {
-    const int order[4] = { p, p, p, (p + 1) * (p + 1) * (p + 2) / 2 };
-    return vtkHigherOrderWedge::PointIndexFromIJK(i, j, k, order);
-  }
-  const vtkIdType exponents[4] = { i, j, shape == MfemShape::Triangle ? p - i - j : k,
-    p - i - j - k };
-  return shape == MfemShape::Triangle ? vtkHigherOrderTriangle::Index(exponents, p)
-                                      : vtkHigherOrderTetra::Index(exponents, p);
-}
-
 /// Number of the coefficient, first direction fastest, of every point of VTK's cell.
 std::vector<int> PointOrder(MfemShape shape, int p)
 {
   switch (shape)
   {
     case MfemShape::Segment:
-      return VtkPointOrder<1>({ p });
+      return HigherOrderPointOrder(CellShape::Curve, p);
+    case MfemShape::Triangle:
+      return HigherOrderPointOrder(CellShape::Triangle, p);
     case MfemShape::Quadrilateral:
-      return VtkPointOrder<2>({ p, p });
+      return HigherOrderPointOrder(CellShape::Quadrilateral, p);
+    case MfemShape::Tetrahedron:
+      return HigherOrderPointOrder(CellShape::Tetrahedron, p);
     case MfemShape::Hexahedron:
-      return VtkPointOrder<3>({ p, p, p });
+      return HigherOrderPointOrder(CellShape::Hexahedron, p);
+    case MfemShape::Wedge:
+      return HigherOrderPointOrder(CellShape::Wedge, p);
     default:
-      break;
+      return {};
   }
-  std::map<vtkIdType, int> places;
-  int coefficient = 0;
-  for (int k = 0; k <= (shape == MfemShape::Triangle ? 0 : p); ++k)
-  {
-    const int left = p - (shape == MfemShape::Tetrahedron ? k : 0);
-    for (int j = 0; j <= left; ++j)
-    {
-      for (int i = 0; i <= left - j; ++i)
-      {
-        places[VtkIndex(shape, p, i, j, k)] = coefficient++;
-      }
-    }
-  }
-  std::vector<int> order;
-  for (const auto& place : places)
-  {
-    order.push_back(place.second);
-  }
-  return order;
 }
 }
 

@@ -5,6 +5,7 @@
 #include "TetGenProcess.h"
 #include <knotwork/CADFitting/FitTargetData.h>
 #include <knotwork/MeshParameterization/MeshData.h>
+#include <knotwork/SplineGrid/HigherOrderCells.h>
 #include <knotwork/SplineGrid/SplineModel.h>
 #include <knotwork/SplineGrid/TableRow.h>
 
@@ -48,9 +49,15 @@ void EncodeCells(const SolidMesh& mesh, int order, vtkUnstructuredGrid* grid)
 {
   grid->SetPoints(MakePoints(mesh.Points, mesh.Points.rows()));
   vtkNew<vtkCellArray> cells;
+  const std::vector<int> pointOrder = HigherOrderPointOrder(CellShape::Tetrahedron, order);
+  std::vector<vtkIdType> ids;
   for (const std::vector<int>& nodes : mesh.Cells)
   {
-    const std::vector<vtkIdType> ids(nodes.begin(), nodes.end());
+    ids.clear();
+    for (const int coefficient : pointOrder)
+    {
+      ids.push_back(nodes[static_cast<std::size_t>(coefficient)]);
+    }
     cells->InsertNextCell(static_cast<vtkIdType>(ids.size()), ids.data());
   }
   grid->SetCells(CellTypeOf(order), cells);
@@ -99,17 +106,6 @@ void EncodeNumbers(const SolidMesh& mesh, vtkTable* table)
   AddColumn(table, "StraightToTarget", numbers.StraightToTarget);
   AddColumn(table, "CurvedToTarget", numbers.CurvedToTarget);
   AddColumn(table, "Diagonal", numbers.Diagonal);
-}
-
-/// Corners come first.
-vtkIdType CountCorners(const SolidMesh& mesh)
-{
-  int last = -1;
-  for (const std::vector<int>& nodes : mesh.Cells)
-  {
-    last = std::max(last, *std::max_element(nodes.begin(), nodes.begin() + 4));
-  }
-  return last + 1;
 }
 }
 
@@ -216,8 +212,7 @@ Status vtkTetGenMesher::Compute(vtkInformationVector** inputs, vtkInformationVec
     return mesh.Status;
   }
   EncodeCells(mesh.Value, this->Order, vtkUnstructuredGrid::GetData(outputs, 0));
-  EncodeBoundary(
-    mesh.Value, decoded->Cells, CountCorners(mesh.Value), vtkPolyData::GetData(outputs, 1));
+  EncodeBoundary(mesh.Value, decoded->Cells, mesh->NumCorners, vtkPolyData::GetData(outputs, 1));
   EncodeNumbers(mesh.Value, vtkTable::GetData(outputs, 2));
   return {};
 }

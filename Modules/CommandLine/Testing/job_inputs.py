@@ -185,6 +185,7 @@ def runs():
             (["quads", FILE, "--face-table", "table.csv", "--output", polydata], "part"),
             (["sweep", FILE, "--direction", 0, 0, 2, "--output", grid], "quads"),
             (["cadfit", FILE, "--entities", "table.csv", "--output", grid], "quads"),
+            (["cadfit", FILE, "--target", path("quads.off"), "--elements-only", "--table", "table.csv", "--output", grid], "quads"),
             (["intersections", FILE, "--table", "table.csv", "--output", polydata], "surface"),
             (["recognize", FILE, "--edges", "edges.vtp", "--regions", "table.csv", "--output", polydata], "mesh"),
             (["repair", FILE, "--allow-open", "--actions", "actions.vtp", "--output", polydata], "mesh"),

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SolidMesh.h"
 
-#include "CurvedTetrahedra.h"
 #include "SurfaceParts.h"
-#include "TargetNodes.h"
 #include "TetrahedronShapes.h"
 
-#include <knotwork/JacobianValidation/CellMeasures.h>
+#include <knotwork/CADFitting/CurvedElements.h>
 #include <knotwork/SplineCore/DisjointSets.h>
 #include <knotwork/SplineCore/Numbers.h>
 #include <knotwork/SurfaceRemeshing/FarthestDistance.h>
@@ -396,74 +394,42 @@ private:
 
   Status Curve()
   {
-    const int numCorners = static_cast<int>(this->Corners.rows());
-    const NodeLattice lattice = MakeLattice(this->Cells, numCorners, this->Params.Order);
-    CurvedNodes nodes(lattice, this->Corners);
-    const bool curved = this->Target && this->Params.Order > 1;
-    if (curved)
+    StraightElements elements;
+    elements.Points = this->Corners;
+    for (const auto& cell : this->Cells)
     {
-      if (Status status = PlaceOnTarget(*this->Target, this->Mesh.Boundary, lattice, this->Corners,
-            this->Params.Threads, nodes);
-          !status)
-      {
-        return status;
-      }
+      elements.Add(CellShape::Tetrahedron, { cell.begin(), cell.end() });
     }
-    std::vector<char> relaxed;
-    auto certificate = nodes.Relax(this->Params.Threads, relaxed);
-    if (!certificate)
+    CurvedElementsParams params;
+    params.Order = this->Params.Order;
+    params.FarShare = LargestNumber; // the surface was made from the target, or is compared with it
+    params.Threads = this->Params.Threads;
+    for (const auto& corners : this->Mesh.Boundary)
     {
-      return certificate.Status;
+      params.Facets.push_back({ corners[0], corners[1], corners[2], -1 });
     }
-    this->Mesh.Certificate = std::move(certificate.Value);
-    this->Mesh.Numbers.RelaxedElements =
-      static_cast<int>(std::count(relaxed.begin(), relaxed.end(), 1));
-    this->CountBoundaryElements();
-    this->Mesh.Points = nodes.Positions();
-    std::vector<int> all(this->Cells.size());
-    std::iota(all.begin(), all.end(), 0);
-    CellMeasuresParams measures;
-    measures.BoundBoxes = 0;
-    measures.SamplesPerEdge = 2;
-    measures.Threads = this->Params.Threads;
-    const auto measured = MeasureCells(MakeBernstein(lattice, this->Mesh.Points, all), measures);
-    if (!measured)
+    auto curved = CurveElements(elements, this->Target, params);
+    if (!curved)
     {
-      return measured.Status;
+      return curved.Status;
     }
-    this->Mesh.Numbers.Volume = measured->Total.Measure;
-    this->Mesh.Cells = lattice.Cells;
-    return this->Target ? this->MeasureDistances(lattice) : Status();
-  }
-
-  void CountBoundaryElements()
-  {
-    std::vector<char> isOn(this->RegionOf.size(), 0);
-    for (const Wall& wall : this->Walls)
+    SolidMeshNumbers& numbers = this->Mesh.Numbers;
+    numbers.RelaxedElements =
+      static_cast<int>(std::count(curved->Relaxed.begin(), curved->Relaxed.end(), 1));
+    numbers.BoundaryElements = curved->BoundaryElements;
+    numbers.Volume = curved->Volume;
+    numbers.StraightToTarget = std::max(0.0, curved->StraightToTarget.Largest);
+    numbers.CurvedToTarget = std::max(0.0, curved->CurvedToTarget.Largest);
+    this->Mesh.Points = std::move(curved->Points);
+    this->Mesh.NumCorners = static_cast<int>(this->Corners.rows());
+    this->Mesh.Certificate = std::move(curved->Certificate);
+    for (std::size_t c = 0; c < this->Cells.size(); ++c)
     {
-      for (const int cell : wall.Cells)
-      {
-        if (cell >= 0 && this->RegionOf[At(cell)] >= 0)
-        {
-          isOn[At(cell)] = 1;
-        }
-      }
+      const auto nodes = curved->Nodes.begin();
+      this->Mesh.Cells.emplace_back(nodes + static_cast<std::ptrdiff_t>(curved->Begin[c]),
+        nodes + static_cast<std::ptrdiff_t>(curved->Begin[c + 1]));
     }
-    this->Mesh.Numbers.BoundaryElements = static_cast<int>(std::count(isOn.begin(), isOn.end(), 1));
-  }
-
-  Status MeasureDistances(const NodeLattice& lattice)
-  {
-    NodeLattice flat;
-    flat.NumCorners = lattice.NumCorners;
-    const auto straight = FarthestFromTarget(
-      *this->Target, this->Mesh.Boundary, flat, this->Corners, this->Params.Threads);
-    const auto curved = straight ? FarthestFromTarget(*this->Target, this->Mesh.Boundary, lattice,
-                                     this->Mesh.Points, this->Params.Threads)
-                                 : straight;
-    this->Mesh.Numbers.StraightToTarget = straight.Value;
-    this->Mesh.Numbers.CurvedToTarget = curved.Value;
-    return curved.Status;
+    return {};
   }
 
   const SolidSurface& Surface;
@@ -478,6 +444,11 @@ private:
   SolidMesh Mesh;
   double Done = 0.5;
 };
+}
+
+int NumTetrahedronPoints(int order)
+{
+  return NumCellCoefficients(CellShape::Tetrahedron, { order, order, order });
 }
 
 Result<SolidMesh> MeshSolid(const TriangleMesh& surface, const FitTarget* target,

@@ -68,10 +68,9 @@ struct SolidMeshNumbers
 
 struct SolidMesh
 {
-  PointMatrix Points;
-  /// Points of the cells: corners, then order - 1 points an edge from its lower to its higher end
-  /// (edges 01 12 20 03 13 23, from the first corner on), then of order 3 one a face (opposite of
-  /// corners 2, 0, 1, 3).
+  PointMatrix Points; ///< corners first
+  int NumCorners = 0;
+  /// Points of the cells, in the order of the coefficients of a tetrahedron (CellCoefficient).
   std::vector<std::vector<int>> Cells;
   std::vector<int> Regions; ///< one a cell: pieces between the triangles of the surface, from 0
   int NumRegions = 0;
@@ -88,7 +87,7 @@ int NumTetrahedronPoints(int order);
 /// target: those of faces on the face that the triangle lies on, those of edges between faces on
 /// their curve, corners of the target stay corners. All cells are certified. Where one is not
 /// valid, its points are moved back towards the straight tetrahedron, by a part of the way that
-/// doubles each time, until it and its neighbours are.
+/// doubles each time, until it and its neighbours are (CurveElements).
 /// @param target  null: the surface itself, nothing is curved.
 /// @return the errors of CheckSolid, the maker and the target; InvalidParameter; LibraryError for
 /// tetrahedra that do not fill the surface; NotConverged for straight cells that are not valid;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tetrahedra of a mesher that is a table: a cube of six, whose measures are known.
-#include "CurvedTetrahedra.h"
 #include "SurfaceParts.h"
 #include "TetrahedronShapes.h"
 #include <knotwork/CADFitting/ImplicitTarget.h>
@@ -170,39 +169,6 @@ TEST(SolidMesh, CubeOfSix)
     EXPECT_NEAR(mesh->Numbers.MaxDihedral, 90.0, 1e-10);
     // det J of every cell is 1 whatever the order
     EXPECT_NEAR(mesh->Certificate.MinLower, 1.0, 1e-10);
-  }
-}
-
-/// Cells of order p reproduce polynomials of degree p: a quadratic or cubic map of a tetrahedron.
-TEST(SolidMesh, BernsteinFormOfAPolynomialMap)
-{
-  PointMatrix corners(4, 3);
-  corners << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
-  for (int order = 2; order <= 3; ++order)
-  {
-    const auto map = [order](const Eigen::RowVector3d& x) -> Eigen::RowVector3d
-    {
-      return { x[0] + 0.1 * std::pow(x[1], order), x[1] + 0.2 * std::pow(x[0] + x[2], order),
-        x[2] + 0.1 * x[0] * std::pow(x[1], order - 1) };
-    };
-    const NodeLattice lattice = MakeLattice({ { 0, 1, 2, 3 } }, 4, order);
-    CurvedNodes straight(lattice, corners);
-    PointMatrix points = straight.Positions();
-    for (Eigen::Index i = 0; i < points.rows(); ++i)
-    {
-      points.row(i) = map(points.row(i));
-    }
-    const BernsteinCells cells = MakeBernstein(lattice, points, { 0 });
-    for (const auto& at : { std::array<double, 3>{ 0.2, 0.3, 0.1 }, { 0.5, 0.1, 0.3 } })
-    {
-      double found[3];
-      EvaluateCell(cells, 0, at, found);
-      const Eigen::RowVector3d expected = map({ at[0], at[1], at[2] });
-      for (int k = 0; k < 3; ++k)
-      {
-        EXPECT_NEAR(found[k], expected[k], 1e-12);
-      }
-    }
   }
 }
 

@@ -58,21 +58,14 @@ void ForEdges(const CellMesh<Dim>& mesh, int cell, int direction, Visit&& visit)
 class EdgeGraph
 {
 public:
-  template <int Dim>
-  explicit EdgeGraph(const CellMesh<Dim>& mesh) : First(At(mesh.NumPoints) + 1, 0)
+  EdgeGraph(Eigen::Index numPoints, const std::vector<Edge>& oneWay)
+    : First(static_cast<std::size_t>(numPoints) + 1, 0)
   {
     std::vector<Edge> edges; // both ways
-    for (int c = 0; c < mesh.NumCells(); ++c)
+    for (const Edge& edge : oneWay)
     {
-      for (int d = 0; d < Dim; ++d)
-      {
-        ForEdges(mesh, c, d,
-          [&](int a, int b)
-          {
-            edges.push_back({ a, b });
-            edges.push_back({ b, a });
-          });
-      }
+      edges.push_back(edge);
+      edges.push_back({ edge[1], edge[0] });
     }
     std::sort(edges.begin(), edges.end());
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
@@ -147,15 +140,11 @@ int CellOfEdge(const CellMesh<Dim>& mesh, int a, int b)
 }
 }
 
-template <int Dim>
-Status CheckConforming(const CellMesh<Dim>& mesh, const PointMatrixView& points)
+HangingPoint FindHangingPoint(
+  const std::vector<std::array<int, 2>>& edges, const PointMatrixView& points)
 {
-  if (const Status status = CheckPoints(mesh, points); !status)
-  {
-    return status;
-  }
-  const EdgeGraph graph(mesh);
-  for (int m = 0; m < mesh.NumPoints; ++m)
+  const EdgeGraph graph(points.rows(), edges);
+  for (int m = 0; m < static_cast<int>(points.rows()); ++m)
   {
     for (const int* end = graph.Begin(m); end != graph.End(m); ++end)
     {
@@ -173,17 +162,40 @@ Status CheckConforming(const CellMesh<Dim>& mesh, const PointMatrixView& points)
         {
           if (graph.Has(a, b))
           {
-            return { ErrorCode::InvalidTopology,
-              "point " + std::to_string(m) + " of cell " +
-                std::to_string(CellOfEdge(mesh, m, *end)) + " lies on an edge of cell " +
-                std::to_string(CellOfEdge(mesh, a, b)) +
-                ": the mesh is not conforming; refine that cell, too" };
+            return { m, { m, *end }, { a, b } };
           }
         }
       }
     }
   }
   return {};
+}
+
+template <int Dim>
+Status CheckConforming(const CellMesh<Dim>& mesh, const PointMatrixView& points)
+{
+  if (const Status status = CheckPoints(mesh, points); !status)
+  {
+    return status;
+  }
+  std::vector<Edge> edges;
+  for (int c = 0; c < mesh.NumCells(); ++c)
+  {
+    for (int d = 0; d < Dim; ++d)
+    {
+      ForEdges(mesh, c, d, [&](int a, int b) { edges.push_back({ a, b }); });
+    }
+  }
+  const HangingPoint found = FindHangingPoint(edges, points);
+  if (found.Point < 0)
+  {
+    return {};
+  }
+  return { ErrorCode::InvalidTopology,
+    "point " + std::to_string(found.Point) + " of cell " +
+      std::to_string(CellOfEdge(mesh, found.Own[0], found.Own[1])) + " lies on an edge of cell " +
+      std::to_string(CellOfEdge(mesh, found.Edge[0], found.Edge[1])) +
+      ": the mesh is not conforming; refine that cell, too" };
 }
 
 template <int Dim>

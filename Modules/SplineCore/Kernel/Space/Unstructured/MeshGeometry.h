@@ -4,6 +4,20 @@
 
 namespace knotwork
 {
+/// A point on an edge that it is no end of.
+struct HangingPoint
+{
+  int Point = -1;            ///< -1: there is none
+  std::array<int, 2> Own{};  ///< an edge of the point along the other one
+  std::array<int, 2> Edge{}; ///< that it lies on
+};
+
+/// The first point between others, in a straight row with edges between them, two of which are
+/// joined by one edge past it.
+/// @param edges  ends of all edges, in any order and number. @param points  n x 2 or 3, finite.
+HangingPoint FindHangingPoint(
+  const std::vector<std::array<int, 2>>& edges, const PointMatrixView& points);
+
 /// Whether no point lies on an edge of a cell that it does not belong to, between other points that
 /// are joined by edges along it: what local refinement without transition leaves.
 /// @param points  NumPoints x 2 or 3.
