@@ -53,6 +53,7 @@ def main():
     number = {name: numbers.GetValueByName(0, name).ToDouble() for name in ("Hexahedra", "ValidCells", "LeastScaledJacobian")}
     target = knotwork.vtkCADReader()
     target.SetFileName(PART)
+    target.SetChordalTolerance(1e-5)
     faces = scene.updated(target).GetOutputDataObject(2)
     made = cad_fit.fit(mesh, faces, Degree=2)
     text = {name: drawing.text_of(made, name) for name in ("Verdict", "Functions", "MaxDistance")}
