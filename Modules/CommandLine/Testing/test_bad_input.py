@@ -70,11 +70,13 @@ def test_every_input_refuses_what_it_does_not_take():
              "part": ["square.step", "square.iges", "mesh.off", "cloud.xyz", "square.vtu"]}
     anything = ("convert", "info")  # of any kind
     faces = ("quads",)              # CAD parts without solids too
+    elements = ("mesh.off", "square.vtu")  # what --elements-only takes besides
 
     def cases():
         for arguments, kind in runs():
             for name in wrong[kind] if arguments[0] not in anything or "--curves" in arguments else []:
-                if arguments[0] not in faces or not name.endswith((".step", ".iges")):
+                taken = name in elements if "--elements-only" in arguments else arguments[0] in faces and name.endswith((".step", ".iges"))
+                if not taken:
                     yield on(arguments, path(name)), [name]
             if kind == "surface" and arguments[0] in ("combine", "contour", "crop", "distance", "extrema", "extract", "stitch"):
                 yield on(arguments, path("cube.vtu")), ["cube.vtu"]
