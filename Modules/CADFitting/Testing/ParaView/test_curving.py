@@ -3,7 +3,7 @@
 import knotwork_testing
 
 knotwork_testing.load_plugin()
-from paraview.simple import Box, CleantoGrid, ElementCurving, SplineSource, Triangulate  # noqa: E402
+from paraview.simple import Box, CleantoGrid, ElementCurving, KnotworkSplineSource, Triangulate  # noqa: E402
 
 
 def numbers(curving):
@@ -20,7 +20,7 @@ def test_a_box_stays_a_box():
 
 
 def test_a_box_becomes_a_sphere():
-    sphere = SplineSource(Shape="Sphere Surface", OuterRadius=0.75**0.5)
+    sphere = KnotworkSplineSource(Shape="Sphere Surface", OuterRadius=0.75**0.5)
     curving = ElementCurving(Input=CleantoGrid(Input=Box()), Target=sphere, Order=4, Basis="Bezier")
     curving.UpdatePipeline()
     assert numbers(curving)["MaxDistance"].ToDouble() < 0.05
