@@ -156,8 +156,8 @@ def test_quadrilaterals_of_quads():
         part(name, make)
         for order in (2, 3, 4):
             errors, sizes = [], []
-            for length in (0.6, 0.3):
-                run("quads", name, "--edge-length", length, "--output", "quads.vtp", "--force", "--quiet")
+            for length, curvature in ((0.6, 30), (0.3, 15)):
+                run("quads", name, "--edge-length", length, "--curvature", curvature, "--output", "quads.vtp", "--force", "--quiet")
                 found = curved("quads.vtp", name, order)
                 errors.append(abs(found["area"] / area - 1))
                 sizes.append(found["elements"]**-0.5)
