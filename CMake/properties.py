@@ -5,7 +5,7 @@
 usage: properties.py print-self OUT.cxx HEADER...     PrintSelf of the classes
        properties.py options OUT HEADER...            OUT.h, OUT.cxx: options of the command line for the classes
        properties.py proxies OUT.xml IN.xml HEADER... ParaView's proxies: IN.xml with its short forms written out
-       properties.py python OUT.py HEADER...          what Python checks: types, ranges, names of choices
+       properties.py python OUT.py IN.xml... HEADER... what Python knows of the classes: types, ranges, names of choices, sentences; ports and lists
        properties.py defaults ROOT                    compares defaults of filters with those of the kernel fields they go to
        properties.py pages [--check] ROOT             what stands between marks on the pages of the tree, <!-- properties of CLASS --> or
                                                       <!-- jobs --> and <!-- end -->: rewritten or compared; and every class has its row in README.md
@@ -41,6 +41,8 @@ import re
 import sys
 import xml.etree.ElementTree as ElementTree
 
+STATUS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "Modules", "SplineCore", "Kernel", "Base", "Status.h")
+SPLINE_TYPES = "vtkUnstructuredGrid vtkPartitionedDataSetCollection"
 CLASS = re.compile(r"^class VTK\w+_EXPORT (\w+) : public (\w+)", re.M)
 SETTER = re.compile(r"vtkSet(Clamp|Vector\d|String|FilePath|)Macro\(([^;]*)\);")
 GETTER = re.compile(r"vtkGet(?:Vector\d|String|FilePath|Object|)Macro\((\w+)[^;]*\);")
@@ -401,7 +403,7 @@ def framed(properties):
 
 def input_property(short):
     given = {"command": "SetInputConnection", **short.attrib}
-    accepted = given.pop("types", "vtkUnstructuredGrid vtkPartitionedDataSetCollection").split()
+    accepted = given.pop("types", SPLINE_TYPES).split()
     composite = given.pop("composite_data_supported", None)
     made = element("InputProperty", **given)
     groups = element("ProxyGroupDomain", name="groups")
@@ -469,8 +471,8 @@ def decorators(header, where, conditions):
     return [both]
 
 
-def python(out, headers):
-    lines = ["# Generated from the headers of the filters by CMake/properties.py",
+def python(out, sources, headers):
+    lines = ["# Generated from the headers of the filters and ParaView's proxies by CMake/properties.py",
              "# class: property: type, how many, lowest and highest value, names of the values", "PROPERTIES = {"]
     for header in headers:
         lines.append(f'    "{header.name}": {{')
@@ -479,7 +481,58 @@ def python(out, headers):
             names = [(choice.option, choice.enumerator) for choice in each.choices]
             lines.append(f'        "{each.name}": ("{each.type}", {each.count}, {low}, {high}, {names}),')
         lines.append("    },")
-    write(out, lines + ["}"])
+    lines += ["}", "# class: property: default, what it is", "MEANINGS = {"]
+    for header in headers:
+        lines.append(f'    "{header.name}": {{')
+        for each in header.properties:
+            text = header.sentence(each, lambda choice: repr(choice.option), lambda name: "`" + snake_case(name) + "`")
+            lines.append(f'        "{each.name}": ({python_default(each)!r}, {text!r}),')
+        lines.append("    },")
+    lines += ["}", "# class: inputs (name, port, many, types), outputs, lists (name, adds, clears, how many, what it is), objects (name, sets), arrays (name, index, of points or cells, what it is)",
+              "FILTERS = {"]
+    for source in sources:
+        for proxy in ElementTree.parse(source).getroot().iter("SourceProxy"):
+            lines.append(f'    "{proxy.get("class")}": {python_ports(proxy)!r},')
+    with open(STATUS, encoding="utf-8") as stream:
+        codes = re.findall(r"^  (\w+)(?: = 0)?,? +///< (.*)", stream.read(), re.M)
+    write(out, lines + ["}", "# names of the kernel's errors, by their numbers from 1 on", f"CODES = {[name for name, _ in codes]!r}"])
+
+
+def snake_case(name):
+    """LRStrategy -> lr_strategy, as Python's keyword is called."""
+    return words_of(name).lower().replace(" ", "_")
+
+
+def python_default(each):
+    """A property's default as Python writes it; choices by name."""
+    if each.choices:
+        return each.choices[place_of(each.choices, each.default[0])].option
+    if each.type == "bool":
+        return each.default[0] == "true"
+    if each.type == "string":
+        return each.default[0]
+    values = [{"double": float}.get(each.type, int)(word) for word in each.default]
+    return values[0] if each.count == 1 else tuple(values)
+
+
+def python_ports(proxy):
+    """Of a proxy what the headers do not say: inputs, outputs, lists, objects, arrays to process."""
+    inputs = []
+    for child in proxy.iter("Input"):
+        command = child.get("command", "SetInputConnection")
+        named = re.fullmatch(r"Set(\w+)Connection", command)
+        inputs.append((snake_case(child.get("name")), int(child.get("port_index", 0)) if command == "SetInputConnection" or not named
+                       else command, child.get("multiple_input") == "1", child.get("types", SPLINE_TYPES).split()))
+    outputs = [snake_case(name) for child in proxy.iter("Outputs") for name in child.get("names").split()]
+    outputs += [child.get("name").lower().replace(" ", "_") for child in proxy.iter("OutputPort")]
+    lists = [(snake_case(child.get("name")), child.get("command"), child.get("clean_command"),
+              int(child.get("number_of_elements_per_command", 1)), " ".join("".join(child.itertext()).split()))
+             for child in proxy if child.get("repeat_command") == "1"]
+    objects = [(snake_case(child.get("name")), child.get("command")) for child in proxy.iter("ProxyProperty")]
+    kinds = {child.get("name"): child.get("attribute_type") for child in proxy.iter("InputArrayDomain")}
+    arrays = [(snake_case(child.get("name")), int(child.get("index")), kinds[child.get("arrays")], " ".join((child.text or "").split()))
+              for child in proxy.iter("Array") if child.get("index")]
+    return {"inputs": inputs, "outputs": outputs, "lists": lists, "objects": objects, "arrays": arrays}
 
 
 MADE = re.compile(r"(<!-- (properties of (\w+)|jobs) -->\n)(.*?)(<!-- end -->)", re.S)
@@ -623,7 +676,8 @@ def main(command, *arguments):
         elif command == "proxies":
             proxies(arguments[0], arguments[1], read(arguments[2:]))
         elif command == "python":
-            python(arguments[0], read(arguments[1:]))
+            python(arguments[0], [each for each in arguments[1:] if each.endswith(".xml")],
+                   read(each for each in arguments[1:] if not each.endswith(".xml")))
         elif command == "defaults":
             defaults(arguments[0])
         elif command == "pages":

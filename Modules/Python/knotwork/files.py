@@ -3,16 +3,15 @@
 import os
 import warnings
 
-from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
-
+from . import data as _data
 from . import vtkDataFile
+from .errors import make_error
 
 
 def _outcome(exchange, good):
     """Raises what went wrong, warns of the rest."""
     if not good:
-        error = OSError if exchange.GetErrorIsOfFile() else ValueError
-        raise error(exchange.GetErrorText())
+        raise make_error(exchange.GetErrorCode(), exchange.GetErrorText())
     for number in range(exchange.GetNumberOfWarnings()):
         warnings.warn(exchange.GetWarning(number), stacklevel=3)
     for number in range(exchange.GetNumberOfPartsLeftOut()):
@@ -26,12 +25,15 @@ def read(file, with_curves=False):
 
     with_curves: a pair of the data and of the curves that trim (STEP, IGES) or bound (g2) its surfaces, None without any.
 
-    Raises OSError where the file cannot be read, ValueError where it is damaged, empty, or of an unknown format; warns of parts that
-    were left out."""
+    The data have the functions of this package as methods. Raises knotwork.FileError (an OSError) where the file cannot be read,
+    knotwork.Error (a ValueError) where it is damaged, empty, or of an unknown format; warns of parts that were left out."""
     exchange = vtkDataFile()
-    data = exchange.Read(os.fspath(file))
-    _outcome(exchange, data is not None)
-    return (data, exchange.GetCurves()) if with_curves else data
+    found = exchange.Read(os.fspath(file))
+    _outcome(exchange, found is not None)
+    result, curves = _data.wrap(found), _data.wrap(exchange.GetCurves())
+    if isinstance(result, _data.Data):
+        result.curves = curves
+    return (result, curves) if with_curves else result
 
 
 def write(data, file, curves=None, encoding="binary"):
@@ -41,10 +43,9 @@ def write(data, file, curves=None, encoding="binary"):
     curves: what trims the faces of STEP and IGES, or bounds the surfaces of g2; as read(..., with_curves=True) gives them.
     encoding: of numbers in VTK's formats, "ascii", "binary" or "appended".
 
-    Raises OSError where the file cannot be written, ValueError where the format does not hold such data."""
-    if isinstance(data, vtkAlgorithm):
-        data.Update()
-        data = data.GetOutputDataObject(0)
+    Raises knotwork.FileError (an OSError) where the file cannot be written, knotwork.Error (a ValueError) where the format does not
+    hold such data."""
+    data = _data.as_data(data)
     exchange = vtkDataFile()
     exchange.SetCurves(curves)
     exchange.SetEncoding(encoding)
