@@ -3,6 +3,8 @@
 import os
 import warnings
 
+from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
+
 from . import data as _data
 from . import vtkDataFile
 from .errors import make_error
@@ -45,7 +47,8 @@ def write(data, file, curves=None, encoding="binary"):
 
     Raises knotwork.FileError (an OSError) where the file cannot be written, knotwork.Error (a ValueError) where the format does not
     hold such data."""
-    data = _data.as_data(data)
+    if isinstance(data, vtkAlgorithm):
+        data = _data.as_data(data)
     exchange = vtkDataFile()
     exchange.SetCurves(curves)
     exchange.SetEncoding(encoding)
