@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the program says of itself, taken apart: man pages and completions are made of it."""
+import functools
 import re
 import subprocess
 
@@ -45,6 +46,7 @@ class Help:
         return found
 
 
+@functools.lru_cache(maxsize=None)
 def ask(program, *words):
     done = subprocess.run([program, *words, "--help"], stdout=subprocess.PIPE, text=True, check=True)
     return Help(done.stdout)

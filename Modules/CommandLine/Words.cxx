@@ -91,7 +91,15 @@ std::string ExplainUnknown(const CLI::App& app, bool isJob)
 
 PreparedWords PrepareWords(int argc, const char* const* argv, const CLI::App& app)
 {
-  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  if (!words.empty() && words.front() == "help")
+  {
+    words.erase(words.begin());
+    if (words.empty() || FindJob(words, app)) // else the word is told to be none
+    {
+      words.emplace_back("--help");
+    }
+  }
   const CLI::App* job = FindJob(words, app);
   PreparedWords prepared;
   for (std::size_t i = 0; i < words.size(); ++i)

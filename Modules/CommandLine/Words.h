@@ -18,7 +18,7 @@ struct PreparedWords
 /// Truth options are flags of the parser, which take a value only as `--measures=0`: `--measures 0`
 /// becomes that. A truth option followed by anything else, such as a file, stays as it is: on.
 /// Truth words are 0, 1, true, false, on, off, yes and no, in any case. Options that began with
-/// `--max-` begin with `--maximum-`.
+/// `--max-` begin with `--maximum-`. `help JOB` is `JOB --help`, `help` alone `--help`.
 ///
 /// @param app  has one subcommand a job.
 PreparedWords PrepareWords(int argc, const char* const* argv, const CLI::App& app);

@@ -118,7 +118,7 @@ int main(int argc, char* argv[])
   CLI::App app("Spline geometry that is fitted, refined and proved valid.", "knotwork");
   app.require_subcommand(1);
   app.set_version_flag("--version", KNOTWORK_VERSION);
-  app.footer("Files that are read: " +
+  app.footer("knotwork help JOB lists what a job takes.\n\nFiles that are read: " +
     knotwork::JoinEndings(knotwork::EndingsThatRead(knotwork::AnyContent)) +
     "\nFiles that are written: " +
     knotwork::JoinEndings(knotwork::EndingsThatWrite(knotwork::AnyContent)) + "\n\n" + ExitStatus);

@@ -48,6 +48,15 @@ def test_every_example_runs():
         assert done.returncode == 0 and done.stderr == "", (example, done)
 
 
+def test_help_is_a_word_too():
+    run = knotwork_testing.run_program
+    assert run("help").stdout == run("--help").stdout and "knotwork help JOB" in run("help").stdout
+    for name in ("fit", "contour"):
+        done = run("help", name)
+        assert done.returncode == 0 and done.stdout == run(name, "--help").stdout and f"Usage: knotwork {name}" in done.stdout
+    assert "'fit'" in wrong("help", "fti")
+
+
 def test_unknown_words_are_named_first():
     for arguments, word, nearest in (
             (["fti", "x.xyz"], "fti", "'fit'"), (["tesselate", "x.vtu"], "tesselate", "'tessellate'"),
