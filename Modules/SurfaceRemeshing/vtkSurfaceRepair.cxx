@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSurfaceRepair.h"
 
+#include "OriginData.h"
 #include <knotwork/MeshParameterization/MeshData.h>
 #include <knotwork/SplineGrid/TableRow.h>
 #include <knotwork/SurfaceRemeshing/SurfaceRepair.h>
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
@@ -25,29 +25,6 @@ vtkStandardNewMacro(vtkSurfaceRepair);
 
 namespace
 {
-/// Values of the input by ids; zero where these are negative.
-void CopyData(vtkDataSetAttributes* from, const std::vector<int>& ids, const char* name,
-  vtkDataSetAttributes* to)
-{
-  to->CopyAllOn();
-  to->CopyGlobalIdsOff();
-  to->CopyAllocate(from, static_cast<vtkIdType>(ids.size()));
-  const auto origins = NamedArray<vtkIdTypeArray>(name);
-  for (std::size_t i = 0; i < ids.size(); ++i)
-  {
-    if (ids[i] >= 0)
-    {
-      to->CopyData(from, ids[i], static_cast<vtkIdType>(i));
-    }
-    else
-    {
-      to->NullData(static_cast<vtkIdType>(i));
-    }
-    origins->InsertNextValue(ids[i]);
-  }
-  to->AddArray(origins);
-}
-
 void EncodeSurface(const SurfaceRepair& repaired, const std::vector<int>& cellsOfTriangles,
   vtkPointSet* input, vtkPolyData* output)
 {
@@ -68,8 +45,8 @@ void EncodeSurface(const SurfaceRepair& repaired, const std::vector<int>& cellsO
   }
   output->SetPoints(points);
   output->SetPolys(cells);
-  CopyData(input->GetPointData(), repaired.PointIds, "PointIds", output->GetPointData());
-  CopyData(input->GetCellData(), ids, "CellIds", output->GetCellData());
+  CopyOriginData(input->GetPointData(), repaired.PointIds, "PointIds", output->GetPointData());
+  CopyOriginData(input->GetCellData(), ids, "CellIds", output->GetCellData());
 }
 
 void EncodeActions(const SurfaceRepair& repaired, vtkPolyData* output)
