@@ -84,6 +84,7 @@ void EncodeNumbers(const SurfaceRepair& repaired, vtkTable* table)
 {
   AddColumn(table, "Changed", repaired.Changed ? 1 : 0);
   AddColumn(table, "Closed", repaired.Closed ? 1 : 0);
+  AddColumn(table, "Wrapped", repaired.Wrapped ? 1 : 0);
   const char* names[NumRepairKinds] = { "DegenerateFaces", "DuplicateFaces", "LooseFaces",
     "TurnedFaces", "Junctions", "Holes", "Intersections", "DividedEdges", "DividedPoints",
     "CutTips", "Overlaps", "InnerWalls", "SmallParts" };
@@ -131,12 +132,20 @@ Status vtkSurfaceRepair::Compute(vtkInformationVector** inputs, vtkInformationVe
   params.AllowOpen = this->AllowOpen;
   params.OverlapDepth = this->OverlapDepth;
   params.SmallestPart = this->SmallestPart;
+  params.AlphaWrap = this->AlphaWrap;
+  params.WrapAlpha = this->WrapAlpha;
+  params.WrapOffset = this->WrapOffset;
   params.Threads = this->KernelThreads();
   params.Progress = this->Progress();
   const auto repaired = RepairSurface(decoded->Mesh, params);
   if (!repaired)
   {
     return repaired.Status;
+  }
+  if (repaired->Wrapped)
+  {
+    this->ReportWarnings({ "the result is an alpha wrap around the triangles, no repair of them: " +
+      repaired->WrapReason });
   }
   EncodeSurface(repaired.Value, decoded->Cells, input, vtkPolyData::GetData(outputs, 0));
   EncodeActions(repaired.Value, vtkPolyData::GetData(outputs, 1));

@@ -23,6 +23,8 @@ constexpr double MostTriangles = 5e6;
 constexpr double SmallestShare = 0.005; ///< of the diagonal: lengths by curvature
 constexpr double LargestShare = 0.1;
 constexpr double DegreesOfRadian = 180.0 / M_PI;
+constexpr double FinestTolerance = 1e-4; ///< of the diagonal: of distances
+constexpr double CoarsestTolerance = 2e-3;
 constexpr double LoopShare = 0.9; ///< of the progress
 
 /// Calls use(a, b, length) with every edge.
@@ -287,17 +289,17 @@ Status CheckDistances(
   }
   RemeshNumbers numbers;
   AddNumbers(points, made.Triangles, numbers);
-  const double tolerance =
-    std::clamp(0.1 * numbers.MeanEdge, 1e-4 * result.Diagonal, 2e-3 * result.Diagonal);
+  const double tolerance = std::clamp(0.1 * numbers.MeanEdge, FinestTolerance * result.Diagonal,
+    std::clamp(0.1 * limit, FinestTolerance, CoarsestTolerance) * result.Diagonal);
   const TriangleIndex<3> given(surface.Points, surface.Triangles);
   const LargestDistance from = FarthestFrom(given, points, made.Triangles, tolerance);
   const LargestDistance to = FarthestFrom(
     TriangleIndex<3>(points, made.Triangles), surface.Points, surface.Triangles, tolerance);
-  result.DistanceFromInput = std::max(result.DistanceFromInput, from.Value);
-  result.DistanceToInput = std::max(result.DistanceToInput, to.Value);
   const LargestDistance& larger = from.Value > to.Value ? from : to;
   if (larger.Value <= limit * result.Diagonal)
   {
+    result.DistanceFromInput = std::max(result.DistanceFromInput, from.Value);
+    result.DistanceToInput = std::max(result.DistanceToInput, to.Value);
     return {};
   }
   return { ErrorCode::NotConverged,
@@ -350,13 +352,22 @@ Result<SurfaceRemesh> Remesh(const TriangleMesh& mesh, const SurfaceRemeshParams
     const auto goesOn = [&](double ofPart)
     { return !params.Progress || params.Progress(done + LoopShare * share * ofPart); };
     RemeshedPart made;
-    // what is measured on the way is less than the bound that counts
-    if (!RemeshPart(part.Surface, part.Features, part.Sizes, 0.5 * params.Limit * result.Diagonal,
-          params.Iterations, goesOn, made))
+    Status status;
+    // what is measured on the way, at middles, is less than what counts in the end
+    for (const double ofLimit : { 0.5, 0.25, 0.125 })
     {
-      return { ErrorCode::Aborted, "" };
+      if (!RemeshPart(part.Surface, part.Features, part.Sizes,
+            ofLimit * params.Limit * result.Diagonal, params.Iterations, goesOn, made))
+      {
+        return { ErrorCode::Aborted, "" };
+      }
+      status = CheckDistances(part.Surface, made, params.Limit, result);
+      if (status)
+      {
+        break;
+      }
     }
-    if (Status status = CheckDistances(part.Surface, made, params.Limit, result); !status)
+    if (!status)
     {
       return status;
     }

@@ -73,8 +73,8 @@ struct SurfaceRemesh
 /// sharp edges and rims on these, corners stay. No step turns a triangle over against the input or
 /// changes how the surface hangs together. Lengths that are asked for grow by half of the distance
 /// at most.
-/// Distances are bounds, above the largest distance by at most a tenth of the mean edge, and
-/// between 1e-4 and 2e-3 of the diagonal.
+/// Distances are bounds, above the largest distance by at most a tenth of the mean edge, of Limit,
+/// or 2e-3 of the diagonal, but not less than 1e-4 of it.
 /// @return EmptyInput; NonFiniteInput; InvalidTopology: what is no oriented manifold;
 /// InvalidParameter; SizeMismatch: Sizes; TooLarge: more than 5e6 triangles; NotConverged: the
 /// limit (place); Aborted.

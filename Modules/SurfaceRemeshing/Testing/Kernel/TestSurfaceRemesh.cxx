@@ -125,7 +125,7 @@ TEST(SurfaceRemesh, CubeStaysACube_ExactOracle)
 
 TEST(SurfaceRemesh, BallConvergesWithTheSquareOfTheLength_ExactOracle)
 {
-  // on the mesh of a ball with 200 rings, which is nearer to it than what is made
+  // on the mesh of a ball with 100 rings, which is nearer to it than what is made
   double last = 0.0;
   for (const double size : { 0.4, 0.2, 0.1 })
   {
@@ -174,7 +174,7 @@ TEST(SurfaceRemesh, DistancesAreNotBelowSamples_CrossOracle)
 
 TEST(SurfaceRemesh, CirclesStaySharp_ExactOracle)
 {
-  const int sides = 200;
+  const int sides = 100;
   const SurfaceRemesh result = Remeshed(Cylinder(sides), 0.1);
   ExpectKept(result);
   EXPECT_EQ(WhyNoSolid(result.Mesh), "");
@@ -186,7 +186,7 @@ TEST(SurfaceRemesh, CirclesStaySharp_ExactOracle)
     EXPECT_TRUE(z == 0.0 || z == 2.0);
     EXPECT_EQ(z, result.Mesh.Points(line[1], 2));
     // chords of the circle's chords
-    EXPECT_NEAR(result.Mesh.Points.row(line[0]).head<2>().norm(), 1.0, 1.3e-4);
+    EXPECT_NEAR(result.Mesh.Points.row(line[0]).head<2>().norm(), 1.0, 5e-4);
     lengths += LengthOf(result.Mesh, line);
   }
   EXPECT_NEAR(lengths, 4.0 * M_PI, 4.0 * M_PI * 0.1 * 0.1 / 12.0);
@@ -289,17 +289,17 @@ TEST(SurfaceRemesh, CurvatureGivesTheTolerance_PropertyOracle)
   for (const double tolerance : { 2e-3, 5e-4 })
   {
     params.Tolerance = tolerance;
-    const SurfaceRemesh ball = Remeshed(Ball(100), params);
+    const SurfaceRemesh ball = Remeshed(Ball(60), params);
     ExpectKept(ball);
     // a chord's height grows with the square of its length, and edges are up to 4/3 longer
     const double bound = tolerance * ball.Diagonal;
-    EXPECT_LT(SampledDistance(ball.Mesh, Ball(100)), 16.0 / 9.0 * bound);
-    EXPECT_GT(SampledDistance(ball.Mesh, Ball(100)), 0.5 * bound);
+    EXPECT_LT(SampledDistance(ball.Mesh, Ball(60)), 16.0 / 9.0 * bound);
+    EXPECT_GT(SampledDistance(ball.Mesh, Ball(60)), 0.5 * bound);
     EXPECT_NEAR(ball.After.MeanEdge, ChordOf(1.0, bound), 0.15 * ChordOf(1.0, bound));
   }
   // flat where it can be: long edges within the ends of a cylinder
   params.Tolerance = 1e-3;
-  const SurfaceRemesh cylinder = Remeshed(Cylinder(200), params);
+  const SurfaceRemesh cylinder = Remeshed(Cylinder(60), params);
   ExpectKept(cylinder);
   const auto [least, most] = std::minmax_element(cylinder.Sizes.begin(), cylinder.Sizes.end());
   EXPECT_GT(*most, 1.5 * *least);
@@ -375,7 +375,7 @@ TEST(SurfaceRemesh, EveryFailureIsReachable)
   params.Sizes[5] = 0.0;
   expect(Box(), params, ErrorCode::InvalidParameter, "length of edges at point 5 is 0");
   params = {};
-  params.Limit = 1e-4; // the distance is known to 1e-4 of the diagonal at best
+  params.Limit = 1e-6; // the distance is known to 1e-4 of the diagonal at best
   params.Size = 0.5;
   expect(Ball(6), params, ErrorCode::NotConverged, "raise Limit");
   params = {};

@@ -309,3 +309,32 @@ TEST(RepairSurface, WhatHasOneSideIsNamed)
   EXPECT_EQ(refused.Status.Code, ErrorCode::InvalidTopology);
   EXPECT_NE(refused.Status.Detail.find("one side"), std::string::npos) << refused.Status.Detail;
 }
+
+TEST(SurfaceRepair, WrapsWhatCannotBeRepaired_PropertyOracle)
+{
+  TriangleMesh open = Box();
+  open.Triangles.resize(10); // without a side
+  SurfaceRepairParams params;
+  EXPECT_FALSE(RepairSurface(open, params));
+  params.AlphaWrap = true;
+  params.WrapAlpha = 0.1;
+  params.WrapOffset = 0.01;
+  const auto wrap = RepairSurface(open, params);
+  ASSERT_TRUE(wrap) << wrap.Status.Message();
+  EXPECT_TRUE(wrap->Wrapped);
+  EXPECT_NE(wrap->WrapReason.find("1 hole stays"), std::string::npos) << wrap->WrapReason;
+  EXPECT_EQ(WhyNoSolid(wrap->Mesh), "");
+  EXPECT_TRUE(wrap->Actions.empty());
+  EXPECT_EQ(wrap->After.Euler, 2);
+  // the ball does not reach into corners
+  EXPECT_LE(wrap->DistanceFromInput, 0.1 * wrap->Diagonal);
+  EXPECT_LE(wrap->DistanceToInput, 2.0 * 0.01 * wrap->Diagonal);
+  EXPECT_GE(wrap->DistanceFromInput, SampledDistance(wrap->Mesh, open));
+  // what can be repaired is
+  const auto repaired = RepairSurface(Box(), params);
+  ASSERT_TRUE(repaired);
+  EXPECT_FALSE(repaired->Wrapped);
+  EXPECT_FALSE(repaired->Changed);
+  params.WrapOffset = 0.0;
+  EXPECT_EQ(RepairSurface(Box(), params).Status.Code, ErrorCode::InvalidParameter);
+}
