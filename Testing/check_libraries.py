@@ -5,7 +5,8 @@
 usage: check_libraries.py README TREE... [--permissive]
 
 A row of the table: library | names of its files | licence | who links it | whether a permissive build does. Who links it are modules (their
-libraries, Python modules, and what the plugin has of them) and programs. Refused are: a library without a row, or linked by what the row does not
+libraries, also those of the plugin) and programs; Python modules, which link what the linker finds on its way to the libraries of their modules,
+may link what has a row. Refused are: a library without a row, or linked by what the row does not
 name; with --permissive a library that such a build does not link; else a row that nothing links. Lists of all binaries go to the output."""
 import argparse
 import fnmatch
@@ -17,6 +18,7 @@ import sys
 # of the system: under the GPL with the exception of the run-time library, or the LGPL; VTK's own are VTK
 SYSTEM = ("libc.so*", "libm.so*", "libstdc++.so*", "libgcc_s.so*", "ld-linux*", "libpthread.so*", "libdl.so*", "librt.so*")
 OWN = ("libvtkKnotwork*", "Knotwork.so")
+PYTHON = "a Python module"
 LEFT_OUT = ("Testing", "CMakeFiles", "Temporary", "_deps")  # folders of what no user gets
 
 
@@ -57,7 +59,9 @@ def linked(path):
 def user_of(path):
     """The module or program of a binary."""
     name = os.path.basename(path)
-    found = re.match(r"(?:lib)?vtkKnotwork(\w+?)(?:Python)?\.", name)
+    if name.startswith("vtkKnotwork"):
+        return PYTHON
+    found = re.match(r"libvtkKnotwork(\w+)\.", name)
     return found[1] if found else "plugin" if name.startswith("Knotwork.") else name
 
 
@@ -84,8 +88,12 @@ def main():
                 if row is None:
                     faults.append(f"{path} links {name}, which has no row")
                     continue
-                used.setdefault(row[0], set()).add(user)
-                if row[2] is not None and user not in row[2]:
+                if user == PYTHON:
+                    user_is_named = True
+                else:
+                    used.setdefault(row[0], set()).add(user)
+                    user_is_named = row[2] is None or user in row[2]
+                if not user_is_named:
                     faults.append(f"{path} links {name}; the row of {row[0]} does not name {user}")
                 if arguments.permissive and not row[3]:
                     faults.append(f"{path} links {name}, which a permissive build must not")
