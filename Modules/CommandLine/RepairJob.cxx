@@ -22,7 +22,7 @@ protected:
   Status AddNumbers(Session& session) override
   {
     vtkTable* numbers = this->Table(Numbers);
-    ReportTruths(numbers, 0, { "Changed", "Closed" }, session.Report);
+    ReportTruths(numbers, 0, { "Changed", "Closed", "Wrapped" }, session.Report);
     ReportRow(numbers, 0,
       { "DegenerateFaces", "DuplicateFaces", "LooseFaces", "TurnedFaces", "Junctions", "Holes",
         "Intersections", "DividedEdges", "DividedPoints", "CutTips", "Overlaps", "InnerWalls",

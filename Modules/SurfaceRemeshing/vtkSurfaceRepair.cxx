@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSurfaceRepair.h"
 
+#include "OriginData.h"
 #include <knotwork/MeshParameterization/MeshData.h>
 #include <knotwork/SplineGrid/TableRow.h>
 #include <knotwork/SurfaceRemeshing/SurfaceRepair.h>
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
@@ -25,29 +25,6 @@ vtkStandardNewMacro(vtkSurfaceRepair);
 
 namespace
 {
-/// Values of the input by ids; zero where these are negative.
-void CopyData(vtkDataSetAttributes* from, const std::vector<int>& ids, const char* name,
-  vtkDataSetAttributes* to)
-{
-  to->CopyAllOn();
-  to->CopyGlobalIdsOff();
-  to->CopyAllocate(from, static_cast<vtkIdType>(ids.size()));
-  const auto origins = NamedArray<vtkIdTypeArray>(name);
-  for (std::size_t i = 0; i < ids.size(); ++i)
-  {
-    if (ids[i] >= 0)
-    {
-      to->CopyData(from, ids[i], static_cast<vtkIdType>(i));
-    }
-    else
-    {
-      to->NullData(static_cast<vtkIdType>(i));
-    }
-    origins->InsertNextValue(ids[i]);
-  }
-  to->AddArray(origins);
-}
-
 void EncodeSurface(const SurfaceRepair& repaired, const std::vector<int>& cellsOfTriangles,
   vtkPointSet* input, vtkPolyData* output)
 {
@@ -68,8 +45,8 @@ void EncodeSurface(const SurfaceRepair& repaired, const std::vector<int>& cellsO
   }
   output->SetPoints(points);
   output->SetPolys(cells);
-  CopyData(input->GetPointData(), repaired.PointIds, "PointIds", output->GetPointData());
-  CopyData(input->GetCellData(), ids, "CellIds", output->GetCellData());
+  CopyOriginData(input->GetPointData(), repaired.PointIds, "PointIds", output->GetPointData());
+  CopyOriginData(input->GetCellData(), ids, "CellIds", output->GetCellData());
 }
 
 void EncodeActions(const SurfaceRepair& repaired, vtkPolyData* output)
@@ -107,6 +84,7 @@ void EncodeNumbers(const SurfaceRepair& repaired, vtkTable* table)
 {
   AddColumn(table, "Changed", repaired.Changed ? 1 : 0);
   AddColumn(table, "Closed", repaired.Closed ? 1 : 0);
+  AddColumn(table, "Wrapped", repaired.Wrapped ? 1 : 0);
   const char* names[NumRepairKinds] = { "DegenerateFaces", "DuplicateFaces", "LooseFaces",
     "TurnedFaces", "Junctions", "Holes", "Intersections", "DividedEdges", "DividedPoints",
     "CutTips", "Overlaps", "InnerWalls", "SmallParts" };
@@ -154,12 +132,20 @@ Status vtkSurfaceRepair::Compute(vtkInformationVector** inputs, vtkInformationVe
   params.AllowOpen = this->AllowOpen;
   params.OverlapDepth = this->OverlapDepth;
   params.SmallestPart = this->SmallestPart;
+  params.AlphaWrap = this->AlphaWrap;
+  params.WrapAlpha = this->WrapAlpha;
+  params.WrapOffset = this->WrapOffset;
   params.Threads = this->KernelThreads();
   params.Progress = this->Progress();
   const auto repaired = RepairSurface(decoded->Mesh, params);
   if (!repaired)
   {
     return repaired.Status;
+  }
+  if (repaired->Wrapped)
+  {
+    this->ReportWarnings({ "the result is an alpha wrap around the triangles, no repair of them: " +
+      repaired->WrapReason });
   }
   EncodeSurface(repaired.Value, decoded->Cells, input, vtkPolyData::GetData(outputs, 0));
   EncodeActions(repaired.Value, vtkPolyData::GetData(outputs, 1));

@@ -16,7 +16,7 @@
  * Output 1 (vtkPolyData): a vertex an action, with the cell arrays Kind (RepairKind of the kernel),
  * Action (its name) and Size.
  *
- * Output 2 (vtkTable): one row with Changed, Closed, the number of actions of every kind,
+ * Output 2 (vtkTable): one row with Changed, Closed, Wrapped, the number of actions of every kind,
  * MergedPoints, points, triangles, parts, Euler number, area and volume before and after,
  * DistanceFromInput, DistanceToInput, and Diagonal.
  *
@@ -64,6 +64,26 @@ public:
   vtkSetClampMacro(SmallestPart, double, 0.0, 1.0);
   vtkGetMacro(SmallestPart, double);
   ///@}
+  ///@{
+  /** What cannot be repaired gets a surface around it, an alpha wrap, with a warning. That is no
+   * repair: all points are new, holes and inner parts that a ball of WrapAlpha does not reach are
+   * lost, Limit does not count. Default off. */
+  vtkSetMacro(AlphaWrap, bool);
+  vtkGetMacro(AlphaWrap, bool);
+  vtkBooleanMacro(AlphaWrap, bool);
+  ///@}
+  ///@{
+  /** Radius of the ball that alpha wraps follow, share of the diagonal. Default 0.02, valid range
+   * [0.001, 1]. For AlphaWrap on. */
+  vtkSetClampMacro(WrapAlpha, double, 0.001, 1.0);
+  vtkGetMacro(WrapAlpha, double);
+  ///@}
+  ///@{
+  /** Distance of alpha wraps from the triangles, share of the diagonal. Default 0.001, valid range
+   * [1e-5, 1]. For AlphaWrap on. */
+  vtkSetClampMacro(WrapOffset, double, 1e-5, 1.0);
+  vtkGetMacro(WrapOffset, double);
+  ///@}
 
 protected:
   vtkSurfaceRepair();
@@ -80,5 +100,8 @@ private:
   bool AllowOpen = false;
   double OverlapDepth = 0.0005;
   double SmallestPart = 0.0;
+  bool AlphaWrap = false;
+  double WrapAlpha = 0.02;
+  double WrapOffset = 0.001;
 };
 #endif

@@ -189,6 +189,7 @@ def runs():
             (["intersections", FILE, "--table", "table.csv", "--output", polydata], "surface"),
             (["recognize", FILE, "--edges", "edges.vtp", "--regions", "table.csv", "--output", polydata], "mesh"),
             (["repair", FILE, "--allow-open", "--actions", "actions.vtp", "--output", polydata], "mesh"),
+            (["remesh", FILE, "--lines", "lines.vtp", "--output", polydata], "mesh"),
             (["quadremesh", FILE, "--tries", "table.csv", "--output", polydata], "box"),
             (["tetrahedralize", FILE, "--repair", "--boundary", "edges.vtp", "--output", grid], "mesh"),
             (["boundary", FILE, "--output", polydata], "surface"),

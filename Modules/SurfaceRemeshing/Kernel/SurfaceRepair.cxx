@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceRepair.h"
 
+#include "AlphaWrap.h"
 #include "FarthestDistance.h"
 #include "HoleFilling.h"
 #include "SheetSelection.h"
@@ -24,9 +25,10 @@ namespace
 constexpr double StepShare = 1e-4; ///< of the diagonal: how far touching sheets are moved apart
 constexpr double SnapShare =
   1e-7; ///< of the diagonal: shorter edges and heights of divided triangles go
-constexpr double ToleranceShare = 1e-4; ///< of the diagonal: of distances
-constexpr double LooseShare = 0.05;     ///< of the area: open pieces above are no loose ones
-constexpr int NamedPlaces = 5;          ///< in messages
+constexpr double ToleranceShare = 1e-4;     ///< of the diagonal: of distances
+constexpr double WrapToleranceShare = 2e-3; ///< the same, of wraps
+constexpr double LooseShare = 0.05;         ///< of the area: open pieces above are no loose ones
+constexpr int NamedPlaces = 5;              ///< in messages
 
 /// Triangles on their way.
 struct Soup
@@ -131,6 +133,15 @@ Status CheckInput(const TriangleMesh& mesh, const SurfaceRepairParams& params)
   const std::pair<const char*, double> shares[] = { { "Limit", params.Limit },
     { "LargestHole", params.LargestHole }, { "OverlapDepth", params.OverlapDepth },
     { "SmallestPart", params.SmallestPart } };
+  for (const double share : { params.WrapAlpha, params.WrapOffset })
+  {
+    if (params.AlphaWrap && !(share > 0.0 && share <= 1.0))
+    {
+      return { ErrorCode::InvalidParameter,
+        "WrapAlpha and WrapOffset are shares of the diagonal, above 0 and at most 1; " +
+          Digits(share) + " was given" };
+    }
+  }
   for (const auto& [name, share] : shares)
   {
     if (!(share >= 0.0 && share <= 1.0))
@@ -199,6 +210,37 @@ public:
       this->Done += 0.25;
     }
     result = std::move(this->Result);
+    return {};
+  }
+
+  /// A surface around the input instead.
+  Status Wrap(const std::string& reason, SurfaceRepair& result)
+  {
+    this->Start();
+    SurfaceRepair& made = this->Result;
+    const std::vector<char> degenerate =
+      FindDegenerate(this->Work.Points, this->Work.Triangles, this->Params.Threads);
+    this->Work.Filter([&](int t) { return !degenerate[static_cast<std::size_t>(t)]; });
+    if (this->Work.Triangles.empty())
+    {
+      return { ErrorCode::EmptyInput, "no triangle of the mesh has an area" };
+    }
+    made.Mesh = WrapTriangles({ this->Work.Points, this->Work.Triangles },
+      this->Params.WrapAlpha * made.Diagonal, this->Params.WrapOffset * made.Diagonal);
+    made.Wrapped = true;
+    made.WrapReason = reason;
+    made.Changed = true;
+    made.PointIds.assign(static_cast<std::size_t>(made.Mesh.Points.rows()), -1);
+    made.TriangleIds.assign(made.Mesh.Triangles.size(), -1);
+    made.After = this->NumbersOf(made.Mesh.Points, made.Mesh.Triangles);
+    const double tolerance = WrapToleranceShare * made.Diagonal;
+    made.DistanceFromInput = FarthestFrom(TriangleIndex<3>(this->Work.Points, this->Work.Triangles),
+      made.Mesh.Points, made.Mesh.Triangles, tolerance)
+                               .Value;
+    made.DistanceToInput = FarthestFrom(TriangleIndex<3>(made.Mesh.Points, made.Mesh.Triangles),
+      this->Work.Points, this->Work.Triangles, tolerance)
+                             .Value;
+    result = std::move(made);
     return {};
   }
 
@@ -1064,6 +1106,12 @@ try
   }
   SurfaceRepair result;
   Status status = Repair(mesh, params).Run(result);
+  if (params.AlphaWrap &&
+    (status.Code == ErrorCode::InvalidTopology || status.Code == ErrorCode::NotConverged))
+  {
+    const std::string reason = status.Detail;
+    status = Repair(mesh, params).Wrap(reason, result);
+  }
   if (!status)
   {
     return status;

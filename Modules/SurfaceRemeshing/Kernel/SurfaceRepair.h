@@ -2,6 +2,7 @@
 #pragma once
 #include <knotwork/MeshParameterization/TriangleMesh.h>
 
+#include <string>
 #include <vector>
 
 namespace knotwork
@@ -48,6 +49,11 @@ struct SurfaceRepairParams
   double OverlapDepth = 0.0005;
   /// Parts of less diameter go, share of the diagonal, [0, 1]; 0: none.
   double SmallestPart = 0.0;
+  /// What cannot be repaired gets a surface around it, which is no repair: all points are new,
+  /// holes and inner parts that a ball of WrapAlpha does not reach are lost, Limit does not count.
+  bool AlphaWrap = false;
+  double WrapAlpha = 0.02;   ///< radius of the ball, share of the diagonal, ]0, 1]
+  double WrapOffset = 0.001; ///< distance of the surface from the triangles, the same
   int Threads = 0;
   ProgressCallback Progress;
 };
@@ -71,6 +77,8 @@ struct SurfaceRepair
   int MergedPoints = 0; ///< that were equal to others
   bool Changed = false; ///< false: points and triangles are those of the input
   bool Closed = true;
+  bool Wrapped = false;   ///< an alpha wrap, no repair: everything is new, there are no actions
+  std::string WrapReason; ///< why it could not be repaired
   RepairNumbers Before;
   RepairNumbers After;
   double DistanceFromInput =

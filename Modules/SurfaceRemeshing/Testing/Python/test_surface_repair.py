@@ -60,4 +60,15 @@ def test_a_hole_is_an_error_or_closed():
     assert not repaired("double-torus-3-holes.off", "--allow-open")["closed"]
 
 
+def test_a_wrap_is_made_on_request_alone():
+    unpack("double-torus-3-holes")
+    run("repair", "double-torus-3-holes.off", "--output", "no.vtp", status=1)
+    done = run("repair", "double-torus-3-holes.off", "--alpha-wrap", "--wrap-alpha", "0.05", "--output", "wrap.vtp", "--report", "wrap.json", "--force")
+    assert "alpha wrap" in done.stderr and "3 holes stay" in done.stderr, done.stderr
+    with open(os.path.join(FOLDER, "wrap.json"), encoding="utf-8") as file:
+        report = json.load(file)
+    assert report["wrapped"] and report["closed"] and report["distance_from_input"] > 0, report
+    assert not repaired("double-torus-3-holes.off", "--alpha-wrap", "--largest-hole", "0.5")["wrapped"]
+
+
 knotwork_testing.main(globals())
