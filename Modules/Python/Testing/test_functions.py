@@ -131,6 +131,14 @@ def test_every_property_is_a_parameter_and_reaches_its_filter():
     assert counted > 300, counted
 
 
+def test_every_filter_has_a_function():
+    from knotwork import _properties, signatures
+
+    filters = {name for name in _properties.FILTERS if not name.endswith("Reader")}
+    used = {name for name, _ in signatures.VERBS.values()} | {"vtkAnalyticModel", "vtkTrimmedSurface"}  # these two by trim
+    assert filters <= used, filters - used
+
+
 def test_signatures_and_help_say_the_parameters():
     import inspect
 

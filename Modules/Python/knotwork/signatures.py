@@ -37,6 +37,7 @@ VERBS = {
     "quads": ("vtkCADQuads", []),
     "recognize": ("vtkSurfaceRecognition", []),
     "refine": ("vtkSplineRefine", []),
+    "remesh": ("vtkSurfaceRemesh", []),
     "repair": ("vtkSurfaceRepair", []),
     "source": ("vtkSplineSource", ["shape"]),
     "stitch": ("vtkSplineStitch", []),
