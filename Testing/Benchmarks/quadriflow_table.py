@@ -7,7 +7,7 @@ usage: quadriflow_table.py PROGRAM [--only NAME ...] [--keep FOLDER] [--write PA
 A mesh is closed where every edge has two faces that run it oppositely. All meshes get the same commands, until one spline is valid:
 
     quadremesh MESH --faces 2000 --time-limit 60
-    cadfit --target MESH --degree 2
+    cadfit --target MESH --degree 2        where all quadrilaterals are QuadriFlow's
     cadfit --target MESH --degree 2 --sharp-angle 179 --weak-angle 179 --untangle-rings 5 --policy full        all edges taken for smooth
     quadremesh MESH --faces 4000 --way triangles
     cadfit as the second one
@@ -25,6 +25,7 @@ import collections
 import json
 import os
 import resource
+import signal
 import subprocess
 import sys
 import tarfile
@@ -42,8 +43,7 @@ ITSELF = "to the quadrilaterals"
 WAYS = ((["--faces", "2000", "--time-limit", "60"], (("", []), ("smooth", SMOOTH))),
         (["--faces", "4000", "--way", "triangles"], (("smooth", SMOOTH), (ITSELF, ["--policy", "full"]))))
 FEWEST = 100
-PATIENCE = 150  # seconds of a fit on the clock
-PATIENCE_WITH_TRIES = 1000  # the same of quadrilaterals, whose tries have a limit each
+PATIENCE = 200  # seconds of the processor of a job; tries of quadrilaterals have limits of their own
 PART_LEFT_OUT = 5
 
 
@@ -85,12 +85,10 @@ class Mesh:
     def run(self, job, given, made, *options):
         """The report of a job, None when it failed."""
         report = self.stem + "." + job + ".json"
-        patience = PATIENCE_WITH_TRIES if job == "quadremesh" else PATIENCE
-        try:
-            done = subprocess.run([self.program, job, given, *made, "--report", report, "--quiet", "--force", *options], stderr=subprocess.PIPE,
-                                  text=True, timeout=patience)
-        except subprocess.TimeoutExpired:
-            self.said["outcome"] = f"{job} was not done after {patience} s"
+        done = subprocess.run([self.program, job, given, *made, "--report", report, "--quiet", "--force", *options], stderr=subprocess.PIPE,
+                              text=True, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (PATIENCE, PATIENCE + 5)), check=False)
+        if done.returncode in (-signal.SIGXCPU, 128 + signal.SIGXCPU, -signal.SIGKILL):
+            self.said["outcome"] = f"{job} was not done after {PATIENCE} s"
             return None
         if done.returncode not in (0, PART_LEFT_OUT):
             error = done.stderr.strip() if done.returncode == 1 else f"**ended with status {done.returncode}** {done.stderr.strip()}"
@@ -104,6 +102,8 @@ class Mesh:
         for called, options in fits:
             if time.monotonic() - self.begun > self.limit and fits != WAYS[-1][1]:
                 return False
+            if not options and quads["divided_parts"] > 0:
+                continue  # sharp edges do not run along edges of such quadrilaterals
             step = self.stem + ".step"
             target = [] if called == ITSELF else ["--target", scan]
             fit = self.run("cadfit", self.stem + ".vtp", ["--output", step], *target, "--degree", "2", *options)
