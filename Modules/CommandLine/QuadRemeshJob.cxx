@@ -23,9 +23,9 @@ protected:
   {
     vtkTable* numbers = this->Table(Numbers);
     ReportRow(numbers, 0,
-      { "Quads", "Points", "Parts", "LooseParts", "EulerNumber", "ExtraordinaryPoints", "Tries",
-        "LeastScaledJacobian", "LeastScaledJacobianBefore", "DistanceFromInput", "DistanceToInput",
-        "Diagonal", "Volume", "InputVolume" },
+      { "Quads", "Points", "Parts", "DividedParts", "LooseParts", "EulerNumber",
+        "ExtraordinaryPoints", "Tries", "LeastScaledJacobian", "LeastScaledJacobianBefore",
+        "DistanceFromInput", "DistanceToInput", "Diagonal", "Volume", "InputVolume" },
       session.Report);
     return {};
   }

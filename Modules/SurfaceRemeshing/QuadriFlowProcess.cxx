@@ -131,6 +131,9 @@ Result<PolygonMesh> RunQuadriFlow(const TriangleMesh& mesh, const QuadRequest& r
       return { ErrorCode::LibraryError, "blender could not be started; end other programs" };
     case WorkerEnd::Aborted:
       return { ErrorCode::Aborted, "" };
+    case WorkerEnd::Late:
+    case WorkerEnd::OutOfMemory:
+      return { ErrorCode::TooLarge, HowItEnded(answer, limits) };
     default:
       return { ErrorCode::NotConverged, HowItEnded(answer, limits) };
   }

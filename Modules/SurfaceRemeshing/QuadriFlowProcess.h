@@ -10,9 +10,9 @@ namespace knotwork
 /// checked.
 /// @param threads  of blender; 0: all cores.
 /// @param goOn  false ends it.
-/// @return LibraryError: blender or our script for it is missing, or cannot be run; NotConverged
-/// with the reason: it crashed, was late, took too much memory, or wrote nothing that can be read;
-/// Aborted.
+/// @return LibraryError: blender or our script for it is missing, or cannot be run; TooLarge:
+/// it was late, or took too much memory; NotConverged with the reason: it crashed, or wrote nothing
+/// that can be read; Aborted.
 Result<PolygonMesh> RunQuadriFlow(const TriangleMesh& mesh, const QuadRequest& request, int threads,
   const WorkerLimits& limits, const std::function<bool()>& goOn);
 }

@@ -23,6 +23,11 @@ vtkStandardNewMacro(vtkQuadRemesher);
 
 namespace
 {
+static_assert(vtkQuadRemesher::AUTOMATIC == static_cast<int>(QuadWay::Automatic) &&
+    vtkQuadRemesher::PROGRAM == static_cast<int>(QuadWay::Program) &&
+    vtkQuadRemesher::TRIANGLES == static_cast<int>(QuadWay::Triangles),
+  "the numbers of the class are those of the kernel");
+
 void EncodeQuads(const QuadRemesh& made, vtkPolyData* output)
 {
   vtkNew<vtkPoints> points;
@@ -53,6 +58,8 @@ void EncodeTries(const std::vector<QuadTry>& tries, vtkTable* table)
   table->AddColumn(ArrayOf<vtkIntArray>(
     "Sharp", tries, [](const QuadTry& tried) { return tried.Request.KeepSharp ? 1 : 0; }));
   table->AddColumn(ArrayOf<vtkIntArray>(
+    "OfTriangles", tries, [](const QuadTry& tried) { return tried.OfTriangles ? 1 : 0; }));
+  table->AddColumn(ArrayOf<vtkIntArray>(
     "Taken", tries, [](const QuadTry& tried) { return tried.Refusal.empty() ? 1 : 0; }));
   table->AddColumn(
     ArrayOf<vtkStringArray>("Refusal", tries, [](const QuadTry& tried) { return tried.Refusal; }));
@@ -63,6 +70,7 @@ void EncodeNumbers(const QuadRemesh& made, vtkTable* table)
   AddColumn(table, "Quads", static_cast<int>(made.Quads.size()));
   AddColumn(table, "Points", static_cast<int>(made.Points.rows()));
   AddColumn(table, "Parts", made.Parts);
+  AddColumn(table, "DividedParts", made.DividedParts);
   AddColumn(table, "LooseParts", made.LooseParts);
   AddColumn(table, "EulerNumber", made.EulerNumber);
   AddColumn(table, "ExtraordinaryPoints", made.ExtraordinaryPoints);
@@ -107,6 +115,7 @@ Status vtkQuadRemesher::Compute(vtkInformationVector** inputs, vtkInformationVec
   params.KeepSharp = this->KeepSharp;
   params.Limit = this->Limit;
   params.Smoothing = this->Smoothing;
+  params.Way = static_cast<QuadWay>(this->Way);
   double shown = 0.0;
   const ProgressCallback progress = this->Progress();
   params.Progress = [&](double done)

@@ -9,17 +9,20 @@
  * memory). Nothing that it says is believed: an answer is taken when all faces are quadrilaterals
  * with areas, closed, a manifold of one part and of the triangles' Euler number, turned alike, and
  * within Limit of the triangles both ways. Else other numbers of faces, and sharp edges that need
- * not be kept, are tried. Points then move on the triangles where that makes better shapes.
+ * not be kept, are tried. Points then move on the triangles where that makes better shapes. Parts
+ * of which no answer holds are made of their triangles: collapsed, then each divided at its middle
+ * into three.
  *
  * Output 0 (vtkPolyData): the quadrilaterals with the cell arrays PartId and ScaledJacobian (the
  * smallest sine of the angles).
  *
  * Output 1 (vtkTable): a row a try with Part, Faces (asked for), Sharp (edges were to be kept),
- * Taken and Refusal.
+ * OfTriangles (divided; else blender was asked), Taken and Refusal.
  *
- * Output 2 (vtkTable): one row with Quads, Points, Parts, LooseParts (small ones that were left
- * out), EulerNumber, ExtraordinaryPoints, Tries, LeastScaledJacobian, LeastScaledJacobianBefore
- * (before points moved), DistanceFromInput, DistanceToInput, Diagonal, Volume and InputVolume.
+ * Output 2 (vtkTable): one row with Quads, Points, Parts, DividedParts (of these, made of
+ * triangles), LooseParts (small ones that were left out), EulerNumber, ExtraordinaryPoints, Tries,
+ * LeastScaledJacobian, LeastScaledJacobianBefore (before points moved), DistanceFromInput,
+ * DistanceToInput, Diagonal, Volume and InputVolume.
  *
  * Errors: blender is missing; the triangles are not closed, or no manifold; no try gave
  * quadrilaterals that hold, with the refusal of each.
@@ -35,6 +38,13 @@ public:
   static vtkQuadRemesher* New();
   vtkTypeMacro(vtkQuadRemesher, vtkSplineAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum Ways
+  {
+    AUTOMATIC = 0,
+    PROGRAM,
+    TRIANGLES
+  };
 
   ///@{
   /** Quadrilaterals that are wanted, of all parts together; the result has about as many, or 1.4 or
@@ -62,7 +72,16 @@ public:
   vtkGetMacro(Smoothing, int);
   ///@}
   ///@{
-  /** Seconds of a try at most. Default 300, valid range [1, 1000000]. Advanced. */
+  /** Where quadrilaterals come from, one of Ways: AUTOMATIC, from blender, and parts where that
+   * fails from their triangles; PROGRAM, from blender; TRIANGLES, without blender: edges are
+   * collapsed until a third of Faces is left, and every triangle is divided at its middle into
+   * three. Default AUTOMATIC. */
+  vtkSetClampMacro(Way, int, AUTOMATIC, TRIANGLES);
+  vtkGetMacro(Way, int);
+  ///@}
+  ///@{
+  /** Seconds of a try at most; two tries that take longer end those of a part. Default 120, valid
+   * range [1, 1000000]. Advanced. */
   vtkSetClampMacro(TimeLimit, int, 1, 1000000);
   vtkGetMacro(TimeLimit, int);
   ///@}
@@ -86,7 +105,8 @@ private:
   bool KeepSharp = true;
   double Limit = 0.05;
   int Smoothing = 10;
-  int TimeLimit = 300;
+  int Way = AUTOMATIC;
+  int TimeLimit = 120;
   int MemoryLimit = 4096;
 };
 #endif

@@ -4,19 +4,28 @@ libcgal-demo with at least 100 faces, with Debian's blender installed.
 
 usage: quadriflow_table.py PROGRAM [--only NAME ...] [--keep FOLDER] [--write PAGE] [--limit SECONDS] [--rest SECONDS]
 
-A mesh is closed where every edge has two faces that run it oppositely. Of each mesh the quadrilaterals are fitted with degree 2, with the
-scan as target, as it is and, where that is not proved valid, with all of its edges taken for smooth (then with more elements that may move,
-then with the policy FULL); the same once more with twice as many quadrilaterals that need not keep sharp edges. What quadremesh does not take
-as it is, is repaired first. A solid is valid when cadfit proves every element, and when OpenCASCADE reads as many solids in the STEP file as
-the scan has parts, of the volume that cadfit says.
+A mesh is closed where every edge has two faces that run it oppositely. All meshes get the same commands, until one spline is valid:
 
---keep: results of meshes are kept there and not made again. --limit: seconds of a mesh from which on nothing else is tried; --rest: seconds
+    quadremesh MESH --faces 2000 --time-limit 60
+    cadfit --target MESH --degree 2        where all quadrilaterals are QuadriFlow's
+    cadfit --target MESH --degree 2 --sharp-angle 179 --weak-angle 179 --untangle-rings 5 --policy full        all edges taken for smooth
+    quadremesh MESH --faces 4000 --way triangles
+    cadfit as the second one
+    cadfit --degree 2 --policy full        to the quadrilaterals themselves
+
+What quadremesh does not take as it is, is repaired first. A solid is valid when cadfit proves every element, and when OpenCASCADE reads as many
+solids in the STEP file as the scan has parts, of the volume that cadfit says. Distances of the last fit are sums: of the spline from the
+quadrilaterals, and of these from the scan, which is a bound. Seconds are those of the processor, of all programs.
+
+--keep: results of meshes are kept there and not made again. --limit: seconds of a mesh from which on only the last way is tried; --rest: seconds
 from which on meshes are not begun. --write puts the table between the comments `the table of solids: begin` and `end` of a page.
 """
 import argparse
 import collections
 import json
 import os
+import resource
+import signal
 import subprocess
 import sys
 import tarfile
@@ -26,16 +35,15 @@ import time
 import page_tables
 from repair_table import ARCHIVE, FOLDER, shortened
 
-HEAD = ["mesh", "faces", "Euler number", "quadrilaterals", "tries", "scaled Jacobian", "options", "outcome", "spline from the scan",
+HEAD = ["mesh", "faces", "Euler number", "made by", "quadrilaterals", "tries", "scaled Jacobian", "fit", "outcome", "spline from the scan",
         "scan from the spline", "volume", "s"]
-SMOOTH = ["--sharp-angle", "179", "--weak-angle", "179"]
-# in the order in which they are tried, with what the table calls them
-OPTIONS = (("", []), ("smooth", SMOOTH), ("smooth, rings", SMOOTH + ["--untangle-rings", "5", "--smoothing-rings", "4"]),
-           ("smooth, full, rings", SMOOTH + ["--untangle-rings", "5", "--policy", "full"]))
-SIZES = (["--faces", "2000"], ["--faces", "4000", "--keep-sharp", "0"])
+SMOOTH = ["--sharp-angle", "179", "--weak-angle", "179", "--untangle-rings", "5", "--policy", "full"]
+ITSELF = "to the quadrilaterals"
+# how quadrilaterals are made, and how these are fitted: what the table calls it, and options
+WAYS = ((["--faces", "2000", "--time-limit", "60"], (("", []), ("smooth", SMOOTH))),
+        (["--faces", "4000", "--way", "triangles"], (("smooth", SMOOTH), (ITSELF, ["--policy", "full"]))))
 FEWEST = 100
-PATIENT = ["--time-limit", "120"]  # seconds a try
-PATIENCE = 600  # seconds a run
+PATIENCE = 200  # seconds of the processor of a job; tries of quadrilaterals have limits of their own
 PART_LEFT_OUT = 5
 
 
@@ -72,15 +80,14 @@ class Mesh:
 
     def __init__(self, program, file, faces, limit):
         self.program, self.file, self.stem, self.limit = program, file, os.path.splitext(file)[0], limit
-        self.said = {"name": os.path.basename(self.stem), "faces": faces, "outcome": "", "options": ""}
+        self.said = {"name": os.path.basename(self.stem), "faces": faces, "outcome": ""}
 
     def run(self, job, given, made, *options):
         """The report of a job, None when it failed."""
         report = self.stem + "." + job + ".json"
-        try:
-            done = subprocess.run([self.program, job, given, *made, "--report", report, "--quiet", "--force", *options], stderr=subprocess.PIPE,
-                                  text=True, timeout=PATIENCE)
-        except subprocess.TimeoutExpired:
+        done = subprocess.run([self.program, job, given, *made, "--report", report, "--quiet", "--force", *options], stderr=subprocess.PIPE,
+                              text=True, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (PATIENCE, PATIENCE + 5)), check=False)
+        if done.returncode in (-signal.SIGXCPU, 128 + signal.SIGXCPU, -signal.SIGKILL):
             self.said["outcome"] = f"{job} was not done after {PATIENCE} s"
             return None
         if done.returncode not in (0, PART_LEFT_OUT):
@@ -90,19 +97,22 @@ class Mesh:
         with open(report, encoding="utf-8") as stream:
             return json.load(stream)
 
-    def fits(self, scan, quads):
+    def fits(self, scan, quads, fits):
         """Fits of the quadrilaterals until one is valid."""
-        for called, options in OPTIONS:
-            if time.monotonic() - self.begun > self.limit:
-                self.said["outcome"] = self.said["outcome"] or f"not fitted within {self.limit:.0f} s"
+        for called, options in fits:
+            if time.monotonic() - self.begun > self.limit and fits != WAYS[-1][1]:
                 return False
+            if not options and quads["divided_parts"] > 0:
+                continue  # sharp edges do not run along edges of such quadrilaterals
             step = self.stem + ".step"
-            fit = self.run("cadfit", self.stem + ".vtp", ["--output", step], "--target", scan, "--degree", "2", *options)
+            target = [] if called == ITSELF else ["--target", scan]
+            fit = self.run("cadfit", self.stem + ".vtp", ["--output", step], *target, "--degree", "2", *options)
             if not fit:
                 continue
-            self.said.update(options=called, quads=quads["quads"], tries=quads["tries"], jacobian=quads["least_scaled_jacobian"], euler=quads["euler_number"],
-                             there=fit["max_distance"] / quads["diagonal"], back=fit["max_distance_back"] / quads["diagonal"],
-                             volume=fit["volume"] / quads["input_volume"])
+            there, back = (0, 0) if target else (quads["distance_from_input"], quads["distance_to_input"])
+            self.said.update(fit=called, quads=quads["quads"], tries=quads["tries"], jacobian=quads["least_scaled_jacobian"], euler=quads["euler_number"],
+                             there=(there + fit["max_distance"]) / quads["diagonal"], back=(back + fit["max_distance_back"]) / quads["diagonal"],
+                             volume=fit["volume"] / quads["input_volume"], parts=quads["parts"], divided=quads["divided_parts"])
             if fit["verdict"] != "valid":
                 self.said["outcome"] = f"{fit['uncertified_elements']} of {fit['elements']} elements without a certificate"
                 continue
@@ -118,28 +128,37 @@ class Mesh:
 
     def try_all(self):
         self.begun = time.monotonic()
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
         scan = self.file
-        for size in SIZES:
-            quads = self.run("quadremesh", scan, ["--output", self.stem + ".vtp"], *size, *PATIENT)
+        for made, fits in WAYS:
+            quads = self.run("quadremesh", scan, ["--output", self.stem + ".vtp"], *made)
             if not quads and "repair the mesh first" in self.said["outcome"]:
                 scan = self.stem + ".repaired.vtp"
                 if not self.run("repair", self.file, ["--output", scan]):
                     break
                 self.said["repaired"] = True
-                quads = self.run("quadremesh", scan, ["--output", self.stem + ".vtp"], *size, *PATIENT)
-            if quads and self.fits(scan, quads) or time.monotonic() - self.begun > self.limit:
+                quads = self.run("quadremesh", scan, ["--output", self.stem + ".vtp"], *made)
+            if quads and self.fits(scan, quads, fits):
                 break
-        self.said["seconds"] = time.monotonic() - self.begun
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        self.said["seconds"] = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
         return self.said
+
+
+def maker(said):
+    """What made the quadrilaterals."""
+    if said["divided"] == 0:
+        return "QuadriFlow"
+    return "triangles" if said["divided"] == said["parts"] else f"QuadriFlow, {said['divided']} of {said['parts']} parts triangles"
 
 
 def row(said):
     name = said["name"] + (" (repaired)" if said.get("repaired") else "")
     seconds = f"{said['seconds']:.0f}"
     if "quads" not in said:
-        return [name, str(said["faces"]), "", "", "", "", "", said["outcome"], "", "", "", seconds]
-    return [name, str(said["faces"]), str(said["euler"]), str(said["quads"]), str(said["tries"]), f"{said['jacobian']:.2f}", said["options"],
-            said["outcome"], f"{said['there']:.1e}", f"{said['back']:.1e}", f"{abs(said['volume']):.4f}", seconds]
+        return [name, str(said["faces"]), "", "", "", "", "", "", said["outcome"], "", "", "", seconds]
+    return [name, str(said["faces"]), str(said["euler"]), maker(said), str(said["quads"]), str(said["tries"]), f"{said['jacobian']:.2f}",
+            said["fit"], said["outcome"], f"{said['there']:.1e}", f"{said['back']:.1e}", f"{abs(said['volume']):.4f}", seconds]
 
 
 def main():
@@ -148,7 +167,7 @@ def main():
     parser.add_argument("--only", nargs="*")
     parser.add_argument("--keep")
     parser.add_argument("--write")
-    parser.add_argument("--limit", type=float, default=120)
+    parser.add_argument("--limit", type=float, default=400)
     parser.add_argument("--rest", type=float, default=float("inf"))
     arguments = parser.parse_args()
     if not os.path.exists(ARCHIVE):

@@ -4,6 +4,8 @@
 #include "FarthestDistance.h"
 #include "QuadQuality.h"
 #include "SoupTopology.h"
+#include "TriangleCollapse.h"
+#include "TrianglePairs.h"
 
 #include <knotwork/SplineCore/CellMesh.h>
 #include <knotwork/SplineCore/DisjointSets.h>
@@ -13,6 +15,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
 
 namespace knotwork
 {
@@ -21,6 +24,8 @@ namespace
 constexpr double ShortestEdge = 2e-3; ///< of scaled triangles: QuadriFlow refuses shorter ones
 constexpr double SizeOfScaled = 10.0; ///< diagonal of scaled triangles at least
 constexpr double SizeFactors[] = { 1.0, 1.4, 0.7 };
+constexpr int DivisionFactors[] = { 1, 2, 4, 8 };
+constexpr int MostExhausted = 2;        ///< tries of a part that ran into limits of time or memory
 constexpr double ToleranceShare = 2e-3; ///< of the diagonal: of distances
 constexpr double LeastArea = 1e-9;      ///< of a quadrilateral, of the square of its longest edge
 constexpr int FewestFaces = 8;
@@ -136,6 +141,8 @@ public:
   {
     return (points / this->Scale()).rowwise() + this->Middle();
   }
+  /// The triangles, collapsed to a third of so many faces, each divided into three quadrilaterals.
+  Result<PolygonMesh> Divided(int faces) const;
   /// Why an answer does not hold; empty: it does, and is in Points and Quads.
   std::string Take(const PolygonMesh& answer, const QuadRemeshParams& params);
 
@@ -146,6 +153,7 @@ public:
   int Euler;
   PointMatrix Points;
   std::vector<MeshQuad> Quads;
+  bool IsDivided = false;
   int LooseParts = 0;
   int Extraordinary = 0;
   double JacobianBefore = 1.0;
@@ -185,6 +193,61 @@ private:
   std::string TakeTopology(const std::vector<MeshQuad>& quads, Eigen::Index numPoints);
   std::string CheckShape(double limit);
 };
+
+/// Every triangle as three quadrilaterals around its middle, between the middles of its edges.
+PolygonMesh DividedAtMiddles(const PointMatrix& points, const std::vector<MeshTriangle>& triangles)
+{
+  PolygonMesh divided;
+  const Eigen::Index numPoints = points.rows();
+  const auto numTriangles = static_cast<Eigen::Index>(triangles.size());
+  divided.Points.resize(numPoints + 4 * numTriangles, 3); // at most
+  divided.Points.topRows(numPoints) = points;
+  auto count = static_cast<int>(numPoints);
+  const auto add = [&](const Eigen::RowVector3d& place)
+  {
+    divided.Points.row(count) = place;
+    return count++;
+  };
+  std::map<std::pair<int, int>, int> middles;
+  for (const MeshTriangle& corners : triangles)
+  {
+    std::array<int, 3> between{};
+    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const int a = corners[k];
+      const int b = corners[(k + 1) % 3];
+      const auto [found, added] = middles.try_emplace(std::minmax(a, b), count);
+      if (added)
+      {
+        add(0.5 * (points.row(a) + points.row(b)));
+      }
+      between[k] = found->second;
+      sum += points.row(a);
+    }
+    const int middle = add(sum / 3.0);
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      divided.Faces.push_back({ corners[k], between[k], middle, between[(k + 2) % 3] });
+    }
+  }
+  divided.Points.conservativeResize(count, 3);
+  return divided;
+}
+
+Result<PolygonMesh> ClosedPart::Divided(int faces) const
+{
+  TriangleMesh mesh = this->Scaled();
+  const std::size_t before = mesh.Triangles.size();
+  const auto meet = [](const TriangleMesh& triangles)
+  { return !FindIntersections(triangles.Points, triangles.Triangles, 1).empty(); };
+  CollapseEdges(std::max(faces / 3, 4), mesh.Points, mesh.Triangles);
+  if (mesh.Triangles.size() < before && meet(mesh) && !meet(this->Scaled()))
+  {
+    return { ErrorCode::NotConverged, "triangles meet that do not before edges are collapsed" };
+  }
+  return DividedAtMiddles(mesh.Points, mesh.Triangles);
+}
 
 /// Whether quadrilaterals are one closed surface like that of the triangles.
 std::string ClosedPart::TakeTopology(const std::vector<MeshQuad>& quads, Eigen::Index numPoints)
@@ -387,42 +450,132 @@ std::vector<QuadRequest> RequestsFor(double faces, bool keepSharp)
   return requests;
 }
 
+/// Sizes in which triangles are divided, up to the first that needs no edge collapsed.
+std::vector<QuadRequest> DivisionsFor(double faces, std::size_t numTriangles)
+{
+  std::vector<QuadRequest> requests;
+  const auto most =
+    std::min(3.0 * static_cast<double>(numTriangles), static_cast<double>(MostFaces));
+  for (const int factor : DivisionFactors)
+  {
+    const double asked = std::round(factor * faces);
+    requests.push_back({ static_cast<int>(std::min(asked, most)), false });
+    if (asked >= most)
+    {
+      break;
+    }
+  }
+  return requests;
+}
+
 std::string InWords(const QuadTry& tried)
 {
   return std::to_string(tried.Request.Faces) + " faces" +
-    (tried.Request.KeepSharp ? " with sharp edges: " : ": ") + tried.Refusal;
+    (tried.OfTriangles            ? " of triangles: "
+        : tried.Request.KeepSharp ? " with sharp edges: "
+                                  : ": ") +
+    tried.Refusal;
 }
 
-/// Requests until an answer holds.
-Status FillPart(const QuadMaker& maker, const QuadRemeshParams& params, double faces, double done,
-  ClosedPart& part, std::vector<QuadTry>& tries, int number)
+/// What is to be made, and what was tried, of one part.
+class PartSearch
 {
-  const TriangleMesh scaled = part.Scaled();
-  std::string refusals;
-  const std::vector<QuadRequest> requests = RequestsFor(faces, params.KeepSharp);
-  for (const QuadRequest& request : requests)
+public:
+  PartSearch(const QuadMaker& maker, const QuadRemeshParams& params, ClosedPart& part, int number)
+    : Maker(maker), Params(params), Part(part), Number(number)
   {
-    if (params.Progress && !params.Progress(done))
+  }
+  /// Requests until an answer holds.
+  Status Run(double faces, double done);
+
+  std::vector<QuadTry> Tries;
+
+private:
+  /// @return failures that end the search; whether it is filled the last of Tries says.
+  Status AskProgram(double faces, double done);
+  Status DivideTriangles(double faces, double done);
+  bool IsFilled() const { return !this->Tries.empty() && this->Tries.back().Refusal.empty(); }
+  bool GoesOn(double done) const { return !this->Params.Progress || this->Params.Progress(done); }
+  void Note(const QuadRequest& request, bool ofTriangles, const Result<PolygonMesh>& answer)
+  {
+    this->Tries.push_back({ this->Number, request, ofTriangles,
+      answer ? this->Part.Take(answer.Value, this->Params) : answer.Status.Detail });
+  }
+
+  const QuadMaker& Maker;
+  const QuadRemeshParams& Params;
+  ClosedPart& Part;
+  int Number;
+};
+
+Status PartSearch::AskProgram(double faces, double done)
+{
+  const TriangleMesh scaled = this->Part.Scaled();
+  int exhausted = 0;
+  for (const QuadRequest& request : RequestsFor(faces, this->Params.KeepSharp))
+  {
+    if (!this->GoesOn(done))
     {
       return { ErrorCode::Aborted, "" };
     }
-    const auto answer = maker(scaled, request);
-    if (!answer && answer.Status.Code != ErrorCode::NotConverged)
+    const auto answer = this->Maker(scaled, request);
+    const bool tooLarge = answer.Status.Code == ErrorCode::TooLarge;
+    if (!answer && !tooLarge && answer.Status.Code != ErrorCode::NotConverged)
     {
       return answer.Status;
     }
-    tries.push_back(
-      { number, request, answer ? part.Take(answer.Value, params) : answer.Status.Detail });
-    if (tries.back().Refusal.empty())
+    exhausted += tooLarge ? 1 : 0;
+    this->Note(request, false, answer);
+    if (this->IsFilled() || exhausted >= MostExhausted)
     {
-      return {};
+      break;
     }
-    refusals += (refusals.empty() ? "" : "; ") + InWords(tries.back());
   }
-  const Eigen::RowVector3d place = part.Surface.Points().row(0);
+  return {};
+}
+
+Status PartSearch::DivideTriangles(double faces, double done)
+{
+  for (const QuadRequest& request : DivisionsFor(faces, this->Part.Surface.Triangles().size()))
+  {
+    if (!this->GoesOn(done))
+    {
+      return { ErrorCode::Aborted, "" };
+    }
+    this->Note(request, true, this->Part.Divided(request.Faces));
+    if (this->IsFilled())
+    {
+      this->Part.IsDivided = true;
+      break;
+    }
+  }
+  return {};
+}
+
+Status PartSearch::Run(double faces, double done)
+{
+  Status ended;
+  if (this->Params.Way != QuadWay::Triangles)
+  {
+    ended = this->AskProgram(faces, done);
+  }
+  if (ended && !this->IsFilled() && this->Params.Way != QuadWay::Program)
+  {
+    ended = this->DivideTriangles(faces, done);
+  }
+  if (!ended || this->IsFilled())
+  {
+    return ended;
+  }
+  std::string refusals;
+  for (const QuadTry& tried : this->Tries)
+  {
+    refusals += (refusals.empty() ? "" : "; ") + InWords(tried);
+  }
+  const Eigen::RowVector3d place = this->Part.Surface.Points().row(0);
   return { ErrorCode::NotConverged,
-    "none of " + std::to_string(requests.size()) +
-      " tries gave quadrilaterals that hold on the part at " + PointText(place.data(), 3) + " (" +
+    "none of " + Count(static_cast<std::int64_t>(this->Tries.size()), "try", "tries") +
+      " gave quadrilaterals that hold on the part at " + PointText(place.data(), 3) + " (" +
       refusals + "); ask for another number of faces, raise Limit, or repair the mesh" };
 }
 }
@@ -454,12 +607,13 @@ Result<QuadRemesh> RemeshToQuads(
   {
     ClosedPart& part = parts.Value[At(number)];
     const double share = part.Area / area;
-    if (Status filled = FillPart(maker, params, std::max(share * params.Faces, fewest), 0.95 * done,
-          part, made.Tries, number);
-        !filled)
+    PartSearch search(maker, params, part, number);
+    if (Status filled = search.Run(std::max(share * params.Faces, fewest), 0.95 * done); !filled)
     {
       return filled;
     }
+    made.Tries.insert(made.Tries.end(), search.Tries.begin(), search.Tries.end());
+    made.DividedParts += part.IsDivided ? 1 : 0;
     done += share;
     numPoints += part.Points.rows();
     made.LooseParts += part.LooseParts;

@@ -23,10 +23,18 @@ struct QuadRequest
 
 /// Makes quadrilaterals of the triangles of one closed surface, whatever program does it. Nothing
 /// of what it returns is believed.
-/// @return NotConverged: this request failed, another one may not; any other failure ends the
-/// search.
+/// @return NotConverged: this request failed, another one may not; TooLarge: it took too long or
+/// too much memory, after two of these a part is given up; any other failure ends the search.
 using QuadMaker =
   std::function<Result<PolygonMesh>(const TriangleMesh& mesh, const QuadRequest& request)>;
+
+/// Where quadrilaterals come from.
+enum class QuadWay
+{
+  Automatic, ///< from the program; of parts where that fails, from the triangles
+  Program,
+  Triangles ///< collapsed, then each divided at its middle into three; the program is not asked
+};
 
 struct QuadRemeshParams
 {
@@ -37,6 +45,7 @@ struct QuadRemeshParams
   /// diagonal of the input's box, ]0, 1].
   double Limit = 0.05;
   int Smoothing = 10; ///< times that points move on the input at most, [0, 1000]
+  QuadWay Way = QuadWay::Automatic;
   ProgressCallback Progress;
 };
 
@@ -45,7 +54,8 @@ struct QuadTry
 {
   int Part = 0;
   QuadRequest Request;
-  std::string Refusal; ///< empty: the answer was taken
+  bool OfTriangles = false; ///< divided; else the program was asked
+  std::string Refusal;      ///< empty: the answer was taken
 };
 
 struct QuadRemesh
@@ -56,6 +66,7 @@ struct QuadRemesh
   std::vector<double> ScaledJacobians;    ///< the same: smallest sine of their angles
   std::vector<QuadTry> Tries;             ///< of all parts
   int Parts = 0;                          ///< closed surfaces
+  int DividedParts = 0;                   ///< of these: made by dividing triangles
   int LooseParts = 0;                     ///< beside these, left out: QuadriFlow leaves small balls
   int EulerNumber = 0;                    ///< points - edges + quadrilaterals
   int ExtraordinaryPoints = 0;            ///< where other than four quadrilaterals meet
@@ -76,6 +87,10 @@ struct QuadRemesh
 /// Limit both ways. Distances are those of the quadrilaterals' halves, bounds above the largest
 /// distance by at most 2e-3 of the diagonal. Points then move on the triangles to raise the
 /// smallest scaled Jacobians, not where the result is sharp, nor where that loses distance.
+/// A part of which no answer holds is made of its triangles, which always has the topology: edges
+/// are collapsed until a third of Faces is left (then twice, four and eight times as many, where
+/// that does not hold, or triangles meet that did not before), and every triangle is divided at its
+/// middle into three quadrilaterals.
 /// @return EmptyInput; NonFiniteInput; InvalidTopology: triangles that are no closed manifold;
 /// InvalidParameter; TooLarge; NotConverged: with the refusal of every try; Aborted; failures of
 /// the maker.

@@ -143,6 +143,7 @@ Status Refused(const PolygonMesh& answer)
   QuadRemeshParams params;
   params.KeepSharp = false;
   params.Smoothing = 0;
+  params.Way = QuadWay::Program;
   const auto made = RemeshToQuads(given, StandIn(answer, given), params);
   EXPECT_FALSE(made);
   EXPECT_EQ(made.Status.Code, ErrorCode::NotConverged);
@@ -279,16 +280,121 @@ TEST(QuadRemesh, OtherSizesAreTriedUntilOneHolds_PropertyOracle)
 TEST(QuadRemesh, OneErrorHasTheReasonOfEveryTry)
 {
   const TriangleMesh given = Halved(Torus(24, 12));
-  const auto made = RemeshToQuads(given,
+  QuadRemeshParams params;
+  params.Way = QuadWay::Program;
+  const auto made = RemeshToQuads(
+    given,
     [](const TriangleMesh&, const QuadRequest& request) -> Result<PolygonMesh> {
       return { ErrorCode::NotConverged, "reason " + std::to_string(request.Faces) };
-    });
+    },
+    params);
   EXPECT_EQ(made.Status.Code, ErrorCode::NotConverged);
   for (const char* words : { "none of 6 tries", "2000 faces with sharp edges: reason 2000",
          "2000 faces: reason 2000", "2800 faces: reason 2800", "1400 faces: reason 1400", "Limit" })
   {
     EXPECT_NE(made.Status.Detail.find(words), std::string::npos) << made.Status.Detail;
   }
+}
+
+TEST(QuadRemesh, TrianglesAreDividedWhereNoAnswerHolds_ExactOracle)
+{
+  const PolygonMesh cube = Cube(4);
+  const TriangleMesh given = Halved(cube); // 192 triangles, 98 points, 288 edges
+  QuadRemeshParams params;
+  params.Smoothing = 0;
+  const auto made = RemeshToQuads(
+    given,
+    [](const TriangleMesh&, const QuadRequest&) -> Result<PolygonMesh> {
+      return { ErrorCode::NotConverged, "never" };
+    },
+    params);
+  ASSERT_TRUE(made) << made.Status.Message();
+  EXPECT_EQ(made->DividedParts, 1);
+  ASSERT_EQ(made->Tries.size(), 7U);
+  EXPECT_FALSE(made->Tries[5].OfTriangles);
+  EXPECT_TRUE(made->Tries[6].OfTriangles);
+  EXPECT_EQ(made->Tries[6].Request.Faces, 3 * 192); // fewer than are wanted: no edge is collapsed
+  EXPECT_EQ(made->Quads.size(), 3U * 192U);
+  EXPECT_EQ(made->Points.rows(), 98 + 288 + 192);
+  EXPECT_EQ(made->EulerNumber, 2);
+  EXPECT_NEAR(made->Volume, 8.0, 1e-12);
+  for (const auto& quad : made->Quads)
+  {
+    EXPECT_NEAR(DiagonalProduct(made->Points, quad).norm() / 2, 1.0 / 24, 1e-12); // thirds of 1/8
+  }
+}
+
+TEST(QuadRemesh, CollapsedTrianglesKeepTopologyAndShape_PropertyOracle)
+{
+  const TriangleMesh given = Halved(Torus(96, 48)); // 9216 triangles
+  QuadRemeshParams params;
+  params.Way = QuadWay::Triangles;
+  params.Smoothing = 0; // which would cost volume that collapsing keeps
+  int calls = 0;
+  for (const int faces : { 1500, 6000 })
+  {
+    params.Faces = faces;
+    const auto made = RemeshToQuads(
+      given,
+      [&](const TriangleMesh&, const QuadRequest&) -> Result<PolygonMesh>
+      {
+        ++calls;
+        return { ErrorCode::LibraryError, "it is missing" };
+      },
+      params);
+    ASSERT_TRUE(made) << made.Status.Message();
+    EXPECT_EQ(made->Tries.size(), 1U);
+    EXPECT_LE(made->Quads.size(), static_cast<std::size_t>(faces));
+    EXPECT_GE(made->Quads.size(), static_cast<std::size_t>(faces - 9));
+    EXPECT_EQ(made->EulerNumber, 0);
+    EXPECT_GT(made->LeastScaledJacobian, 0.0);
+    EXPECT_NEAR(made->Volume, made->InputVolume, 1e-3 * made->InputVolume);
+    EXPECT_LE(std::max(made->DistanceFromInput, made->DistanceToInput), 0.02 * made->Diagonal);
+  }
+  EXPECT_EQ(calls, 0);
+}
+
+TEST(QuadRemesh, MoreTrianglesStayUntilTheLimitHolds_PropertyOracle)
+{
+  const TriangleMesh given = Halved(Torus(48, 24));
+  QuadRemeshParams params;
+  params.Way = QuadWay::Triangles;
+  params.Faces = 60;
+  params.Limit = 0.05;
+  const auto made = RemeshToQuads(given, StandIn({}, given), params);
+  ASSERT_TRUE(made) << made.Status.Message();
+  ASSERT_EQ(made->Tries.size(), 3U); // of farthest distances 0.24, 0.073 and 0.042
+  EXPECT_EQ(made->Tries[0].Request.Faces, 60);
+  EXPECT_EQ(made->Tries[1].Request.Faces, 120);
+  EXPECT_FALSE(made->Tries[0].Refusal.empty());
+  params.Limit = 1e-6; // below what distances are known to
+  const auto refused = RemeshToQuads(given, StandIn({}, given), params);
+  EXPECT_EQ(refused.Status.Code, ErrorCode::NotConverged);
+  EXPECT_NE(refused.Status.Detail.find("480 faces of triangles: "), std::string::npos)
+    << refused.Status.Detail;
+}
+
+TEST(QuadRemesh, TwoExhaustedTriesEndThoseOfTheProgram_ExactOracle)
+{
+  const TriangleMesh given = Halved(Torus(24, 12));
+  int calls = 0;
+  const auto late = [&](const TriangleMesh&, const QuadRequest&) -> Result<PolygonMesh>
+  {
+    ++calls;
+    return { ErrorCode::TooLarge, "late" };
+  };
+  QuadRemeshParams params;
+  params.Way = QuadWay::Program;
+  const auto refused = RemeshToQuads(given, late, params);
+  EXPECT_EQ(calls, 2);
+  EXPECT_EQ(refused.Status.Code, ErrorCode::NotConverged);
+  EXPECT_NE(refused.Status.Detail.find("none of 2 tries"), std::string::npos)
+    << refused.Status.Detail;
+  params.Way = QuadWay::Automatic;
+  const auto made = RemeshToQuads(given, late, params);
+  ASSERT_TRUE(made) << made.Status.Message();
+  EXPECT_EQ(calls, 4);
+  EXPECT_EQ(made->DividedParts, 1);
 }
 
 TEST(QuadRemesh, OtherFailuresEndTheSearch)

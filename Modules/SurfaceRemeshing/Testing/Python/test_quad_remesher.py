@@ -73,7 +73,7 @@ def remesh(*options):
 
 def refused(*options):
     """The one line of a run that fails, which leaves nothing."""
-    done = remesh(*options)
+    done = remesh("--way", "program", *options)
     lines = done.stderr.splitlines()
     assert done.returncode == 1 and len(lines) == 1, done
     assert not os.path.exists(os.path.join(FOLDER, "quads.vtp")) and not os.path.exists(os.path.join(FOLDER, "quads.json"))
@@ -133,9 +133,31 @@ def test_a_crash_and_a_hang_are_errors():
     stand_in("sleep 1000", "/bin/sh")
     start = time.monotonic()
     line = refused("--keep-sharp", 0, "--time-limit", 1)
-    assert line.count("did not end within 1 s") == 3 and time.monotonic() - start < 60, line
+    assert line.count("did not end within 1 s") == 2 and "none of 2 tries" in line and time.monotonic() - start < 60, line
     stand_in("x = [bytearray(1 << 24) for i in range(1000)]")
     assert "blender" in refused("--memory-limit", 64)
+
+
+def test_triangles_are_divided_where_no_answer_holds():
+    """Three quadrilaterals a triangle, and the same without blender when it is not asked."""
+    stand_in("kill -SEGV $$", "/bin/sh")
+    done = remesh()
+    assert done.returncode == 0, done.stderr
+    with open(os.path.join(FOLDER, "quads.json"), encoding="utf-8") as stream:
+        report = json.load(stream)
+    assert (report["quads"], report["parts"], report["divided_parts"], report["euler_number"], report["tries"]) == (6 * N * M, 1, 1, 0, 7), report
+    with open(os.path.join(FOLDER, "tries.csv"), encoding="utf-8") as stream:
+        rows = [row.split(",") for row in stream.read().splitlines()]
+    of_triangles = rows[0].index('"OfTriangles"') if '"OfTriangles"' in rows[0] else rows[0].index("OfTriangles")
+    assert [row[of_triangles] for row in rows[1:]] == ["0"] * 6 + ["1"], rows
+    os.environ["PATH"] = FOLDER
+    done = remesh("--way", "triangles", "--faces", 600)
+    os.environ["PATH"] = PATH
+    assert done.returncode == 0, done.stderr
+    with open(os.path.join(FOLDER, "quads.json"), encoding="utf-8") as stream:
+        report = json.load(stream)
+    assert 500 < report["quads"] <= 600 and report["euler_number"] == 0, report
+    assert max(report["distance_from_input"], report["distance_to_input"]) <= 0.05 * report["diagonal"], report
 
 
 def test_without_blender_there_is_one_sentence():
