@@ -109,6 +109,7 @@ TEST(vtkVolumeComparison, CurvedTetrahedraOfABall_ExactOracle)
     vtkNew<vtkVolumeComparison> filter;
     filter->SetInputDataObject(surface->GetInputDataObject(0, 0));
     filter->SetMeshConnection(mesher->GetOutputPort());
+    filter->SetChordalTolerance(1e-3);
     filter->SetSamples(2000);
     filter->Update();
     ASSERT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
