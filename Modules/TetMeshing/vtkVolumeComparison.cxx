@@ -360,9 +360,7 @@ Status vtkVolumeComparison::Compute(vtkInformationVector** inputs, vtkInformatio
   }
   vtkDataObject* shape = vtkDataObject::GetData(inputs[2], 0);
   const DecodeSpline decode = [this](vtkDataObject* data) { return this->DecodeInput(data); };
-  BoundaryOptions options;
-  options.Tolerance = this->ChordalTolerance;
-  options.Threads = this->KernelThreads();
+  BoundaryOptions options{ this->ChordalTolerance, true, this->KernelThreads(), {} };
   options.Progress = [progress = this->Progress()](double share) { return progress(0.1 * share); };
   const auto reference = DecodeReference(shape ? shape : grids[0], decode, options);
   if (!reference)
