@@ -54,16 +54,21 @@ def coloured(file):
     return item
 
 
-def wires(file):
-    """The edges of the straight triangles of a boundary, drawn a little in front."""
-    reader = vtkXMLPolyDataReader()
-    reader.SetFileName(file)
-    item = scene.actor(scene.updated(reader).GetOutput(), (0.15, 0.15, 0.2), 1)
-    item.GetProperty().SetRepresentationToWireframe()
-    mapper = item.GetMapper()
-    mapper.SetResolveCoincidentTopologyToPolygonOffset()
-    mapper.SetRelativeCoincidentTopologyLineOffsetParameters(-4, -4)
-    return item
+def edges(folder, samples=9):
+    """The curved edges of the quadratic tetrahedra on the boundary, as lines."""
+    grid = knotwork.read(os.path.join(folder, "compared_mesh.vtu"))
+    points = vtk_to_numpy(grid.GetPoints().GetData())
+    cells = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 10)
+    middles = {}
+    for a, m, b in ((0, 4, 1), (1, 5, 2), (2, 6, 0), (0, 7, 3), (1, 8, 3), (2, 9, 3)):
+        middles.update({(min(c[a], c[b]), max(c[a], c[b])): c[m] for c in cells})
+    reader = vtkXMLPolyDataReader()  # corners have the numbers that they have in the cells
+    reader.SetFileName(os.path.join(folder, "compared_edges.vtp"))
+    triangles = vtk_to_numpy(scene.updated(reader).GetOutput().GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    t = np.linspace(0, 1, samples)[:, None]
+    ends = {(min(c[k], c[k - 1]), max(c[k], c[k - 1])) for c in triangles for k in range(3)}
+    return scene.polylines([(1 - t) * (1 - 2 * t) * points[a] + 4 * t * (1 - t) * points[middles[a, b]] + t * (2 * t - 1) * points[b]
+                            for a, b in sorted(ends)])
 
 
 def main():
@@ -79,7 +84,7 @@ def main():
     numbers = run(folder, "compare", "compared_spline.vtu", "compared_mesh.vtu", "--reference", PART, "--chordal-tolerance", "2e-4",
                   "--spline-boundary", "compared_spline.vtp", "--mesh-boundary", "compared_mesh.vtp", "--output", "compared_solids.csv")
     lines = {"spline": drawing.lines_of(drawing.element_lines(cad_fit.boundary(knotwork.read(os.path.join(folder, "compared_spline.vtu")))), 1),
-             "mesh": wires(os.path.join(folder, "compared_edges.vtp"))}
+             "mesh": drawing.lines_of(edges(folder), 1)}
     panels = []
     for k, (kind, title) in enumerate((("mesh", "tetrahedra of order 2"), ("spline", "one spline of degree 2"))):
         number = {name: numbers[f"{kind}_{name}"] for name in ("elements", "functions", "valid_elements", "largest_distance", "rms_to_reference", "volume")}
