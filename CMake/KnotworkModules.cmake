@@ -31,6 +31,6 @@ if(NOT KNOTWORK_PERMISSIVE) # CGAL is under the GPL, TetGen under the AGPL
   knotwork_module(SurfaceRemeshing KERNELS SplineCore MeshParameterization FILTERS SplineGrid MeshParameterization)
   knotwork_module(TetMeshing
     KERNELS SplineCore JacobianValidation MeshParameterization CADFitting SurfaceRemeshing
-    FILTERS SplineGrid MeshParameterization SurfaceTrimming CADFitting)
+    FILTERS SplineGrid JacobianValidation MeshParameterization SurfaceTrimming CADFitting)
 endif()
 knotwork_module(SplineIO KERNELS SplineCore FILTERS SplineGrid CADModel SurfaceTrimming)

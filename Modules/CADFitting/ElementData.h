@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finite elements from and to datasets.
 #pragma once
+#include "vtkKnotworkCADFittingModule.h" // for export macro
 #include <knotwork/CADFitting/CurvedElements.h>
 
 #include "vtkType.h"
@@ -24,7 +25,7 @@ struct DecodedElements
 /// cells among them. Of cells of several dimensions those of the most are taken.
 /// @return EmptyInput without such cells; InvalidTopology naming the first cell of another kind;
 /// TooLarge.
-Result<DecodedElements> DecodeStraightElements(vtkPointSet* data);
+VTKKNOTWORKCADFITTING_EXPORT Result<DecodedElements> DecodeStraightElements(vtkPointSet* data);
 
 /// Numbers of the elements' values of a cell array: equal values, equal numbers.
 /// @param array  of the dataset's cells; empty or "None": none.

@@ -15,7 +15,7 @@ FILE = "the file in question"  # its place in a run
 ENDINGS = {"surface": (".vtu", ".xml", ".g2", ".step", ".iges"), "points": (".vtp", ".xyz", ".csv", ".ply", ".g2"),
            "cells": (".vtp",), "mesh": (".off", ".obj", ".ply", ".stl", ".vtp"), "curves": (".vtp",),
            "boundary": (".json",), "map": (".vtu",), "trim": (".vtu",), "grid": (".vtu",), "layout": (".vtu",),
-           "quads": (".off", ".obj", ".ply", ".vtu"), "values": (".vtp", ".csv"), "edges": (".vtp",), "part": (".step",), "box": (".off", ".obj", ".ply")}
+           "quads": (".off", ".obj", ".ply", ".vtu"), "values": (".vtp", ".csv"), "edges": (".vtp",), "part": (".step",), "box": (".off", ".obj", ".ply"), "volume": (".vtu",)}
 
 BOUNDARY = ('{"curves": [%s]}' % ", ".join(
     '{"degree": 1, "knots": [0, 0, 1, 1], "control_points": [%s]}' % ends
@@ -58,7 +58,7 @@ def cube(ending):
 
 SOUND = {"surface": "square", "points": "cloud", "cells": "cloud", "mesh": "mesh", "curves": "target", "boundary": "boundary",
          "map": "map", "trim": "trim", "grid": "square", "layout": "quads", "quads": "quads", "values": "samples", "edges": "edges", "part": "solid",
-         "box": "quads"}
+         "box": "quads", "volume": "cube"}
 
 
 # What `quadremesh` finds as blender: every triangle becomes three quadrilaterals.
@@ -193,6 +193,8 @@ def runs():
             (["quadremesh", FILE, "--tries", "table.csv", "--output", polydata], "box"),
             (["tetrahedralize", FILE, "--repair", "--boundary", "edges.vtp", "--output", grid], "mesh"),
             (["boundary", FILE, "--output", polydata], "surface"),
+            (["compare", FILE, path("cube.vtu"), "--histogram", "histogram.csv", "--output", "table.csv"], "volume"),
+            (["compare", path("cube.vtu"), FILE, "--mesh-boundary", polydata, "--output", "table.csv"], "volume"),
             (["align", FILE, "--to", mesh, "--table", "table.csv", "--output", polydata], "points"),
             (["distance", FILE, mesh, "--both-ways", "--percentiles", "table.csv", "--model", "model.vtp", "--output", polydata], "points"),
             (["features", FILE, "--lines", "lines.vtp", "--corners", "corners.vtp", "--output", polydata], "mesh"),

@@ -16,7 +16,7 @@ MODULES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 FILES = {"plate.vtu": "square.vtu", "part.step": "square.step", "west.vtu": "square.vtu", "east.vtu": "east.vtu", "terrain.vtu": "height.vtu",
          "new.vtu": "height.vtu", "old.vtu": "height.vtu", "scan.xyz": "cloud.xyz", "samples.csv": "samples.csv", "shell.off": "mesh.off", "part.off": "quads.off", "section.vtu": "quads.vtu", "scan.off": "quads.off", "cow.off": "quads.off",
          "template.vtp": "template.vtp", "target.vtp": "target.vtp", "boundary.json": "boundary.json",
-         "solid.step": "solid.step"}
+         "solid.step": "solid.step", "solid.vtu": "cube.vtu", "mesh.vtu": "cube.vtu"}
 
 
 def jobs():

@@ -14,6 +14,7 @@ VERBS = {
     "cadfit": ("vtkCADFit", []),
     "cadmodify": ("vtkCADModifier", []),
     "combine": ("vtkSplineCombine", []),
+    "compare": ("vtkVolumeComparison", []),
     "contour": ("vtkSplineContour", ["levels"]),
     "control_net": ("vtkSplineControlNet", []),
     "crop": ("vtkSplineTrimToPoints", []),

@@ -3,7 +3,7 @@
 import knotwork_testing
 
 knotwork_testing.load_plugin()
-from paraview.simple import KnotworkSplineSource, OutputPort, SplineBoundary, TetGenMesher  # noqa: E402
+from paraview.simple import KnotworkSplineSource, OutputPort, SplineBoundary, TetGenMesher, VolumeComparison  # noqa: E402
 
 
 def test_ball():
@@ -17,6 +17,11 @@ def test_ball():
     numbers = mesher.GetClientSideObject().GetOutputDataObject(2)
     assert numbers.GetValueByName(0, "Verdict").ToString() == "valid"
     assert abs(numbers.GetValueByName(0, "Volume").ToDouble() - 4.18879) < 0.01
+    comparison = VolumeComparison(Input=ball, Mesh=OutputPort(mesher, 0), Samples=1000)
+    comparison.UpdatePipeline()
+    numbers = comparison.GetClientSideObject().GetOutputDataObject(3)
+    assert numbers.GetNumberOfRows() == 2
+    assert abs(numbers.GetValueByName(0, "Volume").ToDouble() - 4.18879) < 1e-5
 
 
 knotwork_testing.main(globals())
