@@ -9,6 +9,8 @@
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
+
 namespace knotwork
 {
 void EncodeHexahedra(const CellMesh<3>& mesh, const PointMatrix& points,
@@ -45,5 +47,32 @@ void AddHexahedronColumns(const HexahedronQuality& quality, vtkTable* table)
   AddColumn(table, "MinJacobianLower", certificate.MinLower);
   AddColumn(table, "LeastScaledJacobian", quality.LeastScaledJacobian);
   AddColumn(table, "Volume", quality.Volume);
+}
+
+std::vector<std::string> HexahedronWarnings(
+  const HexahedronQuality& quality, const std::string& remedy)
+{
+  const JacobianCertificate& certificate = quality.Certificate;
+  const auto& cells = certificate.Cells;
+  const std::string all = " of " + std::to_string(cells.size()) + " hexahedra ";
+  const auto first = [&](const auto& is)
+  { return std::to_string(std::find_if(cells.begin(), cells.end(), is) - cells.begin()); };
+  std::vector<std::string> warnings;
+  if (const auto folded = certificate.NumInvalid + certificate.NumReversed; folded > 0)
+  {
+    const auto isFolded = [](const CellCertificate& cell)
+    { return cell.Verdict == Verdict::Invalid || cell.Verdict == Verdict::Reversed; };
+    warnings.push_back(std::to_string(folded) + all + "are folded, the first is cell " +
+      first(isFolded) + " (Verdict -1 or 2); " + remedy);
+  }
+  if (certificate.NumUndecided > 0)
+  {
+    const auto isOpen = [](const CellCertificate& cell)
+    { return cell.Verdict == Verdict::Undecided; };
+    warnings.push_back(std::to_string(certificate.NumUndecided) + all +
+      "are neither proved valid nor folded, the first is cell " + first(isOpen) + " (Verdict 0); " +
+      remedy);
+  }
+  return warnings;
 }
 }

@@ -115,5 +115,7 @@ Status vtkCADHexahedra::Compute(vtkInformationVector**, vtkInformationVector* ou
   EncodeMesh(model.Value, made.Value, vtkUnstructuredGrid::GetData(outputs, 0));
   EncodeNumbers(model.Value, made.Value, vtkTable::GetData(outputs, 1));
   EncodeSolids(model.Value, made.Value, vtkTable::GetData(outputs, 2));
+  this->ReportWarnings(HexahedronWarnings(
+    made->Quality, "lower EdgeLength or Curvature, or cut the solid (cadmodify)"));
   return {};
 }

@@ -116,6 +116,7 @@ void EncodeFaces(const CADTopology& model, const CADQuads& made, vtkTable* table
     ArrayOf<vtkStringArray>("Name", made.Faces, [&](Row row) { return faceOf(row).Name; }));
   table->AddColumn(ArrayOf<vtkStringArray>(
     "Composite", made.Faces, [&](Row row) { return ParseCompositeName(faceOf(row).Name).Group; }));
+  add("JoinedFaces", [&](Row row) { return static_cast<int>(faceOf(row).Joined.size()); });
   add("Mapped", [](Row row) { return row.Mapped ? 1 : 0; });
   add("Quads", [](Row row) { return row.Quads; });
   add("ExtraordinaryPoints", [](Row row) { return row.ExtraordinaryPoints; });
@@ -143,11 +144,12 @@ Status vtkCADQuads::Compute(vtkInformationVector**, vtkInformationVector* output
   {
     return { ErrorCode::EmptyInput, "there is no file name" };
   }
-  const auto model = CADTopology::Read(this->FileName, static_cast<LengthUnit>(this->Unit));
+  auto model = CADTopology::Read(this->FileName, static_cast<LengthUnit>(this->Unit));
   if (!model)
   {
     return model.Status;
   }
+  const std::vector<std::string> inFaces = JoinComposites(model.Value);
   CADQuadsParams params;
   params.Method = static_cast<CADQuadMethod>(this->Method);
   params.EdgeLength = this->EdgeLength;
@@ -163,5 +165,6 @@ Status vtkCADQuads::Compute(vtkInformationVector**, vtkInformationVector* output
   EncodeMesh(model.Value, made.Value, vtkPolyData::GetData(outputs, 0));
   EncodeNumbers(model.Value, made.Value, vtkTable::GetData(outputs, 1));
   EncodeFaces(model.Value, made.Value, vtkTable::GetData(outputs, 2));
+  this->ReportWarnings(inFaces);
   return {};
 }

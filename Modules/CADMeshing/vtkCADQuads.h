@@ -11,7 +11,8 @@
  * Output 0 (vtkPolyData): the quadrilaterals, counterclockwise about the normal that leads out of
  * their solid (the first of two), with the cell arrays CADFaceId (FaceId of vtkCADReader, the
  * smaller of two), SolidId (Body of vtkCADReader), SecondSolidId (-1: none), ScaledJacobian and,
- * where faces are in composites (CADComposite.h), CompositeId (from 0, -1 in none), and the point
+ * where faces are in composites (CADComposite.h), CompositeId (from 0, -1 in none; the composite is
+ * meshed as one face, with the FaceId of its first), and the point
  * arrays CADEntityDimension (0 on a vertex, 1 on an edge, 2 on a face) and CADEntityId (number of
  * the vertex or edge, FaceId of the face).
  *
@@ -19,8 +20,9 @@
  * Solids, LeastScaledJacobian, ExtraordinaryPoints, EulerNumber, Closed, Distance and Diagonal.
  *
  * Output 2 (vtkTable): a row a face with FaceId, SecondFaceId (of the same face in the other
- * solid, -1: none), SolidId, SecondSolidId, Name, Composite, Mapped, Quads, ExtraordinaryPoints,
- * LeastScaledJacobian and Distance.
+ * solid, -1: none), SolidId, SecondSolidId, Name, Composite, JoinedFaces
+ * (faces of the file in a composite's face, 0: it is one of these), Mapped, Quads,
+ * ExtraordinaryPoints, LeastScaledJacobian and Distance.
  *
  * Errors: those of knotwork::CADTopology::Read and MeshQuads.
  */

@@ -181,5 +181,7 @@ Status vtkSweepToHexahedra::Compute(vtkInformationVector** inputs, vtkInformatio
   EncodeMesh(
     swept.Value, source.Value, quality.Value, input, vtkUnstructuredGrid::GetData(outputs, 0));
   EncodeNumbers(swept.Value, quality.Value, vtkTable::GetData(outputs, 1));
+  this->ReportWarnings(HexahedronWarnings(
+    quality.Value, "turn the path less sharply, twist less, or mend the source's quadrilaterals"));
   return {};
 }

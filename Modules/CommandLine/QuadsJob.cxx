@@ -41,8 +41,8 @@ protected:
     {
       nlohmann::ordered_json entry = nlohmann::ordered_json::object();
       ReportRow(faces, row,
-        { "FaceId", "SecondFaceId", "SolidId", "SecondSolidId", "Quads", "ExtraordinaryPoints",
-          "LeastScaledJacobian", "Distance" },
+        { "FaceId", "SecondFaceId", "SolidId", "SecondSolidId", "JoinedFaces", "Quads",
+          "ExtraordinaryPoints", "LeastScaledJacobian", "Distance" },
         entry);
       ReportTruths(faces, row, { "Mapped" }, entry);
       entry["composite"] = faces->GetValueByName(row, "Composite").ToString();

@@ -2,6 +2,7 @@
 #include "CADQuads.h"
 
 #include "FaceMesher.h"
+#include <knotwork/MeshParameterization/MeshParameterization.h>
 #include <knotwork/SplineCore/SizeLimit.h>
 
 #include <algorithm>
@@ -288,6 +289,33 @@ Result<CADQuads> QuadMesher::Run()
     }
   }
 }
+}
+
+std::vector<std::string> JoinComposites(CADTopology& model)
+{
+  return model.JoinComposites(
+    [](const PointMatrix& points,
+      const std::vector<std::array<int, 3>>& triangles) -> Result<PointMatrix>
+    {
+      FlattenParams params;
+      params.Method = FlattenMethod::Injective; // isometric where sheets unfold
+      params.Threads = 1;
+      const auto flat = FlattenMesh({ points, triangles }, params);
+      if (!flat)
+      {
+        return flat.Status;
+      }
+      if (!flat->Injective)
+      {
+        return flat->Injective;
+      }
+      PointMatrix places = PointMatrix::Zero(points.rows(), 2);
+      for (std::size_t i = 0; i < flat->Mesh.PointIds.size(); ++i)
+      {
+        places.row(flat->Mesh.PointIds[i]) = flat->UV.row(static_cast<Eigen::Index>(i));
+      }
+      return places;
+    });
 }
 
 Result<CADQuads> MeshQuads(const CADTopology& model, const CADQuadsParams& params)

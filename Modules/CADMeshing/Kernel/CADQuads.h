@@ -47,6 +47,11 @@ struct CADQuads
   double Distance = 0.0;
 };
 
+/// Makes every composite of a model one face, whose parameters are an injective map of its
+/// triangles to the plane.
+/// @return a sentence for every composite that stays in faces, or in several parts, and why.
+std::vector<std::string> JoinComposites(CADTopology& model);
+
 /// Conforming quadrilaterals on all faces of a model. Every edge is divided once, by equal lengths,
 /// into an even number of segments; faces with four logical corners become grids, others are
 /// triangulated, joined and divided to quadrilaterals. Inner points are moved on the surface until

@@ -2,6 +2,7 @@
 #include "CADTopology.h"
 
 #include "CADSession.h"
+#include "CADTopologyShapes.h"
 #include "LoadedDocument.h"
 #include "ModelDocument.h"
 
@@ -9,14 +10,11 @@
 #include <Eigen/LU>
 
 #include <BOPTools_AlgoTools3D.hxx>
-#include <BRepAdaptor_Curve.hxx>
 #include <BRepBndLib.hxx>
 #include <BRepTools_WireExplorer.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
-#include <GCPnts_AbscissaPoint.hxx>
 #include <GeomAPI_ProjectPointOnSurf.hxx>
-#include <GeomAdaptor_Surface.hxx>
 #include <IntTools_Context.hxx>
 #include <ShapeAnalysis.hxx>
 #include <TopExp.hxx>
@@ -31,114 +29,6 @@
 
 namespace knotwork
 {
-namespace
-{
-Eigen::Vector3d ToEigen(const gp_Pnt& point)
-{
-  return { point.X(), point.Y(), point.Z() };
-}
-
-Eigen::Vector3d ToEigen(const gp_Vec& vector)
-{
-  return { vector.X(), vector.Y(), vector.Z() };
-}
-
-/// An edge's curve with its length, asked for by share of it.
-class MeasuredCurve
-{
-public:
-  explicit MeasuredCurve(const TopoDS_Edge& edge)
-    : Curve(edge), First(Curve.FirstParameter()), Last(Curve.LastParameter()),
-      Length(GCPnts_AbscissaPoint::Length(Curve))
-  {
-  }
-
-  double ParameterAt(double share) const
-  {
-    if (share <= 0.0 || share >= 1.0)
-    {
-      return share <= 0.0 ? this->First : this->Last;
-    }
-    const double guess = this->First + share * (this->Last - this->First);
-    if (this->Curve.GetType() == GeomAbs_Line || this->Curve.GetType() == GeomAbs_Circle)
-    {
-      return guess;
-    }
-    const GCPnts_AbscissaPoint found(this->Curve, share * this->Length, this->First, guess);
-    return found.IsDone() ? std::clamp(found.Parameter(), this->First, this->Last) : guess;
-  }
-  Eigen::Vector3d PointAt(double share) const
-  {
-    return ToEigen(this->Curve.Value(this->ParameterAt(share)));
-  }
-  double Turning() const
-  {
-    constexpr int Places = 64;
-    double turning = 0.0;
-    Eigen::Vector3d before = Eigen::Vector3d::Zero();
-    for (int i = 0; i <= Places; ++i)
-    {
-      gp_Pnt point;
-      gp_Vec tangent;
-      this->Curve.D1(this->First + (this->Last - this->First) * i / Places, point, tangent);
-      const Eigen::Vector3d now = ToEigen(tangent);
-      if (i > 0 && now.norm() > 0.0 && before.norm() > 0.0)
-      {
-        turning += std::atan2(before.cross(now).norm(), before.dot(now));
-      }
-      before = now;
-    }
-    return turning;
-  }
-
-  BRepAdaptor_Curve Curve;
-  double First;
-  double Last;
-  double Length;
-};
-
-/// The use of an edge by a face in its own parameters.
-struct UseShape
-{
-  Handle(Geom2d_Curve) Curve;
-  double First = 0.0;
-  double Last = 1.0;
-  bool Backward = false;                  ///< the loop runs against the curve
-  std::shared_ptr<MeasuredCurve> Measure; ///< of the same edge; none at a pole
-};
-
-struct FaceShape
-{
-  TopoDS_Face Face;
-  Handle(Geom_Surface) Surface;
-  std::shared_ptr<GeomAdaptor_Surface> Adaptor;
-  std::vector<std::vector<UseShape>> Loops;
-  double Size = 0.0; ///< of its box
-};
-}
-
-struct CADTopology::Shapes
-{
-  std::vector<std::shared_ptr<MeasuredCurve>> Edges;
-  std::vector<FaceShape> Faces;
-  // for merging
-  std::vector<std::vector<int>> BodiesOfEdges;
-  std::vector<double> VertexTolerances;
-  double Tolerance = 0.0;
-  NCollection_DataMap<TopoDS_Shape, int, TopTools_ShapeMapHasher> VertexIds;
-  NCollection_DataMap<TopoDS_Shape, std::pair<int, bool>, TopTools_ShapeMapHasher>
-    EdgeIds; ///< and whether the edge runs against the one that counts
-  std::map<std::vector<int>, std::vector<int>> FacesOfEdges;
-
-  int AddVertex(const TopoDS_Vertex& vertex, CADTopology& model);
-  std::pair<int, bool> AddEdge(const TopoDS_Edge& edge, int body, CADTopology& model);
-  std::pair<int, bool> FindEqual(
-    const MeasuredCurve& curve, const std::array<int, 2>& vertices, int body, CADTopology& model);
-  Status AddFace(
-    const TopoDS_Face& face, int id, int body, const std::string& name, CADTopology& model);
-  bool IsSameFace(const TopoDS_Face& face, const FaceShape& other) const;
-};
-
 CADTopology::CADTopology() = default;
 CADTopology::~CADTopology() = default;
 CADTopology::CADTopology(CADTopology&&) noexcept = default;
@@ -290,6 +180,7 @@ Status CADTopology::Shapes::AddFace(
       const bool backward = edge.Orientation() == TopAbs_REVERSED;
       CADTopologyUse use;
       UseShape useShape;
+      useShape.Edge = edge;
       useShape.Curve = BRep_Tool::CurveOnSurface(edge, face, useShape.First, useShape.Last);
       useShape.Backward = backward;
       if (useShape.Curve.IsNull())
@@ -410,10 +301,98 @@ Eigen::Vector3d CADTopology::EdgePoint(int edge, double share) const
   return this->Impl->Edges[static_cast<std::size_t>(edge)]->PointAt(share);
 }
 
+namespace
+{
+/// Where parameters of a face are on one of its surfaces.
+struct SurfacePlace
+{
+  const GeomAdaptor_Surface* Surface;
+  Eigen::Vector2d Parameters;
+  Eigen::Matrix2d Derivative; ///< of the surface's parameters by those of the face
+  bool Reversed;              ///< the surface runs against the face
+};
+
+SurfacePlace PlaceOn(const JoinedFaces& joined, const Eigen::Vector2d& parameters)
+{
+  const CompositePlace place = joined.Chart.At(parameters);
+  const auto at = static_cast<std::size_t>(place.Face);
+  return { joined.Faces[at].Adaptor.get(), place.Parameters, place.Derivative,
+    joined.Reversed[at] };
+}
+
+SurfacePlace PlaceOn(const FaceShape& shape, const Eigen::Vector2d& parameters)
+{
+  return shape.Joined
+    ? PlaceOn(*shape.Joined, parameters)
+    : SurfacePlace{ shape.Adaptor.get(), parameters, Eigen::Matrix2d::Identity(), false };
+}
+
+Eigen::Vector2d ParametersOnOutline(const OutlineUse& use, double share)
+{
+  const auto behind =
+    std::upper_bound(use.Shares.begin() + 1, use.Shares.end() - 1, share) - use.Shares.begin();
+  const auto i = static_cast<std::size_t>(behind);
+  const double way = (share - use.Shares[i - 1]) / (use.Shares[i] - use.Shares[i - 1]);
+  return (1.0 - way) * use.Places[i - 1] + way * use.Places[i];
+}
+
+/// Gauss-Newton steps that are halved where the derivative jumps, between faces.
+CADPlace ProjectOnJoined(const JoinedFaces& joined, const Eigen::Vector3d& point,
+  const Eigen::Vector2d& guess, double still)
+{
+  constexpr int MaxSteps = 30;
+  constexpr int Halvings = 6;
+  CADPlace place{ joined.Chart.Nearest(guess), {} };
+  for (int step = 0; step < MaxSteps; ++step)
+  {
+    const SurfacePlace here = PlaceOn(joined, place.Parameters);
+    gp_Pnt at;
+    gp_Vec du;
+    gp_Vec dv;
+    here.Surface->D1(here.Parameters[0], here.Parameters[1], at, du, dv);
+    place.Point = ToEigen(at);
+    Eigen::Matrix<double, 3, 2> tangents;
+    tangents << ToEigen(du), ToEigen(dv);
+    tangents *= here.Derivative;
+    const Eigen::Matrix2d matrix = tangents.transpose() * tangents;
+    if (!(matrix.determinant() > 1e-12 * matrix(0, 0) * matrix(1, 1)))
+    {
+      break;
+    }
+    Eigen::Vector2d move = matrix.inverse() * (tangents.transpose() * (point - place.Point));
+    bool nearer = false;
+    for (int halving = 0; halving < Halvings && !nearer; ++halving, move *= 0.5)
+    {
+      const Eigen::Vector2d next = joined.Chart.Nearest(place.Parameters + move);
+      const SurfacePlace there = PlaceOn(joined, next);
+      const Eigen::Vector3d found =
+        ToEigen(there.Surface->Value(there.Parameters[0], there.Parameters[1]));
+      if ((found - point).squaredNorm() < (place.Point - point).squaredNorm())
+      {
+        nearer = (next - place.Parameters).norm() > still;
+        place = { next, found };
+        break;
+      }
+    }
+    if (!nearer)
+    {
+      break;
+    }
+  }
+  return place;
+}
+}
+
 Eigen::Vector2d CADTopology::UseParameters(int face, int loop, int use, double share) const
 {
-  const UseShape& shape = this->Impl->Faces[static_cast<std::size_t>(face)]
-                            .Loops[static_cast<std::size_t>(loop)][static_cast<std::size_t>(use)];
+  const FaceShape& ofFace = this->Impl->Faces[static_cast<std::size_t>(face)];
+  if (ofFace.Joined)
+  {
+    return ParametersOnOutline(
+      ofFace.Joined->Loops[static_cast<std::size_t>(loop)][static_cast<std::size_t>(use)], share);
+  }
+  const UseShape& shape =
+    ofFace.Loops[static_cast<std::size_t>(loop)][static_cast<std::size_t>(use)];
   const double along = shape.Backward ? 1.0 - share : share;
   double parameter = shape.First + along * (shape.Last - shape.First);
   if (shape.Measure)
@@ -430,17 +409,17 @@ Eigen::Vector2d CADTopology::UseParameters(int face, int loop, int use, double s
 
 Eigen::Vector3d CADTopology::FacePoint(int face, const Eigen::Vector2d& parameters) const
 {
-  return ToEigen(
-    this->Impl->Faces[static_cast<std::size_t>(face)].Adaptor->Value(parameters[0], parameters[1]));
+  const SurfacePlace place = PlaceOn(this->Impl->Faces[static_cast<std::size_t>(face)], parameters);
+  return ToEigen(place.Surface->Value(place.Parameters[0], place.Parameters[1]));
 }
 
 Eigen::Vector3d CADTopology::FaceNormal(int face, const Eigen::Vector2d& parameters) const
 {
+  const SurfacePlace place = PlaceOn(this->Impl->Faces[static_cast<std::size_t>(face)], parameters);
   gp_Pnt point;
   gp_Vec u;
   gp_Vec v;
-  this->Impl->Faces[static_cast<std::size_t>(face)].Adaptor->D1(
-    parameters[0], parameters[1], point, u, v);
+  place.Surface->D1(place.Parameters[0], place.Parameters[1], point, u, v);
   const Eigen::Vector3d normal = ToEigen(u).cross(ToEigen(v));
   const double length = normal.norm();
   const double size = std::max(u.SquareMagnitude(), v.SquareMagnitude());
@@ -448,20 +427,20 @@ Eigen::Vector3d CADTopology::FaceNormal(int face, const Eigen::Vector2d& paramet
   {
     return Eigen::Vector3d::Zero();
   }
-  return this->Faces[static_cast<std::size_t>(face)].Reversed ? Eigen::Vector3d(-normal / length)
-                                                              : Eigen::Vector3d(normal / length);
+  const bool reversed = place.Reversed != this->Faces[static_cast<std::size_t>(face)].Reversed;
+  return reversed ? Eigen::Vector3d(-normal / length) : Eigen::Vector3d(normal / length);
 }
 
 double CADTopology::FaceCurvature(int face, const Eigen::Vector2d& parameters) const
 {
+  const SurfacePlace place = PlaceOn(this->Impl->Faces[static_cast<std::size_t>(face)], parameters);
   gp_Pnt point;
   gp_Vec u;
   gp_Vec v;
   gp_Vec uu;
   gp_Vec vv;
   gp_Vec uv;
-  this->Impl->Faces[static_cast<std::size_t>(face)].Adaptor->D2(
-    parameters[0], parameters[1], point, u, v, uu, vv, uv);
+  place.Surface->D2(place.Parameters[0], place.Parameters[1], point, u, v, uu, vv, uv);
   const Eigen::Vector3d normal = ToEigen(u).cross(ToEigen(v));
   const double e = u.Dot(u);
   const double f = u.Dot(v);
@@ -486,6 +465,10 @@ CADPlace CADTopology::Project(
 {
   constexpr int MaxSteps = 30;
   const FaceShape& shape = this->Impl->Faces[static_cast<std::size_t>(face)];
+  if (shape.Joined)
+  {
+    return ProjectOnJoined(*shape.Joined, point, guess, 1e-13 * shape.Size);
+  }
   const GeomAdaptor_Surface& surface = *shape.Adaptor;
   CADPlace place{ guess, {} };
   // Gauss-Newton steps: they converge for points near the surface

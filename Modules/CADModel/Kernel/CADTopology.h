@@ -4,8 +4,12 @@
 #pragma once
 #include "CADExchange.h"
 
+#include <knotwork/SplineCore/Types.h>
+
 #include <Eigen/Core>
 
+#include <array>
+#include <functional>
 #include <memory>
 
 namespace knotwork
@@ -35,7 +39,15 @@ struct CADTopologyFace
   bool Reversed = false;   ///< its normal, outward of the first body, is that of -du x dv
   bool IsPlane = false;
   std::string Name;
+  /// Of a composite (CADTopology::JoinComposites): ids of all its faces in the first body. Ids has
+  /// the first of them. Empty: a face of the file.
+  std::vector<int> Joined;
 };
+
+/// Lays triangles in space into the plane, without overlaps.
+/// @return a row (x, y) for every point.
+using CADFlattening = std::function<Result<PointMatrix>(
+  const PointMatrix& points, const std::vector<std::array<int, 3>>& triangles)>;
 
 /// A face of a body.
 struct CADTopologySide
@@ -75,6 +87,12 @@ public:
   ~CADTopology();
   CADTopology(CADTopology&&) noexcept;
   CADTopology& operator=(CADTopology&&) noexcept;
+
+  /// Makes the faces of every composite (CADComposite.h) one face, as far as they have the same
+  /// bodies and common edges that no other face has. Such edges, and vertices within, are no more;
+  /// parameters of the face are places of its flattened triangles.
+  /// @return a sentence for every composite that stays in faces, or in several parts, and why.
+  std::vector<std::string> JoinComposites(const CADFlattening& flatten);
 
   std::vector<Eigen::Vector3d> Vertices;
   std::vector<CADTopologyEdge> Edges;

@@ -3,6 +3,7 @@
 
 usage: make_parts.py FOLDER
 """
+import math
 import os
 import sys
 
@@ -16,10 +17,44 @@ def piston(occ):
     occ.cut(cup, [(3, occ.addCylinder(-radius - 5, 0, 22, 2 * radius + 10, 0, 0, 9))])
 
 
+def bracket(occ):
+    """Sheet 2 thick: a base of 60 x 40 with two holes of 8 and a corner cut off, a flange of 30 bent up at x = 60 and a
+    lug of 16 x 15 bent up at y = 40, inner radii of 3, a slot in the flange."""
+    thick, inner, width, base, flange = 2, 3, 40, 60, 30
+    outer = inner + thick
+
+    def bend(x, y, axis, begin, length):
+        """Quarter of a tube about a line above the base along an axis; the hollow side looks up and back."""
+        place = (x, begin, thick + inner) if axis == 1 else (begin, y, thick + inner)
+        way = (0, length, 0) if axis == 1 else (length, 0, 0)
+        ring = occ.cut([(3, occ.addCylinder(*place, *way, outer))], [(3, occ.addCylinder(*place, *way, inner))])[0]
+        corner = (x, begin, 0) if axis == 1 else (begin, y, 0)
+        size = (outer, length, outer) if axis == 1 else (length, outer, outer)
+        return occ.intersect(ring, [(3, occ.addBox(*corner, *size))])[0]
+
+    sheet = [(3, occ.addBox(0, 0, 0, base, width, thick))]
+    pieces = bend(base, 0, 1, 0, width) + [(3, occ.addBox(base + inner, 0, outer, thick, width, flange))]
+    pieces += bend(0, width, 0, 15, 16) + [(3, occ.addBox(15, width + inner, outer, 16, thick, 15))]
+    part = occ.fuse(sheet, pieces)[0]
+    holes = [(3, occ.addCylinder(x, 20, -1, 0, 0, thick + 2, 4)) for x in (15, 42)]
+    slot = [(3, occ.addBox(base, 14, outer + 10, outer + 1, 12, 8))]
+    holes += occ.fuse(slot, [(3, occ.addCylinder(base, y, outer + 14, outer + 1, 0, 0, 4)) for y in (14, 26)])[0]
+    wedge = [(3, occ.addBox(-20, -20, -1, 20, 40, thick + 2))]
+    occ.rotate(wedge, 0, 0, 0, 0, 0, 1, math.pi / 4)
+    occ.translate(wedge, 5, 5, 0)
+    occ.cut(part, holes + wedge)
+
+
+def cylinder_on_cube(occ):
+    """Two solids that touch and share nothing: a cube of 20 and a cylinder of radius 6, 12 high, in the middle of its top."""
+    occ.addBox(0, 0, 0, 20, 20, 20)
+    occ.addCylinder(10, 10, 20, 0, 0, 12, 6)
+
+
 def main():
     gmsh.initialize()
     gmsh.option.setNumber("General.Terminal", 0)
-    for name, make in (("piston.step", piston),):
+    for name, make in (("piston.step", piston), ("bracket.step", bracket), ("cylinder_on_cube.step", cylinder_on_cube)):
         make(gmsh.model.occ)
         gmsh.model.occ.synchronize()
         gmsh.write(os.path.join(sys.argv[1], name))

@@ -114,7 +114,13 @@ TEST(vtkSweepToHexahedra, APathThatTurnsTooSharplyIsNotValid)
     arc.push_back({ 0.5 + 0.5 * std::cos(angle), 0.5, 0.5 * std::sin(angle) });
   }
   filter->SetPathData(Line(arc));
+  vtkNew<MessageRecorder> messages;
+  messages->Watch(filter);
   filter->Update();
+  ASSERT_EQ(messages->Warnings.size(), 1u);
+  EXPECT_NE(
+    messages->Warnings[0].find("of 16 hexahedra are folded, the first is cell"), std::string::npos)
+    << messages->Warnings[0];
   EXPECT_EQ(
     Number(filter, "ValidCells") + Number(filter, "ReversedCells") + Number(filter, "InvalidCells"),
     16);

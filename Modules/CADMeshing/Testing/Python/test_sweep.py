@@ -8,6 +8,7 @@ import knotwork
 import knotwork_testing
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
 FOLDER = os.path.dirname(knotwork_testing.output("sweep/files"))
 
@@ -41,6 +42,17 @@ def test_a_twisted_bar_is_valid_and_becomes_a_spline():
     with open(os.path.join(FOLDER, "spline.json"), encoding="utf-8") as file:
         spline = json.load(file)
     assert spline["verdict"] == "valid" and abs(spline["volume"] - 4.0) < abs(report["volume"] - 4.0), spline
+
+
+def test_folded_hexahedra_are_warned_of():
+    """A quarter turn about a line through the middle of the square."""
+    writer = vtkXMLPolyDataWriter()
+    writer.SetFileName(os.path.join(FOLDER, "turn.vtp"))
+    writer.SetInputDataObject(surface([(0.5 + 0.2 * math.cos(a), 0.5, 0.2 * math.sin(a)) for a in (k * math.pi / 16 for k in range(17))],
+                                      [list(range(17))], lines=True))
+    writer.Write()
+    done = knotwork_testing.run_program("sweep", square(4), "--path", "turn.vtp", "--output", "turn.vtu", "--force", folder=FOLDER)
+    assert done.returncode == 0 and "hexahedra are folded, the first is cell" in done.stderr, done.stderr
 
 
 def surface(points, cells, lines=False):
