@@ -218,7 +218,7 @@ void EvaluateFunctions(
 void RuleTables::Visit(const GalerkinSpace& space, int element, const PointVisitor& visit)
 {
   const auto e = static_cast<std::size_t>(element);
-  const int count = NumRulePoints(space, element, this->Tolerance);
+  const int count = NumRulePoints(space, element, this->Tolerance) + this->ExtraPoints;
   Table& table = this->Tables[{ space.Shapes[e], space.Degrees[e], count }];
   if (table.Rule.Points.empty())
   {

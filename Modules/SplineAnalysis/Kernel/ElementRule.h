@@ -64,7 +64,11 @@ using PointVisitor = std::function<void(std::size_t point, const PointValues& va
 class RuleTables
 {
 public:
-  explicit RuleTables(double tolerance) : Tolerance(tolerance) {}
+  /// @param extraPoints  a direction, beyond NumRulePoints.
+  explicit RuleTables(double tolerance, int extraPoints = 0)
+    : Tolerance(tolerance), ExtraPoints(extraPoints)
+  {
+  }
   /// Calls for every point of the element's rule.
   void Visit(const GalerkinSpace& space, int element, const PointVisitor& visit);
   const double* Weights = nullptr; ///< of the points of the element visited last
@@ -77,6 +81,7 @@ private:
     PointMatrix Bernstein;
   };
   double Tolerance;
+  int ExtraPoints;
   std::map<std::tuple<CellShape, CellDegree, int>, Table> Tables;
 };
 

@@ -196,24 +196,23 @@ Result<Eigen::VectorXd> AssembleLoads(
   Eigen::VectorXd right = Eigen::VectorXd::Zero(Eigen::Index{ space.NumFunctions() } * components);
   Eigen::VectorXd given = Eigen::VectorXd::Zero(components);
   PointValues values;
-  const auto add = [&](int element, double weight)
+  const auto add = [&](int element, double weight, const PointValues& at)
   {
     for (int a = 0; a < space.NumAlive(element); ++a)
     {
       right.segment(Eigen::Index{ space.Alive(element)[a] } * components, components) +=
-        weight * values.Values[a] * given;
+        weight * at.Values[a] * given;
     }
   };
+  RuleTables tables(params.QuadratureTolerance);
   for (int e = 0; e < space.NumElements() && problem.Source; ++e)
   {
-    const CellRule rule = MakeCellRule(space.Shapes[static_cast<std::size_t>(e)],
-      NumRulePoints(space, e, params.QuadratureTolerance));
-    for (std::size_t q = 0; q < rule.Points.size(); ++q)
-    {
-      EvaluateFunctions(space, e, rule.Points[q].data(), values);
-      problem.Source(values.Position.data(), given.data());
-      add(e, rule.Weights[q] * std::abs(values.Determinant));
-    }
+    tables.Visit(space, e,
+      [&](std::size_t q, const PointValues& at)
+      {
+        problem.Source(at.Position.data(), given.data());
+        add(e, tables.Weights[q] * std::abs(at.Determinant), at);
+      });
   }
   for (const FacetLoad& load : problem.Loads)
   {
@@ -229,7 +228,7 @@ Result<Eigen::VectorXd> AssembleLoads(
         const Eigen::VectorXd area = AreaVector(frame, values);
         const Eigen::VectorXd normal = area.normalized();
         load.Values(values.Position.data(), normal.data(), given.data());
-        add(facet.Cell, rule.Weights[q] * area.norm());
+        add(facet.Cell, rule.Weights[q] * area.norm(), values);
       }
     }
   }
@@ -458,23 +457,24 @@ ErrorNorms SolutionError(const GalerkinSpace& space, const PointMatrixView& coef
   const Eigen::Index components = coefficients.cols();
   Eigen::VectorXd value(components);
   PointMatrix slope(components, space.Dimension);
-  const GalerkinProblem values; // stresses are not asked for
+  RuleTables tables(1e-10, extraPoints);
   for (int e = 0; e < space.NumElements(); ++e)
   {
-    const CellRule rule = MakeCellRule(
-      space.Shapes[static_cast<std::size_t>(e)], NumRulePoints(space, e, 1e-10) + extraPoints);
-    PointValues at;
-    for (std::size_t q = 0; q < rule.Points.size(); ++q)
-    {
-      EvaluateFunctions(space, e, rule.Points[q].data(), at);
-      const double weight = rule.Weights[q] * std::abs(at.Determinant);
-      exact(at.Position.data(), value.data());
-      gradient(at.Position.data(), slope.data());
-      const GalerkinPoint point =
-        EvaluateSolution(space, values, coefficients, e, rule.Points[q].data());
-      sum.L2 += weight * (point.Value - value).squaredNorm();
-      sum.H1 += weight * (point.Gradient - slope).squaredNorm();
-    }
+    tables.Visit(space, e,
+      [&](std::size_t q, const PointValues& at)
+      {
+        exact(at.Position.data(), value.data());
+        gradient(at.Position.data(), slope.data());
+        for (int a = 0; a < space.NumAlive(e); ++a)
+        {
+          const auto row = coefficients.row(space.Alive(e)[a]);
+          value -= at.Values[a] * row.transpose();
+          slope -= row.transpose() * at.Gradients.row(a);
+        }
+        const double weight = tables.Weights[q] * std::abs(at.Determinant);
+        sum.L2 += weight * value.squaredNorm();
+        sum.H1 += weight * slope.squaredNorm();
+      });
   }
   return { std::sqrt(sum.L2), std::sqrt(sum.H1) };
 }
