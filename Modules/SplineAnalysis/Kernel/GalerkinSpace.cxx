@@ -4,7 +4,6 @@
 #include "ElementRule.h"
 #include <knotwork/SplineCore/DisjointSets.h>
 #include <knotwork/SplineCore/LatticeInterpolation.h>
-#include <knotwork/SplineCore/PointClusters.h>
 
 #include <map>
 #include <string>
@@ -44,7 +43,7 @@ private:
 };
 
 template <int Dim>
-Status AddPatch(const Spline<Dim>& spline, int patch, const std::vector<int>& numbers,
+void AddPatch(const Spline<Dim>& spline, int patch, const std::vector<int>& numbers,
   GalerkinSpace& space, SpaceBuilder& builder)
 {
   for (int e = 0; e < spline.Space->NumElements(); ++e)
@@ -69,7 +68,6 @@ Status AddPatch(const Spline<Dim>& spline, int patch, const std::vector<int>& nu
       space.Weights[to] = spline.IsRational() ? spline.Weights[f] : 1.0;
     }
   }
-  return {};
 }
 
 template <int Dim>

@@ -8,6 +8,7 @@
 #include <knotwork/SplineCore/Shapes.h>
 #include <knotwork/SplineCore/TensorSpace.h>
 
+#include <algorithm>
 #include <cmath>
 
 /// Spaces of all families on bodies with curved boundaries, and their facets.
@@ -140,8 +141,8 @@ Spline<Dim> BentStar(int valence, int n, int degree)
 }
 
 /// The bent unit square or cube of Lagrange elements, n a direction; boxes are cut into simplices
-/// along their diagonals. @param straight  nodes lie evenly between the corners.
-inline AnalysisCase LagrangeCase(CellShape shape, int order, int n, bool straight = false)
+/// along their diagonals.
+inline AnalysisCase LagrangeCase(CellShape shape, int order, int n)
 {
   const int dimension = NumParameters(shape);
   const bool simplex = shape == CellShape::Triangle || shape == CellShape::Tetrahedron;
@@ -219,26 +220,6 @@ inline AnalysisCase LagrangeCase(CellShape shape, int order, int n, bool straigh
             }
             nodes[static_cast<std::size_t>(CellCoefficient(shape, degree, i, j, k))] =
               number(place);
-          }
-        }
-      }
-      if (straight)
-      {
-        const auto corner = [&](int i, int j, int k) -> Eigen::RowVectorXd
-        {
-          return mesh.Nodes.row(
-            nodes[static_cast<std::size_t>(CellCoefficient(shape, degree, i, j, k))]);
-        };
-        const Eigen::RowVectorXd a = corner(0, 0, 0);
-        const Eigen::RowVectorXd b = corner(order, 0, 0);
-        const Eigen::RowVectorXd c = corner(0, order, 0);
-        for (int j = 0; j <= order; ++j)
-        {
-          for (int i = 0; i + j <= order; ++i)
-          {
-            mesh.Nodes.row(
-              nodes[static_cast<std::size_t>(CellCoefficient(shape, degree, i, j, 0))]) =
-              a + (b - a) * i / order + (c - a) * j / order;
           }
         }
       }
