@@ -79,7 +79,8 @@ def main():
             ("spline", ("hexes", "compared_piston.brep", "--edge-length", "6", "--output", "compared_hexes.vtu")),
             ("spline", ("cadfit", "compared_hexes.vtu", "--target", PART, "--degree", "2", "--output", "compared_spline.vtu")),
             ("mesh", ("boundary", PART, "--chordal-tolerance", "1e-3", "--output", "compared_surface.vtp")),
-            ("mesh", ("tetrahedralize", "compared_surface.vtp", "--target", PART, "--order", "2", "--boundary", "compared_edges.vtp", "--output", "compared_mesh.vtu"))):
+            ("mesh", ("remesh", "compared_surface.vtp", "--size", "6", "--output", "compared_triangles.vtp")),
+            ("mesh", ("tetrahedralize", "compared_triangles.vtp", "--target", PART, "--order", "2", "--boundary", "compared_edges.vtp", "--output", "compared_mesh.vtu"))):
         seconds[kind] += run(folder, *words)["cpu_seconds"]
     numbers = run(folder, "compare", "compared_spline.vtu", "compared_mesh.vtu", "--reference", PART, "--chordal-tolerance", "2e-4",
                   "--spline-boundary", "compared_spline.vtp", "--mesh-boundary", "compared_mesh.vtp", "--output", "compared_solids.csv")

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BoundaryProjection.h"
+
+#include "ElementRule.h"
+#include "StiffnessMatrix.h"
+#include <knotwork/MeshParameterization/SparseCholesky.h>
+
+#include <map>
+#include <set>
+
+namespace knotwork
+{
+namespace
+{
+/// The conditions of one component: mass matrix and right-hand side on their facets.
+class TraceSystem
+{
+public:
+  TraceSystem(const GalerkinSpace& space, int components, double tolerance)
+    : Space(space), Components(components), Tolerance(tolerance)
+  {
+  }
+
+  Status Add(const CellSide& facet, int component, const PointFunction& function)
+  {
+    std::vector<int> rows;
+    for (const int f : TraceFunctions(this->Space, facet))
+    {
+      rows.push_back(
+        this->Numbers.emplace(f, static_cast<int>(this->Numbers.size())).first->second);
+    }
+    this->Right.resize(this->Numbers.size(), 0.0);
+    const CellShape shape = this->Space.Shapes[static_cast<std::size_t>(facet.Cell)];
+    const FacetFrame frame = MakeFacetFrame(shape, facet.Side);
+    const CellRule rule =
+      MakeFacetRule(shape, facet.Side, NumRulePoints(this->Space, facet.Cell, this->Tolerance));
+    PointValues values;
+    std::vector<double> given(static_cast<std::size_t>(this->Components), 0.0);
+    for (std::size_t q = 0; q < rule.Points.size(); ++q)
+    {
+      EvaluateFunctions(this->Space, facet.Cell, rule.Points[q].data(), values);
+      const double weight = rule.Weights[q] * AreaVector(frame, values).norm();
+      if (function)
+      {
+        function(values.Position.data(), given.data());
+      }
+      const double value = given[static_cast<std::size_t>(component)];
+      if (!std::isfinite(value))
+      {
+        return { ErrorCode::NonFiniteInput,
+          "a prescribed value on side " + std::to_string(facet.Side) + " of element " +
+            std::to_string(facet.Cell) + " is no number; mend the function" };
+      }
+      std::vector<std::pair<int, double>> traces;
+      for (int a = 0; a < this->Space.NumAlive(facet.Cell); ++a)
+      {
+        const auto found = this->Numbers.find(this->Space.Alive(facet.Cell)[a]);
+        if (found != this->Numbers.end() && values.Values[a] != 0.0)
+        {
+          traces.emplace_back(found->second, values.Values[a]);
+        }
+      }
+      for (const auto& row : traces)
+      {
+        this->Right[static_cast<std::size_t>(row.first)] += weight * value * row.second;
+        for (const auto& column : traces)
+        {
+          if (row.first >= column.first)
+          {
+            this->Mass.emplace_back(row.first, column.first, weight * row.second * column.second);
+          }
+        }
+      }
+    }
+    return {};
+  }
+
+  Status Solve(int component, GivenCoefficients& result)
+  {
+    if (this->Numbers.empty())
+    {
+      return {};
+    }
+    Eigen::MatrixXd values = Eigen::Map<const Eigen::VectorXd>(
+      this->Right.data(), static_cast<Eigen::Index>(this->Right.size()));
+    if (const Status status = SolvePositive(this->Mass, values); !status)
+    {
+      return { ErrorCode::SingularSystem,
+        "functions are dependent on the facets of the prescribed values of component " +
+          std::to_string(component) + "; prescribe them on whole sides" };
+    }
+    for (const auto& number : this->Numbers)
+    {
+      const auto unknown = static_cast<std::size_t>(number.first * this->Components + component);
+      result.IsGiven[unknown] = 1;
+      result.Values[static_cast<Eigen::Index>(unknown)] = values(number.second, 0);
+    }
+    return {};
+  }
+
+private:
+  const GalerkinSpace& Space;
+  int Components;
+  double Tolerance;
+  std::map<int, int> Numbers;
+  std::vector<double> Right;
+  std::vector<Eigen::Triplet<double>> Mass;
+};
+}
+
+Result<GivenCoefficients> ProjectPrescribed(
+  const GalerkinSpace& space, const GalerkinProblem& problem, const GalerkinParams& params)
+{
+  const int components = NumSolutionComponents(problem.Equation);
+  const auto size = static_cast<std::size_t>(space.NumFunctions() * components);
+  GivenCoefficients result;
+  result.IsGiven.assign(size, 0);
+  result.Values.setZero(static_cast<Eigen::Index>(size));
+  for (int component = 0; component < components; ++component)
+  {
+    TraceSystem system(space, components, params.QuadratureTolerance);
+    std::set<std::pair<int, int>> seen;
+    for (const PrescribedValues& condition : problem.Prescribed)
+    {
+      if (condition.Component != -1 && condition.Component != component)
+      {
+        continue;
+      }
+      for (const CellSide& facet : condition.Facets)
+      {
+        if (!seen.insert({ facet.Cell, facet.Side }).second)
+        {
+          return { ErrorCode::InvalidParameter,
+            "component " + std::to_string(component) + " is prescribed twice on side " +
+              std::to_string(facet.Side) + " of element " + std::to_string(facet.Cell) +
+              "; keep one of the conditions" };
+        }
+        if (const Status status = system.Add(facet, component, condition.Values); !status)
+        {
+          return status;
+        }
+      }
+    }
+    if (const Status status = system.Solve(component, result); !status)
+    {
+      return status;
+    }
+  }
+  for (const PointSupport& support : problem.Supports)
+  {
+    const auto unknown =
+      static_cast<std::size_t>(support.Function * components + support.Component);
+    result.IsGiven[unknown] = 1;
+    result.Values[static_cast<Eigen::Index>(unknown)] = support.Value;
+  }
+  return result;
+}
+}

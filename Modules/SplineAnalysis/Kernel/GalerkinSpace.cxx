@@ -1,0 +1,412 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GalerkinSpace.h"
+
+#include "ElementRule.h"
+#include <knotwork/SplineCore/DisjointSets.h>
+#include <knotwork/SplineCore/LatticeInterpolation.h>
+
+#include <map>
+#include <string>
+
+namespace knotwork
+{
+namespace
+{
+/// Appends elements; operators of equal bits are kept once.
+class SpaceBuilder
+{
+public:
+  explicit SpaceBuilder(GalerkinSpace& space) : Space(space) {}
+
+  void Add(CellShape shape, const CellDegree& degree, int patch, const std::vector<int>& functions,
+    const PointMatrix& matrix)
+  {
+    this->Space.Shapes.push_back(shape);
+    this->Space.Degrees.push_back(degree);
+    this->Space.Patches.push_back(patch);
+    this->Space.Functions.insert(this->Space.Functions.end(), functions.begin(), functions.end());
+    this->Space.FirstFunction.push_back(this->Space.Functions.size());
+    const auto size = static_cast<std::size_t>(matrix.size());
+    const std::string key(reinterpret_cast<const char*>(matrix.data()), size * sizeof(double));
+    const auto place = this->Known.emplace(key, this->Space.OperatorData.size());
+    if (place.second)
+    {
+      this->Space.OperatorData.insert(
+        this->Space.OperatorData.end(), matrix.data(), matrix.data() + size);
+    }
+    this->Space.Operators.push_back(place.first->second);
+  }
+
+private:
+  GalerkinSpace& Space;
+  std::map<std::string, std::size_t> Known;
+};
+
+template <int Dim>
+void AddPatch(const Spline<Dim>& spline, int patch, const std::vector<int>& numbers,
+  GalerkinSpace& space, SpaceBuilder& builder)
+{
+  for (int e = 0; e < spline.Space->NumElements(); ++e)
+  {
+    const IntArray<Dim>& p = spline.Space->Elements[static_cast<std::size_t>(e)].Degree;
+    CellDegree degree{};
+    std::copy(p.begin(), p.end(), degree.begin());
+    std::vector<int> functions = spline.Space->AliveFunctions(e);
+    for (int& f : functions)
+    {
+      f = numbers[static_cast<std::size_t>(f)];
+    }
+    builder.Add(Dim == 2 ? CellShape::Quadrilateral : CellShape::Hexahedron, degree, patch,
+      functions, spline.Space->ExtractionOperator(e));
+  }
+  for (int f = 0; f < spline.Space->NumFunctions; ++f)
+  {
+    const int to = numbers[static_cast<std::size_t>(f)];
+    space.Points.row(to) = spline.ControlPoints.row(f).leftCols(Dim);
+    if (space.Weights.size() > 0)
+    {
+      space.Weights[to] = spline.IsRational() ? spline.Weights[f] : 1.0;
+    }
+  }
+}
+
+template <int Dim>
+Status CheckPatch(const Spline<Dim>& spline, int patch)
+{
+  const std::string place = "patch " + std::to_string(patch) + ": ";
+  if (!spline.Space || spline.Space->NumElements() == 0)
+  {
+    return { ErrorCode::EmptyInput, place + "it has no elements; give a spline" };
+  }
+  if (const Status status = spline.Check(); !status)
+  {
+    return { status.Code, place + status.Detail };
+  }
+  if (spline.NumComponents() < Dim ||
+    !spline.ControlPoints.rightCols(spline.NumComponents() - Dim).isZero(0.0))
+  {
+    return { ErrorCode::DimensionMismatch,
+      place + "it does not fill a part of the " +
+        (Dim == 2 ? "plane z = 0; give a planar surface" : "space; give a volume") };
+  }
+  return {};
+}
+
+/// Functions of both sides of an interface become one.
+template <int Dim>
+Status Unite(const MultiPatch<Dim>& patches, const PatchInterface& interface,
+  const std::vector<int>& first, DisjointSets& sets)
+{
+  std::array<std::vector<int>, 2> functions;
+  std::array<std::array<std::int64_t, 2>, 2> count{};
+  const std::string place = "sides " + std::to_string(interface.Sides[0].Side) + " of patch " +
+    std::to_string(interface.Sides[0].Patch) + " and " + std::to_string(interface.Sides[1].Side) +
+    " of patch " + std::to_string(interface.Sides[1].Patch);
+  for (std::size_t k = 0; k < 2; ++k)
+  {
+    const PatchSide& side = interface.Sides[k];
+    const SplineSpace<Dim>& space = *patches.Patches[static_cast<std::size_t>(side.Patch)].Space;
+    if (interface.Partial || space.Kind != SpaceKind::Tensor)
+    {
+      return { ErrorCode::InvalidTopology,
+        place + " do not meet as whole sides of tensor-product patches; join them by hand" };
+    }
+    functions[k] = SideFunctions(space, side.Side);
+    count[k] = { 1, 1 };
+    const auto directions = SideDirections<Dim>(side.Side);
+    for (std::size_t d = 0; d < directions.size(); ++d)
+    {
+      count[k][d] = space.Knots[directions[d]].NumFunctions();
+    }
+  }
+  if (interface.Orientation.OtherCount(count[1]) != count[0])
+  {
+    return { ErrorCode::InvalidTopology, place + " have other numbers of functions; refine one" };
+  }
+  for (std::int64_t j = 0; j < count[0][1]; ++j)
+  {
+    for (std::int64_t i = 0; i < count[0][0]; ++i)
+    {
+      const auto own = interface.Orientation.OwnPoint({ i, j }, count[1]);
+      const int a = functions[0][static_cast<std::size_t>(i + j * count[0][0])];
+      const int b = functions[1][static_cast<std::size_t>(own[0] + own[1] * count[1][0])];
+      const Spline<Dim>& onto = patches.Patches[static_cast<std::size_t>(interface.Sides[0].Patch)];
+      const Spline<Dim>& from = patches.Patches[static_cast<std::size_t>(interface.Sides[1].Patch)];
+      const double size = onto.ControlPoints.cwiseAbs().maxCoeff();
+      const double weightA = onto.IsRational() ? onto.Weights[a] : 1.0;
+      const double weightB = from.IsRational() ? from.Weights[b] : 1.0;
+      if ((onto.ControlPoints.row(a) - from.ControlPoints.row(b)).norm() > 1e-9 * size ||
+        std::abs(weightA - weightB) > 1e-9 * weightA)
+      {
+        return { ErrorCode::InvalidTopology,
+          place + " have other control points or weights; stitch them" };
+      }
+      sets.Unite(first[static_cast<std::size_t>(interface.Sides[0].Patch)] + a,
+        first[static_cast<std::size_t>(interface.Sides[1].Patch)] + b);
+    }
+  }
+  return {};
+}
+}
+
+template <int Dim>
+Result<GalerkinSpace> MakeGalerkinSpace(const Spline<Dim>& spline)
+{
+  MultiPatch<Dim> patches;
+  patches.Patches.push_back(spline);
+  return MakeGalerkinSpace(patches);
+}
+
+template <int Dim>
+Result<GalerkinSpace> MakeGalerkinSpace(const MultiPatch<Dim>& patches)
+{
+  if (patches.Patches.empty())
+  {
+    return { ErrorCode::EmptyInput, "there are no patches; give one at least" };
+  }
+  if (const Status status =
+        CheckTopology(patches.Topology, static_cast<int>(patches.Patches.size()), Dim);
+      !status)
+  {
+    return status;
+  }
+  std::vector<int> first{ 0 };
+  bool rational = false;
+  for (std::size_t i = 0; i < patches.Patches.size(); ++i)
+  {
+    if (const Status status = CheckPatch(patches.Patches[i], static_cast<int>(i)); !status)
+    {
+      return status;
+    }
+    first.push_back(first.back() + patches.Patches[i].Space->NumFunctions);
+    rational = rational || patches.Patches[i].IsRational();
+  }
+  DisjointSets sets(first.back());
+  for (const PatchInterface& interface : patches.Topology.Interfaces)
+  {
+    if (const Status status = Unite(patches, interface, first, sets); !status)
+    {
+      return status;
+    }
+  }
+  std::vector<int> number(static_cast<std::size_t>(first.back()));
+  int count = 0;
+  for (int f = 0; f < first.back(); ++f)
+  {
+    const int root = sets.Find(f);
+    number[static_cast<std::size_t>(f)] =
+      root == f ? count++ : number[static_cast<std::size_t>(root)];
+  }
+  GalerkinSpace space;
+  space.Dimension = Dim;
+  space.Points.setZero(count, Dim);
+  space.Weights.setOnes(rational ? count : 0);
+  SpaceBuilder builder(space);
+  for (std::size_t i = 0; i < patches.Patches.size(); ++i)
+  {
+    const std::vector<int> own(number.begin() + first[i], number.begin() + first[i + 1]);
+    AddPatch(patches.Patches[i], static_cast<int>(i), own, space, builder);
+  }
+  return space;
+}
+
+Result<GalerkinSpace> MakeGalerkinSpace(const LagrangeMesh& mesh)
+{
+  if (mesh.Shapes.empty())
+  {
+    return { ErrorCode::EmptyInput, "the mesh has no elements; give one at least" };
+  }
+  if (mesh.Orders.size() != mesh.Shapes.size())
+  {
+    return { ErrorCode::SizeMismatch, "there must be one order an element" };
+  }
+  if (!mesh.Nodes.allFinite())
+  {
+    return { ErrorCode::NonFiniteInput, "a node has a coordinate that is no number; mend it" };
+  }
+  GalerkinSpace space;
+  space.Dimension = NumParameters(mesh.Shapes[0]);
+  space.Points = mesh.Nodes;
+  SpaceBuilder builder(space);
+  std::map<std::pair<CellShape, int>, PointMatrix> operators;
+  std::size_t next = 0;
+  for (std::size_t e = 0; e < mesh.Shapes.size(); ++e)
+  {
+    const std::string place = "element " + std::to_string(e) + ": ";
+    const CellShape shape = mesh.Shapes[e];
+    const int p = mesh.Orders[e];
+    if (shape == CellShape::Wedge || NumParameters(shape) != space.Dimension ||
+      space.Dimension < 2 || mesh.Nodes.cols() != space.Dimension)
+    {
+      return { ErrorCode::DimensionMismatch,
+        place +
+          "elements must be triangles and quadrilaterals of nodes with 2 coordinates, or "
+          "tetrahedra and hexahedra of nodes with 3" };
+    }
+    if (p < 1 || p > MaxDegree)
+    {
+      return { ErrorCode::InvalidDegree, place + "its order must be in [1, 9]" };
+    }
+    const CellDegree degree{ p, p, space.Dimension == 3 ? p : 0 };
+    const auto size = static_cast<std::size_t>(NumCellCoefficients(shape, degree));
+    if (next + size > mesh.NodeIds.size())
+    {
+      return { ErrorCode::SizeMismatch, place + "node ids are missing" };
+    }
+    std::vector<int> nodes(mesh.NodeIds.begin() + static_cast<std::ptrdiff_t>(next),
+      mesh.NodeIds.begin() + static_cast<std::ptrdiff_t>(next + size));
+    next += size;
+    for (const int node : nodes)
+    {
+      if (node < 0 || node >= mesh.Nodes.rows())
+      {
+        return { ErrorCode::InvalidTopology,
+          place + "node " + std::to_string(node) + " does not exist" };
+      }
+    }
+    PointMatrix& matrix = operators[{ shape, p }];
+    if (matrix.size() == 0)
+    {
+      const auto n = static_cast<Eigen::Index>(size);
+      matrix = LatticeInterpolation(shape, degree)
+                 .Coefficients(LongMatrix::Identity(n, n))
+                 .cast<double>()
+                 .transpose();
+    }
+    builder.Add(shape, degree, 0, nodes, matrix);
+  }
+  return space;
+}
+
+BernsteinCells MakeBernsteinCells(const GalerkinSpace& space)
+{
+  BernsteinCells cells;
+  cells.NumComponents = space.Dimension;
+  cells.Rational = space.Weights.size() > 0;
+  for (int e = 0; e < space.NumElements(); ++e)
+  {
+    const auto index = static_cast<std::size_t>(e);
+    const int cell = cells.Add(space.Shapes[index], space.Degrees[index]);
+    const int n = NumCellCoefficients(space.Shapes[index], space.Degrees[index]);
+    double* block = cells.Block(cell);
+    for (int a = 0; a < space.NumAlive(e); ++a)
+    {
+      const int f = space.Alive(e)[a];
+      const double weight = cells.Rational ? space.Weights[f] : 1.0;
+      for (int plane = 0; plane < cells.NumPlanes(); ++plane)
+      {
+        const double value = plane < space.Dimension ? weight * space.Points(f, plane) : weight;
+        for (int j = 0; j < n; ++j)
+        {
+          block[plane * n + j] += value * space.Operator(e)[a * n + j];
+        }
+      }
+    }
+  }
+  return cells;
+}
+
+int NumSides(CellShape shape)
+{
+  switch (shape)
+  {
+    case CellShape::Curve:
+      return 2;
+    case CellShape::Triangle:
+      return 3;
+    case CellShape::Quadrilateral:
+    case CellShape::Tetrahedron:
+      return 4;
+    case CellShape::Wedge:
+      return 5;
+    case CellShape::Hexahedron:
+      break;
+  }
+  return 6;
+}
+
+Result<std::vector<CellSide>> BoundaryFacets(const GalerkinSpace& space)
+{
+  // Sides of two elements have their functions in common, those that are not 0 on the side, and
+  // its middle; sides with the same functions alone may be both ends of a ring.
+  struct Facet
+  {
+    CellSide Side;
+    Eigen::VectorXd Middle;
+  };
+  std::map<std::vector<int>, std::vector<Facet>> facets;
+  for (int e = 0; e < space.NumElements(); ++e)
+  {
+    const CellShape shape = space.Shapes[static_cast<std::size_t>(e)];
+    for (int side = 0; side < NumSides(shape); ++side)
+    {
+      const FacetFrame frame = MakeFacetFrame(shape, side);
+      const double share = shape == CellShape::Tetrahedron ? 1.0 / 3.0 : 0.5;
+      PointValues values;
+      EvaluateFunctions(space, e, frame.Point({ share, share }).data(), values);
+      facets[TraceFunctions(space, { e, side })].push_back({ { e, side }, values.Position });
+    }
+  }
+  const double size = space.Points.cwiseAbs().maxCoeff();
+  std::map<std::pair<int, int>, int> alone;
+  for (const auto& group : facets)
+  {
+    for (const Facet& facet : group.second)
+    {
+      int count = 0;
+      for (const Facet& other : group.second)
+      {
+        count += (facet.Middle - other.Middle).norm() <= 1e-9 * size ? 1 : 0;
+      }
+      if (count > 2)
+      {
+        return { ErrorCode::InvalidTopology,
+          "side " + std::to_string(facet.Side.Side) + " of element " +
+            std::to_string(facet.Side.Cell) + " belongs to three elements; remove one" };
+      }
+      if (count == 1)
+      {
+        alone[{ facet.Side.Cell, facet.Side.Side }] = 1;
+      }
+    }
+  }
+  std::vector<CellSide> boundary;
+  for (const auto& facet : alone)
+  {
+    boundary.push_back({ facet.first.first, facet.first.second });
+  }
+  return boundary;
+}
+
+template <int Dim>
+Result<std::vector<CellSide>> FacetsOfSide(const SplineSpace<Dim>& space, int side)
+{
+  if (!space.HasDomain())
+  {
+    return { ErrorCode::DimensionMismatch,
+      "the space has no parameter domain and no sides; ask for its boundary facets" };
+  }
+  if (side < 0 || side >= 2 * Dim)
+  {
+    return { ErrorCode::InvalidParameter,
+      "side " + std::to_string(side) + " is not in [0, " + std::to_string(2 * Dim - 1) + "]" };
+  }
+  const double value = SideValue(space.Domain(), side);
+  std::vector<CellSide> facets;
+  for (int e = 0; e < space.NumElements(); ++e)
+  {
+    if (SideValue(space.Elements[static_cast<std::size_t>(e)].Box, side) == value)
+    {
+      facets.push_back({ e, side });
+    }
+  }
+  return facets;
+}
+
+template Result<GalerkinSpace> MakeGalerkinSpace(const Spline<2>&);
+template Result<GalerkinSpace> MakeGalerkinSpace(const Spline<3>&);
+template Result<GalerkinSpace> MakeGalerkinSpace(const MultiPatch<2>&);
+template Result<GalerkinSpace> MakeGalerkinSpace(const MultiPatch<3>&);
+template Result<std::vector<CellSide>> FacetsOfSide(const SplineSpace<2>&, int);
+template Result<std::vector<CellSide>> FacetsOfSide(const SplineSpace<3>&, int);
+}

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <knotwork/SplineCore/BernsteinCells.h>
+#include <knotwork/SplineCore/CellMesh.h>
+#include <knotwork/SplineCore/MultiPatch.h>
+
+namespace knotwork
+{
+/// Functions on elements that fill a part of the plane or of space, with the map that carries them:
+/// what splines of every family and Lagrange elements are to Galerkin's method. On an element the
+/// functions are products of its extraction operator with the Bernstein polynomials of its shape,
+/// divided by their weighted sum when rational; the same functions make the geometry.
+/// @source  Borden et al., IJNME 87 (2011) 15-47.
+struct GalerkinSpace
+{
+  int Dimension = 0;       ///< of elements and of points: 2 or 3
+  PointMatrix Points;      ///< a row a function: its control point or node
+  Eigen::VectorXd Weights; ///< positive; size 0 when polynomial
+  std::vector<CellShape> Shapes;
+  std::vector<CellDegree> Degrees;
+  std::vector<int> Patches;                    ///< that each element is of; 0 where there are none
+  std::vector<std::size_t> FirstFunction{ 0 }; ///< NumElements + 1 offsets into Functions
+  std::vector<int> Functions;                  ///< alive on the elements
+  /// Offset of each element's operator in OperatorData, a row a function, a column a Bernstein
+  /// polynomial; equal operators are stored once.
+  std::vector<std::size_t> Operators;
+  std::vector<double> OperatorData;
+
+  int NumFunctions() const { return static_cast<int>(this->Points.rows()); }
+  int NumElements() const { return static_cast<int>(this->Shapes.size()); }
+  int NumAlive(int element) const
+  {
+    const auto e = static_cast<std::size_t>(element);
+    return static_cast<int>(this->FirstFunction[e + 1] - this->FirstFunction[e]);
+  }
+  const int* Alive(int element) const
+  {
+    return this->Functions.data() + this->FirstFunction[static_cast<std::size_t>(element)];
+  }
+  const double* Operator(int element) const
+  {
+    return this->OperatorData.data() + this->Operators[static_cast<std::size_t>(element)];
+  }
+};
+
+/// The space of a spline: elements and functions keep their numbers. @param spline  of at least Dim
+/// components; those behind are dropped when they are 0.
+/// @return Spline::Check's codes; DimensionMismatch for a surface that is not in the plane z = 0.
+/// @complexity O(elements (p+1)^(2 Dim)).
+template <int Dim>
+Result<GalerkinSpace> MakeGalerkinSpace(const Spline<Dim>& spline);
+
+/// The space of several patches, C^0 across the interfaces of the topology: functions of both sides
+/// that lie on each other are one. Elements are those of the patches in order.
+/// @return the codes of the first; InvalidTopology for an interface that is partial, whose sides do
+/// not have the same control points and weights, or of a patch that is not a tensor-product one.
+template <int Dim>
+Result<GalerkinSpace> MakeGalerkinSpace(const MultiPatch<Dim>& patches);
+
+/// A mesh of Lagrange elements: triangles, quadrilaterals, tetrahedra or hexahedra, straight or
+/// curved, any of them of degree 1 to 9.
+struct LagrangeMesh
+{
+  PointMatrix Nodes; ///< n x 2 or 3
+  std::vector<CellShape> Shapes;
+  std::vector<int> Orders; ///< one an element
+  /// Nodes of all elements, each in the order of CellCoefficient, evenly spaced in the parameters.
+  std::vector<int> NodeIds;
+};
+/// The space of a mesh: functions are 1 at their node and 0 at the others.
+/// @return EmptyInput; SizeMismatch; NonFiniteInput; InvalidDegree; InvalidTopology for a node id
+/// out of range; DimensionMismatch for a shape of another dimension, and for wedges and curves.
+Result<GalerkinSpace> MakeGalerkinSpace(const LagrangeMesh& mesh);
+
+/// The elements' geometry in Bernstein form, for certificates and measures.
+BernsteinCells MakeBernsteinCells(const GalerkinSpace& space);
+
+/// Sides of an element. Tensor-product shapes: as in PatchSides.h; Triangle: u = 0, v = 0, u + v =
+/// 1; Tetrahedron: u = 0, v = 0, w = 0, u + v + w = 1.
+int NumSides(CellShape shape);
+
+/// Sides of elements that no other element has, ascending. Elements of one patch whose sides meet
+/// in part (THB, LR) are inner ones only to `FacetsOfSide`: ask that for spaces with a domain.
+/// @return InvalidTopology for a side of three elements.
+Result<std::vector<CellSide>> BoundaryFacets(const GalerkinSpace& space);
+
+/// Facets on a side of a patch with a parameter domain, in the element numbers of the patch.
+/// @return DimensionMismatch for a family without a domain; InvalidParameter for the side.
+template <int Dim>
+Result<std::vector<CellSide>> FacetsOfSide(const SplineSpace<Dim>& space, int side);
+}
