@@ -208,7 +208,7 @@ def make_package(fields, stage, version, triplet, folder, private, taken):
     write(os.path.join(root, "DEBIAN", "md5sums"), run("md5sum", *sorted(sums), cwd=root))
     run("chmod", "-R", "u=rwX,go=rX", root)
     file = os.path.join(folder, f"{package}_{version}_{architecture}.deb")
-    run("dpkg-deb", "--root-owner-group", "-Zgzip", "--build", root, file)
+    run("dpkg-deb", "--root-owner-group", "-Zxz", "--build", root, file)
     shutil.rmtree(root)
     return file
 
