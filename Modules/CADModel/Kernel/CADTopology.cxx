@@ -126,7 +126,7 @@ std::pair<int, bool> CADTopology::Shapes::AddEdge(
 }
 
 /// Whether two faces with the same edges are the same surface between them.
-bool CADTopology::Shapes::IsSameFace(const TopoDS_Face& face, const FaceShape& other) const
+bool CADTopology::Shapes::IsSameFace(const TopoDS_Face& face, const TopologyFaceShape& other) const
 {
   gp_Pnt inside;
   gp_Pnt2d parameters;
@@ -146,7 +146,7 @@ Status CADTopology::Shapes::AddFace(
   const std::string place = "face " + std::to_string(id);
   const TopoDS_Face face = TopoDS::Face(given.Oriented(TopAbs_FORWARD));
   CADTopologyFace made;
-  FaceShape shape;
+  TopologyFaceShape shape;
   shape.Face = face;
   shape.Surface = BRep_Tool::Surface(face);
   if (shape.Surface.IsNull())
@@ -320,7 +320,7 @@ SurfacePlace PlaceOn(const JoinedFaces& joined, const Eigen::Vector2d& parameter
     joined.Reversed[at] };
 }
 
-SurfacePlace PlaceOn(const FaceShape& shape, const Eigen::Vector2d& parameters)
+SurfacePlace PlaceOn(const TopologyFaceShape& shape, const Eigen::Vector2d& parameters)
 {
   return shape.Joined
     ? PlaceOn(*shape.Joined, parameters)
@@ -385,7 +385,7 @@ CADPlace ProjectOnJoined(const JoinedFaces& joined, const Eigen::Vector3d& point
 
 Eigen::Vector2d CADTopology::UseParameters(int face, int loop, int use, double share) const
 {
-  const FaceShape& ofFace = this->Impl->Faces[static_cast<std::size_t>(face)];
+  const TopologyFaceShape& ofFace = this->Impl->Faces[static_cast<std::size_t>(face)];
   if (ofFace.Joined)
   {
     return ParametersOnOutline(
@@ -464,7 +464,7 @@ CADPlace CADTopology::Project(
   int face, const Eigen::Vector3d& point, const Eigen::Vector2d& guess) const
 {
   constexpr int MaxSteps = 30;
-  const FaceShape& shape = this->Impl->Faces[static_cast<std::size_t>(face)];
+  const TopologyFaceShape& shape = this->Impl->Faces[static_cast<std::size_t>(face)];
   if (shape.Joined)
   {
     return ProjectOnJoined(*shape.Joined, point, guess, 1e-13 * shape.Size);

@@ -99,7 +99,7 @@ struct UseShape
 
 struct JoinedFaces;
 
-struct FaceShape
+struct TopologyFaceShape
 {
   TopoDS_Face Face;
   Handle(Geom_Surface) Surface;
@@ -120,7 +120,7 @@ struct OutlineUse
 struct JoinedFaces
 {
   CompositeChart Chart;
-  std::vector<FaceShape> Faces;
+  std::vector<TopologyFaceShape> Faces;
   std::vector<bool> Reversed; ///< of CADTopologyFace, of every face
   std::vector<std::vector<OutlineUse>> Loops;
 };
@@ -128,7 +128,7 @@ struct JoinedFaces
 struct CADTopology::Shapes
 {
   std::vector<std::shared_ptr<MeasuredCurve>> Edges;
-  std::vector<FaceShape> Faces;
+  std::vector<TopologyFaceShape> Faces;
   // for merging
   std::vector<std::vector<int>> BodiesOfEdges;
   std::vector<double> VertexTolerances;
@@ -144,6 +144,6 @@ struct CADTopology::Shapes
     const MeasuredCurve& curve, const std::array<int, 2>& vertices, int body, CADTopology& model);
   Status AddFace(
     const TopoDS_Face& face, int id, int body, const std::string& name, CADTopology& model);
-  bool IsSameFace(const TopoDS_Face& face, const FaceShape& other) const;
+  bool IsSameFace(const TopoDS_Face& face, const TopologyFaceShape& other) const;
 };
 }

@@ -47,8 +47,8 @@ struct UseNodes
 class Joining
 {
 public:
-  Joining(const CADTopology& model, const std::vector<FaceShape>& shapes, std::vector<int> faces,
-    const std::vector<bool>& isInner)
+  Joining(const CADTopology& model, const std::vector<TopologyFaceShape>& shapes,
+    std::vector<int> faces, const std::vector<bool>& isInner)
     : Model(model), Shapes(shapes), Faces(std::move(faces)), IsInner(isInner)
   {
   }
@@ -56,14 +56,17 @@ public:
   Status Run(const CADFlattening& flatten);
 
   CADTopologyFace Made;
-  FaceShape Shape;
+  TopologyFaceShape Shape;
 
 private:
   const CADTopologyFace& FaceOf(int member) const
   {
     return this->Model.Faces[At(this->Faces[At(member)])];
   }
-  const FaceShape& ShapeOf(int member) const { return this->Shapes[At(this->Faces[At(member)])]; }
+  const TopologyFaceShape& ShapeOf(int member) const
+  {
+    return this->Shapes[At(this->Faces[At(member)])];
+  }
   Status Triangulate();
   Result<UseNodes> NodesOf(int member, int loop, int use) const;
   Status Glue();
@@ -71,7 +74,7 @@ private:
   Status FindLoops();
 
   const CADTopology& Model;
-  const std::vector<FaceShape>& Shapes;
+  const std::vector<TopologyFaceShape>& Shapes;
   std::vector<int> Faces;
   const std::vector<bool>& IsInner; ///< of edges
   std::vector<Handle(Poly_Triangulation)> Parts;
@@ -497,7 +500,7 @@ std::vector<std::string> CADTopology::JoinComposites(const CADFlattening& flatte
       std::to_string(this->Faces[At(face)].Ids.front()) + " and others) " + what);
   };
   std::vector<CADTopologyFace> faces;
-  std::vector<FaceShape> shapes;
+  std::vector<TopologyFaceShape> shapes;
   std::vector<int> images(this->Faces.size(), -1);
   for (const auto& [first, part] : parts)
   {

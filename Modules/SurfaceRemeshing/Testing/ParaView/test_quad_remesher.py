@@ -15,7 +15,7 @@ def test_the_refusal_of_a_stand_in():
         stream.write('#!/bin/sh\nwhile [ "$1" != -- ]; do [ "$1" != --python ] || head -c 1 "$2" > /dev/null || exit 5; shift; done\ncp "$2" "$3"\n')
     os.chmod(PROGRAM, 0o755)
     os.environ["PATH"] = os.path.dirname(PROGRAM) + os.pathsep + os.environ["PATH"]
-    remesher = QuadRemesher(Input=Sphere(), Faces=100)
+    remesher = QuadRemesher(Input=Sphere(), Faces=100, Way="Program")
     filter = remesher.GetClientSideObject()
     with knotwork_testing.Errors(filter) as errors:
         remesher.UpdatePipeline()
