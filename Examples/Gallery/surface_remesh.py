@@ -11,7 +11,7 @@ import numpy as np
 import _scene as scene
 
 MESH = "fandisk"
-DIRECTION, UP, ZOOM = (1.0, 0.5, 0.8), (0, 1, 0), 1.0
+DIRECTION, UP, ZOOM = (1.0, 0.5, 0.8), (0, 1, 0), 0.72
 GREY, WARM, BLUE, RED = (0.8, 0.8, 0.78), (0.95, 0.85, 0.65), (0.55, 0.7, 0.9), (0.85, 0.15, 0.1)
 
 
