@@ -44,8 +44,11 @@ protected:
           "UndecidedElements", "MinJacobianLower", "ScaledJacobianLower", "ScaledJacobianUpper",
           "ScaledJacobianMean", "Volume", "VolumeError", "ToReference", "FromReference",
           "LargestDistance", "RmsToReference", "RmsFromReference", "ChordalBound", "BoundaryPoints",
-          "Memory", "CertificateSeconds", "MeasureSeconds", "DistanceSeconds" },
+          "Memory" },
         numbers);
+      numbers["certificate_seconds"] = this->Filter->GetSeconds(row, 0);
+      numbers["measure_seconds"] = this->Filter->GetSeconds(row, 1);
+      numbers["distance_seconds"] = this->Filter->GetSeconds(row, 2);
       for (const auto& [key, value] : numbers.items()) // the report is flat
       {
         session.Report[std::string(prefix) + "_" + key] = value;

@@ -305,9 +305,6 @@ void EncodeNumbers(
   count(
     "BoundaryPoints", [](const C& c) { return static_cast<int>(c.Boundary.Mesh.Points.rows()); });
   number("Memory", [](const C& c) { return c.Memory; });
-  number("CertificateSeconds", [](const C& c) { return c.Compared.CertificateSeconds; });
-  number("MeasureSeconds", [](const C& c) { return c.Compared.MeasureSeconds; });
-  number("DistanceSeconds", [](const C& c) { return c.Compared.DistanceSeconds; });
 }
 }
 
@@ -337,6 +334,13 @@ void vtkVolumeComparison::SetReferenceData(vtkDataObject* reference)
   this->SetInputDataObject(2, reference);
 }
 
+double vtkVolumeComparison::GetSeconds(int input, int step)
+{
+  const bool known = input >= 0 && input < 2 && step >= 0 && step < 3;
+  return known ? this->Seconds[static_cast<std::size_t>(input)][static_cast<std::size_t>(step)]
+               : 0.0;
+}
+
 int vtkVolumeComparison::FillInputPortInformation(int port, vtkInformation* info)
 {
   info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
@@ -354,6 +358,7 @@ Status vtkVolumeComparison::Compute(vtkInformationVector** inputs, vtkInformatio
 {
   vtkUnstructuredGrid* const grids[] = { vtkUnstructuredGrid::GetData(inputs[0], 0),
     vtkUnstructuredGrid::GetData(inputs[1], 0) };
+  this->Seconds = {};
   if (grids[0]->GetNumberOfCells() == 0 || grids[1]->GetNumberOfCells() == 0)
   {
     return {};
@@ -391,6 +396,8 @@ Status vtkVolumeComparison::Compute(vtkInformationVector** inputs, vtkInformatio
         std::string(i == 0 ? "first" : "second") + " input: " + compared.Status.Detail };
     }
     candidate->Compared = std::move(compared.Value);
+    this->Seconds[static_cast<std::size_t>(i)] = { candidate->Compared.CertificateSeconds,
+      candidate->Compared.MeasureSeconds, candidate->Compared.DistanceSeconds };
     EncodeBoundary(candidate.Value, vtkPolyData::GetData(outputs, i));
     candidates.push_back(std::move(candidate.Value));
   }
