@@ -12,13 +12,16 @@ with open(sys.argv[1], encoding="utf-8") as file:
     TEXT = file.read()
 FOLDER = knotwork_testing.output("Readme/files")
 os.makedirs(FOLDER, exist_ok=True)
+PAGE_FILES = os.path.join(os.path.dirname(os.path.abspath(sys.argv[1])), "Modules", "Python", "Testing")  # has page_files.py
 
 
 def test_python():
     blocks = re.findall(r"^```python\n(.*?)^```", TEXT, re.M | re.S)
     assert blocks
+    environment = dict(os.environ, PYTHONPATH=os.pathsep.join([PAGE_FILES, os.environ.get("PYTHONPATH", "")]))
+    subprocess.run([sys.executable, "-c", "import page_files; page_files.make_files()"], cwd=FOLDER, env=environment, check=True)
     for block in blocks:
-        files = re.findall(r'SetFileName\("([^"]+)"\)', block)
+        files = re.findall(r'(?:SetFileName|save)\("([^"]+)"\)', block)
         done = subprocess.run([sys.executable, "-c", block], cwd=FOLDER, stderr=subprocess.PIPE, text=True)
         assert done.returncode == 0 and "ERR" not in done.stderr, done.stderr
         for name in files:
