@@ -29,6 +29,8 @@ PyModuleDef Definition = { PyModuleDef_HEAD_INIT, "_update", nullptr, -1, Method
   nullptr, nullptr };
 }
 
+// the name that Python looks for
+// NOLINTNEXTLINE(readability-identifier-naming,bugprone-reserved-identifier)
 PyMODINIT_FUNC PyInit__update()
 {
   return PyModule_Create(&Definition);
