@@ -226,8 +226,9 @@ TEST(SurfaceRemesh, LengthsOfPointsAreKept_ExactOracle)
       result.Sizes[static_cast<std::size_t>(i)], 0.2 + result.Mesh.Points(i, 0) / 11.0, 0.05);
   }
   // mean edges at both sides
-  for (const auto& [low, high] : { std::pair(0.0, 1.0), std::pair(9.0, 11.0) })
+  for (const auto& ends : { std::pair(0.0, 1.0), std::pair(9.0, 11.0) })
   {
+    const double low = ends.first, high = ends.second;
     double length = 0.0;
     int count = 0;
     ForEachEdge(SortedSides(result.Mesh.Triangles),
