@@ -6,6 +6,7 @@
 
 #include "vtkDoubleArray.h"
 #include "vtkNew.h"
+#include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
 
 using namespace knotwork;
