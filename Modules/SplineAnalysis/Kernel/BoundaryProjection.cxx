@@ -5,6 +5,8 @@
 #include "StiffnessMatrix.h"
 #include <knotwork/MeshParameterization/SparseCholesky.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -12,6 +14,29 @@ namespace knotwork
 {
 namespace
 {
+/// Growth of rounding from which on traces count as dependent: those of one element of degree 9 in
+/// both directions reach 1e10, dependent ones the inverse of the rounding unit.
+constexpr double MostAmplified = 1e11;
+
+/// The largest eigenvalue of the inverse, from below, by a few steps of inverse iteration.
+double LargestInverse(const SparseCholesky& factor, Eigen::Index size)
+{
+  Eigen::MatrixXd vector(size, 1);
+  for (Eigen::Index i = 0; i < size; ++i)
+  {
+    vector(i, 0) =
+      1.0 + 0.5 * std::sin(static_cast<double>(7 * i + 1)); // no symmetry of the matrix has this
+  }
+  double largest = 0.0;
+  for (int step = 0; step < 4; ++step)
+  {
+    vector /= vector.norm();
+    factor.Solve(vector);
+    largest = std::max(largest, vector.norm());
+  }
+  return largest;
+}
+
 /// The conditions of one component: mass matrix and right-hand side on their facets.
 class TraceSystem
 {
@@ -81,14 +106,23 @@ public:
     {
       return {};
     }
-    Eigen::MatrixXd values = Eigen::Map<const Eigen::VectorXd>(
-      this->Right.data(), static_cast<Eigen::Index>(this->Right.size()));
-    if (const Status status = SolvePositive(this->Mass, values); !status)
+    const auto size = static_cast<Eigen::Index>(this->Right.size());
+    Eigen::SparseMatrix<double> mass(size, size);
+    mass.setFromTriplets(this->Mass.begin(), this->Mass.end());
+    // traces of one size: what is small then is a dependence
+    const Eigen::VectorXd scale = mass.diagonal().cwiseSqrt().cwiseInverse();
+    mass = scale.asDiagonal() * mass * scale.asDiagonal();
+    SparseCholesky factor;
+    if (!factor.Factorize(mass) || LargestInverse(factor, size) > MostAmplified)
     {
       return { ErrorCode::SingularSystem,
         "functions are dependent on the facets of the prescribed values of component " +
           std::to_string(component) + "; prescribe them on whole sides" };
     }
+    Eigen::MatrixXd values =
+      scale.cwiseProduct(Eigen::Map<const Eigen::VectorXd>(this->Right.data(), size));
+    factor.Solve(values);
+    values = scale.asDiagonal() * values;
     for (const auto& number : this->Numbers)
     {
       const auto unknown = static_cast<std::size_t>(number.first * this->Components + component);

@@ -18,12 +18,13 @@ class SpaceBuilder
 public:
   explicit SpaceBuilder(GalerkinSpace& space) : Space(space) {}
 
-  void Add(CellShape shape, const CellDegree& degree, int patch, const std::vector<int>& functions,
-    const PointMatrix& matrix)
+  void Add(CellShape shape, const CellDegree& degree, int patch, unsigned innerSides,
+    const std::vector<int>& functions, const PointMatrix& matrix)
   {
     this->Space.Shapes.push_back(shape);
     this->Space.Degrees.push_back(degree);
     this->Space.Patches.push_back(patch);
+    this->Space.InnerSides.push_back(innerSides);
     this->Space.Functions.insert(this->Space.Functions.end(), functions.begin(), functions.end());
     this->Space.FirstFunction.push_back(this->Space.Functions.size());
     const auto size = static_cast<std::size_t>(matrix.size());
@@ -42,6 +43,19 @@ private:
   std::map<std::string, std::size_t> Known;
 };
 
+/// As GalerkinSpace::InnerSides.
+template <int Dim>
+unsigned InnerSidesOf(const SplineSpace<Dim>& space, int element)
+{
+  unsigned inner = 0;
+  for (int side = 0; space.HasDomain() && side < 2 * Dim; ++side)
+  {
+    const auto& box = space.Elements[static_cast<std::size_t>(element)].Box;
+    inner |= SideValue(box, side) != SideValue(space.Domain(), side) ? 1U << side : 0U;
+  }
+  return inner;
+}
+
 template <int Dim>
 void AddPatch(const Spline<Dim>& spline, int patch, const std::vector<int>& numbers,
   GalerkinSpace& space, SpaceBuilder& builder)
@@ -57,7 +71,7 @@ void AddPatch(const Spline<Dim>& spline, int patch, const std::vector<int>& numb
       f = numbers[static_cast<std::size_t>(f)];
     }
     builder.Add(Dim == 2 ? CellShape::Quadrilateral : CellShape::Hexahedron, degree, patch,
-      functions, spline.Space->ExtractionOperator(e));
+      InnerSidesOf(*spline.Space, e), functions, spline.Space->ExtractionOperator(e));
   }
   for (int f = 0; f < spline.Space->NumFunctions; ++f)
   {
@@ -273,7 +287,7 @@ Result<GalerkinSpace> MakeGalerkinSpace(const LagrangeMesh& mesh)
                  .cast<double>()
                  .transpose();
     }
-    builder.Add(shape, degree, 0, nodes, matrix);
+    builder.Add(shape, degree, 0, 0, nodes, matrix);
   }
   return space;
 }
@@ -340,6 +354,10 @@ Result<std::vector<CellSide>> BoundaryFacets(const GalerkinSpace& space)
     const CellShape shape = space.Shapes[static_cast<std::size_t>(e)];
     for (int side = 0; side < NumSides(shape); ++side)
     {
+      if ((space.InnerSides[static_cast<std::size_t>(e)] >> side & 1U) != 0)
+      {
+        continue;
+      }
       const FacetFrame frame = MakeFacetFrame(shape, side);
       const double share = shape == CellShape::Tetrahedron ? 1.0 / 3.0 : 0.5;
       PointValues values;

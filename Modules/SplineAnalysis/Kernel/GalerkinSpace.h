@@ -18,7 +18,10 @@ struct GalerkinSpace
   Eigen::VectorXd Weights; ///< positive; size 0 when polynomial
   std::vector<CellShape> Shapes;
   std::vector<CellDegree> Degrees;
-  std::vector<int> Patches;                    ///< that each element is of; 0 where there are none
+  std::vector<int> Patches; ///< that each element is of; 0 where there are none
+  /// Bit s of an element: its side s lies inside the parameter domain of its patch, where
+  /// neighbours of other levels may meet it in part. 0 where there is no domain.
+  std::vector<unsigned> InnerSides;
   std::vector<std::size_t> FirstFunction{ 0 }; ///< NumElements + 1 offsets into Functions
   std::vector<int> Functions;                  ///< alive on the elements
   /// Offset of each element's operator in OperatorData, a row a function, a column a Bernstein
@@ -79,9 +82,10 @@ BernsteinCells MakeBernsteinCells(const GalerkinSpace& space);
 /// 1; Tetrahedron: u = 0, v = 0, w = 0, u + v + w = 1.
 int NumSides(CellShape shape);
 
-/// Sides of elements that no other element has, ascending. Elements of one patch whose sides meet
-/// in part (THB, LR) are inner ones only to `FacetsOfSide`: ask that for spaces with a domain.
+/// Sides of elements that no other element has, ascending, of any space: sides inside a patch's
+/// domain are inner ones, also where elements of several levels meet there.
 /// @return InvalidTopology for a side of three elements.
+/// @complexity O(n log n) for n sides of elements.
 Result<std::vector<CellSide>> BoundaryFacets(const GalerkinSpace& space);
 
 /// Facets on a side of a patch with a parameter domain, in the element numbers of the patch.

@@ -39,20 +39,10 @@ template <int Dim>
 AnalysisCase CaseOf(const std::string& name, const Spline<Dim>& spline)
 {
   AnalysisCase result{ name, MakeGalerkinSpace(spline).Value, {} };
-  if (spline.Space->HasDomain())
-  {
-    for (int side = 0; side < 2 * Dim; ++side)
-    {
-      for (const CellSide& facet : FacetsOfSide(*spline.Space, side).Value)
-      {
-        result.Boundary.push_back(facet);
-      }
-    }
-  }
-  else
-  {
-    result.Boundary = BoundaryFacets(result.Space).Value;
-  }
+  result.Boundary = BoundaryFacets(result.Space).Value;
+  // side by side: a first part of them is whole sides where there are such
+  std::stable_sort(result.Boundary.begin(), result.Boundary.end(),
+    [](const CellSide& a, const CellSide& b) { return a.Side < b.Side; });
   return result;
 }
 

@@ -50,6 +50,35 @@ TEST(Galerkin, FoldedElementsAreRefused_ExactOracle)
   ExpectRefused(folded.Space, problem, ErrorCode::InvalidTopology, "at local parameters");
 }
 
+// On a coarse facet beside fine ones more functions of a THB space live than its polynomials have
+// dimensions: what is prescribed there alone does not say what they are.
+TEST(Galerkin, DependentTracesAreRefused_ExactOracle)
+{
+  const Spline<2> spline = RefineMarkedElements(BentBox<2>(2, 4), { 0, 1, 5 })->Value;
+  const AnalysisCase body = CaseOf<2>("THB", spline);
+  int refused = 0;
+  for (const CellSide& facet : body.Boundary)
+  {
+    GalerkinProblem problem;
+    problem.Prescribed.push_back(
+      { { facet }, -1, [](const double* x, double* u) { u[0] = x[0]; } });
+    const auto solution = SolveGalerkin(body.Space, problem);
+    // rows of the operator that are not 0 on the side: Bernstein polynomials 3 j + i
+    constexpr int columns[4][3] = { { 0, 3, 6 }, { 2, 5, 8 }, { 0, 1, 2 }, { 6, 7, 8 } };
+    int functions = 0;
+    for (int a = 0; a < body.Space.NumAlive(facet.Cell); ++a)
+    {
+      const double* row = body.Space.Operator(facet.Cell) + 9 * a;
+      functions += std::any_of(columns[facet.Side], columns[facet.Side] + 3,
+        [row](int column) { return row[column] != 0.0; });
+    }
+    EXPECT_EQ(static_cast<bool>(solution), functions == 3) << solution.Status.Message();
+    refused += solution.Status.Code == ErrorCode::SingularSystem ? 1 : 0;
+  }
+  EXPECT_GT(refused, 0);
+  EXPECT_LT(refused, static_cast<int>(body.Boundary.size()));
+}
+
 TEST(Galerkin, EveryFailureIsReachable)
 {
   const AnalysisCase body = CaseOf<2>("plane", BentBox<2>(2, 3));

@@ -135,6 +135,38 @@ void ExpectConstantStress(const AnalysisCase& body, GalerkinEquation equation)
 }
 }
 
+namespace
+{
+/// Of a spline with a domain the boundary's facets are those of all sides of the domain.
+template <int Dim>
+void ExpectFacetsOfAllSides(const Spline<Dim>& spline)
+{
+  std::vector<std::array<int, 2>> expected;
+  for (int side = 0; side < 2 * Dim; ++side)
+  {
+    for (const CellSide& facet : FacetsOfSide(*spline.Space, side).Value)
+    {
+      expected.push_back({ facet.Cell, facet.Side });
+    }
+  }
+  std::sort(expected.begin(), expected.end());
+  std::vector<std::array<int, 2>> found;
+  for (const CellSide& facet : BoundaryFacets(MakeGalerkinSpace(spline).Value).Value)
+  {
+    found.push_back({ facet.Cell, facet.Side });
+  }
+  EXPECT_EQ(found, expected);
+}
+}
+
+TEST(GalerkinSpace, SidesBetweenLevelsAreNoBoundary_CrossOracle)
+{
+  ExpectFacetsOfAllSides(BentBox<2>(2, 3));
+  ExpectFacetsOfAllSides(RefineMarkedElements(BentBox<2>(2, 4), { 0, 1, 5 })->Value);
+  ExpectFacetsOfAllSides(RefineMarkedElements(BentBox<3>(2, 3), { 13 })->Value);
+  ExpectFacetsOfAllSides(RefineMarkedLR(BentBox<2>(2, 5), { 6, 12 })->Value);
+}
+
 TEST(PatchTests, SplinesInThePlane_ExactOracle)
 {
   for (const AnalysisCase& body : SplineCases<2>())
