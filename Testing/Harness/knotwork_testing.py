@@ -3,9 +3,11 @@
 
 A test script defines functions test_*() and ends in `knotwork_testing.main(globals())`.
 """
+import json
 import os
 import subprocess
 import sys
+import tarfile
 import traceback
 
 DATA_DIR = os.environ["KNOTWORK_DATA_DIR"]
@@ -110,6 +112,40 @@ def run_program(*arguments, timeout=120, folder=None):
     timeout *= float(os.environ.get("KNOTWORK_PATIENCE", "1"))
     return subprocess.run([PROGRAM, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                           errors="replace", timeout=timeout, cwd=folder)
+
+
+class Files:
+    """The files of a test, in a folder of its own: runs the program there."""
+
+    MESHES = "/usr/share/doc/libcgal-dev/data.tar.gz"  # of Debian's libcgal-demo
+
+    def __init__(self, name, timeout=120):
+        self.folder = os.path.dirname(output(name + "/files"))
+        self.timeout = timeout
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def run(self, *words, status=0):
+        """What run_program gives; AssertionError for another exit status."""
+        done = run_program(*words, folder=self.folder, timeout=self.timeout)
+        assert done.returncode == status, (words, done.stderr)
+        return done
+
+    def report(self, *words):
+        """What the job says in its report."""
+        self.run(*words, "--report", "report.json", "--force")
+        with open(self.path("report.json"), encoding="utf-8") as file:
+            return json.load(file)
+
+    def unpack_meshes(self, *names):
+        """Copies NAME.off of libcgal-demo; leaves the test as skipped without that package."""
+        if not os.path.exists(self.MESHES):
+            skip(f"{self.MESHES} is missing; install the package libcgal-demo")
+        with tarfile.open(self.MESHES) as archive:
+            for name in names:
+                with open(self.path(name + ".off"), "wb") as file:
+                    file.write(archive.extractfile(f"data/meshes/{name}.off").read())
 
 
 def skip(reason):

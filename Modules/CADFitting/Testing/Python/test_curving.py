@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Elements of higher order on shapes, from files to files: volumes and areas are known, tetrahedra are those that `tetrahedralize` curves
 itself, solvers' meshes come back in Gmsh where it is installed, and bad inputs are told in one line."""
-import json
 import math
 import os
 
@@ -15,27 +14,11 @@ try:
 except ImportError:
     gmsh = None
 
-FOLDER = os.path.dirname(knotwork_testing.output("curving/files"))
-
-
-def path(name):
-    return os.path.join(FOLDER, name)
-
-
-def run(*words, status=0):
-    done = knotwork_testing.run_program(*words, folder=FOLDER, timeout=600)
-    assert done.returncode == status, (words, done.stderr)
-    return done
-
-
-def report(*words):
-    run(*words, "--report", "report.json", "--force", "--quiet")
-    with open(path("report.json"), encoding="utf-8") as file:
-        return json.load(file)
+FILES = knotwork_testing.Files("curving", timeout=600)
 
 
 def curved(mesh, target, order, *words, output="curved.vtu"):
-    found = report("cadfit", mesh, "--target", target, "--elements-only", "--order", order, "--output", output, *words)
+    found = FILES.report("cadfit", mesh, "--target", target, "--elements-only", "--order", order, "--output", output, *words)
     assert found["certified_elements"] == found["elements"] and found["verdict"] == "valid", found
     return found
 
@@ -68,7 +51,7 @@ def write_disc(name, n, radius=1.0):
             return c * x - s * y, s * x + c * y
 
         block(outer)
-    with open(path(name), "w", encoding="utf-8") as file:
+    with open(FILES.path(name), "w", encoding="utf-8") as file:
         file.write(f"OFF\n{len(points)} {len(quads)} 0\n")
         file.writelines("%.17g %.17g 0\n" % (radius * x, radius * y) for x, y in points)
         file.writelines("4 %d %d %d %d\n" % tuple(quad) for quad in quads)
@@ -81,7 +64,7 @@ def part(name, make):
     gmsh.option.setNumber("General.Verbosity", 0)
     make(gmsh.model.occ)
     gmsh.model.occ.synchronize()
-    gmsh.write(path(name))
+    gmsh.write(FILES.path(name))
     gmsh.finalize()
     return name
 
@@ -92,23 +75,23 @@ def rates(errors):
 
 def test_tetrahedra_are_those_of_tetrahedralize():
     """One kernel: a straight mesh that is curved later is the curved one, to the bit. CrossOracle."""
-    run("source", "--shape", "ball", "--output", "ball.vtu", "--force")
+    FILES.run("source", "--shape", "ball", "--output", "ball.vtu", "--force")
     for order in (2, 3):
-        whole = report("tetrahedralize", "ball.vtu", "--chordal-tolerance", 0.02, "--order", order, "--output", "whole.vtu")
-        run("tetrahedralize", "ball.vtu", "--chordal-tolerance", 0.02, "--output", "straight.vtu", "--force", "--quiet")
+        whole = FILES.report("tetrahedralize", "ball.vtu", "--chordal-tolerance", 0.02, "--order", order, "--output", "whole.vtu")
+        FILES.run("tetrahedralize", "ball.vtu", "--chordal-tolerance", 0.02, "--output", "straight.vtu", "--force", "--quiet")
         later = curved("straight.vtu", "ball.vtu", order)
-        points = [vtk_to_numpy(knotwork.read(path(name)).GetPoints().GetData()) for name in ("whole.vtu", "curved.vtu")]
+        points = [vtk_to_numpy(knotwork.read(FILES.path(name)).GetPoints().GetData()) for name in ("whole.vtu", "curved.vtu")]
         assert points[0].shape == points[1].shape and np.abs(points[0] - points[1]).max() == 0.0
         assert later["volume"] == whole["volume"] and later["relaxed_elements"] == whole["relaxed_elements"], (later, whole)
 
 
 def test_tetrahedra_reach_the_order():
     """Volume of the unit ball and distances from it, edges half as long each time. ConvergenceOracle."""
-    run("source", "--shape", "ball", "--output", "ball.vtu", "--force")
+    FILES.run("source", "--shape", "ball", "--output", "ball.vtu", "--force")
     for order in (2, 3, 4):
         errors, distances = [], []
         for tolerance in (0.02, 0.005, 0.00125):
-            run("tetrahedralize", "ball.vtu", "--chordal-tolerance", tolerance, "--output", "straight.vtu", "--force", "--quiet")
+            FILES.run("tetrahedralize", "ball.vtu", "--chordal-tolerance", tolerance, "--output", "straight.vtu", "--force", "--quiet")
             found = curved("straight.vtu", "ball.vtu", order)
             errors.append(found["volume"] - 4 / 3 * math.pi)
             distances.append(found["rms_distance"])
@@ -124,7 +107,7 @@ def test_hexahedra_of_sweep():
     for order in (2, 3, 4):
         errors, areas = [], []
         for n in (1, 2, 4):
-            run("sweep", write_disc("disc.off", n), "--direction", 0, 0, 2, "--layers", 2 * n, "--output", "rod.vtu", "--force")
+            FILES.run("sweep", write_disc("disc.off", n), "--direction", 0, 0, 2, "--layers", 2 * n, "--output", "rod.vtu", "--force")
             found = curved("rod.vtu", "rod.step", order)
             assert found["relaxed_elements"] == 0 and found["points_left"] == 0 and found["unmatched_curves"] == 0, found
             assert abs(found["target_volume"] - 2 * math.pi) < 1e-6 and abs(found["target_area"] - 6 * math.pi) < 1e-6, found
@@ -133,13 +116,13 @@ def test_hexahedra_of_sweep():
             areas.append(found["area"] / (6 * math.pi) - 1)
         assert rates(errors)[1] > order + 0.8 and rates(areas)[1] > order + 0.8, (order, errors, areas)
         # points of the rims lie on circles
-        points = vtk_to_numpy(knotwork.read(path("curved.vtu")).GetPoints().GetData())
+        points = vtk_to_numpy(knotwork.read(FILES.path("curved.vtu")).GetPoints().GetData())
         rim = points[(np.abs(points[:, 2]) < 1e-12) & (np.hypot(points[:, 0], points[:, 1]) > 0.99)]
         assert len(rim) == 16 * order and np.abs(np.hypot(rim[:, 0], rim[:, 1]) - 1).max() < 1e-9, len(rim)
-    run("validate", "curved.vtu")
+    FILES.run("validate", "curved.vtu")
     bezier = curved("rod.vtu", "rod.step", 4, "--basis", "bezier", output="bezier.vtu")
     assert abs(bezier["volume"] - found["volume"]) < 1e-12, bezier
-    run("validate", "bezier.vtu")
+    FILES.run("validate", "bezier.vtu")
 
 
 def test_quadrilaterals_of_quads():
@@ -157,7 +140,7 @@ def test_quadrilaterals_of_quads():
         for order in (2, 3, 4):
             errors, sizes = [], []
             for length, curvature in ((0.6, 30), (0.3, 15)):
-                run("quads", name, "--edge-length", length, "--curvature", curvature, "--output", "quads.vtp", "--force", "--quiet")
+                FILES.run("quads", name, "--edge-length", length, "--curvature", curvature, "--output", "quads.vtp", "--force", "--quiet")
                 found = curved("quads.vtp", name, order)
                 errors.append(abs(found["area"] / area - 1))
                 sizes.append(found["elements"]**-0.5)
@@ -171,16 +154,16 @@ def test_what_gmsh_says():
     if gmsh is None:
         knotwork_testing.skip("Gmsh's module for Python is not installed")
     part("rod.step", lambda occ: occ.addCylinder(0, 0, 0, 0, 0, 2, 1))
-    run("sweep", write_disc("disc.off", 2), "--direction", 0, 0, 2, "--layers", 4, "--output", "rod.vtu", "--force")
-    run("source", "--shape", "ball", "--output", "ball.vtu", "--force")
-    run("tetrahedralize", "ball.vtu", "--chordal-tolerance", 0.02, "--output", "tets.vtu", "--force", "--quiet")
-    run("quads", "rod.step", "--edge-length", 0.6, "--output", "quads.vtp", "--force", "--quiet")
+    FILES.run("sweep", write_disc("disc.off", 2), "--direction", 0, 0, 2, "--layers", 4, "--output", "rod.vtu", "--force")
+    FILES.run("source", "--shape", "ball", "--output", "ball.vtu", "--force")
+    FILES.run("tetrahedralize", "ball.vtu", "--chordal-tolerance", 0.02, "--output", "tets.vtu", "--force", "--quiet")
+    FILES.run("quads", "rod.step", "--edge-length", 0.6, "--output", "quads.vtp", "--force", "--quiet")
     for mesh, target, dimension in (("rod.vtu", "rod.step", 3), ("tets.vtu", "ball.vtu", 3), ("quads.vtp", "rod.step", 2)):
         for order in (2, 3, 4):
             found = curved(mesh, target, order, output="curved.msh")
             gmsh.initialize()
             gmsh.option.setNumber("General.Verbosity", 0)
-            gmsh.open(path("curved.msh"))
+            gmsh.open(FILES.path("curved.msh"))
             types, tags, _ = gmsh.model.mesh.getElements(dimension)
             assert [gmsh.model.mesh.getElementProperties(kind)[2] for kind in types] == [order], types
             assert len(tags[0]) == found["elements"]
@@ -192,7 +175,7 @@ def test_what_gmsh_says():
             if dimension == 3:
                 assert determinants.min() > 0.0, (mesh, order, determinants.min())
             gmsh.finalize()
-    again = report("validate", "curved.msh")
+    again = FILES.report("validate", "curved.msh")
     assert again["verdict"] == "valid", again
 
 
@@ -201,7 +184,7 @@ def write_thin_tube(name):
     radii, angles = (1.0, 1.03, 1.5), np.linspace(0, math.pi / 2, 3)
     points = [(r * math.cos(a), r * math.sin(a), z) for z in (0, 1) for a in angles for r in radii]
     cells = [[i + 3 * j + d + 9 * k for k in (0, 1) for d in (0, 1, 4, 3)] for j in (0, 1) for i in (0, 1)]
-    with open(path(name), "w", encoding="utf-8") as file:
+    with open(FILES.path(name), "w", encoding="utf-8") as file:
         file.write(f"# vtk DataFile Version 3.0\ntube\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS {len(points)} double\n")
         file.writelines("%.17g %.17g %.17g\n" % point for point in points)
         file.write(f"CELLS {len(cells)} {9 * len(cells)}\n")
@@ -211,7 +194,7 @@ def write_thin_tube(name):
 
 
 def test_bad_inputs():
-    run("source", "--shape", "ball", "--output", "ball.vtu", "--force")
+    FILES.run("source", "--shape", "ball", "--output", "ball.vtu", "--force")
     disc = write_disc("disc.off", 1)
     for words, text in (
         ([disc, "--elements-only"], "--elements-only needs --target"),
@@ -224,15 +207,15 @@ def test_bad_inputs():
         ([disc, "--target", "ball.vtu", "--output", "no.msh"], "cannot hold a smooth spline"),
     ):
         words = words if "--output" in words else [*words, "--output", "no.vtu"]
-        done = run("cadfit", *words, status=1)
+        done = FILES.run("cadfit", *words, status=1)
         assert text in done.stderr and len(done.stderr.strip().splitlines()) == 1, (words, done.stderr)
-        assert not os.path.exists(path("no.vtu")) and not os.path.exists(path("no.msh"))
-    with open(path("folded.vtk"), "w", encoding="utf-8") as file:
-        with open(path(write_thin_tube("thin.vtk")), encoding="utf-8") as good:
+        assert not os.path.exists(FILES.path("no.vtu")) and not os.path.exists(FILES.path("no.msh"))
+    with open(FILES.path("folded.vtk"), "w", encoding="utf-8") as file:
+        with open(FILES.path(write_thin_tube("thin.vtk")), encoding="utf-8") as good:
             file.write(good.read().replace("8 0 1 4 3 9 10 13 12", "8 0 4 1 3 9 10 13 12"))
-    done = run("cadfit", "folded.vtk", "--target", "ball.vtu", "--elements-only", "--output", "no.vtu", status=1)
+    done = FILES.run("cadfit", "folded.vtk", "--target", "ball.vtu", "--elements-only", "--output", "no.vtu", status=1)
     assert "is not valid though it is straight" in done.stderr, done.stderr
-    run("cadfit", disc, "--target", "ball.vtu", "--elements-only", "--order", 5, "--output", "no.vtu", status=2)
+    FILES.run("cadfit", disc, "--target", "ball.vtu", "--elements-only", "--order", 5, "--output", "no.vtu", status=2)
 
 
 knotwork_testing.main(globals())

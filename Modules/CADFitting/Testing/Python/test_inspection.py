@@ -15,7 +15,7 @@ from vtkmodules.vtkFiltersSources import vtkCubeSource
 from vtkmodules.vtkFiltersCore import vtkTriangleFilter
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
-FOLDER = os.path.dirname(knotwork_testing.output("inspection/files"))
+FILES = knotwork_testing.Files("inspection")
 
 
 def box(*lengths, centre=(0, 0, 0)):
@@ -31,23 +31,17 @@ def box(*lengths, centre=(0, 0, 0)):
     return triangles.GetOutput()
 
 
-def run(*words, status=0):
-    done = knotwork_testing.run_program(*words, folder=FOLDER)
-    assert done.returncode == status, (words, done.stderr)
-    return done
-
-
 def report(name="report.json"):
-    with open(os.path.join(FOLDER, name), encoding="utf-8") as file:
+    with open(FILES.path(name), encoding="utf-8") as file:
         return json.load(file)
 
 
 def write(data, name):
-    knotwork.write(data, os.path.join(FOLDER, name))
+    knotwork.write(data, FILES.path(name))
 
 
 def read(name):
-    return knotwork.read(os.path.join(FOLDER, name))
+    return knotwork.read(FILES.path(name))
 
 
 def test_datums_by_the_numbers_of_recognize():
@@ -60,9 +54,9 @@ def test_datums_by_the_numbers_of_recognize():
     moved.SetOutputPointsPrecision(1)
     moved.Update()
     write(moved.GetOutput(), "moved.vtp")
-    run("recognize", "moved.vtp", "--output", "regions.vtp", "--regions", "regions.csv")
+    FILES.run("recognize", "moved.vtp", "--output", "regions.vtp", "--regions", "regions.csv")
     # the output of recognize brings its numbers with it: the largest faces are the first
-    run("align", "regions.vtp", "--datum-plane", 1, "--datum-axis", 3, "--datum-point", 5, "--inward", "--output", "datums.vtp",
+    FILES.run("align", "regions.vtp", "--datum-plane", 1, "--datum-axis", 3, "--datum-point", 5, "--inward", "--output", "datums.vtp",
         "--report", "report.json")
     found = report()
     assert found["regions"] == 6 and found["free_motions"] == 0
@@ -77,26 +71,26 @@ def test_datums_by_the_numbers_of_recognize():
     assert not {"samples", "tolerance", "coarse", "outliers", "trimmed_share"} & set(found), found
     datums = ("--datum-plane", 1, "--output", "x.vtp")
     for words in (("--samples", 500), ("--tolerance", 1e-3), ("--coarse", 0), ("--outliers", "tukey"), ("--trimmed-share", 0.1)):
-        assert words[0] + " is of" in run("align", "moved.vtp", *datums, *words, status=1).stderr
+        assert words[0] + " is of" in FILES.run("align", "moved.vtp", *datums, *words, status=1).stderr
     for words in (("--inward", ), ("--maximum-sag", 3), ("--recognition-tolerance", 0.1)):
-        assert words[0] + " is of" in run("align", "moved.vtp", "--to", "moved.vtp", "--output", "x.vtp", *words, status=1).stderr
-    run("align", "moved.vtp", *datums, "--recognition-tolerance", 0.001, "--report", "report.json")
+        assert words[0] + " is of" in FILES.run("align", "moved.vtp", "--to", "moved.vtp", "--output", "x.vtp", *words, status=1).stderr
+    FILES.run("align", "moved.vtp", *datums, "--recognition-tolerance", 0.001, "--report", "report.json")
     assert report()["recognition_tolerance"] == 0.001
-    run("align", "moved.vtp", "--to", "moved.vtp", "--output", "x.vtp", "--report", "report.json")
+    FILES.run("align", "moved.vtp", "--to", "moved.vtp", "--output", "x.vtp", "--report", "report.json")
     found = report()
     assert found["samples"] == 10000 and not {"datum_plane", "inward", "recognition_tolerance"} & set(found), found
     for point in ("0,1", "4,4,4"):  # opposite sides, one side again
-        assert "fixes nothing" in run("align", "moved.vtp", *datums, "--datum-point", point, status=1).stderr
-    assert "region 17" in run("align", "moved.vtp", "--datum-plane", 17, "--output", "x.vtp", status=1).stderr
-    assert "either" in run("align", "moved.vtp", "--datum-plane", 1, "--to", "moved.vtp", "--output", "x.vtp", status=1).stderr
-    assert "--datum-plane" in run("align", "moved.vtp", "--output", "x.vtp", status=1).stderr
+        assert "fixes nothing" in FILES.run("align", "moved.vtp", *datums, "--datum-point", point, status=1).stderr
+    assert "region 17" in FILES.run("align", "moved.vtp", "--datum-plane", 17, "--output", "x.vtp", status=1).stderr
+    assert "either" in FILES.run("align", "moved.vtp", "--datum-plane", 1, "--to", "moved.vtp", "--output", "x.vtp", status=1).stderr
+    assert "--datum-plane" in FILES.run("align", "moved.vtp", "--output", "x.vtp", status=1).stderr
 
 
 def test_both_ways_on_a_step_file():
     write(box(3, 2, 1), "block.vtp")
-    run("trim", "block.vtp", "--output", "block.step")
+    FILES.run("trim", "block.vtp", "--output", "block.step")
     write(box(3, 2, 1.2, centre=(0, 0, 0.1)), "thick.vtp")
-    run("distance", "thick.vtp", "block.step", "--both-ways", "--output", "scan.vtp", "--model", "model.vtp", "--percentiles", "percentiles.csv",
+    FILES.run("distance", "thick.vtp", "block.step", "--both-ways", "--output", "scan.vtp", "--model", "model.vtp", "--percentiles", "percentiles.csv",
         "--report", "report.json")
     found = report()
     assert found["both_ways"] is True and found["signed"] is True and found["points_without"] == 0
@@ -105,7 +99,7 @@ def test_both_ways_on_a_step_file():
     assert abs(found["model_max"] - 0.2) < 1e-9 and abs(found["model_min"]) < 1e-9
     assert found["percentile_levels"] == [50, 90, 95, 99, 99.9, 100]
     assert abs(found["model_percentiles"][0]) < 1e-9 and abs(found["model_percentiles"][1] - 0.2) < 1e-9
-    table = np.genfromtxt(os.path.join(FOLDER, "percentiles.csv"), delimiter=",", names=True)
+    table = np.genfromtxt(FILES.path("percentiles.csv"), delimiter=",", names=True)
     assert np.allclose(table["ModelToScan"], found["model_percentiles"]) and np.allclose(table["ScanToModel"], found["scan_percentiles"])
     model = read("model.vtp")
     distance = vtk_to_numpy(model.GetPointData().GetArray("Distance"))
@@ -115,26 +109,26 @@ def test_both_ways_on_a_step_file():
     for words, said in ((("--model", "m.vtp"), "--both-ways"), (("--both-ways", "--tolerances", 0.1), "--tolerances"),
                         (("--both-ways", "--kind", "closest"), "--kind is of"), (("--samples", 500), "--samples is of"),
                         (("--maximum-distance", 0.5), "--maximum-distance is of")):
-        assert said in run("distance", "thick.vtp", "block.step", "--output", "x.vtp", *words, status=1).stderr
-    assert "10000000" in run("distance", "thick.vtp", "block.step", "--both-ways", "--samples", 100000000, "--output", "x.vtp", status=2).stderr
-    run("distance", "thick.vtp", "block.step", "--kind", "closest", "--output", "x.vtp", "--report", "report.json")
+        assert said in FILES.run("distance", "thick.vtp", "block.step", "--output", "x.vtp", *words, status=1).stderr
+    assert "10000000" in FILES.run("distance", "thick.vtp", "block.step", "--both-ways", "--samples", 100000000, "--output", "x.vtp", status=2).stderr
+    FILES.run("distance", "thick.vtp", "block.step", "--kind", "closest", "--output", "x.vtp", "--report", "report.json")
     found = report()
     assert found["kind"] == "closest" and not {"samples", "maximum_distance"} & set(found), found
 
 
 def test_what_cannot_be_compared():
     write(box(3, 2, 1), "block.vtp")
-    knotwork.write(box(3, 2, 1), os.path.join(FOLDER, "block.obj"))
-    np.savetxt(os.path.join(FOLDER, "far.xyz"), [[10, 0, 0]])
-    np.savetxt(os.path.join(FOLDER, "near.xyz"), [[1.6, 0, 0]])
+    knotwork.write(box(3, 2, 1), FILES.path("block.obj"))
+    np.savetxt(FILES.path("far.xyz"), [[10, 0, 0]])
+    np.savetxt(FILES.path("near.xyz"), [[1.6, 0, 0]])
     for model in ("block.obj", "block.vtp"):
-        done = run("distance", "near.xyz", model, "--output", "x.vtp", status=1)
+        done = FILES.run("distance", "near.xyz", model, "--output", "x.vtp", status=1)
         assert f"'{model}' holds triangles: give --both-ways" in done.stderr and "vtk" not in done.stderr, done.stderr
-    assert "holds no surface" in run("distance", "near.xyz", "far.xyz", "--output", "x.vtp", status=1).stderr
+    assert "holds no surface" in FILES.run("distance", "near.xyz", "far.xyz", "--output", "x.vtp", status=1).stderr
     # nothing of the model is near the scan
     words = ("block.obj", "--both-ways", "--maximum-distance", 0.5, "--output", "x.vtp", "--report", "report.json")
-    assert "within 0.5 of the scan" in run("distance", "far.xyz", *words, status=1).stderr
-    run("distance", "near.xyz", *words)
+    assert "within 0.5 of the scan" in FILES.run("distance", "far.xyz", *words, status=1).stderr
+    FILES.run("distance", "near.xyz", *words)
     found = report()
     assert 0 < found["model_points"] and 0 < found["points_without"] and abs(found["scan_max"] - 0.1) < 1e-12, found
 
@@ -143,11 +137,11 @@ def test_a_stray_point_leaves_other_signs_alone():
     """Beside the acute edge of a wedge, at x = 0: outside, whatever else was scanned."""
     corners = np.array([(0, 0, 0), (2, -0.2, 0), (2, 0.2, 0), (0, 0, 1), (2, -0.2, 1), (2, 0.2, 1)], float)
     triangles = [(0, 2, 1), (3, 4, 5), (0, 1, 4), (0, 4, 3), (1, 2, 5), (1, 5, 4), (2, 0, 3), (2, 3, 5)]
-    with open(os.path.join(FOLDER, "wedge.off"), "w", encoding="utf-8") as file:
+    with open(FILES.path("wedge.off"), "w", encoding="utf-8") as file:
         file.write("OFF\n6 8 0\n" + "".join("%g %g %g\n" % tuple(p) for p in corners) + "".join("3 %d %d %d\n" % t for t in triangles))
     for others in ([], [[1e6, 0, 0]], [[0, 0, 1e50]]):
-        np.savetxt(os.path.join(FOLDER, "scan.xyz"), [[-0.5, 0.2, 0.5], *others], fmt="%.17g")
-        run("distance", "scan.xyz", "wedge.off", "--both-ways", "--output", "x.vtp", "--report", "report.json")
+        np.savetxt(FILES.path("scan.xyz"), [[-0.5, 0.2, 0.5], *others], fmt="%.17g")
+        FILES.run("distance", "scan.xyz", "wedge.off", "--both-ways", "--output", "x.vtp", "--report", "report.json")
         assert abs(report()["scan_min"] - np.hypot(0.5, 0.2)) < 1e-12, (others, report())
 
 
