@@ -11,7 +11,6 @@
 #include "vtkCellType.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
@@ -58,21 +57,6 @@ void TurnNormals(const RigidMotion& motion, vtkDataSetAttributes* attributes)
   }
   attributes->SetNormals(turned);
 }
-}
-
-void FillScanInformation(int port, vtkInformation* info)
-{
-  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  if (port == 0)
-  {
-    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
-    return;
-  }
-  for (const char* type :
-    { "vtkPolyData", "vtkUnstructuredGrid", "vtkPartitionedDataSetCollection" })
-  {
-    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), type);
-  }
 }
 
 Result<TriangleMesh> DecodeScan(vtkPointSet* data)

@@ -6,16 +6,12 @@
 
 #include <string>
 
-class vtkInformation;
 class vtkInformationVector;
 class vtkPointSet;
 class vtkTable;
 
 namespace knotwork
 {
-/// Of filters with a scan at port 0 and what it is compared with at port 1.
-void FillScanInformation(int port, vtkInformation* info);
-
 /// Points, and triangles where the dataset has faces (polygons are divided).
 /// @return failures of CheckSampledPoints and DecodeMesh.
 Result<TriangleMesh> DecodeScan(vtkPointSet* data);

@@ -12,7 +12,6 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkImplicitFunction.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -278,7 +277,7 @@ Status FitMesh(vtkPointSet* data, const DecodedMeshCells& decoded, const CellMes
 
 vtkCADFit::vtkCADFit()
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetInputTypes({ Meshes(), Optional(Shapes()) });
   this->SetOutputTypes(
     { "vtkUnstructuredGrid", "vtkTable", "vtkTable", "vtkPolyData", "vtkPolyData" });
 }
@@ -308,19 +307,6 @@ vtkMTimeType vtkCADFit::GetMTime()
     time = std::max(time, this->ImplicitFunction->GetMTime());
   }
   return time;
-}
-
-int vtkCADFit::FillInputPortInformation(int port, vtkInformation* info)
-{
-  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
-  if (port == 1)
-  {
-    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPartitionedDataSetCollection");
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
-  return 1;
 }
 
 Status vtkCADFit::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)

@@ -255,7 +255,6 @@ public:
 protected:
   vtkCADFit();
   ~vtkCADFit() override;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:

@@ -44,20 +44,13 @@ Status CheckRegionIds(
 
 vtkDatumAlignment::vtkDatumAlignment()
 {
+  this->SetInputTypes({ Meshes() });
   this->SetOutputTypes({ "vtkPointSet", "vtkTable" });
 }
 
 vtkDatumAlignment::~vtkDatumAlignment()
 {
   this->SetDatumPoint(nullptr);
-}
-
-int vtkDatumAlignment::FillInputPortInformation(int, vtkInformation* info)
-{
-  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
-  return 1;
 }
 
 int vtkDatumAlignment::RequestDataObject(

@@ -70,7 +70,6 @@ public:
 protected:
   vtkDatumAlignment();
   ~vtkDatumAlignment() override;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestDataObject(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;

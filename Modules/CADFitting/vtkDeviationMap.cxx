@@ -67,7 +67,7 @@ void EncodePercentiles(const DeviationMap& map, vtkTable* table)
 
 vtkDeviationMap::vtkDeviationMap()
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetInputTypes({ { { "vtkPointSet" } }, Shapes() });
   this->SetOutputTypes({ "vtkPointSet", "vtkPolyData", "vtkTable", "vtkTable" });
 }
 
@@ -79,12 +79,6 @@ void vtkDeviationMap::SetModelConnection(vtkAlgorithmOutput* output)
 void vtkDeviationMap::SetModelData(vtkDataObject* model)
 {
   this->SetInputDataObject(1, model);
-}
-
-int vtkDeviationMap::FillInputPortInformation(int port, vtkInformation* info)
-{
-  FillScanInformation(port, info);
-  return 1;
 }
 
 int vtkDeviationMap::RequestDataObject(

@@ -49,7 +49,6 @@ public:
 protected:
   vtkDeviationMap();
   ~vtkDeviationMap() override = default;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestDataObject(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;

@@ -7,7 +7,6 @@
 #include <knotwork/SplineGrid/TableRow.h>
 
 #include "vtkCellData.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
@@ -91,7 +90,7 @@ std::vector<std::string> Warnings(const CurvedElements& curved, int numLeftOut)
 
 vtkElementCurving::vtkElementCurving()
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetInputTypes({ Meshes(), Shapes() });
   this->SetOutputTypes({ "vtkUnstructuredGrid", "vtkTable" });
 }
 
@@ -109,18 +108,6 @@ void vtkElementCurving::SetTargetConnection(vtkAlgorithmOutput* output)
 void vtkElementCurving::SetTargetData(vtkDataObject* target)
 {
   this->SetInputDataObject(1, target);
-}
-
-int vtkElementCurving::FillInputPortInformation(int port, vtkInformation* info)
-{
-  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
-  if (port == 1)
-  {
-    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPartitionedDataSetCollection");
-  }
-  return 1;
 }
 
 Status vtkElementCurving::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)

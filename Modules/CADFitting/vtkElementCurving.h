@@ -87,7 +87,6 @@ public:
 protected:
   vtkElementCurving();
   ~vtkElementCurving() override;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:

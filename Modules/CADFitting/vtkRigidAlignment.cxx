@@ -77,7 +77,7 @@ std::vector<std::string> Warnings(const RigidAlignment& found, bool isSearched)
 
 vtkRigidAlignment::vtkRigidAlignment()
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetInputTypes({ { { "vtkPointSet" } }, Shapes() });
   this->SetOutputTypes({ "vtkPointSet", "vtkTable" });
 }
 
@@ -89,12 +89,6 @@ void vtkRigidAlignment::SetTargetConnection(vtkAlgorithmOutput* output)
 void vtkRigidAlignment::SetTargetData(vtkDataObject* target)
 {
   this->SetInputDataObject(1, target);
-}
-
-int vtkRigidAlignment::FillInputPortInformation(int port, vtkInformation* info)
-{
-  FillScanInformation(port, info);
-  return 1;
 }
 
 int vtkRigidAlignment::RequestDataObject(

@@ -90,7 +90,6 @@ public:
 protected:
   vtkRigidAlignment();
   ~vtkRigidAlignment() override = default;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestDataObject(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;

@@ -10,7 +10,6 @@
 #include "vtkCellData.h"
 #include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -101,7 +100,7 @@ void EncodeNumbers(const SweptMesh& swept, const HexahedronQuality& quality, vtk
 
 vtkSweepToHexahedra::vtkSweepToHexahedra()
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetInputTypes({ Meshes(), Optional({ { "vtkPolyData" } }) });
   this->SetOutputTypes({ "vtkUnstructuredGrid", "vtkTable" });
 }
 
@@ -113,21 +112,6 @@ void vtkSweepToHexahedra::SetPathConnection(vtkAlgorithmOutput* output)
 void vtkSweepToHexahedra::SetPathData(vtkDataObject* path)
 {
   this->SetInputDataObject(1, path);
-}
-
-int vtkSweepToHexahedra::FillInputPortInformation(int port, vtkInformation* info)
-{
-  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  if (port == 0)
-  {
-    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
-  }
-  else
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
-  return 1;
 }
 
 Status vtkSweepToHexahedra::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)

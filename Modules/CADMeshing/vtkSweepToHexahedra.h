@@ -64,7 +64,6 @@ public:
 protected:
   vtkSweepToHexahedra();
   ~vtkSweepToHexahedra() override = default;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:

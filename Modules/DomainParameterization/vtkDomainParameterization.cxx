@@ -9,7 +9,6 @@
 #include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
@@ -127,19 +126,8 @@ void AddReport(const knotwork::DomainReport& result, vtkUnstructuredGrid* grid)
 
 vtkDomainParameterization::vtkDomainParameterization()
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetInputTypes({ Splines(), Optional({ { "vtkDataSet" } }) });
   this->SetOutputTypes({ "vtkUnstructuredGrid", "vtkUnstructuredGrid", "vtkTable" });
-}
-
-int vtkDomainParameterization::FillInputPortInformation(int port, vtkInformation* info)
-{
-  if (port == 0)
-  {
-    return this->Superclass::FillInputPortInformation(port, info);
-  }
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
-  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  return 1;
 }
 
 Status vtkDomainParameterization::Compute(

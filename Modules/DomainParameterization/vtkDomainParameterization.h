@@ -252,7 +252,6 @@ public:
 protected:
   vtkDomainParameterization();
   ~vtkDomainParameterization() override = default;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:

@@ -12,7 +12,6 @@
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdList.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
 #include "vtkObjectFactory.h"
@@ -237,7 +236,7 @@ void EncodeNumbers(const ScanFeatures& found, vtkTable* table)
 
 vtkMeshFeatures::vtkMeshFeatures()
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetInputTypes({ Meshes(), Optional({ { "vtkPolyData" } }) });
   this->SetOutputTypes({ "vtkPolyData", "vtkPolyData", "vtkPolyData", "vtkTable" });
 }
 
@@ -254,21 +253,6 @@ void vtkMeshFeatures::SetEdgesConnection(vtkAlgorithmOutput* output)
 void vtkMeshFeatures::SetEdgesData(vtkDataObject* edges)
 {
   this->SetInputDataObject(1, edges);
-}
-
-int vtkMeshFeatures::FillInputPortInformation(int port, vtkInformation* info)
-{
-  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  if (port == 0)
-  {
-    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
-  }
-  else
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
-  return 1;
 }
 
 knotwork::Status vtkMeshFeatures::Compute(

@@ -4,7 +4,6 @@
 #include "MeshData.h"
 
 #include "vtkDataObject.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
@@ -53,16 +52,8 @@ std::vector<std::string> Warnings(const knotwork::ChartedMesh& charted)
 
 vtkMeshParameterization::vtkMeshParameterization()
 {
-  this->SetNumberOfInputPorts(1);
+  this->SetInputTypes({ Meshes() });
   this->SetOutputTypes({ "vtkPolyData", "vtkPolyData", "vtkTable" });
-}
-
-int vtkMeshParameterization::FillInputPortInformation(int, vtkInformation* info)
-{
-  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
-  return 1;
 }
 
 knotwork::Status vtkMeshParameterization::Compute(

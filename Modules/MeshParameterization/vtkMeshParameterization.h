@@ -155,7 +155,6 @@ public:
 protected:
   vtkMeshParameterization();
   ~vtkMeshParameterization() override = default;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:

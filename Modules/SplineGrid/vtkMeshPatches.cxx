@@ -10,7 +10,6 @@
 #include "vtkCellData.h"
 #include "vtkDataObject.h"
 #include "vtkIdList.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
@@ -138,21 +137,13 @@ void EncodeTable(const MeshPatches<Dim>& patches, vtkTable* table)
 
 vtkMeshPatches::vtkMeshPatches()
 {
-  this->SetNumberOfInputPorts(1);
+  this->SetInputTypes({ Meshes() });
   this->SetOutputTypes({ "vtkUnstructuredGrid", "vtkPolyData", "vtkTable" });
 }
 
 vtkMeshPatches::~vtkMeshPatches()
 {
   this->SetFeatureArray(nullptr);
-}
-
-int vtkMeshPatches::FillInputPortInformation(int, vtkInformation* info)
-{
-  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
-  return 1;
 }
 
 Status vtkMeshPatches::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)

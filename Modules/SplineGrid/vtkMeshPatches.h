@@ -57,7 +57,6 @@ public:
 protected:
   vtkMeshPatches();
   ~vtkMeshPatches() override;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:

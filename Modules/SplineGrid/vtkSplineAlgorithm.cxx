@@ -18,15 +18,43 @@
 
 vtkSplineAlgorithm::vtkSplineAlgorithm() = default;
 
+vtkSplineAlgorithm::InputType vtkSplineAlgorithm::Splines()
+{
+  return { { "vtkUnstructuredGrid", "vtkPartitionedDataSetCollection" } };
+}
+
+vtkSplineAlgorithm::InputType vtkSplineAlgorithm::Meshes()
+{
+  return { { "vtkPolyData", "vtkUnstructuredGrid" } };
+}
+
+vtkSplineAlgorithm::InputType vtkSplineAlgorithm::Shapes()
+{
+  return { { "vtkPolyData", "vtkUnstructuredGrid", "vtkPartitionedDataSetCollection" } };
+}
+
+vtkSplineAlgorithm::InputType vtkSplineAlgorithm::Optional(InputType type)
+{
+  type.IsOptional = true;
+  return type;
+}
+
+void vtkSplineAlgorithm::SetInputTypes(std::vector<InputType> types)
+{
+  this->InputTypes = std::move(types);
+  this->SetNumberOfInputPorts(static_cast<int>(this->InputTypes.size()));
+}
+
 int vtkSplineAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
 {
-  if (port != 0)
-  {
-    return this->Superclass::FillInputPortInformation(port, info);
-  }
+  const InputType type =
+    this->InputTypes.empty() ? Splines() : this->InputTypes[static_cast<std::size_t>(port)];
   info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPartitionedDataSetCollection");
+  for (const std::string& name : type.Classes)
+  {
+    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), name.c_str());
+  }
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), type.IsOptional ? 1 : 0);
   return 1;
 }
 

@@ -72,6 +72,18 @@ protected:
   /** Threads to hand to kernels: the property, or one under MPI when it is 0. */
   int KernelThreads() const;
 
+  /** What an input port takes: data of one of these classes. */
+  struct InputType
+  {
+    std::vector<std::string> Classes;
+    bool IsOptional = false;
+  };
+  static InputType Splines(); ///< spline grids and collections of them
+  static InputType Meshes();  ///< polygons, or cells
+  static InputType Shapes();  ///< meshes, spline grids, collections of them
+  static InputType Optional(InputType type);
+  /** For the constructor: one input port a type. Without it there is one, of splines. */
+  void SetInputTypes(std::vector<InputType> types);
   /** For the constructor: one output a type, always of that type. */
   void SetOutputTypes(std::vector<std::string> types);
   /** Makes output `port` an empty object of a class, unless it is one. */
@@ -93,6 +105,7 @@ protected:
 
 private:
   std::vector<std::string> LeftOut;
+  std::vector<InputType> InputTypes;
   std::vector<std::string> OutputTypes;
   vtkSplineAlgorithm(const vtkSplineAlgorithm&) = delete;
   void operator=(const vtkSplineAlgorithm&) = delete;

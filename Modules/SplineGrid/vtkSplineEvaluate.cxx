@@ -259,17 +259,7 @@ Status EvaluateCoefficients(const Spline<Dim>& spline, const std::string& name,
 
 vtkSplineEvaluate::vtkSplineEvaluate()
 {
-  this->SetNumberOfInputPorts(2);
-}
-
-int vtkSplineEvaluate::FillInputPortInformation(int port, vtkInformation* info)
-{
-  if (port == 1)
-  {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
-    return 1;
-  }
-  return this->Superclass::FillInputPortInformation(port, info);
+  this->SetInputTypes({ Splines(), { { "vtkPointSet" } } });
 }
 
 int vtkSplineEvaluate::FillOutputPortInformation(int, vtkInformation* info)

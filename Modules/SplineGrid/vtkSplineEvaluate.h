@@ -90,7 +90,6 @@ public:
 protected:
   vtkSplineEvaluate();
   ~vtkSplineEvaluate() override = default;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestDataObject(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;

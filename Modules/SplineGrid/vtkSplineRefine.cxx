@@ -14,7 +14,6 @@
 #include "vtkDataArray.h"
 #include "vtkExtractSelection.h"
 #include "vtkImplicitFunction.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -253,7 +252,8 @@ int AutomaticExtension(const knotwork::SplineSpace<Dim>& space)
 
 vtkSplineRefine::vtkSplineRefine()
 {
-  this->SetNumberOfInputPorts(3);
+  this->SetInputTypes(
+    { Splines(), Optional({ { "vtkSelection" } }), Optional({ { "vtkTable", "vtkPolyData" } }) });
 }
 
 vtkSplineRefine::~vtkSplineRefine()
@@ -289,24 +289,6 @@ void vtkSplineRefine::SetSegmentsConnection(vtkAlgorithmOutput* output)
 void vtkSplineRefine::SetSegmentsData(vtkDataObject* segments)
 {
   this->SetInputDataObject(2, segments);
-}
-
-int vtkSplineRefine::FillInputPortInformation(int port, vtkInformation* info)
-{
-  if (port == 2)
-  {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkTable");
-    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-    return 1;
-  }
-  if (port == 1)
-  {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkSelection");
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-    return 1;
-  }
-  return this->Superclass::FillInputPortInformation(port, info);
 }
 
 /// A refinement of a patch, by the properties of the filter.

@@ -223,7 +223,6 @@ public:
 protected:
   vtkSplineRefine();
   ~vtkSplineRefine() override;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   bool WorksOnPieces() const override { return this->Mode != SEGMENTS; }
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 

@@ -254,19 +254,7 @@ void AddCellArrays(const SplineModel& model, int block, vtkUnstructuredGrid* sou
 
 vtkSplineWarp::vtkSplineWarp()
 {
-  this->SetNumberOfInputPorts(2);
-}
-
-int vtkSplineWarp::FillInputPortInformation(int port, vtkInformation* info)
-{
-  if (port == 0)
-  {
-    info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
-    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPartitionedDataSetCollection");
-    return 1;
-  }
-  return this->Superclass::FillInputPortInformation(0, info);
+  this->SetInputTypes({ { { "vtkPointSet", "vtkPartitionedDataSetCollection" } }, Splines() });
 }
 
 int vtkSplineWarp::RequestDataObject(

@@ -72,7 +72,6 @@ public:
 protected:
   vtkSplineWarp();
   ~vtkSplineWarp() override = default;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestDataObject(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   bool WorksOnPieces() const override { return true; }

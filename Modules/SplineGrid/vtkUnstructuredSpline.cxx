@@ -10,7 +10,6 @@
 #include <knotwork/SplineCore/UntangledSpline.h>
 
 #include "vtkDataObject.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
@@ -191,21 +190,13 @@ Status MakeSpline(vtkPointSet* data, const DecodedMeshCells& decoded, const Cell
 
 vtkUnstructuredSpline::vtkUnstructuredSpline()
 {
-  this->SetNumberOfInputPorts(1);
+  this->SetInputTypes({ Meshes() });
   this->SetOutputTypes({ "vtkUnstructuredGrid", "vtkTable" });
 }
 
 vtkUnstructuredSpline::~vtkUnstructuredSpline()
 {
   this->SetFeatureArray(nullptr);
-}
-
-int vtkUnstructuredSpline::FillInputPortInformation(int, vtkInformation* info)
-{
-  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
-  return 1;
 }
 
 Status vtkUnstructuredSpline::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)

@@ -136,7 +136,6 @@ public:
 protected:
   vtkUnstructuredSpline();
   ~vtkUnstructuredSpline() override;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:

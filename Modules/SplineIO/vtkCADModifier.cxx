@@ -10,7 +10,6 @@
 #include <knotwork/SplineGrid/WorkerProcess.h>
 
 #include "vtkDataObject.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
@@ -114,7 +113,7 @@ void EncodeSteps(const std::vector<CADStep>& steps, vtkTable* table)
 
 vtkCADModifier::vtkCADModifier()
 {
-  this->SetNumberOfInputPorts(1);
+  this->SetInputTypes({ Optional(Shapes()) });
   this->SetOutputTypes({ "vtkUnstructuredGrid", "vtkUnstructuredGrid", "vtkPolyData", "vtkTable" });
 }
 
@@ -123,16 +122,6 @@ vtkCADModifier::~vtkCADModifier()
   this->SetFileName(nullptr);
   this->SetOutputFileName(nullptr);
   this->SetOperations(nullptr);
-}
-
-int vtkCADModifier::FillInputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPartitionedDataSetCollection");
-  return 1;
 }
 
 Status vtkCADModifier::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)

@@ -7,7 +7,6 @@
 
 #include "vtkDataObject.h"
 #include "vtkDoubleArray.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
 #include "vtkObjectFactory.h"
@@ -129,7 +128,7 @@ struct PatchTable
 
 vtkSplineCombine::vtkSplineCombine()
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetInputTypes({ Splines(), Splines() });
   this->SetOutputTypes({ "vtkUnstructuredGrid", "vtkTable" });
 }
 
@@ -141,11 +140,6 @@ void vtkSplineCombine::SetSecondConnection(vtkAlgorithmOutput* output)
 void vtkSplineCombine::SetSecondData(vtkDataObject* surface)
 {
   this->SetInputDataObject(1, surface);
-}
-
-int vtkSplineCombine::FillInputPortInformation(int, vtkInformation* info)
-{
-  return this->Superclass::FillInputPortInformation(0, info);
 }
 
 Status vtkSplineCombine::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)

@@ -73,7 +73,6 @@ public:
 protected:
   vtkSplineCombine();
   ~vtkSplineCombine() override = default;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:

@@ -111,7 +111,7 @@ void EncodeClasses(
 
 vtkSplinePointDistance::vtkSplinePointDistance()
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetInputTypes({ { { "vtkPointSet" } }, Splines() });
   this->SetOutputTypes({ "vtkPointSet", "vtkTable", "vtkTable" });
 }
 
@@ -138,16 +138,6 @@ void vtkSplinePointDistance::SetSurfaceConnection(vtkAlgorithmOutput* output)
 void vtkSplinePointDistance::SetSurfaceData(vtkDataObject* surface)
 {
   this->SetInputDataObject(1, surface);
-}
-
-int vtkSplinePointDistance::FillInputPortInformation(int port, vtkInformation* info)
-{
-  if (port == 1)
-  {
-    return this->Superclass::FillInputPortInformation(0, info);
-  }
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
-  return 1;
 }
 
 int vtkSplinePointDistance::RequestDataObject(

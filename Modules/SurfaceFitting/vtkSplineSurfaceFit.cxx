@@ -57,7 +57,7 @@ std::string DescribeMiss(const knotwork::SurfaceFit& fit)
 
 vtkSplineSurfaceFit::vtkSplineSurfaceFit()
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetInputTypes({ { { "vtkPointSet" } }, Optional(Splines()) });
   this->SetOutputTypes(
     { "vtkUnstructuredGrid", "vtkPointSet", "vtkTable", "vtkImageData", "vtkPolyData" });
 }
@@ -104,17 +104,6 @@ void vtkSplineSurfaceFit::ClearToleranceBoxes()
     this->ToleranceBoxes.clear();
     this->Modified();
   }
-}
-
-int vtkSplineSurfaceFit::FillInputPortInformation(int port, vtkInformation* info)
-{
-  if (port == 1)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-    return this->Superclass::FillInputPortInformation(0, info);
-  }
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
-  return 1;
 }
 
 int vtkSplineSurfaceFit::RequestDataObject(

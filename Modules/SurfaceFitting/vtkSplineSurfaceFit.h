@@ -382,7 +382,6 @@ public:
 protected:
   vtkSplineSurfaceFit();
   ~vtkSplineSurfaceFit() override = default;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestDataObject(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;

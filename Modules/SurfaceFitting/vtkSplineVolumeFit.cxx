@@ -58,13 +58,8 @@ void EncodeIterations(const knotwork::VolumeFit& fit, vtkTable* output)
 
 vtkSplineVolumeFit::vtkSplineVolumeFit()
 {
+  this->SetInputTypes({ { { "vtkPointSet" } } });
   this->SetOutputTypes({ "vtkUnstructuredGrid", "vtkPointSet", "vtkTable" });
-}
-
-int vtkSplineVolumeFit::FillInputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
-  return 1;
 }
 
 int vtkSplineVolumeFit::RequestDataObject(

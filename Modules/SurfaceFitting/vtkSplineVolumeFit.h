@@ -106,7 +106,6 @@ public:
 protected:
   vtkSplineVolumeFit();
   ~vtkSplineVolumeFit() override = default;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestDataObject(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;

@@ -7,7 +7,6 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -87,15 +86,8 @@ void EncodeNumbers(const QuadRemesh& made, vtkTable* table)
 
 vtkQuadRemesher::vtkQuadRemesher()
 {
+  this->SetInputTypes({ Meshes() });
   this->SetOutputTypes({ "vtkPolyData", "vtkTable", "vtkTable" });
-}
-
-int vtkQuadRemesher::FillInputPortInformation(int, vtkInformation* info)
-{
-  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
-  return 1;
 }
 
 Status vtkQuadRemesher::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)

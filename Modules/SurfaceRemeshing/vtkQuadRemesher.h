@@ -94,7 +94,6 @@ public:
 protected:
   vtkQuadRemesher();
   ~vtkQuadRemesher() override = default;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:

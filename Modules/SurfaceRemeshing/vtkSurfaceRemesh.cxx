@@ -8,7 +8,6 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -142,20 +141,13 @@ void EncodeNumbers(const SurfaceRemesh& made, vtkTable* table)
 
 vtkSurfaceRemesh::vtkSurfaceRemesh()
 {
+  this->SetInputTypes({ Meshes() });
   this->SetOutputTypes({ "vtkPolyData", "vtkPolyData", "vtkTable" });
 }
 
 vtkSurfaceRemesh::~vtkSurfaceRemesh()
 {
   this->SetSizeArray(nullptr);
-}
-
-int vtkSurfaceRemesh::FillInputPortInformation(int, vtkInformation* info)
-{
-  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
-  return 1;
 }
 
 Status vtkSurfaceRemesh::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)

@@ -112,7 +112,6 @@ public:
 protected:
   vtkSurfaceRemesh();
   ~vtkSurfaceRemesh() override;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:

@@ -8,7 +8,6 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -103,15 +102,8 @@ void EncodeNumbers(const SurfaceRepair& repaired, vtkTable* table)
 
 vtkSurfaceRepair::vtkSurfaceRepair()
 {
+  this->SetInputTypes({ Meshes() });
   this->SetOutputTypes({ "vtkPolyData", "vtkPolyData", "vtkTable" });
-}
-
-int vtkSurfaceRepair::FillInputPortInformation(int, vtkInformation* info)
-{
-  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
-  return 1;
 }
 
 Status vtkSurfaceRepair::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)

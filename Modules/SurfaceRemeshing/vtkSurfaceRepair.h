@@ -88,7 +88,6 @@ public:
 protected:
   vtkSurfaceRepair();
   ~vtkSurfaceRepair() override = default;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:

@@ -10,7 +10,6 @@
 #include <knotwork/SurfaceTrimming/RegionModel.h>
 
 #include "vtkCellData.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
 #include "vtkObjectFactory.h"
@@ -128,15 +127,8 @@ std::vector<std::string> Shortcomings(const RegionModel& model)
 
 vtkAnalyticModel::vtkAnalyticModel()
 {
+  this->SetInputTypes({ Meshes() });
   this->SetOutputTypes({ "vtkPolyData", "vtkUnstructuredGrid", "vtkUnstructuredGrid", "vtkTable" });
-}
-
-int vtkAnalyticModel::FillInputPortInformation(int, vtkInformation* info)
-{
-  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
-  return 1;
 }
 
 knotwork::Status vtkAnalyticModel::Compute(

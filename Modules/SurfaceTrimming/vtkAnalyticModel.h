@@ -96,7 +96,6 @@ public:
 protected:
   vtkAnalyticModel();
   ~vtkAnalyticModel() override = default;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:

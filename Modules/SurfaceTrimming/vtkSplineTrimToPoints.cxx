@@ -12,7 +12,6 @@
 
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -95,7 +94,7 @@ void EncodeNumbers(const knotwork::TrimmedToPoints& trimmed, vtkTable* table)
 
 vtkSplineTrimToPoints::vtkSplineTrimToPoints()
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetInputTypes({ Splines(), { { "vtkPointSet" } } });
   this->SetOutputTypes({ "vtkPolyData", "vtkUnstructuredGrid", "vtkUnstructuredGrid", "vtkTable" });
 }
 
@@ -107,16 +106,6 @@ void vtkSplineTrimToPoints::SetPointsConnection(vtkAlgorithmOutput* output)
 void vtkSplineTrimToPoints::SetPointsData(vtkDataObject* points)
 {
   this->SetInputDataObject(1, points);
-}
-
-int vtkSplineTrimToPoints::FillInputPortInformation(int port, vtkInformation* info)
-{
-  if (port == 1)
-  {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
-    return 1;
-  }
-  return this->Superclass::FillInputPortInformation(port, info);
 }
 
 Status vtkSplineTrimToPoints::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)

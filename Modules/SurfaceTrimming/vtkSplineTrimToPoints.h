@@ -82,7 +82,6 @@ public:
 protected:
   vtkSplineTrimToPoints();
   ~vtkSplineTrimToPoints() override = default;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:

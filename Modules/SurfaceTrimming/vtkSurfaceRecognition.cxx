@@ -10,7 +10,6 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
 #include "vtkObjectFactory.h"
@@ -184,15 +183,8 @@ void EncodeNumbers(const SurfaceRecognition& found, vtkTable* table)
 
 vtkSurfaceRecognition::vtkSurfaceRecognition()
 {
+  this->SetInputTypes({ Meshes() });
   this->SetOutputTypes({ "vtkPolyData", "vtkPolyData", "vtkTable", "vtkTable" });
-}
-
-int vtkSurfaceRecognition::FillInputPortInformation(int, vtkInformation* info)
-{
-  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
-  return 1;
 }
 
 knotwork::Status vtkSurfaceRecognition::Compute(

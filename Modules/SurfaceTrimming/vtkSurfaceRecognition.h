@@ -52,7 +52,6 @@ public:
 protected:
   vtkSurfaceRecognition();
   ~vtkSurfaceRecognition() override = default;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:

@@ -65,17 +65,9 @@ std::vector<std::string> Shortcomings(const knotwork::TrimmedSurface& trimmed)
 
 vtkTrimmedSurface::vtkTrimmedSurface()
 {
-  this->SetNumberOfInputPorts(1);
+  this->SetInputTypes({ Meshes() });
   this->SetOutputTypes(
     { "vtkPolyData", "vtkUnstructuredGrid", "vtkUnstructuredGrid", "vtkPointSet", "vtkTable" });
-}
-
-int vtkTrimmedSurface::FillInputPortInformation(int, vtkInformation* info)
-{
-  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
-  return 1;
 }
 
 int vtkTrimmedSurface::RequestDataObject(

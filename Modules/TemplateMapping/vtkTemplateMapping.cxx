@@ -4,7 +4,6 @@
 #include "MapData.h"
 #include "SkeletonData.h"
 
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
@@ -19,18 +18,8 @@ vtkStandardNewMacro(vtkTemplateMapping);
 
 vtkTemplateMapping::vtkTemplateMapping()
 {
-  this->SetNumberOfInputPorts(3);
+  this->SetInputTypes({ Meshes(), Meshes(), Optional(Splines()) });
   this->SetOutputTypes({ "vtkUnstructuredGrid", "vtkPolyData", "vtkTable" });
-}
-
-int vtkTemplateMapping::FillInputPortInformation(int port, vtkInformation* info)
-{
-  const char* other = port == 2 ? "vtkPartitionedDataSetCollection" : "vtkPolyData";
-  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), other);
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
-  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port == 2 ? 1 : 0);
-  return 1;
 }
 
 template <int Dim>

@@ -309,7 +309,6 @@ public:
 protected:
   vtkTemplateMapping();
   ~vtkTemplateMapping() override = default;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:

@@ -12,7 +12,6 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -111,7 +110,7 @@ void EncodeNumbers(const SolidMesh& mesh, vtkTable* table)
 
 vtkTetGenMesher::vtkTetGenMesher()
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetInputTypes({ Meshes(), Optional(Meshes()) });
   this->SetOutputTypes({ "vtkUnstructuredGrid", "vtkPolyData", "vtkTable" });
 }
 
@@ -123,15 +122,6 @@ void vtkTetGenMesher::SetTargetConnection(vtkAlgorithmOutput* output)
 void vtkTetGenMesher::SetTargetData(vtkDataObject* target)
 {
   this->SetInputDataObject(1, target);
-}
-
-int vtkTetGenMesher::FillInputPortInformation(int port, vtkInformation* info)
-{
-  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
-  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port);
-  return 1;
 }
 
 Result<DecodedMesh> vtkTetGenMesher::BoundaryOf(vtkDataObject* spline)

@@ -123,7 +123,6 @@ public:
 protected:
   vtkTetGenMesher();
   ~vtkTetGenMesher() override = default;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   knotwork::Result<knotwork::DecodedMesh> BoundaryOf(vtkDataObject* spline);
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 

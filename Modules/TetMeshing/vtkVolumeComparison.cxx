@@ -14,7 +14,6 @@
 #include "vtkCellArray.h"
 #include "vtkCellType.h"
 #include "vtkIdList.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -310,7 +309,8 @@ void EncodeNumbers(
 
 vtkVolumeComparison::vtkVolumeComparison()
 {
-  this->SetNumberOfInputPorts(3);
+  this->SetInputTypes(
+    { { { "vtkUnstructuredGrid" } }, { { "vtkUnstructuredGrid" } }, Optional(Shapes()) });
   this->SetOutputTypes({ "vtkPolyData", "vtkPolyData", "vtkTable", "vtkTable" });
 }
 
@@ -339,19 +339,6 @@ double vtkVolumeComparison::GetSeconds(int input, int step)
   const bool known = input >= 0 && input < 2 && step >= 0 && step < 3;
   return known ? this->Seconds[static_cast<std::size_t>(input)][static_cast<std::size_t>(step)]
                : 0.0;
-}
-
-int vtkVolumeComparison::FillInputPortInformation(int port, vtkInformation* info)
-{
-  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
-  if (port == 2)
-  {
-    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPartitionedDataSetCollection");
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
-  return 1;
 }
 
 Status vtkVolumeComparison::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)

@@ -69,7 +69,6 @@ public:
 protected:
   vtkVolumeComparison();
   ~vtkVolumeComparison() override = default;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:
