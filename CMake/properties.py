@@ -654,8 +654,13 @@ def defaults(root):
 
 
 def write(file, lines):
+    text = "\n".join(lines) + "\n"
+    if os.path.exists(file):
+        with open(file, encoding="utf-8") as stream:
+            if stream.read() == text:  # whatever is made of it stays as it is
+                return
     with open(file, "w", encoding="utf-8") as stream:
-        stream.write("\n".join(lines) + "\n")
+        stream.write(text)
 
 
 def read(files):
