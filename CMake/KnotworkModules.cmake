@@ -33,5 +33,5 @@ if(NOT KNOTWORK_PERMISSIVE) # CGAL is under the GPL, TetGen under the AGPL
     KERNELS SplineCore JacobianValidation MeshParameterization CADFitting SurfaceRemeshing
     FILTERS SplineGrid JacobianValidation MeshParameterization SurfaceTrimming CADFitting)
 endif()
-knotwork_module(SplineAnalysis KERNELS SplineCore JacobianValidation MeshParameterization)
+knotwork_module(SplineAnalysis KERNELS SplineCore JacobianValidation MeshParameterization FILTERS SplineGrid JacobianValidation)
 knotwork_module(SplineIO KERNELS SplineCore FILTERS SplineGrid CADModel SurfaceTrimming)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "vtkKnotworkJacobianValidationModule.h" // for export macro
 #include <knotwork/SplineCore/BernsteinCells.h>
 
 #include "vtkType.h"
@@ -34,6 +35,6 @@ CellConversion FixedCellShape(int cellType);
 /// @param degree     of a higher-order cell.
 /// @return InvalidTopology when the cell class is not of this kind.
 /// @complexity a dense inverse of one direction's (simplex') collocation matrix.
-Result<CellConversion> MakeCellConversion(
+VTKKNOTWORKJACOBIANVALIDATION_EXPORT Result<CellConversion> MakeCellConversion(
   int cellType, CellShape shape, const CellDegree& degree, vtkIdType numPoints);
 }

@@ -15,11 +15,16 @@ FILE = "the file in question"  # its place in a run
 ENDINGS = {"surface": (".vtu", ".xml", ".g2", ".step", ".iges"), "points": (".vtp", ".xyz", ".csv", ".ply", ".g2"),
            "cells": (".vtp",), "mesh": (".off", ".obj", ".ply", ".stl", ".vtp"), "curves": (".vtp",),
            "boundary": (".json",), "map": (".vtu",), "trim": (".vtu",), "grid": (".vtu",), "layout": (".vtu",),
-           "quads": (".off", ".obj", ".ply", ".vtu"), "values": (".vtp", ".csv"), "edges": (".vtp",), "part": (".step",), "box": (".off", ".obj", ".ply"), "volume": (".vtu",)}
+           "quads": (".off", ".obj", ".ply", ".vtu"), "values": (".vtp", ".csv"), "edges": (".vtp",), "part": (".step",), "box": (".off", ".obj", ".ply"), "volume": (".vtu",), "problem": (".json",)}
 
 BOUNDARY = ('{"curves": [%s]}' % ", ".join(
     '{"degree": 1, "knots": [0, 0, 1, 1], "control_points": [%s]}' % ends
     for ends in ("[0, 0], [1, 0]", "[0, 1], [1, 1]", "[0, 0], [0, 1]", "[1, 0], [1, 1]")))
+
+
+# of the square: held on the left, drawn on the right
+PROBLEM = ('{"material": {"youngs_modulus": 200, "poissons_ratio": 0.25}, "conditions": ['
+           '{"on": {"side": 0}, "displacement": [0, 0]}, {"on": {"side": 1}, "traction": [1, "x - y"]}]}')
 
 
 def triangles(ending):
@@ -58,7 +63,7 @@ def cube(ending):
 
 SOUND = {"surface": "square", "points": "cloud", "cells": "cloud", "mesh": "mesh", "curves": "target", "boundary": "boundary",
          "map": "map", "trim": "trim", "grid": "square", "layout": "quads", "quads": "quads", "values": "samples", "edges": "edges", "part": "solid",
-         "box": "quads", "volume": "cube"}
+         "box": "quads", "volume": "cube", "problem": "problem"}
 
 
 # What `quadremesh` finds as blender: every triangle becomes three quadrilaterals.
@@ -132,6 +137,7 @@ def make_files():
     skeletons.write(skeletons.polydata(skeletons.curves(0.0, 1, 101)), path("template.vtp"))
     skeletons.write(skeletons.polydata(skeletons.curves(0.1, 5, 50)), path("target.vtp"))
     write_text("boundary.json", BOUNDARY)
+    write_text("problem.json", PROBLEM)
     good("crop", path("height.vtu"), path("cloud.vtp"), "--curves", path("trim.vtu"), "--output", path("face.vtu"))
     damages.write(damages.quadrilateral(), path("quads.vtu"))
     good("map", path("template.vtp"), path("target.vtp"), "--iterations", 1, "--output", path("map.vtu"))
@@ -195,6 +201,8 @@ def runs():
             (["boundary", FILE, "--output", polydata], "surface"),
             (["compare", FILE, path("cube.vtu"), "--histogram", "histogram.csv", "--output", "table.csv"], "volume"),
             (["compare", path("cube.vtu"), FILE, "--mesh-boundary", polydata, "--output", "table.csv"], "volume"),
+            (["solve", "elasticity", FILE, path("problem.json"), "--gauss-points", polydata, "--output", grid], "surface"),
+            (["solve", "elasticity", surface, FILE, "--conditions", "table.csv", "--output", grid], "problem"),
             (["align", FILE, "--to", mesh, "--table", "table.csv", "--output", polydata], "points"),
             (["distance", FILE, mesh, "--both-ways", "--percentiles", "table.csv", "--model", "model.vtp", "--output", polydata], "points"),
             (["features", FILE, "--lines", "lines.vtp", "--corners", "corners.vtp", "--output", polydata], "mesh"),

@@ -15,7 +15,7 @@ MODULES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 # names in the examples, and the files they stand for
 FILES = {"plate.vtu": "square.vtu", "part.step": "square.step", "west.vtu": "square.vtu", "east.vtu": "east.vtu", "terrain.vtu": "height.vtu",
          "new.vtu": "height.vtu", "old.vtu": "height.vtu", "scan.xyz": "cloud.xyz", "samples.csv": "samples.csv", "shell.off": "mesh.off", "part.off": "quads.off", "section.vtu": "quads.vtu", "scan.off": "quads.off", "cow.off": "quads.off",
-         "template.vtp": "template.vtp", "target.vtp": "target.vtp", "boundary.json": "boundary.json",
+         "template.vtp": "template.vtp", "target.vtp": "target.vtp", "boundary.json": "boundary.json", "problem.json": "problem.json",
          "solid.step": "solid.step", "solid.vtu": "cube.vtu", "mesh.vtu": "cube.vtu"}
 
 

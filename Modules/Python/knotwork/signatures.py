@@ -40,6 +40,7 @@ VERBS = {
     "refine": ("vtkSplineRefine", []),
     "remesh": ("vtkSurfaceRemesh", []),
     "repair": ("vtkSurfaceRepair", []),
+    "solve": ("vtkSplineAnalysis", []),
     "source": ("vtkSplineSource", ["shape"]),
     "stitch": ("vtkSplineStitch", []),
     "sweep": ("vtkSweepToHexahedra", []),

@@ -31,6 +31,25 @@ bool LiesOnSide(CellShape shape, const CellDegree& degree, int side, const std::
 }
 }
 
+std::vector<std::array<int, 3>> SideCorners(CellShape shape, const CellDegree& degree, int side)
+{
+  std::vector<std::array<int, 3>> corners;
+  for (int c = 0; c < NumCorners(shape); ++c)
+  {
+    const std::array<double, 3> u = CornerParameters(shape, c);
+    std::array<int, 3> place{};
+    for (std::size_t d = 0; d < 3; ++d)
+    {
+      place[d] = u[d] > 0.5 ? degree[d] : 0;
+    }
+    if (LiesOnSide(shape, degree, side, place))
+    {
+      corners.push_back(place);
+    }
+  }
+  return corners;
+}
+
 FacetFrame MakeFacetFrame(CellShape shape, int side)
 {
   FacetFrame frame;

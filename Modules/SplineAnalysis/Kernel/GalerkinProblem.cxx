@@ -181,8 +181,9 @@ Status CheckGeometry(const GalerkinSpace& space, int threads)
         at += (d > 0 ? ", " : "") + std::to_string(witness.Parameters[static_cast<std::size_t>(d)]);
       }
       return { ErrorCode::InvalidTopology,
-        "element " + std::to_string(witness.Cell) + " is folded: its Jacobian is at most " +
-          std::to_string(witness.Upper) + " at local parameters (" + at + "); mend the geometry" };
+        "element " + std::to_string(space.Label(witness.Cell)) +
+          " is folded: its Jacobian is at most " + std::to_string(witness.Upper) +
+          " at local parameters (" + at + "); mend the geometry" };
     }
   }
   return {};
@@ -430,18 +431,24 @@ GalerkinPoint EvaluateSolution(const GalerkinSpace& space, const GalerkinProblem
   {
     return point;
   }
+  point.Stress = ElasticStress(problem, element, point.Gradient);
+  return point;
+}
+
+Eigen::Matrix3d ElasticStress(
+  const GalerkinProblem& problem, int element, const Eigen::MatrixXd& gradient)
+{
   const GalerkinMaterial& material = MaterialOf(problem, element);
   const LameConstants lame = MakeLameConstants(problem.Equation, material);
-  const int n = space.Dimension;
-  const double trace = lame.First * point.Gradient.trace();
-  point.Stress.setZero(3, 3);
-  point.Stress.topLeftCorner(n, n) = lame.Shear * (point.Gradient + point.Gradient.transpose());
-  point.Stress.topLeftCorner(n, n).diagonal().array() += trace;
+  const Eigen::Index n = gradient.cols();
+  Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();
+  stress.topLeftCorner(n, n) = lame.Shear * (gradient + gradient.transpose());
+  stress.topLeftCorner(n, n).diagonal().array() += lame.First * gradient.trace();
   if (problem.Equation == GalerkinEquation::PlaneStrain)
   {
-    point.Stress(2, 2) = material.PoissonsRatio * (point.Stress(0, 0) + point.Stress(1, 1));
+    stress(2, 2) = material.PoissonsRatio * (stress(0, 0) + stress(1, 1));
   }
-  return point;
+  return stress;
 }
 
 double VonMisesStress(const Eigen::MatrixXd& stress)

@@ -120,6 +120,11 @@ struct GalerkinPoint
 GalerkinPoint EvaluateSolution(const GalerkinSpace& space, const GalerkinProblem& problem,
   const PointMatrixView& coefficients, int element, const double* u);
 
+/// Of elasticity, with the stress across the plane. @param gradient  of displacements, components x
+/// dimension.
+Eigen::Matrix3d ElasticStress(
+  const GalerkinProblem& problem, int element, const Eigen::MatrixXd& gradient);
+
 /// sqrt(3/2) of the norm of the deviator of a 3 x 3 stress.
 double VonMisesStress(const Eigen::MatrixXd& stress);
 

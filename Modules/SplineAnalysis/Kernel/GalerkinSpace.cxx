@@ -12,37 +12,6 @@ namespace knotwork
 {
 namespace
 {
-/// Appends elements; operators of equal bits are kept once.
-class SpaceBuilder
-{
-public:
-  explicit SpaceBuilder(GalerkinSpace& space) : Space(space) {}
-
-  void Add(CellShape shape, const CellDegree& degree, int patch, unsigned innerSides,
-    const std::vector<int>& functions, const PointMatrix& matrix)
-  {
-    this->Space.Shapes.push_back(shape);
-    this->Space.Degrees.push_back(degree);
-    this->Space.Patches.push_back(patch);
-    this->Space.InnerSides.push_back(innerSides);
-    this->Space.Functions.insert(this->Space.Functions.end(), functions.begin(), functions.end());
-    this->Space.FirstFunction.push_back(this->Space.Functions.size());
-    const auto size = static_cast<std::size_t>(matrix.size());
-    const std::string key(reinterpret_cast<const char*>(matrix.data()), size * sizeof(double));
-    const auto place = this->Known.emplace(key, this->Space.OperatorData.size());
-    if (place.second)
-    {
-      this->Space.OperatorData.insert(
-        this->Space.OperatorData.end(), matrix.data(), matrix.data() + size);
-    }
-    this->Space.Operators.push_back(place.first->second);
-  }
-
-private:
-  GalerkinSpace& Space;
-  std::map<std::string, std::size_t> Known;
-};
-
 /// As GalerkinSpace::InnerSides.
 template <int Dim>
 unsigned InnerSidesOf(const SplineSpace<Dim>& space, int element)
@@ -58,7 +27,7 @@ unsigned InnerSidesOf(const SplineSpace<Dim>& space, int element)
 
 template <int Dim>
 void AddPatch(const Spline<Dim>& spline, int patch, const std::vector<int>& numbers,
-  GalerkinSpace& space, SpaceBuilder& builder)
+  GalerkinSpace& space, GalerkinSpaceBuilder& builder)
 {
   for (int e = 0; e < spline.Space->NumElements(); ++e)
   {
@@ -163,6 +132,26 @@ Status Unite(const MultiPatch<Dim>& patches, const PatchInterface& interface,
 }
 }
 
+void GalerkinSpaceBuilder::Add(CellShape shape, const CellDegree& degree, int patch,
+  unsigned innerSides, const std::vector<int>& functions, const PointMatrix& matrix)
+{
+  this->Space.Shapes.push_back(shape);
+  this->Space.Degrees.push_back(degree);
+  this->Space.Patches.push_back(patch);
+  this->Space.InnerSides.push_back(innerSides);
+  this->Space.Functions.insert(this->Space.Functions.end(), functions.begin(), functions.end());
+  this->Space.FirstFunction.push_back(this->Space.Functions.size());
+  const auto size = static_cast<std::size_t>(matrix.size());
+  const std::string key(reinterpret_cast<const char*>(matrix.data()), size * sizeof(double));
+  const auto place = this->Known.emplace(key, this->Space.OperatorData.size());
+  if (place.second)
+  {
+    this->Space.OperatorData.insert(
+      this->Space.OperatorData.end(), matrix.data(), matrix.data() + size);
+  }
+  this->Space.Operators.push_back(place.first->second);
+}
+
 template <int Dim>
 Result<GalerkinSpace> MakeGalerkinSpace(const Spline<Dim>& spline)
 {
@@ -215,7 +204,7 @@ Result<GalerkinSpace> MakeGalerkinSpace(const MultiPatch<Dim>& patches)
   space.Dimension = Dim;
   space.Points.setZero(count, Dim);
   space.Weights.setOnes(rational ? count : 0);
-  SpaceBuilder builder(space);
+  GalerkinSpaceBuilder builder(space);
   for (std::size_t i = 0; i < patches.Patches.size(); ++i)
   {
     const std::vector<int> own(number.begin() + first[i], number.begin() + first[i + 1]);
@@ -241,7 +230,8 @@ Result<GalerkinSpace> MakeGalerkinSpace(const LagrangeMesh& mesh)
   GalerkinSpace space;
   space.Dimension = NumParameters(mesh.Shapes[0]);
   space.Points = mesh.Nodes;
-  SpaceBuilder builder(space);
+  space.IsNodal = true;
+  GalerkinSpaceBuilder builder(space);
   std::map<std::pair<CellShape, int>, PointMatrix> operators;
   std::size_t next = 0;
   for (std::size_t e = 0; e < mesh.Shapes.size(); ++e)

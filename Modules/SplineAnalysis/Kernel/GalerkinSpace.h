@@ -4,6 +4,9 @@
 #include <knotwork/SplineCore/CellMesh.h>
 #include <knotwork/SplineCore/MultiPatch.h>
 
+#include <map>
+#include <string>
+
 namespace knotwork
 {
 /// Functions on elements that fill a part of the plane or of space, with the map that carries them:
@@ -19,6 +22,9 @@ struct GalerkinSpace
   std::vector<CellShape> Shapes;
   std::vector<CellDegree> Degrees;
   std::vector<int> Patches; ///< that each element is of; 0 where there are none
+  bool IsNodal = false;     ///< elements of a mesh: functions are 1 at a node of their own
+  /// What messages call the elements, cells of a dataset perhaps; empty: their numbers.
+  std::vector<long long> Labels;
   /// Bit s of an element: its side s lies inside the parameter domain of its patch, where
   /// neighbours of other levels may meet it in part. 0 where there is no domain.
   std::vector<unsigned> InnerSides;
@@ -36,6 +42,10 @@ struct GalerkinSpace
     const auto e = static_cast<std::size_t>(element);
     return static_cast<int>(this->FirstFunction[e + 1] - this->FirstFunction[e]);
   }
+  long long Label(int element) const
+  {
+    return this->Labels.empty() ? element : this->Labels[static_cast<std::size_t>(element)];
+  }
   const int* Alive(int element) const
   {
     return this->Functions.data() + this->FirstFunction[static_cast<std::size_t>(element)];
@@ -44,6 +54,21 @@ struct GalerkinSpace
   {
     return this->OperatorData.data() + this->Operators[static_cast<std::size_t>(element)];
   }
+};
+
+/// Puts elements into a space, one after the other; operators of equal bits are kept once.
+class GalerkinSpaceBuilder
+{
+public:
+  explicit GalerkinSpaceBuilder(GalerkinSpace& space) : Space(space) {}
+  /// @param innerSides  as GalerkinSpace::InnerSides. @param functions  alive ones. @param matrix
+  /// the element's operator, a row a function.
+  void Add(CellShape shape, const CellDegree& degree, int patch, unsigned innerSides,
+    const std::vector<int>& functions, const PointMatrix& matrix);
+
+private:
+  GalerkinSpace& Space;
+  std::map<std::string, std::size_t> Known;
 };
 
 /// The space of a spline: elements and functions keep their numbers. @param spline  of at least Dim
@@ -81,6 +106,8 @@ BernsteinCells MakeBernsteinCells(const GalerkinSpace& space);
 /// Sides of an element. Tensor-product shapes: as in PatchSides.h; Triangle: u = 0, v = 0, u + v =
 /// 1; Tetrahedron: u = 0, v = 0, w = 0, u + v + w = 1.
 int NumSides(CellShape shape);
+/// Corners of a side, as lattice indices of CellCoefficient.
+std::vector<std::array<int, 3>> SideCorners(CellShape shape, const CellDegree& degree, int side);
 
 /// Sides of elements that no other element has, ascending, of any space: sides inside a patch's
 /// domain are inner ones, also where elements of several levels meet there.

@@ -90,7 +90,8 @@ Eigen::MatrixXd ElementMatrix(
   return matrix;
 }
 
-/// The lower triangle of zeros where elements have entries.
+}
+
 Eigen::SparseMatrix<double> MakePattern(const GalerkinSpace& space, int components)
 {
   const auto n = static_cast<std::size_t>(space.NumFunctions());
@@ -176,7 +177,6 @@ void AddElement(const Eigen::MatrixXd& block, const int* alive, int count, int c
       }
     }
   }
-}
 }
 
 int NumSolutionComponents(GalerkinEquation equation)

@@ -18,6 +18,12 @@ struct LameConstants
 LameConstants MakeLameConstants(GalerkinEquation equation, const GalerkinMaterial& material);
 const GalerkinMaterial& MaterialOf(const GalerkinProblem& problem, int element);
 
+/// The lower triangle of zeros where elements have entries, unknown f * components + component.
+Eigen::SparseMatrix<double> MakePattern(const GalerkinSpace& space, int components);
+/// Adds an element's dense matrix to such a pattern.
+void AddElement(const Eigen::MatrixXd& block, const int* alive, int count, int components,
+  Eigen::SparseMatrix<double>& matrix);
+
 /// Lower triangle of the matrix in all coefficients, unknown f * components + component. Element
 /// matrices are made in parallel and added in the order of the elements.
 /// @return InvalidTopology when the Jacobian is not finite at a point; Aborted.

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "AnalysisResults.h"
+
+#include <knotwork/SplineGrid/TableRow.h>
+
+#include "vtkCellArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <set>
+
+namespace knotwork
+{
+namespace
+{
+/// Columns of ResultFields::GaussValues that are one array.
+struct FieldColumns
+{
+  const char* Name;
+  Eigen::Index First;
+  Eigen::Index Count;
+};
+
+std::vector<FieldColumns> ColumnsOf(GalerkinEquation equation)
+{
+  if (equation == GalerkinEquation::Poisson)
+  {
+    return { { "Flux", 0, 3 } };
+  }
+  return { { "Stress", 0, 6 }, { "VonMisesStress", 6, 1 }, { "PrincipalStress", 7, 3 } };
+}
+
+/// Three components, as VTK's vectors have.
+PointMatrix WithThreeColumns(const PointMatrix& values)
+{
+  PointMatrix vectors = PointMatrix::Zero(values.rows(), 3);
+  vectors.leftCols(values.cols()) = values;
+  return vectors;
+}
+
+std::array<double, 3> Vector(const Eigen::VectorXd& values)
+{
+  std::array<double, 3> vector{};
+  std::copy(values.begin(), values.end(), vector.begin());
+  return vector;
+}
+
+const char* NameOf(ConditionKind kind, bool isPoisson)
+{
+  switch (kind)
+  {
+    case ConditionKind::Value:
+      return isPoisson ? "value" : "displacement";
+    case ConditionKind::Load:
+      return isPoisson ? "flux" : "traction";
+    case ConditionKind::Pressure:
+      return "pressure";
+    case ConditionKind::Force:
+      break;
+  }
+  return "force";
+}
+
+bool IsPoisson(const AnalysisResults& results)
+{
+  return results.Problem.Equation == GalerkinEquation::Poisson;
+}
+}
+
+std::vector<AnalysisField> PointFields(const AnalysisResults& results)
+{
+  std::vector<AnalysisField> fields;
+  const PointMatrix& coefficients = results.Solution.Coefficients;
+  if (IsPoisson(results))
+  {
+    fields.push_back({ "Solution", coefficients });
+  }
+  else
+  {
+    fields.push_back({ "Displacement", WithThreeColumns(coefficients) });
+  }
+  for (const FieldColumns& columns : ColumnsOf(results.Problem.Equation))
+  {
+    fields.push_back(
+      { columns.Name, results.Fields.Projected.middleCols(columns.First, columns.Count) });
+  }
+  return fields;
+}
+
+std::vector<AnalysisCellField> CellFields(const AnalysisResults& results)
+{
+  std::vector<AnalysisCellField> fields{ { "Energy", results.Fields.Energy } };
+  if (!IsPoisson(results))
+  {
+    fields.push_back({ "LargestVonMises", results.Fields.LargestVonMises });
+  }
+  return fields;
+}
+
+void EncodeGaussPoints(const AnalysisResults& results, vtkPolyData* output)
+{
+  const ResultFields& fields = results.Fields;
+  const Eigen::Index count = fields.GaussPoints.rows();
+  const PointMatrix places = WithThreeColumns(fields.GaussPoints);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(count);
+  vtkNew<vtkCellArray> cells;
+  const auto elements = NamedArray<vtkIdTypeArray>("Cell", 1, count);
+  for (Eigen::Index i = 0; i < count; ++i)
+  {
+    points->SetPoint(i, places.row(i).data());
+    const vtkIdType id = i;
+    cells->InsertNextCell(1, &id);
+    elements->SetValue(
+      i, results.Body.Space.Label(fields.GaussElements[static_cast<std::size_t>(i)]));
+  }
+  output->SetPoints(points);
+  output->SetVerts(cells);
+  output->GetPointData()->AddArray(elements);
+  for (const FieldColumns& columns : ColumnsOf(results.Problem.Equation))
+  {
+    const PointMatrix values = fields.GaussValues.middleCols(columns.First, columns.Count);
+    const auto array =
+      NamedArray<vtkDoubleArray>(columns.Name, static_cast<int>(columns.Count), count);
+    for (Eigen::Index i = 0; i < count; ++i)
+    {
+      array->SetTuple(i, values.row(i).data());
+    }
+    output->GetPointData()->AddArray(array);
+  }
+}
+
+void EncodeConditions(const AnalysisResults& results, vtkTable* table)
+{
+  const auto kinds = NamedArray<vtkStringArray>("Kind");
+  const auto facets = NamedArray<vtkIntArray>("Facets");
+  const auto functions = NamedArray<vtkIntArray>("Functions");
+  const auto measures = NamedArray<vtkDoubleArray>("Measure");
+  const int components = static_cast<int>(results.Solution.Reactions.cols());
+  const auto reactions = NamedArray<vtkDoubleArray>("Reaction", components);
+  std::set<int> counted; // functions that conditions share are the first one's
+  for (std::size_t i = 0; i < results.Places.size(); ++i)
+  {
+    const ConditionPlace& place = results.Places[i];
+    const ConditionKind kind = results.Description.Conditions[i].Kind;
+    const std::vector<int> chosen =
+      place.Facets.empty() ? place.Functions : FunctionsOnFacets(results.Body.Space, place.Facets);
+    Eigen::VectorXd reaction = Eigen::VectorXd::Zero(components);
+    for (const int function : chosen)
+    {
+      if (kind == ConditionKind::Value && counted.insert(function).second)
+      {
+        reaction += results.Solution.Reactions.row(function).transpose();
+      }
+    }
+    kinds->InsertNextValue(NameOf(kind, IsPoisson(results)));
+    facets->InsertNextValue(static_cast<int>(place.Facets.size()));
+    functions->InsertNextValue(static_cast<int>(chosen.size()));
+    measures->InsertNextValue(FacetMeasure(results.Body.Space, place.Facets));
+    reactions->InsertNextTuple(reaction.data());
+  }
+  table->AddColumn(kinds);
+  table->AddColumn(facets);
+  table->AddColumn(functions);
+  table->AddColumn(measures);
+  table->AddColumn(reactions);
+}
+
+void EncodeNumbers(const AnalysisResults& results, vtkTable* table)
+{
+  const GalerkinSolution& solution = results.Solution;
+  const GalerkinSpace& space = results.Body.Space;
+  AddColumn(table, "Elements", space.NumElements());
+  AddColumn(table, "Functions", space.NumFunctions());
+  AddColumn(table, "Unknowns", solution.Unknowns);
+  AddColumn(table, "Conditions", static_cast<int>(results.Places.size()));
+  AddColumn(table, "Energy", solution.Energy);
+  AddColumn(table, "LargestValue", results.Fields.LargestValue);
+  if (!IsPoisson(results))
+  {
+    AddColumn(table, "LargestVonMises", results.Fields.LargestVonMises.maxCoeff());
+  }
+  const double scale = std::max(solution.TotalLoad.cwiseAbs().maxCoeff(),
+    solution.Reactions.cwiseAbs().colwise().sum().maxCoeff());
+  const double rest = (solution.TotalLoad + solution.TotalReaction).cwiseAbs().maxCoeff();
+  AddTuple(table, "TotalLoad", Vector(solution.TotalLoad));
+  AddTuple(table, "TotalReaction", Vector(solution.TotalReaction));
+  AddColumn(table, "Imbalance", scale > 0.0 ? rest / scale : 0.0);
+  AddColumn(table, "Residual", solution.Residual);
+  AddColumn(table, "Iterations", solution.Iterations);
+}
+}

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Expression.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCommand.h"
+#include "vtkExprTkFunctionParser.h"
+#include "vtkNew.h"
+#include "vtkSmartPointer.h"
+
+namespace knotwork
+{
+namespace
+{
+double Evaluate(vtkExprTkFunctionParser* parser, const double* x, const double* normal)
+{
+  for (int d = 0; d < 3; ++d)
+  {
+    parser->SetScalarVariableValue(d, x[d]);
+    parser->SetScalarVariableValue(3 + d, normal[d]);
+  }
+  return parser->GetScalarResult();
+}
+}
+
+Result<ScalarFunction> CompileWithVtk(const std::string& text)
+{
+  auto parser = vtkSmartPointer<vtkExprTkFunctionParser>::New();
+  // its messages become ours
+  vtkNew<vtkCallbackCommand> quiet;
+  quiet->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+  parser->AddObserver(vtkCommand::ErrorEvent, quiet);
+  for (const char* name : { "x", "y", "z", "nx", "ny", "nz" })
+  {
+    parser->SetScalarVariableValue(name, 0.5);
+  }
+  parser->SetFunction(text.c_str());
+  if (!parser->IsScalarResult())
+  {
+    return { ErrorCode::InvalidParameter,
+      "\"" + text + "\" is no expression of a number in x, y, z and, of loads, nx, ny, nz" };
+  }
+  return ScalarFunction(
+    [parser](const double* x, const double* normal) { return Evaluate(parser, x, normal); });
+}
+}

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The job `solve` and the function of the package: a thick cylinder under pressure against Lame's solution, a beam, and errors."""
+import json
+import math
+
+import knotwork_testing
+from knotwork_testing import Files
+
+import knotwork
+
+FILES = Files("solve", 300)
+INNER, OUTER = 1.0, 2.0  # of the source's ring
+
+
+def cylinder():
+    """A quarter of a pipe with pressure 3 inside, held along its cuts."""
+    return {"material": {"youngs_modulus": 1000, "poissons_ratio": 0.3}, "conditions": [
+        {"on": {"where": "abs(x) < 1e-9"}, "displacement": [0, None]},
+        {"on": {"where": "abs(y) < 1e-9"}, "displacement": [None, 0]},
+        {"on": {"where": "x * nx + y * ny < -0.1"}, "pressure": 3}]}
+
+
+def write(name, problem):
+    with open(FILES.path(name), "w", encoding="utf-8") as stream:
+        json.dump(problem, stream)
+    return FILES.path(name)
+
+
+def lame(radius, pressure, modulus, ratio):
+    """Radial displacement of a thick cylinder in plane stress. Timoshenko, Goodier, Theory of Elasticity, 1951, article 26."""
+    scale = pressure * INNER ** 2 / (modulus * (OUTER ** 2 - INNER ** 2))
+    return scale * ((1 - ratio) * radius + (1 + ratio) * OUTER ** 2 / radius)
+
+
+def test_thick_cylinder():
+    ring = FILES.path("ring.vtu")
+    FILES.run("source", "--shape", "annulus-sector", "--degree", 2, "--elements", 16, 16, 1, "--output", ring)
+    report = FILES.report("solve", "elasticity", ring, write("pipe.json", cylinder()), "--gauss-points", FILES.path("gauss.vtp"),
+                          "--conditions", FILES.path("conditions.csv"), "--output", FILES.path("pipe.vtu"))
+    exact = lame(INNER, 3, 1000, 0.3)
+    assert abs(report["largest_value"] / exact - 1) < 1e-4, (report, exact)
+    assert report["imbalance"] < 1e-10 and report["elements"] == 256 and report["equation"] == "elasticity"
+    # hoop stress inside p (a^2 + b^2) / (b^2 - a^2) = 5, radial -3: von Mises 7, less at Gauss points beside the rim
+    assert 6.6 < report["largest_von_mises"] < 7.0, report
+    strain = FILES.report("solve", "elasticity", ring, FILES.path("pipe.json"), "--plane", "strain", "--output", FILES.path("pipe.vtu"))
+    ratio = 0.3 / 0.7
+    assert abs(strain["largest_value"] / lame(INNER, 3, 1000 / (1 - 0.09), ratio) - 1) < 1e-4, strain
+
+
+def test_function():
+    ring = knotwork.source("annulus-sector", degree=3, elements=[8, 8, 1])
+    solved = ring.solve(equation="elasticity", problem=json.dumps(cylinder()))
+    moved = solved.arrays["Displacement"] if hasattr(solved, "arrays") else None
+    grid = solved.data if hasattr(solved, "data") else solved
+    assert moved is not None or grid.GetPointData().GetArray("Displacement") is not None
+    heat = ring.solve(problem=json.dumps({"source": 1, "conditions": [{"on": "boundary", "value": "x * y"}]}))
+    assert heat is not None
+    try:
+        ring.solve(problem="{}")
+    except knotwork.Error as error:
+        assert "the constant" in str(error), error
+    else:
+        assert False, "an unsupported body was solved"
+
+
+def test_errors_are_one_line():
+    ring = FILES.path("small.vtu")
+    FILES.run("source", "--shape", "annulus-sector", "--output", ring)
+    for problem, words in (({"conditions": [{"on": {"side": 9}, "value": 0}]}, "side 9"), ({"loads": 1}, "unknown key")):
+        done = knotwork_testing.run_program("solve", "poisson", ring, write("wrong.json", problem), "--output", FILES.path("none.vtu"))
+        assert done.returncode != 0 and len(done.stderr.splitlines()) == 1 and words in done.stderr, done
+    done = knotwork_testing.run_program("solve", "heat", ring, FILES.path("wrong.json"), "--output", FILES.path("none.vtu"))
+    assert done.returncode == 2 and "heat" in done.stderr, done
+    assert math.isfinite(lame(1.5, 1, 1, 0.3))
+
+
+knotwork_testing.main(globals())

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkSplineAnalysis
+ * @brief   solves Poisson's equation or linear elasticity on a spline or a mesh
+ *
+ * Input 0 is a body that fills a part of the plane z = 0 or of space: spline surfaces or volumes of
+ * any family, a collection of them, or triangles, quadrilaterals, tetrahedra and hexahedra of any
+ * order, straight or curved. Patches whose sides are one are glued. Every element is proved valid
+ * before anything is solved; a folded one is an error with the place.
+ *
+ * Materials, sources and conditions are given as JSON (Problem, or a file: ProblemFile); the
+ * module's page has the keys. Expressions are those of vtkExprTkFunctionParser in x, y, z and, of
+ * loads, the outward normal nx, ny, nz.
+ *
+ * Output 0 is the input with the point arrays `Solution` and `Flux` (Poisson), or `Displacement`,
+ * `Stress` (XX YY ZZ XY YZ XZ), `VonMisesStress` and `PrincipalStress`, of which the solution is
+ * exact and the others are projected; and with the cell arrays `Energy` and, of elasticity,
+ * `LargestVonMises` (at Gauss points). Output 1 has the Gauss points with the same values as
+ * computed. Output 2 is a table with a row a condition: Facets or Functions that it chose, their
+ * measure and the reaction there. Output 3 is a table of one row: energy, sizes, loads and
+ * reactions in total, the residual.
+ */
+#ifndef vtkSplineAnalysis_h
+#define vtkSplineAnalysis_h
+#include "vtkKnotworkSplineAnalysisModule.h" // for export macro
+#include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
+
+#include <array> // for Seconds
+
+class VTKKNOTWORKSPLINEANALYSIS_EXPORT vtkSplineAnalysis : public vtkSplineAlgorithm
+{
+public:
+  static vtkSplineAnalysis* New();
+  vtkTypeMacro(vtkSplineAnalysis, vtkSplineAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum Equations
+  {
+    POISSON = 0,
+    ELASTICITY
+  };
+  enum Planes
+  {
+    STRESS = 0,
+    STRAIN
+  };
+
+  ///@{
+  /** What is solved, one of Equations: POISSON, -div(k grad u) = f; ELASTICITY, small displacements
+   * of elastic bodies. Default POISSON. */
+  vtkSetClampMacro(Equation, int, POISSON, ELASTICITY);
+  vtkGetMacro(Equation, int);
+  ///@}
+  ///@{
+  /** Elasticity in the plane, one of Planes: STRESS, a thin plate; STRAIN, a long body. Default
+   * STRESS. */
+  vtkSetClampMacro(Plane, int, STRESS, STRAIN);
+  vtkGetMacro(Plane, int);
+  ///@}
+  ///@{
+  /** The problem as JSON: materials, source, conditions. Not beside ProblemFile. Default empty. */
+  vtkSetStringMacro(Problem);
+  vtkGetStringMacro(Problem);
+  ///@}
+  ///@{
+  /** A file with the problem as JSON. Default empty. */
+  vtkSetFilePathMacro(ProblemFile);
+  vtkGetFilePathMacro(ProblemFile);
+  ///@}
+  ///@{
+  /** Conductivity of what the problem gives no material. Default 1, valid range [1e-100,
+   * 1e100]. */
+  vtkSetClampMacro(Conductivity, double, 1e-100, 1e100);
+  vtkGetMacro(Conductivity, double);
+  ///@}
+  ///@{
+  /** Young's modulus of what the problem gives no material. Default 1, valid range [1e-100,
+   * 1e100]. */
+  vtkSetClampMacro(YoungsModulus, double, 1e-100, 1e100);
+  vtkGetMacro(YoungsModulus, double);
+  ///@}
+  ///@{
+  /** Poisson's ratio of what the problem gives no material. Default 0.3, valid range [-0.99,
+   * 0.4999]. */
+  vtkSetClampMacro(PoissonsRatio, double, -0.99, 0.4999);
+  vtkGetMacro(PoissonsRatio, double);
+  ///@}
+  ///@{
+  /** Unknowns up to which the system is factorized; above, conjugate gradients solve it. Default
+   * 300000, valid range >= 0. Advanced. */
+  vtkSetClampMacro(DirectLimit, int, 0, VTK_INT_MAX);
+  vtkGetMacro(DirectLimit, int);
+  ///@}
+  ///@{
+  /** Residual over right-hand side at which conjugate gradients stop. Default 1e-12, valid range
+   * [1e-15, 0.1]. Advanced. */
+  vtkSetClampMacro(Tolerance, double, 1e-15, 0.1);
+  vtkGetMacro(Tolerance, double);
+  ///@}
+
+  /** Seconds of the last solution, which are in no output: `step` 0 certificate, 1 assembly, 2
+   * solution, 3 stresses; 0 for others. */
+  double GetSeconds(int step);
+
+protected:
+  vtkSplineAnalysis();
+  ~vtkSplineAnalysis() override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestDataObject(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkSplineAnalysis(const vtkSplineAnalysis&) = delete;
+  void operator=(const vtkSplineAnalysis&) = delete;
+
+  int Equation = POISSON;
+  int Plane = STRESS;
+  char* Problem = nullptr;
+  char* ProblemFile = nullptr;
+  double Conductivity = 1.0;
+  double YoungsModulus = 1.0;
+  double PoissonsRatio = 0.3;
+  int DirectLimit = 300000;
+  double Tolerance = 1e-12;
+  std::array<double, 4> Seconds{};
+};
+#endif
