@@ -1,0 +1,483 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ErrorEstimate.h"
+
+#include "CheckProblem.h"
+#include "ElementFacets.h"
+#include "ElementSolution.h"
+#include "StiffnessMatrix.h"
+#include <knotwork/SplineCore/Parallel.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace knotwork
+{
+namespace
+{
+/// Constants of the parts.
+struct EstimateFactors
+{
+  double Interior;
+  double Flux;
+  double Values;
+};
+EstimateFactors FactorsOf(const CellDegree& degree)
+{
+  const double pi = 4.0 * std::atan(1.0);
+  const int p = *std::max_element(degree.begin(), degree.end());
+  return { 1.0 / (4.0 * pi * pi), 0.1 / p, 1.0 * p };
+}
+
+int NumPoints(const CellDegree& degree)
+{
+  return *std::max_element(degree.begin(), degree.end()) + 1;
+}
+
+/// Basis of all points of a rule, a block of rows each.
+struct RuleBasis
+{
+  CellRule Rule;
+  std::vector<PointMatrix> Blocks;
+};
+using RuleBases = std::map<std::pair<CellShape, CellDegree>, RuleBasis>;
+
+/// What is given on a side of an element.
+struct SideConditions
+{
+  std::vector<const FacetLoad*> Loads;
+  std::vector<const PrescribedValues*> Values;
+};
+
+/// The conditions of a problem by side.
+using ConditionMap = std::map<std::pair<int, int>, SideConditions>;
+ConditionMap MakeConditions(const GalerkinProblem& problem)
+{
+  ConditionMap conditions;
+  for (const FacetLoad& load : problem.Loads)
+  {
+    for (const CellSide& facet : load.Facets)
+    {
+      conditions[{ facet.Cell, facet.Side }].Loads.push_back(&load);
+    }
+  }
+  for (const PrescribedValues& values : problem.Prescribed)
+  {
+    for (const CellSide& facet : values.Facets)
+    {
+      conditions[{ facet.Cell, facet.Side }].Values.push_back(&values);
+    }
+  }
+  return conditions;
+}
+
+/// A side inside, or on the boundary (its second cell is -1).
+struct EstimateFacet
+{
+  InnerFacet Place;
+  std::array<const SideConditions*, 2> Conditions{};
+};
+
+/// Squares that a facet adds to the elements on it.
+struct FacetSquares
+{
+  std::array<double, 2> Flux{};
+  double Values = 0.0; ///< to the first
+};
+
+template <int Dim>
+class Estimator
+{
+public:
+  using Vector = Eigen::Matrix<double, Dim, 1>;
+
+  Estimator(
+    const GalerkinSpace& space, const GalerkinProblem& problem, const PointMatrixView& coefficients)
+    : Space(space), Problem(problem), Coefficients(coefficients),
+      Components(NumSolutionComponents(problem.Equation))
+  {
+    for (int e = 0; e < space.NumElements(); ++e)
+    {
+      const auto index = static_cast<std::size_t>(e);
+      RuleBasis& basis = this->Bases[{ space.Shapes[index], space.Degrees[index] }];
+      if (basis.Blocks.empty())
+      {
+        basis.Rule = MakeCellRule(space.Shapes[index], NumPoints(space.Degrees[index]));
+        for (const auto& u : basis.Rule.Points)
+        {
+          basis.Blocks.push_back(
+            BasisDerivatives(space.Shapes[index], space.Degrees[index], u.data(), 2));
+        }
+      }
+    }
+  }
+
+  /// What is left of equilibrium without the source, at a point.
+  struct Residual
+  {
+    Vector Position;
+    Vector Force;
+    double Weight = 0.0;
+  };
+  void FillResiduals(int element, std::vector<Residual>& residuals) const
+  {
+    const auto e = static_cast<std::size_t>(element);
+    const RuleBasis& basis =
+      this->Bases.find({ this->Space.Shapes[e], this->Space.Degrees[e] })->second;
+    const ElementSolution<Dim> solution(this->Space, this->Coefficients, element);
+    const double factor = FactorsOf(this->Space.Degrees[e]).Interior / this->Modulus(element);
+    const GalerkinMaterial& material = MaterialOf(this->Problem, element);
+    const LameConstants lame = MakeLameConstants(this->Problem.Equation, material);
+    residuals.resize(basis.Blocks.size());
+    for (std::size_t q = 0; q < basis.Blocks.size(); ++q)
+    {
+      const SolutionPoint<Dim> point = solution.At(basis.Blocks[q], 2);
+      Residual& residual = residuals[q];
+      residual.Position = point.Position;
+      residual.Force.setZero();
+      if (this->Problem.Equation == GalerkinEquation::Poisson)
+      {
+        residual.Force[0] = material.Conductivity * point.Hessian[0].trace();
+      }
+      else
+      {
+        for (int i = 0; i < Dim; ++i)
+        {
+          const auto& hessian = point.Hessian[static_cast<std::size_t>(i)];
+          residual.Force[i] += lame.Shear * hessian.trace();
+          residual.Force += (lame.First + lame.Shear) * hessian.row(i).transpose();
+        }
+      }
+      residual.Weight =
+        factor * basis.Rule.Weights[q] * std::abs(point.Determinant) * point.Length * point.Length;
+    }
+  }
+
+  /// @return NonFiniteInput when a callable gives no number.
+  FacetSquares FacetTerms(const EstimateFacet& facet) const
+  {
+    FacetSquares squares;
+    const bool inner = facet.Place.Sides[1].Cell >= 0;
+    std::vector<ElementSolution<Dim>> solutions;
+    int count = 0;
+    for (const CellSide& side : facet.Place.Sides)
+    {
+      if (side.Cell >= 0)
+      {
+        solutions.emplace_back(this->Space, this->Coefficients, side.Cell);
+        count =
+          std::max(count, NumPoints(this->Space.Degrees[static_cast<std::size_t>(side.Cell)]));
+      }
+    }
+    const CellShape shape = this->Space.Shapes[static_cast<std::size_t>(facet.Place.Sides[0].Cell)];
+    const CellShape facetShape = Dim == 2 ? CellShape::Curve
+      : shape == CellShape::Tetrahedron   ? CellShape::Triangle
+                                          : CellShape::Quadrilateral;
+    const CellRule rule = MakeCellRule(facetShape, count);
+    std::array<SolutionPoint<Dim>, 2> points;
+    for (std::size_t q = 0; q < rule.Points.size(); ++q)
+    {
+      for (std::size_t s = 0; s < solutions.size(); ++s)
+      {
+        const auto e = static_cast<std::size_t>(facet.Place.Sides[s].Cell);
+        const auto u = facet.Place.Frames[s].Point({ rule.Points[q][0], rule.Points[q][1] });
+        points[s] = solutions[s].At(
+          BasisDerivatives(this->Space.Shapes[e], this->Space.Degrees[e], u.data(), 1), 1);
+      }
+      const Eigen::Map<const Vector> normal(facet.Place.Frames[0].Normal.data());
+      const Vector area =
+        std::abs(points[0].Determinant) * (points[0].Inverse.transpose() * normal);
+      const double weight = rule.Weights[q] * area.norm();
+      const Vector n = area.normalized();
+      Vector rest = Vector::Zero();
+      std::array<bool, 3> prescribed{};
+      for (std::size_t s = 0; s < solutions.size(); ++s)
+      {
+        const Vector outward = s == 0 ? n : Vector(-n);
+        rest -= this->Flux(facet.Place.Sides[s].Cell, points[s].Gradient, outward);
+        if (facet.Conditions[s])
+        {
+          this->AddConditions(facet, s, points[s], outward, weight, rest, prescribed, squares);
+        }
+      }
+      double square = 0.0;
+      for (int i = 0; i < this->Components; ++i)
+      {
+        square += prescribed[static_cast<std::size_t>(i)] ? 0.0 : rest[i] * rest[i];
+      }
+      double modulus = 0.0;
+      for (const CellSide& side : facet.Place.Sides)
+      {
+        modulus += side.Cell >= 0 ? this->Modulus(side.Cell) : 0.0;
+      }
+      // both sides of an inner facet take half of it
+      for (std::size_t s = 0; s < solutions.size(); ++s)
+      {
+        const auto e = static_cast<std::size_t>(facet.Place.Sides[s].Cell);
+        squares.Flux[s] +=
+          FactorsOf(this->Space.Degrees[e]).Flux * weight * points[s].Length * square / modulus;
+      }
+    }
+    (void)inner;
+    return squares;
+  }
+
+private:
+  /// What energies of gradients are measured by.
+  double Modulus(int element) const
+  {
+    const GalerkinMaterial& material = MaterialOf(this->Problem, element);
+    return this->Problem.Equation == GalerkinEquation::Poisson
+      ? material.Conductivity
+      : 2.0 * MakeLameConstants(this->Problem.Equation, material).Shear;
+  }
+
+  Vector Flux(
+    int element, const typename SolutionPoint<Dim>::Square& gradient, const Vector& n) const
+  {
+    const GalerkinMaterial& material = MaterialOf(this->Problem, element);
+    Vector flux = Vector::Zero();
+    if (this->Problem.Equation == GalerkinEquation::Poisson)
+    {
+      flux[0] = material.Conductivity * gradient.row(0).dot(n);
+      return flux;
+    }
+    const LameConstants lame = MakeLameConstants(this->Problem.Equation, material);
+    return lame.Shear * (gradient * n + gradient.transpose() * n) +
+      lame.First * gradient.trace() * n;
+  }
+
+  /// Loads go to the rest of the flux, values to the squares.
+  void AddConditions(const EstimateFacet& facet, std::size_t s, const SolutionPoint<Dim>& point,
+    const Vector& outward, double weight, Vector& rest, std::array<bool, 3>& prescribed,
+    FacetSquares& squares) const
+  {
+    Vector given = Vector::Zero();
+    for (const FacetLoad* load : facet.Conditions[s]->Loads)
+    {
+      load->Values(point.Position.data(), outward.data(), given.data());
+      rest += given;
+    }
+    const int cell = facet.Place.Sides[s].Cell;
+    const double factor = FactorsOf(this->Space.Degrees[static_cast<std::size_t>(cell)]).Values *
+      this->Modulus(cell) / point.Length;
+    for (const PrescribedValues* values : facet.Conditions[s]->Values)
+    {
+      given.setZero();
+      if (values->Values)
+      {
+        values->Values(point.Position.data(), given.data());
+      }
+      for (int i = 0; i < this->Components; ++i)
+      {
+        if (values->Component == -1 || values->Component == i)
+        {
+          prescribed[static_cast<std::size_t>(i)] = true;
+          const double rests = given[i] - point.Value[i];
+          squares.Values += factor * weight * rests * rests;
+        }
+      }
+    }
+  }
+
+  const GalerkinSpace& Space;
+  const GalerkinProblem& Problem;
+  const PointMatrixView& Coefficients;
+  int Components;
+  RuleBases Bases;
+};
+
+/// Parts of the estimate as squares, by element.
+struct SquareSums
+{
+  std::vector<double> Elements;
+  double Interior = 0.0;
+  double Jumps = 0.0;
+  double Loads = 0.0;
+  double Values = 0.0;
+};
+
+template <int Dim>
+Status AddInterior(const Estimator<Dim>& estimator, const GalerkinSpace& space,
+  const GalerkinProblem& problem, int threads, const ProgressCallback& progress, SquareSums& sums)
+{
+  constexpr int Batch = 512; // elements whose points are held at a time
+  using Residuals = std::vector<typename Estimator<Dim>::Residual>;
+  const int count = space.NumElements();
+  std::vector<Residuals> batch(static_cast<std::size_t>(std::min(Batch, count)));
+  for (int first = 0; first < count; first += Batch)
+  {
+    const int size = std::min(Batch, count - first);
+    ParallelFor(static_cast<std::size_t>(size), 64, threads,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          estimator.FillResiduals(first + static_cast<int>(i), batch[i]);
+        }
+      });
+    for (int i = 0; i < size; ++i)
+    {
+      double sum = 0.0;
+      for (const auto& residual : batch[static_cast<std::size_t>(i)])
+      {
+        Eigen::Matrix<double, Dim, 1> force = Eigen::Matrix<double, Dim, 1>::Zero();
+        if (problem.Source)
+        {
+          problem.Source(residual.Position.data(), force.data());
+        }
+        sum += residual.Weight * (force + residual.Force).squaredNorm();
+      }
+      sums.Elements[static_cast<std::size_t>(first + i)] += sum;
+      sums.Interior += sum;
+    }
+    if (progress && !progress(0.5 * (first + size) / count))
+    {
+      return { ErrorCode::Aborted, "while the error was estimated inside elements" };
+    }
+  }
+  return {};
+}
+
+/// Sides inside, then those of the boundary. @return as MatchSides.
+Result<std::vector<EstimateFacet>> MakeFacets(
+  const GalerkinSpace& space, const ConditionMap& conditions)
+{
+  const auto found = FindFacets(space);
+  if (!found)
+  {
+    return found.Status;
+  }
+  std::vector<EstimateFacet> facets;
+  for (const InnerFacet& facet : found->Inner)
+  {
+    facets.push_back({ facet, {} });
+  }
+  for (const CellSide& side : found->Boundary)
+  {
+    const CellShape shape = space.Shapes[static_cast<std::size_t>(side.Cell)];
+    EstimateFacet facet;
+    facet.Place.Sides = { side, CellSide{} };
+    facet.Place.Frames[0] = MakeFacetFrame(shape, side.Side);
+    facets.push_back(facet);
+  }
+  for (EstimateFacet& facet : facets)
+  {
+    for (std::size_t s = 0; s < 2; ++s)
+    {
+      const CellSide& side = facet.Place.Sides[s];
+      const auto own = conditions.find({ side.Cell, side.Side });
+      facet.Conditions[s] = own == conditions.end() ? nullptr : &own->second;
+    }
+  }
+  return facets;
+}
+
+template <int Dim>
+Status AddFacets(const Estimator<Dim>& estimator, const GalerkinSpace& space,
+  const GalerkinProblem& problem, int threads, SquareSums& sums)
+{
+  const ConditionMap conditions = MakeConditions(problem);
+  const auto facets = MakeFacets(space, conditions);
+  if (!facets)
+  {
+    return facets.Status;
+  }
+  const auto hasConditions = [](const EstimateFacet& facet)
+  { return facet.Conditions[0] || facet.Conditions[1]; };
+  std::vector<FacetSquares> squares(facets.Value.size());
+  ParallelFor(squares.size(), 64, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        if (!hasConditions(facets.Value[i]))
+        {
+          squares[i] = estimator.FacetTerms(facets.Value[i]);
+        }
+      }
+    });
+  for (std::size_t i = 0; i < squares.size(); ++i)
+  {
+    const EstimateFacet& facet = facets.Value[i];
+    if (hasConditions(facet))
+    {
+      squares[i] = estimator.FacetTerms(facet);
+    }
+    for (std::size_t s = 0; s < 2; ++s)
+    {
+      if (const int cell = facet.Place.Sides[s].Cell; cell >= 0)
+      {
+        sums.Elements[static_cast<std::size_t>(cell)] += squares[i].Flux[s];
+      }
+    }
+    sums.Elements[static_cast<std::size_t>(facet.Place.Sides[0].Cell)] += squares[i].Values;
+    const bool inner = facet.Place.Sides[1].Cell >= 0;
+    (inner ? sums.Jumps : sums.Loads) += squares[i].Flux[0] + squares[i].Flux[1];
+    sums.Values += squares[i].Values;
+  }
+  return {};
+}
+
+template <int Dim>
+Result<ErrorEstimate> Estimate(const GalerkinSpace& space, const GalerkinProblem& problem,
+  const PointMatrixView& coefficients, int threads, const ProgressCallback& progress)
+{
+  const Estimator<Dim> estimator(space, problem, coefficients);
+  SquareSums sums;
+  sums.Elements.assign(static_cast<std::size_t>(space.NumElements()), 0.0);
+  if (const Status status = AddInterior(estimator, space, problem, threads, progress, sums);
+      !status)
+  {
+    return status;
+  }
+  if (const Status status = AddFacets(estimator, space, problem, threads, sums); !status)
+  {
+    return status;
+  }
+  ErrorEstimate estimate;
+  double total = 0.0;
+  for (const double square : sums.Elements)
+  {
+    total += square;
+    estimate.Elements.push_back(std::sqrt(square));
+  }
+  if (!std::isfinite(total))
+  {
+    return { ErrorCode::NonFiniteInput,
+      "a source, load or prescribed value is no number, or a map is singular; mend the function or "
+      "the geometry" };
+  }
+  estimate.Total = std::sqrt(total);
+  estimate.Interior = std::sqrt(sums.Interior);
+  estimate.Jumps = std::sqrt(sums.Jumps);
+  estimate.Loads = std::sqrt(sums.Loads);
+  estimate.Values = std::sqrt(sums.Values);
+  if (progress && !progress(1.0))
+  {
+    return { ErrorCode::Aborted, "after the error was estimated" };
+  }
+  return estimate;
+}
+}
+
+Result<ErrorEstimate> EstimateError(const GalerkinSpace& space, const GalerkinProblem& problem,
+  const PointMatrixView& coefficients, int threads, const ProgressCallback& progress)
+{
+  if (const Status status = CheckProblem(space, problem, {}); !status)
+  {
+    return status;
+  }
+  if (coefficients.rows() != space.NumFunctions() ||
+    coefficients.cols() != NumSolutionComponents(problem.Equation))
+  {
+    return { ErrorCode::SizeMismatch,
+      "there must be a row of coefficients a function, with a column a component of the solution" };
+  }
+  if (!coefficients.allFinite())
+  {
+    return { ErrorCode::NonFiniteInput, "a coefficient is no number; solve the problem first" };
+  }
+  return space.Dimension == 2 ? Estimate<2>(space, problem, coefficients, threads, progress)
+                              : Estimate<3>(space, problem, coefficients, threads, progress);
+}
+}
