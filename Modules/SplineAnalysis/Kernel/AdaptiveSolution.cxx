@@ -12,6 +12,9 @@ namespace knotwork
 {
 namespace
 {
+/// Estimates that differ by less, relatively, count as equal.
+constexpr double Rounding = 1e-6;
+
 using Clock = std::chrono::steady_clock;
 double SecondsSince(Clock::time_point start)
 {
@@ -81,12 +84,14 @@ std::vector<int> MarkElements(const std::vector<double>& estimates, double theta
   }
   std::vector<int> marked;
   double sum = 0.0;
+  double smallest = 0.0;
   for (const int e : order)
   {
-    if (sum >= theta * total || at(e) == 0.0)
+    if (at(e) == 0.0 || (sum >= theta * total && at(e) < (1.0 - Rounding) * smallest))
     {
       break;
     }
+    smallest = sum < theta * total ? at(e) : smallest;
     sum += at(e) * at(e);
     marked.push_back(e);
   }

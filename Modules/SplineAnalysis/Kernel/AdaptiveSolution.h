@@ -59,7 +59,8 @@ template <int Dim>
 using ProblemMaker =
   std::function<Result<GalerkinProblem>(const Spline<Dim>& spline, const GalerkinSpace& space)>;
 
-/// Elements with the largest estimates, as few as have a share of the sum of squares.
+/// Elements with the largest estimates, as few as have a share of the sum of squares, and those
+/// that equal the smallest of them but for rounding: what is symmetric stays so.
 /// @param theta  the share, in (0, 1]. @return ascending; empty when all estimates are 0.
 /// @source  Doerfler, SIAM J. Numer. Anal. 33 (1996) 1106-1124.
 std::vector<int> MarkElements(const std::vector<double>& estimates, double theta);

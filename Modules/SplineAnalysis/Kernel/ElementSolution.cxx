@@ -112,7 +112,8 @@ SolutionPoint<Dim> ElementSolution<Dim>::At(const PointMatrixView& basis, int or
   constexpr int MaxTerms = NumDerivativeTerms(Dim, 2);
   using Terms =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, MaxTerms, 2 * Dim + 1>;
-  Terms terms = basis.topRows(NumDerivativeTerms(Dim, order)) * this->Planes;
+  // as sums: the products are too small for Eigen's blocks
+  Terms terms = basis.topRows(NumDerivativeTerms(Dim, order)).lazyProduct(this->Planes);
   if (this->Rational)
   {
     for (Eigen::Index plane = 0; plane + 1 < terms.cols(); ++plane)

@@ -28,6 +28,19 @@ EstimateFactors FactorsOf(const CellDegree& degree)
   return { 1.0 / (4.0 * pi * pi), 0.1 / p, 1.0 * p };
 }
 
+std::size_t At(int element)
+{
+  return static_cast<std::size_t>(element);
+}
+
+CellShape FacetShape(CellShape shape)
+{
+  return NumParameters(shape) == 2    ? CellShape::Curve
+    : shape == CellShape::Tetrahedron ? CellShape::Triangle
+                                      : CellShape::Quadrilateral;
+}
+
+/// Gauss points a direction.
 int NumPoints(const CellDegree& degree)
 {
   return *std::max_element(degree.begin(), degree.end()) + 1;
@@ -97,7 +110,7 @@ public:
   {
     for (int e = 0; e < space.NumElements(); ++e)
     {
-      const auto index = static_cast<std::size_t>(e);
+      const auto index = At(e);
       RuleBasis& basis = this->Bases[{ space.Shapes[index], space.Degrees[index] }];
       if (basis.Blocks.empty())
       {
@@ -107,6 +120,9 @@ public:
           basis.Blocks.push_back(
             BasisDerivatives(space.Shapes[index], space.Degrees[index], u.data(), 2));
         }
+        const CellShape facet = FacetShape(space.Shapes[index]);
+        const int points = NumPoints(space.Degrees[index]);
+        this->FacetRules[{ facet, points }] = MakeCellRule(facet, points);
       }
     }
   }
@@ -120,7 +136,7 @@ public:
   };
   void FillResiduals(int element, std::vector<Residual>& residuals) const
   {
-    const auto e = static_cast<std::size_t>(element);
+    const auto e = At(element);
     const RuleBasis& basis =
       this->Bases.find({ this->Space.Shapes[e], this->Space.Degrees[e] })->second;
     const ElementSolution<Dim> solution(this->Space, this->Coefficients, element);
@@ -142,7 +158,7 @@ public:
       {
         for (int i = 0; i < Dim; ++i)
         {
-          const auto& hessian = point.Hessian[static_cast<std::size_t>(i)];
+          const auto& hessian = point.Hessian[At(i)];
           residual.Force[i] += lame.Shear * hessian.trace();
           residual.Force += (lame.First + lame.Shear) * hessian.row(i).transpose();
         }
@@ -152,83 +168,75 @@ public:
     }
   }
 
-  /// @return NonFiniteInput when a callable gives no number.
+  /// Callables of the facet's conditions are called.
   FacetSquares FacetTerms(const EstimateFacet& facet) const
   {
-    FacetSquares squares;
-    const bool inner = facet.Place.Sides[1].Cell >= 0;
     std::vector<ElementSolution<Dim>> solutions;
     int count = 0;
+    double modulus = 0.0;
     for (const CellSide& side : facet.Place.Sides)
     {
       if (side.Cell >= 0)
       {
         solutions.emplace_back(this->Space, this->Coefficients, side.Cell);
-        count =
-          std::max(count, NumPoints(this->Space.Degrees[static_cast<std::size_t>(side.Cell)]));
+        count = std::max(count, NumPoints(this->Space.Degrees[At(side.Cell)]));
+        modulus += this->Modulus(side.Cell);
       }
     }
-    const CellShape shape = this->Space.Shapes[static_cast<std::size_t>(facet.Place.Sides[0].Cell)];
-    const CellShape facetShape = Dim == 2 ? CellShape::Curve
-      : shape == CellShape::Tetrahedron   ? CellShape::Triangle
-                                          : CellShape::Quadrilateral;
-    const CellRule rule = MakeCellRule(facetShape, count);
+    const CellShape shape = this->Space.Shapes[At(facet.Place.Sides[0].Cell)];
+    const CellRule& rule = this->FacetRules.find({ FacetShape(shape), count })->second;
+    const Eigen::Map<const Vector> normal(facet.Place.Frames[0].Normal.data());
+    FacetSquares squares;
     std::array<SolutionPoint<Dim>, 2> points;
     for (std::size_t q = 0; q < rule.Points.size(); ++q)
     {
       for (std::size_t s = 0; s < solutions.size(); ++s)
       {
-        const auto e = static_cast<std::size_t>(facet.Place.Sides[s].Cell);
+        const auto e = At(facet.Place.Sides[s].Cell);
         const auto u = facet.Place.Frames[s].Point({ rule.Points[q][0], rule.Points[q][1] });
         points[s] = solutions[s].At(
           BasisDerivatives(this->Space.Shapes[e], this->Space.Degrees[e], u.data(), 1), 1);
       }
-      const Eigen::Map<const Vector> normal(facet.Place.Frames[0].Normal.data());
       const Vector area =
         std::abs(points[0].Determinant) * (points[0].Inverse.transpose() * normal);
       const double weight = rule.Weights[q] * area.norm();
-      const Vector n = area.normalized();
+      Vector outward = area.normalized();
       Vector rest = Vector::Zero();
-      std::array<bool, 3> prescribed{};
+      Vector isFree = Vector::Ones();
       for (std::size_t s = 0; s < solutions.size(); ++s)
       {
-        const Vector outward = s == 0 ? n : Vector(-n);
         rest -= this->Flux(facet.Place.Sides[s].Cell, points[s].Gradient, outward);
         if (facet.Conditions[s])
         {
-          this->AddConditions(facet, s, points[s], outward, weight, rest, prescribed, squares);
+          this->AddLoads(*facet.Conditions[s], points[s], outward, rest);
+          squares.Values += weight *
+            this->ValuesTerm(*facet.Conditions[s], facet.Place.Sides[s].Cell, points[s], isFree);
         }
+        outward = -outward; // of the second element
       }
-      double square = 0.0;
-      for (int i = 0; i < this->Components; ++i)
-      {
-        square += prescribed[static_cast<std::size_t>(i)] ? 0.0 : rest[i] * rest[i];
-      }
-      double modulus = 0.0;
-      for (const CellSide& side : facet.Place.Sides)
-      {
-        modulus += side.Cell >= 0 ? this->Modulus(side.Cell) : 0.0;
-      }
-      // both sides of an inner facet take half of it
+      // what there is on an inner facet is halved: the modulus is a sum there
+      const double square = weight * rest.cwiseProduct(isFree).squaredNorm() / modulus;
       for (std::size_t s = 0; s < solutions.size(); ++s)
       {
-        const auto e = static_cast<std::size_t>(facet.Place.Sides[s].Cell);
-        squares.Flux[s] +=
-          FactorsOf(this->Space.Degrees[e]).Flux * weight * points[s].Length * square / modulus;
+        const CellDegree& degree = this->Space.Degrees[At(facet.Place.Sides[s].Cell)];
+        squares.Flux[s] += FactorsOf(degree).Flux * points[s].Length * square;
       }
     }
-    (void)inner;
     return squares;
   }
 
 private:
-  /// What energies of gradients are measured by.
+  /// What the energy of a gradient is measured by: in elasticity between that of shear, 2 m, and
+  /// that of a compressed rod that cannot widen, 2 m + l.
   double Modulus(int element) const
   {
     const GalerkinMaterial& material = MaterialOf(this->Problem, element);
-    return this->Problem.Equation == GalerkinEquation::Poisson
-      ? material.Conductivity
-      : 2.0 * MakeLameConstants(this->Problem.Equation, material).Shear;
+    if (this->Problem.Equation == GalerkinEquation::Poisson)
+    {
+      return material.Conductivity;
+    }
+    const LameConstants lame = MakeLameConstants(this->Problem.Equation, material);
+    return std::sqrt(2.0 * lame.Shear * (2.0 * lame.Shear + lame.First));
   }
 
   Vector Flux(
@@ -246,23 +254,25 @@ private:
       lame.First * gradient.trace() * n;
   }
 
-  /// Loads go to the rest of the flux, values to the squares.
-  void AddConditions(const EstimateFacet& facet, std::size_t s, const SolutionPoint<Dim>& point,
-    const Vector& outward, double weight, Vector& rest, std::array<bool, 3>& prescribed,
-    FacetSquares& squares) const
+  void AddLoads(const SideConditions& conditions, const SolutionPoint<Dim>& point,
+    const Vector& outward, Vector& rest) const
   {
-    Vector given = Vector::Zero();
-    for (const FacetLoad* load : facet.Conditions[s]->Loads)
+    for (const FacetLoad* load : conditions.Loads)
     {
+      Vector given = Vector::Zero();
       load->Values(point.Position.data(), outward.data(), given.data());
       rest += given;
     }
-    const int cell = facet.Place.Sides[s].Cell;
-    const double factor = FactorsOf(this->Space.Degrees[static_cast<std::size_t>(cell)]).Values *
-      this->Modulus(cell) / point.Length;
-    for (const PrescribedValues* values : facet.Conditions[s]->Values)
+  }
+
+  /// The square of what prescribed values differ by. Components that are prescribed are not free.
+  double ValuesTerm(const SideConditions& conditions, int element, const SolutionPoint<Dim>& point,
+    Vector& isFree) const
+  {
+    double sum = 0.0;
+    for (const PrescribedValues* values : conditions.Values)
     {
-      given.setZero();
+      Vector given = Vector::Zero();
       if (values->Values)
       {
         values->Values(point.Position.data(), given.data());
@@ -271,12 +281,14 @@ private:
       {
         if (values->Component == -1 || values->Component == i)
         {
-          prescribed[static_cast<std::size_t>(i)] = true;
-          const double rests = given[i] - point.Value[i];
-          squares.Values += factor * weight * rests * rests;
+          isFree[i] = 0.0;
+          const double rest = given[i] - point.Value[i];
+          sum += rest * rest;
         }
       }
     }
+    return FactorsOf(this->Space.Degrees[At(element)]).Values * this->Modulus(element) /
+      point.Length * sum;
   }
 
   const GalerkinSpace& Space;
@@ -284,6 +296,7 @@ private:
   const PointMatrixView& Coefficients;
   int Components;
   RuleBases Bases;
+  std::map<std::pair<CellShape, int>, CellRule> FacetRules;
 };
 
 /// Parts of the estimate as squares, by element.
@@ -318,7 +331,7 @@ Status AddInterior(const Estimator<Dim>& estimator, const GalerkinSpace& space,
     for (int i = 0; i < size; ++i)
     {
       double sum = 0.0;
-      for (const auto& residual : batch[static_cast<std::size_t>(i)])
+      for (const auto& residual : batch[At(i)])
       {
         Eigen::Matrix<double, Dim, 1> force = Eigen::Matrix<double, Dim, 1>::Zero();
         if (problem.Source)
@@ -327,7 +340,7 @@ Status AddInterior(const Estimator<Dim>& estimator, const GalerkinSpace& space,
         }
         sum += residual.Weight * (force + residual.Force).squaredNorm();
       }
-      sums.Elements[static_cast<std::size_t>(first + i)] += sum;
+      sums.Elements[At(first + i)] += sum;
       sums.Interior += sum;
     }
     if (progress && !progress(0.5 * (first + size) / count))
@@ -354,7 +367,7 @@ Result<std::vector<EstimateFacet>> MakeFacets(
   }
   for (const CellSide& side : found->Boundary)
   {
-    const CellShape shape = space.Shapes[static_cast<std::size_t>(side.Cell)];
+    const CellShape shape = space.Shapes[At(side.Cell)];
     EstimateFacet facet;
     facet.Place.Sides = { side, CellSide{} };
     facet.Place.Frames[0] = MakeFacetFrame(shape, side.Side);
@@ -407,10 +420,10 @@ Status AddFacets(const Estimator<Dim>& estimator, const GalerkinSpace& space,
     {
       if (const int cell = facet.Place.Sides[s].Cell; cell >= 0)
       {
-        sums.Elements[static_cast<std::size_t>(cell)] += squares[i].Flux[s];
+        sums.Elements[At(cell)] += squares[i].Flux[s];
       }
     }
-    sums.Elements[static_cast<std::size_t>(facet.Place.Sides[0].Cell)] += squares[i].Values;
+    sums.Elements[At(facet.Place.Sides[0].Cell)] += squares[i].Values;
     const bool inner = facet.Place.Sides[1].Cell >= 0;
     (inner ? sums.Jumps : sums.Loads) += squares[i].Flux[0] + squares[i].Flux[1];
     sums.Values += squares[i].Values;

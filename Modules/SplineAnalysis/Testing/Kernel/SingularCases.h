@@ -7,9 +7,9 @@
 /// Bodies with a re-entrant corner and solutions on them that are known.
 namespace knotwork::testing
 {
-/// The square (-1, 1)^2 without x > 0, y < 0, in space times (0, 1), of n elements along each of its
-/// four legs: one patch, C^0 on the diagonal. The first parameter runs along the legs, the second
-/// from the re-entrant sides outwards.
+/// The square (-1, 1)^2 without x > 0, y < 0, in space times (0, 1), of n elements along each of
+/// its four legs: one patch, C^0 on the diagonal. The first parameter runs along the legs, the
+/// second from the re-entrant sides outwards.
 template <int Dim>
 Spline<Dim> LShape(int degree, int n)
 {
@@ -124,9 +124,9 @@ inline double CornerError(double energy)
   return std::sqrt(std::max(0.0, 2.0 * (CornerEnergy() - energy)));
 }
 
-/// The field of symmetric opening at the re-entrant corner, which is free: plane strain, E = 1, Poisson's
-/// ratio 0.3, r^0.5445. @source  Szabo, Babuska, Finite Element Analysis, 1991, 4.2; the form of
-/// Alberty and others, Computing 69 (2002) 239-263, section 6.
+/// The field of symmetric opening at the re-entrant corner, which is free: plane strain, E = 1,
+/// Poisson's ratio 0.3, r^0.5445. @source  Szabo, Babuska, Finite Element Analysis, 1991, 4.2; the
+/// form of Alberty and others, Computing 69 (2002) 239-263, section 6.
 class OpenedCorner
 {
 public:
@@ -137,7 +137,8 @@ public:
     return [field = *this](const double* x, double* u)
     {
       const Polar at(field, x);
-      Eigen::Map<Eigen::Vector2d>(u, 2) = at.Size * (at.Radial * at.Value[0] + at.Turned * at.Value[1]);
+      Eigen::Map<Eigen::Vector2d>(u, 2) =
+        at.Size * (at.Radial * at.Value[0] + at.Turned * at.Value[1]);
     };
   }
   PointFunction Gradient() const
@@ -147,11 +148,11 @@ public:
       const Polar at(field, x);
       const Eigen::Vector2d along =
         field.Order * (at.Radial * at.Value[0] + at.Turned * at.Value[1]);
-      const Eigen::Vector2d across = at.Radial * (at.Slope[0] - at.Value[1]) +
-        at.Turned * (at.Slope[1] + at.Value[0]);
+      const Eigen::Vector2d across =
+        at.Radial * (at.Slope[0] - at.Value[1]) + at.Turned * (at.Slope[1] + at.Value[0]);
       const double r = std::hypot(x[0], x[1]);
-      Eigen::Map<Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(g, 2, 2) = at.Size / r *
-        (along * at.Radial.transpose() + across * at.Turned.transpose());
+      Eigen::Map<Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(g, 2, 2) =
+        at.Size / r * (along * at.Radial.transpose() + across * at.Turned.transpose());
     };
   }
   /// Values on all sides but the re-entrant ones.
@@ -194,8 +195,8 @@ private:
       this->Radial << std::cos(angle), std::sin(angle);
       this->Turned << -std::sin(angle), std::cos(angle);
       this->Size = std::pow(std::hypot(x[0], x[1]), a) / (2.0 * shear);
-      this->Value[0] = -(a + 1.0) * std::cos((a + 1.0) * t) +
-        (c2 - a - 1.0) * c1 * std::cos((a - 1.0) * t);
+      this->Value[0] =
+        -(a + 1.0) * std::cos((a + 1.0) * t) + (c2 - a - 1.0) * c1 * std::cos((a - 1.0) * t);
       this->Value[1] =
         (a + 1.0) * std::sin((a + 1.0) * t) + (c2 + a - 1.0) * c1 * std::sin((a - 1.0) * t);
       this->Slope[0] = (a + 1.0) * (a + 1.0) * std::sin((a + 1.0) * t) -

@@ -4,134 +4,364 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
+#include <set>
 
 namespace knotwork::testing
 {
-TEST(XAdaptive, Corner)
+namespace
 {
-  std::printf("energy %.10f\n", CornerEnergy());
-  for (int p = std::getenv("PP") ? std::atoi(std::getenv("PP")) : 2; p < (std::getenv("PP") ? std::atoi(std::getenv("PP")) + 1 : 4); ++p)
+/// Slope of errors against functions, by least squares in logarithms over the last rows.
+double Slope(const std::vector<std::array<double, 2>>& rows, std::size_t last)
+{
+  const auto count = static_cast<Eigen::Index>(last);
+  Eigen::ArrayXd x(count);
+  Eigen::ArrayXd y(count);
+  for (Eigen::Index i = 0; i < count; ++i)
   {
-    AdaptiveParams params;
-    params.Theta = std::getenv("TH") ? std::atof(std::getenv("TH")) : 0.5;
-    params.Refinement.Extension = std::getenv("EX") ? std::atoi(std::getenv("EX")) : 0;
-    params.Refinement.AdmissibleClass = std::getenv("AC") ? std::atoi(std::getenv("AC")) : 2;
-    params.MaxFunctions = std::getenv("MF") ? std::atoi(std::getenv("MF")) : 4000;
-    const auto result = SolveAdaptively<2>(LShape<2>(p, std::getenv("N0") ? std::atoi(std::getenv("N0")) : 2), CornerProblem<2>, params);
-    ASSERT_TRUE(result) << result.Status.Message();
-    AdaptiveStep last;
-    for (const AdaptiveStep& step : result->History)
-    {
-      const double error = CornerError(step.Energy);
-      const double before = CornerError(last.Energy);
-      std::printf("p %d N %6d el %6d est %.3e err %.3e ratio %.3f slope %.3f marked %d  t %.2f %.2f %.2f\n", p, step.Functions,
-        step.Elements, step.Estimate, error, step.Estimate / error,
-        -std::log(error / before) / std::log(1.0 * step.Functions / last.Functions), step.Marked,
-        step.SecondsSolve, step.SecondsEstimate, step.SecondsRefine);
-      last = step;
-    }
-    std::printf("parts I %.3e J %.3e L %.3e V %.3e %s\n", result->Estimate.Interior, result->Estimate.Jumps, result->Estimate.Loads,
-      result->Estimate.Values, ToString(result->Stop));
-    auto u = LShape<2>(p, std::getenv("NU") ? std::atoi(std::getenv("NU")) : 40);
-    const auto space = MakeGalerkinSpace(u);
-    const auto problem = CornerProblem<2>(u, space.Value);
-    const auto s = SolveGalerkin(space.Value, problem.Value);
-    const auto e = EstimateError(space.Value, problem.Value, s->Coefficients);
-    std::printf("E %.10f last %.10f\n", s->Energy, result->Solution.Energy); std::printf("uniform p %d N %d err %.3e est %.3e\n", p, space->NumFunctions(), CornerError(s->Energy), e->Total);
+    const auto& row = rows[rows.size() - static_cast<std::size_t>(count - i)];
+    x[i] = std::log(row[0]);
+    y[i] = std::log(row[1]);
   }
+  x -= x.mean();
+  return -(x * (y - y.mean())).sum() / x.square().sum();
 }
-TEST(XAdaptive, Edge)
+
+/// Functions at which errors that fall with a row for each space reach one, between rows by their
+/// slope. The last row when it is not reached.
+double FunctionsAt(const std::vector<std::array<double, 2>>& rows, double error)
 {
-  const int p = std::getenv("PP") ? std::atoi(std::getenv("PP")) : 2;
-    AdaptiveParams params;
-    params.Theta = std::getenv("TH") ? std::atof(std::getenv("TH")) : 0.5;
-    params.Refinement.Extension = std::getenv("EX") ? std::atoi(std::getenv("EX")) : 0;
-    params.Refinement.AdmissibleClass = std::getenv("AC") ? std::atoi(std::getenv("AC")) : 2;
-    params.MaxFunctions = std::getenv("MF") ? std::atoi(std::getenv("MF")) : 8000;
-    const auto result = SolveAdaptively<3>(LShape<3>(p, std::getenv("N0") ? std::atoi(std::getenv("N0")) : 2), CornerProblem<3>, params);
-    ASSERT_TRUE(result) << result.Status.Message();
-    AdaptiveStep last;
-    for (const AdaptiveStep& step : result->History)
+  for (std::size_t i = 1; i < rows.size(); ++i)
+  {
+    if (rows[i][1] <= error)
     {
-      const double error = CornerError(step.Energy);
-      const double before = CornerError(last.Energy);
-      std::printf("p %d N %6d el %6d est %.3e err %.3e ratio %.3f slope %.3f marked %d  t %.2f %.2f %.2f\n", p, step.Functions,
-        step.Elements, step.Estimate, error, step.Estimate / error,
-        -std::log(error / before) / std::log(1.0 * step.Functions / last.Functions), step.Marked,
-        step.SecondsSolve, step.SecondsEstimate, step.SecondsRefine);
-      last = step;
+      const double share = std::log(rows[i - 1][1] / error) / std::log(rows[i - 1][1] / rows[i][1]);
+      return rows[i - 1][0] * std::pow(rows[i][0] / rows[i - 1][0], share);
     }
-    std::printf("parts I %.3e J %.3e L %.3e V %.3e %s\n", result->Estimate.Interior, result->Estimate.Jumps, result->Estimate.Loads,
-      result->Estimate.Values, ToString(result->Stop));
+  }
+  return rows.back()[0];
 }
-TEST(XAdaptive, EdgeUniform)
+
+/// Error of the corner's solution on a uniform mesh, with its functions.
+template <int Dim>
+std::array<double, 2> UniformCorner(int degree, int n)
 {
-  const int p = std::getenv("PP") ? std::atoi(std::getenv("PP")) : 2;
-    auto u = LShape<3>(p, std::getenv("NU") ? std::atoi(std::getenv("NU")) : 10);
-    const auto space = MakeGalerkinSpace(u);
-    const auto problem = CornerProblem<3>(u, space.Value);
-    GalerkinParams g; g.DirectLimit = 20000;
-    const auto s = SolveGalerkin(space.Value, problem.Value, g);
-    const auto e = EstimateError(space.Value, problem.Value, s->Coefficients);
-    std::printf("uniform p %d N %d err %.3e est %.3e t %.2f %.2f\n", p, space->NumFunctions(), CornerError(s->Energy), e->Total, s->SecondsAssembly, s->SecondsSolve);
+  const Spline<Dim> spline = LShape<Dim>(degree, n);
+  const auto space = MakeGalerkinSpace(spline);
+  const auto solution = SolveGalerkin(space.Value, CornerProblem<Dim>(spline, space.Value).Value);
+  EXPECT_TRUE(solution) << solution.Status.Message();
+  return { static_cast<double>(space->NumFunctions()), CornerError(solution->Energy) };
 }
-TEST(XAdaptive, Elastic)
+
+/// Rows (functions, error) of an adaptive solution of the corner, whose estimates must be right.
+std::vector<std::array<double, 2>> CornerRows(const std::vector<AdaptiveStep>& history)
+{
+  std::vector<std::array<double, 2>> rows;
+  for (const AdaptiveStep& step : history)
+  {
+    const double error = CornerError(step.Energy);
+    rows.push_back({ static_cast<double>(step.Functions), error });
+    EXPECT_GT(step.Estimate / error, 0.5) << step.Functions << " functions";
+    EXPECT_LT(step.Estimate / error, 4.0) << step.Functions << " functions";
+    std::printf(
+      "[ step     ] %6d functions %6d elements: error %.3e estimate %.3f of it, %d marked, "
+      "seconds %.2f %.2f %.2f\n",
+      step.Functions, step.Elements, error, step.Estimate / error, step.Marked, step.SecondsSolve,
+      step.SecondsEstimate, step.SecondsRefine);
+  }
+  return rows;
+}
+
+/// A smooth solution, its gradient and source, with its values on the boundary.
+struct SmoothCase
+{
+  const char* Name;
+  PointFunction Values, Gradient, Source;
+
+  Result<GalerkinProblem> operator()(const Spline<2>&, const GalerkinSpace& space) const
+  {
+    GalerkinProblem problem;
+    problem.Source = this->Source;
+    problem.Prescribed.push_back({ BoundaryFacets(space).Value, -1, this->Values });
+    return problem;
+  }
+};
+
+SmoothCase Sines()
+{
+  return { "sines",
+    [](const double* x, double* u) { u[0] = std::sin(3 * x[0] + 1) * std::cos(2 * x[1]); },
+    [](const double* x, double* g)
+    {
+      g[0] = 3 * std::cos(3 * x[0] + 1) * std::cos(2 * x[1]);
+      g[1] = -2 * std::sin(3 * x[0] + 1) * std::sin(2 * x[1]);
+    },
+    [](const double* x, double* f) { f[0] = 13 * std::sin(3 * x[0] + 1) * std::cos(2 * x[1]); } };
+}
+
+/// exp(-50 |x - (0.4, 0.6)|^2)
+SmoothCase Peak()
+{
+  const auto value = [](const double* x)
+  { return std::exp(-50 * (std::pow(x[0] - 0.4, 2) + std::pow(x[1] - 0.6, 2))); };
+  return { "peak", [value](const double* x, double* u) { u[0] = value(x); },
+    [value](const double* x, double* g)
+    {
+      g[0] = -100 * (x[0] - 0.4) * value(x);
+      g[1] = -100 * (x[1] - 0.6) * value(x);
+    },
+    [value](const double* x, double* f)
+    {
+      const double square = std::pow(x[0] - 0.4, 2) + std::pow(x[1] - 0.6, 2);
+      f[0] = (200 - 10000 * square) * value(x);
+    } };
+}
+
+/// Errors of every space of an adaptive solution, solved again one step further each time.
+std::vector<std::array<double, 2>> SmoothRows(const SmoothCase& body, int degree, int maxFunctions)
+{
+  std::vector<std::array<double, 2>> rows;
+  AdaptiveParams params;
+  params.MaxFunctions = maxFunctions;
+  Spline<2> spline = BentBox<2>(degree, 8);
+  const ProblemMaker<2> recorded = [&](const Spline<2>& on, const GalerkinSpace& space)
+  {
+    const auto problem = body(on, space);
+    const auto solution = SolveGalerkin(space, problem.Value);
+    rows.push_back({ static_cast<double>(space.NumFunctions()),
+      EnergyError(space, problem.Value, solution->Coefficients, body.Gradient) });
+    return problem;
+  };
+  EXPECT_TRUE(SolveAdaptively<2>(spline, recorded, params));
+  return rows;
+}
+}
+
+TEST(AdaptiveSolution, ConstantsOfTheCorner_PublishedNumber)
+{
+  // a(u, u) of r^(2/3) sin(2 t / 3) on the L-shape is quoted as 1.8362264461
+  EXPECT_NEAR(2.0 * CornerEnergy(), 1.8362264461, 1e-6);
+}
+
+TEST(AdaptiveSolution, CornerInOptimalOrder_ExactOracle)
 {
   for (const int p : { 2, 3 })
   {
     AdaptiveParams params;
-    params.MaxSteps=1;
-    params.Refinement.Extension = 0;
-    const OpenedCorner field;
-    double last = 1, lastN = 1;
-    for (params.MaxSteps = 1; params.MaxSteps < 23; ++params.MaxSteps) {
-    const auto result = SolveAdaptively<2>(LShape<2>(p, 2), [&](const Spline<2>& s, const GalerkinSpace&) { return field.Problem(s); }, params);
+    params.MaxFunctions = p == 2 ? 40000 : 20000;
+    const auto result = SolveAdaptively<2>(LShape<2>(p, 8), CornerProblem<2>, params);
     ASSERT_TRUE(result) << result.Status.Message();
-      const AdaptiveStep& step = result->History.back();
-      const double error = EnergyError(result->Space, result->Problem, result->Solution.Coefficients, field.Gradient(), 4);
-      std::printf("p %d N %6d el %6d est %.3e err %.3e ratio %.3f slope %.3f  parts I %.3e J %.3e L %.3e V %.3e \n", p, step.Functions,
-        step.Elements, step.Estimate, error, step.Estimate / error,
-        -std::log(error / last) / std::log(1.0 * step.Functions / lastN), result->Estimate.Interior, result->Estimate.Jumps, result->Estimate.Loads,
-      result->Estimate.Values);
-      last = error; lastN = step.Functions;
+    const auto rows = CornerRows(result->History);
+    const double slope = Slope(rows, 4);
+    const auto uniform = UniformCorner<2>(p, 160 - p);
+    const double needed = FunctionsAt(rows, uniform[1]);
+    std::printf("[ corner   ] p %d: order %.3f in functions; error %.2e of %.0f uniform functions "
+                "needs %.0f\n",
+      p, slope, uniform[1], uniform[0], needed);
+    EXPECT_GE(slope, 0.5 * p - 0.15);
+    EXPECT_LE(slope, 0.5 * p + 0.35);
+    EXPECT_GE(uniform[0], 5e4);
+    EXPECT_LE(needed, 0.02 * uniform[0]);
+  }
+}
+
+TEST(AdaptiveSolution, EdgeInSpace_ExactOracle)
+{
+  AdaptiveParams params;
+  params.MaxFunctions = 2500;
+  const auto result = SolveAdaptively<3>(LShape<3>(2, 2), CornerProblem<3>, params);
+  ASSERT_TRUE(result) << result.Status.Message();
+  const auto rows = CornerRows(result->History);
+  const auto uniform = UniformCorner<3>(2, 16);
+  const double needed = FunctionsAt(rows, uniform[1]);
+  std::printf("[ edge     ] error %.2e of %.0f uniform functions needs %.0f\n", uniform[1],
+    uniform[0], needed);
+  EXPECT_LE(needed, 0.15 * uniform[0]);
+}
+
+// What refinement at a corner must not cost: where there is nothing to find, as many functions as
+// uniform refinement of the same error has.
+TEST(AdaptiveSolution, SmoothSolutions_ExactOracle)
+{
+  for (const int p : { 2, 3 })
+  {
+    for (const SmoothCase& body : { Sines(), Peak() })
+    {
+      const auto rows = SmoothRows(body, p, 4000);
+      for (const int n : { 16, 32 })
+      {
+        const Spline<2> spline = BentBox<2>(p, n);
+        const auto space = MakeGalerkinSpace(spline);
+        const auto problem = body(spline, space.Value);
+        const auto solution = SolveGalerkin(space.Value, problem.Value);
+        const double error =
+          EnergyError(space.Value, problem.Value, solution->Coefficients, body.Gradient);
+        const double share = FunctionsAt(rows, error) / space->NumFunctions();
+        std::printf("[ smooth   ] %s p %d: error %.2e of %d uniform functions needs %.3f of them\n",
+          body.Name, p, error, space->NumFunctions(), share);
+        EXPECT_LE(share, 1.15);
+      }
     }
   }
 }
-TEST(XAdaptive, Smooth)
+
+TEST(AdaptiveSolution, ElasticCorner_ExactOracle)
 {
-  for (const int kind : { 0, 1 })
+  const OpenedCorner field;
   for (const int p : { 2, 3 })
   {
-    // sine, and a peak
-    const auto u = [kind](const double* x) { return kind == 0 ? std::sin(3 * x[0] + 1) * std::cos(2 * x[1]) : std::exp(-50 * ((x[0] - 0.4) * (x[0] - 0.4) + (x[1] - 0.6) * (x[1] - 0.6))); };
-    const PointFunction values = [u](const double* x, double* v) { v[0] = u(x); };
-    const PointFunction gradient = [u, kind](const double* x, double* g) {
-      if (kind == 0) { g[0] = 3 * std::cos(3 * x[0] + 1) * std::cos(2 * x[1]); g[1] = -2 * std::sin(3 * x[0] + 1) * std::sin(2 * x[1]); }
-      else { g[0] = -100 * (x[0] - 0.4) * u(x); g[1] = -100 * (x[1] - 0.6) * u(x); } };
-    const PointFunction source = [u, kind](const double* x, double* f) {
-      const double q = (x[0] - 0.4) * (x[0] - 0.4) + (x[1] - 0.6) * (x[1] - 0.6);
-      f[0] = kind == 0 ? 13 * u(x) : (200 - 10000 * q) * u(x); };
-    const ProblemMaker<2> make = [&](const Spline<2>&, const GalerkinSpace& space) -> Result<GalerkinProblem> {
-      GalerkinProblem problem; problem.Source = source; problem.Prescribed.push_back({ BoundaryFacets(space).Value, -1, values }); return problem; };
-    for (int n : { 8, 16, 32, 64 }) {
-      const auto sp = BentBox<2>(p, n); const auto space = MakeGalerkinSpace(sp);
-      const auto problem = make(sp, space.Value); const auto s = SolveGalerkin(space.Value, problem.Value);
-      const auto est = EstimateError(space.Value, problem.Value, s->Coefficients);
-      const double error = EnergyError(space.Value, problem.Value, s->Coefficients, gradient);
-      std::printf("kind %d p %d uniform N %d err %.3e ratio %.3f\n", kind, p, space->NumFunctions(), error, est->Total / error);
-    }
+    std::vector<std::array<double, 2>> rows;
+    const ProblemMaker<2> recorded = [&](const Spline<2>& spline, const GalerkinSpace& space)
+    {
+      const auto problem = field.Problem(spline);
+      const auto solution = SolveGalerkin(space, problem.Value);
+      const auto estimate = EstimateError(space, problem.Value, solution->Coefficients);
+      rows.push_back({ static_cast<double>(space.NumFunctions()),
+        EnergyError(space, problem.Value, solution->Coefficients, field.Gradient(), 4) });
+      EXPECT_GT(estimate->Total / rows.back()[1], 0.5);
+      EXPECT_LT(estimate->Total / rows.back()[1], 4.0);
+      return problem;
+    };
     AdaptiveParams params;
-    params.Theta = std::getenv("TH") ? std::atof(std::getenv("TH")) : 0.5;
-    params.Refinement.Extension = std::getenv("EX") ? std::atoi(std::getenv("EX")) : 0;
-    params.MaxFunctions = 5000;
-    for (params.MaxSteps = 1; params.MaxSteps < 30; ++params.MaxSteps) {
-      const auto result = SolveAdaptively<2>(BentBox<2>(p, 8), make, params);
-      ASSERT_TRUE(result) << result.Status.Message();
-      const double error = EnergyError(result->Space, result->Problem, result->Solution.Coefficients, gradient);
-      std::printf("kind %d p %d N %d err %.3e ratio %.3f\n", kind, p, result->Space.NumFunctions(), error, result->Estimate.Total / error);
-      if (result->Stop == AdaptiveStop::MaxFunctions) break;
-    }
+    params.MaxFunctions = p == 2 ? 12000 : 6000;
+    const auto result = SolveAdaptively<2>(LShape<2>(p, 2), recorded, params);
+    ASSERT_TRUE(result) << result.Status.Message();
+    const double slope = Slope(rows, 4);
+    std::printf("[ elastic  ] p %d: order %.3f in functions, %zu steps to %.0f functions\n", p,
+      slope, rows.size(), rows.back()[0]);
+    EXPECT_GE(slope, 0.5 * p - 0.15);
+  }
+}
+
+TEST(AdaptiveSolution, LocallyRefinedSplines_ExactOracle)
+{
+  const Spline<2> spline = RefineMarkedLR(LShape<2>(2, 2), { 0 })->Value;
+  ASSERT_EQ(spline.Space->Kind, SpaceKind::LocallyRefined);
+  AdaptiveParams params;
+  params.MaxFunctions = 1000;
+  const auto result = SolveAdaptively<2>(spline, CornerProblem<2>, params);
+  ASSERT_TRUE(result) << result.Status.Message();
+  EXPECT_EQ(result->Spline.Space->Kind, SpaceKind::LocallyRefined);
+  const auto rows = CornerRows(result->History);
+  const auto uniform = UniformCorner<2>(2, 40);
+  EXPECT_LE(FunctionsAt(rows, uniform[1]), 0.1 * uniform[0]);
+}
+
+TEST(AdaptiveSolution, MarksTheLargest_ExactOracle)
+{
+  const std::vector<double> estimates{ 1.0, 3.0, 0.0, 2.0, 1.0 }; // squares 1, 9, 0, 4, 1 of 15
+  EXPECT_EQ(MarkElements(estimates, 0.5), (std::vector<int>{ 1 }));
+  EXPECT_EQ(MarkElements(estimates, 0.61), (std::vector<int>{ 1, 3 }));
+  EXPECT_EQ(MarkElements(estimates, 0.9), (std::vector<int>{ 0, 1, 3, 4 })); // equals together
+  EXPECT_EQ(MarkElements(estimates, 1.0), (std::vector<int>{ 0, 1, 3, 4 }));
+  EXPECT_TRUE(MarkElements({ 0.0, 0.0 }, 0.5).empty());
+}
+
+// The map stays as it is, bit by bit where it is evaluated at corners, and the history is that of
+// the spaces.
+TEST(AdaptiveSolution, MapStaysAndHistoryFits_PropertyOracle)
+{
+  AdaptiveParams params;
+  params.MaxSteps = 4;
+  const auto result = SolveAdaptively<2>(LShape<2>(3, 2), CornerProblem<2>, params);
+  ASSERT_TRUE(result) << result.Status.Message();
+  EXPECT_EQ(result->Stop, AdaptiveStop::MaxSteps);
+  ASSERT_EQ(result->History.size(), 4u);
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    EXPECT_LT(result->History[i].Functions, result->History[i + 1].Functions);
+    EXPECT_LE(result->History[i].Energy, result->History[i + 1].Energy); // nested spaces
+    EXPECT_GT(result->History[i].Marked, 0);
+  }
+  EXPECT_EQ(result->History.back().Marked, 0);
+  EXPECT_EQ(result->History.back().Functions, result->Space.NumFunctions());
+  EXPECT_EQ(result->Estimate.Total, result->History.back().Estimate);
+  EXPECT_EQ(result->Solution.Coefficients.rows(), result->Space.NumFunctions());
+  // the area of the L
+  double area = 0.0;
+  RuleTables tables(1e-15);
+  for (int e = 0; e < result->Space.NumElements(); ++e)
+  {
+    tables.Visit(result->Space, e,
+      [&](std::size_t q, const PointValues& at)
+      { area += tables.Weights[q] * std::abs(at.Determinant); });
+  }
+  EXPECT_NEAR(area, 3.0, 1e-12);
+}
+
+TEST(AdaptiveSolution, EveryEndIsReachable)
+{
+  const Spline<2> spline = LShape<2>(2, 2);
+  AdaptiveParams params;
+  params.Tolerance = 0.05;
+  auto result = SolveAdaptively<2>(spline, CornerProblem<2>, params);
+  EXPECT_EQ(result->Stop, AdaptiveStop::Tolerance);
+  EXPECT_LE(result->Estimate.Total, 0.05);
+  EXPECT_GT(result->History[result->History.size() - 2].Estimate, 0.05);
+  params.Tolerance = 0.0;
+  params.MaxFunctions = 200;
+  result = SolveAdaptively<2>(spline, CornerProblem<2>, params);
+  EXPECT_EQ(result->Stop, AdaptiveStop::MaxFunctions);
+  EXPECT_LE(result->Space.NumFunctions(), 200);
+  params.Refinement.MaxLevel = 1;
+  params.MaxFunctions = 100000;
+  result = SolveAdaptively<2>(spline, CornerProblem<2>, params);
+  EXPECT_EQ(result->Stop, AdaptiveStop::MaxLevel);
+  params.MaxSteps = 1;
+  result = SolveAdaptively<2>(spline, CornerProblem<2>, params);
+  EXPECT_EQ(result->Stop, AdaptiveStop::MaxSteps);
+  std::set<std::string> sentences;
+  for (const AdaptiveStop stop : { AdaptiveStop::Tolerance, AdaptiveStop::MaxFunctions,
+         AdaptiveStop::MaxSteps, AdaptiveStop::MaxLevel })
+  {
+    sentences.insert(ToString(stop));
+  }
+  EXPECT_EQ(sentences.size(), 4u);
+}
+
+TEST(AdaptiveSolution, EveryFailureIsReachable)
+{
+  const Spline<2> spline = LShape<2>(2, 2);
+  const ProblemMaker<2> corner = CornerProblem<2>;
+  const auto expect = [&](const Spline<2>& on, const ProblemMaker<2>& make,
+                        const AdaptiveParams& params, ErrorCode code, const std::string& words)
+  {
+    const auto result = SolveAdaptively<2>(on, make, params);
+    EXPECT_EQ(result.Status.Code, code) << result.Status.Message();
+    EXPECT_NE(result.Status.Detail.find(words), std::string::npos) << result.Status.Message();
+  };
+  AdaptiveParams params;
+  params.Theta = 0.0;
+  expect(spline, corner, params, ErrorCode::InvalidParameter, "in (0, 1]");
+  params = {};
+  params.Tolerance = std::nan("");
+  expect(spline, corner, params, ErrorCode::InvalidParameter, "tolerance");
+  params = {};
+  params.MaxSteps = 0;
+  expect(spline, corner, params, ErrorCode::InvalidParameter, "steps");
+  params = {};
+  params.Refinement.AdmissibleClass = 1;
+  expect(spline, corner, params, ErrorCode::InvalidParameter, "admissible class");
+  params = {};
+  expect(spline, {}, params, ErrorCode::InvalidParameter, "there is no problem");
+  expect({}, corner, params, ErrorCode::DimensionMismatch, "refined by elements");
+  expect(BentStar<2>(5, 2, 2), corner, params, ErrorCode::DimensionMismatch, "refined by elements");
+  expect(
+    spline, [](const Spline<2>&, const GalerkinSpace&) { return GalerkinProblem{}; }, params,
+    ErrorCode::SingularSystem, "the constant");
+  expect(
+    spline,
+    [](const Spline<2>&, const GalerkinSpace&) -> Result<GalerkinProblem> {
+      return { ErrorCode::InvalidFormat, "no such load" };
+    },
+    params, ErrorCode::InvalidFormat, "no such load");
+  for (const int calls : { 0, 5, 40 })
+  {
+    int left = calls;
+    params.MaxSteps = 3;
+    const auto result =
+      SolveAdaptively<2>(spline, corner, params, [&left](double) { return left-- > 0; });
+    EXPECT_EQ(static_cast<bool>(result), calls == 40);
+    EXPECT_EQ(result.Status.Code == ErrorCode::Aborted, calls < 40);
   }
 }
 }
