@@ -35,6 +35,24 @@ Status CheckParams(const AdaptiveParams& params)
   return {};
 }
 
+/// Whether more than half of the squared estimate of the marked elements is on the highest level,
+/// where it stays.
+template <int Dim>
+bool AreExhausted(const Spline<Dim>& spline, const std::vector<double>& estimates,
+  const std::vector<int>& marked, int maxLevel)
+{
+  double sum = 0.0;
+  double highest = 0.0;
+  for (const int e : marked)
+  {
+    const auto index = static_cast<std::size_t>(e);
+    const double square = estimates[index] * estimates[index];
+    sum += square;
+    highest += spline.Space->Elements[index].Level >= maxLevel ? square : 0.0;
+  }
+  return highest > 0.5 * sum;
+}
+
 /// Splits the marked elements; with a margin of half the degree where the parameters' own makes no
 /// new function, so that one does.
 template <int Dim>
@@ -67,7 +85,7 @@ const char* ToString(AdaptiveStop stop)
     case AdaptiveStop::MaxLevel:
       break;
   }
-  return "the marked elements are of the highest level";
+  return "most of the error is on the highest level";
 }
 
 std::vector<int> MarkElements(const std::vector<double>& estimates, double theta)
@@ -171,6 +189,11 @@ Result<AdaptiveSolution<Dim>> SolveAdaptively(const Spline<Dim>& spline,
     }
     start = Clock::now();
     const std::vector<int> marked = MarkElements(result.Estimate.Elements, params.Theta);
+    if (AreExhausted(result.Spline, result.Estimate.Elements, marked, params.Refinement.MaxLevel))
+    {
+      result.Stop = AdaptiveStop::MaxLevel;
+      break;
+    }
     auto refined = Refine(result.Spline, marked, params.Refinement);
     if (!refined)
     {

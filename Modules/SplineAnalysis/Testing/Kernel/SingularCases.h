@@ -4,6 +4,8 @@
 #include <knotwork/SplineAnalysis/AdaptiveSolution.h>
 #include <knotwork/SplineCore/Quadrature.h>
 
+#include <gtest/gtest.h>
+
 /// Bodies with a re-entrant corner and solutions on them that are known.
 namespace knotwork::testing
 {
@@ -206,4 +208,86 @@ private:
     }
   };
 };
+/// Slope of errors against functions, by least squares in logarithms over the last rows.
+inline double Slope(const std::vector<std::array<double, 2>>& rows, std::size_t last)
+{
+  const auto count = static_cast<Eigen::Index>(last);
+  Eigen::ArrayXd x(count);
+  Eigen::ArrayXd y(count);
+  for (Eigen::Index i = 0; i < count; ++i)
+  {
+    const auto& row = rows[rows.size() - static_cast<std::size_t>(count - i)];
+    x[i] = std::log(row[0]);
+    y[i] = std::log(row[1]);
+  }
+  x -= x.mean();
+  return -(x * (y - y.mean())).sum() / x.square().sum();
+}
+
+/// Functions at which errors that fall with a row for each space reach one, between rows by their
+/// slope. The last row when it is not reached.
+inline double FunctionsAt(const std::vector<std::array<double, 2>>& rows, double error)
+{
+  for (std::size_t i = 1; i < rows.size(); ++i)
+  {
+    if (rows[i][1] <= error)
+    {
+      const double share = std::log(rows[i - 1][1] / error) / std::log(rows[i - 1][1] / rows[i][1]);
+      return rows[i - 1][0] * std::pow(rows[i][0] / rows[i - 1][0], share);
+    }
+  }
+  return rows.back()[0];
+}
+
+/// Error of the corner's solution on a uniform mesh, with its functions.
+template <int Dim>
+std::array<double, 2> UniformCorner(int degree, int n)
+{
+  const Spline<Dim> spline = LShape<Dim>(degree, n);
+  const auto space = MakeGalerkinSpace(spline);
+  GalerkinParams params;
+  params.DirectLimit = Dim == 2 ? 300000 : 20000; // factors of solids are large
+  const auto solution =
+    SolveGalerkin(space.Value, CornerProblem<Dim>(spline, space.Value).Value, params);
+  EXPECT_TRUE(solution) << solution.Status.Message();
+  return { static_cast<double>(space->NumFunctions()), CornerError(solution->Energy) };
+}
+
+/// Rows (functions, error) of an adaptive solution of the corner, whose estimates must be right.
+inline std::vector<std::array<double, 2>> CornerRows(const std::vector<AdaptiveStep>& history)
+{
+  std::vector<std::array<double, 2>> rows;
+  for (const AdaptiveStep& step : history)
+  {
+    const double error = CornerError(step.Energy);
+    rows.push_back({ static_cast<double>(step.Functions), error });
+    EXPECT_GT(step.Estimate / error, 0.5) << step.Functions << " functions";
+    EXPECT_LT(step.Estimate / error, 4.0) << step.Functions << " functions";
+    std::printf(
+      "[ step     ] %6d functions %6d elements: error %.3e estimate %.3f of it, %d marked, "
+      "seconds %.2f %.2f %.2f\n",
+      step.Functions, step.Elements, error, step.Estimate / error, step.Marked, step.SecondsSolve,
+      step.SecondsEstimate, step.SecondsRefine);
+  }
+  return rows;
+}
+
+/// The re-entrant edge in space by quadratic splines: functions of an adaptive solution with the
+/// error of a uniform one of n elements along a leg.
+inline void ExpectEdge(int maxFunctions, int n, double share)
+{
+  AdaptiveParams params;
+  params.MaxFunctions = maxFunctions;
+  const auto result = SolveAdaptively<3>(LShape<3>(2, 2), CornerProblem<3>, params);
+  ASSERT_TRUE(result) << result.Status.Message();
+  const auto rows = CornerRows(result->History);
+  const auto uniform = UniformCorner<3>(2, n);
+  const double needed = FunctionsAt(rows, uniform[1]);
+  std::printf(
+    "[ edge     ] error %.2e of %.0f uniform functions needs %.0f; order of the last steps "
+    "%.3f\n",
+    uniform[1], uniform[0], needed, Slope(rows, 4));
+  EXPECT_LE(rows.back()[1], uniform[1]);
+  EXPECT_LE(needed, share * uniform[0]);
+}
 }
