@@ -309,7 +309,7 @@ TEST(ErrorEstimate, RatioToTrueError_ExactOracle)
       {
         ExpectRatio(CaseOf<2>("unstructured", BentStar<2>(5, 6, p)), equation, p, true);
       }
-      if (p < 4)
+      if (p < 5)
       {
         ExpectRatio(LagrangeCase(CellShape::Triangle, p, 6), equation, p, true);
         ExpectRatio(LagrangeCase(CellShape::Quadrilateral, p, 6), equation, p, true);
