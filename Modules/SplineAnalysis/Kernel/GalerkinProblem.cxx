@@ -2,6 +2,7 @@
 #include "GalerkinProblem.h"
 
 #include "BoundaryProjection.h"
+#include "CheckProblem.h"
 #include "ElementRule.h"
 #include "RigidMotions.h"
 #include "StiffnessMatrix.h"
@@ -83,6 +84,7 @@ Status CheckMaterials(const GalerkinSpace& space, const GalerkinProblem& problem
   }
   return {};
 }
+}
 
 Status CheckProblem(
   const GalerkinSpace& space, const GalerkinProblem& problem, const GalerkinParams& params)
@@ -161,6 +163,8 @@ Status CheckProblem(
   return {};
 }
 
+namespace
+{
 /// Refuses elements that are proved to fold, with the place.
 Status CheckGeometry(const GalerkinSpace& space, int threads)
 {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GalerkinSpace.h"
 
-#include "ElementRule.h"
 #include <knotwork/SplineCore/DisjointSets.h>
 #include <knotwork/SplineCore/LatticeInterpolation.h>
 
@@ -39,8 +38,15 @@ void AddPatch(const Spline<Dim>& spline, int patch, const std::vector<int>& numb
     {
       f = numbers[static_cast<std::size_t>(f)];
     }
+    ParametricBox<3> box;
+    if (spline.Space->HasDomain())
+    {
+      const auto& own = spline.Space->Elements[static_cast<std::size_t>(e)].Box;
+      std::copy(own.Lower.begin(), own.Lower.end(), box.Lower.begin());
+      std::copy(own.Upper.begin(), own.Upper.end(), box.Upper.begin());
+    }
     builder.Add(Dim == 2 ? CellShape::Quadrilateral : CellShape::Hexahedron, degree, patch,
-      InnerSidesOf(*spline.Space, e), functions, spline.Space->ExtractionOperator(e));
+      InnerSidesOf(*spline.Space, e), box, functions, spline.Space->ExtractionOperator(e));
   }
   for (int f = 0; f < spline.Space->NumFunctions; ++f)
   {
@@ -133,12 +139,14 @@ Status Unite(const MultiPatch<Dim>& patches, const PatchInterface& interface,
 }
 
 void GalerkinSpaceBuilder::Add(CellShape shape, const CellDegree& degree, int patch,
-  unsigned innerSides, const std::vector<int>& functions, const PointMatrix& matrix)
+  unsigned innerSides, const ParametricBox<3>& box, const std::vector<int>& functions,
+  const PointMatrix& matrix)
 {
   this->Space.Shapes.push_back(shape);
   this->Space.Degrees.push_back(degree);
   this->Space.Patches.push_back(patch);
   this->Space.InnerSides.push_back(innerSides);
+  this->Space.Boxes.push_back(box);
   this->Space.Functions.insert(this->Space.Functions.end(), functions.begin(), functions.end());
   this->Space.FirstFunction.push_back(this->Space.Functions.size());
   const auto size = static_cast<std::size_t>(matrix.size());
@@ -277,7 +285,7 @@ Result<GalerkinSpace> MakeGalerkinSpace(const LagrangeMesh& mesh)
                  .cast<double>()
                  .transpose();
     }
-    builder.Add(shape, degree, 0, 0, nodes, matrix);
+    builder.Add(shape, degree, 0, 0, {}, nodes, matrix);
   }
   return space;
 }
@@ -327,63 +335,6 @@ int NumSides(CellShape shape)
       break;
   }
   return 6;
-}
-
-Result<std::vector<CellSide>> BoundaryFacets(const GalerkinSpace& space)
-{
-  // Sides of two elements have their functions in common, those that are not 0 on the side, and
-  // its middle; sides with the same functions alone may be both ends of a ring.
-  struct Facet
-  {
-    CellSide Side;
-    Eigen::VectorXd Middle;
-  };
-  std::map<std::vector<int>, std::vector<Facet>> facets;
-  for (int e = 0; e < space.NumElements(); ++e)
-  {
-    const CellShape shape = space.Shapes[static_cast<std::size_t>(e)];
-    for (int side = 0; side < NumSides(shape); ++side)
-    {
-      if ((space.InnerSides[static_cast<std::size_t>(e)] >> side & 1U) != 0)
-      {
-        continue;
-      }
-      const FacetFrame frame = MakeFacetFrame(shape, side);
-      const double share = shape == CellShape::Tetrahedron ? 1.0 / 3.0 : 0.5;
-      PointValues values;
-      EvaluateFunctions(space, e, frame.Point({ share, share }).data(), values);
-      facets[TraceFunctions(space, { e, side })].push_back({ { e, side }, values.Position });
-    }
-  }
-  const double size = space.Points.cwiseAbs().maxCoeff();
-  std::map<std::pair<int, int>, int> alone;
-  for (const auto& group : facets)
-  {
-    for (const Facet& facet : group.second)
-    {
-      int count = 0;
-      for (const Facet& other : group.second)
-      {
-        count += (facet.Middle - other.Middle).norm() <= 1e-9 * size ? 1 : 0;
-      }
-      if (count > 2)
-      {
-        return { ErrorCode::InvalidTopology,
-          "side " + std::to_string(facet.Side.Side) + " of element " +
-            std::to_string(facet.Side.Cell) + " belongs to three elements; remove one" };
-      }
-      if (count == 1)
-      {
-        alone[{ facet.Side.Cell, facet.Side.Side }] = 1;
-      }
-    }
-  }
-  std::vector<CellSide> boundary;
-  for (const auto& facet : alone)
-  {
-    boundary.push_back({ facet.first.first, facet.first.second });
-  }
-  return boundary;
 }
 
 template <int Dim>

@@ -28,6 +28,8 @@ struct GalerkinSpace
   /// Bit s of an element: its side s lies inside the parameter domain of its patch, where
   /// neighbours of other levels may meet it in part. 0 where there is no domain.
   std::vector<unsigned> InnerSides;
+  /// In that domain; empty boxes where there is none.
+  std::vector<ParametricBox<3>> Boxes;
   std::vector<std::size_t> FirstFunction{ 0 }; ///< NumElements + 1 offsets into Functions
   std::vector<int> Functions;                  ///< alive on the elements
   /// Offset of each element's operator in OperatorData, a row a function, a column a Bernstein
@@ -64,7 +66,7 @@ public:
   /// @param innerSides  as GalerkinSpace::InnerSides. @param functions  alive ones. @param matrix
   /// the element's operator, a row a function.
   void Add(CellShape shape, const CellDegree& degree, int patch, unsigned innerSides,
-    const std::vector<int>& functions, const PointMatrix& matrix);
+    const ParametricBox<3>& box, const std::vector<int>& functions, const PointMatrix& matrix);
 
 private:
   GalerkinSpace& Space;

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "ErrorEstimate.h"
+
+#include <knotwork/SplineCore/HierarchicalSpace.h>
+
+namespace knotwork
+{
+struct AdaptiveParams
+{
+  /// Share of the squared estimate that the marked elements have at least, in (0, 1].
+  double Theta = 0.5;
+  double Tolerance = 0.0;    ///< of the estimated error in energy, >= 0
+  int MaxFunctions = 100000; ///< >= 1; a space with more is not solved
+  int MaxSteps = 50;         ///< solutions, >= 1
+  /// Of THB-splines. The margin is half of the degree in a step whose marked elements would make no
+  /// new function without.
+  RefinementParams Refinement{ 0, 2, 24 };
+  GalerkinParams Galerkin;
+};
+
+/// Why refinement ended.
+enum class AdaptiveStop
+{
+  Tolerance,    ///< the estimate is small enough
+  MaxFunctions, ///< the next space is too large
+  MaxSteps,
+  MaxLevel ///< the marked elements must not be refined
+};
+const char* ToString(AdaptiveStop stop);
+
+/// A row of the history: a space and its solution.
+struct AdaptiveStep
+{
+  int Functions = 0;
+  int Elements = 0;
+  double Estimate = 0.0; ///< of the error in the norm of energy
+  double Energy = 0.0;
+  int Marked = 0; ///< elements; 0 in the last row
+  double SecondsSolve = 0.0;
+  double SecondsEstimate = 0.0;
+  double SecondsRefine = 0.0;
+};
+
+template <int Dim>
+struct AdaptiveSolution
+{
+  knotwork::Spline<Dim> Spline; ///< the same map in the refined space
+  GalerkinSpace Space;
+  GalerkinProblem Problem;
+  GalerkinSolution Solution;
+  ErrorEstimate Estimate;
+  std::vector<AdaptiveStep> History;
+  AdaptiveStop Stop = AdaptiveStop::Tolerance;
+};
+
+/// States the problem on a refined space: its facets, functions and elements have new numbers.
+template <int Dim>
+using ProblemMaker =
+  std::function<Result<GalerkinProblem>(const Spline<Dim>& spline, const GalerkinSpace& space)>;
+
+/// Elements with the largest estimates, as few as have a share of the sum of squares, and those
+/// that equal the smallest of them but for rounding: what is symmetric stays so.
+/// @param theta  the share, in (0, 1]. @return ascending; empty when all estimates are 0.
+/// @source  Doerfler, SIAM J. Numer. Anal. 33 (1996) 1106-1124.
+std::vector<int> MarkElements(const std::vector<double>& estimates, double theta);
+
+/// Solves, estimates the error, marks elements and splits them, until the estimate is small enough
+/// or a limit is met. Marked elements of Tensor and Hierarchical splines are split into THB-splines
+/// of the admissible class, of LocallyRefined ones by full-span segments.
+/// @param makeProblem  called from the calling thread on every space.
+/// @return InvalidParameter for options; DimensionMismatch for a spline that cannot be refined
+/// locally; what makeProblem, SolveGalerkin, EstimateError and RefineMarkedElements say; Aborted.
+/// @complexity of the last solution times the number of steps that have about as many functions.
+/// @source  Buffa, Giannelli, M3AS 26 (2016) 1-25; Buffa, Giannelli, M3AS 27 (2017) 2781-2802
+/// (optimal order on admissible meshes).
+template <int Dim>
+Result<AdaptiveSolution<Dim>> SolveAdaptively(const Spline<Dim>& spline,
+  const ProblemMaker<Dim>& makeProblem, const AdaptiveParams& params = {},
+  const ProgressCallback& progress = {});
+}
