@@ -8,6 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <tuple>
+#include <utility>
 
 namespace knotwork
 {
@@ -167,58 +170,89 @@ void FillBernstein(
   EvaluateCellBasis(space.Shapes[e], space.Degrees[e], u, rows.data(), rows.data() + rows.cols());
 }
 
-/// What follows from functions in local parameters, a row each, (value, derivatives): not rational
-/// yet, and points of the functions.
-template <int Dim>
-void Finish(const GalerkinSpace& space, int element,
-  Eigen::Matrix<double, Eigen::Dynamic, Dim + 1>& local,
-  const Eigen::Matrix<double, Eigen::Dynamic, Dim>& points, PointValues& values)
+int StrideOf(int functions)
 {
-  if (space.Weights.size() > 0)
+  return (functions + 3) / 4 * 4;
+}
+
+/// Functions of an element from the Bernstein polynomials, a row each; the quotient rule where they
+/// are rational.
+void FillRows(const GalerkinSpace& space, int element, const PointMatrix& bernstein, double* rows)
+{
+  const int alive = space.NumAlive(element);
+  const int stride = StrideOf(alive);
+  Eigen::Map<PointMatrix> all(rows, bernstein.rows(), stride);
+  const Eigen::Map<const PointMatrix> extraction(space.Operator(element), alive, bernstein.cols());
+  all.leftCols(alive).noalias() = bernstein * extraction.transpose();
+  all.rightCols(stride - alive).setZero();
+}
+
+void MakeRational(const GalerkinSpace& space, int element, Eigen::Ref<PointMatrix> rows)
+{
+  const int alive = space.NumAlive(element);
+  const int planes = 1 + space.Dimension;
+  Eigen::RowVectorXd weights = Eigen::RowVectorXd::Zero(rows.cols());
+  for (int a = 0; a < alive; ++a)
   {
-    for (Eigen::Index a = 0; a < local.rows(); ++a)
+    weights[a] = space.Weights[space.Alive(element)[a]];
+  }
+  for (Eigen::Index first = 0; first < rows.rows(); first += planes)
+  {
+    auto values = rows.row(first);
+    values.array() *= weights.array();
+    const double inverse = 1.0 / values.sum();
+    values *= inverse;
+    for (int k = 1; k < planes; ++k)
     {
-      local.row(a) *= space.Weights[space.Alive(element)[a]];
-    }
-    const Eigen::Matrix<double, 1, Dim + 1> sum = local.colwise().sum();
-    local.col(0) /= sum[0];
-    for (int d = 1; d <= Dim; ++d)
-    {
-      local.col(d) = (local.col(d) - local.col(0) * sum[d]) / sum[0];
+      auto slopes = rows.row(first + k);
+      slopes.array() *= weights.array();
+      slopes = (slopes - slopes.sum() * values) * inverse;
     }
   }
-  values.Values = local.col(0);
-  values.Position = points.transpose() * local.col(0);
+}
+
+/// What follows at a point. @param rows  its value and derivatives. @param points  of the
+/// functions.
+template <int Dim>
+void Finish(const double* rows, int stride,
+  const Eigen::Matrix<double, Eigen::Dynamic, Dim>& points, PointValues& values)
+{
+  const Eigen::Map<const PointMatrix, 0, Eigen::OuterStride<>> local(
+    rows, Dim + 1, points.rows(), Eigen::OuterStride<>(stride));
+  values.Values = local.row(0).transpose();
+  values.Position = (local.row(0) * points).transpose();
   // entry (component, parameter)
   const Eigen::Matrix<double, Dim, Dim> jacobian =
-    points.transpose() * local.template rightCols<Dim>();
+    (local.template bottomRows<Dim>() * points).transpose();
   const Eigen::Matrix<double, Dim, Dim> inverse = jacobian.inverse();
   values.Determinant = jacobian.determinant();
   values.Inverse = inverse;
-  values.Gradients = local.template rightCols<Dim>() * inverse;
+  values.Gradients.noalias() = local.template bottomRows<Dim>().transpose() * inverse;
 }
 
-/// Functions at points whose Bernstein polynomials are known: one product for all of them.
 template <int Dim>
-void EvaluateAll(
-  const GalerkinSpace& space, int element, const PointMatrix& bernstein, const PointVisitor& visit)
+void FinishAll(const GalerkinSpace& space, int element, const ElementFunctions& functions,
+  const PointVisitor& visit)
 {
-  const int alive = space.NumAlive(element);
-  const Eigen::Map<const PointMatrix> extraction(space.Operator(element), alive, bernstein.cols());
-  Eigen::Matrix<double, Eigen::Dynamic, Dim> points(alive, Dim);
-  for (int a = 0; a < alive; ++a)
+  Eigen::Matrix<double, Eigen::Dynamic, Dim> points(functions.NumFunctions, Dim);
+  for (int a = 0; a < functions.NumFunctions; ++a)
   {
     points.row(a) = space.Points.row(space.Alive(element)[a]);
   }
-  const Eigen::MatrixXd all = extraction * bernstein.transpose();
-  Eigen::Matrix<double, Eigen::Dynamic, Dim + 1> local;
   PointValues values;
-  for (Eigen::Index q = 0; q < bernstein.rows() / (Dim + 1); ++q)
+  for (int q = 0; q < functions.NumPoints; ++q)
   {
-    local = all.template middleCols<Dim + 1>(q * (Dim + 1));
-    Finish<Dim>(space, element, local, points, values);
+    const std::ptrdiff_t first = std::ptrdiff_t{ q } * (Dim + 1) * functions.Stride;
+    Finish<Dim>(functions.Rows + first, functions.Stride, points, values);
     visit(static_cast<std::size_t>(q), values);
   }
+}
+
+void VisitPoints(const GalerkinSpace& space, int element, const ElementFunctions& functions,
+  const PointVisitor& visit)
+{
+  space.Dimension == 2 ? FinishAll<2>(space, element, functions, visit)
+                       : FinishAll<3>(space, element, functions, visit);
 }
 }
 
@@ -229,32 +263,122 @@ void EvaluateFunctions(
   PointMatrix bernstein(
     1 + space.Dimension, NumCellCoefficients(space.Shapes[e], space.Degrees[e]));
   FillBernstein(space, element, u, bernstein);
-  const auto keep = [&](std::size_t, const PointValues& at) { values = at; };
-  space.Dimension == 2 ? EvaluateAll<2>(space, element, bernstein, keep)
-                       : EvaluateAll<3>(space, element, bernstein, keep);
+  const int alive = space.NumAlive(element);
+  PointMatrix rows(bernstein.rows(), StrideOf(alive));
+  FillRows(space, element, bernstein, rows.data());
+  if (space.Weights.size() > 0)
+  {
+    MakeRational(space, element, rows);
+  }
+  VisitPoints(space, element, { 1, alive, StrideOf(alive), rows.data(), nullptr },
+    [&](std::size_t, const PointValues& at) { values = at; });
+}
+
+void RuleTables::Prepare(const GalerkinSpace& space)
+{
+  constexpr std::size_t Limit = std::size_t{ 64 } << 20; // bytes of shared rows
+  constexpr int Repeats = 4;                             // of an operator whose rows are shared
+  this->Prepared = &space;
+  this->Tables.clear();
+  this->Shared.clear();
+  const auto count = static_cast<std::size_t>(space.NumElements());
+  this->TableOf.resize(count);
+  this->SharedOf.assign(count, -1);
+  std::map<std::tuple<CellShape, CellDegree, int>, int> known;
+  std::map<std::pair<int, std::size_t>, std::pair<int, int>> uses; // number of uses, shared rows
+  for (std::size_t e = 0; e < count; ++e)
+  {
+    const CellShape shape = space.Shapes[e];
+    const CellDegree& degree = space.Degrees[e];
+    const int points =
+      NumRulePoints(space, static_cast<int>(e), this->Tolerance) + this->ExtraPoints;
+    const auto place =
+      known.try_emplace({ shape, degree, points }, static_cast<int>(this->Tables.size()));
+    if (place.second)
+    {
+      Table& table = this->Tables.emplace_back();
+      table.Rule = MakeCellRule(shape, points);
+      const Eigen::Index rows = 1 + space.Dimension;
+      table.Bernstein.resize(rows * static_cast<Eigen::Index>(table.Rule.Points.size()),
+        NumCellCoefficients(shape, degree));
+      for (std::size_t q = 0; q < table.Rule.Points.size(); ++q)
+      {
+        FillBernstein(space, static_cast<int>(e), table.Rule.Points[q].data(),
+          table.Bernstein.middleRows(static_cast<Eigen::Index>(q) * rows, rows));
+      }
+    }
+    this->TableOf[e] = place.first->second;
+    ++uses.try_emplace({ this->TableOf[e], space.Operators[e] }, 0, -1).first->second.first;
+  }
+  std::size_t bytes = 0;
+  for (std::size_t e = 0; e < count; ++e)
+  {
+    auto& use = uses[{ this->TableOf[e], space.Operators[e] }];
+    if (use.second < 0 && use.first >= Repeats)
+    {
+      const int element = static_cast<int>(e);
+      const PointMatrix& bernstein =
+        this->Tables[static_cast<std::size_t>(this->TableOf[e])].Bernstein;
+      const std::size_t size =
+        static_cast<std::size_t>(bernstein.rows() * StrideOf(space.NumAlive(element)));
+      if (bytes + size * sizeof(double) > Limit)
+      {
+        continue;
+      }
+      bytes += size * sizeof(double);
+      use.second = static_cast<int>(this->Shared.size());
+      this->Shared.emplace_back(size);
+      FillRows(space, element, bernstein, this->Shared.back().data());
+    }
+    this->SharedOf[e] = use.second;
+  }
+}
+
+ElementFunctions RuleTables::Functions(
+  const GalerkinSpace& space, int element, std::vector<double>& memory) const
+{
+  const auto e = static_cast<std::size_t>(element);
+  const Table& table = this->Tables[static_cast<std::size_t>(this->TableOf[e])];
+  ElementFunctions functions;
+  functions.NumPoints = static_cast<int>(table.Rule.Points.size());
+  functions.NumFunctions = space.NumAlive(element);
+  functions.Stride = StrideOf(functions.NumFunctions);
+  functions.Weights = table.Rule.Weights.data();
+  const bool rational = space.Weights.size() > 0;
+  const int shared = this->SharedOf[e];
+  if (shared >= 0 && !rational)
+  {
+    functions.Rows = this->Shared[static_cast<std::size_t>(shared)].data();
+    return functions;
+  }
+  memory.resize(static_cast<std::size_t>(table.Bernstein.rows() * functions.Stride));
+  if (shared >= 0)
+  {
+    memory = this->Shared[static_cast<std::size_t>(shared)];
+  }
+  else
+  {
+    FillRows(space, element, table.Bernstein, memory.data());
+  }
+  if (rational)
+  {
+    MakeRational(space, element,
+      Eigen::Map<PointMatrix>(memory.data(), table.Bernstein.rows(), functions.Stride));
+  }
+  functions.Rows = memory.data();
+  return functions;
 }
 
 void RuleTables::Visit(const GalerkinSpace& space, int element, const PointVisitor& visit)
 {
-  const auto e = static_cast<std::size_t>(element);
-  const int count = NumRulePoints(space, element, this->Tolerance) + this->ExtraPoints;
-  Table& table = this->Tables[{ space.Shapes[e], space.Degrees[e], count }];
-  if (table.Rule.Points.empty())
+  if (this->Prepared != &space)
   {
-    table.Rule = MakeCellRule(space.Shapes[e], count);
-    const Eigen::Index rows = 1 + space.Dimension;
-    table.Bernstein.resize(rows * static_cast<Eigen::Index>(table.Rule.Points.size()),
-      NumCellCoefficients(space.Shapes[e], space.Degrees[e]));
-    for (std::size_t q = 0; q < table.Rule.Points.size(); ++q)
-    {
-      FillBernstein(space, element, table.Rule.Points[q].data(),
-        table.Bernstein.middleRows(static_cast<Eigen::Index>(q) * rows, rows));
-    }
+    this->Prepare(space);
   }
-  this->Weights = table.Rule.Weights.data();
-  this->NumPoints = static_cast<int>(table.Rule.Points.size());
-  space.Dimension == 2 ? EvaluateAll<2>(space, element, table.Bernstein, visit)
-                       : EvaluateAll<3>(space, element, table.Bernstein, visit);
+  const ElementFunctions functions = this->Functions(space, element, this->Memory);
+  this->Weights = functions.Weights;
+  this->NumPoints = functions.NumPoints;
+  VisitPoints(space, element, functions, visit);
 }
 
 Eigen::VectorXd AreaVector(const FacetFrame& frame, const PointValues& values)

@@ -2,8 +2,7 @@
 #pragma once
 #include "GalerkinSpace.h"
 
-#include <map>
-#include <tuple>
+#include <functional>
 
 /// Quadrature on elements and their sides, and functions at its points.
 namespace knotwork
@@ -60,7 +59,20 @@ void EvaluateFunctions(
 
 using PointVisitor = std::function<void(std::size_t point, const PointValues& values)>;
 
-/// Rules of elements with the Bernstein polynomials at their points, each made once. One a thread.
+/// Functions of an element at the points of its rule, and their derivatives by the parameters.
+struct ElementFunctions
+{
+  int NumPoints = 0;
+  int NumFunctions = 0; ///< alive
+  int Stride = 0;       ///< NumFunctions, up to a multiple of 4
+  /// Row point * (dimension + 1) + k has Stride entries, 0 behind NumFunctions: values (k = 0) or
+  /// derivatives by parameter k - 1.
+  const double* Rows = nullptr;
+  const double* Weights = nullptr; ///< of the points
+};
+
+/// Rules of the elements of a space, with the functions at their points: elements of equal
+/// operators share them.
 class RuleTables
 {
 public:
@@ -69,7 +81,14 @@ public:
     : Tolerance(tolerance), ExtraPoints(extraPoints)
   {
   }
-  /// Calls for every point of the element's rule.
+  /// Makes the rules of a space's elements, and the functions of operators that repeat: at most 64
+  /// MB of them.
+  void Prepare(const GalerkinSpace& space);
+  /// May be called by several threads at a time. @param memory  for the rows, where they are not
+  /// shared. @pre  Prepare(space).
+  ElementFunctions Functions(
+    const GalerkinSpace& space, int element, std::vector<double>& memory) const;
+  /// Calls for every point of the element's rule. Prepares when the space is another one.
   void Visit(const GalerkinSpace& space, int element, const PointVisitor& visit);
   const double* Weights = nullptr; ///< of the points of the element visited last
   int NumPoints = 0;
@@ -78,11 +97,16 @@ private:
   struct Table
   {
     CellRule Rule;
-    PointMatrix Bernstein;
+    PointMatrix Bernstein; ///< rows as those of ElementFunctions
   };
   double Tolerance;
   int ExtraPoints;
-  std::map<std::tuple<CellShape, CellDegree, int>, Table> Tables;
+  const GalerkinSpace* Prepared = nullptr;
+  std::vector<Table> Tables;
+  std::vector<int> TableOf;                ///< element
+  std::vector<int> SharedOf;               ///< element; -1: rows are its own
+  std::vector<std::vector<double>> Shared; ///< rows
+  std::vector<double> Memory;
 };
 
 /// The area vector of a side at a point where the functions are known: outward, for the unit of the

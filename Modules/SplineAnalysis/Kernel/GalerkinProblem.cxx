@@ -4,12 +4,10 @@
 #include "BoundaryProjection.h"
 #include "CheckProblem.h"
 #include "ElementRule.h"
+#include "LinearSolver.h"
 #include "RigidMotions.h"
 #include "StiffnessMatrix.h"
 #include <knotwork/JacobianValidation/JacobianCertificate.h>
-#include <knotwork/MeshParameterization/SparseCholesky.h>
-
-#include <Eigen/IterativeLinearSolvers>
 
 #include <chrono>
 #include <cmath>
@@ -277,41 +275,6 @@ Eigen::SparseMatrix<double> FreeEquations(
   free.makeCompressed();
   return free;
 }
-
-Status SolveFree(const Eigen::SparseMatrix<double>& matrix, const GalerkinParams& params,
-  Eigen::MatrixXd& sides, int& iterations)
-{
-  if (matrix.rows() <= params.DirectLimit)
-  {
-    SparseCholesky factor;
-    if (const Status status = factor.Factorize(matrix); !status)
-    {
-      return { ErrorCode::SingularSystem,
-        "the matrix is not positive definite: functions are dependent, or materials or elements "
-        "differ too much" };
-    }
-    const Eigen::MatrixXd right = sides;
-    factor.Solve(sides);
-    // one step of refinement: what is left is rounding of the residual
-    Eigen::MatrixXd rest = right - matrix.selfadjointView<Eigen::Lower>() * sides;
-    factor.Solve(rest);
-    sides += rest;
-    return {};
-  }
-  Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower> solver;
-  solver.setTolerance(params.Tolerance);
-  solver.setMaxIterations(20000);
-  solver.compute(matrix);
-  sides = solver.solve(sides).eval();
-  iterations = static_cast<int>(solver.iterations());
-  if (solver.info() != Eigen::Success)
-  {
-    return { ErrorCode::NotConverged,
-      "conjugate gradients stopped at a residual of " + std::to_string(solver.error()) +
-        "; raise the limit of factorization" };
-  }
-  return {};
-}
 }
 
 Result<GalerkinSolution> SolveGalerkin(const GalerkinSpace& space, const GalerkinProblem& problem,
@@ -377,10 +340,15 @@ Result<GalerkinSolution> SolveGalerkin(const GalerkinSpace& space, const Galerki
     const double scale = sides.norm();
     const auto free = FreeEquations(matrix.Value, numbers, solution.Unknowns);
     const Eigen::MatrixXd before = sides;
-    if (const Status status = SolveFree(free, params, sides, solution.Iterations); !status)
+    LinearSolverReport report;
+    if (const Status status = SolveUnknowns(
+          space, NumSolutionComponents(problem.Equation), numbers, free, params, sides, report);
+        !status)
     {
       return status;
     }
+    solution.Iterations = report.Iterations;
+    solution.Preconditioner = report.Preconditioner;
     solution.Residual =
       scale > 0.0 ? (before - free.selfadjointView<Eigen::Lower>() * sides).norm() / scale : 0.0;
     for (std::size_t i = 0; i < size; ++i)

@@ -92,6 +92,9 @@ struct GalerkinSolution
   double Residual = 0.0;         ///< of the free equations, over the right-hand side
   int Unknowns = 0;
   int Iterations = 0; ///< of conjugate gradients; 0: factorized
+  /// Of conjugate gradients: "fast diagonalization" on one tensor-product patch, else "Gauss-Seidel
+  /// and constants of cells"; empty: factorized.
+  std::string Preconditioner;
   double SecondsCertificate = 0.0;
   double SecondsAssembly = 0.0;
   double SecondsSolve = 0.0;

@@ -210,6 +210,11 @@ Result<GalerkinSpace> MakeGalerkinSpace(const MultiPatch<Dim>& patches)
   }
   GalerkinSpace space;
   space.Dimension = Dim;
+  if (const SplineSpace<Dim>& only = *patches.Patches[0].Space;
+      patches.Patches.size() == 1 && only.Kind == SpaceKind::Tensor && count == first.back())
+  {
+    space.Knots.assign(only.Knots.begin(), only.Knots.end());
+  }
   space.Points.setZero(count, Dim);
   space.Weights.setOnes(rational ? count : 0);
   GalerkinSpaceBuilder builder(space);

@@ -36,6 +36,9 @@ struct GalerkinSpace
   /// polynomial; equal operators are stored once.
   std::vector<std::size_t> Operators;
   std::vector<double> OperatorData;
+  /// Of one tensor-product patch, whose functions and elements keep their numbers, the first
+  /// direction fastest: one a direction. Else empty.
+  std::vector<KnotVector> Knots;
 
   int NumFunctions() const { return static_cast<int>(this->Points.rows()); }
   int NumElements() const { return static_cast<int>(this->Shapes.size()); }

@@ -69,10 +69,10 @@ std::vector<std::array<std::array<double, 2>, 2>> FacetEdges(CellShape shape)
     { { { 0, 1 }, { 0, 0 } } } };
 }
 
-class ProblemMaker
+class ProblemBuilder
 {
 public:
-  ProblemMaker(const ProblemDescription& description, const GalerkinSpace& space,
+  ProblemBuilder(const ProblemDescription& description, const GalerkinSpace& space,
     const BoundaryGroups& boundary, const CompileExpression& compile)
     : Description(description), Space(space), Boundary(boundary), Compile(compile),
       Components(NumSolutionComponents(description.Equation))
@@ -533,6 +533,6 @@ Result<GalerkinProblem> MakeProblem(const ProblemDescription& description,
     return { ErrorCode::DimensionMismatch,
       "plane stress and strain need elements in the plane, solids such in space" };
   }
-  return ProblemMaker(description, space, boundary, compile).Make(places);
+  return ProblemBuilder(description, space, boundary, compile).Make(places);
 }
 }

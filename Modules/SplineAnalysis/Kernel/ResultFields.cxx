@@ -117,7 +117,11 @@ Result<ResultFields> MakeResultFields(const GalerkinSpace& space, const Galerkin
   fields.LargestVonMises.setZero(isElastic ? space.NumElements() : 0);
   std::vector<double> values;
   std::vector<double> points;
-  Eigen::SparseMatrix<double> mass = MakePattern(space, 1);
+  Eigen::SparseMatrix<double> mass;
+  if (const Status status = MakePattern(space, 1, params.Threads, mass); !status)
+  {
+    return status;
+  }
   Eigen::MatrixXd sides = Eigen::MatrixXd::Zero(space.NumFunctions(), columns);
   RuleTables tables(params.QuadratureTolerance);
   Eigen::MatrixXd gradient(coefficients.cols(), space.Dimension);
@@ -160,7 +164,7 @@ Result<ResultFields> MakeResultFields(const GalerkinSpace& space, const Galerkin
           sides.row(space.Alive(e)[a]) += weight * at.Values[a] * row;
         }
       });
-    AddElement(block, space.Alive(e), alive, 1, mass);
+    AddElement(space, e, block, mass);
   }
   fields.LargestValue =
     std::max(std::sqrt(largest), LargestAtCorners(space, boundary, coefficients));

@@ -18,10 +18,13 @@ struct LameConstants
 LameConstants MakeLameConstants(GalerkinEquation equation, const GalerkinMaterial& material);
 const GalerkinMaterial& MaterialOf(const GalerkinProblem& problem, int element);
 
-/// The lower triangle of zeros where elements have entries, unknown f * components + component.
-Eigen::SparseMatrix<double> MakePattern(const GalerkinSpace& space, int components);
-/// Adds an element's dense matrix to such a pattern.
-void AddElement(const Eigen::MatrixXd& block, const int* alive, int count, int components,
+/// The lower triangle of zeros where elements have entries. @return TooLarge.
+/// @param matrix  filled in place: Eigen's matrices copy their entries when they are moved.
+Status MakePattern(
+  const GalerkinSpace& space, int components, int threads, Eigen::SparseMatrix<double>& matrix);
+/// Adds an element's matrix of one component to such a pattern.
+/// @param block  symmetric, by the alive functions.
+void AddElement(const GalerkinSpace& space, int element, const Eigen::MatrixXd& block,
   Eigen::SparseMatrix<double>& matrix);
 
 /// Lower triangle of the matrix in all coefficients, unknown f * components + component. Element
