@@ -27,6 +27,8 @@ public:
     this->AddOutput(
       2, "--conditions", Endings::Table, "what every condition chose, and its reaction");
     this->AddOutput(Numbers, "--numbers", Endings::Table, "the numbers of the report");
+    this->AddOutput(
+      4, "--history", Endings::Table, "one row a solution, when refinement is adaptive");
     this->AddProperties({ "Equation", "Problem", "ProblemFile" });
   }
 
@@ -45,8 +47,8 @@ protected:
   {
     vtkTable* const table = this->Table(Numbers);
     ReportRow(table, 0,
-      { "Elements", "Functions", "Unknowns", "Conditions", "Energy", "LargestValue", "Imbalance",
-        "Residual", "Iterations" },
+      { "Elements", "Functions", "Unknowns", "Conditions", "Energy", "EstimatedError",
+        "LargestValue", "Imbalance", "Residual", "Iterations" },
       session.Report);
     if (this->Equation == "elasticity")
     {

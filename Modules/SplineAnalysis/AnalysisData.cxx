@@ -431,16 +431,18 @@ Status EncodeBody(AnalysisBody& body, const std::vector<AnalysisField>& fields,
   for (const auto& [block, grid] : GridsByBlock(output))
   {
     std::vector<vtkIdType> sources;
-    std::size_t first = 0;
     std::vector<std::size_t> rows;
+    std::size_t first = 0;
     for (const SplinePatch& patch : body.Model.Patches)
     {
-      for (std::size_t e = 0; e < patch.Cells.size() && patch.Block == block; ++e)
+      const auto count = static_cast<std::size_t>(
+        std::visit([](const auto& spline) { return spline.Space->NumElements(); }, patch.Geometry));
+      for (std::size_t e = 0; e < count && patch.Block == block; ++e)
       {
-        sources.push_back(patch.Cells[e]);
+        sources.push_back(patch.Cells.empty() ? -1 : patch.Cells[e]);
         rows.push_back(first + e);
       }
-      first += patch.Cells.size();
+      first += count;
     }
     PassCellData(from.at(block), sources, grid);
     for (const AnalysisCellField& field : cellFields)

@@ -93,7 +93,11 @@ std::vector<AnalysisField> PointFields(const AnalysisResults& results)
 
 std::vector<AnalysisCellField> CellFields(const AnalysisResults& results)
 {
-  std::vector<AnalysisCellField> fields{ { "Energy", results.Fields.Energy } };
+  const std::vector<double>& errors = results.Estimate.Elements;
+  std::vector<AnalysisCellField> fields{ { "Energy", results.Fields.Energy },
+    { "EstimatedError",
+      Eigen::Map<const Eigen::VectorXd>(
+        errors.data(), static_cast<Eigen::Index>(errors.size())) } };
   if (!IsPoisson(results))
   {
     fields.push_back({ "LargestVonMises", results.Fields.LargestVonMises });
@@ -171,6 +175,25 @@ void EncodeConditions(const AnalysisResults& results, vtkTable* table)
   table->AddColumn(reactions);
 }
 
+void EncodeHistory(const std::vector<AdaptiveStep>& history, vtkTable* table)
+{
+  const auto count = [&](const char* name, int AdaptiveStep::*value)
+  {
+    table->AddColumn(ArrayOf<vtkIntArray>(
+      name, history, [value](const AdaptiveStep& step) { return step.*value; }));
+  };
+  const auto number = [&](const char* name, double AdaptiveStep::*value)
+  {
+    table->AddColumn(ArrayOf<vtkDoubleArray>(
+      name, history, [value](const AdaptiveStep& step) { return step.*value; }));
+  };
+  count("Functions", &AdaptiveStep::Functions);
+  count("Elements", &AdaptiveStep::Elements);
+  number("EstimatedError", &AdaptiveStep::Estimate);
+  number("Energy", &AdaptiveStep::Energy);
+  count("Marked", &AdaptiveStep::Marked);
+}
+
 void EncodeNumbers(const AnalysisResults& results, vtkTable* table)
 {
   const GalerkinSolution& solution = results.Solution;
@@ -180,6 +203,7 @@ void EncodeNumbers(const AnalysisResults& results, vtkTable* table)
   AddColumn(table, "Unknowns", solution.Unknowns);
   AddColumn(table, "Conditions", static_cast<int>(results.Places.size()));
   AddColumn(table, "Energy", solution.Energy);
+  AddColumn(table, "EstimatedError", results.Estimate.Total);
   AddColumn(table, "LargestValue", results.Fields.LargestValue);
   if (!IsPoisson(results))
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "AnalysisData.h"
+#include <knotwork/SplineAnalysis/AdaptiveSolution.h>
 #include <knotwork/SplineAnalysis/ResultFields.h>
 
 class vtkPolyData;
@@ -16,6 +17,7 @@ struct AnalysisResults
   const GalerkinProblem& Problem;
   const std::vector<ConditionPlace>& Places;
   const GalerkinSolution& Solution;
+  const ErrorEstimate& Estimate;
   const ResultFields& Fields;
 };
 
@@ -24,6 +26,8 @@ std::vector<AnalysisCellField> CellFields(const AnalysisResults& results);
 void EncodeGaussPoints(const AnalysisResults& results, vtkPolyData* output);
 /// A row a condition.
 void EncodeConditions(const AnalysisResults& results, vtkTable* table);
+/// A row a step.
+void EncodeHistory(const std::vector<AdaptiveStep>& history, vtkTable* table);
 /// One row.
 void EncodeNumbers(const AnalysisResults& results, vtkTable* table);
 }

@@ -104,6 +104,118 @@ Result<std::vector<int>> ReadMaterials(
   return status ? Result<std::vector<int>>(std::move(ids)) : Result<std::vector<int>>(status);
 }
 
+/// A stated and solved problem.
+struct SolvedProblem
+{
+  std::vector<ConditionPlace> Places;
+  GalerkinProblem Problem;
+  GalerkinSolution Solution;
+  ErrorEstimate Estimate;
+  std::vector<AdaptiveStep> History;
+};
+
+Result<SolvedProblem> Solve(const ProblemDescription& description, const AnalysisBody& body,
+  vtkDataObject* input, const GalerkinParams& params, const ProgressCallback& progress)
+{
+  SolvedProblem solved;
+  auto problem =
+    MakeProblem(description, body.Space, body.Boundary, CompileWithVtk, &solved.Places);
+  auto materials =
+    problem ? ReadMaterials(description, body, input) : Result<std::vector<int>>(problem.Status);
+  if (!materials)
+  {
+    return materials.Status;
+  }
+  solved.Problem = std::move(problem.Value);
+  solved.Problem.MaterialIds = std::move(materials.Value);
+  auto solution = SolveGalerkin(
+    body.Space, solved.Problem, params, [&](double share) { return progress(0.8 * share); });
+  if (!solution)
+  {
+    return solution.Status;
+  }
+  solved.Solution = std::move(solution.Value);
+  auto estimate = EstimateError(body.Space, solved.Problem, solved.Solution.Coefficients,
+    params.Threads, [&](double share) { return progress(0.8 + 0.2 * share); });
+  if (!estimate)
+  {
+    return estimate.Status;
+  }
+  solved.Estimate = std::move(estimate.Value);
+  AdaptiveStep step;
+  step.Functions = body.Space.NumFunctions();
+  step.Elements = body.Space.NumElements();
+  step.Estimate = solved.Estimate.Total;
+  step.Energy = solved.Solution.Energy;
+  solved.History.push_back(step);
+  return solved;
+}
+
+/// @param body  becomes the refined one.
+template <int Dim>
+Result<SolvedProblem> SolvePatchAdaptively(const ProblemDescription& description,
+  AnalysisBody& body, const AdaptiveParams& params, const ProgressCallback& progress)
+{
+  SplineModel model = body.Model;
+  SplinePatch& patch = model.Patches.front();
+  auto refined = SolveAdaptively<Dim>(
+    std::get<Spline<Dim>>(patch.Geometry),
+    [&](const Spline<Dim>&, const GalerkinSpace& space) -> Result<GalerkinProblem>
+    {
+      auto facets = BoundaryFacets(space);
+      if (!facets)
+      {
+        return facets.Status;
+      }
+      return MakeProblem(description, space, { std::move(facets.Value), {}, {} }, CompileWithVtk);
+    },
+    params, progress);
+  if (!refined)
+  {
+    return refined.Status;
+  }
+  patch.Geometry = refined->Spline;
+  patch.Fields.clear();
+  patch.Cells.clear();
+  model.Topology = {};
+  auto made = MakeBody(std::move(model));
+  if (!made)
+  {
+    return made.Status;
+  }
+  body = std::move(made.Value);
+  SolvedProblem solved;
+  const auto problem =
+    MakeProblem(description, body.Space, body.Boundary, CompileWithVtk, &solved.Places);
+  if (!problem)
+  {
+    return problem.Status;
+  }
+  solved.Problem = std::move(refined->Problem);
+  solved.Solution = std::move(refined->Solution);
+  solved.Estimate = std::move(refined->Estimate);
+  solved.History = std::move(refined->History);
+  return solved;
+}
+
+Result<SolvedProblem> SolveBodyAdaptively(const ProblemDescription& description, AnalysisBody& body,
+  const AdaptiveParams& params, const ProgressCallback& progress)
+{
+  if (body.Model.Patches.size() != 1)
+  {
+    return { ErrorCode::InvalidParameter,
+      "MaxSteps above 1 is for one patch, and the input has " +
+        std::to_string(body.Model.Patches.size()) + "; refine it before, or set it to 1" };
+  }
+  if (!description.MaterialArray.empty())
+  {
+    return { ErrorCode::InvalidParameter,
+      "MaxSteps above 1 is for one material, and the problem has a \"material_array\"" };
+  }
+  return body.Space.Dimension == 2 ? SolvePatchAdaptively<2>(description, body, params, progress)
+                                   : SolvePatchAdaptively<3>(description, body, params, progress);
+}
+
 bool IsEmpty(vtkDataObject* data)
 {
   for (const auto& [block, grid] : GridsByBlock(data))
@@ -119,7 +231,7 @@ bool IsEmpty(vtkDataObject* data)
 
 vtkSplineAnalysis::vtkSplineAnalysis()
 {
-  this->SetNumberOfOutputPorts(4);
+  this->SetNumberOfOutputPorts(5);
 }
 
 vtkSplineAnalysis::~vtkSplineAnalysis()
@@ -192,33 +304,27 @@ Status vtkSplineAnalysis::Compute(vtkInformationVector** inputs, vtkInformationV
   {
     return description.Status;
   }
-  std::vector<ConditionPlace> places;
-  auto problem =
-    MakeProblem(description.Value, body->Space, body->Boundary, CompileWithVtk, &places);
-  if (!problem)
+  AdaptiveParams params;
+  params.Theta = this->Theta;
+  params.Tolerance = this->ErrorTolerance;
+  params.MaxFunctions = this->MaximumFunctions;
+  params.MaxSteps = this->MaxSteps;
+  params.Galerkin.DirectLimit = this->DirectLimit;
+  params.Galerkin.Tolerance = this->Tolerance;
+  params.Galerkin.Threads = this->KernelThreads();
+  const ProgressCallback progress = [whole = this->Progress()](double share)
+  { return whole(0.7 * share); };
+  const auto solved = this->MaxSteps > 1
+    ? SolveBodyAdaptively(description.Value, body.Value, params, progress)
+    : Solve(description.Value, body.Value, input, params.Galerkin, progress);
+  if (!solved)
   {
-    return problem.Status;
-  }
-  auto materials = ReadMaterials(description.Value, body.Value, input);
-  if (!materials)
-  {
-    return materials.Status;
-  }
-  problem->MaterialIds = std::move(materials.Value);
-  GalerkinParams params;
-  params.DirectLimit = this->DirectLimit;
-  params.Tolerance = this->Tolerance;
-  params.Threads = this->KernelThreads();
-  const auto solution = SolveGalerkin(body->Space, problem.Value, params,
-    [progress = this->Progress()](double share) { return progress(0.7 * share); });
-  if (!solution)
-  {
-    return solution.Status;
+    return solved.Status;
   }
   const auto start = std::chrono::steady_clock::now();
-  const auto fields =
-    MakeResultFields(body->Space, problem.Value, body->Boundary.Facets, solution->Coefficients,
-      params, [progress = this->Progress()](double share) { return progress(0.7 + 0.3 * share); });
+  const auto fields = MakeResultFields(body->Space, solved->Problem, body->Boundary.Facets,
+    solved->Solution.Coefficients, params.Galerkin,
+    [whole = this->Progress()](double share) { return whole(0.7 + 0.3 * share); });
   if (!fields)
   {
     return fields.Status;
@@ -227,11 +333,12 @@ Status vtkSplineAnalysis::Compute(vtkInformationVector** inputs, vtkInformationV
     std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   this->Seconds = { solution->SecondsCertificate, solution->SecondsAssembly, solution->SecondsSolve,
     seconds };
-  const AnalysisResults results{ description.Value, body.Value, problem.Value, places,
-    solution.Value, fields.Value };
+  const AnalysisResults results{ description.Value, body.Value, solved->Problem, solved->Places,
+    solved->Solution, solved->Estimate, fields.Value };
   EncodeGaussPoints(results, vtkPolyData::GetData(outputs, 1));
   EncodeConditions(results, vtkTable::GetData(outputs, 2));
   EncodeNumbers(results, vtkTable::GetData(outputs, 3));
+  EncodeHistory(solved->History, vtkTable::GetData(outputs, 4));
   return EncodeBody(body.Value, PointFields(results), CellFields(results), input,
     vtkDataObject::GetData(outputs, 0));
 }

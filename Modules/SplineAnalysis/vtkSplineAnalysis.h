@@ -14,11 +14,13 @@
  *
  * Output 0 is the input with the point arrays `Solution` and `Flux` (Poisson), or `Displacement`,
  * `Stress` (XX YY ZZ XY YZ XZ), `VonMisesStress` and `PrincipalStress`, of which the solution is
- * exact and the others are projected; and with the cell arrays `Energy` and, of elasticity,
- * `LargestVonMises` (at Gauss points). Output 1 has the Gauss points with the same values as
- * computed. Output 2 is a table with a row a condition: Facets or Functions that it chose, their
- * measure and the reaction there. Output 3 is a table of one row: energy, sizes, loads and
- * reactions in total, the residual.
+ * exact and the others are projected; and with the cell arrays `Energy`, `EstimatedError` (in the
+ * norm of energy) and, of elasticity, `LargestVonMises` (at Gauss points). Output 1 has the Gauss
+ * points with the same values as computed. Output 2 is a table with a row a condition: Facets or
+ * Functions that it chose, their measure and the reaction there. Output 3 is a table of one row:
+ * energy, sizes, loads and reactions in total, the residual. Output 4 is a table with a row a
+ * solution, of which there are several when refinement is adaptive: functions, elements, estimated
+ * error, energy, marked elements.
  */
 #ifndef vtkSplineAnalysis_h
 #define vtkSplineAnalysis_h
@@ -98,6 +100,31 @@ public:
   vtkGetMacro(Tolerance, double);
   ///@}
 
+  ///@{
+  /** Solutions at most. From 2 on the elements that the error is largest in are split between them:
+   * for single tensor-product, THB or LR patches. Default 1, valid range [1, 100]. */
+  vtkSetClampMacro(MaxSteps, int, 1, 100);
+  vtkGetMacro(MaxSteps, int);
+  ///@}
+  ///@{
+  /** Estimated error in the norm of energy at which refinement ends. Default 0, valid range >= 0.
+   */
+  vtkSetClampMacro(ErrorTolerance, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(ErrorTolerance, double);
+  ///@}
+  ///@{
+  /** Functions at which refinement ends. Default 100000, valid range >= 1. Kernel default 100000.
+   */
+  vtkSetClampMacro(MaximumFunctions, int, 1, VTK_INT_MAX);
+  vtkGetMacro(MaximumFunctions, int);
+  ///@}
+  ///@{
+  /** Share of the squared error that the elements to be split have at least (Doerfler). Default
+   * 0.5, valid range [0.01, 1]. Advanced. */
+  vtkSetClampMacro(Theta, double, 0.01, 1.0);
+  vtkGetMacro(Theta, double);
+  ///@}
+
   /** Seconds of the last solution, which are in no output: `step` 0 certificate, 1 assembly, 2
    * solution, 3 stresses; 0 for others. */
   double GetSeconds(int step);
@@ -123,6 +150,10 @@ private:
   double PoissonsRatio = 0.3;
   int DirectLimit = 300000;
   double Tolerance = 1e-12;
+  int MaxSteps = 1;
+  double ErrorTolerance = 0.0;
+  int MaximumFunctions = 100000;
+  double Theta = 0.5;
   std::array<double, 4> Seconds{};
 };
 #endif

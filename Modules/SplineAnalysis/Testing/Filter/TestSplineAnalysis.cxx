@@ -353,3 +353,31 @@ TEST(vtkSplineAnalysis, PatchesOfACollectionAreOneBody_ExactOracle)
   EXPECT_NEAR(Number(filter, "LargestValue"), 2.0 * (bounds[1] - bounds[0]), 1e-10);
   EXPECT_EQ(filter->GetOutputDataObject(0)->GetNumberOfElements(vtkDataObject::CELL), 8);
 }
+
+TEST(vtkSplineAnalysis, RefinementIsAdaptive_PropertyOracle)
+{
+  vtkNew<vtkSplineAnalysis> filter;
+  filter->SetInputDataObject(ShapeGrid(vtkSplineSource::L_SHAPE, 2, { 4, 4, 1 }));
+  filter->SetProblem(R"({ "source": 1, "conditions": [ { "on": "boundary", "value": 0 } ] })");
+  filter->Update();
+  const double error = Number(filter, "EstimatedError");
+  filter->SetMaxSteps(6);
+  filter->Update();
+  ASSERT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
+  auto* const history = vtkTable::SafeDownCast(filter->GetOutputDataObject(4));
+  ASSERT_EQ(history->GetNumberOfRows(), 6);
+  EXPECT_EQ(history->GetValueByName(0, "EstimatedError").ToDouble(), error);
+  EXPECT_LT(Number(filter, "EstimatedError"), 0.5 * error);
+  EXPECT_EQ(Body(filter)->GetNumberOfCells(), Number(filter, "Elements"));
+  EXPECT_TRUE(Body(filter)->GetCellData()->GetArray("EstimatedError"));
+  // the sum of squares over the cells is the whole
+  double sum = 0.0;
+  for (vtkIdType cell = 0; cell < Body(filter)->GetNumberOfCells(); ++cell)
+  {
+    sum +=
+      std::pow(Body(filter)->GetCellData()->GetArray("EstimatedError")->GetComponent(cell, 0), 2);
+  }
+  EXPECT_NEAR(std::sqrt(sum), Number(filter, "EstimatedError"), 1e-9 * error);
+  filter->SetInputDataObject(ShapeGrid(vtkSplineSource::DISC, 2, { 2, 2, 1 }));
+  ExpectFailure(filter, ErrorCode::InvalidParameter, "is for one patch");
+}
