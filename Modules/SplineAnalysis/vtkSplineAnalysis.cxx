@@ -331,8 +331,8 @@ Status vtkSplineAnalysis::Compute(vtkInformationVector** inputs, vtkInformationV
   }
   const double seconds =
     std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  this->Seconds = { solution->SecondsCertificate, solution->SecondsAssembly, solution->SecondsSolve,
-    seconds };
+  this->Seconds = { solved->Solution.SecondsCertificate, solved->Solution.SecondsAssembly,
+    solved->Solution.SecondsSolve, seconds };
   const AnalysisResults results{ description.Value, body.Value, solved->Problem, solved->Places,
     solved->Solution, solved->Estimate, fields.Value };
   EncodeGaussPoints(results, vtkPolyData::GetData(outputs, 1));

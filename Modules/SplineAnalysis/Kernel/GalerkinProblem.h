@@ -103,7 +103,7 @@ struct GalerkinSolution
 /// Solves by Galerkin's method. Callables are called from the calling thread alone.
 /// @return SizeMismatch, DimensionMismatch, InvalidParameter, NonFiniteInput: what names a wrong
 /// condition; InvalidTopology with the witness when an element is proved to fold;
-/// SingularSystem that names the rigid motions that are left; NotConverged; Aborted.
+/// SingularSystem that names the rigid motions that are left; TooLarge; NotConverged; Aborted.
 /// @complexity O(elements q (p+1)^(2 Dim)) for q quadrature points, and a sparse factorization.
 /// @source  Hughes, The Finite Element Method, 2000, chapters 1 to 3; Hughes, Cottrell, Bazilevs,
 /// CMAME 194 (2005) 4135-4195.

@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <cstring>
+#include <iterator>
 
 namespace knotwork::testing
 {
@@ -124,5 +126,87 @@ TEST(Assembly, BitsDoNotDependOnThreads_PropertyOracle)
         0);
     }
   }
+}
+
+TEST(LinearSolver, ConjugateGradientsFindWhatTheFactorFinds_CrossOracle)
+{
+  std::vector<AnalysisCase> bodies{ CaseOf<3>("tensor", BentBox<3>(2, 8)),
+    CaseOf<3>("THB", RefineMarkedElements(BentBox<3>(2, 5), { 0, 1 })->Value),
+    CaseOf<3>("unstructured", BentStar<3>(5, 4, 2)), CaseOf<2>("plane", BentBox<2>(3, 20)),
+    LagrangeCase(CellShape::Tetrahedron, 2, 4) };
+  for (const AnalysisCase& body : bodies)
+  {
+    SCOPED_TRACE(body.Name);
+    for (const bool elastic : { false, true })
+    {
+      const int n = body.Space.Dimension;
+      GalerkinProblem problem;
+      if (elastic)
+      {
+        problem.Equation = n == 2 ? GalerkinEquation::PlaneStrain : GalerkinEquation::Solid;
+      }
+      problem.Source = [&](const double*, double* f) { std::fill_n(f, elastic ? n : 1, 1.0); };
+      // a part of the boundary: of a THB space a whole side, where its traces are independent
+      std::vector<CellSide> held(body.Boundary.begin(),
+        body.Boundary.begin() + static_cast<std::ptrdiff_t>(body.Boundary.size() / 3));
+      if (body.Name == "THB")
+      {
+        held.clear();
+        std::copy_if(body.Boundary.begin(), body.Boundary.end(), std::back_inserter(held),
+          [](const CellSide& facet) { return facet.Side == 0; });
+      }
+      problem.Prescribed.push_back({ held, -1, {} });
+      GalerkinParams params;
+      const auto factorized = SolveGalerkin(body.Space, problem, params);
+      ASSERT_TRUE(factorized) << factorized.Status.Message();
+      EXPECT_EQ(factorized->Preconditioner, "");
+      params.DirectLimit = 0;
+      params.Threads = 1;
+      const auto iterated = SolveGalerkin(body.Space, problem, params);
+      ASSERT_TRUE(iterated) << iterated.Status.Message();
+      EXPECT_EQ(iterated->Preconditioner,
+        body.Space.Knots.empty() ? "Gauss-Seidel and constants of cells" : "fast diagonalization");
+      // residual 1e-12 times the condition of the matrix
+      EXPECT_LE((iterated->Coefficients - factorized->Coefficients).cwiseAbs().maxCoeff(),
+        1e-8 * factorized->Coefficients.cwiseAbs().maxCoeff());
+      for (const int threads : { 2, 3 })
+      {
+        params.Threads = threads;
+        const auto more = SolveGalerkin(body.Space, problem, params);
+        EXPECT_EQ(std::memcmp(iterated->Coefficients.data(), more->Coefficients.data(),
+                    static_cast<std::size_t>(iterated->Coefficients.size()) * sizeof(double)),
+          0);
+      }
+      std::printf("[ iterate  ] %-30s %s %5d unknowns, %3d iterations\n", body.Name.c_str(),
+        elastic ? "elasticity" : "Poisson   ", iterated->Unknowns, iterated->Iterations);
+    }
+  }
+}
+
+// The spectrum of what fast diagonalization leaves depends on the map, not on the mesh: Sangalli,
+// Tani, SIAM J. Sci. Comput. 38 (2016), section 4.
+TEST(LinearSolver, FastDiagonalizationDoesNotDependOnTheMesh_PropertyOracle)
+{
+  std::vector<int> iterations;
+  for (const double size : { 0.0, 0.1 })
+  {
+    for (const int n : { 8, 16 })
+    {
+      const AnalysisCase body = CaseOf<3>("box", BentBox<3>(2, n, size));
+      GalerkinProblem problem;
+      problem.Source = [](const double*, double* f) { f[0] = 1.0; };
+      problem.Prescribed.push_back({ body.Boundary, -1, {} });
+      GalerkinParams params;
+      params.DirectLimit = 0;
+      params.Tolerance = 1e-10;
+      const auto solution = SolveGalerkin(body.Space, problem, params);
+      ASSERT_TRUE(solution) << solution.Status.Message();
+      EXPECT_LE(solution->Residual, 1.1e-10);
+      iterations.push_back(solution->Iterations);
+    }
+  }
+  EXPECT_EQ(iterations[0], 1); // the matrix itself
+  EXPECT_EQ(iterations[1], 1);
+  EXPECT_LE(std::abs(iterations[2] - iterations[3]), 2);
 }
 }
