@@ -29,12 +29,18 @@ Result<ScalarFunction> CompileWithVtk(const std::string& text)
   vtkNew<vtkCallbackCommand> quiet;
   quiet->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
   parser->AddObserver(vtkCommand::ErrorEvent, quiet);
-  for (const char* name : { "x", "y", "z", "nx", "ny", "nz" })
-  {
-    parser->SetScalarVariableValue(name, 0.5);
-  }
   parser->SetFunction(text.c_str());
-  if (!parser->IsScalarResult())
+  // one that is a number somewhere will do: sqrt(-x) is none at many places
+  bool isNumber = false;
+  for (const double at : { 0.5, -0.7, 2.0 })
+  {
+    for (const char* name : { "x", "y", "z", "nx", "ny", "nz" })
+    {
+      parser->SetScalarVariableValue(name, at);
+    }
+    isNumber = isNumber || parser->IsScalarResult();
+  }
+  if (!isNumber)
   {
     return { ErrorCode::InvalidParameter,
       "\"" + text + "\" is no expression of a number in x, y, z and, of loads, nx, ny, nz" };

@@ -76,14 +76,14 @@ public:
   vtkGetMacro(Conductivity, double);
   ///@}
   ///@{
-  /** Young's modulus of what the problem gives no material. Default 1, valid range [1e-100,
-   * 1e100]. */
+  /** Elastic modulus (Young's) of what the problem gives no material. Default 1, valid range
+   * [1e-100, 1e100]. */
   vtkSetClampMacro(YoungsModulus, double, 1e-100, 1e100);
   vtkGetMacro(YoungsModulus, double);
   ///@}
   ///@{
-  /** Poisson's ratio of what the problem gives no material. Default 0.3, valid range [-0.99,
-   * 0.4999]. */
+  /** Lateral contraction (Poisson's ratio) of what the problem gives no material. Default 0.3,
+   * valid range [-0.99, 0.4999]. */
   vtkSetClampMacro(PoissonsRatio, double, -0.99, 0.4999);
   vtkGetMacro(PoissonsRatio, double);
   ///@}

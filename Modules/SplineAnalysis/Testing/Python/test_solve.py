@@ -9,7 +9,7 @@ from knotwork_testing import Files
 import knotwork
 
 FILES = Files("solve", 300)
-INNER, OUTER = 1.0, 2.0  # of the source's ring
+INNER, OUTER = 0.5, 1.0  # of the source's ring
 
 
 def cylinder():
