@@ -84,7 +84,7 @@ def number(analysis, name):
 
 def main():
     folder = scene.output_folder()
-    plate = solved(source("QuarterPlateWithHole", 2, 12), knotwork.vtkSplineAnalysis.ELASTICITY, PLATE)
+    plate = solved(source("QuarterPlateWithHole", 2, 12, InnerRadius=0.1), knotwork.vtkSplineAnalysis.ELASTICITY, PLATE)
     grid = plate.GetOutputDataObject(0)
     item, bar = coloured(grid, "VonMisesStress", 300, "MPa")
     title = f"plate drawn with 100 MPa: up to {number(plate, 'LargestVonMises'):.0f} MPa, imbalance {number(plate, 'Imbalance'):.0e}"

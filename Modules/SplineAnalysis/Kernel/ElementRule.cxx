@@ -231,7 +231,7 @@ void Finish(const double* rows, int stride,
 }
 
 template <int Dim>
-void FinishAll(const GalerkinSpace& space, int element, const ElementFunctions& functions,
+void FinishAll(const GalerkinSpace& space, int element, const QuadratureFunctions& functions,
   const PointVisitor& visit)
 {
   Eigen::Matrix<double, Eigen::Dynamic, Dim> points(functions.NumFunctions, Dim);
@@ -248,7 +248,7 @@ void FinishAll(const GalerkinSpace& space, int element, const ElementFunctions& 
   }
 }
 
-void VisitPoints(const GalerkinSpace& space, int element, const ElementFunctions& functions,
+void VisitPoints(const GalerkinSpace& space, int element, const QuadratureFunctions& functions,
   const PointVisitor& visit)
 {
   space.Dimension == 2 ? FinishAll<2>(space, element, functions, visit)
@@ -334,12 +334,12 @@ void RuleTables::Prepare(const GalerkinSpace& space)
   }
 }
 
-ElementFunctions RuleTables::Functions(
+QuadratureFunctions RuleTables::Functions(
   const GalerkinSpace& space, int element, std::vector<double>& memory) const
 {
   const auto e = static_cast<std::size_t>(element);
   const Table& table = this->Tables[static_cast<std::size_t>(this->TableOf[e])];
-  ElementFunctions functions;
+  QuadratureFunctions functions;
   functions.NumPoints = static_cast<int>(table.Rule.Points.size());
   functions.NumFunctions = space.NumAlive(element);
   functions.Stride = StrideOf(functions.NumFunctions);
@@ -375,7 +375,7 @@ void RuleTables::Visit(const GalerkinSpace& space, int element, const PointVisit
   {
     this->Prepare(space);
   }
-  const ElementFunctions functions = this->Functions(space, element, this->Memory);
+  const QuadratureFunctions functions = this->Functions(space, element, this->Memory);
   this->Weights = functions.Weights;
   this->NumPoints = functions.NumPoints;
   VisitPoints(space, element, functions, visit);

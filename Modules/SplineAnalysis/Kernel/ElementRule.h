@@ -60,7 +60,7 @@ void EvaluateFunctions(
 using PointVisitor = std::function<void(std::size_t point, const PointValues& values)>;
 
 /// Functions of an element at the points of its rule, and their derivatives by the parameters.
-struct ElementFunctions
+struct QuadratureFunctions
 {
   int NumPoints = 0;
   int NumFunctions = 0; ///< alive
@@ -86,7 +86,7 @@ public:
   void Prepare(const GalerkinSpace& space);
   /// May be called by several threads at a time. @param memory  for the rows, where they are not
   /// shared. @pre  Prepare(space).
-  ElementFunctions Functions(
+  QuadratureFunctions Functions(
     const GalerkinSpace& space, int element, std::vector<double>& memory) const;
   /// Calls for every point of the element's rule. Prepares when the space is another one.
   void Visit(const GalerkinSpace& space, int element, const PointVisitor& visit);
@@ -97,7 +97,7 @@ private:
   struct Table
   {
     CellRule Rule;
-    PointMatrix Bernstein; ///< rows as those of ElementFunctions
+    PointMatrix Bernstein; ///< rows as those of QuadratureFunctions
   };
   double Tolerance;
   int ExtraPoints;

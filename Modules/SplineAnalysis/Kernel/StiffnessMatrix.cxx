@@ -263,7 +263,7 @@ private:
   const GalerkinSpace& Space;
   const GalerkinProblem& Problem;
   const RuleTables& Tables;
-  ElementFunctions Current;
+  QuadratureFunctions Current;
   int Size = 0; ///< of the Gram matrix
   std::vector<int> Order;
   std::vector<double> Memory, Points, Gradients, Gram;
