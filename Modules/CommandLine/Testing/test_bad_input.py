@@ -67,6 +67,7 @@ def test_every_input_refuses_what_it_does_not_take():
              "quads": ["mesh.off", "cloud.xyz", "target.vtp", "square.vtu"], "values": ["mesh.off", "target.vtp", "square.vtu"],
              "edges": ["mesh.off", "cloud.xyz", "square.vtu", "target.vtp"],
              "volume": ["mesh.off", "cloud.xyz", "target.vtp", "square.vtu"],
+             "problem": ["mesh.off", "square.vtu"],
              "box": ["mesh.off", "cloud.xyz", "target.vtp", "square.vtu"],
              "part": ["square.step", "square.iges", "mesh.off", "cloud.xyz", "square.vtu"]}
     anything = ("convert", "info")  # of any kind
@@ -125,7 +126,8 @@ def test_every_spline_job_refuses_every_damage():
 
 
 def test_what_is_kept_beside_the_points_may_be_lost():
-    not_of_its_kind = ("combine", "crop", "extract", "map", "stitch")  # rational hierarchical splines
+    # rational hierarchical splines; sides that were known, and areas above the smallest numbers
+    not_of_its_kind = ("combine", "crop", "extract", "map", "stitch", "solve")
 
     def take(name, arguments, file):
         status, text = outcome(on(arguments, file))

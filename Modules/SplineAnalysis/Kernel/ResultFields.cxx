@@ -15,6 +15,9 @@ namespace knotwork
 {
 namespace
 {
+/// Of quadrature on rational elements: what is drawn needs no more, and every point is a row.
+constexpr double FieldTolerance = 1e-6;
+
 /// The row of GaussValues of a gradient.
 Eigen::RowVectorXd ResultRow(
   const GalerkinProblem& problem, int element, const Eigen::MatrixXd& gradient)
@@ -123,7 +126,7 @@ Result<ResultFields> MakeResultFields(const GalerkinSpace& space, const Galerkin
     return status;
   }
   Eigen::MatrixXd sides = Eigen::MatrixXd::Zero(space.NumFunctions(), columns);
-  RuleTables tables(params.QuadratureTolerance);
+  RuleTables tables(std::max(params.QuadratureTolerance, FieldTolerance));
   Eigen::MatrixXd gradient(coefficients.cols(), space.Dimension);
   Eigen::RowVectorXd value(coefficients.cols());
   double largest = 0.0; // squared

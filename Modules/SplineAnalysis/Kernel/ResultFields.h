@@ -4,8 +4,9 @@
 
 namespace knotwork
 {
-/// What follows from a solution. Fluxes and stresses are those at Gauss points, and for drawing
-/// projected onto the functions (least squares), which smooths them.
+/// What follows from a solution. Fluxes and stresses are those at Gauss points, fewer than the
+/// matrix is made with on rational elements, and for drawing projected onto the functions (least
+/// squares), which smooths them.
 struct ResultFields
 {
   /// A row a point: k grad u (Poisson), or the stress XX YY ZZ XY YZ XZ, von Mises' stress and the
