@@ -21,7 +21,8 @@ public:
       "planar spline surfaces or volumes (.vtu .vtpc .xml .g2 .bext), or elements (.vtu .msh .inp "
       ".mesh)");
     this->AddFile("problem", "materials, source and conditions (.json)");
-    this->AddOutput(0, "--output", Endings::Spline, "the body with the solution");
+    // other formats would lose the solution
+    this->AddOutput(0, "--output", ".vtu|.vtpc", "the body with the solution");
     this->AddOutput(
       1, "--gauss-points", Endings::Polygons, "fluxes or stresses where they are computed");
     this->AddOutput(

@@ -314,12 +314,19 @@ Status vtkSplineAnalysis::Compute(vtkInformationVector** inputs, vtkInformationV
   params.Galerkin.Threads = this->KernelThreads();
   const ProgressCallback progress = [whole = this->Progress()](double share)
   { return whole(0.7 * share); };
+  const bool losesArrays =
+    body->Model.Patches.size() == 1 && !body->Model.Patches.front().Fields.empty();
   const auto solved = this->MaxSteps > 1
     ? SolveBodyAdaptively(description.Value, body.Value, params, progress)
     : Solve(description.Value, body.Value, input, params.Galerkin, progress);
   if (!solved)
   {
     return solved.Status;
+  }
+  if (this->MaxSteps > 1 && losesArrays)
+  {
+    this->ReportWarnings({ "point arrays of the input are not carried to the refined patch; "
+                           "solve with MaxSteps 1 to keep them" });
   }
   const auto start = std::chrono::steady_clock::now();
   const auto fields = MakeResultFields(body->Space, solved->Problem, body->Boundary.Facets,

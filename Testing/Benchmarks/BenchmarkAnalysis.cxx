@@ -107,4 +107,49 @@ BENCHMARK(AnalysisAssemblyAllThreads)
   ->DenseRange(0, 7)
   ->DenseRange(10, 17);
 }
+
+/// Poisson's equation on a bent cube of degree 2 with (elements + 2)^3 functions, all threads: the
+/// whole solution, and its parts as counters in seconds.
+void AnalysisLargeSystem(benchmark::State& state)
+{
+  GalerkinSpace space = MakeGalerkinSpace(BentBox<3>(2, static_cast<int>(state.range(0)))).Value;
+  const bool isTensor = state.range(1) == 0;
+  state.SetLabel(isTensor ? "fast diagonalization" : "Gauss-Seidel and constants of cells");
+  if (!isTensor)
+  {
+    space.Knots = {};
+  }
+  GalerkinProblem problem;
+  problem.Source = [](const double* x, double* f) { f[0] = x[0] + 1.0; };
+  problem.Prescribed.push_back({ BoundaryFacets(space).Value, -1, {} });
+  GalerkinParams params;
+  params.DirectLimit = 0;
+  params.Tolerance = 1e-10;
+  GalerkinSolution solution;
+  for (auto _ : state)
+  {
+    auto solved = SolveGalerkin(space, problem, params);
+    if (!solved)
+    {
+      state.SkipWithError(solved.Status.Message().c_str());
+      return;
+    }
+    solution = std::move(solved.Value);
+  }
+  state.counters["functions"] = space.NumFunctions();
+  state.counters["iterations"] = solution.Iterations;
+  state.counters["certificate"] = solution.SecondsCertificate;
+  state.counters["assembly"] = solution.SecondsAssembly;
+  state.counters["solution"] = solution.SecondsSolve;
+}
+BENCHMARK(AnalysisLargeSystem)
+  ->MeasureProcessCPUTime()
+  ->UseRealTime()
+  ->Iterations(1)
+  ->Unit(benchmark::kSecond)
+  ->ArgNames({ "elements", "way" })
+  ->Args({ 38, 0 })
+  ->Args({ 38, 1 })
+  ->Args({ 98, 0 })
+  ->Args({ 98, 1 });
 }

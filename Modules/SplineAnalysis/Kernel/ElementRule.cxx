@@ -83,6 +83,13 @@ FacetFrame MakeFacetFrame(CellShape shape, int side)
   return frame;
 }
 
+CellShape FacetShape(CellShape shape)
+{
+  return NumParameters(shape) == 2    ? CellShape::Curve
+    : shape == CellShape::Tetrahedron ? CellShape::Triangle
+                                      : CellShape::Quadrilateral;
+}
+
 CellRule MakeCellRule(CellShape shape, int points)
 {
   const QuadratureRule line = GaussLegendre(points);
@@ -121,10 +128,7 @@ CellRule MakeCellRule(CellShape shape, int points)
 CellRule MakeFacetRule(CellShape shape, int side, int points)
 {
   const FacetFrame frame = MakeFacetFrame(shape, side);
-  const CellShape facet = NumParameters(shape) == 2 ? CellShape::Curve
-    : shape == CellShape::Tetrahedron               ? CellShape::Triangle
-                                                    : CellShape::Quadrilateral;
-  CellRule rule = MakeCellRule(facet, points);
+  CellRule rule = MakeCellRule(FacetShape(shape), points);
   for (std::array<double, 3>& point : rule.Points)
   {
     point = frame.Point({ point[0], point[1] });

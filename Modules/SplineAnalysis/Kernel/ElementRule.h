@@ -26,6 +26,8 @@ struct FacetFrame
   }
 };
 FacetFrame MakeFacetFrame(CellShape shape, int side);
+/// Of the sides of an element: all have one.
+CellShape FacetShape(CellShape shape);
 
 /// Points (rows of 3, unused ones 0) and weights in the parameters of a shape.
 struct CellRule

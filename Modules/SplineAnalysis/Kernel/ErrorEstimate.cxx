@@ -36,13 +36,6 @@ std::size_t At(int element)
   return static_cast<std::size_t>(element);
 }
 
-CellShape FacetShape(CellShape shape)
-{
-  return NumParameters(shape) == 2    ? CellShape::Curve
-    : shape == CellShape::Tetrahedron ? CellShape::Triangle
-                                      : CellShape::Quadrilateral;
-}
-
 /// Gauss points a direction.
 int NumPoints(const CellDegree& degree)
 {
