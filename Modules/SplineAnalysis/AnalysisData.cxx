@@ -320,7 +320,7 @@ Result<AnalysisBody> MakeBody(vtkUnstructuredGrid* grid)
       }
       functions.push_back(number);
     }
-    builder.Add(shape, degree, 0, 0, {}, functions, matrix);
+    builder.Add(shape, degree, 0, 0, {}, functions, builder.Keep(matrix));
   }
   body.Space.Points.resize(static_cast<Eigen::Index>(body.Points.size()), dimension);
   for (std::size_t i = 0; i < body.Points.size(); ++i)

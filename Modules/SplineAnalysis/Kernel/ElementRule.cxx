@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ElementRule.h"
 
+#include "ElementGeometry.h"
+
 #include <knotwork/JacobianValidation/CellPieces.h>
 #include <knotwork/SplineCore/Quadrature.h>
 
@@ -215,39 +217,25 @@ void MakeRational(const GalerkinSpace& space, int element, Eigen::Ref<PointMatri
   }
 }
 
-/// What follows at a point. @param rows  its value and derivatives. @param points  of the
-/// functions.
-template <int Dim>
-void Finish(const double* rows, int stride,
-  const Eigen::Matrix<double, Eigen::Dynamic, Dim>& points, PointValues& values)
-{
-  const Eigen::Map<const PointMatrix, 0, Eigen::OuterStride<>> local(
-    rows, Dim + 1, points.rows(), Eigen::OuterStride<>(stride));
-  values.Values = local.row(0).transpose();
-  values.Position = (local.row(0) * points).transpose();
-  // entry (component, parameter)
-  const Eigen::Matrix<double, Dim, Dim> jacobian =
-    (local.template bottomRows<Dim>() * points).transpose();
-  const Eigen::Matrix<double, Dim, Dim> inverse = jacobian.inverse();
-  values.Determinant = jacobian.determinant();
-  values.Inverse = inverse;
-  values.Gradients.noalias() = local.template bottomRows<Dim>().transpose() * inverse;
-}
-
 template <int Dim>
 void FinishAll(const GalerkinSpace& space, int element, const QuadratureFunctions& functions,
   const PointVisitor& visit)
 {
-  Eigen::Matrix<double, Eigen::Dynamic, Dim> points(functions.NumFunctions, Dim);
-  for (int a = 0; a < functions.NumFunctions; ++a)
-  {
-    points.row(a) = space.Points.row(space.Alive(element)[a]);
-  }
+  ElementGeometry<Dim> geometry;
+  geometry.Take(space, element, functions.Stride);
   PointValues values;
   for (int q = 0; q < functions.NumPoints; ++q)
   {
-    const std::ptrdiff_t first = std::ptrdiff_t{ q } * (Dim + 1) * functions.Stride;
-    Finish<Dim>(functions.Rows + first, functions.Stride, points, values);
+    const double* rows = functions.Rows + std::ptrdiff_t{ q } * (Dim + 1) * functions.Stride;
+    const Eigen::Map<const PointMatrix, 0, Eigen::OuterStride<>> local(
+      rows, Dim + 1, functions.NumFunctions, Eigen::OuterStride<>(functions.Stride));
+    const Eigen::Matrix<double, Dim, Dim> jacobian = geometry.Jacobian(rows + functions.Stride);
+    const Eigen::Matrix<double, Dim, Dim> inverse = jacobian.inverse();
+    values.Values = local.row(0).transpose();
+    values.Position = geometry.Position(rows);
+    values.Determinant = jacobian.determinant();
+    values.Inverse = inverse;
+    values.Gradients = local.template bottomRows<Dim>().transpose().lazyProduct(inverse);
     visit(static_cast<std::size_t>(q), values);
   }
 }

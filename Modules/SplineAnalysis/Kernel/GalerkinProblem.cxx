@@ -6,11 +6,15 @@
 #include "ElementRule.h"
 #include "LinearSolver.h"
 #include "RigidMotions.h"
+#include "SourceMoments.h"
 #include "StiffnessMatrix.h"
 #include <knotwork/JacobianValidation/JacobianCertificate.h>
+#include <knotwork/SplineCore/Parallel.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 namespace knotwork
 {
@@ -207,15 +211,9 @@ Result<Eigen::VectorXd> AssembleLoads(
         weight * at.Values[a] * given;
     }
   };
-  RuleTables tables(params.QuadratureTolerance);
-  for (int e = 0; e < space.NumElements() && problem.Source; ++e)
+  if (problem.Source)
   {
-    tables.Visit(space, e,
-      [&](std::size_t q, const PointValues& at)
-      {
-        problem.Source(at.Position.data(), given.data());
-        add(e, tables.Weights[q] * std::abs(at.Determinant), at);
-      });
+    AddMoments(space, components, problem.Source, params, right);
   }
   for (const FacetLoad& load : problem.Loads)
   {
@@ -247,32 +245,43 @@ Result<Eigen::VectorXd> AssembleLoads(
 }
 
 /// The equations of the coefficients that are not given: lower triangle.
-Eigen::SparseMatrix<double> FreeEquations(
-  const Eigen::SparseMatrix<double>& matrix, const std::vector<int>& numbers, int count)
+Eigen::SparseMatrix<double> FreeEquations(const Eigen::SparseMatrix<double>& matrix,
+  const std::vector<int>& numbers, int count, int threads)
 {
-  Eigen::SparseMatrix<double> free(count, count);
-  std::vector<Eigen::Index> sizes(static_cast<std::size_t>(count), 0);
-  for (Eigen::Index column = 0; column < matrix.cols(); ++column)
+  constexpr std::size_t Chunk = 4096;
+  const auto forColumns = [&](const auto& visit)
   {
-    const int to = numbers[static_cast<std::size_t>(column)];
-    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, column); it && to >= 0; ++it)
-    {
-      sizes[static_cast<std::size_t>(to)] += numbers[static_cast<std::size_t>(it.row())] >= 0;
-    }
-  }
-  free.reserve(sizes);
-  for (Eigen::Index column = 0; column < matrix.cols(); ++column)
-  {
-    const int to = numbers[static_cast<std::size_t>(column)];
-    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, column); it && to >= 0; ++it)
-    {
-      if (const int row = numbers[static_cast<std::size_t>(it.row())]; row >= 0)
+    ParallelFor(numbers.size(), Chunk, threads,
+      [&](std::size_t begin, std::size_t end)
       {
-        free.insert(row, to) = it.value();
-      }
-    }
-  }
-  free.makeCompressed();
+        for (std::size_t column = begin; column < end; ++column)
+        {
+          for (Eigen::SparseMatrix<double>::InnerIterator it(
+                 matrix, static_cast<Eigen::Index>(column));
+               it && numbers[column] >= 0; ++it)
+          {
+            if (const int row = numbers[static_cast<std::size_t>(it.row())]; row >= 0)
+            {
+              visit(numbers[column], row, it.value());
+            }
+          }
+        }
+      });
+  };
+  Eigen::SparseMatrix<double> free(count, count);
+  int* outer = free.outerIndexPtr();
+  std::fill_n(outer, count + 1, 0);
+  forColumns([&](int column, int, double) { ++outer[column + 1]; });
+  std::partial_sum(outer, outer + count + 1, outer);
+  free.resizeNonZeros(outer[count]);
+  std::vector<int> next(outer, outer + count);
+  forColumns(
+    [&](int column, int row, double value)
+    {
+      const int place = next[static_cast<std::size_t>(column)]++;
+      free.innerIndexPtr()[place] = row;
+      free.valuePtr()[place] = value;
+    });
   return free;
 }
 }
@@ -338,7 +347,7 @@ Result<GalerkinSolution> SolveGalerkin(const GalerkinSpace& space, const Galerki
       }
     }
     const double scale = sides.norm();
-    const auto free = FreeEquations(matrix.Value, numbers, solution.Unknowns);
+    const auto free = FreeEquations(matrix.Value, numbers, solution.Unknowns, params.Threads);
     const Eigen::MatrixXd before = sides;
     LinearSolverReport report;
     if (const Status status = SolveUnknowns(

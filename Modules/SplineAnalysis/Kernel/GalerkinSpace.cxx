@@ -24,16 +24,54 @@ unsigned InnerSidesOf(const SplineSpace<Dim>& space, int element)
   return inner;
 }
 
+/// Where the operators of a patch's elements are kept. Those of elements whose local functions are
+/// the alive ones, in their order, follow from the factors of the directions, which the space keeps
+/// once: they are made once.
+template <int Dim>
+class OperatorPlaces
+{
+public:
+  OperatorPlaces(const SplineSpace<Dim>& space, GalerkinSpaceBuilder& builder)
+    : Space(space), Builder(builder)
+  {
+  }
+
+  std::size_t At(int element, const std::vector<int>& alive)
+  {
+    const IntArray<Dim>& degree = this->Space.Elements[static_cast<std::size_t>(element)].Degree;
+    const int* local = this->Space.LocalFunctions(element);
+    if (!this->Space.IsIdentityMap() ||
+      !std::equal(alive.begin(), alive.end(), local, local + NumTensorFunctions<Dim>(degree)))
+    {
+      return this->Builder.Keep(this->Space.ExtractionOperator(element));
+    }
+    const Factors factors{ degree, this->Space.Factors(element) };
+    const auto known = this->Known.find(factors);
+    return known != this->Known.end()
+      ? known->second
+      : this->Known.emplace(factors, this->Builder.Keep(this->Space.ExtractionOperator(element)))
+          .first->second;
+  }
+
+private:
+  using Factors = std::pair<IntArray<Dim>, std::array<const double*, Dim>>;
+  const SplineSpace<Dim>& Space;
+  GalerkinSpaceBuilder& Builder;
+  std::map<Factors, std::size_t> Known;
+};
+
 template <int Dim>
 void AddPatch(const Spline<Dim>& spline, int patch, const std::vector<int>& numbers,
   GalerkinSpace& space, GalerkinSpaceBuilder& builder)
 {
+  OperatorPlaces<Dim> places(*spline.Space, builder);
   for (int e = 0; e < spline.Space->NumElements(); ++e)
   {
     const IntArray<Dim>& p = spline.Space->Elements[static_cast<std::size_t>(e)].Degree;
     CellDegree degree{};
     std::copy(p.begin(), p.end(), degree.begin());
     std::vector<int> functions = spline.Space->AliveFunctions(e);
+    const std::size_t place = places.At(e, functions);
     for (int& f : functions)
     {
       f = numbers[static_cast<std::size_t>(f)];
@@ -46,7 +84,7 @@ void AddPatch(const Spline<Dim>& spline, int patch, const std::vector<int>& numb
       std::copy(own.Upper.begin(), own.Upper.end(), box.Upper.begin());
     }
     builder.Add(Dim == 2 ? CellShape::Quadrilateral : CellShape::Hexahedron, degree, patch,
-      InnerSidesOf(*spline.Space, e), box, functions, spline.Space->ExtractionOperator(e));
+      InnerSidesOf(*spline.Space, e), box, functions, place);
   }
   for (int f = 0; f < spline.Space->NumFunctions; ++f)
   {
@@ -138,17 +176,8 @@ Status Unite(const MultiPatch<Dim>& patches, const PatchInterface& interface,
 }
 }
 
-void GalerkinSpaceBuilder::Add(CellShape shape, const CellDegree& degree, int patch,
-  unsigned innerSides, const ParametricBox<3>& box, const std::vector<int>& functions,
-  const PointMatrix& matrix)
+std::size_t GalerkinSpaceBuilder::Keep(const PointMatrix& matrix)
 {
-  this->Space.Shapes.push_back(shape);
-  this->Space.Degrees.push_back(degree);
-  this->Space.Patches.push_back(patch);
-  this->Space.InnerSides.push_back(innerSides);
-  this->Space.Boxes.push_back(box);
-  this->Space.Functions.insert(this->Space.Functions.end(), functions.begin(), functions.end());
-  this->Space.FirstFunction.push_back(this->Space.Functions.size());
   const auto size = static_cast<std::size_t>(matrix.size());
   const std::string key(reinterpret_cast<const char*>(matrix.data()), size * sizeof(double));
   const auto place = this->Known.emplace(key, this->Space.OperatorData.size());
@@ -157,7 +186,21 @@ void GalerkinSpaceBuilder::Add(CellShape shape, const CellDegree& degree, int pa
     this->Space.OperatorData.insert(
       this->Space.OperatorData.end(), matrix.data(), matrix.data() + size);
   }
-  this->Space.Operators.push_back(place.first->second);
+  return place.first->second;
+}
+
+void GalerkinSpaceBuilder::Add(CellShape shape, const CellDegree& degree, int patch,
+  unsigned innerSides, const ParametricBox<3>& box, const std::vector<int>& functions,
+  std::size_t place)
+{
+  this->Space.Shapes.push_back(shape);
+  this->Space.Degrees.push_back(degree);
+  this->Space.Patches.push_back(patch);
+  this->Space.InnerSides.push_back(innerSides);
+  this->Space.Boxes.push_back(box);
+  this->Space.Functions.insert(this->Space.Functions.end(), functions.begin(), functions.end());
+  this->Space.FirstFunction.push_back(this->Space.Functions.size());
+  this->Space.Operators.push_back(place);
 }
 
 template <int Dim>
@@ -290,7 +333,7 @@ Result<GalerkinSpace> MakeGalerkinSpace(const LagrangeMesh& mesh)
                  .cast<double>()
                  .transpose();
     }
-    builder.Add(shape, degree, 0, 0, {}, nodes, matrix);
+    builder.Add(shape, degree, 0, 0, {}, nodes, builder.Keep(matrix));
   }
   return space;
 }

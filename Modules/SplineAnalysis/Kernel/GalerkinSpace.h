@@ -66,10 +66,12 @@ class GalerkinSpaceBuilder
 {
 public:
   explicit GalerkinSpaceBuilder(GalerkinSpace& space) : Space(space) {}
-  /// @param innerSides  as GalerkinSpace::InnerSides. @param functions  alive ones. @param matrix
-  /// the element's operator, a row a function.
+  /// @param matrix  an element's operator, a row a function. @return its place in OperatorData.
+  std::size_t Keep(const PointMatrix& matrix);
+  /// @param innerSides  as GalerkinSpace::InnerSides. @param functions  alive ones. @param place of
+  /// the element's operator.
   void Add(CellShape shape, const CellDegree& degree, int patch, unsigned innerSides,
-    const ParametricBox<3>& box, const std::vector<int>& functions, const PointMatrix& matrix);
+    const ParametricBox<3>& box, const std::vector<int>& functions, std::size_t place);
 
 private:
   GalerkinSpace& Space;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "StiffnessMatrix.h"
 
-#include "ElementRule.h"
+#include "ElementGeometry.h"
 #include <knotwork/SplineCore/Parallel.h>
 
 #include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <numeric>
+#include <tuple>
 
 namespace knotwork
 {
@@ -18,32 +18,6 @@ namespace
 {
 /// Parts that the columns are dealt to, so that threads add to different ones.
 constexpr unsigned NumLanes = 8;
-
-/// Two neighbours of a row: what every 64-bit processor has registers for.
-typedef double Two __attribute__((vector_size(16)));
-void Load(Two& two, const double* from)
-{
-  std::memcpy(&two, from, sizeof(Two));
-}
-
-/// @param count  a multiple of 4.
-double Dot(const double* a, const double* b, int count)
-{
-  Two sums[2] = {};
-  for (int i = 0; i < count; i += 4)
-  {
-    for (int k = 0; k < 2; ++k)
-    {
-      Two left;
-      Two right;
-      Load(left, a + i + 2 * k);
-      Load(right, b + i + 2 * k);
-      sums[k] += left * right;
-    }
-  }
-  const Two sum = sums[0] + sums[1];
-  return sum[0] + sum[1];
-}
 
 /// The lower triangle of A^T A, or adds it to that of the matrix; what is above the diagonal is not
 /// defined. Squares of 4 x 4 entries are summed in registers.
@@ -162,18 +136,9 @@ private:
   {
     constexpr int Block = 32; // points at a time, as many as the nearest cache holds
     const int stride = this->Current.Stride;
-    const auto width = static_cast<std::size_t>(stride);
-    this->Points.assign(Dim * width, 0.0);
-    for (int a = 0; a < this->Current.NumFunctions; ++a)
-    {
-      const int f = this->Space.Alive(element)[a];
-      for (int c = 0; c < Dim; ++c)
-      {
-        this->Points[static_cast<std::size_t>(c) * width + static_cast<std::size_t>(a)] =
-          this->Space.Points(f, c);
-      }
-    }
-    this->Gradients.resize(Block * Dim * width);
+    ElementGeometry<Dim>& geometry = std::get<ElementGeometry<Dim>>(this->Geometry);
+    geometry.Take(this->Space, element, stride);
+    this->Gradients.resize(Block * Dim * static_cast<std::size_t>(stride));
     this->Gram.resize(static_cast<std::size_t>(this->Size) * static_cast<std::size_t>(this->Size));
     for (int first = 0; first < this->Current.NumPoints; first += Block)
     {
@@ -182,15 +147,7 @@ private:
       for (int q = first; q < first + count; ++q)
       {
         const double* slopes = this->Current.Rows + (std::ptrdiff_t{ q } * (Dim + 1) + 1) * stride;
-        Eigen::Matrix<double, Dim, Dim> jacobian; // entry (component, parameter)
-        for (int c = 0; c < Dim; ++c)
-        {
-          for (int k = 0; k < Dim; ++k)
-          {
-            jacobian(c, k) =
-              Dot(this->Points.data() + std::ptrdiff_t{ c } * stride, slopes + k * stride, stride);
-          }
-        }
+        const Eigen::Matrix<double, Dim, Dim> jacobian = geometry.Jacobian(slopes);
         const double volume = this->Current.Weights[q] * std::abs(jacobian.determinant());
         const Eigen::Matrix<double, Dim, Dim> inverse = std::sqrt(volume) * jacobian.inverse();
         for (int c = 0; c < Dim; ++c, to += stride)
@@ -266,7 +223,8 @@ private:
   QuadratureFunctions Current;
   int Size = 0; ///< of the Gram matrix
   std::vector<int> Order;
-  std::vector<double> Memory, Points, Gradients, Gram;
+  std::tuple<ElementGeometry<2>, ElementGeometry<3>> Geometry;
+  std::vector<double> Memory, Gradients, Gram;
 };
 
 /// The elements that each function is alive on, ascending.
