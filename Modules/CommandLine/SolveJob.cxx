@@ -30,7 +30,7 @@ public:
     this->AddOutput(Numbers, "--numbers", Endings::Table, "the numbers of the report");
     this->AddOutput(
       4, "--history", Endings::Table, "one row a solution, when refinement is adaptive");
-    this->AddProperties({ "Equation", "Problem", "ProblemFile" });
+    this->AddProperties({ "Equation", "GaussPoints", "Problem", "ProblemFile" });
   }
 
 protected:
@@ -40,6 +40,7 @@ protected:
     this->Filter->SetEquation(
       isPoisson ? vtkSplineAnalysis::POISSON : vtkSplineAnalysis::ELASTICITY);
     this->Filter->SetProblemFile(this->FileToRead().c_str());
+    this->Filter->SetGaussPoints(!this->OutputFile(1).empty());
     session.Report["equation"] = this->Equation;
     return {};
   }
@@ -48,14 +49,24 @@ protected:
   {
     vtkTable* const table = this->Table(Numbers);
     ReportRow(table, 0,
-      { "Elements", "Functions", "Unknowns", "Conditions", "Energy", "EstimatedError",
+      { "Elements", "Functions", "Unknowns", "Conditions", "Energy", "Potential", "EstimatedError",
         "LargestValue", "Imbalance", "Residual", "Iterations" },
       session.Report);
     if (this->Equation == "elasticity")
     {
-      ReportRow(table, 0, { "LargestVonMises" }, session.Report);
+      ReportRow(table, 0, { "LargestVonMises", "PeakStress" }, session.Report);
     }
-    for (const char* name : { "TotalLoad", "TotalReaction" })
+    else
+    {
+      ReportRow(table, 0, { "PeakFlux" }, session.Report);
+    }
+    if (table->GetColumnByName("ExactEnergy"))
+    {
+      ReportRow(table, 0,
+        { "L2Error", "H1Error", "EnergyError", "ExactL2", "ExactH1", "ExactEnergy" },
+        session.Report);
+    }
+    for (const char* name : { "PeakPosition", "TotalLoad", "TotalReaction" })
     {
       vtkDataArray* column = vtkDataArray::SafeDownCast(table->GetColumnByName(name));
       auto& entry = session.Report[Options::SnakeCase(name)];

@@ -11,6 +11,7 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace knotwork
@@ -69,8 +70,6 @@ bool IsPoisson(const AnalysisResults& results)
 {
   return results.Problem.Equation == GalerkinEquation::Poisson;
 }
-}
-
 std::vector<AnalysisField> PointFields(const AnalysisResults& results)
 {
   std::vector<AnalysisField> fields;
@@ -103,6 +102,12 @@ std::vector<AnalysisCellField> CellFields(const AnalysisResults& results)
     fields.push_back({ "LargestVonMises", results.Fields.LargestVonMises });
   }
   return fields;
+}
+}
+
+Status EncodeResults(AnalysisResults& results, vtkDataObject* input, vtkDataObject* output)
+{
+  return EncodeBody(results.Body, PointFields(results), CellFields(results), input, output);
 }
 
 void EncodeGaussPoints(const AnalysisResults& results, vtkPolyData* output)
@@ -203,11 +208,24 @@ void EncodeNumbers(const AnalysisResults& results, vtkTable* table)
   AddColumn(table, "Unknowns", solution.Unknowns);
   AddColumn(table, "Conditions", static_cast<int>(results.Places.size()));
   AddColumn(table, "Energy", solution.Energy);
+  AddColumn(table, "Potential", solution.Potential);
   AddColumn(table, "EstimatedError", results.Estimate.Total);
   AddColumn(table, "LargestValue", results.Fields.LargestValue);
   if (!IsPoisson(results))
   {
     AddColumn(table, "LargestVonMises", results.Fields.LargestVonMises.maxCoeff());
+  }
+  AddColumn(table, IsPoisson(results) ? "PeakFlux" : "PeakStress", results.Fields.Peak);
+  AddTuple(table, "PeakPosition", Vector(results.Fields.PeakPosition));
+  if (results.Exact)
+  {
+    const ExactErrors& exact = *results.Exact;
+    AddColumn(table, "L2Error", exact.Error.L2);
+    AddColumn(table, "H1Error", exact.Error.H1);
+    AddColumn(table, "EnergyError", exact.EnergyError);
+    AddColumn(table, "ExactL2", exact.Size.L2);
+    AddColumn(table, "ExactH1", exact.Size.H1);
+    AddColumn(table, "ExactEnergy", exact.EnergySize);
   }
   const double scale = std::max(solution.TotalLoad.cwiseAbs().maxCoeff(),
     solution.Reactions.cwiseAbs().colwise().sum().maxCoeff());
@@ -217,5 +235,49 @@ void EncodeNumbers(const AnalysisResults& results, vtkTable* table)
   AddColumn(table, "Imbalance", scale > 0.0 ? rest / scale : 0.0);
   AddColumn(table, "Residual", solution.Residual);
   AddColumn(table, "Iterations", solution.Iterations);
+}
+
+void EncodeComparison(const std::vector<AnalysisResults>& all,
+  const std::vector<std::string>& names, double peak, vtkTable* table)
+{
+  const auto number = [&](const char* name, const auto& value)
+  { table->AddColumn(ArrayOf<vtkDoubleArray>(name, all, value)); };
+  const auto count = [&](const char* name, const auto& value)
+  { table->AddColumn(ArrayOf<vtkIntArray>(name, all, value)); };
+  using R = AnalysisResults;
+  const auto bodies = NamedArray<vtkStringArray>("Body");
+  const auto positions = NamedArray<vtkDoubleArray>("PeakPosition", 3);
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    bodies->InsertNextValue(names[i]);
+    positions->InsertNextTuple(Vector(all[i].Fields.PeakPosition).data());
+  }
+  table->AddColumn(bodies);
+  count("Elements", [](const R& r) { return r.Body.Space.NumElements(); });
+  count("Functions", [](const R& r) { return r.Body.Space.NumFunctions(); });
+  count("Unknowns", [](const R& r) { return r.Solution.Unknowns; });
+  number("Energy", [](const R& r) { return r.Solution.Energy; });
+  number("Potential", [](const R& r) { return r.Solution.Potential; });
+  number("EstimatedError", [](const R& r) { return r.Estimate.Total; });
+  number("Peak", [](const R& r) { return r.Fields.Peak; });
+  table->AddColumn(positions);
+  if (all.front().Exact)
+  {
+    number("EnergyError", [](const R& r) { return r.Exact->EnergyError / r.Exact->EnergySize; });
+    number("L2Error", [](const R& r) { return r.Exact->Error.L2 / r.Exact->Size.L2; });
+  }
+  else
+  {
+    // a(u - u_h, u - u_h) is twice what the potential is above the least
+    const GalerkinSolution& best = all.back().Solution;
+    number("EnergyError",
+      [&](const R& r)
+      { return std::sqrt(std::abs(r.Solution.Potential - best.Potential) / best.Energy); });
+  }
+  const double known = peak > 0.0 ? peak : all.size() > 2 ? all.back().Fields.Peak : 0.0;
+  if (known > 0.0)
+  {
+    number("PeakError", [&](const R& r) { return std::abs(r.Fields.Peak - known) / known; });
+  }
 }
 }

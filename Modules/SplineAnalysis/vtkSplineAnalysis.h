@@ -15,12 +15,12 @@
  * Output 0 is the input with the point arrays `Solution` and `Flux` (Poisson), or `Displacement`,
  * `Stress` (XX YY ZZ XY YZ XZ), `VonMisesStress` and `PrincipalStress`, of which the solution is
  * exact and the others are projected; and with the cell arrays `Energy`, `EstimatedError` (in the
- * norm of energy) and, of elasticity, `LargestVonMises` (at Gauss points). Output 1 has the Gauss
- * points with the same values as computed. Output 2 is a table with a row a condition: Facets or
- * Functions that it chose, their measure and the reaction there. Output 3 is a table of one row:
- * energy, sizes, loads and reactions in total, the residual. Output 4 is a table with a row a
- * solution, of which there are several when refinement is adaptive: functions, elements, estimated
- * error, energy, marked elements.
+ * norm of energy) and, of elasticity, `LargestVonMises` (at Gauss points). Output 1 has, with
+ * GaussPoints, the Gauss points with the same values as computed. Output 2 is a table with a row a
+ * condition: Facets or Functions that it chose, their measure and the reaction there. Output 3 is a
+ * table of one row: energy, sizes, loads and reactions in total, the residual. Output 4 is a table
+ * with a row a solution, of which there are several when refinement is adaptive: functions,
+ * elements, estimated error, energy, marked elements.
  */
 #ifndef vtkSplineAnalysis_h
 #define vtkSplineAnalysis_h
@@ -99,6 +99,12 @@ public:
   vtkSetClampMacro(Tolerance, double, 1e-15, 0.1);
   vtkGetMacro(Tolerance, double);
   ///@}
+  ///@{
+  /** Whether output 1 gets the Gauss points, some tens an element. Default on. */
+  vtkSetMacro(GaussPoints, bool);
+  vtkGetMacro(GaussPoints, bool);
+  vtkBooleanMacro(GaussPoints, bool);
+  ///@}
 
   ///@{
   /** Solutions at most. From 2 on the elements that the error is largest in are split between them:
@@ -151,6 +157,7 @@ private:
   double PoissonsRatio = 0.3;
   int DirectLimit = 300000;
   double Tolerance = 1e-12;
+  bool GaussPoints = true;
   int MaxSteps = 1;
   double ErrorTolerance = 0.0;
   int MaximumFunctions = 100000;

@@ -15,6 +15,7 @@ VERBS = {
     "cadmodify": ("vtkCADModifier", []),
     "combine": ("vtkSplineCombine", []),
     "compare": ("vtkVolumeComparison", []),
+    "compare_solutions": ("vtkSplineVersusMesh", []),
     "contour": ("vtkSplineContour", ["levels"]),
     "control_net": ("vtkSplineControlNet", []),
     "crop": ("vtkSplineTrimToPoints", []),

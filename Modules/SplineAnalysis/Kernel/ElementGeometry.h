@@ -35,25 +35,47 @@ inline double Dot(const double* a, const double* b, int count)
   return sum[0] + sum[1];
 }
 
-/// The points of an element's functions, a row a component, and what rows of functions make of
-/// them. One a thread.
+/// Coefficients of an element's functions, a row a component, to be combined with rows of
+/// functions. One a thread.
+class LocalCoefficients
+{
+public:
+  /// @param stride  of rows of functions, as QuadratureFunctions::Stride.
+  void Take(
+    const GalerkinSpace& space, int element, int stride, const PointMatrixView& coefficients)
+  {
+    this->Stride = stride;
+    this->Rows.assign(
+      static_cast<std::size_t>(coefficients.cols()) * static_cast<std::size_t>(stride), 0.0);
+    for (int a = 0; a < space.NumAlive(element); ++a)
+    {
+      const int f = space.Alive(element)[a];
+      for (Eigen::Index c = 0; c < coefficients.cols(); ++c)
+      {
+        this->Rows[static_cast<std::size_t>(c * stride + a)] = coefficients(f, c);
+      }
+    }
+  }
+
+  double Combine(int component, const double* row) const
+  {
+    return Dot(this->Rows.data() + std::ptrdiff_t{ component } * this->Stride, row, this->Stride);
+  }
+
+private:
+  int Stride = 0;
+  std::vector<double> Rows;
+};
+
+/// The map of an element at its points. One a thread.
 template <int Dim>
 class ElementGeometry
 {
 public:
-  /// @param stride  of rows of functions, as QuadratureFunctions::Stride.
   void Take(const GalerkinSpace& space, int element, int stride)
   {
     this->Stride = stride;
-    this->Points.assign(Dim * static_cast<std::size_t>(stride), 0.0);
-    for (int a = 0; a < space.NumAlive(element); ++a)
-    {
-      const int f = space.Alive(element)[a];
-      for (int c = 0; c < Dim; ++c)
-      {
-        this->Points[static_cast<std::size_t>(c * stride + a)] = space.Points(f, c);
-      }
-    }
+    this->Points.Take(space, element, stride, space.Points);
   }
 
   /// @param values  a row of values.
@@ -62,8 +84,7 @@ public:
     Eigen::Matrix<double, Dim, 1> position;
     for (int c = 0; c < Dim; ++c)
     {
-      position[c] =
-        Dot(this->Points.data() + std::ptrdiff_t{ c } * this->Stride, values, this->Stride);
+      position[c] = this->Points.Combine(c, values);
     }
     return position;
   }
@@ -81,6 +102,6 @@ public:
 
 private:
   int Stride = 0;
-  std::vector<double> Points;
+  LocalCoefficients Points;
 };
 }

@@ -127,6 +127,26 @@ CellRule MakeCellRule(CellShape shape, int points)
   return rule;
 }
 
+CellRule MakeLatticeRule(CellShape shape, int points)
+{
+  const int n = points - 1;
+  const int dimension = NumParameters(shape);
+  CellRule rule;
+  for (int k = 0; k <= (dimension > 2 ? n : 0); ++k)
+  {
+    for (int j = 0; j <= (dimension > 1 ? n : 0); ++j)
+    {
+      for (int i = 0; i <= (IsSimplex(shape) ? n - j - k : n); ++i)
+      {
+        rule.Points.push_back(
+          { static_cast<double>(i) / n, static_cast<double>(j) / n, static_cast<double>(k) / n });
+      }
+    }
+  }
+  rule.Weights.assign(rule.Points.size(), 0.0);
+  return rule;
+}
+
 CellRule MakeFacetRule(CellShape shape, int side, int points)
 {
   const FacetFrame frame = MakeFacetFrame(shape, side);
@@ -282,14 +302,15 @@ void RuleTables::Prepare(const GalerkinSpace& space)
   {
     const CellShape shape = space.Shapes[e];
     const CellDegree& degree = space.Degrees[e];
-    const int points =
-      NumRulePoints(space, static_cast<int>(e), this->Tolerance) + this->ExtraPoints;
+    const int points = this->IsLattice
+      ? *std::max_element(degree.begin(), degree.end()) + 1
+      : NumRulePoints(space, static_cast<int>(e), this->Tolerance) + this->ExtraPoints;
     const auto place =
       known.try_emplace({ shape, degree, points }, static_cast<int>(this->Tables.size()));
     if (place.second)
     {
       Table& table = this->Tables.emplace_back();
-      table.Rule = MakeCellRule(shape, points);
+      table.Rule = this->IsLattice ? MakeLatticeRule(shape, points) : MakeCellRule(shape, points);
       const Eigen::Index rows = 1 + space.Dimension;
       table.Bernstein.resize(rows * static_cast<Eigen::Index>(table.Rule.Points.size()),
         NumCellCoefficients(shape, degree));

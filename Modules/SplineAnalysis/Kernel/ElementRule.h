@@ -37,7 +37,10 @@ struct CellRule
 };
 /// Gauss points on tensor-product shapes, collapsed ones on simplices. @param points  a direction.
 CellRule MakeCellRule(CellShape shape, int points);
-/// The same on a side.
+/// Evenly spaced points with the corners among them; weights are 0. @param points  a direction, at
+/// least 2.
+CellRule MakeLatticeRule(CellShape shape, int points);
+/// Gauss points on a side.
 CellRule MakeFacetRule(CellShape shape, int side, int points);
 
 /// Gauss points a direction that integrate stiffness of constant gradients exactly where elements
@@ -83,6 +86,13 @@ public:
     : Tolerance(tolerance), ExtraPoints(extraPoints)
   {
   }
+  /// Evenly spaced points in place of a rule: degree + 1 a direction.
+  static RuleTables OnLattice()
+  {
+    RuleTables tables(1.0);
+    tables.IsLattice = true;
+    return tables;
+  }
   /// Makes the rules of a space's elements, and the functions of operators that repeat: at most 64
   /// MB of them.
   void Prepare(const GalerkinSpace& space);
@@ -103,6 +113,7 @@ private:
   };
   double Tolerance;
   int ExtraPoints;
+  bool IsLattice = false;
   const GalerkinSpace* Prepared = nullptr;
   std::vector<Table> Tables;
   std::vector<int> TableOf;                ///< element

@@ -372,6 +372,7 @@ Result<GalerkinSolution> SolveGalerkin(const GalerkinSpace& space, const Galerki
   const int components = NumSolutionComponents(problem.Equation);
   const Eigen::VectorXd forces = full * all;
   solution.Energy = 0.5 * all.dot(forces);
+  solution.Potential = solution.Energy - all.dot(right.Value);
   Eigen::VectorXd reactions = forces - right.Value;
   for (std::size_t i = 0; i < size; ++i)
   {
@@ -430,6 +431,18 @@ Eigen::Matrix3d ElasticStress(
     stress(2, 2) = material.PoissonsRatio * (stress(0, 0) + stress(1, 1));
   }
   return stress;
+}
+
+double EnergyDensity(const GalerkinProblem& problem, int element, const Eigen::MatrixXd& gradient)
+{
+  if (problem.Equation == GalerkinEquation::Poisson)
+  {
+    return 0.5 * MaterialOf(problem, element).Conductivity * gradient.squaredNorm();
+  }
+  const Eigen::Index n = gradient.cols();
+  return 0.5 *
+    (ElasticStress(problem, element, gradient).topLeftCorner(n, n).array() * gradient.array())
+      .sum();
 }
 
 double VonMisesStress(const Eigen::MatrixXd& stress)

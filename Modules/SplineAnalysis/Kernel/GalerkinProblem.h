@@ -87,6 +87,7 @@ struct GalerkinSolution
   /// Forces (fluxes) that keep the prescribed coefficients, functions x components; 0 elsewhere.
   PointMatrix Reactions;
   double Energy = 0.0;           ///< half of a(u, u)
+  double Potential = 0.0;        ///< Energy less the work of loads: what the solution makes least
   Eigen::VectorXd TotalLoad;     ///< sum over functions, a component each
   Eigen::VectorXd TotalReaction; ///< likewise: the load's opposite, up to rounding
   double Residual = 0.0;         ///< of the free equations, over the right-hand side
@@ -127,6 +128,9 @@ GalerkinPoint EvaluateSolution(const GalerkinSpace& space, const GalerkinProblem
 /// dimension.
 Eigen::Matrix3d ElasticStress(
   const GalerkinProblem& problem, int element, const Eigen::MatrixXd& gradient);
+
+/// Half of the density of a(u, u). @param gradient  of the solution, components x dimension.
+double EnergyDensity(const GalerkinProblem& problem, int element, const Eigen::MatrixXd& gradient);
 
 /// sqrt(3/2) of the norm of the deviator of a 3 x 3 stress.
 double VonMisesStress(const Eigen::MatrixXd& stress);

@@ -464,6 +464,17 @@ private:
   std::vector<FastDiagonalization> Parts;
 };
 
+/// Gauss-Seidel alone.
+class OneLevel : public Preconditioner
+{
+public:
+  explicit OneLevel(const SymmetricMatrix& matrix) : Matrix(matrix) {}
+  void Apply(const Vector& side, Vector& x) override { this->Matrix.GaussSeidel(side, x); }
+
+private:
+  const SymmetricMatrix& Matrix;
+};
+
 /// Gauss-Seidel, and the constants of the control points in each cell of a grid.
 class TwoLevels : public Preconditioner
 {
@@ -573,41 +584,49 @@ Status Factorize(const Eigen::SparseMatrix<double>& lower, Eigen::MatrixXd& side
   return {};
 }
 
+Status CheckDiagonal(const Vector& diagonal)
+{
+  return diagonal.minCoeff() > 0.0
+    ? Status()
+    : Status{ ErrorCode::SingularSystem,
+        "the matrix is not positive definite: a function has no part in any element" };
+}
+
 /// Conjugate gradients from 0. @source  Hestenes, Stiefel, J. Res. NBS 49 (1952) 409-436.
-Status Iterate(SymmetricMatrix& matrix, Preconditioner& preconditioner,
-  const GalerkinParams& params, Vector& x, int& iterations)
+Status Iterate(SymmetricMatrix& matrix, Preconditioner& preconditioner, double tolerance,
+  int threads, Vector& x, int& iterations)
 {
   constexpr int Limit = 20000;
   Vector residual = x;
   x.setZero();
-  const double goal = params.Tolerance * std::sqrt(Dot(residual, residual, params.Threads));
-  double norm = goal / params.Tolerance;
+  double norm = std::sqrt(Dot(residual, residual, threads));
   const double start = norm;
+  const double goal = tolerance * start;
   Vector step;
   Vector product;
   preconditioner.Apply(residual, product);
   Vector way = product;
-  double slope = Dot(residual, product, params.Threads);
+  double slope = Dot(residual, product, threads);
   for (iterations = 0; norm > goal && iterations < Limit; ++iterations)
   {
     matrix.Multiply(way, product);
-    const double length = slope / Dot(way, product, params.Threads);
-    ForSegments(x.size(), params.Threads,
+    const double length = slope / Dot(way, product, threads);
+    ForSegments(x.size(), threads,
       [&](Eigen::Index first, Eigen::Index count)
       {
         x.segment(first, count) += length * way.segment(first, count);
         residual.segment(first, count) -= length * product.segment(first, count);
       });
-    norm = std::sqrt(Dot(residual, residual, params.Threads));
+    norm = std::sqrt(Dot(residual, residual, threads));
     if (!std::isfinite(norm))
     {
       break;
     }
     preconditioner.Apply(residual, step);
-    const double next = Dot(residual, step, params.Threads);
+    const double next = Dot(residual, step, threads);
     const double keep = next / slope;
     slope = next;
-    ForSegments(x.size(), params.Threads,
+    ForSegments(x.size(), threads,
       [&](Eigen::Index first, Eigen::Index count) {
         way.segment(first, count) = step.segment(first, count) + keep * way.segment(first, count);
       });
@@ -631,10 +650,9 @@ Status SolveUnknowns(const GalerkinSpace& space, int components, const std::vect
     return Factorize(lower, sides);
   }
   const Vector diagonal = lower.diagonal();
-  if (!(diagonal.minCoeff() > 0.0))
+  if (const Status status = CheckDiagonal(diagonal); !status)
   {
-    return { ErrorCode::SingularSystem,
-      "the matrix is not positive definite: a function has no part in any element" };
+    return status;
   }
   SymmetricMatrix matrix(lower, params.Threads);
   std::unique_ptr<Preconditioner> preconditioner;
@@ -650,8 +668,32 @@ Status SolveUnknowns(const GalerkinSpace& space, int components, const std::vect
     preconditioner = std::make_unique<TwoLevels>(space, components, numbers, lower, matrix);
   }
   Vector x = sides.col(0);
-  const Status status = Iterate(matrix, *preconditioner, params, x, report.Iterations);
+  const Status status =
+    Iterate(matrix, *preconditioner, params.Tolerance, params.Threads, x, report.Iterations);
   sides.col(0) = x;
   return status;
+}
+
+Status SolveMass(const Eigen::SparseMatrix<double>& lower, int threads, Eigen::MatrixXd& sides)
+{
+  constexpr double Tolerance = 1e-13;
+  if (const Status status = CheckDiagonal(lower.diagonal()); !status)
+  {
+    return status;
+  }
+  SymmetricMatrix matrix(lower, threads);
+  OneLevel preconditioner(matrix);
+  for (Eigen::Index c = 0; c < sides.cols(); ++c)
+  {
+    Vector x = sides.col(c);
+    int iterations = 0;
+    if (const Status status = Iterate(matrix, preconditioner, Tolerance, threads, x, iterations);
+        !status)
+    {
+      return status;
+    }
+    sides.col(c) = x;
+  }
+  return {};
 }
 }

@@ -30,4 +30,10 @@ struct LinearSolverReport
 Status SolveUnknowns(const GalerkinSpace& space, int components, const std::vector<int>& numbers,
   const Eigen::SparseMatrix<double>& lower, const GalerkinParams& params, Eigen::MatrixXd& sides,
   LinearSolverReport& report);
+
+/// Solves for a mass matrix, several columns: conjugate gradients with Gauss-Seidel within blocks.
+/// The bits of the result do not depend on the number of threads.
+/// @param lower  as above. @param sides  become the solutions. @return SingularSystem,
+/// NotConverged.
+Status SolveMass(const Eigen::SparseMatrix<double>& lower, int threads, Eigen::MatrixXd& sides);
 }

@@ -69,6 +69,52 @@ std::vector<std::array<std::array<double, 2>, 2>> FacetEdges(CellShape shape)
     { { { 0, 1 }, { 0, 0 } } } };
 }
 
+/// Of every component; one that is free is 0.
+Result<std::vector<ScalarFunction>> CompileValues(
+  const ProblemValues& values, const std::string& place, const CompileExpression& compile)
+{
+  std::vector<ScalarFunction> functions;
+  for (const std::optional<ProblemValue>& value : values)
+  {
+    if (!value || value->Expression.empty())
+    {
+      const double number = value ? value->Number : 0.0;
+      functions.push_back([number](const double*, const double*) { return number; });
+      continue;
+    }
+    auto compiled = compile(value->Expression);
+    if (!compiled)
+    {
+      return { compiled.Status.Code, place + ": " + compiled.Status.Detail };
+    }
+    functions.push_back(std::move(compiled.Value));
+  }
+  return functions;
+}
+
+/// Unset without values.
+Result<PointFunction> MakePointFunction(const ProblemValues& values, const std::string& place,
+  int dimension, const CompileExpression& compile)
+{
+  auto compiled = CompileValues(values, place, compile);
+  if (!compiled || values.empty())
+  {
+    return compiled ? Result<PointFunction>(PointFunction())
+                    : Result<PointFunction>(compiled.Status);
+  }
+  return PointFunction(
+    [functions = std::move(compiled.Value), dimension](const double* x, double* into)
+    {
+      std::array<double, 3> at{};
+      std::copy_n(x, dimension, at.begin());
+      const std::array<double, 3> none{};
+      for (std::size_t k = 0; k < functions.size(); ++k)
+      {
+        into[k] = functions[k](at.data(), none.data());
+      }
+    });
+}
+
 class ProblemBuilder
 {
 public:
@@ -86,25 +132,13 @@ public:
   {
     this->Problem.Equation = this->Description.Equation;
     this->Problem.Materials = this->Description.Materials;
-    if (!this->Description.Source.empty())
+    auto source =
+      MakePointFunction(this->Description.Source, "source", this->Space.Dimension, this->Compile);
+    if (!source)
     {
-      auto values = this->Functions(this->Description.Source, "source");
-      if (!values)
-      {
-        return values.Status;
-      }
-      this->Problem.Source = [functions = std::move(values.Value), n = this->Space.Dimension](
-                               const double* x, double* into)
-      {
-        std::array<double, 3> at{};
-        std::copy_n(x, n, at.begin());
-        const std::array<double, 3> none{};
-        for (std::size_t k = 0; k < functions.size(); ++k)
-        {
-          into[k] = functions[k](at.data(), none.data());
-        }
-      };
+      return source.Status;
     }
+    this->Problem.Source = std::move(source.Value);
     for (std::size_t i = 0; i < this->Description.Conditions.size(); ++i)
     {
       this->Name = "condition " + std::to_string(i);
@@ -122,29 +156,6 @@ public:
   }
 
 private:
-  /// Of every component; one that is free is 0.
-  Result<std::vector<ScalarFunction>> Functions(
-    const ProblemValues& values, const std::string& place) const
-  {
-    std::vector<ScalarFunction> functions;
-    for (const std::optional<ProblemValue>& value : values)
-    {
-      if (!value || value->Expression.empty())
-      {
-        const double number = value ? value->Number : 0.0;
-        functions.push_back([number](const double*, const double*) { return number; });
-        continue;
-      }
-      auto compiled = this->Compile(value->Expression);
-      if (!compiled)
-      {
-        return { compiled.Status.Code, place + ": " + compiled.Status.Detail };
-      }
-      functions.push_back(std::move(compiled.Value));
-    }
-    return functions;
-  }
-
   /// Whether samples lie in the region's box and where its expression holds.
   bool Holds(const ProblemRegion& region, const ScalarFunction& where, const Place& place) const
   {
@@ -390,7 +401,7 @@ private:
 
   Status Add(const ProblemCondition& condition)
   {
-    auto functions = this->Functions(condition.Values, this->Name);
+    auto functions = CompileValues(condition.Values, this->Name, this->Compile);
     if (!functions)
     {
       return functions.Status;
@@ -534,5 +545,11 @@ Result<GalerkinProblem> MakeProblem(const ProblemDescription& description,
       "plane stress and strain need elements in the plane, solids such in space" };
   }
   return ProblemBuilder(description, space, boundary, compile).Make(places);
+}
+
+Result<PointFunction> MakeExact(
+  const ProblemDescription& description, int dimension, const CompileExpression& compile)
+{
+  return MakePointFunction(description.Exact, "exact solution", dimension, compile);
 }
 }

@@ -31,7 +31,7 @@ public:
     problem.Equation = this->Equation;
     problem.Materials = { this->Default };
     if (!this->IsObject(root, "the problem",
-          { "material", "materials", "material_array", "source", "conditions" }))
+          { "material", "materials", "material_array", "source", "conditions", "exact" }))
     {
       return problem;
     }
@@ -60,6 +60,10 @@ public:
     if (root.contains("source"))
     {
       problem.Source = this->Values(root["source"], "\"source\"", this->Components, false);
+    }
+    if (root.contains("exact"))
+    {
+      problem.Exact = this->Values(root["exact"], "\"exact\"", this->Components, false);
     }
     if (root.contains("conditions"))
     {

@@ -63,6 +63,7 @@ struct ProblemDescription
   std::string MaterialArray;              ///< of cells; empty: the first material
   ProblemValues Source;                   ///< empty: none
   std::vector<ProblemCondition> Conditions;
+  ProblemValues Exact; ///< the known solution, to compare with; empty: there is none
 };
 
 /// Reads a problem from JSON; the module's page has the keys. @param equation  what is solved.
@@ -75,6 +76,11 @@ Result<ProblemDescription> ReadProblem(
 using ScalarFunction = std::function<double(const double* x, const double* normal)>;
 /// @return InvalidParameter: the text is no expression.
 using CompileExpression = std::function<Result<ScalarFunction>(const std::string&)>;
+
+/// The known solution as a function; unset where the problem has none. @param dimension  of the
+/// body. @return InvalidParameter when an expression is wrong.
+Result<PointFunction> MakeExact(
+  const ProblemDescription& description, int dimension, const CompileExpression& compile);
 
 /// Facets that conditions choose from.
 struct BoundaryGroups

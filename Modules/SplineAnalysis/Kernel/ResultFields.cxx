@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ResultFields.h"
 
-#include "ElementRule.h"
+#include "ElementGeometry.h"
+#include "LinearSolver.h"
 #include "StiffnessMatrix.h"
-#include <knotwork/MeshParameterization/SparseCholesky.h>
+#include <knotwork/SplineCore/Parallel.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +19,7 @@ namespace
 {
 /// Of quadrature on rational elements: what is drawn needs no more, and every point is a row.
 constexpr double FieldTolerance = 1e-6;
+constexpr std::size_t BatchChunk = 32; ///< elements that a thread takes at a time
 
 /// The row of GaussValues of a gradient.
 Eigen::RowVectorXd ResultRow(
@@ -61,17 +64,138 @@ double LargestAtCorners(
   return largest;
 }
 
-/// Half of the density of a(u, u).
-double EnergyDensity(const GalerkinProblem& problem, int element, const Eigen::MatrixXd& gradient)
+/// What is known of an element at points, for a step that adds it to the rest.
+struct ElementResults
 {
-  if (problem.Equation == GalerkinEquation::Poisson)
+  QuadratureFunctions Functions;
+  std::vector<double> Memory; ///< of the functions
+  PointMatrix Rows;           ///< as ResultFields::GaussValues
+  PointMatrix Positions;
+  Eigen::VectorXd Weights; ///< times volumes
+  double Energy = 0.0;
+  double LargestValue = 0.0; ///< squared
+  Eigen::MatrixXd Moments;   ///< of the rows, a row a function
+};
+
+/// Rows, positions and weights of the element's points, its energy and largest value.
+template <int Dim>
+void FindValues(const GalerkinSpace& space, const GalerkinProblem& problem,
+  const PointMatrix& coefficients, const RuleTables& tables, int e, ElementResults& element)
+{
+  element.Functions = tables.Functions(space, e, element.Memory);
+  const QuadratureFunctions& functions = element.Functions;
+  element.Rows.resize(functions.NumPoints, NumResultColumns(problem.Equation));
+  element.Positions.resize(functions.NumPoints, Dim);
+  element.Weights.resize(functions.NumPoints);
+  element.Energy = 0.0;
+  element.LargestValue = 0.0;
+  ElementGeometry<Dim> geometry;
+  geometry.Take(space, e, functions.Stride);
+  LocalCoefficients local;
+  local.Take(space, e, functions.Stride, coefficients);
+  const int components = static_cast<int>(coefficients.cols());
+  Eigen::MatrixXd gradient(components, Dim);
+  for (int q = 0; q < functions.NumPoints; ++q)
   {
-    return 0.5 * MaterialOf(problem, element).Conductivity * gradient.squaredNorm();
+    const double* rows = functions.Rows + std::ptrdiff_t{ q } * (Dim + 1) * functions.Stride;
+    const Eigen::Matrix<double, Dim, Dim> jacobian = geometry.Jacobian(rows + functions.Stride);
+    double square = 0.0;
+    for (int c = 0; c < components; ++c)
+    {
+      for (int k = 0; k < Dim; ++k)
+      {
+        gradient(c, k) = local.Combine(c, rows + std::ptrdiff_t{ k + 1 } * functions.Stride);
+      }
+      const double value = local.Combine(c, rows);
+      square += value * value;
+    }
+    gradient = gradient * jacobian.inverse();
+    element.LargestValue = std::max(element.LargestValue, square);
+    element.Weights[q] = functions.Weights[q] * std::abs(jacobian.determinant());
+    element.Positions.row(q) = geometry.Position(rows).transpose();
+    element.Rows.row(q) = ResultRow(problem, e, gradient);
+    element.Energy += element.Weights[q] * EnergyDensity(problem, e, gradient);
   }
-  const Eigen::Index n = gradient.cols();
-  return 0.5 *
-    (ElasticStress(problem, element, gradient).topLeftCorner(n, n).array() * gradient.array())
-      .sum();
+}
+
+/// The element's part of the mass matrix, as AddElements takes it, and the moments of its rows.
+void Integrate(const GalerkinSpace& space, int e, std::vector<int>& order, ElementResults& element,
+  double* pairs)
+{
+  const QuadratureFunctions& functions = element.Functions;
+  const Eigen::Map<const PointMatrix, 0, Eigen::OuterStride<>> values(functions.Rows,
+    functions.NumPoints, functions.NumFunctions,
+    Eigen::OuterStride<>((space.Dimension + 1) * functions.Stride));
+  const Eigen::MatrixXd weighted = element.Weights.asDiagonal() * values;
+  const Eigen::MatrixXd block = values.transpose() * weighted;
+  element.Moments.noalias() = weighted.transpose() * element.Rows;
+  SortFunctions(space, e, order);
+  for (int a = 0; a < functions.NumFunctions; ++a)
+  {
+    for (int b = 0; b <= a; ++b)
+    {
+      *pairs++ = block(order[static_cast<std::size_t>(a)], order[static_cast<std::size_t>(b)]);
+    }
+  }
+}
+
+/// Calls for batches of elements whose values are found in parallel.
+/// @param visit  (first, count, elements); ends with its failure.
+template <typename Visitor>
+Status ForBatches(const GalerkinSpace& space, const GalerkinProblem& problem,
+  const PointMatrix& coefficients, const RuleTables& tables, int threads, const Visitor& visit)
+{
+  constexpr int Batch = 512; // elements whose points are held at a time
+  const auto find = space.Dimension == 2 ? FindValues<2> : FindValues<3>;
+  std::vector<ElementResults> elements(
+    static_cast<std::size_t>(std::min(Batch, space.NumElements())));
+  for (int first = 0; first < space.NumElements(); first += Batch)
+  {
+    const int count = std::min(Batch, space.NumElements() - first);
+    ParallelFor(static_cast<std::size_t>(count), BatchChunk, threads,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          find(space, problem, coefficients, tables, first + static_cast<int>(i), elements[i]);
+        }
+      });
+    if (const Status status = visit(first, count, elements); !status)
+    {
+      return status;
+    }
+  }
+  return {};
+}
+
+/// Fills the peak of the fields.
+Status FindPeak(const GalerkinSpace& space, const GalerkinProblem& problem,
+  const PointMatrix& coefficients, int threads, const ProgressCallback& progress,
+  ResultFields& fields)
+{
+  RuleTables tables = RuleTables::OnLattice();
+  tables.Prepare(space);
+  const bool isElastic = problem.Equation != GalerkinEquation::Poisson;
+  return ForBatches(space, problem, coefficients, tables, threads,
+    [&](int first, int count, const std::vector<ElementResults>& elements) -> Status
+    {
+      for (int i = 0; i < count; ++i)
+      {
+        const ElementResults& element = elements[static_cast<std::size_t>(i)];
+        for (Eigen::Index q = 0; q < element.Rows.rows(); ++q)
+        {
+          const double value = isElastic ? element.Rows(q, 6) : element.Rows.row(q).norm();
+          if (value > fields.Peak || fields.PeakPosition.size() == 0)
+          {
+            fields.Peak = value;
+            fields.PeakPosition = element.Positions.row(q);
+          }
+        }
+      }
+      return progress && !progress(static_cast<double>(first + count) / space.NumElements())
+        ? Status{ ErrorCode::Aborted, "while the peak was searched" }
+        : Status();
+    });
 }
 }
 
@@ -110,7 +234,7 @@ int NumResultColumns(GalerkinEquation equation)
 }
 
 Result<ResultFields> MakeResultFields(const GalerkinSpace& space, const GalerkinProblem& problem,
-  const std::vector<CellSide>& boundary, const PointMatrix& coefficients,
+  const std::vector<CellSide>& boundary, const PointMatrix& coefficients, bool keepGaussPoints,
   const GalerkinParams& params, const ProgressCallback& progress)
 {
   const int columns = NumResultColumns(problem.Equation);
@@ -127,60 +251,74 @@ Result<ResultFields> MakeResultFields(const GalerkinSpace& space, const Galerkin
   }
   Eigen::MatrixXd sides = Eigen::MatrixXd::Zero(space.NumFunctions(), columns);
   RuleTables tables(std::max(params.QuadratureTolerance, FieldTolerance));
-  Eigen::MatrixXd gradient(coefficients.cols(), space.Dimension);
-  Eigen::RowVectorXd value(coefficients.cols());
+  tables.Prepare(space);
+  const std::size_t width = PairOf(MostFunctions(space), 0);
+  std::vector<double> pairs;
   double largest = 0.0; // squared
-  Eigen::MatrixXd block;
-  for (int e = 0; e < space.NumElements(); ++e)
-  {
-    if (progress && e % 256 == 0 && !progress(0.7 * e / space.NumElements()))
+  const Status status = ForBatches(space, problem, coefficients, tables, params.Threads,
+    [&](int first, int count, std::vector<ElementResults>& elements) -> Status
     {
-      return { ErrorCode::Aborted, "while stresses were projected" };
-    }
-    const int alive = space.NumAlive(e);
-    block.setZero(alive, alive);
-    tables.Visit(space, e,
-      [&](std::size_t q, const PointValues& at)
-      {
-        gradient.setZero();
-        value.setZero();
-        for (int a = 0; a < alive; ++a)
+      pairs.resize(width * static_cast<std::size_t>(count));
+      ParallelFor(static_cast<std::size_t>(count), BatchChunk, params.Threads,
+        [&](std::size_t begin, std::size_t end)
         {
-          const auto row = coefficients.row(space.Alive(e)[a]);
-          gradient += row.transpose() * at.Gradients.row(a);
-          value += at.Values[a] * row;
-        }
-        largest = std::max(largest, value.squaredNorm());
-        const double weight = tables.Weights[q] * std::abs(at.Determinant);
-        const Eigen::RowVectorXd row = ResultRow(problem, e, gradient);
-        fields.Energy[e] += weight * EnergyDensity(problem, e, gradient);
+          std::vector<int> order;
+          for (std::size_t i = begin; i < end; ++i)
+          {
+            Integrate(
+              space, first + static_cast<int>(i), order, elements[i], pairs.data() + i * width);
+          }
+        });
+      AddElements(
+        space, first, static_cast<std::size_t>(count), pairs, width, 1, params.Threads, mass);
+      for (int i = 0; i < count; ++i)
+      {
+        const ElementResults& element = elements[static_cast<std::size_t>(i)];
+        const int e = first + i;
+        largest = std::max(largest, element.LargestValue);
+        fields.Energy[e] = element.Energy;
         if (isElastic)
         {
-          fields.LargestVonMises[e] = std::max(fields.LargestVonMises[e], row[6]);
+          fields.LargestVonMises[e] = element.Rows.col(6).maxCoeff();
         }
-        values.insert(values.end(), row.begin(), row.end());
-        points.insert(points.end(), at.Position.begin(), at.Position.end());
-        fields.GaussElements.push_back(e);
-        block.noalias() += weight * at.Values * at.Values.transpose();
-        for (int a = 0; a < alive; ++a)
+        for (int a = 0; a < space.NumAlive(e); ++a)
         {
-          sides.row(space.Alive(e)[a]) += weight * at.Values[a] * row;
+          sides.row(space.Alive(e)[a]) += element.Moments.row(a);
         }
-      });
-    AddElement(space, e, block, mass);
+        if (keepGaussPoints)
+        {
+          values.insert(
+            values.end(), element.Rows.data(), element.Rows.data() + element.Rows.size());
+          points.insert(points.end(), element.Positions.data(),
+            element.Positions.data() + element.Positions.size());
+          fields.GaussElements.insert(
+            fields.GaussElements.end(), static_cast<std::size_t>(element.Rows.rows()), e);
+        }
+      }
+      return progress && !progress(0.4 * (first + count) / space.NumElements())
+        ? Status{ ErrorCode::Aborted, "while stresses were projected" }
+        : Status();
+    });
+  if (!status)
+  {
+    return status;
   }
   fields.LargestValue =
     std::max(std::sqrt(largest), LargestAtCorners(space, boundary, coefficients));
   const auto count = static_cast<Eigen::Index>(fields.GaussElements.size());
   fields.GaussValues = Eigen::Map<const PointMatrix>(values.data(), count, columns);
   fields.GaussPoints = Eigen::Map<const PointMatrix>(points.data(), count, space.Dimension);
-  SparseCholesky factor;
-  if (!factor.Factorize(mass))
+  if (const Status peak = FindPeak(
+        space, problem, coefficients, params.Threads,
+        [&](double share) { return !progress || progress(0.4 + 0.3 * share); }, fields);
+      !peak)
   {
-    return { ErrorCode::SingularSystem,
-      "functions are dependent, so stresses cannot be projected; refine otherwise" };
+    return peak;
   }
-  factor.Solve(sides);
+  if (const Status solved = SolveMass(mass, params.Threads, sides); !solved)
+  {
+    return { solved.Code, "stresses cannot be projected: " + solved.Detail };
+  }
   fields.Projected = sides;
   return fields;
 }

@@ -11,7 +11,7 @@ struct ResultFields
 {
   /// A row a point: k grad u (Poisson), or the stress XX YY ZZ XY YZ XZ, von Mises' stress and the
   /// principal stresses, the largest first.
-  PointMatrix GaussValues;
+  PointMatrix GaussValues;         ///< no rows unless asked for
   PointMatrix GaussPoints;         ///< positions, a row each
   std::vector<int> GaussElements;  ///< of each point
   PointMatrix Projected;           ///< the same columns, a row a function
@@ -19,6 +19,10 @@ struct ResultFields
   Eigen::VectorXd LargestVonMises; ///< of each element at its Gauss points; size 0 for Poisson
   /// Of the solution, or of the length of displacements, at Gauss points and corners of facets.
   double LargestValue = 0.0;
+  /// Von Mises' stress, or the length of the flux, where it is largest among evenly spaced points
+  /// of the elements, degree + 1 a direction, on their boundaries too; and that point.
+  double Peak = 0.0;
+  Eigen::VectorXd PeakPosition;
 };
 
 /// Functions that are not 0 on facets, ascending.
@@ -30,11 +34,13 @@ double FacetMeasure(const GalerkinSpace& space, const std::vector<CellSide>& fac
 /// Columns of ResultFields::GaussValues: the flux's 3 alone, or all 10.
 int NumResultColumns(GalerkinEquation equation);
 
-/// @param boundary  facets whose corners count for LargestValue. @param coefficients  of the
+/// @param keepGaussPoints  whether GaussValues, GaussPoints and GaussElements are wanted: a row a
+/// point. @param boundary  facets whose corners count for LargestValue. @param coefficients  of the
 /// solution. @return SingularSystem when functions are dependent;
 /// Aborted.
-/// @complexity a factorization of the mass matrix.
+/// @complexity O(elements q (p+1)^(2 Dim)) for q quadrature points, and conjugate gradients for the
+/// mass matrix.
 Result<ResultFields> MakeResultFields(const GalerkinSpace& space, const GalerkinProblem& problem,
-  const std::vector<CellSide>& boundary, const PointMatrix& coefficients,
+  const std::vector<CellSide>& boundary, const PointMatrix& coefficients, bool keepGaussPoints,
   const GalerkinParams& params, const ProgressCallback& progress = {});
 }

@@ -59,26 +59,6 @@ void FillGram(const double* rows, int count, int size, bool add, double* matrix)
   }
 }
 
-/// Pairs of an element's functions are numbered by the places a >= b of these in ascending order.
-std::size_t PairOf(int a, int b)
-{
-  return static_cast<std::size_t>(a) * static_cast<std::size_t>(a + 1) / 2 +
-    static_cast<std::size_t>(b);
-}
-
-/// Places of an element's functions in ascending order.
-void SortFunctions(const GalerkinSpace& space, int element, std::vector<int>& order)
-{
-  const int* alive = space.Alive(element);
-  const int count = space.NumAlive(element);
-  order.resize(static_cast<std::size_t>(count));
-  std::iota(order.begin(), order.end(), 0);
-  if (!std::is_sorted(alive, alive + count))
-  {
-    std::sort(order.begin(), order.end(), [alive](int a, int b) { return alive[a] < alive[b]; });
-  }
-}
-
 /// What the matrix of an element is made with. One a thread.
 class ElementAssembler
 {
@@ -403,24 +383,37 @@ void AddLane(const GalerkinSpace& space, int first, std::size_t count, unsigned 
 }
 }
 
-void AddElement(const GalerkinSpace& space, int element, const Eigen::MatrixXd& block,
+void SortFunctions(const GalerkinSpace& space, int element, std::vector<int>& order)
+{
+  const int* alive = space.Alive(element);
+  const int count = space.NumAlive(element);
+  order.resize(static_cast<std::size_t>(count));
+  std::iota(order.begin(), order.end(), 0);
+  if (!std::is_sorted(alive, alive + count))
+  {
+    std::sort(order.begin(), order.end(), [alive](int a, int b) { return alive[a] < alive[b]; });
+  }
+}
+
+void AddElements(const GalerkinSpace& space, int first, std::size_t count,
+  const std::vector<double>& pairs, std::size_t width, int components, int threads,
   Eigen::SparseMatrix<double>& matrix)
 {
-  std::vector<int> order;
-  SortFunctions(space, element, order);
-  std::vector<double> pairs(PairOf(space.NumAlive(element), 0));
-  for (int a = 0; a < space.NumAlive(element); ++a)
+  // every entry is of one lane, which adds in the order of the elements
+  const auto add = components == 1 ? AddLane<1> : components == 2 ? AddLane<2> : AddLane<3>;
+  ParallelFor(NumLanes, 1, threads,
+    [&](std::size_t lane, std::size_t)
+    { add(space, first, count, static_cast<unsigned>(lane), pairs, width, matrix); });
+}
+
+int MostFunctions(const GalerkinSpace& space)
+{
+  int most = 0;
+  for (int e = 0; e < space.NumElements(); ++e)
   {
-    for (int b = 0; b <= a; ++b)
-    {
-      pairs[PairOf(a, b)] =
-        block(order[static_cast<std::size_t>(a)], order[static_cast<std::size_t>(b)]);
-    }
+    most = std::max(most, space.NumAlive(e));
   }
-  for (int b = 0; b < space.NumAlive(element); ++b)
-  {
-    AddColumns<1>(space.Alive(element), order, b, pairs.data(), matrix);
-  }
+  return most;
 }
 
 int NumSolutionComponents(GalerkinEquation equation)
@@ -468,12 +461,8 @@ Result<Eigen::SparseMatrix<double>> AssembleStiffness(const GalerkinSpace& space
   RuleTables tables(params.QuadratureTolerance);
   tables.Prepare(space);
   const int count = space.NumElements();
-  int most = 0;
-  for (int e = 0; e < count; ++e)
-  {
-    most = std::max(most, space.NumAlive(e));
-  }
-  const std::size_t width = PairOf(most, 0) * static_cast<std::size_t>(components * components);
+  const std::size_t width =
+    PairOf(MostFunctions(space), 0) * static_cast<std::size_t>(components * components);
   const auto batch =
     static_cast<int>(std::clamp<std::size_t>(BatchBytes / (width * sizeof(double)), 8, 1024));
   std::vector<double> pairs(static_cast<std::size_t>(batch) * width);
@@ -498,14 +487,7 @@ Result<Eigen::SparseMatrix<double>> AssembleStiffness(const GalerkinSpace& space
         "the map of element " + std::to_string(first + (bad - finite.begin())) +
           " is singular; mend the geometry" };
     }
-    // every entry is of one lane, which adds in the order of the elements
-    ParallelFor(NumLanes, 1, params.Threads,
-      [&](std::size_t begin, std::size_t)
-      {
-        const auto lane = static_cast<unsigned>(begin);
-        const auto add = components == 1 ? AddLane<1> : components == 2 ? AddLane<2> : AddLane<3>;
-        add(space, first, size, lane, pairs, width, matrix.Value);
-      });
+    AddElements(space, first, size, pairs, width, components, params.Threads, matrix.Value);
     if (progress && !progress(0.1 + 0.4 * (first + static_cast<double>(size)) / count))
     {
       return { ErrorCode::Aborted, "while the matrix was assembled" };

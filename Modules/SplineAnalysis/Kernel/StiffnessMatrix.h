@@ -22,10 +22,22 @@ const GalerkinMaterial& MaterialOf(const GalerkinProblem& problem, int element);
 /// @param matrix  filled in place: Eigen's matrices copy their entries when they are moved.
 Status MakePattern(
   const GalerkinSpace& space, int components, int threads, Eigen::SparseMatrix<double>& matrix);
-/// Adds an element's matrix of one component to such a pattern.
-/// @param block  symmetric, by the alive functions.
-void AddElement(const GalerkinSpace& space, int element, const Eigen::MatrixXd& block,
+/// Places of an element's functions in ascending order.
+void SortFunctions(const GalerkinSpace& space, int element, std::vector<int>& order);
+/// Pairs of an element's functions are numbered by the places a >= b of these in that order.
+inline std::size_t PairOf(int a, int b)
+{
+  return static_cast<std::size_t>(a) * static_cast<std::size_t>(a + 1) / 2 +
+    static_cast<std::size_t>(b);
+}
+/// Adds the matrices of consecutive elements to such a pattern, in the order of the elements.
+/// @param pairs  `width` entries an element: components x components a pair, the one of the trial
+/// function's component j and the test function's component i at j * components + i.
+void AddElements(const GalerkinSpace& space, int first, std::size_t count,
+  const std::vector<double>& pairs, std::size_t width, int components, int threads,
   Eigen::SparseMatrix<double>& matrix);
+/// The most functions that an element has.
+int MostFunctions(const GalerkinSpace& space);
 
 /// Lower triangle of the matrix in all coefficients, unknown f * components + component. Element
 /// matrices are made in parallel and added in the order of the elements.

@@ -25,7 +25,7 @@ void ExpectUniaxialStrain(const AnalysisCase& body, GalerkinEquation equation)
   const auto solution = SolveGalerkin(body.Space, problem);
   ASSERT_TRUE(solution) << solution.Status.Message();
   const auto fields =
-    MakeResultFields(body.Space, problem, body.Boundary, solution->Coefficients, {});
+    MakeResultFields(body.Space, problem, body.Boundary, solution->Coefficients, true, {});
   ASSERT_TRUE(fields) << fields.Status.Message();
   // shear modulus 50, Lame's first constant 75 (plate: 2 mu nu / (1 - nu))
   const double first = equation == GalerkinEquation::PlaneStress ? 30.0 / 0.7 : 75.0;
@@ -69,12 +69,12 @@ TEST(ResultFields, FluxOfALinearSolution_ExactOracle)
   const auto solution = SolveGalerkin(body.Space, problem);
   ASSERT_TRUE(solution);
   const auto fields =
-    MakeResultFields(body.Space, problem, body.Boundary, solution->Coefficients, {});
+    MakeResultFields(body.Space, problem, body.Boundary, solution->Coefficients, true, {});
   ASSERT_TRUE(fields);
   const Eigen::RowVector3d flux(8.0, -4.0, 0.0);
   EXPECT_LE((fields->Projected.rowwise() - flux).cwiseAbs().maxCoeff(), 1e-9);
   EXPECT_EQ(fields->LargestVonMises.size(), 0);
-  EXPECT_EQ(MakeResultFields(body.Space, problem, body.Boundary, solution->Coefficients, {},
+  EXPECT_EQ(MakeResultFields(body.Space, problem, body.Boundary, solution->Coefficients, true, {},
               [](double) { return false; })
               .Status.Code,
     ErrorCode::Aborted);
