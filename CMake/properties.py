@@ -249,7 +249,7 @@ def literal(text):
 
 
 def options(out, headers):
-    headers = [header for header in headers if header.base == "vtkSplineAlgorithm"
+    headers = [header for header in headers if header.base in ("vtkSplineAlgorithm", "vtkWriter")
                and any(each.name != "FileName" for each in header.properties)]
     write(out + ".h", [
         "// Generated from the headers of the filters by CMake/properties.py", "#pragma once", "",
