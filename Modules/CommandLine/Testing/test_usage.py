@@ -4,6 +4,7 @@ name that is nearest."""
 import os
 import re
 import shutil
+import subprocess
 import tempfile
 from xml.etree import ElementTree
 
@@ -129,6 +130,15 @@ def test_old_spelling_and_short_output():
     done = knotwork_testing.run_program("refine", grid, "-o", fine, "--max-level", 3, "--quiet")
     assert done.returncode == 0 and done.stderr == "", done
     assert "'--max-lvl'" in wrong("refine", grid, "-o", fine, "--max-lvl", 3)
+
+
+def test_start_loads_neither_CAD_nor_rendering():
+    """They would be most of the time that the program needs to begin."""
+    said = subprocess.run(["ldd", knotwork_testing.PROGRAM], stdout=subprocess.PIPE, text=True, check=True).stdout
+    names = [line.split()[0] for line in said.splitlines()]
+    assert any(name.startswith("libvtkKnotworkSplineIO") for name in names), names
+    heavy = [name for name in names if re.match(r"libTK|libvtkRendering|libX11|libE?GL|libfreeimage|libfontconfig|libpython", name)]
+    assert not heavy, heavy
 
 
 knotwork_testing.main(globals())
