@@ -132,6 +132,15 @@ def test_old_spelling_and_short_output():
     assert "'--max-lvl'" in wrong("refine", grid, "-o", fine, "--max-lvl", 3)
 
 
+def test_options_stand_under_titles():
+    text = knotwork_testing.run_program("fit", "--help").stdout
+    titles = re.findall(r"^([A-Z][\w ]*):$", text, re.MULTILINE)
+    assert {"Outputs", "General", "Tolerance", "Refinement", "Outliers"} <= set(titles) and len(titles) == len(set(titles)), titles
+    assert max(part.count("\n  --") for part in re.split(r"^[A-Z][\w ]*:$", text, flags=re.MULTILINE)) <= 12, text
+    general = re.search(r"^General:\n((?:  .*\n)+)", text, re.MULTILINE)[1]
+    assert all(each in general for each in ("--help", "--force", "--threads", "--quiet")), general
+
+
 def test_start_loads_neither_CAD_nor_rendering():
     """They would be most of the time that the program needs to begin."""
     said = subprocess.run(["ldd", knotwork_testing.PROGRAM], stdout=subprocess.PIPE, text=True, check=True).stdout
