@@ -4,7 +4,9 @@
 #include "CADFunctions.h"
 
 #include <cstdlib>
+#include <filesystem>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <dlfcn.h>
@@ -15,13 +17,22 @@ namespace
 {
 constexpr const char* Library = "knotwork-opencascade.so";
 
-/// Folder of this library or program.
-std::string OwnFolder()
+/// Folders of this library and of the program, which a shell may have found by its name alone.
+std::vector<std::string> OwnFolders()
 {
   Dl_info own{};
-  const bool found = dladdr(reinterpret_cast<const void*>(&OwnFolder), &own) != 0;
-  const std::string file = found && own.dli_fname ? own.dli_fname : "";
-  return file.substr(0, file.rfind('/') + 1);
+  const bool found = dladdr(reinterpret_cast<const void*>(&OwnFolders), &own) != 0;
+  std::error_code ignored;
+  std::vector<std::string> folders;
+  for (const std::string& file : { std::string(found && own.dli_fname ? own.dli_fname : ""),
+         std::filesystem::read_symlink("/proc/self/exe", ignored).string() })
+  {
+    if (const std::size_t end = file.rfind('/'); end != std::string::npos)
+    {
+      folders.push_back(file.substr(0, end + 1));
+    }
+  }
+  return folders;
 }
 
 /// The library from the folder that KNOTWORK_WORKERS names, else from beside this one or from the
@@ -29,11 +40,20 @@ std::string OwnFolder()
 const CADFunctions* Load()
 {
   const char* chosen = std::getenv("KNOTWORK_WORKERS");
-  const std::string folder = OwnFolder();
-  const std::vector<std::string> places = chosen && *chosen
-    ? std::vector<std::string>{ chosen }
-    : std::vector<std::string>{ folder, folder + KNOTWORK_WORKER_FOLDER,
-        folder + "../libexec/knotwork" };
+  std::vector<std::string> places;
+  if (chosen && *chosen)
+  {
+    places.emplace_back(chosen);
+  }
+  else
+  {
+    for (const std::string& folder : OwnFolders())
+    {
+      places.push_back(folder);
+      places.push_back(folder + KNOTWORK_WORKER_FOLDER);
+      places.push_back(folder + "../libexec/knotwork");
+    }
+  }
   for (const std::string& place : places)
   {
     void* library = dlopen((place + "/" + Library).c_str(), RTLD_NOW | RTLD_LOCAL);

@@ -150,4 +150,20 @@ def test_start_loads_neither_CAD_nor_rendering():
     assert not heavy, heavy
 
 
+def test_CAD_is_found_from_everywhere():
+    """A program found on PATH does not know its own folder by its first word."""
+    before = os.environ["PATH"]
+    with tempfile.TemporaryDirectory(dir=path("")) as folder:
+        os.environ["PATH"] = knotwork_testing.BIN_DIR + os.pathsep + before
+        try:
+            done = subprocess.run(["knotwork", "source", "--output", "square.step", "--quiet"], cwd=folder, stderr=subprocess.PIPE, text=True)
+        finally:
+            os.environ["PATH"] = before
+        assert done.returncode == 0 and os.path.getsize(folder + "/square.step") > 0, done
+        done = subprocess.run([knotwork_testing.PROGRAM, "source", "--output", "none.step"], cwd=folder, stderr=subprocess.PIPE, text=True,
+                              env={**os.environ, "KNOTWORK_WORKERS": folder})
+        assert done.returncode == 1 and "knotwork-opencascade.so" in done.stderr and "KNOTWORK_WORKERS" in done.stderr, done
+        assert not os.path.exists(folder + "/none.step")
+
+
 knotwork_testing.main(globals())
