@@ -9,14 +9,12 @@
 #include <knotwork/SplineGrid/FilterErrorCode.h>
 #include <knotwork/SplineIO/FileFormats.h>
 #include <knotwork/SplineIO/Messages.h>
-#include <knotwork/SplineIO/OneLine.h>
 #include <knotwork/SplineIO/vtkCADReader.h>
 #include <knotwork/SplineIO/vtkPictureWriter.h>
 
 #include <vtkDataObject.h>
 #include <vtkNew.h>
 
-#include <filesystem>
 #include <memory>
 
 namespace knotwork
