@@ -45,7 +45,7 @@ def test_formats_agree_PropertyOracle():
     corners = [(0, 0), (3, 0.5), (2.5, 2), (-0.5, 1.5)]
     points = [(a[0] + (b[0] - a[0]) * k / 20, a[1] + (b[1] - a[1]) * k / 20)
               for a, b in zip(corners, corners[1:] + corners[:1]) for k in range(20)] + corners[:1]
-    one = write_text("one.csv", "x,y,z\n" + "".join("%.17g,%.17g,0\n" % point for point in points))
+    one = write_text("one.csv", "x,y\n" + "".join("%.17g,%.17g\n" % point for point in points))
     four = write_text("four.csv", "x,y,z,Line\n" + "".join("%.17g,%.17g,0,%d\n" % (*points[i], side)
                                                           for side in range(4) for i in range(20 * side, 20 * side + 21)))
     drawing = picture("points.svg", "<polyline points='" + " ".join("%.17g,%.17g" % (x, -y) for x, y in points) + "'/>")

@@ -16,6 +16,7 @@ namespace knotwork
 /// inf, as what has no value at a point is written.
 /// @param text  read independently of the locale; numbers are rounded to the nearest double.
 /// @param threads  0: all cores; the result does not depend on it.
+/// A head line of x and y alone: points of the plane z = 0.
 /// @return EmptyInput without a point; InvalidFormat or, for a coordinate, NonFiniteInput with
 /// line, column and word.
 /// @complexity time and memory O(size of the text).
