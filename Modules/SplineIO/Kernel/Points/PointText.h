@@ -13,10 +13,10 @@ namespace knotwork
 /// of that name (also X, Y, Z; Points:0, Points:1, Points:2), else the first three. A comment
 /// directly above the first line that begins with x y z and has a word a column names them too.
 /// Channels without a name are Column4, Column5, ... Coordinates are finite; channels may be nan or
-/// inf, as what has no value at a point is written.
+/// inf, as what has no value at a point is written. Two columns that are named x and y are points
+/// of the plane z = 0.
 /// @param text  read independently of the locale; numbers are rounded to the nearest double.
 /// @param threads  0: all cores; the result does not depend on it.
-/// A head line of x and y alone: points of the plane z = 0.
 /// @return EmptyInput without a point; InvalidFormat or, for a coordinate, NonFiniteInput with
 /// line, column and word.
 /// @complexity time and memory O(size of the text).
