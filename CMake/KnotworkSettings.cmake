@@ -72,5 +72,6 @@ set(Python3_EXECUTABLE "/usr/bin/python3" CACHE FILEPATH "Python with VTK's modu
 set(KNOTWORK_VTK_COMPONENTS CommonCore CommonDataModel CommonExecutionModel CommonMath CommonMisc
   CommonTransforms FiltersCore FiltersGeneral FiltersExtraction FiltersGeometry FiltersSources IOCore IOXML
   IOLegacy IOGeometry IOParallelXML IOPLY ParallelCore)
-set(KNOTWORK_VTK_TEST_COMPONENTS IOImage ImagingCore InteractionStyle RenderingAnnotation
-  RenderingCore RenderingFreeType RenderingOpenGL2)
+# Those of the program that draws pictures (knotwork-view), and those that tests use beside them.
+set(KNOTWORK_VTK_PICTURE_COMPONENTS CommonColor IOImage RenderingAnnotation RenderingCore RenderingFreeType RenderingOpenGL2)
+set(KNOTWORK_VTK_TEST_COMPONENTS ImagingCore InteractionStyle)

@@ -19,11 +19,11 @@ A property is a setter macro of VTK under a comment:
 First what it is, for every reader; then "Default ...", held against the initializer of the member, and "valid range [a, b]"
 or ">= a", held against the macro; then, where they apply,
 
-    Advanced.             ParaView shows it on demand
+    Advanced.             ParaView shows it on demand, --help under a title of its own
     For NAME VALUE, ....  it counts with these values (or on, off) of another property: ParaView shows it with them only; "not" before
                           the values: with the other ones. Several sentences: all must hold.
     Components a, b, ...  what its numbers are called
-    Group "Name".         properties that ParaView frames together
+    Group "Name".         properties that ParaView frames together, and --help lists under that title
     Kernel default 0.     the kernel's default, where it is another one
 
 A property between two enumerators is a choice of that enumeration. A label in quotes that begins an enumerator's comment is
@@ -248,8 +248,11 @@ def literal(text):
     return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
 
 
+DEFAULT_GROUP = "Options"  # of --help
+
+
 def options(out, headers):
-    headers = [header for header in headers if header.base == "vtkSplineAlgorithm"
+    headers = [header for header in headers if header.base in ("vtkSplineAlgorithm", "vtkWriter")
                and any(each.name != "FileName" for each in header.properties)]
     write(out + ".h", [
         "// Generated from the headers of the filters by CMake/properties.py", "#pragma once", "",
@@ -262,8 +265,16 @@ def options(out, headers):
     lines += ["namespace knotwork", "{"]
     for header in headers:
         lines += [f"void AddProperties(Options& options, {header.name}* filter)", "{"]
-        lines += [option_line(header, each) for each in header.properties if each.name != "FileName"]
-        lines.append("}")
+        group = DEFAULT_GROUP
+        for each in header.properties:
+            if each.name == "FileName":
+                continue
+            own = each.group or ("Advanced" if each.advanced else DEFAULT_GROUP)
+            if own != group:
+                lines.append(f'  options.Group("{own}");')
+                group = own
+            lines.append(option_line(header, each))
+        lines += [f'  options.Group("{DEFAULT_GROUP}");', "}"]
     write(out + ".cxx", lines + ["}"])
 
 

@@ -43,7 +43,7 @@ def binaries(tree):
         folders[:] = sorted(name for name in folders if name not in LEFT_OUT)
         for name in sorted(files):
             path = os.path.join(folder, name)
-            is_program = re.fullmatch(r"knotwork(-[\w-]+)?", name) and os.access(path, os.X_OK)
+            is_program = re.fullmatch(r"knotwork(-[\w-]+)?(\.so)?", name) and os.access(path, os.X_OK)
             is_library = fnmatch.fnmatch(name, "*Knotwork*.so*")
             if (is_program or is_library) and not os.path.islink(path):
                 with open(path, "rb") as file:
@@ -62,7 +62,7 @@ def user_of(path):
     if name.startswith("vtkKnotwork"):
         return PYTHON
     found = re.match(r"libvtkKnotwork(\w+)\.", name)
-    return found[1] if found else "plugin" if name.startswith("Knotwork.") else name
+    return found[1] if found else "plugin" if name.startswith("Knotwork.") else name.removesuffix(".so")
 
 
 def matches(name, patterns):

@@ -15,7 +15,7 @@ class Help:
         self.sections, self.notes = {}, []
         entries = None
         for line in lines[1:]:
-            title = re.fullmatch(r"([A-Z]\w*):", line)
+            title = re.fullmatch(r"([A-Z][\w ]*):", line)
             if title:
                 entries = self.sections.setdefault(title[1], [])
             elif line.startswith("  ") and entries is not None:
@@ -36,10 +36,10 @@ class Help:
             entries.append((term.strip(), meaning.strip()))
 
     def options(self):
-        """[(names, what follows, meaning)] of options and outputs."""
+        """[(names, what follows, meaning)] of options and outputs, under whatever title."""
         found = []
-        for title in ("Options", "Outputs"):
-            for term, meaning in self.sections.get(title, []):
+        for entries in self.sections.values():
+            for term, meaning in entries:
                 names, _, rest = term.partition(" ")
                 if names.startswith("-"):
                     found.append((names.split(","), rest, meaning))

@@ -71,6 +71,7 @@ void Options::Add(const std::string& property, const T& initial, std::function<v
   {
     option->expected(static_cast<int>(initial.size()));
   }
+  option->group(this->Title);
   bind(option, value);
 }
 

@@ -32,6 +32,9 @@ public:
     this->Names[property] = name;
   }
 
+  /// Title in --help of the options that are added from here on.
+  void Group(const std::string& title) { this->Title = title; }
+
   /// Options that are added from here on belong to one of several things that the job does; 0: to
   /// all of them. One name in several of them is one option, with the default and help of the
   /// first.
@@ -87,6 +90,7 @@ private:
   };
 
   CLI::App& Job;
+  std::string Title = "Options";
   int Branch = 0;
   std::map<int, std::string> Branches;
   std::set<std::string> LeftOut;

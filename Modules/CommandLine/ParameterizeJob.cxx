@@ -17,7 +17,9 @@ public:
   explicit ParameterizeJob(CLI::App& app) : FilterJob(app)
   {
     this->AddInput(0, "boundary",
-      "four curves or six faces, one patch a side (.vtu .vtpc .xml .g2 .json)", "", "input");
+      "four curves or six faces, one patch a side (.vtu .vtpc .xml .g2 .json), or lines drawn by "
+      "hand, one closed or four (.svg .csv .vtp)",
+      "", "input");
     this->AddInput(1, "--layout",
       "a mesh of quadrilaterals or hexahedra, one a patch: the boundary then has a curve or face "
       "for every edge or face on its boundary (.vtu .vtp)",
@@ -50,6 +52,15 @@ protected:
     session.Report["patches"] = static_cast<long long>(number("Patches"));
     session.Report["stopped"] = text("Stopped");
     session.Report["work"] = number("Work");
+    if (data->GetArray("OutlineDistance"))
+    {
+      session.Report["outline_distance"] = number("OutlineDistance");
+      for (const char* counted :
+        { "OutlineCorners", "OutlineLines", "OutlineArcs", "OutlineCurves" })
+      {
+        session.Report[Options::SnakeCase(counted)] = static_cast<long long>(number(counted));
+      }
+    }
     session.Report["seconds_with_certificate"] = this->Filter->GetSecondsWithCertificate();
     return {};
   }

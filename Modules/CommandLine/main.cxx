@@ -36,6 +36,8 @@ constexpr const char* ExitStatus =
   "Exit status: 0 done, 1 bad input or failure, 2 wrong usage, 5 done but part of the input was "
   "left out, 128 + n ended by signal n; of validate also 3 invalid, 4 undecided.";
 
+constexpr const char* General = "General"; // title in --help
+
 /// The parser would take 010 for eight, as in C; whole numbers are decimal.
 void RefuseOctalNumbers(CLI::App& job)
 {
@@ -130,14 +132,17 @@ int main(int argc, char* argv[])
     CLI::App* job = app.add_subcommand(entry.Name, entry.Help);
     job->footer(
       "Example: knotwork " + std::string(entry.Name) + " " + entry.Example + "\n\n" + ExitStatus);
+    jobs.emplace_back(job, entry.Make(*job));
     knotwork::AddOutput(*job, "--report", session.ReportFile, knotwork::Endings::Any,
       "JSON file for the numbers of the job");
-    job->add_flag("--force", session.Files.Force, "an output may take the place of an input");
+    job->add_flag("--force", session.Files.Force, "an output may take the place of an input")
+      ->group(General);
     job->add_option("--threads", session.Threads, "threads, 0 = all cores")
       ->check(knotwork::InRange(0, 1024))
-      ->capture_default_str();
-    job->add_flag("--quiet", session.Quiet, "no progress and no warnings");
-    jobs.emplace_back(job, entry.Make(*job));
+      ->capture_default_str()
+      ->group(General);
+    job->add_flag("--quiet", session.Quiet, "no progress and no warnings")->group(General);
+    job->set_help_flag("-h,--help", "Print this help message and exit")->group(General);
     RefuseOctalNumbers(*job);
   }
   const knotwork::PreparedWords prepared = knotwork::PrepareWords(argc, argv, app);

@@ -2,10 +2,12 @@
 #include "vtkDomainParameterization.h"
 
 #include "LayoutData.h"
+#include <knotwork/DomainParameterization/OutlineCurves.h>
 #include <knotwork/DomainParameterization/ParameterizeLayout.h>
 #include <knotwork/SplineGrid/NamedArray.h>
 #include <knotwork/SplineGrid/SplineModel.h>
 
+#include "vtkCellArray.h"
 #include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -13,10 +15,13 @@
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <array>
 #include <string>
 
 using knotwork::ErrorCode;
@@ -104,6 +109,46 @@ void AddNumber(vtkUnstructuredGrid* grid, const char* name, double value)
   grid->GetFieldData()->AddArray(array);
 }
 
+/// Polylines, or points in their order, of which the array Line may number the lines.
+std::vector<knotwork::PointMatrix> LinesOf(vtkPolyData* drawn)
+{
+  std::vector<std::vector<vtkIdType>> rows;
+  vtkCellArray* cells = drawn->GetLines();
+  for (vtkIdType c = 0; c < cells->GetNumberOfCells(); ++c)
+  {
+    vtkIdType count = 0;
+    const vtkIdType* points = nullptr;
+    cells->GetCellAtId(c, count, points);
+    rows.emplace_back(points, points + count);
+  }
+  if (rows.empty())
+  {
+    vtkDataArray* numbers = drawn->GetPointData()->GetArray("Line");
+    for (vtkIdType i = 0; i < drawn->GetNumberOfPoints(); ++i)
+    {
+      const bool begins =
+        i == 0 || (numbers && numbers->GetComponent(i, 0) != numbers->GetComponent(i - 1, 0));
+      if (begins)
+      {
+        rows.emplace_back();
+      }
+      rows.back().push_back(i);
+    }
+  }
+  std::vector<knotwork::PointMatrix> lines;
+  for (const std::vector<vtkIdType>& row : rows)
+  {
+    lines.emplace_back(static_cast<Eigen::Index>(row.size()), 2);
+    for (std::size_t i = 0; i < row.size(); ++i)
+    {
+      std::array<double, 3> point{};
+      drawn->GetPoint(row[i], point.data());
+      lines.back().row(static_cast<Eigen::Index>(i)) << point[0], point[1];
+    }
+  }
+  return lines;
+}
+
 /// The report of a map as field data.
 void AddReport(const knotwork::DomainReport& result, vtkUnstructuredGrid* grid)
 {
@@ -126,7 +171,9 @@ void AddReport(const knotwork::DomainReport& result, vtkUnstructuredGrid* grid)
 
 vtkDomainParameterization::vtkDomainParameterization()
 {
-  this->SetInputTypes({ Splines(), Optional({ { "vtkDataSet" } }) });
+  InputType boundary = Splines();
+  boundary.Classes.emplace_back("vtkPolyData");
+  this->SetInputTypes({ boundary, Optional({ { "vtkDataSet" } }) });
   this->SetOutputTypes({ "vtkUnstructuredGrid", "vtkUnstructuredGrid", "vtkTable" });
 }
 
@@ -136,6 +183,12 @@ Status vtkDomainParameterization::Compute(
   this->Verdict = 0;
   this->Injectivity = 0;
   this->SecondsWithCertificate = 0.0;
+  vtkDataSet* layout = vtkDataSet::GetData(inputs[1], 0);
+  if (auto* drawn = vtkPolyData::GetData(inputs[0], 0))
+  {
+    return drawn->GetNumberOfPoints() > 0 ? this->ParameterizeDrawn(drawn, layout, outputs)
+                                          : Status();
+  }
   const auto model = this->DecodeInput(vtkDataObject::GetData(inputs[0], 0));
   if (!model)
   {
@@ -145,10 +198,55 @@ Status vtkDomainParameterization::Compute(
   {
     return {};
   }
-  vtkDataSet* layout = vtkDataSet::GetData(inputs[1], 0);
   return model->Patches.front().Geometry.index() == 0
     ? this->Parameterize<2>(model.Value, layout, outputs)
     : this->Parameterize<3>(model.Value, layout, outputs);
+}
+
+Status vtkDomainParameterization::ParameterizeDrawn(
+  vtkPolyData* drawn, vtkDataSet* layout, vtkInformationVector* outputs)
+{
+  std::array<double, 6> box{};
+  drawn->GetBounds(box.data());
+  constexpr double flat = 1e-9;
+  if (box[5] - box[4] > flat * drawn->GetLength())
+  {
+    return { ErrorCode::DimensionMismatch,
+      "the lines lie between z = " + std::to_string(box[4]) + " and " + std::to_string(box[5]) +
+        "; draw them in a plane z = constant" };
+  }
+  knotwork::OutlineParams params;
+  params.Tolerance = this->OutlineTolerance;
+  params.CornerAngle = this->CornerAngle;
+  params.CornerWindow = this->CornerWindow;
+  params.NumSides = layout ? 0 : 4;
+  const auto outline = knotwork::FitOutline(LinesOf(drawn), params);
+  if (!outline)
+  {
+    return outline.Status;
+  }
+  for (const std::string& message : outline.Value.Messages)
+  {
+    vtkWarningMacro("" << message);
+  }
+  knotwork::SplineModel model;
+  for (const knotwork::Spline<1>& side : outline.Value.Sides)
+  {
+    model.Patches.emplace_back();
+    model.Patches.back().Id = static_cast<int>(model.Patches.size()) - 1;
+    knotwork::Spline<1> raised = side;
+    raised.ControlPoints.conservativeResize(Eigen::NoChange, 3);
+    raised.ControlPoints.col(2).setConstant(box[4]);
+    model.Patches.back().Geometry = std::move(raised);
+  }
+  const Status status = this->Parameterize<2>(model, layout, outputs);
+  vtkUnstructuredGrid* grid = vtkUnstructuredGrid::GetData(outputs, 0);
+  AddNumber(grid, "OutlineDistance", outline.Value.MaxDistance);
+  AddNumber(grid, "OutlineCorners", outline.Value.NumCorners);
+  AddNumber(grid, "OutlineLines", outline.Value.NumLines);
+  AddNumber(grid, "OutlineArcs", outline.Value.NumArcs);
+  AddNumber(grid, "OutlineCurves", outline.Value.NumCurves);
+  return status;
 }
 
 knotwork::DomainParams vtkDomainParameterization::KernelParams() const

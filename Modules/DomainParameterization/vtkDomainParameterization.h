@@ -7,6 +7,13 @@
  * a plane z = constant, or six faces in space, each polynomial or rational with its own degrees and
  * knots. Which sides meet, and how they run, is found. The boundary is not moved.
  *
+ * Or it is a vtkPolyData of lines that were drawn by hand: one closed polyline or a polyline a
+ * side, or points in drawing order, of which the point array `Line` may number the lines. Curves
+ * are fitted to them (knotwork::FitOutline). Output 0 then has the field-data arrays
+ * `OutlineDistance` (largest distance of the points from the curves), `OutlineCorners`,
+ * `OutlineLines`, `OutlineArcs` and `OutlineCurves` (numbers of corners and of straight, circular
+ * and fitted pieces).
+ *
  * Input 1 (optional) is a layout: a linear mesh of quadrilaterals or hexahedra, one a patch. Input
  * 0 then has one curve (face) for every edge (face) on the mesh's boundary, found by the points
  * that it joins, and may have some for inner ones. All patches are parameterized together; those
@@ -35,6 +42,7 @@
 #include <vector> // for patches
 
 class vtkDataSet;
+class vtkPolyData;
 
 namespace knotwork
 {
@@ -192,6 +200,25 @@ public:
   vtkGetMacro(MaximumRefinements, int);
   ///@}
   ///@{
+  /** Of lines drawn by hand: largest distance of the curves from the points, a share of the
+   * outline's size. Default 0.002, valid range [1e-9, 0.1]. Group "Outline". */
+  vtkSetClampMacro(OutlineTolerance, double, 1e-9, 0.1);
+  vtkGetMacro(OutlineTolerance, double);
+  ///@}
+  ///@{
+  /** Of lines drawn by hand: degrees that a line turns at a corner, at least. Default 40, valid
+   * range [5, 170]. Group "Outline". */
+  vtkSetClampMacro(CornerAngle, double, 5.0, 170.0);
+  vtkGetMacro(CornerAngle, double);
+  ///@}
+  ///@{
+  /** Of lines drawn by hand: share of a line's length over which its directions before and behind
+   * a point are taken; more makes corners robust against noise, less finds near ones. Default 0.02,
+   * valid range [0.0001, 0.2]. Advanced. Group "Outline". */
+  vtkSetClampMacro(CornerWindow, double, 1e-4, 0.2);
+  vtkGetMacro(CornerWindow, double);
+  ///@}
+  ///@{
   /** Ends of sides at most this part of the boundary's size apart are one corner. Default 1e-9,
    * valid range [0, 0.1]. Advanced. */
   vtkSetClampMacro(GapTolerance, double, 0.0, 0.1);
@@ -258,6 +285,8 @@ private:
   vtkDomainParameterization(const vtkDomainParameterization&) = delete;
   void operator=(const vtkDomainParameterization&) = delete;
 
+  knotwork::Status ParameterizeDrawn(
+    vtkPolyData* drawn, vtkDataSet* layout, vtkInformationVector* outputs);
   template <int Dim>
   knotwork::Status Parameterize(
     const knotwork::SplineModel& model, vtkDataSet* layout, vtkInformationVector* outputs);
@@ -284,6 +313,9 @@ private:
   double EnergyTolerance = 1e-7;
   int MaximumAlternations = 5;
   int MaximumRefinements = 3;
+  double OutlineTolerance = 2e-3;
+  double CornerAngle = 40.0;
+  double CornerWindow = 0.02;
   double GapTolerance = 1e-9;
   int MetricSamples = 0;
   double CertificateGap = 0.1;

@@ -25,9 +25,14 @@
 #include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
 #include <knotwork/SplineIO/NearestName.h>
 
+#include "vtkCellData.h"
+#include "vtkIdList.h"
 #include "vtkNew.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 #include "vtkTable.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <functional>
@@ -138,11 +143,30 @@ Status WritePointText(vtkDataObject* data, const std::string& file, const DataFi
                                       : WriteWith<vtkPointCloudWriter>(data, file, params);
 }
 
+/// The cells of polygons as a grid, with their arrays.
+vtkSmartPointer<vtkUnstructuredGrid> GridOfPolygons(vtkPolyData* polygons)
+{
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  grid->SetPoints(polygons->GetPoints());
+  grid->Allocate(polygons->GetNumberOfCells());
+  vtkNew<vtkIdList> points;
+  for (vtkIdType cell = 0; cell < polygons->GetNumberOfCells(); ++cell)
+  {
+    polygons->GetCellPoints(cell, points);
+    grid->InsertNextCell(polygons->GetCellType(cell), points);
+  }
+  grid->GetPointData()->ShallowCopy(polygons->GetPointData());
+  grid->GetCellData()->ShallowCopy(polygons->GetCellData());
+  return grid;
+}
+
 Status WriteMesh(vtkDataObject* data, const std::string& file, const DataFileParams& params)
 {
+  auto* polygons = vtkPolyData::SafeDownCast(data);
+  const vtkSmartPointer<vtkDataObject> cells = polygons ? GridOfPolygons(polygons).Get() : data;
   vtkNew<vtkSolverMeshWriter> writer;
   writer->SetFileName(file.c_str());
-  writer->SetInputDataObject(data);
+  writer->SetInputDataObject(cells);
   writer->SetBinary(params.Encoding != "ascii");
   return Outcome(writer);
 }
@@ -175,6 +199,7 @@ constexpr unsigned PointsAndValues = PointContent | PointValueContent;
 constexpr unsigned Lines = PointsAndValues | PolylineContent | PolygonContent;
 constexpr unsigned Collections = SplineCollectionContent | PolygonCollectionContent | CellContent;
 constexpr unsigned Cells = SplineGridContent | CellContent | GridContent;
+constexpr unsigned MeshCells = GridContent | PolygonContent | PolylineContent;
 
 std::vector<std::string> EndingsWhere(const std::function<bool(const FileFormat&)>& isMeant)
 {
@@ -225,12 +250,12 @@ const std::vector<FileFormat>& FileFormats()
     { "PLY", { ".ply" }, PointsAndValues | PolygonContent, Polygons, false, readPoints,
       WritePolygons },
     { "OFF", { ".off" }, PointContent | PolygonContent, 0, false, readPoints, nullptr },
+    { "SVG", { ".svg" }, PointContent | PolylineContent, 0, false, readPoints, nullptr },
     { "BEXT", { ".bext" }, Elements, Elements, false, readOperators, writeOperators },
     { "JSON of BEXT or of the boundary of a domain", { ".json" }, Elements | BoundaryContent,
       Elements, false, ReadJson, writeOperators },
-    { "MFEM mesh", { ".mesh" }, SplineCurveContent | Cells, GridContent, false, readMesh,
-      WriteMesh },
-    { "Gmsh mesh", { ".msh" }, CellContent | GridContent, GridContent, false, readElements,
+    { "MFEM mesh", { ".mesh" }, SplineCurveContent | Cells, MeshCells, false, readMesh, WriteMesh },
+    { "Gmsh mesh", { ".msh" }, CellContent | GridContent, MeshCells, false, readElements,
       WriteMesh },
     { "Abaqus input", { ".inp" }, CellContent | GridContent, 0, false, readElements, nullptr },
   };

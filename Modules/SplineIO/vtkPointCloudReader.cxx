@@ -10,6 +10,7 @@
 #include <knotwork/SplineIO/MeshFiles.h>
 #include <knotwork/SplineIO/PlyPoints.h>
 #include <knotwork/SplineIO/PointText.h>
+#include <knotwork/SplineIO/SvgPaths.h>
 
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
@@ -66,6 +67,7 @@ const PointFormat* FormatOf(const std::string& ending)
     { ".off", { BeginsWithOff, OnOneThread<ReadOff> } },
     { ".obj", { IsThere, OnOneThread<ReadObj> } },
     { ".stl", { IsThere, OnOneThread<ReadStl> } },
+    { ".svg", { LooksLikeSvg, OnOneThread<ReadSvg> } },
   };
   const auto found = formats.find(ending);
   return found == formats.end() ? nullptr : &found->second;

@@ -118,13 +118,14 @@ public:
   /** Where the parameters of the points come from, one of Parameterizations. HEIGHT_FIELD: x and
    * y, and z is fitted. GIVEN: an array of two components. COMPUTED: closest points of the start
    * surface, without one plane coordinates of the triangles, or without triangles of the plane of
-   * least squares. Default HEIGHT_FIELD. */
+   * least squares. Default HEIGHT_FIELD. Group "Points". */
   vtkSetClampMacro(Parameterization, int, HEIGHT_FIELD, COMPUTED);
   vtkGetMacro(Parameterization, int);
   ///@}
   ///@{
   /** Whether the parameters of points in space become those of the closest points of every
-   * iteration's surface (slower). Default off. Advanced. For Parameterization not HEIGHT_FIELD. */
+   * iteration's surface (slower). Default off. Advanced. For Parameterization not HEIGHT_FIELD.
+   * Group "Points". */
   vtkSetMacro(CorrectParameters, bool);
   vtkGetMacro(CorrectParameters, bool);
   vtkBooleanMacro(CorrectParameters, bool);
@@ -135,98 +136,101 @@ public:
   void ClearFieldArrays();
   ///@}
   ///@{
-  /** Whether all other point arrays of numbers are fitted along. Default off. */
+  /** Whether all other point arrays of numbers are fitted along. Default off. Group "Points". */
   vtkSetMacro(AllFields, bool);
   vtkGetMacro(AllFields, bool);
   vtkBooleanMacro(AllFields, bool);
   ///@}
   ///@{
   /** Kind of the spline space, one of Spaces: locally refined or truncated hierarchical
-   * B-splines. A start surface of one of these kinds keeps its own. Default LR. */
+   * B-splines. A start surface of one of these kinds keeps its own. Default LR. Group "Space and
+   * Domain". */
   vtkSetClampMacro(Space, int, LR, THB);
   vtkGetMacro(Space, int);
   ///@}
   ///@{
-  /** Degree in the first parameter. Default 2, valid range [1, 9]. */
+  /** Degree in the first parameter. Default 2, valid range [1, 9]. Group "Space and Domain". */
   vtkSetClampMacro(Degree, int, 1, 9);
   vtkGetMacro(Degree, int);
   ///@}
   ///@{
-  /** Degree in the second parameter; 0: as the first. Default 0, valid range [0, 9]. Advanced. */
+  /** Degree in the second parameter; 0: as the first. Default 0, valid range [0, 9]. Advanced.
+   * Group "Space and Domain". */
   vtkSetClampMacro(SecondDegree, int, 0, 9);
   vtkGetMacro(SecondDegree, int);
   ///@}
   ///@{
   /** Elements of the initial space in the first parameter; 0: chosen by the number of points.
-   * Default 0, valid range [0, 10000]. Advanced. */
+   * Default 0, valid range [0, 10000]. Advanced. Group "Space and Domain". */
   vtkSetClampMacro(InitialElementsU, int, 0, 10000);
   vtkGetMacro(InitialElementsU, int);
   ///@}
   ///@{
   /** Elements of the initial space in the second parameter; 0: chosen by the number of points.
-   * Default 0, valid range [0, 10000]. Advanced. */
+   * Default 0, valid range [0, 10000]. Advanced. Group "Space and Domain". */
   vtkSetClampMacro(InitialElementsV, int, 0, 10000);
   vtkGetMacro(InitialElementsV, int);
   ///@}
   ///@{
   /** Parameter domain u0, u1, v0, v1; without an area the box of the parameters. Default 0 0 0
-   * 0. Advanced. Components u0, u1, v0, v1. */
+   * 0. Advanced. Components u0, u1, v0, v1. Group "Space and Domain". */
   vtkSetVector4Macro(Domain, double);
   vtkGetVector4Macro(Domain, double);
   ///@}
   ///@{
   /** What of the start surface stays on its HeldSides through all refinement, one of EdgeHolds:
    * nothing, its edge curves, or these and the derivatives across them. Default NO_EDGES. Advanced.
-   */
+   * Group "Space and Domain". */
   vtkSetClampMacro(HoldEdges, int, NO_EDGES, DERIVATIVES);
   vtkGetMacro(HoldEdges, int);
   ///@}
   ///@{
   /** Which sides HoldEdges is about: not 0 for the lower and upper end of the first parameter,
    * then of the second. Default 1 1 1 1. Advanced. For HoldEdges not NO_EDGES. Components u0, u1,
-   * v0, v1. */
+   * v0, v1. Group "Space and Domain". */
   vtkSetVector4Macro(HeldSides, int);
   vtkGetVector4Macro(HeldSides, int);
   ///@}
   ///@{
   /** How control points are found, one of Methods: least squares with smoothing, multilevel
    * B-spline approximation (averages of local solutions), or the one and then the other. Default
-   * LEAST_SQUARES. */
+   * LEAST_SQUARES. Group "Method". */
   vtkSetClampMacro(Method, int, LEAST_SQUARES, COMBINED);
   vtkGetMacro(Method, int);
   ///@}
   ///@{
   /** First iteration of multilevel B-spline approximation. Default 6, valid range [0, 1000].
-   * Advanced. For Method COMBINED. */
+   * Advanced. For Method COMBINED. Group "Method". */
   vtkSetClampMacro(SwitchIteration, int, 0, 1000);
   vtkGetMacro(SwitchIteration, int);
   ///@}
   ///@{
   /** Weight of the thin-plate energy in least squares, relative to the data term. Default 1e-9,
-   * valid range [0, 1000]. Advanced. For Method not MBA. */
+   * valid range [0, 1000]. Advanced. For Method not MBA. Group "Method". */
   vtkSetClampMacro(Smoothing, double, 0.0, 1e3);
   vtkGetMacro(Smoothing, double);
   ///@}
   ///@{
-  /** How many times a significant point counts. Default 10, valid range [1, 1000000]. Advanced. */
+  /** How many times a significant point counts. Default 10, valid range [1, 1000000]. Advanced.
+   * Group "Method". */
   vtkSetClampMacro(SignificantWeight, double, 1.0, 1e6);
   vtkGetMacro(SignificantWeight, double);
   ///@}
   ///@{
   /** Largest distance of points from the surface, unit of the values; 0: a thousandth of the
-   * range of the values. Default 0, valid range >= 0. */
+   * range of the values. Default 0, valid range >= 0. Group "Tolerance". */
   vtkSetClampMacro(Tolerance, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Tolerance, double);
   ///@}
   ///@{
   /** Times the tolerance, for points above the surface. Default 1, valid range [1e-6, 1000000].
-   * Advanced. For Side BOTH_SIDES. */
+   * Advanced. For Side BOTH_SIDES. Group "Tolerance". */
   vtkSetClampMacro(ToleranceFactorAbove, double, 1e-6, 1e6);
   vtkGetMacro(ToleranceFactorAbove, double);
   ///@}
   ///@{
   /** Times the tolerance, for points below the surface. Default 1, valid range [1e-6, 1000000].
-   * Advanced. For Side BOTH_SIDES. */
+   * Advanced. For Side BOTH_SIDES. Group "Tolerance". */
   vtkSetClampMacro(ToleranceFactorBelow, double, 1e-6, 1e6);
   vtkGetMacro(ToleranceFactorBelow, double);
   ///@}
@@ -238,85 +242,87 @@ public:
   ///@}
   ///@{
   /** What the tolerance grows with, one of Distances: nothing, the absolute value of the height,
-   * or the distance from DistanceCentre. Default NO_DISTANCE. Advanced. */
+   * or the distance from DistanceCentre. Default NO_DISTANCE. Advanced. Group "Tolerance". */
   vtkSetClampMacro(DistanceMode, int, NO_DISTANCE, POINT_DISTANCE);
   vtkGetMacro(DistanceMode, int);
   ///@}
   ///@{
   /** Growth of the tolerance a unit of distance. Default 0, valid range >= 0. Advanced. For
-   * DistanceMode not NO_DISTANCE. */
+   * DistanceMode not NO_DISTANCE. Group "Tolerance". */
   vtkSetClampMacro(DistanceSlope, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(DistanceSlope, double);
   ///@}
   ///@{
   /** Parameters from which distances are measured. Default 0 0. Advanced. For DistanceMode
-   * POINT_DISTANCE. Components u, v. */
+   * POINT_DISTANCE. Components u, v. Group "Tolerance". */
   vtkSetVector2Macro(DistanceCentre, double);
   vtkGetVector2Macro(DistanceCentre, double);
   ///@}
   ///@{
   /** On which side of the surface points may be, one of Sides: both, no point above the surface,
-   * no point below it. Default BOTH_SIDES. */
+   * no point below it. Default BOTH_SIDES. Group "Tolerance". */
   vtkSetClampMacro(Side, int, BOTH_SIDES, BELOW);
   vtkGetMacro(Side, int);
   ///@}
   ///@{
-  /** Whether outliers are looked for; they do not count. Default off. */
+  /** Whether outliers are looked for; they do not count. Default off. Group "Outliers". */
   vtkSetMacro(FindOutliers, bool);
   vtkGetMacro(FindOutliers, bool);
   vtkBooleanMacro(FindOutliers, bool);
   ///@}
   ///@{
   /** Standard deviations of the distances nearby beyond which a point is an outlier. Default
-   * 4.5, valid range [0.1, 1000]. Advanced. For FindOutliers on. */
+   * 4.5, valid range [0.1, 1000]. Advanced. For FindOutliers on. Group "Outliers". */
   vtkSetClampMacro(OutlierScale, double, 0.1, 1000.0);
   vtkGetMacro(OutlierScale, double);
   ///@}
   ///@{
   /** What these are, one of Deviations: median absolute deviations times 1.4826 from the median, on
    * which other outliers have hardly any influence, or standard deviations from the mean. Default
-   * ROBUST. Advanced. For FindOutliers on. */
+   * ROBUST. Advanced. For FindOutliers on. Group "Outliers". */
   vtkSetClampMacro(OutlierDeviation, int, ROBUST, STANDARD);
   vtkGetMacro(OutlierDeviation, int);
   ///@}
   ///@{
-  /** Refinements at most. Default 30, valid range [0, 1000]. */
+  /** Refinements at most. Default 30, valid range [0, 1000]. Group "Termination". */
   vtkSetClampMacro(MaximumIterations, int, 0, 1000);
   vtkGetMacro(MaximumIterations, int);
   ///@}
   ///@{
   /** Functions at most; 0: ten times the number of points but at most a million, or the number
-   * of points if that is more. Default 0, valid range [0, 1000000000]. Advanced. */
+   * of points if that is more. Default 0, valid range [0, 1000000000]. Advanced. Group
+   * "Termination". */
   vtkSetClampMacro(MaximumFunctions, int, 0, 1000000000);
   vtkGetMacro(MaximumFunctions, int);
   ///@}
   ///@{
   /** Seconds after which no iteration begins, nor one that would probably end later; 0: no
-   * limit. Default 0, valid range >= 0. Advanced. */
+   * limit. Default 0, valid range >= 0. Advanced. Group "Termination". */
   vtkSetClampMacro(MaximumSeconds, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(MaximumSeconds, double);
   ///@}
   ///@{
   /** What ends the fit besides tolerance and limits, one of Criteria: nothing, or an information
-   * criterion that has risen twice. Default TOLERANCE. Advanced. */
+   * criterion that has risen twice. Default TOLERANCE. Advanced. Group "Termination". */
   vtkSetClampMacro(Criterion, int, TOLERANCE, BIC);
   vtkGetMacro(Criterion, int);
   ///@}
   ///@{
   /** Which elements with points outside their tolerance are split, one of Thresholds. Default
-   * LARGEST_ERRORS. Advanced. */
+   * LARGEST_ERRORS. Advanced. Group "Refinement". */
   vtkSetClampMacro(Threshold, int, ALL_ELEMENTS, MOST_POINTS);
   vtkGetMacro(Threshold, int);
   ///@}
   ///@{
   /** Share of the largest error, or of the most points outside, from which on elements are
-   * split. Default 0.1, valid range [0, 1]. Advanced. For Threshold LARGEST_ERRORS, MOST_POINTS. */
+   * split. Default 0.1, valid range [0, 1]. Advanced. For Threshold LARGEST_ERRORS, MOST_POINTS.
+   * Group "Refinement". */
   vtkSetClampMacro(ThresholdShare, double, 0.0, 1.0);
   vtkGetMacro(ThresholdShare, double);
   ///@}
   ///@{
   /** Directions in which elements of LR spaces are split, one of DirectionChoices; THB elements
-   * are split in both. Default BY_ERROR. Advanced. For Space LR. */
+   * are split in both. Default BY_ERROR. Advanced. For Space LR. Group "Refinement". */
   vtkSetClampMacro(Directions, int, BOTH_DIRECTIONS, BY_ERROR);
   vtkGetMacro(Directions, int);
   ///@}
@@ -324,51 +330,51 @@ public:
   /** How far the lines that split an LR element reach, one of Strategies: across all functions on
    * it, across the smallest, all knot spans of the smallest halved, or those of them that hold
    * elements to be split and are longer than half the longest. Default FULL_SPAN. Advanced. For
-   * Space LR. */
+   * Space LR. Group "Refinement". */
   vtkSetClampMacro(Strategy, int, FULL_SPAN, RESTRICTED_MESH);
   vtkGetMacro(Strategy, int);
   ///@}
   ///@{
   /** First iteration whose lines are those of LaterStrategy; 0: none. Default 0, valid range [0,
-   * 1000]. Advanced. For Space LR. */
+   * 1000]. Advanced. For Space LR. Group "Refinement". */
   vtkSetClampMacro(StrategySwitch, int, 0, 1000);
   vtkGetMacro(StrategySwitch, int);
   ///@}
   ///@{
   /** Strategy from the iteration StrategySwitch on, one of Strategies. Default FULL_SPAN. Advanced.
-   * For Space LR. */
+   * For Space LR. Group "Refinement". */
   vtkSetClampMacro(LaterStrategy, int, FULL_SPAN, RESTRICTED_MESH);
   vtkGetMacro(LaterStrategy, int);
   ///@}
   ///@{
   /** Whether no step of an LR space leaves linearly dependent functions (slower). Default off.
-   * Advanced. For Space LR. */
+   * Advanced. For Space LR. Group "Refinement". */
   vtkSetMacro(Independent, bool);
   vtkGetMacro(Independent, bool);
   vtkBooleanMacro(Independent, bool);
   ///@}
   ///@{
   /** Elements whose halves would be a smaller share of the domain are not split. Default 1e-7,
-   * valid range [1e-12, 0.5]. Advanced. */
+   * valid range [1e-12, 0.5]. Advanced. Group "Refinement". */
   vtkSetClampMacro(MinimumElementSize, double, 1e-12, 0.5);
   vtkGetMacro(MinimumElementSize, double);
   ///@}
   ///@{
   /** Cells of the feature grid in each direction; 0: no grid. Default 0, valid range [0, 4096].
-   * Advanced. */
+   * Advanced. Group "Features". */
   vtkSetClampMacro(FeatureGridSize, int, 0, 4096);
   vtkGetMacro(FeatureGridSize, int);
   ///@}
   ///@{
   /** Whether the elements have features: cell arrays of the surface, and output 4. Default off.
-   * Advanced. */
+   * Advanced. Group "Features". */
   vtkSetMacro(ElementFeatures, bool);
   vtkGetMacro(ElementFeatures, bool);
   vtkBooleanMacro(ElementFeatures, bool);
   ///@}
   ///@{
   /** Whether the feature grid and output 4 have the features of every iteration, not of the result
-   * alone. Default off. Advanced. */
+   * alone. Default off. Advanced. Group "Features". */
   vtkSetMacro(FeatureIterations, bool);
   vtkGetMacro(FeatureIterations, bool);
   vtkBooleanMacro(FeatureIterations, bool);

@@ -68,11 +68,6 @@ CADFormat FormatOfFile(const std::string& file)
   return ending == ".brep" ? CADFormat::BREP : CADFormat::Unknown;
 }
 
-bool HasCADEnding(const std::string& file)
-{
-  return FormatOfFile(file) != CADFormat::Unknown;
-}
-
 const char* NameOfUnit(LengthUnit unit)
 {
   constexpr const char* Names[NumLengthUnits] = { "UM", "MM", "CM", "M", "INCH", "FT" };

@@ -29,11 +29,6 @@
 
 namespace knotwork
 {
-CADTopology::CADTopology() = default;
-CADTopology::~CADTopology() = default;
-CADTopology::CADTopology(CADTopology&&) noexcept = default;
-CADTopology& CADTopology::operator=(CADTopology&&) noexcept = default;
-
 int CADTopology::Shapes::AddVertex(const TopoDS_Vertex& vertex, CADTopology& model)
 {
   if (const int* known = this->VertexIds.Seek(vertex))
@@ -247,7 +242,7 @@ Result<CADTopology> CADTopology::Read(const std::string& file, LengthUnit unit)
 {
   constexpr double LeastTolerance = 1e-7; ///< of the diagonal
   CADTopology model;
-  model.Impl = std::make_unique<Shapes>();
+  model.Impl = std::make_shared<Shapes>();
   const std::string place = "'" + file + "'";
   CADSession session(unit);
   const Status status = session.Run(place,

@@ -83,10 +83,9 @@ public:
   static Result<CADTopology> Read(
     const std::string& file, LengthUnit unit = LengthUnit::Millimetre);
 
-  CADTopology();
-  ~CADTopology();
-  CADTopology(CADTopology&&) noexcept;
-  CADTopology& operator=(CADTopology&&) noexcept;
+  CADTopology() = default;
+  CADTopology(CADTopology&&) noexcept = default;
+  CADTopology& operator=(CADTopology&&) noexcept = default;
 
   /// Makes the faces of every composite (CADComposite.h) one face, as far as they have the same
   /// bodies and common edges that no other face has. Such edges, and vertices within, are no more;
@@ -115,6 +114,6 @@ public:
 
 private:
   struct Shapes;
-  std::unique_ptr<Shapes> Impl;
+  std::shared_ptr<Shapes> Impl; ///< knows how to destroy what others only declare
 };
 }

@@ -169,6 +169,8 @@ def runs():
             (["fit", FILE, "--table", "table.csv", "--points", polydata, "--output", grid], "points"),
             (["flatten", FILE, "--loops", "loops.vtp", "--output", polydata], "mesh"),
             (["info", FILE], "surface"),
+            (["view", FILE, "--size", 64, 64, "--output", "out.png"], "surface"),
+            (["view", FILE, "--size", 64, 64, "--output", "out.png"], "points"),
             (["info", FILE], "points"),
             (["map", template, FILE, "--mapped", polydata, "--output", grid], "curves"),
             (["map", FILE, target, "--mapped", polydata, "--output", grid], "curves"),

@@ -70,7 +70,7 @@ def test_every_input_refuses_what_it_does_not_take():
              "problem": ["mesh.off", "square.vtu"],
              "box": ["mesh.off", "cloud.xyz", "target.vtp", "square.vtu"],
              "part": ["square.step", "square.iges", "mesh.off", "cloud.xyz", "square.vtu"]}
-    anything = ("convert", "info")  # of any kind
+    anything = ("convert", "info", "view")  # of any kind
     faces = ("quads",)              # CAD parts without solids too
     elements = ("mesh.off", "square.vtu")  # what --elements-only takes besides
 

@@ -4,6 +4,7 @@ name that is nearest."""
 import os
 import re
 import shutil
+import subprocess
 import tempfile
 from xml.etree import ElementTree
 
@@ -129,6 +130,40 @@ def test_old_spelling_and_short_output():
     done = knotwork_testing.run_program("refine", grid, "-o", fine, "--max-level", 3, "--quiet")
     assert done.returncode == 0 and done.stderr == "", done
     assert "'--max-lvl'" in wrong("refine", grid, "-o", fine, "--max-lvl", 3)
+
+
+def test_options_stand_under_titles():
+    text = knotwork_testing.run_program("fit", "--help").stdout
+    titles = re.findall(r"^([A-Z][\w ]*):$", text, re.MULTILINE)
+    assert {"Outputs", "General", "Tolerance", "Refinement", "Outliers"} <= set(titles) and len(titles) == len(set(titles)), titles
+    assert max(part.count("\n  --") for part in re.split(r"^[A-Z][\w ]*:$", text, flags=re.MULTILINE)) <= 12, text
+    general = re.search(r"^General:\n((?:  .*\n)+)", text, re.MULTILINE)[1]
+    assert all(each in general for each in ("--help", "--force", "--threads", "--quiet")), general
+
+
+def test_start_loads_neither_CAD_nor_rendering():
+    """They would be most of the time that the program needs to begin."""
+    said = subprocess.run(["ldd", knotwork_testing.PROGRAM], stdout=subprocess.PIPE, text=True, check=True).stdout
+    names = [line.split()[0] for line in said.splitlines()]
+    assert any(name.startswith("libvtkKnotworkSplineIO") for name in names), names
+    heavy = [name for name in names if re.match(r"libTK|libvtkRendering|libX11|libE?GL|libfreeimage|libfontconfig|libpython", name)]
+    assert not heavy, heavy
+
+
+def test_CAD_is_found_from_everywhere():
+    """A program found on PATH does not know its own folder by its first word."""
+    before = os.environ["PATH"]
+    with tempfile.TemporaryDirectory(dir=path("")) as folder:
+        os.environ["PATH"] = knotwork_testing.BIN_DIR + os.pathsep + before
+        try:
+            done = subprocess.run(["knotwork", "source", "--output", "square.step", "--quiet"], cwd=folder, stderr=subprocess.PIPE, text=True)
+        finally:
+            os.environ["PATH"] = before
+        assert done.returncode == 0 and os.path.getsize(folder + "/square.step") > 0, done
+        done = subprocess.run([knotwork_testing.PROGRAM, "source", "--output", "none.step"], cwd=folder, stderr=subprocess.PIPE, text=True,
+                              env={**os.environ, "KNOTWORK_WORKERS": folder})
+        assert done.returncode == 1 and "knotwork-opencascade.so" in done.stderr and "KNOTWORK_WORKERS" in done.stderr, done
+        assert not os.path.exists(folder + "/none.step")
 
 
 knotwork_testing.main(globals())

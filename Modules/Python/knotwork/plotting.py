@@ -2,11 +2,14 @@
 """Windows and pictures of data."""
 import ctypes
 import os
+import tempfile
 
 from vtkmodules.vtkCommonColor import vtkNamedColors
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkDataSet
 
+from . import vtkPictureWriter
 from .errors import Error
+from .running import run
 
 BEZIER = {75, 77, 79}  # VTK_BEZIER_CURVE, VTK_BEZIER_QUADRILATERAL, VTK_BEZIER_HEXAHEDRON
 
@@ -46,7 +49,7 @@ def _check_display(window):
         library.XCloseDisplay(ctypes.c_void_p(display))
 
 
-def _scene(data, scalars, color, edges, background, size, off_screen, tolerance):
+def _window(data, scalars, color, edges, background, size, tolerance):
     import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
     from vtkmodules.vtkRenderingCore import vtkActor, vtkDataSetMapper, vtkRenderer, vtkRenderWindow
 
@@ -68,13 +71,12 @@ def _scene(data, scalars, color, edges, background, size, off_screen, tolerance)
         if drawn.GetNumberOfCells() == 0:
             actor.GetProperty().SetRepresentationToPoints()
         renderer.AddActor(actor)
-    window.SetOffScreenRendering(off_screen)
     window.SetSize(*size)
     window.SetMultiSamples(8)
     window.SetWindowName("Knotwork")
     window.AddRenderer(renderer)
     _look(renderer)
-    return window, renderer
+    return window
 
 
 def _choose_scalars(mapper, drawn, name):
@@ -103,25 +105,24 @@ def _look(renderer):
     renderer.ResetCamera()
 
 
-def _png(window):
-    from vtkmodules.vtkIOImage import vtkPNGWriter
-    from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
-
-    window.Render()
-    image = vtkWindowToImageFilter()
-    image.SetInput(window)
-    image.ReadFrontBufferOff()
-    writer = vtkPNGWriter()
-    writer.SetInputConnection(image.GetOutputPort())
-    writer.WriteToMemoryOn()
-    writer.Write()
-    return bytes(memoryview(writer.GetResult()))
-
-
 def picture(data, *, scalars=None, color="cornflower", edges=False, background="white", size=(800, 600), tolerance=5e-4):
-    """The bytes of a PNG picture, drawn off-screen. Options as those of plot."""
-    window, _ = _scene(data, scalars, color, edges, background, size, True, tolerance)
-    return _png(window)
+    """The bytes of a PNG picture, drawn off-screen, without a display. Options as those of plot."""
+    if scalars is not None and not any(attributes.HasArray(scalars) for leaf in _leaves(data)
+                                       for attributes in (leaf.GetPointData(), leaf.GetCellData())):
+        raise ValueError(f"there is no array {scalars!r} on points or cells")
+    with tempfile.TemporaryDirectory() as folder:
+        writer = vtkPictureWriter()
+        writer.SetFileName(os.path.join(folder, "picture.png"))
+        writer.SetInputDataObject(data)
+        writer.SetArray(scalars or "")
+        writer.SetColor(color)
+        writer.SetEdges(vtkPictureWriter.CELLS if edges else vtkPictureWriter.NONE)
+        writer.SetBackground(background)
+        writer.SetSize(*size)
+        writer.SetChordalTolerance(tolerance)
+        run(writer)
+        with open(writer.GetFileName(), "rb") as stream:
+            return stream.read()
 
 
 def plot(data, *, file=None, scalars=None, color="cornflower", edges=False, background="white", size=(800, 600), tolerance=5e-4):
@@ -138,7 +139,7 @@ def plot(data, *, file=None, scalars=None, color="cornflower", edges=False, back
     import vtkmodules.vtkInteractionStyle  # noqa: F401
     from vtkmodules.vtkRenderingCore import vtkRenderWindowInteractor
 
-    window, _ = _scene(data, scalars, color, edges, background, size, False, tolerance)
+    window = _window(data, scalars, color, edges, background, size, tolerance)
     interactor = vtkRenderWindowInteractor()
     interactor.SetRenderWindow(window)
     window.Render()

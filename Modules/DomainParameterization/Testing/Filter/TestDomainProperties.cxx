@@ -3,6 +3,7 @@
 // kernel with its own option ends, number by number, and elsewhere than with the default.
 #include "DomainCases.h"
 #include <knotwork/DomainParameterization/DomainParameterization.h>
+#include <knotwork/DomainParameterization/OutlineCurves.h>
 #include <knotwork/DomainParameterization/vtkDomainParameterization.h>
 #include <knotwork/SplineIO/vtkDomainBoundaryReader.h>
 
@@ -11,16 +12,22 @@
 #include "vtkExecutive.h"
 #include "vtkFieldData.h"
 #include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
 #include <functional>
+#include <random>
 #include <set>
 #include <sstream>
+#include <string>
+#include <vector>
 
 namespace
 {
@@ -252,11 +259,76 @@ TEST_P(DomainProperties, ReachTheKernel_CrossOracle)
 INSTANTIATE_TEST_SUITE_P(
   All, DomainProperties, testing::Range(0, static_cast<int>(Properties().size())));
 
+TEST(DomainPropertiesOfOutlines, ReachTheKernel_CrossOracle)
+{
+  // a square with a bite of 45 degrees, shaken
+  knotwork::PointMatrix line(401, 2);
+  std::mt19937 random(11);
+  std::normal_distribution<double> shake(0.0, 2e-4);
+  const std::array<std::array<double, 2>, 6> corners{ { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0.6, 1 },
+    { 0.5, 0.9 }, { 0, 0.9 } } };
+  for (Eigen::Index i = 0; i < line.rows(); ++i)
+  {
+    const double at = 6.0 * static_cast<double>(i % 400) / 400.0;
+    const auto side = static_cast<std::size_t>(at);
+    for (std::size_t d = 0; d < 2; ++d)
+    {
+      const double from = corners[side][d];
+      line(i, static_cast<Eigen::Index>(d)) = from +
+        (at - static_cast<double>(side)) * (corners[(side + 1) % 6][d] - from) + shake(random);
+    }
+  }
+  line(400, 0) = line(0, 0);
+  line(400, 1) = line(0, 1);
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkPolyData> drawn; // points alone: in drawing order
+  points->SetDataTypeToDouble();
+  for (Eigen::Index i = 0; i < line.rows(); ++i)
+  {
+    points->InsertNextPoint(line(i, 0), line(i, 1), 0.5);
+  }
+  drawn->SetPoints(points);
+  knotwork::OutlineParams coarse;
+  coarse.Tolerance = 0.02;
+  knotwork::OutlineParams blunt;
+  blunt.CornerAngle = 80.0;
+  knotwork::OutlineParams wide;
+  wide.CornerWindow = 0.2; // more than the bite
+  std::vector<std::string> results;
+  for (const knotwork::OutlineParams& params : { knotwork::OutlineParams(), coarse, blunt, wide })
+  {
+    const auto outline = knotwork::FitOutline({ line }, params);
+    ASSERT_TRUE(outline) << outline.Status.Detail;
+    vtkNew<vtkDomainParameterization> filter;
+    filter->SetInputDataObject(drawn);
+    filter->SetOutlineTolerance(params.Tolerance);
+    filter->SetCornerAngle(params.CornerAngle);
+    filter->SetCornerWindow(params.CornerWindow);
+    filter->Update();
+    auto* map = vtkUnstructuredGrid::SafeDownCast(filter->GetOutputDataObject(0));
+    ASSERT_GT(map->GetNumberOfCells(), 0);
+    EXPECT_EQ(map->GetPoint(0)[2], 0.5);
+    const auto number = [map](const char* name)
+    { return map->GetFieldData()->GetArray(name)->GetTuple1(0); };
+    EXPECT_EQ(number("OutlineDistance"), outline.Value.MaxDistance);
+    EXPECT_EQ(number("OutlineCorners"), outline.Value.NumCorners);
+    EXPECT_EQ(number("OutlineLines"), outline.Value.NumLines);
+    EXPECT_EQ(number("OutlineArcs"), outline.Value.NumArcs);
+    EXPECT_EQ(number("OutlineCurves"), outline.Value.NumCurves);
+    results.push_back(
+      std::to_string(number("OutlineDistance")) + " " + std::to_string(number("OutlineCorners")));
+  }
+  for (std::size_t i = 1; i < results.size(); ++i)
+  {
+    EXPECT_NE(results[i], results[0]) << "property " << i << " changes nothing";
+  }
+}
+
 TEST(DomainPropertiesAll, AreInTheTable_PropertyOracle)
 {
-  // results, and what layouts alone look at or changes no result: tests of their own
+  // results, and what layouts or drawn lines alone look at or changes no result: tests of their own
   std::set<std::string> known{ "Verdict", "Injectivity", "SecondsWithCertificate", "MinimumDegree",
-    "MinimumElements", "MoveInterfaces" };
+    "MinimumElements", "MoveInterfaces", "OutlineTolerance", "CornerAngle", "CornerWindow" };
   for (const Property& property : Properties())
   {
     known.insert(property.Name);

@@ -13,7 +13,9 @@ namespace knotwork
 {
 namespace
 {
-/// Columns of a text, and which of them are x, y, z.
+constexpr std::size_t NoColumn = ~std::size_t{ 0 };
+
+/// Columns of a text, and which of them are x, y, z; NoColumn: z = 0.
 struct Layout : NumberColumns
 {
   std::array<std::size_t, 3> Position{ 0, 1, 2 };
@@ -56,6 +58,17 @@ void FindPosition(Layout& layout)
 Result<Layout> FindLayout(std::string_view text)
 {
   auto found = FindColumns(text, 3, "x, y, z");
+  bool isPlanar = false;
+  if (found.Status.Code == ErrorCode::InvalidFormat)
+  {
+    auto two = FindColumns(text, 2, "x, y");
+    isPlanar = two && two->Names.size() == 2 && LowerName(two->Names[0]) == "x" &&
+      LowerName(two->Names[1]) == "y";
+    if (isPlanar)
+    {
+      found = std::move(two);
+    }
+  }
   if (!found)
   {
     return { found.Status.Code,
@@ -64,7 +77,11 @@ Result<Layout> FindLayout(std::string_view text)
   }
   Layout layout;
   static_cast<NumberColumns&>(layout) = std::move(found.Value);
-  if (!layout.Names.empty())
+  if (isPlanar)
+  {
+    layout.Position[2] = NoColumn;
+  }
+  else if (!layout.Names.empty())
   {
     FindPosition(layout);
   }
@@ -80,7 +97,10 @@ Result<Layout> FindLayout(std::string_view text)
   layout.IsFinite.assign(layout.Count, false);
   for (const std::size_t column : layout.Position)
   {
-    layout.IsFinite[column] = true;
+    if (column != NoColumn)
+    {
+      layout.IsFinite[column] = true;
+    }
   }
   return layout;
 }
@@ -142,7 +162,9 @@ Result<PointFile> ReadPointText(std::string_view text, int threads)
         {
           for (std::size_t d = 0; d < 3; ++d)
           {
-            file.Points(row, static_cast<Eigen::Index>(d)) = numbers[layout.Position[d]];
+            const std::size_t column = layout.Position[d];
+            file.Points(row, static_cast<Eigen::Index>(d)) =
+              column == NoColumn ? 0.0 : numbers[column];
           }
           for (std::size_t c = 0; c < others.size(); ++c)
           {

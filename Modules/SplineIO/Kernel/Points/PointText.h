@@ -13,7 +13,8 @@ namespace knotwork
 /// of that name (also X, Y, Z; Points:0, Points:1, Points:2), else the first three. A comment
 /// directly above the first line that begins with x y z and has a word a column names them too.
 /// Channels without a name are Column4, Column5, ... Coordinates are finite; channels may be nan or
-/// inf, as what has no value at a point is written.
+/// inf, as what has no value at a point is written. Two columns that are named x and y are points
+/// of the plane z = 0.
 /// @param text  read independently of the locale; numbers are rounded to the nearest double.
 /// @param threads  0: all cores; the result does not depend on it.
 /// @return EmptyInput without a point; InvalidFormat or, for a coordinate, NonFiniteInput with

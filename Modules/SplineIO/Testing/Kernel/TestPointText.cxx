@@ -62,6 +62,17 @@ PointFile RandomPoints(unsigned seed, Eigen::Index n, int channels)
 }
 }
 
+TEST(PointText, TwoNamedColumnsAreAPlane_ExactOracle)
+{
+  const auto file = ReadPointText("X, y\n1,2\n3.5,-4\n");
+  ASSERT_TRUE(file) << file.Status.Detail;
+  PointMatrix expected(2, 3);
+  expected << 1.0, 2.0, 0.0, 3.5, -4.0, 0.0;
+  EXPECT_EQ(file.Value.Points, expected);
+  EXPECT_TRUE(file.Value.Names.empty());
+  EXPECT_FALSE(ReadPointText("y, x\n1,2\n")); // no other two
+}
+
 TEST(PointText, ReadsWhatIsWrittenByHand_GoldenOracle)
 {
   const PointMatrix expected = Matrix({ { 0.5, -1.25, 3e-3 }, { 1.0, 2.0, 4.0 } });

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the library knotwork-opencascade.so gives to those that load it.
+#pragma once
+#include <knotwork/CADModel/CADExchange.h>
+#include <knotwork/CADModel/CADModify.h>
+#include <knotwork/CADModel/CADSuggest.h>
+#include <knotwork/CADModel/CADTopology.h>
+
+namespace knotwork
+{
+/// The functions of CADModel's kernel that need OpenCASCADE.
+struct CADFunctions
+{
+  decltype(&ReadCAD) Read;
+  decltype(&WriteCAD) Write;
+  decltype(&CheckCAD) Check;
+  decltype(&CheckWrittenCAD) CheckWritten;
+  decltype(&ModifyCADText) ModifyText;
+  decltype(&SuggestCADOperations) Suggest;
+  decltype(&CADTopology::Read) ReadTopology;
+  decltype(&CADTopology::JoinComposites) JoinComposites;
+  decltype(&CADTopology::EdgePoint) EdgePoint;
+  decltype(&CADTopology::UseParameters) UseParameters;
+  decltype(&CADTopology::FacePoint) FacePoint;
+  decltype(&CADTopology::FaceNormal) FaceNormal;
+  decltype(&CADTopology::FaceCurvature) FaceCurvature;
+  decltype(&CADTopology::Project) Project;
+};
+}
+
+/// The one function that the library exports.
+extern "C" const knotwork::CADFunctions* KnotworkCADFunctions();
