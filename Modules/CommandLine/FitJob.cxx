@@ -52,8 +52,8 @@ class FitJob : public FilterJob<vtkSplineSurfaceFit>
 public:
   explicit FitJob(CLI::App& app) : FilterJob(app)
   {
-    this->AddInput(0, "points", "points (.xyz .txt .csv .g2 .ply .vtp .vtu, meshes .stl .obj .off)",
-      "", "input");
+    this->AddInput(0, "points",
+      "points (.xyz .txt .csv .g2 .las .ply .vtp .vtu, meshes .stl .obj .off)", "", "input");
     this->AddInput(1, "--start", "the spline surface that the fit starts from and updates",
       " starting from ", "start");
     this->AddOutput(Surface, "--output", Endings::Spline, "the surface");
