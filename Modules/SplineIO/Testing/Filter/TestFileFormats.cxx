@@ -53,7 +53,7 @@ TEST(FileFormats, EndingsFollowTheContent_ExactOracle)
     ".vtp .vtu .vtpc .vtk .xml .xyz .txt .csv .g2 .step .stp .iges .igs .brep .stl .obj .ply .off "
     ".bext "
     ".json .mesh .msh .inp");
-  EXPECT_EQ(
-    JoinEndings(EndingsThatRead(PointContent)), ".vtp .xyz .txt .csv .g2 .stl .obj .ply .off");
+  EXPECT_EQ(JoinEndings(EndingsThatRead(PointContent)),
+    ".vtp .xyz .txt .csv .g2 .stl .obj .ply .las .laz .off");
   EXPECT_EQ(writing(GridContent), ".vtu .mesh .msh");
 }
