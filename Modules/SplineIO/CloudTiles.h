@@ -16,7 +16,7 @@ struct SplitParams
   std::uint64_t PointsPerTile = 1000000; ///< about, where the points are spread evenly; > 0
   /// How much of its neighbours a tile's file holds: share of the tile's sides, in [0, 0.5].
   double Halo = 0.05;
-  std::size_t BufferBytes = std::size_t{ 1 } << 26U; ///< of points that wait for their files
+  std::size_t BufferBytes = std::size_t{ 1 } << 25U; ///< of points that wait for their files
   int Threads = 0;
   ProgressCallback Progress;
 };

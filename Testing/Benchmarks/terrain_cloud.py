@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Writes a cloud of points of a terrain as LAS (1.2, point format 2): eight octaves of waves with a cliff, noise, and outliers.
 
-usage: terrain_cloud.py POINTS FILE.las [--seed N]
+usage: terrain_cloud.py POINTS FILE.las [--seed N] [--noise normal|uniform]
 
 The terrain is square, with a point a square metre on average, in strips of one flight after the other: 60 m of heights, a cliff of 20 m,
-noise of a standard deviation of SIGMA. One point in a thousand is an outlier, 5 to 50 m off the ground, of classification 7.
+noise of a standard deviation of SIGMA, normal, or uniform and so never beyond 1.74 SIGMA. One point in a thousand is an outlier, 5 to 50 m off the ground, of classification 7.
 Coordinates have millimetres; all is seeded, and the memory does not depend on the number of points.
 """
 import argparse
@@ -38,7 +38,7 @@ def heights(x, y, side):
     return z + 20.0 / (1.0 + np.exp(-np.clip(cliff / 0.5, -50, 50)))
 
 
-def write(count, file, seed=1, strip=1000000):
+def write(count, file, seed=1, noise="normal", strip=1000000):
     """The number of outliers."""
     side = float(math.ceil(math.sqrt(count)))
     random, outliers = np.random.default_rng(seed), 0
@@ -48,7 +48,8 @@ def write(count, file, seed=1, strip=1000000):
             n = min(strip, count - first)
             x = random.uniform(0, side, n)
             y = random.uniform(side * first / count, side * (first + n) / count, n)
-            z = heights(x, y, side) + random.normal(0, SIGMA, n)
+            z = heights(x, y, side)
+            z += random.normal(0, SIGMA, n) if noise == "normal" else random.uniform(-SIGMA, SIGMA, n) * math.sqrt(3)
             off = random.random(n) < OUTLIERS
             z[off] += random.choice([-1, 1], off.sum()) * random.uniform(5, 50, off.sum())
             outliers += int(off.sum())
@@ -67,5 +68,6 @@ if __name__ == "__main__":
     parser.add_argument("points", type=int)
     parser.add_argument("file")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--noise", choices=("normal", "uniform"), default="normal")
     options = parser.parse_args()
-    print(write(options.points, options.file, options.seed), "outliers")
+    print(write(options.points, options.file, options.seed, options.noise), "outliers")
