@@ -3,17 +3,19 @@
 #include "FitTiles.h"
 
 #include <knotwork/SplineCore/FileEnding.h>
+#include <knotwork/SplineCore/FileOutput.h>
 #include <knotwork/SplineGrid/NamedArray.h>
 #include <knotwork/SplineGrid/SplineModel.h>
 #include <knotwork/SplineIO/CloudTiles.h>
+#include <knotwork/SplineIO/DataFile.h>
 #include <knotwork/SurfaceFitting/vtkSplineSurfaceFit.h>
 
+#include <pugixml.hpp>
 #include <vtkCellArray.h>
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkIdTypeArray.h>
 #include <vtkNew.h>
-#include <vtkPartitionedDataSetCollection.h>
 #include <vtkPointData.h>
 #include <vtkPointSet.h>
 #include <vtkPolyData.h>
@@ -24,6 +26,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <sstream>
+#include <system_error>
 
 namespace knotwork
 {
@@ -218,7 +222,13 @@ private:
     session.Report.update(params.Options);
     session.Report["tolerance"] = this->Filter->GetTolerance();
     SplineModel model;
-    const auto fit = FitTiles(session, this->Filter, index.Value, params, model);
+    const bool isCollection = LowerEnding(this->MainOutput()) == ".vtpc";
+    const auto fit = FitTiles(session, this->Filter, index.Value, params,
+      [&](SplinePatch&& patch)
+      {
+        model.Patches.push_back(std::move(patch));
+        return isCollection ? this->WritePiece(session, model) : Status();
+      });
     if (!fit)
     {
       return fit.Status;
@@ -228,7 +238,8 @@ private:
     {
       status = session.Write(TableOf(index.Value, fit.Value), this->OutputFile(Iterations));
     }
-    return status ? this->WriteTiles(session, model) : status;
+    status = status && isCollection ? this->WriteCollection(index->Tiles.size()) : status;
+    return status && !isCollection ? this->WriteGrid(session, model) : status;
   }
 
   void ReportTiles(Session& session, const TileIndex& index, const TileFit& fit) const
@@ -310,27 +321,65 @@ private:
     return table;
   }
 
-  Status WriteTiles(Session& session, SplineModel& model) const
+  Status WriteGrid(Session& session, const SplineModel& model) const
   {
-    if (LowerEnding(this->MainOutput()) != ".vtpc")
+    vtkNew<vtkUnstructuredGrid> grid;
+    const Status status = EncodeSplineGrid(model, grid);
+    return status ? session.Write(grid, this->MainOutput()) : status;
+  }
+
+  /// The name of a piece of the collection, as VTK gives them.
+  std::string PieceOf(int tile) const
+  {
+    const std::string stem = this->Staged.stem().string();
+    return stem + "/" + stem + "_" + std::to_string(tile) + "_0.vtu";
+  }
+
+  /// Writes the one tile of a model, which is empty then: the surface of a large cloud is never in
+  /// memory as a whole.
+  Status WritePiece(Session& session, SplineModel& model)
+  {
+    if (this->Staged.empty())
     {
-      vtkNew<vtkUnstructuredGrid> grid;
-      const Status status = EncodeSplineGrid(model, grid);
-      return status ? session.Write(grid, this->MainOutput()) : status;
-    }
-    vtkNew<vtkPartitionedDataSetCollection> tiles;
-    for (std::size_t t = 0; t < model.Patches.size(); ++t)
-    {
-      SplineModel one;
-      one.Patches.push_back(std::move(model.Patches[t]));
-      vtkNew<vtkUnstructuredGrid> grid;
-      if (Status status = EncodeSplineGrid(one, grid); !status)
+      auto staged = session.Files.Stage(this->MainOutput());
+      if (!staged)
       {
-        return status;
+        return staged.Status;
       }
-      tiles->SetPartition(static_cast<unsigned>(t), 0, grid);
+      this->Staged = staged.Value;
+      std::error_code error;
+      std::filesystem::create_directory(this->Staged.parent_path() / this->Staged.stem(), error);
     }
-    return session.Write(tiles, this->MainOutput());
+    vtkNew<vtkUnstructuredGrid> grid;
+    const std::string piece =
+      (this->Staged.parent_path() / this->PieceOf(model.Patches[0].Id)).string();
+    Status status = EncodeSplineGrid(model, grid);
+    status = status ? WriteDataFile(grid, piece).Status : status;
+    model = {};
+    return AboutFile(status, this->MainOutput(), piece);
+  }
+
+  /// The file that names the pieces, as VTK reads collections.
+  Status WriteCollection(std::size_t tiles) const
+  {
+    std::string text = "<?xml version=\"1.0\"?>\n"
+                       "<VTKFile type=\"vtkPartitionedDataSetCollection\" version=\"1.0\">\n"
+                       "  <vtkPartitionedDataSetCollection>\n";
+    for (std::size_t t = 0; t < tiles; ++t)
+    {
+      pugi::xml_document document; // quotes what a name may hold
+      pugi::xml_node partitions = document.append_child("Partitions");
+      partitions.append_attribute("index") = static_cast<unsigned>(t);
+      pugi::xml_node piece = partitions.append_child("DataSet");
+      piece.append_attribute("index") = 0;
+      piece.append_attribute("file") = this->PieceOf(static_cast<int>(t)).c_str();
+      std::ostringstream stream;
+      document.save(stream, "  ", pugi::format_indent | pugi::format_no_declaration);
+      text += stream.str();
+    }
+    text += "  </vtkPartitionedDataSetCollection>\n</VTKFile>\n";
+    return AboutFile(
+      PutText(text, this->Staged.string()), this->MainOutput(), this->Staged.string());
   }
 
   void AddToleranceBoxes()
@@ -379,6 +428,7 @@ private:
   }
 
   std::string ResumeFolder;
+  std::filesystem::path Staged; ///< the collection of tiles
   std::vector<std::string> Fields;
   std::array<std::string, 3> Arrays; ///< parameters, tolerances, significant points
   std::vector<double> ToleranceBoxes;

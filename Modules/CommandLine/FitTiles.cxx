@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <set>
 #include <system_error>
 
 namespace fs = std::filesystem;
@@ -164,27 +165,36 @@ public:
   {
   }
 
-  Result<TileFit> Fit(SplineModel& model)
+  Result<TileFit> Fit(const TakeTile& take)
   {
     nlohmann::ordered_json run = this->Params.Options;
     run["version"] = KNOTWORK_VERSION;
     run["tiles"] = HashOf(WriteTileIndex(this->Index));
     Status status = this->Kept.Open(run);
-    std::vector<Spline<2>> tiles(this->Index.Tiles.size());
-    for (std::size_t t = 0; t < tiles.size() && status; ++t)
+    this->Found.Tiles.resize(this->Index.Tiles.size());
+    this->Shared.resize(this->Index.Tiles.size());
+    std::vector<std::size_t> before; // tiles of the last row
+    std::vector<Spline<2>> tiles;    // theirs, then those of the row
+    int functions = 0;               // of the last tile
+    for (std::size_t begin = 0; begin < this->Index.Tiles.size() && status;)
     {
-      if (this->Guesses && t > 0)
+      std::vector<std::size_t> row = this->RowFrom(begin);
+      begin += row.size();
+      for (const std::size_t t : row)
       {
-        this->GuessElements(t, tiles[t - 1].Space->NumFunctions);
+        if (status)
+        {
+          tiles.emplace_back();
+          this->GuessElements(t, functions);
+          status = this->FitTile(t, tiles.back());
+          functions = status ? tiles.back().Space->NumFunctions : 0;
+        }
       }
-      status = this->FitTile(t, tiles[t]);
+      status = status ? this->Stitch(before, row, tiles) : status;
+      status = status ? this->Finish(before, tiles, take) : status;
+      before = std::move(row);
     }
-    status = status ? this->Stitch(tiles) : status;
-    this->Found.Tiles.resize(tiles.size());
-    for (std::size_t t = 0; t < tiles.size() && status; ++t)
-    {
-      status = this->UpdateTile(t, tiles[t], model);
-    }
+    status = status ? this->Finish(before, tiles, take) : status;
     return status ? Result<TileFit>(std::move(this->Found)) : Result<TileFit>(status);
   }
 
@@ -259,6 +269,10 @@ private:
   /// which saves iterations in which most points are outside.
   void GuessElements(std::size_t tile, int functions)
   {
+    if (!this->Guesses)
+    {
+      return;
+    }
     const ParametricBox<2>& box = this->Index.Tiles[tile].Box;
     const double ratio = (box.Upper[0] - box.Lower[0]) / (box.Upper[1] - box.Lower[1]);
     const double elements = 0.25 * functions;
@@ -344,45 +358,94 @@ private:
     return decoded.Status;
   }
 
-  Status Stitch(std::vector<Spline<2>>& tiles)
+  /// The tiles of a row, which stand one after the other in the index.
+  std::vector<std::size_t> RowFrom(std::size_t begin) const
   {
-    this->Shared.resize(tiles.size());
+    std::vector<std::size_t> row;
+    for (std::size_t t = begin; t < this->Index.Tiles.size() &&
+         this->Index.Tiles[t].Number[1] == this->Index.Tiles[begin].Number[1];
+         ++t)
+    {
+      row.push_back(t);
+    }
+    return row;
+  }
+
+  /// Stitches the tiles of a row to each other and to the row before. Edges within that row are
+  /// stitched again, which changes nothing but rounding: the points where all four tiles of two
+  /// rows meet need both.
+  Status Stitch(const std::vector<std::size_t>& before, const std::vector<std::size_t>& row,
+    std::vector<Spline<2>>& tiles)
+  {
+    std::vector<std::size_t> numbers = before;
+    numbers.insert(numbers.end(), row.begin(), row.end());
+    if (!this->HasEdges(numbers))
+    {
+      return {};
+    }
     StitchParams params;
     params.Continuity = this->Filter->GetDegree() < 2 ? 0 : 1;
     params.NumMeasured = 3;
     params.Threads = this->Run.Threads;
-    StitchedTiles stitched;
-    if (tiles.size() > 1)
-    {
-      const Status status = this->Run.Measure(
-        [&]
-        {
-          auto made = StitchTiles(tiles, params);
-          stitched = std::move(made.Value);
-          return made.Status;
-        });
-      if (!status)
+    Result<StitchedTiles> stitched;
+    const Status status = this->Run.Measure(
+      [&]
       {
-        return { status.Code, "'" + this->Params.IndexFile + "': " + status.Message() };
-      }
-      tiles = std::move(stitched.Tiles);
-    }
-    for (const StitchedEdge& edge : stitched.Edges)
+        stitched = StitchTiles(tiles, params);
+        return stitched.Status;
+      });
+    if (!status)
     {
+      return { status.Code, "'" + this->Params.IndexFile + "': " + status.Message() };
+    }
+    tiles = std::move(stitched->Tiles);
+    for (const StitchedEdge& edge : stitched->Edges)
+    {
+      bool isNew = false;
       for (const PatchSide& side : edge.Interface.Sides)
       {
-        this->Shared[static_cast<std::size_t>(side.Patch)][static_cast<std::size_t>(side.Side)] = 1;
+        const auto place = static_cast<std::size_t>(side.Patch);
+        this->Shared[numbers[place]][static_cast<std::size_t>(side.Side)] = 1;
+        isNew = isNew || place >= before.size();
       }
+      TileFit& found = this->Found;
+      found.NumEdges += isNew ? 1 : 0;
+      found.MaxJumpBefore = std::max(found.MaxJumpBefore, edge.JumpBefore);
+      found.MaxSlopeJumpBefore = std::max(found.MaxSlopeJumpBefore, edge.SlopeJumpBefore);
+      found.MaxJump = std::max(found.MaxJump, edge.Jump);
+      found.MaxSlopeJump = std::max(found.MaxSlopeJump, edge.SlopeJump);
     }
-    this->Found.NumEdges = static_cast<int>(stitched.Edges.size());
-    this->Found.MaxJumpBefore = stitched.MaxJumpBefore;
-    this->Found.MaxSlopeJumpBefore = stitched.MaxSlopeJumpBefore;
-    this->Found.MaxJump = stitched.MaxJump;
-    this->Found.MaxSlopeJump = stitched.MaxSlopeJump;
     return {};
   }
 
-  Status UpdateTile(std::size_t tile, Spline<2>& surface, SplineModel& model)
+  /// Whether two of the tiles are neighbours. Tiles without any are no case for stitching.
+  bool HasEdges(const std::vector<std::size_t>& numbers) const
+  {
+    std::set<IntArray<2>> places;
+    for (const std::size_t t : numbers)
+    {
+      places.insert(this->Index.Tiles[t].Number);
+    }
+    return std::any_of(places.begin(), places.end(),
+      [&](const IntArray<2>& at) {
+        return places.count({ at[0] + 1, at[1] }) > 0 || places.count({ at[0], at[1] + 1 }) > 0;
+      });
+  }
+
+  /// Updates and hands over the first tiles, which are taken out.
+  Status Finish(
+    const std::vector<std::size_t>& numbers, std::vector<Spline<2>>& tiles, const TakeTile& take)
+  {
+    Status status;
+    for (std::size_t i = 0; i < numbers.size() && status; ++i)
+    {
+      status = this->UpdateTile(numbers[i], tiles[i], take);
+    }
+    tiles.erase(tiles.begin(), tiles.begin() + static_cast<std::ptrdiff_t>(numbers.size()));
+    return status;
+  }
+
+  Status UpdateTile(std::size_t tile, Spline<2>& surface, const TakeTile& take)
   {
     const std::string name = "updated-" + this->NameOf(tile);
     FittedTile& numbers = this->Found.Tiles[tile];
@@ -429,13 +492,14 @@ private:
     }
     surface = {};
     auto decoded = this->Decode(grid);
-    if (decoded)
+    if (!decoded)
     {
-      model.Patches.push_back(std::move(decoded->Patches[0]));
-      model.Patches.back().Id = static_cast<int>(tile);
-      model.Patches.back().Cells.clear();
+      return decoded.Status;
     }
-    return decoded.Status;
+    SplinePatch& patch = decoded->Patches[0];
+    patch.Id = static_cast<int>(tile);
+    patch.Cells.clear();
+    return take(std::move(patch));
   }
 
   void TakeNumbers(FittedTile& numbers) const
@@ -463,8 +527,8 @@ private:
 }
 
 Result<TileFit> FitTiles(Session& session, vtkSplineSurfaceFit* filter, const TileIndex& index,
-  const TileFitParams& params, SplineModel& model)
+  const TileFitParams& params, const TakeTile& take)
 {
-  return TileFitter(session, filter, index, params).Fit(model);
+  return TileFitter(session, filter, index, params).Fit(take);
 }
 }

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,7 @@ class vtkSplineSurfaceFit;
 namespace knotwork
 {
 class Session;
-struct SplineModel;
+struct SplinePatch;
 
 /// What is known of a tile of the surface, at the points that belong to it.
 struct FittedTile
@@ -45,13 +46,17 @@ struct TileFit
   int NumResumed = 0; ///< surfaces that an earlier run had left
 };
 
+/// Gets the surface of a tile, numbered as in the index, when it is done.
+using TakeTile = std::function<Status(SplinePatch&& patch)>;
+
 /// Fits a surface to the tiles of a cloud, one after the other: each with its neighbours' points
-/// within the halo, cut down to its own rectangle. Then all are stitched (C1, of degree 1 C0), and
-/// each is updated where its own points are farther away than their tolerance, its edges held.
+/// within the halo, cut down to its own rectangle. Row by row they are stitched to the row before
+/// (C1, of degree 1 C0). A row that is stitched on all sides is done when its tiles have been
+/// updated where points that belong to them are farther away than their tolerance, edges held. So
+/// the memory is that of the functions of two rows and of the points of a tile.
 /// @param filter  with its properties set; its inputs are those of the last tile afterwards.
-/// @param model  gets a patch a tile, numbered as in the index.
-/// @return failures of the filter, the tile is named; FileError; InvalidParameter: the folder holds
-/// something else, or what a run with other options or tiles has left.
+/// @return failures of the filter, the tile is named, and of take; FileError; InvalidParameter: the
+/// folder holds something else, or what a run with other options or tiles has left.
 Result<TileFit> FitTiles(Session& session, vtkSplineSurfaceFit* filter, const TileIndex& index,
-  const TileFitParams& params, SplineModel& model);
+  const TileFitParams& params, const TakeTile& take);
 }

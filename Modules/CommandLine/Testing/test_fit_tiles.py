@@ -3,6 +3,7 @@
 that was killed goes on with the same bits."""
 import os
 import random
+import shutil
 import signal
 import subprocess
 import time
@@ -67,6 +68,7 @@ def test_a_killed_run_goes_on_with_the_same_bits():
     for seed in range(4):
         random.seed(seed)
         folder, output = f"kept-{seed}", f"killed-{seed}"
+        shutil.rmtree(FILES.path(folder), ignore_errors=True)  # of the test's last run
         words = [*map(str, FIT), "--resume", folder, "--output", output + ".vtpc"]
         for _ in range(3):
             run = subprocess.Popen([knotwork_testing.PROGRAM, *words], cwd=FILES.folder, stderr=subprocess.DEVNULL)
