@@ -391,7 +391,7 @@ private:
     const Status status = this->Run.Measure(
       [&]
       {
-        stitched = StitchTiles(tiles, params);
+        stitched = StitchTiles(std::move(tiles), params);
         return stitched.Status;
       });
     if (!status)

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <utility>
 
 namespace knotwork
 {
@@ -185,7 +185,7 @@ Result<TileIndex> ReadTileIndex(std::string_view text)
     return members.Outcome;
   }
   std::uint64_t points = 0;
-  std::set<IntArray<2>> numbers;
+  bool isSorted = true; // so no place is there twice
   for (const Json& object : json["tiles"])
   {
     auto tile = ReadTile(object, index.Tiles.size(), index);
@@ -194,15 +194,24 @@ Result<TileIndex> ReadTileIndex(std::string_view text)
       return tile.Status;
     }
     points += tile->NumPoints;
-    numbers.insert(tile->Number);
+    if (!index.Tiles.empty())
+    {
+      const IntArray<2>& last = index.Tiles.back().Number;
+      isSorted = isSorted &&
+        std::make_pair(last[1], last[0]) < std::make_pair(tile->Number[1], tile->Number[0]);
+    }
     index.Tiles.push_back(std::move(tile.Value));
   }
-  if (index.Tiles.empty() || points != index.NumPoints || numbers.size() != index.Tiles.size())
+  if (!isSorted)
+  {
+    return { ErrorCode::InvalidFormat,
+      "its tiles do not stand row by row, each once; make the tiles again" };
+  }
+  if (index.Tiles.empty() || points != index.NumPoints)
   {
     return { ErrorCode::InvalidFormat,
       "its " + std::to_string(index.Tiles.size()) + " tiles have " + std::to_string(points) +
-        " points, the index tells " + std::to_string(index.NumPoints) +
-        " in tiles of different places; make the tiles again" };
+        " points, the index tells " + std::to_string(index.NumPoints) + "; make the tiles again" };
   }
   return index;
 }

@@ -179,6 +179,12 @@ TileIndex MakeIndex()
   return index;
 }
 
+TileIndex Reversed(TileIndex index)
+{
+  std::reverse(index.Tiles.begin(), index.Tiles.end());
+  return index;
+}
+
 std::string With(std::string text, const std::string& part, const std::string& replacement)
 {
   const std::size_t at = text.find(part);
@@ -213,6 +219,7 @@ TEST(TileIndex, DamageIsNamed_GoldenOracle)
     { With(good, "scan/tile-0", "../tile-0"), "tile 0: 'file' does not lie beside" },
     { With(good, "scan/tile-1", "/tile-1"), "tile 1: 'file' does not lie beside" },
     { With(good, "\"column\": 1", "\"column\": 0"), "tile 1: 'box'" },
+    { WriteTileIndex(Reversed(MakeIndex())), "row by row" },
   };
   for (const auto& [text, words] : cases)
   {
