@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The table of tiles on the page of surface fitting: a cloud of terrain_cloud.py, `knotwork tiles` and `knotwork fit` over the tiles.
 
-usage: tiles_table.py PROGRAM [--points N ...] [--folder FOLDER] [--write PAGE]
+usage: tiles_table.py PROGRAM [--points N ...] [--noise KIND ...] [--folder FOLDER] [--write PAGE]
 
---points: numbers of points, 1e6 and 1e7 without. --folder: for the clouds (26 bytes a point, twice) and tiles, which are removed.
+--points: numbers of points, 1e6 and 1e7 without. --noise: uniform, normal, or both. --folder: for the clouds (26 bytes a point, twice) and tiles, which are removed.
 --write puts the table between the comments `the table of tiles: begin` and `end` of a page. Tolerances are three standard deviations of the
 noise. Memory is the largest resident set of the fit.
 """
@@ -44,12 +44,13 @@ def main():
     parser = argparse.ArgumentParser(usage=__doc__)
     parser.add_argument("program")
     parser.add_argument("--points", nargs="*", type=lambda text: int(float(text)), default=[10**6, 10**7])
+    parser.add_argument("--noise", nargs="*", choices=("uniform", "normal"), default=["uniform", "normal"])
     parser.add_argument("--folder")
     parser.add_argument("--write")
     arguments = parser.parse_args()
     rows = []
     for points in arguments.points:
-        for noise in ("uniform", "normal"):
+        for noise in arguments.noise:
             with tempfile.TemporaryDirectory(dir=arguments.folder) as folder:
                 rows.append(row(os.path.abspath(arguments.program), folder, points, noise))
             print(" | ".join(rows[-1]), file=sys.stderr, flush=True)
