@@ -95,12 +95,6 @@ public:
         status =
           this->Add(block.Positions.data() + 3 * i, block.Records + i * this->Stream.RecordBytes);
       }
-      const double share =
-        static_cast<double>(this->Stream.Place) / static_cast<double>(this->Stream.Size);
-      if (status && this->Params.Progress && !this->Params.Progress(std::min(share, 1.0)))
-      {
-        status = { ErrorCode::Aborted, "the split has been stopped" };
-      }
       if (!status)
       {
         return status;

@@ -18,7 +18,6 @@ struct SplitParams
   double Halo = 0.05;
   std::size_t BufferBytes = std::size_t{ 1 } << 25U; ///< of points that wait for their files
   int Threads = 0;
-  ProgressCallback Progress;
 };
 
 struct SplitCloud
@@ -40,7 +39,7 @@ struct SplitCloud
 /// @return FileError, failures of OpenPointStream; InvalidParameter: TileSize is missing;
 /// OutsideDomain: a point is too far away for tiles of that size; TooLarge: more than 100,000
 /// tiles; InvalidTopology: the points have no area, or points are lost (their number differs from
-/// that of the header, or of the files); Aborted. The file is named. What has been written so far
+/// that of the header, or of the files). The file is named. What has been written so far
 /// stays in the folder.
 /// @complexity time O(points); memory O(BufferBytes + tiles).
 VTKKNOTWORKSPLINEIO_EXPORT Result<SplitCloud> SplitIntoTiles(

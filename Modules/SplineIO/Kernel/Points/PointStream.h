@@ -3,6 +3,8 @@
 #pragma once
 #include <knotwork/SplineIO/LasFile.h>
 
+#include <array>
+#include <cmath>
 #include <memory>
 
 namespace knotwork
@@ -44,9 +46,7 @@ public:
   /// The beginning of a file of some of the records; its length does not depend on the summary.
   virtual std::string Head(const PointSummary& summary) const = 0;
 
-  std::uint64_t Size = 0;  ///< of the file, bytes
-  std::uint64_t Place = 0; ///< bytes that have been read
-  std::string Ending;      ///< of files of the records: .las or .ply
+  std::string Ending; ///< of files of the records: .las or .ply
   std::size_t RecordBytes = 0;
   unsigned ReturnMask = 0;     ///< bits of byte 14 of a record that are its return; 0: it has none
   std::uint64_t NumPoints = 0; ///< that the header tells; 0: none
@@ -56,6 +56,10 @@ public:
   std::string ReferenceSystem;
   std::vector<std::string> Warnings;
   std::vector<std::string> LeftOut;
+
+protected:
+  std::uint64_t Size = 0;  ///< of the file, bytes
+  std::uint64_t Place = 0; ///< bytes that have been read
 };
 
 /// Endings of the files that are streams: .las .xyz .txt .csv .ply (and .laz, to refuse it).
