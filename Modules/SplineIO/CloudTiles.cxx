@@ -10,6 +10,7 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <numeric>
 #include <system_error>
 
 namespace fs = std::filesystem;
@@ -61,7 +62,7 @@ struct GrowingTile
   fs::path File;
   std::uint64_t NumPoints = 0; ///< that belong to it
   PointSummary All;            ///< of the file
-  std::string Waiting;         ///< records that are not in the file yet
+  std::size_t Place = 0;       ///< among all tiles
   bool IsBegun = false;
 };
 
@@ -82,6 +83,8 @@ public:
 
   Status Split()
   {
+    constexpr std::size_t most = 9; // tiles that a point is given to
+    this->Waiting.reserve(this->Params.BufferBytes + most * this->Stream.RecordBytes);
     PointBlock block;
     while (true)
     {
@@ -181,11 +184,11 @@ private:
         }
         tile->NumPoints += isOwn ? 1 : 0;
         tile->All.Add(position, returned);
-        tile->Waiting.append(record, this->Stream.RecordBytes);
-        this->WaitingBytes += this->Stream.RecordBytes;
+        this->Waiting.append(record, this->Stream.RecordBytes);
+        this->Owners.push_back(tile);
       }
     }
-    return this->WaitingBytes < this->Params.BufferBytes ? Status() : this->Flush();
+    return this->Waiting.size() < this->Params.BufferBytes ? Status() : this->Flush();
   }
 
   /// A tile by row and column; null: there are too many.
@@ -203,6 +206,7 @@ private:
         return nullptr;
       }
       found = this->Tiles.emplace(number, GrowingTile()).first;
+      found->second.Place = this->Tiles.size() - 1;
       found->second.File =
         this->Folder / ("part-" + std::to_string(this->Tiles.size()) + this->Stream.Ending);
     }
@@ -214,30 +218,51 @@ private:
   /// What waits goes into the files, one after the other: not many files are open.
   Status Flush()
   {
-    for (auto& entry : this->Tiles)
+    // records by their tiles, in the order in which they came
+    std::vector<std::size_t> ends(this->Tiles.size() + 1, 0);
+    for (const GrowingTile* owner : this->Owners)
     {
-      GrowingTile& tile = entry.second;
-      if (tile.Waiting.empty())
-      {
-        continue;
-      }
-      errno = 0;
-      std::ofstream stream(tile.File, std::ios::binary | std::ios::app);
-      if (!tile.IsBegun)
-      {
-        stream << this->Stream.Head({}); // its length counts, the numbers follow
-        tile.IsBegun = true;
-      }
-      stream.write(tile.Waiting.data(), static_cast<std::streamsize>(tile.Waiting.size()));
-      stream.close();
-      if (!stream)
-      {
-        return CannotWrite(tile.File);
-      }
-      tile.Waiting = std::string(); // its memory, too
+      ++ends[owner->Place + 1];
     }
-    this->WaitingBytes = 0;
+    std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    std::vector<std::uint32_t> order(this->Owners.size());
+    std::vector<std::size_t> next(ends.begin(), ends.end() - 1);
+    for (std::size_t i = 0; i < this->Owners.size(); ++i)
+    {
+      order[next[this->Owners[i]->Place]++] = static_cast<std::uint32_t>(i);
+    }
+    const std::size_t bytes = this->Stream.RecordBytes;
+    std::string records;
+    for (std::size_t begin = 0; begin < order.size();)
+    {
+      GrowingTile& tile = *this->Owners[order[begin]];
+      records.clear();
+      for (; begin < ends[tile.Place + 1]; ++begin)
+      {
+        records.append(this->Waiting, order[begin] * bytes, bytes);
+      }
+      if (Status status = this->Append(records, tile); !status)
+      {
+        return status;
+      }
+    }
+    this->Waiting.clear();
+    this->Owners.clear();
     return {};
+  }
+
+  Status Append(const std::string& records, GrowingTile& tile) const
+  {
+    errno = 0;
+    std::ofstream stream(tile.File, std::ios::binary | std::ios::app);
+    if (!tile.IsBegun)
+    {
+      stream << this->Stream.Head({}); // its length counts, the numbers follow
+      tile.IsBegun = true;
+    }
+    stream.write(records.data(), static_cast<std::streamsize>(records.size()));
+    stream.close();
+    return stream ? Status() : CannotWrite(tile.File);
   }
 
   /// Ends the grid with the points. An outermost tile that they fill by no more than the halo is
@@ -342,7 +367,8 @@ private:
   std::map<std::pair<int, int>, GrowingTile> Tiles; ///< by row and column
   std::pair<int, int> LatestNumber;
   GrowingTile* Latest = nullptr;
-  std::size_t WaitingBytes = 0;
+  std::string Waiting;              ///< records that are not in their files yet
+  std::vector<GrowingTile*> Owners; ///< of these records
   PointSummary All;
 };
 
