@@ -1,18 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterJob.h"
+#include "FitTiles.h"
 
+#include <knotwork/SplineCore/FileEnding.h>
+#include <knotwork/SplineCore/FileOutput.h>
+#include <knotwork/SplineGrid/NamedArray.h>
+#include <knotwork/SplineGrid/SplineModel.h>
+#include <knotwork/SplineIO/CloudTiles.h>
+#include <knotwork/SplineIO/DataFile.h>
 #include <knotwork/SurfaceFitting/vtkSplineSurfaceFit.h>
 
+#include <pugixml.hpp>
 #include <vtkCellArray.h>
 #include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkIdTypeArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPointSet.h>
 #include <vtkPolyData.h>
 #include <vtkTable.h>
+#include <vtkUnstructuredGrid.h>
 #include <vtkVariant.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <sstream>
+#include <system_error>
 
 namespace knotwork
 {
@@ -52,18 +67,41 @@ class FitJob : public FilterJob<vtkSplineSurfaceFit>
 public:
   explicit FitJob(CLI::App& app) : FilterJob(app)
   {
-    this->AddInput(0, "points", "points (.xyz .txt .csv .g2 .ply .vtp .vtu, meshes .stl .obj .off)",
+    this->AddInput(0, "points",
+      "points (.xyz .txt .csv .g2 .las .ply .vtp .vtu, meshes .stl .obj .off), or the tiles of a "
+      "cloud (.tiles)",
       "", "input");
     this->AddInput(1, "--start", "the spline surface that the fit starts from and updates",
       " starting from ", "start");
-    this->AddOutput(Surface, "--output", Endings::Spline, "the surface");
+    this->AddOutput(Surface, "--output", Endings::Splines,
+      "the surface (of tiles .vtu, or .vtpc: a block a tile)");
     this->AddOutput(
       Points, "--points", Endings::Points, "the points with distances, tolerances, outliers");
-    this->AddOutput(Iterations, "--table", Endings::Table, "the iterations");
+    this->AddOutput(Iterations, "--table", Endings::Table, "the iterations; of tiles a row a tile");
     this->AddOutput(Features, "--features", Endings::Image, "the feature grid");
     this->AddOutput(Elements, "--elements", Endings::Cells, "the elements with their features");
+    this->App.add_option("--resume", this->ResumeFolder,
+      "folder that keeps what is done of tiles: the same run goes on with it when it was ended");
     this->AddArrayOptions();
     this->AddProperties();
+  }
+
+  Status Run(Session& session)
+  {
+    const std::string& output = this->MainOutput();
+    const bool isOfTiles = LowerEnding(this->InputFile(0)) == ".tiles";
+    if (!isOfTiles && !this->ResumeFolder.empty())
+    {
+      return { ErrorCode::InvalidParameter,
+        "'" + this->InputFile(0) + "': --resume is of tiles (.tiles); leave it out" };
+    }
+    if (!isOfTiles && LowerEnding(output) == ".vtpc")
+    {
+      return { ErrorCode::InvalidParameter,
+        "'" + output + "': a collection is written of tiles (.tiles); write one surface as " +
+          JoinEndings(EndingsThatWrite(SplineGridContent)) };
+    }
+    return isOfTiles ? this->RunTiles(session) : FilterJob::Run(session);
   }
 
 protected:
@@ -81,12 +119,7 @@ protected:
           vtkDataObject::FIELD_ASSOCIATION_POINTS, this->Arrays[i].c_str());
       }
     }
-    const std::vector<double>& boxes = this->ToleranceBoxes;
-    for (std::size_t i = 0; i + 4 < boxes.size(); i += 5)
-    {
-      this->Filter->AddToleranceBox(
-        boxes[i], boxes[i + 1], boxes[i + 2], boxes[i + 3], boxes[i + 4]);
-    }
+    this->AddToleranceBoxes();
     session.Report["fields"] = this->Fields;
     session.Report["parameter_array"] = this->Arrays[0];
     session.Report["tolerance_array"] = this->Arrays[1];
@@ -141,6 +174,224 @@ protected:
   }
 
 private:
+  /// Options that are of one set of points alone.
+  Status RefuseOptions() const
+  {
+    for (const char* name : { "--start", "--points", "--features", "--elements", "--field",
+           "--all-fields", "--parameter-array", "--tolerance-array", "--significant-array",
+           "--parameterization", "--correct-parameters", "--space", "--domain", "--hold-edges",
+           "--held-sides", "--feature-grid-size", "--element-features", "--feature-iterations" })
+    {
+      if (this->App.get_option(name)->count() > 0)
+      {
+        return { ErrorCode::InvalidParameter,
+          "'" + this->InputFile(0) + "': " + name + " is not of tiles; leave it out" };
+      }
+    }
+    const std::string ending = LowerEnding(this->MainOutput());
+    return ending == ".vtu" || ending == ".vtpc"
+      ? Status()
+      : Status(ErrorCode::InvalidParameter,
+          "'" + this->MainOutput() + "': the surface of tiles is written as .vtu or .vtpc");
+  }
+
+  Status RunTiles(Session& session)
+  {
+    const std::string& file = this->InputFile(0);
+    Status status = this->RefuseOptions();
+    status = status ? session.Files.CheckInput(file) : status;
+    auto index = status ? ReadTileFile(file) : status;
+    if (!index)
+    {
+      return index.Status;
+    }
+    TileFitParams params;
+    params.IndexFile = file;
+    params.ResumeFolder = this->ResumeFolder;
+    this->FilterOptions.Apply(params.Options);
+    params.Options["tolerance_boxes"] = this->ToleranceBoxes;
+    this->AddToleranceBoxes();
+    if (this->Filter->GetTolerance() == 0.0) // as of all points at once
+    {
+      this->Filter->SetTolerance(1e-3 * (index->Upper[2] - index->Lower[2]));
+    }
+    this->Filter->SetThreads(session.Threads);
+    session.Report["input"] = file;
+    session.Report["output"] = this->MainOutput();
+    session.Report["resume"] = this->ResumeFolder;
+    session.Report.update(params.Options);
+    session.Report["tolerance"] = this->Filter->GetTolerance();
+    SplineModel model;
+    const bool isCollection = LowerEnding(this->MainOutput()) == ".vtpc";
+    const auto fit = FitTiles(session, this->Filter, index.Value, params,
+      [&](SplinePatch&& patch)
+      {
+        model.Patches.push_back(std::move(patch));
+        return isCollection ? this->WritePiece(session, model) : Status();
+      });
+    if (!fit)
+    {
+      return fit.Status;
+    }
+    this->ReportTiles(session, index.Value, fit.Value);
+    if (!this->OutputFile(Iterations).empty())
+    {
+      status = session.Write(TableOf(index.Value, fit.Value), this->OutputFile(Iterations));
+    }
+    status = status && isCollection ? this->WriteCollection(index->Tiles.size()) : status;
+    return status && !isCollection ? this->WriteGrid(session, model) : status;
+  }
+
+  void ReportTiles(Session& session, const TileIndex& index, const TileFit& fit) const
+  {
+    FittedTile all;
+    double weight = 0.0;
+    for (std::size_t t = 0; t < fit.Tiles.size(); ++t)
+    {
+      const FittedTile& tile = fit.Tiles[t];
+      const auto points =
+        static_cast<double>(index.Tiles[t].NumPoints) - static_cast<double>(tile.NumOutliers);
+      all.NumFunctions += tile.NumFunctions;
+      all.NumOutliers += tile.NumOutliers;
+      all.NumOutside += tile.NumOutside;
+      all.MaxError = std::max(all.MaxError, tile.MaxError);
+      all.MeanError += points * tile.MeanError;
+      all.RmsError += points * tile.RmsError * tile.RmsError;
+      weight += points;
+    }
+    weight = std::max(weight, 1.0);
+    auto& report = session.Report;
+    report["points"] = index.NumPoints;
+    report["tiles"] = index.Tiles.size();
+    report["tiles_resumed"] = fit.NumResumed;
+    report["functions"] = all.NumFunctions;
+    report["max_error"] = all.MaxError;
+    report["mean_error"] = all.MeanError / weight;
+    report["rms_error"] = std::sqrt(all.RmsError / weight);
+    report["points_outside"] = all.NumOutside;
+    report["outliers"] = all.NumOutliers;
+    report["within_tolerance"] = all.NumOutside == 0;
+    report["edges"] = fit.NumEdges;
+    report["max_jump_before"] = fit.MaxJumpBefore;
+    report["max_jump"] = fit.MaxJump;
+    report["max_slope_jump_before"] = fit.MaxSlopeJumpBefore;
+    report["max_slope_jump"] = fit.MaxSlopeJump;
+    if (all.NumOutside > 0)
+    {
+      session.Warn({ "'" + this->InputFile(0) + "': " + std::to_string(all.NumOutside) + " of " +
+        std::to_string(index.NumPoints) +
+        " points are farther away than their tolerance; --table says in which tiles" });
+    }
+  }
+
+  template <typename Array, typename Get>
+  static void AddTileColumn(
+    vtkTable* table, const char* name, const TileIndex& index, const TileFit& fit, Get get)
+  {
+    const auto column = NamedArray<Array>(name);
+    for (std::size_t t = 0; t < fit.Tiles.size(); ++t)
+    {
+      column->InsertNextValue(get(index.Tiles[t], fit.Tiles[t]));
+    }
+    table->AddColumn(column);
+  }
+
+  static vtkSmartPointer<vtkTable> TableOf(const TileIndex& index, const TileFit& fit)
+  {
+    using In = const CloudTile&;
+    using Out = const FittedTile&;
+    auto table = vtkSmartPointer<vtkTable>::New();
+    const auto count = [&](const char* name, auto get)
+    {
+      AddTileColumn<vtkIdTypeArray>(table, name, index, fit,
+        [&](In tile, Out fitted) { return static_cast<vtkIdType>(get(tile, fitted)); });
+    };
+    const auto size = [&](const char* name, auto get)
+    { AddTileColumn<vtkDoubleArray>(table, name, index, fit, get); };
+    count("Column", [&](In tile, Out) { return tile.Number[0] - index.Grid.First[0]; });
+    count("Row", [&](In tile, Out) { return tile.Number[1] - index.Grid.First[1]; });
+    count("Points", [](In tile, Out) { return tile.NumPoints; });
+    count("PointsOfNeighbours", [](In tile, Out) { return tile.NumNeighbours; });
+    count("Functions", [](In, Out tile) { return tile.NumFunctions; });
+    size("MaxError", [](In, Out tile) { return tile.MaxError; });
+    size("MeanError", [](In, Out tile) { return tile.MeanError; });
+    size("RmsError", [](In, Out tile) { return tile.RmsError; });
+    count("PointsOutside", [](In, Out tile) { return tile.NumOutside; });
+    count("Outliers", [](In, Out tile) { return tile.NumOutliers; });
+    return table;
+  }
+
+  Status WriteGrid(Session& session, const SplineModel& model) const
+  {
+    vtkNew<vtkUnstructuredGrid> grid;
+    const Status status = EncodeSplineGrid(model, grid);
+    return status ? session.Write(grid, this->MainOutput()) : status;
+  }
+
+  /// The name of a piece of the collection, as VTK gives them.
+  std::string PieceOf(int tile) const
+  {
+    const std::string stem = this->Staged.stem().string();
+    return stem + "/" + stem + "_" + std::to_string(tile) + "_0.vtu";
+  }
+
+  /// Writes the one tile of a model, which is empty then: the surface of a large cloud is never in
+  /// memory as a whole.
+  Status WritePiece(Session& session, SplineModel& model)
+  {
+    if (this->Staged.empty())
+    {
+      auto staged = session.Files.Stage(this->MainOutput());
+      if (!staged)
+      {
+        return staged.Status;
+      }
+      this->Staged = staged.Value;
+      std::error_code error;
+      std::filesystem::create_directory(this->Staged.parent_path() / this->Staged.stem(), error);
+    }
+    vtkNew<vtkUnstructuredGrid> grid;
+    const std::string piece =
+      (this->Staged.parent_path() / this->PieceOf(model.Patches[0].Id)).string();
+    Status status = EncodeSplineGrid(model, grid);
+    status = status ? WriteDataFile(grid, piece).Status : status;
+    model = {};
+    return AboutFile(status, this->MainOutput(), piece);
+  }
+
+  /// The file that names the pieces, as VTK reads collections.
+  Status WriteCollection(std::size_t tiles) const
+  {
+    std::string text = "<?xml version=\"1.0\"?>\n"
+                       "<VTKFile type=\"vtkPartitionedDataSetCollection\" version=\"1.0\">\n"
+                       "  <vtkPartitionedDataSetCollection>\n";
+    for (std::size_t t = 0; t < tiles; ++t)
+    {
+      pugi::xml_document document; // quotes what a name may hold
+      pugi::xml_node partitions = document.append_child("Partitions");
+      partitions.append_attribute("index") = static_cast<unsigned>(t);
+      pugi::xml_node piece = partitions.append_child("DataSet");
+      piece.append_attribute("index") = 0;
+      piece.append_attribute("file") = this->PieceOf(static_cast<int>(t)).c_str();
+      std::ostringstream stream;
+      document.save(stream, "  ", pugi::format_indent | pugi::format_no_declaration);
+      text += stream.str();
+    }
+    text += "  </vtkPartitionedDataSetCollection>\n</VTKFile>\n";
+    return AboutFile(
+      PutText(text, this->Staged.string()), this->MainOutput(), this->Staged.string());
+  }
+
+  void AddToleranceBoxes()
+  {
+    const std::vector<double>& boxes = this->ToleranceBoxes;
+    for (std::size_t i = 0; i + 4 < boxes.size(); i += 5)
+    {
+      this->Filter->AddToleranceBox(
+        boxes[i], boxes[i + 1], boxes[i + 2], boxes[i + 3], boxes[i + 4]);
+    }
+  }
+
   /// A surface that is too large as the tensor product that its format needs is not lost.
   Status WriteSurface(Session& session)
   {
@@ -176,6 +427,8 @@ private:
       ->expected(1, 100000);
   }
 
+  std::string ResumeFolder;
+  std::filesystem::path Staged; ///< the collection of tiles
   std::vector<std::string> Fields;
   std::array<std::string, 3> Arrays; ///< parameters, tolerances, significant points
   std::vector<double> ToleranceBoxes;

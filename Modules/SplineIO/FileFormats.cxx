@@ -249,6 +249,7 @@ const std::vector<FileFormat>& FileFormats()
       WritePolygons },
     { "PLY", { ".ply" }, PointsAndValues | PolygonContent, Polygons, false, readPoints,
       WritePolygons },
+    { "LAS", { ".las", ".laz" }, PointsAndValues, 0, false, readPoints, nullptr },
     { "OFF", { ".off" }, PointContent | PolygonContent, 0, false, readPoints, nullptr },
     { "SVG", { ".svg" }, PointContent | PolylineContent, 0, false, readPoints, nullptr },
     { "BEXT", { ".bext" }, Elements, Elements, false, readOperators, writeOperators },

@@ -2,7 +2,9 @@
 #include "OutputFiles.h"
 
 #include "FileFormats.h"
+#include "FileText.h"
 #include <knotwork/SplineCore/FileEnding.h>
+#include <knotwork/SplineIO/TileIndex.h>
 
 #include <pugixml.hpp>
 
@@ -78,11 +80,27 @@ bool IsStream(const std::string& file)
       name.rfind("/dev/fd/", 0) == 0 || name.rfind("/proc/", 0) == 0);
 }
 
-/// Files that a collection names.
+/// Whether a file has pieces in a folder of its name: collections, and indices of tiles.
+bool HasPieces(const fs::path& file)
+{
+  const std::string ending = LowerEnding(file.string());
+  return ending == ".vtpc" || ending == ".tiles";
+}
+
+/// Files that a collection or an index of tiles names.
 std::vector<fs::path> PiecesOf(const fs::path& collection)
 {
   std::vector<fs::path> pieces;
   std::error_code ignored;
+  if (LowerEnding(collection.string()) == ".tiles" && fs::is_regular_file(collection, ignored))
+  {
+    const auto text = TextOfFile(collection.string());
+    const auto index = text ? ReadTileIndex(text.Value) : text.Status;
+    for (const CloudTile& tile : index.Value.Tiles)
+    {
+      pieces.push_back(collection.parent_path() / tile.File);
+    }
+  }
   pugi::xml_document document;
   if (LowerEnding(collection.string()) == ".vtpc" && fs::is_regular_file(collection, ignored) &&
     document.load_file(collection.c_str(), pugi::parse_minimal))
@@ -237,7 +255,7 @@ Status OutputFiles::Plan(
   std::error_code error;
   if (output.IsStream)
   {
-    if (LowerEnding(file) == ".vtpc")
+    if (HasPieces(file))
     {
       return CannotWrite(file, "its pieces need a folder");
     }
@@ -273,7 +291,7 @@ Status OutputFiles::Plan(
   {
     return CannotWrite(file, SystemReason());
   }
-  if (LowerEnding(file) == ".vtpc")
+  if (HasPieces(file))
   {
     if (Status status = this->PlanPieces(output); !status)
     {
@@ -309,8 +327,9 @@ Status OutputFiles::PlanPieces(Output& output) const
   for (const fs::path& piece : PiecesOf(output.Target))
   {
     const bool isDirect = AreSame(piece.parent_path(), output.Pieces);
-    if (isDirect && LowerEnding(piece.string()).rfind(".vt", 0) == 0 &&
-      fs::is_regular_file(fs::symlink_status(piece, error)))
+    const std::string ending = LowerEnding(piece.string());
+    const bool isPiece = ending.rfind(".vt", 0) == 0 || ending == ".las" || ending == ".ply";
+    if (isDirect && isPiece && fs::is_regular_file(fs::symlink_status(piece, error)))
     {
       output.OldPieces.push_back(piece.filename().string());
     }

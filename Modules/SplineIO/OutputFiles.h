@@ -36,8 +36,8 @@ VTKKNOTWORKSPLINEIO_EXPORT Status AboutFile(
 /// made in a temporary folder beside its place, and all take their places together or none does.
 ///
 /// Nothing goes but what is replaced: a file of the same name, and the pieces that an older .vtpc
-/// of the same name lists. Symbolic links stay, what they point to is replaced. Devices and pipes
-/// are written to as they are.
+/// or .tiles of the same name lists. Symbolic links stay, what they point to is replaced. Devices
+/// and pipes are written to as they are.
 class VTKKNOTWORKSPLINEIO_EXPORT OutputFiles
 {
 public:
@@ -73,8 +73,8 @@ private:
     std::string Option;
     std::string Name;                   ///< as given
     std::filesystem::path Target;       ///< links followed
-    std::filesystem::path Pieces;       ///< folder of the pieces of a .vtpc
-    std::vector<std::string> OldPieces; ///< names in it that an older .vtpc lists
+    std::filesystem::path Pieces;       ///< folder of the pieces of a .vtpc or .tiles
+    std::vector<std::string> OldPieces; ///< names in it that an older one lists
     bool IsStream = false;              ///< a device or pipe
     std::filesystem::path Folder;       ///< temporary
   };

@@ -3,6 +3,7 @@
 
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -10,6 +11,7 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
+#include "vtkStringArray.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
@@ -187,6 +189,13 @@ void EncodePoints(const PointFile& file, vtkPolyData* output)
   }
   AddChannels(file, output);
   AddGroups(file, output);
+  if (!file.ReferenceSystem.empty())
+  {
+    vtkNew<vtkStringArray> system;
+    system->SetName("CoordinateReferenceSystem");
+    system->InsertNextValue(file.ReferenceSystem);
+    output->GetFieldData()->AddArray(system);
+  }
   if (output->GetPointData()->HasArray("TCoords"))
   {
     output->GetPointData()->SetActiveTCoords("TCoords");

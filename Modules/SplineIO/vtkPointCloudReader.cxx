@@ -7,6 +7,7 @@
 #include "PointData.h"
 #include <knotwork/SplineCore/FileEnding.h>
 #include <knotwork/SplineIO/GoToolsG2.h>
+#include <knotwork/SplineIO/LasFile.h>
 #include <knotwork/SplineIO/MeshFiles.h>
 #include <knotwork/SplineIO/PlyPoints.h>
 #include <knotwork/SplineIO/PointText.h>
@@ -37,6 +38,11 @@ bool BeginsWithOff(std::string_view beginning)
   return beginning.find("OFF") != std::string_view::npos;
 }
 
+bool BeginsWithLas(std::string_view beginning)
+{
+  return beginning.substr(0, 4) == "LASF";
+}
+
 bool IsThere(std::string_view beginning)
 {
   return !beginning.empty();
@@ -58,11 +64,14 @@ Result<PointFile> OnOneThread(std::string_view text, int)
 const PointFormat* FormatOf(const std::string& ending)
 {
   static const PointFormat text{ LooksLikePointText, ReadPointText };
+  static const PointFormat las{ BeginsWithLas, OnOneThread<ReadLas> };
   static const std::map<std::string, PointFormat> formats = {
     { ".xyz", text },
     { ".txt", text },
     { ".csv", text },
     { ".g2", { BeginsWithG2Points, OnOneThread<ReadG2Points> } },
+    { ".las", las },
+    { ".laz", las }, // refused by its reader, which names a program that decompresses
     { ".ply", { BeginsWithPly, OnOneThread<ReadPly> } },
     { ".off", { BeginsWithOff, OnOneThread<ReadOff> } },
     { ".obj", { IsThere, OnOneThread<ReadObj> } },

@@ -15,7 +15,7 @@ FILE = "the file in question"  # its place in a run
 ENDINGS = {"surface": (".vtu", ".xml", ".g2", ".step", ".iges"), "points": (".vtp", ".xyz", ".csv", ".ply", ".g2"),
            "cells": (".vtp",), "mesh": (".off", ".obj", ".ply", ".stl", ".vtp"), "curves": (".vtp",),
            "boundary": (".json",), "map": (".vtu",), "trim": (".vtu",), "grid": (".vtu",), "layout": (".vtu",),
-           "quads": (".off", ".obj", ".ply", ".vtu"), "values": (".vtp", ".csv"), "edges": (".vtp",), "part": (".step",), "box": (".off", ".obj", ".ply"), "volume": (".vtu",), "problem": (".json",)}
+           "quads": (".off", ".obj", ".ply", ".vtu"), "values": (".vtp", ".csv"), "edges": (".vtp",), "part": (".step",), "box": (".off", ".obj", ".ply"), "volume": (".vtu",), "problem": (".json",), "cloud": (".xyz", ".ply")}
 
 BOUNDARY = ('{"curves": [%s]}' % ", ".join(
     '{"degree": 1, "knots": [0, 0, 1, 1], "control_points": [%s]}' % ends
@@ -63,7 +63,7 @@ def cube(ending):
 
 SOUND = {"surface": "square", "points": "cloud", "cells": "cloud", "mesh": "mesh", "curves": "target", "boundary": "boundary",
          "map": "map", "trim": "trim", "grid": "square", "layout": "quads", "quads": "quads", "values": "samples", "edges": "edges", "part": "solid",
-         "box": "quads", "volume": "cube", "problem": "problem"}
+         "box": "quads", "volume": "cube", "problem": "problem", "cloud": "cloud"}
 
 
 # What `quadremesh` finds as blender: every triangle becomes three quadrilaterals.
@@ -182,6 +182,7 @@ def runs():
             (["stitch", FILE, path("east.vtu"), *by_geometry, "--output", grid], "surface"),
             (["stitch", path("east.vtu"), FILE, *by_geometry, "--output", grid], "surface"),
             (["tessellate", FILE, "--output", polydata], "surface"),
+            (["tiles", FILE, "--tile-size", 0.5, "--output", "out.tiles"], "cloud"),
             (["trim", FILE, "--triangles", polydata, "--output", "out.step"], "mesh"),
             (["unstructured", FILE, "--table", "table.csv", "--output", grid], "quads"),
             (["validate", FILE, "--table", "table.csv", "--output", grid], "grid"),

@@ -67,7 +67,7 @@ def test_every_input_refuses_what_it_does_not_take():
              "quads": ["mesh.off", "cloud.xyz", "target.vtp", "square.vtu"], "values": ["mesh.off", "target.vtp", "square.vtu"],
              "edges": ["mesh.off", "cloud.xyz", "square.vtu", "target.vtp"],
              "volume": ["mesh.off", "cloud.xyz", "target.vtp", "square.vtu"],
-             "problem": ["mesh.off", "square.vtu"],
+             "problem": ["mesh.off", "square.vtu"], "cloud": ["mesh.off", "square.vtu"],
              "box": ["mesh.off", "cloud.xyz", "target.vtp", "square.vtu"],
              "part": ["square.step", "square.iges", "mesh.off", "cloud.xyz", "square.vtu"]}
     anything = ("convert", "info", "view")  # of any kind

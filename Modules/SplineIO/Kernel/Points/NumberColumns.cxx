@@ -320,7 +320,9 @@ Result<std::vector<std::vector<double>>> ReadColumns(
     if (chunk.First.Code != ErrorCode::Ok)
     {
       const auto lines = std::count(text.begin(), text.begin() + chunk.First.At, '\n') + 1;
-      return { chunk.First.Code, "line " + std::to_string(lines) + chunk.First.What };
+      return { chunk.First.Code,
+        "line " + std::to_string(columns.LinesBefore + static_cast<std::size_t>(lines)) +
+          chunk.First.What };
     }
     numbers.push_back(std::move(chunk.Numbers));
   }

@@ -12,9 +12,10 @@ namespace knotwork
 /// Columns of numbers, as the first line that is no comment tells them.
 struct NumberColumns
 {
-  std::size_t Begin = 0;    ///< of the first line of numbers
-  std::size_t HeadLine = 1; ///< number of the line that tells the columns
-  char Separator = ' ';     ///< blanks, ',' or ';'
+  std::size_t Begin = 0;       ///< of the first line of numbers
+  std::size_t HeadLine = 1;    ///< number of the line that tells the columns
+  std::size_t LinesBefore = 0; ///< of the file, where the text is a part of it
+  char Separator = ' ';        ///< blanks, ',' or ';'
   std::size_t Count = 0;
   std::vector<std::string> Names; ///< of all columns; empty: without names
   std::string_view Comment;       ///< the one directly above the first line

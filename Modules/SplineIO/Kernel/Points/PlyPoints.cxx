@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PlyPoints.h"
 
+#include "PlyVertices.h"
 #include "TextWords.h"
 
 #include <algorithm>
@@ -22,17 +23,7 @@ enum class Encoding
 
 constexpr const char* VertexName = "vertex";
 
-enum class Scalar
-{
-  Int8,
-  UInt8,
-  Int16,
-  UInt16,
-  Int32,
-  UInt32,
-  Float,
-  Double
-};
+using Scalar = PlyScalar;
 
 struct ScalarName
 {
@@ -78,6 +69,63 @@ class PlyParser
 {
 public:
   explicit PlyParser(std::string_view text) : Text(text), Words(text) {}
+
+  /// Of a file whose beginning is the text.
+  Result<PlyVertices> FindVertices()
+  {
+    this->ReadHeader();
+    const bool areFirst = !this->Elements.empty() && this->Elements.front().Name == VertexName;
+    if (!areFirst)
+    {
+      this->Fail(ErrorCode::InvalidFormat,
+        "its vertices do not come first, so they cannot be read piece by piece; convert it to "
+        ".xyz");
+    }
+    PlyVertices found;
+    if (this->Outcome)
+    {
+      const Element& element = this->Elements.front();
+      found.IsAscii = this->Format == Encoding::Ascii;
+      found.IsBigEndian = this->Format == Encoding::BigEndian;
+      found.Begin = this->Position;
+      found.HeadLines = this->LineNumber;
+      found.Count = static_cast<std::uint64_t>(element.Count);
+      this->PlaceProperties(element, found.Position, found.Channels, found.Names);
+      for (const Property& property : element.Properties)
+      {
+        found.Types.push_back(property.Type);
+      }
+      for (std::size_t i = 1; i < this->Elements.size(); ++i)
+      {
+        const Element& other = this->Elements[i];
+        if (other.Count > 0)
+        {
+          found.LeftOut.push_back(std::to_string(other.Count) + " elements " + Shown(other.Name) +
+            " are left out; only vertices are read piece by piece");
+        }
+      }
+    }
+    return this->Outcome ? Result<PlyVertices>(std::move(found))
+                         : Result<PlyVertices>(this->Outcome);
+  }
+
+  /// Numbers of whole rows of binary vertices. @param first  number of the first row, for messages.
+  Status ReadRows(const PlyVertices& vertices, std::uint64_t first, std::vector<double>& numbers)
+  {
+    static const std::string name = VertexName;
+    this->Format = vertices.IsBigEndian ? Encoding::BigEndian : Encoding::LittleEndian;
+    this->RowName = &name;
+    this->Row = static_cast<long long>(first);
+    for (; this->Position < this->Text.size() && this->Outcome; ++this->Row)
+    {
+      for (std::size_t i = 0; i < vertices.Types.size(); ++i)
+      {
+        numbers.push_back(this->Number(vertices.Types[i]));
+        this->CheckFinite(numbers.back(), "a property");
+      }
+    }
+    return this->Outcome;
+  }
 
   Result<PointFile> Read()
   {
@@ -389,16 +437,26 @@ private:
     }
   }
 
-  void ReadVertices(const Element& element, PointFile& file)
+  void CheckFinite(double number, const std::string& what)
   {
-    std::array<std::size_t, 3> position{};
+    if (this->Outcome && !std::isfinite(number))
+    {
+      this->Fail(ErrorCode::NonFiniteInput,
+        "vertex " + std::to_string(this->Row) + " has " + what +
+          " that is not finite; remove the vertex");
+    }
+  }
+
+  /// Which properties of the vertices are coordinates, and which channels the others are.
+  void PlaceProperties(const Element& element, std::array<std::size_t, 3>& position,
+    std::vector<Eigen::Index>& channel, std::vector<std::string>& names)
+  {
     int found = 0;
-    std::vector<Eigen::Index> channel; // of every property, -1 for coordinates
     for (std::size_t i = 0; i < element.Properties.size(); ++i)
     {
       const Property& property = element.Properties[i];
-      constexpr std::string_view names = "xyz";
-      const std::size_t d = property.Name.size() == 1 ? names.find(property.Name[0]) : 3;
+      constexpr std::string_view coordinates = "xyz";
+      const std::size_t d = property.Name.size() == 1 ? coordinates.find(property.Name[0]) : 3;
       channel.push_back(-1);
       if (property.IsList)
       {
@@ -412,8 +470,8 @@ private:
       }
       else
       {
-        channel.back() = static_cast<Eigen::Index>(file.Names.size());
-        file.Names.push_back(property.Name);
+        channel.back() = static_cast<Eigen::Index>(names.size());
+        names.push_back(property.Name);
       }
     }
     if (found != 3)
@@ -422,6 +480,13 @@ private:
         "vertices have " + std::to_string(found) +
           " of the properties x, y, z; all three are needed");
     }
+  }
+
+  void ReadVertices(const Element& element, PointFile& file)
+  {
+    std::array<std::size_t, 3> position{};
+    std::vector<Eigen::Index> channel;
+    this->PlaceProperties(element, position, channel, file.Names);
     if (!this->Outcome)
     {
       return;
@@ -434,12 +499,7 @@ private:
       for (std::size_t i = 0; i < numbers.size(); ++i)
       {
         numbers[i] = this->Number(element.Properties[i].Type);
-        if (this->Outcome && !std::isfinite(numbers[i]))
-        {
-          this->Fail(ErrorCode::NonFiniteInput,
-            "vertex " + std::to_string(this->Row) + " has a property " +
-              Shown(element.Properties[i].Name) + " that is not finite; remove the vertex");
-        }
+        this->CheckFinite(numbers[i], "a property " + Shown(element.Properties[i].Name));
         if (channel[i] >= 0)
         {
           file.Channels(this->Row, channel[i]) = numbers[i];
@@ -503,5 +563,29 @@ private:
 Result<PointFile> ReadPly(std::string_view text)
 {
   return PlyParser(text).Read();
+}
+
+Result<PlyVertices> FindPlyVertices(std::string_view beginning)
+{
+  return PlyParser(beginning).FindVertices();
+}
+
+std::size_t PlyVertices::RowBytes() const
+{
+  std::size_t bytes = 0;
+  for (const PlyScalar type : this->Types)
+  {
+    bytes += type <= PlyScalar::UInt8 ? 1
+      : type <= PlyScalar::UInt16     ? 2
+      : type <= PlyScalar::Float      ? 4
+                                      : 8;
+  }
+  return bytes;
+}
+
+Status ReadPlyRows(const PlyVertices& vertices, std::string_view rows, std::uint64_t first,
+  std::vector<double>& numbers)
+{
+  return PlyParser(rows).ReadRows(vertices, first, numbers);
 }
 }

@@ -25,6 +25,7 @@ struct PointFile
   std::vector<PointGroup> Groups;         ///< empty: all points are one, without a colour
   std::vector<std::vector<int>> Polygons; ///< rows of Points, at least three each
   std::vector<std::vector<int>> Lines;    ///< rows of Points, at least two each
+  std::string ReferenceSystem;            ///< of the coordinates, as the file says it; empty: none
   std::vector<std::string> Warnings;      ///< what is not as it should be, one line each
   std::vector<std::string> LeftOut;       ///< parts of the file that are not here, one line each
 };

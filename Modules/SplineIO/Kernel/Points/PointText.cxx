@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PointText.h"
 
-#include "NumberColumns.h"
+#include "PointLayout.h"
 #include "TextWords.h"
 #include <knotwork/SplineCore/Parallel.h>
 
@@ -13,21 +13,8 @@ namespace knotwork
 {
 namespace
 {
-constexpr std::size_t NoColumn = ~std::size_t{ 0 };
-
-/// Columns of a text, and which of them are x, y, z; NoColumn: z = 0.
-struct Layout : NumberColumns
-{
-  std::array<std::size_t, 3> Position{ 0, 1, 2 };
-
-  bool IsCoordinate(std::size_t column) const
-  {
-    return std::find(this->Position.begin(), this->Position.end(), column) != this->Position.end();
-  }
-};
-
 /// Finds the columns that are x, y, z by name.
-void FindPosition(Layout& layout)
+void FindPosition(PointLayout& layout)
 {
   constexpr const char* known[][3] = { { "x", "y", "z" }, { "points:0", "points:1", "points:2" },
     { "points_0", "points_1", "points_2" } };
@@ -55,7 +42,18 @@ void FindPosition(Layout& layout)
   }
 }
 
-Result<Layout> FindLayout(std::string_view text)
+void AppendName(const std::string& name, char separator, std::string& text)
+{
+  for (char c : name)
+  {
+    const bool harmful = c == '\n' || c == '\r' || c == '"' || c == ';' || c == ',' ||
+      (separator == ' ' && (c == ' ' || c == '\t'));
+    text += harmful ? '_' : c;
+  }
+}
+}
+
+Result<PointLayout> FindPointLayout(std::string_view text)
 {
   auto found = FindColumns(text, 3, "x, y, z");
   bool isPlanar = false;
@@ -75,7 +73,7 @@ Result<Layout> FindLayout(std::string_view text)
       found.Status.Code == ErrorCode::EmptyInput ? "the text holds no points"
                                                  : found.Status.Detail };
   }
-  Layout layout;
+  PointLayout layout;
   static_cast<NumberColumns&>(layout) = std::move(found.Value);
   if (isPlanar)
   {
@@ -105,25 +103,30 @@ Result<Layout> FindLayout(std::string_view text)
   return layout;
 }
 
-void AppendName(const std::string& name, char separator, std::string& text)
+std::vector<std::size_t> PointLayout::Others(std::vector<std::string>& names) const
 {
-  for (char c : name)
+  std::vector<std::size_t> others;
+  for (std::size_t c = 0; c < this->Count; ++c)
   {
-    const bool harmful = c == '\n' || c == '\r' || c == '"' || c == ';' || c == ',' ||
-      (separator == ' ' && (c == ' ' || c == '\t'));
-    text += harmful ? '_' : c;
+    if (std::find(this->Position.begin(), this->Position.end(), c) == this->Position.end())
+    {
+      others.push_back(c);
+      names.push_back(this->Names.empty() || this->Names[c].empty()
+          ? "Column" + std::to_string(c + 1)
+          : this->Names[c]);
+    }
   }
-}
+  return others;
 }
 
 Result<PointFile> ReadPointText(std::string_view text, int threads)
 {
-  const Result<Layout> found = FindLayout(text);
+  const Result<PointLayout> found = FindPointLayout(text);
   if (!found)
   {
     return found.Status;
   }
-  const Layout& layout = found.Value;
+  const PointLayout& layout = found.Value;
   auto chunks = ReadColumns(text, layout, threads);
   if (!chunks)
   {
@@ -139,17 +142,7 @@ Result<PointFile> ReadPointText(std::string_view text, int threads)
     return { ErrorCode::EmptyInput, "the text holds no points, only names of columns" };
   }
   PointFile file;
-  std::vector<std::size_t> others;
-  for (std::size_t c = 0; c < layout.Count; ++c)
-  {
-    if (!layout.IsCoordinate(c))
-    {
-      others.push_back(c);
-      file.Names.push_back(layout.Names.empty() || layout.Names[c].empty()
-          ? "Column" + std::to_string(c + 1)
-          : layout.Names[c]);
-    }
-  }
+  const std::vector<std::size_t> others = layout.Others(file.Names);
   file.Points.resize(rows.back(), 3);
   file.Channels.resize(rows.back(), static_cast<Eigen::Index>(others.size()));
   ParallelFor(chunks->size(), 1, threads,
@@ -181,7 +174,7 @@ bool LooksLikePointText(std::string_view beginning)
 {
   const bool printable = std::all_of(beginning.begin(), beginning.end(),
     [](char c) { return c >= ' ' || c == '\n' || c == '\r' || c == '\t' || c < 0; });
-  return printable && static_cast<bool>(FindLayout(beginning));
+  return printable && static_cast<bool>(FindPointLayout(beginning));
 }
 
 Result<std::string> WritePointText(const PointFile& file, char separator)

@@ -50,10 +50,11 @@ TEST(FileFormats, EndingsFollowTheContent_ExactOracle)
   EXPECT_EQ(writing(TableContent), ".csv");
   EXPECT_EQ(writing(0), "");
   EXPECT_EQ(JoinEndings(EndingsThatRead(AnyContent)),
-    ".vtp .vtu .vtpc .vtk .xml .xyz .txt .csv .g2 .step .stp .iges .igs .brep .stl .obj .ply .off "
+    ".vtp .vtu .vtpc .vtk .xml .xyz .txt .csv .g2 .step .stp .iges .igs .brep .stl .obj .ply .las "
+    ".laz .off "
     ".bext "
     ".json .mesh .msh .inp");
-  EXPECT_EQ(
-    JoinEndings(EndingsThatRead(PointContent)), ".vtp .xyz .txt .csv .g2 .stl .obj .ply .off");
+  EXPECT_EQ(JoinEndings(EndingsThatRead(PointContent)),
+    ".vtp .xyz .txt .csv .g2 .stl .obj .ply .las .laz .off");
   EXPECT_EQ(writing(GridContent), ".vtu .mesh .msh");
 }

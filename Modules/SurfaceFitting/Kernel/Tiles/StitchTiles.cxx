@@ -133,9 +133,8 @@ Status AverageEdge(
   return {};
 }
 
-/// The tiles as LR splines.
-Status TakeTiles(
-  const std::vector<Spline<2>>& tiles, const StitchParams& params, StitchedTiles& result)
+/// The tiles as LR splines; they are let go.
+Status TakeTiles(std::vector<Spline<2>>& tiles, const StitchParams& params, StitchedTiles& result)
 {
   for (std::size_t t = 0; t < tiles.size(); ++t)
   {
@@ -146,6 +145,7 @@ Status TakeTiles(
     }
     result.NumFunctionsAdded -= tile->Space->NumFunctions;
     result.Tiles.push_back(std::move(tile.Value));
+    tiles[t] = {};
   }
   return {};
 }
@@ -217,7 +217,7 @@ Status Average(const TileRows& rows, const std::vector<TileEdge>& edges, int mea
 }
 }
 
-Result<StitchedTiles> StitchTiles(const std::vector<Spline<2>>& tiles, const StitchParams& params)
+Result<StitchedTiles> StitchTiles(std::vector<Spline<2>> tiles, const StitchParams& params)
 {
   StitchedTiles result;
   Status status = CheckParams(tiles, params);
@@ -233,7 +233,8 @@ Result<StitchedTiles> StitchTiles(const std::vector<Spline<2>>& tiles, const Sti
   {
     return status;
   }
-  const int measured = params.NumMeasured > 0 ? params.NumMeasured : tiles.front().NumComponents();
+  const int measured =
+    params.NumMeasured > 0 ? params.NumMeasured : result.Tiles.front().NumComponents();
   MeasureBefore(edges.Value, measured, params.Threads, result);
   const auto rows = PrepareStrips(result.Tiles, edges.Value, params);
   if (!rows)

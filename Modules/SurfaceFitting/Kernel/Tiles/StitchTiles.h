@@ -76,6 +76,7 @@ struct StitchedTiles
 /// side); InvalidParameter; InvalidTopology: domains that overlap, several
 /// tiles of which no two share an edge, a side in two pairs, C1 where other than four tiles meet
 /// around a point; Aborted; what MakeLocallyRefined returns.
-/// @complexity a few insertions a knot on a boundary and an assembly of every tile's space.
-Result<StitchedTiles> StitchTiles(const std::vector<Spline<2>>& tiles, const StitchParams& params);
+/// @complexity a few insertions a knot on a boundary and an assembly of every tile's space. Tiles
+/// that are moved in are let go one by one, so their memory is not needed twice.
+Result<StitchedTiles> StitchTiles(std::vector<Spline<2>> tiles, const StitchParams& params);
 }

@@ -3,10 +3,12 @@
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 
 import knotwork_testing
+import las_files
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints
@@ -74,6 +76,8 @@ def prepare():
                "property double z\nend_header\n")
     write_text("samples.csv", np.c_[rows(), rows()[:, 0]], ",", "x,y,z,Temperature\n")
     write_part()
+    las_files.write(os.path.join(FOLDER, "survey.las"), 2, 2, 3000)
+    shutil.rmtree(os.path.join(FOLDER, "survey.kept"), ignore_errors=True)
     for name, table in (("surface.vtu", rows()), ("terrain.vtu", rows() * (1, 1, 40) + (0, 0, 90)), ("west.vtu", rows()),
                         ("east.vtu", rows(0.01, 1.0)), ("old.vtu", rows()), ("new.vtu", rows(0.1))):
         fitted(name, table)
@@ -83,13 +87,14 @@ def test_commands():
     prepare()
     commands = re.findall(r"^    (knotwork .*)$", TEXT, re.M)
     assert {shlex.split(command)[1] for command in commands} == {
-        "fit", "approximate", "contour", "extrema", "stitch", "distance", "combine", "crop"}
+        "fit", "approximate", "contour", "extrema", "stitch", "distance", "combine", "crop", "tiles"}
     for command in commands:
         words = shlex.split(command)[1:]
         outputs = [words[i + 1] for i, word in enumerate(words) if word in ("--output", "--report", "--table", "--points")]
         for name in outputs:
             if os.path.exists(os.path.join(FOLDER, name)):
                 os.remove(os.path.join(FOLDER, name))
+            shutil.rmtree(os.path.join(FOLDER, os.path.splitext(name)[0]), ignore_errors=True)  # pieces
         run(*words)
         for name in outputs:
             assert os.path.getsize(os.path.join(FOLDER, name)) > 0, (command, name)
