@@ -43,18 +43,18 @@ TEST(FileFormats, EndingsFollowTheContent_ExactOracle)
   EXPECT_EQ(writing(SplineCollectionContent), ".vtpc .xml .g2 .step .stp .iges .igs .bext .json");
   EXPECT_EQ(writing(TrimmedFaceContent), ".vtu .step .stp .iges .igs");
   EXPECT_EQ(writing(PolygonCollectionContent), ".vtpc .stl .obj .ply");
-  EXPECT_EQ(writing(PolygonContent), ".vtp .stl .obj .ply");
-  EXPECT_EQ(writing(PolylineContent | SplineCurveContent), ".vtp .vtu .xml .g2 .bext .json");
+  EXPECT_EQ(writing(PolygonContent), ".vtp .stl .obj .ply .mesh .msh");
+  EXPECT_EQ(writing(PolylineContent | SplineCurveContent), ".vtp .vtu .xml .g2 .bext .json .mesh .msh");
   EXPECT_EQ(writing(PointContent), ".vtp .xyz .txt .csv .g2");
   EXPECT_EQ(writing(ImageContent), ".vti");
   EXPECT_EQ(writing(TableContent), ".csv");
   EXPECT_EQ(writing(0), "");
   EXPECT_EQ(JoinEndings(EndingsThatRead(AnyContent)),
     ".vtp .vtu .vtpc .vtk .xml .xyz .txt .csv .g2 .step .stp .iges .igs .brep .stl .obj .ply .las "
-    ".laz .off "
+    ".laz .off .svg "
     ".bext "
     ".json .mesh .msh .inp");
   EXPECT_EQ(JoinEndings(EndingsThatRead(PointContent)),
-    ".vtp .xyz .txt .csv .g2 .stl .obj .ply .las .laz .off");
+    ".vtp .xyz .txt .csv .g2 .stl .obj .ply .las .laz .off .svg");
   EXPECT_EQ(writing(GridContent), ".vtu .mesh .msh");
 }
