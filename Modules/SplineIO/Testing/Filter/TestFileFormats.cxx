@@ -44,7 +44,8 @@ TEST(FileFormats, EndingsFollowTheContent_ExactOracle)
   EXPECT_EQ(writing(TrimmedFaceContent), ".vtu .step .stp .iges .igs");
   EXPECT_EQ(writing(PolygonCollectionContent), ".vtpc .stl .obj .ply");
   EXPECT_EQ(writing(PolygonContent), ".vtp .stl .obj .ply .mesh .msh");
-  EXPECT_EQ(writing(PolylineContent | SplineCurveContent), ".vtp .vtu .xml .g2 .bext .json .mesh .msh");
+  EXPECT_EQ(
+    writing(PolylineContent | SplineCurveContent), ".vtp .vtu .xml .g2 .bext .json .mesh .msh");
   EXPECT_EQ(writing(PointContent), ".vtp .xyz .txt .csv .g2");
   EXPECT_EQ(writing(ImageContent), ".vti");
   EXPECT_EQ(writing(TableContent), ".csv");
