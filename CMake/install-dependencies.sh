@@ -14,7 +14,7 @@ packages=(
   libocct-data-exchange-dev libocct-modeling-algorithms-dev libocct-ocaf-dev
   libcgal-dev libtet1.5-dev
   # filters, command line, Python
-  libvtk9-dev python3-vtk9 python3-dev libcli11-dev nlohmann-json3-dev
+  libvtk9-dev libegl-dev python3-vtk9 python3-dev libcli11-dev nlohmann-json3-dev
   # ParaView plugin
   paraview paraview-dev qtbase5-dev qttools5-dev libqt5svg5-dev python3-mpi4py
   # tests, benchmarks, pictures
