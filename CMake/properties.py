@@ -251,8 +251,17 @@ def literal(text):
 DEFAULT_GROUP = "Options"  # of --help
 
 
+def chain_of(header, classes):
+    """The class behind those of its bases whose properties count as its own: not the one of all filters and of all readers."""
+    base = classes.get(header.base)
+    return ([*chain_of(base, classes)] if base and base.name not in ("vtkSplineAlgorithm", "vtkSplineFileReader") else []) + [header]
+
+
 def options(out, headers):
-    headers = [header for header in headers if header.base in ("vtkSplineAlgorithm", "vtkWriter")
+    classes = {header.name: header for header in headers}
+    bases = {header.base for header in headers}
+    headers = [header for header in headers
+               if header.name not in bases and chain_of(header, classes)[0].base in ("vtkSplineAlgorithm", "vtkWriter")
                and any(each.name != "FileName" for each in header.properties)]
     write(out + ".h", [
         "// Generated from the headers of the filters by CMake/properties.py", "#pragma once", "",
@@ -266,14 +275,14 @@ def options(out, headers):
     for header in headers:
         lines += [f"void AddProperties(Options& options, {header.name}* filter)", "{"]
         group = DEFAULT_GROUP
-        for each in header.properties:
+        for owner, each in [(owner, each) for owner in chain_of(header, classes) for each in owner.properties]:
             if each.name == "FileName":
                 continue
             own = each.group or ("Advanced" if each.advanced else DEFAULT_GROUP)
             if own != group:
                 lines.append(f'  options.Group("{own}");')
                 group = own
-            lines.append(option_line(header, each))
+            lines.append(option_line(owner, each))
         lines += [f'  options.Group("{DEFAULT_GROUP}");', "}"]
     write(out + ".cxx", lines + ["}"])
 
@@ -483,11 +492,12 @@ def decorators(header, where, conditions):
 
 
 def python(out, sources, headers):
+    classes = {header.name: header for header in headers}
     lines = ["# Generated from the headers of the filters and ParaView's proxies by CMake/properties.py",
              "# class: property: type, how many, lowest and highest value, names of the values", "PROPERTIES = {"]
     for header in headers:
         lines.append(f'    "{header.name}": {{')
-        for each in header.properties:
+        for each in [each for owner in chain_of(header, classes) for each in owner.properties]:
             low, high = (each.low, each.high) if each.macro_bounds else (None, None)
             names = [(choice.option, choice.enumerator) for choice in each.choices]
             lines.append(f'        "{each.name}": ("{each.type}", {each.count}, {low}, {high}, {names}),')
@@ -495,8 +505,8 @@ def python(out, sources, headers):
     lines += ["}", "# class: property: default, what it is", "MEANINGS = {"]
     for header in headers:
         lines.append(f'    "{header.name}": {{')
-        for each in header.properties:
-            text = header.sentence(each, lambda choice: repr(choice.option), lambda name: "`" + snake_case(name) + "`")
+        for owner, each in [(owner, each) for owner in chain_of(header, classes) for each in owner.properties]:
+            text = owner.sentence(each, lambda choice: repr(choice.option), lambda name: "`" + snake_case(name) + "`")
             lines.append(f'        "{each.name}": ({python_default(each)!r}, {text!r}),')
         lines.append("    },")
     lines += ["}", "# class: inputs (name, port, many, types), outputs, lists (name, adds, clears, how many, what it is), objects (name, sets), arrays (name, index, of points or cells, what it is)",
@@ -608,8 +618,10 @@ def pages(root, check):
             raise Fault(f"{file}: a table is not what headers and jobs say; `cmake --build . --target pages` rewrites it")
         if new != text:
             write(file, new.rstrip("\n").split("\n"))
+    bases = {header.base for header in headers}
     for header in headers:
-        if any(each.name not in ("FileName", "Threads") for each in header.properties):
+        # those of bases stand in the tables of the classes behind them
+        if header.name not in bases and any(each.name not in ("FileName", "Threads") for each in header.properties):
             if f"<!-- properties of {header.name} -->" not in listed:
                 raise Fault(f"{header.file}: no page has '<!-- properties of {header.name} -->'")
 

@@ -18,12 +18,6 @@ vtkSplineAnalysis::vtkSplineAnalysis()
   this->SetNumberOfOutputPorts(5);
 }
 
-vtkSplineAnalysis::~vtkSplineAnalysis()
-{
-  this->SetProblem(nullptr);
-  this->SetProblemFile(nullptr);
-}
-
 double vtkSplineAnalysis::GetSeconds(int step)
 {
   return step >= 0 && step < 4 ? this->Seconds[static_cast<std::size_t>(step)] : 0.0;
@@ -54,10 +48,10 @@ Status vtkSplineAnalysis::Compute(vtkInformationVector** inputs, vtkInformationV
   {
     return {}; // as VTK's filters: nothing of nothing
   }
-  const auto text = ReadProblemText(this->Problem, this->ProblemFile);
-  if (!text)
+  auto options = this->MakeOptions();
+  if (!options)
   {
-    return text.Status;
+    return options.Status;
   }
   auto body = ReadBody(input, [&](vtkDataObject* data) { return this->DecodeInput(data); });
   if (!body)
@@ -71,20 +65,13 @@ Status vtkSplineAnalysis::Compute(vtkInformationVector** inputs, vtkInformationV
   }
   const bool losesArrays = this->MaxSteps > 1 && body->Model.Patches.size() == 1 &&
     !body->Model.Patches.front().Fields.empty();
-  AnalysisOptions options;
-  options.IsPoisson = this->Equation == POISSON;
-  options.IsPlaneStrain = this->Plane == STRAIN;
-  options.Problem = text.Value;
-  options.Material = { this->Conductivity, this->YoungsModulus, this->PoissonsRatio };
-  options.KeepsGaussPoints = this->GaussPoints;
-  options.Params.Theta = this->Theta;
-  options.Params.Tolerance = this->ErrorTolerance;
-  options.Params.MaxFunctions = this->MaximumFunctions;
-  options.Params.MaxSteps = this->MaxSteps;
-  options.Params.Galerkin.DirectLimit = this->DirectLimit;
-  options.Params.Galerkin.Tolerance = this->Tolerance;
-  options.Params.Galerkin.Threads = this->KernelThreads();
-  auto results = RunAnalysis(std::move(body.Value), input, options, this->Progress());
+  options->KeepsGaussPoints = this->GaussPoints;
+  AdaptiveParams& params = options->Params;
+  params.Theta = this->Theta;
+  params.Tolerance = this->ErrorTolerance;
+  params.MaxFunctions = this->MaximumFunctions;
+  params.MaxSteps = this->MaxSteps;
+  auto results = RunAnalysis(std::move(body.Value), input, options.Value, this->Progress());
   if (!results)
   {
     return results.Status;

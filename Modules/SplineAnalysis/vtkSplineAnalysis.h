@@ -25,80 +25,17 @@
 #ifndef vtkSplineAnalysis_h
 #define vtkSplineAnalysis_h
 #include "vtkKnotworkSplineAnalysisModule.h" // for export macro
-#include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
+#include <knotwork/SplineAnalysis/vtkAnalysisAlgorithm.h>
 
 #include <array> // for Seconds
 
-class VTKKNOTWORKSPLINEANALYSIS_EXPORT vtkSplineAnalysis : public vtkSplineAlgorithm
+class VTKKNOTWORKSPLINEANALYSIS_EXPORT vtkSplineAnalysis : public vtkAnalysisAlgorithm
 {
 public:
   static vtkSplineAnalysis* New();
-  vtkTypeMacro(vtkSplineAnalysis, vtkSplineAlgorithm);
+  vtkTypeMacro(vtkSplineAnalysis, vtkAnalysisAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  enum Equations
-  {
-    POISSON = 0,
-    ELASTICITY
-  };
-  enum Planes
-  {
-    STRESS = 0,
-    STRAIN
-  };
-
-  ///@{
-  /** What is solved, one of Equations: POISSON, -div(k grad u) = f; ELASTICITY, small displacements
-   * of elastic bodies. Default POISSON. */
-  vtkSetClampMacro(Equation, int, POISSON, ELASTICITY);
-  vtkGetMacro(Equation, int);
-  ///@}
-  ///@{
-  /** Elasticity in the plane, one of Planes: STRESS, a thin plate; STRAIN, a long body. Default
-   * STRESS. */
-  vtkSetClampMacro(Plane, int, STRESS, STRAIN);
-  vtkGetMacro(Plane, int);
-  ///@}
-  ///@{
-  /** The problem as JSON: materials, source, conditions. Not beside ProblemFile. Default empty. */
-  vtkSetStringMacro(Problem);
-  vtkGetStringMacro(Problem);
-  ///@}
-  ///@{
-  /** A file with the problem as JSON. Default empty. */
-  vtkSetFilePathMacro(ProblemFile);
-  vtkGetFilePathMacro(ProblemFile);
-  ///@}
-  ///@{
-  /** Conductivity of what the problem gives no material. Default 1, valid range [1e-100,
-   * 1e100]. */
-  vtkSetClampMacro(Conductivity, double, 1e-100, 1e100);
-  vtkGetMacro(Conductivity, double);
-  ///@}
-  ///@{
-  /** Elastic modulus (Young's) of what the problem gives no material. Default 1, valid range
-   * [1e-100, 1e100]. */
-  vtkSetClampMacro(YoungsModulus, double, 1e-100, 1e100);
-  vtkGetMacro(YoungsModulus, double);
-  ///@}
-  ///@{
-  /** Lateral contraction (Poisson's ratio) of what the problem gives no material. Default 0.3,
-   * valid range [-0.99, 0.4999]. */
-  vtkSetClampMacro(PoissonsRatio, double, -0.99, 0.4999);
-  vtkGetMacro(PoissonsRatio, double);
-  ///@}
-  ///@{
-  /** Unknowns up to which the system is factorized; above, conjugate gradients solve it. Default
-   * 300000, valid range >= 0. Advanced. */
-  vtkSetClampMacro(DirectLimit, int, 0, VTK_INT_MAX);
-  vtkGetMacro(DirectLimit, int);
-  ///@}
-  ///@{
-  /** Residual over right-hand side at which conjugate gradients stop. Default 1e-12, valid range
-   * [1e-15, 0.1]. Advanced. */
-  vtkSetClampMacro(Tolerance, double, 1e-15, 0.1);
-  vtkGetMacro(Tolerance, double);
-  ///@}
   ///@{
   /** Whether output 1 gets the Gauss points, some tens an element. Default on. */
   vtkSetMacro(GaussPoints, bool);
@@ -138,7 +75,7 @@ public:
 
 protected:
   vtkSplineAnalysis();
-  ~vtkSplineAnalysis() override;
+  ~vtkSplineAnalysis() override = default;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestDataObject(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
@@ -148,15 +85,6 @@ private:
   vtkSplineAnalysis(const vtkSplineAnalysis&) = delete;
   void operator=(const vtkSplineAnalysis&) = delete;
 
-  int Equation = POISSON;
-  int Plane = STRESS;
-  char* Problem = nullptr;
-  char* ProblemFile = nullptr;
-  double Conductivity = 1.0;
-  double YoungsModulus = 1.0;
-  double PoissonsRatio = 0.3;
-  int DirectLimit = 300000;
-  double Tolerance = 1e-12;
   bool GaussPoints = true;
   int MaxSteps = 1;
   double ErrorTolerance = 0.0;

@@ -25,12 +25,6 @@ vtkSplineVersusMesh::vtkSplineVersusMesh()
   this->SetOutputTypes({ "vtkUnstructuredGrid", "vtkUnstructuredGrid", "vtkTable" });
 }
 
-vtkSplineVersusMesh::~vtkSplineVersusMesh()
-{
-  this->SetProblem(nullptr);
-  this->SetProblemFile(nullptr);
-}
-
 void vtkSplineVersusMesh::SetMeshConnection(vtkAlgorithmOutput* output)
 {
   this->SetInputConnection(1, output);
@@ -72,17 +66,11 @@ int vtkSplineVersusMesh::RequestDataObject(
 Status vtkSplineVersusMesh::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   this->Seconds = {};
-  const auto text = ReadProblemText(this->Problem, this->ProblemFile);
-  if (!text)
+  const auto options = this->MakeOptions();
+  if (!options)
   {
-    return text.Status;
+    return options.Status;
   }
-  AnalysisOptions options;
-  options.IsPoisson = this->Equation == POISSON;
-  options.IsPlaneStrain = this->Plane == STRAIN;
-  options.Problem = text.Value;
-  options.Params.MaxSteps = 1;
-  options.Params.Galerkin.Threads = this->KernelThreads();
   std::vector<AnalysisResults> all;
   const bool hasReference = inputs[Reference]->GetNumberOfInformationObjects() > 0;
   const int count = hasReference ? 3 : 2;
@@ -94,7 +82,7 @@ Status vtkSplineVersusMesh::Compute(vtkInformationVector** inputs, vtkInformatio
       ? Result<AnalysisBody>(Status{ ErrorCode::EmptyInput, "it has no elements; give a body" })
       : ReadBody(input, [&](vtkDataObject* data) { return this->DecodeInput(data); });
     auto results = body
-      ? RunAnalysis(std::move(body.Value), input, options,
+      ? RunAnalysis(std::move(body.Value), input, options.Value,
           [whole = this->Progress(), i, count](double share) { return whole((i + share) / count); })
       : Result<AnalysisResults>(body.Status);
     if (!results)

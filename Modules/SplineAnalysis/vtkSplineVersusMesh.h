@@ -18,51 +18,17 @@
 #ifndef vtkSplineVersusMesh_h
 #define vtkSplineVersusMesh_h
 #include "vtkKnotworkSplineAnalysisModule.h" // for export macro
-#include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
+#include <knotwork/SplineAnalysis/vtkAnalysisAlgorithm.h>
 
 #include <array> // for Seconds
 
-class VTKKNOTWORKSPLINEANALYSIS_EXPORT vtkSplineVersusMesh : public vtkSplineAlgorithm
+class VTKKNOTWORKSPLINEANALYSIS_EXPORT vtkSplineVersusMesh : public vtkAnalysisAlgorithm
 {
 public:
   static vtkSplineVersusMesh* New();
-  vtkTypeMacro(vtkSplineVersusMesh, vtkSplineAlgorithm);
+  vtkTypeMacro(vtkSplineVersusMesh, vtkAnalysisAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  enum Equations
-  {
-    POISSON = 0,
-    ELASTICITY
-  };
-  enum Planes
-  {
-    STRESS = 0,
-    STRAIN
-  };
-
-  ///@{
-  /** What is solved, one of Equations: POISSON, -div(k grad u) = f; ELASTICITY, small displacements
-   * of elastic bodies. Default ELASTICITY. */
-  vtkSetClampMacro(Equation, int, POISSON, ELASTICITY);
-  vtkGetMacro(Equation, int);
-  ///@}
-  ///@{
-  /** Elasticity in the plane, one of Planes: STRESS, a thin plate; STRAIN, a long body. Default
-   * STRESS. For Equation ELASTICITY. */
-  vtkSetClampMacro(Plane, int, STRESS, STRAIN);
-  vtkGetMacro(Plane, int);
-  ///@}
-  ///@{
-  /** The problem as JSON: materials, source, conditions, perhaps the exact solution. Not beside
-   * ProblemFile. Default empty. */
-  vtkSetStringMacro(Problem);
-  vtkGetStringMacro(Problem);
-  ///@}
-  ///@{
-  /** A file with the problem as JSON. Default empty. */
-  vtkSetFilePathMacro(ProblemFile);
-  vtkGetFilePathMacro(ProblemFile);
-  ///@}
   ///@{
   /** The known largest von Mises stress (length of the flux); 0: that of the reference. Default 0,
    * valid range >= 0. */
@@ -86,7 +52,7 @@ public:
 
 protected:
   vtkSplineVersusMesh();
-  ~vtkSplineVersusMesh() override;
+  ~vtkSplineVersusMesh() override = default;
   int RequestDataObject(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
@@ -95,10 +61,6 @@ private:
   vtkSplineVersusMesh(const vtkSplineVersusMesh&) = delete;
   void operator=(const vtkSplineVersusMesh&) = delete;
 
-  int Equation = ELASTICITY;
-  int Plane = STRESS;
-  char* Problem = nullptr;
-  char* ProblemFile = nullptr;
   double ReferencePeak = 0.0;
   std::array<std::array<double, 3>, 3> Seconds{};
 };

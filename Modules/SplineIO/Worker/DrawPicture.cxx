@@ -249,12 +249,16 @@ Result<Block> MakeBlock(vtkDataSet* data, const Wishes& wishes)
   return block;
 }
 
+/// Where a block has arrays: of its points first.
+std::array<vtkDataSetAttributes*, 2> AttributesOf(const Block& block)
+{
+  return { block.Shape->GetPointData(), block.Shape->GetCellData() };
+}
+
 /// The numbers that colour a block, added to its shape. @return whether it has the array.
 bool AddValues(Block& block, const Wishes& wishes)
 {
-  for (vtkDataSetAttributes* data :
-    { static_cast<vtkDataSetAttributes*>(block.Shape->GetPointData()),
-      static_cast<vtkDataSetAttributes*>(block.Shape->GetCellData()) })
+  for (vtkDataSetAttributes* data : AttributesOf(block))
   {
     vtkDataArray* array = data->GetArray(wishes.Array.c_str());
     if (!array || wishes.Component >= array->GetNumberOfComponents())
@@ -291,9 +295,7 @@ std::string NamesOfArrays(const std::vector<Block>& blocks)
   std::set<std::string> names;
   for (const Block& block : blocks)
   {
-    for (vtkDataSetAttributes* data :
-      { static_cast<vtkDataSetAttributes*>(block.Shape->GetPointData()),
-        static_cast<vtkDataSetAttributes*>(block.Shape->GetCellData()) })
+    for (vtkDataSetAttributes* data : AttributesOf(block))
     {
       for (int i = 0; i < data->GetNumberOfArrays(); ++i)
       {
@@ -345,9 +347,7 @@ std::array<double, 2> RangeOfValues(const std::vector<Block>& blocks)
     std::numeric_limits<double>::lowest() };
   for (const Block& block : blocks)
   {
-    for (vtkDataSetAttributes* data :
-      { static_cast<vtkDataSetAttributes*>(block.Shape->GetPointData()),
-        static_cast<vtkDataSetAttributes*>(block.Shape->GetCellData()) })
+    for (vtkDataSetAttributes* data : AttributesOf(block))
     {
       if (vtkDataArray* values = data->GetArray(Values))
       {

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkAnalysisAlgorithm.h"
+
+#include "AnalysisRun.h"
+
+using namespace knotwork;
+
+vtkAnalysisAlgorithm::~vtkAnalysisAlgorithm()
+{
+  this->SetProblem(nullptr);
+  this->SetProblemFile(nullptr);
+}
+
+Result<AnalysisOptions> vtkAnalysisAlgorithm::MakeOptions() const
+{
+  auto text = ReadProblemText(this->Problem, this->ProblemFile);
+  if (!text)
+  {
+    return text.Status;
+  }
+  AnalysisOptions options;
+  options.IsPoisson = this->Equation == POISSON;
+  options.IsPlaneStrain = this->Plane == STRAIN;
+  options.Problem = std::move(text.Value);
+  options.Material = { this->Conductivity, this->YoungsModulus, this->PoissonsRatio };
+  options.Params.MaxSteps = 1;
+  options.Params.Galerkin.DirectLimit = this->DirectLimit;
+  options.Params.Galerkin.Tolerance = this->Tolerance;
+  options.Params.Galerkin.Threads = this->KernelThreads();
+  return options;
+}
