@@ -47,7 +47,7 @@ void FilterJobBase::AddTableInput(int port, const char* name, const char* help)
 
 void FilterJobBase::AddFile(const char* name, const char* help)
 {
-  this->AddInput(NoPort, name, help, "", "input");
+  this->AddInput(NoPort, name, help, " with ", "input");
 }
 
 CLI::Option* FilterJobBase::AddOutput(
@@ -129,7 +129,8 @@ std::string FilterJobBase::InputNames() const
   std::string names;
   for (const File& input : this->Inputs)
   {
-    names += input.Name.empty() ? "" : input.Joint + ("'" + input.Name + "'");
+    names +=
+      input.Name.empty() ? "" : (names.empty() ? "" : input.Joint) + ("'" + input.Name + "'");
   }
   return names;
 }
