@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "AnalysisRun.h"
 
-#include "Expression.h"
 #include <knotwork/SplineCore/Numbers.h>
 #include <knotwork/SplineGrid/SplineBlocks.h>
 
@@ -75,11 +74,12 @@ Result<std::vector<int>> ReadMaterials(
 }
 
 Result<AnalysisResults> Solve(const ProblemDescription& description, const AnalysisBody& body,
-  vtkDataObject* input, const GalerkinParams& params, const ProgressCallback& progress)
+  vtkDataObject* input, const AnalysisOptions& options, const ProgressCallback& progress)
 {
+  const GalerkinParams& params = options.Params.Galerkin;
   AnalysisResults solved;
   auto problem =
-    MakeProblem(description, body.Space, body.Boundary, CompileWithVtk, &solved.Places);
+    MakeProblem(description, body.Space, body.Boundary, options.Compile, &solved.Places);
   auto materials =
     problem ? ReadMaterials(description, body, input) : Result<std::vector<int>>(problem.Status);
   if (!materials)
@@ -114,7 +114,7 @@ Result<AnalysisResults> Solve(const ProblemDescription& description, const Analy
 /// @param body  becomes the refined one.
 template <int Dim>
 Result<AnalysisResults> SolvePatchAdaptively(const ProblemDescription& description,
-  AnalysisBody& body, const AdaptiveParams& params, const ProgressCallback& progress)
+  AnalysisBody& body, const AnalysisOptions& options, const ProgressCallback& progress)
 {
   SplineModel model = body.Model;
   SplinePatch& patch = model.Patches.front();
@@ -127,9 +127,9 @@ Result<AnalysisResults> SolvePatchAdaptively(const ProblemDescription& descripti
       {
         return facets.Status;
       }
-      return MakeProblem(description, space, { std::move(facets.Value), {}, {} }, CompileWithVtk);
+      return MakeProblem(description, space, { std::move(facets.Value), {}, {} }, options.Compile);
     },
-    params, progress);
+    options.Params, progress);
   if (!refined)
   {
     return refined.Status;
@@ -146,7 +146,7 @@ Result<AnalysisResults> SolvePatchAdaptively(const ProblemDescription& descripti
   body = std::move(made.Value);
   AnalysisResults solved;
   const auto problem =
-    MakeProblem(description, body.Space, body.Boundary, CompileWithVtk, &solved.Places);
+    MakeProblem(description, body.Space, body.Boundary, options.Compile, &solved.Places);
   if (!problem)
   {
     return problem.Status;
@@ -159,7 +159,7 @@ Result<AnalysisResults> SolvePatchAdaptively(const ProblemDescription& descripti
 }
 
 Result<AnalysisResults> SolveBodyAdaptively(const ProblemDescription& description,
-  AnalysisBody& body, const AdaptiveParams& params, const ProgressCallback& progress)
+  AnalysisBody& body, const AnalysisOptions& options, const ProgressCallback& progress)
 {
   if (body.Model.Patches.size() != 1)
   {
@@ -172,8 +172,8 @@ Result<AnalysisResults> SolveBodyAdaptively(const ProblemDescription& descriptio
     return { ErrorCode::InvalidParameter,
       "MaxSteps above 1 is for one material, and the problem has a \"material_array\"" };
   }
-  return body.Space.Dimension == 2 ? SolvePatchAdaptively<2>(description, body, params, progress)
-                                   : SolvePatchAdaptively<3>(description, body, params, progress);
+  return body.Space.Dimension == 2 ? SolvePatchAdaptively<2>(description, body, options, progress)
+                                   : SolvePatchAdaptively<3>(description, body, options, progress);
 }
 
 /// Fields and, where the solution is known, its errors.
@@ -190,7 +190,7 @@ Status AddResults(
   results.Fields = std::move(fields.Value);
   results.SecondsFields =
     std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const auto exact = MakeExact(results.Description, results.Body.Space.Dimension, CompileWithVtk);
+  const auto exact = MakeExact(results.Description, results.Body.Space.Dimension, options.Compile);
   if (!exact || !exact.Value)
   {
     return exact.Status;
@@ -264,8 +264,8 @@ Result<AnalysisResults> RunAnalysis(AnalysisBody body, vtkDataObject* input,
   }
   const ProgressCallback solving = [&](double share) { return progress(0.7 * share); };
   auto results = options.Params.MaxSteps > 1
-    ? SolveBodyAdaptively(description.Value, body, options.Params, solving)
-    : Solve(description.Value, body, input, options.Params.Galerkin, solving);
+    ? SolveBodyAdaptively(description.Value, body, options, solving)
+    : Solve(description.Value, body, input, options, solving);
   if (!results)
   {
     return results.Status;

@@ -2,6 +2,7 @@
 // From a dataset and a problem's text to results: what the module's filters share.
 #pragma once
 #include "AnalysisResults.h"
+#include "Expression.h"
 
 namespace knotwork
 {
@@ -11,7 +12,8 @@ struct AnalysisOptions
   bool IsPoisson = true;
   bool IsPlaneStrain = false; ///< elasticity in the plane; else plane stress
   std::string Problem;        ///< as JSON
-  GalerkinMaterial Material;  ///< where the problem gives none
+  CompileExpression Compile = MakeCompiler({});
+  GalerkinMaterial Material; ///< where the problem gives none
   bool KeepsGaussPoints = false;
   AdaptiveParams Params; ///< MaxSteps 1: one solution
 };

@@ -7,6 +7,8 @@
 #include "vtkNew.h"
 #include "vtkSmartPointer.h"
 
+#include <array>
+
 namespace knotwork
 {
 namespace
@@ -20,6 +22,32 @@ double Evaluate(vtkExprTkFunctionParser* parser, const double* x, const double* 
   }
   return parser->GetScalarResult();
 }
+
+Result<ScalarFunction> FindFunction(const ProblemFunctions& functions, const std::string& text)
+{
+  const std::size_t dot = text.rfind('.');
+  const std::string name = text.substr(1, dot == std::string::npos ? dot : dot - 1);
+  const std::string component = dot == std::string::npos ? "0" : text.substr(dot + 1);
+  const auto found = functions.find(name);
+  if (found == functions.end() || component.size() != 1 || component < "0" || component > "2")
+  {
+    std::string known;
+    for (const auto& [key, function] : functions)
+    {
+      known += (known.empty() ? "" : ", ") + key;
+    }
+    return { ErrorCode::InvalidParameter,
+      "\"" + text + "\" is no function of the problem; " +
+        (known.empty() ? "it has none" : "it has " + known) };
+  }
+  return ScalarFunction(
+    [function = found->second, at = static_cast<std::size_t>(component[0] - '0')](
+      const double* x, const double* normal)
+    {
+      std::array<double, 3> values{};
+      function(x, normal, values.data());
+      return values[at];
+    });
 }
 
 Result<ScalarFunction> CompileWithVtk(const std::string& text)
@@ -47,5 +75,12 @@ Result<ScalarFunction> CompileWithVtk(const std::string& text)
   }
   return ScalarFunction(
     [parser](const double* x, const double* normal) { return Evaluate(parser, x, normal); });
+}
+}
+
+CompileExpression MakeCompiler(ProblemFunctions functions)
+{
+  return [functions = std::move(functions)](const std::string& text)
+  { return text[0] == '@' ? FindFunction(functions, text) : CompileWithVtk(text); };
 }
 }

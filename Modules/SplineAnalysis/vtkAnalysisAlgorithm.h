@@ -11,6 +11,10 @@
 #include "vtkKnotworkSplineAnalysisModule.h" // for export macro
 #include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
 
+#include <functional>
+#include <memory>
+#include <string>
+
 namespace knotwork
 {
 struct AnalysisOptions;
@@ -55,6 +59,16 @@ public:
   vtkSetFilePathMacro(ProblemFile);
   vtkGetFilePathMacro(ProblemFile);
   ///@}
+  /**
+   * Gives the problem a function, which stands as "@name" where an expression may: its first value,
+   * or, where a list belongs, as many as that has. It gets a position and, of loads and `where`,
+   * the outward normal (3 coordinates each) and fills up to three values; it is called by the
+   * thread that updates the filter alone. An empty one takes the name away. Not a property: no file
+   * and no state has it.
+   */
+  VTK_WRAPEXCLUDE void SetFunction(const std::string& name,
+    std::function<void(const double* position, const double* normal, double* values)> function);
+
   ///@{
   /** Conductivity of what the problem gives no material. Default 1, valid range [1e-100,
    * 1e100]. */
@@ -87,7 +101,7 @@ public:
   ///@}
 
 protected:
-  vtkAnalysisAlgorithm() = default;
+  vtkAnalysisAlgorithm();
   ~vtkAnalysisAlgorithm() override;
   /** The properties, for one solution. @return InvalidParameter, FileError of the problem's text.
    */
@@ -97,6 +111,8 @@ private:
   vtkAnalysisAlgorithm(const vtkAnalysisAlgorithm&) = delete;
   void operator=(const vtkAnalysisAlgorithm&) = delete;
 
+  struct NamedFunctions;
+  std::unique_ptr<NamedFunctions> Functions;
   int Equation = POISSON;
   int Plane = STRESS;
   char* Problem = nullptr;

@@ -12,6 +12,7 @@ from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
 from . import _properties, signatures
 from . import data as _data
 from .errors import Error
+from .problems import Problem
 from .running import run
 
 ASSOCIATIONS = {"point": 0, "cell": 1}  # vtkDataObject::FIELD_ASSOCIATION_...
@@ -94,6 +95,9 @@ def _apply(verb, arguments, keywords):
     except TypeError as fault:
         raise TypeError(f"{verb}{signature.replace(parameters=list(signature.parameters.values())[:4])}: {fault}") from None
     progress = given.pop("progress", None)
+    problem = Problem(given.get("problem") or "")
+    if problem.text:
+        given["problem"] = problem.text
     algorithm = _made(filter_name)
     if "file" in given:
         algorithm.SetFileName(os.fspath(given.pop("file")))
@@ -103,7 +107,11 @@ def _apply(verb, arguments, keywords):
         if required or value is not None:
             _connect(algorithm, f"{verb}(): {name}", value, place, many, types)
     _adjust(algorithm, filter_name, given)
-    run(algorithm, progress)
+    problem.attach(algorithm)
+    try:
+        run(algorithm, progress)
+    finally:
+        problem.raise_failure()
     return _result(algorithm, filter_name)
 
 

@@ -187,6 +187,14 @@ private:
       values.push_back(this->Value(value, place, false));
       return values;
     }
+    if (value.is_string() && value.get<std::string>()[0] == '@') // one function for all
+    {
+      for (int i = 0; i < count; ++i)
+      {
+        values.push_back(ProblemValue{ 0.0, value.get<std::string>() + "." + std::to_string(i) });
+      }
+      return values;
+    }
     if (!value.is_array() || value.size() != static_cast<std::size_t>(count))
     {
       this->Fail(

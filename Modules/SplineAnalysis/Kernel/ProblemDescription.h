@@ -7,7 +7,8 @@
 
 namespace knotwork
 {
-/// A number, or an expression in x, y, z and, on facets, the outward unit normal nx, ny, nz.
+/// A number, or an expression in x, y, z and, on facets, the outward unit normal nx, ny, nz. What
+/// begins with @ names a function; where a list belongs, "@name" is "@name.0", "@name.1" ...
 struct ProblemValue
 {
   double Number = 0.0;

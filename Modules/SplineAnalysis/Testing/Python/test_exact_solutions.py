@@ -7,6 +7,8 @@ import math
 import knotwork_testing
 from knotwork_testing import Files
 
+import knotwork
+
 FILES = Files("exact_solutions", 300)
 MODULUS, RATIO = 1000.0, 0.3
 SHEAR = MODULUS / (2 * (1 + RATIO))
@@ -74,6 +76,33 @@ def test_twisted_shaft():
     assert max(shares) < 1e-11, shares  # x z and y z are products of what the body's own functions make
     # shear stress G t r, largest at the outer radius 1
     assert abs(reports[1]["peak_stress"] / (math.sqrt(3) * SHEAR * twist) - 1) < 1e-9, reports[1]
+
+
+def test_twisted_bar_of_square_section():
+    # Saint-Venant: Timoshenko, Goodier, article 109; functions of Python, for the warping is a series
+    half, twist = 0.5, 0.1
+    terms = [(-1) ** n * 32 * half ** 2 / ((2 * n + 1) * math.pi) ** 3 for n in range(40)]
+    waves = [(2 * n + 1) * math.pi / (2 * half) for n in range(40)]
+
+    def warping(x, y):
+        # sinh(k x) / cosh(k a) without numbers that overflow
+        return -x * y + sum(c * math.copysign(math.exp(k * (abs(x) - half)) - math.exp(-k * (abs(x) + half)), x) / (1 + math.exp(-2 * k * half)) *
+                            math.sin(k * y) for c, k in zip(terms, waves))
+
+    def moved(x, y, z):
+        return -twist * z * y, twist * z * x, twist * warping(x, y)
+
+    problem = {"material": {"youngs_modulus": MODULUS, "poissons_ratio": RATIO}, "exact": moved,
+               "conditions": [{"on": {"where": lambda x, y, z: abs(abs(z) - half) < 1e-9}, "displacement": moved}]}  # its sides are free
+    shares = []
+    for n in (4, 8):
+        solved = knotwork.source("cube", degree=2, elements=[n, n, 2]).solve(equation="elasticity", problem=problem)
+        numbers = {name: column[0] for name, column in solved.outputs["numbers"].columns.items()}
+        shares.append(numbers["EnergyError"] / numbers["ExactEnergy"])
+    expect_order(shares, 2, 0.012)
+    # article 109's table: the torsional constant 0.1406 (2 a)^4, the largest shear stress 0.675 G t (2 a)
+    assert abs(numbers["Energy"] / (0.5 * SHEAR * twist ** 2 * 0.1406) - 1) < 1e-3, numbers
+    assert abs(numbers["PeakStress"] / (math.sqrt(3) * 0.675 * SHEAR * twist) - 1) < 0.01, numbers
 
 
 def test_load_on_a_half_space():

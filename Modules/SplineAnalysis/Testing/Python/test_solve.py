@@ -65,6 +65,37 @@ def test_function():
         assert False, "an unsupported body was solved"
 
 
+def test_functions_of_python():
+    ring = knotwork.source("annulus-sector", degree=2, elements=[4, 4, 1])
+    # the same problem in words of Python and as expressions
+    spoken = {"source": lambda x, y, z: x * y + np.exp(x), "exact": lambda x, y, z: x + y,
+              "conditions": [{"on": {"where": lambda x, y, z, nx, ny, nz: x * nx + y * ny > 0.1}, "flux": lambda x, y, z, nx, ny, nz: nx + 2 * ny},
+                             {"on": {"where": lambda x, y, z: abs(x) < 1e-9}, "value": lambda *at: at[1] ** 2}]}
+    written = {"source": "x * y + exp(x)", "exact": "x + y",
+               "conditions": [{"on": {"where": "x * nx + y * ny > 0.1"}, "flux": "nx + 2 * ny"}, {"on": {"where": "abs(x) < 1e-9"}, "value": "y^2"}]}
+    one, other = ring.solve(problem=spoken), ring.solve(problem=written)
+    assert np.abs(one.point_arrays["Solution"] - other.point_arrays["Solution"]).max() < 1e-12
+    assert abs(one.outputs["numbers"].columns["L2Error"][0] / other.outputs["numbers"].columns["L2Error"][0] - 1) < 1e-9
+
+    def wrong(x, y, z):
+        raise RuntimeError("no value here")
+
+    held = {"on": "boundary", "value": 0}
+    for problem, kind, words in (
+            ({"source": wrong, "conditions": [held]}, RuntimeError, "no value here"),
+            ({"source": lambda x: x, "conditions": [held]}, TypeError, "x, y, z"),
+            ({"source": lambda x, y, z: "one", "conditions": [held]}, ValueError, "one"),
+            ({"source": lambda x, y, z: range(4), "conditions": [held]}, TypeError, "4 numbers"),
+            ({"source": "@heat", "conditions": [held]}, knotwork.Error, "@heat"),
+            ({"source": object(), "conditions": [held]}, TypeError, "problem['source']")):
+        try:
+            ring.solve(problem=problem)
+        except kind as error:
+            assert words in str(error), error
+        else:
+            assert False, (problem, "was solved")
+
+
 def test_a_format_that_loses_the_solution_is_refused():
     ring = FILES.path("small.vtu")
     FILES.run("source", "--shape", "annulus-sector", "--output", ring)
