@@ -51,10 +51,22 @@ def cylinder_on_cube(occ):
     occ.addCylinder(10, 10, 20, 0, 0, 12, 6)
 
 
+def rod(occ):
+    """A quarter of a connecting rod, cut at its planes of symmetry y = 0 and z = 0: eyes of radius 20 and 12 around bores of 12 and 7, 60 apart, a
+    shank of 14 with fillets of 6, 10 thick."""
+    eyes = [(3, occ.addCylinder(0, 0, -5, 0, 0, 10, 20)), (3, occ.addCylinder(60, 0, -5, 0, 0, 10, 12))]
+    whole = occ.fuse([(3, occ.addBox(0, -7, -5, 60, 14, 10))], eyes)[0]
+    corners = [curve for x in (math.sqrt(20 ** 2 - 7 ** 2), 60 - math.sqrt(12 ** 2 - 7 ** 2)) for y in (-7, 7)
+               for _, curve in occ.getEntitiesInBoundingBox(x - 0.1, y - 0.1, -5.1, x + 0.1, y + 0.1, 5.1, 1)]
+    whole = occ.fillet([whole[0][1]], corners, [6])
+    whole = occ.cut(whole, [(3, occ.addCylinder(0, 0, -6, 0, 0, 12, 12)), (3, occ.addCylinder(60, 0, -6, 0, 0, 12, 7))])[0]
+    occ.intersect(whole, [(3, occ.addBox(-30, 0, 0, 120, 30, 10))])
+
+
 def main():
     gmsh.initialize()
     gmsh.option.setNumber("General.Terminal", 0)
-    for name, make in (("piston.step", piston), ("bracket.step", bracket), ("cylinder_on_cube.step", cylinder_on_cube)):
+    for name, make in (("piston.step", piston), ("bracket.step", bracket), ("cylinder_on_cube.step", cylinder_on_cube), ("rod.step", rod)):
         make(gmsh.model.occ)
         gmsh.model.occ.synchronize()
         gmsh.write(os.path.join(sys.argv[1], name))
