@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CurvedNodes.h"
 
+#include "ElementUntangling.h"
 #include "OffsetExtension.h"
 
 #include <knotwork/SplineCore/Numbers.h>
@@ -14,6 +15,7 @@ namespace knotwork
 namespace
 {
 constexpr int FollowingRings = 2;        ///< of elements around folded ones
+constexpr double LeastShare = 0.1;       ///< of the straight element's det J
 constexpr double FirstStep = 1.0 / 32.0; ///< of the way back; twice as far each time
 
 std::size_t Index(int i)
@@ -243,10 +245,17 @@ bool CurvedNodes::MoveBack(int element)
 
 bool CurvedNodes::IsAccepted(int element, const CellCertificate& certificate) const
 {
+  if (certificate.Verdict != Verdict::Valid)
+  {
+    return false;
+  }
+  if (NumParameters(this->Lattice.Shapes[Index(element)]) == 3)
+  {
+    // the smallest that was found at a point: what is proved may be far below
+    return this->Least.empty() || certificate.MinUpper >= this->Least[Index(element)];
+  }
   // a fold in space need not be singular: the normal turns over
-  return certificate.Verdict == Verdict::Valid &&
-    (this->InPlane || certificate.OneSided ||
-      NumParameters(this->Lattice.Shapes[Index(element)]) == 3);
+  return this->InPlane || certificate.OneSided;
 }
 
 Result<JacobianCertificate> CurvedNodes::Certify(const std::vector<int>& which, int threads) const
@@ -286,10 +295,9 @@ std::vector<int> CurvedNodes::MovedSince(const PointMatrix& old) const
   return moved;
 }
 
-Status CurvedNodes::LetInsideFollow(int threads, std::vector<int>& folded, JacobianCertificate& all)
+std::vector<char> CurvedNodes::FreeInside(const std::vector<int>& region) const
 {
   const NodeLattice& lattice = this->Lattice;
-  const std::vector<int> region = RingsOf(lattice, folded, FollowingRings);
   std::vector<char> isFree(this->Held.size(), 0);
   for (const int e : region)
   {
@@ -307,24 +315,21 @@ Status CurvedNodes::LetInsideFollow(int threads, std::vector<int>& folded, Jacob
       isFree[Index(lattice.Nodes[i])] = 0;
     }
   }
-  const auto numFree = static_cast<int>(std::count(isFree.begin(), isFree.end(), 1));
-  if (numFree == 0)
-  {
-    return {};
-  }
-  const CurvedNodes straight(lattice, this->Corners, this->Bezier);
-  PointMatrix ways = this->At - straight.At;
-  if (!ExtendWays(lattice, straight.At, region, isFree, ways))
-  {
-    return {}; // what no step of the lattice joins with the target stays
-  }
+  return isFree;
+}
+
+Status CurvedNodes::TryPositions(const PointMatrix& wanted, const std::vector<char>& isFree,
+  int threads, std::vector<int>& folded, JacobianCertificate& all)
+{
   const PointMatrix old = this->At;
+  const PointMatrix oldOffsets = this->Offsets;
+  const std::vector<char> oldPlaced = this->Placed;
   this->ForBases(
     [&](int node, const Eigen::RowVector3d& base)
     {
       if (isFree[Index(node)] != 0)
       {
-        this->Offsets.row(node) = straight.At.row(node) + ways.row(node) - base;
+        this->Offsets.row(node) = wanted.row(node) - base;
         this->Placed[Index(node)] = 1;
       }
       this->At.row(node) = base + this->Offsets.row(node);
@@ -339,23 +344,60 @@ Status CurvedNodes::LetInsideFollow(int threads, std::vector<int>& folded, Jacob
   if (left.size() < folded.size())
   {
     folded = left;
-    this->Following += numFree;
     for (std::size_t i = 0; i < moved.size(); ++i)
     {
       all.Cells[Index(moved[i])] = part->Cells[i];
     }
     return {};
   }
-  for (std::size_t node = 0; node < isFree.size(); ++node)
-  {
-    if (isFree[node] != 0)
-    {
-      this->Offsets.row(static_cast<Eigen::Index>(node)).setZero();
-      this->Placed[node] = 0;
-    }
-  }
+  this->Offsets = oldOffsets;
+  this->Placed = oldPlaced;
   this->Update();
   return {};
+}
+
+Status CurvedNodes::LetInsideFollow(int threads, std::vector<int>& folded, JacobianCertificate& all)
+{
+  const std::vector<int> region = RingsOf(this->Lattice, folded, FollowingRings);
+  const std::vector<char> isFree = this->FreeInside(region);
+  const CurvedNodes straight(this->Lattice, this->Corners, this->Bezier);
+  PointMatrix ways = this->At - straight.At;
+  if (std::count(isFree.begin(), isFree.end(), 1) == 0 ||
+    !ExtendWays(this->Lattice, straight.At, region, isFree, ways))
+  {
+    return {}; // what no step of the lattice joins with the target stays
+  }
+  return this->TryPositions(straight.At + ways, isFree, threads, folded, all);
+}
+
+Status CurvedNodes::Untangle(
+  int threads, const ProgressCallback& progress, std::vector<int>& folded, JacobianCertificate& all)
+{
+  const std::vector<int> region = RingsOf(this->Lattice, folded, FollowingRings);
+  const std::vector<char> isFree = this->FreeInside(region);
+  if (std::count(isFree.begin(), isFree.end(), 1) == 0)
+  {
+    return {};
+  }
+  const CurvedNodes straight(this->Lattice, this->Corners, this->Bezier);
+  PointMatrix wanted = this->At;
+  if (Status status =
+        UntangleInside(this->Lattice, region, straight.At, isFree, threads, progress, wanted);
+      !status)
+  {
+    return status;
+  }
+  return this->TryPositions(wanted, isFree, threads, folded, all);
+}
+
+int CurvedNodes::NumFollowing() const
+{
+  int count = 0;
+  for (std::size_t node = 0; node < this->Placed.size(); ++node)
+  {
+    count += this->Placed[node] != 0 && this->Held[node] == 0 ? 1 : 0;
+  }
+  return count;
 }
 
 Result<JacobianCertificate> CurvedNodes::Relax(const StraightElements& elements, int threads,
@@ -364,6 +406,14 @@ Result<JacobianCertificate> CurvedNodes::Relax(const StraightElements& elements,
   const NodeLattice& lattice = this->Lattice;
   std::vector<int> which(lattice.Shapes.size());
   std::iota(which.begin(), which.end(), 0);
+  if (lattice.IsVolume())
+  {
+    const CurvedNodes straight(lattice, this->Corners, this->Bezier);
+    for (const int e : which)
+    {
+      this->Least.push_back(LeastShare * CornerDeterminant(lattice, straight.At, e));
+    }
+  }
   this->Update();
   auto all = this->Certify(which, threads);
   if (!all)
@@ -374,6 +424,13 @@ Result<JacobianCertificate> CurvedNodes::Relax(const StraightElements& elements,
   if (!folded.empty())
   {
     if (Status status = this->LetInsideFollow(threads, folded, all.Value); !status)
+    {
+      return status;
+    }
+  }
+  if (!folded.empty() && lattice.IsVolume())
+  {
+    if (Status status = this->Untangle(threads, progress, folded, all.Value); !status)
     {
       return status;
     }

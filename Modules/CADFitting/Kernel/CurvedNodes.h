@@ -33,8 +33,10 @@ public:
   /// The positions, or control points.
   PointMatrix Output() const;
 
-  /// Certifies all elements. Where some are not valid, points inside around them follow those that
-  /// were placed, if that leaves fewer of them; then points of these move back until all are valid.
+  /// Certifies all elements. Around those that are not valid, and those of volumes whose least det
+  /// J is below a tenth of the straight element's, points inside follow those that were placed,
+  /// then move to better shapes, if that leaves fewer of them; then points of these move back until
+  /// there are none.
   /// @param elements  of the lattice. @param relaxed  one an element: whether one of its points is
   /// not where it was placed.
   /// @return NotConverged with a straight element that is not valid; the errors of
@@ -43,8 +45,8 @@ public:
     const ProgressCallback& progress, std::vector<char>& relaxed);
 
   BernsteinCells MakeCells(const std::vector<int>& which) const;
-  /// Points inside that follow.
-  int NumFollowing() const { return this->Following; }
+  /// Points inside that were moved.
+  int NumFollowing() const;
 
 private:
   /// Visits points with their bases, those that bases are made of first.
@@ -53,8 +55,15 @@ private:
   Result<JacobianCertificate> Certify(const std::vector<int>& which, int threads) const;
   std::vector<int> FoldedOf(
     const std::vector<int>& which, const JacobianCertificate& certificate) const;
+  /// Points of elements around some that only these have and that are not held.
+  std::vector<char> FreeInside(const std::vector<int>& region) const;
   /// @param folded  elements; gets those that remain. @param all  gets certificates.
   Status LetInsideFollow(int threads, std::vector<int>& folded, JacobianCertificate& all);
+  Status Untangle(int threads, const ProgressCallback& progress, std::vector<int>& folded,
+    JacobianCertificate& all);
+  /// Moves free points, if that leaves fewer folded elements.
+  Status TryPositions(const PointMatrix& wanted, const std::vector<char>& isFree, int threads,
+    std::vector<int>& folded, JacobianCertificate& all);
   std::vector<int> MovedSince(const PointMatrix& old) const;
   void Update();
   /// @return false when all its points are where they are without a target.
@@ -70,6 +79,7 @@ private:
   std::vector<char> Placed;
   std::vector<char> Held;     ///< on the boundary, placed or not
   std::vector<double> Shares; ///< of the offsets that are taken
-  int Following = 0;
+  /// Of elements of volumes: least det J that is accepted.
+  std::vector<double> Least;
 };
 }

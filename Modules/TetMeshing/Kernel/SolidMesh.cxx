@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SolidMesh.h"
 
+#include "FlatCorners.h"
 #include "SurfaceParts.h"
 #include "TetrahedronShapes.h"
 
@@ -130,6 +131,12 @@ private:
       {
         std::swap(cell[0], cell[1]);
       }
+    }
+    if (this->Target && this->Params.Order > 1)
+    {
+      const auto added = n - static_cast<int>(this->Surface.Points.rows());
+      DivideFlatCorners(
+        this->Found, std::max(0, this->Params.Tetrahedra.MaxSteinerPoints - std::max(0, added)));
     }
     return {};
   }

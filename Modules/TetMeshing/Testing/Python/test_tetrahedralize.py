@@ -19,6 +19,17 @@ def test_a_spline_and_its_boundary():
     FILES.run("validate", "curved.vtu")
 
 
+def test_no_cell_lies_flat_on_a_smooth_boundary():
+    """TetGen leaves cells with two faces on the tube, which would have to be moved back from it."""
+    FILES.run("source", "--shape", "solid-torus", "--inner-radius", "0.3", "--angle", "270", "--output", "torus.vtu", "--force")
+    FILES.run("boundary", "torus.vtu", "--chordal-tolerance", "0.01", "--output", "torus.vtp", "--force")
+    FILES.run("remesh", "torus.vtp", "--size", "0.2", "--output", "even.vtp", "--force")
+    for order in (2, 3):
+        found = FILES.report("tetrahedralize", "even.vtp", "--target", "torus.vtu", "--order", order, "--edge-length", "0.2", "--output", "torus_tets.vtu")
+        assert found["verdict"] == "valid" and found["relaxed_elements"] == 0, found
+        assert found["curved_to_target"] < 0.05 * found["straight_to_target"], found
+
+
 def test_intersections_are_named_and_repaired():
     FILES.unpack_meshes("bull")
     done = FILES.run("tetrahedralize", "bull.off", "--output", "no.vtu", status=1)
