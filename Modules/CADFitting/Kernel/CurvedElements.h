@@ -76,10 +76,12 @@ struct CurvedElements
 /// so do points of edges and facets; an edge between facets on different faces, or with an angle
 /// between them, that lies along a curve belongs on it. Points inside of facets and elements follow
 /// from those around them (transfinite interpolation). A point that would move farther than half of
-/// its edge stays. Every element is certified. Around those that are not valid points inside follow
-/// those on the target harmonically, if that leaves fewer; then the points of one that is not valid
-/// go back towards the straight element by 1/32 of their way, twice as far each time, corners last,
-/// until it and its neighbours are.
+/// its edge stays. Every element is certified. Around those that are not valid, and such of volumes
+/// whose least det J is below a twentieth of the straight element's, points inside follow those on
+/// the target harmonically, and those of volumes then move to where elements have the best shapes
+/// (UntangleInside), if that leaves fewer; then the points of one that is left go back towards the
+/// straight element by 1/32 of their way, twice as far each time, corners last, until it and its
+/// neighbours are not.
 /// @param target  null: nothing is curved.
 /// @return EmptyInput; InvalidParameter for options out of range and elements far from the target;
 /// InvalidTopology for elements of surfaces beside such of volumes, corners twice in an element,

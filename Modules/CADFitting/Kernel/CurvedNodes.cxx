@@ -15,7 +15,7 @@ namespace knotwork
 namespace
 {
 constexpr int FollowingRings = 2;        ///< of elements around folded ones
-constexpr double LeastShare = 0.1;       ///< of the straight element's det J
+constexpr double LeastShare = 0.05;      ///< of the straight element's det J
 constexpr double FirstStep = 1.0 / 32.0; ///< of the way back; twice as far each time
 
 std::size_t Index(int i)

@@ -34,7 +34,7 @@ public:
   PointMatrix Output() const;
 
   /// Certifies all elements. Around those that are not valid, and those of volumes whose least det
-  /// J is below a tenth of the straight element's, points inside follow those that were placed,
+  /// J is below a twentieth of the straight element's, points inside follow those that were placed,
   /// then move to better shapes, if that leaves fewer of them; then points of these move back until
   /// there are none.
   /// @param elements  of the lattice. @param relaxed  one an element: whether one of its points is

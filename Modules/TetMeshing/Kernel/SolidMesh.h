@@ -85,7 +85,8 @@ int NumTetrahedronPoints(int order);
 
 /// Fills a closed surface with tetrahedra. Of order 2 and 3 the points of the boundary lie on the
 /// target: those of faces on the face that the triangle lies on, those of edges between faces on
-/// their curve, corners of the target stay corners. All cells are certified. Where one is not
+/// their curve, corners of the target stay corners; cells that would lie flat on a smooth boundary
+/// are divided before (DivideFlatCorners). All cells are certified. Where one is not
 /// valid, its points are moved back towards the straight tetrahedron, by a part of the way that
 /// doubles each time, until it and its neighbours are (CurveElements).
 /// @param target  null: the surface itself, nothing is curved.
