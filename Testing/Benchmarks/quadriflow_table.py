@@ -13,7 +13,7 @@ A mesh is closed where every edge has two faces that run it oppositely. All mesh
     cadfit as the second one
     cadfit --degree 2 --policy full        to the quadrilaterals themselves
 
-What quadremesh does not take as it is, is repaired first. A solid is valid when cadfit proves every element, and when OpenCASCADE reads as many
+What quadremesh does not take as it is, is repaired first, without parts below 0.02 of the diagonal. A solid is valid when cadfit proves every element, and when OpenCASCADE reads as many
 solids in the STEP file as the scan has parts, of the volume that cadfit says. Distances of the last fit are sums: of the spline from the
 quadrilaterals, and of these from the scan, which is a bound. Seconds are those of the processor, of all programs.
 
@@ -134,7 +134,7 @@ class Mesh:
             quads = self.run("quadremesh", scan, ["--output", self.stem + ".vtp"], *made)
             if not quads and "repair the mesh first" in self.said["outcome"]:
                 scan = self.stem + ".repaired.vtp"
-                if not self.run("repair", self.file, ["--output", scan]):
+                if not self.run("repair", self.file, ["--output", scan], "--smallest-part", "0.02"):
                     break
                 self.said["repaired"] = True
                 quads = self.run("quadremesh", scan, ["--output", self.stem + ".vtp"], *made)

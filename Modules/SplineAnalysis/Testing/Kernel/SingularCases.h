@@ -272,16 +272,16 @@ inline std::vector<std::array<double, 2>> CornerRows(const std::vector<AdaptiveS
   return rows;
 }
 
-/// The re-entrant edge in space by quadratic splines: functions of an adaptive solution with the
-/// error of a uniform one of n elements along a leg.
-inline void ExpectEdge(int maxFunctions, int n, double share)
+/// The re-entrant edge in space: functions of an adaptive solution with the error of a uniform one
+/// of n elements along a leg.
+inline void ExpectEdge(int degree, int maxFunctions, int n, double share)
 {
   AdaptiveParams params;
   params.MaxFunctions = maxFunctions;
-  const auto result = SolveAdaptively<3>(LShape<3>(2, 2), CornerProblem<3>, params);
+  const auto result = SolveAdaptively<3>(LShape<3>(degree, 2), CornerProblem<3>, params);
   ASSERT_TRUE(result) << result.Status.Message();
   const auto rows = CornerRows(result->History);
-  const auto uniform = UniformCorner<3>(2, n);
+  const auto uniform = UniformCorner<3>(degree, n);
   const double needed = FunctionsAt(rows, uniform[1]);
   std::printf(
     "[ edge     ] error %.2e of %.0f uniform functions needs %.0f; order of the last steps "

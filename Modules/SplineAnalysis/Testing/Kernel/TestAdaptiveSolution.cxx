@@ -118,7 +118,7 @@ TEST(AdaptiveSolution, CornerAgainstUniformRefinement_ExactOracle)
 
 TEST(AdaptiveSolution, EdgeInSpace_ExactOracle)
 {
-  ExpectEdge(2500, 16, 0.1);
+  ExpectEdge(2, 2500, 16, 0.1);
 }
 
 // What refinement at a corner must not cost: where there is nothing to find, as many functions as
