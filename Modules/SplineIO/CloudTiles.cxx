@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <cstdio>
+#include <cstring>
 #include <fstream>
 #include <map>
 #include <numeric>
@@ -62,9 +64,29 @@ struct GrowingTile
   fs::path File;
   std::uint64_t NumPoints = 0; ///< that belong to it
   PointSummary All;            ///< of the file
-  std::size_t Place = 0;       ///< among all tiles
+  std::uint64_t Checksum = 14695981039346656037ULL;
+  std::size_t Place = 0; ///< among all tiles
   bool IsBegun = false;
 };
+
+/// FNV-1a of the coordinates' bits, a number at a time.
+void AddToChecksum(const double* position, std::uint64_t& sum)
+{
+  std::array<std::uint64_t, 3> bits{};
+  std::memcpy(bits.data(), position, sizeof(bits));
+  for (const std::uint64_t each : bits)
+  {
+    sum = (sum ^ each) * 1099511628211ULL;
+    sum ^= sum >> 32; // a product's upper bits never reach the lower ones
+  }
+}
+
+std::string HexadecimalOf(std::uint64_t number)
+{
+  std::array<char, 17> text{};
+  std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(number));
+  return text.data();
+}
 
 Status CannotWrite(const fs::path& file)
 {
@@ -184,6 +206,7 @@ private:
         }
         tile->NumPoints += isOwn ? 1 : 0;
         tile->All.Add(position, returned);
+        AddToChecksum(position, tile->Checksum);
         this->Waiting.append(record, this->Stream.RecordBytes);
         this->Owners.push_back(tile);
       }
@@ -355,6 +378,7 @@ private:
     }
     done.NumPoints = tile.NumPoints;
     done.NumNeighbours = tile.All.Count - tile.NumPoints;
+    done.Checksum = HexadecimalOf(tile.Checksum);
     index.NumPoints += tile.NumPoints;
     index.Tiles.push_back(std::move(done));
     return {};

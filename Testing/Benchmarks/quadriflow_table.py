@@ -13,8 +13,8 @@ A mesh is closed where every edge has two faces that run it oppositely. All mesh
     cadfit as the second one
     cadfit --degree 2 --policy full        to the quadrilaterals themselves
 
-What quadremesh does not take as it is, is repaired first, without parts below 0.02 of the diagonal. A solid is valid when cadfit proves every element, and when OpenCASCADE reads as many
-solids in the STEP file as the scan has parts, of the volume that cadfit says. Distances of the last fit are sums: of the spline from the
+What quadremesh does not take as it is, is repaired first, without parts below 0.02 of the diagonal. A solid is valid when cadfit proves every element, and when OpenCASCADE reads
+solids in the STEP file, at most as many as the scan has parts, of the volume that cadfit says. Distances of the last fit are sums: of the spline from the
 quadrilaterals, and of these from the scan, which is a bound. Seconds are those of the processor, of all programs.
 
 --keep: results of meshes are kept there and not made again. --limit: seconds of a mesh from which on only the last way is tried; --rest: seconds
@@ -120,7 +120,8 @@ class Mesh:
             if not part:
                 continue
             found = part["part"]
-            if found["solids"] == quads["parts"] and abs(found["volume"] - fit["volume"]) <= 1e-5 * abs(fit["volume"]):
+            # parts that are turned inward are cavities of solids, which the volume tells
+            if 0 < found["solids"] <= quads["parts"] and abs(found["volume"] - fit["volume"]) <= 1e-5 * abs(fit["volume"]):
                 self.said["outcome"] = "valid"
                 return True
             self.said["outcome"] = f"OpenCASCADE finds {found['solids']} solids of volume {found['volume']:.6g} in the file instead of {fit['volume']:.6g}"

@@ -85,6 +85,14 @@ def test_a_killed_run_goes_on_with_the_same_bits():
     assert resumed > 0
     text = FILES.run(*FIT[:3], 0.03, "--resume", "kept-0", "--output", "other.vtpc", status=1).stderr
     assert "kept-0" in text and "other tiles, options" in text and len(text.splitlines()) == 1, text
+    # nor those of a cloud with one point moved by a little
+    points = np.loadtxt(FILES.path("terrain.xyz"))
+    points[1234, 2] += 1e-9
+    os.makedirs(FILES.path("moved"), exist_ok=True)
+    np.savetxt(FILES.path("moved/terrain.xyz"), points, "%.17g")
+    FILES.run("tiles", "moved/terrain.xyz", "--tile-size", 1, "--output", "moved/terrain.tiles", "--force")
+    text = FILES.run("fit", "moved/terrain.tiles", *FIT[2:], "--resume", "kept-0", "--output", "other.vtpc", status=1).stderr
+    assert "other tiles, options" in text, text
 
 
 def test_what_is_wrong_is_one_line():

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PatchFaces.h"
 
-#include "DisjointSets.h"
 #include "SplitIntoPatches.h"
 #include "TensorRestriction.h"
 
@@ -30,7 +29,7 @@ public:
   FaceMaker(
     const Spline<2>& surface, const MeshPatches<2>& layout, const std::vector<Spline<2>>& patches)
     : Space(*surface.Space), Mesh(MeshOf(*surface.Space)), Layout(layout), Patches(patches),
-      Bodies(static_cast<int>(patches.size())), IsCorner(At(this->Mesh.NumPoints), 0)
+      IsCorner(At(this->Mesh.NumPoints), 0)
   {
     for (int p = 0; p < static_cast<int>(layout.Patches.size()); ++p)
     {
@@ -39,10 +38,6 @@ public:
         const auto facets = FacetsOfSide(this->Space, layout, { p, s });
         this->IsCorner[At(this->EndOf({ p, s }, facets.front(), false))] = 1;
         this->IsCorner[At(this->EndOf({ p, s }, facets.back(), true))] = 1;
-        for (const SideFacet& facet : facets)
-        {
-          this->Bodies.Unite(p, facet.Other.Cell < 0 ? p : facet.Beyond.Patch);
-        }
       }
     }
   }
@@ -53,7 +48,6 @@ public:
     {
       TrimmedFace face;
       face.Surface = this->Patches[At(p)];
-      face.Body = this->Bodies.Find(p);
       face.Loops.emplace_back();
       for (const auto& [side, backwards] : AroundFace)
       {
@@ -208,7 +202,6 @@ private:
   const CellMesh<2>& Mesh;
   const MeshPatches<2>& Layout;
   const std::vector<Spline<2>>& Patches;
-  DisjointSets Bodies;
   std::vector<char> IsCorner; ///< points of the mesh at corners of patches
   std::vector<SharedEdge> Edges;
   std::map<int, int> EdgeOfFacet;

@@ -82,6 +82,7 @@ Result<CloudTile> ReadTile(const Json& object, std::size_t number, const TileInd
   members.GetNumbers("box", box);
   members.Get("points", tile.NumPoints);
   members.Get("neighbours", tile.NumNeighbours);
+  members.Get("checksum", tile.Checksum);
   tile.Box = { { box[0], box[2] }, { box[1], box[3] } };
   if (members.Outcome && !LiesBeside(tile.File))
   {
@@ -134,7 +135,8 @@ std::string WriteTileIndex(const TileIndex& index)
     json["tiles"].push_back(
       { { "file", tile.File }, { "column", tile.Number[0] }, { "row", tile.Number[1] },
         { "box", { tile.Box.Lower[0], tile.Box.Upper[0], tile.Box.Lower[1], tile.Box.Upper[1] } },
-        { "points", tile.NumPoints }, { "neighbours", tile.NumNeighbours } });
+        { "points", tile.NumPoints }, { "neighbours", tile.NumNeighbours },
+        { "checksum", tile.Checksum } });
   }
   // not all text of a file is UTF-8
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -44,6 +44,7 @@ struct CloudTile
   ParametricBox<2> Box;            ///< without the halo; outer tiles end with the points
   std::uint64_t NumPoints = 0;     ///< that belong to it
   std::uint64_t NumNeighbours = 0; ///< points of its file that belong to others
+  std::string Checksum;            ///< of the coordinates in its file, in their order
 };
 
 /// What the index of the tiles of a cloud tells.

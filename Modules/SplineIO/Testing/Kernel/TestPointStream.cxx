@@ -174,6 +174,7 @@ TileIndex MakeIndex()
     tile.Box.Upper = { column == 0 ? index.Grid.Edge(0, 1) : 0.7, index.Upper[1] };
     tile.NumPoints = 3 + static_cast<std::uint64_t>(column);
     tile.NumNeighbours = 1;
+    tile.Checksum = "00ff";
     index.Tiles.push_back(tile);
   }
   return index;
@@ -200,6 +201,7 @@ TEST(TileIndex, ComesBackBitForBit_PropertyOracle)
   ASSERT_TRUE(index) << index.Status.Message();
   EXPECT_EQ(WriteTileIndex(index.Value), text);
   EXPECT_EQ(index->Grid.Size, MakeIndex().Grid.Size);
+  EXPECT_EQ(index->Tiles[1].Checksum, "00ff");
   EXPECT_EQ(index->Tiles[1].Box.Lower, MakeIndex().Tiles[1].Box.Lower);
 }
 
@@ -218,6 +220,7 @@ TEST(TileIndex, DamageIsNamed_GoldenOracle)
     { With(good, "\"tiles\": [", "\"others\": ["), "'tiles' is missing" },
     { With(good, "scan/tile-0", "../tile-0"), "tile 0: 'file' does not lie beside" },
     { With(good, "scan/tile-1", "/tile-1"), "tile 1: 'file' does not lie beside" },
+    { With(good, "\"checksum\": \"00ff\"", "\"sum\": 0"), "tile 0: 'checksum' is missing" },
     { With(good, "\"column\": 1", "\"column\": 0"), "tile 1: 'box'" },
     { WriteTileIndex(Reversed(MakeIndex())), "row by row" },
   };
