@@ -452,7 +452,12 @@ void AddElements(const GalerkinSpace& space, int first, std::size_t count,
   const std::vector<double>& matrices, std::size_t width, int components, int threads,
   Eigen::SparseMatrix<double>& matrix)
 {
-  const auto most = static_cast<std::size_t>(MostFunctions(space));
+  int mostAlive = 0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    mostAlive = std::max(mostAlive, space.NumAlive(first + static_cast<int>(i)));
+  }
+  const auto most = static_cast<std::size_t>(mostAlive);
   std::vector<int> functions(count * most);
   for (std::size_t i = 0; i < count; ++i)
   {
@@ -528,10 +533,11 @@ Result<Eigen::SparseMatrix<double>> AssembleStiffness(const GalerkinSpace& space
 {
   constexpr std::size_t BatchBytes = std::size_t{ 2 } << 20; // of elements' entries at a time
   const int components = NumSolutionComponents(problem.Equation);
-  Result<Eigen::SparseMatrix<double>> matrix;
-  if (const Status status = MakePattern(space, components, params.Threads, matrix.Value); !status)
+  Result<Eigen::SparseMatrix<double>> matrix; // all returns name it: another one would copy entries
+  matrix.Status = MakePattern(space, components, params.Threads, matrix.Value);
+  if (!matrix)
   {
-    return status;
+    return matrix;
   }
   RuleTables tables(params.QuadratureTolerance);
   tables.Prepare(space);
@@ -562,14 +568,16 @@ Result<Eigen::SparseMatrix<double>> AssembleStiffness(const GalerkinSpace& space
       std::find(finite.begin(), finite.begin() + static_cast<std::ptrdiff_t>(size), 0);
     if (bad != finite.begin() + static_cast<std::ptrdiff_t>(size))
     {
-      return { ErrorCode::InvalidTopology,
+      matrix.Status = { ErrorCode::InvalidTopology,
         "the map of element " + std::to_string(first + (bad - finite.begin())) +
           " is singular; mend the geometry" };
+      return matrix;
     }
     AddElements(space, first, size, matrices, width, components, params.Threads, matrix.Value);
     if (progress && !progress(0.1 + 0.4 * (first + static_cast<double>(size)) / count))
     {
-      return { ErrorCode::Aborted, "while the matrix was assembled" };
+      matrix.Status = { ErrorCode::Aborted, "while the matrix was assembled" };
+      return matrix;
     }
   }
   return matrix;

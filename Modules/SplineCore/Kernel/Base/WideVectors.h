@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <type_traits>
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) &&                             \
+  __has_include(<sys/platform/x86.h>)
+#define KNOTWORK_HAS_WIDE_VECTORS 1
+#include <sys/platform/x86.h>
+#endif
 
 /// Inner loops for the vectors that the processor at hand has.
 ///
@@ -26,20 +31,22 @@ using Doubles = typename DoublesOf<Width>::Type;
 template <int Width>
 using VectorWidth = std::integral_constant<int, Width>;
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) &&                             \
-  __has_include(<sys/platform/x86.h>)
-#define KNOTWORK_HAS_WIDE_VECTORS 1
-
+#ifdef KNOTWORK_HAS_WIDE_VECTORS
 /// Whether AVX2 and fused multiply-add may be used. Asks the C library, so that
 /// GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2 runs a program as on an older processor.
-bool HasWideVectors();
+inline bool HasWideVectors()
+{
+  static const bool has = CPU_FEATURE_ACTIVE(AVX2) && CPU_FEATURE_ACTIVE(FMA);
+  return has;
+}
 
 /// All that is called from here and whose body the compiler sees becomes part of this function, and
 /// so is compiled for the wider vectors.
 template <typename Work>
 __attribute__((target("avx2,fma"), flatten, noinline)) void RunWide(const Work& work)
 {
-  work(VectorWidth<4>());
+  const Work own(work); // what it captures by value is in registers
+  own(VectorWidth<4>());
 }
 #else
 inline bool HasWideVectors()

@@ -4,6 +4,7 @@
 #include "Numbers.h"
 #include "Parallel.h"
 #include "QuotientRule.h"
+#include "WideVectors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -430,6 +431,24 @@ void EvaluateAny(const PointRange<Dim>& range, std::size_t begin, std::size_t en
   }
 }
 
+/// Elements of degree P in all directions; 0: of unequal degrees.
+template <int Dim, int P, int Order>
+void EvaluateRange(const PointRange<Dim>& range, std::size_t begin, std::size_t end)
+{
+  WithWidestVectors(
+    [&](auto)
+    {
+      if constexpr (P == 0)
+      {
+        EvaluateAny<Dim, Order>(range, begin, end);
+      }
+      else
+      {
+        EvaluateFixed<Dim, P, Order>(range, begin, end);
+      }
+    });
+}
+
 template <int Dim>
 using RangeFunction = void (*)(const PointRange<Dim>&, std::size_t, std::size_t);
 
@@ -442,13 +461,13 @@ class Dispatch
   template <int Order, int... Degrees>
   void Fill(std::integer_sequence<int, Degrees...>)
   {
-    this->Functions = { &EvaluateAny<Dim, Order>, &EvaluateFixed<Dim, Degrees + 1, Order>... };
+    this->Functions = { &EvaluateRange<Dim, Degrees, Order>... };
   }
 
 public:
   explicit Dispatch(int order)
   {
-    const auto degrees = std::make_integer_sequence<int, MaxDegree>();
+    const auto degrees = std::make_integer_sequence<int, MaxDegree + 1>();
     if (order == 0)
     {
       this->template Fill<0>(degrees);

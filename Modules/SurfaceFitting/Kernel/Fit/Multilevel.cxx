@@ -3,6 +3,7 @@
 
 #include "PointLanes.h"
 #include <knotwork/SplineCore/Parallel.h>
+#include <knotwork/SplineCore/WideVectors.h>
 
 #include <algorithm>
 
@@ -139,11 +140,15 @@ void MultilevelStep(const SplineSpace<2>& space, const ElementFunctions& functio
     [&](std::size_t begin, std::size_t end)
     {
       ElementSums work(functions, components);
-      for (std::size_t e = begin; e < end; ++e)
-      {
-        work.Add(space.Elements[e], static_cast<int>(e), coefficients, points,
-          sums.data() + functions.Start[e] * stride);
-      }
+      WithWidestVectors(
+        [&](auto)
+        {
+          for (std::size_t e = begin; e < end; ++e)
+          {
+            work.Add(space.Elements[e], static_cast<int>(e), coefficients, points,
+              sums.data() + functions.Start[e] * stride);
+          }
+        });
     });
   ParallelFor(At(functions.NumFunctions), FunctionChunk, threads,
     [&](std::size_t begin, std::size_t end)
