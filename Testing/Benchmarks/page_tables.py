@@ -20,24 +20,26 @@ def table_text(head, rows):
 
 
 def read_column(page, name, title):
-    """The cells below the title of a table's last column, and the last line that tells about it; None without."""
+    """First and last cells of the rows of a table whose last column has this title, and the line below that tells about it; else None."""
     begin, end = (f"<!-- {name}: {word} -->\n" for word in ("begin", "end"))
     lines = pathlib.Path(page).read_text(encoding="utf-8").split(begin)[1].split(end)[0].rstrip("\n").split("\n")
-    cells = [[cell.strip() for cell in line.strip("|").split("|")][-1] for line in lines if line.startswith("|")]
-    return (cells[2:], lines[-1]) if cells[0] == title else None
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if line.startswith("|")]
+    return ([(row[0], row[-1]) for row in rows[2:]], lines[-1]) if rows[0][-1] == title else None
 
 
 def write_column(page, name, title, cells, note):
-    """Puts a last column into a table of a page, or replaces it, and a line that tells about it below."""
+    """Puts a last column into a table of a page, or replaces it, and a line that tells about it below.
+
+    cells: first and last cell of rows in the order of the table, of which it may have some only."""
     begin, end = (f"<!-- {name}: {word} -->\n" for word in ("begin", "end"))
     old = read_column(page, name, title)
     lines = pathlib.Path(page).read_text(encoding="utf-8").split(begin)[1].split(end)[0].rstrip("\n").split("\n")
     lines = lines[:-2] if old else lines
     rows = [line for line in lines if line.startswith("|")]
     rest = [line for line in lines if not line.startswith("|")]
-    if len(rows) != len(cells) + 2:
-        raise ValueError(f"{name}: {len(rows) - 2} rows, {len(cells)} cells")
     if old:
         rows = [row[:row.rstrip("|").rindex("|") + 1] for row in rows]
-    rows = [f"{row} {cell} |" for row, cell in zip(rows, [title, "---", *cells])]
+    left = iter(cells)
+    last = [next(cell for first, cell in left if first == row.strip("|").split("|")[0].strip()) for row in rows[2:]]
+    rows = [f"{row} {cell} |" for row, cell in zip(rows, [title, "---", *last])]
     write_table(page, name, "\n".join([*rows, *rest, "", note]))

@@ -64,7 +64,8 @@ def main():
     for row, cell in zip(spec["rows"], cells):
         print(cell, row[0])
     if "--dry" not in sys.argv:
-        page_tables.write_column(root / spec["page"], f"benchmarks {module}", page_tables.PORTABLE_COLUMN, cells, note)
+        page_tables.write_column(root / spec["page"], f"benchmarks {module}", page_tables.PORTABLE_COLUMN,
+                                 [(row[0], cell) for row, cell in zip(spec["rows"], cells)], note)
 
 
 if __name__ == "__main__":

@@ -26,7 +26,7 @@ private:
 
   LayoutCache Cache;
   JacobianForms<Pack> Forms;
-  std::vector<Pack> Planes;
+  VectorArray<Pack> Planes;
 };
 
 /// Square root a lane.

@@ -2,6 +2,7 @@
 #pragma once
 #include "FormLayout.h"
 #include "RoundingBound.h"
+#include <knotwork/SplineCore/WideVectors.h>
 
 #include <algorithm>
 #include <type_traits>
@@ -24,11 +25,20 @@
 /// kept away by the caller (magnitudes within 2^-200 .. 2^200 of one).
 namespace knotwork
 {
+/// Packs of doubles: those of as many cells, a cell a lane.
+template <typename Pack>
+inline constexpr int LanesOf = static_cast<int>(sizeof(Pack) / sizeof(double));
+template <typename T>
+inline constexpr bool IsPack = !std::is_class_v<T> && !std::is_arithmetic_v<T>;
+
+template <typename T>
+using CoefficientArray = std::conditional_t<IsPack<T>, VectorArray<T>, std::vector<T>>;
+
 template <typename T>
 struct Form
 {
   const FormLayout* Layout = nullptr;
-  std::vector<T> C; ///< scaled coefficients
+  CoefficientArray<T> C; ///< scaled coefficients
   T Magnitude{};
   T Absolute{};
   int Roundings = 0;
@@ -42,12 +52,6 @@ struct Form
     this->Roundings = 0;
   }
 };
-
-/// Packs of doubles: those of as many cells, a cell a lane.
-template <typename Pack>
-inline constexpr int LanesOf = static_cast<int>(sizeof(Pack) / sizeof(double));
-template <typename T>
-inline constexpr bool IsPack = !std::is_class_v<T> && !std::is_arithmetic_v<T>;
 
 template <typename Pack, typename = std::enable_if_t<IsPack<Pack>>>
 inline Pack Magnitude(const Pack& a)

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <cstddef>
+#include <new>
 #include <type_traits>
+#include <vector>
+
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) &&                             \
   __has_include(<sys/platform/x86.h>)
 #define KNOTWORK_HAS_WIDE_VECTORS 1
@@ -26,6 +30,31 @@ struct DoublesOf
 /// values are passed depends on the flags.
 template <int Width>
 using Doubles = typename DoublesOf<Width>::Type;
+
+/// Allocates so that code for any vectors may load and store them: without AVX the compiler takes
+/// 16 bytes for their alignment.
+template <typename T>
+struct VectorAllocator
+{
+  using value_type = T;
+  static constexpr std::align_val_t Alignment{ 64 };
+
+  VectorAllocator() = default;
+  template <typename Other>
+  VectorAllocator(const VectorAllocator<Other>&)
+  {
+  }
+  T* allocate(std::size_t count)
+  {
+    return static_cast<T*>(::operator new(count * sizeof(T), Alignment));
+  }
+  void deallocate(T* array, std::size_t) { ::operator delete(array, Alignment); }
+  bool operator==(const VectorAllocator&) const { return true; }
+  bool operator!=(const VectorAllocator&) const { return false; }
+};
+/// What arrays of vectors are kept in.
+template <typename T>
+using VectorArray = std::vector<T, VectorAllocator<T>>;
 
 /// What work is called with: Width doubles are a register.
 template <int Width>

@@ -285,7 +285,7 @@ void EvaluateFixed(const PointRange<Dim>& range, std::size_t begin, std::size_t 
   const SplineSpace<Dim>& space = *range.Form.Space;
   const int planes = range.Form.NumPlanes();
   const std::size_t blockBytes = sizeof(double) * static_cast<std::size_t>(planes * block);
-  std::vector<Four> terms(static_cast<std::size_t>(planes * numTerms));
+  VectorArray<Four> terms(static_cast<std::size_t>(planes * numTerms));
   std::vector<double> sets(static_cast<std::size_t>(planes * NumLanes * numSets * n));
 
   for (std::size_t i = begin; i < end; i += NumLanes)

@@ -123,9 +123,9 @@ private:
   const ElementFunctions& Functions;
   int Components;
   std::vector<double> Local;
-  std::vector<Eight> Basis;
-  std::vector<Eight> Values;
-  std::vector<Eight> Residuals;
+  VectorArray<Eight> Basis;
+  VectorArray<Eight> Values;
+  VectorArray<Eight> Residuals;
 };
 }
 
