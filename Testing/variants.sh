@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: Testing/variants.sh [--all] [-j JOBS]
 # Runs the kernels' tests as they would run on other machines: built for this processor's own instruction set, with the
-# mathematical functions and the BLAS of an old processor, and with memory that begins where it pleases. What hangs on
+# inner loops, mathematical functions and BLAS of an old processor, and with memory that begins where it pleases. What hangs on
 # the last bit of a number fails here. Expects the release tree built; builds the others: of the modules that solve
 # equations only. --all adds the other modules, the slow tests, more instruction sets and more repetitions.
 set -eu

@@ -101,7 +101,11 @@ def main():
                "one thread: processor time. The command:", "",
                f"    cmake --preset {tree.name}{options} && cmake --build --preset {tree.name}",
                f"    {spec['needs'] + '=<folder> ' if 'needs' in spec else ''}Testing/Benchmarks/table.py {module}{other}"]
-    page_tables.write_table(root / spec["page"], f"benchmarks {module}", "\n".join(lines + rows + closing))
+    page, name = root / spec["page"], f"benchmarks {module}"
+    last = page_tables.read_column(page, name, page_tables.PORTABLE_COLUMN)
+    page_tables.write_table(page, name, "\n".join(lines + rows + closing))
+    if last and len(last[0]) == len(rows):
+        page_tables.write_column(page, name, page_tables.PORTABLE_COLUMN, *last)
     if "readme" in spec:
         page_tables.write_table(root / "README.md", f"benchmarks {module}", "\n".join(lines + [rows[i] for i in spec["readme"]]))
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DomainEnergy.h"
 
+#include <knotwork/SplineCore/WideVectors.h>
+
 #include <cmath>
 #include <limits>
 
@@ -124,6 +126,26 @@ public:
   void Row(int n, const double* fields, double* gradients, const double* weights, double factor,
     const double* padding) override
   {
+    WithWidestVectors([&](auto) { this->Points(n, fields, gradients, weights, factor, padding); });
+  }
+  EnergyValue Result() const
+  {
+    EnergyValue value;
+    value.Energy = this->Total;
+    value.MinDet = std::min(std::min(this->Smallest[0], this->Smallest[1]),
+      std::min(this->Smallest[2], this->Smallest[3]));
+    // a comparison with NaN is false: the sum tells
+    if (!(value.MinDet > 0.0) && (Kind == DensityKind::Quality || Kind == DensityKind::Inverse))
+    {
+      value.Energy = std::numeric_limits<double>::infinity();
+    }
+    return value;
+  }
+
+private:
+  void Points(int n, const double* fields, double* gradients, const double* weights, double factor,
+    const double* padding)
+  {
     constexpr int NumPlanes = Dim + (Rational ? 1 : 0);
     const auto at = [n](int t, int c) { return (t * NumPlanes + c) * n; };
     RowVector sum{};
@@ -214,21 +236,6 @@ public:
     this->Total += (sum[0] + sum[2]) + (sum[1] + sum[3]);
   }
 
-  EnergyValue Result() const
-  {
-    EnergyValue value;
-    value.Energy = this->Total;
-    value.MinDet = std::min(std::min(this->Smallest[0], this->Smallest[1]),
-      std::min(this->Smallest[2], this->Smallest[3]));
-    // a comparison with NaN is false: the sum tells
-    if (!(value.MinDet > 0.0) && (Kind == DensityKind::Quality || Kind == DensityKind::Inverse))
-    {
-      value.Energy = std::numeric_limits<double>::infinity();
-    }
-    return value;
-  }
-
-private:
   Density Chosen;
   double Total = 0.0;
   RowVector Smallest = RowVector{} + std::numeric_limits<double>::infinity();

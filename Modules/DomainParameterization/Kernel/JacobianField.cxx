@@ -3,6 +3,7 @@
 
 #include <knotwork/SplineCore/BasisEvaluation.h>
 #include <knotwork/SplineCore/Quadrature.h>
+#include <knotwork/SplineCore/WideVectors.h>
 
 #include <algorithm>
 #include <cstring>
@@ -21,30 +22,38 @@ int Padded(int n)
 template <int Count>
 void Combine(const double* rows, std::ptrdiff_t stride, const double* factors, int n, double* out)
 {
-  for (int i = 0; i < n; i += RowLanes)
-  {
-    RowVector sum = factors[0] * At(rows + i);
-    for (int b = 1; b < Count; ++b)
+  WithWidestVectors(
+    [=](auto)
     {
-      sum += factors[b] * At(rows + b * stride + i);
-    }
-    At(out + i) = sum;
-  }
+      for (int i = 0; i < n; i += RowLanes)
+      {
+        RowVector sum = factors[0] * At(rows + i);
+        for (int b = 1; b < Count; ++b)
+        {
+          sum += factors[b] * At(rows + b * stride + i);
+        }
+        At(out + i) = sum;
+      }
+    });
 }
 
 /// rows[b] += factors[b] * in.
 template <int Count>
 void Spread(const double* in, const double* factors, int n, double* rows, std::ptrdiff_t stride)
 {
-  for (int i = 0; i < n; i += RowLanes)
-  {
-    const RowVector v = At(in + i);
-    for (int b = 0; b < Count; ++b)
+  WithWidestVectors(
+    [=](auto)
     {
-      double* to = rows + b * stride + i;
-      At(to) = At(to) + factors[b] * v;
-    }
-  }
+      for (int i = 0; i < n; i += RowLanes)
+      {
+        const RowVector v = At(in + i);
+        for (int b = 0; b < Count; ++b)
+        {
+          double* to = rows + b * stride + i;
+          At(to) = At(to) + factors[b] * v;
+        }
+      }
+    });
 }
 
 using CombineFunction = void (*)(const double*, std::ptrdiff_t, const double*, int, double*);
@@ -140,6 +149,10 @@ struct GroupedLine
 
   void Forward(const double* coefficients, double* values, double* derivatives) const
   {
+    WithWidestVectors([=](auto) { this->ForwardLoop(coefficients, values, derivatives); });
+  }
+  void ForwardLoop(const double* coefficients, double* values, double* derivatives) const
+  {
     for (const Group& group : this->Groups)
     {
       const double* c = coefficients + group.First;
@@ -160,6 +173,10 @@ struct GroupedLine
   }
 
   void Backward(const double* values, const double* derivatives, double* gradient) const
+  {
+    WithWidestVectors([=](auto) { this->BackwardLoop(values, derivatives, gradient); });
+  }
+  void BackwardLoop(const double* values, const double* derivatives, double* gradient) const
   {
     for (const Group& group : this->Groups)
     {

@@ -196,17 +196,12 @@ void FillBernstein(
   EvaluateCellBasis(space.Shapes[e], space.Degrees[e], u, rows.data(), rows.data() + rows.cols());
 }
 
-int StrideOf(int functions)
-{
-  return (functions + 3) / 4 * 4;
-}
-
 /// Functions of an element from the Bernstein polynomials, a row each; the quotient rule where they
 /// are rational.
 void FillRows(const GalerkinSpace& space, int element, const PointMatrix& bernstein, double* rows)
 {
   const int alive = space.NumAlive(element);
-  const int stride = StrideOf(alive);
+  const int stride = PaddedFunctions(alive);
   Eigen::Map<PointMatrix> all(rows, bernstein.rows(), stride);
   const Eigen::Map<const PointMatrix> extraction(space.Operator(element), alive, bernstein.cols());
   all.leftCols(alive).noalias() = bernstein * extraction.transpose();
@@ -276,13 +271,13 @@ void EvaluateFunctions(
     1 + space.Dimension, NumCellCoefficients(space.Shapes[e], space.Degrees[e]));
   FillBernstein(space, element, u, bernstein);
   const int alive = space.NumAlive(element);
-  PointMatrix rows(bernstein.rows(), StrideOf(alive));
+  PointMatrix rows(bernstein.rows(), PaddedFunctions(alive));
   FillRows(space, element, bernstein, rows.data());
   if (space.Weights.size() > 0)
   {
     MakeRational(space, element, rows);
   }
-  VisitPoints(space, element, { 1, alive, StrideOf(alive), rows.data(), nullptr },
+  VisitPoints(space, element, { 1, alive, PaddedFunctions(alive), rows.data(), nullptr },
     [&](std::size_t, const PointValues& at) { values = at; });
 }
 
@@ -333,7 +328,7 @@ void RuleTables::Prepare(const GalerkinSpace& space)
       const PointMatrix& bernstein =
         this->Tables[static_cast<std::size_t>(this->TableOf[e])].Bernstein;
       const std::size_t size =
-        static_cast<std::size_t>(bernstein.rows() * StrideOf(space.NumAlive(element)));
+        static_cast<std::size_t>(bernstein.rows() * PaddedFunctions(space.NumAlive(element)));
       if (bytes + size * sizeof(double) > Limit)
       {
         continue;
@@ -355,7 +350,7 @@ QuadratureFunctions RuleTables::Functions(
   QuadratureFunctions functions;
   functions.NumPoints = static_cast<int>(table.Rule.Points.size());
   functions.NumFunctions = space.NumAlive(element);
-  functions.Stride = StrideOf(functions.NumFunctions);
+  functions.Stride = PaddedFunctions(functions.NumFunctions);
   functions.Weights = table.Rule.Weights.data();
   const bool rational = space.Weights.size() > 0;
   const int shared = this->SharedOf[e];

@@ -64,12 +64,20 @@ void EvaluateFunctions(
 
 using PointVisitor = std::function<void(std::size_t point, const PointValues& values)>;
 
+/// Functions that inner loops take at a time.
+inline constexpr int FunctionBlock = 4;
+/// @return the number of an element's functions, up to whole blocks.
+inline int PaddedFunctions(int functions)
+{
+  return (functions + FunctionBlock - 1) / FunctionBlock * FunctionBlock;
+}
+
 /// Functions of an element at the points of its rule, and their derivatives by the parameters.
 struct QuadratureFunctions
 {
   int NumPoints = 0;
   int NumFunctions = 0; ///< alive
-  int Stride = 0;       ///< NumFunctions, up to a multiple of 4
+  int Stride = 0;       ///< PaddedFunctions(NumFunctions)
   /// Row point * (dimension + 1) + k has Stride entries, 0 behind NumFunctions: values (k = 0) or
   /// derivatives by parameter k - 1.
   const double* Rows = nullptr;

@@ -120,7 +120,7 @@ void FindValues(const GalerkinSpace& space, const GalerkinProblem& problem,
 
 /// The element's part of the mass matrix, as AddElements takes it, and the moments of its rows.
 void Integrate(const GalerkinSpace& space, int e, std::vector<int>& order, ElementResults& element,
-  double* pairs)
+  double* matrix)
 {
   const QuadratureFunctions& functions = element.Functions;
   const Eigen::Map<const PointMatrix, 0, Eigen::OuterStride<>> values(functions.Rows,
@@ -130,11 +130,12 @@ void Integrate(const GalerkinSpace& space, int e, std::vector<int>& order, Eleme
   const Eigen::MatrixXd block = values.transpose() * weighted;
   element.Moments.noalias() = weighted.transpose() * element.Rows;
   SortFunctions(space, e, order);
-  for (int a = 0; a < functions.NumFunctions; ++a)
+  for (int b = 0; b < functions.NumFunctions; ++b)
   {
-    for (int b = 0; b <= a; ++b)
+    double* row = matrix + FirstEntry(b, functions.Stride) - b / FunctionBlock * FunctionBlock;
+    for (int a = b; a < functions.NumFunctions; ++a)
     {
-      *pairs++ = block(order[static_cast<std::size_t>(a)], order[static_cast<std::size_t>(b)]);
+      row[a] = block(order[static_cast<std::size_t>(a)], order[static_cast<std::size_t>(b)]);
     }
   }
 }
@@ -252,13 +253,13 @@ Result<ResultFields> MakeResultFields(const GalerkinSpace& space, const Galerkin
   Eigen::MatrixXd sides = Eigen::MatrixXd::Zero(space.NumFunctions(), columns);
   RuleTables tables(std::max(params.QuadratureTolerance, FieldTolerance));
   tables.Prepare(space);
-  const std::size_t width = PairOf(MostFunctions(space), 0);
-  std::vector<double> pairs;
+  const std::size_t width = NumEntries(space, 1);
+  std::vector<double> matrices;
   double largest = 0.0; // squared
   const Status status = ForBatches(space, problem, coefficients, tables, params.Threads,
     [&](int first, int count, std::vector<ElementResults>& elements) -> Status
     {
-      pairs.resize(width * static_cast<std::size_t>(count));
+      matrices.resize(width * static_cast<std::size_t>(count));
       ParallelFor(static_cast<std::size_t>(count), BatchChunk, params.Threads,
         [&](std::size_t begin, std::size_t end)
         {
@@ -266,11 +267,11 @@ Result<ResultFields> MakeResultFields(const GalerkinSpace& space, const Galerkin
           for (std::size_t i = begin; i < end; ++i)
           {
             Integrate(
-              space, first + static_cast<int>(i), order, elements[i], pairs.data() + i * width);
+              space, first + static_cast<int>(i), order, elements[i], matrices.data() + i * width);
           }
         });
       AddElements(
-        space, first, static_cast<std::size_t>(count), pairs, width, 1, params.Threads, mass);
+        space, first, static_cast<std::size_t>(count), matrices, width, 1, params.Threads, mass);
       for (int i = 0; i < count; ++i)
       {
         const ElementResults& element = elements[static_cast<std::size_t>(i)];

@@ -2,7 +2,9 @@
 #include "StiffnessMatrix.h"
 
 #include "ElementGeometry.h"
+#include <knotwork/SplineCore/LargePages.h>
 #include <knotwork/SplineCore/Parallel.h>
+#include <knotwork/SplineCore/WideVectors.h>
 
 #include <Eigen/LU>
 
@@ -19,47 +21,9 @@ namespace
 /// Parts that the columns are dealt to, so that threads add to different ones.
 constexpr unsigned NumLanes = 8;
 
-/// The lower triangle of A^T A, or adds it to that of the matrix; what is above the diagonal is not
-/// defined. Squares of 4 x 4 entries are summed in registers.
-/// @param rows  of A. @param size  of a row and of the matrix, a multiple of 4.
-void FillGram(const double* rows, int count, int size, bool add, double* matrix)
-{
-  for (int i = 0; i < size; i += 4)
-  {
-    for (int j = 0; j <= i; j += 4)
-    {
-      Two sums[4][2] = {};
-      const double* row = rows;
-      for (int q = 0; q < count; ++q, row += size)
-      {
-        Two right[2];
-        Load(right[0], row + j);
-        Load(right[1], row + j + 2);
-        for (int k = 0; k < 4; ++k)
-        {
-          sums[k][0] += row[i + k] * right[0];
-          sums[k][1] += row[i + k] * right[1];
-        }
-      }
-      for (int k = 0; k < 4; ++k)
-      {
-        double* to = matrix + std::ptrdiff_t{ i + k } * size + j;
-        for (int half = 0; half < 2; ++half)
-        {
-          Two sum{};
-          if (add)
-          {
-            Load(sum, to + 2 * half);
-          }
-          sum += sums[k][half];
-          std::memcpy(to + 2 * half, &sum, sizeof(Two));
-        }
-      }
-    }
-  }
-}
-
 /// What the matrix of an element is made with. One a thread.
+/// @tparam Width  doubles a register.
+template <int Width>
 class ElementAssembler
 {
 public:
@@ -69,130 +33,203 @@ public:
   {
   }
 
-  /// @param pairs  components x components entries a pair of functions, the one of the trial
-  /// function's component j and the test function's component i at j * components + i.
-  /// @return whether all are finite.
-  bool Fill(int element, double* pairs)
+  /// @param matrix  as AddElements takes it. @return whether all are finite.
+  bool Fill(int element, double* matrix)
   {
-    const int dimension = this->Space.Dimension;
     this->Current = this->Tables.Functions(this->Space, element, this->Memory);
-    SortFunctions(this->Space, element, this->Order);
-    const GalerkinMaterial& material = MaterialOf(this->Problem, element);
-    if (NumSolutionComponents(this->Problem.Equation) == 1)
+    this->IsSorted = SortFunctions(this->Space, element, this->Order);
+    for (int a = this->Current.NumFunctions; a < this->Current.Stride; ++a)
     {
-      // grad N_a . grad N_b: components of gradients are points more
-      this->Size = this->Current.Stride;
-      dimension == 2 ? this->Integrate<2>(element) : this->Integrate<3>(element);
-      this->PackPoisson(material.Conductivity, pairs);
+      this->Order.push_back(a);
     }
-    else
+    return this->Space.Dimension == 2 ? this->Fill<2>(element, matrix)
+                                      : this->Fill<3>(element, matrix);
+  }
+
+private:
+  using Vector = Doubles<Width>;
+  static constexpr int NumVectors = FunctionBlock / Width;
+
+  template <int Dim>
+  bool Fill(int element, double* matrix)
+  {
+    this->FillGradients<Dim>(element);
+    const GalerkinMaterial& material = MaterialOf(this->Problem, element);
+    const int stride = this->Current.Stride;
+    const bool isElastic = this->Problem.Equation != GalerkinEquation::Poisson;
+    const LameConstants lame = MakeLameConstants(this->Problem.Equation, material);
+    for (int a = 0; a < stride; a += FunctionBlock)
     {
-      this->Size = dimension * this->Current.Stride;
-      const LameConstants lame = MakeLameConstants(this->Problem.Equation, material);
-      dimension == 2 ? this->Integrate<2>(element) : this->Integrate<3>(element);
-      dimension == 2 ? this->PackElastic<2>(lame, pairs) : this->PackElastic<3>(lame, pairs);
+      for (int b = 0; b <= a; b += FunctionBlock)
+      {
+        if (isElastic)
+        {
+          this->FillElastic<Dim>(a, b, lame, matrix + Dim * Dim * FirstEntry(b, stride));
+        }
+        else
+        {
+          this->FillPoisson<Dim>(a, b, material.Conductivity, matrix + FirstEntry(b, stride));
+        }
+      }
     }
     // all entries are bounded by those of the diagonal (Cauchy, Schwarz)
+    const int components = isElastic ? Dim : 1;
     bool finite = true;
-    for (int i = 0; i < this->Size; ++i)
+    for (int b = 0; b < this->Current.NumFunctions; ++b)
     {
-      finite = finite && std::isfinite(this->Gram[Entry(i, i)]);
+      const double* rows = matrix + components * components * FirstEntry(b, stride);
+      for (int i = 0; i < components; ++i)
+      {
+        finite = finite &&
+          std::isfinite(rows[(components + 1) * i * RowLength(b, stride) + b % FunctionBlock]);
+      }
     }
     return finite;
   }
 
-private:
-  std::size_t Entry(int row, int column) const
-  {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(this->Size) +
-      static_cast<std::size_t>(column);
-  }
-
-  /// Gram matrix of the gradients, times the roots of the points' volumes, as rows of Size entries:
-  /// where these are all components of a point, it has the integrals of d_i N_a d_j N_b at
-  /// (i * stride + a, j * stride + b).
+  /// Derivatives of functions in ascending order, times the roots of the points' volumes: a block
+  /// of functions after the other, of each block Dim rows a point.
   template <int Dim>
-  void Integrate(int element)
+  void FillGradients(int element)
   {
-    constexpr int Block = 32; // points at a time, as many as the nearest cache holds
     const int stride = this->Current.Stride;
     ElementGeometry<Dim>& geometry = std::get<ElementGeometry<Dim>>(this->Geometry);
     geometry.Take(this->Space, element, stride);
-    this->Gradients.resize(Block * Dim * static_cast<std::size_t>(stride));
-    this->Gram.resize(static_cast<std::size_t>(this->Size) * static_cast<std::size_t>(this->Size));
-    for (int first = 0; first < this->Current.NumPoints; first += Block)
+    this->BlockSize = std::ptrdiff_t{ this->Current.NumPoints } * Dim * FunctionBlock;
+    this->Gradients.resize(static_cast<std::size_t>(stride / FunctionBlock * this->BlockSize));
+    // in registers: what is written may be anywhere for all that the compiler knows
+    const int* order = this->Order.data();
+    double* gradients = this->Gradients.data();
+    const std::ptrdiff_t blockSize = this->BlockSize;
+    const int numPoints = this->Current.NumPoints;
+    const bool isSorted = this->IsSorted;
+    for (int q = 0; q < numPoints; ++q)
     {
-      const int count = std::min(Block, this->Current.NumPoints - first);
-      double* to = this->Gradients.data();
-      for (int q = first; q < first + count; ++q)
+      const double* slopes = this->Current.Rows + (std::ptrdiff_t{ q } * (Dim + 1) + 1) * stride;
+      const Eigen::Matrix<double, Dim, Dim> jacobian = geometry.Jacobian(slopes);
+      const double volume = this->Current.Weights[q] * std::abs(jacobian.determinant());
+      const Eigen::Matrix<double, Dim, Dim> inverse = std::sqrt(volume) * jacobian.inverse();
+      for (int a = 0; a < stride; a += Width)
       {
-        const double* slopes = this->Current.Rows + (std::ptrdiff_t{ q } * (Dim + 1) + 1) * stride;
-        const Eigen::Matrix<double, Dim, Dim> jacobian = geometry.Jacobian(slopes);
-        const double volume = this->Current.Weights[q] * std::abs(jacobian.determinant());
-        const Eigen::Matrix<double, Dim, Dim> inverse = std::sqrt(volume) * jacobian.inverse();
-        for (int c = 0; c < Dim; ++c, to += stride)
+        Vector slope[Dim] = {};
+        for (int k = 0; k < Dim; ++k)
         {
-          for (int a = 0; a < stride; ++a)
+          const double* row = slopes + std::ptrdiff_t{ k } * stride;
+          if (isSorted)
           {
-            to[a] = inverse(0, c) * slopes[a];
-            for (int k = 1; k < Dim; ++k)
+            std::memcpy(&slope[k], row + a, sizeof(Vector));
+          }
+          else
+          {
+            if constexpr (Width == 4)
             {
-              to[a] += inverse(k, c) * slopes[k * stride + a];
+              slope[k] =
+                Vector{ row[order[a]], row[order[a + 1]], row[order[a + 2]], row[order[a + 3]] };
+            }
+            else
+            {
+              slope[k] = Vector{ row[order[a]], row[order[a + 1]] };
             }
           }
         }
-      }
-      FillGram(this->Gradients.data(), count * Dim * stride / this->Size, this->Size, first > 0,
-        this->Gram.data());
-    }
-  }
-
-  void PackPoisson(double conductivity, double* pairs) const
-  {
-    for (int a = 0; a < this->Current.NumFunctions; ++a)
-    {
-      const int row = this->Order[static_cast<std::size_t>(a)];
-      for (int b = 0; b <= a; ++b)
-      {
-        const int column = this->Order[static_cast<std::size_t>(b)];
-        *pairs++ = conductivity * this->Gram[Entry(std::max(row, column), std::min(row, column))];
-      }
-    }
-  }
-
-  /// lambda d_i N_a d_j N_b + mu (d_j N_a d_i N_b + delta_ij grad N_a . grad N_b)
-  template <int Dim>
-  void PackElastic(const LameConstants& lame, double* pairs) const
-  {
-    const int stride = this->Current.Stride;
-    for (int a = 0; a < this->Current.NumFunctions; ++a)
-    {
-      const int row = this->Order[static_cast<std::size_t>(a)];
-      for (int b = 0; b <= a; ++b, pairs += Dim * Dim)
-      {
-        const int column = this->Order[static_cast<std::size_t>(b)];
-        const int high = std::max(row, column);
-        const int low = std::min(row, column);
-        double products[Dim][Dim]; // integral of d_i N_row d_j N_column
-        double laplace = 0.0;
-        for (int i = 0; i < Dim; ++i)
+        double* to =
+          gradients + a / FunctionBlock * blockSize + q * Dim * FunctionBlock + a % FunctionBlock;
+        for (int c = 0; c < Dim; ++c, to += FunctionBlock)
         {
-          products[i][i] = this->Gram[Entry(i * stride + high, i * stride + low)];
-          laplace += products[i][i];
-          for (int j = 0; j < i; ++j)
+          Vector sum = inverse(0, c) * slope[0];
+          for (int k = 1; k < Dim; ++k)
           {
-            products[i][j] = this->Gram[Entry(i * stride + row, j * stride + column)];
-            products[j][i] = this->Gram[Entry(i * stride + column, j * stride + row)];
+            sum += inverse(k, c) * slope[k];
           }
+          std::memcpy(to, &sum, sizeof(Vector));
         }
-        for (int j = 0; j < Dim; ++j)
+      }
+    }
+  }
+
+  /// lambda d_i N_a d_j N_b + mu (d_j N_a d_i N_b + delta_ij grad N_a . grad N_b) of a block of
+  /// functions from a on with one from b on. The sums of all pairs of directions stay in registers.
+  template <int Dim>
+  void FillElastic(int a, int b, const LameConstants& lame, double* matrix) const
+  {
+    const std::ptrdiff_t length = RowLength(b, this->Current.Stride);
+    const double* left = this->Gradients.data() + a / FunctionBlock * this->BlockSize;
+    const double* right = this->Gradients.data() + b / FunctionBlock * this->BlockSize;
+    for (int k = 0; k < FunctionBlock; ++k)
+    {
+      for (int v = 0; v < NumVectors; ++v)
+      {
+        Vector sums[Dim][Dim] = {}; // integrals of d_i N_a d_j N_b
+        const double* l = left + v * Width;
+        const double* r = right + k;
+        for (int q = 0; q < this->Current.NumPoints; ++q)
         {
+          Vector slopes[Dim];
           for (int i = 0; i < Dim; ++i)
           {
-            pairs[j * Dim + i] = lame.First * products[i][j] + lame.Shear * products[j][i] +
-              (i == j ? lame.Shear * laplace : 0.0);
+            std::memcpy(&slopes[i], l + i * FunctionBlock, sizeof(Vector));
+          }
+          for (int j = 0; j < Dim; ++j)
+          {
+            const double slope = r[j * FunctionBlock];
+            for (int i = 0; i < Dim; ++i)
+            {
+              sums[i][j] += slope * slopes[i];
+            }
+          }
+          l += Dim * FunctionBlock;
+          r += Dim * FunctionBlock;
+        }
+        Vector laplace = sums[0][0];
+        for (int i = 1; i < Dim; ++i)
+        {
+          laplace += sums[i][i];
+        }
+        double* to = matrix + Dim * Dim * k * length + a - b + v * Width;
+        for (int j = 0; j < Dim; ++j)
+        {
+          for (int i = 0; i < Dim; ++i, to += length)
+          {
+            Vector entry = lame.First * sums[i][j] + lame.Shear * sums[j][i];
+            if (i == j)
+            {
+              entry += lame.Shear * laplace;
+            }
+            std::memcpy(to, &entry, sizeof(Vector));
           }
         }
+      }
+    }
+  }
+
+  /// The same of conductivity grad N_a . grad N_b.
+  template <int Dim>
+  void FillPoisson(int a, int b, double conductivity, double* matrix) const
+  {
+    const std::ptrdiff_t length = RowLength(b, this->Current.Stride);
+    const double* left = this->Gradients.data() + a / FunctionBlock * this->BlockSize;
+    const double* right = this->Gradients.data() + b / FunctionBlock * this->BlockSize;
+    Vector sums[FunctionBlock][NumVectors] = {};
+    for (int q = 0; q < Dim * this->Current.NumPoints; ++q)
+    {
+      for (int v = 0; v < NumVectors; ++v)
+      {
+        Vector slope;
+        std::memcpy(&slope, left + v * Width, sizeof(Vector));
+        for (int k = 0; k < FunctionBlock; ++k)
+        {
+          sums[k][v] += right[k] * slope;
+        }
+      }
+      left += FunctionBlock;
+      right += FunctionBlock;
+    }
+    for (int k = 0; k < FunctionBlock; ++k)
+    {
+      for (int v = 0; v < NumVectors; ++v)
+      {
+        const Vector entry = conductivity * sums[k][v];
+        std::memcpy(matrix + k * length + a - b + v * Width, &entry, sizeof(Vector));
       }
     }
   }
@@ -201,10 +238,11 @@ private:
   const GalerkinProblem& Problem;
   const RuleTables& Tables;
   QuadratureFunctions Current;
-  int Size = 0; ///< of the Gram matrix
   std::vector<int> Order;
+  bool IsSorted = false;
+  std::ptrdiff_t BlockSize = 0; ///< numbers that a block of functions has in Gradients
   std::tuple<ElementGeometry<2>, ElementGeometry<3>> Geometry;
-  std::vector<double> Memory, Gradients, Gram;
+  std::vector<double> Memory, Gradients;
 };
 
 /// The elements that each function is alive on, ascending.
@@ -288,6 +326,9 @@ Status MakePattern(
   }
   matrix.resize(space.NumFunctions() * c, space.NumFunctions() * c);
   matrix.resizeNonZeros(entries);
+  const auto count = static_cast<std::size_t>(entries);
+  PreferLargePages(matrix.valuePtr(), count * sizeof(double));
+  PreferLargePages(matrix.innerIndexPtr(), count * sizeof(int));
   int* outer = matrix.outerIndexPtr();
   int next = 0;
   for (const int size : sizes)
@@ -329,81 +370,114 @@ Status MakePattern(
 
 namespace
 {
-/// Adds entries of an element's pairs to the columns of its function at place b in ascending order.
+/// Adds entries of an element's matrix to the columns of its function at place b in ascending
+/// order.
+/// @param functions  of the element, ascending. @param entries  those of b.
 template <int Components>
-void AddColumns(const int* alive, const std::vector<int>& order, int b, const double* pairs,
-  Eigen::SparseMatrix<double>& matrix)
+void AddColumns(const int* functions, int count, int b, const double* entries,
+  std::ptrdiff_t length, Eigen::SparseMatrix<double>& matrix)
 {
-  const int first = alive[order[static_cast<std::size_t>(b)]] * Components;
+  const int first = functions[b] * Components;
   const int* outer = matrix.outerIndexPtr() + first;
   const int* rows = matrix.innerIndexPtr() + outer[0];
-  int k = 0; // of the functions that the columns have
-  for (int a = b; a < static_cast<int>(order.size()); ++a)
+  double* values = matrix.valuePtr();
+  entries -= b / FunctionBlock * FunctionBlock; // begin with the block of b
+  // the block on the diagonal: a column begins with its diagonal
+  for (int j = 0; j < Components; ++j)
   {
-    const int row = alive[order[static_cast<std::size_t>(a)]] * Components;
+    for (int i = j; i < Components; ++i)
+    {
+      values[outer[j] - j + i] += entries[(j * Components + i) * length + b];
+    }
+  }
+  int k = 0; // of the functions that the columns have
+  for (int a = b + 1; a < count; ++a)
+  {
+    const int row = functions[a] * Components;
     while (rows[k * Components] < row)
     {
       ++k;
     }
-    const double* block = pairs +
-      PairOf(a, b) * static_cast<std::size_t>(Components) * static_cast<std::size_t>(Components);
-    double* values = matrix.valuePtr() + k * Components;
-    for (int j = 0; j < Components; ++j, block += Components)
+    for (int j = 0; j < Components; ++j)
     {
-      // a column begins with its diagonal
-      double* column = values + outer[j] - j;
-      for (int i = k == 0 ? j : 0; i < Components; ++i)
+      double* column = values + outer[j] - j + k * Components;
+      for (int i = 0; i < Components; ++i)
       {
-        column[i] += block[i];
+        column[i] += entries[(j * Components + i) * length + a];
       }
     }
   }
 }
 
 /// The same of a batch of elements, those functions that are dealt to a lane.
+/// @param functions  of each element, ascending, `most` apart.
 template <int Components>
 void AddLane(const GalerkinSpace& space, int first, std::size_t count, unsigned lane,
-  const std::vector<double>& pairs, std::size_t width, Eigen::SparseMatrix<double>& matrix)
+  unsigned numLanes, const std::vector<int>& functions, std::size_t most,
+  const std::vector<double>& matrices, std::size_t width, Eigen::SparseMatrix<double>& matrix)
 {
-  std::vector<int> order;
   for (std::size_t i = 0; i < count; ++i)
   {
-    const int element = first + static_cast<int>(i);
-    const int* alive = space.Alive(element);
-    SortFunctions(space, element, order);
-    for (int b = 0; b < space.NumAlive(element); ++b)
+    const int alive = space.NumAlive(first + static_cast<int>(i));
+    const int padded = PaddedFunctions(alive);
+    const int* own = functions.data() + i * most;
+    const double* entries = matrices.data() + i * width;
+    for (int b = 0; b < alive; ++b)
     {
-      const auto function = static_cast<unsigned>(alive[order[static_cast<std::size_t>(b)]]);
-      if (function / 8 % NumLanes == lane)
+      if (static_cast<unsigned>(own[b]) / 8 % numLanes == lane)
       {
-        AddColumns<Components>(alive, order, b, pairs.data() + i * width, matrix);
+        AddColumns<Components>(own, alive, b,
+          entries + Components * Components * FirstEntry(b, padded), RowLength(b, padded), matrix);
       }
     }
   }
 }
 }
 
-void SortFunctions(const GalerkinSpace& space, int element, std::vector<int>& order)
+bool SortFunctions(const GalerkinSpace& space, int element, std::vector<int>& order)
 {
   const int* alive = space.Alive(element);
   const int count = space.NumAlive(element);
   order.resize(static_cast<std::size_t>(count));
   std::iota(order.begin(), order.end(), 0);
-  if (!std::is_sorted(alive, alive + count))
+  const bool sorted = std::is_sorted(alive, alive + count);
+  if (!sorted)
   {
     std::sort(order.begin(), order.end(), [alive](int a, int b) { return alive[a] < alive[b]; });
   }
+  return sorted;
 }
 
 void AddElements(const GalerkinSpace& space, int first, std::size_t count,
-  const std::vector<double>& pairs, std::size_t width, int components, int threads,
+  const std::vector<double>& matrices, std::size_t width, int components, int threads,
   Eigen::SparseMatrix<double>& matrix)
 {
+  int mostAlive = 0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    mostAlive = std::max(mostAlive, space.NumAlive(first + static_cast<int>(i)));
+  }
+  const auto most = static_cast<std::size_t>(mostAlive);
+  std::vector<int> functions(count * most);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const int element = first + static_cast<int>(i);
+    int* own = functions.data() + i * most;
+    std::copy_n(space.Alive(element), space.NumAlive(element), own);
+    if (!std::is_sorted(own, own + space.NumAlive(element)))
+    {
+      std::sort(own, own + space.NumAlive(element));
+    }
+  }
   // every entry is of one lane, which adds in the order of the elements
+  const unsigned numLanes = threads == 1 ? 1 : NumLanes;
   const auto add = components == 1 ? AddLane<1> : components == 2 ? AddLane<2> : AddLane<3>;
-  ParallelFor(NumLanes, 1, threads,
+  ParallelFor(numLanes, 1, threads,
     [&](std::size_t lane, std::size_t)
-    { add(space, first, count, static_cast<unsigned>(lane), pairs, width, matrix); });
+    {
+      add(space, first, count, static_cast<unsigned>(lane), numLanes, functions, most, matrices,
+        width, matrix);
+    });
 }
 
 int MostFunctions(const GalerkinSpace& space)
@@ -414,6 +488,12 @@ int MostFunctions(const GalerkinSpace& space)
     most = std::max(most, space.NumAlive(e));
   }
   return most;
+}
+
+std::size_t NumEntries(const GalerkinSpace& space, int components)
+{
+  const int most = PaddedFunctions(MostFunctions(space));
+  return static_cast<std::size_t>(components * components * FirstEntry(most, most));
 }
 
 int NumSolutionComponents(GalerkinEquation equation)
@@ -453,19 +533,19 @@ Result<Eigen::SparseMatrix<double>> AssembleStiffness(const GalerkinSpace& space
 {
   constexpr std::size_t BatchBytes = std::size_t{ 2 } << 20; // of elements' entries at a time
   const int components = NumSolutionComponents(problem.Equation);
-  Result<Eigen::SparseMatrix<double>> matrix;
-  if (const Status status = MakePattern(space, components, params.Threads, matrix.Value); !status)
+  Result<Eigen::SparseMatrix<double>> matrix; // all returns name it: another one would copy entries
+  matrix.Status = MakePattern(space, components, params.Threads, matrix.Value);
+  if (!matrix)
   {
-    return status;
+    return matrix;
   }
   RuleTables tables(params.QuadratureTolerance);
   tables.Prepare(space);
   const int count = space.NumElements();
-  const std::size_t width =
-    PairOf(MostFunctions(space), 0) * static_cast<std::size_t>(components * components);
+  const std::size_t width = NumEntries(space, components);
   const auto batch =
     static_cast<int>(std::clamp<std::size_t>(BatchBytes / (width * sizeof(double)), 8, 1024));
-  std::vector<double> pairs(static_cast<std::size_t>(batch) * width);
+  std::vector<double> matrices(static_cast<std::size_t>(batch) * width);
   std::vector<char> finite(static_cast<std::size_t>(batch));
   for (int first = 0; first < count; first += batch)
   {
@@ -473,24 +553,31 @@ Result<Eigen::SparseMatrix<double>> AssembleStiffness(const GalerkinSpace& space
     ParallelFor(size, static_cast<std::size_t>(batch) / 8, params.Threads,
       [&](std::size_t begin, std::size_t end)
       {
-        ElementAssembler assembler(space, problem, tables);
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          finite[i] = assembler.Fill(first + static_cast<int>(i), pairs.data() + i * width) ? 1 : 0;
-        }
+        WithWidestVectors(
+          [&](auto vector)
+          {
+            ElementAssembler<decltype(vector)::value> assembler(space, problem, tables);
+            for (std::size_t i = begin; i < end; ++i)
+            {
+              double* own = matrices.data() + i * width;
+              finite[i] = assembler.Fill(first + static_cast<int>(i), own) ? 1 : 0;
+            }
+          });
       });
     const auto bad =
       std::find(finite.begin(), finite.begin() + static_cast<std::ptrdiff_t>(size), 0);
     if (bad != finite.begin() + static_cast<std::ptrdiff_t>(size))
     {
-      return { ErrorCode::InvalidTopology,
+      matrix.Status = { ErrorCode::InvalidTopology,
         "the map of element " + std::to_string(first + (bad - finite.begin())) +
           " is singular; mend the geometry" };
+      return matrix;
     }
-    AddElements(space, first, size, pairs, width, components, params.Threads, matrix.Value);
+    AddElements(space, first, size, matrices, width, components, params.Threads, matrix.Value);
     if (progress && !progress(0.1 + 0.4 * (first + static_cast<double>(size)) / count))
     {
-      return { ErrorCode::Aborted, "while the matrix was assembled" };
+      matrix.Status = { ErrorCode::Aborted, "while the matrix was assembled" };
+      return matrix;
     }
   }
   return matrix;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "ElementRule.h"
 #include "GalerkinProblem.h"
 
 #include <Eigen/SparseCore>
@@ -22,19 +23,33 @@ const GalerkinMaterial& MaterialOf(const GalerkinProblem& problem, int element);
 /// @param matrix  filled in place: Eigen's matrices copy their entries when they are moved.
 Status MakePattern(
   const GalerkinSpace& space, int components, int threads, Eigen::SparseMatrix<double>& matrix);
-/// Places of an element's functions in ascending order.
-void SortFunctions(const GalerkinSpace& space, int element, std::vector<int>& order);
-/// Pairs of an element's functions are numbered by the places a >= b of these in that order.
-inline std::size_t PairOf(int a, int b)
+/// Places of an element's functions in ascending order. @return whether these are 0, 1, 2 and so
+/// on.
+bool SortFunctions(const GalerkinSpace& space, int element, std::vector<int>& order);
+
+/// The lower triangle of an element's matrix, functions in ascending order and a block of them
+/// (FunctionBlock) at a time: for each b, components x components rows with the entries of the
+/// functions from the block of b on, of which those before b are not defined. Row j * components +
+/// i is of the trial function's component j and the test function's component i.
+/// @param padded  number of functions, as PaddedFunctions. @return numbers before those of b, for
+/// one component.
+inline std::ptrdiff_t FirstEntry(int b, int padded)
 {
-  return static_cast<std::size_t>(a) * static_cast<std::size_t>(a + 1) / 2 +
-    static_cast<std::size_t>(b);
+  const std::ptrdiff_t block = b / FunctionBlock;
+  return FunctionBlock * (block * padded - FunctionBlock * block * (block - 1) / 2) +
+    (b - block * FunctionBlock) * (padded - block * FunctionBlock);
 }
+/// Numbers in a row of b.
+inline std::ptrdiff_t RowLength(int b, int padded)
+{
+  return padded - b / FunctionBlock * FunctionBlock;
+}
+/// Numbers that the matrix of any element has room in.
+std::size_t NumEntries(const GalerkinSpace& space, int components);
 /// Adds the matrices of consecutive elements to such a pattern, in the order of the elements.
-/// @param pairs  `width` entries an element: components x components a pair, the one of the trial
-/// function's component j and the test function's component i at j * components + i.
+/// @param matrices  `width` numbers an element, as FirstEntry says.
 void AddElements(const GalerkinSpace& space, int first, std::size_t count,
-  const std::vector<double>& pairs, std::size_t width, int components, int threads,
+  const std::vector<double>& matrices, std::size_t width, int components, int threads,
   Eigen::SparseMatrix<double>& matrix);
 /// The most functions that an element has.
 int MostFunctions(const GalerkinSpace& space);

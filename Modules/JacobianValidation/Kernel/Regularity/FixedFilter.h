@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "CoefficientFilter.h"
+#include "CoefficientBounds.h"
 
 #include <limits>
 
@@ -35,12 +35,14 @@ struct BinomialTable
 template <int N>
 inline constexpr BinomialTable<N> Binomials{};
 
-using Blocks = std::array<const double*, PackSize>;
+template <typename Pack>
+using Blocks = BlocksOf<Pack>;
 
-inline Pack Gather(const Blocks& blocks, int i)
+template <typename Pack>
+inline Pack Gather(const Blocks<Pack>& blocks, int i)
 {
   Pack x;
-  for (int l = 0; l < PackSize; ++l)
+  for (int l = 0; l < LanesOf<Pack>; ++l)
   {
     x[l] = blocks[static_cast<std::size_t>(l)][i];
   }
@@ -49,7 +51,7 @@ inline Pack Gather(const Blocks& blocks, int i)
 
 /// Differences along direction D of a plane of degrees P, Q, R, times the binomials of the
 /// derivative; `largest` is raised to the largest unscaled one. Two roundings each.
-template <int D, int P, int Q, int R>
+template <int D, int P, int Q, int R, typename Pack>
 inline void Differences(const Pack* plane, Pack* out, Pack& largest)
 {
   constexpr int A = D == 0 ? P - 1 : P;
@@ -73,7 +75,7 @@ inline void Differences(const Pack* plane, Pack* out, Pack& largest)
 }
 
 /// sum += or -= the product of two rows of N and M coefficients.
-template <int N, int M, bool Subtract>
+template <int N, int M, bool Subtract, typename Pack>
 inline void AddRows(const Pack* a, const Pack* b, Pack* sum)
 {
 #pragma GCC unroll 8
@@ -95,10 +97,10 @@ inline void AddRows(const Pack* a, const Pack* b, Pack* sum)
 }
 
 /// Takes the finished rows of Factor times a result of degrees N, L, K.
-template <int N, int L, int K, int Factor>
+template <typename Pack, int N, int L, int K, int Factor>
 struct Extremes
 {
-  CoefficientBounds& Bounds;
+  CoefficientBounds<Pack>& Bounds;
   /// Factor over the binomials, row by row.
   struct Table
   {
@@ -150,8 +152,8 @@ struct Extremes
   }
 };
 
-template <int P, int Q>
-void PolynomialQuadrilateral(const Blocks& blocks, CoefficientBounds& bounds)
+template <typename Pack, int P, int Q>
+void PolynomialQuadrilateral(const Blocks<Pack>& blocks, CoefficientBounds<Pack>& bounds)
 {
   constexpr int Size = (P + 1) * (Q + 1);
   Pack du[2][P * (Q + 1)];
@@ -164,7 +166,7 @@ void PolynomialQuadrilateral(const Blocks& blocks, CoefficientBounds& bounds)
     Pack plane[Size];
     for (int i = 0; i < Size; ++i)
     {
-      plane[i] = Gather(blocks, c * Size + i);
+      plane[i] = Gather<Pack>(blocks, c * Size + i);
       notFinite += 0.0 * plane[i];
     }
     Differences<0, P, Q, 0>(plane, du[c], mu[c]);
@@ -172,7 +174,7 @@ void PolynomialQuadrilateral(const Blocks& blocks, CoefficientBounds& bounds)
   }
   bounds.NotFinite = notFinite;
   bounds.Magnitude = Larger(Larger(mu[0], mu[1]), Larger(mv[0], mv[1]));
-  Extremes<2 * P - 1, 2 * Q - 1, 0, P * Q> extremes{ bounds };
+  Extremes<Pack, 2 * P - 1, 2 * Q - 1, 0, P * Q> extremes{ bounds };
   extremes.Start();
   Pack corners[4];
   for (int l = 0; l < 2 * Q; ++l)
@@ -194,8 +196,8 @@ void PolynomialQuadrilateral(const Blocks& blocks, CoefficientBounds& bounds)
     RoundingFactor(2 + 2 + 1 + Terms + 2) * (P * Q) * (mu[0] * mv[1] + mu[1] * mv[0]) + 0x1p-700;
 }
 
-template <int P, int Q, int R>
-void PolynomialHexahedron(const Blocks& blocks, CoefficientBounds& bounds)
+template <typename Pack, int P, int Q, int R>
+void PolynomialHexahedron(const Blocks<Pack>& blocks, CoefficientBounds<Pack>& bounds)
 {
   constexpr int Size = (P + 1) * (Q + 1) * (R + 1);
   Pack du[3][P * (Q + 1) * (R + 1)];
@@ -210,7 +212,7 @@ void PolynomialHexahedron(const Blocks& blocks, CoefficientBounds& bounds)
     Pack plane[Size];
     for (int i = 0; i < Size; ++i)
     {
-      plane[i] = Gather(blocks, c * Size + i);
+      plane[i] = Gather<Pack>(blocks, c * Size + i);
       notFinite += 0.0 * plane[i];
     }
     Differences<0, P, Q, R>(plane, du[c], mu[c]);
@@ -251,7 +253,7 @@ void PolynomialHexahedron(const Blocks& blocks, CoefficientBounds& bounds)
     }
   }
 
-  Extremes<3 * P - 1, 3 * Q - 1, 3 * R - 1, P * Q * R> extremes{ bounds };
+  Extremes<Pack, 3 * P - 1, 3 * Q - 1, 3 * R - 1, P * Q * R> extremes{ bounds };
   extremes.Start();
   Pack corners[8];
   for (int k = 0; k < 3 * R; ++k)
@@ -289,7 +291,8 @@ void PolynomialHexahedron(const Blocks& blocks, CoefficientBounds& bounds)
 }
 
 /// Trilinear cells: the same with all loops unrolled; binomials are 1 but in the result.
-inline void LinearHexahedron(const Blocks& blocks, CoefficientBounds& bounds)
+template <typename Pack>
+void LinearHexahedron(const Blocks<Pack>& blocks, CoefficientBounds<Pack>& bounds)
 {
   Pack du[3][4]; // index v + 2 w
   Pack dv[3][4]; // u + 2 w
@@ -305,7 +308,7 @@ inline void LinearHexahedron(const Blocks& blocks, CoefficientBounds& bounds)
 #pragma GCC unroll 8
     for (int i = 0; i < 8; ++i)
     {
-      x[i] = Gather(blocks, 8 * c + i);
+      x[i] = Gather<Pack>(blocks, 8 * c + i);
       notFinite += 0.0 * x[i];
     }
 #pragma GCC unroll 4
@@ -322,7 +325,7 @@ inline void LinearHexahedron(const Blocks& blocks, CoefficientBounds& bounds)
   bounds.NotFinite = notFinite;
   bounds.Magnitude = Larger(Larger(Larger(mu[0], mu[1]), Larger(mu[2], mv[0])),
     Larger(Larger(Larger(mv[1], mv[2]), Larger(mw[0], mw[1])), mw[2]));
-  Extremes<2, 2, 2, 1> extremes{ bounds };
+  Extremes<Pack, 2, 2, 2, 1> extremes{ bounds };
   extremes.Start();
   Pack corners[8];
 #pragma GCC unroll 3
@@ -377,8 +380,8 @@ inline void LinearHexahedron(const Blocks& blocks, CoefficientBounds& bounds)
 }
 
 /// See JacobianForms::PlanarMinor for the form.
-template <int P, int Q>
-void RationalQuadrilateral(const Blocks& blocks, CoefficientBounds& bounds)
+template <typename Pack, int P, int Q>
+void RationalQuadrilateral(const Blocks<Pack>& blocks, CoefficientBounds<Pack>& bounds)
 {
   constexpr int Size = (P + 1) * (Q + 1);
   Pack planes[3][Size];
@@ -387,7 +390,7 @@ void RationalQuadrilateral(const Blocks& blocks, CoefficientBounds& bounds)
   {
     for (int i = 0; i < Size; ++i)
     {
-      planes[c][i] = Gather(blocks, c * Size + i);
+      planes[c][i] = Gather<Pack>(blocks, c * Size + i);
       notFinite += 0.0 * planes[c][i];
     }
   }
@@ -466,7 +469,7 @@ void RationalQuadrilateral(const Blocks& blocks, CoefficientBounds& bounds)
     }
   }
 
-  Extremes<3 * P - 2, 3 * Q - 2, 0, P * Q> extremes{ bounds };
+  Extremes<Pack, 3 * P - 2, 3 * Q - 2, 0, P * Q> extremes{ bounds };
   extremes.Start();
   bounds.NotFinite = notFinite;
   bounds.SmallestWeight = smallestWeight;

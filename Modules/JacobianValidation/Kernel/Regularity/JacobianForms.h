@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "FormLayout.h"
+#include "RoundingBound.h"
+#include <knotwork/SplineCore/WideVectors.h>
 
 #include <algorithm>
-#include <cmath>
 #include <type_traits>
 
 /// Numerators of Jacobians as forms of minimal degree, in any arithmetic: doubles, packs of doubles
@@ -24,11 +25,20 @@
 /// kept away by the caller (magnitudes within 2^-200 .. 2^200 of one).
 namespace knotwork
 {
+/// Packs of doubles: those of as many cells, a cell a lane.
+template <typename Pack>
+inline constexpr int LanesOf = static_cast<int>(sizeof(Pack) / sizeof(double));
+template <typename T>
+inline constexpr bool IsPack = !std::is_class_v<T> && !std::is_arithmetic_v<T>;
+
+template <typename T>
+using CoefficientArray = std::conditional_t<IsPack<T>, VectorArray<T>, std::vector<T>>;
+
 template <typename T>
 struct Form
 {
   const FormLayout* Layout = nullptr;
-  std::vector<T> C; ///< scaled coefficients
+  CoefficientArray<T> C; ///< scaled coefficients
   T Magnitude{};
   T Absolute{};
   int Roundings = 0;
@@ -43,47 +53,20 @@ struct Form
   }
 };
 
-/// Doubles of as many cells, a cell a lane: one register of the machine. Results do not depend on
-/// it.
-#ifdef __AVX__
-inline constexpr int PackSize = 4;
-#else
-inline constexpr int PackSize = 2;
-#endif
-typedef double Pack __attribute__((vector_size(PackSize * sizeof(double))));
-
-/// |a| and max(a, b) of the arithmetics that need error bounds.
-inline double Magnitude(double a)
-{
-  return std::fabs(a);
-}
-inline double Larger(double a, double b)
-{
-  return a > b ? a : b;
-}
-inline double Smaller(double a, double b)
-{
-  return a < b ? a : b;
-}
+template <typename Pack, typename = std::enable_if_t<IsPack<Pack>>>
 inline Pack Magnitude(const Pack& a)
 {
   return a < 0.0 ? -a : a;
 }
+template <typename Pack, typename = std::enable_if_t<IsPack<Pack>>>
 inline Pack Larger(const Pack& a, const Pack& b)
 {
   return a > b ? a : b;
 }
+template <typename Pack, typename = std::enable_if_t<IsPack<Pack>>>
 inline Pack Smaller(const Pack& a, const Pack& b)
 {
   return a < b ? a : b;
-}
-
-/// u = 2^-53, and r u / (1 - r u) with the factor that covers the rounding of magnitudes.
-inline constexpr double UnitRoundoff = 0x1p-53;
-inline double RoundingFactor(int roundings)
-{
-  const double ru = roundings * UnitRoundoff;
-  return ru / (1.0 - ru) * (1.0 + 0x1p-30);
 }
 
 template <typename T>

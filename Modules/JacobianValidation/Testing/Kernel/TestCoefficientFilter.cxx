@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CoefficientFilter.h"
 #include "ExactForm.h"
+#include "FilterCells.h"
 #include "JacobianCorpus.h"
+
+#include <knotwork/SplineCore/WideVectors.h>
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <limits>
 
 namespace knotwork
 {
 namespace
 {
+using Pack = Doubles<2>;
+constexpr int PackSize = LanesOf<Pack>;
+
 struct Shape
 {
   CellShape Kind;
@@ -55,7 +62,7 @@ std::vector<double> RandomBlock(oracle::Random& random, const Shape& shape, doub
 TEST(CoefficientFilter, BoundsAreThoseOfTheExactForm_CrossOracle)
 {
   oracle::Random random(21);
-  CoefficientFilter filter;
+  CoefficientFilter<Pack> filter;
   LayoutCache cache;
   for (const Shape& shape : Shapes)
   {
@@ -71,7 +78,7 @@ TEST(CoefficientFilter, BoundsAreThoseOfTheExactForm_CrossOracle)
       {
         blocks[l] = data[l].data();
       }
-      CoefficientBounds bounds;
+      CoefficientBounds<Pack> bounds;
       filter.Determinant(shape.Kind, shape.Degree, shape.Rational, blocks, Pack{}, bounds);
       for (int l = 0; l < PackSize; ++l)
       {
@@ -127,14 +134,14 @@ TEST(CoefficientFilter, BoundsAreThoseOfTheExactForm_CrossOracle)
 TEST(CoefficientFilter, CompiledDegreesHaveTheGeneralErrorBound_CrossOracle)
 {
   oracle::Random random(23);
-  CoefficientFilter filter;
+  CoefficientFilter<Pack> filter;
   for (const Shape& shape : Shapes)
   {
     const std::vector<double> block = RandomBlock(random, shape, 3.0);
     std::array<const double*, PackSize> blocks;
     blocks.fill(block.data());
-    CoefficientBounds compiled;
-    CoefficientBounds general;
+    CoefficientBounds<Pack> compiled;
+    CoefficientBounds<Pack> general;
     filter.Determinant(shape.Kind, shape.Degree, shape.Rational, blocks, Pack{}, compiled);
     filter.Determinant(shape.Kind, shape.Degree, shape.Rational, blocks, Pack{} + 1e-300, general);
     EXPECT_GT(compiled.Error[0], 0.3 * general.Error[0]);
@@ -147,7 +154,7 @@ TEST(CoefficientFilter, CompiledDegreesHaveTheGeneralErrorBound_CrossOracle)
 TEST(CoefficientFilter, NotFiniteInputIsSeen_PropertyOracle)
 {
   oracle::Random random(22);
-  CoefficientFilter filter;
+  CoefficientFilter<Pack> filter;
   for (const Shape& shape : Shapes)
   {
     for (const double bad :
@@ -159,12 +166,70 @@ TEST(CoefficientFilter, NotFiniteInputIsSeen_PropertyOracle)
       std::array<const double*, PackSize> blocks;
       blocks.fill(good.data());
       blocks[1] = damaged.data();
-      CoefficientBounds bounds;
+      CoefficientBounds<Pack> bounds;
       filter.Determinant(shape.Kind, shape.Degree, shape.Rational, blocks, Pack{}, bounds);
       EXPECT_EQ(bounds.NotFinite[0], 0.0);
       EXPECT_TRUE(std::isnan(bounds.NotFinite[1]));
     }
   }
+}
+
+/// Proofs on processors with wider vectors are those of others: nothing is fused or reordered.
+TEST(CoefficientFilter, WiderPacksHaveTheSameBits_ExactOracle)
+{
+  if (!HasWideVectors())
+  {
+    GTEST_SKIP() << "no wider vectors on this processor";
+  }
+  oracle::Random random(24);
+  int decided = 0;
+  for (const Shape& shape : Shapes)
+  {
+    BernsteinCells cells;
+    cells.NumComponents = NumParameters(shape.Kind);
+    cells.Rational = shape.Rational;
+    const FormLayout& layout = LayoutCache().Get(shape.Kind, shape.Degree);
+    for (int c = 0; c < 23; ++c)
+    {
+      // near the identity, so that signs of coefficients decide some
+      const int cell = cells.Add(shape.Kind, shape.Degree);
+      std::vector<double> block = RandomBlock(random, shape, 0.0);
+      for (const FormLayout::Row& row : layout.Rows)
+      {
+        for (int i = 0; i < row.Length; ++i)
+        {
+          const int place[3] = { i, row.J, row.K };
+          for (int d = 0; d < cells.NumComponents; ++d)
+          {
+            double& x = block[static_cast<std::size_t>(d * layout.Size + row.Start + i)];
+            const double w = shape.Rational
+              ? block[static_cast<std::size_t>(cells.NumComponents * layout.Size + row.Start + i)]
+              : 1.0;
+            x = 0.1 * x + w * place[d] / shape.Degree[static_cast<std::size_t>(d)];
+          }
+        }
+      }
+      std::copy(block.begin(), block.end(), cells.Block(cell));
+    }
+    const auto count = static_cast<std::size_t>(cells.NumCells());
+    for (const bool uncertain : { false, true })
+    {
+      cells.Errors.assign(uncertain ? count : 0, 1e-15);
+      JacobianParams params;
+      params.RelativeGap = 1.0;
+      std::vector<CellCertificate> narrow(count);
+      std::vector<CellCertificate> wide(count);
+      EXPECT_TRUE(FilterCells<2>(cells, params, 0, count, narrow.data()));
+      EXPECT_TRUE(FilterCells<4>(cells, params, 0, count, wide.data()));
+      for (std::size_t c = 0; c < count; ++c)
+      {
+        EXPECT_EQ(narrow[c].Verdict, wide[c].Verdict);
+        EXPECT_EQ(std::memcmp(&narrow[c].MinLower, &wide[c].MinLower, 4 * sizeof(double)), 0);
+        decided += narrow[c].Verdict != Verdict::Undecided ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(decided, 200);
 }
 }
 }

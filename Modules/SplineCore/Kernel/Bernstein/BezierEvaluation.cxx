@@ -4,6 +4,7 @@
 #include "Numbers.h"
 #include "Parallel.h"
 #include "QuotientRule.h"
+#include "WideVectors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -284,7 +285,7 @@ void EvaluateFixed(const PointRange<Dim>& range, std::size_t begin, std::size_t 
   const SplineSpace<Dim>& space = *range.Form.Space;
   const int planes = range.Form.NumPlanes();
   const std::size_t blockBytes = sizeof(double) * static_cast<std::size_t>(planes * block);
-  std::vector<Four> terms(static_cast<std::size_t>(planes * numTerms));
+  VectorArray<Four> terms(static_cast<std::size_t>(planes * numTerms));
   std::vector<double> sets(static_cast<std::size_t>(planes * NumLanes * numSets * n));
 
   for (std::size_t i = begin; i < end; i += NumLanes)
@@ -430,6 +431,24 @@ void EvaluateAny(const PointRange<Dim>& range, std::size_t begin, std::size_t en
   }
 }
 
+/// Elements of degree P in all directions; 0: of unequal degrees.
+template <int Dim, int P, int Order>
+void EvaluateRange(const PointRange<Dim>& range, std::size_t begin, std::size_t end)
+{
+  WithWidestVectors(
+    [&](auto)
+    {
+      if constexpr (P == 0)
+      {
+        EvaluateAny<Dim, Order>(range, begin, end);
+      }
+      else
+      {
+        EvaluateFixed<Dim, P, Order>(range, begin, end);
+      }
+    });
+}
+
 template <int Dim>
 using RangeFunction = void (*)(const PointRange<Dim>&, std::size_t, std::size_t);
 
@@ -442,13 +461,13 @@ class Dispatch
   template <int Order, int... Degrees>
   void Fill(std::integer_sequence<int, Degrees...>)
   {
-    this->Functions = { &EvaluateAny<Dim, Order>, &EvaluateFixed<Dim, Degrees + 1, Order>... };
+    this->Functions = { &EvaluateRange<Dim, Degrees, Order>... };
   }
 
 public:
   explicit Dispatch(int order)
   {
-    const auto degrees = std::make_integer_sequence<int, MaxDegree>();
+    const auto degrees = std::make_integer_sequence<int, MaxDegree + 1>();
     if (order == 0)
     {
       this->template Fill<0>(degrees);

@@ -3,6 +3,7 @@
 
 #include "PointLanes.h"
 #include <knotwork/SplineCore/Parallel.h>
+#include <knotwork/SplineCore/WideVectors.h>
 
 #include <algorithm>
 
@@ -122,9 +123,9 @@ private:
   const ElementFunctions& Functions;
   int Components;
   std::vector<double> Local;
-  std::vector<Eight> Basis;
-  std::vector<Eight> Values;
-  std::vector<Eight> Residuals;
+  VectorArray<Eight> Basis;
+  VectorArray<Eight> Values;
+  VectorArray<Eight> Residuals;
 };
 }
 
@@ -139,11 +140,15 @@ void MultilevelStep(const SplineSpace<2>& space, const ElementFunctions& functio
     [&](std::size_t begin, std::size_t end)
     {
       ElementSums work(functions, components);
-      for (std::size_t e = begin; e < end; ++e)
-      {
-        work.Add(space.Elements[e], static_cast<int>(e), coefficients, points,
-          sums.data() + functions.Start[e] * stride);
-      }
+      WithWidestVectors(
+        [&](auto)
+        {
+          for (std::size_t e = begin; e < end; ++e)
+          {
+            work.Add(space.Elements[e], static_cast<int>(e), coefficients, points,
+              sums.data() + functions.Start[e] * stride);
+          }
+        });
     });
   ParallelFor(At(functions.NumFunctions), FunctionChunk, threads,
     [&](std::size_t begin, std::size_t end)

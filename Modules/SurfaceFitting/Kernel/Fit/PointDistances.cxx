@@ -4,6 +4,7 @@
 #include "PointLanes.h"
 #include <knotwork/SplineCore/Bernstein.h>
 #include <knotwork/SplineCore/Parallel.h>
+#include <knotwork/SplineCore/WideVectors.h>
 
 #include <algorithm>
 #include <cmath>
@@ -101,8 +102,12 @@ std::vector<ElementErrors> MeasureDistances(const SplineSpace<2>& space,
         const SplineSpace<2>::Element& element = space.Elements[e];
         const auto measure = [&](const auto p, const auto q)
         {
-          errors[e] =
-            MeasureElement(p, q, element.Box, local.data(), numMeasured, points.Ranges[e], points);
+          WithWidestVectors(
+            [&](auto)
+            {
+              errors[e] = MeasureElement(
+                p, q, element.Box, local.data(), numMeasured, points.Ranges[e], points);
+            });
         };
         if (element.Degree == IntArray<2>{ 2, 2 })
         {

@@ -1,0 +1,72 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Compares a build for every processor with one for this processor, and writes the last column of a table of speeds.
+
+usage: Testing/Benchmarks/portable.py [--dry] MODULE [PORTABLE_TREE [NATIVE_TREE]]     (default build/release, build/benchmark)
+
+Runs the benchmarks of one thread that Testing/Benchmarks/MODULE.json names (see table.py) in both trees in turns, five
+times, and takes the fastest of each: time of the portable build over that of the native one, below 1 where the portable one
+is faster. Of a row it is the first time; "times" lists counters that are times, too. Where a benchmark counts
+`evaluations`, which rounding may change, times are those of an evaluation. --dry prints and leaves the page.
+"""
+import json
+import os
+import pathlib
+import re
+import sys
+
+import page_tables
+import table
+
+ROUNDS = 5
+
+
+def timed(row, spec):
+    """The benchmark of a row, and the counter that is its time, if any."""
+    if "columns" not in spec:
+        return row[2], None
+    for cell in row:
+        if not cell.startswith("@"):
+            continue
+        name, unit, *other = cell[1:].split()
+        if not other and (unit in table.SCALE or unit == "1/s" or unit in spec.get("times", [])):
+            return name, unit if unit in spec.get("times", []) else None
+    return None, None
+
+
+def main():
+    arguments = [a for a in sys.argv[1:] if a != "--dry"]
+    root = pathlib.Path(__file__).resolve().parents[2]
+    module = arguments[0]
+    trees = [pathlib.Path(given) for given in arguments[1:]]
+    trees += [root / "build/release", root / "build/benchmark"][len(trees):]
+    spec = json.loads((root / f"Testing/Benchmarks/{module}.json").read_text())
+    if "needs" in spec and spec["needs"] not in os.environ:
+        sys.exit(f"set {spec['needs']}: not all rows can be measured without it")
+    rows = [timed(row, spec) for row in spec["rows"]]
+    names = "|".join(sorted({re.escape(name) for name, _ in rows if name}))
+    only = f"^({names})(/(min_time|iterations|repeats).*)?$"
+    load = os.getloadavg()[0]
+    best = [{}, {}]
+    for _ in range(ROUNDS):
+        for tree, fastest in zip(trees, best):
+            found = table.measure(tree / "bin" / spec["program"], only, spec.get("statistic", "min"))
+            for row in rows:
+                name, counter = row
+                if name is None or (name, "failed") in found:
+                    continue
+                seconds = found[name, counter] if counter else found[name]
+                seconds /= found.get((name, "evaluations"), 1.0)
+                fastest[row] = min(fastest.get(row, seconds), seconds)
+    cells = [f"{best[0][row] / best[1][row]:.2f}" if row in best[1] else "" for row in rows]
+    note = (f"Last column: time of one thread in a build for every processor over that of `-march=native`, {table.processor()}, load "
+            f"{load:.1f}, by `Testing/Benchmarks/portable.py {module}`.")
+    for row, cell in zip(spec["rows"], cells):
+        print(cell, row[0])
+    if "--dry" not in sys.argv:
+        page_tables.write_column(root / spec["page"], f"benchmarks {module}", page_tables.PORTABLE_COLUMN,
+                                 [(row[0], cell) for row, cell in zip(spec["rows"], cells)], note)
+
+
+if __name__ == "__main__":
+    main()
