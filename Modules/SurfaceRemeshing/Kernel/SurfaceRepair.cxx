@@ -27,6 +27,7 @@ namespace
 constexpr double StepShare = 1e-4; ///< of the diagonal: how far touching sheets are moved apart
 constexpr double SnapShare =
   1e-7; ///< of the diagonal: shorter edges and heights of divided triangles go
+constexpr double SliverShare = 1e-8;        ///< the same of all triangles: no mesher takes them
 constexpr double ToleranceShare = 1e-4;     ///< of the diagonal: of distances
 constexpr double WrapToleranceShare = 2e-3; ///< the same, of wraps
 constexpr double LooseShare = 0.05;         ///< of the area: open pieces above are no loose ones
@@ -658,8 +659,46 @@ private:
     }
   }
 
+  /// Edges and heights that are all but nothing go, with the triangles that have them.
+  void DropSlivers()
+  {
+    const double least = SliverShare * this->Result.Diagonal;
+    std::vector<int> slivers;
+    for (std::size_t t = 0; t < this->Work.Triangles.size(); ++t)
+    {
+      double longest = 0.0;
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        const MeshTriangle& corners = this->Work.Triangles[t];
+        longest = std::max(
+          longest, (this->Work.Point(corners[(k + 1) % 3]) - this->Work.Point(corners[k])).norm());
+      }
+      if (2.0 * this->Work.AreaOf(static_cast<int>(t)) < least * longest)
+      {
+        slivers.push_back(static_cast<int>(t));
+      }
+    }
+    if (slivers.empty())
+    {
+      return;
+    }
+    for (const int t : slivers)
+    {
+      this->Add(RepairKind::DegenerateFace, this->Work.MiddleOf(t), this->Work.AreaOf(t));
+    }
+    DividedTriangles snapped = SnapTriangles(this->Work.Points, this->Work.Triangles, least);
+    std::vector<int> sources;
+    for (const int source : snapped.Sources)
+    {
+      sources.push_back(this->Work.Sources[static_cast<std::size_t>(source)]);
+    }
+    this->Work.Triangles = std::move(snapped.Triangles);
+    this->Work.Sources = std::move(sources);
+  }
+
   Status Resolve()
   {
+    this->DropSlivers();
     const Soup before = this->Work;
     Status status = this->SeparateAll();
     if (status.Code == ErrorCode::NotConverged)
