@@ -26,7 +26,7 @@ protected:
     ReportRow(numbers, 0,
       { "DegenerateFaces", "DuplicateFaces", "LooseFaces", "TurnedFaces", "Junctions", "Holes",
         "Intersections", "DividedEdges", "DividedPoints", "CutTips", "Overlaps", "InnerWalls",
-        "SmallParts", "MergedPoints", "PointsBefore", "PointsAfter", "TrianglesBefore",
+        "SmallParts", "Patches", "MergedPoints", "PointsBefore", "PointsAfter", "TrianglesBefore",
         "TrianglesAfter", "PartsBefore", "PartsAfter", "EulerBefore", "EulerAfter", "AreaBefore",
         "AreaAfter", "VolumeBefore", "VolumeAfter", "DistanceFromInput", "DistanceToInput",
         "Diagonal" },

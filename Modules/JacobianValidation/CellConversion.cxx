@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CellConversion.h"
 
-#include <knotwork/SplineCore/LatticeInterpolation.h>
-
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
@@ -14,11 +12,27 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <cmath>
+#include <limits>
 
 namespace knotwork
 {
 namespace
 {
+/// VTK's parameters of a place in a cell of ours. The shape functions of pyramids of 5 and 13 nodes
+/// are polynomials of degree 1 and 2 in parameters of the unit cube, whose upper side is the apex.
+/// Those of 19 nodes are over a pyramid with its base at t = 1/2 and its apex at (1/2, 1/2, 1), and
+/// rational; in (u, v, w) of the cube, r = 1/2 + (u - 1/2) (1 - w), s alike, t = (1 + w) / 2, they
+/// are polynomials of degree (2, 2, 3).
+std::array<double, 3> VtkParameters(int cellType, const std::array<double, 3>& at)
+{
+  if (cellType != VTK_TRIQUADRATIC_PYRAMID)
+  {
+    return at;
+  }
+  const double width = 1.0 - at[2];
+  return { 0.5 + (at[0] - 0.5) * width, 0.5 + (at[1] - 0.5) * width, 0.5 + 0.5 * at[2] };
+}
+
 /// VTK's shape functions (columns) at the lattice of the Bernstein polynomials (rows).
 LongMatrix ShapeFunctions(
   int cellType, CellShape shape, const CellDegree& degree, vtkIdType numPoints)
@@ -47,7 +61,7 @@ LongMatrix ShapeFunctions(
   std::vector<double> weights(static_cast<std::size_t>(numPoints));
   for (Eigen::Index row = 0; row < values.rows(); ++row)
   {
-    const std::array<double, 3>& at = lattice[static_cast<std::size_t>(row)];
+    const auto at = VtkParameters(cellType, lattice[static_cast<std::size_t>(row)]);
     cell->InterpolateFunctions(at.data(), weights.data());
     for (Eigen::Index i = 0; i < numPoints; ++i)
     {
@@ -57,11 +71,11 @@ LongMatrix ShapeFunctions(
   return values;
 }
 
-/// Takes numbers within 1e-9 of multiples of a step as such. @return whether all were.
-bool Snap(LongMatrix& values, long double step)
+/// Takes numbers within 1e-9 of multiples of 1 / parts as such. @return whether all were.
+bool Snap(LongMatrix& values, long double parts)
 {
   LongMatrix snapped =
-    (values / step).unaryExpr([](long double x) { return std::round(x); }) * step;
+    (values * parts).unaryExpr([](long double x) { return std::round(x); }) / parts;
   const bool all = (snapped - values).cwiseAbs().maxCoeff() < 1e-9L;
   values = std::move(snapped);
   return all;
@@ -131,6 +145,16 @@ CellConversion FixedCellShape(int cellType)
     case VTK_BIQUADRATIC_QUADRATIC_WEDGE:
       is(CellShape::Wedge, { 2, 2, 2 });
       break;
+    // hexahedra with one side in one place: see VtkParameters
+    case VTK_PYRAMID:
+      is(CellShape::Hexahedron, { 1, 1, 1 });
+      break;
+    case VTK_QUADRATIC_PYRAMID:
+      is(CellShape::Hexahedron, { 2, 2, 2 });
+      break;
+    case VTK_TRIQUADRATIC_PYRAMID:
+      is(CellShape::Hexahedron, { 2, 2, 3 });
+      break;
     default:
       break;
   }
@@ -154,9 +178,10 @@ Result<CellConversion> MakeCellConversion(
     return unknown;
   }
   // At the lattice the shape functions of nodal cells are 0 or 1, those of serendipity cells
-  // multiples of 1/8; Bezier cells are a permutation once converted.
+  // multiples of 1/8, those of triquadratic pyramids of 1/54; Bezier cells are a permutation once
+  // converted.
   const bool bezier = IsBezier(cellType);
-  if (!bezier && !Snap(shapeFunctions, 1.0L / 64.0L))
+  if (!bezier && !Snap(shapeFunctions, 64.0L * 27.0L))
   {
     return unknown;
   }
@@ -166,14 +191,14 @@ Result<CellConversion> MakeCellConversion(
     return unknown;
   }
 
-  bool permutes = matrix.rows() == matrix.cols();
-  for (Eigen::Index k = 0; k < matrix.rows() && permutes; ++k)
+  bool selects = true; // pyramids: the apex several times
+  for (Eigen::Index k = 0; k < matrix.rows() && selects; ++k)
   {
     Eigen::Index point = 0;
-    permutes = matrix.row(k).maxCoeff(&point) == 1.0L && matrix.row(k).cwiseAbs().sum() == 1.0L;
-    result.Permutation.push_back(static_cast<int>(point));
+    selects = matrix.row(k).maxCoeff(&point) == 1.0L && matrix.row(k).cwiseAbs().sum() == 1.0L;
+    result.Points.push_back(static_cast<int>(point));
   }
-  if (permutes)
+  if (selects)
   {
     return result;
   }
@@ -181,11 +206,11 @@ Result<CellConversion> MakeCellConversion(
   {
     return unknown;
   }
-  result.Permutation.clear();
+  result.Points.clear();
   // what should be zero is some 1e-19 here; the bound below knows what is dropped
-  result.Matrix =
-    matrix.unaryExpr([](long double m) { return std::fabs(m) < 1e-15L ? 0.0L : m; }).cast<double>();
-  result.Bound = interpolation.Bound(shapeFunctions, result.Matrix);
+  result.Matrix = matrix.unaryExpr([](long double m) { return std::fabs(m) < 1e-15L ? 0.0L : m; });
+  result.Bound = interpolation.Bound(
+    shapeFunctions, result.Matrix, 0.5L * std::numeric_limits<long double>::epsilon());
   return result;
 }
 }

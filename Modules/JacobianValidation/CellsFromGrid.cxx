@@ -160,12 +160,12 @@ private:
       }
       conversion = std::move(made.Value);
     }
-    if (!conversion.Permutation.empty())
+    if (!conversion.Points.empty())
     {
-      this->Ids.resize(conversion.Permutation.size());
+      this->Ids.resize(conversion.Points.size());
       for (std::size_t k = 0; k < this->Ids.size(); ++k)
       {
-        this->Ids[k] = ids[conversion.Permutation[k]];
+        this->Ids[k] = ids[conversion.Points[k]];
       }
       return this->Add(cell, shape, degree, this->Ids);
     }
@@ -184,14 +184,18 @@ private:
     const PointMatrix origin = points.row(0).replicate(count, 1);
     const PointMatrix offsets = points - origin;
     const PointMatrix rests = RestsOfSums(points, -origin, offsets);
-    const PointMatrix converted = conversion.Matrix * offsets;
+    const LongMatrix converted =
+      conversion.Matrix * (offsets.cast<long double>() + rests.cast<long double>());
+    const PointMatrix most = converted.cast<double>();
+    const PointMatrix least = (converted - most.cast<long double>()).cast<double>();
     const auto n = static_cast<std::size_t>(converted.rows());
     const PointMatrix start = origin.row(0).replicate(converted.rows(), 1);
-    const PointMatrix sums = start + converted;
-    const PointMatrix remainders = RestsOfSums(start, converted, sums);
-    const double bound = (conversion.Bound * offsets.cwiseAbs() +
-      2.0 * conversion.Matrix.cwiseAbs() * rests.cwiseAbs())
-                           .maxCoeff();
+    const PointMatrix sums = start + most;
+    const PointMatrix rest = RestsOfSums(start, most, sums);
+    const PointMatrix remainders = rest + least;
+    // of remainders one rounding; one of offsets is what the bound has for products and sums
+    const double bound = (conversion.Bound * offsets.cwiseAbs()).maxCoeff() +
+      0x1p-53 * (rest.cwiseAbs() + least.cwiseAbs()).maxCoeff();
     const double largest = remainders.cwiseAbs().maxCoeff();
     double error = largest + bound;
     while (error - largest < bound)

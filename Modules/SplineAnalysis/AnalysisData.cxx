@@ -285,8 +285,13 @@ Result<AnalysisBody> MakeBody(vtkUnstructuredGrid* grid)
         place + "wedges are not analysed; divide them into tetrahedra" };
     }
     part->GetCellPoints(i, ids);
-    const CellDegree degree = cells.Degrees[static_cast<std::size_t>(cell)];
     const int type = part->GetCellType(i);
+    if (type == VTK_PYRAMID || type == VTK_QUADRATIC_PYRAMID || type == VTK_TRIQUADRATIC_PYRAMID)
+    {
+      return { ErrorCode::InvalidTopology,
+        place + "pyramids are not analysed; divide them into tetrahedra" };
+    }
+    const CellDegree degree = cells.Degrees[static_cast<std::size_t>(cell)];
     PointMatrix& matrix = operators[{ type, ids->GetNumberOfIds(), degree }];
     if (matrix.size() == 0)
     {
@@ -295,17 +300,17 @@ Result<AnalysisBody> MakeBody(vtkUnstructuredGrid* grid)
       {
         return { conversion.Status.Code, place + conversion.Status.Detail };
       }
-      if (conversion->Permutation.empty())
+      if (conversion->Points.empty())
       {
-        matrix = conversion->Matrix.transpose();
+        matrix = conversion->Matrix.cast<double>().transpose();
       }
       else
       {
-        const auto n = static_cast<Eigen::Index>(conversion->Permutation.size());
+        const auto n = static_cast<Eigen::Index>(conversion->Points.size());
         matrix.setZero(n, n);
         for (Eigen::Index k = 0; k < n; ++k)
         {
-          matrix(conversion->Permutation[static_cast<std::size_t>(k)], k) = 1.0;
+          matrix(conversion->Points[static_cast<std::size_t>(k)], k) = 1.0;
         }
       }
     }

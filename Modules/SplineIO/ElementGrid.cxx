@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ElementGrid.h"
 
+#include <knotwork/SplineCore/LatticeInterpolation.h>
+#include <knotwork/SplineGrid/BezierCells.h>
+#include <knotwork/SplineGrid/HigherOrderCells.h>
 #include <knotwork/SplineGrid/NamedArray.h>
 
 #include "vtkCellData.h"
@@ -295,9 +298,11 @@ private:
       [type](const CellRow& one) { return one.Type == type; });
     if (row == std::end(CellRows))
     {
-      return { ErrorCode::InvalidTopology,
+      return {
+        ErrorCode::InvalidTopology,
         "cell " + std::to_string(cell) + " has VTK's cell type " + std::to_string(type) +
-          ", which meshes of solvers do not have; write linear, quadratic or Lagrange cells" };
+          ", which meshes of solvers do not have; write linear, quadratic, Lagrange or Bezier cells"
+      };
     }
     kind.Shape = row->Shape;
     kind.IsComplete = row->IsComplete;
@@ -323,6 +328,99 @@ private:
 
   ElementMesh& Mesh;
   std::map<std::pair<int, vtkIdType>, int> Rows;
+};
+
+/// VTK's Lagrange cell of the same points as a Bezier cell, or the type itself.
+int NodalType(int type)
+{
+  const bool isBezier = type >= VTK_BEZIER_CURVE && type <= VTK_BEZIER_PYRAMID;
+  return isBezier ? type - VTK_BEZIER_CURVE + VTK_LAGRANGE_CURVE : type;
+}
+
+/// Nodes of the same polynomials in the place of the coefficients of Bezier cells.
+class NodesOfBezierCells
+{
+public:
+  explicit NodesOfBezierCells(vtkUnstructuredGrid* grid, PointMatrix& points)
+    : Bezier(grid), Points(points), IsSet(static_cast<std::size_t>(points.rows()), 0)
+  {
+  }
+
+  /// @return InvalidTopology for rational cells, and for points that cells share where they differ.
+  Status Set(vtkIdType cell, const ElementKind& kind, const vtkIdType* ids, vtkIdType size)
+  {
+    CellShape shape{};
+    CellDegree degree{};
+    switch (kind.Shape)
+    {
+      case ElementShape::Segment:
+        shape = CellShape::Curve;
+        break;
+      case ElementShape::Triangle:
+        shape = CellShape::Triangle;
+        break;
+      case ElementShape::Quadrilateral:
+        shape = CellShape::Quadrilateral;
+        break;
+      case ElementShape::Tetrahedron:
+        shape = CellShape::Tetrahedron;
+        break;
+      default:
+        shape = CellShape::Hexahedron;
+    }
+    std::fill_n(degree.begin(), NumParameters(shape), kind.Degree);
+    const std::vector<int> order = HigherOrderPointOrder(shape, kind.Degree);
+    BernsteinCells one;
+    one.NumComponents = 3;
+    double* const block = one.Block(one.Add(shape, degree));
+    double weight = 0.0;
+    double extent = 0.0;
+    for (vtkIdType i = 0; i < size; ++i)
+    {
+      double x[4];
+      if (Status status = this->Bezier.ReadPoint("", cell, ids[i], x); !status)
+      {
+        return status;
+      }
+      weight = i == 0 ? x[3] : weight;
+      if (x[3] != weight)
+      {
+        return { ErrorCode::InvalidTopology,
+          CellName(cell) +
+            " is rational, and elements of solvers are polynomials; write .vtu, or approximate it "
+            "by a polynomial spline first" };
+      }
+      for (vtkIdType d = 0; d < 3; ++d)
+      {
+        block[d * size + order[static_cast<std::size_t>(i)]] = x[d];
+        extent = std::max(extent, std::abs(x[d]));
+      }
+    }
+    const auto lattice = LatticeParameters(shape, degree);
+    for (vtkIdType i = 0; i < size; ++i)
+    {
+      Eigen::RowVector3d node;
+      EvaluateCell(
+        one, 0, lattice[static_cast<std::size_t>(order[static_cast<std::size_t>(i)])], node.data());
+      auto row = this->Points.row(ids[i]);
+      char& isSet = this->IsSet[static_cast<std::size_t>(ids[i])];
+      if (isSet && (row - node).cwiseAbs().maxCoeff() > Rounding * extent)
+      {
+        return { ErrorCode::InvalidTopology,
+          CellName(cell) + " and one before share point " + std::to_string(ids[i]) +
+            ", but not the side that it is on; give them points of their own" };
+      }
+      row = isSet ? Eigen::RowVector3d(row) : node;
+      isSet = 1;
+    }
+    return {};
+  }
+
+private:
+  static constexpr double Rounding = 1e-12; ///< of coordinates: of nodes from two sides
+  BezierCells Bezier;
+  PointMatrix& Points;
+  std::vector<char> IsSet;
 };
 
 /// Whether a cell has one degree in all its directions.
@@ -398,7 +496,7 @@ Result<ElementMesh> DecodeElements(vtkUnstructuredGrid* grid)
     vtkIdType size = 0;
     const vtkIdType* ids = nullptr;
     grid->GetCellPoints(c, size, ids);
-    const Result<int> kind = kinds.Find(c, grid->GetCellType(c), size);
+    const Result<int> kind = kinds.Find(c, NodalType(grid->GetCellType(c)), size);
     if (!kind)
     {
       return kind.Status;
@@ -426,6 +524,22 @@ Result<ElementMesh> DecodeElements(vtkUnstructuredGrid* grid)
   mesh.ElementNumbers = UniqueNumbersOf(grid->GetCellData()->GetArray(ElementNumbers), count);
   mesh.NodeNumbers =
     UniqueNumbersOf(grid->GetPointData()->GetArray(NodeNumbers), grid->GetNumberOfPoints());
+  NodesOfBezierCells nodes(grid, mesh.Points);
+  for (vtkIdType c = 0; c < count; ++c)
+  {
+    if (NodalType(grid->GetCellType(c)) != grid->GetCellType(c))
+    {
+      const auto cell = static_cast<std::size_t>(c);
+      const ElementKind& kind = mesh.Kinds[static_cast<std::size_t>(mesh.KindOf[cell])];
+      vtkIdType size = 0;
+      const vtkIdType* ids = nullptr;
+      grid->GetCellPoints(c, size, ids);
+      if (Status status = nodes.Set(c, kind, ids, size); !status)
+      {
+        return status;
+      }
+    }
+  }
   const auto entities = NumbersOf(grid->GetCellData()->GetArray(GeometricEntity), count);
   mesh.Entities.assign(entities.begin(), entities.end());
   ReadGroups(grid, mesh);

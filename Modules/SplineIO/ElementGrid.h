@@ -13,8 +13,9 @@ namespace knotwork
 /// PhysicalGroupIds (dimension, group).
 Status EncodeElements(const ElementMesh& mesh, vtkUnstructuredGrid* grid);
 
-/// The mesh of a grid of such cells. Numbers that are missing, not positive or there twice are
+/// The mesh of a grid of such cells, and of polynomial Bezier cells, which become Lagrange cells of
+/// the same polynomials. Numbers that are missing, not positive or there twice are
 /// counted from 1 instead; without PhysicalGroup the cell array Attribute takes its place.
-/// @return EmptyInput; InvalidTopology for other cells; NonFiniteInput.
+/// @return EmptyInput; InvalidTopology for other cells, rational ones among them; NonFiniteInput.
 Result<ElementMesh> DecodeElements(vtkUnstructuredGrid* grid);
 }

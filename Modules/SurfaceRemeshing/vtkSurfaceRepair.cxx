@@ -86,7 +86,7 @@ void EncodeNumbers(const SurfaceRepair& repaired, vtkTable* table)
   AddColumn(table, "Wrapped", repaired.Wrapped ? 1 : 0);
   const char* names[NumRepairKinds] = { "DegenerateFaces", "DuplicateFaces", "LooseFaces",
     "TurnedFaces", "Junctions", "Holes", "Intersections", "DividedEdges", "DividedPoints",
-    "CutTips", "Overlaps", "InnerWalls", "SmallParts" };
+    "CutTips", "Overlaps", "InnerWalls", "SmallParts", "Patches" };
   for (int kind = 0; kind < NumRepairKinds; ++kind)
   {
     AddColumn(table, names[kind], repaired.Count(static_cast<RepairKind>(kind)));

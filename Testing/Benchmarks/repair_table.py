@@ -26,7 +26,8 @@ LIMIT = 120  # seconds a run
 PART_LEFT_OUT = 5
 HEAD = ["mesh", "triangles", "options", "outcome", "actions", "Euler number", "from the input", "to the input", "s"]
 ACTIONS = ["merged_points", "degenerate_faces", "duplicate_faces", "loose_faces", "turned_faces", "junctions", "holes", "intersections",
-           "divided_edges", "divided_points", "cut_tips", "overlaps", "inner_walls", "small_parts"]
+           "divided_edges", "divided_points", "cut_tips", "overlaps", "inner_walls", "small_parts",
+           "patches"]
 
 
 def shortened(error, mesh):

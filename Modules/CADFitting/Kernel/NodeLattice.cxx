@@ -388,7 +388,7 @@ NodeTable MakeNodeTable(CellShape shape, int order)
   table.ToBezier = interpolation.Coefficients(identity)
                      .unaryExpr([](long double m) { return std::fabs(m) < 1e-15L ? 0.0L : m; })
                      .cast<double>();
-  table.ErrorBound = interpolation.Bound(identity, table.ToBezier);
+  table.ErrorBound = interpolation.Bound(identity, table.ToBezier.cast<long double>());
   return table;
 }
 

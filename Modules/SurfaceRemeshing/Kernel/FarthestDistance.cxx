@@ -22,30 +22,59 @@ LargestDistance FarthestFrom(const TriangleIndex<3>& surface, const PointMatrix&
     }
     return foot.Triangle;
   };
-  using Piece = std::array<Eigen::Vector3d, 3>;
-  std::vector<Piece> pieces;
+  std::vector<int> below(static_cast<std::size_t>(points.rows()), -1); // nearest ones of corners
+  for (const MeshTriangle& corners : triangles)
+  {
+    for (const int corner : corners)
+    {
+      int& triangle = below[static_cast<std::size_t>(corner)];
+      if (triangle < 0)
+      {
+        const Eigen::Vector3d point = points.row(corner).transpose();
+        triangle = nearest(point);
+      }
+    }
+    if (reached > enough)
+    {
+      found.Value = reached;
+      return found;
+    }
+  }
+  struct Corner
+  {
+    Eigen::Vector3d Place;
+    int Triangle; // nearest one
+  };
+  std::vector<std::array<Corner, 3>> pieces;
   const double pruned = std::isfinite(enough) ? enough : 0.0;
   double largest = 0.0; // bound of what was not divided further
   for (const MeshTriangle& corners : triangles)
   {
-    pieces.push_back({ points.row(corners[0]).transpose(), points.row(corners[1]).transpose(),
-      points.row(corners[2]).transpose() });
+    const auto corner = [&](std::size_t k)
+    {
+      return Corner{ points.row(corners[k]).transpose(),
+        below[static_cast<std::size_t>(corners[k])] };
+    };
+    pieces.push_back({ corner(0), corner(1), corner(2) });
     while (!pieces.empty())
     {
-      const Piece piece = pieces.back();
+      const std::array<Corner, 3> piece = pieces.back();
       pieces.pop_back();
-      const auto& [a, b, c] = piece;
-      const Eigen::Vector3d middle = (a + b + c) / 3.0;
       // the distance from one triangle is convex: of a piece it is largest at a corner
-      double bound = std::numeric_limits<double>::infinity();
-      for (const int triangle : { nearest(middle), nearest(a), nearest(b), nearest(c) })
+      const auto farthest = [&](int triangle)
       {
-        double farthest = 0.0;
-        for (const Eigen::Vector3d& corner : piece)
+        double squared = 0.0;
+        for (const Corner& one : piece)
         {
-          farthest = std::max(farthest, surface.Foot(triangle, corner.data()).SquaredDistance);
+          squared = std::max(squared, surface.Foot(triangle, one.Place.data()).SquaredDistance);
         }
-        bound = std::min(bound, std::sqrt(farthest));
+        return std::sqrt(squared);
+      };
+      const auto& [a, b, c] = piece;
+      double bound = std::min({ farthest(a.Triangle), farthest(b.Triangle), farthest(c.Triangle) });
+      if (bound > largest) // the piece below the middle is nearer to all of it, mostly
+      {
+        bound = std::min(bound, farthest(nearest((a.Place + b.Place + c.Place) / 3.0)));
       }
       if (reached > enough)
       {
@@ -57,13 +86,30 @@ LargestDistance FarthestFrom(const TriangleIndex<3>& surface, const PointMatrix&
         largest = std::max(largest, bound);
         continue;
       }
-      const Eigen::Vector3d ab = 0.5 * (a + b);
-      const Eigen::Vector3d bc = 0.5 * (b + c);
-      const Eigen::Vector3d ca = 0.5 * (c + a);
-      pieces.push_back({ a, ab, ca });
-      pieces.push_back({ ab, b, bc });
-      pieces.push_back({ ca, bc, c });
-      pieces.push_back({ ab, bc, ca });
+      // longest edges are divided: slivers become short ones, not as many times more slivers
+      std::size_t k = 0;
+      double length = -1.0;
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        const double edge = (piece[(i + 1) % 3].Place - piece[i].Place).squaredNorm();
+        if (edge > length)
+        {
+          length = edge;
+          k = i;
+        }
+      }
+      const Corner& first = piece[k];
+      const Corner& second = piece[(k + 1) % 3];
+      const Corner& third = piece[(k + 2) % 3];
+      Corner middle{ 0.5 * (first.Place + second.Place), -1 };
+      middle.Triangle = nearest(middle.Place);
+      if (reached > enough)
+      {
+        found.Value = reached;
+        return found;
+      }
+      pieces.push_back({ first, middle, third });
+      pieces.push_back({ middle, second, third });
     }
   }
   found.Value = largest;

@@ -868,6 +868,27 @@ catch (...)
   return StatusOfException();
 }
 
+DividedTriangles SnapTriangles(
+  const PointMatrix& points, const std::vector<MeshTriangle>& triangles, double distance)
+{
+  ExactPoints exact(points);
+  exact.NumGiven = 0; // points of the input may go
+  std::vector<Part> parts;
+  for (const MeshTriangle& corners : triangles)
+  {
+    parts.push_back({ corners, static_cast<int>(parts.size()) });
+  }
+  Snapping(parts, std::vector<char>(triangles.size(), 1), exact, distance).Run();
+  DividedTriangles result;
+  result.Points = points;
+  for (const Part& part : parts)
+  {
+    result.Triangles.push_back(part.Corners);
+    result.Sources.push_back(part.Source);
+  }
+  return result;
+}
+
 Result<SheetMesh> ArrangeSheets(const PointMatrix& points,
   const std::vector<MeshTriangle>& triangles, const std::vector<std::pair<int, int>>& pairs,
   double snap)

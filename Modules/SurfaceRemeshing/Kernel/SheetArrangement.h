@@ -40,6 +40,12 @@ struct DividedTriangles
 Result<DividedTriangles> DivideTriangles(const PointMatrix& points,
   const std::vector<MeshTriangle>& triangles, const std::vector<std::pair<int, int>>& pairs);
 
+/// Takes edges and heights away that are shorter than a distance: points are put on others, or
+/// edges led through points. What is closed stays closed.
+/// @return the same points, fewer of which are used.
+DividedTriangles SnapTriangles(
+  const PointMatrix& points, const std::vector<MeshTriangle>& triangles, double distance);
+
 /// Divides the triangles of pairs along what they have in common, exactly, and joins what comes
 /// together at an edge as the boundaries of the regions of equal winding number there: sheets
 /// touch, but do not cross. Triangles on top of each other that run oppositely cancel.

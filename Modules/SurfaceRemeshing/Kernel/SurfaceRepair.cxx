@@ -13,7 +13,9 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
@@ -25,10 +27,12 @@ namespace
 constexpr double StepShare = 1e-4; ///< of the diagonal: how far touching sheets are moved apart
 constexpr double SnapShare =
   1e-7; ///< of the diagonal: shorter edges and heights of divided triangles go
+constexpr double SliverShare = 1e-8;        ///< the same of all triangles: no mesher takes them
 constexpr double ToleranceShare = 1e-4;     ///< of the diagonal: of distances
 constexpr double WrapToleranceShare = 2e-3; ///< the same, of wraps
 constexpr double LooseShare = 0.05;         ///< of the area: open pieces above are no loose ones
-constexpr int NamedPlaces = 5;              ///< in messages
+constexpr double CrumbShare = 0.01; ///< of the diagonal: smaller open pieces between faults go
+constexpr int NamedPlaces = 5;      ///< in messages
 
 /// Triangles on their way.
 struct Soup
@@ -396,7 +400,18 @@ private:
     {
       return status;
     }
-    return this->FillHoles();
+    const std::size_t first = this->Work.Triangles.size();
+    Status status = this->FillHoles();
+    for (std::size_t t = first; t < this->Work.Triangles.size(); ++t)
+    {
+      std::array<Eigen::Vector3d, 3> corners;
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        corners[k] = this->Work.Point(this->Work.Triangles[t][k]);
+      }
+      this->Fillings.push_back(corners);
+    }
+    return status;
   }
 
   /// Edges that others meet, or that lie beside each other divided differently, become common.
@@ -644,7 +659,237 @@ private:
     }
   }
 
+  /// Edges and heights that are all but nothing go, with the triangles that have them.
+  void DropSlivers()
+  {
+    const double least = SliverShare * this->Result.Diagonal;
+    std::vector<int> slivers;
+    for (std::size_t t = 0; t < this->Work.Triangles.size(); ++t)
+    {
+      double longest = 0.0;
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        const MeshTriangle& corners = this->Work.Triangles[t];
+        longest = std::max(
+          longest, (this->Work.Point(corners[(k + 1) % 3]) - this->Work.Point(corners[k])).norm());
+      }
+      if (2.0 * this->Work.AreaOf(static_cast<int>(t)) < least * longest)
+      {
+        slivers.push_back(static_cast<int>(t));
+      }
+    }
+    if (slivers.empty())
+    {
+      return;
+    }
+    for (const int t : slivers)
+    {
+      this->Add(RepairKind::DegenerateFace, this->Work.MiddleOf(t), this->Work.AreaOf(t));
+    }
+    DividedTriangles snapped = SnapTriangles(this->Work.Points, this->Work.Triangles, least);
+    std::vector<int> sources;
+    for (const int source : snapped.Sources)
+    {
+      sources.push_back(this->Work.Sources[static_cast<std::size_t>(source)]);
+    }
+    this->Work.Triangles = std::move(snapped.Triangles);
+    this->Work.Sources = std::move(sources);
+  }
+
   Status Resolve()
+  {
+    this->DropSlivers();
+    const Soup before = this->Work;
+    Status status = this->SeparateAll();
+    if (status.Code == ErrorCode::NotConverged)
+    {
+      this->Work = before;
+      auto& actions = this->Result.Actions; // only what was found stays true
+      const auto isOfSheets = [](const RepairAction& action)
+      {
+        return action.Kind == RepairKind::DividedEdge || action.Kind == RepairKind::DividedPoint ||
+          action.Kind == RepairKind::CutTip || action.Kind == RepairKind::Overlap ||
+          action.Kind == RepairKind::InnerWall;
+      };
+      actions.erase(std::remove_if(actions.begin(), actions.end(), isOfSheets), actions.end());
+      if (this->PatchFaults())
+      {
+        return {};
+      }
+    }
+    return status;
+  }
+
+  /// Triangles of what meets, of edges of more or less than two triangles and of points of several
+  /// fans.
+  std::vector<char> FindFaults() const
+  {
+    std::vector<char> faults =
+      FindDegenerate(this->Work.Points, this->Work.Triangles, this->Params.Threads);
+    if (std::none_of(faults.begin(), faults.end(), [](char is) { return is != 0; }))
+    {
+      for (const auto& [s, t] : this->Intersections())
+      {
+        faults[static_cast<std::size_t>(s)] = 1;
+        faults[static_cast<std::size_t>(t)] = 1;
+      }
+    }
+    const SoupDefects defects = this->Defects();
+    std::set<int> points(defects.SplitPoints.begin(), defects.SplitPoints.end());
+    for (const auto* edges : { &defects.OpenEdges, &defects.CrowdedEdges, &defects.TwistedEdges })
+    {
+      for (const auto& [a, b] : *edges)
+      {
+        points.insert({ a, b });
+      }
+    }
+    this->AddFans(points, faults);
+    return faults;
+  }
+  /// Adds the triangles around points.
+  void AddFans(const std::set<int>& points, std::vector<char>& triangles) const
+  {
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+    {
+      for (const int corner : this->Work.Triangles[t])
+      {
+        triangles[t] = triangles[t] || points.count(corner) > 0 ? 1 : 0;
+      }
+    }
+  }
+  void Grow(std::vector<char>& triangles) const
+  {
+    std::set<int> points;
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+    {
+      if (triangles[t])
+      {
+        points.insert(this->Work.Triangles[t].begin(), this->Work.Triangles[t].end());
+      }
+    }
+    this->AddFans(points, triangles);
+  }
+
+  /// The last way where sheets do not come apart: triangles around faults go and the holes are
+  /// closed, each time with more around what is left.
+  /// @return whether there are no faults any more.
+  /// @source Attene, A lightweight approach to repairing digitized polygon meshes, The Visual
+  /// Computer 26 (2010) 1393.
+  bool PatchFaults()
+  {
+    constexpr int MostRounds = 16;
+    constexpr int RoundsOfARing = 2; // that are tried with so much around the faults
+    for (int round = 0; round < MostRounds && this->GoesOn(); ++round)
+    {
+      std::vector<char> faults = this->FindFaults();
+      if (std::none_of(faults.begin(), faults.end(), [](char is) { return is != 0; }))
+      {
+        return true;
+      }
+      for (int ring = 0; ring < round / RoundsOfARing; ++ring)
+      {
+        this->Grow(faults);
+      }
+      const Soup gone = this->TakeAway(faults);
+      this->Patch(gone);
+    }
+    return false;
+  }
+  /// Takes triangles away, so that rims of single fans stay, and small open pieces that are left.
+  Soup TakeAway(const std::vector<char>& faults)
+  {
+    Soup gone = this->Work;
+    gone.Filter([&](int t) { return faults[static_cast<std::size_t>(t)] != 0; });
+    const auto drop = [&](const std::vector<char>& triangles)
+    {
+      for (std::size_t t = 0; t < triangles.size(); ++t)
+      {
+        if (triangles[t])
+        {
+          gone.Triangles.push_back(this->Work.Triangles[t]);
+          gone.Sources.push_back(this->Work.Sources[t]);
+        }
+      }
+      this->Work.Filter([&](int t) { return !triangles[static_cast<std::size_t>(t)]; });
+    };
+    this->Work.Filter([&](int t) { return !faults[static_cast<std::size_t>(t)]; });
+    for (;;)
+    {
+      std::vector<char> more(this->Work.Triangles.size(), 0);
+      const SoupDefects defects = this->Defects();
+      this->AddFans({ defects.SplitPoints.begin(), defects.SplitPoints.end() }, more);
+      this->AddCrumbs(more);
+      if (std::none_of(more.begin(), more.end(), [](char is) { return is != 0; }))
+      {
+        return gone;
+      }
+      drop(more);
+    }
+  }
+  /// Adds open parts that are smaller than the result may be off.
+  void AddCrumbs(std::vector<char>& crumbs) const
+  {
+    int count = 0;
+    const std::vector<int> parts = NumberParts(this->Work.Triangles, false, count);
+    std::vector<Eigen::AlignedBox3d> boxes(static_cast<std::size_t>(count));
+    std::vector<char> isOpen(static_cast<std::size_t>(count), 0);
+    ForEachEdge(SortedSides(this->Work.Triangles),
+      [&](const SoupSide* begin, const SoupSide* end)
+      {
+        const auto part =
+          static_cast<std::size_t>(parts[static_cast<std::size_t>(begin->Triangle)]);
+        isOpen[part] |= end - begin == 1 ? 1 : 0;
+      });
+    for (std::size_t t = 0; t < parts.size(); ++t)
+    {
+      for (const int corner : this->Work.Triangles[t])
+      {
+        boxes[static_cast<std::size_t>(parts[t])].extend(this->Work.Point(corner));
+      }
+    }
+    const double most = std::min(this->Params.Limit, CrumbShare) * this->Result.Diagonal;
+    for (std::size_t t = 0; t < parts.size(); ++t)
+    {
+      const auto part = static_cast<std::size_t>(parts[t]);
+      if (isOpen[part] && boxes[part].diagonal().norm() <= most)
+      {
+        crumbs[t] = 1;
+      }
+    }
+  }
+  /// Closes all holes with triangles that come from the nearest ones that went.
+  void Patch(const Soup& gone)
+  {
+    const std::size_t before = this->Work.Triangles.size();
+    const SoupDefects defects = this->Defects();
+    const std::map<std::pair<int, int>, int> apexes = this->Apexes(defects);
+    for (std::vector<int>& rim : TraceRims(this->Work.Triangles, defects))
+    {
+      const Eigen::Vector3d middle = MiddleOfRim(this->Work, rim);
+      const double diameter = DiagonalOf(this->Work.Points, rim);
+      if (this->FillHole(rim, apexes))
+      {
+        this->Add(RepairKind::Patch, middle, diameter);
+      }
+    }
+    for (std::size_t t = before; t < this->Work.Triangles.size(); ++t)
+    {
+      const Eigen::Vector3d middle = this->Work.MiddleOf(static_cast<int>(t));
+      double nearest = std::numeric_limits<double>::infinity();
+      for (std::size_t g = 0; g < gone.Triangles.size(); ++g)
+      {
+        const double squared = (gone.MiddleOf(static_cast<int>(g)) - middle).squaredNorm();
+        if (squared < nearest)
+        {
+          nearest = squared;
+          this->Work.Sources[t] = gone.Sources[g];
+        }
+      }
+    }
+  }
+
+  /// Divides triangles where they meet and moves sheets apart.
+  Status SeparateAll()
   {
     constexpr int MostRounds = 6;
     constexpr std::size_t MostNew = 100; // pairs of a round
@@ -1013,8 +1258,8 @@ private:
       }
     }
     const double tolerance = ToleranceShare * result.Diagonal;
-    const LargestDistance from = FarthestFrom(
-      TriangleIndex<3>(this->Input.Points, given), result.Mesh.Points, changed, tolerance);
+    const LargestDistance from =
+      FarthestFrom(this->InputAndFillings(given), result.Mesh.Points, changed, tolerance);
     const LargestDistance to =
       FarthestFrom(TriangleIndex<3>(result.Mesh.Points, result.Mesh.Triangles), this->Input.Points,
         lost, tolerance);
@@ -1029,6 +1274,23 @@ private:
       "the repaired surface is " + Digits(larger.Value / result.Diagonal, 3) +
         " of the diagonal from the given one at " + Place(larger.Place) + ", where " +
         this->NearestAction(larger.Place) + "; mend the triangles there, or raise Limit" };
+  }
+  /// The input and the triangles that closed its holes, which patches may lie on.
+  TriangleIndex<3> InputAndFillings(std::vector<MeshTriangle> triangles) const
+  {
+    auto count = this->Input.Points.rows();
+    PointMatrix points(count + 3 * static_cast<Eigen::Index>(this->Fillings.size()), 3);
+    points.topRows(count) = this->Input.Points;
+    for (const auto& corners : this->Fillings)
+    {
+      const auto first = static_cast<int>(count);
+      triangles.push_back({ first, first + 1, first + 2 });
+      for (const Eigen::Vector3d& corner : corners)
+      {
+        points.row(count++) = corner.transpose();
+      }
+    }
+    return { std::move(points), std::move(triangles) };
   }
   /// What was done next to a place, in words.
   std::string NearestAction(const Eigen::Vector3d& place) const
@@ -1050,6 +1312,7 @@ private:
   const SurfaceRepairParams& Params;
   std::vector<int> FirstOfEqual;
   Soup Work;
+  std::vector<std::array<Eigen::Vector3d, 3>> Fillings; ///< triangles that closed holes
   SurfaceRepair Result;
   double Done = 0.0;
   double Shown = 0.0; ///< of the progress
@@ -1086,6 +1349,8 @@ const char* ToString(RepairKind kind)
       return "inner_walls";
     case RepairKind::SmallPart:
       return "small_parts";
+    case RepairKind::Patch:
+      return "patches";
   }
   return "";
 }

@@ -22,9 +22,10 @@ enum class RepairKind
   CutTip,             ///< a point of touching fans that could not be moved apart was cut off
   Overlap,            ///< a sheet of an overlap, nearer to the surface than OverlapDepth, went
   InnerWall,          ///< a sheet of a deeper overlap stayed, as a wall of its own
-  SmallPart           ///< a part smaller than SmallestPart went
+  SmallPart,          ///< a part smaller than SmallestPart went
+  Patch ///< triangles around sheets that did not come apart went, and the hole was closed
 };
-inline constexpr int NumRepairKinds = static_cast<int>(RepairKind::SmallPart) + 1;
+inline constexpr int NumRepairKinds = static_cast<int>(RepairKind::Patch) + 1;
 
 /// In words of the report: "degenerate_faces".
 const char* ToString(RepairKind kind);
@@ -34,7 +35,7 @@ struct RepairAction
   RepairKind Kind;
   Eigen::Vector3d Place;
   double Size =
-    0.0; ///< an area, of DividedEdge, DividedPoint and CutTip none, of Hole its diameter
+    0.0; ///< an area, of DividedEdge, DividedPoint and CutTip none, of Hole and Patch the diameter
 };
 
 struct SurfaceRepairParams
@@ -82,7 +83,7 @@ struct SurfaceRepair
   RepairNumbers Before;
   RepairNumbers After;
   double DistanceFromInput =
-    0.0; ///< farthest that the result is from the input, but for new triangles in holes
+    0.0; ///< farthest that the result is from the input and from what closed its holes
   double DistanceToInput = 0.0; ///< farthest that the input is from the result
   double Diagonal = 0.0;        ///< of the input's box
 

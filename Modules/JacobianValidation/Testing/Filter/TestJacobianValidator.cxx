@@ -467,7 +467,7 @@ TEST(JacobianValidator, BadInputIsOneError_PropertyOracle)
     EXPECT_EQ(filter->GetOutputDataObject(2)->GetNumberOfElements(vtkDataObject::ROW), 0);
   };
   const Points five(5, { 0, 0, 0 });
-  expect(OneCell(VTK_PYRAMID, five), "vtkPyramid");
+  expect(OneCell(VTK_POLYGON, five), "vtkPolygon");
   expect(OneCell(VTK_QUAD, { { 0, 0, 0 }, { 1, 0, 0 }, { NAN, 1, 0 }, { 0, 1, 0 } }), "cell 0");
   auto weightless = BiquadraticSquare(0.5, 0.5);
   vtkNew<vtkDoubleArray> weights;

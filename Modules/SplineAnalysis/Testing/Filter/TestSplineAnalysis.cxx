@@ -15,6 +15,7 @@
 #include "vtkTable.h"
 #include "vtkVariant.h"
 
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -316,6 +317,20 @@ TEST(vtkSplineAnalysis, BadInputIsOneError_PropertyOracle)
   points->SetPoint(2, std::nan(""), 0.0, 0.0);
   points->Modified();
   ExpectFailure(filter, ErrorCode::NonFiniteInput, "");
+
+  vtkNew<vtkUnstructuredGrid> pyramid;
+  vtkNew<vtkPoints> corners;
+  for (const auto& [x, y, z] : { std::array{ 0, 0, 0 }, std::array{ 1, 0, 0 },
+         std::array{ 1, 1, 0 }, std::array{ 0, 1, 0 }, std::array{ 0, 0, 1 } })
+  {
+    corners->InsertNextPoint(x, y, z);
+  }
+  pyramid->SetPoints(corners);
+  const vtkIdType all[] = { 0, 1, 2, 3, 4 };
+  pyramid->InsertNextCell(VTK_PYRAMID, 5, all);
+  filter->SetInputDataObject(pyramid);
+  ExpectFailure(
+    filter, ErrorCode::InvalidTopology, "cell 0: pyramids are not analysed; divide them");
 
   vtkNew<vtkUnstructuredGrid> empty;
   filter->SetInputDataObject(empty);

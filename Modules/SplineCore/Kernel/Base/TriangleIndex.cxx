@@ -2,6 +2,7 @@
 #include "TriangleIndex.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <tuple>
 
@@ -22,6 +23,44 @@ double AlongSegment(const Row<Dim>& side, const Row<Dim>& offset)
     : 0.0;
 }
 
+constexpr double FairFill =
+  0.125; ///< area of a triangle over that of its box, of fair ones at least
+constexpr double FairShare = 4.0; ///< of a triangle in the box of all, times their number, at most
+constexpr int MostStrips = 64;
+constexpr double FootMargin = 1e-13; ///< of the coordinates: of boxes of strips
+
+/// Half of the surface of a box.
+template <int Dim>
+double HalfArea(const Row<Dim>& sides)
+{
+  double sum = 0.0;
+  for (int i = 0; i < Dim; ++i)
+  {
+    for (int j = 0; j < i; ++j)
+    {
+      sum += sides(i) * sides(j);
+    }
+  }
+  return sum;
+}
+
+/// The corner at which the longest edge of a triangle begins.
+template <int Dim>
+std::size_t LongestEdge(const std::array<Row<Dim>, 3>& corners)
+{
+  std::size_t longest = 0;
+  double length = -1.0;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const double squared = (corners[(k + 1) % 3] - corners[k]).squaredNorm();
+    if (squared > length)
+    {
+      length = squared;
+      longest = k;
+    }
+  }
+  return longest;
+}
 }
 
 template <int Dim>
@@ -193,10 +232,39 @@ template <int Dim>
 TriangleIndex<Dim>::TriangleIndex(PointMatrix points, std::vector<MeshTriangle> triangles)
   : Corners(std::move(points)), Mesh(std::move(triangles))
 {
+  this->MakeStrips();
   PointMatrix lower;
   PointMatrix upper;
   this->Boxes(lower, upper);
   this->Tree = BoxTree(lower, upper);
+}
+
+template <int Dim>
+void TriangleIndex<Dim>::MakeStrips()
+{
+  // n strips have boxes of a share 1 / n^2 of the triangle's each
+  const double whole = HalfArea<Dim>(
+    Row<Dim>(this->Corners.colwise().maxCoeff()) - Row<Dim>(this->Corners.colwise().minCoeff()));
+  const double largest = FairShare * whole / static_cast<double>(this->Mesh.size());
+  for (std::size_t t = 0; t < this->Mesh.size(); ++t)
+  {
+    const auto& [a, b, c] = this->Mesh[t];
+    const Row<Dim> ab = this->Corners.row(b) - this->Corners.row(a);
+    const Row<Dim> ac = this->Corners.row(c) - this->Corners.row(a);
+    const double box = HalfArea<Dim>(ab.cwiseMax(ac).cwiseMax(0.0) - ab.cwiseMin(ac).cwiseMin(0.0));
+    const double area =
+      0.5 * std::sqrt(std::max(ab.squaredNorm() * ac.squaredNorm() - ab.dot(ac) * ab.dot(ac), 0.0));
+    int count = 1;
+    if (box > largest && FairFill * box > area)
+    {
+      const double wanted = std::min(std::sqrt(box / largest), FairFill * box / area);
+      count = static_cast<int>(std::ceil(std::min(wanted, static_cast<double>(MostStrips))));
+    }
+    for (int i = 0; i < count; ++i)
+    {
+      this->Strips.push_back({ static_cast<int>(t), i, count });
+    }
+  }
 }
 
 template <int Dim>
@@ -212,26 +280,63 @@ void TriangleIndex<Dim>::Move(const PointMatrixView& points)
 template <int Dim>
 void TriangleIndex<Dim>::Boxes(PointMatrix& lower, PointMatrix& upper) const
 {
-  const auto n = static_cast<Eigen::Index>(this->Mesh.size());
+  const auto n = static_cast<Eigen::Index>(this->Strips.size());
   lower.resize(n, Dim);
   upper.resize(n, Dim);
-  for (Eigen::Index t = 0; t < n; ++t)
+  for (Eigen::Index i = 0; i < n; ++i)
   {
-    const MeshTriangle& corners = this->Mesh[static_cast<std::size_t>(t)];
-    const auto a = this->Corners.row(corners[0]);
-    const auto b = this->Corners.row(corners[1]);
-    const auto c = this->Corners.row(corners[2]);
-    lower.row(t) = a.cwiseMin(b).cwiseMin(c);
-    upper.row(t) = a.cwiseMax(b).cwiseMax(c);
+    const auto& [triangle, number, count] = this->Strips[static_cast<std::size_t>(i)];
+    const MeshTriangle& ids = this->Mesh[static_cast<std::size_t>(triangle)];
+    const std::array<Row<Dim>, 3> corners = { this->Corners.row(ids[0]), this->Corners.row(ids[1]),
+      this->Corners.row(ids[2]) };
+    const Row<Dim> low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
+    const Row<Dim> high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
+    lower.row(i) = low;
+    upper.row(i) = high;
+    if (count > 1)
+    {
+      const std::size_t k = LongestEdge<Dim>(corners);
+      const Row<Dim>& a = corners[k];
+      const Row<Dim>& b = corners[(k + 1) % 3];
+      const Row<Dim>& c = corners[(k + 2) % 3];
+      // what is cut across the longest edge, at the shares of it where the strip begins and ends,
+      // and a little more, for feet are rounded
+      const Row<Dim> side = b - a;
+      const double foot = AlongSegment<Dim>(side, c - a);
+      const double first = static_cast<double>(number) / count;
+      const double last = static_cast<double>(number + 1) / count;
+      Row<Dim> least = Row<Dim>::Constant(std::numeric_limits<double>::infinity());
+      Row<Dim> most = -least;
+      const auto add = [&](const Row<Dim>& point)
+      {
+        least = least.cwiseMin(point);
+        most = most.cwiseMax(point);
+      };
+      for (const double share : { first, last })
+      {
+        add(a + share * side);
+        add(share < foot ? Row<Dim>(a + share / foot * (c - a))
+                         : Row<Dim>(b + (1.0 - share) / std::max(1.0 - foot, 1e-300) * (c - b)));
+      }
+      if (first <= foot && foot <= last)
+      {
+        add(c);
+      }
+      const double margin = FootMargin * low.cwiseAbs().cwiseMax(high.cwiseAbs()).maxCoeff();
+      lower.row(i) = (least.array() - margin).matrix().cwiseMax(low);
+      upper.row(i) = (most.array() + margin).matrix().cwiseMin(high);
+    }
   }
 }
 
 template <int Dim>
 TriangleFoot TriangleIndex<Dim>::Nearest(const double* point, double bound) const
 {
+  const auto triangle = [this](int strip)
+  { return this->Strips[static_cast<std::size_t>(strip)].Triangle; };
   const NearestItem nearest = this->Tree.Nearest(
-    point, [&](int triangle) { return this->Foot(triangle, point).SquaredDistance; }, bound);
-  return nearest.Item < 0 ? TriangleFoot{} : this->Foot(nearest.Item, point);
+    point, [&](int strip) { return this->Foot(triangle(strip), point).SquaredDistance; }, bound);
+  return nearest.Item < 0 ? TriangleFoot{} : this->Foot(triangle(nearest.Item), point);
 }
 
 template TriangleFoot ClosestOnTriangle<2>(

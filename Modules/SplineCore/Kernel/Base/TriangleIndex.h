@@ -46,7 +46,10 @@ std::vector<MeshTriangle> ReplaceCorners(
 /// more than one.
 std::vector<MeshTriangle> TriangleNeighbours(const std::vector<MeshTriangle>& triangles);
 
-/// Closest points on a triangle mesh in Dim-space, whose points may move.
+/// Closest points on a triangle mesh in Dim-space, whose points may move. Long slivers that run
+/// aslant are held by several boxes, along their longest edges, so that these enclose little else.
+/// @source Ernst, Greiner, Early split clipping for bounding volume hierarchies, IEEE Symposium on
+/// Interactive Ray Tracing 2007.
 template <int Dim>
 class TriangleIndex
 {
@@ -81,10 +84,19 @@ public:
     const double* point, double bound = std::numeric_limits<double>::infinity()) const;
 
 private:
+  /// Part of a triangle, of equal ones along its longest edge.
+  struct Strip
+  {
+    int Triangle;
+    int Number;
+    int Count;
+  };
+  void MakeStrips();
   void Boxes(PointMatrix& lower, PointMatrix& upper) const;
 
   PointMatrix Corners;
   std::vector<MeshTriangle> Mesh;
+  std::vector<Strip> Strips; ///< that the boxes of the tree enclose, ascending
   BoxTree Tree;
 };
 }

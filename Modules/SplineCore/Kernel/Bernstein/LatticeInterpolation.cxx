@@ -164,15 +164,14 @@ LongMatrix LatticeInterpolation::Coefficients(const LongMatrix& values) const
 }
 
 Eigen::MatrixXd LatticeInterpolation::Bound(
-  const LongMatrix& values, const Eigen::MatrixXd& used) const
+  const LongMatrix& values, const LongMatrix& exactly, long double rounding) const
 {
   // M - exact = B^-1 (B M - W) for the matrix M that is used; the residual in long double is off by
   // less than 64 of its roundings times |B| |M|. Then one rounding a product and one a sum.
-  const LongMatrix exactly = used.cast<long double>();
   constexpr long double longRounding = std::numeric_limits<long double>::epsilon();
   const LongMatrix residual = (ApplyFactors(this->Collocation, exactly) - values).cwiseAbs() +
     64.0L * longRounding * ApplyFactors(Absolute(this->Collocation), exactly.cwiseAbs());
-  const long double sums = static_cast<long double>(used.cols() + 2) * 0x1p-53L;
+  const long double sums = static_cast<long double>(exactly.cols() + 2) * rounding;
   return (1.0625L * (ApplyFactors(Absolute(this->Inverse), residual) + sums * exactly.cwiseAbs()))
     .cast<double>();
 }

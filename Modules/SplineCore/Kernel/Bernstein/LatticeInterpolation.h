@@ -24,7 +24,9 @@ public:
   /// What products of a matrix, coefficients of functions of the given values, with numbers may be
   /// off by, times the numbers' absolute values: rounding of the entries, of products and sums.
   /// @param used  near Coefficients(values).
-  Eigen::MatrixXd Bound(const LongMatrix& values, const Eigen::MatrixXd& used) const;
+  /// @param rounding  unit roundoff of products and sums.
+  Eigen::MatrixXd Bound(
+    const LongMatrix& values, const LongMatrix& used, long double rounding = 0x1p-53L) const;
 
 private:
   std::vector<LongMatrix> Collocation; ///< of every factor, the fastest first

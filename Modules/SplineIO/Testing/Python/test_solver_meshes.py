@@ -7,9 +7,11 @@ import os
 import knotwork
 import knotwork_testing
 import numpy as np
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import (VTK_HEXAHEDRON, VTK_LINE, VTK_QUADRATIC_HEXAHEDRON, VTK_QUADRATIC_TETRA, VTK_QUADRATIC_WEDGE,
-                                           VTK_TETRA, VTK_TRIANGLE)
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import (VTK_BEZIER_CURVE, VTK_BEZIER_QUADRILATERAL, VTK_BEZIER_TETRAHEDRON, VTK_BEZIER_TRIANGLE, VTK_HEXAHEDRON,
+                                           VTK_LAGRANGE_CURVE, VTK_LINE, VTK_QUADRATIC_HEXAHEDRON, VTK_QUADRATIC_TETRA, VTK_QUADRATIC_WEDGE,
+                                           VTK_TETRA, VTK_TRIANGLE, vtkUnstructuredGrid)
 
 def path(name):
     return knotwork_testing.output("solver_meshes/" + name)
@@ -116,6 +118,90 @@ def test_abaqus():
     assert report["verdict"] == "valid" and abs(report["measure"] - (1 / 6 + 1 + 1 / 2)) < 1e-12, report
     knotwork.write(grid, path("three.msh"))
     assert abs(validated(path("three.msh"))[0]["measure"] - 5 / 3) < 1e-12
+
+
+def bezier_cells():
+    """Polynomial Bezier cells with moved points: hexahedra of a spline, and one of each other shape."""
+    source = knotwork.vtkSplineSource()
+    source.SetShapeName("Cube")
+    source.SetDegree(3)
+    source.SetElements(2, 1, 2)
+    source.Update()
+    cells = [source.GetOutput()]
+    for kind, degree, count in ((VTK_BEZIER_TRIANGLE, 3, 10), (VTK_BEZIER_QUADRILATERAL, 4, 25), (VTK_BEZIER_TETRAHEDRON, 2, 10), (VTK_BEZIER_CURVE, 5, 6)):
+        grid = vtkUnstructuredGrid()
+        lagrange = vtkUnstructuredGrid()
+        for one in (grid, lagrange):
+            points = vtkPoints()
+            points.SetDataTypeToDouble()
+            points.SetNumberOfPoints(count)
+            one.SetPoints(points)
+        lagrange.InsertNextCell(kind - VTK_BEZIER_CURVE + VTK_LAGRANGE_CURVE, count, list(range(count)))
+        places = lagrange.GetCell(0).GetParametricCoords()
+        for i in range(count):
+            grid.GetPoints().SetPoint(i, *places[3 * i:3 * i + 3])
+        grid.InsertNextCell(kind, count, list(range(count)))
+        cells.append(grid)
+    random = np.random.default_rng(3)
+    for grid in cells:
+        points = vtk_to_numpy(grid.GetPoints().GetData())
+        points += 0.03 * random.uniform(-1, 1, points.shape)
+    return cells
+
+
+def test_bezier_cells_become_nodes_of_the_same_polynomials():
+    for grid in bezier_cells():
+        file = path("bezier.msh")
+        knotwork.write(grid, file)
+        again = knotwork.read(file)
+        assert again.GetNumberOfPoints() == grid.GetNumberOfPoints() and again.GetNumberOfCells() == grid.GetNumberOfCells()
+        found = []
+        for one in (grid, again):
+            validator = knotwork.vtkJacobianValidator()
+            validator.SetInputData(one)
+            validator.SetRelativeGap(1e-6)
+            validator.Update()
+            found.append([array(validator.GetOutput(), name) for name in ("CellMeasure", "JacobianMinLower", "JacobianMinUpper")])
+        # rounding of the nodes, and the gap of the bounds
+        assert np.allclose(found[0][0], found[1][0], rtol=1e-12, atol=1e-14), found
+        assert np.allclose(found[0][1:], found[1][1:], rtol=3e-6), found
+    tube = knotwork.vtkSplineSource()
+    tube.SetShapeName("SolidTube")
+    tube.SetDegree(2)
+    tube.Update()
+    for cells, words in ((tube.GetOutput(), "cell 0 is rational"), (uneven_cell(), "no degree"), (curves_of_one_point(), "share point 2")):
+        try:
+            knotwork.write(cells, path("bezier.msh"))
+        except knotwork.errors.Error as error:
+            assert words in str(error), error
+            continue
+        raise AssertionError(words)
+
+
+def curves_of_one_point():
+    """Two parabolas with the coefficient in the middle in common, and nothing else."""
+    grid = vtkUnstructuredGrid()
+    points = vtkPoints()
+    for x, y in ((0, 0), (2, 0), (1, 1), (0, 4), (2, 5)):
+        points.InsertNextPoint(x, y, 0)
+    grid.SetPoints(points)
+    for ends in ((0, 1), (3, 4)):
+        grid.InsertNextCell(VTK_BEZIER_CURVE, 3, [*ends, 2])
+    return grid
+
+
+def uneven_cell():
+    """Of degrees 2 and 1."""
+    grid = vtkUnstructuredGrid()
+    points = vtkPoints()
+    for x, y in ((0, 0), (2, 0), (2, 1), (0, 1), (1, 0), (1, 1)):
+        points.InsertNextPoint(x, y, 0)
+    grid.SetPoints(points)
+    grid.InsertNextCell(VTK_BEZIER_QUADRILATERAL, 6, list(range(6)))
+    degrees = numpy_to_vtk(np.array([[2.0, 1.0, 0.0]]), deep=True)
+    degrees.SetName("HigherOrderDegrees")
+    grid.GetCellData().SetHigherOrderDegrees(degrees)
+    return grid
 
 
 def test_refused():

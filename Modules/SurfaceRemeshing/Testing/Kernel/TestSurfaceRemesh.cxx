@@ -2,6 +2,7 @@
 #include "SurfaceRemesh.h"
 
 #include "EdgeSizes.h"
+#include "FarthestDistance.h"
 #include "SimpleSolids.h"
 #include "SolidOracle.h"
 #include "SoupTopology.h"
@@ -91,6 +92,40 @@ double LengthOf(const TriangleMesh& mesh, const std::array<int, 2>& line)
 {
   return (mesh.Points.row(line[0]) - mesh.Points.row(line[1])).norm();
 }
+}
+
+TEST(FarthestFrom, SliversAboveAPlane_ExactOracle)
+{
+  // a fan of slivers at a slope over one large triangle: farthest at its highest corner
+  constexpr int n = 200;
+  PointMatrix fan(n + 2, 3);
+  std::vector<MeshTriangle> slivers;
+  fan.row(0) << 0.0, 0.0, 0.0;
+  for (int i = 0; i <= n; ++i)
+  {
+    const double angle = 0.5 * M_PI * i / n;
+    fan.row(i + 1) << std::cos(angle), std::sin(angle), 0.25 * i / n;
+    if (i > 0)
+    {
+      slivers.push_back({ 0, i, i + 1 });
+    }
+  }
+  PointMatrix plane(3, 3);
+  plane << -9.0, -9.0, 0.0, 9.0, -9.0, 0.0, 0.0, 9.0, 0.0;
+  const TriangleIndex<3> below(plane, { { 0, 1, 2 } });
+  EXPECT_DOUBLE_EQ(FarthestFrom(below, fan, slivers, 1e-6).Value, 0.25);
+  EXPECT_GT(FarthestFrom(below, fan, slivers, 1e-6, 0.1).Value, 0.1);
+  // from the plane: the far corners of the triangle
+  const LargestDistance back =
+    FarthestFrom(TriangleIndex<3>(fan, slivers), plane, below.Triangles(), 1e-3);
+  double farthest = 0.0;
+  for (const Eigen::Index i : { 0, 1, 2 })
+  {
+    const TriangleFoot foot = TriangleIndex<3>(fan, slivers).Nearest(plane.row(i).data());
+    farthest = std::max(farthest, std::sqrt(foot.SquaredDistance));
+  }
+  EXPECT_GE(back.Value, farthest);
+  EXPECT_LE(back.Value, farthest + 1e-3);
 }
 
 TEST(SurfaceRemesh, CubeStaysACube_ExactOracle)

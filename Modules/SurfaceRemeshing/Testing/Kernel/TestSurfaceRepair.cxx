@@ -249,6 +249,44 @@ TEST_P(DamagedBalls, AreRepaired_Property)
 }
 INSTANTIATE_TEST_SUITE_P(RepairSurface, DamagedBalls, testing::Range(0U, 6U));
 
+TEST(RepairSurface, CrumpledPlacesArePatched_Property)
+{
+  // points of a cap are moved by some edges each: where sheets do not come apart, it is made anew
+  int patched = 0;
+  for (const unsigned seed : { 1U, 4U, 5U })
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> real(-1.0, 1.0);
+    TriangleMesh ball = Ball(32);
+    for (Eigen::Index i = 0; i < ball.Points.rows(); ++i)
+    {
+      if (ball.Points(i, 0) > 0.92)
+      {
+        ball.Points.row(i) += 0.25 * Eigen::RowVector3d(real(random), real(random), real(random));
+      }
+    }
+    SurfaceRepairParams params;
+    params.Limit = 0.2; // what is moved goes
+    const auto repaired = RepairSurface(ball, params);
+    ASSERT_TRUE(repaired) << repaired.Status.Message();
+    ExpectSolid(repaired->Mesh);
+    EXPECT_NEAR(repaired->After.Volume, 4.18, 0.1); // of the cap some 0.1
+    EXPECT_LE(SampledDistance(ball, repaired->Mesh), repaired->DistanceToInput + 1e-12);
+    EXPECT_LE(SampledDistance(repaired->Mesh, ball), repaired->DistanceFromInput + 1e-12);
+    if (repaired->Count(RepairKind::Patch) > 0)
+    {
+      ++patched;
+      EXPECT_EQ(repaired->Count(RepairKind::InnerWall), 0);
+      params.Limit = 0.01;
+      const auto refused = RepairSurface(ball, params);
+      EXPECT_EQ(refused.Status.Code, ErrorCode::NotConverged);
+      EXPECT_NE(refused.Status.Detail.find("raise Limit"), std::string::npos);
+    }
+  }
+  EXPECT_GT(patched, 0);
+}
+
 TEST(RepairSurface, OneThreadAndManyGiveTheSame_Exact)
 {
   const TriangleMesh boxes = Both(Box(), Box({ 0.5, 0.25, 0.25 }, { 1, 0.5, 0.5 }));

@@ -154,6 +154,53 @@ TEST(TriangleIndex, AgreesWithTryingAllTriangles_CrossOracle)
   }
 }
 
+TEST(TriangleIndex, SliversAgreeWithTryingAllTriangles_CrossOracle)
+{
+  // a twisted ribbon of slivers from one end to the other, aslant to all axes, then moved
+  constexpr int n = 300;
+  PointMatrix points(2 * n, 3);
+  std::vector<MeshTriangle> triangles;
+  for (int i = 0; i < n; ++i)
+  {
+    const double angle = 3.0 * i / n;
+    points.row(i) << std::cos(angle), std::sin(angle), 0.1 * angle;
+    points.row(n + i) << -2.0 * std::cos(angle), -std::sin(angle), 1.0 + 0.3 * angle;
+    if (i > 0)
+    {
+      triangles.push_back({ i - 1, i, n + i });
+      triangles.push_back({ i - 1, n + i, n + i - 1 });
+    }
+  }
+  TriangleIndex<3> index(points, triangles);
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> real(-1.0, 1.0);
+  for (int q = 0; q < 600; ++q)
+  {
+    SCOPED_TRACE(q);
+    if (q == 300)
+    {
+      points.col(0) += 0.7 * points.col(2);
+      points.col(1) *= -3.0;
+      index.Move(points);
+    }
+    const int t = static_cast<int>(random() % triangles.size());
+    const double share = 0.5 + 0.5 * real(random);
+    const Row on = index.PointAt(t, share, 0.5 * (1.0 - share));
+    const double away = q % 3 == 0 ? 0.0 : std::pow(10.0, -(q % 7));
+    const Row p = on + away * Row(real(random), real(random), real(random));
+    TriangleFoot expected;
+    for (std::size_t other = 0; other < triangles.size(); ++other)
+    {
+      const TriangleFoot foot = index.Foot(static_cast<int>(other), p.data());
+      expected = foot.SquaredDistance < expected.SquaredDistance ? foot : expected;
+    }
+    const TriangleFoot found = index.Nearest(p.data());
+    EXPECT_EQ(found.Triangle, expected.Triangle);
+    EXPECT_EQ(found.SquaredDistance, expected.SquaredDistance);
+    EXPECT_EQ(index.Nearest(p.data(), expected.SquaredDistance).Triangle, expected.Triangle);
+  }
+}
+
 TEST(TriangleIndex, NeighboursShareAnEdge_ExactOracle)
 {
   const cases::Triangles fan{ { 0, 1, 2 }, { 2, 1, 3 }, { 4, 5, 6 }, { 0, 2, 7 }, { 7, 2, 0 } };
