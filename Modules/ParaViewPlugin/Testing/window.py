@@ -1,0 +1,176 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Drives ParaView's window from inside, by `paraview --script`: menus, panels and dialogs as a user sees them.
+
+Actions are triggered, buttons clicked and fields filled in; nothing is reached that the window does not show or that is grey. PyQt5 wraps the
+widgets of the running program."""
+import os
+
+from PyQt5 import QtCore, QtWidgets
+from PyQt5.QtTest import QTest
+
+PATIENCE = 120  # seconds that a filter may take
+
+
+def plain(text):
+    return text.replace("&", "").split("\t")[0]
+
+
+class Window:
+    def __init__(self, size=(1000, 760)):
+        self.app = QtWidgets.QApplication.instance()
+        self.main = next(each for each in self.app.topLevelWidgets() if each.objectName() == "pqClientMainWindow")
+        self.main.resize(*size)
+        self.wait(0.5)
+
+    def wait(self, seconds):
+        QTest.qWait(int(1000 * seconds))
+
+    def until(self, what, condition):
+        for _ in range(10 * PATIENCE):
+            found = condition()
+            if found:
+                return found
+            self.wait(0.1)
+        raise AssertionError(f"there is no {what} after {PATIENCE} s")
+
+    def menu(self, *words):
+        """Triggers the action at the end of a path of menus, which must not be grey."""
+        menu = self.main.menuBar()
+        for word in words[:-1]:
+            menu = self.entry(menu, word).menu()
+        action = self.entry(menu, words[-1])
+        assert action.isEnabled(), f"{' > '.join(words)} is grey"
+        action.trigger()
+        self.wait(0.3)
+
+    @staticmethod
+    def entry(menu, word):
+        for action in menu.actions():
+            if plain(action.text()) == word:
+                return action
+        raise AssertionError(f"no {word} among {[plain(each.text()) for each in menu.actions()]}")
+
+    def entries(self, *words):
+        menu = self.main.menuBar()
+        for word in words:
+            menu = self.entry(menu, word).menu()
+        return menu.actions()
+
+    def child(self, kind, name=None, of=None, text=None):
+        for each in (of or self.main).findChildren(kind):
+            if each.isVisible() and (name is None or each.objectName() == name) and (text is None or plain(each.text()) == text):
+                return each
+        return None
+
+    def click(self, button):
+        assert button.isEnabled(), f"the button {button.text()} is grey"
+        QTest.mouseClick(button, QtCore.Qt.LeftButton)
+        self.wait(0.3)
+
+    def panel(self):
+        return next(each for each in self.main.findChildren(QtWidgets.QWidget) if each.metaObject().className() == "pqPropertiesPanel")
+
+    def apply(self):
+        self.click(self.until("button Apply", lambda: self.child(QtWidgets.QPushButton, "Accept")))
+        self.wait(0.7)
+
+    def question_mark(self):
+        self.click(self.child(QtWidgets.QPushButton, "Help") or self.child(QtWidgets.QToolButton, "Help"))
+
+    def labels(self):
+        """What the panel shows of the proxy itself, without its display and view."""
+        panel = self.child(QtWidgets.QWidget, "ProxyPanel", of=self.panel()) or self.panel()
+        return [plain(each.text()) for each in panel.findChildren((QtWidgets.QLabel, QtWidgets.QCheckBox)) if each.isVisible() and each.text()]
+
+    def property(self, name):
+        """The widget of a property of the active proxy."""
+        found = [each for each in self.panel().findChildren(QtWidgets.QWidget, name) if each.isVisible()]
+        assert found, f"the panel does not show {name}"
+        return found[0]
+
+    def choose(self, name, text):
+        box = self.property(name).findChild(QtWidgets.QComboBox)
+        assert box.findText(text) >= 0, f"{name} has no {text}: {[box.itemText(i) for i in range(box.count())]}"
+        box.setCurrentIndex(box.findText(text))
+        box.activated[int].emit(box.currentIndex())
+        self.wait(0.2)
+
+    def write(self, name, text):
+        widget = self.property(name)
+        field = widget.findChild(QtWidgets.QTextEdit) or widget.findChild(QtWidgets.QLineEdit) or widget
+        field.setPlainText(text) if isinstance(field, QtWidgets.QTextEdit) else field.setText(text)
+        self.wait(0.2)
+
+    def select(self, name):
+        """Selects a row of the pipeline browser."""
+        tree = self.main.findChild(QtWidgets.QTreeView, "pipelineBrowser") or next(
+            each for each in self.main.findChildren(QtWidgets.QTreeView) if "Pipeline" in each.metaObject().className())
+        found = []
+
+        def search(parent):
+            for row in range(tree.model().rowCount(parent)):
+                index = tree.model().index(row, 0, parent)
+                if index.data() == name:
+                    found.append(index)
+                search(index)
+        search(QtCore.QModelIndex())
+        assert found, f"the pipeline browser has no {name}"
+        tree.setCurrentIndex(found[-1])
+        self.wait(0.3)
+
+    def in_dialog(self, answer, trigger):
+        """Calls trigger, which opens a dialog, and answer with each dialog until one is answered (answer returns True)."""
+        answered = []
+
+        def look():
+            dialog = self.app.activeModalWidget()
+            if dialog is not None and not answered:
+                try:
+                    if answer(dialog):
+                        answered.append(True)
+                except BaseException as fault:  # else the dialog stays
+                    answered.append(fault)
+                    dialog.reject()
+            if not answered:
+                QtCore.QTimer.singleShot(300, look)
+        QtCore.QTimer.singleShot(300, look)
+        trigger()
+        self.until("dialog", lambda: answered)
+        if answered[0] is not True:
+            raise answered[0]
+        self.wait(0.5)
+
+    def name_file(self, file, kind=None):
+        """Answers the dialogs of files, and takes what others propose."""
+        def answer(dialog):
+            if dialog.metaObject().className() == "pqFileDialog":
+                if kind is not None:
+                    box = dialog.findChild(QtWidgets.QComboBox, "FileType")
+                    at = next(i for i in range(box.count()) if kind in box.itemText(i))
+                    box.setCurrentIndex(at)
+                field = dialog.findChild(QtWidgets.QLineEdit, "FileName")
+                field.setText(file)
+                dialog.findChild(QtWidgets.QPushButton, "OK").click()
+                return True
+            return False
+        return answer
+
+    def ok(self, dialog):
+        box = dialog.findChild(QtWidgets.QDialogButtonBox)
+        button = box.button(QtWidgets.QDialogButtonBox.Ok) if box else None
+        button = button or next(each for each in dialog.findChildren(QtWidgets.QPushButton) if plain(each.text()) == "OK")
+        button.click()
+        return True
+
+    def view(self):
+        return next(each for each in self.main.findChildren(QtWidgets.QWidget)
+                    if each.metaObject().className() in ("pqQVTKWidget", "QVTKOpenGLNativeWidget", "QVTKOpenGLStereoWidget") and each.isVisible())
+
+    def picture(self, file, widget=None):
+        """What the screen shows of the window, or of one widget of it."""
+        self.wait(0.5)
+        widget = widget or self.main
+        corner = widget.mapToGlobal(QtCore.QPoint(0, 0))
+        shot = self.app.primaryScreen().grabWindow(0, corner.x(), corner.y(), widget.width(), widget.height())
+        os.makedirs(os.path.dirname(file), exist_ok=True)
+        assert shot.save(file), file
