@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """usage: make_resources.py ROOT FOLDER PROXIES.xml...: what ParaView's window shows of the plugin, FOLDER/Knotwork.qrc for Qt's resource compiler.
 
-Icons of all proxies in menus, the configuration of the toolbar, and Knotwork.qch: the pages of the modules, and for each proxy a page with its
+Icons of all proxies in menus, the configuration of menus and toolbar, and Knotwork.qch: the pages of the modules, and for each proxy a page with its
 section of them, which the question mark of its panel opens. Needs python3-markdown and qhelpgenerator."""
 import glob
 import os
@@ -96,8 +96,7 @@ def make_help(root, folder, sources):
 
 
 def make_icons(folder, sources):
-    names = [proxy.get("name") for source in sources for proxy in ElementTree.parse(source).getroot().iter("SourceProxy")
-             if proxy.find("Hints") is None or proxy.find("Hints/ShowInMenu") is not None]
+    names = [proxy.get("name") for _, proxy in properties.in_menus(sources)]
     draw_icons.main(os.path.join(folder, "Icons"), *names)
     return [f"Icons/{name}.svg" for name in names]
 
@@ -105,10 +104,10 @@ def make_icons(folder, sources):
 def main(root, folder, *sources):
     os.makedirs(folder, exist_ok=True)
     icons = make_icons(folder, sources)
-    properties.toolbar(os.path.join(folder, "toolbar.xml"), sources)
+    properties.menus(os.path.join(folder, "menus.xml"), sources)
     make_help(root, folder, sources)
     entries = [("Knotwork", name, name) for name in icons] + \
-        [("Knotwork/ParaViewResources", "toolbar.xml", "toolbar.xml"), ("Knotwork/Documentation", "Knotwork.qch", "Knotwork.qch")]
+        [("Knotwork/ParaViewResources", "menus.xml", "menus.xml"), ("Knotwork/Documentation", "Knotwork.qch", "Knotwork.qch")]
     lines = [f'<qresource prefix="/{prefix}"><file alias="{alias}">{name}</file></qresource>' for prefix, alias, name in entries]
     write(os.path.join(folder, "Knotwork.qrc"), "<RCC>" + "\n".join(lines) + "</RCC>\n")
 

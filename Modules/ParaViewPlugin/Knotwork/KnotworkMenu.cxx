@@ -10,9 +10,12 @@
 #include "pqOutputPort.h"
 #include "pqPVApplicationCore.h"
 #include "pqPipelineSource.h"
+#include "pqProgressManager.h"
 #include "pqPropertiesPanel.h"
 #include "pqSelectionManager.h"
 #include "pqServer.h"
+#include "pqServerManagerModel.h"
+#include "vtkAlgorithm.h"
 #include "vtkBoundingBox.h"
 #include "vtkDataObject.h"
 #include "vtkPVArrayInformation.h"
@@ -28,6 +31,7 @@
 
 #include <QDir>
 #include <QFile>
+#include <QGuiApplication>
 #include <QMainWindow>
 #include <QMenu>
 #include <QMessageBox>
@@ -103,6 +107,26 @@ void LoadExample(const QString& name)
     text.replace('"' + data.fileName() + '"', '"' + data.absoluteFilePath() + '"');
   }
   pqApplicationCore::instance()->loadStateFromString(text.toUtf8().constData(), server);
+}
+
+/// ParaView 5.11 runs filters in the window's thread and handles no clicks meanwhile, so its button
+/// Abort stays grey; the keys that are held can be asked for all the same, at every progress.
+void AbortWhileKeysAreHeld()
+{
+  constexpr Qt::KeyboardModifiers Keys = Qt::ControlModifier | Qt::AltModifier;
+  if ((QGuiApplication::queryKeyboardModifiers() & Keys) != Keys)
+  {
+    return;
+  }
+  for (pqPipelineSource* source :
+    pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>())
+  {
+    auto* filter = vtkAlgorithm::SafeDownCast(source->getProxy()->GetClientSideObject());
+    if (filter && filter->IsA("vtkSplineAlgorithm"))
+    {
+      filter->SetAbortExecute(1); // those that do not run forget it when they begin
+    }
+  }
 }
 
 void SelectInvalidCells()
@@ -202,6 +226,9 @@ KnotworkMenu::KnotworkMenu(QObject* parent) : QActionGroup(parent), Examples(new
     presets->ImportPresets(folder.filePath("Presets.json").toUtf8().constData());
   }
   pqApplicationCore::instance()->registerDocumentation(":/Knotwork/Documentation/Knotwork.qch");
+
+  QObject::connect(pqApplicationCore::instance()->getProgressManager(),
+    &pqProgressManager::progress, this, &AbortWhileKeysAreHeld);
 
   const auto add = [this](const char* name, const char* help, void (*work)())
   {

@@ -28,7 +28,7 @@ def make_data():
     torus = simple.KnotworkSplineSource(Shape="Solid Torus", Angle=270, InnerRadius=0.4, OuterRadius=1)
     simple.SaveData(path("torus.vtu"), torus)
     square = simple.KnotworkSplineSource(Shape="Square", Degree=2, Elements=[5, 5, 1])
-    folded = simple.Calculator(Input=square, CoordinateResults=1, Function="coords + iHat*sin(9*coordsY)*coordsX*0.25 + jHat*0.6*cos(8*coordsX)*coordsY*coordsX")
+    folded = simple.Calculator(Input=square, CoordinateResults=1, Function="coords - (iHat + jHat)*1.1*((coordsX+0.5)*(coordsY+0.5))^3")
     simple.SaveData(path("folded.vtu"), folded)
     tube = simple.KnotworkSplineSource(Shape="Solid Tube", Angle=180, Height=1.5)
     simple.SaveData(path("tube.vtu"), tube)
@@ -41,7 +41,7 @@ def make_data():
             for j in range(41):
                 x, y = i / 10, j / 10
                 file.write(f"{x} {y} {0.5 * ((x - 2) ** 2 * (y - 1) - (y - 2) ** 3) / 4:.6f}\n")
-    plate = simple.KnotworkSplineSource(Shape="Quarter Plate With Hole", Degree=2, Elements=[8, 8, 1])
+    plate = simple.KnotworkSplineSource(Shape="Quarter Plate With Hole", Degree=2, Elements=[8, 8, 1], Size=[4, 4, 1])
     simple.SaveData(path("plate.vtu"), plate)
     simple.ResetSession()
 
@@ -94,7 +94,7 @@ class Tasks:
 
     def saved_step(self):
         self.analytic_model()
-        self.window.select("Surfaces")
+        self.window.select(3)
         self.save("tube.step", "STEP")
         simple.ResetSession()
         self.open("tube.step")
@@ -112,27 +112,16 @@ class Tasks:
     def deviations(self):
         self.open("tube.vtu")
         self.open("scan.vtp")
-        self.window.in_dialog(lambda dialog: self.pick_input(dialog, "tube.vtu"), lambda: self.filter("Deviation Map"))
+        self.window.in_dialog(self.pick_model, lambda: self.filter("Deviation Map"))
         self.window.apply()
         self.window.menu("Knotwork", "Color By Deviation")
 
-    def pick_input(self, dialog, name):
+    def pick_model(self, dialog):
         """The model, in the dialog that asks for all inputs; the scan was selected."""
-        button = next(each for each in dialog.findChildren(QtWidgets.QRadioButton) if "Model" in each.text())
-        button.click()
-        tree = dialog.findChild(QtWidgets.QTreeView)
-        model = tree.model()
-
-        def search(parent):
-            for row in range(model.rowCount(parent)):
-                index = model.index(row, 0, parent)
-                if index.data() == name:
-                    return index
-                below = search(index)
-                if below:
-                    return below
-            return None
-        tree.setCurrentIndex(search(QtCore.QModelIndex()))
+        next(each for each in dialog.findChildren(QtWidgets.QRadioButton) if each.text() == "Model").click()
+        self.window.wait(0.3)
+        self.window.row(dialog.findChild(QtWidgets.QAbstractScrollArea, "pipelineView"), 1)
+        self.window.picture(path("dialog.png"), dialog)
         return self.window.ok(dialog)
 
     def warped_plate(self):

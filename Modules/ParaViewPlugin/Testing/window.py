@@ -101,22 +101,15 @@ class Window:
         field.setPlainText(text) if isinstance(field, QtWidgets.QTextEdit) else field.setText(text)
         self.wait(0.2)
 
-    def select(self, name):
-        """Selects a row of the pipeline browser."""
-        tree = self.main.findChild(QtWidgets.QTreeView, "pipelineBrowser") or next(
-            each for each in self.main.findChildren(QtWidgets.QTreeView) if "Pipeline" in each.metaObject().className())
-        found = []
-
-        def search(parent):
-            for row in range(tree.model().rowCount(parent)):
-                index = tree.model().index(row, 0, parent)
-                if index.data() == name:
-                    found.append(index)
-                search(index)
-        search(QtCore.QModelIndex())
-        assert found, f"the pipeline browser has no {name}"
-        tree.setCurrentIndex(found[-1])
+    def row(self, view, number):
+        """Clicks a row of a pipeline view, from 0 on."""
+        height = 22 if view.fontMetrics().height() < 20 else view.fontMetrics().height() + 6
+        QTest.mouseClick(view.viewport(), QtCore.Qt.LeftButton, pos=QtCore.QPoint(90, int((number + 0.5) * height)))
         self.wait(0.3)
+
+    def select(self, number):
+        self.row(next(each for each in self.main.findChildren(QtWidgets.QAbstractScrollArea)
+                      if each.metaObject().className() == "pqPipelineBrowserWidget"), number)
 
     def in_dialog(self, answer, trigger):
         """Calls trigger, which opens a dialog, and answer with each dialog until one is answered (answer returns True)."""
@@ -145,10 +138,10 @@ class Window:
         def answer(dialog):
             if dialog.metaObject().className() == "pqFileDialog":
                 if kind is not None:
-                    box = dialog.findChild(QtWidgets.QComboBox, "FileType")
+                    box = dialog.findChild(QtWidgets.QComboBox, "EntityType")
                     at = next(i for i in range(box.count()) if kind in box.itemText(i))
                     box.setCurrentIndex(at)
-                field = dialog.findChild(QtWidgets.QLineEdit, "FileName")
+                field = dialog.findChild(QtWidgets.QLineEdit, "EntityName")
                 field.setText(file)
                 dialog.findChild(QtWidgets.QPushButton, "OK").click()
                 return True
