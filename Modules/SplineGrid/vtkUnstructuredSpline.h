@@ -92,13 +92,13 @@ public:
   ///@{
   /** Edges between quadrilaterals whose normals differ by more than this angle in degrees are
    * features: C^0, and no part of MaxNormalAngle. 180: none is. Of quadrilaterals only. Default
-   * 180, valid range [0, 180]. Group "Features". */
+   * 180, valid range [0, 180]. Group "Creases". */
   vtkSetClampMacro(FeatureAngle, double, 0.0, 180.0);
   vtkGetMacro(FeatureAngle, double);
   ///@}
   ///@{
   /** Cell array; edges, or faces of hexahedra, between cells of different values are features.
-   * Empty or `None`: none is. Default empty. Group "Features". */
+   * Empty or `None`: none is. Default empty. Group "Creases". */
   vtkSetStringMacro(FeatureArray);
   vtkGetStringMacro(FeatureArray);
   ///@}

@@ -4,11 +4,12 @@
 States name their data without a folder: the menu and File > Load State look for it beside them."""
 import os
 import re
+import subprocess
 import sys
 
-from paraview import servermanager, simple
+from paraview import simple
 
-PLUGIN, FOLDER = sys.argv[1:]
+PLUGIN, FOLDER, *NAME = sys.argv[1:]
 simple.LoadPlugin(PLUGIN, remote=False, ns=simple.__dict__)
 PROBLEM = """{ "material": { "youngs_modulus": 1000, "poissons_ratio": 0.3 },
   "conditions": [
@@ -41,10 +42,10 @@ def fit_and_contours(view):
     show(surface, view, None)
     contours = show(simple.SplineContour(Input=surface), view, ("CELLS", "Level"))
     contours.LineWidth = 3
-    view.CameraPosition, view.CameraViewUp = [6, -6, 7], [0, 0, 1]
+    view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [8, -4, 7], [2, 2, 0], [0, 0, 1]
 
 
-def refined_disc(view):
+def refined_annulus(view):
     disc = simple.KnotworkSplineSource(Shape="Annulus Sector", Degree=2, Elements=[4, 8, 1], Angle=180)
     refined = simple.SplineRefine(Input=disc, Mode="Implicit Function", NumberOfRefinements=2)
     refined.ImplicitFunction = "Sphere"
@@ -63,26 +64,26 @@ def show(proxy, view, array, representation="Surface"):
     return shown
 
 
-def main():
-    for make in (folded_cells, fit_and_contours, refined_disc, stress_and_displacement):
-        view = simple.CreateRenderView()
-        view.ViewSize = [640, 480]
-        make(view)
-        simple.Render(view)
-        simple.ResetCamera(view)
-        file = os.path.join(FOLDER, make.__name__.replace("_", " ").title().replace(" ", "_").replace("And", "and") + ".pvsm")
-        simple.SaveState(file)
-        simple.SaveScreenshot(file[:-5] + ".png", view)
-        with open(file, encoding="utf-8") as stream:
-            text = stream.read()
-        text = re.sub(r'value="[^"]*/(hills\.xyz)"', r'value="\1"', text)
-        text = re.sub(r"<Domain\b[^>]*/>|<Domain\b.*?</Domain>", "", text, flags=re.S)  # what a value may be is not read again
-        with open(file, "w", encoding="utf-8") as stream:
-            stream.write(re.sub(r"\n\s+", "\n", text))
-        print(file)
-        for proxy in [*simple.GetSources().values(), view]:
-            simple.Delete(proxy)
-        servermanager.ProxyManager().UnRegisterProxies()
+def save(make):
+    view = simple.GetActiveViewOrCreate("RenderView")
+    make(view)
+    simple.Render(view)
+    simple.ResetCamera(view)
+    file = os.path.join(FOLDER, make.__name__.capitalize() + ".pvsm")
+    simple.SaveState(file)
+    simple.SaveScreenshot(file[:-len("pvsm")] + "png", view, ImageResolution=[640, 480])
+    with open(file, encoding="utf-8") as stream:
+        text = stream.read()
+    text = re.sub(r'value="[^"]*/(hills\.xyz)"', r'value="\1"', text)
+    text = re.sub(r"<Domain\b[^>]*/>|<Domain\b.*?</Domain>", "", text, flags=re.S)  # what a value may be is not read again
+    with open(file, "w", encoding="utf-8") as stream:
+        stream.write(re.sub(r"\n\s+", "\n", text))
+    print(file)
 
 
-main()
+STATES = (fit_and_contours, folded_cells, refined_annulus, stress_and_displacement)
+if NAME:
+    save(next(each for each in STATES if each.__name__ == NAME[0]))
+else:  # each in a window of its own
+    for each in STATES:
+        subprocess.run(["pvbatch", __file__, PLUGIN, FOLDER, each.__name__], check=True)

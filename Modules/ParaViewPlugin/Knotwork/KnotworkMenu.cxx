@@ -6,6 +6,7 @@
 #include "pqCoreUtilities.h"
 #include "pqDataRepresentation.h"
 #include "pqHelpReaction.h"
+#include "pqLoadStateReaction.h"
 #include "pqObjectBuilder.h"
 #include "pqOutputPort.h"
 #include "pqPVApplicationCore.h"
@@ -106,7 +107,9 @@ void LoadExample(const QString& name)
   {
     text.replace('"' + data.fileName() + '"', '"' + data.absoluteFilePath() + '"');
   }
+  pqApplicationCore::instance()->getObjectBuilder()->destroyPipelineProxies(server);
   pqApplicationCore::instance()->loadStateFromString(text.toUtf8().constData(), server);
+  pqLoadStateReaction::activateView(); // which states do not say
 }
 
 /// ParaView 5.11 runs filters in the window's thread and handles no clicks meanwhile, so its button

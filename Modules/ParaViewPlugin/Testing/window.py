@@ -8,7 +8,7 @@ import os
 from PyQt5 import QtCore, QtWidgets
 from PyQt5.QtTest import QTest
 
-PATIENCE = 120  # seconds that a filter may take
+PATIENCE = 40  # seconds that a filter may take
 
 
 def plain(text):
@@ -88,6 +88,9 @@ class Window:
         assert found, f"the panel does not show {name}"
         return found[0]
 
+    def shows(self, name):
+        return any(each.isVisible() for each in self.panel().findChildren(QtWidgets.QWidget, name))
+
     def choose(self, name, text):
         box = self.property(name).findChild(QtWidgets.QComboBox)
         assert box.findText(text) >= 0, f"{name} has no {text}: {[box.itemText(i) for i in range(box.count())]}"
@@ -111,41 +114,42 @@ class Window:
         self.row(next(each for each in self.main.findChildren(QtWidgets.QAbstractScrollArea)
                       if each.metaObject().className() == "pqPipelineBrowserWidget"), number)
 
-    def in_dialog(self, answer, trigger):
-        """Calls trigger, which opens a dialog, and answer with each dialog until one is answered (answer returns True)."""
-        answered = []
+    def in_dialogs(self, trigger, *answers):
+        """Calls trigger, which opens dialogs one after the other, and each answer with its dialog. Whatever else opens is closed and a fault."""
+        left, faults = list(answers), []
+        looking, seen = [True], []
 
         def look():
+            if looking:
+                QtCore.QTimer.singleShot(400, look)  # an answer may open the next dialog, and return behind it
             dialog = self.app.activeModalWidget()
-            if dialog is not None and not answered:
-                try:
-                    if answer(dialog):
-                        answered.append(True)
-                except BaseException as fault:  # else the dialog stays
-                    answered.append(fault)
-                    dialog.reject()
-            if not answered:
-                QtCore.QTimer.singleShot(300, look)
-        QtCore.QTimer.singleShot(300, look)
+            try:
+                if dialog is not None and dialog.isVisible() and dialog not in seen:
+                    seen.append(dialog)
+                    assert left, f"a dialog more: {dialog.windowTitle()}"
+                    left.pop(0)(dialog)
+            except BaseException as fault:  # else the dialog stays, and trigger does not return
+                faults.append(fault)
+                left.clear()
+                dialog.reject()
+        QtCore.QTimer.singleShot(400, look)
         trigger()
-        self.until("dialog", lambda: answered)
-        if answered[0] is not True:
-            raise answered[0]
-        self.wait(0.5)
+        self.until("dialog", lambda: not left)
+        self.wait(0.6)
+        looking.clear()
+        if faults:
+            raise faults[0]
 
     def name_file(self, file, kind=None):
-        """Answers the dialogs of files, and takes what others propose."""
+        """The answer to a dialog of files."""
         def answer(dialog):
-            if dialog.metaObject().className() == "pqFileDialog":
-                if kind is not None:
-                    box = dialog.findChild(QtWidgets.QComboBox, "EntityType")
-                    at = next(i for i in range(box.count()) if kind in box.itemText(i))
-                    box.setCurrentIndex(at)
-                field = dialog.findChild(QtWidgets.QLineEdit, "EntityName")
-                field.setText(file)
-                dialog.findChild(QtWidgets.QPushButton, "OK").click()
-                return True
-            return False
+            if kind is not None:
+                box = dialog.findChild(QtWidgets.QComboBox, "EntityType")
+                kinds = [box.itemText(i) for i in range(box.count())]
+                assert any(kind in each for each in kinds), f"no {kind} among {kinds}"
+                box.setCurrentIndex(next(i for i, each in enumerate(kinds) if kind in each))
+            dialog.findChild(QtWidgets.QLineEdit, "EntityName").setText(file)
+            dialog.findChild(QtWidgets.QPushButton, "OK").click()
         return answer
 
     def ok(self, dialog):
@@ -153,7 +157,6 @@ class Window:
         button = box.button(QtWidgets.QDialogButtonBox.Ok) if box else None
         button = button or next(each for each in dialog.findChildren(QtWidgets.QPushButton) if plain(each.text()) == "OK")
         button.click()
-        return True
 
     def view(self):
         return next(each for each in self.main.findChildren(QtWidgets.QWidget)
