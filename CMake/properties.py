@@ -36,8 +36,8 @@ IN.xml is XML of ParaView's server manager with short forms: <Properties/> in a 
 does not write itself (<Properties until="NAME"/>: those before that one), <Input name= types="..."> for an input (without types: splines), <Outputs names="..."/> for
 its output ports, <Array name= arrays="domain of the input"> for a choice of an array (index= of SetInputArrayToProcess, a property of the class, or a
 list of arrays: repeat_command="1"), and the
-attributes components="..." and for="NAME VALUE" of any other property or input label its numbers and hide it. Without <Hints> only its
-first output is shown. In the menu it has the icon of its name; with toolbar="1" it is in the toolbar too."""
+attributes components="..." and for="NAME VALUE" of any other property or input label its numbers and hide it. Of outputs in short form only the
+first one is shown. In the menu it has the icon of its name; with toolbar="1" it is in the toolbar too."""
 import glob
 import os
 import re
@@ -366,7 +366,9 @@ def expand(proxy, chain):
             children.append(child)
     if proxy.find("Hints") is None:
         children.append(element("Hints"))
-        children[-1].extend(element("View", type="None", port=i) for i in range(1, len(outputs)))
+    hints = next(child for child in children if child.tag == "Hints")
+    if hints.find("View") is None:
+        hints.extend(element("View", type="None", port=i) for i in range(1, len(outputs)))
     proxy[:] = framed(children)
     proxy.attrib.pop("toolbar", None)
 

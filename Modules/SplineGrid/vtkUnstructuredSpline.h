@@ -122,13 +122,13 @@ public:
    * OFF, nowhere; CELLS, around cells that are folded; ELEMENTS, and around elements of the spline
    * that turn over. Points of surfaces slide on the surface that the mesh is, those of features,
    * rims and edges sharper than 45 degrees along them. A warning says how many moved
-   * and how far. Default CELLS. Group "Untangling". */
+   * and how far. Default CELLS. Group "Folded Cells". */
   vtkSetClampMacro(Untangle, int, OFF, ELEMENTS);
   vtkGetMacro(Untangle, int);
   ///@}
   ///@{
   /** Cells around folded ones, ring by ring, whose points may move; more where that is not enough.
-   * Default 2, valid range [0, 100]. For Untangle not OFF. Group "Untangling". */
+   * Default 2, valid range [0, 100]. For Untangle not OFF. Group "Folded Cells". */
   vtkSetClampMacro(UntangleRings, int, 0, 100);
   vtkGetMacro(UntangleRings, int);
   ///@}

@@ -4,6 +4,6 @@
 namespace knotwork
 {
 /// Gives ParaView what it has until the user chooses otherwise: the colours of `JacobianVerdict`
-/// and smooth Bezier cells. Called when the plugin is loaded.
+/// and `SurfaceType`, and smooth Bezier cells. Called when the plugin is loaded.
 void LoadDefaultSettings();
 }

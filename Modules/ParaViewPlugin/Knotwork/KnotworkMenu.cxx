@@ -36,6 +36,9 @@
 #include <QMainWindow>
 #include <QMenu>
 #include <QMessageBox>
+#include <QTimer>
+#include <QToolBar>
+#include <QXmlStreamReader>
 
 #include <dlfcn.h>
 
@@ -128,6 +131,54 @@ void AbortWhileKeysAreHeld()
     if (filter && filter->IsA("vtkSplineAlgorithm"))
     {
       filter->SetAbortExecute(1); // those that do not run forget it when they begin
+    }
+  }
+}
+
+/// More pieces a cell where that costs little: the default for all grids (DefaultSettings) leaves a
+/// few large cells angular. The user's own default, and what a state says, stay.
+void SmoothFewCells(pqRepresentation* added)
+{
+  constexpr int Default = 3;
+  auto* shown = qobject_cast<pqDataRepresentation*>(added);
+  vtkSMProperty* level =
+    shown ? shown->getProxy()->GetProperty("NonlinearSubdivisionLevel") : nullptr;
+  vtkPVDataInformation* data = shown ? shown->getInputDataInformation() : nullptr;
+  if (level && data && !pqApplicationCore::instance()->isLoadingState() &&
+    data->GetArrayInformation("BezierDegrees", vtkDataObject::CELL) &&
+    vtkSMPropertyHelper(level).GetAsInt() == Default && data->GetNumberOfCells() <= 2000)
+  {
+    vtkSMPropertyHelper(level).Set(Default + 1);
+    shown->getProxy()->UpdateVTKObjects();
+  }
+}
+
+/// Filters that menus.xml leaves out of the toolbar: ParaView makes the actions of a plugin's
+/// filters before it reads that file, and tells them nothing of it.
+void ShortenToolbar()
+{
+  auto* toolbar = pqCoreUtilities::mainWidget()->findChild<QToolBar*>("Knotwork");
+  QFile file(":/Knotwork/ParaViewResources/menus.xml");
+  if (!toolbar || !file.open(QIODevice::ReadOnly))
+  {
+    return;
+  }
+  QStringList left;
+  QXmlStreamReader xml(&file);
+  while (!xml.atEnd())
+  {
+    if (xml.readNext() == QXmlStreamReader::StartElement &&
+      xml.attributes().value("omit_from_toolbar") == "1")
+    {
+      left << xml.attributes().value("name").toString();
+    }
+  }
+  for (QAction* action : toolbar->actions())
+  {
+    if (left.contains(action->data().toStringList().value(1)))
+    {
+      action->setProperty("OmitFromToolbar", QStringList("Knotwork"));
+      toolbar->removeAction(action);
     }
   }
 }
@@ -230,6 +281,9 @@ KnotworkMenu::KnotworkMenu(QObject* parent) : QActionGroup(parent), Examples(new
   }
   pqApplicationCore::instance()->registerDocumentation(":/Knotwork/Documentation/Knotwork.qch");
 
+  QTimer::singleShot(0, this, &ShortenToolbar);
+  QObject::connect(pqApplicationCore::instance()->getServerManagerModel(),
+    &pqServerManagerModel::representationAdded, this, &SmoothFewCells);
   QObject::connect(pqApplicationCore::instance()->getProgressManager(),
     &pqProgressManager::progress, this, &AbortWhileKeysAreHeld);
 
