@@ -137,19 +137,27 @@ void AbortWhileKeysAreHeld()
 
 /// More pieces a cell where that costs little: the default for all grids (DefaultSettings) leaves a
 /// few large cells angular. The user's own default, and what a state says, stay.
-void SmoothFewCells(pqRepresentation* added)
+void SmoothFewCells(pqDataRepresentation* shown)
 {
   constexpr int Default = 3;
-  auto* shown = qobject_cast<pqDataRepresentation*>(added);
-  vtkSMProperty* level =
-    shown ? shown->getProxy()->GetProperty("NonlinearSubdivisionLevel") : nullptr;
-  vtkPVDataInformation* data = shown ? shown->getInputDataInformation() : nullptr;
-  if (level && data && !pqApplicationCore::instance()->isLoadingState() &&
-    data->GetArrayInformation("BezierDegrees", vtkDataObject::CELL) &&
+  vtkSMProperty* level = shown->getProxy()->GetProperty("NonlinearSubdivisionLevel");
+  vtkPVDataInformation* data = shown->getInputDataInformation();
+  if (level && data && data->GetArrayInformation("BezierDegrees", vtkDataObject::CELL) &&
     vtkSMPropertyHelper(level).GetAsInt() == Default && data->GetNumberOfCells() <= 2000)
   {
     vtkSMPropertyHelper(level).Set(Default + 1);
     shown->getProxy()->UpdateVTKObjects();
+    shown->renderViewEventually();
+  }
+}
+
+void SmoothWhenShown(pqRepresentation* added)
+{
+  auto* shown = qobject_cast<pqDataRepresentation*>(added);
+  if (shown && !pqApplicationCore::instance()->isLoadingState())
+  {
+    // its input is connected after it is told of
+    QTimer::singleShot(0, shown, [shown] { SmoothFewCells(shown); });
   }
 }
 
@@ -283,7 +291,7 @@ KnotworkMenu::KnotworkMenu(QObject* parent) : QActionGroup(parent), Examples(new
 
   QTimer::singleShot(0, this, &ShortenToolbar);
   QObject::connect(pqApplicationCore::instance()->getServerManagerModel(),
-    &pqServerManagerModel::representationAdded, this, &SmoothFewCells);
+    &pqServerManagerModel::representationAdded, this, &SmoothWhenShown);
   QObject::connect(pqApplicationCore::instance()->getProgressManager(),
     &pqProgressManager::progress, this, &AbortWhileKeysAreHeld);
 
