@@ -345,12 +345,12 @@ function(knotwork_add_python_test module script)
     ENVIRONMENT "PYTHONPATH=${CMAKE_BINARY_DIR}/${KNOTWORK_PYTHON_DIR}:${CMAKE_SOURCE_DIR}/Testing/Harness")
 endfunction()
 
-# knotwork_add_paraview_test(MODULE script.py [SLOW] [PROGRAM program] [ARGUMENTS ...])
+# knotwork_add_paraview_test(MODULE script.py [SLOW] [PROGRAM program] [TIMEOUT s] [ARGUMENTS ...])
 #   Runs the script in pvbatch (PROGRAM: in another one, that starts pvbatch itself) with the plugin of the ParaView build
 #   tree at hand (KNOTWORK_PARAVIEW_TREE); the test is <MODULE>.ParaView.<script>. Without such a tree configured there are no
 #   ParaView tests.
 function(knotwork_add_paraview_test module script)
-  cmake_parse_arguments(PARSE_ARGV 2 arg "SLOW" "PROGRAM" "LABELS;ARGUMENTS")
+  cmake_parse_arguments(PARSE_ARGV 2 arg "SLOW" "PROGRAM;TIMEOUT" "LABELS;ARGUMENTS")
   if(NOT KNOTWORK_PARAVIEW_TREE)
     return()
   endif()
@@ -363,7 +363,7 @@ function(knotwork_add_paraview_test module script)
   if(arg_SLOW)
     list(APPEND labels slow)
   endif()
-  knotwork_add_command_test(${module}.ParaView.${stem} DISPLAY LABELS ${labels}
+  knotwork_add_command_test(${module}.ParaView.${stem} DISPLAY LABELS ${labels} TIMEOUT ${arg_TIMEOUT}
     COMMAND "${arg_PROGRAM}" "${path}" ${arg_ARGUMENTS}
     ENVIRONMENT
       "PYTHONPATH=${KNOTWORK_PARAVIEW_PREFIX}/usr/lib/python3/dist-packages:${CMAKE_SOURCE_DIR}/Testing/Harness"

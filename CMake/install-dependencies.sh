@@ -16,9 +16,9 @@ packages=(
   # filters, command line, Python
   libvtk9-dev libegl-dev python3-vtk9 python3-dev libcli11-dev nlohmann-json3-dev
   # ParaView plugin
-  paraview paraview-dev qtbase5-dev qttools5-dev libqt5svg5-dev python3-mpi4py
+  paraview paraview-dev qtbase5-dev qttools5-dev qttools5-dev-tools libqt5opengl5-dev libqt5svg5-dev python3-mpi4py python3-markdown
   # tests, benchmarks, pictures
-  libgtest-dev libbenchmark-dev clang clang-format clang-tidy libclang-rt-14-dev xvfb libgl1-mesa-dri python3-numpy openmpi-bin
+  libgtest-dev libbenchmark-dev clang clang-format clang-tidy libclang-rt-14-dev xvfb libgl1-mesa-dri python3-numpy python3-pyqt5 openmpi-bin
   # real data for examples and tests
   libcgal-demo gmsh-doc
 )

@@ -3,6 +3,7 @@
 """What a property of a filter is, is said once: in the filter's header. This script reads the headers and makes the rest.
 
 usage: properties.py print-self OUT.cxx HEADER...     PrintSelf of the classes
+       properties.py menus OUT.xml IN.xml...          ParaView's menus and toolbar: what is neither reader nor writer
        properties.py options OUT HEADER...            OUT.h, OUT.cxx: options of the command line for the classes
        properties.py proxies OUT.xml IN.xml HEADER... ParaView's proxies: IN.xml with its short forms written out
        properties.py python OUT.py IN.xml... HEADER... what Python knows of the classes: types, ranges, names of choices, sentences; ports and lists
@@ -21,7 +22,8 @@ or ">= a", held against the macro; then, where they apply,
 
     Advanced.             ParaView shows it on demand, --help under a title of its own
     For NAME VALUE, ....  it counts with these values (or on, off) of another property: ParaView shows it with them only; "not" before
-                          the values: with the other ones. Several sentences: all must hold.
+                          the values: with the other ones. Several sentences: all must hold. "For Input CLASS, ...": with data of these
+                          classes as the first input.
     Components a, b, ...  what its numbers are called
     Group "Name".         properties that ParaView frames together, and --help lists under that title
     Kernel default 0.     the kernel's default, where it is another one
@@ -34,7 +36,8 @@ IN.xml is XML of ParaView's server manager with short forms: <Properties/> in a 
 does not write itself (<Properties until="NAME"/>: those before that one), <Input name= types="..."> for an input (without types: splines), <Outputs names="..."/> for
 its output ports, <Array name= arrays="domain of the input"> for a choice of an array (index= of SetInputArrayToProcess, a property of the class, or a
 list of arrays: repeat_command="1"), and the
-attributes components="..." and for="NAME VALUE" of any other property label its numbers and hide it. Without <Hints> a proxy stands in the menu, and its first output is shown."""
+attributes components="..." and for="NAME VALUE" of any other property or input label its numbers and hide it. Of outputs in short form only the
+first one is shown. In the menu it has the icon of its name; with toolbar="1" it is in the toolbar too."""
 import glob
 import os
 import re
@@ -142,6 +145,8 @@ class Property:
         self.open_low = bool(bounds) and bounds.startswith("(")
         for mark in SENTENCES.split((marks or "").strip()):
             self.parse_mark(mark.rstrip("."))
+        if self.count > 1 and not self.components:
+            raise Fault(f"{self.where}: {self.count} numbers without names: Components ...")
 
     def parse_mark(self, mark):
         words = mark.replace(",", "").split()
@@ -249,6 +254,7 @@ def literal(text):
 
 
 DEFAULT_GROUP = "Options"  # of --help
+ICON = ":/Knotwork/Icons/{}.svg"  # of a proxy in ParaView's menus
 
 
 def chain_of(header, classes):
@@ -342,10 +348,12 @@ def expand(proxy, chain):
             if child.get("until", names[0] if names else None) not in names + [None]:
                 raise Fault(f"{proxy.get('name')}: no property {child.get('until')} is left to be written out")
             until = names.index(child.get("until")) if child.get("until") else len(left)
-            children += framed([proxy_property(header, each) for header, each in left[:until]])
+            children += [proxy_property(header, each) for header, each in left[:until]]
             left = left[until:]
         elif child.tag == "Input":
+            condition = child.attrib.pop("for", "")
             children.append(input_property(child))
+            hide(children[-1], chain[0], [parse_condition(condition)] if condition else [])
         elif child.tag == "Array":
             children.append(array_property(child, chain))
         elif child.tag == "Outputs":
@@ -358,9 +366,34 @@ def expand(proxy, chain):
             children.append(child)
     if proxy.find("Hints") is None:
         children.append(element("Hints"))
-        children[-1].append(element("ShowInMenu", category="Knotwork"))
-        children[-1].extend(element("View", type="None", port=i) for i in range(1, len(outputs)))
-    proxy[:] = children
+    hints = next(child for child in children if child.tag == "Hints")
+    if hints.find("View") is None:
+        hints.extend(element("View", type="None", port=i) for i in range(1, len(outputs)))
+    proxy[:] = framed(children)
+    proxy.attrib.pop("toolbar", None)
+
+
+def in_menus(sources):
+    """Group and element of every proxy that is neither reader nor writer."""
+    for source in sources:
+        for group in ElementTree.parse(source).getroot().iter("ProxyGroup"):
+            yield from ((group.get("name"), proxy) for proxy in group.iter("SourceProxy") if proxy.find("Hints/ReaderFactory") is None)
+
+
+def menus(out, sources):
+    """ParaView's configuration of the category Knotwork of its menus. A hint ShowInMenu of the proxies could not leave some out of the toolbar."""
+    root = element("Menus")
+    categories = {}
+    for group, menu in (("sources", "ParaViewSources"), ("filters", "ParaViewFilters")):
+        root.append(element(menu))
+        categories[group] = element("Category", name="Knotwork", show_in_toolbar=1 if group == "filters" else None)
+        root[-1].append(categories[group])
+    for group, proxy in in_menus(sources):
+        name = proxy.get("name")
+        categories[group].append(element("Proxy", group=group, name=name, icon=ICON.format(name),
+                                         omit_from_toolbar=None if proxy.get("toolbar") == "1" else 1))
+    ElementTree.indent(root)
+    write(out, ["<!-- Generated by CMake/properties.py -->", ElementTree.tostring(root, encoding="unicode")])
 
 
 def label_components(made, names):
@@ -389,7 +422,7 @@ def array_property(short, chain):
         made = element("StringVectorProperty", number_of_elements_per_command=1, **given)
     else:
         made = element("StringVectorProperty", number_of_elements=1, default_values="None", command="Set" + given["name"],
-                       panel_visibility="advanced" if declared.advanced else None, **given)
+                       panel_visibility="advanced" if declared.advanced else None, group=declared.group, **given)
     text = " ".join((short.text or "").split()) or declared.text
     made.extend([domain, element("Documentation", text), *short])
     if "repeat_command" in given:  # none is chosen first
@@ -471,6 +504,10 @@ def decorators(header, where, conditions):
     """What hides a property while it does not count."""
     parts = []
     for name, values, inverse in conditions:
+        if name == "Input":
+            parts.append({"type": "InputDataTypeDecorator", "mode": "visibility", "name": " ".join(values),
+                          **({"exclude": "1"} if inverse else {})})
+            continue
         other = header.named().get(name)
         if other is None:
             raise Fault(f"{where}: for {name}: there is no such property")
@@ -703,6 +740,8 @@ def main(command, *arguments):
             options(arguments[0], read(arguments[1:]))
         elif command == "proxies":
             proxies(arguments[0], arguments[1], read(arguments[2:]))
+        elif command == "menus":
+            menus(arguments[0], arguments[1:])
         elif command == "python":
             python(arguments[0], [each for each in arguments[1:] if each.endswith(".xml")],
                    read(each for each in arguments[1:] if not each.endswith(".xml")))

@@ -87,6 +87,7 @@ void AddCellArrays(const CADFit<Dim>& fit, vtkUnstructuredGrid* grid)
   grid->GetCellData()->AddArray(distance);
   grid->GetCellData()->AddArray(verdict);
   grid->GetCellData()->AddArray(lower);
+  grid->GetCellData()->SetActiveScalars("Distance"); // drawn first
 }
 
 template <int Dim>

@@ -120,44 +120,46 @@ public:
   ///@{
   /** How coefficients of patches become those of the spline on Path COMPOSITE, one of PatchWeights:
    * WEIGHTED, means by the shares of the function's integral; PLAIN, the shortest rows, which need
-   * not exist with policies other than FULL. Default WEIGHTED. Advanced. */
+   * not exist with policies other than FULL. Default WEIGHTED. Advanced. For Path AUTOMATIC_PATH,
+   * COMPOSITE. */
   vtkSetClampMacro(CompositeWeights, int, WEIGHTED, PLAIN);
   vtkGetMacro(CompositeWeights, int);
   ///@}
   ///@{
   /** Edges of a target of triangles between normals that differ by this angle in degrees are
-   * sharp. Default 40, valid range [1, 179]. */
+   * sharp. Default 40, valid range [1, 179]. Group "Sharp Edges". */
   vtkSetClampMacro(SharpAngle, double, 1.0, 179.0);
   vtkGetMacro(SharpAngle, double);
   ///@}
   ///@{
   /** The same of edges that continue sharp ones, and of edges between faces of a CAD model or
-   * spline surfaces; not above SharpAngle. Default 20, valid range [1, 179]. */
+   * spline surfaces; not above SharpAngle. Default 20, valid range [1, 179]. Group "Sharp Edges".
+   */
   vtkSetClampMacro(WeakAngle, double, 1.0, 179.0);
   vtkGetMacro(WeakAngle, double);
   ///@}
   ///@{
   /** Turn in degrees of sharp edges and rims from which on they have a corner. Default 60, valid
-   * range [1, 180]. Advanced. */
+   * range [1, 180]. Advanced. Group "Sharp Edges". */
   vtkSetClampMacro(CornerAngle, double, 1.0, 180.0);
   vtkGetMacro(CornerAngle, double);
   ///@}
   ///@{
   /** Faces of a CAD model that count as one, by their numbers: `0,1,2;5,6` are two groups. Edges
-   * inside of a group are not sharp at any angle. Default empty. Advanced. */
+   * inside of a group are not sharp at any angle. Default empty. Advanced. Group "Sharp Edges". */
   vtkSetStringMacro(FaceGroups);
   vtkGetStringMacro(FaceGroups);
   ///@}
   ///@{
   /** Edges between quadrilaterals whose normals differ by more than this angle in degrees are
    * features, C^0, whatever the target has there. 180: none is. Of quadrilaterals only. Default
-   * 180, valid range [0, 180]. Advanced. */
+   * 180, valid range [0, 180]. Advanced. Group "Sharp Edges". */
   vtkSetClampMacro(FeatureAngle, double, 0.0, 180.0);
   vtkGetMacro(FeatureAngle, double);
   ///@}
   ///@{
   /** Cell array of the mesh; edges, or faces of hexahedra, between cells of different values are
-   * features. Empty or `None`: none is. Default empty. */
+   * features. Empty or `None`: none is. Default empty. Group "Sharp Edges". */
   vtkSetStringMacro(FeatureArray);
   vtkGetStringMacro(FeatureArray);
   ///@}
@@ -168,19 +170,20 @@ public:
   vtkBooleanMacro(SplitPolygons, bool);
   ///@}
   ///@{
-  /** Whether the surface is fitted to the target's faces. Default on. */
+  /** Whether the surface is fitted to the target's faces. Default on. Group "Fit". */
   vtkSetMacro(FitSurfaces, bool);
   vtkGetMacro(FitSurfaces, bool);
   vtkBooleanMacro(FitSurfaces, bool);
   ///@}
   ///@{
-  /** Whether edges on sharp edges and rims are fitted to these, after the surface. Default on. */
+  /** Whether edges on sharp edges and rims are fitted to these, after the surface. Default on.
+   * Group "Fit". */
   vtkSetMacro(FitCurves, bool);
   vtkGetMacro(FitCurves, bool);
   vtkBooleanMacro(FitCurves, bool);
   ///@}
   ///@{
-  /** Whether points at the target's corners are put there, at last. Default on. */
+  /** Whether points at the target's corners are put there, at last. Default on. Group "Fit". */
   vtkSetMacro(FitPoints, bool);
   vtkGetMacro(FitPoints, bool);
   vtkBooleanMacro(FitPoints, bool);
@@ -188,39 +191,40 @@ public:
   ///@{
   /** Whether the volume is fitted anew with the coefficients that its surface has, the surface with
    * those of its curves and these with those of their corners, each as near to what it was before
-   * as that allows; off: all others stay as they are. Default off. Advanced. */
+   * as that allows; off: all others stay as they are. Default off. Advanced. Group "Fit". */
   vtkSetMacro(Constrain, bool);
   vtkGetMacro(Constrain, bool);
   vtkBooleanMacro(Constrain, bool);
   ///@}
   ///@{
   /** Times that the surface is projected onto the target, from the second on from where it was
-   * fitted to before. Default 1, valid range [1, 100]. Advanced. */
+   * fitted to before. Default 1, valid range [1, 100]. Advanced. Group "Fit". */
   vtkSetClampMacro(Projections, int, 1, 100);
   vtkGetMacro(Projections, int);
   ///@}
   ///@{
   /** Gauss points of an element a direction beyond Degree + 1, at which closest points are taken:
-   * more for a target with finer detail. Default 1, valid range [0, 16]. */
+   * more for a target with finer detail. Default 1, valid range [0, 16]. Group "Fit". */
   vtkSetClampMacro(ExtraPoints, int, 0, 16);
   vtkGetMacro(ExtraPoints, int);
   ///@}
   ///@{
   /** Whether cells that are folded, as they are given or on the target, are untangled: their points
-   * slide on the target. Default on. */
+   * slide on the target. Default on. Group "Validity". */
   vtkSetMacro(Untangle, bool);
   vtkGetMacro(Untangle, bool);
   vtkBooleanMacro(Untangle, bool);
   ///@}
   ///@{
   /** Cells around folded ones, ring by ring, whose points may move. Default 2, valid range
-   * [0, 100]. For Untangle on. Advanced. */
+   * [0, 100]. For Untangle on. Advanced. Group "Validity". */
   vtkSetClampMacro(UntangleRings, int, 0, 100);
   vtkGetMacro(UntangleRings, int);
   ///@}
   ///@{
   /** Whether a layer of hexahedra is put under the whole surface where a hexahedron has two faces
-   * on one face of the target: no map is valid along their common edge. Default on. */
+   * on one face of the target: no map is valid along their common edge. Default on. Group
+   * "Validity". */
   vtkSetMacro(Layer, bool);
   vtkGetMacro(Layer, bool);
   vtkBooleanMacro(Layer, bool);
@@ -228,13 +232,13 @@ public:
   ///@{
   /** Which elements are mended after the fit, one of SmoothingMethods: OFF, none; NET, those whose
    * control nets are inverted, which is no proof; CERTIFICATE, those that are not proved valid.
-   * Default CERTIFICATE. */
+   * Default CERTIFICATE. Group "Validity". */
   vtkSetClampMacro(Smoothing, int, OFF, CERTIFICATE);
   vtkGetMacro(Smoothing, int);
   ///@}
   ///@{
   /** Elements around those that are mended, ring by ring, whose control points may move. Default 2,
-   * valid range [0, 100]. Advanced. */
+   * valid range [0, 100]. Advanced. For Smoothing not OFF. Group "Validity". */
   vtkSetClampMacro(SmoothingRings, int, 0, 100);
   vtkGetMacro(SmoothingRings, int);
   ///@}

@@ -36,6 +36,7 @@ void AddCellArrays(const CurvedElements& curved, vtkUnstructuredGrid* grid)
     ArrayOf<vtkIntArray>("Relaxed", curved.Relaxed, [](char relaxed) { return int(relaxed); }));
   data->AddArray(
     ArrayOf<vtkDoubleArray>("Distance", curved.Distance, [](double distance) { return distance; }));
+  data->SetActiveScalars("Distance"); // drawn first
 }
 
 void EncodeNumbers(const CurvedElements& curved, int numLeftOut, vtkTable* table)

@@ -34,6 +34,7 @@ void EncodeHexahedra(const CellMesh<3>& mesh, const PointMatrix& points,
     "ScaledJacobian", quality.ScaledJacobians, [](double value) { return value; }));
   output->GetCellData()->AddArray(ArrayOf<vtkIntArray>("Verdict", quality.Certificate.Cells,
     [](const CellCertificate& cell) { return static_cast<int>(cell.Verdict); }));
+  output->GetCellData()->SetActiveScalars("ScaledJacobian"); // drawn first
 }
 
 void AddHexahedronColumns(const HexahedronQuality& quality, vtkTable* table)

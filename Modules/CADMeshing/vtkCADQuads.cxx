@@ -67,6 +67,7 @@ void EncodeMesh(const CADTopology& model, const CADQuads& made, vtkPolyData* out
   }
   ofCells->AddArray(ArrayOf<vtkDoubleArray>(
     "ScaledJacobian", made.ScaledJacobians, [](double value) { return value; }));
+  ofCells->SetActiveScalars("CADFaceId"); // drawn first
   vtkPointData* ofPoints = output->GetPointData();
   ofPoints->AddArray(ArrayOf<vtkIntArray>(
     "CADEntityDimension", mesh.PointDimension, [](int dimension) { return dimension; }));

@@ -33,7 +33,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /** The way from begin to end, without a path. Default 0 0 1. */
+  /** The way from begin to end, without a path. Default 0 0 1. Components x, y, z. */
   vtkSetVector3Macro(Direction, double);
   vtkGetVector3Macro(Direction, double);
   ///@}

@@ -102,119 +102,124 @@ public:
   ///@{
   /** The map the optimization begins with, one of InitialMaps. INITIAL_AUTOMATIC: COONS, and
    * where that folds HARMONIC if it folds less. VARIATIONAL_HARMONIC: the map whose inverse is
-   * harmonic. Default INITIAL_AUTOMATIC. */
+   * harmonic. Default INITIAL_AUTOMATIC. Group "First Map". */
   vtkSetClampMacro(InitialMap, int, INITIAL_AUTOMATIC, VARIATIONAL_HARMONIC);
   vtkGetMacro(InitialMap, int);
   ///@}
   ///@{
   /** How the functional is minimized, one of Optimizers. OPTIMIZER_AUTOMATIC takes the faster
-   * one. Default OPTIMIZER_AUTOMATIC. Advanced. */
+   * one. Default OPTIMIZER_AUTOMATIC. Advanced. Group "Optimization". */
   vtkSetClampMacro(Optimizer, int, OPTIMIZER_AUTOMATIC, NEWTON);
   vtkGetMacro(Optimizer, int);
   ///@}
   ///@{
   /** How folds of the first map are removed, one of Foldovers. FOLDOVER_AUTOMATIC: a few rounds
-   * of RELU, PENALTY when that is not enough. Default FOLDOVER_AUTOMATIC. Advanced. */
+   * of RELU, PENALTY when that is not enough. Default FOLDOVER_AUTOMATIC. Advanced. Group "First
+   * Map". */
   vtkSetClampMacro(Foldover, int, FOLDOVER_AUTOMATIC, RELU);
   vtkGetMacro(Foldover, int);
   ///@}
   ///@{
   /** Whether inner weights move too, one of WeightModes. WEIGHTS_AUTOMATIC: only when control
    * points alone give no valid map. WEIGHTS_OPTIMIZED: in turn with the control points, from the
-   * unfolded first map on. Default WEIGHTS_AUTOMATIC. */
+   * unfolded first map on. Default WEIGHTS_AUTOMATIC. Group "Optimization". */
   vtkSetClampMacro(Weights, int, WEIGHTS_AUTOMATIC, WEIGHTS_OPTIMIZED);
   vtkGetMacro(Weights, int);
   ///@}
   ///@{
   /** Inner weights of the first map where the boundary is rational, one of FirstWeights: BLENDED
    * from those of the boundary (Boolean sum of their logarithms), or ONES. Default BLENDED.
-   * Advanced. */
+   * Advanced. Group "First Map". */
   vtkSetClampMacro(InitialWeights, int, BLENDED, ONES);
   vtkGetMacro(InitialWeights, int);
   ///@}
   ///@{
   /** What the inner control points are to make best, one of Objectives. WINSLOW: shape and
    * uniformity together. LEAST_JACOBIAN: from there on, the largest least det J. Default
-   * WINSLOW. */
+   * WINSLOW. Group "Optimization". */
   vtkSetClampMacro(Objective, int, WINSLOW, LEAST_JACOBIAN);
   vtkGetMacro(Objective, int);
   ///@}
   ///@{
   /** Work at most, about as many seconds of one core, but counted: the same run ends at the same
-   * place on every machine, with the best map so far. Default 4, valid range [1e-6, 1000000]. */
+   * place on every machine, with the best map so far. Default 4, valid range [1e-6, 1000000]. Group
+   * "Optimization". */
   vtkSetClampMacro(Effort, double, 1e-6, 1e6);
   vtkGetMacro(Effort, double);
   ///@}
   ///@{
   /** Seconds of the wall clock at most, then the best map so far is taken; 0: no limit. The
    * result then depends on the machine's speed. Default 0, valid range [0, 1000000000].
-   * Advanced. */
+   * Advanced. Group "Optimization". */
   vtkSetClampMacro(TimeLimit, double, 0.0, 1e9);
   vtkGetMacro(TimeLimit, double);
   ///@}
   ///@{
   /** Weight lambda of the uniformity int (det J / S - 1)^2 against the Winslow functional.
-   * Default 1, valid range [0, 1000000]. */
+   * Default 1, valid range [0, 1000000]. Group "Optimization". */
   vtkSetClampMacro(UniformityWeight, double, 0.0, 1e6);
   vtkGetMacro(UniformityWeight, double);
   ///@}
   ///@{
   /** delta / S of the RELU functional that removes folds; a tenth of it in every further round.
-   * Default 0.05, valid range [1e-6, 0.999]. Advanced. For Foldover not PENALTY. */
+   * Default 0.05, valid range [1e-6, 0.999]. Advanced. For Foldover not PENALTY. Group "First Map".
+   */
   vtkSetClampMacro(FoldoverMargin, double, 1e-6, 0.999);
   vtkGetMacro(FoldoverMargin, double);
   ///@}
   ///@{
   /** Added to det J / S in the denominator of the functional. Default 1e-10, valid range [1e-16,
-   * 1]. Advanced. */
+   * 1]. Advanced. Group "Optimization". */
   vtkSetClampMacro(WinslowEpsilon, double, 1e-16, 1.0);
   vtkGetMacro(WinslowEpsilon, double);
   ///@}
   ///@{
   /** Rounds of control points and weights end when they lower the energy by less. Default 0.01,
-   * valid range [1e-12, 1000000]. Advanced. For Weights not WEIGHTS_FIXED. */
+   * valid range [1e-12, 1000000]. Advanced. For Weights not WEIGHTS_FIXED. Group "Optimization". */
   vtkSetClampMacro(AlternationTolerance, double, 1e-12, 1e6);
   vtkGetMacro(AlternationTolerance, double);
   ///@}
   ///@{
-  /** Iterations of one minimization at most. Default 1000, valid range [1, 1000000]. Advanced. */
+  /** Iterations of one minimization at most. Default 1000, valid range [1, 1000000]. Advanced.
+   * Group "Optimization". */
   vtkSetClampMacro(MaximumIterations, int, 1, 1000000);
   vtkGetMacro(MaximumIterations, int);
   ///@}
   ///@{
   /** A minimization ends after three iterations in a row that lower the energy by less than this
-   * part of it. Default 1e-7, valid range [1e-15, 0.5]. Advanced. */
+   * part of it. Default 1e-7, valid range [1e-15, 0.5]. Advanced. Group "Optimization". */
   vtkSetClampMacro(EnergyTolerance, double, 1e-15, 0.5);
   vtkGetMacro(EnergyTolerance, double);
   ///@}
   ///@{
   /** Rounds of control points and weights at most. Default 5, valid range [1, 100]. Advanced.
-   * For Weights not WEIGHTS_FIXED. */
+   * For Weights not WEIGHTS_FIXED. Group "Optimization". */
   vtkSetClampMacro(MaximumAlternations, int, 1, 100);
   vtkGetMacro(MaximumAlternations, int);
   ///@}
   ///@{
   /** Rounds of local (THB) refinement where the space is too poor for a valid map. Default 3,
-   * valid range [0, 10]. */
+   * valid range [0, 10]. Group "Optimization". */
   vtkSetClampMacro(MaximumRefinements, int, 0, 10);
   vtkGetMacro(MaximumRefinements, int);
   ///@}
   ///@{
   /** Of lines drawn by hand: largest distance of the curves from the points, a share of the
-   * outline's size. Default 0.002, valid range [1e-9, 0.1]. Group "Outline". */
+   * outline's size. Default 0.002, valid range [1e-9, 0.1]. Group "Outline". For Input vtkPolyData.
+   */
   vtkSetClampMacro(OutlineTolerance, double, 1e-9, 0.1);
   vtkGetMacro(OutlineTolerance, double);
   ///@}
   ///@{
   /** Of lines drawn by hand: degrees that a line turns at a corner, at least. Default 40, valid
-   * range [5, 170]. Group "Outline". */
+   * range [5, 170]. Group "Outline". For Input vtkPolyData. */
   vtkSetClampMacro(CornerAngle, double, 5.0, 170.0);
   vtkGetMacro(CornerAngle, double);
   ///@}
   ///@{
   /** Of lines drawn by hand: share of a line's length over which its directions before and behind
    * a point are taken; more makes corners robust against noise, less finds near ones. Default 0.02,
-   * valid range [0.0001, 0.2]. Advanced. Group "Outline". */
+   * valid range [0.0001, 0.2]. Advanced. Group "Outline". For Input vtkPolyData. */
   vtkSetClampMacro(CornerWindow, double, 1e-4, 0.2);
   vtkGetMacro(CornerWindow, double);
   ///@}
@@ -246,18 +251,18 @@ public:
   ///@}
   ///@{
   /** With a layout: directions of patches have at least this degree. Default 2, valid range [1,
-   * 9]. */
+   * 9]. Group "Layout". */
   vtkSetClampMacro(MinimumDegree, int, 1, 9);
   vtkGetMacro(MinimumDegree, int);
   ///@}
   ///@{
   /** With a layout: directions of patches have at least so many elements. Default 4, valid range
-   * [1, 1000]. */
+   * [1, 1000]. Group "Layout". */
   vtkSetClampMacro(MinimumElements, int, 1, 1000);
   vtkGetMacro(MinimumElements, int);
   ///@}
   ///@{
-  /** With a layout: whether sides between patches move. Default on. */
+  /** With a layout: whether sides between patches move. Default on. Group "Layout". */
   vtkSetMacro(MoveInterfaces, bool);
   vtkGetMacro(MoveInterfaces, bool);
   vtkBooleanMacro(MoveInterfaces, bool);

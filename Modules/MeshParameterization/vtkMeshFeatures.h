@@ -50,56 +50,57 @@ public:
 
   ///@{
   /** Angle between the normals of two sides from which on an edge is sharp, degrees. Default 40,
-   * valid range [1, 179]. */
+   * valid range [1, 179]. Group "Sharp Edges". */
   vtkSetClampMacro(SharpAngle, double, 1.0, 179.0);
   vtkGetMacro(SharpAngle, double);
   ///@}
   ///@{
   /** The same of edges that continue sharp ones, at most SharpAngle. Default 20, valid range [1,
-   * 179]. */
+   * 179]. Group "Sharp Edges". */
   vtkSetClampMacro(WeakAngle, double, 1.0, 179.0);
   vtkGetMacro(WeakAngle, double);
   ///@}
   ///@{
   /** Turn of a chain of edges from which on it has a corner, degrees. Default 60, valid range [1,
-   * 180]. */
+   * 180]. Group "Sharp Edges". */
   vtkSetClampMacro(CornerAngle, double, 1.0, 180.0);
   vtkGetMacro(CornerAngle, double);
   ///@}
   ///@{
   /** Standard deviation of the points from the shape, unit of the points; negative: estimated for
-   * each part of the mesh. Default -1, valid range >= -1. */
+   * each part of the mesh. Default -1, valid range >= -1. Group "Sharp Edges". */
   vtkSetClampMacro(NoiseLevel, double, -1.0, VTK_DOUBLE_MAX);
   vtkGetMacro(NoiseLevel, double);
   ///@}
   ///@{
   /** Share of the mesh's area below which a region joins a neighbour. Default 0, valid range [0,
-   * 0.99]. */
+   * 0.99]. Group "Regions". */
   vtkSetClampMacro(SmallestRegion, double, 0.0, 0.99);
   vtkGetMacro(SmallestRegion, double);
   ///@}
   ///@{
   /** Width of rows of triangles between two sides, chamfers and fillets, that are edges instead of
    * regions, share of the diagonal of the box of its part of the mesh; 0: none are. Default 0.005,
-   * valid range [0, 1]. */
+   * valid range [0, 1]. Group "Regions". */
   vtkSetClampMacro(NarrowWidth, double, 0.0, 1.0);
   vtkGetMacro(NarrowWidth, double);
   ///@}
   ///@{
   /** Length of gaps in chains of edges that are closed, share of the diagonal of the box of its
-   * part of the mesh; 0: none are. Default 0.02, valid range [0, 1]. */
+   * part of the mesh; 0: none are. Default 0.02, valid range [0, 1]. Group "Sharp Edges". */
   vtkSetClampMacro(LargestGap, double, 0.0, 1.0);
   vtkGetMacro(LargestGap, double);
   ///@}
   ///@{
   /** What edges (input 1) and regions (RegionArray) that are given do, one of Modes: EXTEND, they
-   * are features beside those that are found; REPLACE, they are all of them. Default EXTEND. */
+   * are features beside those that are found; REPLACE, they are all of them. Default EXTEND. Group
+   * "Given Features". */
   vtkSetClampMacro(Mode, int, EXTEND, REPLACE);
   vtkGetMacro(Mode, int);
   ///@}
   ///@{
   /** Cell array of the mesh; edges between triangles of different values are features. Empty or
-   * `None`: none is. Default empty. */
+   * `None`: none is. Default empty. Group "Given Features". */
   vtkSetStringMacro(RegionArray);
   vtkGetStringMacro(RegionArray);
   ///@}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "AnalysisResults.h"
 
+#include <knotwork/SplineGrid/SplineBlocks.h>
 #include <knotwork/SplineGrid/TableRow.h>
 
 #include "vtkCellArray.h"
@@ -9,6 +10,7 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -107,7 +109,16 @@ std::vector<AnalysisCellField> CellFields(const AnalysisResults& results)
 
 Status EncodeResults(AnalysisResults& results, vtkDataObject* input, vtkDataObject* output)
 {
-  return EncodeBody(results.Body, PointFields(results), CellFields(results), input, output);
+  const Status status =
+    EncodeBody(results.Body, PointFields(results), CellFields(results), input, output);
+  for (const auto& [block, grid] : GridsByBlock(output))
+  {
+    // drawn first, and what Warp By Vector takes
+    vtkPointData* data = grid->GetPointData();
+    data->SetActiveScalars(IsPoisson(results) ? "Solution" : "VonMisesStress");
+    data->SetActiveVectors(IsPoisson(results) ? "Flux" : "Displacement");
+  }
+  return status;
 }
 
 void EncodeGaussPoints(const AnalysisResults& results, vtkPolyData* output)

@@ -45,7 +45,7 @@ public:
   ///@}
   ///@{
   /** Elasticity in the plane, one of Planes: STRESS, a thin plate; STRAIN, a long body. Default
-   * STRESS. */
+   * STRESS. For Equation ELASTICITY. */
   vtkSetClampMacro(Plane, int, STRESS, STRAIN);
   vtkGetMacro(Plane, int);
   ///@}
@@ -71,19 +71,19 @@ public:
 
   ///@{
   /** Conductivity of what the problem gives no material. Default 1, valid range [1e-100,
-   * 1e100]. */
+   * 1e100]. For Equation POISSON. Group "Material". */
   vtkSetClampMacro(Conductivity, double, 1e-100, 1e100);
   vtkGetMacro(Conductivity, double);
   ///@}
   ///@{
   /** Elastic modulus (Young's) of what the problem gives no material. Default 1, valid range
-   * [1e-100, 1e100]. */
+   * [1e-100, 1e100]. For Equation ELASTICITY. Group "Material". */
   vtkSetClampMacro(YoungsModulus, double, 1e-100, 1e100);
   vtkGetMacro(YoungsModulus, double);
   ///@}
   ///@{
   /** Lateral contraction (Poisson's ratio) of what the problem gives no material. Default 0.3,
-   * valid range [-0.99, 0.4999]. */
+   * valid range [-0.99, 0.4999]. For Equation ELASTICITY. Group "Material". */
   vtkSetClampMacro(PoissonsRatio, double, -0.99, 0.4999);
   vtkGetMacro(PoissonsRatio, double);
   ///@}

@@ -46,25 +46,27 @@ public:
   ///@{
   /** Solutions at most. From 2 on the elements that the error is largest in are split between them:
    * for single tensor-product, THB or LR patches. Default 1, valid range [1, 100]. Kernel
-   * default 50. */
+   * default 50. Group "Adaptive Refinement". */
   vtkSetClampMacro(MaxSteps, int, 1, 100);
   vtkGetMacro(MaxSteps, int);
   ///@}
   ///@{
   /** Estimated error in the norm of energy at which refinement ends. Default 0, valid range >= 0.
+   * For MaxSteps not 1. Group "Adaptive Refinement".
    */
   vtkSetClampMacro(ErrorTolerance, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(ErrorTolerance, double);
   ///@}
   ///@{
   /** Functions at which refinement ends. Default 100000, valid range >= 1. Kernel default 100000.
+   * For MaxSteps not 1. Group "Adaptive Refinement".
    */
   vtkSetClampMacro(MaximumFunctions, int, 1, VTK_INT_MAX);
   vtkGetMacro(MaximumFunctions, int);
   ///@}
   ///@{
   /** Share of the squared error that the elements to be split have at least (Doerfler). Default
-   * 0.5, valid range [0.01, 1]. Advanced. */
+   * 0.5, valid range [0.01, 1]. Advanced. For MaxSteps not 1. Group "Adaptive Refinement". */
   vtkSetClampMacro(Theta, double, 0.01, 1.0);
   vtkGetMacro(Theta, double);
   ///@}

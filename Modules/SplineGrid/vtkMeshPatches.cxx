@@ -81,6 +81,7 @@ void EncodePlaces(const MeshPatches<Dim>& patches, vtkUnstructuredGrid* output)
   }
   output->GetCellData()->AddArray(ids);
   output->GetCellData()->AddArray(places);
+  output->GetCellData()->SetActiveScalars("PatchId"); // drawn first
 }
 
 /// Vertices come before lines and polygons in polydata.

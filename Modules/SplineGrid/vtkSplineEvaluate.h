@@ -73,12 +73,13 @@ public:
   ///@}
   ///@{
   /** Point array of the second input with the patch of each point, where it has such an array.
-   * Default PatchId. */
+   * Default PatchId. For Mode PARAMETERS. */
   vtkSetMacro(PatchIdArray, std::string);
   vtkGetMacro(PatchIdArray, std::string);
   ///@}
   ///@{
-  /** Patch of all points where there is no PatchIdArray; -1: the only patch. Default -1. */
+  /** Patch of all points where there is no PatchIdArray; -1: the only patch. Default -1. For Mode
+   * PARAMETERS. */
   vtkSetMacro(PatchId, int);
   vtkGetMacro(PatchId, int);
   ///@}

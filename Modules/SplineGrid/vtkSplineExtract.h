@@ -54,46 +54,47 @@ public:
   vtkBooleanMacro(Boundary, bool);
   ///@}
   ///@{
-  /** Whether only the part of the surfaces over the box is kept. Default off. */
+  /** Whether only the part of the surfaces over the box is kept. Default off. Group "Part". */
   vtkSetMacro(RestrictToBox, bool);
   vtkGetMacro(RestrictToBox, bool);
   vtkBooleanMacro(RestrictToBox, bool);
   ///@}
   ///@{
   /** The box of parameters, in the domain of every patch: u from Box[0] to Box[1], v from Box[2]
-   * to Box[3]. Default 0 1 0 1. For RestrictToBox on. Components u0, u1, v0, v1. */
+   * to Box[3]. Default 0 1 0 1. For RestrictToBox on. Components u0, u1, v0, v1. Group "Part". */
   vtkSetVector4Macro(Box, double);
   vtkGetVector4Macro(Box, double);
   ///@}
   ///@{
-  /** Whether the parameters are exchanged: S'(u, v) = S(v, u). Default off. */
+  /** Whether the parameters are exchanged: S'(u, v) = S(v, u). Default off. Group "Parameters". */
   vtkSetMacro(SwapParameters, bool);
   vtkGetMacro(SwapParameters, bool);
   vtkBooleanMacro(SwapParameters, bool);
   ///@}
   ///@{
   /** Whether the first parameter, as it is after the exchange, is reversed: t becomes begin +
-   * end - t. Default off. */
+   * end - t. Default off. Group "Parameters". */
   vtkSetMacro(ReverseFirst, bool);
   vtkGetMacro(ReverseFirst, bool);
   vtkBooleanMacro(ReverseFirst, bool);
   ///@}
   ///@{
-  /** Whether the second parameter, as it is after the exchange, is reversed. Default off. */
+  /** Whether the second parameter, as it is after the exchange, is reversed. Default off. Group
+   * "Parameters". */
   vtkSetMacro(ReverseSecond, bool);
   vtkGetMacro(ReverseSecond, bool);
   vtkBooleanMacro(ReverseSecond, bool);
   ///@}
   ///@{
   /** Whether the parameters are scaled and shifted, so that Domain becomes the domain of every
-   * patch. Default off. */
+   * patch. Default off. Group "Parameters". */
   vtkSetMacro(MoveDomain, bool);
   vtkGetMacro(MoveDomain, bool);
   vtkBooleanMacro(MoveDomain, bool);
   ///@}
   ///@{
   /** The new domain: u from Domain[0] to Domain[1], v from Domain[2] to Domain[3]. Default 0 1 0 1.
-   * For MoveDomain on. Components u0, u1, v0, v1. */
+   * For MoveDomain on. Components u0, u1, v0, v1. Group "Parameters". */
   vtkSetVector4Macro(Domain, double);
   vtkGetVector4Macro(Domain, double);
   ///@}
@@ -106,14 +107,14 @@ public:
   ///@}
   ///@{
   /** The parameter that is constant on a curve that is taken instead of the surface, one of
-   * IsoCurves. Default NONE. */
+   * IsoCurves. Default NONE. Group "Curve". */
   vtkSetClampMacro(IsoCurve, int, NONE, SECOND);
   vtkGetMacro(IsoCurve, int);
   ///@}
   ///@{
   /** Value of the parameter that is constant on the curve, in the domain that every patch has then;
    * on a line of full multiplicity the limit from above. Default 0.5. For IsoCurve not NONE. Kernel
-   * default 0. */
+   * default 0. Group "Curve". */
   vtkSetMacro(IsoValue, double);
   vtkGetMacro(IsoValue, double);
   ///@}

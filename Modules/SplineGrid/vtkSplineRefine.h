@@ -113,7 +113,8 @@ public:
   ///@}
   ///@{
   /** Whether a patch with marked elements is refined everywhere, so that it stays what it is,
-   * tensor-product or Bezier. Default off. For Mode not UNIFORM, SEGMENTS. */
+   * tensor-product or Bezier. Default off. For Mode not UNIFORM, SEGMENTS. Group "Local
+   * Refinement". */
   vtkSetMacro(GlobalRefinement, bool);
   vtkGetMacro(GlobalRefinement, bool);
   vtkBooleanMacro(GlobalRefinement, bool);
@@ -126,13 +127,13 @@ public:
   ///@}
   ///@{
   /** Lowest value of a marked element of the cell array, inclusive. Default 0. For Mode
-   * CELL_ARRAY. */
+   * CELL_ARRAY. Group "Marks". */
   vtkSetMacro(LowerThreshold, double);
   vtkGetMacro(LowerThreshold, double);
   ///@}
   ///@{
   /** Highest value of a marked element of the cell array, inclusive. Default 1e299. For Mode
-   * CELL_ARRAY. */
+   * CELL_ARRAY. Group "Marks". */
   vtkSetMacro(UpperThreshold, double);
   vtkGetMacro(UpperThreshold, double);
   ///@}
@@ -144,58 +145,59 @@ public:
   ///@{
   /** Whether elements are marked that the function's surface crosses, or those inside as well,
    * one of Regions. Corners, middles and the centre of elements are looked at; what lies between
-   * is not seen. Default CROSSED_OR_INSIDE. For Mode IMPLICIT_FUNCTION. */
+   * is not seen. Default CROSSED_OR_INSIDE. For Mode IMPLICIT_FUNCTION. Group "Marks". */
   vtkSetClampMacro(ImplicitRegion, int, CROSSED, CROSSED_OR_INSIDE);
   vtkGetMacro(ImplicitRegion, int);
   ///@}
   ///@{
   /** Rings of new cells around marked elements that are split too; -1: the smallest number that
    * brings new functions, (degree - 1) / 2 rounded up. Default -1, valid range [-1, 16].
-   * Advanced. For Mode not UNIFORM, SEGMENTS. */
+   * Advanced. For Mode not UNIFORM, SEGMENTS. Group "Local Refinement". */
   vtkSetClampMacro(Extension, int, -1, 16);
   vtkGetMacro(Extension, int);
   ///@}
   ///@{
   /** Functions alive on an element belong to at most so many successive levels; 0: no such
    * limit, 1 is not valid. Default 0, valid range [0, 24]. Advanced. For Mode not UNIFORM,
-   * SEGMENTS. */
+   * SEGMENTS. Group "Local Refinement". */
   vtkSetClampMacro(AdmissibleClass, int, 0, 24);
   vtkGetMacro(AdmissibleClass, int);
   ///@}
   ///@{
   /** Elements of this level are not split locally. Default 24, valid range [1, 24]. Advanced.
-   * For Mode not UNIFORM, SEGMENTS. */
+   * For Mode not UNIFORM, SEGMENTS. Group "Local Refinement". */
   vtkSetClampMacro(MaxLevel, int, 1, 24);
   vtkGetMacro(MaxLevel, int);
   ///@}
   ///@{
   /** What local refinement makes of tensor-product surfaces and volumes, one of LocalSpaces.
-   * Default HIERARCHICAL. For Mode not UNIFORM, SEGMENTS. */
+   * Default HIERARCHICAL. For Mode not UNIFORM, SEGMENTS. Group "Local Refinement". */
   vtkSetClampMacro(LocalSpace, int, HIERARCHICAL, LOCALLY_REFINED);
   vtkGetMacro(LocalSpace, int);
   ///@}
   ///@{
   /** How long the new lines of LR patches are: across all functions alive on an element, across
    * the smallest, all knot spans of a function halved, or those of them that hold marked elements
-   * and are longer than half the longest; one of LRStrategies. Default FULL_SPAN. Advanced. */
+   * and are longer than half the longest; one of LRStrategies. Default FULL_SPAN. Advanced. Group
+   * "LR Splines". */
   vtkSetClampMacro(LRStrategy, int, FULL_SPAN, RESTRICTED_MESH);
   vtkGetMacro(LRStrategy, int);
   ///@}
   ///@{
   /** What is halved in LR patches: the marked elements, or the functions that have the most of
-   * their support marked; one of LRTargets. Default ELEMENTS. Advanced. */
+   * their support marked; one of LRTargets. Default ELEMENTS. Advanced. Group "LR Splines". */
   vtkSetClampMacro(LRTarget, int, ELEMENTS, FUNCTIONS);
   vtkGetMacro(LRTarget, int);
   ///@}
   ///@{
   /** The parameter that is constant on the new lines of LR patches, one of LRDirectionChoices;
-   * ALTERNATING begins with the first one. Default BOTH. Advanced. */
+   * ALTERNATING begins with the first one. Default BOTH. Advanced. Group "LR Splines". */
   vtkSetClampMacro(LRDirections, int, BOTH, SECOND);
   vtkGetMacro(LRDirections, int);
   ///@}
   ///@{
   /** Whether lines are added until the functions of LR patches are linearly independent, with no
-   * refinements too. Default off. Advanced. */
+   * refinements too. Default off. Advanced. Group "LR Splines". */
   vtkSetMacro(KeepIndependent, bool);
   vtkGetMacro(KeepIndependent, bool);
   vtkBooleanMacro(KeepIndependent, bool);

@@ -75,60 +75,66 @@ public:
   ///@{
   /** Equal elements that every knot span of the shape is cut into, with the highest continuity:
    * along x, y, z, or in radial, angular and axial direction, as far as the shape has them; see
-   * Shapes. Default 1 1 1, valid range >= 1. */
+   * Shapes. Default 1 1 1, valid range >= 1. Components first, second, third. */
   vtkSetVector3Macro(Elements, int);
   vtkGetVector3Macro(Elements, int);
   ///@}
   ///@{
   /** Radius of the hole, of a torus' tube, or of the corners of the core of a disc or ball; less
    * than OuterRadius, 0 for ball sectors only, of plates less than half a side. Default 0.5,
-   * valid range >= 0. */
+   * valid range >= 0. For Shape ANNULUS_SECTOR, DISC, PLATE_WITH_HOLE, QUARTER_PLATE_WITH_HOLE,
+   * TORUS_SURFACE, SOLID_TUBE, SOLID_CYLINDER, BALL_SECTOR, BALL, SOLID_TORUS. */
   vtkSetMacro(InnerRadius, double);
   vtkGetMacro(InnerRadius, double);
   ///@}
   ///@{
   /** Radius of the circle, cylinder or sphere, or of the circle that a torus follows; above 0.
-   * Default 1, valid range >= 0. */
+   * Default 1, valid range >= 0. For Shape not LINE, SQUARE, PLATE_WITH_HOLE,
+   * QUARTER_PLATE_WITH_HOLE, CUBE, TWISTED_BAR. */
   vtkSetMacro(OuterRadius, double);
   vtkGetMacro(OuterRadius, double);
   ///@}
   ///@{
   /** Angle about z from +x in degrees that arcs, sectors and tori span; at 360 a seam remains.
-   * Default 90, valid range (0, 360]. */
+   * Default 90, valid range (0, 360]. For Shape ARC, ANNULUS_SECTOR, CYLINDER_SURFACE,
+   * POLAR_SPHERE_SURFACE, TORUS_SURFACE, SOLID_TUBE, BALL_SECTOR, SOLID_TORUS. */
   vtkSetMacro(Angle, double);
   vtkGetMacro(Angle, double);
   ///@}
   ///@{
   /** Patches that share the angle of an annulus sector or a solid tube equally; with 360 degrees
-   * they close to a ring. Default 1, valid range [1, 4096]. */
+   * they close to a ring. Default 1, valid range [1, 4096]. For Shape ANNULUS_SECTOR, SOLID_TUBE.
+   */
   vtkSetClampMacro(Sectors, int, 1, 4096);
   vtkGetMacro(Sectors, int);
   ///@}
   ///@{
   /** Angle in degrees between the lowest and the highest latitude of a ball sector; at 180 it is
-   * degenerate at the poles. Default 90, valid range (0, 180]. Advanced. */
+   * degenerate at the poles. Default 90, valid range (0, 180]. Advanced. For Shape BALL_SECTOR. */
   vtkSetMacro(PolarAngle, double);
   vtkGetMacro(PolarAngle, double);
   ///@}
   ///@{
-  /** Length along z of cylinders and tubes; above 0. Default 1, valid range >= 0. */
+  /** Length along z of cylinders and tubes; above 0. Default 1, valid range >= 0. For Shape
+   * CYLINDER_SURFACE, SOLID_TUBE, SOLID_CYLINDER. */
   vtkSetMacro(Height, double);
   vtkGetMacro(Height, double);
   ///@}
   ///@{
   /** Angle in degrees between the two ends of a twisted bar. Default 90, valid range [-3600,
-   * 3600]. */
+   * 3600]. For Shape TWISTED_BAR. */
   vtkSetMacro(Twist, double);
   vtkGetMacro(Twist, double);
   ///@}
   ///@{
   /** Side lengths along x, y and z of lines, squares, plates, cubes and bars; above 0. Default 1
-   * 1 1, valid range >= 0. */
+   * 1 1, valid range >= 0. For Shape LINE, SQUARE, PLATE_WITH_HOLE, QUARTER_PLATE_WITH_HOLE, CUBE,
+   * TWISTED_BAR. Components x, y, z. */
   vtkSetVector3Macro(Size, double);
   vtkGetVector3Macro(Size, double);
   ///@}
   ///@{
-  /** Centre of the box, circle, sphere, ring or axis. Default 0 0 0. */
+  /** Centre of the box, circle, sphere, ring or axis. Default 0 0 0. Components x, y, z. */
   vtkSetVector3Macro(Center, double);
   vtkGetVector3Macro(Center, double);
   ///@}

@@ -92,13 +92,13 @@ public:
   ///@{
   /** Edges between quadrilaterals whose normals differ by more than this angle in degrees are
    * features: C^0, and no part of MaxNormalAngle. 180: none is. Of quadrilaterals only. Default
-   * 180, valid range [0, 180]. */
+   * 180, valid range [0, 180]. Group "Creases". */
   vtkSetClampMacro(FeatureAngle, double, 0.0, 180.0);
   vtkGetMacro(FeatureAngle, double);
   ///@}
   ///@{
   /** Cell array; edges, or faces of hexahedra, between cells of different values are features.
-   * Empty or `None`: none is. Default empty. */
+   * Empty or `None`: none is. Default empty. Group "Creases". */
   vtkSetStringMacro(FeatureArray);
   vtkGetStringMacro(FeatureArray);
   ///@}
@@ -122,13 +122,13 @@ public:
    * OFF, nowhere; CELLS, around cells that are folded; ELEMENTS, and around elements of the spline
    * that turn over. Points of surfaces slide on the surface that the mesh is, those of features,
    * rims and edges sharper than 45 degrees along them. A warning says how many moved
-   * and how far. Default CELLS. */
+   * and how far. Default CELLS. Group "Folded Cells". */
   vtkSetClampMacro(Untangle, int, OFF, ELEMENTS);
   vtkGetMacro(Untangle, int);
   ///@}
   ///@{
   /** Cells around folded ones, ring by ring, whose points may move; more where that is not enough.
-   * Default 2, valid range [0, 100]. */
+   * Default 2, valid range [0, 100]. For Untangle not OFF. Group "Folded Cells". */
   vtkSetClampMacro(UntangleRings, int, 0, 100);
   vtkGetMacro(UntangleRings, int);
   ///@}

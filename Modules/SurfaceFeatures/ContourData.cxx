@@ -236,6 +236,7 @@ Status EncodePolylines(
   {
     output->GetCellData()->AddArray(array);
   }
+  output->GetCellData()->SetActiveScalars("Level"); // drawn first
   return {};
 }
 

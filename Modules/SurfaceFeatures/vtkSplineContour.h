@@ -58,43 +58,45 @@ public:
   ///@}
   ///@{
   /** Field of the spline grid whose contours are wanted; empty or `None`: the coordinates.
-   * Default empty. */
+   * Default empty. Group "Values". */
   vtkSetMacro(FieldName, std::string);
   vtkGetMacro(FieldName, std::string);
   ///@}
   ///@{
   /** Component of the field, or coordinate; -1: the last one, of the coordinates the height.
-   * Default -1, valid range [-1, 1000]. */
+   * Default -1, valid range [-1, 1000]. Group "Values". */
   vtkSetClampMacro(Component, int, -1, 1000);
   vtkGetMacro(Component, int);
   ///@}
   ///@{
   /** Largest difference between value and level anywhere on a contour; 0: a ten-thousandth of
-   * the range of the values. Default 0, valid range >= 0. */
+   * the range of the values. Default 0, valid range >= 0. Group "Accuracy". */
   vtkSetClampMacro(Tolerance, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Tolerance, double);
   ///@}
   ///@{
   /** Largest distance in space between straight pieces (spline curves) and the surface; 0: a
    * thousandth of the diagonal of the box around the corners of elements. Default 0, valid range
-   * >= 0. Advanced. */
+   * >= 0. Advanced. Group "Accuracy". */
   vtkSetClampMacro(ChordalTolerance, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(ChordalTolerance, double);
   ///@}
   ///@{
-  /** Whether contours go on over the seams of closed surfaces. Default on. Advanced. */
+  /** Whether contours go on over the seams of closed surfaces. Default on. Advanced. Group
+   * "Outputs". */
   vtkSetMacro(JoinSeams, bool);
   vtkGetMacro(JoinSeams, bool);
   vtkBooleanMacro(JoinSeams, bool);
   ///@}
   ///@{
-  /** Whether the third coordinate of points becomes the level. Default off. */
+  /** Whether the third coordinate of points becomes the level. Default off. Group "Outputs". */
   vtkSetMacro(ProjectToLevel, bool);
   vtkGetMacro(ProjectToLevel, bool);
   vtkBooleanMacro(ProjectToLevel, bool);
   ///@}
   ///@{
-  /** Whether the contours are made as cubic spline curves, too: output 1. Default off. */
+  /** Whether the contours are made as cubic spline curves, too: output 1. Default off. Group
+   * "Outputs". */
   vtkSetMacro(Curves, bool);
   vtkGetMacro(Curves, bool);
   vtkBooleanMacro(Curves, bool);

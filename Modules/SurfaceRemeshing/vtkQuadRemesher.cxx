@@ -46,6 +46,7 @@ void EncodeQuads(const QuadRemesh& made, vtkPolyData* output)
   data->AddArray(ArrayOf<vtkIntArray>("PartId", made.PartIds, [](int part) { return part; }));
   data->AddArray(ArrayOf<vtkDoubleArray>(
     "ScaledJacobian", made.ScaledJacobians, [](double value) { return value; }));
+  data->SetActiveScalars("ScaledJacobian"); // drawn first
 }
 
 void EncodeTries(const std::vector<QuadTry>& tries, vtkTable* table)

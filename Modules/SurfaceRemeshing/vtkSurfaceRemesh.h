@@ -43,55 +43,56 @@ public:
 
   ///@{
   /** What tells the lengths of edges, one of Sizings: CONSTANT, Size everywhere; CURVATURE, as long
-   * as a chord may be for Tolerance; ARRAY, the values of SizeArray. Default CONSTANT. */
+   * as a chord may be for Tolerance; ARRAY, the values of SizeArray. Default CONSTANT. Group
+   * "Sizes". */
   vtkSetClampMacro(Sizing, int, CONSTANT, ARRAY);
   vtkGetMacro(Sizing, int);
   ///@}
   ///@{
   /** Length of edges, unit of the points; 0: the mean length of the input's. Default 0, valid range
-   * >= 0. For Sizing CONSTANT. */
+   * >= 0. For Sizing CONSTANT. Group "Sizes". */
   vtkSetClampMacro(Size, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Size, double);
   ///@}
   ///@{
   /** Distance of a chord from the surface, share of the diagonal of the input's box. Default 0.001,
-   * valid range [1e-6, 1]. For Sizing CURVATURE. */
+   * valid range [1e-6, 1]. For Sizing CURVATURE. Group "Sizes". */
   vtkSetClampMacro(Tolerance, double, 1e-6, 1.0);
   vtkGetMacro(Tolerance, double);
   ///@}
   ///@{
   /** Shortest length of edges, unit of the points; 0: 0.005 of the diagonal. Default 0, valid range
-   * >= 0. For Sizing CURVATURE. */
+   * >= 0. For Sizing CURVATURE. Group "Sizes". */
   vtkSetClampMacro(SmallestSize, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(SmallestSize, double);
   ///@}
   ///@{
   /** Longest length of edges, unit of the points; 0: 0.1 of the diagonal. Default 0, valid range >=
-   * 0. For Sizing CURVATURE. */
+   * 0. For Sizing CURVATURE. Group "Sizes". */
   vtkSetClampMacro(LargestSize, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(LargestSize, double);
   ///@}
   ///@{
   /** Point array of the input: length of edges at each point, above 0, linear between. Lengths grow
-   * by half of the distance at most. Default empty. For Sizing ARRAY. */
+   * by half of the distance at most. Default empty. For Sizing ARRAY. Group "Sizes". */
   vtkSetStringMacro(SizeArray);
   vtkGetStringMacro(SizeArray);
   ///@}
   ///@{
   /** Angle between the normals of two sides from which on an edge is sharp, degrees. Default 40,
-   * valid range [1, 179]. */
+   * valid range [1, 179]. Group "Sharp Edges". */
   vtkSetClampMacro(SharpAngle, double, 1.0, 179.0);
   vtkGetMacro(SharpAngle, double);
   ///@}
   ///@{
   /** The same of edges that continue sharp ones, at most SharpAngle. Default 20, valid range [1,
-   * 179]. */
+   * 179]. Group "Sharp Edges". */
   vtkSetClampMacro(WeakAngle, double, 1.0, 179.0);
   vtkGetMacro(WeakAngle, double);
   ///@}
   ///@{
   /** Turn of a chain of sharp edges from which on it has a corner, degrees. Default 60, valid range
-   * [1, 180]. */
+   * [1, 180]. Group "Sharp Edges". */
   vtkSetClampMacro(CornerAngle, double, 1.0, 180.0);
   vtkGetMacro(CornerAngle, double);
   ///@}

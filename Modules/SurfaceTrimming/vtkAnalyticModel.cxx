@@ -47,6 +47,7 @@ void EncodeTypes(const RegionModel& model, const TrimmedMesh& triangles, vtkPoly
       static_cast<int>(model.Model.Faces[static_cast<std::size_t>(face)].Type));
   }
   output->GetCellData()->AddArray(types);
+  output->GetCellData()->SetActiveScalars("SurfaceType"); // drawn first
 }
 
 /// Of the mesh's points from analytic faces, of the mesh and spline faces from each other, and of

@@ -113,7 +113,7 @@ public:
   ///@}
   ///@{
   /** Inner knots of single directions; -1: the common number. Default -1 -1 -1, valid range [-1,
-   * 4096]. Advanced. Group "Method". */
+   * 4096]. Advanced. Group "Method". Components u, v, w. */
   vtkSetVector3Macro(InnerKnotsPerDirection, int);
   vtkGetVector3Macro(InnerKnotsPerDirection, int);
   ///@}

@@ -46,37 +46,37 @@ public:
 
   ///@{
   /** Largest radius of a circumsphere over the shortest edge; 0: no bound. Default 2, valid range
-   * [0, 10]. */
+   * [0, 10]. Group "Sizes". */
   vtkSetClampMacro(RadiusEdgeRatio, double, 0.0, 10.0);
   vtkGetMacro(RadiusEdgeRatio, double);
   ///@}
   ///@{
   /** Smallest angle between faces in degrees that is aimed at; 0: none. Default 5, valid range [0,
-   * 30]. */
+   * 30]. Group "Sizes". */
   vtkSetClampMacro(MinDihedralAngle, double, 0.0, 30.0);
   vtkGetMacro(MinDihedralAngle, double);
   ///@}
   ///@{
   /** Largest volume, as that of a regular tetrahedron with edges of this length; 0: no bound.
-   * Default 0, valid range [0, 1000000000000]. */
+   * Default 0, valid range [0, 1000000000000]. Group "Sizes". */
   vtkSetClampMacro(EdgeLength, double, 0.0, 1e12);
   vtkGetMacro(EdgeLength, double);
   ///@}
   ///@{
-  /** Points that are added at most. Default 1000000, valid range >= 0. Advanced. */
+  /** Points that are added at most. Default 1000000, valid range >= 0. Advanced. Group "Sizes". */
   vtkSetClampMacro(MaxSteinerPoints, int, 0, VTK_INT_MAX);
   vtkGetMacro(MaxSteinerPoints, int);
   ///@}
   ///@{
   /** Whether the triangles of the surface stay as they are, and cells beside large ones large; else
-   * they may be divided. Default on. */
+   * they may be divided. Default on. Group "Surface". */
   vtkSetMacro(KeepBoundary, bool);
   vtkGetMacro(KeepBoundary, bool);
   vtkBooleanMacro(KeepBoundary, bool);
   ///@}
   ///@{
   /** What parts of the surface within others enclose, one of InnerParts: VOIDS, void and solid in
-   * turn; REGIONS, solids of their own. Default VOIDS. */
+   * turn; REGIONS, solids of their own. Default VOIDS. Group "Surface". */
   vtkSetClampMacro(Inner, int, VOIDS, REGIONS);
   vtkGetMacro(Inner, int);
   ///@}
@@ -87,20 +87,20 @@ public:
   ///@}
   ///@{
   /** Whether a surface that bounds no solid is repaired first, as vtkSurfaceRepair does, with all
-   * holes closed. Default off. */
+   * holes closed. Default off. Group "Surface". */
   vtkSetMacro(Repair, bool);
   vtkGetMacro(Repair, bool);
   vtkBooleanMacro(Repair, bool);
   ///@}
   ///@{
   /** Of an input that is a spline: largest distance of its triangles from it, share of the diagonal
-   * of its box. Default 0.001, valid range [1e-12, 1]. */
+   * of its box. Default 0.001, valid range [1e-12, 1]. Group "Surface". */
   vtkSetClampMacro(ChordalTolerance, double, 1e-12, 1.0);
   vtkGetMacro(ChordalTolerance, double);
   ///@}
   ///@{
   /** Edges of a target of triangles between normals that differ by this angle in degrees are
-   * sharp. Default 40, valid range [1, 179]. Advanced. */
+   * sharp. Default 40, valid range [1, 179]. Advanced. For Order not 1. Group "Surface". */
   vtkSetClampMacro(SharpAngle, double, 1.0, 179.0);
   vtkGetMacro(SharpAngle, double);
   ///@}

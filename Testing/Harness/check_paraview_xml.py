@@ -4,7 +4,7 @@
 Holds each proxy of ParaView's XML against the filter that it shows: the class and every command exist, defaults are those
 of a newly constructed filter, ranges are those that it clamps to and no longer than ten digits, every choice of a list is accepted, numbers of a
 list have labels, what hides a property is a property with that value, every
-proxy and property has help of its own, and the proxy is in the menu category Knotwork or a reader or writer. Then breaks a copy of each
+proxy and property has help of its own. Then breaks a copy of each
 proxy in one place after the other and insists on noticing.
 """
 import copy
@@ -167,10 +167,6 @@ def proxy_problems(proxy):
     instance = factory()
     yield from help_problems(proxy, name)
     yield from decorator_problems(proxy)
-    menu = proxy.find("Hints/ShowInMenu")
-    in_file_dialog = proxy.find("Hints/ReaderFactory") is not None or proxy.find("Hints/WriterFactory") is not None
-    if not in_file_dialog and (menu is None or menu.get("category") != "Knotwork"):
-        yield f"{name}: not in the menu category Knotwork"
     for element in proxy.iter():
         if element.tag in PROPERTIES:
             yield from property_problems(element, instance, name)
@@ -213,7 +209,6 @@ def broken_copies(proxy):
     yield from change("condition", lambda e: e.tag == "PropertyWidgetDecorator" and e.get("property"),
                       lambda e: e.set("property", "NoSuchProperty"))
     yield from change("condition", lambda e: e.tag == "PropertyWidgetDecorator" and e.get("value"), lambda e: e.set("value", "-77"))
-    yield from change("menu", lambda e: e.tag == "ShowInMenu", lambda e: e.set("category", "Other"))
 
 
 def check(path):
