@@ -125,7 +125,7 @@ def test_page():
         text = stream.read()
     write_sphere_scan(24)  # a sphere fits a sphere in any pose: all are tried
     write("quads.off", sphere_text(6))
-    commands = [line for block in re.findall("```sh\n(.*?)```", text, re.S) for line in block.splitlines() if line.startswith("knotwork ")]
+    commands = [line for block in re.findall("```bash\n(.*?)```", text, re.S) for line in block.splitlines() if line.startswith("knotwork ")]
     assert commands
     for command in commands:
         run(*shlex.split(command.split("#")[0])[1:])
