@@ -133,6 +133,7 @@ def run_doxygen(files, folder):
     shutil.rmtree(folder, ignore_errors=True)
     os.makedirs(folder)
     settings = read(os.path.join(HERE, "Doxyfile")) + f'OUTPUT_DIRECTORY = "{folder}"\n'
+    settings += f'INPUT_FILTER = "{sys.executable} {os.path.join(HERE, "doxygen_filter.py")}"\n'
     settings += "".join(f'INPUT += "{file}"\n' for file in files) + "".join(f'PREDEFINED += "{name}="\n' for name in exports)
     subprocess.run(["doxygen", "-"], input=settings, text=True, check=True)
 
@@ -149,7 +150,7 @@ def add_cxx_reference(filters, kernels, folder):
         text = f"# {module}: kernel\n\nTarget `Knotwork::{module}Kernel`, which needs no VTK.\n"
         for file in files:
             name = os.path.basename(file)
-            text += f"\n## {name}\n\n`#include <knotwork/{module}/{name}>`\n\n```{{doxygenfile}} {name}\n:sections: innerclass enum typedef func var\n```\n"
+            text += f"\n## {name}\n\n`#include <knotwork/{module}/{name}>`\n\n```{{doxygengroup}} {name.replace('.', '_')}\n:content-only:\n:members:\n```\n"
         write(os.path.join(folder, "cxx", module + "Kernel.md"), text)
 
 

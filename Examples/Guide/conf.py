@@ -24,23 +24,23 @@ html_theme = "furo"
 html_title = f"Knotwork {version}"
 html_copy_source = False
 html_show_sphinx = False
-html_static_path = []
+html_static_path = ["style.css"]
+html_css_files = ["style.css"]
 
 
 def format_docstring(app, what, name, thing, options, lines):
     """The package's docstrings are plain text: a line "name = default: sentence" is a parameter, any other line stands as it is."""
-    made = []
-    for line in lines:
-        found = re.match(r"(\w+)( = (?:'[^']*'|[^:'])+)?: (.*)", line.strip())
-        text = re.sub(r"([\\*`|_])", r"\\\1", line.strip())
+    made, listed = [], False
+    for line in map(str.strip, lines):
+        found = re.match(r"(\w+)( = (?:'[^']*'|[^:'])+)?: (.*)", line)
+        text = re.sub(r"([\\*`|_])", r"\\\1", found[3] if found else line)
         if found:
-            made.append(f"* **{found[1]}**" + (f" = ``{found[2][3:]}``" if found[2] else "") + ": " + re.sub(r"([\\*`|_])", r"\\\1", found[3]))
-        elif line.startswith("    ") and made and made[-1].startswith("* "):
+            made += ([] if listed else [""]) + [f"* **{found[1]}**" + (f" = ``{found[2][3:]}``" if found[2] else "") + ": " + text]
+        elif listed and text and not re.match("Returns?|Raises", text):
             made.append("  " + text)
         else:
-            if made and made[-1].startswith("* ") and text:
-                made.append("")
-            made.append(text)
+            made += ["", text] if listed else [text]
+        listed = bool(found) or (listed and made[-1].startswith("  "))
     lines[:] = made + [""]
 
 
