@@ -26,6 +26,12 @@ def snippets(file):
             for found in BLOCK.finditer(text)]
 
 
+def fenced(file, language):
+    """Texts of a page's blocks of one language."""
+    with open(file, encoding="utf-8") as stream:
+        return re.findall(rf"^```{language}\n(.*?)^```$", stream.read(), re.M | re.S)
+
+
 def run_bash(place, text, folder, allowed=(0,)):
     environment = dict(os.environ, PATH=os.pathsep.join([os.environ["KNOTWORK_BIN_DIR"], "/usr/bin", os.environ["PATH"]]))
     done = subprocess.run(["bash", "-eu", "-o", "pipefail", "-c", text], cwd=folder, env=environment, stdout=subprocess.PIPE,
@@ -49,9 +55,12 @@ def run_python(place, text, names):
         raise AssertionError(f"{place}: {window.GetOutput()}")
 
 
-def run_page(file, folder):
-    """Runs a page's blocks in a folder; the namespace of its Python and the number of blocks. Raises what a block raises."""
-    names, found, before = {}, snippets(file), os.getcwd()
+def run_page(file, folder, names=None, compile_cxx=None, commands=True):
+    """Runs a page's blocks in a folder; the namespace of its Python and the number of blocks. Raises what a block raises.
+
+    names: what the page's Python takes as given. compile_cxx: called with all C++ blocks without a name, of a page that shows parts of programs.
+    commands: False leaves out those within the text, of a page that shows their forms."""
+    names, found, before, parts = names or {}, snippets(file), os.getcwd(), []
     os.chdir(folder)
     try:
         for place, language, text in found:
@@ -62,11 +71,16 @@ def run_page(file, folder):
             elif language == "bash":
                 run_bash(place, text, folder)
             elif language == "command":
-                run_bash(place, text, folder, (0, 3, 4) if text.startswith("knotwork validate ") else (0,))
+                if commands:
+                    run_bash(place, text, folder, (0, 3, 4) if text.startswith("knotwork validate ") else (0,))
             elif language == "python":
                 run_python(place, text, names)
+            elif language == "cpp" and compile_cxx:
+                parts.append(text)
             else:
                 raise AssertionError(f"{place}: a block of {language} begins with its file's name in a comment")
+        if parts:
+            compile_cxx(parts)
     finally:
         os.chdir(before)
     return names, len(found)
