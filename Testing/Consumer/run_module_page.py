@@ -51,22 +51,6 @@ def terrain():
     return np.c_[x, y, np.exp(-8 * ((x - 0.4) ** 2 + (y - 0.5) ** 2))]
 
 
-def cad_fitting():
-    copy(("piston.step", "part.step"))
-    run("cadmodify", "part.step", "--cut-plane", 0, 0, 46, 0, 0, 1, "--cut-plane", 0, 0, 0, 1, 0, 0, "-o", "pieces.brep")
-    run("hexes", "pieces.brep", "--edge-length", 16, "-o", "mesh.vtu")
-    run("convert", "mesh.vtu", "-o", "mesh.msh")
-    run("quads", "part.step", "--edge-length", 16, "-o", "quads.vtp")
-    for name in ("scan.ply", "scan.vtp", "scan.stl"):
-        run("tessellate", "part.step", "-o", name)
-    quads = kw.read("quads.vtp")
-    cells = [[quads.GetCell(i).GetPointId(k) for k in range(4)] for i in range(quads.GetNumberOfCells())]
-    with open("quads.off", "w", encoding="ascii") as stream:
-        stream.write(f"OFF\n{len(quads.points)} {len(cells)} 0\n" + "".join("{} {} {}\n".format(*map(repr, map(float, each))) for each in quads.points))
-        stream.write("".join("4 {} {} {} {}\n".format(*each) for each in cells))
-    copy(("piston.step", "solid.step"))
-
-
 def cad_meshing():
     copy(("piston.step", "part.step"), ("piston.step", "piston.step"), ("bracket.step", "bracket.step"), ("cylinder_on_cube.step", "assembly.step"))
     run("source", "--shape", "disc", "-o", "disc.vtu")
@@ -167,7 +151,7 @@ def tet_meshing():
     run("tessellate", "part.step", "-o", "part.vtp")
 
 
-PREPARE = {"CADFitting": cad_fitting, "CADMeshing": cad_meshing, "CADModel": cad_model, "DomainParameterization": domain_parameterization,
+PREPARE = {"CADMeshing": cad_meshing, "CADModel": cad_model, "DomainParameterization": domain_parameterization,
            "MeshParameterization": mesh_parameterization, "SplineAnalysis": spline_analysis, "SplineGrid": spline_grid, "SplineIO": spline_io,
            "SurfaceTrimming": surface_trimming, "TemplateMapping": template_mapping, "TetMeshing": tet_meshing}
 # What the C++ of a page takes as given: includes, then declarations.

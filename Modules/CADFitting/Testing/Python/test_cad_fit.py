@@ -120,7 +120,7 @@ def test_paths():
 
 
 def test_page():
-    """The first commands and the example of the page run as they are written; run_module_page.py runs all."""
+    """The first commands and the example of the page run as they are written."""
     with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "README.md"), encoding="utf-8") as stream:
         text = stream.read()
     write_sphere_scan(24)  # a sphere fits a sphere in any pose: all are tried
