@@ -14,6 +14,7 @@ import knotwork_testing
 import numpy as np
 import page_snippets
 from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
+from vtkmodules.vtkFiltersSources import vtkLineSource
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 PARTS = os.path.join(ROOT, "Testing", "Data", "Parts")
@@ -53,11 +54,14 @@ def terrain():
 
 def cad_meshing():
     copy(("piston.step", "part.step"), ("piston.step", "piston.step"), ("bracket.step", "bracket.step"), ("cylinder_on_cube.step", "assembly.step"))
-    run("source", "--shape", "disc", "-o", "disc.vtu")
-    run("tessellate", "disc.vtu", "--chordal-tolerance", 0.02, "-o", "disc.msh")
-    run("convert", "disc.msh", "-o", "section.vtu")
+    run("source", "--shape", "square", "--elements", 4, 4, 1, "-o", "square.vtu")
+    run("tessellate", "square.vtu", "-o", "square.msh")
+    run("convert", "square.msh", "-o", "section.vtu")
     angle = np.linspace(0, np.pi / 2, 30)
-    kw.polyline(np.c_[5 * (1 - np.cos(angle)), 0 * angle, 5 * np.sin(angle)]).tessellate().save("bend.vtp")
+    line = vtkLineSource()
+    line.SetPoints(kw.points(np.c_[5 * (1 - np.cos(angle)), 0 * angle, 5 * np.sin(angle)]).GetPoints())
+    line.Update()
+    kw.wrap(line.GetOutput()).save("bend.vtp")
 
 
 def cad_model():
