@@ -14,7 +14,9 @@ text = re.sub(r"^(template <[^>\n]*>\n)?(struct|class|enum class) \w+;$", lambda
 begin, end = text.rfind("namespace knotwork\n{\n"), text.rfind("\n}")
 if os.sep + "Kernel" + os.sep in file and 0 <= begin < end:
     begin += len("namespace knotwork\n{")
+    outside = re.search(r"^template <[^\n]*>\n[\w:<>& ]+ \w+::\w+\(", text[begin:end], re.M)  # a member's definition, which was declared before
+    end = begin + outside.start() if outside else end
     name = re.sub(r"\W", "_", os.path.basename(file))
     opened = f"\n/** @addtogroup {name} {os.path.basename(file)}\n * @{{\n */"
-    text = text[:begin] + opened + text[begin:end] + "\n/** @} */" + text[end:]
+    text = text[:begin] + opened + text[begin:end] + "\n/** @} */\n" + text[end:]
 sys.stdout.write(text)
