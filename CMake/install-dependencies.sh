@@ -19,6 +19,8 @@ packages=(
   paraview paraview-dev qtbase5-dev qttools5-dev qttools5-dev-tools libqt5opengl5-dev libqt5svg5-dev python3-mpi4py python3-markdown
   # tests, benchmarks, pictures
   libgtest-dev libbenchmark-dev clang clang-format clang-tidy libclang-rt-14-dev xvfb libgl1-mesa-dri python3-numpy python3-pyqt5 openmpi-bin
+  # the guide as a site
+  python3-sphinx python3-myst-parser python3-breathe furo doxygen
   # real data for examples and tests
   libcgal-demo gmsh-doc
 )

@@ -80,6 +80,7 @@ def make_stage(source, release, paraview, folder):
         write(os.path.join(stage, "made", "conf", program + ".conf"), there + "/knotwork.plugins.xml\n")
     make_texts(stage, version)
     make_docs(source, os.path.join(stage, "docs"))
+    make_site(source, stage, version, folder)
     modules = "/usr/lib/python3/dist-packages/vtkmodules"
     if "python3-vtk9" not in run("dpkg", "-S", modules):
         raise SystemExit("make_packages.py: the package python3-vtk9 is not installed; CMake/install-dependencies.sh installs it")
@@ -99,13 +100,31 @@ def make_texts(stage, version):
 
 
 def make_docs(source, docs):
-    """What git has of pages, pictures and examples, where their links find each other."""
-    listed = run("git", "-C", source, "ls-files", "*.md", "Modules/modules.svg", "Examples").split("\n")
+    """What git has of pages, pictures and examples, where their links find each other, and the parts that examples read."""
+    listed = run("git", "-C", source, "ls-files", "*.md", "CITATION.cff", "Modules/modules.svg", "Examples", "Testing/Data/Parts/*.step").split("\n")
     for name in filter(None, listed):
-        if name.startswith(("Testing/", "CONTRIBUTING")):
+        if name.endswith(".md") and name.startswith(("Testing/", "CONTRIBUTING")):
             continue
         os.makedirs(os.path.dirname(os.path.join(docs, name)) or docs, exist_ok=True)
         shutil.copyfile(os.path.join(source, name), os.path.join(docs, name))
+
+
+def make_site(source, stage, version, folder):
+    """The guide as HTML in docs/html; its pictures are links to those of the examples."""
+    build = os.path.join(folder, "guide")
+    python = glob.glob(os.path.join(stage, "lib", "python3*", "site-packages"))[0]
+    done = subprocess.run([sys.executable, os.path.join(source, "Examples", "Guide", "build_site.py"), source, build, version],
+                          env=dict(os.environ, PYTHONPATH=python, PYTHONDONTWRITEBYTECODE="1"))
+    if done.returncode != 0:
+        raise SystemExit("make_packages.py: the guide's site is not made; CMake/install-dependencies.sh installs what it needs")
+    made = os.path.join(stage, "docs", "html")
+    shutil.copytree(os.path.join(build, "html"), made, ignore=shutil.ignore_patterns(".buildinfo", "objects.inv", ".doctrees"))
+    for picture in glob.glob(os.path.join(made, "_images", "*.png")):
+        name = os.path.join("Examples", "Gallery", "Pictures", os.path.basename(picture))
+        if os.path.exists(os.path.join(stage, "docs", name)):
+            os.remove(picture)
+            os.symlink(os.path.join("..", "..", name), picture)
+    shutil.rmtree(build)
 
 
 def take(stage, root, lines, triplet, taken):

@@ -44,6 +44,10 @@ grep -q "\"planes\": 6" trim.json
 test -s scan.step
 test -s /usr/share/man/man1/knotwork-trim.1.gz
 bash -n /usr/share/bash-completion/completions/knotwork'
+install "./packages/knotwork-doc_*.deb"
+inside 'cd /usr/share/doc/knotwork/html
+test -s index.html -a -s modules/SplineCore.html -a -s cxx/SplineGrid.html
+test -s _images/terrain.png' # a link that leads somewhere
 script first.py python3 << 'END'
 import knotwork as kw
 
@@ -81,7 +85,7 @@ else:
 END
 
 echo "== what is left behind purge"
-inside "apt-get purge -y -qq knotwork libknotwork libknotwork-gpl python3-knotwork paraview-knotwork > purge.log 2>&1"
+inside "apt-get purge -y -qq knotwork libknotwork libknotwork-gpl python3-knotwork paraview-knotwork knotwork-doc > purge.log 2>&1"
 left=$(inside 'find / -xdev -iname "*knotwork*" -not -path "/proc/*" -not -path "/root/*" -not -path "/var/log/*"; ls /usr/bin/p*.conf 2> /dev/null || true')
 if [ -n "$left" ]; then
   echo "left behind: $left"

@@ -40,7 +40,8 @@ public:
   /**
    * Adds a tensor-product patch, whose PatchId is the number of patches before it.
    * @param dimension  parameters, 1 to 3; knots of further directions are not read and may be null.
-   * @param knots0     of the first direction: functions + degree + 1 values that do not decrease.
+   * @param knots0,knots1,knots2  of each direction: functions + degree + 1 values that do not
+   *                   decrease.
    * @param degrees    one a direction, 1 to 9: array of `dimension` values.
    * @param points     control points, not multiplied by weights: rows of 2 or 3 components, the
    *                   first direction fastest.

@@ -20,7 +20,7 @@
  * ElementId, LocalParameters (3 components, in [0, 1]), every field of the splines, in mode PROBE
  * Distance (unit of the points), and for Derivatives >= 1 of the map and of each field
  * Derivative_u, Derivative_v,
- * ... (a field's are <name>_u, ...), for 2 also Derivative_uu, Derivative_uv, ...: with respect to
+ * ... (a field's are NAME_u, ...), for 2 also Derivative_uu, Derivative_uv, ...: with respect to
  * the parameters of the domain (of the element's unit square where a patch has no domain). Patches
  * of different parametric dimension leave the derivatives that they do not have zero.
  *

@@ -5,7 +5,7 @@
  *
  * Curves, tensor-product B-splines and NURBS and (rational) THB-splines with one to three
  * parameters; PatchId is the id of the geometry. Other objects of the file are left out, geometries
- * of other types with a warning. The file is known by its root element <xml>, not by its name.
+ * of other types with a warning. The file is known by its root element `xml`, not by its name.
  * Errors: InvalidFormat with line and element, and what the kernel finds wrong with degrees, knots,
  * weights, boxes.
  */

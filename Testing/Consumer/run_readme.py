@@ -1,40 +1,26 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""usage: run_readme.py README.md: its Python and its commands of the program knotwork do what they promise."""
+"""usage: run_readme.py README.md FILES VERSION: its snippets run on copies of what the folder FILES holds, it names all jobs and packages, and the
+newest of the changes are those of the version."""
 import os
 import re
-import shlex
 import subprocess
 import sys
 
 import knotwork_testing
+import page_snippets
 
-with open(sys.argv[1], encoding="utf-8") as file:
+README, FILES, VERSION = sys.argv[1:4]
+with open(README, encoding="utf-8") as file:
     TEXT = file.read()
-FOLDER = knotwork_testing.output("Readme/files")
-os.makedirs(FOLDER, exist_ok=True)
-PAGE_FILES = os.path.join(os.path.dirname(os.path.abspath(sys.argv[1])), "Modules", "Python", "Testing")  # has page_files.py
 
 
-def test_python():
-    blocks = re.findall(r"^```python\n(.*?)^```", TEXT, re.M | re.S)
-    assert blocks
-    environment = dict(os.environ, PYTHONPATH=os.pathsep.join([PAGE_FILES, os.environ.get("PYTHONPATH", "")]))
-    subprocess.run([sys.executable, "-c", "import page_files; page_files.make_files()"], cwd=FOLDER, env=environment, check=True)
-    for block in blocks:
-        files = re.findall(r'(?:SetFileName|save)\("([^"]+)"\)', block)
-        done = subprocess.run([sys.executable, "-c", block], cwd=FOLDER, stderr=subprocess.PIPE, text=True)
-        assert done.returncode == 0 and "ERR" not in done.stderr, done.stderr
-        for name in files:
-            assert os.path.getsize(os.path.join(FOLDER, name)) > 0, name
+def test_snippets():
+    assert page_snippets.main(README, os.path.dirname(knotwork_testing.output("Readme/files")), FILES) == 0
 
 
-def test_commands():
-    commands = re.findall(r"^    (knotwork .*)$", TEXT, re.M)
-    assert commands
-    for command in commands:
-        words = shlex.split(command)
-        done = subprocess.run([knotwork_testing.PROGRAM, *words[1:]], cwd=FOLDER, stderr=subprocess.PIPE, text=True)
-        assert done.returncode == 0, (command, done.stderr)
+def test_version():
+    with open(os.path.join(os.path.dirname(os.path.abspath(README)), "CHANGELOG.md"), encoding="utf-8") as stream:
+        assert re.search(r"^## (\S+)$", stream.read(), re.M)[1] == VERSION
 
 
 def test_all_jobs_are_listed():
@@ -46,7 +32,7 @@ def test_all_jobs_are_listed():
 
 
 def test_packages_that_examples_read_are_named():
-    gallery = os.path.join(os.path.dirname(os.path.abspath(sys.argv[1])), "Examples", "Gallery")
+    gallery = os.path.join(os.path.dirname(os.path.abspath(README)), "Examples", "Gallery")
     packages = set()
     for name in os.listdir(gallery):
         if name.endswith(".py"):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The files that the README and the package's page name."""
+"""The files that the package's page names."""
 import knotwork as kw
 import numpy as np
 

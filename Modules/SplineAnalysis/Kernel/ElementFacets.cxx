@@ -166,7 +166,7 @@ Result<MatchedSides> MatchSides(const GalerkinSpace& space)
   for (int e = 0; e < space.NumElements(); ++e)
   {
     const CellShape shape = space.Shapes[static_cast<std::size_t>(e)];
-    for (int side = 0; side < NumSides(shape); ++side)
+    for (int side = 0; side < NumElementSides(shape); ++side)
     {
       if ((space.InnerSides[static_cast<std::size_t>(e)] >> side & 1U) != 0)
       {
@@ -243,7 +243,7 @@ Result<ElementFacets> FindFacets(const GalerkinSpace& space)
   for (int e = 0; e < space.NumElements(); ++e)
   {
     const auto index = static_cast<std::size_t>(e);
-    for (int side = 0; side < NumSides(space.Shapes[index]); ++side)
+    for (int side = 0; side < NumElementSides(space.Shapes[index]); ++side)
     {
       if ((space.InnerSides[index] >> side & 1U) != 0)
       {

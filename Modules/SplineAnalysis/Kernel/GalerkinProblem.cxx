@@ -36,7 +36,7 @@ Status CheckFacets(
   for (const CellSide& facet : facets)
   {
     if (facet.Cell < 0 || facet.Cell >= space.NumElements() || facet.Side < 0 ||
-      facet.Side >= NumSides(space.Shapes[static_cast<std::size_t>(facet.Cell)]))
+      facet.Side >= NumElementSides(space.Shapes[static_cast<std::size_t>(facet.Cell)]))
     {
       return { ErrorCode::InvalidParameter,
         place + ": side " + std::to_string(facet.Side) + " of element " +

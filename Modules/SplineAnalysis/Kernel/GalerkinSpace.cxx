@@ -366,7 +366,7 @@ BernsteinCells MakeBernsteinCells(const GalerkinSpace& space)
   return cells;
 }
 
-int NumSides(CellShape shape)
+int NumElementSides(CellShape shape)
 {
   switch (shape)
   {

@@ -112,7 +112,7 @@ BernsteinCells MakeBernsteinCells(const GalerkinSpace& space);
 
 /// Sides of an element. Tensor-product shapes: as in PatchSides.h; Triangle: u = 0, v = 0, u + v =
 /// 1; Tetrahedron: u = 0, v = 0, w = 0, u + v + w = 1.
-int NumSides(CellShape shape);
+int NumElementSides(CellShape shape);
 /// Corners of a side, as lattice indices of CellCoefficient.
 std::vector<std::array<int, 3>> SideCorners(CellShape shape, const CellDegree& degree, int side);
 

@@ -21,7 +21,7 @@ namespace knotwork
 /// @complexity time and memory O(size of the text).
 Result<SplineFile> ReadGismoXml(std::string_view text);
 
-/// Whether the first element of a text's beginning is <xml>: .xml is the ending of many formats.
+/// Whether the first element of a text's beginning is `xml`: .xml is the ending of many formats.
 bool LooksLikeGismoXml(std::string_view beginning);
 
 /// Writes splines with any number of components as G+Smo XML. Numbers have the fewest digits that

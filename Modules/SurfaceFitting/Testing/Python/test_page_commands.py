@@ -85,7 +85,7 @@ def prepare():
 
 def test_commands():
     prepare()
-    commands = re.findall(r"^    (knotwork .*)$", TEXT, re.M)
+    commands = re.findall(r"^(knotwork .*)$", TEXT, re.M)
     assert {shlex.split(command)[1] for command in commands} == {
         "fit", "approximate", "contour", "extrema", "stitch", "distance", "combine", "crop", "tiles"}
     for command in commands:
