@@ -660,7 +660,8 @@ private:
   }
 
   /// Edges and heights that are all but nothing go, with the triangles that have them.
-  void DropSlivers()
+  /// @return whether there were any.
+  bool DropSlivers()
   {
     const double least = SliverShare * this->Result.Diagonal;
     std::vector<int> slivers;
@@ -680,7 +681,7 @@ private:
     }
     if (slivers.empty())
     {
-      return;
+      return false;
     }
     for (const int t : slivers)
     {
@@ -694,6 +695,7 @@ private:
     }
     this->Work.Triangles = std::move(snapped.Triangles);
     this->Work.Sources = std::move(sources);
+    return true;
   }
 
   Status Resolve()
@@ -701,6 +703,11 @@ private:
     this->DropSlivers();
     const Soup before = this->Work;
     Status status = this->SeparateAll();
+    constexpr int MostTimes = 3; // that moving sheets apart may leave some more
+    for (int again = 0; status && again < MostTimes && this->DropSlivers(); ++again)
+    {
+      status = this->SeparateAll();
+    }
     if (status.Code == ErrorCode::NotConverged)
     {
       this->Work = before;
