@@ -8,6 +8,7 @@
 #include "vtkSmartPointer.h"
 
 #include <array>
+#include <cctype>
 
 namespace knotwork
 {
@@ -50,8 +51,34 @@ Result<ScalarFunction> FindFunction(const ProblemFunctions& functions, const std
     });
 }
 
+/// Whether a text has one of the parser's loops, which need not end.
+bool HasLoop(const std::string& text)
+{
+  std::string word;
+  for (const char c : text + ' ')
+  {
+    const auto byte = static_cast<unsigned char>(c);
+    if (std::isalnum(byte) != 0 || c == '_')
+    {
+      word += static_cast<char>(std::tolower(byte));
+      continue;
+    }
+    if (word == "while" || word == "for" || word == "repeat")
+    {
+      return true;
+    }
+    word.clear();
+  }
+  return false;
+}
+
 Result<ScalarFunction> CompileWithVtk(const std::string& text)
 {
+  if (HasLoop(text))
+  {
+    return { ErrorCode::InvalidParameter,
+      "\"" + text + "\" has a loop, which an expression cannot have; write a sum, or use Python" };
+  }
   auto parser = vtkSmartPointer<vtkExprTkFunctionParser>::New();
   // its messages become ours
   vtkNew<vtkCallbackCommand> quiet;

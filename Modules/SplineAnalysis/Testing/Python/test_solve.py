@@ -107,7 +107,9 @@ def test_a_format_that_loses_the_solution_is_refused():
 def test_errors_are_one_line():
     ring = FILES.path("small.vtu")
     FILES.run("source", "--shape", "annulus-sector", "--output", ring)
-    for problem, words in (({"conditions": [{"on": {"side": 9}, "value": 0}]}, "side 9"), ({"loads": 1}, "unknown key")):
+    for problem, words in (({"conditions": [{"on": {"side": 9}, "value": 0}]}, "side 9"),
+                           ({"conditions": [{"on": {"where": "While (x < 2) { 1 }"}, "value": 0}]}, "has a loop"),
+                           ({"loads": 1}, "unknown key")):
         done = knotwork_testing.run_program("solve", "poisson", ring, write("wrong.json", problem), "--output", FILES.path("none.vtu"))
         assert done.returncode != 0 and len(done.stderr.splitlines()) == 1 and words in done.stderr, done
     done = knotwork_testing.run_program("solve", "heat", ring, FILES.path("wrong.json"), "--output", FILES.path("none.vtu"))
