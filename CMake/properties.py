@@ -50,6 +50,7 @@ CLASS = re.compile(r"^class VTK\w+_EXPORT (\w+) : public (\w+)", re.M)
 SETTER = re.compile(r"vtkSet(Clamp|Vector\d|String|FilePath|)Macro\(([^;]*)\);")
 GETTER = re.compile(r"vtkGet(?:Vector\d|String|FilePath|Object|)Macro\((\w+)[^;]*\);")
 LIST = re.compile(r"^  std::vector<[^;]*> (\w+);", re.M)
+TITLES = ("Outputs", "Advanced", "General")  # of the program's own
 SENTENCES = re.compile(r"(?<=\.)\s+(?=Advanced\.|For \w+ |Components |Group \"|Kernel default )")
 
 
@@ -160,6 +161,8 @@ class Property:
                 raise Fault(f"{self.where}: {len(self.components)} names of {self.count} components")
         elif mark.startswith("Group "):
             self.group = mark[len("Group "):].strip('"')
+            if self.group in TITLES:
+                raise Fault(f"{self.where}: a group is not called {self.group}, which --help has for other options")
         elif mark.startswith("Kernel default "):
             self.kernel = words[2]
         elif mark:

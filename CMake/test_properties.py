@@ -91,6 +91,7 @@ FAULTS = (  # in the header: what stands there, what shall stand there, what the
     ("For Loud on", "For Loud yes", "for Loud yes"),
     ("For Way not SHORT_WAY", "For Way not SHORT", "for Way SHORT"),
     ("Advanced.", "Anyhow.", "MaxSteps: what does"),
+    ('Group "Limits"', 'Group "Outputs"', "a group is not called Outputs"),
     ("Default empty.", "", "unnoticed"),
     ("Default off.", "", "Loud: the comment says no default"),
     ("  /** Whether it is loud. Default off. */\n", "", "Loud has no comment"),

@@ -83,20 +83,20 @@ public:
   ///@}
   ///@{
   /** Whether contours go on over the seams of closed surfaces. Default on. Advanced. Group
-   * "Outputs". */
+   * "Curves". */
   vtkSetMacro(JoinSeams, bool);
   vtkGetMacro(JoinSeams, bool);
   vtkBooleanMacro(JoinSeams, bool);
   ///@}
   ///@{
-  /** Whether the third coordinate of points becomes the level. Default off. Group "Outputs". */
+  /** Whether the third coordinate of points becomes the level. Default off. Group "Curves". */
   vtkSetMacro(ProjectToLevel, bool);
   vtkGetMacro(ProjectToLevel, bool);
   vtkBooleanMacro(ProjectToLevel, bool);
   ///@}
   ///@{
   /** Whether the contours are made as cubic spline curves, too: output 1. Default off. Group
-   * "Outputs". */
+   * "Curves". */
   vtkSetMacro(Curves, bool);
   vtkGetMacro(Curves, bool);
   vtkBooleanMacro(Curves, bool);

@@ -182,13 +182,14 @@ TEST(CoefficientFilter, WiderPacksHaveTheSameBits_ExactOracle)
     GTEST_SKIP() << "no wider vectors on this processor";
   }
   oracle::Random random(24);
+  LayoutCache layouts;
   int decided = 0;
   for (const Shape& shape : Shapes)
   {
     BernsteinCells cells;
     cells.NumComponents = NumParameters(shape.Kind);
     cells.Rational = shape.Rational;
-    const FormLayout& layout = LayoutCache().Get(shape.Kind, shape.Degree);
+    const FormLayout& layout = layouts.Get(shape.Kind, shape.Degree);
     for (int c = 0; c < 23; ++c)
     {
       // near the identity, so that signs of coefficients decide some

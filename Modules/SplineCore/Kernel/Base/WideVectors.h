@@ -16,9 +16,9 @@
 /// Binaries are built for every processor of their architecture, which on x86-64 means vectors of
 /// two doubles. Work that is given to WithWidestVectors is compiled a second time, for AVX2 with
 /// fused multiply-add, and that code runs where the processor and the C library allow it. Sources
-/// compiled with -ffp-contract=off (proofs) have the same bits both ways; elsewhere products and
-/// sums may be fused. Within a process all calls go the same way, so results do not depend on
-/// threads.
+/// that are STRICT_FLOAT in their CMakeLists.txt (all but the assembly of stiffness matrices) have
+/// the same bits both ways, where lanes are added in one order; elsewhere products and sums may be
+/// fused. Within a process all calls go the same way, so results do not depend on threads.
 namespace knotwork
 {
 template <int Width>
