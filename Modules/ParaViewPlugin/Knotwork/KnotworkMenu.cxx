@@ -110,7 +110,6 @@ void LoadExample(const QString& name)
   {
     text.replace('"' + data.fileName() + '"', '"' + data.absoluteFilePath() + '"');
   }
-  pqApplicationCore::instance()->getObjectBuilder()->destroyPipelineProxies(server);
   pqApplicationCore::instance()->loadStateFromString(text.toUtf8().constData(), server);
   pqLoadStateReaction::activateView(); // which states do not say
 }
