@@ -12,7 +12,8 @@ set(test_components "")
 if(BUILD_TESTING)
   set(test_components ${KNOTWORK_VTK_TEST_COMPONENTS})
 endif()
-find_package(VTK 9.1 REQUIRED COMPONENTS ${KNOTWORK_VTK_COMPONENTS} ${KNOTWORK_VTK_PICTURE_COMPONENTS} ${python_component} ${test_components})
+find_package(VTK 9.1 REQUIRED COMPONENTS ${KNOTWORK_VTK_COMPONENTS} ${KNOTWORK_VTK_PICTURE_COMPONENTS} ${python_component} ${test_components}
+  OPTIONAL_COMPONENTS ParallelMPI)
 
 knotwork_find_filter_modules(module_names module_files)
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Jobs.h"
+#include "Ranges.h"
 #include "Session.h"
 #include <knotwork/CADModel/CADExchange.h>
 #include <knotwork/SplineCore/FileEnding.h>
+#include <knotwork/SplineGrid/SplineBlocks.h>
 #include <knotwork/SplineGrid/SplineModel.h>
 #include <knotwork/SplineIO/FileFormats.h>
+#include <knotwork/SplineIO/PieceFiles.h>
 
 #include <CLI/CLI.hpp>
 #include <vtkNew.h>
@@ -24,6 +27,7 @@ struct ConvertJob
   std::string Output;
   std::string Curves;
   std::string Encoding = "binary";
+  std::size_t Pieces = 1;
 
   /// STEP and IGES: faces are surfaces and trimming curves, whatever else their grids hold.
   Status RunCAD(Session& session, vtkDataObject* surfaces)
@@ -41,14 +45,14 @@ struct ConvertJob
     }
     if (fromCAD && !this->Curves.empty())
     {
-      if (Status status = session.Write(curves, this->Curves, this->Encoding); !status)
+      if (Status status = session.Write(curves, this->Curves, this->Written()); !status)
       {
         return status;
       }
     }
     if (!HasCADEnding(this->Output) || !curves)
     {
-      return session.Write(surfaces, this->Output, this->Encoding);
+      return session.Write(surfaces, this->Output, this->Written());
     }
     CADSummary found;
     Status status = session.WriteFaces(surfaces, curves, this->Output, found);
@@ -67,7 +71,7 @@ struct ConvertJob
       session.BoundaryCurves = session.Curves;
       return this->Curves.empty() || !session.Curves
         ? Status()
-        : session.Write(session.Curves, this->Curves, this->Encoding);
+        : session.Write(session.Curves, this->Curves, this->Written());
     }
     if (LowerEnding(this->Output) == ".g2" && !this->Curves.empty())
     {
@@ -76,6 +80,14 @@ struct ConvertJob
       return read.Status;
     }
     return {};
+  }
+
+  DataFileParams Written() const
+  {
+    DataFileParams params;
+    params.Encoding = this->Encoding;
+    params.Pieces = this->Pieces;
+    return params;
   }
 
   /// What cannot be written is the input's fault too.
@@ -129,7 +141,9 @@ struct ConvertJob
     {
       return status;
     }
-    if (!vtkPolyData::SafeDownCast(data) && !this->CarriesMesh())
+    const bool isOfPieces = IsPieceIndex(this->Input) || IsPieceIndex(this->Output);
+    if (!vtkPolyData::SafeDownCast(data) && !this->CarriesMesh() &&
+      (!isOfPieces || HoldsSplines(data)))
     {
       // a decoded model written again has its attributes tagged and its schema complete
       Result<SplineModel> model = DecodeSplineModel(data, session.Threads);
@@ -163,7 +177,7 @@ struct ConvertJob
       }
       data = output;
     }
-    return session.Write(data, this->Output, this->Encoding);
+    return session.Write(data, this->Output, this->Written());
   }
 };
 
@@ -185,6 +199,9 @@ Job Make(CLI::App& app)
     "trimming curves (.vtu): written when the input is STEP, IGES or g2, else read");
   app.add_option("--encoding", job->Encoding, "how numbers are written in .vtu .vtp .vtpc .msh")
     ->check(CLI::IsMember({ "ascii", "binary", "appended" }))
+    ->capture_default_str();
+  app.add_option("--pieces", job->Pieces, "parts of a .pvtu, for as many processes")
+    ->check(InRange(1, 1000000))
     ->capture_default_str();
   return [job](Session& session) { return job->Run(session); };
 }

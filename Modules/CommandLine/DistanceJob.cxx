@@ -2,6 +2,7 @@
 #include "FilterJob.h"
 
 #include <knotwork/CADFitting/vtkDeviationMap.h>
+#include <knotwork/SplineGrid/Processes.h>
 #include <knotwork/SurfaceFitting/vtkSplinePointDistance.h>
 
 #include <vtkPolyData.h>
@@ -38,6 +39,7 @@ public:
       "triangles "
       "and CAD parts with trimmed faces (.brep .off .obj .ply .stl .vtp)",
       " from ");
+    this->Divide(0, Share::Points);
     this->AddOutput(0, "--output", Endings::Sampled,
       "the points with their distances and classes (.vtp or .vtu, as they are)");
     this->AddOutput(1, "--class-table", Endings::Table, "statistics of every class");
@@ -61,6 +63,11 @@ public:
 protected:
   Result<int> Branch() override
   {
+    if (this->BothWays && Processes::Count() > 1)
+    {
+      return { ErrorCode::InvalidParameter,
+        "--both-ways is done by one process; start it without mpirun" };
+    }
     const bool hasMapOutputs = !this->OutputFile(FirstMapPort + ModelPort).empty() ||
       !this->OutputFile(FirstMapPort + PercentilePort).empty();
     if (this->BothWays ? !this->Tolerances.empty() || !this->OutputFile(1).empty() : hasMapOutputs)
@@ -170,6 +177,6 @@ private:
 const JobRegistration Registration{ "distance",
   "measure how far points are from spline surfaces, or points and a CAD part both ways",
   "scan.xyz terrain.vtu --tolerances 0.01 0.05 --output distances.vtp --report distances.json",
-  MakeJob<DistanceJob> };
+  MakeJob<DistanceJob>, JobProcesses::Several };
 }
 }

@@ -16,6 +16,7 @@ public:
   {
     this->AddInput(
       0, "input", "spline surfaces, or volumes with --boundary (.vtu .vtpc .xml .g2 .step .iges)");
+    this->Divide(0, Share::Blocks);
     this->AddOutput(0, "--output", Endings::Splines, "the part or curve");
     app.add_option("--box", this->Box, "keep the part over u0 u1 v0 v1 only")->expected(4);
     app.add_option("--domain", this->Domain, "make u0 u1 v0 v1 the domain of the parameters")
@@ -48,8 +49,8 @@ protected:
 
   Status AddNumbers(Session& session) override
   {
-    session.Report["elements"] =
-      this->Filter->GetOutputDataObject(0)->GetNumberOfElements(vtkDataObject::CELL);
+    session.Report["elements"] = Session::Total(
+      this->Filter->GetOutputDataObject(0)->GetNumberOfElements(vtkDataObject::CELL));
     return {};
   }
 
@@ -61,6 +62,7 @@ private:
 const JobRegistration Registration{ "extract",
   "take a part or an iso-curve of surfaces, or the boundary of volumes and surfaces; exchange, "
   "reverse, expand",
-  "terrain.vtu --box 0.2 0.8 0.2 0.8 --output part.vtu", MakeJob<ExtractJob> };
+  "terrain.vtu --box 0.2 0.8 0.2 0.8 --output part.vtu", MakeJob<ExtractJob>,
+  JobProcesses::Several };
 }
 }

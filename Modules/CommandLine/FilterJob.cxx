@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterJob.h"
 
+#include <knotwork/SplineGrid/Processes.h>
 #include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
+
+#include <knotwork/SplineIO/PieceFiles.h>
 
 #include <vtkDataObject.h>
 #include <vtkPointSet.h>
@@ -21,6 +24,15 @@ const std::string& NameOf(const Files& files, int port)
   const auto file =
     std::find_if(files.begin(), files.end(), [port](const auto& f) { return f.Port == port; });
   return file == files.end() ? NoFile : file->Name;
+}
+
+/// @param result  null: what there is stays.
+void Replace(vtkDataObject* output, vtkDataObject* result)
+{
+  if (result && result != output)
+  {
+    output->ShallowCopy(result);
+  }
 }
 
 /// As a key of the report: --first-map is first_map.
@@ -59,6 +71,12 @@ CLI::Option* FilterJobBase::AddOutput(
     ->required(isMain);
 }
 
+void FilterJobBase::Divide(int port, Share share)
+{
+  this->Divided = share;
+  this->DividedPort = port;
+}
+
 Status FilterJobBase::Run(Session& session)
 {
   if (Status status = this->ReadInputs(session); !status)
@@ -91,7 +109,7 @@ Status FilterJobBase::Run(Session& session)
     this->FilterOptions.Apply(session.Report, branch.Value);
   }
   this->Algorithm->SetThreads(session.Threads);
-  if (Status status = this->Prepare(session); !status)
+  if (Status status = Processes::Agree(this->Prepare(session)); !status)
   {
     return status;
   }
@@ -102,8 +120,62 @@ Status FilterJobBase::Run(Session& session)
   {
     return status;
   }
-  const Status status = this->AddNumbers(session);
+  const bool isAlone = Processes::Count() == 1;
+  const bool isEarly = this->NeedsWholeOutput();
+  Status status = isAlone ? Status() : Processes::Agree(this->JoinOutputs(isEarly));
+  status = status ? Processes::Agree(this->AddNumbers(session)) : status;
+  if (status && !isAlone && !isEarly)
+  {
+    status = Processes::Agree(this->JoinMainOutput());
+  }
   return status ? this->Write(session) : status;
+}
+
+Status FilterJobBase::JoinMainOutput()
+{
+  vtkDataObject* output = this->Algorithm->GetOutputDataObject(0);
+  if (IsPieceIndex(this->MainOutput()) && !this->NeedsWholeOutput())
+  {
+    return {};
+  }
+  if (this->MainOutput().empty() && !this->NeedsWholeOutput())
+  {
+    return {};
+  }
+  if (this->Divided == Share::Blocks || !this->Undivided)
+  {
+    auto appended = AppendShares(output);
+    if (appended)
+    {
+      Replace(output, appended.Value);
+    }
+    return appended.Status;
+  }
+  const auto joined =
+    JoinShares(this->Divided, this->Undivided, this->Input(this->DividedPort), output);
+  Replace(output, joined);
+  return {};
+}
+
+Status FilterJobBase::JoinOutputs(bool withMain)
+{
+  Status status;
+  for (int port = 1; port < this->Algorithm->GetNumberOfOutputPorts() && status; ++port)
+  {
+    vtkDataObject* output = this->Algorithm->GetOutputDataObject(port);
+    if (vtkTable::SafeDownCast(output))
+    {
+      Replace(output, SameForAll(output));
+      continue;
+    }
+    auto appended = AppendShares(output);
+    status = appended.Status;
+    if (status)
+    {
+      Replace(output, appended.Value);
+    }
+  }
+  return status && withMain ? this->JoinMainOutput() : status;
 }
 
 Status FilterJobBase::ReadInputs(Session& session)
@@ -114,10 +186,18 @@ Status FilterJobBase::ReadInputs(Session& session)
     {
       continue;
     }
-    auto data = session.Read(input.Name, input.IsTable);
+    const bool isPart =
+      input.Port == this->DividedPort && Processes::Count() > 1 && IsPieceIndex(input.Name);
+    auto data = isPart ? session.ReadPieces(input.Name) : session.Read(input.Name, input.IsTable);
     if (!data)
     {
       return data.Status;
+    }
+    if (input.Port == this->DividedPort && Processes::Count() > 1 && !isPart)
+    {
+      this->Undivided = data.Value;
+      this->Divided = this->ShareOfInput(data.Value);
+      data.Value = ShareOf(data.Value, this->Divided);
     }
     this->Algorithm->SetInputDataObject(input.Port, data.Value);
   }
@@ -145,6 +225,11 @@ Status FilterJobBase::Write(Session& session)
     files[port] = output.Name;
   }
   return session.WriteOutputs(this->Algorithm, files);
+}
+
+vtkDataObject* FilterJobBase::WholeInput() const
+{
+  return this->Undivided ? this->Undivided.Get() : this->Input(this->DividedPort);
 }
 
 vtkDataObject* FilterJobBase::Input(int port) const

@@ -4,6 +4,7 @@
 #include "Jobs.h"
 #include "Options.h"
 #include "Session.h"
+#include "Shares.h"
 
 #include <vtkNew.h>
 #include <vtkTable.h>
@@ -42,6 +43,10 @@ protected:
     int port, const char* name, const char* help, const char* joint = "", const char* key = "");
   /// The same of a table, which may be text in columns.
   void AddTableInput(int port, const char* name, const char* help);
+  /// What of several processes each gets of the input of a port; the others are whole in all of
+  /// them. Output 0 is that of the input with arrays added or points moved (Cells, Points), or
+  /// consists of what every process makes (Blocks).
+  void Divide(int port, Share share);
   /// A file that the filter reads itself, and that must be given: it is named in the report and in
   /// messages.
   void AddFile(const char* name, const char* help);
@@ -57,10 +62,19 @@ protected:
   virtual Result<int> Branch() { return 0; }
   /// Before the run, with inputs read and options set: checks formats, sets what no option does.
   virtual Status Prepare(Session&) { return {}; }
-  /// After the run: the numbers of the report.
+  /// After the run: the numbers of the report. Of several processes all call it; tables are the
+  /// same in all of them, output 0 is each one's, and other outputs are whole in the first one.
   virtual Status AddNumbers(Session&) { return {}; }
   /// Writes the ports that have files.
   virtual Status Write(Session& session);
+
+  /// What each process gets of the input that is divided, now that it is read.
+  virtual Share ShareOfInput(vtkDataObject*) const { return this->Divided; }
+  /// The input that is divided, before it was.
+  vtkDataObject* WholeInput() const;
+
+  /// Whether the numbers need the whole of output 0 in the first process.
+  virtual bool NeedsWholeOutput() const { return false; }
 
   vtkDataObject* Input(int port) const;
   /// Name of the file that a port is read from; empty: none.
@@ -90,7 +104,14 @@ private:
     bool IsTable = false;
   };
   Status ReadInputs(Session& session);
+  /// Outputs of several processes: the tables of the first one in all, the others in the first one.
+  Status JoinOutputs(bool withMain);
+  Status JoinMainOutput();
   std::string InputNames() const;
+
+  Share Divided = Share::All; ///< as was said, then as it is
+  int DividedPort = NoPort;
+  vtkSmartPointer<vtkDataObject> Undivided; ///< what stands at that port is a share of
 
   std::list<File> Inputs;  ///< nodes, to which the parser's options point
   std::list<File> Outputs; ///< --output is the first

@@ -5,6 +5,7 @@
 #include <knotwork/SplineCore/FileEnding.h>
 #include <knotwork/SplineCore/FileOutput.h>
 #include <knotwork/SplineGrid/NamedArray.h>
+#include <knotwork/SplineGrid/Processes.h>
 #include <knotwork/SplineGrid/SplineModel.h>
 #include <knotwork/SplineIO/CloudTiles.h>
 #include <knotwork/SplineIO/DataFile.h>
@@ -94,6 +95,13 @@ public:
     {
       return { ErrorCode::InvalidParameter,
         "'" + this->InputFile(0) + "': --resume is of tiles (.tiles); leave it out" };
+    }
+    if (!isOfTiles && Processes::Count() > 1)
+    {
+      return { ErrorCode::InvalidParameter,
+        "'" + this->InputFile(0) +
+          "': one set of points is fitted by one process; start it without mpirun, or divide it "
+          "(knotwork tiles)" };
     }
     if (!isOfTiles && LowerEnding(output) == ".vtpc")
     {
@@ -201,9 +209,10 @@ private:
     Status status = this->RefuseOptions();
     status = status ? session.Files.CheckInput(file) : status;
     auto index = status ? ReadTileFile(file) : status;
-    if (!index)
+    status = Processes::Agree(index.Status);
+    if (!status)
     {
-      return index.Status;
+      return status;
     }
     TileFitParams params;
     params.IndexFile = file;
@@ -223,11 +232,22 @@ private:
     session.Report["tolerance"] = this->Filter->GetTolerance();
     SplineModel model;
     const bool isCollection = LowerEnding(this->MainOutput()) == ".vtpc";
+    if (isCollection)
+    {
+      auto staged = session.Stage(this->MainOutput());
+      if (!staged)
+      {
+        return staged.Status;
+      }
+      this->Staged = staged.Value;
+      std::error_code error;
+      std::filesystem::create_directory(this->Staged.parent_path() / this->Staged.stem(), error);
+    }
     const auto fit = FitTiles(session, this->Filter, index.Value, params,
       [&](SplinePatch&& patch)
       {
         model.Patches.push_back(std::move(patch));
-        return isCollection ? this->WritePiece(session, model) : Status();
+        return isCollection ? this->WritePiece(model) : Status();
       });
     if (!fit)
     {
@@ -238,7 +258,11 @@ private:
     {
       status = session.Write(TableOf(index.Value, fit.Value), this->OutputFile(Iterations));
     }
-    status = status && isCollection ? this->WriteCollection(index->Tiles.size()) : status;
+    if (status && isCollection)
+    {
+      status = Processes::Agree(
+        Processes::Own() == 0 ? this->WriteCollection(index->Tiles.size()) : Status());
+    }
     return status && !isCollection ? this->WriteGrid(session, model) : status;
   }
 
@@ -337,19 +361,8 @@ private:
 
   /// Writes the one tile of a model, which is empty then: the surface of a large cloud is never in
   /// memory as a whole.
-  Status WritePiece(Session& session, SplineModel& model)
+  Status WritePiece(SplineModel& model) const
   {
-    if (this->Staged.empty())
-    {
-      auto staged = session.Files.Stage(this->MainOutput());
-      if (!staged)
-      {
-        return staged.Status;
-      }
-      this->Staged = staged.Value;
-      std::error_code error;
-      std::filesystem::create_directory(this->Staged.parent_path() / this->Staged.stem(), error);
-    }
     vtkNew<vtkUnstructuredGrid> grid;
     const std::string piece =
       (this->Staged.parent_path() / this->PieceOf(model.Patches[0].Id)).string();
@@ -435,6 +448,7 @@ private:
 };
 
 const JobRegistration Registration{ "fit", "fit a spline surface to scattered points",
-  "scan.xyz --tolerance 0.01 --output terrain.vtu --report terrain.json", MakeJob<FitJob> };
+  "scan.xyz --tolerance 0.01 --output terrain.vtu --report terrain.json", MakeJob<FitJob>,
+  JobProcesses::Several };
 }
 }

@@ -5,9 +5,11 @@
 
 #include <knotwork/SplineCore/FileOutput.h>
 #include <knotwork/SplineCore/LROperations.h>
+#include <knotwork/SplineGrid/Processes.h>
 #include <knotwork/SplineGrid/SplineModel.h>
 #include <knotwork/SplineIO/CloudTiles.h>
 #include <knotwork/SplineIO/DataFile.h>
+#include <knotwork/SplineIO/DataParts.h>
 #include <knotwork/SurfaceFitting/StitchTiles.h>
 #include <knotwork/SurfaceFitting/vtkSplineSurfaceFit.h>
 
@@ -21,7 +23,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
+#include <limits>
+#include <map>
 #include <set>
 #include <system_error>
 
@@ -170,31 +175,24 @@ public:
     nlohmann::ordered_json run = this->Params.Options;
     run["version"] = KNOTWORK_VERSION;
     run["tiles"] = HashOf(WriteTileIndex(this->Index));
-    Status status = this->Kept.Open(run);
+    // the first process makes the folder, the others see what it is of
+    Status status = Processes::Agree(Processes::Own() == 0 ? this->Kept.Open(run) : Status());
+    status = status ? Processes::Agree(this->Kept.Open(run)) : status;
     this->Found.Tiles.resize(this->Index.Tiles.size());
     this->Shared.resize(this->Index.Tiles.size());
     std::vector<std::size_t> before; // tiles of the last row
     std::vector<Spline<2>> tiles;    // theirs, then those of the row
-    int functions = 0;               // of the last tile
     for (std::size_t begin = 0; begin < this->Index.Tiles.size() && status;)
     {
       std::vector<std::size_t> row = this->RowFrom(begin);
       begin += row.size();
-      for (const std::size_t t : row)
-      {
-        if (status)
-        {
-          tiles.emplace_back();
-          this->GuessElements(t, functions);
-          status = this->FitTile(t, tiles.back());
-          functions = status ? tiles.back().Space->NumFunctions : 0;
-        }
-      }
+      status = status ? this->FitRow(row, tiles) : status;
       status = status ? this->Stitch(before, row, tiles) : status;
       status = status ? this->Finish(before, tiles, take) : status;
       before = std::move(row);
     }
     status = status ? this->Finish(before, tiles, take) : status;
+    this->Found.NumResumed = static_cast<int>(Session::Total(this->Found.NumResumed));
     return status ? Result<TileFit>(std::move(this->Found)) : Result<TileFit>(status);
   }
 
@@ -265,13 +263,25 @@ private:
     return box;
   }
 
-  /// Neighbours are alike: a tile begins with a quarter of the functions that the last one needed,
-  /// which saves iterations in which most points are outside.
-  void GuessElements(std::size_t tile, int functions)
+  /// Neighbours are alike: a tile begins with a quarter of the functions that the nearest one of
+  /// the row before needed, which saves iterations in which most points are outside. What other
+  /// tiles of its row need is not asked for: several processes fit them at once.
+  void GuessElements(std::size_t tile)
   {
     if (!this->Guesses)
     {
       return;
+    }
+    int functions = 0;
+    int nearest = std::numeric_limits<int>::max();
+    for (const auto& [column, needed] : this->FunctionsBefore)
+    {
+      const int distance = std::abs(column - this->Index.Tiles[tile].Number[0]);
+      if (distance < nearest)
+      {
+        nearest = distance;
+        functions = needed;
+      }
     }
     const ParametricBox<2>& box = this->Index.Tiles[tile].Box;
     const double ratio = (box.Upper[0] - box.Lower[0]) / (box.Upper[1] - box.Lower[1]);
@@ -313,16 +323,14 @@ private:
     return { status ? Result<vtkSmartPointer<vtkUnstructuredGrid>>(grid) : status };
   }
 
-  Status FitTile(std::size_t tile, Spline<2>& surface)
+  /// The surface of a tile before it is stitched.
+  Result<vtkSmartPointer<vtkUnstructuredGrid>> FitTile(std::size_t tile)
   {
+    const Processes::Alone alone;
     const std::string name = "fitted-" + this->NameOf(tile);
     auto grid = this->Kept.Find(name);
-    if (!grid)
-    {
-      return grid.Status;
-    }
-    this->Found.NumResumed += grid.Value ? 1 : 0;
-    if (!grid.Value)
+    this->Found.NumResumed += grid && grid.Value ? 1 : 0;
+    if (grid && !grid.Value)
     {
       const ParametricBox<2> domain = this->DomainOf(tile);
       auto points = this->PointsOf(tile, domain, false);
@@ -349,13 +357,69 @@ private:
         return { status.Code, "'" + this->FileOf(tile) + "': " + status.Detail };
       }
     }
-    // through the grid in any case: a run that goes on has the same bits
-    auto decoded = this->Decode(grid.Value);
-    if (decoded)
+    return grid;
+  }
+
+  /// Which process works on the i-th tile of a row.
+  static int WorkerOf(std::size_t i)
+  {
+    return static_cast<int>(i % static_cast<std::size_t>(Processes::Count()));
+  }
+
+  /// What a process has made of a tile, to all.
+  static Result<vtkSmartPointer<vtkUnstructuredGrid>> Share(
+    const vtkSmartPointer<vtkUnstructuredGrid>& own, int worker)
+  {
+    if (Processes::Count() == 1)
     {
-      surface = std::move(std::get<Spline<2>>(decoded->Patches[0].Geometry));
+      return own;
     }
-    return decoded.Status;
+    std::vector<std::string> parts;
+    AppendParts(own, parts);
+    parts.resize(2); // of a grid
+    for (std::string& part : parts)
+    {
+      part = Processes::Broadcast(part, worker);
+    }
+    std::size_t next = 0;
+    const vtkSmartPointer<vtkDataObject> data = TakeData(parts, next);
+    auto* grid = vtkUnstructuredGrid::SafeDownCast(data);
+    return grid ? Result<vtkSmartPointer<vtkUnstructuredGrid>>(grid)
+                : Result<vtkSmartPointer<vtkUnstructuredGrid>>(
+                    ErrorCode::LibraryError, "the surface of a tile cannot be taken over");
+  }
+
+  /// The tiles of a row, one process each; all get all of them.
+  Status FitRow(const std::vector<std::size_t>& row, std::vector<Spline<2>>& tiles)
+  {
+    Status status;
+    std::vector<vtkSmartPointer<vtkUnstructuredGrid>> grids(row.size());
+    for (std::size_t i = 0; i < row.size() && status; ++i)
+    {
+      if (WorkerOf(i) == Processes::Own())
+      {
+        this->GuessElements(row[i]);
+        auto fitted = this->FitTile(row[i]);
+        status = fitted.Status;
+        grids[i] = fitted.Value;
+      }
+    }
+    status = Processes::Agree(status);
+    this->FunctionsBefore.clear();
+    for (std::size_t i = 0; i < row.size() && status; ++i)
+    {
+      // through the grid in any case: a run that goes on has the same bits
+      auto shared = Share(grids[i], WorkerOf(i));
+      auto decoded = shared ? this->Decode(shared.Value) : shared.Status;
+      status = decoded.Status;
+      if (status)
+      {
+        tiles.push_back(std::move(std::get<Spline<2>>(decoded->Patches[0].Geometry)));
+        this->FunctionsBefore[this->Index.Tiles[row[i]].Number[0]] =
+          tiles.back().Space->NumFunctions;
+      }
+    }
+    return Processes::Agree(status);
   }
 
   /// The tiles of a row, which stand one after the other in the index.
@@ -432,21 +496,59 @@ private:
       });
   }
 
-  /// Updates and hands over the first tiles, which are taken out.
+  /// Updates the first tiles, one process each, and hands them over in the first process; they are
+  /// taken out.
   Status Finish(
     const std::vector<std::size_t>& numbers, std::vector<Spline<2>>& tiles, const TakeTile& take)
   {
     Status status;
+    std::vector<vtkSmartPointer<vtkUnstructuredGrid>> grids(numbers.size());
     for (std::size_t i = 0; i < numbers.size() && status; ++i)
     {
-      status = this->UpdateTile(numbers[i], tiles[i], take);
+      if (WorkerOf(i) == Processes::Own())
+      {
+        auto updated = this->UpdateTile(numbers[i], std::move(tiles[i]));
+        status = updated.Status;
+        grids[i] = updated.Value;
+      }
+    }
+    status = Processes::Agree(status);
+    for (std::size_t i = 0; i < numbers.size() && status; ++i)
+    {
+      const int worker = WorkerOf(i);
+      FittedTile& found = this->Found.Tiles[numbers[i]];
+      found =
+        Processes::Exchange(std::vector<FittedTile>{ found })[static_cast<std::size_t>(worker)]
+          .front();
+      auto shared = Share(grids[i], worker);
+      grids[i] = nullptr;
+      status = shared.Status;
+      if (status && Processes::Own() == 0)
+      {
+        status = this->HandOver(numbers[i], shared.Value, take);
+      }
+      status = Processes::Agree(status);
     }
     tiles.erase(tiles.begin(), tiles.begin() + static_cast<std::ptrdiff_t>(numbers.size()));
     return status;
   }
 
-  Status UpdateTile(std::size_t tile, Spline<2>& surface, const TakeTile& take)
+  Status HandOver(std::size_t tile, vtkUnstructuredGrid* grid, const TakeTile& take) const
   {
+    auto decoded = this->Decode(grid);
+    if (!decoded)
+    {
+      return decoded.Status;
+    }
+    SplinePatch& patch = decoded->Patches[0];
+    patch.Id = static_cast<int>(tile);
+    patch.Cells.clear();
+    return take(std::move(patch));
+  }
+
+  Result<vtkSmartPointer<vtkUnstructuredGrid>> UpdateTile(std::size_t tile, Spline<2> surface)
+  {
+    const Processes::Alone alone;
     const std::string name = "updated-" + this->NameOf(tile);
     FittedTile& numbers = this->Found.Tiles[tile];
     vtkSmartPointer<vtkUnstructuredGrid> grid;
@@ -490,16 +592,7 @@ private:
         return status;
       }
     }
-    surface = {};
-    auto decoded = this->Decode(grid);
-    if (!decoded)
-    {
-      return decoded.Status;
-    }
-    SplinePatch& patch = decoded->Patches[0];
-    patch.Id = static_cast<int>(tile);
-    patch.Cells.clear();
-    return take(std::move(patch));
+    return grid;
   }
 
   void TakeNumbers(FittedTile& numbers) const
@@ -521,6 +614,7 @@ private:
   const TileFitParams& Params;
   KeptTiles Kept;
   bool Guesses;                           ///< no initial elements are asked for
+  std::map<int, int> FunctionsBefore;     ///< of the tiles of the row before, by column
   std::vector<std::array<int, 4>> Shared; ///< by tile and side, not 0 where it has a neighbour
   TileFit Found;
 };

@@ -16,10 +16,10 @@ std::vector<JobEntry>& Entries()
 }
 }
 
-JobRegistration::JobRegistration(
-  const char* name, const char* help, const char* example, Job (*make)(CLI::App&))
+JobRegistration::JobRegistration(const char* name, const char* help, const char* example,
+  Job (*make)(CLI::App&), JobProcesses runsIn)
 {
-  Entries().push_back({ name, help, example, make });
+  Entries().push_back({ name, help, example, make, runsIn });
 }
 
 std::vector<JobEntry> RegisteredJobs()

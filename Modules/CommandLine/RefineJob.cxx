@@ -18,6 +18,7 @@ public:
   explicit RefineJob(CLI::App& app) : FilterJob(app)
   {
     this->AddInput(0, "input", "spline grid (.vtu .vtpc .xml .g2 .step .iges)");
+    this->Divide(0, Share::Blocks);
     this->AddOutput(0, "--output", Endings::Splines, "the refined grid, same type");
     auto* array =
       app.add_option("--array", this->Array, "refine cells by the value of this cell array");
@@ -44,8 +45,8 @@ protected:
 
   Status AddNumbers(Session& session) override
   {
-    session.Report["elements"] =
-      this->Filter->GetOutputDataObject(0)->GetNumberOfElements(vtkDataObject::CELL);
+    session.Report["elements"] = Session::Total(
+      this->Filter->GetOutputDataObject(0)->GetNumberOfElements(vtkDataObject::CELL));
     return {};
   }
 
@@ -91,6 +92,6 @@ private:
 };
 
 const JobRegistration Registration{ "refine", "refine a spline, uniformly or locally",
-  "plate.vtu --sphere 1 0 0 0.3 --output fine.vtu", MakeJob<RefineJob> };
+  "plate.vtu --sphere 1 0 0 0.3 --output fine.vtu", MakeJob<RefineJob>, JobProcesses::Several };
 }
 }

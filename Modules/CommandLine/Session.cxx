@@ -7,10 +7,11 @@
 #include <knotwork/SplineCore/FileEnding.h>
 #include <knotwork/SplineCore/FileOutput.h>
 #include <knotwork/SplineGrid/FilterErrorCode.h>
+#include <knotwork/SplineGrid/Processes.h>
 #include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
-#include <knotwork/SplineIO/DataFile.h>
 #include <knotwork/SplineIO/Messages.h>
 #include <knotwork/SplineIO/OneLine.h>
+#include <knotwork/SplineIO/PieceFiles.h>
 #include <knotwork/SurfaceTrimming/TrimmedGrids.h>
 
 #include <vtkAlgorithm.h>
@@ -19,6 +20,7 @@
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <ctime>
@@ -63,22 +65,30 @@ void PrintProgress(vtkObject* caller, unsigned long, void*, void*)
   std::fprintf(stderr, "\r%3d %%", static_cast<int>(100.0 * share));
   std::fflush(stderr);
 }
-
 }
 
 Session::Session() : Files(std::make_shared<Termination::Folders>()) {}
 
 Result<vtkSmartPointer<vtkDataObject>> Session::Read(const std::string& file, bool asTable)
 {
+  return this->ReadWith(asTable ? ReadTableFile : ReadDataFile, file);
+}
+
+Result<vtkSmartPointer<vtkDataObject>> Session::ReadPieces(const std::string& file)
+{
+  return this->ReadWith(ReadDataPieces, file);
+}
+
+Result<vtkSmartPointer<vtkDataObject>> Session::ReadWith(
+  Result<DataFile> (*read)(const std::string&), const std::string& file)
+{
   const double begin = Now();
-  if (Status status = this->Files.CheckInput(file); !status)
+  Status status = this->Files.CheckInput(file);
+  auto found = status ? read(file) : Result<DataFile>(status);
+  status = Processes::Agree(found.Status);
+  if (!status)
   {
     return status;
-  }
-  auto found = asTable ? ReadTableFile(file) : ReadDataFile(file);
-  if (!found)
-  {
-    return found.Status;
   }
   for (const std::string& part : found->LeftOut)
   {
@@ -88,6 +98,26 @@ Result<vtkSmartPointer<vtkDataObject>> Session::Read(const std::string& file, bo
   this->Warn(found->Warnings);
   this->SecondsOfFiles += Now() - begin;
   return found->Data;
+}
+
+long long Session::Total(long long own)
+{
+  long long total = 0;
+  for (const auto& one : Processes::Exchange(std::vector<long long>{ own }))
+  {
+    total += one.front();
+  }
+  return total;
+}
+
+double Session::Largest(double own)
+{
+  double largest = own;
+  for (const auto& one : Processes::Exchange(std::vector<double>{ own }))
+  {
+    largest = std::max(largest, one.front());
+  }
+  return largest;
 }
 
 Status Session::Measure(const std::function<Status()>& work)
@@ -114,7 +144,7 @@ Status Session::Run(
 {
   vtkNew<vtkCallbackCommand> progress;
   progress->SetCallback(PrintProgress);
-  const bool show = !this->Quiet && isatty(STDERR_FILENO) == 1;
+  const bool show = !this->Quiet && Processes::Own() == 0 && isatty(STDERR_FILENO) == 1;
   if (show)
   {
     filter->AddObserver(vtkCommand::ProgressEvent, progress);
@@ -123,7 +153,9 @@ Status Session::Run(
   this->Measure(
     [filter]
     {
-      filter->Update();
+      Processes::Count() == 1 ? filter->Update()
+                              : static_cast<void>(vtkAlgorithm::SafeDownCast(filter)->UpdatePiece(
+                                  Processes::Own(), Processes::Count(), 0));
       return Status();
     });
   if (show)
@@ -131,13 +163,20 @@ Status Session::Run(
     filter->RemoveObserver(progress);
     std::fputs("\r     \r", stderr);
   }
+  Status outcome;
   if (messages.HasError() || filter->GetErrorCode() != 0)
   {
     const std::string error = messages.FirstError();
     const bool isNamed = error.find(what) != std::string::npos; // readers name their file
-    return { CodeOfFilter(filter), isNamed ? error : what + ": " + error };
+    // a failure of all is told by one of them
+    outcome = { CodeOfFilter(filter), isNamed || error.empty() ? error : what + ": " + error };
   }
-  if (IsEmpty(filter->GetOutputDataObject(port)))
+  outcome = Processes::Agree(outcome);
+  if (!outcome)
+  {
+    return outcome;
+  }
+  if (Session::Total(IsEmpty(filter->GetOutputDataObject(port)) ? 0 : 1) == 0)
   {
     return { ErrorCode::EmptyInput, what + ": there are no cells to work on; check the input" };
   }
@@ -156,7 +195,7 @@ void Session::Warn(const std::vector<std::string>& warnings) const
 {
   for (const std::string& warning : warnings)
   {
-    std::cerr << (this->Quiet ? "" : OneLine(warning) + "\n");
+    std::cerr << (this->Quiet || Processes::Own() != 0 ? "" : OneLine(warning) + "\n");
   }
 }
 
@@ -170,25 +209,84 @@ Status Session::CheckFormat(vtkDataObject* like, const std::string& file, bool a
   return file.empty() ? Status() : CheckDataFormat(like, file, asCurves, this->Threads);
 }
 
-Status Session::Write(vtkDataObject* data, const std::string& file, const std::string& encoding)
+Status Session::Write(vtkDataObject* data, const std::string& file, const DataFileParams& params)
 {
   const double begin = Now();
-  if (Status status = CheckDataEnding(data, file); !status)
+  if (Processes::Count() > 1 && IsPieceIndex(file))
   {
-    return status;
+    return this->WriteInPieces(data, file, params.Encoding);
   }
-  Result<fs::path> staged = this->Files.Stage(file);
+  const Status status = Processes::Agree(CheckDataEnding(data, file));
+  const Result<fs::path> staged = status ? this->Stage(file) : Result<fs::path>(status);
+  if (!staged || Processes::Own() != 0)
+  {
+    return staged ? Processes::Agree({}) : staged.Status;
+  }
+  DataFileParams all = params;
+  all.Curves = this->BoundaryCurves;
+  auto written = WriteDataFile(data, staged->string(), all);
+  this->Warn(written.Value);
+  this->SecondsOfFiles += Now() - begin;
+  return Processes::Agree(AboutFile(written.Status, file, staged->string()));
+}
+
+Status Session::WriteInPieces(
+  vtkDataObject* data, const std::string& file, const std::string& encoding)
+{
+  const double begin = Now();
+  const auto own = static_cast<std::size_t>(Processes::Own());
+  Status status = Processes::Agree(CheckDataEnding(data, file));
+  const Result<fs::path> staged = status ? this->Stage(file) : Result<fs::path>(status);
   if (!staged)
   {
     return staged.Status;
   }
-  DataFileParams params;
-  params.Curves = this->BoundaryCurves;
-  params.Encoding = encoding;
-  auto written = WriteDataFile(data, staged->string(), params);
-  this->Warn(written.Value);
+  const std::string index = staged->string();
+  auto* piece = vtkDataSet::SafeDownCast(data);
+  MessageCapture messages;
+  status = IsEmpty(data) ? Status() : WritePiece(piece, own, index, encoding);
+  if (status.Detail.empty() && !status)
+  {
+    status.Detail = messages.FirstError();
+  }
+  status = Processes::Agree(AboutFile(status, file, index));
+  // pieces without points are no pieces; the first that has some knows the arrays
+  std::vector<std::size_t> numbers;
+  std::size_t number = 0;
+  for (const int isPiece : Processes::ExchangeNumber(IsEmpty(data) ? 0 : 1))
+  {
+    if (isPiece != 0)
+    {
+      numbers.push_back(number);
+    }
+    ++number;
+  }
+  if (status && !numbers.empty() && own == numbers.front())
+  {
+    status = WritePieceIndex(piece, numbers, index);
+  }
   this->SecondsOfFiles += Now() - begin;
-  return AboutFile(written.Status, file, staged->string());
+  return Processes::Agree(AboutFile(status, file, index));
+}
+
+Result<fs::path> Session::Stage(const std::string& file)
+{
+  Result<fs::path> staged;
+  if (Processes::Own() == 0)
+  {
+    staged = this->Files.Stage(file);
+  }
+  const Status status = Processes::Agree(staged.Status);
+  if (!status)
+  {
+    return status;
+  }
+  const fs::path place = Processes::Broadcast(staged->string());
+  if (Processes::Own() != 0)
+  {
+    Termination::Folders::Guard(place.parent_path());
+  }
+  return place;
 }
 
 Status Session::WriteText(const std::string& text, const std::string& file)
@@ -244,6 +342,17 @@ Status Session::Commit()
   this->ExitStatus =
     this->ExitStatus == 0 && !this->LeftOut.empty() ? PartLeftOut : this->ExitStatus;
   this->Report["left_out"] = this->LeftOut;
+  if (Processes::Count() > 1)
+  {
+    this->ReportProcesses();
+    Termination::Folders::Unguard();
+    static_cast<void>(Processes::Agree({})); // all have let go
+    if (Processes::Own() != 0)
+    {
+      return Processes::Agree({});
+    }
+  }
+  Status status;
   if (!this->ReportFile.empty())
   {
     this->Report["seconds"] = this->Seconds;
@@ -253,11 +362,27 @@ Status Session::Commit()
     // not all text of a report need be sound: names of files are bytes
     const auto replace = nlohmann::ordered_json::error_handler_t::replace;
     const std::string text = this->Report.dump(2, ' ', false, replace) + "\n";
-    if (Status status = this->WriteText(text, this->ReportFile); !status)
-    {
-      return status;
-    }
+    status = this->WriteText(text, this->ReportFile);
   }
-  return this->Files.Commit();
+  return Processes::Agree(status ? this->Files.Commit() : status);
+}
+
+void Session::ReportProcesses()
+{
+  const std::vector<double> own{ this->Seconds, this->CpuSeconds,
+    static_cast<double>(PeakBytes()) };
+  const auto all = Processes::Exchange(own);
+  this->Report["ranks"] = Processes::Count();
+  std::size_t number = 0;
+  for (const char* key : { "rank_seconds", "rank_cpu_seconds", "rank_peak_bytes" })
+  {
+    std::vector<double> values;
+    for (const std::vector<double>& one : all)
+    {
+      values.push_back(one[number]);
+    }
+    this->Report[key] = values;
+    ++number;
+  }
 }
 }

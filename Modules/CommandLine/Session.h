@@ -2,6 +2,7 @@
 #pragma once
 #include "OutputOptions.h"
 #include <knotwork/SplineCore/Status.h>
+#include <knotwork/SplineIO/DataFile.h>
 #include <knotwork/SplineIO/OutputFiles.h>
 
 #include <nlohmann/json.hpp>
@@ -43,12 +44,17 @@ public:
   /// Flat JSON object of the report; jobs add the numbers they are about.
   nlohmann::ordered_json Report = nlohmann::ordered_json::object();
 
-  /// ReadDataFile of what is not an output; its curves are in Curves then.
+  /// ReadDataFile of what is not an output; its curves are in Curves then. What of several
+  /// processes one cannot read, none can.
   /// @param asTable  text in columns is a table, not points.
   Result<vtkSmartPointer<vtkDataObject>> Read(const std::string& file, bool asTable = false);
 
+  /// The pieces of a .pvtu or .pvtp that fall to this process.
+  Result<vtkSmartPointer<vtkDataObject>> ReadPieces(const std::string& file);
+
   /// Updates a filter with progress on a terminal; messages of VTK become the status. `what` names
-  /// the inputs in the message. No points or rows in the output of `port` are an error.
+  /// the inputs in the message. No points or rows in the output of `port` (of all processes) are an
+  /// error. Of several processes each updates its piece, and what fails in one fails in all.
   /// @param warnings  get the filter's, instead of printing: what is to be said if the rest works.
   Status Run(vtkAlgorithm* filter, const std::string& what, int port = 0,
     std::vector<std::string>* warnings = nullptr);
@@ -70,9 +76,17 @@ public:
   /// message names the input.
   Status CheckGridFormat(vtkDataObject* like, const std::string& file, bool asCurves = false) const;
 
-  /// WriteDataFile of a staged output.
-  Status Write(
-    vtkDataObject* data, const std::string& file, const std::string& encoding = "binary");
+  /// Of a number of every process, which all give at once: the sum, the largest.
+  static long long Total(long long own);
+  static double Largest(double own);
+
+  /// WriteDataFile of a staged output, with BoundaryCurves; by the first of several processes, all
+  /// of which call it, and what is written in pieces by each of them.
+  Status Write(vtkDataObject* data, const std::string& file, const DataFileParams& params = {});
+
+  /// Where to write an output: staged by the first of several processes, told to all of them, and
+  /// removed by those that are left where a signal ends the run.
+  Result<std::filesystem::path> Stage(const std::string& file);
 
   /// Stages a text.
   Status WriteText(const std::string& text, const std::string& file);
@@ -89,6 +103,14 @@ public:
   Status Commit();
 
 private:
+  Result<vtkSmartPointer<vtkDataObject>> ReadWith(
+    Result<DataFile> (*read)(const std::string&), const std::string& file);
+  /// Of several processes each writes its piece.
+  Status WriteInPieces(vtkDataObject* data, const std::string& file, const std::string& encoding);
+
+  /// Keys of a run in several processes: seconds, processor time and memory of each.
+  void ReportProcesses();
+
   double SecondsOfFiles = 0.0;
   double Seconds = 0.0;
   double CpuSeconds = 0.0;

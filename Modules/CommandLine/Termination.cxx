@@ -20,6 +20,9 @@ struct State
 {
   std::mutex Mutex;
   std::vector<fs::path> Folders;
+  std::vector<fs::path> OthersFolders;
+  std::vector<int> Speakers;
+  bool IsSilent = false;
   std::string Job;
   bool Done = false;
 };
@@ -85,14 +88,24 @@ void RemoveWhileInUse(const fs::path& folder)
 
 [[noreturn]] void End(int number)
 {
-  for (const fs::path& folder : Shared().Folders)
+  const auto lives = [](int process) { return kill(process, 0) == 0; };
+  const bool isSilent =
+    Shared().IsSilent || std::any_of(Shared().Speakers.begin(), Shared().Speakers.end(), lives);
+  for (const auto* folders : { &Shared().Folders, &Shared().OthersFolders })
   {
-    RemoveWhileInUse(folder);
+    for (const fs::path& folder : *folders)
+    {
+      RemoveWhileInUse(folder);
+    }
+  }
+  constexpr int BySignal = 128; // as shells have it
+  if (isSilent)
+  {
+    _exit(BySignal + number);
   }
   const std::string line = (isatty(STDERR_FILENO) == 1 ? "\r" : "") + std::string("knotwork ") +
     Shared().Job + ": ended by " + NameOf(number) + "; no output is written\n";
   static_cast<void>(!write(STDERR_FILENO, line.data(), line.size()));
-  constexpr int BySignal = 128; // as shells have it
   _exit(BySignal + number);
 }
 
@@ -121,6 +134,18 @@ void Begin(const std::string& job)
   std::thread(Wait).detach();
 }
 
+void SpeakAfter(const std::vector<int>& processes)
+{
+  const auto lock = Hold();
+  Shared().Speakers = processes;
+}
+
+void BeSilent()
+{
+  const auto lock = Hold();
+  Shared().IsSilent = true;
+}
+
 std::unique_lock<std::mutex> Hold()
 {
   return std::unique_lock<std::mutex>(Shared().Mutex);
@@ -143,6 +168,18 @@ void Folders::Remove(const fs::path& folder)
   TemporaryFolders::Remove(folder);
   auto& folders = Shared().Folders;
   folders.erase(std::remove(folders.begin(), folders.end(), folder), folders.end());
+}
+
+void Folders::Guard(const fs::path& folder)
+{
+  const auto lock = Hold();
+  Shared().OthersFolders.push_back(folder);
+}
+
+void Folders::Unguard()
+{
+  const auto lock = Hold();
+  Shared().OthersFolders.clear();
 }
 
 Status Folders::Whole(const std::function<Status()>& work)

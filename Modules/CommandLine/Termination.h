@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <mutex>
 #include <string>
+#include <vector>
 
 /// SIGTERM, SIGINT and SIGHUP end the program at once: temporary folders are removed, one line says
 /// so on stderr, and the exit status is 128 + the signal's number.
@@ -19,6 +20,13 @@ namespace knotwork::Termination
 /// Begins to wait. @param job  is named in the line.
 void Begin(const std::string& job);
 
+/// Processes of this machine that say the line in place of this one while they live: one is said
+/// where all are ended.
+void SpeakAfter(const std::vector<int>& processes);
+
+/// From here on a signal ends this process without a line: all is said.
+void BeSilent();
+
 /// While this is held, no signal ends the program: what is done is done whole. Every line about a
 /// failure is printed under it, so that there are never two.
 std::unique_lock<std::mutex> Hold();
@@ -29,6 +37,9 @@ class Folders : public TemporaryFolders
 public:
   Result<std::filesystem::path> Make(const std::filesystem::path& pattern) override;
   void Remove(const std::filesystem::path& folder) override;
+  /// A folder of another process, which may be ended before it removes it; none any more.
+  static void Guard(const std::filesystem::path& folder);
+  static void Unguard();
   Status Whole(const std::function<Status()>& work) override;
 };
 }

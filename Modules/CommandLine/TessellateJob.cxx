@@ -3,9 +3,11 @@
 #include "Jobs.h"
 #include "Options.h"
 #include "Session.h"
+#include "Shares.h"
 #include <knotwork/CADModel/CADExchange.h>
 #include <knotwork/SplineCore/FileEnding.h>
 
+#include <knotwork/SplineGrid/Processes.h>
 #include <knotwork/SplineGrid/SplineBlocks.h>
 #include <knotwork/SplineGrid/vtkSplineTessellate.h>
 #include <knotwork/SplineIO/vtkCADReader.h>
@@ -89,6 +91,13 @@ struct TessellateJob
 
   Status Run(Session& session)
   {
+    if (HasCADEnding(this->Input) && Processes::Count() > 1)
+    {
+      return { ErrorCode::InvalidParameter,
+        "'" + this->Input +
+          "': trimmed faces are tessellated by one process; start it without "
+          "mpirun" };
+    }
     if (HasCADEnding(this->Input))
     {
       return this->RunCAD(session);
@@ -98,14 +107,16 @@ struct TessellateJob
     {
       return input.Status;
     }
-    this->Filter->SetInputDataObject(input.Value);
+    this->Filter->SetInputDataObject(ShareOf(input.Value, Share::Blocks));
     session.Report["input"] = this->Input;
     session.Report["output"] = this->Output;
     this->FilterOptions->Apply(session.Report);
     this->Filter->SetThreads(session.Threads);
     this->Filter->UpdateDataObject();
     vtkDataObject* like = this->Filter->GetOutputDataObject(0);
-    if (Status status = this->CheckFormat(session, like, HasOnlyCurves(input.Value)); !status)
+    if (Status status =
+          Processes::Agree(this->CheckFormat(session, like, HasOnlyCurves(input.Value)));
+        !status)
     {
       return status;
     }
@@ -114,9 +125,12 @@ struct TessellateJob
       return status;
     }
     vtkDataObject* result = this->Filter->GetOutputDataObject(0);
-    session.Report["number_of_points"] = result->GetNumberOfElements(vtkDataObject::POINT);
-    session.Report["number_of_cells"] = result->GetNumberOfElements(vtkDataObject::CELL);
-    return session.Write(result, this->Output);
+    session.Report["number_of_points"] =
+      Session::Total(result->GetNumberOfElements(vtkDataObject::POINT));
+    session.Report["number_of_cells"] =
+      Session::Total(result->GetNumberOfElements(vtkDataObject::CELL));
+    const auto whole = AppendShares(result);
+    return whole ? session.Write(whole.Value, this->Output) : whole.Status;
   }
 };
 
@@ -136,6 +150,6 @@ Job Make(CLI::App& app)
 }
 
 const JobRegistration Registration{ "tessellate", "turn a spline into polygons within a tolerance",
-  "plate.vtu --chordal-tolerance 1e-4 --output plate.vtp", Make };
+  "plate.vtu --chordal-tolerance 1e-4 --output plate.vtp", Make, JobProcesses::Several };
 }
 }

@@ -2,6 +2,7 @@
 #include "FilterJob.h"
 
 #include <knotwork/JacobianValidation/vtkJacobianValidator.h>
+#include <knotwork/SplineGrid/Processes.h>
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
@@ -115,6 +116,7 @@ public:
   {
     this->AddInput(0, "input",
       "grid of Bezier, Lagrange, linear or quadratic cells (.vtu .vtpc .vtk .mesh .msh .inp)");
+    this->Divide(0, Share::Cells);
     this
       ->AddOutput(
         0, "--output", Endings::Splines, "the grid with verdicts and bounds as cell arrays")
@@ -130,9 +132,16 @@ protected:
     return session.CheckGridFormat(this->Input(0), this->MainOutput());
   }
 
+  /// Elements are named by their numbers in the file.
+  bool NeedsWholeOutput() const override
+  {
+    auto* grid = vtkUnstructuredGrid::SafeDownCast(this->Input(0));
+    return grid && grid->GetCellData()->HasArray("ElementNumber") != 0;
+  }
+
   Status AddNumbers(Session& session) override
   {
-    if (this->Input(0)->GetNumberOfElements(vtkDataObject::CELL) == 0)
+    if (Session::Total(this->Input(0)->GetNumberOfElements(vtkDataObject::CELL)) == 0)
     {
       return { ErrorCode::EmptyInput, "'" + this->InputFile(0) + "' has no cells to validate" };
     }
@@ -191,6 +200,10 @@ protected:
       report["witness_parameters"] = std::vector<double>{ u[0], u[1], u[2] };
     }
     auto* grid = vtkUnstructuredGrid::SafeDownCast(this->Filter->GetOutputDataObject(0));
+    if (Processes::Own() != 0)
+    {
+      return {}; // the first process has the whole, and speaks
+    }
     if (grid && grid->GetCellData()->GetArray("ElementNumber"))
     {
       this->NameElements(grid, report);
@@ -224,6 +237,6 @@ private:
 };
 
 const JobRegistration Registration{ "validate", "prove a grid valid or show where it is not",
-  "plate.vtu --report valid.json", MakeJob<ValidateJob> };
+  "plate.vtu --report valid.json", MakeJob<ValidateJob>, JobProcesses::Several };
 }
 }

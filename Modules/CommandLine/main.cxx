@@ -9,6 +9,7 @@
 #include "Session.h"
 #include "Termination.h"
 #include "Words.h"
+#include <knotwork/SplineGrid/Processes.h>
 #include <knotwork/SplineIO/OneLine.h>
 
 #include <CLI/CLI.hpp>
@@ -18,6 +19,7 @@
 #include <csignal>
 #include <exception>
 #include <iostream>
+#include <set>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -90,10 +92,32 @@ knotwork::Status FlushOutput()
     "standard output cannot be written: " + std::generic_category().message(errno) };
 }
 
+/// Where one process must do it all.
+int RefuseProcesses(const std::string& job, const knotwork::ParallelStart& start,
+  const std::vector<std::string>& divided)
+{
+  std::string names;
+  for (const std::string& name : divided)
+  {
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  Fail(job,
+    "started as one of several processes (" + start.Variable + " is " +
+      std::to_string(start.NumProcesses) +
+      "), each of which would do the whole job; start it without mpirun (it uses all cores), or "
+      "unset " +
+      start.Variable + ". Jobs that processes divide among them: " + names);
+  return WrongUsage;
+}
+
 /// Plans the outputs, runs the job and puts the outputs into their places.
 knotwork::Status Run(const CLI::App& job, const knotwork::Job& run, knotwork::Session& session)
 {
-  knotwork::Status status = knotwork::PlanOutputs(job, session.Files);
+  knotwork::Status status = knotwork::Processes::Agree(knotwork::PlanOutputs(job, session.Files));
+  if (status && knotwork::Processes::Count() > 1 && session.Threads == 0)
+  {
+    session.Threads = knotwork::ProcessGroup::ThreadsOfEach();
+  }
   if (status)
   {
     session.Report["job"] = job.get_name();
@@ -102,7 +126,7 @@ knotwork::Status Run(const CLI::App& job, const knotwork::Job& run, knotwork::Se
   }
   if (status)
   {
-    status = FlushOutput();
+    status = knotwork::Processes::Agree(FlushOutput());
   }
   return status ? session.Commit() : status;
 }
@@ -127,12 +151,19 @@ int main(int argc, char* argv[])
 
   knotwork::Session session;
   std::vector<std::pair<CLI::App*, knotwork::Job>> jobs;
+  std::vector<std::string> divided; // jobs that several processes do together
+  std::set<const CLI::App*> isDivided;
   for (const knotwork::JobEntry& entry : knotwork::RegisteredJobs())
   {
     CLI::App* job = app.add_subcommand(entry.Name, entry.Help);
     job->footer(
       "Example: knotwork " + std::string(entry.Name) + " " + entry.Example + "\n\n" + ExitStatus);
     jobs.emplace_back(job, entry.Make(*job));
+    if (entry.RunsIn == knotwork::JobProcesses::Several)
+    {
+      divided.emplace_back(entry.Name);
+      isDivided.insert(job);
+    }
     knotwork::AddOutput(*job, "--report", session.ReportFile, knotwork::Endings::Any,
       "JSON file for the numbers of the job");
     job->add_flag("--force", session.Files.Force, "an output may take the place of an input")
@@ -156,7 +187,10 @@ int main(int argc, char* argv[])
   {
     return Explain(app, error);
   }
-  session.Warn(prepared.Warnings);
+  if (knotwork::FindParallelStart().IsFirst)
+  {
+    session.Warn(prepared.Warnings);
+  }
 
   for (const auto& [job, run] : jobs)
   {
@@ -164,26 +198,43 @@ int main(int argc, char* argv[])
     {
       continue;
     }
-    if (const auto start = knotwork::FindParallelStart(); !start.Refusal.empty())
+    const knotwork::ParallelStart start = knotwork::FindParallelStart();
+    if (!start.Variable.empty() && isDivided.count(job) == 0)
     {
-      if (start.First)
-      {
-        Fail(job->get_name(), start.Refusal);
-      }
-      return WrongUsage;
+      return start.IsFirst ? RefuseProcesses(job->get_name(), start, divided) : WrongUsage;
     }
     knotwork::Termination::Begin(job->get_name());
     // a limit of the size of files, or a reader that has gone, is an error like a full disk
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
+    knotwork::ProcessGroup group;
     try
     {
-      const knotwork::Status status = Run(*job, run, session);
-      return status ? session.ExitStatus : Fail(job->get_name(), status.Detail);
+      knotwork::Status status =
+        start.Variable.empty() ? knotwork::Status() : group.Join(start, argc, argv);
+      if (!status && !start.IsFirst)
+      {
+        return Failure;
+      }
+      status = status ? Run(*job, run, session) : status;
+      if (knotwork::Processes::Own() != 0)
+      {
+        knotwork::Termination::BeSilent(); // mpirun ends those that are slower than the first one
+      }
+      // what fails in one of several processes has failed in all
+      return status                       ? session.ExitStatus
+        : knotwork::Processes::Own() == 0 ? Fail(job->get_name(), status.Detail)
+                                          : Failure;
     }
     catch (...) // of a library, e.g. out of memory
     {
-      return Fail(job->get_name(), knotwork::StatusOfException().Detail);
+      const int failure = Fail(job->get_name(), knotwork::StatusOfException().Detail);
+      if (knotwork::Processes::Count() > 1)
+      {
+        session.Files.Abandon();
+        knotwork::ProcessGroup::Abandon(failure);
+      }
+      return failure;
     }
   }
   return WrongUsage;

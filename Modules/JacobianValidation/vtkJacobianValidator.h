@@ -34,12 +34,29 @@
  * surfaces and curves in space; `InjectivityReason`) and on the interfaces of the patches
  * (`Interfaces`, `InterfaceGaps`, `LargestGap`).
  *
+ * Of several processes (MPI) each validates the cells of its piece; numbers of cells count through
+ * the pieces of a block, MaximumBoxes is for each process, output 2 is that of all in the first
+ * process and empty elsewhere (sums over cells differ by rounding from those of one process). With
+ * Injectivity all cells go to the first process, which proves it; points of different pieces are
+ * one where their global ids say so, or else their places.
+ *
  * @source Johnen, Remacle, Geuzaine (2013). The module's page has the method, limits and errors.
  */
 #ifndef vtkJacobianValidator_h
 #define vtkJacobianValidator_h
 #include "vtkKnotworkJacobianValidationModule.h" // for export macro
 #include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
+
+#include <memory> // for the work of an update
+
+namespace knotwork
+{
+struct BernsteinCells;
+struct CellComplex;
+struct CellMaps;
+struct InjectivityCertificate;
+struct JacobianCertificate;
+}
 
 class VTKKNOTWORKJACOBIANVALIDATION_EXPORT vtkJacobianValidator : public vtkSplineAlgorithm
 {
@@ -102,13 +119,24 @@ public:
 
 protected:
   vtkJacobianValidator();
-  ~vtkJacobianValidator() override = default;
+  ~vtkJacobianValidator() override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestDataObject(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  bool WorksOnPieces() const override { return true; }
+  bool SumsUpPieces() const override { return true; }
+  knotwork::Status Gather(vtkInformationVector** inputs) override;
+  knotwork::Status Merge(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:
+  struct Work;
+  knotwork::Status Validate(vtkDataObject* input, vtkInformationVector* outputs);
+  knotwork::Result<knotwork::InjectivityCertificate> ProveInjective(
+    const knotwork::BernsteinCells& cells, const knotwork::CellMaps& maps,
+    const knotwork::CellComplex& complex, const knotwork::JacobianCertificate& certificate);
+  std::unique_ptr<Work> Piece;
+
   vtkJacobianValidator(const vtkJacobianValidator&) = delete;
   void operator=(const vtkJacobianValidator&) = delete;
 

@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DistributedInput.h"
 
+#include "Processes.h"
+#include "SplineBlocks.h"
+
+#include "vtkCharArray.h"
+#include "vtkCommunicator.h"
+#include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkMultiProcessController.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,12 +23,6 @@ namespace knotwork
 {
 namespace
 {
-int NumberOfProcesses()
-{
-  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
-  return controller ? controller->GetNumberOfProcesses() : 1;
-}
-
 int PiecesAskedFor(vtkInformationVector* outputs)
 {
   int pieces = 1;
@@ -39,7 +41,12 @@ constexpr const char* Remedy =
 
 int NumberOfPieces(vtkInformationVector* outputs)
 {
-  return std::max(NumberOfProcesses(), PiecesAskedFor(outputs));
+  return std::max(Processes::Count(), PiecesAskedFor(outputs));
+}
+
+bool IsPieceOfEveryProcess(vtkInformationVector* outputs)
+{
+  return Processes::Count() > 1 && PiecesAskedFor(outputs) == Processes::Count();
 }
 
 namespace
@@ -77,7 +84,7 @@ Status CheckWholeInput(
 {
   speaks = true;
   const int pieces = PiecesAskedFor(outputs);
-  const int processes = NumberOfProcesses();
+  const int processes = Processes::Count();
   if (pieces <= 1 && processes <= 1)
   {
     return {};
@@ -94,23 +101,94 @@ Status CheckWholeInput(
                 std::to_string(processes) + " processes: what others have is not known") +
             Remedy);
   }
-  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
-  std::vector<int> all(static_cast<std::size_t>(processes), 0);
-  controller->AllGather(&mine, all.data(), 1);
+  const std::vector<int> all = Processes::ExchangeNumber(mine);
   const auto withData = std::count(all.begin(), all.end(), 1);
   if (withData <= 1)
   {
     return {};
   }
-  speaks = std::find(all.begin(), all.end(), 1) - all.begin() == controller->GetLocalProcessId();
+  speaks = std::find(all.begin(), all.end(), 1) - all.begin() == Processes::Own();
   return { ErrorCode::InvalidTopology,
     "the whole input is needed, and it is spread over " + std::to_string(withData) + " of " +
       std::to_string(processes) + " processes" + Remedy };
 }
 
+namespace
+{
+/// Of the places and values of all points, 0 without any: equal ones are taken for the same data.
+std::uint64_t Fingerprint(vtkDataObject* data)
+{
+  constexpr std::uint64_t prime = 0x100000001b3; // Fowler, Noll, Vo: FNV-1a
+  std::uint64_t hash = 0xcbf29ce484222325;
+  const auto add = [&hash](vtkDataArray* array)
+  {
+    const auto* bytes =
+      array ? static_cast<const unsigned char*>(array->GetVoidPointer(0)) : nullptr;
+    const auto size = array ? array->GetDataSize() * array->GetDataTypeSize() : 0;
+    for (vtkIdType i = 0; i < size; ++i)
+    {
+      hash = (hash ^ bytes[i]) * prime;
+    }
+  };
+  for (const auto& [block, grid] : GridsByBlock(data))
+  {
+    add(grid->GetPoints() ? grid->GetPoints()->GetData() : nullptr);
+    for (int i = 0; i < grid->GetPointData()->GetNumberOfArrays(); ++i)
+    {
+      add(grid->GetPointData()->GetArray(i));
+    }
+  }
+  return HasElements(data) ? hash : 0;
+}
+}
+
+Result<vtkSmartPointer<vtkDataObject>> WholeForAll(vtkDataObject* own)
+{
+  int from = -1;
+  int withData = 0;
+  bool same = true;
+  std::uint64_t first = 0;
+  int process = 0;
+  for (const auto& one : Processes::Exchange(std::vector<std::uint64_t>{ Fingerprint(own) }))
+  {
+    if (one.front() != 0)
+    {
+      from = from < 0 ? process : from;
+      first = from == process ? one.front() : first;
+      same = same && one.front() == first;
+      ++withData;
+    }
+    ++process;
+  }
+  if (!same)
+  {
+    return { ErrorCode::InvalidTopology,
+      "the input that every process needs whole is spread over " + std::to_string(withData) +
+        " of them; have it in one, or the same in all" };
+  }
+  if (withData == 0 || withData == Processes::Count())
+  {
+    return vtkSmartPointer<vtkDataObject>(withData == 0 ? nullptr : own);
+  }
+  vtkNew<vtkCharArray> bytes;
+  if (from == Processes::Own())
+  {
+    vtkCommunicator::MarshalDataObject(own, bytes);
+  }
+  const std::string sent = Processes::Broadcast(
+    std::string(bytes->GetPointer(0), static_cast<std::size_t>(bytes->GetNumberOfTuples())), from);
+  if (HasElements(own))
+  {
+    return vtkSmartPointer<vtkDataObject>(own);
+  }
+  bytes->SetNumberOfTuples(static_cast<vtkIdType>(sent.size()));
+  std::copy(sent.begin(), sent.end(), bytes->GetPointer(0));
+  return vtkCommunicator::UnMarshalDataObject(bytes);
+}
+
 Status CheckOneWriter(vtkDataObject* data, bool& idle)
 {
-  const int processes = NumberOfProcesses();
+  const int processes = Processes::Count();
   idle = processes > 1 && !HasElements(data);
   return processes <= 1 || idle ? Status()
                                 : Status(ErrorCode::InvalidTopology,

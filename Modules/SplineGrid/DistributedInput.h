@@ -3,6 +3,8 @@
 #include "vtkKnotworkSplineGridModule.h" // for export macro
 #include <knotwork/SplineCore/Status.h>
 
+#include "vtkSmartPointer.h"
+
 class vtkDataObject;
 class vtkInformationVector;
 
@@ -10,6 +12,9 @@ namespace knotwork
 {
 /// Pieces that are asked for, or processes of the global controller, whichever are more.
 VTKKNOTWORKSPLINEGRID_EXPORT int NumberOfPieces(vtkInformationVector* outputs);
+
+/// Whether every process of several is asked for its own piece of as many.
+VTKKNOTWORKSPLINEGRID_EXPORT bool IsPieceOfEveryProcess(vtkInformationVector* outputs);
 
 /// Whether one of the inputs has points, cells or rows. Of several processes those without stay
 /// idle.
@@ -24,6 +29,13 @@ VTKKNOTWORKSPLINEGRID_EXPORT bool HasData(vtkInformationVector** inputs, int num
 /// @return Ok or InvalidTopology.
 VTKKNOTWORKSPLINEGRID_EXPORT Status CheckWholeInput(
   vtkInformationVector** inputs, int numInputPorts, vtkInformationVector* outputs, bool& speaks);
+
+/// An input that every process needs whole, beside another one of which it has a piece: where one
+/// process has it, it is sent to the others.
+/// @pre all processes call it.
+/// @return what this process works with, null where no process has data; InvalidTopology: several
+/// have data that differ, so what they have are pieces.
+VTKKNOTWORKSPLINEGRID_EXPORT Result<vtkSmartPointer<vtkDataObject>> WholeForAll(vtkDataObject* own);
 
 /// Whether a writer of one file may write: not as one of several processes, each of which would
 /// write the file. Nothing is exchanged between them, so that none waits.

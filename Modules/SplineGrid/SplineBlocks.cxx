@@ -48,6 +48,25 @@ std::map<int, vtkSmartPointer<vtkUnstructuredGrid>> GridsByBlock(vtkDataObject* 
   return grids;
 }
 
+bool HoldsSplines(vtkDataObject* data)
+{
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(data);
+  if (!grid)
+  {
+    return vtkPartitionedDataSetCollection::SafeDownCast(data) != nullptr;
+  }
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    const int type = grid->GetCellType(c);
+    if (type != VTK_BEZIER_CURVE && type != VTK_BEZIER_QUADRILATERAL &&
+      type != VTK_BEZIER_HEXAHEDRON)
+    {
+      return false;
+    }
+  }
+  return grid->GetNumberOfCells() > 0;
+}
+
 Status MakeByBlock(const SplineModel& model, vtkDataObject* input, vtkDataObject* output, int type,
   const BlockMaker& make)
 {

@@ -18,6 +18,10 @@ namespace knotwork
 VTKKNOTWORKSPLINEGRID_EXPORT std::map<int, vtkSmartPointer<vtkUnstructuredGrid>> GridsByBlock(
   vtkDataObject* data);
 
+/// Whether a grid has Bezier curves, quadrilaterals and hexahedra alone, and such cells at all;
+/// true of a collection.
+VTKKNOTWORKSPLINEGRID_EXPORT bool HoldsSplines(vtkDataObject* data);
+
 /// Fills a dataset from the patches of one block; source holds their cells.
 using BlockMaker = std::function<Status(const std::vector<const SplinePatch*>& patches,
   vtkUnstructuredGrid* source, vtkDataSet* dataSet)>;

@@ -3,6 +3,7 @@
 
 #include "DistributedInput.h"
 #include "FilterErrorCode.h"
+#include "Processes.h"
 #include "SplineModel.h"
 
 #include "vtkDataObject.h"
@@ -14,7 +15,7 @@
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkSmartPointer.h"
 
-#include <exception>
+#include <functional>
 
 vtkSplineAlgorithm::vtkSplineAlgorithm() = default;
 
@@ -131,24 +132,63 @@ int vtkSplineAlgorithm::RequestData(
   this->LeftOut.clear();
   knotwork::Status status;
   bool speaks = true;
-  try
+  const auto attempt = [&status](const std::function<knotwork::Status()>& act)
   {
-    const int ports = this->GetNumberOfInputPorts();
-    // Sources run in the first of several processes alone.
-    if (ports > 0 && !this->WorksOnPieces())
+    try
     {
-      status = knotwork::CheckWholeInput(inputs, ports, outputs, speaks);
+      status = status ? act() : status;
     }
-    const bool idle =
-      ports > 0 && knotwork::NumberOfPieces(outputs) > 1 && !knotwork::HasData(inputs, ports);
-    if (status && !idle)
+    catch (...) // of a library below the kernel, out of memory
     {
-      status = this->Compute(inputs, outputs);
+      status = knotwork::StatusOfException();
     }
+  };
+  const int ports = this->GetNumberOfInputPorts();
+  const int wholePort = this->WholeInputPort();
+  const bool together = ports > 0 && this->WorksOnPieces() &&
+    (this->SumsUpPieces() || wholePort >= 0) && knotwork::IsPieceOfEveryProcess(outputs);
+  const auto agree = [&]
+  {
+    if (together)
+    {
+      int speaker = 0;
+      status = knotwork::Processes::Agree(status, &speaker);
+      speaks = speaker == knotwork::Processes::Own();
+    }
+  };
+  // Sources run in the first of several processes alone.
+  if (ports > 0 && !together && (!this->WorksOnPieces() || this->SumsUpPieces()))
+  {
+    attempt([&] { return knotwork::CheckWholeInput(inputs, ports, outputs, speaks); });
   }
-  catch (...) // of a library below the kernel, out of memory
+  if (together && wholePort >= 0)
   {
-    status = knotwork::StatusOfException();
+    attempt(
+      [&]
+      {
+        auto whole = knotwork::WholeForAll(vtkDataObject::GetData(inputs[wholePort], 0));
+        this->Whole = whole.Value;
+        return whole.Status;
+      });
+    agree();
+  }
+  if (together && this->SumsUpPieces())
+  {
+    attempt([&] { return this->Gather(inputs); });
+    agree();
+  }
+  const bool idle =
+    ports > 0 && knotwork::NumberOfPieces(outputs) > 1 && !knotwork::HasData(inputs, ports);
+  if (!idle)
+  {
+    attempt([&] { return this->Compute(inputs, outputs); });
+  }
+  agree();
+  this->Whole = nullptr;
+  if (together && this->SumsUpPieces() && status)
+  {
+    attempt([&] { return this->Merge(inputs, outputs); });
+    agree();
   }
   if (status)
   {
@@ -172,6 +212,12 @@ int vtkSplineAlgorithm::RequestData(
   }
   // Of several processes all go on, with empty outputs: filters behind this one may wait for all.
   return knotwork::NumberOfPieces(outputs) > 1 ? 1 : 0;
+}
+
+vtkDataObject* vtkSplineAlgorithm::WholeInput(vtkInformationVector** inputs) const
+{
+  return this->Whole ? this->Whole.Get()
+                     : vtkDataObject::GetData(inputs[this->WholeInputPort()], 0);
 }
 
 knotwork::Result<knotwork::SplineModel> vtkSplineAlgorithm::DecodeInput(vtkDataObject* input)

@@ -19,6 +19,8 @@
 #include <knotwork/SplineCore/Status.h>  // for knotwork::Status
 #include <knotwork/SplineCore/Types.h>   // for knotwork::ProgressCallback
 
+#include "vtkSmartPointer.h" // for inputs
+
 #include <string> // for warnings
 #include <vector> // for warnings
 
@@ -60,6 +62,23 @@ protected:
    * that return true are called with pieces, the others never.
    */
   virtual bool WorksOnPieces() const { return false; }
+
+  /**
+   * Whether pieces of several processes make numbers of the whole together: those that return true
+   * (and work on pieces) have Gather called before and Merge called after Compute, in all processes
+   * at once, those without data too, and may exchange there what they need (Processes.h). What
+   * fails in one of them fails in all. A piece that one process is asked for is refused as where
+   * the whole is needed.
+   */
+  virtual bool SumsUpPieces() const { return false; }
+  virtual knotwork::Status Gather(vtkInformationVector**) { return {}; }
+  virtual knotwork::Status Merge(vtkInformationVector**, vtkInformationVector*) { return {}; }
+
+  /** Of filters that work on pieces: the port of an input that every process needs whole; where one
+   * process has it, it is sent to the others. -1: none. */
+  virtual int WholeInputPort() const { return -1; }
+  /** What stands at that port, for Compute. */
+  vtkDataObject* WholeInput(vtkInformationVector** inputs) const;
 
   /** Reports progress to the pipeline and stops the kernel when the filter is asked to abort. */
   knotwork::ProgressCallback Progress();
@@ -104,6 +123,7 @@ protected:
   int Threads = 0;
 
 private:
+  vtkSmartPointer<vtkDataObject> Whole; ///< while RequestData runs
   std::vector<std::string> LeftOut;
   std::vector<InputType> InputTypes;
   std::vector<std::string> OutputTypes;

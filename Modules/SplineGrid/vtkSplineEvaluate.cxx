@@ -284,7 +284,7 @@ Status vtkSplineEvaluate::Compute(vtkInformationVector** inputs, vtkInformationV
   {
     return {};
   }
-  const Result<SplineModel> decoded = this->DecodeInput(vtkDataObject::GetData(inputs[0]));
+  const Result<SplineModel> decoded = this->DecodeInput(this->WholeInput(inputs));
   if (!decoded)
   {
     return decoded.Status;

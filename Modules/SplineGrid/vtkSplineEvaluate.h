@@ -94,8 +94,9 @@ protected:
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestDataObject(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
-  /** At parameters; the nearest point may lie on another piece. */
-  bool WorksOnPieces() const override { return this->Mode == PARAMETERS; }
+  /** Pieces of the points. */
+  bool WorksOnPieces() const override { return true; }
+  int WholeInputPort() const override { return 0; }
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:

@@ -34,25 +34,6 @@ vtkStandardNewMacro(vtkSplineWarp);
 
 namespace
 {
-bool HoldsSplines(vtkDataObject* data)
-{
-  auto* grid = vtkUnstructuredGrid::SafeDownCast(data);
-  if (!grid)
-  {
-    return vtkPartitionedDataSetCollection::SafeDownCast(data) != nullptr;
-  }
-  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
-  {
-    const int type = grid->GetCellType(c);
-    if (type != VTK_BEZIER_CURVE && type != VTK_BEZIER_QUADRILATERAL &&
-      type != VTK_BEZIER_HEXAHEDRON)
-    {
-      return false;
-    }
-  }
-  return grid->GetNumberOfCells() > 0;
-}
-
 /// The map as a function of points.
 struct Map
 {
@@ -273,13 +254,12 @@ Status vtkSplineWarp::Compute(vtkInformationVector** inputs, vtkInformationVecto
   {
     return {};
   }
-  const Map map(
-    vtkDataObject::GetData(inputs[1], 0), this->MapPatchId, this->Clamp, this->KernelThreads());
+  const Map map(this->WholeInput(inputs), this->MapPatchId, this->Clamp, this->KernelThreads());
   if (!map.Outcome)
   {
     return { map.Outcome.Code, "map: " + map.Outcome.Detail };
   }
-  if (!HoldsSplines(input))
+  if (!knotwork::HoldsSplines(input))
   {
     return WarpPoints(points, map, vtkPointSet::SafeDownCast(output));
   }

@@ -75,6 +75,7 @@ protected:
   int RequestDataObject(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   bool WorksOnPieces() const override { return true; }
+  int WholeInputPort() const override { return 1; }
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:

@@ -5,8 +5,10 @@
 #include "FileFormats.h"
 #include "FileText.h"
 #include "Messages.h"
+#include "PieceFiles.h"
 #include <knotwork/SplineCore/FileEnding.h>
 #include <knotwork/SplineGrid/NamedArray.h>
+#include <knotwork/SplineGrid/Processes.h>
 #include <knotwork/SplineGrid/SplineModel.h>
 #include <knotwork/SplineIO/NumberTable.h>
 
@@ -168,6 +170,30 @@ Result<DataFile> ReadTableFile(const std::string& file)
   }
   DataFile found;
   found.Data = table;
+  return found;
+}
+
+Result<DataFile> ReadDataPieces(const std::string& file)
+{
+  Status status = CheckReadable(file);
+  const auto index =
+    status ? ReadPieceIndex(file) : Result<std::vector<std::filesystem::path>>(status);
+  if (!index)
+  {
+    return index.Status;
+  }
+  const Processes::Part part =
+    Processes::PartOf(index->size(), Processes::Own(), Processes::Count());
+  MessageCapture messages;
+  auto read = ReadPieces(file, part.Begin, part.End);
+  status = read ? CheckData(read.Value) : read.Status;
+  if (!status)
+  {
+    return { status.Code, read ? "'" + file + "': " + status.Detail : status.Detail };
+  }
+  DataFile found;
+  found.Data = read.Value;
+  found.Warnings = messages.Warnings();
   return found;
 }
 

@@ -5,6 +5,7 @@
 
 #include <vtkSmartPointer.h>
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,10 @@ struct DataFile
 /// CheckData; the file is named.
 VTKKNOTWORKSPLINEIO_EXPORT Result<DataFile> ReadDataFile(const std::string& file);
 
+/// The part of a file in pieces (.pvtu, .pvtp) that a process of several works on: as many pieces
+/// as others have, which may be none. Otherwise as ReadDataFile.
+VTKKNOTWORKSPLINEIO_EXPORT Result<DataFile> ReadDataPieces(const std::string& file);
+
 /// Reads a file of rows as a vtkTable: .csv and .txt whose first line names the columns above the
 /// numbers. Other files as ReadDataFile.
 VTKKNOTWORKSPLINEIO_EXPORT Result<DataFile> ReadTableFile(const std::string& file);
@@ -40,6 +45,8 @@ struct DataFileParams
   /// Of numbers in VTK's formats: ascii, binary or appended. Debian's ParaView 5.11 with the
   /// present libexpat cannot read appended data.
   std::string Encoding = "binary";
+  /// Parts that a .pvtu gets; patches of splines stay whole.
+  std::size_t Pieces = 1;
 };
 
 /// Writes data by the ending of the name. Of a .vtpc the folder of its pieces must not be there

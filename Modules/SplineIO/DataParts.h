@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "vtkKnotworkSplineIOModule.h" // for export macro
 #include <knotwork/SplineCore/Status.h>
 
 #include <vtkSmartPointer.h>
@@ -13,9 +14,10 @@ namespace knotwork
 {
 /// A data set, table or vtkPartitionedDataSetCollection for another process: exact, as VTK's XML
 /// with raw numbers.
-void AppendParts(vtkDataObject* data, std::vector<std::string>& parts);
+VTKKNOTWORKSPLINEIO_EXPORT void AppendParts(vtkDataObject* data, std::vector<std::string>& parts);
 
 /// Takes a data object from the parts at `next`, which goes on.
 /// @return null where the parts do not hold one that VTK reads again.
-vtkSmartPointer<vtkDataObject> TakeData(std::vector<std::string>& parts, std::size_t& next);
+VTKKNOTWORKSPLINEIO_EXPORT vtkSmartPointer<vtkDataObject> TakeData(
+  std::vector<std::string>& parts, std::size_t& next);
 }

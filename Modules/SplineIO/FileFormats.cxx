@@ -3,6 +3,7 @@
 
 #include "DataFile.h"
 #include "ForeignFile.h"
+#include "PieceFiles.h"
 #include "PolygonText.h"
 #include "VTKText.h"
 #include "vtkBEXTReader.h"
@@ -190,6 +191,40 @@ Status WriteOfVTK(vtkDataObject* data, const std::string& file, const DataFilePa
   return WriteVTKFile(data, file, params.Encoding);
 }
 
+Status ReadInPieces(const std::string& file, DataFile& found)
+{
+  auto read = ReadPieces(file);
+  found.Data = read.Value;
+  return read.Status;
+}
+
+Status WriteInPieces(vtkDataObject* data, const std::string& file, const DataFileParams& params)
+{
+  std::vector<vtkSmartPointer<vtkDataSet>> pieces;
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(data);
+  if (grid && params.Pieces > 1)
+  {
+    for (const auto& part : DivideGrid(grid, params.Pieces))
+    {
+      pieces.emplace_back(part);
+    }
+  }
+  else
+  {
+    pieces.emplace_back(vtkDataSet::SafeDownCast(data));
+  }
+  std::vector<std::size_t> numbers;
+  for (const auto& piece : pieces)
+  {
+    numbers.push_back(numbers.size());
+    if (Status status = WritePiece(piece, numbers.back(), file, params.Encoding); !status)
+    {
+      return status;
+    }
+  }
+  return WritePieceIndex(pieces.front(), numbers, file);
+}
+
 constexpr unsigned Splines = SplineGridContent | SplineCollectionContent;
 constexpr unsigned SplinesAndCurves = Splines | SplineCurveContent;
 constexpr unsigned Elements = SplinesAndCurves | SplineElementContent;
@@ -230,6 +265,8 @@ const std::vector<FileFormat>& FileFormats()
     { "VTK polygons", { ".vtp" }, Lines, Lines | CellContent, true, ReadOfVTK, WriteOfVTK },
     { "VTK grid", { ".vtu" }, SplineCurveContent | Cells,
       SplineCurveContent | TrimmedFaceContent | Cells, true, ReadOfVTK, WriteOfVTK },
+    { "VTK grid in pieces", { ".pvtu" }, Cells, Cells, true, ReadInPieces, WriteInPieces },
+    { "VTK polygons in pieces", { ".pvtp" }, Lines, Lines, true, ReadInPieces, WriteInPieces },
     { "VTK collection", { ".vtpc" }, Collections, Collections, true, ReadOfVTK, WriteOfVTK },
     { "VTK legacy grid", { ".vtk" }, Cells, 0, true, ReadOfVTK, nullptr },
     { "VTK image", { ".vti" }, 0, ImageContent, true, nullptr, WriteOfVTK },

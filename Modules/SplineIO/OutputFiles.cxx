@@ -3,6 +3,7 @@
 
 #include "FileFormats.h"
 #include "FileText.h"
+#include "PieceFiles.h"
 #include <knotwork/SplineCore/FileEnding.h>
 #include <knotwork/SplineIO/TileIndex.h>
 
@@ -84,7 +85,7 @@ bool IsStream(const std::string& file)
 bool HasPieces(const fs::path& file)
 {
   const std::string ending = LowerEnding(file.string());
-  return ending == ".vtpc" || ending == ".tiles";
+  return ending == ".vtpc" || ending == ".tiles" || IsPieceIndex(file.string());
 }
 
 /// Files that a collection or an index of tiles names.
@@ -100,6 +101,10 @@ std::vector<fs::path> PiecesOf(const fs::path& collection)
     {
       pieces.push_back(collection.parent_path() / tile.File);
     }
+  }
+  if (IsPieceIndex(collection.string()))
+  {
+    return ReadPieceIndex(collection.string()).Value;
   }
   pugi::xml_document document;
   if (LowerEnding(collection.string()) == ".vtpc" && fs::is_regular_file(collection, ignored) &&
@@ -225,11 +230,17 @@ private:
 
 OutputFiles::~OutputFiles()
 {
-  for (const Output& output : this->Outputs)
+  this->Abandon();
+}
+
+void OutputFiles::Abandon()
+{
+  for (Output& output : this->Outputs)
   {
     if (!output.Folder.empty())
     {
       this->Folders->Remove(output.Folder);
+      output.Folder.clear();
     }
   }
 }

@@ -64,6 +64,9 @@ public:
   /// Forgets what was staged for a file.
   void Drop(const std::string& file);
 
+  /// Forgets all: nothing is left of what was staged.
+  void Abandon();
+
   /// All staged files take their places.
   Status Commit();
 

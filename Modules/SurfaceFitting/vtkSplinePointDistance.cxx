@@ -2,6 +2,7 @@
 #include "vtkSplinePointDistance.h"
 
 #include <knotwork/SplineGrid/InputChecks.h>
+#include <knotwork/SplineGrid/MergeTables.h>
 #include <knotwork/SplineGrid/SplineModel.h>
 #include <knotwork/SplineGrid/TableRow.h>
 #include <knotwork/SurfaceFitting/SurfaceDistance.h>
@@ -13,6 +14,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
+#include "vtkVariant.h"
 
 #include <cstdlib>
 #include <functional>
@@ -115,6 +117,34 @@ vtkSplinePointDistance::vtkSplinePointDistance()
   this->SetOutputTypes({ "vtkPointSet", "vtkTable", "vtkTable" });
 }
 
+Status vtkSplinePointDistance::Merge(vtkInformationVector**, vtkInformationVector* outputs)
+{
+  using knotwork::Merging;
+  knotwork::MergedTable how;
+  how.Weight = "Points";
+  how.Columns = { { "Points", Merging::Sum }, { "PointsWithout", Merging::Sum },
+    { "Min", Merging::Least }, { "Max", Merging::Largest }, { "Mean", Merging::Mean },
+    { "MeanAbsolute", Merging::Mean }, { "Rms", Merging::QuadraticMean } };
+  vtkTable* all = vtkTable::GetData(outputs, 2);
+  MergeTables(all, how);
+  how.Key = "Class";
+  // an empty class has zeros for its extrema, which are none
+  vtkTable* classes = vtkTable::GetData(outputs, 1);
+  MergeTables(classes, how);
+  const double count = all->GetNumberOfRows() == 0 ? 0.0
+                                                   : all->GetValueByName(0, "Points").ToDouble() +
+      all->GetValueByName(0, "PointsWithout").ToDouble();
+  for (vtkTable* table : { classes, all })
+  {
+    for (vtkIdType row = 0; row < table->GetNumberOfRows(); ++row)
+    {
+      table->SetValueByName(
+        row, "Share", vtkVariant(table->GetValueByName(row, "Points").ToDouble() / count));
+    }
+  }
+  return {};
+}
+
 void vtkSplinePointDistance::AddTolerance(double tolerance)
 {
   this->Tolerances.push_back(tolerance);
@@ -160,7 +190,7 @@ Status vtkSplinePointDistance::Compute(vtkInformationVector** inputs, vtkInforma
   {
     return sampled;
   }
-  auto decoded = this->DecodeInput(vtkDataObject::GetData(inputs[1], 0));
+  auto decoded = this->DecodeInput(this->WholeInput(inputs));
   if (!decoded)
   {
     return decoded.Status;

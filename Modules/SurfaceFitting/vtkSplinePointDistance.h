@@ -17,7 +17,9 @@
  * point), DistanceClass, SurfacePoint (where the distance is measured from), SurfacePatchId and
  * SurfaceElementId (-1 without a distance). Output 1 is a table with a row a class (Class, Lower,
  * Upper, Points, Share, Min, Max, Mean, MeanAbsolute, Rms), output 2 a table of one row with the
- * same of all points.
+ * same of all points. Of several processes (MPI) each measures its piece of the points from the
+ * whole of the surfaces; the tables are those of all points in the first process and empty
+ * elsewhere (means differ by rounding from those of one process).
  */
 #ifndef vtkSplinePointDistance_h
 #define vtkSplinePointDistance_h
@@ -64,6 +66,10 @@ protected:
   int RequestDataObject(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  bool WorksOnPieces() const override { return true; }
+  bool SumsUpPieces() const override { return true; }
+  int WholeInputPort() const override { return 1; }
+  knotwork::Status Merge(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:
   vtkSplinePointDistance(const vtkSplinePointDistance&) = delete;

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Filters of the plugin in two processes of pvbatch: with data in both, those that need the whole say so once and those that
-work on cells do their piece; with data in one of them all are right; nobody waits for ever."""
+"""Filters of the plugin in two processes of pvbatch: with data in both, those that need the whole say so once, those that
+work on cells or points do their piece and sum up what they found; with data in one of them all are right; nobody waits for ever."""
 import collections
 import os
 import re
@@ -82,28 +82,50 @@ def in_one_process():
     def whole(data):
         flat = simple.MeshParameterization(Input=data["mesh"])
         return {
-            "JacobianValidator": simple.JacobianValidator(Input=data["quads"]),
             "SplineSurfaceFit": simple.SplineSurfaceFit(Input=data["mesh"]),
             "MeshParameterization": flat,
             "SplineContour": simple.SplineContour(Input=data["splines"], NumberOfLevels=1),
             "SplineExtrema": simple.SplineExtrema(Input=data["splines"]),
             "SplineCombine": simple.SplineCombine(Input=data["splines"], Second=data["splines"]),
             "SplineStitch": simple.SplineStitch(Input=data["splines"]),
-            "SplinePointDistance": simple.SplinePointDistance(Input=data["mesh"], Surface=data["splines"]),
             "SplineTrimToPoints": simple.SplineTrimToPoints(Input=data["splines"], Points=data["mesh"]),
-            "Probe": simple.SplineEvaluate(Input=data["splines"], Points=data["mesh"], Mode="Probe"),
             "TrimmedSurface": simple.TrimmedSurface(Input=data["mesh"]),
             "TemplateMapping": simple.TemplateMapping(Template=data["mesh"], Target=data["mesh"]),
             "DomainParameterization": simple.DomainParameterization(Input=data["splines"]),
         }
 
+    def summed(data):
+        return {
+            "JacobianValidator": simple.JacobianValidator(Input=data["quads"]),
+            "SplinePointDistance": simple.SplinePointDistance(Input=data["mesh"], Surface=data["splines"], Kind="Closest"),
+            "Probe": simple.SplineEvaluate(Input=data["splines"], Points=data["mesh"], Mode="Probe"),
+        }
+
+    def numbers(name, proxy):
+        """What the tables say, which the first process alone has."""
+        algorithm = proxy.GetClientSideObject()
+        table = algorithm.GetOutputDataObject(2)
+        words = [str(table.GetNumberOfRows())]
+        if table.GetNumberOfRows() > 0:
+            columns = ("Cells", "ValidCells", "Injective") if name == "JacobianValidator" else ("Points", "Max")
+            words += [table.GetValueByName(table.GetNumberOfRows() - 1, column).ToString() for column in columns]
+        print(f"\nnumbers {name} {rank} {' '.join(words)}\n", end="", flush=True)
+
     for name, proxy in whole(everywhere).items():
         say("both", name, proxy)
-    again = simple.JacobianValidator(Input=simple.JacobianValidator(Input=everywhere["quads"]))
-    say("chain", "JacobianValidator", again)
-    for name in ("JacobianValidator", "SplineSurfaceFit", "MeshParameterization", "SplineCombine", "Probe"):
+    again = simple.SplineSurfaceFit(Input=simple.SplineSurfaceFit(Input=everywhere["mesh"]))
+    say("chain", "SplineSurfaceFit", again)
+    # the splines in the first process alone, the points in both: they are sent to the other one
+    sent = {**everywhere, "splines": square}
+    for name, proxy in summed(sent).items():
+        say("summed", name, proxy)
+        if name != "Probe":
+            numbers(name, proxy)
+    for name in ("SplineSurfaceFit", "MeshParameterization", "SplineCombine"):
         say("first", name, whole(first)[name])
-    for name, proxy in whole(nowhere).items():
+    for name, proxy in summed(first).items():
+        say("first", name, proxy)
+    for name, proxy in {**whole(nowhere), **summed(nowhere)}.items():
         say("nowhere", name, proxy)
     for name, proxy in {
             "SplineTessellate": simple.SplineTessellate(Input=everywhere["splines"]),
@@ -145,13 +167,22 @@ def test_filters():
     assert all(sorted(ranks) == [0, 1] for names in found.values() for ranks in names.values()), found
 
     # one message for each of them and for the first validator of the chain, and no other
-    assert len(found["both"]) == 13
+    assert len(found["both"]) == 10
     for name, ranks in found["both"].items():
         assert all(cells == 0 and code > 0 for cells, code in ranks.values()), (name, ranks)
     messages = done.stdout.count(WORDS)
     assert messages == done.stdout.count("ERR|") == len(found["both"]) + 1, messages
     # behind a failed one there is nothing to do, and nothing is waited for
-    assert found["chain"]["JacobianValidator"] == {0: (0, 0), 1: (0, 0)}
+    assert found["chain"]["SplineSurfaceFit"] == {0: (0, 0), 1: (0, 0)}
+
+    # each has its piece; the numbers are those of both. Two squares half a side apart are valid and overlap
+    assert len(found["summed"]) == 3
+    for name, ranks in found["summed"].items():
+        assert all(cells > 0 and code == 0 for cells, code in ranks.values()), (name, ranks)
+    said = {(name, int(rank)): words.split() for name, rank, words in re.findall(r"^numbers (\w+) ([01]) (.*)$", done.stdout, re.M)}
+    assert said["JacobianValidator", 0][1:] == ["2", "2", "not_injective"], said
+    assert said["SplinePointDistance", 0][1] == str(2 * 13 * 13), said
+    assert said["JacobianValidator", 1] == said["SplinePointDistance", 1] == ["0"], said
 
     for name, ranks in found["first"].items():
         assert ranks[0][0] > 0 and ranks[1][0] == 0 and ranks[0][1] == ranks[1][1] == 0, (name, ranks)

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 namespace knotwork
 {
@@ -38,7 +39,7 @@ struct Chord
   int Surface = 0;
 };
 
-void AddChords(const BernsteinCells& cells, int cell, int surface, std::vector<Chord>& chords)
+void AddEdges(const BernsteinCells& cells, int cell, int surface, std::vector<SurfaceEdge>& edges)
 {
   const std::size_t at = static_cast<std::size_t>(cell);
   const CellShape shape = cells.Shapes[at];
@@ -64,10 +65,18 @@ void AddChords(const BernsteinCells& cells, int cell, int surface, std::vector<C
   for (std::size_t e = 0; e < count; ++e)
   {
     const auto& [first, last] = count == 3 ? triangle[e] : ends[e];
-    const auto a = corner(first);
-    const auto b = corner(last);
+    edges.push_back({ surface, { corner(first), corner(last) } });
+  }
+}
+
+std::vector<Chord> ChordsOf(const std::vector<SurfaceEdge>& edges)
+{
+  std::vector<Chord> chords;
+  for (const SurfaceEdge& edge : edges)
+  {
+    const auto& [a, b] = edge.Ends;
     Chord chord;
-    chord.Surface = surface;
+    chord.Surface = edge.Surface;
     for (std::size_t d = 0; d < 3; ++d)
     {
       chord.Middle[d] = 0.5 * (a[d] + b[d]);
@@ -80,6 +89,7 @@ void AddChords(const BernsteinCells& cells, int cell, int surface, std::vector<C
       chords.push_back(chord);
     }
   }
+  return chords;
 }
 
 bool Coincide(const Chord& a, const Chord& b)
@@ -264,97 +274,133 @@ void Merge(const InjectivityCertificate& part, const std::vector<int>& origin, b
 }
 }
 
+std::vector<SurfaceCell> SurfaceCellsOf(
+  const BernsteinCells& cells, const std::vector<std::int64_t>& patches)
+{
+  std::vector<SurfaceCell> surfaces;
+  for (int cell = 0; cell < cells.NumCells(); ++cell)
+  {
+    const std::size_t at = static_cast<std::size_t>(cell);
+    if (NumParameters(cells.Shapes[at]) != 2)
+    {
+      continue;
+    }
+    const int n = NumCellCoefficients(cells.Shapes[at], cells.Degrees[at]);
+    SurfaceCell surface{ patches.empty() ? -1 : patches[at], true, Height(cells, cell, 0, n) };
+    for (int i = 1; i < n && surface.IsFlat; ++i)
+    {
+      surface.IsFlat = IsSame(Height(cells, cell, i, n), surface.Height);
+    }
+    surfaces.push_back(surface);
+  }
+  return surfaces;
+}
+
+std::vector<SurfaceEdge> SurfaceEdgesOf(const BernsteinCells& cells)
+{
+  std::vector<SurfaceEdge> edges;
+  int surface = 0;
+  for (int cell = 0; cell < cells.NumCells(); ++cell)
+  {
+    if (NumParameters(cells.Shapes[static_cast<std::size_t>(cell)]) == 2)
+    {
+      AddEdges(cells, cell, surface++, edges);
+    }
+  }
+  return edges;
+}
+
+bool NeedsEdges(const std::vector<SurfaceCell>& cells)
+{
+  const bool someFlat =
+    std::any_of(cells.begin(), cells.end(), [](const SurfaceCell& cell) { return cell.IsFlat; });
+  const bool onePlane = std::all_of(cells.begin(), cells.end(),
+    [&](const SurfaceCell& cell) { return cell.IsFlat && IsSame(cell.Height, cells[0].Height); });
+  return someFlat && !onePlane;
+}
+
+std::vector<bool> FindPlanes(
+  const std::vector<SurfaceCell>& cells, const std::vector<SurfaceEdge>& edges)
+{
+  std::vector<bool> isOfPlane;
+  for (const SurfaceCell& cell : cells)
+  {
+    isOfPlane.push_back(cell.IsFlat);
+  }
+  if (!NeedsEdges(cells))
+  {
+    return isOfPlane;
+  }
+  DisjointSets surfaces(static_cast<int>(cells.size()));
+  std::map<std::int64_t, int> firstOfPatch;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+  {
+    const int number = static_cast<int>(i);
+    if (cells[i].Patch >= 0)
+    {
+      surfaces.Unite(number, firstOfPatch.emplace(cells[i].Patch, number).first->second);
+    }
+  }
+  std::vector<Chord> chords = ChordsOf(edges);
+  JoinAtEdges(chords, surfaces);
+  std::vector<bool> isPlane(cells.size(), true); // by root
+  const auto rootOf = [&surfaces](std::size_t i)
+  { return static_cast<std::size_t>(surfaces.Find(static_cast<int>(i))); };
+  for (std::size_t i = 0; i < cells.size(); ++i)
+  {
+    const std::size_t root = rootOf(i);
+    isPlane[root] = isPlane[root] && cells[i].IsFlat && IsSame(cells[i].Height, cells[root].Height);
+  }
+  for (std::size_t i = 0; i < cells.size(); ++i)
+  {
+    isOfPlane[i] = isPlane[rootOf(i)];
+  }
+  return isOfPlane;
+}
+
 CellMaps FindCellMaps(const BernsteinCells& cells, const std::vector<int>& patches)
 {
+  const auto surfaces = SurfaceCellsOf(cells, { patches.begin(), patches.end() });
+  return MakeCellMaps(cells,
+    FindPlanes(
+      surfaces, NeedsEdges(surfaces) ? SurfaceEdgesOf(cells) : std::vector<SurfaceEdge>()));
+}
+
+CellMaps MakeCellMaps(const BernsteinCells& cells, const std::vector<bool>& isOfPlane)
+{
   CellMaps maps;
-  struct Piece
-  {
-    int Cell;
-    bool Flat;
-    double Height;
-  };
-  std::vector<Piece> pieces;
-  bool someFlat = false;
-  bool oneHeight = true;
+  std::vector<std::pair<double, int>> flat; // heights and cells
+  std::size_t next = 0;
   for (int cell = 0; cell < cells.NumCells(); ++cell)
   {
     const std::size_t at = static_cast<std::size_t>(cell);
     const int parameters = NumParameters(cells.Shapes[at]);
-    if (parameters != 2)
+    if (parameters == 2 && isOfPlane[next++])
+    {
+      flat.emplace_back(
+        Height(cells, cell, 0, NumCellCoefficients(cells.Shapes[at], cells.Degrees[at])), cell);
+    }
+    else
     {
       (parameters == 3 ? maps.Volumes : maps.Others).push_back(cell);
-      continue;
-    }
-    const int n = NumCellCoefficients(cells.Shapes[at], cells.Degrees[at]);
-    Piece piece{ cell, true, Height(cells, cell, 0, n) };
-    for (int i = 1; i < n && piece.Flat; ++i)
-    {
-      piece.Flat = IsSame(Height(cells, cell, i, n), piece.Height);
-    }
-    someFlat = someFlat || piece.Flat;
-    pieces.push_back(piece);
-    oneHeight = oneHeight && piece.Flat && IsSame(piece.Height, pieces[0].Height);
-  }
-  if (!someFlat)
-  {
-    for (const Piece& piece : pieces)
-    {
-      maps.Others.push_back(piece.Cell);
-    }
-    std::sort(maps.Others.begin(), maps.Others.end());
-    return maps;
-  }
-  if (!oneHeight)
-  {
-    DisjointSets surfaces(static_cast<int>(pieces.size()));
-    std::vector<Chord> chords;
-    std::map<int, int> firstOfPatch;
-    for (std::size_t i = 0; i < pieces.size(); ++i)
-    {
-      const int piece = static_cast<int>(i);
-      AddChords(cells, pieces[i].Cell, piece, chords);
-      if (!patches.empty())
-      {
-        surfaces.Unite(piece,
-          firstOfPatch.emplace(patches[static_cast<std::size_t>(pieces[i].Cell)], piece)
-            .first->second);
-      }
-    }
-    JoinAtEdges(chords, surfaces);
-    std::vector<bool> isPlane(pieces.size(), true);
-    for (std::size_t i = 0; i < pieces.size(); ++i)
-    {
-      const std::size_t root = static_cast<std::size_t>(surfaces.Find(static_cast<int>(i)));
-      isPlane[root] =
-        isPlane[root] && pieces[i].Flat && IsSame(pieces[i].Height, pieces[root].Height);
-    }
-    for (std::size_t i = 0; i < pieces.size(); ++i)
-    {
-      pieces[i].Flat = isPlane[static_cast<std::size_t>(surfaces.Find(static_cast<int>(i)))];
     }
   }
-  std::stable_sort(pieces.begin(), pieces.end(),
-    [](const Piece& a, const Piece& b) { return a.Height < b.Height; });
-  const Piece* last = nullptr;
-  for (const Piece& piece : pieces)
+  std::stable_sort(
+    flat.begin(), flat.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  double last = 0.0;
+  for (const auto& [height, cell] : flat)
   {
-    if (!piece.Flat)
-    {
-      maps.Others.push_back(piece.Cell);
-      continue;
-    }
-    if (!last || !IsSame(last->Height, piece.Height))
+    if (maps.Planes.empty() || !IsSame(last, height))
     {
       maps.Planes.emplace_back();
     }
-    maps.Planes.back().push_back(piece.Cell);
-    last = &piece;
+    maps.Planes.back().push_back(cell);
+    last = height;
   }
   for (auto& plane : maps.Planes)
   {
     std::sort(plane.begin(), plane.end());
   }
-  std::sort(maps.Others.begin(), maps.Others.end());
   return maps;
 }
 

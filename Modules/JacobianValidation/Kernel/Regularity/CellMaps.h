@@ -2,6 +2,10 @@
 #pragma once
 #include <knotwork/JacobianValidation/BoundaryInjectivity.h>
 
+#include <array>
+#include <cstdint>
+#include <vector>
+
 namespace knotwork
 {
 /// What the cells of a dataset in space are maps of; every cell is in one of the lists, by its
@@ -25,6 +29,39 @@ struct CellMaps
 /// @pre cells.NumComponents is 3 and cells.Check() is Ok.   @complexity O(n log n) of mixed
 /// surfaces
 CellMaps FindCellMaps(const BernsteinCells& cells, const std::vector<int>& patches);
+
+/// A quadrilateral or triangle, as far as FindCellMaps looks at it: for datasets of which several
+/// processes have parts, whose lists are joined.
+struct SurfaceCell
+{
+  std::int64_t Patch = -1; ///< -1: none
+  bool IsFlat = false;     ///< all of its control points have the same z
+  double Height = 0.0;     ///< z of the first one
+};
+
+/// An edge of one.
+struct SurfaceEdge
+{
+  int Surface = 0; ///< into the list of surface cells
+  std::array<std::array<double, 3>, 2> Ends{};
+};
+
+/// The quadrilaterals and triangles of cells, in their order.
+/// @param patches  one a cell, or empty.
+std::vector<SurfaceCell> SurfaceCellsOf(
+  const BernsteinCells& cells, const std::vector<std::int64_t>& patches);
+std::vector<SurfaceEdge> SurfaceEdgesOf(const BernsteinCells& cells);
+
+/// Whether FindPlanes needs the edges: not when none is flat, or when all are in one plane.
+bool NeedsEdges(const std::vector<SurfaceCell>& cells);
+
+/// Whether surface cells belong to surfaces that are maps of planes.
+/// @param edges  all of them; empty where NeedsEdges says so.
+std::vector<bool> FindPlanes(
+  const std::vector<SurfaceCell>& cells, const std::vector<SurfaceEdge>& edges);
+
+/// The maps when it is known of the surface cells, in their order, which are maps of planes.
+CellMaps MakeCellMaps(const BernsteinCells& cells, const std::vector<bool>& isOfPlane);
 
 /// Some of the cells, of the first components alone; rational when one of them has weights that
 /// differ.

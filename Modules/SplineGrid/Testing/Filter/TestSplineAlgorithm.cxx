@@ -214,18 +214,18 @@ protected:
 vtkStandardNewMacro(TwoProcesses);
 
 /// The global controller while it lives.
-struct Processes
+struct OneOfTwo
 {
   vtkNew<TwoProcesses> Communicator;
   vtkNew<vtkDummyController> Controller;
   vtkMultiProcessController* Before = vtkMultiProcessController::GetGlobalController();
 
-  Processes()
+  OneOfTwo()
   {
     this->Controller->SetCommunicator(this->Communicator);
     vtkMultiProcessController::SetGlobalController(this->Controller);
   }
-  ~Processes() { vtkMultiProcessController::SetGlobalController(this->Before); }
+  ~OneOfTwo() { vtkMultiProcessController::SetGlobalController(this->Before); }
 };
 
 class CopyPieces : public Copy
@@ -256,7 +256,7 @@ TEST(SplineAlgorithm, TheWholeInputIsInOneOfTwoProcesses_ExactOracle)
       for (bool there : { false, true })
       {
         SCOPED_TRACE(std::to_string(process) + " " + std::to_string(here) + std::to_string(there));
-        Processes processes;
+        OneOfTwo processes;
         processes.Communicator->BecomeProcess(process);
         processes.Communicator->OtherHasData = there ? 1 : 0;
         vtkNew<Copy> filter;
@@ -290,7 +290,7 @@ TEST(SplineAlgorithm, APieceThatMayNotBeTheWholeIsRefused)
   // one process that asks for a piece; one of several that asks for the whole
   for (const bool several : { false, true })
   {
-    std::unique_ptr<Processes> processes(several ? new Processes : nullptr);
+    std::unique_ptr<OneOfTwo> processes(several ? new OneOfTwo : nullptr);
     const int pieces = several ? 1 : 3;
     vtkNew<Copy> filter;
     Messages messages(filter);

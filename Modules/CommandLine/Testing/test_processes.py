@@ -1,0 +1,423 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Jobs started by mpirun: one, two and four processes write what one writes, and report it; what fails or is killed ends all."""
+import glob
+import json
+import math
+import os
+import random
+import shutil
+import signal
+import subprocess
+import time
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import (VTK_QUAD, VTK_TETRA, vtkPartitionedDataSetCollection,
+                                           vtkPolyData, vtkUnstructuredGrid)
+from vtkmodules.vtkIOXML import (vtkXMLGenericDataObjectReader, vtkXMLPartitionedDataSetCollectionReader, vtkXMLPolyDataWriter,
+                                 vtkXMLUnstructuredGridWriter)
+
+import knotwork_testing
+
+# of a run, not of its result
+OF_A_RUN = {"seconds", "cpu_seconds", "seconds_io", "peak_bytes", "ranks", "threads", "output", "input", "points", "report"}
+MPIRUN = ["mpirun", "--allow-run-as-root", "--oversubscribe", "--quiet", "-np"]
+
+
+def path(name):
+    return knotwork_testing.output(os.path.join("processes", name))
+
+
+def run(processes, *arguments, expect=0):
+    """What the program prints and says, by so many processes."""
+    command = [knotwork_testing.PROGRAM, *map(str, arguments)]
+    if processes > 1:
+        command = [*MPIRUN, str(processes), *command]
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=120)
+    assert done.returncode == expect, (processes, arguments, done.returncode, done.stdout, done.stderr)
+    return done.stdout, done.stderr
+
+
+def read(name):
+    kind = vtkXMLPartitionedDataSetCollectionReader if name.endswith(".vtpc") else vtkXMLGenericDataObjectReader
+    reader = kind()
+    reader.SetFileName(name)
+    reader.Update()
+    return reader.GetOutputDataObject(0)
+
+
+def data_sets(data):
+    if not isinstance(data, vtkPartitionedDataSetCollection):
+        return [data]
+    return [data.GetPartition(b, i) for b in range(data.GetNumberOfPartitionedDataSets()) for i in range(data.GetNumberOfPartitions(b))]
+
+
+def assert_same(one, other, exact=True):
+    """The same cells, points and arrays in the same order, bit for bit."""
+    assert len(data_sets(one)) == len(data_sets(other))
+    for a, b in zip(data_sets(one), data_sets(other)):
+        assert (a is None) == (b is None)
+        if a is None:
+            continue
+        assert a.GetClassName() == b.GetClassName() and a.GetNumberOfCells() == b.GetNumberOfCells()
+        assert a.GetNumberOfPoints() == b.GetNumberOfPoints()
+        if a.GetNumberOfPoints() > 0:
+            assert np.array_equal(vtk_to_numpy(a.GetPoints().GetData()), vtk_to_numpy(b.GetPoints().GetData()))
+        for of in ("GetPointData", "GetCellData", "GetFieldData"):
+            left, right = getattr(a, of)(), getattr(b, of)()
+            names = [left.GetArrayName(i) for i in range(left.GetNumberOfArrays())]
+            assert names == [right.GetArrayName(i) for i in range(right.GetNumberOfArrays())], (of, names)
+            for name in names:
+                x, y = left.GetArray(name), right.GetArray(name)
+                if x is not None:
+                    assert np.array_equal(vtk_to_numpy(x), vtk_to_numpy(y), equal_nan=True), (of, name)
+        for of in ("GetPointData", "GetCellData"):
+            scalars = [getattr(d, of)().GetScalars() for d in (a, b)]
+            assert [s and s.GetName() for s in scalars][0] == [s and s.GetName() for s in scalars][1]
+
+
+def assert_same_numbers(one, other):
+    """Sums over cells and points are made in another order: equal but for 1e-12 of them."""
+    left, right = ({k: v for k, v in json.load(open(name)).items() if k not in OF_A_RUN and not k.startswith("rank_")}
+                   for name in (one, other))
+    assert list(left) == list(right), (left, right)
+    for key, value in left.items():
+        if isinstance(value, float):
+            assert math.isclose(value, right[key], rel_tol=1e-12, abs_tol=1e-15), (key, value, right[key])
+        else:
+            assert value == right[key], (key, value, right[key])
+
+
+def write(data, name):
+    writer = vtkXMLPolyDataWriter() if isinstance(data, vtkPolyData) else vtkXMLUnstructuredGridWriter()
+    writer.SetInputData(data)
+    writer.SetFileName(name)
+    writer.SetDataModeToBinary()
+    writer.Write()
+    return name
+
+
+def grid_of(points, cells, kind):
+    places = vtkPoints()
+    places.SetDataTypeToDouble()
+    places.SetData(numpy_to_vtk(np.ascontiguousarray(points, dtype=float), deep=True))
+    grid = vtkUnstructuredGrid()
+    grid.SetPoints(places)
+    for cell in cells:
+        grid.InsertNextCell(kind, len(cell), cell)
+    return grid
+
+
+def quads(n, seed, lift=0.0, shake=0.55):
+    """n x n quadrilaterals whose inner points are shaken, so that some are folded; `lift` bends the right half out of the plane."""
+    random_numbers = np.random.default_rng(seed)
+    x, y = np.meshgrid(np.arange(n + 1.0), np.arange(n + 1.0))
+    for places in (x, y):
+        places[1:-1, 1:-1] += random_numbers.uniform(-shake, shake, (n - 1, n - 1))
+    z = lift * np.maximum(0, x - n / 2) ** 2
+    points = np.stack([x, y, z], axis=-1).reshape(-1, 3)
+    at = lambda i, j: j * (n + 1) + i  # noqa: E731
+    cells = [(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)) for j in range(n) for i in range(n)]
+    return grid_of(points, cells, VTK_QUAD)
+
+
+def cloud(n, seed):
+    points = vtkPoints()
+    points.SetDataTypeToDouble()
+    places = np.random.default_rng(seed).uniform(0.05, 0.95, (n, 3))
+    points.SetData(numpy_to_vtk(places, deep=True))
+    data = vtkPolyData()
+    data.SetPoints(points)
+    weights = numpy_to_vtk(np.arange(float(n)), deep=True)
+    weights.SetName("Given")
+    data.GetPointData().SetScalars(weights)
+    return data
+
+
+def surface():
+    """A height field over the unit square."""
+    name = path("surface.vtu")
+    if not os.path.exists(name):
+        rows = np.stack(np.meshgrid(np.linspace(0, 1, 30), np.linspace(0, 1, 30)), axis=-1).reshape(-1, 2)
+        heights = 0.3 * np.sin(5 * rows[:, 0]) * np.cos(4 * rows[:, 1])
+        np.savetxt(path("surface.xyz"), np.column_stack([rows, heights]))
+        run(1, "fit", path("surface.xyz"), "--tolerance", "0.01", "--output", name)
+    return name
+
+
+def compared(job, inputs, output, options=(), expect=0, others=()):
+    """Runs a job by one, two and four processes; what they write and tell is the same."""
+    kept = {}
+    for processes in (1, 2, 4):
+        stem = f"{job}-{processes}-"
+        main = path(stem + output)
+        report = path(stem + "report.json")
+        extra = [word for option, name in others for word in (option, path(stem + name))]
+        said = run(processes, job, *inputs, "--output", main, *extra, "--report", report, *options, expect=expect)
+        kept[processes] = main, report, [path(stem + name) for _, name in others], said
+        assert json.load(open(report)).get("ranks", 1) == processes
+    for processes in (2, 4):
+        assert_same(read(kept[1][0]), read(kept[processes][0]))
+        assert_same_numbers(kept[1][1], kept[processes][1])
+        for one, other in zip(kept[1][2], kept[processes][2]):
+            if one.endswith(".csv"):
+                rows = [list(csv_rows(name)) for name in (one, other)]
+                assert rows[0][0] == rows[1][0] and len(rows[0]) == len(rows[1])
+                for left, right in zip(*rows):
+                    for a, b in zip(left, right):
+                        assert a == b or math.isclose(float(a), float(b), rel_tol=1e-12), (a, b)
+            else:
+                assert_same(read(one), read(other))
+        assert kept[1][3][0] == kept[processes][3][0], kept
+    return json.load(open(kept[2][1]))
+
+
+def csv_rows(name):
+    import csv
+    return csv.reader(open(name))
+
+
+def test_validate_planes():
+    """Folded and valid quadrilaterals: verdicts, bounds, witnesses and the table."""
+    report = compared("validate", [write(quads(12, 1), path("quads.vtu"))], "quads.vtu", expect=3,
+                      others=[("--witnesses", "witnesses.vtu"), ("--table", "table.csv")])
+    assert report["invalid_cells"] > 3 and report["valid_cells"] > 100 and len(report["rank_cpu_seconds"]) == 2
+
+
+def test_validate_surfaces_in_space():
+    """A mesh that is flat at its left only is a surface in space, in the process that has the flat part too."""
+    report = compared("validate", [write(quads(12, 2, lift=0.02, shake=0.2), path("bent.vtu"))], "bent.vtu", expect=0)
+    assert report["invalid_cells"] == 0
+
+
+def test_validate_splines():
+    """Multi-patch splines: injectivity is proved of the whole, by one process."""
+    name = path("ball.vtu")
+    run(1, "source", "--shape", "solid-torus", "--output", name)
+    report = compared("validate", [name], "torus.vtu", others=[("--table", "torus.csv")])
+    assert report["verdict"] == "valid" and report["injective"].startswith("injective"), report
+    collection = path("blocks.vtpc")
+    run(1, "convert", name, "--output", collection)
+    compared("validate", [collection], "blocks.vtpc")
+
+
+def test_validate_overlap():
+    """Two squares that overlap, in two processes: both cells are valid, the map is not injective."""
+    points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0.5, 0.5, 0), (1.5, 0.5, 0), (1.5, 1.5, 0), (0.5, 1.5, 0)]
+    name = write(grid_of(points, [(0, 1, 2, 3), (4, 5, 6, 7)], VTK_QUAD), path("overlap.vtu"))
+    report = compared("validate", [name], "overlap.vtu", expect=3, others=[("--witnesses", "overlap_places.vtu")])
+    assert report["invalid_cells"] == 0 and report["injective"] == "not_injective"
+
+
+def test_validate_numbered_elements():
+    """Elements of a solver's mesh are named by their numbers in the file."""
+    n = 5
+    grid = [(x, y, z) for z in range(2) for y in range(2) for x in range(n + 1)]
+    at = lambda x, y, z: x + (n + 1) * (y + 2 * z)  # noqa: E731
+    cells = [(at(x, 0, 0), at(x + 1, 0, 0), at(x, 1, 0), at(x, 0, 1)) for x in range(n)]
+    cells[3] = (cells[3][0], cells[3][2], cells[3][1], cells[3][3])
+    name = write(grid_of(grid, cells, VTK_TETRA), path("tets.vtu"))
+    mesh = path("tets.msh")
+    run(1, "convert", name, "--output", mesh)
+    report = compared("validate", [mesh], "tets.vtu", expect=3)
+    assert len(report["reversed_elements"]) == 1
+
+
+def test_points():
+    """Evaluation, distances and warps of points; more processes than points too."""
+    for count in (1000, 3):
+        points = write(cloud(count, count), path(f"cloud{count}.vtp"))
+        compared("evaluate", [surface(), points], "at.vtp", ["--derivatives", "1"])
+        report = compared("evaluate", [surface(), points], "near.vtp", ["--mode", "probe"])
+        assert report["number_of_points"] == count and report["max_distance"] > 0
+        report = compared("distance", [points, surface()], "far.vtp", ["--tolerances", "0.1", "0.3"],
+                          others=[("--class-table", "classes.csv")])
+        assert report["points_measured"] == count
+        compared("warp", [points, surface()], "warped.vtp")
+    mesh = quads(9, 4)
+    points = mesh.GetPoints()
+    for i in range(points.GetNumberOfPoints()):
+        x = points.GetPoint(i)
+        points.SetPoint(i, x[0] / 9, x[1] / 9, 0)
+    report = compared("warp", [write(mesh, path("mesh.vtu")), surface()], "mesh.vtu")
+    assert report["number_of_cells"] == 81
+
+
+def test_pieces():
+    """A file in pieces is read by pieces and written in pieces; together they are the whole."""
+    whole = write(quads(12, 1), path("whole.vtu"))
+    pieces = path("pieces.pvtu")
+    run(1, "convert", surface(), "--output", path("surface.pvtu"), "--pieces", "1")
+    shutil.rmtree(path("divided"), ignore_errors=True)
+    run(1, "validate", whole, "--injectivity", "off", "--output", path("verdicts.vtu"), "--report", path("serial.json"), expect=3)
+    for count in (3, 5):
+        run(1, "convert", whole, "--output", pieces, "--pieces", count)
+        assert len(glob.glob(path("pieces/*.vtu"))) == count
+        for processes in (1, 2, 4):
+            written = path("verdicts.pvtu")
+            report = path("pieces.json")
+            run(processes, "validate", pieces, "--output", written, "--report", report, expect=3)
+            serial, found = (json.load(open(name)) for name in (path("serial.json"), report))
+            for key in ("verdict", "cells", "invalid_cells", "min_jacobian_lower"):
+                assert serial[key] == found[key], (processes, key)
+            assert math.isclose(serial["measure"], found["measure"], rel_tol=1e-12)
+            assert found["injective"] == "not_injective" or found["injectivity_reason"], found
+            parts = read(written)
+            verdicts = vtk_to_numpy(parts.GetCellData().GetArray("JacobianVerdict"))
+            assert np.array_equal(verdicts, vtk_to_numpy(read(path("verdicts.vtu")).GetCellData().GetArray("JacobianVerdict")))
+            assert len(glob.glob(path("verdicts/*.vtu"))) == min(processes, count)
+
+
+def test_damaged_pieces():
+    """An index that is none, names nothing, what is not there, or what is no piece; a piece that is cut off."""
+    whole = write(quads(4, 1), path("small.vtu"))
+    run(1, "convert", whole, "--output", path("small.pvtu"), "--pieces", "2")
+    text = open(path("small.pvtu")).read()
+    damaged = path("damaged.pvtu")
+    for content, words in (("", "no index of pieces"), (text[:len(text) // 2], "no index of pieces"), (text.replace("<Piece ", "<Peace "), "names none"),
+                           (text.replace("small_1.vtu", "small_7.vtu"), "is not there"), (text.replace("small_1.vtu", "../small.pvtu"), "is no .vtu file"),
+                           (text.replace("PUnstructuredGrid", "PPolyData"), "names none"), (text.replace("small/small_1.vtu", "cut.vtu"), "cut.vtu")):
+        open(damaged, "w").write(content)
+        open(path("cut.vtu"), "wb").write(open(path("small/small_1.vtu"), "rb").read()[:700])
+        for processes in (1, 2):
+            _, errors = run(processes, "validate", damaged, expect=1)
+            lines = [line for line in errors.splitlines() if line.startswith("knotwork")]
+            assert len(lines) == 1 and words in lines[0], (content[:40], errors)
+    # pieces of an older index of the name go, what is not theirs stays
+    run(1, "convert", whole, "--output", path("small.pvtu"), "--pieces", "1")
+    assert os.listdir(path("small")) == ["small_0.vtu"]
+    os.makedirs(path("others"), exist_ok=True)
+    open(path("others/notes.txt"), "w").write("mine")
+    _, errors = run(2, "validate", path("small.pvtu"), "--output", path("others.pvtu"), expect=1)
+    assert "holds other files" in errors and os.listdir(path("others")) == ["notes.txt"]
+
+
+def test_splines_in_pieces():
+    """Patches of splines stay whole and become one grid again."""
+    name = path("torus_patches.vtu")
+    run(1, "source", "--shape", "solid-tube", "--output", name)
+    run(1, "convert", name, "--output", path("patches.pvtu"), "--pieces", 3)
+    again = path("again.vtu")
+    run(1, "convert", path("patches.pvtu"), "--output", again)
+    reports = []
+    for one in (name, again):
+        run(1, "validate", one, "--report", path("again.json"))
+        reports.append(json.load(open(path("again.json"))))
+    for key in ("verdict", "injective", "cells"):
+        assert reports[0][key] == reports[1][key]
+    assert math.isclose(reports[0]["measure"], reports[1]["measure"], rel_tol=1e-14)
+
+
+def test_blocks():
+    """Blocks of a collection: refined, cut out, tessellated; a grid that is no collection is done by the first process."""
+    for patches in ("blocks.vtpc", "ball.vtu"):
+        if not os.path.exists(path(patches)):
+            test_validate_splines()
+    parts = vtkPartitionedDataSetCollection()
+    for i in range(5):
+        name = path(f"part{i}.vtu")
+        run(1, "source", "--center", i, 0, 0, "--elements", 2 + i, 3, 1, "--output", name)
+        parts.SetPartition(i, 0, read(name))
+    from vtkmodules.vtkIOParallelXML import vtkXMLPartitionedDataSetCollectionWriter
+    writer = vtkXMLPartitionedDataSetCollectionWriter()
+    writer.SetInputData(parts)
+    writer.SetFileName(path("parts.vtpc"))
+    writer.Write()
+    assert compared("refine", [path("parts.vtpc")], "parts.vtpc")["elements"] == 4 * 3 * (2 + 3 + 4 + 5 + 6)
+    compared("extract", [path("parts.vtpc")], "swapped.vtpc", ["--swap-parameters"])
+    compared("tessellate", [path("parts.vtpc")], "triangles.vtpc", ["--chordal-tolerance", "1e-3"])
+    compared("tessellate", [path("ball.vtu")], "ball.vtp", ["--chordal-tolerance", "1e-2"])
+    compared("refine", [path("ball.vtu")], "ball.vtu")
+
+
+def test_tiles():
+    """Tiles of a cloud are fitted by several processes: the same surface, bit for bit, and a run that was killed goes on."""
+    chosen = np.random.default_rng(5)
+    places = chosen.uniform(0, 1, (30000, 2))
+    heights = 0.2 * np.sin(7 * places[:, 0]) * np.cos(5 * places[:, 1]) + chosen.normal(0, 0.003, len(places))
+    np.savetxt(path("terrain.xyz"), np.column_stack([places, heights]))
+    run(1, "tiles", path("terrain.xyz"), "--output", path("terrain.tiles"), "--tile-size", "0.34")
+    options = ["--tolerance", "0.012", "--maximum-iterations", "6"]
+    for output in ("terrain.vtpc", "terrain.vtu"):
+        report = compared("fit", [path("terrain.tiles")], output, options, others=[("--table", "terrain.csv")])
+        assert report["tiles"] > 5 and report["max_slope_jump"] < 1e-10
+        assert min(report["rank_cpu_seconds"]) > 0.25 * sum(report["rank_cpu_seconds"])
+    kept = path("kept")
+    shutil.rmtree(kept, ignore_errors=True)
+    command = [*MPIRUN, "2", knotwork_testing.PROGRAM, "fit", path("terrain.tiles"), "--resume", kept, "--output",
+               path("resumed.vtpc"), "--report", path("resumed.json"), *options]
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    while len(glob.glob(os.path.join(kept, "fitted-*.vtu"))) < 3 and process.poll() is None:
+        time.sleep(0.01)
+    found = subprocess.run(["pgrep", "-P", str(process.pid), "-x", "knotwork"], stdout=subprocess.PIPE, text=True).stdout.split()
+    os.kill(int(found[0]), signal.SIGKILL)
+    process.communicate(timeout=60)
+    assert process.returncode != 0 and not os.path.exists(path("resumed.vtpc"))
+    run(2, *command[len(MPIRUN) + 2:])
+    assert_same(read(path("resumed.vtpc")), read(path("fit-1-terrain.vtpc")))
+    assert json.load(open(path("resumed.json")))["tiles_resumed"] >= 3
+
+
+def test_failures():
+    """What fails in one process or in all is one line of the program, and nothing is written."""
+    before = set(os.listdir(path("")))
+    for words, sentence in ((["validate", path("missing.vtu"), "--output", path("none.vtu")], "missing.vtu"),
+                            (["evaluate", surface(), write(cloud(5, 1), path("five.vtp")), "--patch-id", "7", "--output",
+                              path("none.vtp")], "PatchId 7"),
+                            (["warp", write(cloud(5, 1), path("five.vtp")), path("five.vtp"), "--output", path("none.vtp")], "is required")):
+        for processes in (2, 4):
+            _, errors = run(processes, *words, expect=1)
+            lines = [line for line in errors.splitlines() if line.startswith("knotwork")]
+            assert len(lines) == 1 and sentence in lines[0], errors
+    # the last point alone is outside: its process tells
+    points = cloud(8, 2)
+    points.GetPoints().SetPoint(7, 5.0, 5.0, 0.0)
+    outside = write(points, path("outside.vtp"))
+    for processes in (2, 4):
+        _, errors = run(processes, "evaluate", surface(), outside, "--output", path("none.vtp"), expect=1)
+        lines = [line for line in errors.splitlines() if line.startswith("knotwork")]
+        assert len(lines) == 1 and f"process {processes - 1} of {processes}" in lines[0], errors
+    _, errors = run(2, "source", "--output", path("none.vtu"), expect=2)
+    assert "validate" in errors and "without mpirun" in errors
+    assert not any(name.startswith(("none", ".knotwork")) for name in set(os.listdir(path(""))) - before)
+
+
+def test_killed_processes():
+    """One of two processes is killed at ten times of a run: an end within seconds, one line, nothing left behind."""
+    output = path("killed.vtp")
+    points = path("many.vtp")
+    write(cloud(200000, 9), points)
+    command = [*MPIRUN, "2", knotwork_testing.PROGRAM, "distance", points, surface(), "--kind", "closest", "--output", output]
+    begin = time.monotonic()
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+    whole = time.monotonic() - begin
+    os.remove(output)
+    before = {folder: set(os.listdir(folder)) for folder in (path(""),)}
+    chosen = random.Random(23)
+    killed = 0
+    for i in range(10):
+        wait = whole * (i + 0.5) / 10
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        time.sleep(wait)
+        found = subprocess.run(["pgrep", "-P", str(process.pid), "-x", "knotwork"], stdout=subprocess.PIPE, text=True).stdout.split()
+        if len(found) == 2:
+            os.kill(int(chosen.choice(found)), signal.SIGKILL)
+            killed += 1
+        begin = time.monotonic()
+        _, errors = process.communicate(timeout=60)
+        if process.returncode == 0:  # it had done its work
+            assert os.path.exists(output)
+            os.remove(output)
+            continue
+        assert len(found) == 2 and time.monotonic() - begin < 10, errors
+        lines = [line for line in errors.splitlines() if line.startswith("knotwork")]
+        assert len(lines) <= 1 and not os.path.exists(output), errors
+        for folder, names in before.items():
+            assert set(os.listdir(folder)) <= names | {"many.vtp"}, set(os.listdir(folder)) - names
+    assert killed >= 5
+
+
+if not shutil.which("mpirun"):
+    knotwork_testing.skip("there is no mpirun")
+knotwork_testing.main(globals())
