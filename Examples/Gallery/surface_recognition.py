@@ -18,7 +18,8 @@ import _scene as scene
 PARTS = (("fandisk", (1.0, -0.8, 0.7), (0, 0, 1), 1.15), ("couplingdown", (-1.0, -0.6, -1.2), (0, 0, -1), 1.25),
          ("joint", (1.0, -0.8, 0.7), (0, 0, 1), 1.05))
 TYPES = (("plane", "Planes", (0.72, 0.83, 0.92)), ("cylinder", "Cylinders", (0.95, 0.73, 0.35)), ("sphere", "Spheres", (0.36, 0.70, 0.55)),
-         ("cone", "Cones", (0.95, 0.90, 0.45)), ("torus", "Tori", (0.86, 0.45, 0.30)), ("free form", "FreeForms", (0.70, 0.70, 0.70)))
+         ("cone", "Cones", (0.95, 0.90, 0.45)), ("torus", "Tori", (0.86, 0.45, 0.30)), ("free form", "FreeForms", (0.70, 0.70, 0.70)), ("extrusion", "Extrusions", (0.55, 0.75, 0.78)),
+         ("revolution", "Revolutions", (0.85, 0.62, 0.70)))
 LEGEND = 0.1  # share of the height
 
 

@@ -25,8 +25,8 @@ protected:
   Status AddNumbers(Session& session) override
   {
     ReportRow(this->Table(Numbers), 0,
-      { "Regions", "Planes", "Cylinders", "Spheres", "Cones", "Tori", "FreeForms", "MaxDistance",
-        "MaxSag", "Noise", "Tolerance" },
+      { "Regions", "Planes", "Cylinders", "Spheres", "Cones", "Tori", "Extrusions", "Revolutions",
+        "FreeForms", "MaxDistance", "MaxSag", "Noise", "Tolerance" },
       session.Report);
     return {};
   }
@@ -36,7 +36,7 @@ private:
 };
 
 const JobRegistration Registration{ "recognize",
-  "find planes, cylinders, spheres, cones and tori in a triangle mesh",
+  "find planes, cylinders, spheres, cones, tori, extrusions and revolutions in a triangle mesh",
   "shell.off --output regions.vtp --regions regions.csv --report regions.json",
   MakeJob<RecognizeJob> };
 }

@@ -148,8 +148,8 @@ struct TrimJob
     ReportRow(table, 0,
       { "Tolerance", "MaxDeviation", "MaxNormalAngle", "MaxSag", "MaxEdgeDistance", "MaxEdgeGap",
         "MinNormalBound", "Area", "MeshArea", "Faces", "Planes", "Cylinders", "Spheres", "Cones",
-        "Tori", "FreeFaces", "Loops", "Edges", "Lines", "Circles", "SharpEdges", "Vertices",
-        "ControlPoints", "Verdict", "LoopVerdict" },
+        "Tori", "Extrusions", "Revolutions", "FreeFaces", "Loops", "Edges", "Lines", "Circles",
+        "SharpEdges", "Vertices", "ControlPoints", "Verdict", "LoopVerdict" },
       session.Report);
     Status status = HasCADEnding(this->Output)
       ? this->WriteFaces(this->Model, session)

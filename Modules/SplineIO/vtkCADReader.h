@@ -5,12 +5,13 @@
  *
  * Outputs: 0 the surfaces as spline grid (vtkUnstructuredGrid), a patch a face, with the cell
  * arrays FaceId, Body, FaceReversed, Name, Color, SurfaceType (0 plane, 1 cylinder, 2 sphere, 3
- * cone, 4 torus, 5 others; not there where all are others); 1 the trimming curves as spline grid, a
- * patch a use of an edge, with the point array UV; 2 the trimmed faces as triangles (vtkPolyData)
- * with Normals, the cell arrays FaceId, PatchId, Name and Color (red, green, blue as bytes; white
- * where the file says nothing). Where faces are in composites (CADComposite.h), outputs 0 and 2
- * have the cell array CompositeId, from 0, -1 in none. Assemblies are resolved; what cannot be read
- * is left out with a warning. Errors: those of knotwork::ReadCADInProcess and TriangulateFaces.
+ * cone, 4 torus, 5 others, 6 extrusion, 7 revolution; not there where all are others); 1 the
+ * trimming curves as spline grid, a patch a use of an edge, with the point array UV; 2 the trimmed
+ * faces as triangles (vtkPolyData) with Normals, the cell arrays FaceId, PatchId, Name and Color
+ * (red, green, blue as bytes; white where the file says nothing). Where faces are in composites
+ * (CADComposite.h), outputs 0 and 2 have the cell array CompositeId, from 0, -1 in none. Assemblies
+ * are resolved; what cannot be read is left out with a warning. Errors: those of
+ * knotwork::ReadCADInProcess and TriangulateFaces.
  */
 #ifndef vtkCADReader_h
 #define vtkCADReader_h

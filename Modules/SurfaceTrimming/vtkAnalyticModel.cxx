@@ -68,6 +68,8 @@ void EncodeNumbers(
   AddColumn(table, "Spheres", count(SurfaceType::Sphere));
   AddColumn(table, "Cones", count(SurfaceType::Cone));
   AddColumn(table, "Tori", count(SurfaceType::Torus));
+  AddColumn(table, "Extrusions", count(SurfaceType::Extrusion));
+  AddColumn(table, "Revolutions", count(SurfaceType::Revolution));
   AddColumn(table, "FreeFaces", count(SurfaceType::FreeForm));
   AddColumn(table, "Edges", model.NumEdges);
   AddColumn(table, "Lines", model.NumLines);

@@ -12,17 +12,17 @@
  * vertices are points of several surfaces.
  *
  * Output 0 are the faces as a watertight triangulation with normals and the cell arrays `FaceId`
- * and `SurfaceType` (0 plane, 1 cylinder, 2 sphere, 3 cone, 4 torus, 5 free form). Outputs 1 and 2
- * are the faces themselves, their surfaces and their trimming curves as spline grids
- * (TrimmedGrids.h), whose cell array `SurfaceType` makes vtkCADWriter write planes, cylinders, ...
- * as such. Output 3 is a table of one row: Faces, Planes, Cylinders, Spheres, Cones, Tori,
- * FreeFaces, Edges, Lines, Circles, SharpEdges (of 5 degrees or more, of 25 beside free form),
- * Vertices, Loops (rims of the mesh), Tolerance, MaxDeviation (of the mesh's points from analytic
- * faces, of the mesh and spline faces both ways, and of edges from their faces), MaxNormalAngle
- * (between spline faces where the mesh is smooth), MaxSag (bound of the distance of triangles from
- * their surfaces), MaxEdgeDistance (bound between edges and those of the mesh), MaxEdgeGap,
- * WithinTolerance, MinNormalBound, Verdict (whether faces are proved regular), LoopsProved,
- * LoopVerdict, ControlPoints, Area (of output 0), MeshArea.
+ * and `SurfaceType` (0 plane, 1 cylinder, 2 sphere, 3 cone, 4 torus, 5 free form, 6 extrusion,
+ * 7 revolution). Outputs 1 and 2 are the faces themselves, their surfaces and their trimming curves
+ * as spline grids (TrimmedGrids.h), whose cell array `SurfaceType` makes vtkCADWriter write planes,
+ * cylinders, ... as such. Output 3 is a table of one row: Faces, Planes, Cylinders, Spheres, Cones,
+ * Tori, Extrusions, Revolutions, FreeFaces, Edges, Lines, Circles, SharpEdges (of 5 degrees or
+ * more, of 25 beside free form), Vertices, Loops (rims of the mesh), Tolerance, MaxDeviation (of
+ * the mesh's points from analytic faces, of the mesh and spline faces both ways, and of edges from
+ * their faces), MaxNormalAngle (between spline faces where the mesh is smooth), MaxSag (bound of
+ * the distance of triangles from their surfaces), MaxEdgeDistance (bound between edges and those of
+ * the mesh), MaxEdgeGap, WithinTolerance, MinNormalBound, Verdict (whether faces are proved
+ * regular), LoopsProved, LoopVerdict, ControlPoints, Area (of output 0), MeshArea.
  *
  * @source The module's page has methods, limits and errors.
  */

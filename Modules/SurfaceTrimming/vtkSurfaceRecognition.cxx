@@ -166,6 +166,8 @@ void EncodeNumbers(const SurfaceRecognition& found, vtkTable* table)
   AddColumn(table, "Spheres", count(SurfaceType::Sphere));
   AddColumn(table, "Cones", count(SurfaceType::Cone));
   AddColumn(table, "Tori", count(SurfaceType::Torus));
+  AddColumn(table, "Extrusions", count(SurfaceType::Extrusion));
+  AddColumn(table, "Revolutions", count(SurfaceType::Revolution));
   AddColumn(table, "FreeForms", count(SurfaceType::FreeForm));
   double distance = 0.0;
   double sag = 0.0;

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkSurfaceRecognition
- * @brief   divides a triangle mesh into planes, cylinders, spheres, cones, tori and free form
+ * @brief   divides a triangle mesh into planes, cylinders, spheres, cones, tori, extrusions,
+ * revolutions and free form
  *
  * The input is a mesh of triangles (quadrilaterals and polygons are divided), closed or open, of
  * one or several parts; equal points are one, as in STL files. What lies on one surface is one
  * region, also where its facets meet at an angle: the strips of a tessellated cylinder are one
  * cylinder. Of surfaces on which the points lie within the noise that is found, Tolerance at most,
- * the simplest is taken.
+ * the simplest is taken. Pieces of one extrusion or revolution with a profile of any form are one.
  *
  * Output 0 (vtkPolyData): the triangles with the cell arrays RegionId and SurfaceType (0 plane, 1
- * cylinder, 2 sphere, 3 cone, 4 torus, 5 free form).
+ * cylinder, 2 sphere, 3 cone, 4 torus, 5 free form, 6 extrusion, 7 revolution).
  *
  * Output 1 (vtkPolyData): the edges between regions as lines, with the cell array Regions (two).
  *
@@ -19,8 +20,8 @@
  * axis and surface, degrees), Reversed (the triangles' normals are opposite to the surface's),
  * MaxDistance (of points), MaxSag (of the middles of edges and triangles).
  *
- * Output 3 (vtkTable): one row with Regions, Planes, Cylinders, Spheres, Cones, Tori, FreeForms,
- * MaxDistance, MaxSag, Noise, Tolerance.
+ * Output 3 (vtkTable): one row with Regions, Planes, Cylinders, Spheres, Cones, Tori, Extrusions,
+ * Revolutions, FreeForms, MaxDistance, MaxSag, Noise, Tolerance.
  *
  * @source Guess and score: Schnabel, Wahl, Klein (2007). The module's page has limits and errors.
  */

@@ -24,8 +24,8 @@ import features
 import page_tables
 
 PARTS = ("joint", "anchor", "rotor", "spool", "cross", "part", "couplingdown", "pinion", "fandisk")
-TYPES = ("planes", "cylinders", "spheres", "cones", "tori", "free_faces")
-HEAD = ("mesh", "points", "triangles", "distance / tolerance", "planes, cylinders, spheres, cones, tori, free form", "same type",
+TYPES = ("planes", "cylinders", "spheres", "cones", "tori", "extrusions", "revolutions", "free_faces")
+HEAD = ("mesh", "points", "triangles", "distance / tolerance", "planes, cylinders, spheres, cones, tori, extrusions, revolutions, free form", "same type",
         "control points", "valid solid")
 
 

@@ -45,6 +45,7 @@ public:
         break;
       case SurfaceType::Cylinder:
       case SurfaceType::Cone:
+      case SurfaceType::Revolution:
       {
         const Eigen::Vector3d across = surface.Axis.unitOrthogonal();
         this->Add(across, surface.Point);
@@ -59,6 +60,7 @@ public:
         }
         break;
       case SurfaceType::FreeForm:
+      case SurfaceType::Extrusion:
         break;
     }
     return this->Fixed.size() > before;

@@ -5,6 +5,7 @@
 #include <knotwork/SplineCore/CurveInterpolation.h>
 #include <knotwork/SplineCore/FitAnalyticSurface.h>
 #include <knotwork/SplineCore/FitCircle.h>
+#include <knotwork/SplineCore/SurfaceProfile.h>
 #include <knotwork/SplineCore/TensorSpace.h>
 
 #include <Geom2d_BSplineCurve.hxx>
@@ -15,7 +16,10 @@
 #include <Geom_Line.hxx>
 #include <Geom_Plane.hxx>
 #include <Geom_SphericalSurface.hxx>
+#include <Geom_SurfaceOfLinearExtrusion.hxx>
+#include <Geom_SurfaceOfRevolution.hxx>
 #include <Geom_ToroidalSurface.hxx>
+#include <gp_Ax1.hxx>
 #include <gp_Ax2.hxx>
 #include <gp_Ax3.hxx>
 
@@ -200,6 +204,71 @@ std::optional<AnalyticCurve> FindAnalyticCurve(const Spline<1>& curve, double to
   return found;
 }
 
+namespace
+{
+double SizeOf(const std::vector<Eigen::Vector3d>& points)
+{
+  double size = 0.0;
+  for (const Eigen::Vector3d& point : points)
+  {
+    size = std::max(size, (point - points.front()).norm());
+  }
+  return size;
+}
+
+/// The profile and axis of a spline that is an extrusion, u along the profile across the axis, or a
+/// revolution, u around the axis. Whether the spline is that surface everywhere is not looked at.
+bool FindProfile(const Spline<2>& spline, const std::vector<Eigen::Vector3d>& points,
+  const std::vector<FlatPiece>& pieces, AnalyticSurface& surface)
+{
+  const bool isExtrusion = surface.Type == SurfaceType::Extrusion;
+  const std::size_t along = isExtrusion ? 0 : 1;
+  const Eigen::Index across = spline.Space->Knots[0].NumFunctions();
+  const Eigen::Index count = spline.Space->Knots[along].NumFunctions();
+  const Eigen::Index step = isExtrusion ? 1 : across;
+  const auto control = [&](Eigen::Index i) -> Eigen::Vector3d
+  { return spline.ControlPoints.row(i * step).transpose(); };
+  AnalyticSurface found;
+  Eigen::Vector3d first = Eigen::Vector3d::UnitX();
+  if (isExtrusion)
+  {
+    found.Axis = (spline.ControlPoints.row(across) - spline.ControlPoints.row(0)).transpose();
+    if (!(found.Axis.norm() > 0.0) || spline.IsRational() || spline.Space->Knots[1].Degree() != 1)
+    {
+      return false;
+    }
+    found.Axis.normalize();
+    found.Point = control(0);
+    first = found.Axis.unitOrthogonal();
+  }
+  else if (!GuessAxis(points, pieces, found))
+  {
+    return false;
+  }
+  found.Type = surface.Type;
+  Spline<1> profile;
+  profile.Space = MakeTensorSpace<1>({ spline.Space->Knots[along] }).Value;
+  profile.ControlPoints.resize(count, 2);
+  double tilt = 0.0;
+  for (Eigen::Index i = 0; i < count; ++i)
+  {
+    const Eigen::Vector3d offset = control(i) - found.Point;
+    const double height = offset.dot(found.Axis);
+    tilt = isExtrusion ? std::max(tilt, std::abs(height)) : 0.0; // of lines where heights are alike
+    profile.ControlPoints.row(i) = isExtrusion
+      ? Eigen::RowVector2d(offset.dot(first), offset.dot(found.Axis.cross(first)))
+      : Eigen::RowVector2d((offset - height * found.Axis).norm(), height);
+  }
+  if (profile.Space->Knots[0].Degree() < 2 || tilt > Same * SizeOf(points))
+  {
+    return false;
+  }
+  found.Profile = std::make_shared<const SurfaceProfile>(std::move(profile), first);
+  surface = std::move(found);
+  return true;
+}
+}
+
 std::optional<AnalyticFace> AnalyticFace::Find(const TrimmedFace& face)
 {
   constexpr int Fine = 12;
@@ -229,8 +298,11 @@ std::optional<AnalyticFace> AnalyticFace::Find(const TrimmedFace& face)
   }
   found.Size = (batch.Values.colwise().maxCoeff() - batch.Values.colwise().minCoeff()).norm();
   AnalyticSurface surface;
-  if (!GuessSurface(face.Type, points, pieces, surface) || !FitSurface(points, surface) ||
-    !(MaxDistance(points, surface) <= Same * found.Size))
+  surface.Type = face.Type;
+  const bool isFound = HasProfile(face.Type)
+    ? FindProfile(face.Surface, points, pieces, surface)
+    : GuessSurface(face.Type, points, pieces, surface) && FitSurface(points, surface);
+  if (!isFound || !(MaxDistance(points, surface) <= Same * found.Size))
   {
     return {};
   }
@@ -249,7 +321,7 @@ std::optional<AnalyticFace> AnalyticFace::Find(const TrimmedFace& face)
   // u begins at 0
   found.Patch = AnalyticPatch(surface, middle - surface.Point);
   found.StartPlace = found.Patch.Parameters(middle);
-  if (surface.Type != SurfaceType::Plane)
+  if (surface.Type != SurfaceType::Plane && surface.Type != SurfaceType::Extrusion)
   {
     const PointMatrix lifted = found.Lift(BorderOf(face, grid));
     const Eigen::RowVector2d first = lifted.colwise().minCoeff();
@@ -275,7 +347,11 @@ std::optional<AnalyticFace> AnalyticFace::Find(const TrimmedFace& face)
 Handle(Geom_Surface) AnalyticFace::Surface() const
 {
   const AnalyticSurface& s = this->Patch.Surface();
-  Eigen::Vector2d zero = Eigen::Vector2d::Zero();
+  if (HasProfile(s.Type))
+  {
+    return this->SurfaceOfProfile();
+  }
+  const Eigen::Vector2d zero = Eigen::Vector2d::Zero();
   const Eigen::Vector3d x = s.Type == SurfaceType::Plane
     ? Eigen::Vector3d(this->Patch.Point({ 1.0, 0.0 }) - s.Point)
     : Eigen::Vector3d(this->Patch.Point(zero) - s.Point);
@@ -292,9 +368,37 @@ Handle(Geom_Surface) AnalyticFace::Surface() const
       return new Geom_ToroidalSurface(axes, s.Radius, s.MinorRadius);
     case SurfaceType::Plane:
     case SurfaceType::FreeForm:
+    case SurfaceType::Extrusion:
+    case SurfaceType::Revolution:
       break;
   }
   return new Geom_Plane(axes);
+}
+
+Handle(Geom_Surface) AnalyticFace::SurfaceOfProfile() const
+{
+  const AnalyticSurface& s = this->Patch.Surface();
+  const bool isExtrusion = s.Type == SurfaceType::Extrusion;
+  Spline<1> curve = s.Profile->Curve();
+  const PointMatrix plane = curve.ControlPoints;
+  Eigen::Vector3d out = s.Profile->Across();
+  if (!isExtrusion) // where u = 0
+  {
+    const Eigen::Vector3d offset = this->Patch.Point({ 0.0, s.Profile->Begin() }) - s.Point;
+    out = (offset - offset.dot(s.Axis) * s.Axis).normalized();
+  }
+  const Eigen::Vector3d second = isExtrusion ? s.Axis.cross(out) : s.Axis;
+  curve.ControlPoints.resize(plane.rows(), 3);
+  for (Eigen::Index i = 0; i < plane.rows(); ++i)
+  {
+    curve.ControlPoints.row(i) = (s.Point + plane(i, 0) * out + plane(i, 1) * second).transpose();
+  }
+  if (isExtrusion)
+  {
+    return new Geom_SurfaceOfLinearExtrusion(ToOpenCASCADE(curve), DirectionOf(s.Axis));
+  }
+  return new Geom_SurfaceOfRevolution(
+    ToOpenCASCADE(curve), gp_Ax1(PointOf(s.Point), DirectionOf(s.Axis)));
 }
 
 /// Parameters of the surface at places of the spline, followed from the start on.
@@ -332,6 +436,7 @@ PointMatrix AnalyticFace::Lift(const PointMatrix& splineParameters) const
       const Eigen::Vector3d point = batch.Values.row(i).transpose();
       const Eigen::Vector3d offset = point - surface.Point;
       const bool isPole = surface.Type != SurfaceType::Plane &&
+        surface.Type != SurfaceType::Extrusion &&
         offset.cross(surface.Axis).norm() <= NearAxis * this->Size;
       const Eigen::Vector2d last = lifted.row(i).transpose();
       Eigen::Vector2d place = this->Patch.ParametersNear(point, last);
@@ -362,6 +467,20 @@ Handle(Geom2d_Curve) AnalyticFace::ParameterCurve(
   constexpr int Degree = 5;
   constexpr int MaxSpans = 64;
   const AnalyticSurface& surface = this->Patch.Surface();
+  if (surface.Type == SurfaceType::Extrusion &&
+    !Handle(Geom_BSplineCurve)::DownCast(curve.Curve).IsNull())
+  {
+    // the spline's own parameters, but for where heights begin and their unit
+    const ParametricBox<2> domain = this->Form.Space->Domain();
+    PointMatrix corners(2, 2);
+    corners << domain.Lower[0], domain.Lower[1], domain.Lower[0], domain.Upper[1];
+    const EvaluationBatch batch = EvaluateAt(this->Form, corners, 0);
+    const double height = (batch.Values.row(1) - batch.Values.row(0)).dot(surface.Axis);
+    Spline<1> moved = parameters;
+    moved.ControlPoints.col(1) = (moved.ControlPoints.col(1).array() - domain.Lower[1]) * height /
+      (domain.Upper[1] - domain.Lower[1]);
+    return ToOpenCASCADEPlane(moved);
+  }
   const KnotVector& knots = parameters.Space->Knots[0];
   // heights of a cone run along its rulings there
   const double stretch = surface.Type == SurfaceType::Cone ? 1.0 / std::cos(surface.Angle) : 1.0;
@@ -378,7 +497,8 @@ Handle(Geom2d_Curve) AnalyticFace::ParameterCurve(
       const Eigen::Vector3d offset = point - surface.Point;
       Eigen::Vector2d place = this->Patch.ParametersNear(point, near);
       const bool isPole = offset.cross(surface.Axis).norm() <= NearAxis * this->Size;
-      place[0] = isPole && !this->IsPlane() ? near[0] : place[0];
+      const bool hasPole = !this->IsPlane() && surface.Type != SurfaceType::Extrusion;
+      place[0] = isPole && hasPole ? near[0] : place[0];
       places.row(i) << place[0], stretch * place[1];
     }
     return places;

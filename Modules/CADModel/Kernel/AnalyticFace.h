@@ -24,7 +24,8 @@ struct AnalyticCurve
 /// The line or circle that a curve is, within a distance; empty when it is neither.
 std::optional<AnalyticCurve> FindAnalyticCurve(const Spline<1>& curve, double tolerance);
 
-/// A face whose spline is a part of a plane, cylinder, sphere, cone or torus, as such.
+/// A face whose spline is a part of a plane, cylinder, sphere, cone or torus, or of an extrusion or
+/// revolution, as such.
 class AnalyticFace
 {
 public:
@@ -45,6 +46,7 @@ public:
   double GapOf(const AnalyticCurve& curve) const;
 
 private:
+  opencascade::handle<Geom_Surface> SurfaceOfProfile() const;
   PointMatrix Lift(const PointMatrix& splineParameters) const;
 
   BezierForm<2> Form;

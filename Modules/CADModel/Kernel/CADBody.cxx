@@ -90,6 +90,10 @@ SurfaceType TypeOf(const TopoDS_Face& face)
       return SurfaceType::Cone;
     case GeomAbs_Torus:
       return SurfaceType::Torus;
+    case GeomAbs_SurfaceOfExtrusion:
+      return SurfaceType::Extrusion;
+    case GeomAbs_SurfaceOfRevolution:
+      return SurfaceType::Revolution;
     default:
       return SurfaceType::FreeForm;
   }

@@ -6,6 +6,7 @@
 
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepCheck.hxx>
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepCheck_ListOfStatus.hxx>
@@ -16,6 +17,7 @@
 #include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
 #include <Geom_BSplineSurface.hxx>
+#include <Geom_SurfaceOfLinearExtrusion.hxx>
 #include <IGESControl_Reader.hxx>
 #include <STEPControl_Reader.hxx>
 #include <TopExp.hxx>
@@ -223,17 +225,33 @@ double QuadratureToleranceOf(const TopoDS_Shape& shape)
   return HasLargeFace(shape) ? CoarseQuadratureTolerance : QuadratureTolerance;
 }
 
+/// The same shape with splines in the place of extrusions: OpenCASCADE's quadrature of these does
+/// not know their spans, and is a thousandth off whatever the tolerance.
+TopoDS_Shape WithoutExtrusions(const TopoDS_Shape& shape)
+{
+  for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next())
+  {
+    if (!Handle(Geom_SurfaceOfLinearExtrusion)::DownCast(
+          BRep_Tool::Surface(TopoDS::Face(face.Current())))
+           .IsNull())
+    {
+      return BRepBuilderAPI_NurbsConvert(shape, true).Shape();
+    }
+  }
+  return shape;
+}
+
 double AreaOf(const TopoDS_Shape& face)
 {
   GProp_GProps content;
-  BRepGProp::SurfaceProperties(face, content, QuadratureToleranceOf(face));
+  BRepGProp::SurfaceProperties(WithoutExtrusions(face), content, QuadratureToleranceOf(face));
   return content.Mass();
 }
 
 double VolumeOf(const TopoDS_Shape& solid)
 {
   GProp_GProps content;
-  BRepGProp::VolumeProperties(solid, content, QuadratureToleranceOf(solid));
+  BRepGProp::VolumeProperties(WithoutExtrusions(solid), content, QuadratureToleranceOf(solid));
   return content.Mass();
 }
 

@@ -153,7 +153,8 @@ Status TextOf(const TrimmedModel& model, const CADWriteParams& params, CADFormat
 namespace
 {
 /// The first text that OpenCASCADE reads rightly: loops that begin at either pole, then with
-/// spheres, cones and tori as splines. @return the failure of the first one.
+/// spheres, cones, tori, extrusions and revolutions as splines. @return the failure of the first
+/// one.
 Status TextInAnyWay(const TrimmedModel& model, const CADWriteParams& params, CADFormat format,
   CADSession& session, std::string& text)
 {

@@ -19,10 +19,10 @@ constexpr char Settings[] = R"({
   "AutomaticRescaleRangeMode": -1,
   "IndexedLookup": 1,
   "Annotations": ["0", "plane", "1", "cylinder", "2", "sphere", "3", "cone", "4", "torus",
-    "5", "free form"],
-  "ActiveAnnotatedValues": ["0", "1", "2", "3", "4", "5"],
+    "5", "free form", "6", "extrusion", "7", "revolution"],
+  "ActiveAnnotatedValues": ["0", "1", "2", "3", "4", "5", "6", "7"],
   "IndexedColors": [0.75, 0.80, 0.86, 0.36, 0.55, 0.72, 0.85, 0.55, 0.20, 0.45, 0.70, 0.45,
-    0.60, 0.45, 0.70, 0.90, 0.85, 0.55]
+    0.60, 0.45, 0.70, 0.90, 0.85, 0.55, 0.30, 0.60, 0.62, 0.78, 0.42, 0.52]
 } } },
 "representations": {
   "UnstructuredGridRepresentation": { "NonlinearSubdivisionLevel": 3 },

@@ -2,6 +2,7 @@
 #include "RegionEdges.h"
 #include <knotwork/SplineCore/BezierForm.h>
 #include <knotwork/SplineCore/CurveInterpolation.h>
+#include <knotwork/SplineCore/SurfaceProfile.h>
 #include <knotwork/SplineCore/TensorSpace.h>
 
 #include <Eigen/Dense>
@@ -348,6 +349,73 @@ double EdgeShape::DistanceOf(const std::vector<Eigen::Vector3d>& points) const
   return distance;
 }
 
+namespace
+{
+/// The curve over [0, 1] whose knots and control points are given, or its reverse.
+Spline<1> OverUnit(const KnotVector& own, PointMatrix points, bool reversed)
+{
+  std::vector<double> knots = own.Knots();
+  const double first = knots.front();
+  const double length = knots.back() - first;
+  for (double& knot : knots)
+  {
+    const double share = (knot - first) / length;
+    knot = reversed ? 1.0 - share : share;
+  }
+  if (reversed)
+  {
+    std::reverse(knots.begin(), knots.end());
+    points = points.colwise().reverse().eval();
+  }
+  Spline<1> curve;
+  curve.Space = MakeTensorSpace<1>({ KnotVector::Create(own.Degree(), knots).Value }).Value;
+  curve.ControlPoints = std::move(points);
+  return curve;
+}
+
+/// Where a plane cuts an extrusion: its profile, each control point moved along the axis.
+/// @return without a space: surfaces are others, or ends do not lie on the curve.
+Spline<1> PlaneSection(const std::array<Eigen::Vector3d, 2>& ends,
+  const std::vector<AnalyticSurface>& surfaces, double exact)
+{
+  constexpr double Parallel = 0.1; // of plane and axis
+  if (surfaces.size() != 2 || ends[0] == ends[1])
+  {
+    return {};
+  }
+  const std::size_t first = surfaces[0].Type == SurfaceType::Extrusion ? 0 : 1;
+  const AnalyticSurface& extrusion = surfaces[first];
+  const AnalyticSurface& plane = surfaces[1 - first];
+  const double across = plane.Axis.dot(extrusion.Axis);
+  if (extrusion.Type != SurfaceType::Extrusion || plane.Type != SurfaceType::Plane ||
+    std::abs(across) < Parallel)
+  {
+    return {};
+  }
+  const double begin = extrusion.Profile->Nearest(extrusion.InProfile(ends[0]));
+  const double end = extrusion.Profile->Nearest(extrusion.InProfile(ends[1]));
+  if (begin == end)
+  {
+    return {};
+  }
+  const Spline<1> part = extrusion.Profile->Part(std::min(begin, end), std::max(begin, end));
+  const Eigen::Vector3d x = extrusion.Profile->Across();
+  const Eigen::Vector3d y = extrusion.Axis.cross(x);
+  PointMatrix points(part.ControlPoints.rows(), 3);
+  for (Eigen::Index i = 0; i < points.rows(); ++i)
+  {
+    const Eigen::Vector3d at =
+      extrusion.Point + part.ControlPoints(i, 0) * x + part.ControlPoints(i, 1) * y;
+    points.row(i) = (at - plane.Distance(at) / across * extrusion.Axis).transpose();
+  }
+  Spline<1> curve = OverUnit(part.Space->Knots[0], std::move(points), begin > end);
+  const Eigen::Index last = curve.ControlPoints.rows() - 1;
+  const double away = std::max((curve.ControlPoints.row(0).transpose() - ends[0]).norm(),
+    (curve.ControlPoints.row(last).transpose() - ends[1]).norm());
+  return away <= exact ? curve : Spline<1>();
+}
+}
+
 EdgeShape FindEdgeShape(const std::vector<Eigen::Vector3d>& points,
   const std::vector<AnalyticSurface>& surfaces, const EdgeShapeParams& params)
 {
@@ -381,8 +449,37 @@ EdgeShape FindEdgeShape(const std::vector<Eigen::Vector3d>& points,
   }
   EdgeShape spline = line;
   spline.Kind = EdgeShapeKind::Spline;
-  spline.Curve = FitSpline(points, dense, surfaces, params);
+  if (params.Farthest > 0.0)
+  {
+    spline.Curve = PlaneSection(spline.Ends, surfaces, params.Exact);
+  }
+  if (!spline.Curve.Space)
+  {
+    spline.Curve = FitSpline(points, dense, surfaces, params);
+  }
   return spline.Curve.Space ? spline : line;
+}
+
+namespace
+{
+/// The profile of a revolution at an angle, over [0, 1].
+Spline<1> ProfileOnPatch(const AnalyticPatch& patch, const std::array<Eigen::Vector2d, 2>& ends)
+{
+  const AnalyticSurface& surface = patch.Surface();
+  const Eigen::Vector3d along = patch.Point(ends[0]) - surface.Point;
+  const Eigen::Vector3d out = (along - along.dot(surface.Axis) * surface.Axis).normalized();
+  const bool reversed = ends[1][1] < ends[0][1];
+  const double begin = ends[reversed ? 1 : 0][1];
+  const double end = ends[reversed ? 0 : 1][1];
+  const Spline<1> part = surface.Profile->Part(begin, end);
+  PointMatrix points(part.ControlPoints.rows(), 3);
+  for (Eigen::Index i = 0; i < points.rows(); ++i)
+  {
+    const auto at = part.ControlPoints.row(i);
+    points.row(i) = (surface.Point + at[0] * out + at[1] * surface.Axis).transpose();
+  }
+  return OverUnit(part.Space->Knots[0], std::move(points), reversed);
+}
 }
 
 EdgeShape IsoparametricShape(
@@ -393,6 +490,12 @@ EdgeShape IsoparametricShape(
   const int runs = 1 - fixed;
   const bool isCircle = runs == 0 || patch.Surface().Type == SurfaceType::Sphere ||
     patch.Surface().Type == SurfaceType::Torus;
+  if (patch.Surface().Type == SurfaceType::Revolution && runs == 1)
+  {
+    shape.Kind = EdgeShapeKind::Spline;
+    shape.Curve = ProfileOnPatch(patch, ends);
+    return shape;
+  }
   if (!isCircle)
   {
     return shape;
@@ -563,11 +666,14 @@ Result<EdgeSpline> MakeEdgeSpline(
   const double own = GapOf(shape.Points(EvenParameters(Samples)), surfaces);
   EdgeSpline best;
   best.Gap = HUGE_VAL;
-  // a line first as such
-  for (int parts = shape.Kind == EdgeShapeKind::Line && corners.empty() ? 0 : 4;
+  // a line first as such, a spline with its own knots
+  const bool hasKnots = shape.Kind == EdgeShapeKind::Spline;
+  for (int parts = (shape.Kind == EdgeShapeKind::Line || hasKnots) && corners.empty() ? 0 : 4;
        parts <= MaxParts && best.Gap > own + exact; parts = std::max(4, 2 * parts))
   {
-    auto knots = KnotsOf(parts == 0 ? 1 : Degree, corners, std::max(parts, 1));
+    auto knots = parts == 0 && hasKnots
+      ? Result<KnotVector>(shape.Curve.Space->Knots[0])
+      : KnotsOf(parts == 0 ? 1 : Degree, corners, std::max(parts, 1));
     if (!knots)
     {
       return knots.Status;

@@ -54,7 +54,7 @@ struct EdgeShapeParams
 EdgeShape FindEdgeShape(const std::vector<Eigen::Vector3d>& points,
   const std::vector<AnalyticSurface>& surfaces, const EdgeShapeParams& params);
 
-/// The line or circle on a patch along which one parameter is fixed.
+/// The line, circle or profile on a patch along which one parameter is fixed.
 EdgeShape IsoparametricShape(
   const AnalyticPatch& patch, const std::array<Eigen::Vector2d, 2>& ends, int fixed);
 

@@ -32,6 +32,9 @@ double NumParameters(SurfaceType type)
       return 6.0;
     case SurfaceType::Torus:
       return 7.0;
+    case SurfaceType::Extrusion:
+    case SurfaceType::Revolution:
+      return 5.0; // of a direction or axis and a short profile
     case SurfaceType::FreeForm:
       break;
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceGrowth.h"
+#include <knotwork/SplineCore/FitProfileSurface.h>
 
 #include <Eigen/Geometry>
 
@@ -68,7 +69,7 @@ SurfaceGrowth::SurfaceGrowth(
 {
 }
 
-std::vector<Vector3d> SurfaceGrowth::PointsOf(const std::vector<int>& clusters) const
+std::vector<int> SurfaceGrowth::PointIdsOf(const std::vector<int>& clusters) const
 {
   std::vector<int> ids;
   for (int c : clusters)
@@ -76,8 +77,13 @@ std::vector<Vector3d> SurfaceGrowth::PointsOf(const std::vector<int>& clusters) 
     const auto& more = this->Facets.Clusters[static_cast<std::size_t>(c)].Points;
     ids.insert(ids.end(), more.begin(), more.end());
   }
+  return Unique(std::move(ids));
+}
+
+std::vector<Vector3d> SurfaceGrowth::PointsOf(const std::vector<int>& clusters) const
+{
   std::vector<Vector3d> points;
-  for (int id : Unique(std::move(ids)))
+  for (int id : this->PointIdsOf(clusters))
   {
     points.push_back(this->Surface.Point(id));
   }
@@ -143,7 +149,8 @@ bool SurfaceGrowth::Fits(int number, const AnalyticSurface& surface, bool revers
     }
   }
   // a plane meets cylinders and cones in rulings, but a sphere or torus in a circle around it
-  const bool rulings = surface.Type == SurfaceType::Cylinder || surface.Type == SurfaceType::Cone;
+  const bool rulings = surface.Type == SurfaceType::Cylinder || surface.Type == SurfaceType::Cone ||
+    HasProfile(surface.Type); // a profile may be straight
   return std::abs(surface.Distance(cluster.Piece.Centre)) <= (rulings ? this->Sag : this->Noise);
 }
 
@@ -234,6 +241,66 @@ void SurfaceGrowth::Reconsider(GrownRegion& region) const
   }
 }
 
+bool SurfaceGrowth::FitProfile(
+  SurfaceType type, const std::vector<char>& flat, GrownRegion& region) const
+{
+  constexpr double NearShare = 0.125; // of the noise: no more spans are worth while
+  const std::vector<int> ids = this->PointIdsOf(region.Clusters);
+  std::vector<std::array<int, 2>> edges = this->EdgesOf(region.Clusters);
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  std::vector<char> straight(edges.size(), 0);
+  for (const int c : region.Clusters)
+  {
+    if (flat[static_cast<std::size_t>(c)])
+    {
+      for (const auto& edge : this->EdgesOf({ c }))
+      {
+        straight[static_cast<std::size_t>(
+          std::lower_bound(edges.begin(), edges.end(), edge) - edges.begin())] = 1;
+      }
+    }
+  }
+  for (auto& edge : edges)
+  {
+    for (int& end : edge)
+    {
+      end = static_cast<int>(std::lower_bound(ids.begin(), ids.end(), end) - ids.begin());
+    }
+  }
+  GrownRegion made = region;
+  made.NumPoints = static_cast<int>(ids.size());
+  if (!FitProfileSurface(type, this->PointsOf(region.Clusters), edges, straight,
+        this->PiecesOf(region.Clusters), NearShare * this->Noise, made.Surface))
+  {
+    return false;
+  }
+  const FlatPiece& first =
+    this->Facets.Clusters[static_cast<std::size_t>(region.Clusters.front())].Piece;
+  made.Reversed = made.Surface.Normal(first.Centre).dot(first.Normal) < 0.0;
+  if (!std::all_of(made.Clusters.begin(), made.Clusters.end(),
+        [&](int cluster) { return this->Fits(cluster, made.Surface, made.Reversed); }))
+  {
+    return false;
+  }
+  made.MeanSag = this->MeanSag(made);
+  region = std::move(made);
+  return true;
+}
+
+std::array<double, 2> SurfaceGrowth::Residuals(const GrownRegion& region) const
+{
+  double largest = 0.0;
+  double sum = 0.0;
+  const std::vector<Vector3d> points = this->PointsOf(region.Clusters);
+  for (const Vector3d& point : points)
+  {
+    const double distance = std::abs(region.Surface.Distance(point));
+    largest = std::max(largest, distance);
+    sum += distance * distance;
+  }
+  return { largest, std::sqrt(sum / static_cast<double>(points.size())) };
+}
+
 bool SurfaceGrowth::Grow(const AnalyticSurface& guess, const Guess& from,
   const std::vector<int>& regions, GrownRegion& region) const
 {
@@ -288,7 +355,7 @@ bool SurfaceGrowth::Grow(const AnalyticSurface& guess, const Guess& from,
   return true;
 }
 
-std::vector<std::array<int, 2>> SurfaceGrowth::EdgesInside(const std::vector<int>& clusters) const
+std::vector<std::array<int, 2>> SurfaceGrowth::EdgesOf(const std::vector<int>& clusters) const
 {
   std::vector<std::array<int, 2>> edges;
   for (int c : clusters)
@@ -305,6 +372,12 @@ std::vector<std::array<int, 2>> SurfaceGrowth::EdgesInside(const std::vector<int
     }
   }
   std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
+std::vector<std::array<int, 2>> SurfaceGrowth::EdgesInside(const std::vector<int>& clusters) const
+{
+  const std::vector<std::array<int, 2>> edges = this->EdgesOf(clusters);
   std::vector<std::array<int, 2>> twice;
   for (std::size_t i = 1; i < edges.size(); ++i)
   {
@@ -385,8 +458,7 @@ std::vector<int> SurfaceGrowth::NeighboursOf(int cluster, const std::vector<int>
   std::vector<std::pair<double, int>> found;
   for (const ClusterSide& side : this->Facets.Sides[static_cast<std::size_t>(cluster)])
   {
-    const double length =
-      (this->Surface.Point(side.Edge[0]) - this->Surface.Point(side.Edge[1])).norm();
+    const double length = this->LengthOf(side);
     const auto other = static_cast<std::size_t>(side.Cluster);
     const bool isFace = this->Facets.Clusters[other].Points.size() >= PointsOfFlat;
     if (side.Angle < LargestTurn && regions[other] < 0 && (!isFace || large))

@@ -41,6 +41,16 @@ public:
   /// surface and the edges inside are no farther from it, or a cone to which they are much nearer:
   /// a strip between two circles lies on many surfaces, but is straight on one.
   void Reconsider(GrownRegion& region) const;
+  /// Takes the surface of a profile next to the region's points.
+  /// @param flat  a flag a cluster of all: it is part of a flat face, so that its edges lie on the
+  /// surface. @return false: there is none on which all clusters lie; the region is as it was.
+  bool FitProfile(SurfaceType type, const std::vector<char>& flat, GrownRegion& region) const;
+  double LengthOf(const ClusterSide& side) const
+  {
+    return (this->Surface.Point(side.Edge[0]) - this->Surface.Point(side.Edge[1])).norm();
+  }
+  /// Largest and root mean square distance of the region's points.
+  std::array<double, 2> Residuals(const GrownRegion& region) const;
 
 private:
   using Guess = std::vector<int>; ///< clusters
@@ -53,10 +63,13 @@ private:
   /// them.
   void DropThroughPlane(std::vector<GrownRegion>& found) const;
   void AddNeighbours(const std::vector<int>& regions, Guess& clusters) const;
+  /// Twice where they are of two facets, ascending.
+  std::vector<std::array<int, 2>> EdgesOf(const std::vector<int>& clusters) const;
   /// Those of two facets.
   std::vector<std::array<int, 2>> EdgesInside(const std::vector<int>& clusters) const;
   double MeanSag(const GrownRegion& region) const;
   std::vector<int> NeighboursOf(int cluster, const std::vector<int>& regions) const;
+  std::vector<int> PointIdsOf(const std::vector<int>& clusters) const; ///< ascending
   std::vector<Eigen::Vector3d> PointsOf(const std::vector<int>& clusters) const;
   std::vector<FlatPiece> PiecesOf(const std::vector<int>& clusters) const;
 

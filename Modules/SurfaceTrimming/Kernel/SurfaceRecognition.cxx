@@ -2,6 +2,7 @@
 #include "SurfaceRecognition.h"
 
 #include "FacetClusters.h"
+#include "ProfileRegions.h"
 #include "SurfaceGrowth.h"
 
 #include <Eigen/Geometry>
@@ -432,6 +433,26 @@ void JoinFreeForm(
   division.Regions = std::move(kept);
 }
 
+/// Regions of free form that are one extrusion or revolution.
+void TakeProfiles(const SurfaceGrowth& growth, const FacetClusters& facets, Division& division)
+{
+  std::vector<char> flat;
+  for (const FacetCluster& cluster : facets.Clusters)
+  {
+    flat.push_back(cluster.Points.size() > PointsOfFacet ? 1 : 0);
+  }
+  for (GrownRegion& region : division.Regions)
+  {
+    for (const SurfaceType type : { SurfaceType::Extrusion, SurfaceType::Revolution })
+    {
+      if (region.Surface.Type == SurfaceType::FreeForm)
+      {
+        growth.FitProfile(type, flat, region);
+      }
+    }
+  }
+}
+
 double AreaOf(const FacetClusters& facets, const std::vector<int>& clusters)
 {
   double area = 0.0;
@@ -564,7 +585,16 @@ Result<SurfaceRecognition> RecognizeSurfaces(
     }
   }
   const SurfaceGrowth growth(surface, facets, result.Noise, params.MaximumSag * result.Tolerance);
+  if (result.Noise > Levels[LastOfExact] * result.Tolerance)
+  {
+    JoinAlongProfiles(growth, facets, result.Tolerance, best.Regions, best.RegionOfCluster);
+    DropEmpty(best);
+  }
   JoinFreeForm(result.Noise > Levels[1] * result.Tolerance, facets, growth, best);
+  // profiles of few spans come no nearer
+  const double ofProfiles = std::max(result.Noise, Levels[LastOfExact] * result.Tolerance);
+  TakeProfiles(
+    SurfaceGrowth(surface, facets, ofProfiles, params.MaximumSag * result.Tolerance), facets, best);
   result.RegionOfTriangle.resize(surface.Triangles.size());
   Report(growth, facets, best, result);
   return result;

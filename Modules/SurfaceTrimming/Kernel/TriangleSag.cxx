@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TriangleSag.h"
+#include <knotwork/SplineCore/SurfaceProfile.h>
 
 #include <algorithm>
 #include <cmath>
@@ -31,6 +32,57 @@ double CurvatureBound(const AnalyticSurface& torus, const Corners& corners)
   return nearest > 0.0 && out > 0.0 ? std::max(1.0 / nearest, 1.0 / out) : HUGE_VAL;
 }
 
+/// The same of the distance from a profile, in its plane.
+double CurvatureBoundOfProfile(const AnalyticSurface& surface, const Corners& corners)
+{
+  double reach = 0.0;
+  double farthest = 0.0;
+  double out = HUGE_VAL;   // to the axis
+  double begin = HUGE_VAL; // on the profile
+  double end = -HUGE_VAL;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const double place = surface.Profile->Nearest(surface.InProfile(corners[k]));
+    begin = std::min(begin, place);
+    end = std::max(end, place);
+    const Eigen::Vector2d at = surface.InProfile(corners[k]);
+    reach = std::max(reach, (at - surface.InProfile(corners[(k + 1) % 3])).norm());
+    farthest = std::max(farthest, std::abs(surface.Distance(corners[k])));
+    out = std::min(out, at[0]);
+  }
+  if (surface.Type == SurfaceType::Revolution)
+  {
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      reach = std::max(reach, (corners[k] - corners[(k + 1) % 3]).norm());
+    }
+  }
+  // the nearest points are next to those of corners, parameters about lengths
+  const double curvature = surface.Profile->MaxCurvature(begin - 2.0 * reach, end + 2.0 * reach);
+  const double left = 1.0 - curvature * (farthest + reach); // of the way to a centre of curvature
+  const double inPlane = left > 0.0 ? curvature / left : HUGE_VAL;
+  if (surface.Type == SurfaceType::Extrusion)
+  {
+    return inPlane;
+  }
+  out -= reach;
+  return out > 0.0 ? std::max(inPlane, 1.0 / out) : HUGE_VAL;
+}
+
+/// The square of the longest side, of an extrusion as it is seen along the axis.
+double LongestSquare(const AnalyticSurface& surface, const Corners& corners)
+{
+  const bool isSeen = surface.Type == SurfaceType::Extrusion;
+  double longest = 0.0;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const Eigen::Vector3d side = corners[k] - corners[(k + 1) % 3];
+    const double along = isSeen ? side.dot(surface.Axis) : 0.0;
+    longest = std::max(longest, side.squaredNorm() - along * along);
+  }
+  return longest;
+}
+
 double Bound(const AnalyticSurface& surface, const Corners& corners, int left)
 {
   std::array<double, 3> distances{};
@@ -56,16 +108,14 @@ double Bound(const AnalyticSurface& surface, const Corners& corners, int left)
     }
     return most;
   }
-  if (surface.Type == SurfaceType::Torus)
+  if (surface.Type == SurfaceType::Torus || HasProfile(surface.Type))
   {
-    double longest = 0.0;
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      longest = std::max(longest, (corners[k] - corners[(k + 1) % 3]).squaredNorm());
-    }
+    const double curvature = surface.Type == SurfaceType::Torus
+      ? CurvatureBound(surface, corners)
+      : CurvatureBoundOfProfile(surface, corners);
     // of a function of second derivatives up to c, from the linear one through the corners: half of
     // c times the sum of l_i l_j e_ij^2 over pairs, and the l_i l_j sum up to a third at most
-    return most + CurvatureBound(surface, corners) * longest / 6.0;
+    return most + curvature * LongestSquare(surface, corners) / 6.0;
   }
   const Eigen::Vector3d centre = (corners[0] + corners[1] + corners[2]) / 3.0;
   const Eigen::Vector3d gradient = surface.Normal(centre);

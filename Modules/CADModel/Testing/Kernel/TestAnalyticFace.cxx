@@ -3,7 +3,7 @@
 #include "AnalyticFace.h"
 #include "CADCases.h"
 #include "OutputFile.h"
-#include "TurnedMeshes.h"
+#include "ProfiledMeshes.h"
 #include <knotwork/CADModel/CADExchange.h>
 #include <knotwork/SurfaceTrimming/RegionModel.h>
 
@@ -144,6 +144,48 @@ TEST(AnalyticFace, TypesGoThroughFiles_CrossOracle)
       {
         EXPECT_TRUE(ending[1] == 'i' || text.find(word) != std::string::npos) << word;
       }
+    }
+  }
+}
+
+/// Waves, extruded and turned. Oracle of the volume: its integral.
+TEST(AnalyticFace, ProfilesGoThroughFiles_CrossOracle)
+{
+  for (const bool turns : { false, true })
+  {
+    const auto made = ModelMesh(turns ? Vase(48, 64) : WavyBar(48, 2.0), {});
+    ASSERT_TRUE(made) << made.Status.Message();
+    const TrimmedModel& model = made->Model;
+    const Types wanted = turns ? Types{ 2, 0, 0, 0, 0, 0, 0, 1 } : Types{ 5, 0, 0, 0, 0, 0, 1, 0 };
+    ASSERT_EQ(TypesOf(model), wanted);
+    for (const TrimmedFace& face : model.Faces)
+    {
+      EXPECT_TRUE(AnalyticFace::Find(face));
+    }
+    for (const char* ending : { ".step", ".igs" })
+    {
+      SCOPED_TRACE(std::string(turns ? "vase" : "bar") + ending);
+      const std::string file = Written(model, std::string(turns ? "vase" : "bar") + ending);
+      const auto summary = CheckCAD(file);
+      ASSERT_TRUE(summary) << summary.Status.Message();
+      EXPECT_TRUE(summary->Closed);
+      EXPECT_EQ(summary->NumSolids, 1);
+      const double volume = turns ? Pi * WaveSquares() : 2.0 * WaveArea();
+      EXPECT_NEAR(summary->Volume, volume, 1e-3 * volume);
+      const auto read = ReadCAD(file);
+      ASSERT_TRUE(read) << read.Status.Message();
+      EXPECT_EQ(TypesOf(read->Model), wanted);
+      const std::string text = TextOf(file);
+      EXPECT_EQ(text.find("B_SPLINE_SURFACE"), std::string::npos);
+      const char* word = turns ? "SURFACE_OF_REVOLUTION" : "SURFACE_OF_LINEAR_EXTRUSION";
+      EXPECT_TRUE(ending[1] == 'i' || text.find(word) != std::string::npos);
+    }
+    // sheared across, the profile is across the axis no more, and about it turned no more
+    TrimmedModel sheared = model;
+    for (TrimmedFace& face : sheared.Faces)
+    {
+      face.Surface.ControlPoints.col(0) += 0.2 * face.Surface.ControlPoints.col(1);
+      EXPECT_EQ(AnalyticFace::Find(face).has_value(), face.Type == SurfaceType::Plane);
     }
   }
 }

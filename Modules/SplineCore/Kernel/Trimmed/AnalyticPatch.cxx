@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "AnalyticPatch.h"
+#include "SurfaceProfile.h"
 #include <knotwork/SplineCore/TensorSpace.h>
 
 #include <Eigen/Geometry>
@@ -43,13 +44,14 @@ AnalyticPatch::AnalyticPatch(const AnalyticSurface& surface, const Eigen::Vector
   {
     across = axis.unitOrthogonal();
   }
-  this->X = across.normalized();
+  this->X =
+    surface.Type == SurfaceType::Extrusion ? surface.Profile->Across() : across.normalized().eval();
   this->Y = axis.cross(this->X);
 }
 
 bool AnalyticPatch::IsAngle(int direction) const
 {
-  return this->Of.Type != SurfaceType::Plane &&
+  return this->Of.Type != SurfaceType::Plane && this->Of.Type != SurfaceType::Extrusion &&
     (direction == 0 || this->Of.Type == SurfaceType::Sphere || this->Of.Type == SurfaceType::Torus);
 }
 
@@ -67,6 +69,11 @@ Eigen::Vector3d AnalyticPatch::Point(const Eigen::Vector2d& parameters) const
   {
     return s.Point + u * this->X + v * this->Y;
   }
+  if (s.Type == SurfaceType::Extrusion)
+  {
+    const Eigen::Vector2d at = s.Profile->Point(u);
+    return s.Point + at[0] * this->X + at[1] * this->Y + v * s.Axis;
+  }
   double radius = s.Radius;
   double height = v;
   switch (s.Type)
@@ -82,9 +89,17 @@ Eigen::Vector3d AnalyticPatch::Point(const Eigen::Vector2d& parameters) const
       radius = s.Radius + s.MinorRadius * std::cos(v);
       height = s.MinorRadius * std::sin(v);
       break;
+    case SurfaceType::Revolution:
+    {
+      const Eigen::Vector2d at = s.Profile->Point(v);
+      radius = at[0];
+      height = at[1];
+      break;
+    }
     case SurfaceType::Plane:
     case SurfaceType::Cylinder:
     case SurfaceType::FreeForm:
+    case SurfaceType::Extrusion:
       break;
   }
   return s.Point + radius * (std::cos(u) * this->X + std::sin(u) * this->Y) + height * s.Axis;
@@ -100,6 +115,10 @@ Eigen::Vector2d AnalyticPatch::Parameters(const Eigen::Vector3d& point) const
     return across;
   }
   const double height = offset.dot(s.Axis);
+  if (s.Type == SurfaceType::Extrusion)
+  {
+    return { s.Profile->Nearest(across), height };
+  }
   const double radius = across.norm();
   const double angle = std::atan2(across[1], across[0]);
   switch (s.Type)
@@ -114,9 +133,12 @@ Eigen::Vector2d AnalyticPatch::Parameters(const Eigen::Vector3d& point) const
       return { angle, std::atan2(height, radius) };
     case SurfaceType::Torus:
       return { angle, std::atan2(height, radius - s.Radius) };
+    case SurfaceType::Revolution:
+      return { angle, s.Profile->Nearest({ radius, height }) };
     case SurfaceType::Plane:
     case SurfaceType::Cylinder:
     case SurfaceType::FreeForm:
+    case SurfaceType::Extrusion:
       break;
   }
   return { angle, height };
@@ -154,6 +176,12 @@ void AnalyticPatch::SetRange(const Eigen::Vector2d& lower, const Eigen::Vector2d
 {
   this->Begin = lower;
   this->End = upper;
+  if (HasProfile(this->Of.Type))
+  {
+    const Eigen::Index along = this->Of.Type == SurfaceType::Extrusion ? 0 : 1;
+    this->Begin[along] = std::max(lower[along], this->Of.Profile->Begin());
+    this->End[along] = std::min(upper[along], this->Of.Profile->End());
+  }
 }
 
 int AnalyticPatch::NumSpans(int direction) const
@@ -182,11 +210,19 @@ Spline<2> AnalyticPatch::MakeSpline() const
   constexpr double rounding = 1e-12;
   const AnalyticSurface& s = this->Of;
   std::array<KnotVector, 2> knots;
+  PointMatrix ofProfile;
   for (int d = 0; d < 2; ++d)
   {
     knots[static_cast<std::size_t>(d)] = this->IsAngle(d)
       ? KnotVector::Uniform(2, this->NumSpans(d), this->Begin[d], this->End[d], 2)
       : KnotVector::Uniform(1, 1, this->Begin[d], this->End[d]);
+  }
+  if (HasProfile(s.Type))
+  {
+    const Eigen::Index along = s.Type == SurfaceType::Extrusion ? 0 : 1;
+    const Spline<1> part = s.Profile->Part(this->Begin[along], this->End[along]);
+    knots[static_cast<std::size_t>(along)] = part.Space->Knots[0];
+    ofProfile = part.ControlPoints;
   }
   Spline<2> spline;
   spline.Space = MakeTensorSpace<2>(knots).Value;
@@ -198,6 +234,17 @@ Spline<2> AnalyticPatch::MakeSpline() const
     for (Eigen::Index i = 0; i < rows; ++i)
     {
       spline.ControlPoints.row(i) = this->Point({ at(i, 0), at(i, 1) }).transpose();
+    }
+    return spline;
+  }
+  if (s.Type == SurfaceType::Extrusion)
+  {
+    for (Eigen::Index i = 0; i < rows; ++i)
+    {
+      const Eigen::Index at = i % ofProfile.rows();
+      spline.ControlPoints.row(i) = (s.Point + ofProfile(at, 0) * this->X +
+        ofProfile(at, 1) * this->Y + (i == at ? this->Begin[1] : this->End[1]) * s.Axis)
+                                      .transpose();
     }
     return spline;
   }
@@ -216,9 +263,14 @@ Spline<2> AnalyticPatch::MakeSpline() const
       profile = MakeArc(this->Begin[1], this->End[1], this->NumSpans(1), s.MinorRadius);
       profile.col(0).array() += s.Radius;
       break;
+    case SurfaceType::Revolution:
+      profile.resize(ofProfile.rows(), 3);
+      profile << ofProfile, Eigen::VectorXd::Ones(ofProfile.rows());
+      break;
     case SurfaceType::Plane:
     case SurfaceType::Cylinder:
     case SurfaceType::FreeForm:
+    case SurfaceType::Extrusion:
       profile << s.Radius, this->Begin[1], 1.0, s.Radius, this->End[1], 1.0;
       break;
   }

@@ -9,9 +9,10 @@ namespace knotwork
 {
 /// A part of an analytic surface, as the rational spline that it is.
 ///
-/// Parameters of the surface: of a plane lengths along two axes; else u is the angle about the
-/// axis, and v the height along it (cylinder, cone), the latitude (sphere) or the angle of the
-/// turning circle, 0 outside (torus). Angles in radians. S_u x S_v points along the surface's
+/// Parameters of the surface: of a plane lengths along two axes, of an extrusion the profile's
+/// parameter and the height; else u is the angle about the axis, and v the height along it
+/// (cylinder, cone), the latitude (sphere), the angle of the turning circle, 0 outside (torus), or
+/// the profile's parameter (revolution). Angles in radians. S_u x S_v points along the surface's
 /// Normal.
 ///
 /// The spline has the same domain. Along angles it has spans of at most 90 degrees, within which
@@ -22,7 +23,7 @@ class AnalyticPatch
 public:
   AnalyticPatch() = default;
   /// @param reference  where u = 0; its part along the axis does not count. If nothing is left of
-  /// it, any direction across the axis is taken.
+  /// it, any direction across the axis is taken. An extrusion has its own.
   AnalyticPatch(const AnalyticSurface& surface, const Eigen::Vector3d& reference);
 
   const AnalyticSurface& Surface() const { return this->Of; }
@@ -36,6 +37,7 @@ public:
   /// there is none.
   std::array<double, 2> Poles() const;
 
+  /// A range within the profile, if there is one, as far as it goes.
   void SetRange(const Eigen::Vector2d& lower, const Eigen::Vector2d& upper);
   const Eigen::Vector2d& Lower() const { return this->Begin; }
   const Eigen::Vector2d& Upper() const { return this->End; }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "AnalyticSurface.h"
+#include "SurfaceProfile.h"
 
 #include <Eigen/Geometry>
 
@@ -45,6 +46,10 @@ const char* ToString(SurfaceType type)
       return "torus";
     case SurfaceType::FreeForm:
       return "free form";
+    case SurfaceType::Extrusion:
+      return "extrusion";
+    case SurfaceType::Revolution:
+      return "revolution";
   }
   return "";
 }
@@ -64,6 +69,9 @@ double AnalyticSurface::Distance(const Eigen::Vector3d& point) const
       return (at.Radius - this->Radius) * std::cos(this->Angle) - at.Height * std::sin(this->Angle);
     case SurfaceType::Torus:
       return std::hypot(at.Radius - this->Radius, at.Height) - this->MinorRadius;
+    case SurfaceType::Extrusion:
+    case SurfaceType::Revolution:
+      return this->Profile->Distance(this->InProfile(point));
     case SurfaceType::FreeForm:
       break;
   }
@@ -87,9 +95,31 @@ Eigen::Vector3d AnalyticSurface::Normal(const Eigen::Vector3d& point) const
         : Eigen::Vector3d(Eigen::Vector3d::Zero());
     case SurfaceType::Torus:
       return ((at.Radius - this->Radius) * at.Outward + at.Height * this->Axis).normalized();
+    case SurfaceType::Extrusion:
+    {
+      const Eigen::Vector2d normal = this->Profile->Normal(this->InProfile(point));
+      const Eigen::Vector3d& across = this->Profile->Across();
+      return normal[0] * across + normal[1] * this->Axis.cross(across);
+    }
+    case SurfaceType::Revolution:
+    {
+      const Eigen::Vector2d normal = this->Profile->Normal({ at.Radius, at.Height });
+      return normal[0] * at.Outward + normal[1] * this->Axis;
+    }
     case SurfaceType::FreeForm:
       break;
   }
   return Eigen::Vector3d::Zero();
+}
+Eigen::Vector2d AnalyticSurface::InProfile(const Eigen::Vector3d& point) const
+{
+  if (this->Type == SurfaceType::Revolution)
+  {
+    const AroundAxis at(*this, point);
+    return { at.Radius, at.Height };
+  }
+  const Eigen::Vector3d offset = point - this->Point;
+  const Eigen::Vector3d& across = this->Profile->Across();
+  return { offset.dot(across), offset.dot(this->Axis.cross(across)) };
 }
 }

@@ -50,6 +50,8 @@ std::array<bool, NumParameters> FreeParameters(SurfaceType type)
       return { true, true, true, true, true, true, true, false };
     case SurfaceType::Plane:
     case SurfaceType::FreeForm:
+    case SurfaceType::Extrusion:
+    case SurfaceType::Revolution:
       break;
   }
   return {};
@@ -239,8 +241,10 @@ bool GuessCone(const std::vector<Vector3d>& points, const std::vector<FlatPiece>
   return surface.Radius > 0.0 && std::isfinite(surface.Radius);
 }
 
-/// Lines along normals meet the axis: a (p x n) + b n = 0 for its Pluecker coordinates (a, b).
-bool GuessTorus(const std::vector<Vector3d>& points, const std::vector<FlatPiece>& pieces,
+}
+
+// Lines along normals meet the axis: a (p x n) + b n = 0 for its Pluecker coordinates (a, b).
+bool GuessAxis(const std::vector<Vector3d>& points, const std::vector<FlatPiece>& pieces,
   AnalyticSurface& surface)
 {
   const Cloud cloud(points);
@@ -262,10 +266,23 @@ bool GuessTorus(const std::vector<Vector3d>& points, const std::vector<FlatPiece
   const Matrix3d inverse = normals.eigenvectors() *
     normals.eigenvalues().cwiseInverse().asDiagonal() * normals.eigenvectors().transpose();
   const Eigen::SelfAdjointEigenSolver<Matrix3d> axes(mm - mn * inverse * mn.transpose());
-  surface.Type = SurfaceType::Torus;
   surface.Axis = axes.eigenvectors().col(0);
   const Vector3d moment = -inverse * mn.transpose() * surface.Axis;
-  const Vector3d onAxis = cloud.Centre + cloud.Size * surface.Axis.cross(moment);
+  surface.Point = cloud.Centre + cloud.Size * surface.Axis.cross(moment);
+  return true;
+}
+
+namespace
+{
+bool GuessTorus(const std::vector<Vector3d>& points, const std::vector<FlatPiece>& pieces,
+  AnalyticSurface& surface)
+{
+  if (!GuessAxis(points, pieces, surface))
+  {
+    return false;
+  }
+  surface.Type = SurfaceType::Torus;
+  const Vector3d onAxis = surface.Point;
   std::vector<Eigen::Vector2d> profile;
   for (const Vector3d& p : points)
   {
@@ -337,6 +354,8 @@ bool IsDegenerate(const AnalyticSurface& s)
     case SurfaceType::Plane:
       return false;
     case SurfaceType::FreeForm:
+    case SurfaceType::Extrusion:
+    case SurfaceType::Revolution:
       break;
   }
   return true;
@@ -448,6 +467,8 @@ int NumSurfaceParameters(SurfaceType type)
     case SurfaceType::Torus:
       return 7;
     case SurfaceType::FreeForm:
+    case SurfaceType::Extrusion:
+    case SurfaceType::Revolution:
       break;
   }
   return 0;
@@ -474,6 +495,8 @@ bool GuessSurface(SurfaceType type, const std::vector<Vector3d>& points,
     case SurfaceType::Torus:
       return pieces.size() >= 5 && GuessTorus(points, pieces, surface);
     case SurfaceType::FreeForm:
+    case SurfaceType::Extrusion:
+    case SurfaceType::Revolution:
       break;
   }
   return false;

@@ -4,6 +4,7 @@
 #include <knotwork/SplineCore/BezierForm.h>
 #include <knotwork/SplineCore/CurveInterpolation.h>
 #include <knotwork/SplineCore/FitCircle.h>
+#include <knotwork/SplineCore/SurfaceProfile.h>
 #include <knotwork/SplineCore/TensorSpace.h>
 
 #include <Eigen/Geometry>
@@ -45,14 +46,33 @@ AnalyticPatch RandomPatch(SurfaceType type, Draw& draw)
   surface.Radius = draw(1.0, 2.0);
   surface.MinorRadius = draw(0.2, 0.8);
   surface.Angle = draw(0.2, 1.0);
+  if (HasProfile(type)) // a wave over [-3, 3], or beside the axis over [-1, 1]
+  {
+    const bool turns = type == SurfaceType::Revolution;
+    const double half = turns ? 1.0 : 3.0;
+    Spline<1> wave;
+    wave.Space = MakeTensorSpace<1>({ KnotVector::Uniform(3, 4, -half, half) }).Value;
+    wave.ControlPoints.resize(7, 2);
+    for (Eigen::Index i = 0; i < 7; ++i)
+    {
+      const double place = wave.Space->Knots[0].Greville(static_cast<int>(i));
+      const double height = draw(0.0, 0.3);
+      wave.ControlPoints.row(i) << (turns ? 1.5 + height : place), (turns ? place : height);
+    }
+    surface.Profile =
+      std::make_shared<const SurfaceProfile>(wave, surface.Axis.unitOrthogonal().eval());
+  }
   AnalyticPatch patch(surface, draw.Direction());
-  const Eigen::Vector2d lower(draw(-3.0, 3.0), draw(-1.0, 0.0));
-  patch.SetRange(lower, lower + Eigen::Vector2d(draw(0.3, 2.0 * Pi), draw(0.5, 1.0)));
+  const bool isExtrusion = type == SurfaceType::Extrusion;
+  const Eigen::Vector2d lower(isExtrusion ? draw(-3.0, 0.0) : draw(-3.0, 3.0), draw(-1.0, 0.0));
+  patch.SetRange(
+    lower, lower + Eigen::Vector2d(draw(0.3, isExtrusion ? 3.0 : 2.0 * Pi), draw(0.5, 1.0)));
   return patch;
 }
 
-constexpr std::array<SurfaceType, 5> Types{ SurfaceType::Plane, SurfaceType::Cylinder,
-  SurfaceType::Sphere, SurfaceType::Cone, SurfaceType::Torus };
+constexpr std::array<SurfaceType, 7> Types{ SurfaceType::Plane, SurfaceType::Cylinder,
+  SurfaceType::Sphere, SurfaceType::Cone, SurfaceType::Torus, SurfaceType::Extrusion,
+  SurfaceType::Revolution };
 }
 
 /// Sizes are below 10: some roundings.

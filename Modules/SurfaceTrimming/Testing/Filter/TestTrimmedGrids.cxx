@@ -628,7 +628,7 @@ TEST(TrimmedGrids, DamageIsRefused)
       },
       ErrorCode::InvalidTopology, "'Body' is not one number a cell" },
     { "a type that is none", [=](Grids& grids) { setType(grids, NumSurfaceTypes); },
-      ErrorCode::InvalidTopology, "cell array 'SurfaceType' is 6" },
+      ErrorCode::InvalidTopology, "cell array 'SurfaceType' is 8" },
     { "a type below none", [=](Grids& grids) { setType(grids, -1); }, ErrorCode::InvalidTopology,
       "cell array 'SurfaceType' is -1" },
     { "curves in the place of surfaces",

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Models of solids whose faces, edges, areas and volumes are known in closed form.
+#include "ProfiledMeshes.h"
 #include "RegionModel.h"
 #include "TriangleSag.h"
 #include "TrimmedMesh.h"
-#include "TurnedMeshes.h"
+#include <knotwork/SplineCore/SurfaceProfile.h>
+#include <knotwork/SplineCore/TensorSpace.h>
 
 #include <gtest/gtest.h>
 
@@ -333,6 +335,38 @@ TEST(RegionModel, Refusals)
   EXPECT_EQ(ModelMesh(facets, {}).Status.Code, ErrorCode::NotInSpace);
 }
 
+/// The volume between the profile's bound and what chords cut off.
+TEST(RegionModel, WavesAreOneFace_Exact)
+{
+  const TriangleMesh bar = WavyBar(48, 2.0);
+  const TriangleMesh vase = Vase(48, 64);
+  const std::array<int, NumSurfaceTypes> types[] = { { 5, 0, 0, 0, 0, 0, 1, 0 },
+    { 2, 0, 0, 0, 0, 0, 0, 1 } };
+  const double volumes[] = { 2.0 * WaveArea(), Pi * WaveSquares() };
+  for (const bool turns : { false, true })
+  {
+    SCOPED_TRACE(turns);
+    const auto model = ModelMesh(turns ? vase : bar, {});
+    ASSERT_TRUE(model) << model.Status.Message();
+    EXPECT_TRUE(model->Model.Check());
+    EXPECT_EQ(model->NumOfType, types[turns ? 1 : 0]);
+    EXPECT_EQ(model->NumEdges, turns ? 2 : 12);
+    EXPECT_EQ(model->NumCircles, turns ? 2 : 0);
+    EXPECT_EQ(model->NumSharpEdges, model->NumEdges);
+    for (std::size_t f = 0; f < model->Verdicts.size(); ++f)
+    {
+      EXPECT_EQ(model->Verdicts[f], LoopVerdict::SimpleNested) << f;
+      EXPECT_EQ(model->Certificates[f].Verdict, Verdict::Valid) << f;
+    }
+    EXPECT_LE(model->MaxPointDistance, 0.35 * model->Tolerance);
+    EXPECT_LE(model->MaxEdgeGap, model->Tolerance);
+    EXPECT_GT(model->MaxDistance, model->MaxPointDistance); // chords sag
+    EXPECT_LE(model->MaxDistance, 5.0 * model->Tolerance);
+    const Measures found = MeasuresOf(model.Value, 1e-3);
+    EXPECT_NEAR(found.Volume / volumes[turns ? 1 : 0], 1.0, 2e-3);
+  }
+}
+
 /// Against samples: never below, and not far above.
 TEST(TriangleSag, BoundsTheDistance_IndependentOracle)
 {
@@ -340,13 +374,18 @@ TEST(TriangleSag, BoundsTheDistance_IndependentOracle)
   const auto draw = [&](double a, double b)
   { return a + (b - a) * static_cast<double>(random()) / 4294967296.0; };
   for (const SurfaceType type : { SurfaceType::Plane, SurfaceType::Cylinder, SurfaceType::Sphere,
-         SurfaceType::Cone, SurfaceType::Torus })
+         SurfaceType::Cone, SurfaceType::Torus, SurfaceType::Extrusion, SurfaceType::Revolution })
   {
     AnalyticSurface surface;
     surface.Type = type;
     surface.Radius = 2.0;
     surface.MinorRadius = 0.5;
     surface.Angle = 0.5;
+    Spline<1> bend; // from (2.25, -1) by (2, 0) to (2.25, 1)
+    bend.Space = MakeTensorSpace<1>({ KnotVector::Uniform(2, 1, -1.0, 1.0) }).Value;
+    bend.ControlPoints.resize(3, 2);
+    bend.ControlPoints << 2.25, -1.0, 1.75, 0.0, 2.25, 1.0;
+    surface.Profile = std::make_shared<const SurfaceProfile>(bend, Eigen::Vector3d::UnitX());
     for (int trial = 0; trial < 50; ++trial)
     {
       std::array<Eigen::Vector3d, 3> corners;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Oracle: surfaces whose points are computed from their parameters.
+#include "ProfiledMeshes.h"
 #include "SurfaceRecognition.h"
-#include "TurnedMeshes.h"
 #include <knotwork/SplineCore/FitAnalyticSurface.h>
 
 #include <Eigen/Geometry>
@@ -295,6 +295,27 @@ TEST(SurfaceRecognition, MeshesThatAreNone)
   mesh.Points(3, 1) = 0.0;
   mesh.Triangles[2][0] = 100000;
   EXPECT_EQ(RecognizeSurfaces(mesh).Status.Code, ErrorCode::InvalidTopology);
+}
+
+/// One face of the wave, not one of every strip or of every bend; its direction or axis is right.
+TEST(SurfaceRecognition, WavesAreOneSurface_Exact)
+{
+  const auto tilt = Eigen::AngleAxisd(0.7, Vector3d(1, 2, -1).normalized());
+  const auto bar = Recognize(WavyBar(48, 2.0));
+  EXPECT_EQ(bar.NumOfType, (Counts{ 5, 0, 0, 0, 0, 0, 1, 0 }));
+  if (const RecognizedRegion* wave = Find(bar, SurfaceType::Extrusion))
+  {
+    EXPECT_LT(wave->Surface.Axis.cross(tilt * Vector3d::UnitY()).norm(), 1e-5);
+    EXPECT_LT(wave->MaxDistance, 0.35 * bar.Tolerance);
+    EXPECT_EQ(wave->Triangles.size(), 96u);
+  }
+  const auto vase = Recognize(Vase(48, 64));
+  EXPECT_EQ(vase.NumOfType, (Counts{ 2, 0, 0, 0, 0, 0, 0, 1 }));
+  if (const RecognizedRegion* wave = Find(vase, SurfaceType::Revolution))
+  {
+    EXPECT_LT(wave->Surface.Axis.cross(TiltedAxis).norm(), 1e-5);
+    EXPECT_LT(wave->MaxDistance, 0.35 * vase.Tolerance);
+  }
 }
 
 TEST(SurfaceRecognition, ParametersOutOfRange)
