@@ -78,6 +78,18 @@ void AddCellArrays(const CADFit<Dim>& fit, vtkUnstructuredGrid* grid)
     const int cell = fit.SurfaceElements[i].Cell;
     distance->SetValue(cell, std::max(distance->GetValue(cell), fit.Distances.OfElements[i]));
   }
+  if (!fit.Bound.OfElements.empty())
+  {
+    const auto bound = NamedArray<vtkDoubleArray>("DistanceBound");
+    bound->SetNumberOfValues(count);
+    bound->FillValue(0.0);
+    for (std::size_t i = 0; i < fit.Bound.OfElements.size(); ++i)
+    {
+      const int cell = fit.SurfaceElements[i].Cell;
+      bound->SetValue(cell, std::max(bound->GetValue(cell), fit.Bound.OfElements[i]));
+    }
+    grid->GetCellData()->AddArray(bound);
+  }
   for (vtkIdType c = 0; c < count; ++c)
   {
     const CellCertificate& certificate = fit.Certificate.Cells[static_cast<std::size_t>(c)];
@@ -101,6 +113,8 @@ void EncodeNumbers(const CADFit<Dim>& fit, vtkTable* table)
   AddColumn(table, "RmsDistance", distances.ToTarget.RootMeanSquare);
   AddColumn(table, "MaxDistanceBack", distances.FromTarget.Largest);
   AddColumn(table, "RmsDistanceBack", distances.FromTarget.RootMeanSquare);
+  AddColumn(table, "MaxDistanceBound", fit.Bound.OfSurface);
+  AddColumn(table, "MaxDistanceBackBound", fit.Bound.OfMesh);
   AddColumn(table, "MeshMaxDistance", distances.MeshToTarget.Largest);
   AddColumn(table, "MeshRmsDistance", distances.MeshToTarget.RootMeanSquare);
   AddColumn(table, "MeshMaxDistanceBack", distances.MeshFromTarget.Largest);
@@ -335,6 +349,7 @@ Status vtkCADFit::Compute(vtkInformationVector** inputs, vtkInformationVector* o
   choices.Fit.Projections = this->Projections;
   choices.Fit.ExtraPoints = this->ExtraPoints;
   choices.Fit.TargetSamples = this->TargetSamples;
+  choices.Fit.BoundedElements = this->BoundedElements;
   choices.Fit.Threads = this->KernelThreads();
   choices.Fit.Progress = this->Progress();
   choices.HasMeanLengths = this->Lengths == MEAN;

@@ -15,8 +15,9 @@
  * Elements that are not proved valid are mended.
  *
  * Output 0 is a spline grid of one patch of kind unstructured with the cell arrays of the mesh,
- * `Distance` (largest of the element's surface from the target; 0 inside), `Verdict` (1 valid, 2
- * reversed, 0 undecided, -1 invalid) and `MinJacobianLower`. Output 1 is a table of one row,
+ * `Distance` (largest of the element's surface from the target; 0 inside), `DistanceBound` (proved;
+ * of a target of triangles, with BoundedElements), `Verdict` (1 valid, 2 reversed, 0 undecided, -1
+ * invalid) and `MinJacobianLower`. Output 1 is a table of one row,
  * output 2 one of the target's entities with their distances, output 3 points on the target with
  * their `Distance` from the spline and `Face`, output 4 points at curves and corners of the target
  * that the mesh has no edges or points for.
@@ -249,6 +250,12 @@ public:
   vtkGetMacro(TargetSamples, int);
   ///@}
   ///@{
+  /** Elements of the surface up to which its distances from a target of triangles, and back, are
+   * bounded by proofs; 0: they are not. Default 100000, valid range [0, 100000000]. Advanced. */
+  vtkSetClampMacro(BoundedElements, int, 0, 100000000);
+  vtkGetMacro(BoundedElements, int);
+  ///@}
+  ///@{
   /** The target (input port 1). */
   void SetTargetConnection(vtkAlgorithmOutput* output);
   void SetTargetData(vtkDataObject* target);
@@ -291,5 +298,6 @@ private:
   int Smoothing = CERTIFICATE;
   int SmoothingRings = 2;
   int TargetSamples = 20000;
+  int BoundedElements = 100000;
 };
 #endif

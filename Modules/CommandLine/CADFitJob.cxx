@@ -109,10 +109,10 @@ protected:
     vtkTable* table = this->Table(Numbers);
     ReportRow(table, 0,
       { "Functions", "Elements", "Patches", "MaxDistance", "RmsDistance", "MaxDistanceBack",
-        "RmsDistanceBack", "MeshMaxDistance", "MeshRmsDistance", "MeshMaxDistanceBack",
-        "MeshRmsDistanceBack", "MinJacobianLower", "UncertifiedElements", "InvalidElementsBefore",
-        "SmoothedElements", "LayerElements", "FoldedCells", "StillFolded", "UnmatchedFeatures",
-        "Area", "Volume" },
+        "RmsDistanceBack", "MaxDistanceBound", "MaxDistanceBackBound", "MeshMaxDistance",
+        "MeshRmsDistance", "MeshMaxDistanceBack", "MeshRmsDistanceBack", "MinJacobianLower",
+        "UncertifiedElements", "InvalidElementsBefore", "SmoothedElements", "LayerElements",
+        "FoldedCells", "StillFolded", "UnmatchedFeatures", "Area", "Volume" },
       session.Report);
     session.Report["verdict"] = table->GetValueByName(0, "Verdict").ToString();
     session.Report["path"] = table->GetValueByName(0, "Path").ToString();

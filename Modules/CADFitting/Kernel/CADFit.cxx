@@ -2,6 +2,8 @@
 #include "CADFit.h"
 
 #include "ElementMending.h"
+#include "ElementPatch.h"
+#include "ElementUnfolding.h"
 #include "FastPaths.h"
 #include "MeshTarget.h"
 #include "ProgressiveFit.h"
@@ -29,13 +31,27 @@ constexpr int MostRounds = 4;
 /// Rounds in which curves of the target are given up that fold cells, or that leave elements
 /// without a certificate.
 constexpr int MostFoldedRounds = 4;
-constexpr int MostAttempts = 3;
+/// Of surfaces; of volumes one fewer, which take minutes.
+constexpr int MostAttempts = 4;
 constexpr int MostSweeps = 40;
 constexpr int LayerSweeps = 15;
+/// Times that control points inside alone are moved by the barrier functional.
+constexpr int InsideSteps = 4;
+/// Times that elements of surfaces are unfolded, in a ring more each time; of volumes one fewer.
+constexpr int MostUnfoldings = 4;
+/// Times that what was moved is fitted once more, and the least share of its way to where that puts
+/// it.
+constexpr int MostApproaches = 4;
+constexpr double LeastApproach = 0.1;
 /// By which the surface's distance from the target may grow, or what share of the mesh's own it may
 /// reach, when elements are mended.
 constexpr double MostGrowth = 2.0;
 constexpr double MostOfMesh = 0.25;
+/// Of the largest distance that is found: how near the facets are that bounds are proved with, and
+/// bounds that are good enough as they are; the least one that counts, of the target's size.
+constexpr double FacetShare = 0.05;
+constexpr double EnoughShare = 0.5;
+constexpr double LeastBound = 1e-4;
 /// Of the mean edge by which the points of the surface are shifted for a layer.
 constexpr double LayerShare = 0.3;
 
@@ -48,6 +64,7 @@ std::size_t At(int i)
 struct Attempt
 {
   std::set<int> LeftOut; ///< curves of the target
+  std::set<int> LeftOutCorners;
   bool Layer = false;
 };
 
@@ -60,6 +77,7 @@ public:
     : Given(mesh), GivenPoints(points), Target(target), Params(params)
   {
     this->Classification.LeftOut = attempt.LeftOut;
+    this->Classification.LeftOutCorners = attempt.LeftOutCorners;
     this->Layer = params.Layer && attempt.Layer;
     this->Fit.Mesh = mesh;
     this->Fit.Points = points;
@@ -69,6 +87,23 @@ public:
 
   /// Curves of the target that are matched and touch elements without a certificate.
   std::set<int> CurvesAtUncertified() const { return this->CurvesAt(this->Fit.Uncertified); }
+  /// Corners of the target that are points of elements without a certificate.
+  std::set<int> CornersAtUncertified() const
+  {
+    std::set<int> corners;
+    for (const int cell : this->Fit.Uncertified)
+    {
+      for (int k = 0; k < (1 << Dim); ++k)
+      {
+        const TargetPart& part = this->Parts.PointParts[At(this->Fit.Mesh.Cell(cell)[k])];
+        if (part.Entity == TargetEntity::Vertex)
+        {
+          corners.insert(part.Id);
+        }
+      }
+    }
+    return corners;
+  }
   bool NeedsLayer() const { return this->IsLayerNeeded; }
   const std::set<int>& LeftOut() const { return this->Classification.LeftOut; }
 
@@ -148,11 +183,13 @@ private:
     }
     if (this->Params.UntanglingRings < 0 || this->Params.SmoothingRings < 0 ||
       this->Params.ExtraPoints < 0 || this->Params.ExtraPoints > 16 ||
-      this->Params.TargetSamples < 0 || this->Params.Projections < 1 ||
-      this->Params.Projections > 100 || !(this->Params.FarShare > 0.0))
+      this->Params.TargetSamples < 0 || this->Params.BoundedElements < 0 ||
+      this->Params.Projections < 1 || this->Params.Projections > 100 ||
+      !(this->Params.FarShare > 0.0))
     {
       return { ErrorCode::InvalidParameter,
-        "rings and target samples must be 0 or more, projections in [1, 100], extra points in "
+        "rings, target samples and bounded elements must be 0 or more, projections in [1, 100], "
+        "extra points in "
         "[0, 16], the far share above 0" };
     }
     return {};
@@ -401,12 +438,8 @@ private:
     this->Fast = ChooseFastPath<Dim>(this->Space, this->Fit.Points, params);
   }
 
-  Status Project()
+  ProgressiveFitParams ProjectionParams() const
   {
-    if (this->Fast.Space != this->Space)
-    {
-      this->ChoosePath();
-    }
     ProgressiveFitParams params;
     params.Surfaces = this->IsFitted && this->HasSurfaces;
     params.Curves = this->IsFitted && this->Params.Curves;
@@ -417,6 +450,16 @@ private:
     params.Threads = this->Params.Threads;
     params.LinearCells = this->LinearCells;
     params.Progress = this->Share(0.2, 0.6);
+    return params;
+  }
+
+  Status Project()
+  {
+    if (this->Fast.Space != this->Space)
+    {
+      this->ChoosePath();
+    }
+    const ProgressiveFitParams params = this->ProjectionParams();
     auto fit = FitProgressively<Dim>(
       this->Fast, this->Surface, this->Parts, this->Fit.Points, this->Target, params);
     if (fit)
@@ -504,17 +547,7 @@ private:
         moved.push_back(i);
       }
     }
-    const PointMatrix from = before(moved, Eigen::all);
-    const PointMatrix to = now(moved, Eigen::all);
-    TargetPoints feetBefore;
-    TargetPoints feet;
-    Status status = this->Target->Find({}, from, feetBefore);
-    status = status ? this->Target->Find({}, to, feet) : status;
-    if (status)
-    {
-      now(moved, Eigen::all) = feet.Points + from - feetBefore.Points;
-    }
-    return status;
+    return KeepOffsets(*this->Target, before, moved, std::vector<TargetPart>(moved.size()), now);
   }
 
   /// What a step leaves is kept where it has fewer elements without a certificate, and stays at the
@@ -613,16 +646,26 @@ private:
           return ExtendMoves<Dim>(this->Fit.Value, this->Candidates(), moves, held, params);
         });
     }
-    // inside, in more and more rings; then the surface too, held less and less fast
+    const PointMatrix fitted = this->Fit.Value.ControlPoints;
+    // inside, in more and more rings; then the surface too, along the target, then held less and
+    // less fast
     for (int step = 0; status && step < 10 && !this->Candidates().empty(); ++step)
     {
+      if (step == InsideSteps)
+      {
+        status = this->UnfoldElements();
+        if (!status || this->Candidates().empty())
+        {
+          break;
+        }
+      }
       constexpr double attractions[] = { 1000.0, 100.0, 10.0, 1.0, 1.0, 0.1 };
       params.Rings = std::max(0,
         this->Params.SmoothingRings - 2 +
-          (step < 4      ? step
-              : step < 8 ? 1
-                         : 2));
-      params.Attraction = step < 4 ? 0.0 : attractions[step - 4];
+          (step < InsideSteps ? step
+              : step < 8      ? 1
+                              : 2));
+      params.Attraction = step < InsideSteps ? 0.0 : attractions[step - InsideSteps];
       status = this->Try(
         [&]
         {
@@ -633,6 +676,116 @@ private:
             changed && changed.Value > 0 ? this->FollowTarget(before) : Status();
           return followed ? changed : Result<int>(followed);
         });
+    }
+    return status ? this->Approach(fitted) : status;
+  }
+
+  /// What control points may do when elements unfold: those on curves stay, others of a surface on
+  /// its target slide.
+  ControlPointPlaces Places() const
+  {
+    const auto count = At(this->Space->NumFunctions);
+    ControlPointPlaces places;
+    places.IsHeld.assign(count, 0);
+    places.IsOnSurface.assign(count, Dim == 2 ? 1 : 0);
+    places.Parts.resize(count);
+    if constexpr (Dim == 3)
+    {
+      const auto trace = TraceOnFacets(*this->Space, this->Surface.Facets);
+      for (std::size_t q = 0; q < this->Surface.Facets.size(); ++q)
+      {
+        const int face = this->Parts.FaceOf[q];
+        for (const int own : trace->Space->AliveFunctions(static_cast<int>(q)))
+        {
+          const int function = trace->Functions[At(own)];
+          TargetPart& part = places.Parts[At(function)];
+          const bool isFirst = places.IsOnSurface[At(function)] == 0;
+          places.IsOnSurface[At(function)] = 1;
+          // of two faces: on any
+          part = face >= 0 && (isFirst || part.Id == face) ? TargetPart{ TargetEntity::Face, face }
+                                                           : TargetPart();
+        }
+      }
+    }
+    for (const int function : this->OnCurves)
+    {
+      places.IsHeld[At(function)] = 1;
+    }
+    return places;
+  }
+
+  Status UnfoldElements()
+  {
+    Status status;
+    if (!this->IsFitted || !this->HasSurfaces)
+    {
+      return status;
+    }
+    const ControlPointPlaces places = this->Places();
+    for (int step = 0; status && step < (Dim == 2 ? MostUnfoldings : MostUnfoldings - 1) &&
+         !this->Candidates().empty();
+         ++step)
+    {
+      UnfoldingParams params;
+      params.Rings = std::max(0, this->Params.SmoothingRings - (Dim == 2 ? 0 : 1)) + step;
+      params.Threads = this->Params.Threads;
+      params.Progress = this->Share(0.7, 0.8);
+      status = this->Try(
+        [&]
+        {
+          return knotwork::Unfold<Dim>(this->Fit.Value, this->Candidates(),
+            this->Verdicts.IsReversed, places, *this->Target, params);
+        });
+    }
+    return status;
+  }
+
+  /// Control points that were moved, fitted to the target once more from where the surface is now:
+  /// as far as that brings it nearer, and leaves the verdicts as good.
+  /// @param fitted  control points as they were before they were moved.
+  Status Approach(const PointMatrix& fitted)
+  {
+    std::vector<Eigen::Index> moved;
+    PointMatrix& now = this->Fit.Value.ControlPoints;
+    for (Eigen::Index i = 0; i < now.rows(); ++i)
+    {
+      if (now.row(i) != fitted.row(i))
+      {
+        moved.push_back(i);
+      }
+    }
+    Status status;
+    bool isNearer = !moved.empty() && this->IsFitted && this->HasSurfaces;
+    for (int pass = 0; status && isNearer && pass < MostApproaches; ++pass)
+    {
+      ProgressiveFitParams params = this->ProjectionParams();
+      params.Projections = 1;
+      const auto fit = FitProgressively<Dim>(this->Fast, this->Surface, this->Parts,
+        this->Fit.Points, this->Target, params, &this->Fit.Value);
+      const auto last = fit ? this->DistanceNow() : Result<double>(fit.Status);
+      status = last.Status;
+      isNearer = false;
+      for (double share = 1.0; status && !isNearer && share > LeastApproach; share *= 0.5)
+      {
+        const PointMatrix before = now;
+        for (const Eigen::Index i : moved)
+        {
+          now.row(i) += share * (fit->Value.ControlPoints.row(i) - before.row(i));
+        }
+        const auto distance = this->DistanceNow();
+        ElementVerdicts verdicts;
+        status = distance ? this->Certify(verdicts) : distance.Status;
+        isNearer =
+          status && verdicts.Bad.size() <= this->Verdicts.Bad.size() && distance.Value < last.Value;
+        if (isNearer)
+        {
+          this->Verdicts = std::move(verdicts);
+        }
+        else
+        {
+          now = before;
+        }
+      }
     }
     return status;
   }
@@ -795,13 +948,40 @@ private:
     }
     SampledDistanceParams params;
     params.TargetSamples = this->Params.TargetSamples;
-    params.Progress = this->Share(0.8, 1.0);
+    params.Progress = this->Share(0.8, 0.9);
     auto distances = this->MeasureFrom(surface, trace, params);
     if (distances)
     {
       this->Fit.Distances = std::move(distances.Value);
     }
-    return distances.Status;
+    return distances ? this->Bound(surface) : distances.Status;
+  }
+
+  /// Bounds of distances that are as near to the largest ones as that is cheap.
+  Status Bound(const Spline<2>& surface)
+  {
+    const TriangleIndex<3>* triangles = this->Target->Triangles();
+    if (!triangles || !this->IsFitted || !this->HasSurfaces ||
+      surface.Space->NumElements() > this->Params.BoundedElements)
+    {
+      return {};
+    }
+    const PointMatrix& points = triangles->Points();
+    const double size = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+    const double largest = std::max({ this->Fit.Distances.ToTarget.Largest,
+      this->Fit.Distances.FromTarget.Largest, LeastBound * size });
+    DeviationBoundParams params;
+    params.Tolerance = FacetShare * largest;
+    params.Enough = EnoughShare * largest;
+    params.Threads = this->Params.Threads;
+    params.Progress = this->Share(0.9, 1.0);
+    auto bound =
+      BoundSurfaceDeviation(MakeBezierForm(surface, this->Params.Threads), *triangles, params);
+    if (bound)
+    {
+      this->Fit.Bound = std::move(bound.Value);
+    }
+    return bound.Status.Code == ErrorCode::TooLarge ? Status() : bound.Status;
   }
 
   const CellMesh<Dim>& Given;
@@ -864,7 +1044,7 @@ Result<CADFit<Dim>> FitToTarget(const CellMesh<Dim>& mesh, const PointMatrix& po
 {
   Attempt attempt;
   Result<CADFit<Dim>> best;
-  for (int i = 0; i < MostAttempts; ++i)
+  for (int i = 0; i < (Dim == 2 ? MostAttempts : MostAttempts - 1); ++i)
   {
     CADFitting<Dim> fitting(mesh, points, target.get(), params, attempt);
     auto fit = fitting.Run();
@@ -880,8 +1060,9 @@ Result<CADFit<Dim>> FitToTarget(const CellMesh<Dim>& mesh, const PointMatrix& po
     {
       break;
     }
-    // with a layer, then without the curves where elements have no certificate
+    // with a layer, then without the curves where elements have no certificate, then the corners
     const std::set<int> curves = fitting.CurvesAtUncertified();
+    const std::set<int> corners = fitting.CornersAtUncertified();
     if (fitting.NeedsLayer() && params.Layer && !attempt.Layer)
     {
       attempt.Layer = true;
@@ -890,6 +1071,11 @@ Result<CADFit<Dim>> FitToTarget(const CellMesh<Dim>& mesh, const PointMatrix& po
     {
       attempt.LeftOut = fitting.LeftOut();
       attempt.LeftOut.insert(curves.begin(), curves.end());
+    }
+    else if (!corners.empty())
+    {
+      attempt.LeftOut = fitting.LeftOut();
+      attempt.LeftOutCorners.insert(corners.begin(), corners.end());
     }
     else
     {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <knotwork/CADFitting/DeviationBound.h>
 #include <knotwork/CADFitting/FitDistances.h>
 #include <knotwork/JacobianValidation/JacobianCertificate.h>
 #include <knotwork/SplineCore/CompositeProjection.h>
@@ -58,6 +59,9 @@ struct CADFitParams
   int Projections = 1;
   int ExtraPoints = 1;       ///< Gauss points a direction: p + 1 and so many more, in [0, 16]
   int TargetSamples = 20000; ///< at which distances from the target are measured; 0: they are not
+  /// Elements of the surface up to which bounds of its distances from a target of triangles are
+  /// proved, >= 0; 0: they are not.
+  int BoundedElements = 100000;
   /// Mean distance of the mesh's surface from the target, as share of the target's diagonal, from
   /// which on they are taken for two different shapes, > 0.
   double FarShare = 0.1;
@@ -76,6 +80,7 @@ struct CADFit
   std::vector<int> CellOf;
   int LayerCells = 0;
   FitDistances Distances;
+  DeviationBound Bound; ///< from a target of triangles; OfElements as Distances.OfElements
   /// Element of the surface by cell and side (side -1: the quadrilateral itself), as
   /// Distances.OfElements.
   std::vector<CellSide> SurfaceElements;

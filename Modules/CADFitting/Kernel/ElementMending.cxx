@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ElementMending.h"
 
+#include "ElementPatch.h"
+
 #include <knotwork/DomainParameterization/DomainEnergy.h>
 #include <knotwork/DomainParameterization/Minimize.h>
-#include <knotwork/SplineCore/DisjointSets.h>
 #include <knotwork/SplineCore/Quadrature.h>
 #include <knotwork/SplineCore/UnstructuredSpace.h>
 
@@ -14,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 
 namespace knotwork
@@ -30,104 +30,6 @@ template <int Dim>
 bool IsPlane(const Spline<Dim>& spline)
 {
   return Dim == 2 && (spline.ControlPoints.col(2).array() == spline.ControlPoints(0, 2)).all();
-}
-
-/// Functions of some elements, and which of them have all their elements there and are not held.
-template <int Dim>
-struct PatchFunctions
-{
-  PatchFunctions(
-    const SplineSpace<Dim>& space, const std::vector<int>& patch, const std::vector<char>& isHeld)
-    : NumberOf(At(space.NumFunctions), -1)
-  {
-    std::vector<char> isIn(At(space.NumElements()), 0);
-    for (const int e : patch)
-    {
-      isIn[At(e)] = 1;
-    }
-    std::vector<char> isOut(At(space.NumFunctions), 0);
-    for (int e = 0; e < space.NumElements(); ++e)
-    {
-      for (const int f : space.AliveFunctions(e))
-      {
-        if (isIn[At(e)] == 0)
-        {
-          isOut[At(f)] = 1;
-        }
-        else if (this->NumberOf[At(f)] < 0)
-        {
-          this->NumberOf[At(f)] = static_cast<int>(this->Functions.size());
-          this->Functions.push_back(f);
-        }
-      }
-    }
-    for (const int f : this->Functions)
-    {
-      this->IsFree.push_back(isOut[At(f)] == 0 && isHeld[At(f)] == 0 ? 1 : 0);
-    }
-  }
-  std::vector<int> Functions;
-  std::vector<int> NumberOf; ///< among them
-  std::vector<char> IsFree;
-};
-
-/// The space on some of its elements, with functions numbered anew.
-template <int Dim>
-SplineSpace<Dim> Restrict(const SplineSpace<Dim>& space, const std::vector<int>& patch,
-  const PatchFunctions<Dim>& functions)
-{
-  SplineSpace<Dim> part;
-  part.Kind = SpaceKind::Bezier;
-  part.FactorData = space.FactorData;
-  part.NumFunctions = static_cast<int>(functions.Functions.size());
-  std::vector<int> rowOf(
-    static_cast<std::size_t>(
-      space.NumLocalFunctions > 0 ? space.NumLocalFunctions : space.NumFunctions),
-    -1);
-  std::vector<int> rows;
-  for (const int e : patch)
-  {
-    auto element = space.Elements[At(e)];
-    const int* locals = space.LocalFunctions(e);
-    element.FirstLocal = part.LocalFunctionIds.size();
-    for (int i = 0; i < NumTensorFunctions<Dim>(element.Degree); ++i)
-    {
-      int& row = rowOf[At(locals[i])];
-      if (row < 0)
-      {
-        row = static_cast<int>(rows.size());
-        rows.push_back(locals[i]);
-      }
-      part.LocalFunctionIds.push_back(row);
-    }
-    part.Elements.push_back(element);
-  }
-  part.NumLocalFunctions = static_cast<int>(rows.size());
-  part.RowStart.push_back(0);
-  for (const int row : rows)
-  {
-    if (space.IsIdentityMap())
-    {
-      part.RowFunction.push_back(functions.NumberOf[At(row)]);
-      part.RowCoefficient.push_back(1.0);
-    }
-    else
-    {
-      std::vector<std::pair<int, double>> entries;
-      for (std::size_t k = space.RowStart[At(row)]; k < space.RowStart[At(row) + 1]; ++k)
-      {
-        entries.emplace_back(functions.NumberOf[At(space.RowFunction[k])], space.RowCoefficient[k]);
-      }
-      std::sort(entries.begin(), entries.end());
-      for (const auto& [function, coefficient] : entries)
-      {
-        part.RowFunction.push_back(function);
-        part.RowCoefficient.push_back(coefficient);
-      }
-    }
-    part.RowStart.push_back(part.RowFunction.size());
-  }
-  return part;
 }
 
 /// Gives every element a box of its own size, so that det J is about one in each: elements of one
@@ -236,43 +138,6 @@ std::vector<std::pair<int, int>> NetNeighbours(
 }
 
 template <int Dim>
-std::vector<int> Rings(const CellMesh<Dim>& mesh, const std::vector<int>& elements, int rings)
-{
-  std::vector<char> inside(At(mesh.NumCells()), 0);
-  for (const int e : elements)
-  {
-    inside[At(e)] = 1;
-  }
-  for (int ring = 0; ring < rings; ++ring)
-  {
-    std::vector<char> touched(At(mesh.NumPoints), 0);
-    for (int e = 0; e < mesh.NumCells(); ++e)
-    {
-      for (int k = 0; inside[At(e)] != 0 && k < (1 << Dim); ++k)
-      {
-        touched[At(mesh.Cell(e)[k])] = 1;
-      }
-    }
-    for (int e = 0; e < mesh.NumCells(); ++e)
-    {
-      for (int k = 0; k < (1 << Dim); ++k)
-      {
-        inside[At(e)] |= touched[At(mesh.Cell(e)[k])];
-      }
-    }
-  }
-  std::vector<int> grown;
-  for (int e = 0; e < mesh.NumCells(); ++e)
-  {
-    if (inside[At(e)] != 0)
-    {
-      grown.push_back(e);
-    }
-  }
-  return grown;
-}
-
-template <int Dim>
 Result<ElementVerdicts> CertifyElements(
   const Spline<Dim>& spline, int threads, const ProgressCallback& progress)
 {
@@ -374,7 +239,7 @@ int ExtendMoves(Spline<Dim>& spline, const std::vector<int>& elements, const Poi
 {
   const SplineSpace<Dim>& space = *spline.Space;
   const std::vector<int> patch = Rings<Dim>(MeshOf(space), elements, params.Rings);
-  const PatchFunctions<Dim> functions(space, patch, isHeld);
+  const PatchFunctions functions = FunctionsOf<Dim>(space, patch, isHeld);
   Eigen::VectorXi unknown = Eigen::VectorXi::Constant(space.NumFunctions, -1);
   int count = 0;
   for (std::size_t i = 0; i < functions.Functions.size(); ++i)
@@ -432,32 +297,6 @@ namespace
 /// Of a control point on the surface, in sizes of elements: farther it leaves the target for good.
 constexpr double MostMove = 0.5;
 
-/// Connected parts of some elements, by common points of the mesh.
-template <int Dim>
-std::vector<std::vector<int>> ConnectedParts(
-  const CellMesh<Dim>& mesh, const std::vector<int>& elements)
-{
-  DisjointSets sets(mesh.NumPoints);
-  for (const int e : elements)
-  {
-    for (int k = 1; k < (1 << Dim); ++k)
-    {
-      sets.Unite(mesh.Cell(e)[0], mesh.Cell(e)[k]);
-    }
-  }
-  std::map<int, std::vector<int>> parts;
-  for (const int e : elements)
-  {
-    parts[sets.Find(mesh.Cell(e)[0])].push_back(e);
-  }
-  std::vector<std::vector<int>> all;
-  for (auto& [first, part] : parts)
-  {
-    all.push_back(std::move(part));
-  }
-  return all;
-}
-
 /// Elements without a certificate. @param planes  NumFunctions x Dim, not mirrored any more.
 template <int Dim>
 std::size_t CountBad(const SplineSpace<Dim>& space, const Eigen::MatrixXd& planes)
@@ -484,9 +323,8 @@ double MeanSize(const SplineSpace<Dim>& space)
   return sum / space.NumElements();
 }
 
-template <int Dim>
-double LargestHeldMove(const PatchFunctions<Dim>& functions, const std::vector<char>& isHeld,
-  const Eigen::MatrixXd& moves)
+double LargestHeldMove(
+  const PatchFunctions& functions, const std::vector<char>& isHeld, const Eigen::MatrixXd& moves)
 {
   double largest = 0.0;
   for (std::size_t i = 0; i < functions.Functions.size(); ++i)
@@ -544,7 +382,7 @@ Result<int> MendPatch(Spline<Dim>& spline, const std::vector<int>& patch, bool i
     std::transform(stays.begin(), stays.end(), stays.begin(),
       [](char held) { return static_cast<char>(held == HeldFast ? 1 : 0); });
   }
-  const PatchFunctions<Dim> functions(space, patch, stays);
+  const PatchFunctions functions = FunctionsOf<Dim>(space, patch, stays);
   SplineSpace<Dim> part = Restrict(space, patch, functions);
   const auto count = static_cast<Eigen::Index>(functions.Functions.size());
   std::vector<Eigen::Index> free;
@@ -701,6 +539,4 @@ template Result<int> MinimizeBarrier(
   Spline<2>&, const std::vector<int>&, bool, const std::vector<char>&, const MendingParams&);
 template Result<int> MinimizeBarrier(
   Spline<3>&, const std::vector<int>&, bool, const std::vector<char>&, const MendingParams&);
-template std::vector<int> Rings(const CellMesh<2>&, const std::vector<int>&, int);
-template std::vector<int> Rings(const CellMesh<3>&, const std::vector<int>&, int);
 }

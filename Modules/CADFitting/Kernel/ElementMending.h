@@ -27,10 +27,6 @@ Result<ElementVerdicts> CertifyElements(
 template <int Dim>
 std::vector<int> InvertedNets(const Spline<Dim>& spline, bool isReversed);
 
-/// Elements within so many rings of some, by common points of the mesh; ascending.
-template <int Dim>
-std::vector<int> Rings(const CellMesh<Dim>& mesh, const std::vector<int>& elements, int rings);
-
 /// Of a control point that stays whatever Attraction is; 1: it is held while Attraction is 0.
 inline constexpr char HeldFast = 2;
 

@@ -9,6 +9,11 @@ namespace knotwork
 {
 FitTarget::~FitTarget() = default;
 
+const TriangleIndex<3>* FitTarget::Triangles() const
+{
+  return nullptr;
+}
+
 PolylineFoot::PolylineFoot(PointMatrix points, bool closed)
   : Points(std::move(points)), Lengths{ 0.0 }, Closed(closed)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <knotwork/SplineCore/Status.h>
+#include <knotwork/SplineCore/TriangleIndex.h>
 #include <knotwork/SplineCore/Types.h>
 
 #include <array>
@@ -79,6 +80,9 @@ public:
 
   /// At least so many points, spread by area. @return none where there is no surface.
   virtual TargetSamples Samples(int atLeast) const = 0;
+
+  /// The triangles that the surface consists of; null where it is no such mesh.
+  virtual const TriangleIndex<3>* Triangles() const;
 
 protected:
   int FaceCount = 0;

@@ -68,6 +68,10 @@ private:
     std::vector<std::pair<double, std::pair<int, int>>> pairs; // distance, corner, point
     for (int c = 0; c < corners.rows(); ++c)
     {
+      if (this->Params.LeftOutCorners.count(c) != 0)
+      {
+        continue;
+      }
       for (const int point : this->Surface.Points)
       {
         const double distance = (this->Points.row(point) - corners.row(c)).norm();

@@ -29,6 +29,7 @@ struct ClassificationParams
   double MaxMove = 0.5;
   bool Faces = true;     ///< whether quadrilaterals are matched with faces
   std::set<int> LeftOut; ///< curves that are not looked for
+  std::set<int> LeftOutCorners;
 };
 
 /// Corners go to the nearest points of the mesh; curves to the paths of edges between them that are

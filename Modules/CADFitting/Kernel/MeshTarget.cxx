@@ -94,6 +94,8 @@ public:
     return samples;
   }
 
+  const TriangleIndex<3>* Triangles() const override { return &this->Whole; }
+
 private:
   void AddCurves(const SurfacePart& part)
   {

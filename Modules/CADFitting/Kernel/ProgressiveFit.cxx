@@ -134,9 +134,11 @@ class Steps
 {
 public:
   Steps(const FastPath<Dim>& path, const SurfaceMesh& surface, const MeshClassification& parts,
-    const PointMatrix& points, const FitTarget* target, const ProgressiveFitParams& params)
+    const PointMatrix& points, const FitTarget* target, const ProgressiveFitParams& params,
+    const Spline<Dim>* from)
     : Path(path), Space(path.Space), Surface(surface), Parts(parts), Target(target), Params(params),
-      Map(InterpolateVertices<Dim>(path.Space, points, params.LinearCells))
+      Map(from ? EvaluateSpline(*from)
+               : InterpolateVertices<Dim>(path.Space, points, params.LinearCells))
   {
   }
 
@@ -622,9 +624,9 @@ std::vector<CellSide> Prolong(
 template <int Dim>
 Result<ProgressiveFit<Dim>> FitProgressively(const FastPath<Dim>& path, const SurfaceMesh& surface,
   const MeshClassification& parts, const PointMatrix& points, const FitTarget* target,
-  const ProgressiveFitParams& params)
+  const ProgressiveFitParams& params, const Spline<Dim>* from)
 {
-  return Steps<Dim>(path, surface, parts, points, target, params).Run();
+  return Steps<Dim>(path, surface, parts, points, target, params, from).Run();
 }
 
 template std::vector<CellSide> FeatureFacets(
@@ -634,7 +636,9 @@ template std::vector<CellSide> FeatureFacets(
 template std::vector<CellSide> Prolong(const MeshTopology<2>&, const std::vector<CellSide>&);
 template std::vector<CellSide> Prolong(const MeshTopology<3>&, const std::vector<CellSide>&);
 template Result<ProgressiveFit<2>> FitProgressively(const FastPath<2>&, const SurfaceMesh&,
-  const MeshClassification&, const PointMatrix&, const FitTarget*, const ProgressiveFitParams&);
+  const MeshClassification&, const PointMatrix&, const FitTarget*, const ProgressiveFitParams&,
+  const Spline<2>*);
 template Result<ProgressiveFit<3>> FitProgressively(const FastPath<3>&, const SurfaceMesh&,
-  const MeshClassification&, const PointMatrix&, const FitTarget*, const ProgressiveFitParams&);
+  const MeshClassification&, const PointMatrix&, const FitTarget*, const ProgressiveFitParams&,
+  const Spline<3>*);
 }

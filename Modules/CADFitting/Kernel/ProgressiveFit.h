@@ -53,11 +53,12 @@ std::vector<CellSide> Prolong(
 /// surface, their closest points on the target's faces; on classified edges and rims those on
 /// curves; corners. Each overwrites the coefficients that it has, or constrains what is around.
 /// @param path  and the space. @param points  of the mesh, on the target. @param target  null: the
-/// points alone.
+/// points alone. @param from  a spline of the space that takes the place of these polynomials;
+/// null: none.
 /// @return the target's errors; Aborted.
 /// @source  Thomas, Scott, Evans, Tew, Evans, CMAME 284 (2015) 55-105.
 template <int Dim>
 Result<ProgressiveFit<Dim>> FitProgressively(const FastPath<Dim>& path, const SurfaceMesh& surface,
   const MeshClassification& parts, const PointMatrix& points, const FitTarget* target,
-  const ProgressiveFitParams& params);
+  const ProgressiveFitParams& params, const Spline<Dim>* from = nullptr);
 }

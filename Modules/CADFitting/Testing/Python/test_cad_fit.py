@@ -95,12 +95,15 @@ def test_scan_to_solid():
     assert numbers["verdict"] == "valid" and numbers["patches"] == 6 and numbers["path"] == "composite", numbers
     assert numbers["rms_distance"] < 0.25 * numbers["mesh_rms_distance"], numbers
     assert numbers["rms_distance_back"] < 0.25 * numbers["mesh_rms_distance_back"], numbers
+    assert numbers["max_distance"] <= numbers["max_distance_bound"] <= 1.5 * numbers["max_distance"], numbers
+    assert numbers["max_distance_back"] <= numbers["max_distance_back_bound"], numbers
     for key in ("functions", "elements", "max_distance", "max_distance_back", "min_jacobian_lower", "invalid_elements_before",
                 "smoothed_elements", "unmatched_features", "volume", "seconds"):
         assert key in numbers, key
     # the solid is the target of the next fit
     run("cadfit", "quads.off", "--target", "solid.step", "--degree", 2, "--output", "again.vtu", "--report", "again.json")
     again = report("again.json")
+    assert again["max_distance_bound"] == -1.0  # of triangles alone
     assert again["rms_distance"] < 0.3 * again["mesh_rms_distance"] and again["unmatched_features"] == 0, again
     assert abs(again["volume"] - numbers["volume"]) < 1e-3 * numbers["volume"]
 
