@@ -5,7 +5,7 @@
 usage: processes_table.py PROGRAM [--seconds S] [--folder FOLDER] [--write PAGE]
 
 --seconds: of one thread that the work is made for (10). --write puts the tables between the comments `the table of processes: begin` and `end` of a page.
-Every run is one thread a process, or two threads of one process; the fastest of three. "seconds" are those of the job's work (`seconds` of the report, the
+Every run is one thread a process, or two threads of one process; the fastest of three. Processes that wait for others use the processor, too. "seconds" are those of the job's work (`seconds` of the report, the
 largest of the processes), without start and files; memory is the largest resident set of a process, less that of `--help`'s; work is the share of the processor time.
 Weak scaling doubles the cells or points with the processes. The model is on the page: seconds = n t / (ranks) + files and exchanges measured at one and two.
 """
@@ -37,11 +37,24 @@ def run(program, folder, processes, threads, words):
 
 
 def make_grid(program, folder, name, elements):
-    """A curved solid of so many triquadratic elements in a direction, in two pieces too."""
+    """A curved solid of so many Bezier elements in a direction, in two pieces too. Without the spline's definition: patches would stay whole."""
+    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter
     job = [program, "source", "--shape", "solid-tube", "--elements", *map(str, elements), "--output", "spline.vtu", "--force", "--quiet"]
     subprocess.run(job, cwd=folder, check=True)
-    for ending, words in ((".vtu", []), (".pvtu", ["--pieces", "2"])):
-        subprocess.run([program, "convert", "spline.vtu", "--output", name + ending, "--force", "--quiet", *words], cwd=folder, check=True)
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(os.path.join(folder, "spline.vtu"))
+    reader.Update()
+    grid = reader.GetOutput()
+    grid.GetFieldData().Initialize()
+    for array in ("PatchBasis", "ElementId"):
+        grid.GetCellData().RemoveArray(array)
+    writer = vtkXMLUnstructuredGridWriter()
+    writer.SetInputData(grid)
+    writer.SetDataModeToBinary()
+    writer.SetFileName(os.path.join(folder, name + ".vtu"))
+    writer.Write()
+    words = [program, "convert", name + ".vtu", "--output", name + ".pvtu", "--force", "--quiet", "--pieces", "2"]
+    subprocess.run(words, cwd=folder, check=True)
 
 
 def make_points(folder, name, n):

@@ -35,7 +35,7 @@ public:
 
   int AllGatherVoidArray(const void* mine, void* all, vtkIdType, int type) override
   {
-    EXPECT_EQ(type, VTK_ID_TYPE); // lengths
+    EXPECT_EQ(type, VTK_ID_TYPE_IMPL); // lengths
     auto* lengths = static_cast<vtkIdType*>(all);
     lengths[this->LocalProcessId] = *static_cast<const vtkIdType*>(mine);
     lengths[1 - this->LocalProcessId] = static_cast<vtkIdType>(this->Other.size());
