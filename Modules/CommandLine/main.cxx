@@ -185,7 +185,7 @@ int main(int argc, char* argv[])
   }
   catch (const CLI::ParseError& error)
   {
-    return Explain(app, error);
+    return knotwork::FindParallelStart().IsFirst ? Explain(app, error) : WrongUsage;
   }
   if (knotwork::FindParallelStart().IsFirst)
   {

@@ -56,10 +56,12 @@ std::string NameOf(const fs::path& index, std::size_t number)
     (IsOfPolygons(index.string()) ? ".vtp" : ".vtu");
 }
 
+/// Whether patches have definitions that the grid states, which need all of their cells.
 bool IsSpline(vtkDataObject* piece)
 {
   auto* grid = vtkUnstructuredGrid::SafeDownCast(piece);
-  return grid && grid->GetCellData()->HasArray(name::Basis) != 0;
+  vtkDataArray* basis = grid ? grid->GetCellData()->GetArray(name::Basis) : nullptr;
+  return basis && basis->GetRange()[1] > 0.0;
 }
 
 /// Puts arrays into the order that they have in another data set.
