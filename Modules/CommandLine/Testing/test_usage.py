@@ -90,8 +90,8 @@ def test_formats_of_help_pages_and_paraview_are_one_list():
     rows = page[page.index("| data | endings |"):].split("\n\n")[0]
     assert set(re.findall(r"\.[a-z][a-z0-9]+", rows)) == written, rows
     dialogs = ElementTree.parse(os.path.join(MODULES, "SplineIO", "ParaView", "SplineIO.xml"))
-    for kind, known, own in (("ReaderFactory", read, {".vtu", ".vtp", ".vtpc", ".vtk", ".obj", ".stl"}),
-                             ("WriterFactory", written, {".vtu", ".vtp", ".vtpc", ".vti", ".csv", ".obj", ".stl", ".ply"})):
+    for kind, known, own in (("ReaderFactory", read, {".vtu", ".vtp", ".vtpc", ".pvtu", ".pvtp", ".vtk", ".obj", ".stl"}),
+                             ("WriterFactory", written, {".vtu", ".vtp", ".vtpc", ".pvtu", ".pvtp", ".vti", ".csv", ".obj", ".stl", ".ply"})):
         offered = ["." + ending for one in dialogs.iter(kind) for ending in one.get("extensions").split()]
         assert set(offered) | own == known, (kind, set(offered) ^ known)  # the others are ParaView's own
 
