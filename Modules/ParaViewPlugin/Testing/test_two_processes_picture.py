@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A pipeline of pvbatch in two processes, each of which reads and draws its pieces, makes the picture that one process makes."""
+"""A pipeline of pvbatch in two processes, each of which reads and draws its pieces, makes the picture that one process makes, but for
+the shading where pieces meet."""
 import os
 import shutil
 import subprocess
@@ -20,6 +21,7 @@ def draw(file, picture):
     simple.ColorBy(shown, ("CELLS", "JacobianMinLower"))
     shown.RescaleTransferFunctionToDataRange(False, True)
     shown.SetScalarBarVisibility(view, False)
+    shown.Ambient, shown.Diffuse = 1, 0  # normals where pieces meet are those of each piece
     view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [3, -4, 3], [0, 0, 0], [0, 0, 1]
     simple.ResetCamera(view)
     simple.SaveScreenshot(picture, view, ImageResolution=[300, 300])

@@ -39,23 +39,24 @@ TEST(FileFormats, WhatIsNoFormatIsNotFound_ExactOracle)
 TEST(FileFormats, EndingsFollowTheContent_ExactOracle)
 {
   const auto writing = [](unsigned contents) { return JoinEndings(EndingsThatWrite(contents)); };
-  EXPECT_EQ(writing(SplineGridContent), ".vtu .xml .g2 .step .stp .iges .igs .bext .json");
+  EXPECT_EQ(writing(SplineGridContent), ".vtu .pvtu .xml .g2 .step .stp .iges .igs .bext .json");
   EXPECT_EQ(writing(SplineCollectionContent), ".vtpc .xml .g2 .step .stp .iges .igs .bext .json");
   EXPECT_EQ(writing(TrimmedFaceContent), ".vtu .step .stp .iges .igs");
   EXPECT_EQ(writing(PolygonCollectionContent), ".vtpc .stl .obj .ply");
-  EXPECT_EQ(writing(PolygonContent), ".vtp .stl .obj .ply .mesh .msh");
-  EXPECT_EQ(
-    writing(PolylineContent | SplineCurveContent), ".vtp .vtu .xml .g2 .bext .json .mesh .msh");
-  EXPECT_EQ(writing(PointContent), ".vtp .xyz .txt .csv .g2");
+  EXPECT_EQ(writing(PolygonContent), ".vtp .pvtp .stl .obj .ply .mesh .msh");
+  EXPECT_EQ(writing(PolylineContent | SplineCurveContent),
+    ".vtp .vtu .pvtp .xml .g2 .bext .json .mesh .msh");
+  EXPECT_EQ(writing(PointContent), ".vtp .pvtp .xyz .txt .csv .g2");
   EXPECT_EQ(writing(ImageContent), ".vti");
   EXPECT_EQ(writing(TableContent), ".csv");
   EXPECT_EQ(writing(0), "");
   EXPECT_EQ(JoinEndings(EndingsThatRead(AnyContent)),
-    ".vtp .vtu .vtpc .vtk .xml .xyz .txt .csv .g2 .step .stp .iges .igs .brep .stl .obj .ply .las "
+    ".vtp .vtu .pvtu .pvtp .vtpc .vtk .xml .xyz .txt .csv .g2 .step .stp .iges .igs .brep .stl "
+    ".obj .ply .las "
     ".laz .off .svg "
     ".bext "
     ".json .mesh .msh .inp");
   EXPECT_EQ(JoinEndings(EndingsThatRead(PointContent)),
-    ".vtp .xyz .txt .csv .g2 .stl .obj .ply .las .laz .off .svg");
-  EXPECT_EQ(writing(GridContent), ".vtu .mesh .msh");
+    ".vtp .pvtp .xyz .txt .csv .g2 .stl .obj .ply .las .laz .off .svg");
+  EXPECT_EQ(writing(GridContent), ".vtu .pvtu .mesh .msh");
 }
