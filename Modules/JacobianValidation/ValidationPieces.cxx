@@ -75,21 +75,28 @@ private:
   std::size_t At = 0;
 };
 
+/// The arrays of a piece that are handed over, in their order.
+template <typename Piece, typename Visit>
+void EachArray(Piece& piece, const Visit& visit)
+{
+  visit(piece.Cells.Shapes);
+  visit(piece.Cells.Degrees);
+  visit(piece.Cells.Data);
+  visit(piece.Cells.Errors);
+  visit(piece.Cells.Remainders);
+  visit(piece.Complex.Boxes);
+  visit(piece.Complex.PointIds);
+  visit(piece.Names);
+  visit(piece.Certificates);
+  visit(piece.Witnesses);
+}
+
 std::string Pack(const CertifiedPiece& piece)
 {
   Bytes bytes;
   bytes.Add(std::vector<int>{
     piece.Cells.NumComponents, piece.Cells.Rational ? 1 : 0, piece.HasPatches ? 1 : 0 });
-  bytes.Add(piece.Cells.Shapes);
-  bytes.Add(piece.Cells.Degrees);
-  bytes.Add(piece.Cells.Data);
-  bytes.Add(piece.Cells.Errors);
-  bytes.Add(piece.Cells.Remainders);
-  bytes.Add(piece.Complex.Boxes);
-  bytes.Add(piece.Complex.PointIds);
-  bytes.Add(piece.Names);
-  bytes.Add(piece.Certificates);
-  bytes.Add(piece.Witnesses);
+  EachArray(piece, [&bytes](const auto& values) { bytes.Add(values); });
   return bytes.Get();
 }
 
@@ -102,16 +109,7 @@ CertifiedPiece Unpack(std::string text)
   piece.Cells.NumComponents = flags[0];
   piece.Cells.Rational = flags[1] != 0;
   piece.HasPatches = flags[2] != 0;
-  bytes.Take(piece.Cells.Shapes);
-  bytes.Take(piece.Cells.Degrees);
-  bytes.Take(piece.Cells.Data);
-  bytes.Take(piece.Cells.Errors);
-  bytes.Take(piece.Cells.Remainders);
-  bytes.Take(piece.Complex.Boxes);
-  bytes.Take(piece.Complex.PointIds);
-  bytes.Take(piece.Names);
-  bytes.Take(piece.Certificates);
-  bytes.Take(piece.Witnesses);
+  EachArray(piece, [&bytes](auto& values) { bytes.Take(values); });
   for (std::size_t i = 0; i < piece.Cells.Shapes.size(); ++i)
   {
     piece.Cells.Offsets.push_back(piece.Cells.Offsets.back() +
