@@ -29,6 +29,7 @@ public:
   {
     this->DecisivePort = Levels;
     this->AddInput(0, "input", "surfaces (.vtu .vtpc .xml .g2)");
+    this->Divide(0, Share::Blocks);
     this->AddOutput(
       Polylines, "--output", Endings::Contours, "polylines, or spline curves with the same bound");
     this->AddOutput(Levels, "--table", Endings::Table, "table of the levels");
@@ -101,6 +102,6 @@ private:
 const JobRegistration Registration{ "contour",
   "iso-curves of a spline surface to a guaranteed tolerance",
   "terrain.vtu --levels 0.05 0.1 --tolerance 1e-3 --output lines.vtp --report lines.json",
-  MakeJob<ContourJob> };
+  MakeJob<ContourJob>, JobProcesses::Several };
 }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterJob.h"
 
+#include <knotwork/SplineGrid/Processes.h>
 #include <knotwork/SurfaceFeatures/vtkSplineExtrema.h>
 
 #include <vtkTable.h>
@@ -19,6 +20,7 @@ public:
   {
     this->DecisivePort = Numbers; // no point of the chosen kinds is a result, too
     this->AddInput(0, "input", "spline surfaces (.vtu .vtpc .xml .g2 .step .iges)");
+    this->Divide(0, Share::Blocks);
     this->AddOutput(0, "--output", Endings::Points, "critical points as vertices");
     this->AddOutput(1, "--boxes", Endings::Polygons, "boxes that hold one point, or a cluster");
     this->AddOutput(Numbers, "--table", Endings::Table, "numbers of points and clusters");
@@ -35,7 +37,7 @@ protected:
       session.Report);
     ReportTruths(table, 0, { "Proved" }, session.Report);
     session.Report["boundary"] = table->GetValueByName(0, "OnBoundary").ToInt();
-    if (!session.Quiet)
+    if (!session.Quiet && Processes::Own() == 0)
     {
       const nlohmann::ordered_json& report = session.Report;
       std::cout << report["minima"] << " minima, " << report["maxima"] << " maxima, "
@@ -51,6 +53,7 @@ private:
 
 const JobRegistration Registration{ "extrema",
   "find all minima, maxima and saddles of a surface, proved",
-  "terrain.vtu --output points.vtp --report extrema.json", MakeJob<ExtremaJob> };
+  "terrain.vtu --output points.vtp --report extrema.json", MakeJob<ExtremaJob>,
+  JobProcesses::Several };
 }
 }

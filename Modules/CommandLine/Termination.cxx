@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <iostream>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -140,9 +141,10 @@ void SpeakAfter(const std::vector<int>& processes)
   Shared().Speakers = processes;
 }
 
-void BeSilent()
+void LastWord(const std::string& line)
 {
   const auto lock = Hold();
+  std::cerr << line << std::flush;
   Shared().IsSilent = true;
 }
 

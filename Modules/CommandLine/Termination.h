@@ -24,11 +24,11 @@ void Begin(const std::string& job);
 /// where all are ended.
 void SpeakAfter(const std::vector<int>& processes);
 
-/// From here on a signal ends this process without a line: all is said.
-void BeSilent();
+/// Prints a line about a failure, or nothing; from here on a signal ends this process without a
+/// line: all is said.
+void LastWord(const std::string& line);
 
-/// While this is held, no signal ends the program: what is done is done whole. Every line about a
-/// failure is printed under it, so that there are never two.
+/// While this is held, no signal ends the program: what is done is done whole.
 std::unique_lock<std::mutex> Hold();
 
 /// Folders that are removed when a signal comes, before Whole has succeeded: then it is too late.

@@ -63,8 +63,7 @@ void RefuseOctalNumbers(CLI::App& job)
 /// One line, whatever the message holds.
 int Fail(const std::string& job, const std::string& message)
 {
-  const auto lock = knotwork::Termination::Hold();
-  std::cerr << "knotwork " << job << ": " << knotwork::OneLine(message) << "\n";
+  knotwork::Termination::LastWord("knotwork " + job + ": " + knotwork::OneLine(message) + "\n");
   return Failure;
 }
 
@@ -219,12 +218,18 @@ int main(int argc, char* argv[])
       status = status ? Run(*job, run, session) : status;
       if (knotwork::Processes::Own() != 0)
       {
-        knotwork::Termination::BeSilent(); // mpirun ends those that are slower than the first one
+        knotwork::Termination::LastWord(""); // what fails in one of several has failed in all
       }
-      // what fails in one of several processes has failed in all
-      return status                       ? session.ExitStatus
-        : knotwork::Processes::Own() == 0 ? Fail(job->get_name(), status.Detail)
-                                          : Failure;
+      else if (!status)
+      {
+        Fail(job->get_name(), status.Detail);
+      }
+      if (!status)
+      {
+        // mpirun ends the others when one leaves: none does before the first has spoken
+        static_cast<void>(knotwork::Processes::Agree({}));
+      }
+      return status ? session.ExitStatus : Failure;
     }
     catch (...) // of a library, e.g. out of memory
     {

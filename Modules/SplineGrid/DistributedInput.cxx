@@ -140,6 +140,21 @@ std::uint64_t Fingerprint(vtkDataObject* data)
   }
   return HasElements(data) ? hash : 0;
 }
+
+std::string BytesOf(vtkDataObject* data)
+{
+  vtkNew<vtkCharArray> bytes;
+  vtkCommunicator::MarshalDataObject(data, bytes);
+  return { bytes->GetPointer(0), static_cast<std::size_t>(bytes->GetNumberOfTuples()) };
+}
+
+vtkSmartPointer<vtkDataObject> DataOf(const std::string& sent)
+{
+  vtkNew<vtkCharArray> bytes;
+  bytes->SetNumberOfTuples(static_cast<vtkIdType>(sent.size()));
+  std::copy(sent.begin(), sent.end(), bytes->GetPointer(0));
+  return vtkCommunicator::UnMarshalDataObject(bytes);
+}
 }
 
 Result<vtkSmartPointer<vtkDataObject>> WholeForAll(vtkDataObject* own)
@@ -170,20 +185,20 @@ Result<vtkSmartPointer<vtkDataObject>> WholeForAll(vtkDataObject* own)
   {
     return vtkSmartPointer<vtkDataObject>(withData == 0 ? nullptr : own);
   }
-  vtkNew<vtkCharArray> bytes;
-  if (from == Processes::Own())
+  const std::string sent =
+    Processes::Broadcast(from == Processes::Own() ? BytesOf(own) : std::string(), from);
+  return HasElements(own) ? vtkSmartPointer<vtkDataObject>(own) : DataOf(sent);
+}
+
+std::vector<vtkSmartPointer<vtkDataObject>> CollectData(vtkDataObject* own)
+{
+  std::vector<vtkSmartPointer<vtkDataObject>> all;
+  for (const std::string& bytes :
+    Processes::Collect(Processes::Own() == 0 ? std::string() : BytesOf(own)))
   {
-    vtkCommunicator::MarshalDataObject(own, bytes);
+    all.push_back(all.empty() ? vtkSmartPointer<vtkDataObject>(own) : DataOf(bytes));
   }
-  const std::string sent = Processes::Broadcast(
-    std::string(bytes->GetPointer(0), static_cast<std::size_t>(bytes->GetNumberOfTuples())), from);
-  if (HasElements(own))
-  {
-    return vtkSmartPointer<vtkDataObject>(own);
-  }
-  bytes->SetNumberOfTuples(static_cast<vtkIdType>(sent.size()));
-  std::copy(sent.begin(), sent.end(), bytes->GetPointer(0));
-  return vtkCommunicator::UnMarshalDataObject(bytes);
+  return all;
 }
 
 Status CheckOneWriter(vtkDataObject* data, bool& idle)

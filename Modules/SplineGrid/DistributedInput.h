@@ -5,6 +5,9 @@
 
 #include "vtkSmartPointer.h"
 
+#include <string>
+#include <vector>
+
 class vtkDataObject;
 class vtkInformationVector;
 
@@ -36,6 +39,12 @@ VTKKNOTWORKSPLINEGRID_EXPORT Status CheckWholeInput(
 /// @return what this process works with, null where no process has data; InvalidTopology: several
 /// have data that differ, so what they have are pieces.
 VTKKNOTWORKSPLINEGRID_EXPORT Result<vtkSmartPointer<vtkDataObject>> WholeForAll(vtkDataObject* own);
+
+/// What processes have made, in their order, in the first of them; empty elsewhere. Exact; names of
+/// arrays and what they hold stay, active attributes may not.
+/// @pre all processes call it.
+VTKKNOTWORKSPLINEGRID_EXPORT std::vector<vtkSmartPointer<vtkDataObject>> CollectData(
+  vtkDataObject* own);
 
 /// Whether a writer of one file may write: not as one of several processes, each of which would
 /// write the file. Nothing is exchanged between them, so that none waits.

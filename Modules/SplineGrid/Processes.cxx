@@ -141,11 +141,12 @@ Status Agree(const Status& own, int* speaker)
   {
     const auto number = static_cast<int>(found - all.begin());
     say(number);
-    const std::string place = number == 0 || !hasText(*found) ? ""
-                                                              : " (process " +
-        std::to_string(number) + " of " + std::to_string(Count()) + ", counted from 0)";
-    return { static_cast<ErrorCode>(std::stoi(*found)),
-      found->substr(found->find(' ') + 1) + place };
+    const std::string text = found->substr(found->find(' ') + 1);
+    const std::string place = " (process " + std::to_string(number) + " of " +
+      std::to_string(Count()) + ", counted from 0)";
+    // whoever agreed before has told the place
+    const bool isPlaced = number == 0 || text.empty() || text.find(place) != std::string::npos;
+    return { static_cast<ErrorCode>(std::stoi(*found)), isPlaced ? text : text + place };
   }
   say(0);
   return {};

@@ -13,10 +13,16 @@
 #include "vtkSmartPointer.h"
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
+#include <knotwork/SplineGrid/DistributedInput.h>
+#include <knotwork/SplineGrid/MergeTables.h>
 #include <knotwork/SplineGrid/NamedArray.h>
+#include <knotwork/SplineGrid/Processes.h>
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <map>
+#include <numeric>
 #include <variant>
 
 namespace knotwork
@@ -24,6 +30,9 @@ namespace knotwork
 namespace
 {
 constexpr int NumCoordinates = 3;
+/// Of the cells of curves, beside those that all splines have.
+constexpr std::array<const char*, 5> CurveArrays = { "Level", "ComponentId", "Closed", "SurfaceId",
+  "MaxError" };
 
 Status OfPatch(int patch, const Status& status)
 {
@@ -77,26 +86,15 @@ Result<Spline<2>> SurfaceOf(const SplinePatch& patch, const ContourChoice& choic
 }
 
 /// Levels and tolerance of all patches together, where they are left open.
-void CompleteParams(
-  const std::vector<PatchContours>& patches, const ContourChoice& choice, ContourParams& params)
+void CompleteParams(const ContourRanges& ranges, const ContourChoice& choice, ContourParams& params)
 {
-  const auto rangeOf = [&patches](int component)
-  {
-    std::array<double, 2> range{ HUGE_VAL, -HUGE_VAL };
-    for (const PatchContours& patch : patches)
-    {
-      const std::array<double, 2> corners = CornerRange(patch.Form, component);
-      range = { std::min(range[0], corners[0]), std::max(range[1], corners[1]) };
-    }
-    return range;
-  };
-  const std::array<double, 2> range = rangeOf(params.Component);
+  const std::array<double, 2>& range = ranges.back();
   if (params.ChordTolerance == 0.0)
   {
     double squared = 0.0;
-    for (int c = 0; c < NumCoordinates; ++c)
+    for (std::size_t c = 0; c < NumCoordinates; ++c)
     {
-      const std::array<double, 2> side = rangeOf(c);
+      const std::array<double, 2>& side = ranges[c];
       squared += (side[1] - side[0]) * (side[1] - side[0]);
     }
     params.ChordTolerance = 1e-3 * std::sqrt(squared);
@@ -123,31 +121,43 @@ void CompleteParams(
 }
 }
 
-Result<std::vector<PatchContours>> TracePatches(
-  const SplineModel& model, const ContourChoice& choice)
+Result<ContourPatches> PreparePatches(const SplineModel& model, const ContourChoice& choice)
 {
-  std::vector<PatchContours> patches;
-  ContourParams params = choice.Params;
-  params.NumSpaceComponents = NumCoordinates;
+  ContourPatches prepared;
+  prepared.Ranges.fill({ HUGE_VAL, -HUGE_VAL });
   for (const SplinePatch& patch : model.Patches)
   {
-    const Result<Spline<2>> surface = SurfaceOf(patch, choice, params.Component);
+    PatchContours made;
+    made.PatchId = patch.Id;
+    const Result<Spline<2>> surface = SurfaceOf(patch, choice, made.Component);
     if (!surface)
     {
       return OfPatch(patch.Id, surface.Status);
     }
-    patches.push_back(
-      { patch.Id, params.Component, MakeBezierForm(surface.Value, params.Threads), {}, {} });
+    made.Form = MakeBezierForm(surface.Value, choice.Params.Threads);
+    for (std::size_t c = 0; c < prepared.Ranges.size(); ++c)
+    {
+      const std::array<double, 2> corners =
+        CornerRange(made.Form, c < NumCoordinates ? static_cast<int>(c) : made.Component);
+      std::array<double, 2>& range = prepared.Ranges[c];
+      range = { std::min(range[0], corners[0]), std::max(range[1], corners[1]) };
+    }
+    prepared.Patches.push_back(std::move(made));
   }
-  if (patches.empty())
-  {
-    return patches;
-  }
-  CompleteParams(patches, choice, params);
+  return prepared;
+}
+
+Status TracePatches(const ContourChoice& choice, ContourPatches& prepared)
+{
+  ContourParams params = choice.Params;
+  params.NumSpaceComponents = NumCoordinates;
+  CompleteParams(prepared.Ranges, choice, params);
+  std::vector<PatchContours>& patches = prepared.Patches;
   const double share = 1.0 / static_cast<double>(patches.size());
   for (std::size_t i = 0; i < patches.size(); ++i)
   {
     PatchContours& patch = patches[i];
+    params.Component = patch.Component;
     if (choice.Params.Progress)
     {
       params.Progress = [&, i](double done)
@@ -170,7 +180,7 @@ Result<std::vector<PatchContours>> TracePatches(
       patch.Curves = std::move(curves.Value);
     }
   }
-  return patches;
+  return {};
 }
 
 Status EncodePolylines(
@@ -297,6 +307,88 @@ Status EncodeCurves(
     output->GetCellData()->AddArray(array);
   }
   return {};
+}
+
+namespace
+{
+void AddToAll(vtkDataArray* numbers, int offset)
+{
+  for (vtkIdType i = 0; i < numbers->GetNumberOfTuples(); ++i)
+  {
+    numbers->SetTuple1(i, numbers->GetTuple1(i) + offset);
+  }
+}
+
+/// Curves of the processes as one grid of patches in the first of them.
+Status UniteCurves(int threads, vtkUnstructuredGrid* curves)
+{
+  SplineModel all;
+  std::map<std::string, vtkSmartPointer<vtkDataArray>> arrays;
+  for (const vtkSmartPointer<vtkDataObject>& data : CollectData(curves))
+  {
+    auto* grid = vtkUnstructuredGrid::SafeDownCast(data);
+    if (!grid || grid->GetNumberOfCells() == 0)
+    {
+      continue;
+    }
+    auto model = DecodeSplineModel(grid, threads);
+    if (!model)
+    {
+      return model.Status;
+    }
+    for (SplinePatch& patch : model->Patches)
+    {
+      patch.Id = static_cast<int>(all.Patches.size());
+      all.Patches.push_back(std::move(patch));
+    }
+    for (const char* name : CurveArrays)
+    {
+      vtkDataArray* array = grid->GetCellData()->GetArray(name);
+      vtkSmartPointer<vtkDataArray>& joined = arrays[name];
+      if (!joined)
+      {
+        joined = vtkSmartPointer<vtkDataArray>::Take(array->NewInstance());
+        joined->SetName(name);
+      }
+      joined->InsertTuples(joined->GetNumberOfTuples(), array->GetNumberOfTuples(), 0, array);
+    }
+  }
+  curves->Initialize();
+  if (all.Patches.empty())
+  {
+    return {};
+  }
+  if (const Status status = EncodeSplineGrid(all, curves); !status)
+  {
+    return status;
+  }
+  for (const char* name : CurveArrays)
+  {
+    curves->GetCellData()->AddArray(arrays[name]);
+  }
+  return {};
+}
+}
+
+Status MergeContours(
+  int threads, vtkPolyData* polylines, vtkUnstructuredGrid* curves, vtkTable* levels)
+{
+  MergedTable how;
+  how.Key = "Level";
+  how.Columns = { { "Components", Merging::Sum }, { "Closed", Merging::Sum },
+    { "Points", Merging::Sum }, { "MaxError", Merging::Largest }, { "Undecided", Merging::Sum } };
+  MergeTables(levels, how);
+  const std::vector<int> counts =
+    Processes::ExchangeNumber(static_cast<int>(polylines->GetNumberOfCells()));
+  const int before = std::accumulate(counts.begin(), counts.begin() + Processes::Own(), 0);
+  for (vtkDataSet* lines : std::initializer_list<vtkDataSet*>{ polylines, curves })
+  {
+    if (vtkDataArray* numbers = lines->GetCellData()->GetArray("ComponentId"))
+    {
+      AddToAll(numbers, before);
+    }
+  }
+  return UniteCurves(threads, curves);
 }
 
 void EncodeLevels(const std::vector<PatchContours>& patches, vtkTable* output)

@@ -33,11 +33,25 @@ struct PatchContours
   std::vector<ContourCurve> Curves; ///< empty unless wanted
 };
 
-/// Contours of all patches at the same levels with the same tolerance.
+/// Least and largest values at the corners of elements: of x, y, z and the function; without
+/// patches infinite, the first above the second.
+using ContourRanges = std::array<std::array<double, 2>, 4>;
+
+/// Patches before they are contoured.
+struct ContourPatches
+{
+  std::vector<PatchContours> Patches;
+  ContourRanges Ranges;
+};
+
 /// @return DimensionMismatch for patches that are no surfaces; InvalidParameter for a field or
-/// component that a patch does not have; failures of TraceContours. With the patch.
-Result<std::vector<PatchContours>> TracePatches(
-  const SplineModel& model, const ContourChoice& choice);
+/// component that a patch does not have. With the patch.
+Result<ContourPatches> PreparePatches(const SplineModel& model, const ContourChoice& choice);
+
+/// Contours of all patches at the same levels with the same tolerance.
+/// @param patches  of Ranges follow levels and tolerances that are left open.
+/// @return failures of TraceContours, with the patch.
+Status TracePatches(const ContourChoice& choice, ContourPatches& patches);
 
 /// Polylines: point arrays `Value`, `ElementId` (of the piece that begins at the point), `UV` (the
 /// parameters); cell arrays `Level`, `ComponentId`, `Closed`, `PatchId`, `MaxError`.
@@ -49,6 +63,12 @@ Status EncodePolylines(
 /// domain.
 Status EncodeCurves(
   const std::vector<PatchContours>& patches, bool projectToLevel, vtkUnstructuredGrid* output);
+
+/// Makes what processes have traced, their polylines, curves and levels, parts of one result:
+/// components are counted on, the levels are of all, and the curves stand in the first process.
+/// @pre all processes call it.
+Status MergeContours(
+  int threads, vtkPolyData* polylines, vtkUnstructuredGrid* curves, vtkTable* levels);
 
 /// A row a level: Level, Components, Closed, Points, MaxError, Undecided, Tolerance.
 void EncodeLevels(const std::vector<PatchContours>& patches, vtkTable* output);

@@ -2,6 +2,8 @@
 #include "ExtremaData.h"
 
 #include <knotwork/SplineCore/BezierForm.h>
+#include <knotwork/SplineGrid/MergeTables.h>
+#include <knotwork/SplineGrid/Processes.h>
 #include <knotwork/SplineGrid/TableRow.h>
 
 #include "vtkCellArray.h"
@@ -15,6 +17,10 @@
 #include "vtkSmartPointer.h"
 #include "vtkTable.h"
 #include "vtkTypeInt64Array.h"
+#include "vtkVariant.h"
+
+#include <algorithm>
+#include <numeric>
 
 namespace knotwork
 {
@@ -294,5 +300,31 @@ void EncodeCounts(const std::vector<PatchPoints>& patches, vtkTable* table)
   AddColumn(table, "EulerCharacteristic", characteristic);
   AddToRow<vtkTypeInt64Array>(table, "BoxesTested", tested);
   AddColumn(table, "Proved", proved ? 1 : 0);
+}
+
+void MergeExtrema(vtkPolyData* points, vtkPolyData* boxes, vtkTable* table)
+{
+  const auto countOn = [boxes](const char* name, int own)
+  {
+    const std::vector<int> counts = Processes::ExchangeNumber(own);
+    const int before = std::accumulate(counts.begin(), counts.begin() + Processes::Own(), 0);
+    vtkDataArray* numbers = boxes->GetCellData()->GetArray(name);
+    for (vtkIdType i = 0; numbers && i < numbers->GetNumberOfTuples(); ++i)
+    {
+      const double number = numbers->GetTuple1(i);
+      numbers->SetTuple1(i, number < 0.0 ? number : number + before);
+    }
+  };
+  countOn("PointId", static_cast<int>(points->GetNumberOfPoints()));
+  countOn(
+    "ClusterId", table->GetNumberOfRows() == 0 ? 0 : table->GetValueByName(0, "Clusters").ToInt());
+  MergedTable how;
+  for (const char* counted : { "Minima", "Maxima", "Saddles", "OnBoundary", "Clusters",
+         "ClusterBoxes", "IndexSum", "EulerCharacteristic", "BoxesTested" })
+  {
+    how.Columns.push_back({ counted, Merging::Sum });
+  }
+  how.Columns.push_back({ "Proved", Merging::Least });
+  MergeTables(table, how);
 }
 }

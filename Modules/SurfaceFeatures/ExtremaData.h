@@ -31,4 +31,9 @@ struct ExtremaChoice
 Status EncodeExtrema(const std::vector<PatchPoints>& patches, const ExtremaChoice& choice,
   vtkPolyData* points, vtkPolyData* boxes);
 void EncodeCounts(const std::vector<PatchPoints>& patches, vtkTable* table);
+
+/// Makes the outputs of processes pieces of one: points and clusters are counted on, the numbers
+/// are of all, in the first process.
+/// @pre all processes call it.
+void MergeExtrema(vtkPolyData* points, vtkPolyData* boxes, vtkTable* table);
 }

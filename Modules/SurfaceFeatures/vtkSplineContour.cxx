@@ -9,6 +9,11 @@
 #include "vtkPolyData.h"
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
+#include <knotwork/SplineGrid/DistributedInput.h>
+#include <knotwork/SplineGrid/Processes.h>
+
+#include <algorithm>
+#include <cmath>
 
 vtkStandardNewMacro(vtkSplineContour);
 
@@ -32,16 +37,24 @@ void vtkSplineContour::ClearLevels()
   }
 }
 
-knotwork::Status vtkSplineContour::Compute(
-  vtkInformationVector** inputs, vtkInformationVector* outputs)
+struct vtkSplineContour::Preparation
+{
+  knotwork::ContourChoice Choice;
+  knotwork::ContourPatches Surfaces;
+};
+
+vtkSplineContour::~vtkSplineContour() = default;
+
+knotwork::Status vtkSplineContour::Prepare(vtkInformationVector** inputs)
 {
   using namespace knotwork;
+  this->Prepared = std::make_unique<Preparation>();
   const auto model = this->DecodeInput(vtkDataObject::GetData(inputs[0], 0));
   if (!model)
   {
     return model.Status;
   }
-  ContourChoice choice;
+  ContourChoice& choice = this->Prepared->Choice;
   choice.Field = this->FieldName == "None" ? "" : this->FieldName;
   choice.Component = this->Component;
   choice.Range = { this->Range[0], this->Range[1] };
@@ -55,13 +68,52 @@ knotwork::Status vtkSplineContour::Compute(
   choice.Params.MaxPoints = this->MaximumPoints;
   choice.Params.Threads = this->KernelThreads();
   choice.Params.Progress = this->Progress();
-  const auto patches = TracePatches(model.Value, choice);
-  if (!patches)
+  auto surfaces = PreparePatches(model.Value, choice);
+  this->Prepared->Surfaces = std::move(surfaces.Value);
+  return surfaces.Status;
+}
+
+knotwork::Status vtkSplineContour::Gather(vtkInformationVector** inputs)
+{
+  using namespace knotwork;
+  ContourRanges own;
+  own.fill({ HUGE_VAL, -HUGE_VAL });
+  Status status;
+  if (HasData(inputs, 1))
   {
-    return patches.Status;
+    status = this->Prepare(inputs);
+    own = status ? this->Prepared->Surfaces.Ranges : own;
   }
+  ContourRanges whole = own;
+  for (const auto& piece : Processes::Exchange(std::vector<ContourRanges>{ own }))
+  {
+    for (std::size_t c = 0; c < whole.size(); ++c)
+    {
+      whole[c] = { std::min(whole[c][0], piece.front()[c][0]),
+        std::max(whole[c][1], piece.front()[c][1]) };
+    }
+  }
+  if (this->Prepared)
+  {
+    this->Prepared->Surfaces.Ranges = whole;
+  }
+  return status;
+}
+
+knotwork::Status vtkSplineContour::Compute(
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  using namespace knotwork;
+  Status status = Processes::Count() > 1 ? Status() : this->Prepare(inputs); // else gathered
+  const std::unique_ptr<Preparation> prepared = std::move(this->Prepared);
+  status = status ? TracePatches(prepared->Choice, prepared->Surfaces) : status;
+  if (!status)
+  {
+    return status;
+  }
+  const std::vector<PatchContours>& patches = prepared->Surfaces.Patches;
   std::size_t undecided = 0;
-  for (const PatchContours& patch : patches.Value)
+  for (const PatchContours& patch : patches)
   {
     undecided += patch.Contours.Undecided.size();
   }
@@ -72,12 +124,16 @@ knotwork::Status vtkSplineContour::Compute(
       "or raise MaximumCells" });
   }
   const int threads = this->KernelThreads();
-  EncodeLevels(patches.Value, vtkTable::GetData(outputs, 2));
-  Status status =
-    EncodePolylines(patches.Value, this->ProjectToLevel, threads, vtkPolyData::GetData(outputs));
+  EncodeLevels(patches, vtkTable::GetData(outputs, 2));
+  status = EncodePolylines(patches, this->ProjectToLevel, threads, vtkPolyData::GetData(outputs));
   status = status
-    ? EncodeCurves(patches.Value, this->ProjectToLevel, vtkUnstructuredGrid::GetData(outputs, 1))
+    ? EncodeCurves(patches, this->ProjectToLevel, vtkUnstructuredGrid::GetData(outputs, 1))
     : status;
-  return status ? EncodeUndecided(patches.Value, threads, vtkPolyData::GetData(outputs, 3))
-                : status;
+  return status ? EncodeUndecided(patches, threads, vtkPolyData::GetData(outputs, 3)) : status;
+}
+
+knotwork::Status vtkSplineContour::Merge(vtkInformationVector**, vtkInformationVector* outputs)
+{
+  return knotwork::MergeContours(this->KernelThreads(), vtkPolyData::GetData(outputs),
+    vtkUnstructuredGrid::GetData(outputs, 1), vtkTable::GetData(outputs, 2));
 }

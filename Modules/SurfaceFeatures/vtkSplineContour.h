@@ -17,7 +17,9 @@
  * levels. Output 3 are the parts of the surface where a limit stopped the division of elements
  * before the contour was decided; there is a warning then.
  *
- * The patches of a vtkPartitionedDataSetCollection are contoured together.
+ * The patches of a vtkPartitionedDataSetCollection are contoured together. Of several processes
+ * each contours the patches that it has, at levels and with tolerances of the whole; polylines and
+ * what stays undecided are pieces, curves and table stand in the first process.
  *
  * The module's page has methods, conventions, limits, errors.
  */
@@ -26,6 +28,7 @@
 #include "vtkKnotworkSurfaceFeaturesModule.h" // for export macro
 #include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
 
+#include <memory> // for Prepared
 #include <string> // for FieldName
 #include <vector> // for Levels
 
@@ -116,13 +119,21 @@ public:
 
 protected:
   vtkSplineContour();
-  ~vtkSplineContour() override = default;
+  ~vtkSplineContour() override;
+  bool WorksOnPieces() const override { return true; }
+  bool SumsUpPieces() const override { return true; }
+  knotwork::Status Gather(vtkInformationVector** inputs) override;
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  knotwork::Status Merge(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:
+  struct Preparation;
+  knotwork::Status Prepare(vtkInformationVector** inputs);
+
   vtkSplineContour(const vtkSplineContour&) = delete;
   void operator=(const vtkSplineContour&) = delete;
 
+  std::unique_ptr<Preparation> Prepared; ///< from Gather to Compute
   std::vector<double> Levels;
   int NumberOfLevels = 10;
   double Range[2] = { 0.0, 0.0 };

@@ -65,3 +65,10 @@ Status vtkSplineExtrema::Compute(vtkInformationVector** inputs, vtkInformationVe
     { { this->Minima, this->Maxima, this->Saddles }, this->OnSurface, this->KernelThreads() },
     vtkPolyData::GetData(outputs, 0), vtkPolyData::GetData(outputs, 1));
 }
+
+Status vtkSplineExtrema::Merge(vtkInformationVector**, vtkInformationVector* outputs)
+{
+  knotwork::MergeExtrema(vtkPolyData::GetData(outputs, 0), vtkPolyData::GetData(outputs, 1),
+    vtkTable::GetData(outputs, 2));
+  return {};
+}

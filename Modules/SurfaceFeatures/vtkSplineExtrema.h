@@ -22,6 +22,9 @@
  * IndexSum, EulerCharacteristic, BoxesTested, Proved (1: there are no clusters), whatever kinds are
  * shown.
  *
+ * Of several processes each searches the patches that it has; points and boxes are pieces, the
+ * table stands in the first process.
+ *
  * @source Krawczyk (1969); Farouki and Rajan (1988). The module's page has limits and errors.
  */
 #ifndef vtkSplineExtrema_h
@@ -95,7 +98,10 @@ public:
 protected:
   vtkSplineExtrema();
   ~vtkSplineExtrema() override;
+  bool WorksOnPieces() const override { return true; }
+  bool SumsUpPieces() const override { return true; }
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  knotwork::Status Merge(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:
   vtkSplineExtrema(const vtkSplineExtrema&) = delete;

@@ -8,6 +8,7 @@ import os
 import subprocess
 import sys
 import tarfile
+import time
 import traceback
 
 DATA_DIR = os.environ["KNOTWORK_DATA_DIR"]
@@ -160,9 +161,10 @@ def main(namespace):
     tests = [(name, item) for name, item in namespace.items() if name.startswith("test_") and callable(item)]
     failed = []
     for name, test in tests:
+        begin = time.monotonic()
         try:
             test()
-            print("passed", name)
+            print(f"passed {name} in {time.monotonic() - begin:.1f} s")
         except BaseException:  # a test that calls exit() has failed too
             traceback.print_exc()
             print("FAILED", name)
