@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Shares.h"
 
+#include <knotwork/SplineGrid/Bytes.h>
 #include <knotwork/SplineGrid/Processes.h>
 #include <knotwork/SplineIO/DataParts.h>
 #include <knotwork/SplineIO/PieceFiles.h>
 
+#include <vtkAbstractArray.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -145,82 +147,56 @@ vtkSmartPointer<vtkDataObject> ShareOfBlocks(vtkDataObject* whole)
   return copy;
 }
 
-/// Arrays of numbers as bytes: type, components, tuples, name, values of each.
-class ArrayBytes
+std::string NameOf(vtkAbstractArray* array)
 {
-public:
-  explicit ArrayBytes(std::string text = {}) : Text(std::move(text)) {}
-  void AddText(const std::string& text)
-  {
-    this->AddNumber(static_cast<std::int64_t>(text.size()));
-    this->Text += text;
-  }
-  void AddNumber(std::int64_t number)
-  {
-    this->Text.append(reinterpret_cast<const char*>(&number), sizeof(number));
-  }
-  void AddArray(vtkDataArray* array)
-  {
-    this->AddNumber(array->GetDataType());
-    this->AddNumber(array->GetNumberOfComponents());
-    this->AddNumber(array->GetNumberOfTuples());
-    this->AddText(array->GetName() ? array->GetName() : "");
-    this->Text.append(static_cast<const char*>(array->GetVoidPointer(0)),
-      static_cast<std::size_t>(
-        array->GetNumberOfValues() * static_cast<vtkIdType>(array->GetDataTypeSize())));
-  }
-  std::int64_t TakeNumber()
-  {
-    std::int64_t number = 0;
-    std::copy_n(this->Text.data() + this->At, sizeof(number), reinterpret_cast<char*>(&number));
-    this->At += sizeof(number);
-    return number;
-  }
-  std::string TakeText()
-  {
-    const auto length = static_cast<std::size_t>(this->TakeNumber());
-    this->At += length;
-    return this->Text.substr(this->At - length, length);
-  }
-  vtkSmartPointer<vtkDataArray> TakeArray()
-  {
-    const int type = static_cast<int>(this->TakeNumber());
-    const auto array = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
-    array->SetNumberOfComponents(static_cast<int>(this->TakeNumber()));
-    array->SetNumberOfTuples(static_cast<vtkIdType>(this->TakeNumber()));
-    array->SetName(this->TakeText().c_str());
-    const auto size = static_cast<std::size_t>(
-      array->GetNumberOfValues() * static_cast<vtkIdType>(array->GetDataTypeSize()));
-    std::copy_n(this->Text.data() + this->At, size, static_cast<char*>(array->GetVoidPointer(0)));
-    this->At += size;
-    return array;
-  }
-  bool IsEmpty() const { return this->Text.empty(); }
-  const std::string& Get() const { return this->Text; }
+  return array->GetName() ? array->GetName() : "";
+}
 
-private:
-  std::string Text;
-  std::size_t At = 0;
-};
+std::size_t SizeOf(vtkDataArray* array)
+{
+  return static_cast<std::size_t>(
+    array->GetNumberOfValues() * static_cast<vtkIdType>(array->GetDataTypeSize()));
+}
+
+/// Type, components, tuples, name and values.
+void AddArray(vtkDataArray* array, Bytes& bytes)
+{
+  bytes.Add(array->GetDataType());
+  bytes.Add(array->GetNumberOfComponents());
+  bytes.Add(array->GetNumberOfTuples());
+  bytes.Add(NameOf(array));
+  bytes.AddRaw(static_cast<const char*>(array->GetVoidPointer(0)), SizeOf(array));
+}
+
+vtkSmartPointer<vtkDataArray> TakeArray(Bytes& bytes)
+{
+  const int type = bytes.Take<int>();
+  const auto array = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
+  array->SetNumberOfComponents(bytes.Take<int>());
+  array->SetNumberOfTuples(bytes.Take<vtkIdType>());
+  array->SetName(bytes.Take<std::string>().c_str());
+  bytes.TakeRaw(static_cast<char*>(array->GetVoidPointer(0)), SizeOf(array));
+  return array;
+}
 
 /// Data objects as DataParts.h hands them over: the number of the parts, then each.
-void AddObject(vtkDataObject* data, ArrayBytes& bytes)
+void AddObject(vtkDataObject* data, Bytes& bytes)
 {
   std::vector<std::string> parts;
   AppendParts(data, parts);
-  bytes.AddNumber(static_cast<std::int64_t>(parts.size()));
+  bytes.Add(std::uint64_t{ parts.size() });
   for (const std::string& part : parts)
   {
-    bytes.AddText(part);
+    bytes.Add(part);
   }
 }
 
-vtkSmartPointer<vtkDataObject> TakeObject(ArrayBytes& bytes)
+vtkSmartPointer<vtkDataObject> TakeObject(Bytes& bytes)
 {
-  std::vector<std::string> parts(static_cast<std::size_t>(bytes.TakeNumber()));
+  std::vector<std::string> parts(bytes.Take<std::uint64_t>());
   for (std::string& part : parts)
   {
-    part = bytes.TakeText();
+    part = bytes.Take<std::string>();
   }
   std::size_t next = 0;
   return TakeData(parts, next);
@@ -234,25 +210,25 @@ vtkDataSetAttributes* AttributesOf(vtkDataSet* set, int kind)
 }
 
 /// The names of the output's arrays in order, and those that the input has not.
-void PackAttributes(vtkDataSetAttributes* input, vtkDataSetAttributes* output, ArrayBytes& bytes)
+void PackAttributes(vtkDataSetAttributes* input, vtkDataSetAttributes* output, Bytes& bytes)
 {
   std::vector<vtkDataArray*> made;
-  bytes.AddNumber(output->GetNumberOfArrays());
+  bytes.Add(std::uint64_t(output->GetNumberOfArrays()));
   for (int i = 0; i < output->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* array = output->GetAbstractArray(i);
-    bytes.AddText(array->GetName() ? array->GetName() : "");
+    bytes.Add(NameOf(array));
     if (input->GetAbstractArray(array->GetName()) != array)
     {
       made.push_back(vtkDataArray::SafeDownCast(array)); // filters make numbers alone
     }
   }
   vtkDataArray* scalars = output->GetScalars();
-  bytes.AddText(scalars && scalars->GetName() ? scalars->GetName() : "");
-  bytes.AddNumber(static_cast<std::int64_t>(made.size()));
+  bytes.Add(scalars ? NameOf(scalars) : std::string());
+  bytes.Add(std::uint64_t{ made.size() });
   for (vtkDataArray* array : made)
   {
-    bytes.AddArray(array);
+    AddArray(array, bytes);
   }
 }
 
@@ -263,19 +239,19 @@ struct Attributes
   std::vector<vtkSmartPointer<vtkDataArray>> Made;
 };
 
-Attributes UnpackAttributes(ArrayBytes& bytes)
+Attributes UnpackAttributes(Bytes& bytes)
 {
   Attributes found;
-  found.Names.resize(static_cast<std::size_t>(bytes.TakeNumber()));
+  found.Names.resize(bytes.Take<std::uint64_t>());
   for (std::string& name : found.Names)
   {
-    name = bytes.TakeText();
+    name = bytes.Take<std::string>();
   }
-  found.Scalars = bytes.TakeText();
-  found.Made.resize(static_cast<std::size_t>(bytes.TakeNumber()));
+  found.Scalars = bytes.Take<std::string>();
+  found.Made.resize(bytes.Take<std::uint64_t>());
   for (auto& array : found.Made)
   {
-    array = bytes.TakeArray();
+    array = TakeArray(bytes);
   }
   return found;
 }
@@ -332,7 +308,7 @@ void JoinAttributes(
 /// What a process has made of its share of a data set.
 std::string PackSet(vtkDataSet* input, vtkDataSet* output)
 {
-  ArrayBytes bytes;
+  Bytes bytes;
   for (int kind = 0; kind < NumKinds; ++kind)
   {
     PackAttributes(AttributesOf(input, kind), AttributesOf(output, kind), bytes);
@@ -340,10 +316,10 @@ std::string PackSet(vtkDataSet* input, vtkDataSet* output)
   auto* before = vtkPointSet::SafeDownCast(input);
   auto* after = vtkPointSet::SafeDownCast(output);
   const bool isMoved = after->GetPoints() && after->GetPoints() != before->GetPoints();
-  bytes.AddNumber(isMoved ? 1 : 0);
+  bytes.Add(isMoved);
   if (isMoved)
   {
-    bytes.AddArray(after->GetPoints()->GetData());
+    AddArray(after->GetPoints()->GetData(), bytes);
   }
   return bytes.Get();
 }
@@ -354,14 +330,14 @@ void JoinSet(const std::vector<std::string>& parts, vtkDataSet* whole, vtkDataSe
   std::vector<vtkSmartPointer<vtkDataArray>> places;
   for (const std::string& part : parts)
   {
-    ArrayBytes bytes(part);
+    Bytes bytes(part);
     for (auto& kind : attributes)
     {
       kind.push_back(UnpackAttributes(bytes));
     }
-    if (bytes.TakeNumber() != 0)
+    if (bytes.Take<bool>())
     {
-      places.push_back(bytes.TakeArray());
+      places.push_back(TakeArray(bytes));
     }
   }
   for (int kind = 0; kind < NumKinds; ++kind)
@@ -400,15 +376,15 @@ vtkSmartPointer<vtkDataObject> JoinShares(
   const std::vector<vtkDataSet*> before = SetsOf(input);
   const std::vector<vtkDataSet*> after = SetsOf(output);
   // a process without a share has made nothing
-  ArrayBytes bytes;
+  Bytes bytes;
   const bool isIdle = after.size() != before.size() ||
     input->GetNumberOfElements(
       share == Share::Cells ? vtkDataObject::CELL : vtkDataObject::POINT) == 0;
   for (std::size_t i = 0; i < before.size() && !isIdle; ++i)
   {
-    bytes.AddText(PackSet(before[i], after[i]));
+    bytes.Add(PackSet(before[i], after[i]));
   }
-  std::vector<ArrayBytes> all;
+  std::vector<Bytes> all;
   for (std::string& one : Processes::Collect(bytes.Get()))
   {
     if (!one.empty())
@@ -444,9 +420,9 @@ vtkSmartPointer<vtkDataObject> JoinShares(
   for (std::size_t i = 0; i < sets.size() && !all.empty(); ++i)
   {
     std::vector<std::string> parts;
-    for (ArrayBytes& one : all)
+    for (Bytes& one : all)
     {
-      parts.push_back(one.TakeText());
+      parts.push_back(one.Take<std::string>());
     }
     JoinSet(parts, sets[i], results[i]);
     vtkNew<vtkFieldData> fields; // of its own: copies of one that is shared lose it
@@ -459,7 +435,7 @@ vtkSmartPointer<vtkDataObject> JoinShares(
 Result<vtkSmartPointer<vtkDataObject>> AppendShares(vtkDataObject* output)
 {
   const bool isEmpty = output->GetNumberOfElements(vtkDataObject::POINT) == 0;
-  ArrayBytes bytes;
+  Bytes bytes;
   if (Processes::Own() != 0 && !isEmpty)
   {
     AddObject(output, bytes);
@@ -475,7 +451,7 @@ Result<vtkSmartPointer<vtkDataObject>> AppendShares(vtkDataObject* output)
     {
       continue;
     }
-    ArrayBytes sent(std::move(one));
+    Bytes sent(std::move(one));
     pieces.push_back(TakeObject(sent));
     if (!pieces.back())
     {
@@ -511,12 +487,12 @@ Result<vtkSmartPointer<vtkDataObject>> AppendShares(vtkDataObject* output)
 
 vtkSmartPointer<vtkDataObject> SameForAll(vtkDataObject* table)
 {
-  ArrayBytes bytes;
+  Bytes bytes;
   if (Processes::Own() == 0)
   {
     AddObject(table, bytes);
   }
-  ArrayBytes sent(Processes::Broadcast(bytes.Get()));
+  Bytes sent(Processes::Broadcast(bytes.Get()));
   return Processes::Own() == 0 ? vtkSmartPointer<vtkDataObject>(table) : TakeObject(sent);
 }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ValidationPieces.h"
 
+#include <knotwork/SplineGrid/Bytes.h>
 #include <knotwork/SplineGrid/Processes.h>
 
 #include <algorithm>
@@ -43,37 +44,6 @@ std::vector<T> Joined(const std::vector<std::vector<T>>& lists)
   }
   return all;
 }
-
-/// Vectors of plain numbers and structs as bytes, and back.
-class Bytes
-{
-public:
-  explicit Bytes(std::string text = {}) : Text(std::move(text)) {}
-  template <typename T>
-  void Add(const std::vector<T>& values)
-  {
-    static_assert(std::is_trivially_copyable_v<T>);
-    const std::uint64_t count = values.size();
-    this->Text.append(reinterpret_cast<const char*>(&count), sizeof(count));
-    this->Text.append(reinterpret_cast<const char*>(values.data()), sizeof(T) * values.size());
-  }
-  template <typename T>
-  void Take(std::vector<T>& values)
-  {
-    std::uint64_t count = 0;
-    std::copy_n(this->Text.data() + this->At, sizeof(count), reinterpret_cast<char*>(&count));
-    this->At += sizeof(count);
-    values.resize(count);
-    std::copy_n(
-      this->Text.data() + this->At, sizeof(T) * count, reinterpret_cast<char*>(values.data()));
-    this->At += sizeof(T) * count;
-  }
-  const std::string& Get() const { return this->Text; }
-
-private:
-  std::string Text;
-  std::size_t At = 0;
-};
 
 /// The arrays of a piece that are handed over, in their order.
 template <typename Piece, typename Visit>

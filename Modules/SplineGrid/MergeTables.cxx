@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MergeTables.h"
 
+#include "Bytes.h"
 #include "Processes.h"
 
 #include "vtkAbstractArray.h"
@@ -28,74 +29,36 @@ struct Value
 };
 using Row = std::map<std::string, Value>;
 
-/// The rows of a table as bytes: of every value the type, the number, and the name of its column
-/// and the text, each after its length.
+/// The rows of a table: of every value its column's type and name, the number and the text.
 std::string Pack(vtkTable* table)
 {
-  std::string bytes;
-  const auto add = [&bytes](const auto& number)
-  { bytes.append(reinterpret_cast<const char*>(&number), sizeof(number)); };
+  Bytes bytes;
   for (vtkIdType row = 0; row < table->GetNumberOfRows(); ++row)
   {
     for (vtkIdType c = 0; c < table->GetNumberOfColumns(); ++c)
     {
       vtkAbstractArray* column = table->GetColumn(c);
       auto* numbers = vtkDataArray::SafeDownCast(column);
-      add(column->GetDataType());
-      add(numbers ? numbers->GetComponent(row, 0) : 0.0);
-      const std::string text = numbers ? "" : column->GetVariantValue(row).ToString();
-      for (const std::string& one : { std::string(column->GetName()), text })
-      {
-        add(one.size());
-        bytes += one;
-      }
+      bytes.Add(column->GetDataType());
+      bytes.Add(std::string(column->GetName()));
+      bytes.Add(numbers ? numbers->GetComponent(row, 0) : 0.0);
+      bytes.Add(numbers ? std::string() : std::string(column->GetVariantValue(row).ToString()));
     }
   }
-  return bytes;
+  return bytes.Get();
 }
 
-class Unpacked
-{
-public:
-  explicit Unpacked(const std::string& bytes) : Bytes(bytes) {}
-  bool IsAtEnd() const { return this->At == this->Bytes.size(); }
-  std::pair<std::string, Value> Next()
-  {
-    Value value;
-    value.Type = this->Take<int>();
-    value.Number = this->Take<double>();
-    std::string name = this->Text();
-    value.Text = this->Text();
-    return { std::move(name), std::move(value) };
-  }
-
-private:
-  template <typename T>
-  T Take()
-  {
-    T number{};
-    std::copy_n(this->Bytes.data() + this->At, sizeof(T), reinterpret_cast<char*>(&number));
-    this->At += sizeof(T);
-    return number;
-  }
-  std::string Text()
-  {
-    const auto length = this->Take<std::size_t>();
-    this->At += length;
-    return this->Bytes.substr(this->At - length, length);
-  }
-
-  const std::string& Bytes;
-  std::size_t At = 0;
-};
-
 /// @param names  gets those of the columns that it has not yet.
-std::vector<Row> RowsOf(const std::string& bytes, std::vector<std::string>& names)
+std::vector<Row> RowsOf(const std::string& packed, std::vector<std::string>& names)
 {
   std::vector<Row> rows;
-  for (Unpacked values(bytes); !values.IsAtEnd();)
+  for (Bytes bytes(packed); !bytes.IsAtEnd();)
   {
-    auto [name, value] = values.Next();
+    Value value;
+    value.Type = bytes.Take<int>();
+    auto name = bytes.Take<std::string>();
+    value.Number = bytes.Take<double>();
+    value.Text = bytes.Take<std::string>();
     if (std::find(names.begin(), names.end(), name) == names.end())
     {
       names.push_back(name);
