@@ -8,6 +8,7 @@ set -eu
 folder=$(realpath "$1")
 root=$(realpath -m "$2")
 if [ ! -e "$root/etc/debian_version" ]; then
+  command -v debootstrap > /dev/null || { echo "test_packages.sh: install the package debootstrap" >&2; exit 1; }
   mirror=$(apt-cache policy base-files | grep -oE 'https?://[^ ]+' | grep -v -e security -e snapshot | head -1)
   debootstrap --variant=minbase bookworm "$root" "$mirror" > "$root.log" 2>&1
   cp -r /etc/apt/sources.list* /etc/apt/apt.conf.d "$root/etc/apt/" 2> /dev/null || true
