@@ -82,7 +82,8 @@ public:
     std::stable_sort(order.begin(), order.end(),
       [&](int a, int b)
       { return this->Regions[At(a)].NumPoints > this->Regions[At(b)].NumPoints; });
-    if (std::count(this->IsSeed.begin(), this->IsSeed.end(), 1) > MostSeeds)
+    if (this->Kind == JoinKind::Profiles &&
+      std::count(this->IsSeed.begin(), this->IsSeed.end(), 1) > MostSeeds)
     {
       return;
     }

@@ -132,7 +132,7 @@ bool IsOnItsSurface(const DiscMesh& surface, const RecognizedRegion& region, boo
 {
   constexpr double Enough = 3.0;        // points a parameter
   constexpr double EnoughAtEdges = 2.0; // of what edges mark off
-  constexpr double Many = 6.0;          // by which residuals of few points do not pass for noise
+  constexpr double Many = 10.0;         // by which residuals of few points do not pass for noise
   constexpr double MaxNoise = 0.5;  // of the tolerance: what grew as far as it could goes up to it
   constexpr double MaxAlike = 0.25; // correlation of neighbours; that of noise is about 0
   std::map<int, double> distances;
