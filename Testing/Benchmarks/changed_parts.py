@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Measures how many faces keep their type when a part's mesh gets noise, or fewer triangles.
 
-usage: changed_parts.py PROGRAM MESHES [--write PAGE]
+usage: changed_parts.py PROGRAM MESHES [--parts NAME,...] [--write PAGE]
 
 Runs `knotwork trim MESH --output O.step --report R.json --threads 1` on meshes of a folder (libcgal-demo's) as they are; with noise,
 points of a ball of a quarter of the tolerance (numpy.random.default_rng(1)); and with as few triangles as vtkQuadricDecimation and
 vtkDecimatePro leave while `knotwork distance --both-ways` finds half of the tolerance at most. The tolerance is that of the whole mesh.
-Faces that keep their type: of each type as many as both models have. --write puts the table between the comments
+Faces that keep their type: of each type as many as both models have. --parts: only these. --write puts the table between the comments
 `changed parts: begin` and `...: end` of the page.
 """
 import argparse
@@ -117,13 +117,14 @@ def main():
     parser = argparse.ArgumentParser(usage=__doc__)
     parser.add_argument("program")
     parser.add_argument("meshes", type=pathlib.Path)
+    parser.add_argument("--parts", default=",".join(PARTS))
     parser.add_argument("--write", type=pathlib.Path)
     arguments = parser.parse_args()
     lines = ["| " + " | ".join(HEAD) + " |", "|" + " --- |" * len(HEAD)]
     sums = {}
     with tempfile.TemporaryDirectory() as folder:
         program = Program(arguments.program, pathlib.Path(folder))
-        for name in PARTS:
+        for name in arguments.parts.split(","):
             points, faces = features.read(arguments.meshes / (name + ".off"))
             triangles = [(f[0], f[k], f[k + 1]) for f in faces for k in range(1, len(f) - 1)]
             for row, same, count in rows_of(program, name, points, triangles):

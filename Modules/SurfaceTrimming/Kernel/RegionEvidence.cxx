@@ -130,8 +130,9 @@ constexpr double Exact = 0.02; ///< of the tolerance: distances that are none
 bool IsOnItsSurface(const DiscMesh& surface, const RecognizedRegion& region, bool endsAtEdges,
   double tolerance, double noise)
 {
-  constexpr double Enough = 3.0;    // points a parameter
-  constexpr double Many = 6.0;      // by which residuals of few points do not pass for noise
+  constexpr double Enough = 3.0;        // points a parameter
+  constexpr double EnoughAtEdges = 2.0; // of what edges mark off
+  constexpr double Many = 10.0;         // by which residuals of few points do not pass for noise
   constexpr double MaxNoise = 0.5;  // of the tolerance: what grew as far as it could goes up to it
   constexpr double MaxAlike = 0.25; // correlation of neighbours; that of noise is about 0
   std::map<int, double> distances;
@@ -147,7 +148,9 @@ bool IsOnItsSurface(const DiscMesh& surface, const RecognizedRegion& region, boo
   // facets of any shape are planes, and their rows cylinders
   const bool isQuiet = noise <= MaxNoise * tolerance;
   const bool isFlat = region.Surface.Type == SurfaceType::Plane && endsAtEdges;
-  if (isFlat ? count < parameters + 2.0 : count < Enough * parameters)
+  const double least =
+    isFlat ? parameters + 2.0 : (endsAtEdges ? EnoughAtEdges : Enough) * parameters;
+  if (count < least)
   {
     return false;
   }

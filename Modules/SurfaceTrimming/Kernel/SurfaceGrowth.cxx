@@ -27,6 +27,8 @@ constexpr int MorePoints = 2;
 constexpr double MoreShare = 0.1;
 /// One through as many points is taken when edges lie nearer to it by that factor at least.
 constexpr double LessSag = 1.2;
+constexpr int StepsOfJoin = 300;
+constexpr double Hopeless = 4.0; ///< noises: fits that are farther after some steps come to nothing
 
 /// The simplest region that has about as many points as any.
 GrownRegion Choose(std::vector<GrownRegion> found, int seed, double noise)
@@ -53,6 +55,17 @@ GrownRegion Choose(std::vector<GrownRegion> found, int seed, double noise)
     }
   }
   return best;
+}
+
+double SumOfSquares(const std::vector<Vector3d>& points, const AnalyticSurface& surface)
+{
+  double sum = 0.0;
+  for (const Vector3d& point : points)
+  {
+    const double distance = surface.Distance(point);
+    sum += distance * distance;
+  }
+  return sum;
 }
 
 std::vector<int> Unique(std::vector<int> values)
@@ -285,6 +298,76 @@ bool SurfaceGrowth::FitProfile(
   made.MeanSag = this->MeanSag(made);
   region = std::move(made);
   return true;
+}
+
+bool SurfaceGrowth::FitType(
+  SurfaceType type, const std::vector<const GrownRegion*>& parts, GrownRegion& region) const
+{
+  const std::vector<Vector3d> points = this->PointsOf(region.Clusters);
+  std::vector<AnalyticSurface> starts(1);
+  if (!GuessSurface(type, points, this->PiecesOf(region.Clusters), starts.front()))
+  {
+    starts.clear();
+  }
+  const auto addTorus = [&](AnalyticSurface start)
+  {
+    if (type == SurfaceType::Torus && GuessTorusAbout(points, start))
+    {
+      starts.push_back(start);
+    }
+  };
+  for (const GrownRegion* part : parts)
+  {
+    const AnalyticSurface& own = part->Surface;
+    if (own.Type == type)
+    {
+      starts.push_back(own);
+    }
+    else if (own.Type == SurfaceType::Cylinder || own.Type == SurfaceType::Cone)
+    {
+      addTorus(own);
+    }
+    if (AnalyticSurface circle; GuessCircleAxis(this->PointsOf(part->Clusters), circle))
+    {
+      addTorus(circle);
+    }
+  }
+  if (AnalyticSurface circle; GuessCircleAxis(points, circle))
+  {
+    addTorus(circle);
+  }
+  GrownRegion made = region;
+  made.NumPoints = static_cast<int>(points.size());
+  double least = HUGE_VAL;
+  for (AnalyticSurface& start : starts)
+  {
+    const double squares = FitSurface(points, start, Hopeless * this->Noise, StepsOfJoin)
+      ? SumOfSquares(points, start)
+      : HUGE_VAL;
+    if (squares < least)
+    {
+      least = squares;
+      made.Surface = start;
+    }
+  }
+  const FlatPiece& first =
+    this->Facets.Clusters[static_cast<std::size_t>(region.Clusters.front())].Piece;
+  made.Reversed = made.Surface.Normal(first.Centre).dot(first.Normal) < 0.0;
+  if (!(least < HUGE_VAL) ||
+    !std::all_of(made.Clusters.begin(), made.Clusters.end(),
+      [&](int cluster) { return this->Fits(cluster, made.Surface, made.Reversed); }))
+  {
+    return false;
+  }
+  made.MeanSag = this->MeanSag(made);
+  region = std::move(made);
+  return true;
+}
+
+double SurfaceGrowth::Squares(
+  const std::vector<int>& clusters, const AnalyticSurface& surface) const
+{
+  return SumOfSquares(this->PointsOf(clusters), surface);
 }
 
 std::array<double, 2> SurfaceGrowth::Residuals(const GrownRegion& region) const

@@ -45,6 +45,13 @@ public:
   /// @param flat  a flag a cluster of all: it is part of a flat face, so that its edges lie on the
   /// surface. @return false: there is none on which all clusters lie; the region is as it was.
   bool FitProfile(SurfaceType type, const std::vector<char>& flat, GrownRegion& region) const;
+  /// Takes the surface of a type next to all points of a region, if its clusters lie on it.
+  /// @param parts  regions that it is made of: their surfaces, and circles through the points of
+  /// each, are starts beside a guess.
+  bool FitType(
+    SurfaceType type, const std::vector<const GrownRegion*>& parts, GrownRegion& region) const;
+  /// Sum of the squared distances of clusters' points from a surface.
+  double Squares(const std::vector<int>& clusters, const AnalyticSurface& surface) const;
   double LengthOf(const ClusterSide& side) const
   {
     return (this->Surface.Point(side.Edge[0]) - this->Surface.Point(side.Edge[1])).norm();

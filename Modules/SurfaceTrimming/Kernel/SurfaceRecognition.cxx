@@ -2,7 +2,7 @@
 #include "SurfaceRecognition.h"
 
 #include "FacetClusters.h"
-#include "ProfileRegions.h"
+#include "JoinRegions.h"
 #include "SurfaceGrowth.h"
 
 #include <Eigen/Geometry>
@@ -21,6 +21,8 @@ namespace
 constexpr std::array<double, 5> Levels = { 1.0 / 500.0, 1.0 / 50.0, 1.0 / 8.0, 0.35, 1.0 };
 /// A coarser level is taken when it needs fewer regions than this share of the finer one's.
 constexpr double WorthIt = 0.85;
+/// Of both levels of noise pieces are joined within the tolerance: what is less then is no chance.
+constexpr double WorthItWithNoise = 0.95;
 /// Of the cost of a cluster where it is: less beside it, and it goes over.
 constexpr double BetterShare = 0.5;
 constexpr int BorderPasses = 6;
@@ -36,6 +38,7 @@ constexpr double SmoothAngle = 0.6981317007977318; // 40 degrees
 /// up to this level.
 constexpr double NearEnough = 3.0;
 constexpr std::size_t LastOfExact = 2;
+constexpr std::size_t MostToJoin = 1000; ///< more are pieces of a free shape
 
 struct Division
 {
@@ -242,6 +245,31 @@ void FlattenSingles(const FacetClusters& facets, Division& division)
       region.Surface.Point = piece.Centre;
       region.Surface.Axis = piece.Normal;
       region.Reversed = false;
+    }
+  }
+}
+
+/// Curved surfaces become planes that are no worse: noise bends what is flat. The test is Fisher's,
+/// of one per cent.
+void FlattenDoubtful(const SurfaceGrowth& growth, Division& division)
+{
+  constexpr double Significant = 7.0; // Fisher's F of one degree of freedom and many
+  for (GrownRegion& region : division.Regions)
+  {
+    GrownRegion flat = region;
+    const int parameters = NumSurfaceParameters(region.Surface.Type);
+    if (!IsCurved(region.Surface.Type) || region.NumPoints <= parameters ||
+      !growth.FitType(SurfaceType::Plane, {}, flat))
+    {
+      continue;
+    }
+    const double curved = growth.Squares(region.Clusters, region.Surface);
+    const double freedom = region.NumPoints - parameters;
+    const double more = parameters - NumSurfaceParameters(SurfaceType::Plane);
+    if (growth.Squares(region.Clusters, flat.Surface) <=
+      curved * (1.0 + Significant * more / freedom))
+    {
+      region = std::move(flat);
     }
   }
 }
@@ -515,7 +543,8 @@ Result<SurfaceRecognition> RecognizeSurfaces(
   const FacetClusters facets = FindFacetClusters(surface, Levels.front() * result.Tolerance);
   // The coarsest level comes first: it says how many regions the others may have to be taken.
   constexpr std::size_t coarsest = Levels.size() - 1;
-  constexpr double Unfinished = 2.0; // clusters that go over to others leave fewer regions
+  // clusters that go over to others leave fewer regions, and so do regions that are joined
+  const auto unfinished = [](std::size_t level) { return level <= LastOfExact ? 2.0 : 3.0; };
   constexpr std::size_t Any = std::numeric_limits<std::size_t>::max();
   const auto divide = [&](std::size_t level, const DivisionLimits& limits, Division& division)
   {
@@ -538,10 +567,23 @@ Result<SurfaceRecognition> RecognizeSurfaces(
     TakeWideTriangles(surface, facets, near, division);
     if (!exact)
     {
+      FlattenDoubtful(growth, division);
       TakeStrips(facets, growth, division);
     }
     JoinEqual(surface, facets, near, exact, growth, division);
     DropEmpty(division);
+    if (!exact && division.Regions.size() <= MostToJoin)
+    {
+      const SurfaceGrowth loose(
+        surface, facets, result.Tolerance, params.MaximumSag * result.Tolerance);
+      for (std::size_t before = 0; before != division.Regions.size();)
+      {
+        before = division.Regions.size();
+        JoinPieces(loose, facets, result.Tolerance, division.Regions, division.RegionOfCluster);
+        DropEmpty(division);
+        MoveBorders(growth, facets, division);
+      }
+    }
     return true;
   };
   DivisionLimits limits;
@@ -565,7 +607,7 @@ Result<SurfaceRecognition> RecognizeSurfaces(
       return { ErrorCode::Aborted, "recognition was stopped" };
     }
     const double most =
-      Unfinished * ofCoarsest / std::pow(WorthIt, static_cast<double>(coarsest - level));
+      unfinished(level) * ofCoarsest / std::pow(WorthIt, static_cast<double>(coarsest - level));
     Division division;
     if (level == coarsest)
     {
@@ -576,7 +618,9 @@ Result<SurfaceRecognition> RecognizeSurfaces(
       continue;
     }
     const std::size_t count = division.Regions.size();
-    const double worthIt = level < LastOfExact ? 1.0 : WorthIt; // rounding, no noise
+    const double worthIt = level < LastOfExact ? 1.0 // rounding, no noise
+      : level == coarsest                      ? WorthItWithNoise
+                                               : WorthIt;
     if (fewest == Any || static_cast<double>(count) < worthIt * static_cast<double>(fewest))
     {
       fewest = count;

@@ -56,19 +56,21 @@ const char* ToString(SurfaceType type)
 
 double AnalyticSurface::Distance(const Eigen::Vector3d& point) const
 {
-  const AroundAxis at(*this, point);
+  const Eigen::Vector3d offset = point - this->Point;
+  const double height = offset.dot(this->Axis);
+  const auto outside = [&] { return (offset - height * this->Axis).norm() - this->Radius; };
   switch (this->Type)
   {
     case SurfaceType::Plane:
-      return at.Height;
+      return height;
     case SurfaceType::Cylinder:
-      return at.Radius - this->Radius;
+      return outside();
     case SurfaceType::Sphere:
-      return (point - this->Point).norm() - this->Radius;
+      return offset.norm() - this->Radius;
     case SurfaceType::Cone:
-      return (at.Radius - this->Radius) * std::cos(this->Angle) - at.Height * std::sin(this->Angle);
+      return outside() * std::cos(this->Angle) - height * std::sin(this->Angle);
     case SurfaceType::Torus:
-      return std::hypot(at.Radius - this->Radius, at.Height) - this->MinorRadius;
+      return Eigen::Vector2d(outside(), height).norm() - this->MinorRadius;
     case SurfaceType::Extrusion:
     case SurfaceType::Revolution:
       return this->Profile->Distance(this->InProfile(point));

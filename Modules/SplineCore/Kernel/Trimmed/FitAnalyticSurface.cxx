@@ -2,6 +2,7 @@
 #include "FitAnalyticSurface.h"
 
 #include <Eigen/Dense>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
@@ -19,7 +20,6 @@ constexpr double LargestRadius = 1e3; // sizes of the points
 constexpr double FlattestCone = 85.0; // degrees
 constexpr double SteepestCone = 1e-3; // degrees: a cylinder
 constexpr double Negligible = 1e-14;  // eigenvalues, of the largest one
-constexpr int MaxSteps = 60;
 
 /// Columns of the Jacobian: shifts and turns of the axis, radii, angle.
 enum Parameter
@@ -274,13 +274,48 @@ bool GuessAxis(const std::vector<Vector3d>& points, const std::vector<FlatPiece>
 
 namespace
 {
+double SumOfSquares(const std::vector<Vector3d>& points, const AnalyticSurface& surface)
+{
+  double sum = 0.0;
+  for (const Vector3d& p : points)
+  {
+    const double distance = surface.Distance(p);
+    sum += distance * distance;
+  }
+  return sum;
+}
+
 bool GuessTorus(const std::vector<Vector3d>& points, const std::vector<FlatPiece>& pieces,
   AnalyticSurface& surface)
 {
-  if (!GuessAxis(points, pieces, surface))
+  return GuessAxis(points, pieces, surface) && GuessTorusAbout(points, surface);
+}
+}
+
+bool GuessCircleAxis(const std::vector<Vector3d>& points, AnalyticSurface& surface)
+{
+  if (!FitPlane(points, surface))
   {
     return false;
   }
+  const Frame frame(surface.Axis);
+  std::vector<Eigen::Vector2d> plane;
+  for (const Vector3d& p : points)
+  {
+    plane.emplace_back((p - surface.Point).dot(frame.U), (p - surface.Point).dot(frame.V));
+  }
+  Eigen::Vector2d centre;
+  double radius = 0.0;
+  if (!FitCircle(plane, centre, radius))
+  {
+    return false;
+  }
+  surface.Point += centre.x() * frame.U + centre.y() * frame.V;
+  return true;
+}
+
+bool GuessTorusAbout(const std::vector<Vector3d>& points, AnalyticSurface& surface)
+{
   surface.Type = SurfaceType::Torus;
   const Vector3d onAxis = surface.Point;
   std::vector<Eigen::Vector2d> profile;
@@ -296,36 +331,72 @@ bool GuessTorus(const std::vector<Vector3d>& points, const std::vector<FlatPiece
   }
   surface.Radius = centre.x();
   surface.Point = onAxis + centre.y() * surface.Axis;
+  surface.Angle = 0.0;
   return surface.Radius > 0.0;
 }
 
-/// Distance and its derivatives by the parameters.
-double Derive(const AnalyticSurface& s, const Frame& frame, const Vector3d& point, Row& row)
+namespace
 {
-  const Vector3d offset = point - s.Point;
-  const Vector3d normal = s.Normal(point);
-  row[ShiftU] = -normal.dot(frame.U);
-  row[ShiftV] = -normal.dot(frame.V);
-  row[ShiftAxis] = -normal.dot(s.Axis);
-  row[TurnU] = -normal.dot(s.Axis.cross(frame.U).cross(offset));
-  row[TurnV] = -normal.dot(s.Axis.cross(frame.V).cross(offset));
-  row[GrowRadius] = -1.0;
-  row[GrowMinor] = -1.0;
-  row[GrowAngle] = 0.0;
-  const double height = offset.dot(s.Axis);
-  const double radius = (offset - height * s.Axis).norm();
-  if (s.Type == SurfaceType::Cone)
+/// Distance and its derivatives by the parameters, of surfaces but planes.
+class Derivation
+{
+public:
+  explicit Derivation(const AnalyticSurface& surface)
+    : Surface(surface), Around(surface.Axis), Cosine(std::cos(surface.Angle)),
+      Sine(std::sin(surface.Angle)), AcrossU(surface.Axis.cross(this->Around.U)),
+      AcrossV(surface.Axis.cross(this->Around.V))
   {
-    row[GrowRadius] = -std::cos(s.Angle);
-    row[GrowAngle] = -(radius - s.Radius) * std::sin(s.Angle) - height * std::cos(s.Angle);
   }
-  else if (s.Type == SurfaceType::Torus)
+  const Frame& Axes() const { return this->Around; }
+  double At(const Vector3d& point, Row& row) const
   {
-    const double length = std::hypot(radius - s.Radius, height);
-    row[GrowRadius] = length > 0.0 ? -(radius - s.Radius) / length : 0.0;
+    const AnalyticSurface& s = this->Surface;
+    const Vector3d offset = point - s.Point;
+    const double height = offset.dot(s.Axis);
+    Vector3d normal = offset - height * s.Axis; // away from the axis
+    const double radius = normal.norm();
+    normal = radius > 0.0 ? Vector3d(normal / radius) : Vector3d(Vector3d::Zero());
+    double distance = radius - s.Radius;
+    row[GrowRadius] = -1.0;
+    row[GrowMinor] = -1.0;
+    row[GrowAngle] = 0.0;
+    if (s.Type == SurfaceType::Sphere)
+    {
+      const double length = offset.norm();
+      normal = length > 0.0 ? Vector3d(offset / length) : Vector3d(Vector3d::Zero());
+      distance = length - s.Radius;
+    }
+    else if (s.Type == SurfaceType::Cone)
+    {
+      row[GrowRadius] = -this->Cosine;
+      row[GrowAngle] = -distance * this->Sine - height * this->Cosine;
+      distance = distance * this->Cosine - height * this->Sine;
+      normal = this->Cosine * normal - (radius > 0.0 ? this->Sine : 0.0) * s.Axis;
+    }
+    else if (s.Type == SurfaceType::Torus)
+    {
+      const double length = Eigen::Vector2d(distance, height).norm();
+      const double inverse = length > 0.0 ? 1.0 / length : 0.0;
+      row[GrowRadius] = -distance * inverse;
+      normal = inverse * (distance * normal + height * s.Axis);
+      distance = length - s.MinorRadius;
+    }
+    row[ShiftU] = -normal.dot(this->Around.U);
+    row[ShiftV] = -normal.dot(this->Around.V);
+    row[ShiftAxis] = -normal.dot(s.Axis);
+    row[TurnU] = -normal.dot(this->AcrossU.cross(offset));
+    row[TurnV] = -normal.dot(this->AcrossV.cross(offset));
+    return distance;
   }
-  return s.Distance(point);
-}
+
+private:
+  const AnalyticSurface& Surface;
+  Frame Around;
+  double Cosine;
+  double Sine;
+  Vector3d AcrossU;
+  Vector3d AcrossV;
+};
 
 AnalyticSurface Changed(const AnalyticSurface& surface, const Frame& frame, const Row& step)
 {
@@ -361,34 +432,30 @@ bool IsDegenerate(const AnalyticSurface& s)
   return true;
 }
 
-double SumOfSquares(const std::vector<Vector3d>& points, const AnalyticSurface& surface)
-{
-  double sum = 0.0;
-  for (const Vector3d& p : points)
-  {
-    const double distance = surface.Distance(p);
-    sum += distance * distance;
-  }
-  return sum;
-}
-
 /// Damped Gauss-Newton steps on points about the origin of size 1.
-void Minimize(const std::vector<Vector3d>& points, AnalyticSurface& surface)
+/// @param hopeless  a sum of squares with which it is given up after some steps.
+void Minimize(
+  const std::vector<Vector3d>& points, double hopeless, int steps, AnalyticSurface& surface)
 {
+  constexpr int StepsOfHope = 8;
   const std::array<bool, NumParameters> isFree = FreeParameters(surface.Type);
   double damping = 1e-6;
   double sum = SumOfSquares(points, surface);
   const double zero = 1e-30 * static_cast<double>(points.size());
-  for (int step = 0; step < MaxSteps && sum > zero; ++step)
+  for (int step = 0; step < steps && sum > zero; ++step)
   {
-    const Frame frame(surface.Axis);
+    if (step >= StepsOfHope && sum > hopeless)
+    {
+      return;
+    }
+    const Derivation derivation(surface);
     Eigen::Matrix<double, NumParameters, NumParameters> matrix;
     matrix.setZero();
     Row right = Row::Zero();
     Row row;
     for (const Vector3d& p : points)
     {
-      const double distance = Derive(surface, frame, p, row);
+      const double distance = derivation.At(p, row);
       matrix.noalias() += row * row.transpose();
       right -= distance * row;
     }
@@ -409,7 +476,7 @@ void Minimize(const std::vector<Vector3d>& points, AnalyticSurface& surface)
       auto damped = matrix;
       damped.diagonal() *= 1.0 + damping;
       damped.diagonal().array() += 1e-14 * matrix.diagonal().maxCoeff();
-      const AnalyticSurface next = Changed(surface, frame, damped.ldlt().solve(right));
+      const AnalyticSurface next = Changed(surface, derivation.Axes(), damped.ldlt().solve(right));
       const double nextSum = SumOfSquares(points, next);
       better = nextSum < sum;
       damping *= better ? 0.1 : 10.0;
@@ -502,7 +569,8 @@ bool GuessSurface(SurfaceType type, const std::vector<Vector3d>& points,
   return false;
 }
 
-bool FitSurface(const std::vector<Vector3d>& points, AnalyticSurface& surface)
+bool FitSurface(
+  const std::vector<Vector3d>& points, AnalyticSurface& surface, double hopeless, int steps)
 {
   if (static_cast<int>(points.size()) < NumSurfaceParameters(surface.Type) || points.size() < 3)
   {
@@ -533,7 +601,8 @@ bool FitSurface(const std::vector<Vector3d>& points, AnalyticSurface& surface)
   {
     return false;
   }
-  Minimize(unit, moved);
+  const double far = hopeless / cloud.Size;
+  Minimize(unit, far * far * static_cast<double>(points.size()), steps, moved);
   Normalize(moved);
   if (IsDegenerate(moved) || !moved.Point.allFinite() || !moved.Axis.allFinite())
   {

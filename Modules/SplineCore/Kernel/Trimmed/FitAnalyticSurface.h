@@ -2,6 +2,7 @@
 #pragma once
 #include <knotwork/SplineCore/AnalyticSurface.h>
 
+#include <limits>
 #include <vector>
 
 namespace knotwork
@@ -29,12 +30,24 @@ bool GuessSurface(SurfaceType type, const std::vector<Eigen::Vector3d>& points,
 bool GuessAxis(const std::vector<Eigen::Vector3d>& points, const std::vector<FlatPiece>& pieces,
   AnalyticSurface& surface);
 
+/// The axis of a circle along which points lie, as those of a long and narrow piece of a torus; its
+/// Point is the centre. @return false: the points lie on a line.
+bool GuessCircleAxis(const std::vector<Eigen::Vector3d>& points, AnalyticSurface& surface);
+
+/// The torus about an axis: the circle next to the points where these are turned into one plane.
+/// @param surface  Point and Axis on the axis; result. @return false: the points lie on a line.
+bool GuessTorusAbout(const std::vector<Eigen::Vector3d>& points, AnalyticSurface& surface);
+
 /// Least squares of the points' distances from a surface on, by damped Gauss-Newton steps.
+/// @param hopeless  a root mean square distance: where it is more after 8 steps, these are the
+/// last.
+/// @param steps  at most: narrow pieces of large tori take hundreds.
 /// @return false: it degenerates (a radius above 1e3 sizes of the points, a cone flatter than 85
 /// degrees, a torus that runs through its axis).
-/// @complexity O(points) a step, at most 60 steps.
+/// @complexity O(points) a step.
 /// @source Lukacs, Martin, Marshall, ECCV (1998) 671 (faithful least squares).
-bool FitSurface(const std::vector<Eigen::Vector3d>& points, AnalyticSurface& surface);
+bool FitSurface(const std::vector<Eigen::Vector3d>& points, AnalyticSurface& surface,
+  double hopeless = std::numeric_limits<double>::infinity(), int steps = 60);
 
 /// Largest distance of the points.
 double MaxDistance(const std::vector<Eigen::Vector3d>& points, const AnalyticSurface& surface);

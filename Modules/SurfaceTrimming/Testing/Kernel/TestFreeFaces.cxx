@@ -283,22 +283,23 @@ TEST(FreeFaces, SeamsEndBetweenPointsOfTheMesh)
   EXPECT_NEAR(VolumeOf(model), 1.8 * Pi, 4.0 * Pi * 1.25 * model.Tolerance);
 }
 
-/// Two flat squares in the upper face touch at a corner, and free form lies all around: it touches
-/// itself there.
+/// Two flat squares in the upper face, one of them tilted, touch at a corner, and free form rises
+/// from them all around: it touches itself there.
 TEST(FreeFaces, RegionsMayTouchThemselvesInAPoint)
 {
-  const auto squared = [](double x, double y, double a, double b)
+  const auto distance = [](double x, double y, double a, double b)
   {
     const double dx = std::max({ 0.0, a - x, x - b });
     const double dy = std::max({ 0.0, a - y, y - b });
-    return dx * dx + dy * dy;
+    return std::hypot(dx, dy);
   };
   const RegionModel model = ModelOf(BoxUnder(
     [&](double x, double y)
     {
-      const double first = squared(x, y, 0.25, 0.5);
-      const double second = squared(x, y, 0.5, 0.75);
-      return 1.0 + 8.0 * first * second / (first + second + 0.02);
+      const double first = distance(x, y, 0.25, 0.5);
+      const double second = distance(x, y, 0.5, 0.75);
+      const double tilt = first > 0.0 ? 0.3 * (x + y - 1.0) * first / (first + second) : 0.0;
+      return 1.0 + tilt + 0.7 * first * second / (first + second + 0.02);
     }));
   EXPECT_EQ(Count(model, SurfaceType::Plane), 5 + 2);
   EXPECT_GE(Count(model, SurfaceType::FreeForm), 1);

@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
+#include <string>
 
 namespace knotwork
 {
@@ -315,6 +317,142 @@ TEST(SurfaceRecognition, WavesAreOneSurface_Exact)
   {
     EXPECT_LT(wave->Surface.Axis.cross(TiltedAxis).norm(), 1e-5);
     EXPECT_LT(wave->MaxDistance, 0.35 * vase.Tolerance);
+  }
+}
+
+/// Points around a gear: involute flanks between arcs at tips and roots.
+/// @param perFlank  points of a flank.
+std::vector<Vector2d> GearOutline(int teeth, double pressure, int perFlank)
+{
+  const double base = std::cos(pressure) * teeth / 2.0; // of module 1
+  const double root = std::max(teeth / 2.0 - 1.25, base);
+  const double tip = teeth / 2.0 + 1.0;
+  const auto involute = [&](double radius)
+  {
+    const double roll = std::sqrt(radius * radius / (base * base) - 1.0);
+    return roll - std::atan(roll);
+  };
+  const double half = Pi / (2.0 * teeth) + std::tan(pressure) - pressure; // of a tooth at the base
+  std::vector<Vector2d> outline;
+  for (int tooth = 0; tooth < teeth; ++tooth)
+  {
+    const double middle = 2.0 * Pi * tooth / teeth;
+    for (int side = -1; side <= 1; side += 2)
+    {
+      for (int i = 0; i < perFlank; ++i)
+      {
+        const double share = static_cast<double>(i) / (perFlank - 1);
+        const double radius = side < 0 ? root + share * (tip - root) : tip - share * (tip - root);
+        const double angle = middle + side * (half - involute(radius));
+        outline.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+      }
+    }
+  }
+  return outline;
+}
+
+/// A solid between two outlines that are seen as a star from the axis.
+TriangleMesh Extruded(const std::vector<Vector2d>& outline, double height)
+{
+  const auto count = static_cast<int>(outline.size());
+  const Eigen::AngleAxisd tilt(0.7, Vector3d(1, 2, -1).normalized());
+  TriangleMesh mesh;
+  mesh.Points.resize(2 * count + 2, 3);
+  mesh.Points.row(2 * count).setZero();
+  mesh.Points.row(2 * count + 1) = (tilt * Vector3d(0, 0, height)).transpose();
+  for (int i = 0; i < count; ++i)
+  {
+    const Vector2d& at = outline[static_cast<std::size_t>(i)];
+    const int next = (i + 1) % count;
+    mesh.Points.row(i) = (tilt * Vector3d(at.x(), at.y(), 0)).transpose();
+    mesh.Points.row(count + i) = (tilt * Vector3d(at.x(), at.y(), height)).transpose();
+    mesh.Triangles.push_back({ i, next, count + next });
+    mesh.Triangles.push_back({ i, count + next, count + i });
+    mesh.Triangles.push_back({ next, i, 2 * count });
+    mesh.Triangles.push_back({ count + i, count + next, 2 * count + 1 });
+  }
+  return mesh;
+}
+
+/// Largest distance of points from a closed polygon.
+double FarthestFrom(const std::vector<Vector2d>& polygon, const std::vector<Vector2d>& points)
+{
+  double farthest = 0.0;
+  for (const Vector2d& point : points)
+  {
+    double nearest = HUGE_VAL;
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+    {
+      const Vector2d& from = polygon[i];
+      const Vector2d side = polygon[(i + 1) % polygon.size()] - from;
+      const double at = std::clamp((point - from).dot(side) / side.squaredNorm(), 0.0, 1.0);
+      nearest = std::min(nearest, (point - from - at * side).norm());
+    }
+    farthest = std::max(farthest, nearest);
+  }
+  return farthest;
+}
+
+void Shake(TriangleMesh& mesh, double radius, std::mt19937& random)
+{
+  std::normal_distribution<double> normal;
+  for (Eigen::Index i = 0; i < mesh.Points.rows(); ++i)
+  {
+    const Vector3d way(normal(random), normal(random), normal(random));
+    mesh.Points.row(i) +=
+      radius * std::cbrt(random() / 4294967296.0) * way.normalized().transpose();
+  }
+}
+
+int NumSame(const Counts& a, const Counts& b)
+{
+  int same = 0;
+  for (std::size_t t = 0; t < a.size(); ++t)
+  {
+    same += std::min(a[t], b[t]);
+  }
+  return same;
+}
+
+/// The surfaces of a gear do not hang on how many points its flanks have, nor on noise of a quarter
+/// of the tolerance.
+TEST(SurfaceRecognition, GearsKeepTheirTypes)
+{
+  std::mt19937 random(21);
+  for (int gear = 0; gear < 3; ++gear)
+  {
+    const int teeth = 12 + static_cast<int>(random() % 20);
+    const double pressure = (14.5 + 10.5 * random() / 4294967296.0) * Pi / 180.0;
+    const double height = 2.0 + 4.0 * random() / 4294967296.0;
+    const std::vector<Vector2d> outline = GearOutline(teeth, pressure, 9);
+    const TriangleMesh exactMesh = Extruded(outline, height);
+    const double diagonal =
+      (exactMesh.Points.colwise().maxCoeff() - exactMesh.Points.colwise().minCoeff()).norm();
+    const Counts exact = Recognize(exactMesh, 1e-3 * diagonal).NumOfType;
+    const int total = std::accumulate(exact.begin(), exact.end(), 0);
+    EXPECT_LE(total, 4 * teeth + 2) << teeth << " teeth";
+    EXPECT_EQ(exact[static_cast<std::size_t>(SurfaceType::FreeForm)], 0);
+    const auto expectSame = [&](const TriangleMesh& mesh, const std::string& what)
+    {
+      const Counts counts = Recognize(mesh, 1e-3 * diagonal).NumOfType;
+      EXPECT_GE(NumSame(counts, exact), 0.9 * total)
+        << what << ", " << teeth << " teeth, " << pressure << " "
+        << ::testing::PrintToString(counts) << " for " << ::testing::PrintToString(exact);
+    };
+    int coarser = 0; // as in a decimation within half of the tolerance
+    for (const int perFlank : { 8, 7, 6, 5, 4 })
+    {
+      const std::vector<Vector2d> coarse = GearOutline(teeth, pressure, perFlank);
+      if (FarthestFrom(coarse, outline) <= 0.5e-3 * diagonal)
+      {
+        ++coarser;
+        expectSame(Extruded(coarse, height), std::to_string(perFlank) + " points");
+      }
+    }
+    EXPECT_GE(coarser, 2);
+    TriangleMesh noisy = exactMesh;
+    Shake(noisy, 0.25e-3 * diagonal, random);
+    expectSame(noisy, "noise");
   }
 }
 
