@@ -31,9 +31,11 @@ Status SolveUnknowns(const GalerkinSpace& space, int components, const std::vect
   const Eigen::SparseMatrix<double>& lower, const GalerkinParams& params, Eigen::MatrixXd& sides,
   LinearSolverReport& report);
 
-/// Solves for a mass matrix, several columns: conjugate gradients with Gauss-Seidel within blocks.
-/// The bits of the result do not depend on the number of threads.
+/// Solves for the mass matrix of all functions, four columns at a time: conjugate gradients, on one
+/// tensor-product patch with the mass matrix of its parameters as preconditioner, elsewhere with
+/// Gauss-Seidel within blocks. The bits of the result do not depend on the number of threads.
 /// @param lower  as above. @param sides  become the solutions. @return SingularSystem,
 /// NotConverged.
-Status SolveMass(const Eigen::SparseMatrix<double>& lower, int threads, Eigen::MatrixXd& sides);
+Status SolveMass(const GalerkinSpace& space, const Eigen::SparseMatrix<double>& lower, int threads,
+  Eigen::MatrixXd& sides);
 }
