@@ -88,8 +88,8 @@ struct GalerkinParams
 {
   /// Of quadrature on rational elements, in (0, 1).
   double QuadratureTolerance = 1e-15;
-  /// Unknowns up to which the system is factorized; above, preconditioned conjugate gradients. >=
-  /// 0.
+  /// Unknowns up to which the system is factorized, a tenth of it on one tensor-product volume;
+  /// above, preconditioned conjugate gradients. >= 0.
   int DirectLimit = 300000;
   /// Of conjugate gradients: residual over right-hand side, in (0, 1).
   double Tolerance = 1e-12;

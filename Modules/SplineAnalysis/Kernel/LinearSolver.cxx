@@ -41,7 +41,9 @@ Status SolveUnknowns(const GalerkinSpace& space, int components, const std::vect
   const Eigen::SparseMatrix<double>& lower, const GalerkinParams& params, Eigen::MatrixXd& sides,
   LinearSolverReport& report)
 {
-  if (lower.rows() <= params.DirectLimit)
+  // factors of volumes fill soonest, and fast diagonalization needs few iterations there
+  const int limit = space.Knots.size() == 3 ? params.DirectLimit / 10 : params.DirectLimit;
+  if (lower.rows() <= limit)
   {
     return Factorize(lower, sides);
   }
