@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DomainSolver.h"
 
+#include "FastLaplacian.h"
 #include "GluedSystem.h"
 #include "NewtonSystem.h"
-#include <knotwork/SplineCore/TensorLaplacian.h>
 
 #include <cmath>
 #include <limits>
@@ -25,23 +25,6 @@ constexpr double StepCost = 40.0;
 constexpr double ProductCost = 0.5;
 /// Weights stay within a factor of 100 of 1.
 constexpr double LargestLogarithm = 4.6;
-
-/// Of the functions inside. The functionals' Hessian is spectrally like it, so as preconditioner it
-/// makes the number of iterations nearly independent of the space.
-template <std::size_t Dim>
-TensorLaplacian InnerLaplacian(const std::array<KnotVector, Dim>& knots)
-{
-  std::vector<Eigen::MatrixXd> masses;
-  std::vector<Eigen::MatrixXd> stiffnesses;
-  for (const KnotVector& own : knots)
-  {
-    const Eigen::Index n = std::max(0, own.NumFunctions() - 2);
-    const LineIntegrals line = IntegrateLine(own);
-    masses.emplace_back(line.Mass.block(1, 1, n, n));
-    stiffnesses.emplace_back(line.Stiffness.block(1, 1, n, n));
-  }
-  return { masses, stiffnesses, 1 };
-}
 }
 
 template <int Dim>
@@ -62,14 +45,8 @@ DomainSolver<Dim>::DomainSolver(
   this->SetQuadrature(std::vector<int>(static_cast<std::size_t>(map.NumElements()), 0));
   if (map.Patches.size() == 1 && map.Patches.front().Space->Kind == SpaceKind::Tensor)
   {
-    this->Precondition = [laplacian = InnerLaplacian(map.Patches.front().Space->Knots)](
-                           Eigen::VectorXd& planes) mutable
-    {
-      for (Eigen::Index first = 0; first < planes.size(); first += laplacian.Size())
-      {
-        laplacian.Apply(planes.data() + first);
-      }
-    };
+    this->Precondition = [laplacian = FastLaplacian<Dim>(map.Patches.front().Space->Knots)](
+                           Eigen::VectorXd& planes) mutable { laplacian.Apply(planes); };
   }
   else
   {

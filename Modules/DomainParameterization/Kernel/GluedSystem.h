@@ -15,7 +15,7 @@ enum class GluedOperator
 
 /// A symmetric positive definite operator on the functions of patches (Spring: tensor-product
 /// ones), factorized for those that are not fixed: makes first maps, and as preconditioner does for
-/// several patches and refined spaces what TensorLaplacian does for one tensor-product patch.
+/// several patches and refined spaces what FastLaplacian does for one tensor-product patch.
 /// @complexity a sparse Cholesky factorization; a plane O(its entries).
 template <int Dim>
 class GluedSystem

@@ -16,7 +16,8 @@ struct LinearSolverReport
 };
 
 /// Solves the equations of the coefficients that are not given: factorizes up to
-/// GalerkinParams::DirectLimit unknowns, else conjugate gradients. Their preconditioner on one
+/// GalerkinParams::DirectLimit unknowns (a tenth on one tensor-product volume), else conjugate
+/// gradients. Their preconditioner on one
 /// tensor-product patch is fast diagonalization of the Laplacian of its parameters, each component
 /// alone, stretched in each direction as the map does in the mean, and scaled to the diagonal of
 /// the matrix. Elsewhere it is symmetric Gauss-Seidel within blocks of unknowns, plus the constants
