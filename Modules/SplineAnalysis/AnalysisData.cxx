@@ -104,8 +104,10 @@ GroupsOfCorners ReadGroups(
   return groups;
 }
 
-void ReadGroupNames(vtkUnstructuredGrid* grid, int dimension, BoundaryGroups& boundary)
+/// Names of groups of cells of a dimension.
+std::map<std::string, long long> ReadGroupNames(vtkUnstructuredGrid* grid, int dimension)
 {
+  std::map<std::string, long long> groups;
   auto* names =
     vtkStringArray::SafeDownCast(grid->GetFieldData()->GetAbstractArray("PhysicalGroupNames"));
   vtkDataArray* ids = grid->GetFieldData()->GetArray("PhysicalGroupIds");
@@ -113,27 +115,19 @@ void ReadGroupNames(vtkUnstructuredGrid* grid, int dimension, BoundaryGroups& bo
        i < std::min(names->GetNumberOfValues(), ids->GetNumberOfTuples());
        ++i)
   {
-    if (static_cast<int>(ids->GetComponent(i, 0)) == dimension - 1)
+    if (static_cast<int>(ids->GetComponent(i, 0)) == dimension)
     {
-      boundary.Names[names->GetValue(i)] = static_cast<long long>(ids->GetComponent(i, 1));
+      groups[names->GetValue(i)] = static_cast<long long>(ids->GetComponent(i, 1));
     }
   }
+  return groups;
 }
 
 template <int Dim>
 Result<AnalysisBody> BodyOfPatches(SplineModel model)
 {
   AnalysisBody body;
-  MultiPatch<Dim> patches;
-  for (const SplinePatch& patch : model.Patches)
-  {
-    patches.Patches.push_back(std::get<Spline<Dim>>(patch.Geometry));
-  }
-  patches.Topology = model.Topology;
-  if (patches.Topology.Interfaces.empty())
-  {
-    patches.Topology.Interfaces = FindInterfaces(patches.Patches);
-  }
+  const MultiPatch<Dim> patches = GluedPatches<Dim>(model);
   auto space = MakeGalerkinSpace(patches);
   if (!space)
   {
@@ -195,6 +189,24 @@ std::vector<vtkIdType> FacetCorners(const AnalysisBody& body, const CellSide& fa
   return corners;
 }
 }
+
+template <int Dim>
+MultiPatch<Dim> GluedPatches(const SplineModel& model)
+{
+  MultiPatch<Dim> patches;
+  for (const SplinePatch& patch : model.Patches)
+  {
+    patches.Patches.push_back(std::get<Spline<Dim>>(patch.Geometry));
+  }
+  patches.Topology = model.Topology;
+  if (patches.Topology.Interfaces.empty())
+  {
+    patches.Topology.Interfaces = FindInterfaces(patches.Patches);
+  }
+  return patches;
+}
+template MultiPatch<2> GluedPatches<2>(const SplineModel& model);
+template MultiPatch<3> GluedPatches<3>(const SplineModel& model);
 
 bool IsOfSplines(vtkDataObject* data)
 {
@@ -325,7 +337,7 @@ Result<AnalysisBody> MakeBody(vtkUnstructuredGrid* grid)
       }
       functions.push_back(number);
     }
-    builder.Add(shape, degree, 0, 0, {}, functions, builder.Keep(matrix));
+    builder.Add(shape, degree, 0, {}, {}, functions, builder.Keep(matrix));
   }
   body.Space.Points.resize(static_cast<Eigen::Index>(body.Points.size()), dimension);
   for (std::size_t i = 0; i < body.Points.size(); ++i)
@@ -357,7 +369,18 @@ Result<AnalysisBody> MakeBody(vtkUnstructuredGrid* grid)
       body.Boundary.Groups.push_back(
         found == groups.end() ? std::vector<long long>() : found->second);
     }
-    ReadGroupNames(grid, dimension, body.Boundary);
+    body.Boundary.Names = ReadGroupNames(grid, dimension - 1);
+  }
+  if (dimension == 3)
+  {
+    for (const auto& [corners, groups] : ReadGroups(grid, dimensions, 2))
+    {
+      std::array<int, 2> ends{ numbers[static_cast<std::size_t>(corners.front())],
+        numbers[static_cast<std::size_t>(corners.back())] };
+      std::sort(ends.begin(), ends.end());
+      body.Boundary.EdgeGroups[ends] = groups;
+    }
+    body.Boundary.EdgeNames = ReadGroupNames(grid, 1);
   }
   return body;
 }

@@ -27,6 +27,10 @@ struct AnalysisBody
 /// Whether cells of the most dimensions are Bezier quadrilaterals or hexahedra.
 bool IsOfSplines(vtkDataObject* data);
 
+/// The patches with what is stated of their sides, or else with the interfaces that they have.
+template <int Dim>
+MultiPatch<Dim> GluedPatches(const SplineModel& model);
+
 /// @return MakeGalerkinSpace's and BoundaryFacets' failures; DimensionMismatch for splines of
 /// several dimensions, for curves, and for surfaces that leave the plane z = 0.
 Result<AnalysisBody> MakeBody(SplineModel model);

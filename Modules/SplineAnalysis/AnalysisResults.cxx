@@ -181,7 +181,8 @@ void EncodeConditions(const AnalysisResults& results, vtkTable* table)
     kinds->InsertNextValue(NameOf(kind, IsPoisson(results)));
     facets->InsertNextValue(static_cast<int>(place.Facets.size()));
     functions->InsertNextValue(static_cast<int>(chosen.size()));
-    measures->InsertNextValue(FacetMeasure(results.Body.Space, place.Facets));
+    measures->InsertNextValue(place.Edges.empty() ? FacetMeasure(results.Body.Space, place.Facets)
+                                                  : EdgeLength(results.Body.Space, place.Edges));
     reactions->InsertNextTuple(reaction.data());
   }
   table->AddColumn(kinds);

@@ -113,31 +113,35 @@ Result<AnalysisResults> Solve(const ProblemDescription& description, const Analy
 
 /// @param body  becomes the refined one.
 template <int Dim>
-Result<AnalysisResults> SolvePatchAdaptively(const ProblemDescription& description,
+Result<AnalysisResults> SolvePatchesAdaptively(const ProblemDescription& description,
   AnalysisBody& body, const AnalysisOptions& options, const ProgressCallback& progress)
 {
   SplineModel model = body.Model;
-  SplinePatch& patch = model.Patches.front();
   auto refined = SolveAdaptively<Dim>(
-    std::get<Spline<Dim>>(patch.Geometry),
-    [&](const Spline<Dim>&, const GalerkinSpace& space) -> Result<GalerkinProblem>
+    GluedPatches<Dim>(model),
+    [&](const MultiPatch<Dim>&, const GalerkinSpace& space) -> Result<GalerkinProblem>
     {
       auto facets = BoundaryFacets(space);
       if (!facets)
       {
         return facets.Status;
       }
-      return MakeProblem(description, space, { std::move(facets.Value), {}, {} }, options.Compile);
+      BoundaryGroups boundary;
+      boundary.Facets = std::move(facets.Value);
+      return MakeProblem(description, space, boundary, options.Compile);
     },
     options.Params, progress);
   if (!refined)
   {
     return refined.Status;
   }
-  patch.Geometry = refined->Spline;
-  patch.Fields.clear();
-  patch.Cells.clear();
-  model.Topology = {};
+  for (std::size_t i = 0; i < model.Patches.size(); ++i)
+  {
+    model.Patches[i].Geometry = refined->Body.Patches[i];
+    model.Patches[i].Fields.clear();
+    model.Patches[i].Cells.clear();
+  }
+  model.Topology = refined->Body.Topology;
   auto made = MakeBody(std::move(model));
   if (!made)
   {
@@ -161,19 +165,21 @@ Result<AnalysisResults> SolvePatchAdaptively(const ProblemDescription& descripti
 Result<AnalysisResults> SolveBodyAdaptively(const ProblemDescription& description,
   AnalysisBody& body, const AnalysisOptions& options, const ProgressCallback& progress)
 {
-  if (body.Model.Patches.size() != 1)
+  if (body.Model.Patches.empty())
   {
-    return { ErrorCode::InvalidParameter,
-      "MaxSteps above 1 is for one patch, and the input has " +
-        std::to_string(body.Model.Patches.size()) + "; refine it before, or set it to 1" };
+    return {
+      ErrorCode::InvalidParameter,
+      "MaxSteps above 1 is for splines, and the input is a mesh; refine it before, or set it to 1"
+    };
   }
   if (!description.MaterialArray.empty())
   {
     return { ErrorCode::InvalidParameter,
       "MaxSteps above 1 is for one material, and the problem has a \"material_array\"" };
   }
-  return body.Space.Dimension == 2 ? SolvePatchAdaptively<2>(description, body, options, progress)
-                                   : SolvePatchAdaptively<3>(description, body, options, progress);
+  return body.Space.Dimension == 2
+    ? SolvePatchesAdaptively<2>(description, body, options, progress)
+    : SolvePatchesAdaptively<3>(description, body, options, progress);
 }
 
 /// Fields and, where the solution is known, its errors.

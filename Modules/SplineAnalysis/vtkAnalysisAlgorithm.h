@@ -88,8 +88,8 @@ public:
   vtkGetMacro(PoissonsRatio, double);
   ///@}
   ///@{
-  /** Unknowns up to which the system is factorized; above, conjugate gradients solve it. Default
-   * 300000, valid range >= 0. Advanced. */
+  /** Unknowns up to which the system is factorized, a tenth of it on one tensor-product volume;
+   * above, conjugate gradients solve it. Default 300000, valid range >= 0. Advanced. */
   vtkSetClampMacro(DirectLimit, int, 0, VTK_INT_MAX);
   vtkGetMacro(DirectLimit, int);
   ///@}

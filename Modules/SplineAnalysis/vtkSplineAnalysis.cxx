@@ -9,6 +9,8 @@
 #include "vtkPolyData.h"
 #include "vtkTable.h"
 
+#include <algorithm>
+
 using namespace knotwork;
 
 vtkStandardNewMacro(vtkSplineAnalysis);
@@ -58,13 +60,15 @@ Status vtkSplineAnalysis::Compute(vtkInformationVector** inputs, vtkInformationV
   {
     return body.Status;
   }
-  if (body->NumLeftOut > 0 && body->Boundary.Groups.empty())
+  if (body->NumLeftOut > 0 && body->Boundary.Groups.empty() && body->Boundary.EdgeGroups.empty())
   {
     this->ReportWarnings(
       { std::to_string(body->NumLeftOut) + " cells of fewer dimensions than others are left out" });
   }
-  const bool losesArrays = this->MaxSteps > 1 && body->Model.Patches.size() == 1 &&
-    !body->Model.Patches.front().Fields.empty();
+  const std::vector<SplinePatch>& patches = body->Model.Patches;
+  const bool losesArrays = this->MaxSteps > 1 &&
+    std::any_of(patches.begin(), patches.end(),
+      [](const SplinePatch& patch) { return !patch.Fields.empty(); });
   options->KeepsGaussPoints = this->GaussPoints;
   AdaptiveParams& params = options->Params;
   params.Theta = this->Theta;
@@ -78,7 +82,7 @@ Status vtkSplineAnalysis::Compute(vtkInformationVector** inputs, vtkInformationV
   }
   if (losesArrays)
   {
-    this->ReportWarnings({ "point arrays of the input are not carried to the refined patch; "
+    this->ReportWarnings({ "point arrays of the input are not carried to refined patches; "
                            "solve with MaxSteps 1 to keep them" });
   }
   this->Seconds = { results->Solution.SecondsCertificate, results->Solution.SecondsAssembly,

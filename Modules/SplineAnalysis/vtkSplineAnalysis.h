@@ -45,7 +45,7 @@ public:
 
   ///@{
   /** Solutions at most. From 2 on the elements that the error is largest in are split between them:
-   * for single tensor-product, THB or LR patches. Default 1, valid range [1, 100]. Kernel
+   * for tensor-product and THB patches, and single LR ones. Default 1, valid range [1, 100]. Kernel
    * default 50. Group "Adaptive Refinement". */
   vtkSetClampMacro(MaxSteps, int, 1, 100);
   vtkGetMacro(MaxSteps, int);

@@ -52,6 +52,12 @@ public:
 private:
   template <int Dim>
   void AddSpline(const SplinePatch& patch, const Spline<Dim>& spline, int id);
+  template <int Dim>
+  void PutPoints(
+    const Spline<Dim>& spline, const ElementPoints& numbering, double* values, double* weights);
+  double* ArrayOf(const SplineField& field) const;
+  PointMatrix ValuesOf(const ElementPoints& numbering, const double* values, Eigen::Index columns,
+    bool isRational) const;
 
   bool Rational = false;
   bool Domain = false;
@@ -198,27 +204,68 @@ void GridWriter::Add(const SplinePatch& patch, int id)
   std::visit([&](const auto& spline) { this->AddSpline(patch, spline, id); }, patch.Geometry);
 }
 
+double* GridWriter::ArrayOf(const SplineField& field) const
+{
+  const auto same = [&](const GridField& other) { return other.Name == field.Name; };
+  return std::find_if(this->Fields.begin(), this->Fields.end(), same)->Values->GetPointer(0);
+}
+
+/// Bezier points of a patch's elements, into the rows of its points. @param weights  likewise; may
+/// be null.
+template <int Dim>
+void GridWriter::PutPoints(
+  const Spline<Dim>& spline, const ElementPoints& numbering, double* values, double* weights)
+{
+  const BezierForm<Dim> form = MakeBezierForm(spline, 1);
+  const Eigen::Index columns = spline.ControlPoints.cols();
+  std::size_t firstId = 0;
+  for (int e = 0; e < spline.Space->NumElements(); ++e)
+  {
+    const int n =
+      NumTensorFunctions<Dim>(spline.Space->Elements[static_cast<std::size_t>(e)].Degree);
+    const double* block = form.Block(e);
+    const double* w = form.Rational ? block + static_cast<std::size_t>(columns) * n : nullptr;
+    for (int i = 0; i < n; ++i)
+    {
+      const vtkIdType point = this->FirstPoint + numbering.Ids[firstId + i];
+      for (Eigen::Index c = 0; c < columns; ++c)
+      {
+        values[point * columns + c] = block[c * n + i] / (w ? w[i] : 1.0);
+      }
+      if (w && weights)
+      {
+        weights[point] = w[i];
+      }
+    }
+    firstId += static_cast<std::size_t>(n);
+  }
+}
+
+/// Of the elements' points what stands in the grid, since a shared point has one owner; with the
+/// weights, or 1, in one more column.
+PointMatrix GridWriter::ValuesOf(
+  const ElementPoints& numbering, const double* values, Eigen::Index columns, bool isRational) const
+{
+  const bool isGeometry = values == static_cast<double*>(this->Points->GetVoidPointer(0));
+  PointMatrix rows(static_cast<Eigen::Index>(numbering.Ids.size()), columns + (isGeometry ? 1 : 0));
+  for (Eigen::Index i = 0; i < rows.rows(); ++i)
+  {
+    const vtkIdType point = this->FirstPoint + numbering.Ids[static_cast<std::size_t>(i)];
+    rows.row(i).head(columns) =
+      Eigen::Map<const Eigen::RowVectorXd>(values + point * columns, columns);
+    if (isGeometry)
+    {
+      rows(i, columns) = isRational ? this->Weights->GetValue(point) : 1.0;
+    }
+  }
+  return rows;
+}
+
 template <int Dim>
 void GridWriter::AddSpline(const SplinePatch& patch, const Spline<Dim>& spline, int id)
 {
   const SplineSpace<Dim>& space = *spline.Space;
   const ElementPoints& numbering = this->Numberings[this->NextPatch++];
-
-  // Geometry and fields have the same space and weights: one pass makes all their Bezier points.
-  Eigen::Index columns = 3;
-  for (const SplineField& field : patch.Fields)
-  {
-    columns += field.Coefficients.cols();
-  }
-  Spline<Dim> all{ spline.Space, PointMatrix(space.NumFunctions, columns), spline.Weights };
-  all.ControlPoints.leftCols(3) = spline.ControlPoints;
-  columns = 3;
-  for (const SplineField& field : patch.Fields)
-  {
-    all.ControlPoints.middleCols(columns, field.Coefficients.cols()) = field.Coefficients;
-    columns += field.Coefficients.cols();
-  }
-  const BezierForm<Dim> form = MakeBezierForm(all, 1);
 
   PatchRecord record;
   record.Id = id;
@@ -228,17 +275,15 @@ void GridWriter::AddSpline(const SplinePatch& patch, const Spline<Dim>& spline, 
   record.NumFunctions = space.NumFunctions;
   const int basisHash = HashOf(record.Basis);
 
-  double* xyz = static_cast<double*>(this->Points->GetVoidPointer(0));
-  std::vector<double*> fieldValues;
-  std::vector<Eigen::Index> fieldColumns;
-  columns = 3;
+  // one after the other: of many elements, Bezier points of all at once would need more memory than
+  // the grid
+  double* const xyz = static_cast<double*>(this->Points->GetVoidPointer(0));
+  this->PutPoints<Dim>({ spline.Space, spline.ControlPoints, spline.Weights }, numbering, xyz,
+    spline.IsRational() ? this->Weights->GetPointer(0) : nullptr);
   for (const SplineField& field : patch.Fields)
   {
-    const auto same = [&](const GridField& other) { return other.Name == field.Name; };
-    fieldValues.push_back(
-      std::find_if(this->Fields.begin(), this->Fields.end(), same)->Values->GetPointer(0));
-    fieldColumns.push_back(columns);
-    columns += field.Coefficients.cols();
+    this->PutPoints<Dim>({ spline.Space, field.Coefficients, spline.Weights }, numbering,
+      this->ArrayOf(field), nullptr);
   }
 
   std::map<IntArray<Dim>, std::vector<int>> orders;
@@ -248,30 +293,6 @@ void GridWriter::AddSpline(const SplinePatch& patch, const Spline<Dim>& spline, 
   {
     const auto& element = space.Elements[static_cast<std::size_t>(e)];
     const int n = NumTensorFunctions<Dim>(element.Degree);
-    const double* block = form.Block(e);
-    const double* w = form.Rational ? block + static_cast<std::size_t>(columns) * n : nullptr;
-    for (int i = 0; i < n; ++i)
-    {
-      const vtkIdType point = this->FirstPoint + numbering.Ids[firstId + i];
-      const auto value = [&](Eigen::Index plane)
-      { return block[plane * n + i] / (w ? w[i] : 1.0); };
-      for (int c = 0; c < 3; ++c)
-      {
-        xyz[3 * point + c] = value(c);
-      }
-      if (w)
-      {
-        this->Weights->SetValue(point, w[i]);
-      }
-      for (std::size_t f = 0; f < fieldValues.size(); ++f)
-      {
-        const Eigen::Index width = patch.Fields[f].Coefficients.cols();
-        for (Eigen::Index c = 0; c < width; ++c)
-        {
-          fieldValues[f][point * width + c] = value(fieldColumns[f] + c);
-        }
-      }
-    }
     auto& order = orders[element.Degree];
     if (order.empty())
     {
@@ -308,33 +329,18 @@ void GridWriter::AddSpline(const SplinePatch& patch, const Spline<Dim>& spline, 
 
   if (basisHash != 0) // else the points are the control points
   {
-    // The checksum is that of the grid's values: a shared point has one owner.
-    PointMatrix blocks(static_cast<Eigen::Index>(numbering.Ids.size()), 4);
-    for (Eigen::Index i = 0; i < blocks.rows(); ++i)
-    {
-      const vtkIdType point = this->FirstPoint + numbering.Ids[static_cast<std::size_t>(i)];
-      blocks.row(i) << xyz[3 * point], xyz[3 * point + 1], xyz[3 * point + 2],
-        spline.IsRational() ? this->Weights->GetValue(point) : 1.0;
-    }
     record.ControlPoints.Rows.setOnes(space.NumFunctions, 4);
     record.ControlPoints.Rows.leftCols(3) = spline.ControlPoints;
     if (spline.IsRational())
     {
       record.ControlPoints.Rows.col(3) = spline.Weights;
     }
-    record.ControlPoints.Stored = record.ControlPoints.With(GeometryChecksum<Dim>(degrees, blocks));
-    for (std::size_t f = 0; f < fieldValues.size(); ++f)
+    record.ControlPoints.Stored = record.ControlPoints.With(
+      GeometryChecksum<Dim>(degrees, this->ValuesOf(numbering, xyz, 3, spline.IsRational())));
+    for (const SplineField& field : patch.Fields)
     {
-      const SplineField& field = patch.Fields[f];
-      blocks.resize(blocks.rows(), field.Coefficients.cols());
-      for (Eigen::Index i = 0; i < blocks.rows(); ++i)
-      {
-        const vtkIdType point = this->FirstPoint + numbering.Ids[static_cast<std::size_t>(i)];
-        blocks.row(i) = Eigen::Map<const Eigen::RowVectorXd>(
-          fieldValues[f] + point * blocks.cols(), blocks.cols());
-      }
       Checksum sum;
-      sum.Add(blocks);
+      sum.Add(this->ValuesOf(numbering, this->ArrayOf(field), field.Coefficients.cols(), false));
       CoefficientCache cache{ 0, field.Coefficients };
       cache.Stored = cache.With(sum);
       record.Fields.push_back({ field.Name, std::move(cache) });

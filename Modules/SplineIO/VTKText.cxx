@@ -35,6 +35,7 @@ std::string XmlText(vtkDataObject* data, const std::string& encoding)
   vtkNew<Writer> writer;
   writer->SetInputDataObject(data);
   writer->WriteToOutputStringOn();
+  writer->SetCompressionLevel(1); // higher ones take thrice the time for a tenth of the size
   if (encoding == "ascii")
   {
     writer->SetDataModeToAscii();

@@ -288,34 +288,6 @@ Status FillSpring(Spline<Dim>& map)
     });
 }
 
-LineIntegrals IntegrateLine(const KnotVector& knots)
-{
-  const int p = knots.Degree();
-  const int n = knots.NumFunctions();
-  LineIntegrals line;
-  line.Mass = line.Stiffness = line.Bending = line.Mixed = Eigen::MatrixXd::Zero(n, n);
-  const QuadratureRule rule = GaussLegendre(p + 1);
-  Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor> values(3, p + 1);
-  for (int e = 0; e < knots.NumElements(); ++e)
-  {
-    const double begin = knots.Breaks()[static_cast<std::size_t>(e)];
-    const double length = knots.Breaks()[static_cast<std::size_t>(e) + 1] - begin;
-    const int first = knots.Span(e) - p;
-    for (std::size_t q = 0; q < rule.Nodes.size(); ++q)
-    {
-      knots.EvaluateFunctions(e, begin + length * rule.Nodes[q], 2, values.data());
-      const double w = length * rule.Weights[q];
-      line.Mass.block(first, first, p + 1, p + 1) += w * values.row(0).transpose() * values.row(0);
-      line.Stiffness.block(first, first, p + 1, p + 1) +=
-        w * values.row(1).transpose() * values.row(1);
-      line.Bending.block(first, first, p + 1, p + 1) +=
-        w * values.row(2).transpose() * values.row(2);
-      line.Mixed.block(first, first, p + 1, p + 1) += w * values.row(2).transpose() * values.row(0);
-    }
-  }
-  return line;
-}
-
 template <int Dim>
 Status FillHarmonic(Spline<Dim>& map)
 {

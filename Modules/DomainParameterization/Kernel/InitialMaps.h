@@ -2,6 +2,7 @@
 #pragma once
 #include "DomainBoundary.h"
 #include "DomainParameterization.h"
+#include <knotwork/SplineCore/TensorLaplacian.h>
 
 namespace knotwork
 {
@@ -39,14 +40,4 @@ Status FillSpring(Spline<Dim>& map);
 /// is 1; of rational maps with their weights. Reproduces harmonic maps of the space.
 template <int Dim>
 Status FillHarmonic(Spline<Dim>& map);
-
-/// Dense 1D integrals of products of derivatives, over a clamped knot vector.
-struct LineIntegrals
-{
-  Eigen::MatrixXd Mass;      ///< int N_i N_j
-  Eigen::MatrixXd Stiffness; ///< int N_i' N_j'
-  Eigen::MatrixXd Bending;   ///< int N_i'' N_j''
-  Eigen::MatrixXd Mixed;     ///< int N_i'' N_j
-};
-LineIntegrals IntegrateLine(const KnotVector& knots);
 }

@@ -45,7 +45,7 @@ struct AdaptiveStep
 template <int Dim>
 struct AdaptiveSolution
 {
-  knotwork::Spline<Dim> Spline; ///< the same map in the refined space
+  MultiPatch<Dim> Body; ///< the same maps in the refined spaces
   GalerkinSpace Space;
   GalerkinProblem Problem;
   GalerkinSolution Solution;
@@ -56,6 +56,10 @@ struct AdaptiveSolution
 
 /// States the problem on a refined space: its facets, functions and elements have new numbers.
 template <int Dim>
+using BodyProblemMaker =
+  std::function<Result<GalerkinProblem>(const MultiPatch<Dim>& body, const GalerkinSpace& space)>;
+/// The same of a single patch.
+template <int Dim>
 using ProblemMaker =
   std::function<Result<GalerkinProblem>(const Spline<Dim>& spline, const GalerkinSpace& space)>;
 
@@ -65,15 +69,31 @@ using ProblemMaker =
 /// @source  Doerfler, SIAM J. Numer. Anal. 33 (1996) 1106-1124.
 std::vector<int> MarkElements(const std::vector<double>& estimates, double theta);
 
-/// Solves, estimates the error, marks elements and splits them, until the estimate is small enough
-/// or a limit is met. Marked elements of Tensor and Hierarchical splines are split into THB-splines
-/// of the admissible class, of LocallyRefined ones by full-span segments.
+/// Splits the marked elements of patches, and those along interfaces that this leaves coarser than
+/// their neighbours on the other side: functions of both sides stay the same, so that patches glued
+/// C^0 stay so. Elements of Tensor and Hierarchical patches become those of THB-splines, elements
+/// of LocallyRefined ones, which stand alone, are split by full-span segments.
+/// @param marked  elements, of the patches in order.
+/// @return what RefineMarkedElements says, with the patch.
+template <int Dim>
+Result<MultiPatch<Dim>> RefineMarkedElements(
+  const MultiPatch<Dim>& body, const std::vector<int>& marked, const RefinementParams& params = {});
+
+/// Solves, estimates the error, marks elements and splits them (RefineMarkedElements), until the
+/// estimate is small enough or a limit is met. Marking is over the elements of all patches.
 /// @param makeProblem  called from the calling thread on every space.
 /// @return InvalidParameter for options; DimensionMismatch for a spline that cannot be refined
-/// locally; what makeProblem, SolveGalerkin, EstimateError and RefineMarkedElements say; Aborted.
+/// locally; what makeProblem, MakeGalerkinSpace, SolveGalerkin, EstimateError and
+/// RefineMarkedElements say; Aborted.
 /// @complexity of the last solution times the number of steps that have about as many functions.
 /// @source  Buffa, Giannelli, M3AS 26 (2016) 1-25; Buffa, Giannelli, M3AS 27 (2017) 2781-2802
 /// (optimal order on admissible meshes).
+template <int Dim>
+Result<AdaptiveSolution<Dim>> SolveAdaptively(const MultiPatch<Dim>& body,
+  const BodyProblemMaker<Dim>& makeProblem, const AdaptiveParams& params = {},
+  const ProgressCallback& progress = {});
+
+/// The same of a single patch.
 template <int Dim>
 Result<AdaptiveSolution<Dim>> SolveAdaptively(const Spline<Dim>& spline,
   const ProblemMaker<Dim>& makeProblem, const AdaptiveParams& params = {},

@@ -225,7 +225,7 @@ Result<std::vector<CellSide>> BoundaryFacets(const GalerkinSpace& space)
   return std::move(sides.Value.Alone);
 }
 
-Result<ElementFacets> FindFacets(const GalerkinSpace& space)
+Result<ElementFacets> FindFacets(const GalerkinSpace& space, bool withSmooth)
 {
   auto sides = MatchSides(space);
   if (!sides)
@@ -243,9 +243,11 @@ Result<ElementFacets> FindFacets(const GalerkinSpace& space)
   for (int e = 0; e < space.NumElements(); ++e)
   {
     const auto index = static_cast<std::size_t>(e);
+    const unsigned chosen =
+      withSmooth ? space.InnerSides[index] : space.InnerSides[index] & ~space.SmoothSides[index];
     for (int side = 0; side < NumElementSides(space.Shapes[index]); ++side)
     {
-      if ((space.InnerSides[index] >> side & 1U) != 0)
+      if ((chosen >> side & 1U) != 0)
       {
         const double value = SideValue(space.Boxes[index], side);
         planes[{ space.Patches[index], AcrossSide(side), value }].Elements[1 - side % 2].push_back(

@@ -32,7 +32,8 @@ struct ElementFacets
   std::vector<InnerFacet> Inner;
   std::vector<CellSide> Boundary; ///< ascending
 };
+/// @param withSmooth  whether facets count that all functions are C^1 across.
 /// @return as MatchSides.
 /// @complexity O(n log n) for n sides of elements in the plane, O(n^(4/3)) in space.
-Result<ElementFacets> FindFacets(const GalerkinSpace& space);
+Result<ElementFacets> FindFacets(const GalerkinSpace& space, bool withSmooth = true);
 }

@@ -208,26 +208,37 @@ void FillRows(const GalerkinSpace& space, int element, const PointMatrix& bernst
   all.rightCols(stride - alive).setZero();
 }
 
-void MakeRational(const GalerkinSpace& space, int element, Eigen::Ref<PointMatrix> rows)
+/// Rows of rational functions by the quotient rule. @param from  the rows without weights; may be
+/// the same place.
+void MakeRational(
+  const GalerkinSpace& space, int element, const double* from, Eigen::Index numRows, double* rows)
 {
   const int alive = space.NumAlive(element);
+  const int stride = PaddedFunctions(alive);
   const int planes = 1 + space.Dimension;
-  Eigen::RowVectorXd weights = Eigen::RowVectorXd::Zero(rows.cols());
+  std::vector<double> weights(static_cast<std::size_t>(stride), 0.0);
   for (int a = 0; a < alive; ++a)
   {
-    weights[a] = space.Weights[space.Alive(element)[a]];
+    weights[static_cast<std::size_t>(a)] = space.Weights[space.Alive(element)[a]];
   }
-  for (Eigen::Index first = 0; first < rows.rows(); first += planes)
+  for (Eigen::Index first = 0; first < numRows; first += planes)
   {
-    auto values = rows.row(first);
-    values.array() *= weights.array();
-    const double inverse = 1.0 / values.sum();
-    values *= inverse;
+    const double* given = from + first * stride;
+    double* const values = rows + first * stride;
+    const double inverse = 1.0 / Dot(weights.data(), given, stride);
+    for (int a = 0; a < stride; ++a)
+    {
+      values[a] = weights[static_cast<std::size_t>(a)] * given[a] * inverse;
+    }
     for (int k = 1; k < planes; ++k)
     {
-      auto slopes = rows.row(first + k);
-      slopes.array() *= weights.array();
-      slopes = (slopes - slopes.sum() * values) * inverse;
+      given += stride;
+      double* const slopes = values + std::ptrdiff_t{ k } * stride;
+      const double sum = Dot(weights.data(), given, stride);
+      for (int a = 0; a < stride; ++a)
+      {
+        slopes[a] = (weights[static_cast<std::size_t>(a)] * given[a] - sum * values[a]) * inverse;
+      }
     }
   }
 }
@@ -275,7 +286,7 @@ void EvaluateFunctions(
   FillRows(space, element, bernstein, rows.data());
   if (space.Weights.size() > 0)
   {
-    MakeRational(space, element, rows);
+    MakeRational(space, element, rows.data(), rows.rows(), rows.data());
   }
   VisitPoints(space, element, { 1, alive, PaddedFunctions(alive), rows.data(), nullptr },
     [&](std::size_t, const PointValues& at) { values = at; });
@@ -360,18 +371,15 @@ QuadratureFunctions RuleTables::Functions(
     return functions;
   }
   memory.resize(static_cast<std::size_t>(table.Bernstein.rows() * functions.Stride));
-  if (shared >= 0)
-  {
-    memory = this->Shared[static_cast<std::size_t>(shared)];
-  }
-  else
+  if (shared < 0)
   {
     FillRows(space, element, table.Bernstein, memory.data());
   }
   if (rational)
   {
-    MakeRational(space, element,
-      Eigen::Map<PointMatrix>(memory.data(), table.Bernstein.rows(), functions.Stride));
+    const double* const from =
+      shared < 0 ? memory.data() : this->Shared[static_cast<std::size_t>(shared)].data();
+    MakeRational(space, element, from, table.Bernstein.rows(), memory.data());
   }
   functions.Rows = memory.data();
   return functions;

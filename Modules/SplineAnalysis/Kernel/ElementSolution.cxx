@@ -2,7 +2,6 @@
 #include "ElementSolution.h"
 
 #include <knotwork/JacobianValidation/CellPieces.h>
-#include <knotwork/SplineCore/QuotientRule.h>
 
 #include <Eigen/LU>
 
@@ -109,11 +108,29 @@ ElementSolution<Dim>::ElementSolution(
 template <int Dim>
 SolutionPoint<Dim> ElementSolution<Dim>::At(const PointMatrixView& basis, int order) const
 {
-  constexpr int MaxTerms = NumDerivativeTerms(Dim, 2);
-  using Terms =
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, MaxTerms, 2 * Dim + 1>;
   // as sums: the products are too small for Eigen's blocks
-  Terms terms = basis.topRows(NumDerivativeTerms(Dim, order)).lazyProduct(this->Planes);
+  return this->FromTerms(
+    basis.topRows(NumDerivativeTerms(Dim, order)).lazyProduct(this->Planes), order);
+}
+
+template <int Dim>
+std::vector<SolutionPoint<Dim>> ElementSolution<Dim>::AtAll(
+  const PointMatrixView& basis, int order) const
+{
+  const PointMatrix all = basis * this->Planes;
+  const Eigen::Index rows = NumDerivativeTerms(Dim, order);
+  std::vector<SolutionPoint<Dim>> points;
+  points.reserve(static_cast<std::size_t>(all.rows() / rows));
+  for (Eigen::Index first = 0; first < all.rows(); first += rows)
+  {
+    points.push_back(this->FromTerms(all.middleRows(first, rows), order));
+  }
+  return points;
+}
+
+template <int Dim>
+SolutionPoint<Dim> ElementSolution<Dim>::FromTerms(Terms terms, int order) const
+{
   if (this->Rational)
   {
     for (Eigen::Index plane = 0; plane + 1 < terms.cols(); ++plane)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "GalerkinProblem.h"
+#include <knotwork/SplineCore/QuotientRule.h>
 
 namespace knotwork
 {
@@ -35,8 +36,15 @@ public:
   ElementSolution(const GalerkinSpace& space, const PointMatrixView& coefficients, int element);
   /// @param basis  rows of BasisDerivatives. @param order  2: with the Hessian.
   SolutionPoint<Dim> At(const PointMatrixView& basis, int order) const;
+  /// At several points, in one product. @param basis  rows of BasisDerivatives, of all points.
+  std::vector<SolutionPoint<Dim>> AtAll(const PointMatrixView& basis, int order) const;
 
 private:
+  static constexpr int MaxTerms = NumDerivativeTerms(Dim, 2);
+  using Terms =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, MaxTerms, 2 * Dim + 1>;
+  SolutionPoint<Dim> FromTerms(Terms terms, int order) const;
+
   int Components;
   bool Rational;
   Eigen::MatrixXd Planes; ///< a row a Bernstein polynomial: (w x, w u, w), or (x, u)

@@ -42,11 +42,11 @@ int NumPoints(const CellDegree& degree)
   return *std::max_element(degree.begin(), degree.end()) + 1;
 }
 
-/// Basis of all points of a rule, a block of rows each.
+/// Basis of all points of a rule, as many rows each.
 struct RuleBasis
 {
   CellRule Rule;
-  std::vector<PointMatrix> Blocks;
+  PointMatrix Rows;
 };
 using RuleBases = std::map<std::pair<CellShape, CellDegree>, RuleBasis>;
 
@@ -108,13 +108,17 @@ public:
     {
       const auto index = At(e);
       RuleBasis& basis = this->Bases[{ space.Shapes[index], space.Degrees[index] }];
-      if (basis.Blocks.empty())
+      if (basis.Rows.size() == 0)
       {
         basis.Rule = MakeCellRule(space.Shapes[index], NumPoints(space.Degrees[index]));
-        for (const auto& u : basis.Rule.Points)
+        const auto count = static_cast<Eigen::Index>(basis.Rule.Points.size());
+        for (Eigen::Index q = 0; q < count; ++q)
         {
-          basis.Blocks.push_back(
-            BasisDerivatives(space.Shapes[index], space.Degrees[index], u.data(), 2));
+          const double* u = basis.Rule.Points[static_cast<std::size_t>(q)].data();
+          const PointMatrix rows =
+            BasisDerivatives(space.Shapes[index], space.Degrees[index], u, 2);
+          basis.Rows.conservativeResize(count * rows.rows(), rows.cols());
+          basis.Rows.middleRows(q * rows.rows(), rows.rows()) = rows;
         }
         const CellShape facet = FacetShape(space.Shapes[index]);
         const int points = NumPoints(space.Degrees[index]);
@@ -139,10 +143,11 @@ public:
     const double factor = FactorsOf(this->Space.Degrees[e]).Interior / this->Modulus(element);
     const GalerkinMaterial& material = MaterialOf(this->Problem, element);
     const LameConstants lame = MakeLameConstants(this->Problem.Equation, material);
-    residuals.resize(basis.Blocks.size());
-    for (std::size_t q = 0; q < basis.Blocks.size(); ++q)
+    const std::vector<SolutionPoint<Dim>> points = solution.AtAll(basis.Rows, 2);
+    residuals.resize(points.size());
+    for (std::size_t q = 0; q < points.size(); ++q)
     {
-      const SolutionPoint<Dim> point = solution.At(basis.Blocks[q], 2);
+      const SolutionPoint<Dim>& point = points[q];
       Residual& residual = residuals[q];
       residual.Position = point.Position;
       residual.Force.setZero();
@@ -347,11 +352,11 @@ Status AddInterior(const Estimator<Dim>& estimator, const GalerkinSpace& space,
   return {};
 }
 
-/// Sides inside, then those of the boundary. @return as MatchSides.
+/// Sides inside that the flux may jump across, then those of the boundary. @return as MatchSides.
 Result<std::vector<EstimateFacet>> MakeFacets(
   const GalerkinSpace& space, const ConditionMap& conditions)
 {
-  const auto found = FindFacets(space);
+  const auto found = FindFacets(space, false);
   if (!found)
   {
     return found.Status;

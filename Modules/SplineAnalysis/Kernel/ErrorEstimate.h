@@ -24,9 +24,9 @@ struct ErrorEstimate
 ///   k / h |g - u_h|^2 on sides where values are prescribed
 /// with h the length of the element's sides at the point and for elasticity sqrt(2 m (2 m + l)), of
 /// Lame's constants l and m, in place of k. Second derivatives are exact through curved and
-/// rational maps. Point loads and supports of single coefficients are not part of it: their
-/// functions stand in no equation. The constants depend on the degree. @see the README for the
-/// measured ratio to the true error.
+/// rational maps. Loads along edges and at points, and supports of single coefficients, are not
+/// part of it: their functions stand in no equation. The constants depend on the degree. @see the
+/// README for the measured ratio to the true error.
 /// @param coefficients  functions x components, of a solution. Callables are called from the
 /// calling thread alone. @param threads  0 = all cores; the result is the same for any number.
 /// @return what SolveGalerkin says of the problem; SizeMismatch for the coefficients;

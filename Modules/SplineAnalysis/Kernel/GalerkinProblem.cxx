@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GalerkinProblem.h"
 
+#include "BoundaryEdges.h"
 #include "BoundaryProjection.h"
 #include "CheckProblem.h"
 #include "ElementRule.h"
@@ -102,10 +103,12 @@ Status CheckProblem(
       "plane stress and strain need elements in the plane, solids such in space" };
   }
   if (!(params.QuadratureTolerance > 0.0 && params.QuadratureTolerance < 1.0) ||
-    !(params.Tolerance > 0.0 && params.Tolerance < 1.0) || params.DirectLimit < 0)
+    !(params.Tolerance > 0.0 && params.Tolerance < 1.0) || params.DirectLimit < 0 ||
+    params.MaxIterations < 1 || params.MaxEntries < 1)
   {
     return { ErrorCode::InvalidParameter,
-      "tolerances must be in (0, 1) and the limit of factorization at least 0" };
+      "tolerances must be in (0, 1), the limit of factorization at least 0, those of iterations "
+      "and entries at least 1" };
   }
   if (const Status status = CheckMaterials(space, problem); !status)
   {
@@ -135,6 +138,24 @@ Status CheckProblem(
     if (const Status status = CheckFacets(space, problem.Loads[i].Facets, place); !status)
     {
       return status;
+    }
+  }
+  for (std::size_t i = 0; i < problem.EdgeLoads.size(); ++i)
+  {
+    const EdgeLoad& load = problem.EdgeLoads[i];
+    const std::string place = "edge load " + std::to_string(i);
+    if (!load.Values || load.Edges.empty() || space.Dimension != 3)
+    {
+      return { ErrorCode::InvalidParameter,
+        place + " needs edges of a body in space and a function" };
+    }
+    for (const ElementEdge& edge : load.Edges)
+    {
+      if (edge.Cell < 0 || edge.Cell >= space.NumElements())
+      {
+        return { ErrorCode::InvalidParameter,
+          place + ": element " + std::to_string(edge.Cell) + " does not exist" };
+      }
     }
   }
   const auto exists = [&](int function, int component, double value)
@@ -231,6 +252,18 @@ Result<Eigen::VectorXd> AssembleLoads(
         load.Values(values.Position.data(), normal.data(), given.data());
         add(facet.Cell, rule.Weights[q] * area.norm(), values);
       }
+    }
+  }
+  for (const EdgeLoad& load : problem.EdgeLoads)
+  {
+    for (const ElementEdge& edge : load.Edges)
+    {
+      VisitEdge(space, edge, params.QuadratureTolerance,
+        [&](double length, const PointValues& at)
+        {
+          load.Values(at.Position.data(), given.data());
+          add(edge.Cell, length, at);
+        });
     }
   }
   for (const PointLoad& load : problem.PointLoads)
@@ -418,14 +451,25 @@ GalerkinPoint EvaluateSolution(const GalerkinSpace& space, const GalerkinProblem
 }
 
 Eigen::Matrix3d ElasticStress(
-  const GalerkinProblem& problem, int element, const Eigen::MatrixXd& gradient)
+  const GalerkinProblem& problem, int element, const Eigen::Ref<const Eigen::MatrixXd>& gradient)
 {
   const GalerkinMaterial& material = MaterialOf(problem, element);
   const LameConstants lame = MakeLameConstants(problem.Equation, material);
   const Eigen::Index n = gradient.cols();
+  double trace = 0.0;
+  for (Eigen::Index i = 0; i < n; ++i)
+  {
+    trace += gradient(i, i);
+  }
   Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();
-  stress.topLeftCorner(n, n) = lame.Shear * (gradient + gradient.transpose());
-  stress.topLeftCorner(n, n).diagonal().array() += lame.First * gradient.trace();
+  for (Eigen::Index i = 0; i < n; ++i)
+  {
+    for (Eigen::Index j = 0; j < n; ++j)
+    {
+      stress(i, j) =
+        lame.Shear * (gradient(i, j) + gradient(j, i)) + (i == j ? lame.First * trace : 0.0);
+    }
+  }
   if (problem.Equation == GalerkinEquation::PlaneStrain)
   {
     stress(2, 2) = material.PoissonsRatio * (stress(0, 0) + stress(1, 1));
@@ -433,21 +477,28 @@ Eigen::Matrix3d ElasticStress(
   return stress;
 }
 
-double EnergyDensity(const GalerkinProblem& problem, int element, const Eigen::MatrixXd& gradient)
+double EnergyDensity(
+  const GalerkinProblem& problem, int element, const Eigen::Ref<const Eigen::MatrixXd>& gradient)
 {
   if (problem.Equation == GalerkinEquation::Poisson)
   {
     return 0.5 * MaterialOf(problem, element).Conductivity * gradient.squaredNorm();
   }
-  const Eigen::Index n = gradient.cols();
-  return 0.5 *
-    (ElasticStress(problem, element, gradient).topLeftCorner(n, n).array() * gradient.array())
-      .sum();
+  const Eigen::Matrix3d stress = ElasticStress(problem, element, gradient);
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < gradient.rows(); ++i)
+  {
+    for (Eigen::Index j = 0; j < gradient.cols(); ++j)
+    {
+      sum += stress(i, j) * gradient(i, j);
+    }
+  }
+  return 0.5 * sum;
 }
 
-double VonMisesStress(const Eigen::MatrixXd& stress)
+double VonMisesStress(const Eigen::Matrix3d& stress)
 {
-  const Eigen::MatrixXd deviator = stress - stress.trace() / 3.0 * Eigen::MatrixXd::Identity(3, 3);
+  const Eigen::Matrix3d deviator = stress - stress.trace() / 3.0 * Eigen::Matrix3d::Identity();
   return std::sqrt(1.5) * deviator.norm();
 }
 

@@ -41,6 +41,20 @@ struct FacetLoad
   FacetFunction Values;
 };
 
+/// An edge of an element in space: straight in its parameters, from one to another.
+struct ElementEdge
+{
+  int Cell = -1;
+  std::array<std::array<double, 3>, 2> Ends{};
+};
+
+/// A load for each length along edges of a body in space: force (elasticity) or source (Poisson).
+struct EdgeLoad
+{
+  std::vector<ElementEdge> Edges;
+  PointFunction Values;
+};
+
 /// The coefficient of a function (of Lagrange elements: the value at its node) is given.
 struct PointSupport
 {
@@ -65,6 +79,7 @@ struct GalerkinProblem
   PointFunction Source;         ///< f, or the force per volume; unset: 0
   std::vector<PrescribedValues> Prescribed;
   std::vector<FacetLoad> Loads;
+  std::vector<EdgeLoad> EdgeLoads;
   std::vector<PointSupport> Supports;
   std::vector<PointLoad> PointLoads;
 };
@@ -73,12 +88,14 @@ struct GalerkinParams
 {
   /// Of quadrature on rational elements, in (0, 1).
   double QuadratureTolerance = 1e-15;
-  /// Unknowns up to which the system is factorized; above, preconditioned conjugate gradients. >=
-  /// 0.
+  /// Unknowns up to which the system is factorized, a tenth of it on one tensor-product volume;
+  /// above, preconditioned conjugate gradients. >= 0.
   int DirectLimit = 300000;
   /// Of conjugate gradients: residual over right-hand side, in (0, 1).
   double Tolerance = 1e-12;
-  int Threads = 0; ///< 0 = all cores; the result is the same for any number
+  int MaxIterations = 20000;   ///< of conjugate gradients, >= 1
+  int MaxEntries = 2147483647; ///< of the lower triangle of the matrix, >= 1
+  int Threads = 0;             ///< 0 = all cores; the result is the same for any number
 };
 
 struct GalerkinSolution
@@ -127,13 +144,14 @@ GalerkinPoint EvaluateSolution(const GalerkinSpace& space, const GalerkinProblem
 /// Of elasticity, with the stress across the plane. @param gradient  of displacements, components x
 /// dimension.
 Eigen::Matrix3d ElasticStress(
-  const GalerkinProblem& problem, int element, const Eigen::MatrixXd& gradient);
+  const GalerkinProblem& problem, int element, const Eigen::Ref<const Eigen::MatrixXd>& gradient);
 
 /// Half of the density of a(u, u). @param gradient  of the solution, components x dimension.
-double EnergyDensity(const GalerkinProblem& problem, int element, const Eigen::MatrixXd& gradient);
+double EnergyDensity(
+  const GalerkinProblem& problem, int element, const Eigen::Ref<const Eigen::MatrixXd>& gradient);
 
 /// sqrt(3/2) of the norm of the deviator of a 3 x 3 stress.
-double VonMisesStress(const Eigen::MatrixXd& stress);
+double VonMisesStress(const Eigen::Matrix3d& stress);
 
 /// Exact solution to compare with.
 struct ErrorNorms

@@ -2,8 +2,10 @@
 #include "GalerkinSpace.h"
 
 #include <knotwork/SplineCore/DisjointSets.h>
+#include <knotwork/SplineCore/FunctionInfo.h>
 #include <knotwork/SplineCore/LatticeInterpolation.h>
 
+#include <algorithm>
 #include <map>
 #include <string>
 
@@ -22,6 +24,28 @@ unsigned InnerSidesOf(const SplineSpace<Dim>& space, int element)
     inner |= SideValue(box, side) != SideValue(space.Domain(), side) ? 1U << side : 0U;
   }
   return inner;
+}
+
+/// As GalerkinSpace::SmoothSides.
+template <int Dim>
+unsigned SmoothSidesOf(const SplineSpace<Dim>& space, int element, unsigned inner)
+{
+  unsigned smooth = 0;
+  const auto& own = space.Elements[static_cast<std::size_t>(element)];
+  const bool knows = space.Kind == SpaceKind::Tensor || space.Kind == SpaceKind::Hierarchical;
+  for (int side = 0; knows && side < 2 * Dim; ++side)
+  {
+    const std::size_t d = AcrossSide(side);
+    const std::vector<double>& breaks = space.Knots[d].Breaks();
+    const double value = SideValue(own.Box, side);
+    const auto found = std::lower_bound(breaks.begin(), breaks.end(), value);
+    // knots of finer levels are simple
+    const int multiplicity = found != breaks.end() && *found == value
+      ? space.Knots[d].Multiplicity(static_cast<int>(found - breaks.begin()))
+      : 1;
+    smooth |= own.Degree[d] > multiplicity ? inner & 1U << side : 0U;
+  }
+  return smooth;
 }
 
 /// Where the operators of a patch's elements are kept. Those of elements whose local functions are
@@ -83,8 +107,9 @@ void AddPatch(const Spline<Dim>& spline, int patch, const std::vector<int>& numb
       std::copy(own.Lower.begin(), own.Lower.end(), box.Lower.begin());
       std::copy(own.Upper.begin(), own.Upper.end(), box.Upper.begin());
     }
+    const unsigned inner = InnerSidesOf(*spline.Space, e);
     builder.Add(Dim == 2 ? CellShape::Quadrilateral : CellShape::Hexahedron, degree, patch,
-      InnerSidesOf(*spline.Space, e), box, functions, place);
+      { inner, SmoothSidesOf(*spline.Space, e, inner) }, box, functions, place);
   }
   for (int f = 0; f < spline.Space->NumFunctions; ++f)
   {
@@ -119,58 +144,92 @@ Status CheckPatch(const Spline<Dim>& spline, int patch)
   return {};
 }
 
+/// Level and place on a side of a function that is not 0 there; the place is that on the first side
+/// of an interface.
+using TraceIndex = std::array<std::int64_t, 3>;
+
+/// Functions of a tensor-product or THB patch that are not 0 on a side: those of the row along it
+/// of every level. @param orientation  how the side lies on the first one; null: it is the first.
+template <int Dim>
+std::map<TraceIndex, int> SideTrace(
+  const SplineSpace<Dim>& space, int side, const SideOrientation* orientation)
+{
+  const auto directions = SideDirections<Dim>(side);
+  // every element is halved by a simple knot, which makes one function more
+  const auto countOf = [&space](std::size_t d, int level) -> std::int64_t
+  {
+    return space.Knots[d].NumFunctions() +
+      std::int64_t{ space.Knots[d].NumElements() } * ((std::int64_t{ 1 } << level) - 1);
+  };
+  std::map<TraceIndex, int> trace;
+  const auto functions = DescribeFunctions(space);
+  for (std::size_t f = 0; f < functions.size(); ++f)
+  {
+    const int level = functions[f].Level;
+    const auto& index = functions[f].Index;
+    const std::size_t across = AcrossSide(side);
+    if (index[across] != (side % 2 == 0 ? 0 : countOf(across, level) - 1))
+    {
+      continue;
+    }
+    std::array<std::int64_t, 2> place{};
+    std::array<std::int64_t, 2> count{ 1, 1 };
+    for (std::size_t k = 0; k < directions.size(); ++k)
+    {
+      place[k] = index[directions[k]];
+      count[k] = countOf(directions[k], level);
+    }
+    place = orientation ? orientation->OtherPoint(place, count) : place;
+    trace[{ level, place[0], place[1] }] = static_cast<int>(f);
+  }
+  return trace;
+}
+
 /// Functions of both sides of an interface become one.
 template <int Dim>
 Status Unite(const MultiPatch<Dim>& patches, const PatchInterface& interface,
   const std::vector<int>& first, DisjointSets& sets)
 {
-  std::array<std::vector<int>, 2> functions;
-  std::array<std::array<std::int64_t, 2>, 2> count{};
-  const std::string place = "sides " + std::to_string(interface.Sides[0].Side) + " of patch " +
-    std::to_string(interface.Sides[0].Patch) + " and " + std::to_string(interface.Sides[1].Side) +
-    " of patch " + std::to_string(interface.Sides[1].Patch);
+  const std::array<PatchSide, 2>& sides = interface.Sides;
+  const std::string place = "sides " + std::to_string(sides[0].Side) + " of patch " +
+    std::to_string(sides[0].Patch) + " and " + std::to_string(sides[1].Side) + " of patch " +
+    std::to_string(sides[1].Patch);
+  std::array<std::map<TraceIndex, int>, 2> traces;
   for (std::size_t k = 0; k < 2; ++k)
   {
-    const PatchSide& side = interface.Sides[k];
-    const SplineSpace<Dim>& space = *patches.Patches[static_cast<std::size_t>(side.Patch)].Space;
-    if (interface.Partial || space.Kind != SpaceKind::Tensor)
+    const SplineSpace<Dim>& space =
+      *patches.Patches[static_cast<std::size_t>(sides[k].Patch)].Space;
+    if (interface.Partial ||
+      (space.Kind != SpaceKind::Tensor && space.Kind != SpaceKind::Hierarchical))
     {
       return { ErrorCode::InvalidTopology,
-        place + " do not meet as whole sides of tensor-product patches; join them by hand" };
+        place + " do not meet as whole sides of tensor-product or THB patches; join them by hand" };
     }
-    functions[k] = SideFunctions(space, side.Side);
-    count[k] = { 1, 1 };
-    const auto directions = SideDirections<Dim>(side.Side);
-    for (std::size_t d = 0; d < directions.size(); ++d)
-    {
-      count[k][d] = space.Knots[directions[d]].NumFunctions();
-    }
+    traces[k] = SideTrace(space, sides[k].Side, k == 0 ? nullptr : &interface.Orientation);
   }
-  if (interface.Orientation.OtherCount(count[1]) != count[0])
+  const auto isPartner = [](const auto& a, const auto& b) { return a.first == b.first; };
+  if (!std::equal(
+        traces[0].begin(), traces[0].end(), traces[1].begin(), traces[1].end(), isPartner))
   {
-    return { ErrorCode::InvalidTopology, place + " have other numbers of functions; refine one" };
+    return { ErrorCode::InvalidTopology,
+      place + " have other functions; refine both in the same way" };
   }
-  for (std::int64_t j = 0; j < count[0][1]; ++j)
+  const Spline<Dim>& onto = patches.Patches[static_cast<std::size_t>(sides[0].Patch)];
+  const Spline<Dim>& from = patches.Patches[static_cast<std::size_t>(sides[1].Patch)];
+  const double size = onto.ControlPoints.cwiseAbs().maxCoeff();
+  for (auto a = traces[0].begin(), b = traces[1].begin(); a != traces[0].end(); ++a, ++b)
   {
-    for (std::int64_t i = 0; i < count[0][0]; ++i)
+    const double weightA = onto.IsRational() ? onto.Weights[a->second] : 1.0;
+    const double weightB = from.IsRational() ? from.Weights[b->second] : 1.0;
+    if ((onto.ControlPoints.row(a->second) - from.ControlPoints.row(b->second)).norm() >
+        1e-9 * size ||
+      std::abs(weightA - weightB) > 1e-9 * weightA)
     {
-      const auto own = interface.Orientation.OwnPoint({ i, j }, count[1]);
-      const int a = functions[0][static_cast<std::size_t>(i + j * count[0][0])];
-      const int b = functions[1][static_cast<std::size_t>(own[0] + own[1] * count[1][0])];
-      const Spline<Dim>& onto = patches.Patches[static_cast<std::size_t>(interface.Sides[0].Patch)];
-      const Spline<Dim>& from = patches.Patches[static_cast<std::size_t>(interface.Sides[1].Patch)];
-      const double size = onto.ControlPoints.cwiseAbs().maxCoeff();
-      const double weightA = onto.IsRational() ? onto.Weights[a] : 1.0;
-      const double weightB = from.IsRational() ? from.Weights[b] : 1.0;
-      if ((onto.ControlPoints.row(a) - from.ControlPoints.row(b)).norm() > 1e-9 * size ||
-        std::abs(weightA - weightB) > 1e-9 * weightA)
-      {
-        return { ErrorCode::InvalidTopology,
-          place + " have other control points or weights; stitch them" };
-      }
-      sets.Unite(first[static_cast<std::size_t>(interface.Sides[0].Patch)] + a,
-        first[static_cast<std::size_t>(interface.Sides[1].Patch)] + b);
+      return { ErrorCode::InvalidTopology,
+        place + " have other control points or weights; stitch them" };
     }
+    sets.Unite(first[static_cast<std::size_t>(sides[0].Patch)] + a->second,
+      first[static_cast<std::size_t>(sides[1].Patch)] + b->second);
   }
   return {};
 }
@@ -190,13 +249,14 @@ std::size_t GalerkinSpaceBuilder::Keep(const PointMatrix& matrix)
 }
 
 void GalerkinSpaceBuilder::Add(CellShape shape, const CellDegree& degree, int patch,
-  unsigned innerSides, const ParametricBox<3>& box, const std::vector<int>& functions,
-  std::size_t place)
+  const std::array<unsigned, 2>& sides, const ParametricBox<3>& box,
+  const std::vector<int>& functions, std::size_t place)
 {
   this->Space.Shapes.push_back(shape);
   this->Space.Degrees.push_back(degree);
   this->Space.Patches.push_back(patch);
-  this->Space.InnerSides.push_back(innerSides);
+  this->Space.InnerSides.push_back(sides[0]);
+  this->Space.SmoothSides.push_back(sides[1]);
   this->Space.Boxes.push_back(box);
   this->Space.Functions.insert(this->Space.Functions.end(), functions.begin(), functions.end());
   this->Space.FirstFunction.push_back(this->Space.Functions.size());
@@ -333,7 +393,7 @@ Result<GalerkinSpace> MakeGalerkinSpace(const LagrangeMesh& mesh)
                  .cast<double>()
                  .transpose();
     }
-    builder.Add(shape, degree, 0, 0, {}, nodes, builder.Keep(matrix));
+    builder.Add(shape, degree, 0, {}, {}, nodes, builder.Keep(matrix));
   }
   return space;
 }

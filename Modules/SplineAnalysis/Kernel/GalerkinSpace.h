@@ -28,6 +28,9 @@ struct GalerkinSpace
   /// Bit s of an element: its side s lies inside the parameter domain of its patch, where
   /// neighbours of other levels may meet it in part. 0 where there is no domain.
   std::vector<unsigned> InnerSides;
+  /// Bit s of an element: all functions are C^1 across its side s, which lies inside that domain.
+  /// Known of tensor-product and THB patches; 0 elsewhere.
+  std::vector<unsigned> SmoothSides;
   /// In that domain; empty boxes where there is none.
   std::vector<ParametricBox<3>> Boxes;
   std::vector<std::size_t> FirstFunction{ 0 }; ///< NumElements + 1 offsets into Functions
@@ -68,10 +71,11 @@ public:
   explicit GalerkinSpaceBuilder(GalerkinSpace& space) : Space(space) {}
   /// @param matrix  an element's operator, a row a function. @return its place in OperatorData.
   std::size_t Keep(const PointMatrix& matrix);
-  /// @param innerSides  as GalerkinSpace::InnerSides. @param functions  alive ones. @param place of
-  /// the element's operator.
-  void Add(CellShape shape, const CellDegree& degree, int patch, unsigned innerSides,
-    const ParametricBox<3>& box, const std::vector<int>& functions, std::size_t place);
+  /// @param sides  as GalerkinSpace::InnerSides and SmoothSides. @param functions  alive ones.
+  /// @param place  of the element's operator.
+  void Add(CellShape shape, const CellDegree& degree, int patch,
+    const std::array<unsigned, 2>& sides, const ParametricBox<3>& box,
+    const std::vector<int>& functions, std::size_t place);
 
 private:
   GalerkinSpace& Space;
@@ -88,7 +92,8 @@ Result<GalerkinSpace> MakeGalerkinSpace(const Spline<Dim>& spline);
 /// The space of several patches, C^0 across the interfaces of the topology: functions of both sides
 /// that lie on each other are one. Elements are those of the patches in order.
 /// @return the codes of the first; InvalidTopology for an interface that is partial, whose sides do
-/// not have the same control points and weights, or of a patch that is not a tensor-product one.
+/// not have the same functions, control points and weights, or of a patch that is neither a
+/// tensor-product nor a THB one.
 template <int Dim>
 Result<GalerkinSpace> MakeGalerkinSpace(const MultiPatch<Dim>& patches);
 

@@ -16,7 +16,8 @@ struct LinearSolverReport
 };
 
 /// Solves the equations of the coefficients that are not given: factorizes up to
-/// GalerkinParams::DirectLimit unknowns, else conjugate gradients. Their preconditioner on one
+/// GalerkinParams::DirectLimit unknowns (a tenth on one tensor-product volume), else conjugate
+/// gradients. Their preconditioner on one
 /// tensor-product patch is fast diagonalization of the Laplacian of its parameters, each component
 /// alone, stretched in each direction as the map does in the mean, and scaled to the diagonal of
 /// the matrix. Elsewhere it is symmetric Gauss-Seidel within blocks of unknowns, plus the constants
@@ -31,9 +32,11 @@ Status SolveUnknowns(const GalerkinSpace& space, int components, const std::vect
   const Eigen::SparseMatrix<double>& lower, const GalerkinParams& params, Eigen::MatrixXd& sides,
   LinearSolverReport& report);
 
-/// Solves for a mass matrix, several columns: conjugate gradients with Gauss-Seidel within blocks.
-/// The bits of the result do not depend on the number of threads.
+/// Solves for the mass matrix of all functions, four columns at a time: conjugate gradients, on one
+/// tensor-product patch with the mass matrix of its parameters as preconditioner, elsewhere with
+/// Gauss-Seidel within blocks. The bits of the result do not depend on the number of threads.
 /// @param lower  as above. @param sides  become the solutions. @return SingularSystem,
 /// NotConverged.
-Status SolveMass(const Eigen::SparseMatrix<double>& lower, int threads, Eigen::MatrixXd& sides);
+Status SolveMass(const GalerkinSpace& space, const Eigen::SparseMatrix<double>& lower, int threads,
+  Eigen::MatrixXd& sides);
 }

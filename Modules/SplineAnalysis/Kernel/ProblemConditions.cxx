@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ElementRule.h"
+#include "BoundaryEdges.h"
 #include "ProblemDescription.h"
 #include "StiffnessMatrix.h"
 #include <knotwork/SplineCore/Numbers.h>
@@ -56,17 +56,6 @@ Samples FacetSamples(CellShape shape)
     }
   }
   return samples;
-}
-
-/// Ends of a facet's edges in its parameters.
-std::vector<std::array<std::array<double, 2>, 2>> FacetEdges(CellShape shape)
-{
-  if (shape == CellShape::Tetrahedron)
-  {
-    return { { { { 0, 0 }, { 1, 0 } } }, { { { 1, 0 }, { 0, 1 } } }, { { { 0, 1 }, { 0, 0 } } } };
-  }
-  return { { { { 0, 0 }, { 1, 0 } } }, { { { 1, 0 }, { 1, 1 } } }, { { { 1, 1 }, { 0, 1 } } },
-    { { { 0, 1 }, { 0, 0 } } } };
 }
 
 /// Of every component; one that is free is 0.
@@ -300,59 +289,82 @@ private:
     return this->Chosen.Facets.empty() ? this->NothingThere("facets") : Status();
   }
 
-  /// Functions that are not 0 on the edges of a region.
-  Result<std::set<int>> EdgeFunctions(const ProblemRegion& region) const
+  /// The group of edges that a region names; none: it names no group, or one of facets.
+  std::optional<long long> EdgeGroup(const ProblemRegion& region) const
+  {
+    const auto named = this->Boundary.EdgeNames.find(region.GroupName);
+    const std::optional<long long> group =
+      named != this->Boundary.EdgeNames.end() ? named->second : region.Group;
+    const bool exists = group &&
+      std::any_of(this->Boundary.EdgeGroups.begin(), this->Boundary.EdgeGroups.end(),
+        [&](const auto& edge)
+        { return std::find(edge.second.begin(), edge.second.end(), *group) != edge.second.end(); });
+    return exists ? group : std::nullopt;
+  }
+
+  /// Chooses edges with the functions that are not 0 on them.
+  Status ChooseEdgesOf(const ProblemRegion& region)
   {
     if (this->Space.Dimension != 3)
     {
       return { ErrorCode::InvalidParameter,
         this->Name + ": \"along\" is for edges of bodies in space; in the plane use \"at\"" };
     }
+    const std::optional<long long> group = this->EdgeGroup(region);
+    ProblemRegion ofFacets = region;
+    if (group)
+    {
+      ofFacets.Group.reset();
+      ofFacets.GroupName.clear();
+    }
     const auto where = this->Where(region);
-    const auto candidates = this->Candidates(region);
+    const auto candidates = this->Candidates(ofFacets);
     if (!where || !candidates)
     {
       return where ? candidates.Status : where.Status;
     }
-    std::set<int> functions;
-    PointValues values;
+    std::vector<CellSide> facets;
     for (const std::size_t i : candidates.Value)
     {
-      const CellSide& facet = this->Boundary.Facets[i];
-      const auto e = static_cast<std::size_t>(facet.Cell);
-      const FacetFrame frame = MakeFacetFrame(this->Space.Shapes[e], facet.Side);
-      const CellDegree& degree = this->Space.Degrees[e];
-      const int count = *std::max_element(degree.begin(), degree.end()) + 1;
-      for (const auto& edge : FacetEdges(this->Space.Shapes[e]))
+      facets.push_back(this->Boundary.Facets[i]);
+    }
+    const auto edges = ChooseEdges(this->Space, facets,
+      [&](const CellSide& facet, const FacetEdge& edge,
+        const std::array<std::array<double, 3>, 3>& samples)
       {
-        const auto at = [&](double t)
+        if (group)
         {
-          return frame.Point({ edge[0][0] + t * (edge[1][0] - edge[0][0]),
-            edge[0][1] + t * (edge[1][1] - edge[0][1]) });
-        };
-        bool isInside = true;
-        for (const double t : { 0.0, 0.5, 1.0 })
-        {
-          isInside = isInside &&
-            this->Holds(
-              region, where.Value, PlaceAt(this->Space, facet.Cell, at(t).data(), &frame));
-        }
-        // a polynomial of the edge's degree that is 0 at as many places and one more is 0
-        for (int k = 0; k < count && isInside; ++k)
-        {
-          EvaluateFunctions(this->Space, facet.Cell, at((k + 0.5) / count).data(), values);
-          for (int a = 0; a < this->Space.NumAlive(facet.Cell); ++a)
+          const auto own = this->Boundary.EdgeGroups.find(edge.Ends);
+          if (own == this->Boundary.EdgeGroups.end() ||
+            std::find(own->second.begin(), own->second.end(), *group) == own->second.end())
           {
-            if (std::abs(values.Values[a]) > 1e-13)
-            {
-              functions.insert(this->Space.Alive(facet.Cell)[a]);
-            }
+            return false;
           }
         }
-      }
+        const auto e = static_cast<std::size_t>(facet.Cell);
+        const FacetFrame frame = MakeFacetFrame(this->Space.Shapes[e], facet.Side);
+        const std::size_t across = AcrossSide(std::max(0, region.Other));
+        const double end = region.Other % 2;
+        if (region.Other >= 0 &&
+          (samples[0][across] != end || samples[2][across] != end ||
+            (this->Space.InnerSides[e] >> region.Other & 1U) != 0))
+        {
+          return false;
+        }
+        return std::all_of(samples.begin(), samples.end(),
+          [&](const std::array<double, 3>& u) {
+            return this->Holds(
+              region, where.Value, PlaceAt(this->Space, facet.Cell, u.data(), &frame));
+          });
+      });
+    std::set<int> functions;
+    for (const FacetEdge& edge : edges)
+    {
+      this->Chosen.Edges.push_back(edge.Place);
+      functions.insert(edge.Functions.begin(), edge.Functions.end());
     }
-    return functions.empty() ? Result<std::set<int>>(this->NothingThere("edges"))
-                             : Result<std::set<int>>(std::move(functions));
+    this->Chosen.Functions.assign(functions.begin(), functions.end());
+    return edges.empty() ? this->NothingThere("edges") : Status();
   }
 
   /// The function that is 1 at a point, where all others are 0.
@@ -415,15 +427,17 @@ private:
       }
       return status;
     }
-    std::set<int> chosen;
     if (condition.Region.Kind == RegionKind::Edges)
     {
-      auto onEdges = this->EdgeFunctions(condition.Region);
-      if (!onEdges)
+      const Status status = this->ChooseEdgesOf(condition.Region);
+      if (!status || condition.Kind == ConditionKind::Force)
       {
-        return onEdges.Status;
+        if (status)
+        {
+          this->AddAlongEdges(functions.Value);
+        }
+        return status;
       }
-      chosen = std::move(onEdges.Value);
     }
     else
     {
@@ -432,9 +446,8 @@ private:
       {
         return function.Status;
       }
-      chosen = { function.Value };
+      this->Chosen.Functions = { function.Value };
     }
-    this->Chosen.Functions.assign(chosen.begin(), chosen.end());
     const bool isPoint = condition.Region.Kind == RegionKind::Point;
     for (std::size_t c = 0; c < condition.Values.size(); ++c)
     {
@@ -451,7 +464,7 @@ private:
       }
       const std::array<double, 3> none{};
       const double number = functions.Value[c](condition.Region.At.data(), none.data());
-      for (const int function : chosen)
+      for (const int function : this->Chosen.Functions)
       {
         const int component = static_cast<int>(c);
         if (condition.Kind == ConditionKind::Force)
@@ -465,6 +478,19 @@ private:
       }
     }
     return {};
+  }
+
+  void AddAlongEdges(const std::vector<ScalarFunction>& functions)
+  {
+    this->Problem.EdgeLoads.push_back({ this->Chosen.Edges,
+      [functions](const double* x, double* values)
+      {
+        const std::array<double, 3> none{};
+        for (std::size_t k = 0; k < functions.size(); ++k)
+        {
+          values[k] = functions[k](x, none.data());
+        }
+      } });
   }
 
   void AddOnFacets(const ProblemCondition& condition, const std::vector<ScalarFunction>& functions)

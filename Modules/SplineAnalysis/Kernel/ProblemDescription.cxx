@@ -297,7 +297,12 @@ private:
     {
       return region;
     }
-    if (!this->IsObject(where, name, { "patch", "side", "box", "where", "group" }))
+    std::set<std::string> keys{ "patch", "side", "box", "where", "group" };
+    if (!isFacets)
+    {
+      keys.insert("sides");
+    }
+    if (!this->IsObject(where, name, keys))
     {
       return region;
     }
@@ -319,6 +324,18 @@ private:
     };
     index("patch", region.Patch);
     index("side", region.Side);
+    if (where.contains("sides"))
+    {
+      const auto sides = this->Numbers<2>(where["sides"], name + ": \"sides\"");
+      region.Side = static_cast<int>(sides[0]);
+      region.Other = static_cast<int>(sides[1]);
+      if (region.Side != sides[0] || region.Other != sides[1] || region.Side < 0 ||
+        region.Other < 0 || region.Side > 5 || region.Other > 5 || where.contains("side"))
+      {
+        this->Fail(name + ": \"sides\"",
+          "are not two of the sides 0 to 5 that meet in edges, without another \"side\"");
+      }
+    }
     if (where.contains("box"))
     {
       region.Box = this->Numbers<6>(where["box"], name + ": \"box\"");
@@ -388,15 +405,12 @@ private:
       return condition;
     }
     const RegionKind region = condition.Region.Kind;
-    if (kind != given && (kind == "force") != (region == RegionKind::Point))
+    if (kind != given && (kind == "force") != (region != RegionKind::Facets))
     {
       this->Fail(place,
         "has a \"" + kind + "\" that does not act there: " +
-          (kind == "force" ? "forces act \"at\" points" : "it acts \"on\" facets"));
-    }
-    if (kind != given && region == RegionKind::Edges)
-    {
-      this->Fail(place, "has a \"" + kind + "\" along edges, which can be held only");
+          (kind == "force" ? "forces act \"at\" points and \"along\" edges"
+                           : "it acts \"on\" facets"));
     }
     condition.Kind = kind == given ? ConditionKind::Value
       : kind == load               ? ConditionKind::Load

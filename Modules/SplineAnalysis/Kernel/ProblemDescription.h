@@ -31,6 +31,7 @@ struct ProblemRegion
   RegionKind Kind = RegionKind::Facets;
   int Patch = -1; ///< -1: any
   int Side = -1;  ///< of the patch (PatchSides.h); -1: any
+  int Other = -1; ///< of edges: the second of the sides that they are on; -1: any
   /// Lower and upper ends of x, then of y and z: facets and edges that lie in it with all of their
   /// samples.
   std::optional<std::array<double, 6>> Box;
@@ -45,7 +46,7 @@ enum class ConditionKind
   Value,    ///< the solution: a value, or displacements
   Load,     ///< flux or traction on facets
   Pressure, ///< traction against the normal
-  Force     ///< at a point
+  Force     ///< at a point, or for each length along edges
 };
 
 struct ProblemCondition
@@ -89,12 +90,16 @@ struct BoundaryGroups
   std::vector<CellSide> Facets;               ///< BoundaryFacets
   std::vector<std::vector<long long>> Groups; ///< of each; empty: there are none
   std::map<std::string, long long> Names;     ///< of groups
+  /// Of edges in space, by the functions that are 1 at their ends, ascending.
+  std::map<std::array<int, 2>, std::vector<long long>> EdgeGroups;
+  std::map<std::string, long long> EdgeNames;
 };
 
 /// What a condition has chosen: facets, or functions on edges and at points.
 struct ConditionPlace
 {
   std::vector<CellSide> Facets;
+  std::vector<ElementEdge> Edges; ///< each once
   std::vector<int> Functions;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ResultFields.h"
 
+#include "BoundaryEdges.h"
 #include "ElementGeometry.h"
 #include "LinearSolver.h"
 #include "StiffnessMatrix.h"
@@ -21,22 +22,29 @@ namespace
 constexpr double FieldTolerance = 1e-6;
 constexpr std::size_t BatchChunk = 32; ///< elements that a thread takes at a time
 
-/// The row of GaussValues of a gradient.
-Eigen::RowVectorXd ResultRow(
-  const GalerkinProblem& problem, int element, const Eigen::MatrixXd& gradient)
+/// Of a map at most in space, without memory of its own.
+using SmallGradient = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 3, 3>;
+
+/// Fills the row of GaussValues of a gradient. @param withPrincipal  whether principal stresses are
+/// wanted, which take longer than the rest.
+void FillRow(const GalerkinProblem& problem, int element, const SmallGradient& gradient,
+  bool withPrincipal, Eigen::Ref<Eigen::RowVectorXd> row)
 {
-  Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(NumResultColumns(problem.Equation));
+  row.setZero();
   if (problem.Equation == GalerkinEquation::Poisson)
   {
     row.head(gradient.cols()) = MaterialOf(problem, element).Conductivity * gradient.row(0);
-    return row;
+    return;
   }
   const Eigen::Matrix3d s = ElasticStress(problem, element, gradient);
-  const Eigen::Vector3d principal =
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(s, Eigen::EigenvaluesOnly).eigenvalues();
-  row << s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2), VonMisesStress(s), principal[2],
-    principal[1], principal[0];
-  return row;
+  row.head(7) << s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2), VonMisesStress(s);
+  if (withPrincipal)
+  {
+    row.tail(3) = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(s, Eigen::EigenvaluesOnly)
+                    .eigenvalues()
+                    .reverse()
+                    .transpose();
+  }
 }
 
 double LargestAtCorners(
@@ -80,7 +88,8 @@ struct ElementResults
 /// Rows, positions and weights of the element's points, its energy and largest value.
 template <int Dim>
 void FindValues(const GalerkinSpace& space, const GalerkinProblem& problem,
-  const PointMatrix& coefficients, const RuleTables& tables, int e, ElementResults& element)
+  const PointMatrix& coefficients, const RuleTables& tables, bool withPrincipal, int e,
+  ElementResults& element)
 {
   element.Functions = tables.Functions(space, e, element.Memory);
   const QuadratureFunctions& functions = element.Functions;
@@ -94,7 +103,7 @@ void FindValues(const GalerkinSpace& space, const GalerkinProblem& problem,
   LocalCoefficients local;
   local.Take(space, e, functions.Stride, coefficients);
   const int components = static_cast<int>(coefficients.cols());
-  Eigen::MatrixXd gradient(components, Dim);
+  SmallGradient gradient(components, Dim);
   for (int q = 0; q < functions.NumPoints; ++q)
   {
     const double* rows = functions.Rows + std::ptrdiff_t{ q } * (Dim + 1) * functions.Stride;
@@ -109,11 +118,11 @@ void FindValues(const GalerkinSpace& space, const GalerkinProblem& problem,
       const double value = local.Combine(c, rows);
       square += value * value;
     }
-    gradient = gradient * jacobian.inverse();
+    gradient = gradient.lazyProduct(jacobian.inverse().eval()).eval();
     element.LargestValue = std::max(element.LargestValue, square);
     element.Weights[q] = functions.Weights[q] * std::abs(jacobian.determinant());
     element.Positions.row(q) = geometry.Position(rows).transpose();
-    element.Rows.row(q) = ResultRow(problem, e, gradient);
+    FillRow(problem, e, gradient, withPrincipal, element.Rows.row(q));
     element.Energy += element.Weights[q] * EnergyDensity(problem, e, gradient);
   }
 }
@@ -140,11 +149,13 @@ void Integrate(const GalerkinSpace& space, int e, std::vector<int>& order, Eleme
   }
 }
 
-/// Calls for batches of elements whose values are found in parallel.
+/// Calls for batches of elements whose values are found in parallel. @param withPrincipal  as
+/// FillRow.
 /// @param visit  (first, count, elements); ends with its failure.
 template <typename Visitor>
 Status ForBatches(const GalerkinSpace& space, const GalerkinProblem& problem,
-  const PointMatrix& coefficients, const RuleTables& tables, int threads, const Visitor& visit)
+  const PointMatrix& coefficients, const RuleTables& tables, bool withPrincipal, int threads,
+  const Visitor& visit)
 {
   constexpr int Batch = 512; // elements whose points are held at a time
   const auto find = space.Dimension == 2 ? FindValues<2> : FindValues<3>;
@@ -158,7 +169,8 @@ Status ForBatches(const GalerkinSpace& space, const GalerkinProblem& problem,
       {
         for (std::size_t i = begin; i < end; ++i)
         {
-          find(space, problem, coefficients, tables, first + static_cast<int>(i), elements[i]);
+          find(space, problem, coefficients, tables, withPrincipal, first + static_cast<int>(i),
+            elements[i]);
         }
       });
     if (const Status status = visit(first, count, elements); !status)
@@ -177,7 +189,7 @@ Status FindPeak(const GalerkinSpace& space, const GalerkinProblem& problem,
   RuleTables tables = RuleTables::OnLattice();
   tables.Prepare(space);
   const bool isElastic = problem.Equation != GalerkinEquation::Poisson;
-  return ForBatches(space, problem, coefficients, tables, threads,
+  return ForBatches(space, problem, coefficients, tables, false, threads,
     [&](int first, int count, const std::vector<ElementResults>& elements) -> Status
     {
       for (int i = 0; i < count; ++i)
@@ -229,6 +241,16 @@ double FacetMeasure(const GalerkinSpace& space, const std::vector<CellSide>& fac
   return measure;
 }
 
+double EdgeLength(const GalerkinSpace& space, const std::vector<ElementEdge>& edges)
+{
+  double sum = 0.0;
+  for (const ElementEdge& edge : edges)
+  {
+    VisitEdge(space, edge, 1e-10, [&](double length, const PointValues&) { sum += length; });
+  }
+  return sum;
+}
+
 int NumResultColumns(GalerkinEquation equation)
 {
   return equation == GalerkinEquation::Poisson ? 3 : 10;
@@ -246,7 +268,7 @@ Result<ResultFields> MakeResultFields(const GalerkinSpace& space, const Galerkin
   std::vector<double> values;
   std::vector<double> points;
   Eigen::SparseMatrix<double> mass;
-  if (const Status status = MakePattern(space, 1, params.Threads, mass); !status)
+  if (const Status status = MakePattern(space, 1, params, mass); !status)
   {
     return status;
   }
@@ -256,7 +278,7 @@ Result<ResultFields> MakeResultFields(const GalerkinSpace& space, const Galerkin
   const std::size_t width = NumEntries(space, 1);
   std::vector<double> matrices;
   double largest = 0.0; // squared
-  const Status status = ForBatches(space, problem, coefficients, tables, params.Threads,
+  const Status status = ForBatches(space, problem, coefficients, tables, true, params.Threads,
     [&](int first, int count, std::vector<ElementResults>& elements) -> Status
     {
       matrices.resize(width * static_cast<std::size_t>(count));
@@ -316,7 +338,7 @@ Result<ResultFields> MakeResultFields(const GalerkinSpace& space, const Galerkin
   {
     return peak;
   }
-  if (const Status solved = SolveMass(mass, params.Threads, sides); !solved)
+  if (const Status solved = SolveMass(space, mass, params.Threads, sides); !solved)
   {
     return { solved.Code, "stresses cannot be projected: " + solved.Detail };
   }

@@ -31,6 +31,9 @@ std::vector<int> FunctionsOnFacets(const GalerkinSpace& space, const std::vector
 /// Length or area of facets, by quadrature.
 double FacetMeasure(const GalerkinSpace& space, const std::vector<CellSide>& facets);
 
+/// Length of edges, likewise.
+double EdgeLength(const GalerkinSpace& space, const std::vector<ElementEdge>& edges);
+
 /// Columns of ResultFields::GaussValues: the flux's 3 alone, or all 10.
 int NumResultColumns(GalerkinEquation equation);
 

@@ -274,8 +274,8 @@ FunctionSupports MakeSupports(const GalerkinSpace& space)
 
 }
 
-Status MakePattern(
-  const GalerkinSpace& space, int components, int threads, Eigen::SparseMatrix<double>& matrix)
+Status MakePattern(const GalerkinSpace& space, int components, const GalerkinParams& params,
+  Eigen::SparseMatrix<double>& matrix)
 {
   const auto n = static_cast<std::size_t>(space.NumFunctions());
   const std::size_t chunk = std::max<std::size_t>(1024, n / 64 + 1);
@@ -284,7 +284,7 @@ Status MakePattern(
   std::vector<int> sizes(n);
   {
     const FunctionSupports supports = MakeSupports(space);
-    ParallelFor(n, chunk, threads,
+    ParallelFor(n, chunk, params.Threads,
       [&](std::size_t begin, std::size_t end)
       {
         std::vector<int>& list = lists[begin / chunk];
@@ -318,11 +318,11 @@ Status MakePattern(
   {
     entries += size * c * c - (size > 0 ? c * (c - 1) / 2 : 0); // no upper triangle in the block
   }
-  if (entries > std::numeric_limits<int>::max())
+  if (entries > params.MaxEntries)
   {
     return { ErrorCode::TooLarge,
-      "the matrix has " + std::to_string(entries) +
-        " entries, more than 2147483647; take fewer elements, or such of a lower degree" };
+      "the matrix has " + std::to_string(entries) + " entries, more than " +
+        std::to_string(params.MaxEntries) + "; take fewer elements, or such of a lower degree" };
   }
   matrix.resize(space.NumFunctions() * c, space.NumFunctions() * c);
   matrix.resizeNonZeros(entries);
@@ -340,7 +340,7 @@ Status MakePattern(
     }
   }
   *outer = next;
-  ParallelFor(n, chunk, threads,
+  ParallelFor(n, chunk, params.Threads,
     [&](std::size_t begin, std::size_t end)
     {
       std::vector<int>& list = lists[begin / chunk];
@@ -534,7 +534,7 @@ Result<Eigen::SparseMatrix<double>> AssembleStiffness(const GalerkinSpace& space
   constexpr std::size_t BatchBytes = std::size_t{ 2 } << 20; // of elements' entries at a time
   const int components = NumSolutionComponents(problem.Equation);
   Result<Eigen::SparseMatrix<double>> matrix; // all returns name it: another one would copy entries
-  matrix.Status = MakePattern(space, components, params.Threads, matrix.Value);
+  matrix.Status = MakePattern(space, components, params, matrix.Value);
   if (!matrix)
   {
     return matrix;

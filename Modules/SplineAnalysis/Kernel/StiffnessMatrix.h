@@ -21,8 +21,8 @@ const GalerkinMaterial& MaterialOf(const GalerkinProblem& problem, int element);
 
 /// The lower triangle of zeros where elements have entries. @return TooLarge.
 /// @param matrix  filled in place: Eigen's matrices copy their entries when they are moved.
-Status MakePattern(
-  const GalerkinSpace& space, int components, int threads, Eigen::SparseMatrix<double>& matrix);
+Status MakePattern(const GalerkinSpace& space, int components, const GalerkinParams& params,
+  Eigen::SparseMatrix<double>& matrix);
 /// Places of an element's functions in ascending order. @return whether these are 0, 1, 2 and so
 /// on.
 bool SortFunctions(const GalerkinSpace& space, int element, std::vector<int>& order);

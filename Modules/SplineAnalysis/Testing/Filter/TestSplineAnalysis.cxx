@@ -396,6 +396,67 @@ TEST(vtkSplineAnalysis, RefinementIsAdaptive_PropertyOracle)
       std::pow(Body(filter)->GetCellData()->GetArray("EstimatedError")->GetComponent(cell, 0), 2);
   }
   EXPECT_NEAR(std::sqrt(sum), Number(filter, "EstimatedError"), 1e-9 * error);
-  filter->SetInputDataObject(ShapeGrid(vtkSplineSource::DISC, 2, { 2, 2, 1 }));
-  ExpectFailure(filter, ErrorCode::InvalidParameter, "is for one patch");
+  filter->SetInputDataObject(BeamMesh(false, 1));
+  ExpectFailure(filter, ErrorCode::InvalidParameter, "is for splines");
+}
+
+// A disc of five patches under a load that is small in the middle of one of them.
+TEST(vtkSplineAnalysis, RefinementOfSeveralPatches_PropertyOracle)
+{
+  vtkNew<vtkSplineAnalysis> filter;
+  filter->SetInputDataObject(ShapeGrid(vtkSplineSource::DISC, 2, { 4, 4, 1 }));
+  filter->SetProblem(R"json({ "source": "exp(-300 * ((x - 0.5)^2 + y^2))",
+    "conditions": [ { "on": "boundary", "value": 0 } ] })json");
+  filter->Update();
+  const double error = Number(filter, "EstimatedError");
+  filter->SetMaxSteps(6);
+  filter->Update();
+  ASSERT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
+  EXPECT_LT(Number(filter, "EstimatedError"), 0.3 * error);
+  EXPECT_LE(Number(filter, "Imbalance"), 1e-10);
+  // the output is five patches that are one body again
+  const SplineModel model = DecodePatches(Body(filter));
+  ASSERT_EQ(model.Patches.size(), 5U);
+  EXPECT_EQ(model.Topology.Interfaces.size(), 8U);
+  vtkNew<vtkSplineAnalysis> again;
+  again->SetInputDataObject(Body(filter));
+  again->SetProblem(filter->GetProblem());
+  again->Update();
+  ASSERT_EQ(again->GetErrorCode(), vtkErrorCode::NoError);
+  EXPECT_EQ(Number(again, "Functions"), Number(filter, "Functions"));
+  EXPECT_NEAR(Number(again, "Energy"), Number(filter, "Energy"), 1e-10 * Number(filter, "Energy"));
+}
+
+// Lines of a mesh in space are edges that loads act along.
+TEST(vtkSplineAnalysis, LoadsAlongLinesOfAMesh_ExactOracle)
+{
+  const auto body = BeamMesh(false, 1);
+  vtkNew<vtkIntArray> group;
+  group->SetName("PhysicalGroup");
+  for (vtkIdType cell = 0; cell < body->GetNumberOfCells(); ++cell)
+  {
+    group->InsertNextValue(1);
+  }
+  // corners of the end at the top: (10, 0, 1) and (10, 1, 1) are points of a lattice of 21 x 3 x 3
+  const vtkIdType line[] = { 20 + 21 * (0 + 3 * 2), 20 + 21 * (2 + 3 * 2) };
+  body->InsertNextCell(VTK_LINE, 2, line);
+  group->InsertNextValue(7);
+  body->GetCellData()->AddArray(group);
+  vtkNew<vtkSplineAnalysis> filter;
+  filter->SetInputDataObject(body);
+  filter->SetEquation(vtkSplineAnalysis::ELASTICITY);
+  filter->SetProblem(R"({ "conditions": [
+    { "on": { "where": "x < 1e-9" }, "displacement": [0, 0, 0] },
+    { "along": { "group": 7 }, "force": [0, 0, -3] } ] })");
+  filter->Update();
+  ASSERT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
+  EXPECT_NEAR(Number(filter, "TotalLoad", 2), -3.0, 1e-10); // 3 for each length, 1 long
+  EXPECT_LE(Number(filter, "Imbalance"), 1e-10);
+  auto* const conditions = vtkTable::SafeDownCast(filter->GetOutputDataObject(2));
+  EXPECT_NEAR(conditions->GetValueByName(1, "Measure").ToDouble(), 1.0, 1e-12);
+  EXPECT_EQ(conditions->GetValueByName(1, "Functions").ToInt(), 2);
+  filter->SetProblem(R"({ "conditions": [
+    { "on": { "where": "x < 1e-9" }, "displacement": [0, 0, 0] },
+    { "along": { "group": 8 }, "force": [0, 0, -3] } ] })");
+  ExpectFailure(filter, ErrorCode::InvalidParameter, "no groups of facets");
 }

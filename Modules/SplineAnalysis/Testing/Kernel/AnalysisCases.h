@@ -130,9 +130,10 @@ Spline<Dim> BentStar(int valence, int n, int degree)
   return SplineThroughVertices<Dim>(space->Space, vertices).Value;
 }
 
-/// The bent unit square or cube of Lagrange elements, n a direction; boxes are cut into simplices
-/// along their diagonals.
-inline AnalysisCase LagrangeCase(CellShape shape, int order, int n)
+/// A map of the unit square or cube by Lagrange elements, n a direction; boxes are cut into
+/// simplices along their diagonals. @param straight  elements are those of their corners.
+inline AnalysisCase MappedLagrangeCase(
+  CellShape shape, int order, int n, const std::function<void(double*)>& map, bool straight = false)
 {
   const int dimension = NumParameters(shape);
   const bool simplex = shape == CellShape::Triangle || shape == CellShape::Tetrahedron;
@@ -150,7 +151,7 @@ inline AnalysisCase LagrangeCase(CellShape shape, int order, int n)
     {
       x[2] = static_cast<double>(node / m / m) / (m - 1);
     }
-    Bend(x, dimension);
+    map(x);
   }
   // corners of an element as offsets in a box: origin, then the ends of the directions
   std::vector<std::vector<std::array<int, 3>>> pieces;
@@ -208,8 +209,24 @@ inline AnalysisCase LagrangeCase(CellShape shape, int order, int n)
               place[d] = at[d] * order + o * order + i * (corners[1][d] - o) +
                 j * (corners[2][d] - o) + (dimension == 3 ? k * (corners[3][d] - o) : 0);
             }
-            nodes[static_cast<std::size_t>(CellCoefficient(shape, degree, i, j, k))] =
-              number(place);
+            const int node = number(place);
+            nodes[static_cast<std::size_t>(CellCoefficient(shape, degree, i, j, k))] = node;
+            const std::array<int, 3> steps{ i, j, k };
+            Eigen::RowVectorXd middle = Eigen::RowVectorXd::Zero(dimension);
+            for (std::size_t c = 0; straight && c < static_cast<std::size_t>(dimension) + 1; ++c)
+            {
+              std::array<int, 3> end{};
+              for (std::size_t d = 0; d < 3; ++d)
+              {
+                end[d] = (at[d] + corners[c][d]) * order;
+              }
+              const int share = c == 0 ? order - i - j - k : steps[c - 1];
+              middle += static_cast<double>(share) / order * mesh.Nodes.row(number(end));
+            }
+            if (straight)
+            {
+              mesh.Nodes.row(node) = middle;
+            }
           }
         }
       }
@@ -221,5 +238,13 @@ inline AnalysisCase LagrangeCase(CellShape shape, int order, int n)
     MakeGalerkinSpace(mesh).Value, {} };
   result.Boundary = BoundaryFacets(result.Space).Value;
   return result;
+}
+
+/// The bent unit square or cube. @param size  of the bends.
+inline AnalysisCase LagrangeCase(CellShape shape, int order, int n, double size = 0.1)
+{
+  const int dimension = NumParameters(shape);
+  return MappedLagrangeCase(
+    shape, order, n, [dimension, size](double* x) { Bend(x, dimension, size); });
 }
 }

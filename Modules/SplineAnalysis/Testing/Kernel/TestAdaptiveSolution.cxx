@@ -183,10 +183,152 @@ TEST(AdaptiveSolution, LocallyRefinedSplines_ExactOracle)
   params.MaxFunctions = 1000;
   const auto result = SolveAdaptively<2>(spline, CornerProblem<2>, params);
   ASSERT_TRUE(result) << result.Status.Message();
-  EXPECT_EQ(result->Spline.Space->Kind, SpaceKind::LocallyRefined);
+  EXPECT_EQ(result->Body.Patches[0].Space->Kind, SpaceKind::LocallyRefined);
   const auto rows = CornerRows(result->History);
   const auto uniform = UniformCorner<2>(2, 40);
   EXPECT_LE(FunctionsAt(rows, uniform[1]), 0.1 * uniform[0]);
+}
+
+namespace
+{
+/// The L-shape, in space times (0, 1), of three squares that meet at the corner, n elements along
+/// each; their parameters are turned in different ways.
+template <int Dim>
+MultiPatch<Dim> LShapeOfPatches(int degree, int n)
+{
+  MultiPatch<Dim> body;
+  for (int k = 0; k < 3; ++k)
+  {
+    Spline<Dim> patch = BentBox<Dim>(degree, n, 0.0);
+    for (Eigen::Index i = 0; i < patch.ControlPoints.rows(); ++i)
+    {
+      const double a = patch.ControlPoints(i, 0);
+      const double b = patch.ControlPoints(i, 1);
+      const double x[] = { a, -b, -1.0 + b }; // the unit square, turned by k quarters or not
+      const double y[] = { b, a, -a };
+      patch.ControlPoints(i, 0) = x[k];
+      patch.ControlPoints(i, 1) = y[k];
+    }
+    body.Patches.push_back(patch);
+  }
+  body.Topology.Interfaces = FindInterfaces(body.Patches);
+  return body;
+}
+
+/// As CornerProblem: 0 on the re-entrant sides, its flux elsewhere.
+template <int Dim>
+Result<GalerkinProblem> CornerOfPatches(const MultiPatch<Dim>&, const GalerkinSpace& space)
+{
+  GalerkinProblem problem;
+  PrescribedValues held;
+  FacetLoad load;
+  const auto facets = BoundaryFacets(space);
+  EXPECT_TRUE(facets) << facets.Status.Message();
+  for (const CellSide& facet : facets.Value)
+  {
+    std::array<double, 3> u{ 0.5, 0.5, 0.5 };
+    u[AcrossSide(facet.Side)] = facet.Side % 2;
+    const Eigen::VectorXd x = EvaluateSolution(
+      space, problem, PointMatrix::Zero(space.NumFunctions(), 1), facet.Cell, u.data())
+                                .Position;
+    const bool isInside =
+      (std::abs(x[1]) < 1e-9 && x[0] > 0.0) || (std::abs(x[0]) < 1e-9 && x[1] < 0.0);
+    (isInside ? held.Facets : load.Facets).push_back(facet);
+  }
+  load.Values = [](const double* x, const double* normal, double* flux)
+  {
+    std::array<double, 3> g{};
+    CornerGradient(2)(x, g.data());
+    flux[0] = g[0] * normal[0] + g[1] * normal[1];
+  };
+  problem.Prescribed.push_back(held);
+  problem.Loads.push_back(load);
+  return problem;
+}
+
+/// Largest distance of the solution from itself across interfaces, of points on them.
+template <int Dim>
+double LargestGap(const AdaptiveSolution<Dim>& result)
+{
+  double gap = 0.0;
+  for (const PatchInterface& interface : result.Body.Topology.Interfaces)
+  {
+    for (int sample = 0; sample < 50; ++sample)
+    {
+      std::array<double, 2> values{};
+      std::array<Eigen::VectorXd, 2> places;
+      const std::array<double, 2> s{ (sample + 0.5) / 50, std::fmod(0.37 * sample, 1.0) };
+      for (std::size_t k = 0; k < 2; ++k)
+      {
+        const PatchSide& side = interface.Sides[k];
+        const SplineSpace<Dim>& space =
+          *result.Body.Patches[static_cast<std::size_t>(side.Patch)].Space;
+        std::array<double, Dim> u{};
+        u[AcrossSide(side.Side)] = side.Side % 2;
+        const auto directions = SideDirections<Dim>(side.Side);
+        for (std::size_t d = 0; d < directions.size(); ++d)
+        {
+          const auto axis = static_cast<std::size_t>(interface.Orientation.Axis[d]);
+          const double value = k == 0 ? s[d] : s[axis];
+          u[directions[d]] = k == 1 && interface.Orientation.Reversed[d] ? 1.0 - value : value;
+        }
+        std::array<double, 3> local{};
+        int element = space.Locate(u.data(), local.data());
+        for (int p = 0; p < side.Patch; ++p)
+        {
+          element += result.Body.Patches[static_cast<std::size_t>(p)].Space->NumElements();
+        }
+        const GalerkinPoint point = EvaluateSolution(
+          result.Space, result.Problem, result.Solution.Coefficients, element, local.data());
+        values[k] = point.Value[0];
+        places[k] = point.Position;
+      }
+      EXPECT_LE((places[0] - places[1]).norm(), 1e-12);
+      gap = std::max(gap, std::abs(values[0] - values[1]));
+    }
+  }
+  return gap;
+}
+}
+
+// Three patches reach the order of one (of degree 3, above it as long as elements at the corner are
+// many), and stay C^0 where elements are marked on one side alone.
+TEST(AdaptiveSolution, CornerOfThreePatches_ExactOracle)
+{
+  for (const int p : { 2, 3 })
+  {
+    const MultiPatch<2> body = LShapeOfPatches<2>(p, 8);
+    ASSERT_EQ(body.Topology.Interfaces.size(), 2U);
+    AdaptiveParams params;
+    params.MaxFunctions = p == 2 ? 12000 : 6000;
+    const auto result = SolveAdaptively<2>(body, CornerOfPatches<2>, params);
+    ASSERT_TRUE(result) << result.Status.Message();
+    const double slope = Slope(CornerRows(result->History), 4);
+    const double gap = LargestGap(result.Value);
+    std::printf("[ patches  ] p %d: order %.3f in functions, gap %.1e\n", p, slope, gap);
+    EXPECT_GE(slope, 0.5 * p - 0.15);
+    EXPECT_LE(slope, p == 2 ? 1.15 : 3.0);
+    EXPECT_LE(gap, 1e-12);
+    for (const Spline<2>& patch : result->Body.Patches)
+    {
+      EXPECT_EQ(patch.Space->Kind, SpaceKind::Hierarchical);
+    }
+  }
+}
+
+TEST(AdaptiveSolution, EdgeOfThreePatches_PropertyOracle)
+{
+  const MultiPatch<3> body = LShapeOfPatches<3>(2, 2);
+  AdaptiveParams params;
+  params.MaxFunctions = 2000;
+  const auto result = SolveAdaptively<3>(body, CornerOfPatches<3>, params);
+  ASSERT_TRUE(result) << result.Status.Message();
+  EXPECT_GE(result->History.size(), 5U);
+  EXPECT_LE(LargestGap(result.Value), 1e-12);
+  for (std::size_t i = 1; i < result->History.size(); ++i)
+  {
+    EXPECT_LT(result->History[i].Estimate, result->History[i - 1].Estimate);
+  }
 }
 
 // One element inside a tensor-product mesh is too little for a function of degree 3 of the next
@@ -303,6 +445,16 @@ TEST(AdaptiveSolution, EveryFailureIsReachable)
   params = {};
   expect(spline, {}, params, ErrorCode::InvalidParameter, "there is no problem");
   expect({}, corner, params, ErrorCode::DimensionMismatch, "refined by elements");
+  EXPECT_EQ(
+    SolveAdaptively<2>(MultiPatch<2>(), CornerOfPatches<2>).Status.Code, ErrorCode::EmptyInput);
+  EXPECT_EQ(RefineMarkedElements(LShapeOfPatches<2>(2, 2), { 12 }).Status.Code,
+    ErrorCode::InvalidParameter);
+  // what is refined on one side alone is no body
+  MultiPatch<2> torn = LShapeOfPatches<2>(2, 4);
+  torn.Patches[0] = RefineMarkedElements(torn.Patches[0], { 0, 1, 4, 5 })->Value;
+  const auto apart = SolveAdaptively<2>(torn, CornerOfPatches<2>);
+  EXPECT_EQ(apart.Status.Code, ErrorCode::InvalidTopology);
+  EXPECT_NE(apart.Status.Detail.find("have other functions"), std::string::npos);
   expect(BentStar<2>(5, 2, 2), corner, params, ErrorCode::DimensionMismatch, "refined by elements");
   expect(
     spline, [](const Spline<2>&, const GalerkinSpace&) { return GalerkinProblem{}; }, params,

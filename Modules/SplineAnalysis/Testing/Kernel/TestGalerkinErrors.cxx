@@ -79,6 +79,27 @@ TEST(Galerkin, DependentTracesAreRefused_ExactOracle)
   EXPECT_LT(refused, static_cast<int>(body.Boundary.size()));
 }
 
+TEST(Galerkin, LimitsOfTheSolver_PropertyOracle)
+{
+  // few iterations
+  const AnalysisCase body = CaseOf<2>("plane", BentBox<2>(2, 8));
+  GalerkinProblem problem;
+  problem.Source = [](const double*, double* f) { f[0] = 1.0; };
+  problem.Prescribed.push_back({ body.Boundary, -1, {} });
+  GalerkinParams params;
+  params.DirectLimit = 0;
+  params.MaxIterations = 2;
+  ExpectRefused(body.Space, problem, ErrorCode::NotConverged, "after 2 iterations", params);
+  params.MaxIterations = 0;
+  ExpectRefused(body.Space, problem, ErrorCode::InvalidParameter, "at least 1", params);
+  // few entries: some 8 x 8 functions of degree 2 with about 13 each in the lower triangle
+  params = {};
+  params.MaxEntries = 100;
+  ExpectRefused(body.Space, problem, ErrorCode::TooLarge, "entries", params);
+  params.MaxEntries = 2000;
+  EXPECT_TRUE(SolveGalerkin(body.Space, problem, params));
+}
+
 TEST(Galerkin, EveryFailureIsReachable)
 {
   const AnalysisCase body = CaseOf<2>("plane", BentBox<2>(2, 3));
@@ -127,6 +148,13 @@ TEST(Galerkin, EveryFailureIsReachable)
   problem = good;
   problem.PointLoads.push_back({ 0, 1, 0.0 });
   ExpectRefused(body.Space, problem, ErrorCode::InvalidParameter, "point load 0");
+  problem = good;
+  problem.EdgeLoads.push_back({ { { 0, {} } }, [](const double*, double* f) { f[0] = 1.0; } });
+  ExpectRefused(body.Space, problem, ErrorCode::InvalidParameter, "body in space");
+  const AnalysisCase solid = CaseOf<3>("solid", BentBox<3>(2, 2));
+  problem.Prescribed[0].Facets = solid.Boundary;
+  problem.EdgeLoads[0].Edges[0].Cell = 8;
+  ExpectRefused(solid.Space, problem, ErrorCode::InvalidParameter, "element 8 does not exist");
   ExpectRefused({}, good, ErrorCode::EmptyInput, "no elements");
   GalerkinParams params;
   params.Tolerance = 0.0;

@@ -83,7 +83,10 @@ TEST(ProblemDescription, EveryWrongKeyIsNamed_ExactOracle)
     { "{\"conditions\": [{\"on\": \"boundary\", \"pressure\": 1, \"traction\": [1, 1]}]}", "both" },
     { "{\"conditions\": [{\"on\": \"boundary\", \"force\": [1, 1]}]}", "forces act \"at\" points" },
     { "{\"conditions\": [{\"at\": [0, 0], \"pressure\": 1}]}", "acts \"on\" facets" },
-    { "{\"conditions\": [{\"along\": {\"side\": 1}, \"traction\": [1, 1]}]}", "can be held only" },
+    { "{\"conditions\": [{\"along\": {\"side\": 1}, \"traction\": [1, 1]}]}",
+      "acts \"on\" facets" },
+    { "{\"conditions\": [{\"along\": {\"sides\": [1, 9]}, \"force\": [1, 1]}]}",
+      "two of the sides" },
     { "{\"conditions\": [{\"on\": \"boundary\", \"value\": 1}]}", "unknown key \"value\"" },
   };
   for (const auto& [text, words] : wrong)

@@ -80,6 +80,41 @@ TEST(ResultFields, FluxOfALinearSolution_ExactOracle)
     ErrorCode::Aborted);
 }
 
+// Stresses are projected alike whatever the preconditioner and the number of threads.
+TEST(ResultFields, BitsDoNotDependOnThreads_PropertyOracle)
+{
+  ShapeParams tube;
+  tube.Kind = ShapeKind::SolidTube;
+  tube.Elements = { 4, 6, 5 };
+  tube.Degree = 2;
+  for (AnalysisCase body :
+    { CaseOf<3>("bent", BentBox<3>(2, 6)), CaseOf<3>("rational", ShapePatches<3>(tube)[0]),
+      CaseOf<3>("THB", RefineMarkedElements(BentBox<3>(2, 4), { 0, 1 })->Value) })
+  {
+    SCOPED_TRACE(body.Name);
+    GalerkinProblem problem;
+    problem.Equation = GalerkinEquation::Solid;
+    const PointMatrix coefficients = body.Space.Points.array().sin().matrix();
+    GalerkinParams params;
+    params.Threads = 1;
+    const auto one =
+      MakeResultFields(body.Space, problem, body.Boundary, coefficients, false, params);
+    ASSERT_TRUE(one) << one.Status.Message();
+    params.Threads = 3;
+    const auto more =
+      MakeResultFields(body.Space, problem, body.Boundary, coefficients, false, params);
+    EXPECT_TRUE(one->Projected == more->Projected);
+    EXPECT_TRUE(one->Energy == more->Energy);
+    // without knots Gauss-Seidel is the preconditioner
+    body.Space.Knots.clear();
+    const auto other =
+      MakeResultFields(body.Space, problem, body.Boundary, coefficients, false, params);
+    ASSERT_TRUE(other) << other.Status.Message();
+    EXPECT_LE((one->Projected - other->Projected).cwiseAbs().maxCoeff(),
+      1e-10 * one->Projected.cwiseAbs().maxCoeff());
+  }
+}
+
 TEST(ResultFields, FacetsAreMeasured_ExactOracle)
 {
   ShapeParams ring;

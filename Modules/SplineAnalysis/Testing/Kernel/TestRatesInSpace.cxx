@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Orders of convergence of splines in space, on curved bodies.
+#include "Rates.h"
+
+namespace knotwork::testing
+{
+namespace
+{
+/// A star of five sectors swept along z, n layers, bent.
+AnalysisCase SweptStar(int n, int degree)
+{
+  const int valence = 5;
+  const CellMesh<2> base = meshes::Star(valence, n);
+  const CellMesh<3> mesh = meshes::Sweep(base, n);
+  PointMatrix vertices(mesh.NumPoints, 3);
+  for (int cell = 0; cell < mesh.NumCells(); ++cell)
+  {
+    const int flat = cell % base.NumCells();
+    const int s = flat / (n * n);
+    const int c = flat % (n * n);
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      const double i = static_cast<double>(c % n + (corner & 1)) / n;
+      const double j = static_cast<double>(c / n + (corner >> 1 & 1)) / n;
+      const double step = 8.0 * std::atan(1.0) / valence;
+      double* x = vertices.row(mesh.Cell(cell)[corner]).data();
+      x[0] = i * std::cos(s * step) + j * std::cos((s + 1) * step);
+      x[1] = i * std::sin(s * step) + j * std::sin((s + 1) * step);
+      x[2] = static_cast<double>(cell / base.NumCells() + (corner >> 2)) / n;
+    }
+  }
+  for (Eigen::Index i = 0; i < vertices.rows(); ++i)
+  {
+    Bend(vertices.row(i).data(), 3, 0.05);
+  }
+  UnstructuredParams params;
+  params.Degree = degree;
+  const auto space = MakeUnstructuredSpace<3>(mesh, params);
+  return CaseOf<3>("", SplineThroughVertices<3>(space->Space, vertices).Value);
+}
+
+/// The bent cube in two halves; the second one's parameters run backwards along x and y.
+AnalysisCase TwoHalves(int n, int degree)
+{
+  MultiPatch<3> body;
+  for (int k = 0; k < 2; ++k)
+  {
+    Spline<3> patch = BentBox<3>(degree, n, 0.0);
+    for (Eigen::Index i = 0; i < patch.ControlPoints.rows(); ++i)
+    {
+      double* x = patch.ControlPoints.row(i).data();
+      x[0] = 0.5 * (k == 0 ? x[0] : 2.0 - x[0]);
+      x[1] = k == 0 ? x[1] : 1.0 - x[1];
+      Bend(x, 3);
+    }
+    body.Patches.push_back(patch);
+  }
+  body.Topology.Interfaces = FindInterfaces(body.Patches);
+  EXPECT_EQ(body.Topology.Interfaces.size(), 1U);
+  AnalysisCase made{ "", MakeGalerkinSpace(body).Value, {} };
+  made.Boundary = BoundaryFacets(made.Space).Value;
+  return made;
+}
+
+/// The bent cube with an eighth of its elements split.
+AnalysisCase RefinedBox(int n, int degree)
+{
+  const Spline<3> box = BentBox<3>(degree, n);
+  std::vector<int> marked;
+  for (int e = 0; e < box.Space->NumElements(); ++e)
+  {
+    if (e % n < n / 2 && e / n % n < n / 2 && e / n / n < n / 2)
+    {
+      marked.push_back(e);
+    }
+  }
+  return CaseOf<3>("", RefineMarkedElements(box, marked)->Value);
+}
+}
+
+TEST(RatesInSpace, PoissonOnSplines_ExactOracle)
+{
+  for (const int p : { 2, 3 })
+  {
+    ExpectRates("tensor", p, 6, [p](int n) { return CaseOf<3>("", BentBox<3>(p, n)); });
+    ExpectRates("THB", p, 6, [p](int n) { return RefinedBox(n, p); });
+    ExpectRates("multi-patch", p, 6, [p](int n) { return TwoHalves(n, p); });
+    ExpectRates("unstructured", p, 4, [p](int n) { return SweptStar(n, p); });
+  }
+}
+}
