@@ -36,7 +36,9 @@ struct SurfaceRecognition
   std::vector<int> RegionOfTriangle;
   std::array<int, NumSurfaceTypes> NumOfType{};
   double Tolerance = 0.0; ///< that was asked for
-  double Noise = 0.0; ///< largest distance of points from surfaces with which regions were grown
+  /// Largest distance of points from surfaces with which regions were grown; those of joined pieces
+  /// may be farther, up to Tolerance.
+  double Noise = 0.0;
 };
 
 /// Divides a mesh into regions of one surface each: plane, cylinder, sphere, cone, torus, the
@@ -45,7 +47,8 @@ struct SurfaceRecognition
 /// Surfaces are guessed from few neighbouring facets, grown over edges as far as points lie on them
 /// and facets do not lean away from them, and fitted to what they cover; the largest is taken.
 /// That is done with several tolerances up to the stated one, and the smallest one is kept
-/// that does not take many more regions than others.
+/// that does not take many more regions than others. Where points have noise, pieces that one
+/// surface is next to within the tolerance become one region.
 /// @param surface  of CheckSurface.
 /// @return InvalidParameter; TooLarge: more than MaxRegions; Aborted.
 /// @complexity about O(n) where regions are large; O(n) guesses of free form.

@@ -477,6 +477,32 @@ TEST(SurfaceRecognition, ParametersOutOfRange)
   EXPECT_EQ(RecognizeSurfaces(surface.Value, params).Status.Code, ErrorCode::Aborted);
 }
 
+/// Three rows of points along a large torus: its axis is that of the circle which they follow.
+TEST(FitAnalyticSurface, NarrowPieceOfALargeTorus_Exact)
+{
+  const Eigen::AngleAxisd tilt(0.7, Vector3d(1, 2, -1).normalized());
+  std::vector<Vector3d> points;
+  for (int i = 0; i <= 24; ++i)
+  {
+    for (const double turn : { 0.2, 0.5, 0.8 })
+    {
+      const double angle = 0.05 * i;
+      const double out = 60.0 + std::cos(turn);
+      points.push_back(
+        tilt * Vector3d(out * std::cos(angle), out * std::sin(angle), std::sin(turn)));
+    }
+  }
+  AnalyticSurface torus;
+  ASSERT_TRUE(GuessCircleAxis(points, torus));
+  EXPECT_NEAR((torus.Axis.cross(TiltedAxis)).norm(), 0.0, 1e-2);
+  ASSERT_TRUE(GuessTorusAbout(points, torus));
+  ASSERT_TRUE(FitSurface(points, torus, 1.0, 300));
+  EXPECT_NEAR(torus.Radius, 60.0, 1e-5);
+  EXPECT_NEAR(torus.MinorRadius, 1.0, 1e-5);
+  const std::vector<Vector3d> line = { { 0, 0, 0 }, { 1, 0, 0 }, { 2, 0, 0 } };
+  EXPECT_FALSE(GuessCircleAxis(line, torus));
+}
+
 TEST(FitAnalyticSurface, DerivativesLeadToTheSurface)
 {
   // far guesses of every type end on the surface that the points are of
