@@ -63,7 +63,7 @@ void Block()
 
 #ifdef __GLIBC__
 /// Comes before the constructors of shared libraries: OpenBLAS makes its threads in one.
-__attribute__((section(".preinit_array"), used)) void (*const blockFirst)() = Block;
+__attribute__((section(".preinit_array"), used)) void (*const BlockFirst)() = Block;
 #endif
 
 const char* NameOf(int number)

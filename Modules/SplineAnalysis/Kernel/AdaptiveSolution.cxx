@@ -412,6 +412,7 @@ Result<AdaptiveSolution<Dim>> SolveAdaptively(const Spline<Dim>& spline,
   return SolveAdaptively(body, makeProblem ? make : BodyProblemMaker<Dim>(), params, progress);
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): Dim>> ends two templates
 #define KNOTWORK_INSTANTIATE(Dim)                                                                  \
   template Result<MultiPatch<Dim>> RefineMarkedElements(                                           \
     const MultiPatch<Dim>&, const std::vector<int>&, const RefinementParams&);                     \
@@ -419,6 +420,7 @@ Result<AdaptiveSolution<Dim>> SolveAdaptively(const Spline<Dim>& spline,
     const BodyProblemMaker<Dim>&, const AdaptiveParams&, const ProgressCallback&);                 \
   template Result<AdaptiveSolution<Dim>> SolveAdaptively(                                          \
     const Spline<Dim>&, const ProblemMaker<Dim>&, const AdaptiveParams&, const ProgressCallback&);
+// NOLINTEND(bugprone-macro-parentheses)
 KNOTWORK_INSTANTIATE(2)
 KNOTWORK_INSTANTIATE(3)
 #undef KNOTWORK_INSTANTIATE
