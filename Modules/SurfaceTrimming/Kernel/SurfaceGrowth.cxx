@@ -57,17 +57,6 @@ GrownRegion Choose(std::vector<GrownRegion> found, int seed, double noise)
   return best;
 }
 
-double SumOfSquares(const std::vector<Vector3d>& points, const AnalyticSurface& surface)
-{
-  double sum = 0.0;
-  for (const Vector3d& point : points)
-  {
-    const double distance = surface.Distance(point);
-    sum += distance * distance;
-  }
-  return sum;
-}
-
 std::vector<int> Unique(std::vector<int> values)
 {
   std::sort(values.begin(), values.end());
@@ -254,6 +243,21 @@ void SurfaceGrowth::Reconsider(GrownRegion& region) const
   }
 }
 
+bool SurfaceGrowth::Settle(GrownRegion& made, GrownRegion& region) const
+{
+  const FlatPiece& first =
+    this->Facets.Clusters[static_cast<std::size_t>(made.Clusters.front())].Piece;
+  made.Reversed = made.Surface.Normal(first.Centre).dot(first.Normal) < 0.0;
+  if (!std::all_of(made.Clusters.begin(), made.Clusters.end(),
+        [&](int cluster) { return this->Fits(cluster, made.Surface, made.Reversed); }))
+  {
+    return false;
+  }
+  made.MeanSag = this->MeanSag(made);
+  region = std::move(made);
+  return true;
+}
+
 bool SurfaceGrowth::FitProfile(
   SurfaceType type, const std::vector<char>& flat, GrownRegion& region) const
 {
@@ -287,17 +291,7 @@ bool SurfaceGrowth::FitProfile(
   {
     return false;
   }
-  const FlatPiece& first =
-    this->Facets.Clusters[static_cast<std::size_t>(region.Clusters.front())].Piece;
-  made.Reversed = made.Surface.Normal(first.Centre).dot(first.Normal) < 0.0;
-  if (!std::all_of(made.Clusters.begin(), made.Clusters.end(),
-        [&](int cluster) { return this->Fits(cluster, made.Surface, made.Reversed); }))
-  {
-    return false;
-  }
-  made.MeanSag = this->MeanSag(made);
-  region = std::move(made);
-  return true;
+  return this->Settle(made, region);
 }
 
 bool SurfaceGrowth::FitType(
@@ -342,7 +336,7 @@ bool SurfaceGrowth::FitType(
   for (AnalyticSurface& start : starts)
   {
     const double squares = FitSurface(points, start, Hopeless * this->Noise, StepsOfJoin)
-      ? SumOfSquares(points, start)
+      ? SumOfSquaredDistances(points, start)
       : HUGE_VAL;
     if (squares < least)
     {
@@ -350,24 +344,13 @@ bool SurfaceGrowth::FitType(
       made.Surface = start;
     }
   }
-  const FlatPiece& first =
-    this->Facets.Clusters[static_cast<std::size_t>(region.Clusters.front())].Piece;
-  made.Reversed = made.Surface.Normal(first.Centre).dot(first.Normal) < 0.0;
-  if (!(least < HUGE_VAL) ||
-    !std::all_of(made.Clusters.begin(), made.Clusters.end(),
-      [&](int cluster) { return this->Fits(cluster, made.Surface, made.Reversed); }))
-  {
-    return false;
-  }
-  made.MeanSag = this->MeanSag(made);
-  region = std::move(made);
-  return true;
+  return least < HUGE_VAL && this->Settle(made, region);
 }
 
 double SurfaceGrowth::Squares(
   const std::vector<int>& clusters, const AnalyticSurface& surface) const
 {
-  return SumOfSquares(this->PointsOf(clusters), surface);
+  return SumOfSquaredDistances(this->PointsOf(clusters), surface);
 }
 
 std::array<double, 2> SurfaceGrowth::Residuals(const GrownRegion& region) const

@@ -70,6 +70,8 @@ private:
   /// them.
   void DropThroughPlane(std::vector<GrownRegion>& found) const;
   void AddNeighbours(const std::vector<int>& regions, Guess& clusters) const;
+  /// A region with a new surface takes the place of the one before where all of its clusters fit.
+  bool Settle(GrownRegion& made, GrownRegion& region) const;
   /// Twice where they are of two facets, ascending.
   std::vector<std::array<int, 2>> EdgesOf(const std::vector<int>& clusters) const;
   /// Those of two facets.

@@ -85,12 +85,13 @@ Spline<Dim> BentBox(int degree, int elements, double size = 0.1)
   return spline;
 }
 
-/// Sectors around a point, in space swept along z, bent.
+/// Sectors of radius 1 around a point, in space swept along z from 0 to 1.
+/// @param map  moves the vertices.
 template <int Dim>
-Spline<Dim> BentStar(int valence, int n, int degree)
+Spline<Dim> MappedStar(
+  int valence, int n, int layers, int degree, const std::function<void(double*)>& map)
 {
   const CellMesh<2> base = meshes::Star(valence, n);
-  const int layers = 2;
   CellMesh<Dim> mesh;
   if constexpr (Dim == 2)
   {
@@ -122,12 +123,18 @@ Spline<Dim> BentStar(int valence, int n, int degree)
   }
   for (Eigen::Index i = 0; i < vertices.rows(); ++i)
   {
-    Bend(vertices.row(i).data(), Dim, 0.05);
+    map(vertices.row(i).data());
   }
   UnstructuredParams params;
   params.Degree = degree;
   const auto space = MakeUnstructuredSpace<Dim>(mesh, params);
   return SplineThroughVertices<Dim>(space->Space, vertices).Value;
+}
+
+template <int Dim>
+Spline<Dim> BentStar(int valence, int n, int degree, int layers = 2)
+{
+  return MappedStar<Dim>(valence, n, layers, degree, [](double* x) { Bend(x, Dim, 0.05); });
 }
 
 /// A map of the unit square or cube by Lagrange elements, n a direction; boxes are cut into

@@ -88,34 +88,14 @@ AnalysisCase TwoPatches()
 /// A hexagonal prism whose sections are three rhombi about an extraordinary point.
 Beam Hexagon(int degree)
 {
-  const int n = 2;
-  const int layers = 20;
-  const CellMesh<2> base = meshes::Star(3, n);
-  const CellMesh<3> mesh = meshes::Sweep(base, layers);
-  PointMatrix vertices(mesh.NumPoints, 3);
-  for (int cell = 0; cell < mesh.NumCells(); ++cell)
-  {
-    const int flat = cell % base.NumCells();
-    const int s = flat / (n * n);
-    const int c = flat % (n * n);
-    for (int corner = 0; corner < 8; ++corner)
+  const Spline<3> prism = MappedStar<3>(3, 2, 20, degree,
+    [](double* x)
     {
-      const double i = static_cast<double>(c % n + (corner & 1)) / n;
-      const double j = static_cast<double>(c / n + (corner >> 1 & 1)) / n;
-      const double step = 8.0 * std::atan(1.0) / 3.0;
-      double* x = vertices.row(mesh.Cell(cell)[corner]).data();
-      // (x, y, z) of the sweep is (y, z, x) here: right-handed
-      x[1] = i * std::cos(s * step) + j * std::cos((s + 1) * step);
-      x[2] = i * std::sin(s * step) + j * std::sin((s + 1) * step);
-      x[0] = 20.0 * (cell / base.NumCells() + (corner >> 2)) / layers;
-    }
-  }
-  UnstructuredParams params;
-  params.Degree = degree;
-  const auto space = MakeUnstructuredSpace<3>(mesh, params);
+      std::rotate(x, x + 2, x + 3); // right-handed
+      x[0] *= 20.0;
+    });
   Beam beam;
-  beam.Body = CaseOf<3>("unstructured " + std::to_string(degree),
-    SplineThroughVertices<3>(space->Space, vertices).Value);
+  beam.Body = CaseOf<3>("unstructured " + std::to_string(degree), prism);
   beam.Length = 20.0;
   beam.Top = std::sqrt(0.75);
   beam.Area = 1.5 * std::sqrt(3.0);

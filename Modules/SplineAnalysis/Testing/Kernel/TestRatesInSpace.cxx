@@ -6,39 +6,6 @@ namespace knotwork::testing
 {
 namespace
 {
-/// A star of five sectors swept along z, n layers, bent.
-AnalysisCase SweptStar(int n, int degree)
-{
-  const int valence = 5;
-  const CellMesh<2> base = meshes::Star(valence, n);
-  const CellMesh<3> mesh = meshes::Sweep(base, n);
-  PointMatrix vertices(mesh.NumPoints, 3);
-  for (int cell = 0; cell < mesh.NumCells(); ++cell)
-  {
-    const int flat = cell % base.NumCells();
-    const int s = flat / (n * n);
-    const int c = flat % (n * n);
-    for (int corner = 0; corner < 8; ++corner)
-    {
-      const double i = static_cast<double>(c % n + (corner & 1)) / n;
-      const double j = static_cast<double>(c / n + (corner >> 1 & 1)) / n;
-      const double step = 8.0 * std::atan(1.0) / valence;
-      double* x = vertices.row(mesh.Cell(cell)[corner]).data();
-      x[0] = i * std::cos(s * step) + j * std::cos((s + 1) * step);
-      x[1] = i * std::sin(s * step) + j * std::sin((s + 1) * step);
-      x[2] = static_cast<double>(cell / base.NumCells() + (corner >> 2)) / n;
-    }
-  }
-  for (Eigen::Index i = 0; i < vertices.rows(); ++i)
-  {
-    Bend(vertices.row(i).data(), 3, 0.05);
-  }
-  UnstructuredParams params;
-  params.Degree = degree;
-  const auto space = MakeUnstructuredSpace<3>(mesh, params);
-  return CaseOf<3>("", SplineThroughVertices<3>(space->Space, vertices).Value);
-}
-
 /// The bent cube in two halves; the second one's parameters run backwards along x and y. All meshes
 /// have the map of 2 elements a direction. @param n  a power of 2, from 2 on.
 AnalysisCase TwoHalves(int n, int degree)
@@ -90,7 +57,8 @@ TEST(RatesInSpace, PoissonOnSplines_ExactOracle)
     ExpectRates("tensor", p, 6, [p](int n) { return CaseOf<3>("", BentBox<3>(p, n)); });
     ExpectRates("THB", p, 6, [p](int n) { return RefinedBox(n, p); });
     ExpectRates("multi-patch", p, 8, [p](int n) { return TwoHalves(n, p); });
-    ExpectRates("unstructured", p, 4, [p](int n) { return SweptStar(n, p); });
+    ExpectRates(
+      "unstructured", p, 4, [p](int n) { return CaseOf<3>("", BentStar<3>(5, n, p, n)); });
   }
 }
 }

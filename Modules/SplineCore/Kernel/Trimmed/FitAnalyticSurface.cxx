@@ -272,9 +272,7 @@ bool GuessAxis(const std::vector<Vector3d>& points, const std::vector<FlatPiece>
   return true;
 }
 
-namespace
-{
-double SumOfSquares(const std::vector<Vector3d>& points, const AnalyticSurface& surface)
+double SumOfSquaredDistances(const std::vector<Vector3d>& points, const AnalyticSurface& surface)
 {
   double sum = 0.0;
   for (const Vector3d& p : points)
@@ -285,6 +283,8 @@ double SumOfSquares(const std::vector<Vector3d>& points, const AnalyticSurface& 
   return sum;
 }
 
+namespace
+{
 bool GuessTorus(const std::vector<Vector3d>& points, const std::vector<FlatPiece>& pieces,
   AnalyticSurface& surface)
 {
@@ -440,7 +440,7 @@ void Minimize(
   constexpr int StepsOfHope = 8;
   const std::array<bool, NumParameters> isFree = FreeParameters(surface.Type);
   double damping = 1e-6;
-  double sum = SumOfSquares(points, surface);
+  double sum = SumOfSquaredDistances(points, surface);
   const double zero = 1e-30 * static_cast<double>(points.size());
   for (int step = 0; step < steps && sum > zero; ++step)
   {
@@ -477,7 +477,7 @@ void Minimize(
       damped.diagonal() *= 1.0 + damping;
       damped.diagonal().array() += 1e-14 * matrix.diagonal().maxCoeff();
       const AnalyticSurface next = Changed(surface, derivation.Axes(), damped.ldlt().solve(right));
-      const double nextSum = SumOfSquares(points, next);
+      const double nextSum = SumOfSquaredDistances(points, next);
       better = nextSum < sum;
       damping *= better ? 0.1 : 10.0;
       if (better)

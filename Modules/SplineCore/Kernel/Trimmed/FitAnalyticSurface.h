@@ -49,6 +49,10 @@ bool GuessTorusAbout(const std::vector<Eigen::Vector3d>& points, AnalyticSurface
 bool FitSurface(const std::vector<Eigen::Vector3d>& points, AnalyticSurface& surface,
   double hopeless = std::numeric_limits<double>::infinity(), int steps = 60);
 
+/// Sum of the squares of the points' distances.
+double SumOfSquaredDistances(
+  const std::vector<Eigen::Vector3d>& points, const AnalyticSurface& surface);
+
 /// Largest distance of the points.
 double MaxDistance(const std::vector<Eigen::Vector3d>& points, const AnalyticSurface& surface);
 }
