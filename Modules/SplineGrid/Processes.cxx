@@ -42,6 +42,12 @@ std::vector<int> ExchangeNumber(int number)
   return all;
 }
 
+int SumBefore(int number)
+{
+  const std::vector<int> all = ExchangeNumber(number);
+  return std::accumulate(all.begin(), all.begin() + Own(), 0);
+}
+
 std::vector<std::string> Exchange(const std::string& bytes)
 {
   vtkMultiProcessController* controller = Controller();

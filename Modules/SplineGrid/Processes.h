@@ -21,6 +21,9 @@ VTKKNOTWORKSPLINEGRID_EXPORT int Own(); ///< number of this one, from 0
 /// A number of every process, to all of them.
 VTKKNOTWORKSPLINEGRID_EXPORT std::vector<int> ExchangeNumber(int number);
 
+/// The sum of the numbers of the processes before this one: where its part of a list begins.
+VTKKNOTWORKSPLINEGRID_EXPORT int SumBefore(int number);
+
 /// What every process gives, to all of them.
 VTKKNOTWORKSPLINEGRID_EXPORT std::vector<std::string> Exchange(const std::string& bytes);
 

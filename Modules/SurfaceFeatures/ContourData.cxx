@@ -22,7 +22,6 @@
 #include <cmath>
 #include <initializer_list>
 #include <map>
-#include <numeric>
 #include <variant>
 
 namespace knotwork
@@ -378,9 +377,7 @@ Status MergeContours(
   how.Columns = { { "Components", Merging::Sum }, { "Closed", Merging::Sum },
     { "Points", Merging::Sum }, { "MaxError", Merging::Largest }, { "Undecided", Merging::Sum } };
   MergeTables(levels, how);
-  const std::vector<int> counts =
-    Processes::ExchangeNumber(static_cast<int>(polylines->GetNumberOfCells()));
-  const int before = std::accumulate(counts.begin(), counts.begin() + Processes::Own(), 0);
+  const int before = Processes::SumBefore(static_cast<int>(polylines->GetNumberOfCells()));
   for (vtkDataSet* lines : std::initializer_list<vtkDataSet*>{ polylines, curves })
   {
     if (vtkDataArray* numbers = lines->GetCellData()->GetArray("ComponentId"))

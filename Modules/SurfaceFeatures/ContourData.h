@@ -67,6 +67,7 @@ Status EncodeCurves(
 /// Makes what processes have traced, their polylines, curves and levels, parts of one result:
 /// components are counted on, the levels are of all, and the curves stand in the first process.
 /// @pre all processes call it.
+/// @return failures of DecodeSplineModel and EncodeSplineGrid for the curves.
 Status MergeContours(
   int threads, vtkPolyData* polylines, vtkUnstructuredGrid* curves, vtkTable* levels);
 

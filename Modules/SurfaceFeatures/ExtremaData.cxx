@@ -20,7 +20,6 @@
 #include "vtkVariant.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace knotwork
 {
@@ -306,8 +305,7 @@ void MergeExtrema(vtkPolyData* points, vtkPolyData* boxes, vtkTable* table)
 {
   const auto countOn = [boxes](const char* name, int own)
   {
-    const std::vector<int> counts = Processes::ExchangeNumber(own);
-    const int before = std::accumulate(counts.begin(), counts.begin() + Processes::Own(), 0);
+    const int before = Processes::SumBefore(own);
     vtkDataArray* numbers = boxes->GetCellData()->GetArray(name);
     for (vtkIdType i = 0; numbers && i < numbers->GetNumberOfTuples(); ++i)
     {

@@ -1,38 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FastLaplacian.h"
 
-#include "InitialMaps.h"
+#include <knotwork/SplineCore/TensorLaplacian.h>
 
-#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <utility>
+#include <vector>
 
 namespace knotwork
 {
 template <int Dim>
 FastLaplacian<Dim>::FastLaplacian(const std::array<KnotVector, Dim>& knots)
 {
-  Eigen::VectorXd sums = Eigen::VectorXd::Zero(1);
-  for (std::size_t d = 0; d < Dim; ++d)
+  std::vector<Eigen::MatrixXd> masses;
+  std::vector<Eigen::MatrixXd> stiffnesses;
+  for (const KnotVector& line : knots)
   {
-    const Eigen::Index n = std::max(0, knots[d].NumFunctions() - 2);
-    const LineIntegrals line = IntegrateLine(knots[d]);
-    Eigen::VectorXd eigenvalues(n);
-    this->Modes[d].resize(n, n);
-    if (n > 0)
-    {
-      const Eigen::MatrixXd stiffness = line.Stiffness.block(1, 1, n, n);
-      const Eigen::MatrixXd mass = line.Mass.block(1, 1, n, n);
-      const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, mass);
-      eigenvalues = solver.eigenvalues();
-      this->Modes[d] = solver.eigenvectors();
-    }
-    Eigen::VectorXd grown(sums.size() * n);
-    for (Eigen::Index i = 0; i < n; ++i)
-    {
-      grown.segment(i * sums.size(), sums.size()) = sums.array() + eigenvalues[i];
-    }
-    sums = grown;
+    const Eigen::Index n = std::max(0, line.NumFunctions() - 2);
+    const LineIntegrals integrals = IntegrateLine(line);
+    masses.emplace_back(integrals.Mass.block(1, 1, n, n));
+    stiffnesses.emplace_back(integrals.Stiffness.block(1, 1, n, n));
   }
-  this->Inverse = sums.cwiseInverse();
+  TensorModes found = FindTensorModes(masses, stiffnesses);
+  this->Modes = std::move(found.Modes);
+  this->Inverse = found.Sums.cwiseInverse();
   this->Temporary.resize(this->Inverse.size());
 }
 

@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include <vector>
+
 namespace knotwork
 {
 /// The inverse of the Galerkin Laplacian on the inner functions of a tensor-product space, for
@@ -22,8 +24,8 @@ public:
   void Apply(Eigen::VectorXd& planes);
 
 private:
-  std::array<Eigen::MatrixXd, Dim> Modes; ///< mass-orthonormal eigenvectors, columns
-  Eigen::VectorXd Inverse;                ///< 1 / sum of eigenvalues
+  std::vector<Eigen::MatrixXd> Modes; ///< mass-orthonormal eigenvectors, columns
+  Eigen::VectorXd Inverse;            ///< 1 / sum of eigenvalues
   Eigen::VectorXd Temporary;
 };
 }

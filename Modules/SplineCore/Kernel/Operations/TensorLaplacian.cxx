@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <utility>
 
 namespace knotwork
 {
@@ -38,30 +39,40 @@ LineIntegrals IntegrateLine(const KnotVector& knots)
   return line;
 }
 
-TensorLaplacian::TensorLaplacian(const std::vector<Eigen::MatrixXd>& masses,
-  const std::vector<Eigen::MatrixXd>& stiffnesses, int threads)
-  : Threads(threads)
+TensorModes FindTensorModes(
+  const std::vector<Eigen::MatrixXd>& masses, const std::vector<Eigen::MatrixXd>& stiffnesses)
 {
-  Eigen::VectorXd sums = Eigen::VectorXd::Zero(1);
+  TensorModes found;
+  found.Sums = Eigen::VectorXd::Zero(1);
   for (std::size_t d = 0; d < masses.size(); ++d)
   {
     const Eigen::Index n = masses[d].rows();
     Eigen::VectorXd eigenvalues(n);
-    this->Modes.emplace_back(n, n);
+    found.Modes.emplace_back(n, n);
     if (n > 0)
     {
       const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(
         stiffnesses[d], masses[d]);
       eigenvalues = solver.eigenvalues();
-      this->Modes[d] = solver.eigenvectors();
+      found.Modes[d] = solver.eigenvectors();
     }
-    Eigen::VectorXd grown(sums.size() * n);
+    Eigen::VectorXd grown(found.Sums.size() * n);
     for (Eigen::Index i = 0; i < n; ++i)
     {
-      grown.segment(i * sums.size(), sums.size()) = sums.array() + eigenvalues[i];
+      grown.segment(i * found.Sums.size(), found.Sums.size()) = found.Sums.array() + eigenvalues[i];
     }
-    sums = grown;
+    found.Sums = grown;
   }
+  return found;
+}
+
+TensorLaplacian::TensorLaplacian(const std::vector<Eigen::MatrixXd>& masses,
+  const std::vector<Eigen::MatrixXd>& stiffnesses, int threads)
+  : Threads(threads)
+{
+  TensorModes found = FindTensorModes(masses, stiffnesses);
+  this->Modes = std::move(found.Modes);
+  const Eigen::VectorXd& sums = found.Sums;
   if (sums.size() > 0)
   {
     const double zero = 1e-12 * sums.maxCoeff();

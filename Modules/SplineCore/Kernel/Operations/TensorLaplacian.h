@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include <vector>
+
 namespace knotwork
 {
 /// Dense integrals of products of derivatives over the domain of a knot vector.
@@ -15,6 +17,18 @@ struct LineIntegrals
   Eigen::MatrixXd Mixed;     ///< int N_i'' N_j
 };
 LineIntegrals IntegrateLine(const KnotVector& knots);
+
+/// Eigenvectors of directions, and the sums of their eigenvalues.
+struct TensorModes
+{
+  std::vector<Eigen::MatrixXd> Modes; ///< mass-orthonormal eigenvectors, columns; one a direction
+  Eigen::VectorXd Sums; ///< of a tensor product's functions, the first direction fastest
+};
+
+/// @param masses, stiffnesses  one symmetric matrix a direction; masses are positive definite.
+/// @complexity O(n^3) a direction of n functions.
+TensorModes FindTensorModes(
+  const std::vector<Eigen::MatrixXd>& masses, const std::vector<Eigen::MatrixXd>& stiffnesses);
 
 /// The inverse of the Galerkin Laplacian of tensor-product functions on their parameters, by the
 /// modes of each direction. A constant that it leaves free counts as the next mode.
