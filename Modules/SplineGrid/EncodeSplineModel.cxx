@@ -56,8 +56,8 @@ private:
   void PutPoints(
     const Spline<Dim>& spline, const ElementPoints& numbering, double* values, double* weights);
   double* ArrayOf(const SplineField& field) const;
-  PointMatrix ValuesOf(const ElementPoints& numbering, const double* values, Eigen::Index columns,
-    bool isRational) const;
+  PointMatrix ValuesOf(
+    const ElementPoints& numbering, const double* values, Eigen::Index columns) const;
 
   bool Rational = false;
   bool Domain = false;
@@ -241,22 +241,15 @@ void GridWriter::PutPoints(
   }
 }
 
-/// Of the elements' points what stands in the grid, since a shared point has one owner; with the
-/// weights, or 1, in one more column.
+/// Of the elements' points what stands in the grid, since a shared point has one owner.
 PointMatrix GridWriter::ValuesOf(
-  const ElementPoints& numbering, const double* values, Eigen::Index columns, bool isRational) const
+  const ElementPoints& numbering, const double* values, Eigen::Index columns) const
 {
-  const bool isGeometry = values == static_cast<double*>(this->Points->GetVoidPointer(0));
-  PointMatrix rows(static_cast<Eigen::Index>(numbering.Ids.size()), columns + (isGeometry ? 1 : 0));
+  PointMatrix rows(static_cast<Eigen::Index>(numbering.Ids.size()), columns);
   for (Eigen::Index i = 0; i < rows.rows(); ++i)
   {
     const vtkIdType point = this->FirstPoint + numbering.Ids[static_cast<std::size_t>(i)];
-    rows.row(i).head(columns) =
-      Eigen::Map<const Eigen::RowVectorXd>(values + point * columns, columns);
-    if (isGeometry)
-    {
-      rows(i, columns) = isRational ? this->Weights->GetValue(point) : 1.0;
-    }
+    rows.row(i) = Eigen::Map<const Eigen::RowVectorXd>(values + point * columns, columns);
   }
   return rows;
 }
@@ -335,12 +328,18 @@ void GridWriter::AddSpline(const SplinePatch& patch, const Spline<Dim>& spline, 
     {
       record.ControlPoints.Rows.col(3) = spline.Weights;
     }
-    record.ControlPoints.Stored = record.ControlPoints.With(
-      GeometryChecksum<Dim>(degrees, this->ValuesOf(numbering, xyz, 3, spline.IsRational())));
+    PointMatrix points = this->ValuesOf(numbering, xyz, 3);
+    points.conservativeResize(Eigen::NoChange, 4);
+    points.col(3).setOnes();
+    if (spline.IsRational())
+    {
+      points.col(3) = this->ValuesOf(numbering, this->Weights->GetPointer(0), 1);
+    }
+    record.ControlPoints.Stored = record.ControlPoints.With(GeometryChecksum<Dim>(degrees, points));
     for (const SplineField& field : patch.Fields)
     {
       Checksum sum;
-      sum.Add(this->ValuesOf(numbering, this->ArrayOf(field), field.Coefficients.cols(), false));
+      sum.Add(this->ValuesOf(numbering, this->ArrayOf(field), field.Coefficients.cols()));
       CoefficientCache cache{ 0, field.Coefficients };
       cache.Stored = cache.With(sum);
       record.Fields.push_back({ field.Name, std::move(cache) });
