@@ -77,8 +77,9 @@ void AddPoints(const DegreeU p, const DegreeV q, const ParametricBox<2>& box,
 }
 }
 
-ElementMoments::ElementMoments(const IntArray<2>& degree, int numComponents)
-  : Degree(degree), Components(numComponents)
+ElementMoments::ElementMoments(
+  const IntArray<2>& degree, int numComponents, const FitDivision& division)
+  : Degree(degree), Components(numComponents), Division(division)
 {
   for (std::size_t d = 0; d < 2; ++d)
   {
@@ -137,6 +138,22 @@ void ElementMoments::Update(const SplineSpace<2>& space, const std::vector<int>&
         }
       }
     });
+  std::vector<int> made;
+  for (int e = 0; e < space.NumElements(); ++e)
+  {
+    if (parents.empty() || isSplit[At(parents[At(e)])])
+    {
+      made.push_back(e);
+    }
+  }
+  this->Share(made);
+}
+
+void ElementMoments::Share(const std::vector<int>& elements)
+{
+  const std::size_t stride = At(this->Stride());
+  this->Division.Share(elements,
+    [&](std::size_t k) { return std::pair(this->Data.data() + At(elements[k]) * stride, stride); });
 }
 
 void ElementMoments::Recompute(const SplineSpace<2>& space, const std::vector<int>& elements,
@@ -151,6 +168,7 @@ void ElementMoments::Recompute(const SplineSpace<2>& space, const std::vector<in
           space, elements[k], points, this->Data.data() + At(elements[k]) * At(this->Stride()));
       }
     });
+  this->Share(elements);
 }
 
 double ElementMoments::Weight(int e) const

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "FitDivision.h"
 #include "FitPoints.h"
 
 namespace knotwork
@@ -10,7 +11,8 @@ namespace knotwork
 class ElementMoments
 {
 public:
-  ElementMoments(const IntArray<2>& degree, int numComponents);
+  /// @param division  must outlive the object: what each process has is told to all.
+  ElementMoments(const IntArray<2>& degree, int numComponents, const FitDivision& division);
 
   int NumMoments() const { return (2 * this->Degree[0] + 1) * (2 * this->Degree[1] + 1); }
   int PerElement() const { return NumTensorFunctions<2>(this->Degree); }
@@ -41,9 +43,11 @@ private:
     return this->Data.data() + std::ptrdiff_t{ e } * this->Stride();
   }
   void Accumulate(const SplineSpace<2>& space, int e, const FitPoints& points, double* block) const;
+  void Share(const std::vector<int>& elements);
 
   IntArray<2> Degree;
   int Components;
+  const FitDivision& Division;
   UntouchedVector<double> Data;
   std::array<std::vector<double>, 2> Factors; // C(p, i) C(p, k) / C(2p, i + k)
 };

@@ -274,20 +274,21 @@ Status CheckFit(const PointCloud& cloud, const FitParams& params)
   return status ? CheckPoints(cloud, WithStart(params)) : status;
 }
 
-ParametricBox<2> FitDomain(const PointCloud& cloud, const FitParams& params)
+ParametricBox<2> FitDomain(
+  const PointCloud& cloud, const FitParams& params, const FitDivision& division)
 {
   if (HasArea(params.Domain))
   {
     return params.Domain;
   }
   const auto n = static_cast<std::size_t>(cloud.Parameters.rows());
-  const Eigen::RowVector2d first = cloud.Parameters.row(0);
-  std::vector<ParametricBox<2>> boxes(
-    (n + PointChunk - 1) / PointChunk, { { first[0], first[1] }, { first[0], first[1] } });
+  constexpr double Infinity = std::numeric_limits<double>::infinity();
+  const ParametricBox<2> none{ { Infinity, Infinity }, { -Infinity, -Infinity } };
+  std::vector<ParametricBox<2>> boxes((n + PointChunk - 1) / PointChunk, none);
   ParallelFor(n, PointChunk, params.Threads,
     [&](std::size_t begin, std::size_t end)
     {
-      ParametricBox<2> own = boxes[begin / PointChunk];
+      ParametricBox<2> own = none;
       for (const double* x = cloud.Parameters.data() + 2 * begin;
            x != cloud.Parameters.data() + 2 * end; x += 2)
       {
@@ -299,14 +300,16 @@ ParametricBox<2> FitDomain(const PointCloud& cloud, const FitParams& params)
       }
       boxes[begin / PointChunk] = own;
     });
-  ParametricBox<2> box = boxes[0];
-  for (const ParametricBox<2>& part : boxes)
+  ParametricBox<2> box = none;
+  for (std::size_t d = 0; d < 2; ++d)
   {
-    for (std::size_t d = 0; d < 2; ++d)
+    for (const ParametricBox<2>& part : boxes)
     {
       box.Lower[d] = std::min(box.Lower[d], part.Lower[d]);
       box.Upper[d] = std::max(box.Upper[d], part.Upper[d]);
     }
+    box.Lower[d] = -division.Largest(-box.Lower[d]);
+    box.Upper[d] = division.Largest(box.Upper[d]);
   }
   // points on a line or at one place: a domain with an area around them
   const double size = std::max(box.Upper[0] - box.Lower[0], box.Upper[1] - box.Lower[1]);
@@ -325,7 +328,8 @@ ParametricBox<2> FitDomain(const PointCloud& cloud, const FitParams& params)
   return box;
 }
 
-std::vector<double> FitTolerances(const PointCloud& cloud, const FitParams& params)
+std::vector<double> FitTolerances(
+  const PointCloud& cloud, const FitParams& params, const FitDivision& division)
 {
   const auto n = static_cast<std::size_t>(cloud.Parameters.rows());
   double base = params.Tolerance;
@@ -335,9 +339,18 @@ std::vector<double> FitTolerances(const PointCloud& cloud, const FitParams& para
     double size = 0.0;
     for (int c = 0; c < params.NumMeasured; ++c)
     {
-      const auto column = cloud.Values.col(c);
-      range = std::max(range, column.maxCoeff() - column.minCoeff());
-      size = std::max(size, column.cwiseAbs().maxCoeff());
+      double lower = std::numeric_limits<double>::infinity();
+      double upper = -lower;
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        const double value = cloud.Values(static_cast<Eigen::Index>(i), c);
+        lower = std::min(lower, value);
+        upper = std::max(upper, value);
+      }
+      lower = -division.Largest(-lower);
+      upper = division.Largest(upper);
+      range = std::max(range, upper - lower);
+      size = std::max({ size, std::fabs(lower), std::fabs(upper) });
     }
     base = range > 0.0 ? DefaultTolerance * range : std::max(DefaultTolerance * size, 1e-12);
   }

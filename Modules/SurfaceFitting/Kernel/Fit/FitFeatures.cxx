@@ -189,8 +189,8 @@ void AddPoints(
 }
 }
 
-FitFeatures ElementFeatures(
-  const FitState& state, const FitPoints& points, Eigen::Index height, int threads)
+FitFeatures ElementFeatures(const FitState& state, const FitPoints& points, Eigen::Index height,
+  const FitDivision& division, int threads)
 {
   FitFeatures features;
   features.Values = PointMatrix::Zero(state.Space->NumElements(), NumFitFeatures);
@@ -202,6 +202,12 @@ FitFeatures ElementFeatures(
   features.Values.col(static_cast<Eigen::Index>(FitFeature::NumElements)).setOnes();
   AddPoints(
     points, height, [](std::size_t e, std::size_t) { return e; }, features);
+  division.ShareAll(
+    [&](std::size_t e)
+    {
+      return std::pair(
+        features.Values.row(static_cast<Eigen::Index>(e)).data(), std::size_t{ NumFitFeatures });
+    });
   return features;
 }
 

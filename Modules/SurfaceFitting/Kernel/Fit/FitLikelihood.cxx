@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 
 namespace knotwork
 {
@@ -101,7 +102,7 @@ double FitScale(
 }
 }
 
-TDistribution FitTDistribution(const FitPoints& points, int threads)
+TDistribution FitTDistribution(const FitPoints& points, int threads, const FitDivision& division)
 {
   const std::size_t chunks = (points.Size() + PointChunk - 1) / PointChunk;
   std::vector<double> largest(chunks, 0.0);
@@ -115,7 +116,8 @@ TDistribution FitTDistribution(const FitPoints& points, int threads)
       }
       largest[begin / PointChunk] = own;
     });
-  const Classes all(chunks > 0 ? *std::max_element(largest.begin(), largest.end()) : 0.0);
+  const Classes all(
+    division.Largest(chunks > 0 ? *std::max_element(largest.begin(), largest.end()) : 0.0));
   std::vector<std::vector<int>> counts(chunks);
   ParallelFor(points.Size(), PointChunk, threads,
     [&](std::size_t begin, std::size_t end)
@@ -133,13 +135,15 @@ TDistribution FitTDistribution(const FitPoints& points, int threads)
   std::vector<Class> classes;
   double total = 0.0;
   double squares = 0.0;
+  std::vector<double> inClass(NumClasses, 0.0);
+  for (const std::vector<int>& own : counts)
+  {
+    std::transform(own.begin(), own.end(), inClass.begin(), inClass.begin(), std::plus<>());
+  }
+  division.AddUp(inClass);
   for (std::size_t k = 0; k < NumClasses; ++k)
   {
-    double count = 0.0;
-    for (const std::vector<int>& own : counts)
-    {
-      count += own[k];
-    }
+    const double count = inClass[k];
     if (count > 0.0)
     {
       const double x = all.Middle(k);

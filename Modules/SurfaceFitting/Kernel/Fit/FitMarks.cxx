@@ -221,7 +221,7 @@ std::vector<SplitMark> ChooseElements(const std::vector<std::array<bool, 2>>& al
 
 std::vector<SplitMark> MarkElements(const FitState& state, const ElementFunctions& functions,
   const FitPoints& points, const std::vector<ElementErrors>& errors, const FitParams& params,
-  int iteration)
+  const FitDivision& division, int iteration)
 {
   const RealArray<2> least = ShareOfDomain(state, params.MinElementSize);
   std::vector<std::array<bool, 2>> allowed(errors.size(), { false, false });
@@ -230,12 +230,14 @@ std::vector<SplitMark> MarkElements(const FitState& state, const ElementFunction
     {
       for (std::size_t e = begin; e < end; ++e)
       {
-        if (errors[e].NumOutside > 0 && SplitHelps(least, state, points, params, e))
+        if (errors[e].NumOutside > 0 && division.Owns(e) &&
+          SplitHelps(least, state, points, params, e))
         {
           allowed[e] = AllowedDirections(state.Space->Elements[e].Box, least, params.Space);
         }
       }
     });
+  division.ShareAll([&](std::size_t e) { return std::pair(allowed[e].data(), std::size_t{ 2 }); });
   std::vector<SplitMark> marks = ChooseElements(allowed, errors, params,
     std::ldexp(params.ThresholdShare, -std::clamp(iteration - LastOfShare, 0, 1000)));
   ParallelFor(marks.size(), MarkChunk, params.Threads,
@@ -244,10 +246,20 @@ std::vector<SplitMark> MarkElements(const FitState& state, const ElementFunction
       for (std::size_t k = begin; k < end; ++k)
       {
         SplitMark& mark = marks[k];
-        mark.Directions = ChooseDirections(
-          mark.Directions, state, functions, points, params, iteration, mark.Element);
+        if (division.Owns(At(mark.Element)))
+        {
+          mark.Directions = ChooseDirections(
+            mark.Directions, state, functions, points, params, iteration, mark.Element);
+        }
       }
     });
+  std::vector<int> marked;
+  for (const SplitMark& mark : marks)
+  {
+    marked.push_back(mark.Element);
+  }
+  division.Share(
+    marked, [&](std::size_t k) { return std::pair(marks[k].Directions.data(), std::size_t{ 2 }); });
   return marks;
 }
 

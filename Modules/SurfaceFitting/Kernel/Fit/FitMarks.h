@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "FitDivision.h"
 #include "FitSpaces.h"
 #include "PointDistances.h"
 
@@ -8,15 +9,17 @@ namespace knotwork
 /// The elements that an iteration splits, ascending, by FitParams::Threshold and Directions.
 std::vector<SplitMark> MarkElements(const FitState& state, const ElementFunctions& functions,
   const FitPoints& points, const std::vector<ElementErrors>& errors, const FitParams& params,
-  int iteration);
+  const FitDivision& division, int iteration);
 
 /// Whether every point outside is in the place of another one, up to rounding, whose values are so
 /// different that no surface meets both. Points given several times with equal values do not
 /// contradict, nor do those that only elements smaller than FitParams::MinElementSize would part.
+/// Of several processes each answers for its points.
 bool PointsContradict(const FitState& state, const FitPoints& points,
   const std::vector<ElementErrors>& errors, const FitParams& params);
 
-/// Whether all points outside lie on held edges of the start, up to FitParams::MinElementSize.
+/// Whether all points outside lie on held edges of the start, up to FitParams::MinElementSize. Of
+/// several processes each answers for its points.
 bool PointsAreHeld(const FitState& state, const FitPoints& points,
   const std::vector<ElementErrors>& errors, const FitParams& params);
 

@@ -19,20 +19,6 @@ std::size_t At(int i)
   return static_cast<std::size_t>(i);
 }
 
-/// Elements of all points, in chunks of a fixed size.
-std::vector<int> LocateAll(const SplineSpace<2>& space, const PointMatrix& parameters, int threads)
-{
-  std::vector<int> elements(static_cast<std::size_t>(parameters.rows()));
-  ParallelFor(elements.size(), PointChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      std::vector<double> local(2 * (end - begin));
-      space.Locate(
-        parameters.data() + 2 * begin, 2, end - begin, elements.data() + begin, local.data());
-    });
-  return elements;
-}
-
 /// A box of a partition with its sides at the ends of the domain moved out of reach.
 ParametricBox<2> OpenBox(const ParametricBox<2>& box, const ParametricBox<2>& domain)
 {
@@ -93,11 +79,25 @@ private:
 };
 }
 
+std::vector<int> LocatePoints(
+  const SplineSpace<2>& space, const PointMatrix& parameters, int threads)
+{
+  std::vector<int> elements(static_cast<std::size_t>(parameters.rows()));
+  ParallelFor(elements.size(), PointChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      std::vector<double> local(2 * (end - begin));
+      space.Locate(
+        parameters.data() + 2 * begin, 2, end - begin, elements.data() + begin, local.data());
+    });
+  return elements;
+}
+
 FitPoints GroupPoints(const SplineSpace<2>& space, const PointCloud& cloud,
   const std::vector<double>& tolerances, double significantWeight, int threads)
 {
   const auto n = static_cast<std::size_t>(cloud.Parameters.rows());
-  const std::vector<int> elements = LocateAll(space, cloud.Parameters, threads);
+  const std::vector<int> elements = LocatePoints(space, cloud.Parameters, threads);
   // a stable counting sort in chunks: where a chunk's points of an element begin
   const std::size_t numElements = At(space.NumElements());
   const std::size_t chunk = std::max(PointChunk, numElements);

@@ -41,6 +41,10 @@ struct FitPoints
   int NumComponents() const { return static_cast<int>(this->Values.size()); }
 };
 
+/// Elements of the points, whose parameters are n x 2. @pre the points are in the domain.
+std::vector<int> LocatePoints(
+  const SplineSpace<2>& space, const PointMatrix& parameters, int threads);
+
 /// Points of a cloud by the elements of a space.
 /// @pre the points are in the domain. @param tolerances one a point.
 FitPoints GroupPoints(const SplineSpace<2>& space, const PointCloud& cloud,

@@ -44,15 +44,24 @@ void MarkEdge(const SplineSpace<2>& space, const ElementFunctions& functions, st
 }
 
 std::vector<std::uint8_t> FindFixedFunctions(const SplineSpace<2>& space,
-  const ElementFunctions& functions, const FitPoints& points, const std::array<FitEdge, 4>& edges)
+  const ElementFunctions& functions, const FitPoints& points, const std::array<FitEdge, 4>& edges,
+  const FitDivision& division)
 {
+  std::vector<std::uint8_t> hasPoints(points.Ranges.size());
+  for (std::size_t e = 0; e < hasPoints.size(); ++e)
+  {
+    const auto at = [&](std::size_t i)
+    { return points.Base.begin() + static_cast<std::ptrdiff_t>(i); };
+    hasPoints[e] = std::any_of(at(points.Ranges[e].Begin), at(points.Ranges[e].End),
+                     [](double w) { return w > 0.0; })
+      ? 1
+      : 0;
+  }
+  division.ShareAll([&](std::size_t e) { return std::pair(&hasPoints[e], std::size_t{ 1 }); });
   std::vector<std::uint8_t> fixed(At(functions.NumFunctions), 1);
   for (int e = 0; e < space.NumElements(); ++e)
   {
-    const FitPoints::Range& range = points.Ranges[At(e)];
-    const auto begin = points.Base.begin();
-    if (std::any_of(begin + static_cast<std::ptrdiff_t>(range.Begin),
-          begin + static_cast<std::ptrdiff_t>(range.End), [](double w) { return w > 0.0; }))
+    if (hasPoints[At(e)] != 0)
     {
       for (int k = 0; k < functions.Alive(e); ++k)
       {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "ElementFunctions.h"
+#include "FitDivision.h"
 #include "FitPoints.h"
 
 namespace knotwork
@@ -9,7 +10,8 @@ namespace knotwork
 /// because no point that counts lies in its support, or because it does not vanish on a held edge
 /// (for FitEdge::Derivatives: or its derivative across the edge does not).
 std::vector<std::uint8_t> FindFixedFunctions(const SplineSpace<2>& space,
-  const ElementFunctions& functions, const FitPoints& points, const std::array<FitEdge, 4>& edges);
+  const ElementFunctions& functions, const FitPoints& points, const std::array<FitEdge, 4>& edges,
+  const FitDivision& division);
 
 /// Whether a point lies on a held edge.
 /// @param distance  from the edge that counts as on it, by direction.

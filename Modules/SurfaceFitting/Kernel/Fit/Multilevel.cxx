@@ -130,8 +130,8 @@ private:
 }
 
 void MultilevelStep(const SplineSpace<2>& space, const ElementFunctions& functions,
-  const FitPoints& points, const std::vector<std::uint8_t>& fixed, int threads,
-  PointMatrix& coefficients)
+  const FitPoints& points, const std::vector<std::uint8_t>& fixed, const FitDivision& division,
+  int threads, PointMatrix& coefficients)
 {
   const auto components = static_cast<int>(coefficients.cols());
   const std::size_t stride = At(components + 1);
@@ -145,10 +145,19 @@ void MultilevelStep(const SplineSpace<2>& space, const ElementFunctions& functio
         {
           for (std::size_t e = begin; e < end; ++e)
           {
-            work.Add(space.Elements[e], static_cast<int>(e), coefficients, points,
-              sums.data() + functions.Start[e] * stride);
+            if (points.Ranges[e].Count() > 0)
+            {
+              work.Add(space.Elements[e], static_cast<int>(e), coefficients, points,
+                sums.data() + functions.Start[e] * stride);
+            }
           }
         });
+    });
+  division.ShareAll(
+    [&](std::size_t e)
+    {
+      return std::pair(sums.data() + functions.Start[e] * stride,
+        At(functions.Alive(static_cast<int>(e))) * stride);
     });
   ParallelFor(At(functions.NumFunctions), FunctionChunk, threads,
     [&](std::size_t begin, std::size_t end)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "ElementFunctions.h"
+#include "FitDivision.h"
 #include "FitPoints.h"
 
 namespace knotwork
@@ -14,6 +15,6 @@ namespace knotwork
 /// @source  Lee, Wolberg, Shin, IEEE TVCG 3 (1997) 228-244, equations (3) and (5); for LR
 /// B-splines Skytt, Barrowclough, Dokken, Computers & Graphics 49 (2015) 58-68.
 void MultilevelStep(const SplineSpace<2>& space, const ElementFunctions& functions,
-  const FitPoints& points, const std::vector<std::uint8_t>& fixed, int threads,
-  PointMatrix& coefficients);
+  const FitPoints& points, const std::vector<std::uint8_t>& fixed, const FitDivision& division,
+  int threads, PointMatrix& coefficients);
 }

@@ -88,7 +88,7 @@ ElementErrors MeasureElement(const DegreeU p, const DegreeV q, const ParametricB
 
 std::vector<ElementErrors> MeasureDistances(const SplineSpace<2>& space,
   const ElementFunctions& functions, const PointMatrix& coefficients, int numMeasured,
-  FitPoints& points, int threads)
+  const FitDivision& division, FitPoints& points, int threads)
 {
   std::vector<ElementErrors> errors(At(space.NumElements()));
   ParallelFor(errors.size(), ElementChunk, threads,
@@ -98,6 +98,10 @@ std::vector<ElementErrors> MeasureDistances(const SplineSpace<2>& space,
         At(functions.PerElement) * static_cast<std::size_t>(coefficients.cols()));
       for (std::size_t e = begin; e < end; ++e)
       {
+        if (points.Ranges[e].Count() == 0)
+        {
+          continue;
+        }
         functions.LocalCoefficients(static_cast<int>(e), coefficients, local.data());
         const SplineSpace<2>::Element& element = space.Elements[e];
         const auto measure = [&](const auto p, const auto q)
@@ -123,6 +127,7 @@ std::vector<ElementErrors> MeasureDistances(const SplineSpace<2>& space,
         }
       }
     });
+  division.ShareAll([&](std::size_t e) { return std::pair(&errors[e], std::size_t{ 1 }); });
   return errors;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "ElementFunctions.h"
+#include "FitDivision.h"
 #include "FitPoints.h"
 
 namespace knotwork
@@ -18,10 +19,10 @@ struct ElementErrors
 
 /// Measures all points: fills points.Distance, value - surface with one measured component, else
 /// the length of the difference of the measured ones.
-/// @param numMeasured  of the components. @return one an element.
+/// @param numMeasured  of the components. @return one an element, of those of all processes.
 std::vector<ElementErrors> MeasureDistances(const SplineSpace<2>& space,
   const ElementFunctions& functions, const PointMatrix& coefficients, int numMeasured,
-  FitPoints& points, int threads);
+  const FitDivision& division, FitPoints& points, int threads);
 
 /// How much the distances of an element vary along each direction: the sum over eight slices across
 /// it of weight * (mean distance)^2, which new lines across the direction could take away. The

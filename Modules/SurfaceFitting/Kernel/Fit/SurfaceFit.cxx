@@ -4,9 +4,10 @@
 #include "ClosestParameters.h"
 #include "FitChecks.h"
 #include "FitFeatures.h"
-#include "FitLikelihood.h"
 #include "FitMarks.h"
+#include "FitRun.h"
 #include "FitSides.h"
+#include "FitSummary.h"
 #include "FitUpdate.h"
 #include "LeastSquares.h"
 #include "Multilevel.h"
@@ -47,11 +48,13 @@ std::size_t At(int i)
 class Fitting
 {
 public:
-  Fitting(const PointCloud& cloud, const FitParams& params)
-    : Corrected(params.CorrectParameters ? cloud : PointCloud()),
-      Cloud(params.CorrectParameters ? this->Corrected : cloud), Params(WithStart(params)),
-      Begin(std::chrono::steady_clock::now()), Tolerances(FitTolerances(cloud, params)),
-      Components(static_cast<int>(cloud.Values.cols())), Moments(Params.Degree, this->Components)
+  Fitting(const PointCloud& cloud, const FitParams& params, FitDivision& division)
+    : Division(division), Given(cloud), Moved(params.CorrectParameters ? cloud : PointCloud()),
+      Cloud(params.CorrectParameters || division.IsDivided() ? this->Moved : cloud),
+      Params(WithStart(params)), Begin(std::chrono::steady_clock::now()),
+      Tolerances(FitTolerances(cloud, params, division)),
+      Components(static_cast<int>(cloud.Values.cols())),
+      Moments(Params.Degree, this->Components, division)
   {
   }
 
@@ -77,14 +80,14 @@ public:
       {
         break;
       }
-      if (this->Params.Progress && !this->Params.Progress(this->Share()))
+      if (!this->Division.All(!this->Params.Progress || this->Params.Progress(this->Share())))
       {
         return { ErrorCode::Aborted, "stopped in iteration " + std::to_string(iteration) };
       }
       if (this->IsSplit)
       {
-        const std::vector<SplitMark> marks = MarkElements(
-          this->State, this->Functions, this->Points, this->Errors, this->Params, iteration);
+        const std::vector<SplitMark> marks = MarkElements(this->State, this->Functions,
+          this->Points, this->Errors, this->Params, this->Division, iteration);
         auto refined = this->RefineWithinLimit(marks);
         if (!refined)
         {
@@ -113,15 +116,20 @@ public:
 private:
   Status Start()
   {
-    const ParametricBox<2> domain = FitDomain(this->Cloud, this->Params);
+    this->NumPoints = this->Division.Sum(this->Tolerances.size());
+    const ParametricBox<2> domain = FitDomain(this->Given, this->Params, this->Division);
     auto first = this->Params.Start
       ? MakeStartState(this->Params, this->Components)
-      : MakeFirstState(this->Params, domain, this->Components, this->Tolerances.size());
+      : MakeFirstState(this->Params, domain, this->Components, this->NumPoints);
     if (!first)
     {
       return first.Status;
     }
     this->State = std::move(first.Value);
+    if (Status status = this->Divide(); !status)
+    {
+      return status;
+    }
     if (this->Params.Side != FitSide::Both)
     {
       this->Bands = EvenBands(this->Cloud.Parameters, domain, this->Tolerances);
@@ -129,7 +137,7 @@ private:
     this->Group();
     this->Accuracy = SolverAccuracy *
       std::min(this->Params.ToleranceFactorAbove, this->Params.ToleranceFactorBelow) *
-      *std::min_element(this->Points.Tolerance.begin(), this->Points.Tolerance.end());
+      this->LeastTolerance();
     this->Moments.Update(*this->State.Space, {}, {}, this->Points, this->Params.Threads);
     if (this->Params.Smoothing > 0.0 && !this->Params.Start)
     {
@@ -146,6 +154,31 @@ private:
       this->SearchOutliers();
     }
     return {};
+  }
+
+  /// Of several processes this one gets the points of its elements.
+  Status Divide()
+  {
+    if (!this->Division.IsDivided())
+    {
+      return {};
+    }
+    const std::vector<int> elements =
+      LocatePoints(*this->State.Space, this->Given.Parameters, this->Params.Threads);
+    this->Division.Assign(elements, this->State.Space->NumElements());
+    this->Moved = this->Division.Deal(this->Given, this->Tolerances, elements);
+    this->Tolerances.assign(this->Moved.Tolerances.begin(), this->Moved.Tolerances.end());
+    return this->Division.Check(this->Moved, this->Params.NumMeasured);
+  }
+
+  double LeastTolerance() const
+  {
+    double least = std::numeric_limits<double>::infinity();
+    for (const double tolerance : this->Points.Tolerance)
+    {
+      least = std::min(least, tolerance);
+    }
+    return -this->Division.Largest(-least);
   }
 
   /// Where there are no points an average of all is better than 0.
@@ -220,12 +253,12 @@ private:
   {
     auto closest = ClosestParameters(
       { this->State.Space, this->State.Coefficients.leftCols(this->Params.NumMeasured), {} },
-      this->Corrected.Values.leftCols(this->Params.NumMeasured).eval(), this->Params.Threads, {});
+      this->Moved.Values.leftCols(this->Params.NumMeasured).eval(), this->Params.Threads, {});
     if (!closest)
     {
       return closest.Status;
     }
-    this->Corrected.Parameters = std::move(closest.Value);
+    this->Moved.Parameters = std::move(closest.Value);
     this->Group();
     this->Moments.Update(*this->State.Space, {}, {}, this->Points, this->Params.Threads);
     this->Measure();
@@ -334,8 +367,8 @@ private:
     }
     for (int k = 0; !system && k < MultilevelSteps; ++k)
     {
-      MultilevelStep(*this->State.Space, this->Functions, this->Points, fixed, this->Params.Threads,
-        this->State.Coefficients);
+      MultilevelStep(*this->State.Space, this->Functions, this->Points, fixed, this->Division,
+        this->Params.Threads, this->State.Coefficients);
     }
     this->Measure();
   }
@@ -350,7 +383,7 @@ private:
       return {};
     }
     std::vector<std::uint8_t> fixed = FindFixedFunctions(
-      *this->State.Space, this->Functions, this->Points, this->Params.Start->Edges);
+      *this->State.Space, this->Functions, this->Points, this->Params.Start->Edges, this->Division);
     for (std::size_t f = 0; f < fixed.size(); ++f)
     {
       if (fixed[f] != 0)
@@ -365,44 +398,18 @@ private:
   void Measure()
   {
     this->Errors = MeasureDistances(*this->State.Space, this->Functions, this->State.Coefficients,
-      this->Params.NumMeasured, this->Points, this->Params.Threads);
-  }
-
-  FitIteration Summarize(int iteration) const
-  {
-    FitIteration row;
-    row.Iteration = iteration;
-    row.LeastSquares = this->IsLeastSquares;
-    row.NumFunctions = this->State.Space->NumFunctions;
-    row.NumElements = this->State.Space->NumElements();
-    std::size_t count = 0;
-    double squares = 0.0;
-    for (const ElementErrors& own : this->Errors)
-    {
-      row.MaxError = std::max(row.MaxError, own.Max);
-      row.MeanError += own.Sum;
-      squares += own.Squares;
-      row.NumOutside += own.NumOutside;
-      count += own.Count;
-    }
-    const auto number = static_cast<double>(std::max<std::size_t>(count, 1));
-    row.MeanError /= number;
-    row.RmsError = std::sqrt(squares / number);
-    row.NumOutliers = this->Points.Size() - count;
-    this->SummarizeSignificant(row);
-    const TDistribution t = FitTDistribution(this->Points, this->Params.Threads);
-    row.LogLikelihood = t.LogLikelihood;
-    row.DegreesOfFreedom = t.DegreesOfFreedom;
-    row.AIC = 2.0 * row.NumFunctions - 2.0 * t.LogLikelihood;
-    row.BIC = std::log(number) * row.NumFunctions - 2.0 * t.LogLikelihood;
-    row.Seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - this->Begin).count();
-    return row;
+      this->Params.NumMeasured, this->Division, this->Points, this->Params.Threads);
   }
 
   void AddRow(int iteration)
   {
-    this->Fit.Iterations.push_back(this->Summarize(iteration));
+    FitIteration row = SummarizeFit(*this->State.Space, this->Cloud, this->Points, this->Errors,
+      this->Division, this->Params.Threads);
+    row.Iteration = iteration;
+    row.LeastSquares = this->IsLeastSquares;
+    row.Seconds = this->Division.OfFirst(
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - this->Begin).count());
+    this->Fit.Iterations.push_back(row);
     if (this->Params.FeatureIterations)
     {
       this->AddFeatures();
@@ -420,24 +427,8 @@ private:
     if (this->Params.ElementFeatures)
     {
       this->Fit.ElementFeatures.push_back(
-        ElementFeatures(this->State, this->Points, height, this->Params.Threads));
+        ElementFeatures(this->State, this->Points, height, this->Division, this->Params.Threads));
     }
-  }
-
-  void SummarizeSignificant(FitIteration& row) const
-  {
-    for (std::size_t i = 0; !this->Cloud.Significant.empty() && i < this->Points.Size(); ++i)
-    {
-      if (this->Points.Base[i] > 0.0 && this->Cloud.Significant[At(this->Points.Order[i])] != 0)
-      {
-        const double size = std::fabs(this->Points.Distance[i]);
-        ++row.NumSignificant;
-        row.MaxSignificantError = std::max(row.MaxSignificantError, size);
-        row.MeanSignificantError += size;
-        row.NumSignificantOutside += size > this->Points.Limit(i) ? 1 : 0;
-      }
-    }
-    row.MeanSignificantError /= static_cast<double>(std::max<std::size_t>(row.NumSignificant, 1));
   }
 
   /// Part of the work done, by the logarithm of the number of points outside.
@@ -445,7 +436,7 @@ private:
   {
     const FitIteration& row = this->Fit.Iterations.back();
     const double left = std::log1p(static_cast<double>(row.NumOutside)) /
-      std::log1p(static_cast<double>(this->Points.Size()));
+      std::log1p(static_cast<double>(this->NumPoints));
     const double limit = (row.Iteration + 1.0) / (this->Params.MaxIterations + 1.0);
     this->Done = std::clamp(std::max(1.0 - left, limit), this->Done, 0.99);
     return this->Done;
@@ -465,6 +456,7 @@ private:
     {
       this->BestCriterion = value;
       this->Best = this->State;
+      this->BestDivision = this->Division;
       this->BestOutliers = this->Outliers;
       this->NumRises = 0;
       return false;
@@ -497,12 +489,14 @@ private:
 
   int FunctionLimit() const
   {
-    const std::size_t n = this->Points.Size();
+    const std::size_t n = this->NumPoints;
     const std::size_t given =
       this->Params.Start ? At(this->Params.Start->Surface.Space->NumFunctions) : 0;
     return this->Params.MaxFunctions > 0
       ? this->Params.MaxFunctions
-      : static_cast<int>(given + std::max(n, std::min(FunctionsPerPoint * n, MostFunctions)));
+      : static_cast<int>(
+          std::min(given + std::max(n, std::min(FunctionsPerPoint * n, MostFunctions)),
+            static_cast<std::size_t>(std::numeric_limits<int>::max())));
   }
 
   /// The next state; without a space when nothing can be split. When all marks make more functions
@@ -513,9 +507,10 @@ private:
     if (marks.empty())
     {
       const bool contradict =
-        PointsContradict(this->State, this->Points, this->Errors, this->Params);
+        this->Division.All(PointsContradict(this->State, this->Points, this->Errors, this->Params));
       this->Fit.End = contradict ? FitEnd::Contradiction : FitEnd::Resolution;
-      if (!contradict && PointsAreHeld(this->State, this->Points, this->Errors, this->Params))
+      if (!contradict &&
+        this->Division.All(PointsAreHeld(this->State, this->Points, this->Errors, this->Params)))
       {
         this->Fit.End = FitEnd::HeldEdges;
       }
@@ -569,6 +564,7 @@ private:
     }
     std::vector<bool> isSplit(parts.size());
     std::transform(parts.begin(), parts.end(), isSplit.begin(), [](int n) { return n > 1; });
+    this->Division.Refine(parents);
     RegroupPoints(coarse, fine, parents, this->Points, this->Params.Threads);
     this->Moments.Update(fine, parents, isSplit, this->Points, this->Params.Threads);
     this->State = std::move(refined);
@@ -580,6 +576,7 @@ private:
     if (this->IsBestEarlier)
     {
       this->State = this->Best;
+      this->Division = this->BestDivision;
       this->Outliers = this->BestOutliers;
       this->Group();
       if (Status status = this->Params.CorrectParameters ? this->CorrectParameters() : Status();
@@ -629,21 +626,25 @@ private:
           this->Tolerances[row] = this->Points.Limit(i);
         }
       });
-    this->Fit.Tolerances = std::move(this->Tolerances);
+    this->Fit.Distances = this->Division.BringHome(this->Fit.Distances);
+    this->Fit.Tolerances = this->Division.BringHome(this->Tolerances);
     this->Fit.Outliers = std::move(this->Outliers);
     if (this->Params.CorrectParameters)
     {
-      this->Fit.Parameters = std::move(this->Corrected.Parameters);
+      this->Fit.Parameters = std::move(this->Moved.Parameters);
     }
     return {};
   }
 
-  PointCloud Corrected; ///< a copy, when parameters are corrected
+  FitDivision& Division;
+  const PointCloud& Given;
+  PointCloud Moved; ///< a copy, when parameters are corrected; the points of own elements
   const PointCloud& Cloud;
   const FitParams Params;
   std::chrono::steady_clock::time_point Begin;
   std::vector<double> Tolerances;
   std::vector<double> Bands; ///< one-sided fits: their widths
+  std::size_t NumPoints = 0; ///< of all processes
   int Components;
   double Accuracy = 0.0;
   bool IsLeastSquares = true;
@@ -658,6 +659,7 @@ private:
   std::vector<std::uint8_t> Outliers;
   std::vector<double> Weights; // asked for, in the cloud's order
   FitState Best;
+  FitDivision BestDivision;
   std::vector<std::uint8_t> BestOutliers;
   double BestCriterion = 0.0;
   int NumRises = 0;
@@ -667,12 +669,18 @@ private:
 };
 }
 
+Result<SurfaceFit> RunFit(const PointCloud& cloud, const FitParams& params, FitDivision& division)
+{
+  return Fitting(cloud, params, division).Run();
+}
+
 Result<SurfaceFit> FitSurface(const PointCloud& cloud, const FitParams& params)
 {
   if (Status status = CheckFit(cloud, params); !status)
   {
     return status;
   }
-  return Fitting(cloud, params).Run();
+  FitDivision alone;
+  return RunFit(cloud, params, alone);
 }
 }

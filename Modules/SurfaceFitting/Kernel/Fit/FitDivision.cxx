@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FitDivision.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace knotwork
+{
+namespace
+{
+constexpr char Goes = 'g';
+constexpr char Fails = 'f';
+
+template <typename T>
+std::string AsBytes(const T* values, std::size_t count)
+{
+  return { reinterpret_cast<const char*>(values), sizeof(T) * count };
+}
+
+template <typename T>
+std::vector<T> FromBytes(const std::string& bytes)
+{
+  std::vector<T> values(bytes.size() / sizeof(T));
+  std::memcpy(values.data(), bytes.data(), bytes.size());
+  return values;
+}
+
+std::string AsBytes(const Status& status)
+{
+  return status ? std::string()
+                : std::to_string(static_cast<int>(status.Code)) + " " + status.Detail;
+}
+
+Status StatusFromBytes(const std::string& bytes)
+{
+  return bytes.empty()
+    ? Status()
+    : Status(static_cast<ErrorCode>(std::stoi(bytes)), bytes.substr(bytes.find(' ') + 1));
+}
+}
+
+std::vector<std::string> FitDivision::Exchange(const std::string& own) const
+{
+  std::vector<std::string> all = this->Processes->Exchange(Goes + own);
+  for (const std::string& one : all)
+  {
+    if (one[0] == Fails)
+    {
+      throw FitStop(StatusFromBytes(one.substr(1)));
+    }
+  }
+  for (std::string& one : all)
+  {
+    one.erase(0, 1);
+  }
+  return all;
+}
+
+void FitDivision::Fail(const Status& why) const
+{
+  this->Processes->Exchange(Fails + AsBytes(why));
+}
+
+std::vector<double> FitDivision::ExchangeNumbers(double own) const
+{
+  std::vector<double> numbers;
+  for (const std::string& one : this->Exchange(AsBytes(&own, 1)))
+  {
+    numbers.push_back(FromBytes<double>(one)[0]);
+  }
+  return numbers;
+}
+
+double FitDivision::Largest(double own) const
+{
+  if (!this->IsDivided())
+  {
+    return own;
+  }
+  const std::vector<double> all = this->ExchangeNumbers(own);
+  return *std::max_element(all.begin(), all.end());
+}
+
+std::size_t FitDivision::Sum(std::size_t own) const
+{
+  if (!this->IsDivided())
+  {
+    return own;
+  }
+  std::size_t sum = 0;
+  for (const std::string& one : this->Exchange(AsBytes(&own, 1)))
+  {
+    sum += FromBytes<std::size_t>(one)[0];
+  }
+  return sum;
+}
+
+bool FitDivision::All(bool own) const
+{
+  return this->Largest(own ? 0.0 : 1.0) == 0.0;
+}
+
+void FitDivision::AddUp(std::vector<double>& numbers) const
+{
+  if (!this->IsDivided())
+  {
+    return;
+  }
+  const std::vector<std::string> all = this->Exchange(AsBytes(numbers.data(), numbers.size()));
+  std::fill(numbers.begin(), numbers.end(), 0.0);
+  for (const std::string& bytes : all)
+  {
+    const std::vector<double> one = FromBytes<double>(bytes);
+    std::transform(one.begin(), one.end(), numbers.begin(), numbers.begin(), std::plus<>());
+  }
+}
+
+double FitDivision::OfFirst(double own) const
+{
+  return this->IsDivided() ? this->ExchangeNumbers(own)[0] : own;
+}
+
+Status FitDivision::Agree(const Status& own) const
+{
+  if (!this->IsDivided())
+  {
+    return own;
+  }
+  for (const std::string& one : this->Exchange(AsBytes(own)))
+  {
+    if (!one.empty())
+    {
+      return StatusFromBytes(one);
+    }
+  }
+  return {};
+}
+
+Status FitDivision::Check(const PointCloud& dealt, int numMeasured) const
+{
+  return this->Agree(this->Processes->Check && dealt.Values.rows() > 0
+      ? this->Processes->Check(dealt.Parameters, dealt.Values.leftCols(numMeasured))
+      : Status());
+}
+
+void FitDivision::Assign(const std::vector<int>& elements, int numElements)
+{
+  std::vector<double> points(static_cast<std::size_t>(numElements), 0.0);
+  for (const int e : elements)
+  {
+    ++points[static_cast<std::size_t>(e)];
+  }
+  this->AddUp(points);
+  const double total = std::accumulate(points.begin(), points.end(), 0.0);
+  // an element goes to the process in whose share the middle of its points lies
+  this->Owners.clear();
+  double before = 0.0;
+  for (const double own : points)
+  {
+    const double share = (before + 0.5 * own) / std::max(total, 1.0);
+    this->Owners.push_back(
+      std::min(static_cast<int>(share * this->Processes->Count), this->Processes->Count - 1));
+    before += own;
+  }
+}
+
+void FitDivision::Refine(const std::vector<int>& parents)
+{
+  if (!this->IsDivided())
+  {
+    return;
+  }
+  std::vector<int> owners;
+  owners.reserve(parents.size());
+  for (const int parent : parents)
+  {
+    owners.push_back(this->Owners[static_cast<std::size_t>(parent)]);
+  }
+  this->Owners = std::move(owners);
+}
+
+PointCloud FitDivision::Deal(
+  const PointCloud& cloud, const std::vector<double>& tolerances, const std::vector<int>& elements)
+{
+  this->Sent.assign(static_cast<std::size_t>(this->Processes->Count), {});
+  for (std::size_t i = 0; i < elements.size(); ++i)
+  {
+    const int owner = this->Owners[static_cast<std::size_t>(elements[i])];
+    this->Sent[static_cast<std::size_t>(owner)].push_back(static_cast<int>(i));
+  }
+  // a point is its parameters, values, tolerance, and whether it is significant
+  const auto columns = static_cast<Eigen::Index>(
+    this->Largest(cloud.Values.rows() > 0 ? static_cast<double>(cloud.Values.cols()) : 0.0));
+  const Eigen::Index width = columns + 4;
+  std::vector<std::string> hands;
+  std::vector<double> row(static_cast<std::size_t>(width));
+  for (const std::vector<int>& points : this->Sent)
+  {
+    hands.emplace_back();
+    hands.back().reserve(points.size() * row.size() * sizeof(double));
+    for (const int i : points)
+    {
+      std::copy_n(cloud.Parameters.data() + std::ptrdiff_t{ 2 } * i, 2, row.begin());
+      std::copy_n(cloud.Values.data() + columns * i, columns, row.begin() + 2);
+      row[static_cast<std::size_t>(width) - 2] = tolerances[static_cast<std::size_t>(i)];
+      row[static_cast<std::size_t>(width) - 1] =
+        cloud.Significant.empty() ? 0.0 : cloud.Significant[static_cast<std::size_t>(i)];
+      hands.back() += AsBytes(row.data(), row.size());
+    }
+  }
+  const std::vector<std::string> all = this->Processes->Deal(std::move(hands));
+  Eigen::Index count = 0;
+  this->Received.clear();
+  for (const std::string& one : all)
+  {
+    this->Received.push_back(one.size() / sizeof(double) / static_cast<std::size_t>(width));
+    count += static_cast<Eigen::Index>(this->Received.back());
+  }
+  PointCloud dealt;
+  dealt.Parameters.resize(count, 2);
+  dealt.Values.resize(count, columns);
+  dealt.Tolerances.resize(count);
+  Eigen::Index i = 0;
+  for (const std::string& one : all)
+  {
+    for (std::size_t at = 0; at < one.size(); at += sizeof(double) * row.size(), ++i)
+    {
+      std::memcpy(row.data(), one.data() + at, sizeof(double) * row.size());
+      std::copy_n(row.begin(), 2, dealt.Parameters.data() + 2 * i);
+      std::copy_n(row.begin() + 2, columns, dealt.Values.data() + columns * i);
+      dealt.Tolerances[i] = row[static_cast<std::size_t>(width) - 2];
+      dealt.Significant.push_back(row[static_cast<std::size_t>(width) - 1] != 0.0 ? 1 : 0);
+    }
+  }
+  return dealt;
+}
+
+std::vector<double> FitDivision::BringHome(const std::vector<double>& values) const
+{
+  if (!this->IsDivided())
+  {
+    return values;
+  }
+  std::vector<std::string> hands;
+  std::size_t first = 0;
+  std::size_t count = 0;
+  for (const std::size_t received : this->Received)
+  {
+    hands.push_back(AsBytes(values.data() + first, received));
+    first += received;
+  }
+  for (const std::vector<int>& points : this->Sent)
+  {
+    count += points.size();
+  }
+  const std::vector<std::string> all = this->Processes->Deal(std::move(hands));
+  std::vector<double> home(count);
+  for (std::size_t p = 0; p < all.size(); ++p)
+  {
+    const std::vector<double> back = FromBytes<double>(all[p]);
+    for (std::size_t k = 0; k < back.size(); ++k)
+    {
+      home[static_cast<std::size_t>(this->Sent[p][k])] = back[k];
+    }
+  }
+  return home;
+}
+}
