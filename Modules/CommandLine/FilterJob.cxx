@@ -133,6 +133,10 @@ Status FilterJobBase::Run(Session& session)
 
 Status FilterJobBase::JoinMainOutput()
 {
+  if (this->DividedOutput != 0)
+  {
+    return {}; // the first process has it
+  }
   vtkDataObject* output = this->Algorithm->GetOutputDataObject(0);
   if (IsPieceIndex(this->MainOutput()) && !this->NeedsWholeOutput())
   {
@@ -151,9 +155,27 @@ Status FilterJobBase::JoinMainOutput()
     }
     return appended.Status;
   }
-  const auto joined =
-    JoinShares(this->Divided, this->Undivided, this->Input(this->DividedPort), output);
-  Replace(output, joined);
+  return this->JoinDividedOutput();
+}
+
+Status FilterJobBase::JoinDividedOutput()
+{
+  vtkDataObject* output = this->Algorithm->GetOutputDataObject(this->DividedOutput);
+  if (this->Divided == Share::Blocks || IsPieceIndex(this->OutputFile(this->DividedOutput)))
+  {
+    return {};
+  }
+  if (!this->Undivided)
+  {
+    const auto appended = AppendShares(output);
+    if (appended)
+    {
+      Replace(output, appended.Value);
+    }
+    return appended.Status;
+  }
+  Replace(
+    output, JoinShares(this->Divided, this->Undivided, this->Input(this->DividedPort), output));
   return {};
 }
 
@@ -166,6 +188,11 @@ Status FilterJobBase::JoinOutputs(bool withMain)
     if (vtkTable::SafeDownCast(output))
     {
       Replace(output, SameForAll(output));
+      continue;
+    }
+    if (this->DividedOutput != 0)
+    {
+      status = port == this->DividedOutput ? this->JoinDividedOutput() : status;
       continue;
     }
     auto appended = AppendShares(output);

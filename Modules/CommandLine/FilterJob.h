@@ -47,6 +47,8 @@ protected:
   /// them. Output 0 is that of the input with arrays added or points moved (Cells, Points), or
   /// consists of what every process makes (Blocks).
   void Divide(int port, Share share);
+  /// That of Cells and Points is another output; the first process has output 0 and the others.
+  void DivideInto(int outputPort) { this->DividedOutput = outputPort; }
   /// A file that the filter reads itself, and that must be given: it is named in the report and in
   /// messages.
   void AddFile(const char* name, const char* help);
@@ -107,10 +109,12 @@ private:
   /// Outputs of several processes: the tables of the first one in all, the others in the first one.
   Status JoinOutputs(bool withMain);
   Status JoinMainOutput();
+  Status JoinDividedOutput();
   std::string InputNames() const;
 
   Share Divided = Share::All; ///< as was said, then as it is
   int DividedPort = NoPort;
+  int DividedOutput = 0;
   vtkSmartPointer<vtkDataObject> Undivided; ///< what stands at that port is a share of
 
   std::list<File> Inputs;  ///< nodes, to which the parser's options point

@@ -9,6 +9,7 @@
 #include <knotwork/SplineGrid/SplineModel.h>
 #include <knotwork/SplineIO/CloudTiles.h>
 #include <knotwork/SplineIO/DataFile.h>
+#include <knotwork/SplineIO/PieceFiles.h>
 #include <knotwork/SurfaceFitting/vtkSplineSurfaceFit.h>
 
 #include <pugixml.hpp>
@@ -27,6 +28,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <sstream>
 #include <system_error>
 
@@ -74,6 +76,8 @@ public:
       "", "input");
     this->AddInput(1, "--start", "the spline surface that the fit starts from and updates",
       " starting from ", "start");
+    this->Divide(0, Share::Points);
+    this->DivideInto(Points);
     this->AddOutput(Surface, "--output", Endings::Splines,
       "the surface (of tiles .vtu, or .vtpc: a block a tile)");
     this->AddOutput(
@@ -96,23 +100,26 @@ public:
       return { ErrorCode::InvalidParameter,
         "'" + this->InputFile(0) + "': --resume is of tiles (.tiles); leave it out" };
     }
-    if (!isOfTiles && Processes::Count() > 1)
-    {
-      return { ErrorCode::InvalidParameter,
-        "'" + this->InputFile(0) +
-          "': one set of points is fitted by one process; start it without mpirun, or divide it "
-          "(knotwork tiles)" };
-    }
     if (!isOfTiles && LowerEnding(output) == ".vtpc")
     {
       return { ErrorCode::InvalidParameter,
         "'" + output + "': a collection is written of tiles (.tiles); write one surface as " +
           JoinEndings(EndingsThatWrite(SplineGridContent)) };
     }
+    nlohmann::ordered_json asked;
+    this->FilterOptions.Apply(asked); // inputs are divided by what is asked for
     return isOfTiles ? this->RunTiles(session) : FilterJob::Run(session);
   }
 
 protected:
+  /// What needs all points in one process is done by the first one.
+  Share ShareOfInput(vtkDataObject* data) const override
+  {
+    return vtkPointSet::SafeDownCast(data) && this->Filter->NeedsWholeInput().empty()
+      ? Share::Points
+      : Share::Blocks;
+  }
+
   Status Prepare(Session& session) override
   {
     for (const std::string& name : this->Fields)
@@ -142,12 +149,20 @@ protected:
     vtkTable* table = this->Table(Iterations);
     const vtkIdType last = table->GetNumberOfRows() - 1;
     const auto value = [&](const char* name) { return table->GetValueByName(last, name); };
-    double tolerances[2] = { 0.0, 0.0 };
-    points->GetPointData()->GetArray("Tolerance")->GetRange(tolerances);
+    constexpr double Infinity = std::numeric_limits<double>::infinity();
+    double tolerances[2] = { Infinity, -Infinity };
+    vtkDataArray* own = points->GetPointData()->GetArray("Tolerance");
+    if (own && own->GetNumberOfTuples() > 0)
+    {
+      own->GetRange(tolerances);
+    }
+    // the first process has all points, or each its own
+    const vtkIdType count =
+      this->HasPiecesOfPoints() || Processes::Own() == 0 ? points->GetNumberOfPoints() : 0;
     auto& report = session.Report;
-    report["points"] = points->GetNumberOfPoints();
-    report["smallest_tolerance"] = tolerances[0];
-    report["largest_tolerance"] = tolerances[1];
+    report["points"] = Session::Total(count);
+    report["smallest_tolerance"] = -Session::Largest(-tolerances[0]);
+    report["largest_tolerance"] = Session::Largest(tolerances[1]);
     report["functions"] = value("Functions").ToLongLong();
     report["elements"] = value("Elements").ToLongLong();
     report["iterations"] = value("Iteration").ToLongLong();
@@ -182,6 +197,8 @@ protected:
   }
 
 private:
+  bool HasPiecesOfPoints() const { return IsPieceIndex(this->OutputFile(Points)); }
+
   /// Options that are of one set of points alone.
   Status RefuseOptions() const
   {

@@ -18,6 +18,29 @@ vtkMultiProcessController* Controller()
   vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
   return controller && controller->GetNumberOfProcesses() > 1 ? controller : nullptr;
 }
+
+// one message each: what is sent may be larger than what a collective operation counts
+void Send(vtkMultiProcessController* controller, const std::string& bytes, int to)
+{
+  const auto length = static_cast<vtkIdType>(bytes.size());
+  controller->Send(&length, 1, to, Tag);
+  if (length > 0)
+  {
+    controller->Send(bytes.data(), length, to, Tag);
+  }
+}
+
+std::string Receive(vtkMultiProcessController* controller, int from)
+{
+  vtkIdType length = 0;
+  controller->Receive(&length, 1, from, Tag);
+  std::string bytes(static_cast<std::size_t>(length), '\0');
+  if (length > 0)
+  {
+    controller->Receive(bytes.data(), length, from, Tag);
+  }
+  return bytes;
+}
 }
 
 int Count()
@@ -82,29 +105,36 @@ std::vector<std::string> Collect(const std::string& bytes)
   {
     return { bytes };
   }
-  // one message each: what is sent may be larger than what a collective operation counts
   std::vector<std::string> found;
-  auto length = static_cast<vtkIdType>(bytes.size());
   if (Own() != 0)
   {
-    controller->Send(&length, 1, 0, Tag);
-    if (length > 0)
-    {
-      controller->Send(bytes.data(), length, 0, Tag);
-    }
+    Send(controller, bytes, 0);
     return found;
   }
   found.push_back(bytes);
   for (int process = 1; process < Count(); ++process)
   {
-    controller->Receive(&length, 1, process, Tag);
-    found.emplace_back(static_cast<std::size_t>(length), '\0');
-    if (length > 0)
-    {
-      controller->Receive(found.back().data(), length, process, Tag);
-    }
+    found.push_back(Receive(controller, process));
   }
   return found;
+}
+
+std::vector<std::string> Deal(std::vector<std::string> hands)
+{
+  vtkMultiProcessController* controller = Controller();
+  // in every round each process has one partner at most; the lower one sends first
+  for (int round = 0; controller && round < Count(); ++round)
+  {
+    const int partner = (round - Own() + Count()) % Count();
+    if (partner != Own())
+    {
+      std::string& hand = hands[static_cast<std::size_t>(partner)];
+      std::string received = Own() < partner ? std::string() : Receive(controller, partner);
+      Send(controller, hand, partner);
+      hand = Own() < partner ? Receive(controller, partner) : std::move(received);
+    }
+  }
+  return hands;
 }
 
 std::string Broadcast(std::string bytes, int from)

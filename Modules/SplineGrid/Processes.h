@@ -45,6 +45,10 @@ std::vector<std::vector<T>> Exchange(const std::vector<T>& values)
 /// What the processes give, to the first of them, one after the other; empty elsewhere.
 VTKKNOTWORKSPLINEGRID_EXPORT std::vector<std::string> Collect(const std::string& bytes);
 
+/// What this process has for each of them, itself too, goes there.
+/// @param hands  one a process. @return what each has for this one, in their order.
+VTKKNOTWORKSPLINEGRID_EXPORT std::vector<std::string> Deal(std::vector<std::string> hands);
+
 /// What one process gives, to all of them.
 VTKKNOTWORKSPLINEGRID_EXPORT std::string Broadcast(std::string bytes, int from = 0);
 

@@ -184,12 +184,12 @@ int vtkSplineAlgorithm::RequestData(
     attempt([&] { return this->Compute(inputs, outputs); });
   }
   agree();
-  this->Whole = nullptr;
   if (together && this->SumsUpPieces() && status)
   {
     attempt([&] { return this->Merge(inputs, outputs); });
     agree();
   }
+  this->Whole = nullptr;
   if (status)
   {
     return 1;

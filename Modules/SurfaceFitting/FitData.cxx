@@ -8,7 +8,6 @@
 #include <knotwork/SplineGrid/SplineModel.h>
 #include <knotwork/SurfaceFitting/ClosestParameters.h>
 #include <knotwork/SurfaceFitting/PlaneParameters.h>
-#include <knotwork/SurfaceFitting/PointLayers.h>
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -268,13 +267,12 @@ Result<DecodedCloud> DecodeCloud(vtkPointSet* data, const CloudChoice& choice)
   {
     return status;
   }
-  const char* over = nullptr;
-  auto parameters = FindParameters(data, choice, over);
+  DecodedCloud decoded;
+  auto parameters = FindParameters(data, choice, decoded.Over);
   if (!parameters)
   {
     return parameters.Status;
   }
-  DecodedCloud decoded;
   decoded.NumMeasured = choice.Parameters == CloudParameters::HeightField ? 1 : 3;
   PointCloud& cloud = decoded.Cloud;
   cloud.Parameters = std::move(parameters.Value);
@@ -293,14 +291,6 @@ Result<DecodedCloud> DecodeCloud(vtkPointSet* data, const CloudChoice& choice)
   {
     CopyArray(array, 0, array->GetNumberOfComponents(), cloud.Values, columns, choice.Threads);
     columns += array->GetNumberOfComponents();
-  }
-  if (over && choice.RefuseLayers)
-  {
-    const PointMatrix measured = cloud.Values.leftCols(decoded.NumMeasured);
-    if (Status layers = CheckLayers(cloud.Parameters, measured, over); !layers)
-    {
-      return layers;
-    }
   }
   if (choice.Tolerances)
   {

@@ -34,7 +34,6 @@ struct CloudChoice
   vtkDataArray* Significant = nullptr; ///< one component
   std::vector<std::string> Fields;     ///< point arrays to fit along
   bool AllFields = false;              ///< all other numeric point arrays
-  bool RefuseLayers = true;            ///< an envelope of points may have layers below it
   const Spline<2>* Start = nullptr;    ///< the surface that the fit starts from
   int Threads = 0;
   ProgressCallback Progress; ///< of the search for closest points
@@ -44,6 +43,7 @@ struct DecodedCloud
 {
   PointCloud Cloud;
   int NumMeasured = 1;
+  const char* Over = nullptr; ///< what points may lie over in layers; triangles do not
   /// Of the arrays fitted along, in the order of the columns, then of the start's other fields.
   std::vector<std::string> Names;
   std::vector<int> Components; ///< of each of them
@@ -51,7 +51,7 @@ struct DecodedCloud
 
 /// The points of a data set with parameters and values.
 /// @return EmptyInput; SizeMismatch and InvalidParameter for arrays; failures of PlaneParameters,
-/// ClosestParameters, CheckLayers and FlattenMesh; NotInSpace for triangles that flip in the plane
+/// ClosestParameters and FlattenMesh; NotInSpace for triangles that flip in the plane
 /// or whose map lies over itself. Numbers that
 /// are not finite or too large are FitSurface's to refuse.
 Result<DecodedCloud> DecodeCloud(vtkPointSet* data, const CloudChoice& choice);

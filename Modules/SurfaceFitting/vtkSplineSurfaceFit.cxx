@@ -3,8 +3,13 @@
 
 #include "FitData.h"
 #include <knotwork/SplineCore/Numbers.h>
+#include <knotwork/SplineGrid/Bytes.h>
+#include <knotwork/SplineGrid/DistributedInput.h>
 #include <knotwork/SplineGrid/InputChecks.h>
+#include <knotwork/SplineGrid/Processes.h>
 #include <knotwork/SplineGrid/SplineModel.h>
+#include <knotwork/SurfaceFitting/FitProcesses.h>
+#include <knotwork/SurfaceFitting/PointLayers.h>
 
 #include "vtkDataObject.h"
 #include "vtkImageData.h"
@@ -17,7 +22,9 @@
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
 #include <cstring>
+#include <utility>
 
 vtkStandardNewMacro(vtkSplineSurfaceFit);
 
@@ -49,9 +56,40 @@ const char* DescribeEnd(knotwork::FitEnd end)
 
 std::string DescribeMiss(const knotwork::SurfaceFit& fit)
 {
-  return std::to_string(fit.Final.NumOutside) + " of " + std::to_string(fit.Distances.size()) +
+  return std::to_string(fit.Final.NumOutside) + " of " + std::to_string(fit.NumPoints) +
     " points are farther away than their tolerance, by a largest distance of " +
     knotwork::Digits(fit.Final.MaxError) + ": " + DescribeEnd(fit.End);
+}
+
+/// What is fitted along, from the first process with points to those without.
+void TellNames(knotwork::DecodedCloud& decoded)
+{
+  using namespace knotwork;
+  const bool hasPoints = decoded.Cloud.Parameters.rows() > 0;
+  Bytes own;
+  if (hasPoints)
+  {
+    own.Add(decoded.NumMeasured);
+    own.Add(decoded.Components);
+    for (const std::string& name : decoded.Names)
+    {
+      own.Add(name);
+    }
+  }
+  for (const std::string& text : Processes::Exchange(own.Get()))
+  {
+    if (!hasPoints && !text.empty())
+    {
+      Bytes told(text);
+      decoded.NumMeasured = told.Take<int>();
+      told.Take(decoded.Components);
+      for (std::size_t i = 0; i < decoded.Components.size(); ++i)
+      {
+        decoded.Names.push_back(told.Take<std::string>());
+      }
+      return;
+    }
+  }
 }
 }
 
@@ -137,8 +175,30 @@ knotwork::Status vtkSplineSurfaceFit::FindArray(
   return {};
 }
 
-knotwork::Status vtkSplineSurfaceFit::Compute(
-  vtkInformationVector** inputs, vtkInformationVector* outputs)
+knotwork::Status vtkSplineSurfaceFit::DecodeStart(
+  vtkInformationVector** inputs, knotwork::SplineModel& start)
+{
+  using namespace knotwork;
+  vtkDataObject* data = this->WholeInput(inputs);
+  if (!data)
+  {
+    return this->HoldEdges == NO_EDGES ? Status()
+                                       : Status(ErrorCode::InvalidParameter,
+                                           "there are no edges to hold: the edges of a start "
+                                           "surface are held; give one as the second input, or "
+                                           "HoldEdges None");
+  }
+  auto model = this->DecodeInput(data);
+  if (!model)
+  {
+    return { model.Status.Code, "the start: " + model.Status.Detail };
+  }
+  start = std::move(model.Value);
+  return FindStart(start).Status;
+}
+
+knotwork::Status vtkSplineSurfaceFit::DecodePoints(vtkInformationVector** inputs,
+  const knotwork::SplineModel& start, knotwork::DecodedCloud& decoded)
 {
   using namespace knotwork;
   vtkPointSet* input = vtkPointSet::GetData(inputs[0], 0);
@@ -147,32 +207,10 @@ knotwork::Status vtkSplineSurfaceFit::Compute(
     return sampled;
   }
   CloudChoice choice;
-  SplineModel startModel;
-  if (vtkDataObject* data = vtkDataObject::GetData(inputs[1], 0))
-  {
-    auto model = this->DecodeInput(data);
-    if (!model)
-    {
-      return { model.Status.Code, "the start: " + model.Status.Detail };
-    }
-    startModel = std::move(model.Value);
-    const auto start = FindStart(startModel);
-    if (!start)
-    {
-      return start.Status;
-    }
-    choice.Start = start.Value;
-  }
-  else if (this->HoldEdges != NO_EDGES)
-  {
-    return { ErrorCode::InvalidParameter,
-      "there are no edges to hold: the edges of a start surface are held; give one as the second "
-      "input, or HoldEdges None" };
-  }
+  choice.Start = start.Patches.empty() ? nullptr : FindStart(start).Value;
   choice.Parameters = static_cast<CloudParameters>(this->Parameterization);
   choice.Fields = this->FieldArrays;
   choice.AllFields = this->AllFields;
-  choice.RefuseLayers = this->Side == BOTH_SIDES;
   choice.Threads = this->KernelThreads();
   choice.Progress = this->Progress();
   Status status;
@@ -188,15 +226,18 @@ knotwork::Status vtkSplineSurfaceFit::Compute(
   {
     return status;
   }
-  Result<DecodedCloud> decoded = DecodeCloud(input, choice);
-  if (!decoded)
+  Result<DecodedCloud> found = DecodeCloud(input, choice);
+  decoded = std::move(found.Value);
+  return found.Status;
+}
+
+knotwork::Status vtkSplineSurfaceFit::MakeParams(const knotwork::SplineModel& startModel,
+  knotwork::DecodedCloud& decoded, knotwork::FitParams& params)
+{
+  using namespace knotwork;
+  if (!startModel.Patches.empty())
   {
-    return decoded.Status;
-  }
-  FitParams params;
-  if (choice.Start)
-  {
-    auto start = MakeStart(startModel, decoded.Value, choice.Threads);
+    auto start = MakeStart(startModel, decoded, this->KernelThreads());
     if (!start)
     {
       return start.Status;
@@ -212,7 +253,7 @@ knotwork::Status vtkSplineSurfaceFit::Compute(
   params.Degree = { this->Degree, this->SecondDegree > 0 ? this->SecondDegree : this->Degree };
   params.NumInitialElements = { this->InitialElementsU, this->InitialElementsV };
   params.Domain = { { this->Domain[0], this->Domain[2] }, { this->Domain[1], this->Domain[3] } };
-  params.NumMeasured = decoded->NumMeasured;
+  params.NumMeasured = decoded.NumMeasured;
   params.CorrectParameters = this->CorrectParameters && this->Parameterization != HEIGHT_FIELD;
   params.Method = static_cast<FitMethod>(this->Method);
   params.SwitchIteration = this->SwitchIteration;
@@ -249,21 +290,147 @@ knotwork::Status vtkSplineSurfaceFit::Compute(
   params.FeatureIterations = this->FeatureIterations;
   params.Threads = this->KernelThreads();
   params.Progress = this->Progress();
-  const Result<SurfaceFit> fit = FitSurface(decoded->Cloud, params);
+  return {};
+}
+
+std::string vtkSplineSurfaceFit::NeedsWholeInput() const
+{
+  const std::pair<bool, const char*> all[] = { { this->FindOutliers, "FindOutliers" },
+    { this->Side != BOTH_SIDES, "Side" }, { this->FeatureGridSize > 0, "FeatureGridSize" },
+    { this->Parameterization == COMPUTED, "Parameterization Computed" },
+    { this->CorrectParameters && this->Parameterization != HEIGHT_FIELD, "CorrectParameters" } };
+  std::string names;
+  for (const auto& [isAsked, name] : all)
+  {
+    names += isAsked ? (names.empty() ? "" : ", ") + std::string(name) : "";
+  }
+  return names;
+}
+
+void vtkSplineSurfaceFit::EncodePoints(vtkInformationVector** inputs, vtkInformationVector* outputs,
+  const knotwork::DecodedCloud& decoded, const knotwork::SurfaceFit& fit)
+{
+  vtkPointSet* points = vtkPointSet::GetData(outputs, 1);
+  points->ShallowCopy(vtkPointSet::GetData(inputs[0], 0));
+  knotwork::EncodeDistances(decoded, fit, points);
+}
+
+knotwork::Status vtkSplineSurfaceFit::EncodeResult(vtkInformationVector* outputs,
+  const knotwork::DecodedCloud& decoded, const knotwork::SurfaceFit& fit)
+{
+  if (!fit.WithinTolerance)
+  {
+    this->ReportWarnings({ DescribeMiss(fit) });
+  }
+  knotwork::EncodeIterations(fit, vtkTable::GetData(outputs, 2));
+  knotwork::EncodeGridFeatures(fit, vtkImageData::GetData(outputs, 3));
+  knotwork::EncodeElementFeatures(fit, vtkPolyData::GetData(outputs, 4));
+  return knotwork::EncodeFit(decoded, fit, vtkUnstructuredGrid::GetData(outputs));
+}
+
+knotwork::Status vtkSplineSurfaceFit::FitAlone(
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  using namespace knotwork;
+  SplineModel start;
+  DecodedCloud decoded;
+  FitParams params;
+  Status status = this->DecodeStart(inputs, start);
+  status = status ? this->DecodePoints(inputs, start, decoded) : status;
+  if (status && decoded.Over && this->Side == BOTH_SIDES) // an envelope may have layers below it
+  {
+    status = CheckLayers(
+      decoded.Cloud.Parameters, decoded.Cloud.Values.leftCols(decoded.NumMeasured), decoded.Over);
+  }
+  status = status ? this->MakeParams(start, decoded, params) : status;
+  if (!status)
+  {
+    return status;
+  }
+  const Result<SurfaceFit> fit = FitSurface(decoded.Cloud, params);
   if (!fit)
   {
     return fit.Status;
   }
   this->Seconds = fit->Iterations.back().Seconds;
-  if (!fit->WithinTolerance)
+  this->EncodePoints(inputs, outputs, decoded, fit.Value);
+  return this->EncodeResult(outputs, decoded, fit.Value);
+}
+
+knotwork::Status vtkSplineSurfaceFit::FitTogether(
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  using namespace knotwork;
+  const bool hasPoints = vtkPointSet::GetData(inputs[0], 0)->GetNumberOfPoints() > 0;
+  SplineModel start;
+  DecodedCloud decoded;
+  FitParams params;
+  Status status = this->DecodeStart(inputs, start);
+  status =
+    Processes::Agree(status && hasPoints ? this->DecodePoints(inputs, start, decoded) : status);
+  if (!status)
   {
-    this->ReportWarnings({ DescribeMiss(fit.Value) });
+    return status;
   }
-  vtkPointSet* points = vtkPointSet::GetData(outputs, 1);
-  points->ShallowCopy(input);
-  EncodeDistances(decoded.Value, fit.Value, points);
-  EncodeIterations(fit.Value, vtkTable::GetData(outputs, 2));
-  EncodeGridFeatures(fit.Value, vtkImageData::GetData(outputs, 3));
-  EncodeElementFeatures(fit.Value, vtkPolyData::GetData(outputs, 4));
-  return EncodeFit(decoded.Value, fit.Value, vtkUnstructuredGrid::GetData(outputs));
+  TellNames(decoded);
+  status = Processes::Agree(this->MakeParams(start, decoded, params));
+  if (!status)
+  {
+    return status;
+  }
+  FitProcesses processes;
+  processes.Own = Processes::Own();
+  processes.Count = Processes::Count();
+  processes.Exchange = [](const std::string& own) { return Processes::Exchange(own); };
+  processes.Deal = [](std::vector<std::string> hands) { return Processes::Deal(std::move(hands)); };
+  processes.Check = [this](const PointMatrix& parameters, const PointMatrix& values)
+  {
+    return CheckLayers(parameters, values,
+      this->Parameterization == HEIGHT_FIELD ? "x and y" : "the parameters that are given", false);
+  };
+  const Result<SurfaceFit> fit = FitSurface(decoded.Cloud, params, processes);
+  if (!fit)
+  {
+    return fit.Status;
+  }
+  this->Seconds = fit->Iterations.back().Seconds;
+  if (hasPoints)
+  {
+    this->EncodePoints(inputs, outputs, decoded, fit.Value);
+  }
+  return Processes::Own() == 0 ? this->EncodeResult(outputs, decoded, fit.Value) : Status();
+}
+
+knotwork::Status vtkSplineSurfaceFit::Compute(
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  return knotwork::IsPieceOfEveryProcess(outputs) ? knotwork::Status()
+                                                  : this->FitAlone(inputs, outputs);
+}
+
+knotwork::Status vtkSplineSurfaceFit::Merge(
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  using namespace knotwork;
+  vtkPointSet* input = vtkPointSet::GetData(inputs[0], 0);
+  const int own = input && input->GetNumberOfPoints() > 0 ? 1 : 0;
+  const std::vector<int> all = Processes::ExchangeNumber(own);
+  const auto withPoints = std::count(all.begin(), all.end(), 1);
+  const std::string whole = this->NeedsWholeInput();
+  if (withPoints == 0)
+  {
+    return {};
+  }
+  if (whole.empty())
+  {
+    return this->FitTogether(inputs, outputs);
+  }
+  if (withPoints > 1)
+  {
+    return { ErrorCode::InvalidTopology,
+      "the whole input is needed, and it is spread over " + std::to_string(withPoints) + " of " +
+        std::to_string(all.size()) + " processes; leave out what needs it (" + whole +
+        "), or work in one process" };
+  }
+  return own != 0 ? this->FitAlone(inputs, outputs) : Status();
 }

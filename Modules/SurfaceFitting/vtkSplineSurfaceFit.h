@@ -24,6 +24,10 @@
  *
  * A fit that ends by a limit is an output with a warning.
  *
+ * In several processes that each have points they fit one surface together, the one of one process
+ * to the last bit: output 0 and the tables are in the first process, output 1 are every one's
+ * points. What NeedsWholeInput names is refused there, unless one process has all points.
+ *
  * @source Skytt, Barrowclough, Dokken (2015). The module's page has options, limits, errors.
  */
 #ifndef vtkSplineSurfaceFit_h
@@ -31,9 +35,18 @@
 #include "vtkKnotworkSurfaceFittingModule.h" // for export macro
 #include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
 
-#include <array> // for tolerance boxes
+#include <array>  // for tolerance boxes
+#include <string> // for names
 
 class vtkDataArray;
+
+namespace knotwork
+{
+struct DecodedCloud;
+struct FitParams;
+struct SplineModel;
+struct SurfaceFit;
+}
 
 class VTKKNOTWORKSURFACEFITTING_EXPORT vtkSplineSurfaceFit : public vtkSplineAlgorithm
 {
@@ -381,6 +394,12 @@ public:
   ///@}
 
   /**
+   * What of the properties needs all points in one process, by name; empty: nothing, and several
+   * processes may fit together.
+   */
+  std::string NeedsWholeInput() const;
+
+  /**
    * Measured seconds of the last run. They are in no output: outputs are the same from run to run.
    */
   vtkGetMacro(Seconds, double);
@@ -391,12 +410,29 @@ protected:
   int RequestDataObject(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  bool WorksOnPieces() const override { return true; }
+  bool SumsUpPieces() const override { return true; }
+  int WholeInputPort() const override { return 1; }
+  knotwork::Status Merge(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:
   vtkSplineSurfaceFit(const vtkSplineSurfaceFit&) = delete;
   void operator=(const vtkSplineSurfaceFit&) = delete;
   knotwork::Status FindArray(
     int index, const char* what, vtkInformationVector** inputs, vtkDataArray*& array);
+  knotwork::Status DecodeStart(vtkInformationVector** inputs, knotwork::SplineModel& start);
+  knotwork::Status DecodePoints(vtkInformationVector** inputs, const knotwork::SplineModel& start,
+    knotwork::DecodedCloud& decoded);
+  knotwork::Status MakeParams(const knotwork::SplineModel& start, knotwork::DecodedCloud& decoded,
+    knotwork::FitParams& params);
+  /** A fit to all points, which this process has. */
+  knotwork::Status FitAlone(vtkInformationVector** inputs, vtkInformationVector* outputs);
+  /** A fit to those of all processes. */
+  knotwork::Status FitTogether(vtkInformationVector** inputs, vtkInformationVector* outputs);
+  void EncodePoints(vtkInformationVector** inputs, vtkInformationVector* outputs,
+    const knotwork::DecodedCloud& decoded, const knotwork::SurfaceFit& fit);
+  knotwork::Status EncodeResult(vtkInformationVector* outputs,
+    const knotwork::DecodedCloud& decoded, const knotwork::SurfaceFit& fit);
 
   int Parameterization = HEIGHT_FIELD;
   bool CorrectParameters = false;

@@ -23,7 +23,7 @@ from vtkmodules.vtkIOXML import (vtkXMLGenericDataObjectReader, vtkXMLPartitione
 import knotwork_testing
 
 # of a run, not of its result
-OF_A_RUN = {"seconds", "cpu_seconds", "seconds_io", "peak_bytes", "ranks", "threads", "output", "input", "points", "report"}
+OF_A_RUN = {"seconds", "seconds_of_fit", "cpu_seconds", "seconds_io", "peak_bytes", "ranks", "threads", "output", "input", "points", "report"}
 MPIRUN = ["mpirun", "--allow-run-as-root", "--oversubscribe", "--quiet", "-np"]
 
 
@@ -363,6 +363,72 @@ def test_contours_and_extrema():
     # of a grid that is no collection
     compared("contour", [path("waves.vtu")], "one.vtp")
     compared("extrema", [path("waves.vtu")], "one.vtp")
+
+
+def test_fits():
+    """One set of points is fitted by several processes together, the fit of one to the last bit; what needs all points is done by the first."""
+    chosen = np.random.default_rng(17)
+    places = chosen.uniform(0, 1, (20000, 2))
+    heights = 0.2 * np.sin(17 * places[:, 0]) * np.cos(15 * places[:, 1]) + chosen.uniform(-0.003, 0.003, len(places))
+    for i in range(20):
+        heights[1000 * i] += 0.2
+    data = vtkPolyData()
+    points = vtkPoints()
+    points.SetDataTypeToDouble()
+    points.SetData(numpy_to_vtk(np.column_stack([places, heights]), deep=True))
+    data.SetPoints(points)
+    for name, values in (("Temperature", chosen.uniform(0, 1, len(places))), ("Weight", places[:, 0] > 0.9)):
+        array = numpy_to_vtk(np.asarray(values, float), deep=True)
+        array.SetName(name)
+        data.GetPointData().AddArray(array)
+    write(data, path("hills.vtp"))
+    options = ["--tolerance", "0.006", "--maximum-iterations", "5"]
+    others = [("--table", "iterations.csv"), ("--points", "hills.vtp"), ("--elements", "elements.vtp")]
+    report = compared("fit", [path("hills.vtp")], "hills.vtu", [*options, "--field", "Temperature", "--significant-array", "Weight",
+                                                                "--element-features"], others=others)
+    assert report["points"] == len(places) and report["functions"] > 300 and report["significant_points"] > 1000
+    compared("fit", [path("hills.vtp")], "thb.vtu", [*options, "--space", "thb", "--method", "mba", "--degree", "3"])
+    start = path("fit-1-thb.vtu")
+    compared("fit", [path("hills.vtp"), "--start", start], "again.vtu", options)
+    for asked in (["--find-outliers"], ["--side", "above"], ["--parameterization", "computed", "--correct-parameters"],
+                  ["--feature-grid-size", "4"]):
+        report = compared("fit", [path("hills.vtp")], "whole.vtu", [*options[:-1], "2", *asked], others=[("--points", "whole.vtp")])
+    # pieces are read and written by pieces; the second one has no points
+    run(1, "fit", path("hills.vtp"), "--output", path("one.vtu"), *options)
+    pieces = path("hills-pieces")
+    os.makedirs(pieces, exist_ok=True)
+    names = []
+    for k, (begin, end) in enumerate(((0, 7000), (7000, 7000), (7000, 20000))):
+        part = vtkPolyData()
+        places_of_part = vtkPoints()
+        places_of_part.SetDataTypeToDouble()
+        places_of_part.SetData(numpy_to_vtk(np.column_stack([places, heights])[begin:end].copy(), deep=True))
+        part.SetPoints(places_of_part)
+        names.append(f"{pieces}/part{k}.vtp")
+        write(part, names[-1])
+    with open(path("hills.pvtp"), "w") as index:
+        index.write('<VTKFile type="PPolyData" version="0.1"><PPolyData GhostLevel="0"><PPoints>'
+                    '<PDataArray type="Float64" NumberOfComponents="3"/></PPoints>' +
+                    "".join(f'<Piece Source="{name}"/>' for name in names) + "</PPolyData></VTKFile>")
+    run(3, "fit", path("hills.pvtp"), "--output", path("three.vtu"), "--points", path("three.pvtp"), "--report", path("three.json"), *options)
+    assert_same(read(path("one.vtu")), read(path("three.vtu")))
+    report = json.load(open(path("three.json")))
+    assert report["points"] == 20000 and report["largest_tolerance"] == 0.006
+    found = [read(name) for name in sorted(glob.glob(path("three/*.vtp")))]
+    assert sum(part.GetNumberOfPoints() for part in found) == 20000
+    assert max(np.abs(vtk_to_numpy(part.GetPointData().GetArray("Distance"))).max() for part in found if part.GetNumberOfPoints() > 0) > 0.1
+    for asked, words in ((["--find-outliers"], "FindOutliers"), (["--side", "below"], "Side")):
+        _, said = run(3, "fit", path("hills.pvtp"), "--output", path("not.vtu"), *asked, expect=1)
+        assert said.count("\n") == 1 and "spread over 2 of 3 processes" in said and words in said, said
+    # a bad point of one of them, and a closed object, end it in all
+    np.savetxt(path("bad.xyz"), np.vstack([np.column_stack([places, heights]), [0.5, 0.5, 1e200]]))
+    _, said = run(2, "fit", path("bad.xyz"), "--output", path("not.vtu"), expect=1)
+    assert said.count("\n") == 1 and "process 1 of 2" in said, said
+    sphere = chosen.normal(0, 1, (20000, 3))
+    np.savetxt(path("sphere.xyz"), sphere / np.linalg.norm(sphere, axis=1)[:, None])
+    _, said = run(2, "fit", path("sphere.xyz"), "--output", path("not.vtu"), expect=1)
+    assert said.count("\n") == 1 and "in layers over x and y" in said and "around point" not in said, said
+    assert not os.path.exists(path("not.vtu"))
 
 
 def test_tiles():

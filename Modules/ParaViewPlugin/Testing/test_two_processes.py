@@ -82,7 +82,7 @@ def in_one_process():
     def whole(data):
         flat = simple.MeshParameterization(Input=data["mesh"])
         return {
-            "SplineSurfaceFit": simple.SplineSurfaceFit(Input=data["mesh"]),
+            "SplineSurfaceFit": simple.SplineSurfaceFit(Input=data["mesh"], FindOutliers=1),
             "MeshParameterization": flat,
             "SplineCombine": simple.SplineCombine(Input=data["splines"], Second=data["splines"]),
             "SplineStitch": simple.SplineStitch(Input=data["splines"]),
@@ -111,13 +111,14 @@ def in_one_process():
         table = algorithm.GetOutputDataObject(2)
         words = [str(table.GetNumberOfRows())]
         if table.GetNumberOfRows() > 0:
-            columns = {"JacobianValidator": ("Cells", "ValidCells", "Injective"), "SplineContour": ("Components", "Closed")}.get(name, ("Points", "Max"))
+            columns = {"JacobianValidator": ("Cells", "ValidCells", "Injective"), "SplineContour": ("Components", "Closed"),
+                       "SplineSurfaceFit": ("Functions", "PointsOutside")}.get(name, ("Points", "Max"))
             words += [table.GetValueByName(table.GetNumberOfRows() - 1, column).ToString() for column in columns]
         print(f"\nnumbers {name} {rank} {' '.join(words)}\n", end="", flush=True)
 
     for name, proxy in whole(everywhere).items():
         say("both", name, proxy)
-    again = simple.SplineSurfaceFit(Input=simple.SplineSurfaceFit(Input=everywhere["mesh"]))
+    again = simple.SplineSurfaceFit(Input=simple.SplineSurfaceFit(Input=everywhere["mesh"], FindOutliers=1))
     say("chain", "SplineSurfaceFit", again)
     # the splines in the first process alone, the points in both: they are sent to the other one
     sent = {**everywhere, "splines": square}
@@ -129,6 +130,12 @@ def in_one_process():
         say("first", name, whole(first)[name])
     for name, proxy in summed(first).items():
         say("first", name, proxy)
+    # points of both, fitted together by both; of one of them too
+    for kind, data in (("fitted", everywhere), ("given", {"mesh": producer(mesh if rank == 1 else vtkPolyData())})):
+        fit = simple.SplineSurfaceFit(Input=data["mesh"])
+        say(kind, "SplineSurfaceFit", fit)
+        if kind == "fitted":
+            numbers("SplineSurfaceFit", fit)
     for name, proxy in {**whole(nowhere), **patches(nowhere), **summed(nowhere)}.items():
         say("nowhere", name, proxy)
     for name, proxy in {
@@ -191,6 +198,13 @@ def test_filters():
     assert said["SplinePointDistance", 0][1] == str(2 * 13 * 13), said
     assert said["SplineContour", 0][1:] == ["2", "0"] and said["SplineContour", 1] == ["0"], said
     assert said["JacobianValidator", 1] == said["SplinePointDistance", 1] == ["0"], said
+
+    # the surface and the table are in the first one, wherever the points are
+    for kind in ("fitted", "given"):
+        ranks = found[kind]["SplineSurfaceFit"]
+        assert ranks[0][0] > 0 and ranks[1][0] == 0 and ranks[0][1] == ranks[1][1] == 0, (kind, ranks)
+    assert int(said["SplineSurfaceFit", 0][1]) > 0 and said["SplineSurfaceFit", 0][2] == "0", said
+    assert said["SplineSurfaceFit", 1] == ["0"], said
 
     for name, ranks in found["first"].items():
         assert ranks[0][0] > 0 and ranks[1][0] == 0 and ranks[0][1] == ranks[1][1] == 0, (name, ranks)

@@ -126,14 +126,20 @@ Status FitDivision::Agree(const Status& own) const
   {
     return own;
   }
-  for (const std::string& one : this->Exchange(AsBytes(own)))
+  const std::vector<std::string> all = this->Exchange(AsBytes(own));
+  const auto failed =
+    std::find_if(all.begin(), all.end(), [](const std::string& one) { return !one.empty(); });
+  if (failed == all.end())
   {
-    if (!one.empty())
-    {
-      return StatusFromBytes(one);
-    }
+    return {};
   }
-  return {};
+  Status status = StatusFromBytes(*failed);
+  if (failed != all.begin()) // whose points it numbers
+  {
+    status.Detail += " (process " + std::to_string(failed - all.begin()) + " of " +
+      std::to_string(all.size()) + ", counted from 0)";
+  }
+  return status;
 }
 
 Status FitDivision::Check(const PointCloud& dealt, int numMeasured) const

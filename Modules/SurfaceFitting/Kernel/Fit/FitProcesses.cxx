@@ -37,6 +37,12 @@ Result<SurfaceFit> FitSurface(
       division.Largest(static_cast<double>(part.Parameters.rows() > 0 ? part.Values.cols() : 0)));
     Status own = part.Parameters.rows() > 0 || n == 0 ? CheckFit(part, params) : Status();
     own = own ? CheckDivided(params) : own;
+    if (own && part.Parameters.rows() > 0 && part.Values.cols() != columns)
+    {
+      own = { ErrorCode::SizeMismatch,
+        std::to_string(part.Values.cols()) + " values a point, where another process has " +
+          std::to_string(columns) + "; all need the same ones" };
+    }
     if (Status status = division.Agree(own); !status)
     {
       return status;

@@ -263,7 +263,8 @@ LayeredPlaces FindLayers(const PointMatrix& parameters, const PointMatrix& value
   return Places(parameters, values).Found();
 }
 
-Status CheckLayers(const PointMatrix& parameters, const PointMatrix& values, const char* over)
+Status CheckLayers(
+  const PointMatrix& parameters, const PointMatrix& values, const char* over, bool isNumbered)
 {
   const LayeredPlaces places = FindLayers(parameters, values);
   if (places.Share <= ShareOfLayers)
@@ -274,7 +275,8 @@ Status CheckLayers(const PointMatrix& parameters, const PointMatrix& values, con
   return { ErrorCode::NotInSpace,
     "the points lie in layers over " + std::string(over) + " (at " +
       std::to_string(static_cast<int>(std::lround(100.0 * places.Share))) +
-      " % of the places, the first one around point " + std::to_string(places.Point) + " at " +
+      " % of the places, the first one " +
+      (isNumbered ? "around point " + std::to_string(places.Point) + " " : std::string()) + "at " +
       PointText(at.data(), 2) +
       "), as those of a closed object do, and no one surface follows them; mesh the scan and "
       "`trim` it, fit each layer alone, or give parameters over which the layers lie apart" };

@@ -26,6 +26,8 @@ struct LayeredPlaces
 LayeredPlaces FindLayers(const PointMatrix& parameters, const PointMatrix& values);
 
 /// @param over  what the parameters are, for the message.
+/// @param isNumbered  whether the rows are points that the reader of the message can count.
 /// @return NotInSpace: points lie in layers at more than 15 % of the places; names a point.
-Status CheckLayers(const PointMatrix& parameters, const PointMatrix& values, const char* over);
+Status CheckLayers(const PointMatrix& parameters, const PointMatrix& values, const char* over,
+  bool isNumbered = true);
 }

@@ -602,6 +602,7 @@ private:
     {
       this->AddFeatures();
     }
+    this->Fit.NumPoints = this->NumPoints;
     this->Fit.WithinTolerance = this->Fit.Final.NumOutside == 0;
     this->Fit.End = this->Fit.WithinTolerance ? FitEnd::Tolerance : this->Fit.End;
     this->Fit.Surface.Space = this->State.Space;

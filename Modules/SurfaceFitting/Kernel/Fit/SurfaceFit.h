@@ -275,7 +275,8 @@ struct SurfaceFit
   /// Of the result, or with FeatureIterations one a row of Iterations.
   std::vector<FitFeatures> GridFeatures;
   std::vector<FitFeatures> ElementFeatures;
-  FitIteration Final; ///< the numbers of the result, computed anew
+  FitIteration Final;        ///< the numbers of the result, computed anew
+  std::size_t NumPoints = 0; ///< of all processes
   bool WithinTolerance = false;
   FitEnd End = FitEnd::Tolerance;
 };
