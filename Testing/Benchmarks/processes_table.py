@@ -57,15 +57,15 @@ def make_grid(program, folder, name, elements):
     subprocess.run(words, cwd=folder, check=True)
 
 
-def make_points(folder, name, n):
-    """Points beside the unit square, as polydata in two pieces."""
+def make_points(folder, name, n, heights=None):
+    """Points beside the unit square, or with heights of x and y, as polydata in two pieces."""
     import numpy as np
     from vtkmodules.util.numpy_support import numpy_to_vtk
     from vtkmodules.vtkCommonCore import vtkPoints
     from vtkmodules.vtkCommonDataModel import vtkPolyData
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
     rows = np.random.default_rng(1).uniform(0.02, 0.98, (n, 3))
-    rows[:, 2] = rows[:, 2] - 0.5
+    rows[:, 2] = rows[:, 2] - 0.5 if heights is None else heights(rows[:, 0], rows[:, 1]) + 0.01 * (rows[:, 2] - 0.5)
     parts = {name + ".vtp": rows, os.path.join(name, name + "_0.vtp"): rows[:n // 2], os.path.join(name, name + "_1.vtp"): rows[n // 2:]}
     os.makedirs(os.path.join(folder, name), exist_ok=True)
     for file, part in parts.items():
@@ -83,6 +83,12 @@ def make_points(folder, name, n):
     with open(os.path.join(folder, name + ".pvtp"), "w", encoding="utf-8") as stream:
         stream.write('<?xml version="1.0"?><VTKFile type="PPolyData" version="1.0"><PPolyData GhostLevel="0"><PPointData/><PCellData/><PPoints>'
                      f'<PDataArray type="Float64" Name="Points" NumberOfComponents="3"/></PPoints>{index}</PPolyData></VTKFile>\n')
+
+
+def hills(x, y):
+    """Six octaves."""
+    import numpy as np
+    return sum(0.15 / 2 ** k * np.sin(2 ** k * 6.3 * (x * np.cos(k) + y * np.sin(k)) + k) * np.cos(2 ** k * 6.3 * (y * np.cos(k) - x * np.sin(k))) for k in range(6))
 
 
 def surface(program, folder):
@@ -131,12 +137,16 @@ def main():
         def points(n):
             make_points(folder, "work", n)
 
+        def terrain(n):
+            make_points(folder, "work", n, hills)
+
         jobs = (("`validate --injectivity off`", grid, lambda name, pieces: ["validate", name + (".pvtu" if pieces else ".vtu"), "--injectivity", "off", "--relative-gap",
                                                                               "0.01", "--bound-maximum"]),
                 ("`evaluate --mode probe`", points, lambda name, pieces: ["evaluate", "surface.vtu", name + (".pvtp" if pieces else ".vtp"), "--mode", "probe",
                                                                           "--output", "out.pvtp"]),
                 ("`distance --kind closest`", points, lambda name, pieces: ["distance", name + (".pvtp" if pieces else ".vtp"), "surface.vtu", "--kind", "closest",
-                                                                            "--output", "out.pvtp"]))
+                                                                            "--output", "out.pvtp"]),
+                ("`fit`", terrain, lambda name, pieces: ["fit", name + (".pvtp" if pieces else ".vtp"), "--tolerance", "0.015", "--output", "out.vtu"]))
         for job, make, words_of in jobs:
             rows.append(row(program, folder, job, arguments.seconds, make, words_of))
             print(" | ".join(rows[-1]), file=sys.stderr, flush=True)
