@@ -6,6 +6,7 @@
 #include <knotwork/SplineCore/FileOutput.h>
 #include <knotwork/SplineGrid/NamedArray.h>
 #include <knotwork/SplineGrid/Processes.h>
+#include <knotwork/SplineGrid/ReferenceSystem.h>
 #include <knotwork/SplineGrid/SplineModel.h>
 #include <knotwork/SplineIO/CloudTiles.h>
 #include <knotwork/SplineIO/DataFile.h>
@@ -69,8 +70,9 @@ public:
   explicit FitJob(CLI::App& app) : FilterJob(app)
   {
     this->AddInput(0, "points",
-      "points (.xyz .txt .csv .g2 .las .ply .vtp .vtu, meshes .stl .obj .off), or the tiles of a "
-      "cloud (.tiles)",
+      "points (.xyz .txt .csv .g2 .las .tif .ply .vtp .vtu, meshes .stl .obj .off), or the tiles "
+      "of "
+      "a cloud (.tiles)",
       "", "input");
     this->AddInput(1, "--start", "the spline surface that the fit starts from and updates",
       " starting from ", "start");
@@ -214,6 +216,7 @@ private:
     {
       return status;
     }
+    this->ReferenceSystem = index->ReferenceSystem;
     TileFitParams params;
     params.IndexFile = file;
     params.ResumeFolder = this->ResumeFolder;
@@ -349,6 +352,7 @@ private:
   {
     vtkNew<vtkUnstructuredGrid> grid;
     const Status status = EncodeSplineGrid(model, grid);
+    SetReferenceSystem(grid, this->ReferenceSystem);
     return status ? session.Write(grid, this->MainOutput()) : status;
   }
 
@@ -367,6 +371,7 @@ private:
     const std::string piece =
       (this->Staged.parent_path() / this->PieceOf(model.Patches[0].Id)).string();
     Status status = EncodeSplineGrid(model, grid);
+    SetReferenceSystem(grid, this->ReferenceSystem);
     status = status ? WriteDataFile(grid, piece).Status : status;
     model = {};
     return AboutFile(status, this->MainOutput(), piece);
@@ -442,6 +447,7 @@ private:
 
   std::string ResumeFolder;
   std::filesystem::path Staged; ///< the collection of tiles
+  std::string ReferenceSystem;  ///< of the tiles
   std::vector<std::string> Fields;
   std::array<std::string, 3> Arrays; ///< parameters, tolerances, significant points
   std::vector<double> ToleranceBoxes;

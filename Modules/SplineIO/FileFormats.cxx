@@ -287,6 +287,7 @@ const std::vector<FileFormat>& FileFormats()
     { "PLY", { ".ply" }, PointsAndValues | PolygonContent, Polygons, false, readPoints,
       WritePolygons },
     { "LAS", { ".las", ".laz" }, PointsAndValues, 0, false, readPoints, nullptr },
+    { "GeoTIFF", { ".tif", ".tiff" }, PointContent, 0, false, readPoints, nullptr },
     { "OFF", { ".off" }, PointContent | PolygonContent, 0, false, readPoints, nullptr },
     { "SVG", { ".svg" }, PointContent | PolylineContent, 0, false, readPoints, nullptr },
     { "BEXT", { ".bext" }, Elements, Elements, false, readOperators, writeOperators },

@@ -4,6 +4,7 @@
 #include "FitData.h"
 #include <knotwork/SplineCore/Numbers.h>
 #include <knotwork/SplineGrid/InputChecks.h>
+#include <knotwork/SplineGrid/ReferenceSystem.h>
 #include <knotwork/SplineGrid/SplineModel.h>
 
 #include "vtkDataObject.h"
@@ -60,6 +61,7 @@ vtkSplineSurfaceFit::vtkSplineSurfaceFit()
   this->SetInputTypes({ { { "vtkPointSet" } }, Optional(Splines()) });
   this->SetOutputTypes(
     { "vtkUnstructuredGrid", "vtkPointSet", "vtkTable", "vtkImageData", "vtkPolyData" });
+  knotwork::KeepReferenceSystem(this);
 }
 
 void vtkSplineSurfaceFit::SetStartConnection(vtkAlgorithmOutput* output)

@@ -53,10 +53,10 @@ TEST(FileFormats, EndingsFollowTheContent_ExactOracle)
   EXPECT_EQ(JoinEndings(EndingsThatRead(AnyContent)),
     ".vtp .vtu .pvtu .pvtp .vtpc .vtk .xml .xyz .txt .csv .g2 .step .stp .iges .igs .brep .stl "
     ".obj .ply .las "
-    ".laz .off .svg "
+    ".laz .tif .tiff .off .svg "
     ".bext "
     ".json .mesh .msh .inp");
   EXPECT_EQ(JoinEndings(EndingsThatRead(PointContent)),
-    ".vtp .pvtp .xyz .txt .csv .g2 .stl .obj .ply .las .laz .off .svg");
+    ".vtp .pvtp .xyz .txt .csv .g2 .stl .obj .ply .las .laz .tif .tiff .off .svg");
   EXPECT_EQ(writing(GridContent), ".vtu .pvtu .mesh .msh");
 }
