@@ -11,6 +11,7 @@
 #include "vtkCADReader.h"
 #include "vtkCADWriter.h"
 #include "vtkDomainBoundaryReader.h"
+#include "vtkGeoPackageWriter.h"
 #include "vtkGismoXMLReader.h"
 #include "vtkGismoXMLWriter.h"
 #include "vtkGoToolsG2Reader.h"
@@ -288,6 +289,8 @@ const std::vector<FileFormat>& FileFormats()
       WritePolygons },
     { "LAS", { ".las", ".laz" }, PointsAndValues, 0, false, readPoints, nullptr },
     { "GeoTIFF", { ".tif", ".tiff" }, PointContent, 0, false, readPoints, nullptr },
+    { "GeoPackage", { ".gpkg" }, 0, PolylineContent, false, nullptr,
+      WriteWith<vtkGeoPackageWriter> },
     { "OFF", { ".off" }, PointContent | PolygonContent, 0, false, readPoints, nullptr },
     { "SVG", { ".svg" }, PointContent | PolylineContent, 0, false, readPoints, nullptr },
     { "BEXT", { ".bext" }, Elements, Elements, false, readOperators, writeOperators },

@@ -45,7 +45,7 @@ TEST(FileFormats, EndingsFollowTheContent_ExactOracle)
   EXPECT_EQ(writing(PolygonCollectionContent), ".vtpc .stl .obj .ply");
   EXPECT_EQ(writing(PolygonContent), ".vtp .pvtp .stl .obj .ply .mesh .msh");
   EXPECT_EQ(writing(PolylineContent | SplineCurveContent),
-    ".vtp .vtu .pvtp .xml .g2 .bext .json .mesh .msh");
+    ".vtp .vtu .pvtp .xml .g2 .gpkg .bext .json .mesh .msh");
   EXPECT_EQ(writing(PointContent), ".vtp .pvtp .xyz .txt .csv .g2");
   EXPECT_EQ(writing(ImageContent), ".vti");
   EXPECT_EQ(writing(TableContent), ".csv");
