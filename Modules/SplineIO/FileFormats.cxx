@@ -12,6 +12,7 @@
 #include "vtkCADWriter.h"
 #include "vtkDomainBoundaryReader.h"
 #include "vtkGeoPackageWriter.h"
+#include "vtkGeoTIFFWriter.h"
 #include "vtkGismoXMLReader.h"
 #include "vtkGismoXMLWriter.h"
 #include "vtkGoToolsG2Reader.h"
@@ -288,7 +289,8 @@ const std::vector<FileFormat>& FileFormats()
     { "PLY", { ".ply" }, PointsAndValues | PolygonContent, Polygons, false, readPoints,
       WritePolygons },
     { "LAS", { ".las", ".laz" }, PointsAndValues, 0, false, readPoints, nullptr },
-    { "GeoTIFF", { ".tif", ".tiff" }, PointContent, 0, false, readPoints, nullptr },
+    { "GeoTIFF", { ".tif", ".tiff" }, PointContent, HeightRasterContent, false, readPoints,
+      WriteWith<vtkGeoTIFFWriter> },
     { "GeoPackage", { ".gpkg" }, 0, PolylineContent, false, nullptr,
       WriteWith<vtkGeoPackageWriter> },
     { "OFF", { ".off" }, PointContent | PolygonContent, 0, false, readPoints, nullptr },

@@ -48,7 +48,11 @@ Status WriteStaged(const std::string& file, const std::function<Status(const std
   {
     return staged.Status;
   }
-  status = AboutFile(write(staged->string()), file, staged->string());
+  status = write(staged->string());
+  if (status.Code == ErrorCode::FileError)
+  {
+    return AboutFile(status, file, staged->string());
+  }
   return status ? files.Commit() : status;
 }
 }

@@ -104,5 +104,6 @@ def read(file):
 
 def epsg(tags):
     """The number of the projected system, and whether cells are points."""
-    keys = dict(zip(tags[34735][4::4], tags[34735][7::4]))
+    numbers = tags.get(34735, ())
+    keys = dict(zip(numbers[4::4], numbers[7::4]))
     return keys.get(3072), keys.get(1025) == 2

@@ -48,6 +48,7 @@ TEST(FileFormats, EndingsFollowTheContent_ExactOracle)
     ".vtp .vtu .pvtp .xml .g2 .gpkg .bext .json .mesh .msh");
   EXPECT_EQ(writing(PointContent), ".vtp .pvtp .xyz .txt .csv .g2");
   EXPECT_EQ(writing(ImageContent), ".vti");
+  EXPECT_EQ(writing(HeightRasterContent), ".tif .tiff");
   EXPECT_EQ(writing(TableContent), ".csv");
   EXPECT_EQ(writing(0), "");
   EXPECT_EQ(JoinEndings(EndingsThatRead(AnyContent)),
