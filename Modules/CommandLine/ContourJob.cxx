@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterJob.h"
 #include <knotwork/SplineCore/FileEnding.h>
+#include <knotwork/SplineIO/MapOutput.h>
 
 #include <knotwork/SurfaceFeatures/vtkSplineContour.h>
 
@@ -30,25 +31,38 @@ public:
     this->DecisivePort = Levels;
     this->AddInput(0, "input", "surfaces (.vtu .vtpc .xml .g2)");
     this->Divide(0, Share::Blocks);
-    this->AddOutput(
-      Polylines, "--output", Endings::Contours, "polylines, or spline curves with the same bound");
+    this->AddOutput(Polylines, "--output", Endings::Contours,
+      "polylines (.vtp .gpkg), or spline curves with the same bound");
     this->AddOutput(Levels, "--table", Endings::Table, "table of the levels");
     this->AddOutput(
       Undecided, "--undecided", Endings::Polygons, "what stayed undecided, if anything");
     app.add_option("--levels", this->GivenLevels, "values of the contours");
+    app.add_option("--crs", this->ReferenceSystem,
+      "coordinate reference system of the surfaces, such as EPSG:25832; without it theirs");
     this->FilterOptions.Rename("NumberOfLevels", "Number");
     this->FilterOptions.Rename("FieldName", "Field");
     this->AddProperties({ "Curves" });
   }
 
 protected:
-  Status Prepare(Session&) override
+  Status Prepare(Session& session) override
   {
+    // a map tells its system, and one that is not known is refused before the work
+    if (!this->ReferenceSystem.empty() || LowerEnding(this->MainOutput()) == ".gpkg")
+    {
+      const auto name = StateReferenceSystem(this->ReferenceSystem, this->Input(0));
+      if (!name)
+      {
+        return name.Status;
+      }
+      session.Report["reference_system"] = name.Value;
+    }
     for (double level : this->GivenLevels)
     {
       this->Filter->AddLevel(level);
     }
-    const bool curves = LowerEnding(this->MainOutput()) != ".vtp";
+    const std::string ending = LowerEnding(this->MainOutput());
+    const bool curves = ending != ".vtp" && ending != ".gpkg";
     this->Filter->SetCurves(curves);
     this->WriteMainFrom(curves ? Curves : Polylines);
     return {};
@@ -97,6 +111,7 @@ protected:
 
 private:
   std::vector<double> GivenLevels;
+  std::string ReferenceSystem;
 };
 
 const JobRegistration Registration{ "contour",

@@ -4,6 +4,7 @@
 #include "Session.h"
 #include <knotwork/CADModel/CADExchange.h>
 #include <knotwork/SplineCore/FileEnding.h>
+#include <knotwork/SplineGrid/ReferenceSystem.h>
 #include <knotwork/SplineGrid/SplineBlocks.h>
 #include <knotwork/SplineGrid/SplineModel.h>
 #include <knotwork/SplineIO/FileFormats.h>
@@ -175,6 +176,7 @@ struct ConvertJob
       {
         return { status.Code, "'" + this->Input + "': " + status.Message() };
       }
+      SetReferenceSystem(output, ReferenceSystemOf(input.Value));
       data = output;
     }
     return session.Write(data, this->Output, this->Written());

@@ -6,6 +6,7 @@
 #include <knotwork/SplineCore/FileOutput.h>
 #include <knotwork/SplineGrid/NamedArray.h>
 #include <knotwork/SplineGrid/Processes.h>
+#include <knotwork/SplineGrid/ReferenceSystem.h>
 #include <knotwork/SplineGrid/SplineModel.h>
 #include <knotwork/SplineIO/CloudTiles.h>
 #include <knotwork/SplineIO/DataFile.h>
@@ -71,8 +72,9 @@ public:
   explicit FitJob(CLI::App& app) : FilterJob(app)
   {
     this->AddInput(0, "points",
-      "points (.xyz .txt .csv .g2 .las .ply .vtp .vtu, meshes .stl .obj .off), or the tiles of a "
-      "cloud (.tiles)",
+      "points (.xyz .txt .csv .g2 .las .tif .ply .vtp .vtu, meshes .stl .obj .off), or the tiles "
+      "of "
+      "a cloud (.tiles)",
       "", "input");
     this->AddInput(1, "--start", "the spline surface that the fit starts from and updates",
       " starting from ", "start");
@@ -231,6 +233,7 @@ private:
     {
       return status;
     }
+    this->ReferenceSystem = index->ReferenceSystem;
     TileFitParams params;
     params.IndexFile = file;
     params.ResumeFolder = this->ResumeFolder;
@@ -366,6 +369,7 @@ private:
   {
     vtkNew<vtkUnstructuredGrid> grid;
     const Status status = EncodeSplineGrid(model, grid);
+    SetReferenceSystem(grid, this->ReferenceSystem);
     return status ? session.Write(grid, this->MainOutput()) : status;
   }
 
@@ -384,6 +388,7 @@ private:
     const std::string piece =
       (this->Staged.parent_path() / this->PieceOf(model.Patches[0].Id)).string();
     Status status = EncodeSplineGrid(model, grid);
+    SetReferenceSystem(grid, this->ReferenceSystem);
     status = status ? WriteDataFile(grid, piece).Status : status;
     model = {};
     return AboutFile(status, this->MainOutput(), piece);
@@ -459,6 +464,7 @@ private:
 
   std::string ResumeFolder;
   std::filesystem::path Staged; ///< the collection of tiles
+  std::string ReferenceSystem;  ///< of the tiles
   std::vector<std::string> Fields;
   std::array<std::string, 3> Arrays; ///< parameters, tolerances, significant points
   std::vector<double> ToleranceBoxes;

@@ -249,7 +249,7 @@ Job Make(CLI::App& app)
   app
     .add_option("input", job->Input,
       "spline grid, mesh or points (.vtu .vtpc .vtk .xml .g2 .bext .mesh .msh .inp .step .iges "
-      ".xyz .txt .csv .las .ply "
+      ".xyz .txt .csv .las .tif .ply "
       ".vtp)")
     ->required();
   return [job](Session& session) { return job->Run(session); };

@@ -79,6 +79,7 @@ struct TilesJob
       written += tile.NumPoints + tile.NumNeighbours;
     }
     report["points"] = index.NumPoints;
+    report["cells_without_data"] = split->NumWithoutData;
     report["tiles"] = index.Tiles.size();
     report["points_written"] = written;
     report["points_of_largest_tile"] = largest;
@@ -98,14 +99,14 @@ Job Make(CLI::App& app)
   SplitParams& params = job->Params;
   app
     .add_option("cloud", job->Input,
-      "points, read piece by piece: as many as there are (.las .xyz .txt .csv .ply)")
+      "points, read piece by piece: as many as there are (.las .tif .xyz .txt .csv .ply)")
     ->required();
   AddOutput(app, "--output", job->Output, ".tiles",
     "the index of the tiles; their points go into a folder of its name")
     ->required();
   app
     .add_option("--tile-size", params.TileSize,
-      "length of the sides of tiles, unit of the points; 0: by --points-per-tile (.las)")
+      "length of the sides of tiles, unit of the points; 0: by --points-per-tile (.las .tif)")
     ->check(InRange(0.0, 1e300))
     ->capture_default_str();
   app

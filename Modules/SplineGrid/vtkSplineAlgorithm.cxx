@@ -4,6 +4,7 @@
 #include "DistributedInput.h"
 #include "FilterErrorCode.h"
 #include "Processes.h"
+#include "ReferenceSystem.h"
 #include "SplineModel.h"
 
 #include "vtkDataObject.h"
@@ -14,8 +15,29 @@
 #include "vtkMultiProcessController.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkSmartPointer.h"
+#include "vtkTable.h"
 
 #include <functional>
+
+namespace
+{
+/// Outputs of filters that say so lie in the coordinates of the first input.
+void PassReferenceSystem(
+  vtkAlgorithm* filter, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  const std::string system = knotwork::KeepsReferenceSystem(filter)
+    ? knotwork::ReferenceSystemOf(vtkDataObject::GetData(inputs[0], 0))
+    : std::string();
+  for (int port = 0; !system.empty() && port < outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    vtkDataObject* output = vtkDataObject::GetData(outputs, port);
+    if (output && !vtkTable::SafeDownCast(output))
+    {
+      knotwork::SetReferenceSystem(output, system);
+    }
+  }
+}
+}
 
 vtkSplineAlgorithm::vtkSplineAlgorithm() = default;
 
@@ -192,6 +214,7 @@ int vtkSplineAlgorithm::RequestData(
   this->Whole = nullptr;
   if (status)
   {
+    PassReferenceSystem(this, inputs, outputs);
     return 1;
   }
   for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)

@@ -2,6 +2,7 @@
 #include "vtkSplineControlNet.h"
 
 #include "NamedArray.h"
+#include "ReferenceSystem.h"
 #include "SplineBlocks.h"
 #include "SplineModel.h"
 #include <knotwork/SplineCore/ControlNet.h>
@@ -159,7 +160,10 @@ private:
 };
 }
 
-vtkSplineControlNet::vtkSplineControlNet() = default;
+vtkSplineControlNet::vtkSplineControlNet()
+{
+  knotwork::KeepReferenceSystem(this);
+}
 
 int vtkSplineControlNet::RequestDataObject(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSplineEvaluate.h"
 
+#include "ReferenceSystem.h"
 #include "SplineModel.h"
 #include <knotwork/SplineCore/ClosestPoint.h>
 #include <knotwork/SplineCore/OneSidedLocation.h>
@@ -260,6 +261,7 @@ Status EvaluateCoefficients(const Spline<Dim>& spline, const std::string& name,
 vtkSplineEvaluate::vtkSplineEvaluate()
 {
   this->SetInputTypes({ Splines(), { { "vtkPointSet" } } });
+  knotwork::KeepReferenceSystem(this);
 }
 
 int vtkSplineEvaluate::FillOutputPortInformation(int, vtkInformation* info)

@@ -2,6 +2,7 @@
 #include "vtkSplineExtract.h"
 
 #include "PatchFields.h"
+#include "ReferenceSystem.h"
 #include "SplineModel.h"
 #include <knotwork/SplineCore/MeshTraces.h>
 #include <knotwork/SplineCore/SurfaceExtraction.h>
@@ -17,7 +18,10 @@ using knotwork::Status;
 
 vtkStandardNewMacro(vtkSplineExtract);
 
-vtkSplineExtract::vtkSplineExtract() = default;
+vtkSplineExtract::vtkSplineExtract()
+{
+  knotwork::KeepReferenceSystem(this);
+}
 
 namespace
 {

@@ -2,6 +2,7 @@
 #include "vtkSplineRefine.h"
 
 #include "PatchFields.h"
+#include "ReferenceSystem.h"
 #include "SegmentTable.h"
 #include "SplineBlocks.h"
 #include "SplineModel.h"
@@ -254,6 +255,7 @@ vtkSplineRefine::vtkSplineRefine()
 {
   this->SetInputTypes(
     { Splines(), Optional({ { "vtkSelection" } }), Optional({ { "vtkTable", "vtkPolyData" } }) });
+  knotwork::KeepReferenceSystem(this);
 }
 
 vtkSplineRefine::~vtkSplineRefine()

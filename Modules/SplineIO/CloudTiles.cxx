@@ -2,6 +2,7 @@
 #include "CloudTiles.h"
 
 #include "FileText.h"
+#include "RasterPoints.h"
 #include <knotwork/SplineCore/FileEnding.h>
 #include <knotwork/SplineCore/Numbers.h>
 
@@ -412,8 +413,9 @@ Result<TileGrid> MakeGrid(const PointStream& stream, const SplitParams& params)
     return { ErrorCode::InvalidParameter,
       "it does not tell the box of its points; give the size of the tiles (--tile-size)" };
   }
-  const double tiles = std::max(
-    1.0, static_cast<double>(stream.NumPoints) / static_cast<double>(params.PointsPerTile));
+  const std::uint64_t points = std::max(stream.NumPoints, stream.MostPoints);
+  const double tiles =
+    std::max(1.0, static_cast<double>(points) / static_cast<double>(params.PointsPerTile));
   const double size =
     params.TileSize > 0.0 ? params.TileSize : std::sqrt(extent[0] / tiles * extent[1]);
   for (std::size_t d = 0; d < 2; ++d)
@@ -441,7 +443,13 @@ Result<SplitCloud> Split(const std::string& file, const fs::path& folder, const 
   {
     return source.Outcome;
   }
-  auto stream = OpenPointStream(LowerEnding(file), source.Bytes, params.Threads);
+  const std::string ending = LowerEnding(file);
+  auto stream = IsRasterEnding(ending) ? OpenRasterStream(file)
+                                       : OpenPointStream(ending, source.Bytes, params.Threads);
+  if (!stream && IsRasterEnding(ending))
+  {
+    return stream.Status; // names the file
+  }
   auto grid = stream ? MakeGrid(*stream.Value, params) : stream.Status;
   if (!grid)
   {
@@ -452,13 +460,14 @@ Result<SplitCloud> Split(const std::string& file, const fs::path& folder, const 
   auto index = status ? splitter.Finish() : status;
   if (!index)
   {
-    const bool isNamed = index.Status.Detail.substr(0, 1) == "'"; // a tile's file
+    const bool isNamed = index.Status.Detail.substr(0, 1) == "'"; // a tile's file, a raster
     return isNamed ? index.Status : About(file, index.Status);
   }
   SplitCloud split;
   split.Index = std::move(index.Value);
   split.Warnings = stream.Value->Warnings;
   split.LeftOut = stream.Value->LeftOut;
+  split.NumWithoutData = stream.Value->MostPoints - split.Index.NumPoints;
   return split;
 }
 }

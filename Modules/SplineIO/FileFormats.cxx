@@ -11,6 +11,8 @@
 #include "vtkCADReader.h"
 #include "vtkCADWriter.h"
 #include "vtkDomainBoundaryReader.h"
+#include "vtkGeoPackageWriter.h"
+#include "vtkGeoTIFFWriter.h"
 #include "vtkGismoXMLReader.h"
 #include "vtkGismoXMLWriter.h"
 #include "vtkGoToolsG2Reader.h"
@@ -287,6 +289,10 @@ const std::vector<FileFormat>& FileFormats()
     { "PLY", { ".ply" }, PointsAndValues | PolygonContent, Polygons, false, readPoints,
       WritePolygons },
     { "LAS", { ".las", ".laz" }, PointsAndValues, 0, false, readPoints, nullptr },
+    { "GeoTIFF", { ".tif", ".tiff" }, PointContent, HeightRasterContent, false, readPoints,
+      WriteWith<vtkGeoTIFFWriter> },
+    { "GeoPackage", { ".gpkg" }, 0, PolylineContent, false, nullptr,
+      WriteWith<vtkGeoPackageWriter> },
     { "OFF", { ".off" }, PointContent | PolygonContent, 0, false, readPoints, nullptr },
     { "SVG", { ".svg" }, PointContent | PolylineContent, 0, false, readPoints, nullptr },
     { "BEXT", { ".bext" }, Elements, Elements, false, readOperators, writeOperators },

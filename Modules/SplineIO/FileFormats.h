@@ -30,7 +30,8 @@ enum FileContent : unsigned
   GridContent = 1U << 11,             ///< any cells of one grid
   ImageContent = 1U << 12,            ///< values on a raster
   TableContent = 1U << 13,            ///< rows of numbers and text
-  SplineElementContent = 1U << 14     ///< splines without knots: Bezier elements, operators
+  SplineElementContent = 1U << 14,    ///< splines without knots: Bezier elements, operators
+  HeightRasterContent = 1U << 15      ///< heights of surfaces on a raster, which has a cell size
 };
 
 struct FileFormat

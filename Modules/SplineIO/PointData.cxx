@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PointData.h"
 
+#include <knotwork/SplineGrid/ReferenceSystem.h>
+
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
-#include "vtkFieldData.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -11,7 +12,6 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
-#include "vtkStringArray.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
@@ -191,10 +191,7 @@ void EncodePoints(const PointFile& file, vtkPolyData* output)
   AddGroups(file, output);
   if (!file.ReferenceSystem.empty())
   {
-    vtkNew<vtkStringArray> system;
-    system->SetName("CoordinateReferenceSystem");
-    system->InsertNextValue(file.ReferenceSystem);
-    output->GetFieldData()->AddArray(system);
+    SetReferenceSystem(output, file.ReferenceSystem);
   }
   if (output->GetPointData()->HasArray("TCoords"))
   {

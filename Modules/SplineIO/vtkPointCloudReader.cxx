@@ -5,7 +5,9 @@
 #include "FileText.h"
 #include "ForeignFile.h"
 #include "PointData.h"
+#include "RasterPoints.h"
 #include <knotwork/SplineCore/FileEnding.h>
+#include <knotwork/SplineGrid/NamedArray.h>
 #include <knotwork/SplineIO/GoToolsG2.h>
 #include <knotwork/SplineIO/LasFile.h>
 #include <knotwork/SplineIO/MeshFiles.h>
@@ -14,6 +16,8 @@
 #include <knotwork/SplineIO/SvgPaths.h>
 
 #include "vtkDataObject.h"
+#include "vtkFieldData.h"
+#include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
@@ -41,6 +45,11 @@ bool BeginsWithOff(std::string_view beginning)
 bool BeginsWithLas(std::string_view beginning)
 {
   return beginning.substr(0, 4) == "LASF";
+}
+
+bool BeginsWithTiff(std::string_view beginning)
+{
+  return beginning.substr(0, 2) == "II" || beginning.substr(0, 2) == "MM";
 }
 
 bool IsThere(std::string_view beginning)
@@ -98,6 +107,10 @@ int vtkPointCloudReader::CanReadFile(const char* fileName)
   const std::string ending = LowerEnding(fileName ? fileName : "");
   const std::string beginning = BeginningOfFile(fileName ? fileName : "");
   const PointFormat* format = FormatOf(ending);
+  if (IsRasterEnding(ending))
+  {
+    return BeginsWithTiff(beginning) ? 1 : 0;
+  }
   return (format ? format->BeginsLikeOne(beginning) : (ending == ".vtp" && IsThere(beginning))) ? 1
                                                                                                 : 0;
 }
@@ -130,6 +143,19 @@ knotwork::Status vtkPointCloudReader::Compute(vtkInformationVector**, vtkInforma
     return output->GetNumberOfPoints() > 0
       ? Status()
       : Status(ErrorCode::EmptyInput, "'" + file + "' holds no points");
+  }
+  if (IsRasterEnding(LowerEnding(file)))
+  {
+    Result<RasterPoints> raster = ReadRasterPoints(file, this->Progress());
+    if (raster)
+    {
+      this->ReportLeftOut(raster->Points.LeftOut);
+      EncodePoints(raster->Points, output);
+      const auto without = NamedArray<vtkIdTypeArray>("CellsWithoutData");
+      without->InsertNextValue(static_cast<vtkIdType>(raster->NumWithoutData));
+      output->GetFieldData()->AddArray(without);
+    }
+    return raster.Status;
   }
   Result<std::string> text = TextOfFile(file);
   if (!text)

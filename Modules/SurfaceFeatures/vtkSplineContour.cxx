@@ -11,6 +11,7 @@
 #include "vtkUnstructuredGrid.h"
 #include <knotwork/SplineGrid/DistributedInput.h>
 #include <knotwork/SplineGrid/Processes.h>
+#include <knotwork/SplineGrid/ReferenceSystem.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +21,7 @@ vtkStandardNewMacro(vtkSplineContour);
 vtkSplineContour::vtkSplineContour()
 {
   this->SetOutputTypes({ "vtkPolyData", "vtkUnstructuredGrid", "vtkTable", "vtkPolyData" });
+  knotwork::KeepReferenceSystem(this);
 }
 
 void vtkSplineContour::AddLevel(double level)

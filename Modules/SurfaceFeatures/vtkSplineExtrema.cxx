@@ -7,6 +7,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkTable.h"
+#include <knotwork/SplineGrid/ReferenceSystem.h>
 
 using knotwork::Result;
 using knotwork::Status;
@@ -16,6 +17,7 @@ vtkStandardNewMacro(vtkSplineExtrema);
 vtkSplineExtrema::vtkSplineExtrema()
 {
   this->SetOutputTypes({ "vtkPolyData", "vtkPolyData", "vtkTable" });
+  knotwork::KeepReferenceSystem(this);
 }
 
 vtkSplineExtrema::~vtkSplineExtrema()

@@ -3,6 +3,7 @@
 
 #include <knotwork/SplineGrid/NamedArray.h>
 #include <knotwork/SplineGrid/PatchFields.h>
+#include <knotwork/SplineGrid/ReferenceSystem.h>
 #include <knotwork/SurfaceFitting/CombineSplines.h>
 
 #include "vtkDataObject.h"
@@ -130,6 +131,7 @@ vtkSplineCombine::vtkSplineCombine()
 {
   this->SetInputTypes({ Splines(), Splines() });
   this->SetOutputTypes({ "vtkUnstructuredGrid", "vtkTable" });
+  knotwork::KeepReferenceSystem(this);
 }
 
 void vtkSplineCombine::SetSecondConnection(vtkAlgorithmOutput* output)

@@ -3,6 +3,7 @@
 
 #include <knotwork/SplineGrid/InputChecks.h>
 #include <knotwork/SplineGrid/MergeTables.h>
+#include <knotwork/SplineGrid/ReferenceSystem.h>
 #include <knotwork/SplineGrid/SplineModel.h>
 #include <knotwork/SplineGrid/TableRow.h>
 #include <knotwork/SurfaceFitting/SurfaceDistance.h>
@@ -115,6 +116,7 @@ vtkSplinePointDistance::vtkSplinePointDistance()
 {
   this->SetInputTypes({ { { "vtkPointSet" } }, Splines() });
   this->SetOutputTypes({ "vtkPointSet", "vtkTable", "vtkTable" });
+  knotwork::KeepReferenceSystem(this);
 }
 
 Status vtkSplinePointDistance::Merge(vtkInformationVector**, vtkInformationVector* outputs)

@@ -2,6 +2,7 @@
 #include "vtkSplineStitch.h"
 
 #include <knotwork/SplineGrid/PatchFields.h>
+#include <knotwork/SplineGrid/ReferenceSystem.h>
 #include <knotwork/SplineGrid/TableRow.h>
 #include <knotwork/SurfaceFitting/StitchTiles.h>
 
@@ -124,6 +125,7 @@ void EncodeNumbers(const knotwork::StitchedTiles& stitched, vtkTable* table)
 vtkSplineStitch::vtkSplineStitch()
 {
   this->SetOutputTypes({ "vtkUnstructuredGrid", "vtkTable", "vtkTable" });
+  knotwork::KeepReferenceSystem(this);
 }
 
 void vtkSplineStitch::AddPair(int tileA, int sideA, int tileB, int sideB, int reversed)

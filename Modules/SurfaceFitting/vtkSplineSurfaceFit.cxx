@@ -7,6 +7,7 @@
 #include <knotwork/SplineGrid/DistributedInput.h>
 #include <knotwork/SplineGrid/InputChecks.h>
 #include <knotwork/SplineGrid/Processes.h>
+#include <knotwork/SplineGrid/ReferenceSystem.h>
 #include <knotwork/SplineGrid/SplineModel.h>
 #include <knotwork/SurfaceFitting/FitProcesses.h>
 #include <knotwork/SurfaceFitting/PointLayers.h>
@@ -98,6 +99,7 @@ vtkSplineSurfaceFit::vtkSplineSurfaceFit()
   this->SetInputTypes({ { { "vtkPointSet" } }, Optional(Splines()) });
   this->SetOutputTypes(
     { "vtkUnstructuredGrid", "vtkPointSet", "vtkTable", "vtkImageData", "vtkPolyData" });
+  knotwork::KeepReferenceSystem(this);
 }
 
 void vtkSplineSurfaceFit::SetStartConnection(vtkAlgorithmOutput* output)

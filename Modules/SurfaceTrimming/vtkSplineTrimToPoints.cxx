@@ -6,6 +6,7 @@
 #include <knotwork/SplineCore/BezierForm.h>
 #include <knotwork/SplineCore/HeightField.h>
 #include <knotwork/SplineGrid/InputChecks.h>
+#include <knotwork/SplineGrid/ReferenceSystem.h>
 #include <knotwork/SplineGrid/SplineModel.h>
 #include <knotwork/SplineGrid/TableRow.h>
 #include <knotwork/SurfaceTrimming/TrimToPoints.h>
@@ -96,6 +97,7 @@ vtkSplineTrimToPoints::vtkSplineTrimToPoints()
 {
   this->SetInputTypes({ Splines(), { { "vtkPointSet" } } });
   this->SetOutputTypes({ "vtkPolyData", "vtkUnstructuredGrid", "vtkUnstructuredGrid", "vtkTable" });
+  knotwork::KeepReferenceSystem(this);
 }
 
 void vtkSplineTrimToPoints::SetPointsConnection(vtkAlgorithmOutput* output)

@@ -178,6 +178,7 @@ def runs():
             (["parameterize", FILE, "--first-map", "first.vtu", "--output", grid], "boundary"),
             (["parameterize", path("boundary.json"), "--layout", FILE, "--output", grid], "layout"),
             (["patches", FILE, "--cuts", "cuts.vtp", "--table", "table.csv", "--output", grid], "quads"),
+            (["raster", FILE, "--cell-size", 0.05, "--output", "out.tif"], "surface"),
             (["refine", FILE, "--output", grid], "surface"),
             (["stitch", FILE, path("east.vtu"), *by_geometry, "--output", grid], "surface"),
             (["stitch", path("east.vtu"), FILE, *by_geometry, "--output", grid], "surface"),

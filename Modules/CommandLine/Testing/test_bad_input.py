@@ -80,7 +80,7 @@ def test_every_input_refuses_what_it_does_not_take():
                 taken = name in elements if "--elements-only" in arguments else arguments[0] in faces and name.endswith((".step", ".iges"))
                 if not taken:
                     yield on(arguments, path(name)), [name]
-            if kind == "surface" and arguments[0] in ("combine", "contour", "crop", "distance", "extrema", "extract", "stitch"):
+            if kind == "surface" and arguments[0] in ("combine", "contour", "crop", "distance", "extrema", "extract", "raster", "stitch"):
                 yield on(arguments, path("cube.vtu")), ["cube.vtu"]
 
     refuse_all(cases())
@@ -127,7 +127,7 @@ def test_every_spline_job_refuses_every_damage():
 
 def test_what_is_kept_beside_the_points_may_be_lost():
     # rational hierarchical splines; sides that were known, and areas above the smallest numbers
-    not_of_its_kind = ("combine", "crop", "extract", "map", "stitch", "solve")
+    not_of_its_kind = ("combine", "crop", "extract", "map", "raster", "stitch", "solve")
 
     def take(name, arguments, file):
         status, text = outcome(on(arguments, file))

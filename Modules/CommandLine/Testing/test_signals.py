@@ -60,6 +60,7 @@ def runs():
     yield ["info", cube]
     yield ["map", path("template.vtp"), path("target.vtp"), "--iterations", 50, *table, *grid]
     yield ["parameterize", path("boundary.json"), *table, *grid]
+    yield ["raster", height, "--cell-size", 5e-4, "--output", "out.tif"]
     yield ["refine", cube, "--number-of-refinements", 2, *grid]
     yield ["source", "--shape", "cube", "--degree", 3, "--elements", 40, 40, 40, *grid]
     yield ["stitch", square, path("east.vtu"), "--matching", "geometry", "--edges", "table.csv", *grid]

@@ -146,7 +146,7 @@ def test_start_loads_neither_CAD_nor_rendering():
     said = subprocess.run(["ldd", knotwork_testing.PROGRAM], stdout=subprocess.PIPE, text=True, check=True).stdout
     names = [line.split()[0] for line in said.splitlines()]
     assert any(name.startswith("libvtkKnotworkSplineIO") for name in names), names
-    heavy = [name for name in names if re.match(r"libTK|libvtkRendering|libX11|libE?GL|libfreeimage|libfontconfig|libpython", name)]
+    heavy = [name for name in names if re.match(r"libTK|libvtkRendering|libX11|libE?GL|libfreeimage|libfontconfig|libpython|libgdal|libproj", name)]
     assert not heavy, heavy
 
 

@@ -23,7 +23,7 @@ def _outcome(exchange, good):
 def read(file, with_curves=False):
     """The data of a file: a spline grid (vtkUnstructuredGrid, or a vtkPartitionedDataSetCollection of them), or vtkPolyData of a
     mesh or of points. The ending of its name says the format: .vtu .vtp .vtpc .vtk .xml .g2 .bext .mesh .msh .inp .step .stp .iges .igs .brep .off
-    .obj .ply .stl .las .xyz .txt .csv .json.
+    .obj .ply .stl .las .tif .xyz .txt .csv .json.
 
     with_curves: a pair of the data and of the curves that trim (STEP, IGES) or bound (g2) its surfaces, None without any.
 

@@ -131,19 +131,7 @@ public:
 
   std::string Head(const PointSummary& summary) const override
   {
-    constexpr std::size_t digits = 20; // of the largest count
-    std::string count = std::to_string(summary.Count);
-    count.insert(0, digits - count.size(), ' ');
-    std::string head = "ply\nformat binary_little_endian 1.0\nelement vertex " + count +
-      "\nproperty double x\nproperty double y\nproperty double z\n";
-    for (const std::string& name : this->Names)
-    {
-      std::string word = name;
-      std::replace_if(
-        word.begin(), word.end(), [](char c) { return c == ' ' || c == '\t' || c == '\n'; }, '_');
-      head += "property double " + word + "\n";
-    }
-    return head + "end_header\n";
+    return HeadOfNumbers(this->Names, summary.Count);
   }
 
 protected:
@@ -419,6 +407,23 @@ void PointSummary::Add(const double* position, unsigned returnNumber)
   }
 }
 
+std::string HeadOfNumbers(const std::vector<std::string>& names, std::uint64_t count)
+{
+  constexpr std::size_t digits = 20; // of the largest count
+  std::string number = std::to_string(count);
+  number.insert(0, digits - number.size(), ' ');
+  std::string head = "ply\nformat binary_little_endian 1.0\nelement vertex " + number +
+    "\nproperty double x\nproperty double y\nproperty double z\n";
+  for (const std::string& name : names)
+  {
+    std::string word = name;
+    std::replace_if(
+      word.begin(), word.end(), [](char c) { return c == ' ' || c == '\t' || c == '\n'; }, '_');
+    head += "property double " + word + "\n";
+  }
+  return head + "end_header\n";
+}
+
 bool IsStreamed(const std::string& ending)
 {
   return ending == ".las" || ending == ".laz" || ending == ".xyz" || ending == ".txt" ||
@@ -430,7 +435,8 @@ StreamResult OpenPointStream(const std::string& ending, const ByteSource& source
   if (!IsStreamed(ending))
   {
     return { ErrorCode::InvalidParameter,
-      "points are read piece by piece from .las .xyz .txt .csv .ply; convert it to one of these" };
+      "points are read piece by piece from .las .tif .xyz .txt .csv .ply; convert it to one of "
+      "these" };
   }
   if (ending == ".las" || ending == ".laz")
   {

@@ -48,8 +48,9 @@ public:
 
   std::string Ending; ///< of files of the records: .las or .ply
   std::size_t RecordBytes = 0;
-  unsigned ReturnMask = 0;     ///< bits of byte 14 of a record that are its return; 0: it has none
-  std::uint64_t NumPoints = 0; ///< that the header tells; 0: none
+  unsigned ReturnMask = 0;      ///< bits of byte 14 of a record that are its return; 0: it has none
+  std::uint64_t NumPoints = 0;  ///< that the header tells; 0: none
+  std::uint64_t MostPoints = 0; ///< that there may be, where the header tells no number; 0: any
   bool HasBox = false;
   RealArray<3> Lower{}; ///< that the header tells
   RealArray<3> Upper{};
@@ -61,6 +62,10 @@ protected:
   std::uint64_t Size = 0;  ///< of the file, bytes
   std::uint64_t Place = 0; ///< bytes that have been read
 };
+
+/// The beginning of a binary PLY file of points whose records are all their numbers in double
+/// precision. @param names  of those behind x, y, z.
+std::string HeadOfNumbers(const std::vector<std::string>& names, std::uint64_t count);
 
 /// Endings of the files that are streams: .las .xyz .txt .csv .ply (and .laz, to refuse it).
 bool IsStreamed(const std::string& ending);

@@ -45,18 +45,19 @@ TEST(FileFormats, EndingsFollowTheContent_ExactOracle)
   EXPECT_EQ(writing(PolygonCollectionContent), ".vtpc .stl .obj .ply");
   EXPECT_EQ(writing(PolygonContent), ".vtp .pvtp .stl .obj .ply .mesh .msh");
   EXPECT_EQ(writing(PolylineContent | SplineCurveContent),
-    ".vtp .vtu .pvtp .xml .g2 .bext .json .mesh .msh");
+    ".vtp .vtu .pvtp .xml .g2 .gpkg .bext .json .mesh .msh");
   EXPECT_EQ(writing(PointContent), ".vtp .pvtp .xyz .txt .csv .g2");
   EXPECT_EQ(writing(ImageContent), ".vti");
+  EXPECT_EQ(writing(HeightRasterContent), ".tif .tiff");
   EXPECT_EQ(writing(TableContent), ".csv");
   EXPECT_EQ(writing(0), "");
   EXPECT_EQ(JoinEndings(EndingsThatRead(AnyContent)),
     ".vtp .vtu .pvtu .pvtp .vtpc .vtk .xml .xyz .txt .csv .g2 .step .stp .iges .igs .brep .stl "
     ".obj .ply .las "
-    ".laz .off .svg "
+    ".laz .tif .tiff .off .svg "
     ".bext "
     ".json .mesh .msh .inp");
   EXPECT_EQ(JoinEndings(EndingsThatRead(PointContent)),
-    ".vtp .pvtp .xyz .txt .csv .g2 .stl .obj .ply .las .laz .off .svg");
+    ".vtp .pvtp .xyz .txt .csv .g2 .stl .obj .ply .las .laz .tif .tiff .off .svg");
   EXPECT_EQ(writing(GridContent), ".vtu .pvtu .mesh .msh");
 }
