@@ -71,6 +71,34 @@ std::vector<double> FitDivision::ExchangeNumbers(double own) const
   return numbers;
 }
 
+std::vector<std::size_t> FitDivision::Parts(std::size_t n, std::size_t group) const
+{
+  const std::size_t count = this->IsDivided() ? At(this->Processes->Count) : 1;
+  const std::size_t groups = (n + group - 1) / group;
+  std::vector<std::size_t> begins;
+  for (std::size_t p = 0; p <= count; ++p)
+  {
+    begins.push_back(std::min(groups * p / count * group, n));
+  }
+  return begins;
+}
+
+void FitDivision::ShareParts(
+  double* numbers, const std::vector<std::size_t>& parts, std::size_t stride) const
+{
+  if (!this->IsDivided())
+  {
+    return;
+  }
+  const std::size_t own = this->Own();
+  const std::vector<std::string> all =
+    this->Exchange(AsBytes(numbers + parts[own] * stride, (parts[own + 1] - parts[own]) * stride));
+  for (std::size_t p = 0; p < all.size(); ++p)
+  {
+    std::memcpy(numbers + parts[p] * stride, all[p].data(), all[p].size());
+  }
+}
+
 double FitDivision::Largest(double own) const
 {
   if (!this->IsDivided())

@@ -60,6 +60,14 @@ public:
     }
   }
 
+  /// The parts of n things, in groups of a size, that all have and one of the processes does:
+  /// where each begins, and the end.
+  std::vector<std::size_t> Parts(std::size_t n, std::size_t group) const;
+  std::size_t Own() const { return this->IsDivided() ? At(this->Processes->Own) : 0; }
+  /// What each has made of its part, to all. @param stride  numbers of a thing.
+  void ShareParts(
+    double* numbers, const std::vector<std::size_t>& parts, std::size_t stride = 1) const;
+
   double Largest(double own) const;
   std::size_t Sum(std::size_t own) const;
   bool All(bool own) const;
@@ -75,6 +83,7 @@ public:
 private:
   static constexpr std::size_t Batch = 262144; ///< elements that are told of at a time
 
+  static std::size_t At(int i) { return static_cast<std::size_t>(i); }
   std::vector<std::string> Exchange(const std::string& own) const;
   std::vector<double> ExchangeNumbers(double own) const;
 

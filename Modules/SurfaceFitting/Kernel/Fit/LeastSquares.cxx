@@ -27,10 +27,12 @@ std::size_t At(int i)
 
 LeastSquaresSystem::LeastSquaresSystem(const ElementFunctions& functions,
   const ElementMoments& moments, const IntArray<2>& degree, int numComponents,
-  const LeastSquaresParams& params)
-  : Functions(functions), Moments(moments), Params(params), Components(numComponents),
-    Energy(ThinPlateMatrix(degree)),
+  const FitDivision& division, const LeastSquaresParams& params)
+  : Functions(functions), Moments(moments), Division(division), Params(params),
+    Components(numComponents), Energy(ThinPlateMatrix(degree)),
     GroupRows(std::max(LeastRows, At(functions.NumFunctions) / MostGroups)),
+    Parts(division.Parts(At(functions.NumFunctions), this->GroupRows)),
+    FirstRow(this->Parts[division.Own()]), EndRow(this->Parts[division.Own() + 1]),
     Groups((At(functions.NumFunctions) + GroupRows - 1) / GroupRows),
     Diagonal(functions.NumFunctions), Damping(functions.NumFunctions),
     Right(functions.NumFunctions, numComponents)
@@ -82,12 +84,28 @@ LeastSquaresSystem::LeastSquaresSystem(const ElementFunctions& functions,
         this->MakeElement(static_cast<int>(e));
       }
     });
-  ParallelFor(At(functions.NumFunctions), this->GroupRows, params.Threads,
-    [&](std::size_t begin, std::size_t end) { this->FindColumns(begin, end); });
+  ParallelFor(this->EndRow - this->FirstRow, this->GroupRows, params.Threads,
+    [&](std::size_t begin, std::size_t end)
+    { this->FindColumns(this->FirstRow + begin, this->FirstRow + end); });
+  this->ShareRows();
+}
+
+void LeastSquaresSystem::ShareRows()
+{
+  this->Division.ShareParts(this->Diagonal.data(), this->Parts);
+  this->Division.ShareParts(this->Damping.data(), this->Parts);
+  this->Division.ShareParts(this->Right.data(), this->Parts, At(this->Components));
 }
 
 void LeastSquaresSystem::MakeElement(int e)
 {
+  const auto functions =
+    this->Functions.Functions.begin() + static_cast<std::ptrdiff_t>(this->Functions.First(e));
+  if (std::none_of(functions, functions + this->Functions.Alive(e),
+        [this](int function) { return this->IsOwnRow(function); }))
+  {
+    return;
+  }
   const int n = this->Functions.PerElement;
   double gram[100 * 100];
   double product[100];
@@ -219,6 +237,9 @@ void LeastSquaresSystem::Update(const std::vector<int>& elements)
     rows.insert(rows.end(), first + static_cast<std::ptrdiff_t>(this->Functions.Start[At(e)]),
       first + static_cast<std::ptrdiff_t>(this->Functions.Start[At(e) + 1]));
   }
+  rows.erase(std::remove_if(rows.begin(), rows.end(),
+               [this](int function) { return !this->IsOwnRow(function); }),
+    rows.end());
   std::sort(rows.begin(), rows.end());
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
   ParallelFor(elements.size(), ElementChunk, this->Params.Threads,
@@ -246,15 +267,16 @@ void LeastSquaresSystem::Update(const std::vector<int>& elements)
         this->FillRow(row, places);
       }
     });
+  this->ShareRows();
 }
 
 void LeastSquaresSystem::Multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const
 {
-  ParallelFor(At(this->Functions.NumFunctions), ProductChunk, this->Params.Threads,
+  ParallelFor(this->EndRow - this->FirstRow, ProductChunk, this->Params.Threads,
     [&](std::size_t begin, std::size_t end)
     {
       const double* from = x.data();
-      for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t i = this->FirstRow + begin; i < this->FirstRow + end; ++i)
       {
         const RowGroup& group = this->Groups[i / this->GroupRows];
         double sums[2] = {};
@@ -272,6 +294,7 @@ void LeastSquaresSystem::Multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) 
         y[static_cast<Eigen::Index>(i)] = sums[0] + sums[1];
       }
     });
+  this->Division.ShareParts(y.data(), this->Parts);
 }
 
 /// @param scale  of every unknown; 0 where it stays as it is.

@@ -2,6 +2,7 @@
 #pragma once
 #include "ElementFunctions.h"
 #include "ElementMoments.h"
+#include "FitDivision.h"
 
 namespace knotwork
 {
@@ -22,14 +23,16 @@ struct LeastSquaresParams
 /// of every element in its own parameters, so that it means the same on every level of refinement.
 /// With damping, elements whose points weigh less than the mean have less energy, down to a
 /// hundredth.
-/// All sums have a fixed order.
+/// All sums have a fixed order. Of several processes each has some of the rows, and all have the
+/// solution.
 /// @source  damping: Levenberg, Quart. Appl. Math. 2 (1944) 164-168, by functions.
 class LeastSquaresSystem
 {
 public:
-  /// functions and moments must outlive the object.
+  /// functions, moments and division must outlive the object.
   LeastSquaresSystem(const ElementFunctions& functions, const ElementMoments& moments,
-    const IntArray<2>& degree, int numComponents, const LeastSquaresParams& params);
+    const IntArray<2>& degree, int numComponents, const FitDivision& division,
+    const LeastSquaresParams& params);
 
   /// After the moments of some elements have changed.
   void Update(const std::vector<int>& elements);
@@ -50,7 +53,14 @@ private:
     std::vector<double> Values;
   };
 
+  bool IsOwnRow(int function) const
+  {
+    return static_cast<std::size_t>(function) >= this->FirstRow &&
+      static_cast<std::size_t>(function) < this->EndRow;
+  }
+  /// Unless none of the rows meets it.
   void MakeElement(int e);
+  void ShareRows();
   void FindColumns(std::size_t begin, std::size_t end);
   void FillRow(std::size_t function, std::vector<int>& places);
   void Multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
@@ -59,6 +69,7 @@ private:
 
   const ElementFunctions& Functions;
   const ElementMoments& Moments;
+  const FitDivision& Division;
   LeastSquaresParams Params;
   int Components;
   std::vector<double> Energy;            ///< of an element, times Smoothing
@@ -71,6 +82,9 @@ private:
   UntouchedVector<double> ElementMatrices;
   UntouchedVector<double> ElementRight; ///< an entry of ElementFunctions x components
   std::size_t GroupRows = 1;
+  std::vector<std::size_t> Parts; ///< of the rows, one a process
+  std::size_t FirstRow = 0;       ///< of the own ones
+  std::size_t EndRow = 0;
   std::vector<RowGroup> Groups;
   Eigen::VectorXd Diagonal;
   Eigen::VectorXd Damping; ///< added to the diagonal of what changes

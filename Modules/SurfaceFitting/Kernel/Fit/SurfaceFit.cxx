@@ -303,8 +303,8 @@ private:
       params.IsDamped = params.Smoothing > 0.0;
       params.Accuracy = this->Accuracy;
       params.Threads = this->Params.Threads;
-      system = std::make_unique<LeastSquaresSystem>(
-        this->Functions, this->Moments, this->Params.Degree, this->Components, params);
+      system = std::make_unique<LeastSquaresSystem>(this->Functions, this->Moments,
+        this->Params.Degree, this->Components, this->Division, params);
       if (iteration == 0 && params.IsDamped && !this->Params.Start)
       {
         this->SolveStiffly(params);
@@ -343,7 +343,7 @@ private:
     params.Smoothing = std::max(params.Smoothing, FirstSmoothing);
     params.IsDamped = false;
     LeastSquaresSystem(
-      this->Functions, this->Moments, this->Params.Degree, this->Components, params)
+      this->Functions, this->Moments, this->Params.Degree, this->Components, this->Division, params)
       .Solve(this->State.Coefficients);
   }
 
