@@ -274,6 +274,55 @@ void FlattenDoubtful(const SurfaceGrowth& growth, Division& division)
   }
 }
 
+/// A flat face between two roundings and the first strips of both lie on one wide cylinder, too:
+/// where all facets but the largest lie on larger curved regions beside it, and nearer to them by
+/// much than the largest one's middle is to what it is said to lie on, they go over.
+void ShareOut(const SurfaceGrowth& growth, const FacetClusters& facets, Division& division)
+{
+  constexpr double MuchNearer = 4.0;
+  for (std::size_t r = 0; r < division.Regions.size(); ++r)
+  {
+    const GrownRegion& own = division.Regions[r];
+    if (!IsCurved(own.Surface.Type) || own.Clusters.size() < 2)
+    {
+      continue;
+    }
+    const auto clusterOf = [&](int c) -> const FacetCluster&
+    { return facets.Clusters[static_cast<std::size_t>(c)]; };
+    const auto middleFrom = [&](int c, const AnalyticSurface& surface)
+    { return std::abs(surface.Distance(clusterOf(c).Piece.Centre)); };
+    const int largest = *std::max_element(own.Clusters.begin(), own.Clusters.end(),
+      [&](int a, int b) { return clusterOf(a).Area < clusterOf(b).Area; });
+    const double far = middleFrom(largest, own.Surface) / MuchNearer;
+    std::vector<std::array<int, 2>> moves; // cluster and region
+    for (const int c : own.Clusters)
+    {
+      for (const ClusterSide& side : facets.Sides[static_cast<std::size_t>(c)])
+      {
+        const int other = division.RegionOfCluster[static_cast<std::size_t>(side.Cluster)];
+        const GrownRegion& beside = division.Regions[static_cast<std::size_t>(other)];
+        if (c != largest && static_cast<std::size_t>(other) != r && side.Angle < LargestTurn &&
+          IsCurved(beside.Surface.Type) && beside.NumPoints > own.NumPoints &&
+          middleFrom(c, beside.Surface) < far && growth.Fits(c, beside.Surface, beside.Reversed))
+        {
+          moves.push_back({ c, other });
+          break;
+        }
+      }
+    }
+    if (moves.size() + 1 < own.Clusters.size())
+    {
+      continue;
+    }
+    for (const auto& [c, to] : moves)
+    {
+      division.RegionOfCluster[static_cast<std::size_t>(c)] = to;
+      division.Regions[static_cast<std::size_t>(to)].Clusters.push_back(c);
+    }
+    division.Regions[r].Clusters = { largest };
+  }
+}
+
 /// Neighbours that are one surface become one region.
 /// @param exact  whether points lie on surfaces but for rounding.
 void JoinEqual(const DiscMesh& surface, const FacetClusters& facets, double noise, bool exact,
@@ -557,6 +606,7 @@ Result<SurfaceRecognition> RecognizeSurfaces(
       return false;
     }
     MoveBorders(growth, facets, division);
+    ShareOut(growth, facets, division);
     FlattenSingles(facets, division);
     for (GrownRegion& region : division.Regions)
     {

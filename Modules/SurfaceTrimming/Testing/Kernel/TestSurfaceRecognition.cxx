@@ -374,6 +374,34 @@ TriangleMesh Extruded(const std::vector<Vector2d>& outline, double height)
   return mesh;
 }
 
+/// A flat and the first strips of the roundings beside it lie on one wide cylinder exactly.
+TEST(SurfaceRecognition, FlatsBetweenRoundingsArePlanes_Exact)
+{
+  constexpr int perQuarter = 10;
+  std::vector<Vector2d> outline;
+  for (int corner = 0; corner < 4; ++corner)
+  {
+    const double begin = Pi / 2.0 * corner;
+    const Vector2d middle =
+      std::sqrt(2.0) * Vector2d(std::cos(begin + Pi / 4.0), std::sin(begin + Pi / 4.0));
+    for (int i = 0; i <= perQuarter; ++i)
+    {
+      const double angle = begin + Pi / 2.0 * i / perQuarter;
+      outline.emplace_back(middle + Vector2d(std::cos(angle), std::sin(angle)));
+    }
+  }
+  const auto result = Recognize(Extruded(outline, 8.0));
+  EXPECT_EQ(result.NumOfType, (Counts{ 6, 4, 0, 0, 0, 0 }));
+  for (const RecognizedRegion& region : result.Regions)
+  {
+    if (region.Surface.Type == SurfaceType::Cylinder)
+    {
+      EXPECT_NEAR(region.Surface.Radius, 1.0, 1e-9);
+      EXPECT_EQ(region.Triangles.size(), 2u * perQuarter);
+    }
+  }
+}
+
 /// Largest distance of points from a closed polygon.
 double FarthestFrom(const std::vector<Vector2d>& polygon, const std::vector<Vector2d>& points)
 {
