@@ -136,8 +136,7 @@ Status vtkGeoPackageWriter::WriteLines()
   }
   if (data->GetNumberOfLines() == 0)
   {
-    return { ErrorCode::EmptyInput,
-      "there are no lines to write as '" + file + "'; write contours or other polylines" };
+    return { ErrorCode::EmptyInput, "there are no lines; write contours or other polylines" };
   }
   std::vector<std::string> warnings;
   auto system = SystemToWrite(data, this->ReferenceSystem, warnings);
