@@ -109,56 +109,91 @@ int OutlierSearch::CellOf(std::size_t direction, double x) const
   return std::clamp(static_cast<int>(share * this->Size[direction]), 0, this->Size[direction] - 1);
 }
 
-bool OutlierSearch::FindNeighbours(int row, Workspace& work) const
+OutlierSearch::CellRows OutlierSearch::RowsAround(int row) const
 {
   const int x = this->CellOf(0, this->Cloud.Parameters(row, 0));
   const int y = this->CellOf(1, this->Cloud.Parameters(row, 1));
-  const RealArray<2> step{ (this->Domain.Upper[0] - this->Domain.Lower[0]) / this->Size[0],
-    (this->Domain.Upper[1] - this->Domain.Lower[1]) / this->Size[1] };
-  for (int rings = 1; rings <= MostRings; ++rings)
+  CellRows around;
+  for (int rings = 1; rings <= MostRings && around.NumRows <= LeastNeighbours; ++rings)
   {
-    work.Near.clear();
+    around = {};
     for (int j = std::max(0, y - rings); j <= std::min(this->Size[1] - 1, y + rings); ++j)
     {
       const int first = this->Start[At(j * this->Size[0] + std::max(0, x - rings))];
       const int last =
         this->Start[At(j * this->Size[0] + std::min(this->Size[0] - 1, x + rings)) + 1];
-      for (int k = first; k < last; ++k)
-      {
-        const int other = this->Rows[At(k)];
-        if (other != row)
-        {
-          const double du =
-            (this->Cloud.Parameters(other, 0) - this->Cloud.Parameters(row, 0)) / step[0];
-          const double dv =
-            (this->Cloud.Parameters(other, 1) - this->Cloud.Parameters(row, 1)) / step[1];
-          work.Near.push_back({ du * du + dv * dv, other, { du, dv } });
-        }
-      }
+      around.Ranges[At(around.Count++)] = { first, last };
+      around.NumRows += At(last - first);
     }
-    if (work.Near.size() >= LeastNeighbours)
+  }
+  return around;
+}
+
+bool OutlierSearch::IsNearMedian(
+  const CellRows& around, const std::vector<double>& byCell, double own, double tolerance)
+{
+  // differences fall with the others' distances: the median is amid those that are far below or
+  // above exactly when there are so many of them; the point itself is none of these
+  std::size_t below = 0;
+  std::size_t above = 0;
+  for (int r = 0; r < around.Count; ++r)
+  {
+    const auto [first, last] = around.Ranges[At(r)];
+    for (int k = first; k < last; ++k)
     {
-      break;
+      const double off = own - byCell[At(k)];
+      below += off > tolerance ? 1 : 0;
+      above += off < -tolerance ? 1 : 0;
+    }
+  }
+  const std::size_t others = around.NumRows - 1;
+  return below <= others / 2 && others / 2 < others - above;
+}
+
+bool OutlierSearch::FindNeighbours(int row, Workspace& work) const
+{
+  const RealArray<2> step{ (this->Domain.Upper[0] - this->Domain.Lower[0]) / this->Size[0],
+    (this->Domain.Upper[1] - this->Domain.Lower[1]) / this->Size[1] };
+  const CellRows around = this->RowsAround(row);
+  work.Near.clear();
+  for (int r = 0; r < around.Count; ++r)
+  {
+    for (int k = around.Ranges[At(r)][0]; k < around.Ranges[At(r)][1]; ++k)
+    {
+      const int other = this->Rows[At(k)];
+      if (other != row)
+      {
+        const double du =
+          (this->Cloud.Parameters(other, 0) - this->Cloud.Parameters(row, 0)) / step[0];
+        const double dv =
+          (this->Cloud.Parameters(other, 1) - this->Cloud.Parameters(row, 1)) / step[1];
+        work.Near.push_back({ du * du + dv * dv, other, { du, dv } });
+      }
     }
   }
   return work.Near.size() >= LeastNeighbours;
 }
 
-int OutlierSearch::CountAlike(int row, const std::vector<double>& distances, double tolerance,
-  double scale, Workspace& work) const
+int OutlierSearch::CountAlike(
+  int row, const Distances& distances, double tolerance, double scale, Workspace& work) const
 {
-  if (!this->FindNeighbours(row, work))
+  const double own = distances.ByRow[At(row)];
+  const CellRows around = this->RowsAround(row);
+  if (around.NumRows <= LeastNeighbours ||
+    (this->Deviation == FitDeviation::Robust &&
+      IsNearMedian(around, distances.ByCell, own, tolerance)))
   {
     return Inside;
   }
+  this->FindNeighbours(row, work);
   work.Values.clear();
   for (const Neighbour& near : work.Near)
   {
-    work.Values.push_back(distances[At(near.Row)]);
+    work.Values.push_back(distances.ByRow[At(near.Row)]);
   }
   const bool isRobust = this->Deviation == FitDeviation::Robust;
   const double middle = isRobust ? Median(work.Values) : Mean(work.Values);
-  const double off = distances[At(row)] - middle;
+  const double off = own - middle;
   if (std::fabs(off) <= tolerance ||
     std::fabs(off) <= scale *
         (isRobust ? NormalDeviation * MedianDeviation(work.Values, middle)
@@ -171,7 +206,7 @@ int OutlierSearch::CountAlike(int row, const std::vector<double>& distances, dou
   return static_cast<int>(
     std::count_if(work.Near.begin(), work.Near.begin() + static_cast<std::ptrdiff_t>(NumNearest),
       [&](const Neighbour& near)
-      { return (distances[At(near.Row)] - middle) / off >= FeatureLikeness; }));
+      { return (distances.ByRow[At(near.Row)] - middle) / off >= FeatureLikeness; }));
 }
 
 bool OutlierSearch::IsCommon(int row, double tolerance, Workspace& work) const
@@ -244,11 +279,23 @@ bool OutlierSearch::IsOnStep(int row, double tolerance, Workspace& work) const
 std::vector<int> OutlierSearch::Update(FitPoints& points, const std::vector<double>& weights,
   double scale, std::vector<std::uint8_t>& outliers, int threads) const
 {
-  std::vector<double> distances(points.Size());
-  for (std::size_t i = 0; i < points.Size(); ++i)
-  {
-    distances[At(points.Order[i])] = points.Distance[i];
-  }
+  Distances distances{ std::vector<double>(points.Size()), std::vector<double>(points.Size()) };
+  ParallelFor(points.Size(), PointChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        distances.ByRow[At(points.Order[i])] = points.Distance[i];
+      }
+    });
+  ParallelFor(points.Size(), PointChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t k = begin; k < end; ++k)
+      {
+        distances.ByCell[k] = distances.ByRow[At(this->Rows[k])];
+      }
+    });
   // per point in the order of points: how many of its nearest are off alike
   std::vector<std::int8_t> alike(points.Size(), Inside);
   ParallelFor(points.Size(), PointChunk, threads,

@@ -42,7 +42,27 @@ public:
     std::vector<std::uint8_t>& outliers, int threads) const;
 
 private:
+  /// The distances of all points in two orders: of the cloud's rows, and as Rows has them.
+  struct Distances
+  {
+    std::vector<double> ByRow;
+    std::vector<double> ByCell;
+  };
+  /// Ranges of Rows in the cells around a point.
+  struct CellRows
+  {
+    std::array<std::array<int, 2>, 9> Ranges; ///< 2 MostRings + 1 at most
+    int Count = 0;
+    std::size_t NumRows = 0; ///< in all of them, the point itself too
+  };
+
   int CellOf(std::size_t direction, double x) const;
+  /// As many rings of cells as a point's neighbours need.
+  CellRows RowsAround(int row) const;
+  /// Whether a point is no farther than its tolerance from the median of its neighbours, as most
+  /// are: the same as computing it, by counts alone.
+  static bool IsNearMedian(
+    const CellRows& around, const std::vector<double>& byCell, double own, double tolerance);
   struct Neighbour
   {
     double SquaredDistance = 0.0; ///< in cells
@@ -64,8 +84,8 @@ private:
   /// Fills work.Near; false when there are too few.
   bool FindNeighbours(int row, Workspace& work) const;
   /// How many of the nearest are off as the point is, of one that may be an outlier; else -1.
-  int CountAlike(int row, const std::vector<double>& distances, double tolerance, double scale,
-    Workspace& work) const;
+  int CountAlike(
+    int row, const Distances& distances, double tolerance, double scale, Workspace& work) const;
   /// @pre work.Near are the neighbours; their order changes, the farthest are left out.
   bool IsCommon(int row, double tolerance, Workspace& work) const;
   bool IsOnStep(int row, double tolerance, Workspace& work) const;

@@ -89,7 +89,7 @@ def test_commands():
     assert {shlex.split(command)[1] for command in commands} == {
         "fit", "approximate", "contour", "extrema", "stitch", "distance", "combine", "crop", "tiles"}
     for command in commands:
-        words = shlex.split(command)[1:]
+        words = shlex.split(command, comments=True)[1:]
         outputs = [words[i + 1] for i, word in enumerate(words) if word in ("--output", "--report", "--table", "--points")]
         for name in outputs:
             if os.path.exists(os.path.join(FOLDER, name)):
