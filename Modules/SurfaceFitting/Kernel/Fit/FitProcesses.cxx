@@ -4,6 +4,7 @@
 #include "FitChecks.h"
 #include "FitRun.h"
 
+#include <exception>
 #include <new>
 
 namespace knotwork
@@ -56,9 +57,11 @@ Result<SurfaceFit> FitSurface(
   {
     return stop.Why;
   }
-  catch (const std::bad_alloc&)
+  catch (const std::exception& failure) // the others wait for this process
   {
-    const Status why{ ErrorCode::TooLarge, "out of memory" };
+    const bool isMemory = dynamic_cast<const std::bad_alloc*>(&failure) != nullptr;
+    const Status why{ isMemory ? ErrorCode::TooLarge : ErrorCode::LibraryError,
+      isMemory ? "out of memory" : failure.what() };
     division.Fail(why);
     return why;
   }

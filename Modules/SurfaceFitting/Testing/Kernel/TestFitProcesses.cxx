@@ -8,6 +8,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
+#include <stdexcept>
 #include <thread>
 
 namespace knotwork
@@ -276,6 +277,13 @@ TEST(FitProcesses, FailuresAreThoseOfAll)
                 { return p == 0 ? throw std::bad_alloc() : true; };
               }),
     allAre(ErrorCode::TooLarge));
+  EXPECT_EQ(codes(cloud, WithTolerance(1e-3),
+              [](std::size_t p, FitProcesses&, FitParams& params)
+              {
+                params.Progress = [p](double) -> bool
+                { return p == 1 ? throw std::logic_error("of a library") : true; };
+              }),
+    allAre(ErrorCode::LibraryError));
   EXPECT_EQ(codes(cloud, WithTolerance(1e-3),
               [](std::size_t p, FitProcesses& processes, FitParams&)
               {
