@@ -81,7 +81,7 @@ public:
   void Fail(const Status& why) const;
 
 private:
-  static constexpr std::size_t Batch = 262144; ///< elements that are told of at a time
+  static constexpr std::size_t Batch = 16384; ///< elements that are told of at a time
 
   static std::size_t At(int i) { return static_cast<std::size_t>(i); }
   std::vector<std::string> Exchange(const std::string& own) const;
