@@ -105,14 +105,14 @@ def save_and_compare(view, name, size=300):
     compare_image(name)
 
 
-def run_program(*arguments, timeout=120, folder=None):
+def run_program(*arguments, timeout=120, folder=None, limit=None):
     """Runs the program `knotwork`, in the folder if one is given; the result has returncode, stdout and stderr.
 
-    Programs with sanitizers take longer: the environment's KNOTWORK_PATIENCE times the timeout (seconds).
+    limit: called in its process before it runs. Programs with sanitizers take longer: the environment's KNOTWORK_PATIENCE times the timeout (seconds).
     """
     timeout *= float(os.environ.get("KNOTWORK_PATIENCE", "1"))
     return subprocess.run([PROGRAM, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                          errors="replace", timeout=timeout, cwd=folder)
+                          errors="replace", timeout=timeout, cwd=folder, preexec_fn=limit)
 
 
 class Files:
@@ -127,11 +127,18 @@ class Files:
     def path(self, name):
         return os.path.join(self.folder, name)
 
-    def run(self, *words, status=0):
+    def run(self, *words, status=0, limit=None):
         """What run_program gives; AssertionError for another exit status."""
-        done = run_program(*words, folder=self.folder, timeout=self.timeout)
+        done = run_program(*words, folder=self.folder, timeout=self.timeout, limit=limit)
         assert done.returncode == status, (words, done.stderr)
         return done
+
+    def refused(self, *words, said=(), limit=None):
+        """The job fails with one line that has these words, and leaves the folder as it was."""
+        before = sorted(os.listdir(self.folder))
+        text = self.run(*words, status=1, limit=limit).stderr
+        assert len(text.splitlines()) == 1 and all(word in text for word in said), text
+        assert sorted(os.listdir(self.folder)) == before, words
 
     def report(self, *words):
         """What the job says in its report."""

@@ -7,7 +7,6 @@ import resource
 import signal
 import sqlite3
 import struct
-import subprocess
 import warnings
 
 import numpy as np
@@ -139,21 +138,13 @@ def test_keys_of_laser_scans_are_numbers():
     assert any("reference system" in str(each.message) for each in caught) and read("keys.gpkg")[1][1] in (-1, 0), [str(each.message) for each in caught]
 
 
-def refused(*words, said=(), limit=None):
-    before = sorted(os.listdir(FILES.folder))
-    done = subprocess.run([knotwork_testing.PROGRAM, *map(str, words)], cwd=FILES.folder, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
-                          timeout=120, preexec_fn=limit)
-    assert done.returncode == 1 and len(done.stderr.splitlines()) == 1 and all(word in done.stderr for word in said), done
-    assert sorted(os.listdir(FILES.folder)) == before, words
-
-
 def test_what_cannot_be_written_is_one_line_and_leaves_nothing():
     lines = ("contour", surface(), "--levels", 95, "--output")
     for name in ("new.gpkg", "l.gpkg"):
-        refused(*lines, name, "--crs", "EPSG:99999", said=("EPSG:99999", "unknown"))
-    refused(*lines, "no/such/folder/lines.gpkg", said=("no/such/folder",))
-    refused("contour", surface(), "--levels", 1e5, "--output", "none.gpkg", said=("no lines", "none.gpkg"))
-    refused("convert", "dem.tif", "--output", "points.gpkg", said=("points.gpkg", "change the ending"))
+        FILES.refused(*lines, name, "--crs", "EPSG:99999", said=("EPSG:99999", "unknown"))
+    FILES.refused(*lines, "no/such/folder/lines.gpkg", said=("no/such/folder",))
+    FILES.refused("contour", surface(), "--levels", 1e5, "--output", "none.gpkg", said=("no lines", "none.gpkg"))
+    FILES.refused("convert", "dem.tif", "--output", "points.gpkg", said=("points.gpkg", "change the ending"))
 
     def full(size):
         def limit():
@@ -164,7 +155,7 @@ def test_what_cannot_be_written_is_one_line_and_leaves_nothing():
     FILES.run(*lines, "whole.gpkg", "--force")
     whole = os.path.getsize(FILES.path("whole.gpkg"))
     for size in (0, 5000, whole // 2, whole - 1):
-        refused(*lines, "full.gpkg", said=("full.gpkg", "cannot be written"), limit=full(size))
+        FILES.refused(*lines, "full.gpkg", said=("full.gpkg", "cannot be written"), limit=full(size))
 
 
 def test_the_same_lines_make_the_same_bytes():

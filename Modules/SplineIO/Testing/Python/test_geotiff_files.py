@@ -36,13 +36,6 @@ def terrain(rows, columns, **place):
     return 300 + 20 * np.sin((x - CORNER[0]) / 40) * np.cos((y - CORNER[1]) / 30)
 
 
-def refused(*words, said=()):
-    before = sorted(os.listdir(FILES.folder))
-    text = FILES.run(*words, status=1).stderr
-    assert len(text.splitlines()) == 1 and all(word in text for word in said), text
-    assert sorted(os.listdir(FILES.folder)) == before, words
-
-
 def test_points_are_the_middles_of_cells_with_data():
     rng = np.random.default_rng(3)
     for kind in TYPES:
@@ -145,9 +138,9 @@ def test_what_cannot_be_read_is_one_line():
                        ("flat", ("geotransform", "without an area")), ("empty", ("no cell with data",)), ("cut", ("no GeoTIFF",)),
                        ("short", ("cannot be read", "truncated")), ("wide", ("a row of its blocks", "TILED=YES")), ("large", ("cells", "knotwork tiles")), ("text", ("no GeoTIFF",)),
                        ("missing", ("check the name",))):
-        refused("info", name + ".tif", said=(name + ".tif", *said))
+        FILES.refused("info", name + ".tif", said=(name + ".tif", *said))
         if name not in ("wide", "large"):
-            refused("tiles", name + ".tif", "--tile-size", 5, "--output", "bad.tiles",
+            FILES.refused("tiles", name + ".tif", "--tile-size", 5, "--output", "bad.tiles",
                     said=(name + ".tif", *(() if name in ("missing", "empty") else said)))
 
 
@@ -170,7 +163,7 @@ def test_missing_library_is_named():
     geotiff_files.write(FILES.path("dem.tif"), np.ones((3, 3), "f4"))
     os.environ["KNOTWORK_WORKERS"] = FILES.folder
     try:
-        refused("info", "dem.tif", said=("knotwork-gdal.so", "libgdal-dev"))
+        FILES.refused("info", "dem.tif", said=("knotwork-gdal.so", "libgdal-dev"))
     finally:
         del os.environ["KNOTWORK_WORKERS"]
 

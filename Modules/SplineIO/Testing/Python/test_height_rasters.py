@@ -4,7 +4,6 @@ system; a terrain comes back from GeoTIFF to GeoTIFF; and what cannot be written
 import os
 import resource
 import signal
-import subprocess
 
 import numpy as np
 
@@ -122,14 +121,6 @@ def test_trimmed_faces_have_no_data_outside():
         assert np.abs(values - height(u, v))[has].max() < 1e-3, name
 
 
-def refused(*words, said=(), limit=None):
-    before = sorted(os.listdir(FILES.folder))
-    done = subprocess.run([knotwork_testing.PROGRAM, *map(str, words)], cwd=FILES.folder, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
-                          timeout=120, preexec_fn=limit)
-    assert done.returncode == 1 and len(done.stderr.splitlines()) == 1 and all(word in done.stderr for word in said), done
-    assert sorted(os.listdir(FILES.folder)) == before, words
-
-
 def test_what_cannot_be_written_is_one_line_and_leaves_nothing():
     report = fit("plain.vtu", height, epsg=None)
     assert report["within_tolerance"]
@@ -142,11 +133,11 @@ def test_what_cannot_be_written_is_one_line_and_leaves_nothing():
                         (("plain.vtu", "--cell-size", 0.1, "--maximum-cells", 1000), ("790 x 590", "1000")),
                         (("plain.vtu", "--cell-size", 1e-300), ("MaximumCells",)), (("plain.vtu", "--cell-size", 1e9), ("no cell has its middle",)),
                         (("plain.vtu", "--cell-size", 1, "--crs", "EPSG:0"), ("EPSG:0", "unknown"))):
-        refused("raster", *words, "--output", "bad.tif", said=said)
-    refused("raster", "plain.vtu", "--cell-size", 1, "--output", "no/folder/bad.tif", said=("no/folder",))
-    refused("raster", "plain.vtu", "--cell-size", 1, "--output", "bad.vti", said=("bad.vti", ".tif"))
+        FILES.refused("raster", *words, "--output", "bad.tif", said=said)
+    FILES.refused("raster", "plain.vtu", "--cell-size", 1, "--output", "no/folder/bad.tif", said=("no/folder",))
+    FILES.refused("raster", "plain.vtu", "--cell-size", 1, "--output", "bad.vti", said=("bad.vti", ".tif"))
     value = places("out.tif")[0][3, 5]
-    refused("raster", "plain.vtu", "--cell-size", 1, "--no-data", float(value), "--output", "bad.tif", said=("NoData",))
+    FILES.refused("raster", "plain.vtu", "--cell-size", 1, "--no-data", float(value), "--output", "bad.tif", said=("NoData",))
 
     def full(size):
         def limit():
@@ -157,7 +148,7 @@ def test_what_cannot_be_written_is_one_line_and_leaves_nothing():
     FILES.run("raster", "plain.vtu", "--cell-size", 0.1, "--output", "whole.tif", "--force")
     whole = os.path.getsize(FILES.path("whole.tif"))
     for size in (0, 100, whole // 2, whole - 1):
-        refused("raster", "plain.vtu", "--cell-size", 0.1, "--output", "full.tif", said=("full.tif", "cannot be written"), limit=full(size))
+        FILES.refused("raster", "plain.vtu", "--cell-size", 0.1, "--output", "full.tif", said=("full.tif", "cannot be written"), limit=full(size))
 
 
 def test_python_writes_them_and_threads_do_not_matter():
