@@ -26,7 +26,8 @@ protected:
   {
     ReportRow(this->Table(Numbers), 0,
       { "Regions", "Planes", "Cylinders", "Spheres", "Cones", "Tori", "Extrusions", "Revolutions",
-        "FreeForms", "MaxDistance", "MaxSag", "Noise", "Tolerance" },
+        "FreeForms", "MaxDistance", "MaxSag", "Noise", "Tolerance", "SnappedSurfaces",
+        "CommonDirections", "CommonPositions", "CommonSizes", "MaxTurn" },
       session.Report);
     return {};
   }

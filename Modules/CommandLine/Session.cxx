@@ -369,12 +369,14 @@ Status Session::Commit()
 
 void Session::ReportProcesses()
 {
-  const std::vector<double> own{ this->Seconds, this->CpuSeconds,
-    static_cast<double>(PeakBytes()) };
+  const Processes::Traffic told = Processes::TrafficSoFar();
+  const std::vector<double> own{ this->Seconds, this->CpuSeconds, static_cast<double>(PeakBytes()),
+    static_cast<double>(told.Messages), static_cast<double>(told.Bytes) };
   const auto all = Processes::Exchange(own);
   this->Report["ranks"] = Processes::Count();
   std::size_t number = 0;
-  for (const char* key : { "rank_seconds", "rank_cpu_seconds", "rank_peak_bytes" })
+  for (const char* key :
+    { "rank_seconds", "rank_cpu_seconds", "rank_peak_bytes", "rank_messages", "rank_sent_bytes" })
   {
     std::vector<double> values;
     for (const std::vector<double>& one : all)

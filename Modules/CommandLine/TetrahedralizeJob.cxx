@@ -15,12 +15,19 @@ public:
   explicit TetrahedralizeJob(CLI::App& app) : FilterJob(app)
   {
     this->AddInput(0, "surface",
-      "closed triangle mesh (.off .obj .ply .stl .vtp), or a spline (.vtu .xml .g2 .step)", "",
-      "input");
+      "closed triangle mesh (.off .obj .ply .stl .vtp), a spline (.vtu .xml .g2 .step), or an "
+      "image "
+      "of volume (.vti)",
+      "", "input");
     this->AddInput(1, "--target",
       "the shape that cells of order 2 and 3 follow: a CAD part (.step .stp .iges .igs .brep), "
       "triangles (.stl .off .obj .ply .vtp) or a spline (.vtu .xml .g2)",
       " onto ");
+    this->AddInput(2, "--sizes",
+      "lengths of edges as an array: volumes with a field of them (.vtu .vti), or points alone, "
+      "one "
+      "in each region (.vtp .csv)",
+      " by ");
     this->AddOutput(0, "--output", Endings::Writing(CellContent), "the tetrahedra");
     this->AddOutput(1, "--boundary", Endings::Polygons, "the straight triangles of the boundary");
     this->AddProperties();
@@ -52,7 +59,7 @@ private:
 };
 
 const JobRegistration Registration{ "tetrahedralize",
-  "fill a closed surface with straight or curved tetrahedra",
+  "fill a closed surface or what an image shows with straight or curved tetrahedra",
   "solid.step --order 2 --output part.vtu --report part.json", MakeJob<TetrahedralizeJob> };
 }
 }

@@ -149,7 +149,8 @@ struct TrimJob
       { "Tolerance", "MaxDeviation", "MaxNormalAngle", "MaxSag", "MaxEdgeDistance", "MaxEdgeGap",
         "MinNormalBound", "Area", "MeshArea", "Faces", "Planes", "Cylinders", "Spheres", "Cones",
         "Tori", "Extrusions", "Revolutions", "FreeFaces", "Loops", "Edges", "Lines", "Circles",
-        "SharpEdges", "Vertices", "ControlPoints", "Verdict", "LoopVerdict" },
+        "SharpEdges", "Vertices", "ControlPoints", "Verdict", "LoopVerdict", "SnappedSurfaces",
+        "CommonDirections", "CommonPositions", "CommonSizes", "MaxTurn" },
       session.Report);
     Status status = HasCADEnding(this->Output)
       ? this->WriteFaces(this->Model, session)
@@ -276,6 +277,12 @@ Job Make(CLI::App& app)
     "Features", true, [job = job.get()](const bool& on) { job->Features = on; },
     "whether planes, cylinders, spheres, cones and tori in a mesh become faces of these, with "
     "splines beside them, instead of splines alone (not with --flat or --deviation)");
+  options.Add<double>(
+    "SnapDistance", 0.0,
+    [job = job.get()](const double& distance) { job->Model->SetSnapDistance(distance); },
+    "directions, positions and sizes of planes, cylinders, spheres, cones and tori that are nearly "
+    "equal become equal where surfaces then move by this distance at most at the points of their "
+    "regions, unit of the points, up to the tolerance; 0: all keep their own");
   options.LeaveOut({ "Triangulation" });
   AddProperties(options, job->Trim);
   job->Flatten->SetMaximumStretch(ChartStretch);

@@ -13,6 +13,14 @@ namespace
 {
 constexpr int Tag = 1873; ///< of messages between two processes
 
+Traffic Told;
+
+void AddToTraffic(std::size_t bytes)
+{
+  ++Told.Messages;
+  Told.Bytes += bytes;
+}
+
 vtkMultiProcessController* Controller()
 {
   vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
@@ -22,6 +30,7 @@ vtkMultiProcessController* Controller()
 // one message each: what is sent may be larger than what a collective operation counts
 void Send(vtkMultiProcessController* controller, const std::string& bytes, int to)
 {
+  AddToTraffic(bytes.size());
   const auto length = static_cast<vtkIdType>(bytes.size());
   controller->Send(&length, 1, to, Tag);
   if (length > 0)
@@ -60,6 +69,7 @@ std::vector<int> ExchangeNumber(int number)
   std::vector<int> all(static_cast<std::size_t>(Count()), number);
   if (vtkMultiProcessController* controller = Controller())
   {
+    AddToTraffic(sizeof(number));
     controller->AllGather(&number, all.data(), 1);
   }
   return all;
@@ -78,6 +88,7 @@ std::vector<std::string> Exchange(const std::string& bytes)
   {
     return { bytes };
   }
+  AddToTraffic(bytes.size());
   const auto count = static_cast<std::size_t>(Count());
   const auto length = static_cast<vtkIdType>(bytes.size());
   std::vector<vtkIdType> lengths(count);
@@ -141,6 +152,7 @@ std::string Broadcast(std::string bytes, int from)
 {
   if (vtkMultiProcessController* controller = Controller())
   {
+    AddToTraffic(from == Own() ? bytes.size() : 0);
     auto length = static_cast<vtkIdType>(bytes.size());
     controller->Broadcast(&length, 1, from);
     bytes.resize(static_cast<std::size_t>(length));
@@ -186,6 +198,11 @@ Status Agree(const Status& own, int* speaker)
   }
   say(0);
   return {};
+}
+
+Traffic TrafficSoFar()
+{
+  return Told;
 }
 
 Alone::Alone() : Before(vtkMultiProcessController::GetGlobalController())

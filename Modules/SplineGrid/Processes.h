@@ -4,6 +4,7 @@
 #include <knotwork/SplineCore/Status.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -56,6 +57,14 @@ VTKKNOTWORKSPLINEGRID_EXPORT std::string Broadcast(std::string bytes, int from =
 /// is), which is named where it is not the first of all, else Ok.
 /// @param speaker  result: that process, 0 when there is none.
 VTKKNOTWORKSPLINEGRID_EXPORT Status Agree(const Status& own, int* speaker = nullptr);
+
+/// What this process has told others so far.
+struct Traffic
+{
+  std::uint64_t Messages = 0; ///< calls that exchange, and messages from one process to another
+  std::uint64_t Bytes = 0;    ///< of this process, each once, however many others get it
+};
+VTKKNOTWORKSPLINEGRID_EXPORT Traffic TrafficSoFar();
 
 /// While one lives this process works by itself: filters do not ask what the others have.
 class VTKKNOTWORKSPLINEGRID_EXPORT Alone

@@ -271,7 +271,7 @@ const std::vector<FileFormat>& FileFormats()
     { "VTK polygons in pieces", { ".pvtp" }, Lines, Lines, true, ReadInPieces, WriteInPieces },
     { "VTK collection", { ".vtpc" }, Collections, Collections, true, ReadOfVTK, WriteOfVTK },
     { "VTK legacy grid", { ".vtk" }, Cells, 0, true, ReadOfVTK, nullptr },
-    { "VTK image", { ".vti" }, 0, ImageContent, true, nullptr, WriteOfVTK },
+    { "VTK image", { ".vti" }, ImageContent, ImageContent, true, ReadOfVTK, WriteOfVTK },
     { "G+Smo XML", { ".xml" }, SplinesAndCurves, SplinesAndCurves, false, readGismo, writeGismo },
     { "point text", { ".xyz", ".txt" }, PointsAndValues, PointsAndValues, false, readPoints,
       WritePointText },

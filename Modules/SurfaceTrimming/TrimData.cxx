@@ -351,6 +351,15 @@ std::vector<std::string> ShortcomingsOfFaces(Verdict regular, LoopVerdict loops)
   return texts;
 }
 
+void EncodeSnapped(const SnappedValues& snapped, vtkTable* output)
+{
+  AddColumn(output, "SnappedSurfaces", snapped.NumSurfaces);
+  AddColumn(output, "CommonDirections", snapped.NumDirections);
+  AddColumn(output, "CommonPositions", snapped.NumPositions);
+  AddColumn(output, "CommonSizes", snapped.NumSizes);
+  AddColumn(output, "MaxTurn", snapped.MaxTurn);
+}
+
 void EncodeNumbers(const TrimmedSurface& trimmed, vtkTable* output)
 {
   double area = 0.0;

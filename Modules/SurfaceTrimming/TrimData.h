@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "vtkKnotworkSurfaceTrimmingModule.h" // for export macro
+#include <knotwork/SurfaceTrimming/SurfaceRecognition.h>
 #include <knotwork/SurfaceTrimming/TrimSurface.h>
 
 #include "vtkType.h"
@@ -40,6 +41,9 @@ VTKKNOTWORKSURFACETRIMMING_EXPORT void EncodeTriangles(
 /// Adds the point array `Deviation` and the cell array `DeviationBound`; 0 beside the charts.
 void EncodeDeviation(
   const DecodedCharts& decoded, const TrimmedSurface& trimmed, vtkPointSet* output);
+
+/// Adds SnappedSurfaces, CommonDirections, CommonPositions, CommonSizes and MaxTurn to a row.
+void EncodeSnapped(const SnappedValues& snapped, vtkTable* output);
 
 /// One row with all numbers.
 void EncodeNumbers(const TrimmedSurface& trimmed, vtkTable* output);

@@ -101,6 +101,7 @@ void EncodeNumbers(
     controlPoints += static_cast<int>(face.Surface.ControlPoints.rows());
   }
   AddColumn(table, "ControlPoints", controlPoints);
+  EncodeSnapped(model.Snapped, table);
   AddColumn(table, "Area", AreaOf(triangles.Points, triangles.Triangles));
   AddColumn(table, "MeshArea", AreaOf(mesh.Points, mesh.Triangles));
 }
@@ -146,6 +147,7 @@ knotwork::Status vtkAnalyticModel::Compute(
   RecognitionParams recognition;
   recognition.Tolerance = this->Tolerance;
   recognition.MaximumSag = this->MaximumSag;
+  recognition.SnapDistance = this->SnapDistance;
   recognition.Progress = Stage(this->Progress(), done, 0.0, 0.3);
   RegionModelParams params;
   params.CornerAngle = this->CornerAngle;

@@ -22,7 +22,8 @@
  * their faces), MaxNormalAngle (between spline faces where the mesh is smooth), MaxSag (bound of
  * the distance of triangles from their surfaces), MaxEdgeDistance (bound between edges and those of
  * the mesh), MaxEdgeGap, WithinTolerance, MinNormalBound, Verdict (whether faces are proved
- * regular), LoopsProved, LoopVerdict, ControlPoints, Area (of output 0), MeshArea.
+ * regular), LoopsProved, LoopVerdict, ControlPoints, SnappedSurfaces, CommonDirections,
+ * CommonPositions, CommonSizes, MaxTurn (degrees), Area (of output 0), MeshArea.
  *
  * @source The module's page has methods, limits and errors.
  */
@@ -49,6 +50,13 @@ public:
    * tolerances: more for coarse tessellations. Default 5, valid range [0, 1000]. */
   vtkSetClampMacro(MaximumSag, double, 0.0, 1000.0);
   vtkGetMacro(MaximumSag, double);
+  ///@}
+  ///@{
+  /** Directions, positions and sizes of surfaces that are nearly equal become equal where surfaces
+   * then move by this distance at most at the points of their regions, unit of the points, up to
+   * the tolerance; 0: all keep their own. Default 0, valid range >= 0. */
+  vtkSetClampMacro(SnapDistance, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(SnapDistance, double);
   ///@}
   ///@{
   /** Angle in degrees by which a rim turns at a point at least to have a vertex there. Default 20,
@@ -104,6 +112,7 @@ private:
 
   double Tolerance = 0.0;
   double MaximumSag = 5.0;
+  double SnapDistance = 0.0;
   double CornerAngle = 20.0;
   double ChordalTolerance = 0.0;
   bool FreeForm = true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSurfaceRecognition.h"
 
+#include "TrimData.h"
 #include <knotwork/MeshParameterization/MeshData.h>
 #include <knotwork/SplineCore/TriangleIndex.h>
 #include <knotwork/SplineGrid/NamedArray.h>
@@ -121,7 +122,13 @@ void EncodeRegions(const TriangleMesh& mesh, const SurfaceRecognition& found, vt
   axes->SetNumberOfComponents(3);
   const auto reversed = NamedArray<vtkIntArray>("Reversed");
   std::map<std::string, vtkSmartPointer<vtkDoubleArray>> values;
-  for (const char* name : { "Area", "Radius", "MinorRadius", "Angle", "MaxDistance", "MaxSag" })
+  std::map<std::string, vtkSmartPointer<vtkIntArray>> common;
+  for (const char* name : { "Direction", "Position", "Size" })
+  {
+    common[name] = NamedArray<vtkIntArray>(name);
+  }
+  for (const char* name :
+    { "Area", "Radius", "MinorRadius", "Angle", "MaxDistance", "MaxSag", "Turn" })
   {
     values[name] = NamedArray<vtkDoubleArray>(name);
   }
@@ -140,6 +147,10 @@ void EncodeRegions(const TriangleMesh& mesh, const SurfaceRecognition& found, vt
     values["Angle"]->InsertNextValue(Degrees * region.Surface.Angle);
     values["MaxDistance"]->InsertNextValue(region.MaxDistance);
     values["MaxSag"]->InsertNextValue(region.MaxSag);
+    values["Turn"]->InsertNextValue(region.Turn);
+    common["Direction"]->InsertNextValue(region.Direction);
+    common["Position"]->InsertNextValue(region.Position);
+    common["Size"]->InsertNextValue(region.Size);
   }
   table->AddColumn(numbers);
   table->AddColumn(types);
@@ -154,6 +165,11 @@ void EncodeRegions(const TriangleMesh& mesh, const SurfaceRecognition& found, vt
   table->AddColumn(reversed);
   table->AddColumn(values["MaxDistance"]);
   table->AddColumn(values["MaxSag"]);
+  for (const char* name : { "Direction", "Position", "Size" })
+  {
+    table->AddColumn(common[name]);
+  }
+  table->AddColumn(values["Turn"]);
 }
 
 void EncodeNumbers(const SurfaceRecognition& found, vtkTable* table)
@@ -180,6 +196,7 @@ void EncodeNumbers(const SurfaceRecognition& found, vtkTable* table)
   AddColumn(table, "MaxSag", sag);
   AddColumn(table, "Noise", found.Noise);
   AddColumn(table, "Tolerance", found.Tolerance);
+  EncodeSnapped(found.Snapped, table);
 }
 }
 
@@ -200,6 +217,7 @@ knotwork::Status vtkSurfaceRecognition::Compute(
   RecognitionParams params;
   params.Tolerance = this->Tolerance;
   params.MaximumSag = this->MaximumSag;
+  params.SnapDistance = this->SnapDistance;
   params.Progress = this->Progress();
   const TriangleMesh& mesh = decoded->Mesh;
   const auto found = RecognizeSurfaces(mesh, params);

@@ -18,10 +18,14 @@
  * Output 2 (vtkTable): a row a region with Region, Type, Triangles, Area, Point, Axis, Radius (of a
  * cone beside Point, of a torus of its circle of centres), MinorRadius, Angle (of a cone between
  * axis and surface, degrees), Reversed (the triangles' normals are opposite to the surface's),
- * MaxDistance (of points), MaxSag (of the middles of edges and triangles).
+ * MaxDistance (of points), MaxSag (of the middles of edges and triangles), Direction, Position and
+ * Size (numbers of the values that SnapDistance made common, -1: the region's own; positions are of
+ * planes along their normal and of axes; sizes are radii, of tori the minor one, and angles of
+ * cones), Turn (of the axis, to be common, degrees).
  *
  * Output 3 (vtkTable): one row with Regions, Planes, Cylinders, Spheres, Cones, Tori, Extrusions,
- * Revolutions, FreeForms, MaxDistance, MaxSag, Noise, Tolerance.
+ * Revolutions, FreeForms, MaxDistance, MaxSag, Noise, Tolerance, SnappedSurfaces, CommonDirections,
+ * CommonPositions, CommonSizes, MaxTurn.
  *
  * @source Guess and score: Schnabel, Wahl, Klein (2007). The module's page has limits and errors.
  */
@@ -49,6 +53,13 @@ public:
   vtkSetClampMacro(MaximumSag, double, 0.0, 1000.0);
   vtkGetMacro(MaximumSag, double);
   ///@}
+  ///@{
+  /** Directions, positions and sizes of surfaces that are nearly equal become equal where surfaces
+   * then move by this distance at most at the points of their regions, unit of the points, up to
+   * the tolerance; 0: all keep their own. Default 0, valid range >= 0. */
+  vtkSetClampMacro(SnapDistance, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(SnapDistance, double);
+  ///@}
 
 protected:
   vtkSurfaceRecognition();
@@ -61,5 +72,6 @@ private:
 
   double Tolerance = 0.0;
   double MaximumSag = 5.0;
+  double SnapDistance = 0.0;
 };
 #endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TetGenProcess.h"
 
+#include "MesherProcess.h"
 #include "TetGenParts.h"
 #include <knotwork/SplineCore/Numbers.h>
 
@@ -8,38 +9,53 @@ namespace knotwork
 {
 namespace
 {
-constexpr const char* Program = "knotwork-tetgen";
-constexpr const char* Remedy =
-  "; repair the surface, or give it better triangles or other bounds of quality";
+constexpr MesherProgram Program = { "knotwork-tetgen", "TetGen", "the surface",
+  "repair the surface, or give it better triangles or other bounds of quality" };
 
-std::string SwitchesOf(const TetrahedraParams& params)
+/// For the mesh, and for refining it by volumes of its tetrahedra.
+std::vector<std::string> SwitchesOf(const TetrahedraParams& params)
 {
-  std::string switches = "pzQ"; // a surface; numbers from 0 on; quiet
-  switches += params.KeepBoundary ? "Y" : "";
-  if (params.RadiusEdgeRatio > 0.0 || params.MinDihedralAngle > 0.0 || params.MaxVolume > 0.0)
+  std::string common = "zQ"; // numbers from 0 on; quiet
+  common += params.KeepBoundary ? "Y" : "";
+  const bool areSizes = !params.RegionSizes.empty() || !params.Sizes.Cells.empty();
+  if (params.RadiusEdgeRatio > 0.0 || params.MinDihedralAngle > 0.0 || params.MaxVolume > 0.0 ||
+    areSizes)
   {
     // a ratio that is no bound, for TetGen has one of its own where none is given
-    switches += "q" + Digits(params.RadiusEdgeRatio > 0.0 ? params.RadiusEdgeRatio : 1e3, 10) +
-      "/" + Digits(params.MinDihedralAngle, 10);
+    common += "q" + Digits(params.RadiusEdgeRatio > 0.0 ? params.RadiusEdgeRatio : 1e3, 10) + "/" +
+      Digits(params.MinDihedralAngle, 10);
   }
   if (params.MaxVolume > 0.0)
   {
-    switches += "a" + Digits(params.MaxVolume, 10);
+    common += "a" + Digits(params.MaxVolume, 10);
   }
-  switches += "S" + std::to_string(params.MaxSteinerPoints);
-  return switches;
+  const std::string most = "S" + std::to_string(params.MaxSteinerPoints);
+  // numbers of regions, and their bounds
+  return { "p" + common + (params.RegionSizes.empty() ? "" : "Aa") + most,
+    "r" + common + "a" + most };
 }
 
-template <std::size_t N>
-std::vector<std::array<int, N>> Groups(const std::string& part)
+std::vector<std::string> Encode(const TriangleMesh& surface, const TetrahedraParams& params)
 {
-  const std::vector<int> numbers = UnpackNumbers<int>(part);
-  std::vector<std::array<int, N>> groups(numbers.size() / N);
-  for (std::size_t i = 0; i < groups.size() * N; ++i)
+  const SizeField& sizes = params.Sizes;
+  std::vector<double> regions;
+  for (const RegionSize& size : params.RegionSizes)
   {
-    groups[i / N][i % N] = numbers[i];
+    regions.insert(regions.end(), size.Point.data(), size.Point.data() + size.Point.size());
+    regions.push_back(VolumeOfEdge(size.Length));
   }
-  return groups;
+  const auto points = [](const PointMatrix& matrix)
+  { return PackNumbers(matrix.data(), static_cast<std::size_t>(matrix.size())); };
+  std::vector<std::string> parts(static_cast<std::size_t>(TetGenInput::Count));
+  const auto part = [&](TetGenInput which) -> std::string&
+  { return parts[static_cast<std::size_t>(which)]; };
+  part(TetGenInput::Points) = points(surface.Points);
+  part(TetGenInput::Triangles) = PackGroups(surface.Triangles);
+  part(TetGenInput::Regions) = PackNumbers(regions.data(), regions.size());
+  part(TetGenInput::SizePoints) = points(sizes.Points);
+  part(TetGenInput::SizeCells) = PackGroups(sizes.Cells);
+  part(TetGenInput::Sizes) = PackGroups(sizes.Lengths);
+  return parts;
 }
 
 Result<Tetrahedra> Decode(const std::vector<std::string>& parts)
@@ -48,14 +64,14 @@ Result<Tetrahedra> Decode(const std::vector<std::string>& parts)
   { return parts[static_cast<std::size_t>(which)]; };
   if (parts.size() != static_cast<std::size_t>(TetGenAnswer::Count))
   {
-    return { ErrorCode::LibraryError, std::string(Program) + " is of another version" };
+    return { ErrorCode::LibraryError, std::string(Program.File) + " is of another version" };
   }
   Tetrahedra found;
   const std::vector<double> points = UnpackNumbers<double>(part(TetGenAnswer::Points));
   found.Points =
     Eigen::Map<const PointMatrix>(points.data(), static_cast<Eigen::Index>(points.size() / 3), 3);
-  found.Cells = Groups<4>(part(TetGenAnswer::Tetrahedra));
-  found.Triangles = Groups<3>(part(TetGenAnswer::Triangles));
+  found.Cells = UnpackGroups<4>(part(TetGenAnswer::Tetrahedra));
+  found.Triangles = UnpackGroups<3>(part(TetGenAnswer::Triangles));
   found.Sources = UnpackNumbers<int>(part(TetGenAnswer::Sources));
   return found;
 }
@@ -64,36 +80,7 @@ Result<Tetrahedra> Decode(const std::vector<std::string>& parts)
 Result<Tetrahedra> RunTetGen(const TriangleMesh& surface, const TetrahedraParams& params,
   const WorkerLimits& limits, const std::function<bool()>& goOn)
 {
-  const std::vector<std::string> input{ PackNumbers(surface.Points.data(),
-                                          static_cast<std::size_t>(surface.Points.size())),
-    PackNumbers(surface.Triangles.data()->data(), 3 * surface.Triangles.size()) };
-  const WorkerAnswer answer = RunWorker(Program, { SwitchesOf(params) }, input, limits, goOn);
-  switch (answer.End)
-  {
-    case WorkerEnd::Done:
-      return answer.Outcome ? Decode(answer.Parts)
-                            : Result<Tetrahedra>(answer.Outcome.Code,
-                                "TetGen refuses the surface: " + answer.Outcome.Detail + Remedy);
-    case WorkerEnd::Missing:
-      return { ErrorCode::LibraryError,
-        std::string("the program ") + Program +
-          " is missing; install all of Knotwork, or set KNOTWORK_WORKERS to its folder" };
-    case WorkerEnd::NotStarted:
-      return { ErrorCode::LibraryError,
-        "no process could be started for TetGen; end other programs" };
-    case WorkerEnd::Late:
-      return { ErrorCode::NotConverged,
-        "TetGen did not end within " + std::to_string(limits.Seconds) +
-          " s; raise TimeLimit, or ask for less quality or fewer points" };
-    case WorkerEnd::OutOfMemory:
-      return { ErrorCode::TooLarge,
-        "TetGen asked for more than " + std::to_string(limits.Memory >> 20U) +
-          " MB; raise MemoryLimit, or ask for larger tetrahedra" };
-    case WorkerEnd::Aborted:
-      return { ErrorCode::Aborted, "" };
-    case WorkerEnd::Crashed:
-      break;
-  }
-  return { ErrorCode::LibraryError, std::string("TetGen crashed on the surface") + Remedy };
+  const auto parts = RunMesher(Program, SwitchesOf(params), Encode(surface, params), limits, goOn);
+  return parts ? Decode(parts.Value) : Result<Tetrahedra>(parts.Status);
 }
 }

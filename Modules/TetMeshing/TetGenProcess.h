@@ -8,8 +8,7 @@ namespace knotwork
 {
 /// Fills a surface by the program knotwork-tetgen.
 /// @param goOn  false ends it.
-/// @return InvalidTopology, LibraryError with TetGen's reason, or that it crashed; NotConverged
-/// after the time; TooLarge where memory was not enough; Aborted.
+/// @return the errors of RunMesher.
 Result<Tetrahedra> RunTetGen(const TriangleMesh& surface, const TetrahedraParams& params,
   const WorkerLimits& limits, const std::function<bool()>& goOn);
 }

@@ -2,6 +2,9 @@
 #include "vtkTetGenMesher.h"
 
 #include "BoundaryData.h"
+#include "ImageMeshProcess.h"
+#include "SizeData.h"
+#include "TetGenParts.h"
 #include "TetGenProcess.h"
 #include <knotwork/CADFitting/FitTargetData.h>
 #include <knotwork/MeshParameterization/MeshData.h>
@@ -12,6 +15,7 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
+#include "vtkImageData.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -19,8 +23,6 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
-
-#include <cmath>
 
 using namespace knotwork;
 
@@ -66,6 +68,10 @@ void EncodeCells(const SolidMesh& mesh, int order, vtkUnstructuredGrid* grid)
     [](const CellCertificate& cell) { return static_cast<int>(cell.Verdict); }));
   data->AddArray(ArrayOf<vtkDoubleArray>("MinJacobianLower", mesh.Certificate.Cells,
     [](const CellCertificate& cell) { return cell.MinLower; }));
+  if (!mesh.Labels.empty())
+  {
+    data->AddArray(ArrayOf<vtkIntArray>("Label", mesh.Labels, [](int label) { return label; }));
+  }
 }
 
 void EncodeBoundary(const SolidMesh& mesh, const std::vector<int>& cellsOfTriangles,
@@ -80,7 +86,10 @@ void EncodeBoundary(const SolidMesh& mesh, const std::vector<int>& cellsOfTriang
   output->SetPolys(cells);
   output->GetCellData()->AddArray(ArrayOf<vtkIdTypeArray>("CellIds", mesh.BoundarySources,
     [&](int source)
-    { return source < 0 ? -1 : cellsOfTriangles[static_cast<std::size_t>(source)]; }));
+    {
+      const auto triangle = static_cast<std::size_t>(source);
+      return source < 0 || cellsOfTriangles.empty() ? -1 : cellsOfTriangles[triangle];
+    }));
 }
 
 void EncodeNumbers(const SolidMesh& mesh, vtkTable* table)
@@ -110,8 +119,16 @@ void EncodeNumbers(const SolidMesh& mesh, vtkTable* table)
 
 vtkTetGenMesher::vtkTetGenMesher()
 {
-  this->SetInputTypes({ Meshes(), Optional(Meshes()) });
+  InputType input = Meshes();
+  input.Classes.emplace_back("vtkImageData");
+  this->SetInputTypes({ input, Optional(Meshes()), Optional({ { "vtkDataSet" } }) });
   this->SetOutputTypes({ "vtkUnstructuredGrid", "vtkPolyData", "vtkTable" });
+}
+
+vtkTetGenMesher::~vtkTetGenMesher()
+{
+  this->SetSizeArray(nullptr);
+  this->SetImageArray(nullptr);
 }
 
 void vtkTetGenMesher::SetTargetConnection(vtkAlgorithmOutput* output)
@@ -122,6 +139,16 @@ void vtkTetGenMesher::SetTargetConnection(vtkAlgorithmOutput* output)
 void vtkTetGenMesher::SetTargetData(vtkDataObject* target)
 {
   this->SetInputDataObject(1, target);
+}
+
+void vtkTetGenMesher::SetSizeConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(2, output);
+}
+
+void vtkTetGenMesher::SetSizeData(vtkDataObject* sizes)
+{
+  this->SetInputDataObject(2, sizes);
 }
 
 Result<DecodedMesh> vtkTetGenMesher::BoundaryOf(vtkDataObject* spline)
@@ -146,15 +173,77 @@ Result<DecodedMesh> vtkTetGenMesher::BoundaryOf(vtkDataObject* spline)
   return mesh;
 }
 
+WorkerLimits vtkTetGenMesher::Limits() const
+{
+  WorkerLimits limits;
+  limits.Memory = static_cast<std::uint64_t>(this->MemoryLimit) << 20U;
+  limits.Seconds = this->TimeLimit;
+  limits.CpuSeconds = this->TimeLimit;
+  return limits;
+}
+
+Result<ImageTetrahedra> vtkTetGenMesher::MeshImage(
+  vtkDataObject* input, const TetrahedraParams& asked)
+{
+  const std::string name = this->ImageArray ? this->ImageArray : "";
+  const auto image = DecodeImage(vtkImageData::SafeDownCast(input), name, this->Solid == LABELS);
+  if (!image)
+  {
+    return image.Status;
+  }
+  ImageMeshParams params;
+  params.Solid = this->Solid == BELOW ? ImageSolid::Below
+    : this->Solid == ABOVE            ? ImageSolid::Above
+                                      : ImageSolid::Labels;
+  params.Level = this->Level;
+  params.Distance = this->ChordalTolerance * image->Diagonal();
+  params.Tetrahedra = asked;
+  const auto progress = this->Progress();
+  return RunImageMesher(
+    image.Value, params, this->Limits(), [&] { return !progress || progress(0.2); });
+}
+
 Status vtkTetGenMesher::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  vtkPointSet* input = vtkPointSet::GetData(inputs[0], 0);
+  vtkDataSet* input = vtkDataSet::GetData(inputs[0], 0);
   if (input->GetNumberOfPoints() == 0)
   {
     return {};
   }
-  const bool isSpline = HasSplineCells(input);
-  const auto decoded = isSpline ? this->BoundaryOf(input) : DecodeMesh(input);
+  const bool isImage = vtkImageData::SafeDownCast(input) != nullptr;
+  const bool isSpline = !isImage && HasSplineCells(input);
+  SolidMeshParams params;
+  params.Tetrahedra.RadiusEdgeRatio = this->RadiusEdgeRatio;
+  params.Tetrahedra.MinDihedralAngle = this->MinDihedralAngle;
+  params.Tetrahedra.MaxVolume = VolumeOfEdge(this->EdgeLength);
+  params.Tetrahedra.MaxSteinerPoints = this->MaxSteinerPoints;
+  params.Tetrahedra.KeepBoundary = this->KeepBoundary;
+  if (vtkDataSet* sizes = vtkDataSet::GetData(inputs[2], 0))
+  {
+    const std::string name = this->SizeArray ? this->SizeArray : "";
+    if (Status status = DecodeSizes(sizes, name, params.Tetrahedra); !status)
+    {
+      return status;
+    }
+  }
+  params.Inner =
+    isImage || this->Inner == REGIONS ? knotwork::InnerParts::Regions : knotwork::InnerParts::Voids;
+  params.Repair = this->Repair && !isImage;
+  params.Order = this->Order;
+  params.Threads = this->KernelThreads();
+  params.Progress = this->Progress();
+  Result<ImageTetrahedra> ofImage;
+  Result<DecodedMesh> decoded;
+  if (isImage)
+  {
+    ofImage = this->MeshImage(input, params.Tetrahedra);
+    decoded.Value.Mesh = ofImage->Surface;
+    decoded.Status = ofImage.Status;
+  }
+  else
+  {
+    decoded = isSpline ? this->BoundaryOf(input) : DecodeMesh(vtkPointSet::SafeDownCast(input));
+  }
   if (!decoded)
   {
     return decoded.Status;
@@ -175,26 +264,11 @@ Status vtkTetGenMesher::Compute(vtkInformationVector** inputs, vtkInformationVec
   {
     return target.Status;
   }
-  SolidMeshParams params;
-  params.Tetrahedra.RadiusEdgeRatio = this->RadiusEdgeRatio;
-  params.Tetrahedra.MinDihedralAngle = this->MinDihedralAngle;
-  params.Tetrahedra.MaxVolume = std::pow(this->EdgeLength, 3) / (6.0 * std::sqrt(2.0));
-  params.Tetrahedra.MaxSteinerPoints = this->MaxSteinerPoints;
-  params.Tetrahedra.KeepBoundary = this->KeepBoundary;
-  params.Inner =
-    this->Inner == REGIONS ? knotwork::InnerParts::Regions : knotwork::InnerParts::Voids;
-  params.Repair = this->Repair;
-  params.Order = this->Order;
-  params.Threads = this->KernelThreads();
-  params.Progress = this->Progress();
-  WorkerLimits limits;
-  limits.Memory = static_cast<std::uint64_t>(this->MemoryLimit) << 20U;
-  limits.Seconds = this->TimeLimit;
-  limits.CpuSeconds = this->TimeLimit;
   const auto maker = [&](const TriangleMesh& surface, const TetrahedraParams& asked)
   {
-    return RunTetGen(
-      surface, asked, limits, [&] { return !params.Progress || params.Progress(0.2); });
+    return isImage ? Result<Tetrahedra>(std::move(ofImage->Solid))
+                   : RunTetGen(surface, asked, this->Limits(),
+                       [&] { return !params.Progress || params.Progress(0.2); });
   };
   const auto mesh = MeshSolid(decoded->Mesh, target.Value.get(), maker, params);
   if (!mesh)

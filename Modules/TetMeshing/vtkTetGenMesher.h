@@ -1,25 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkTetGenMesher
- * @brief   fills a closed surface with straight or curved tetrahedra
+ * @brief   fills a closed surface, or what an image shows, with straight or curved tetrahedra
  *
  * Input 0 is a spline grid of volumes or closed surfaces, or are triangles (quadrilaterals and
  * polygons are divided) that bound solids: every edge in two of them that run it oppositely, or in
  * more where walls meet, none through another. Parts within others are voids, or regions of their
- * own (Inner). Input 1, optional, is the shape that the surface stands for: triangles, spline
- * surfaces, trimmed faces of a CAD file or a volume, whose boundary is meant; without it a spline
- * stands for itself.
+ * own (Inner). Or input 0 is an image of volume (vtkImageData), whose values tell what is solid
+ * (Solid); implicit functions become one by vtkSampleFunction. Input 1, optional, is the shape that
+ * the surface stands for: triangles, spline surfaces, trimmed faces of a CAD file or a volume,
+ * whose boundary is meant; without it a spline stands for itself. Input 2, optional, has lengths of
+ * edges (SizeArray): volumes are a field of them, points alone tell them of the regions in which
+ * they lie.
  *
- * Tetrahedra are made by TetGen, in a process of its own with limits of time and memory. Of Order 2
+ * Tetrahedra are made by TetGen, those of images by CGAL's Mesh_3, in a process of their own with
+ * limits of time and memory. Of Order 2
  * and 3 the points of the boundary lie on the shape, those of its sharp edges on these; cells are
  * certified, and where one is not valid its points are moved back until it is.
  *
  * Output 0 (vtkUnstructuredGrid): cells of type VTK_TETRA, VTK_QUADRATIC_TETRA or
- * VTK_LAGRANGE_TETRAHEDRON with the cell arrays Region, Verdict (1: valid) and MinJacobianLower.
- * Output 1 (vtkPolyData): the straight boundary with the cell array CellIds of the input. Output 2
- * (vtkTable): one row of numbers.
+ * VTK_LAGRANGE_TETRAHEDRON with the cell arrays Region, Verdict (1: valid) and MinJacobianLower, of
+ * images Label. Output 1 (vtkPolyData): the straight boundary with the cell array CellIds of the
+ * input (of images -1). Output 2 (vtkTable): one row of numbers.
  *
- * @source Si, ACM TOMS 41 (2015) 11 (TetGen). The module's page has methods, limits and errors.
+ * @source Si, ACM TOMS 41 (2015) 11 (TetGen); Boissonnat, Oudot, Graphical Models 67 (2005) 405 and
+ * Rineau, Yvinec, IMR 16 (2007) 443 (Mesh_3). The module's page has methods, limits and errors.
  */
 #ifndef vtkTetGenMesher_h
 #define vtkTetGenMesher_h
@@ -29,6 +34,9 @@
 namespace knotwork
 {
 struct DecodedMesh;
+struct ImageTetrahedra;
+struct TetrahedraParams;
+struct WorkerLimits;
 }
 
 class VTKKNOTWORKTETMESHING_EXPORT vtkTetGenMesher : public vtkSplineAlgorithm
@@ -42,6 +50,13 @@ public:
   {
     VOIDS = 0,
     REGIONS
+  };
+
+  enum ImageSolids
+  {
+    BELOW = 0,
+    ABOVE,
+    LABELS
   };
 
   ///@{
@@ -63,6 +78,12 @@ public:
   vtkGetMacro(EdgeLength, double);
   ///@}
   ///@{
+  /** Array of input 2, of its points or cells, with lengths of edges at most, above 0; empty: its
+   * only one of one component. Default empty. Group "Sizes". */
+  vtkSetStringMacro(SizeArray);
+  vtkGetStringMacro(SizeArray);
+  ///@}
+  ///@{
   /** Points that are added at most. Default 1000000, valid range >= 0. Advanced. Group "Sizes". */
   vtkSetClampMacro(MaxSteinerPoints, int, 0, VTK_INT_MAX);
   vtkGetMacro(MaxSteinerPoints, int);
@@ -81,6 +102,25 @@ public:
   vtkGetMacro(Inner, int);
   ///@}
   ///@{
+  /** What is solid in an image, one of ImageSolids: BELOW, where values are below Level, as of
+   * implicit functions; ABOVE, where they are above it; LABELS, where they are above 0, whole
+   * numbers, each a region. Default BELOW. For Input vtkImageData. Group "Image". */
+  vtkSetClampMacro(Solid, int, BELOW, LABELS);
+  vtkGetMacro(Solid, int);
+  ///@}
+  ///@{
+  /** Value on the boundary of the solid. Default 0, valid range [-1e+30, 1e+30]. For Input
+   * vtkImageData. For Solid BELOW, ABOVE. Group "Image". */
+  vtkSetClampMacro(Level, double, -1e30, 1e30);
+  vtkGetMacro(Level, double);
+  ///@}
+  ///@{
+  /** Point array of the image; empty: its active scalars, or its only one of one component. Default
+   * empty. For Input vtkImageData. Group "Image". */
+  vtkSetStringMacro(ImageArray);
+  vtkGetStringMacro(ImageArray);
+  ///@}
+  ///@{
   /** Order of the cells. Default 1, valid range [1, 3]. */
   vtkSetClampMacro(Order, int, 1, 3);
   vtkGetMacro(Order, int);
@@ -93,8 +133,9 @@ public:
   vtkBooleanMacro(Repair, bool);
   ///@}
   ///@{
-  /** Of an input that is a spline: largest distance of its triangles from it, share of the diagonal
-   * of its box. Default 0.001, valid range [1e-12, 1]. Group "Surface". */
+  /** Of an input that is a spline or an image: largest distance of the boundary's triangles from
+   * it, share of the diagonal of its box. Default 0.001, valid range [1e-12, 1]. Group "Surface".
+   */
   vtkSetClampMacro(ChordalTolerance, double, 1e-12, 1.0);
   vtkGetMacro(ChordalTolerance, double);
   ///@}
@@ -105,12 +146,12 @@ public:
   vtkGetMacro(SharpAngle, double);
   ///@}
   ///@{
-  /** Seconds that TetGen may take. Default 600, valid range [1, 1000000]. Advanced. */
+  /** Seconds that the mesher may take. Default 600, valid range [1, 1000000]. Advanced. */
   vtkSetClampMacro(TimeLimit, int, 1, 1000000);
   vtkGetMacro(TimeLimit, int);
   ///@}
   ///@{
-  /** Megabytes that TetGen may take. Default 8192, valid range [1, 1000000]. Advanced. */
+  /** Megabytes that the mesher may take. Default 8192, valid range [1, 1000000]. Advanced. */
   vtkSetClampMacro(MemoryLimit, int, 1, 1000000);
   vtkGetMacro(MemoryLimit, int);
   ///@}
@@ -119,11 +160,19 @@ public:
   void SetTargetConnection(vtkAlgorithmOutput* output);
   void SetTargetData(vtkDataObject* target);
   ///@}
+  ///@{
+  /** Lengths of edges (input port 2). */
+  void SetSizeConnection(vtkAlgorithmOutput* output);
+  void SetSizeData(vtkDataObject* sizes);
+  ///@}
 
 protected:
   vtkTetGenMesher();
-  ~vtkTetGenMesher() override = default;
+  ~vtkTetGenMesher() override;
   knotwork::Result<knotwork::DecodedMesh> BoundaryOf(vtkDataObject* spline);
+  knotwork::WorkerLimits Limits() const;
+  knotwork::Result<knotwork::ImageTetrahedra> MeshImage(
+    vtkDataObject* input, const knotwork::TetrahedraParams& params);
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:
@@ -133,9 +182,13 @@ private:
   double RadiusEdgeRatio = 2.0;
   double MinDihedralAngle = 5.0;
   double EdgeLength = 0.0;
+  char* SizeArray = nullptr;
   int MaxSteinerPoints = 1000000;
   bool KeepBoundary = true;
   int Inner = VOIDS;
+  int Solid = BELOW;
+  double Level = 0.0;
+  char* ImageArray = nullptr;
   int Order = 1;
   bool Repair = false;
   double ChordalTolerance = 1e-3;

@@ -7,7 +7,7 @@ usage: processes_table.py PROGRAM [--seconds S] [--folder FOLDER] [--write PAGE]
 --seconds: of one thread that the work is made for (10). --write puts the tables between the comments `the table of processes: begin` and `end` of a page.
 Every run is one thread a process, or two threads of one process; the fastest of three. Processes that wait for others use the processor, too. "seconds" are those of the job's work (`seconds` of the report, the
 largest of the processes), without start and files; memory is the largest resident set of a process, less that of `--help`'s; work is the share of the processor time.
-Weak scaling doubles the cells or points with the processes. The model is on the page: seconds = n t / (ranks) + files and exchanges measured at one and two.
+Weak scaling doubles the cells or points with the processes. processes_model.py is a model of them.
 """
 import argparse
 import json
@@ -100,6 +100,30 @@ def surface(program, folder):
     subprocess.run([program, "fit", "rows.xyz", "--tolerance", "1e-3", "--degree", "3", "--output", "surface.vtu", "--force", "--quiet"], cwd=folder, check=True)
 
 
+def jobs(program, folder):
+    """Jobs, what makes their work of about a size in the folder and tells its size, and their words."""
+    def grid(cells):
+        n = max(2, round((cells / 4) ** (1 / 3)))
+        make_grid(program, folder, "work", (n, n, n))
+        return 4 * n ** 3
+
+    def points(n):
+        make_points(folder, "work", n)
+        return n
+
+    def terrain(n):
+        make_points(folder, "work", n, hills)
+        return n
+
+    return (("`validate --injectivity off`", grid, lambda name, pieces: ["validate", name + (".pvtu" if pieces else ".vtu"), "--injectivity", "off", "--relative-gap",
+                                                                          "0.01", "--bound-maximum"]),
+            ("`evaluate --mode probe`", points, lambda name, pieces: ["evaluate", "surface.vtu", name + (".pvtp" if pieces else ".vtp"), "--mode", "probe",
+                                                                      "--output", "out.pvtp"]),
+            ("`distance --kind closest`", points, lambda name, pieces: ["distance", name + (".pvtp" if pieces else ".vtp"), "surface.vtu", "--kind", "closest",
+                                                                        "--output", "out.pvtp"]),
+            ("`fit`", terrain, lambda name, pieces: ["fit", name + (".pvtp" if pieces else ".vtp"), "--tolerance", "0.015", "--output", "out.vtu"]))
+
+
 def row(program, folder, job, seconds, make, words_of):
     """A row of the table: the size is found by a run of a tenth."""
     size = 20000
@@ -129,25 +153,7 @@ def main():
     rows = []
     with tempfile.TemporaryDirectory(dir=arguments.folder) as folder:
         surface(program, folder)
-
-        def grid(cells):
-            n = max(2, round((cells / 4) ** (1 / 3)))
-            make_grid(program, folder, "work", (n, n, n))
-
-        def points(n):
-            make_points(folder, "work", n)
-
-        def terrain(n):
-            make_points(folder, "work", n, hills)
-
-        jobs = (("`validate --injectivity off`", grid, lambda name, pieces: ["validate", name + (".pvtu" if pieces else ".vtu"), "--injectivity", "off", "--relative-gap",
-                                                                              "0.01", "--bound-maximum"]),
-                ("`evaluate --mode probe`", points, lambda name, pieces: ["evaluate", "surface.vtu", name + (".pvtp" if pieces else ".vtp"), "--mode", "probe",
-                                                                          "--output", "out.pvtp"]),
-                ("`distance --kind closest`", points, lambda name, pieces: ["distance", name + (".pvtp" if pieces else ".vtp"), "surface.vtu", "--kind", "closest",
-                                                                            "--output", "out.pvtp"]),
-                ("`fit`", terrain, lambda name, pieces: ["fit", name + (".pvtp" if pieces else ".vtp"), "--tolerance", "0.015", "--output", "out.vtu"]))
-        for job, make, words_of in jobs:
+        for job, make, words_of in jobs(program, folder):
             rows.append(row(program, folder, job, arguments.seconds, make, words_of))
             print(" | ".join(rows[-1]), file=sys.stderr, flush=True)
     table = page_tables.table_text(HEAD, rows)

@@ -13,8 +13,11 @@ import knotwork as kw
 import knotwork_testing
 import numpy as np
 import page_snippets
+from vtkmodules.vtkCommonDataModel import vtkSphere
 from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
 from vtkmodules.vtkFiltersSources import vtkLineSource
+from vtkmodules.vtkImagingHybrid import vtkSampleFunction
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 PARTS = os.path.join(ROOT, "Testing", "Data", "Parts")
@@ -153,6 +156,16 @@ def tet_meshing():
     run("tetrahedralize", "rod.step", "-o", "tets.vtu")
     run("tessellate", "part.step", "-o", "part.stl")
     run("tessellate", "part.step", "-o", "part.vtp")
+    function = vtkSampleFunction()
+    ball = vtkSphere()
+    ball.SetRadius(0.8)
+    function.SetImplicitFunction(ball)
+    function.SetSampleDimensions(21, 21, 21)
+    function.ComputeNormalsOff()
+    writer = vtkXMLImageDataWriter()
+    writer.SetInputConnection(function.GetOutputPort())
+    writer.SetFileName("image.vti")
+    writer.Write()
 
 
 PREPARE = {"CADMeshing": cad_meshing, "CADModel": cad_model, "DomainParameterization": domain_parameterization,

@@ -90,7 +90,7 @@ def test_formats_of_help_pages_and_paraview_are_one_list():
     rows = page[page.index("| data | endings |"):].split("\n\n")[0]
     assert set(re.findall(r"\.[a-z][a-z0-9]+", rows)) == written, rows
     dialogs = ElementTree.parse(os.path.join(MODULES, "SplineIO", "ParaView", "SplineIO.xml"))
-    for kind, known, own in (("ReaderFactory", read, {".vtu", ".vtp", ".vtpc", ".pvtu", ".pvtp", ".vtk", ".obj", ".stl"}),
+    for kind, known, own in (("ReaderFactory", read, {".vtu", ".vtp", ".vtpc", ".pvtu", ".pvtp", ".vti", ".vtk", ".obj", ".stl"}),
                              ("WriterFactory", written, {".vtu", ".vtp", ".vtpc", ".pvtu", ".pvtp", ".vti", ".csv", ".obj", ".stl", ".ply"})):
         offered = ["." + ending for one in dialogs.iter(kind) for ending in one.get("extensions").split()]
         assert set(offered) | own == known, (kind, set(offered) ^ known)  # the others are ParaView's own
@@ -99,7 +99,7 @@ def test_formats_of_help_pages_and_paraview_are_one_list():
 def test_unknown_endings_list_the_known_ones():
     text = knotwork_testing.run_program("--help").stdout
     read = listed(text, "Files that are read")
-    for ending, nearest in ((".vtuu", "'.vtu'"), (".setp", "'.step'"), (".jsn", "'.json'"), (".docx", ""), (".vti", "")):
+    for ending, nearest in ((".vtuu", "'.vtu'"), (".setp", "'.step'"), (".jsn", "'.json'"), (".docx", "")):
         file = path("misspelled" + ending)
         good("source", "--output", path("sheet.vtu"))
         shutil.copy(path("sheet.vtu"), file)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // usage: knotwork-read-vtk PARENT BYTES SECONDS FILE
-// Reads .vtu, .vtp, .vtpc and .vtk by VTK's readers for another process, see WorkerMain.h.
+// Reads .vtu, .vtp, .vti, .vtpc and .vtk by VTK's readers for another process, see WorkerMain.h.
 #include "CellCheck.h"
 #include "DataParts.h"
 #include "Messages.h"
@@ -16,6 +16,7 @@
 #include <vtkPLYReader.h>
 #include <vtkSTLReader.h>
 #include <vtkUnstructuredGridReader.h>
+#include <vtkXMLImageDataReader.h>
 #include <vtkXMLPartitionedDataSetCollectionReader.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
@@ -44,6 +45,10 @@ vtkSmartPointer<vtkDataObject> ReadByEnding(const std::string& file, const std::
   if (ending == ".vtp")
   {
     return ReadWith<vtkXMLPolyDataReader>(file);
+  }
+  if (ending == ".vti")
+  {
+    return ReadWith<vtkXMLImageDataReader>(file);
   }
   if (ending == ".vtpc")
   {

@@ -208,7 +208,8 @@ private:
 
 Status CheckXmlFile(const std::string& file, const std::string& ending)
 {
-  return ending == ".vtpc" || ending == ".vtu" || ending == ".vtp" ? Checker(file, ending).Check()
-                                                                   : Status();
+  return ending == ".vtpc" || ending == ".vtu" || ending == ".vtp" || ending == ".vti"
+    ? Checker(file, ending).Check()
+    : Status();
 }
 }

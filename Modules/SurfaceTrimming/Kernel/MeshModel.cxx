@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ChartedModel.h"
 #include "RegionEvidence.h"
+#include "SnapSurfaces.h"
 #include <knotwork/DomainParameterization/WorkBudget.h>
 #include <knotwork/SplineCore/Numbers.h>
 
@@ -179,7 +180,9 @@ Result<RegionModel> ModelMesh(
   const TriangleMesh& mesh, const RecognitionParams& recognition, const RegionModelParams& params)
 {
   double analytic = 0.0;
-  auto parts = RecognizeParts(mesh, recognition, params, analytic);
+  RecognitionParams ofParts = recognition;
+  ofParts.SnapDistance = std::min(recognition.SnapDistance, 0.0); // of all parts together
+  auto parts = RecognizeParts(mesh, ofParts, params, analytic);
   if (!parts)
   {
     return parts.Status;
@@ -192,6 +195,16 @@ Result<RegionModel> ModelMesh(
         " %; make spline faces of the whole" };
   }
   RegionModel all;
+  if (recognition.SnapDistance > 0.0)
+  {
+    std::vector<SnappedPart> snapped;
+    for (RecognizedPart& part : parts.Value)
+    {
+      snapped.push_back({ &part.Surface.Points, &part.Surface.Triangles, &part.Recognition });
+    }
+    all.Snapped = SnapSurfaces(
+      snapped, std::min(recognition.SnapDistance, parts->front().Recognition.Tolerance));
+  }
   WorkBudget budget(params.Trim.Effort, params.Trim.TimeLimit, {});
   RegionModelParams own = params;
   for (RecognizedPart& recognized : parts.Value)

@@ -58,7 +58,8 @@ struct RegionModel
   double MaxNormalAngle = 0.0;
   double MaxVertexDistance = 0.0; ///< of vertices from their points of the mesh
   double Tolerance = 0.0;         ///< of the recognition
-  double Work = 0.0;              ///< for faces of free form, in the unit of TrimParams::Effort
+  SnappedValues Snapped;
+  double Work = 0.0; ///< for faces of free form, in the unit of TrimParams::Effort
 };
 
 /// Makes trimmed faces of a mesh whose regions are all planes, cylinders, spheres, cones or tori.

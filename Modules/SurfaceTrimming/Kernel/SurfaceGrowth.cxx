@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceGrowth.h"
+
+#include "TriangleSag.h"
 #include <knotwork/SplineCore/FitProfileSurface.h>
 
 #include <Eigen/Geometry>
@@ -477,15 +479,10 @@ void SurfaceGrowth::Measure(const GrownRegion& region, double& distance, double&
     for (int t : this->Facets.Clusters[static_cast<std::size_t>(c)].Triangles)
     {
       const auto& corners = this->Surface.Triangles[static_cast<std::size_t>(t)];
-      Vector3d middle = Vector3d::Zero();
-      for (std::size_t k = 0; k < 3; ++k)
-      {
-        const Vector3d a = this->Surface.Point(corners[k]);
-        const Vector3d b = this->Surface.Point(corners[(k + 1) % 3]);
-        sag = std::max(sag, std::abs(region.Surface.Distance((a + b) / 2.0)));
-        middle += a / 3.0;
-      }
-      sag = std::max(sag, std::abs(region.Surface.Distance(middle)));
+      sag = std::max(sag,
+        MaxMiddleDistance(region.Surface,
+          { this->Surface.Point(corners[0]), this->Surface.Point(corners[1]),
+            this->Surface.Point(corners[2]) }));
     }
   }
 }

@@ -3,6 +3,7 @@
 
 #include "FacetClusters.h"
 #include "JoinRegions.h"
+#include "SnapSurfaces.h"
 #include "SurfaceGrowth.h"
 
 #include <Eigen/Geometry>
@@ -579,11 +580,12 @@ void Report(const SurfaceGrowth& growth, const FacetClusters& facets, const Divi
 Result<SurfaceRecognition> RecognizeSurfaces(
   const DiscMesh& surface, const RecognitionParams& params)
 {
-  if (!(params.Tolerance >= 0.0) || params.MaxRegions < 0 ||
+  if (!(params.Tolerance >= 0.0) || params.MaxRegions < 0 || !(params.SnapDistance >= 0.0) ||
     !(params.MaximumSag >= 0.0 && params.MaximumSag <= 1000.0))
   {
     return { ErrorCode::InvalidParameter,
-      "Tolerance and MaxRegions must not be negative, and MaximumSag must lie in [0, 1000]" };
+      "Tolerance, MaxRegions and SnapDistance must not be negative, and MaximumSag must lie in [0, "
+      "1000]" };
   }
   SurfaceRecognition result;
   const double diagonal =
@@ -691,6 +693,11 @@ Result<SurfaceRecognition> RecognizeSurfaces(
     SurfaceGrowth(surface, facets, ofProfiles, params.MaximumSag * result.Tolerance), facets, best);
   result.RegionOfTriangle.resize(surface.Triangles.size());
   Report(growth, facets, best, result);
+  if (params.SnapDistance > 0.0)
+  {
+    result.Snapped = SnapSurfaces({ { &surface.Points, &surface.Triangles, &result } },
+      std::min(params.SnapDistance, result.Tolerance));
+  }
   return result;
 }
 
@@ -705,6 +712,7 @@ Result<SurfaceRecognition> RecognizeSurfaces(
   SurfaceRecognition all;
   all.RegionOfTriangle.assign(mesh.Triangles.size(), -1);
   RecognitionParams own = params;
+  own.SnapDistance = std::min(params.SnapDistance, 0.0); // of all parts together
   for (std::size_t i = 0; i < components.size(); ++i)
   {
     const auto surface = CheckComponent(mesh, components[i]);
@@ -745,6 +753,11 @@ Result<SurfaceRecognition> RecognizeSurfaces(
     }
     all.Tolerance = part->Tolerance;
     all.Noise = std::max(all.Noise, part->Noise);
+  }
+  if (params.SnapDistance > 0.0)
+  {
+    all.Snapped = SnapSurfaces(
+      { { &mesh.Points, &mesh.Triangles, &all } }, std::min(params.SnapDistance, all.Tolerance));
   }
   return all;
 }

@@ -18,6 +18,10 @@ struct RecognitionParams
   /// Of a part at most: more are a failure, and so is a part whose first 200 regions cover less
   /// than half of it, which is no machined one. 0: any number of any size.
   int MaxRegions = 0;
+  /// Largest distance by which surfaces move at the points of their regions for directions,
+  /// positions and sizes that are nearly equal to become so, unit of the points, up to Tolerance;
+  /// 0: none do.
+  double SnapDistance = 0.0;
   ProgressCallback Progress;
 };
 
@@ -28,6 +32,20 @@ struct RecognizedRegion
   bool Reversed = false;      ///< the triangles' normals are opposite to the surface's
   double MaxDistance = 0.0;   ///< of points
   double MaxSag = 0.0;        ///< of the middles of edges and triangles
+  int Direction = -1;         ///< number of the direction that its axis or normal shares; -1: none
+  int Position = -1;          ///< the same of a plane, or of an axis' line
+  int Size = -1;              ///< the same of a radius, of tori the minor one, or of a cone's angle
+  double Turn = 0.0;          ///< of the axis or normal, to share it, degrees
+};
+
+/// Values that surfaces share since SnapDistance allows it.
+struct SnappedValues
+{
+  int NumSurfaces = 0; ///< that were changed
+  int NumDirections = 0;
+  int NumPositions = 0;
+  int NumSizes = 0;
+  double MaxTurn = 0.0; ///< degrees
 };
 
 struct SurfaceRecognition
@@ -39,6 +57,7 @@ struct SurfaceRecognition
   /// Largest distance of points from surfaces with which regions were grown; those of joined pieces
   /// may be farther, up to Tolerance.
   double Noise = 0.0;
+  SnappedValues Snapped;
 };
 
 /// Divides a mesh into regions of one surface each: plane, cylinder, sphere, cone, torus, the
@@ -48,7 +67,8 @@ struct SurfaceRecognition
 /// and facets do not lean away from them, and fitted to what they cover; the largest is taken.
 /// That is done with several tolerances up to the stated one, and the smallest one is kept
 /// that does not take many more regions than others. Where points have noise, pieces that one
-/// surface is next to within the tolerance become one region.
+/// surface is next to within the tolerance become one region. Values are made common last, over all
+/// parts.
 /// @param surface  of CheckSurface.
 /// @return InvalidParameter; TooLarge: more than MaxRegions; Aborted.
 /// @complexity about O(n) where regions are large; O(n) guesses of free form.

@@ -132,4 +132,15 @@ double BoundDistance(const AnalyticSurface& surface, const Corners& corners)
 {
   return Bound(surface, corners, Quarterings);
 }
+
+double MaxMiddleDistance(const AnalyticSurface& surface, const Corners& corners)
+{
+  double largest = std::abs(surface.Distance((corners[0] + corners[1] + corners[2]) / 3.0));
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    largest =
+      std::max(largest, std::abs(surface.Distance((corners[k] + corners[(k + 1) % 3]) / 2.0)));
+  }
+  return largest;
+}
 }

@@ -12,4 +12,8 @@ namespace knotwork
 /// curvature, is bounded. Triangles are quartered three times. Infinite for a torus whose circle of
 /// centres, or axis, may be met, and so where centres of curvature of a profile may be.
 double BoundDistance(const AnalyticSurface& surface, const std::array<Eigen::Vector3d, 3>& corners);
+
+/// Largest distance of the middles of a triangle and of its edges.
+double MaxMiddleDistance(
+  const AnalyticSurface& surface, const std::array<Eigen::Vector3d, 3>& corners);
 }

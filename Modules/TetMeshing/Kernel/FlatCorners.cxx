@@ -184,7 +184,17 @@ private:
       std::replace(other.begin(), other.end(), edge[0], middle);
       auto& own = this->Mesh.Cells[At(c)];
       std::replace(own.begin(), own.end(), edge[1], middle);
-      this->Mesh.Cells.push_back(other);
+      this->AddCell(other, c);
+    }
+  }
+
+  /// @param from  the cell that it is a part of.
+  void AddCell(const std::array<int, 4>& corners, int from)
+  {
+    this->Mesh.Cells.push_back(corners);
+    if (!this->Mesh.Labels.empty())
+    {
+      this->Mesh.Labels.push_back(this->Mesh.Labels[At(from)]);
     }
   }
 
@@ -204,7 +214,7 @@ private:
     {
       auto part = corners;
       part[i] = middle;
-      this->Mesh.Cells.push_back(part);
+      this->AddCell(part, cell);
     }
   }
 

@@ -67,12 +67,51 @@ Status CheckParams(const SolidMeshParams& params)
   {
     return { ErrorCode::InvalidParameter, "the largest volume is a finite number, 0 for none" };
   }
+  const auto isLength = [&](double length) { return length > 0.0 && length <= LargestNumber; };
+  for (const RegionSize& size : asked.RegionSizes)
+  {
+    if (!isLength(size.Length) || !size.Point.allFinite())
+    {
+      return { ErrorCode::InvalidParameter,
+        "lengths of edges in regions are above 0, at points that are numbers" };
+    }
+  }
+  if (asked.Sizes.Cells.size() != asked.Sizes.Lengths.size() || !asked.Sizes.Points.allFinite())
+  {
+    return { ErrorCode::SizeMismatch,
+      "the field of sizes has points that are no numbers, or not four lengths of edges a cell" };
+  }
+  for (std::size_t c = 0; c < asked.Sizes.Cells.size(); ++c)
+  {
+    const auto& corners = asked.Sizes.Cells[c];
+    const auto& lengths = asked.Sizes.Lengths[c];
+    if (!std::all_of(corners.begin(), corners.end(),
+          [&](int corner) { return corner >= 0 && corner < asked.Sizes.Points.rows(); }) ||
+      !std::all_of(lengths.begin(), lengths.end(), isLength))
+    {
+      return { ErrorCode::InvalidParameter,
+        "cell " + std::to_string(c) +
+          " of the field of sizes has a corner that is no point, or a length that is not above 0" };
+    }
+  }
   if (asked.MaxSteinerPoints < 0 || params.Order < 1 || params.Order > 3)
   {
     return { ErrorCode::InvalidParameter,
       "the order is 1, 2 or 3, and the number of added points is not negative" };
   }
   return {};
+}
+
+/// Whether a point lies in a tetrahedron, its sides included but for rounding.
+bool IsIn(const Eigen::Vector3d& point, const PointMatrix& points, const std::array<int, 4>& cell)
+{
+  constexpr double Rounding = 1e-12;
+  const auto corner = [&](std::size_t k) -> Eigen::Vector3d
+  { return points.row(cell[k]).transpose(); };
+  Eigen::Matrix3d edges;
+  edges << corner(1) - corner(0), corner(2) - corner(0), corner(3) - corner(0);
+  const Eigen::Vector3d shares = edges.partialPivLu().solve(point - corner(0));
+  return std::min(shares.minCoeff(), 1.0 - shares.sum()) >= -Rounding;
 }
 
 class SolidMesher
@@ -86,8 +125,9 @@ public:
   Result<SolidMesh> Make(Tetrahedra tetrahedra)
   {
     this->Found = std::move(tetrahedra);
-    for (const auto& step : { &SolidMesher::CheckAnswer, &SolidMesher::FindWalls,
-           &SolidMesher::FindRegions, &SolidMesher::MeasureStraight, &SolidMesher::Curve })
+    for (const auto& step :
+      { &SolidMesher::CheckAnswer, &SolidMesher::FindWalls, &SolidMesher::FindRegions,
+        &SolidMesher::CheckRegionSizes, &SolidMesher::MeasureStraight, &SolidMesher::Curve })
     {
       if (Status status = (this->*step)(); !status)
       {
@@ -117,6 +157,7 @@ private:
     const auto arePoints = [&](const auto& corners)
     { return std::all_of(corners.begin(), corners.end(), isPoint); };
     if (this->Found.Cells.empty() || this->Found.Triangles.size() != this->Found.Sources.size() ||
+      (!this->Found.Labels.empty() && this->Found.Labels.size() != this->Found.Cells.size()) ||
       !std::all_of(this->Found.Cells.begin(), this->Found.Cells.end(), arePoints) ||
       !std::all_of(this->Found.Triangles.begin(), this->Found.Triangles.end(), arePoints) ||
       !std::all_of(this->Found.Sources.begin(), this->Found.Sources.end(),
@@ -254,12 +295,33 @@ private:
       this->RegionOf[c] = number;
       this->Mesh.Regions.push_back(number);
       this->Cells.push_back(this->Found.Cells[c]);
+      if (!this->Found.Labels.empty())
+      {
+        this->Mesh.Labels.push_back(this->Found.Labels[c]);
+      }
       for (const int corner : this->Found.Cells[c])
       {
         points[At(corner)] = 0;
       }
     }
     this->Compact(points);
+    return {};
+  }
+
+  /// Sizes are of regions that there are.
+  Status CheckRegionSizes()
+  {
+    for (const RegionSize& size : this->Params.Tetrahedra.RegionSizes)
+    {
+      const Eigen::Vector3d& at = size.Point;
+      if (std::none_of(this->Cells.begin(), this->Cells.end(),
+            [&](const auto& cell) { return IsIn(at, this->Corners, cell); }))
+      {
+        return { ErrorCode::InvalidParameter,
+          "the point (" + Digits(at.x()) + ", " + Digits(at.y()) + ", " + Digits(at.z()) +
+            ") of a size lies in no region; give a point inside of the region" };
+      }
+    }
     return {};
   }
 

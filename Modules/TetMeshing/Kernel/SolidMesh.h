@@ -6,13 +6,31 @@
 
 namespace knotwork
 {
+/// How long edges of tetrahedra of one region are at most.
+struct RegionSize
+{
+  Eigen::Vector3d Point = Eigen::Vector3d::Zero(); ///< in the region
+  double Length = 0.0;                             ///< > 0
+};
+
+/// Lengths of edges at most on a background grid, linear in each of its tetrahedra; there are none
+/// outside.
+struct SizeField
+{
+  PointMatrix Points; ///< n x 3
+  std::vector<std::array<int, 4>> Cells;
+  std::vector<std::array<double, 4>> Lengths; ///< at the cells' corners, > 0
+};
+
 /// What a mesher is asked for.
 struct TetrahedraParams
 {
   /// Radius of the circumsphere over the shortest edge at most, [1, 10]; 0: no bound.
   double RadiusEdgeRatio = 2.0;
-  double MinDihedralAngle = 5.0;  ///< degrees, [0, 30]; 0: no bound
-  double MaxVolume = 0.0;         ///< of a tetrahedron, >= 0, cube of the points' unit; 0: no bound
+  double MinDihedralAngle = 5.0; ///< degrees, [0, 30]; 0: no bound
+  double MaxVolume = 0.0;        ///< of a tetrahedron, >= 0, cube of the points' unit; 0: no bound
+  std::vector<RegionSize> RegionSizes;
+  SizeField Sizes;
   int MaxSteinerPoints = 1000000; ///< points that are added at most, >= 0
   bool KeepBoundary = true;       ///< triangles of the surface are not divided
 };
@@ -24,6 +42,7 @@ struct Tetrahedra
   std::vector<std::array<int, 4>> Cells;
   std::vector<std::array<int, 3>> Triangles; ///< parts of the surface
   std::vector<int> Sources;                  ///< one a triangle: number in the surface
+  std::vector<int> Labels;                   ///< one a cell, of a mesher that has such; else empty
 };
 
 /// The mesher, which works in a process of its own. Its triangles bound solids (CheckSolid).
@@ -74,6 +93,7 @@ struct SolidMesh
   std::vector<std::vector<int>> Cells;
   std::vector<int> Regions; ///< one a cell: pieces between the triangles of the surface, from 0
   int NumRegions = 0;
+  std::vector<int> Labels;                  ///< one a cell; empty: the mesher has none
   std::vector<std::array<int, 3>> Boundary; ///< corners, outward or towards the higher region
   std::vector<int> BoundarySources;         ///< triangle of the given surface, -1: repair made it
   JacobianCertificate Certificate;
@@ -90,7 +110,8 @@ int NumTetrahedronPoints(int order);
 /// valid, its points are moved back towards the straight tetrahedron, by a part of the way that
 /// doubles each time, until it and its neighbours are (CurveElements).
 /// @param target  null: the surface itself, nothing is curved.
-/// @return the errors of CheckSolid, the maker and the target; InvalidParameter; LibraryError for
+/// @return the errors of CheckSolid, the maker and the target; InvalidParameter, also for a size of
+/// a region whose point no tetrahedron has; SizeMismatch for a field of sizes; LibraryError for
 /// tetrahedra that do not fill the surface; NotConverged for straight cells that are not valid;
 /// Aborted.
 /// @complexity the maker's, and O(n log n); a certificate of every cell.

@@ -1,18 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// usage: knotwork-tetgen PARENT BYTES SECONDS SWITCHES
+// usage: knotwork-tetgen PARENT BYTES SECONDS SWITCHES REFINEMENT
 // Tetrahedra within triangles by TetGen for another process, see WorkerMain.h and TetGenParts.h.
+#include "SizeLookup.h"
 #include "TetGenEnd.h"
 #include "TetGenParts.h"
+#include <knotwork/SplineCore/Numbers.h>
 #include <knotwork/SplineGrid/WorkerMain.h>
 
 #define TETLIBRARY
 #include <tetgen.h>
 
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <memory>
 #include <new>
 
 namespace
 {
 using namespace knotwork;
+
+constexpr int RefinementRounds = 8;
 
 const std::string& PartOf(const Parts& parts, TetGenInput which)
 {
@@ -43,6 +51,89 @@ void Fill(const std::vector<double>& points, const std::vector<int>& corners, te
   }
 }
 
+/// A point of each region, a number for it, and the largest volume of its tetrahedra.
+void FillRegions(const std::vector<double>& regions, tetgenio& input)
+{
+  constexpr std::size_t Given = 4;
+  constexpr std::size_t Taken = 5;
+  const std::size_t count = regions.size() / Given;
+  if (count == 0)
+  {
+    return;
+  }
+  input.numberofregions = static_cast<int>(count);
+  input.regionlist = new double[Taken * count];
+  for (std::size_t r = 0; r < count; ++r)
+  {
+    const double* from = regions.data() + Given * r;
+    double* to = input.regionlist + Taken * r;
+    std::copy(from, from + 3, to);
+    to[3] = static_cast<double>(r + 1);
+    to[4] = from[3];
+  }
+}
+
+/// What is asked for beside the switches.
+struct Bounds
+{
+  std::vector<double> Regions; ///< as FillRegions takes them
+  SizeLookup Sizes;
+
+  bool Any() const { return !this->Regions.empty() || !this->Sizes.IsEmpty(); }
+};
+
+/// The first region whose point no tetrahedron has.
+Status CheckRegions(const std::vector<double>& regions, const tetgenio& mesh)
+{
+  const SizeLookup cells({ mesh.pointlist, mesh.pointlist + 3 * mesh.numberofpoints },
+    { mesh.tetrahedronlist, mesh.tetrahedronlist + 4 * mesh.numberoftetrahedra },
+    std::vector<double>(4 * static_cast<std::size_t>(mesh.numberoftetrahedra), 1.0));
+  for (std::size_t r = 0; r + 3 < regions.size(); r += 4)
+  {
+    if (!std::isfinite(cells.At({ regions[r], regions[r + 1], regions[r + 2] })))
+    {
+      return { ErrorCode::InvalidParameter,
+        "the point (" + Digits(regions[r]) + ", " + Digits(regions[r + 1]) + ", " +
+          Digits(regions[r + 2]) +
+          ") of a size lies in no region; give a point inside of the region" };
+    }
+  }
+  return {};
+}
+
+/// Sets the largest volumes of the tetrahedra of a mesh. @return whether one is larger.
+bool SetVolumes(const Bounds& bounds, tetgenio& mesh)
+{
+  const auto corner = [&](int cell, int k)
+  {
+    const int point = mesh.tetrahedronlist[4 * cell + k];
+    return Eigen::Map<const Eigen::Vector3d>(mesh.pointlist + 3 * point);
+  };
+  constexpr double Unbounded = -1.0; // as TetGen takes it
+  bool isAnyLarger = false;
+  mesh.tetrahedronvolumelist = new double[static_cast<std::size_t>(mesh.numberoftetrahedra)];
+  for (int c = 0; c < mesh.numberoftetrahedra; ++c)
+  {
+    const Eigen::Vector3d origin = corner(c, 0);
+    const Eigen::Vector3d middle = (origin + corner(c, 1) + corner(c, 2) + corner(c, 3)) / 4.0;
+    double most = VolumeOfEdge(bounds.Sizes.At(middle));
+    if (mesh.numberoftetrahedronattributes > 0)
+    {
+      const auto region = static_cast<std::size_t>(
+        mesh.tetrahedronattributelist[c * mesh.numberoftetrahedronattributes]);
+      most = region > 0 && 4 * region <= bounds.Regions.size()
+        ? std::min(most, bounds.Regions[4 * region - 1])
+        : most;
+    }
+    const double volume =
+      std::abs((corner(c, 1) - origin).cross(corner(c, 2) - origin).dot(corner(c, 3) - origin)) /
+      6.0;
+    isAnyLarger = isAnyLarger || volume > most;
+    mesh.tetrahedronvolumelist[c] = std::isfinite(most) ? most : Unbounded;
+  }
+  return isAnyLarger;
+}
+
 Status Reason(int number)
 {
   switch (number)
@@ -63,23 +154,48 @@ Status Reason(int number)
 
 Status Run(const Parts& words, const Parts& input, Parts& found)
 {
-  if (words.size() != 1 || input.size() != static_cast<std::size_t>(TetGenInput::Count))
+  if (words.size() != 2 || input.size() != static_cast<std::size_t>(TetGenInput::Count))
   {
     return { ErrorCode::InvalidParameter, "switches, points and triangles are needed" };
   }
   tetgenio in;
-  tetgenio out;
   Fill(UnpackNumbers<double>(PartOf(input, TetGenInput::Points)),
     UnpackNumbers<int>(PartOf(input, TetGenInput::Triangles)), in);
+  const Bounds bounds{ UnpackNumbers<double>(PartOf(input, TetGenInput::Regions)),
+    SizeLookup(UnpackNumbers<double>(PartOf(input, TetGenInput::SizePoints)),
+      UnpackNumbers<int>(PartOf(input, TetGenInput::SizeCells)),
+      UnpackNumbers<double>(PartOf(input, TetGenInput::Sizes))) };
+  auto made = std::make_unique<tetgenio>();
   try
   {
-    std::string switches = words[0];
-    tetrahedralize(switches.data(), &in, &out);
+    const auto make = [&](std::string switches, tetgenio& from)
+    {
+      auto to = std::make_unique<tetgenio>();
+      tetrahedralize(switches.data(), &from, to.get());
+      return to;
+    };
+    if (!bounds.Regions.empty())
+    {
+      // points outside are more than TetGen bears
+      if (Status status = CheckRegions(bounds.Regions, *make("pzQ", in)); !status)
+      {
+        return status;
+      }
+      FillRegions(bounds.Regions, in);
+    }
+    made = make(words[0], in);
+    // bounds of tetrahedra that there are: new ones may be where smaller ones are asked for
+    for (int round = 0; round < RefinementRounds && bounds.Any() && SetVolumes(bounds, *made);
+         ++round)
+    {
+      made = make(words[1], *made);
+    }
   }
   catch (const TetGenEnd& end)
   {
     return Reason(end.Reason);
   }
+  const tetgenio& out = *made;
   if (out.numberofcorners != 4 || (out.numberoftrifaces > 0 && !out.trifacemarkerlist))
   {
     return { ErrorCode::LibraryError, "TetGen hands over no tetrahedra of four corners" };

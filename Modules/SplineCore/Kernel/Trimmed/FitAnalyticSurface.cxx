@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 
 namespace knotwork
 {
@@ -432,13 +433,30 @@ bool IsDegenerate(const AnalyticSurface& s)
   return true;
 }
 
+std::array<bool, NumParameters> FreeParameters(SurfaceType type, const HeldParameters& held)
+{
+  std::array<bool, NumParameters> isFree = FreeParameters(type);
+  const auto hold = [&isFree](bool isHeld, std::initializer_list<Parameter> parameters)
+  {
+    for (const Parameter parameter : parameters)
+    {
+      bool& free = isFree[static_cast<std::size_t>(parameter)];
+      free = free && !isHeld;
+    }
+  };
+  hold(held.Direction, { TurnU, TurnV });
+  hold(held.Position, { ShiftU, ShiftV });
+  hold(held.Size && type != SurfaceType::Torus && type != SurfaceType::Cone, { GrowRadius });
+  hold(held.Size, { GrowMinor, GrowAngle });
+  return isFree;
+}
+
 /// Damped Gauss-Newton steps on points about the origin of size 1.
 /// @param hopeless  a sum of squares with which it is given up after some steps.
-void Minimize(
-  const std::vector<Vector3d>& points, double hopeless, int steps, AnalyticSurface& surface)
+void Minimize(const std::vector<Vector3d>& points, const std::array<bool, NumParameters>& isFree,
+  double hopeless, int steps, AnalyticSurface& surface)
 {
   constexpr int StepsOfHope = 8;
-  const std::array<bool, NumParameters> isFree = FreeParameters(surface.Type);
   double damping = 1e-6;
   double sum = SumOfSquaredDistances(points, surface);
   const double zero = 1e-30 * static_cast<double>(points.size());
@@ -517,6 +535,41 @@ void Normalize(AnalyticSurface& s)
     s.Axis = -s.Axis;
   }
 }
+
+/// The steps of a surface but a plane, with points about the origin of size 1.
+bool FitCurved(const std::vector<Vector3d>& points, const std::array<bool, NumParameters>& isFree,
+  double hopeless, int steps, AnalyticSurface& surface)
+{
+  const Cloud cloud(points);
+  if (!(cloud.Size > 0.0))
+  {
+    return false;
+  }
+  std::vector<Vector3d> unit;
+  unit.reserve(points.size());
+  for (const Vector3d& p : points)
+  {
+    unit.emplace_back((p - cloud.Centre) / cloud.Size);
+  }
+  AnalyticSurface moved = surface;
+  Move(moved, -cloud.Centre, 1.0 / cloud.Size);
+  Normalize(moved);
+  if (IsDegenerate(moved))
+  {
+    return false;
+  }
+  const double far = hopeless / cloud.Size;
+  Minimize(unit, isFree, far * far * static_cast<double>(points.size()), steps, moved);
+  Normalize(moved);
+  if (IsDegenerate(moved) || !moved.Point.allFinite() || !moved.Axis.allFinite())
+  {
+    return false;
+  }
+  Move(moved, Vector3d::Zero(), cloud.Size);
+  moved.Point += cloud.Centre;
+  surface = moved;
+  return true;
+}
 }
 
 int NumSurfaceParameters(SurfaceType type)
@@ -583,34 +636,30 @@ bool FitSurface(
     surface.Axis = surface.Axis.dot(axis) < 0.0 ? Vector3d(-surface.Axis) : surface.Axis;
     return found;
   }
-  const Cloud cloud(points);
-  if (!(cloud.Size > 0.0))
+  return FitCurved(points, FreeParameters(surface.Type), hopeless, steps, surface);
+}
+
+bool FitSurface(
+  const std::vector<Vector3d>& points, const HeldParameters& held, AnalyticSurface& surface)
+{
+  if (points.empty() || surface.Type == SurfaceType::FreeForm || HasProfile(surface.Type))
   {
     return false;
   }
-  std::vector<Vector3d> unit;
-  unit.reserve(points.size());
-  for (const Vector3d& p : points)
+  if (surface.Type != SurfaceType::Plane)
   {
-    unit.emplace_back((p - cloud.Centre) / cloud.Size);
+    constexpr int MostSteps = 60;
+    return FitCurved(points, FreeParameters(surface.Type, held),
+      std::numeric_limits<double>::infinity(), MostSteps, surface);
   }
-  AnalyticSurface moved = surface;
-  Move(moved, -cloud.Centre, 1.0 / cloud.Size);
-  Normalize(moved);
-  if (IsDegenerate(moved))
+  if (!held.Direction)
   {
-    return false;
+    return FitSurface(points, surface);
   }
-  const double far = hopeless / cloud.Size;
-  Minimize(unit, far * far * static_cast<double>(points.size()), steps, moved);
-  Normalize(moved);
-  if (IsDegenerate(moved) || !moved.Point.allFinite() || !moved.Axis.allFinite())
+  if (!held.Position)
   {
-    return false;
+    surface.Point = Cloud(points).Centre;
   }
-  Move(moved, Vector3d::Zero(), cloud.Size);
-  moved.Point += cloud.Centre;
-  surface = moved;
   return true;
 }
 

@@ -49,6 +49,18 @@ bool GuessTorusAbout(const std::vector<Eigen::Vector3d>& points, AnalyticSurface
 bool FitSurface(const std::vector<Eigen::Vector3d>& points, AnalyticSurface& surface,
   double hopeless = std::numeric_limits<double>::infinity(), int steps = 60);
 
+/// What a fit leaves as it is.
+struct HeldParameters
+{
+  bool Direction = false; ///< of the axis or normal
+  bool Position = false;  ///< of planes that along the normal; of others Point keeps to its axis
+  bool Size = false;      ///< the radius, of tori the minor one, of cones the angle
+};
+
+/// The same with parts of the surface held, but for rounding.
+bool FitSurface(
+  const std::vector<Eigen::Vector3d>& points, const HeldParameters& held, AnalyticSurface& surface);
+
 /// Sum of the squares of the points' distances.
 double SumOfSquaredDistances(
   const std::vector<Eigen::Vector3d>& points, const AnalyticSurface& surface);

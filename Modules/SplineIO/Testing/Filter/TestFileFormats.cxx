@@ -52,7 +52,8 @@ TEST(FileFormats, EndingsFollowTheContent_ExactOracle)
   EXPECT_EQ(writing(TableContent), ".csv");
   EXPECT_EQ(writing(0), "");
   EXPECT_EQ(JoinEndings(EndingsThatRead(AnyContent)),
-    ".vtp .vtu .pvtu .pvtp .vtpc .vtk .xml .xyz .txt .csv .g2 .step .stp .iges .igs .brep .stl "
+    ".vtp .vtu .pvtu .pvtp .vtpc .vtk .vti .xml .xyz .txt .csv .g2 .step .stp .iges .igs .brep "
+    ".stl "
     ".obj .ply .las "
     ".laz .tif .tiff .off .svg "
     ".bext "

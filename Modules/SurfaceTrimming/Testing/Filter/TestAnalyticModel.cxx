@@ -152,6 +152,32 @@ int NumOpenEdges(vtkAnalyticModel* filter)
 }
 }
 
+/// Two cylinders of nearly one radius, a little askew, become ones of one radius and direction.
+TEST(vtkAnalyticModel, NearlyEqualValuesBecomeEqual)
+{
+  const auto other = Cylinder();
+  vtkPoints* points = other->GetPoints();
+  for (vtkIdType p = 0; p < points->GetNumberOfPoints(); ++p)
+  {
+    double x[3];
+    points->GetPoint(p, x);
+    points->SetPoint(p, 1.001 * x[0] + 1e-3 * x[1] + 2.0, x[1] - 1e-3 * x[0], 1.001 * x[2]);
+  }
+  vtkNew<vtkAnalyticModel> filter;
+  filter->SetInputDataObject(Both(Cylinder(), other));
+  filter->SetTolerance(5e-3);
+  filter->Update();
+  ExpectNumbers(filter,
+    { { "Cylinders", 2 }, { "SnappedSurfaces", 0 }, { "CommonSizes", 0 }, { "MaxTurn", 0 } });
+  filter->SetSnapDistance(3e-3);
+  filter->Update();
+  ExpectNumbers(filter,
+    { { "Cylinders", 2 }, { "CommonSizes", 1 }, { "CommonDirections", 1 }, { "LoopsProved", 1 },
+      { "WithinTolerance", 1 } });
+  EXPECT_NEAR(Number(filter, "MaxTurn"), 0.5e-3 * 180.0 / Pi, 2e-3);
+  EXPECT_EQ(Text(filter, "Verdict"), "valid");
+}
+
 TEST(vtkAnalyticModel, CubeIsSixPlanesTwelveLinesEightVertices_Exact)
 {
   vtkNew<vtkAnalyticModel> filter;

@@ -189,6 +189,42 @@ TEST(vtkSurfaceRecognition, PartsOfOneMeshAreRecognizedEachForItself_Exact)
   EXPECT_EQ(Polygons(filter, 1)->GetNumberOfLines(), 92);
 }
 
+/// Values of a cube and a cylinder about y are common already; the table tells which.
+TEST(vtkSurfaceRecognition, CommonValuesHaveNumbers_Exact)
+{
+  vtkNew<vtkSurfaceRecognition> filter;
+  filter->SetInputDataObject(Both(Cube(3.0), CylinderWithCaps()));
+  filter->SetSnapDistance(1e-3);
+  filter->Update();
+  EXPECT_EQ(Number(filter, "CommonDirections"), 3.0);
+  EXPECT_EQ(Number(filter, "CommonPositions"), 0.0);
+  EXPECT_EQ(Number(filter, "CommonSizes"), 0.0);
+  EXPECT_LT(Number(filter, "MaxTurn"), 1e-6);
+  vtkTable* regions = Regions(filter);
+  ASSERT_EQ(regions->GetNumberOfRows(), 9);
+  auto* axes = vtkDataArray::SafeDownCast(regions->GetColumnByName("Axis"));
+  for (vtkIdType r = 0; r < 9; ++r)
+  {
+    for (vtkIdType q = 0; q < r; ++q)
+    {
+      double dot = 0.0;
+      for (int d = 0; d < 3; ++d)
+      {
+        dot += axes->GetComponent(r, d) * axes->GetComponent(q, d);
+      }
+      const bool isCommon = regions->GetValueByName(r, "Direction").ToInt() ==
+        regions->GetValueByName(q, "Direction").ToInt();
+      EXPECT_NEAR(std::abs(dot), isCommon ? 1.0 : 0.0, 1e-15) << r << " " << q;
+    }
+    EXPECT_EQ(regions->GetValueByName(r, "Position").ToInt(), -1);
+    EXPECT_EQ(regions->GetValueByName(r, "Size").ToInt(), -1);
+  }
+  filter->SetSnapDistance(0.0);
+  filter->Update();
+  EXPECT_EQ(Number(filter, "SnappedSurfaces"), 0.0);
+  EXPECT_EQ(Number(filter, "CommonDirections"), 0.0);
+}
+
 TEST(vtkSurfaceRecognition, Errors)
 {
   vtkNew<vtkSurfaceRecognition> filter;

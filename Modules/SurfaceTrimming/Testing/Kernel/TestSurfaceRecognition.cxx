@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <random>
 #include <string>
@@ -50,21 +51,37 @@ const RecognizedRegion* Find(const SurfaceRecognition& result, SurfaceType type)
   return nullptr;
 }
 
-TEST(SurfaceRecognition, PolyhedraArePlanes)
+TriangleMesh UnitCube()
 {
   TriangleMesh cube;
   cube.Points.resize(8, 3);
   cube.Points << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1;
   cube.Triangles = { { 0, 2, 1 }, { 0, 3, 2 }, { 4, 5, 6 }, { 4, 6, 7 }, { 0, 1, 5 }, { 0, 5, 4 },
     { 1, 2, 6 }, { 1, 6, 5 }, { 2, 3, 7 }, { 2, 7, 6 }, { 3, 0, 4 }, { 3, 4, 7 } };
-  EXPECT_EQ(Recognize(cube).NumOfType, (Counts{ 6, 0, 0, 0, 0, 0 }));
-  TriangleMesh touching = cube; // in a point
-  touching.Points.conservativeResize(16, Eigen::NoChange);
-  touching.Points.bottomRows(8) = cube.Points.rowwise() + Eigen::RowVector3d::Ones();
-  for (const auto& corners : cube.Triangles)
+  return cube;
+}
+
+/// Both, with points of their own.
+TriangleMesh Together(const TriangleMesh& first, const TriangleMesh& second)
+{
+  TriangleMesh both = first;
+  const auto count = static_cast<int>(first.Points.rows());
+  both.Points.conservativeResize(count + second.Points.rows(), Eigen::NoChange);
+  both.Points.bottomRows(second.Points.rows()) = second.Points;
+  for (const auto& corners : second.Triangles)
   {
-    touching.Triangles.push_back({ corners[0] + 8, corners[1] + 8, corners[2] + 8 });
+    both.Triangles.push_back({ corners[0] + count, corners[1] + count, corners[2] + count });
   }
+  return both;
+}
+
+TEST(SurfaceRecognition, PolyhedraArePlanes)
+{
+  const TriangleMesh cube = UnitCube();
+  EXPECT_EQ(Recognize(cube).NumOfType, (Counts{ 6, 0, 0, 0, 0, 0 }));
+  TriangleMesh other = cube;
+  other.Points.rowwise() += Eigen::RowVector3d::Ones();
+  const TriangleMesh touching = Together(cube, other); // in a point
   const auto both = RecognizeSurfaces(touching);
   ASSERT_TRUE(both) << both.Status.Message();
   EXPECT_EQ(both->NumOfType, (Counts{ 12, 0, 0, 0, 0, 0 }));
@@ -484,6 +501,108 @@ TEST(SurfaceRecognition, GearsKeepTheirTypes)
   }
 }
 
+/// Two stepped shafts side by side, their points moved: what is one value in both is made one
+/// again.
+TEST(SurfaceRecognition, NearlyEqualValuesBecomeEqual)
+{
+  const double noise = 5e-4;
+  const std::vector<ProfilePiece> shaft = { { { 1, 0 } }, { { 1, 2 } }, { { 0.5, 2 } },
+    { { 0.5, 3 } }, { { 0, 3 } } };
+  TriangleMesh other = Turned({ 0, 0 }, shaft, 48, 1.1 * noise); // moved by other ways
+  other.Points.rowwise() += 4.0 * TiltedAxis.unitOrthogonal().transpose();
+  const TriangleMesh mesh = Together(Turned({ 0, 0 }, shaft, 48, noise), other);
+  RecognitionParams params;
+  params.Tolerance = 5e-3;
+  const auto own = RecognizeSurfaces(mesh, params);
+  params.SnapDistance = 2e-3;
+  const auto snapped = RecognizeSurfaces(mesh, params);
+  ASSERT_TRUE(own && snapped) << own.Status.Message() << snapped.Status.Message();
+  ASSERT_EQ(own->NumOfType, (Counts{ 6, 4, 0, 0, 0, 0 }));
+  EXPECT_EQ(own->Snapped.NumSurfaces, 0);
+  EXPECT_EQ(snapped->NumOfType, own->NumOfType);
+  EXPECT_EQ(snapped->RegionOfTriangle, own->RegionOfTriangle);
+  EXPECT_EQ(snapped->Snapped.NumSurfaces, 10);
+  EXPECT_EQ(snapped->Snapped.NumDirections, 1); // normals along the axes
+  EXPECT_EQ(snapped->Snapped.NumPositions, 5);  // two axes, and planes beside each other
+  EXPECT_EQ(snapped->Snapped.NumSizes, 2);
+  double worst = 0.0;
+  std::map<int, double> radii;
+  for (std::size_t r = 0; r < own->Regions.size(); ++r)
+  {
+    const RecognizedRegion& region = snapped->Regions[r];
+    const AnalyticSurface& surface = region.Surface;
+    const AnalyticSurface& before = own->Regions[r].Surface;
+    EXPECT_EQ(region.Direction, 0);
+    EXPECT_TRUE(surface.Axis == snapped->Regions[0].Surface.Axis ||
+      surface.Axis == -snapped->Regions[0].Surface.Axis);
+    worst = std::max(worst, before.Axis.cross(TiltedAxis).norm());
+    EXPECT_GT(surface.Axis.dot(before.Axis), 0.0);
+    EXPECT_LE(region.MaxDistance, params.Tolerance);
+    if (surface.Type == SurfaceType::Cylinder)
+    {
+      const auto [at, isNew] = radii.emplace(region.Size, surface.Radius);
+      EXPECT_EQ(at->second, surface.Radius);
+      EXPECT_NEAR(surface.Radius, surface.Radius > 0.7 ? 1.0 : 0.5, noise);
+    }
+    for (std::size_t q = 0; q < r; ++q)
+    {
+      const RecognizedRegion& beside = snapped->Regions[q];
+      if (beside.Position == region.Position)
+      {
+        EXPECT_EQ(beside.Surface.Type, surface.Type);
+        const Vector3d way = beside.Surface.Point - surface.Point;
+        EXPECT_LT(surface.Type == SurfaceType::Plane ? std::abs(way.dot(surface.Axis))
+                                                     : way.cross(surface.Axis).norm(),
+          1e-14);
+      }
+    }
+  }
+  EXPECT_EQ(radii.size(), 2u);
+  EXPECT_LT(snapped->Regions[0].Surface.Axis.cross(TiltedAxis).norm(), worst);
+  EXPECT_GT(snapped->Snapped.MaxTurn, 0.0);
+
+  params.SnapDistance = 1e-9; // nothing is that nearly equal
+  const auto exact = RecognizeSurfaces(mesh, params);
+  ASSERT_TRUE(exact);
+  EXPECT_EQ(exact->Snapped.NumSurfaces, 0);
+  EXPECT_EQ(exact->Snapped.NumSizes, 0);
+}
+
+/// What differs by more than two degrees or a twentieth is not nearly equal.
+TEST(SurfaceRecognition, DifferentValuesStay_Exact)
+{
+  const TriangleMesh shaft = Turned(
+    { 0, 0 }, { { { 1, 0 } }, { { 1, 2 } }, { { 1.1, 2 } }, { { 1.1, 4 } }, { { 0, 4 } } }, 60);
+  RecognitionParams params;
+  params.Tolerance = 0.02;
+  params.SnapDistance = 0.02;
+  const auto own = Recognize(shaft, params.Tolerance);
+  const auto snapped = RecognizeSurfaces(shaft, params);
+  ASSERT_TRUE(snapped);
+  ASSERT_EQ(snapped->NumOfType, (Counts{ 3, 2, 0, 0, 0, 0 }));
+  EXPECT_EQ(snapped->Snapped.NumSizes, 0);
+  EXPECT_EQ(snapped->Snapped.NumDirections, 1);
+  EXPECT_EQ(snapped->Snapped.NumPositions, 1); // of the axes: they are common already
+  for (std::size_t r = 0; r < own.Regions.size(); ++r)
+  {
+    EXPECT_NEAR(snapped->Regions[r].Surface.Radius, own.Regions[r].Surface.Radius, 1e-9);
+    EXPECT_LT(snapped->Regions[r].MaxDistance, 1e-9);
+  }
+  for (const double degrees : { 1.0, 3.0 })
+  {
+    TriangleMesh turned = UnitCube();
+    turned.Points =
+      (turned.Points *
+        Eigen::AngleAxisd(degrees * Pi / 180.0, Vector3d::UnitZ()).toRotationMatrix().transpose())
+        .rowwise() +
+      Eigen::RowVector3d(3.0, 0.0, 0.5);
+    const auto cubes = RecognizeSurfaces(Together(UnitCube(), turned), params);
+    ASSERT_TRUE(cubes);
+    EXPECT_EQ(cubes->Snapped.NumDirections, degrees < 2.0 ? 3 : 5);
+    EXPECT_NEAR(cubes->Snapped.MaxTurn, degrees < 2.0 ? degrees / 2.0 : 0.0, 1e-6);
+  }
+}
+
 TEST(SurfaceRecognition, ParametersOutOfRange)
 {
   RecognitionParams params;
@@ -495,6 +614,12 @@ TEST(SurfaceRecognition, ParametersOutOfRange)
   params.MaximumSag = -1.0;
   EXPECT_EQ(RecognizeSurfaces(surface.Value, params).Status.Code, ErrorCode::InvalidParameter);
   params.MaximumSag = 5.0;
+  params.SnapDistance = -1.0;
+  EXPECT_EQ(RecognizeSurfaces(surface.Value, params).Status.Code, ErrorCode::InvalidParameter);
+  EXPECT_EQ(
+    RecognizeSurfaces(Turned({ 0, 0 }, { { { 1, 0 } }, { { 0, 2 } } }, 48), params).Status.Code,
+    ErrorCode::InvalidParameter);
+  params.SnapDistance = 0.0;
   params.MaxRegions = -1;
   EXPECT_EQ(RecognizeSurfaces(surface.Value, params).Status.Code, ErrorCode::InvalidParameter);
   params.MaxRegions = 1; // there are a cone and a plane

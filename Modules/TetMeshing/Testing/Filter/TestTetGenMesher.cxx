@@ -8,19 +8,30 @@
 #include "vtkAppendPolyData.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkCellType.h"
 #include "vtkCubeSource.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdList.h"
+#include "vtkImageData.h"
+#include "vtkIntArray.h"
 #include "vtkNew.h"
+#include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkReverseSense.h"
+#include "vtkSphereSource.h"
 #include "vtkTable.h"
+#include "vtkTetra.h"
 #include "vtkVariant.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <map>
 
 using namespace knotwork;
 
@@ -124,6 +135,317 @@ TEST(vtkTetGenMesher, PartsWithinAreVoidsOrRegions)
 
 /// Curved cells of a ball and a torus: the volume's error falls with the fourth power of the size,
 /// the distance is far below that of straight cells, and the validator agrees with the certificate.
+/// Half of a box gets edges of a quarter of those of the other half; every cell keeps to the bound
+/// at its middle.
+TEST(vtkTetGenMesher, SizesAreThoseOfAField)
+{
+  vtkNew<vtkImageData> field;
+  field->SetDimensions(5, 2, 2);
+  field->SetOrigin(-1.0, -1.0, -1.0);
+  field->SetSpacing(0.5, 2.0, 2.0);
+  vtkNew<vtkDoubleArray> lengths;
+  lengths->SetName("Length");
+  const auto lengthAt = [](double x) { return 0.5 + 0.375 * x; };
+  for (vtkIdType p = 0; p < field->GetNumberOfPoints(); ++p)
+  {
+    lengths->InsertNextValue(lengthAt(field->GetPoint(p)[0]));
+  }
+  field->GetPointData()->AddArray(lengths);
+  vtkNew<vtkTetGenMesher> filter;
+  filter->SetInputDataObject(Box(2.0));
+  filter->SetKeepBoundary(false);
+  filter->SetRadiusEdgeRatio(0.0);
+  filter->SetMinDihedralAngle(0.0);
+  filter->SetSizeData(field);
+  filter->Update();
+  ASSERT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
+  EXPECT_NEAR(Number(filter, "Volume"), 8.0, 1e-11);
+  std::array<int, 2> counts{};
+  vtkUnstructuredGrid* cells = Cells(filter);
+  for (vtkIdType c = 0; c < cells->GetNumberOfCells(); ++c)
+  {
+    vtkPoints* corners = cells->GetCell(c)->GetPoints();
+    std::array<std::array<double, 3>, 4> x{};
+    double middle = 0.0;
+    for (vtkIdType k = 0; k < 4; ++k)
+    {
+      corners->GetPoint(k, x[static_cast<std::size_t>(k)].data());
+      middle += x[static_cast<std::size_t>(k)][0] / 4.0;
+    }
+    const double volume =
+      std::abs(vtkTetra::ComputeVolume(x[0].data(), x[1].data(), x[2].data(), x[3].data()));
+    EXPECT_LE(volume, std::pow(lengthAt(middle), 3) / (6.0 * std::sqrt(2.0)) * (1.0 + 1e-9)) << c;
+    ++counts[middle < 0.0 ? 0 : 1];
+  }
+  EXPECT_GT(counts[0], 5 * counts[1]);
+}
+
+TEST(vtkTetGenMesher, RegionsHaveSizesOfTheirOwn)
+{
+  vtkNew<vtkPolyData> seeds;
+  vtkNew<vtkPoints> places;
+  places->InsertNextPoint(1.4, 1.4, 1.4); // between the boxes
+  seeds->SetPoints(places);
+  vtkNew<vtkDoubleArray> lengths;
+  lengths->SetName("Length");
+  lengths->InsertNextValue(0.4);
+  seeds->GetPointData()->AddArray(lengths);
+  vtkNew<vtkTetGenMesher> filter;
+  filter->SetInputDataObject(Together(Box(4.0), Box(2.0)));
+  filter->SetInner(vtkTetGenMesher::REGIONS);
+  filter->SetKeepBoundary(false);
+  filter->SetSizeData(seeds);
+  filter->Update();
+  ASSERT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
+  std::map<bool, double> largest; // volume of a cell, inside or outside of the inner box
+  vtkUnstructuredGrid* cells = Cells(filter);
+  for (vtkIdType c = 0; c < cells->GetNumberOfCells(); ++c)
+  {
+    double bounds[6];
+    cells->GetCell(c)->GetBounds(bounds);
+    const bool isInside = *std::max_element(bounds, bounds + 6) <= 1.0 + 1e-9 &&
+      *std::min_element(bounds, bounds + 6) >= -1.0 - 1e-9;
+    double x[4][3];
+    for (vtkIdType k = 0; k < 4; ++k)
+    {
+      cells->GetCell(c)->GetPoints()->GetPoint(k, x[k]);
+    }
+    double& most = largest[isInside];
+    most = std::max(most, std::abs(vtkTetra::ComputeVolume(x[0], x[1], x[2], x[3])));
+  }
+  const double bound = std::pow(0.4, 3) / (6.0 * std::sqrt(2.0));
+  EXPECT_LE(largest[false], bound * (1.0 + 1e-9));
+  EXPECT_GT(largest[true], bound);
+}
+
+TEST(vtkTetGenMesher, SizesThatAreNoneAreErrors)
+{
+  vtkNew<vtkTetGenMesher> filter;
+  filter->SetInputDataObject(Box(2.0));
+  vtkNew<vtkPolyData> seeds;
+  vtkNew<vtkPoints> places;
+  places->InsertNextPoint(0.0, 0.0, 0.0);
+  seeds->SetPoints(places);
+  filter->SetSizeData(seeds);
+  const auto error = [&]
+  {
+    const auto errors = ErrorsOf(filter);
+    return errors.size() == 1 ? errors.front() : std::to_string(errors.size()) + " errors";
+  };
+  EXPECT_NE(error().find("0 arrays of one component"), std::string::npos) << error();
+  vtkNew<vtkDoubleArray> lengths;
+  lengths->SetName("Length");
+  lengths->InsertNextValue(-0.4);
+  seeds->GetPointData()->AddArray(lengths);
+  EXPECT_NE(error().find("'Length' is not above 0 at point 0"), std::string::npos) << error();
+  lengths->SetValue(0, 0.4);
+  filter->SetSizeArray("Width");
+  EXPECT_NE(error().find("no array 'Width'"), std::string::npos) << error();
+  filter->SetSizeArray("Length");
+  places->SetPoint(0, 3.0, 0.0, 0.0);
+  EXPECT_NE(error().find("(3, 0, 0)"), std::string::npos) << error();
+  const auto polygons = Box(1.0);
+  vtkNew<vtkDoubleArray> eight;
+  eight->SetName("Length");
+  eight->SetNumberOfTuples(polygons->GetNumberOfPoints());
+  eight->Fill(1.0);
+  polygons->GetPointData()->AddArray(eight);
+  filter->SetSizeData(polygons);
+  EXPECT_NE(error().find("no volumes"), std::string::npos) << error();
+}
+
+namespace
+{
+/// Values in the cube [-1, 1]^3.
+template <typename Array = vtkDoubleArray, typename Value>
+vtkSmartPointer<vtkImageData> Image(int points, const Value& valueAt)
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(points, points, points);
+  image->SetOrigin(-1.0, -1.0, -1.0);
+  const double step = 2.0 / (points - 1);
+  image->SetSpacing(step, step, step);
+  vtkNew<Array> values;
+  values->SetName("Values");
+  for (vtkIdType p = 0; p < image->GetNumberOfPoints(); ++p)
+  {
+    double x[3];
+    image->GetPoint(p, x);
+    values->InsertNextValue(valueAt(x));
+  }
+  image->GetPointData()->SetScalars(values);
+  return image;
+}
+
+double DistanceFrom(const double* x, double cx, double cy, double cz)
+{
+  return std::sqrt(
+    (x[0] - cx) * (x[0] - cx) + (x[1] - cy) * (x[1] - cy) + (x[2] - cz) * (x[2] - cz));
+}
+
+/// Volumes of the tetrahedra of each label.
+std::map<int, double> VolumesOfLabels(vtkTetGenMesher* filter)
+{
+  std::map<int, double> volumes;
+  vtkUnstructuredGrid* cells = Cells(filter);
+  vtkDataArray* labels = cells->GetCellData()->GetArray("Label");
+  for (vtkIdType c = 0; c < cells->GetNumberOfCells(); ++c)
+  {
+    double x[4][3];
+    for (vtkIdType k = 0; k < 4; ++k)
+    {
+      cells->GetCell(c)->GetPoints()->GetPoint(k, x[k]);
+    }
+    volumes[static_cast<int>(labels->GetComponent(c, 0))] +=
+      std::abs(vtkTetra::ComputeVolume(x[0], x[1], x[2], x[3]));
+  }
+  return volumes;
+}
+}
+
+TEST(vtkTetGenMesher, ImplicitFunctionsAreFilled)
+{
+  constexpr double radius = 0.8;
+  const auto ball = Image(41, [](const double* x) { return DistanceFrom(x, 0, 0, 0) - radius; });
+  vtkNew<vtkTetGenMesher> filter;
+  filter->SetInputDataObject(ball);
+  filter->SetEdgeLength(0.25);
+  filter->SetChordalTolerance(2e-3);
+  filter->Update();
+  ASSERT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
+  EXPECT_EQ(Number(filter, "Regions"), 1);
+  EXPECT_EQ(VolumesOfLabels(filter).count(1), 1u);
+  const double volume = 4.0 / 3.0 * std::acos(-1.0) * radius * radius * radius;
+  EXPECT_NEAR(Number(filter, "Volume"), volume, 0.02 * volume); // chords, and interpolation
+  auto* boundary = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(1));
+  ASSERT_GT(boundary->GetNumberOfCells(), 100);
+  vtkCellArray* triangles = boundary->GetPolys();
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType t = 0; t < triangles->GetNumberOfCells(); ++t)
+  {
+    triangles->GetCellAtId(t, corners);
+    for (vtkIdType k = 0; k < 3; ++k)
+    {
+      // the values are interpolated between points that are 0.05 apart: 0.05^2 / (8 radius)
+      const double* x = boundary->GetPoint(corners->GetId(k));
+      EXPECT_NEAR(DistanceFrom(x, 0, 0, 0), radius, 1.5e-3);
+    }
+  }
+  for (vtkIdType c = 0; c < Cells(filter)->GetNumberOfCells(); ++c)
+  {
+    ASSERT_EQ(Cells(filter)->GetCellData()->GetArray("Verdict")->GetComponent(c, 0), 1.0);
+  }
+  // the same mesh each time
+  vtkNew<vtkTetGenMesher> again;
+  again->SetInputDataObject(ball);
+  again->SetEdgeLength(0.25);
+  again->SetChordalTolerance(2e-3);
+  again->Update();
+  ASSERT_EQ(Cells(again)->GetNumberOfPoints(), Cells(filter)->GetNumberOfPoints());
+  for (vtkIdType p = 0; p < Cells(filter)->GetNumberOfPoints(); ++p)
+  {
+    std::array<double, 3> x{};
+    Cells(filter)->GetPoint(p, x.data());
+    ASSERT_EQ(DistanceFrom(Cells(again)->GetPoint(p), x[0], x[1], x[2]), 0.0);
+  }
+  // what is above is the rest of the cube
+  filter->SetSolid(vtkTetGenMesher::ABOVE);
+  filter->Update();
+  EXPECT_NEAR(Number(filter, "Volume"), 8.0 - volume, 0.04 * volume);
+  // onto the sphere itself
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetRadius(radius);
+  sphere->SetThetaResolution(200);
+  sphere->SetPhiResolution(200);
+  sphere->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  sphere->Update();
+  filter->SetSolid(vtkTetGenMesher::BELOW);
+  filter->SetTargetData(sphere->GetOutput());
+  filter->SetOrder(2);
+  filter->Update();
+  ASSERT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
+  EXPECT_EQ(Cells(filter)->GetCellType(0), VTK_QUADRATIC_TETRA);
+  EXPECT_NEAR(Number(filter, "Volume"), volume, 1e-3 * volume);
+  EXPECT_LT(Number(filter, "CurvedToTarget"), 0.2 * Number(filter, "StraightToTarget"));
+  EXPECT_EQ(Cells(filter)->GetCellData()->GetArray("Label")->GetNumberOfTuples(),
+    Cells(filter)->GetNumberOfCells());
+}
+
+/// A ball of two labels, and a small one that no ray from the middle is sure to meet.
+TEST(vtkTetGenMesher, LabelsOfAnImageAreRegions)
+{
+  const auto image = Image<vtkIntArray>(41,
+    [](const double* x)
+    {
+      return DistanceFrom(x, -0.2, 0, 0) < 0.6  ? (x[2] < 0.0 ? 3 : 7)
+        : DistanceFrom(x, 0.8, 0.8, 0.8) < 0.12 ? 5
+                                                : 0;
+    });
+  vtkNew<vtkTetGenMesher> filter;
+  filter->SetInputDataObject(image);
+  filter->SetSolid(vtkTetGenMesher::LABELS);
+  filter->SetChordalTolerance(5e-3);
+  filter->Update();
+  ASSERT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
+  EXPECT_EQ(Number(filter, "Regions"), 3);
+  const auto volumes = VolumesOfLabels(filter);
+  ASSERT_EQ(volumes.size(), 3u);
+  const double half = 2.0 / 3.0 * std::acos(-1.0) * 0.6 * 0.6 * 0.6;
+  EXPECT_NEAR(volumes.at(3), half, 0.1 * half); // borders lie anywhere between points
+  EXPECT_NEAR(volumes.at(7), half, 0.1 * half);
+  EXPECT_GT(volumes.at(5), 0.003); // of 0.007
+  const vtkIdType coarse = Cells(filter)->GetNumberOfCells();
+  // one of the regions finer
+  vtkNew<vtkPolyData> seeds;
+  vtkNew<vtkPoints> places;
+  places->InsertNextPoint(-0.2, 0.0, 0.3);
+  seeds->SetPoints(places);
+  vtkNew<vtkDoubleArray> lengths;
+  lengths->SetName("Length");
+  lengths->InsertNextValue(0.1);
+  seeds->GetPointData()->AddArray(lengths);
+  filter->SetSizeData(seeds);
+  filter->Update();
+  ASSERT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
+  std::map<int, int> counts;
+  for (vtkIdType c = 0; c < Cells(filter)->GetNumberOfCells(); ++c)
+  {
+    ++counts[static_cast<int>(Cells(filter)->GetCellData()->GetArray("Label")->GetComponent(c, 0))];
+  }
+  EXPECT_GT(Cells(filter)->GetNumberOfCells(), coarse);
+  EXPECT_GT(counts[7], 2 * counts[3]);
+}
+
+TEST(vtkTetGenMesher, ImagesThatAreNoneAreErrors)
+{
+  vtkNew<vtkTetGenMesher> filter;
+  const auto error = [&](vtkImageData* image)
+  {
+    filter->SetInputDataObject(image);
+    const auto errors = ErrorsOf(filter);
+    return errors.size() == 1 ? errors.front() : std::to_string(errors.size()) + " errors";
+  };
+  auto image = Image(5, [](const double* x) { return DistanceFrom(x, 0, 0, 0) + 1.0; });
+  EXPECT_NE(error(image).find("nothing is solid"), std::string::npos) << error(image);
+  filter->SetImageArray("Heights");
+  EXPECT_NE(error(image).find("no point array 'Heights'"), std::string::npos) << error(image);
+  filter->SetImageArray(nullptr);
+  vtkDataArray* values = image->GetPointData()->GetScalars();
+  filter->SetSolid(vtkTetGenMesher::LABELS);
+  EXPECT_NE(error(image).find("at point 0 is no whole number"), std::string::npos) << error(image);
+  filter->SetSolid(vtkTetGenMesher::BELOW);
+  values->SetComponent(7, 0, std::numeric_limits<double>::quiet_NaN());
+  EXPECT_NE(error(image).find("at point 7 is no number"), std::string::npos) << error(image);
+  vtkNew<vtkImageData> flat;
+  flat->SetDimensions(5, 5, 1);
+  flat->AllocateScalars(VTK_DOUBLE, 1);
+  vtkNew<vtkTetGenMesher> other;
+  other->SetInputDataObject(flat);
+  const auto errors = ErrorsOf(other);
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_NE(errors.front().find("5 x 5 x 1"), std::string::npos) << errors.front();
+}
+
 TEST(vtkTetGenMesher, CurvedCellsFollowTheirTarget)
 {
   const struct

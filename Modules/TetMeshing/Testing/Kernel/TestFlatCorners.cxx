@@ -50,7 +50,7 @@ TEST(FlatCorners, TheEdgeInsideIsHalved_ExactOracle)
   EXPECT_EQ(box.Triangles, Box(0.2).Triangles);
   for (const auto& cell : box.Cells)
   {
-    Tetrahedra alone{ box.Points, { cell }, {}, {} };
+    Tetrahedra alone{ box.Points, { cell }, {}, {}, {} };
     EXPECT_GT(VolumeOf(alone), 0.0);
   }
 }

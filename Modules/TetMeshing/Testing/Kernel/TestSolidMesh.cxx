@@ -240,6 +240,24 @@ TEST(SolidMesh, ErrorsNameThePlace)
     EXPECT_EQ(
       MeshSolid(good, nullptr, Ready(cube), params).Status.Code, ErrorCode::InvalidParameter);
   }
+  params = {};
+  params.Tetrahedra.RegionSizes = { { { 0.5, 0.5, 0.4 }, 1.0 } };
+  EXPECT_TRUE(MeshSolid(good, nullptr, Ready(cube), params));
+  params.Tetrahedra.RegionSizes.push_back({ { 1.5, 0.5, 0.4 }, 1.0 });
+  const Status outside = MeshSolid(good, nullptr, Ready(cube), params).Status;
+  EXPECT_EQ(outside.Code, ErrorCode::InvalidParameter);
+  EXPECT_NE(outside.Detail.find("(1.5, 0.5, 0.4)"), std::string::npos) << outside.Detail;
+  params.Tetrahedra.RegionSizes = { { { 0.5, 0.5, 0.4 }, 0.0 } };
+  EXPECT_EQ(MeshSolid(good, nullptr, Ready(cube), params).Status.Code, ErrorCode::InvalidParameter);
+  params = {};
+  params.Tetrahedra.Sizes.Points = cube.Points;
+  params.Tetrahedra.Sizes.Cells = { { 0, 1, 2, 4 } };
+  EXPECT_EQ(MeshSolid(good, nullptr, Ready(cube), params).Status.Code, ErrorCode::SizeMismatch);
+  params.Tetrahedra.Sizes.Lengths = { { 1.0, 1.0, -1.0, 1.0 } };
+  EXPECT_EQ(MeshSolid(good, nullptr, Ready(cube), params).Status.Code, ErrorCode::InvalidParameter);
+  params.Tetrahedra.Sizes.Lengths = { { 1.0, 1.0, 1.0, 1.0 } };
+  params.Tetrahedra.Sizes.Cells = { { 0, 1, 2, 400 } };
+  EXPECT_EQ(MeshSolid(good, nullptr, Ready(cube), params).Status.Code, ErrorCode::InvalidParameter);
   // a mesher that leaves a cell out, or has none
   Tetrahedra less = cube;
   less.Cells.pop_back();

@@ -30,6 +30,64 @@ def test_no_cell_lies_flat_on_a_smooth_boundary():
         assert found["curved_to_target"] < 0.05 * found["straight_to_target"], found
 
 
+def boxes(name, *sizes):
+    """Cubes about the origin as one file."""
+    corners = [(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)]
+    sides = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
+    points = [tuple(size * x for x in corner) for size in sizes for corner in corners]
+    triangles = [(8 * i + side[0], 8 * i + side[k], 8 * i + side[k + 1]) for i in range(len(sizes)) for side in sides for k in (1, 2)]
+    with open(FILES.path(name), "w", encoding="utf-8") as stream:
+        stream.write(f"OFF\n{len(points)} {len(triangles)} 0\n")
+        stream.writelines("%g %g %g\n" % point for point in points)
+        stream.writelines("3 %d %d %d\n" % triangle for triangle in triangles)
+
+
+def test_points_tell_sizes_of_regions():
+    boxes("both.off", 2, 1)
+    with open(FILES.path("sizes.csv"), "w", encoding="utf-8") as stream:
+        stream.write("x,y,z,Length\n0,0,0,0.2\n1.5,0,0,1\n")
+    words = ("tetrahedralize", "both.off", "--inner", "regions", "--keep-boundary", "off")
+    plain = FILES.report(*words, "--output", "plain.vtu")
+    sized = FILES.report(*words, "--sizes", "sizes.csv", "--output", "sized.vtu")
+    assert sized["regions"] == 2 and sized["verdict"] == "valid" and abs(sized["volume"] - 64) < 1e-9, sized
+    # a cube of side 2 in tetrahedra of edges of 0.2 at most
+    assert sized["tetrahedra"] > max(2 * plain["tetrahedra"], 8 * 6 * 2 ** 0.5 / 0.2 ** 3), (plain, sized)
+    done = FILES.run(*words, "--sizes", "sizes.csv", "--size-array", "Width", "--output", "no.vtu", status=1)
+    assert "no array 'Width'" in done.stderr and not os.path.exists(FILES.path("no.vtu")), done.stderr
+
+
+def test_images():
+    """Two balls that merge, as an implicit function on a grid, and a damaged file."""
+    from vtkmodules.vtkCommonCore import vtkDoubleArray
+    from vtkmodules.vtkCommonDataModel import vtkImageData
+    from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
+    image, values = vtkImageData(), vtkDoubleArray()
+    image.SetDimensions(41, 31, 31)
+    image.SetOrigin(-2, -1.5, -1.5)
+    image.SetSpacing(0.1, 0.1, 0.1)
+    values.SetName("Function")
+    for p in range(image.GetNumberOfPoints()):
+        x, y, z = image.GetPoint(p)
+        values.InsertNextValue(min(((x - side) ** 2 + y * y + z * z) ** 0.5 for side in (-0.5, 0.5)) - 1)
+    image.GetPointData().AddArray(values)
+    writer = vtkXMLImageDataWriter()
+    writer.SetInputData(image)
+    writer.SetFileName(FILES.path("balls.vti"))
+    writer.Write()
+    found = FILES.report("tetrahedralize", "balls.vti", "--level", 0, "--edge-length", 0.3, "--chordal-tolerance", 0.002, "--output", "balls.vtu")
+    # two balls less the lens that both have, of height 0.5 on each side
+    expected = 2 * 4 / 3 * 3.14159265 - 2 * 3.14159265 * 0.25 * (3 - 0.5) / 3
+    assert found["verdict"] == "valid" and abs(found["volume"] / expected - 1) < 0.03, (found, expected)
+    FILES.run("validate", "balls.vtu")
+    FILES.refused("tetrahedralize", "balls.vti", "--level", -2, "--output", "no.vtu", said=("nothing is solid", ))
+    with open(FILES.path("balls.vti"), "rb") as stream:
+        text = stream.read()
+    with open(FILES.path("short.vti"), "wb") as stream:
+        stream.write(text[:len(text) // 2])
+    FILES.refused("tetrahedralize", "short.vti", "--output", "no.vtu", said=("short.vti", "damaged"))
+    FILES.refused("trim", "balls.vti", "--output", "no.step")
+
+
 def test_intersections_are_named_and_repaired():
     FILES.unpack_meshes("bull")
     done = FILES.run("tetrahedralize", "bull.off", "--output", "no.vtu", status=1)
