@@ -138,7 +138,8 @@ public:
     }
     const NodeLattice lattice(this->Elements, this->Params.Order);
     CurvedNodes nodes(lattice, this->Elements.Points, this->Params.Bezier);
-    if (Status status = this->CheckConforming(lattice); !status)
+    if (Status status = this->Params.IsConforming ? Status() : this->CheckConforming(lattice);
+        !status)
     {
       return status;
     }

@@ -38,6 +38,9 @@ struct CurvedElementsParams
   /// Mean distance of the straight facets from the target, as share of the diagonal of their
   /// closest points, from which on they are taken for two different shapes, > 0.
   double FarShare = 0.25;
+  /// Whether elements are known to meet in common points, as those of a mesher: what lies on an
+  /// edge is then a corner of a flat element, not one that hangs there.
+  bool IsConforming = false;
   int Threads = 0; ///< 0 = all cores; the result does not depend on it
   ProgressCallback Progress;
 };

@@ -6,6 +6,7 @@
 #include <knotwork/SplineCore/Numbers.h>
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 
 namespace knotwork
@@ -121,6 +122,20 @@ Result<RegionModel> ModelPart(
   return model;
 }
 
+/// One region of free form.
+SurfaceRecognition AllFree(const DiscMesh& surface, double tolerance)
+{
+  SurfaceRecognition all;
+  RecognizedRegion& region = all.Regions.emplace_back();
+  region.Triangles.resize(surface.Triangles.size());
+  std::iota(region.Triangles.begin(), region.Triangles.end(), 0);
+  all.RegionOfTriangle.assign(surface.Triangles.size(), 0);
+  all.NumOfType[static_cast<std::size_t>(SurfaceType::FreeForm)] = 1;
+  all.Tolerance = tolerance;
+  all.Noise = tolerance;
+  return all;
+}
+
 struct RecognizedPart
 {
   DiscMesh Surface;
@@ -152,6 +167,10 @@ Result<std::vector<RecognizedPart>> RecognizeParts(const TriangleMesh& mesh,
       return surface.Status;
     }
     auto regions = RecognizeSurfaces(surface.Value, own);
+    if (regions.Status.Code == ErrorCode::NotInSpace && components.size() > 1)
+    {
+      regions = AllFree(surface.Value, own.Tolerance); // others may be machined
+    }
     if (!regions)
     {
       return regions.Status;

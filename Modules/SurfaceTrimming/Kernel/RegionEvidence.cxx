@@ -121,12 +121,8 @@ private:
   std::vector<double> All;
 };
 
-constexpr double Exact = 0.02; ///< of the tolerance: distances that are none
+}
 
-/// Whether distances from the surface are nothing, or those of noise, or the region ends mostly at
-/// sharp edges.
-/// @param noise  with which regions were grown: where less than the tolerance did as well for the
-/// whole mesh, its regions do not end for want of a larger one.
 bool IsOnItsSurface(const DiscMesh& surface, const RecognizedRegion& region, bool endsAtEdges,
   double tolerance, double noise)
 {
@@ -161,7 +157,7 @@ bool IsOnItsSurface(const DiscMesh& surface, const RecognizedRegion& region, boo
     squares += distance * distance;
     largest = std::max(largest, std::abs(distance));
   }
-  if (largest <= Exact * tolerance || endsAtEdges)
+  if (largest <= ExactDistance * tolerance || endsAtEdges)
   {
     return true;
   }
@@ -185,8 +181,6 @@ bool IsOnItsSurface(const DiscMesh& surface, const RecognizedRegion& region, boo
     }
   }
   return products / pairs < MaxAlike * squares / count;
-}
-
 }
 
 double ReleaseDoubtfulRegions(const DiscMesh& surface, SurfaceRecognition& recognition)
@@ -231,7 +225,7 @@ bool IsPatchwork(const DiscMesh& surface, const SurfaceRecognition& recognition)
   {
     const RecognizedRegion& region = left.Regions[r];
     if (region.Surface.Type == SurfaceType::FreeForm &&
-      region.MaxDistance > Exact * recognition.Tolerance)
+      region.MaxDistance > ExactDistance * recognition.Tolerance)
     {
       for (const int t : region.Triangles)
       {

@@ -5,7 +5,15 @@
 /// Private to ModelMesh: whether regions beside free form are what they were taken for.
 namespace knotwork
 {
-constexpr double SharpDegrees = 25.0; ///< between triangles, of a sharp edge
+constexpr double SharpDegrees = 25.0;  ///< between triangles, of a sharp edge
+constexpr double ExactDistance = 0.02; ///< of the tolerance: distances that are none
+
+/// Whether distances from the surface are nothing, or those of noise, or the region ends mostly at
+/// sharp edges; false of few points.
+/// @param noise  with which regions were grown: where less than the tolerance did as well for the
+/// whole mesh, its regions do not end for want of a larger one.
+bool IsOnItsSurface(const DiscMesh& surface, const RecognizedRegion& region, bool endsAtEdges,
+  double tolerance, double noise);
 
 /// Makes regions free whose points do not lie on their surface as points with noise do: distances
 /// of neighbours are alike (a smooth shape that leaves the surface) or go up to the tolerance, and

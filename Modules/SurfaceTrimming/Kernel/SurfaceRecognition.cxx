@@ -2,6 +2,7 @@
 #include "SurfaceRecognition.h"
 
 #include "FacetClusters.h"
+#include "FreeShape.h"
 #include "JoinRegions.h"
 #include "SnapSurfaces.h"
 #include "SurfaceGrowth.h"
@@ -592,6 +593,16 @@ Result<SurfaceRecognition> RecognizeSurfaces(
     (surface.Points.colwise().maxCoeff() - surface.Points.colwise().minCoeff()).norm();
   result.Tolerance = params.Tolerance > 0.0 ? params.Tolerance : 1e-3 * diagonal;
   const FacetClusters facets = FindFacetClusters(surface, Levels.front() * result.Tolerance);
+  if (params.MaxRegions > 0 &&
+    LooksFree(surface, facets,
+      SurfaceGrowth(surface, facets, result.Tolerance, params.MaximumSag * result.Tolerance),
+      result.Tolerance))
+  {
+    return { ErrorCode::NotInSpace,
+      "at most one of 64 places of the mesh is on a plane, cylinder, sphere, cone or torus: it is "
+      "a "
+      "free shape" };
+  }
   // The coarsest level comes first: it says how many regions the others may have to be taken.
   constexpr std::size_t coarsest = Levels.size() - 1;
   // clusters that go over to others leave fewer regions, and so do regions that are joined

@@ -16,7 +16,8 @@ struct RecognitionParams
   /// tolerances, [0, 1000].
   double MaximumSag = 5.0;
   /// Of a part at most: more are a failure, and so is a part whose first 200 regions cover less
-  /// than half of it, which is no machined one. 0: any number of any size.
+  /// than half of it, or that is on no surface at 64 places, which is no machined one. 0: any
+  /// number of any size.
   int MaxRegions = 0;
   /// Largest distance by which surfaces move at the points of their regions for directions,
   /// positions and sizes that are nearly equal to become so, unit of the points, up to Tolerance;
@@ -70,7 +71,7 @@ struct SurfaceRecognition
 /// surface is next to within the tolerance become one region. Values are made common last, over all
 /// parts.
 /// @param surface  of CheckSurface.
-/// @return InvalidParameter; TooLarge: more than MaxRegions; Aborted.
+/// @return InvalidParameter; TooLarge: more than MaxRegions; NotInSpace: a free shape; Aborted.
 /// @complexity about O(n) where regions are large; O(n) guesses of free form.
 /// @source Schnabel, Wahl, Klein, Computer Graphics Forum 26 (2007) 214 (guess and score).
 Result<SurfaceRecognition> RecognizeSurfaces(

@@ -471,6 +471,7 @@ private:
     }
     CurvedElementsParams params;
     params.Order = this->Params.Order;
+    params.IsConforming = true;
     params.FarShare = LargestNumber; // the surface was made from the target, or is compared with it
     params.Threads = this->Params.Threads;
     for (const auto& corners : this->Mesh.Boundary)

@@ -88,6 +88,13 @@ def test_images():
     FILES.refused("trim", "balls.vti", "--output", "no.step")
 
 
+def test_flat_cells_do_not_hang():
+    """A point of the surface lies on the edge of another triangle but for rounding: so flat a cell is one of a mesh that conforms."""
+    FILES.unpack_meshes("mpi_triang")
+    found = FILES.report("tetrahedralize", "mpi_triang.off", "--output", "mpi.vtu")
+    assert found["verdict"] == "valid" and not found["repaired"], found
+
+
 def test_intersections_are_named_and_repaired():
     FILES.unpack_meshes("bull")
     done = FILES.run("tetrahedralize", "bull.off", "--output", "no.vtu", status=1)
