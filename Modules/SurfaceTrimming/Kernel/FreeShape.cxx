@@ -14,7 +14,7 @@ namespace
 constexpr std::size_t FewClusters = 5000;
 constexpr int Places = 64;
 constexpr int EnoughConvincing = 2;
-constexpr int MorePoints = 3; ///< than parameters, for a fit of the inner half
+constexpr int PointsOfParameter = 5; ///< of the inner half: fewer lie on a surface by chance
 
 std::size_t At(int i)
 {
@@ -137,7 +137,7 @@ bool IsConvincing(const DiscMesh& surface, const FacetClusters& facets, const Su
   // a region that has taken the first strips of what is beside it
   const std::vector<Eigen::Vector3d> inner = InnerPoints(surface, recognized.Triangles);
   AnalyticSurface exact = region.Surface;
-  return static_cast<int>(inner.size()) >= NumSurfaceParameters(exact.Type) + MorePoints &&
+  return static_cast<int>(inner.size()) >= PointsOfParameter * NumSurfaceParameters(exact.Type) &&
     FitSurface(inner, exact) && MaxDistance(inner, exact) <= ExactDistance * tolerance;
 }
 }

@@ -501,6 +501,39 @@ TEST(SurfaceRecognition, GearsKeepTheirTypes)
   }
 }
 
+/// Fine meshes: a waved ball is on no surface, a rounded shaft is, with noise too.
+TEST(SurfaceRecognition, FreeShapesAreToldFromParts)
+{
+  constexpr int sides = 160;
+  RecognitionParams params;
+  params.MaxRegions = 1000;
+  const std::vector<ProfilePiece> ball = { { { 0, 1 }, { 0, 0 }, 80 } };
+  TriangleMesh waved = Turned({ 0, -1 }, ball, sides);
+  for (Eigen::Index p = 0; p < waved.Points.rows(); ++p)
+  {
+    const Eigen::RowVector3d way = waved.Points.row(p) - Eigen::RowVector3d(3, 1, 2);
+    const double wave = std::sin(5.0 * way[0]) * std::sin(4.0 * way[1] + 1.0) +
+      0.5 * std::sin(7.0 * way[2] + 2.0 * way[0]);
+    waved.Points.row(p) += 0.1 * wave * way;
+  }
+  const auto surface = CheckSurface(waved);
+  ASSERT_TRUE(surface);
+  const Status refused = RecognizeSurfaces(surface.Value, params).Status;
+  EXPECT_EQ(refused.Code, ErrorCode::NotInSpace) << refused.Message();
+  EXPECT_NE(refused.Detail.find("free shape"), std::string::npos) << refused.Detail;
+
+  const std::vector<ProfilePiece> shaft = { { { 1, 0 } }, { { 1, 2 } },
+    { { 0.5, 2.5 }, { 0.5, 2 }, 40 }, { { 0, 2.5 } } };
+  for (const double noise : { 0.0, 2e-4 })
+  {
+    const auto part = CheckSurface(Turned({ 0, 0 }, shaft, sides, noise));
+    ASSERT_TRUE(part);
+    const auto found = RecognizeSurfaces(part.Value, params);
+    ASSERT_TRUE(found) << noise << found.Status.Message();
+    EXPECT_EQ(found->NumOfType, (Counts{ 2, 1, 0, 0, 1, 0 })) << noise;
+  }
+}
+
 /// Two stepped shafts side by side, their points moved: what is one value in both is made one
 /// again.
 TEST(SurfaceRecognition, NearlyEqualValuesBecomeEqual)
