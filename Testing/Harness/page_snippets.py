@@ -4,7 +4,8 @@
 Commands of the program within the text between backquotes are run, too; only there may validate end with a verdict other than valid.
 A block whose first line is a comment with the name of a file ("# CMakeLists.txt", "// main.cxx") becomes that file. Other bash blocks are run by
 bash, which ends at the first command that fails; other Python blocks are run in one namespace a page. C++ must have a name, so that a
-later block builds it. Blocks of other languages (text, console, json) are not run.
+later block builds it. Blocks of other languages (text, console, json) are not run, nor those
+with the job quadremesh where there is no blender.
 
 usage: page_snippets.py PAGE FOLDER FILES   on copies of what the folder FILES holds; status 77: there is no such folder
 """
@@ -65,7 +66,9 @@ def run_page(file, folder, names=None, compile_cxx=None, commands=True):
     try:
         for place, language, text in found:
             named = NAMED.match(text)
-            if named:
+            if "knotwork quadremesh" in text and not shutil.which("blender"):
+                print(f"{place}: skipped: blender is not installed")
+            elif named:
                 with open(named[1], "w", encoding="utf-8") as stream:
                     stream.write(text)
             elif language == "bash":

@@ -75,9 +75,9 @@ def sources():
     group = simple.GroupDatasets(Input=[square])  # a partitioned dataset collection
     points = {"vtkPolyData": [simple.Line(), simple.Sphere()], "vtkUnstructuredGrid": [square],
               "vtkPartitionedDataSetCollection": [group], "vtkSelection": [simple.IDSelectionSource()],
-              "vtkTable": [simple.ProgrammableSource(OutputDataSetType="vtkTable")]}
+              "vtkTable": [simple.ProgrammableSource(OutputDataSetType="vtkTable")], "vtkImageData": [simple.Wavelet()]}
     points["vtkPointSet"] = points["vtkPolyData"] + points["vtkUnstructuredGrid"]
-    points["vtkDataSet"] = points["vtkPointSet"]
+    points["vtkDataSet"] = points["vtkPointSet"] + points["vtkImageData"]
     for proxy in {id(proxy): proxy for several in points.values() for proxy in several}.values():
         proxy.UpdatePipeline()
     return points

@@ -167,9 +167,10 @@ Result<std::vector<RecognizedPart>> RecognizeParts(const TriangleMesh& mesh,
       return surface.Status;
     }
     auto regions = RecognizeSurfaces(surface.Value, own);
-    if (regions.Status.Code == ErrorCode::NotInSpace && components.size() > 1)
+    const bool mayBeFree = components.size() > 1 || !(params.LeastAnalytic > 0.0);
+    if (regions.Status.Code == ErrorCode::NotInSpace && mayBeFree)
     {
-      regions = AllFree(surface.Value, own.Tolerance); // others may be machined
+      regions = AllFree(surface.Value, own.Tolerance);
     }
     if (!regions)
     {
