@@ -135,8 +135,9 @@ def job_rows(program, folder, job, seconds, make, words_of, net):
         found = runs[factor, processes]
         checks.append(off(model.seconds(processes, sizes[factor]), found["seconds"]))
         checks.append(off_memory(model.bytes(processes, sizes[factor]), max(found.get("rank_peak_bytes", [found["peak_bytes"]]))))
-    predictions = [[job, str(processes)] + [f"{duration(model.seconds(processes, size))}, {text(model.bytes(processes, size) / 1e9)} GB" for size in SIZES]
-                   for processes in PROCESSES]
+    is_memory = own + everywhere > 0.0  # else n is too small to tell what a cell or point takes
+    predictions = [[job, str(processes)] + [duration(model.seconds(processes, size)) + (f", {text(model.bytes(processes, size) / 1e9)} GB" if is_memory else "")
+                                            for size in SIZES] for processes in PROCESSES]
     return constants, checks, predictions
 
 
@@ -188,7 +189,7 @@ def main():
               page_tables.table_text(["job", "n", "fixed, s", "own, ns", "everywhere, ns", "fixed, MB", "own, bytes", "everywhere, bytes", "messages of 1e6", "told, bytes"],
                                      constants) + "\nRuns that the model was held against, seconds and MB, and how far it is off:\n\n" +
               page_tables.table_text(["job", "2 n by two, s", "MB", "4 n by one, s", "MB", "4 n by two, s", "MB"], checks) +
-              "\nWhat it says of many processes, each with the memory it needs:\n\n" +
+              "\nWhat it says of many processes, each with the memory it needs where that was measured:\n\n" +
               page_tables.table_text(["job", "processes", *(f"{text(size)} cells or points" for size in SIZES)], predictions))
     print(result, end="")
     if arguments.write:
