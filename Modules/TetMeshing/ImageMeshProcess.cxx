@@ -10,8 +10,8 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <climits>
 #include <cmath>
-#include <limits>
 
 namespace knotwork
 {

@@ -5,11 +5,12 @@
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetTriangleFilter.h"
-#include "vtkFloatArray.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
 
 namespace knotwork
 {
