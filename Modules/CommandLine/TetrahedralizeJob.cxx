@@ -44,7 +44,7 @@ protected:
     ReportTruths(table, 0, { "Repaired" }, session.Report);
     ReportRow(table, 0,
       { "DistanceToSurface", "DistanceFromSurface", "MinJacobianLower", "BoundaryElements",
-        "RelaxedElements", "Diagonal" },
+        "RelaxedElements", "OversizedElements", "Diagonal" },
       session.Report);
     if (!this->InputFile(1).empty())
     {

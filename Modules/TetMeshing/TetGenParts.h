@@ -30,8 +30,12 @@ enum class TetGenAnswer
   Tetrahedra,
   Triangles,
   Sources,
+  Oversized, ///< one number
   Count
 };
+
+/// Of a volume: what a tetrahedron may be larger than was asked for, by rounding.
+inline constexpr double SizeMargin = 1e-9;
 
 /// Of a regular tetrahedron.
 inline double VolumeOfEdge(double length)

@@ -5,6 +5,11 @@
 #include "TetGenParts.h"
 #include <knotwork/SplineCore/Numbers.h>
 
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
 namespace knotwork
 {
 namespace
@@ -58,7 +63,21 @@ std::vector<std::string> Encode(const TriangleMesh& surface, const TetrahedraPar
   return parts;
 }
 
-Result<Tetrahedra> Decode(const std::vector<std::string>& parts)
+/// How many are larger than one for all.
+int NumAbove(const Tetrahedra& mesh, double volume)
+{
+  const auto corner = [&](int point) -> Eigen::Vector3d { return mesh.Points.row(point); };
+  return static_cast<int>(std::count_if(mesh.Cells.begin(), mesh.Cells.end(),
+    [&](const std::array<int, 4>& cell)
+    {
+      const Eigen::Vector3d origin = corner(cell[0]);
+      const Eigen::Vector3d normal = (corner(cell[1]) - origin).cross(corner(cell[2]) - origin);
+      return std::abs(normal.dot(corner(cell[3]) - origin)) > 6.0 * volume * (1.0 + SizeMargin);
+    }));
+}
+
+/// @param volume  of a tetrahedron at most; 0: any.
+Result<Tetrahedra> Decode(const std::vector<std::string>& parts, double volume)
 {
   const auto part = [&](TetGenAnswer which) -> const std::string&
   { return parts[static_cast<std::size_t>(which)]; };
@@ -73,6 +92,8 @@ Result<Tetrahedra> Decode(const std::vector<std::string>& parts)
   found.Cells = UnpackGroups<4>(part(TetGenAnswer::Tetrahedra));
   found.Triangles = UnpackGroups<3>(part(TetGenAnswer::Triangles));
   found.Sources = UnpackNumbers<int>(part(TetGenAnswer::Sources));
+  found.Oversized = std::max(
+    UnpackNumbers<int>(part(TetGenAnswer::Oversized)).at(0), volume > 0.0 ? NumAbove(found, volume) : 0);
   return found;
 }
 }
@@ -81,6 +102,6 @@ Result<Tetrahedra> RunTetGen(const TriangleMesh& surface, const TetrahedraParams
   const WorkerLimits& limits, const std::function<bool()>& goOn)
 {
   const auto parts = RunMesher(Program, SwitchesOf(params), Encode(surface, params), limits, goOn);
-  return parts ? Decode(parts.Value) : Result<Tetrahedra>(parts.Status);
+  return parts ? Decode(parts.Value, params.MaxVolume) : Result<Tetrahedra>(parts.Status);
 }
 }

@@ -114,6 +114,7 @@ void EncodeNumbers(const SolidMesh& mesh, vtkTable* table)
   AddColumn(table, "StraightToTarget", numbers.StraightToTarget);
   AddColumn(table, "CurvedToTarget", numbers.CurvedToTarget);
   AddColumn(table, "Diagonal", numbers.Diagonal);
+  AddColumn(table, "OversizedElements", numbers.Oversized);
 }
 }
 
@@ -203,6 +204,28 @@ Result<ImageTetrahedra> vtkTetGenMesher::MeshImage(
     image.Value, params, this->Limits(), [&] { return !progress || progress(0.2); });
 }
 
+void vtkTetGenMesher::WarnOfUnused(bool isImage)
+{
+  std::string unused;
+  const auto add = [&](bool isSet, const char* name)
+  {
+    if (isSet)
+    {
+      unused += (unused.empty() ? "" : ", ") + std::string(name);
+    }
+  };
+  add(isImage && this->Inner != VOIDS, "Inner");
+  add(isImage && this->Repair, "Repair");
+  add(!isImage && this->Solid != BELOW, "Solid");
+  add(!isImage && this->Level != 0.0, "Level");
+  add(!isImage && this->ImageArray && *this->ImageArray != '\0', "ImageArray");
+  if (!unused.empty())
+  {
+    this->ReportWarnings({ unused +
+      (isImage ? " did not count: the input is an image" : " did not count: the input is no image") });
+  }
+}
+
 Status vtkTetGenMesher::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   vtkDataSet* input = vtkDataSet::GetData(inputs[0], 0);
@@ -212,6 +235,7 @@ Status vtkTetGenMesher::Compute(vtkInformationVector** inputs, vtkInformationVec
   }
   const bool isImage = vtkImageData::SafeDownCast(input) != nullptr;
   const bool isSpline = !isImage && HasSplineCells(input);
+  this->WarnOfUnused(isImage);
   SolidMeshParams params;
   params.Tetrahedra.RadiusEdgeRatio = this->RadiusEdgeRatio;
   params.Tetrahedra.MinDihedralAngle = this->MinDihedralAngle;
@@ -278,5 +302,12 @@ Status vtkTetGenMesher::Compute(vtkInformationVector** inputs, vtkInformationVec
   EncodeCells(mesh.Value, this->Order, vtkUnstructuredGrid::GetData(outputs, 0));
   EncodeBoundary(mesh.Value, decoded->Cells, mesh->NumCorners, vtkPolyData::GetData(outputs, 1));
   EncodeNumbers(mesh.Value, vtkTable::GetData(outputs, 2));
+  if (mesh->Numbers.Oversized > 0)
+  {
+    this->ReportWarnings({ std::to_string(mesh->Numbers.Oversized) + " of " +
+      std::to_string(mesh->Cells.size()) +
+      " tetrahedra are larger than was asked for: allow more points (MaxSteinerPoints), points on "
+      "the boundary (KeepBoundary off), or sizes that change less from place to place" });
+  }
   return {};
 }

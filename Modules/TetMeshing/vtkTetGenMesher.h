@@ -171,6 +171,8 @@ protected:
   ~vtkTetGenMesher() override;
   knotwork::Result<knotwork::DecodedMesh> BoundaryOf(vtkDataObject* spline);
   knotwork::WorkerLimits Limits() const;
+  /** Options that are for images alone, or for surfaces. */
+  void WarnOfUnused(bool isImage);
   knotwork::Result<knotwork::ImageTetrahedra> MeshImage(
     vtkDataObject* input, const knotwork::TetrahedraParams& params);
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;

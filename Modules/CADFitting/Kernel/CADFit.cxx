@@ -9,6 +9,7 @@
 #include "ProgressiveFit.h"
 #include "SampledDistances.h"
 #include "SurfaceLayer.h"
+#include "TargetDistances.h"
 #include "VertexFit.h"
 
 #include <knotwork/JacobianValidation/CellMeasures.h>
@@ -238,6 +239,7 @@ private:
       return {};
     }
     this->Classification.Faces = this->HasSurfaces;
+    this->Classification.Threads = this->Params.Threads;
     auto parts = ClassifyMesh(this->Surface, this->Fit.Points, *this->Target, this->Classification);
     if (parts)
     {
@@ -267,9 +269,11 @@ private:
       points.row(static_cast<Eigen::Index>(i)) = this->GivenPoints.row(this->Surface.Points[i]);
     }
     TargetPoints feet;
+    TargetDistanceParams search;
+    search.Threads = this->Params.Threads;
     const bool isPlane =
       Dim == 2 && (this->GivenPoints.col(2).array() == this->GivenPoints(0, 2)).all();
-    if (Status status = this->Target->Find({}, points, feet); !status)
+    if (Status status = FindOnTarget(*this->Target, points, feet, search); !status)
     {
       // the inside of a plane mesh need not be near a target that its rim lies on
       this->HasSurfaces = this->HasSurfaces && !isPlane;
@@ -305,6 +309,7 @@ private:
     params.Rings = this->Params.UntanglingRings;
     params.Poor = poor;
     params.MaxSweeps = sweeps;
+    params.Threads = this->Params.Threads;
     params.Progress = this->Share(0.0, 0.2);
     auto placed = MoveOntoTarget<Dim>(this->Fit.Mesh, this->Topology, this->Surface, this->Parts,
       this->Fit.Points, *this->Target, params);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshClassification.h"
 
+#include "TargetDistances.h"
+
 #include <knotwork/SplineCore/DisjointSets.h>
 
 #include <algorithm>
@@ -310,7 +312,9 @@ private:
       areas[q] = (point(2) - point(0)).norm() * (point(3) - point(1)).norm();
     }
     TargetPoints feet;
-    if (Status status = this->Target.Find({}, middles, feet); !status)
+    TargetDistanceParams search;
+    search.Threads = this->Params.Threads;
+    if (Status status = FindOnTarget(this->Target, middles, feet, search); !status)
     {
       return status;
     }

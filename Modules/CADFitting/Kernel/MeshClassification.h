@@ -30,6 +30,7 @@ struct ClassificationParams
   bool Faces = true;     ///< whether quadrilaterals are matched with faces
   std::set<int> LeftOut; ///< curves that are not looked for
   std::set<int> LeftOutCorners;
+  int Threads = 0;
 };
 
 /// Corners go to the nearest points of the mesh; curves to the paths of edges between them that are

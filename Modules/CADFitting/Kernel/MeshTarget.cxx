@@ -7,7 +7,6 @@
 
 #include <Eigen/Geometry>
 
-#include <limits>
 #include <map>
 
 namespace knotwork
@@ -70,7 +69,7 @@ public:
     result.Faces.resize(static_cast<std::size_t>(queries.rows()));
     const bool isWhole = part.Entity == TargetEntity::Surface || this->Parts.empty();
     const TriangleIndex<3>& index = isWhole ? this->Whole : this->Parts[At(part.Id)];
-    Follow(index, queries, result.Points,
+    FindOn(index, queries, result.Points,
       [&](Eigen::Index i, const TriangleFoot& foot)
       {
         const int triangle =
@@ -151,23 +150,19 @@ private:
       result.Points.rowwise() = this->VertexList.row(part.Id);
       return;
     }
-    Follow(this->CurveIndex[At(part.Id)], queries, result.Points,
+    FindOn(this->CurveIndex[At(part.Id)], queries, result.Points,
       [](Eigen::Index, const TriangleFoot&) {});
   }
 
-  /// The triangle of the query before bounds the distance of the next one.
   template <class Visit>
-  static void Follow(const TriangleIndex<3>& index, const PointMatrixView& queries,
+  static void FindOn(const TriangleIndex<3>& index, const PointMatrixView& queries,
     PointMatrix& points, Visit&& visit)
   {
-    TriangleFoot foot;
+    std::vector<TriangleFoot> feet;
+    index.Nearest(queries, feet);
     for (Eigen::Index i = 0; i < queries.rows(); ++i)
     {
-      const Eigen::RowVector3d query = queries.row(i);
-      const double bound = foot.Triangle < 0
-        ? std::numeric_limits<double>::infinity()
-        : index.Foot(foot.Triangle, query.data()).SquaredDistance;
-      foot = index.Nearest(query.data(), bound);
+      const TriangleFoot& foot = feet[static_cast<std::size_t>(i)];
       points.row(i) = index.PointAt(foot.Triangle, foot.Second, foot.Third);
       visit(i, foot);
     }

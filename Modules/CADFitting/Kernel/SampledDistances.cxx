@@ -15,6 +15,7 @@ namespace knotwork
 namespace
 {
 constexpr std::size_t ChunkSize = 16; ///< elements
+constexpr std::size_t QueriesAtOnce = 1024;
 
 std::size_t At(int i)
 {
@@ -106,7 +107,7 @@ private:
     local.bottomRows(4) << 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 1.0;
     const std::size_t count = this->Mesh.Quads.size();
     std::vector<std::array<Accumulator, 2>> of(count); // spline, mesh
-    std::vector<Status> statuses(count);
+    std::vector<Status> statuses((count + ChunkSize - 1) / ChunkSize);
     constexpr std::size_t atOnce = 4096;
     for (std::size_t first = 0; first < count; first += atOnce)
     {
@@ -121,40 +122,49 @@ private:
           evaluation.Threads = 1;
           EvaluationBatch batch;
           TargetPoints feet;
-          for (std::size_t q = first + begin; q < first + end; ++q)
+          PointMatrix values; // of all elements of the chunk: near queries find each other's feet
+          Status& status = statuses[(first + begin) / ChunkSize];
+          for (const int k : { 0, 1 })
           {
-            for (const int k : { 0, 1 })
+            const Eigen::Index each = k == 0 ? local.rows() : inner;
+            values.resize(each * static_cast<Eigen::Index>(end - begin), 3);
+            for (std::size_t q = begin; q < end; ++q)
             {
-              PointMatrix values;
+              auto own = values.middleRows(each * static_cast<Eigen::Index>(q - begin), each);
               if (k == 0)
               {
                 EvaluateElements<2>(this->Form,
-                  std::vector<int>(static_cast<std::size_t>(local.rows()), static_cast<int>(q)),
+                  std::vector<int>(static_cast<std::size_t>(each), static_cast<int>(first + q)),
                   local, evaluation, batch);
-                values = batch.Values.leftCols<3>();
+                own = batch.Values.leftCols<3>();
               }
               else
               {
-                values = this->Bilinear(q, rule.Local);
+                own = this->Bilinear(first + q, rule.Local);
               }
-              statuses[q] = this->Target.Find({}, values, feet);
-              for (Eigen::Index i = 0; statuses[q] && i < values.rows(); ++i)
-              {
-                of[q][At(k)].Add((values.row(i) - feet.Points.row(i)).norm(),
-                  i < inner ? rule.Weights[i] : 0.0, values.row(i));
-              }
+            }
+            status = status ? this->Target.Find({}, values, feet) : status;
+            for (Eigen::Index row = 0; status && row < values.rows(); ++row)
+            {
+              const Eigen::Index i = row % each;
+              of[first + begin + static_cast<std::size_t>(row / each)][At(k)].Add(
+                (values.row(row) - feet.Points.row(row)).norm(), i < inner ? rule.Weights[i] : 0.0,
+                values.row(row));
             }
           }
         });
     }
     std::array<Accumulator, 2> all;
     std::map<int, std::pair<int, Accumulator>> ofFaces;
+    for (const Status& status : statuses)
+    {
+      if (!status)
+      {
+        return status;
+      }
+    }
     for (std::size_t q = 0; q < count; ++q)
     {
-      if (!statuses[q])
-      {
-        return statuses[q];
-      }
       all[0].Add(of[q][0]);
       all[1].Add(of[q][1]);
       auto& face = ofFaces[this->Parts.FaceOf[q]];
@@ -299,13 +309,25 @@ private:
       triangles.push_back({ quad[0], quad[2], quad[3] });
     }
     const TriangleIndex<3> flat(this->Points, std::move(triangles));
+    Eigen::VectorXd flatDistances(samples.Points.rows());
+    ParallelFor(static_cast<std::size_t>(samples.Points.rows()), QueriesAtOnce, this->Params.Threads,
+      [&](std::size_t begin, std::size_t end)
+      {
+        const auto first = static_cast<Eigen::Index>(begin);
+        std::vector<TriangleFoot> own;
+        flat.Nearest(samples.Points.middleRows(first, static_cast<Eigen::Index>(end - begin)), own);
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          flatDistances[static_cast<Eigen::Index>(i)] = std::sqrt(own[i - begin].SquaredDistance);
+        }
+      });
     Accumulator spline;
     Accumulator mesh;
     for (Eigen::Index i = 0; i < samples.Points.rows(); ++i)
     {
       const Eigen::RowVector3d point = samples.Points.row(i);
       spline.Add(feet.Distances[i], samples.Areas[i], point);
-      mesh.Add(std::sqrt(flat.Nearest(point.data()).SquaredDistance), samples.Areas[i], point);
+      mesh.Add(flatDistances[i], samples.Areas[i], point);
     }
     this->Distances.FromTarget = spline.Summary();
     this->Distances.MeshFromTarget = mesh.Summary();

@@ -70,7 +70,7 @@ Status FindOnTarget(const FitTarget& target, const PointMatrixView& queries, Tar
     {
       const Eigen::Index rows = end - begin;
       TargetPoints own;
-      if (Status status = target.Find({}, queries.middleRows(begin, rows), own); !status)
+      if (Status status = target.Find(params.Part, queries.middleRows(begin, rows), own); !status)
       {
         return status;
       }

@@ -8,9 +8,10 @@ struct TargetDistanceParams
 {
   int Threads = 0; ///< 0: all cores
   ProgressCallback Progress;
+  TargetPart Part{}; ///< that is searched: the whole surface, unless another is named
 };
 
-/// Closest points of n queries on the whole of a target, in parallel.
+/// Closest points of n queries on a target, in parallel.
 /// @param queries  n x 3, finite.
 /// @return the target's errors; Aborted.
 Status FindOnTarget(const FitTarget& target, const PointMatrixView& queries, TargetPoints& result,
@@ -35,7 +36,7 @@ struct TargetSides
 /// @return the target's errors; Aborted.
 Result<TargetSides> SidesOf(const FitTarget& target, const TargetDistanceParams& params = {});
 
-/// Signed distances, of every query by itself. Of a closed target positive is outside, if all of
+/// Signed distances from the whole surface, of every query by itself. Of a closed target positive is outside, if all of
 /// its bodies are turned alike; of an open one it is the side that the normals point to. At an edge
 /// or corner the sign is that of the sum of the normals there.
 /// @param sides  of the target.

@@ -4,7 +4,6 @@
 #include "TargetDistances.h"
 
 #include <knotwork/SplineCore/Numbers.h>
-#include <knotwork/SplineCore/Parallel.h>
 
 #include <Eigen/Geometry>
 
@@ -39,30 +38,6 @@ struct BoundaryEdge
   std::vector<int> Facets;
   int Curve = -1; ///< of the target
 };
-
-Status FindParallel(const FitTarget& target, const TargetPart& part, const PointMatrix& queries,
-  int threads, PointMatrix& feet)
-{
-  constexpr std::size_t chunk = 64;
-  feet.resize(queries.rows(), 3);
-  const auto count = static_cast<std::size_t>(queries.rows());
-  std::vector<Status> states((count + chunk - 1) / chunk);
-  ParallelFor(count, chunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      TargetPoints found;
-      const auto first = static_cast<Eigen::Index>(begin);
-      const auto rows = static_cast<Eigen::Index>(end - begin);
-      states[begin / chunk] = target.Find(part, queries.middleRows(first, rows), found);
-      if (states[begin / chunk])
-      {
-        feet.middleRows(first, rows) = found.Points;
-      }
-    });
-  const auto failed =
-    std::find_if(states.begin(), states.end(), [](const Status& status) { return !status; });
-  return failed == states.end() ? Status() : *failed;
-}
 
 int NumFacetCorners(const FaceCorners& corners)
 {
@@ -294,7 +269,13 @@ private:
 
   Status Find(const TargetPart& part, const PointMatrix& queries, PointMatrix& feet) const
   {
-    return FindParallel(this->Target, part, queries, this->Params.Threads, feet);
+    TargetDistanceParams params;
+    params.Threads = this->Params.Threads;
+    params.Part = part;
+    TargetPoints found;
+    Status status = FindOnTarget(this->Target, queries, found, params);
+    feet = std::move(found.Points);
+    return status;
   }
 
   /// Nearest corner of the target, -1: none is nearer than the distance.

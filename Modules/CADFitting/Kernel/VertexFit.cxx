@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VertexFit.h"
 
+#include "TargetDistances.h"
+
 #include <Eigen/Geometry>
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCore>
@@ -274,8 +276,8 @@ Status PlaceOnCurve(const FitTarget& target, int number, const std::vector<int>&
 
 /// Points of the surface to where they belong. @param isSet  points that were placed.
 Status PlaceSurface(const SurfaceMesh& surface, const MeshClassification& parts,
-  const PointMatrix& points, const FitTarget& target, bool surfaces, PointMatrix& moved,
-  std::vector<char>& isSet)
+  const PointMatrix& points, const FitTarget& target, const VertexFitParams& params,
+  PointMatrix& moved, std::vector<char>& isSet)
 {
   std::map<int, std::vector<int>> edgesOf; // curves
   for (std::size_t e = 0; e < surface.Edges.size(); ++e)
@@ -316,7 +318,7 @@ Status PlaceSurface(const SurfaceMesh& surface, const MeshClassification& parts,
       isSet[At(point)] = 1;
     }
     else if (part.Entity != TargetEntity::Curve && target.HasSurface() &&
-      (surfaces || isRim[At(point)] != 0))
+      (params.Surfaces || isRim[At(point)] != 0))
     {
       pointsOf[part.Id].push_back(point);
     }
@@ -329,8 +331,10 @@ Status PlaceSurface(const SurfaceMesh& surface, const MeshClassification& parts,
       queries.row(static_cast<Eigen::Index>(i)) = points.row(own[i]);
     }
     TargetPoints feet;
-    const TargetPart part{ face < 0 ? TargetEntity::Surface : TargetEntity::Face, face };
-    if (Status status = target.Find(part, queries, feet); !status)
+    TargetDistanceParams search;
+    search.Threads = params.Threads;
+    search.Part = { face < 0 ? TargetEntity::Surface : TargetEntity::Face, face };
+    if (Status status = FindOnTarget(target, queries, feet, search); !status)
     {
       return status;
     }
@@ -359,7 +363,7 @@ Result<VertexFit> MoveOntoTarget(const CellMesh<Dim>& mesh, const MeshTopology<D
   result->Points = points;
   std::vector<char> isSet(At(mesh.NumPoints), 0);
   if (Status status =
-        PlaceSurface(surface, parts, points, target, params.Surfaces, result->Points, isSet);
+        PlaceSurface(surface, parts, points, target, params, result->Points, isSet);
       !status)
   {
     return status;

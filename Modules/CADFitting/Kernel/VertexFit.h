@@ -17,6 +17,7 @@ struct VertexFitParams
   std::vector<int> Poor;
   int Rings = 2; ///< as UntanglingParams
   int MaxSweeps = 100;
+  int Threads = 0;
   ProgressCallback Progress;
 };
 

@@ -557,7 +557,12 @@ Result<SolidMesh> MeshSolid(const TriangleMesh& surface, const FitTarget* target
   {
     return tetrahedra.Status;
   }
+  const int oversized = tetrahedra->Oversized;
   auto mesh = SolidMesher(solid.Value, target, params).Make(std::move(tetrahedra.Value));
+  if (mesh)
+  {
+    mesh->Numbers.Oversized = oversized;
+  }
   if (mesh && repair)
   {
     mesh->Numbers.Repaired = true;

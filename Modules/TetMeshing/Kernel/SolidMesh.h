@@ -43,6 +43,7 @@ struct Tetrahedra
   std::vector<std::array<int, 3>> Triangles; ///< parts of the surface
   std::vector<int> Sources;                  ///< one a triangle: number in the surface
   std::vector<int> Labels;                   ///< one a cell, of a mesher that has such; else empty
+  int Oversized = 0; ///< cells larger than was asked for
 };
 
 /// The mesher, which works in a process of its own. Its triangles bound solids (CheckSolid).
@@ -83,6 +84,7 @@ struct SolidMeshNumbers
   double Diagonal = 0.0;    ///< of the surface's box
   int BoundaryElements = 0; ///< with a face on the boundary
   int RelaxedElements = 0;  ///< with nodes that were moved back, see MeshSolid
+  int Oversized = 0;        ///< straight cells that the mesher left larger than was asked for
 };
 
 struct SolidMesh

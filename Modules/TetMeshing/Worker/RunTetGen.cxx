@@ -101,8 +101,8 @@ Status CheckRegions(const std::vector<double>& regions, const tetgenio& mesh)
   return {};
 }
 
-/// Sets the largest volumes of the tetrahedra of a mesh. @return whether one is larger.
-bool SetVolumes(const Bounds& bounds, tetgenio& mesh)
+/// Sets the largest volumes of the tetrahedra of a mesh. @return how many are larger.
+int SetVolumes(const Bounds& bounds, tetgenio& mesh)
 {
   const auto corner = [&](int cell, int k)
   {
@@ -110,7 +110,7 @@ bool SetVolumes(const Bounds& bounds, tetgenio& mesh)
     return Eigen::Map<const Eigen::Vector3d>(mesh.pointlist + 3 * point);
   };
   constexpr double Unbounded = -1.0; // as TetGen takes it
-  bool isAnyLarger = false;
+  int larger = 0;
   mesh.tetrahedronvolumelist = new double[static_cast<std::size_t>(mesh.numberoftetrahedra)];
   for (int c = 0; c < mesh.numberoftetrahedra; ++c)
   {
@@ -128,10 +128,10 @@ bool SetVolumes(const Bounds& bounds, tetgenio& mesh)
     const double volume =
       std::abs((corner(c, 1) - origin).cross(corner(c, 2) - origin).dot(corner(c, 3) - origin)) /
       6.0;
-    isAnyLarger = isAnyLarger || volume > most;
+    larger += volume > most * (1.0 + SizeMargin) ? 1 : 0;
     mesh.tetrahedronvolumelist[c] = std::isfinite(most) ? most : Unbounded;
   }
-  return isAnyLarger;
+  return larger;
 }
 
 Status Reason(int number)
@@ -166,6 +166,7 @@ Status Run(const Parts& words, const Parts& input, Parts& found)
       UnpackNumbers<int>(PartOf(input, TetGenInput::SizeCells)),
       UnpackNumbers<double>(PartOf(input, TetGenInput::Sizes))) };
   auto made = std::make_unique<tetgenio>();
+  int oversized = 0;
   try
   {
     const auto make = [&](std::string switches, tetgenio& from)
@@ -185,10 +186,11 @@ Status Run(const Parts& words, const Parts& input, Parts& found)
     }
     made = make(words[0], in);
     // bounds of tetrahedra that there are: new ones may be where smaller ones are asked for
-    for (int round = 0; round < RefinementRounds && bounds.Any() && SetVolumes(bounds, *made);
-         ++round)
+    oversized = bounds.Any() ? SetVolumes(bounds, *made) : 0;
+    for (int round = 0; round < RefinementRounds && oversized > 0; ++round)
     {
       made = make(words[1], *made);
+      oversized = SetVolumes(bounds, *made);
     }
   }
   catch (const TetGenEnd& end)
@@ -212,6 +214,7 @@ Status Run(const Parts& words, const Parts& input, Parts& found)
   found.push_back(PackNumbers(out.tetrahedronlist, count(out.numberoftetrahedra, 4)));
   found.push_back(PackNumbers(out.trifacelist, count(out.numberoftrifaces, 3)));
   found.push_back(PackNumbers(sources.data(), sources.size()));
+  found.push_back(PackNumbers(&oversized, 1));
   return {};
 }
 }

@@ -18,6 +18,8 @@ constexpr int MaxPoints = 32;
 constexpr int NumPlanes = PatchForm::NumPlanes;
 /// Legendre coefficients by which an error is estimated: two groups of three.
 constexpr int NumTails = 6;
+/// Points a direction of the rule that is tried first where nothing is exact.
+constexpr int QuickPoints = 10;
 /// Where the weights' exponents differ by more after they were balanced, a rule may have missed a
 /// layer: its own estimate is not believed, but what the control points allow.
 constexpr int LargestSpread = 8;
@@ -189,13 +191,14 @@ public:
     return this->Params.Integrand == PatchIntegrand::Flux && !this->Params.Rational;
   }
 
-  void Evaluate(Piece& piece)
+  /// @param isQuick  by a rule of few points, which does for small pieces of smooth shapes.
+  void Evaluate(Piece& piece, bool isQuick = false)
   {
     const bool isCurve = piece.Form.IsCurve();
     const bool isFlux = this->Params.Integrand == PatchIntegrand::Flux;
     const int spread = this->Params.Rational ? BalanceWeights(piece.Form) : 0;
-    const PatchRules::Rule& u = this->GetRule(isCurve, piece.Form.Degree[0]);
-    const PatchRules::Rule& v = this->GetRule(isCurve, piece.Form.Degree[1]);
+    const PatchRules::Rule& u = this->GetRule(isCurve, piece.Form.Degree[0], isQuick);
+    const PatchRules::Rule& v = this->GetRule(isCurve, piece.Form.Degree[1], isQuick);
     double rows[NumValues][MaxPoints];
     double columns[NumValues][MaxPoints] = {};
     piece.Measure = 0.0;
@@ -295,7 +298,7 @@ private:
       : size * reach / (form.IsCurve() ? 2.0 : 3.0);
   }
 
-  const PatchRules::Rule& GetRule(bool isCurve, int degree)
+  const PatchRules::Rule& GetRule(bool isCurve, int degree, bool isQuick)
   {
     if (degree == 0)
     {
@@ -304,7 +307,9 @@ private:
     // a flux times a coordinate has d + 1 factors, one of them a derivative
     const int factors = isCurve ? 3 : 4;
     const int exact = (factors * degree + 1) / 2;
-    const int least = this->Params.Integrand == PatchIntegrand::Flux ? 14 : 20;
+    const int least = isQuick                                  ? QuickPoints
+      : this->Params.Integrand == PatchIntegrand::Flux ? 14
+                                                       : 20;
     return this->Rules.Get(degree, this->IsExact() ? exact : std::max(least, exact + 6));
   }
 
@@ -377,23 +382,31 @@ PatchIntegral IntegratePatches(
 {
   Integrator integrator(params, rules);
   std::vector<Piece> pieces;
+  std::int64_t points = 0;
+  const auto evaluate = [&](bool isQuick)
+  {
+    for (Piece& piece : pieces)
+    {
+      integrator.Evaluate(piece, isQuick);
+      points += piece.Points;
+    }
+    return SumOf(pieces);
+  };
   for (PatchForm& patch : patches)
   {
     pieces.emplace_back();
     pieces.back().Form = std::move(patch);
     pieces.back().IsFinal = params.MaxDepth == 0;
-    integrator.Evaluate(pieces.back());
   }
   const auto isDone = [&](const PatchIntegral& sum)
   {
     return sum.Error <=
       std::max(params.Tolerance * std::abs(sum.Measure), 16.0 * UnitRoundoff * sum.Absolute);
   };
-  PatchIntegral sum = SumOf(pieces);
-  std::int64_t points = 0;
-  for (const Piece& piece : pieces)
+  PatchIntegral sum = evaluate(params.Integrand == PatchIntegrand::Size);
+  if (params.Integrand == PatchIntegrand::Size && !isDone(sum))
   {
-    points += piece.Points;
+    sum = evaluate(false);
   }
   if (!integrator.IsExact() && !isDone(sum))
   {

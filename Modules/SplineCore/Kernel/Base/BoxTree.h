@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 namespace knotwork
@@ -102,6 +103,7 @@ public:
 
   /// Calls use(item) for the items of all leaves whose boxes meet [lower, upper]: all items whose
   /// own boxes do, and their neighbours in the tree. The order is fixed.
+  /// @param use  may return whether to go on.
   template <typename Use>
   void ForNear(const double* lower, const double* upper, Use&& use) const
   {
@@ -134,7 +136,18 @@ public:
       const std::size_t leaf = static_cast<std::size_t>(node - this->FirstLeaf);
       for (int i = this->LeafStart[leaf]; i < this->LeafStart[leaf + 1]; ++i)
       {
-        use(this->Order[static_cast<std::size_t>(i)]);
+        const int item = this->Order[static_cast<std::size_t>(i)];
+        if constexpr (std::is_same_v<std::invoke_result_t<Use, int>, bool>)
+        {
+          if (!use(item))
+          {
+            return;
+          }
+        }
+        else
+        {
+          use(item);
+        }
       }
     }
   }

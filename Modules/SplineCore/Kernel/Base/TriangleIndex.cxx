@@ -228,6 +228,153 @@ std::vector<MeshTriangle> TriangleNeighbours(const std::vector<MeshTriangle>& tr
   return neighbours;
 }
 
+namespace
+{
+constexpr Eigen::Index GroupSize = 16;      ///< queries that share the triangles near them
+constexpr Eigen::Index SmallestGroup = 4;   ///< for which gathering these pays
+constexpr Eigen::Index MostCandidates = 96; ///< triangles a group; one with more is no group
+
+/// Of equally near triangles the first.
+void TakeNearer(const TriangleFoot& foot, TriangleFoot& best)
+{
+  if (foot.SquaredDistance < best.SquaredDistance ||
+    (foot.SquaredDistance == best.SquaredDistance &&
+      (best.Triangle < 0 || foot.Triangle < best.Triangle)))
+  {
+    best = foot;
+  }
+}
+
+/// The box of three corners.
+template <int Dim>
+struct Box
+{
+  double Lower[Dim];
+  double Upper[Dim];
+
+  Box(const double* a, const double* b, const double* c)
+  {
+    for (int d = 0; d < Dim; ++d)
+    {
+      this->Lower[d] = std::min({ a[d], b[d], c[d] });
+      this->Upper[d] = std::max({ a[d], b[d], c[d] });
+    }
+  }
+  /// Not above that of a foot in the box, by rounding either: summed as that is.
+  double SquaredDistance(const double* point) const
+  {
+    double sum = 0.0;
+    for (int d = 0; d < Dim; ++d)
+    {
+      const double gap = std::max({ this->Lower[d] - point[d], point[d] - this->Upper[d], 0.0 });
+      sum += gap * gap;
+    }
+    return sum;
+  }
+};
+
+/// The triangles that may be nearest to one of a group of queries, side by side.
+template <int Dim>
+class NearTriangles
+{
+public:
+  /// @param known    a triangle near the group, which is gathered, too.
+  /// @param forNear  calls its last argument for triangles near a box, until that is false.
+  /// @return whether they are few.
+  template <class ForNear>
+  bool Gather(const TriangleIndex<Dim>& index, const PointMatrixView& queries, int known,
+    ForNear&& forNear)
+  {
+    double reach = 0.0;
+    for (Eigen::Index i = 0; i < queries.rows(); ++i)
+    {
+      reach = std::max(reach, index.Foot(known, queries.row(i).data()).SquaredDistance);
+    }
+    Row<Dim> lower = queries.colwise().minCoeff();
+    Row<Dim> upper = queries.colwise().maxCoeff();
+    const double size = lower.cwiseAbs().cwiseMax(upper.cwiseAbs()).maxCoeff();
+    const double radius = std::sqrt(reach) * (1.0 + FootMargin) + FootMargin * size;
+    lower.array() -= radius;
+    upper.array() += radius;
+    this->Count = 0;
+    bool areFew = true;
+    forNear(lower.data(), upper.data(),
+      [&](int triangle)
+      {
+        const Box<Dim> box(
+          index.Corner(triangle, 0), index.Corner(triangle, 1), index.Corner(triangle, 2));
+        bool meets = true;
+        for (int d = 0; d < Dim; ++d)
+        {
+          meets = meets && box.Lower[d] <= upper(d) && lower(d) <= box.Upper[d];
+        }
+        areFew = !meets || this->Count < MostCandidates;
+        if (meets && areFew)
+        {
+          this->Add(index, triangle, box);
+        }
+        return areFew;
+      });
+    return areFew;
+  }
+
+  /// The triangles whose boxes are nearest come first: most others are farther than their feet.
+  TriangleFoot Nearest(const double* query)
+  {
+    auto distances = this->Distances.head(this->Count);
+    distances.setZero();
+    for (int d = 0; d < Dim; ++d)
+    {
+      const auto gap = (this->Lower.col(d).head(this->Count) - query[d])
+                         .max(query[d] - this->Upper.col(d).head(this->Count))
+                         .max(0.0);
+      distances += gap * gap;
+    }
+    const double least = distances.minCoeff();
+    TriangleFoot best;
+    for (const bool isFirst : { true, false })
+    {
+      for (Eigen::Index i = 0; i < this->Count; ++i)
+      {
+        if (isFirst == (distances[i] == least) && distances[i] <= best.SquaredDistance)
+        {
+          const double* corners = this->Corners[static_cast<std::size_t>(i)].data();
+          TakeNearer(ClosestOnTriangle<Dim>(corners, corners + Dim, corners + 2 * Dim, query,
+                       this->Triangles[static_cast<std::size_t>(i)]),
+            best);
+        }
+      }
+    }
+    return best;
+  }
+
+private:
+  void Add(const TriangleIndex<Dim>& index, int triangle, const Box<Dim>& box)
+  {
+    const auto at = static_cast<std::size_t>(this->Count);
+    this->Triangles[at] = triangle;
+    for (int k = 0; k < 3; ++k)
+    {
+      std::copy_n(index.Corner(triangle, k), Dim, this->Corners[at].data() + k * Dim);
+    }
+    for (int d = 0; d < Dim; ++d)
+    {
+      this->Lower(this->Count, d) = box.Lower[d];
+      this->Upper(this->Count, d) = box.Upper[d];
+    }
+    ++this->Count;
+  }
+
+  static constexpr auto Most = static_cast<std::size_t>(MostCandidates);
+  Eigen::Index Count = 0;
+  std::array<int, Most> Triangles;
+  std::array<std::array<double, 3 * Dim>, Most> Corners;
+  Eigen::Array<double, MostCandidates, Dim> Lower;
+  Eigen::Array<double, MostCandidates, Dim> Upper;
+  Eigen::Array<double, MostCandidates, 1> Distances;
+};
+}
+
 template <int Dim>
 TriangleIndex<Dim>::TriangleIndex(PointMatrix points, std::vector<MeshTriangle> triangles)
   : Corners(std::move(points)), Mesh(std::move(triangles))
@@ -332,11 +479,58 @@ void TriangleIndex<Dim>::Boxes(PointMatrix& lower, PointMatrix& upper) const
 template <int Dim>
 TriangleFoot TriangleIndex<Dim>::Nearest(const double* point, double bound) const
 {
-  const auto triangle = [this](int strip)
-  { return this->Strips[static_cast<std::size_t>(strip)].Triangle; };
-  const NearestItem nearest = this->Tree.Nearest(
-    point, [&](int strip) { return this->Foot(triangle(strip), point).SquaredDistance; }, bound);
-  return nearest.Item < 0 ? TriangleFoot{} : this->Foot(triangle(nearest.Item), point);
+  TriangleFoot best;
+  best.SquaredDistance = bound;
+  this->Tree.Nearest(
+    point,
+    [&](int strip)
+    {
+      const int triangle = this->TriangleOf(strip);
+      const Box<Dim> box(this->Corner(triangle, 0), this->Corner(triangle, 1),
+        this->Corner(triangle, 2));
+      if (const double distance = box.SquaredDistance(point); distance > best.SquaredDistance)
+      {
+        return distance;
+      }
+      const TriangleFoot foot = this->Foot(triangle, point);
+      TakeNearer(foot, best);
+      return foot.SquaredDistance;
+    },
+    bound);
+  return best.Triangle < 0 ? TriangleFoot{} : best;
+}
+
+template <int Dim>
+void TriangleIndex<Dim>::Nearest(
+  const PointMatrixView& queries, std::vector<TriangleFoot>& feet) const
+{
+  feet.resize(static_cast<std::size_t>(queries.rows()));
+  NearTriangles<Dim> near;
+  TriangleFoot last;
+  for (Eigen::Index begin = 0; begin < queries.rows(); begin += GroupSize)
+  {
+    const Eigen::Index end = std::min(begin + GroupSize, queries.rows());
+    // that of the middle one bounds the distances of all
+    const double* middle = queries.row(begin + (end - begin) / 2).data();
+    last = this->Nearest(middle,
+      last.Triangle < 0 ? std::numeric_limits<double>::infinity()
+                        : this->Foot(last.Triangle, middle).SquaredDistance);
+    const bool isGathered = end - begin >= SmallestGroup &&
+      near.Gather(*this, queries.middleRows(begin, end - begin), last.Triangle,
+        [&](const double* lower, const double* upper, auto&& use)
+        {
+          this->Tree.ForNear(
+            lower, upper, [&](int strip) { return use(this->TriangleOf(strip)); });
+        });
+    for (Eigen::Index i = begin; i < end; ++i)
+    {
+      const double* query = queries.row(i).data();
+      last = isGathered
+        ? near.Nearest(query)
+        : this->Nearest(query, this->Foot(last.Triangle, query).SquaredDistance);
+      feet[static_cast<std::size_t>(i)] = last;
+    }
+  }
 }
 
 template TriangleFoot ClosestOnTriangle<2>(

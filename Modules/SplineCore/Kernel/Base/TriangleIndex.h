@@ -82,6 +82,10 @@ public:
   /// Closest point of the mesh with squared distance <= bound; of equally near triangles the first.
   TriangleFoot Nearest(
     const double* point, double bound = std::numeric_limits<double>::infinity()) const;
+  /// Closest points of the rows of queries, each as by itself. Where they come near each other one
+  /// after the other, as many as a group holds look at the same few triangles.
+  /// @complexity O(1) a query near the ones before, in the mean; else O(log n).
+  void Nearest(const PointMatrixView& queries, std::vector<TriangleFoot>& feet) const;
 
 private:
   /// Part of a triangle, of equal ones along its longest edge.
@@ -92,6 +96,10 @@ private:
     int Count;
   };
   void MakeStrips();
+  int TriangleOf(int strip) const
+  {
+    return this->Strips[static_cast<std::size_t>(strip)].Triangle;
+  }
   void Boxes(PointMatrix& lower, PointMatrix& upper) const;
 
   PointMatrix Corners;

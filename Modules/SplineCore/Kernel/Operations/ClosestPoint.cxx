@@ -6,12 +6,16 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace knotwork
 {
 namespace
 {
+constexpr std::size_t AtOnce = 4096; ///< elements that are sampled together
+
 std::size_t At(std::int64_t i)
 {
   return static_cast<std::size_t>(i);
@@ -91,13 +95,18 @@ Result<ClosestPointSearch<Dim>> ClosestPointSearch<Dim>::Create(
   PointMatrix upper(numElements, c);
   EvaluationParams evaluation;
   evaluation.Threads = params.Threads;
-  std::size_t next = 0;
-  for (const BezierForm<Dim>& form : patches)
+  std::vector<int> elements;
+  std::vector<double> parameters;
+  EvaluationBatch batch;
+  for (std::size_t next = 0; next < search.Starts.size();)
   {
+    const BezierForm<Dim>& form = patches[At(search.Starts[next].Patch)];
     const std::size_t first = next;
-    std::vector<int> elements;
-    std::vector<double> parameters;
-    for (; next < first + form.Space->Elements.size(); ++next)
+    elements.clear();
+    parameters.clear();
+    for (; next < search.Starts.size() && next < first + AtOnce &&
+         search.Starts[next].Patch == search.Starts[first].Patch;
+         ++next)
     {
       const Start& start = search.Starts[next];
       std::int64_t count = 1;
@@ -125,35 +134,43 @@ Result<ClosestPointSearch<Dim>> ClosestPointSearch<Dim>::Create(
         }
       }
     }
-    if (elements.empty())
-    {
-      continue;
-    }
-    const Eigen::Map<const PointMatrix> local(
-      parameters.data(), static_cast<Eigen::Index>(elements.size()), Dim);
-    EvaluationBatch batch;
-    Status status = EvaluateElements<Dim>(form, elements, local, evaluation, batch);
-    if (!status)
+    const auto count = static_cast<Eigen::Index>(elements.size());
+    const Eigen::Map<const PointMatrix> local(parameters.data(), count, Dim);
+    if (Status status = EvaluateElements<Dim>(form, elements, local, evaluation, batch); !status)
     {
       return status;
     }
-    samples.middleRows(static_cast<Eigen::Index>(search.Starts[first].FirstSample),
-      static_cast<Eigen::Index>(elements.size())) = batch.Values;
+    samples.middleRows(static_cast<Eigen::Index>(search.Starts[first].FirstSample), count) =
+      batch.Values;
   }
   if (!samples.allFinite() || !lower.allFinite() || !upper.allFinite())
   {
     return { ErrorCode::NonFiniteInput, "control points or weights of the map" };
   }
-  search.Samples = SampleIndex(std::move(samples));
+  search.Samples = std::move(samples);
   search.Hulls = BoxTree(lower, upper);
+  search.Lower = std::move(lower);
+  search.Upper = std::move(upper);
   search.Patches = std::move(patches);
   return search;
 }
 
 template <int Dim>
+double ClosestPointSearch<Dim>::HullDistance(int item, const double* query) const
+{
+  double sum = 0.0;
+  for (int d = 0; d < this->Hulls.Dimension(); ++d)
+  {
+    const double gap =
+      std::max({ this->Lower(item, d) - query[d], query[d] - this->Upper(item, d), 0.0 });
+    sum += gap * gap;
+  }
+  return sum;
+}
+
+template <int Dim>
 typename ClosestPointSearch<Dim>::Candidate ClosestPointSearch<Dim>::SearchElement(
-  const Start& start, const double* query, std::vector<double>& distances,
-  EvaluationBatch& batch) const
+  const Start& start, const double* query, Workspace& work) const
 {
   const int c = this->Hulls.Dimension();
 
@@ -166,7 +183,8 @@ typename ClosestPointSearch<Dim>::Candidate ClosestPointSearch<Dim>::SearchEleme
     count *= start.Counts[d];
   }
   const double* samples =
-    this->Samples.Samples().data() + static_cast<std::int64_t>(start.FirstSample) * c;
+    this->Samples.data() + static_cast<std::int64_t>(start.FirstSample) * c;
+  std::vector<double>& distances = work.Distances;
   distances.resize(At(count));
   for (std::int64_t i = 0; i < count; ++i)
   {
@@ -194,7 +212,7 @@ typename ClosestPointSearch<Dim>::Candidate ClosestPointSearch<Dim>::SearchEleme
       candidate.Local = GridParameter<Dim>(start.Counts, i);
       std::copy(samples + i * c, samples + (i + 1) * c, candidate.Point.begin());
       candidate.SquaredDistance = distances[At(i)];
-      this->Improve(start, query, candidate, batch);
+      this->Improve(start, query, candidate, work);
       if (candidate.SquaredDistance < best.SquaredDistance)
       {
         best = candidate;
@@ -206,7 +224,7 @@ typename ClosestPointSearch<Dim>::Candidate ClosestPointSearch<Dim>::SearchEleme
 
 template <int Dim>
 void ClosestPointSearch<Dim>::Improve(
-  const Start& start, const double* query, Candidate& best, EvaluationBatch& batch) const
+  const Start& start, const double* query, Candidate& best, Workspace& work) const
 {
   const BezierForm<Dim>& form = this->Patches[At(start.Patch)];
   const int c = form.NumComponents;
@@ -223,22 +241,28 @@ void ClosestPointSearch<Dim>::Improve(
       length[d] = box.Upper[At(d)] - box.Lower[At(d)];
     }
   }
-  const std::vector<int> element{ start.Element };
-  PointMatrix local(1, Dim);
+  work.Element.assign(1, start.Element);
+  PointMatrix& local = work.Local;
+  local.resize(1, Dim);
   EvaluationParams evaluation;
   evaluation.Threads = 1;
-  for (int iteration = 0; iteration < this->Params.MaxIterations && best.SquaredDistance > 0.0;
+  evaluation.Derivatives = 2;
+  const auto evaluate = [&](EvaluationBatch& at)
+  { return static_cast<bool>(EvaluateElements<Dim>(form, work.Element, local, evaluation, at)); };
+  for (int d = 0; d < Dim; ++d)
+  {
+    local(0, d) = best.Local[At(d)];
+  }
+  double size = 0.0;
+  for (int k = 0; k < c; ++k)
+  {
+    size = std::max(size, std::abs(query[k]));
+  }
+  bool isKnown = this->Params.MaxIterations > 0 && evaluate(work.Here);
+  for (int iteration = 0; isKnown && iteration < this->Params.MaxIterations && best.SquaredDistance > 0.0;
        ++iteration)
   {
-    for (int d = 0; d < Dim; ++d)
-    {
-      local(0, d) = best.Local[At(d)];
-    }
-    evaluation.Derivatives = 2;
-    if (!EvaluateElements<Dim>(form, element, local, evaluation, batch))
-    {
-      break;
-    }
+    const EvaluationBatch& batch = work.Here;
     Vector gradient = Vector::Zero();
     Matrix gauss = Matrix::Zero();
     Matrix hessian = Matrix::Zero();
@@ -293,10 +317,13 @@ void ClosestPointSearch<Dim>::Improve(
     {
       break;
     }
+    // A step that promises less than what rounding makes of the distance is tried, not halved.
+    const double noise = std::numeric_limits<double>::epsilon() *
+      (best.SquaredDistance + 2.0 * std::sqrt(best.SquaredDistance) * size);
+    const int halvings = std::abs(gradient.dot(step)) > noise ? 30 : 1;
     bool improved = false;
     double moved = 0.0;
-    evaluation.Derivatives = 0;
-    for (int halving = 0; halving < 30 && !improved; ++halving, step *= 0.5)
+    for (int halving = 0; halving < halvings && !improved; ++halving, step *= 0.5)
     {
       moved = 0.0;
       for (int d = 0; d < Dim; ++d)
@@ -304,14 +331,15 @@ void ClosestPointSearch<Dim>::Improve(
         local(0, d) = std::clamp(best.Local[At(d)] + step[d], 0.0, 1.0);
         moved = std::max(moved, std::abs(local(0, d) - best.Local[At(d)]));
       }
-      if (moved == 0.0 || !EvaluateElements<Dim>(form, element, local, evaluation, batch))
+      if (moved == 0.0 || !evaluate(work.There))
       {
         break;
       }
       double sum = 0.0;
       for (int k = 0; k < c; ++k)
       {
-        sum += (batch.Values(0, k) - query[k]) * (batch.Values(0, k) - query[k]);
+        const double gap = work.There.Values(0, k) - query[k];
+        sum += gap * gap;
       }
       if (sum < best.SquaredDistance)
       {
@@ -323,8 +351,9 @@ void ClosestPointSearch<Dim>::Improve(
         }
         for (int k = 0; k < c; ++k)
         {
-          best.Point[At(k)] = batch.Values(0, k);
+          best.Point[At(k)] = work.There.Values(0, k);
         }
+        std::swap(work.Here, work.There);
       }
     }
     if (!improved || moved < 1e-15)
@@ -370,23 +399,25 @@ Status ClosestPointSearch<Dim>::Find(const PointMatrixView& queries, ClosestPoin
     ParallelFor(size, 32, this->Params.Threads,
       [&](std::size_t from, std::size_t to)
       {
-        EvaluationBatch batch;
-        std::vector<double> distances;
+        Workspace work;
         for (std::size_t i = begin + from; i < begin + to; ++i)
         {
           const auto row = static_cast<Eigen::Index>(i);
           const double* query = points.data() + row * c;
-          const double bound = this->Samples.Nearest(query).SquaredDistance;
           Candidate best;
           best.SquaredDistance = std::numeric_limits<double>::infinity();
           int bestItem = -1;
-          // Rounding of box distances must not lose the element of the nearest sample.
-          this->Hulls.Nearest(
-            query,
+          this->Hulls.Nearest(query,
             [&](int item)
             {
+              // rounding of box distances must not lose an element
+              const double least = this->HullDistance(item, query) * (1.0 - 1e-9);
+              if (least > best.SquaredDistance)
+              {
+                return least;
+              }
               const Candidate candidate =
-                this->SearchElement(this->Starts[At(item)], query, distances, batch);
+                this->SearchElement(this->Starts[At(item)], query, work);
               if (candidate.SquaredDistance < best.SquaredDistance ||
                 (candidate.SquaredDistance == best.SquaredDistance && item < bestItem))
               {
@@ -394,8 +425,7 @@ Status ClosestPointSearch<Dim>::Find(const PointMatrixView& queries, ClosestPoin
                 bestItem = item;
               }
               return candidate.SquaredDistance;
-            },
-            bound * (1.0 + 1e-9) + std::numeric_limits<double>::min());
+            });
           if (bestItem < 0) // not reached with finite data
           {
             continue;

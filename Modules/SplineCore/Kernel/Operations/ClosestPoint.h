@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <knotwork/SplineCore/BezierForm.h>
-#include <knotwork/SplineCore/SampleIndex.h>
+#include <knotwork/SplineCore/BoxTree.h>
 
 namespace knotwork
 {
@@ -26,9 +26,9 @@ struct ClosestPoints
 /// Closest points on spline maps: curves in the plane or space, surfaces in space, and, with as
 /// many components as parameters, the inverse of a map (distance 0 inside its image).
 ///
-/// The nearest of dense samples bounds the distance. Every element whose control points' box (which
-/// holds the element by the convex hull property) lies within the bound is then searched from each
-/// of its samples that is nearer than its neighbours, by a projected Newton iteration on the
+/// Every element whose control points' box (which holds the element by the convex hull property) is
+/// not farther than the nearest point so far is searched, the nearest boxes first, from each of its
+/// dense samples that is nearer than its neighbours, by a projected Newton iteration on the
 /// squared distance: full Hessian where it is positive definite on the free parameters, else
 /// Gauss-Newton, halved until the distance falls, clamped to the element. A worse point is never
 /// accepted, so the result is at least as near as the nearest sample. It is the global minimum
@@ -41,7 +41,7 @@ class ClosestPointSearch
 public:
   /// @param patches  same number of components, 1..4.
   /// @return EmptyInput, SizeMismatch, InvalidParameter, NonFiniteInput.
-  /// @complexity O(samples * log(samples)).
+  /// @complexity O(samples + elements log(elements)).
   static Result<ClosestPointSearch> Create(
     std::vector<BezierForm<Dim>> patches, const ClosestPointParams& params = {});
 
@@ -64,15 +64,25 @@ private:
     std::array<double, 4> Point{};
     double SquaredDistance = 0.0;
   };
-  Candidate SearchElement(const Start& start, const double* query, std::vector<double>& distances,
-    EvaluationBatch& batch) const;
-  void Improve(
-    const Start& start, const double* query, Candidate& best, EvaluationBatch& batch) const;
+  /// Memory that one query leaves to the next.
+  struct Workspace
+  {
+    std::vector<double> Distances; ///< of the samples of an element
+    std::vector<int> Element;
+    PointMatrix Local;
+    EvaluationBatch Here;
+    EvaluationBatch There; ///< where a step leads
+  };
+  Candidate SearchElement(const Start& start, const double* query, Workspace& work) const;
+  void Improve(const Start& start, const double* query, Candidate& best, Workspace& work) const;
+  double HullDistance(int item, const double* query) const;
 
   std::vector<BezierForm<Dim>> Patches;
   ClosestPointParams Params;
   std::vector<Start> Starts; ///< all elements
-  SampleIndex Samples;
-  BoxTree Hulls;
+  PointMatrix Samples; ///< of all elements, one after the other
+  PointMatrix Lower;   ///< of the control points' box of every element
+  PointMatrix Upper;
+  BoxTree Hulls;       ///< of these boxes
 };
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 using namespace knotwork;
@@ -222,4 +223,57 @@ TEST(TriangleIndex, NeighboursShareAnEdge_ExactOracle)
   EXPECT_EQ(FirstOfEqualPoints(points), (std::vector<int>{ 0, 1, 0, 1, 1 }));
   EXPECT_EQ(
     ReplaceCorners({ { 2, 1, 0 } }, { 5, 6, 7 }), (std::vector<MeshTriangle>{ { 7, 6, 5 } }));
+}
+
+TEST(TriangleIndex, GroupsFindWhatSingleQueriesFind_CrossOracle)
+{
+  // A plate with bumps, slivers across it that several boxes hold, and triangles twice: of equally
+  // near ones the first is found either way.
+  SkeletonPatch<3> plate = cases::Plate(12);
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> real(0.0, 1.0);
+  for (Eigen::Index i = 0; i < plate.Points.rows(); ++i)
+  {
+    plate.Points(i, 2) = 0.05 * real(random);
+  }
+  std::vector<MeshTriangle> triangles = plate.Simplices;
+  const auto last = static_cast<int>(plate.Points.rows()) - 1;
+  triangles.push_back({ 0, 1, last });
+  triangles.push_back({ last, last - 1, 0 });
+  triangles.insert(triangles.end(), plate.Simplices.begin(), plate.Simplices.end());
+  const TriangleIndex<3> index(plate.Points, triangles);
+  const auto expectSame = [&](const PointMatrix& queries)
+  {
+    std::vector<TriangleFoot> feet;
+    index.Nearest(queries, feet);
+    ASSERT_EQ(static_cast<Eigen::Index>(feet.size()), queries.rows());
+    for (Eigen::Index i = 0; i < queries.rows(); ++i)
+    {
+      const TriangleFoot one = index.Nearest(queries.row(i).data());
+      const TriangleFoot& foot = feet[static_cast<std::size_t>(i)];
+      ASSERT_EQ(foot.Triangle, one.Triangle) << i;
+      ASSERT_EQ(foot.SquaredDistance, one.SquaredDistance) << i;
+      ASSERT_EQ(foot.Second, one.Second) << i;
+      ASSERT_EQ(foot.Third, one.Third) << i;
+      for (std::size_t t = 0; i % 7 == 0 && t < triangles.size(); ++t)
+      {
+        ASSERT_GE(index.Foot(static_cast<int>(t), queries.row(i).data()).SquaredDistance,
+          foot.SquaredDistance);
+      }
+    }
+  };
+  expectSame(plate.Points); // corners are equally near to all triangles around
+  PointMatrix rows(3000, 3);
+  for (Eigen::Index i = 0; i < rows.rows(); ++i)
+  {
+    const double t = static_cast<double>(i) / static_cast<double>(rows.rows());
+    rows.row(i) << t, std::fmod(40.0 * t, 1.0), 0.1 * real(random) - 0.03;
+  }
+  expectSame(rows);
+  for (Eigen::Index i = 0; i < rows.rows(); ++i)
+  {
+    rows.row(i) << 3.0 * real(random) - 1.0, 3.0 * real(random) - 1.0, real(random);
+  }
+  expectSame(rows); // in any order, near and far
+  expectSame(PointMatrix(0, 3));
 }

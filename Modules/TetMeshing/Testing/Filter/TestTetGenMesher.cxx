@@ -218,6 +218,72 @@ TEST(vtkTetGenMesher, RegionsHaveSizesOfTheirOwn)
   EXPECT_GT(largest[true], bound);
 }
 
+TEST(vtkTetGenMesher, CellsLargerThanAskedForAreToldOf)
+{
+  vtkNew<vtkTetGenMesher> filter;
+  filter->SetInputDataObject(Box(2.0));
+  filter->SetEdgeLength(0.3);
+  filter->SetKeepBoundary(false);
+  vtkNew<MessageRecorder> messages;
+  messages->Watch(filter);
+  filter->Update();
+  const double bound = std::pow(0.3, 3) / (6.0 * std::sqrt(2.0)) * (1.0 + 1e-9);
+  const auto count = [&]
+  {
+    int larger = 0;
+    vtkUnstructuredGrid* cells = Cells(filter);
+    for (vtkIdType c = 0; c < cells->GetNumberOfCells(); ++c)
+    {
+      double x[4][3];
+      for (vtkIdType k = 0; k < 4; ++k)
+      {
+        cells->GetCell(c)->GetPoints()->GetPoint(k, x[k]);
+      }
+      larger += std::abs(vtkTetra::ComputeVolume(x[0], x[1], x[2], x[3])) > bound ? 1 : 0;
+    }
+    return larger;
+  };
+  EXPECT_EQ(count(), 0);
+  EXPECT_EQ(Number(filter, "OversizedElements"), 0.0);
+  EXPECT_TRUE(messages->Warnings.empty());
+  filter->SetMaxSteinerPoints(20); // too few
+  filter->Update();
+  EXPECT_GT(count(), 0);
+  EXPECT_EQ(Number(filter, "OversizedElements"), count());
+  ASSERT_EQ(messages->Warnings.size(), 1U);
+  EXPECT_NE(messages->Warnings[0].find("larger than was asked for"), std::string::npos);
+
+  // the same of a field
+  vtkNew<vtkImageData> field;
+  field->SetDimensions(2, 2, 2);
+  field->SetOrigin(-1.0, -1.0, -1.0);
+  field->SetSpacing(2.0, 2.0, 2.0);
+  vtkNew<vtkDoubleArray> lengths;
+  lengths->SetName("Length");
+  lengths->SetNumberOfTuples(8);
+  lengths->Fill(0.3);
+  field->GetPointData()->AddArray(lengths);
+  filter->SetEdgeLength(0.0);
+  filter->SetSizeData(field);
+  filter->Update();
+  EXPECT_GT(count(), 0);
+  EXPECT_EQ(Number(filter, "OversizedElements"), count());
+}
+
+TEST(vtkTetGenMesher, OptionsOfOtherInputsAreToldOf)
+{
+  vtkNew<vtkTetGenMesher> filter;
+  filter->SetInputDataObject(Box(2.0));
+  filter->SetSolid(vtkTetGenMesher::ABOVE);
+  filter->SetLevel(1.0);
+  vtkNew<MessageRecorder> messages;
+  messages->Watch(filter);
+  filter->Update();
+  ASSERT_EQ(messages->Warnings.size(), 1U);
+  EXPECT_NE(messages->Warnings[0].find("Solid, Level did not count"), std::string::npos)
+    << messages->Warnings[0];
+}
+
 TEST(vtkTetGenMesher, SizesThatAreNoneAreErrors)
 {
   vtkNew<vtkTetGenMesher> filter;
