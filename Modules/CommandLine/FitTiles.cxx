@@ -341,6 +341,7 @@ private:
       this->Filter->SetInputDataObject(0, points.Value);
       this->Filter->SetInputDataObject(1, nullptr);
       this->Filter->SetHoldEdges(vtkSplineSurfaceFit::NO_EDGES);
+      this->Filter->AssumeNoLayers(false);
       this->Filter->SetDomain(domain.Lower[0], domain.Upper[0], domain.Lower[1], domain.Upper[1]);
       if (Status status = this->Update(tile); !status)
       {
@@ -578,6 +579,7 @@ private:
       this->Filter->SetHoldEdges(!holds   ? vtkSplineSurfaceFit::NO_EDGES
           : this->Filter->GetDegree() < 2 ? vtkSplineSurfaceFit::VALUES
                                           : vtkSplineSurfaceFit::DERIVATIVES);
+      this->Filter->AssumeNoLayers(true); // all of them were there when the tile was fitted
       if (Status status = this->Update(tile); !status)
       {
         return status;

@@ -111,15 +111,37 @@ Result<AnalysisResults> Solve(const ProblemDescription& description, const Analy
   return solved;
 }
 
-/// @param body  becomes the refined one.
+/// The elements of a space that those of a refined one lie in. @pre both have the same domain.
+template <int Dim>
+std::vector<int> ParentsOf(const SplineSpace<Dim>& refined, const SplineSpace<Dim>& coarse)
+{
+  const auto count = refined.Elements.size();
+  std::vector<double> middles;
+  for (const auto& element : refined.Elements)
+  {
+    for (std::size_t d = 0; d < Dim; ++d)
+    {
+      middles.push_back(0.5 * (element.Box.Lower[d] + element.Box.Upper[d]));
+    }
+  }
+  std::vector<int> parents(count);
+  std::vector<double> local(count * Dim);
+  coarse.Locate(middles.data(), Dim, count, parents.data(), local.data());
+  return parents;
+}
+
+/// @param body       becomes the refined one.
+/// @param materials  of the elements of the body; empty: one for all.
 template <int Dim>
 Result<AnalysisResults> SolvePatchesAdaptively(const ProblemDescription& description,
-  AnalysisBody& body, const AnalysisOptions& options, const ProgressCallback& progress)
+  const std::vector<int>& materials, AnalysisBody& body, const AnalysisOptions& options,
+  const ProgressCallback& progress)
 {
   SplineModel model = body.Model;
+  const MultiPatch<Dim> coarse = GluedPatches<Dim>(model);
   auto refined = SolveAdaptively<Dim>(
-    GluedPatches<Dim>(model),
-    [&](const MultiPatch<Dim>&, const GalerkinSpace& space) -> Result<GalerkinProblem>
+    coarse,
+    [&](const MultiPatch<Dim>& patches, const GalerkinSpace& space) -> Result<GalerkinProblem>
     {
       auto facets = BoundaryFacets(space);
       if (!facets)
@@ -128,7 +150,18 @@ Result<AnalysisResults> SolvePatchesAdaptively(const ProblemDescription& descrip
       }
       BoundaryGroups boundary;
       boundary.Facets = std::move(facets.Value);
-      return MakeProblem(description, space, boundary, options.Compile);
+      auto problem = MakeProblem(description, space, boundary, options.Compile);
+      std::size_t first = 0; // element of the unrefined patch
+      for (std::size_t i = 0; problem && !materials.empty() && i < patches.Patches.size(); ++i)
+      {
+        const SplineSpace<Dim>& before = *coarse.Patches[i].Space;
+        for (const int parent : ParentsOf(*patches.Patches[i].Space, before))
+        {
+          problem->MaterialIds.push_back(materials[first + static_cast<std::size_t>(parent)]);
+        }
+        first += before.Elements.size();
+      }
+      return problem;
     },
     options.Params, progress);
   if (!refined)
@@ -139,7 +172,12 @@ Result<AnalysisResults> SolvePatchesAdaptively(const ProblemDescription& descrip
   {
     model.Patches[i].Geometry = refined->Body.Patches[i];
     model.Patches[i].Fields.clear();
-    model.Patches[i].Cells.clear();
+    std::vector<vtkIdType> cells; // that elements come from
+    for (const int parent : ParentsOf(*refined->Body.Patches[i].Space, *coarse.Patches[i].Space))
+    {
+      cells.push_back(model.Patches[i].Cells[static_cast<std::size_t>(parent)]);
+    }
+    model.Patches[i].Cells = std::move(cells);
   }
   model.Topology = refined->Body.Topology;
   auto made = MakeBody(std::move(model));
@@ -163,7 +201,8 @@ Result<AnalysisResults> SolvePatchesAdaptively(const ProblemDescription& descrip
 }
 
 Result<AnalysisResults> SolveBodyAdaptively(const ProblemDescription& description,
-  AnalysisBody& body, const AnalysisOptions& options, const ProgressCallback& progress)
+  AnalysisBody& body, vtkDataObject* input, const AnalysisOptions& options,
+  const ProgressCallback& progress)
 {
   if (body.Model.Patches.empty())
   {
@@ -172,14 +211,14 @@ Result<AnalysisResults> SolveBodyAdaptively(const ProblemDescription& descriptio
       "MaxSteps above 1 is for splines, and the input is a mesh; refine it before, or set it to 1"
     };
   }
-  if (!description.MaterialArray.empty())
+  const auto materials = ReadMaterials(description, body, input);
+  if (!materials)
   {
-    return { ErrorCode::InvalidParameter,
-      "MaxSteps above 1 is for one material, and the problem has a \"material_array\"" };
+    return materials.Status;
   }
   return body.Space.Dimension == 2
-    ? SolvePatchesAdaptively<2>(description, body, options, progress)
-    : SolvePatchesAdaptively<3>(description, body, options, progress);
+    ? SolvePatchesAdaptively<2>(description, materials.Value, body, options, progress)
+    : SolvePatchesAdaptively<3>(description, materials.Value, body, options, progress);
 }
 
 /// Fields and, where the solution is known, its errors.
@@ -270,7 +309,7 @@ Result<AnalysisResults> RunAnalysis(AnalysisBody body, vtkDataObject* input,
   }
   const ProgressCallback solving = [&](double share) { return progress(0.7 * share); };
   auto results = options.Params.MaxSteps > 1
-    ? SolveBodyAdaptively(description.Value, body, options, solving)
+    ? SolveBodyAdaptively(description.Value, body, input, options, solving)
     : Solve(description.Value, body, input, options, solving);
   if (!results)
   {

@@ -339,7 +339,8 @@ knotwork::Status vtkSplineSurfaceFit::FitAlone(
   FitParams params;
   Status status = this->DecodeStart(inputs, start);
   status = status ? this->DecodePoints(inputs, start, decoded) : status;
-  if (status && decoded.Over && this->Side == BOTH_SIDES) // an envelope may have layers below it
+  // an envelope may have layers below it
+  if (status && decoded.Over && this->Side == BOTH_SIDES && !this->LayersAreChecked)
   {
     status = CheckLayers(
       decoded.Cloud.Parameters, decoded.Cloud.Values.leftCols(decoded.NumMeasured), decoded.Over);

@@ -203,6 +203,10 @@ public:
    * v0, v1. Group "Space and Domain". */
   vtkSetVector4Macro(HeldSides, int);
   vtkGetVector4Macro(HeldSides, int);
+
+  /** What updates a surface with points that it was fitted to need not look for layers of them
+   * again. False at the start. */
+  void AssumeNoLayers(bool are) { this->LayersAreChecked = are; }
   ///@}
   ///@{
   /** How control points are found, one of Methods: least squares with smoothing, multilevel
@@ -447,6 +451,7 @@ private:
   double Seconds = 0.0;
   int HoldEdges = NO_EDGES;
   int HeldSides[4] = { 1, 1, 1, 1 };
+  bool LayersAreChecked = false;
   int Method = LEAST_SQUARES;
   int SwitchIteration = 6;
   double Smoothing = 1e-9;

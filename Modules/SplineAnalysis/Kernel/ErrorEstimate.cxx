@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace knotwork
 {
@@ -354,9 +355,12 @@ Status AddInterior(const Estimator<Dim>& estimator, const GalerkinSpace& space,
 
 /// Sides inside that the flux may jump across, then those of the boundary. @return as MatchSides.
 Result<std::vector<EstimateFacet>> MakeFacets(
-  const GalerkinSpace& space, const ConditionMap& conditions)
+  const GalerkinSpace& space, const GalerkinProblem& problem, const ConditionMap& conditions)
 {
-  const auto found = FindFacets(space, false);
+  const std::vector<int>& ids = problem.MaterialIds;
+  const bool areAlike = std::adjacent_find(ids.begin(), ids.end(), std::not_equal_to<>()) ==
+    ids.end();
+  const auto found = FindFacets(space, !areAlike);
   if (!found)
   {
     return found.Status;
@@ -364,7 +368,14 @@ Result<std::vector<EstimateFacet>> MakeFacets(
   std::vector<EstimateFacet> facets;
   for (const InnerFacet& facet : found->Inner)
   {
-    facets.push_back({ facet, {} });
+    // between materials the flux jumps however smooth functions are
+    const auto& [one, other] = facet.Sides;
+    const auto isSmooth = [&](const CellSide& side)
+    { return (space.SmoothSides[At(side.Cell)] >> side.Side & 1U) != 0; };
+    if (areAlike || ids[At(one.Cell)] != ids[At(other.Cell)] || !isSmooth(one) || !isSmooth(other))
+    {
+      facets.push_back({ facet, {} });
+    }
   }
   for (const CellSide& side : found->Boundary)
   {
@@ -391,7 +402,7 @@ Status AddFacets(const Estimator<Dim>& estimator, const GalerkinSpace& space,
   const GalerkinProblem& problem, int threads, SquareSums& sums)
 {
   const ConditionMap conditions = MakeConditions(problem);
-  const auto facets = MakeFacets(space, conditions);
+  const auto facets = MakeFacets(space, problem, conditions);
   if (!facets)
   {
     return facets.Status;

@@ -427,6 +427,55 @@ TEST(vtkSplineAnalysis, RefinementOfSeveralPatches_PropertyOracle)
   EXPECT_NEAR(Number(again, "Energy"), Number(filter, "Energy"), 1e-10 * Number(filter, "Energy"));
 }
 
+// A flux of 1 through two layers, whose elements keep their material and arrays when they are split.
+TEST(vtkSplineAnalysis, RefinementOfSeveralMaterials_ExactOracle)
+{
+  const auto body = ShapeGrid(vtkSplineSource::SQUARE, 2, { 6, 6, 1 });
+  double box[6];
+  body->GetBounds(box);
+  const double middle = 0.5 * (box[0] + box[1]);
+  const auto isRight = [&](vtkUnstructuredGrid* grid, vtkIdType cell)
+  {
+    double bounds[6];
+    grid->GetCellBounds(cell, bounds);
+    return 0.5 * (bounds[0] + bounds[1]) > middle;
+  };
+  vtkNew<vtkIntArray> material;
+  material->SetName("Layer");
+  for (vtkIdType cell = 0; cell < body->GetNumberOfCells(); ++cell)
+  {
+    material->InsertNextValue(isRight(body, cell) ? 20 : 10);
+  }
+  body->GetCellData()->AddArray(material);
+  vtkNew<vtkSplineAnalysis> filter;
+  filter->SetInputDataObject(body);
+  filter->SetProblem(R"({ "material_array": "Layer",
+    "materials": [ { "number": 10, "conductivity": 1 }, { "number": 20, "conductivity": 10 } ],
+    "conditions": [ { "on": { "side": 0 }, "value": 0 }, { "on": { "side": 1 }, "flux": 1 } ] })");
+  filter->Update();
+  // the integral of the squared flux over the conductivity, halved
+  const double energy = 0.5 * (box[3] - box[2]) * 0.5 * (box[1] - box[0]) * 1.1;
+  const double lost = energy - Number(filter, "Energy");
+  EXPECT_GT(lost, 1e-4 * energy);
+  filter->SetMaxSteps(6);
+  filter->Update();
+  ASSERT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
+  // elements at the interface were halved five times, the error is there alone and of order 1/2
+  EXPECT_NEAR(energy - Number(filter, "Energy"), lost / 32.0, 0.1 * lost / 32.0);
+  auto* const layers = Body(filter)->GetCellData()->GetArray("Layer");
+  ASSERT_TRUE(layers);
+  for (vtkIdType cell = 0; cell < Body(filter)->GetNumberOfCells(); ++cell)
+  {
+    EXPECT_EQ(layers->GetComponent(cell, 0), isRight(Body(filter), cell) ? 20.0 : 10.0);
+  }
+  vtkNew<vtkSplineAnalysis> again;
+  again->SetInputDataObject(Body(filter));
+  again->SetProblem(filter->GetProblem());
+  again->Update();
+  ASSERT_EQ(again->GetErrorCode(), vtkErrorCode::NoError);
+  EXPECT_NEAR(Number(again, "Energy"), Number(filter, "Energy"), 1e-10 * energy);
+}
+
 // Lines of a mesh in space are edges that loads act along.
 TEST(vtkSplineAnalysis, LoadsAlongLinesOfAMesh_ExactOracle)
 {

@@ -366,6 +366,60 @@ TEST(ErrorEstimate, RatioOfHardCases_ExactOracle)
   }
 }
 
+TEST(ErrorEstimate, FluxJumpsBetweenMaterials_ExactOracle)
+{
+  // A flux of 1 through two layers: the gradient jumps where functions are C^1, which costs an
+  // error of order 1/2, all of it at the layers' interface.
+  for (const double conductivity : { 3.0, 100.0 })
+  {
+    for (AnalysisCase body : { CaseOf<2>("tensor", BentBox<2>(2, 8, 0.0)),
+           CaseOf<2>("THB",
+             RefineMarkedElements(BentBox<2>(2, 8, 0.0), LowerCorner(2, 8))->Value),
+           CaseOf<2>("cubic", BentBox<2>(3, 8, 0.0)), CaseOf<3>("tensor 3", BentBox<3>(2, 4, 0.0)) })
+    {
+      SCOPED_TRACE(body.Name);
+      GalerkinProblem problem;
+      problem.Materials = { GalerkinMaterial{}, GalerkinMaterial{ conductivity } };
+      for (int e = 0; e < body.Space.NumElements(); ++e)
+      {
+        const double middle[] = { 0.5, 0.5, 0.5 };
+        PointValues values;
+        EvaluateFunctions(body.Space, e, middle, values);
+        problem.MaterialIds.push_back(values.Position[0] < 0.5 ? 0 : 1);
+      }
+      problem.Prescribed.push_back({ {}, -1, {} });
+      FacetLoad load;
+      for (const CellSide& facet : body.Boundary)
+      {
+        if (facet.Side == 0)
+        {
+          problem.Prescribed[0].Facets.push_back(facet);
+        }
+        if (facet.Side == 1)
+        {
+          load.Facets.push_back(facet);
+        }
+      }
+      load.Values = [](const double*, const double*, double* flux) { flux[0] = 1.0; };
+      problem.Loads.push_back(load);
+      const auto solution = SolveGalerkin(body.Space, problem);
+      ASSERT_TRUE(solution) << solution.Status.Message();
+      const double error = EnergyError(body.Space, problem, solution->Coefficients,
+        [&](const double* x, double* g)
+        {
+          std::fill_n(g, body.Space.Dimension, 0.0);
+          g[0] = x[0] < 0.5 ? 1.0 : 1.0 / conductivity;
+        });
+      const auto estimate = EstimateError(body.Space, problem, solution->Coefficients);
+      ASSERT_TRUE(estimate);
+      std::printf("[ estimate ] %-10s layers 1 : %-3g: %.2f of the error\n", body.Name.c_str(),
+        conductivity, estimate->Total / error);
+      EXPECT_GT(estimate->Total, 0.2 * error);
+      EXPECT_LT(estimate->Total, 5.0 * error);
+    }
+  }
+}
+
 TEST(ErrorEstimate, BitsDoNotDependOnThreads_PropertyOracle)
 {
   const AnalysisCase body = RefinedCase<3>(2, 6);

@@ -34,6 +34,21 @@ AnalysisCase TwoHalves(int n, int degree)
   return made;
 }
 
+/// A quarter of a tube, whose weights are those of circles. The solution does not vary along it.
+AnalysisCase Tube(int n, int degree)
+{
+  ShapeParams tube;
+  tube.Kind = ShapeKind::SolidTube;
+  tube.InnerRadius = 0.5;
+  tube.OuterRadius = 1.0;
+  tube.Height = 0.5;
+  tube.Elements = { n, n, n / 4 };
+  tube.Degree = degree;
+  const Spline<3> body = ShapePatches<3>(tube)[0];
+  EXPECT_GT(body.Weights.size(), 0);
+  return CaseOf<3>("", body);
+}
+
 /// The bent cube with an eighth of its elements split.
 AnalysisCase RefinedBox(int n, int degree)
 {
@@ -59,6 +74,7 @@ TEST(RatesInSpace, PoissonOnSplines_ExactOracle)
     ExpectRates("multi-patch", p, 8, [p](int n) { return TwoHalves(n, p); });
     ExpectRates(
       "unstructured", p, 4, [p](int n) { return CaseOf<3>("", BentStar<3>(5, n, p, n)); });
+    ExpectRates("rational", p, 20, [p](int n) { return Tube(n, p); });
   }
 }
 }

@@ -37,8 +37,9 @@ constexpr std::array<Grouping, 3> Groupings{ { { 2, 0.1, 0.25 }, { 3, 0.035, 0.1
   { 4, 0.015, 0.15 } } };
 
 /// Whether some numbers form groups, by the best division of the sorted ones.
-/// @param gap  that groups are apart at least.
-bool HaveGroups(Eigen::VectorXd heights, double gap)
+/// @param gap  that groups are apart at least; asked for when there are such.
+template <class Gap>
+bool HaveGroups(Eigen::VectorXd heights, Gap&& gap)
 {
   std::sort(heights.data(), heights.data() + heights.size());
   heights.array() -= heights.mean();
@@ -88,7 +89,7 @@ bool HaveGroups(Eigen::VectorXd heights, double gap)
     for (std::size_t end = n; apart && !begins.empty(); begins.pop_back())
     {
       const auto begin = static_cast<Eigen::Index>(begins.back()[end]);
-      apart = heights[begin] - heights[begin - 1] > gap;
+      apart = heights[begin] - heights[begin - 1] > gap();
       end = static_cast<std::size_t>(begin);
     }
     if (apart)
@@ -132,12 +133,8 @@ class Places
 {
 public:
   Places(const PointMatrix& parameters, const PointMatrix& values)
-    : Values(values), Steps(values.cols()), Largest(values.cwiseAbs().maxCoeff())
+    : Values(values), Largest(values.cwiseAbs().maxCoeff())
   {
-    for (Eigen::Index c = 0; c < values.cols(); ++c)
-    {
-      this->Steps[c] = StepOf(values.col(c));
-    }
     this->Sites.resize(static_cast<std::size_t>(parameters.rows()));
     for (std::size_t i = 0; i < this->Sites.size(); ++i)
     {
@@ -206,7 +203,7 @@ private:
   }
 
   bool HasLayers(
-    std::size_t begin, std::size_t end, const RealArray<2>& lower, const RealArray<2>& size) const
+    std::size_t begin, std::size_t end, const RealArray<2>& lower, const RealArray<2>& size)
   {
     const auto n = static_cast<Eigen::Index>(end - begin);
     if (2 * static_cast<std::size_t>(n) < PointsOfPlace)
@@ -225,26 +222,40 @@ private:
     }
     values.rowwise() -= Eigen::RowVectorXd(values.colwise().mean());
     Eigen::VectorXd heights = values.col(0);
-    double step = this->Steps[0];
+    Eigen::VectorXd direction = Eigen::VectorXd::Ones(1);
     if (values.cols() > 1)
     {
       const Eigen::MatrixXd rough = Residual(columns.leftCols(3), values);
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(rough.transpose() * rough);
-      const Eigen::VectorXd direction = solver.eigenvectors().rightCols(1);
+      direction = solver.eigenvectors().rightCols(1);
       heights = values * direction;
-      step = direction.cwiseAbs().dot(this->Steps);
     }
     const double deviation = std::sqrt(heights.squaredNorm() / static_cast<double>(n));
     if (!(deviation > Rounding * this->Largest))
     {
       return false;
     }
-    return HaveGroups(heights, LeastGap * step) &&
+    const auto gap = [&] { return LeastGap * direction.cwiseAbs().dot(this->StepsOfAll()); };
+    return HaveGroups(heights, gap) &&
       Residual(columns, heights).squaredNorm() > LeastRest * heights.squaredNorm();
   }
 
+  /// Of each component, of all points: few clouds have groups anywhere.
+  const Eigen::VectorXd& StepsOfAll()
+  {
+    if (this->Steps.size() == 0)
+    {
+      this->Steps.resize(this->Values.cols());
+      for (Eigen::Index c = 0; c < this->Values.cols(); ++c)
+      {
+        this->Steps[c] = StepOf(this->Values.col(c));
+      }
+    }
+    return this->Steps;
+  }
+
   const PointMatrix& Values;
-  Eigen::VectorXd Steps; ///< of each component
+  Eigen::VectorXd Steps;
   double Largest;
   std::vector<Site> Sites;
   std::mt19937 Random{ 1 };
