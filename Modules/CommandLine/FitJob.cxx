@@ -10,6 +10,7 @@
 #include <knotwork/SplineGrid/SplineModel.h>
 #include <knotwork/SplineIO/CloudTiles.h>
 #include <knotwork/SplineIO/DataFile.h>
+#include <knotwork/SplineIO/MapOutput.h>
 #include <knotwork/SplineIO/PieceFiles.h>
 #include <knotwork/SurfaceFitting/vtkSplineSurfaceFit.h>
 
@@ -89,6 +90,8 @@ public:
     this->AddOutput(Elements, "--elements", Endings::Cells, "the elements with their features");
     this->App.add_option("--resume", this->ResumeFolder,
       "folder that keeps what is done of tiles: the same run goes on with it when it was ended");
+    this->App.add_option("--crs", this->ReferenceSystem,
+      "coordinate reference system of the points, such as EPSG:25832; without it theirs");
     this->AddArrayOptions();
     this->AddProperties();
   }
@@ -137,6 +140,15 @@ protected:
       }
     }
     this->AddToleranceBoxes();
+    if (!this->ReferenceSystem.empty())
+    {
+      const auto name = StateReferenceSystem(this->ReferenceSystem, this->Input(0));
+      if (!name)
+      {
+        return name.Status;
+      }
+      session.Report["reference_system"] = name.Value;
+    }
     session.Report["fields"] = this->Fields;
     session.Report["parameter_array"] = this->Arrays[0];
     session.Report["tolerance_array"] = this->Arrays[1];
@@ -233,7 +245,12 @@ private:
     {
       return status;
     }
-    this->ReferenceSystem = index->ReferenceSystem;
+    const auto stated = WktOfReferenceSystem(this->ReferenceSystem);
+    if (!stated)
+    {
+      return stated.Status;
+    }
+    this->ReferenceSystem = stated->empty() ? index->ReferenceSystem : stated.Value;
     TileFitParams params;
     params.IndexFile = file;
     params.ResumeFolder = this->ResumeFolder;
@@ -464,7 +481,7 @@ private:
 
   std::string ResumeFolder;
   std::filesystem::path Staged; ///< the collection of tiles
-  std::string ReferenceSystem;  ///< of the tiles
+  std::string ReferenceSystem;  ///< as it is stated, then of the tiles
   std::vector<std::string> Fields;
   std::array<std::string, 3> Arrays; ///< parameters, tolerances, significant points
   std::vector<double> ToleranceBoxes;

@@ -5,6 +5,7 @@
 
 #include <knotwork/SplineCore/FileOutput.h>
 #include <knotwork/SplineIO/CloudTiles.h>
+#include <knotwork/SplineIO/MapOutput.h>
 
 #include <CLI/CLI.hpp>
 
@@ -21,6 +22,7 @@ struct TilesJob
   std::string Input;
   std::string Output;
   SplitParams Params;
+  std::string ReferenceSystem; ///< as it is stated
 
   Status Run(Session& session)
   {
@@ -34,6 +36,11 @@ struct TilesJob
     report["tile_size"] = this->Params.TileSize;
     report["points_per_tile"] = this->Params.PointsPerTile;
     report["halo"] = this->Params.Halo;
+    const auto stated = WktOfReferenceSystem(this->ReferenceSystem);
+    if (!stated)
+    {
+      return stated.Status;
+    }
     auto staged = session.Files.Stage(this->Output);
     if (!staged)
     {
@@ -70,7 +77,8 @@ struct TilesJob
       session.LeftOut.push_back("'" + this->Input + "': " + part);
       session.Warn({ session.LeftOut.back() });
     }
-    const TileIndex& index = split->Index;
+    TileIndex& index = split->Index;
+    index.ReferenceSystem = stated->empty() ? index.ReferenceSystem : stated.Value;
     std::uint64_t largest = 0;
     std::uint64_t written = 0;
     for (const CloudTile& tile : index.Tiles)
@@ -119,6 +127,8 @@ Job Make(CLI::App& app)
       "--halo", params.Halo, "how much of its neighbours a tile knows, as a share of its sides")
     ->check(InRange(0.0, 0.5))
     ->capture_default_str();
+  app.add_option("--crs", job->ReferenceSystem,
+    "coordinate reference system of the points, such as EPSG:25832; without it theirs");
   return [job](Session& session) { return job->Run(session); };
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSplineTessellate.h"
 
+#include "ReferenceSystem.h"
 #include "SplineBlocks.h"
 #include "SplineModel.h"
 #include <knotwork/SplineCore/Numbers.h>
@@ -271,6 +272,11 @@ Status SetPointData(const BlockMesh& block, const std::vector<const SplinePatch*
   arrays->AddArray(MakeArray("LocalParameters", block.PointLocal));
   return {};
 }
+}
+
+vtkSplineTessellate::vtkSplineTessellate()
+{
+  knotwork::KeepReferenceSystem(this);
 }
 
 int vtkSplineTessellate::RequestDataObject(

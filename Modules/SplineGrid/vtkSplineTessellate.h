@@ -88,7 +88,7 @@ public:
   ///@}
 
 protected:
-  vtkSplineTessellate() = default;
+  vtkSplineTessellate();
   ~vtkSplineTessellate() override = default;
   int RequestDataObject(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;

@@ -24,6 +24,12 @@ Result<std::string> SystemToWrite(
   return found ? Result<std::string>(found->Wkt) : found.Status;
 }
 
+Result<std::string> WktOfReferenceSystem(const std::string& stated)
+{
+  auto found = stated.empty() ? Result<MapReferenceSystem>() : FindReferenceSystem(stated);
+  return found ? Result<std::string>(std::move(found->Wkt)) : found.Status;
+}
+
 Result<std::string> StateReferenceSystem(const std::string& stated, vtkDataObject* data)
 {
   const std::string text = stated.empty() ? ReferenceSystemOf(data) : stated;

@@ -19,6 +19,10 @@ namespace knotwork
 Result<std::string> SystemToWrite(
   vtkDataObject* data, const std::string& stated, std::vector<std::string>& warnings);
 
+/// The reference system that a user states, such as EPSG:25832, as WKT; empty: none.
+/// @return failures of FindReferenceSystem.
+VTKKNOTWORKSPLINEIO_EXPORT Result<std::string> WktOfReferenceSystem(const std::string& stated);
+
 /// States what the user says (empty: nothing) as the reference system of data.
 /// @return its name: EPSG:25832 where it has a number, `unknown` where nobody knows it, empty where
 /// there is none; failures of FindReferenceSystem for one that the user states.

@@ -5,6 +5,8 @@
 #include "BenchmarkTools.h"
 #include "StiffnessMatrix.h"
 
+#include <cmath>
+
 namespace knotwork
 {
 namespace
@@ -108,13 +110,27 @@ BENCHMARK(AnalysisAssemblyAllThreads)
   ->DenseRange(10, 17);
 }
 
-/// Poisson's equation on a bent cube of degree 2 with (elements + 2)^3 functions, all threads: the
-/// whole solution, and its parts as counters in seconds.
+/// Poisson's equation on a bent cube of degree 2 with (elements + 2)^3 functions, or on a prism of
+/// five sectors about an extraordinary point with about as many, all threads: the whole solution,
+/// and its parts as counters in seconds.
 void AnalysisLargeSystem(benchmark::State& state)
 {
-  GalerkinSpace space = MakeGalerkinSpace(BentBox<3>(2, static_cast<int>(state.range(0)))).Value;
+  const auto elements = static_cast<int>(state.range(0));
+  const bool isUnstructured = state.range(1) == 2;
+  GalerkinSpace space;
+  if (isUnstructured)
+  {
+    const auto along = static_cast<int>(std::lround(elements / std::sqrt(5.0)));
+    space = MakeGalerkinSpace(testing::BentStar<3>(5, along, 2, elements)).Value;
+  }
+  else
+  {
+    space = MakeGalerkinSpace(BentBox<3>(2, elements)).Value;
+  }
   const bool isTensor = state.range(1) == 0;
-  state.SetLabel(isTensor ? "fast diagonalization" : "Gauss-Seidel and constants of cells");
+  state.SetLabel(isTensor ? "fast diagonalization"
+      : isUnstructured    ? "unstructured"
+                          : "Gauss-Seidel and constants of cells");
   if (!isTensor)
   {
     space.Knots = {};
@@ -151,5 +167,6 @@ BENCHMARK(AnalysisLargeSystem)
   ->Args({ 38, 0 })
   ->Args({ 38, 1 })
   ->Args({ 98, 0 })
-  ->Args({ 98, 1 });
+  ->Args({ 98, 1 })
+  ->Args({ 98, 2 });
 }

@@ -105,6 +105,24 @@ def test_reference_systems_are_stated_or_none():
     assert report["reference_system"] == "EPSG:31467" and read("lines.gpkg")[1] == ("EPSG", 31467)
 
 
+def test_reference_systems_of_clouds_are_stated():
+    """Points in text have none: what is stated goes with fits and tiles, and with what is made of them."""
+    x, y = np.meshgrid(np.linspace(0.0, 10.0, 41), np.linspace(0.0, 10.0, 41))
+    np.savetxt(FILES.path("hill.xyz"), np.column_stack([x.ravel(), y.ravel(), 5.0 - 0.1 * ((x - 5) ** 2 + (y - 5) ** 2).ravel()]))
+    report = FILES.report("fit", "hill.xyz", "--tolerance", 0.01, "--crs", "EPSG:25832", "--output", "hill.vtu")
+    assert report["reference_system"] == "EPSG:25832"
+    for made in (("hill.xyz", "--tile-size", 5, "--crs", "EPSG:25832", "--output", "hill.tiles"), ("hill.xyz", "--tile-size", 5, "--output", "plain.tiles")):
+        FILES.run("tiles", *made)
+    FILES.run("fit", "hill.tiles", "--tolerance", 0.01, "--output", "of_tiles.vtu")
+    FILES.run("fit", "plain.tiles", "--tolerance", 0.01, "--crs", "EPSG:25832", "--output", "stated.vtu")
+    for name in ("hill.vtu", "of_tiles.vtu", "stated.vtu"):
+        FILES.run("contour", name, "--levels", 3, "--output", "hill.gpkg", "--force")
+        assert read("hill.gpkg")[1] == ("EPSG", 25832), name
+    for job, name, words in (("fit", "hill.xyz", ("--tolerance", 0.01)), ("fit", "plain.tiles", ("--tolerance", 0.01)), ("tiles", "hill.xyz", ("--tile-size", 5))):
+        output = "never.tiles" if job == "tiles" else "never.vtu"
+        FILES.refused(job, name, *words, "--output", output, "--crs", "EPSG:99999", said=("EPSG:99999", "unknown"))
+
+
 def test_python_writes_them():
     lines = knotwork.contour(knotwork.read(FILES.path(surface())), levels=[95.0])
     lines.save(FILES.path("python.gpkg"))
