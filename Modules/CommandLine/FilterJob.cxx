@@ -131,6 +131,11 @@ Status FilterJobBase::Run(Session& session)
   return status ? this->Write(session) : status;
 }
 
+bool FilterJobBase::MakesPieces() const
+{
+  return this->Divided == Share::Blocks || this->Divided == Share::First;
+}
+
 Status FilterJobBase::JoinMainOutput()
 {
   if (this->DividedOutput != 0)
@@ -146,7 +151,7 @@ Status FilterJobBase::JoinMainOutput()
   {
     return {};
   }
-  if (this->Divided == Share::Blocks || !this->Undivided)
+  if (this->MakesPieces() || !this->Undivided)
   {
     auto appended = AppendShares(output);
     if (appended)
@@ -161,7 +166,7 @@ Status FilterJobBase::JoinMainOutput()
 Status FilterJobBase::JoinDividedOutput()
 {
   vtkDataObject* output = this->Algorithm->GetOutputDataObject(this->DividedOutput);
-  if (this->Divided == Share::Blocks || IsPieceIndex(this->OutputFile(this->DividedOutput)))
+  if (this->MakesPieces() || IsPieceIndex(this->OutputFile(this->DividedOutput)))
   {
     return {};
   }

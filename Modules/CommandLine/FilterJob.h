@@ -45,7 +45,7 @@ protected:
   void AddTableInput(int port, const char* name, const char* help);
   /// What of several processes each gets of the input of a port; the others are whole in all of
   /// them. Output 0 is that of the input with arrays added or points moved (Cells, Points), or
-  /// consists of what every process makes (Blocks).
+  /// consists of what every process makes (Blocks, First).
   void Divide(int port, Share share);
   /// That of Cells and Points is another output; the first process has output 0 and the others.
   void DivideInto(int outputPort) { this->DividedOutput = outputPort; }
@@ -111,6 +111,9 @@ private:
   Status JoinMainOutput();
   Status JoinDividedOutput();
   std::string InputNames() const;
+
+  /// Whether what processes make of their shares is put one after the other.
+  bool MakesPieces() const;
 
   Share Divided = Share::All; ///< as was said, then as it is
   int DividedPort = NoPort;

@@ -17,9 +17,10 @@ public:
   explicit ParameterizeJob(CLI::App& app) : FilterJob(app)
   {
     this->AddInput(0, "boundary",
-      "four curves or six faces, one patch a side (.vtu .vtpc .xml .g2 .json), or lines drawn by "
-      "hand, one closed or four (.svg .csv .vtp)",
+      "four curves or six faces, one patch a side (.vtu .vtpc .xml .g2 .json), such in each block "
+      "of a collection, or lines drawn by hand, one closed or four (.svg .csv .vtp)",
       "", "input");
+    this->Divide(0, Share::Blocks);
     this->AddInput(1, "--layout",
       "a mesh of quadrilaterals or hexahedra, one a patch: the boundary then has a curve or face "
       "for every edge or face on its boundary (.vtu .vtp)",
@@ -31,6 +32,11 @@ public:
   }
 
 protected:
+  Share ShareOfInput(vtkDataObject* boundary) const override
+  {
+    return vtkDomainParameterization::HoldsDomains(boundary) ? Share::Blocks : Share::First;
+  }
+
   Status AddNumbers(Session& session) override
   {
     vtkFieldData* data = this->Filter->GetOutputDataObject(0)->GetFieldData();
@@ -68,6 +74,7 @@ protected:
 
 const JobRegistration Registration{ "parameterize",
   "fill a boundary with a spline map that is proved valid",
-  "boundary.json --output map.vtu --report map.json", MakeJob<ParameterizeJob> };
+  "boundary.json --output map.vtu --report map.json", MakeJob<ParameterizeJob>,
+  JobProcesses::Several };
 }
 }

@@ -126,13 +126,18 @@ vtkSmartPointer<vtkDataObject> ShareOfPoints(vtkDataObject* whole)
   return points;
 }
 
+vtkSmartPointer<vtkDataObject> ShareOfFirst(vtkDataObject* whole)
+{
+  return Processes::Own() == 0 ? vtkSmartPointer<vtkDataObject>(whole)
+                               : vtkSmartPointer<vtkDataObject>::Take(whole->NewInstance());
+}
+
 vtkSmartPointer<vtkDataObject> ShareOfBlocks(vtkDataObject* whole)
 {
   auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(whole);
   if (!collection)
   {
-    return Processes::Own() == 0 ? vtkSmartPointer<vtkDataObject>(whole)
-                                 : vtkSmartPointer<vtkDataObject>::Take(whole->NewInstance());
+    return ShareOfFirst(whole);
   }
   auto copy = CopyContainers(collection);
   const unsigned int count = copy->GetNumberOfPartitionedDataSets();
@@ -364,6 +369,8 @@ vtkSmartPointer<vtkDataObject> ShareOf(vtkDataObject* whole, Share share)
       return ShareOfPoints(whole);
     case Share::Blocks:
       return ShareOfBlocks(whole);
+    case Share::First:
+      return ShareOfFirst(whole);
     case Share::All:
       break;
   }

@@ -14,7 +14,8 @@ enum class Share
   All,
   Cells,  ///< of grids, of all of them in order; each has all points
   Points, ///< of one set of points, without cells
-  Blocks  ///< of a collection; the first process has what is none
+  Blocks, ///< of a collection; the first process has what is none
+  First   ///< all for the first process
 };
 
 /// The share of this process; the shares follow each other in the order of the processes and differ

@@ -1,28 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDomainParameterization.h"
 
+#include "DomainSummary.h"
+#include "FieldNumbers.h"
 #include "LayoutData.h"
 #include <knotwork/DomainParameterization/OutlineCurves.h>
 #include <knotwork/DomainParameterization/ParameterizeLayout.h>
+#include <knotwork/SplineGrid/DistributedInput.h>
 #include <knotwork/SplineGrid/NamedArray.h>
+#include <knotwork/SplineGrid/Processes.h>
+#include <knotwork/SplineGrid/SplineBlocks.h>
 #include <knotwork/SplineGrid/SplineModel.h>
 
 #include "vtkCellArray.h"
 #include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
-#include "vtkFieldData.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPartitionedDataSetCollection.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
 #include <array>
 #include <string>
+#include <utility>
 
 using knotwork::ErrorCode;
 using knotwork::Status;
@@ -46,69 +53,57 @@ const char* StageName(knotwork::DomainStage stage)
   }
 }
 
-const char* StopName(knotwork::DomainStop stop)
+/// A row of the convergence table.
+struct HistoryRow
 {
-  switch (stop)
-  {
-    case knotwork::DomainStop::Effort:
-      return "effort";
-    case knotwork::DomainStop::Time:
-      return "time_limit";
-    default:
-      return "finished";
-  }
-}
+  int Domain = 0;
+  knotwork::DomainIteration Iteration;
+};
 
-/// Output 2.
-void FillTable(const std::vector<knotwork::DomainIteration>& history, vtkTable* table)
+/// Output 2. @param isOfDomains  whether there is a column of them.
+void FillTable(const std::vector<HistoryRow>& history, bool isOfDomains, vtkTable* table)
 {
-  using Row = knotwork::DomainIteration;
+  using Row = HistoryRow;
   const auto whole = [&](const char* name, auto value)
   { table->AddColumn(knotwork::ArrayOf<vtkIntArray>(name, history, value)); };
   const auto real = [&](const char* name, auto value)
   { table->AddColumn(knotwork::ArrayOf<vtkDoubleArray>(name, history, value)); };
+  if (isOfDomains)
+  {
+    whole("Domain", [](const Row& row) { return row.Domain; });
+  }
   table->AddColumn(knotwork::ArrayOf<vtkStringArray>(
-    "Stage", history, [](const Row& row) { return StageName(row.Stage); }));
-  whole("Iteration", [](const Row& row) { return row.Iteration; });
-  real("Energy", [](const Row& row) { return row.Energy; });
-  real("MinDetOverArea", [](const Row& row) { return row.MinDet; });
-  real("GradientNorm", [](const Row& row) { return row.GradientNorm; });
-  whole("Functions", [](const Row& row) { return row.Functions; });
+    "Stage", history, [](const Row& row) { return StageName(row.Iteration.Stage); }));
+  whole("Iteration", [](const Row& row) { return row.Iteration.Iteration; });
+  real("Energy", [](const Row& row) { return row.Iteration.Energy; });
+  real("MinDetOverArea", [](const Row& row) { return row.Iteration.MinDet; });
+  real("GradientNorm", [](const Row& row) { return row.Iteration.GradientNorm; });
+  whole("Functions", [](const Row& row) { return row.Iteration.Functions; });
 }
 
-/// A map as a grid, a patch each; a planar one lies at z = height.
+/// The patches of a map behind those that there are; a planar one lies at z = height.
+/// @param domain  number of the one patch; -1: patches have numbers of their own.
 template <int Dim>
-Status EncodeMap(
-  const std::vector<knotwork::Spline<Dim>>& patches, double height, vtkUnstructuredGrid* grid)
+void AddPatches(const std::vector<knotwork::Spline<Dim>>& patches, double height, int domain,
+  knotwork::SplineModel& model)
 {
-  knotwork::SplineModel model;
   for (knotwork::Spline<Dim> patch : patches)
   {
     patch.ControlPoints.conservativeResize(Eigen::NoChange, 3);
     patch.ControlPoints.rightCols(3 - Dim).setConstant(height);
     model.Patches.emplace_back();
-    model.Patches.back().Id = static_cast<int>(model.Patches.size()) - 1;
+    model.Patches.back().Id = domain >= 0 ? domain : static_cast<int>(model.Patches.size()) - 1;
     model.Patches.back().Geometry = std::move(patch);
   }
-  return EncodeSplineGrid(model, grid);
 }
 
-void AddText(vtkUnstructuredGrid* grid, const char* name, const char* text)
+/// Which inputs processes have of a filter that is asked together.
+enum class Holding
 {
-  vtkNew<vtkStringArray> array;
-  array->SetName(name);
-  array->InsertNextValue(text);
-  grid->GetFieldData()->AddArray(array);
-}
-
-void AddNumber(vtkUnstructuredGrid* grid, const char* name, double value)
-{
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(name);
-  array->InsertNextValue(value);
-  grid->GetFieldData()->AddArray(array);
-}
-
+  Nothing,
+  Domains,
+  Whole ///< what makes one domain
+};
 /// Polylines, or points in their order, of which the array Line may number the lines.
 std::vector<knotwork::PointMatrix> LinesOf(vtkPolyData* drawn)
 {
@@ -149,25 +144,44 @@ std::vector<knotwork::PointMatrix> LinesOf(vtkPolyData* drawn)
   return lines;
 }
 
-/// The report of a map as field data.
-void AddReport(const knotwork::DomainReport& result, vtkUnstructuredGrid* grid)
+/// The sides of a domain a block; none where blocks are something else.
+std::vector<knotwork::SplineModel> SidesByBlock(vtkDataObject* input, int threads)
 {
-  AddText(grid, "Verdict", ToString(result.Certificate.Verdict));
-  AddText(grid, "Injective", ToString(result.Injectivity.Verdict));
-  const knotwork::DomainMetrics& metrics = result.Metrics;
-  AddNumber(grid, "JacobianMinLower", result.MinDetLower);
-  AddNumber(grid, "JacobianMinUpper", result.MinDetUpper);
-  AddNumber(grid, "Area", metrics.Area);
-  AddNumber(grid, "MinDetOverArea", metrics.MinDetOverArea);
-  AddNumber(grid, "MaxDetOverArea", metrics.MaxDetOverArea);
-  AddNumber(grid, "MinScaledJacobian", metrics.MinScaledJacobian);
-  AddNumber(grid, "MeanScaledJacobian", metrics.MeanScaledJacobian);
-  AddNumber(grid, "MeanConditionNumber", metrics.MeanConditionNumber);
-  AddNumber(grid, "Iterations", result.Iterations);
-  AddNumber(grid, "Work", result.Work);
-  AddText(grid, "Stopped", StopName(result.Stop));
+  std::vector<knotwork::SplineModel> domains;
+  if (!vtkPartitionedDataSetCollection::SafeDownCast(input))
+  {
+    return domains;
+  }
+  for (const auto& [block, grid] : knotwork::GridsByBlock(input))
+  {
+    if (grid->GetNumberOfCells() == 0)
+    {
+      continue;
+    }
+    auto sides = knotwork::DecodeSplineModel(grid, threads);
+    const std::size_t count = sides ? sides->Patches.size() : 0;
+    const bool areCurves = count == 4 && sides->Patches.front().Geometry.index() == 0;
+    const bool areFaces = count == 6 && sides->Patches.front().Geometry.index() == 1;
+    if (!areCurves && !areFaces)
+    {
+      return {};
+    }
+    sides->Patches.front().Block = block;
+    domains.push_back(std::move(sides.Value));
+  }
+  return domains;
 }
 }
+
+/// What the outputs are made of.
+struct vtkDomainParameterization::Made
+{
+  knotwork::SplineModel Map;
+  knotwork::SplineModel FirstMap;
+  std::vector<HistoryRow> History;
+  std::vector<knotwork::DomainSummary> Summaries; ///< a domain each
+  bool IsOfDomains = false;
+};
 
 vtkDomainParameterization::vtkDomainParameterization()
 {
@@ -177,19 +191,85 @@ vtkDomainParameterization::vtkDomainParameterization()
   this->SetOutputTypes({ "vtkUnstructuredGrid", "vtkUnstructuredGrid", "vtkTable" });
 }
 
+vtkDomainParameterization::~vtkDomainParameterization() = default;
+
+bool vtkDomainParameterization::HoldsDomains(vtkDataObject* boundary)
+{
+  return !SidesByBlock(boundary, 0).empty();
+}
+
+Status vtkDomainParameterization::Gather(vtkInformationVector** inputs)
+{
+  this->Last.reset();
+  vtkDataObject* boundary = vtkDataObject::GetData(inputs[0], 0);
+  const Holding own = !knotwork::HasData(inputs, 1) ? Holding::Nothing
+    : HoldsDomains(boundary)                        ? Holding::Domains
+                                                    : Holding::Whole;
+  const std::vector<int> all = knotwork::Processes::ExchangeNumber(static_cast<int>(own));
+  const auto count = [&all](Holding holding)
+  { return std::count(all.begin(), all.end(), static_cast<int>(holding)); };
+  const auto whole = count(Holding::Whole);
+  return whole == 0 || whole + count(Holding::Domains) == 1
+    ? Status()
+    : Status(ErrorCode::InvalidTopology,
+        "the boundary of one domain is spread over several processes; give each process whole "
+        "domains as blocks of a collection, or work in one process");
+}
+
+Status vtkDomainParameterization::Merge(vtkInformationVector**, vtkInformationVector* outputs)
+{
+  using knotwork::Processes::Exchange;
+  const auto join = [](const auto& parts)
+  {
+    auto all = parts.front();
+    for (auto part = parts.begin() + 1; part != parts.end(); ++part)
+    {
+      all.insert(all.end(), part->begin(), part->end());
+    }
+    return all;
+  };
+  const Made none;
+  const Made& own = this->Last ? *this->Last : none;
+  const auto summaries = join(Exchange(own.Summaries));
+  const auto history = join(Exchange(own.History));
+  const auto flags = knotwork::Processes::ExchangeNumber(own.IsOfDomains ? 1 : 0);
+  if (!summaries.empty())
+  {
+    this->Tell(summaries, outputs);
+  }
+  vtkTable* table = vtkTable::GetData(outputs, 2);
+  table->Initialize();
+  if (knotwork::Processes::Own() == 0)
+  {
+    FillTable(history, std::count(flags.begin(), flags.end(), 1) > 0, table);
+  }
+  return {};
+}
+
 Status vtkDomainParameterization::Compute(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   this->Verdict = 0;
   this->Injectivity = 0;
   this->SecondsWithCertificate = 0.0;
+  this->Last = std::make_unique<Made>();
+  vtkDataObject* boundary = vtkDataObject::GetData(inputs[0], 0);
   vtkDataSet* layout = vtkDataSet::GetData(inputs[1], 0);
-  if (auto* drawn = vtkPolyData::GetData(inputs[0], 0))
+  if (auto* drawn = vtkPolyData::SafeDownCast(boundary))
   {
     return drawn->GetNumberOfPoints() > 0 ? this->ParameterizeDrawn(drawn, layout, outputs)
                                           : Status();
   }
-  const auto model = this->DecodeInput(vtkDataObject::GetData(inputs[0], 0));
+  if (!layout)
+  {
+    const std::vector<knotwork::SplineModel> domains =
+      SidesByBlock(boundary, this->KernelThreads());
+    if (!domains.empty())
+    {
+      return this->ParameterizeEach(domains, outputs);
+    }
+  }
+  const auto model = this->DecodeInput(boundary);
   if (!model)
   {
     return model.Status;
@@ -198,9 +278,31 @@ Status vtkDomainParameterization::Compute(
   {
     return {};
   }
-  return model->Patches.front().Geometry.index() == 0
-    ? this->Parameterize<2>(model.Value, layout, outputs)
-    : this->Parameterize<3>(model.Value, layout, outputs);
+  const Status status = model->Patches.front().Geometry.index() == 0
+    ? this->Parameterize<2>(model.Value, layout, -1, this->Progress())
+    : this->Parameterize<3>(model.Value, layout, -1, this->Progress());
+  return status ? this->Encode(outputs) : status;
+}
+
+Status vtkDomainParameterization::ParameterizeEach(
+  const std::vector<knotwork::SplineModel>& domains, vtkInformationVector* outputs)
+{
+  this->Last->IsOfDomains = true;
+  const auto count = static_cast<double>(domains.size());
+  for (std::size_t i = 0; i < domains.size(); ++i)
+  {
+    const int block = domains[i].Patches.front().Block;
+    const auto progress = [&, whole = this->Progress()](double share)
+    { return whole((static_cast<double>(i) + share) / count); };
+    const Status status = domains[i].Patches.front().Geometry.index() == 0
+      ? this->Parameterize<2>(domains[i], nullptr, block, progress)
+      : this->Parameterize<3>(domains[i], nullptr, block, progress);
+    if (!status)
+    {
+      return { status.Code, "block " + std::to_string(block) + ": " + status.Detail };
+    }
+  }
+  return this->Encode(outputs);
 }
 
 Status vtkDomainParameterization::ParameterizeDrawn(
@@ -239,8 +341,10 @@ Status vtkDomainParameterization::ParameterizeDrawn(
     raised.ControlPoints.col(2).setConstant(box[4]);
     model.Patches.back().Geometry = std::move(raised);
   }
-  const Status status = this->Parameterize<2>(model, layout, outputs);
+  Status status = this->Parameterize<2>(model, layout, -1, this->Progress());
+  status = status ? this->Encode(outputs) : status;
   vtkUnstructuredGrid* grid = vtkUnstructuredGrid::GetData(outputs, 0);
+  using knotwork::AddNumber;
   AddNumber(grid, "OutlineDistance", outline.Value.MaxDistance);
   AddNumber(grid, "OutlineCorners", outline.Value.NumCorners);
   AddNumber(grid, "OutlineLines", outline.Value.NumLines);
@@ -277,8 +381,8 @@ knotwork::DomainParams vtkDomainParameterization::KernelParams() const
 }
 
 template <int Dim>
-Status vtkDomainParameterization::Parameterize(
-  const knotwork::SplineModel& model, vtkDataSet* layoutData, vtkInformationVector* outputs)
+Status vtkDomainParameterization::Parameterize(const knotwork::SplineModel& model,
+  vtkDataSet* layoutData, int domain, const knotwork::ProgressCallback& progress)
 {
   std::vector<knotwork::Spline<Dim - 1>> sides;
   for (const knotwork::SplinePatch& patch : model.Patches)
@@ -295,19 +399,33 @@ Status vtkDomainParameterization::Parameterize(
   // the plane of the curves
   const double height = Dim == 2 ? sides.front().ControlPoints(0, 2) : 0.0;
   const knotwork::DomainParams params = this->KernelParams();
-  vtkUnstructuredGrid* grid = vtkUnstructuredGrid::GetData(outputs, 0);
+  const auto keep =
+    [&](const knotwork::DomainReport& report, const auto& map, const auto& firstMap, int functions)
+  {
+    AddPatches<Dim>(map, height, domain, this->Last->Map);
+    AddPatches<Dim>(firstMap, height, domain, this->Last->FirstMap);
+    this->Last->Summaries.push_back(knotwork::Summarize(report, functions, map.size()));
+    for (const knotwork::DomainIteration& iteration : report.History)
+    {
+      this->Last->History.push_back({ domain, iteration });
+    }
+    for (const std::string& message : report.Messages) // those of folds of the boundary first
+    {
+      vtkWarningMacro(
+        "" << (domain < 0 ? std::string() : "block " + std::to_string(domain) + ": ") << message);
+    }
+    this->SecondsWithCertificate += report.SecondsOptimization + report.SecondsCertificate;
+  };
   if (!layoutData)
   {
-    const auto result =
-      knotwork::ParameterizeDomain<Dim>({ std::move(sides) }, params, this->Progress());
-    if (!result)
+    const auto result = knotwork::ParameterizeDomain<Dim>({ std::move(sides) }, params, progress);
+    if (result)
     {
-      return result.Status;
+      const std::vector<knotwork::Spline<Dim>> map{ result->Map };
+      const std::vector<knotwork::Spline<Dim>> firstMap{ result->InitialMap };
+      keep(result.Value, map, firstMap, result->Map.Space->NumFunctions);
     }
-    const Status status =
-      this->Encode<Dim>(result.Value, { result->Map }, { result->InitialMap }, height, outputs);
-    AddNumber(grid, "Functions", result->Map.Space->NumFunctions);
-    return status;
+    return result.Status;
   }
   auto layout = knotwork::DecodeLayout<Dim>(layoutData);
   if (!layout)
@@ -322,38 +440,34 @@ Status vtkDomainParameterization::Parameterize(
   layoutParams.MinElements = this->MinimumElements;
   layoutParams.MoveInterfaces = this->MoveInterfaces;
   const auto result =
-    knotwork::ParameterizeLayout<Dim>(layout.Value, layoutParams, params, this->Progress());
-  if (!result)
+    knotwork::ParameterizeLayout<Dim>(layout.Value, layoutParams, params, progress);
+  if (result)
   {
-    return result.Status;
+    keep(result.Value, result->Map.Patches, result->InitialMap.Patches, result->Map.NumFunctions());
   }
-  const Status status = this->Encode<Dim>(
-    result.Value, result->Map.Patches, result->InitialMap.Patches, height, outputs);
-  AddNumber(grid, "Functions", result->Map.NumFunctions());
+  return result.Status;
+}
+
+Status vtkDomainParameterization::Encode(vtkInformationVector* outputs)
+{
+  FillTable(this->Last->History, this->Last->IsOfDomains, vtkTable::GetData(outputs, 2));
+  Status status = EncodeSplineGrid(this->Last->Map, vtkUnstructuredGrid::GetData(outputs, 0));
+  status = status ? EncodeSplineGrid(this->Last->FirstMap, vtkUnstructuredGrid::GetData(outputs, 1))
+                  : status;
+  if (status)
+  {
+    this->Tell(this->Last->Summaries, outputs);
+  }
+  this->Last->Map = {}; // the outputs have them
+  this->Last->FirstMap = {};
   return status;
 }
 
-/// All outputs.
-template <int Dim>
-Status vtkDomainParameterization::Encode(const knotwork::DomainReport& report,
-  const std::vector<knotwork::Spline<Dim>>& map, const std::vector<knotwork::Spline<Dim>>& firstMap,
-  double height, vtkInformationVector* outputs)
+void vtkDomainParameterization::Tell(
+  const std::vector<knotwork::DomainSummary>& summaries, vtkInformationVector* outputs)
 {
-  for (const std::string& message : report.Messages) // those of folds of the boundary first
-  {
-    vtkWarningMacro("" << message);
-  }
-  this->Verdict = static_cast<int>(report.Certificate.Verdict);
-  this->Injectivity = static_cast<int>(report.Injectivity.Verdict);
-  this->SecondsWithCertificate = report.SecondsOptimization + report.SecondsCertificate;
-  vtkUnstructuredGrid* grid = vtkUnstructuredGrid::GetData(outputs, 0);
-  FillTable(report.History, vtkTable::GetData(outputs, 2));
-  Status status = EncodeMap<Dim>(map, height, grid);
-  if (status)
-  {
-    AddReport(report, grid);
-    AddNumber(grid, "Patches", static_cast<double>(map.size()));
-    status = EncodeMap<Dim>(firstMap, height, vtkUnstructuredGrid::GetData(outputs, 1));
-  }
-  return status;
+  const knotwork::DomainSummary sum = Combine(summaries);
+  this->Verdict = static_cast<int>(sum.Regularity);
+  this->Injectivity = static_cast<int>(sum.Injectivity);
+  AddSummary(sum, vtkUnstructuredGrid::GetData(outputs, 0));
 }

@@ -14,6 +14,12 @@
  * `OutlineLines`, `OutlineArcs` and `OutlineCurves` (numbers of corners and of straight, circular
  * and fitted pieces).
  *
+ * Or it is a collection whose blocks each have the four curves or six faces of a domain: each
+ * domain gets a map of its own, a patch of output 0 with the block's number as `PatchId`. Verdicts
+ * are then the worst of all, areas and numbers sums, the others extrema, and means by area; the
+ * convergence table has the column `Domain`. Of several processes each does its blocks; the table
+ * is in the first one.
+ *
  * Input 1 (optional) is a layout: a linear mesh of quadrilaterals or hexahedra, one a patch. Input
  * 0 then has one curve (face) for every edge (face) on the mesh's boundary, found by the points
  * that it joins, and may have some for inner ones. All patches are parameterized together; those
@@ -39,7 +45,8 @@
 #include "vtkKnotworkDomainParameterizationModule.h" // for export macro
 #include <knotwork/SplineGrid/vtkSplineAlgorithm.h>
 
-#include <vector> // for patches
+#include <memory> // for what the outputs are made of
+#include <vector> // for domains
 
 class vtkDataSet;
 class vtkPolyData;
@@ -47,10 +54,8 @@ class vtkPolyData;
 namespace knotwork
 {
 struct DomainParams;
-struct DomainReport;
+struct DomainSummary;
 struct SplineModel;
-template <int Dim>
-struct Spline;
 }
 
 class VTKKNOTWORKDOMAINPARAMETERIZATION_EXPORT vtkDomainParameterization : public vtkSplineAlgorithm
@@ -59,6 +64,9 @@ public:
   static vtkDomainParameterization* New();
   vtkTypeMacro(vtkDomainParameterization, vtkSplineAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** Whether each block of a collection has the four curves or six faces of a domain. */
+  static bool HoldsDomains(vtkDataObject* boundary);
 
   enum InitialMaps
   {
@@ -283,23 +291,31 @@ public:
 
 protected:
   vtkDomainParameterization();
-  ~vtkDomainParameterization() override = default;
+  ~vtkDomainParameterization() override;
   knotwork::Status Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  bool WorksOnPieces() const override { return true; }
+  bool SumsUpPieces() const override { return true; }
+  knotwork::Status Gather(vtkInformationVector** inputs) override;
+  knotwork::Status Merge(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:
   vtkDomainParameterization(const vtkDomainParameterization&) = delete;
   void operator=(const vtkDomainParameterization&) = delete;
 
+  struct Made;
   knotwork::Status ParameterizeDrawn(
     vtkPolyData* drawn, vtkDataSet* layout, vtkInformationVector* outputs);
+  /** A domain a model. */
+  knotwork::Status ParameterizeEach(
+    const std::vector<knotwork::SplineModel>& domains, vtkInformationVector* outputs);
+  /** Adds one domain to Last. Its patch has the domain's number, unless that is negative. */
   template <int Dim>
-  knotwork::Status Parameterize(
-    const knotwork::SplineModel& model, vtkDataSet* layout, vtkInformationVector* outputs);
-  template <int Dim>
-  knotwork::Status Encode(const knotwork::DomainReport& report,
-    const std::vector<knotwork::Spline<Dim>>& map,
-    const std::vector<knotwork::Spline<Dim>>& firstMap, double height,
-    vtkInformationVector* outputs);
+  knotwork::Status Parameterize(const knotwork::SplineModel& model, vtkDataSet* layout, int domain,
+    const knotwork::ProgressCallback& progress);
+  /** Last as outputs. */
+  knotwork::Status Encode(vtkInformationVector* outputs);
+  /** The field data of output 0. */
+  void Tell(const std::vector<knotwork::DomainSummary>& summaries, vtkInformationVector* outputs);
   knotwork::DomainParams KernelParams() const;
 
   int InitialMap = INITIAL_AUTOMATIC;
@@ -331,5 +347,6 @@ private:
   int Verdict = 0;
   int Injectivity = 0;
   double SecondsWithCertificate = 0.0;
+  std::unique_ptr<Made> Last; ///< of this process, kept until all have told each other
 };
 #endif

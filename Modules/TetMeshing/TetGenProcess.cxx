@@ -92,8 +92,8 @@ Result<Tetrahedra> Decode(const std::vector<std::string>& parts, double volume)
   found.Cells = UnpackGroups<4>(part(TetGenAnswer::Tetrahedra));
   found.Triangles = UnpackGroups<3>(part(TetGenAnswer::Triangles));
   found.Sources = UnpackNumbers<int>(part(TetGenAnswer::Sources));
-  found.Oversized = std::max(
-    UnpackNumbers<int>(part(TetGenAnswer::Oversized)).at(0), volume > 0.0 ? NumAbove(found, volume) : 0);
+  found.Oversized = std::max(UnpackNumbers<int>(part(TetGenAnswer::Oversized)).at(0),
+    volume > 0.0 ? NumAbove(found, volume) : 0);
   return found;
 }
 }

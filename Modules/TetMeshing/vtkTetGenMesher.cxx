@@ -222,7 +222,8 @@ void vtkTetGenMesher::WarnOfUnused(bool isImage)
   if (!unused.empty())
   {
     this->ReportWarnings({ unused +
-      (isImage ? " did not count: the input is an image" : " did not count: the input is no image") });
+      (isImage ? " did not count: the input is an image"
+               : " did not count: the input is no image") });
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A whole fit by every path, nothing mended or measured: the mesh is its own target. A fit to a mesh
-// of triangles with everything that the job does but files, and the closest points that it lives on.
+// A whole fit by every path, nothing mended or measured: the mesh is its own target. A fit to a
+// mesh of triangles with everything that the job does but files, and the closest points that it
+// lives on.
 #include "FitCases.h"
 
 #include <benchmark/benchmark.h>

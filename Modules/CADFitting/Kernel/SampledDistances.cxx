@@ -310,7 +310,8 @@ private:
     }
     const TriangleIndex<3> flat(this->Points, std::move(triangles));
     Eigen::VectorXd flatDistances(samples.Points.rows());
-    ParallelFor(static_cast<std::size_t>(samples.Points.rows()), QueriesAtOnce, this->Params.Threads,
+    ParallelFor(static_cast<std::size_t>(samples.Points.rows()), QueriesAtOnce,
+      this->Params.Threads,
       [&](std::size_t begin, std::size_t end)
       {
         const auto first = static_cast<Eigen::Index>(begin);

@@ -36,9 +36,9 @@ struct TargetSides
 /// @return the target's errors; Aborted.
 Result<TargetSides> SidesOf(const FitTarget& target, const TargetDistanceParams& params = {});
 
-/// Signed distances from the whole surface, of every query by itself. Of a closed target positive is outside, if all of
-/// its bodies are turned alike; of an open one it is the side that the normals point to. At an edge
-/// or corner the sign is that of the sum of the normals there.
+/// Signed distances from the whole surface, of every query by itself. Of a closed target positive
+/// is outside, if all of its bodies are turned alike; of an open one it is the side that the
+/// normals point to. At an edge or corner the sign is that of the sum of the normals there.
 /// @param sides  of the target.
 /// @return as FindOnTarget.
 /// @source  Baerentzen, Aanaes, IEEE TVCG 11 (2005) 243-253 (signs at edges), with equal weights.

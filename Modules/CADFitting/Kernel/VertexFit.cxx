@@ -362,8 +362,7 @@ Result<VertexFit> MoveOntoTarget(const CellMesh<Dim>& mesh, const MeshTopology<D
   result->FoldedBefore = std::move(folded.Value);
   result->Points = points;
   std::vector<char> isSet(At(mesh.NumPoints), 0);
-  if (Status status =
-        PlaceSurface(surface, parts, points, target, params, result->Points, isSet);
+  if (Status status = PlaceSurface(surface, parts, points, target, params, result->Points, isSet);
       !status)
   {
     return status;

@@ -23,7 +23,7 @@ from vtkmodules.vtkIOXML import (vtkXMLGenericDataObjectReader, vtkXMLPartitione
 import knotwork_testing
 
 # of a run, not of its result
-OF_A_RUN = {"seconds", "seconds_of_fit", "cpu_seconds", "seconds_io", "peak_bytes", "ranks", "threads", "output", "input", "points", "report"}
+OF_A_RUN = {"seconds", "seconds_with_certificate", "seconds_of_fit", "cpu_seconds", "seconds_io", "peak_bytes", "ranks", "threads", "output", "input", "points", "report"}
 MPIRUN = ["mpirun", "--allow-run-as-root", "--oversubscribe", "--quiet", "-np"]
 
 
@@ -363,6 +363,52 @@ def test_contours_and_extrema():
     # of a grid that is no collection
     compared("contour", [path("waves.vtu")], "one.vtp")
     compared("extrema", [path("waves.vtu")], "one.vtp")
+
+
+def sides(name, width, bulge):
+    """The four curves of a rectangle whose lower side is a parabola."""
+    corners = [(0.0, 0.0), (width, 0.0), (width, 1.0), (0.0, 1.0)]
+    curves = []
+    for i, (begin, end) in enumerate(zip(corners, corners[1:] + corners[:1])):
+        middle = [0.5 * (a + b) for a, b in zip(begin, end)]
+        middle[1] += bulge if i == 0 else 0.0
+        curves.append({"degree": 2, "knots": [0, 0, 0, 1, 1, 1], "control_points": [begin, middle, end]})
+    with open(path(name + ".json"), "w", encoding="utf-8") as stream:
+        json.dump({"curves": curves}, stream)
+    run(1, "convert", path(name + ".json"), "--output", path(name + ".vtu"), "--force")
+    return read(path(name + ".vtu"))
+
+
+def test_domains():
+    """Blocks with four curves each are domains: a map each, of numbers that are those of all."""
+    parts = vtkPartitionedDataSetCollection()
+    for i, bulge in enumerate((0.3, -0.5, 0.9)):
+        parts.SetPartition(i, 0, sides(f"sides{i}", 1.0 + 0.5 * i, bulge))
+    domains = write_collection(parts, "domains.vtpc")
+    few = ("--metric-samples", "21")
+    report = compared("parameterize", [domains], "maps.vtu", few, others=[("--first-map", "first.vtu")])
+    assert report["patches"] == 3 and report["verdict"] == "valid" and report["injective"] == "injective"
+    maps = read(path("parameterize-4-maps.vtu"))
+    assert set(vtk_to_numpy(maps.GetCellData().GetArray("PatchId"))) == {0, 1, 2}
+    alone = []
+    for i in range(3):
+        run(1, "parameterize", path(f"sides{i}.vtu"), *few, "--output", path("one.vtu"), "--table", path("one.csv"), "--report", path("one.json"), "--force")
+        with open(path("one.json"), encoding="utf-8") as stream:
+            alone.append(json.load(stream))
+    assert math.isclose(report["area"], sum(one["area"] for one in alone), rel_tol=1e-12)
+    assert report["min_jacobian_lower"] == min(one["min_jacobian_lower"] for one in alone)
+    assert report["functions"] == sum(one["functions"] for one in alone)
+    run(2, "parameterize", domains, *few, "--output", path("two.vtu"), "--table", path("two.csv"))
+    rows = list(csv_rows(path("two.csv")))
+    assert rows[0][0] == "Domain" and {row[0] for row in rows[1:]} == {"0", "1", "2"}
+    assert [row[1:] for row in rows if row[0] in ("Domain", "2")] == list(csv_rows(path("one.csv")))
+    # one domain is for the first process, with a curve a block, too
+    compared("parameterize", [path("sides1.vtu")], "one.vtu", few)
+    # what fails in a block names it
+    parts.SetPartition(1, 0, sides("sides3", 1.0, 0.0))
+    parts.SetPartition(2, 0, sides("sides4", float("1e-300"), 0.0))
+    _, errors = run(2, "parameterize", write_collection(parts, "broken.vtpc"), "--output", path("never.vtu"), "--quiet", expect=1)
+    assert "block 2" in errors and not os.path.exists(path("never.vtu")), errors
 
 
 def test_fits():

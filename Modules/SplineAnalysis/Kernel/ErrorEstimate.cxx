@@ -358,8 +358,8 @@ Result<std::vector<EstimateFacet>> MakeFacets(
   const GalerkinSpace& space, const GalerkinProblem& problem, const ConditionMap& conditions)
 {
   const std::vector<int>& ids = problem.MaterialIds;
-  const bool areAlike = std::adjacent_find(ids.begin(), ids.end(), std::not_equal_to<>()) ==
-    ids.end();
+  const bool areAlike =
+    std::adjacent_find(ids.begin(), ids.end(), std::not_equal_to<>()) == ids.end();
   const auto found = FindFacets(space, !areAlike);
   if (!found)
   {

@@ -43,7 +43,7 @@ struct Tetrahedra
   std::vector<std::array<int, 3>> Triangles; ///< parts of the surface
   std::vector<int> Sources;                  ///< one a triangle: number in the surface
   std::vector<int> Labels;                   ///< one a cell, of a mesher that has such; else empty
-  int Oversized = 0; ///< cells larger than was asked for
+  int Oversized = 0;                         ///< cells larger than was asked for
 };
 
 /// The mesher, which works in a process of its own. Its triangles bound solids (CheckSolid).

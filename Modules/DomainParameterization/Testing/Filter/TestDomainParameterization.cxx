@@ -7,6 +7,8 @@
 #include "vtkErrorCode.h"
 #include "vtkFieldData.h"
 #include "vtkNew.h"
+#include "vtkPartitionedDataSet.h"
+#include "vtkPartitionedDataSetCollection.h"
 #include "vtkPoints.h"
 #include "vtkSmartPointer.h"
 #include "vtkStringArray.h"
@@ -151,6 +153,55 @@ TEST(DomainParameterization, UnitCube_ExactOracle)
   EXPECT_EQ(run.Filter->GetVerdict(), 1);
   EXPECT_NEAR(run.Number("Area"), 1.0, 1e-14);
   EXPECT_NEAR(run.Number("MinDetOverArea"), 1.0, 1e-12);
+}
+
+// A square and a sector: each block a domain.
+TEST(DomainParameterization, BlocksAreDomains_ExactOracle)
+{
+  Pipeline square(
+    Sides("curves", { Line(0, 0, 2, 0), Line(2, 0, 2, 2), Line(0, 2, 2, 2), Line(0, 0, 0, 2) }));
+  Pipeline sector(Sides("curves", { Arc(1.0), Arc(2.0), Line(1, 0, 2, 0), Line(0, 1, 0, 2) }));
+  vtkNew<vtkPartitionedDataSetCollection> domains;
+  for (Pipeline* one : { &square, &sector })
+  {
+    one->Reader->Update();
+    domains->SetPartition(one == &square ? 0 : 2, 0, one->Reader->GetOutput());
+  }
+  EXPECT_TRUE(vtkDomainParameterization::HoldsDomains(domains));
+  vtkNew<vtkDomainParameterization> filter;
+  filter->SetInputDataObject(domains);
+  filter->Update();
+  ASSERT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
+  auto* const map = vtkUnstructuredGrid::SafeDownCast(filter->GetOutputDataObject(0));
+  const auto number = [&](const char* name)
+  { return map->GetFieldData()->GetArray(name)->GetComponent(0, 0); };
+  const double pi = 4.0 * std::atan(1.0);
+  EXPECT_NEAR(number("Area"), 4.0 + 0.75 * pi, 1e-12);
+  EXPECT_EQ(number("Patches"), 2.0);
+  EXPECT_STREQ(vtkStringArray::SafeDownCast(map->GetFieldData()->GetAbstractArray("Verdict"))
+                 ->GetValue(0)
+                 .c_str(),
+    "valid");
+  double range[2];
+  map->GetCellData()->GetArray("PatchId")->GetRange(range);
+  EXPECT_EQ(range[0], 0.0);
+  EXPECT_EQ(range[1], 2.0); // the block's number
+  auto* const table = vtkTable::SafeDownCast(filter->GetOutputDataObject(2));
+  EXPECT_EQ(table->GetValueByName(0, "Domain").ToInt(), 0);
+  EXPECT_EQ(table->GetValueByName(table->GetNumberOfRows() - 1, "Domain").ToInt(), 2);
+
+  // curves that do not meet in the second one
+  Pipeline open(
+    Sides("curves", { Line(0, 0, 2, 0), Line(2, 0, 2, 2), Line(0, 2, 2, 2), Line(0, 5, 0, 7) }));
+  open.Reader->Update();
+  domains->SetPartition(2, 0, open.Reader->GetOutput());
+  domains->Modified();
+  vtkNew<Messages> messages;
+  filter->AddObserver(vtkCommand::ErrorEvent, messages);
+  filter->Update();
+  ASSERT_EQ(messages->Errors.size(), 1U);
+  EXPECT_NE(messages->Errors[0].find("block 2: "), std::string::npos) << messages->Errors[0];
+  EXPECT_EQ(map->GetNumberOfCells(), 0);
 }
 
 namespace

@@ -307,7 +307,7 @@ private:
     // a flux times a coordinate has d + 1 factors, one of them a derivative
     const int factors = isCurve ? 3 : 4;
     const int exact = (factors * degree + 1) / 2;
-    const int least = isQuick                                  ? QuickPoints
+    const int least = isQuick                          ? QuickPoints
       : this->Params.Integrand == PatchIntegrand::Flux ? 14
                                                        : 20;
     return this->Rules.Get(degree, this->IsExact() ? exact : std::max(least, exact + 6));

@@ -427,7 +427,8 @@ TEST(vtkSplineAnalysis, RefinementOfSeveralPatches_PropertyOracle)
   EXPECT_NEAR(Number(again, "Energy"), Number(filter, "Energy"), 1e-10 * Number(filter, "Energy"));
 }
 
-// A flux of 1 through two layers, whose elements keep their material and arrays when they are split.
+// A flux of 1 through two layers, whose elements keep their material and arrays when they are
+// split.
 TEST(vtkSplineAnalysis, RefinementOfSeveralMaterials_ExactOracle)
 {
   const auto body = ShapeGrid(vtkSplineSource::SQUARE, 2, { 6, 6, 1 });

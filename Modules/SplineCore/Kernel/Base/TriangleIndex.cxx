@@ -282,8 +282,8 @@ public:
   /// @param forNear  calls its last argument for triangles near a box, until that is false.
   /// @return whether they are few.
   template <class ForNear>
-  bool Gather(const TriangleIndex<Dim>& index, const PointMatrixView& queries, int known,
-    ForNear&& forNear)
+  bool Gather(
+    const TriangleIndex<Dim>& index, const PointMatrixView& queries, int known, ForNear&& forNear)
   {
     double reach = 0.0;
     for (Eigen::Index i = 0; i < queries.rows(); ++i)
@@ -486,8 +486,8 @@ TriangleFoot TriangleIndex<Dim>::Nearest(const double* point, double bound) cons
     [&](int strip)
     {
       const int triangle = this->TriangleOf(strip);
-      const Box<Dim> box(this->Corner(triangle, 0), this->Corner(triangle, 1),
-        this->Corner(triangle, 2));
+      const Box<Dim> box(
+        this->Corner(triangle, 0), this->Corner(triangle, 1), this->Corner(triangle, 2));
       if (const double distance = box.SquaredDistance(point); distance > best.SquaredDistance)
       {
         return distance;
@@ -517,17 +517,14 @@ void TriangleIndex<Dim>::Nearest(
                         : this->Foot(last.Triangle, middle).SquaredDistance);
     const bool isGathered = end - begin >= SmallestGroup &&
       near.Gather(*this, queries.middleRows(begin, end - begin), last.Triangle,
-        [&](const double* lower, const double* upper, auto&& use)
-        {
-          this->Tree.ForNear(
-            lower, upper, [&](int strip) { return use(this->TriangleOf(strip)); });
+        [&](const double* lower, const double* upper, auto&& use) {
+          this->Tree.ForNear(lower, upper, [&](int strip) { return use(this->TriangleOf(strip)); });
         });
     for (Eigen::Index i = begin; i < end; ++i)
     {
       const double* query = queries.row(i).data();
-      last = isGathered
-        ? near.Nearest(query)
-        : this->Nearest(query, this->Foot(last.Triangle, query).SquaredDistance);
+      last = isGathered ? near.Nearest(query)
+                        : this->Nearest(query, this->Foot(last.Triangle, query).SquaredDistance);
       feet[static_cast<std::size_t>(i)] = last;
     }
   }

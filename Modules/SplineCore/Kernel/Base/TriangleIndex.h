@@ -96,10 +96,7 @@ private:
     int Count;
   };
   void MakeStrips();
-  int TriangleOf(int strip) const
-  {
-    return this->Strips[static_cast<std::size_t>(strip)].Triangle;
-  }
+  int TriangleOf(int strip) const { return this->Strips[static_cast<std::size_t>(strip)].Triangle; }
   void Boxes(PointMatrix& lower, PointMatrix& upper) const;
 
   PointMatrix Corners;

@@ -182,8 +182,7 @@ typename ClosestPointSearch<Dim>::Candidate ClosestPointSearch<Dim>::SearchEleme
     stride[d] = count;
     count *= start.Counts[d];
   }
-  const double* samples =
-    this->Samples.data() + static_cast<std::int64_t>(start.FirstSample) * c;
+  const double* samples = this->Samples.data() + static_cast<std::int64_t>(start.FirstSample) * c;
   std::vector<double>& distances = work.Distances;
   distances.resize(At(count));
   for (std::int64_t i = 0; i < count; ++i)
@@ -259,8 +258,8 @@ void ClosestPointSearch<Dim>::Improve(
     size = std::max(size, std::abs(query[k]));
   }
   bool isKnown = this->Params.MaxIterations > 0 && evaluate(work.Here);
-  for (int iteration = 0; isKnown && iteration < this->Params.MaxIterations && best.SquaredDistance > 0.0;
-       ++iteration)
+  for (int iteration = 0;
+       isKnown && iteration < this->Params.MaxIterations && best.SquaredDistance > 0.0; ++iteration)
   {
     const EvaluationBatch& batch = work.Here;
     Vector gradient = Vector::Zero();
@@ -416,8 +415,7 @@ Status ClosestPointSearch<Dim>::Find(const PointMatrixView& queries, ClosestPoin
               {
                 return least;
               }
-              const Candidate candidate =
-                this->SearchElement(this->Starts[At(item)], query, work);
+              const Candidate candidate = this->SearchElement(this->Starts[At(item)], query, work);
               if (candidate.SquaredDistance < best.SquaredDistance ||
                 (candidate.SquaredDistance == best.SquaredDistance && item < bestItem))
               {

@@ -80,9 +80,9 @@ private:
   std::vector<BezierForm<Dim>> Patches;
   ClosestPointParams Params;
   std::vector<Start> Starts; ///< all elements
-  PointMatrix Samples; ///< of all elements, one after the other
-  PointMatrix Lower;   ///< of the control points' box of every element
+  PointMatrix Samples;       ///< of all elements, one after the other
+  PointMatrix Lower;         ///< of the control points' box of every element
   PointMatrix Upper;
-  BoxTree Hulls;       ///< of these boxes
+  BoxTree Hulls; ///< of these boxes
 };
 }
