@@ -208,12 +208,14 @@ Status vtkDomainParameterization::Gather(vtkInformationVector** inputs)
   const std::vector<int> all = knotwork::Processes::ExchangeNumber(static_cast<int>(own));
   const auto count = [&all](Holding holding)
   { return std::count(all.begin(), all.end(), static_cast<int>(holding)); };
-  const auto whole = count(Holding::Whole);
-  return whole == 0 || whole + count(Holding::Domains) == 1
+  const auto holders = count(Holding::Whole) + count(Holding::Domains);
+  return count(Holding::Whole) == 0 || holders == 1
     ? Status()
     : Status(ErrorCode::InvalidTopology,
-        "the boundary of one domain is spread over several processes; give each process whole "
-        "domains as blocks of a collection, or work in one process");
+        "the whole input is needed, and it is spread over " + std::to_string(holders) + " of " +
+          std::to_string(all.size()) +
+          " processes; give each of them whole domains as blocks of a collection, or work in one "
+          "process");
 }
 
 Status vtkDomainParameterization::Merge(vtkInformationVector**, vtkInformationVector* outputs)

@@ -10,6 +10,7 @@
 #include <knotwork/SplineGrid/SplineModel.h>
 #include <knotwork/SplineGrid/SplineSchema.h>
 
+#include <vtkAbstractArray.h>
 #include <vtkAppendFilter.h>
 #include <vtkAppendPolyData.h>
 #include <vtkCellData.h>
@@ -147,6 +148,16 @@ Result<vtkSmartPointer<vtkDataObject>> JoinSplines(
     return status;
   }
   PassCellData(appended, cells, grid);
+  // what the schema stores is that of all patches; the rest every piece has
+  vtkFieldData* const fields = pieces.front()->GetFieldData();
+  for (int i = 0; i < fields->GetNumberOfArrays(); ++i)
+  {
+    const std::string name = fields->GetArrayName(i) ? fields->GetArrayName(i) : "";
+    if (name.rfind("Knotwork", 0) != 0 && grid->GetFieldData()->HasArray(name.c_str()) == 0)
+    {
+      grid->GetFieldData()->AddArray(fields->GetAbstractArray(i));
+    }
+  }
   return vtkSmartPointer<vtkDataObject>(grid);
 }
 
