@@ -58,6 +58,22 @@ surface = kw.fit([(x / 30, y / 30, x * y / 900) for x in range(31) for y in rang
 assert surface.numbers["points_outside"] == 0
 END
 echo "first results $(($(date +%s) - begin)) s behind the installation"
+script loaded.py python3 << 'END' # what is loaded on demand or works in a process
+import knotwork as kw
+from vtkmodules.vtkCommonCore import vtkDoubleArray
+from vtkmodules.vtkCommonDataModel import vtkImageData
+
+surface = kw.fit([(x / 30, y / 30, x * y / 900) for x in range(31) for y in range(31)], tolerance=0.01)
+surface.contour([0.3, 0.6]).save("lines.gpkg")
+image, values = vtkImageData(), vtkDoubleArray()
+values.SetName("Value")
+image.SetDimensions(9, 9, 9)
+for i in range(image.GetNumberOfPoints()):
+    values.InsertNextValue(sum((x - 4) ** 2 for x in image.GetPoint(i)) - 9)
+image.GetPointData().SetScalars(values)
+assert kw.tetrahedralize(image).numbers["tetrahedra"] > 100
+assert kw.tetrahedralize("scan.stl").numbers["tetrahedra"] > 1
+END
 
 echo "== ParaView with its Python beside"
 install "paraview python3-paraview xvfb xauth libgl1-mesa-dri ./packages/paraview-knotwork_*.deb"
