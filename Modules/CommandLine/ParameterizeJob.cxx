@@ -34,7 +34,10 @@ public:
 protected:
   Share ShareOfInput(vtkDataObject* boundary) const override
   {
-    return vtkDomainParameterization::HoldsDomains(boundary) ? Share::Blocks : Share::First;
+    // the sides of a layout are one boundary, in however many blocks they are
+    return this->InputFile(1).empty() && vtkDomainParameterization::HoldsDomains(boundary)
+      ? Share::Blocks
+      : Share::First;
   }
 
   Status AddNumbers(Session& session) override

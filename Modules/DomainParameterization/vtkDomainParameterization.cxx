@@ -202,9 +202,9 @@ Status vtkDomainParameterization::Gather(vtkInformationVector** inputs)
 {
   this->Last.reset();
   vtkDataObject* boundary = vtkDataObject::GetData(inputs[0], 0);
-  const Holding own = !knotwork::HasData(inputs, 1) ? Holding::Nothing
-    : HoldsDomains(boundary)                        ? Holding::Domains
-                                                    : Holding::Whole;
+  const Holding own = !knotwork::HasData(inputs, 1)                ? Holding::Nothing
+    : !vtkDataSet::GetData(inputs[1], 0) && HoldsDomains(boundary) ? Holding::Domains
+                                                                   : Holding::Whole;
   const std::vector<int> all = knotwork::Processes::ExchangeNumber(static_cast<int>(own));
   const auto count = [&all](Holding holding)
   { return std::count(all.begin(), all.end(), static_cast<int>(holding)); };
@@ -294,6 +294,7 @@ Status vtkDomainParameterization::ParameterizeEach(
   for (std::size_t i = 0; i < domains.size(); ++i)
   {
     const int block = domains[i].Patches.front().Block;
+    this->ReportWarnings(domains[i].Warnings);
     const auto progress = [&, whole = this->Progress()](double share)
     { return whole((static_cast<double>(i) + share) / count); };
     const Status status = domains[i].Patches.front().Geometry.index() == 0

@@ -404,6 +404,19 @@ def test_domains():
     assert [row[1:] for row in rows if row[0] in ("Domain", "2")] == list(csv_rows(path("one.csv")))
     # one domain is for the first process, with a curve a block, too
     compared("parameterize", [path("sides1.vtu")], "one.vtu", few)
+    # nor is one that has a layout divided, though its eight curves are in two blocks of four
+    places = [(x, y) for y in (0.0, 1.0, 2.0) for x in (0.0, 1.0, 2.0)]
+    write(grid_of([(x, y, 0.0) for x, y in places], [(i, i + 1, i + 4, i + 3) for i in (0, 1, 3, 4)], VTK_QUAD), path("layout.vtu"))
+    around = [0, 1, 2, 5, 8, 7, 6, 3]
+    lines = [{"degree": 1, "knots": [0, 0, 1, 1], "control_points": [places[a], places[b]]} for a, b in zip(around, around[1:] + around[:1])]
+    halves = vtkPartitionedDataSetCollection()
+    for i in range(2):
+        with open(path("half.json"), "w", encoding="utf-8") as stream:
+            json.dump({"curves": lines[4 * i:4 * i + 4]}, stream)
+        run(1, "convert", path("half.json"), "--output", path("half.vtu"), "--force")
+        halves.SetPartition(i, 0, read(path("half.vtu")))
+    report = compared("parameterize", [write_collection(halves, "halves.vtpc")], "patches.vtu", (*few, "--layout", path("layout.vtu")))
+    assert report["patches"] == 4 and math.isclose(report["area"], 4.0, rel_tol=1e-12)
     # what fails in a block names it
     parts.SetPartition(1, 0, sides("sides3", 1.0, 0.0))
     parts.SetPartition(2, 0, sides("sides4", float("1e-300"), 0.0))
