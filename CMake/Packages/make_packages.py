@@ -3,6 +3,7 @@
 """usage: make_packages.py SOURCE RELEASE_TREE PARAVIEW_TREE FOLDER
 
 Debian packages of built trees, FOLDER/*.deb; what stands in which says the file `control`. Needs dpkg-dev and the build's own packages."""
+import filecmp
 import glob
 import gzip
 import os
@@ -19,6 +20,7 @@ MAINTAINER = os.environ.get("KNOTWORK_MAINTAINER", "The Knotwork authors <author
 # modules of python3-vtk9 that need Qt, Tk or MPI, or serve VTK's own tests
 LEFT_OF_VTK = ("*Qt*", "*Tk*", "*MPI*", "gtk", "qt", "test", "tk", "wx", "web", "__pycache__")
 OWN = ("libknotwork", "libknotwork-gpl")  # packages with libraries
+SCRIPTS = "/usr/share/javascript/sphinxdoc/1.0"  # of the package libjs-sphinxdoc
 NOTICES = {"libknotwork-gpl": """
 Comment: these libraries are linked with CHOLMOD's supernodal part (GPL-2+) or made with CGAL's packages under
  the GPL-3+, so they are distributed under the GPL version 3, which is in
@@ -110,7 +112,7 @@ def make_docs(source, docs):
 
 
 def make_site(source, stage, version, folder):
-    """The guide as HTML in docs/html; its pictures are links to those of the examples."""
+    """The guide as HTML in docs/html; its pictures are links to those of the examples, its scripts to those of Debian."""
     build = os.path.join(folder, "guide")
     python = glob.glob(os.path.join(stage, "lib", "python3*", "site-packages"))[0]
     done = subprocess.run([sys.executable, os.path.join(source, "Examples", "Guide", "build_site.py"), source, build, version],
@@ -124,6 +126,11 @@ def make_site(source, stage, version, folder):
         if os.path.exists(os.path.join(stage, "docs", name)):
             os.remove(picture)
             os.symlink(os.path.join("..", "..", name), picture)
+    for script in glob.glob(os.path.join(made, "_static", "*.js")):
+        theirs = os.path.join(SCRIPTS, os.path.basename(script))
+        if os.path.exists(theirs) and filecmp.cmp(script, theirs, shallow=False):
+            os.remove(script)
+            os.symlink(os.path.relpath(theirs, "/usr/share/doc/knotwork/html/_static"), script)
     shutil.rmtree(build)
 
 

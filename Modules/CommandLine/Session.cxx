@@ -224,6 +224,7 @@ Status Session::Write(vtkDataObject* data, const std::string& file, const DataFi
   }
   DataFileParams all = params;
   all.Curves = this->BoundaryCurves;
+  all.Threads = this->Threads;
   auto written = WriteDataFile(data, staged->string(), all);
   this->Warn(written.Value);
   this->SecondsOfFiles += Now() - begin;
@@ -244,7 +245,7 @@ Status Session::WriteInPieces(
   const std::string index = staged->string();
   auto* piece = vtkDataSet::SafeDownCast(data);
   MessageCapture messages;
-  status = IsEmpty(data) ? Status() : WritePiece(piece, own, index, encoding);
+  status = IsEmpty(data) ? Status() : WritePiece(piece, own, index, encoding, this->Threads);
   if (status.Detail.empty() && !status)
   {
     status.Detail = messages.FirstError();

@@ -83,7 +83,8 @@ struct PatchCells
   std::vector<vtkIdType> Cells;
   std::vector<IntArray<Dim>> Degrees;
   std::vector<vtkIdType> Points; // ids, first direction fastest within an element
-  PointMatrix Blocks;            // rows (x, y, z, w) of Points
+  Checksum Sum;                  // of their geometry
+  bool Weighted = false;         // whether a point has a weight that is not 1
 };
 
 class GridReader
@@ -119,8 +120,10 @@ private:
     const PatchCells<Dim>& cells, const Spline<Dim>& spline, SplinePatch& patch);
   template <int Dim>
   Result<SplineSpacePtr<Dim>> Space(const PatchRecord& record);
-  Status GatherField(const std::string& where, vtkDataArray* array,
-    const std::vector<vtkIdType>& points, PointMatrix& values) const;
+  template <int Dim>
+  PointMatrix RowsOf(const PatchCells<Dim>& cells) const;
+  Status CheckField(const std::string& where, vtkDataArray* array,
+    const std::vector<vtkIdType>& points, Checksum& sum, bool& isZero) const;
   const PatchRecord* FindRecord(const CellGroup& group) const;
   void ReadSides(const std::map<int, PatchPlace>& places);
   int TakeId(int wanted);
@@ -505,41 +508,90 @@ Status GridReader::Gather(
     {
       return status;
     }
+    if (cells.Points.empty())
+    {
+      cells.Degrees.reserve(cells.Cells.size());
+      cells.Points.reserve(cells.Cells.size() * points.size());
+    }
     cells.Points.insert(cells.Points.end(), points.begin(), points.end());
     cells.Degrees.push_back(degree);
   }
-  cells.Blocks.resize(static_cast<Eigen::Index>(cells.Points.size()), 4);
+  // not kept: of many elements, Bezier points of all need more memory than the grid
+  cells.Sum = BeginGeometryChecksum<Dim>(cells.Degrees);
+  const std::string opening = where + ", ";
   std::size_t i = 0;
   for (std::size_t e = 0; e < cells.Cells.size(); ++e)
   {
     for (int k = 0; k < NumTensorFunctions<Dim>(cells.Degrees[e]); ++k, ++i)
     {
-      double* row = cells.Blocks.row(static_cast<Eigen::Index>(i)).data();
+      std::array<double, 4> row{};
       if (Status status =
-            this->Bezier.ReadPoint(where + ", ", cells.Cells[e], cells.Points[i], row);
+            this->Bezier.ReadPoint(opening, cells.Cells[e], cells.Points[i], row.data());
           !status)
       {
         return status;
       }
+      std::for_each(row.begin(), row.end(), [&](double value) { cells.Sum.Add(value); });
+      cells.Weighted = cells.Weighted || row[3] != 1.0;
     }
   }
   return {};
 }
 
-Status GridReader::GatherField(const std::string& where, vtkDataArray* array,
-  const std::vector<vtkIdType>& points, PointMatrix& values) const
+/// Of gathered cells x, y, z, w of all points.
+template <int Dim>
+PointMatrix GridReader::RowsOf(const PatchCells<Dim>& cells) const
 {
-  values.resize(static_cast<Eigen::Index>(points.size()), array->GetNumberOfComponents());
+  PointMatrix rows(static_cast<Eigen::Index>(cells.Points.size()), 4);
+  std::size_t i = 0;
+  for (std::size_t e = 0; e < cells.Cells.size(); ++e)
+  {
+    for (int k = 0; k < NumTensorFunctions<Dim>(cells.Degrees[e]); ++k, ++i)
+    {
+      static_cast<void>(this->Bezier.ReadPoint({}, cells.Cells[e], cells.Points[i],
+        rows.row(static_cast<Eigen::Index>(i)).data())); // has been checked
+    }
+  }
+  return rows;
+}
+
+PointMatrix ValuesOf(vtkDataArray* array, const std::vector<vtkIdType>& points)
+{
+  PointMatrix values(static_cast<Eigen::Index>(points.size()), array->GetNumberOfComponents());
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     array->GetTuple(points[i], values.row(static_cast<Eigen::Index>(i)).data());
   }
-  if (!values.allFinite())
+  return values;
+}
+
+/// @param sum     of the values.
+/// @param isZero  whether all are 0.
+Status GridReader::CheckField(const std::string& where, vtkDataArray* array,
+  const std::vector<vtkIdType>& points, Checksum& sum, bool& isZero) const
+{
+  Eigen::RowVectorXd row(array->GetNumberOfComponents());
+  sum.Add(static_cast<std::uint64_t>(row.size()));
+  isZero = true;
+  bool isFinite = true;
+  bool isWithinLimit = true;
+  for (const vtkIdType point : points)
+  {
+    array->GetTuple(point, row.data());
+    for (const double value : row)
+    {
+      isFinite = isFinite && std::isfinite(value);
+      isWithinLimit = isWithinLimit && std::abs(value) <= LargestNumber;
+      isZero = isZero && value == 0.0;
+      sum.Add(value);
+    }
+  }
+  if (!isFinite)
   {
     return { ErrorCode::NonFiniteInput,
       where + ": the point array '" + array->GetName() + "' has a value that is not finite" };
   }
-  if (!AllWithinLimit(values))
+  if (!isWithinLimit)
   {
     return { ErrorCode::TooLarge,
       where + ": point array '" + array->GetName() + "': " + BeyondLimit() };
@@ -664,18 +716,17 @@ Status GridReader::ReadStructured(const CellGroup& group, const PatchRecord& rec
     {
       return status;
     }
-    const bool rational = record.Rational || (cells.Blocks.col(3).array() != 1.0).any();
+    const bool rational = record.Rational || cells.Weighted;
     SplinePatch patch;
     Spline<Dim> spline;
     spline.Space = space.Value;
 
     // A record of the same basis whose checksum fits holds the control points.
-    const Checksum checksum = GeometryChecksum<Dim>(cells.Degrees, cells.Blocks);
     const PatchRecord* cached = nullptr;
     for (const PatchRecord& other : this->Schema.Patches)
     {
       const PointMatrix& rows = other.ControlPoints.Rows;
-      if (other.ControlPoints.Matches(checksum) && other.Basis == record.Basis &&
+      if (other.ControlPoints.Matches(cells.Sum) && other.Basis == record.Basis &&
         rows.rows() == space.Value->NumFunctions && rows.allFinite() &&
         (rows.col(3).array() > 0.0).all() && (!cached || other.Id == group.Id))
       {
@@ -692,8 +743,8 @@ Status GridReader::ReadStructured(const CellGroup& group, const PatchRecord& rec
     }
     else
     {
-      RecoveryResult<Dim> recovered =
-        RecoverSpline(FormOf<Dim>(space.Value, cells.Blocks, 3, rational ? 3 : -1), this->Threads);
+      RecoveryResult<Dim> recovered = RecoverSpline(
+        FormOf<Dim>(space.Value, this->RowsOf(cells), 3, rational ? 3 : -1), this->Threads);
       if (!recovered)
       {
         return { recovered.Status.Code, where + ": " + recovered.Status.Detail };
@@ -738,23 +789,22 @@ Status GridReader::ReadFields(const std::string& where, const PatchRecord& recor
   {
     SplineField field;
     field.Name = array->GetName();
-    PointMatrix values;
-    if (Status status = this->GatherField(where, array, cells.Points, values); !status)
+    Checksum sum;
+    bool isZero = true;
+    if (Status status = this->CheckField(where, array, cells.Points, sum, isZero); !status)
     {
       return status;
     }
     const auto known = std::find_if(record.Fields.begin(), record.Fields.end(),
       [&](const FieldRecord& candidate) { return candidate.Name == field.Name; });
-    Checksum sum;
-    sum.Add(values);
-    if (known == record.Fields.end() && values.isZero(0.0))
+    if (known == record.Fields.end() && isZero)
     {
       continue; // a field of other patches
     }
     // Coefficients of a rational field belong to its weights: recovered weights, recovered field.
     if (known != record.Fields.end() && known->Cache.Matches(sum) &&
       known->Cache.Rows.rows() == spline.Space->NumFunctions &&
-      known->Cache.Rows.cols() == values.cols() && known->Cache.Rows.allFinite() &&
+      known->Cache.Rows.cols() == array->GetNumberOfComponents() && known->Cache.Rows.allFinite() &&
       !(patch.Recovered && spline.IsRational()))
     {
       field.Coefficients = known->Cache.Rows;
@@ -762,7 +812,8 @@ Status GridReader::ReadFields(const std::string& where, const PatchRecord& recor
     else
     {
       RecoveryResult<Dim> recovered =
-        RecoverField(FormOf<Dim>(spline.Space, values, static_cast<int>(values.cols()), -1),
+        RecoverField(FormOf<Dim>(spline.Space, ValuesOf(array, cells.Points),
+                       array->GetNumberOfComponents(), -1),
           spline.Weights, this->Threads);
       if (!recovered)
       {
@@ -815,12 +866,13 @@ Status GridReader::ReadBezier(const CellGroup& group)
   used.erase(std::unique(used.begin(), used.end()), used.end());
   std::vector<int> functions;
   functions.reserve(cells.Points.size());
+  const PointMatrix all = this->RowsOf(cells);
   PointMatrix rows(static_cast<Eigen::Index>(used.size()), 4);
   for (std::size_t i = 0; i < cells.Points.size(); ++i)
   {
     const auto at = std::lower_bound(used.begin(), used.end(), cells.Points[i]) - used.begin();
     functions.push_back(static_cast<int>(at));
-    rows.row(at) = cells.Blocks.row(static_cast<Eigen::Index>(i));
+    rows.row(at) = all.row(static_cast<Eigen::Index>(i));
   }
   Result<SplineSpacePtr<Dim>> space =
     MakeBezierSpace<Dim>(cells.Degrees, functions, static_cast<int>(used.size()));
@@ -838,11 +890,13 @@ Status GridReader::ReadBezier(const CellGroup& group)
   }
   for (vtkDataArray* array : this->Fields)
   {
-    SplineField field{ array->GetName(), {} };
-    if (Status status = this->GatherField(where, array, used, field.Coefficients); !status)
+    Checksum ignored;
+    bool isZero = true;
+    if (Status status = this->CheckField(where, array, used, ignored, isZero); !status)
     {
       return status;
     }
+    SplineField field{ array->GetName(), ValuesOf(array, used) };
     patch.Fields.push_back(std::move(field));
   }
   patch.Id = this->TakeId(group.Id);

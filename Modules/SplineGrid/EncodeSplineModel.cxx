@@ -56,8 +56,6 @@ private:
   void PutPoints(
     const Spline<Dim>& spline, const ElementPoints& numbering, double* values, double* weights);
   double* ArrayOf(const SplineField& field) const;
-  PointMatrix ValuesOf(
-    const ElementPoints& numbering, const double* values, Eigen::Index columns) const;
 
   bool Rational = false;
   bool Domain = false;
@@ -216,21 +214,23 @@ template <int Dim>
 void GridWriter::PutPoints(
   const Spline<Dim>& spline, const ElementPoints& numbering, double* values, double* weights)
 {
-  const BezierForm<Dim> form = MakeBezierForm(spline, 1);
+  const BezierElements<Dim> elements(spline, 1);
   const Eigen::Index columns = spline.ControlPoints.cols();
+  std::vector<double> block;
   std::size_t firstId = 0;
   for (int e = 0; e < spline.Space->NumElements(); ++e)
   {
     const int n =
       NumTensorFunctions<Dim>(spline.Space->Elements[static_cast<std::size_t>(e)].Degree);
-    const double* block = form.Block(e);
-    const double* w = form.Rational ? block + static_cast<std::size_t>(columns) * n : nullptr;
+    block.resize(static_cast<std::size_t>(elements.NumPlanes()) * static_cast<std::size_t>(n));
+    elements.Block(e, block.data());
+    const double* w = spline.IsRational() ? block.data() + columns * n : nullptr;
     for (int i = 0; i < n; ++i)
     {
       const vtkIdType point = this->FirstPoint + numbering.Ids[firstId + i];
       for (Eigen::Index c = 0; c < columns; ++c)
       {
-        values[point * columns + c] = block[c * n + i] / (w ? w[i] : 1.0);
+        values[point * columns + c] = block[static_cast<std::size_t>(c * n + i)] / (w ? w[i] : 1.0);
       }
       if (w && weights)
       {
@@ -239,19 +239,6 @@ void GridWriter::PutPoints(
     }
     firstId += static_cast<std::size_t>(n);
   }
-}
-
-/// Of the elements' points what stands in the grid, since a shared point has one owner.
-PointMatrix GridWriter::ValuesOf(
-  const ElementPoints& numbering, const double* values, Eigen::Index columns) const
-{
-  PointMatrix rows(static_cast<Eigen::Index>(numbering.Ids.size()), columns);
-  for (Eigen::Index i = 0; i < rows.rows(); ++i)
-  {
-    const vtkIdType point = this->FirstPoint + numbering.Ids[static_cast<std::size_t>(i)];
-    rows.row(i) = Eigen::Map<const Eigen::RowVectorXd>(values + point * columns, columns);
-  }
-  return rows;
 }
 
 template <int Dim>
@@ -268,8 +255,6 @@ void GridWriter::AddSpline(const SplinePatch& patch, const Spline<Dim>& spline, 
   record.NumFunctions = space.NumFunctions;
   const int basisHash = HashOf(record.Basis);
 
-  // one after the other: of many elements, Bezier points of all at once would need more memory than
-  // the grid
   double* const xyz = static_cast<double*>(this->Points->GetVoidPointer(0));
   this->PutPoints<Dim>({ spline.Space, spline.ControlPoints, spline.Weights }, numbering, xyz,
     spline.IsRational() ? this->Weights->GetPointer(0) : nullptr);
@@ -328,18 +313,26 @@ void GridWriter::AddSpline(const SplinePatch& patch, const Spline<Dim>& spline, 
     {
       record.ControlPoints.Rows.col(3) = spline.Weights;
     }
-    PointMatrix points = this->ValuesOf(numbering, xyz, 3);
-    points.conservativeResize(Eigen::NoChange, 4);
-    points.col(3).setOnes();
-    if (spline.IsRational())
+    // of the elements' points what stands in the grid, since a shared point has one owner
+    Checksum geometry = BeginGeometryChecksum<Dim>(degrees);
+    const double* const weights = spline.IsRational() ? this->Weights->GetPointer(0) : nullptr;
+    for (const auto own : numbering.Ids)
     {
-      points.col(3) = this->ValuesOf(numbering, this->Weights->GetPointer(0), 1);
+      const vtkIdType point = this->FirstPoint + own;
+      std::for_each_n(xyz + 3 * point, 3, [&](double value) { geometry.Add(value); });
+      geometry.Add(weights ? weights[point] : 1.0);
     }
-    record.ControlPoints.Stored = record.ControlPoints.With(GeometryChecksum<Dim>(degrees, points));
+    record.ControlPoints.Stored = record.ControlPoints.With(geometry);
     for (const SplineField& field : patch.Fields)
     {
+      const Eigen::Index columns = field.Coefficients.cols();
+      const double* const values = this->ArrayOf(field) + this->FirstPoint * columns;
       Checksum sum;
-      sum.Add(this->ValuesOf(numbering, this->ArrayOf(field), field.Coefficients.cols()));
+      sum.Add(static_cast<std::uint64_t>(columns));
+      for (const auto own : numbering.Ids)
+      {
+        std::for_each_n(values + own * columns, columns, [&](double value) { sum.Add(value); });
+      }
       CoefficientCache cache{ 0, field.Coefficients };
       cache.Stored = cache.With(sum);
       record.Fields.push_back({ field.Name, std::move(cache) });

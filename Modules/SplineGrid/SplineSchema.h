@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 
 class vtkFieldData;
 
@@ -34,8 +35,17 @@ int HashOf(const SpaceDefinition& basis);
 class VTKKNOTWORKSPLINEGRID_EXPORT Checksum
 {
 public:
-  void Add(std::uint64_t word);
-  void Add(double value);
+  void Add(std::uint64_t word)
+  {
+    const std::uint64_t h = this->H ^ (word * 0x9e3779b97f4a7c15ULL);
+    this->H = ((h << 27) | (h >> 37)) * 0xc2b2ae3d27d4eb4fULL + 0x165667b19e3779f9ULL;
+  }
+  void Add(double value)
+  {
+    std::uint64_t word;
+    std::memcpy(&word, &value, sizeof word);
+    this->Add(word);
+  }
   void Add(const PointMatrix& values);
   std::uint64_t Value() const { return this->H; }
 
@@ -90,8 +100,8 @@ void WriteSchema(const SplineSchema& schema, vtkFieldData* fieldData);
 /// it is damaged or of a newer version. Lost caches are not an error.
 Result<SplineSchema> ReadSchema(vtkFieldData* fieldData);
 
-/// Of a patch's cells in element order.
-/// @param blocks  rows (x, y, z, w) of the elements' Bezier points, first direction fastest.
+/// Of a patch's cells in element order: what x, y, z, w of all the elements' Bezier points, first
+/// direction fastest, are added to.
 template <int Dim>
-Checksum GeometryChecksum(const std::vector<IntArray<Dim>>& degrees, const PointMatrix& blocks);
+Checksum BeginGeometryChecksum(const std::vector<IntArray<Dim>>& degrees);
 }

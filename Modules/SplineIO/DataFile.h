@@ -47,6 +47,7 @@ struct DataFileParams
   std::string Encoding = "binary";
   /// Parts that a .pvtu gets; patches of splines stay whole.
   std::size_t Pieces = 1;
+  int Threads = 0; ///< that compress; 0: all cores
 };
 
 /// Writes data by the ending of the name. Of a .vtpc the folder of its pieces must not be there

@@ -190,7 +190,7 @@ Status ReadOfVTK(const std::string& file, DataFile& found)
 
 Status WriteOfVTK(vtkDataObject* data, const std::string& file, const DataFileParams& params)
 {
-  return WriteVTKFile(data, file, params.Encoding);
+  return WriteVTKFile(data, file, params.Encoding, params.Threads);
 }
 
 Status ReadInPieces(const std::string& file, DataFile& found)
@@ -219,7 +219,8 @@ Status WriteInPieces(vtkDataObject* data, const std::string& file, const DataFil
   for (const auto& piece : pieces)
   {
     numbers.push_back(numbers.size());
-    if (Status status = WritePiece(piece, numbers.back(), file, params.Encoding); !status)
+    if (Status status = WritePiece(piece, numbers.back(), file, params.Encoding, params.Threads);
+        !status)
     {
       return status;
     }

@@ -338,8 +338,8 @@ Result<vtkSmartPointer<vtkDataObject>> JoinPieces(
     : Result<vtkSmartPointer<vtkDataObject>>(appended);
 }
 
-Status WritePiece(
-  vtkDataSet* piece, std::size_t number, const std::string& index, const std::string& encoding)
+Status WritePiece(vtkDataSet* piece, std::size_t number, const std::string& index,
+  const std::string& encoding, int threads)
 {
   const fs::path folder = FolderOf(index);
   std::error_code failure;
@@ -351,7 +351,7 @@ Status WritePiece(
   auto* grid = vtkUnstructuredGrid::SafeDownCast(piece);
   const vtkSmartPointer<vtkDataObject> used =
     grid && grid->GetNumberOfCells() > 0 ? WithUsedPoints(grid).Get() : piece;
-  return WriteVTKFile(used, (folder / NameOf(index, number)).string(), encoding);
+  return WriteVTKFile(used, (folder / NameOf(index, number)).string(), encoding, threads);
 }
 
 Status WritePieceIndex(

@@ -40,9 +40,10 @@ VTKKNOTWORKSPLINEIO_EXPORT Result<vtkSmartPointer<vtkDataObject>> JoinPieces(
 
 /// Writes a piece of a staged index, by its number, into the index's folder, which is made where
 /// it is not there. Points that no cell has are left out.
+/// @param threads  that compress; 0: all cores.
 /// @return FileError; LibraryError.
-VTKKNOTWORKSPLINEIO_EXPORT Status WritePiece(
-  vtkDataSet* piece, std::size_t number, const std::string& index, const std::string& encoding);
+VTKKNOTWORKSPLINEIO_EXPORT Status WritePiece(vtkDataSet* piece, std::size_t number,
+  const std::string& index, const std::string& encoding, int threads = 0);
 
 /// Writes the index of the pieces of these numbers.
 /// @param like  a piece, for the names of the arrays.

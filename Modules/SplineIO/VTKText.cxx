@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VTKText.h"
 
+#include "Base64Stream.h"
+#include "ParallelZLib.h"
+#include "TextChunks.h"
 #include <knotwork/SplineCore/FileOutput.h>
 
 #include "vtkBase64Utilities.h"
@@ -28,19 +31,54 @@ namespace knotwork
 {
 namespace
 {
-/// VTK's writers crash now and then when a disk is full, so they write to memory.
+/// What VTK's writers need to write to memory: they crash now and then when a disk is full.
 template <typename Writer>
-std::string XmlText(vtkDataObject* data, const std::string& encoding)
+class MemoryWriter : public Writer
 {
-  vtkNew<Writer> writer;
+public:
+  static MemoryWriter* New()
+  {
+    auto* writer = new MemoryWriter;
+    writer->InitializeObjectBase();
+    return writer;
+  }
+
+  TextChunks Text;
+
+protected:
+  MemoryWriter() { this->SetDataStream(vtkNew<Base64Stream>()); }
+
+  int StartFile() override
+  {
+    this->Stream->rdbuf(&this->Text); // in place of the string's
+    return this->Writer::StartFile();
+  }
+};
+
+/// How numbers are written.
+struct XmlParams
+{
+  std::string Encoding;
+  int Threads = 0;
+};
+
+template <typename Writer>
+Status WriteXml(vtkDataObject* data, const std::string& file, const XmlParams& params)
+{
+  constexpr std::size_t block = 1 << 24; // bytes that are compressed at a time
+  vtkNew<MemoryWriter<Writer>> writer;
   writer->SetInputDataObject(data);
   writer->WriteToOutputStringOn();
+  vtkNew<ParallelZLib> compressor;
+  compressor->Threads = params.Threads;
+  writer->SetCompressor(compressor);
   writer->SetCompressionLevel(1); // VTK's 5 takes twice the time and more for a size 7 % less
-  if (encoding == "ascii")
+  writer->SetBlockSize(block);
+  if (params.Encoding == "ascii")
   {
     writer->SetDataModeToAscii();
   }
-  else if (encoding == "binary")
+  else if (params.Encoding == "binary")
   {
     writer->SetDataModeToBinary();
   }
@@ -49,14 +87,13 @@ std::string XmlText(vtkDataObject* data, const std::string& encoding)
     writer->SetDataModeToAppended();
     writer->EncodeAppendedDataOff();
   }
-  return writer->Write() == 1 ? writer->GetOutputString() : std::string();
-}
-
-template <typename Writer>
-Status WriteXml(vtkDataObject* data, const std::string& file, const std::string& encoding)
-{
-  const std::string text = XmlText<Writer>(data, encoding);
-  return text.empty() ? Status(ErrorCode::LibraryError, "") : PutText(text, file);
+  if (writer->Write() != 1 || writer->Text.Size() == 0)
+  {
+    return { ErrorCode::LibraryError, "" };
+  }
+  FileOutput output(file);
+  writer->Text.WriteTo(output.Stream());
+  return output.Finish();
 }
 
 /// A name as the value of an attribute.
@@ -83,7 +120,7 @@ std::string AssemblyText(vtkDataAssembly* assembly)
 
 /// Every piece is a file in a folder of the collection's name.
 Status WriteCollection(
-  vtkPartitionedDataSetCollection* data, const fs::path& file, const std::string& encoding)
+  vtkPartitionedDataSetCollection* data, const fs::path& file, const XmlParams& params)
 {
   const std::string stem = file.stem().string();
   const fs::path folder = file.parent_path() / stem;
@@ -113,8 +150,8 @@ Status WriteCollection(
         stem + "_" + std::to_string(p) + "_" + std::to_string(i) + (isPolyData ? ".vtp" : ".vtu");
       const std::string path = (folder / own).string();
       const Status status = isPolyData
-        ? WriteXml<vtkXMLPolyDataWriter>(piece, path, encoding)
-        : WriteXml<vtkXMLUnstructuredGridWriter>(piece, path, encoding);
+        ? WriteXml<vtkXMLPolyDataWriter>(piece, path, params)
+        : WriteXml<vtkXMLUnstructuredGridWriter>(piece, path, params);
       if (!status)
       {
         return { status.Code, status.Detail.substr(status.Detail.rfind(": ") + 2) };
@@ -132,16 +169,17 @@ Status WriteCollection(
 
 }
 
-Status WriteVTKFile(vtkDataObject* data, const std::string& file, const std::string& encoding)
+Status WriteVTKFile(
+  vtkDataObject* data, const std::string& file, const std::string& encoding, int threads)
 {
+  const XmlParams params{ encoding, threads };
   if (auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(data))
   {
-    return WriteCollection(collection, file, encoding);
+    return WriteCollection(collection, file, params);
   }
-  return vtkPolyData::SafeDownCast(data) ? WriteXml<vtkXMLPolyDataWriter>(data, file, encoding)
-    : vtkImageData::SafeDownCast(data)
-    ? WriteXml<vtkXMLImageDataWriter>(data, file, encoding)
-    : WriteXml<vtkXMLUnstructuredGridWriter>(data, file, encoding);
+  return vtkPolyData::SafeDownCast(data) ? WriteXml<vtkXMLPolyDataWriter>(data, file, params)
+    : vtkImageData::SafeDownCast(data)   ? WriteXml<vtkXMLImageDataWriter>(data, file, params)
+                                       : WriteXml<vtkXMLUnstructuredGridWriter>(data, file, params);
 }
 
 std::string TextOfTable(vtkDataObject* table)

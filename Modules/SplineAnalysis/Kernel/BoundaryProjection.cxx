@@ -48,12 +48,21 @@ public:
 
   Status Add(const CellSide& facet, int component, const PointFunction& function)
   {
-    std::vector<int> rows;
     for (const int f : TraceFunctions(this->Space, facet))
     {
-      rows.push_back(
-        this->Numbers.emplace(f, static_cast<int>(this->Numbers.size())).first->second);
+      this->Numbers.emplace(f, static_cast<int>(this->Numbers.size()));
     }
+    std::vector<std::pair<int, int>> traces; // number, place among the element's functions
+    for (int a = 0; a < this->Space.NumAlive(facet.Cell); ++a)
+    {
+      const auto found = this->Numbers.find(this->Space.Alive(facet.Cell)[a]);
+      if (found != this->Numbers.end())
+      {
+        traces.emplace_back(found->second, a);
+      }
+    }
+    Eigen::VectorXd row(static_cast<Eigen::Index>(traces.size()));
+    Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(row.size(), row.size());
     this->Right.resize(this->Numbers.size(), 0.0);
     const CellShape shape = this->Space.Shapes[static_cast<std::size_t>(facet.Cell)];
     const FacetFrame frame = MakeFacetFrame(shape, facet.Side);
@@ -76,24 +85,23 @@ public:
           "a prescribed value on side " + std::to_string(facet.Side) + " of element " +
             std::to_string(facet.Cell) + " is no number; mend the function" };
       }
-      std::vector<std::pair<int, double>> traces;
-      for (int a = 0; a < this->Space.NumAlive(facet.Cell); ++a)
+      for (Eigen::Index i = 0; i < row.size(); ++i)
       {
-        const auto found = this->Numbers.find(this->Space.Alive(facet.Cell)[a]);
-        if (found != this->Numbers.end() && values.Values[a] != 0.0)
-        {
-          traces.emplace_back(found->second, values.Values[a]);
-        }
+        row[i] = values.Values[traces[static_cast<std::size_t>(i)].second];
+        this->Right[static_cast<std::size_t>(traces[static_cast<std::size_t>(i)].first)] +=
+          weight * value * row[i];
       }
-      for (const auto& row : traces)
+      mass.selfadjointView<Eigen::Lower>().rankUpdate(row, weight);
+    }
+    for (std::size_t i = 0; i < traces.size(); ++i)
+    {
+      for (std::size_t j = 0; j <= i; ++j)
       {
-        this->Right[static_cast<std::size_t>(row.first)] += weight * value * row.second;
-        for (const auto& column : traces)
+        const double entry = mass(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+        if (entry != 0.0)
         {
-          if (row.first >= column.first)
-          {
-            this->Mass.emplace_back(row.first, column.first, weight * row.second * column.second);
-          }
+          const auto [lower, upper] = std::minmax(traces[i].first, traces[j].first);
+          this->Mass.emplace_back(upper, lower, entry);
         }
       }
     }

@@ -403,6 +403,14 @@ BernsteinCells MakeBernsteinCells(const GalerkinSpace& space)
   BernsteinCells cells;
   cells.NumComponents = space.Dimension;
   cells.Rational = space.Weights.size() > 0;
+  std::size_t values = 0;
+  for (int e = 0; e < space.NumElements(); ++e)
+  {
+    const auto index = static_cast<std::size_t>(e);
+    values += static_cast<std::size_t>(
+      cells.NumPlanes() * NumCellCoefficients(space.Shapes[index], space.Degrees[index]));
+  }
+  cells.Data.reserve(values);
   for (int e = 0; e < space.NumElements(); ++e)
   {
     const auto index = static_cast<std::size_t>(e);

@@ -25,6 +25,25 @@ struct BezierForm
   double* Block(int e) { return this->Data.data() + this->Offsets[static_cast<std::size_t>(e)]; }
 };
 
+/// The blocks of a BezierForm one after the other, where all at once would be too much memory.
+/// Keeps the spline's coefficients, which must live as long.
+template <int Dim>
+class BezierElements
+{
+public:
+  /// @pre spline.Check() is Ok.
+  explicit BezierElements(const Spline<Dim>& spline, int threads = 0);
+  int NumPlanes() const { return this->Planes; }
+  /// @param block  gets NumPlanes() planes of the element's functions.
+  void Block(int e, double* block) const;
+
+private:
+  SplineSpacePtr<Dim> Space;
+  int Planes;
+  PointMatrix Copy;           ///< of coefficients that are not read in place
+  const double* Coefficients; ///< rows of Planes values
+};
+
 /// Bezier form of a spline. @pre spline.Check() is Ok. @complexity O(elements * (p+1)^(Dim+1) * c).
 template <int Dim>
 BezierForm<Dim> MakeBezierForm(const Spline<Dim>& spline, int threads = 0);
