@@ -2,6 +2,7 @@
 #include "FitTiles.h"
 
 #include "Session.h"
+#include "Shares.h"
 
 #include <knotwork/SplineCore/FileOutput.h>
 #include <knotwork/SplineCore/LROperations.h>
@@ -9,7 +10,6 @@
 #include <knotwork/SplineGrid/SplineModel.h>
 #include <knotwork/SplineIO/CloudTiles.h>
 #include <knotwork/SplineIO/DataFile.h>
-#include <knotwork/SplineIO/DataParts.h>
 #include <knotwork/SurfaceFitting/StitchTiles.h>
 #include <knotwork/SurfaceFitting/vtkSplineSurfaceFit.h>
 
@@ -367,29 +367,6 @@ private:
     return static_cast<int>(i % static_cast<std::size_t>(Processes::Count()));
   }
 
-  /// What a process has made of a tile, to all.
-  static Result<vtkSmartPointer<vtkUnstructuredGrid>> Share(
-    const vtkSmartPointer<vtkUnstructuredGrid>& own, int worker)
-  {
-    if (Processes::Count() == 1)
-    {
-      return own;
-    }
-    std::vector<std::string> parts;
-    AppendParts(own, parts);
-    parts.resize(2); // of a grid
-    for (std::string& part : parts)
-    {
-      part = Processes::Broadcast(part, worker);
-    }
-    std::size_t next = 0;
-    const vtkSmartPointer<vtkDataObject> data = TakeData(parts, next);
-    auto* grid = vtkUnstructuredGrid::SafeDownCast(data);
-    return grid ? Result<vtkSmartPointer<vtkUnstructuredGrid>>(grid)
-                : Result<vtkSmartPointer<vtkUnstructuredGrid>>(
-                    ErrorCode::LibraryError, "the surface of a tile cannot be taken over");
-  }
-
   /// The tiles of a row, one process each; all get all of them.
   Status FitRow(const std::vector<std::size_t>& row, std::vector<Spline<2>>& tiles)
   {
@@ -410,8 +387,7 @@ private:
     for (std::size_t i = 0; i < row.size() && status; ++i)
     {
       // through the grid in any case: a run that goes on has the same bits
-      auto shared = Share(grids[i], WorkerOf(i));
-      auto decoded = shared ? this->Decode(shared.Value) : shared.Status;
+      auto decoded = this->Decode(SameForAll(grids[i], WorkerOf(i)));
       status = decoded.Status;
       if (status)
       {
@@ -521,12 +497,11 @@ private:
       found =
         Processes::Exchange(std::vector<FittedTile>{ found })[static_cast<std::size_t>(worker)]
           .front();
-      auto shared = Share(grids[i], worker);
+      const auto shared = SameForAll(grids[i], worker);
       grids[i] = nullptr;
-      status = shared.Status;
-      if (status && Processes::Own() == 0)
+      if (Processes::Own() == 0)
       {
-        status = this->HandOver(numbers[i], shared.Value, take);
+        status = this->HandOver(numbers[i], vtkUnstructuredGrid::SafeDownCast(shared), take);
       }
       status = Processes::Agree(status);
     }

@@ -492,14 +492,18 @@ Result<vtkSmartPointer<vtkDataObject>> AppendShares(vtkDataObject* output)
   return JoinPieces(pieces);
 }
 
-vtkSmartPointer<vtkDataObject> SameForAll(vtkDataObject* table)
+vtkSmartPointer<vtkDataObject> SameForAll(vtkDataObject* data, int from)
 {
-  Bytes bytes;
-  if (Processes::Own() == 0)
+  if (Processes::Count() == 1)
   {
-    AddObject(table, bytes);
+    return data;
   }
-  Bytes sent(Processes::Broadcast(bytes.Get()));
-  return Processes::Own() == 0 ? vtkSmartPointer<vtkDataObject>(table) : TakeObject(sent);
+  Bytes bytes;
+  if (Processes::Own() == from)
+  {
+    AddObject(data, bytes);
+  }
+  Bytes sent(Processes::Broadcast(bytes.Get(), from));
+  return Processes::Own() == from ? vtkSmartPointer<vtkDataObject>(data) : TakeObject(sent);
 }
 }

@@ -35,7 +35,7 @@ vtkSmartPointer<vtkDataObject> JoinShares(
 /// @return LibraryError: VTK cannot take it apart.
 Result<vtkSmartPointer<vtkDataObject>> AppendShares(vtkDataObject* output);
 
-/// A table that the first process has, to all.
+/// What one process has, to all.
 /// @pre all processes call it.
-vtkSmartPointer<vtkDataObject> SameForAll(vtkDataObject* table);
+vtkSmartPointer<vtkDataObject> SameForAll(vtkDataObject* data, int from = 0);
 }
