@@ -145,11 +145,8 @@ Eigen::VectorXd CutFunction(const SurfaceParts& parts, const Sides& sides, doubl
   {
     const double width = smoothing * length / count;
     Eigen::VectorXd smooth = values;
-    bool solved = true;
-    for (int step = 0; step < HeatSteps && solved; ++step)
-    {
-      solved = static_cast<bool>(FlowHeat(mesh, held, 0.5 * width * width / HeatSteps, smooth));
-    }
+    const bool solved =
+      static_cast<bool>(FlowHeat(mesh, held, 0.5 * width * width / HeatSteps, HeatSteps, smooth));
     Snap(parts, held, smooth);
     const std::array<double, 2> got = SideAreas(parts, smooth);
     if (solved && got[0] >= LeastShare * wanted[0] && got[1] >= LeastShare * wanted[1])

@@ -23,11 +23,12 @@ void CutAlong(CutMesh& mesh, const ChartPart& part, const Eigen::VectorXd& value
 {
   const auto sign = [](double value) { return (value > 0.0 ? 1 : 0) - (value < 0.0 ? 1 : 0); };
   std::unordered_map<std::uint64_t, int> points;
-  std::unordered_map<int, int> signs; // of points of the mesh; those on the line have 0
+  // of points of the mesh; those on the line, which are added, have 0
+  std::vector<signed char> signs(mesh.Points.size(), 0);
   for (int v = 0; v < part.Mesh.NumPoints(); ++v)
   {
     const auto at = static_cast<std::size_t>(v);
-    signs[part.Points[at]] = sign(values[v]);
+    signs[static_cast<std::size_t>(part.Points[at])] = static_cast<signed char>(sign(values[v]));
     for (int j = part.Mesh.FanStart[at]; j < part.Mesh.FanStart[at + 1]; ++j)
     {
       const int w = part.Mesh.Fan[static_cast<std::size_t>(j)];
@@ -35,20 +36,19 @@ void CutAlong(CutMesh& mesh, const ChartPart& part, const Eigen::VectorXd& value
       {
         const int a = part.Points[at];
         const int b = part.Points[static_cast<std::size_t>(w)];
-        const int p = mesh.AddPoint(a, b, values[v] / (values[v] - values[w]));
-        points[CutMesh::EdgeKey(a, b)] = p;
-        signs[p] = 0;
+        points[CutMesh::EdgeKey(a, b)] = mesh.AddPoint(a, b, values[v] / (values[v] - values[w]));
       }
     }
   }
   const int chart = mesh.Charts[static_cast<std::size_t>(part.Triangles.front())];
   mesh.Split(points);
+  signs.resize(mesh.Points.size(), 0);
   for (int t : mesh.TrianglesOf(chart))
   {
     int sum = 0;
     for (int c : mesh.Triangles[static_cast<std::size_t>(t)])
     {
-      sum += signs.at(c);
+      sum += signs[static_cast<std::size_t>(c)];
     }
     if (sum != 0)
     {
@@ -57,34 +57,43 @@ void CutAlong(CutMesh& mesh, const ChartPart& part, const Eigen::VectorXd& value
   }
 }
 
-/// Where a side touches itself in a point all triangles there get the side of most of the area.
-/// @param holes  one a point; triangles at a hole give it all.
-/// @return whether there was such a point.
-bool JoinTouching(const DiscMesh& mesh, const std::vector<double>& areas,
-  const std::vector<int>& holes, Sides& sides)
+/// The triangle that lies between an entry of the fans and the next one; -1 behind the last of an
+/// open fan.
+std::vector<int> TrianglesOfFans(const DiscMesh& mesh)
 {
-  std::unordered_map<std::uint64_t, int> triangleAt; // of the directed side a -> b
+  std::vector<int> found(mesh.Fan.size(), -1);
   for (std::size_t t = 0; t < mesh.Triangles.size(); ++t)
   {
     for (std::size_t k = 0; k < 3; ++k)
     {
-      const auto a = static_cast<std::uint64_t>(mesh.Triangles[t][k]);
-      const auto b = static_cast<std::uint64_t>(mesh.Triangles[t][(k + 1) % 3]);
-      triangleAt[a << 32 | b] = static_cast<int>(t);
+      const auto at = static_cast<std::size_t>(mesh.Triangles[t][k]);
+      const auto begin = mesh.Fan.begin() + mesh.FanStart[at];
+      const auto end = mesh.Fan.begin() + mesh.FanStart[at + 1];
+      const auto entry = std::find(begin, end, mesh.Triangles[t][(k + 1) % 3]);
+      found[static_cast<std::size_t>(entry - mesh.Fan.begin())] = static_cast<int>(t);
     }
   }
+  return found;
+}
+
+/// Where a side touches itself in a point all triangles there get the side of most of the area.
+/// @param ofFans  TrianglesOfFans.
+/// @param holes   one a point; triangles at a hole give it all.
+/// @return whether there was such a point.
+bool JoinTouching(const DiscMesh& mesh, const std::vector<int>& ofFans,
+  const std::vector<double>& areas, const std::vector<int>& holes, Sides& sides)
+{
   bool any = false;
+  std::vector<std::size_t> star;
   for (int v = 0; v < mesh.NumPoints(); ++v)
   {
     const auto at = static_cast<std::size_t>(v);
-    std::vector<std::size_t> star;
+    star.clear();
     for (int j = mesh.FanStart[at]; j < mesh.FanStart[at + 1]; ++j)
     {
-      const auto w = static_cast<std::uint64_t>(mesh.Fan[static_cast<std::size_t>(j)]);
-      const auto found = triangleAt.find(static_cast<std::uint64_t>(v) << 32 | w);
-      if (found != triangleAt.end())
+      if (const int triangle = ofFans[static_cast<std::size_t>(j)]; triangle >= 0)
       {
-        star.push_back(static_cast<std::size_t>(found->second));
+        star.push_back(static_cast<std::size_t>(triangle));
       }
     }
     int changes = mesh.OnBoundary[at] ? 1 : 0; // an open fan ends and begins
@@ -142,10 +151,11 @@ Status RepairSides(CutMesh& mesh, int chart, const std::vector<int>& holes)
   {
     sides.push_back(mesh.Sides[static_cast<std::size_t>(t)]);
   }
+  const std::vector<int> ofFans = TrianglesOfFans(part.Value.Mesh);
   for (int round = 0; round < RepairRounds; ++round)
   {
     JoinIslands(parts.Adjacency, parts.Areas, LeastIsland, sides);
-    if (!JoinTouching(part.Value.Mesh, parts.Areas, localHoles, sides))
+    if (!JoinTouching(part.Value.Mesh, ofFans, parts.Areas, localHoles, sides))
     {
       break;
     }
@@ -240,14 +250,19 @@ Result<std::vector<int>> DivideChart(CutMesh& mesh, int chart, const EdgeCrossin
   const std::vector<int>& holes, double creaseAngle, int& numCharts)
 {
   using Division = std::function<Sides(const SurfaceParts&, const std::vector<int>&)>;
-  const std::array<Division, 4> divisions = { [&](const SurfaceParts& parts,
-                                                const std::vector<int>& points)
-    { return crossing ? DivideAtCrossing(parts, points, crossing) : Sides{}; },
-    [](const SurfaceParts& parts, const std::vector<int>&) { return DivideByNormals(parts); },
-    [](const SurfaceParts& parts, const std::vector<int>&) { return DivideByLength(parts); },
-    [](const SurfaceParts& parts, const std::vector<int>&) { return DivideByPosition(parts); } };
+  std::vector<Division> divisions;
+  if (crossing)
+  {
+    divisions.emplace_back([&](const SurfaceParts& parts, const std::vector<int>& points)
+      { return DivideAtCrossing(parts, points, crossing); });
+  }
+  for (const auto divide : { DivideByNormals, DivideByLength, DivideByPosition })
+  {
+    divisions.emplace_back(
+      [divide](const SurfaceParts& parts, const std::vector<int>&) { return divide(parts); });
+  }
   bool divided = false;
-  for (std::size_t i = 0; i < divisions.size() && !divided; ++i)
+  for (std::size_t i = 0; i < divisions.size() && !divided;)
   {
     const auto part = TakePart(mesh, mesh.TrianglesOf(chart));
     if (!part)
@@ -256,10 +271,14 @@ Result<std::vector<int>> DivideChart(CutMesh& mesh, int chart, const EdgeCrossin
     }
     const std::vector<int> localHoles = HolesOf(part.Value, holes);
     const SurfaceParts parts(part.Value.Mesh, localHoles);
-    Sides sides = divisions[i](parts, part.Value.Points);
+    Sides sides;
+    for (; i < divisions.size() && sides.empty(); ++i)
+    {
+      sides = divisions[i](parts, part.Value.Points);
+    }
     if (sides.empty())
     {
-      continue;
+      break;
     }
     JoinIslands(parts.Adjacency, parts.Areas, LeastIsland, sides);
     SetSides(mesh, part.Value, sides);

@@ -346,7 +346,7 @@ Sides DivideBetween(
     values[v] -= 1.0;
     held[static_cast<std::size_t>(v)] = 1;
   }
-  if (!FlowHeat(parts.Mesh, held, std::numeric_limits<double>::infinity(), values))
+  if (!FlowHeat(parts.Mesh, held, std::numeric_limits<double>::infinity(), 1, values))
   {
     return {};
   }

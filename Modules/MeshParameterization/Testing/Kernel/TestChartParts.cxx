@@ -267,12 +267,12 @@ TEST(HeatFlow, HarmonicFunctionOfARectangleIsLinear_ExactOracle)
   {
     values[v] = held[static_cast<std::size_t>(v)] ? values[v] : 7.0;
   }
-  ASSERT_TRUE(FlowHeat(disc.Value, held, Infinite(), values));
+  ASSERT_TRUE(FlowHeat(disc.Value, held, Infinite(), 1, values));
   EXPECT_LE((values - linear).cwiseAbs().maxCoeff(), 1e-12);
   // the step conserves heat
   Eigen::VectorXd heat = linear.array().square();
   const Eigen::VectorXd before = heat;
-  ASSERT_TRUE(FlowHeat(disc.Value, std::vector<char>(held.size(), 0), 0.1, heat));
+  ASSERT_TRUE(FlowHeat(disc.Value, std::vector<char>(held.size(), 0), 0.1, 1, heat));
   EXPECT_LT(heat.maxCoeff(), before.maxCoeff());
   EXPECT_GT(heat.minCoeff(), before.minCoeff());
 }
