@@ -16,7 +16,7 @@ struct GraphEdge
 /// @param costs  of side 1 minus side 0, one a node; +-infinity holds a node.
 /// @return the side of each node; of several least cuts the one with the fewest nodes on side 0.
 ///         Weights are rounded to 2^-30 of their sum: the result does not depend on the machine.
-/// @complexity O(n^2 m) at worst, near O(n) on meshes with costs at most nodes.
-/// @source Dinic, Soviet Math. Doklady 11 (1970) 1277-1280 (maximum flow).
+/// @complexity pseudo-polynomial at worst, near O(n) on meshes with costs at most nodes.
+/// @source Y. Boykov, V. Kolmogorov, IEEE TPAMI 26 (2004) 1124-1137 (maximum flow).
 std::vector<char> CutGraph(const std::vector<double>& costs, const std::vector<GraphEdge>& edges);
 }
