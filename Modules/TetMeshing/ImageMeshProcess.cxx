@@ -27,8 +27,8 @@ Result<vtkDataArray*> FindValues(vtkImageData* data, const std::string& name)
   for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
   {
     vtkDataArray* array = arrays->GetArray(i);
-    if (array && array->GetNumberOfComponents() == 1 && array->GetName() &&
-      (name.empty() || name == array->GetName()))
+    const char* own = array ? array->GetName() : nullptr; // images of VTK's sources have none
+    if (array && array->GetNumberOfComponents() == 1 && (name.empty() || (own && name == own)))
     {
       found.push_back(array);
     }
@@ -171,19 +171,25 @@ Result<VolumeImage> DecodeImage(vtkImageData* data, const std::string& name, boo
     image.Axes.col(d) = (next - image.Origin) / image.Spacing[d];
     stride *= image.Size[static_cast<std::size_t>(d)];
   }
+  const char* name = array.Value->GetName();
+  const auto place = [name](vtkIdType p)
+  {
+    return (name ? "the array '" + std::string(name) + "'" : std::string("the value")) +
+      " at point " + std::to_string(p);
+  };
+  image.Values.reserve(static_cast<std::size_t>(array.Value->GetNumberOfTuples()));
   for (vtkIdType p = 0; p < array.Value->GetNumberOfTuples(); ++p)
   {
     const double value = array.Value->GetComponent(p, 0);
-    const std::string place =
-      "the array '" + std::string(array.Value->GetName()) + "' at point " + std::to_string(p);
     if (!std::isfinite(value))
     {
-      return { ErrorCode::NonFiniteInput, place + " is no number; give one outside of the solid" };
+      return { ErrorCode::NonFiniteInput,
+        place(p) + " is no number; give one outside of the solid" };
     }
     if (areLabels && (value != std::floor(value) || std::abs(value) > INT_MAX))
     {
       return { ErrorCode::InvalidParameter,
-        place + " is no whole number; give labels, or solids by a level" };
+        place(p) + " is no whole number; give labels, or solids by a level" };
     }
     image.Values.push_back(value);
   }
