@@ -171,10 +171,10 @@ Result<VolumeImage> DecodeImage(vtkImageData* data, const std::string& name, boo
     image.Axes.col(d) = (next - image.Origin) / image.Spacing[d];
     stride *= image.Size[static_cast<std::size_t>(d)];
   }
-  const char* name = array.Value->GetName();
-  const auto place = [name](vtkIdType p)
+  const char* own = array.Value->GetName();
+  const auto place = [own](vtkIdType p)
   {
-    return (name ? "the array '" + std::string(name) + "'" : std::string("the value")) +
+    return (own ? "the array '" + std::string(own) + "'" : std::string("the value")) +
       " at point " + std::to_string(p);
   };
   image.Values.reserve(static_cast<std::size_t>(array.Value->GetNumberOfTuples()));
