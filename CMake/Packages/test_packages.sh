@@ -37,8 +37,7 @@ dpkg-deb --fsys-tarfile "$folder"/knotwork_*.deb | tar -xO ./usr/share/doc/knotw
 autopkgtest "$folder"/*.deb "$tree/" -- chroot "$root"
 
 echo "== what is left behind purge"
-packages=$(for file in "$folder"/*.deb; do dpkg-deb -f "$file" Package; done | tr '\n' ' ')
-inside "apt-get purge -y -qq $packages > purge.log 2>&1"
+inside 'dpkg-query -W -f "\${Package}\n" "*knotwork*" | xargs apt-get purge -y -qq > purge.log 2>&1'
 left=$(inside 'find / -xdev -iname "*knotwork*" -not -path "/proc/*" -not -path "/root/*" -not -path "/tmp/*" -not -path "/var/log/*"; ls /usr/bin/p*.conf 2> /dev/null || true')
 if [ -n "$left" ]; then
   echo "left behind: $left"
