@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <string>
 #include <vector>
 
@@ -74,14 +73,14 @@ size_t ParallelZLib::CompressBuffer(
   // the stream of RFC 1950: header, parts, sum of all that was compressed
   std::size_t at = Header.size();
   uLong sum = 1;
-  std::memcpy(compressed, Header.data(), Header.size());
+  std::copy(Header.begin(), Header.end(), compressed);
   for (std::size_t i = 0; i < count; ++i)
   {
     if (parts[i].empty() || at + parts[i].size() + 4 > compressionSpace)
     {
       return 0;
     }
-    std::memcpy(compressed + at, parts[i].data(), parts[i].size());
+    std::copy(parts[i].begin(), parts[i].end(), compressed + at);
     at += parts[i].size();
     sum = adler32_combine(
       sum, sums[i], static_cast<z_off_t>(std::min(PieceSize, size - i * PieceSize)));
