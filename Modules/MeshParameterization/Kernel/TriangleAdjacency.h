@@ -15,7 +15,8 @@ struct TriangleAdjacency
   std::vector<std::array<int, 3>> Side;
 };
 
+/// @param triangles  numbers of points, not negative.
 /// @return InvalidTopology: edges of more than two triangles (number, first points).
-/// @complexity O(n log n).
+/// @complexity O(n + largest number), where few triangles meet in a point.
 Result<TriangleAdjacency> FindAdjacency(const std::vector<std::array<int, 3>>& triangles);
 }

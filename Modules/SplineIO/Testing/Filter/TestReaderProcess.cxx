@@ -2,6 +2,7 @@
 // Files that other libraries read in a process of its own: the same data, and one error whatever
 // happens to that process.
 #include "CADCases.h"
+#include "DataText.h"
 #include "FilterCases.h"
 #include "OutputFile.h"
 #include "RandomModels.h"
@@ -36,18 +37,6 @@ namespace fs = std::filesystem;
 
 namespace
 {
-/// All that VTK's XML says of a data set, numbers as text that gives them again.
-std::string TextOf(vtkDataObject* data)
-{
-  const auto writer = vtkSmartPointer<vtkXMLWriter>::Take(
-    vtkXMLDataObjectWriter::NewWriter(data->GetDataObjectType()));
-  writer->SetInputDataObject(data);
-  writer->SetDataModeToAscii();
-  writer->WriteToOutputStringOn();
-  writer->Write();
-  return writer->GetOutputString();
-}
-
 void WriteXML(vtkDataObject* data, const std::string& file)
 {
   const auto writer = vtkSmartPointer<vtkXMLWriter>::Take(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Data sets as they are handed to other processes and written as VTK's XML: VTK's own readers and
 // writers are the oracles.
+#include "DataText.h"
 #include "OutputFile.h"
 #include <knotwork/SplineIO/DataFile.h>
 #include <knotwork/SplineIO/DataParts.h>
@@ -16,30 +17,17 @@
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
 #include "vtkUnstructuredGrid.h"
-#include "vtkXMLDataObjectWriter.h"
 #include "vtkXMLPolyDataReader.h"
-#include "vtkXMLWriter.h"
 
 #include <algorithm>
 #include <fstream>
 #include <iterator>
 
 using namespace knotwork;
+using namespace knotwork::testing;
 
 namespace
 {
-/// All that VTK's XML says of a data set.
-std::string TextOf(vtkDataObject* data)
-{
-  const auto writer = vtkSmartPointer<vtkXMLWriter>::Take(
-    vtkXMLDataObjectWriter::NewWriter(data->GetDataObjectType()));
-  writer->SetInputDataObject(data);
-  writer->SetDataModeToAscii();
-  writer->WriteToOutputStringOn();
-  writer->Write();
-  return writer->GetOutputString();
-}
-
 template <typename Array>
 vtkSmartPointer<Array> Values(const char* name, int components, vtkIdType tuples)
 {
