@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryInjectivity.h"
+
+#include "BoundaryShift.h"
+#include "InnerCollapse.h"
+#include "InterfaceGaps.h"
 #include "PreimageProof.h"
 #include "SideSeparation.h"
 #include "StarShape.h"
@@ -22,8 +26,6 @@ constexpr std::int64_t LeastBoxes = 256;
 /// Parts of MaxBoxes: a cell's, and that of few cells.
 constexpr std::int64_t PartOfCell = 7500;
 constexpr std::int64_t PartOfFew = 125;
-/// Sides with common corners are an interface when they are nearer than this part of their size.
-constexpr double Slender = 0.05;
 /// Sides whose neighbours are looked up at a time, and pairs worked on before an overlap among them
 /// ends the proof: the first so many, then twice as many each time, up to the last.
 constexpr std::size_t SidesAtOnce = 256;
@@ -142,7 +144,7 @@ public:
     {
       return true;
     }
-    this->MoveToMiddle();
+    this->Shift = MoveToMiddle(this->Cells, this->Gluing.Boundary);
     this->MakeTables();
     this->StarShaped = FindStarShaped(this->Gluing.Boundary, this->Gluing.NumComponents,
       this->SideCells, this->Signs, this->Params.Threads);
@@ -201,97 +203,6 @@ private:
   {
     this->Out.HasWitness = true;
     this->Out.Witness = { { a, b }, radius };
-  }
-
-  /// x - o w, rounded once. @return whether that is exact: by Dekker's sums and products.
-  static bool Move(double o, double w, double& x)
-  {
-    const double moved = std::fma(-o, w, x);
-    const double product = o * w;
-    const double productRest = std::fma(o, w, -product);
-    const auto sum = [](double a, double b, double& rest)
-    {
-      const double s = a + b;
-      const double part = s - a;
-      rest = (a - (s - part)) + (b - part);
-      return s;
-    };
-    double rests[3];
-    const double difference = sum(x, -product, rests[0]);
-    const double second = sum(difference, -moved, rests[1]);
-    const double third = sum(second, rests[0], rests[2]);
-    x = moved;
-    return third == productRest && rests[1] == 0.0 && rests[2] == 0.0;
-  }
-
-  /// Sides far away from the origin move to it, so that the roundings of what follows are of their
-  /// size and not of their distance. Coefficients become x w - o w, from what the cell stores with
-  /// its remainder; equal ones stay equal. By multiples of a power of two larger than they are,
-  /// most move exactly: w o has few more digits than w.
-  void MoveToMiddle()
-  {
-    constexpr double far = 8.0;
-    const std::size_t components = static_cast<std::size_t>(this->Cells.NumComponents);
-    const std::size_t planes = static_cast<std::size_t>(this->Cells.NumPlanes());
-    std::array<double, 3> low;
-    std::array<double, 3> high;
-    low.fill(std::numeric_limits<double>::infinity());
-    high.fill(-std::numeric_limits<double>::infinity());
-    const auto weight = [&](const BoundarySide& b, std::size_t i)
-    { return this->Cells.Rational ? b.Data[components * (b.Data.size() / planes) + i] : 1.0; };
-    for (const BoundarySide& b : this->Gluing.Boundary)
-    {
-      const std::size_t n = b.Data.size() / planes;
-      for (std::size_t k = 0; k < components * n; ++k)
-      {
-        const double x = b.Data[k] / weight(b, k % n);
-        low[k / n] = std::min(low[k / n], x);
-        high[k / n] = std::max(high[k / n], x);
-      }
-    }
-    double size = 0.0;
-    double distance = 0.0;
-    for (std::size_t c = 0; c < components; ++c)
-    {
-      size = std::max(size, high[c] - low[c]);
-      distance = std::max(distance, std::abs(0.5 * (low[c] + high[c])));
-    }
-    if (!(size > 0.0 && distance > far * size && std::isfinite(distance)))
-    {
-      return;
-    }
-    this->Distance = distance;
-    const double step = 2.0 * std::exp2(std::ceil(std::log2(size)));
-    for (std::size_t c = 0; c < components; ++c)
-    {
-      this->Middle[c] = step * std::round(0.5 * (low[c] + high[c]) / step);
-    }
-    for (BoundarySide& b : this->Gluing.Boundary)
-    {
-      const std::size_t cell = static_cast<std::size_t>(b.Cell);
-      const CellShape shape = this->Shape(b.Cell);
-      const auto indices = SideCoefficients(shape, this->Cells.Degrees[cell], b.Frame);
-      const int all = NumCellCoefficients(shape, this->Cells.Degrees[cell]);
-      const double* rests = this->Cells.Remainders.empty()
-        ? nullptr
-        : this->Cells.Remainders.data() + this->Cells.Offsets[cell];
-      const std::size_t n = indices.size();
-      double rounded = 0.0; // the largest number that was
-      for (std::size_t k = 0; k < components * n; ++k)
-      {
-        double& x = b.Data[k];
-        rounded =
-          Move(this->Middle[k / n], weight(b, k % n), x) ? rounded : std::max(rounded, std::abs(x));
-        const double rest = rests ? rests[static_cast<int>(k / n) * all + indices[k % n]] : 0.0;
-        if (rest != 0.0)
-        {
-          x += rest;
-          rounded = std::max(rounded, std::abs(x));
-        }
-      }
-      // two roundings a number
-      b.Error = this->Cells.Uncertainty(b.Cell) + 0x1.01p-52 * rounded;
-    }
   }
 
   void MakeTables()
@@ -494,14 +405,16 @@ private:
     input.NumComponents = this->Cells.NumComponents;
     input.Rational = this->Cells.Rational;
     input.CollapseTolerance = this->Params.CollapseTolerance;
-    input.Distance = this->Distance;
+    input.Distance = this->Shift.Distance;
+    const InterfaceGaps gaps(this->Gluing.Boundary, this->SideCells, this->SideLattices,
+      this->Params.GapTolerance * this->ModelSize, this->Shift.Middle);
     ParallelFor(pairs.size(), 4, this->Params.Threads,
       [&](std::size_t begin, std::size_t end)
       {
         for (std::size_t k = begin; k < end; ++k)
         {
           PairState& pair = pairs[k];
-          pair.IsGap = pair.MayBeGap && this->IsGap(pair.Sides[0], pair.Sides[1], pair.Gap);
+          pair.IsGap = pair.MayBeGap && gaps.IsGap(pair.Sides[0], pair.Sides[1], pair.Gap);
           pair.MayBeGap = false;
           if (pair.IsGap || !pair.Meet)
           {
@@ -594,202 +507,6 @@ private:
     }
   }
 
-  /// Points of a side at a uniform lattice.
-  std::vector<std::array<double, 3>> SideSamples(int side, int n) const
-  {
-    const CellShape shape = this->Side(side).Frame.Shape;
-    std::vector<std::array<double, 3>> samples;
-    for (int j = 0; j <= (shape == CellShape::Curve ? 0 : n); ++j)
-    {
-      for (int i = 0; i <= n; ++i)
-      {
-        if (shape != CellShape::Triangle || i + j <= n)
-        {
-          samples.push_back({ static_cast<double>(i) / n, static_cast<double>(j) / n, 0.0 });
-        }
-      }
-    }
-    return samples;
-  }
-
-  /// Distance of a point to a side: the nearest sample, improved by Gauss-Newton steps.
-  double SideDistance(int side, const std::vector<std::array<double, 3>>& samples,
-    const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& x) const
-  {
-    std::size_t best = 0;
-    for (std::size_t i = 1; i < points.size(); ++i)
-    {
-      if ((points[i] - x).squaredNorm() < (points[best] - x).squaredNorm())
-      {
-        best = i;
-      }
-    }
-    double distance = (points[best] - x).norm();
-    const CellShape shape = this->Side(side).Frame.Shape;
-    const int dim = NumParameters(shape);
-    std::array<double, 3> s = samples[best];
-    for (int step = 0; step < 8; ++step)
-    {
-      const CellPoint p = EvaluateCell(this->SideCells, side, s.data());
-      const Eigen::Vector3d r = x - Eigen::Vector3d(p.Position.data());
-      distance = std::min(distance, r.norm());
-      Eigen::MatrixXd j(3, dim);
-      for (int d = 0; d < dim; ++d)
-      {
-        j.col(d) = Eigen::Vector3d(p.Derivative[static_cast<std::size_t>(d)].data());
-      }
-      const Eigen::VectorXd change = (j.transpose() * j).ldlt().solve(j.transpose() * r);
-      if (!change.allFinite())
-      {
-        break;
-      }
-      for (int d = 0; d < dim; ++d)
-      {
-        const std::size_t at = static_cast<std::size_t>(d);
-        s[at] = std::clamp(s[at] + change[d], 0.0, 1.0);
-      }
-      if (shape == CellShape::Triangle && s[0] + s[1] > 1.0)
-      {
-        const double over = 0.5 * (s[0] + s[1] - 1.0);
-        s[0] = std::clamp(s[0] - over, 0.0, 1.0);
-        s[1] = 1.0 - s[0];
-      }
-    }
-    return distance;
-  }
-
-  /// Places of samples of a side.
-  std::vector<Eigen::Vector3d> SidePoints(
-    int side, const std::vector<std::array<double, 3>>& samples) const
-  {
-    std::vector<Eigen::Vector3d> points;
-    points.reserve(samples.size());
-    for (const auto& s : samples)
-    {
-      points.emplace_back(EvaluateCell(this->SideCells, side, s.data()).Position.data());
-    }
-    return points;
-  }
-
-  /// Length of the diagonal of the box around points.
-  static double Diagonal(const std::vector<Eigen::Vector3d>& points)
-  {
-    Eigen::Vector3d low = points.front();
-    Eigen::Vector3d high = points.front();
-    for (const Eigen::Vector3d& x : points)
-    {
-      low = low.cwiseMin(x);
-      high = high.cwiseMax(x);
-    }
-    return (high - low).norm();
-  }
-
-  /// Whether too many samples of a side are proved too far from another for a gap: by distances
-  /// from planes on the other side of which the control points are.
-  bool IsFar(int to, const std::vector<Eigen::Vector3d>& samples, bool haveSameCorners) const
-  {
-    const BoundarySide& side = this->Side(to);
-    const CellLattice& lattice =
-      this->SideLattices.at({ static_cast<int>(side.Frame.Shape), side.Degree });
-    const int components = this->Cells.NumComponents;
-    Eigen::Matrix3Xd hull = Eigen::Matrix3Xd::Zero(3, lattice.Size);
-    const double* data = this->SideCells.Block(to);
-    for (int i = 0; i < lattice.Size; ++i)
-    {
-      const double w = this->Cells.Rational ? data[components * lattice.Size + i] : 1.0;
-      for (int d = 0; d < components; ++d)
-      {
-        hull(d, i) = data[d * lattice.Size + i] / w;
-      }
-    }
-    const auto corner = [&](std::size_t c) { return hull.col(lattice.Corners[c]); };
-    Eigen::Matrix3Xd directions(3, 4);
-    directions.leftCols(3).setIdentity();
-    const Eigen::Vector3d along = corner(1) - corner(0);
-    directions.col(3) = components == 2 ? Eigen::Vector3d(-along[1], along[0], 0.0)
-                                        : along.cross(corner(2) - corner(0)).eval();
-    directions.col(3).normalize();
-    const Eigen::MatrixXd places = directions.transpose() * hull;
-    const Eigen::Vector4d least = places.rowwise().minCoeff();
-    const Eigen::Vector4d most = places.rowwise().maxCoeff();
-    const double tolerance = this->Params.GapTolerance * this->ModelSize;
-    std::size_t far = 0;
-    double farthest = 0.0;
-    for (const Eigen::Vector3d& x : samples)
-    {
-      double distance = 0.0;
-      for (int k = 0; k < 4; ++k)
-      {
-        const double at = directions.col(k).dot(x);
-        distance = std::max({ distance, at - most[k], least[k] - at });
-      }
-      far += distance > tolerance ? 1 : 0;
-      farthest = std::max(farthest, distance);
-    }
-    return 2 * far >= samples.size() &&
-      !(haveSameCorners && farthest <= Slender * Diagonal(samples));
-  }
-
-  /// Whether two sides of different patches should be one interface.
-  bool IsGap(int a, int b, InterfaceGap& gap) const
-  {
-    const double tolerance = this->Params.GapTolerance * this->ModelSize;
-    const bool curve = this->Cells.NumComponents == 2;
-    std::vector<int> placesA(
-      this->Side(a).Places.begin(), this->Side(a).Places.begin() + this->Side(a).Frame.NumCorners);
-    std::vector<int> placesB(
-      this->Side(b).Places.begin(), this->Side(b).Places.begin() + this->Side(b).Frame.NumCorners);
-    std::sort(placesA.begin(), placesA.end());
-    std::sort(placesB.begin(), placesB.end());
-    const bool sameCorners = placesA == placesB;
-    bool isGap = false;
-    for (int turn = 0; turn < 2; ++turn)
-    {
-      const int from = turn == 0 ? a : b;
-      const int to = turn == 0 ? b : a;
-      const auto samples = this->SidePoints(from, this->SideSamples(from, curve ? 12 : 5));
-      if (this->IsFar(to, samples, sameCorners))
-      {
-        continue;
-      }
-      const auto targets = this->SideSamples(to, curve ? 32 : 8);
-      const auto points = this->SidePoints(to, targets);
-      std::size_t close = 0;
-      double largestClose = 0.0;
-      double largest = 0.0;
-      Eigen::Vector3d at = Eigen::Vector3d::Zero();
-      for (const Eigen::Vector3d& x : samples)
-      {
-        const double distance = this->SideDistance(to, targets, points, x);
-        if (distance > largest)
-        {
-          largest = distance;
-          at = x;
-        }
-        if (distance <= tolerance)
-        {
-          ++close;
-          largestClose = std::max(largestClose, distance);
-        }
-      }
-      const bool unequal = sameCorners && largest <= Slender * Diagonal(samples);
-      if (unequal || 2 * close > samples.size())
-      {
-        isGap = true;
-        const double found = unequal ? largest : largestClose;
-        if (found >= gap.Size)
-        {
-          gap.Size = found;
-          gap.Position = { at[0] + this->Middle[0], at[1] + this->Middle[1],
-            at[2] + this->Middle[2] };
-        }
-      }
-    }
-    gap.Cells = { this->Side(a).Cell, this->Side(b).Cell };
-    gap.Sides = { this->Side(a).Number, this->Side(b).Number };
-    return isGap;
-  }
-
   bool IsDecided(int cell) const
   {
     const Verdict v = this->Local.Cells[static_cast<std::size_t>(cell)].Verdict;
@@ -828,122 +545,22 @@ private:
     return false;
   }
 
-  /// Edges are allowed to be points on the boundary. Inside of a patch, or between patches that are
-  /// glued all around, all of the edge's points, which are points of the map, have one image.
+  /// Inside of a patch, or between patches that are glued all around, no edge may be a point.
   bool FindInnerCollapse()
   {
-    if (const auto& inner = this->Gluing.InnerPoint; inner[0] >= 0)
+    const std::array<int, 3> found = this->Gluing.InnerPoint[0] >= 0
+      ? this->Gluing.InnerPoint
+      : knotwork::FindInnerCollapse(
+          this->Cells, this->Complex, this->Local, this->Params.CollapseTolerance);
+    if (found[0] < 0)
     {
-      const CellShape shape = this->Shape(inner[0]);
-      this->Set(InjectivityVerdict::NotInjective, InjectivityReason::Overlap);
-      this->SetWitness(this->MakePlace(inner[0], -1, CornerParameters(shape, inner[1])),
-        this->MakePlace(inner[0], -1, CornerParameters(shape, inner[2])), 0.0);
-      return true;
+      return false;
     }
-    for (int c = 0; c < this->Cells.NumCells(); ++c)
-    {
-      const std::size_t at = static_cast<std::size_t>(c);
-      const CellShape shape = this->Shape(c);
-      const bool isBox = shape == CellShape::Quadrilateral || shape == CellShape::Hexahedron;
-      if (!isBox || this->Complex.Boxes.empty() || this->Local.Cells[at].Degenerate == 0)
-      {
-        continue;
-      }
-      const int dim = NumParameters(shape);
-      for (int along = 0; along < dim; ++along)
-      {
-        for (int corner = 0; corner < (1 << dim); ++corner)
-        {
-          if ((corner >> along & 1) == 0 && this->IsOnePoint(c, corner, along) &&
-            this->IsInsidePatch(c, corner, along))
-          {
-            std::array<double, 3> u{};
-            for (int d = 0; d < dim; ++d)
-            {
-              u[static_cast<std::size_t>(d)] = corner >> d & 1;
-            }
-            std::array<double, 3> v = u;
-            v[static_cast<std::size_t>(along)] = 1.0;
-            this->Set(InjectivityVerdict::NotInjective, InjectivityReason::Overlap);
-            this->SetWitness(this->MakePlace(c, -1, u), this->MakePlace(c, -1, v), 0.0);
-            return true;
-          }
-        }
-      }
-    }
-    return false;
-  }
-
-  /// Whether the control points of an edge, from a corner along a direction, coincide.
-  bool IsOnePoint(int cell, int corner, int along) const
-  {
-    const std::size_t at = static_cast<std::size_t>(cell);
-    const CellDegree& degree = this->Cells.Degrees[at];
-    const int n = NumCellCoefficients(this->Shape(cell), degree);
-    const double* data = this->Cells.Block(cell);
-    const int components = this->Cells.NumComponents;
-    const auto value = [&](int i, int d)
-    { return data[d * n + i] / (this->Cells.Rational ? data[components * n + i] : 1.0); };
-    std::array<int, 3> place{};
-    for (std::size_t d = 0; d < 3; ++d)
-    {
-      place[d] = (corner >> d & 1) * degree[d];
-    }
-    double largest = 0.0;
-    for (int i = 0; i < n; ++i)
-    {
-      for (int d = 0; d < components; ++d)
-      {
-        largest = std::max(largest, std::abs(value(i, d)));
-      }
-    }
-    const auto coefficient = [&]
-    { return CellCoefficient(this->Shape(cell), degree, place[0], place[1], place[2]); };
-    const int first = coefficient();
-    for (int i = 1; i <= degree[static_cast<std::size_t>(along)]; ++i)
-    {
-      place[static_cast<std::size_t>(along)] = i;
-      for (int d = 0; d < components; ++d)
-      {
-        if (!(std::abs(value(coefficient(), d) - value(first, d)) <=
-              this->Params.CollapseTolerance * largest))
-        {
-          return false;
-        }
-      }
-    }
+    const CellShape shape = this->Shape(found[0]);
+    this->Set(InjectivityVerdict::NotInjective, InjectivityReason::Overlap);
+    this->SetWitness(this->MakePlace(found[0], -1, CornerParameters(shape, found[1])),
+      this->MakePlace(found[0], -1, CornerParameters(shape, found[2])), 0.0);
     return true;
-  }
-
-  /// Whether the boxes of a patch leave nothing out around the middle of an edge.
-  bool IsInsidePatch(int cell, int corner, int along) const
-  {
-    const std::size_t at = static_cast<std::size_t>(cell);
-    const std::size_t dim = static_cast<std::size_t>(NumParameters(this->Shape(cell)));
-    const ParametricBox<3>& own = this->Complex.Boxes[at];
-    std::array<double, 3> middle{};
-    for (std::size_t d = 0; d < dim; ++d)
-    {
-      middle[d] = static_cast<int>(d) == along ? 0.5 * (own.Lower[d] + own.Upper[d])
-        : (corner >> d & 1) != 0               ? own.Upper[d]
-                                               : own.Lower[d];
-    }
-    double covered = 0.0; // share of a small box around it
-    for (std::size_t c = 0; c < this->Complex.Boxes.size(); ++c)
-    {
-      const ParametricBox<3>& box = this->Complex.Boxes[c];
-      double share = this->Complex.Patches.empty()
-        ? (c == at ? 1.0 : 0.0)
-        : (this->Complex.Patches[c] == this->Complex.Patches[at] ? 1.0 : 0.0);
-      for (std::size_t d = 0; d < dim && share > 0.0; ++d)
-      {
-        const bool isIn = box.Lower[d] <= middle[d] && middle[d] <= box.Upper[d];
-        const bool isEnd = middle[d] == box.Lower[d] || middle[d] == box.Upper[d];
-        share *= !isIn || box.Lower[d] == box.Upper[d] ? 0.0 : isEnd ? 0.5 : 1.0;
-      }
-      covered += share;
-    }
-    return covered == 1.0;
   }
 
   /// Where boundaries cross, the insides beside them overlap: points just inside one cell whose
@@ -1222,11 +839,10 @@ private:
   CellLatticeTable SideLattices;
   BernsteinCells SideCells;
   double ModelSize = 0.0;
-  std::array<double, 3> Middle{}; ///< that the boundary's sides were moved by
-  double Distance = 0.0;          ///< largest coordinate of that
-  std::vector<int> Signs;         ///< of det J, one a cell
-  std::vector<char> StarShaped;   ///< one a component of the boundary
-  std::vector<bool> Lonely;       ///< one a component of the boundary
+  BoundaryShift Shift;
+  std::vector<int> Signs;       ///< of det J, one a cell
+  std::vector<char> StarShaped; ///< one a component of the boundary
+  std::vector<bool> Lonely;     ///< one a component of the boundary
   SeparationState Obstacle = SeparationState::Separate;
   std::array<Place, 2> ObstaclePlaces;
 };
