@@ -68,7 +68,7 @@ void RunRadial(benchmark::State& state, int centres)
   const PointMatrix points = RandomPoints(centres, 3, 43);
   for (auto _ : state)
   {
-    const auto surface = RadialSurface::Interpolate(flat, points);
+    const auto surface = RadialSurface::Interpolate(flat, points, 1);
     if (!surface)
     {
       state.SkipWithError(surface.Status.Message().c_str());

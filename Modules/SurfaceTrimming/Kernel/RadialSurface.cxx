@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RadialSurface.h"
+
+#include "DenseCholesky.h"
+
 #include <knotwork/SplineCore/Parallel.h>
 #include <knotwork/SplineCore/TriangleIndex.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/QR>
 
 #include <algorithm>
@@ -116,7 +118,7 @@ void AddFarOff(const PointMatrix& parameters, const Eigen::VectorXd& residuals,
 }
 
 Result<RadialSurface> RadialSurface::Interpolate(
-  const PointMatrix& parameters, const PointMatrix& points)
+  const PointMatrix& parameters, const PointMatrix& points, int threads)
 {
   const Eigen::Index n = parameters.rows();
   RadialSurface surface;
@@ -150,17 +152,18 @@ Result<RadialSurface> RadialSurface::Interpolate(
   }
   const Eigen::MatrixXd mixed = matrix.topRightCorner(3, n - 3);
   Eigen::Ref<Eigen::MatrixXd> definite = matrix.bottomRightCorner(n - 3, n - 3);
-  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> cholesky(definite);
   const Eigen::Matrix3d triangle = qr.matrixQR().topRows(3).triangularView<Eigen::Upper>();
   const bool onLine = std::abs(triangle(2, 2)) <= 1e-12 * triangle.diagonal().cwiseAbs().maxCoeff();
-  if (onLine || cholesky.info() != Eigen::Success)
+  if (onLine || !FactorInPlace(definite, threads))
   {
     return { ErrorCode::SingularSystem,
       "radial basis functions do not determine a surface: points of the chart lie on a line or on "
       "one another in the plane" };
   }
   surface.Coefficients.setZero(n, points.cols());
-  surface.Coefficients.bottomRows(n - 3) = cholesky.solve(sides.bottomRows(n - 3));
+  Eigen::MatrixXd weights = sides.bottomRows(n - 3);
+  SolveFactored(definite, weights);
+  surface.Coefficients.bottomRows(n - 3) = weights;
   surface.Affine = triangle.triangularView<Eigen::Upper>().solve(
     sides.topRows(3) - mixed * surface.Coefficients.bottomRows(n - 3));
   for (std::size_t k = 3; k-- > 0;)
@@ -213,7 +216,7 @@ Result<RadialFit> FitRadialSurface(const PointMatrix& parameters, const PointMat
   {
     std::sort(fit.Rows.begin(), fit.Rows.end());
     auto surface =
-      RadialSurface::Interpolate(RowsOf(parameters, fit.Rows), RowsOf(points, fit.Rows));
+      RadialSurface::Interpolate(RowsOf(parameters, fit.Rows), RowsOf(points, fit.Rows), threads);
     if (!surface)
     {
       return surface.Status;

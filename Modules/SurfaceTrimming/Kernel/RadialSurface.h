@@ -19,7 +19,7 @@ public:
   /// @return SingularSystem.
   /// @complexity n^3 / 3 (dense Cholesky factorization on the null space of the affine maps).
   static Result<RadialSurface> Interpolate(
-    const PointMatrix& parameters, const PointMatrix& points);
+    const PointMatrix& parameters, const PointMatrix& points, int threads);
 
   /// Values at parameters, n x c. @complexity O(n centres).
   PointMatrix Evaluate(const PointMatrix& parameters, int threads) const;

@@ -477,7 +477,7 @@ TEST(BackMap, HybridControlPointsAreThoseOfRbfInterpolation_CrossOracle)
 TEST(RadialSurface, TakesItsValues_ExactOracle)
 {
   const MeshCase hill = Hill(0.1, 0.4);
-  const auto surface = RadialSurface::Interpolate(hill.Flat, hill.Mesh.Points);
+  const auto surface = RadialSurface::Interpolate(hill.Flat, hill.Mesh.Points, 0);
   ASSERT_TRUE(surface) << surface.Status.Message();
   const PointMatrix values = surface->Evaluate(hill.Flat, 0);
   EXPECT_LE((values - hill.Mesh.Points).cwiseAbs().maxCoeff(), 1e-10); // condition about 1e6
@@ -488,7 +488,7 @@ TEST(RadialSurface, ContinuesAffineMaps_ExactOracle)
   const PointMatrix flat = PlateWithHoles(0.2).Flat;
   PointMatrix points(flat.rows(), 3);
   points << flat.col(0), flat.col(1) - 2.0 * flat.col(0), flat.col(1).array() + 7.0;
-  const auto surface = RadialSurface::Interpolate(flat, points);
+  const auto surface = RadialSurface::Interpolate(flat, points, 1);
   ASSERT_TRUE(surface);
   PointMatrix far(2, 2);
   far << 30.0, -10.0, -5.0, 40.0;
@@ -525,7 +525,7 @@ TEST(RadialSurface, IsTheSolutionOfTheFullSystem_CrossOracle)
   {
     expected += solution[i] * phi((flat.row(i) - at.row(0)).norm());
   }
-  const auto surface = RadialSurface::Interpolate(flat, values);
+  const auto surface = RadialSurface::Interpolate(flat, values, 1);
   ASSERT_TRUE(surface);
   EXPECT_NEAR(surface->Evaluate(at, 1)(0, 0), expected, 1e-12);
 }
@@ -551,7 +551,7 @@ TEST(RadialSurface, PointsOnALineAreRefused)
 {
   PointMatrix flat(5, 2);
   flat << 0, 0, 1, 0.5, 2, 1, 3, 1.5, 4, 2;
-  EXPECT_EQ(RadialSurface::Interpolate(flat, flat).Status.Code, ErrorCode::SingularSystem);
+  EXPECT_EQ(RadialSurface::Interpolate(flat, flat, 1).Status.Code, ErrorCode::SingularSystem);
 }
 
 TEST(BackMap, WorkIsCountedAndEndsItAtTheSamePlace_PropertyOracle)
