@@ -11,11 +11,14 @@
 #include <knotwork/SurfaceTrimming/TrimmedGrids.h>
 
 #include "vtkAlgorithmOutput.h"
+#include "vtkCellData.h"
 #include "vtkDataObject.h"
 #include "vtkErrorCode.h"
 #include "vtkExecutive.h"
 #include "vtkInformation.h"
 #include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <exception>
@@ -25,6 +28,28 @@ vtkStandardNewMacro(vtkCADWriter);
 namespace
 {
 using namespace knotwork;
+
+/// The faces that a filter gives beside triangles of them; null: there are none. ParaView puts
+/// filters of its own between.
+vtkDataObject* FacesBeside(vtkAlgorithmOutput* triangles)
+{
+  vtkAlgorithm* producer = triangles ? triangles->GetProducer() : nullptr;
+  while (
+    producer && producer->IsA("vtkPVPostFilter") && producer->GetNumberOfInputConnections(0) == 1)
+  {
+    producer = producer->GetInputAlgorithm(0, 0);
+  }
+  for (int port = 0; producer && port < producer->GetNumberOfOutputPorts(); ++port)
+  {
+    auto* grid = vtkUnstructuredGrid::SafeDownCast(producer->GetOutputDataObject(port));
+    vtkCellData* cells = grid ? grid->GetCellData() : nullptr;
+    if (cells && cells->HasArray("FaceReversed") && cells->HasArray("TrimmingCurves"))
+    {
+      return grid;
+    }
+  }
+  return nullptr;
+}
 
 /// Faces of surfaces, with their trimming curves, or the boundary of volumes.
 Result<TrimmedModel> DecodeFaces(
@@ -89,7 +114,11 @@ int vtkCADWriter::FillInputPortInformation(int port, vtkInformation* info)
   info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPartitionedDataSetCollection");
-  if (port == 1)
+  if (port == 0)
+  {
+    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  }
+  else
   {
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   }
@@ -109,8 +138,19 @@ Status vtkCADWriter::WriteModel()
   }
   vtkDataObject* curves =
     this->GetNumberOfInputConnections(1) > 0 ? this->GetInputDataObject(1, 0) : nullptr;
+  vtkDataObject* faces = this->GetInput();
+  if (vtkPolyData::SafeDownCast(faces))
+  {
+    faces = FacesBeside(this->GetInputConnection(0, 0));
+    if (!faces)
+    {
+      return { ErrorCode::InvalidTopology,
+        "triangles are no faces of a CAD model: make faces of them with Analytic Model "
+        "(vtkAnalyticModel, knotwork trim)" };
+    }
+  }
   std::vector<std::string> warnings;
-  const auto model = DecodeFaces(this->GetInput(), curves, this->SewTolerance, warnings);
+  const auto model = DecodeFaces(faces, curves, this->SewTolerance, warnings);
   if (!model)
   {
     return model.Status;

@@ -4,11 +4,13 @@
  * @brief   trimmed faces, surfaces and volumes to STEP and IGES files
  *
  * Input 0: a spline grid or a vtkPartitionedDataSetCollection of such grids. Surfaces become faces,
- * their common sides common edges; volumes become solids of their boundary sides. Input 1
+ * their common sides common edges; volumes become solids of their boundary sides. Or triangles that
+ * a filter gives beside the faces that they are of, as vtkAnalyticModel, vtkTrimmedSurface,
+ * vtkSplineTrimToPoints and vtkCADReader do: these faces, with their curves, are written. Input 1
  * (optional): the trimming curves that belong to the surfaces, as vtkTrimmedSurface and
  * vtkCADReader give them. Nothing is written unless everything can be. Errors: those of decoding
  * and of knotwork::WriteCAD; grids of curves, or of surfaces and volumes together
- * (DimensionMismatch).
+ * (DimensionMismatch); triangles without faces (InvalidTopology).
  */
 #ifndef vtkCADWriter_h
 #define vtkCADWriter_h

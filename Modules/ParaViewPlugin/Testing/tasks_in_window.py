@@ -106,7 +106,6 @@ class Tasks:
 
     def saved_step(self):
         self.analytic_model()
-        self.window.select(4)  # Surfaces
         self.save("tube.step", "STEP")
         reset()
         self.open("tube.step")

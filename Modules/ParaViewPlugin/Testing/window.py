@@ -110,10 +110,6 @@ class Window:
         QTest.mouseClick(view.viewport(), QtCore.Qt.LeftButton, pos=QtCore.QPoint(90, int((number + 0.5) * height)))
         self.wait(0.3)
 
-    def select(self, number):
-        self.row(next(each for each in self.main.findChildren(QtWidgets.QAbstractScrollArea)
-                      if each.metaObject().className() == "pqPipelineBrowserWidget"), number)
-
     def in_dialogs(self, trigger, *answers):
         """Calls trigger, which opens dialogs one after the other, and each answer with its dialog. Whatever else opens is closed and a fault."""
         left, faults = list(answers), []

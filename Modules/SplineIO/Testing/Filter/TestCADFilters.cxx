@@ -7,12 +7,20 @@
 #include <knotwork/SurfaceTrimming/TrimmedGrids.h>
 
 #include "vtkCellData.h"
+#include "vtkCubeSource.h"
 #include "vtkMassProperties.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
+#include "vtkTransform.h"
+#include "vtkTransformPolyDataFilter.h"
+#include "vtkTriangleFilter.h"
 #include "vtkUnsignedCharArray.h"
 #include <knotwork/SplineIO/vtkCADReader.h>
 #include <knotwork/SplineIO/vtkCADWriter.h>
+#include <knotwork/SurfaceTrimming/vtkAnalyticModel.h>
+
+#include <cstdio>
+#include <fstream>
 
 using namespace knotwork;
 using namespace knotwork::testing;
@@ -150,6 +158,46 @@ TEST(CADFilters, ShapesBecomeFacesAndSolids_ExactOracle)
       vtkStringArray::SafeDownCast(Triangles(reader)->GetCellData()->GetAbstractArray("Name"));
     EXPECT_EQ(names->GetValue(0), "shape"); // faces without a name have their product's
   }
+}
+
+/// What is shown is written: the triangles of a filter that has the faces, too.
+TEST(CADFilters, FacesBesideTrianglesAreWritten_CrossOracle)
+{
+  vtkNew<vtkCubeSource> cube;
+  vtkNew<vtkTriangleFilter> triangles;
+  triangles->SetInputConnection(cube->GetOutputPort());
+  vtkNew<vtkAnalyticModel> model;
+  model->SetInputConnection(triangles->GetOutputPort());
+  for (const int port : { 0, 1 })
+  {
+    const std::string file = OutputFile("cube" + std::to_string(port) + ".step");
+    vtkNew<vtkCADWriter> writer;
+    writer->SetInputConnection(model->GetOutputPort(port));
+    writer->SetFileName(file.c_str());
+    ASSERT_EQ(writer->Write(), 1);
+    const auto summary = CheckCAD(file);
+    EXPECT_TRUE(summary->Valid);
+    EXPECT_EQ(summary->NumFaces, 6);
+    EXPECT_EQ(summary->NumSolids, 1);
+    EXPECT_NEAR(summary->Volume, 1.0, 1e-12);
+  }
+  // elsewhere than the faces
+  vtkNew<vtkTransform> move;
+  move->Translate(1.0, 0.0, 0.0);
+  vtkNew<vtkTransformPolyDataFilter> moved;
+  moved->SetTransform(move);
+  moved->SetInputConnection(model->GetOutputPort());
+  const std::string file = OutputFile("moved.step");
+  std::remove(file.c_str());
+  vtkNew<vtkCADWriter> writer;
+  vtkNew<MessageRecorder> messages;
+  messages->Watch(writer);
+  writer->SetInputConnection(moved->GetOutputPort());
+  writer->SetFileName(file.c_str());
+  writer->Write();
+  ASSERT_EQ(messages->Errors.size(), 1u);
+  EXPECT_NE(messages->Errors.front().find("Analytic Model"), std::string::npos);
+  EXPECT_FALSE(std::ifstream(file).good());
 }
 
 TEST(CADFilters, FailuresAreErrorsOfTheFilter_PropertyOracle)
