@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Compares a build for every processor with one for this processor, and writes the last column of a table of speeds.
 
-usage: Testing/Benchmarks/portable.py [--dry] MODULE [PORTABLE_TREE [NATIVE_TREE]]     (default build/release, build/benchmark)
+usage: Testing/Benchmarks/portable.py [--dry] [--rounds N] MODULE [PORTABLE_TREE [NATIVE_TREE]]     (default build/release, build/benchmark)
 
 Runs the benchmarks of one thread that Testing/Benchmarks/MODULE.json names (see table.py) in both trees in turns, five
-times, and takes the fastest of each: time of the portable build over that of the native one, below 1 where the portable one
+times (--rounds), and takes the fastest of each: time of the portable build over that of the native one, below 1 where the portable one
 is faster. Of a row it is the first time; "times" lists counters that are times, too. Where a benchmark counts
 `evaluations`, which rounding may change, times are those of an evaluation. --dry prints and leaves the page.
 """
+import argparse
 import json
 import os
 import pathlib
@@ -17,9 +18,6 @@ import sys
 
 import page_tables
 import table
-
-ROUNDS = 5
-
 
 def timed(row, spec):
     """The benchmark of a row, and the counter that is its time, if any."""
@@ -35,20 +33,24 @@ def timed(row, spec):
 
 
 def main():
-    arguments = [a for a in sys.argv[1:] if a != "--dry"]
     root = pathlib.Path(__file__).resolve().parents[2]
-    module = arguments[0]
-    trees = [pathlib.Path(given) for given in arguments[1:]]
-    trees += [root / "build/release", root / "build/benchmark"][len(trees):]
+    parser = argparse.ArgumentParser(usage=__doc__)
+    parser.add_argument("--dry", action="store_true")
+    parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("module")
+    parser.add_argument("trees", nargs="*", type=pathlib.Path)
+    given = parser.parse_args()
+    module = given.module
+    trees = given.trees + [root / "build/release", root / "build/benchmark"][len(given.trees):]
     spec = json.loads((root / f"Testing/Benchmarks/{module}.json").read_text())
     if "needs" in spec and spec["needs"] not in os.environ:
         sys.exit(f"set {spec['needs']}: not all rows can be measured without it")
     rows = [timed(row, spec) for row in spec["rows"]]
-    names = "|".join(sorted({re.escape(name) for name, _ in rows if name}))
+    names = "|".join(sorted({re.sub(r"([.+*?()])", r"\\\1", name) for name, _ in rows if name}))
     only = f"^({names})(/(min_time|iterations|repeats).*)?$"
     load = os.getloadavg()[0]
     best = [{}, {}]
-    for _ in range(ROUNDS):
+    for _ in range(given.rounds):
         for tree, fastest in zip(trees, best):
             found = table.measure(tree / "bin" / spec["program"], only, spec.get("statistic", "min"))
             for row in rows:
@@ -63,7 +65,7 @@ def main():
             f"{load:.1f}, by `Testing/Benchmarks/portable.py {module}`.")
     for row, cell in zip(spec["rows"], cells):
         print(cell, row[0])
-    if "--dry" not in sys.argv:
+    if not given.dry:
         page_tables.write_column(root / spec["page"], f"benchmarks {module}", page_tables.PORTABLE_COLUMN,
                                  [(row[0], cell) for row, cell in zip(spec["rows"], cells)], note)
 

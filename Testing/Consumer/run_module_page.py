@@ -13,9 +13,10 @@ import knotwork as kw
 import knotwork_testing
 import numpy as np
 import page_snippets
+from vtkmodules.vtkCommonCore import vtkDoubleArray
 from vtkmodules.vtkCommonDataModel import vtkSphere
 from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
-from vtkmodules.vtkFiltersSources import vtkLineSource
+from vtkmodules.vtkFiltersSources import vtkLineSource, vtkSphereSource
 from vtkmodules.vtkImagingHybrid import vtkSampleFunction
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
@@ -53,6 +54,38 @@ def source(shape, **options):
 def terrain():
     x, y = (each.ravel() for each in np.meshgrid(np.linspace(0, 1, 25), np.linspace(0, 1, 25)))
     return np.c_[x, y, np.exp(-8 * ((x - 0.4) ** 2 + (y - 0.5) ** 2))]
+
+
+def sphere():
+    """Triangles all over the unit sphere."""
+    made = vtkSphereSource()
+    made.SetRadius(1.0)
+    made.SetThetaResolution(24)
+    made.SetPhiResolution(24)
+    made.SetOutputPointsPrecision(1)
+    made.Update()
+    return kw.wrap(made.GetOutput())
+
+
+def cube_sphere(n):
+    """Six blocks of n x n quadrilaterals on the unit sphere, seen from outside."""
+    u, v = np.meshgrid(*2 * [np.tan(np.linspace(-1, 1, n + 1) * np.pi / 4)], indexing="ij")
+    sides = [np.roll(np.stack([np.full_like(u, end), u, v], -1)[::int(end)], axis, -1) for axis in range(3) for end in (-1.0, 1.0)]
+    points, number = np.unique(np.round(sides, 12).reshape(-1, 3), axis=0, return_inverse=True)
+    number = number.reshape(6, n + 1, n + 1)
+    quads = np.stack([number[:, :-1, :-1], number[:, 1:, :-1], number[:, 1:, 1:], number[:, :-1, 1:]], -1)
+    return kw.mesh(points / np.linalg.norm(points, axis=1)[:, None], quads.reshape(-1, 4))
+
+
+def cad_fitting():
+    sphere().save("scan.vtp")
+    cube_sphere(6).save("quads.off")
+    copy(("bracket.step", "part.step"))
+    run("tessellate", "part.step", "-o", "scan.stl")
+    run("convert", "scan.stl", "-o", "scan.ply")
+    run("tetrahedralize", "part.step", "--edge-length", 8, "-o", "mesh.vtu")
+    run("convert", "mesh.vtu", "-o", "mesh.msh")
+    run("quads", "part.step", "-o", "quads.vtp")
 
 
 def cad_meshing():
@@ -134,6 +167,24 @@ def spline_io():
     kw.fit(kw.points(points, Temperature=points[:, 0]), tolerance=0.01, all_fields=True).save("terrain.vtu")
 
 
+def surface_remeshing():
+    unpack(("cow", "cow.off"), ("fandisk", "fandisk.off"))
+    whole = sphere()
+    whole.save("whole.off")
+    with open("whole.off", encoding="ascii") as stream:
+        lines = stream.read().splitlines()
+    points, triangles = map(int, lines[1].split()[:2])
+    with open("open.off", "w", encoding="ascii") as stream:  # without the last triangle
+        stream.write("\n".join([lines[0], f"{points} {triangles - 1} 0", *lines[2:-1]]) + "\n")
+    run("convert", "open.off", "-o", "scan.stl")
+    length = vtkDoubleArray()
+    length.SetName("Length")
+    for i in range(whole.GetNumberOfPoints()):
+        length.InsertNextValue(0.1 + 0.05 * whole.GetPoint(i)[2])
+    whole.GetPointData().AddArray(length)
+    whole.save("part.vtp")
+
+
 def surface_trimming():
     copy(("piston.step", "part.step"))
     unpack(("patch-30", "scan.off"), ("part", "shell.off"))
@@ -168,9 +219,9 @@ def tet_meshing():
     writer.Write()
 
 
-PREPARE = {"CADMeshing": cad_meshing, "CADModel": cad_model, "DomainParameterization": domain_parameterization,
+PREPARE = {"CADFitting": cad_fitting, "CADMeshing": cad_meshing, "CADModel": cad_model, "DomainParameterization": domain_parameterization,
            "MeshParameterization": mesh_parameterization, "SplineAnalysis": spline_analysis, "SplineGrid": spline_grid, "SplineIO": spline_io,
-           "SurfaceTrimming": surface_trimming, "TemplateMapping": template_mapping, "TetMeshing": tet_meshing}
+           "SurfaceRemeshing": surface_remeshing, "SurfaceTrimming": surface_trimming, "TemplateMapping": template_mapping, "TetMeshing": tet_meshing}
 # What the C++ of a page takes as given: includes, then declarations.
 CXX = {
     "CADModel": ("", ""),

@@ -1,10 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Splines fitted to shapes: from files to files by the job, and with an implicit function; the commands of the page."""
+"""Splines fitted to shapes: from files to files by the job, and with an implicit function."""
 import json
 import math
 import os
-import re
-import shlex
 import subprocess
 
 import knotwork
@@ -47,11 +45,11 @@ def report(name="report.json"):
         return json.load(file)
 
 
-def write_sphere_scan(resolution=60):
+def write_sphere_scan():
     source = vtkSphereSource()
     source.SetRadius(1.0)
-    source.SetThetaResolution(resolution)
-    source.SetPhiResolution(resolution)
+    source.SetThetaResolution(60)
+    source.SetPhiResolution(60)
     source.SetLatLongTessellation(False)
     source.SetOutputPointsPrecision(1)
     source.Update()
@@ -120,23 +118,6 @@ def test_paths():
         "--report", "coons.json")
     coons = report("coons.json")
     assert (coons["path"], coons["path_tried"]) == ("unstructured", "coons") and "lie on the target" in coons["path_note"], coons
-
-
-def test_page():
-    """The first commands and the example of the page run as they are written."""
-    with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "README.md"), encoding="utf-8") as stream:
-        text = stream.read()
-    write_sphere_scan(24)  # a sphere fits a sphere in any pose: all are tried
-    write("quads.off", sphere_text(6))
-    commands = [line for block in re.findall("```bash\n(.*?)```", text, re.S)[:1] for line in block.splitlines() if line.startswith("knotwork ")]
-    assert commands
-    for command in commands:
-        run(*shlex.split(command.split("#")[0])[1:])
-    here = os.getcwd()
-    os.chdir(FOLDER)
-    for block in re.findall("```python\n(.*?)```", text, re.S):
-        exec(compile(block, "page", "exec"), {})  # pylint: disable=exec-used
-    os.chdir(here)
 
 
 knotwork_testing.main(globals())
