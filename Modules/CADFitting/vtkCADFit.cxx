@@ -60,6 +60,7 @@ struct Choices
   bool HasMeanLengths = false;
   double FeatureAngle = 180.0;
   std::string FeatureArray;
+  std::string FitArray;
 };
 
 template <int Dim>
@@ -252,6 +253,14 @@ Status FitMesh(vtkPointSet* data, const DecodedMeshCells& decoded, const CellMes
     data, decoded, mesh, topology.Value, choices.FeatureAngle, choices.FeatureArray);
   Status status = features.Status;
   choices.Fit.Space.Features = std::move(features.Value);
+  if (status && !choices.FitArray.empty() && choices.FitArray != "None")
+  {
+    const auto labels = CellLabels(data, choices.FitArray, decoded);
+    status = labels.Status;
+    choices.Fit.FittedCells.resize(labels->size());
+    std::transform(labels->begin(), labels->end(), choices.Fit.FittedCells.begin(),
+      [](double label) { return static_cast<char>(label != 0.0); });
+  }
   const PointMatrix points = decoded.Points.leftCols(3);
   if (status && choices.HasMeanLengths)
   {
@@ -302,6 +311,7 @@ vtkCADFit::~vtkCADFit()
   this->SetImplicitFunction(nullptr);
   this->SetFaceGroups(nullptr);
   this->SetFeatureArray(nullptr);
+  this->SetFitArray(nullptr);
 }
 
 void vtkCADFit::SetTargetConnection(vtkAlgorithmOutput* output)
@@ -355,6 +365,7 @@ Status vtkCADFit::Compute(vtkInformationVector** inputs, vtkInformationVector* o
   choices.HasMeanLengths = this->Lengths == MEAN;
   choices.FeatureAngle = this->FeatureAngle;
   choices.FeatureArray = this->FeatureArray ? this->FeatureArray : "";
+  choices.FitArray = this->FitArray ? this->FitArray : "";
   Result<FitTargetPtr> target;
   if (this->TargetType == IMPLICIT_FUNCTION)
   {

@@ -190,6 +190,14 @@ public:
   vtkBooleanMacro(FitPoints, bool);
   ///@}
   ///@{
+  /** Cell array of the mesh: cells with a value other than 0, of hexahedra their faces on the
+   * mesh's surface, are fitted to the target; others stay where the mesh has them. Faces of
+   * hexahedra must end at edges where the spline is C^0 (FeatureArray makes such). Distances are
+   * those of the fitted cells. Empty or `None`: all are fitted. Default empty. Group "Fit". */
+  vtkSetStringMacro(FitArray);
+  vtkGetStringMacro(FitArray);
+  ///@}
+  ///@{
   /** Whether the volume is fitted anew with the coefficients that its surface has, the surface with
    * those of its curves and these with those of their corners, each as near to what it was before
    * as that allows; off: all others stay as they are. Default off. Advanced. Group "Fit". */
@@ -289,6 +297,7 @@ private:
   bool FitSurfaces = true;
   bool FitCurves = true;
   bool FitPoints = true;
+  char* FitArray = nullptr;
   bool Constrain = false;
   int Projections = 1;
   int ExtraPoints = 1;

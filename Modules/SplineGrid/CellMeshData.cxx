@@ -273,23 +273,6 @@ void TakeQuadrilaterals(const std::vector<std::vector<int>>& polygons, DecodedMe
   decoded.Mesh = std::move(mesh);
 }
 
-/// A value a cell of the mesh.
-Result<std::vector<double>> CellLabels(
-  vtkPointSet* data, const std::string& name, const DecodedMeshCells& mesh)
-{
-  vtkDataArray* array = data->GetCellData()->GetArray(name.c_str());
-  if (!array || array->GetNumberOfComponents() != 1)
-  {
-    return { ErrorCode::InvalidParameter,
-      "the mesh has no cell array '" + name + "' of one number a cell" };
-  }
-  std::vector<double> labels;
-  for (const vtkIdType cell : mesh.Cells)
-  {
-    labels.push_back(array->GetTuple1(cell));
-  }
-  return labels;
-}
 }
 
 Result<DecodedMeshCells> DecodeMeshCells(vtkPointSet* data, bool split)
@@ -393,6 +376,23 @@ Result<MeshTopology<Dim>> MakeConforming(const CellMesh<Dim>& mesh, const Decode
   // first, as it says more than the topology does of points that hang on edges
   const Status status = CheckConforming<Dim>(mesh, decoded.Points.leftCols(3));
   return status ? MeshTopology<Dim>::Make(mesh) : Result<MeshTopology<Dim>>(status);
+}
+
+Result<std::vector<double>> CellLabels(
+  vtkPointSet* data, const std::string& name, const DecodedMeshCells& mesh)
+{
+  vtkDataArray* array = data->GetCellData()->GetArray(name.c_str());
+  if (!array || array->GetNumberOfComponents() != 1)
+  {
+    return { ErrorCode::InvalidParameter,
+      "the mesh has no cell array '" + name + "' of one number a cell" };
+  }
+  std::vector<double> labels;
+  for (const vtkIdType cell : mesh.Cells)
+  {
+    labels.push_back(array->GetTuple1(cell));
+  }
+  return labels;
 }
 
 template <int Dim>

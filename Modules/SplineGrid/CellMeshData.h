@@ -40,6 +40,11 @@ template <int Dim>
 VTKKNOTWORKSPLINEGRID_EXPORT Result<MeshTopology<Dim>> MakeConforming(
   const CellMesh<Dim>& mesh, const DecodedMeshCells& decoded);
 
+/// Values of a cell array at the cells of a mesh.
+/// @return InvalidParameter for an array that is not there or has several components.
+VTKKNOTWORKSPLINEGRID_EXPORT Result<std::vector<double>> CellLabels(
+  vtkPointSet* data, const std::string& name, const DecodedMeshCells& mesh);
+
 /// Facets where quadrilaterals meet at more than an angle, and between cells of different values.
 /// @param angle  in degrees; 180: none. @param array  of cells; empty or "None": none.
 /// @return InvalidParameter for an angle of hexahedra, a cell array that is not there or has

@@ -77,6 +77,9 @@ public:
     const CADFitParams& params, const Attempt& attempt)
     : Given(mesh), GivenPoints(points), Target(target), Params(params)
   {
+    this->IsPart = target &&
+      std::find(params.FittedCells.begin(), params.FittedCells.end(), 0) !=
+        params.FittedCells.end();
     this->Classification.LeftOut = attempt.LeftOut;
     this->Classification.LeftOutCorners = attempt.LeftOutCorners;
     this->Layer = params.Layer && attempt.Layer;
@@ -175,6 +178,13 @@ private:
           std::to_string(this->GivenPoints.cols()) + " coordinates for a mesh of " +
           std::to_string(this->Given.NumPoints) + " in space" };
     }
+    if (!this->Params.FittedCells.empty() &&
+      this->Params.FittedCells.size() != At(this->Given.NumCells()))
+    {
+      return { ErrorCode::SizeMismatch,
+        std::to_string(this->Params.FittedCells.size()) + " marks of fitted cells for " +
+          std::to_string(this->Given.NumCells()) + " cells" };
+    }
     for (Eigen::Index i = 0; i < this->GivenPoints.rows(); ++i)
     {
       if (!this->GivenPoints.row(i).allFinite())
@@ -202,7 +212,19 @@ private:
     if (topology)
     {
       this->Topology = std::move(topology.Value);
-      this->Surface = MakeSurfaceMesh<Dim>(this->Fit.Mesh, this->Topology);
+      this->Surface = MakeSurfaceMesh<Dim>(this->Fit.Mesh, this->Topology,
+        this->IsPart ? this->Params.FittedCells : std::vector<char>());
+    }
+    if (topology && this->IsPart)
+    {
+      if (this->Surface.Facets.empty())
+      {
+        return { ErrorCode::InvalidParameter,
+          Dim == 2 ? "no cell is to be fitted: all marks of fitted cells are 0"
+                   : "no cell that is to be fitted has a face on the mesh's surface" };
+      }
+      this->PointsBeside =
+        knotwork::PointsBeside<Dim>(this->Surface, this->Fit.Mesh, this->Topology);
     }
     return topology.Status;
   }
@@ -252,11 +274,11 @@ private:
   Status CheckNear()
   {
     if (Dim == 3 && this->Target->HasSurface() && !this->Target->IsClosed() &&
-      this->Params.Surfaces)
+      this->Params.Surfaces && !this->IsPart)
     {
       return { ErrorCode::InvalidTopology,
-        "the target has a rim, and the surface of hexahedra has none: close the target, or fit "
-        "curves alone" };
+        "the target has a rim, and the surface of hexahedra has none: close the target, fit "
+        "curves alone, or choose the cells that are fitted" };
     }
     this->HasSurfaces = this->Params.Surfaces && this->Target->HasSurface();
     if (!this->Target->HasSurface())
@@ -308,6 +330,7 @@ private:
     params.Untangle = this->Params.Untangle;
     params.Rings = this->Params.UntanglingRings;
     params.Poor = poor;
+    params.IsHeld = this->PointsBeside;
     params.MaxSweeps = sweeps;
     params.Threads = this->Params.Threads;
     params.Progress = this->Share(0.0, 0.2);
@@ -372,7 +395,7 @@ private:
     if constexpr (Dim == 3)
     {
       const std::vector<int> edges = EdgesOfTwoFaces(this->Surface, this->Parts);
-      if (edges.empty() || !this->HasSurfaces)
+      if (edges.empty() || !this->HasSurfaces || this->IsPart)
       {
         return {};
       }
@@ -495,12 +518,28 @@ private:
       : this->Verdicts.Bad;
   }
 
+  /// Functions of the quadrilaterals that are fitted, where not all are.
+  std::vector<int> FunctionsOfPart() const
+  {
+    if constexpr (Dim == 2)
+    {
+      return this->IsPart ? PartOnFacets(*this->Space, this->Surface.Facets).Functions
+                          : std::vector<int>();
+    }
+    return {};
+  }
+
   /// Functions of the surface, which stay.
   std::vector<char> Held() const
   {
     std::vector<char> held(At(this->Space->NumFunctions), 0);
     if constexpr (Dim == 3)
     {
+      const auto whole = TraceOnFacets(*this->Space, BoundaryFacets<3>(this->Topology));
+      for (const int function : whole->Functions)
+      {
+        held[At(function)] = HeldFast;
+      }
       const auto trace = TraceOnFacets(*this->Space, this->Surface.Facets);
       for (const int function : trace->Functions)
       {
@@ -512,7 +551,11 @@ private:
       // rims, and where the surface lies on the target all; what is on its curves for good
       if (this->IsFitted && this->HasSurfaces)
       {
-        held.assign(held.size(), 1);
+        held.assign(held.size(), this->IsPart ? HeldFast : char(1));
+        for (const int function : this->FunctionsOfPart())
+        {
+          held[At(function)] = 1;
+        }
         for (const int function : this->OnCurves)
         {
           held[At(function)] = HeldFast;
@@ -694,8 +737,24 @@ private:
     places.IsHeld.assign(count, 0);
     places.IsOnSurface.assign(count, Dim == 2 ? 1 : 0);
     places.Parts.resize(count);
+    if (Dim == 2 && this->IsPart)
+    {
+      places.IsHeld.assign(count, 1);
+      for (const int function : this->FunctionsOfPart())
+      {
+        places.IsHeld[At(function)] = 0;
+      }
+    }
     if constexpr (Dim == 3)
     {
+      if (this->IsPart)
+      {
+        const auto whole = TraceOnFacets(*this->Space, BoundaryFacets<3>(this->Topology));
+        for (const int function : whole->Functions)
+        {
+          places.IsHeld[At(function)] = 1;
+        }
+      }
       const auto trace = TraceOnFacets(*this->Space, this->Surface.Facets);
       for (std::size_t q = 0; q < this->Surface.Facets.size(); ++q)
       {
@@ -703,6 +762,7 @@ private:
         for (const int own : trace->Space->AliveFunctions(static_cast<int>(q)))
         {
           const int function = trace->Functions[At(own)];
+          places.IsHeld[At(function)] = 0;
           TargetPart& part = places.Parts[At(function)];
           const bool isFirst = places.IsOnSurface[At(function)] == 0;
           places.IsOnSurface[At(function)] = 1;
@@ -826,17 +886,35 @@ private:
 
   /// Area of a volume's surface; volume that a surface without a rim encloses, by the divergence
   /// theorem: Gauss points enough for polynomials of its degrees.
-  void MeasureSurface(const Spline<2>& surface)
+  /// @param fitted  what of the surface is fitted.
+  Status MeasureSurface(const Spline<2>& fitted)
   {
     if constexpr (Dim == 3)
     {
+      Spline<2> surface = fitted;
+      if (this->IsPart)
+      {
+        const auto trace = TraceOnFacets(*this->Space, BoundaryFacets<3>(this->Topology));
+        if (!trace)
+        {
+          return trace.Status;
+        }
+        surface = TraceOf<2>(this->Fit.Value, trace.Value);
+      }
       const auto measures =
         MeasureCells(MakeBernsteinCells(MakeBezierForm(surface, this->Params.Threads)));
       this->Fit.Area = measures ? measures->Total.Measure : 0.0;
-      return;
     }
-    const bool isClosed = std::all_of(this->Surface.QuadsOf.begin(), this->Surface.QuadsOf.end(),
-      [](const std::array<int, 2>& quads) { return quads[1] >= 0; });
+    else
+    {
+      this->MeasureEnclosed();
+    }
+    return {};
+  }
+  void MeasureEnclosed()
+  {
+    const Spline<Dim>& surface = this->Fit.Value;
+    const bool isClosed = BoundaryFacets<Dim>(this->Topology).empty();
     for (int side = 0; side < 2 * Dim * this->Topology.NumCells(); ++side)
     {
       const int cell = side / (2 * Dim);
@@ -845,7 +923,7 @@ private:
         return; // cells are oriented differently
       }
     }
-    const BezierForm<2> form = MakeBezierForm(surface, this->Params.Threads);
+    const BezierForm<Dim> form = MakeBezierForm(surface, this->Params.Threads);
     const int count = 3 * this->Params.Space.Degree / 2 + 1;
     const ElementQuadrature<2> rule = MakeElementQuadrature<2>({ count, count });
     EvaluationParams params;
@@ -867,12 +945,17 @@ private:
     this->Fit.Volume = std::abs(sum);
   }
 
-  /// The surface of the spline, a trace of volumes.
+  /// The surface of the spline, a trace of volumes, or what of it is fitted.
   Status TraceSurface(Spline<2>& surface, MeshTrace<2>& trace) const
   {
     if constexpr (Dim == 2)
     {
       surface = this->Fit.Value;
+      if (this->IsPart)
+      {
+        trace = PartOnFacets(*this->Space, this->Surface.Facets);
+        surface = PartOf(this->Fit.Value, trace);
+      }
     }
     else
     {
@@ -946,13 +1029,16 @@ private:
     {
       return status;
     }
-    this->MeasureSurface(surface);
+    if (Status status = this->MeasureSurface(surface); !status)
+    {
+      return status;
+    }
     if (!this->Target)
     {
       return {};
     }
     SampledDistanceParams params;
-    params.TargetSamples = this->Params.TargetSamples;
+    params.TargetSamples = this->IsPart ? 0 : this->Params.TargetSamples;
     params.Progress = this->Share(0.8, 0.9);
     auto distances = this->MeasureFrom(surface, trace, params);
     if (distances)
@@ -966,7 +1052,7 @@ private:
   Status Bound(const Spline<2>& surface)
   {
     const TriangleIndex<3>* triangles = this->Target->Triangles();
-    if (!triangles || !this->IsFitted || !this->HasSurfaces ||
+    if (!triangles || !this->IsFitted || !this->HasSurfaces || this->IsPart ||
       surface.Space->NumElements() > this->Params.BoundedElements)
     {
       return {};
@@ -995,6 +1081,8 @@ private:
   FitTargetPtr Own; ///< the mesh itself
   const CADFitParams& Params;
   bool IsFitted = true;
+  bool IsPart = false;            ///< whether some of the cells are fitted
+  std::vector<char> PointsBeside; ///< of the surface that is not fitted
   bool HasSurfaces = false;
   bool IsPlaced = false;
   std::vector<int> LinearCells;

@@ -41,7 +41,10 @@ struct CADFitParams
   UnstructuredParams Space; ///< degree, policy, features, lengths
   FitPath Path = FitPath::Automatic;
   RestrictionKind CompositeWeights = RestrictionKind::Weighted; ///< Composite: of its patches
-  bool Surfaces = true;                                         ///< whether faces are fitted
+  /// Cells, and of hexahedra their faces on the mesh's surface, that are fitted to the target, one
+  /// a cell; others stay where the mesh has them. Empty: all. Without a target it does not count.
+  std::vector<char> FittedCells;
+  bool Surfaces = true;    ///< whether faces are fitted
   bool Curves = true;      ///< whether sharp edges and rims are fitted
   bool Points = true;      ///< whether corners are
   bool Untangle = true;    ///< whether cells that fold, before or on the target, are untangled
@@ -79,8 +82,9 @@ struct CADFit
   /// Cell of the given mesh that every element comes from: itself, or the one below the layer.
   std::vector<int> CellOf;
   int LayerCells = 0;
-  FitDistances Distances;
-  DeviationBound Bound; ///< from a target of triangles; OfElements as Distances.OfElements
+  FitDistances Distances; ///< with FittedCells of these alone, and not from the target
+  /// From a target of triangles; OfElements as Distances.OfElements. Not with FittedCells.
+  DeviationBound Bound;
   /// Element of the surface by cell and side (side -1: the quadrilateral itself), as
   /// Distances.OfElements.
   std::vector<CellSide> SurfaceElements;
@@ -115,8 +119,10 @@ struct CADFit
 /// @param points  NumPoints x 3. @param target  null: the mesh itself, through whose points the
 /// spline goes.
 /// @return the errors of MakeUnstructuredSpace and the target; SizeMismatch, NonFiniteInput;
-/// InvalidParameter for options out of range and a mesh far from its target; InvalidTopology for
-/// hexahedra and a target with a rim; Aborted. What could not be mended is in the result.
+/// InvalidParameter for options out of range, a mesh far from its target and FittedCells without a
+/// facet; NotInSpace with the side of FittedCells of hexahedra where their faces end though the
+/// spline goes on smoothly; InvalidTopology for hexahedra and a target with a rim, unless
+/// FittedCells are meant; Aborted. What could not be mended is in the result.
 /// @complexity O(elements (p + 1)^Dim) and the closest points.
 /// @source  Thomas, Scott, Evans, Tew, Evans, CMAME 284 (2015) 55-105.
 template <int Dim>

@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <set>
 
 namespace knotwork
 {
@@ -400,6 +402,90 @@ int CurvedNodes::NumFollowing() const
   return count;
 }
 
+Status CurvedNodes::ComeForward(
+  int threads, const ProgressCallback& progress, JacobianCertificate& all)
+{
+  const NodeLattice& lattice = this->Lattice;
+  std::map<int, std::vector<int>> elementsOf; // of points that moved back
+  for (int e = 0; e < lattice.NumElements(); ++e)
+  {
+    for (std::size_t i = lattice.Begin[Index(e)]; i < lattice.Begin[Index(e) + 1]; ++i)
+    {
+      if (this->Shares[Index(lattice.Nodes[i])] < 1.0)
+      {
+        elementsOf[lattice.Nodes[i]].push_back(e);
+      }
+    }
+  }
+  // those of the most elements first: corners, which bases are made of, are such
+  std::vector<int> waiting;
+  for (const auto& [node, elements] : elementsOf)
+  {
+    waiting.push_back(node);
+  }
+  std::stable_sort(waiting.begin(), waiting.end(),
+    [&](int a, int b) { return elementsOf[a].size() > elementsOf[b].size(); });
+  while (!waiting.empty())
+  {
+    if (progress && !progress(0.6))
+    {
+      return { ErrorCode::Aborted, "" };
+    }
+    std::vector<std::pair<int, double>> chosen; // without common elements, and their shares
+    std::vector<int> others;
+    std::map<int, int> nodeOf; // by element
+    for (const int node : waiting)
+    {
+      const std::vector<int>& elements = elementsOf[node];
+      if (std::any_of(
+            elements.begin(), elements.end(), [&](int e) { return nodeOf.count(e) != 0; }))
+      {
+        others.push_back(node);
+        continue;
+      }
+      for (const int e : elements)
+      {
+        nodeOf[e] = node;
+      }
+      chosen.emplace_back(node, this->Shares[Index(node)]);
+      this->Shares[Index(node)] = 1.0;
+    }
+    std::vector<int> which;
+    for (const auto& [element, node] : nodeOf)
+    {
+      which.push_back(element);
+    }
+    this->Update();
+    const auto part = this->Certify(which, threads);
+    if (!part)
+    {
+      return part.Status;
+    }
+    std::set<int> refused;
+    for (const int element : this->FoldedOf(which, part.Value))
+    {
+      refused.insert(nodeOf[element]);
+    }
+    for (const auto& [node, share] : chosen)
+    {
+      if (refused.count(node) != 0)
+      {
+        this->Shares[Index(node)] = share;
+      }
+    }
+    this->Update();
+    for (std::size_t i = 0; i < which.size(); ++i)
+    {
+      if (refused.count(nodeOf[which[i]]) == 0)
+      {
+        all.Cells[Index(which[i])] = part->Cells[i];
+      }
+    }
+    waiting = std::move(others);
+  }
+  return {};
+}
+
 Result<JacobianCertificate> CurvedNodes::Relax(const StraightElements& elements, int threads,
   const ProgressCallback& progress, std::vector<char>& relaxed)
 {
@@ -476,6 +562,10 @@ Result<JacobianCertificate> CurvedNodes::Relax(const StraightElements& elements,
     }
     std::sort(next.begin(), next.end());
     folded = std::move(next);
+  }
+  if (Status status = this->ComeForward(threads, progress, all.Value); !status)
+  {
+    return status;
   }
   relaxed.clear();
   for (int e = 0; e < lattice.NumElements(); ++e)

@@ -36,7 +36,7 @@ public:
   /// Certifies all elements. Around those that are not valid, and those of volumes whose least det
   /// J is below a twentieth of the straight element's, points inside follow those that were placed,
   /// then move to better shapes, if that leaves fewer of them; then points of these move back until
-  /// there are none.
+  /// there are none, and those that did without need come forward again.
   /// @param elements  of the lattice. @param relaxed  one an element: whether one of its points is
   /// not where it was placed.
   /// @return NotConverged with a straight element that is not valid; the errors of
@@ -68,6 +68,9 @@ private:
   void Update();
   /// @return false when all its points are where they are without a target.
   bool MoveBack(int element);
+  /// Puts points that moved back where they were placed, one in a neighbourhood at a time, as far
+  /// as the elements around stay accepted. @param all  gets certificates.
+  Status ComeForward(int threads, const ProgressCallback& progress, JacobianCertificate& all);
   bool IsAccepted(int element, const CellCertificate& certificate) const;
 
   const NodeLattice& Lattice;

@@ -170,6 +170,36 @@ SplineSpace<Dim> Restrict(
   return part;
 }
 
+MeshTrace<2> PartOnFacets(const SplineSpace<2>& space, const std::vector<CellSide>& facets)
+{
+  std::vector<int> patch;
+  MeshTrace<2> part;
+  for (const CellSide& facet : facets)
+  {
+    patch.push_back(facet.Cell);
+    part.Elements.push_back({ facet, { 0, 1 }, {} });
+  }
+  PatchFunctions functions =
+    FunctionsOf<2>(space, patch, std::vector<char>(At(space.NumFunctions), 0));
+  part.Space = std::make_shared<const SplineSpace<2>>(Restrict<2>(space, patch, functions));
+  part.Functions = std::move(functions.Functions);
+  return part;
+}
+
+Spline<2> PartOf(const Spline<2>& spline, const MeshTrace<2>& part)
+{
+  Spline<2> result;
+  result.Space = part.Space;
+  result.ControlPoints.resize(
+    static_cast<Eigen::Index>(part.Functions.size()), spline.ControlPoints.cols());
+  for (std::size_t i = 0; i < part.Functions.size(); ++i)
+  {
+    result.ControlPoints.row(static_cast<Eigen::Index>(i)) =
+      spline.ControlPoints.row(part.Functions[i]);
+  }
+  return result;
+}
+
 template std::vector<int> Rings(const CellMesh<2>&, const std::vector<int>&, int);
 template std::vector<int> Rings(const CellMesh<3>&, const std::vector<int>&, int);
 template std::vector<std::vector<int>> ConnectedParts(const CellMesh<2>&, const std::vector<int>&);

@@ -2,6 +2,7 @@
 // Some elements of a spline by themselves, private to the kernel.
 #pragma once
 #include <knotwork/SplineCore/CellMesh.h>
+#include <knotwork/SplineCore/MeshTraces.h>
 #include <knotwork/SplineCore/Spline.h>
 
 namespace knotwork
@@ -32,4 +33,9 @@ PatchFunctions FunctionsOf(
 template <int Dim>
 SplineSpace<Dim> Restrict(
   const SplineSpace<Dim>& space, const std::vector<int>& patch, const PatchFunctions& functions);
+
+/// The space on some quadrilaterals, element i on facet i. @param facets  side -1 each.
+MeshTrace<2> PartOnFacets(const SplineSpace<2>& space, const std::vector<CellSide>& facets);
+/// A spline there.
+Spline<2> PartOf(const Spline<2>& spline, const MeshTrace<2>& part);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ProgressiveFit.h"
 
+#include "ElementPatch.h"
+
 #include <knotwork/SplineCore/BezierForm.h>
 #include <knotwork/SplineCore/BezierProjection.h>
 #include <knotwork/SplineCore/MeshSpline.h>
@@ -187,7 +189,7 @@ private:
     if (status && this->Params.Constrain)
     {
       status = isSurface ? this->FitSurface() : status;
-      status = status && (Dim == 3 || !isSurface) ? this->FitAround() : status;
+      status = status && (Dim == 3 || !isSurface || this->IsPart()) ? this->FitAround() : status;
     }
     return status;
   }
@@ -239,6 +241,12 @@ private:
     return parts;
   }
 
+  /// Whether some of the quadrilaterals are fitted.
+  bool IsPart() const
+  {
+    return Dim == 2 && this->Surface.Facets.size() < At(this->Space->NumElements());
+  }
+
   Status TraceSurface()
   {
     if constexpr (Dim == 3)
@@ -246,6 +254,10 @@ private:
       auto trace = TraceOnFacets(*this->Space, this->Surface.Facets);
       this->Trace = std::move(trace.Value);
       return trace.Status;
+    }
+    else if (this->IsPart())
+    {
+      this->Trace = PartOnFacets(*this->Space, this->Surface.Facets);
     }
     return {};
   }
@@ -256,19 +268,9 @@ private:
     const OntoTarget onto(*this->Target, parts);
     const ProjectionParams params = this->Projection(0.3, 0.9);
     Status status;
-    if constexpr (Dim == 2)
+    if (Dim == 2 && !this->IsPart())
     {
-      const auto map = [&](int element, const PointMatrix& local, const PointMatrix& parameters,
-                         PointMatrix& values)
-      { return this->Map(element, local, parameters, values) && onto.Move(element, values); };
-      auto made = this->Params.Constrain
-        ? this->ProjectAround<2>(this->Space, this->OwnFunctions(), map, params)
-        : this->Path.Project(map, params);
-      status = made.Status;
-      if (made)
-      {
-        this->Fit.Value = std::move(made.Value);
-      }
+      status = this->FitQuadrilaterals(onto, params);
     }
     else
     {
@@ -278,8 +280,8 @@ private:
           int element, const PointMatrix& local, const PointMatrix& parameters, PointMatrix& values)
         {
           const TraceElement<2>& at = this->Trace.Elements[At(element)];
-          return this->Map(at.Facet.Cell, Lift<2, 3>(at, local), parameters, values) &&
-            onto.Move(element, values);
+          const PointMatrix inside = Dim == 2 ? local : Lift<2, 3>(at, local);
+          return this->Map(at.Facet.Cell, inside, parameters, values) && onto.Move(element, values);
         },
         params);
       status = made.Status;
@@ -289,6 +291,26 @@ private:
       }
     }
     return onto.Explain(status);
+  }
+
+  /// All quadrilaterals.
+  Status FitQuadrilaterals(const OntoTarget& onto, const ProjectionParams& params)
+  {
+    if constexpr (Dim == 2)
+    {
+      const auto map = [&](int element, const PointMatrix& local, const PointMatrix& parameters,
+                         PointMatrix& values)
+      { return this->Map(element, local, parameters, values) && onto.Move(element, values); };
+      auto made = this->Params.Constrain
+        ? this->ProjectAround<2>(this->Space, this->OwnFunctions(), map, params)
+        : this->Path.Project(map, params);
+      if (made)
+      {
+        this->Fit.Value = std::move(made.Value);
+      }
+      return made.Status;
+    }
+    return {};
   }
 
   /// The whole anew with the coefficients that its surface, or its curves, have.
@@ -374,7 +396,7 @@ private:
     std::map<std::pair<int, int>, std::vector<int>> edgesOf; // curve, or -1 and the face of a rim
     for (std::size_t e = 0; e < this->Surface.Edges.size(); ++e)
     {
-      const bool isFreeRim = this->Surface.QuadsOf[e][1] < 0 && this->Target->HasSurface();
+      const bool isFreeRim = this->Surface.QuadsOf[e][1] == Rim && this->Target->HasSurface();
       const int curve = this->Parts.CurveOf[e];
       if (curve >= 0)
       {
@@ -537,7 +559,7 @@ private:
   const FitTarget* Target; ///< null: none
   const ProgressiveFitParams& Params;
   ElementFunction Map;                     ///< of the whole: through the points, or the fit before
-  MeshTrace<2> Trace;                      ///< of volumes
+  MeshTrace<2> Trace;                      ///< of volumes and of parts
   std::map<int, Eigen::RowVector3d> Given; ///< coefficients that were fitted to the target
   ProgressiveFit<Dim> Fit;
 };

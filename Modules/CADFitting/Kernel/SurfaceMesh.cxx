@@ -41,7 +41,7 @@ void AddEdges(SurfaceMesh& surface, int numPoints)
     if (surface.Edges.empty() || surface.Edges.back() != edge.Ends)
     {
       surface.Edges.push_back(edge.Ends);
-      surface.QuadsOf.push_back({ edge.Quad, -1 });
+      surface.QuadsOf.push_back({ edge.Quad, Rim });
     }
     else
     {
@@ -73,14 +73,45 @@ void AddEdges(SurfaceMesh& surface, int numPoints)
     }
   }
 }
+
+/// Edges of one quadrilateral that has a neighbour in the mesh.
+template <int Dim>
+void MarkEnds(const MeshTopology<Dim>& topology, SurfaceMesh& surface)
+{
+  constexpr std::array<int, 4> sideOfEdge{ 2, 1, 3, 0 };
+  for (std::size_t e = 0; e < surface.Edges.size(); ++e)
+  {
+    auto& quads = surface.QuadsOf[e];
+    if (quads[1] != Rim)
+    {
+      continue;
+    }
+    if constexpr (Dim == 2)
+    {
+      const auto& own = surface.EdgesOf[At(quads[0])];
+      const auto place = std::find(own.begin(), own.end(), static_cast<int>(e)) - own.begin();
+      if (topology.IsBoundary(
+            surface.Facets[At(quads[0])].Cell, sideOfEdge[static_cast<std::size_t>(place)]))
+      {
+        continue;
+      }
+    }
+    quads[1] = EndOfPart;
+  }
+}
 }
 
 template <int Dim>
-SurfaceMesh MakeSurfaceMesh(const CellMesh<Dim>& mesh, const MeshTopology<Dim>& topology)
+SurfaceMesh MakeSurfaceMesh(
+  const CellMesh<Dim>& mesh, const MeshTopology<Dim>& topology, const std::vector<char>& isMeant)
 {
   SurfaceMesh surface;
   for (int c = 0; c < mesh.NumCells(); ++c)
   {
+    if (!isMeant.empty() && isMeant[At(c)] == 0)
+    {
+      continue;
+    }
     const int* corners = mesh.Cell(c);
     if constexpr (Dim == 2)
     {
@@ -105,7 +136,24 @@ SurfaceMesh MakeSurfaceMesh(const CellMesh<Dim>& mesh, const MeshTopology<Dim>& 
     }
   }
   AddEdges(surface, mesh.NumPoints);
+  MarkEnds(topology, surface);
   return surface;
+}
+
+template <int Dim>
+std::vector<char> PointsBeside(
+  const SurfaceMesh& part, const CellMesh<Dim>& mesh, const MeshTopology<Dim>& topology)
+{
+  std::vector<char> isBeside(At(mesh.NumPoints), 0);
+  for (const int point : MakeSurfaceMesh<Dim>(mesh, topology).Points)
+  {
+    isBeside[At(point)] = 1;
+  }
+  for (const int point : part.Points)
+  {
+    isBeside[At(point)] = 0;
+  }
+  return isBeside;
 }
 
 std::vector<double> EdgeLengthsAt(const SurfaceMesh& surface, const PointMatrix& points)
@@ -122,6 +170,12 @@ std::vector<double> EdgeLengthsAt(const SurfaceMesh& surface, const PointMatrix&
   return lengths;
 }
 
-template SurfaceMesh MakeSurfaceMesh(const CellMesh<2>&, const MeshTopology<2>&);
-template SurfaceMesh MakeSurfaceMesh(const CellMesh<3>&, const MeshTopology<3>&);
+template SurfaceMesh MakeSurfaceMesh(
+  const CellMesh<2>&, const MeshTopology<2>&, const std::vector<char>&);
+template SurfaceMesh MakeSurfaceMesh(
+  const CellMesh<3>&, const MeshTopology<3>&, const std::vector<char>&);
+template std::vector<char> PointsBeside(
+  const SurfaceMesh&, const CellMesh<2>&, const MeshTopology<2>&);
+template std::vector<char> PointsBeside(
+  const SurfaceMesh&, const CellMesh<3>&, const MeshTopology<3>&);
 }

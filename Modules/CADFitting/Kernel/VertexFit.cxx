@@ -104,8 +104,9 @@ class TargetSlide final : public PointSlide
 {
 public:
   TargetSlide(const FitTarget& target, const std::vector<TargetPart>& parts,
-    const std::vector<char>& isInside, bool isPlane, bool surfaces)
-    : Target(target), Parts(parts), IsInside(isInside), IsPlane(isPlane), Surfaces(surfaces)
+    const std::vector<char>& isInside, const std::vector<char>& isHeld, bool isPlane, bool surfaces)
+    : Target(target), Parts(parts), IsInside(isInside), IsHeld(isHeld), IsPlane(isPlane),
+      Surfaces(surfaces)
   {
     for (const TargetCurve& curve : target.Curves())
     {
@@ -116,9 +117,11 @@ public:
   bool IsFixed(int point) const override
   {
     const TargetEntity entity = this->Parts[At(point)].Entity;
-    return this->IsInside[At(point)] == 0 &&
-      (entity == TargetEntity::Vertex ||
-        (entity != TargetEntity::Curve && (!this->Target.HasSurface() || !this->Surfaces)));
+    const bool isHeld = !this->IsHeld.empty() && this->IsHeld[At(point)] != 0;
+    return isHeld ||
+      (this->IsInside[At(point)] == 0 &&
+        (entity == TargetEntity::Vertex ||
+          (entity != TargetEntity::Curve && (!this->Target.HasSurface() || !this->Surfaces))));
   }
   Eigen::RowVector3d Nearest(int point, const Eigen::RowVector3d& at) const override
   {
@@ -162,6 +165,7 @@ private:
   const FitTarget& Target;
   const std::vector<TargetPart>& Parts;
   const std::vector<char>& IsInside;
+  const std::vector<char>& IsHeld;
   bool IsPlane;
   bool Surfaces;
   std::vector<PolylineFoot> Lines;
@@ -302,7 +306,7 @@ Status PlaceSurface(const SurfaceMesh& surface, const MeshClassification& parts,
   std::vector<char> isRim(isSet.size(), 0);
   for (std::size_t e = 0; e < surface.Edges.size(); ++e)
   {
-    if (surface.QuadsOf[e][1] < 0)
+    if (surface.QuadsOf[e][1] == Rim)
     {
       isRim[At(surface.Edges[e][0])] = 1;
       isRim[At(surface.Edges[e][1])] = 1;
@@ -374,6 +378,10 @@ Result<VertexFit> MoveOntoTarget(const CellMesh<Dim>& mesh, const MeshTopology<D
   {
     isInside[At(point)] = Dim == 2 && isSet[At(point)] == 0 ? 1 : 0;
   }
+  for (std::size_t i = 0; i < params.IsHeld.size(); ++i)
+  {
+    isInside[i] = params.IsHeld[i] != 0 ? 0 : isInside[i];
+  }
   PointMatrix moves = result->Points - points;
   const double size = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
   if (moves.rowwise().norm().maxCoeff() > 1e-14 * size)
@@ -391,7 +399,8 @@ Result<VertexFit> MoveOntoTarget(const CellMesh<Dim>& mesh, const MeshTopology<D
   result->Folded = std::move(now.Value);
   if (params.Untangle && (!result->Folded.empty() || !params.Poor.empty()))
   {
-    const TargetSlide slide(target, parts.PointParts, isInside, isPlane, params.Surfaces);
+    const TargetSlide slide(
+      target, parts.PointParts, isInside, params.IsHeld, isPlane, params.Surfaces);
     UntanglingParams untangling;
     untangling.Slide = &slide;
     untangling.Poor = params.Poor;

@@ -11,6 +11,8 @@ struct VertexFitParams
 {
   /// Whether points of faces go onto them; else those of curves and corners only, and rims.
   bool Surfaces = true;
+  /// Points that stay where they are, one a point; empty: none.
+  std::vector<char> IsHeld;
   /// Whether cells that are folded on the target are untangled.
   bool Untangle = true;
   /// Cells that get a better shape though they are not folded.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Fits against shapes whose distances have formulas.
 #include "FitCases.h"
+#include <knotwork/SplineCore/MeshGeometry.h>
 
 #include <gtest/gtest.h>
 
@@ -243,6 +244,130 @@ TEST(CADFit, WithoutATargetTheMeshIsTheTarget)
   const auto fit = Fit<2>(Sphere(8), nullptr, Params(3));
   EXPECT_LE(MeanDistance(fit.Value, FromUnitSphere), 1e-4);
   EXPECT_GT(fit.Distances.ToTarget.RootMeanSquare, 1e-3); // from its flat triangles
+}
+
+/// Largest deviation of a radius from the one that is meant on some facets.
+double FarFromRadius(const Spline<2>& surface, const std::vector<int>& elements, double radius)
+{
+  const auto rule = MakeElementQuadrature<2>({ 4, 4 });
+  const BezierForm<2> form = MakeBezierForm(surface, 1);
+  double largest = 0.0;
+  for (const int e : elements)
+  {
+    EvaluationBatch batch;
+    EvaluateElements<2>(form, std::vector<int>(rule.Local.rows(), e), rule.Local, {}, batch);
+    largest = std::max(largest, (batch.Values.rowwise().norm().array() - radius).abs().maxCoeff());
+  }
+  return largest;
+}
+
+/// Quadrilaterals of a face of the cube on a larger sphere, the others where the mesh has them.
+TEST(CADFit, ChosenQuadrilateralsAloneAreFitted)
+{
+  const PlacedMesh<2> mesh = Sphere(8);
+  const auto target = Ellipsoid(1.05, 1.05, 1.05);
+  CADFitParams params = Params(2);
+  params.FittedCells.assign(6 * 64, 0);
+  std::vector<int> chosen;
+  std::vector<int> away; // farther from these than any function reaches
+  for (int c = 0; c < mesh.Mesh.NumCells(); ++c)
+  {
+    double highest = -1.0;
+    double lowest = 1.0;
+    for (int k = 0; k < 4; ++k)
+    {
+      const double z = mesh.Points(mesh.Mesh.Cell(c)[k], 2);
+      highest = std::max(highest, z);
+      lowest = std::min(lowest, z);
+    }
+    if (lowest > 0.3)
+    {
+      params.FittedCells[static_cast<std::size_t>(c)] = 1;
+      chosen.push_back(c);
+    }
+    else if (highest < -0.5)
+    {
+      away.push_back(c);
+    }
+  }
+  for (const bool constrain : { false, true })
+  {
+    params.Constrain = constrain;
+    const auto fit = Fit<2>(mesh, target, params);
+    EXPECT_LT(FarFromRadius(fit.Value, chosen, 1.05), 5e-4);
+    EXPECT_LT(FarFromRadius(fit.Value, away, 1.0), 5e-4);
+    EXPECT_LT(fit.Distances.ToTarget.Largest, 5e-4);  // of the chosen ones
+    EXPECT_LT(fit.Distances.FromTarget.Largest, 0.0); // not measured
+    EXPECT_EQ(fit.Certificate.Verdict, Verdict::Valid);
+    EXPECT_GT(fit.Volume, 4.0 / 3.0 * EIGEN_PI); // of the whole
+    EXPECT_LT(fit.Volume, 1.1 * 4.0 / 3.0 * EIGEN_PI);
+    const auto own = Fit<2>(mesh, nullptr, params);
+    for (const int e : away)
+    {
+      for (const int f : fit.Value.Space->AliveFunctions(e))
+      {
+        EXPECT_LT((fit.Value.ControlPoints.row(f) - own.Value.ControlPoints.row(f)).norm(), 1e-12);
+      }
+    }
+  }
+}
+
+/// One block of a ball on a larger sphere; a part of it needs creases.
+TEST(CADFit, ChosenHexahedraAloneAreFitted)
+{
+  const PlacedMesh<3> mesh = Ball(4);
+  const auto target = Ellipsoid(1.03, 1.03, 1.03);
+  CADFitParams params = Params(3);
+  // cells of a block from a row of its second direction on
+  const auto choose = [&](int block, int row)
+  {
+    params.FittedCells.assign(7 * 64, 0);
+    for (int c = 0; c < 64; ++c)
+    {
+      params.FittedCells[static_cast<std::size_t>(64 * block + c)] = c / 4 % 4 >= row ? 1 : 0;
+    }
+  };
+  const auto check = [&](const CADFit<3>& fit)
+  {
+    EXPECT_EQ(fit.Certificate.Verdict, Verdict::Valid);
+    EXPECT_LT(fit.Distances.ToTarget.Largest, 1e-3);
+    const auto facets = BoundaryFacets<3>(MeshTopology<3>::Make(mesh.Mesh).Value);
+    const auto trace = TraceOnFacets(*fit.Value.Space, facets);
+    std::vector<int> chosen;
+    std::vector<int> others;
+    for (std::size_t i = 0; i < facets.size(); ++i)
+    {
+      const auto cell = static_cast<std::size_t>(facets[i].Cell);
+      if (params.FittedCells[cell] != 0)
+      {
+        chosen.push_back(static_cast<int>(i));
+      }
+      else if (facets[i].Cell / 64 == 5) // opposite
+      {
+        others.push_back(static_cast<int>(i));
+      }
+    }
+    const Spline<2> surface = TraceOf<2>(fit.Value, trace.Value);
+    EXPECT_LT(FarFromRadius(surface, chosen, 1.03), 1e-3);
+    EXPECT_LT(FarFromRadius(surface, others, 1.0), 5e-3); // as near as the mesh itself
+  };
+  choose(6, 0);
+  check(Fit<3>(mesh, target, params));
+  choose(6, 2);
+  const auto refused = FitToTarget<3>(mesh.Mesh, mesh.Points, target, params);
+  EXPECT_EQ(refused.Status.Code, ErrorCode::NotInSpace);
+  EXPECT_NE(refused.Status.Detail.find("mark those as features"), std::string::npos);
+  const auto topology = MeshTopology<3>::Make(mesh.Mesh);
+  const std::vector<double> labels(params.FittedCells.begin(), params.FittedCells.end());
+  params.Space.Features = FacetsBetween<3>(topology.Value, labels).Value;
+  check(Fit<3>(mesh, target, params));
+  // none on the surface
+  choose(0, 0);
+  EXPECT_EQ(FitToTarget<3>(mesh.Mesh, mesh.Points, target, params).Status.Code,
+    ErrorCode::InvalidParameter);
+  params.FittedCells.pop_back();
+  EXPECT_EQ(
+    FitToTarget<3>(mesh.Mesh, mesh.Points, target, params).Status.Code, ErrorCode::SizeMismatch);
 }
 
 TEST(CADFit, Errors)

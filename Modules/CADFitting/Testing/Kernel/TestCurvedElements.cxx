@@ -444,6 +444,65 @@ TEST(CurvedElements, FoldsAreRelaxed_PropertyOracle)
   EXPECT_GT(relaxed, 0);
 }
 
+/// A block that is thin along one of its arcs, which cannot bulge there; its other arc, which a
+/// thick block has too, stays on the cylinder.
+TEST(CurvedElements, WhatNeedNotMoveBackStays_ExactOracle)
+{
+  fits::Placer<3> placer;
+  fits::AddBlock<3>(placer, { 1, 1, 2 },
+    [](const double* u)
+    {
+      const double angle = 0.25 * Pi * u[1];
+      const double r = 1.0 + (u[2] == 0.0 ? 0.03 : 0.5) * u[0];
+      return Eigen::RowVector3d(r * std::cos(angle), r * std::sin(angle), 2.0 * u[2]);
+    });
+  const StraightElements blocks = FromCells<3>(placer.Done());
+  const auto onCylinder = [](Eigen::RowVector3d at)
+  {
+    at.head<2>().normalize();
+    return at;
+  };
+  const auto isOnIt = [&](int corner)
+  { return std::abs(blocks.Points.row(corner).head<2>().norm() - 1.0) < 1e-9; };
+  for (int order = 2; order <= 4; ++order)
+  {
+    const NodeLattice lattice(blocks, order);
+    CurvedNodes nodes(lattice, blocks.Points, false);
+    for (int node = 0; node < lattice.NumNodes(); ++node)
+    {
+      nodes.Hold(node); // nothing follows
+    }
+    for (int e = 0; e < static_cast<int>(lattice.Edges.size()); ++e)
+    {
+      const auto [a, b] = lattice.Edges[static_cast<std::size_t>(e)];
+      for (int k = 1; k < order && isOnIt(a) && isOnIt(b); ++k)
+      {
+        const Eigen::RowVector3d base = nodes.EdgeBase(e, k);
+        nodes.Place(lattice.EdgeNode(e, k), base, onCylinder(base));
+      }
+    }
+    for (int f = 0; f < static_cast<int>(lattice.Faces.size()); ++f)
+    {
+      const FaceCorners& corners = lattice.Faces[static_cast<std::size_t>(f)];
+      const PointMatrix base = nodes.FaceBase(f);
+      const std::vector<int> inside = nodes.InsideFace(f);
+      for (std::size_t i = 0; i < inside.size(); ++i)
+      {
+        if (std::all_of(corners.begin(), corners.end(), isOnIt))
+        {
+          const Eigen::RowVector3d at = base.row(static_cast<Eigen::Index>(i));
+          nodes.Place(inside[i], at, onCylinder(at));
+        }
+      }
+    }
+    std::vector<char> relaxed;
+    const auto certificate = nodes.Relax(blocks, 1, {}, relaxed);
+    ASSERT_TRUE(certificate) << certificate.Status.Message();
+    EXPECT_EQ(certificate->Verdict, Verdict::Valid);
+    EXPECT_EQ(relaxed, (std::vector<char>{ 1, 0 })) << order;
+  }
+}
+
 TEST(CurvedElements, EqualBitsForAnyNumberOfThreads_ExactOracle)
 {
   const StraightElements ball = Tetrahedra(FromCells<3>(fits::Ball(2)));
