@@ -13,10 +13,9 @@ import knotwork as kw
 import knotwork_testing
 import numpy as np
 import page_snippets
-from vtkmodules.vtkCommonCore import vtkDoubleArray
 from vtkmodules.vtkCommonDataModel import vtkSphere
 from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
-from vtkmodules.vtkFiltersSources import vtkLineSource, vtkSphereSource
+from vtkmodules.vtkFiltersSources import vtkLineSource
 from vtkmodules.vtkImagingHybrid import vtkSampleFunction
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
@@ -56,33 +55,34 @@ def terrain():
     return np.c_[x, y, np.exp(-8 * ((x - 0.4) ** 2 + (y - 0.5) ** 2))]
 
 
-def sphere():
-    """Triangles all over the unit sphere."""
-    made = vtkSphereSource()
-    made.SetRadius(1.0)
-    made.SetThetaResolution(24)
-    made.SetPhiResolution(24)
-    made.SetOutputPointsPrecision(1)
-    made.Update()
-    return kw.wrap(made.GetOutput())
+def write_off(name, points, cells):
+    with open(name, "w", encoding="ascii") as stream:
+        stream.write(f"OFF\n{len(points)} {len(cells)} 0\n")
+        stream.writelines(" ".join(map(repr, map(float, point))) + "\n" for point in points)
+        stream.writelines(f"{len(cell)} " + " ".join(map(str, cell)) + "\n" for cell in cells)
 
 
 def cube_sphere(n):
-    """Six blocks of n x n quadrilaterals on the unit sphere, seen from outside."""
+    """Points and quadrilaterals of six blocks of n x n on the unit sphere, seen from outside."""
     u, v = np.meshgrid(*2 * [np.tan(np.linspace(-1, 1, n + 1) * np.pi / 4)], indexing="ij")
     sides = [np.roll(np.stack([np.full_like(u, end), u, v], -1)[::int(end)], axis, -1) for axis in range(3) for end in (-1.0, 1.0)]
     points, number = np.unique(np.round(sides, 12).reshape(-1, 3), axis=0, return_inverse=True)
     number = number.reshape(6, n + 1, n + 1)
     quads = np.stack([number[:, :-1, :-1], number[:, 1:, :-1], number[:, 1:, 1:], number[:, :-1, 1:]], -1)
-    return kw.mesh(points / np.linalg.norm(points, axis=1)[:, None], quads.reshape(-1, 4))
+    return points / np.linalg.norm(points, axis=1)[:, None], quads.reshape(-1, 4)
+
+
+def halves(quads):
+    return np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
 
 
 def cad_fitting():
-    sphere().save("scan.vtp")
-    cube_sphere(6).save("quads.off")
+    points, quads = cube_sphere(20)
+    kw.mesh(points, halves(quads)).save("scan.vtp")
+    write_off("quads.off", *cube_sphere(6))
     copy(("bracket.step", "part.step"))
     run("tessellate", "part.step", "-o", "scan.stl")
-    run("convert", "scan.stl", "-o", "scan.ply")
+    kw.read("scan.stl").save("scan.ply")
     run("tetrahedralize", "part.step", "--edge-length", 8, "-o", "mesh.vtu")
     run("convert", "mesh.vtu", "-o", "mesh.msh")
     run("quads", "part.step", "-o", "quads.vtp")
@@ -169,20 +169,12 @@ def spline_io():
 
 def surface_remeshing():
     unpack(("cow", "cow.off"), ("fandisk", "fandisk.off"))
-    whole = sphere()
-    whole.save("whole.off")
-    with open("whole.off", encoding="ascii") as stream:
-        lines = stream.read().splitlines()
-    points, triangles = map(int, lines[1].split()[:2])
-    with open("open.off", "w", encoding="ascii") as stream:  # without the last triangle
-        stream.write("\n".join([lines[0], f"{points} {triangles - 1} 0", *lines[2:-1]]) + "\n")
-    run("convert", "open.off", "-o", "scan.stl")
-    length = vtkDoubleArray()
-    length.SetName("Length")
-    for i in range(whole.GetNumberOfPoints()):
-        length.InsertNextValue(0.1 + 0.05 * whole.GetPoint(i)[2])
-    whole.GetPointData().AddArray(length)
-    whole.save("part.vtp")
+    points, quads = cube_sphere(12)
+    write_off("open.off", points, halves(quads)[:-1])
+    kw.read("open.off").save("scan.stl")
+    part, lengths = kw.mesh(points, halves(quads)), kw.points(points, Length=0.1 + 0.05 * points[:, 2])
+    part.GetPointData().AddArray(lengths.GetPointData().GetArray("Length"))
+    part.save("part.vtp")
 
 
 def surface_trimming():
