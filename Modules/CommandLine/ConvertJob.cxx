@@ -188,14 +188,14 @@ Job Make(CLI::App& app)
   auto job = std::make_shared<ConvertJob>();
   app
     .add_option("input", job->Input,
-      "spline grid, skeleton or points (.vtu .vtp .vtpc .vtk .xml .g2 .bext .mesh .msh .inp .step "
-      ".iges .xyz "
-      ".txt .csv)")
+      "spline grid, skeleton, mesh or points (.vtu .vtp .vtpc .vtk .xml .g2 .bext .mesh .msh .inp "
+      ".step .iges .stl .off .obj .ply .xyz .txt .csv)")
     ->required();
   AddOutput(app, "--output", job->Output,
-    Endings::Writing(SplineGridContent | SplineCollectionContent | PointContent | GridContent),
+    Endings::Writing(SplineGridContent | SplineCollectionContent | PointContent | PolygonContent |
+      GridContent),
     "the same data (.vtu .vtp .vtpc .xml .g2 .bext .json .step .iges, points .xyz .txt .csv .g2, "
-    "meshes .msh .mesh)")
+    "meshes .stl .obj .ply .msh .mesh)")
     ->required();
   app.add_option("--curves", job->Curves,
     "trimming curves (.vtu): written when the input is STEP, IGES or g2, else read");

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Every job of the program on good input; numbers of the report against independent ones."""
 import json
+import os
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkFiltersCore import vtkMassProperties, vtkTriangleFilter
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
 
 import knotwork_testing
@@ -236,6 +238,23 @@ def test_convert_writes_every_encoding_without_loss():
         assert np.array_equal(again, expected), encoding
     run("convert", source, "--output", path("again.vtpc"))
     assert run("info", path("again.vtpc"))["functions"] == run("info", source)["functions"]
+
+
+def test_convert_writes_meshes():
+    """Triangles of a square of area 1, by every format of triangles."""
+    run("source", "--shape", "square", "--output", path("square.vtu"))
+    run("tessellate", path("square.vtu"), "--output", path("square.obj"))
+    np.savetxt(path("some.xyz"), np.eye(3))
+    for ending in ("stl", "ply", "obj", "vtp"):
+        run("convert", path("square.obj"), "--output", path("again." + ending))
+        run("convert", path("again." + ending), "--output", path("mesh.vtp"))
+        triangles, measured = vtkTriangleFilter(), vtkMassProperties()
+        triangles.SetInputData(read(vtkXMLPolyDataReader(), path("mesh.vtp")))
+        measured.SetInputConnection(triangles.GetOutputPort())
+        assert abs(measured.GetSurfaceArea() - 1.0) < 1e-6, ending
+    for file in (path("square.vtu"), path("some.xyz")):
+        done = knotwork_testing.run_program("convert", file, "--output", path("none.stl"))
+        assert done.returncode == 1 and not os.path.exists(path("none.stl")), done.stderr
 
 
 def test_threads_do_not_change_a_bit():
