@@ -2,6 +2,7 @@
 #include "RadialSurface.h"
 
 #include "DenseCholesky.h"
+#include "RadialKernel.h"
 
 #include <knotwork/SplineCore/Parallel.h>
 #include <knotwork/SplineCore/TriangleIndex.h>
@@ -21,15 +22,6 @@ constexpr std::size_t PointChunk = 64;
 constexpr int FirstCentres = 250;
 constexpr int GridRounds = 4;
 constexpr int MaxRounds = 16;
-/// Below this squared distance phi is 0 in double precision.
-constexpr double LeastSquare = 1e-280;
-
-/// phi at all centres, of a point, by halves: r^2 ln r = r^2 ln(r^2) / 2.
-void RadialValues(const Eigen::MatrixXd& centres, double u, double v, Eigen::ArrayXd& values)
-{
-  values = (centres.col(0).array() - u).square() + (centres.col(1).array() - v).square();
-  values = 0.5 * values * values.max(LeastSquare).log();
-}
 
 /// A <- H A H with the Householder reflection H = I - factor v v^T, A symmetric.
 void Reflect(Eigen::MatrixXd& matrix, const Eigen::VectorXd& v, double factor)
@@ -129,12 +121,15 @@ Result<RadialSurface> RadialSurface::Interpolate(
   surface.Centres = surface.Scale * (parameters.rowwise() - surface.Origin);
 
   Eigen::MatrixXd matrix(n, n);
-  Eigen::ArrayXd values;
-  for (Eigen::Index i = 0; i < n; ++i)
-  {
-    RadialValues(surface.Centres, surface.Centres(i, 0), surface.Centres(i, 1), values);
-    matrix.col(i) = values.matrix();
-  }
+  const RadialKernel kernel(surface.Centres);
+  ParallelFor(static_cast<std::size_t>(n), PointChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (auto i = static_cast<Eigen::Index>(begin); i < static_cast<Eigen::Index>(end); ++i)
+      {
+        kernel.Values(surface.Centres(i, 0), surface.Centres(i, 1), matrix.col(i).data());
+      }
+    });
   // Q^T A Q, Q that of the affine maps' QR: the part below and right of its first 3 is definite.
   Eigen::MatrixXd maps(n, 3);
   maps << Eigen::VectorXd::Ones(n), surface.Centres;
@@ -182,15 +177,24 @@ Result<RadialSurface> RadialSurface::Interpolate(
 PointMatrix RadialSurface::Evaluate(const PointMatrix& parameters, int threads) const
 {
   PointMatrix result(parameters.rows(), this->Coefficients.cols());
+  std::vector<RadialKernel> kernels; // of so many components as one takes
+  for (Eigen::Index c = 0; c < this->Coefficients.cols(); c += RadialKernel::MaxComponents)
+  {
+    kernels.emplace_back(this->Centres,
+      this->Coefficients.middleCols(
+        c, std::min<Eigen::Index>(RadialKernel::MaxComponents, this->Coefficients.cols() - c)));
+  }
   ParallelFor(static_cast<std::size_t>(parameters.rows()), PointChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
-      Eigen::ArrayXd values;
       for (auto i = static_cast<Eigen::Index>(begin); i < static_cast<Eigen::Index>(end); ++i)
       {
         const Eigen::RowVector2d u = this->Scale * (parameters.row(i) - this->Origin);
-        RadialValues(this->Centres, u[0], u[1], values);
-        result.row(i) = values.matrix().transpose() * this->Coefficients;
+        for (std::size_t k = 0; k < kernels.size(); ++k)
+        {
+          kernels[k].Sums(u[0], u[1],
+            result.row(i).data() + k * static_cast<std::size_t>(RadialKernel::MaxComponents));
+        }
         result.row(i) += this->Affine.row(0) + u * this->Affine.bottomRows(2);
       }
     });

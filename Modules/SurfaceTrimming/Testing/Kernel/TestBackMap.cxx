@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ChartSamples.h"
 #include "MeshCases.h"
+#include "RadialKernel.h"
 #include "RadialSurface.h"
 #include "SurfaceFairness.h"
 #include <knotwork/SplineCore/BezierForm.h>
@@ -472,6 +473,37 @@ TEST(BackMap, HybridControlPointsAreThoseOfRbfInterpolation_CrossOracle)
     }
     last = difference;
   }
+}
+
+/// Against std::log at distances of all sizes; five components are two kernels.
+TEST(RadialSurface, KernelIsThatOfTheFormula_CrossOracle)
+{
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> exponent(-139.0, 3.0);
+  Eigen::MatrixXd centres(1003, 2);
+  for (Eigen::Index i = 0; i < centres.rows(); ++i)
+  {
+    centres.row(i) << std::pow(10.0, exponent(random)), -std::pow(10.0, exponent(random));
+  }
+  centres.row(7).setZero();
+  const RadialKernel kernel(centres, Eigen::MatrixXd::Ones(centres.rows(), 2));
+  Eigen::VectorXd values(centres.rows());
+  kernel.Values(0.0, 0.0, values.data());
+  double sum = 0.0;
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < centres.rows(); ++i)
+  {
+    const double square = centres.row(i).squaredNorm();
+    const double expected = square > 0.0 ? 0.5 * square * std::log(square) : 0.0;
+    // a few roundings of the logarithm, which is absolute where it is nearly 0
+    EXPECT_NEAR(values[i], expected, 8e-16 * std::max(std::abs(expected), square)) << square;
+    sum += values[i];
+    largest += std::abs(values[i]);
+  }
+  double sums[2];
+  kernel.Sums(0.0, 0.0, sums);
+  EXPECT_NEAR(sums[0], sum, 1e-13 * largest);
+  EXPECT_EQ(sums[0], sums[1]);
 }
 
 TEST(RadialSurface, TakesItsValues_ExactOracle)
