@@ -318,10 +318,10 @@ Status Session::WriteFaces(
   vtkDataObject* surfaces, vtkDataObject* curves, const std::string& file, CADSummary& found)
 {
   const double begin = Now();
-  Result<fs::path> staged = this->Files.Stage(file);
-  if (!staged)
+  const Result<fs::path> staged = this->Stage(file);
+  if (!staged || Processes::Own() != 0)
   {
-    return staged.Status;
+    return staged ? Processes::Agree({}) : staged.Status;
   }
   auto model = DecodeTrimmedModel(surfaces, curves);
   Status status = model ? WriteCAD(model.Value, staged->string()) : model.Status;
@@ -334,7 +334,7 @@ Status Session::WriteFaces(
     this->Report["file_bytes"] = fs::file_size(staged.Value, ignored);
   }
   this->SecondsOfFiles += Now() - begin;
-  return AboutFile(status, file, staged->string());
+  return Processes::Agree(AboutFile(status, file, staged->string()));
 }
 
 Status Session::Commit()

@@ -94,7 +94,8 @@ public:
   /// Stages the output of every port whose file has a name.
   Status WriteOutputs(vtkAlgorithm* filter, const std::vector<std::string>& files);
 
-  /// Stages trimmed faces (two grids, see TrimmedGrids.h) as .step, .stp, .iges or .igs.
+  /// Stages trimmed faces (two grids, see TrimmedGrids.h) as .step, .stp, .iges or .igs; of several
+  /// processes those of the first one, and all call it.
   /// @param found  what the written file holds when it is read again.
   Status WriteFaces(
     vtkDataObject* surfaces, vtkDataObject* curves, const std::string& file, CADSummary& found);

@@ -1,21 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterJob.h"
 #include "FlattenNumbers.h"
+#include "Shares.h"
 
 #include <knotwork/CADModel/CADExchange.h>
 #include <knotwork/MeshParameterization/vtkMeshParameterization.h>
+#include <knotwork/SplineGrid/Processes.h>
+#include <knotwork/SurfaceTrimming/TrimmedGrids.h>
 #include <knotwork/SurfaceTrimming/vtkAnalyticModel.h>
 #include <knotwork/SurfaceTrimming/vtkTrimmedSurface.h>
 
+#include <vtkAppendPolyData.h>
 #include <vtkDataArray.h>
 #include <vtkNew.h>
+#include <vtkPartitionedDataSetCollection.h>
 #include <vtkPointData.h>
 #include <vtkPointSet.h>
+#include <vtkPolyData.h>
 #include <vtkTable.h>
+#include <vtkUnstructuredGrid.h>
 #include <vtkVariant.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
+#include <set>
 
 namespace knotwork
 {
@@ -38,16 +47,95 @@ enum Port
 /// Of vtkAnalyticModel.
 constexpr int NumbersOfModel = 3;
 
+/// Of an output: not a port of the filters.
+constexpr std::size_t Flat = Numbers + 1;
+constexpr std::size_t NumOutputs = Flat + 1;
+
+/// What is made of a mesh.
+struct TrimmedPart
+{
+  nlohmann::ordered_json Report = nlohmann::ordered_json::object();
+  std::array<vtkSmartPointer<vtkDataObject>, NumOutputs> Data;
+
+  /// Filters are used again for the next mesh.
+  void Keep(std::size_t output, vtkDataObject* data)
+  {
+    this->Data[output] = vtkSmartPointer<vtkDataObject>::Take(data->NewInstance());
+    this->Data[output]->ShallowCopy(data);
+  }
+};
+
+/// The meshes of a file: one, or the blocks of a collection.
+std::vector<vtkSmartPointer<vtkDataObject>> MeshesOf(vtkDataObject* data)
+{
+  auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(data);
+  if (!collection)
+  {
+    return { data };
+  }
+  std::vector<vtkSmartPointer<vtkDataObject>> meshes;
+  for (unsigned int b = 0; b < collection->GetNumberOfPartitionedDataSets(); ++b)
+  {
+    meshes.emplace_back(
+      collection->GetNumberOfPartitions(b) > 0 ? collection->GetPartition(b, 0) : nullptr);
+  }
+  return meshes;
+}
+
+/// Numbers of all parts: counts and areas are summed; of bounds the worst is taken, and a truth is
+/// one of all of them. Words stand where they are the same in all.
+nlohmann::ordered_json TotalsOf(const nlohmann::ordered_json& parts)
+{
+  auto report = nlohmann::ordered_json::object();
+  const auto begins = [](const std::string& key, const char* with)
+  { return key.rfind(with, 0) == 0; };
+  std::set<std::string> differing;
+  for (const auto& part : parts)
+  {
+    for (const auto& [key, value] : part.items())
+    {
+      const bool isNew = !report.contains(key);
+      nlohmann::ordered_json& total = report[key];
+      if (isNew)
+      {
+        total = value;
+      }
+      else if (value.is_boolean())
+      {
+        const bool isAny = key == "fallback";
+        total =
+          isAny ? total.get<bool>() || value.get<bool>() : total.get<bool>() && value.get<bool>();
+      }
+      else if (value.is_number_float())
+      {
+        const double a = total;
+        const double b = value;
+        total = begins(key, "max_") || begins(key, "rms_") || key == "tolerance" ? std::max(a, b)
+          : begins(key, "min_")                                                  ? std::min(a, b)
+                                                                                 : a + b;
+      }
+      else if (value.is_number())
+      {
+        total = total.get<long long>() + value.get<long long>();
+      }
+      else if (total != value)
+      {
+        differing.insert(key);
+      }
+    }
+  }
+  for (const std::string& key : differing)
+  {
+    report.erase(key);
+  }
+  return report;
+}
+
 struct TrimJob
 {
   std::string Input;
   std::string Output;
-  std::string FlatFile;
-  std::string TriangleFile;
-  std::string SurfaceFile;
-  std::string CurveFile;
-  std::string DeviationFile;
-  std::string TableFile;
+  std::array<std::string, NumOutputs> Files; ///< but for Output
   bool Features = true;
   CLI::App* App = nullptr;
   vtkNew<vtkAnalyticModel> Model;
@@ -55,9 +143,9 @@ struct TrimJob
   vtkNew<vtkTrimmedSurface> Trim;
   std::unique_ptr<Options> FilterOptions;
 
+  /// Meshes are divided among processes.
   Status Run(Session& session)
   {
-    const bool asCAD = HasCADEnding(this->Output);
     auto input = session.Read(this->Input);
     if (!input)
     {
@@ -66,22 +154,185 @@ struct TrimJob
     session.Report["input"] = this->Input;
     session.Report["output"] = this->Output;
     this->FilterOptions->Apply(session.Report);
-    const std::string what = "'" + this->Input + "'";
-    vtkDataObject* mesh = input.Value;
-    session.Report["analytic"] = false;
-    if (this->Features && !HasPlane(mesh) && this->FlatFile.empty() && this->DeviationFile.empty())
+    const bool isCollection = vtkPartitionedDataSetCollection::SafeDownCast(input.Value) != nullptr;
+    const std::vector<vtkSmartPointer<vtkDataObject>> meshes = MeshesOf(input.Value);
+    if (isCollection && !this->Files[Numbers].empty())
+    {
+      return { ErrorCode::InvalidParameter,
+        "--table has the numbers of one mesh: leave it out; `parts` of the report has those of "
+        "each" };
+    }
+    const Processes::Part own =
+      Processes::PartOf(meshes.size(), Processes::Own(), Processes::Count());
+    std::vector<TrimmedPart> parts(own.End - own.Begin);
+    Status status;
+    for (std::size_t b = own.Begin; status && b < own.End; ++b)
+    {
+      const Processes::Alone alone;
+      const std::string what =
+        "'" + this->Input + "'" + (isCollection ? ", block " + std::to_string(b) : "");
+      status = meshes[b] ? this->TrimMesh(meshes[b], what, session, parts[b - own.Begin])
+                         : Status(ErrorCode::EmptyInput, what + " is empty; leave it out");
+    }
+    status = Processes::Agree(status);
+    status = status ? this->Join(parts, isCollection, session) : status;
+    return status ? this->Write(session, parts.front()) : status;
+  }
+
+  /// What all processes have made, as one part of the first one.
+  Status Join(std::vector<TrimmedPart>& parts, bool isCollection, Session& session) const
+  {
+    if (parts.empty()) // of processes with nothing to do
+    {
+      parts.resize(1);
+    }
+    if (!isCollection)
+    {
+      session.Report.update(parts.front().Report);
+      return {};
+    }
+    auto own = nlohmann::ordered_json::array();
+    for (const TrimmedPart& part : parts)
+    {
+      if (!part.Report.empty())
+      {
+        own.push_back(part.Report);
+      }
+    }
+    auto all = nlohmann::ordered_json::array();
+    for (const std::string& text : Processes::Collect(own.dump()))
+    {
+      for (auto& part : nlohmann::ordered_json::parse(text))
+      {
+        all.push_back(std::move(part));
+      }
+    }
+    session.Report.update(TotalsOf(all));
+    session.Report["parts"] = std::move(all);
+    TrimmedPart whole;
+    for (std::size_t output = 0; output < NumOutputs; ++output)
+    {
+      const bool isGrid = output == Surfaces || output == Curves;
+      if (output == Numbers || (!isGrid && this->Files[output].empty()))
+      {
+        continue;
+      }
+      auto joined = AppendShares(isGrid ? Grids(parts, output) : Polygons(parts, output));
+      if (!joined)
+      {
+        return joined.Status;
+      }
+      if (Processes::Own() == 0)
+      {
+        whole.Data[output] = joined.Value;
+      }
+    }
+    parts.assign(1, std::move(whole));
+    return Processes::Own() == 0 ? MakeOneModel(parts.front()) : Status();
+  }
+
+  static vtkSmartPointer<vtkDataObject> Grids(
+    const std::vector<TrimmedPart>& parts, std::size_t output)
+  {
+    auto collection = vtkSmartPointer<vtkPartitionedDataSetCollection>::New();
+    // every process has blocks of its own
+    const int first = Processes::SumBefore(static_cast<int>(parts.size()));
+    for (std::size_t i = 0; i < parts.size(); ++i)
+    {
+      if (parts[i].Data[output])
+      {
+        collection->SetPartition(static_cast<unsigned int>(first) + static_cast<unsigned int>(i), 0,
+          vtkDataSet::SafeDownCast(parts[i].Data[output]));
+      }
+    }
+    return collection;
+  }
+
+  static vtkSmartPointer<vtkDataObject> Polygons(
+    const std::vector<TrimmedPart>& parts, std::size_t output)
+  {
+    vtkNew<vtkAppendPolyData> append;
+    for (const TrimmedPart& part : parts)
+    {
+      if (auto* polygons = vtkPolyData::SafeDownCast(part.Data[output]))
+      {
+        append->AddInputData(polygons);
+      }
+    }
+    if (append->GetNumberOfInputConnections(0) == 0)
+    {
+      return vtkSmartPointer<vtkPolyData>::New();
+    }
+    append->Update();
+    return append->GetOutputDataObject(0);
+  }
+
+  /// Faces, edges and bodies of all parts get numbers of their own.
+  static Status MakeOneModel(TrimmedPart& whole)
+  {
+    const auto model = DecodeTrimmedModel(whole.Data[Surfaces], whole.Data[Curves]);
+    if (!model)
+    {
+      return model.Status;
+    }
+    const auto surfaces = vtkSmartPointer<vtkUnstructuredGrid>::New();
+    const auto curves = vtkSmartPointer<vtkUnstructuredGrid>::New();
+    const Status status = EncodeTrimmedModel(model.Value, surfaces, curves);
+    whole.Data[Surfaces] = surfaces;
+    whole.Data[Curves] = curves;
+    return status;
+  }
+
+  static vtkSmartPointer<vtkDataObject> NothingOf(std::size_t output)
+  {
+    if (output == Surfaces || output == Curves)
+    {
+      return vtkSmartPointer<vtkUnstructuredGrid>::New();
+    }
+    return output == Numbers ? vtkSmartPointer<vtkDataObject>(vtkSmartPointer<vtkTable>::New())
+                             : vtkSmartPointer<vtkDataObject>(vtkSmartPointer<vtkPolyData>::New());
+  }
+
+  /// Every file that is asked for.
+  Status Write(Session& session, TrimmedPart& made)
+  {
+    for (std::size_t output = 0; output < NumOutputs; ++output)
+    {
+      if (!made.Data[output]) // in other processes than the first
+      {
+        made.Data[output] = NothingOf(output);
+      }
+    }
+    Status status = HasCADEnding(this->Output)
+      ? this->WriteFaces(made.Data[Surfaces], made.Data[Curves], session)
+      : session.Write(made.Data[Surfaces], this->Output);
+    for (std::size_t output = 0; status && output < NumOutputs; ++output)
+    {
+      if (!this->Files[output].empty())
+      {
+        status = session.Write(made.Data[output], this->Files[output]);
+      }
+    }
+    return status;
+  }
+
+  Status TrimMesh(vtkDataObject* mesh, const std::string& what, Session& session, TrimmedPart& made)
+  {
+    made.Report["analytic"] = false;
+    if (this->Features && !HasPlane(mesh) && this->Files[Flat].empty() &&
+      this->Files[Deviation].empty())
     {
       bool done = false;
-      Status status = this->RunModel(mesh, what, session, done);
+      Status status = this->RunModel(mesh, what, session, made, done);
       if (!status || done)
       {
         return status;
       }
     }
-    session.Report["flatten_method"] = "given";
-    session.Report["fallback"] = false;
-    session.Report["injective"] = true; // else there is no result
-    session.Report["flipped_triangles"] = 0;
+    made.Report["flatten_method"] = "given";
+    made.Report["fallback"] = false;
+    made.Report["injective"] = true; // else there is no result
+    made.Report["flipped_triangles"] = 0;
     std::vector<std::string> warnings; // of the chart; a face that fails says more of it
     if (!HasPlane(mesh))
     {
@@ -91,36 +342,30 @@ struct TrimJob
       {
         return status;
       }
-      ReportFlattening(this->Flatten, "flatten_", session.Report);
+      ReportFlattening(this->Flatten, "flatten_", made.Report);
       mesh = this->Flatten->GetOutputDataObject(0);
-      if (!this->FlatFile.empty())
-      {
-        if (Status status = session.Write(mesh, this->FlatFile); !status)
-        {
-          return status;
-        }
-      }
+      made.Keep(Flat, mesh);
     }
     this->Trim->SetInputDataObject(mesh);
-    this->Trim->SetTriangulation(!this->TriangleFile.empty());
+    this->Trim->SetTriangulation(!this->Files[Triangles].empty());
     this->Trim->SetThreads(session.Threads);
     if (Status status = session.Run(this->Trim, what, Surfaces); !status)
     {
       return status;
     }
     session.Warn(warnings);
-    this->AddNumbers(mesh, session.Report);
-    Status status = asCAD ? this->WriteFaces(this->Trim, session)
-                          : session.Write(this->Trim->GetOutputDataObject(Surfaces), this->Output);
-    return status ? session.WriteOutputs(this->Trim,
-                      { this->TriangleFile, this->SurfaceFile, this->CurveFile, this->DeviationFile,
-                        this->TableFile })
-                  : status;
+    this->AddNumbers(mesh, made.Report);
+    for (const Port port : { Triangles, Surfaces, Curves, Deviation, Numbers })
+    {
+      made.Keep(port, this->Trim->GetOutputDataObject(port));
+    }
+    return {};
   }
 
   /// Planes, cylinders, ... when the mesh is made of such.
   /// @param done  result: false when it is not, and spline faces are to be made.
-  Status RunModel(vtkDataObject* mesh, const std::string& what, Session& session, bool& done)
+  Status RunModel(
+    vtkDataObject* mesh, const std::string& what, Session& session, TrimmedPart& made, bool& done)
   {
     this->Model->SetInputDataObject(mesh);
     this->Model->SetThreads(session.Threads);
@@ -131,33 +376,33 @@ struct TrimJob
     this->Model->SetTimeLimit(this->Trim->GetTimeLimit());
     this->Model->SetMaximumStretch(this->Flatten->GetMaximumStretch());
     std::vector<std::string> warnings;
-    const Status made = session.Run(this->Model, what, Surfaces, &warnings);
+    const Status status = session.Run(this->Model, what, Surfaces, &warnings);
     vtkTable* table = vtkTable::SafeDownCast(this->Model->GetOutputDataObject(NumbersOfModel));
-    done = made && warnings.empty();
+    done = status && warnings.empty();
     if (!done)
     {
       // meshes that are no surface at all are refused there too, with more to say
-      session.Report["why_not_analytic"] = made ? warnings.front() : made.Detail;
-      return made.Code == ErrorCode::Aborted ? made : Status();
+      made.Report["why_not_analytic"] = status ? warnings.front() : status.Detail;
+      return status.Code == ErrorCode::Aborted ? status : Status();
     }
-    session.Report["analytic"] = true;
+    made.Report["analytic"] = true;
     this->WarnOfUnused(session);
-    session.Report["points"] = mesh->GetNumberOfElements(vtkDataObject::POINT);
-    session.Report["triangles"] = mesh->GetNumberOfElements(vtkDataObject::CELL);
-    ReportTruths(table, 0, { "WithinTolerance", "LoopsProved" }, session.Report);
+    made.Report["points"] = mesh->GetNumberOfElements(vtkDataObject::POINT);
+    made.Report["triangles"] = mesh->GetNumberOfElements(vtkDataObject::CELL);
+    ReportTruths(table, 0, { "WithinTolerance", "LoopsProved" }, made.Report);
     ReportRow(table, 0,
       { "Tolerance", "MaxDeviation", "MaxNormalAngle", "MaxSag", "MaxEdgeDistance", "MaxEdgeGap",
         "MinNormalBound", "Area", "MeshArea", "Faces", "Planes", "Cylinders", "Spheres", "Cones",
         "Tori", "Extrusions", "Revolutions", "FreeFaces", "Loops", "Edges", "Lines", "Circles",
         "SharpEdges", "Vertices", "ControlPoints", "Verdict", "LoopVerdict", "SnappedSurfaces",
         "CommonDirections", "CommonPositions", "CommonSizes", "MaxTurn" },
-      session.Report);
-    Status status = HasCADEnding(this->Output)
-      ? this->WriteFaces(this->Model, session)
-      : session.Write(this->Model->GetOutputDataObject(Surfaces), this->Output);
-    return status ? session.WriteOutputs(this->Model,
-                      { this->TriangleFile, this->SurfaceFile, this->CurveFile, this->TableFile })
-                  : status;
+      made.Report);
+    for (const Port port : { Triangles, Surfaces, Curves })
+    {
+      made.Keep(port, this->Model->GetOutputDataObject(port));
+    }
+    made.Keep(Numbers, table);
+    return {};
   }
 
   /// Options that were given and count for charts and nets of splines alone.
@@ -184,16 +429,19 @@ struct TrimJob
   }
 
   /// Writes the file, reads it again and reports what was found in it.
-  /// @param filter  of the surfaces and curves.
-  Status WriteFaces(vtkAlgorithm* filter, Session& session)
+  Status WriteFaces(vtkDataObject* surfaces, vtkDataObject* curves, Session& session)
   {
     CADSummary found;
-    Status status = session.WriteFaces(filter->GetOutputDataObject(Surfaces),
-      filter->GetOutputDataObject(Curves), this->Output, found);
-    if (!status)
+    Status status = session.WriteFaces(surfaces, curves, this->Output, found);
+    if (status && Processes::Own() == 0)
     {
-      return status;
+      status = this->CheckWritten(found, session);
     }
+    return Processes::Agree(status);
+  }
+
+  Status CheckWritten(const CADSummary& found, Session& session) const
+  {
     const double tolerance = session.Report["tolerance"];
     session.Report["brep_valid"] = found.Valid;
     session.Report["max_edge_tolerance"] = found.MaxEdgeTolerance;
@@ -257,20 +505,23 @@ Job Make(CLI::App& app)
   job->App = &app;
   app
     .add_option("mesh", job->Input,
-      "triangle mesh (.off .obj .ply .stl .vtp .vtu); with a point array UV it is used as it is, "
-      "else it is laid into the plane first")
+      "triangle mesh (.off .obj .ply .stl .vtp .vtu), or one in each block of a collection "
+      "(.vtpc); "
+      "with a point array UV it is used as it is, else it is laid into the plane first")
     ->required();
   AddOutput(
     app, "--output", job->Output, Endings::Surfaces, "the trimmed faces, or their surfaces alone")
     ->required();
-  AddOutput(app, "--surface", job->SurfaceFile, Endings::Spline, "the surfaces as Bezier grid");
-  AddOutput(app, "--curves", job->CurveFile, Endings::Grid, "the trimming curves as Bezier grid");
+  AddOutput(app, "--surface", job->Files[Surfaces], Endings::Spline, "the surfaces as Bezier grid");
   AddOutput(
-    app, "--triangles", job->TriangleFile, Endings::Polygons, "the faces as watertight triangles");
+    app, "--curves", job->Files[Curves], Endings::Grid, "the trimming curves as Bezier grid");
+  AddOutput(app, "--triangles", job->Files[Triangles], Endings::Polygons,
+    "the faces as watertight triangles");
   AddOutput(
-    app, "--deviation", job->DeviationFile, Endings::Polygons, "the mesh with its deviation");
-  AddOutput(app, "--flat", job->FlatFile, Endings::Polygons, "the mesh with plane coordinates UV");
-  AddOutput(app, "--table", job->TableFile, Endings::Table, "the numbers");
+    app, "--deviation", job->Files[Deviation], Endings::Polygons, "the mesh with its deviation");
+  AddOutput(
+    app, "--flat", job->Files[Flat], Endings::Polygons, "the mesh with plane coordinates UV");
+  AddOutput(app, "--table", job->Files[Numbers], Endings::Table, "the numbers");
   job->FilterOptions = std::make_unique<Options>(app);
   Options& options = *job->FilterOptions;
   options.Add<bool>(
@@ -293,6 +544,7 @@ Job Make(CLI::App& app)
 }
 
 const JobRegistration Registration{ "trim", "turn a triangle mesh into trimmed spline faces",
-  "shell.off --tolerance 0.01 --output shell.step --report shell.json", Make };
+  "shell.off --tolerance 0.01 --output shell.step --report shell.json", Make,
+  JobProcesses::Several };
 }
 }
