@@ -192,8 +192,8 @@ Job Make(CLI::App& app)
       ".step .iges .stl .off .obj .ply .xyz .txt .csv)")
     ->required();
   AddOutput(app, "--output", job->Output,
-    Endings::Writing(SplineGridContent | SplineCollectionContent | PointContent | PolygonContent |
-      GridContent),
+    Endings::Writing(
+      SplineGridContent | SplineCollectionContent | PointContent | PolygonContent | GridContent),
     "the same data (.vtu .vtp .vtpc .xml .g2 .bext .json .step .iges, points .xyz .txt .csv .g2, "
     "meshes .stl .obj .ply .msh .mesh)")
     ->required();

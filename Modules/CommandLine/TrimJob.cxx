@@ -11,7 +11,9 @@
 #include <knotwork/SurfaceTrimming/vtkTrimmedSurface.h>
 
 #include <vtkAppendPolyData.h>
+#include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPartitionedDataSetCollection.h>
 #include <vtkPointData.h>
@@ -65,19 +67,27 @@ struct TrimmedPart
   }
 };
 
+using Meshes = std::vector<vtkSmartPointer<vtkDataObject>>;
+
 /// The meshes of a file: one, or the blocks of a collection.
-std::vector<vtkSmartPointer<vtkDataObject>> MeshesOf(vtkDataObject* data)
+Result<Meshes> MeshesOf(vtkDataObject* data)
 {
   auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(data);
   if (!collection)
   {
-    return { data };
+    return Meshes{ data };
   }
-  std::vector<vtkSmartPointer<vtkDataObject>> meshes;
+  Meshes meshes;
   for (unsigned int b = 0; b < collection->GetNumberOfPartitionedDataSets(); ++b)
   {
-    meshes.emplace_back(
-      collection->GetNumberOfPartitions(b) > 0 ? collection->GetPartition(b, 0) : nullptr);
+    const unsigned int pieces = collection->GetNumberOfPartitions(b);
+    if (pieces != 1 || !collection->GetPartition(b, 0))
+    {
+      return { pieces > 1 ? ErrorCode::InvalidTopology : ErrorCode::EmptyInput,
+        "block " + std::to_string(b) +
+          (pieces > 1 ? " has several pieces: make one mesh of them" : " is empty: leave it out") };
+    }
+    meshes.emplace_back(collection->GetPartition(b, 0));
   }
   return meshes;
 }
@@ -155,7 +165,11 @@ struct TrimJob
     session.Report["output"] = this->Output;
     this->FilterOptions->Apply(session.Report);
     const bool isCollection = vtkPartitionedDataSetCollection::SafeDownCast(input.Value) != nullptr;
-    const std::vector<vtkSmartPointer<vtkDataObject>> meshes = MeshesOf(input.Value);
+    const auto meshes = MeshesOf(input.Value);
+    if (!meshes)
+    {
+      return { meshes.Status.Code, "'" + this->Input + "': " + meshes.Status.Detail };
+    }
     if (isCollection && !this->Files[Numbers].empty())
     {
       return { ErrorCode::InvalidParameter,
@@ -163,7 +177,7 @@ struct TrimJob
         "each" };
     }
     const Processes::Part own =
-      Processes::PartOf(meshes.size(), Processes::Own(), Processes::Count());
+      Processes::PartOf(meshes->size(), Processes::Own(), Processes::Count());
     std::vector<TrimmedPart> parts(own.End - own.Begin);
     Status status;
     for (std::size_t b = own.Begin; status && b < own.End; ++b)
@@ -171,16 +185,17 @@ struct TrimJob
       const Processes::Alone alone;
       const std::string what =
         "'" + this->Input + "'" + (isCollection ? ", block " + std::to_string(b) : "");
-      status = meshes[b] ? this->TrimMesh(meshes[b], what, session, parts[b - own.Begin])
-                         : Status(ErrorCode::EmptyInput, what + " is empty; leave it out");
+      status = this->TrimMesh(meshes.Value[b], what, session, parts[b - own.Begin]);
     }
     status = Processes::Agree(status);
-    status = status ? this->Join(parts, isCollection, session) : status;
+    status = status ? this->Join(parts, own.Begin, isCollection, session) : status;
     return status ? this->Write(session, parts.front()) : status;
   }
 
   /// What all processes have made, as one part of the first one.
-  Status Join(std::vector<TrimmedPart>& parts, bool isCollection, Session& session) const
+  /// @param first  block that this process has.
+  Status Join(
+    std::vector<TrimmedPart>& parts, std::size_t first, bool isCollection, Session& session) const
   {
     if (parts.empty()) // of processes with nothing to do
     {
@@ -217,51 +232,52 @@ struct TrimJob
       {
         continue;
       }
-      auto joined = AppendShares(isGrid ? Grids(parts, output) : Polygons(parts, output));
+      const auto joined = AppendShares(BlocksOf(parts, first, output));
       if (!joined)
       {
         return joined.Status;
       }
       if (Processes::Own() == 0)
       {
-        whole.Data[output] = joined.Value;
+        whole.Data[output] = isGrid ? joined.Value : AppendBlocks(joined.Value);
       }
     }
     parts.assign(1, std::move(whole));
-    return Processes::Own() == 0 ? MakeOneModel(parts.front()) : Status();
+    return Processes::Agree(Processes::Own() == 0 ? MakeOneModel(parts.front()) : Status());
   }
 
-  static vtkSmartPointer<vtkDataObject> Grids(
-    const std::vector<TrimmedPart>& parts, std::size_t output)
+  /// What this process has made, in the blocks of its meshes.
+  static vtkSmartPointer<vtkPartitionedDataSetCollection> BlocksOf(
+    const std::vector<TrimmedPart>& parts, std::size_t first, std::size_t output)
   {
     auto collection = vtkSmartPointer<vtkPartitionedDataSetCollection>::New();
-    // every process has blocks of its own
-    const int first = Processes::SumBefore(static_cast<int>(parts.size()));
     for (std::size_t i = 0; i < parts.size(); ++i)
     {
-      if (parts[i].Data[output])
+      if (auto* made = vtkDataSet::SafeDownCast(parts[i].Data[output]))
       {
-        collection->SetPartition(static_cast<unsigned int>(first) + static_cast<unsigned int>(i), 0,
-          vtkDataSet::SafeDownCast(parts[i].Data[output]));
+        collection->SetPartition(static_cast<unsigned int>(first + i), 0, made);
       }
     }
     return collection;
   }
 
-  static vtkSmartPointer<vtkDataObject> Polygons(
-    const std::vector<TrimmedPart>& parts, std::size_t output)
+  /// Polygons of all blocks, which a cell array tells: faces are numbered within a block.
+  static vtkSmartPointer<vtkDataObject> AppendBlocks(vtkDataObject* blocks)
   {
+    auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(blocks);
     vtkNew<vtkAppendPolyData> append;
-    for (const TrimmedPart& part : parts)
+    append->AddInputData(vtkNew<vtkPolyData>()); // there may be no block
+    for (unsigned int b = 0; b < collection->GetNumberOfPartitionedDataSets(); ++b)
     {
-      if (auto* polygons = vtkPolyData::SafeDownCast(part.Data[output]))
+      if (auto* polygons = vtkPolyData::SafeDownCast(collection->GetPartition(b, 0)))
       {
+        vtkNew<vtkIntArray> block;
+        block->SetName("Block");
+        block->SetNumberOfValues(polygons->GetNumberOfCells());
+        block->FillValue(static_cast<int>(b));
+        polygons->GetCellData()->AddArray(block);
         append->AddInputData(polygons);
       }
-    }
-    if (append->GetNumberOfInputConnections(0) == 0)
-    {
-      return vtkSmartPointer<vtkPolyData>::New();
     }
     append->Update();
     return append->GetOutputDataObject(0);

@@ -474,6 +474,8 @@ def test_trimmed_parts():
     assert [part["faces"] for part in report["parts"]] == [6, 1, 6] and not report["analytic"]
     assert report["control_points"] == sum(part["control_points"] for part in report["parts"])
     assert report["max_deviation"] == max(part["max_deviation"] for part in report["parts"])
+    blocks = vtk_to_numpy(read(path("trim-4-faces.vtp")).GetCellData().GetArray("Block"))
+    assert set(blocks) == {0, 1, 2}
     assert len(np.unique(vtk_to_numpy(read(path("trim-4-faces.vtu")).GetCellData().GetArray("FaceId")))) == 13
     texts = []
     for processes in (1, 2):
@@ -492,6 +494,9 @@ def test_trimmed_parts():
     broken = write_collection(parts, "broken_meshes.vtpc")
     _, errors = run(2, "trim", broken, "--output", path("never.step"), "--quiet", expect=1)
     assert "block 2" in errors and not os.path.exists(path("never.step")), errors
+    parts.SetPartition(2, 1, box_mesh((0, 5, 0), 1))
+    _, errors = run(2, "trim", write_collection(parts, "pieces.vtpc"), "--output", path("never.step"), "--quiet", expect=1)
+    assert "block 2 has several pieces" in errors, errors
     _, errors = run(1, "trim", meshes, "--output", path("never.step"), "--table", path("never.csv"), expect=1)
     assert "--table" in errors and not os.path.exists(path("never.csv")), errors
 
