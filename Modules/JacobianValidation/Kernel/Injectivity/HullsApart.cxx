@@ -92,8 +92,8 @@ bool FindDirection(const Vector& start, Support&& support, Vector& direction)
 
 bool HullsApart(const PieceMeasures& measures, const PieceCone& first, const PieceCone& second)
 {
-  const SidePiece& a = *first.Piece;
-  const SidePiece& b = *second.Piece;
+  const BoundaryPiece& a = *first.Piece;
+  const BoundaryPiece& b = *second.Piece;
   const int na = first.Lattice->Size;
   const int nb = second.Lattice->Size;
   const double largest = std::max(a.Largest, b.Largest);
@@ -113,7 +113,7 @@ bool HullsApart(const PieceMeasures& measures, const PieceCone& first, const Pie
     return low - high > margin * (1.0 + 1e-9);
   };
   // across flat pieces first, then whatever the search finds
-  for (const SidePiece* node : { &a, &b })
+  for (const BoundaryPiece* node : { &a, &b })
   {
     const CellLattice& lattice = *(node == &a ? first : second).Lattice;
     const auto corner = [&](std::size_t c) { return measures.PointOf(*node, lattice.Corners[c]); };
@@ -142,7 +142,7 @@ bool HullsApart(const PieceMeasures& measures, const PieceCone& first, const Pie
         std::numeric_limits<double>::infinity() };
       for (int k = 0; k < 2; ++k)
       {
-        const SidePiece& node = k == 0 ? a : b;
+        const BoundaryPiece& node = k == 0 ? a : b;
         for (int i = 0; i < (k == 0 ? na : nb); ++i)
         {
           const Vector x = measures.PointOf(node, i);
@@ -162,14 +162,14 @@ bool HullsApart(const PieceMeasures& measures, const PieceCone& first, const Pie
 
 bool ConesApart(const PieceMeasures& measures, const std::array<PieceCone, 2>& cones)
 {
-  const SidePiece& a = *cones[0].Piece;
-  const SidePiece& b = *cones[1].Piece;
+  const BoundaryPiece& a = *cones[0].Piece;
+  const BoundaryPiece& b = *cones[1].Piece;
   const double largest = std::max(a.Largest, b.Largest);
   const double error = 2.0 * std::max(a.Hull.Error, b.Hull.Error) + 4.0 * UnitRoundoff * largest;
   std::vector<Vector> vectors;
   for (std::size_t k = 0; k < 2; ++k)
   {
-    const SidePiece& node = *cones[k].Piece;
+    const BoundaryPiece& node = *cones[k].Piece;
     const CellLattice& lattice = *cones[k].Lattice;
     const int at = lattice.Corners[static_cast<std::size_t>(cones[k].Corner)];
     const Vector corner = measures.PointOf(node, at);

@@ -9,7 +9,7 @@ namespace knotwork
 struct PieceCone
 {
   const CellLattice* Lattice;
-  const SidePiece* Piece;
+  const BoundaryPiece* Piece;
   int Corner;
 };
 

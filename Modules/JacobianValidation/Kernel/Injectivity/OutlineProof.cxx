@@ -55,7 +55,7 @@ bool HasPositiveProjection(const PieceMeasures& measures, const DiskFacet& facet
   const Vector& alpha, const Vector& beta, double orientation)
 {
   const CellLattice& lattice = *facet.Lattice;
-  const SidePiece& node = *facet.Piece;
+  const BoundaryPiece& node = *facet.Piece;
   const double* data = node.Piece.Data.data();
   const int n = lattice.Size;
   const std::size_t size = static_cast<std::size_t>(n);
@@ -110,7 +110,7 @@ bool HasPositiveProjection(const PieceMeasures& measures, const DiskFacet& facet
 struct OutlineEdge
 {
   CellLattice Lattice;
-  SidePiece Curve; ///< third coordinate 0
+  BoundaryPiece Curve; ///< third coordinate 0
   std::array<int, 2> Corners{};
 };
 
@@ -129,7 +129,7 @@ bool ProjectEdge(const PieceMeasures& measures, const DiskFacet& facet, int numb
   const Projection& plane, OutlineEdge& edge)
 {
   const CellLattice& lattice = *facet.Lattice;
-  const SidePiece& node = *facet.Piece;
+  const BoundaryPiece& node = *facet.Piece;
   const auto ends = SideEdge(lattice.Shape, number);
   const int first = lattice.Corners[static_cast<std::size_t>(ends[0])];
   const int last = lattice.Corners[static_cast<std::size_t>(ends[1])];

@@ -9,7 +9,7 @@ namespace knotwork
 struct DiskFacet
 {
   const CellLattice* Lattice; ///< of its side
-  const SidePiece* Piece;
+  const BoundaryPiece* Piece;
   int Edge;                ///< that it shares with the other one, or -1
   std::array<int, 2> Ends; ///< corners of that edge, in an order that both have in common
 };

@@ -27,7 +27,7 @@ bool IsMonotone(const FunctionalRange& ss, const FunctionalRange& st, const Func
 }
 }
 
-bool HasChart(const PieceMeasures& measures, const CellLattice& lattice, const SidePiece& a)
+bool HasChart(const PieceMeasures& measures, const CellLattice& lattice, const BoundaryPiece& a)
 {
   const CellShape shape = lattice.Shape;
   if (shape == CellShape::Curve)
@@ -63,7 +63,7 @@ bool HasChart(const PieceMeasures& measures, const CellLattice& lattice, const S
 }
 
 bool HaveChart(const PieceMeasures& measures, const std::array<const CellLattice*, 2>& lattices,
-  const PieceRelation& relation, const SidePiece& a, const SidePiece& b)
+  const PieceRelation& relation, const BoundaryPiece& a, const BoundaryPiece& b)
 {
   const CellShape shapes[2] = { lattices[0]->Shape, lattices[1]->Shape };
   std::array<int, 2> ends[2] = { SideEdge(shapes[0], relation.A), SideEdge(shapes[1], relation.B) };
@@ -135,7 +135,7 @@ bool HaveChart(const PieceMeasures& measures, const std::array<const CellLattice
   for (int end = 0; end < 2 && quadrilaterals; ++end)
   {
     int pole[2] = { -1, -1 };
-    const SidePiece* nodes[2] = { &a, &b };
+    const BoundaryPiece* nodes[2] = { &a, &b };
     const int edges[2] = { relation.A, relation.B };
     for (int k = 0; k < 2; ++k)
     {

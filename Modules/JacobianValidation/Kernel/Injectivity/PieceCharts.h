@@ -8,10 +8,10 @@
 namespace knotwork
 {
 /// One piece: monotone after a linear projection, so one-to-one.
-bool HasChart(const PieceMeasures& measures, const CellLattice& lattice, const SidePiece& a);
+bool HasChart(const PieceMeasures& measures, const CellLattice& lattice, const BoundaryPiece& a);
 
 /// Two pieces with a common edge: one chart over both, the second unfolded to the other side.
 /// @param lattices  of a and b.
 bool HaveChart(const PieceMeasures& measures, const std::array<const CellLattice*, 2>& lattices,
-  const PieceRelation& relation, const SidePiece& a, const SidePiece& b);
+  const PieceRelation& relation, const BoundaryPiece& a, const BoundaryPiece& b);
 }

@@ -12,8 +12,8 @@ namespace
 using Vector = Eigen::Vector3d;
 }
 
-PieceHalf MakeHalf(const PieceMeasures& measures, const CellLattice& lattice, const SidePiece& node,
-  int apex, int along)
+PieceHalf MakeHalf(const PieceMeasures& measures, const CellLattice& lattice,
+  const BoundaryPiece& node, int apex, int along)
 {
   const std::size_t ud = (apex ^ along) == 1 ? 0 : 1;
   const std::size_t vd = 1 - ud;

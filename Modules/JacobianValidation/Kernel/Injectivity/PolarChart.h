@@ -10,7 +10,7 @@ namespace knotwork
 struct PolarPiece
 {
   const CellLattice* Lattice;
-  const SidePiece* Piece;
+  const BoundaryPiece* Piece;
   int From;
   int To;
 };
@@ -19,15 +19,15 @@ struct PolarPiece
 struct PieceHalf
 {
   CellLattice Lattice;
-  SidePiece Piece;
+  BoundaryPiece Piece;
 };
 
 /// The half between the edge from the apex to the corner `along` and the diagonal, as the piece
 /// S(t, s t): s from that edge to the diagonal, t from the apex, which is the edge t = 0.
 /// Coefficients are means of those of S: B_j^q(s t) = sum over m of B_m^q(t) times the polynomial
 /// with the coefficients C(m, j) C(q - m, a - j) / C(q, a).
-PieceHalf MakeHalf(const PieceMeasures& measures, const CellLattice& lattice, const SidePiece& node,
-  int apex, int along);
+PieceHalf MakeHalf(const PieceMeasures& measures, const CellLattice& lattice,
+  const BoundaryPiece& node, int apex, int along);
 
 /// S - P = t R. The chart is (beta R / alpha R, alpha (S - P)): a projective one, regular at P.
 bool HavePolarChart(const PieceMeasures& measures, const std::vector<PolarPiece>& pieces);

@@ -10,7 +10,7 @@ namespace
 using Vector = Eigen::Vector3d;
 }
 
-Vector PieceMeasures::Centre(const SidePiece& node) const
+Vector PieceMeasures::Centre(const BoundaryPiece& node) const
 {
   Vector c = Vector::Zero();
   for (std::size_t d = 0; d < static_cast<std::size_t>(this->Input.NumComponents); ++d)
@@ -20,14 +20,15 @@ Vector PieceMeasures::Centre(const SidePiece& node) const
   return c;
 }
 
-bool PieceMeasures::IsOnePoint(const SidePiece& node, int i, int j) const
+bool PieceMeasures::IsOnePoint(const BoundaryPiece& node, int i, int j) const
 {
   return this->Input.CollapseTolerance > 0.0 &&
     (this->PointOf(node, i) - this->PointOf(node, j)).cwiseAbs().maxCoeff() <=
     std::min(node.Size * 1e-6, this->CollapseDistance(node.Largest));
 }
 
-bool PieceMeasures::IsCollapsed(const CellLattice& lattice, const SidePiece& node, int edge) const
+bool PieceMeasures::IsCollapsed(
+  const CellLattice& lattice, const BoundaryPiece& node, int edge) const
 {
   const auto ends = SideEdge(lattice.Shape, edge);
   const double tolerance = std::min(node.Size * 1e-6, this->CollapseDistance(node.Largest));
@@ -52,7 +53,7 @@ bool PieceMeasures::IsCollapsed(const CellLattice& lattice, const SidePiece& nod
   return false;
 }
 
-void PieceMeasures::Complete(const CellLattice& lattice, SidePiece& node) const
+void PieceMeasures::Complete(const CellLattice& lattice, BoundaryPiece& node) const
 {
   node.Hull = MakeHull(lattice, this->Input.NumComponents, this->Input.Rational, node.Piece);
   for (std::size_t d = 0; d < static_cast<std::size_t>(this->Input.NumComponents); ++d)
@@ -64,7 +65,7 @@ void PieceMeasures::Complete(const CellLattice& lattice, SidePiece& node) const
 }
 
 PieceSlopes PieceMeasures::MakeSlopes(
-  const CellLattice& lattice, const SidePiece& node, int from, int to) const
+  const CellLattice& lattice, const BoundaryPiece& node, int from, int to) const
 {
   PieceSlopes slopes;
   slopes.Of = &node;
@@ -143,7 +144,7 @@ FunctionalRange PieceMeasures::RangeOf(const Vector& functional, const PieceSlop
   return range;
 }
 
-PieceTurn PieceMeasures::FindTurn(const CellLattice& lattice, const SidePiece& node) const
+PieceTurn PieceMeasures::FindTurn(const CellLattice& lattice, const BoundaryPiece& node) const
 {
   if (lattice.Shape != CellShape::Quadrilateral)
   {
@@ -196,7 +197,7 @@ PieceTurn PieceMeasures::FindTurn(const CellLattice& lattice, const SidePiece& n
   return most;
 }
 
-bool PieceMeasures::IsMonotoneCurve(const SidePiece& a) const
+bool PieceMeasures::IsMonotoneCurve(const BoundaryPiece& a) const
 {
   const int n = static_cast<int>(a.Hull.Points.size()) / a.Hull.NumComponents;
   const Vector along = this->PointOf(a, n - 1) - this->PointOf(a, 0);

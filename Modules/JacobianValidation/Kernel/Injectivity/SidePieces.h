@@ -14,7 +14,7 @@ namespace knotwork
 inline constexpr double UnitRoundoff = 0x1p-53;
 
 /// A piece of a side with what the tests need, and its halves once it was bisected.
-struct SidePiece
+struct BoundaryPiece
 {
   CellPiece Piece;
   PieceHull Hull;
@@ -54,7 +54,7 @@ struct PieceSlopes
   std::vector<Eigen::Vector3d> Differences;
   double WeightSlope = 0.0;
   double Rounding = 0.0; ///< of each coordinate
-  const SidePiece* Of = nullptr;
+  const BoundaryPiece* Of = nullptr;
   Eigen::Vector3d Mean = Eigen::Vector3d::Zero();
 };
 
@@ -72,7 +72,7 @@ public:
   explicit PieceMeasures(const SeparationInput& input) : Input(input) {}
 
   int NumPlanes() const { return this->Input.NumComponents + (this->Input.Rational ? 1 : 0); }
-  Eigen::Vector3d PointOf(const SidePiece& node, int i) const
+  Eigen::Vector3d PointOf(const BoundaryPiece& node, int i) const
   {
     Eigen::Vector3d x = Eigen::Vector3d::Zero();
     const double* p = node.Hull.Point(i);
@@ -82,30 +82,31 @@ public:
     }
     return x;
   }
-  Eigen::Vector3d Centre(const SidePiece& node) const;
+  Eigen::Vector3d Centre(const BoundaryPiece& node) const;
   /// @param largest  coordinate, of the moved sides.
   double CollapseDistance(double largest) const
   {
     return this->Input.CollapseTolerance * std::max(largest, this->Input.Distance);
   }
   /// Control points that rounding alone tells apart are one point.
-  bool IsOnePoint(const SidePiece& node, int i, int j) const;
+  bool IsOnePoint(const BoundaryPiece& node, int i, int j) const;
   /// Whether an edge is one point.
-  bool IsCollapsed(const CellLattice& lattice, const SidePiece& node, int edge) const;
+  bool IsCollapsed(const CellLattice& lattice, const BoundaryPiece& node, int edge) const;
   /// Hull and sizes of a piece.
-  void Complete(const CellLattice& lattice, SidePiece& node) const;
-  PieceSlopes MakeSlopes(const CellLattice& lattice, const SidePiece& node, int from, int to) const;
+  void Complete(const CellLattice& lattice, BoundaryPiece& node) const;
+  PieceSlopes MakeSlopes(
+    const CellLattice& lattice, const BoundaryPiece& node, int from, int to) const;
   FunctionalRange RangeOf(const Eigen::Vector3d& functional, const PieceSlopes& slopes) const;
   /// The direction in which the normals at the corners turn most, or -1 where they are nearly one.
   /// A face that turns in a narrow strip is cut along the strip, however long that is. Triangles
   /// are best kept equilateral.
-  PieceTurn FindTurn(const CellLattice& lattice, const SidePiece& node) const;
+  PieceTurn FindTurn(const CellLattice& lattice, const BoundaryPiece& node) const;
   /// A curve whose control points, projected to its chord, follow each other: it is one-to-one. The
   /// numerator of (f / w)' = (f' w - f w') / w^2 is a sum over i > k of non-negative Bernstein
   /// polynomials times (i - k) w_i w_k (x_i - x_k), x the projected points. Neighbours that are one
   /// point add nothing: the curve stands still at its end there, and goes on inside as long as some
   /// follow each other.
-  bool IsMonotoneCurve(const SidePiece& a) const;
+  bool IsMonotoneCurve(const BoundaryPiece& a) const;
 
   const SeparationInput& Input;
 };

@@ -61,8 +61,8 @@ public:
         return result;
       }
       const bool same = this->SideA == this->SideB && pair[0] == pair[1];
-      const SidePiece& a = this->NodeOf(0, pair[0]);
-      const SidePiece& b = this->NodeOf(1, pair[1]);
+      const BoundaryPiece& a = this->NodeOf(0, pair[0]);
+      const BoundaryPiece& b = this->NodeOf(1, pair[1]);
       PieceRelation relation;
       if (same)
       {
@@ -84,7 +84,7 @@ public:
         64.0 * (a.Hull.Error + b.Hull.Error) + 64.0 * UnitRoundoff * std::max(a.Largest, b.Largest);
       const bool splitA =
         same || relation.Longer == 0 || (relation.Longer < 0 && this->IsFirstToCut(relation, a, b));
-      const SidePiece& larger = splitA ? a : b;
+      const BoundaryPiece& larger = splitA ? a : b;
       if (tooSmall || larger.Piece.Depth >= largestDepth)
       {
         result.State = SeparationState::Stuck;
@@ -115,22 +115,23 @@ public:
   }
 
 private:
-  const SidePiece& NodeOf(int k, int index) const
+  const BoundaryPiece& NodeOf(int k, int index) const
   {
     return *this->Pool[this->Which[k]][static_cast<std::size_t>(index)];
   }
   const CellLattice& LatticeOf(int k) const { return *this->Lattice[static_cast<std::size_t>(k)]; }
 
-  std::unique_ptr<SidePiece> MakeNode(int k, CellPiece piece) const
+  std::unique_ptr<BoundaryPiece> MakeNode(int k, CellPiece piece) const
   {
-    auto node = std::make_unique<SidePiece>();
+    auto node = std::make_unique<BoundaryPiece>();
     node->Piece = std::move(piece);
     this->Measures.Complete(this->LatticeOf(k), *node);
     return node;
   }
 
   /// Of two pieces the one whose normals turn more, if that is what is in the way, else the larger.
-  bool IsFirstToCut(const PieceRelation& relation, const SidePiece& a, const SidePiece& b) const
+  bool IsFirstToCut(
+    const PieceRelation& relation, const BoundaryPiece& a, const BoundaryPiece& b) const
   {
     if (relation.What == PieceRelation::Edge)
     {
@@ -155,7 +156,7 @@ private:
   std::array<int, 2> Split(int k, int index, int edge, bool turns)
   {
     auto& pool = this->Pool[this->Which[k]];
-    SidePiece& node = *pool[static_cast<std::size_t>(index)];
+    BoundaryPiece& node = *pool[static_cast<std::size_t>(index)];
     if (node.Children[0] < 0)
     {
       const CellLattice& lattice = this->LatticeOf(k);
@@ -198,7 +199,7 @@ private:
     for (int k = 0; k < 2; ++k)
     {
       const std::size_t at = static_cast<std::size_t>(k);
-      const SidePiece& node = this->NodeOf(k, pair[at]);
+      const BoundaryPiece& node = this->NodeOf(k, pair[at]);
       const int corners = NumCorners(this->LatticeOf(k).Shape);
       for (std::size_t d = 0; d < 2; ++d)
       {
@@ -212,7 +213,7 @@ private:
     }
   }
 
-  bool BoxesMeet(const SidePiece& a, const SidePiece& b) const
+  bool BoxesMeet(const BoundaryPiece& a, const BoundaryPiece& b) const
   {
     for (std::size_t d = 0; d < static_cast<std::size_t>(this->Measures.Input.NumComponents); ++d)
     {
@@ -224,7 +225,8 @@ private:
     return true;
   }
 
-  bool IsSeparate(const PieceRelation& relation, const SidePiece& a, const SidePiece& b) const
+  bool IsSeparate(
+    const PieceRelation& relation, const BoundaryPiece& a, const BoundaryPiece& b) const
   {
     if (!std::isfinite(a.Hull.Error) || !std::isfinite(b.Hull.Error))
     {
@@ -253,7 +255,7 @@ private:
   int Which[2] = { 0, 1 };
   std::array<const CellLattice*, 2> Lattice;
   PieceContacts Contacts;
-  std::vector<std::unique_ptr<SidePiece>> Pool[2];
+  std::vector<std::unique_ptr<BoundaryPiece>> Pool[2];
 };
 }
 
