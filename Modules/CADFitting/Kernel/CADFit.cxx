@@ -535,10 +535,13 @@ private:
     std::vector<char> held(At(this->Space->NumFunctions), 0);
     if constexpr (Dim == 3)
     {
-      const auto whole = TraceOnFacets(*this->Space, BoundaryFacets<3>(this->Topology));
-      for (const int function : whole->Functions)
+      if (this->IsPart)
       {
-        held[At(function)] = HeldFast;
+        const auto whole = TraceOnFacets(*this->Space, BoundaryFacets<3>(this->Topology));
+        for (const int function : whole->Functions)
+        {
+          held[At(function)] = HeldFast;
+        }
       }
       const auto trace = TraceOnFacets(*this->Space, this->Surface.Facets);
       for (const int function : trace->Functions)

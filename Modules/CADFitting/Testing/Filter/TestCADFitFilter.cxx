@@ -90,6 +90,47 @@ TEST(vtkCADFit, SplineIsThatOfTheKernel_CrossOracle)
     Number(filter, "MaxDistanceBack"));
 }
 
+TEST(vtkCADFit, FitArrayChoosesCells_CrossOracle)
+{
+  const auto mesh = fits::Sphere(4);
+  CADFitParams params;
+  params.Space.Degree = 2;
+  vtkNew<vtkDoubleArray> chosen;
+  chosen->SetName("Chosen");
+  for (int c = 0; c < mesh.Mesh.NumCells(); ++c)
+  {
+    const bool isUp = mesh.Points(mesh.Mesh.Cell(c)[0], 2) > 0.2;
+    params.FittedCells.push_back(isUp ? 1 : 0);
+    chosen->InsertNextValue(isUp ? -0.5 : 0.0);
+  }
+  const auto expected =
+    FitToTarget<2>(mesh.Mesh, mesh.Points, fits::Ellipsoid(1.05, 1.05, 1.05), params);
+  ASSERT_TRUE(expected) << expected.Status.Message();
+  const auto input = SphereMesh(4);
+  input->GetCellData()->AddArray(chosen);
+  vtkNew<vtkSphere> sphere;
+  sphere->SetRadius(1.05);
+  vtkNew<vtkCADFit> filter;
+  filter->SetInputDataObject(input);
+  filter->SetTargetType(vtkCADFit::IMPLICIT_FUNCTION);
+  filter->SetImplicitFunction(sphere);
+  filter->SetDegree(2);
+  filter->SetFitArray("Chosen");
+  filter->Update();
+  const SplineModel model = DecodePatches(filter->GetOutputDataObject(0));
+  const auto& found = std::get<Spline<2>>(model.Patches.at(0).Geometry);
+  EXPECT_LE((found.ControlPoints - expected->Value.ControlPoints).cwiseAbs().maxCoeff(), 1e-11);
+  EXPECT_EQ(Number(filter, "RmsDistanceBack"), -1.0);
+  filter->SetFitArray("None");
+  filter->Update();
+  EXPECT_GE(Number(filter, "RmsDistanceBack"), 0.0);
+  filter->SetFitArray("Unknown");
+  ExpectFailure(filter, ErrorCode::InvalidParameter, "no cell array 'Unknown'");
+  chosen->Fill(0.0);
+  filter->SetFitArray("Chosen");
+  ExpectFailure(filter, ErrorCode::InvalidParameter, "no cell is to be fitted");
+}
+
 TEST(vtkCADFit, HexahedraOntoTriangles_ExactOracle)
 {
   vtkNew<vtkCADFit> filter;
