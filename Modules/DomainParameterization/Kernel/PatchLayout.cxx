@@ -60,12 +60,10 @@ Result<CompatibleLayout<Dim>> MakeCompatible(const SideList<Dim>& sides,
   return status ? Result<CompatibleLayout<Dim>>(std::move(assembly.Out)) : status;
 }
 
-#define KNOTWORK_INSTANTIATE(Dim)                                                                  \
-  template Result<CompatibleLayout<Dim>> MakeCompatible<Dim>(                                      \
-    const SideList<Dim>&, const std::array<SideOrigin, 2 * Dim>&, const BoundaryParams&);          \
-  template Result<CompatibleLayout<Dim>> MakeCompatible<Dim>(                                      \
-    const PatchLayout<Dim>&, const LayoutParams&);
-KNOTWORK_INSTANTIATE(2)
-KNOTWORK_INSTANTIATE(3)
-#undef KNOTWORK_INSTANTIATE
+template Result<CompatibleLayout<2>> MakeCompatible(
+  const SideList<2>&, const std::array<SideOrigin, 4>&, const BoundaryParams&);
+template Result<CompatibleLayout<3>> MakeCompatible(
+  const SideList<3>&, const std::array<SideOrigin, 6>&, const BoundaryParams&);
+template Result<CompatibleLayout<2>> MakeCompatible(const PatchLayout<2>&, const LayoutParams&);
+template Result<CompatibleLayout<3>> MakeCompatible(const PatchLayout<3>&, const LayoutParams&);
 }

@@ -40,13 +40,6 @@ VectorArray<double> PackRows(const Eigen::Ref<const Eigen::MatrixXd>& panel, Ind
   return packed;
 }
 
-/// Vectors among numbers: std::memcpy goes by way of the stack, and waits for it.
-template <int Width>
-struct InMemory
-{
-  typedef double Type __attribute__((vector_size(Width * sizeof(double)), may_alias));
-};
-
 /// Products of a group of rows with one of columns, as many of these at a time as the processor has
 /// registers for. Each is summed in the order of the panel's columns.
 template <int Width>
@@ -63,7 +56,7 @@ inline void MultiplyBlock(const double* rows, const double* columns, Index depth
       Vector row[Vectors];
       for (int v = 0; v < Vectors; ++v)
       {
-        row[v] = *reinterpret_cast<const typename InMemory<Width>::Type*>(
+        row[v] = *reinterpret_cast<const typename DoublesInMemory<Width>::Type*>(
           rows + k * BlockRows + v * Width);
       }
       for (int c = 0; c < AtOnce; ++c)

@@ -19,12 +19,6 @@ struct Words
   typedef std::uint64_t Type __attribute__((vector_size(Width * sizeof(std::uint64_t)), may_alias));
 };
 template <int Width>
-struct InMemory
-{
-  typedef double Type __attribute__((vector_size(Width * sizeof(double)), may_alias));
-};
-
-template <int Width>
 inline void Fill(Doubles<Width>& all, double value)
 {
   all = Doubles<Width>{} + value;
@@ -77,7 +71,7 @@ inline void Logarithm(Doubles<Width>& x)
 template <int Width>
 inline void Phi(const double* x, const double* y, double u, double v, Doubles<Width>& value)
 {
-  using Vector = typename InMemory<Width>::Type;
+  using Vector = typename DoublesInMemory<Width>::Type;
   const Doubles<Width> dx = *reinterpret_cast<const Vector*>(x) - u;
   const Doubles<Width> dy = *reinterpret_cast<const Vector*>(y) - v;
   const Doubles<Width> square = dx * dx + dy * dy;
@@ -132,7 +126,7 @@ void RadialKernel::Sums(double u, double v, double* sums) const
     {
       constexpr int Width = decltype(vector)::value;
       constexpr int Vectors = static_cast<int>(Block) / Width;
-      using Vector = typename InMemory<Width>::Type;
+      using Vector = typename DoublesInMemory<Width>::Type;
       Doubles<Width> all[MaxComponents][Vectors] = {};
       const std::size_t padded = this->X.size();
       for (std::size_t i = 0; i < padded; i += Block)

@@ -31,6 +31,14 @@ struct DoublesOf
 template <int Width>
 using Doubles = typename DoublesOf<Width>::Type;
 
+/// The same where arrays of numbers are: read and written by way of a pointer to it, aligned as
+/// VectorArray is. (std::memcpy goes by way of the stack, and waits for it.)
+template <int Width>
+struct DoublesInMemory
+{
+  typedef double Type __attribute__((vector_size(Width * sizeof(double)), may_alias));
+};
+
 /// Allocates so that code for any vectors may load and store them: without AVX the compiler takes
 /// 16 bytes for their alignment.
 template <typename T>
