@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pieces of sides and what is measured on them; private to the separation of sides.
 #pragma once
+#include "RoundingBound.h"
 #include "SideSeparation.h"
 
 #include <Eigen/Core>
@@ -11,8 +12,6 @@
 
 namespace knotwork
 {
-inline constexpr double UnitRoundoff = 0x1p-53;
-
 /// A piece of a side with what the tests need, and its halves once it was bisected.
 struct BoundaryPiece
 {
