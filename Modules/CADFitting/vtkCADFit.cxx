@@ -295,6 +295,11 @@ Status FitMesh(vtkPointSet* data, const DecodedMeshCells& decoded, const CellMes
   EncodeEntities(fit->Distances, outputs.Entities);
   EncodePoints(fit.Value, outputs);
   warnings = Warnings(fit.Value);
+  if (!target && !choices.Fit.FittedCells.empty())
+  {
+    warnings.push_back("the cell array '" + choices.FitArray +
+      "' does not count: there is no target that its cells could be fitted to");
+  }
   return {};
 }
 }

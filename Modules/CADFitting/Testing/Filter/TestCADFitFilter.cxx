@@ -126,8 +126,17 @@ TEST(vtkCADFit, FitArrayChoosesCells_CrossOracle)
   EXPECT_GE(Number(filter, "RmsDistanceBack"), 0.0);
   filter->SetFitArray("Unknown");
   ExpectFailure(filter, ErrorCode::InvalidParameter, "no cell array 'Unknown'");
-  chosen->Fill(0.0);
   filter->SetFitArray("Chosen");
+  filter->SetTargetType(vtkCADFit::INPUT); // without a target
+  vtkNew<MessageRecorder> messages;
+  messages->Watch(filter);
+  filter->Update();
+  ASSERT_EQ(messages->Warnings.size(), 1u);
+  EXPECT_NE(messages->Warnings.front().find("'Chosen' does not count"), std::string::npos);
+  filter->SetTargetType(vtkCADFit::IMPLICIT_FUNCTION);
+  chosen->Fill(0.0);
+  chosen->Modified();
+  input->Modified();
   ExpectFailure(filter, ErrorCode::InvalidParameter, "no cell is to be fitted");
 }
 
