@@ -732,7 +732,7 @@ Status HexMesher::MeshRoot(const std::vector<SolidSweep>& pending)
     if (this->QuadsOfFaces[At(face)].empty())
     {
       const FaceMethod method =
-        this->Faces.Corners(face).empty() ? FaceMethod::Paved : FaceMethod::GridIfGood;
+        this->Faces.Kind(face) == FaceShapeKind::Other ? FaceMethod::Paved : FaceMethod::GridIfGood;
       if (Status meshed = this->MeshFace(face, method); !meshed)
       {
         return meshed;
@@ -946,7 +946,7 @@ Result<CADHexes> HexMesher::Run()
   {
     return wishes.Status;
   }
-  this->Faces.FindRectangles();
+  this->Faces.FindShapes();
   auto sweeps = ChooseSweeps(this->Model, this->Faces);
   if (!sweeps)
   {
@@ -970,8 +970,8 @@ Result<CADHexes> HexMesher::Run()
   }
   for (int round = 0;; ++round)
   {
-    std::vector<RectangleFace> none;
-    auto divided = DivideEdges(this->Model, wishes.Value, required, none);
+    std::vector<RectangleFace> rings = this->Faces.Rings();
+    auto divided = DivideEdges(this->Model, wishes.Value, required, rings);
     if (!divided)
     {
       return divided.Status;

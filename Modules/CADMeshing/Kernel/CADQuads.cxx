@@ -30,6 +30,7 @@ public:
 
 private:
   Status CheckMapped() const;
+  void FindMapped(const std::vector<RectangleFace>& equal);
   Status MeshFaces(const EdgeNodes& nodes, std::vector<int>& poor);
   void Measure(CADQuads& made) const;
   Status Check(const CADQuads& made) const;
@@ -44,15 +45,34 @@ Status QuadMesher::CheckMapped() const
 {
   for (int face = 0; face < static_cast<int>(this->Model.Faces.size()); ++face)
   {
-    if (this->Params.Method == CADQuadMethod::Mapped && this->Faces.Corners(face).empty())
+    if (this->Params.Method == CADQuadMethod::Mapped &&
+      this->Faces.Kind(face) == FaceShapeKind::Other)
     {
       return { ErrorCode::InvalidTopology,
         FaceName(this->Model, face) +
-          " is not mapped: its boundary is no loop with four corners; split it (cadmodify) or "
-          "take Method automatic" };
+          " is not mapped: its boundary is neither a loop with up to six corners, but for one, nor "
+          "a "
+          "ring; split it (cadmodify) or take Method automatic" };
     }
   }
   return {};
+}
+
+/// Rectangles and rings whose opposite sides have as many segments, and others that need not.
+void QuadMesher::FindMapped(const std::vector<RectangleFace>& equal)
+{
+  this->IsMapped.clear();
+  for (int face = 0; face < static_cast<int>(this->Model.Faces.size()); ++face)
+  {
+    const FaceShapeKind kind = this->Faces.Kind(face);
+    this->IsMapped.push_back(this->Params.Method != CADQuadMethod::Unstructured &&
+      (kind == FaceShapeKind::Polygon || kind == FaceShapeKind::Segment ||
+        kind == FaceShapeKind::Disc));
+  }
+  for (const RectangleFace& one : equal)
+  {
+    this->IsMapped[At(one.Face)] = true;
+  }
 }
 
 /// @param poor  result: faces whose quadrilaterals are none or bad.
@@ -219,35 +239,34 @@ Result<CADQuads> QuadMesher::Run()
   {
     return wishes.Status;
   }
-  this->Faces.FindRectangles();
+  this->Faces.FindShapes();
   if (Status status = this->CheckMapped(); !status)
   {
     return status;
   }
-  const std::vector<RectangleFace> rectangles = this->Params.Method == CADQuadMethod::Unstructured
-    ? std::vector<RectangleFace>()
-    : this->Faces.Rectangles();
-  for (const RectangleFace& rectangle : rectangles)
+  std::vector<RectangleFace> sides; ///< opposite ones have as many segments
+  if (this->Params.Method != CADQuadMethod::Unstructured)
   {
-    this->Faces.RaiseWishes(rectangle, wishes.Value);
+    sides = this->Faces.Rectangles();
+    for (const RectangleFace& rectangle : sides)
+    {
+      this->Faces.RaiseWishes(rectangle, wishes.Value);
+    }
+    sides.insert(sides.end(), this->Faces.Rings().begin(), this->Faces.Rings().end());
   }
   for (int round = 0;; ++round)
   {
-    std::vector<RectangleFace> mapped = rectangles;
+    std::vector<RectangleFace> mapped = sides;
     auto divided = DivideEdges(this->Model, wishes.Value, {}, mapped);
     if (!divided)
     {
       return divided.Status;
     }
     const EdgeNodes nodes(this->Model, std::move(divided.Value));
-    this->IsMapped.assign(this->Model.Faces.size(), false);
-    for (const RectangleFace& rectangle : mapped)
+    this->FindMapped(mapped);
+    const auto left = std::find(this->IsMapped.begin(), this->IsMapped.end(), false);
+    if (this->Params.Method == CADQuadMethod::Mapped && left != this->IsMapped.end())
     {
-      this->IsMapped[At(rectangle.Face)] = true;
-    }
-    if (this->Params.Method == CADQuadMethod::Mapped && mapped.size() < this->Model.Faces.size())
-    {
-      const auto left = std::find(this->IsMapped.begin(), this->IsMapped.end(), false);
       return { ErrorCode::InvalidTopology,
         FaceName(this->Model, static_cast<int>(left - this->IsMapped.begin())) +
           " is not mapped: its opposite sides cannot have as many segments; lower EdgeLength or "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FaceMesher.h"
 
+#include "FaceGrids.h"
 #include <knotwork/SplineCore/SizeLimit.h>
 
 #include <Eigen/Geometry>
@@ -80,36 +81,43 @@ Result<std::vector<int>> FaceMesher::Wishes(const char* option) const
   return wishes;
 }
 
-void FaceMesher::FindRectangles()
+void FaceMesher::FindShapes()
 {
-  this->CornersOfFaces.resize(this->Model.Faces.size());
   for (int face = 0; face < static_cast<int>(this->Model.Faces.size()); ++face)
   {
     this->Charts.emplace_back(this->Model, face);
-    const std::vector<int> corners = RectangleCorners(this->Model, this->Charts.back());
-    if (corners.empty())
+    this->Shapes.push_back(ShapeOf(this->Model, this->Charts.back()));
+    RectangleFace sides;
+    sides.Face = face;
+    const auto add = [&](std::size_t side, const std::vector<CADTopologyUse>& uses)
     {
-      continue;
-    }
-    this->CornersOfFaces[At(face)] = corners;
-    RectangleFace rectangle;
-    rectangle.Face = face;
-    const auto sides = this->Sides(face);
-    for (std::size_t side = 0; side < 4; ++side)
-    {
-      for (const CADTopologyUse& use : sides[side])
+      for (const CADTopologyUse& use : uses)
       {
-        rectangle.Sides[side].push_back(use.Edge);
+        sides.Sides[side].push_back(use.Edge);
       }
+    };
+    if (this->Kind(face) == FaceShapeKind::Ring)
+    {
+      add(0, this->Model.Faces[At(face)].Loops[0]);
+      add(2, this->Model.Faces[At(face)].Loops[1]);
+      this->AllRings.push_back(std::move(sides));
     }
-    this->AllRectangles.push_back(std::move(rectangle));
+    else if (this->IsRectangle(face))
+    {
+      const auto uses = this->Sides(face);
+      for (std::size_t side = 0; side < 4; ++side)
+      {
+        add(side, uses[side]);
+      }
+      this->AllRectangles.push_back(std::move(sides));
+    }
   }
 }
 
 std::array<std::vector<CADTopologyUse>, 4> FaceMesher::Sides(int face) const
 {
   std::array<std::vector<CADTopologyUse>, 4> sides;
-  const std::vector<int>& corners = this->CornersOfFaces[At(face)];
+  const std::vector<int>& corners = this->Shapes[At(face)].Corners;
   const auto& loop = this->Model.Faces[At(face)].Loops.front();
   for (std::size_t side = 0; side < corners.size(); ++side)
   {
@@ -126,7 +134,7 @@ std::array<std::vector<CADTopologyUse>, 4> FaceMesher::Sides(int face) const
 FaceQuads FaceMesher::CoarseGrid(int face) const
 {
   const auto& uses = this->Model.Faces[At(face)].Loops.front();
-  const auto& corners = this->CornersOfFaces[At(face)];
+  const auto& corners = this->Shapes[At(face)].Corners;
   const auto n = static_cast<int>(uses.size());
   const FaceChart& chart = this->Charts[At(face)];
   ChartLoop loop;
@@ -199,9 +207,38 @@ void FaceMesher::RaiseWishes(const RectangleFace& rectangle, std::vector<int>& w
   }
 }
 
+/// Grids in a face, smoothed where they are bad or several meet.
+Status FaceMesher::MapFace(int face, const std::vector<ChartLoop>& loops, FaceMesh& state) const
+{
+  constexpr double Bad = 0.3; ///< scaled Jacobian
+  const FaceChart& chart = this->Charts[At(face)];
+  auto mapped = MapShape(chart, loops, this->Shapes[At(face)],
+    { this->EdgeLength, this->Params.MinDivisions, this->Params.MaxQuads });
+  if (!mapped)
+  {
+    return mapped.Status;
+  }
+  state.Mapped = true;
+  state.Quads = std::move(mapped.Value);
+  const std::vector<Eigen::Vector3d> normals = NormalsOf(chart, state.Quads);
+  state.Least = 1.0;
+  for (int q = 0; q < static_cast<int>(state.Quads.Quads.size()); ++q)
+  {
+    state.Least = std::min(state.Least, ScaledJacobian(state.Quads, normals, q));
+  }
+  const FaceShapeKind kind = this->Kind(face);
+  if (state.Least < Bad || (kind != FaceShapeKind::Rectangle && kind != FaceShapeKind::Ring))
+  {
+    state.Least = SmoothFace(chart, state.Quads);
+  }
+  return {};
+}
+
 const Status& FaceMesher::Mesh(int face, const EdgeNodes& nodes, FaceMethod method)
 {
-  constexpr double LeastOfMapped = 0.1; ///< scaled Jacobian; worse ones are meshed unstructured
+  // scaled Jacobians; worse ones are meshed unstructured
+  constexpr double LeastOfRectangles = 0.1;
+  constexpr double LeastOfOthers = 0.3;
   const FaceChart& chart = this->Charts[At(face)];
   FaceMesh& state = this->Meshes[At(face)];
   std::vector<int> counts;
@@ -243,42 +280,34 @@ const Status& FaceMesher::Mesh(int face, const EdgeNodes& nodes, FaceMethod meth
   state.LoopPlaces = std::move(loopPlaces);
   if (method != FaceMethod::Paved)
   {
-    std::vector<int> corners;
-    for (const int use : this->CornersOfFaces[At(face)])
+    const Status mapped = this->MapFace(face, loops, state);
+    if (!mapped && (method == FaceMethod::Grid || mapped.Code == ErrorCode::TooLarge))
     {
-      const ChartLoop& loop = loops.front();
-      corners.push_back(
-        static_cast<int>(std::find_if(loop.begin(), loop.end(),
-                           [&](const LoopPoint& point) { return point.Use == use; }) -
-          loop.begin()));
+      state.Failure = mapped;
+      return state.Failure;
     }
-    state.Quads = MapRectangle(chart, loops.front(), corners);
-    state.Mapped = true;
-    const std::vector<Eigen::Vector3d> normals = NormalsOf(chart, state.Quads);
-    state.Least = 1.0;
-    for (int q = 0; q < static_cast<int>(state.Quads.Quads.size()); ++q)
-    {
-      state.Least = std::min(state.Least, ScaledJacobian(state.Quads, normals, q));
-    }
-    if (state.Least < 0.3)
-    {
-      state.Least = SmoothFace(chart, state.Quads);
-    }
-    if (state.Least > LeastOfMapped || method == FaceMethod::Grid)
+    if (method == FaceMethod::Grid ||
+      (state.Mapped && state.Least > (this->IsRectangle(face) ? LeastOfRectangles : LeastOfOthers)))
     {
       return state.Failure;
     }
   }
-  state.Mapped = false;
   const ChartSizes sizes{ 2.0 * this->EdgeLength, 2.0 * this->Params.Curvature / 180.0 * Pi };
   auto paved = PaveFace(chart, loops, sizes, this->Params.MaxQuads);
-  if (!paved)
+  if (!paved && !(state.Mapped && state.Least > 0.0))
   {
+    state.Quads = {};
+    state.Mapped = false;
     state.Failure = paved.Status;
     return state.Failure;
   }
-  state.Quads = std::move(paved.Value);
-  state.Least = SmoothFace(chart, state.Quads);
+  const double least = paved ? SmoothFace(chart, paved.Value) : -1.0;
+  if (!state.Mapped || least > state.Least)
+  {
+    state.Mapped = false;
+    state.Quads = std::move(paved.Value);
+    state.Least = least;
+  }
   return state.Failure;
 }
 

@@ -3,6 +3,7 @@
 #include "CADQuads.h"
 #include "EdgeDivisions.h"
 #include "FaceQuads.h"
+#include "FaceShape.h"
 
 namespace knotwork
 {
@@ -15,7 +16,7 @@ std::string FaceName(const CADTopology& model, int face);
 enum class FaceMethod
 {
   Paved,
-  GridIfGood, ///< paved where the grid is bad
+  GridIfGood, ///< paved where grids are bad
   Grid
 };
 
@@ -40,14 +41,13 @@ public:
   /// Segments of edges by their own length and turning.
   /// @return TooLarge, with the option that says so.
   Result<std::vector<int>> Wishes(const char* option) const;
-  /// Finds the faces that are logical rectangles.
-  void FindRectangles();
+  /// Finds the faces in which grids can lie.
+  void FindShapes();
   const std::vector<RectangleFace>& Rectangles() const { return this->AllRectangles; }
-  /// First uses of its four sides; empty: it is no rectangle.
-  const std::vector<int>& Corners(int face) const
-  {
-    return this->CornersOfFaces[static_cast<std::size_t>(face)];
-  }
+  /// Their loops are opposite sides; the other two have no edges.
+  const std::vector<RectangleFace>& Rings() const { return this->AllRings; }
+  FaceShapeKind Kind(int face) const { return this->Shapes[static_cast<std::size_t>(face)].Kind; }
+  bool IsRectangle(int face) const { return this->Kind(face) == FaceShapeKind::Rectangle; }
   /// The sides of a rectangle, in the order of its loop; empty ones: it is none.
   std::array<std::vector<CADTopologyUse>, 4> Sides(int face) const;
   const FaceChart& Chart(int face) const { return this->Charts[static_cast<std::size_t>(face)]; }
@@ -55,7 +55,8 @@ public:
   void RaiseWishes(const RectangleFace& rectangle, std::vector<int>& wishes) const;
 
   /// Meshes a face anew where its edges' numbers of segments have changed.
-  /// @return failures of PaveFace; the face has no quadrilaterals then.
+  /// @return failures of PaveFace, InvalidTopology where these numbers allow no grids that must be;
+  /// the face has no quadrilaterals then.
   const Status& Mesh(int face, const EdgeNodes& nodes, FaceMethod method);
   /// Gives a face quadrilaterals that were made elsewhere, and smooths them.
   void Take(int face, FaceQuads quads);
@@ -71,13 +72,15 @@ public:
 
 private:
   FaceQuads CoarseGrid(int face) const;
+  Status MapFace(int face, const std::vector<ChartLoop>& loops, FaceMesh& state) const;
 
   const CADTopology& Model;
   const CADQuadsParams& Params;
   double EdgeLength;
   std::vector<FaceChart> Charts;
   std::vector<RectangleFace> AllRectangles;
-  std::vector<std::vector<int>> CornersOfFaces; ///< uses; empty: no rectangle
+  std::vector<RectangleFace> AllRings;
+  std::vector<FaceShape> Shapes;
   std::vector<FaceMesh> Meshes;
 };
 }

@@ -11,6 +11,14 @@
 
 namespace knotwork
 {
+int FaceQuads::AddPoint(const Eigen::Vector2d& place, const Eigen::Vector3d& point, int node)
+{
+  this->Places.push_back(place);
+  this->Points.push_back(point);
+  this->Nodes.push_back(node);
+  return static_cast<int>(this->Points.size()) - 1;
+}
+
 namespace
 {
 constexpr double Pi = 3.14159265358979323846;
@@ -20,109 +28,6 @@ std::size_t At(int i)
   return static_cast<std::size_t>(i);
 }
 
-int AddPoint(FaceQuads& mesh, const Eigen::Vector2d& place, const Eigen::Vector3d& point, int node)
-{
-  mesh.Places.push_back(place);
-  mesh.Points.push_back(point);
-  mesh.Nodes.push_back(node);
-  return static_cast<int>(mesh.Points.size()) - 1;
-}
-
-/// Angle inside of a face where a use of its outer loop begins, on the surface.
-double InnerAngle(const CADTopology& model, const FaceChart& chart, int use)
-{
-  constexpr double Near = 1e-3; ///< share of an edge
-  const int face = chart.Face();
-  const auto n = static_cast<int>(model.Faces[At(face)].Loops.front().size());
-  const auto placeOf = [&](int of, double share)
-  { return chart.FromParameters(model.UseParameters(face, 0, of, share)); };
-  const Eigen::Vector3d here = chart.Point(placeOf(use, 0.0));
-  const Eigen::Vector3d next = chart.Point(placeOf(use, Near)) - here;
-  const Eigen::Vector3d before = chart.Point(placeOf((use + n - 1) % n, 1.0 - Near)) - here;
-  const Eigen::Vector3d normal = chart.Normal(placeOf(use, 0.0));
-  const double angle = std::atan2(next.cross(before).dot(normal), next.dot(before));
-  return angle < 0.0 ? angle + 2.0 * Pi : angle;
-}
-}
-
-std::vector<int> RectangleCorners(const CADTopology& model, const FaceChart& chart)
-{
-  // between these a corner of the rectangle, or a point of a side
-  constexpr double Least = 40.0 / 180.0 * Pi;
-  constexpr double Most = 140.0 / 180.0 * Pi;
-  constexpr double MostStraight = 220.0 / 180.0 * Pi;
-  const auto& loops = model.Faces[At(chart.Face())].Loops;
-  std::vector<int> corners;
-  if (loops.size() != 1)
-  {
-    return corners;
-  }
-  for (int use = 0; use < static_cast<int>(loops.front().size()); ++use)
-  {
-    const double angle = loops.front()[At(use)].Edge < 0 ? 0.0 : InnerAngle(model, chart, use);
-    if (angle < Least || angle > MostStraight)
-    {
-      return {};
-    }
-    if (angle < Most)
-    {
-      corners.push_back(use);
-    }
-  }
-  return corners.size() == 4 ? corners : std::vector<int>();
-}
-
-FaceQuads MapRectangle(
-  const FaceChart& chart, const ChartLoop& loop, const std::vector<int>& corners)
-{
-  const auto n = static_cast<int>(loop.size());
-  const int columns = corners[1] - corners[0];
-  const int rows = corners[2] - corners[1];
-  const auto pointOf = [&](int i, int j)
-  {
-    const int at = j == 0 ? i
-      : i == columns      ? columns + j
-      : j == rows         ? columns + rows + (columns - i)
-                          : 2 * columns + rows + (rows - j);
-    return loop[At((corners[0] + at) % n)];
-  };
-  const auto placeOf = [&](int i, int j) { return pointOf(i, j).Place; };
-  FaceQuads mesh;
-  for (int j = 0; j <= rows; ++j)
-  {
-    for (int i = 0; i <= columns; ++i)
-    {
-      const bool side = i == 0 || j == 0 || i == columns || j == rows;
-      Eigen::Vector2d place;
-      if (side)
-      {
-        place = placeOf(i, j);
-      }
-      else
-      {
-        const double s = static_cast<double>(i) / columns;
-        const double t = static_cast<double>(j) / rows;
-        place = (1.0 - t) * placeOf(i, 0) + t * placeOf(i, rows) + (1.0 - s) * placeOf(0, j) +
-          s * placeOf(columns, j) -
-          ((1.0 - s) * (1.0 - t) * placeOf(0, 0) + s * (1.0 - t) * placeOf(columns, 0) +
-            (1.0 - s) * t * placeOf(0, rows) + s * t * placeOf(columns, rows));
-      }
-      AddPoint(mesh, place, chart.Point(place), side ? pointOf(i, j).Node : -1);
-    }
-  }
-  for (int j = 0; j < rows; ++j)
-  {
-    for (int i = 0; i < columns; ++i)
-    {
-      const int a = j * (columns + 1) + i;
-      mesh.Quads.push_back({ a, a + 1, a + columns + 2, a + columns + 1 });
-    }
-  }
-  return mesh;
-}
-
-namespace
-{
 /// Triangles between every other point of a face's loops that become quadrilaterals.
 class Halving
 {
@@ -207,7 +112,7 @@ int Halving::AddMiddle(const std::vector<int>& corners)
   }
   place = place.cwiseQuotient(weights);
   const Eigen::Vector3d found = this->Chart.Project(point, place);
-  return AddPoint(this->Mesh, place, found, -1);
+  return this->Mesh.AddPoint(place, found, -1);
 }
 
 int Halving::MiddleOf(int a, int b)
@@ -225,8 +130,8 @@ int Halving::MiddleOf(int a, int b)
   const auto given = this->LoopMiddles.find(side);
   const int middle = given == this->LoopMiddles.end()
     ? this->AddMiddle({ side.first, side.second })
-    : AddPoint(this->Mesh, given->second.Place, this->Chart.Point(given->second.Place),
-        given->second.Node);
+    : this->Mesh.AddPoint(
+        given->second.Place, this->Chart.Point(given->second.Place), given->second.Node);
   this->Middles[side] = middle;
   return middle;
 }
@@ -372,8 +277,8 @@ FaceQuads Halving::Make(const ChartTriangles& given)
   {
     const Eigen::Vector2d place = given.Places.row(i).transpose();
     const auto at = static_cast<std::size_t>(i);
-    AddPoint(this->Mesh, place, this->Chart.Point(place),
-      at < loopPoints.size() ? loopPoints[at]->Node : -1);
+    this->Mesh.AddPoint(
+      place, this->Chart.Point(place), at < loopPoints.size() ? loopPoints[at]->Node : -1);
     this->Normals.push_back(this->Chart.Normal(place));
   }
   std::vector<std::array<int, 3>> triangles = given.Triangles;

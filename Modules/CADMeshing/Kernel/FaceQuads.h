@@ -8,21 +8,14 @@ namespace knotwork
 /// twice, at both of its places.
 struct FaceQuads
 {
+  /// @return its number. @param node  of the mesh; -1: inside of the face.
+  int AddPoint(const Eigen::Vector2d& place, const Eigen::Vector3d& point, int node);
+
   std::vector<Eigen::Vector2d> Places;
   std::vector<Eigen::Vector3d> Points;
   std::vector<int> Nodes; ///< of the mesh; -1 inside of the face
   std::vector<std::array<int, 4>> Quads;
 };
-
-/// First uses of the four sides of a face that is a logical rectangle: by the angles of its one
-/// loop, which are near to right ones there and to straight ones elsewhere. Empty when it is none.
-std::vector<int> RectangleCorners(const CADTopology& model, const FaceChart& chart);
-
-/// A grid between four sides (transfinite interpolation in the chart).
-/// @param corners  first points of the sides, ascending; opposite sides have as many points.
-/// @source  Gordon, Hall, Int. J. Numer. Meth. Eng. 7 (1973) 461.
-FaceQuads MapRectangle(
-  const FaceChart& chart, const ChartLoop& loop, const std::vector<int>& corners);
 
 /// Triangles between every other point of the loops are joined in pairs where that makes good
 /// quadrilaterals; then both kinds are divided, at their middles and those of their edges: loops

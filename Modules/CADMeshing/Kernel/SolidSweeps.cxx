@@ -266,7 +266,7 @@ void SolidShape::Link(const std::set<int>& source, Progress& progress) const
     for (const int face : this->Faces)
     {
       if (source.count(face) > 0 || progress.Linking.count(face) > 0 ||
-        this->Mesher.Corners(face).empty())
+        !this->Mesher.IsRectangle(face))
       {
         continue;
       }
@@ -419,7 +419,7 @@ bool SolidShape::MatchImprints(SolidSweep& sweep) const
 bool SolidShape::HasSameCorners(const SolidSweep& sweep, const Progress& progress) const
 {
   if (sweep.Source.size() != 1 || sweep.Target.size() != 1 ||
-    this->Mesher.Corners(sweep.Source[0]).empty() || this->Mesher.Corners(sweep.Target[0]).empty())
+    !this->Mesher.IsRectangle(sweep.Source[0]) || !this->Mesher.IsRectangle(sweep.Target[0]))
   {
     return false;
   }

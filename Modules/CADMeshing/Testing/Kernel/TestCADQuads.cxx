@@ -6,10 +6,13 @@
 #include <knotwork/CADModel/CADModify.h>
 
 #include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
 #include <BRepFilletAPI_MakeFillet.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <BRepPrimAPI_MakeWedge.hxx>
@@ -139,18 +142,18 @@ std::vector<Solid> Solids()
     BRepPrimAPI_MakeSphere(2).Shape(), CylinderAt(gp_Pnt(0, -3, 0), gp_Dir(0, 1, 0), 0.5, 6))
                                .Shape();
   const double ring = 4.0 / 3 * Pi * std::pow(4 - 0.25, 1.5); // what is left of a bored ball
-  return { { "cylinder", CylinderAt(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1), 1, 3), 2, 1, 3 * Pi, 0.03 },
+  return { { "cylinder", CylinderAt(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1), 1, 3), 2, 3, 3 * Pi, 0.03 },
     { "plate", PlateWithHoles(), 2 - 2 * 6, 10, 60 - 6 * 0.36 * Pi, 0.01 },
     { "sphere", BRepPrimAPI_MakeSphere(1).Shape(), 2, 0, 4.0 / 3 * Pi, 0.05 },
-    { "cone", BRepPrimAPI_MakeCone(1, 0, 2).Shape(), 2, 0, 2.0 / 3 * Pi, 0.05 },
+    { "cone", BRepPrimAPI_MakeCone(1, 0, 2).Shape(), 2, 1, 2.0 / 3 * Pi, 0.05 },
     { "torus", BRepPrimAPI_MakeTorus(3, 1).Shape(), 0, 1, 6 * Pi * Pi, 0.08 },
-    { "octant", BRepPrimAPI_MakeSphere(1, 0, Pi / 2, Pi / 2).Shape(), 2, 0, Pi / 6, 0.05 },
+    { "octant", BRepPrimAPI_MakeSphere(1, 0, Pi / 2, Pi / 2).Shape(), 2, 4, Pi / 6, 0.05 },
     { "cavity",
       BRepAlgoAPI_Cut(BoxAt(gp_Pnt(0, 0, 0), 2, 2, 2), BoxAt(gp_Pnt(0.5, 0.5, 0.5), 1, 1, 1))
         .Shape(),
       4, 12, 7, 1e-9 },
-    { "wedge", BRepPrimAPI_MakeWedge(2, 2, 2, 0.0).Shape(), 2, 3, 4, 1e-9 },
-    { "rounded cube", fillet.Shape(), 2, 18, round, 0.02 },
+    { "wedge", BRepPrimAPI_MakeWedge(2, 2, 2, 0.0).Shape(), 2, 5, 4, 1e-9 },
+    { "rounded cube", fillet.Shape(), 2, 26, round, 0.02 },
     { "bored ball", bored, 0, 1, ring, 0.03 } };
 }
 }
@@ -346,4 +349,120 @@ TEST(CADQuads, FaceThatIsNotMappedIsNamed)
     << plate.Status.Message();
   const CADTopology box = TopologyOf(BREPFile(BoxAt(gp_Pnt(0, 0, 0), 1, 2, 3)));
   EXPECT_TRUE(MeshQuads(box, params));
+}
+
+namespace
+{
+TopoDS_Shape PrismOf(int corners)
+{
+  BRepBuilderAPI_MakePolygon polygon;
+  for (int i = 0; i < corners; ++i)
+  {
+    const double angle = 2.0 * Pi * i / corners;
+    polygon.Add(gp_Pnt(std::cos(angle), std::sin(angle), 0));
+  }
+  polygon.Close();
+  return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(polygon.Wire()).Face(), gp_Vec(0, 0, 1))
+    .Shape();
+}
+
+/// What quadrilaterals at z = 0 have.
+struct BottomFace
+{
+  int Quads = 0;
+  double Area = 0.0;
+  std::vector<int> Valences; ///< of points inside where other than four meet
+};
+
+BottomFace BottomOf(const CADQuads& made)
+{
+  BottomFace bottom;
+  std::map<int, int> valences;
+  for (const auto& quad : made.Mesh.Quads)
+  {
+    const auto at = [&](std::size_t i) { return made.Mesh.Points[At(quad[i])]; };
+    if (std::abs(at(0)[2]) + std::abs(at(1)[2]) + std::abs(at(2)[2]) < 1e-9)
+    {
+      ++bottom.Quads;
+      bottom.Area += 0.5 * (at(2) - at(0)).cross(at(3) - at(1)).norm();
+      for (const int corner : quad)
+      {
+        ++valences[corner];
+      }
+    }
+  }
+  for (const auto& [point, valence] : valences)
+  {
+    if (made.Mesh.PointDimension[At(point)] == 2 && valence != 4)
+    {
+      bottom.Valences.push_back(valence);
+    }
+  }
+  return bottom;
+}
+}
+
+TEST(CADQuads, FacesThatAreNoRectanglesAreSeveralGrids_ExactOracle)
+{
+  struct Case
+  {
+    const char* Name;
+    TopoDS_Shape Shape;
+    int Divisions; ///< of every edge
+    int Quads;     ///< of the face at z = 0
+    std::vector<int> Valences;
+    double Area;
+  };
+  const auto polygonArea = [](int sides, double radius)
+  { return 0.5 * sides * radius * radius * std::sin(2.0 * Pi / sides); };
+  const TopoDS_Shape cylinder = CylinderAt(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1), 1, 1);
+  const std::vector<Case> cases{
+    // at each corner a grid of half of a side's segments both ways
+    { "triangle", PrismOf(3), 6, 3 * 9, { 3 }, polygonArea(3, 1) },
+    { "pentagon", PrismOf(5), 8, 5 * 16, { 5 }, polygonArea(5, 1) },
+    { "hexagon", PrismOf(6), 4, 6 * 4, { 6 }, polygonArea(6, 1) },
+    // 4 x 4 in the middle, a row around
+    { "disc", cylinder, 16, 16 + 16, { 3, 3, 3, 3 }, polygonArea(16, 1) },
+    // 4 x 2 in the middle of the straight side, two rows around its other three sides
+    { "half a disc", BRepAlgoAPI_Cut(cylinder, BoxAt(gp_Pnt(-2, -2, -1), 4, 2, 4)).Shape(), 8,
+      8 + 2 * 8, { 3, 3 }, 0.5 * polygonArea(16, 1) },
+    // as many across as edges have at least
+    { "ring",
+      BRepAlgoAPI_Cut(cylinder, CylinderAt(gp_Pnt(0, 0, -1), gp_Dir(0, 0, 1), 0.6, 3)).Shape(), 16,
+      16 * 16, {}, polygonArea(16, 1) - polygonArea(16, 0.6) },
+  };
+  for (const Case& one : cases)
+  {
+    SCOPED_TRACE(one.Name);
+    const CADTopology model = TopologyOf(BREPFile(one.Shape));
+    CADQuadsParams params;
+    params.Method = CADQuadMethod::Mapped;
+    params.EdgeLength = 10.0;
+    params.Curvature = 90.0;
+    params.MinDivisions = one.Divisions;
+    const CADQuads made = Mesh(model, params);
+    const BottomFace bottom = BottomOf(made);
+    EXPECT_EQ(bottom.Quads, one.Quads);
+    EXPECT_EQ(bottom.Valences, one.Valences);
+    EXPECT_NEAR(bottom.Area, one.Area, 1e-9);
+    EXPECT_GT(made.LeastScaledJacobian, 0.5);
+    ExpectClosedBodies(model, made);
+    ExpectOnShape(one.Shape, model, made);
+  }
+}
+
+TEST(CADQuads, GridsThatWouldBeTooLargeAreRefusedBeforeTheyAreMade)
+{
+  CADQuadsParams params;
+  params.EdgeLength = 1e-4; // 240,000 segments, 2.2e9 quadrilaterals
+  for (const TopoDS_Shape& shape : { BoxAt(gp_Pnt(0, 0, 0), 1, 2, 3),
+         CylinderAt(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1), 1, 1), PrismOf(3),
+         BRepAlgoAPI_Cut(CylinderAt(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1), 1, 1),
+           CylinderAt(gp_Pnt(0, 0, -1), gp_Dir(0, 0, 1), 0.6, 3))
+           .Shape() })
+  {
+    const auto made = MeshQuads(TopologyOf(BREPFile(shape)), params);
+    EXPECT_EQ(made.Status.Code, ErrorCode::TooLarge);
+    EXPECT_NE(made.Status.Detail.find("MaximumQuads"), std::string::npos) << made.Status.Message();
+  }
 }
