@@ -3,7 +3,8 @@
 
 #include "HexahedronData.h"
 #include <knotwork/CADMeshing/CADHexes.h>
-#include <knotwork/CADModel/CADTopology.h>
+#include <knotwork/CADMeshing/SweepCuts.h>
+#include <knotwork/CADModel/CADOperationText.h>
 #include <knotwork/SplineGrid/TableRow.h>
 
 #include "vtkCellData.h"
@@ -38,13 +39,19 @@ void EncodeMesh(const CADTopology& model, const CADHexes& made, vtkUnstructuredG
   output->GetPointData()->AddArray(entities);
 }
 
-void EncodeNumbers(const CADTopology& model, const CADHexes& made, vtkTable* table)
+void EncodeNumbers(const SweepCuts& cut, const CADHexes& made, vtkTable* table)
 {
   AddColumn(table, "Hexahedra", made.Mesh.NumCells());
   AddColumn(table, "Points", made.Mesh.NumPoints);
   AddColumn(table, "Solids", static_cast<int>(made.Solids.size()));
   AddHexahedronColumns(made.Quality, table);
-  AddColumn(table, "Diagonal", model.Diagonal);
+  AddColumn(table, "Diagonal", cut.Model.Diagonal);
+  std::string cuts;
+  for (const CADOperation& one : cut.Cuts)
+  {
+    cuts += (cuts.empty() ? "" : "\n") + TextOf(one);
+  }
+  AddColumn(table, "Cuts", cuts);
 }
 
 void EncodeSolids(const CADTopology& model, const CADHexes& made, vtkTable* table)
@@ -94,27 +101,37 @@ Status vtkCADHexahedra::Compute(vtkInformationVector**, vtkInformationVector* ou
   {
     return { ErrorCode::EmptyInput, "there is no file name" };
   }
-  const auto model = CADTopology::Read(this->FileName, static_cast<LengthUnit>(this->Unit));
-  if (!model)
+  const auto pieces = CADPieces::Read(this->FileName, static_cast<LengthUnit>(this->Unit));
+  if (!pieces)
   {
-    return model.Status;
+    return pieces.Status;
+  }
+  SweepCutsParams search;
+  search.MaxCuts = this->MaximumCuts;
+  constexpr double OfSearch = 0.3; ///< of the progress
+  const ProgressCallback progress = this->Progress();
+  search.Progress = [&](double done) { return progress(OfSearch * done); };
+  const auto cut = FindSweepCuts(pieces.Value, search);
+  if (!cut)
+  {
+    return cut.Status;
   }
   CADHexesParams params;
   params.Faces.EdgeLength = this->EdgeLength;
   params.Faces.Curvature = this->Curvature;
   params.Faces.MinDivisions = this->MinimumDivisions;
   params.Faces.MaxQuads = this->MaximumHexahedra;
-  params.Faces.Progress = this->Progress();
+  params.Faces.Progress = [&](double done) { return progress(OfSearch + (1.0 - OfSearch) * done); };
   params.MaxHexahedra = this->MaximumHexahedra;
   params.Threads = this->KernelThreads();
-  const auto made = MeshHexes(model.Value, params);
+  const auto made = MeshHexes(cut->Model, params);
   if (!made)
   {
     return made.Status;
   }
-  EncodeMesh(model.Value, made.Value, vtkUnstructuredGrid::GetData(outputs, 0));
-  EncodeNumbers(model.Value, made.Value, vtkTable::GetData(outputs, 1));
-  EncodeSolids(model.Value, made.Value, vtkTable::GetData(outputs, 2));
+  EncodeMesh(cut->Model, made.Value, vtkUnstructuredGrid::GetData(outputs, 0));
+  EncodeNumbers(cut.Value, made.Value, vtkTable::GetData(outputs, 1));
+  EncodeSolids(cut->Model, made.Value, vtkTable::GetData(outputs, 2));
   this->ReportWarnings(HexahedronWarnings(
     made->Quality, "lower EdgeLength or Curvature, or cut the solid (cadmodify)"));
   return {};

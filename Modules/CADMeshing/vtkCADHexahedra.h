@@ -5,7 +5,9 @@
  *
  * Reads a STEP, IGES or BREP file. Every solid is swept: from faces (its source) along linking
  * faces, which are grids, to all others (its target). What is swept from where is found by itself,
- * such that faces between solids have one mesh. Every hexahedron is certified.
+ * such that faces between solids have one mesh. Where a solid cannot be swept as it is, up to
+ * MaximumCuts cuts are looked for that leave solids which can; numbers of solids and faces are
+ * those behind the cuts then. Every hexahedron is certified.
  *
  * Output 0 (vtkUnstructuredGrid): the hexahedra, with the cell arrays SolidId (Body of
  * vtkCADReader), Layer (from the source of its solid), ScaledJacobian and Verdict (of
@@ -13,12 +15,13 @@
  * a face, 3 inside) and CADEntityId (number of the vertex or edge, FaceId of the face, SolidId).
  *
  * Output 1 (vtkTable): one row with Hexahedra, Points, Solids, Verdict, ValidCells, ReversedCells,
- * InvalidCells, UndecidedCells, MinJacobianLower, LeastScaledJacobian, Volume and Diagonal.
+ * InvalidCells, UndecidedCells, MinJacobianLower, LeastScaledJacobian, Volume, Diagonal and Cuts,
+ * the operations of vtkCADModifier that were made, one a line.
  *
  * Output 2 (vtkTable): a row a solid with SolidId, SourceFaces, TargetFaces and LinkingFaces
  * (FaceId of vtkCADReader, with blanks between), Layers, Hexahedra and LeastScaledJacobian.
  *
- * Errors: those of knotwork::CADTopology::Read and MeshHexes.
+ * Errors: those of knotwork::CADPieces::Read, FindSweepCuts and MeshHexes.
  */
 #ifndef vtkCADHexahedra_h
 #define vtkCADHexahedra_h
@@ -70,6 +73,12 @@ public:
   vtkGetMacro(MinimumDivisions, int);
   ///@}
   ///@{
+  /** Cuts through all solids, at most, that are made where one of them cannot be swept: along faces
+   * at concave edges and planes through axes. 0: none. Default 2, valid range [0, 4]. */
+  vtkSetClampMacro(MaximumCuts, int, 0, 4);
+  vtkGetMacro(MaximumCuts, int);
+  ///@}
+  ///@{
   /** More hexahedra, or quadrilaterals of a face, are an error. Default 1000000, valid range >= 1.
    * Advanced. */
   vtkSetClampMacro(MaximumHexahedra, int, 1, VTK_INT_MAX);
@@ -90,6 +99,7 @@ private:
   double EdgeLength = 0.0;
   double Curvature = 30.0;
   int MinimumDivisions = 2;
+  int MaximumCuts = 2;
   int MaximumHexahedra = 1000000;
 };
 #endif

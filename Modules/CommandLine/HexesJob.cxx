@@ -3,6 +3,8 @@
 
 #include <knotwork/CADMeshing/vtkCADHexahedra.h>
 
+#include <sstream>
+
 namespace knotwork
 {
 namespace
@@ -31,6 +33,7 @@ protected:
       { "Hexahedra", "Points", "Solids", "Verdict", "ValidCells", "ReversedCells", "InvalidCells",
         "UndecidedCells", "MinJacobianLower", "LeastScaledJacobian", "Volume", "Diagonal" },
       session.Report);
+    session.Report["cuts"] = Lines(this->Table(Numbers)->GetValueByName(0, "Cuts").ToString());
     vtkTable* solids = this->Table(SolidTable);
     auto list = nlohmann::ordered_json::array();
     for (vtkIdType row = 0; row < solids->GetNumberOfRows(); ++row)
@@ -47,6 +50,17 @@ protected:
   }
 
 private:
+  static nlohmann::ordered_json Lines(const std::string& text)
+  {
+    auto lines = nlohmann::ordered_json::array();
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);)
+    {
+      lines.push_back(line);
+    }
+    return lines;
+  }
+
   static constexpr int Numbers = 1;
   static constexpr int SolidTable = 2;
 };

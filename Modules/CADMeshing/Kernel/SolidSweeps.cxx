@@ -787,54 +787,65 @@ SolidSweep Reversed(const SolidSweep& sweep)
   return reversed;
 }
 
+Result<std::vector<SolidSweep>> SweepsOf(
+  const CADTopology& model, const FaceMesher& faces, int body)
+{
+  if (!model.Bodies[At(body)].IsSolid)
+  {
+    return { ErrorCode::InvalidTopology,
+      "body " + std::to_string(body) + " is no solid; close it, or take it out of the file" };
+  }
+  const SolidShape shape(model, faces, body);
+  std::vector<SolidSweep> found;
+  std::set<int> blockers;
+  std::vector<int> from;
+  std::vector<std::vector<int>> sources = shape.Sources();
+  for (std::size_t i = 0; i < sources.size(); ++i)
+  {
+    const std::vector<int> source = sources[i];
+    SolidSweep sweep;
+    std::set<int> ofSource;
+    if (shape.Sweep(source, sweep, ofSource))
+    {
+      found.push_back(std::move(sweep));
+    }
+    else if (!ofSource.empty() && (from.empty() || ofSource.size() < blockers.size()))
+    {
+      from = source;
+      blockers = std::move(ofSource);
+    }
+    else if (std::find(sources.begin(), sources.end(), sweep.Target) == sources.end() &&
+      !sweep.Target.empty())
+    {
+      sources.push_back(sweep.Target); // the other way round
+    }
+  }
+  if (found.empty())
+  {
+    return { ErrorCode::InvalidTopology,
+      BodyName(body) + " is neither mapped nor swept: " +
+        (from.empty() ? std::string("no face of it is a source with others around it")
+                      : "from " + FaceList(model, { from.begin(), from.end() }) +
+              "; what prevents it is " + FaceList(model, blockers) +
+              ", no rectangles that lead from source to target, or bent away") +
+        "; cut it (cadmodify, which has --suggest)" };
+  }
+  std::stable_sort(found.begin(), found.end(),
+    [](const SolidSweep& a, const SolidSweep& b) { return a.Score < b.Score; });
+  return found;
+}
+
 Result<std::vector<SolidSweep>> ChooseSweeps(const CADTopology& model, const FaceMesher& faces)
 {
   std::vector<std::vector<SolidSweep>> sweeps;
   for (int body = 0; body < static_cast<int>(model.Bodies.size()); ++body)
   {
-    if (!model.Bodies[At(body)].IsSolid)
+    auto found = SweepsOf(model, faces, body);
+    if (!found)
     {
-      return { ErrorCode::InvalidTopology,
-        "body " + std::to_string(body) + " is no solid; close it, or take it out of the file" };
+      return found.Status;
     }
-    const SolidShape shape(model, faces, body);
-    std::vector<SolidSweep> found;
-    std::set<int> blockers;
-    std::vector<int> from;
-    std::vector<std::vector<int>> sources = shape.Sources();
-    for (std::size_t i = 0; i < sources.size(); ++i)
-    {
-      const std::vector<int> source = sources[i];
-      SolidSweep sweep;
-      std::set<int> ofSource;
-      if (shape.Sweep(source, sweep, ofSource))
-      {
-        found.push_back(std::move(sweep));
-      }
-      else if (!ofSource.empty() && (from.empty() || ofSource.size() < blockers.size()))
-      {
-        from = source;
-        blockers = std::move(ofSource);
-      }
-      else if (std::find(sources.begin(), sources.end(), sweep.Target) == sources.end() &&
-        !sweep.Target.empty())
-      {
-        sources.push_back(sweep.Target); // the other way round
-      }
-    }
-    if (found.empty())
-    {
-      return { ErrorCode::InvalidTopology,
-        BodyName(body) + " is neither mapped nor swept: " +
-          (from.empty() ? std::string("no face of it is a source with others around it")
-                        : "from " + FaceList(model, { from.begin(), from.end() }) +
-                "; what prevents it is " + FaceList(model, blockers) +
-                ", no rectangles that lead from source to target, or bent away") +
-          "; cut it (cadmodify, which has --suggest)" };
-    }
-    std::stable_sort(found.begin(), found.end(),
-      [](const SolidSweep& a, const SolidSweep& b) { return a.Score < b.Score; });
-    sweeps.push_back(std::move(found));
+    sweeps.push_back(std::move(found.Value));
   }
   const auto numFaces = static_cast<int>(model.Faces.size());
   SweepChoice choice(numFaces, std::move(sweeps));

@@ -29,12 +29,18 @@ struct SolidSweep
   double Score = 0.0;   ///< small ones are better: how far the rims are from an affine map
 };
 
+/// All ways to sweep a body, the best first.
+/// @return InvalidTopology: a body that is no solid, or that cannot be swept, with the faces that
+/// prevent it.
+/// @complexity O(F E) with F faces and E edges.
+Result<std::vector<SolidSweep>> SweepsOf(
+  const CADTopology& model, const FaceMesher& faces, int body);
+
 /// One sweep for every body, such that faces between bodies, which are grids where one of the two
 /// links along them, suit both.
-/// @return InvalidTopology: a body that is no solid, or that cannot be swept, with the faces that
-/// prevent it; bodies whose sweeps do not suit each other.
-/// @complexity O(F E) for each body with F faces and E edges, and a search over the bodies' sweeps
-/// that stops after 100,000 steps.
+/// @return failures of SweepsOf; InvalidTopology: bodies whose sweeps do not suit each other.
+/// @complexity that of SweepsOf for each body, and a search over the bodies' sweeps that stops
+/// after 100,000 steps.
 /// @source  White, Tautges, Int. J. Numer. Meth. Eng. 49 (2000) 127 (sources, targets and linking
 /// faces found by angles and rectangles).
 Result<std::vector<SolidSweep>> ChooseSweeps(const CADTopology& model, const FaceMesher& faces);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CADOperationText.h"
 
+#include <array>
 #include <charconv>
 #include <sstream>
 
@@ -189,5 +190,64 @@ Result<CADOperation> ParseCADOperation(const std::string& text)
   }
   SetNumbers(numbers, operation);
   return operation;
+}
+
+std::string TextOf(const CADOperation& operation)
+{
+  std::string text = NameOf(operation.Kind);
+  const auto add = [&](const std::string& word) { text += " " + word; };
+  const auto addNumber = [&](double number)
+  {
+    std::array<char, 32> digits{};
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
+    add(std::string(digits.data(), end));
+  };
+  const auto addFrame = [&]
+  {
+    for (const Eigen::Vector3d& vector : { operation.Point, operation.Direction })
+    {
+      for (const double number : vector)
+      {
+        addNumber(number);
+      }
+    }
+  };
+  std::string faces;
+  for (const int id : operation.Faces)
+  {
+    faces += (faces.empty() ? "" : ",") + std::to_string(id);
+  }
+  switch (operation.Kind)
+  {
+    case CADOperationKind::Imprint:
+      break;
+    case CADOperationKind::CutByPlane:
+      addFrame();
+      break;
+    case CADOperationKind::CutByFace:
+      add(std::to_string(operation.Tool));
+      break;
+    case CADOperationKind::CutByCylinder:
+      addFrame();
+      addNumber(operation.Radius);
+      break;
+    case CADOperationKind::SplitByPlane:
+      add(faces);
+      addFrame();
+      break;
+    case CADOperationKind::SplitByParameter:
+      add(faces);
+      add(operation.IsoDirection == 0 ? "u" : "v");
+      addNumber(operation.Share);
+      break;
+    case CADOperationKind::SplitByCurve:
+    case CADOperationKind::Composite:
+      add(faces);
+      break;
+    case CADOperationKind::Heal:
+      addNumber(operation.Tolerance);
+      break;
+  }
+  return text;
 }
 }

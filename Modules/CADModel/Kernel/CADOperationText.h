@@ -16,4 +16,8 @@ const char* NameOf(CADOperationKind kind);
 /// @return EmptyInput: no word; InvalidParameter: another first word, missing or more words, one
 /// that is no number, list of faces or direction. What they stand for is checked by ModifyCAD.
 Result<CADOperation> ParseCADOperation(const std::string& text);
+
+/// The words that ParseCADOperation makes the same operation of, numbers as short as that allows;
+/// of a split by curves without these.
+std::string TextOf(const CADOperation& operation);
 }

@@ -238,11 +238,45 @@ Status CADTopology::Shapes::AddFace(
   return {};
 }
 
-Result<CADTopology> CADTopology::Read(const std::string& file, LengthUnit unit)
+Status CADTopology::Build(const ModelBodies& bodies, const std::string& place)
 {
   constexpr double LeastTolerance = 1e-7; ///< of the diagonal
+  this->Impl = std::make_shared<Shapes>();
+  Bnd_Box box;
+  for (const ModelBody& body : bodies.Bodies)
+  {
+    BRepBndLib::Add(body.Shape, box, false);
+  }
+  if (box.IsVoid())
+  {
+    return { ErrorCode::EmptyInput, place + ": there is no face in it" };
+  }
+  this->Diagonal = std::sqrt(box.SquareExtent());
+  this->Impl->Tolerance = LeastTolerance * this->Diagonal;
+  int id = 0;
+  for (const ModelBody& body : bodies.Bodies)
+  {
+    const int index = static_cast<int>(this->Bodies.size());
+    this->Bodies.emplace_back();
+    this->Bodies.back().IsSolid = body.Shape.ShapeType() == TopAbs_SOLID;
+    for (TopExp_Explorer face(body.Shape, TopAbs_FACE); face.More(); face.Next())
+    {
+      const ShapeAttributes* own = bodies.Faces.Seek(face.Current());
+      if (Status added = this->Impl->AddFace(
+            TopoDS::Face(face.Current()), id++, index, own ? own->Name : std::string(), *this);
+          !added)
+      {
+        return { added.Code, place + ": " + added.Detail };
+      }
+    }
+  }
+  return this->Faces.empty() ? Status{ ErrorCode::EmptyInput, place + ": there is no face in it" }
+                             : Status();
+}
+
+Result<CADTopology> CADTopology::Read(const std::string& file, LengthUnit unit)
+{
   CADTopology model;
-  model.Impl = std::make_shared<Shapes>();
   const std::string place = "'" + file + "'";
   CADSession session(unit);
   const Status status = session.Run(place,
@@ -253,40 +287,7 @@ Result<CADTopology> CADTopology::Read(const std::string& file, LengthUnit unit)
       {
         return read;
       }
-      const ModelBodies bodies = ModelDocument(loaded.Document).Take();
-      Bnd_Box box;
-      for (const ModelBody& body : bodies.Bodies)
-      {
-        BRepBndLib::Add(body.Shape, box, false);
-      }
-      if (box.IsVoid())
-      {
-        return { ErrorCode::EmptyInput, place + ": there is no face in it" };
-      }
-      model.Diagonal = std::sqrt(box.SquareExtent());
-      model.Impl->Tolerance = LeastTolerance * model.Diagonal;
-      int id = 0;
-      for (const ModelBody& body : bodies.Bodies)
-      {
-        const int index = static_cast<int>(model.Bodies.size());
-        model.Bodies.emplace_back();
-        model.Bodies.back().IsSolid = body.Shape.ShapeType() == TopAbs_SOLID;
-        for (TopExp_Explorer face(body.Shape, TopAbs_FACE); face.More(); face.Next())
-        {
-          const ShapeAttributes* own = bodies.Faces.Seek(face.Current());
-          if (Status added = model.Impl->AddFace(
-                TopoDS::Face(face.Current()), id++, index, own ? own->Name : std::string(), model);
-              !added)
-          {
-            return { added.Code, place + ": " + added.Detail };
-          }
-        }
-      }
-      if (model.Faces.empty())
-      {
-        return { ErrorCode::EmptyInput, place + ": there is no face in it" };
-      }
-      return {};
+      return model.Build(ModelDocument(loaded.Document).Take(), place);
     });
   return status ? Result<CADTopology>(std::move(model)) : Result<CADTopology>(status);
 }

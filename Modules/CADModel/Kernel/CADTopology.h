@@ -14,6 +14,8 @@
 
 namespace knotwork
 {
+struct ModelBodies;
+
 struct CADTopologyEdge
 {
   std::array<int, 2> Vertices{}; ///< begin and end; equal ones: a closed edge
@@ -113,7 +115,12 @@ public:
   CADPlace Project(int face, const Eigen::Vector3d& point, const Eigen::Vector2d& guess) const;
 
 private:
+  friend class CADPieces;
   struct Shapes;
+
+  /// @param place  in messages.
+  Status Build(const ModelBodies& bodies, const std::string& place);
+
   std::shared_ptr<Shapes> Impl; ///< knows how to destroy what others only declare
 };
 }

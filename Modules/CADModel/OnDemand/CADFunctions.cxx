@@ -8,6 +8,7 @@ KnotworkCADFunctions()
   static const CADFunctions functions{ &ReadCAD, &WriteCAD, &CheckCAD, &CheckWrittenCAD,
     &ModifyCADText, &SuggestCADOperations, &CADTopology::Read, &CADTopology::JoinComposites,
     &CADTopology::EdgePoint, &CADTopology::UseParameters, &CADTopology::FacePoint,
-    &CADTopology::FaceNormal, &CADTopology::FaceCurvature, &CADTopology::Project };
+    &CADTopology::FaceNormal, &CADTopology::FaceCurvature, &CADTopology::Project, &CADPieces::Read,
+    &CADPieces::Topology, &CADPieces::Cuts, &CADPieces::Cut };
   return &functions;
 }

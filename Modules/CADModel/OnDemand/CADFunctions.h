@@ -3,6 +3,7 @@
 #pragma once
 #include <knotwork/CADModel/CADExchange.h>
 #include <knotwork/CADModel/CADModify.h>
+#include <knotwork/CADModel/CADPieces.h>
 #include <knotwork/CADModel/CADSuggest.h>
 #include <knotwork/CADModel/CADTopology.h>
 
@@ -25,6 +26,10 @@ struct CADFunctions
   decltype(&CADTopology::FaceNormal) FaceNormal;
   decltype(&CADTopology::FaceCurvature) FaceCurvature;
   decltype(&CADTopology::Project) Project;
+  decltype(&CADPieces::Read) ReadPieces;
+  decltype(&CADPieces::Topology) TopologyOfPieces;
+  decltype(&CADPieces::Cuts) CutsOfPieces;
+  decltype(&CADPieces::Cut) CutPieces;
 };
 }
 

@@ -155,4 +155,26 @@ CADPlace CADTopology::Project(
 {
   return (this->*Functions()->Project)(face, point, guess);
 }
+
+Result<CADPieces> CADPieces::Read(const std::string& file, LengthUnit unit)
+{
+  return Functions() ? Functions()->ReadPieces(file, unit) : NoFunctions();
+}
+
+// pieces have been read
+
+Result<CADTopology> CADPieces::Topology() const
+{
+  return (this->*Functions()->TopologyOfPieces)();
+}
+
+Result<std::vector<CADOperation>> CADPieces::Cuts() const
+{
+  return (this->*Functions()->CutsOfPieces)();
+}
+
+Result<CADPieces> CADPieces::Cut(const CADOperation& operation) const
+{
+  return (this->*Functions()->CutPieces)(operation);
+}
 }

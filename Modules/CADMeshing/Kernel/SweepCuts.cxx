@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SweepCuts.h"
+
+#include "SolidSweeps.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace knotwork
+{
+namespace
+{
+/// Pieces behind cuts.
+struct CutState
+{
+  CADPieces Pieces;
+  std::vector<CADOperation> Cuts;
+  int Solids = 0;
+  int NotSwept = 0;   ///< solids
+  bool Suits = false; ///< all are swept, such that faces between them suit both
+};
+
+void CountNotSwept(const CADTopology& model, CutState& state)
+{
+  const CADQuadsParams params;
+  FaceMesher faces(model, params);
+  faces.FindShapes();
+  state.Solids = static_cast<int>(model.Bodies.size());
+  state.NotSwept = 0;
+  for (int body = 0; body < state.Solids; ++body)
+  {
+    state.NotSwept += SweepsOf(model, faces, body) ? 0 : 1;
+  }
+  state.Suits = state.NotSwept == 0 && ChooseSweeps(model, faces);
+}
+
+bool IsBetter(const CutState& a, const CutState& b)
+{
+  return std::tuple(!a.Suits, a.NotSwept, a.Solids) < std::tuple(!b.Suits, b.NotSwept, b.Solids);
+}
+
+/// States behind one more cut.
+class CutSearch
+{
+public:
+  explicit CutSearch(const SweepCutsParams& params) : Params(params) {}
+
+  /// @return Aborted.
+  Status Deepen(std::vector<CutState>& states)
+  {
+    std::vector<CutState> deeper;
+    double tried = 0.0;
+    for (const CutState& state : states)
+    {
+      const auto cuts = state.Pieces.Cuts();
+      const auto number = std::min<std::size_t>(
+        cuts ? cuts->size() : 0, static_cast<std::size_t>(this->Params.MaxTried));
+      for (std::size_t i = 0; i < number; ++i)
+      {
+        const auto pieces = state.Pieces.Cut(cuts.Value[i]);
+        const auto model = pieces ? pieces->Topology() : Result<CADTopology>(pieces.Status);
+        if (model)
+        {
+          CutState next{ pieces.Value, state.Cuts };
+          next.Cuts.push_back(cuts.Value[i]);
+          CountNotSwept(model.Value, next);
+          deeper.push_back(std::move(next));
+        }
+        ++tried;
+        if (this->Params.Progress &&
+          !this->Params.Progress(tried / (tried + static_cast<double>(states.size()))))
+        {
+          return { ErrorCode::Aborted, "the search for cuts was stopped" };
+        }
+      }
+    }
+    std::stable_sort(deeper.begin(), deeper.end(), IsBetter);
+    states = std::move(deeper);
+    return {};
+  }
+
+private:
+  const SweepCutsParams& Params;
+};
+}
+
+Result<SweepCuts> FindSweepCuts(const CADPieces& pieces, const SweepCutsParams& params)
+{
+  constexpr std::size_t Kept = 4;
+  auto model = pieces.Topology();
+  if (!model)
+  {
+    return model.Status;
+  }
+  SweepCuts found;
+  std::vector<CutState> states{ { pieces, {} } };
+  CountNotSwept(model.Value, states.front());
+  CutSearch search(params);
+  for (int cut = 0; cut < params.MaxCuts && !states.empty() && !states.front().Suits; ++cut)
+  {
+    states.resize(std::min(states.size(), Kept));
+    if (Status deepened = search.Deepen(states); !deepened)
+    {
+      return deepened;
+    }
+  }
+  if (!states.empty() && states.front().Suits)
+  {
+    found.Cuts = states.front().Cuts;
+    model = states.front().Pieces.Topology();
+    if (!model)
+    {
+      return model.Status;
+    }
+  }
+  found.Model = std::move(model.Value);
+  return found;
+}
+}

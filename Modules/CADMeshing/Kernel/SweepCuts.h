@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Cuts that leave solids which can be swept.
+#pragma once
+#include <knotwork/CADModel/CADPieces.h>
+
+namespace knotwork
+{
+struct SweepCutsParams
+{
+  int MaxCuts = 2;
+  int MaxTried = 24;                    ///< cuts of the same pieces, in CADPieces' order
+  ProgressCallback Progress;
+};
+
+struct SweepCuts
+{
+  CADTopology Model;              ///< the pieces
+  std::vector<CADOperation> Cuts; ///< in this order
+};
+
+/// The fewest cuts behind which all solids can be swept: none where they can be as they are. Of
+/// as many, those that leave the fewest solids. Pieces of which the fewest cannot be swept are cut
+/// first, four of them; so cuts may be missed.
+/// @return failures of CADPieces::Topology; Aborted. Where nothing is found the model is that of
+/// the file, and there are no cuts: MeshHexes says why.
+/// @complexity up to 1 + 4 (MaxCuts - 1) times MaxTried cuts.
+Result<SweepCuts> FindSweepCuts(const CADPieces& pieces, const SweepCutsParams& params = {});
+}
