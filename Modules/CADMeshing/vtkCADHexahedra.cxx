@@ -106,28 +106,31 @@ Status vtkCADHexahedra::Compute(vtkInformationVector**, vtkInformationVector* ou
   {
     return pieces.Status;
   }
-  SweepCutsParams search;
-  search.MaxCuts = this->MaximumCuts;
-  constexpr double OfSearch = 0.3; ///< of the progress
-  const ProgressCallback progress = this->Progress();
-  search.Progress = [&](double done) { return progress(OfSearch * done); };
-  const auto cut = FindSweepCuts(pieces.Value, search);
-  if (!cut)
-  {
-    return cut.Status;
-  }
   CADHexesParams params;
   params.Faces.EdgeLength = this->EdgeLength;
   params.Faces.Curvature = this->Curvature;
   params.Faces.MinDivisions = this->MinimumDivisions;
   params.Faces.MaxQuads = this->MaximumHexahedra;
-  params.Faces.Progress = [&](double done) { return progress(OfSearch + (1.0 - OfSearch) * done); };
   params.MaxHexahedra = this->MaximumHexahedra;
   params.Threads = this->KernelThreads();
-  const auto made = MeshHexes(cut->Model, params);
-  if (!made)
+  SweepCutsParams search;
+  search.MaxCuts = this->MaximumCuts;
+  constexpr double OfSearch = 0.3; ///< of the progress
+  const ProgressCallback progress = this->Progress();
+  search.Progress = [&](double done) { return progress(OfSearch * done); };
+  params.Faces.Progress = [&](double done) { return progress(OfSearch + (1.0 - OfSearch) * done); };
+  Result<CADHexes> made;
+  const auto cut = FindSweepCuts(
+    pieces.Value,
+    [&](const CADTopology& model)
+    {
+      made = MeshHexes(model, params);
+      return made.Status;
+    },
+    search);
+  if (!cut)
   {
-    return made.Status;
+    return cut.Status;
   }
   EncodeMesh(cut->Model, made.Value, vtkUnstructuredGrid::GetData(outputs, 0));
   EncodeNumbers(cut.Value, made.Value, vtkTable::GetData(outputs, 1));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CADHexes.h"
 
+#include "CornerFill.h"
+#include "QuadSides.h"
 #include "RimMap.h"
 #include "SolidSweeps.h"
 #include "Sweep.h"
@@ -8,6 +10,8 @@
 #include <knotwork/SplineCore/SizeLimit.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
@@ -18,68 +22,18 @@ namespace knotwork
 namespace
 {
 using Eigen::Vector3d;
-using Quad = std::array<int, 4>;
-using Side = std::pair<int, int>;
+using Quad = QuadSides::Quad;
+using Side = QuadSides::Side;
 
 std::size_t At(int i)
 {
   return static_cast<std::size_t>(i);
 }
 
-Side SideOf(int a, int b)
-{
-  return std::minmax(a, b);
-}
-
 std::string SolidName(int body)
 {
   return "solid " + std::to_string(body);
 }
-
-/// Quadrilaterals by their sides.
-class QuadSides
-{
-public:
-  void Add(const Quad& quad)
-  {
-    const auto id = static_cast<int>(this->Quads.size());
-    this->Quads.push_back(quad);
-    for (std::size_t i = 0; i < 4; ++i)
-    {
-      this->Sides[SideOf(quad[i], quad[(i + 1) % 4])].push_back(id);
-    }
-  }
-
-  /// A quadrilateral at a side, other than one; -1: none.
-  int Beside(int a, int b, int other) const
-  {
-    const auto found = this->Sides.find(SideOf(a, b));
-    if (found != this->Sides.end())
-    {
-      for (const int quad : found->second)
-      {
-        if (quad != other)
-        {
-          return quad;
-        }
-      }
-    }
-    return -1;
-  }
-
-  /// The corners behind a side: the one beside its end, then the one beside its begin.
-  Side Across(int quad, int a, int b) const
-  {
-    const Quad& corners = this->Quads[At(quad)];
-    const auto at =
-      static_cast<std::size_t>(std::find(corners.begin(), corners.end(), a) - corners.begin());
-    return corners[(at + 1) % 4] == b ? Side{ corners[(at + 2) % 4], corners[(at + 3) % 4] }
-                                      : Side{ corners[(at + 2) % 4], corners[(at + 1) % 4] };
-  }
-
-  std::vector<Quad> Quads;
-  std::map<Side, std::vector<int>> Sides;
-};
 
 /// The quadrilaterals of a source, with points of their own.
 struct SourceMesh
@@ -150,6 +104,7 @@ private:
   std::map<int, int> TakeCopy(int face, const QuadSides& source, const std::vector<int>& quads,
     const std::map<int, int>& images, const std::map<int, Vector3d>& places);
   Status Fill(const SolidFaces& solid);
+  Status FillCorners(const SolidSweep& sweep);
   Status Finish();
 
   const CADTopology& Model;
@@ -366,7 +321,7 @@ Status HexMesher::FacesOfCopies(const SolidSweep& sweep, const QuadSides& source
       {
         for (int i = 0; use.Edge >= 0 && i < this->Nodes->Counts[At(use.Edge)]; ++i)
         {
-          facesOfSides[SideOf(this->Nodes->NodeOf(this->Model, use.Edge, i),
+          facesOfSides[QuadSides::SideOf(this->Nodes->NodeOf(this->Model, use.Edge, i),
                          this->Nodes->NodeOf(this->Model, use.Edge, i + 1))]
             .insert(face);
         }
@@ -381,7 +336,7 @@ Status HexMesher::FacesOfCopies(const SolidSweep& sweep, const QuadSides& source
     {
       return nullptr;
     }
-    const auto found = facesOfSides.find(SideOf(a->second, b->second));
+    const auto found = facesOfSides.find(QuadSides::SideOf(a->second, b->second));
     return found == facesOfSides.end() ? nullptr : &found->second;
   };
   DisjointSets regions(static_cast<int>(source.Quads.size()));
@@ -586,7 +541,7 @@ void HexMesher::FindGrids()
         sets.Unite(sweep.Source.front(), face);
       }
     }
-    for (const int face : sweep.Linking)
+    for (const int face : sweep.Linking) // of corners all
     {
       this->IsGrid[At(face)] = true;
     }
@@ -594,14 +549,14 @@ void HexMesher::FindGrids()
   std::set<int> others;
   for (const SolidSweep& sweep : this->Sweeps)
   {
-    if (!sweep.IsBlock)
+    if (!sweep.IsBlock && !sweep.Corners)
     {
       others.insert(sets.Find(sweep.Source.front()));
     }
   }
   for (const SolidSweep& sweep : this->Sweeps)
   {
-    if (others.count(sets.Find(sweep.Source.front())) == 0)
+    if (!sweep.Corners && others.count(sets.Find(sweep.Source.front())) == 0)
     {
       this->IsGrid[At(sweep.Source.front())] = true;
       this->IsGrid[At(sweep.Target.front())] = true;
@@ -777,7 +732,9 @@ Status HexMesher::MeshFaces()
       }
     }
   }
-  std::vector<SolidSweep> pending = this->Sweeps;
+  std::vector<SolidSweep> pending;
+  std::copy_if(this->Sweeps.begin(), this->Sweeps.end(), std::back_inserter(pending),
+    [](const SolidSweep& sweep) { return !sweep.Corners; });
   while (!pending.empty())
   {
     auto next = std::find_if(pending.begin(), pending.end(),
@@ -881,6 +838,37 @@ Status HexMesher::Fill(const SolidFaces& solid)
   numbers.Linking = sweep.Linking;
   numbers.Layers = numLayers;
   numbers.Hexahedra = swept->Mesh.NumCells();
+  this->Made.Solids.push_back(std::move(numbers));
+  return {};
+}
+
+Status HexMesher::FillCorners(const SolidSweep& sweep)
+{
+  std::map<int, QuadSides> quads;
+  for (const int face : sweep.Linking)
+  {
+    quads[face] = this->QuadsOf(sweep.Body, { face });
+  }
+  CornerFill filling(this->Model, *sweep.Corners, *this->Nodes, quads, this->Surface.Mesh);
+  const double number =
+    static_cast<double>(sweep.Corners->Corners.size()) * std::pow(filling.HalfSegments(), 3);
+  if (Status small = CheckSize(number + this->Made.Mesh.NumCells(), this->Params.MaxHexahedra,
+        "hexahedra", "MaximumHexahedra");
+      !small)
+  {
+    return small;
+  }
+  CADSolidHexes numbers;
+  numbers.Body = sweep.Body;
+  numbers.Linking = sweep.Linking;
+  for (const auto& hexahedron : filling.Fill(sweep.Body))
+  {
+    this->Made.Mesh.Corners.insert(
+      this->Made.Mesh.Corners.end(), hexahedron.begin(), hexahedron.end());
+    this->Made.HexBody.push_back(sweep.Body);
+    this->Made.HexLayer.push_back(0);
+    ++numbers.Hexahedra;
+  }
   this->Made.Solids.push_back(std::move(numbers));
   return {};
 }
@@ -1004,6 +992,13 @@ Result<CADHexes> HexMesher::Run()
       !this->Params.Faces.Progress(0.5 + 0.5 * done / static_cast<double>(this->Solids.size())))
     {
       return { ErrorCode::Aborted, "meshing was stopped" };
+    }
+  }
+  for (const SolidSweep& sweep : this->Sweeps)
+  {
+    if (Status filled = sweep.Corners ? this->FillCorners(sweep) : Status(); !filled)
+    {
+      return filled;
     }
   }
   if (Status finished = this->Finish(); !finished)

@@ -114,17 +114,21 @@ void FaceMesher::FindShapes()
   }
 }
 
-std::array<std::vector<CADTopologyUse>, 4> FaceMesher::Sides(int face) const
+std::vector<std::vector<CADTopologyUse>> FaceMesher::Sides(int face) const
 {
-  std::array<std::vector<CADTopologyUse>, 4> sides;
   const std::vector<int>& corners = this->Shapes[At(face)].Corners;
   const auto& loop = this->Model.Faces[At(face)].Loops.front();
+  const auto n = static_cast<int>(loop.size());
+  std::vector<std::vector<CADTopologyUse>> sides(corners.size());
   for (std::size_t side = 0; side < corners.size(); ++side)
   {
-    for (int use = corners[side]; use != corners[(side + 1) % 4];
-         use = (use + 1) % static_cast<int>(loop.size()))
+    const int end = corners[(side + 1) % corners.size()];
+    for (int use = corners[side]; use != end; use = (use + 1) % n)
     {
-      sides[side].push_back(loop[At(use)]);
+      if (loop[At(use)].Edge >= 0)
+      {
+        sides[side].push_back(loop[At(use)]);
+      }
     }
   }
   return sides;

@@ -48,8 +48,8 @@ public:
   const std::vector<RectangleFace>& Rings() const { return this->AllRings; }
   FaceShapeKind Kind(int face) const { return this->Shapes[static_cast<std::size_t>(face)].Kind; }
   bool IsRectangle(int face) const { return this->Kind(face) == FaceShapeKind::Rectangle; }
-  /// The sides of a rectangle, in the order of its loop; empty ones: it is none.
-  std::array<std::vector<CADTopologyUse>, 4> Sides(int face) const;
+  /// What lies between the corners of a face's outer loop, from the first one on, without poles.
+  std::vector<std::vector<CADTopologyUse>> Sides(int face) const;
   const FaceChart& Chart(int face) const { return this->Charts[static_cast<std::size_t>(face)]; }
   /// Lines of a grid may be longer and turn more than the sides that they run along.
   void RaiseWishes(const RectangleFace& rectangle, std::vector<int>& wishes) const;

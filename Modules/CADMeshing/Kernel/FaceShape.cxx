@@ -83,7 +83,7 @@ bool IsRing(const CADTopology& model, const CADTopologyFace& face)
 FaceShape ShapeOf(const CADTopology& model, const FaceChart& chart)
 {
   // between these a corner, or a point of a side
-  constexpr double Least = 40.0 / 180.0 * Pi;
+  constexpr double Least = 20.0 / 180.0 * Pi;
   constexpr double Most = 140.0 / 180.0 * Pi;
   constexpr double MostStraight = 220.0 / 180.0 * Pi;
   const CADTopologyFace& face = model.Faces[At(chart.Face())];

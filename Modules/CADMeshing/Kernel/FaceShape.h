@@ -21,7 +21,7 @@ struct FaceShape
   std::vector<int> Corners; ///< uses of the first loop that begin at a corner; of a ring none
 };
 
-/// By the inner angles of the loops: from 40 to 140 degrees they are corners; all others must be
+/// By the inner angles of the loops: from 20 to 140 degrees they are corners; all others must be
 /// near to straight, but for those of rings.
 FaceShape ShapeOf(const CADTopology& model, const FaceChart& chart);
 }

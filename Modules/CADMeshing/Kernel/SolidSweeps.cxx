@@ -723,13 +723,17 @@ private:
     for (std::size_t body = 0; body < this->Chosen.size(); ++body)
     {
       const SolidSweep& sweep = this->Sweeps[body][this->Chosen[body]];
+      links.insert(sweep.Linking.begin(), sweep.Linking.end());
+      if (sweep.Corners)
+      {
+        continue;
+      }
       for (const auto* faces : { &sweep.Source, &sweep.Target })
       {
         unite(ends, *faces);
         unite(joined, *faces);
       }
       joined.Unite(sweep.Source.front(), sweep.Target.front());
-      links.insert(sweep.Linking.begin(), sweep.Linking.end());
     }
     std::map<int, std::set<int>> fixedEnds; ///< of what is joined
     for (const int face : links)
@@ -739,6 +743,10 @@ private:
     for (std::size_t body = 0; body < this->Chosen.size(); ++body)
     {
       const SolidSweep& sweep = this->Sweeps[body][this->Chosen[body]];
+      if (sweep.Corners)
+      {
+        continue;
+      }
       const auto fixed = fixedEnds.find(joined.Find(sweep.Source.front()));
       if (sweep.IsBlock || fixed == fixedEnds.end())
       {
@@ -772,6 +780,29 @@ std::string FaceList(const CADTopology& model, const std::set<int>& faces)
     list += (list.empty() ? "" : ", ") + FaceName(model, face);
   }
   return list;
+}
+}
+
+namespace
+{
+/// As many segments on all sides.
+SolidSweep CornerSweep(const CADTopology& model, int body, CornerSolid corners)
+{
+  SolidSweep sweep;
+  sweep.Body = body;
+  for (const CADTopologySide& side : model.Bodies[At(body)].Sides)
+  {
+    sweep.Linking.push_back(side.Face);
+  }
+  for (const CornerSide& side : corners.Sides)
+  {
+    if (&side != corners.Sides.data())
+    {
+      sweep.Equal.push_back({ corners.Sides.front().Edges, side.Edges });
+    }
+  }
+  sweep.Corners = std::move(corners);
+  return sweep;
 }
 }
 
@@ -820,6 +851,12 @@ Result<std::vector<SolidSweep>> SweepsOf(
       sources.push_back(sweep.Target); // the other way round
     }
   }
+  std::stable_sort(found.begin(), found.end(),
+    [](const SolidSweep& a, const SolidSweep& b) { return a.Score < b.Score; });
+  if (auto corners = CornersOf(model, faces, body))
+  {
+    found.push_back(CornerSweep(model, body, std::move(*corners)));
+  }
   if (found.empty())
   {
     return { ErrorCode::InvalidTopology,
@@ -830,8 +867,6 @@ Result<std::vector<SolidSweep>> SweepsOf(
               ", no rectangles that lead from source to target, or bent away") +
         "; cut it (cadmodify, which has --suggest)" };
   }
-  std::stable_sort(found.begin(), found.end(),
-    [](const SolidSweep& a, const SolidSweep& b) { return a.Score < b.Score; });
   return found;
 }
 

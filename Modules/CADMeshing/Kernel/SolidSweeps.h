@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How solids can be swept: from which faces to which others, along which.
 #pragma once
-#include "FaceMesher.h"
+#include "CornerSolid.h"
 
 namespace knotwork
 {
@@ -12,8 +12,8 @@ struct EdgePair
   int Target = 0;
 };
 
-/// One way to sweep a solid. Linking faces are logical rectangles between the rims of source and
-/// target, or between those before and behind them.
+/// One way to mesh a solid: swept, or a grid at each of its corners. Linking faces are logical
+/// rectangles between the rims of source and target, or between those before and behind them.
 struct SolidSweep
 {
   int Body = 0;
@@ -26,10 +26,12 @@ struct SolidSweep
   PointMatrix Arrival;            ///< where they come to
   bool BothWays = false;          ///< all edges inside of the source have a partner too
   bool IsBlock = false; ///< source and target are one rectangle each, with the same corners
-  double Score = 0.0;   ///< small ones are better: how far the rims are from an affine map
+  /// A grid at each corner: all faces link, and there are no ends.
+  std::optional<CornerSolid> Corners;
+  double Score = 0.0; ///< small ones are better: how far the rims are from an affine map
 };
 
-/// All ways to sweep a body, the best first.
+/// All ways to sweep a body, the best first, and behind them a grid at each of its corners.
 /// @return InvalidTopology: a body that is no solid, or that cannot be swept, with the faces that
 /// prevent it.
 /// @complexity O(F E) with F faces and E edges.

@@ -84,36 +84,55 @@ private:
 };
 }
 
-Result<SweepCuts> FindSweepCuts(const CADPieces& pieces, const SweepCutsParams& params)
+Result<SweepCuts> FindSweepCuts(
+  const CADPieces& pieces, const PieceMeshing& meshing, const SweepCutsParams& params)
 {
   constexpr std::size_t Kept = 4;
+  SweepCuts found;
   auto model = pieces.Topology();
   if (!model)
   {
     return model.Status;
   }
-  SweepCuts found;
+  found.Model = std::move(model.Value);
+  const Status uncut = meshing(found.Model);
+  if (uncut || uncut.Code != ErrorCode::InvalidTopology)
+  {
+    return uncut ? Result<SweepCuts>(std::move(found)) : Result<SweepCuts>(uncut);
+  }
   std::vector<CutState> states{ { pieces, {} } };
-  CountNotSwept(model.Value, states.front());
   CutSearch search(params);
-  for (int cut = 0; cut < params.MaxCuts && !states.empty() && !states.front().Suits; ++cut)
+  for (int cut = 0; cut < params.MaxCuts && !states.empty(); ++cut)
   {
     states.resize(std::min(states.size(), Kept));
     if (Status deepened = search.Deepen(states); !deepened)
     {
       return deepened;
     }
-  }
-  if (!states.empty() && states.front().Suits)
-  {
-    found.Cuts = states.front().Cuts;
-    model = states.front().Pieces.Topology();
-    if (!model)
+    for (const CutState& state : states)
     {
-      return model.Status;
+      if (!state.Suits)
+      {
+        break; // those behind it are worse
+      }
+      model = state.Pieces.Topology();
+      if (!model)
+      {
+        return model.Status;
+      }
+      const Status meshed = meshing(model.Value);
+      if (meshed)
+      {
+        found.Model = std::move(model.Value);
+        found.Cuts = state.Cuts;
+        return found;
+      }
+      if (meshed.Code != ErrorCode::InvalidTopology)
+      {
+        return meshed;
+      }
     }
   }
-  found.Model = std::move(model.Value);
-  return found;
+  return uncut;
 }
 }

@@ -3,12 +3,14 @@
 #pragma once
 #include <knotwork/CADModel/CADPieces.h>
 
+#include <functional>
+
 namespace knotwork
 {
 struct SweepCutsParams
 {
   int MaxCuts = 2;
-  int MaxTried = 24;                    ///< cuts of the same pieces, in CADPieces' order
+  int MaxTried = 24; ///< cuts of the same pieces, in CADPieces' order
   ProgressCallback Progress;
 };
 
@@ -18,11 +20,15 @@ struct SweepCuts
   std::vector<CADOperation> Cuts; ///< in this order
 };
 
-/// The fewest cuts behind which all solids can be swept: none where they can be as they are. Of
-/// as many, those that leave the fewest solids. Pieces of which the fewest cannot be swept are cut
-/// first, four of them; so cuts may be missed.
-/// @return failures of CADPieces::Topology; Aborted. Where nothing is found the model is that of
-/// the file, and there are no cuts: MeshHexes says why.
+/// Meshes pieces that can be swept. @return InvalidTopology: others are to be tried.
+using PieceMeshing = std::function<Status(const CADTopology& model)>;
+
+/// The fewest cuts behind which all solids can be swept, and meshed: none where they can be as they
+/// are. Of as many, those that leave the fewest solids. Pieces of which the fewest cannot be swept
+/// are cut first, four of them; so cuts may be missed.
+/// @return failures of CADPieces::Topology; those of the meshing: where nothing is found, that of
+/// the solids as they are; Aborted.
 /// @complexity up to 1 + 4 (MaxCuts - 1) times MaxTried cuts.
-Result<SweepCuts> FindSweepCuts(const CADPieces& pieces, const SweepCutsParams& params = {});
+Result<SweepCuts> FindSweepCuts(
+  const CADPieces& pieces, const PieceMeshing& meshing, const SweepCutsParams& params = {});
 }

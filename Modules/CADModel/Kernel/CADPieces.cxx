@@ -33,8 +33,6 @@ std::optional<gp_Ax1> AxisOf(const BRepAdaptor_Surface& surface)
       return surface.Cylinder().Axis();
     case GeomAbs_Cone:
       return surface.Cone().Axis();
-    case GeomAbs_Sphere:
-      return surface.Sphere().Position().Axis();
     case GeomAbs_Torus:
       return surface.Torus().Axis();
     default:
@@ -82,15 +80,24 @@ private:
 void AddAxialPlanes(const std::vector<FacePlace>& faces, CutList& cuts)
 {
   constexpr double Square = 1e-6; ///< cosine
-  std::vector<gp_Ax1> axes;
+  struct Axis
+  {
+    Vector3d Place;
+    Vector3d Direction; ///< of a ball none
+  };
+  std::vector<Axis> axes;
   std::vector<Vector3d> directions;
   for (const FacePlace& place : faces)
   {
     const BRepAdaptor_Surface surface(place.Face, false);
-    if (const auto axis = AxisOf(surface))
+    if (surface.GetType() == GeomAbs_Sphere)
     {
-      axes.push_back(*axis);
-      directions.push_back(ToVector(axis->Direction().XYZ()));
+      axes.push_back({ ToVector(surface.Sphere().Location().XYZ()), Vector3d::Zero() });
+    }
+    else if (const auto axis = AxisOf(surface))
+    {
+      axes.push_back({ ToVector(axis->Location().XYZ()), ToVector(axis->Direction().XYZ()) });
+      directions.push_back(axes.back().Direction);
     }
     else if (surface.GetType() == GeomAbs_Plane)
     {
@@ -101,14 +108,13 @@ void AddAxialPlanes(const std::vector<FacePlace>& faces, CutList& cuts)
   {
     directions.push_back(Vector3d::Unit(i));
   }
-  for (const gp_Ax1& axis : axes)
+  for (const Axis& axis : axes)
   {
-    const Vector3d along = ToVector(axis.Direction().XYZ());
     for (const Vector3d& direction : directions)
     {
-      if (std::abs(direction.dot(along)) < Square)
+      if (std::abs(direction.dot(axis.Direction)) < Square)
       {
-        cuts.Add(PlaneCut(ToVector(axis.Location().XYZ()), direction));
+        cuts.Add(PlaneCut(axis.Place, direction));
       }
     }
   }
