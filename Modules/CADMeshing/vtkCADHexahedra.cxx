@@ -44,6 +44,7 @@ void EncodeNumbers(const SweepCuts& cut, const CADHexes& made, vtkTable* table)
   AddColumn(table, "Hexahedra", made.Mesh.NumCells());
   AddColumn(table, "Points", made.Mesh.NumPoints);
   AddColumn(table, "Solids", static_cast<int>(made.Solids.size()));
+  AddColumn(table, "PaddedHexahedra", made.PaddedHexes);
   AddHexahedronColumns(made.Quality, table);
   AddColumn(table, "Diagonal", cut.Model.Diagonal);
   std::string cuts;

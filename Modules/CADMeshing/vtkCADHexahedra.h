@@ -14,7 +14,8 @@
  * vtkJacobianValidator), and the point arrays CADEntityDimension (0 on a vertex, 1 on an edge, 2 on
  * a face, 3 inside) and CADEntityId (number of the vertex or edge, FaceId of the face, SolidId).
  *
- * Output 1 (vtkTable): one row with Hexahedra, Points, Solids, Verdict, ValidCells, ReversedCells,
+ * Output 1 (vtkTable): one row with Hexahedra, Points, Solids, PaddedHexahedra (in layers
+ * under surfaces that go on smoothly at a rim), Verdict, ValidCells, ReversedCells,
  * InvalidCells, UndecidedCells, MinJacobianLower, LeastScaledJacobian, Volume, Diagonal and Cuts,
  * the operations of vtkCADModifier that were made, one a line.
  *

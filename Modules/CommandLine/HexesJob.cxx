@@ -30,8 +30,9 @@ protected:
   Status AddNumbers(Session& session) override
   {
     ReportRow(this->Table(Numbers), 0,
-      { "Hexahedra", "Points", "Solids", "Verdict", "ValidCells", "ReversedCells", "InvalidCells",
-        "UndecidedCells", "MinJacobianLower", "LeastScaledJacobian", "Volume", "Diagonal" },
+      { "Hexahedra", "Points", "Solids", "PaddedHexahedra", "Verdict", "ValidCells",
+        "ReversedCells", "InvalidCells", "UndecidedCells", "MinJacobianLower",
+        "LeastScaledJacobian", "Volume", "Diagonal" },
       session.Report);
     session.Report["cuts"] = Lines(this->Table(Numbers)->GetValueByName(0, "Cuts").ToString());
     vtkTable* solids = this->Table(SolidTable);

@@ -2,6 +2,7 @@
 #include "CADHexes.h"
 
 #include "CornerFill.h"
+#include "HexPadding.h"
 #include "QuadSides.h"
 #include "RimMap.h"
 #include "SolidSweeps.h"
@@ -250,7 +251,7 @@ Status HexMesher::Match(const SolidSweep& sweep, const QuadSides& source,
 /// Nodes of edges inside of the target are images of nodes of edges inside of the source.
 Status HexMesher::MatchImprints(const SolidSweep& sweep, std::map<int, int>& images) const
 {
-  const RimMap map(sweep.Origin, sweep.Arrival);
+  const RimMap map(sweep.Origin, sweep.Arrival, sweep.Mirrored);
   for (const EdgePair& pair : sweep.Imprints)
   {
     const int count = this->Nodes->Counts[At(pair.Source)];
@@ -837,7 +838,6 @@ Status HexMesher::Fill(const SolidFaces& solid)
   numbers.Target = sweep.Target;
   numbers.Linking = sweep.Linking;
   numbers.Layers = numLayers;
-  numbers.Hexahedra = swept->Mesh.NumCells();
   this->Made.Solids.push_back(std::move(numbers));
   return {};
 }
@@ -867,7 +867,6 @@ Status HexMesher::FillCorners(const SolidSweep& sweep)
       this->Made.Mesh.Corners.end(), hexahedron.begin(), hexahedron.end());
     this->Made.HexBody.push_back(sweep.Body);
     this->Made.HexLayer.push_back(0);
-    ++numbers.Hexahedra;
   }
   this->Made.Solids.push_back(std::move(numbers));
   return {};
@@ -912,8 +911,10 @@ Status HexMesher::Finish()
   }
   this->Made.Quality = std::move(quality.Value);
   std::map<int, double> least;
+  std::map<int, int> number;
   for (std::size_t c = 0; c < this->Made.HexBody.size(); ++c)
   {
+    ++number[this->Made.HexBody[c]];
     double& ofBody = least.try_emplace(this->Made.HexBody[c], 1.0).first->second;
     ofBody = std::min(ofBody, this->Made.Quality.ScaledJacobians[c]);
   }
@@ -922,6 +923,7 @@ Status HexMesher::Finish()
   for (CADSolidHexes& solid : this->Made.Solids)
   {
     solid.LeastScaledJacobian = least[solid.Body];
+    solid.Hexahedra = number[solid.Body];
   }
   return {};
 }
@@ -1001,6 +1003,18 @@ Result<CADHexes> HexMesher::Run()
       return filled;
     }
   }
+  HexCells cells{ std::move(this->Made.Mesh.Corners), std::move(this->Made.HexBody),
+    std::move(this->Made.HexLayer) };
+  const auto padded =
+    PadSmoothSurfaces(this->Model, this->Faces, *this->Nodes, this->Surface.Mesh, cells);
+  if (!padded)
+  {
+    return padded.Status;
+  }
+  this->Made.Mesh.Corners = std::move(cells.Corners);
+  this->Made.HexBody = std::move(cells.Bodies);
+  this->Made.HexLayer = std::move(cells.Layers);
+  this->Made.PaddedHexes = padded.Value;
   if (Status finished = this->Finish(); !finished)
   {
     return finished;

@@ -34,6 +34,7 @@ struct CADHexes
   std::vector<int> PointDimension; ///< 0 on a vertex, 1 on an edge, 2 on a face, 3 inside
   std::vector<int> PointEntity;    ///< which, of CADTopology's Vertices, Edges, Faces or Bodies
   std::vector<CADSolidHexes> Solids;
+  int PaddedHexes = 0; ///< of all, those in layers under smooth surfaces
   HexahedronQuality Quality;
 };
 

@@ -10,11 +10,11 @@
 namespace knotwork
 {
 /// The affine map that brings points of a rim nearest to others, by least squares; of nearly flat
-/// rims in their plane, and along its normal by the same scale.
+/// rims in their plane, and along its normal by the same scale, or by its opposite (mirrored).
 class RimMap
 {
 public:
-  RimMap(const PointMatrix& from, const PointMatrix& to)
+  RimMap(const PointMatrix& from, const PointMatrix& to, bool mirrored = false)
   {
     this->Centre = from.colwise().mean().transpose();
     this->Image = to.colwise().mean().transpose();
@@ -40,7 +40,7 @@ public:
     }
     else if (area > 0.0)
     {
-      this->Linear += image / std::sqrt(area) * normal.transpose();
+      this->Linear += (mirrored ? -1.0 : 1.0) / std::sqrt(area) * image * normal.transpose();
     }
   }
 

@@ -49,17 +49,20 @@ public:
   std::vector<std::vector<int>> Sources() const;
   /// @param sweep     result; where edges inside of the target alone prevent it, with its target.
   /// @param blockers  result: faces that prevent it.
-  bool Sweep(const std::vector<int>& source, SolidSweep& sweep, std::set<int>& blockers) const;
+  /// @param goesOn    linking faces may lie behind others where these go on flatly.
+  bool Sweep(
+    const std::vector<int>& source, bool goesOn, SolidSweep& sweep, std::set<int>& blockers) const;
 
 private:
   struct Progress;
 
   std::map<int, int> UsesWithin(const std::set<int>& faces) const;
   bool Advance(int face, std::size_t side, Progress& progress) const;
-  void Link(const std::set<int>& source, Progress& progress) const;
+  void Link(const std::set<int>& source, bool goesOn, Progress& progress) const;
   bool AddLayers(const std::set<int>& source, const Progress& progress, SolidSweep& sweep) const;
   bool MatchImprints(SolidSweep& sweep) const;
   Vector3d AreaVector(int face) const;
+  std::vector<int> CapOf(int face) const;
   std::set<int> BentFaces(const std::vector<int>& end) const;
   bool IsConnected(const std::set<int>& faces) const;
   bool HasSameCorners(const SolidSweep& sweep, const Progress& progress) const;
@@ -121,7 +124,40 @@ SolidShape::SolidShape(const CADTopology& model, const FaceMesher& mesher, int b
   }
 }
 
-/// Every face, and what is joined to it by flat edges.
+/// Faces around a plane one that look its way, joined by flat edges: what rounded edges are around.
+std::vector<int> SolidShape::CapOf(int face) const
+{
+  constexpr double Least = 0.3; ///< cosine
+  const Vector3d way = this->AreaVector(face).normalized();
+  DisjointSets sets(static_cast<int>(this->Model.Faces.size()));
+  std::set<int> looking;
+  for (const int other : this->Faces)
+  {
+    const Vector3d area = this->AreaVector(other);
+    if (area.dot(way) > Least * area.norm())
+    {
+      looking.insert(other);
+    }
+  }
+  for (const auto& [id, edge] : this->Edges)
+  {
+    if (edge.IsFlat && looking.count(edge.Uses[0].Face) > 0 && looking.count(edge.Uses[1].Face) > 0)
+    {
+      sets.Unite(edge.Uses[0].Face, edge.Uses[1].Face);
+    }
+  }
+  std::vector<int> cap;
+  for (const int other : looking)
+  {
+    if (sets.Find(other) == sets.Find(face))
+    {
+      cap.push_back(other);
+    }
+  }
+  return cap;
+}
+
+/// Every face, what is joined to it by flat edges, and of that what looks the way of a plane one.
 std::vector<std::vector<int>> SolidShape::Sources() const
 {
   std::vector<std::vector<int>> sources;
@@ -144,6 +180,18 @@ std::vector<std::vector<int>> SolidShape::Sources() const
     if (group.size() > 1 && group.size() < this->Faces.size())
     {
       sources.push_back(std::move(group));
+    }
+  }
+  for (const int face : this->Faces)
+  {
+    if (this->Model.Faces[At(face)].IsPlane)
+    {
+      std::vector<int> cap = this->CapOf(face);
+      if (cap.size() < this->Faces.size() &&
+        std::find(sources.begin(), sources.end(), cap) == sources.end())
+      {
+        sources.push_back(std::move(cap));
+      }
     }
   }
   return sources;
@@ -251,8 +299,8 @@ bool SolidShape::Advance(int face, std::size_t side, Progress& progress) const
   return true;
 }
 
-/// Faces beside the source link, and those that go on flatly behind linking ones.
-void SolidShape::Link(const std::set<int>& source, Progress& progress) const
+/// Faces beside the source link, and, if asked for, those that go on flatly behind linking ones.
+void SolidShape::Link(const std::set<int>& source, bool goesOn, Progress& progress) const
 {
   std::set<int> rim;
   for (const auto& [edge, origins] : progress.Front)
@@ -273,10 +321,10 @@ void SolidShape::Link(const std::set<int>& source, Progress& progress) const
       const auto sides = this->Mesher.Sides(face);
       for (std::size_t side = 0; side < sides.size(); ++side)
       {
-        const bool goesOn = std::all_of(sides[side].begin(), sides[side].end(),
+        const bool leadsOn = std::all_of(sides[side].begin(), sides[side].end(),
           [&](const CADTopologyUse& use)
-          { return rim.count(use.Edge) > 0 || this->Edges.at(use.Edge).IsFlat; });
-        if (goesOn && this->Advance(face, side, progress))
+          { return rim.count(use.Edge) > 0 || (goesOn && this->Edges.at(use.Edge).IsFlat); });
+        if (leadsOn && this->Advance(face, side, progress))
         {
           changed = true;
           break;
@@ -334,7 +382,8 @@ bool SolidShape::AddLayers(
 bool SolidShape::MatchImprints(SolidSweep& sweep) const
 {
   constexpr double Near = 0.25; ///< of an edge's length, or of its radius
-  const RimMap back(sweep.Arrival, sweep.Origin);
+  const RimMap back(sweep.Arrival, sweep.Origin, sweep.Mirrored);
+  sweep.Imprints.clear();
   const auto inner = [&](const std::vector<int>& faces)
   {
     std::vector<int> edges;
@@ -410,7 +459,10 @@ bool SolidShape::MatchImprints(SolidSweep& sweep) const
     }
     ofSource.erase(std::find(ofSource.begin(), ofSource.end(), best));
     sweep.Imprints.push_back({ best, target });
-    sweep.Equal.push_back({ { best }, { target } });
+  }
+  for (const EdgePair& pair : sweep.Imprints)
+  {
+    sweep.Equal.push_back({ { pair.Source }, { pair.Target } });
   }
   sweep.BothWays = ofSource.empty();
   return true;
@@ -539,7 +591,7 @@ bool SolidShape::IsConnected(const std::set<int>& faces) const
 }
 
 bool SolidShape::Sweep(
-  const std::vector<int>& given, SolidSweep& sweep, std::set<int>& blockers) const
+  const std::vector<int>& given, bool goesOn, SolidSweep& sweep, std::set<int>& blockers) const
 {
   const std::set<int> source(given.begin(), given.end());
   Progress progress;
@@ -565,7 +617,7 @@ bool SolidShape::Sweep(
   {
     return false;
   }
-  this->Link(source, progress);
+  this->Link(source, goesOn, progress);
   for (const int face : beside)
   {
     if (progress.Linking.count(face) == 0)
@@ -647,9 +699,17 @@ bool SolidShape::Sweep(
     }
   }
   sweep.Score = this->Score(sweep);
-  if (!this->AddLayers(source, progress, sweep) || !this->MatchImprints(sweep))
+  if (!this->AddLayers(source, progress, sweep))
   {
     return false;
+  }
+  if (!this->MatchImprints(sweep))
+  {
+    sweep.Mirrored = true;
+    if (!this->MatchImprints(sweep))
+    {
+      return false;
+    }
   }
   sweep.IsBlock = this->HasSameCorners(sweep, progress);
   return true;
@@ -835,10 +895,16 @@ Result<std::vector<SolidSweep>> SweepsOf(
   {
     const std::vector<int> source = sources[i];
     SolidSweep sweep;
+    SolidSweep shorter;
     std::set<int> ofSource;
-    if (shape.Sweep(source, sweep, ofSource))
+    std::set<int> ofShorter;
+    if (shape.Sweep(source, true, sweep, ofSource))
     {
       found.push_back(std::move(sweep));
+    }
+    else if (shape.Sweep(source, false, shorter, ofShorter))
+    {
+      found.push_back(std::move(shorter));
     }
     else if (!ofSource.empty() && (from.empty() || ofSource.size() < blockers.size()))
     {

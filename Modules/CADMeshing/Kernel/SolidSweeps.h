@@ -24,6 +24,7 @@ struct SolidSweep
   std::vector<EdgePair> Imprints; ///< all edges inside of the target, but seams
   PointMatrix Origin;             ///< places on the rim of the source, n x 3, and
   PointMatrix Arrival;            ///< where they come to
+  bool Mirrored = false;          ///< imprints lie beyond the target's rim as before the source's
   bool BothWays = false;          ///< all edges inside of the source have a partner too
   bool IsBlock = false; ///< source and target are one rectangle each, with the same corners
   /// A grid at each corner: all faces link, and there are no ends.
