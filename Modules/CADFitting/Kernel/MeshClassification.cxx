@@ -180,15 +180,19 @@ private:
     }
   }
 
+  /// The point beside a place of the curve; what lies off the curve counts more than what lies
+  /// along it.
   int Closest(
     const std::unordered_map<int, PolylineFoot::Foot>& near, const Eigen::RowVector3d& place) const
   {
+    constexpr double Off = 2.0;
     std::pair<double, int> best{ std::numeric_limits<double>::infinity(), -1 };
     for (const auto& [point, foot] : near)
     {
       if (this->IsTaken[At(point)] == 0)
       {
-        best = std::min(best, { (this->Points.row(point) - place).norm(), point });
+        best =
+          std::min(best, { (this->Points.row(point) - place).norm() + Off * foot.Distance, point });
       }
     }
     return best.second;
