@@ -206,6 +206,68 @@ TEST(CADFit, BoxKeepsItsEdges)
   }
 }
 
+/// A circle between a plane and a cylinder has all of its edges, though points beside it lie nearer
+/// to places where it is divided than its own.
+TEST(CADFit, AClosedEdgeKeepsItsPoints)
+{
+  constexpr double Pi = EIGEN_PI;
+  // (angle, place across): 0 to 1 down the cylinder, 1 to 2 out on the plane
+  const auto hat = [](double angle, double across) -> Eigen::RowVector3d
+  {
+    const double radius = across < 1.0 ? 20.0 : 20.0 + 10.0 * (across - 1.0);
+    return { radius * std::cos(angle), radius * std::sin(angle),
+      across < 1.0 ? 10.0 * (1.0 - across) : 0.0 };
+  };
+  TriangleMesh triangles;
+  constexpr int Around = 110;
+  constexpr int Across = 16;
+  triangles.Points.resize(Around * (Across + 1), 3);
+  for (int j = 0; j <= Across; ++j)
+  {
+    for (int i = 0; i < Around; ++i)
+    {
+      triangles.Points.row(j * Around + i) = hat(2.0 * Pi * i / Around, 2.0 * j / Across);
+      const int next = (i + 1) % Around;
+      if (j < Across)
+      {
+        const int a = j * Around;
+        const int b = a + Around;
+        triangles.Triangles.push_back({ a + i, b + i, b + next });
+        triangles.Triangles.push_back({ a + i, b + next, a + next });
+      }
+    }
+  }
+  const auto target = MakeMeshTarget(triangles);
+  ASSERT_TRUE(target) << target.Status.Message();
+  // 22 quadrilaterals around; the row outside of the circle is near, and turned
+  constexpr int Columns = 22;
+  const std::vector<std::array<double, 2>> rows{ { 0.0, 0.0 }, { 0.5, 0.0 }, { 1.0, 0.0 },
+    { 1.14, 0.13 }, { 2.0, 0.26 } };
+  PlacedMesh<2> mesh;
+  mesh.Mesh.NumPoints = Columns * static_cast<int>(rows.size());
+  mesh.Points.resize(mesh.Mesh.NumPoints, 3);
+  for (int j = 0; j < static_cast<int>(rows.size()); ++j)
+  {
+    const auto& [across, turn] = rows[static_cast<std::size_t>(j)];
+    for (int i = 0; i < Columns; ++i)
+    {
+      mesh.Points.row(j * Columns + i) = hat(2.0 * Pi * (i + turn) / Columns, across);
+      const int next = (i + 1) % Columns;
+      if (j + 1 < static_cast<int>(rows.size()))
+      {
+        for (const int corner :
+          { j * Columns + i, j * Columns + next, (j + 1) * Columns + i, (j + 1) * Columns + next })
+        {
+          mesh.Mesh.Corners.push_back(corner);
+        }
+      }
+    }
+  }
+  const auto fit = Fit<2>(mesh, target.Value, Params(2, CreasePolicy::Automatic));
+  EXPECT_TRUE(fit.UnmatchedFeatures.empty());
+  EXPECT_LE(fit.Distances.ToTarget.Largest, 0.1);
+}
+
 /// A mesh whose cells have two faces on a smooth surface has no valid map there without a layer.
 TEST(CADFit, LayerUnderASmoothSurface)
 {

@@ -7,15 +7,22 @@
 
 #include <BRepAlgoAPI_Common.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
+#include <BRepFilletAPI_MakeFillet.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
+#include <BRepPrimAPI_MakeHalfSpace.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
+#include <TopoDS_Edge.hxx>
 #include <TopoDS_Vertex.hxx>
+#include <gp_Pln.hxx>
 
 #include <algorithm>
 #include <cmath>
@@ -195,6 +202,126 @@ TEST(CADHexes, SolidsAreValidWithTheirVolume)
       ExpectBoundaryOnShape(solid.Shape, made, model.Diagonal);
     }
   }
+}
+
+namespace
+{
+/// What lies below a plane of a shape.
+TopoDS_Shape CutOff(const TopoDS_Shape& shape, const gp_Pnt& place, const gp_Dir& normal)
+{
+  const gp_Pln plane(place, normal);
+  const gp_Pnt above = place.Translated(gp_Vec(normal));
+  return BRepAlgoAPI_Cut(
+    shape, BRepPrimAPI_MakeHalfSpace(BRepBuilderAPI_MakeFace(plane).Face(), above).Solid())
+    .Shape();
+}
+
+/// With edges rounded that a rule chooses by both their ends.
+template <typename Rule>
+TopoDS_Shape Rounded(const TopoDS_Shape& shape, double radius, const Rule& rule)
+{
+  BRepFilletAPI_MakeFillet fillet(shape);
+  std::set<std::size_t> known;
+  for (TopExp_Explorer edge(shape, TopAbs_EDGE); edge.More(); edge.Next())
+  {
+    gp_Pnt lower(1e9, 1e9, 1e9);
+    for (TopExp_Explorer vertex(edge.Current(), TopAbs_VERTEX); vertex.More(); vertex.Next())
+    {
+      const gp_Pnt point = BRep_Tool::Pnt(TopoDS::Vertex(vertex.Current()));
+      lower.SetZ(std::min(lower.Z(), point.Z()));
+    }
+    if (rule(lower.Z()))
+    {
+      fillet.Add(radius, TopoDS::Edge(edge.Current()));
+    }
+  }
+  return fillet.Shape();
+}
+}
+
+/// Solids three of whose faces meet at each corner: as many grids as corners, half a side's
+/// segments in every direction.
+TEST(CADHexes, SolidsWithThreeFacesAtEachCornerAreGridsAtTheCorners_ExactOracle)
+{
+  const TopoDS_Shape cube = BoxAt(gp_Pnt(0, 0, 0), 2, 2, 2);
+  const gp_Dir diagonal(1, 1, 1);
+  struct Case
+  {
+    const char* Name;
+    TopoDS_Shape Shape;
+    int Corners;
+    double Volume;
+    double VolumeTolerance;
+  };
+  const std::vector<Case> cases{ { "tetrahedron", CutOff(cube, gp_Pnt(2, 0, 0), diagonal), 4,
+                                   8.0 / 6, 1e-9 },
+    { "cube without a corner", CutOff(cube, gp_Pnt(2, 2, 1), diagonal), 10, 8 - 1.0 / 6, 1e-9 },
+    { "eighth of a ball", BRepPrimAPI_MakeSphere(1, 0, Pi / 2, Pi / 2).Shape(), 4, Pi / 6, 0.02 },
+    { "quarter of a cone", BRepPrimAPI_MakeCone(2, 0, 2, Pi / 2).Shape(), 4, 2 * Pi / 3, 0.02 } };
+  for (const Case& one : cases)
+  {
+    SCOPED_TRACE(one.Name);
+    const CADTopology model = TopologyOf(BREPFile(one.Shape));
+    CADHexesParams params;
+    params.Faces.EdgeLength = 100.0;
+    params.Faces.Curvature = 90.0;
+    params.Faces.MinDivisions = 12;
+    const CADHexes made = Mesh(model, params);
+    EXPECT_EQ(made.Mesh.NumCells(), one.Corners * 6 * 6 * 6);
+    EXPECT_NEAR(made.Quality.Volume, one.Volume, one.Volume * one.VolumeTolerance);
+    EXPECT_GT(made.Quality.LeastScaledJacobian, 0.2);
+    ExpectBoundaryOnShape(one.Shape, made, model.Diagonal);
+    ASSERT_EQ(made.Solids.size(), 1u);
+    EXPECT_TRUE(made.Solids[0].Source.empty() && made.Solids[0].Target.empty());
+    EXPECT_EQ(made.Solids[0].Hexahedra, made.Mesh.NumCells());
+  }
+  // a face that a grid at a corner has is one for the neighbour, too
+  const TopoDS_Shape below = BRepAlgoAPI_Common(BoxAt(gp_Pnt(0, 0, -1), 2, 2, 1),
+    CutOff(BoxAt(gp_Pnt(0, 0, -1), 4, 4, 4), gp_Pnt(2, 0, 0), gp_Dir(1, 1, 0)))
+                               .Shape();
+  const CADHexes both = Mesh(Imprinted({ cases[0].Shape, below }));
+  EXPECT_EQ(both.Solids.size(), 2u);
+  EXPECT_NEAR(both.Quality.Volume, 8.0 / 6 + 2.0, 1e-9);
+}
+
+TEST(CADHexes, SmoothRimsGetALayer_PropertyOracle)
+{
+  const auto above = [](double height) { return [height](double z) { return z > height; }; };
+  const TopoDS_Shape box = BoxAt(gp_Pnt(0, 0, 0), 4, 3, 1);
+  const double corner = 1.0 - Pi / 4; // of a square about a circle's quarter
+  struct Case
+  {
+    const char* Name;
+    TopoDS_Shape Shape;
+    double Volume;
+    double Least; ///< scaled Jacobian; without a layer 0.2 and less
+  };
+  // a rounded cube: straight parts, quarters of cylinders, a ball
+  const double round =
+    1.4 * 1.4 * 1.4 + 6 * 1.4 * 1.4 * 0.3 + 3 * Pi * 0.09 * 1.4 + 4.0 / 3 * Pi * 0.027;
+  const std::vector<Case> cases{
+    { "box with a rounded top", Rounded(box, 0.2, above(0.9)),
+      12 - 0.04 * corner * (2 * 4 + 2 * 3) + 4 * 0.008 * (5.0 / 3 - Pi / 2), 0.4 },
+    { "cube, all edges rounded", Rounded(BoxAt(gp_Pnt(0, 0, 0), 2, 2, 2), 0.3, above(-1)), round,
+      0.3 },
+    { "cylinder with a rounded rim",
+      Rounded(CylinderAt(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1), 2, 1), 0.3, above(0.9)),
+      Pi * 4 - 2 * Pi * 0.09 * (corner * 2 - (5.0 / 6 - Pi / 4) * 0.3), 0.3 }
+  };
+  for (const Case& one : cases)
+  {
+    SCOPED_TRACE(one.Name);
+    const CADTopology model = TopologyOf(BREPFile(one.Shape));
+    const CADHexes made = Mesh(model);
+    EXPECT_GT(made.PaddedHexes, 0);
+    EXPECT_GT(made.Quality.LeastScaledJacobian, one.Least);
+    EXPECT_NEAR(made.Quality.Volume, one.Volume, 0.01 * one.Volume);
+    ExpectBoundaryOnShape(one.Shape, made, model.Diagonal);
+    EXPECT_EQ(made.Solids[0].Hexahedra, made.Mesh.NumCells());
+  }
+  // nothing where rims are edges
+  EXPECT_EQ(
+    Mesh(TopologyOf(BREPFile(CylinderAt(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1), 1, 1)))).PaddedHexes, 0);
 }
 
 TEST(CADHexes, SolidsThatShareFacesConform)

@@ -290,3 +290,16 @@ TEST(CADComposite, WordsGiveTheOperation_GoldenOracle)
     EXPECT_EQ(parsed->Kind, kind);
   }
 }
+
+TEST(CADComposite, WordsOfAnOperationGiveItAgain_ExactOracle)
+{
+  for (const char* text :
+    { "imprint", "cut-plane 0.1 -2 3e-05 0 0.7071067811865476 1", "cut-face 7",
+      "cut-cylinder 1 2 3 4 5 -0.6 7", "split-plane 3,5 1 2 3 0 0 1", "split-iso 3,5 v 0.25",
+      "split-iso 2 u 0.1", "split-curve 4", "composite 1,2,3", "heal 0.001" })
+  {
+    const auto operation = ParseCADOperation(text);
+    ASSERT_TRUE(operation) << operation.Status.Message();
+    EXPECT_EQ(TextOf(operation.Value), text);
+  }
+}
