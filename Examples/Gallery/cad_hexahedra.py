@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A piston cut into four solids, the hexahedra that are swept in them, and the spline volume that is fitted to the part.
+"""A piston, a tee and a cover, each from its STEP file: the hexahedra of the solids that it is cut into, moved apart, and the spline volume that is
+fitted to the part.
 
 usage: cad_hexahedra.py [--output DIR]
 """
 import os
-import subprocess
 
 import knotwork
 import numpy as np
@@ -14,12 +14,14 @@ from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
 import _scene as scene
 import cad_fit
 import cad_fit_examples as drawing
-from cad_modification import PROGRAM
 
-PART = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Testing", "Data", "Parts", "piston.step")
+PARTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Testing", "Data", "Parts")
+PART = os.path.join(PARTS, "piston.step")
 CUTS = ("--cut-plane", "0", "0", "46", "0", "0", "1", "--cut-plane", "0", "0", "0", "1", "0", "0")
 APART = 0.25  # of the way of a solid's centre from that of the part
 SEEN_FROM = (260, -330, -250)
+# part, length of the hexahedra's sides, seen from, towards
+SHOWN = (("piston", 6, SEEN_FROM, (0, 0, 30)), ("tee", 3, (90, -140, 90), (0, 0, 8)), ("cover", 3.5, (90, -110, 100), (30, 20, 6)))
 
 
 def apart(mesh):
@@ -41,32 +43,40 @@ def apart(mesh):
     return pieces
 
 
-def main():
-    folder = scene.output_folder()
-    cut = os.path.join(folder, "piston.brep")
-    subprocess.run([PROGRAM, "cadmodify", PART, *CUTS, "--output", cut, "--force", "--quiet"], check=True)
+def panels_of(part, length, seen_from, middle, column):
     hexes = knotwork.vtkCADHexahedra()
-    hexes.SetFileName(cut)
-    hexes.SetEdgeLength(6)
+    hexes.SetFileName(os.path.join(PARTS, part + ".step"))
+    hexes.SetEdgeLength(length)
     scene.updated(hexes)
-    mesh, numbers = hexes.GetOutputDataObject(0), hexes.GetOutputDataObject(1)
+    mesh, numbers, solids = (hexes.GetOutputDataObject(port) for port in range(3))
     number = {name: numbers.GetValueByName(0, name).ToDouble() for name in ("Hexahedra", "ValidCells", "LeastScaledJacobian")}
+    cuts = len(numbers.GetValueByName(0, "Cuts").ToString().splitlines())
     target = knotwork.vtkCADReader()
-    target.SetFileName(PART)
+    target.SetFileName(hexes.GetFileName())
     target.SetChordalTolerance(1e-5)
     faces = scene.updated(target).GetOutputDataObject(2)
-    made = cad_fit.fit(mesh, faces, Degree=2)
+    made = cad_fit.fit(mesh, faces, Degree=2, BoundedElements=0)
     text = {name: drawing.text_of(made, name) for name in ("Verdict", "Functions", "MaxDistance")}
     spline = cad_fit.boundary(made.GetOutputDataObject(0))
-    panels = []
-    for k, (items, title) in enumerate((
-            ([cad_fit.edged(piece, colour) for piece, colour in apart(mesh)],
-             f"{number['Hexahedra']:.0f} hexahedra in 4 solids, {number['ValidCells']:.0f} valid, least scaled Jacobian {number['LeastScaledJacobian']:.2f}"),
+    count = solids.GetNumberOfRows()
+    title = f"{number['Hexahedra']:.0f} hexahedra, {number['ValidCells']:.0f} valid, in {count} solid{'s'[:count > 1]} after {cuts} cut{'s'[:cuts != 1]}"
+    shown = []
+    for row, (items, said) in enumerate((
+            ([cad_fit.edged(piece, colour) for piece, colour in apart(mesh)], title),
             ([scene.actor(cad_fit.drawn(spline), scene.COLOURS[0], lighting=True), drawing.lines_of(drawing.element_lines(spline), 1)],
              f"one spline, {text['Verdict']}: {text['Functions']} functions, {float(text['MaxDistance']):.2f} mm off at most"))):
-        print(title)
-        panels.append(drawing.seen(items, k, 2, title, SEEN_FROM, (0, 0, 30), 0.95))
-    scene.save(panels, os.path.join(folder, "cad_hexahedra.png"), (1500, 700))
+        print(part, said)
+        view = drawing.seen(items, column, len(SHOWN), said, seen_from, middle, 0.95)
+        left, _, right, _ = view.GetViewport()
+        view.SetViewport(left, 0.5 * (1 - row), right, 0.5 * (2 - row))
+        shown.append(view)
+    return shown
+
+
+def main():
+    folder = scene.output_folder()
+    panels = [view for column, shown in enumerate(SHOWN) for view in panels_of(*shown, column)]
+    scene.save(panels, os.path.join(folder, "cad_hexahedra.png"), (1500, 1100))
 
 
 if __name__ == "__main__":

@@ -75,7 +75,7 @@ public:
   ///@}
   ///@{
   /** Cuts through all solids, at most, that are made where one of them cannot be swept: along faces
-   * at concave edges and planes through axes. 0: none. Default 2, valid range [0, 4]. */
+   * at concave edges and planes through axes. 0: none. Default 3, valid range [0, 4]. */
   vtkSetClampMacro(MaximumCuts, int, 0, 4);
   vtkGetMacro(MaximumCuts, int);
   ///@}
@@ -100,7 +100,7 @@ private:
   double EdgeLength = 0.0;
   double Curvature = 30.0;
   int MinimumDivisions = 2;
-  int MaximumCuts = 2;
+  int MaximumCuts = 3;
   int MaximumHexahedra = 1000000;
 };
 #endif

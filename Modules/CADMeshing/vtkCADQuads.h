@@ -4,8 +4,8 @@
  * @brief   conforming quadrilaterals on the faces of a CAD part
  *
  * Reads a STEP, IGES or BREP file. Every edge of the part is divided once, so that the mesh
- * conforms across all faces, also those of solids that touch face to face. Faces with four logical
- * corners become grids, others are meshed with triangles that are joined and divided to
+ * conforms across all faces, also those of solids that touch face to face. Rectangles, rings, discs
+ * and polygons become grids, other faces are meshed with triangles that are joined and divided to
  * quadrilaterals; inner points are moved on the surface.
  *
  * Output 0 (vtkPolyData): the quadrilaterals, counterclockwise about the normal that leads out of
@@ -65,9 +65,9 @@ public:
   vtkGetMacro(Unit, int);
   ///@}
   ///@{
-  /** How faces are meshed, one of Methods: AUTOMATIC, grids where a face has four logical corners
-   * and its opposite sides can have as many segments, else unstructured; MAPPED, grids on all
-   * faces, an error names one that has none; UNSTRUCTURED, no grids. Default AUTOMATIC. */
+  /** How faces are meshed, one of Methods: AUTOMATIC, grids in rectangles, rings, discs and
+   * polygons whose sides have numbers of segments that allow it, else unstructured; MAPPED, grids
+   * on all faces, an error names one that has none; UNSTRUCTURED, no grids. Default AUTOMATIC. */
   vtkSetClampMacro(Method, int, AUTOMATIC, UNSTRUCTURED);
   vtkGetMacro(Method, int);
   ///@}

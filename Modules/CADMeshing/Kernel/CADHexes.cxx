@@ -687,8 +687,9 @@ Status HexMesher::MeshRoot(const std::vector<SolidSweep>& pending)
   {
     if (this->QuadsOfFaces[At(face)].empty())
     {
-      const FaceMethod method =
-        this->Faces.Kind(face) == FaceShapeKind::Other ? FaceMethod::Paved : FaceMethod::GridIfGood;
+      const FaceMethod method = this->Faces.Kind(face) == LogicalShapeKind::Other
+        ? FaceMethod::Paved
+        : FaceMethod::GridIfGood;
       if (Status meshed = this->MeshFace(face, method); !meshed)
       {
         return meshed;

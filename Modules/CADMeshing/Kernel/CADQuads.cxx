@@ -46,7 +46,7 @@ Status QuadMesher::CheckMapped() const
   for (int face = 0; face < static_cast<int>(this->Model.Faces.size()); ++face)
   {
     if (this->Params.Method == CADQuadMethod::Mapped &&
-      this->Faces.Kind(face) == FaceShapeKind::Other)
+      this->Faces.Kind(face) == LogicalShapeKind::Other)
     {
       return { ErrorCode::InvalidTopology,
         FaceName(this->Model, face) +
@@ -64,10 +64,10 @@ void QuadMesher::FindMapped(const std::vector<RectangleFace>& equal)
   this->IsMapped.clear();
   for (int face = 0; face < static_cast<int>(this->Model.Faces.size()); ++face)
   {
-    const FaceShapeKind kind = this->Faces.Kind(face);
+    const LogicalShapeKind kind = this->Faces.Kind(face);
     this->IsMapped.push_back(this->Params.Method != CADQuadMethod::Unstructured &&
-      (kind == FaceShapeKind::Polygon || kind == FaceShapeKind::Segment ||
-        kind == FaceShapeKind::Disc));
+      (kind == LogicalShapeKind::Polygon || kind == LogicalShapeKind::Segment ||
+        kind == LogicalShapeKind::Disc));
   }
   for (const RectangleFace& one : equal)
   {

@@ -8,7 +8,7 @@ namespace knotwork
 {
 enum class CADQuadMethod
 {
-  Automatic = 0, ///< mapped where a face is a logical rectangle, else unstructured
+  Automatic = 0, ///< mapped where a face has a shape for grids, else unstructured
   Mapped,        ///< all faces must be
   Unstructured
 };
@@ -53,10 +53,10 @@ struct CADQuads
 std::vector<std::string> JoinComposites(CADTopology& model);
 
 /// Conforming quadrilaterals on all faces of a model. Every edge is divided once, by equal lengths,
-/// into an even number of segments; faces with four logical corners become grids, others are
-/// triangulated, joined and divided to quadrilaterals. Inner points are moved on the surface until
-/// the corners are good. Edges of faces where that fails are divided into twice as many, at most
-/// three times.
+/// into an even number of segments; rectangles, rings, discs and polygons become grids, other faces
+/// are triangulated, joined and divided to quadrilaterals. Inner points are moved on the surface
+/// until the corners are good. Edges of faces where that fails are divided into twice as many, at
+/// most three times.
 /// @return InvalidParameter; EmptyInput: no faces; TooLarge; InvalidTopology: a face that is not
 /// mapped where all must be, or that cannot be meshed, naming it; Aborted.
 Result<CADQuads> MeshQuads(const CADTopology& model, const CADQuadsParams& params = {});

@@ -40,8 +40,8 @@ public:
     std::map<std::vector<int>, int> numbers;
     for (const CADTopologySide& side : this->Body.Sides)
     {
-      const FaceShapeKind kind = this->Mesher.Kind(side.Face);
-      if ((kind != FaceShapeKind::Rectangle && kind != FaceShapeKind::Polygon) ||
+      const LogicalShapeKind kind = this->Mesher.Kind(side.Face);
+      if ((kind != LogicalShapeKind::Rectangle && kind != LogicalShapeKind::Polygon) ||
         !this->Outward.emplace(side.Face, side.Reversed ? -1.0 : 1.0).second)
       {
         return false;

@@ -483,9 +483,9 @@ Result<FaceQuads> MapRing(
 }
 
 Result<FaceQuads> MapShape(const FaceChart& chart, const std::vector<ChartLoop>& loops,
-  const FaceShape& shape, const GridSizes& sizes)
+  const LogicalShape& shape, const GridSizes& sizes)
 {
-  if (shape.Kind == FaceShapeKind::Ring)
+  if (shape.Kind == LogicalShapeKind::Ring)
   {
     return MapRing(chart, loops, sizes);
   }
@@ -494,7 +494,7 @@ Result<FaceQuads> MapShape(const FaceChart& chart, const std::vector<ChartLoop>&
   bool mapped = false;
   switch (shape.Kind)
   {
-    case FaceShapeKind::Rectangle:
+    case LogicalShapeKind::Rectangle:
     {
       const std::vector<int> counts = CountsOf(corners, blocks.LoopSize());
       if (counts[0] != counts[2] || counts[1] != counts[3])
@@ -507,17 +507,17 @@ Result<FaceQuads> MapShape(const FaceChart& chart, const std::vector<ChartLoop>&
       }
       return MapRectangle(chart, loops.front(), corners);
     }
-    case FaceShapeKind::Polygon:
+    case LogicalShapeKind::Polygon:
       mapped = MapPolygon(corners, blocks);
       break;
-    case FaceShapeKind::Segment:
+    case LogicalShapeKind::Segment:
       mapped = MapSegment(corners, blocks);
       break;
-    case FaceShapeKind::Disc:
+    case LogicalShapeKind::Disc:
       mapped = MapDisc(blocks);
       break;
-    case FaceShapeKind::Ring:
-    case FaceShapeKind::Other:
+    case LogicalShapeKind::Ring:
+    case LogicalShapeKind::Other:
       break;
   }
   if (!mapped)

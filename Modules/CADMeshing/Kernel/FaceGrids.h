@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "FaceQuads.h"
-#include "FaceShape.h"
+#include "LogicalShape.h"
 
 namespace knotwork
 {
@@ -27,5 +27,5 @@ struct GridSizes
 /// @source  polygons: Li, McKeag, Armstrong, Comput. Methods Appl. Mech. Eng. 127 (1995) 157
 /// (midpoint subdivision); inner points: Tutte, Proc. London Math. Soc. 13 (1963) 743.
 Result<FaceQuads> MapShape(const FaceChart& chart, const std::vector<ChartLoop>& loops,
-  const FaceShape& shape, const GridSizes& sizes);
+  const LogicalShape& shape, const GridSizes& sizes);
 }

@@ -86,7 +86,7 @@ void FaceMesher::FindShapes()
   for (int face = 0; face < static_cast<int>(this->Model.Faces.size()); ++face)
   {
     this->Charts.emplace_back(this->Model, face);
-    this->Shapes.push_back(ShapeOf(this->Model, this->Charts.back()));
+    this->Shapes.push_back(LogicalShapeOf(this->Model, this->Charts.back()));
     RectangleFace sides;
     sides.Face = face;
     const auto add = [&](std::size_t side, const std::vector<CADTopologyUse>& uses)
@@ -96,7 +96,7 @@ void FaceMesher::FindShapes()
         sides.Sides[side].push_back(use.Edge);
       }
     };
-    if (this->Kind(face) == FaceShapeKind::Ring)
+    if (this->Kind(face) == LogicalShapeKind::Ring)
     {
       add(0, this->Model.Faces[At(face)].Loops[0]);
       add(2, this->Model.Faces[At(face)].Loops[1]);
@@ -230,8 +230,8 @@ Status FaceMesher::MapFace(int face, const std::vector<ChartLoop>& loops, FaceMe
   {
     state.Least = std::min(state.Least, ScaledJacobian(state.Quads, normals, q));
   }
-  const FaceShapeKind kind = this->Kind(face);
-  if (state.Least < Bad || (kind != FaceShapeKind::Rectangle && kind != FaceShapeKind::Ring))
+  const LogicalShapeKind kind = this->Kind(face);
+  if (state.Least < Bad || (kind != LogicalShapeKind::Rectangle && kind != LogicalShapeKind::Ring))
   {
     state.Least = SmoothFace(chart, state.Quads);
   }

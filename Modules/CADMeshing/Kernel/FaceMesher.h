@@ -3,7 +3,7 @@
 #include "CADQuads.h"
 #include "EdgeDivisions.h"
 #include "FaceQuads.h"
-#include "FaceShape.h"
+#include "LogicalShape.h"
 
 namespace knotwork
 {
@@ -46,8 +46,11 @@ public:
   const std::vector<RectangleFace>& Rectangles() const { return this->AllRectangles; }
   /// Their loops are opposite sides; the other two have no edges.
   const std::vector<RectangleFace>& Rings() const { return this->AllRings; }
-  FaceShapeKind Kind(int face) const { return this->Shapes[static_cast<std::size_t>(face)].Kind; }
-  bool IsRectangle(int face) const { return this->Kind(face) == FaceShapeKind::Rectangle; }
+  LogicalShapeKind Kind(int face) const
+  {
+    return this->Shapes[static_cast<std::size_t>(face)].Kind;
+  }
+  bool IsRectangle(int face) const { return this->Kind(face) == LogicalShapeKind::Rectangle; }
   /// What lies between the corners of a face's outer loop, from the first one on, without poles.
   std::vector<std::vector<CADTopologyUse>> Sides(int face) const;
   const FaceChart& Chart(int face) const { return this->Charts[static_cast<std::size_t>(face)]; }
@@ -80,7 +83,7 @@ private:
   std::vector<FaceChart> Charts;
   std::vector<RectangleFace> AllRectangles;
   std::vector<RectangleFace> AllRings;
-  std::vector<FaceShape> Shapes;
+  std::vector<LogicalShape> Shapes;
   std::vector<FaceMesh> Meshes;
 };
 }

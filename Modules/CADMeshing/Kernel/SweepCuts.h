@@ -9,7 +9,7 @@ namespace knotwork
 {
 struct SweepCutsParams
 {
-  int MaxCuts = 2;
+  int MaxCuts = 3;
   int MaxTried = 24; ///< cuts of the same pieces, in CADPieces' order
   ProgressCallback Progress;
 };

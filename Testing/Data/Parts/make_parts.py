@@ -63,10 +63,26 @@ def rod(occ):
     occ.intersect(whole, [(3, occ.addBox(-30, 0, 0, 120, 30, 10))])
 
 
+def tee(occ):
+    """A pipe of 24 around a bore of 18, 60 long, with a branch of 18 around a bore of 12."""
+    outside = occ.fuse([(3, occ.addCylinder(-30, 0, 0, 60, 0, 0, 12))], [(3, occ.addCylinder(0, 0, 0, 0, 0, 30, 9))])[0]
+    occ.cut(outside, [(3, occ.addCylinder(-31, 0, 0, 62, 0, 0, 9)), (3, occ.addCylinder(0, 0, 0, 0, 0, 31, 6))])
+
+
+def cover(occ):
+    """A block of 60 x 40 x 16 with a bore of 20; all edges at its sides and on its top are rounded by 5, but for the bore's."""
+    block = occ.addBox(0, 0, 0, 60, 40, 16)
+    occ.synchronize()
+    edges = [edge for _, edge in occ.getEntities(1) if occ.getBoundingBox(1, edge)[5] > 15]
+    whole = occ.fillet([block], edges, [5])
+    occ.cut(whole, [(3, occ.addCylinder(30, 20, -1, 0, 0, 20, 10))])
+
+
 def main():
     gmsh.initialize()
     gmsh.option.setNumber("General.Terminal", 0)
-    for name, make in (("piston.step", piston), ("bracket.step", bracket), ("cylinder_on_cube.step", cylinder_on_cube), ("rod.step", rod)):
+    for name, make in (("piston.step", piston), ("bracket.step", bracket), ("cylinder_on_cube.step", cylinder_on_cube), ("rod.step", rod),
+                       ("tee.step", tee), ("cover.step", cover)):
         make(gmsh.model.occ)
         gmsh.model.occ.synchronize()
         gmsh.write(os.path.join(sys.argv[1], name))

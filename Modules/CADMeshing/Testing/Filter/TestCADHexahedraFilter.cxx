@@ -10,12 +10,14 @@
 #include "vtkUnstructuredGrid.h"
 #include "vtkVariant.h"
 
+#include <sstream>
 #include <string>
 
 using namespace knotwork;
 
 namespace
 {
+const std::string Piston = std::string(KNOTWORK_DATA_DIR) + "/Parts/piston.step";
 /// A square plate with a round hole.
 const std::string Plate = std::string(KNOTWORK_DATA_DIR) + "/Hostile/sound.brep";
 
@@ -53,6 +55,26 @@ TEST(vtkCADHexahedra, GivesHexahedraWithTheirEntitiesAndTables)
   EXPECT_EQ(range[0], 0.0);
   EXPECT_EQ(range[1], layers > 1 ? 3.0 : 2.0);
   EXPECT_FALSE(solids->GetValueByName(0, "SourceFaces").ToString().empty());
+}
+
+TEST(vtkCADHexahedra, CutsAreSaidAsOperationsOfTheModifier)
+{
+  vtkNew<vtkCADHexahedra> filter;
+  filter->SetFileName(Piston.c_str());
+  filter->SetEdgeLength(12.0);
+  filter->Update();
+  ASSERT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
+  const std::string cuts = TableOf(filter, 1)->GetValueByName(0, "Cuts").ToString();
+  std::istringstream stream(cuts);
+  int number = 0;
+  for (std::string line; std::getline(stream, line); ++number)
+  {
+    EXPECT_EQ(line.rfind("cut-", 0), 0u) << line;
+  }
+  EXPECT_EQ(number, 2);
+  EXPECT_EQ(TableOf(filter, 1)->GetValueByName(0, "Solids").ToInt(), 4);
+  filter->SetMaximumCuts(1);
+  ExpectFailure(filter, ErrorCode::InvalidTopology, "solid 0 is neither mapped nor swept");
 }
 
 TEST(vtkCADHexahedra, ErrorsNameTheFileOrTheOption)

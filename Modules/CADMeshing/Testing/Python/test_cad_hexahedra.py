@@ -58,26 +58,53 @@ def test_a_piston_becomes_one_valid_spline_volume():
 
 
 def test_the_piston_in_one_piece_names_its_faces():
-    done = knotwork_testing.run_program("hexes", PISTON, "--output", "no.vtu", folder=FOLDER)
+    done = knotwork_testing.run_program("hexes", PISTON, "--maximum-cuts", "0", "--output", "no.vtu", folder=FOLDER)
     assert done.returncode == 1 and "solid 0 is neither mapped nor swept" in done.stderr and "cadmodify" in done.stderr, done.stderr
     assert not os.path.exists(os.path.join(FOLDER, "no.vtu"))
 
 
+def test_parts_are_cut_as_far_as_it_takes():
+    """From the file to a valid spline: number of cuts and of solids, least scaled Jacobian, volume as of make_parts.py."""
+    cases = {"piston": (2, 4, 0.4, VOLUME), "tee": (2, 4, 0.4, 14253.818), "cover": (0, 1, 0.3, 32040.782), "rod": (0, 1, 0.5, 3792.2203),
+             "bracket": (0, 1, 0.5, 7790.1239)}
+    for name, (cuts, solids, least, volume) in cases.items():
+        part = knotwork_testing.data(os.path.join("Parts", name + ".step"))
+        report, mesh = meshed(part)
+        check_conforming(report, mesh)
+        assert (len(report["cuts"]), report["solids"]) == (cuts, solids), report
+        assert report["least_scaled_jacobian"] > least, (name, report["least_scaled_jacobian"])
+        fitted = run("cadfit", "hexes.vtu", "--target", part, "--degree", 2, "--output", "fitted.vtu", report="fit.json")
+        assert fitted["verdict"] == "valid" and fitted["uncertified_elements"] == 0 and fitted["unmatched_features"] == 0, (name, fitted)
+        assert abs(fitted["volume"] - volume) < 1e-3 * volume, (name, fitted["volume"])
+
+
+def test_the_cuts_that_are_said_give_the_same_solids():
+    said, _ = meshed(knotwork_testing.data(os.path.join("Parts", "tee.step")), "--edge-length", 5)
+    words = [word for cut in said["cuts"] for word in ("--" + cut).split()]
+    run("cadmodify", knotwork_testing.data(os.path.join("Parts", "tee.step")), *words, "--output", "tee.brep")
+    again, mesh = meshed("tee.brep", "--edge-length", 5, "--maximum-cuts", 0)
+    check_conforming(again, mesh)
+    for report in (said, again):
+        for solid in report["solid_table"]:
+            solid.pop("least_scaled_jacobian")  # differs in the last digits
+    assert again["solid_table"] == said["solid_table"] and not again["cuts"], again
+    assert abs(again["volume"] - said["volume"]) < 1e-9 * said["volume"], (again["volume"], said["volume"])
+
+
 def test_solids_of_the_folder():
-    """Those of KNOTWORK_UNSTRUCTURED_MESHES that are swept behind one cut at most."""
-    cuts = {"hexme_n12o_limit_cycle_genus0.stp": None, "hexme_s11o_cube_cyl.stp": (0, 0, 15, 0, 0, 1), "hexme_i01o_m1.step": (0, 0, 20, 0, 0, 1),
-            "hexme_s16o_torus.stp": (0, 0, 0, 1, 0, 0)}
+    """Those of KNOTWORK_UNSTRUCTURED_MESHES: all of them, with the fewest cuts that are known to do."""
+    cuts = {"hexme_n12o_limit_cycle_genus0.stp": 0, "hexme_s11o_cube_cyl.stp": 1, "hexme_i01o_m1.step": 1, "hexme_s16o_torus.stp": 1,
+            "hexme_s10o_cyl_cutsphere.stp": 3, "hexme_s12o_cube_rounded_1.stp": 0}
     folder = os.environ.get("KNOTWORK_UNSTRUCTURED_MESHES", "")
     if not (folder and glob.glob(os.path.join(folder, "hexme_*.st*p"))):
         knotwork_testing.skip("KNOTWORK_UNSTRUCTURED_MESHES names no folder with hexme_*.step")
-    for name, plane in cuts.items():
-        part = os.path.join(folder, name)
-        if plane:
-            run("cadmodify", part, "--cut-plane", *plane, "--output", "cut.brep")
-            part = "cut.brep"
-        report, mesh = meshed(part)
+    for name, number in cuts.items():
+        report, mesh = meshed(os.path.join(folder, name))
         check_conforming(report, mesh)
+        assert len(report["cuts"]) == number, (name, report["cuts"])
         assert report["least_scaled_jacobian"] > 0.3, (name, report["least_scaled_jacobian"])
+        fitted = run("cadfit", "hexes.vtu", "--target", os.path.join(folder, name), "--degree", 2, "--output", "fitted.vtu", report="fit.json")
+        assert fitted["verdict"] == "valid" and fitted["uncertified_elements"] == 0, (name, fitted)
 
 
 knotwork_testing.main(globals())

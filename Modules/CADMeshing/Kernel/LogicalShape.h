@@ -4,7 +4,7 @@
 
 namespace knotwork
 {
-enum class FaceShapeKind
+enum class LogicalShapeKind
 {
   Other,
   Rectangle, ///< one loop with four corners; it may have a seam
@@ -15,13 +15,13 @@ enum class FaceShapeKind
 };
 
 /// What a face is to a mesher that lays grids into it.
-struct FaceShape
+struct LogicalShape
 {
-  FaceShapeKind Kind = FaceShapeKind::Other;
+  LogicalShapeKind Kind = LogicalShapeKind::Other;
   std::vector<int> Corners; ///< uses of the first loop that begin at a corner; of a ring none
 };
 
 /// By the inner angles of the loops: from 20 to 140 degrees they are corners; all others must be
 /// near to straight, but for those of rings.
-FaceShape ShapeOf(const CADTopology& model, const FaceChart& chart);
+LogicalShape LogicalShapeOf(const CADTopology& model, const FaceChart& chart);
 }

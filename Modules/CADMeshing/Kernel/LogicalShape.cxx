@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "FaceShape.h"
+#include "LogicalShape.h"
 
 #include <Eigen/Geometry>
 
@@ -80,17 +80,17 @@ bool IsRing(const CADTopology& model, const CADTopologyFace& face)
 }
 }
 
-FaceShape ShapeOf(const CADTopology& model, const FaceChart& chart)
+LogicalShape LogicalShapeOf(const CADTopology& model, const FaceChart& chart)
 {
   // between these a corner, or a point of a side
   constexpr double Least = 20.0 / 180.0 * Pi;
   constexpr double Most = 140.0 / 180.0 * Pi;
   constexpr double MostStraight = 220.0 / 180.0 * Pi;
   const CADTopologyFace& face = model.Faces[At(chart.Face())];
-  FaceShape shape;
+  LogicalShape shape;
   if (face.Loops.size() != 1)
   {
-    shape.Kind = IsRing(model, face) ? FaceShapeKind::Ring : FaceShapeKind::Other;
+    shape.Kind = IsRing(model, face) ? LogicalShapeKind::Ring : LogicalShapeKind::Other;
     return shape;
   }
   bool hasPole = false;
@@ -118,16 +118,16 @@ FaceShape ShapeOf(const CADTopology& model, const FaceChart& chart)
   const std::size_t corners = shape.Corners.size();
   if (corners == 4)
   {
-    shape.Kind = hasPole ? FaceShapeKind::Other : FaceShapeKind::Rectangle;
+    shape.Kind = hasPole ? LogicalShapeKind::Other : LogicalShapeKind::Rectangle;
   }
   else if (!hasSeam)
   {
-    shape.Kind = corners == 0                        ? FaceShapeKind::Disc
-      : corners == 2                                 ? FaceShapeKind::Segment
-      : corners == 3 || corners == 5 || corners == 6 ? FaceShapeKind::Polygon
-                                                     : FaceShapeKind::Other;
+    shape.Kind = corners == 0                        ? LogicalShapeKind::Disc
+      : corners == 2                                 ? LogicalShapeKind::Segment
+      : corners == 3 || corners == 5 || corners == 6 ? LogicalShapeKind::Polygon
+                                                     : LogicalShapeKind::Other;
   }
-  if (shape.Kind == FaceShapeKind::Other)
+  if (shape.Kind == LogicalShapeKind::Other)
   {
     shape.Corners.clear();
   }
