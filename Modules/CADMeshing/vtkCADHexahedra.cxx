@@ -136,7 +136,12 @@ Status vtkCADHexahedra::Compute(vtkInformationVector**, vtkInformationVector* ou
   EncodeMesh(cut->Model, made.Value, vtkUnstructuredGrid::GetData(outputs, 0));
   EncodeNumbers(cut.Value, made.Value, vtkTable::GetData(outputs, 1));
   EncodeSolids(cut->Model, made.Value, vtkTable::GetData(outputs, 2));
-  this->ReportWarnings(HexahedronWarnings(
-    made->Quality, "lower EdgeLength or Curvature, or cut the solid (cadmodify)"));
+  std::vector<std::string> warnings = cut->Notes;
+  for (const std::string& warning : HexahedronWarnings(
+         made->Quality, "lower EdgeLength or Curvature, or cut the solid (cadmodify)"))
+  {
+    warnings.push_back(warning);
+  }
+  this->ReportWarnings(warnings);
   return {};
 }

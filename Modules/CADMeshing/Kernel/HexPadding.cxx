@@ -144,8 +144,9 @@ private:
   const EdgeNodes& Nodes;
   CADMesh& Mesh;
   HexCells& Cells;
-  std::vector<Facet> Facets; ///< with a face of the model
-  std::set<int> Chosen;      ///< of these
+  std::vector<Facet> Facets;              ///< with a face of the model
+  std::vector<std::vector<int>> FacetsAt; ///< nodes
+  std::set<int> Chosen;                   ///< of Facets
   std::map<int, LayerSlide::Place> Places;
 };
 
@@ -188,6 +189,14 @@ void Padding::FindFacets()
         this->Facets.push_back(facet);
       }
       ++this->Facets[found->second].Number;
+    }
+  }
+  this->FacetsAt.resize(this->Mesh.Points.size());
+  for (std::size_t f = 0; f < this->Facets.size(); ++f)
+  {
+    for (const int corner : this->Facets[f].Corners)
+    {
+      this->FacetsAt[At(corner)].push_back(static_cast<int>(f));
     }
   }
 }
@@ -254,13 +263,11 @@ bool Padding::Choose()
 bool Padding::Place(int node, Vector3d at, int copy)
 {
   std::set<int> others;
-  for (std::size_t f = 0; f < this->Facets.size(); ++f)
+  for (const int f : this->FacetsAt[At(node)])
   {
-    const Quad& corners = this->Facets[f].Corners;
-    if (this->Chosen.count(static_cast<int>(f)) == 0 &&
-      std::find(corners.begin(), corners.end(), node) != corners.end())
+    if (this->Chosen.count(f) == 0)
     {
-      others.insert(this->Facets[f].Face);
+      others.insert(this->Facets[At(f)].Face);
     }
   }
   this->Mesh.Points.push_back(at);
@@ -457,14 +464,14 @@ Status Padding::Move(const ProgressCallback& progress)
 Result<int> PadSmoothSurfaces(const CADTopology& model, const FaceMesher& faces,
   const EdgeNodes& nodes, CADMesh& mesh, HexCells& cells, const ProgressCallback& progress)
 {
-  const CADMesh meshBefore = mesh;
-  const HexCells cellsBefore = cells;
   Padding padding(model, faces, nodes, mesh, cells);
-  const double least = padding.Least();
   if (!padding.Choose())
   {
     return 0;
   }
+  const double least = padding.Least();
+  const CADMesh meshBefore = mesh;
+  const HexCells cellsBefore = cells;
   Status padded = padding.Add() ? padding.Move(progress)
                                 : Status{ ErrorCode::InvalidTopology, "a point has no place" };
   if (!padded && padded.Code != ErrorCode::InvalidTopology)

@@ -20,6 +20,14 @@ struct CutState
   bool Suits = false; ///< all are swept, such that faces between them suit both
 };
 
+/// Composites are one face each.
+Result<CADTopology> JoinedTopology(const CADPieces& pieces, std::vector<std::string>& notes)
+{
+  auto model = pieces.Topology();
+  notes = model ? JoinComposites(model.Value) : std::vector<std::string>();
+  return model;
+}
+
 void CountNotSwept(const CADTopology& model, CutState& state)
 {
   const CADQuadsParams params;
@@ -58,7 +66,9 @@ public:
       for (std::size_t i = 0; i < number; ++i)
       {
         const auto pieces = state.Pieces.Cut(cuts.Value[i]);
-        const auto model = pieces ? pieces->Topology() : Result<CADTopology>(pieces.Status);
+        std::vector<std::string> ignored;
+        const auto model =
+          pieces ? JoinedTopology(pieces.Value, ignored) : Result<CADTopology>(pieces.Status);
         if (model)
         {
           CutState next{ pieces.Value, state.Cuts };
@@ -89,7 +99,7 @@ Result<SweepCuts> FindSweepCuts(
 {
   constexpr std::size_t Kept = 4;
   SweepCuts found;
-  auto model = pieces.Topology();
+  auto model = JoinedTopology(pieces, found.Notes);
   if (!model)
   {
     return model.Status;
@@ -115,7 +125,8 @@ Result<SweepCuts> FindSweepCuts(
       {
         break; // those behind it are worse
       }
-      model = state.Pieces.Topology();
+      std::vector<std::string> notes;
+      model = JoinedTopology(state.Pieces, notes);
       if (!model)
       {
         return model.Status;
@@ -125,6 +136,7 @@ Result<SweepCuts> FindSweepCuts(
       {
         found.Model = std::move(model.Value);
         found.Cuts = state.Cuts;
+        found.Notes = std::move(notes);
         return found;
       }
       if (meshed.Code != ErrorCode::InvalidTopology)

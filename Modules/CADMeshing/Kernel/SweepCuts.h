@@ -16,8 +16,9 @@ struct SweepCutsParams
 
 struct SweepCuts
 {
-  CADTopology Model;              ///< the pieces
+  CADTopology Model;              ///< the pieces, composites joined
   std::vector<CADOperation> Cuts; ///< in this order
+  std::vector<std::string> Notes; ///< of composites that stay in faces (JoinComposites)
 };
 
 /// Meshes pieces that can be swept. @return InvalidTopology: others are to be tried.

@@ -73,4 +73,23 @@ def test_a_closed_composite_is_warned_of():
     assert done.returncode == 0 and "composite 1 (face 0 and others) stays in its faces" in done.stderr, done.stderr
 
 
+def test_hexahedra_pass_over_the_bends():
+    """One face to the other through the sheet: composites are ends, and no edges of the mesh lie between their faces."""
+    done = knotwork_testing.run_program("cadmodify", BRACKET, *SIDES, "--output", "sides.step", "--force", folder=FOLDER)
+    assert done.returncode == 0, done.stderr
+    done = knotwork_testing.run_program("hexes", "sides.step", "--edge-length", 4, "--output", "hexes.vtu", "--report", "hexes.json", "--force", folder=FOLDER)
+    assert done.returncode == 0, done.stderr
+    with open(os.path.join(FOLDER, "hexes.json"), encoding="utf-8") as file:
+        report = json.load(file)
+    (solid,) = report["solid_table"]
+    assert report["verdict"] == "valid" and report["valid_cells"] == report["hexahedra"] and not report["cuts"], report
+    assert len(solid["source_faces"].split()) == len(solid["target_faces"].split()) == 1, solid
+    done = knotwork_testing.run_program("cadfit", "hexes.vtu", "--target", BRACKET, "--degree", 2, "--output", "sheet.vtu", "--report", "fit.json", "--force",
+                                        folder=FOLDER, timeout=600)
+    assert done.returncode == 0, done.stderr
+    with open(os.path.join(FOLDER, "fit.json"), encoding="utf-8") as file:
+        fitted = json.load(file)
+    assert fitted["verdict"] == "valid" and abs(fitted["volume"] - VOLUME) < 1e-3 * VOLUME, fitted
+
+
 knotwork_testing.main(globals())
