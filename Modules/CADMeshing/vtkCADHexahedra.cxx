@@ -123,10 +123,14 @@ Status vtkCADHexahedra::Compute(vtkInformationVector**, vtkInformationVector* ou
   Result<CADHexes> made;
   const auto cut = FindSweepCuts(
     pieces.Value,
-    [&](const CADTopology& model)
+    [&](const CADTopology& model) -> Result<bool>
     {
       made = MeshHexes(model, params);
-      return made.Status;
+      if (!made)
+      {
+        return made.Status;
+      }
+      return made->Quality.Certificate.Verdict == Verdict::Valid;
     },
     search);
   if (!cut)

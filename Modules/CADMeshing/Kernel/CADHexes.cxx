@@ -76,12 +76,16 @@ struct SolidFaces
 class HexMesher
 {
 public:
-  HexMesher(const CADTopology& model, const CADHexesParams& params)
-    : Model(model), Params(params), Faces(model, params.Faces)
+  /// @param leftOut  ways to mesh solids that are not taken.
+  HexMesher(
+    const CADTopology& model, const CADHexesParams& params, const std::set<SweepNumber>& leftOut)
+    : Model(model), Params(params), LeftOut(leftOut), Faces(model, params.Faces)
   {
   }
 
   Result<CADHexes> Run();
+  /// The ways that were taken for bodies with cells that are not valid.
+  std::set<SweepNumber> NotValid(const CADHexes& made) const;
 
 private:
   void FindGrids();
@@ -110,6 +114,7 @@ private:
 
   const CADTopology& Model;
   const CADHexesParams& Params;
+  const std::set<SweepNumber>& LeftOut;
   FaceMesher Faces;
   std::vector<SolidSweep> Sweeps;
   std::vector<bool> IsGrid; ///< faces
@@ -929,6 +934,21 @@ Status HexMesher::Finish()
   return {};
 }
 
+std::set<SweepNumber> HexMesher::NotValid(const CADHexes& made) const
+{
+  std::set<SweepNumber> numbers;
+  for (std::size_t c = 0; c < made.HexBody.size(); ++c)
+  {
+    if (made.Quality.Certificate.Cells[c].Verdict != Verdict::Valid)
+    {
+      const auto sweep = std::find_if(this->Sweeps.begin(), this->Sweeps.end(),
+        [&](const SolidSweep& one) { return one.Body == made.HexBody[c]; });
+      numbers.insert({ sweep->Body, sweep->Rank });
+    }
+  }
+  return numbers;
+}
+
 Result<CADHexes> HexMesher::Run()
 {
   constexpr int Rounds = 4;
@@ -938,7 +958,7 @@ Result<CADHexes> HexMesher::Run()
     return wishes.Status;
   }
   this->Faces.FindShapes();
-  auto sweeps = ChooseSweeps(this->Model, this->Faces);
+  auto sweeps = ChooseSweeps(this->Model, this->Faces, this->LeftOut);
   if (!sweeps)
   {
     return sweeps.Status;
@@ -1022,6 +1042,36 @@ Result<CADHexes> HexMesher::Run()
   }
   return std::move(this->Made);
 }
+
+/// Where hexahedra of solids are not valid, these are meshed in other ways; the mesh with the best
+/// corners is kept.
+Result<CADHexes> BestOfWays(const CADTopology& model, const CADHexesParams& params)
+{
+  constexpr int MostWays = 6;
+  std::set<SweepNumber> leftOut;
+  Result<CADHexes> best;
+  for (int way = 0; way < MostWays; ++way)
+  {
+    HexMesher mesher(model, params, leftOut);
+    auto made = mesher.Run();
+    if (!made)
+    {
+      return way == 0 || made.Status.Code != ErrorCode::InvalidTopology ? made : best;
+    }
+    const std::set<SweepNumber> bad = mesher.NotValid(made.Value);
+    leftOut.insert(bad.begin(), bad.end());
+    if (way == 0 || bad.empty() ||
+      made->Quality.LeastScaledJacobian > best->Quality.LeastScaledJacobian)
+    {
+      best = std::move(made);
+    }
+    if (bad.empty())
+    {
+      break;
+    }
+  }
+  return best;
+}
 }
 
 Result<CADHexes> MeshHexes(const CADTopology& model, const CADHexesParams& params)
@@ -1040,7 +1090,7 @@ Result<CADHexes> MeshHexes(const CADTopology& model, const CADHexesParams& param
   }
   try
   {
-    return HexMesher(model, params).Run();
+    return BestOfWays(model, params);
   }
   catch (...)
   {

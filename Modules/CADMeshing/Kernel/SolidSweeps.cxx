@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -933,10 +934,15 @@ Result<std::vector<SolidSweep>> SweepsOf(
               ", no rectangles that lead from source to target, or bent away") +
         "; cut it (cadmodify, which has --suggest)" };
   }
+  for (std::size_t rank = 0; rank < found.size(); ++rank)
+  {
+    found[rank].Rank = static_cast<int>(rank);
+  }
   return found;
 }
 
-Result<std::vector<SolidSweep>> ChooseSweeps(const CADTopology& model, const FaceMesher& faces)
+Result<std::vector<SolidSweep>> ChooseSweeps(
+  const CADTopology& model, const FaceMesher& faces, const std::set<SweepNumber>& leftOut)
 {
   std::vector<std::vector<SolidSweep>> sweeps;
   for (int body = 0; body < static_cast<int>(model.Bodies.size()); ++body)
@@ -946,7 +952,11 @@ Result<std::vector<SolidSweep>> ChooseSweeps(const CADTopology& model, const Fac
     {
       return found.Status;
     }
-    sweeps.push_back(std::move(found.Value));
+    std::vector<SolidSweep>& ofBody = sweeps.emplace_back();
+    std::copy_if(found->begin(), found->end(), std::back_inserter(ofBody),
+      [&](const SolidSweep& sweep) {
+        return leftOut.count({ body, sweep.Rank }) == 0;
+      });
   }
   const auto numFaces = static_cast<int>(model.Faces.size());
   SweepChoice choice(numFaces, std::move(sweeps));

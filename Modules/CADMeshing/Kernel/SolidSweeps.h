@@ -3,6 +3,9 @@
 #pragma once
 #include "CornerSolid.h"
 
+#include <set>
+#include <utility>
+
 namespace knotwork
 {
 /// An edge inside of a target that is there because one inside of the source is.
@@ -17,6 +20,7 @@ struct EdgePair
 struct SolidSweep
 {
   int Body = 0;
+  int Rank = 0;            ///< among the ways to mesh the body, SweepsOf
   std::vector<int> Source; ///< faces
   std::vector<int> Target;
   std::vector<int> Linking;
@@ -39,14 +43,19 @@ struct SolidSweep
 Result<std::vector<SolidSweep>> SweepsOf(
   const CADTopology& model, const FaceMesher& faces, int body);
 
+/// Body and rank of a way to mesh it.
+using SweepNumber = std::pair<int, int>;
+
 /// One sweep for every body, such that faces between bodies, which are grids where one of the two
 /// links along them, suit both.
+/// @param leftOut  ways that are not taken.
 /// @return failures of SweepsOf; InvalidTopology: bodies whose sweeps do not suit each other.
 /// @complexity that of SweepsOf for each body, and a search over the bodies' sweeps that stops
 /// after 100,000 steps.
 /// @source  White, Tautges, Int. J. Numer. Meth. Eng. 49 (2000) 127 (sources, targets and linking
 /// faces found by angles and rectangles).
-Result<std::vector<SolidSweep>> ChooseSweeps(const CADTopology& model, const FaceMesher& faces);
+Result<std::vector<SolidSweep>> ChooseSweeps(
+  const CADTopology& model, const FaceMesher& faces, const std::set<SweepNumber>& leftOut = {});
 
 /// The sweep with source and target exchanged; of one that goes both ways.
 SolidSweep Reversed(const SolidSweep& sweep);

@@ -98,6 +98,7 @@ Result<SweepCuts> FindSweepCuts(
   const CADPieces& pieces, const PieceMeshing& meshing, const SweepCutsParams& params)
 {
   constexpr std::size_t Kept = 4;
+  constexpr std::size_t MostMeshed = 6; ///< behind as many cuts
   SweepCuts found;
   auto model = JoinedTopology(pieces, found.Notes);
   if (!model)
@@ -105,11 +106,13 @@ Result<SweepCuts> FindSweepCuts(
     return model.Status;
   }
   found.Model = std::move(model.Value);
-  const Status uncut = meshing(found.Model);
-  if (uncut || uncut.Code != ErrorCode::InvalidTopology)
+  const auto uncut = meshing(found.Model);
+  if (uncut ? uncut.Value : uncut.Status.Code != ErrorCode::InvalidTopology)
   {
-    return uncut ? Result<SweepCuts>(std::move(found)) : Result<SweepCuts>(uncut);
+    return uncut ? Result<SweepCuts>(std::move(found)) : Result<SweepCuts>(uncut.Status);
   }
+  Status failure = uncut.Status;
+  bool hasMesh = static_cast<bool>(uncut); // of cells that are not all valid
   std::vector<CutState> states{ { pieces, {} } };
   CutSearch search(params);
   for (int cut = 0; cut < params.MaxCuts && !states.empty(); ++cut)
@@ -119,32 +122,41 @@ Result<SweepCuts> FindSweepCuts(
     {
       return deepened;
     }
-    for (const CutState& state : states)
+    for (std::size_t i = 0; i < std::min(states.size(), MostMeshed) && states[i].Suits; ++i)
     {
-      if (!state.Suits)
-      {
-        break; // those behind it are worse
-      }
-      std::vector<std::string> notes;
-      model = JoinedTopology(state.Pieces, notes);
+      SweepCuts next;
+      model = JoinedTopology(states[i].Pieces, next.Notes);
       if (!model)
       {
         return model.Status;
       }
-      const Status meshed = meshing(model.Value);
-      if (meshed)
+      next.Model = std::move(model.Value);
+      next.Cuts = states[i].Cuts;
+      const auto meshed = meshing(next.Model);
+      if (meshed && meshed.Value)
       {
-        found.Model = std::move(model.Value);
-        found.Cuts = state.Cuts;
-        found.Notes = std::move(notes);
-        return found;
+        return next;
       }
-      if (meshed.Code != ErrorCode::InvalidTopology)
+      if (!meshed && meshed.Status.Code == ErrorCode::TooLarge)
       {
-        return meshed;
+        failure = meshed.Status; // other pieces may need fewer cells
+      }
+      else if (!meshed && meshed.Status.Code != ErrorCode::InvalidTopology)
+      {
+        return meshed.Status;
+      }
+      if (meshed && !hasMesh)
+      {
+        found = std::move(next);
+        hasMesh = true;
       }
     }
   }
-  return uncut;
+  if (!hasMesh)
+  {
+    return failure;
+  }
+  const auto again = meshing(found.Model);
+  return again ? Result<SweepCuts>(std::move(found)) : Result<SweepCuts>(again.Status);
 }
 }

@@ -65,11 +65,12 @@ TEST(SweepCuts, TheFewestCutsAreFound_ExactOracle)
   {
     SCOPED_TRACE(part.Name);
     CADHexes made;
-    const PieceMeshing meshing = [&](const CADTopology& model)
+    const PieceMeshing meshing = [&](const CADTopology& model) -> Result<bool>
     {
       auto hexes = MeshHexes(model);
       made = hexes ? std::move(hexes.Value) : CADHexes();
-      return hexes.Status;
+      return hexes ? Result<bool>(made.Quality.Certificate.Verdict == Verdict::Valid)
+                   : Result<bool>(hexes.Status);
     };
     SweepCutsParams params;
     params.MaxCuts = 3;
@@ -103,16 +104,31 @@ TEST(SweepCuts, CutsThatCannotBeMeshedAreNotTaken)
   EXPECT_EQ(refused.Status.Detail, "number 1"); // that of the part as it is
   EXPECT_GT(tried, 2);
   const auto large = FindSweepCuts(pieces,
-    [&](const CADTopology& model) -> Status
+    [&](const CADTopology& model) -> Result<bool>
     {
-      return model.Bodies.size() == 1 ? Status{ ErrorCode::InvalidTopology, "one" }
-                                      : Status{ ErrorCode::TooLarge, "more" };
+      return model.Bodies.size() == 1 ? Status(ErrorCode::InvalidTopology, "one")
+                                      : Status(ErrorCode::TooLarge, "more");
     });
   EXPECT_EQ(large.Status.Code, ErrorCode::TooLarge);
+  // cells that are not valid are better than none: those of the fewest cuts, meshed again at the
+  // end
+  std::vector<std::size_t> bodies;
+  const auto folded = FindSweepCuts(pieces,
+    [&](const CADTopology& model) -> Result<bool>
+    {
+      bodies.push_back(model.Bodies.size());
+      return model.Bodies.size() == 1 ? Result<bool>(Status{ ErrorCode::InvalidTopology, "one" })
+                                      : Result<bool>(false);
+    });
+  ASSERT_TRUE(folded);
+  EXPECT_EQ(folded->Cuts.size(), 1u);
+  EXPECT_EQ(folded->Model.Bodies.size(), bodies.back());
   SweepCutsParams stopped;
   stopped.Progress = [](double) { return false; };
-  EXPECT_EQ(FindSweepCuts(
-              pieces, [](const CADTopology& model) { return MeshHexes(model).Status; }, stopped)
-              .Status.Code,
+  EXPECT_EQ(
+    FindSweepCuts(
+      pieces, [](const CADTopology& model) -> Result<bool> { return MeshHexes(model).Status; },
+      stopped)
+      .Status.Code,
     ErrorCode::Aborted);
 }
