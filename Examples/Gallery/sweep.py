@@ -31,20 +31,23 @@ def data(points, cells, lines=False):
 
 
 def section_of(part):
-    """Its largest plane face that is no grid: points, cells, and the normal."""
+    """Its largest plane face with a hole: points, cells, and the normal."""
     quads = knotwork.vtkCADQuads()
     quads.SetFileName(part)
     scene.updated(quads)
-    mesh, table = quads.GetOutputDataObject(0), quads.GetOutputDataObject(2)
+    mesh = quads.GetOutputDataObject(0)
     points = vtk_to_numpy(mesh.GetPoints().GetData())
     cells = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 4)
     faces = vtk_to_numpy(mesh.GetCellData().GetArray("CADFaceId"))
     normals = np.cross(points[cells[:, 2]] - points[cells[:, 0]], points[cells[:, 3]] - points[cells[:, 1]]) / 2
     areas = {}
-    for face, mapped in zip(*(vtk_to_numpy(table.GetColumnByName(name)) for name in ("FaceId", "Mapped"))):
+    for face in np.unique(faces):
         of_face = normals[faces == face]
         area = np.linalg.norm(of_face, axis=1).sum()
-        if not mapped and np.linalg.norm(of_face.sum(0)) > 0.9999 * area:
+        own = cells[faces == face]
+        sides = np.unique(np.sort(np.stack([own, np.roll(own, -1, 1)], 2).reshape(-1, 2), 1), axis=0)
+        has_hole = len(np.unique(own)) - len(sides) + len(own) == 0
+        if has_hole and np.linalg.norm(of_face.sum(0)) > 0.9999 * area:
             areas[face] = area
     best = max(areas, key=areas.get)
     normal = normals[faces == best].sum(0)
