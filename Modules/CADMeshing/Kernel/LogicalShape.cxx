@@ -58,7 +58,8 @@ double LengthOf(const CADTopology& model, const std::vector<CADTopologyUse>& loo
 
 bool IsRing(const CADTopology& model, const CADTopologyFace& face)
 {
-  constexpr double MostLonger = 2.0; ///< lines of the grid are as far apart on both loops, or twice
+  // lines of the grid are as far apart on both loops, or twice; but for rounding
+  constexpr double MostLonger = 2.0 + 1e-6;
   std::set<int> edges;
   for (const auto& loop : face.Loops)
   {
