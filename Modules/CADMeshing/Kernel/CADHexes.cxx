@@ -21,6 +21,11 @@ namespace
 {
 using Eigen::Vector3d;
 
+// shares of the progress
+constexpr double OfFaces = 0.5;
+constexpr double OfFilling = 0.3;
+constexpr double OfPadding = 0.2;
+
 std::size_t At(int i)
 {
   return static_cast<std::size_t>(i);
@@ -272,7 +277,7 @@ Status HexMesher::MeshFaces()
     pending.erase(next);
     const auto all = static_cast<double>(this->Sweeps.size());
     if (this->Params.Faces.Progress &&
-      !this->Params.Faces.Progress(0.5 * (all - static_cast<double>(pending.size())) / all))
+      !this->Params.Faces.Progress(OfFaces * (all - static_cast<double>(pending.size())) / all))
     {
       return { ErrorCode::Aborted, "meshing was stopped" };
     }
@@ -517,7 +522,8 @@ Result<CADHexes> HexMesher::Run()
     }
     const auto done = static_cast<double>(this->Made.Solids.size());
     if (this->Params.Faces.Progress &&
-      !this->Params.Faces.Progress(0.5 + 0.5 * done / static_cast<double>(this->Solids.size())))
+      !this->Params.Faces.Progress(
+        OfFaces + OfFilling * done / static_cast<double>(this->Solids.size())))
     {
       return { ErrorCode::Aborted, "meshing was stopped" };
     }
@@ -531,8 +537,14 @@ Result<CADHexes> HexMesher::Run()
   }
   HexCells cells{ std::move(this->Made.Mesh.Corners), std::move(this->Made.HexBody),
     std::move(this->Made.HexLayer) };
-  const auto padded =
-    PadSmoothSurfaces(this->Model, this->Faces, *this->Nodes, this->Surface.Mesh(), cells);
+  ProgressCallback padding;
+  if (this->Params.Faces.Progress)
+  {
+    padding = [&](double done)
+    { return this->Params.Faces.Progress(OfFaces + OfFilling + OfPadding * done); };
+  }
+  const auto padded = PadSmoothSurfaces(this->Model, this->Faces, *this->Nodes,
+    this->Surface.Mesh(), cells, this->Params.Threads, padding);
   if (!padded)
   {
     return padded.Status;

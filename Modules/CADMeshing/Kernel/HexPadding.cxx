@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "HexPadding.h"
 
+#include "HexahedronQuality.h"
 #include <knotwork/SplineCore/DisjointSets.h>
 #include <knotwork/SplineCore/MeshUntangling.h>
 
@@ -43,26 +44,33 @@ struct Facet
   int Number = 0; ///< of cells that have it
 };
 
-/// Scaled Jacobian of a cell, the least at its corners.
-double ScaledJacobian(const std::vector<Vector3d>& points, const int* corners)
+/// A mesh of the points that cells have, and which they are.
+struct UsedMesh
 {
-  double least = 1.0;
-  for (unsigned c = 0; c < 8; ++c)
+  UsedMesh(const std::vector<int>& corners, const std::vector<Vector3d>& places)
   {
-    std::array<Vector3d, 3> ways;
-    double sign = 1.0;
-    double lengths = 1.0;
-    for (unsigned d = 0; d < 3; ++d)
+    std::vector<int> numbers(places.size(), -1);
+    for (const int corner : corners)
     {
-      ways[d] = points[At(corners[c ^ (1U << d)])] - points[At(corners[c])];
-      lengths *= ways[d].norm();
-      sign *= (c >> d) & 1U ? -1.0 : 1.0;
+      if (numbers[At(corner)] < 0)
+      {
+        numbers[At(corner)] = static_cast<int>(this->Nodes.size());
+        this->Nodes.push_back(corner);
+      }
+      this->Mesh.Corners.push_back(numbers[At(corner)]);
     }
-    const double jacobian = sign * ways[0].cross(ways[1]).dot(ways[2]);
-    least = std::min(least, lengths > 0.0 ? jacobian / lengths : -1.0);
+    this->Mesh.NumPoints = static_cast<int>(this->Nodes.size());
+    this->Points.resize(this->Mesh.NumPoints, 3);
+    for (std::size_t i = 0; i < this->Nodes.size(); ++i)
+    {
+      this->Points.row(static_cast<Eigen::Index>(i)) = places[At(this->Nodes[i])].transpose();
+    }
   }
-  return least;
-}
+
+  CellMesh<3> Mesh;
+  PointMatrix Points;
+  std::vector<int> Nodes;
+};
 
 /// Points inside move freely, those of the layer on their faces; all others stay.
 class LayerSlide final : public PointSlide
@@ -129,9 +137,9 @@ public:
   bool Choose();
   /// @return whether all points of the layer have a place.
   bool Add();
-  Status Move(const ProgressCallback& progress);
+  Status Move(int threads, const ProgressCallback& progress);
   int NumAdded() const { return static_cast<int>(this->Chosen.size()); }
-  double Least() const;
+  double Least(int threads) const;
 
 private:
   void FindFacets();
@@ -394,43 +402,32 @@ bool Padding::Add()
   return true;
 }
 
-double Padding::Least() const
+double Padding::Least(int threads) const
 {
-  double least = 1.0;
-  for (std::size_t i = 0; i < this->Cells.Corners.size(); i += 8)
-  {
-    least = std::min(least, ScaledJacobian(this->Mesh.Points, this->Cells.Corners.data() + i));
-  }
-  return least;
+  const UsedMesh used(this->Cells.Corners, this->Mesh.Points);
+  const auto jacobians = ScaledJacobians(used.Mesh, used.Points, threads);
+  return jacobians ? *std::min_element(jacobians->begin(), jacobians->end()) : -1.0;
 }
 
-Status Padding::Move(const ProgressCallback& progress)
+Status Padding::Move(int threads, const ProgressCallback& progress)
 {
   constexpr double Poor = 0.5; ///< scaled Jacobian
-  CellMesh<3> mesh;
-  std::vector<int> numbers(this->Mesh.Points.size(), -1);
-  std::vector<int> nodes;
+  const UsedMesh used(this->Cells.Corners, this->Mesh.Points);
+  const CellMesh<3>& mesh = used.Mesh;
   std::vector<int> dimensions;
   std::map<int, LayerSlide::Place> places;
-  for (const int corner : this->Cells.Corners)
+  for (std::size_t i = 0; i < used.Nodes.size(); ++i)
   {
-    if (numbers[At(corner)] < 0)
+    dimensions.push_back(this->Mesh.PointDimension[At(used.Nodes[i])]);
+    if (const auto place = this->Places.find(used.Nodes[i]); place != this->Places.end())
     {
-      numbers[At(corner)] = static_cast<int>(nodes.size());
-      nodes.push_back(corner);
-      dimensions.push_back(this->Mesh.PointDimension[At(corner)]);
-      if (const auto place = this->Places.find(corner); place != this->Places.end())
-      {
-        places.emplace(numbers[At(corner)], place->second);
-      }
+      places.emplace(static_cast<int>(i), place->second);
     }
-    mesh.Corners.push_back(numbers[At(corner)]);
   }
-  mesh.NumPoints = static_cast<int>(nodes.size());
-  PointMatrix points(mesh.NumPoints, 3);
-  for (std::size_t i = 0; i < nodes.size(); ++i)
+  const auto jacobians = ScaledJacobians(mesh, used.Points, threads);
+  if (!jacobians)
   {
-    points.row(static_cast<Eigen::Index>(i)) = this->Mesh.Points[At(nodes[i])].transpose();
+    return jacobians.Status;
   }
   const auto topology = MeshTopology<3>::Make(mesh);
   if (!topology)
@@ -443,42 +440,44 @@ Status Padding::Move(const ProgressCallback& progress)
   params.Progress = progress;
   for (int cell = 0; cell < mesh.NumCells(); ++cell)
   {
-    if (ScaledJacobian(this->Mesh.Points, this->Cells.Corners.data() + 8 * At(cell)) < Poor)
+    if (jacobians.Value[At(cell)] < Poor)
     {
       params.Poor.push_back(cell);
     }
   }
-  const auto moved = UntangleMesh<3>(mesh, topology.Value, points, params);
+  const auto moved = UntangleMesh<3>(mesh, topology.Value, used.Points, params);
   if (!moved)
   {
     return moved.Status;
   }
-  for (std::size_t i = 0; i < nodes.size(); ++i)
+  for (std::size_t i = 0; i < used.Nodes.size(); ++i)
   {
-    this->Mesh.Points[At(nodes[i])] = moved->Points.row(static_cast<Eigen::Index>(i)).transpose();
+    this->Mesh.Points[At(used.Nodes[i])] =
+      moved->Points.row(static_cast<Eigen::Index>(i)).transpose();
   }
   return {};
 }
 }
 
 Result<int> PadSmoothSurfaces(const CADTopology& model, const FaceMesher& faces,
-  const EdgeNodes& nodes, CADMesh& mesh, HexCells& cells, const ProgressCallback& progress)
+  const EdgeNodes& nodes, CADMesh& mesh, HexCells& cells, int threads,
+  const ProgressCallback& progress)
 {
   Padding padding(model, faces, nodes, mesh, cells);
   if (!padding.Choose())
   {
     return 0;
   }
-  const double least = padding.Least();
+  const double least = padding.Least(threads);
   const CADMesh meshBefore = mesh;
   const HexCells cellsBefore = cells;
-  Status padded = padding.Add() ? padding.Move(progress)
+  Status padded = padding.Add() ? padding.Move(threads, progress)
                                 : Status{ ErrorCode::InvalidTopology, "a point has no place" };
   if (!padded && padded.Code != ErrorCode::InvalidTopology)
   {
     return padded;
   }
-  if (!padded || padding.Least() <= least)
+  if (!padded || padding.Least(threads) <= least)
   {
     mesh = meshBefore;
     cells = cellsBefore;

@@ -20,8 +20,10 @@ struct HexCells
 /// the layer makes nothing better, or a point of it would have no place.
 /// @param mesh   faces of the solids; gets the new points.
 /// @param cells  get the layer.
-/// @return number of hexahedra that were added; failures of UntangleMesh but InvalidTopology.
+/// @return number of hexahedra that were added; failures of UntangleMesh but
+/// InvalidTopology.
 /// @source  Mitchell, Tautges, "Pillowing doublets", 4th Int. Meshing Roundtable (1995).
 Result<int> PadSmoothSurfaces(const CADTopology& model, const FaceMesher& faces,
-  const EdgeNodes& nodes, CADMesh& mesh, HexCells& cells, const ProgressCallback& progress = {});
+  const EdgeNodes& nodes, CADMesh& mesh, HexCells& cells, int threads,
+  const ProgressCallback& progress);
 }

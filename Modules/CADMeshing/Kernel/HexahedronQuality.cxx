@@ -5,8 +5,9 @@
 
 namespace knotwork
 {
-Result<HexahedronQuality> MeasureHexahedra(
-  const CellMesh<3>& mesh, const PointMatrixView& points, int threads)
+namespace
+{
+BernsteinCells CellsOf(const CellMesh<3>& mesh, const PointMatrixView& points)
 {
   BernsteinCells cells;
   cells.NumComponents = 3;
@@ -22,6 +23,41 @@ Result<HexahedronQuality> MeasureHexahedra(
       }
     }
   }
+  return cells;
+}
+
+CellMeasuresParams AtCorners(int threads)
+{
+  CellMeasuresParams params;
+  params.BoundBoxes = 0;
+  params.SamplesPerEdge = 2;
+  params.Threads = threads;
+  return params;
+}
+
+std::vector<double> LeastOf(const std::vector<CellMeasure>& cells)
+{
+  std::vector<double> least;
+  for (const CellMeasure& cell : cells)
+  {
+    least.push_back(cell.ScaledMin);
+  }
+  return least;
+}
+}
+
+Result<std::vector<double>> ScaledJacobians(
+  const CellMesh<3>& mesh, const PointMatrixView& points, int threads)
+{
+  const auto measures = MeasureCells(CellsOf(mesh, points), AtCorners(threads));
+  return measures ? Result<std::vector<double>>(LeastOf(measures->Cells))
+                  : Result<std::vector<double>>(measures.Status);
+}
+
+Result<HexahedronQuality> MeasureHexahedra(
+  const CellMesh<3>& mesh, const PointMatrixView& points, int threads)
+{
+  const BernsteinCells cells = CellsOf(mesh, points);
   JacobianParams params;
   params.Threads = threads;
   auto certificate = ValidateJacobian(cells, params);
@@ -29,21 +65,14 @@ Result<HexahedronQuality> MeasureHexahedra(
   {
     return certificate.Status;
   }
-  CellMeasuresParams measured;
-  measured.BoundBoxes = 0;
-  measured.SamplesPerEdge = 2;
-  measured.Threads = threads;
-  const auto measures = MeasureCells(cells, measured);
+  const auto measures = MeasureCells(cells, AtCorners(threads));
   if (!measures)
   {
     return measures.Status;
   }
   HexahedronQuality quality;
   quality.Certificate = std::move(certificate.Value);
-  for (const CellMeasure& cell : measures->Cells)
-  {
-    quality.ScaledJacobians.push_back(cell.ScaledMin);
-  }
+  quality.ScaledJacobians = LeastOf(measures->Cells);
   quality.LeastScaledJacobian = measures->Total.ScaledMin;
   quality.Volume = measures->Total.Measure;
   return quality;

@@ -13,6 +13,11 @@ struct HexahedronQuality
   double Volume = 0.0; ///< signed, exact but for rounding
 };
 
+/// The least scaled Jacobian at the corners of each cell.
+/// @param points  NumPoints x 3. @return failures of MeasureCells.
+Result<std::vector<double>> ScaledJacobians(
+  const CellMesh<3>& mesh, const PointMatrixView& points, int threads = 0);
+
 /// Certificates and measures of hexahedra with straight edges.
 /// @param points  NumPoints x 3. @return failures of ValidateJacobian and MeasureCells.
 Result<HexahedronQuality> MeasureHexahedra(

@@ -34,12 +34,11 @@ void CountNotSwept(const CADTopology& model, CutState& state)
   FaceMesher faces(model, params);
   faces.FindShapes();
   state.Solids = static_cast<int>(model.Bodies.size());
-  state.NotSwept = 0;
-  for (int body = 0; body < state.Solids; ++body)
+  state.Suits = static_cast<bool>(ChooseSweeps(model, faces));
+  for (int body = 0; !state.Suits && body < state.Solids; ++body)
   {
     state.NotSwept += SweepsOf(model, faces, body) ? 0 : 1;
   }
-  state.Suits = state.NotSwept == 0 && ChooseSweeps(model, faces);
 }
 
 bool IsBetter(const CutState& a, const CutState& b)

@@ -319,6 +319,10 @@ TEST(CADHexes, SmoothRimsGetALayer_PropertyOracle)
     ExpectBoundaryOnShape(one.Shape, made, model.Diagonal);
     EXPECT_EQ(made.Solids[0].Hexahedra, made.Mesh.NumCells());
   }
+  CADHexesParams stopped; // while the points of the layer move
+  stopped.Faces.Progress = [](double done) { return done < 0.81; };
+  EXPECT_EQ(
+    MeshHexes(TopologyOf(BREPFile(cases[0].Shape)), stopped).Status.Code, ErrorCode::Aborted);
   // nothing where rims are edges
   EXPECT_EQ(
     Mesh(TopologyOf(BREPFile(CylinderAt(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1), 1, 1)))).PaddedHexes, 0);
