@@ -6,7 +6,6 @@
 #include <knotwork/CADFitting/ModelTarget.h>
 #include <knotwork/CADModel/BoundaryFaces.h>
 #include <knotwork/MeshParameterization/MeshData.h>
-#include <knotwork/SplineCore/MeshTraces.h>
 #include <knotwork/SplineCore/PatchFaces.h>
 #include <knotwork/SplineCore/TensorForm.h>
 #include <knotwork/SplineGrid/SplineModel.h>
@@ -128,62 +127,16 @@ Result<FitTargetPtr> FromModel(
   return target;
 }
 
-/// Appends the faces of another model.
-void Append(TrimmedModel& model, TrimmedModel other)
-{
-  for (TrimmedFace& face : other.Faces)
-  {
-    for (TrimmedLoop& loop : face.Loops)
-    {
-      for (TrimmingCurve& curve : loop.Curves)
-      {
-        curve.Edge += model.NumEdges;
-        curve.Vertices[0] += model.NumVertices;
-        curve.Vertices[1] += model.NumVertices;
-      }
-    }
-    model.Faces.push_back(std::move(face));
-  }
-  model.NumEdges += other.NumEdges;
-  model.NumVertices += other.NumVertices;
-}
-
 Result<FitTargetPtr> FromVolumes(
   const std::vector<SplinePatch>& patches, const FitTargetOptions& options, int threads)
 {
-  std::vector<Spline<3>> boxes;
-  TrimmedModel model;
+  std::vector<Spline<3>> volumes;
   for (const SplinePatch& patch : patches)
   {
-    const auto& volume = std::get<Spline<3>>(patch.Geometry);
-    if (volume.Space->Kind != SpaceKind::Unstructured)
-    {
-      boxes.push_back(volume);
-      continue;
-    }
-    const auto topology = MeshTopology<3>::Make(MeshOf(*volume.Space));
-    const auto trace = TraceOnFacets(*volume.Space, BoundaryFacets<3>(topology.Value));
-    if (!trace)
-    {
-      return trace.Status;
-    }
-    auto faces = FacesOfPatches(TraceOf<2>(volume, trace.Value), threads);
-    if (!faces)
-    {
-      return faces.Status;
-    }
-    Append(model, std::move(faces.Value));
+    volumes.push_back(std::get<Spline<3>>(patch.Geometry));
   }
-  if (!boxes.empty())
-  {
-    auto faces = BoundaryFaces(boxes);
-    if (!faces)
-    {
-      return faces.Status;
-    }
-    Append(model, std::move(faces.Value));
-  }
-  return FromModel(model, options, threads);
+  const auto model = BoundaryFaces(volumes);
+  return model ? FromModel(model.Value, options, threads) : Result<FitTargetPtr>(model.Status);
 }
 
 Result<FitTargetPtr> FromSurfaces(vtkDataObject* data, const std::vector<SplinePatch>& patches,
@@ -202,7 +155,7 @@ Result<FitTargetPtr> FromSurfaces(vtkDataObject* data, const std::vector<SplineP
       {
         return faces.Status;
       }
-      Append(model, std::move(faces.Value));
+      AppendFaces(model, std::move(faces.Value));
     }
     else if (!surface.Space->HasDomain())
     {

@@ -6,7 +6,6 @@
 #include <knotwork/CADModel/CADExchange.h>
 #include <knotwork/SplineCore/TensorForm.h>
 #include <knotwork/SplineGrid/FilterErrorCode.h>
-#include <knotwork/SplineGrid/PatchSplit.h>
 #include <knotwork/SplineGrid/SplineModel.h>
 #include <knotwork/SurfaceTrimming/TrimmedGrids.h>
 
@@ -66,16 +65,13 @@ Result<TrimmedModel> DecodeFaces(
   {
     return DecodeTrimmedModel(grid, curves, &warnings);
   }
-  if (Status status = SplitUnstructuredPatches(model.Value, 1); !status)
-  {
-    return status;
-  }
   std::vector<Spline<3>> volumes;
   for (const SplinePatch& patch : model->Patches)
   {
     if (const auto* volume = std::get_if<Spline<3>>(&patch.Geometry))
     {
-      auto tensor = ToTensor(*volume, 1);
+      auto tensor = volume->Space->Kind == SpaceKind::Unstructured ? Result<Spline<3>>(*volume)
+                                                                   : ToTensor(*volume, 1);
       if (!tensor)
       {
         return { tensor.Status.Code,
@@ -89,12 +85,13 @@ Result<TrimmedModel> DecodeFaces(
     return { ErrorCode::DimensionMismatch,
       "the grid has volumes and patches of other dimensions; write them to files of their own" };
   }
-  warnings = model->Warnings;
+  auto boundary = BoundaryFaces(volumes, tolerance, &warnings);
+  warnings.insert(warnings.end(), model->Warnings.begin(), model->Warnings.end());
   if (curves)
   {
     warnings.emplace_back("volumes are not trimmed: the curves are left out");
   }
-  return BoundaryFaces(volumes, tolerance);
+  return boundary;
 }
 }
 

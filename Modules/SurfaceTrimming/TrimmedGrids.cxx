@@ -335,27 +335,7 @@ void ModelReader::AppendFacesOfMeshes()
 {
   for (TrimmedModel& faces : this->OnMeshes)
   {
-    int body = 0;
-    for (const TrimmedFace& face : this->Model.Faces)
-    {
-      body = std::max(body, face.Body + 1);
-    }
-    for (TrimmedFace& face : faces.Faces)
-    {
-      face.Body += body;
-      for (TrimmedLoop& loop : face.Loops)
-      {
-        for (TrimmingCurve& use : loop.Curves)
-        {
-          use.Edge += this->Model.NumEdges;
-          use.Vertices[0] += this->Model.NumVertices;
-          use.Vertices[1] += this->Model.NumVertices;
-        }
-      }
-      this->Model.Faces.push_back(std::move(face));
-    }
-    this->Model.NumEdges += faces.NumEdges;
-    this->Model.NumVertices += faces.NumVertices;
+    AppendFaces(this->Model, std::move(faces));
   }
 }
 

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryFaces.h"
 
+#include "SewnBoundary.h"
 #include <knotwork/SplineCore/BezierForm.h>
 #include <knotwork/SplineCore/ClampedSpline.h>
 #include <knotwork/SplineCore/DisjointSets.h>
-#include <knotwork/SplineCore/MultiPatch.h>
+#include <knotwork/SplineCore/PatchFaces.h>
+#include <knotwork/SplineCore/SplitIntoPatches.h>
 
 #include <Eigen/Geometry>
+
+#include <algorithm>
 
 namespace knotwork
 {
@@ -72,28 +76,11 @@ double SizeOf(const std::vector<SideSamples>& sides)
   }
   return (upper - lower).norm();
 }
-}
 
-Result<TrimmedModel> BoundaryFaces(const std::vector<Spline<3>>& patches, double tolerance)
+/// Sides of tensor products that no other covers.
+/// @pre volumes are clamped.
+Result<TrimmedModel> UncoveredSides(const std::vector<Spline<3>>& volumes, double tolerance)
 {
-  if (patches.empty())
-  {
-    return { ErrorCode::EmptyInput, "there is no volume" };
-  }
-  if (!(tolerance > 0.0 && tolerance <= 0.1))
-  {
-    return { ErrorCode::InvalidParameter, "the tolerance must lie in (0, 0.1]" };
-  }
-  std::vector<Spline<3>> volumes;
-  for (std::size_t p = 0; p < patches.size(); ++p)
-  {
-    auto clamped = ClampedVolume(patches[p]);
-    if (!clamped)
-    {
-      return { clamped.Status.Code, "volume " + std::to_string(p) + ": " + clamped.Status.Detail };
-    }
-    volumes.push_back(std::move(clamped.Value));
-  }
   const auto sides = SampleSides<3>(volumes, Samples, 1);
   if (!sides)
   {
@@ -131,5 +118,129 @@ Result<TrimmedModel> BoundaryFaces(const std::vector<Spline<3>>& patches, double
     }
   }
   return model;
+}
+
+/// Edges that have not just two faces.
+int NumLooseEdges(const TrimmedModel& model, double tolerance)
+{
+  const SewnBoundary boundary = SewBoundary(model, tolerance * SizeOf(model));
+  std::vector<int> uses(static_cast<std::size_t>(boundary.NumEdges), 0);
+  for (const auto& loops : boundary.Faces)
+  {
+    for (const BoundaryLoop& loop : loops)
+    {
+      for (const BoundaryCurve& use : loop)
+      {
+        uses[static_cast<std::size_t>(use.Edge)] += use.Degenerate ? 2 : 1;
+      }
+    }
+  }
+  return static_cast<int>(
+    std::count_if(uses.begin(), uses.end(), [](int count) { return count != 2; }));
+}
+
+/// Collects the boundary of volumes of both kinds.
+class BoundaryMaker
+{
+public:
+  /// Of one on a mesh.
+  Status AddFaces(const Spline<3>& volume, const std::string& place)
+  {
+    auto faces = FacesOfPatches(volume, 1);
+    if (faces)
+    {
+      this->Warnings.push_back(place + " lies on an unstructured mesh, its boundary becomes " +
+        std::to_string(faces->Faces.size()) + " faces");
+      AppendFaces(this->Model, std::move(faces.Value));
+      return {};
+    }
+    if (faces.Status.Code != ErrorCode::InvalidTopology &&
+      faces.Status.Code != ErrorCode::NotInSpace)
+    {
+      return faces.Status;
+    }
+    auto split = SplitIntoPatches(volume, 1);
+    if (!split)
+    {
+      return split.Status;
+    }
+    this->Warnings.push_back(place + " lies on an unstructured mesh and counts as " +
+      std::to_string(split->Patches.size()) +
+      " tensor products: its boundary is no surface: " + faces.Status.Detail);
+    std::move(split->Patches.begin(), split->Patches.end(), std::back_inserter(this->Boxes));
+    return {};
+  }
+
+  Status Add(const Spline<3>& volume, const std::string& place)
+  {
+    if (volume.Space && volume.Space->Kind == SpaceKind::Unstructured)
+    {
+      return this->AddFaces(volume, place);
+    }
+    auto clamped = ClampedVolume(volume);
+    if (clamped)
+    {
+      this->Boxes.push_back(std::move(clamped.Value));
+    }
+    return clamped.Status;
+  }
+
+  Status Finish(double tolerance)
+  {
+    if (this->Boxes.empty())
+    {
+      return {};
+    }
+    auto sides = UncoveredSides(this->Boxes, tolerance);
+    if (sides)
+    {
+      AppendFaces(this->Model, std::move(sides.Value));
+    }
+    return sides.Status;
+  }
+
+  TrimmedModel Model;
+  std::vector<std::string> Warnings;
+
+private:
+  std::vector<Spline<3>> Boxes;
+};
+}
+
+Result<TrimmedModel> BoundaryFaces(
+  const std::vector<Spline<3>>& patches, double tolerance, std::vector<std::string>* warnings)
+{
+  if (patches.empty())
+  {
+    return { ErrorCode::EmptyInput, "there is no volume" };
+  }
+  if (!(tolerance > 0.0 && tolerance <= 0.1))
+  {
+    return { ErrorCode::InvalidParameter, "the tolerance must lie in (0, 0.1]" };
+  }
+  BoundaryMaker maker;
+  for (std::size_t p = 0; p < patches.size(); ++p)
+  {
+    const std::string place = "volume " + std::to_string(p);
+    if (Status status = maker.Add(patches[p], place); !status)
+    {
+      return { status.Code, place + ": " + status.Detail };
+    }
+  }
+  if (Status status = maker.Finish(tolerance); !status)
+  {
+    return status;
+  }
+  if (warnings)
+  {
+    if (const int loose = NumLooseEdges(maker.Model, tolerance); loose > 0)
+    {
+      maker.Warnings.push_back(std::to_string(loose) +
+        " edges of the boundary have not just two faces, so that it encloses no solid: volumes "
+        "meet along edges only, or by parts of sides");
+    }
+    *warnings = std::move(maker.Warnings);
+  }
+  return std::move(maker.Model);
 }
 }

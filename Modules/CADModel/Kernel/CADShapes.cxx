@@ -74,20 +74,6 @@ Result<TrimmedModel> ClampedModel(const TrimmedModel& model)
   return result;
 }
 
-/// Sizes of things that lie in space.
-double SizeOfModel(const TrimmedModel& model)
-{
-  Eigen::Vector3d lower = Eigen::Vector3d::Constant(HUGE_VAL);
-  Eigen::Vector3d upper = -lower;
-  for (const TrimmedFace& face : model.Faces)
-  {
-    const PointMatrix& points = face.Surface.ControlPoints;
-    lower = lower.cwiseMin(points.colwise().minCoeff().transpose());
-    upper = upper.cwiseMax(points.colwise().maxCoeff().transpose());
-  }
-  return (upper - lower).norm();
-}
-
 /// What is known of an edge while its uses are collected.
 struct EdgeState
 {
@@ -474,8 +460,7 @@ Result<CADShapes> MakeShapes(const TrimmedModel& model, double sewTolerance, Loo
   {
     return clamped.Status;
   }
-  const SewnBoundary boundary =
-    SewBoundary(clamped.Value, sewTolerance * SizeOfModel(clamped.Value));
+  const SewnBoundary boundary = SewBoundary(clamped.Value, sewTolerance * SizeOf(clamped.Value));
   return ShapeMaker(clamped.Value, boundary, begin).Make();
 }
 }

@@ -76,6 +76,10 @@ def test_parts_are_cut_as_far_as_it_takes():
         fitted = run("cadfit", "hexes.vtu", "--target", part, "--degree", 2, "--output", "fitted.vtu", report="fit.json")
         assert fitted["verdict"] == "valid" and fitted["uncertified_elements"] == 0 and fitted["unmatched_features"] == 0, (name, fitted)
         assert abs(fitted["volume"] - volume) < 1e-3 * volume, (name, fitted["volume"])
+        # its patches meet in T-joints; as a solid of OpenCASCADE
+        run("convert", "fitted.vtu", "--output", "fitted.step")
+        solid = run("cadmodify", "fitted.step", "--suggest", report="solid.json")["part"]
+        assert solid["solids"] == 1 and abs(solid["volume"] - volume) < 1e-3 * volume, (name, solid)
 
 
 def test_the_cuts_that_are_said_give_the_same_solids():

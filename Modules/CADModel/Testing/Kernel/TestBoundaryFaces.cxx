@@ -109,6 +109,34 @@ TEST(BoundaryFaces, SeparateVolumesAreBodies_ExactOracle)
   EXPECT_EQ(BoundaryFaces(cubes)->Faces.size(), 10u);
 }
 
+TEST(BoundaryFaces, WhatEnclosesNoSolidIsSaid_ExactOracle)
+{
+  // an L of three cubes on feet of one cube each, which meet along an edge
+  ShapeParams params;
+  params.Kind = ShapeKind::Cube;
+  const Spline<3> cube = Volumes(params)[0];
+  std::vector<Spline<3>> cubes;
+  for (const Eigen::RowVector3d& at :
+    { Eigen::RowVector3d(0, 0, 1), { 0, 1, 1 }, { 1, 1, 1 }, { 0, 0, 0 }, { 1, 1, 0 } })
+  {
+    cubes.push_back(cube);
+    cubes.back().ControlPoints.rowwise() += at;
+    if (cubes.size() == 4)
+    {
+      std::vector<std::string> none;
+      ASSERT_TRUE(BoundaryFaces(cubes, 1e-6, &none));
+      EXPECT_TRUE(none.empty());
+    }
+  }
+  std::vector<std::string> warnings;
+  const auto model = BoundaryFaces(cubes, 1e-6, &warnings);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].find("1 edges of the boundary have not just two faces"), 0U) << warnings[0];
+  const std::string file = OutputFile("feet.step");
+  ASSERT_TRUE(WriteCAD(model.Value, file));
+  EXPECT_EQ(CheckCAD(file)->NumSolids, 0);
+}
+
 TEST(BoundaryFaces, WrongInputIsNamed_PropertyOracle)
 {
   EXPECT_EQ(BoundaryFaces({}).Status.Code, ErrorCode::EmptyInput);

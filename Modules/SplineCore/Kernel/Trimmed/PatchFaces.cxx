@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PatchFaces.h"
 
+#include "BezierForm.h"
+#include "DisjointSets.h"
+#include "MeshTraces.h"
 #include "SplitIntoPatches.h"
 #include "TensorRestriction.h"
+
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <map>
@@ -207,6 +212,50 @@ private:
   std::map<int, int> EdgeOfFacet;
   std::map<int, int> Vertices;
 };
+
+/// Cells that hang together by faces, and how they are turned.
+struct CellBodies
+{
+  std::vector<int> Of;             ///< number of the body of every cell
+  std::vector<double> Determinant; ///< of every body: sum of det J at the middles of its cells
+};
+
+CellBodies FindBodies(const Spline<3>& volume, const MeshTopology<3>& topology, int threads)
+{
+  DisjointSets sets(topology.NumCells());
+  std::vector<int> cells;
+  for (int c = 0; c < topology.NumCells(); ++c)
+  {
+    cells.push_back(c);
+    for (int side = 0; side < 6; ++side)
+    {
+      if (!topology.IsBoundary(c, side))
+      {
+        sets.Unite(c, topology.Neighbour(c, side));
+      }
+    }
+  }
+  EvaluationParams params;
+  params.Derivatives = 1;
+  params.Threads = threads;
+  EvaluationBatch batch;
+  const PointMatrix middles = PointMatrix::Constant(topology.NumCells(), 3, 0.5);
+  EvaluateElements<3>(MakeBezierForm(volume, threads), cells, middles, params, batch);
+  CellBodies bodies;
+  std::map<int, int> numbers;
+  for (const int c : cells)
+  {
+    const int number =
+      numbers.try_emplace(sets.Find(c), static_cast<int>(numbers.size())).first->second;
+    bodies.Of.push_back(number);
+    bodies.Determinant.resize(numbers.size(), 0.0);
+    const Eigen::Vector3d du = batch.First.row(c).segment<3>(0);
+    const Eigen::Vector3d dv = batch.First.row(c).segment<3>(3);
+    const Eigen::Vector3d dw = batch.First.row(c).segment<3>(6);
+    bodies.Determinant[At(number)] += du.cross(dv).dot(dw);
+  }
+  return bodies;
+}
 }
 
 Result<TrimmedModel> FacesOfPatches(const Spline<2>& surface, int threads)
@@ -230,6 +279,51 @@ Result<TrimmedModel> FacesOfPatches(const Spline<2>& surface, int threads)
       face.Loops.clear();
     }
     model->NumEdges = model->NumVertices = 0;
+  }
+  return model;
+}
+
+Result<TrimmedModel> FacesOfPatches(const Spline<3>& volume, int threads)
+{
+  if (!volume.Space)
+  {
+    return { ErrorCode::EmptyInput, "no space" };
+  }
+  if (volume.Space->Kind != SpaceKind::Unstructured)
+  {
+    return { ErrorCode::DimensionMismatch, "the volume is none on an unstructured mesh" };
+  }
+  if (Status status = volume.Check(); !status)
+  {
+    return status;
+  }
+  if (volume.NumComponents() != 3)
+  {
+    return { ErrorCode::SizeMismatch, "the volume needs 3 coordinates" };
+  }
+  const auto topology = MeshTopology<3>::Make(MeshOf(*volume.Space));
+  if (!topology)
+  {
+    return topology.Status;
+  }
+  const auto trace = TraceOnFacets(*volume.Space, BoundaryFacets<3>(topology.Value));
+  if (!trace)
+  {
+    return trace.Status;
+  }
+  auto model = FacesOfPatches(TraceOf<2>(volume, trace.Value), threads);
+  if (!model)
+  {
+    return model;
+  }
+  const CellBodies bodies = FindBodies(volume, topology.Value, threads);
+  const MeshPatches<2> layout = FindSpacePatches(*trace->Space); // a face a patch
+  for (std::size_t f = 0; f < model->Faces.size(); ++f)
+  {
+    const int facet = layout.Patches[f].Cells.front();
+    TrimmedFace& face = model->Faces[f];
+    face.Body = bodies.Of[At(trace->Elements[At(facet)].Facet.Cell)];
+    face.Reversed = bodies.Determinant[At(face.Body)] < 0.0;
   }
   return model;
 }

@@ -10,4 +10,9 @@ namespace knotwork
 /// rational surfaces the faces have no loops.
 /// @return as SplitIntoPatches; SizeMismatch unless the surface has 3 coordinates.
 Result<TrimmedModel> FacesOfPatches(const Spline<2>& surface, int threads = 0);
+
+/// The boundary of a volume on a mesh of hexahedra in the same way, turned outward; cells that hang
+/// together by faces are a body.
+/// @return also failures of TraceOnFacets: InvalidTopology for a boundary that is no surface.
+Result<TrimmedModel> FacesOfPatches(const Spline<3>& volume, int threads = 0);
 }

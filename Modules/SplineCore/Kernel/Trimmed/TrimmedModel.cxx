@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TrimmedModel.h"
 
+#include <algorithm>
+
 namespace knotwork
 {
 namespace
@@ -94,6 +96,31 @@ Status TrimmedModel::Check() const
     }
   }
   return {};
+}
+
+void AppendFaces(TrimmedModel& model, TrimmedModel other)
+{
+  int body = 0;
+  for (const TrimmedFace& face : model.Faces)
+  {
+    body = std::max(body, face.Body + 1);
+  }
+  for (TrimmedFace& face : other.Faces)
+  {
+    face.Body += body;
+    for (TrimmedLoop& loop : face.Loops)
+    {
+      for (TrimmingCurve& use : loop.Curves)
+      {
+        use.Edge += model.NumEdges;
+        use.Vertices[0] += model.NumVertices;
+        use.Vertices[1] += model.NumVertices;
+      }
+    }
+    model.Faces.push_back(std::move(face));
+  }
+  model.NumEdges += other.NumEdges;
+  model.NumVertices += other.NumVertices;
 }
 
 double SizeOf(const TrimmedModel& model)

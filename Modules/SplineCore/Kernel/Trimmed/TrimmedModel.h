@@ -55,6 +55,9 @@ struct TrimmedModel
   Status Check() const;
 };
 
+/// Appends the faces of another model, as bodies, edges and vertices of their own.
+void AppendFaces(TrimmedModel& model, TrimmedModel other);
+
 /// Diagonal of the box of all control points; 0 without faces.
 double SizeOf(const TrimmedModel& model);
 }
