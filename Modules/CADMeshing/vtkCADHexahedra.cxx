@@ -3,6 +3,7 @@
 
 #include "HexahedronData.h"
 #include <knotwork/CADMeshing/CADHexes.h>
+#include <knotwork/CADMeshing/ContactWarnings.h>
 #include <knotwork/CADMeshing/SweepCuts.h>
 #include <knotwork/CADModel/CADOperationText.h>
 #include <knotwork/SplineGrid/TableRow.h>
@@ -141,10 +142,11 @@ Status vtkCADHexahedra::Compute(vtkInformationVector**, vtkInformationVector* ou
   EncodeNumbers(cut.Value, made.Value, vtkTable::GetData(outputs, 1));
   EncodeSolids(cut->Model, made.Value, vtkTable::GetData(outputs, 2));
   std::vector<std::string> warnings = cut->Notes;
-  for (const std::string& warning : HexahedronWarnings(
-         made->Quality, "lower EdgeLength or Curvature, or cut the solid (cadmodify)"))
+  for (const auto& more : { ContactWarnings(cut->Model),
+         HexahedronWarnings(
+           made->Quality, "lower EdgeLength or Curvature, or cut the solid (cadmodify)") })
   {
-    warnings.push_back(warning);
+    warnings.insert(warnings.end(), more.begin(), more.end());
   }
   this->ReportWarnings(warnings);
   return {};

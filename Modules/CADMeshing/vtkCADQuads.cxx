@@ -2,6 +2,7 @@
 #include "vtkCADQuads.h"
 
 #include <knotwork/CADMeshing/CADQuads.h>
+#include <knotwork/CADMeshing/ContactWarnings.h>
 #include <knotwork/CADModel/CADComposite.h>
 #include <knotwork/CADModel/CADTopology.h>
 #include <knotwork/SplineGrid/TableRow.h>
@@ -150,7 +151,7 @@ Status vtkCADQuads::Compute(vtkInformationVector**, vtkInformationVector* output
   {
     return model.Status;
   }
-  const std::vector<std::string> inFaces = JoinComposites(model.Value);
+  std::vector<std::string> warnings = JoinComposites(model.Value);
   CADQuadsParams params;
   params.Method = static_cast<CADQuadMethod>(this->Method);
   params.EdgeLength = this->EdgeLength;
@@ -166,6 +167,8 @@ Status vtkCADQuads::Compute(vtkInformationVector**, vtkInformationVector* output
   EncodeMesh(model.Value, made.Value, vtkPolyData::GetData(outputs, 0));
   EncodeNumbers(model.Value, made.Value, vtkTable::GetData(outputs, 1));
   EncodeFaces(model.Value, made.Value, vtkTable::GetData(outputs, 2));
-  this->ReportWarnings(inFaces);
+  const auto contacts = ContactWarnings(model.Value);
+  warnings.insert(warnings.end(), contacts.begin(), contacts.end());
+  this->ReportWarnings(warnings);
   return {};
 }

@@ -69,4 +69,10 @@ Eigen::RowVector3d PolylineFoot::At(double length) const
   const double t = (length - before) / (*next - before);
   return (1.0 - t) * this->Points.row(i - 1) + t * this->Points.row(i);
 }
+
+PolylineFoot LineOf(const TargetCurve& curve)
+{
+  return curve.IsLoop() ? PolylineFoot(curve.Points.topRows(curve.Points.rows() - 1), true)
+                        : PolylineFoot(curve.Points, curve.IsClosed());
+}
 }

@@ -48,6 +48,8 @@ struct TargetCurve
   PointMatrix Points;
 
   bool IsClosed() const { return this->Ends[0] < 0; }
+  /// Whether it ends at the corner where it begins, as the outline of a drop.
+  bool IsLoop() const { return this->Ends[0] >= 0 && this->Ends[0] == this->Ends[1]; }
 };
 
 /// Points of a surface and the areas that they stand for.
@@ -116,4 +118,7 @@ private:
   std::vector<double> Lengths;
   bool Closed;
 };
+
+/// The line of a curve, closed where the curve is, or is a loop.
+PolylineFoot LineOf(const TargetCurve& curve);
 }

@@ -5,6 +5,8 @@
 
 #include <knotwork/SplineCore/DisjointSets.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -50,8 +52,7 @@ public:
     for (std::size_t c = 0; c < this->Target.Curves().size(); ++c)
     {
       const TargetCurve& curve = this->Target.Curves()[c];
-      order.emplace_back(
-        PolylineFoot(curve.Points, curve.IsClosed()).Length(), static_cast<int>(c));
+      order.emplace_back(LineOf(curve).Length(), static_cast<int>(c));
     }
     std::sort(order.begin(), order.end());
     for (const auto& [length, curve] : order)
@@ -122,25 +123,26 @@ private:
   void MatchCurve(int number)
   {
     const TargetCurve& curve = this->Target.Curves()[At(number)];
-    const PolylineFoot line(curve.Points, curve.IsClosed());
+    const PolylineFoot line = LineOf(curve);
     const auto near = this->Near(line);
     std::vector<int> stops;
     std::vector<double> lengths;
-    if (curve.IsClosed())
+    if (line.IsClosed())
     {
-      // from the point that is the nearest on
+      // from the corner on, or from the point that is the nearest
       const auto first = std::min_element(near.begin(), near.end(),
         [](const auto& a, const auto& b)
         {
           return std::make_pair(a.second.Distance, a.first) <
             std::make_pair(b.second.Distance, b.first);
         });
-      const double begin = first == near.end() ? 0.0 : first->second.Length;
+      const double begin = curve.IsLoop() || first == near.end() ? 0.0 : first->second.Length;
       for (int k = 0; k <= ClosedPieces; ++k)
       {
         lengths.push_back(begin + k * line.Length() / ClosedPieces);
-        stops.push_back(
-          k == ClosedPieces ? stops.front() : this->Closest(near, line.At(lengths.back())));
+        stops.push_back(k == ClosedPieces ? stops.front()
+            : k == 0 && curve.IsLoop()    ? this->PointOfCorner[At(curve.Ends[0])]
+                                          : this->Closest(near, line.At(lengths.back())));
       }
     }
     else
@@ -302,6 +304,53 @@ private:
     return isSimple && isWhole && farthest <= this->Params.MaxMove;
   }
 
+  /// Quadrilaterals that lie beside the face of their component, and turned away from it, are on
+  /// any: behind a curve that has no edges of the mesh.
+  /// @param quads  that are the nearest to others. @param feet  theirs on the whole surface.
+  Status FreeFromFace(
+    int face, const std::vector<int>& quads, const PointMatrix& middles, const TargetPoints& feet)
+  {
+    constexpr double Beside = 0.1; ///< mean edges farther from the face than from the surface
+    constexpr double Turned = 0.2; ///< cosine of the angle between normals that is lost there
+    PointMatrix places(static_cast<Eigen::Index>(quads.size()), 3);
+    for (std::size_t i = 0; i < quads.size(); ++i)
+    {
+      places.row(static_cast<Eigen::Index>(i)) = middles.row(quads[i]);
+    }
+    TargetPoints onFace;
+    TargetDistanceParams search;
+    search.Threads = this->Params.Threads;
+    search.Part = { TargetEntity::Face, face };
+    if (Status status = FindOnTarget(this->Target, places, onFace, search); !status)
+    {
+      return status;
+    }
+    for (std::size_t i = 0; i < quads.size(); ++i)
+    {
+      const int q = quads[i];
+      const auto& quad = this->Surface.Quads[At(q)];
+      const auto point = [&](std::size_t k) -> Eigen::Vector3d
+      { return this->Points.row(quad[k]); };
+      const Eigen::Vector3d normal =
+        (point(2) - point(0)).cross(point(3) - point(1)).stableNormalized();
+      const auto row = static_cast<Eigen::Index>(i);
+      const double far = (onFace.Points.row(row) - places.row(row)).norm() -
+        (feet.Points.row(q) - places.row(row)).norm();
+      const double turned =
+        std::abs(feet.Normals.row(q).dot(normal)) - std::abs(onFace.Normals.row(row).dot(normal));
+      double length = 0.0;
+      for (const int corner : quad)
+      {
+        length += 0.25 * this->Lengths[At(corner)];
+      }
+      if (far > Beside * length && turned > Turned)
+      {
+        this->Result.FaceOf[At(q)] = -1;
+      }
+    }
+    return {};
+  }
+
   /// Components of quadrilaterals between classified edges.
   Status MatchFaces()
   {
@@ -337,6 +386,7 @@ private:
       votes[sets.Find(static_cast<int>(q))][feet.Faces[static_cast<std::size_t>(q)]] += areas[q];
     }
     std::map<int, int> faceOf;
+    std::map<int, std::vector<int>> others; // of a face: quadrilaterals that voted for another
     for (const auto& [component, shares] : votes)
     {
       double sum = 0.0;
@@ -352,6 +402,21 @@ private:
     {
       const int face = faceOf[sets.Find(static_cast<int>(q))];
       this->Result.FaceOf[q] = face;
+      if (face >= 0 && face != feet.Faces[q])
+      {
+        others[face].push_back(static_cast<int>(q));
+      }
+    }
+    for (const auto& [face, quads] : others)
+    {
+      if (Status status = this->FreeFromFace(face, quads, middles, feet); !status)
+      {
+        return status;
+      }
+    }
+    for (std::size_t q = 0; q < this->Surface.Quads.size(); ++q)
+    {
+      const int face = this->Result.FaceOf[q];
       for (const int point : this->Surface.Quads[q])
       {
         TargetPart& part = this->Result.PointParts[At(point)];

@@ -35,8 +35,9 @@ struct ClassificationParams
 
 /// Corners go to the nearest points of the mesh; curves to the paths of edges between them that are
 /// the shortest when edges that are far from the curve count more; what these enclose to the faces
-/// that most of it is next to. A corner that is farther away than MaxMove, a curve with a path that
-/// leaves it by as much or that passes only a part of it, is unmatched.
+/// that most of it is next to, but for parts behind unmatched curves. A corner that is farther away
+/// than MaxMove, a curve with a path that leaves it by as much or that passes only a part of it, is
+/// unmatched.
 /// @complexity O(points log(points)) and, a curve, O(points near it log).
 Result<MeshClassification> ClassifyMesh(const SurfaceMesh& surface, const PointMatrix& points,
   const FitTarget& target, const ClassificationParams& params = {});

@@ -110,7 +110,7 @@ public:
   {
     for (const TargetCurve& curve : target.Curves())
     {
-      this->Lines.emplace_back(curve.Points, curve.IsClosed());
+      this->Lines.push_back(LineOf(curve));
     }
   }
 
@@ -171,8 +171,10 @@ private:
   std::vector<PolylineFoot> Lines;
 };
 
-/// Points along the edges of a curve, in order; a closed one has the first at the end too.
-std::vector<int> PointsAlong(const SurfaceMesh& surface, const std::vector<int>& edges)
+/// Points along the edges of a curve, in order, from a corner on where there is one; a closed one
+/// has the first at the end too.
+std::vector<int> PointsAlong(
+  const SurfaceMesh& surface, const std::vector<TargetPart>& parts, const std::vector<int>& edges)
 {
   std::map<int, std::vector<int>> edgesAt;
   for (const int edge : edges)
@@ -185,7 +187,7 @@ std::vector<int> PointsAlong(const SurfaceMesh& surface, const std::vector<int>&
   int begin = surface.Edges[At(edges.front())][0];
   for (const auto& [point, at] : edgesAt)
   {
-    if (at.size() == 1)
+    if (at.size() == 1 || parts[At(point)].Entity == TargetEntity::Vertex)
     {
       begin = point;
       break;
@@ -231,7 +233,7 @@ Status PlaceOnCurve(const FitTarget& target, int number, const std::vector<int>&
   const PointMatrix& points, PointMatrix& moved)
 {
   const TargetCurve& curve = target.Curves()[At(number)];
-  const PolylineFoot line(curve.Points, curve.IsClosed());
+  const PolylineFoot line = LineOf(curve);
   std::vector<double> lengths;
   PointMatrix places(static_cast<Eigen::Index>(along.size()), 3);
   for (std::size_t i = 0; i < along.size(); ++i)
@@ -239,7 +241,7 @@ Status PlaceOnCurve(const FitTarget& target, int number, const std::vector<int>&
     places.row(static_cast<Eigen::Index>(i)) = points.row(along[i]);
     lengths.push_back(line.Nearest(points.row(along[i])).Length);
   }
-  if (!curve.IsClosed())
+  if (!line.IsClosed())
   {
     // the ends are corners
     const bool isForward = lengths.front() <= lengths.back();
@@ -254,7 +256,7 @@ Status PlaceOnCurve(const FitTarget& target, int number, const std::vector<int>&
       path.push_back(path.back() + (points.row(along[i]) - points.row(along[i - 1])).norm());
     }
     double whole = lengths.back() - lengths.front();
-    if (curve.IsClosed())
+    if (line.IsClosed())
     {
       double turn = 0.0;
       for (std::size_t i = 1; i < lengths.size(); ++i)
@@ -293,7 +295,7 @@ Status PlaceSurface(const SurfaceMesh& surface, const MeshClassification& parts,
   }
   for (const auto& [curve, edges] : edgesOf)
   {
-    const std::vector<int> along = PointsAlong(surface, edges);
+    const std::vector<int> along = PointsAlong(surface, parts.PointParts, edges);
     if (Status status = PlaceOnCurve(target, curve, along, points, moved); !status)
     {
       return status;

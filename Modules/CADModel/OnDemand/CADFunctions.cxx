@@ -7,8 +7,9 @@ KnotworkCADFunctions()
   using namespace knotwork;
   static const CADFunctions functions{ &ReadCAD, &WriteCAD, &CheckCAD, &CheckWrittenCAD,
     &ModifyCADText, &SuggestCADOperations, &CADTopology::Read, &CADTopology::JoinComposites,
-    &CADTopology::EdgePoint, &CADTopology::UseParameters, &CADTopology::FacePoint,
-    &CADTopology::FaceNormal, &CADTopology::FaceCurvature, &CADTopology::Project, &CADPieces::Read,
-    &CADPieces::Topology, &CADPieces::Cuts, &CADPieces::Cut };
+    &CADTopology::TouchingSolids, &CADTopology::EdgePoint, &CADTopology::UseParameters,
+    &CADTopology::FacePoint, &CADTopology::FaceNormal, &CADTopology::FaceCurvature,
+    &CADTopology::Project, &CADPieces::Read, &CADPieces::Topology, &CADPieces::Cuts,
+    &CADPieces::Cut };
   return &functions;
 }

@@ -20,6 +20,7 @@ struct CADFunctions
   decltype(&SuggestCADOperations) Suggest;
   decltype(&CADTopology::Read) ReadTopology;
   decltype(&CADTopology::JoinComposites) JoinComposites;
+  decltype(&CADTopology::TouchingSolids) TouchingSolids;
   decltype(&CADTopology::EdgePoint) EdgePoint;
   decltype(&CADTopology::UseParameters) UseParameters;
   decltype(&CADTopology::FacePoint) FacePoint;

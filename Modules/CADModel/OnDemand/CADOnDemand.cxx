@@ -125,6 +125,11 @@ std::vector<std::string> CADTopology::JoinComposites(const CADFlattening& flatte
   return (this->*Functions()->JoinComposites)(flatten);
 }
 
+std::vector<std::array<int, 2>> CADTopology::TouchingSolids() const
+{
+  return (this->*Functions()->TouchingSolids)();
+}
+
 Eigen::Vector3d CADTopology::EdgePoint(int edge, double share) const
 {
   return (this->*Functions()->EdgePoint)(edge, share);

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 using namespace knotwork;
 using namespace fits;
 
@@ -206,68 +208,155 @@ TEST(CADFit, BoxKeepsItsEdges)
   }
 }
 
-/// A circle between a plane and a cylinder has all of its edges, though points beside it lie nearer
-/// to places where it is divided than its own.
-TEST(CADFit, AClosedEdgeKeepsItsPoints)
+namespace
 {
-  constexpr double Pi = EIGEN_PI;
-  // (angle, place across): 0 to 1 down the cylinder, 1 to 2 out on the plane
-  const auto hat = [](double angle, double across) -> Eigen::RowVector3d
-  {
-    const double radius = across < 1.0 ? 20.0 : 20.0 + 10.0 * (across - 1.0);
-    return { radius * std::cos(angle), radius * std::sin(angle),
-      across < 1.0 ? 10.0 * (1.0 - across) : 0.0 };
-  };
+/// A place by the share of the way around, and how far across.
+using TubeShape = std::function<Eigen::RowVector3d(double around, double across)>;
+
+TriangleMesh TubeTriangles(const TubeShape& shape, int around, int across, double width)
+{
   TriangleMesh triangles;
-  constexpr int Around = 110;
-  constexpr int Across = 16;
-  triangles.Points.resize(Around * (Across + 1), 3);
-  for (int j = 0; j <= Across; ++j)
+  triangles.Points.resize(around * (across + 1), 3);
+  for (int j = 0; j <= across; ++j)
   {
-    for (int i = 0; i < Around; ++i)
+    for (int i = 0; i < around; ++i)
     {
-      triangles.Points.row(j * Around + i) = hat(2.0 * Pi * i / Around, 2.0 * j / Across);
-      const int next = (i + 1) % Around;
-      if (j < Across)
+      triangles.Points.row(j * around + i) =
+        shape(static_cast<double>(i) / around, width * j / across);
+      const int next = (i + 1) % around;
+      if (j < across)
       {
-        const int a = j * Around;
-        const int b = a + Around;
+        const int a = j * around;
+        const int b = a + around;
         triangles.Triangles.push_back({ a + i, b + i, b + next });
         triangles.Triangles.push_back({ a + i, b + next, a + next });
       }
     }
   }
-  const auto target = MakeMeshTarget(triangles);
-  ASSERT_TRUE(target) << target.Status.Message();
-  // 22 quadrilaterals around; the row outside of the circle is near, and turned
-  constexpr int Columns = 22;
-  const std::vector<std::array<double, 2>> rows{ { 0.0, 0.0 }, { 0.5, 0.0 }, { 1.0, 0.0 },
-    { 1.14, 0.13 }, { 2.0, 0.26 } };
+  return triangles;
+}
+
+/// @param rows  how far across, and by how many columns turned. @param first  column of point 0.
+PlacedMesh<2> TubeQuads(const TubeShape& shape, int columns,
+  const std::vector<std::array<double, 2>>& rows, int first = 0)
+{
   PlacedMesh<2> mesh;
-  mesh.Mesh.NumPoints = Columns * static_cast<int>(rows.size());
+  mesh.Mesh.NumPoints = columns * static_cast<int>(rows.size());
   mesh.Points.resize(mesh.Mesh.NumPoints, 3);
   for (int j = 0; j < static_cast<int>(rows.size()); ++j)
   {
     const auto& [across, turn] = rows[static_cast<std::size_t>(j)];
-    for (int i = 0; i < Columns; ++i)
+    for (int i = 0; i < columns; ++i)
     {
-      mesh.Points.row(j * Columns + i) = hat(2.0 * Pi * (i + turn) / Columns, across);
-      const int next = (i + 1) % Columns;
+      mesh.Points.row(j * columns + i) = shape((i + first + turn) / columns, across);
+      const int next = (i + 1) % columns;
       if (j + 1 < static_cast<int>(rows.size()))
       {
         for (const int corner :
-          { j * Columns + i, j * Columns + next, (j + 1) * Columns + i, (j + 1) * Columns + next })
+          { j * columns + i, j * columns + next, (j + 1) * columns + i, (j + 1) * columns + next })
         {
           mesh.Mesh.Corners.push_back(corner);
         }
       }
     }
   }
+  return mesh;
+}
+
+/// 0 to 1 down a cylinder, 1 to 2 out on a plane.
+Eigen::RowVector3d Hat(double around, double across)
+{
+  const double radius = across < 1.0 ? 20.0 : 20.0 + 10.0 * (across - 1.0);
+  const double angle = 2.0 * EIGEN_PI * around;
+  return { radius * std::cos(angle), radius * std::sin(angle),
+    across < 1.0 ? 10.0 * (1.0 - across) : 0.0 };
+}
+
+/// A wall around a drop: three quarters of a circle of radius 1, and its tangents to a tip at the
+/// beginning; by equal lengths.
+Eigen::RowVector3d Drop(double around, double across)
+{
+  constexpr double Pi = EIGEN_PI;
+  const double whole = 2.0 + 1.5 * Pi;
+  const double length = whole * (around - std::floor(around));
+  const Eigen::RowVector3d tip(std::sqrt(2.0), 0.0, across);
+  if (length < 1.0 || length > whole - 1.0)
+  {
+    const double side = length < 1.0 ? 1.0 : -1.0;
+    const double way = length < 1.0 ? length : whole - length;
+    return tip + way * std::sqrt(0.5) * Eigen::RowVector3d(-1.0, side, 0.0);
+  }
+  const double angle = 0.25 * Pi + length - 1.0;
+  return { std::cos(angle), std::sin(angle), across };
+}
+}
+
+/// A circle between a plane and a cylinder has all of its edges, though points beside it lie nearer
+/// to places where it is divided than its own.
+TEST(CADFit, AClosedEdgeKeepsItsPoints)
+{
+  const auto target = MakeMeshTarget(TubeTriangles(Hat, 110, 16, 2.0));
+  ASSERT_TRUE(target) << target.Status.Message();
+  // the row outside of the circle is near, and turned
+  const PlacedMesh<2> mesh =
+    TubeQuads(Hat, 22, { { 0.0, 0.0 }, { 0.5, 0.0 }, { 1.0, 0.0 }, { 1.14, 0.13 }, { 2.0, 0.26 } });
   CADFitParams params = Params(2, CreasePolicy::Automatic);
   params.BoundedElements = 0;
   const auto fit = Fit<2>(mesh, target.Value, params);
   EXPECT_TRUE(fit.UnmatchedFeatures.empty());
   EXPECT_LE(fit.Distances.ToTarget.Largest, 0.1);
+}
+
+/// Edges that begin and end at one corner are met wherever the numbers of the mesh begin, and also
+/// by a mesh whose points lie beside the target.
+TEST(CADFit, EdgesAroundADropAreMet)
+{
+  const auto target = MakeMeshTarget(TubeTriangles(Drop, 400, 20, 1.0));
+  ASSERT_TRUE(target) << target.Status.Message();
+  ASSERT_EQ(target.Value->Curves().size(), 3U); // the tip's line, and both rims
+  EXPECT_EQ(target.Value->Vertices().rows(), 2);
+  for (const int first : { 0, 7 })
+  {
+    for (const double beside : { 0.0, 0.02 })
+    {
+      SCOPED_TRACE(std::to_string(first) + ", " + std::to_string(beside));
+      PlacedMesh<2> mesh = TubeQuads(Drop, 24,
+        { { 0.0, 0.0 }, { 0.25, 0.0 }, { 0.5, 0.0 }, { 0.75, 0.0 }, { 1.0, 0.0 } }, first);
+      mesh.Points.leftCols(2) *= 1.0 + beside;
+      CADFitParams params = Params(2, CreasePolicy::Automatic);
+      params.BoundedElements = 0;
+      const auto fit = Fit<2>(mesh, target.Value, params);
+      EXPECT_TRUE(fit.UnmatchedFeatures.empty());
+      EXPECT_EQ(fit.Certificate.Verdict, Verdict::Valid);
+      // of quadratics of length 0.28, in some of which line and circle meet
+      EXPECT_LE(fit.Distances.ToTarget.Largest, 4e-3);
+      EXPECT_LE(fit.Distances.FromTarget.Largest, 4e-3);
+    }
+  }
+}
+
+/// What lies behind an edge that no edges of the mesh meet belongs to no other face.
+TEST(CADFit, FacesEndAtEdgesThatAreNotMet)
+{
+  const auto target = MakeMeshTarget(TubeTriangles(Hat, 110, 16, 2.0));
+  ASSERT_TRUE(target) << target.Status.Message();
+  // seven rows on the cylinder, two that reach across its edge, one on the plane
+  std::vector<std::array<double, 2>> rows;
+  for (const double across : { 0.0, 0.14, 0.28, 0.42, 0.56, 0.7, 0.84, 1.16, 1.3 })
+  {
+    rows.push_back({ across, 0.0 });
+  }
+  CADFitParams params = Params(2, CreasePolicy::Automatic);
+  params.BoundedElements = 0;
+  const auto fit = Fit<2>(TubeQuads(Hat, 44, rows), target.Value, params);
+  EXPECT_FALSE(fit.UnmatchedFeatures.empty());
+  // the plane's row stays where it is: at most half of the row that is round there is lost
+  const PointMatrix& points = fit.Points;
+  for (int i = 0; i < 44; ++i)
+  {
+    EXPECT_NEAR(points(8 * 44 + i, 2), 0.0, 1e-6);
+  }
+  EXPECT_LE(fit.Distances.ToTarget.Largest, 1.0);
 }
 
 /// A mesh whose cells have two faces on a smooth surface has no valid map there without a layer.

@@ -77,6 +77,19 @@ TEST(vtkCADHexahedra, CutsAreSaidAsOperationsOfTheModifier)
   ExpectFailure(filter, ErrorCode::InvalidTopology, "solid 0 is neither mapped nor swept");
 }
 
+TEST(vtkCADHexahedra, SolidsThatTouchAndShareNothingAreSaid)
+{
+  vtkNew<vtkCADHexahedra> filter;
+  vtkNew<MessageRecorder> messages;
+  messages->Watch(filter);
+  filter->SetFileName((std::string(KNOTWORK_DATA_DIR) + "/Parts/cylinder_on_cube.step").c_str());
+  filter->Update();
+  ASSERT_EQ(messages->Warnings.size(), 1U);
+  EXPECT_NE(messages->Warnings[0].find("solids 0 and 1 touch in faces that they do not share"),
+    std::string::npos)
+    << messages->Warnings[0];
+}
+
 TEST(vtkCADHexahedra, ErrorsNameTheFileOrTheOption)
 {
   vtkNew<vtkCADHexahedra> filter;

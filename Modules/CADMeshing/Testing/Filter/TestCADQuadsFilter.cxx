@@ -59,6 +59,19 @@ TEST(vtkCADQuads, GivesQuadsWithTheirEntitiesAndTables)
   EXPECT_EQ(TableOf(filter, 1)->GetValueByName(0, "UnstructuredFaces").ToInt(), 1);
 }
 
+TEST(vtkCADQuads, SolidsThatTouchAndShareNothingAreSaid)
+{
+  vtkNew<vtkCADQuads> filter;
+  vtkNew<MessageRecorder> messages;
+  messages->Watch(filter);
+  filter->SetFileName((std::string(KNOTWORK_DATA_DIR) + "/Parts/cylinder_on_cube.step").c_str());
+  filter->Update();
+  ASSERT_EQ(messages->Warnings.size(), 1U);
+  EXPECT_NE(messages->Warnings[0].find("solids 0 and 1 touch in faces that they do not share"),
+    std::string::npos)
+    << messages->Warnings[0];
+}
+
 TEST(vtkCADQuads, ErrorsNameTheFileOrTheOption)
 {
   vtkNew<vtkCADQuads> filter;

@@ -3,8 +3,10 @@
 #include "PartFiles.h"
 #include <knotwork/CADModel/CADModify.h>
 
+#include <BRepAlgoAPI_Cut.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRep_Builder.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Edge.hxx>
@@ -155,6 +157,38 @@ TEST(CADTopology, SolidsThatTouchShareFacesEdgesAndVerticesWhenImprinted)
     }
     EXPECT_EQ(reversed, 1) << name;
   }
+}
+
+namespace
+{
+std::vector<std::array<int, 2>> TouchingOf(std::initializer_list<TopoDS_Shape> solids)
+{
+  BRep_Builder builder;
+  TopoDS_Compound compound;
+  builder.MakeCompound(compound);
+  for (const TopoDS_Shape& solid : solids)
+  {
+    builder.Add(compound, solid);
+  }
+  return TopologyOf(STEPFile(compound)).TouchingSolids();
+}
+}
+
+TEST(CADTopology, SolidsThatTouchInPartsOfFacesAreFound_ExactOracle)
+{
+  using Pairs = std::vector<std::array<int, 2>>;
+  const TopoDS_Shape box = BoxAt(gp_Pnt(0, 0, 0), 1, 1, 1);
+  EXPECT_EQ(TouchingOf({ box, BoxAt(gp_Pnt(1, 0, 0), 2, 1, 1) }), Pairs()); // share that face
+  EXPECT_EQ(TouchingOf({ box, BoxAt(gp_Pnt(1, 0.5, 0.5), 2, 1, 1) }), (Pairs{ { 0, 1 } }));
+  EXPECT_EQ(TouchingOf({ box, BoxAt(gp_Pnt(1, 1, 0), 1, 1, 1) }), Pairs()); // along an edge
+  EXPECT_EQ(TouchingOf({ box, BoxAt(gp_Pnt(1.01, 0, 0), 1, 1, 1) }), Pairs());
+  EXPECT_EQ(TouchingOf({ box, BoxAt(gp_Pnt(0.2, 0.2, 1), 0.3, 0.3, 0.3),
+              BoxAt(gp_Pnt(3, 0, 0), 1, 1, 1), BoxAt(gp_Pnt(2, 0.2, 0.2), 1, 0.5, 0.5) }),
+    (Pairs{ { 0, 1 }, { 2, 3 } }));
+  // a pin in a bore, of which it sticks out on both sides
+  const gp_Ax2 axis(gp_Pnt(0.5, 0.5, -0.5), gp_Dir(0, 0, 1));
+  const TopoDS_Shape pin = BRepPrimAPI_MakeCylinder(axis, 0.2, 2.0).Shape();
+  EXPECT_EQ(TouchingOf({ BRepAlgoAPI_Cut(box, pin).Shape(), pin }), (Pairs{ { 0, 1 } }));
 }
 
 TEST(CADTopology, UnitIsThatOfTheModel)
