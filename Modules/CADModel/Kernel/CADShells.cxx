@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CADShells.h"
 
+#include <BOPTools_AlgoTools3D.hxx>
 #include <BRepBndLib.hxx>
+#include <BRepClass3d_SolidClassifier.hxx>
 #include <BRepGProp.hxx>
 #include <BRep_Builder.hxx>
 #include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
+#include <IntTools_Context.hxx>
+#include <Precision.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Shell.hxx>
 #include <TopoDS_Solid.hxx>
+
+#include <algorithm>
 
 namespace knotwork
 {
@@ -125,8 +131,43 @@ void FindVolume(Component& component)
   BRepBndLib::Add(component.Shell, component.Box, false);
 }
 
-/// The smallest closed shell of the same body whose box holds that of a shell turned inward.
-Component* ShellAround(std::vector<Component>& components, const Component& inner)
+TopoDS_Solid SolidOf(const TopoDS_Shell& shell)
+{
+  TopoDS_Solid solid;
+  BRep_Builder builder;
+  builder.MakeSolid(solid);
+  builder.Add(solid, shell);
+  return solid;
+}
+
+/// Whether a shell lies in another one: by the first places inside of its faces that do not lie on
+/// the other.
+bool LiesIn(const ShellInput& input, const Component& inner, const Component& outer)
+{
+  constexpr std::size_t MostTried = 16;
+  BRepClass3d_SolidClassifier classifier(SolidOf(outer.Shell));
+  const Handle(IntTools_Context) context = new IntTools_Context;
+  for (std::size_t i = 0; i < std::min(MostTried, inner.Faces.size()); ++i)
+  {
+    const TopoDS_Face& face = input.Faces[static_cast<std::size_t>(inner.Faces[i])];
+    gp_Pnt point;
+    gp_Pnt2d parameters;
+    if (BOPTools_AlgoTools3D::PointInFace(face, point, parameters, context) != 0)
+    {
+      continue;
+    }
+    classifier.Perform(point, Precision::Confusion());
+    if (classifier.State() == TopAbs_IN || classifier.State() == TopAbs_OUT)
+    {
+      return classifier.State() == TopAbs_IN;
+    }
+  }
+  return false;
+}
+
+/// The smallest closed shell of the same body around a shell turned inward.
+Component* ShellAround(
+  const ShellInput& input, std::vector<Component>& components, const Component& inner)
 {
   Component* best = nullptr;
   for (Component& outer : components)
@@ -136,7 +177,7 @@ Component* ShellAround(std::vector<Component>& components, const Component& inne
     {
       continue;
     }
-    if (!outer.Box.IsOut(inner.Box.CornerMin()) && !outer.Box.IsOut(inner.Box.CornerMax()))
+    if (!outer.Box.IsOut(inner.Box) && LiesIn(input, inner, outer))
     {
       best = &outer;
     }
@@ -185,7 +226,7 @@ TopoDS_Shape MakeBodies(ShellInput& input)
   {
     if (component.Closed && component.Agrees && component.Volume < 0.0)
     {
-      if (Component* outer = ShellAround(components, component))
+      if (Component* outer = ShellAround(input, components, component))
       {
         cavities[static_cast<std::size_t>(outer - components.data())].push_back(component.Shell);
       }
@@ -199,9 +240,7 @@ TopoDS_Shape MakeBodies(ShellInput& input)
   {
     if (components[c].Closed && components[c].Agrees && components[c].Volume >= 0.0)
     {
-      TopoDS_Solid solid;
-      builder.MakeSolid(solid);
-      builder.Add(solid, components[c].Shell);
+      TopoDS_Solid solid = SolidOf(components[c].Shell);
       for (const TopoDS_Shell& cavity : cavities[c])
       {
         builder.Add(solid, cavity);

@@ -23,7 +23,7 @@ struct ShellInput
 
 /// Shells of faces of one body that hang together by edges, turned so that they agree on their
 /// normals (faces that cannot agree are shells of their own). Closed shells are solids with normals
-/// outward; a closed shell that is turned inward and lies in the box of another one of its body is
-/// a cavity of it. Several results are a compound.
+/// outward; a closed shell that is turned inward and lies in another one of its body is a cavity of
+/// it. Several results are a compound.
 TopoDS_Shape MakeBodies(ShellInput& input);
 }

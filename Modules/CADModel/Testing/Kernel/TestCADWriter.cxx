@@ -255,6 +255,27 @@ TEST(CADWriter, CavitiesOfABodyBelongToItsSolid_ExactOracle)
   EXPECT_NEAR(summary.Volume, 4.0 / 3.0 * Pi * 9.0, 1e-5);
 }
 
+TEST(CADWriter, WhatLiesBesideABodyIsNoCavity_ExactOracle)
+{
+  // a sphere turned inward in the hole of a torus, in its box: a solid by itself
+  ShapeParams params;
+  params.Kind = ShapeKind::TorusSurface;
+  params.Angle = 360.0;
+  params.OuterRadius = 3.0;
+  params.InnerRadius = 1.0;
+  TrimmedModel model = NaturalFaces(params);
+  params.Kind = ShapeKind::SphereSurface;
+  params.OuterRadius = 0.5;
+  for (TrimmedFace& face : NaturalFaces(params).Faces)
+  {
+    face.Reversed = true;
+    model.Faces.push_back(face);
+  }
+  const CADSummary summary = Checked(model, "ball_in_a_ring.step");
+  EXPECT_EQ(summary.NumSolids, 2);
+  EXPECT_NEAR(summary.Volume, 6.0 * Pi * Pi + Pi / 6.0, 1e-4);
+}
+
 TEST(CADWriter, UnclampedKnotsGiveTheSameFace_CrossOracle)
 {
   // periodic-looking knots 0, 1, ... 9 of degree 3: the domain is [3, 6]
