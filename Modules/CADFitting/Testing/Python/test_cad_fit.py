@@ -99,7 +99,7 @@ def test_scan_to_solid():
                 "smoothed_elements", "unmatched_features", "volume", "seconds"):
         assert key in numbers, key
     # the solid is the target of the next fit
-    run("cadfit", "quads.off", "--target", "solid.step", "--degree", 2, "--output", "again.vtu", "--report", "again.json")
+    run("cadfit", "quads.off", "--target", "solid.step", "--degree", 2, "--output", "again.vtu", "--unmatched", "unmatched.csv", "--report", "again.json")
     again = report("again.json")
     assert again["max_distance_bound"] == -1.0  # of triangles alone
     assert again["rms_distance"] < 0.3 * again["mesh_rms_distance"] and again["unmatched_features"] == 0, again

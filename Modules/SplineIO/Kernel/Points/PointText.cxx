@@ -180,10 +180,6 @@ bool LooksLikePointText(std::string_view beginning)
 Result<std::string> WritePointText(const PointFile& file, char separator)
 {
   const Eigen::Index n = file.Points.rows();
-  if (n == 0)
-  {
-    return { ErrorCode::EmptyInput, "there is no point to write" };
-  }
   if (file.Channels.cols() != static_cast<Eigen::Index>(file.Names.size()) ||
     (file.Channels.cols() > 0 && file.Channels.rows() != n))
   {
@@ -194,7 +190,7 @@ Result<std::string> WritePointText(const PointFile& file, char separator)
     return status;
   }
   std::string text;
-  if (separator == ',' || !file.Names.empty())
+  if (separator == ',' || !file.Names.empty() || n == 0)
   {
     text = separator == ',' ? "x,y,z" : "# x y z";
     for (const std::string& name : file.Names)

@@ -27,8 +27,8 @@ Result<PointFile> ReadPointText(std::string_view text, int threads = 0);
 bool LooksLikePointText(std::string_view beginning);
 
 /// Writes points as text that ReadPointText reads again bit for bit (NaN as NaN), with a first line
-/// that names the columns when there are channels.
+/// that names the columns when there are channels. Without a point that line is all.
 /// @param separator  ' ' or ','; with ',' the names are always written, with ' ' as a comment.
-/// @return EmptyInput without a point; SizeMismatch; NonFiniteInput naming point and coordinate.
+/// @return SizeMismatch; NonFiniteInput naming point and coordinate.
 Result<std::string> WritePointText(const PointFile& file, char separator);
 }

@@ -309,7 +309,8 @@ TEST(PointText, EveryDamageHasItsLineAndRemedy_ExactOracle)
     EXPECT_NE(file.Status.Detail.find(test.Words), std::string::npos) << file.Status.Detail;
   }
   PointFile empty;
-  EXPECT_EQ(WritePointText(empty, ' ').Status.Code, ErrorCode::EmptyInput);
+  EXPECT_EQ(WritePointText(empty, ' ').Value, "# x y z\n"); // what was looked for, and not found
+  EXPECT_EQ(WritePointText(empty, ',').Value, "x,y,z\n");
   EXPECT_EQ(WriteG2Points(empty).Status.Code, ErrorCode::EmptyInput);
   PointFile bad = RandomPoints(1, 3, 2);
   bad.Names.pop_back();
