@@ -57,7 +57,6 @@ struct Outputs
 struct Choices
 {
   CADFitParams Fit;
-  bool HasMeanLengths = false;
   double FeatureAngle = 180.0;
   std::string FeatureArray;
   std::string FitArray;
@@ -133,6 +132,7 @@ void EncodeNumbers(const CADFit<Dim>& fit, vtkTable* table)
   AddColumn(table, "UnmatchedFeatures", static_cast<int>(fit.UnmatchedFeatures.size()));
   AddColumn(table, "Area", fit.Area);
   AddColumn(table, "Volume", fit.Volume);
+  AddColumn(table, "KnotIntervals", std::string(fit.HasMeanLengths ? "mean" : "uniform"));
   AddColumn(table, "Path", std::string(ToString(fit.Path)));
   AddColumn(table, "PathTried",
     fit.PathNote.empty() ? std::string() : std::string(ToString(fit.PathTried)));
@@ -262,12 +262,6 @@ Status FitMesh(vtkPointSet* data, const DecodedMeshCells& decoded, const CellMes
       [](double label) { return static_cast<char>(label != 0.0); });
   }
   const PointMatrix points = decoded.Points.leftCols(3);
-  if (status && choices.HasMeanLengths)
-  {
-    auto lengths = MeanSheetLengths<Dim>(mesh, topology.Value, points);
-    status = lengths.Status;
-    choices.Fit.Space.Lengths = std::move(lengths.Value);
-  }
   if (!status)
   {
     return status;
@@ -367,7 +361,7 @@ Status vtkCADFit::Compute(vtkInformationVector** inputs, vtkInformationVector* o
   choices.Fit.BoundedElements = this->BoundedElements;
   choices.Fit.Threads = this->KernelThreads();
   choices.Fit.Progress = this->Progress();
-  choices.HasMeanLengths = this->Lengths == MEAN;
+  choices.Fit.Lengths = static_cast<FitLengths>(this->Lengths);
   choices.FeatureAngle = this->FeatureAngle;
   choices.FeatureArray = this->FeatureArray ? this->FeatureArray : "";
   choices.FitArray = this->FitArray ? this->FitArray : "";

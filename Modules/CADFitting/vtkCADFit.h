@@ -54,7 +54,8 @@ public:
   enum SheetLengths
   {
     UNIFORM = 0,
-    MEAN
+    MEAN,
+    AUTOMATIC_LENGTHS
   };
   enum Paths
   {
@@ -104,8 +105,9 @@ public:
   ///@}
   ///@{
   /** Knot intervals of the sheets of parallel edges, one of SheetLengths: UNIFORM, all 1; MEAN, as
-   * the mean lengths of their edges. Default UNIFORM. Advanced. */
-  vtkSetClampMacro(Lengths, int, UNIFORM, MEAN);
+   * the mean lengths of their edges; AUTOMATIC_LENGTHS, UNIFORM, or MEAN where elements are not
+   * proved valid and that is better. Default AUTOMATIC_LENGTHS. Advanced. */
+  vtkSetClampMacro(Lengths, int, UNIFORM, AUTOMATIC_LENGTHS);
   vtkGetMacro(Lengths, int);
   ///@}
   ///@{
@@ -284,7 +286,7 @@ private:
   int TargetType = INPUT;
   vtkImplicitFunction* ImplicitFunction = nullptr;
   int Policy = AUTOMATIC;
-  int Lengths = UNIFORM;
+  int Lengths = AUTOMATIC_LENGTHS;
   int Path = AUTOMATIC_PATH;
   int CompositeWeights = WEIGHTED;
   double SharpAngle = 40.0;

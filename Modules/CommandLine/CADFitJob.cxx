@@ -115,6 +115,7 @@ protected:
         "FoldedCells", "StillFolded", "UnmatchedFeatures", "Area", "Volume" },
       session.Report);
     session.Report["verdict"] = table->GetValueByName(0, "Verdict").ToString();
+    session.Report["knot_intervals"] = table->GetValueByName(0, "KnotIntervals").ToString();
     session.Report["path"] = table->GetValueByName(0, "Path").ToString();
     const std::string note = table->GetValueByName(0, "PathNote").ToString();
     if (!note.empty())

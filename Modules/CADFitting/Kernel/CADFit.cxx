@@ -13,6 +13,7 @@
 #include "VertexFit.h"
 
 #include <knotwork/JacobianValidation/CellMeasures.h>
+#include <knotwork/SplineCore/MeshGeometry.h>
 #include <knotwork/SplineCore/MeshTraces.h>
 #include <knotwork/SplineCore/Quadrature.h>
 
@@ -20,6 +21,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <set>
 
@@ -67,6 +69,7 @@ struct Attempt
   std::set<int> LeftOut; ///< curves of the target
   std::set<int> LeftOutCorners;
   bool Layer = false;
+  bool MeanLengths = false;
 };
 
 template <int Dim>
@@ -83,6 +86,7 @@ public:
     this->Classification.LeftOut = attempt.LeftOut;
     this->Classification.LeftOutCorners = attempt.LeftOutCorners;
     this->Layer = params.Layer && attempt.Layer;
+    this->Fit.HasMeanLengths = attempt.MeanLengths;
     this->Fit.Mesh = mesh;
     this->Fit.Points = points;
     this->Fit.CellOf.resize(At(mesh.NumCells()));
@@ -426,6 +430,15 @@ private:
   Status MakeSpace()
   {
     UnstructuredParams params = this->Params.Space;
+    if (this->Fit.HasMeanLengths)
+    {
+      auto lengths = MeanSheetLengths<Dim>(this->Fit.Mesh, this->Topology, this->Fit.Points);
+      if (!lengths)
+      {
+        return lengths.Status;
+      }
+      params.Lengths = std::move(lengths.Value);
+    }
     const std::vector<CellSide> own =
       FeatureFacets<Dim>(this->Fit.Mesh, this->Topology, this->Surface, this->Parts);
     params.Features.insert(params.Features.end(), own.begin(), own.end());
@@ -1139,16 +1152,19 @@ Result<CADFit<Dim>> FitToTarget(const CellMesh<Dim>& mesh, const PointMatrix& po
   const FitTargetPtr& target, const CADFitParams& params)
 {
   Attempt attempt;
+  attempt.MeanLengths = params.Lengths == FitLengths::Mean;
+  bool mayTakeMean = params.Lengths == FitLengths::Automatic;
   Result<CADFit<Dim>> best;
-  for (int i = 0; i < (Dim == 2 ? MostAttempts : MostAttempts - 1); ++i)
+  std::unique_ptr<CADFitting<Dim>> last; // but for the one with mean lengths
+  for (int i = 0; i < (Dim == 2 ? MostAttempts : MostAttempts - 1);)
   {
-    CADFitting<Dim> fitting(mesh, points, target.get(), params, attempt);
-    auto fit = fitting.Run();
+    auto fitting = std::make_unique<CADFitting<Dim>>(mesh, points, target.get(), params, attempt);
+    auto fit = fitting->Run();
     if (!fit)
     {
-      return i == 0 || fit.Status.Code == ErrorCode::Aborted ? fit : best;
+      return !last || fit.Status.Code == ErrorCode::Aborted ? fit : best;
     }
-    if (i == 0 || IsBetter(fit.Value, best.Value))
+    if (!last || IsBetter(fit.Value, best.Value))
     {
       best = std::move(fit);
     }
@@ -1156,21 +1172,35 @@ Result<CADFit<Dim>> FitToTarget(const CellMesh<Dim>& mesh, const PointMatrix& po
     {
       break;
     }
-    // with a layer, then without the curves where elements have no certificate, then the corners
-    const std::set<int> curves = fitting.CurvesAtUncertified();
-    const std::set<int> corners = fitting.CornersAtUncertified();
-    if (fitting.NeedsLayer() && params.Layer && !attempt.Layer)
+    if (mayTakeMean && attempt.MeanLengths)
+    {
+      mayTakeMean = attempt.MeanLengths = false; // once, beside the others
+    }
+    else
+    {
+      last = std::move(fitting);
+      ++i;
+    }
+    // with a layer, then by mean lengths, then without the curves where elements have no
+    // certificate, then the corners
+    const std::set<int> curves = last->CurvesAtUncertified();
+    const std::set<int> corners = last->CornersAtUncertified();
+    if (last->NeedsLayer() && params.Layer && !attempt.Layer)
     {
       attempt.Layer = true;
     }
+    else if (mayTakeMean)
+    {
+      attempt.MeanLengths = true;
+    }
     else if (!curves.empty())
     {
-      attempt.LeftOut = fitting.LeftOut();
+      attempt.LeftOut = last->LeftOut();
       attempt.LeftOut.insert(curves.begin(), curves.end());
     }
     else if (!corners.empty())
     {
-      attempt.LeftOut = fitting.LeftOut();
+      attempt.LeftOut = last->LeftOut();
       attempt.LeftOutCorners.insert(corners.begin(), corners.end());
     }
     else

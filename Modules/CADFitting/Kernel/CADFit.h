@@ -36,9 +36,18 @@ enum class FitPath : std::uint8_t
 /// As --path has them.
 const char* ToString(FitPath path);
 
+/// Knot intervals of the sheets of parallel edges.
+enum class FitLengths
+{
+  Uniform,  ///< those of the space's options: all 1 unless they are given
+  Mean,     ///< as the mean lengths of their edges
+  Automatic ///< uniform; where elements have no certificate mean, if that is better
+};
+
 struct CADFitParams
 {
   UnstructuredParams Space; ///< degree, policy, features, lengths
+  FitLengths Lengths = FitLengths::Automatic;
   FitPath Path = FitPath::Automatic;
   RestrictionKind CompositeWeights = RestrictionKind::Weighted; ///< Composite: of its patches
   /// Cells, and of hexahedra their faces on the mesh's surface, that are fitted to the target, one
@@ -77,6 +86,7 @@ struct CADFit
 {
   Spline<Dim> Value;
   CreasePolicy Policy = CreasePolicy::Full; ///< that was taken
+  bool HasMeanLengths = false;              ///< of knot intervals
   CellMesh<Dim> Mesh;                       ///< that the space is on: with a layer, or as given
   PointMatrix Points;                       ///< of the mesh, on the target
   /// Cell of the given mesh that every element comes from: itself, or the one below the layer.

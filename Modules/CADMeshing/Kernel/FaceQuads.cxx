@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -41,9 +42,13 @@ private:
   using Side = std::pair<int, int>;
 
   void CollapsePoles(std::vector<std::array<int, 3>>& triangles);
+  void OpenEars(std::vector<std::array<int, 3>>& triangles) const;
   std::vector<std::vector<int>> Join(const std::vector<std::array<int, 3>>& triangles) const;
   int AddMiddle(const std::vector<int>& corners);
   int MiddleOf(int a, int b);
+  Eigen::Vector3d DirectionOf(int corner, int to) const;
+  template <std::size_t N>
+  double Sine(const std::array<int, N>& corners, std::size_t at) const;
   template <std::size_t N>
   double Quality(const std::array<int, N>& corners) const;
 
@@ -169,33 +174,100 @@ void Halving::CollapsePoles(std::vector<std::array<int, 3>>& triangles)
   triangles = std::move(left);
 }
 
-/// Scaled Jacobian of the corners, with sides towards their middles, where loops bend.
+/// Of the side from one corner to another: loops by their tangents, as of the parabola through the
+/// point between.
+Eigen::Vector3d Halving::DirectionOf(int corner, int to) const
+{
+  const Eigen::Vector3d& here = this->Mesh.Points[At(corner)];
+  const Eigen::Vector3d& there = this->Mesh.Points[At(to)];
+  const auto given = this->LoopMiddles.find(std::minmax(corner, to));
+  return given == this->LoopMiddles.end()
+    ? Eigen::Vector3d(there - here)
+    : Eigen::Vector3d(4.0 * this->Chart.Point(given->second.Place) - 3.0 * here - there);
+}
+
+/// Of the angle at a corner, signed about the normal of the face.
+template <std::size_t N>
+double Halving::Sine(const std::array<int, N>& corners, std::size_t at) const
+{
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (const int corner : corners)
+  {
+    normal += this->Normals[At(corner)];
+  }
+  const Eigen::Vector3d next = this->DirectionOf(corners[at], corners[(at + 1) % N]);
+  const Eigen::Vector3d before = this->DirectionOf(corners[at], corners[(at + N - 1) % N]);
+  const double lengths = next.norm() * before.norm();
+  return lengths > 0.0 ? next.cross(before).dot(normal.normalized()) / lengths : -1.0;
+}
+
+/// Scaled Jacobian of the corners.
 template <std::size_t N>
 double Halving::Quality(const std::array<int, N>& corners) const
 {
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  std::array<Eigen::Vector3d, N> middles;
-  for (std::size_t i = 0; i < N; ++i)
-  {
-    const int a = corners[i];
-    const int b = corners[(i + 1) % N];
-    const auto given = this->LoopMiddles.find(std::minmax(a, b));
-    middles[i] = given == this->LoopMiddles.end()
-      ? Eigen::Vector3d(0.5 * (this->Mesh.Points[At(a)] + this->Mesh.Points[At(b)]))
-      : this->Chart.Point(given->second.Place);
-    normal += this->Normals[At(a)];
-  }
-  normal.normalize();
   double least = 1.0;
   for (std::size_t i = 0; i < N; ++i)
   {
-    const Eigen::Vector3d& here = this->Mesh.Points[At(corners[i])];
-    const Eigen::Vector3d next = middles[i] - here;
-    const Eigen::Vector3d before = middles[(i + N - 1) % N] - here;
-    const double lengths = next.norm() * before.norm();
-    least = std::min(least, lengths > 0.0 ? next.cross(before).dot(normal) / lengths : -1.0);
+    least = std::min(least, this->Sine(corners, i));
   }
   return least;
+}
+
+/// A triangle with two sides on a loop that goes on nearly straight between them gets a side from
+/// there into the face: a quadrilateral with both of them has no regular map.
+void Halving::OpenEars(std::vector<std::array<int, 3>>& triangles) const
+{
+  constexpr double Straight = 0.35;           ///< sine of the angle at the corner, an obtuse one
+  std::map<Side, std::pair<int, int>> across; ///< triangle and its corner opposite of a side
+  for (int t = 0; t < static_cast<int>(triangles.size()); ++t)
+  {
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const auto& corners = triangles[At(t)];
+      across[{ corners[i], corners[(i + 1) % 3] }] = { t, corners[(i + 2) % 3] };
+    }
+  }
+  const auto isLoop = [&](int a, int b) { return this->LoopMiddles.count(std::minmax(a, b)) > 0; };
+  for (int t = 0; t < static_cast<int>(triangles.size()); ++t)
+  {
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const std::array<int, 3> ear = triangles[At(t)];
+      const int tip = ear[i];
+      const int next = ear[(i + 1) % 3];
+      const int before = ear[(i + 2) % 3];
+      if (!isLoop(tip, next) || !isLoop(tip, before) || this->Sine(ear, i) >= Straight ||
+        this->DirectionOf(tip, next).dot(this->DirectionOf(tip, before)) > 0.0)
+      {
+        continue;
+      }
+      const auto other = across.find({ before, next });
+      if (other == across.end())
+      {
+        continue;
+      }
+      const auto [beside, apex] = other->second;
+      const std::array<int, 3> first{ tip, next, apex };
+      const std::array<int, 3> second{ tip, apex, before };
+      if (std::min(this->Quality(first), this->Quality(second)) <=
+        std::max(0.0, this->Sine(ear, i)))
+      {
+        continue;
+      }
+      triangles[At(t)] = first;
+      triangles[At(beside)] = second;
+      across.erase({ before, next });
+      across.erase({ next, before });
+      for (const auto& [triangle, corners] : { std::pair(t, first), std::pair(beside, second) })
+      {
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+          across[{ corners[k], corners[(k + 1) % 3] }] = { triangle, corners[(k + 2) % 3] };
+        }
+      }
+      break;
+    }
+  }
 }
 
 /// The best pairs first, those before them whose triangles are bad by themselves.
@@ -283,6 +355,7 @@ FaceQuads Halving::Make(const ChartTriangles& given)
   }
   std::vector<std::array<int, 3>> triangles = given.Triangles;
   this->CollapsePoles(triangles);
+  this->OpenEars(triangles);
   for (const std::vector<int>& cell : this->Join(triangles))
   {
     const int center = this->AddMiddle(cell);
@@ -374,7 +447,12 @@ std::vector<Eigen::Vector3d> NormalsOf(const FaceChart& chart, const FaceQuads& 
   return normals;
 }
 
-double ScaledJacobian(const FaceQuads& mesh, const std::vector<Eigen::Vector3d>& normals, int quad)
+namespace
+{
+/// Smallest sine of the angle at a corner, signed, times what sides there count whose lengths
+/// differ by more than a ratio.
+double LeastCorner(
+  const FaceQuads& mesh, const std::vector<Eigen::Vector3d>& normals, int quad, double ratio)
 {
   const auto& corners = mesh.Quads[At(quad)];
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
@@ -394,10 +472,18 @@ double ScaledJacobian(const FaceQuads& mesh, const std::vector<Eigen::Vector3d>&
     const Eigen::Vector3d& here = mesh.Points[At(corners[i])];
     const Eigen::Vector3d next = mesh.Points[At(corners[(i + 1) % 4])] - here;
     const Eigen::Vector3d before = mesh.Points[At(corners[(i + 3) % 4])] - here;
-    const double lengths = next.norm() * before.norm();
-    least = std::min(least, lengths > 0.0 ? next.cross(before).dot(normal) / lengths : -1.0);
+    const double longer = std::max(next.norm(), before.norm());
+    const double shorter = std::min(next.norm(), before.norm());
+    const double sine = shorter > 0.0 ? next.cross(before).dot(normal) / (longer * shorter) : -1.0;
+    least = std::min(least, sine > 0.0 ? sine * std::min(1.0, ratio * shorter / longer) : sine);
   }
   return least;
+}
+}
+
+double ScaledJacobian(const FaceQuads& mesh, const std::vector<Eigen::Vector3d>& normals, int quad)
+{
+  return LeastCorner(mesh, normals, quad, std::numeric_limits<double>::infinity());
 }
 
 namespace
@@ -424,12 +510,12 @@ public:
 
   double Run()
   {
-    double least = this->Improve();
+    double least = this->ImproveBoth();
     if (least <= 0.0)
     {
       const FaceQuads folded = this->Mesh;
       this->Relax();
-      const double relaxed = this->Improve();
+      const double relaxed = this->ImproveBoth();
       if (relaxed <= least)
       {
         this->Mesh = folded;
@@ -440,6 +526,15 @@ public:
   }
 
 private:
+  /// Lengths and angles, then angles alone, which count in the end.
+  double ImproveBoth()
+  {
+    this->Ratio = 3.0;
+    this->Improve();
+    this->Ratio = std::numeric_limits<double>::infinity();
+    return this->Improve();
+  }
+
   double Improve()
   {
     constexpr int Passes = 12;
@@ -496,7 +591,7 @@ private:
     double least = 1.0;
     for (const int quad : this->Around[At(point)])
     {
-      least = std::min(least, ScaledJacobian(this->Mesh, this->Normals, quad));
+      least = std::min(least, LeastCorner(this->Mesh, this->Normals, quad, this->Ratio));
     }
     return least;
   }
@@ -574,6 +669,7 @@ private:
   std::vector<Eigen::Vector3d> Normals;
   std::vector<std::vector<int>> Around;
   std::vector<std::vector<int>> Neighbours;
+  double Ratio = 1.0; ///< of lengths of sides at a corner, that is as good as one
 };
 }
 
