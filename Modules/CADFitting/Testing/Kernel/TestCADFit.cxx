@@ -335,6 +335,31 @@ TEST(CADFit, EdgesAroundADropAreMet)
   }
 }
 
+/// Rows of very different heights: with equal knot intervals elements fold, with mean ones not.
+TEST(CADFit, UnevenRowsGetUnevenKnotIntervals)
+{
+  const auto target = MakeMeshTarget(TubeTriangles(Drop, 400, 20, 1.0));
+  ASSERT_TRUE(target) << target.Status.Message();
+  const PlacedMesh<2> mesh =
+    TubeQuads(Drop, 24, { { 0.0, 0.0 }, { 0.3, 0.0 }, { 0.31, 0.3 }, { 0.7, 0.0 }, { 1.0, 0.0 } });
+  CADFitParams params = Params(2, CreasePolicy::Automatic);
+  params.BoundedElements = 0;
+  std::array<bool, 3> hasMean{};
+  std::array<std::size_t, 3> uncertified{};
+  for (const auto lengths : { FitLengths::Uniform, FitLengths::Mean, FitLengths::Automatic })
+  {
+    params.Lengths = lengths;
+    const auto fit = Fit<2>(mesh, target.Value, params);
+    const auto at = static_cast<std::size_t>(lengths);
+    hasMean[at] = fit.HasMeanLengths;
+    uncertified[at] = fit.Uncertified.size();
+  }
+  EXPECT_EQ(hasMean, (std::array<bool, 3>{ false, true, true }));
+  EXPECT_GT(uncertified[0], 0U);
+  EXPECT_EQ(uncertified[1], 0U);
+  EXPECT_EQ(uncertified[2], 0U);
+}
+
 /// What lies behind an edge that no edges of the mesh meet belongs to no other face.
 TEST(CADFit, FacesEndAtEdgesThatAreNotMet)
 {
