@@ -55,7 +55,7 @@ public:
   {
     UNIFORM = 0,
     MEAN,
-    AUTOMATIC_LENGTHS
+    AUTOMATIC_LENGTHS ///< "Automatic"
   };
   enum Paths
   {

@@ -47,8 +47,9 @@ private:
   int AddMiddle(const std::vector<int>& corners);
   int MiddleOf(int a, int b);
   Eigen::Vector3d DirectionOf(int corner, int to) const;
+  Eigen::Vector3d TangentOf(int corner, int to) const;
   template <std::size_t N>
-  double Sine(const std::array<int, N>& corners, std::size_t at) const;
+  bool IsStraight(const std::array<int, N>& corners, std::size_t at) const;
   template <std::size_t N>
   double Quality(const std::array<int, N>& corners) const;
 
@@ -174,50 +175,69 @@ void Halving::CollapsePoles(std::vector<std::array<int, 3>>& triangles)
   triangles = std::move(left);
 }
 
-/// Of the side from one corner to another: loops by their tangents, as of the parabola through the
-/// point between.
+/// Of the side from one corner to another, towards the point between.
 Eigen::Vector3d Halving::DirectionOf(int corner, int to) const
 {
-  const Eigen::Vector3d& here = this->Mesh.Points[At(corner)];
-  const Eigen::Vector3d& there = this->Mesh.Points[At(to)];
   const auto given = this->LoopMiddles.find(std::minmax(corner, to));
-  return given == this->LoopMiddles.end()
-    ? Eigen::Vector3d(there - here)
-    : Eigen::Vector3d(4.0 * this->Chart.Point(given->second.Place) - 3.0 * here - there);
+  const Eigen::Vector3d there = given == this->LoopMiddles.end()
+    ? this->Mesh.Points[At(to)]
+    : this->Chart.Point(given->second.Place);
+  return there - this->Mesh.Points[At(corner)];
 }
 
-/// Of the angle at a corner, signed about the normal of the face.
+/// Of a loop at a corner, as of the parabola through the point between.
+Eigen::Vector3d Halving::TangentOf(int corner, int to) const
+{
+  return 4.0 * this->DirectionOf(corner, to) -
+    (this->Mesh.Points[At(to)] - this->Mesh.Points[At(corner)]);
+}
+
+/// Whether a loop goes on nearly straight between the sides before and behind a corner: one
+/// quadrilateral with both has no regular map there.
 template <std::size_t N>
-double Halving::Sine(const std::array<int, N>& corners, std::size_t at) const
+bool Halving::IsStraight(const std::array<int, N>& corners, std::size_t at) const
+{
+  constexpr double Straight = 0.35; ///< sine of the angle inside, an obtuse one
+  const int here = corners[at];
+  const int next = corners[(at + 1) % N];
+  const int before = corners[(at + N - 1) % N];
+  if (this->LoopMiddles.count(std::minmax(here, next)) == 0 ||
+    this->LoopMiddles.count(std::minmax(here, before)) == 0)
+  {
+    return false;
+  }
+  const Eigen::Vector3d forward = this->TangentOf(here, next);
+  const Eigen::Vector3d backward = this->TangentOf(here, before);
+  return forward.dot(backward) < 0.0 &&
+    forward.cross(backward).dot(this->Normals[At(here)]) <
+    Straight * forward.norm() * backward.norm();
+}
+
+/// Scaled Jacobian of the corners, with sides towards their middles, where loops bend.
+template <std::size_t N>
+double Halving::Quality(const std::array<int, N>& corners) const
 {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   for (const int corner : corners)
   {
     normal += this->Normals[At(corner)];
   }
-  const Eigen::Vector3d next = this->DirectionOf(corners[at], corners[(at + 1) % N]);
-  const Eigen::Vector3d before = this->DirectionOf(corners[at], corners[(at + N - 1) % N]);
-  const double lengths = next.norm() * before.norm();
-  return lengths > 0.0 ? next.cross(before).dot(normal.normalized()) / lengths : -1.0;
-}
-
-/// Scaled Jacobian of the corners.
-template <std::size_t N>
-double Halving::Quality(const std::array<int, N>& corners) const
-{
+  normal.normalize();
   double least = 1.0;
   for (std::size_t i = 0; i < N; ++i)
   {
-    least = std::min(least, this->Sine(corners, i));
+    const Eigen::Vector3d next = this->DirectionOf(corners[i], corners[(i + 1) % N]);
+    const Eigen::Vector3d before = this->DirectionOf(corners[i], corners[(i + N - 1) % N]);
+    const double lengths = next.norm() * before.norm();
+    least = std::min(least, lengths > 0.0 ? next.cross(before).dot(normal) / lengths : -1.0);
   }
   return least;
 }
 
 /// A triangle with two sides on a loop that goes on nearly straight between them gets a side from
-/// there into the face: a quadrilateral with both of them has no regular map.
+/// there into the face.
 void Halving::OpenEars(std::vector<std::array<int, 3>>& triangles) const
 {
-  constexpr double Straight = 0.35;           ///< sine of the angle at the corner, an obtuse one
   std::map<Side, std::pair<int, int>> across; ///< triangle and its corner opposite of a side
   for (int t = 0; t < static_cast<int>(triangles.size()); ++t)
   {
@@ -227,7 +247,6 @@ void Halving::OpenEars(std::vector<std::array<int, 3>>& triangles) const
       across[{ corners[i], corners[(i + 1) % 3] }] = { t, corners[(i + 2) % 3] };
     }
   }
-  const auto isLoop = [&](int a, int b) { return this->LoopMiddles.count(std::minmax(a, b)) > 0; };
   for (int t = 0; t < static_cast<int>(triangles.size()); ++t)
   {
     for (std::size_t i = 0; i < 3; ++i)
@@ -236,8 +255,7 @@ void Halving::OpenEars(std::vector<std::array<int, 3>>& triangles) const
       const int tip = ear[i];
       const int next = ear[(i + 1) % 3];
       const int before = ear[(i + 2) % 3];
-      if (!isLoop(tip, next) || !isLoop(tip, before) || this->Sine(ear, i) >= Straight ||
-        this->DirectionOf(tip, next).dot(this->DirectionOf(tip, before)) > 0.0)
+      if (!this->IsStraight(ear, i))
       {
         continue;
       }
@@ -249,8 +267,7 @@ void Halving::OpenEars(std::vector<std::array<int, 3>>& triangles) const
       const auto [beside, apex] = other->second;
       const std::array<int, 3> first{ tip, next, apex };
       const std::array<int, 3> second{ tip, apex, before };
-      if (std::min(this->Quality(first), this->Quality(second)) <=
-        std::max(0.0, this->Sine(ear, i)))
+      if (std::min(this->Quality(first), this->Quality(second)) <= 0.0)
       {
         continue;
       }
@@ -302,7 +319,9 @@ std::vector<std::vector<int>> Halving::Join(const std::vector<std::array<int, 3>
         continue;
       }
       const std::array<int, 4> corners{ a, other->second.second, b, apex };
-      const double quality = this->Quality(corners);
+      const bool isStraight = this->IsStraight(corners, 0) || this->IsStraight(corners, 1) ||
+        this->IsStraight(corners, 2) || this->IsStraight(corners, 3);
+      const double quality = isStraight ? 0.0 : this->Quality(corners);
       const double apart = std::min(alone[At(t)], alone[At(other->second.first)]);
       if (quality > std::min(Least, apart))
       {
@@ -526,13 +545,28 @@ public:
   }
 
 private:
-  /// Lengths and angles, then angles alone, which count in the end.
+  /// Angles alone, or lengths and angles first, where that leaves no worse angles that matter.
   double ImproveBoth()
   {
+    constexpr double Good = 0.7; ///< scaled Jacobian
+    const FaceQuads given = this->Mesh;
+    const std::vector<Eigen::Vector3d> normals = this->Normals;
+    const double plain = this->Improve();
+    const FaceQuads angles = this->Mesh;
+    const std::vector<Eigen::Vector3d> normalsOfAngles = this->Normals;
+    this->Mesh = given;
+    this->Normals = normals;
     this->Ratio = 3.0;
     this->Improve();
-    this->Ratio = std::numeric_limits<double>::infinity();
-    return this->Improve();
+    this->Ratio = Any;
+    const double least = this->Improve();
+    if (least < std::min(plain, Good))
+    {
+      this->Mesh = angles;
+      this->Normals = normalsOfAngles;
+      return plain;
+    }
+    return least;
   }
 
   double Improve()
@@ -669,7 +703,8 @@ private:
   std::vector<Eigen::Vector3d> Normals;
   std::vector<std::vector<int>> Around;
   std::vector<std::vector<int>> Neighbours;
-  double Ratio = 1.0; ///< of lengths of sides at a corner, that is as good as one
+  static constexpr double Any = std::numeric_limits<double>::infinity();
+  double Ratio = Any; ///< of lengths of sides at a corner, that is as good as one
 };
 }
 

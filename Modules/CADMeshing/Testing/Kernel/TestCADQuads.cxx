@@ -5,6 +5,7 @@
 #include <knotwork/CADMeshing/CADQuads.h>
 #include <knotwork/CADModel/CADModify.h>
 
+#include <BRepAdaptor_Curve.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
@@ -21,6 +22,7 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Vertex.hxx>
+#include <gp_Lin.hxx>
 
 #include <Eigen/Geometry>
 
@@ -224,6 +226,49 @@ TEST(CADQuads, UnstructuredFacesOfABoxAreGood)
   EXPECT_GT(made.LeastScaledJacobian, 0.5);
   EXPECT_NEAR(Area(made), 22.0, 1e-9);
   ExpectClosedBodies(model, made);
+}
+
+TEST(CADQuads, NoQuadrilateralHasTwoSidesOnASmoothRim)
+{
+  // a plate of which the upright edges are rounded: the rims of top and bottom are smooth all along
+  const TopoDS_Shape plate = BoxAt(gp_Pnt(0, 0, 0), 12, 8, 2);
+  BRepFilletAPI_MakeFillet fillet(plate);
+  for (TopExp_Explorer edge(plate, TopAbs_EDGE); edge.More(); edge.Next())
+  {
+    const BRepAdaptor_Curve curve(TopoDS::Edge(edge.Current()));
+    if (std::abs(curve.Line().Direction().Z()) > 0.5)
+    {
+      fillet.Add(0.6, TopoDS::Edge(edge.Current()));
+    }
+  }
+  const CADTopology model = TopologyOf(BREPFile(fillet.Shape()));
+  for (const double length : { 0.7, 0.9, 1.2, 1.7, 2.5 })
+  {
+    SCOPED_TRACE(length);
+    CADQuadsParams params;
+    params.Method = CADQuadMethod::Unstructured;
+    params.EdgeLength = length;
+    const CADQuads made = Mesh(model, params);
+    EXPECT_GT(made.LeastScaledJacobian, 0.25);
+    std::map<std::pair<int, int>, int> quadsAt; // face and point of its rim
+    for (std::size_t q = 0; q < made.Mesh.Quads.size(); ++q)
+    {
+      const int face = made.Mesh.QuadFace[q];
+      for (const int point : made.Mesh.Quads[q])
+      {
+        const bool isLevel = std::abs(model.FaceNormal(face, { 0.5, 0.5 })[2]) > 0.5;
+        if (isLevel && model.Faces[At(face)].IsPlane && made.Mesh.PointDimension[At(point)] < 2)
+        {
+          ++quadsAt[{ face, point }];
+        }
+      }
+    }
+    ASSERT_GT(quadsAt.size(), 40U);
+    for (const auto& [place, count] : quadsAt)
+    {
+      EXPECT_GE(count, 2) << "face " << place.first << ", point " << place.second;
+    }
+  }
 }
 
 TEST(CADQuads, ImprintedSolidsConformAndOthersDoNot)
