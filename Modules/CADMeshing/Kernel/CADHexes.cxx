@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CADHexes.h"
 
+#include "BodyGroups.h"
 #include "CornerFill.h"
 #include "HexPadding.h"
 #include "SolidFaceMesh.h"
@@ -589,6 +590,24 @@ Result<CADHexes> BestOfWays(const CADTopology& model, const CADHexesParams& para
   }
   return best;
 }
+
+void SeparateBodies(const CADTopology& model, CADHexes& made)
+{
+  const std::vector<int> groups = GroupsOfBodies(model);
+  std::vector<int> groupOf;
+  for (const int body : made.HexBody)
+  {
+    groupOf.push_back(groups[At(body)]);
+  }
+  const std::vector<int> added = SeparatePoints(made.Mesh.Corners, groupOf, made.Mesh.NumPoints);
+  made.Points.conservativeResize(made.Mesh.NumPoints + static_cast<int>(added.size()), 3);
+  for (const int point : added)
+  {
+    made.Points.row(made.Mesh.NumPoints++) = made.Points.row(point);
+    made.PointDimension.push_back(made.PointDimension[At(point)]);
+    made.PointEntity.push_back(made.PointEntity[At(point)]);
+  }
+}
 }
 
 Result<CADHexes> MeshHexes(const CADTopology& model, const CADHexesParams& params)
@@ -607,7 +626,12 @@ Result<CADHexes> MeshHexes(const CADTopology& model, const CADHexesParams& param
   }
   try
   {
-    return BestOfWays(model, params);
+    auto made = BestOfWays(model, params);
+    if (made)
+    {
+      SeparateBodies(model, made.Value);
+    }
+    return made;
   }
   catch (...)
   {

@@ -39,7 +39,7 @@ struct CADHexes
 };
 
 /// Conforming hexahedra in all solids of a model, each swept from faces to others. Faces that
-/// solids share have one mesh.
+/// solids share have one mesh; solids that touch along edges or at vertices alone are apart.
 /// @return InvalidParameter; EmptyInput: no solids; TooLarge; InvalidTopology: a solid that cannot
 /// be swept, with the faces that prevent it, or whose mesh does not suit that of its neighbours;
 /// failures of MeasureHexahedra; Aborted. Hexahedra may be folded: Quality says so.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CADQuads.h"
 
+#include "BodyGroups.h"
 #include "FaceMesher.h"
 #include <knotwork/MeshParameterization/MeshParameterization.h>
 #include <knotwork/SplineCore/SizeLimit.h>
@@ -32,6 +33,7 @@ private:
   Status CheckMapped() const;
   void FindMapped(const std::vector<RectangleFace>& equal);
   Status MeshFaces(const EdgeNodes& nodes, std::vector<int>& poor);
+  void SeparateBodies(CADMesh& mesh) const;
   void Measure(CADQuads& made) const;
   Status Check(const CADQuads& made) const;
 
@@ -150,6 +152,28 @@ void QuadMesher::Measure(CADQuads& made) const
     }
   }
   made.EulerNumber = used - static_cast<int>(sides.size()) + static_cast<int>(mesh.Quads.size());
+}
+
+void QuadMesher::SeparateBodies(CADMesh& mesh) const
+{
+  const std::vector<int> groups = GroupsOfBodies(this->Model);
+  std::vector<int> corners;
+  std::vector<int> groupOf;
+  for (std::size_t q = 0; q < mesh.Quads.size(); ++q)
+  {
+    corners.insert(corners.end(), mesh.Quads[q].begin(), mesh.Quads[q].end());
+    groupOf.push_back(groups[At(this->Model.Faces[At(mesh.QuadFace[q])].Bodies.front())]);
+  }
+  for (const int point : SeparatePoints(corners, groupOf, static_cast<int>(mesh.Points.size())))
+  {
+    mesh.Points.push_back(mesh.Points[At(point)]);
+    mesh.PointDimension.push_back(mesh.PointDimension[At(point)]);
+    mesh.PointEntity.push_back(mesh.PointEntity[At(point)]);
+  }
+  for (std::size_t i = 0; i < corners.size(); ++i)
+  {
+    mesh.Quads[i / 4][i % 4] = corners[i];
+  }
 }
 
 /// What must hold whatever the method: quadrilaterals with four corners and, around every body,
@@ -295,6 +319,7 @@ Result<CADQuads> QuadMesher::Run()
       {
         this->Faces.Append(face, made);
       }
+      this->SeparateBodies(made.Mesh);
       this->Measure(made);
       if (Status checked = this->Check(made); !checked)
       {
