@@ -46,6 +46,7 @@ struct TargetCurve
   std::array<int, 2> Ends{ -1, -1 }; ///< corners; -1: it closes without a corner
   /// Along it, from end to end; of a closed curve the first one stands once.
   PointMatrix Points;
+  int Body = 0; ///< FitTarget::BodiesOfFaces
 
   bool IsClosed() const { return this->Ends[0] < 0; }
   /// Whether it ends at the corner where it begins, as the outline of a drop.
@@ -72,6 +73,13 @@ public:
   /// Whether the surface has no rim. A target of curves alone has no surface.
   bool IsClosed() const { return this->Closed; }
   bool HasSurface() const { return this->FaceCount > 0; }
+  /// Closed bodies of the surface that share no edge, of every face, from 1 on; 0: others. Empty:
+  /// all is one. Curves and corners have theirs.
+  const std::vector<int>& BodiesOfFaces() const { return this->FaceBodies; }
+  int BodyOfVertex(int vertex) const
+  {
+    return this->VertexBodies.empty() ? 0 : this->VertexBodies[static_cast<std::size_t>(vertex)];
+  }
 
   /// Closest points on one part, for queries in any order; such that come near each other one after
   /// the other are the quickest.
@@ -90,6 +98,8 @@ protected:
   int FaceCount = 0;
   std::vector<TargetCurve> CurveList;
   PointMatrix VertexList;
+  std::vector<int> FaceBodies;
+  std::vector<int> VertexBodies;
   bool Closed = false;
 };
 

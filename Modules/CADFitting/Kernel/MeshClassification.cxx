@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <queue>
@@ -23,6 +24,10 @@ namespace
 constexpr double DistancePenalty = 25.0;
 /// Share of a quadrilateral's component that must agree on a face.
 constexpr double AgreeingShare = 0.8;
+/// Boxes of a part of the mesh and of a body differ by at most this share of its diagonal, and an
+/// edge, where they are the same.
+constexpr double BoxShare = 0.1;
+constexpr int BoxSamples = 2000; ///< of the target
 /// Pieces of a curve without a corner.
 constexpr int ClosedPieces = 3;
 
@@ -46,6 +51,10 @@ public:
 
   knotwork::Result<MeshClassification> Run()
   {
+    if (Status status = this->FindBodies(); !status)
+    {
+      return status;
+    }
     this->MatchCorners();
     // short curves first: they leave the others their ways
     std::vector<std::pair<double, int>> order;
@@ -64,6 +73,95 @@ public:
   }
 
 private:
+  Status FindFeet()
+  {
+    if (!this->Feet.Faces.empty())
+    {
+      return {};
+    }
+    this->Middles.resize(static_cast<Eigen::Index>(this->Surface.Quads.size()), 3);
+    this->Areas.resize(this->Middles.rows());
+    for (Eigen::Index q = 0; q < this->Middles.rows(); ++q)
+    {
+      const auto& quad = this->Surface.Quads[static_cast<std::size_t>(q)];
+      const auto point = [&](std::size_t k) -> Eigen::RowVector3d
+      { return this->Points.row(quad[k]); };
+      this->Middles.row(q) = 0.25 * (point(0) + point(1) + point(2) + point(3));
+      this->Areas[q] = (point(2) - point(0)).norm() * (point(3) - point(1)).norm();
+    }
+    TargetDistanceParams search;
+    search.Threads = this->Params.Threads;
+    return FindOnTarget(this->Target, this->Middles, this->Feet, search);
+  }
+
+  /// Which body of the target each part of the mesh that hangs together is, where there are
+  /// several: coinciding edges of others are not its own.
+  Status FindBodies()
+  {
+    this->BodyOf.assign(this->IsTaken.size(), 0);
+    const std::vector<int>& bodies = this->Target.BodiesOfFaces();
+    if (std::adjacent_find(bodies.begin(), bodies.end(), std::not_equal_to<>()) == bodies.end())
+    {
+      return {};
+    }
+    if (Status status = this->FindFeet(); !status)
+    {
+      return status;
+    }
+    DisjointSets sets(static_cast<int>(this->Surface.Quads.size()));
+    for (const auto& [a, b] : this->Surface.QuadsOf)
+    {
+      if (b >= 0)
+      {
+        sets.Unite(a, b);
+      }
+    }
+    struct Part
+    {
+      std::map<int, double> Areas; // by body
+      Eigen::AlignedBox3d Box;
+    };
+    std::map<int, Part> parts;
+    for (std::size_t q = 0; q < this->Surface.Quads.size(); ++q)
+    {
+      Part& part = parts[sets.Find(static_cast<int>(q))];
+      part.Areas[bodies[At(this->Feet.Faces[q])]] += this->Areas[static_cast<Eigen::Index>(q)];
+      for (const int point : this->Surface.Quads[q])
+      {
+        part.Box.extend(this->Points.row(point).transpose());
+      }
+    }
+    std::map<int, Eigen::AlignedBox3d> boxes; // of bodies
+    const TargetSamples samples = this->Target.Samples(BoxSamples);
+    for (Eigen::Index i = 0; i < samples.Points.rows(); ++i)
+    {
+      boxes[bodies[At(samples.Faces[static_cast<std::size_t>(i)])]].extend(
+        samples.Points.row(i).transpose());
+    }
+    for (std::size_t q = 0; q < this->Surface.Quads.size(); ++q)
+    {
+      const Part& part = parts.at(sets.Find(static_cast<int>(q)));
+      const auto most = std::max_element(part.Areas.begin(), part.Areas.end(),
+        [](const auto& a, const auto& b) { return a.second < b.second; });
+      // a part may be several bodies together
+      const Eigen::AlignedBox3d& box = boxes[most->first];
+      const double off = std::max((part.Box.min() - box.min()).cwiseAbs().maxCoeff(),
+        (part.Box.max() - box.max()).cwiseAbs().maxCoeff());
+      for (const int point : this->Surface.Quads[q])
+      {
+        this->BodyOf[At(point)] =
+          off <= BoxShare * box.diagonal().norm() + this->Lengths[At(point)] ? most->first : 0;
+      }
+    }
+    return {};
+  }
+
+  /// Whether a point of the mesh may lie on a curve or corner of a body.
+  bool IsOf(int point, int body) const
+  {
+    return body == 0 || this->BodyOf[At(point)] == 0 || this->BodyOf[At(point)] == body;
+  }
+
   void MatchCorners()
   {
     const PointMatrix& corners = this->Target.Vertices();
@@ -78,7 +176,8 @@ private:
       for (const int point : this->Surface.Points)
       {
         const double distance = (this->Points.row(point) - corners.row(c)).norm();
-        if (distance <= this->Params.MaxMove * this->Lengths[At(point)])
+        if (distance <= this->Params.MaxMove * this->Lengths[At(point)] &&
+          this->IsOf(point, this->Target.BodyOfVertex(c)))
         {
           pairs.push_back({ distance, { c, point } });
         }
@@ -106,13 +205,13 @@ private:
   }
 
   /// Points of the surface near a line, with their distances.
-  std::unordered_map<int, PolylineFoot::Foot> Near(const PolylineFoot& line) const
+  std::unordered_map<int, PolylineFoot::Foot> Near(const PolylineFoot& line, int body) const
   {
     std::unordered_map<int, PolylineFoot::Foot> near;
     for (const int point : this->Surface.Points)
     {
       const PolylineFoot::Foot foot = line.Nearest(this->Points.row(point));
-      if (foot.Distance <= 2.0 * this->Lengths[At(point)])
+      if (foot.Distance <= 2.0 * this->Lengths[At(point)] && this->IsOf(point, body))
       {
         near.emplace(point, foot);
       }
@@ -124,7 +223,7 @@ private:
   {
     const TargetCurve& curve = this->Target.Curves()[At(number)];
     const PolylineFoot line = LineOf(curve);
-    const auto near = this->Near(line);
+    const auto near = this->Near(line, curve.Body);
     std::vector<int> stops;
     std::vector<double> lengths;
     if (line.IsClosed())
@@ -306,16 +405,15 @@ private:
 
   /// Quadrilaterals that lie beside the face of their component, and turned away from it, are on
   /// any: behind a curve that has no edges of the mesh.
-  /// @param quads  that are the nearest to others. @param feet  theirs on the whole surface.
-  Status FreeFromFace(
-    int face, const std::vector<int>& quads, const PointMatrix& middles, const TargetPoints& feet)
+  /// @param quads  that are the nearest to others.
+  Status FreeFromFace(int face, const std::vector<int>& quads)
   {
     constexpr double Beside = 0.1; ///< mean edges farther from the face than from the surface
     constexpr double Turned = 0.2; ///< cosine of the angle between normals that is lost there
     PointMatrix places(static_cast<Eigen::Index>(quads.size()), 3);
     for (std::size_t i = 0; i < quads.size(); ++i)
     {
-      places.row(static_cast<Eigen::Index>(i)) = middles.row(quads[i]);
+      places.row(static_cast<Eigen::Index>(i)) = this->Middles.row(quads[i]);
     }
     TargetPoints onFace;
     TargetDistanceParams search;
@@ -335,9 +433,9 @@ private:
         (point(2) - point(0)).cross(point(3) - point(1)).stableNormalized();
       const auto row = static_cast<Eigen::Index>(i);
       const double far = (onFace.Points.row(row) - places.row(row)).norm() -
-        (feet.Points.row(q) - places.row(row)).norm();
-      const double turned =
-        std::abs(feet.Normals.row(q).dot(normal)) - std::abs(onFace.Normals.row(row).dot(normal));
+        (this->Feet.Points.row(q) - places.row(row)).norm();
+      const double turned = std::abs(this->Feet.Normals.row(q).dot(normal)) -
+        std::abs(onFace.Normals.row(row).dot(normal));
       double length = 0.0;
       for (const int corner : quad)
       {
@@ -354,20 +452,7 @@ private:
   /// Components of quadrilaterals between classified edges.
   Status MatchFaces()
   {
-    PointMatrix middles(static_cast<Eigen::Index>(this->Surface.Quads.size()), 3);
-    Eigen::VectorXd areas(middles.rows());
-    for (Eigen::Index q = 0; q < middles.rows(); ++q)
-    {
-      const auto& quad = this->Surface.Quads[static_cast<std::size_t>(q)];
-      const auto point = [&](std::size_t k) -> Eigen::RowVector3d
-      { return this->Points.row(quad[k]); };
-      middles.row(q) = 0.25 * (point(0) + point(1) + point(2) + point(3));
-      areas[q] = (point(2) - point(0)).norm() * (point(3) - point(1)).norm();
-    }
-    TargetPoints feet;
-    TargetDistanceParams search;
-    search.Threads = this->Params.Threads;
-    if (Status status = FindOnTarget(this->Target, middles, feet, search); !status)
+    if (Status status = this->FindFeet(); !status)
     {
       return status;
     }
@@ -381,9 +466,10 @@ private:
       }
     }
     std::map<int, std::map<int, double>> votes;
-    for (Eigen::Index q = 0; q < middles.rows(); ++q)
+    for (Eigen::Index q = 0; q < this->Middles.rows(); ++q)
     {
-      votes[sets.Find(static_cast<int>(q))][feet.Faces[static_cast<std::size_t>(q)]] += areas[q];
+      votes[sets.Find(static_cast<int>(q))][this->Feet.Faces[static_cast<std::size_t>(q)]] +=
+        this->Areas[q];
     }
     std::map<int, int> faceOf;
     std::map<int, std::vector<int>> others; // of a face: quadrilaterals that voted for another
@@ -402,14 +488,14 @@ private:
     {
       const int face = faceOf[sets.Find(static_cast<int>(q))];
       this->Result.FaceOf[q] = face;
-      if (face >= 0 && face != feet.Faces[q])
+      if (face >= 0 && face != this->Feet.Faces[q])
       {
         others[face].push_back(static_cast<int>(q));
       }
     }
     for (const auto& [face, quads] : others)
     {
-      if (Status status = this->FreeFromFace(face, quads, middles, feet); !status)
+      if (Status status = this->FreeFromFace(face, quads); !status)
       {
         return status;
       }
@@ -435,6 +521,10 @@ private:
   const ClassificationParams& Params;
   const std::vector<double> Lengths;
   std::vector<char> IsTaken; ///< points of corners and curves
+  std::vector<int> BodyOf;   ///< of every point: the target's; 0: any
+  PointMatrix Middles;       ///< of quadrilaterals
+  Eigen::VectorXd Areas;
+  TargetPoints Feet; ///< of the middles
   std::vector<int> PointOfCorner;
   MeshClassification Result;
 };

@@ -88,7 +88,7 @@ public:
         faceOf.push_back(static_cast<int>(f));
       }
     }
-    return whole.empty() ? Status() : this->AddSides(whole, faceOf, tolerance);
+    return whole.empty() ? Status() : this->AddSides(model, whole, faceOf, tolerance);
   }
 
   std::vector<ModelEdge> Edges;
@@ -110,9 +110,11 @@ private:
       { face, ValuesAt(curve.ParameterCurve(), SideSamplesOfFaces) });
   }
 
-  Status AddSides(
-    const std::vector<Spline<2>>& whole, const std::vector<int>& faceOf, double tolerance)
+  Status AddSides(const TrimmedModel& model, const std::vector<Spline<2>>& whole,
+    const std::vector<int>& faceOf, double tolerance)
   {
+    const auto bodyOf = [&](const PatchSide& side)
+    { return model.Faces[At(faceOf[At(side.Patch)])].Body; };
     const auto sides = SampleSides<2>(whole, SideSamplesOfFaces, 1);
     if (!sides)
     {
@@ -155,7 +157,8 @@ private:
     {
       const int first = edgeOf[At(4 * interface.Sides[0].Patch + interface.Sides[0].Side)];
       const int second = edgeOf[At(4 * interface.Sides[1].Patch + interface.Sides[1].Side)];
-      if (first >= 0 && second >= 0 && first != second && isGone[At(second)] == 0)
+      if (first >= 0 && second >= 0 && first != second && isGone[At(second)] == 0 &&
+        bodyOf(interface.Sides[0]) == bodyOf(interface.Sides[1]))
       {
         this->Edges[At(first)].Uses.push_back({ faceOf[At(interface.Sides[1].Patch)],
           parameters(interface.Sides[1], interface.Orientation.Reversed[0]) });
@@ -179,16 +182,18 @@ private:
 class CurveParts : public FitTarget
 {
 protected:
-  Status MakeCurves(const std::vector<Spline<1>>& edges, double tolerance, double cornerAngle)
+  Status MakeCurves(const std::vector<Spline<1>>& edges, const std::vector<int>& bodies,
+    double tolerance, double cornerAngle)
   {
     std::vector<PointMatrix> lines;
     for (const Spline<1>& edge : edges)
     {
       lines.push_back(ValuesAt(edge, SamplesOfElement * edge.Space->NumElements() + 1));
     }
-    SharpChains chains = JoinChains(lines, tolerance, cornerAngle);
+    SharpChains chains = JoinChains(lines, bodies, tolerance, cornerAngle);
     this->CurveList = std::move(chains.Curves);
     this->VertexList = std::move(chains.Vertices);
+    this->VertexBodies = std::move(chains.VertexBodies);
     for (const std::vector<int>& members : chains.Members)
     {
       std::vector<BezierForm<1>> forms;
@@ -467,7 +472,9 @@ public:
     {
       return status;
     }
+    const std::vector<int> bodyOf = this->ClosedBodies(edges);
     std::vector<Spline<1>> sharp;
+    std::vector<int> bodies; // of these
     DisjointSets smooth(static_cast<int>(model.Faces.size()));
     for (std::size_t i = 0; i < params.Groups.size(); ++i)
     {
@@ -495,10 +502,16 @@ public:
       if (!isInside)
       {
         sharp.push_back(std::move(edge.Curve));
+        bodies.push_back(bodyOf[At(edge.Uses.front().Face)]);
       }
     }
     this->NumberRegions(smooth);
-    return this->MakeCurves(sharp, tolerance, params.CornerAngle);
+    this->FaceBodies.assign(At(this->FaceCount), 0);
+    for (std::size_t f = 0; f < this->Faces.size(); ++f)
+    {
+      this->FaceBodies[At(this->RegionOf[f])] = bodyOf[f];
+    }
+    return this->MakeCurves(sharp, bodies, tolerance, params.CornerAngle);
   }
 
   Status Find(
@@ -621,6 +634,39 @@ private:
     return !groups.empty() && groups[At(edge.Uses[0].Face)] >= 0 &&
       groups[At(edge.Uses[0].Face)] == groups[At(edge.Uses[1].Face)];
   }
+  /// Faces that hang together by edges and enclose a body: its number, from 1 on; 0: others.
+  std::vector<int> ClosedBodies(const EdgeList& edges) const
+  {
+    DisjointSets sets(static_cast<int>(this->Faces.size()));
+    for (const ModelEdge& edge : edges.Edges)
+    {
+      for (const auto& use : edge.Uses)
+      {
+        sets.Unite(use.Face, edge.Uses.front().Face);
+      }
+    }
+    std::vector<char> isOpen(this->Faces.size(), 0);
+    for (const ModelEdge& edge : edges.Edges)
+    {
+      if (edge.Uses.size() < 2)
+      {
+        isOpen[At(sets.Find(edge.Uses.front().Face))] = 1;
+      }
+    }
+    std::vector<int> numbers(this->Faces.size(), 0);
+    std::vector<int> bodies;
+    int count = 0;
+    for (std::size_t f = 0; f < this->Faces.size(); ++f)
+    {
+      const std::size_t root = At(sets.Find(static_cast<int>(f)));
+      if (isOpen[root] == 0 && numbers[root] == 0)
+      {
+        numbers[root] = ++count;
+      }
+      bodies.push_back(numbers[root]);
+    }
+    return bodies;
+  }
   void NumberRegions(const DisjointSets& smooth)
   {
     std::vector<int> number(this->Faces.size(), -1);
@@ -641,7 +687,7 @@ class CurveTarget final : public CurveParts
 public:
   Status Make(const std::vector<Spline<1>>& curves, double tolerance, double cornerAngle)
   {
-    return this->MakeCurves(curves, tolerance, cornerAngle);
+    return this->MakeCurves(curves, std::vector<int>(curves.size(), 0), tolerance, cornerAngle);
   }
   Status Find(
     const TargetPart& part, const PointMatrixView& queries, TargetPoints& result) const override

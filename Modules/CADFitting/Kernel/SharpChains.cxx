@@ -17,19 +17,22 @@ std::size_t At(int i)
 class ChainJoiner
 {
 public:
-  ChainJoiner(const std::vector<PointMatrix>& lines, double tolerance, double cornerAngle)
-    : Lines(lines), Limit(std::cos(cornerAngle * static_cast<double>(EIGEN_PI) / 180.0)),
+  ChainJoiner(const std::vector<PointMatrix>& lines, const std::vector<int>& bodies,
+    double tolerance, double cornerAngle)
+    : Lines(lines), Bodies(bodies),
+      Limit(std::cos(cornerAngle * static_cast<double>(EIGEN_PI) / 180.0)),
       PlaceOf(2 * lines.size())
   {
     for (int end = 0; end < static_cast<int>(this->PlaceOf.size()); ++end)
     {
+      const int body = bodies[At(end / 2)];
       const auto found = std::find_if(this->Places.begin(), this->Places.end(),
-        [&](const Eigen::RowVector3d& place)
-        { return (place - this->PointOf(end)).norm() <= tolerance; });
+        [&](const Place& place)
+        { return place.Body == body && (place.Point - this->PointOf(end)).norm() <= tolerance; });
       this->PlaceOf[At(end)] = static_cast<int>(found - this->Places.begin());
       if (found == this->Places.end())
       {
-        this->Places.push_back(this->PointOf(end));
+        this->Places.push_back({ this->PointOf(end), body });
         this->EndsAt.emplace_back();
       }
       this->EndsAt[At(this->PlaceOf[At(end)])].push_back(end);
@@ -45,7 +48,8 @@ public:
       {
         cornerOf[place] = static_cast<int>(this->Result.Vertices.rows());
         this->Result.Vertices.conservativeResize(this->Result.Vertices.rows() + 1, 3);
-        this->Result.Vertices.bottomRows<1>() = this->Places[place];
+        this->Result.Vertices.bottomRows<1>() = this->Places[place].Point;
+        this->Result.VertexBodies.push_back(this->Places[place].Body);
       }
     }
     this->Result.Vertices.conservativeResize(this->Result.Vertices.rows(), 3);
@@ -66,6 +70,11 @@ public:
   }
 
 private:
+  struct Place
+  {
+    Eigen::RowVector3d Point;
+    int Body;
+  };
   Eigen::RowVector3d PointOf(int end) const
   {
     const PointMatrix& line = this->Lines[At(end / 2)];
@@ -87,6 +96,7 @@ private:
   {
     TargetCurve& curve = this->Result.Curves.emplace_back();
     std::vector<int>& members = this->Result.Members.emplace_back();
+    curve.Body = this->Bodies[At(begin / 2)];
     curve.Ends[0] = cornerOf[At(this->PlaceOf[At(begin)])];
     std::vector<Eigen::RowVector3d> points{ this->PointOf(begin) };
     for (int end = begin;;)
@@ -122,17 +132,19 @@ private:
   }
 
   const std::vector<PointMatrix>& Lines;
+  const std::vector<int>& Bodies;
   double Limit;
   std::vector<int> PlaceOf; ///< of every end
-  std::vector<Eigen::RowVector3d> Places;
+  std::vector<Place> Places;
   std::vector<std::vector<int>> EndsAt;
   std::vector<char> IsDone;
   SharpChains Result;
 };
 }
 
-SharpChains JoinChains(const std::vector<PointMatrix>& lines, double tolerance, double cornerAngle)
+SharpChains JoinChains(const std::vector<PointMatrix>& lines, const std::vector<int>& bodies,
+  double tolerance, double cornerAngle)
 {
-  return ChainJoiner(lines, tolerance, cornerAngle).Join();
+  return ChainJoiner(lines, bodies, tolerance, cornerAngle).Join();
 }
 }

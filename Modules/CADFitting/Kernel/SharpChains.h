@@ -8,7 +8,8 @@ namespace knotwork
 struct SharpChains
 {
   std::vector<TargetCurve> Curves;
-  PointMatrix Vertices;                  ///< n x 3: the corners
+  PointMatrix Vertices; ///< n x 3: the corners
+  std::vector<int> VertexBodies;
   std::vector<std::vector<int>> Members; ///< a curve: the edges that it is made of, in order
 };
 
@@ -16,5 +17,7 @@ struct SharpChains
 /// @param lines  points along every edge, two at least. @param tolerance  within which ends are
 /// one.
 /// @param cornerAngle  in degrees.
-SharpChains JoinChains(const std::vector<PointMatrix>& lines, double tolerance, double cornerAngle);
+/// @param bodies  of every edge: those of different ones do not meet.
+SharpChains JoinChains(const std::vector<PointMatrix>& lines, const std::vector<int>& bodies,
+  double tolerance, double cornerAngle);
 }

@@ -7,6 +7,8 @@
 #include <knotwork/CADFitting/ModelTarget.h>
 #include <knotwork/SplineCore/MeshTraces.h>
 #include <knotwork/SplineCore/Quadrature.h>
+#include <knotwork/SplineCore/TensorSpace.h>
+#include <knotwork/SplineCore/TrimmedModel.h>
 
 #include <cmath>
 #include <map>
@@ -81,6 +83,27 @@ void AddBlock(Placer<Dim>& placer, const std::array<int, Dim>& n, Map&& map)
       }
       placer.AddCorner(map(u));
     }
+  }
+}
+
+/// The six sides of a unit cube without loops, as a body.
+inline void AddSplineBox(knotwork::TrimmedModel& model, const Eigen::RowVector3d& lower, int body)
+{
+  for (int side = 0; side < 6; ++side)
+  {
+    knotwork::TrimmedFace& face = model.Faces.emplace_back();
+    const auto knots = knotwork::KnotVector::Create(1, { 0.0, 0.0, 1.0, 1.0 }).Value;
+    face.Surface.Space = knotwork::MakeTensorSpace<2>({ knots, knots }).Value;
+    face.Surface.ControlPoints.resize(4, 3);
+    for (int corner = 0; corner < 4; ++corner)
+    {
+      Eigen::RowVector3d x = Eigen::RowVector3d::Constant(side % 2);
+      x[(side / 2 + 1) % 3] = corner & 1;
+      x[(side / 2 + 2) % 3] = corner >> 1;
+      face.Surface.ControlPoints.row(corner) = lower + x;
+    }
+    face.Reversed = side % 2 == 0;
+    face.Body = body;
   }
 }
 

@@ -335,6 +335,42 @@ TEST(CADFit, EdgesAroundADropAreMet)
   }
 }
 
+/// Three cubes that touch along an edge and by whole faces, each with points of its own: all of
+/// their edges, which coincide in part, are met.
+TEST(CADFit, BodiesThatTouchHaveTheirOwnEdges)
+{
+  TrimmedModel model;
+  PlacedMesh<3> mesh;
+  int body = 0;
+  for (const Eigen::RowVector3d& lower : { Eigen::RowVector3d(0, 0, 0), { 1, 0, 1 }, { 0, 0, 1 } })
+  {
+    AddSplineBox(model, lower, body++);
+    Placer<3> placer;
+    AddBlock<3>(placer, { 3, 3, 3 },
+      [&](const double* u)
+      { return Eigen::RowVector3d(lower + Eigen::RowVector3d(u[0], u[1], u[2])); });
+    const PlacedMesh<3> cube = placer.Done();
+    for (const int corner : cube.Mesh.Corners)
+    {
+      mesh.Mesh.Corners.push_back(corner + mesh.Mesh.NumPoints);
+    }
+    mesh.Points.conservativeResize(mesh.Mesh.NumPoints + cube.Mesh.NumPoints, 3);
+    mesh.Points.bottomRows(cube.Mesh.NumPoints) = cube.Points;
+    mesh.Mesh.NumPoints += cube.Mesh.NumPoints;
+  }
+  const auto target = MakeModelTarget(model);
+  ASSERT_TRUE(target) << target.Status.Message();
+  EXPECT_EQ(target.Value->Curves().size(), 36U);
+  EXPECT_EQ(target.Value->Vertices().rows(), 24);
+  CADFitParams params = Params(2, CreasePolicy::Automatic);
+  params.TargetSamples = 1000;
+  const auto fit = Fit<3>(mesh, target.Value, params);
+  EXPECT_TRUE(fit.UnmatchedFeatures.empty()) << fit.UnmatchedFeatures.size();
+  EXPECT_EQ(fit.Certificate.Verdict, Verdict::Valid);
+  EXPECT_LE(fit.Distances.ToTarget.Largest, 1e-9);
+  EXPECT_NEAR(fit.Volume, 3.0, 1e-9);
+}
+
 /// Rows of very different heights: with equal knot intervals elements fold, with mean ones not.
 TEST(CADFit, UnevenRowsGetUnevenKnotIntervals)
 {

@@ -92,21 +92,7 @@ TEST(FitTarget, BoxOfTriangles)
 TEST(FitTarget, SixSplineFaces)
 {
   TrimmedModel model;
-  for (int side = 0; side < 6; ++side)
-  {
-    TrimmedFace& face = model.Faces.emplace_back();
-    const auto knots = KnotVector::Create(1, { 0.0, 0.0, 1.0, 1.0 }).Value;
-    face.Surface.Space = MakeTensorSpace<2>({ knots, knots }).Value;
-    face.Surface.ControlPoints.resize(4, 3);
-    for (int corner = 0; corner < 4; ++corner)
-    {
-      Eigen::RowVector3d x = Eigen::RowVector3d::Constant(side % 2);
-      x[(side / 2 + 1) % 3] = corner & 1;
-      x[(side / 2 + 2) % 3] = corner >> 1;
-      face.Surface.ControlPoints.row(corner) = x;
-    }
-    face.Reversed = side % 2 == 0;
-  }
+  AddSplineBox(model, Eigen::RowVector3d::Zero(), 0);
   const auto target = MakeModelTarget(model);
   ASSERT_TRUE(target) << target.Status.Message();
   EXPECT_EQ(target.Value->NumFaces(), 6);
