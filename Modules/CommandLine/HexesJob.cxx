@@ -15,7 +15,7 @@ public:
   explicit HexesJob(CLI::App& app) : FilterJob(app)
   {
     this->AddFile("part", "CAD part of solids (.step .stp .iges .igs .brep)");
-    this->AddOutput(0, "--output", Endings::Writing(CellContent), "the hexahedra");
+    this->AddOutput(0, "--output", Endings::Writing(CellContent | GridContent), "the hexahedra");
     this->AddOutput(SolidTable, "--solid-table", Endings::Table, "how every solid was swept");
     this->AddProperties();
   }

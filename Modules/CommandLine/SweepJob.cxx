@@ -16,7 +16,7 @@ public:
   {
     this->AddInput(0, "mesh", "quadrilaterals (.off .obj .ply .vtp .vtu .msh)", "", "input");
     this->AddInput(1, "--path", "one line of straight pieces (.vtp)", " along ");
-    this->AddOutput(0, "--output", Endings::Writing(CellContent), "the hexahedra");
+    this->AddOutput(0, "--output", Endings::Writing(CellContent | GridContent), "the hexahedra");
     this->AddProperties();
   }
 

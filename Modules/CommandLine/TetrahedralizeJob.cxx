@@ -28,7 +28,7 @@ public:
       "one "
       "in each region (.vtp .csv)",
       " by ");
-    this->AddOutput(0, "--output", Endings::Writing(CellContent), "the tetrahedra");
+    this->AddOutput(0, "--output", Endings::Writing(CellContent | GridContent), "the tetrahedra");
     this->AddOutput(1, "--boundary", Endings::Polygons, "the straight triangles of the boundary");
     this->AddProperties();
   }

@@ -15,6 +15,7 @@
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
+#include "vtkSmartPointer.h"
 #include "vtkStringArray.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
@@ -22,6 +23,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace knotwork
 {
@@ -233,10 +235,42 @@ std::vector<std::int64_t> UniqueNumbersOf(vtkDataArray* array, vtkIdType count)
   return numbers;
 }
 
+/// Numbers that meshers give to parts of what they mesh, from 0 on, as groups with names.
+vtkSmartPointer<vtkDataArray> GroupsOfParts(vtkUnstructuredGrid* grid, ElementMesh& mesh)
+{
+  for (const char* name : { "CADFaceId", "SolidId", "Region" })
+  {
+    vtkDataArray* parts = grid->GetCellData()->GetArray(name);
+    if (!parts || parts->GetNumberOfComponents() != 1)
+    {
+      continue;
+    }
+    const auto groups = NamedArray<vtkIntArray>(PhysicalGroup);
+    std::set<std::array<int, 2>> known; // dimension and part
+    for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+    {
+      const int part = static_cast<int>(parts->GetTuple1(c));
+      groups->InsertNextValue(std::max(part + 1, 0)); // 0: in none
+      if (part >= 0)
+      {
+        known.insert({ grid->GetCell(c)->GetCellDimension(), part });
+      }
+    }
+    for (const auto& [dimension, part] : known)
+    {
+      mesh.Groups.push_back(
+        { std::string(name) + " " + std::to_string(part), dimension, part + 1 });
+    }
+    return groups;
+  }
+  return nullptr;
+}
+
 void ReadGroups(vtkUnstructuredGrid* grid, ElementMesh& mesh)
 {
-  vtkDataArray* groups = grid->GetCellData()->GetArray(PhysicalGroup);
-  groups = groups ? groups : grid->GetCellData()->GetArray("Attribute");
+  vtkSmartPointer<vtkDataArray> groups = grid->GetCellData()->GetArray(PhysicalGroup);
+  groups = groups ? groups.Get() : grid->GetCellData()->GetArray("Attribute");
+  groups = groups ? groups : GroupsOfParts(grid, mesh);
   std::map<std::vector<int>, int> rows;
   for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
   {

@@ -1149,7 +1149,7 @@ bool IsBetter(const CADFit<Dim>& fit, const CADFit<Dim>& than)
 
 namespace
 {
-/// With policy Full, whose traces are always independent.
+/// With policy Full, whose functions on the surface are those of its space.
 template <int Dim>
 Result<CADFit<Dim>> FitFully(const CellMesh<Dim>& mesh, const PointMatrix& points,
   const FitTargetPtr& target, CADFitParams params, const Status& failure)

@@ -4,6 +4,7 @@ import glob
 import json
 import os
 
+import knotwork
 import knotwork_testing
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -80,6 +81,20 @@ def test_parts_are_cut_as_far_as_it_takes():
         run("convert", "fitted.vtu", "--output", "fitted.step")
         solid = run("cadmodify", "fitted.step", "--suggest", report="solid.json")["part"]
         assert solid["solids"] == 1 and abs(solid["volume"] - volume) < 1e-3 * volume, (name, solid)
+
+
+def test_solids_and_faces_are_groups_of_gmsh():
+    part = knotwork_testing.data(os.path.join("Parts", "tee.step"))
+    for job, name, cells, dimension in (("hexes", "SolidId", 8, 3), ("quads", "CADFaceId", 4, 2)):
+        run(job, part, "--output", job + ".msh", report=job + ".json")
+        grid = knotwork.read(os.path.join(FOLDER, job + ".msh"))
+        groups = vtk_to_numpy(grid.GetCellData().GetArray("PhysicalGroup"))
+        field = grid.GetFieldData()
+        names = field.GetAbstractArray("PhysicalGroupNames")
+        ids = vtk_to_numpy(field.GetArray("PhysicalGroupIds")).tolist()
+        assert ids == [[dimension, int(group)] for group in np.unique(groups)], (ids, np.unique(groups))
+        assert [names.GetValue(i) for i in range(names.GetNumberOfValues())] == [f"{name} {group - 1}" for _, group in ids]
+        assert len(ids) > 3 and grid.GetCell(0).GetNumberOfPoints() == cells, ids
 
 
 def test_the_cuts_that_are_said_give_the_same_solids():
