@@ -235,9 +235,16 @@ TEST(PointClouds, EveryFailureIsOneErrorWithTheFile_ExactOracle)
   }
   recorder->Errors.clear();
   writer->SetInputData(vtkSmartPointer<vtkPolyData>::New());
+  writer->SetFileName(OutputFile("none.g2").c_str());
+  writer->Write();
+  EXPECT_EQ(recorder->Errors.size(), 1U);
+  EXPECT_FALSE(fs::exists(OutputFile("none.g2")));
+  // text says what was looked for, and that nothing was found
+  recorder->Errors.clear();
   writer->SetFileName(OutputFile("none.xyz").c_str());
   writer->Write();
-  EXPECT_FALSE(fs::exists(OutputFile("none.xyz")));
+  EXPECT_TRUE(recorder->Errors.empty());
+  EXPECT_EQ(TextOf(OutputFile("none.xyz")), "# x y z\n");
 }
 
 TEST(PointClouds, BoundaryCurvesOfSurfacesComeBack_PropertyOracle)
