@@ -6,7 +6,12 @@ namespace knotwork
 std::vector<std::string> ContactWarnings(const CADTopology& model)
 {
   constexpr std::size_t MostNamed = 3;
-  const auto pairs = model.TouchingSolids();
+  const auto found = model.TouchingSolids();
+  if (!found)
+  {
+    return { "whether solids touch is not known: " + found.Status.Detail };
+  }
+  const auto& pairs = found.Value;
   if (pairs.empty())
   {
     return {};

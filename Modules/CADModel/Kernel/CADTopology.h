@@ -98,8 +98,9 @@ public:
   /// Solids that touch in faces which they do not share, so that their meshes do not meet there:
   /// a place of one's face lies on the other's, with the opposite normal. Found at 8 x 8 places of
   /// the parameters of either face; smaller contacts may be missed.
-  /// @return pairs of bodies, the lower first, each once, in order.
-  std::vector<std::array<int, 2>> TouchingSolids() const;
+  /// @return pairs of bodies, the lower first, each once, in order; InvalidFormat: OpenCASCADE
+  /// fails. @complexity O(faces^2) boxes, and 128 projections a pair of faces whose boxes meet.
+  Result<std::vector<std::array<int, 2>>> TouchingSolids() const;
 
   std::vector<Eigen::Vector3d> Vertices;
   std::vector<CADTopologyEdge> Edges;

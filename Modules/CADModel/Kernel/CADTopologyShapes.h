@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace knotwork
 {
@@ -145,5 +146,7 @@ struct CADTopology::Shapes
   Status AddFace(
     const TopoDS_Face& face, int id, int body, const std::string& name, CADTopology& model);
   bool IsSameFace(const TopoDS_Face& face, const TopologyFaceShape& other) const;
+  /// Pairs of solids, the lower first. May throw OpenCASCADE's exceptions.
+  std::set<std::array<int, 2>> FindContacts(const CADTopology& model) const;
 };
 }

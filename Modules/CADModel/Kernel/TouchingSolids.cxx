@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "CADSession.h"
 #include "CADTopologyShapes.h"
 
 #include <BRepBndLib.hxx>
@@ -8,7 +9,6 @@
 #include <ShapeAnalysis_Surface.hxx>
 
 #include <optional>
-#include <set>
 
 namespace knotwork
 {
@@ -121,21 +121,35 @@ bool Touch(ContactFace& a, ContactFace& b)
 }
 }
 
-std::vector<std::array<int, 2>> CADTopology::TouchingSolids() const
+Result<std::vector<std::array<int, 2>>> CADTopology::TouchingSolids() const
+{
+  std::set<std::array<int, 2>> pairs;
+  CADSession session(LengthUnit::Millimetre);
+  const Status status = session.Run("contacts of solids",
+    [&]() -> Status
+    {
+      pairs = this->Impl->FindContacts(*this);
+      return {};
+    });
+  return status ? Result<std::vector<std::array<int, 2>>>({ pairs.begin(), pairs.end() })
+                : Result<std::vector<std::array<int, 2>>>(status);
+}
+
+std::set<std::array<int, 2>> CADTopology::Shapes::FindContacts(const CADTopology& model) const
 {
   constexpr double Nearness = 1e-6; ///< of the diagonal
   std::vector<ContactFace> faces;
-  for (std::size_t f = 0; f < this->Faces.size(); ++f)
+  for (std::size_t f = 0; f < model.Faces.size(); ++f)
   {
-    const CADTopologyFace& face = this->Faces[f];
+    const CADTopologyFace& face = model.Faces[f];
     if (face.Bodies.size() > 1 ||
-      !this->Bodies[static_cast<std::size_t>(face.Bodies.front())].IsSolid)
+      !model.Bodies[static_cast<std::size_t>(face.Bodies.front())].IsSolid)
     {
       continue;
     }
-    const TopologyFaceShape& shape = this->Impl->Faces[f];
+    const TopologyFaceShape& shape = this->Faces[f];
     const auto add = [&](const TopologyFaceShape& one, bool reversed)
-    { faces.emplace_back(one, reversed, face.Bodies.front(), Nearness * this->Diagonal); };
+    { faces.emplace_back(one, reversed, face.Bodies.front(), Nearness * model.Diagonal); };
     for (std::size_t i = 0; shape.Joined && i < shape.Joined->Faces.size(); ++i)
     {
       add(shape.Joined->Faces[i], shape.Joined->Reversed[i]);
@@ -159,6 +173,6 @@ std::vector<std::array<int, 2>> CADTopology::TouchingSolids() const
       }
     }
   }
-  return { pairs.begin(), pairs.end() };
+  return pairs;
 }
 }

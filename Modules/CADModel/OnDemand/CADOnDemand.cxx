@@ -125,7 +125,7 @@ std::vector<std::string> CADTopology::JoinComposites(const CADFlattening& flatte
   return (this->*Functions()->JoinComposites)(flatten);
 }
 
-std::vector<std::array<int, 2>> CADTopology::TouchingSolids() const
+Result<std::vector<std::array<int, 2>>> CADTopology::TouchingSolids() const
 {
   return (this->*Functions()->TouchingSolids)();
 }

@@ -170,7 +170,7 @@ std::vector<std::array<int, 2>> TouchingOf(std::initializer_list<TopoDS_Shape> s
   {
     builder.Add(compound, solid);
   }
-  return TopologyOf(STEPFile(compound)).TouchingSolids();
+  return TopologyOf(STEPFile(compound)).TouchingSolids().Value;
 }
 }
 
