@@ -1147,23 +1147,6 @@ bool IsBetter(const CADFit<Dim>& fit, const CADFit<Dim>& than)
 }
 }
 
-namespace
-{
-/// With policy Full, whose functions on the surface are those of its space.
-template <int Dim>
-Result<CADFit<Dim>> FitFully(const CellMesh<Dim>& mesh, const PointMatrix& points,
-  const FitTargetPtr& target, CADFitParams params, const Status& failure)
-{
-  params.Space.Policy = CreasePolicy::Full;
-  auto fit = FitToTarget<Dim>(mesh, points, target, params);
-  if (fit)
-  {
-    fit->Warnings.insert(fit->Warnings.begin(), "policy full is taken: " + failure.Detail);
-  }
-  return fit;
-}
-}
-
 template <int Dim>
 Result<CADFit<Dim>> FitToTarget(const CellMesh<Dim>& mesh, const PointMatrix& points,
   const FitTargetPtr& target, const CADFitParams& params)
@@ -1177,11 +1160,6 @@ Result<CADFit<Dim>> FitToTarget(const CellMesh<Dim>& mesh, const PointMatrix& po
   {
     auto fitting = std::make_unique<CADFitting<Dim>>(mesh, points, target.get(), params, attempt);
     auto fit = fitting->Run();
-    if (!fit && !last && fit.Status.Code == ErrorCode::NotInSpace &&
-      params.Space.Policy == CreasePolicy::Automatic)
-    {
-      return FitFully<Dim>(mesh, points, target, params, fit.Status);
-    }
     if (!fit)
     {
       return !last || fit.Status.Code == ErrorCode::Aborted ? fit : best;

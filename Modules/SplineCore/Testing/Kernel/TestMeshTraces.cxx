@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <set>
 
 using namespace knotwork;
@@ -127,6 +129,32 @@ bool EndsInside(const SplineSpace<2>& space, const std::vector<CellSide>& crease
   return false;
 }
 
+/// Some of the cells of a grid, each beside one before it.
+CellMesh<3> RandomCubes(Random& random, int cells)
+{
+  std::vector<std::array<int, 3>> cubes{ { 0, 0, 0 } };
+  std::set<std::array<int, 3>> taken(cubes.begin(), cubes.end());
+  while (static_cast<int>(cubes.size()) < cells)
+  {
+    std::array<int, 3> at = cubes[At(random.Int(0, static_cast<int>(cubes.size()) - 1))];
+    const int d = random.Int(0, 2);
+    at[At(d)] = std::clamp(at[At(d)] + 2 * random.Int(0, 1) - 1, 0, 4 - d);
+    if (taken.insert(at).second)
+    {
+      cubes.push_back(at);
+    }
+  }
+  Maker<3> maker;
+  for (const auto& [x, y, z] : cubes)
+  {
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      maker.AddCorner({ x + (corner & 1), y + (corner >> 1 & 1), z + (corner >> 2) });
+    }
+  }
+  return maker.Done();
+}
+
 Spline<3> RandomVolume(Random& random, std::vector<int>& lengths)
 {
   return oracle::RandomSpline<3>(random, 3, 30, lengths);
@@ -171,6 +199,48 @@ TEST(MeshTraces, BoundaryOfVolumesIsOneSurface_ExactOracle)
   }
   EXPECT_GE(surfaces, 40);
   EXPECT_LE(refused, 4);
+}
+
+// where creases reach the boundary on both sides of an edge with three cells, and not in the third
+TEST(MeshTraces, PolicyMinimalLeavesVolumesTheirBoundaries_PropertyOracle)
+{
+  int volumes = 0;
+  int creased = 0;
+  for (unsigned seed = 1; seed <= 200; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const CellMesh<3> mesh = RandomCubes(random, random.Int(8, 40));
+    const auto topology = MeshTopology<3>::Make(mesh);
+    if (!topology)
+    {
+      continue; // cubes that meet along an edge only
+    }
+    UnstructuredParams params;
+    params.Degree = random.Int(2, 4);
+    params.Policy = CreasePolicy::Minimal;
+    for (int i = random.Int(0, 6); i > 0; --i)
+    {
+      const CellSide feature{ random.Int(0, mesh.NumCells() - 1), random.Int(0, 5) };
+      if (!topology->IsBoundary(feature.Cell, feature.Side))
+      {
+        params.Features.push_back(feature);
+      }
+    }
+    const auto made = MakeUnstructuredSpace<3>(mesh, params);
+    ASSERT_TRUE(made) << made.Status.Message();
+    const auto facets = BoundaryFacets(topology.Value);
+    const auto trace = TraceOnFacets(*made->Space, facets);
+    if (!trace && trace.Status.Code == ErrorCode::InvalidTopology)
+    {
+      continue; // a boundary that meets itself
+    }
+    ++volumes;
+    creased += made->CreasedFacets < made->InnerFacets ? 1 : 0;
+    EXPECT_TRUE(trace) << trace.Status.Message();
+  }
+  EXPECT_GE(volumes, 80);
+  EXPECT_GE(creased, 30);
 }
 
 TEST(MeshTraces, BoundariesAndCreasesOfSurfacesAreCurves_ExactOracle)

@@ -179,33 +179,85 @@ void Creases<2>::AddVertexSeeds()
 {
 }
 
-/// Continuity by the distance to the seeds, in steps from a facet to its opposite.
+/// Lowers a facet, and its opposites to one order more in every step away from it.
+template <int Dim>
+void Creases<Dim>::GradeFrom(const CellSide& facet, int continuity)
+{
+  if (this->Data.Lower(facet.Cell, facet.Side, continuity))
+  {
+    this->ForOpposites(facet.Cell, facet.Side,
+      [&](const CellSide& opposite) { this->GradeFrom(opposite, continuity + 1); });
+  }
+}
+
+/// Continuity by the distance to the seeds, in steps from a facet to its opposite; what was creased
+/// fully stays.
 template <int Dim>
 void Creases<Dim>::Grade()
 {
-  std::vector<char> seen(this->IsSeed.size(), 0);
-  std::vector<CellSide> front = this->Seeds;
-  for (const CellSide& seed : front)
+  for (const CellSide& seed : this->Seeds)
   {
-    this->Mark(seen, seed.Cell, seed.Side);
+    this->GradeFrom(seed, 0);
   }
-  for (int distance = 0; distance < this->Data.Degree - 1 && !front.empty(); ++distance)
+  while (this->AgreeOnBoundary())
   {
-    std::vector<CellSide> next;
-    for (const CellSide& facet : front)
+  }
+}
+
+/// Where boundary facets meet at an edge with other cells between theirs, a curve along the edge is
+/// as smooth as the smoothest of the cells lets it be. That it is a curve of the boundary's space,
+/// which has the facets' cells alone, these two get the same continuity, and those between them no
+/// higher one.
+/// @return whether something was lowered.
+template <>
+bool Creases<3>::AgreeOnBoundary()
+{
+  const Topology& topology = this->Data.Topology;
+  bool lowered = false;
+  std::vector<CellSide> ends; // across the edge, at one end of it, from boundary to boundary
+  for (int c = 0; c < topology.NumCells(); ++c)
+  {
+    for (int code = 0; code < NumSides * NumSides * NumSides; ++code)
     {
-      this->Data.Lower(facet.Cell, facet.Side, distance);
-      this->ForOpposites(facet.Cell, facet.Side,
-        [&](const CellSide& opposite)
-        {
-          if (this->Mark(seen, opposite.Cell, opposite.Side))
-          {
-            next.push_back(opposite);
-          }
-        });
+      int in = code % NumSides;
+      int out = code / NumSides % NumSides;
+      CellSide end{ c, code / (NumSides * NumSides) };
+      const bool isFrame = in / 2 != out / 2 && in / 2 != end.Side / 2 && out / 2 != end.Side / 2;
+      if (!isFrame || !topology.IsBoundary(c, in) || topology.IsBoundary(c, end.Side))
+      {
+        continue;
+      }
+      ends.assign(1, end);
+      while (!topology.IsBoundary(end.Cell, out))
+      {
+        const FacetCrossing<3>& crossing = topology.Crossing(end.Cell, out);
+        end = { topology.Neighbour(end.Cell, out), crossing.Image[At(end.Side)] };
+        out = crossing.Image[At(in)];
+        in = crossing.Side;
+        ends.push_back(end);
+      }
+      if (ends.size() < 3 ||
+        std::any_of(ends.begin(), ends.end(),
+          [&](const CellSide& at) { return topology.IsBoundary(at.Cell, at.Side); }))
+      {
+        continue;
+      }
+      const auto continuity = [this](const CellSide& at)
+      { return this->Data.ContinuityOf(at.Cell, at.Side); };
+      const int most = std::min(continuity(ends.front()), continuity(ends.back()));
+      for (const CellSide& at : ends)
+      {
+        lowered = lowered || continuity(at) > most;
+        this->GradeFrom(at, most);
+      }
     }
-    front = std::move(next);
   }
+  return lowered;
+}
+template <>
+bool Creases<2>::AgreeOnBoundary()
+{
+  return false;
 }
 
 /// Particles go out from the seeds' ends, straight on, one edge a step; each stops at a point where

@@ -40,6 +40,8 @@ private:
   void AddVertexSeeds();
   void LayTracks();
   void Grade();
+  void GradeFrom(const CellSide& facet, int continuity);
+  bool AgreeOnBoundary();
   std::int64_t CreaseStrip(int cell);
   CellSide LowestOfStrip(int cell) const;
   template <class Accept>
