@@ -166,7 +166,8 @@ Status FilterJobBase::JoinMainOutput()
 Status FilterJobBase::JoinDividedOutput()
 {
   vtkDataObject* output = this->Algorithm->GetOutputDataObject(this->DividedOutput);
-  if (this->MakesPieces() || IsPieceIndex(this->OutputFile(this->DividedOutput)))
+  const std::string file = this->OutputFile(this->DividedOutput);
+  if (this->MakesPieces() || file.empty() || IsPieceIndex(file)) // nobody needs it in one place
   {
     return {};
   }

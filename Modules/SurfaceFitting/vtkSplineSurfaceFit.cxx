@@ -391,7 +391,10 @@ knotwork::Status vtkSplineSurfaceFit::FitTogether(
     return CheckLayers(parameters, values,
       this->Parameterization == HEIGHT_FIELD ? "x and y" : "the parameters that are given", false);
   };
-  const Result<SurfaceFit> fit = FitSurface(decoded.Cloud, params, processes);
+  // points in space get their parameters back
+  PointMatrix parameters = decoded.NumMeasured == 3 ? decoded.Cloud.Parameters : PointMatrix();
+  const Result<SurfaceFit> fit = FitSurface(std::move(decoded.Cloud), params, processes);
+  decoded.Cloud.Parameters = std::move(parameters);
   if (!fit)
   {
     return fit.Status;

@@ -214,62 +214,72 @@ void FitDivision::Refine(const std::vector<int>& parents)
 }
 
 PointCloud FitDivision::Deal(
-  const PointCloud& cloud, const std::vector<double>& tolerances, const std::vector<int>& elements)
+  const std::vector<double>& tolerances, const std::vector<int>& elements)
 {
-  this->Sent.assign(static_cast<std::size_t>(this->Processes->Count), {});
+  const std::size_t count = At(this->Processes->Count);
+  this->Sent.assign(count, {});
   for (std::size_t i = 0; i < elements.size(); ++i)
   {
-    const int owner = this->Owners[static_cast<std::size_t>(elements[i])];
-    this->Sent[static_cast<std::size_t>(owner)].push_back(static_cast<int>(i));
+    this->Sent[At(this->Owners[At(elements[i])])].push_back(static_cast<int>(i));
   }
-  // a point is its parameters, values, tolerance, and whether it is significant
-  const auto columns = static_cast<Eigen::Index>(
-    this->Largest(cloud.Values.rows() > 0 ? static_cast<double>(cloud.Values.cols()) : 0.0));
-  const Eigen::Index width = columns + 4;
   std::vector<std::string> hands;
-  std::vector<double> row(static_cast<std::size_t>(width));
   for (const std::vector<int>& points : this->Sent)
   {
-    hands.emplace_back();
-    hands.back().reserve(points.size() * row.size() * sizeof(double));
-    for (const int i : points)
-    {
-      std::copy_n(cloud.Parameters.data() + std::ptrdiff_t{ 2 } * i, 2, row.begin());
-      std::copy_n(cloud.Values.data() + columns * i, columns, row.begin() + 2);
-      row[static_cast<std::size_t>(width) - 2] = tolerances[static_cast<std::size_t>(i)];
-      row[static_cast<std::size_t>(width) - 1] =
-        cloud.Significant.empty() ? 0.0 : cloud.Significant[static_cast<std::size_t>(i)];
-      hands.back() += AsBytes(row.data(), row.size());
-    }
+    const std::size_t size = points.size();
+    hands.push_back(AsBytes(&size, 1));
   }
-  const std::vector<std::string> all = this->Processes->Deal(std::move(hands));
-  Eigen::Index count = 0;
   this->Received.clear();
-  for (const std::string& one : all)
+  std::vector<Eigen::Index> next; // row for a point of each process
+  Eigen::Index rows = 0;
+  for (const std::string& one : this->Processes->Deal(std::move(hands)))
   {
-    this->Received.push_back(one.size() / sizeof(double) / static_cast<std::size_t>(width));
-    count += static_cast<Eigen::Index>(this->Received.back());
+    this->Received.push_back(FromBytes<std::size_t>(one)[0]);
+    next.push_back(rows);
+    rows += static_cast<Eigen::Index>(this->Received.back());
   }
+  // a point is its parameters, values, tolerance, and whether it is significant
+  const PointCloud& cloud = this->Given;
+  const auto columns = static_cast<Eigen::Index>(
+    this->Largest(cloud.Values.rows() > 0 ? static_cast<double>(cloud.Values.cols()) : 0.0));
+  std::vector<double> row(static_cast<std::size_t>(columns) + 4);
   PointCloud dealt;
-  dealt.Parameters.resize(count, 2);
-  dealt.Values.resize(count, columns);
-  dealt.Tolerances.resize(count);
-  Eigen::Index i = 0;
-  for (const std::string& one : all)
+  dealt.Parameters.resize(rows, 2);
+  dealt.Values.resize(rows, columns);
+  dealt.Tolerances.resize(rows);
+  dealt.Significant.resize(static_cast<std::size_t>(rows));
+  // so many at a time that what is under way is small
+  const auto most = static_cast<std::size_t>(this->Largest(static_cast<double>(elements.size())));
+  for (std::size_t first = 0; first < most; first += PointBatch)
   {
-    for (std::size_t at = 0; at < one.size(); at += sizeof(double) * row.size(), ++i)
+    hands.assign(count, {});
+    for (std::size_t i = first; i < std::min(first + PointBatch, elements.size()); ++i)
     {
-      std::memcpy(row.data(), one.data() + at, sizeof(double) * row.size());
-      std::copy_n(row.begin(), 2, dealt.Parameters.data() + 2 * i);
-      std::copy_n(row.begin() + 2, columns, dealt.Values.data() + columns * i);
-      dealt.Tolerances[i] = row[static_cast<std::size_t>(width) - 2];
-      dealt.Significant.push_back(row[static_cast<std::size_t>(width) - 1] != 0.0 ? 1 : 0);
+      std::copy_n(cloud.Parameters.data() + 2 * i, 2, row.begin());
+      std::copy_n(
+        cloud.Values.data() + static_cast<std::size_t>(columns) * i, columns, row.begin() + 2);
+      row[row.size() - 2] = tolerances[i];
+      row.back() = cloud.Significant.empty() ? 0.0 : cloud.Significant[i];
+      hands[At(this->Owners[At(elements[i])])] += AsBytes(row.data(), row.size());
+    }
+    const std::vector<std::string> all = this->Processes->Deal(std::move(hands));
+    for (std::size_t p = 0; p < count; ++p)
+    {
+      for (std::size_t at = 0; at < all[p].size(); at += sizeof(double) * row.size())
+      {
+        const Eigen::Index to = next[p]++;
+        std::memcpy(row.data(), all[p].data() + at, sizeof(double) * row.size());
+        std::copy_n(row.begin(), 2, dealt.Parameters.data() + 2 * to);
+        std::copy_n(row.begin() + 2, columns, dealt.Values.data() + columns * to);
+        dealt.Tolerances[to] = row[row.size() - 2];
+        dealt.Significant[static_cast<std::size_t>(to)] = row.back() != 0.0 ? 1 : 0;
+      }
     }
   }
+  this->Given = PointCloud();
   return dealt;
 }
 
-std::vector<double> FitDivision::BringHome(const std::vector<double>& values) const
+std::vector<double> FitDivision::BringHome(std::vector<double> values) const
 {
   if (!this->IsDivided())
   {
@@ -283,6 +293,7 @@ std::vector<double> FitDivision::BringHome(const std::vector<double>& values) co
     hands.push_back(AsBytes(values.data() + first, received));
     first += received;
   }
+  values = {};
   for (const std::vector<int>& points : this->Sent)
   {
     count += points.size();

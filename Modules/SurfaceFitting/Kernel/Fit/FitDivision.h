@@ -18,7 +18,10 @@ class FitDivision
 {
 public:
   FitDivision() = default;
-  explicit FitDivision(const FitProcesses& processes) : Processes(&processes) {}
+  FitDivision(const FitProcesses& processes, PointCloud part)
+    : Processes(&processes), Given(std::move(part))
+  {
+  }
 
   bool IsDivided() const { return this->Processes != nullptr; }
   bool Owns(std::size_t element) const
@@ -31,12 +34,14 @@ public:
   /// After a refinement. @param parents  of the new elements.
   void Refine(const std::vector<int>& parents);
 
-  /// The points of all processes in this one's elements, in their order, with tolerances.
-  /// @param elements  of the cloud's points. @param tolerances  one a point of the cloud.
-  PointCloud Deal(const PointCloud& cloud, const std::vector<double>& tolerances,
-    const std::vector<int>& elements);
+  /// What this process has come with, until it is dealt.
+  const PointCloud& Part() const { return this->Given; }
+  /// The points of all processes in this one's elements, in their order, with tolerances. The own
+  /// part is given up.
+  /// @param elements  of its points. @param tolerances  one a point of it.
+  PointCloud Deal(const std::vector<double>& tolerances, const std::vector<int>& elements);
   /// What was found of the points that were dealt, to where they come from.
-  std::vector<double> BringHome(const std::vector<double>& values) const;
+  std::vector<double> BringHome(std::vector<double> values) const;
 
   /// What each element's process has of it, to all.
   /// @param elements  ascending. @param spanOf  numbers and their count, of the k-th of them.
@@ -81,7 +86,8 @@ public:
   void Fail(const Status& why) const;
 
 private:
-  static constexpr std::size_t Batch = 16384; ///< elements that are told of at a time
+  static constexpr std::size_t Batch = 16384;        ///< elements that are told of at a time
+  static constexpr std::size_t PointBatch = 1 << 18; ///< points that are dealt at a time
 
   static std::size_t At(int i) { return static_cast<std::size_t>(i); }
   std::vector<std::string> Exchange(const std::string& own) const;
@@ -113,7 +119,8 @@ private:
   }
 
   const FitProcesses* Processes = nullptr;
-  std::vector<int> Owners;            ///< processes of the elements
+  std::vector<int> Owners; ///< processes of the elements
+  PointCloud Given;
   std::vector<std::vector<int>> Sent; ///< points of the own part that each process has
   std::vector<std::size_t> Received;  ///< points that each process has sent
 };

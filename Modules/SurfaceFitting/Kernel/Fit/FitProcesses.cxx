@@ -28,30 +28,31 @@ Status CheckDivided(const FitParams& params)
 }
 
 Result<SurfaceFit> FitSurface(
-  const PointCloud& part, const FitParams& params, const FitProcesses& processes)
+  PointCloud part, const FitParams& params, const FitProcesses& processes)
 {
-  FitDivision division(processes);
+  FitDivision division(processes, std::move(part));
   try
   {
-    const std::size_t n = division.Sum(static_cast<std::size_t>(part.Parameters.rows()));
+    const PointCloud& own = division.Part();
+    const std::size_t n = division.Sum(static_cast<std::size_t>(own.Parameters.rows()));
     const auto columns = static_cast<Eigen::Index>(
-      division.Largest(static_cast<double>(part.Parameters.rows() > 0 ? part.Values.cols() : 0)));
-    Status own = part.Parameters.rows() > 0 || n == 0 ? CheckFit(part, params) : Status();
-    own = own ? CheckDivided(params) : own;
-    if (own && part.Parameters.rows() > 0 && part.Values.cols() != columns)
+      division.Largest(static_cast<double>(own.Parameters.rows() > 0 ? own.Values.cols() : 0)));
+    Status status = own.Parameters.rows() > 0 || n == 0 ? CheckFit(own, params) : Status();
+    status = status ? CheckDivided(params) : status;
+    if (status && own.Parameters.rows() > 0 && own.Values.cols() != columns)
     {
-      own = { ErrorCode::SizeMismatch,
-        std::to_string(part.Values.cols()) + " values a point, where another process has " +
+      status = { ErrorCode::SizeMismatch,
+        std::to_string(own.Values.cols()) + " values a point, where another process has " +
           std::to_string(columns) + "; all need the same ones" };
     }
-    if (Status status = division.Agree(own); !status)
+    if (status = division.Agree(status); !status)
     {
       return status;
     }
     PointCloud none;
     none.Parameters.resize(0, 2);
     none.Values.resize(0, columns);
-    return RunFit(part.Parameters.rows() > 0 ? part : none, params, division);
+    return RunFit(own.Parameters.rows() > 0 ? own : none, params, division);
   }
   catch (const FitStop& stop)
   {

@@ -27,12 +27,13 @@ struct FitProcesses
 /// go to where their elements are; parts of elements stay there. What is summed up in an element is
 /// told to all, the space and its equations are everywhere. Distances, Tolerances and Outliers of
 /// the result are those of the process's own part, all other numbers those of all points.
-/// @param part  may be empty, but not in all of them. Params.Progress of any may stop the fit.
+/// @param part  may be empty, but not in all of them; given up when its points have gone (move it
+/// here where memory is short). Params.Progress of any may stop the fit.
 /// @return in all processes the same failure: those of FitSurface, of Check, and InvalidParameter
 /// where FindOutliers, CorrectParameters, Side or FeatureGridSize ask for what lies beyond a
 /// process's elements.
 /// @complexity a process holds about its share of the points; an iteration tells (2p + 1)^2 +
 /// (p + 1)^2 numbers of every element that is new or weighs otherwise.
 Result<SurfaceFit> FitSurface(
-  const PointCloud& part, const FitParams& params, const FitProcesses& processes);
+  PointCloud part, const FitParams& params, const FitProcesses& processes);
 }

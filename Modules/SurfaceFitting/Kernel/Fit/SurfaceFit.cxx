@@ -166,8 +166,9 @@ private:
     const std::vector<int> elements =
       LocatePoints(*this->State.Space, this->Given.Parameters, this->Params.Threads);
     this->Division.Assign(elements, this->State.Space->NumElements());
-    this->Moved = this->Division.Deal(this->Given, this->Tolerances, elements);
+    this->Moved = this->Division.Deal(this->Tolerances, elements);
     this->Tolerances.assign(this->Moved.Tolerances.begin(), this->Moved.Tolerances.end());
+    this->Moved.Tolerances.resize(0);
     return this->Division.Check(this->Moved, this->Params.NumMeasured);
   }
 
@@ -627,8 +628,13 @@ private:
           this->Tolerances[row] = this->Points.Limit(i);
         }
       });
-    this->Fit.Distances = this->Division.BringHome(this->Fit.Distances);
-    this->Fit.Tolerances = this->Division.BringHome(this->Tolerances);
+    this->Points = FitPoints(); // what comes home takes its place
+    if (this->Division.IsDivided())
+    {
+      this->Moved = PointCloud();
+    }
+    this->Fit.Distances = this->Division.BringHome(std::move(this->Fit.Distances));
+    this->Fit.Tolerances = this->Division.BringHome(std::move(this->Tolerances));
     this->Fit.Outliers = std::move(this->Outliers);
     if (this->Params.CorrectParameters)
     {
@@ -638,8 +644,8 @@ private:
   }
 
   FitDivision& Division;
-  const PointCloud& Given;
-  PointCloud Moved; ///< a copy, when parameters are corrected; the points of own elements
+  const PointCloud& Given; ///< not where it was given up (FitDivision::Deal)
+  PointCloud Moved;        ///< a copy, when parameters are corrected; the points of own elements
   const PointCloud& Cloud;
   const FitParams Params;
   std::chrono::steady_clock::time_point Begin;
