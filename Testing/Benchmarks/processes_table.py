@@ -6,7 +6,7 @@ usage: processes_table.py PROGRAM [--seconds S] [--folder FOLDER] [--write PAGE]
 
 --seconds: of one thread that the work is made for (10). --write puts the tables between the comments `the table of processes: begin` and `end` of a page.
 Every run is one thread a process, or two threads of one process; the fastest of three. Processes that wait for others use the processor, too. "seconds" are those of the job's work (`seconds` of the report, the
-largest of the processes), without start and files; memory is the largest resident set of a process, less that of `--help`'s; work is the share of the processor time.
+largest of the processes), without start and files; memory is the largest resident set of a process, with its libraries; work is the share of the processor time.
 Weak scaling doubles the cells or points with the processes. processes_model.py is a model of them.
 """
 import argparse

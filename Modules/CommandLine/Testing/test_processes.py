@@ -501,6 +501,43 @@ def test_trimmed_parts():
     assert "--table" in errors and not os.path.exists(path("never.csv")), errors
 
 
+def write_pieces(name, rows, ends):
+    """Points as a .pvtp of polydata, which end at these rows."""
+    files = []
+    for begin, end in zip(ends[:-1], ends[1:]):
+        part = vtkPolyData()
+        points = vtkPoints()
+        points.SetDataTypeToDouble()
+        points.SetData(numpy_to_vtk(rows[begin:end].copy(), deep=True))
+        part.SetPoints(points)
+        os.makedirs(path(f"{name}-pieces"), exist_ok=True)
+        files.append(write(part, path(f"{name}-pieces/part{len(files)}.vtp")))
+    with open(path(f"{name}.pvtp"), "w") as index:
+        index.write('<VTKFile type="PPolyData" version="0.1"><PPolyData GhostLevel="0"><PPoints>'
+                    '<PDataArray type="Float64" NumberOfComponents="3"/></PPoints>' +
+                    "".join(f'<Piece Source="{file}"/>' for file in files) + "</PPolyData></VTKFile>")
+    return path(f"{name}.pvtp")
+
+
+def test_memory_of_fits():
+    """Each of two processes holds half of the points: at most 0.6 of what one holds, beside what the program is without any."""
+    places = np.random.default_rng(7).uniform(0, 1, (2000000, 3))
+    places[:, 2] = 0.1 * np.sin(9 * places[:, 0]) * np.cos(7 * places[:, 1]) + 0.002 * places[:, 2]
+    held = {}
+    for name, rows in (("few", places[:4000]), ("many", places)):
+        cloud = write_pieces(name, rows, (0, len(rows) // 2, len(rows)))
+        for processes in (1, 2):
+            run(processes, "fit", cloud, "--tolerance", "0.004", "--output", path("cloud.vtu"), "--report", path("cloud.json"), "--threads", "1")
+            report = json.load(open(path("cloud.json")))
+            assert report["points"] == len(rows)
+            held[name, processes] = max(report["rank_peak_bytes"]) if processes > 1 else report["peak_bytes"]
+    alone, each = (held["many", processes] - held["few", processes] for processes in (1, 2))
+    assert alone > 50 * len(places), "the points are what is held"
+    assert each <= 0.6 * alone, (each, alone)
+    for name in glob.glob(path("many*")):
+        shutil.rmtree(name) if os.path.isdir(name) else os.remove(name)
+
+
 def test_fits():
     """One set of points is fitted by several processes together, the fit of one to the last bit; what needs all points is done by the first."""
     chosen = np.random.default_rng(17)
@@ -531,21 +568,7 @@ def test_fits():
         report = compared("fit", [path("hills.vtp")], "whole.vtu", [*options[:-1], "2", *asked], others=[("--points", "whole.vtp")])
     # pieces are read and written by pieces; the second one has no points
     run(1, "fit", path("hills.vtp"), "--output", path("one.vtu"), *options)
-    pieces = path("hills-pieces")
-    os.makedirs(pieces, exist_ok=True)
-    names = []
-    for k, (begin, end) in enumerate(((0, 7000), (7000, 7000), (7000, 20000))):
-        part = vtkPolyData()
-        places_of_part = vtkPoints()
-        places_of_part.SetDataTypeToDouble()
-        places_of_part.SetData(numpy_to_vtk(np.column_stack([places, heights])[begin:end].copy(), deep=True))
-        part.SetPoints(places_of_part)
-        names.append(f"{pieces}/part{k}.vtp")
-        write(part, names[-1])
-    with open(path("hills.pvtp"), "w") as index:
-        index.write('<VTKFile type="PPolyData" version="0.1"><PPolyData GhostLevel="0"><PPoints>'
-                    '<PDataArray type="Float64" NumberOfComponents="3"/></PPoints>' +
-                    "".join(f'<Piece Source="{name}"/>' for name in names) + "</PPolyData></VTKFile>")
+    write_pieces("hills", np.column_stack([places, heights]), (0, 7000, 7000, 20000))
     run(3, "fit", path("hills.pvtp"), "--output", path("three.vtu"), "--points", path("three.pvtp"), "--report", path("three.json"), *options)
     assert_same(read(path("one.vtu")), read(path("three.vtu")))
     report = json.load(open(path("three.json")))
