@@ -204,10 +204,43 @@ void Creases<Dim>::Grade()
   }
 }
 
+/// Whether of two cells beside each other each is less smooth than the other at one of the facets
+/// within p steps along a direction, both ways: neither's B-splines are averages of the other's.
+/// @param one, other  with the sides where the direction goes on.
+template <int Dim>
+bool Creases<Dim>::AreCrosswise(const CellSide& one, const CellSide& other) const
+{
+  bool isLess = false;
+  bool isMore = false;
+  for (const int turn : { 0, 1 })
+  {
+    std::array<CellSide, 2> at{ one, other };
+    at[0].Side ^= turn;
+    at[1].Side ^= turn;
+    for (int step = 0; step < this->Data.Degree; ++step)
+    {
+      const int r[2] = { this->Data.ContinuityOf(at[0].Cell, at[0].Side),
+        this->Data.ContinuityOf(at[1].Cell, at[1].Side) };
+      isLess = isLess || r[0] < r[1];
+      isMore = isMore || r[0] > r[1];
+      if (r[0] < 0 || r[1] < 0 || (r[0] == 0 && r[1] == 0))
+      {
+        break;
+      }
+      for (CellSide& end : at)
+      {
+        const FacetCrossing<Dim>& crossing = this->Data.Topology.Crossing(end.Cell, end.Side);
+        end = { this->Data.Topology.Neighbour(end.Cell, end.Side), crossing.Image[At(end.Side)] };
+      }
+    }
+  }
+  return isLess && isMore;
+}
+
 /// Where boundary facets meet at an edge with other cells between theirs, a curve along the edge is
 /// as smooth as the smoothest of the cells lets it be. That it is a curve of the boundary's space,
-/// which has the facets' cells alone, these two get the same continuity, and those between them no
-/// higher one.
+/// which has the facets' cells alone, those between get no higher continuity at the edge's ends
+/// than the smoother of the two; none is smoother than the other where they are crosswise.
 /// @return whether something was lowered.
 template <>
 bool Creases<3>::AgreeOnBoundary()
@@ -243,12 +276,14 @@ bool Creases<3>::AgreeOnBoundary()
         continue;
       }
       const auto continuity = [this](const CellSide& at)
-      { return this->Data.ContinuityOf(at.Cell, at.Side); };
-      const int most = std::min(continuity(ends.front()), continuity(ends.back()));
+      { return int{ this->Data.ContinuityOf(at.Cell, at.Side) }; };
+      const std::pair<int, int> of =
+        std::minmax({ continuity(ends.front()), continuity(ends.back()) });
+      const int limit = this->AreCrosswise(ends.front(), ends.back()) ? of.first : of.second;
       for (const CellSide& at : ends)
       {
-        lowered = lowered || continuity(at) > most;
-        this->GradeFrom(at, most);
+        lowered = lowered || continuity(at) > limit;
+        this->GradeFrom(at, limit);
       }
     }
   }

@@ -41,6 +41,7 @@ private:
   void LayTracks();
   void Grade();
   void GradeFrom(const CellSide& facet, int continuity);
+  bool AreCrosswise(const CellSide& one, const CellSide& other) const;
   bool AgreeOnBoundary();
   std::int64_t CreaseStrip(int cell);
   CellSide LowestOfStrip(int cell) const;
