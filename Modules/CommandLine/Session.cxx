@@ -22,8 +22,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <ctime>
-#include <fstream>
 #include <fstream>
 #include <iostream>
 
