@@ -163,11 +163,16 @@ Status FilterJobBase::JoinMainOutput()
   return this->JoinDividedOutput();
 }
 
+bool FilterJobBase::DividedOutputStays() const
+{
+  const std::string& file = this->OutputFile(this->DividedOutput);
+  return this->MakesPieces() || file.empty() || IsPieceIndex(file);
+}
+
 Status FilterJobBase::JoinDividedOutput()
 {
   vtkDataObject* output = this->Algorithm->GetOutputDataObject(this->DividedOutput);
-  const std::string file = this->OutputFile(this->DividedOutput);
-  if (this->MakesPieces() || file.empty() || IsPieceIndex(file)) // nobody needs it in one place
+  if (this->DividedOutputStays())
   {
     return {};
   }

@@ -85,6 +85,8 @@ protected:
   const std::string& MainOutput() const { return this->Outputs.front().Name; }
   /// Name of the file that a port is written to; empty: none.
   const std::string& OutputFile(int port) const;
+  /// Whether no file needs the divided output in one place, so that each process keeps its share.
+  bool DividedOutputStays() const;
   vtkTable* Table(int port) const;
 
   /// An input is one set of points, not a collection of them.

@@ -172,7 +172,7 @@ protected:
     }
     // the first process has all points, or each its own
     const vtkIdType count =
-      this->PointsStayDivided() || Processes::Own() == 0 ? points->GetNumberOfPoints() : 0;
+      this->DividedOutputStays() || Processes::Own() == 0 ? points->GetNumberOfPoints() : 0;
     auto& report = session.Report;
     report["points"] = Session::Total(count);
     report["smallest_tolerance"] = -Session::Largest(-tolerances[0]);
@@ -211,12 +211,6 @@ protected:
   }
 
 private:
-  bool PointsStayDivided() const
-  {
-    const std::string file = this->OutputFile(Points);
-    return file.empty() || IsPieceIndex(file);
-  }
-
   /// Options that are of one set of points alone.
   Status RefuseOptions() const
   {

@@ -261,6 +261,7 @@ PointCloud FitDivision::Deal(
       row.back() = cloud.Significant.empty() ? 0.0 : cloud.Significant[i];
       hands[At(this->Owners[At(elements[i])])] += AsBytes(row.data(), row.size());
     }
+    this->All(true); // one that has run out of memory says so here
     const std::vector<std::string> all = this->Processes->Deal(std::move(hands));
     for (std::size_t p = 0; p < count; ++p)
     {

@@ -119,8 +119,8 @@ private:
   }
 
   const FitProcesses* Processes = nullptr;
-  std::vector<int> Owners; ///< processes of the elements
-  PointCloud Given;
+  std::vector<int> Owners;            ///< processes of the elements
+  PointCloud Given;                   ///< the own part; empty when it is dealt
   std::vector<std::vector<int>> Sent; ///< points of the own part that each process has
   std::vector<std::size_t> Received;  ///< points that each process has sent
 };

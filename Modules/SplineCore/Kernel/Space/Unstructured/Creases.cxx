@@ -250,13 +250,18 @@ bool Creases<3>::AgreeOnBoundary()
   std::vector<CellSide> ends; // across the edge, at one end of it, from boundary to boundary
   for (int c = 0; c < topology.NumCells(); ++c)
   {
-    for (int code = 0; code < NumSides * NumSides * NumSides; ++code)
+    for (int code = 0; code < NumSides * 8; ++code)
     {
-      int in = code % NumSides;
-      int out = code / NumSides % NumSides;
-      CellSide end{ c, code / (NumSides * NumSides) };
-      const bool isFrame = in / 2 != out / 2 && in / 2 != end.Side / 2 && out / 2 != end.Side / 2;
-      if (!isFrame || !topology.IsBoundary(c, in) || topology.IsBoundary(c, end.Side))
+      int in = code / 8; // then the two other directions, either first, to either end
+      if (!topology.IsBoundary(c, in))
+      {
+        code += 7;
+        continue;
+      }
+      const int across = (in / 2 + 1 + (code & 1)) % 3;
+      int out = 2 * across + (code >> 1 & 1);
+      CellSide end{ c, 2 * (3 - in / 2 - across) + (code >> 2 & 1) };
+      if (topology.IsBoundary(c, end.Side))
       {
         continue;
       }
