@@ -219,6 +219,7 @@ TEST(MeshTraces, PolicyMinimalLeavesVolumesTheirBoundaries_PropertyOracle)
     UnstructuredParams params;
     params.Degree = random.Int(2, 4);
     params.Policy = CreasePolicy::Minimal;
+    oracle::RandomLengths<3>(random, mesh, random.Int(1, 3), params.Lengths);
     for (int i = random.Int(0, 6); i > 0; --i)
     {
       const CellSide feature{ random.Int(0, mesh.NumCells() - 1), random.Int(0, 5) };
