@@ -323,6 +323,10 @@ private:
     report["points"] = index.NumPoints;
     report["tiles"] = index.Tiles.size();
     report["tiles_resumed"] = fit.NumResumed;
+    if (fit.NumOfProcess.size() > 1)
+    {
+      report["rank_tiles"] = fit.NumOfProcess;
+    }
     report["functions"] = all.NumFunctions;
     report["max_error"] = all.MaxError;
     report["mean_error"] = all.MeanError / weight;

@@ -193,6 +193,7 @@ public:
     }
     status = status ? this->Finish(before, tiles, take) : status;
     this->Found.NumResumed = static_cast<int>(Session::Total(this->Found.NumResumed));
+    this->Found.NumOfProcess = Processes::ExchangeNumber(this->NumOwn);
     return status ? Result<TileFit>(std::move(this->Found)) : Result<TileFit>(status);
   }
 
@@ -361,10 +362,11 @@ private:
     return grid;
   }
 
-  /// Which process works on the i-th tile of a row.
-  static int WorkerOf(std::size_t i)
+  /// Which process works on a tile. They are dealt out through all rows: what a row has too many
+  /// for all to get the same number is not the same process's in every row.
+  static int WorkerOf(std::size_t tile)
   {
-    return static_cast<int>(i % static_cast<std::size_t>(Processes::Count()));
+    return static_cast<int>(tile % static_cast<std::size_t>(Processes::Count()));
   }
 
   /// The tiles of a row, one process each; all get all of them.
@@ -374,8 +376,9 @@ private:
     std::vector<vtkSmartPointer<vtkUnstructuredGrid>> grids(row.size());
     for (std::size_t i = 0; i < row.size() && status; ++i)
     {
-      if (WorkerOf(i) == Processes::Own())
+      if (WorkerOf(row[i]) == Processes::Own())
       {
+        ++this->NumOwn;
         this->GuessElements(row[i]);
         auto fitted = this->FitTile(row[i]);
         status = fitted.Status;
@@ -387,7 +390,7 @@ private:
     for (std::size_t i = 0; i < row.size() && status; ++i)
     {
       // through the grid in any case: a run that goes on has the same bits
-      auto decoded = this->Decode(SameForAll(grids[i], WorkerOf(i)));
+      auto decoded = this->Decode(SameForAll(grids[i], WorkerOf(row[i])));
       status = decoded.Status;
       if (status)
       {
@@ -482,7 +485,7 @@ private:
     std::vector<vtkSmartPointer<vtkUnstructuredGrid>> grids(numbers.size());
     for (std::size_t i = 0; i < numbers.size() && status; ++i)
     {
-      if (WorkerOf(i) == Processes::Own())
+      if (WorkerOf(numbers[i]) == Processes::Own())
       {
         auto updated = this->UpdateTile(numbers[i], std::move(tiles[i]));
         status = updated.Status;
@@ -492,7 +495,7 @@ private:
     status = Processes::Agree(status);
     for (std::size_t i = 0; i < numbers.size() && status; ++i)
     {
-      const int worker = WorkerOf(i);
+      const int worker = WorkerOf(numbers[i]);
       FittedTile& found = this->Found.Tiles[numbers[i]];
       found =
         Processes::Exchange(std::vector<FittedTile>{ found })[static_cast<std::size_t>(worker)]
@@ -593,6 +596,7 @@ private:
   bool Guesses;                           ///< no initial elements are asked for
   std::map<int, int> FunctionsBefore;     ///< of the tiles of the row before, by column
   std::vector<std::array<int, 4>> Shared; ///< by tile and side, not 0 where it has a neighbour
+  int NumOwn = 0;                         ///< tiles that this process has fitted
   TileFit Found;
 };
 }

@@ -44,6 +44,7 @@ struct TileFit
   double MaxSlopeJump = 0.0;
   int NumEdges = 0;
   int NumResumed = 0; ///< surfaces that an earlier run had left
+  std::vector<int> NumOfProcess; ///< tiles that each process has fitted
 };
 
 /// Gets the surface of a tile, numbered as in the index, when it is done.
