@@ -55,6 +55,13 @@ Eigen::VectorXd TukeyWeights(const Eigen::VectorXd& distances, double limit)
 }
 }
 
+FootFinder OnTarget(const FitTarget& target, int threads)
+{
+  return [&target, threads](const PointMatrix& queries, TargetPoints& feet) {
+    return FindOnTarget(target, queries, feet, { threads, {} });
+  };
+}
+
 Eigen::VectorXd DistancesOf(const PointMatrix& moved, const TargetPoints& feet)
 {
   return (moved - feet.Points).rowwise().norm();

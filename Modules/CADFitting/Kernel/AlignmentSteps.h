@@ -24,6 +24,8 @@ struct AlignmentSteps
 
 /// Closest points of moved points of the scan.
 using FootFinder = std::function<Status(const PointMatrix& queries, TargetPoints& feet)>;
+/// Those on a target, which must outlive the result.
+FootFinder OnTarget(const FitTarget& target, int threads);
 
 struct AlignmentStepParams
 {
