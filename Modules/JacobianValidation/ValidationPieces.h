@@ -4,6 +4,7 @@
 #include <knotwork/JacobianValidation/CellMaps.h>
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace knotwork
@@ -16,6 +17,7 @@ struct CellName
   int Patch = 0;
   std::int64_t Element = -1; ///< in the file that it was read from, -1: not known
 };
+using CellNames = std::function<CellName(int)>;
 
 /// The cells of a piece and what is proved of each.
 struct CertifiedPiece

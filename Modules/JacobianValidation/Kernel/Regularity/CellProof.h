@@ -1,25 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "BoxSearch.h"
+#include "FormLayout.h"
+#include "JacobianCertificate.h"
 
 namespace knotwork
 {
 /// The proof of one cell, by subdivision and, where rounding is in the way, exact arithmetic.
-/// @param witness  filled when the verdict is Invalid.
+/// @param maxBoxes  in place of the params', which are for all cells.
+/// @param witness   filled when the verdict is Invalid.
 CellCertificate ProveCell(const BernsteinCells& cells, int cell, const JacobianParams& params,
   std::int64_t maxBoxes, LayoutCache& cache, JacobianWitness& witness);
-
-/// A number computed as a quotient by weights and scaled: bounds in terms of stored numbers.
-struct ValueRange
-{
-  double WeightLower = 1.0; ///< of the weight function's power, rounded outward
-  double WeightUpper = 1.0;
-  int Scale = 0;     ///< power of two
-  bool Root = false; ///< of a square: the value is its root
-
-  double Lower(double coefficient) const;
-  double Upper(double coefficient) const;
-};
-/// Range of the weight function to a power on a cell. @pre weights > 0.
-ValueRange WeightRange(const double* weights, int count, int power);
 }
