@@ -16,6 +16,8 @@
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
+
 using namespace knotwork;
 
 vtkStandardNewMacro(vtkCADHexahedra);
@@ -38,6 +40,31 @@ void EncodeMesh(const CADTopology& model, const CADHexes& made, vtkUnstructuredG
       made.PointDimension[i] == 2 ? model.Faces[entity].Ids.front() : made.PointEntity[i]);
   }
   output->GetPointData()->AddArray(entities);
+}
+
+/// Quadrilaterals on the faces behind the hexahedra, whose values they get.
+void EncodeBoundary(const CADTopology& model, const CADHexes& made, vtkUnstructuredGrid* output)
+{
+  vtkCellData* values = output->GetCellData();
+  const auto faceIds = NamedArray<vtkIntArray>("CADFaceId");
+  for (int cell = 0; cell < made.Mesh.NumCells(); ++cell)
+  {
+    faceIds->InsertNextValue(-1);
+  }
+  for (const CADHexFacet& facet : made.OnFaces)
+  {
+    const int* corners = made.Mesh.Cell(facet.Cell);
+    const std::array<int, 4> at = CornersOfHexSide(facet.Side);
+    const vtkIdType ids[4] = { corners[at[0]], corners[at[1]], corners[at[3]], corners[at[2]] };
+    output->InsertNextCell(VTK_QUAD, 4, ids);
+    for (int i = 0; i < values->GetNumberOfArrays(); ++i)
+    {
+      values->GetArray(i)->InsertNextTuple(facet.Cell, values->GetArray(i));
+    }
+    const std::vector<int>& ofFace = model.Faces[static_cast<std::size_t>(facet.Face)].Ids;
+    faceIds->InsertNextValue(*std::min_element(ofFace.begin(), ofFace.end()));
+  }
+  values->AddArray(faceIds);
 }
 
 void EncodeNumbers(const SweepCuts& cut, const CADHexes& made, vtkTable* table)
@@ -139,6 +166,10 @@ Status vtkCADHexahedra::Compute(vtkInformationVector**, vtkInformationVector* ou
     return cut.Status;
   }
   EncodeMesh(cut->Model, made.Value, vtkUnstructuredGrid::GetData(outputs, 0));
+  if (this->BoundaryCells)
+  {
+    EncodeBoundary(cut->Model, made.Value, vtkUnstructuredGrid::GetData(outputs, 0));
+  }
   EncodeNumbers(cut.Value, made.Value, vtkTable::GetData(outputs, 1));
   EncodeSolids(cut->Model, made.Value, vtkTable::GetData(outputs, 2));
   std::vector<std::string> warnings = cut->Notes;

@@ -13,6 +13,9 @@
  * vtkCADReader), Layer (from the source of its solid), ScaledJacobian and Verdict (of
  * vtkJacobianValidator), and the point arrays CADEntityDimension (0 on a vertex, 1 on an edge, 2 on
  * a face, 3 inside) and CADEntityId (number of the vertex or edge, FaceId of the face, SolidId).
+ * With BoundaryCells also quadrilaterals on the faces, counterclockwise as seen from outside of
+ * their solid (the first of two), with the values of their hexahedron, and the cell array
+ * CADFaceId: FaceId of vtkCADReader, the smaller one of a shared face; -1 of hexahedra.
  *
  * Output 1 (vtkTable): one row with Hexahedra, Points, Solids, PaddedHexahedra (in layers
  * under surfaces that go on smoothly at a rim), Verdict, ValidCells, ReversedCells,
@@ -80,6 +83,13 @@ public:
   vtkGetMacro(MaximumCuts, int);
   ///@}
   ///@{
+  /** Whether quadrilaterals of the part's faces are cells, too, behind the hexahedra: what solvers
+   * know loads and supports by. Default off. */
+  vtkSetMacro(BoundaryCells, bool);
+  vtkGetMacro(BoundaryCells, bool);
+  vtkBooleanMacro(BoundaryCells, bool);
+  ///@}
+  ///@{
   /** More hexahedra, or quadrilaterals of a face, are an error. Default 1000000, valid range >= 1.
    * Advanced. */
   vtkSetClampMacro(MaximumHexahedra, int, 1, VTK_INT_MAX);
@@ -101,6 +111,7 @@ private:
   double Curvature = 30.0;
   int MinimumDivisions = 2;
   int MaximumCuts = 3;
+  bool BoundaryCells = false;
   int MaximumHexahedra = 1000000;
 };
 #endif

@@ -235,9 +235,12 @@ std::vector<std::int64_t> UniqueNumbersOf(vtkDataArray* array, vtkIdType count)
   return numbers;
 }
 
-/// Numbers that meshers give to parts of what they mesh, from 0 on, as groups with names.
+/// Numbers that meshers give to parts of what they mesh, from 0 on, as groups with names; of each
+/// dimension those of the first array that has any.
 vtkSmartPointer<vtkDataArray> GroupsOfParts(vtkUnstructuredGrid* grid, ElementMesh& mesh)
 {
+  std::array<bool, 4> isNamed{};
+  vtkSmartPointer<vtkIntArray> groups;
   for (const char* name : { "CADFaceId", "SolidId", "Region" })
   {
     vtkDataArray* parts = grid->GetCellData()->GetArray(name);
@@ -245,25 +248,31 @@ vtkSmartPointer<vtkDataArray> GroupsOfParts(vtkUnstructuredGrid* grid, ElementMe
     {
       continue;
     }
-    const auto groups = NamedArray<vtkIntArray>(PhysicalGroup);
+    if (!groups)
+    {
+      groups = NamedArray<vtkIntArray>(PhysicalGroup);
+      groups->SetNumberOfValues(grid->GetNumberOfCells());
+      groups->FillValue(0); // in none
+    }
     std::set<std::array<int, 2>> known; // dimension and part
     for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
     {
+      const int dimension = grid->GetCell(c)->GetCellDimension();
       const int part = static_cast<int>(parts->GetTuple1(c));
-      groups->InsertNextValue(std::max(part + 1, 0)); // 0: in none
-      if (part >= 0)
+      if (part >= 0 && !isNamed[static_cast<std::size_t>(dimension)])
       {
-        known.insert({ grid->GetCell(c)->GetCellDimension(), part });
+        groups->SetValue(c, part + 1);
+        known.insert({ dimension, part });
       }
     }
     for (const auto& [dimension, part] : known)
     {
+      isNamed[static_cast<std::size_t>(dimension)] = true;
       mesh.Groups.push_back(
         { std::string(name) + " " + std::to_string(part), dimension, part + 1 });
     }
-    return groups;
   }
-  return nullptr;
+  return groups;
 }
 
 void ReadGroups(vtkUnstructuredGrid* grid, ElementMesh& mesh)

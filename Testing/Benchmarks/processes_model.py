@@ -6,8 +6,8 @@ usage: processes_model.py PROGRAM [--seconds S] [--folder FOLDER] [--write PAGE]
 
 One thread a process, each on a core of its own, memory for all of them:
     seconds = fixed + n (own / P + everywhere) + messages latency log2(P) + told / bandwidth
-    bytes   = fixed + n (own / P + everywhere)
-of n cells or points in P processes. Each of the latter tells all others its part of what is summed up, so that what one of them hears does not become
+    bytes   = fixed + n (own / P + everywhere), fixed being another of one process and of several
+of n cells or points in P processes. What is fixed of the memory is that of a thousand cells or points. Each of the latter tells all others its part of what is summed up, so that what one of them hears does not become
 less with P; messages and what is told are counted by the program and grow with n. The constants follow from runs of n in one process, 2 n in one and n in two
 (--seconds: of one thread for n, 5 without), latency and bandwidth from messages between two processes. Runs of 2 n in two processes and of 4 n in one and two are what the model
 is held against. A fit of tiles takes, row by row, ceil(tiles of a row / P) times a tile's seconds, and for each tile what all processes do. --write puts the tables between the
@@ -53,17 +53,20 @@ def network():
 
 
 class JobModel:
-    """Constants of a job from three runs: of n, of about 2 n, and of n in two processes."""
+    """Constants of a job from three runs: of n, of about 2 n, and of n in two processes; and from the memory that few cells or points take in one and in two."""
 
-    def __init__(self, n, alone, more, twice, both, net):
+    def __init__(self, n, alone, more, twice, both, least, net):
         self.net, self.n, self.more = net, n, more
         self.messages = both["rank_messages"][0] / n
         self.told = sum(both["rank_sent_bytes"]) / n
         self.fixed, self.own, self.everywhere = self.solve(alone["seconds"], twice["seconds"], both["seconds"] - self.talk(2, n))
-        self.memory = self.solve(alone["peak_bytes"], twice["peak_bytes"], max(both["rank_peak_bytes"]))
+        self.least = least
+        a_unit = max(twice["peak_bytes"] - least[0], 0.0) / more
+        self.own_bytes = min(max(2.0 * (a_unit - max(max(both["rank_peak_bytes"]) - least[1], 0.0) / n), 0.0), a_unit)
+        self.bytes_everywhere = a_unit - self.own_bytes
 
     def solve(self, alone, twice, both):
-        """fixed, own and everywhere of a quantity; none is negative."""
+        """fixed, own and everywhere of the seconds; none is negative."""
         a_unit = max(twice - alone, 0.0) / (self.more - self.n)
         own = min(max(2.0 * (alone - both) / self.n, 0.0), a_unit)
         return max(alone - self.n * a_unit, 0.0), own, a_unit - own
@@ -76,8 +79,7 @@ class JobModel:
         return self.fixed + n * (self.own / processes + self.everywhere) + self.talk(processes, n)
 
     def bytes(self, processes, n):
-        fixed, own, everywhere = self.memory
-        return fixed + n * (own / processes + everywhere)
+        return self.least[processes > 1] + n * (self.own_bytes / processes + self.bytes_everywhere)
 
 
 class TileModel:
@@ -118,6 +120,8 @@ def job_rows(program, folder, job, seconds, make, words_of, net):
     def run(processes):
         return processes_table.run(program, folder, processes, 1, words_of("work", processes > 1))
 
+    make(1000)
+    least = run(1)["peak_bytes"], max(run(2)["rank_peak_bytes"])
     n = make(20000)
     n = int(n * seconds / max(run(1)["seconds"], 1e-3))
     runs, sizes = {}, {}
@@ -126,18 +130,17 @@ def job_rows(program, folder, job, seconds, make, words_of, net):
         for processes in (1, 2):
             runs[factor, processes] = run(processes)
     n = sizes[1]
-    model = JobModel(n, runs[1, 1], sizes[2], runs[2, 1], runs[1, 2], net)
-    fixed, own, everywhere = model.memory
-    constants = [job, text(n), text(model.fixed), *(text(1e9 * one) for one in (model.own, model.everywhere)), text(fixed / 1e6), text(own), text(everywhere),
+    model = JobModel(n, runs[1, 1], sizes[2], runs[2, 1], runs[1, 2], least, net)
+    constants = [job, text(n), text(model.fixed), *(text(1e9 * one) for one in (model.own, model.everywhere)), *(text(one / 1e6) for one in least), text(model.own_bytes),
+                 text(model.bytes_everywhere),
                  text(1e6 * model.messages), text(model.told)]
     checks = [job]
     for factor, processes in ((2, 2), (4, 1), (4, 2)):
         found = runs[factor, processes]
         checks.append(off(model.seconds(processes, sizes[factor]), found["seconds"]))
         checks.append(off_memory(model.bytes(processes, sizes[factor]), max(found.get("rank_peak_bytes", [found["peak_bytes"]]))))
-    is_memory = own + everywhere > 0.0  # else n is too small to tell what a cell or point takes
-    predictions = [[job, str(processes)] + [duration(model.seconds(processes, size)) + (f", {text(model.bytes(processes, size) / 1e9)} GB" if is_memory else "")
-                                            for size in SIZES] for processes in PROCESSES]
+    predictions = [[job, str(processes)] + [f"{duration(model.seconds(processes, size))}, {text(model.bytes(processes, size) / 1e9)} GB" for size in SIZES]
+                   for processes in PROCESSES]
     return constants, checks, predictions
 
 
@@ -186,10 +189,10 @@ def main():
         checks.append(check)
         predictions += many
     result = (f"A message takes {1e6 * net[0]:.1f} us, a byte {1e9 / net[1]:.2f} ns. {said}\n\n" +
-              page_tables.table_text(["job", "n", "fixed, s", "own, ns", "everywhere, ns", "fixed, MB", "own, bytes", "everywhere, bytes", "messages of 1e6", "told, bytes"],
+              page_tables.table_text(["job", "n", "fixed, s", "own, ns", "everywhere, ns", "fixed, MB, one", "several", "own, bytes", "everywhere, bytes", "messages of 1e6", "told, bytes"],
                                      constants) + "\nRuns that the model was held against, seconds and MB, and how far it is off:\n\n" +
               page_tables.table_text(["job", "2 n by two, s", "MB", "4 n by one, s", "MB", "4 n by two, s", "MB"], checks) +
-              "\nWhat it says of many processes, each with the memory it needs where that was measured:\n\n" +
+              "\nWhat it says of many processes, each with the memory it needs:\n\n" +
               page_tables.table_text(["job", "processes", *(f"{text(size)} cells or points" for size in SIZES)], predictions))
     print(result, end="")
     if arguments.write:

@@ -3,6 +3,7 @@
 
 #include "BodyGroups.h"
 #include "CornerFill.h"
+#include "HexFacets.h"
 #include "HexPadding.h"
 #include "SolidFaceMesh.h"
 #include "Sweep.h"
@@ -550,6 +551,7 @@ Result<CADHexes> HexMesher::Run()
   {
     return padded.Status;
   }
+  this->Made.OnFaces = FindFacetsOnFaces(this->Model, this->Surface.Mesh(), cells);
   this->Made.Mesh.Corners = std::move(cells.Corners);
   this->Made.HexBody = std::move(cells.Bodies);
   this->Made.HexLayer = std::move(cells.Layers);

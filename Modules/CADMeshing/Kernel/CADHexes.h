@@ -25,14 +25,27 @@ struct CADSolidHexes
   double LeastScaledJacobian = 1.0;
 };
 
+/// A side of a hexahedron on a face of the model.
+struct CADHexFacet
+{
+  int Cell = 0;
+  int Side = 0;  ///< 2 direction + end
+  int Face = -1; ///< CADTopology::Faces
+};
+
+/// Corners of a hexahedron's side, CellMesh's numbers (bit d is the end in direction d), in
+/// tensor-product order as seen from outside.
+std::array<int, 4> CornersOfHexSide(int side);
+
 struct CADHexes
 {
   CellMesh<3> Mesh; ///< right-handed
   PointMatrix Points;
-  std::vector<int> HexBody;        ///< CADTopology::Bodies
-  std::vector<int> HexLayer;       ///< from the source of its body, 0 first
-  std::vector<int> PointDimension; ///< 0 on a vertex, 1 on an edge, 2 on a face, 3 inside
-  std::vector<int> PointEntity;    ///< which, of CADTopology's Vertices, Edges, Faces or Bodies
+  std::vector<int> HexBody;         ///< CADTopology::Bodies
+  std::vector<int> HexLayer;        ///< from the source of its body, 0 first
+  std::vector<int> PointDimension;  ///< 0 on a vertex, 1 on an edge, 2 on a face, 3 inside
+  std::vector<int> PointEntity;     ///< which, of CADTopology's Vertices, Edges, Faces or Bodies
+  std::vector<CADHexFacet> OnFaces; ///< by cell and side; what two solids share is there once
   std::vector<CADSolidHexes> Solids;
   int PaddedHexes = 0; ///< of all, those in layers under smooth surfaces
   HexahedronQuality Quality;

@@ -168,21 +168,14 @@ void Padding::FindFacets()
   std::map<Quad, std::size_t> known;
   for (int cell = 0; 8 * cell < static_cast<int>(this->Cells.Corners.size()); ++cell)
   {
-    for (std::size_t side = 0; side < 6; ++side)
+    for (int side = 0; side < 6; ++side)
     {
-      const std::size_t d = side / 2;
-      std::size_t u = (d + 1) % 3;
-      std::size_t w = (d + 2) % 3;
-      if (side % 2 == 0)
-      {
-        std::swap(u, w); // seen from outside
-      }
       Facet facet;
       facet.Cell = cell;
-      for (std::size_t i = 0; i < 4; ++i)
+      facet.Corners = CornersOfHexSide(side);
+      for (int& corner : facet.Corners)
       {
-        const std::size_t corner = ((side % 2) << d) | ((i & 1) << u) | ((i >> 1) << w);
-        facet.Corners[i] = this->Cells.Corners[8 * At(cell) + corner];
+        corner = this->Cells.Corners[At(8 * cell + corner)];
       }
       const Quad key = Sorted(facet.Corners);
       const auto face = faceOfQuads.find(key);

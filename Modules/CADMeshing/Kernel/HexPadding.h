@@ -3,17 +3,10 @@
 #pragma once
 #include "CADMesh.h"
 #include "FaceMesher.h"
+#include "HexFacets.h"
 
 namespace knotwork
 {
-/// Hexahedra of all solids, with the points of a mesh of their faces.
-struct HexCells
-{
-  std::vector<int> Corners; ///< 8 a cell, CellMesh's order, right-handed
-  std::vector<int> Bodies;  ///< one a cell
-  std::vector<int> Layers;
-};
-
 /// Where two outer sides of a hexahedron meet at less than 45 degrees, as at a fillet's rim, its
 /// corners there cannot be good. The faces that go on smoothly from there get a layer of hexahedra
 /// under them, and points inside are moved for good shapes (UntangleMesh). What was, stays where

@@ -97,6 +97,43 @@ def test_solids_and_faces_are_groups_of_gmsh():
         assert len(ids) > 3 and grid.GetCell(0).GetNumberOfPoints() == cells, ids
 
 
+def test_faces_of_the_part_are_groups_beside_solids():
+    """A tee, and a cover with layers under its rounded faces: quadrilaterals are the outer sides and those between solids, outward, on planes and cylinders of the part."""
+    for name, solids in (("tee", 4), ("cover", 1)):
+        part = knotwork_testing.data(os.path.join("Parts", name + ".step"))
+        said = run("hexes", part, "--boundary-cells", 1, "--output", "with.vtu", report="with.json")
+        grid = knotwork.read(os.path.join(FOLDER, "with.vtu"))
+        faces = vtk_to_numpy(grid.GetCellData().GetArray("CADFaceId"))
+        points = vtk_to_numpy(grid.GetPoints().GetData())
+        corners = [[grid.GetCell(i).GetPointId(k) for k in range(grid.GetCell(i).GetNumberOfPoints())] for i in range(grid.GetNumberOfCells())]
+        hexes, quads = corners[:said["hexahedra"]], corners[said["hexahedra"]:]
+        assert (faces[:len(hexes)] == -1).all() and (faces[len(hexes):] >= 0).all()
+        sides = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (2, 3, 7, 6), (0, 4, 7, 3), (1, 2, 6, 5))
+        bodies = vtk_to_numpy(grid.GetCellData().GetArray("SolidId"))
+        found = {}
+        for cell, at in enumerate(hexes):
+            for side in sides:
+                found.setdefault(tuple(sorted(at[i] for i in side)), []).append((bodies[cell], [at[i] for i in side]))
+        wanted = {key: uses for key, uses in found.items() if len({body for body, _ in uses}) > 1 or len(uses) == 1}
+        assert sorted(tuple(sorted(quad)) for quad in quads) == sorted(wanted), (len(quads), len(wanted))
+        for quad in quads:  # the same way round as its hexahedron's
+            turned = [quad[i:] + quad[:i] for i in range(4)]
+            assert any(use in turned for _, use in wanted[tuple(sorted(quad))]), quad
+        # those of a face that two points of one are inside of are on it: by the array of points
+        dimension, entity = (vtk_to_numpy(grid.GetPointData().GetArray(name)) for name in ("CADEntityDimension", "CADEntityId"))
+        for quad, face in zip(quads, faces[len(hexes):]):
+            assert all(entity[i] == face for i in quad if dimension[i] == 2), (quad, face)
+        # volume by the divergence theorem, of the outer ones
+        outer = np.array([quad for quad in quads if len(wanted[tuple(sorted(quad))]) == 1])
+        a, b, c, d = (points[outer[:, i]] for i in range(4))
+        volume = (np.einsum("ij,ij->i", a + b + c + d, np.cross(c - a, d - b)) / 24.0).sum()
+        assert abs(volume - said["volume"]) < 1e-2 * said["volume"], (volume, said["volume"])
+        run("hexes", part, "--boundary-cells", 1, "--output", "with.msh", report="with.json")
+        field = knotwork.read(os.path.join(FOLDER, "with.msh")).GetFieldData()
+        ids = vtk_to_numpy(field.GetArray("PhysicalGroupIds")).tolist()
+        assert sorted(ids) == [[2, int(face) + 1] for face in np.unique(faces[len(hexes):])] + [[3, i + 1] for i in range(solids)], ids
+
+
 def test_the_cuts_that_are_said_give_the_same_solids():
     said, _ = meshed(knotwork_testing.data(os.path.join("Parts", "tee.step")), "--edge-length", 5)
     words = [word for cut in said["cuts"] for word in ("--" + cut).split()]
