@@ -164,7 +164,7 @@ private:
     MendingParams params;
     params.Threads = this->Params.Threads;
     params.Progress = PartOf(this->Params.Progress, 0.7, 0.8);
-    const std::vector<char> held = this->Fitted.Verdicts.Bad.empty()
+    const std::vector<char> held = this->Candidates().empty()
       ? std::vector<char>()
       : HeldControlPoints(this->Mesh, this->Fitted);
     if (!this->Candidates().empty())

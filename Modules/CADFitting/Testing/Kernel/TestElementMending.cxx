@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 using namespace knotwork;
 using namespace fits;
 
@@ -216,4 +218,38 @@ TEST(ElementUnfolding, VolumesInside_PropertyOracle)
     EXPECT_TRUE(Unfold<3>(other, before->Bad, before->IsReversed, places, *target.Value, params));
     EXPECT_EQ(other.ControlPoints, mended.ControlPoints);
   }
+}
+
+// Nets may be inverted although every element is proved valid: what is mended then are these. The
+// verdicts stay.
+TEST(ElementMending, InvertedNetsOfValidElements_PropertyOracle)
+{
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> shake(-0.04, 0.04);
+  int inverted = 0;
+  for (int round = 0; round < 40; ++round)
+  {
+    Placer<2> placer;
+    AddBlock<2>(
+      placer, { 4, 4 }, [](const double* u) { return Eigen::RowVector3d(u[0], u[1], 0.0); });
+    PlacedMesh<2> mesh = placer.Done();
+    for (Eigen::Index i = 0; i < mesh.Points.rows(); ++i)
+    {
+      mesh.Points.row(i) += Eigen::RowVector3d(shake(random), shake(random), 0.0);
+    }
+    CADFitParams params;
+    params.Space.Degree = 3;
+    params.TargetSamples = 0;
+    params.Smoothing = FitSmoothing::Off;
+    const auto plain = FitToTarget<2>(mesh.Mesh, mesh.Points, nullptr, params);
+    ASSERT_TRUE(plain) << plain.Status.Message();
+    const auto verdicts = CertifyElements<2>(plain->Value, 1);
+    params.Smoothing = FitSmoothing::Net;
+    const auto mended = FitToTarget<2>(mesh.Mesh, mesh.Points, nullptr, params);
+    ASSERT_TRUE(mended) << mended.Status.Message();
+    EXPECT_LE(CertifyElements<2>(mended->Value, 1)->Bad.size(), verdicts->Bad.size());
+    const bool isNet = verdicts->Bad.empty() && !InvertedNets<2>(plain->Value, false).empty();
+    inverted += isNet ? 1 : 0;
+  }
+  EXPECT_GT(inverted, 3);
 }
