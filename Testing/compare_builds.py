@@ -22,7 +22,7 @@ sys.path[:0] = [os.path.join(HERE, "Harness"), os.path.join(HERE, "..", "Modules
 
 import job_inputs  # noqa: E402  (it asks for the folders above)
 
-MEASURED = re.compile(r"seconds|peak_bytes")  # keys of a report that differ from run to run
+MEASURED = re.compile(r"seconds|peak_(own_)?bytes")  # keys of a report that differ from run to run
 SHAPES = ("square", "cube", "annulus-sector", "ball-sector", "twisted-bar", "solid-torus")
 
 

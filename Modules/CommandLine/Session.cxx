@@ -23,9 +23,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <fstream>
 #include <iostream>
+#include <map>
+#include <string>
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -46,23 +50,37 @@ double CpuNow()
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-/// Largest memory of the program so far; not getrusage's, which begins with that of the process
-/// that has started it.
-long long PeakBytes()
+/// Largest memory of the program so far, in bytes.
+struct PeakMemory
+{
+  long long All = 0;
+  /// Without pages of files, most of them libraries, and what it shares with other processes.
+  long long Own = 0;
+};
+
+/// Not getrusage's, which begins with that of the process that has started this one.
+PeakMemory FindPeakMemory()
 {
   std::ifstream status("/proc/self/status");
-  for (std::string word; status >> word;)
+  std::map<std::string, long long> kilobytes;
+  for (std::string line; std::getline(status, line);)
   {
-    if (word == "VmHWM:")
+    for (const char* name : { "VmHWM:", "RssFile:", "RssShmem:" })
     {
-      long long kilobytes = 0;
-      status >> kilobytes;
-      return 1024 * kilobytes;
+      if (line.rfind(name, 0) == 0)
+      {
+        kilobytes[name] = std::atoll(line.c_str() + std::strlen(name));
+      }
     }
+  }
+  const long long all = 1024 * kilobytes["VmHWM:"];
+  if (all > 0)
+  {
+    return { all, all - 1024 * (kilobytes["RssFile:"] + kilobytes["RssShmem:"]) };
   }
   rusage usage{}; // there is no /proc
   getrusage(RUSAGE_SELF, &usage);
-  return 1024LL * usage.ru_maxrss;
+  return { 1024LL * usage.ru_maxrss, 1024LL * usage.ru_maxrss };
 }
 
 bool IsEmpty(vtkDataObject* data)
@@ -371,7 +389,9 @@ Status Session::Commit()
     this->Report["seconds"] = this->Seconds;
     this->Report["cpu_seconds"] = this->CpuSeconds;
     this->Report["seconds_io"] = this->SecondsOfFiles;
-    this->Report["peak_bytes"] = PeakBytes();
+    const PeakMemory memory = FindPeakMemory();
+    this->Report["peak_bytes"] = memory.All;
+    this->Report["peak_own_bytes"] = memory.Own;
     // not all text of a report need be sound: names of files are bytes
     const auto replace = nlohmann::ordered_json::error_handler_t::replace;
     const std::string text = this->Report.dump(2, ' ', false, replace) + "\n";
@@ -383,13 +403,15 @@ Status Session::Commit()
 void Session::ReportProcesses()
 {
   const Processes::Traffic told = Processes::TrafficSoFar();
-  const std::vector<double> own{ this->Seconds, this->CpuSeconds, static_cast<double>(PeakBytes()),
-    static_cast<double>(told.Messages), static_cast<double>(told.Bytes) };
+  const PeakMemory memory = FindPeakMemory();
+  const std::vector<double> own{ this->Seconds, this->CpuSeconds, static_cast<double>(memory.All),
+    static_cast<double>(memory.Own), static_cast<double>(told.Messages),
+    static_cast<double>(told.Bytes) };
   const auto all = Processes::Exchange(own);
   this->Report["ranks"] = Processes::Count();
   std::size_t number = 0;
-  for (const char* key :
-    { "rank_seconds", "rank_cpu_seconds", "rank_peak_bytes", "rank_messages", "rank_sent_bytes" })
+  for (const char* key : { "rank_seconds", "rank_cpu_seconds", "rank_peak_bytes",
+         "rank_peak_own_bytes", "rank_messages", "rank_sent_bytes" })
   {
     std::vector<double> values;
     for (const std::vector<double>& one : all)

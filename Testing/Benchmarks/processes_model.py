@@ -7,7 +7,8 @@ usage: processes_model.py PROGRAM [--seconds S] [--folder FOLDER] [--write PAGE]
 One thread a process, each on a core of its own, memory for all of them:
     seconds = fixed + n (own / P + everywhere) + messages latency log2(P) + told / bandwidth
     bytes   = fixed + n (own / P + everywhere), fixed being another of one process and of several
-of n cells or points in P processes. What is fixed of the memory is that of a thousand cells or points. Each of the latter tells all others its part of what is summed up, so that what one of them hears does not become
+of n cells or points in P processes. Memory is a process's own, without pages of libraries; what is fixed of it is that of a
+thousand cells or points. Each of the latter tells all others its part of what is summed up, so that what one of them hears does not become
 less with P; messages and what is told are counted by the program and grow with n. The constants follow from runs of n in one process, 2 n in one and n in two
 (--seconds: of one thread for n, 5 without), latency and bandwidth from messages between two processes. Runs of 2 n in two processes and of 4 n in one and two are what the model
 is held against. A fit of tiles takes, row by row, ceil(tiles of a row / P) times a tile's seconds, and for each tile what all processes do. --write puts the tables between the
@@ -61,8 +62,8 @@ class JobModel:
         self.told = sum(both["rank_sent_bytes"]) / n
         self.fixed, self.own, self.everywhere = self.solve(alone["seconds"], twice["seconds"], both["seconds"] - self.talk(2, n))
         self.least = least
-        a_unit = max(twice["peak_bytes"] - least[0], 0.0) / more
-        self.own_bytes = min(max(2.0 * (a_unit - max(max(both["rank_peak_bytes"]) - least[1], 0.0) / n), 0.0), a_unit)
+        a_unit = max(twice["peak_own_bytes"] - least[0], 0.0) / more
+        self.own_bytes = min(max(2.0 * (a_unit - max(max(both["rank_peak_own_bytes"]) - least[1], 0.0) / n), 0.0), a_unit)
         self.bytes_everywhere = a_unit - self.own_bytes
 
     def solve(self, alone, twice, both):
@@ -89,7 +90,7 @@ class TileModel:
         rounds = math.ceil(side / 2)
         self.tile = max((alone["seconds"] - both["seconds"]) / (side * (side - rounds)), 0.0)
         self.common = max(alone["seconds"] / side ** 2 - self.tile, 0.0)
-        self.held = max(both["rank_peak_bytes"])
+        self.held = max(both["rank_peak_own_bytes"])
 
     def seconds(self, processes, tiles):
         side = math.ceil(math.sqrt(tiles))
@@ -121,7 +122,7 @@ def job_rows(program, folder, job, seconds, make, words_of, net):
         return processes_table.run(program, folder, processes, 1, words_of("work", processes > 1))
 
     make(1000)
-    least = run(1)["peak_bytes"], max(run(2)["rank_peak_bytes"])
+    least = run(1)["peak_own_bytes"], max(run(2)["rank_peak_own_bytes"])
     n = make(20000)
     n = int(n * seconds / max(run(1)["seconds"], 1e-3))
     runs, sizes = {}, {}
@@ -138,7 +139,7 @@ def job_rows(program, folder, job, seconds, make, words_of, net):
     for factor, processes in ((2, 2), (4, 1), (4, 2)):
         found = runs[factor, processes]
         checks.append(off(model.seconds(processes, sizes[factor]), found["seconds"]))
-        checks.append(off_memory(model.bytes(processes, sizes[factor]), max(found.get("rank_peak_bytes", [found["peak_bytes"]]))))
+        checks.append(off_memory(model.bytes(processes, sizes[factor]), max(found.get("rank_peak_own_bytes", [found["peak_own_bytes"]]))))
     predictions = [[job, str(processes)] + [f"{duration(model.seconds(processes, size))}, {text(model.bytes(processes, size) / 1e9)} GB" for size in SIZES]
                    for processes in PROCESSES]
     return constants, checks, predictions
@@ -160,7 +161,7 @@ def tile_rows(program, folder):
     checks = ["`fit` of tiles", "", ""]
     for processes in (1, 2):
         found = runs[6, processes]
-        checks += [off(model.seconds(processes, found["tiles"]), found["seconds"]), f"{max(found.get('rank_peak_bytes', [found['peak_bytes']])) / 1e6:.0f}"]
+        checks += [off(model.seconds(processes, found["tiles"]), found["seconds"]), f"{max(found.get('rank_peak_own_bytes', [found['peak_own_bytes']])) / 1e6:.0f}"]
     said = f"A tile of {TILE_POINTS:.1e} points takes {model.tile:.2f} s, what all processes do for it {model.common:.3f} s."
     predictions = [["`fit` of tiles", str(processes)] + [f"{duration(model.seconds(processes, size / TILE_POINTS))}, {text(model.held / 1e9)} GB and two rows of surfaces"
                                                          for size in SIZES] for processes in PROCESSES]

@@ -6,8 +6,8 @@ usage: processes_table.py PROGRAM [--seconds S] [--folder FOLDER] [--write PAGE]
 
 --seconds: of one thread that the work is made for (10). --write puts the tables between the comments `the table of processes: begin` and `end` of a page.
 Every run is one thread a process, or two threads of one process; the fastest of three. Processes that wait for others use the processor, too. "seconds" are those of the job's work (`seconds` of the report, the
-largest of the processes), without start and files; memory is the largest resident set of a process, "of the work" what it is beyond that of the same job on 1,000 cells or points,
-each of two over one; the share of the work is that of the processor time.
+largest of the processes), without start and files; memory is the largest resident set of a process, "own" without pages of files (libraries), which processes of one machine have in
+common; the share of the work is that of the processor time.
 Weak scaling doubles the cells or points with the processes. processes_model.py is a model of them.
 """
 import argparse
@@ -21,7 +21,7 @@ import page_tables
 
 MPIRUN = ["mpirun", "--allow-run-as-root", "--oversubscribe", "--bind-to", "core", "--quiet", "-np"]
 HEAD = ["job", "work", "1 thread, s", "2 threads, s", "2 processes, s", "gain of threads", "of processes", "processes / threads", "least and largest share of the work",
-        "MB, one process", "MB, each of two", "of the work", "twice the work by two, s"]
+        "MB, one process", "MB, each of two", "own MB, one process", "own MB, each of two", "share", "twice the work by two, s"]
 
 
 def run(program, folder, processes, threads, words):
@@ -127,8 +127,6 @@ def jobs(program, folder):
 
 def row(program, folder, job, seconds, make, words_of):
     """A row of the table: the size is found by a run of a tenth."""
-    make(1000)
-    least = run(program, folder, 1, 1, words_of("work", False))["peak_bytes"], max(run(program, folder, 2, 1, words_of("work", True))["rank_peak_bytes"])
     size = 20000
     make(size)
     size = int(size * seconds / max(run(program, folder, 1, 1, words_of("work", False))["seconds"], 1e-3))
@@ -139,11 +137,11 @@ def row(program, folder, job, seconds, make, words_of):
     make(2 * size)
     twice = run(program, folder, 2, 1, words_of("work", True))
     shares = [value / sum(both["rank_cpu_seconds"]) for value in both["rank_cpu_seconds"]]
-    held = alone["peak_bytes"], max(both["rank_peak_bytes"])
+    held = [value for key in ("peak_bytes", "peak_own_bytes") for value in (alone[key], max(both["rank_" + key]))]
     gains = alone["seconds"] / threads["seconds"], alone["seconds"] / both["seconds"]
     return [job, f"{size:.2g}".replace("e+0", "e"), *(f"{one['seconds']:.2f}" for one in (alone, threads, both)), *(f"{gain:.2f}" for gain in gains),
             f"{gains[1] / gains[0]:.2f}", f"{min(shares):.2f}, {max(shares):.2f}", *(f"{one / 1e6:.0f}" for one in held),
-            f"{(held[1] - least[1]) / (held[0] - least[0]):.2f}", f"{twice['seconds']:.2f}"]
+            f"{held[3] / held[2]:.2f}", f"{twice['seconds']:.2f}"]
 
 
 def main():

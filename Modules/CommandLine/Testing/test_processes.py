@@ -26,7 +26,7 @@ from vtkmodules.vtkIOXML import (vtkXMLGenericDataObjectReader, vtkXMLPartitione
 import knotwork_testing
 
 # of a run, not of its result
-OF_A_RUN = {"cpu_seconds", "peak_bytes", "ranks", "threads", "output", "input", "points", "report"}
+OF_A_RUN = {"cpu_seconds", "peak_bytes", "peak_own_bytes", "ranks", "threads", "output", "input", "points", "report"}
 MPIRUN = ["mpirun", "--allow-run-as-root", "--oversubscribe", "--quiet", "-np"]
 
 
