@@ -10,8 +10,8 @@ One thread a process, each on a core of its own, memory for all of them:
 of n cells or points in P processes. Memory is a process's own, without pages of libraries; what is fixed of it is that of a
 thousand cells or points. Each of the latter tells all others its part of what is summed up, so that what one of them hears does not become
 less with P; messages and what is told are counted by the program and grow with n. The constants follow from runs of n in one process, 2 n in one and n in two
-(--seconds: of one thread for n, 5 without), latency and bandwidth from messages between two processes. Runs of 2 n in two processes and of 4 n in one and two are what the model
-is held against. A fit of tiles takes, row by row, ceil(tiles of a row / P) times a tile's seconds, and for each tile what all processes do. --write puts the tables between the
+(what is everywhere counts from a tenth on; --seconds: of one thread for n, 5 without), latency and bandwidth from messages between two processes. Runs of 2 n in two processes and of 4 n in one and two are what the model
+is held against. A fit of tiles takes, row by row, ceil(tiles of a row / P) times a tile's seconds, and for each tile what all processes do, both by the functions of a tile. --write puts the tables between the
 comments `the model of processes: begin` and `end` of a page.
 """
 import argparse
@@ -53,6 +53,16 @@ def network():
     return latency, (1 << 24) / (long - latency)
 
 
+# Of what a cell or point takes: less that is everywhere is not told from noise by two processes.
+LEAST_EVERYWHERE = 0.1
+
+
+def split(a_unit, own):
+    """What a cell or point takes divided by the processes, and everywhere; none is negative."""
+    own = a_unit if own > (1.0 - LEAST_EVERYWHERE) * a_unit else max(own, 0.0)
+    return own, a_unit - own
+
+
 class JobModel:
     """Constants of a job from three runs: of n, of about 2 n, and of n in two processes; and from the memory that few cells or points take in one and in two."""
 
@@ -63,14 +73,12 @@ class JobModel:
         self.fixed, self.own, self.everywhere = self.solve(alone["seconds"], twice["seconds"], both["seconds"] - self.talk(2, n))
         self.least = least
         a_unit = max(twice["peak_own_bytes"] - least[0], 0.0) / more
-        self.own_bytes = min(max(2.0 * (a_unit - max(max(both["rank_peak_own_bytes"]) - least[1], 0.0) / n), 0.0), a_unit)
-        self.bytes_everywhere = a_unit - self.own_bytes
+        self.own_bytes, self.bytes_everywhere = split(a_unit, 2.0 * (a_unit - max(max(both["rank_peak_own_bytes"]) - least[1], 0.0) / n))
 
     def solve(self, alone, twice, both):
         """fixed, own and everywhere of the seconds; none is negative."""
         a_unit = max(twice - alone, 0.0) / (self.more - self.n)
-        own = min(max(2.0 * (alone - both) / self.n, 0.0), a_unit)
-        return max(alone - self.n * a_unit, 0.0), own, a_unit - own
+        return (max(alone - self.n * a_unit, 0.0), *split(a_unit, 2.0 * (alone - both) / self.n))
 
     def talk(self, processes, n):
         latency, bandwidth = self.net
@@ -84,17 +92,19 @@ class JobModel:
 
 
 class TileModel:
-    """Seconds of a tile, and of what all processes do for it, from the same tiles in one process and in two."""
+    """Seconds of a tile, and of what all processes do for it, a function, from the same tiles in one process and in two: tiles need more functions where the terrain is rougher."""
 
     def __init__(self, side, alone, both):
+        a_tile = alone["functions"] / side ** 2
         rounds = math.ceil(side / 2)
-        self.tile = max((alone["seconds"] - both["seconds"]) / (side * (side - rounds)), 0.0)
-        self.common = max(alone["seconds"] / side ** 2 - self.tile, 0.0)
+        self.tile = max((alone["seconds"] - both["seconds"]) / (side * (side - rounds)), 0.0) / a_tile
+        self.common = max(alone["seconds"] / side ** 2 / a_tile - self.tile, 0.0)
         self.held = max(both["rank_peak_own_bytes"])
 
-    def seconds(self, processes, tiles):
+    def seconds(self, processes, tiles, functions):
+        """@param functions  of a tile."""
         side = math.ceil(math.sqrt(tiles))
-        return side * (math.ceil(side / processes) * self.tile + side * self.common)
+        return side * (math.ceil(side / processes) * self.tile + side * self.common) * functions
 
 
 def text(value):
@@ -104,7 +114,7 @@ def text(value):
 def duration(seconds):
     for unit, size in (("d", 86400.0), ("h", 3600.0), ("min", 60.0)):
         if seconds >= 2 * size:
-            return f"{seconds / size:.2g} {unit}"
+            return f"{seconds / size:.{0 if seconds >= 10 * size else 1}f} {unit}"
     return f"{seconds:.2g} s"
 
 
@@ -161,9 +171,11 @@ def tile_rows(program, folder):
     checks = ["`fit` of tiles", "", ""]
     for processes in (1, 2):
         found = runs[6, processes]
-        checks += [off(model.seconds(processes, found["tiles"]), found["seconds"]), f"{max(found.get('rank_peak_own_bytes', [found['peak_own_bytes']])) / 1e6:.0f}"]
-    said = f"A tile of {TILE_POINTS:.1e} points takes {model.tile:.2f} s, what all processes do for it {model.common:.3f} s."
-    predictions = [["`fit` of tiles", str(processes)] + [f"{duration(model.seconds(processes, size / TILE_POINTS))}, {text(model.held / 1e9)} GB and two rows of surfaces"
+        functions = found["functions"] / found["tiles"]
+        checks += [off(model.seconds(processes, found["tiles"], functions), max(found.get("rank_seconds", [found["seconds"]]))), f"{max(found.get('rank_peak_own_bytes', [found['peak_own_bytes']])) / 1e6:.0f}"]
+    said = (f"A tile of {TILE_POINTS:.1e} points, with {functions:.0f} functions, takes {model.tile * functions:.2f} s, what all processes do for it "
+            f"{model.common * functions:.3f} s.")
+    predictions = [["`fit` of tiles", str(processes)] + [f"{duration(model.seconds(processes, size / TILE_POINTS, functions))}, {text(model.held / 1e9)} GB and two rows of surfaces"
                                                          for size in SIZES] for processes in PROCESSES]
     return said, checks, predictions
 
