@@ -43,7 +43,7 @@ struct TileFit
   double MaxJump = 0.0; ///< and afterwards: rounding
   double MaxSlopeJump = 0.0;
   int NumEdges = 0;
-  int NumResumed = 0; ///< surfaces that an earlier run had left
+  int NumResumed = 0;            ///< surfaces that an earlier run had left
   std::vector<int> NumOfProcess; ///< tiles that each process has fitted
 };
 

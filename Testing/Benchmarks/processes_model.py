@@ -115,7 +115,7 @@ def duration(seconds):
     for unit, size in (("d", 86400.0), ("h", 3600.0), ("min", 60.0)):
         if seconds >= 2 * size:
             return f"{seconds / size:.{0 if seconds >= 10 * size else 1}f} {unit}"
-    return f"{seconds:.2g} s"
+    return f"{seconds:.{0 if seconds >= 10 else 1}f} s"
 
 
 def off(predicted, measured):
