@@ -241,7 +241,7 @@ vtkSmartPointer<vtkDataArray> GroupsOfParts(vtkUnstructuredGrid* grid, ElementMe
 {
   std::array<bool, 4> isNamed{};
   vtkSmartPointer<vtkIntArray> groups;
-  for (const char* name : { "CADFaceId", "SolidId", "Region" })
+  for (const char* name : { "CADFaceId", "BoundaryId", "SolidId", "Region" })
   {
     vtkDataArray* parts = grid->GetCellData()->GetArray(name);
     if (!parts || parts->GetNumberOfComponents() != 1)

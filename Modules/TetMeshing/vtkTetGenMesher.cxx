@@ -74,6 +74,65 @@ void EncodeCells(const SolidMesh& mesh, int order, vtkUnstructuredGrid* grid)
   }
 }
 
+/// Of every triangle of the boundary: which part of the surface it is, as BoundaryId.
+std::vector<int> PartsOfBoundary(const SolidMesh& mesh, vtkDataSet* surface, bool isSpline,
+  const std::vector<int>& cellsOfTriangles)
+{
+  vtkDataArray* parts = surface->GetCellData()->GetArray("FaceId");
+  parts = parts ? parts : surface->GetCellData()->GetArray("RegionId");
+  parts = parts && parts->GetNumberOfComponents() == 1 ? parts : nullptr;
+  std::vector<int> numbers;
+  for (const int source : mesh.BoundarySources)
+  {
+    if (cellsOfTriangles.empty()) // of an image
+    {
+      numbers.push_back(0);
+      continue;
+    }
+    const int cell = source < 0 ? -1 : cellsOfTriangles[static_cast<std::size_t>(source)];
+    numbers.push_back(cell < 0 || isSpline ? cell
+        : parts                            ? static_cast<int>(parts->GetTuple1(cell))
+                                           : 0);
+  }
+  return numbers;
+}
+
+int TriangleTypeOf(int order)
+{
+  return order == 1 ? VTK_TRIANGLE : order == 2 ? VTK_QUADRATIC_TRIANGLE : VTK_LAGRANGE_TRIANGLE;
+}
+
+/// Triangles of the boundary behind the tetrahedra, whose values they get.
+void AppendBoundary(
+  const SolidMesh& mesh, int order, const std::vector<int>& parts, vtkUnstructuredGrid* grid)
+{
+  vtkCellData* values = grid->GetCellData();
+  const auto ids = NamedArray<vtkIntArray>("BoundaryId");
+  for (std::size_t cell = 0; cell < mesh.Cells.size(); ++cell)
+  {
+    ids->InsertNextValue(-1);
+  }
+  const std::vector<int> pointOrder = HigherOrderPointOrder(CellShape::Triangle, order);
+  const std::vector<SolidMeshFacet> facets = BoundaryFacets(mesh, order);
+  std::vector<vtkIdType> points;
+  for (std::size_t f = 0; f < facets.size(); ++f)
+  {
+    points.clear();
+    for (const int coefficient : pointOrder)
+    {
+      points.push_back(facets[f].Nodes[static_cast<std::size_t>(coefficient)]);
+    }
+    grid->InsertNextCell(
+      TriangleTypeOf(order), static_cast<vtkIdType>(points.size()), points.data());
+    for (int i = 0; i < values->GetNumberOfArrays(); ++i)
+    {
+      values->GetArray(i)->InsertNextTuple(facets[f].Cell, values->GetArray(i));
+    }
+    ids->InsertNextValue(parts[f]);
+  }
+  values->AddArray(ids);
+}
+
 void EncodeBoundary(const SolidMesh& mesh, const std::vector<int>& cellsOfTriangles,
   vtkIdType numCorners, vtkPolyData* output)
 {
@@ -301,6 +360,12 @@ Status vtkTetGenMesher::Compute(vtkInformationVector** inputs, vtkInformationVec
     return mesh.Status;
   }
   EncodeCells(mesh.Value, this->Order, vtkUnstructuredGrid::GetData(outputs, 0));
+  if (this->BoundaryCells)
+  {
+    AppendBoundary(mesh.Value, this->Order,
+      PartsOfBoundary(mesh.Value, input, isSpline, decoded->Cells),
+      vtkUnstructuredGrid::GetData(outputs, 0));
+  }
   EncodeBoundary(mesh.Value, decoded->Cells, mesh->NumCorners, vtkPolyData::GetData(outputs, 1));
   EncodeNumbers(mesh.Value, vtkTable::GetData(outputs, 2));
   if (mesh->Numbers.Oversized > 0)

@@ -20,8 +20,11 @@
  *
  * Output 0 (vtkUnstructuredGrid): cells of type VTK_TETRA, VTK_QUADRATIC_TETRA or
  * VTK_LAGRANGE_TETRAHEDRON with the cell arrays Region, Verdict (1: valid) and MinJacobianLower, of
- * images Label. Output 1 (vtkPolyData): the straight boundary with the cell array CellIds of the
- * input (of images -1). Output 2 (vtkTable): one row of numbers.
+ * images Label; with BoundaryCells also triangles of the same order, outward or towards the higher
+ * region, with the values of a tetrahedron beside them, and the cell array BoundaryId: number of
+ * the surface's part (its cell array FaceId or RegionId, of a spline PatchId, else 0), -1 of
+ * tetrahedra and where repair made the triangle. Output 1 (vtkPolyData): the straight boundary with
+ * the cell array CellIds of the input (of images -1). Output 2 (vtkTable): one row of numbers.
  *
  * @source Si, ACM TOMS 41 (2015) 11 (TetGen); Boissonnat, Oudot, Graphical Models 67 (2005) 405 and
  * Rineau, Yvinec, IMR 16 (2007) 443 (Mesh_3). The module's page has methods, limits and errors.
@@ -126,6 +129,13 @@ public:
   vtkGetMacro(Order, int);
   ///@}
   ///@{
+  /** Whether triangles of the boundary, and those between regions, are cells, too, behind the
+   * tetrahedra: what solvers know loads and supports by. Default off. */
+  vtkSetMacro(BoundaryCells, bool);
+  vtkGetMacro(BoundaryCells, bool);
+  vtkBooleanMacro(BoundaryCells, bool);
+  ///@}
+  ///@{
   /** Whether a surface that bounds no solid is repaired first, as vtkSurfaceRepair does, with all
    * holes closed. Default off. Group "Surface". */
   vtkSetMacro(Repair, bool);
@@ -192,6 +202,7 @@ private:
   double Level = 0.0;
   char* ImageArray = nullptr;
   int Order = 1;
+  bool BoundaryCells = false;
   bool Repair = false;
   double ChordalTolerance = 1e-3;
   double SharpAngle = 40.0;

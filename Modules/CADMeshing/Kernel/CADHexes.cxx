@@ -16,6 +16,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 namespace knotwork
 {
@@ -610,6 +611,23 @@ void SeparateBodies(const CADTopology& model, CADHexes& made)
     made.PointEntity.push_back(made.PointEntity[At(point)]);
   }
 }
+}
+
+std::array<int, 4> CornersOfHexSide(int side)
+{
+  const int d = side / 2;
+  int u = (d + 1) % 3;
+  int w = (d + 2) % 3;
+  if (side % 2 == 0)
+  {
+    std::swap(u, w);
+  }
+  std::array<int, 4> corners{};
+  for (int i = 0; i < 4; ++i)
+  {
+    corners[At(i)] = ((side % 2) << d) | ((i & 1) << u) | ((i >> 1) << w);
+  }
+  return corners;
 }
 
 Result<CADHexes> MeshHexes(const CADTopology& model, const CADHexesParams& params)

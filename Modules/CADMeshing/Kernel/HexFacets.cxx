@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <utility>
 
 namespace knotwork
 {
@@ -67,23 +66,6 @@ private:
   std::vector<std::set<int>> OfEdges;
   std::vector<std::set<int>> OfVertices;
 };
-}
-
-std::array<int, 4> CornersOfHexSide(int side)
-{
-  const int d = side / 2;
-  int u = (d + 1) % 3;
-  int w = (d + 2) % 3;
-  if (side % 2 == 0)
-  {
-    std::swap(u, w);
-  }
-  std::array<int, 4> corners{};
-  for (int i = 0; i < 4; ++i)
-  {
-    corners[At(i)] = ((side % 2) << d) | ((i & 1) << u) | ((i >> 1) << w);
-  }
-  return corners;
 }
 
 std::vector<CADHexFacet> FindFacetsOnFaces(

@@ -521,6 +521,61 @@ int NumTetrahedronPoints(int order)
   return NumCellCoefficients(CellShape::Tetrahedron, { order, order, order });
 }
 
+std::vector<SolidMeshFacet> BoundaryFacets(const SolidMesh& mesh, int order)
+{
+  const CellDegree degree{ order, order, order };
+  std::array<std::size_t, 4> atCorner{};
+  for (int c = 0; c < 4; ++c)
+  {
+    atCorner[At(c)] = At(CellCoefficient(
+      CellShape::Tetrahedron, degree, c == 1 ? order : 0, c == 2 ? order : 0, c == 3 ? order : 0));
+  }
+  std::vector<std::pair<std::array<int, 3>, int>> numbers;
+  for (const auto& corners : mesh.Boundary)
+  {
+    numbers.emplace_back(Sorted(corners), static_cast<int>(numbers.size()));
+  }
+  std::sort(numbers.begin(), numbers.end());
+  std::vector<SolidMeshFacet> facets(mesh.Boundary.size());
+  for (std::size_t cell = 0; cell < mesh.Cells.size(); ++cell)
+  {
+    const std::vector<int>& nodes = mesh.Cells[cell];
+    for (const auto& face : FaceCorners)
+    {
+      const std::array<int, 3> corners = Sorted({ nodes[atCorner[At(face[0])]],
+        nodes[atCorner[At(face[1])]], nodes[atCorner[At(face[2])]] });
+      const auto found =
+        std::lower_bound(numbers.begin(), numbers.end(), std::make_pair(corners, 0));
+      if (found == numbers.end() || found->first != corners || facets[At(found->second)].Cell >= 0)
+      {
+        continue;
+      }
+      SolidMeshFacet& facet = facets[At(found->second)];
+      facet.Cell = static_cast<int>(cell);
+      std::array<int, 3> local{}; // corners of the triangle, of the cell
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        local[k] = *std::find_if(face.begin(), face.end(),
+          [&](int corner)
+          { return nodes[atCorner[At(corner)]] == mesh.Boundary[At(found->second)][k]; });
+      }
+      for (int j = 0; j <= order; ++j)
+      {
+        for (int i = 0; i + j <= order; ++i)
+        {
+          std::array<int, 4> weights{};
+          weights[At(local[0])] = order - i - j;
+          weights[At(local[1])] = i;
+          weights[At(local[2])] = j;
+          facet.Nodes.push_back(nodes[At(
+            CellCoefficient(CellShape::Tetrahedron, degree, weights[1], weights[2], weights[3]))]);
+        }
+      }
+    }
+  }
+  return facets;
+}
+
 Result<SolidMesh> MeshSolid(const TriangleMesh& surface, const FitTarget* target,
   const TetrahedraMaker& maker, const SolidMeshParams& params)
 {

@@ -105,6 +105,16 @@ struct SolidMesh
 /// Number of points of a cell: 4, 10, 20.
 int NumTetrahedronPoints(int order);
 
+/// A triangle of the boundary as a cell.
+struct SolidMeshFacet
+{
+  int Cell = -1;          ///< a tetrahedron that has it, the first of two
+  std::vector<int> Nodes; ///< points, in the order of the coefficients of a triangle
+};
+
+/// The boundary's triangles with all points that cells have there. @param order  of the cells.
+std::vector<SolidMeshFacet> BoundaryFacets(const SolidMesh& mesh, int order);
+
 /// Fills a closed surface with tetrahedra. Of order 2 and 3 the points of the boundary lie on the
 /// target: those of faces on the face that the triangle lies on, those of edges between faces on
 /// their curve, corners of the target stay corners; cells that would lie flat on a smooth boundary

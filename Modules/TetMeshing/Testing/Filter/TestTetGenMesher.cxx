@@ -115,6 +115,99 @@ TEST(vtkTetGenMesher, BoxesHaveTheirVolumes)
   }
 }
 
+/// Triangles of any order behind the tetrahedra: on the faces of a box by number, outward, each
+/// with the points that its tetrahedron has there; those between two regions once.
+TEST(vtkTetGenMesher, TrianglesOfTheBoundaryAreCells_ExactOracle)
+{
+  const auto surface = Together(Box(2.0), Box(1.0));
+  vtkNew<vtkIntArray> faces;
+  faces->SetName("FaceId");
+  for (int i = 0; i < 12; ++i) // six quadrilaterals each
+  {
+    faces->InsertNextValue(10 + i);
+  }
+  surface->GetCellData()->AddArray(faces);
+  for (const int order : { 1, 2, 3 })
+  {
+    vtkNew<vtkTetGenMesher> filter;
+    filter->SetInputDataObject(surface);
+    filter->SetInner(vtkTetGenMesher::REGIONS);
+    filter->SetEdgeLength(0.6);
+    filter->SetKeepBoundary(false);
+    filter->SetOrder(order);
+    filter->BoundaryCellsOn();
+    filter->Update();
+    ASSERT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
+    vtkUnstructuredGrid* grid = Cells(filter);
+    const auto tetrahedra = static_cast<vtkIdType>(Number(filter, "Tetrahedra"));
+    ASSERT_EQ(grid->GetNumberOfCells(), tetrahedra + Number(filter, "BoundaryTriangles"));
+    vtkDataArray* ids = grid->GetCellData()->GetArray("BoundaryId");
+    vtkDataArray* regions = grid->GetCellData()->GetArray("Region");
+    ASSERT_EQ(ids->GetNumberOfTuples(), grid->GetNumberOfCells());
+    std::map<std::array<vtkIdType, 3>, std::vector<vtkIdType>> cellsWith; // three corners
+    for (vtkIdType c = 0; c < tetrahedra; ++c)
+    {
+      EXPECT_EQ(ids->GetTuple1(c), -1.0);
+      const vtkIdType* points = grid->GetCell(c)->GetPointIds()->GetPointer(0);
+      for (int opposite = 0; opposite < 4; ++opposite)
+      {
+        std::array<vtkIdType, 3> corners{ points[(opposite + 1) % 4], points[(opposite + 2) % 4],
+          points[(opposite + 3) % 4] };
+        std::sort(corners.begin(), corners.end());
+        cellsWith[corners].push_back(c);
+      }
+    }
+    std::map<int, double> areas;
+    for (vtkIdType c = tetrahedra; c < grid->GetNumberOfCells(); ++c)
+    {
+      vtkCell* cell = grid->GetCell(c);
+      ASSERT_EQ(cell->GetCellDimension(), 2);
+      vtkIdList* points = cell->GetPointIds();
+      ASSERT_EQ(points->GetNumberOfIds(), (order + 1) * (order + 2) / 2);
+      std::array<vtkIdType, 3> corners{ points->GetId(0), points->GetId(1), points->GetId(2) };
+      double x[3][3];
+      for (int k = 0; k < 3; ++k)
+      {
+        grid->GetPoint(corners[static_cast<std::size_t>(k)], x[k]);
+      }
+      const Eigen::Vector3d a(x[0]);
+      const Eigen::Vector3d normal =
+        (Eigen::Vector3d(x[1]) - a).cross(Eigen::Vector3d(x[2]) - a) / 2.0;
+      const int id = static_cast<int>(ids->GetTuple1(c));
+      areas[id] += normal.norm();
+      std::sort(corners.begin(), corners.end());
+      const auto& beside = cellsWith.at(corners);
+      EXPECT_EQ(beside.size(), id < 16 ? 1u : 2u);
+      if (id < 16)
+      {
+        EXPECT_GT(normal.dot(a), 0.0); // outward of the box around the origin
+      }
+      EXPECT_EQ(regions->GetTuple1(c), regions->GetTuple1(beside.front()));
+      for (vtkIdType k = 0; k < points->GetNumberOfIds(); ++k)
+      {
+        for (const vtkIdType tetrahedron : beside)
+        {
+          EXPECT_GE(grid->GetCell(tetrahedron)->GetPointIds()->IsId(points->GetId(k)), 0);
+        }
+      }
+      // points of an edge in the order of VTK: the first one behind the corners is on the edge 0, 1
+      if (order > 1)
+      {
+        double middle[3];
+        grid->GetPoint(points->GetId(3), middle);
+        const double share = order == 2 ? 0.5 : 1.0 / 3.0;
+        EXPECT_LT(
+          (Eigen::Vector3d(middle) - a - share * (Eigen::Vector3d(x[1]) - a)).norm(), 1e-12);
+      }
+    }
+    ASSERT_EQ(areas.size(), 12u);
+    for (const auto& [id, area] : areas)
+    {
+      EXPECT_NEAR(area, id < 16 ? 4.0 : 1.0, 1e-12);
+    }
+  }
+}
+
 TEST(vtkTetGenMesher, PartsWithinAreVoidsOrRegions)
 {
   for (const bool inward : { false, true })
