@@ -56,6 +56,24 @@ def test_points_tell_sizes_of_regions():
     assert "no array 'Width'" in done.stderr and not os.path.exists(FILES.path("no.vtu")), done.stderr
 
 
+def test_faces_are_groups_of_solvers():
+    """The faces of a box, as `features` tells them, are groups of triangles beside the tetrahedra, of any order; boundary attributes of MFEM."""
+    boxes("box.off", 2)
+    FILES.run("features", "box.off", "--output", "regions.vtp", "--force")
+    for order in (1, 2, 3):
+        said = FILES.report("tetrahedralize", "regions.vtp", "--edge-length", "1.5", "--keep-boundary", "0", "--order", order, "--boundary-cells", "1", "--output", "box.msh")
+        FILES.report("validate", "box.msh")
+        with open(FILES.path("box.msh"), encoding="latin-1") as stream:
+            names = stream.read().split("$PhysicalNames\n")[1].split("$End")[0].split("\n")
+        assert [line for line in names if line.startswith("2 ")] == [f'2 {i + 1} "BoundaryId {i}"' for i in range(6)], names
+        assert [line for line in names if line.startswith("3 ")] == ['3 1 "Region 0"'], names
+        FILES.run("convert", "box.msh", "--output", "box.mesh", "--force")
+        with open(FILES.path("box.mesh"), encoding="utf-8") as stream:
+            lines = stream.read().split("boundary\n")[1].split("\n")
+        assert int(lines[0]) == said["boundary_triangles"]
+        assert {line.split()[0] for line in lines[1:1 + int(lines[0])]} == set("123456"), lines[:3]
+
+
 def test_images():
     """Two balls that merge, as an implicit function on a grid, and a damaged file."""
     from vtkmodules.vtkCommonCore import vtkDoubleArray
