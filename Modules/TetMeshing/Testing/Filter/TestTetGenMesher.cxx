@@ -24,6 +24,8 @@
 #include "vtkTetra.h"
 #include "vtkVariant.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
