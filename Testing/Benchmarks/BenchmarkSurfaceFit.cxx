@@ -2,6 +2,7 @@
 // Fits of point clouds to their tolerance: peaks (1e5 and 1e6 points), a terrain with a cliff (5e5
 // points), peaks with noise and outliers. A name is cloud/space/method/strategy, /all with all
 // threads.
+#include "BenchmarkTools.h"
 #include "CloudCases.h"
 
 #include <benchmark/benchmark.h>
@@ -89,9 +90,7 @@ void Register(const std::string& cloud, const std::string& variant, const FitPar
 {
   const auto configure = [](benchmark::internal::Benchmark* b)
   {
-    b->MinTime(0.01)->Repetitions(3)->ReportAggregatesOnly(true)->Unit(benchmark::kMillisecond);
-    b->ComputeStatistics(
-      "min", [](const std::vector<double>& v) { return *std::min_element(v.begin(), v.end()); });
+    TakeFastest(b->MinTime(0.01), 3);
     return b;
   };
   for (const int threads : { 1, 0 })

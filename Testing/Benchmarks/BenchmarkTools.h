@@ -38,13 +38,19 @@ Spline<Dim> RandomSpline(const SplineSpacePtr<Dim>& space, int components, bool 
   return spline;
 }
 
-/// Repetitions whose minimum is the figure to quote: other programs can only add time. With
-/// threads != 1 the wall clock counts, with one thread the processor time.
-inline void Repeat(benchmark::internal::Benchmark* b)
+/// Repetitions whose minimum is the figure to quote: other programs can only add time.
+inline void TakeFastest(benchmark::internal::Benchmark* b, int repetitions)
 {
-  b->MinTime(0.02)->Repetitions(20)->ReportAggregatesOnly(true)->Unit(benchmark::kMillisecond);
+  b->Repetitions(repetitions)->ReportAggregatesOnly(true)->Unit(benchmark::kMillisecond);
   b->ComputeStatistics(
     "min", [](const std::vector<double>& v) { return *std::min_element(v.begin(), v.end()); });
+}
+
+/// The same of short benchmarks. With threads != 1 the wall clock counts, with one thread the
+/// processor time.
+inline void Repeat(benchmark::internal::Benchmark* b)
+{
+  TakeFastest(b->MinTime(0.02), 20);
 }
 
 /// Time a point as a counter, printed in nanoseconds.

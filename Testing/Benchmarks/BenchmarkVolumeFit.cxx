@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Values at a million points of the unit cube to a tolerance: LR and THB volumes, and uniform ones
 // of more and more elements.
+#include "BenchmarkTools.h"
 #include <knotwork/SurfaceFitting/VolumeFit.h>
 
 #include <benchmark/benchmark.h>
@@ -79,9 +80,7 @@ void Register(const std::string& name, const VolumeFitParams& params)
     auto* made =
       benchmark::RegisterBenchmark(("volume/" + name + (threads == 1 ? "" : "/all")).c_str(),
         [own](benchmark::State& state) { Run(state, own); });
-    made->Iterations(1)->Repetitions(2)->ReportAggregatesOnly(true)->Unit(benchmark::kMillisecond);
-    made->ComputeStatistics(
-      "min", [](const std::vector<double>& v) { return *std::min_element(v.begin(), v.end()); });
+    TakeFastest(made->Iterations(1), 2);
     if (threads != 1)
     {
       made->UseRealTime();

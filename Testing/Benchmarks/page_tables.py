@@ -24,7 +24,7 @@ def read_column(page, name, title):
     begin, end = (f"<!-- {name}: {word} -->\n" for word in ("begin", "end"))
     lines = pathlib.Path(page).read_text(encoding="utf-8").split(begin)[1].split(end)[0].rstrip("\n").split("\n")
     rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if line.startswith("|")]
-    return ([(row[0], row[-1]) for row in rows[2:]], lines[-1]) if rows[0][-1] == title else None
+    return ([(row[0], row[-1]) for row in rows[2:]], lines[-1]) if rows and rows[0][-1] == title else None
 
 
 def write_column(page, name, title, cells, note):
