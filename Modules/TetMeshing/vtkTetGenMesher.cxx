@@ -24,6 +24,8 @@
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <map>
+
 using namespace knotwork;
 
 vtkStandardNewMacro(vtkTetGenMesher);
@@ -74,27 +76,43 @@ void EncodeCells(const SolidMesh& mesh, int order, vtkUnstructuredGrid* grid)
   }
 }
 
-/// Of every triangle of the boundary: which part of the surface it is, as BoundaryId.
-std::vector<int> PartsOfBoundary(const SolidMesh& mesh, vtkDataSet* surface, bool isSpline,
-  const std::vector<int>& cellsOfTriangles)
+/// Numbers of faces of patches, unless patches have faces of the same number: 6 patch + face.
+std::vector<int> NumbersOfFaces(const std::vector<int>& patches, const std::vector<int>& faces)
 {
-  vtkDataArray* parts = surface->GetCellData()->GetArray("FaceId");
-  parts = parts ? parts : surface->GetCellData()->GetArray("RegionId");
-  parts = parts && parts->GetNumberOfComponents() == 1 ? parts : nullptr;
-  std::vector<int> numbers;
-  for (const int source : mesh.BoundarySources)
+  std::map<int, int> patchOf;
+  bool isShared = false;
+  for (std::size_t i = 0; i < faces.size(); ++i)
   {
-    if (cellsOfTriangles.empty()) // of an image
-    {
-      numbers.push_back(0);
-      continue;
-    }
-    const int cell = source < 0 ? -1 : cellsOfTriangles[static_cast<std::size_t>(source)];
-    numbers.push_back(cell < 0 || isSpline ? cell
-        : parts                            ? static_cast<int>(parts->GetTuple1(cell))
-                                           : 0);
+    isShared = isShared || patchOf.try_emplace(faces[i], patches[i]).first->second != patches[i];
+  }
+  std::vector<int> numbers = faces;
+  for (std::size_t i = 0; isShared && i < faces.size(); ++i)
+  {
+    numbers[i] += 6 * patches[i];
   }
   return numbers;
+}
+
+std::vector<int> WholeNumbers(vtkDataSet* surface, const char* name)
+{
+  vtkDataArray* array = surface->GetCellData()->GetArray(name);
+  std::vector<int> numbers;
+  for (vtkIdType c = 0;
+       array && array->GetNumberOfComponents() == 1 && c < array->GetNumberOfTuples(); ++c)
+  {
+    numbers.push_back(static_cast<int>(array->GetTuple1(c)));
+  }
+  return numbers;
+}
+
+/// Parts of a surface by its cells; empty: nothing tells them.
+std::vector<int> PartsOfCells(vtkDataSet* surface)
+{
+  const std::vector<int> faces = WholeNumbers(surface, "FaceId");
+  const std::vector<int> patches = WholeNumbers(surface, "PatchId");
+  return faces.empty()               ? WholeNumbers(surface, "RegionId")
+    : patches.size() == faces.size() ? NumbersOfFaces(patches, faces)
+                                     : faces;
 }
 
 int TriangleTypeOf(int order)
@@ -211,7 +229,7 @@ void vtkTetGenMesher::SetSizeData(vtkDataObject* sizes)
   this->SetInputDataObject(2, sizes);
 }
 
-Result<DecodedMesh> vtkTetGenMesher::BoundaryOf(vtkDataObject* spline)
+Result<DecodedMesh> vtkTetGenMesher::BoundaryOf(vtkDataObject* spline, std::vector<int>& parts)
 {
   const auto model = this->DecodeInput(spline);
   if (!model)
@@ -227,6 +245,7 @@ Result<DecodedMesh> vtkTetGenMesher::BoundaryOf(vtkDataObject* spline)
   {
     return boundary.Status;
   }
+  parts = NumbersOfFaces(boundary->Patches, boundary->Faces);
   DecodedMesh mesh;
   mesh.Mesh = std::move(boundary->Mesh);
   mesh.Cells = std::move(boundary->Patches);
@@ -318,6 +337,7 @@ Status vtkTetGenMesher::Compute(vtkInformationVector** inputs, vtkInformationVec
   params.Progress = this->Progress();
   Result<ImageTetrahedra> ofImage;
   Result<DecodedMesh> decoded;
+  std::vector<int> parts; // of the surface's triangles
   if (isImage)
   {
     ofImage = this->MeshImage(input, params.Tetrahedra);
@@ -326,7 +346,8 @@ Status vtkTetGenMesher::Compute(vtkInformationVector** inputs, vtkInformationVec
   }
   else
   {
-    decoded = isSpline ? this->BoundaryOf(input) : DecodeMesh(vtkPointSet::SafeDownCast(input));
+    decoded =
+      isSpline ? this->BoundaryOf(input, parts) : DecodeMesh(vtkPointSet::SafeDownCast(input));
   }
   if (!decoded)
   {
@@ -362,9 +383,20 @@ Status vtkTetGenMesher::Compute(vtkInformationVector** inputs, vtkInformationVec
   EncodeCells(mesh.Value, this->Order, vtkUnstructuredGrid::GetData(outputs, 0));
   if (this->BoundaryCells)
   {
-    AppendBoundary(mesh.Value, this->Order,
-      PartsOfBoundary(mesh.Value, input, isSpline, decoded->Cells),
-      vtkUnstructuredGrid::GetData(outputs, 0));
+    const std::vector<int> ofCells = isSpline ? std::vector<int>() : PartsOfCells(input);
+    for (std::size_t t = 0; !ofCells.empty() && t < decoded->Cells.size(); ++t)
+    {
+      parts.push_back(ofCells[static_cast<std::size_t>(decoded->Cells[t])]);
+    }
+    std::vector<int> ofBoundary;
+    for (const int source : mesh->BoundarySources)
+    {
+      ofBoundary.push_back(isImage ? 0
+          : source < 0             ? -1
+          : parts.empty()          ? 0
+                                   : parts[static_cast<std::size_t>(source)]);
+    }
+    AppendBoundary(mesh.Value, this->Order, ofBoundary, vtkUnstructuredGrid::GetData(outputs, 0));
   }
   EncodeBoundary(mesh.Value, decoded->Cells, mesh->NumCorners, vtkPolyData::GetData(outputs, 1));
   EncodeNumbers(mesh.Value, vtkTable::GetData(outputs, 2));

@@ -22,9 +22,10 @@
  * VTK_LAGRANGE_TETRAHEDRON with the cell arrays Region, Verdict (1: valid) and MinJacobianLower, of
  * images Label; with BoundaryCells also triangles of the same order, outward or towards the higher
  * region, with the values of a tetrahedron beside them, and the cell array BoundaryId: number of
- * the surface's part (its cell array FaceId or RegionId, of a spline PatchId, else 0), -1 of
- * tetrahedra and where repair made the triangle. Output 1 (vtkPolyData): the straight boundary with
- * the cell array CellIds of the input (of images -1). Output 2 (vtkTable): one row of numbers.
+ * the surface's part (its cell array FaceId, or 6 PatchId + FaceId where patches have faces of the
+ * same number, as vtkSplineBoundary numbers them, else RegionId, else 0), -1 of tetrahedra and
+ * where repair made the triangle. Output 1 (vtkPolyData): the straight boundary with the cell array
+ * CellIds of the input (of images -1). Output 2 (vtkTable): one row of numbers.
  *
  * @source Si, ACM TOMS 41 (2015) 11 (TetGen); Boissonnat, Oudot, Graphical Models 67 (2005) 405 and
  * Rineau, Yvinec, IMR 16 (2007) 443 (Mesh_3). The module's page has methods, limits and errors.
@@ -179,7 +180,8 @@ public:
 protected:
   vtkTetGenMesher();
   ~vtkTetGenMesher() override;
-  knotwork::Result<knotwork::DecodedMesh> BoundaryOf(vtkDataObject* spline);
+  knotwork::Result<knotwork::DecodedMesh> BoundaryOf(
+    vtkDataObject* spline, std::vector<int>& parts);
   knotwork::WorkerLimits Limits() const;
   /** Options that are for images alone, or for surfaces. */
   void WarnOfUnused(bool isImage);

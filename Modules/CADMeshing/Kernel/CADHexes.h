@@ -29,8 +29,9 @@ struct CADSolidHexes
 struct CADHexFacet
 {
   int Cell = 0;
-  int Side = 0;  ///< 2 direction + end
-  int Face = -1; ///< CADTopology::Faces
+  int Side = 0;     ///< 2 direction + end
+  int Face = -1;    ///< CADTopology::Faces
+  int NumCells = 0; ///< that have it; 2: it lies between two solids
 };
 
 /// Corners of a hexahedron's side, CellMesh's numbers (bit d is the end in direction d), in

@@ -77,15 +77,10 @@ std::vector<CADHexFacet> FindFacetsOnFaces(
     faceOfQuads[Sorted(mesh.Quads[q])] = mesh.QuadFace[q];
   }
   const FacesOfPoints faces(model, mesh);
-  struct Place
-  {
-    CADHexFacet Facet;
-    int Number = 0; ///< of cells that have it
-  };
-  std::map<Quad, Place> known; ///< without a point inside
+  std::map<Quad, CADHexFacet> known; ///< without a point inside
   for (int side = 0; side < 6 * static_cast<int>(cells.Bodies.size()); ++side)
   {
-    CADHexFacet facet{ side / 6, side % 6, -1 };
+    const CADHexFacet facet{ side / 6, side % 6 };
     Quad corners = CornersOfHexSide(facet.Side);
     for (int& corner : corners)
     {
@@ -96,18 +91,16 @@ std::vector<CADHexFacet> FindFacetsOnFaces(
     {
       continue;
     }
-    Place& place = known.try_emplace(Sorted(corners), Place{ facet, 0 }).first->second;
-    ++place.Number;
+    ++known.try_emplace(Sorted(corners), facet).first->second.NumCells;
   }
   std::vector<CADHexFacet> found;
-  for (auto& [corners, place] : known)
+  for (auto& [corners, facet] : known)
   {
-    CADHexFacet& facet = place.Facet;
     if (const auto face = faceOfQuads.find(corners); face != faceOfQuads.end())
     {
       facet.Face = face->second;
     }
-    else if (place.Number == 1)
+    else if (facet.NumCells == 1)
     {
       for (const CADTopologySide& side : model.Bodies[At(cells.Bodies[At(facet.Cell)])].Sides)
       {

@@ -29,12 +29,6 @@ std::size_t At(int i)
   return static_cast<std::size_t>(i);
 }
 
-Quad Sorted(Quad corners)
-{
-  std::sort(corners.begin(), corners.end());
-  return corners;
-}
-
 /// A side of a cell, its corners in tensor-product order as seen from outside.
 struct Facet
 {
@@ -160,37 +154,14 @@ private:
 
 void Padding::FindFacets()
 {
-  std::map<Quad, int> faceOfQuads;
-  for (std::size_t q = 0; q < this->Mesh.Quads.size(); ++q)
+  for (const CADHexFacet& found : FindFacetsOnFaces(this->Model, this->Mesh, this->Cells))
   {
-    faceOfQuads[Sorted(this->Mesh.Quads[q])] = this->Mesh.QuadFace[q];
-  }
-  std::map<Quad, std::size_t> known;
-  for (int cell = 0; 8 * cell < static_cast<int>(this->Cells.Corners.size()); ++cell)
-  {
-    for (int side = 0; side < 6; ++side)
+    Facet facet{ found.Cell, CornersOfHexSide(found.Side), found.Face, found.NumCells };
+    for (int& corner : facet.Corners)
     {
-      Facet facet;
-      facet.Cell = cell;
-      facet.Corners = CornersOfHexSide(side);
-      for (int& corner : facet.Corners)
-      {
-        corner = this->Cells.Corners[At(8 * cell + corner)];
-      }
-      const Quad key = Sorted(facet.Corners);
-      const auto face = faceOfQuads.find(key);
-      if (face == faceOfQuads.end())
-      {
-        continue;
-      }
-      const auto [found, isNew] = known.emplace(key, this->Facets.size());
-      if (isNew)
-      {
-        facet.Face = face->second;
-        this->Facets.push_back(facet);
-      }
-      ++this->Facets[found->second].Number;
+      corner = this->Cells.Corners[At(8 * found.Cell + corner)];
     }
+    this->Facets.push_back(facet);
   }
   this->FacetsAt.resize(this->Mesh.Points.size());
   for (std::size_t f = 0; f < this->Facets.size(); ++f)

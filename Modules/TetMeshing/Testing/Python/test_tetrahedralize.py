@@ -74,6 +74,24 @@ def test_faces_are_groups_of_solvers():
         assert {line.split()[0] for line in lines[1:1 + int(lines[0])]} == set("123456"), lines[:3]
 
 
+def test_sides_of_a_spline_are_groups():
+    """Those of one volume by number, of several with that of the patch; from the spline and from its `boundary` alike."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+    for shape, number in (("cube", 6), ("ball", 0)):
+        FILES.run("source", "--shape", shape, "--output", "volume.vtu", "--force")
+        FILES.run("boundary", "volume.vtu", "--chordal-tolerance", "0.02", "--output", "volume.vtp", "--force")
+        found = []
+        for surface in ("volume.vtu", "volume.vtp"):
+            FILES.report("tetrahedralize", surface, "--chordal-tolerance", "0.02", "--boundary-cells", "1", "--output", "sides.vtu")
+            reader = vtkXMLUnstructuredGridReader()
+            reader.SetFileName(FILES.path("sides.vtu"))
+            reader.Update()
+            ids = vtk_to_numpy(reader.GetOutput().GetCellData().GetArray("BoundaryId"))
+            found.append(sorted(set(ids[ids >= 0].tolist())))
+        assert found[0] == found[1] and (found[0] == list(range(6)) if number else len(found[0]) >= 6), (shape, found)
+
+
 def test_images():
     """Two balls that merge, as an implicit function on a grid, and a damaged file."""
     from vtkmodules.vtkCommonCore import vtkDoubleArray
