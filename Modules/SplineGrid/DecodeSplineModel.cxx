@@ -5,10 +5,21 @@
 #include "vtkPartitionedDataSet.h"
 #include "vtkPartitionedDataSetCollection.h"
 
+#include <algorithm>
+#include <unordered_set>
+
 namespace knotwork
 {
 namespace
 {
+/// What is said again of another patch or block goes.
+void KeepNewWarnings(std::vector<std::string>& warnings)
+{
+  std::unordered_set<std::string> said;
+  const auto isOld = [&said](const std::string& text) { return !said.insert(text).second; };
+  warnings.erase(std::remove_if(warnings.begin(), warnings.end(), isOld), warnings.end());
+}
+
 Status DecodeCollection(
   vtkPartitionedDataSetCollection* collection, int threads, SplineModel& model)
 {
@@ -68,6 +79,7 @@ Result<SplineModel> DecodeSplineModel(vtkDataObject* data, int threads)
   {
     return status;
   }
+  KeepNewWarnings(model.Warnings);
   return model;
 }
 }

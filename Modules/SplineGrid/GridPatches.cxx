@@ -246,17 +246,8 @@ Status GridReader::ReadStructured(const CellGroup& group, const PatchRecord& rec
     spline.Space = space.Value;
 
     // A record of the same basis whose checksum fits holds the control points.
-    const PatchRecord* cached = nullptr;
-    for (const PatchRecord& other : this->Schema.Patches)
-    {
-      const PointMatrix& rows = other.ControlPoints.Rows;
-      if (other.ControlPoints.Matches(cells.Sum) && other.Basis == record.Basis &&
-        rows.rows() == space.Value->NumFunctions && rows.allFinite() &&
-        (rows.col(3).array() > 0.0).all() && (!cached || other.Id == group.Id))
-      {
-        cached = &other;
-      }
-    }
+    const PatchRecord* cached =
+      this->FindCache(cells.Sum, record.Basis, space.Value->NumFunctions, group.Id);
     if (cached)
     {
       spline.ControlPoints = cached->ControlPoints.Rows.leftCols(3);

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <unordered_map>
 
 namespace knotwork
 {
@@ -169,22 +170,57 @@ Status GridReader::GroupCells(std::vector<CellGroup>& groups)
   return {};
 }
 
+void GridReader::IndexRecords()
+{
+  for (std::size_t r = 0; r < this->Schema.Patches.size(); ++r)
+  {
+    const PatchRecord& record = this->Schema.Patches[r];
+    const int basis = HashOf(record.Basis);
+    this->RecordsById.emplace(record.Id, r);
+    this->RecordsByBasis.emplace(basis, r);
+    this->RecordsByBoth.emplace(std::array<int, 2>{ basis, record.Id }, r);
+    if (record.ControlPoints.Rows.rows() > 0)
+    {
+      this->Caches.emplace(record.ControlPoints.Matching(), r);
+    }
+  }
+}
+
 // The record that defines a group's space: its own, or that of another patch with the same basis
 // (patches may be renumbered).
 const PatchRecord* GridReader::FindRecord(const CellGroup& group) const
 {
-  const PatchRecord* found = nullptr;
-  for (const PatchRecord& record : this->Schema.Patches)
+  const auto at = [this](const auto& index, const auto& key)
   {
-    const bool sameId = !this->PatchIds.empty() && record.Id == group.Id;
-    const bool sameBasis = this->Bases.empty() ? sameId : HashOf(record.Basis) == group.Basis;
-    if (sameBasis && (sameId || !found))
+    const auto found = index.find(key);
+    return found == index.end() ? nullptr : &this->Schema.Patches[found->second];
+  };
+  if (this->PatchIds.empty())
+  {
+    return this->Bases.empty() ? nullptr : at(this->RecordsByBasis, group.Basis);
+  }
+  if (this->Bases.empty())
+  {
+    return at(this->RecordsById, group.Id);
+  }
+  const PatchRecord* own = at(this->RecordsByBoth, std::array<int, 2>{ group.Basis, group.Id });
+  return own ? own : at(this->RecordsByBasis, group.Basis);
+}
+
+/// A record of a basis with the control points of a grid, best that of a patch with a number.
+const PatchRecord* GridReader::FindCache(
+  const Checksum& sum, const SpaceDefinition& basis, int numFunctions, int id) const
+{
+  const PatchRecord* found = nullptr;
+  const auto [begin, end] = this->Caches.equal_range(sum.Value());
+  for (auto entry = begin; entry != end && !(found && found->Id == id); ++entry)
+  {
+    const PatchRecord& record = this->Schema.Patches[entry->second];
+    const PointMatrix& rows = record.ControlPoints.Rows;
+    if ((!found || record.Id == id) && record.Basis == basis && rows.rows() == numFunctions &&
+      rows.allFinite() && (rows.col(3).array() > 0.0).all())
     {
       found = &record;
-      if (sameId)
-      {
-        break;
-      }
     }
   }
   return found;
@@ -196,16 +232,15 @@ int GridReader::TakeId(int wanted)
   {
     return wanted;
   }
-  int id = 0;
-  const auto isTaken = [&]
+  if (this->GridIds.empty())
   {
-    return this->UsedIds.count(id) > 0 ||
-      std::find(this->PatchIds.begin(), this->PatchIds.end(), id) != this->PatchIds.end();
-  };
-  while (isTaken())
-  {
-    ++id;
+    this->GridIds.insert(this->PatchIds.begin(), this->PatchIds.end());
   }
+  while (this->UsedIds.count(this->NextId) > 0 || this->GridIds.count(this->NextId) > 0)
+  {
+    ++this->NextId;
+  }
+  const int id = this->NextId;
   this->UsedIds.insert(id);
   this->Warn(
     PatchName(wanted) + " occurs more than once; another one is now patch " + std::to_string(id));
@@ -232,6 +267,7 @@ Status GridReader::Read()
     return schema.Status;
   }
   this->Schema = std::move(schema.Value);
+  this->IndexRecords();
   std::vector<CellGroup> groups;
   if (Status status = this->GroupCells(groups); !status)
   {
@@ -364,7 +400,7 @@ Status GridReader::SplitCopies(
   }
   if (copies.size() > 1)
   {
-    std::vector<int> owner(static_cast<std::size_t>(this->Grid->GetNumberOfPoints()), -1);
+    std::unordered_map<vtkIdType, std::size_t> owner;
     for (std::size_t k = 0; k < copies.size(); ++k)
     {
       for (vtkIdType cell : copies[k])
@@ -374,14 +410,12 @@ Status GridReader::SplitCopies(
         this->Grid->GetCellPoints(cell, n, points);
         for (vtkIdType i = 0; i < n; ++i)
         {
-          int& of = owner[static_cast<std::size_t>(points[i])];
-          if (of >= 0 && of != static_cast<int>(k))
+          if (owner.emplace(points[i], k).first->second != k)
           {
             return { ErrorCode::InvalidTopology,
               where + ", " + CellName(cell) + ": the patch occurs " +
                 std::to_string(copies.size()) + " times and its copies cannot be told apart" };
           }
-          of = static_cast<int>(k);
         }
       }
     }

@@ -83,17 +83,14 @@ private:
   PointMatrix RowsOf(const PatchCells<Dim>& cells) const;
   Status CheckField(const std::string& where, vtkDataArray* array,
     const std::vector<vtkIdType>& points, Checksum& sum, bool& isZero) const;
+  void IndexRecords();
   const PatchRecord* FindRecord(const CellGroup& group) const;
+  const PatchRecord* FindCache(
+    const Checksum& sum, const SpaceDefinition& basis, int numFunctions, int id) const;
   void ReadSides(const std::map<int, PatchPlace>& places);
   int TakeId(int wanted);
-  void Warn(const std::string& text)
-  {
-    const auto& all = this->Model.Warnings;
-    if (std::find(all.begin(), all.end(), text) == all.end())
-    {
-      this->Model.Warnings.push_back(text);
-    }
-  }
+  /// May be said again: DecodeSplineModel keeps what is new.
+  void Warn(const std::string& text) { this->Model.Warnings.push_back(text); }
   double Epsilon() const
   {
     return this->Grid->GetPoints()->GetDataType() == VTK_FLOAT
@@ -109,6 +106,13 @@ private:
   int Threads;
   SplineModel& Model;
   SplineSchema Schema;
+  // Of the records, by index: the first of each number, of each PatchBasis, and of both together;
+  // those with control points by the sum of a grid that they belong to.
+  std::map<int, std::size_t> RecordsById, RecordsByBasis;
+  std::map<std::array<int, 2>, std::size_t> RecordsByBoth;
+  std::multimap<std::uint64_t, std::size_t> Caches;
+  std::set<int> GridIds; ///< numbers of patches of the grid, once one of them is changed
+  int NextId = 0;        ///< all before it are taken
   std::vector<int> PatchIds, ElementIds, Bases;
   std::vector<vtkDataArray*> Fields;
   std::map<int, std::pair<SpaceDefinition, AnySpace>> Spaces;

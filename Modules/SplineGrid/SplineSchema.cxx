@@ -462,6 +462,34 @@ void Checksum::Add(const PointMatrix& values)
   }
 }
 
+void Checksum::Remove(std::uint64_t word)
+{
+  // Newton's iteration for the inverse modulo 2^64: an odd number is its own modulo 8, and every
+  // step doubles the bits that are right.
+  constexpr auto inverse = []
+  {
+    std::uint64_t x = Factor;
+    for (int i = 0; i < 5; ++i)
+    {
+      x *= 2 - Factor * x;
+    }
+    return x;
+  }();
+  const std::uint64_t h = (this->H - Offset) * inverse;
+  this->H = ((h >> 27) | (h << 37)) ^ (word * Spread);
+}
+
+void Checksum::Remove(const PointMatrix& values)
+{
+  for (Eigen::Index i = values.size(); i-- > 0;)
+  {
+    std::uint64_t word;
+    std::memcpy(&word, values.data() + i, sizeof word);
+    this->Remove(word);
+  }
+  this->Remove(static_cast<std::uint64_t>(values.cols()));
+}
+
 template <int Dim>
 Checksum BeginGeometryChecksum(const std::vector<IntArray<Dim>>& degrees)
 {

@@ -37,8 +37,8 @@ class VTKKNOTWORKSPLINEGRID_EXPORT Checksum
 public:
   void Add(std::uint64_t word)
   {
-    const std::uint64_t h = this->H ^ (word * 0x9e3779b97f4a7c15ULL);
-    this->H = ((h << 27) | (h >> 37)) * 0xc2b2ae3d27d4eb4fULL + 0x165667b19e3779f9ULL;
+    const std::uint64_t h = this->H ^ (word * Spread);
+    this->H = ((h << 27) | (h >> 37)) * Factor + Offset;
   }
   void Add(double value)
   {
@@ -47,9 +47,22 @@ public:
     this->Add(word);
   }
   void Add(const PointMatrix& values);
+  /// Undoes Add of the same values.
+  void Remove(const PointMatrix& values);
   std::uint64_t Value() const { return this->H; }
+  static Checksum From(std::uint64_t value)
+  {
+    Checksum sum;
+    sum.H = value;
+    return sum;
+  }
 
 private:
+  void Remove(std::uint64_t word);
+
+  static constexpr std::uint64_t Spread = 0x9e3779b97f4a7c15ULL;
+  static constexpr std::uint64_t Factor = 0xc2b2ae3d27d4eb4fULL;
+  static constexpr std::uint64_t Offset = 0x165667b19e3779f9ULL;
   std::uint64_t H = 0x6b6e6f74776f726bULL;
 };
 
@@ -66,6 +79,13 @@ struct CoefficientCache
     return grid.Value();
   }
   bool Matches(const Checksum& grid) const { return this->With(grid) == this->Stored; }
+  /// The value of the only sum of the grid that matches.
+  std::uint64_t Matching() const
+  {
+    Checksum sum = Checksum::From(this->Stored);
+    sum.Remove(this->Rows);
+    return sum.Value();
+  }
 };
 
 struct FieldRecord

@@ -183,20 +183,17 @@ void SetCellData(const BlockMesh& block, const std::vector<const SplinePatch*>& 
   }
 }
 
-/// Values of the fields of one patch at its points; patches without a field leave zeros.
+/// Values of the fields of one patch at its points, rows of the block; patches without a field
+/// leave zeros.
 template <int Dim>
-Status EvaluateFields(const BlockMesh& block, const SplinePatch& patch, int index,
-  const knotwork::Spline<Dim>& geometry, int threads, std::map<std::string, PointMatrix>& fields)
+Status EvaluateFields(const BlockMesh& block, const SplinePatch& patch,
+  const std::vector<Eigen::Index>& rows, const knotwork::Spline<Dim>& geometry, int threads,
+  std::map<std::string, PointMatrix>& fields)
 {
   std::vector<int> elements;
-  std::vector<Eigen::Index> rows;
-  for (std::size_t i = 0; i < block.PointPatch.size(); ++i)
+  for (const Eigen::Index row : rows)
   {
-    if (block.PointPatch[i] == index)
-    {
-      rows.push_back(static_cast<Eigen::Index>(i));
-      elements.push_back(block.PointElement[i]);
-    }
+    elements.push_back(block.PointElement[static_cast<std::size_t>(row)]);
   }
   PointMatrix local(static_cast<Eigen::Index>(rows.size()), Dim);
   for (std::size_t k = 0; k < rows.size(); ++k)
@@ -237,12 +234,15 @@ Status SetPointData(const BlockMesh& block, const std::vector<const SplinePatch*
   int threads, vtkDataSet* output)
 {
   std::map<std::string, PointMatrix> fields;
+  std::vector<std::vector<Eigen::Index>> rows(patches.size());
+  for (std::size_t i = 0; i < block.PointPatch.size(); ++i)
+  {
+    rows[static_cast<std::size_t>(block.PointPatch[i])].push_back(static_cast<Eigen::Index>(i));
+  }
   for (std::size_t p = 0; p < patches.size(); ++p)
   {
-    const Status status = std::visit(
-      [&](const auto& geometry) {
-        return EvaluateFields(block, *patches[p], static_cast<int>(p), geometry, threads, fields);
-      },
+    const Status status = std::visit([&](const auto& geometry)
+      { return EvaluateFields(block, *patches[p], rows[p], geometry, threads, fields); },
       patches[p]->Geometry);
     if (!status)
     {

@@ -113,16 +113,17 @@ Status FinishTessellation(const std::vector<BezierForm<Dim>>& patches,
   }
   PointMatrix values(static_cast<Eigen::Index>(numUses), components);
   PointMatrix unit(normals ? static_cast<Eigen::Index>(numUses) : 0, 3);
+  std::size_t next = 0; // uses follow each other patch after patch
   for (std::size_t p = 0; p < patches.size(); ++p)
   {
     std::vector<const VertexUse*> uses;
     std::vector<Eigen::Index> index;
-    for (std::size_t u = 0; u < numUses; ++u)
+    for (; next < numUses && soup.Uses[next].Patch == static_cast<int>(p); ++next)
     {
-      if (needed[u] && soup.Uses[u].Patch == static_cast<int>(p))
+      if (needed[next])
       {
-        uses.push_back(&soup.Uses[u]);
-        index.push_back(static_cast<Eigen::Index>(u));
+        uses.push_back(&soup.Uses[next]);
+        index.push_back(static_cast<Eigen::Index>(next));
       }
     }
     EvaluationBatch batch;
