@@ -225,6 +225,10 @@ public:
   /// Takes up what was added; false when nothing of it is new.
   bool Sort()
   {
+    if (this->New.empty())
+    {
+      return false;
+    }
     const std::size_t size = this->All.size();
     this->All.insert(this->All.end(), this->New.begin(), this->New.end());
     this->New.clear();
@@ -276,38 +280,83 @@ ChartPoint PointOnSide(const Face& face, int side, std::int64_t position)
                              : ChartPoint{ face.Chart, { fixed, position, 0 } };
 }
 
-/// Cuts one face into cells.
+/// The vertices of one face: round its border first, then those within.
 class FaceCutter
 {
 public:
-  FaceCutter(const Face& face, const LinePoints& lines, VertexTable& vertices, CellSoup& soup)
-    : F(face), Lines(lines), Vertices(vertices), Soup(soup)
+  FaceCutter(const Face& face, const LinePoints& lines) : F(face)
   {
+    this->N = { std::int64_t{ 1 } << face.Halvings[0], std::int64_t{ 1 } << face.Halvings[1] };
+    this->Step = { face.Size[0] >> face.Halvings[0], face.Size[1] >> face.Halvings[1] };
+    this->Grid.assign(At((this->N[0] + 1) * (this->N[1] + 1)), -1);
+    for (const int side : { 2, 1, 3, 0 })
+    {
+      this->MakeSide(lines, side);
+    }
   }
 
-  void Cut()
+  /// Where the vertices of the border are.
+  const std::vector<Pair>& Border() const { return this->Positions; }
+
+  std::array<double, 3> Local(const Pair& x) const
   {
-    this->N = { std::int64_t{ 1 } << this->F.Halvings[0],
-      std::int64_t{ 1 } << this->F.Halvings[1] };
-    this->Step = { this->F.Size[0] >> this->F.Halvings[0], this->F.Size[1] >> this->F.Halvings[1] };
-    this->Grid.assign(At((this->N[0] + 1) * (this->N[1] + 1)), -1);
-    for (const int side : { 2, 1, 3, 0 }) // round the face
+    std::array<double, 3> local{};
+    if (this->F.Fixed >= 0)
     {
-      this->MakeSide(side);
+      local[At(this->F.Fixed)] = this->F.End;
+    }
+    for (std::size_t a = 0; a < 2; ++a)
+    {
+      local[At(this->F.Axes[a])] =
+        static_cast<double>(x[a] - this->F.Lower[a]) / static_cast<double>(this->F.Size[a]);
+    }
+    return local;
+  }
+
+  /// Of the border, between its corners, and in the middles of cells with vertices on their sides.
+  std::int64_t NumVertices() const
+  {
+    std::vector<Pair> withMiddle;
+    for (int side = 0; side < 4; ++side)
+    {
+      const auto axis = static_cast<std::size_t>(SideAxis(side));
+      for (std::size_t k = 0; k < this->Extra[At(side)].size(); ++k)
+      {
+        if (!this->Extra[At(side)][k].empty())
+        {
+          Pair cell{};
+          cell[axis] = static_cast<std::int64_t>(k);
+          cell[1 - axis] = side % 2 == 0 ? 0 : this->N[1 - axis] - 1;
+          withMiddle.push_back(cell);
+        }
+      }
+    }
+    std::sort(withMiddle.begin(), withMiddle.end());
+    const auto end = std::unique(withMiddle.begin(), withMiddle.end());
+    return static_cast<std::int64_t>(this->Positions.size()) + (this->N[0] - 1) * (this->N[1] - 1) +
+      (end - withMiddle.begin());
+  }
+
+  void Cut(knotwork::Cut& made)
+  {
+    made.Clear();
+    for (const Pair& x : this->Positions)
+    {
+      made.Local.push_back(this->Local(x));
     }
     for (std::int64_t j = 1; j < this->N[1]; ++j)
     {
       for (std::int64_t i = 1; i < this->N[0]; ++i)
       {
-        this->At2(i, j) = this->MakeUse(
-          { this->F.Lower[0] + i * this->Step[0], this->F.Lower[1] + j * this->Step[1] }, false);
+        this->At2(i, j) = this->AddInner(
+          { this->F.Lower[0] + i * this->Step[0], this->F.Lower[1] + j * this->Step[1] }, made);
       }
     }
     for (std::int64_t j = 0; j < this->N[1]; ++j)
     {
       for (std::int64_t i = 0; i < this->N[0]; ++i)
       {
-        this->MakeCell(i, j);
+        this->MakeCell(i, j, made);
       }
     }
   }
@@ -315,35 +364,25 @@ public:
 private:
   int& At2(std::int64_t i, std::int64_t j) { return this->Grid[At(i + (this->N[0] + 1) * j)]; }
 
-  int MakeUse(const Pair& x, bool onBorder)
+  int AddBorder(const Pair& x)
   {
-    VertexUse use;
-    use.Patch = this->F.Patch;
-    use.Element = this->F.Element;
-    use.Tangents = this->F.Axes;
-    use.Flip = this->F.Flip;
-    use.Vertex =
-      onBorder ? this->Vertices.At({ this->F.Chart, { x[0], x[1], 0 } }) : this->Vertices.Add();
-    if (this->F.Fixed >= 0)
-    {
-      use.Local[At(this->F.Fixed)] = this->F.End;
-    }
-    for (std::size_t a = 0; a < 2; ++a)
-    {
-      use.Local[At(this->F.Axes[a])] =
-        static_cast<double>(x[a] - this->F.Lower[a]) / static_cast<double>(this->F.Size[a]);
-    }
-    this->Soup.Uses.push_back(use);
-    return static_cast<int>(this->Soup.Uses.size()) - 1;
+    this->Positions.push_back(x);
+    return static_cast<int>(this->Positions.size()) - 1;
   }
 
-  /// Uses along a side; those between grid points are kept by the cell they lie at.
-  void MakeSide(int side)
+  int AddInner(const Pair& x, knotwork::Cut& made) const
+  {
+    made.Local.push_back(this->Local(x));
+    return static_cast<int>(made.Local.size()) - 1;
+  }
+
+  /// Vertices along a side; those between grid points are kept by the cell they lie at.
+  void MakeSide(const LinePoints& lines, int side)
   {
     const int axis = SideAxis(side);
     auto& extra = this->Extra[At(side)];
     extra.assign(At(this->N[At(axis)]), {});
-    for (const std::int64_t position : this->Lines.Along(this->F, side))
+    for (const std::int64_t position : lines.Along(this->F, side))
     {
       const std::int64_t offset = position - this->F.Lower[At(axis)];
       const std::int64_t cell = offset / this->Step[At(axis)];
@@ -351,19 +390,19 @@ private:
                                : Pair{ SideFixed(this->F, side), position };
       if (offset % this->Step[At(axis)] != 0)
       {
-        extra[At(cell)].push_back(this->MakeUse(x, true));
+        extra[At(cell)].push_back(this->AddBorder(x));
         continue;
       }
       const std::int64_t end = side % 2 == 0 ? 0 : this->N[AcrossSide(side)];
       int& corner = axis == 0 ? this->At2(cell, end) : this->At2(end, cell);
       if (corner < 0)
       {
-        corner = this->MakeUse(x, true);
+        corner = this->AddBorder(x);
       }
     }
   }
 
-  void MakeCell(std::int64_t i, std::int64_t j)
+  void MakeCell(std::int64_t i, std::int64_t j, knotwork::Cut& made)
   {
     std::vector<int>& loop = this->Loop;
     loop.clear();
@@ -396,30 +435,190 @@ private:
     }
     if (loop.size() == 4)
     {
-      this->Soup.AddCell(
-        TessellationShape::Quadrilateral, loop.data(), 4, this->F.Patch, this->F.Element);
+      made.AddCell(TessellationShape::Quadrilateral, { loop[0], loop[1], loop[2], loop[3] });
       return;
     }
-    const int middle = this->MakeUse({ this->F.Lower[0] + i * this->Step[0] + this->Step[0] / 2,
-                                       this->F.Lower[1] + j * this->Step[1] + this->Step[1] / 2 },
-      false);
+    const int middle = this->AddInner({ this->F.Lower[0] + i * this->Step[0] + this->Step[0] / 2,
+                                        this->F.Lower[1] + j * this->Step[1] + this->Step[1] / 2 },
+      made);
     for (std::size_t k = 0; k < loop.size(); ++k)
     {
-      const std::array<int, 3> corners{ middle, loop[k], loop[(k + 1) % loop.size()] };
-      this->Soup.AddCell(
-        TessellationShape::Triangle, corners.data(), 3, this->F.Patch, this->F.Element);
+      made.AddCell(TessellationShape::Triangle, { middle, loop[k], loop[(k + 1) % loop.size()] });
     }
   }
 
   const Face& F;
-  const LinePoints& Lines;
-  VertexTable& Vertices;
-  CellSoup& Soup;
   Pair N{};
   Pair Step{};
+  std::vector<Pair> Positions;
   std::vector<int> Grid;
   std::array<std::vector<std::vector<int>>, 4> Extra;
   std::vector<int> Loop;
+};
+
+/// Faces with the vertices on their sides.
+class FaceCuts : public TessellationCuts
+{
+public:
+  /// Every face by its own bound, every side by the needs of all faces at it.
+  template <int Dim>
+  Status Divide(const std::vector<BezierForm<Dim>>& patches, const TessellationParams& params,
+    TessellationMesh& mesh)
+  {
+    int numCharts = 0;
+    this->Faces = MakeFaces(patches, numCharts);
+    std::vector<double> bounds(this->Faces.size());
+    ParallelFor(this->Faces.size(), 64, params.Threads,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t f = begin; f < end; ++f)
+        {
+          Face& face = this->Faces[f];
+          const auto bound = FaceBound<Dim>(patches[At(face.Patch)], face);
+          face.Halvings =
+            HalvingsForTolerance<2>(bound, params.Tolerance, params.MaximumSubdivision);
+          bounds[f] = ChordalBound<2>(bound, face.Halvings);
+        }
+      });
+    double count = 0.0;
+    for (std::size_t f = 0; f < this->Faces.size(); ++f)
+    {
+      mesh.Bound = std::max(mesh.Bound, bounds[f]);
+      count += this->NumCells(f);
+    }
+    if (Status status = CheckSize(count, params.MaxCells, "polygons", "MaximumCells"); !status)
+    {
+      return status;
+    }
+    this->MatchSides(patches.front().NumComponents + 1, LargestValue<Dim>(patches));
+    this->DivideSides();
+    return params.Progress && !params.Progress(0.2) ? Status(ErrorCode::Aborted, "") : Status();
+  }
+
+  std::size_t Count() const override { return this->Faces.size(); }
+  CutElement ElementOf(std::size_t cut) const override
+  {
+    const Face& face = this->Faces[cut];
+    return { face.Patch, face.Element, face.Axes, face.Flip,
+      face.Fixed < 0 ? -1 : 2 * face.Fixed + face.End };
+  }
+  double NumCells(std::size_t cut) const override
+  {
+    return std::ldexp(1.0, this->Faces[cut].Halvings[0] + this->Faces[cut].Halvings[1]);
+  }
+  std::int64_t Border(std::size_t cut, std::vector<BorderVertex>& border) const override
+  {
+    const FaceCutter cutter(this->Faces[cut], this->Lines);
+    border.clear();
+    for (const Pair& x : cutter.Border())
+    {
+      border.push_back({ { this->Faces[cut].Chart, { x[0], x[1], 0 } },
+        static_cast<std::int64_t>(border.size()), cutter.Local(x) });
+    }
+    return cutter.NumVertices();
+  }
+  void Make(std::size_t cut, Cut& made) const override
+  {
+    FaceCutter(this->Faces[cut], this->Lines).Cut(made);
+  }
+  void Unite(VertexTable& vertices) const override
+  {
+    for (const PatchInterface& shared : this->Shared)
+    {
+      const auto& [sideA, sideB] = shared.Sides;
+      const Face& a = this->Faces[At(sideA.Patch)];
+      const Face& b = this->Faces[At(sideB.Patch)];
+      const bool reversed = shared.Orientation.Reversed[0];
+      for (const std::int64_t position : this->Lines.Along(a, sideA.Side))
+      {
+        const std::int64_t other = Transfer(position, a, sideA.Side, b, sideB.Side, reversed);
+        vertices.Sets.Unite(vertices.NumberOf(PointOnSide(a, sideA.Side, position)),
+          vertices.NumberOf(PointOnSide(b, sideB.Side, other)));
+      }
+    }
+    for (const PatchSide& side : this->Collapsed)
+    {
+      const Face& face = this->Faces[At(side.Patch)];
+      const std::vector<std::int64_t> along = this->Lines.Along(face, side.Side);
+      for (const std::int64_t position : along)
+      {
+        vertices.Sets.Unite(vertices.NumberOf(PointOnSide(face, side.Side, along.front())),
+          vertices.NumberOf(PointOnSide(face, side.Side, position)));
+      }
+    }
+  }
+
+private:
+  /// Finds the sides that are one and those that are points.
+  void MatchSides(int planes, double largest)
+  {
+    SideMatcher matcher(planes, largest);
+    for (std::size_t f = 0; f < this->Faces.size(); ++f)
+    {
+      const Face& face = this->Faces[f];
+      for (int side = 0; side < 4; ++side)
+      {
+        if (face.Rim[At(side)])
+        {
+          const std::vector<double> points = SidePoints(face, side, planes);
+          matcher.Add(
+            { static_cast<int>(f), side }, { face.Degree[At(SideAxis(side))] + 1, 1 }, points);
+          if (IsCollapsed(points, planes))
+          {
+            this->Collapsed.push_back({ static_cast<int>(f), side });
+          }
+        }
+      }
+    }
+    this->Shared = matcher.Interfaces();
+  }
+
+  void DivideSides()
+  {
+    for (const Face& face : this->Faces)
+    {
+      for (int side = 0; side < 4; ++side)
+      {
+        const std::size_t axis = At(SideAxis(side));
+        const std::int64_t step = face.Size[axis] >> face.Halvings[axis];
+        for (std::int64_t i = 0; i <= std::int64_t{ 1 } << face.Halvings[axis]; ++i)
+        {
+          this->Lines.Add(face, side, face.Lower[axis] + i * step);
+        }
+      }
+    }
+    this->Lines.Sort();
+    do
+    {
+      for (const PatchInterface& shared : this->Shared)
+      {
+        const bool reversed = shared.Orientation.Reversed[0];
+        this->AddMissing(shared.Sides[0], shared.Sides[1], reversed);
+        this->AddMissing(shared.Sides[1], shared.Sides[0], reversed);
+      }
+    } while (this->Lines.Sort());
+  }
+
+  /// What is on one side and not on the other one yet.
+  void AddMissing(const PatchSide& from, const PatchSide& to, bool reversed)
+  {
+    const Face& a = this->Faces[At(from.Patch)];
+    const Face& b = this->Faces[At(to.Patch)];
+    const std::vector<std::int64_t> there = this->Lines.Along(b, to.Side);
+    for (const std::int64_t position : this->Lines.Along(a, from.Side))
+    {
+      const std::int64_t other = Transfer(position, a, from.Side, b, to.Side, reversed);
+      if (!std::binary_search(there.begin(), there.end(), other))
+      {
+        this->Lines.Add(b, to.Side, other);
+      }
+    }
+  }
+
+  std::vector<Face> Faces;
+  LinePoints Lines;
+  std::vector<PatchInterface> Shared; ///< of faces
+  std::vector<PatchSide> Collapsed;   ///< of faces
 };
 }
 
@@ -427,123 +626,12 @@ template <int Dim>
 Status TessellateSurfaces(const std::vector<BezierForm<Dim>>& patches,
   const TessellationParams& params, TessellationMesh& mesh)
 {
-  int numCharts = 0;
-  std::vector<Face> faces = MakeFaces(patches, numCharts);
-
-  // 1. Every face by its own bound.
-  std::vector<double> bounds(faces.size());
-  ParallelFor(faces.size(), 64, params.Threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t f = begin; f < end; ++f)
-      {
-        Face& face = faces[f];
-        const SecondDerivativeBound<2> bound = FaceBound<Dim>(patches[At(face.Patch)], face);
-        face.Halvings = HalvingsForTolerance<2>(bound, params.Tolerance, params.MaximumSubdivision);
-        bounds[f] = ChordalBound<2>(bound, face.Halvings);
-      }
-    });
-  double count = 0.0;
-  for (std::size_t f = 0; f < faces.size(); ++f)
-  {
-    mesh.Bound = std::max(mesh.Bound, bounds[f]);
-    count += std::ldexp(1.0, faces[f].Halvings[0] + faces[f].Halvings[1]);
-  }
-  if (Status status = CheckSize(count, params.MaxCells, "polygons", "MaximumCells"); !status)
+  FaceCuts cuts;
+  if (Status status = cuts.Divide(patches, params, mesh); !status)
   {
     return status;
   }
-
-  // 2. Every side by the needs of all elements at it.
-  LinePoints lines;
-  for (const Face& face : faces)
-  {
-    for (int side = 0; side < 4; ++side)
-    {
-      const std::size_t axis = At(SideAxis(side));
-      const std::int64_t step = face.Size[axis] >> face.Halvings[axis];
-      for (std::int64_t i = 0; i <= std::int64_t{ 1 } << face.Halvings[axis]; ++i)
-      {
-        lines.Add(face, side, face.Lower[axis] + i * step);
-      }
-    }
-  }
-  lines.Sort();
-
-  const int planes = patches.front().NumComponents + 1;
-  SideMatcher matcher(planes, LargestValue<Dim>(patches));
-  std::vector<PatchSide> collapsed;
-  for (std::size_t f = 0; f < faces.size(); ++f)
-  {
-    const Face& face = faces[f];
-    for (int side = 0; side < 4; ++side)
-    {
-      if (face.Rim[At(side)])
-      {
-        const std::vector<double> points = SidePoints(face, side, planes);
-        matcher.Add(
-          { static_cast<int>(f), side }, { face.Degree[At(SideAxis(side))] + 1, 1 }, points);
-        if (IsCollapsed(points, planes))
-        {
-          collapsed.push_back({ static_cast<int>(f), side });
-        }
-      }
-    }
-  }
-  do
-  {
-    for (const PatchInterface& shared : matcher.Interfaces())
-    {
-      const auto& [sideA, sideB] = shared.Sides;
-      const Face& a = faces[At(sideA.Patch)];
-      const Face& b = faces[At(sideB.Patch)];
-      const bool reversed = shared.Orientation.Reversed[0];
-      for (const std::int64_t position : lines.Along(a, sideA.Side))
-      {
-        lines.Add(b, sideB.Side, Transfer(position, a, sideA.Side, b, sideB.Side, reversed));
-      }
-      for (const std::int64_t position : lines.Along(b, sideB.Side))
-      {
-        lines.Add(a, sideA.Side, Transfer(position, b, sideB.Side, a, sideA.Side, reversed));
-      }
-    }
-  } while (lines.Sort());
-  if (params.Progress && !params.Progress(0.2))
-  {
-    return { ErrorCode::Aborted, "" };
-  }
-
-  // 3. Cells, then one vertex where sides match or collapse.
-  VertexTable vertices;
-  CellSoup soup;
-  for (const Face& face : faces)
-  {
-    FaceCutter(face, lines, vertices, soup).Cut();
-  }
-  for (const PatchInterface& shared : matcher.Interfaces())
-  {
-    const auto& [sideA, sideB] = shared.Sides;
-    const Face& a = faces[At(sideA.Patch)];
-    const Face& b = faces[At(sideB.Patch)];
-    const bool reversed = shared.Orientation.Reversed[0];
-    for (const std::int64_t position : lines.Along(a, sideA.Side))
-    {
-      const std::int64_t other = Transfer(position, a, sideA.Side, b, sideB.Side, reversed);
-      vertices.Sets.Unite(vertices.At(PointOnSide(a, sideA.Side, position)),
-        vertices.At(PointOnSide(b, sideB.Side, other)));
-    }
-  }
-  for (const PatchSide& side : collapsed)
-  {
-    const Face& face = faces[At(side.Patch)];
-    const std::vector<std::int64_t> along = lines.Along(face, side.Side);
-    for (const std::int64_t position : along)
-    {
-      vertices.Sets.Unite(vertices.At(PointOnSide(face, side.Side, along.front())),
-        vertices.At(PointOnSide(face, side.Side, position)));
-    }
-  }
-  return FinishTessellation<Dim>(patches, params, vertices, soup, mesh);
+  return AssembleTessellation<Dim>(patches, params, cuts, mesh);
 }
 
 template Status TessellateSurfaces<2>(

@@ -29,13 +29,18 @@ struct RimFace
 /// Per chart and direction the level of the uniform grid: its cells are 2^-Level of a level-0 cell.
 using GridLevels = std::vector<std::array<int, 3>>;
 
-class VolumeCutter
+/// Elements with the grids of their charts.
+class VolumeCuts : public TessellationCuts
 {
 public:
-  VolumeCutter(const std::vector<BezierForm<3>>& patches, const TessellationParams& params)
+  VolumeCuts(const std::vector<BezierForm<3>>& patches, const TessellationParams& params)
     : Patches(patches), Params(params)
   {
     this->Cells = MakeCharts<3>(patches, this->NumCharts);
+    for (const auto& cells : this->Cells)
+    {
+      this->First.push_back(this->First.back() + cells.size());
+    }
   }
 
   double ChooseLevels()
@@ -79,29 +84,83 @@ public:
     return largest;
   }
 
-  double CountCells() const
+  std::size_t Count() const override { return this->First.back(); }
+  CutElement ElementOf(std::size_t cut) const override
   {
-    double count = 0.0;
-    for (std::size_t p = 0; p < this->Cells.size(); ++p)
-    {
-      for (std::size_t e = 0; e < this->Cells[p].size(); ++e)
-      {
-        const IntArray<3> s = this->Halvings(static_cast<int>(p), static_cast<int>(e));
-        count += std::ldexp(1.0, s[0] + s[1] + s[2]);
-      }
-    }
-    return count;
+    const auto next = std::upper_bound(this->First.begin(), this->First.end(), cut);
+    CutElement element;
+    element.Patch = static_cast<int>(next - this->First.begin()) - 1;
+    element.Element = static_cast<int>(cut - *(next - 1));
+    return element;
   }
-
-  void Cut(VertexTable& vertices, CellSoup& soup)
+  double NumCells(std::size_t cut) const override
   {
-    for (std::size_t p = 0; p < this->Cells.size(); ++p)
+    const CutElement element = this->ElementOf(cut);
+    const IntArray<3> s = this->Halvings(element.Patch, element.Element);
+    return std::ldexp(1.0, s[0] + s[1] + s[2]);
+  }
+  std::int64_t Border(std::size_t cut, std::vector<BorderVertex>& border) const override
+  {
+    const CutElement element = this->ElementOf(cut);
+    const ChartCell<3>& cell = this->Cell(element.Patch, element.Element);
+    const IntArray<3> s = this->Halvings(element.Patch, element.Element);
+    const auto n = this->Steps(element);
+    border.clear();
+    std::array<std::int64_t, 3> i{};
+    for (i[2] = 0; i[2] <= n[2]; ++i[2])
     {
-      for (std::size_t e = 0; e < this->Cells[p].size(); ++e)
+      for (i[1] = 0; i[1] <= n[1]; ++i[1])
       {
-        this->CutElement(static_cast<int>(p), static_cast<int>(e), vertices, soup);
+        const bool isInner = i[1] > 0 && i[1] < n[1] && i[2] > 0 && i[2] < n[2];
+        for (i[0] = 0; i[0] <= n[0]; i[0] += isInner ? n[0] : 1)
+        {
+          BorderVertex vertex;
+          vertex.Position.Chart = cell.Chart;
+          vertex.Number = i[0] + (n[0] + 1) * (i[1] + (n[1] + 1) * i[2]);
+          for (std::size_t d = 0; d < 3; ++d)
+          {
+            vertex.Position.X[d] = cell.Lower[d] + i[d] * (cell.Size[d] >> s[d]);
+            vertex.Local[d] = static_cast<double>(i[d]) / static_cast<double>(n[d]);
+          }
+          border.push_back(vertex);
+        }
       }
     }
+    return (n[0] + 1) * (n[1] + 1) * (n[2] + 1);
+  }
+  void Make(std::size_t cut, Cut& made) const override
+  {
+    const auto n = this->Steps(this->ElementOf(cut));
+    made.Clear();
+    for (std::int64_t c = 0; c <= n[2]; ++c)
+    {
+      for (std::int64_t b = 0; b <= n[1]; ++b)
+      {
+        for (std::int64_t a = 0; a <= n[0]; ++a)
+        {
+          made.Local.push_back({ static_cast<double>(a) / static_cast<double>(n[0]),
+            static_cast<double>(b) / static_cast<double>(n[1]),
+            static_cast<double>(c) / static_cast<double>(n[2]) });
+        }
+      }
+    }
+    const auto at = [&](std::int64_t a, std::int64_t b, std::int64_t c)
+    { return static_cast<int>(a + (n[0] + 1) * (b + (n[1] + 1) * c)); };
+    for (std::int64_t c = 0; c < n[2]; ++c)
+    {
+      for (std::int64_t b = 0; b < n[1]; ++b)
+      {
+        for (std::int64_t a = 0; a < n[0]; ++a)
+        {
+          made.AddCell(TessellationShape::Hexahedron,
+            { at(a, b, c), at(a + 1, b, c), at(a + 1, b + 1, c), at(a, b + 1, c), at(a, b, c + 1),
+              at(a + 1, b, c + 1), at(a + 1, b + 1, c + 1), at(a, b + 1, c + 1) });
+        }
+      }
+    }
+  }
+  void Unite(VertexTable& vertices) const override
+  {
     for (const PatchInterface& shared : this->Interfaces)
     {
       const RimFace& a = this->Faces[At(shared.Sides[0].Patch)];
@@ -116,8 +175,8 @@ public:
         for (std::int64_t i = 0; i < count[0]; ++i)
         {
           vertices.Sets.Unite(
-            vertices.At(this->FacePoint(a, shared.Orientation.OtherPoint({ i, j }, count))),
-            vertices.At(this->FacePoint(b, { i, j })));
+            vertices.NumberOf(this->FacePoint(a, shared.Orientation.OtherPoint({ i, j }, count))),
+            vertices.NumberOf(this->FacePoint(b, { i, j })));
         }
       }
     }
@@ -216,60 +275,18 @@ private:
     return this->Levels[At(this->Cell(face.Patch, face.Element).Chart)][At(face.Axes[axis])];
   }
 
-  void CutElement(int patch, int element, VertexTable& vertices, CellSoup& soup)
+  /// Cells along the directions.
+  std::array<std::int64_t, 3> Steps(const CutElement& element) const
   {
-    const ChartCell<3>& cell = this->Cell(patch, element);
-    const IntArray<3> s = this->Halvings(patch, element);
-    std::array<std::int64_t, 3> n;
-    for (std::size_t d = 0; d < 3; ++d)
-    {
-      n[d] = std::int64_t{ 1 } << s[d];
-    }
-    const std::int64_t first = static_cast<std::int64_t>(soup.Uses.size());
-    std::array<std::int64_t, 3> i{};
-    for (i[2] = 0; i[2] <= n[2]; ++i[2])
-    {
-      for (i[1] = 0; i[1] <= n[1]; ++i[1])
-      {
-        for (i[0] = 0; i[0] <= n[0]; ++i[0])
-        {
-          VertexUse use;
-          use.Patch = patch;
-          use.Element = element;
-          bool border = false;
-          ChartPoint point{ cell.Chart, {} };
-          for (std::size_t d = 0; d < 3; ++d)
-          {
-            use.Local[d] = static_cast<double>(i[d]) / static_cast<double>(n[d]);
-            point.X[d] = cell.Lower[d] + i[d] * (cell.Size[d] >> s[d]);
-            border = border || i[d] == 0 || i[d] == n[d];
-          }
-          use.Vertex = border ? vertices.At(point) : vertices.Add();
-          soup.Uses.push_back(use);
-        }
-      }
-    }
-    const auto at = [&](std::int64_t a, std::int64_t b, std::int64_t c)
-    { return static_cast<int>(first + a + (n[0] + 1) * (b + (n[1] + 1) * c)); };
-    for (std::int64_t c = 0; c < n[2]; ++c)
-    {
-      for (std::int64_t b = 0; b < n[1]; ++b)
-      {
-        for (std::int64_t a = 0; a < n[0]; ++a)
-        {
-          const std::array<int, 8> corners{ at(a, b, c), at(a + 1, b, c), at(a + 1, b + 1, c),
-            at(a, b + 1, c), at(a, b, c + 1), at(a + 1, b, c + 1), at(a + 1, b + 1, c + 1),
-            at(a, b + 1, c + 1) };
-          soup.AddCell(TessellationShape::Hexahedron, corners.data(), 8, patch, element);
-        }
-      }
-    }
+    const IntArray<3> s = this->Halvings(element.Patch, element.Element);
+    return { std::int64_t{ 1 } << s[0], std::int64_t{ 1 } << s[1], std::int64_t{ 1 } << s[2] };
   }
 
   const std::vector<BezierForm<3>>& Patches;
   const TessellationParams& Params;
   int NumCharts = 0;
   std::vector<std::vector<ChartCell<3>>> Cells;
+  std::vector<std::size_t> First{ 0 }; ///< cut of every patch, and their number
   GridLevels Levels;
   std::vector<RimFace> Faces;
   std::vector<PatchInterface> Interfaces;
@@ -279,10 +296,14 @@ private:
 Status TessellateVolumes(const std::vector<BezierForm<3>>& patches,
   const TessellationParams& params, TessellationMesh& mesh)
 {
-  VolumeCutter cutter(patches, params);
-  mesh.Bound = cutter.ChooseLevels();
-  if (Status status = CheckSize(cutter.CountCells(), params.MaxCells, "hexahedra", "MaximumCells");
-      !status)
+  VolumeCuts cuts(patches, params);
+  mesh.Bound = cuts.ChooseLevels();
+  double count = 0.0;
+  for (std::size_t cut = 0; cut < cuts.Count(); ++cut)
+  {
+    count += cuts.NumCells(cut);
+  }
+  if (Status status = CheckSize(count, params.MaxCells, "hexahedra", "MaximumCells"); !status)
   {
     return status;
   }
@@ -290,9 +311,6 @@ Status TessellateVolumes(const std::vector<BezierForm<3>>& patches,
   {
     return { ErrorCode::Aborted, "" };
   }
-  VertexTable vertices;
-  CellSoup soup;
-  cutter.Cut(vertices, soup);
-  return FinishTessellation<3>(patches, params, vertices, soup, mesh);
+  return AssembleTessellation<3>(patches, params, cuts, mesh);
 }
 }

@@ -28,6 +28,10 @@ struct TessellationParams
   bool Splitting = false;
   /// Polygons or hexahedra at most, >= 1.
   int MaxCells = DefaultMaxTessellationCells;
+  /// Of Parts parts of about as many cells this one alone is made, in [0, Parts); all parts, one
+  /// after the other, are what one part is, bit for bit. Each costs the work on borders of all.
+  int Part = 0;
+  int Parts = 1;
   int Threads = 0;
   ProgressCallback Progress;
 };
@@ -41,7 +45,8 @@ enum class TessellationShape : unsigned char
 };
 
 /// Linear cells with their origin. Every point is the exact value at PointPatch, PointElement,
-/// PointLocal (rounding apart), evaluated once.
+/// PointLocal (rounding apart), evaluated once. Of a part the points that it shares with parts
+/// before it come last.
 struct TessellationMesh
 {
   PointMatrix Points;            ///< n x c
@@ -56,6 +61,9 @@ struct TessellationMesh
   std::vector<int> CellElement;
   /// Of the surface of solids the side of the element, 2 direction + end; else empty.
   std::vector<int> CellSide;
+  std::int64_t FirstPoint = 0;            ///< number of the first point among those of all parts
+  std::vector<std::int64_t> SharedPoints; ///< numbers of the points of parts before, ascending
+  std::int64_t NumPointsOfAll = 0;        ///< of all parts together
   /// Proven upper bound of the chordal deviation; above the tolerance only where
   /// MaximumSubdivision stopped the halving.
   double Bound = 0.0;

@@ -14,7 +14,6 @@ std::size_t At(std::int64_t i)
 {
   return static_cast<std::size_t>(i);
 }
-
 }
 
 template <int Dim>
@@ -30,26 +29,45 @@ std::vector<std::vector<ChartCell<Dim>>> MakeCharts(
   return cells;
 }
 
-std::size_t VertexTable::Hash::operator()(const ChartPoint& p) const
+std::size_t VertexTable::Place(const ChartPoint& point) const
 {
-  std::uint64_t h = static_cast<std::uint64_t>(p.Chart);
-  for (const std::int64_t x : p.X)
+  std::uint64_t h = static_cast<std::uint64_t>(point.Chart);
+  for (const std::int64_t x : point.X)
   {
     h = (h ^ static_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15u;
     h ^= h >> 29;
   }
-  return static_cast<std::size_t>(h);
+  h ^= h >> 32;
+  const std::size_t last = this->Slots.size() - 1;
+  std::size_t slot = static_cast<std::size_t>(h) & last;
+  while (this->Slots[slot] >= 0 && !(this->Points[At(this->Slots[slot])] == point))
+  {
+    slot = (slot + 1) & last;
+  }
+  return slot;
 }
 
-int VertexTable::At(const ChartPoint& point)
+void VertexTable::Grow()
 {
-  const auto found = this->Map.find(point);
-  if (found != this->Map.end())
+  this->Slots.assign(std::max<std::size_t>(64, 2 * this->Slots.size()), -1);
+  for (std::size_t v = 0; v < this->Points.size(); ++v)
   {
-    return found->second;
+    this->Slots[this->Place(this->Points[v])] = static_cast<int>(v);
   }
-  const int vertex = this->Sets.Add();
-  this->Map.emplace(point, vertex);
+}
+
+int VertexTable::NumberOf(const ChartPoint& point)
+{
+  if (2 * this->Points.size() >= this->Slots.size())
+  {
+    this->Grow();
+  }
+  int& vertex = this->Slots[this->Place(point)];
+  if (vertex < 0)
+  {
+    vertex = this->Sets.Add();
+    this->Points.push_back(point);
+  }
   return vertex;
 }
 
@@ -78,13 +96,17 @@ double LargestValue(const std::vector<BezierForm<Dim>>& patches)
   return largest;
 }
 
-void CellSoup::AddCell(TessellationShape shape, const int* corners, int n, int patch, int element)
+void Cut::Clear()
+{
+  this->Local.clear();
+  this->Shapes.clear();
+  this->Corners.clear();
+}
+
+void Cut::AddCell(TessellationShape shape, std::initializer_list<int> corners)
 {
   this->Shapes.push_back(shape);
-  this->Corners.insert(this->Corners.end(), corners, corners + n);
-  this->Offsets.push_back(static_cast<std::int64_t>(this->Corners.size()));
-  this->CellPatch.push_back(patch);
-  this->CellElement.push_back(element);
+  this->Corners.insert(this->Corners.end(), corners);
 }
 
 template <int Dim>

@@ -7,7 +7,7 @@
 #include "PointClusters.h"
 #include "Tessellation.h"
 
-#include <unordered_map>
+#include <initializer_list>
 
 namespace knotwork
 {
@@ -27,22 +27,20 @@ struct ChartPoint
   }
 };
 
-/// Vertices on the borders of elements, by position.
+/// Vertices on the borders of elements, by position: an open hash table with linear probing.
 class VertexTable
 {
 public:
   /// Vertex at a position, made when it is new.
-  int At(const ChartPoint& point);
-  /// A vertex that no other element can have.
-  int Add() { return this->Sets.Add(); }
+  int NumberOf(const ChartPoint& point);
   DisjointSets Sets;
 
 private:
-  struct Hash
-  {
-    std::size_t operator()(const ChartPoint& p) const;
-  };
-  std::unordered_map<ChartPoint, int, Hash> Map;
+  void Grow();
+  std::size_t Place(const ChartPoint& point) const;
+
+  std::vector<ChartPoint> Points; ///< of all vertices
+  std::vector<int> Slots;         ///< -1: free; a power of two, at most half of them taken
 };
 
 /// Finds sides with the same points up to rounding.
@@ -69,35 +67,58 @@ private:
 template <int Dim>
 double LargestValue(const std::vector<BezierForm<Dim>>& patches);
 
-/// An element as the corner of a cell sees it: where a vertex is evaluated.
-struct VertexUse
+/// What is cut into cells: an element, or a face of one.
+struct CutElement
 {
-  int Vertex = 0;
   int Patch = 0;
   int Element = 0;
-  std::array<double, 3> Local{};
-  std::array<int, 2> Tangents{ 0, 1 }; ///< the normal is the product of these derivatives
+  std::array<int, 2> Tangents{ 0, 1 }; ///< normals are the product of these derivatives
   bool Flip = false;                   ///< times -1
+  int Side = -1;                       ///< of a face, 2 direction + end
 };
 
-/// Cells over vertex uses.
-struct CellSoup
+/// A vertex of a cut on the border of its element.
+struct BorderVertex
 {
-  std::vector<VertexUse> Uses;
-  std::vector<TessellationShape> Shapes;
-  std::vector<std::int64_t> Offsets{ 0 };
-  std::vector<int> Corners; ///< uses
-  std::vector<int> CellPatch;
-  std::vector<int> CellElement;
-
-  void AddCell(TessellationShape shape, const int* corners, int n, int patch, int element);
+  ChartPoint Position;
+  std::int64_t Number = 0; ///< among the vertices of the cut
+  std::array<double, 3> Local{};
 };
 
-/// Evaluates the uses, shares or splits points, drops collapsed polygons.
+/// The vertices of a cut, in the order of their first use, and its cells.
+struct Cut
+{
+  std::vector<std::array<double, 3>> Local;
+  std::vector<TessellationShape> Shapes;
+  std::vector<int> Corners; ///< vertices of the cells, one cell after the other
+
+  void Clear();
+  void AddCell(TessellationShape shape, std::initializer_list<int> corners);
+};
+
+/// The elements of all patches, or faces of them, with what each becomes: known before a point is
+/// evaluated. Not changed by its functions, which threads may call at once.
+class TessellationCuts
+{
+public:
+  virtual ~TessellationCuts() = default;
+  /// Patch after patch.
+  virtual std::size_t Count() const = 0;
+  virtual CutElement ElementOf(std::size_t cut) const = 0;
+  /// Cells, about: shares of the work are made by it.
+  virtual double NumCells(std::size_t cut) const = 0;
+  /// The vertices of a cut on the border of its element, by their numbers.
+  /// @return how many vertices the cut has, those within included.
+  virtual std::int64_t Border(std::size_t cut, std::vector<BorderVertex>& border) const = 0;
+  virtual void Make(std::size_t cut, Cut& made) const = 0;
+  /// Makes one of vertices where elements meet and where sides are points.
+  virtual void Unite(VertexTable& vertices) const = 0;
+};
+
+/// Numbers the points, evaluates those of the part and makes its cells, without collapsed polygons.
 template <int Dim>
-Status FinishTessellation(const std::vector<BezierForm<Dim>>& patches,
-  const TessellationParams& params, const VertexTable& vertices, const CellSoup& soup,
-  TessellationMesh& mesh);
+Status AssembleTessellation(const std::vector<BezierForm<Dim>>& patches,
+  const TessellationParams& params, const TessellationCuts& cuts, TessellationMesh& mesh);
 
 /// Lines of one-parameter patches.
 Status TessellateCurves(const std::vector<BezierForm<1>>& patches, const TessellationParams& params,
