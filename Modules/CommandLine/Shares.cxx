@@ -439,7 +439,7 @@ vtkSmartPointer<vtkDataObject> JoinShares(
   return joined;
 }
 
-Result<vtkSmartPointer<vtkDataObject>> AppendShares(vtkDataObject* output)
+Result<std::vector<vtkSmartPointer<vtkDataObject>>> CollectPieces(vtkDataObject* output)
 {
   const bool isEmpty = output->GetNumberOfElements(vtkDataObject::POINT) == 0;
   Bytes bytes;
@@ -465,6 +465,17 @@ Result<vtkSmartPointer<vtkDataObject>> AppendShares(vtkDataObject* output)
       return { ErrorCode::LibraryError, "what another process has made cannot be taken over" };
     }
   }
+  return pieces;
+}
+
+Result<vtkSmartPointer<vtkDataObject>> AppendShares(vtkDataObject* output)
+{
+  auto collected = CollectPieces(output);
+  if (!collected)
+  {
+    return collected.Status;
+  }
+  const auto& pieces = collected.Value;
   if (Processes::Own() != 0 || pieces.size() < 2)
   {
     return pieces.empty() ? vtkSmartPointer<vtkDataObject>(output) : pieces.front();

@@ -4,6 +4,8 @@
 
 #include <vtkSmartPointer.h>
 
+#include <vector>
+
 class vtkDataObject;
 
 namespace knotwork
@@ -29,11 +31,24 @@ vtkSmartPointer<vtkDataObject> ShareOf(vtkDataObject* whole, Share share);
 vtkSmartPointer<vtkDataObject> JoinShares(
   Share share, vtkDataObject* whole, vtkDataObject* input, vtkDataObject* output);
 
+/// What processes have made, in their order, without what is empty, in the first of them;
+/// elsewhere what the process has made itself.
+/// @pre all processes call it.
+/// @return LibraryError: VTK cannot take it apart.
+Result<std::vector<vtkSmartPointer<vtkDataObject>>> CollectPieces(vtkDataObject* output);
+
 /// What processes have made, one after the other in the first of them; null elsewhere. Points are
 /// not united. Collections get the blocks that each has.
 /// @pre all processes call it.
 /// @return LibraryError: VTK cannot take it apart.
 Result<vtkSmartPointer<vtkDataObject>> AppendShares(vtkDataObject* output);
+
+/// Polygons or a grid of which processes have made parts, in the first process; null elsewhere.
+/// Points with one global id are one, and the ids go; cells follow each other by dimension, of one
+/// dimension in the order of the processes.
+/// @pre all processes call it; every output has global ids of points.
+/// @return LibraryError: VTK cannot take it apart.
+Result<vtkSmartPointer<vtkDataObject>> UniteShares(vtkDataObject* output);
 
 /// What one process has, to all.
 /// @pre all processes call it.

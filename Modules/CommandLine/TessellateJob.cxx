@@ -10,14 +10,21 @@
 #include <knotwork/SplineGrid/Processes.h>
 #include <knotwork/SplineGrid/SplineBlocks.h>
 #include <knotwork/SplineGrid/vtkSplineTessellate.h>
+#include <knotwork/SplineIO/PieceFiles.h>
 #include <knotwork/SplineIO/vtkCADReader.h>
 
 #include <vtkCellType.h>
-#include <vtkDataObject.h>
+#include <vtkDataSet.h>
+#include <vtkIdTypeArray.h>
 #include <vtkNew.h>
+#include <vtkPartitionedDataSetCollection.h>
+#include <vtkPointData.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace knotwork
 {
@@ -36,6 +43,23 @@ bool HasOnlyCurves(vtkDataObject* splines)
     }
   }
   return true;
+}
+
+/// Points of the parts of all processes, those with one global id once.
+std::int64_t NumberOfUnitedPoints(vtkDataObject* part)
+{
+  auto* ids =
+    vtkIdTypeArray::SafeDownCast(vtkDataSet::SafeDownCast(part)->GetPointData()->GetGlobalIds());
+  std::int64_t count = 0;
+  for (vtkIdType i = 0; ids && i < ids->GetNumberOfTuples(); ++i)
+  {
+    count = std::max<std::int64_t>(count, ids->GetValue(i) + 1);
+  }
+  for (const auto& one : Processes::Exchange(std::vector<std::int64_t>{ count }))
+  {
+    count = std::max(count, one.front());
+  }
+  return count;
 }
 
 struct TessellateJob
@@ -107,7 +131,15 @@ struct TessellateJob
     {
       return input.Status;
     }
-    this->Filter->SetInputDataObject(ShareOf(input.Value, Share::Blocks));
+    // of a grid, each process makes its part; of a collection, its blocks
+    const bool isByParts =
+      Processes::Count() > 1 && !vtkPartitionedDataSetCollection::SafeDownCast(input.Value);
+    if (isByParts)
+    {
+      this->Filter->SetPart(Processes::Own(), Processes::Count());
+    }
+    this->Filter->SetInputDataObject(
+      isByParts ? input.Value : ShareOf(input.Value, Share::Blocks));
     session.Report["input"] = this->Input;
     session.Report["output"] = this->Output;
     this->FilterOptions->Apply(session.Report);
@@ -125,11 +157,16 @@ struct TessellateJob
       return status;
     }
     vtkDataObject* result = this->Filter->GetOutputDataObject(0);
-    session.Report["number_of_points"] =
-      Session::Total(result->GetNumberOfElements(vtkDataObject::POINT));
+    session.Report["number_of_points"] = isByParts
+      ? NumberOfUnitedPoints(result)
+      : Session::Total(result->GetNumberOfElements(vtkDataObject::POINT));
     session.Report["number_of_cells"] =
       Session::Total(result->GetNumberOfElements(vtkDataObject::CELL));
-    const auto whole = AppendShares(result);
+    if (isByParts && IsPieceIndex(this->Output))
+    {
+      return session.Write(result, this->Output);
+    }
+    const auto whole = isByParts ? UniteShares(result) : AppendShares(result);
     return whole ? session.Write(whole.Value, this->Output) : whole.Status;
   }
 };

@@ -5,6 +5,7 @@
 #include "SplineBlocks.h"
 #include "SplineModel.h"
 #include <knotwork/SplineCore/Numbers.h>
+#include <knotwork/SplineCore/Parallel.h>
 #include <knotwork/SplineCore/Tessellation.h>
 
 #include "vtkCellArray.h"
@@ -12,17 +13,20 @@
 #include "vtkCellType.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
+#include "vtkIdTypeArray.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPointData.h"
+#include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 
 using knotwork::PointMatrix;
@@ -35,83 +39,227 @@ vtkStandardNewMacro(vtkSplineTessellate);
 
 namespace
 {
-/// A double array with the rows of a matrix.
-vtkSmartPointer<vtkDoubleArray> MakeArray(const std::string& name, const PointMatrix& values)
+/// Fills blocks of rows at once.
+void ForRows(std::size_t count, int threads, const std::function<void(std::size_t)>& fill)
 {
-  auto array = vtkSmartPointer<vtkDoubleArray>::New();
-  array->SetName(name.c_str());
-  array->SetNumberOfComponents(static_cast<int>(values.cols()));
-  array->SetNumberOfTuples(values.rows());
-  std::copy(values.data(), values.data() + values.size(), array->GetPointer(0));
+  constexpr std::size_t rowsAtOnce = 65536;
+  knotwork::ParallelFor(count, rowsAtOnce, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        fill(i);
+      }
+    });
+}
+
+template <typename Array>
+vtkSmartPointer<Array> NewArray(const char* name, int components, std::size_t rows)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(rows));
   return array;
 }
 
-/// Meshes of a block's curves, surfaces and solids, one after the other.
-struct BlockMesh
+/// Meshes of a block's curves, surfaces and solids, one after the other: what becomes arrays of VTK
+/// is given back.
+class BlockMesh
 {
-  PointMatrix Points{ 0, 3 };
-  PointMatrix Normals{ 0, 3 };
-  bool HasNormals = false;
-  std::vector<int> PointPatch; ///< index into the block's patches
-  std::vector<int> PointElement;
-  PointMatrix PointLocal{ 0, 3 };
-  vtkNew<vtkCellArray> Lines;
-  vtkNew<vtkCellArray> Cells; ///< polygons, or all cells of a volume mesh
-  std::vector<unsigned char> Types;
-  std::vector<int> CellPatch; ///< index into the block's patches
-  std::vector<int> CellElement;
-  double Bound = 0.0;
-};
+public:
+  explicit BlockMesh(int threads) : Threads(threads) {}
 
-template <typename Matrix>
-void AppendRows(Matrix& to, const PointMatrix& rows)
-{
-  const Eigen::Index before = to.rows();
-  to.conservativeResize(before + rows.rows(), to.cols());
-  to.bottomRows(rows.rows()) = rows;
-}
+  /// @param patches  index into the block's patches, of each of the mesh.
+  void Add(TessellationMesh&& mesh, std::vector<int> patches, int dimension)
+  {
+    this->Parts.push_back({ std::move(mesh), std::move(patches), dimension, this->NumPoints,
+      this->NumCells });
+    this->NumPoints += this->Parts.back().Mesh.PointPatch.size();
+    this->NumCells += this->Parts.back().Mesh.Shapes.size();
+    this->Bound = std::max(this->Bound, this->Parts.back().Mesh.Bound);
+  }
 
-void Append(
-  const TessellationMesh& mesh, const std::vector<int>& patchIndex, int dimension, BlockMesh& block)
-{
-  const vtkIdType first = block.Points.rows();
-  const Eigen::Index n = mesh.Points.rows();
-  AppendRows(block.Points, mesh.Points);
-  PointMatrix normals = PointMatrix::Zero(n, 3);
-  if (mesh.Normals.rows() > 0)
+  /// Rows of a matrix of each mesh, zeros beyond its columns.
+  vtkSmartPointer<vtkDoubleArray> Take(const char* name, PointMatrix TessellationMesh::*values)
   {
-    normals = mesh.Normals;
-    block.HasNormals = true;
-  }
-  AppendRows(block.Normals, normals);
-  PointMatrix local = PointMatrix::Zero(n, 3);
-  local.leftCols(dimension) = mesh.PointLocal;
-  AppendRows(block.PointLocal, local);
-  for (std::size_t i = 0; i < mesh.PointPatch.size(); ++i)
-  {
-    block.PointPatch.push_back(patchIndex[static_cast<std::size_t>(mesh.PointPatch[i])]);
-    block.PointElement.push_back(mesh.PointElement[i]);
-  }
-  std::vector<vtkIdType> corners;
-  for (std::size_t c = 0; c < mesh.Shapes.size(); ++c)
-  {
-    corners.clear();
-    for (std::int64_t k = mesh.Offsets[c]; k < mesh.Offsets[c + 1]; ++k)
+    auto array = NewArray<vtkDoubleArray>(name, 3, this->NumPoints);
+    for (Part& part : this->Parts)
     {
-      corners.push_back(first + mesh.Connectivity[static_cast<std::size_t>(k)]);
+      PointMatrix rows = std::move(part.Mesh.*values);
+      double* to = array->GetPointer(static_cast<vtkIdType>(3 * part.FirstPoint));
+      ForRows(part.Mesh.PointPatch.size(), this->Threads,
+        [&](std::size_t i)
+        {
+          for (Eigen::Index c = 0; c < 3; ++c)
+          {
+            const auto row = static_cast<Eigen::Index>(i);
+            to[3 * i + static_cast<std::size_t>(c)] =
+              row < rows.rows() && c < rows.cols() ? rows(row, c) : 0.0;
+          }
+        });
     }
-    const bool line = mesh.Shapes[c] == TessellationShape::Line;
-    (line ? block.Lines : block.Cells)
-      ->InsertNextCell(static_cast<vtkIdType>(corners.size()), corners.data());
-    block.Types.push_back(line                               ? VTK_LINE
-        : mesh.Shapes[c] == TessellationShape::Triangle      ? VTK_TRIANGLE
-        : mesh.Shapes[c] == TessellationShape::Quadrilateral ? VTK_QUAD
-                                                             : VTK_HEXAHEDRON);
-    block.CellPatch.push_back(patchIndex[static_cast<std::size_t>(mesh.CellPatch[c])]);
-    block.CellElement.push_back(mesh.CellElement[c]);
+    return array;
   }
-  block.Bound = std::max(block.Bound, mesh.Bound);
-}
+
+  bool HasNormals() const
+  {
+    return std::any_of(this->Parts.begin(), this->Parts.end(),
+      [](const Part& part) { return part.Mesh.Normals.rows() > 0; });
+  }
+
+  /// Lines, or all other cells, or all.
+  vtkSmartPointer<vtkCellArray> TakeCells(bool lines, bool others)
+  {
+    const auto isWanted = [&](const Part& part) { return part.Dimension == 1 ? lines : others; };
+    std::size_t numCells = 0;
+    std::size_t numCorners = 0;
+    for (const Part& part : this->Parts)
+    {
+      numCells += isWanted(part) ? part.Mesh.Shapes.size() : 0;
+      numCorners += isWanted(part) ? part.Mesh.Connectivity.size() : 0;
+    }
+    auto offsets = NewArray<vtkIdTypeArray>(nullptr, 1, numCells + 1);
+    auto corners = NewArray<vtkIdTypeArray>(nullptr, 1, numCorners);
+    offsets->SetValue(0, 0);
+    vtkIdType* nextOffset = offsets->GetPointer(1);
+    vtkIdType* nextCorner = corners->GetPointer(0);
+    vtkIdType before = 0;
+    for (Part& part : this->Parts)
+    {
+      if (isWanted(part))
+      {
+        const std::vector<std::int64_t> ends = std::move(part.Mesh.Offsets);
+        const std::vector<std::int64_t> points = std::move(part.Mesh.Connectivity);
+        ForRows(ends.size() - 1, this->Threads,
+          [&](std::size_t c) { nextOffset[c] = before + ends[c + 1]; });
+        ForRows(points.size(), this->Threads,
+          [&](std::size_t k)
+          { nextCorner[k] = static_cast<vtkIdType>(part.FirstPoint) + points[k]; });
+        nextOffset += ends.size() - 1;
+        nextCorner += points.size();
+        before += static_cast<vtkIdType>(points.size());
+      }
+    }
+    auto cells = vtkSmartPointer<vtkCellArray>::New();
+    cells->SetData(offsets, corners);
+    return cells;
+  }
+
+  vtkSmartPointer<vtkUnsignedCharArray> Types() const
+  {
+    auto types = NewArray<vtkUnsignedCharArray>(nullptr, 1, this->NumCells);
+    this->ForCells(
+      [&](const Part& part, std::size_t c, std::size_t cell)
+      { types->SetValue(static_cast<vtkIdType>(cell), TypeOf(part.Mesh.Shapes[c])); });
+    return types;
+  }
+
+  /// do(patch, element, cell)
+  template <typename Do>
+  void ForCellElements(const Do& visit) const
+  {
+    this->ForCells(
+      [&](const Part& part, std::size_t c, std::size_t cell)
+      { visit(part.PatchOf(part.Mesh.CellPatch[c]), part.Mesh.CellElement[c], cell); });
+  }
+
+  /// do(patch, element, point)
+  template <typename Do>
+  void ForPointElements(const Do& visit) const
+  {
+    for (const Part& part : this->Parts)
+    {
+      ForRows(part.Mesh.PointPatch.size(), this->Threads,
+        [&](std::size_t i)
+        {
+          visit(part.PatchOf(part.Mesh.PointPatch[i]), part.Mesh.PointElement[i],
+            part.FirstPoint + i);
+        });
+    }
+  }
+
+  /// Of the points of parts, among those of all parts.
+  vtkSmartPointer<vtkIdTypeArray> PointNumbers() const
+  {
+    auto numbers = NewArray<vtkIdTypeArray>("GlobalPointIds", 1, this->NumPoints);
+    vtkIdType before = 0; // points of all parts of meshes before
+    vtkIdType row = 0;
+    for (const Part& part : this->Parts)
+    {
+      const auto count = static_cast<vtkIdType>(part.Mesh.PointPatch.size());
+      const auto own = count - static_cast<vtkIdType>(part.Mesh.SharedPoints.size());
+      for (vtkIdType i = 0; i < count; ++i)
+      {
+        numbers->SetValue(row++,
+          before +
+            (i < own ? part.Mesh.FirstPoint + i
+                     : part.Mesh.SharedPoints[static_cast<std::size_t>(i - own)]));
+      }
+      before += part.Mesh.NumPointsOfAll;
+    }
+    return numbers;
+  }
+
+  /// Points of patches, by patch.
+  std::map<std::size_t, std::vector<vtkIdType>> PointsWhere(
+    const std::function<bool(std::size_t)>& isWanted) const
+  {
+    std::map<std::size_t, std::vector<vtkIdType>> points;
+    for (const Part& part : this->Parts)
+    {
+      for (std::size_t i = 0; i < part.Mesh.PointPatch.size(); ++i)
+      {
+        const std::size_t patch = part.PatchOf(part.Mesh.PointPatch[i]);
+        if (isWanted(patch))
+        {
+          points[patch].push_back(static_cast<vtkIdType>(part.FirstPoint + i));
+        }
+      }
+    }
+    return points;
+  }
+
+  std::size_t NumPoints = 0;
+  std::size_t NumCells = 0;
+  double Bound = 0.0;
+  int Threads;
+
+private:
+  struct Part
+  {
+    TessellationMesh Mesh;
+    std::vector<int> Patches;
+    int Dimension;
+    std::size_t FirstPoint;
+    std::size_t FirstCell;
+
+    std::size_t PatchOf(int patch) const
+    {
+      return static_cast<std::size_t>(this->Patches[static_cast<std::size_t>(patch)]);
+    }
+  };
+
+  static unsigned char TypeOf(TessellationShape shape)
+  {
+    return shape == TessellationShape::Line      ? VTK_LINE
+      : shape == TessellationShape::Triangle      ? VTK_TRIANGLE
+      : shape == TessellationShape::Quadrilateral ? VTK_QUAD
+                                                  : VTK_HEXAHEDRON;
+  }
+
+  template <typename Do>
+  void ForCells(const Do& visit) const
+  {
+    for (const Part& part : this->Parts)
+    {
+      ForRows(part.Mesh.Shapes.size(), this->Threads,
+        [&](std::size_t c) { visit(part, c, part.FirstCell + c); });
+    }
+  }
+
+  std::vector<Part> Parts;
+};
 
 /// Tessellates the patches with Dim parameters.
 template <int Dim>
@@ -132,84 +280,94 @@ Status TessellateDimension(const std::vector<const SplinePatch*>& patches,
   {
     return {};
   }
-  const auto mesh = knotwork::Tessellate<Dim>(forms, params);
+  auto mesh = knotwork::Tessellate<Dim>(forms, params);
   if (mesh)
   {
-    Append(mesh.Value, patchIndex, Dim, block);
+    block.Add(std::move(mesh.Value), std::move(patchIndex), Dim);
   }
   return mesh.Status;
 }
 
-void FillCells(const BlockMesh& block, vtkDataSet* output)
+void TakeCells(BlockMesh& block, vtkDataSet* output)
 {
   if (auto* polygons = vtkPolyData::SafeDownCast(output))
   {
-    polygons->SetLines(block.Lines);
-    polygons->SetPolys(block.Cells);
+    polygons->SetLines(block.TakeCells(true, false));
+    polygons->SetPolys(block.TakeCells(false, true));
     return;
   }
-  vtkNew<vtkCellArray> all; // lines were made first
-  all->Append(block.Lines);
-  all->Append(block.Cells);
-  vtkNew<vtkUnsignedCharArray> types;
-  types->SetNumberOfValues(static_cast<vtkIdType>(block.Types.size()));
-  std::copy(block.Types.begin(), block.Types.end(), types->GetPointer(0));
-  vtkUnstructuredGrid::SafeDownCast(output)->SetCells(types, all);
+  vtkUnstructuredGrid::SafeDownCast(output)->SetCells(block.Types(), block.TakeCells(true, true));
 }
 
 void SetCellData(const BlockMesh& block, const std::vector<const SplinePatch*>& patches,
   vtkUnstructuredGrid* source, vtkDataSet* output)
 {
-  std::array<vtkNew<vtkIntArray>, 3> ids;
-  std::vector<vtkIdType> sourceCells;
-  for (std::size_t c = 0; c < block.CellPatch.size(); ++c)
+  std::array<vtkSmartPointer<vtkIntArray>, 3> ids;
+  const std::array<const char*, 3> names{ "PatchId", "ElementId", "Level" };
+  for (std::size_t i = 0; i < ids.size(); ++i)
   {
-    const SplinePatch& patch = *patches[static_cast<std::size_t>(block.CellPatch[c])];
-    const auto element = static_cast<std::size_t>(block.CellElement[c]);
-    ids[0]->InsertNextValue(patch.Id);
-    ids[1]->InsertNextValue(block.CellElement[c]);
-    ids[2]->InsertNextValue(std::visit(
-      [&](const auto& spline) { return spline.Space->Elements[element].Level; }, patch.Geometry));
-    sourceCells.push_back(element < patch.Cells.size() ? patch.Cells[element] : -1);
-  }
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    ids[i]->SetName(i == 0 ? "PatchId" : i == 1 ? "ElementId" : "Level");
+    ids[i] = NewArray<vtkIntArray>(names[i], 1, block.NumCells);
     output->GetCellData()->AddArray(ids[i]);
   }
+  std::vector<vtkIdType> sourceCells(source ? block.NumCells : 0);
+  block.ForCellElements(
+    [&](std::size_t p, int element, std::size_t cell)
+    {
+      const SplinePatch& patch = *patches[p];
+      const auto e = static_cast<std::size_t>(element);
+      const auto at = static_cast<vtkIdType>(cell);
+      ids[0]->SetValue(at, patch.Id);
+      ids[1]->SetValue(at, element);
+      ids[2]->SetValue(at,
+        std::visit([&](const auto& spline) { return spline.Space->Elements[e].Level; },
+          patch.Geometry));
+      if (source)
+      {
+        sourceCells[cell] = e < patch.Cells.size() ? patch.Cells[e] : -1;
+      }
+    });
   if (source)
   {
     knotwork::PassCellData(source, sourceCells, output);
   }
 }
 
-/// Values of the fields of one patch at its points, rows of the block; patches without a field
-/// leave zeros.
+/// What fields are evaluated at.
+struct PointPlaces
+{
+  vtkSmartPointer<vtkIntArray> Elements;
+  vtkSmartPointer<vtkDoubleArray> Local;
+};
+
+/// Values of the fields of one patch at its points; patches without a field leave zeros.
 template <int Dim>
-Status EvaluateFields(const BlockMesh& block, const SplinePatch& patch,
-  const std::vector<Eigen::Index>& rows, const knotwork::Spline<Dim>& geometry, int threads,
-  std::map<std::string, PointMatrix>& fields)
+Status EvaluateFields(const PointPlaces& places, const SplinePatch& patch,
+  const std::vector<vtkIdType>& points, const knotwork::Spline<Dim>& geometry, int threads,
+  std::map<std::string, vtkSmartPointer<vtkDoubleArray>>& fields)
 {
   std::vector<int> elements;
-  for (const Eigen::Index row : rows)
+  PointMatrix local(static_cast<Eigen::Index>(points.size()), Dim);
+  for (std::size_t k = 0; k < points.size(); ++k)
   {
-    elements.push_back(block.PointElement[static_cast<std::size_t>(row)]);
-  }
-  PointMatrix local(static_cast<Eigen::Index>(rows.size()), Dim);
-  for (std::size_t k = 0; k < rows.size(); ++k)
-  {
-    local.row(static_cast<Eigen::Index>(k)) = block.PointLocal.row(rows[k]).head<Dim>();
+    elements.push_back(places.Elements->GetValue(points[k]));
+    for (int d = 0; d < Dim; ++d)
+    {
+      local(static_cast<Eigen::Index>(k), d) = places.Local->GetTypedComponent(points[k], d);
+    }
   }
   knotwork::EvaluationParams params;
   params.Threads = threads;
   for (const knotwork::SplineField& field : patch.Fields)
   {
-    PointMatrix& values = fields[field.Name];
-    if (values.rows() == 0)
+    const auto components = static_cast<int>(field.Coefficients.cols());
+    auto& values = fields[field.Name];
+    if (!values)
     {
-      values = PointMatrix::Zero(block.Points.rows(), field.Coefficients.cols());
+      values = NewArray<vtkDoubleArray>(field.Name.c_str(), components,
+        static_cast<std::size_t>(places.Elements->GetNumberOfTuples()));
+      values->Fill(0.0);
     }
-    if (values.cols() != field.Coefficients.cols())
+    if (values->GetNumberOfComponents() != components)
     {
       continue; // a field of this name has other components on another patch
     }
@@ -222,28 +380,39 @@ Status EvaluateFields(const BlockMesh& block, const SplinePatch& patch,
     {
       return status;
     }
-    for (std::size_t k = 0; k < rows.size(); ++k)
+    for (std::size_t k = 0; k < points.size(); ++k)
     {
-      values.row(rows[k]) = batch.Values.row(static_cast<Eigen::Index>(k));
+      for (int c = 0; c < components; ++c)
+      {
+        values->SetTypedComponent(points[k], c, batch.Values(static_cast<Eigen::Index>(k), c));
+      }
     }
   }
   return {};
 }
 
-Status SetPointData(const BlockMesh& block, const std::vector<const SplinePatch*>& patches,
-  int threads, vtkDataSet* output)
+Status SetPointData(
+  BlockMesh& block, const std::vector<const SplinePatch*>& patches, vtkDataSet* output)
 {
-  std::map<std::string, PointMatrix> fields;
-  std::vector<std::vector<Eigen::Index>> rows(patches.size());
-  for (std::size_t i = 0; i < block.PointPatch.size(); ++i)
+  const auto patchId = NewArray<vtkIntArray>("PatchId", 1, block.NumPoints);
+  const PointPlaces places{ NewArray<vtkIntArray>("ElementId", 1, block.NumPoints),
+    block.Take("LocalParameters", &TessellationMesh::PointLocal) };
+  block.ForPointElements(
+    [&](std::size_t patch, int element, std::size_t point)
+    {
+      patchId->SetValue(static_cast<vtkIdType>(point), patches[patch]->Id);
+      places.Elements->SetValue(static_cast<vtkIdType>(point), element);
+    });
+
+  std::map<std::string, vtkSmartPointer<vtkDoubleArray>> fields;
+  for (const auto& [patch, points] : block.PointsWhere(
+         [&](std::size_t patch) { return !patches[patch]->Fields.empty(); }))
   {
-    rows[static_cast<std::size_t>(block.PointPatch[i])].push_back(static_cast<Eigen::Index>(i));
-  }
-  for (std::size_t p = 0; p < patches.size(); ++p)
-  {
-    const Status status = std::visit([&](const auto& geometry)
-      { return EvaluateFields(block, *patches[p], rows[p], geometry, threads, fields); },
-      patches[p]->Geometry);
+    const SplinePatch& source = *patches[patch];
+    const Status status = std::visit(
+      [&, &points = points](const auto& geometry)
+      { return EvaluateFields(places, source, points, geometry, block.Threads, fields); },
+      source.Geometry);
     if (!status)
     {
       return status;
@@ -252,24 +421,15 @@ Status SetPointData(const BlockMesh& block, const std::vector<const SplinePatch*
   vtkPointData* arrays = output->GetPointData();
   for (const auto& [name, values] : fields)
   {
-    arrays->AddArray(MakeArray(name, values));
+    arrays->AddArray(values);
   }
-  if (block.HasNormals)
+  if (block.HasNormals())
   {
-    arrays->SetNormals(MakeArray("Normals", block.Normals));
-  }
-  vtkNew<vtkIntArray> patchId;
-  patchId->SetName("PatchId");
-  vtkNew<vtkIntArray> elementId;
-  elementId->SetName("ElementId");
-  for (std::size_t i = 0; i < block.PointPatch.size(); ++i)
-  {
-    patchId->InsertNextValue(patches[static_cast<std::size_t>(block.PointPatch[i])]->Id);
-    elementId->InsertNextValue(block.PointElement[i]);
+    arrays->SetNormals(block.Take("Normals", &TessellationMesh::Normals));
   }
   arrays->AddArray(patchId);
-  arrays->AddArray(elementId);
-  arrays->AddArray(MakeArray("LocalParameters", block.PointLocal));
+  arrays->AddArray(places.Elements);
+  arrays->AddArray(places.Local);
   return {};
 }
 }
@@ -277,6 +437,13 @@ Status SetPointData(const BlockMesh& block, const std::vector<const SplinePatch*
 vtkSplineTessellate::vtkSplineTessellate()
 {
   knotwork::KeepReferenceSystem(this);
+}
+
+void vtkSplineTessellate::SetPart(int part, int parts)
+{
+  this->Part = part;
+  this->Parts = parts;
+  this->Modified();
 }
 
 int vtkSplineTessellate::RequestDataObject(
@@ -321,9 +488,11 @@ Status vtkSplineTessellate::Compute(vtkInformationVector** inputs, vtkInformatio
       params.Normals = this->Normals;
       params.Splitting = this->Splitting;
       params.MaxCells = this->MaximumCells;
+      params.Part = this->Part;
+      params.Parts = this->Parts;
       params.Threads = this->KernelThreads();
       params.Progress = this->Progress();
-      BlockMesh block;
+      BlockMesh block(params.Threads);
       Status status = TessellateDimension<1>(patches, params, block);
       status = status ? TessellateDimension<2>(patches, params, block) : status;
       status = status ? TessellateDimension<3>(patches, params, block) : status;
@@ -332,18 +501,15 @@ Status vtkSplineTessellate::Compute(vtkInformationVector** inputs, vtkInformatio
         return status;
       }
       vtkNew<vtkPoints> points;
-      points->SetData(MakeArray("Points", block.Points));
-      if (auto* polygons = vtkPolyData::SafeDownCast(output))
-      {
-        polygons->SetPoints(points);
-      }
-      else
-      {
-        vtkUnstructuredGrid::SafeDownCast(output)->SetPoints(points);
-      }
-      FillCells(block, output);
+      points->SetData(block.Take("Points", &TessellationMesh::Points));
+      vtkPointSet::SafeDownCast(output)->SetPoints(points);
+      TakeCells(block, output);
       SetCellData(block, patches, source, output);
-      status = SetPointData(block, patches, params.Threads, output);
+      status = SetPointData(block, patches, output);
+      if (this->Parts > 1)
+      {
+        output->GetPointData()->SetGlobalIds(block.PointNumbers());
+      }
       vtkNew<vtkDoubleArray> bound;
       bound->SetName("ChordalBound");
       bound->InsertNextValue(block.Bound);

@@ -87,6 +87,12 @@ public:
   vtkGetMacro(MaximumCells, int);
   ///@}
 
+  /** Of every block (of a grid) the `part`-th of `parts` parts of about as many cells alone is made,
+   * for programs of several processes that all have the whole input. Parts one after the other are
+   * the whole, bit for bit: points of parts before come last, and all have the numbers of the whole
+   * as global ids, the array GlobalPointIds. Default 0 of 1, without ids. */
+  void SetPart(int part, int parts);
+
 protected:
   vtkSplineTessellate();
   ~vtkSplineTessellate() override = default;
@@ -106,5 +112,7 @@ private:
   int Cells = SURFACE;
   bool Normals = true;
   bool Splitting = false;
+  int Part = 0;
+  int Parts = 1;
 };
 #endif

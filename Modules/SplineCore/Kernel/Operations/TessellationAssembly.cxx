@@ -214,11 +214,7 @@ private:
       all += this->Cuts.NumCells(cut);
     }
     double before = 0.0;
-    this->Begin = this->End = this->Params.Part == 0 ? 0 : this->Cuts.Count();
-    if (this->Params.Part + 1 == this->Params.Parts)
-    {
-      this->End = this->Cuts.Count();
-    }
+    this->Begin = this->Cuts.Count();
     for (std::size_t cut = 0; cut < this->Cuts.Count(); ++cut)
     {
       // the part in which the middle of its cells lies
@@ -577,6 +573,13 @@ private:
   Status MakeCuts()
   {
     this->SetSharedPoints();
+    double numCells = 0.0;
+    for (std::size_t cut = this->Begin; cut < this->End; ++cut)
+    {
+      numCells += this->Cuts.NumCells(cut);
+    }
+    const int numCorners = !this->Polygons ? Dim == 1 ? 2 : 8 : 4;
+    this->Mesh.Connectivity.reserve(static_cast<std::size_t>(numCells * numCorners));
     this->Mesh.Offsets.push_back(0);
     std::vector<MadeCells> made(WaveBatches);
     return this->InWaves(
