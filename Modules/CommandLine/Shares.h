@@ -43,12 +43,11 @@ Result<std::vector<vtkSmartPointer<vtkDataObject>>> CollectPieces(vtkDataObject*
 /// @return LibraryError: VTK cannot take it apart.
 Result<vtkSmartPointer<vtkDataObject>> AppendShares(vtkDataObject* output);
 
-/// Polygons or a grid of which processes have made parts, in the first process; null elsewhere.
-/// Points with one global id are one, and the ids go; cells follow each other by dimension, of one
-/// dimension in the order of the processes.
-/// @pre all processes call it; every output has global ids of points.
+/// The parts that processes have made of one tessellation (vtkSplineTessellate::SetPart) as the
+/// whole, in the first process; elsewhere what the process has made itself.
+/// @pre all processes call it.
 /// @return LibraryError: VTK cannot take it apart.
-Result<vtkSmartPointer<vtkDataObject>> UniteShares(vtkDataObject* output);
+Result<vtkSmartPointer<vtkDataObject>> UniteTessellation(vtkDataObject* output);
 
 /// What one process has, to all.
 /// @pre all processes call it.

@@ -138,8 +138,7 @@ struct TessellateJob
     {
       this->Filter->SetPart(Processes::Own(), Processes::Count());
     }
-    this->Filter->SetInputDataObject(
-      isByParts ? input.Value : ShareOf(input.Value, Share::Blocks));
+    this->Filter->SetInputDataObject(isByParts ? input.Value : ShareOf(input.Value, Share::Blocks));
     session.Report["input"] = this->Input;
     session.Report["output"] = this->Output;
     this->FilterOptions->Apply(session.Report);
@@ -166,7 +165,7 @@ struct TessellateJob
     {
       return session.Write(result, this->Output);
     }
-    const auto whole = isByParts ? UniteShares(result) : AppendShares(result);
+    const auto whole = isByParts ? UniteTessellation(result) : AppendShares(result);
     return whole ? session.Write(whole.Value, this->Output) : whole.Status;
   }
 };

@@ -73,8 +73,8 @@ public:
   /// @param patches  index into the block's patches, of each of the mesh.
   void Add(TessellationMesh&& mesh, std::vector<int> patches, int dimension)
   {
-    this->Parts.push_back({ std::move(mesh), std::move(patches), dimension, this->NumPoints,
-      this->NumCells });
+    this->Parts.push_back(
+      { std::move(mesh), std::move(patches), dimension, this->NumPoints, this->NumCells });
     this->NumPoints += this->Parts.back().Mesh.PointPatch.size();
     this->NumCells += this->Parts.back().Mesh.Shapes.size();
     this->Bound = std::max(this->Bound, this->Parts.back().Mesh.Bound);
@@ -149,8 +149,7 @@ public:
   vtkSmartPointer<vtkUnsignedCharArray> Types() const
   {
     auto types = NewArray<vtkUnsignedCharArray>(nullptr, 1, this->NumCells);
-    this->ForCells(
-      [&](const Part& part, std::size_t c, std::size_t cell)
+    this->ForCells([&](const Part& part, std::size_t c, std::size_t cell)
       { types->SetValue(static_cast<vtkIdType>(cell), TypeOf(part.Mesh.Shapes[c])); });
     return types;
   }
@@ -159,8 +158,7 @@ public:
   template <typename Do>
   void ForCellElements(const Do& visit) const
   {
-    this->ForCells(
-      [&](const Part& part, std::size_t c, std::size_t cell)
+    this->ForCells([&](const Part& part, std::size_t c, std::size_t cell)
       { visit(part.PatchOf(part.Mesh.CellPatch[c]), part.Mesh.CellElement[c], cell); });
   }
 
@@ -171,10 +169,9 @@ public:
     for (const Part& part : this->Parts)
     {
       ForRows(part.Mesh.PointPatch.size(), this->Threads,
-        [&](std::size_t i)
-        {
-          visit(part.PatchOf(part.Mesh.PointPatch[i]), part.Mesh.PointElement[i],
-            part.FirstPoint + i);
+        [&](std::size_t i) {
+          visit(
+            part.PatchOf(part.Mesh.PointPatch[i]), part.Mesh.PointElement[i], part.FirstPoint + i);
         });
     }
   }
@@ -199,6 +196,17 @@ public:
       before += part.Mesh.NumPointsOfAll;
     }
     return numbers;
+  }
+
+  vtkSmartPointer<vtkIdTypeArray> PointsByDimension() const
+  {
+    auto counts = NewArray<vtkIdTypeArray>(vtkSplineTessellate::PointsByDimension(), 1, 3);
+    counts->Fill(0.0);
+    for (const Part& part : this->Parts)
+    {
+      counts->SetValue(part.Dimension - 1, part.Mesh.NumPointsOfAll);
+    }
+    return counts;
   }
 
   /// Points of patches, by patch.
@@ -242,7 +250,7 @@ private:
 
   static unsigned char TypeOf(TessellationShape shape)
   {
-    return shape == TessellationShape::Line      ? VTK_LINE
+    return shape == TessellationShape::Line       ? VTK_LINE
       : shape == TessellationShape::Triangle      ? VTK_TRIANGLE
       : shape == TessellationShape::Quadrilateral ? VTK_QUAD
                                                   : VTK_HEXAHEDRON;
@@ -319,8 +327,8 @@ void SetCellData(const BlockMesh& block, const std::vector<const SplinePatch*>& 
       ids[0]->SetValue(at, patch.Id);
       ids[1]->SetValue(at, element);
       ids[2]->SetValue(at,
-        std::visit([&](const auto& spline) { return spline.Space->Elements[e].Level; },
-          patch.Geometry));
+        std::visit(
+          [&](const auto& spline) { return spline.Space->Elements[e].Level; }, patch.Geometry));
       if (source)
       {
         sourceCells[cell] = e < patch.Cells.size() ? patch.Cells[e] : -1;
@@ -405,12 +413,11 @@ Status SetPointData(
     });
 
   std::map<std::string, vtkSmartPointer<vtkDoubleArray>> fields;
-  for (const auto& [patch, points] : block.PointsWhere(
-         [&](std::size_t patch) { return !patches[patch]->Fields.empty(); }))
+  for (const auto& [patch, points] :
+    block.PointsWhere([&](std::size_t patch) { return !patches[patch]->Fields.empty(); }))
   {
     const SplinePatch& source = *patches[patch];
-    const Status status = std::visit(
-      [&, &points = points](const auto& geometry)
+    const Status status = std::visit([&, &points = points](const auto& geometry)
       { return EvaluateFields(places, source, points, geometry, block.Threads, fields); },
       source.Geometry);
     if (!status)
@@ -509,6 +516,7 @@ Status vtkSplineTessellate::Compute(vtkInformationVector** inputs, vtkInformatio
       if (this->Parts > 1)
       {
         output->GetPointData()->SetGlobalIds(block.PointNumbers());
+        output->GetFieldData()->AddArray(block.PointsByDimension());
       }
       vtkNew<vtkDoubleArray> bound;
       bound->SetName("ChordalBound");

@@ -87,11 +87,13 @@ public:
   vtkGetMacro(MaximumCells, int);
   ///@}
 
-  /** Of every block (of a grid) the `part`-th of `parts` parts of about as many cells alone is made,
-   * for programs of several processes that all have the whole input. Parts one after the other are
-   * the whole, bit for bit: points of parts before come last, and all have the numbers of the whole
-   * as global ids, the array GlobalPointIds. Default 0 of 1, without ids. */
+  /** Of every block (of a grid) the `part`-th of `parts` parts of about as many cells alone is
+   * made, for programs of several processes that all have the whole input. Parts one after the
+   * other are the whole, bit for bit: points of parts before come last, and all have the numbers of
+   * the whole as global ids, the array GlobalPointIds; the field array PointsByDimension has how
+   * many of them are of curves, of surfaces and of solids. Default 0 of 1, without these. */
   void SetPart(int part, int parts);
+  static const char* PointsByDimension() { return "PointsByDimension"; }
 
 protected:
   vtkSplineTessellate();

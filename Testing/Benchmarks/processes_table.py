@@ -20,6 +20,7 @@ import tempfile
 import page_tables
 
 MPIRUN = ["mpirun", "--allow-run-as-root", "--oversubscribe", "--bind-to", "core", "--quiet", "-np"]
+CELLS_OF_AN_ELEMENT = 128  # of a solid tube halved three times where it is curved
 HEAD = ["job", "work", "1 thread, s", "2 threads, s", "2 processes, s", "gain of threads", "of processes", "processes / threads", "least and largest share of the work",
         "MB, one process", "MB, each of two", "own MB, one process", "own MB, each of two", "share", "twice the work by two, s"]
 
@@ -116,8 +117,13 @@ def jobs(program, folder):
         make_points(folder, "work", n, hills)
         return n
 
+    def cells(n):
+        return CELLS_OF_AN_ELEMENT * grid(n / CELLS_OF_AN_ELEMENT)
+
     return (("`validate --injectivity off`", grid, lambda name, pieces: ["validate", name + (".pvtu" if pieces else ".vtu"), "--injectivity", "off", "--relative-gap",
                                                                           "0.01", "--bound-maximum"]),
+            ("`tessellate --cells volume`", cells, lambda name, pieces: ["tessellate", name + ".vtu", "--cells", "volume", "--chordal-tolerance", "1e-12",
+                                                                         "--maximum-subdivision", "3", "--maximum-cells", "2000000000", "--output", "out.pvtu"]),
             ("`evaluate --mode probe`", points, lambda name, pieces: ["evaluate", "surface.vtu", name + (".pvtp" if pieces else ".vtp"), "--mode", "probe",
                                                                       "--output", "out.pvtp"]),
             ("`distance --kind closest`", points, lambda name, pieces: ["distance", name + (".pvtp" if pieces else ".vtp"), "surface.vtu", "--kind", "closest",

@@ -17,7 +17,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import (VTK_QUAD, VTK_TETRA, vtkCellArray, vtkPartitionedDataSetCollection,
                                            vtkPolyData, vtkUnstructuredGrid)
-from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkTriangleFilter
+from vtkmodules.vtkFiltersCore import vtkAppendFilter, vtkCleanPolyData, vtkTriangleFilter
 from vtkmodules.vtkFiltersSources import vtkCubeSource
 from vtkmodules.vtkIOParallelXML import vtkXMLPartitionedDataSetCollectionWriter
 from vtkmodules.vtkIOXML import (vtkXMLGenericDataObjectReader, vtkXMLPartitionedDataSetCollectionReader, vtkXMLPolyDataWriter,
@@ -72,6 +72,10 @@ def assert_same(one, other, exact=True):
             continue
         assert a.GetClassName() == b.GetClassName() and a.GetNumberOfCells() == b.GetNumberOfCells()
         assert a.GetNumberOfPoints() == b.GetNumberOfPoints()
+        for of in ("GetLines", "GetPolys") if isinstance(a, vtkPolyData) else ("GetCells",):
+            if hasattr(a, of) and a.GetNumberOfCells() > 0:
+                for array in ("GetOffsetsArray", "GetConnectivityArray"):
+                    assert np.array_equal(*(vtk_to_numpy(getattr(getattr(d, of)(), array)()) for d in (a, b))), (of, array)
         if a.GetNumberOfPoints() > 0:
             assert np.array_equal(vtk_to_numpy(a.GetPoints().GetData()), vtk_to_numpy(b.GetPoints().GetData()))
         for of in ("GetPointData", "GetCellData", "GetFieldData"):
@@ -334,7 +338,7 @@ def test_splines_in_pieces():
 
 
 def test_blocks():
-    """Blocks of a collection: refined, cut out, tessellated; a grid that is no collection is done by the first process."""
+    """Blocks of a collection: refined, cut out, tessellated; of other things a grid is refined by the first process."""
     for patches in ("blocks.vtpc", "ball.vtu"):
         if not os.path.exists(path(patches)):
             test_validate_splines()
@@ -347,8 +351,54 @@ def test_blocks():
     assert compared("refine", [path("parts.vtpc")], "parts.vtpc")["elements"] == 4 * 3 * (2 + 3 + 4 + 5 + 6)
     compared("extract", [path("parts.vtpc")], "swapped.vtpc", ["--swap-parameters"])
     compared("tessellate", [path("parts.vtpc")], "triangles.vtpc", ["--chordal-tolerance", "1e-3"])
-    compared("tessellate", [path("ball.vtu")], "ball.vtp", ["--chordal-tolerance", "1e-2"])
     compared("refine", [path("ball.vtu")], "ball.vtu")
+
+
+def mixed_grid():
+    """A curve, a surface and a solid in one grid."""
+    append = vtkAppendFilter()
+    for i, shape in enumerate(("arc", "annulus-sector", "cube")):
+        name = path(shape + ".vtu")
+        run(1, "source", "--shape", shape, "--center", 3 * i, 0, 0, "--elements", 3, 2, 2, "--output", name)
+        grid = read(name)
+        grid.GetFieldData().Initialize()
+        for array in ("PatchBasis", "ElementId"):
+            grid.GetCellData().RemoveArray(array)
+        grid.GetCellData().GetArray("PatchId").Fill(i)
+        append.AddInputData(grid)
+    append.Update()
+    return write(append.GetOutput(), path("mixed.vtu"))
+
+
+def test_parts_of_a_grid():
+    """A grid is tessellated by parts, whose points and cells are those of the whole, in one file and in pieces."""
+    if not os.path.exists(path("ball.vtu")):
+        test_validate_splines()
+    run(1, "source", "--shape", "torus-surface", "--elements", 5, 3, 1, "--output", path("torus.vtu"))
+    for name in (path("ball.vtu"), path("torus.vtu"), mixed_grid()):
+        for options in ((), ("--splitting", 1)):
+            compared("tessellate", [name], "faces.vtp", ["--chordal-tolerance", "1e-2", *options])
+            compared("tessellate", [name], "cells.vtu", ["--chordal-tolerance", "1e-2", "--cells", "volume", *options])
+    words = ["tessellate", path("torus.vtu"), "--chordal-tolerance", "1e-3", "--force", "--output"]
+    run(1, *words, path("whole.vtp"))
+    run(3, *words, path("torus-pieces.pvtp"), "--report", path("pieces.json"))
+    whole = read(path("whole.vtp"))
+    points = vtk_to_numpy(whole.GetPoints().GetData())
+    seen, cells = set(), 0
+    for i in range(3):
+        piece = read(path(f"torus-pieces/torus-pieces_{i}.vtp"))
+        ids = vtk_to_numpy(piece.GetPointData().GetArray("GlobalPointIds"))
+        assert np.array_equal(vtk_to_numpy(piece.GetPoints().GetData()), points[ids])
+        own = vtk_to_numpy(piece.GetPolys().GetConnectivityArray())
+        corners = vtk_to_numpy(whole.GetPolys().GetConnectivityArray())
+        first = vtk_to_numpy(whole.GetPolys().GetOffsetsArray())[cells]
+        assert np.array_equal(ids[own], corners[first:first + len(own)])
+        seen |= set(ids)
+        cells += piece.GetNumberOfCells()
+        assert 0.25 < piece.GetNumberOfCells() / whole.GetNumberOfCells() < 0.42  # 15 elements of different size
+    report = json.load(open(path("pieces.json")))
+    assert cells == whole.GetNumberOfCells() == report["number_of_cells"]
+    assert len(seen) == whole.GetNumberOfPoints() == report["number_of_points"]
 
 
 def test_contours_and_extrema():

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Parallel.h"
-#include "TessellationParts.h"
-
-#include <Eigen/Geometry>
+#include "TessellationPlaces.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace knotwork
 {
@@ -21,147 +18,6 @@ constexpr std::int64_t BatchVertices = 4096;
 /// Batches between two reports of the progress.
 constexpr std::size_t WaveBatches = 64;
 
-/// Unit normal of row i of a batch; false where the derivatives are parallel or vanish.
-bool NormalOf(const EvaluationBatch& batch, Eigen::Index i, const CutElement& cut, int components,
-  Eigen::Vector3d& normal)
-{
-  std::array<Eigen::Vector3d, 2> tangent{ Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero() };
-  for (std::size_t k = 0; k < 2; ++k)
-  {
-    for (int c = 0; c < components; ++c)
-    {
-      tangent[k][c] = batch.First(i, cut.Tangents[k] * components + c);
-    }
-  }
-  normal = tangent[0].cross(tangent[1]);
-  const double length = normal.norm();
-  if (!(length > 1e-9 * tangent[0].norm() * tangent[1].norm()) || !std::isfinite(length))
-  {
-    return false;
-  }
-  normal *= (cut.Flip ? -1.0 : 1.0) / length;
-  return true;
-}
-
-/// Places in elements, the elements of one patch after those of another, with values there.
-template <int Dim>
-class Places
-{
-public:
-  void Clear()
-  {
-    this->Cuts.clear();
-    this->Local.clear();
-  }
-  void Add(const CutElement& cut, const std::array<double, 3>& local)
-  {
-    this->Cuts.push_back(cut);
-    this->Local.push_back(local);
-  }
-  std::size_t Count() const { return this->Cuts.size(); }
-
-  Status Evaluate(const std::vector<BezierForm<Dim>>& patches, bool withNormals)
-  {
-    const auto count = static_cast<Eigen::Index>(this->Count());
-    this->Values.resize(count, patches.front().NumComponents);
-    this->Normals.setZero(withNormals ? count : 0, 3);
-    for (std::size_t begin = 0, end = 0; begin < this->Count(); begin = end)
-    {
-      while (end < this->Count() && this->Cuts[end].Patch == this->Cuts[begin].Patch)
-      {
-        ++end;
-      }
-      const Status status =
-        this->EvaluatePatch(patches[At(this->Cuts[begin].Patch)], begin, end, withNormals);
-      if (!status)
-      {
-        return status;
-      }
-    }
-    return {};
-  }
-
-  PointMatrix Values;
-  PointMatrix Normals;
-
-private:
-  Status EvaluatePatch(
-    const BezierForm<Dim>& form, std::size_t begin, std::size_t end, bool withNormals)
-  {
-    std::vector<std::size_t> places(end - begin);
-    for (std::size_t i = begin; i < end; ++i)
-    {
-      places[i - begin] = i;
-    }
-    EvaluationBatch batch;
-    Status status = this->EvaluateAt(form, places, 0.0, withNormals ? 1 : 0, batch);
-    if (!status)
-    {
-      return status;
-    }
-    this->Values.middleRows(static_cast<Eigen::Index>(begin), batch.Values.rows()) = batch.Values;
-    if (!withNormals)
-    {
-      return {};
-    }
-    std::vector<std::size_t> singular;
-    this->TakeNormals(batch, places, form.NumComponents, singular);
-    if (singular.empty())
-    {
-      return {};
-    }
-    // a collapsed edge or cusp: the limit from inside the element
-    status = this->EvaluateAt(form, singular, 1e-4, 1, batch);
-    if (status)
-    {
-      std::vector<std::size_t> without;
-      this->TakeNormals(batch, singular, form.NumComponents, without);
-    }
-    return status;
-  }
-
-  void TakeNormals(const EvaluationBatch& batch, const std::vector<std::size_t>& places,
-    int components, std::vector<std::size_t>& singular)
-  {
-    for (std::size_t i = 0; i < places.size(); ++i)
-    {
-      Eigen::Vector3d normal;
-      if (NormalOf(batch, static_cast<Eigen::Index>(i), this->Cuts[places[i]], components, normal))
-      {
-        this->Normals.row(static_cast<Eigen::Index>(places[i])) = normal.transpose();
-      }
-      else
-      {
-        singular.push_back(places[i]);
-      }
-    }
-  }
-
-  /// @param shrink  how far places go towards the middles of their elements.
-  Status EvaluateAt(const BezierForm<Dim>& form, const std::vector<std::size_t>& places,
-    double shrink, int derivatives, EvaluationBatch& batch) const
-  {
-    std::vector<int> elements(places.size());
-    PointMatrix local(static_cast<Eigen::Index>(places.size()), Dim);
-    for (std::size_t i = 0; i < places.size(); ++i)
-    {
-      elements[i] = this->Cuts[places[i]].Element;
-      for (int d = 0; d < Dim; ++d)
-      {
-        const double x = this->Local[places[i]][At(d)];
-        local(static_cast<Eigen::Index>(i), d) = x + shrink * (0.5 - x);
-      }
-    }
-    EvaluationParams params;
-    params.Derivatives = derivatives;
-    params.Threads = 1;
-    return EvaluateElements<Dim>(form, elements, local, params, batch);
-  }
-
-  std::vector<CutElement> Cuts; ///< of every place
-  std::vector<std::array<double, 3>> Local;
-};
-
 /// A vertex of a cut on the border of its element, in the order of cuts.
 struct BorderUse
 {
@@ -173,9 +29,13 @@ struct BorderUse
 struct BorderPoint
 {
   std::int64_t Number = 0;
-  int Vertex = 0;
-  Eigen::Vector3d Normal = Eigen::Vector3d::Zero(); ///< of its first use
-  Eigen::Vector3d Sum = Eigen::Vector3d::Zero();    ///< of the normals of all uses
+  int Source = 0; ///< the first copy, which has the value
+};
+
+struct BorderNormal
+{
+  Eigen::Vector3d First = Eigen::Vector3d::Zero(); ///< of its first use
+  Eigen::Vector3d Sum = Eigen::Vector3d::Zero();   ///< of all uses
   bool IsCrease = false;
 };
 
@@ -243,20 +103,20 @@ private:
       this->FirstUse.push_back(this->Uses.size());
     }
     this->Cuts.Unite(table);
-    this->Wanted.assign(At(table.Sets.Size()), this->Params.Parts == 1 || this->Splits() ? 1 : 0);
-    this->Owner.assign(At(table.Sets.Size()), -1);
+    const std::size_t numVertices = At(table.Sets.Size());
+    this->Wanted.assign(numVertices, this->Params.Parts == 1 || this->Splits());
+    this->IsFirst.assign(this->Uses.size(), false);
+    std::vector<bool> seen(numVertices, false);
     for (std::size_t use = 0; use < this->Uses.size(); ++use)
     {
       int& vertex = this->Uses[use].Vertex;
       vertex = table.Sets.Find(vertex);
-      if (this->Owner[At(vertex)] < 0)
-      {
-        this->Owner[At(vertex)] = static_cast<std::int64_t>(use);
-      }
+      this->IsFirst[use] = !seen[At(vertex)];
+      seen[At(vertex)] = true;
     }
     for (std::size_t use = this->FirstUse[this->Begin]; use < this->FirstUse[this->End]; ++use)
     {
-      this->Wanted[At(this->Uses[use].Vertex)] = 1;
+      this->Wanted[At(this->Uses[use].Vertex)] = true;
     }
   }
 
@@ -325,28 +185,18 @@ private:
     return {};
   }
 
+  bool IsWanted(std::size_t use) const { return this->Wanted[At(this->Uses[use].Vertex)]; }
+
   bool IsEvaluated(std::size_t use) const
   {
-    const auto vertex = At(this->Uses[use].Vertex);
-    return this->Wanted[vertex] != 0 &&
-      (this->Normals || this->Owner[vertex] == static_cast<std::int64_t>(use));
+    return this->IsWanted(use) && (this->Normals || this->IsFirst[use]);
   }
 
   /// Values and normals at border uses, and the points that they are.
   Status MakeBorderPoints()
   {
-    this->ValueOf.assign(this->Wanted.size(), -1);
-    Eigen::Index numValues = 0;
-    for (std::size_t vertex = 0; vertex < this->Wanted.size(); ++vertex)
-    {
-      if (this->Wanted[vertex] != 0 && this->Owner[vertex] >= 0)
-      {
-        this->ValueOf[vertex] = numValues++;
-      }
-    }
-    this->Values.resize(numValues, this->Components);
-    this->PointsOf.assign(this->Splits() ? this->Wanted.size() : 0, {});
-    this->SingleOf.assign(this->Splits() ? 0 : this->Wanted.size(), -1);
+    this->PointOf.assign(this->Wanted.size(), -1);
+    this->CopiesOf.assign(this->Splits() ? this->Wanted.size() : 0, {});
     std::vector<std::int64_t> weights;
     for (std::size_t cut = 0; cut < this->Cuts.Count(); ++cut)
     {
@@ -400,77 +250,86 @@ private:
   void NumberPoints(std::size_t cut, const Places<Dim>& places, Eigen::Index& row)
   {
     this->FirstPoint.push_back(this->NextPoint);
-    std::int64_t sharedBefore =
-      0; // border vertices that are points of cuts before, or are repeated
+    const std::size_t first = this->FirstUse[cut];
+    const std::size_t end = this->FirstUse[cut + 1];
     std::vector<BorderVertex> border;
-    this->Cuts.Border(cut, border);
-    const CutElement element = this->Cuts.ElementOf(cut);
-    for (std::size_t use = this->FirstUse[cut]; use < this->FirstUse[cut + 1]; ++use)
+    std::int64_t repeated = 0; // border vertices that are points of cuts before or of this one
+    for (std::size_t use = first; use < end; ++use)
     {
-      BorderUse& own = this->Uses[use];
-      const auto vertex = At(own.Vertex);
-      const bool isOwner = this->Owner[vertex] == static_cast<std::int64_t>(use);
-      Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-      if (this->IsEvaluated(use))
+      if (!this->IsWanted(use))
       {
-        if (isOwner)
-        {
-          this->Values.row(this->ValueOf[vertex]) = places.Values.row(row);
-        }
-        if (this->Normals)
-        {
-          normal = places.Normals.row(row).transpose();
-        }
-        ++row;
-      }
-      bool isNew = isOwner;
-      if (this->Splits())
-      {
-        isNew = true;
-        for (const auto& [patch, point] : this->PointsOf[vertex])
-        {
-          if (patch == element.Patch &&
-            (!this->Normals || (this->BorderPoints[At(point)].Normal - normal).norm() <= 1e-6))
-          {
-            own.Point = point;
-            isNew = false;
-            break;
-          }
-        }
-      }
-      const std::int64_t number =
-        this->NextPoint + border[use - this->FirstUse[cut]].Number - sharedBefore;
-      sharedBefore += isNew ? 0 : 1;
-      if (this->Wanted[vertex] == 0)
-      {
+        repeated += this->IsFirst[use] ? 0 : 1;
         continue;
       }
-      if (isNew)
+      if (border.empty())
       {
-        own.Point = static_cast<int>(this->BorderPoints.size());
-        BorderPoint made;
-        made.Number = number;
-        made.Vertex = own.Vertex;
-        made.Normal = normal;
-        this->BorderPoints.push_back(made);
-        if (this->Splits())
-        {
-          this->PointsOf[vertex].emplace_back(element.Patch, own.Point);
-        }
-        else
-        {
-          this->SingleOf[vertex] = own.Point;
-        }
+        this->Cuts.Border(cut, border);
       }
-      else if (!this->Splits())
-      {
-        own.Point = this->SingleOf[vertex];
-      }
-      BorderPoint& point = this->BorderPoints[At(own.Point)];
-      point.Sum += normal;
-      point.IsCrease = point.IsCrease || (normal - point.Normal).norm() > 1e-6;
+      const std::int64_t number = this->NextPoint + border[use - first].Number - repeated;
+      repeated +=
+        this->TakePoint(use, this->Cuts.ElementOf(cut).Patch, number, places, row) ? 0 : 1;
     }
-    this->NextPoint += this->NumVertices[cut] - sharedBefore;
+    this->NextPoint += this->NumVertices[cut] - repeated;
+  }
+
+  /// The point that a border use is.
+  /// @param number  of the point, if it is new.   @param row  of the next evaluated border use.
+  /// @return whether it is new.
+  bool TakePoint(
+    std::size_t use, int patch, std::int64_t number, const Places<Dim>& places, Eigen::Index& row)
+  {
+    BorderUse& own = this->Uses[use];
+    const auto vertex = At(own.Vertex);
+    const Eigen::Index place = this->IsEvaluated(use) ? row++ : -1;
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+    if (this->Normals)
+    {
+      normal = places.Normals.row(place).transpose();
+    }
+    own.Point = this->Splits() ? this->FindCopy(vertex, patch, normal) : this->PointOf[vertex];
+    const bool isNew = own.Point < 0;
+    if (isNew)
+    {
+      own.Point = static_cast<int>(this->BorderPoints.size());
+      if (this->IsFirst[use])
+      {
+        this->PointOf[vertex] = own.Point;
+      }
+      this->BorderPoints.push_back({ number, this->PointOf[vertex] });
+      for (int c = 0; c < this->Components; ++c)
+      {
+        this->Values.push_back(this->IsFirst[use] ? places.Values(place, c) : 0.0);
+      }
+      if (this->Normals)
+      {
+        this->BorderNormals.push_back({ normal });
+      }
+      if (this->Splits())
+      {
+        this->CopiesOf[vertex].emplace_back(patch, own.Point);
+      }
+    }
+    if (this->Normals)
+    {
+      BorderNormal& known = this->BorderNormals[At(own.Point)];
+      known.Sum += normal;
+      known.IsCrease = known.IsCrease || (normal - known.First).norm() > 1e-6;
+    }
+    return isNew;
+  }
+
+  /// The copy of a vertex for a patch and a normal; -1: none yet.
+  int FindCopy(std::size_t vertex, int patch, const Eigen::Vector3d& normal) const
+  {
+    for (const auto& [owner, point] : this->CopiesOf[vertex])
+    {
+      if (owner == patch &&
+        (!this->Normals || (this->BorderNormals[At(point)].First - normal).norm() <= 1e-6))
+      {
+        return point;
+      }
+    }
+    return -1;
   }
 
   void SizeMesh()
@@ -525,16 +384,21 @@ private:
     }
   }
 
-  void SetBorderPoint(std::int64_t row, const BorderPoint& point, const CutElement& element,
-    const std::array<double, 3>& local)
+  void SetBorderPoint(
+    std::int64_t row, int point, const CutElement& element, const std::array<double, 3>& local)
   {
     this->SetPoint(row, element, local);
-    this->Mesh.Points.row(row) = this->Values.row(this->ValueOf[At(point.Vertex)]);
+    const std::size_t value = At(this->BorderPoints[At(point)].Source) * At(this->Components);
+    for (int c = 0; c < this->Components; ++c)
+    {
+      this->Mesh.Points(row, c) = this->Values[value + At(c)];
+    }
     if (this->Normals)
     {
       // Where all uses agree the normal is that of the first one, else the mean of all.
-      const bool isMean = !this->Splits() && point.IsCrease && point.Sum.norm() > 1e-12;
-      this->Mesh.Normals.row(row) = (isMean ? point.Sum.normalized() : point.Normal).transpose();
+      const BorderNormal& normal = this->BorderNormals[At(point)];
+      const bool isMean = !this->Splits() && normal.IsCrease && normal.Sum.norm() > 1e-12;
+      this->Mesh.Normals.row(row) = (isMean ? normal.Sum.normalized() : normal.First).transpose();
     }
   }
 
@@ -542,16 +406,22 @@ private:
   void SetSharedPoints()
   {
     std::vector<BorderVertex> border;
-    for (std::size_t i = 0; i < this->SharedUses.size(); ++i)
+    std::size_t cut = this->Cuts.Count();
+    std::size_t use = 0;
+    for (std::size_t i = 0; i < this->SharedUses.size(); ++i) // by number: cut after cut
     {
-      const BorderPoint& point = this->BorderPoints[At(this->Uses[this->SharedUses[i]].Point)];
-      const auto next =
-        std::upper_bound(this->FirstPoint.begin(), this->FirstPoint.end(), point.Number);
+      const int point = this->Uses[this->SharedUses[i]].Point;
+      const auto next = std::upper_bound(
+        this->FirstPoint.begin(), this->FirstPoint.end(), this->BorderPoints[At(point)].Number);
       // cuts without a new point begin with the number of the next one
-      const auto cut = static_cast<std::size_t>(next - this->FirstPoint.begin()) - 1;
-      this->Cuts.Border(cut, border);
-      std::size_t use = this->FirstUse[cut];
-      while (this->Uses[use].Point != this->Uses[this->SharedUses[i]].Point)
+      const auto maker = static_cast<std::size_t>(next - this->FirstPoint.begin()) - 1;
+      if (maker != cut)
+      {
+        cut = maker;
+        use = this->FirstUse[cut];
+        this->Cuts.Border(cut, border);
+      }
+      while (this->Uses[use].Point != point)
       {
         ++use;
       }
@@ -661,8 +531,8 @@ private:
         places.Add(element, cut.Local[i]);
         continue;
       }
-      const BorderPoint& point = this->BorderPoints[At(this->Uses[this->FirstUse[c] + k++].Point)];
-      if (point.Number == next)
+      const int point = this->Uses[this->FirstUse[c] + k++].Point;
+      if (this->BorderPoints[At(point)].Number == next)
       {
         this->SetBorderPoint(rows[i], point, element, cut.Local[i]);
         ++next;
@@ -735,14 +605,15 @@ private:
   std::vector<std::int64_t> NumVertices; ///< of every cut
   std::vector<std::size_t> FirstUse{ 0 };
   std::vector<BorderUse> Uses;
+  std::vector<bool> IsFirst; ///< whether a use is the first one of its vertex
   // of vertices:
-  std::vector<char> Wanted;        ///< whether the part needs it
-  std::vector<std::int64_t> Owner; ///< its first use
-  std::vector<Eigen::Index> ValueOf;
-  std::vector<int> SingleOf;                              ///< its point, or
-  std::vector<std::vector<std::pair<int, int>>> PointsOf; ///< (patch, point)
-  PointMatrix Values;
+  std::vector<bool> Wanted;                               ///< whether the part needs it
+  std::vector<int> PointOf;                               ///< the first of its points
+  std::vector<std::vector<std::pair<int, int>>> CopiesOf; ///< (patch, point), where they split
+  // of border points:
   std::vector<BorderPoint> BorderPoints;
+  std::vector<double> Values;
+  std::vector<BorderNormal> BorderNormals;
   std::vector<std::int64_t> FirstPoint; ///< of every cut, and the number of all points
   std::int64_t NextPoint = 0;
   std::int64_t NumOwn = 0;

@@ -411,6 +411,83 @@ TEST(Tessellate, ThreadsGiveTheSameBits_PropertyOracle)
   EXPECT_EQ(one->Connectivity, two->Connectivity);
 }
 
+/// Joins the parts of a tessellation: what comes one after the other, and points by their numbers.
+template <int Dim>
+void ExpectPartsAreTheWhole(
+  const std::vector<BezierForm<Dim>>& forms, TessellationParams params, int parts)
+{
+  const auto whole = Tessellate<Dim>(forms, params);
+  ASSERT_TRUE(whole);
+  TessellationMesh joined;
+  joined.Offsets.push_back(0);
+  params.Parts = parts;
+  for (params.Part = 0; params.Part < parts; ++params.Part)
+  {
+    const auto part = Tessellate<Dim>(forms, params);
+    ASSERT_TRUE(part);
+    const std::size_t count = part->PointPatch.size();
+    const std::size_t own = count - part->SharedPoints.size();
+    EXPECT_EQ(part->FirstPoint, std::int64_t(joined.PointPatch.size()));
+    EXPECT_EQ(part->NumPointsOfAll, whole->Points.rows());
+    EXPECT_EQ(part->Bound, whole->Bound);
+    std::vector<std::int64_t> numbers;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      numbers.push_back(
+        i < own ? part->FirstPoint + std::int64_t(i) : part->SharedPoints[i - own]);
+      EXPECT_EQ(part->Points.row(Eigen::Index(i)), whole->Points.row(numbers.back()));
+      EXPECT_EQ(part->PointLocal.row(Eigen::Index(i)), whole->PointLocal.row(numbers.back()));
+      EXPECT_EQ(part->PointPatch[i], whole->PointPatch[std::size_t(numbers.back())]);
+      EXPECT_EQ(part->PointElement[i], whole->PointElement[std::size_t(numbers.back())]);
+      if (whole->Normals.rows() > 0)
+      {
+        EXPECT_EQ(part->Normals.row(Eigen::Index(i)), whole->Normals.row(numbers.back()));
+      }
+    }
+    const auto append = [](auto& to, const auto& from, std::size_t n)
+    { to.insert(to.end(), from.begin(), from.begin() + std::ptrdiff_t(n)); };
+    append(joined.PointPatch, part->PointPatch, own);
+    append(joined.Shapes, part->Shapes, part->Shapes.size());
+    append(joined.CellPatch, part->CellPatch, part->CellPatch.size());
+    append(joined.CellElement, part->CellElement, part->CellElement.size());
+    append(joined.CellSide, part->CellSide, part->CellSide.size());
+    for (const std::int64_t corner : part->Connectivity)
+    {
+      joined.Connectivity.push_back(numbers[std::size_t(corner)]);
+    }
+    const std::int64_t before = joined.Offsets.back();
+    for (std::size_t c = 1; c < part->Offsets.size(); ++c)
+    {
+      joined.Offsets.push_back(before + part->Offsets[c]);
+    }
+  }
+  EXPECT_EQ(joined.PointPatch, whole->PointPatch);
+  EXPECT_EQ(joined.Shapes, whole->Shapes);
+  EXPECT_EQ(joined.Offsets, whole->Offsets);
+  EXPECT_EQ(joined.Connectivity, whole->Connectivity);
+  EXPECT_EQ(joined.CellPatch, whole->CellPatch);
+  EXPECT_EQ(joined.CellElement, whole->CellElement);
+  EXPECT_EQ(joined.CellSide, whole->CellSide);
+}
+
+TEST(Tessellate, PartsAreTheWhole_ExactOracle)
+{
+  for (const int parts : { 2, 3, 40 }) // more than there are elements, too
+  {
+    for (const bool splits : { false, true })
+    {
+      TessellationParams params = Tolerance(3e-2);
+      params.Splitting = splits;
+      ExpectPartsAreTheWhole<1>(Forms<1>(Shape(ShapeKind::Arc)), params, parts);
+      ExpectPartsAreTheWhole<2>(Forms<2>(Shape(ShapeKind::TorusSurface)), params, parts);
+      ExpectPartsAreTheWhole<2>(Forms<2>(Shape(ShapeKind::PolarSphereSurface)), params, parts);
+      ExpectPartsAreTheWhole<3>(Forms<3>(Shape(ShapeKind::Ball)), params, parts);
+      params.Output = TessellationOutput::Volume;
+      ExpectPartsAreTheWhole<3>(Forms<3>(Shape(ShapeKind::Ball)), params, parts);
+    }
+  }
+}
+
 TEST(Tessellate, EveryFailureIsReachable)
 {
   const auto forms = Forms<2>(Shape(ShapeKind::Disc));
@@ -419,6 +496,9 @@ TEST(Tessellate, EveryFailureIsReachable)
   EXPECT_EQ(Tessellate<2>(forms, Tolerance(NAN)).Status.Code, ErrorCode::InvalidParameter);
   TessellationParams params;
   params.MaximumSubdivision = 11;
+  EXPECT_EQ(Tessellate<2>(forms, params).Status.Code, ErrorCode::InvalidParameter);
+  params = Tolerance(1e-2);
+  params.Part = 1;
   EXPECT_EQ(Tessellate<2>(forms, params).Status.Code, ErrorCode::InvalidParameter);
   auto broken = forms;
   broken[3].Block(0)[1] = NAN;

@@ -2,10 +2,10 @@
 #include "Shares.h"
 
 #include <knotwork/SplineGrid/Processes.h>
+#include <knotwork/SplineGrid/vtkSplineTessellate.h>
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
-#include <vtkCellType.h>
 #include <vtkFieldData.h>
 #include <vtkIdTypeArray.h>
 #include <vtkNew.h>
@@ -36,29 +36,38 @@ struct CellRun
   vtkIdType Count = 0;
 };
 
-/// Cells of each dimension of a piece, in order.
-std::array<std::vector<CellRun>, 4> RunsOf(vtkDataSet* piece)
+vtkIdTypeArray* NumbersOf(vtkDataSet* piece)
 {
-  std::array<std::vector<CellRun>, 4> runs;
-  if (auto* polygons = vtkPolyData::SafeDownCast(piece))
+  return vtkIdTypeArray::SafeDownCast(piece->GetPointData()->GetGlobalIds());
+}
+
+constexpr std::size_t NumDimensions = 3;
+using RunsByDimension = std::array<std::vector<CellRun>, NumDimensions>;
+
+/// Cells of curves, surfaces and solids, in order: each has points of its own.
+void AddRuns(vtkDataSet* piece, vtkCellArray* cells, vtkIdType firstData, RunsByDimension& runs)
+{
+  auto* counts = vtkIdTypeArray::SafeDownCast(
+    piece->GetFieldData()->GetArray(vtkSplineTessellate::PointsByDimension()));
+  auto* numbers = NumbersOf(piece);
+  for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell)
   {
-    const vtkIdType lines = polygons->GetNumberOfLines();
-    runs[1].push_back({ piece, polygons->GetLines(), 0, 0, lines });
-    runs[2].push_back({ piece, polygons->GetPolys(), 0, lines, polygons->GetNumberOfPolys() });
-    return runs;
-  }
-  auto* grid = vtkUnstructuredGrid::SafeDownCast(piece);
-  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
-  {
-    const int type = grid->GetCellType(cell);
-    auto& own = runs[type == VTK_LINE ? 1U : type == VTK_HEXAHEDRON ? 3U : 2U];
-    if (own.empty() || own.back().First + own.back().Count != cell)
+    vtkIdType count = 0;
+    const vtkIdType* points = nullptr;
+    cells->GetCellAtId(cell, count, points);
+    std::size_t dimension = 0;
+    vtkIdType number = numbers->GetValue(points[0]);
+    while (number >= counts->GetValue(static_cast<vtkIdType>(dimension)))
     {
-      own.push_back({ piece, grid->GetCells(), cell, cell, 0 });
+      number -= counts->GetValue(static_cast<vtkIdType>(dimension++));
+    }
+    auto& own = runs[dimension];
+    if (own.empty() || own.back().Cells != cells || own.back().First + own.back().Count != cell)
+    {
+      own.push_back({ piece, cells, cell, firstData + cell, 0 });
     }
     ++own.back().Count;
   }
-  return runs;
 }
 
 /// Arrays like those of a piece, with other tuples, and their rows from the pieces.
@@ -91,19 +100,23 @@ vtkSmartPointer<vtkDataObject> UnitePieces(
 {
   std::vector<vtkDataSet*> sets;
   vtkIdType numPoints = 0;
-  std::array<std::vector<CellRun>, 4> runs;
+  RunsByDimension runs;
   for (const auto& piece : pieces)
   {
     sets.push_back(vtkDataSet::SafeDownCast(piece));
-    auto* ids = vtkIdTypeArray::SafeDownCast(sets.back()->GetPointData()->GetGlobalIds());
+    auto* ids = NumbersOf(sets.back());
     for (vtkIdType i = 0; i < ids->GetNumberOfTuples(); ++i)
     {
       numPoints = std::max(numPoints, ids->GetValue(i) + 1);
     }
-    const auto own = RunsOf(sets.back());
-    for (std::size_t d = 0; d < runs.size(); ++d)
+    if (auto* polygons = vtkPolyData::SafeDownCast(piece))
     {
-      runs[d].insert(runs[d].end(), own[d].begin(), own[d].end());
+      AddRuns(polygons, polygons->GetLines(), 0, runs);
+      AddRuns(polygons, polygons->GetPolys(), polygons->GetNumberOfLines(), runs);
+    }
+    else
+    {
+      AddRuns(sets.back(), vtkUnstructuredGrid::SafeDownCast(piece)->GetCells(), 0, runs);
     }
   }
   // rows of points with following numbers at once
@@ -111,7 +124,7 @@ vtkSmartPointer<vtkDataObject> UnitePieces(
   {
     for (vtkDataSet* set : sets)
     {
-      auto* ids = vtkIdTypeArray::SafeDownCast(set->GetPointData()->GetGlobalIds());
+      auto* ids = NumbersOf(set);
       const vtkIdType count = ids->GetNumberOfTuples();
       for (vtkIdType begin = 0, end = 0; begin < count; begin = end)
       {
@@ -124,14 +137,14 @@ vtkSmartPointer<vtkDataObject> UnitePieces(
     }
   };
   vtkIdType numCells = 0;
-  std::array<vtkNew<vtkCellArray>, 4> cells;
+  std::array<vtkNew<vtkCellArray>, NumDimensions> cells;
   vtkNew<vtkUnsignedCharArray> types;
   for (std::size_t d = 0; d < runs.size(); ++d)
   {
     for (const CellRun& run : runs[d])
     {
       numCells += run.Count;
-      auto* ids = vtkIdTypeArray::SafeDownCast(run.Piece->GetPointData()->GetGlobalIds());
+      auto* ids = NumbersOf(run.Piece);
       std::vector<vtkIdType> corners;
       for (vtkIdType cell = run.First; cell < run.First + run.Count; ++cell)
       {
@@ -142,13 +155,13 @@ vtkSmartPointer<vtkDataObject> UnitePieces(
         std::transform(points, points + count, std::back_inserter(corners),
           [ids](vtkIdType point) { return ids->GetValue(point); });
         cells[d]->InsertNextCell(count, corners.data());
-        types->InsertNextValue(static_cast<unsigned char>(
-          run.Piece->GetCellType(run.FirstData + cell - run.First)));
+        types->InsertNextValue(
+          static_cast<unsigned char>(run.Piece->GetCellType(run.FirstData + cell - run.First)));
       }
     }
   }
-  const auto united = vtkSmartPointer<vtkPointSet>::Take(
-    vtkPointSet::SafeDownCast(sets.front()->NewInstance()));
+  const auto united =
+    vtkSmartPointer<vtkPointSet>::Take(vtkPointSet::SafeDownCast(sets.front()->NewInstance()));
   const auto pointsOf = [](vtkDataSet* set)
   { return vtkPointSet::SafeDownCast(set)->GetPoints()->GetData(); };
   vtkNew<vtkPoints> points;
@@ -158,8 +171,9 @@ vtkSmartPointer<vtkDataObject> UnitePieces(
   united->SetPoints(points);
   if (auto* polygons = vtkPolyData::SafeDownCast(united))
   {
-    polygons->SetLines(cells[1]);
-    polygons->SetPolys(cells[2]);
+    polygons->SetLines(cells[0]);
+    cells[1]->Append(cells[2]);
+    polygons->SetPolys(cells[1]);
   }
   else
   {
@@ -184,18 +198,19 @@ vtkSmartPointer<vtkDataObject> UnitePieces(
       {
         for (const CellRun& run : some)
         {
-          to->InsertTuples(next, run.Count, run.FirstData,
-            run.Piece->GetCellData()->GetAbstractArray(name));
+          to->InsertTuples(
+            next, run.Count, run.FirstData, run.Piece->GetCellData()->GetAbstractArray(name));
           next += run.Count;
         }
       }
     });
   united->GetFieldData()->ShallowCopy(sets.front()->GetFieldData());
+  united->GetFieldData()->RemoveArray(vtkSplineTessellate::PointsByDimension());
   return united;
 }
 }
 
-Result<vtkSmartPointer<vtkDataObject>> UniteShares(vtkDataObject* output)
+Result<vtkSmartPointer<vtkDataObject>> UniteTessellation(vtkDataObject* output)
 {
   auto pieces = CollectPieces(output);
   if (!pieces)
