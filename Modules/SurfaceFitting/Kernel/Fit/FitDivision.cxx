@@ -286,27 +286,34 @@ std::vector<double> FitDivision::BringHome(std::vector<double> values) const
   {
     return values;
   }
-  std::vector<std::string> hands;
-  std::size_t first = 0;
   std::size_t count = 0;
-  for (const std::size_t received : this->Received)
-  {
-    hands.push_back(AsBytes(values.data() + first, received));
-    first += received;
-  }
-  values = {};
   for (const std::vector<int>& points : this->Sent)
   {
     count += points.size();
   }
-  const std::vector<std::string> all = this->Processes->Deal(std::move(hands));
   std::vector<double> home(count);
-  for (std::size_t p = 0; p < all.size(); ++p)
+  const std::size_t longest =
+    *std::max_element(this->Received.begin(), this->Received.end()); // of what one has sent
+  const auto most = static_cast<std::size_t>(this->Largest(static_cast<double>(longest)));
+  for (std::size_t first = 0; first < most; first += PointBatch) // as they were dealt
   {
-    const std::vector<double> back = FromBytes<double>(all[p]);
-    for (std::size_t k = 0; k < back.size(); ++k)
+    std::vector<std::string> hands;
+    std::size_t begin = 0;
+    for (const std::size_t received : this->Received)
     {
-      home[static_cast<std::size_t>(this->Sent[p][k])] = back[k];
+      const std::size_t from = std::min(first, received);
+      hands.push_back(
+        AsBytes(values.data() + begin + from, std::min(first + PointBatch, received) - from));
+      begin += received;
+    }
+    const std::vector<std::string> all = this->Processes->Deal(std::move(hands));
+    for (std::size_t p = 0; p < all.size(); ++p)
+    {
+      const std::vector<double> back = FromBytes<double>(all[p]);
+      for (std::size_t k = 0; k < back.size(); ++k)
+      {
+        home[static_cast<std::size_t>(this->Sent[p][first + k])] = back[k];
+      }
     }
   }
   return home;

@@ -617,6 +617,10 @@ private:
       this->Fit.Surface.ControlPoints.rightCols(carried) = this->State.Start.rightCols(carried);
     }
     this->Fit.DomainPoints = std::move(this->State.DomainPoints);
+    if (this->Division.IsDivided()) // distances take its place
+    {
+      this->Moved = PointCloud();
+    }
     this->Fit.Distances.resize(this->Points.Size());
     ParallelFor(this->Points.Size(), PointChunk, this->Params.Threads,
       [this](std::size_t begin, std::size_t end)
@@ -629,10 +633,6 @@ private:
         }
       });
     this->Points = FitPoints(); // what comes home takes its place
-    if (this->Division.IsDivided())
-    {
-      this->Moved = PointCloud();
-    }
     this->Fit.Distances = this->Division.BringHome(std::move(this->Fit.Distances));
     this->Fit.Tolerances = this->Division.BringHome(std::move(this->Tolerances));
     this->Fit.Outliers = std::move(this->Outliers);
